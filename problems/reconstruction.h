@@ -1,0 +1,86 @@
+#ifndef HINDSIGHT_PROBLEMS_RECONSTRUCTION_H_
+#define HINDSIGHT_PROBLEMS_RECONSTRUCTION_H_
+
+#include <atomic>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dataset/dataset.h"
+#include "state/solution.h"
+
+namespace hindsight {
+
+enum class Method { kEkf, kRts, kIterated, kBatch };
+
+/// "ekf", "rts", "iterated", "batch".
+const char* MethodName(Method method);
+/// Throws InputError for a name that is none, listing those that are.
+Method MethodFromName(const std::string& name);
+
+struct ReconstructionOptions {
+  Method method = Method::kBatch;
+  /// The interval to reconstruct [s]; defaults to all that the IMU covers.
+  double from = -std::numeric_limits<double>::infinity();
+  double to = std::numeric_limits<double>::infinity();
+  /// Nodes are also placed at these times [s], so that their states have
+  /// exact covariances (--at).
+  std::vector<double> node_times;
+  int max_iterations = 20;  ///< of the iterated smoother and the batch
+  /// Called with a stage in words and its fraction done, in [0, 1].
+  std::function<void(const std::string& stage, double fraction)> progress;
+  /// Polled; when it becomes true Interrupted is thrown.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// How the initial state came about.
+struct StartReport {
+  double t = 0.0;
+  std::string position;  ///< in words: "given", "first position fix"
+  std::string attitude;  ///< "given", "levelled at rest for 12.3 s", ...
+  std::string heading;   ///< "given", "course at t = 31.2 s", ...
+  State state;
+  Eigen::Vector3d position_sigma;  ///< NED [m]
+  Eigen::Vector3d velocity_sigma;  ///< NED [m/s]
+  Eigen::Vector3d attitude_sigma;  ///< roll, pitch, heading [rad]
+};
+
+/// One data set, reconstructed by any number of methods that share the start,
+/// the nodes and one preintegration.
+class Reconstruction {
+ public:
+  /// Aligns, places the nodes, preintegrates. Throws EstimationError if there
+  /// is nothing to work with, InputError if the data contradict themselves.
+  /// `dataset` must outlive the object.
+  Reconstruction(const Dataset& dataset, ReconstructionOptions options);
+  ~Reconstruction();
+
+  Solution Run(Method method);
+
+  const StartReport& start() const;
+
+  /// The solution at other times, in order: forward integration of the IMU
+  /// from the node before (2002 paper, eq. 24), the jump at the node after
+  /// spread evenly over the interval; covariances interpolated between nodes.
+  Solution Sample(const Solution& solution,
+                  const std::vector<double>& times) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The one-call form of the above.
+Solution Solve(const Dataset& dataset, const ReconstructionOptions& options);
+
+/// The trajectory of another point of the vehicle, l_b [m] from the IMU in body
+/// axes: positions, velocities and covariances are moved. The body rate needed
+/// for the velocity is taken from `imu`.
+Solution MoveToPoint(const Solution& solution, const ImuStream& imu,
+                     const Eigen::Vector3d& l_b);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_RECONSTRUCTION_H_

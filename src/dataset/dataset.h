@@ -1,0 +1,108 @@
+#ifndef HINDSIGHT_DATASET_DATASET_H_
+#define HINDSIGHT_DATASET_DATASET_H_
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "imu/imu_stream.h"
+#include "measurements/measurement.h"
+#include "measurements/sensor.h"
+#include "state/state.h"
+
+namespace hindsight {
+
+/// One aiding sensor and its measurements, in time order.
+struct AidingStream {
+  Sensor sensor;
+  std::vector<Measurement> measurements;
+};
+
+/// A reference trajectory. Absent quantities are absent, not zero.
+struct TruthPoint {
+  double t = 0.0;
+  std::optional<Eigen::Vector3d> p_e;
+  std::optional<Eigen::Vector3d> v_n;         ///< NED [m/s]
+  std::optional<Eigen::Quaterniond> q_nb;     ///< body to NED
+};
+
+/// Initial values. What is absent is found by alignment.
+struct InitialState {
+  std::optional<double> t;  ///< start here instead of the common start [s]
+  std::optional<Geodetic> position;
+  std::optional<Eigen::Vector3d> v_n;
+  std::optional<Eigen::Vector3d> euler;  ///< roll, pitch, heading [rad]
+  std::optional<double> heading;         ///< heading alone [rad]
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();
+  Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();
+  std::optional<Eigen::Vector3d> position_sigma;  ///< NED [m]
+  std::optional<Eigen::Vector3d> velocity_sigma;  ///< NED [m/s]
+  std::optional<Eigen::Vector3d> attitude_sigma;  ///< roll, pitch, heading [rad]
+  std::optional<Eigen::Vector3d> gyro_bias_sigma;   ///< [rad/s]
+  std::optional<Eigen::Vector3d> accel_bias_sigma;  ///< [m/s^2]
+};
+
+/// Detects standstill from the IMU alone: over `window`, the standard
+/// deviations of rate and specific force stay below the thresholds.
+struct StationaryOptions {
+  bool enabled = false;
+  double window = 1.0;            ///< [s]
+  double gyro_threshold = 0.01;   ///< [rad/s], standard deviation
+  double accel_threshold = 0.10;  ///< [m/s^2], standard deviation
+  double velocity_sigma = 0.01;   ///< of the zero-velocity measurement [m/s]
+  double rate_sigma = 5e-4;       ///< of the zero-rate measurement [rad/s]
+};
+
+/// Measurements of one sensor type or name kept from the estimators.
+struct Withholding {
+  std::string sensor;    ///< stream name, or a type: "position", "velocity"...
+  double every = 0.0;    ///< start to start [s]
+  double length = 0.0;   ///< [s]
+  std::optional<double> from;  ///< first start; default: first fix + every
+};
+
+/// An interval in which a sensor was withheld.
+struct Outage {
+  int sensor = 0;
+  double t_begin = 0.0;
+  double t_end = 0.0;
+};
+
+/// What a reader did under a declared policy (dropped duplicates, skipped
+/// absent truth values...), counted for the report.
+struct PolicyCount {
+  std::string stream;
+  std::string action;
+  long count = 0;
+};
+
+/// A recording and all that is known about it, in SI units, body axes
+/// forward-right-down, time in seconds since `epoch`.
+struct Dataset {
+  std::string name;
+  /// Nanoseconds of GPS time since 1980-01-06 at t = 0; absent if the clock
+  /// has no date.
+  std::optional<std::int64_t> epoch_gps_ns;
+  ImuStream imu;
+  std::vector<AidingStream> streams;
+  std::vector<TruthPoint> truth;
+  /// Point the truth speaks of, body axes from the IMU [m].
+  Eigen::Vector3d truth_lever_arm_b = Eigen::Vector3d::Zero();
+  InitialState initial;
+  StationaryOptions stationary;
+  std::vector<Withholding> withholdings;
+  std::vector<Outage> outages;  ///< filled by ApplyWithholding
+  double max_node_spacing = 1.0;  ///< [s]
+  std::vector<PolicyCount> policies;
+};
+
+/// Marks the measurements named by `withholdings` as withheld and lists the
+/// outages; an outage cut by the end of the stream is left out. Throws
+/// InputError if a name fits no stream.
+void ApplyWithholding(Dataset* dataset);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_DATASET_DATASET_H_

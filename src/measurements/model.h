@@ -1,0 +1,35 @@
+#ifndef HINDSIGHT_MEASUREMENTS_MODEL_H_
+#define HINDSIGHT_MEASUREMENTS_MODEL_H_
+
+#include "imu/kinematics.h"
+#include "measurements/sensor.h"
+#include "state/state.h"
+
+namespace hindsight {
+
+/// Everything a model may look at. `kinematics` is the raw IMU reading of the
+/// instant: a model subtracts the state's biases itself.
+struct ModelContext {
+  const ErrorLayout& layout;
+  const State& state;
+  const Kinematics& kinematics;
+  const Sensor& sensor;
+};
+
+/// A measurement about a state: residual ~ -(-H d) + v, that is
+/// residual = measured - predicted, predicted(x [+] d) ~ predicted(x) + H d.
+struct LinearizedMeasurement {
+  RowVector residual;
+  RowJacobian H;
+  RowMatrix R;
+
+  void Resize(int rows, int dim) {
+    residual.resize(rows);
+    H.setZero(rows, dim);
+    R.setZero(rows, rows);
+  }
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_MEASUREMENTS_MODEL_H_

@@ -1,0 +1,23 @@
+#ifndef HINDSIGHT_MEASUREMENTS_POSITION_FIX_H_
+#define HINDSIGHT_MEASUREMENTS_POSITION_FIX_H_
+
+#include "measurements/model.h"
+
+namespace hindsight {
+
+/// Position of a point of the vehicle: a GNSS antenna, a transponder, or the
+/// IMU over a surveyed reference point.
+///   z = p_e + C_eb l,  resolved in the NED axes at the measured position;
+/// residual [m] NED. Position reference points: eq. (45) of the 2002 paper,
+/// with the opposite sign of the residual.
+struct PositionFix {
+  Eigen::Vector3d p_e = Eigen::Vector3d::Zero();  ///< measured, ECEF [m]
+  Eigen::Matrix3d R_n = Eigen::Matrix3d::Identity();  ///< NED covariance [m^2]
+
+  static constexpr int kRows = 3;
+  void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_MEASUREMENTS_POSITION_FIX_H_

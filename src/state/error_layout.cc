@@ -1,0 +1,153 @@
+#include "state/error_layout.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace hindsight {
+namespace {
+
+constexpr BlockKind kCanonicalHead[] = {
+    BlockKind::kPosition, BlockKind::kVelocity, BlockKind::kAttitude,
+    BlockKind::kGyroBias, BlockKind::kAccelBias};
+
+bool IsNavigation(BlockKind kind) { return kind <= BlockKind::kAccelBias; }
+
+bool IsResolvedInNed(BlockKind kind) {
+  return kind <= BlockKind::kAttitude || kind == BlockKind::kColouredNoise ||
+         kind == BlockKind::kCurrent;
+}
+
+}  // namespace
+
+int FullDimension(BlockKind kind) {
+  switch (kind) {
+    case BlockKind::kScale:
+    case BlockKind::kTimeOffset:
+    case BlockKind::kOffset:
+      return 1;
+    default:
+      return 3;
+  }
+}
+
+Evolution Evolution::RandomWalk(double density) {
+  if (density == 0.0) return Constant();
+  return {Kind::kRandomWalk, density};
+}
+
+Evolution Evolution::GaussMarkov(double sigma, double tau) {
+  return {Kind::kGaussMarkov, sigma * std::sqrt(2.0 / tau), tau};
+}
+
+double Evolution::Phi(double dt) const {
+  return kind == Kind::kGaussMarkov ? std::exp(-dt / tau) : 1.0;
+}
+
+double Evolution::Q(double dt) const {
+  switch (kind) {
+    case Kind::kRandomWalk:
+      return density * density * dt;
+    case Kind::kGaussMarkov:
+      return -0.5 * density * density * tau * std::expm1(-2.0 * dt / tau);
+    default:
+      return 0.0;
+  }
+}
+
+void ErrorLayout::Add(Block block) {
+  if (Find(block.key.kind, block.key.sensor) != nullptr) {
+    throw std::logic_error("error layout has block '" + block.name +
+                           "' already");
+  }
+  const int full = FullDimension(block.key.kind);
+  block.offset = dim_;
+  block.dim = 0;
+  for (int axis = 0; axis < full; ++axis) {
+    if (block.active[static_cast<std::size_t>(axis)]) ++block.dim;
+  }
+  block.parameter_offset = -1;
+  if (!IsNavigation(block.key.kind)) {
+    block.parameter_offset = parameter_count_;
+    parameter_count_ += full;
+  }
+  dim_ += block.dim;
+  if (dim_ > kMaxErrorDim || parameter_count_ > kMaxParameters) {
+    throw std::logic_error("error layout exceeds its capacity at block '" +
+                           block.name + "'");
+  }
+  blocks_.push_back(std::move(block));
+  canonical_head_ = blocks_.size() >= 5;
+  for (std::size_t i = 0; i < 5 && canonical_head_; ++i) {
+    canonical_head_ =
+        blocks_[i].key.kind == kCanonicalHead[i] && blocks_[i].dim == 3;
+  }
+}
+
+const Block* ErrorLayout::Find(BlockKind kind, int sensor) const {
+  for (const Block& block : blocks_) {
+    if (block.key.kind == kind && block.key.sensor == sensor) return &block;
+  }
+  return nullptr;
+}
+
+ErrorMatrix ErrorLayout::InitialCovariance() const {
+  ErrorMatrix P = ErrorMatrix::Zero(dim_, dim_);
+  for (const Block& block : blocks_) {
+    int component = block.offset;
+    for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {
+      if (!block.active[static_cast<std::size_t>(axis)]) continue;
+      P(component, component) = block.sigma0(axis) * block.sigma0(axis);
+      ++component;
+    }
+  }
+  return P;
+}
+
+std::string ErrorLayout::ComponentName(int component) const {
+  for (const Block& block : blocks_) {
+    if (component < block.offset || component >= block.offset + block.dim) {
+      continue;
+    }
+    const int full = FullDimension(block.key.kind);
+    if (full == 1) return block.name;
+    int remaining = component - block.offset;
+    int axis = 0;
+    for (; axis < full; ++axis) {
+      if (!block.active[static_cast<std::size_t>(axis)]) continue;
+      if (remaining-- == 0) break;
+    }
+    static const char* const kNed[] = {"north", "east", "down"};
+    static const char* const kXyz[] = {"x", "y", "z"};
+    return block.name + "[" +
+           (IsResolvedInNed(block.key.kind) ? kNed : kXyz)[axis] + "]";
+  }
+  throw std::out_of_range("no error component " + std::to_string(component));
+}
+
+ErrorLayout NavigationLayout(const NavigationPrior& prior) {
+  ErrorLayout layout;
+  const auto add = [&layout](BlockKind kind, const char* name,
+                             const char* unit, const Evolution& evolution,
+                             const Eigen::Vector3d& sigma0) {
+    Block block;
+    block.key.kind = kind;
+    block.name = name;
+    block.unit = unit;
+    block.evolution = evolution;
+    block.sigma0 = sigma0;
+    layout.Add(block);
+  };
+  add(BlockKind::kPosition, "position", "m", Evolution::Navigation(),
+      prior.position_sigma);
+  add(BlockKind::kVelocity, "velocity", "m/s", Evolution::Navigation(),
+      prior.velocity_sigma);
+  add(BlockKind::kAttitude, "attitude", "rad", Evolution::Navigation(),
+      prior.attitude_sigma);
+  add(BlockKind::kGyroBias, "gyro_bias", "rad/s", prior.gyro_bias,
+      prior.gyro_bias_sigma);
+  add(BlockKind::kAccelBias, "accel_bias", "m/s^2", prior.accel_bias,
+      prior.accel_bias_sigma);
+  return layout;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,65 @@
+#ifndef HINDSIGHT_STATE_SOLUTION_H_
+#define HINDSIGHT_STATE_SOLUTION_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "state/covariance_series.h"
+#include "state/error_layout.h"
+#include "state/state.h"
+
+namespace hindsight {
+
+/// What an estimator made of one measurement.
+struct ResidualRecord {
+  double t = 0.0;
+  int sensor = 0;      ///< index into Dataset::streams
+  bool accepted = true;  ///< false: rejected by the gate
+  bool withheld = false;  ///< true: predicted, not used
+  double weight = 1.0;   ///< of a robust loss, 1 = full
+  RowVector residual;    ///< measured - predicted, in the model's axes
+  RowVector sigma;       ///< predicted standard deviation of `residual`
+  double nis = 0.0;      ///< residual' S^-1 residual
+};
+
+/// An estimated constant (scale factor, lever arm component, time offset...).
+struct ConstantEstimate {
+  enum class Verdict { kObserved, kWeak, kUnobserved };
+  std::string name;  ///< "odometer_scale", "gnss_lever_arm[x]", ...
+  std::string unit;
+  double value = 0.0;
+  double sigma = 0.0;
+  double prior_sigma = 0.0;
+  Verdict verdict = Verdict::kObserved;
+  std::string advice;  ///< for a weak one, the motion that would help
+};
+
+/// A state that the data do not determine, over a time span.
+struct UnobservedSpan {
+  std::string component;
+  double t_begin = 0.0;
+  double t_end = 0.0;
+  double sigma = 0.0;  ///< the smallest reached in the span, SI
+};
+
+/// What one estimator made of a data set: the trajectory at the nodes with
+/// covariances over `layout` (NED-resolved, metres, m/s, radians).
+struct Solution {
+  std::string method;  ///< "ekf", "rts", "iterated", "batch", ...
+  ErrorLayout layout;
+  std::vector<State> states;
+  CovarianceSeries covariances;  ///< same length as states, or empty
+  std::vector<ResidualRecord> residuals;
+  std::vector<ConstantEstimate> constants;
+  std::vector<UnobservedSpan> unobserved;
+  bool converged = true;
+  int iterations = 0;      ///< 0 for a method that does not iterate
+  double seconds = 0.0;    ///< processor time of the method alone
+  bool usable = true;
+  std::string verdict;     ///< in words: usable or not, and why
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_STATE_SOLUTION_H_
