@@ -8,12 +8,15 @@ namespace hindsight {
 
 Eigen::Quaterniond Exp(const Eigen::Vector3d& v) {
   const double angle2 = v.squaredNorm();
-  // Below 1e-3 rad the fourth-order series is exact to rounding and spares the
+  // Below 0.1 rad the eighth-order series is exact to rounding and spares the
   // square root and the trigonometry in the IMU loop.
-  if (angle2 < 1e-6) {
-    const double s = 0.5 - angle2 * (1.0 / 48.0) * (1.0 - angle2 / 80.0);
+  if (angle2 < 1e-2) {
+    const double h2 = 0.25 * angle2;
+    const double s =
+        0.5 * (1.0 - h2 / 6.0 * (1.0 - h2 / 20.0 * (1.0 - h2 / 42.0)));
     const double w =
-        1.0 - angle2 * 0.125 * (1.0 - angle2 * (1.0 / 48.0));
+        1.0 - h2 / 2.0 *
+                  (1.0 - h2 / 12.0 * (1.0 - h2 / 30.0 * (1.0 - h2 / 56.0)));
     return {w, s * v.x(), s * v.y(), s * v.z()};
   }
   const double angle = std::sqrt(angle2);

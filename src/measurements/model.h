@@ -14,10 +14,12 @@ struct ModelContext {
   const State& state;
   const Kinematics& kinematics;
   const Sensor& sensor;
+  int sensor_index = 0;  ///< the sensor's blocks in the layout
+  double stamp = 0.0;    ///< of the measurement, time offset not applied [s]
 };
 
-/// A measurement about a state: residual ~ -(-H d) + v, that is
-/// residual = measured - predicted, predicted(x [+] d) ~ predicted(x) + H d.
+/// A measurement about a state: residual = measured - predicted,
+/// predicted(x [+] d) ~ predicted(x) + H d, noise covariance R.
 struct LinearizedMeasurement {
   RowVector residual;
   RowJacobian H;

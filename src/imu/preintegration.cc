@@ -1,0 +1,369 @@
+#include "imu/preintegration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "geometry/so3.h"
+
+namespace hindsight {
+
+CorrectedMean Correct(const ImuSummary& summary, const ImuCalibration& at) {
+  const Eigen::Vector3d d_bg = at.b_g - summary.calibration.b_g;
+  const Eigen::Vector3d d_ba = at.b_a - summary.calibration.b_a;
+  CorrectedMean mean;
+  mean.rotation_correction = summary.R_bg * d_bg;
+  mean.dv = summary.dv + summary.v_bg * d_bg + summary.v_ba * d_ba;
+  mean.dp = summary.dp + summary.p_bg * d_bg + summary.p_ba * d_ba;
+  const Eigen::Vector3d d_sg = at.s_g - summary.calibration.s_g;
+  const Eigen::Vector3d d_sa = at.s_a - summary.calibration.s_a;
+  if (!d_sg.isZero(0.0) || !d_sa.isZero(0.0)) {
+    mean.rotation_correction += summary.R_sg * d_sg;
+    mean.dv += summary.v_sg * d_sg + summary.v_sa * d_sa;
+    mean.dp += summary.p_sg * d_sg + summary.p_sa * d_sa;
+  }
+  mean.dR = Exp(mean.rotation_correction) * summary.dR;
+  return mean;
+}
+
+bool NeedsReintegration(const ImuSummary& summary, const ImuCalibration& at) {
+  constexpr double kMaxRotation = 1e-3;
+  const Eigen::Vector3d d_sg = at.s_g - summary.calibration.s_g;
+  const double rotation =
+      (summary.R_bg * (at.b_g - summary.calibration.b_g)).norm() +
+      (d_sg.isZero(0.0) ? 0.0 : (summary.R_sg * d_sg).norm());
+  const Eigen::Vector3d d_sa = at.s_a - summary.calibration.s_a;
+  return rotation > kMaxRotation || d_sa.norm() > kMaxRotation;
+}
+
+Preintegrator::Preintegrator(const ImuNoise& noise, bool with_scale_jacobians)
+    : noise_(noise),
+      with_scale_(with_scale_jacobians),
+      has_bias_noise_(noise.gyro_bias_walk > 0.0 ||
+                      noise.accel_bias_walk > 0.0),
+      gauss_markov_(std::isfinite(noise.gyro_bias_tau) ||
+                    std::isfinite(noise.accel_bias_tau)) {}
+
+void Preintegrator::Start(double t_i, const ImuCalibration& calibration) {
+  calibration_ = calibration;
+  t_i_ = t_i;
+  T_ = 0.0;
+  q_.setIdentity();
+  C_.setIdentity();
+  v_.setZero();
+  p_.setZero();
+  for (Eigen::Matrix3d* m : {&S_g_, &V_g_, &P_g_, &S_a_, &P_a_, &U_g_, &VU_g_,
+                             &PU_g_, &U_a_, &PU_a_, &qvv_, &qvu_, &quu_}) {
+    m->setZero();
+  }
+  q_sum_ = 0.0;
+  qv_.setZero();
+  qu_.setZero();
+  snapshot_count_ = 0;
+  snapshot_every_ = 1;
+  samples_since_snapshot_ = 0;
+  if (has_bias_noise_) TakeSnapshot();
+}
+
+void Preintegrator::TakeSnapshot() {
+  if (snapshot_count_ == kMaxSnapshots) {
+    // Keep every other one, so that any number of samples fits.
+    for (int k = 1; 2 * k < kMaxSnapshots; ++k) {
+      snapshots_[static_cast<std::size_t>(k)] =
+          snapshots_[static_cast<std::size_t>(2 * k)];
+    }
+    snapshot_count_ /= 2;
+    snapshot_every_ *= 2;
+  }
+  snapshots_[static_cast<std::size_t>(snapshot_count_++)] = {
+      T_, v_, p_, S_g_, V_g_, P_g_, S_a_, P_a_};
+}
+
+void Preintegrator::Add(const LinearRates& raw) {
+  LinearRates r = raw;
+  r.w0 -= calibration_.b_g;
+  r.w1 -= calibration_.b_g;
+  r.f0 -= calibration_.b_a;
+  r.f1 -= calibration_.b_a;
+  if (with_scale_) {
+    const Eigen::Array3d gyro_factor = 1.0 / (1.0 + calibration_.s_g.array());
+    const Eigen::Array3d accel_factor = 1.0 / (1.0 + calibration_.s_a.array());
+    r.w0.array() *= gyro_factor;
+    r.w1.array() *= gyro_factor;
+    r.f0.array() *= accel_factor;
+    r.f1.array() *= accel_factor;
+  }
+  const double dt = r.dt;
+  const SampleIntegral sample = Integrate(r);
+
+  const Eigen::Vector3d dv_i = C_ * sample.dv;
+  const Eigen::Vector3d p_next = p_ + dt * v_ + C_ * sample.dp;
+  const Eigen::Vector3d v_next = v_ + dv_i;
+  q_ = q_ * Exp(sample.phi);
+  const Eigen::Matrix3d C_next = q_.toRotationMatrix();
+
+  // Gyro noise moments at the middle of the sample.
+  const Eigen::Vector3d v_mid = 0.5 * (v_ + v_next);
+  const Eigen::Vector3d u_mid = 0.5 * (p_ + p_next) - (T_ + 0.5 * dt) * v_mid;
+  double q_dt = noise_.gyro_noise_density * noise_.gyro_noise_density * dt;
+  if (noise_.gyro_noise_per_rate > 0.0) {
+    const double w = 0.5 * (r.w0 + r.w1).norm();
+    q_dt += noise_.gyro_noise_per_rate * noise_.gyro_noise_per_rate * w * w * dt;
+  }
+  q_sum_ += q_dt;
+  const Eigen::Vector3d qv = q_dt * v_mid;
+  const Eigen::Vector3d qu = q_dt * u_mid;
+  qv_ += qv;
+  qu_ += qu;
+  qvv_.noalias() += qv * v_mid.transpose();
+  qvu_.noalias() += qv * u_mid.transpose();
+  quu_.noalias() += qu * u_mid.transpose();
+
+  // Bias sensitivities, trapezoidal in the attitude.
+  const Eigen::Matrix3d C_mid_dt = (0.5 * dt) * (C_ + C_next);
+  if (with_scale_) AddScaleJacobians(C_mid_dt, r, dv_i);
+  const Eigen::Matrix3d f_skew = Skew(dv_i);
+  const double decay_g =
+      gauss_markov_ ? std::exp(-(T_ + 0.5 * dt) / noise_.gyro_bias_tau) : 1.0;
+  const Eigen::Matrix3d dS_g = decay_g * C_mid_dt;
+  const Eigen::Matrix3d dV_g = f_skew * (S_g_ + 0.5 * dS_g);
+  P_g_ += dt * (V_g_ + 0.5 * dV_g);
+  V_g_ += dV_g;
+  S_g_ += dS_g;
+  if (gauss_markov_) {
+    const double decay_a = std::exp(-(T_ + 0.5 * dt) / noise_.accel_bias_tau);
+    P_a_ += dt * (S_a_ + (0.5 * decay_a) * C_mid_dt);
+    S_a_ += decay_a * C_mid_dt;
+  } else {
+    P_a_ += dt * (S_a_ + 0.5 * C_mid_dt);
+    S_a_ = S_g_;
+  }
+
+  v_ = v_next;
+  p_ = p_next;
+  C_ = C_next;
+  T_ += dt;
+  if (has_bias_noise_ && ++samples_since_snapshot_ >= snapshot_every_) {
+    samples_since_snapshot_ = 0;
+    TakeSnapshot();
+  }
+}
+
+void Preintegrator::AddScaleJacobians(const Eigen::Matrix3d& C_mid_dt,
+                                      const LinearRates& r,
+                                      const Eigen::Vector3d& dv_i) {
+  const Eigen::Matrix3d dU_g = C_mid_dt * (0.5 * (r.w0 + r.w1)).asDiagonal();
+  const Eigen::Matrix3d dVU_g = Skew(dv_i) * (U_g_ + 0.5 * dU_g);
+  PU_g_ += r.dt * (VU_g_ + 0.5 * dVU_g);
+  VU_g_ += dVU_g;
+  U_g_ += dU_g;
+  const Eigen::Matrix3d dU_a = C_mid_dt * (0.5 * (r.f0 + r.f1)).asDiagonal();
+  PU_a_ += r.dt * (U_a_ + 0.5 * dU_a);
+  U_a_ += dU_a;
+}
+
+ImuSummary Preintegrator::Finish() const {
+  ImuSummary out;
+  out.t_i = t_i_;
+  out.t_j = t_i_ + T_;
+  out.calibration = calibration_;
+  out.dR = q_.normalized();
+  out.dv = v_;
+  out.dp = p_;
+  out.R_bg = -S_g_;
+  out.v_bg = V_g_;
+  out.p_bg = P_g_;
+  out.v_ba = -S_a_;
+  out.p_ba = -P_a_;
+  if (with_scale_) {
+    // A scale error is felt as a bias in proportion to the true rate: the
+    // divisor turns (1 + s) errors of the raw reading into those of the rate.
+    const Eigen::Array3d g = 1.0 / (1.0 + calibration_.s_g.array());
+    const Eigen::Array3d a = 1.0 / (1.0 + calibration_.s_a.array());
+    out.R_sg = -U_g_ * g.matrix().asDiagonal();
+    out.v_sg = VU_g_ * g.matrix().asDiagonal();
+    out.p_sg = PU_g_ * g.matrix().asDiagonal();
+    out.v_sa = -U_a_ * a.matrix().asDiagonal();
+    out.p_sa = -PU_a_ * a.matrix().asDiagonal();
+    out.R_bg *= g.matrix().asDiagonal();
+    out.v_bg *= g.matrix().asDiagonal();
+    out.p_bg *= g.matrix().asDiagonal();
+    out.v_ba *= a.matrix().asDiagonal();
+    out.p_ba *= a.matrix().asDiagonal();
+  } else {
+    for (Eigen::Matrix3d* m :
+         {&out.R_sg, &out.v_sg, &out.p_sg, &out.v_sa, &out.p_sa}) {
+      m->setZero();
+    }
+  }
+  out.gyro_bias_phi = noise_.GyroBiasEvolution().Phi(T_);
+  out.accel_bias_phi = noise_.AccelBiasEvolution().Phi(T_);
+  AssembleWhiteNoise(&out);
+  out.bias_cross.setZero();
+  if (has_bias_noise_) AssembleBiasNoise(&out);
+  // e_R is wanted in the body axes at t_j.
+  const Eigen::Matrix3d C_T = out.dR.conjugate().toRotationMatrix();
+  out.noise.bottomRows<3>() = (C_T * out.noise.bottomRows<3>()).eval();
+  out.noise.rightCols<3>() =
+      (out.noise.rightCols<3>() * C_T.transpose()).eval();
+  out.bias_cross.bottomRows<3>() =
+      (C_T * out.bias_cross.bottomRows<3>()).eval();
+  return out;
+}
+
+void Preintegrator::AssembleWhiteNoise(ImuSummary* out) const {
+  // A rotation error eps made at s moves velocity by -[a x] eps and position by
+  // -[b x] eps, a = v(T) - v(s), b = p(T) - p(s) - (T - s) v(s)
+  // = (p(T) - T v(s)) - u(s), and [a x][b x]' = (a.b) I - b a'.
+  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+  const double T = T_;
+  const Eigen::Vector3d m_a = q_sum_ * v_ - qv_;
+  const Eigen::Vector3d m_b = q_sum_ * p_ - T * qv_ - qu_;
+  const Eigen::Matrix3d m_aa = q_sum_ * v_ * v_.transpose() -
+                               v_ * qv_.transpose() - qv_ * v_.transpose() +
+                               qvv_;
+  // sum of q a b'
+  const Eigen::Matrix3d m_ab = v_ * m_b.transpose() - qv_ * p_.transpose() +
+                               T * qvv_ + qvu_;
+  // sum of q b b'
+  const Eigen::Matrix3d m_sb = T * qvv_ + qvu_;  // of v (T v + u)'
+  const Eigen::Matrix3d m_ub = T * qvu_.transpose() + quu_;
+  const Eigen::Vector3d m_w = T * qv_ + qu_;
+  const Eigen::Matrix3d m_bb = q_sum_ * p_ * p_.transpose() -
+                               p_ * m_w.transpose() - m_w * p_.transpose() +
+                               T * m_sb + m_ub;
+  const double q_a = noise_.accel_noise_density * noise_.accel_noise_density;
+  auto& N = out->noise;
+  N.block<3, 3>(0, 0) = m_bb.trace() * I - m_bb + (q_a * T * T * T / 3.0) * I;
+  N.block<3, 3>(3, 3) = m_aa.trace() * I - m_aa + (q_a * T) * I;
+  // e_p e_v' = [b x][a x]' = (a.b) I - a b'.
+  N.block<3, 3>(0, 3) = m_ab.trace() * I - m_ab + (0.5 * q_a * T * T) * I;
+  N.block<3, 3>(6, 6) = q_sum_ * I;
+  N.block<3, 3>(0, 6) = -Skew(m_b);
+  N.block<3, 3>(3, 6) = -Skew(m_a);
+  N.block<3, 3>(3, 0) = N.block<3, 3>(0, 3).transpose();
+  N.block<3, 3>(6, 0) = N.block<3, 3>(0, 6).transpose();
+  N.block<3, 3>(6, 3) = N.block<3, 3>(3, 6).transpose();
+}
+
+void Preintegrator::AssembleBiasNoise(ImuSummary* out) const {
+  using Matrix93 = Eigen::Matrix<double, 9, 3>;
+  const double q_g = noise_.gyro_bias_walk * noise_.gyro_bias_walk;
+  const double q_a = noise_.accel_bias_walk * noise_.accel_bias_walk;
+  out->gyro_bias_variance = noise_.GyroBiasEvolution().Q(T_);
+  out->accel_bias_variance = noise_.AccelBiasEvolution().Q(T_);
+  // Trapezoidal in s over the snapshots; the sensitivity vanishes at s = T.
+  for (int k = 0; k < snapshot_count_; ++k) {
+    const Snapshot& x = snapshots_[static_cast<std::size_t>(k)];
+    const double s_next =
+        k + 1 < snapshot_count_ ? snapshots_[static_cast<std::size_t>(k + 1)].s
+                                : T_;
+    const double s_previous =
+        k > 0 ? snapshots_[static_cast<std::size_t>(k - 1)].s : x.s;
+    const double weight = 0.5 * (s_next - s_previous);
+    const double left = T_ - x.s;
+    const double grow_g =
+        gauss_markov_ ? std::exp(x.s / noise_.gyro_bias_tau) : 1.0;
+    const double grow_a =
+        gauss_markov_ ? std::exp(x.s / noise_.accel_bias_tau) : 1.0;
+    Matrix93 J_g;
+    J_g.topRows<3>() = P_g_ - x.P_g - left * x.V_g -
+                       Skew(p_ - x.p - left * x.v) * x.S_g;
+    J_g.middleRows<3>(3) = V_g_ - x.V_g - Skew(v_ - x.v) * x.S_g;
+    J_g.bottomRows<3>() = -(S_g_ - x.S_g);
+    J_g *= grow_g;
+    Matrix93 J_a;
+    J_a.topRows<3>() = -(P_a_ - x.P_a - left * x.S_a);
+    J_a.middleRows<3>(3) = -(S_a_ - x.S_a);
+    J_a.bottomRows<3>().setZero();
+    J_a *= grow_a;
+    const double decay_g =
+        gauss_markov_ ? std::exp(-left / noise_.gyro_bias_tau) : 1.0;
+    const double decay_a =
+        gauss_markov_ ? std::exp(-left / noise_.accel_bias_tau) : 1.0;
+    out->noise += weight * (q_g * J_g * J_g.transpose() +
+                            q_a * J_a * J_a.transpose());
+    out->bias_cross.leftCols<3>() += (weight * q_g * decay_g) * J_g;
+    out->bias_cross.rightCols<3>() += (weight * q_a * decay_a) * J_a;
+  }
+}
+
+std::size_t ImuIntegrator::FindInterval(double t) {
+  const auto& samples = stream_->samples;
+  const std::size_t last = samples.size() - 1;
+  std::size_t k = std::min(hint_, last);
+  if (samples[k - 1].t > t || k + 64 < last) {
+    const bool near = samples[k - 1].t <= t && samples[std::min(k + 64, last)].t > t;
+    if (!near) {
+      const auto it = std::upper_bound(
+          samples.begin() + 1, samples.end(), t,
+          [](double value, const ImuSample& s) { return value < s.t; });
+      k = std::min(static_cast<std::size_t>(it - samples.begin()), last);
+    }
+  }
+  while (k < last && samples[k].t <= t) ++k;
+  hint_ = k;
+  return k;
+}
+
+LinearRates ImuIntegrator::RatesOfInterval(std::size_t k) const {
+  const auto& samples = stream_->samples;
+  const double dt = samples[k].t - samples[k - 1].t;
+  if (stream_->kind == ImuStream::Kind::kRates) {
+    return {dt, samples[k - 1].gyro, samples[k].gyro, samples[k - 1].accel,
+            samples[k].accel};
+  }
+  const double dt_previous =
+      k >= 2 ? samples[k - 1].t - samples[k - 2].t : dt;
+  return RatesFromIncrements(dt_previous, samples[k - 1].gyro,
+                             samples[k - 1].accel, dt, samples[k].gyro,
+                             samples[k].accel);
+}
+
+ImuSummary ImuIntegrator::Summarize(double t_i, double t_j,
+                                    const ImuCalibration& calibration) {
+  const auto& samples = stream_->samples;
+  constexpr double kTolerance = 1e-6;
+  if (t_i < stream_->t_begin() - kTolerance ||
+      t_j > stream_->t_end() + kTolerance || t_j < t_i) {
+    throw EstimationError("IMU data do not cover the interval from " +
+                          std::to_string(t_i) + " s to " + std::to_string(t_j) +
+                          " s");
+  }
+  integrator_.Start(t_i, calibration);
+  std::size_t k = FindInterval(t_i);
+  double t = t_i;
+  while (t < t_j) {
+    const double t_begin = samples[k - 1].t;
+    const double t_end = samples[k].t;
+    const double to = k + 1 == samples.size() ? t_j : std::min(t_end, t_j);
+    LinearRates rates = RatesOfInterval(k);
+    if (t > t_begin || to < t_end) {
+      const double span = rates.dt;
+      const double a = (t - t_begin) / span;
+      const double b = (to - t_begin) / span;
+      const Eigen::Vector3d dw = rates.w1 - rates.w0;
+      const Eigen::Vector3d df = rates.f1 - rates.f0;
+      rates = {to - t, rates.w0 + a * dw, rates.w0 + b * dw, rates.f0 + a * df,
+               rates.f0 + b * df};
+    }
+    if (rates.dt > 0.0) integrator_.Add(rates);
+    t = to;
+    if (k + 1 < samples.size()) ++k;
+  }
+  hint_ = k;
+  ImuSummary summary = integrator_.Finish();
+  summary.t_j = t_j;
+  return summary;
+}
+
+Kinematics ImuIntegrator::ReadingAt(double t) {
+  const std::size_t k = FindInterval(t);
+  const LinearRates rates = RatesOfInterval(k);
+  const double a =
+      std::clamp((t - stream_->samples[k - 1].t) / rates.dt, 0.0, 1.0);
+  return {rates.w0 + a * (rates.w1 - rates.w0),
+          rates.f0 + a * (rates.f1 - rates.f0)};
+}
+
+}  // namespace hindsight

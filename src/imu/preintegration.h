@@ -1,0 +1,155 @@
+#ifndef HINDSIGHT_IMU_PREINTEGRATION_H_
+#define HINDSIGHT_IMU_PREINTEGRATION_H_
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+
+#include "imu/imu_stream.h"
+#include "imu/kinematics.h"
+#include "imu/sample_integral.h"
+
+namespace hindsight {
+
+/// Errors of the IMU at which the samples are integrated:
+/// measured = (1 + scale) true + bias + noise, per body axis.
+struct ImuCalibration {
+  Eigen::Vector3d b_g = Eigen::Vector3d::Zero();  ///< [rad/s]
+  Eigen::Vector3d b_a = Eigen::Vector3d::Zero();  ///< [m/s^2]
+  Eigen::Vector3d s_g = Eigen::Vector3d::Zero();  ///< [1]
+  Eigen::Vector3d s_a = Eigen::Vector3d::Zero();  ///< [1]
+};
+
+/// All that the samples of one interval [t_i, t_j] say about motion, in the
+/// inertial axes that coincide with the body axes at t_i:
+///   dR = C(t_i <- t_j),  dv = int C f,  dp = int int C f.
+/// Independent of position, velocity and the Earth's rotation. The Jacobians
+/// give the change of the mean with (true - used) calibration error d:
+///   dR -> Exp(R_bg d) dR,   dv -> dv + v_bg d_bg + v_ba d_ba,  dp likewise.
+/// Errors e = (e_p, e_v, e_R): e_R on the right of dR (body axes at t_j).
+struct ImuSummary {
+  double t_i = 0.0;
+  double t_j = 0.0;
+  ImuCalibration calibration;
+  Eigen::Quaterniond dR = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d dv = Eigen::Vector3d::Zero();
+  Eigen::Vector3d dp = Eigen::Vector3d::Zero();
+
+  Eigen::Matrix3d R_bg, v_bg, p_bg, v_ba, p_ba;
+  /// With respect to scale factors; filled only if asked for.
+  Eigen::Matrix3d R_sg, v_sg, p_sg, v_sa, p_sa;
+
+  /// Covariance of e from white noise and from the biases' own noise within
+  /// the interval.
+  Eigen::Matrix<double, 9, 9> noise;
+  /// Covariance of e with the noise that the gyro (columns 0-2) and
+  /// accelerometer biases (3-5) have accumulated at t_j.
+  Eigen::Matrix<double, 9, 6> bias_cross;
+  double gyro_bias_variance = 0.0;   ///< accumulated over the interval, an axis
+  double accel_bias_variance = 0.0;
+  double gyro_bias_phi = 1.0;   ///< exp(-dt/tau)
+  double accel_bias_phi = 1.0;
+
+  double dt() const { return t_j - t_i; }
+};
+
+/// Mean of a summary moved to another calibration, to first order.
+struct CorrectedMean {
+  Eigen::Quaterniond dR;
+  Eigen::Vector3d dv;
+  Eigen::Vector3d dp;
+  Eigen::Vector3d rotation_correction;  ///< R_bg d_bg + R_sg d_sg [rad]
+};
+CorrectedMean Correct(const ImuSummary& summary, const ImuCalibration& at);
+
+/// True if `at` is so far from the summary's calibration that second-order
+/// terms matter: rotation correction above 1 mrad, or scale above 1e-3 times
+/// the motion.
+bool NeedsReintegration(const ImuSummary& summary, const ImuCalibration& at);
+
+/// Accumulates sample intervals into a summary. Mean to second order per
+/// sample; Jacobians and noise by moments, exact in the limit of small samples
+/// and cheaper than propagating a covariance (one pass of sums, assembled once
+/// in Finish). No allocation.
+class Preintegrator {
+ public:
+  Preintegrator(const ImuNoise& noise, bool with_scale_jacobians);
+
+  /// Starts a new interval.
+  void Start(double t_i, const ImuCalibration& calibration);
+  /// Appends the next sample interval, calibration errors not yet removed.
+  void Add(const LinearRates& raw);
+  /// The summary from the start to the end of the last sample added.
+  ImuSummary Finish() const;
+
+ private:
+  struct Snapshot {
+    double s = 0.0;
+    Eigen::Vector3d v, p;
+    Eigen::Matrix3d S_g, V_g, P_g, S_a, P_a;
+  };
+  static constexpr int kMaxSnapshots = 16;
+
+  void TakeSnapshot();
+  void AddScaleJacobians(const Eigen::Matrix3d& C_mid, const LinearRates& r,
+                         const Eigen::Vector3d& dv_i);
+  void AssembleWhiteNoise(ImuSummary* out) const;
+  void AssembleBiasNoise(ImuSummary* out) const;
+
+  ImuNoise noise_;
+  bool with_scale_;
+  bool has_bias_noise_;
+  bool gauss_markov_;
+  ImuCalibration calibration_;
+  double t_i_ = 0.0;
+  double T_ = 0.0;
+  Eigen::Quaterniond q_;
+  Eigen::Matrix3d C_;
+  Eigen::Vector3d v_, p_;
+  // Integrals of the attitude, weighted by the bias decay: S = int C, V_g =
+  // int [f x] S, P = int of V or S.
+  Eigen::Matrix3d S_g_, V_g_, P_g_, S_a_, P_a_;
+  Eigen::Matrix3d U_g_, VU_g_, PU_g_, U_a_, PU_a_;
+  // Moments over the gyro noise variance rate q: sums of q ds times products of
+  // v(s) and u(s) = p(s) - s v(s).
+  double q_sum_ = 0.0;
+  Eigen::Vector3d qv_, qu_;
+  Eigen::Matrix3d qvv_, qvu_, quu_;
+  std::array<Snapshot, kMaxSnapshots> snapshots_;
+  int snapshot_count_ = 0;
+  int snapshot_every_ = 1;
+  int samples_since_snapshot_ = 0;
+};
+
+/// Turns intervals of a stream into summaries. Splits a sample where an
+/// interval begins or ends inside it.
+class ImuIntegrator {
+ public:
+  explicit ImuIntegrator(const ImuStream& stream,
+                         bool with_scale_jacobians = false)
+      : stream_(&stream), integrator_(stream.noise, with_scale_jacobians) {}
+
+  /// Summary of [t_i, t_j], which must lie inside the stream's span. Calls in
+  /// time order cost time in proportion to the samples of the interval.
+  ImuSummary Summarize(double t_i, double t_j,
+                       const ImuCalibration& calibration);
+
+  /// Reading at t, linear between samples.
+  Kinematics ReadingAt(double t);
+
+  /// Rates over the sample interval that ends at sample k >= 1.
+  LinearRates RatesOfInterval(std::size_t k) const;
+
+ private:
+  /// Smallest k >= 1 with samples[k].t > t (or the last).
+  std::size_t FindInterval(double t);
+
+  const ImuStream* stream_;
+  Preintegrator integrator_;
+  std::size_t hint_ = 1;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IMU_PREINTEGRATION_H_

@@ -1,0 +1,25 @@
+#include "measurements/height_fix.h"
+
+#include "earth/wgs84.h"
+#include "measurements/point_motion.h"
+
+namespace hindsight {
+
+void HeightFix::Evaluate(const ModelContext& context,
+                         LinearizedMeasurement* out) const {
+  const PointMotion motion = MotionOfSensor(context);
+  const Geodetic g = GeodeticFromEcef(motion.p_e);
+  const Eigen::RowVector3d up_e =
+      -NedAxes(g.latitude, g.longitude).col(2).transpose();
+  out->Resize(kRows, context.layout.dim());
+  out->residual(0) =
+      height - g.height -
+      Parameter1(context.layout, context.state, BlockKind::kOffset,
+                 context.sensor_index, 0.0);
+  AddPositionColumns(context, motion, up_e, &out->H);
+  context.layout.AddColumns(BlockKind::kOffset, context.sensor_index,
+                            Eigen::Matrix<double, 1, 1>::Identity(), &out->H);
+  out->R(0, 0) = sigma * sigma;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,14 @@
+#include "measurements/measurement.h"
+
+namespace hindsight {
+
+int Rows(const Measurement& z) {
+  return std::visit([](const auto& model) { return model.kRows; }, z.model);
+}
+
+void Evaluate(const Measurement& z, const ModelContext& context,
+              LinearizedMeasurement* out) {
+  std::visit([&](const auto& model) { model.Evaluate(context, out); }, z.model);
+}
+
+}  // namespace hindsight

@@ -1,0 +1,22 @@
+#include "measurements/velocity_fix.h"
+
+#include "geometry/so3.h"
+#include "measurements/point_motion.h"
+
+namespace hindsight {
+
+void VelocityFix::Evaluate(const ModelContext& context,
+                           LinearizedMeasurement* out) const {
+  const PointMotion motion = MotionOfSensor(context);
+  const Eigen::Matrix3d C_ne = motion.C_en.transpose();
+  const Eigen::Vector3d predicted = C_ne * motion.v_e;
+  out->Resize(kRows, context.layout.dim());
+  out->residual = v_n - predicted;
+  AddVelocityColumns(context, motion, C_ne, &out->H);
+  context.layout.AddColumns(BlockKind::kPosition, BlockKey::kNoSensor,
+                            Skew(predicted) * NedTurn(context.state.p_e),
+                            &out->H);
+  out->R = R_n;
+}
+
+}  // namespace hindsight
