@@ -34,11 +34,10 @@ Eigen::Vector3d EarthRateCross(const Eigen::Vector3d& v) {
 
 ImuCalibration CalibrationOf(const ErrorLayout& layout, const State& x) {
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
-  return {x.b_g, x.b_a,
-          Parameter3(layout, x, BlockKind::kGyroScale, BlockKey::kNoSensor,
-                     none),
-          Parameter3(layout, x, BlockKind::kAccelScale, BlockKey::kNoSensor,
-                     none)};
+  return {
+      x.b_g, x.b_a,
+      Parameter3(layout, x, BlockKind::kGyroScale, BlockKey::kNoSensor, none),
+      Parameter3(layout, x, BlockKind::kAccelScale, BlockKey::kNoSensor, none)};
 }
 
 State Predict(const ErrorLayout& layout, const State& x_i,
@@ -58,14 +57,14 @@ State Predict(const ErrorLayout& layout, const State& x_i,
     g_j = E * Gravitation(E.transpose() * P_j);
     P_j = inertial + (dt * dt) * (g_i / 3.0 + g_j / 6.0);
   }
-  const Eigen::Vector3d V_j =
-      V_i + R_i * mean.dv + (0.5 * dt) * (g_i + g_j);
+  const Eigen::Vector3d V_j = V_i + R_i * mean.dv + (0.5 * dt) * (g_i + g_j);
 
   State x = x_i;
   x.t = summary.t_j;
   x.p_e = E.transpose() * P_j;
   x.v_e = E.transpose() * V_j - EarthRateCross(x.p_e);
-  x.q_eb = (Eigen::Quaterniond(E.transpose()) * x_i.q_eb * mean.dR).normalized();
+  x.q_eb =
+      (Eigen::Quaterniond(E.transpose()) * x_i.q_eb * mean.dR).normalized();
   x.b_g *= summary.gyro_bias_phi;
   x.b_a *= summary.accel_bias_phi;
   for (const Block& block : layout.blocks()) {

@@ -21,7 +21,8 @@ State Predict(const ErrorLayout& layout, const State& x_i,
 
 /// The five navigation blocks (p, v, psi, b_g, b_a) of the link between two
 /// states, linearised at both:
-///   r(x_i [+] d_i, x_j [+] d_j) = residual + J_i d_i + J_j d_j + J_s d_s = noise
+///   r(x_i [+] d_i, x_j [+] d_j) = residual + J_i d_i + J_j d_j + J_s d_s =
+///   noise
 /// Rows: r_p [m] and r_v [m/s] in body axes at t_i, r_R [rad] in body axes at
 /// t_j, bias defects. d_s are the scale factors (gyro, accelerometer) at t_i.
 struct ImuLink {

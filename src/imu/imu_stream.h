@@ -12,7 +12,7 @@ namespace hindsight {
 
 /// One line of an IMU file in body axes forward-right-down.
 struct ImuSample {
-  double t = 0.0;          ///< [s] since the data set's epoch
+  double t = 0.0;  ///< [s] since the data set's epoch
   Eigen::Vector3d gyro = Eigen::Vector3d::Zero();   ///< [rad/s] or [rad]
   Eigen::Vector3d accel = Eigen::Vector3d::Zero();  ///< [m/s^2] or [m/s]
 };

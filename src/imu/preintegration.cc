@@ -108,7 +108,8 @@ void Preintegrator::Add(const LinearRates& raw) {
   double q_dt = noise_.gyro_noise_density * noise_.gyro_noise_density * dt;
   if (noise_.gyro_noise_per_rate > 0.0) {
     const double w = 0.5 * (r.w0 + r.w1).norm();
-    q_dt += noise_.gyro_noise_per_rate * noise_.gyro_noise_per_rate * w * w * dt;
+    q_dt +=
+        noise_.gyro_noise_per_rate * noise_.gyro_noise_per_rate * w * w * dt;
   }
   q_sum_ += q_dt;
   const Eigen::Vector3d qv = q_dt * v_mid;
@@ -223,8 +224,8 @@ void Preintegrator::AssembleWhiteNoise(ImuSummary* out) const {
                                v_ * qv_.transpose() - qv_ * v_.transpose() +
                                qvv_;
   // sum of q a b'
-  const Eigen::Matrix3d m_ab = v_ * m_b.transpose() - qv_ * p_.transpose() +
-                               T * qvv_ + qvu_;
+  const Eigen::Matrix3d m_ab =
+      v_ * m_b.transpose() - qv_ * p_.transpose() + T * qvv_ + qvu_;
   // sum of q b b'
   const Eigen::Matrix3d m_sb = T * qvv_ + qvu_;  // of v (T v + u)'
   const Eigen::Matrix3d m_ub = T * qvu_.transpose() + quu_;
@@ -255,9 +256,9 @@ void Preintegrator::AssembleBiasNoise(ImuSummary* out) const {
   // Trapezoidal in s over the snapshots; the sensitivity vanishes at s = T.
   for (int k = 0; k < snapshot_count_; ++k) {
     const Snapshot& x = snapshots_[static_cast<std::size_t>(k)];
-    const double s_next =
-        k + 1 < snapshot_count_ ? snapshots_[static_cast<std::size_t>(k + 1)].s
-                                : T_;
+    const double s_next = k + 1 < snapshot_count_
+                              ? snapshots_[static_cast<std::size_t>(k + 1)].s
+                              : T_;
     const double s_previous =
         k > 0 ? snapshots_[static_cast<std::size_t>(k - 1)].s : x.s;
     const double weight = 0.5 * (s_next - s_previous);
@@ -267,8 +268,8 @@ void Preintegrator::AssembleBiasNoise(ImuSummary* out) const {
     const double grow_a =
         gauss_markov_ ? std::exp(x.s / noise_.accel_bias_tau) : 1.0;
     Matrix93 J_g;
-    J_g.topRows<3>() = P_g_ - x.P_g - left * x.V_g -
-                       Skew(p_ - x.p - left * x.v) * x.S_g;
+    J_g.topRows<3>() =
+        P_g_ - x.P_g - left * x.V_g - Skew(p_ - x.p - left * x.v) * x.S_g;
     J_g.middleRows<3>(3) = V_g_ - x.V_g - Skew(v_ - x.v) * x.S_g;
     J_g.bottomRows<3>() = -(S_g_ - x.S_g);
     J_g *= grow_g;
@@ -281,8 +282,8 @@ void Preintegrator::AssembleBiasNoise(ImuSummary* out) const {
         gauss_markov_ ? std::exp(-left / noise_.gyro_bias_tau) : 1.0;
     const double decay_a =
         gauss_markov_ ? std::exp(-left / noise_.accel_bias_tau) : 1.0;
-    out->noise += weight * (q_g * J_g * J_g.transpose() +
-                            q_a * J_a * J_a.transpose());
+    out->noise +=
+        weight * (q_g * J_g * J_g.transpose() + q_a * J_a * J_a.transpose());
     out->bias_cross.leftCols<3>() += (weight * q_g * decay_g) * J_g;
     out->bias_cross.rightCols<3>() += (weight * q_a * decay_a) * J_a;
   }
@@ -293,7 +294,8 @@ std::size_t ImuIntegrator::FindInterval(double t) {
   const std::size_t last = samples.size() - 1;
   std::size_t k = std::min(hint_, last);
   if (samples[k - 1].t > t || k + 64 < last) {
-    const bool near = samples[k - 1].t <= t && samples[std::min(k + 64, last)].t > t;
+    const bool near =
+        samples[k - 1].t <= t && samples[std::min(k + 64, last)].t > t;
     if (!near) {
       const auto it = std::upper_bound(
           samples.begin() + 1, samples.end(), t,
@@ -313,8 +315,7 @@ LinearRates ImuIntegrator::RatesOfInterval(std::size_t k) const {
     return {dt, samples[k - 1].gyro, samples[k].gyro, samples[k - 1].accel,
             samples[k].accel};
   }
-  const double dt_previous =
-      k >= 2 ? samples[k - 1].t - samples[k - 2].t : dt;
+  const double dt_previous = k >= 2 ? samples[k - 1].t - samples[k - 2].t : dt;
   return RatesFromIncrements(dt_previous, samples[k - 1].gyro,
                              samples[k - 1].accel, dt, samples[k].gyro,
                              samples[k].accel);

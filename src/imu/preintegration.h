@@ -46,9 +46,9 @@ struct ImuSummary {
   /// Covariance of e with the noise that the gyro (columns 0-2) and
   /// accelerometer biases (3-5) have accumulated at t_j.
   Eigen::Matrix<double, 9, 6> bias_cross;
-  double gyro_bias_variance = 0.0;   ///< accumulated over the interval, an axis
+  double gyro_bias_variance = 0.0;  ///< accumulated over the interval, an axis
   double accel_bias_variance = 0.0;
-  double gyro_bias_phi = 1.0;   ///< exp(-dt/tau)
+  double gyro_bias_phi = 1.0;  ///< exp(-dt/tau)
   double accel_bias_phi = 1.0;
 
   double dt() const { return t_j - t_i; }

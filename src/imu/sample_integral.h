@@ -41,8 +41,7 @@ inline SampleIntegral Integrate(const LinearRates& s) {
   const Eigen::Vector3d wwf = w.cross(w.cross(f));
   SampleIntegral out;
   out.phi = T * w + (T2 / 12.0) * s.w0.cross(s.w1);
-  out.dv = T * f +
-           T2 * (0.5 * w0f0 + w0df / 3.0 + dwf0 / 6.0 + dwdf / 8.0) +
+  out.dv = T * f + T2 * (0.5 * w0f0 + w0df / 3.0 + dwf0 / 6.0 + dwdf / 8.0) +
            (T2 * T / 6.0) * wwf;
   out.dp = T2 * (0.5 * s.f0 + df / 6.0) +
            T2 * T * (w0f0 / 6.0 + w0df / 12.0 + dwf0 / 24.0 + dwdf / 40.0) +
@@ -60,8 +59,10 @@ inline LinearRates RatesFromIncrements(double dt_previous,
   const Eigen::Vector3d w = dtheta / dt;
   const Eigen::Vector3d f = dvel / dt;
   const double half_ratio = dt / (dt + dt_previous);
-  const Eigen::Vector3d half_dw = half_ratio * (w - dtheta_previous / dt_previous);
-  const Eigen::Vector3d half_df = half_ratio * (f - dvel_previous / dt_previous);
+  const Eigen::Vector3d half_dw =
+      half_ratio * (w - dtheta_previous / dt_previous);
+  const Eigen::Vector3d half_df =
+      half_ratio * (f - dvel_previous / dt_previous);
   return {dt, w - half_dw, w + half_dw, f - half_df, f + half_df};
 }
 

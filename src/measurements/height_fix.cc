@@ -12,10 +12,9 @@ void HeightFix::Evaluate(const ModelContext& context,
   const Eigen::RowVector3d up_e =
       -NedAxes(g.latitude, g.longitude).col(2).transpose();
   out->Resize(kRows, context.layout.dim());
-  out->residual(0) =
-      height - g.height -
-      Parameter1(context.layout, context.state, BlockKind::kOffset,
-                 context.sensor_index, 0.0);
+  out->residual(0) = height - g.height -
+                     Parameter1(context.layout, context.state,
+                                BlockKind::kOffset, context.sensor_index, 0.0);
   AddPositionColumns(context, motion, up_e, &out->H);
   context.layout.AddColumns(BlockKind::kOffset, context.sensor_index,
                             Eigen::Matrix<double, 1, 1>::Identity(), &out->H);

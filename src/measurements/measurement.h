@@ -18,8 +18,8 @@ using MeasurementModel = std::variant<PositionFix, VelocityFix, HeightFix,
                                       ZeroVelocity, ZeroAngularRate>;
 
 struct Measurement {
-  double t = 0.0;   ///< stamp [s]; the sensor's time offset is not yet applied
-  int sensor = 0;   ///< index into Dataset::streams
+  double t = 0.0;  ///< stamp [s]; the sensor's time offset is not yet applied
+  int sensor = 0;  ///< index into Dataset::streams
   bool withheld = false;  ///< predicted and reported, never used
   MeasurementModel model;
 };

@@ -25,8 +25,9 @@ PointMotion MotionOfSensor(const ModelContext& context) {
       context.layout.Find(BlockKind::kTimeOffset, context.sensor_index);
   m.a_e.setZero();
   if (offset != nullptr) {
-    const Eigen::Vector3d f_b = (context.kinematics.f_b - calibration.b_a).array() /
-                                (1.0 + calibration.s_a.array());
+    const Eigen::Vector3d f_b =
+        (context.kinematics.f_b - calibration.b_a).array() /
+        (1.0 + calibration.s_a.array());
     m.a_e = m.C_eb * f_b + Gravity(x.p_e) - 2.0 * EarthRate_e().cross(x.v_e);
     m.dt = context.stamp + x.parameters(offset->parameter_offset) - x.t;
     m.p_e += m.dt * m.v_e + (0.5 * m.dt * m.dt) * m.a_e;
@@ -38,9 +39,8 @@ PointMotion MotionOfSensor(const ModelContext& context) {
 namespace {
 
 /// d a_e / d(error) times A, for the time-offset terms.
-void AddAccelerationColumns(const ModelContext& context,
-                            const PointMotion& m, const RowTimes3& A,
-                            RowJacobian* H) {
+void AddAccelerationColumns(const ModelContext& context, const PointMotion& m,
+                            const RowTimes3& A, RowJacobian* H) {
   const ErrorLayout& layout = context.layout;
   const int none = BlockKey::kNoSensor;
   const ImuCalibration calibration = CalibrationOf(layout, context.state);
@@ -68,10 +68,11 @@ void AddRigidVelocityColumns(const ModelContext& context, const PointMotion& m,
   const RowTimes3 A_l = A_b * Skew(m.l_b);
   const Eigen::Vector3d factor = 1.0 / (1.0 + calibration.s_g.array());
   layout.AddColumns(BlockKind::kVelocity, none, A * m.C_en, H);
-  layout.AddColumns(
-      BlockKind::kAttitude, none,
-      (-A * Skew(m.C_eb * m.w_eb_b.cross(m.l_b)) +
-       A_l * m.C_eb.transpose() * Skew(EarthRate_e())) * m.C_en, H);
+  layout.AddColumns(BlockKind::kAttitude, none,
+                    (-A * Skew(m.C_eb * m.w_eb_b.cross(m.l_b)) +
+                     A_l * m.C_eb.transpose() * Skew(EarthRate_e())) *
+                        m.C_en,
+                    H);
   layout.AddColumns(BlockKind::kGyroBias, none, A_l * factor.asDiagonal(), H);
   layout.AddColumns(BlockKind::kGyroScale, none,
                     A_l * m.w_ib_b.cwiseProduct(factor).asDiagonal(), H);

@@ -32,13 +32,11 @@ PointMotion MotionOfSensor(const ModelContext& context);
 
 /// Adds A * dp/d(error) to H, for any A (rows x 3) that acts on vectors in e.
 void AddPositionColumns(const ModelContext& context, const PointMotion& motion,
-                        const RowTimes3& A,
-                        RowJacobian* H);
+                        const RowTimes3& A, RowJacobian* H);
 
 /// Adds A * dv/d(error) to H.
 void AddVelocityColumns(const ModelContext& context, const PointMotion& motion,
-                        const RowTimes3& A,
-                        RowJacobian* H);
+                        const RowTimes3& A, RowJacobian* H);
 
 /// Rotation of the NED axes with position: C_en(p + C_en dr) =
 /// C_en(p) (I + [theta x]), theta = NedTurn dr [rad/m].

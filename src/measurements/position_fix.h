@@ -11,7 +11,7 @@ namespace hindsight {
 /// residual [m] NED. Position reference points: eq. (45) of the 2002 paper,
 /// with the opposite sign of the residual.
 struct PositionFix {
-  Eigen::Vector3d p_e = Eigen::Vector3d::Zero();  ///< measured, ECEF [m]
+  Eigen::Vector3d p_e = Eigen::Vector3d::Zero();      ///< measured, ECEF [m]
   Eigen::Matrix3d R_n = Eigen::Matrix3d::Identity();  ///< NED covariance [m^2]
 
   static constexpr int kRows = 3;

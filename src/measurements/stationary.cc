@@ -29,9 +29,9 @@ void ZeroAngularRate::Evaluate(const ModelContext& context,
   const Eigen::Vector3d factor = 1.0 + calibration.s_g.array();
   out->Resize(kRows, layout.dim());
   out->residual = w_ib_b - factor.cwiseProduct(earth_b) - x.b_g;
-  layout.AddColumns(
-      BlockKind::kAttitude, BlockKey::kNoSensor,
-      factor.asDiagonal() * C_be * Skew(EarthRate_e()) * x.C_en(), &out->H);
+  layout.AddColumns(BlockKind::kAttitude, BlockKey::kNoSensor,
+                    factor.asDiagonal() * C_be * Skew(EarthRate_e()) * x.C_en(),
+                    &out->H);
   layout.AddColumns(BlockKind::kGyroBias, BlockKey::kNoSensor,
                     Eigen::Matrix3d::Identity(), &out->H);
   layout.AddColumns(BlockKind::kGyroScale, BlockKey::kNoSensor,

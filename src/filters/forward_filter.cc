@@ -1,0 +1,179 @@
+#include "filters/forward_filter.h"
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <limits>
+
+#include "base/error.h"
+
+namespace hindsight {
+
+double GateLimit(const Sensor& sensor, int rows) {
+  if (!sensor.gate_probability) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return boost::math::quantile(boost::math::chi_squared(rows),
+                               *sensor.gate_probability);
+}
+
+namespace {
+
+/// One pass over the timeline; the two public filters differ in where the
+/// nominal comes from and whether the update moves it.
+class ForwardPass {
+ public:
+  ForwardPass(const ErrorLayout& layout, const Prior& prior, Timeline* timeline,
+              const GateDecisions& decisions)
+      : layout_(layout),
+        timeline_(*timeline),
+        decisions_(decisions),
+        tape_(layout),
+        x_(prior.x),
+        P_(prior.P),
+        dx_(ErrorVector::Zero(layout.dim())) {
+    tape_.Reserve(timeline->size());
+    transition_.c = ErrorVector::Zero(layout.dim());
+    for (const Sensor& sensor : timeline_.sensors()) {
+      for (int rows = 1; rows <= kMaxRows; ++rows) {
+        gate_limits_.push_back(GateLimit(sensor, rows));
+      }
+    }
+  }
+
+  /// Expresses the prior about another nominal: the prior's mean becomes an
+  /// error, its covariance moves into the new tangent.
+  void StartAbout(const State& nominal) {
+    const State prior_mean = x_;
+    x_ = nominal;
+    dx_ = Local(layout_, nominal, prior_mean);
+    MoveCovariance(prior_mean);
+  }
+
+  /// Time update of the interval that ends at node k, to the predicted state.
+  void PredictTo(std::size_t k) {
+    const ImuSummary& summary =
+        timeline_.Summary(k - 1, CalibrationOf(layout_, x_));
+    const State predicted = Predict(layout_, x_, summary);
+    LinearizeTransition(layout_, summary, x_, predicted, &transition_);
+    transition_.c.setZero();
+    Propagate(predicted);
+  }
+
+  /// Time update to a given nominal, with its defect.
+  void PredictTo(std::size_t k, const State& nominal) {
+    const ImuSummary& summary =
+        timeline_.Summary(k - 1, CalibrationOf(layout_, x_));
+    LinearizeTransition(layout_, summary, x_, nominal, &transition_);
+    Propagate(nominal);
+  }
+
+  /// Measurement update at node k and a new epoch on the tape.
+  void UpdateAt(std::size_t k, bool reset) {
+    TapeEpoch epoch;
+    epoch.t = timeline_.node(k).t;
+    epoch.x_minus = x_;
+    epoch.c = transition_.c;
+    epoch.dx_minus = dx_;
+    const ErrorMatrix P_minus = P_;
+    const auto measurements = timeline_.measurements(k);
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
+      Use(k, measurements[i], static_cast<int>(i));
+    }
+    epoch.dx_plus = dx_;
+    if (reset) {
+      epoch.reset = true;
+      x_ = Retract(layout_, x_, dx_);
+      x_.t = epoch.t;
+      if (!measurements.empty()) MoveCovariance(epoch.x_minus);
+      dx_.setZero();
+    }
+    if (!dx_.allFinite() || !x_.p_e.allFinite() || !P_.allFinite()) {
+      throw EstimationError(
+          "filter diverged at t = " + std::to_string(epoch.t) + " s");
+    }
+    epoch.x_plus = x_;
+    tape_.Append(std::move(epoch), transition_, P_minus, P_);
+  }
+
+  LinearTape TakeTape() { return std::move(tape_); }
+
+ private:
+  void Propagate(const State& nominal) {
+    dx_ = (transition_.Phi * dx_ + transition_.c).eval();
+    PredictCovariance(transition_.Phi, transition_.Q, &P_);
+    x_ = nominal;
+  }
+
+  void Use(std::size_t k, const Measurement& z, int index) {
+    Evaluate(z, timeline_.Context(k, z, layout_, x_), &linearized_);
+    const Innovation innovation = Innovate(linearized_, dx_, P_);
+    TapeMeasurement header;
+    header.index = index;
+    header.sensor = z.sensor;
+    header.withheld = z.withheld;
+    header.accepted = !z.withheld && Accept(k, z, index, innovation);
+    tape_.Record(header, linearized_, innovation);
+    if (header.accepted) Update(linearized_, innovation, &dx_, &P_);
+  }
+
+  bool Accept(std::size_t k, const Measurement& z, int index,
+              const Innovation& innovation) const {
+    if (!decisions_.empty()) {
+      return decisions_[static_cast<std::size_t>(
+                 timeline_.node(k).first_measurement + index)] != 0;
+    }
+    const auto rows = innovation.residual.size();
+    return innovation.nis <= gate_limits_[static_cast<std::size_t>(
+                                 z.sensor * kMaxRows + rows - 1)];
+  }
+
+  /// Carries P from the tangent at `from` to the one at the reset nominal.
+  void MoveCovariance(const State& from) {
+    const ErrorMatrix T = Transport(layout_, from, x_);
+    const ErrorMatrix TP = T * P_;
+    P_.noalias() = TP * T.transpose();
+    Symmetrize(&P_);
+  }
+
+  const ErrorLayout& layout_;
+  Timeline& timeline_;
+  const GateDecisions& decisions_;
+  LinearTape tape_;
+  State x_;
+  ErrorMatrix P_;
+  ErrorVector dx_;
+  Transition transition_;
+  LinearizedMeasurement linearized_;
+  std::vector<double> gate_limits_;
+};
+
+}  // namespace
+
+LinearTape RunExtendedKalmanFilter(const ErrorLayout& layout,
+                                   const Prior& prior, Timeline* timeline,
+                                   const GateDecisions& decisions,
+                                   const EpochCallback& callback) {
+  ForwardPass pass(layout, prior, timeline, decisions);
+  for (std::size_t k = 0; k < timeline->size(); ++k) {
+    if (k > 0) pass.PredictTo(k);
+    pass.UpdateAt(k, /*reset=*/true);
+    if (callback) callback(k + 1);
+  }
+  return pass.TakeTape();
+}
+
+LinearTape RunLinearizedFilter(const ErrorLayout& layout, const Prior& prior,
+                               std::span<const State> nominal,
+                               Timeline* timeline,
+                               const GateDecisions& decisions,
+                               const EpochCallback& callback) {
+  ForwardPass pass(layout, prior, timeline, decisions);
+  pass.StartAbout(nominal.front());
+  for (std::size_t k = 0; k < timeline->size(); ++k) {
+    if (k > 0) pass.PredictTo(k, nominal[k]);
+    pass.UpdateAt(k, /*reset=*/false);
+    if (callback) callback(k + 1);
+  }
+  return pass.TakeTape();
+}
+
+}  // namespace hindsight

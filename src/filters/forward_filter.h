@@ -1,0 +1,49 @@
+#ifndef HINDSIGHT_FILTERS_FORWARD_FILTER_H_
+#define HINDSIGHT_FILTERS_FORWARD_FILTER_H_
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "filters/linear_tape.h"
+#include "measurements/timeline.h"
+
+namespace hindsight {
+
+/// Where a forward pass starts: a state and the covariance of its error.
+struct Prior {
+  State x;
+  ErrorMatrix P;
+};
+
+/// Which measurements a pass uses. Empty: the gate of each sensor decides by
+/// the innovation. Otherwise one flag a measurement of the timeline, in order.
+using GateDecisions = std::vector<char>;
+
+/// Called after each epoch with the number done; may throw to stop.
+using EpochCallback = std::function<void(std::size_t)>;
+
+/// Upper limit of the normalised innovation squared that the sensor's gate lets
+/// pass for so many rows, infinity without a gate.
+double GateLimit(const Sensor& sensor, int rows);
+
+/// Error-state extended Kalman filter: predicts through the IMU summaries,
+/// updates about x_minus, resets the nominal at each epoch. Writes the tape and
+/// integrates the timeline's summaries at its own bias estimates.
+LinearTape RunExtendedKalmanFilter(const ErrorLayout& layout,
+                                   const Prior& prior, Timeline* timeline,
+                                   const GateDecisions& decisions = {},
+                                   const EpochCallback& callback = nullptr);
+
+/// Linearised Kalman filter about one fixed nominal trajectory, a state a node:
+/// nothing is reset, defects of the nominal enter as c. One RTS pass over its
+/// tape is one Gauss-Newton step of the whole-interval problem from `nominal`.
+LinearTape RunLinearizedFilter(const ErrorLayout& layout, const Prior& prior,
+                               std::span<const State> nominal,
+                               Timeline* timeline,
+                               const GateDecisions& decisions = {},
+                               const EpochCallback& callback = nullptr);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_FILTERS_FORWARD_FILTER_H_

@@ -1,0 +1,88 @@
+#include "filters/iterated_smoother.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hindsight {
+namespace {
+
+/// Largest movement of a block over all epochs [m or rad].
+double LargestMove(const ErrorLayout& layout, const std::vector<ErrorVector>& d,
+                   BlockKind kind) {
+  const Block* block = layout.Find(kind);
+  double largest = 0.0;
+  if (block == nullptr) return largest;
+  for (const ErrorVector& v : d) {
+    largest = std::max(largest, v.segment(block->offset, block->dim).norm());
+  }
+  return largest;
+}
+
+}  // namespace
+
+IteratedResult SmoothIterated(const ErrorLayout& layout, const Prior& prior,
+                              std::vector<State> nominal, Timeline* timeline,
+                              const GateDecisions& decisions,
+                              const IterationOptions& options) {
+  IteratedResult result;
+  result.trajectory.states = std::move(nominal);
+  for (int i = 0; i < options.max_iterations && !result.converged; ++i) {
+    const std::vector<State> about = std::move(result.trajectory.states);
+    result.trajectory = SmoothRts(RunLinearizedFilter(
+        layout, prior, about, timeline, decisions, options.callback));
+    ++result.iterations;
+    result.converged =
+        LargestMove(layout, result.trajectory.d, BlockKind::kPosition) <
+            options.position_tolerance &&
+        LargestMove(layout, result.trajectory.d, BlockKind::kAttitude) <
+            options.attitude_tolerance;
+  }
+  return result;
+}
+
+GateDecisions DecideGates(const ErrorLayout& layout, const Timeline& timeline,
+                          const SmoothedTrajectory& trajectory,
+                          const GateDecisions& used) {
+  GateDecisions decisions(timeline.all_measurements().size(), 1);
+  LinearizedMeasurement z;
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < timeline.size(); ++k) {
+    for (const Measurement& measurement : timeline.measurements(k)) {
+      const std::size_t index = i++;
+      const Sensor& sensor =
+          timeline.sensors()[static_cast<std::size_t>(measurement.sensor)];
+      if (measurement.withheld) {
+        decisions[index] = 0;
+        continue;
+      }
+      if (!sensor.gate_probability) continue;
+      Evaluate(measurement,
+               timeline.Context(k, measurement, layout, trajectory.states[k]),
+               &z);
+      const RowMatrix HPH = z.H * trajectory.P.Get(k) * z.H.transpose();
+      const RowMatrix S =
+          used[index] != 0 ? RowMatrix(z.R - HPH) : RowMatrix(z.R + HPH);
+      const Eigen::LLT<RowMatrix> llt(S);
+      // A measurement that decides its own state alone cannot be tested.
+      if (llt.info() != Eigen::Success) continue;
+      const double nis = llt.matrixL().solve(z.residual).squaredNorm();
+      decisions[index] =
+          nis <= GateLimit(sensor, static_cast<int>(z.residual.size())) ? 1 : 0;
+    }
+  }
+  return decisions;
+}
+
+GateDecisions DecisionsOnTape(const LinearTape& tape) {
+  GateDecisions decisions;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      decisions.push_back(z.accepted ? 1 : 0);
+    }
+  }
+  return decisions;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,69 @@
+#include "filters/kalman.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/units.h"
+
+namespace hindsight {
+
+using GainMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
+                                 kMaxErrorDim, kMaxRows>;
+
+Innovation Innovate(const LinearizedMeasurement& z, const ErrorVector& dx,
+                    const ErrorMatrix& P) {
+  Innovation out;
+  out.residual = z.residual - z.H * dx;
+  const RowJacobian HP = z.H * P;
+  out.S = z.R;
+  out.S.noalias() += HP * z.H.transpose();
+  const Eigen::LLT<RowMatrix> llt(out.S);
+  if (llt.info() != Eigen::Success) {
+    throw EstimationError(
+        "innovation covariance of a measurement is not positive definite");
+  }
+  const RowVector whitened = llt.matrixL().solve(out.residual);
+  out.nis = whitened.squaredNorm();
+  const double log_determinant =
+      2.0 * llt.matrixLLT().diagonal().array().log().sum();
+  out.log_likelihood =
+      -0.5 * (out.nis + log_determinant +
+              static_cast<double>(out.residual.size()) * std::log(2.0 * kPi));
+  return out;
+}
+
+void Update(const LinearizedMeasurement& z, const Innovation& innovation,
+            ErrorVector* dx, ErrorMatrix* P) {
+  const GainMatrix PHt = *P * z.H.transpose();
+  const Eigen::LLT<RowMatrix> llt(innovation.S);
+  const GainMatrix K = llt.solve(PHt.transpose()).transpose();
+  *dx += K * innovation.residual;
+  P->noalias() -= K * PHt.transpose();  // (I - K H) P
+  const GainMatrix APHt = *P * z.H.transpose();
+  P->noalias() -= APHt * K.transpose();
+  const GainMatrix KR = K * z.R;
+  P->noalias() += KR * K.transpose();
+  Symmetrize(P);
+}
+
+void PredictCovariance(const ErrorMatrix& Phi, const ErrorMatrix& Q,
+                       ErrorMatrix* P) {
+  const ErrorMatrix PhiP = Phi * *P;
+  *P = Q;
+  P->noalias() += PhiP * Phi.transpose();
+  Symmetrize(P);
+}
+
+void Symmetrize(ErrorMatrix* P) {
+  const Eigen::Index n = P->rows();
+  for (Eigen::Index j = 0; j < n; ++j) {
+    for (Eigen::Index i = j + 1; i < n; ++i) {
+      const double mean = 0.5 * ((*P)(i, j) + (*P)(j, i));
+      (*P)(i, j) = mean;
+      (*P)(j, i) = mean;
+    }
+  }
+}
+
+}  // namespace hindsight

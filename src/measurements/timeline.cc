@@ -1,0 +1,30 @@
+#include "measurements/timeline.h"
+
+#include <utility>
+
+namespace hindsight {
+
+Timeline::Timeline(std::vector<Node> nodes,
+                   std::vector<Measurement> measurements,
+                   std::vector<Sensor> sensors, const ImuStream& imu,
+                   bool with_scale_jacobians)
+    : nodes_(std::move(nodes)),
+      measurements_(std::move(measurements)),
+      sensors_(std::move(sensors)),
+      integrator_(imu, with_scale_jacobians),
+      summaries_(nodes_.empty() ? 0 : nodes_.size() - 1),
+      integrated_(summaries_.size(), 0) {
+  for (Node& node : nodes_) node.kinematics = integrator_.ReadingAt(node.t);
+}
+
+const ImuSummary& Timeline::Summary(std::size_t k,
+                                    const ImuCalibration& calibration) {
+  if (integrated_[k] == 0 || NeedsReintegration(summaries_[k], calibration)) {
+    summaries_[k] =
+        integrator_.Summarize(nodes_[k].t, nodes_[k + 1].t, calibration);
+    integrated_[k] = 1;
+  }
+  return summaries_[k];
+}
+
+}  // namespace hindsight

@@ -1,0 +1,72 @@
+#ifndef HINDSIGHT_MEASUREMENTS_TIMELINE_H_
+#define HINDSIGHT_MEASUREMENTS_TIMELINE_H_
+
+#include <span>
+#include <vector>
+
+#include "imu/preintegration.h"
+#include "measurements/measurement.h"
+
+namespace hindsight {
+
+/// An instant at which the state is estimated.
+struct Node {
+  double t = 0.0;
+  Kinematics kinematics;
+  int first_measurement = 0;  ///< range in Timeline::measurements
+  int measurement_count = 0;
+};
+
+/// What every estimator works on: nodes in time order, the measurements of each
+/// and the IMU summary of each interval between neighbours. Summaries are
+/// shared by all methods and integrated anew only when the calibration has
+/// moved too far.
+class Timeline {
+ public:
+  Timeline(std::vector<Node> nodes, std::vector<Measurement> measurements,
+           std::vector<Sensor> sensors, const ImuStream& imu,
+           bool with_scale_jacobians);
+
+  std::size_t size() const { return nodes_.size(); }
+  const Node& node(std::size_t k) const { return nodes_[k]; }
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<Sensor>& sensors() const { return sensors_; }
+  std::span<const Measurement> measurements(std::size_t k) const {
+    return std::span<const Measurement>(measurements_)
+        .subspan(static_cast<std::size_t>(nodes_[k].first_measurement),
+                 static_cast<std::size_t>(nodes_[k].measurement_count));
+  }
+  const std::vector<Measurement>& all_measurements() const {
+    return measurements_;
+  }
+
+  /// Summary of the interval from node k to k + 1, integrated at `calibration`
+  /// or near enough for its first-order correction.
+  const ImuSummary& Summary(std::size_t k, const ImuCalibration& calibration);
+
+  /// The summary as last integrated; it must have been asked for before.
+  const ImuSummary& Summary(std::size_t k) const { return summaries_[k]; }
+
+  /// The context in which measurement z of node k is evaluated at state x.
+  ModelContext Context(std::size_t k, const Measurement& z,
+                       const ErrorLayout& layout, const State& x) const {
+    return {layout,
+            x,
+            nodes_[k].kinematics,
+            sensors_[static_cast<std::size_t>(z.sensor)],
+            z.sensor,
+            z.t};
+  }
+
+ private:
+  std::vector<Node> nodes_;
+  std::vector<Measurement> measurements_;
+  std::vector<Sensor> sensors_;
+  ImuIntegrator integrator_;
+  std::vector<ImuSummary> summaries_;
+  std::vector<char> integrated_;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_MEASUREMENTS_TIMELINE_H_
