@@ -1,0 +1,85 @@
+#include "evaluation/solution_table.h"
+
+namespace hindsight {
+namespace {
+
+/// First component of a block that is estimated in all three axes, or -1.
+int CompleteOffset(const ErrorLayout& layout, BlockKind kind) {
+  const Block* block = layout.Find(kind);
+  return block != nullptr && block->dim == 3 ? block->offset : -1;
+}
+
+void FillCovariances(const Solution& solution, SolutionTable* table) {
+  const ErrorLayout& layout = solution.layout;
+  const int position = CompleteOffset(layout, BlockKind::kPosition);
+  const int velocity = CompleteOffset(layout, BlockKind::kVelocity);
+  const int attitude = CompleteOffset(layout, BlockKind::kAttitude);
+  const int gyro_bias = CompleteOffset(layout, BlockKind::kGyroBias);
+  const int accel_bias = CompleteOffset(layout, BlockKind::kAccelBias);
+  for (std::size_t k = 0; k < solution.covariances.size(); ++k) {
+    const ErrorMatrix P = solution.covariances.Get(k);
+    const auto append = [&P](int offset, std::vector<Eigen::Matrix3d>* out) {
+      if (offset >= 0) out->push_back(P.block<3, 3>(offset, offset));
+    };
+    append(position, &table->P_position);
+    append(velocity, &table->P_velocity);
+    append(attitude, &table->P_attitude);
+    const auto append_sigma = [&P](int offset,
+                                   std::vector<Eigen::Vector3d>* out) {
+      if (offset < 0) return;
+      out->push_back(P.diagonal().segment<3>(offset).cwiseMax(0.0).cwiseSqrt());
+    };
+    append_sigma(gyro_bias, &table->sigma_b_g);
+    append_sigma(accel_bias, &table->sigma_b_a);
+  }
+}
+
+}  // namespace
+
+Eigen::Matrix3d SolutionTable::C_en(std::size_t k) const {
+  if (p_e.empty()) return Eigen::Matrix3d::Identity();
+  return NedAxes(p_e[k]);
+}
+
+Eigen::Quaterniond SolutionTable::q_nb(std::size_t k) const {
+  return Eigen::Quaterniond(C_en(k)).conjugate() * q_eb[k];
+}
+
+SolutionTable TableFromSolution(const Solution& solution) {
+  SolutionTable table;
+  table.method = solution.method;
+  const ErrorLayout& layout = solution.layout;
+  const bool has_position = layout.Has(BlockKind::kPosition);
+  for (const State& x : solution.states) {
+    table.t.push_back(x.t);
+    // Without a place the state's own axes at p_e would be arbitrary; its
+    // velocity and attitude are brought to local axes once, here.
+    const Eigen::Matrix3d C = has_position
+                                  ? Eigen::Matrix3d::Identity().eval()
+                                  : Eigen::Matrix3d(x.C_en().transpose());
+    if (has_position) table.p_e.push_back(x.p_e);
+    if (layout.Has(BlockKind::kVelocity)) table.v_e.push_back(C * x.v_e);
+    if (layout.Has(BlockKind::kAttitude)) {
+      table.q_eb.push_back(Eigen::Quaterniond(C) * x.q_eb);
+    }
+    if (layout.Has(BlockKind::kGyroBias)) table.b_g.push_back(x.b_g);
+    if (layout.Has(BlockKind::kAccelBias)) table.b_a.push_back(x.b_a);
+  }
+  FillCovariances(solution, &table);
+  return table;
+}
+
+std::vector<TruthPoint> TruthFromTable(const SolutionTable& table) {
+  std::vector<TruthPoint> truth(table.size());
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    truth[k].t = table.t[k];
+    if (!table.p_e.empty()) truth[k].p_e = table.p_e[k];
+    if (!table.v_e.empty()) {
+      truth[k].v_n = table.C_en(k).transpose() * table.v_e[k];
+    }
+    if (!table.q_eb.empty()) truth[k].q_nb = table.q_nb(k);
+  }
+  return truth;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,84 @@
+#ifndef HINDSIGHT_EVALUATION_TRAJECTORY_ERROR_H_
+#define HINDSIGHT_EVALUATION_TRAJECTORY_ERROR_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "dataset/dataset.h"
+#include "evaluation/solution_table.h"
+#include "evaluation/statistics.h"
+
+namespace hindsight {
+
+struct TrajectoryErrorOptions {
+  /// Truth between two solution rows further apart than this is not matched
+  /// [s].
+  double max_gap = 2.0;
+  /// Point the truth speaks of, body axes from the point of the solution [m].
+  Eigen::Vector3d truth_lever_arm_b = Eigen::Vector3d::Zero();
+};
+
+/// Truth minus solution at the time of one truth point, NED axes at the
+/// solution's position. A part is absent where truth or solution lacks it.
+struct TrajectoryError {
+  double t = 0.0;
+  std::optional<Eigen::Vector3d> position;  ///< [m]
+  std::optional<Eigen::Vector3d> velocity;  ///< [m/s]
+  /// Differences of (roll, pitch, heading), each in (-pi, pi] [rad].
+  std::optional<Eigen::Vector3d> euler;
+  /// Rotation vector psi, C_nb(truth) = Exp(psi) C_nb(solution) [rad].
+  std::optional<Eigen::Vector3d> rotation;
+  /// Normalised squared errors e' P^-1 e, 3 degrees of freedom each. With a
+  /// lever arm P is still that of the solution's own point.
+  std::optional<double> position_nees;
+  std::optional<double> velocity_nees;
+  std::optional<double> attitude_nees;
+};
+
+/// Errors at all truth points that can be matched. The solution is
+/// interpolated to the truth's times (see TrajectoryInterpolator).
+std::vector<TrajectoryError> ComputeTrajectoryErrors(
+    const SolutionTable& solution, const std::vector<TruthPoint>& truth,
+    const TrajectoryErrorOptions& options);
+
+struct VectorErrorStatistics {
+  std::array<ErrorStatistics, 3> axis;  ///< north, east, down
+  ErrorStatistics horizontal;           ///< of the length in the plane
+  ErrorStatistics total;                ///< of the length
+};
+
+struct AttitudeErrorStatistics {
+  std::array<ErrorStatistics, 3> axis;  ///< roll, pitch, heading [rad]
+  ErrorStatistics tilt;   ///< rotation about a horizontal axis [rad]
+  ErrorStatistics total;  ///< angle of the rotation [rad]
+};
+
+/// Statistics of a whole trajectory; a part is absent where no truth point
+/// could be compared.
+struct TrajectoryStatistics {
+  std::size_t truth_count = 0;
+  std::size_t matched_count = 0;
+  /// Truth points compared, of all there are [%].
+  double matched_percent() const;
+  std::optional<VectorErrorStatistics> position;  ///< [m]
+  std::optional<VectorErrorStatistics> velocity;  ///< [m/s]
+  std::optional<AttitudeErrorStatistics> attitude;
+  std::optional<double> position_nees;  ///< mean over the points
+  std::optional<double> velocity_nees;
+  std::optional<double> attitude_nees;
+};
+
+TrajectoryStatistics SummarizeErrors(const std::vector<TrajectoryError>& errors,
+                                     std::size_t truth_count);
+
+/// Both steps in one.
+TrajectoryStatistics EvaluateTrajectory(const SolutionTable& solution,
+                                        const std::vector<TruthPoint>& truth,
+                                        const TrajectoryErrorOptions& options);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_EVALUATION_TRAJECTORY_ERROR_H_
