@@ -26,6 +26,8 @@ struct TruthPoint {
   std::optional<Eigen::Vector3d> p_e;
   std::optional<Eigen::Vector3d> v_n;         ///< NED [m/s]
   std::optional<Eigen::Quaterniond> q_nb;     ///< body to NED
+  std::optional<Eigen::Vector3d> b_g;  ///< known of simulated data [rad/s]
+  std::optional<Eigen::Vector3d> b_a;  ///< known of simulated data [m/s^2]
 };
 
 /// Initial values. What is absent is found by alignment.

@@ -1,0 +1,196 @@
+#include "simulation/scenario.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+
+namespace hindsight {
+namespace {
+
+/// Random stream of the initial errors, clear of those in sensor_errors.cc.
+constexpr std::uint64_t kStartStream = 100;
+
+void RequirePositive(const Scenario& scenario, double value,
+                     const char* quantity) {
+  if (value > 0.0 && std::isfinite(value)) return;
+  throw InputError("scenario '" + scenario.name + "': the " + quantity +
+                   " is not positive");
+}
+
+double EndOf(const Scenario& scenario, const Trajectory& trajectory) {
+  return std::min(trajectory.t_end(), trajectory.t_begin() + scenario.duration);
+}
+
+std::size_t TruthEvery(const Scenario& scenario) {
+  const double samples = scenario.imu_rate_hz / scenario.truth_rate_hz;
+  return static_cast<std::size_t>(std::max(1L, std::lround(samples)));
+}
+
+TruthPoint TruthAt(const Motion& motion, const ImuErrors& errors) {
+  const Eigen::Matrix3d C_ne = NedAxes(motion.p_e).transpose();
+  TruthPoint point;
+  point.t = motion.t;
+  point.p_e = motion.p_e;
+  point.v_n = C_ne * motion.v_e;
+  point.q_nb = (Eigen::Quaterniond(C_ne) * motion.q_eb).normalized();
+  point.b_g = errors.gyro_bias();
+  point.b_a = errors.accel_bias();
+  return point;
+}
+
+/// What the user is told of a start bias: how large it may be, whether drawn or
+/// fixed.
+std::optional<Eigen::Vector3d> BiasSigma(const Eigen::Vector3d& bias,
+                                         const Eigen::Vector3d& sigma) {
+  const Eigen::Vector3d total =
+      (bias.cwiseAbs2() + sigma.cwiseAbs2()).cwiseSqrt();
+  if (total.minCoeff() > 0.0) return total;
+  return std::nullopt;
+}
+
+InitialState DrawInitialState(const Scenario& scenario, const Motion& start,
+                              std::uint64_t seed) {
+  InitialState initial;
+  initial.gyro_bias_sigma =
+      BiasSigma(scenario.imu.gyro_bias, scenario.imu.gyro_bias_sigma);
+  initial.accel_bias_sigma =
+      BiasSigma(scenario.imu.accel_bias, scenario.imu.accel_bias_sigma);
+  if (!scenario.start_errors) return initial;
+  const StartErrors& sigma = *scenario.start_errors;
+  Random random(seed, kStartStream);
+  const Eigen::Vector3d d_position =
+      sigma.position.cwiseProduct(random.NormalVector3());
+  const Eigen::Vector3d d_velocity =
+      sigma.velocity.cwiseProduct(random.NormalVector3());
+  const Eigen::Vector3d d_attitude =
+      sigma.attitude.cwiseProduct(random.NormalVector3());
+  const Eigen::Matrix3d C_en = NedAxes(start.p_e);
+  State truth;
+  truth.p_e = start.p_e;
+  truth.v_e = start.v_e;
+  truth.q_eb = start.q_eb;
+  initial.t = start.t;
+  initial.position = GeodeticFromEcef(start.p_e + C_en * d_position);
+  initial.v_n = truth.v_n() + d_velocity;
+  initial.euler = truth.euler() + d_attitude;
+  initial.position_sigma = sigma.position;
+  initial.velocity_sigma = sigma.velocity;
+  initial.attitude_sigma = sigma.attitude;
+  return initial;
+}
+
+/// The data set but for IMU samples and truth.
+Dataset MakeDataset(const Scenario& scenario,
+                    std::vector<std::vector<Measurement>> perfect,
+                    const Motion& start, std::uint64_t seed) {
+  Dataset dataset;
+  dataset.name = scenario.name;
+  dataset.imu.kind = scenario.imu_kind;
+  dataset.imu.noise = scenario.imu.noise;
+  for (std::size_t k = 0; k < scenario.aiding.size(); ++k) {
+    AddMeasurementErrors(scenario.aiding[k], seed, &perfect[k]);
+    dataset.streams.push_back(
+        {scenario.aiding[k].sensor, std::move(perfect[k])});
+  }
+  dataset.initial = DrawInitialState(scenario, start, seed);
+  dataset.stationary = scenario.stationary;
+  dataset.max_node_spacing = scenario.max_node_spacing;
+  dataset.withholdings = scenario.withholdings;
+  ApplyWithholding(&dataset);
+  return dataset;
+}
+
+std::vector<std::vector<Measurement>> AllPerfectMeasurements(
+    const Scenario& scenario, Trajectory* trajectory, double t_end) {
+  std::vector<std::vector<Measurement>> all;
+  for (const AidingModel& model : scenario.aiding) {
+    RequirePositive(scenario, model.rate_hz, "rate of an aiding sensor");
+    all.push_back(PerfectMeasurements(model, static_cast<int>(all.size()),
+                                      trajectory, t_end));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::unique_ptr<Trajectory> MakeTrajectory(const Scenario& scenario) {
+  RequirePositive(scenario, scenario.imu_rate_hz, "rate of the IMU");
+  RequirePositive(scenario, scenario.truth_rate_hz, "rate of the truth");
+  if (!scenario.profile.empty()) {
+    return std::make_unique<SampledTrajectory>(scenario.profile);
+  }
+  return std::make_unique<SegmentTrajectory>(
+      scenario.start,
+      MotionProfile(scenario.segments, scenario.start_speed,
+                    scenario.start_heading),
+      scenario.imu_rate_hz);
+}
+
+Simulation::Simulation(const Scenario& scenario, std::uint64_t seed)
+    : scenario_(scenario),
+      seed_(seed),
+      trajectory_(MakeTrajectory(scenario)),
+      t_end_(EndOf(scenario, *trajectory_)),
+      imu_(trajectory_.get(), scenario.imu_kind, scenario.imu_rate_hz, t_end_),
+      errors_(scenario.imu, scenario.imu_kind, scenario.imu_rate_hz, seed),
+      truth_every_(TruthEvery(scenario)) {}
+
+bool Simulation::Next(ImuSample* sample) {
+  if (!imu_.Next(sample)) return false;
+  errors_.Apply(sample);
+  if (index_++ % truth_every_ == 0) {
+    truth_.push_back(TruthAt(imu_.motion(), errors_));
+  }
+  return true;
+}
+
+Dataset Simulation::Finish() {
+  Dataset dataset = MakeDataset(
+      scenario_, AllPerfectMeasurements(scenario_, trajectory_.get(), t_end_),
+      trajectory_->At(trajectory_->t_begin()), seed_);
+  dataset.truth = std::move(truth_);
+  return dataset;
+}
+
+Dataset Simulate(const Scenario& scenario, std::uint64_t seed) {
+  Simulation simulation(scenario, seed);
+  std::vector<ImuSample> samples(simulation.sample_count());
+  for (ImuSample& sample : samples) simulation.Next(&sample);
+  Dataset dataset = simulation.Finish();
+  dataset.imu.samples = std::move(samples);
+  return dataset;
+}
+
+PerfectRecording::PerfectRecording(const Scenario& scenario)
+    : scenario_(scenario), truth_every_(TruthEvery(scenario)) {
+  const std::unique_ptr<Trajectory> trajectory = MakeTrajectory(scenario);
+  const double t_end = EndOf(scenario, *trajectory);
+  ImuSimulator imu(trajectory.get(), scenario.imu_kind, scenario.imu_rate_hz,
+                   t_end);
+  samples_.resize(imu.size());
+  for (std::size_t k = 0; k < samples_.size(); ++k) {
+    imu.Next(&samples_[k]);
+    if (k % truth_every_ == 0) truth_.push_back(imu.motion());
+  }
+  aiding_ = AllPerfectMeasurements(scenario, trajectory.get(), t_end);
+}
+
+Dataset PerfectRecording::Realize(std::uint64_t seed) const {
+  Dataset dataset = MakeDataset(scenario_, aiding_, truth_.front(), seed);
+  ImuErrors errors(scenario_.imu, scenario_.imu_kind, scenario_.imu_rate_hz,
+                   seed);
+  dataset.imu.samples = samples_;
+  dataset.truth.reserve(truth_.size());
+  for (std::size_t k = 0; k < samples_.size(); ++k) {
+    errors.Apply(&dataset.imu.samples[k]);
+    if (k % truth_every_ == 0) {
+      dataset.truth.push_back(TruthAt(truth_[k / truth_every_], errors));
+    }
+  }
+  return dataset;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,102 @@
+#ifndef HINDSIGHT_SIMULATION_SCENARIO_H_
+#define HINDSIGHT_SIMULATION_SCENARIO_H_
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dataset/dataset.h"
+#include "simulation/imu_simulator.h"
+#include "simulation/sampled_trajectory.h"
+#include "simulation/sensor_errors.h"
+
+namespace hindsight {
+
+/// Standard deviations from which the errors of the initial values are drawn.
+struct StartErrors {
+  Eigen::Vector3d position = Eigen::Vector3d::Ones();  ///< NED [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Ones();  ///< NED [m/s]
+  Eigen::Vector3d attitude = Eigen::Vector3d::Ones();  ///< roll, pitch, heading
+};
+
+/// Everything that decides a simulated recording but the seed.
+struct Scenario {
+  std::string name;
+  std::string description;
+
+  Geodetic start;
+  double start_speed = 0.0;    ///< [m/s]
+  double start_heading = 0.0;  ///< [rad]
+  std::vector<Segment> segments;
+  /// If not empty, the motion instead of start and segments.
+  std::vector<ProfilePoint> profile;
+  /// Longest duration [s]; the motion may end before.
+  double duration = std::numeric_limits<double>::infinity();
+
+  ImuStream::Kind imu_kind = ImuStream::Kind::kIncrements;
+  double imu_rate_hz = 200.0;
+  ImuErrorModel imu;
+  std::vector<AidingModel> aiding;
+  /// Of the truth in the data set, rounded to a whole number of IMU samples.
+  double truth_rate_hz = 10.0;
+
+  /// Absent: the data set has no initial values and alignment must find them.
+  std::optional<StartErrors> start_errors;
+  StationaryOptions stationary;
+  std::vector<Withholding> withholdings;
+  double max_node_spacing = 1.0;  ///< [s]
+};
+
+/// The true motion. Throws InputError for one that cannot be driven, or if a
+/// rate of the scenario is not positive.
+std::unique_ptr<Trajectory> MakeTrajectory(const Scenario& scenario);
+
+/// One seed of a scenario, sample by sample: of a day, nothing but truth and
+/// aiding is held.
+class Simulation {
+ public:
+  Simulation(const Scenario& scenario, std::uint64_t seed);
+
+  std::size_t sample_count() const { return imu_.size(); }
+  /// The next measured sample, or false after the last.
+  bool Next(ImuSample* sample);
+  /// The data set without IMU samples: truth up to the last sample taken,
+  /// aiding, initial values.
+  Dataset Finish();
+
+ private:
+  Scenario scenario_;
+  std::uint64_t seed_;
+  std::unique_ptr<Trajectory> trajectory_;
+  double t_end_;
+  ImuSimulator imu_;
+  ImuErrors errors_;
+  std::size_t index_ = 0;
+  std::size_t truth_every_;
+  std::vector<TruthPoint> truth_;
+};
+
+/// One seed of a scenario as a data set in memory. Truth carries the biases.
+Dataset Simulate(const Scenario& scenario, std::uint64_t seed);
+
+/// Many seeds of one scenario: the motion and the perfect sensors are computed
+/// once, Realize(seed) adds errors and equals Simulate(scenario, seed).
+class PerfectRecording {
+ public:
+  explicit PerfectRecording(const Scenario& scenario);
+  Dataset Realize(std::uint64_t seed) const;
+
+ private:
+  Scenario scenario_;
+  std::size_t truth_every_;
+  std::vector<ImuSample> samples_;
+  std::vector<Motion> truth_;
+  std::vector<std::vector<Measurement>> aiding_;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_SIMULATION_SCENARIO_H_

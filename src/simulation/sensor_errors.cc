@@ -1,0 +1,154 @@
+#include "simulation/sensor_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace hindsight {
+namespace {
+
+/// Numbers of the random streams; those of aiding sensors come from names.
+enum Stream : std::uint64_t {
+  kGyroNoise = 1,
+  kGyroBias,
+  kGyroWalk,
+  kAccelNoise,
+  kAccelBias,
+  kAccelWalk,
+};
+
+/// 64-bit FNV-1a, kept clear of the small numbers of the IMU's streams.
+std::uint64_t StreamOf(const std::string& name) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : name) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3ULL;
+  }
+  return hash | (1ULL << 63);
+}
+
+Eigen::Vector3d StartBias(const Eigen::Vector3d& mean,
+                          const Eigen::Vector3d& sigma, std::uint64_t seed,
+                          Stream stream) {
+  return mean + sigma.cwiseProduct(Random(seed, stream).NormalVector3());
+}
+
+}  // namespace
+
+ImuErrors::ImuErrors(const ImuErrorModel& model, ImuStream::Kind kind,
+                     double rate_hz, std::uint64_t seed)
+    : kind_(kind),
+      dt_(1.0 / rate_hz),
+      gyro_{StartBias(model.gyro_bias, model.gyro_bias_sigma, seed, kGyroBias),
+            (1.0 + model.gyro_scale.array()).matrix(),
+            model.noise.GyroBiasEvolution().Phi(dt_),
+            std::sqrt(model.noise.GyroBiasEvolution().Q(dt_)),
+            model.noise.gyro_noise_density,
+            model.noise.gyro_noise_per_rate,
+            Random(seed, kGyroNoise),
+            Random(seed, kGyroWalk)},
+      accel_{
+          StartBias(model.accel_bias, model.accel_bias_sigma, seed, kAccelBias),
+          (1.0 + model.accel_scale.array()).matrix(),
+          model.noise.AccelBiasEvolution().Phi(dt_),
+          std::sqrt(model.noise.AccelBiasEvolution().Q(dt_)),
+          model.noise.accel_noise_density,
+          0.0,
+          Random(seed, kAccelNoise),
+          Random(seed, kAccelWalk)} {}
+
+Eigen::Vector3d ImuErrors::Measure(const Eigen::Vector3d& truth,
+                                   Channel* channel) const {
+  const Eigen::Vector3d bias_before = channel->bias;
+  // The start values hold at the first stamp.
+  if (!first_ && channel->walk_sigma > 0.0) {
+    channel->bias = channel->phi * channel->bias +
+                    channel->walk_sigma * channel->walk.NormalVector3();
+  }
+  const bool increments = kind_ == ImuStream::Kind::kIncrements;
+  double density = channel->noise_density;
+  if (channel->noise_per_rate > 0.0) {
+    const double rate = truth.norm() / (increments ? dt_ : 1.0);
+    density = std::hypot(density, channel->noise_per_rate * rate);
+  }
+  const Eigen::Vector3d noise = density * channel->noise.NormalVector3();
+  const Eigen::Vector3d scaled = channel->scale_factor.cwiseProduct(truth);
+  if (increments) {
+    return scaled + (0.5 * dt_) * (bias_before + channel->bias) +
+           std::sqrt(dt_) * noise;
+  }
+  return scaled + channel->bias + noise / std::sqrt(dt_);
+}
+
+void ImuErrors::Apply(ImuSample* sample) {
+  sample->gyro = Measure(sample->gyro, &gyro_);
+  sample->accel = Measure(sample->accel, &accel_);
+  first_ = false;
+}
+
+namespace {
+
+MeasurementModel PerfectMeasurement(const AidingModel& model,
+                                    const Motion& motion) {
+  const Eigen::Vector3d& l = model.sensor.lever_arm_b;
+  const Eigen::Vector3d p_e = motion.p_e + motion.q_eb * l;
+  const Eigen::Matrix3d R_n = model.sigma.cwiseAbs2().asDiagonal();
+  switch (model.sensor.type) {
+    case SensorType::kPosition:
+      return PositionFix{p_e, R_n};
+    case SensorType::kVelocity: {
+      const Eigen::Vector3d v_e =
+          motion.v_e + motion.q_eb * motion.w_eb_b.cross(l);
+      return VelocityFix{NedAxes(motion.p_e).transpose() * v_e, R_n};
+    }
+    case SensorType::kHeight:
+      return HeightFix{GeodeticFromEcef(p_e).height, model.sigma.z()};
+    default:
+      throw std::logic_error("sensor '" + model.sensor.name +
+                             "' is of a type that is not simulated");
+  }
+}
+
+}  // namespace
+
+std::vector<Measurement> PerfectMeasurements(const AidingModel& model,
+                                             int sensor, Trajectory* trajectory,
+                                             double t_end) {
+  std::vector<Measurement> measurements;
+  const double offset = model.sensor.time_offset;
+  const double first =
+      std::max(trajectory->t_begin() - offset, model.from) * model.rate_hz;
+  constexpr double kStampTolerance = 1e-6;
+  for (auto k = static_cast<long>(std::ceil(first - kStampTolerance));; ++k) {
+    Measurement z;
+    z.t = static_cast<double>(k) / model.rate_hz;
+    const double t_true = z.t + offset;
+    if (z.t > model.to || t_true > t_end) return measurements;
+    const bool missing = std::any_of(
+        model.outages.begin(), model.outages.end(),
+        [&](const TimeSpan& o) { return z.t >= o.begin && z.t < o.end; });
+    if (missing || t_true < trajectory->t_begin()) continue;
+    z.sensor = sensor;
+    z.model = PerfectMeasurement(model, trajectory->At(t_true));
+    measurements.push_back(z);
+  }
+}
+
+void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
+                          std::vector<Measurement>* measurements) {
+  Random random(seed, StreamOf(model.sensor.name));
+  for (Measurement& z : *measurements) {
+    if (auto* position = std::get_if<PositionFix>(&z.model)) {
+      const Eigen::Vector3d error_n =
+          model.sigma.cwiseProduct(random.NormalVector3());
+      position->p_e += NedAxes(position->p_e) * error_n;
+    } else if (auto* velocity = std::get_if<VelocityFix>(&z.model)) {
+      velocity->v_n += model.sigma.cwiseProduct(random.NormalVector3());
+    } else if (auto* height = std::get_if<HeightFix>(&z.model)) {
+      height->height += model.sigma.z() * random.Normal();
+    }
+  }
+}
+
+}  // namespace hindsight

@@ -1,0 +1,94 @@
+#ifndef HINDSIGHT_SIMULATION_SENSOR_ERRORS_H_
+#define HINDSIGHT_SIMULATION_SENSOR_ERRORS_H_
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "base/random.h"
+#include "dataset/dataset.h"
+#include "simulation/trajectory.h"
+
+namespace hindsight {
+
+/// Errors of a simulated IMU: measured = (1 + scale) true + bias + noise.
+struct ImuErrorModel {
+  /// White noise, and bias walk or Gauss-Markov bias from the start value on.
+  ImuNoise noise;
+  /// Start value of the biases: `bias` plus a normal deviate of `sigma`.
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();         ///< [rad/s]
+  Eigen::Vector3d gyro_bias_sigma = Eigen::Vector3d::Zero();   ///< [rad/s]
+  Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();        ///< [m/s^2]
+  Eigen::Vector3d accel_bias_sigma = Eigen::Vector3d::Zero();  ///< [m/s^2]
+  Eigen::Vector3d gyro_scale = Eigen::Vector3d::Zero();        ///< [1] per axis
+  Eigen::Vector3d accel_scale = Eigen::Vector3d::Zero();       ///< [1] per axis
+};
+
+/// Turns perfect samples into measured ones, in time order. Gyro noise, gyro
+/// bias, accelerometer noise and accelerometer bias are independent streams of
+/// the seed: changing one leaves the others' deviates alone.
+class ImuErrors {
+ public:
+  ImuErrors(const ImuErrorModel& model, ImuStream::Kind kind, double rate_hz,
+            std::uint64_t seed);
+
+  /// Biases at the stamp of the sample last given (at first: the start values).
+  const Eigen::Vector3d& gyro_bias() const { return gyro_.bias; }
+  const Eigen::Vector3d& accel_bias() const { return accel_.bias; }
+
+  void Apply(ImuSample* sample);
+
+ private:
+  struct Channel {
+    Eigen::Vector3d bias;
+    Eigen::Vector3d scale_factor;  ///< 1 + s
+    double phi = 1.0;              ///< of the bias over one sample
+    double walk_sigma = 0.0;       ///< of the bias over one sample
+    double noise_density = 0.0;
+    double noise_per_rate = 0.0;
+    Random noise;
+    Random walk;
+  };
+  Eigen::Vector3d Measure(const Eigen::Vector3d& truth, Channel* channel) const;
+
+  ImuStream::Kind kind_;
+  double dt_;
+  bool first_ = true;
+  Channel gyro_;
+  Channel accel_;
+};
+
+/// Half-open span of time [s].
+struct TimeSpan {
+  double begin = 0.0;
+  double end = 0.0;
+};
+
+/// An aiding sensor to simulate: position, velocity or height.
+struct AidingModel {
+  /// Type, lever arm, time offset, gate: the truth and what the data set says.
+  Sensor sensor;
+  double rate_hz = 1.0;
+  /// NED standard deviation [m] or [m/s]; height uses the third.
+  Eigen::Vector3d sigma = Eigen::Vector3d::Ones();
+  double from = -std::numeric_limits<double>::infinity();  ///< first stamp [s]
+  double to = std::numeric_limits<double>::infinity();     ///< last stamp [s]
+  std::vector<TimeSpan> outages;  ///< stamps in them are missing
+};
+
+/// Perfect measurements of `model` with their covariances: what the sensor's
+/// point (lever arm) does at stamp + time_offset, for stamps k/rate that lie in
+/// the span of the motion.
+std::vector<Measurement> PerfectMeasurements(const AidingModel& model,
+                                             int sensor, Trajectory* trajectory,
+                                             double t_end);
+
+/// Adds normal errors of the model's sigma. The deviates come from a stream of
+/// the seed that belongs to the sensor's name, so that adding a sensor changes
+/// no other one's errors.
+void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
+                          std::vector<Measurement>* measurements);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_SIMULATION_SENSOR_ERRORS_H_
