@@ -1,0 +1,151 @@
+#include "io/solution_csv.h"
+
+#include "earth/wgs84.h"
+#include "evaluation/euler_error.h"
+#include "geometry/so3.h"
+#include "io/atomic_file.h"
+#include "io/number_format.h"
+#include "io/solution_columns.h"
+
+namespace hindsight {
+namespace {
+
+bool HasGroup(const SolutionTable& table, ColumnGroup group) {
+  switch (group) {
+    case ColumnGroup::kPosition:
+      return !table.p_e.empty();
+    case ColumnGroup::kVelocity:
+      return !table.v_e.empty();
+    case ColumnGroup::kAttitude:
+      return !table.q_eb.empty();
+    case ColumnGroup::kSdPosition:
+    case ColumnGroup::kCovPosition:
+      return !table.P_position.empty();
+    case ColumnGroup::kSdVelocity:
+    case ColumnGroup::kCovVelocity:
+      return !table.P_velocity.empty();
+    case ColumnGroup::kSdAttitude:
+    case ColumnGroup::kCovAttitude:
+      return !table.P_attitude.empty();
+    case ColumnGroup::kGyroBias:
+      return !table.b_g.empty();
+    case ColumnGroup::kAccelBias:
+      return !table.b_a.empty();
+    case ColumnGroup::kSdGyroBias:
+      return !table.sigma_b_g.empty();
+    case ColumnGroup::kSdAccelBias:
+      return !table.sigma_b_a.empty();
+  }
+  return false;
+}
+
+GroupValues Values(const Eigen::Vector3d& v) {
+  GroupValues values = GroupValues::Zero();
+  values.head<3>() = v;
+  return values;
+}
+
+GroupValues Sigmas(const Eigen::Matrix3d& P) {
+  return Values(P.diagonal().cwiseMax(0.0).cwiseSqrt());
+}
+
+GroupValues CrossTerms(const Eigen::Matrix3d& P) {
+  return Values({P(0, 1), P(0, 2), P(1, 2)});
+}
+
+GroupValues RowValues(const SolutionTable& table, std::size_t k,
+                      ColumnGroup group) {
+  switch (group) {
+    case ColumnGroup::kPosition: {
+      const Geodetic g = GeodeticFromEcef(table.p_e[k]);
+      return Values({g.latitude, g.longitude, g.height});
+    }
+    case ColumnGroup::kVelocity:
+      return Values(table.C_en(k).transpose() * table.v_e[k]);
+    case ColumnGroup::kAttitude:
+      return Values(EulerFromQuaternion(table.q_nb(k)));
+    case ColumnGroup::kSdPosition:
+      return Sigmas(table.P_position[k]);
+    case ColumnGroup::kSdVelocity:
+      return Sigmas(table.P_velocity[k]);
+    case ColumnGroup::kSdAttitude: {
+      const Eigen::Matrix3d J =
+          EulerErrorJacobian(EulerFromQuaternion(table.q_nb(k)));
+      return Sigmas(J * table.P_attitude[k] * J.transpose());
+    }
+    case ColumnGroup::kGyroBias:
+      return Values(table.b_g[k]);
+    case ColumnGroup::kAccelBias:
+      return Values(table.b_a[k]);
+    case ColumnGroup::kSdGyroBias:
+      return Values(table.sigma_b_g[k]);
+    case ColumnGroup::kSdAccelBias:
+      return Values(table.sigma_b_a[k]);
+    case ColumnGroup::kCovPosition:
+      return CrossTerms(table.P_position[k]);
+    case ColumnGroup::kCovVelocity:
+      return CrossTerms(table.P_velocity[k]);
+    case ColumnGroup::kCovAttitude: {
+      const Eigen::Matrix3d& P = table.P_attitude[k];
+      GroupValues values;
+      values << P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2);
+      return values;
+    }
+  }
+  return GroupValues::Zero();
+}
+
+std::string Comments(const SolutionTable& table, const std::string& program) {
+  return "# program: " + program + "\n# method: " + table.method +
+         "\n"
+         "# position: WGS-84, height above the ellipsoid; velocity over the "
+         "Earth, north-east-down\n"
+         "# attitude: body forward-right-down to north-east-down, "
+         "Rz(heading) Ry(pitch) Rx(roll)\n"
+         "# sd_: standard deviations; those of roll, pitch and heading follow "
+         "from cov_psi\n"
+         "# bg, ba: gyro and accelerometer bias, measured minus true, body "
+         "axes\n"
+         "# cov_: covariances, north-east-down; psi is the rotation from the "
+         "estimated to the true attitude\n";
+}
+
+}  // namespace
+
+void WriteSolutionCsv(const std::string& path, const SolutionTable& table,
+                      const std::string& program) {
+  AtomicFile file(path);
+  std::vector<ColumnGroup> groups;
+  std::string line = Comments(table, program) + "t[s]";
+  for (int i = 0; i < kColumnGroups; ++i) {
+    const auto group = static_cast<ColumnGroup>(i);
+    if (!HasGroup(table, group)) continue;
+    groups.push_back(group);
+    for (const SolutionColumn& column : Columns(group)) {
+      line += "," + column.Heading();
+    }
+  }
+  file.Write(line + "\n");
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    line.clear();
+    AppendShortest(table.t[k], &line);
+    for (const ColumnGroup group : groups) {
+      const GroupValues values = RowValues(table, k, group);
+      Eigen::Index i = 0;
+      for (const SolutionColumn& column : Columns(group)) {
+        line += ',';
+        const double value = values(i++) / column.si;
+        if (column.digits < 0) {
+          AppendGeneral(value, -column.digits, &line);
+        } else {
+          AppendFixed(value, column.digits, &line);
+        }
+      }
+    }
+    line += '\n';
+    file.Write(line);
+  }
+  file.Commit();
+}
+
+}  // namespace hindsight

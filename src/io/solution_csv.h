@@ -1,0 +1,51 @@
+#ifndef HINDSIGHT_IO_SOLUTION_CSV_H_
+#define HINDSIGHT_IO_SOLUTION_CSV_H_
+
+#include <string>
+
+#include "evaluation/solution_table.h"
+
+namespace hindsight {
+
+/// The solution file: a block of '#' comment lines, one header line of
+/// `name[unit]` columns, one line an epoch. Columns of quantities that the
+/// solution does not have are left out.
+///
+///   t[s]
+///   lat[deg] lon[deg] h[m]       WGS-84, height above the ellipsoid
+///   v_n[m/s] v_e[m/s] v_d[m/s]   over the Earth, north-east-down
+///   roll[deg] pitch[deg] heading[deg]
+///                                C_nb = Rz(heading) Ry(pitch) Rx(roll), body
+///                                forward-right-down; (-180, 180]
+///   sd_n[m] sd_e[m] sd_d[m], sd_v_n[m/s] sd_v_e[m/s] sd_v_d[m/s]
+///   sd_roll[deg] sd_pitch[deg] sd_heading[deg]
+///                                from the covariance of the rotation error psi
+///                                through EulerErrorJacobian
+///   bg_x[deg/h] bg_y[deg/h] bg_z[deg/h], ba_x[m/s^2] ba_y[m/s^2] ba_z[m/s^2]
+///                                biases, measured minus true, body axes
+///   sd_bg_x[deg/h] ... sd_ba_z[m/s^2]
+///   cov_p_ne[m^2] cov_p_nd[m^2] cov_p_ed[m^2]
+///   cov_v_ne[m^2/s^2] cov_v_nd[m^2/s^2] cov_v_ed[m^2/s^2]
+///   cov_psi_nn[rad^2] cov_psi_ne[rad^2] cov_psi_nd[rad^2] cov_psi_ee[rad^2]
+///   cov_psi_ed[rad^2] cov_psi_dd[rad^2]
+///                                psi in north-east-down,
+///                                C_nb(true) = Exp(psi) C_nb(estimated)
+///
+/// Written to a temporary name and renamed. `program` ("hindsight 0.1.0") goes
+/// into the comments. Throws InputError if the file cannot be written.
+void WriteSolutionCsv(const std::string& path, const SolutionTable& table,
+                      const std::string& program);
+
+/// Reads a file of the columns above, in any order, other columns skipped.
+/// Only t[s] is required, but of a group (position, velocity, attitude,
+/// biases, standard deviations, covariances) all columns or none must be
+/// there; standard deviations without cross terms make a diagonal covariance,
+/// and an attitude covariance needs its cov_psi columns or is built from the
+/// sd_ columns. Throws InputError "file:line: ..." for a file that is missing
+/// or empty, a wrong unit, a wrong number of fields, a field that is no finite
+/// number, a latitude beyond 90 deg, and a time that does not increase.
+SolutionTable ReadSolutionCsv(const std::string& path);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_SOLUTION_CSV_H_
