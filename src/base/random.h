@@ -8,7 +8,8 @@ namespace hindsight {
 
 /// Normal deviates that are the same bits on every platform and standard
 /// library (std::normal_distribution is not). Generator: xoshiro256++
-/// (Blackman and Vigna 2021) seeded by splitmix64; deviates by the polar method.
+/// (Blackman and Vigna 2021) seeded by splitmix64; deviates by the polar
+/// method.
 class Random {
  public:
   /// Streams of different `stream` numbers under one seed are independent.

@@ -29,7 +29,8 @@ Geodetic GeodeticFromEcef(const Eigen::Vector3d& p_e) {
   GeographicLib::Geocentric::WGS84().Reverse(
       p_e.x(), p_e.y(), p_e.z(), latitude_deg, longitude_deg, g.height);
   g.latitude = latitude_deg * kDegree;
-  g.longitude = longitude_deg * kDegree;
+  // GeographicLib gives -180 where y is a negative zero.
+  g.longitude = longitude_deg == -180.0 ? kPi : longitude_deg * kDegree;
   return g;
 }
 

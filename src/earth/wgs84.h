@@ -6,10 +6,10 @@
 
 namespace hindsight {
 
-inline constexpr double kEarthRate = 7.292115e-5;            ///< w_ie [rad/s]
-inline constexpr double kEarthSemiMajorAxis = 6378137.0;     ///< a [m]
+inline constexpr double kEarthRate = 7.292115e-5;         ///< w_ie [rad/s]
+inline constexpr double kEarthSemiMajorAxis = 6378137.0;  ///< a [m]
 inline constexpr double kEarthFlattening = 1.0 / 298.257223563;
-inline constexpr double kEarthGM = 3.986004418e14;           ///< [m^3/s^2]
+inline constexpr double kEarthGM = 3.986004418e14;  ///< [m^3/s^2]
 
 /// w_ie resolved in e [rad/s].
 inline Eigen::Vector3d EarthRate_e() { return {0.0, 0.0, kEarthRate}; }

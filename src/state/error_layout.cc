@@ -65,16 +65,15 @@ void ErrorLayout::Add(Block block) {
   for (int axis = 0; axis < full; ++axis) {
     if (block.active[static_cast<std::size_t>(axis)]) ++block.dim;
   }
-  block.parameter_offset = -1;
-  if (!IsNavigation(block.key.kind)) {
-    block.parameter_offset = parameter_count_;
-    parameter_count_ += full;
-  }
-  dim_ += block.dim;
-  if (dim_ > kMaxErrorDim || parameter_count_ > kMaxParameters) {
+  const bool navigation = IsNavigation(block.key.kind);
+  block.parameter_offset = navigation ? -1 : parameter_count_;
+  const int parameter_count = parameter_count_ + (navigation ? 0 : full);
+  if (dim_ + block.dim > kMaxErrorDim || parameter_count > kMaxParameters) {
     throw std::logic_error("error layout exceeds its capacity at block '" +
                            block.name + "'");
   }
+  dim_ += block.dim;
+  parameter_count_ = parameter_count;
   blocks_.push_back(std::move(block));
   canonical_head_ = blocks_.size() >= 5;
   for (std::size_t i = 0; i < 5 && canonical_head_; ++i) {
@@ -126,8 +125,8 @@ std::string ErrorLayout::ComponentName(int component) const {
 
 ErrorLayout NavigationLayout(const NavigationPrior& prior) {
   ErrorLayout layout;
-  const auto add = [&layout](BlockKind kind, const char* name,
-                             const char* unit, const Evolution& evolution,
+  const auto add = [&layout](BlockKind kind, const char* name, const char* unit,
+                             const Evolution& evolution,
                              const Eigen::Vector3d& sigma0) {
     Block block;
     block.key.kind = kind;

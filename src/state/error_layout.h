@@ -24,8 +24,8 @@ using ErrorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
 using ParameterVector =
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxParameters, 1>;
 using RowVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRows, 1>;
-using RowMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxRows, kMaxRows>;
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
+                                kMaxRows, kMaxRows>;
 using RowJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
                                   kMaxRows, kMaxErrorDim>;
 
@@ -91,8 +91,8 @@ struct Block {
   Eigen::Vector3d sigma0 = Eigen::Vector3d::Zero();  ///< a priori, per axis
   /// Axes that are estimated; a masked axis has no error component.
   std::array<bool, 3> active = {true, true, true};
-  int offset = 0;           ///< first component in the error vector
-  int dim = 0;              ///< active components
+  int offset = 0;            ///< first component in the error vector
+  int dim = 0;               ///< active components
   int parameter_offset = 0;  ///< first value in State::parameters (full block)
 };
 
@@ -149,9 +149,9 @@ class ErrorLayout {
 /// The five navigation blocks with the given initial standard deviations and
 /// bias evolutions, in canonical order.
 struct NavigationPrior {
-  Eigen::Vector3d position_sigma = Eigen::Vector3d::Zero();  ///< NED [m]
-  Eigen::Vector3d velocity_sigma = Eigen::Vector3d::Zero();  ///< NED [m/s]
-  Eigen::Vector3d attitude_sigma = Eigen::Vector3d::Zero();  ///< NED [rad]
+  Eigen::Vector3d position_sigma = Eigen::Vector3d::Zero();    ///< NED [m]
+  Eigen::Vector3d velocity_sigma = Eigen::Vector3d::Zero();    ///< NED [m/s]
+  Eigen::Vector3d attitude_sigma = Eigen::Vector3d::Zero();    ///< NED [rad]
   Eigen::Vector3d gyro_bias_sigma = Eigen::Vector3d::Zero();   ///< [rad/s]
   Eigen::Vector3d accel_bias_sigma = Eigen::Vector3d::Zero();  ///< [m/s^2]
   Evolution gyro_bias = Evolution::Constant();

@@ -14,13 +14,13 @@ namespace hindsight {
 /// What an estimator made of one measurement.
 struct ResidualRecord {
   double t = 0.0;
-  int sensor = 0;      ///< index into Dataset::streams
-  bool accepted = true;  ///< false: rejected by the gate
+  int sensor = 0;         ///< index into Dataset::streams
+  bool accepted = true;   ///< false: rejected by the gate
   bool withheld = false;  ///< true: predicted, not used
-  double weight = 1.0;   ///< of a robust loss, 1 = full
-  RowVector residual;    ///< measured - predicted, in the model's axes
-  RowVector sigma;       ///< predicted standard deviation of `residual`
-  double nis = 0.0;      ///< residual' S^-1 residual
+  double weight = 1.0;    ///< of a robust loss, 1 = full
+  RowVector residual;     ///< measured - predicted, in the model's axes
+  RowVector sigma;        ///< predicted standard deviation of `residual`
+  double nis = 0.0;       ///< residual' S^-1 residual
 };
 
 /// An estimated constant (scale factor, lever arm component, time offset...).
@@ -54,10 +54,10 @@ struct Solution {
   std::vector<ConstantEstimate> constants;
   std::vector<UnobservedSpan> unobserved;
   bool converged = true;
-  int iterations = 0;      ///< 0 for a method that does not iterate
-  double seconds = 0.0;    ///< processor time of the method alone
+  int iterations = 0;    ///< 0 for a method that does not iterate
+  double seconds = 0.0;  ///< processor time of the method alone
   bool usable = true;
-  std::string verdict;     ///< in words: usable or not, and why
+  std::string verdict;  ///< in words: usable or not, and why
 };
 
 }  // namespace hindsight
