@@ -46,7 +46,11 @@ void WriteNav(const std::string& path, const SolutionTable& table,
     const Geodetic g = GeodeticFromEcef(table.p_e[k]);
     const Eigen::Vector3d v_n = table.C_en(k).transpose() * table.v_e[k];
     const Eigen::Vector3d euler = EulerFromQuaternion(table.q_nb(k));
-    const double yaw = euler.z() < 0.0 ? euler.z() + 2.0 * kPi : euler.z();
+    const double heading_deg = euler.z() / kDegree;
+    // Written with 8 decimals, a heading just west of north would be 360.
+    const double yaw_deg = heading_deg < -5e-9 ? heading_deg + 360.0
+                           : heading_deg < 0.0 ? 0.0
+                                               : heading_deg;
     line = std::to_string(time.week);
     const auto append = [&line](double value, int decimals) {
       line += ' ';
@@ -59,7 +63,7 @@ void WriteNav(const std::string& path, const SolutionTable& table,
     for (const double v : v_n) append(v, 6);
     append(euler.x() / kDegree, 8);
     append(euler.y() / kDegree, 8);
-    append(yaw / kDegree, 8);
+    append(yaw_deg, 8);
     line += '\n';
     file.Write(line);
   }

@@ -3,8 +3,11 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "io/units.h"
 
 namespace hindsight {
 
@@ -32,10 +35,12 @@ using GroupValues = Eigen::Matrix<double, 6, 1>;
 
 struct SolutionColumn {
   const char* name;
-  const char* unit;
-  double si;  ///< one file unit in SI
+  const char* unit;  ///< as written
+  double si;         ///< one such unit in SI
   /// Decimals in the file if not negative, significant digits if negative.
   int digits;
+  /// What a reader may convert another unit to; absent: no other is accepted.
+  std::optional<Quantity> quantity;
 
   std::string Heading() const { return std::string(name) + "[" + unit + "]"; }
 };

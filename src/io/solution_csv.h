@@ -36,13 +36,14 @@ namespace hindsight {
 void WriteSolutionCsv(const std::string& path, const SolutionTable& table,
                       const std::string& program);
 
-/// Reads a file of the columns above, in any order, other columns skipped.
-/// Only t[s] is required, but of a group (position, velocity, attitude,
-/// biases, standard deviations, covariances) all columns or none must be
-/// there; standard deviations without cross terms make a diagonal covariance,
-/// and an attitude covariance needs its cov_psi columns or is built from the
-/// sd_ columns. Throws InputError "file:line: ..." for a file that is missing
-/// or empty, a wrong unit, a wrong number of fields, a field that is no finite
+/// Reads a file of the columns above, plain or gzip, in any order, other
+/// columns skipped; units are converted except those of covariances. Only t is
+/// required, but of a group (position, velocity, attitude, a bias, a set of
+/// standard deviations or covariances) all columns or none must be there.
+/// Standard deviations without cross terms make a diagonal covariance; without
+/// cov_psi the attitude's is built from sd_roll, sd_pitch and sd_heading.
+/// Throws InputError "file:line: ..." for a file that is missing, empty or cut
+/// off, a wrong unit, a wrong number of fields, a field that is no finite
 /// number, a latitude beyond 90 deg, and a time that does not increase.
 SolutionTable ReadSolutionCsv(const std::string& path);
 

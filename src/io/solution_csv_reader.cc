@@ -1,10 +1,7 @@
-#include <cerrno>
-#include <charconv>
+#include <Eigen/LU>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include "base/error.h"
@@ -14,38 +11,34 @@
 #include "geometry/so3.h"
 #include "io/solution_columns.h"
 #include "io/solution_csv.h"
+#include "io/text_lines.h"
+#include "io/units.h"
 
 namespace hindsight {
 namespace {
 
-/// Where the columns of the file go.
-struct Header {
-  std::size_t width = 0;
-  std::size_t time = 0;
-  /// Column numbers of each group present, in the order of Columns().
-  std::map<ColumnGroup, std::vector<std::size_t>> groups;
+/// A column of the file that is read.
+struct Field {
+  std::size_t index = 0;
+  double si = 1.0;  ///< the file's unit in SI
 };
 
-std::string ReadWholeFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw InputError(path, 0,
-                     std::string("cannot be read: ") + std::strerror(errno));
-  }
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  return text;
-}
+struct Header {
+  std::size_t width = 0;
+  Field time;
+  /// The groups present, their fields in the order of Columns().
+  std::map<ColumnGroup, std::vector<Field>> groups;
+};
 
-std::string_view Trim(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) {
-    text.remove_prefix(1);
+/// A line of the file being read, for messages.
+struct Place {
+  const std::string& path;
+  long line;
+
+  [[noreturn]] void Fail(const std::string& message) const {
+    throw InputError(path, line, message);
   }
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) {
-    text.remove_suffix(1);
-  }
-  return text;
-}
+};
 
 void SplitFields(std::string_view line, std::vector<std::string_view>* fields) {
   fields->clear();
@@ -57,71 +50,73 @@ void SplitFields(std::string_view line, std::vector<std::string_view>* fields) {
   }
 }
 
-/// Column number of `heading` in `names`, or width if it is not there. Throws
-/// for a known name with another unit.
-std::size_t FindColumn(const std::map<std::string, std::size_t>& names,
-                       const std::string& name, const std::string& unit,
-                       std::size_t width, const std::string& path, long line) {
-  const auto exact = names.find(name + "[" + unit + "]");
-  if (exact != names.end()) return exact->second;
-  const auto other = names.lower_bound(name + "[");
-  if (other != names.end() && other->first.starts_with(name + "[")) {
-    throw InputError(path, line,
-                     "column " + other->first +
-                         " has another unit than the expected [" + unit + "]");
+/// The column `column.name` with any unit that can be converted, or nothing.
+/// Throws for a unit that cannot, and for a column that is there twice.
+std::optional<Field> FindColumn(const std::vector<std::string_view>& cells,
+                                const SolutionColumn& column,
+                                const Place& place) {
+  const std::string start = std::string(column.name) + "[";
+  std::optional<Field> found;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::string_view cell = cells[i];
+    if (!cell.starts_with(start) || !cell.ends_with(']')) continue;
+    if (found) place.Fail("column " + std::string(cell) + " appears twice");
+    const std::string_view unit =
+        cell.substr(start.size(), cell.size() - start.size() - 1);
+    std::optional<double> si;
+    if (unit == column.unit) {
+      si = column.si;
+    } else if (column.quantity) {
+      si = UnitFactor(unit, *column.quantity);
+    }
+    if (!si) {
+      place.Fail("column " + std::string(cell) + ": expected the unit [" +
+                 column.unit + "]");
+    }
+    found = Field{i, *si};
   }
-  return width;
+  return found;
 }
 
-Header ParseHeader(const std::vector<std::string_view>& fields,
-                   const std::string& path, long line) {
+Header ParseHeader(const std::vector<std::string_view>& cells,
+                   const Place& place) {
   Header header;
-  header.width = fields.size();
-  std::map<std::string, std::size_t> names;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (!names.emplace(fields[i], i).second) {
-      throw InputError(path, line,
-                       "column " + std::string(fields[i]) + " appears twice");
-    }
+  header.width = cells.size();
+  const std::optional<Field> time =
+      FindColumn(cells, {"t", "s", 1.0, 0, Quantity::kTime}, place);
+  if (!time) {
+    place.Fail(
+        "no column t[s]; expected a header line such as "
+        "t[s],lat[deg],lon[deg],h[m],...");
   }
-  header.time = FindColumn(names, "t", "s", header.width, path, line);
-  if (header.time == header.width) {
-    throw InputError(path, line,
-                     "no column t[s]; expected a header line such as "
-                     "t[s],lat[deg],lon[deg],h[m],...");
-  }
+  header.time = *time;
   for (int i = 0; i < kColumnGroups; ++i) {
     const auto group = static_cast<ColumnGroup>(i);
-    std::vector<std::size_t> columns;
+    std::vector<Field> fields;
     std::string missing;
     for (const SolutionColumn& column : Columns(group)) {
-      columns.push_back(FindColumn(names, column.name, column.unit,
-                                   header.width, path, line));
-      if (columns.back() < header.width) continue;
-      columns.pop_back();
-      missing = column.Heading();
+      if (const auto field = FindColumn(cells, column, place)) {
+        fields.push_back(*field);
+      } else {
+        missing = column.Heading();
+      }
     }
-    if (columns.empty()) continue;
+    if (fields.empty()) continue;
     if (!missing.empty()) {
-      throw InputError(path, line,
-                       "column " + missing + " is missing beside " +
-                           std::string(fields[columns.front()]));
+      place.Fail("column " + missing + " is missing beside " +
+                 std::string(cells[fields.front().index]));
     }
-    header.groups.emplace(group, columns);
+    header.groups.emplace(group, fields);
   }
   return header;
 }
 
-double ParseField(std::string_view field, const std::string& path, long line) {
-  double value = 0.0;
-  const auto [rest, error] =
-      std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || rest != field.data() + field.size() ||
-      !std::isfinite(value)) {
-    throw InputError(path, line,
-                     "'" + std::string(field) + "' is not a finite number");
+double ParseField(std::string_view text, const Place& place) {
+  const std::optional<double> value = ParseNumber(text);
+  if (!value) {
+    place.Fail("'" + std::string(text) + "' is not a finite number");
   }
-  return value;
+  return *value;
 }
 
 using Row = std::map<ColumnGroup, GroupValues>;
@@ -191,30 +186,28 @@ void AppendRow(double t, const Row& row, SolutionTable* table) {
   AppendAttitudeCovariance(row, table);
 }
 
-void ParseRow(const Header& header, const std::vector<std::string_view>& fields,
-              const std::string& path, long line, SolutionTable* table) {
-  if (fields.size() != header.width) {
-    throw InputError(path, line,
-                     std::to_string(fields.size()) + " fields, expected " +
-                         std::to_string(header.width) + " as in the header");
+void ParseRow(const Header& header, const std::vector<std::string_view>& cells,
+              const Place& place, SolutionTable* table) {
+  if (cells.size() != header.width) {
+    place.Fail(std::to_string(cells.size()) + " fields, expected " +
+               std::to_string(header.width) + " as in the header");
   }
-  const double t = ParseField(fields[header.time], path, line);
+  const std::string_view time = cells[header.time.index];
+  const double t = ParseField(time, place) * header.time.si;
   if (!table->t.empty() && t <= table->t.back()) {
-    throw InputError(path, line,
-                     "time " + std::string(fields[header.time]) +
-                         " s is not after that of the line before");
+    place.Fail("time " + std::string(time) +
+               " is not after that of the line before");
   }
   Row row;
-  for (const auto& [group, columns] : header.groups) {
+  for (const auto& [group, fields] : header.groups) {
     GroupValues values = GroupValues::Zero();
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      values(static_cast<Eigen::Index>(i)) =
-          ParseField(fields[columns[i]], path, line) * Columns(group)[i].si;
+    Eigen::Index i = 0;
+    for (const Field& field : fields) {
+      values(i++) = ParseField(cells[field.index], place) * field.si;
     }
     if (group == ColumnGroup::kPosition && std::abs(values(0)) > 0.5 * kPi) {
-      throw InputError(path, line,
-                       "latitude " + std::string(fields[columns[0]]) +
-                           " deg is beyond 90 deg");
+      place.Fail("latitude " + std::string(cells[fields.front().index]) +
+                 " is beyond 90 deg");
     }
     row.emplace(group, values);
   }
@@ -224,29 +217,28 @@ void ParseRow(const Header& header, const std::vector<std::string_view>& fields,
 }  // namespace
 
 SolutionTable ReadSolutionCsv(const std::string& path) {
-  const std::string text = ReadWholeFile(path);
   constexpr std::string_view kMethod = "# method: ";
+  TextLines lines(path);
   SolutionTable table;
   Header header;
-  std::vector<std::string_view> fields;
-  std::string_view rest = text;
-  for (long number = 1; !rest.empty(); ++number) {
-    const std::size_t end = rest.find('\n');
-    std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-    if (line.ends_with('\r')) line.remove_suffix(1);
+  std::vector<std::string_view> cells;
+  for (std::string_view line; lines.Next(&line);) {
+    const Place place{path, lines.number()};
     if (line.starts_with(kMethod)) table.method = line.substr(kMethod.size());
     if (Trim(line).empty() || line.starts_with('#')) continue;
-    SplitFields(line, &fields);
+    if (!lines.terminated()) {
+      place.Fail("the last line has no line end: the file is cut off");
+    }
+    SplitFields(line, &cells);
     if (header.width == 0) {
-      header = ParseHeader(fields, path, number);
+      header = ParseHeader(cells, place);
     } else {
-      ParseRow(header, fields, path, number, &table);
+      ParseRow(header, cells, place, &table);
     }
   }
   if (table.t.empty()) {
-    throw InputError(path, 0,
-                     "holds no epoch; expected a header line such as "
+    throw InputError(path, lines.number(),
+                     "no epoch in the file; expected a header line such as "
                      "t[s],lat[deg],lon[deg],h[m],... and one line an epoch");
   }
   return table;

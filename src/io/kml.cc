@@ -1,0 +1,134 @@
+#include "io/kml.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "earth/wgs84.h"
+#include "geometry/so3.h"
+#include "io/atomic_file.h"
+#include "io/number_format.h"
+#include "io/time_scale.h"
+
+namespace hindsight {
+namespace {
+
+/// GPS time counts from 1980-01-06.
+constexpr std::int64_t kGpsEpochUnix = 315964800;
+
+std::string EscapeXml(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '&') {
+      escaped += "&amp;";
+    } else if (c == '<') {
+      escaped += "&lt;";
+    } else {
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::vector<std::size_t> ThinnedIndices(std::size_t size) {
+  const std::size_t count = std::min(size, kMaxKmlPoints);
+  std::vector<std::size_t> indices(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    indices[i] = count == 1 ? 0 : i * (size - 1) / (count - 1);
+  }
+  return indices;
+}
+
+/// "yyyy-mm-ddThh:mm:ss.sssZ".
+std::string UtcTime(std::int64_t gps_ns) {
+  namespace chrono = std::chrono;
+  const std::int64_t gps_ms = (gps_ns + 500'000) / 1'000'000;
+  const std::int64_t gps_unix = gps_ms / 1000 + kGpsEpochUnix;
+  // The leap seconds are listed by UTC, which is what is sought.
+  const std::int64_t unix_s =
+      gps_unix - LeapSeconds(gps_unix - LeapSeconds(gps_unix));
+  const chrono::sys_seconds time{chrono::seconds(unix_s)};
+  const auto day = chrono::floor<chrono::days>(time);
+  const chrono::year_month_day date(day);
+  const chrono::hh_mm_ss clock(time - day);
+  char text[40];
+  std::snprintf(text, sizeof(text), "%04d-%02u-%02uT%02d:%02d:%02d.%03dZ",
+                static_cast<int>(date.year()),
+                static_cast<unsigned>(date.month()),
+                static_cast<unsigned>(date.day()),
+                static_cast<int>(clock.hours().count()),
+                static_cast<int>(clock.minutes().count()),
+                static_cast<int>(clock.seconds().count()),
+                static_cast<int>(gps_ms % 1000));
+  return text;
+}
+
+/// "lon<separator>lat<separator>h".
+std::string Coordinates(const Eigen::Vector3d& p_e, char separator) {
+  const Geodetic g = GeodeticFromEcef(p_e);
+  std::string text;
+  AppendFixed(g.longitude / kDegree, 9, &text);
+  text += separator;
+  AppendFixed(g.latitude / kDegree, 9, &text);
+  text += separator;
+  AppendFixed(g.height, 3, &text);
+  return text;
+}
+
+void WriteTrack(const SolutionTable& table,
+                const std::vector<std::size_t>& indices,
+                std::int64_t epoch_gps_ns, AtomicFile* file) {
+  file->Write(
+      "<Placemark><name>track</name><gx:Track>"
+      "<altitudeMode>absolute</altitudeMode>\n");
+  for (const std::size_t k : indices) {
+    const std::int64_t gps_ns = epoch_gps_ns + std::llround(table.t[k] * 1e9);
+    file->Write("<when>" + UtcTime(gps_ns) + "</when>\n");
+  }
+  for (const std::size_t k : indices) {
+    file->Write("<gx:coord>" + Coordinates(table.p_e[k], ' ') +
+                "</gx:coord>\n");
+  }
+  if (!table.q_eb.empty()) {
+    for (const std::size_t k : indices) {
+      const Eigen::Vector3d euler = EulerFromQuaternion(table.q_nb(k));
+      file->Write("<gx:angles>" + FormatFixed(euler.z() / kDegree, 2) +
+                  " 0 0</gx:angles>\n");
+    }
+  }
+  file->Write("</gx:Track></Placemark>\n");
+}
+
+}  // namespace
+
+void WriteKml(const std::string& path, const SolutionTable& table,
+              std::optional<std::int64_t> epoch_gps_ns,
+              const std::string& name) {
+  if (table.p_e.empty()) {
+    throw EstimationError(path +
+                          ": a KML file needs positions, which the solution "
+                          "lacks");
+  }
+  AtomicFile file(path);
+  file.Write(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<kml xmlns=\"http://www.opengis.net/kml/2.2\" "
+      "xmlns:gx=\"http://www.google.com/kml/ext/2.2\">\n<Document><name>" +
+      EscapeXml(name) +
+      "</name>\n<Placemark><name>path</name><LineString>"
+      "<altitudeMode>absolute</altitudeMode><coordinates>\n");
+  const std::vector<std::size_t> indices = ThinnedIndices(table.size());
+  for (const std::size_t k : indices) {
+    file.Write(Coordinates(table.p_e[k], ',') + "\n");
+  }
+  file.Write("</coordinates></LineString></Placemark>\n");
+  if (epoch_gps_ns) WriteTrack(table, indices, *epoch_gps_ns, &file);
+  file.Write("</Document>\n</kml>\n");
+  file.Commit();
+}
+
+}  // namespace hindsight

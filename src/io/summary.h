@@ -1,0 +1,108 @@
+#ifndef HINDSIGHT_IO_SUMMARY_H_
+#define HINDSIGHT_IO_SUMMARY_H_
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dataset/dataset.h"
+#include "evaluation/outages.h"
+#include "evaluation/residual_statistics.h"
+#include "evaluation/solution_table.h"
+#include "evaluation/trajectory_error.h"
+#include "state/solution.h"
+
+namespace hindsight {
+
+/// How the initial state came about, in words, and how well it is known.
+struct StartSummary {
+  double t = 0.0;        ///< [s]
+  std::string position;  ///< "given", "first position fix", ...
+  std::string attitude;  ///< "given", "levelled at rest for 12.3 s", ...
+  std::string heading;   ///< "given", "course at t = 31.2 s", ...
+  Eigen::Vector3d position_sigma = Eigen::Vector3d::Zero();  ///< NED [m]
+  Eigen::Vector3d velocity_sigma = Eigen::Vector3d::Zero();  ///< NED [m/s]
+  /// Roll, pitch, heading [rad].
+  Eigen::Vector3d attitude_sigma = Eigen::Vector3d::Zero();
+};
+
+/// The figures of one method.
+struct MethodSummary {
+  std::string method;
+  double seconds = 0.0;  ///< processor time of the method alone
+  std::optional<double> peak_rss_mb;
+  bool converged = true;
+  int iterations = 0;
+  bool usable = true;
+  std::string verdict;
+  std::optional<TrajectoryStatistics> error;  ///< absent without truth
+  std::vector<OutageError> outages;
+  std::vector<std::string> outage_sensors;  ///< stream of each outage
+  std::vector<ResidualStatistics> residuals;
+  std::vector<ConstantEstimate> constants;
+  std::vector<UnobservedSpan> unobserved;
+};
+
+/// The figures of a run.
+struct RunSummary {
+  std::string program;  ///< "hindsight 0.1.0"
+  std::string dataset;
+  std::optional<StartSummary> start;
+  std::vector<PolicyCount> policies;
+  std::vector<MethodSummary> methods;
+};
+
+/// Compares `solution` with the data set's truth and withheld measurements.
+/// `trajectory` is what is compared with the truth: the solution's own table,
+/// or better the solution sampled at the truth's times through the IMU.
+/// `max_gap` is that of TrajectoryErrorOptions [s].
+MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
+                              const SolutionTable& trajectory, double max_gap);
+
+/// Times of the truth points within [from, to] [s].
+std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
+
+/// The keys of summary.json. A figure that does not exist is absent. Vectors
+/// are [north, east, down] or [roll, pitch, heading]; errors are truth minus
+/// estimate.
+///
+///   program, dataset
+///   start                       how the initial state came about
+///     t_s, position, attitude, heading        words
+///     position_sigma_m, velocity_sigma_mps, attitude_sigma_deg
+///   policies[]                  what readers did as the configuration allows
+///     stream, action, count
+///   methods.<name>
+///     seconds                   processor time of the method alone
+///     peak_rss_mb               of the process when the method had ended
+///     converged, iterations     iterations only of a method that iterates
+///     usable, verdict           is the result usable, and why, in words
+///     error                     against the truth
+///       position_rms_m, position_max_m, horizontal_rms_m, horizontal_max_m,
+///       total_rms_m, total_max_m
+///       velocity_rms_mps, velocity_max_mps
+///       attitude_rms_deg, attitude_max_deg, tilt_rms_deg
+///       matched_percent         truth points that could be compared
+///     withheld                  against withheld position measurements, all
+///                               measurements of all outages together
+///       horizontal_rms_m, horizontal_max_m, total_rms_m, total_max_m
+///       velocity_horizontal_rms_mps, velocity_horizontal_max_mps
+///       outages[]: sensor, t_begin_s, t_end_s, count,
+///         horizontal_rms_m, horizontal_max_m, total_rms_m, total_max_m (_mps
+///         in place of _m for a velocity sensor), distance_m, drift_percent
+///     nees                      mean normalised squared errors, each of 3
+///       position, velocity, attitude            degrees of freedom
+///     residuals.<sensor>        count, rejected, withheld, normalized_rms
+///     constants.<name>          value, sigma, unit, prior_sigma, verdict
+///                               ("observed", "weak", "unobserved"), advice
+///     unobserved[]              component, t_begin_s, t_end_s, sigma (SI)
+nlohmann::ordered_json SummaryJson(const RunSummary& summary);
+
+/// SummaryJson, indented. Throws InputError if the file cannot be written.
+void WriteSummaryJson(const std::string& path, const RunSummary& summary);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_SUMMARY_H_

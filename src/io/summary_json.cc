@@ -1,0 +1,211 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "base/units.h"
+#include "io/atomic_file.h"
+#include "io/summary.h"
+
+namespace hindsight {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Leaves out what is no number, so that no reader meets a null.
+void Put(Json* json, const std::string& key, double value) {
+  if (std::isfinite(value)) (*json)[key] = value;
+}
+
+void Put(Json* json, const std::string& key,
+         const std::optional<double>& value) {
+  if (value) Put(json, key, *value);
+}
+
+void Put(Json* json, const std::string& key, const Eigen::Vector3d& v) {
+  if (v.allFinite()) (*json)[key] = {v.x(), v.y(), v.z()};
+}
+
+void PutText(Json* json, const std::string& key, const std::string& text) {
+  if (!text.empty()) (*json)[key] = text;
+}
+
+Eigen::Vector3d Rms(const std::array<ErrorStatistics, 3>& axis) {
+  return {axis[0].rms, axis[1].rms, axis[2].rms};
+}
+
+Eigen::Vector3d Max(const std::array<ErrorStatistics, 3>& axis) {
+  return {axis[0].max, axis[1].max, axis[2].max};
+}
+
+Json ErrorJson(const TrajectoryStatistics& s) {
+  Json json = Json::object();
+  if (s.position) {
+    Put(&json, "position_rms_m", Rms(s.position->axis));
+    Put(&json, "position_max_m", Max(s.position->axis));
+    Put(&json, "horizontal_rms_m", s.position->horizontal.rms);
+    Put(&json, "horizontal_max_m", s.position->horizontal.max);
+    Put(&json, "total_rms_m", s.position->total.rms);
+    Put(&json, "total_max_m", s.position->total.max);
+  }
+  if (s.velocity) {
+    Put(&json, "velocity_rms_mps", Rms(s.velocity->axis));
+    Put(&json, "velocity_max_mps", Max(s.velocity->axis));
+  }
+  if (s.attitude) {
+    Put(&json, "attitude_rms_deg", Rms(s.attitude->axis) / kDegree);
+    Put(&json, "attitude_max_deg", Max(s.attitude->axis) / kDegree);
+    Put(&json, "tilt_rms_deg", s.attitude->tilt.rms / kDegree);
+  }
+  Put(&json, "matched_percent", s.matched_percent());
+  return json;
+}
+
+void PutPrediction(const PredictionError& error, const std::string& prefix,
+                   const std::string& unit, Json* json) {
+  Put(json, prefix + "horizontal_rms_" + unit, error.horizontal_rms);
+  Put(json, prefix + "horizontal_max_" + unit, error.horizontal_max);
+  Put(json, prefix + "total_rms_" + unit, error.total_rms);
+  Put(json, prefix + "total_max_" + unit, error.total_max);
+}
+
+Json OutageJson(const OutageError& outage, const std::string& sensor) {
+  Json json;
+  json["sensor"] = sensor;
+  Put(&json, "t_begin_s", outage.outage.t_begin);
+  Put(&json, "t_end_s", outage.outage.t_end);
+  json["count"] = outage.count;
+  const bool is_position = outage.type == SensorType::kPosition;
+  if (outage.error) {
+    PutPrediction(*outage.error, "", is_position ? "m" : "mps", &json);
+  }
+  Put(&json, "distance_m", outage.distance);
+  Put(&json, "drift_percent", outage.drift_percent);
+  return json;
+}
+
+Json WithheldJson(const MethodSummary& m) {
+  Json json = Json::object();
+  if (const auto e = PoolOutageErrors(m.outages, SensorType::kPosition)) {
+    PutPrediction(*e, "", "m", &json);
+  }
+  if (const auto e = PoolOutageErrors(m.outages, SensorType::kVelocity)) {
+    Put(&json, "velocity_horizontal_rms_mps", e->horizontal_rms);
+    Put(&json, "velocity_horizontal_max_mps", e->horizontal_max);
+  }
+  json["outages"] = Json::array();
+  for (std::size_t i = 0; i < m.outages.size(); ++i) {
+    json["outages"].push_back(OutageJson(m.outages[i], m.outage_sensors[i]));
+  }
+  return json;
+}
+
+Json NeesJson(const TrajectoryStatistics& s) {
+  Json json;
+  Put(&json, "position", s.position_nees);
+  Put(&json, "velocity", s.velocity_nees);
+  Put(&json, "attitude", s.attitude_nees);
+  return json;
+}
+
+Json ResidualsJson(const std::vector<ResidualStatistics>& residuals) {
+  Json json = Json::object();
+  for (const ResidualStatistics& s : residuals) {
+    Json& entry = json[s.sensor];
+    entry["count"] = s.count;
+    entry["rejected"] = s.rejected;
+    if (s.withheld > 0) entry["withheld"] = s.withheld;
+    Put(&entry, "normalized_rms", s.normalized_rms);
+  }
+  return json;
+}
+
+const char* VerdictName(ConstantEstimate::Verdict verdict) {
+  switch (verdict) {
+    case ConstantEstimate::Verdict::kObserved:
+      return "observed";
+    case ConstantEstimate::Verdict::kWeak:
+      return "weak";
+    case ConstantEstimate::Verdict::kUnobserved:
+      return "unobserved";
+  }
+  return "";
+}
+
+Json ConstantsJson(const std::vector<ConstantEstimate>& constants) {
+  Json json = Json::object();
+  for (const ConstantEstimate& c : constants) {
+    Json& entry = json[c.name];
+    Put(&entry, "value", c.value);
+    Put(&entry, "sigma", c.sigma);
+    entry["unit"] = c.unit;
+    Put(&entry, "prior_sigma", c.prior_sigma);
+    entry["verdict"] = VerdictName(c.verdict);
+    PutText(&entry, "advice", c.advice);
+  }
+  return json;
+}
+
+Json MethodJson(const MethodSummary& m) {
+  Json json;
+  Put(&json, "seconds", m.seconds);
+  Put(&json, "peak_rss_mb", m.peak_rss_mb);
+  json["converged"] = m.converged;
+  if (m.iterations > 0) json["iterations"] = m.iterations;
+  json["usable"] = m.usable;
+  PutText(&json, "verdict", m.verdict);
+  if (m.error) json["error"] = ErrorJson(*m.error);
+  if (!m.outages.empty()) json["withheld"] = WithheldJson(m);
+  if (m.error) {
+    Json nees = NeesJson(*m.error);
+    if (!nees.empty()) json["nees"] = std::move(nees);
+  }
+  json["residuals"] = ResidualsJson(m.residuals);
+  json["constants"] = ConstantsJson(m.constants);
+  for (const UnobservedSpan& span : m.unobserved) {
+    Json entry;
+    entry["component"] = span.component;
+    Put(&entry, "t_begin_s", span.t_begin);
+    Put(&entry, "t_end_s", span.t_end);
+    Put(&entry, "sigma", span.sigma);
+    json["unobserved"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+Json StartJson(const StartSummary& start) {
+  Json json;
+  Put(&json, "t_s", start.t);
+  PutText(&json, "position", start.position);
+  PutText(&json, "attitude", start.attitude);
+  PutText(&json, "heading", start.heading);
+  Put(&json, "position_sigma_m", start.position_sigma);
+  Put(&json, "velocity_sigma_mps", start.velocity_sigma);
+  Put(&json, "attitude_sigma_deg",
+      Eigen::Vector3d(start.attitude_sigma / kDegree));
+  return json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json SummaryJson(const RunSummary& summary) {
+  Json json;
+  json["program"] = summary.program;
+  json["dataset"] = summary.dataset;
+  if (summary.start) json["start"] = StartJson(*summary.start);
+  for (const PolicyCount& policy : summary.policies) {
+    json["policies"].push_back({{"stream", policy.stream},
+                                {"action", policy.action},
+                                {"count", policy.count}});
+  }
+  json["methods"] = Json::object();
+  for (const MethodSummary& m : summary.methods) {
+    json["methods"][m.method] = MethodJson(m);
+  }
+  return json;
+}
+
+void WriteSummaryJson(const std::string& path, const RunSummary& summary) {
+  WriteFileAtomically(path, SummaryJson(summary).dump(2) + "\n");
+}
+
+}  // namespace hindsight
