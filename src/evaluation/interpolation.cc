@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "geometry/so3.h"
@@ -86,28 +87,43 @@ std::optional<std::size_t> TrajectoryInterpolator::FindInterval(
   return k;
 }
 
-std::optional<InterpolatedState> TrajectoryInterpolator::At(double t) const {
-  const std::optional<std::size_t> interval = FindInterval(t);
-  if (!interval) return std::nullopt;
-  const std::size_t k = *interval;
-  const double h = table_.t[k + 1] - table_.t[k];
-  const double u = std::clamp((t - table_.t[k]) / h, 0.0, 1.0);
+std::optional<InterpolatedState> TrajectoryInterpolator::AtOnlyRow(
+    double t) const {
+  if (table_.size() != 1 || std::abs(t - table_.t[0]) > kSameInstant) {
+    return std::nullopt;
+  }
+  const auto first = [](const auto& column) {
+    using Value = typename std::decay_t<decltype(column)>::value_type;
+    return column.empty() ? std::optional<Value>() : column[0];
+  };
   InterpolatedState x;
   x.t = t;
+  x.p_e = first(table_.p_e);
+  x.v_e = first(table_.v_e);
+  x.q_eb = first(table_.q_eb);
+  x.P_position = first(table_.P_position);
+  x.P_velocity = first(table_.P_velocity);
+  x.P_attitude = first(table_.P_attitude);
+  return x;
+}
+
+void TrajectoryInterpolator::InterpolateMotion(std::size_t k, double h,
+                                               double u,
+                                               InterpolatedState* x) const {
   const auto difference = [](const std::vector<Eigen::Vector3d>& y) {
     return [&y](std::size_t i) -> Eigen::Vector3d { return y[i + 1] - y[i]; };
   };
   if (!table_.v_e.empty()) {
     const auto dv = difference(table_.v_e);
     const auto [m0, m1] = EndSlopes(table_.t, max_gap_, k, dv);
-    x.v_e = table_.v_e[k] + Cubic(dv(k), m0, m1, h, u).value;
+    x->v_e = table_.v_e[k] + Cubic(dv(k), m0, m1, h, u).value;
   }
   if (!table_.p_e.empty()) {
     const auto dp = difference(table_.p_e);
     const auto [m0, m1] = table_.v_e.empty()
                               ? EndSlopes(table_.t, max_gap_, k, dp)
                               : std::pair(table_.v_e[k], table_.v_e[k + 1]);
-    x.p_e = table_.p_e[k] + Cubic(dp(k), m0, m1, h, u).value;
+    x->p_e = table_.p_e[k] + Cubic(dp(k), m0, m1, h, u).value;
   }
   if (!table_.q_eb.empty()) {
     const std::vector<Eigen::Quaterniond>& q = table_.q_eb;
@@ -119,9 +135,20 @@ std::optional<InterpolatedState> TrajectoryInterpolator::At(double t) const {
     // The slopes are body rates; that of the rotation vector at the far end
     // differs from it by the right Jacobian.
     const Curve phi = Cubic(d, m0, RightJacobianInverse(d) * m1, h, u);
-    x.q_eb = (q[k] * Exp(phi.value)).normalized();
-    x.w_eb_b = RightJacobian(phi.value) * phi.slope;
+    x->q_eb = (q[k] * Exp(phi.value)).normalized();
+    x->w_eb_b = RightJacobian(phi.value) * phi.slope;
   }
+}
+
+std::optional<InterpolatedState> TrajectoryInterpolator::At(double t) const {
+  const std::optional<std::size_t> interval = FindInterval(t);
+  if (!interval) return AtOnlyRow(t);
+  const std::size_t k = *interval;
+  const double h = table_.t[k + 1] - table_.t[k];
+  const double u = std::clamp((t - table_.t[k]) / h, 0.0, 1.0);
+  InterpolatedState x;
+  x.t = t;
+  InterpolateMotion(k, h, u, &x);
   if (!table_.P_position.empty()) x.P_position = Blend(table_.P_position, k, u);
   if (!table_.P_velocity.empty()) x.P_velocity = Blend(table_.P_velocity, k, u);
   if (!table_.P_attitude.empty()) x.P_attitude = Blend(table_.P_attitude, k, u);

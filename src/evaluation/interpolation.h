@@ -17,7 +17,7 @@ struct InterpolatedState {
   std::optional<Eigen::Vector3d> v_e;
   std::optional<Eigen::Quaterniond> q_eb;
   /// Angular rate of the body over the Earth, body axes [rad/s]; zero without
-  /// attitudes.
+  /// attitudes and for a table of one row.
   Eigen::Vector3d w_eb_b = Eigen::Vector3d::Zero();
   std::optional<Eigen::Matrix3d> P_position;  ///< NED, as in SolutionTable
   std::optional<Eigen::Matrix3d> P_velocity;
@@ -44,6 +44,9 @@ class TrajectoryInterpolator {
 
  private:
   std::optional<std::size_t> FindInterval(double t) const;
+  std::optional<InterpolatedState> AtOnlyRow(double t) const;
+  void InterpolateMotion(std::size_t k, double h, double u,
+                         InterpolatedState* x) const;
 
   const SolutionTable& table_;
   double max_gap_;

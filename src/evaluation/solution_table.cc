@@ -78,6 +78,8 @@ std::vector<TruthPoint> TruthFromTable(const SolutionTable& table) {
       truth[k].v_n = table.C_en(k).transpose() * table.v_e[k];
     }
     if (!table.q_eb.empty()) truth[k].q_nb = table.q_nb(k);
+    if (!table.b_g.empty()) truth[k].b_g = table.b_g[k];
+    if (!table.b_a.empty()) truth[k].b_a = table.b_a[k];
   }
   return truth;
 }
