@@ -1,0 +1,106 @@
+#include "factors/imu_factor.h"
+
+namespace hindsight {
+namespace {
+
+bool IsImuBlock(BlockKind kind) {
+  return kind == BlockKind::kGyroBias || kind == BlockKind::kAccelBias ||
+         kind == BlockKind::kGyroScale || kind == BlockKind::kAccelScale;
+}
+
+std::vector<int> ImuGlobals(const StateBlocks& blocks) {
+  std::vector<int> globals;
+  for (const StateBlocks::Entry& entry : blocks.globals()) {
+    if (IsImuBlock(entry.block.key.kind)) globals.push_back(entry.ambient);
+  }
+  return globals;
+}
+
+/// Row of the link's bias defect in the 15-row residual.
+int LinkRow(BlockKind kind) { return kind == BlockKind::kGyroBias ? 9 : 12; }
+
+bool IsBias(BlockKind kind) {
+  return kind == BlockKind::kGyroBias || kind == BlockKind::kAccelBias;
+}
+
+/// Covariance of all rows of the factor.
+Eigen::MatrixXd FactorNoise(const StateBlocks& blocks,
+                            const ImuSummary& summary) {
+  const ImuLink::Matrix15 S15 = LinkNoise(summary);
+  Eigen::MatrixXd S =
+      Eigen::MatrixXd::Zero(blocks.node_dim(), blocks.node_dim());
+  S.topLeftCorner<9, 9>() = S15.topLeftCorner<9, 9>();
+  for (const StateBlocks::Entry& entry : blocks.entries()) {
+    if (entry.global || entry.tangent < 9) continue;
+    const int dim = FullDimension(entry.block.key.kind);
+    auto diagonal = S.diagonal().segment(entry.tangent, dim);
+    if (IsBias(entry.block.key.kind)) {
+      const int row = LinkRow(entry.block.key.kind);
+      diagonal = S15.diagonal().segment<3>(row);
+      S.block<9, 3>(0, entry.tangent) = S15.block<9, 3>(0, row);
+      S.block<3, 9>(entry.tangent, 0) = S15.block<3, 9>(row, 0);
+    } else {
+      diagonal.setConstant(entry.block.evolution.Q(summary.dt()));
+    }
+  }
+  return S;
+}
+
+}  // namespace
+
+ImuFactor::ImuFactor(const StateBlocks* blocks, const ImuSummary* summary,
+                     int k)
+    : TangentFactor(blocks, blocks->node_dim(), {k, k + 1},
+                    ImuGlobals(*blocks)),
+      summary_(*summary),
+      whitener_(Whitener(FactorNoise(*blocks, *summary))) {}
+
+void ImuFactor::LinearizeStates(const std::vector<State>& states,
+                                Eigen::Map<Eigen::VectorXd> residual,
+                                Jacobian* J) const {
+  const StateBlocks& b = blocks();
+  ImuLink link;
+  EvaluateLink(b.layout(), summary_, states[0], states[1], J != nullptr, &link);
+  residual.head<9>() = link.residual.head<9>();
+  if (J != nullptr) {
+    J->block<9, 9>(0, 0) = link.J_i.topLeftCorner<9, 9>();
+    J->block<9, 9>(0, b.node_dim()) = link.J_j.topLeftCorner<9, 9>();
+  }
+  for (const StateBlocks::Entry& entry : b.entries()) {
+    const BlockKind kind = entry.block.key.kind;
+    if (!entry.global && entry.tangent < 9) continue;
+    if (J != nullptr && IsImuBlock(kind)) {
+      const int column = ColumnOf(entry, 0);
+      if (IsBias(kind)) {
+        J->block<9, 3>(0, column) = link.J_i.block<9, 3>(0, LinkRow(kind));
+      } else {
+        J->block<9, 3>(0, column) =
+            link.J_s.block<9, 3>(0, kind == BlockKind::kGyroScale ? 0 : 3);
+      }
+    }
+    if (entry.global) continue;
+    const int dim = FullDimension(kind);
+    double phi = entry.block.evolution.Phi(summary_.dt());
+    if (IsBias(kind)) {
+      residual.segment<3>(entry.tangent) =
+          link.residual.segment<3>(LinkRow(kind));
+    } else {
+      const int offset = entry.block.parameter_offset;
+      residual.segment(entry.tangent, dim) =
+          states[1].parameters.segment(offset, dim) -
+          phi * states[0].parameters.segment(offset, dim);
+    }
+    if (J == nullptr) continue;
+    for (int i = 0; i < dim; ++i) {
+      const int row = entry.tangent + i;
+      (*J)(row, row) = -phi;
+      (*J)(row, b.node_dim() + row) = 1.0;
+    }
+  }
+  residual = (whitener_.triangularView<Eigen::Lower>() * residual).eval();
+  if (J != nullptr) {
+    *J = (whitener_.triangularView<Eigen::Lower>() * *J).eval();
+  }
+}
+
+}  // namespace hindsight

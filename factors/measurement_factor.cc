@@ -1,0 +1,49 @@
+#include "factors/measurement_factor.h"
+
+namespace hindsight {
+namespace {
+
+/// The constants a measurement may depend on: those of its sensor and the
+/// IMU's.
+std::vector<int> GlobalsOf(const StateBlocks& blocks, const Measurement& z) {
+  std::vector<int> globals;
+  for (const StateBlocks::Entry& entry : blocks.globals()) {
+    const int sensor = entry.block.key.sensor;
+    if (sensor == z.sensor || sensor == BlockKey::kNoSensor) {
+      globals.push_back(entry.ambient);
+    }
+  }
+  return globals;
+}
+
+}  // namespace
+
+MeasurementFactor::MeasurementFactor(const StateBlocks* blocks,
+                                     const Timeline* timeline, int k,
+                                     const Measurement* z)
+    : TangentFactor(blocks, Rows(*z), {k}, GlobalsOf(*blocks, *z)),
+      timeline_(*timeline),
+      k_(static_cast<std::size_t>(k)),
+      z_(*z) {}
+
+double MeasurementFactor::NodeTime(int) const { return timeline_.node(k_).t; }
+
+void MeasurementFactor::LinearizeStates(const std::vector<State>& states,
+                                        Eigen::Map<Eigen::VectorXd> residual,
+                                        Jacobian* J) const {
+  const ErrorLayout& layout = blocks().layout();
+  LinearizedMeasurement z;
+  hindsight::Evaluate(z_, timeline_.Context(k_, z_, layout, states[0]), &z);
+  const Eigen::MatrixXd W = Whitener(z.R);
+  residual = -(W.triangularView<Eigen::Lower>() * z.residual);
+  if (J == nullptr) return;
+  const Eigen::MatrixXd WH = W.triangularView<Eigen::Lower>() * z.H;
+  for (const StateBlocks::Entry& entry : blocks().entries()) {
+    const int column = ColumnOf(entry, 0);
+    if (column < 0) continue;
+    const int dim = entry.block.dim;
+    J->middleCols(column, dim) = WH.middleCols(entry.block.offset, dim);
+  }
+}
+
+}  // namespace hindsight

@@ -1,0 +1,143 @@
+#include "problems/batch.h"
+
+#include <ceres/iteration_callback.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <exception>
+
+#include "base/error.h"
+#include "problems/chain_problem.h"
+
+namespace hindsight {
+namespace {
+
+/// Hands Ceres's iterations to the caller and keeps what the caller throws, as
+/// an exception must not cross Ceres.
+class Callback : public ceres::IterationCallback {
+ public:
+  explicit Callback(const std::function<void(int)>& call) : call_(call) {}
+
+  ceres::CallbackReturnType operator()(
+      const ceres::IterationSummary& summary) override {
+    try {
+      if (call_) call_(summary.iteration);
+    } catch (...) {
+      thrown_ = std::current_exception();
+      return ceres::SOLVER_ABORT;
+    }
+    return ceres::SOLVER_CONTINUE;
+  }
+
+  void Rethrow() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+ private:
+  const std::function<void(int)>& call_;
+  std::exception_ptr thrown_;
+};
+
+ceres::Solver::Options SolverOptions(const BatchOptions& options) {
+  ceres::Solver::Options ceres_options;
+  ceres_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  ceres_options.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
+  ceres_options.max_num_iterations = options.max_iterations;
+  // The problem is nearly linear from a smoother's start: a small first trust
+  // region would only shorten good steps.
+  ceres_options.initial_trust_region_radius = 1e16;
+  ceres_options.max_trust_region_radius = 1e32;
+  ceres_options.function_tolerance = 1e-12;
+  ceres_options.gradient_tolerance = 1e-14;
+  // Relative to |x|, of which ECEF positions are 6.4e6 m a node: only a step of
+  // rounding size may end the iteration.
+  ceres_options.parameter_tolerance = 1e-16;
+  ceres_options.logging_type = ceres::SILENT;
+  ceres_options.num_threads = 1;
+  return ceres_options;
+}
+
+void AddBlocks(ChainProblem* chain, ceres::Manifold* manifold,
+               ceres::Problem* problem) {
+  const int size = chain->blocks().node_ambient_dim();
+  for (std::size_t k = 0; k < chain->node_count(); ++k) {
+    problem->AddParameterBlock(chain->node_values(k), size, manifold);
+  }
+  for (const auto& factor : chain->factors()) {
+    problem->AddResidualBlock(factor.get(), nullptr,
+                              chain->ParametersOf(*factor));
+  }
+}
+
+ceres::Problem::Options ProblemOptions() {
+  ceres::Problem::Options options;
+  options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.disable_all_safety_checks = true;
+  return options;
+}
+
+bool AnySummaryIsStale(const ErrorLayout& layout, const Timeline& timeline,
+                       const std::vector<State>& states) {
+  for (std::size_t k = 0; k + 1 < states.size(); ++k) {
+    if (NeedsReintegration(timeline.Summary(k),
+                           CalibrationOf(layout, states[k]))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+CovarianceSeries Marginals(ChainProblem* chain) {
+  ArrowSystem information = chain->Information();
+  information.Factor();
+  return chain->Marginals(information);
+}
+
+}  // namespace
+
+BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
+                       const std::vector<State>& initial, Timeline* timeline,
+                       const GateDecisions& decisions,
+                       const BatchOptions& options) {
+  BatchResult result;
+  result.states = initial;
+  constexpr int kMaxReintegrations = 5;
+  for (int outer = 0; outer < kMaxReintegrations; ++outer) {
+    ChainProblem chain(layout, prior, result.states, timeline, decisions);
+    NodeManifold manifold(&chain.blocks());
+    ceres::Problem problem(ProblemOptions());
+    AddBlocks(&chain, &manifold, &problem);
+    Callback callback(options.callback);
+    ceres::Solver::Options solver_options = SolverOptions(options);
+    solver_options.callbacks.push_back(&callback);
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver_options, &problem, &summary);
+    callback.Rethrow();
+    if (!summary.IsSolutionUsable()) {
+      throw EstimationError("batch solver failed: " + summary.message);
+    }
+    result.states = chain.States();
+    result.iterations += static_cast<int>(summary.iterations.size()) - 1;
+    result.converged = summary.termination_type == ceres::CONVERGENCE;
+    if (outer == 0) result.initial_cost = summary.initial_cost;
+    result.final_cost = summary.final_cost;
+    if (!AnySummaryIsStale(layout, *timeline, result.states)) {
+      result.P = Marginals(&chain);
+      return result;
+    }
+  }
+  result.converged = false;
+  result.P = BatchMarginals(layout, prior, result.states, timeline, decisions);
+  return result;
+}
+
+CovarianceSeries BatchMarginals(const ErrorLayout& layout, const Prior& prior,
+                                const std::vector<State>& states,
+                                Timeline* timeline,
+                                const GateDecisions& decisions) {
+  ChainProblem chain(layout, prior, states, timeline, decisions);
+  return Marginals(&chain);
+}
+
+}  // namespace hindsight

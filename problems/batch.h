@@ -1,0 +1,47 @@
+#ifndef HINDSIGHT_PROBLEMS_BATCH_H_
+#define HINDSIGHT_PROBLEMS_BATCH_H_
+
+#include <functional>
+#include <vector>
+
+#include "filters/forward_filter.h"
+#include "state/covariance_series.h"
+
+namespace hindsight {
+
+struct BatchOptions {
+  int max_iterations = 50;
+  /// Called after each iteration with its number; may throw to stop.
+  std::function<void(int)> callback;
+};
+
+struct BatchResult {
+  std::vector<State> states;
+  CovarianceSeries P;  ///< marginals over the layout, in the tangent at states
+  int iterations = 0;
+  bool converged = false;
+  double initial_cost = 0.0;  ///< half the sum of squared whitened residuals
+  double final_cost = 0.0;
+};
+
+/// The whole interval as one nonlinear least-squares problem, solved by Ceres:
+/// IMU factors between all neighbours, a factor for every accepted measurement,
+/// a prior on the first node and the constants. Starts from `initial`, a state
+/// a node. Constants of the layout (IMU biases that do not walk, scale factors,
+/// lever arms...) are global unknowns; their start is that of the first state.
+/// Marginal covariances of every node come from the chain's structure in time
+/// linear in the number of nodes.
+BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
+                       const std::vector<State>& initial, Timeline* timeline,
+                       const GateDecisions& decisions,
+                       const BatchOptions& options);
+
+/// The marginal covariances alone, of the problem linearised at `states`.
+CovarianceSeries BatchMarginals(const ErrorLayout& layout, const Prior& prior,
+                                const std::vector<State>& states,
+                                Timeline* timeline,
+                                const GateDecisions& decisions);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_BATCH_H_

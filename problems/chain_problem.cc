@@ -1,0 +1,154 @@
+#include "problems/chain_problem.h"
+
+#include "base/error.h"
+#include "factors/imu_factor.h"
+#include "factors/measurement_factor.h"
+#include "factors/prior_factor.h"
+
+namespace hindsight {
+
+ChainProblem::ChainProblem(const ErrorLayout& layout, const Prior& prior,
+                           const std::vector<State>& states, Timeline* timeline,
+                           const GateDecisions& decisions)
+    : blocks_(std::make_unique<StateBlocks>(layout)) {
+  nodes_.resize(states.size() *
+                static_cast<std::size_t>(blocks_->node_ambient_dim()));
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    times_.push_back(timeline->node(k).t);
+    blocks_->WriteNode(states[k], node_values(k));
+  }
+  for (const StateBlocks::Entry& entry : blocks_->globals()) {
+    globals_.emplace_back(
+        static_cast<std::size_t>(FullDimension(entry.block.key.kind)));
+    blocks_->WriteGlobal(states.front(), entry.ambient, globals_.back().data());
+  }
+  factors_.push_back(
+      std::make_unique<PriorFactor>(blocks_.get(), prior.x, prior.P));
+  std::size_t index = 0;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const int node = static_cast<int>(k);
+    if (k + 1 < states.size()) {
+      const ImuSummary& summary =
+          timeline->Summary(k, CalibrationOf(layout, states[k]));
+      factors_.push_back(
+          std::make_unique<ImuFactor>(blocks_.get(), &summary, node));
+    }
+    for (const Measurement& z : timeline->measurements(k)) {
+      const bool used = decisions.empty() ? !z.withheld : decisions[index] != 0;
+      ++index;
+      if (!used) continue;
+      factors_.push_back(std::make_unique<MeasurementFactor>(
+          blocks_.get(), timeline, node, &z));
+    }
+  }
+}
+
+std::vector<double*> ChainProblem::ParametersOf(const TangentFactor& factor) {
+  std::vector<double*> parameters;
+  for (const int k : factor.nodes()) {
+    parameters.push_back(node_values(static_cast<std::size_t>(k)));
+  }
+  for (const int g : factor.globals()) {
+    parameters.push_back(global_values(static_cast<std::size_t>(g)));
+  }
+  return parameters;
+}
+
+std::vector<State> ChainProblem::States() const {
+  std::vector<const double*> globals;
+  for (const auto& values : globals_) globals.push_back(values.data());
+  std::vector<State> states;
+  states.reserve(times_.size());
+  const auto stride = static_cast<std::size_t>(blocks_->node_ambient_dim());
+  for (std::size_t k = 0; k < times_.size(); ++k) {
+    states.push_back(
+        blocks_->ReadState(times_[k], nodes_.data() + k * stride, globals));
+  }
+  return states;
+}
+
+namespace {
+
+/// Adds J'J of one factor to the blocks of the arrow it touches.
+void AddInformation(const StateBlocks& blocks, const TangentFactor& factor,
+                    const TangentFactor::Jacobian& J, ArrowSystem* arrow) {
+  const Eigen::Index n = blocks.node_dim();
+  const auto& nodes = factor.nodes();
+  const Eigen::Index node_columns = n * static_cast<Eigen::Index>(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto J_i = J.middleCols(static_cast<Eigen::Index>(i) * n, n);
+    arrow->node(nodes[i]).noalias() += J_i.transpose().lazyProduct(J_i);
+  }
+  if (nodes.size() == 2) {
+    arrow->coupling(nodes[0]).noalias() +=
+        J.middleCols(n, n).transpose().lazyProduct(J.leftCols(n));
+  }
+  Eigen::Index column = node_columns;
+  for (const int g : factor.globals()) {
+    const StateBlocks::Entry& entry =
+        blocks.globals()[static_cast<std::size_t>(g)];
+    const Eigen::Index dim = entry.block.dim;
+    const auto J_g = J.middleCols(column, dim);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      arrow->border_coupling(nodes[i]).middleRows(entry.tangent, dim) +=
+          J_g.transpose() * J.middleCols(static_cast<Eigen::Index>(i) * n, n);
+    }
+    Eigen::Index other_column = node_columns;
+    for (const int h : factor.globals()) {
+      const StateBlocks::Entry& other =
+          blocks.globals()[static_cast<std::size_t>(h)];
+      arrow->border().block(entry.tangent, other.tangent, dim,
+                            other.block.dim) +=
+          J_g.transpose() * J.middleCols(other_column, other.block.dim);
+      other_column += other.block.dim;
+    }
+    column += dim;
+  }
+}
+
+}  // namespace
+
+ArrowSystem ChainProblem::Information() {
+  ArrowSystem arrow(static_cast<int>(times_.size()), blocks_->node_dim(),
+                    blocks_->global_dim());
+  TangentFactor::Jacobian J;
+  Eigen::VectorXd residual(kMaxErrorDim);
+  for (const auto& factor : factors_) {
+    const std::vector<double*> parameters = ParametersOf(*factor);
+    factor->Linearize(parameters.data(), residual.data(), &J);
+    AddInformation(*blocks_, *factor, J, &arrow);
+  }
+  return arrow;
+}
+
+CovarianceSeries ChainProblem::Marginals(const ArrowSystem& factored) const {
+  const int n = blocks_->layout().dim();
+  CovarianceSeries series(n, times_.size());
+  const Eigen::MatrixXd border = factored.BorderCovariance();
+  factored.VisitMarginals([&](const ArrowSystem::NodeMarginal& marginal) {
+    ErrorMatrix P(n, n);
+    for (const StateBlocks::Entry& a : blocks_->entries()) {
+      for (const StateBlocks::Entry& b : blocks_->entries()) {
+        auto out =
+            P.block(a.block.offset, b.block.offset, a.block.dim, b.block.dim);
+        if (!a.global && !b.global) {
+          out = marginal.covariance.block(a.tangent, b.tangent, a.block.dim,
+                                          b.block.dim);
+        } else if (a.global && b.global) {
+          out = border.block(a.tangent, b.tangent, a.block.dim, b.block.dim);
+        } else if (a.global) {
+          out = marginal.border_node.block(a.tangent, b.tangent, a.block.dim,
+                                           b.block.dim);
+        } else {
+          out = marginal.border_node
+                    .block(b.tangent, a.tangent, b.block.dim, a.block.dim)
+                    .transpose();
+        }
+      }
+    }
+    series.Set(static_cast<std::size_t>(marginal.node), P);
+  });
+  return series;
+}
+
+}  // namespace hindsight

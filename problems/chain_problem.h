@@ -1,0 +1,54 @@
+#ifndef HINDSIGHT_PROBLEMS_CHAIN_PROBLEM_H_
+#define HINDSIGHT_PROBLEMS_CHAIN_PROBLEM_H_
+
+#include <memory>
+#include <vector>
+
+#include "factors/state_blocks.h"
+#include "factors/tangent_factor.h"
+#include "filters/forward_filter.h"
+#include "linear/arrow_system.h"
+#include "state/covariance_series.h"
+
+namespace hindsight {
+
+/// The factors of a whole interval and the values of its parameter blocks.
+class ChainProblem {
+ public:
+  /// Writes `states` into the parameter blocks; summaries are those of the
+  /// timeline, integrated at the states' calibration where needed.
+  ChainProblem(const ErrorLayout& layout, const Prior& prior,
+               const std::vector<State>& states, Timeline* timeline,
+               const GateDecisions& decisions);
+
+  const StateBlocks& blocks() const { return *blocks_; }
+  const std::vector<std::unique_ptr<TangentFactor>>& factors() const {
+    return factors_;
+  }
+  std::size_t node_count() const { return times_.size(); }
+  double* node_values(std::size_t k) {
+    return nodes_.data() +
+           k * static_cast<std::size_t>(blocks_->node_ambient_dim());
+  }
+  double* global_values(std::size_t g) { return globals_[g].data(); }
+  /// Parameter blocks of a factor, in its order.
+  std::vector<double*> ParametersOf(const TangentFactor& factor);
+
+  std::vector<State> States() const;
+
+  /// Information matrix of all factors at the present values.
+  ArrowSystem Information();
+  /// Marginal covariances over the layout from a factored information matrix.
+  CovarianceSeries Marginals(const ArrowSystem& factored) const;
+
+ private:
+  std::unique_ptr<StateBlocks> blocks_;
+  std::vector<double> times_;
+  std::vector<double> nodes_;
+  std::vector<std::vector<double>> globals_;
+  std::vector<std::unique_ptr<TangentFactor>> factors_;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_CHAIN_PROBLEM_H_

@@ -1,0 +1,233 @@
+#include "problems/reconstruction.h"
+
+#include <ctime>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
+#include "dataset/timeline_builder.h"
+#include "problems/batch.h"
+#include "problems/sample_solution.h"
+#include "problems/solution_builder.h"
+#include "problems/start.h"
+
+namespace hindsight {
+namespace {
+
+constexpr std::pair<Method, const char*> kMethods[] = {
+    {Method::kEkf, "ekf"},
+    {Method::kRts, "rts"},
+    {Method::kIterated, "iterated"},
+    {Method::kBatch, "batch"}};
+
+double ProcessorSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) +
+         1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+bool HasGates(const Timeline& timeline) {
+  for (const Sensor& sensor : timeline.sensors()) {
+    if (sensor.gate_probability) return true;
+  }
+  return false;
+}
+
+/// Covariances from the tangent of the nominal they were computed about into
+/// that at the smoothed states.
+CovarianceSeries TransportSeries(const ErrorLayout& layout,
+                                 const std::vector<State>& from,
+                                 const std::vector<State>& to,
+                                 const CovarianceSeries& P) {
+  CovarianceSeries out(P.dim(), P.size());
+  for (std::size_t k = 0; k < P.size(); ++k) {
+    const ErrorMatrix T = Transport(layout, from[k], to[k]);
+    out.Set(k, ErrorMatrix(T * P.Get(k) * T.transpose()));
+  }
+  return out;
+}
+
+}  // namespace
+
+const char* MethodName(Method method) {
+  for (const auto& [value, name] : kMethods) {
+    if (value == method) return name;
+  }
+  return "";
+}
+
+Method MethodFromName(const std::string& name) {
+  std::string known;
+  for (const auto& [value, text] : kMethods) {
+    if (name == text) return value;
+    known += (known.empty() ? "" : ", ") + std::string(text);
+  }
+  throw InputError("unknown method '" + name + "'; known are " + known);
+}
+
+struct Reconstruction::Impl {
+  Impl(const Dataset& dataset_in, ReconstructionOptions options_in)
+      : dataset(dataset_in),
+        options(std::move(options_in)),
+        start(FindStart(dataset, options.from, options.to)),
+        timeline(BuildTimeline(dataset, MakeTimelineOptions())) {
+    start.prior.x.t = timeline.node(0).t;
+  }
+
+  TimelineOptions MakeTimelineOptions() const {
+    TimelineOptions timeline_options;
+    timeline_options.t_begin = start.report.t;
+    timeline_options.t_end = std::min(options.to, dataset.imu.t_end());
+    timeline_options.extra_times = options.node_times;
+    timeline_options.with_scale_jacobians =
+        start.layout.Has(BlockKind::kGyroScale) ||
+        start.layout.Has(BlockKind::kAccelScale);
+    if (timeline_options.t_end <= timeline_options.t_begin) {
+      throw EstimationError("the start at " + std::to_string(start.report.t) +
+                            " s leaves no interval to reconstruct");
+    }
+    return timeline_options;
+  }
+
+  EpochCallback Progress(const std::string& stage) const {
+    return [this, stage](std::size_t done) {
+      if (options.stop != nullptr && *options.stop) throw Interrupted();
+      if (options.progress && (done % 64 == 0 || done == timeline.size())) {
+        options.progress(stage, static_cast<double>(done) /
+                                    static_cast<double>(timeline.size()));
+      }
+    };
+  }
+
+  /// Forward filter and RTS pass about it; run once.
+  void RunForward() {
+    if (rts) return;
+    const double t0 = ProcessorSeconds();
+    LinearTape tape = RunExtendedKalmanFilter(start.layout, start.prior,
+                                              &timeline, {}, Progress("ekf"));
+    ekf = FilterSolution(tape);
+    ekf->seconds = ProcessorSeconds() - t0;
+    decisions = DecisionsOnTape(tape);
+    rts = SmoothTape(std::move(tape));
+    if (HasGates(timeline)) RepeatWithSmoothedGates();
+    rts_seconds = ProcessorSeconds() - t0 - ekf->seconds;
+  }
+
+  SmoothedTrajectory SmoothTape(LinearTape tape) const {
+    std::vector<State> about;
+    about.reserve(tape.size());
+    for (std::size_t k = 0; k < tape.size(); ++k) {
+      about.push_back(tape.epoch(k).x_plus);
+    }
+    SmoothedTrajectory smoothed = SmoothRts(std::move(tape));
+    smoothed.P =
+        TransportSeries(start.layout, about, smoothed.states, smoothed.P);
+    return smoothed;
+  }
+
+  /// The innovation gate knows only the past; what the whole interval says of a
+  /// measurement decides for all whole-interval methods.
+  void RepeatWithSmoothedGates() {
+    const GateDecisions smoothed =
+        DecideGates(start.layout, timeline, *rts, decisions);
+    if (smoothed == decisions) return;
+    decisions = smoothed;
+    rts = SmoothTape(RunExtendedKalmanFilter(
+        start.layout, start.prior, &timeline, decisions, Progress("rts")));
+  }
+
+  Solution Finish(Solution solution, Method method, double seconds) const {
+    solution.method = MethodName(method);
+    solution.seconds = seconds;
+    Conclude(&solution);
+    return solution;
+  }
+
+  Solution FromSmoothed(std::vector<State> states, CovarianceSeries P) const {
+    return SmoothedSolution(start.layout, timeline, std::move(states),
+                            std::move(P), decisions);
+  }
+
+  Solution RunIterated() {
+    const double t0 = ProcessorSeconds();
+    IterationOptions iteration;
+    iteration.max_iterations = options.max_iterations;
+    iteration.callback = Progress("iterated");
+    IteratedResult result =
+        SmoothIterated(start.layout, start.prior, rts->states, &timeline,
+                       decisions, iteration);
+    Solution solution = FromSmoothed(std::move(result.trajectory.states),
+                                     std::move(result.trajectory.P));
+    solution.iterations = result.iterations;
+    solution.converged = result.converged;
+    return Finish(std::move(solution), Method::kIterated,
+                  ProcessorSeconds() - t0);
+  }
+
+  Solution RunBatch() {
+    const double t0 = ProcessorSeconds();
+    BatchOptions batch;
+    batch.max_iterations = options.max_iterations;
+    batch.callback = [this](int iteration) {
+      if (options.stop != nullptr && *options.stop) throw Interrupted();
+      if (options.progress) {
+        options.progress(
+            "batch", static_cast<double>(iteration) / options.max_iterations);
+      }
+    };
+    BatchResult result = SolveBatch(start.layout, start.prior, rts->states,
+                                    &timeline, decisions, batch);
+    Solution solution =
+        FromSmoothed(std::move(result.states), std::move(result.P));
+    solution.iterations = result.iterations;
+    solution.converged = result.converged;
+    return Finish(std::move(solution), Method::kBatch, ProcessorSeconds() - t0);
+  }
+
+  const Dataset& dataset;
+  ReconstructionOptions options;
+  Start start;
+  Timeline timeline;
+  std::optional<Solution> ekf;
+  std::optional<SmoothedTrajectory> rts;
+  double rts_seconds = 0.0;
+  GateDecisions decisions;
+};
+
+Reconstruction::Reconstruction(const Dataset& dataset,
+                               ReconstructionOptions options)
+    : impl_(std::make_unique<Impl>(dataset, std::move(options))) {}
+
+Reconstruction::~Reconstruction() = default;
+
+Solution Reconstruction::Run(Method method) {
+  impl_->RunForward();
+  switch (method) {
+    case Method::kEkf:
+      return impl_->Finish(*impl_->ekf, method, impl_->ekf->seconds);
+    case Method::kRts:
+      return impl_->Finish(
+          impl_->FromSmoothed(impl_->rts->states, impl_->rts->P), method,
+          impl_->rts_seconds);
+    case Method::kIterated:
+      return impl_->RunIterated();
+    case Method::kBatch:
+      return impl_->RunBatch();
+  }
+  throw std::logic_error("unknown method");
+}
+
+const StartReport& Reconstruction::start() const { return impl_->start.report; }
+
+Solution Reconstruction::Sample(const Solution& solution,
+                                const std::vector<double>& times) const {
+  return SampleSolution(solution, impl_->dataset.imu, times);
+}
+
+Solution Solve(const Dataset& dataset, const ReconstructionOptions& options) {
+  Reconstruction reconstruction(dataset, options);
+  return reconstruction.Run(options.method);
+}
+
+}  // namespace hindsight

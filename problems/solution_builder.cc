@@ -1,0 +1,199 @@
+#include "problems/solution_builder.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "base/units.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kObservedRatio = 1.0 / 3.0;
+constexpr double kUnobservedRatio = 0.9;
+constexpr double kPositionLimit = 1000.0;
+constexpr double kVelocityLimit = 10.0;
+constexpr double kTiltLimit = 5.0 * kDegree;
+constexpr double kHeadingLimit = 20.0 * kDegree;
+
+double LimitOf(BlockKind kind, int axis) {
+  switch (kind) {
+    case BlockKind::kPosition:
+      return kPositionLimit;
+    case BlockKind::kVelocity:
+      return kVelocityLimit;
+    default:
+      return axis == 2 ? kHeadingLimit : kTiltLimit;
+  }
+}
+
+ResidualRecord MakeRecord(const Measurement& z, double t, bool accepted) {
+  ResidualRecord record;
+  record.t = t;
+  record.sensor = z.sensor;
+  record.accepted = accepted || z.withheld;
+  record.withheld = z.withheld;
+  return record;
+}
+
+}  // namespace
+
+Solution FilterSolution(const LinearTape& tape) {
+  Solution solution;
+  solution.layout = tape.layout();
+  solution.covariances = CovarianceSeries(tape.dim(), tape.size());
+  solution.states.reserve(tape.size());
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    const TapeEpoch& epoch = tape.epoch(k);
+    solution.states.push_back(epoch.x_plus);
+    solution.covariances.Set(k, tape.P_plus(k));
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      ResidualRecord record;
+      record.t = epoch.t;
+      record.sensor = z.sensor;
+      record.accepted = z.accepted || z.withheld;
+      record.withheld = z.withheld;
+      record.residual = z.innovation;
+      record.sigma = z.S.diagonal().cwiseSqrt();
+      record.nis = z.nis;
+      solution.residuals.push_back(std::move(record));
+    }
+  }
+  return solution;
+}
+
+Solution SmoothedSolution(const ErrorLayout& layout, const Timeline& timeline,
+                          std::vector<State> states, CovarianceSeries P,
+                          const GateDecisions& decisions) {
+  Solution solution;
+  solution.layout = layout;
+  LinearizedMeasurement z;
+  std::size_t index = 0;
+  for (std::size_t k = 0; k < timeline.size(); ++k) {
+    const auto measurements = timeline.measurements(k);
+    if (measurements.empty()) continue;
+    const ErrorMatrix P_k = P.Get(k);
+    for (const Measurement& measurement : measurements) {
+      const bool used = decisions[index++] != 0;
+      Evaluate(measurement, timeline.Context(k, measurement, layout, states[k]),
+               &z);
+      ResidualRecord record = MakeRecord(measurement, timeline.node(k).t, used);
+      const RowMatrix HPH = z.H * P_k * z.H.transpose();
+      RowMatrix S = used ? RowMatrix(z.R - HPH) : RowMatrix(z.R + HPH);
+      Eigen::LLT<RowMatrix> llt(S);
+      if (llt.info() != Eigen::Success) {
+        // The measurement alone decides its state: its residual is zero by
+        // construction and its covariance lost to rounding.
+        S = z.R;
+        llt.compute(S);
+      }
+      record.residual = z.residual;
+      record.sigma = S.diagonal().cwiseSqrt();
+      record.nis = llt.matrixL().solve(z.residual).squaredNorm();
+      solution.residuals.push_back(std::move(record));
+    }
+  }
+  solution.states = std::move(states);
+  solution.covariances = std::move(P);
+  return solution;
+}
+
+std::vector<ConstantEstimate> EstimateConstants(const Solution& solution) {
+  std::vector<ConstantEstimate> constants;
+  if (solution.states.empty() || solution.covariances.empty()) return constants;
+  const State& x = solution.states.back();
+  const ErrorMatrix P = solution.covariances.Get(solution.states.size() - 1);
+  for (const Block& block : solution.layout.blocks()) {
+    if (block.evolution.kind != Evolution::Kind::kConstant) continue;
+    int component = block.offset;
+    for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {
+      if (!block.active[static_cast<std::size_t>(axis)]) continue;
+      ConstantEstimate constant;
+      constant.name = solution.layout.ComponentName(component);
+      constant.unit = block.unit;
+      constant.value = block.key.kind == BlockKind::kGyroBias ? x.b_g(axis)
+                       : block.key.kind == BlockKind::kAccelBias
+                           ? x.b_a(axis)
+                           : x.parameters(block.parameter_offset + axis);
+      constant.sigma = std::sqrt(P(component, component));
+      constant.prior_sigma = block.sigma0(axis);
+      const double ratio = constant.sigma / constant.prior_sigma;
+      constant.verdict =
+          ratio < kObservedRatio     ? ConstantEstimate::Verdict::kObserved
+          : ratio < kUnobservedRatio ? ConstantEstimate::Verdict::kWeak
+                                     : ConstantEstimate::Verdict::kUnobserved;
+      constants.push_back(std::move(constant));
+      ++component;
+    }
+  }
+  return constants;
+}
+
+std::vector<UnobservedSpan> FindUnobserved(const Solution& solution) {
+  std::vector<UnobservedSpan> spans;
+  const std::size_t count = solution.covariances.size();
+  std::vector<int> open(static_cast<std::size_t>(solution.layout.dim()), -1);
+  for (std::size_t k = 0; k < count; ++k) {
+    const ErrorMatrix P = solution.covariances.Get(k);
+    const double t = solution.states[k].t;
+    for (const Block& block : solution.layout.blocks()) {
+      if (block.key.kind > BlockKind::kAttitude) continue;
+      for (int i = 0; i < block.dim; ++i) {
+        const int component = block.offset + i;
+        const double sigma = std::sqrt(P(component, component));
+        int& span = open[static_cast<std::size_t>(component)];
+        // With masked axes component i may be another axis; the limits of the
+        // horizontal ones are the same.
+        if (sigma <= LimitOf(block.key.kind, block.dim == 3 ? i : 0)) {
+          span = -1;
+          continue;
+        }
+        if (span < 0) {
+          span = static_cast<int>(spans.size());
+          spans.push_back(
+              {solution.layout.ComponentName(component), t, t, sigma});
+        }
+        UnobservedSpan& s = spans[static_cast<std::size_t>(span)];
+        s.t_end = t;
+        s.sigma = std::min(s.sigma, sigma);
+      }
+    }
+  }
+  return spans;
+}
+
+void Conclude(Solution* solution) {
+  solution->constants = EstimateConstants(*solution);
+  solution->unobserved = FindUnobserved(*solution);
+  if (!solution->converged) {
+    solution->usable = false;
+    solution->verdict = "not usable: the iteration did not converge";
+    return;
+  }
+  if (solution->states.empty()) {
+    solution->usable = false;
+    solution->verdict = "not usable: no epoch was estimated";
+    return;
+  }
+  const double t_begin = solution->states.front().t;
+  const double t_end = solution->states.back().t;
+  for (const UnobservedSpan& span : solution->unobserved) {
+    // A forward filter need not know everything from its first second on.
+    if (span.t_end - span.t_begin < 0.5 * (t_end - t_begin)) continue;
+    char text[200];
+    std::snprintf(text, sizeof(text),
+                  "not usable: %s is not observed from %.1f s to %.1f s",
+                  span.component.c_str(), span.t_begin, span.t_end);
+    solution->usable = false;
+    solution->verdict = text;
+    return;
+  }
+  solution->usable = true;
+  solution->verdict = solution->unobserved.empty()
+                          ? "usable: every state is observed"
+                          : "usable, but not everywhere: see the unobserved "
+                            "spans";
+}
+
+}  // namespace hindsight

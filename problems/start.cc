@@ -1,0 +1,414 @@
+#include "problems/start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "dataset/standstill.h"
+#include "geometry/so3.h"
+
+namespace hindsight {
+namespace {
+
+// A priori values where neither the user nor the data say anything better: a
+// consumer IMU straight from power-up.
+constexpr double kDefaultGyroBiasSigma = 0.2 * kDegree;
+constexpr double kDefaultAccelBiasSigma = 0.2;
+constexpr double kCourseSpeed = 3.0;  // heading from course above [m/s]
+constexpr double kUnknownHeadingSigma = 104.0 * kDegree;  // uniform on a circle
+constexpr double kAssumedLevelSigma = 5.0 * kDegree;
+
+std::string Words(const char* format, double a, double b = 0.0) {
+  char buffer[160];
+  std::snprintf(buffer, sizeof(buffer), format, a, b);
+  return buffer;
+}
+
+struct TimedFix {
+  double t = 0.0;
+  Eigen::Vector3d p_e;
+  double sigma = 0.0;
+  Eigen::Matrix3d R_n;
+  const Sensor* sensor = nullptr;
+};
+
+/// All usable position fixes in [from, to], in time order.
+std::vector<TimedFix> PositionFixes(const Dataset& dataset, double from,
+                                    double to) {
+  std::vector<TimedFix> fixes;
+  for (const AidingStream& stream : dataset.streams) {
+    for (const Measurement& z : stream.measurements) {
+      const double t = z.t + stream.sensor.time_offset;
+      const auto* fix = std::get_if<PositionFix>(&z.model);
+      if (fix == nullptr || z.withheld || t < from || t > to) continue;
+      fixes.push_back({t, fix->p_e,
+                       std::sqrt(fix->R_n.topLeftCorner<2, 2>().trace() / 2.0),
+                       fix->R_n, &stream.sensor});
+    }
+  }
+  std::stable_sort(
+      fixes.begin(), fixes.end(),
+      [](const TimedFix& a, const TimedFix& b) { return a.t < b.t; });
+  return fixes;
+}
+
+/// Velocity over the ground of a moment, with its standard deviation.
+struct TimedVelocity {
+  double t = 0.0;
+  Eigen::Vector3d v_n;
+  double sigma = 0.0;
+};
+
+/// Measured velocities, or differences of position fixes over at least so long
+/// that motion at walking pace stands above their noise.
+std::vector<TimedVelocity> Velocities(const Dataset& dataset,
+                                      const std::vector<TimedFix>& fixes,
+                                      double from, double to) {
+  std::vector<TimedVelocity> out;
+  for (const AidingStream& stream : dataset.streams) {
+    for (const Measurement& z : stream.measurements) {
+      const double t = z.t + stream.sensor.time_offset;
+      const auto* fix = std::get_if<VelocityFix>(&z.model);
+      if (fix == nullptr || z.withheld || t < from || t > to) continue;
+      out.push_back({t, fix->v_n,
+                     std::sqrt(fix->R_n.topLeftCorner<2, 2>().trace() / 2.0)});
+    }
+  }
+  if (!out.empty()) return out;
+  std::size_t first = 0;
+  for (std::size_t k = 1; k < fixes.size(); ++k) {
+    const double sigma = std::hypot(fixes[k].sigma, fixes[first].sigma);
+    // Long enough for 0.3 m/s, short enough to be one velocity.
+    const double need = std::clamp(sigma / 0.3, 0.2, 5.0);
+    while (first + 1 < k && fixes[k].t - fixes[first + 1].t >= need) ++first;
+    const double dt = fixes[k].t - fixes[first].t;
+    if (dt < need || dt > 10.0) continue;
+    const Eigen::Matrix3d C_ne = NedAxes(fixes[k].p_e).transpose();
+    out.push_back({0.5 * (fixes[k].t + fixes[first].t),
+                   C_ne * (fixes[k].p_e - fixes[first].p_e) / dt, sigma / dt});
+  }
+  return out;
+}
+
+/// Means of the readings over [begin, end].
+Kinematics MeanReading(const ImuStream& imu, double begin, double end) {
+  ImuIntegrator integrator(imu);
+  Kinematics mean;
+  constexpr int kCount = 400;
+  for (int i = 0; i < kCount; ++i) {
+    const Kinematics k =
+        integrator.ReadingAt(begin + (i + 0.5) * (end - begin) / kCount);
+    mean.w_ib_b += k.w_ib_b / kCount;
+    mean.f_b += k.f_b / kCount;
+  }
+  return mean;
+}
+
+/// Works through the steps of FindStart; each fills its part of the report.
+class StartFinder {
+ public:
+  StartFinder(const Dataset& dataset, double from, double to)
+      : dataset_(dataset),
+        from_(std::max(from, dataset.imu.t_begin())),
+        to_(std::min(to, dataset.imu.t_end())) {}
+
+  Start Find() {
+    if (!(from_ < to_)) {
+      throw InputError("the asked interval from " + std::to_string(from_) +
+                       " s to " + std::to_string(to_) +
+                       " s contains no IMU data");
+    }
+    fixes_ = PositionFixes(dataset_, from_, to_);
+    velocities_ = Velocities(dataset_, fixes_, from_, to_);
+    StationaryOptions rest_options = dataset_.stationary;
+    rests_ = FindStandstill(dataset_.imu, rest_options);
+    ChooseTime();
+    ChooseGyroBias();
+    ChooseAttitude();
+    ChooseHeading();
+    ChooseVelocity();
+    ChoosePosition();
+    return Finish();
+  }
+
+ private:
+  const InitialState& given() const { return dataset_.initial; }
+
+  void ChooseTime() {
+    if (given().t) {
+      t_ = std::max(*given().t, from_);
+    } else if (given().position) {
+      t_ = from_;
+    } else if (!fixes_.empty()) {
+      t_ = fixes_.front().t;
+      for (const TimeInterval& rest : rests_) {
+        if (rest.begin <= from_ + 1.0 && rest.end >= t_) t_ = from_;
+      }
+    } else {
+      throw EstimationError(
+          "no initial position: give initial.position or a position stream "
+          "with fixes inside the interval");
+    }
+    for (const TimeInterval& rest : rests_) {
+      if (rest.begin <= t_ + 1.0 && rest.end > t_ + 1.0) {
+        rest_ = TimeInterval{std::max(t_, rest.begin), rest.end};
+      }
+    }
+  }
+
+  void ChooseGyroBias() {
+    b_g_ = given().gyro_bias;
+    b_g_sigma_ = given().gyro_bias_sigma.value_or(
+        Eigen::Vector3d::Constant(kDefaultGyroBiasSigma));
+    if (given().gyro_bias_sigma || !rest_) return;
+    const Kinematics mean = MeanReading(dataset_.imu, rest_->begin, rest_->end);
+    const double T = rest_->end - rest_->begin;
+    b_g_ = mean.w_ib_b;  // Earth rate is inside, and in the sigma
+    b_g_sigma_.setConstant(std::hypot(
+        dataset_.imu.noise.gyro_noise_density / std::sqrt(T), kEarthRate));
+  }
+
+  void ChooseAttitude() {
+    const double accel_sigma =
+        given()
+            .accel_bias_sigma
+            .value_or(Eigen::Vector3d::Constant(kDefaultAccelBiasSigma))
+            .maxCoeff();
+    if (given().euler) {
+      euler_ = *given().euler;
+      euler_sigma_ = given().attitude_sigma.value_or(
+          Eigen::Vector3d(1.0 * kDegree, 1.0 * kDegree, 2.0 * kDegree));
+      report_.attitude = "given";
+      return;
+    }
+    const double end = rest_ ? rest_->end : std::min(t_ + 1.0, to_);
+    const Kinematics mean =
+        MeanReading(dataset_.imu, rest_ ? rest_->begin : t_, end);
+    const Eigen::Vector3d f = mean.f_b - given().accel_bias;
+    euler_ = {std::atan2(-f.y(), -f.z()),
+              std::atan2(f.x(), std::hypot(f.y(), f.z())), 0.0};
+    const double tilt_sigma = accel_sigma / kStandardGravity;
+    if (rest_) {
+      report_.attitude =
+          Words("levelled at rest for %.1f s", rest_->end - rest_->begin);
+      euler_sigma_ = {tilt_sigma, tilt_sigma, kUnknownHeadingSigma};
+    } else {
+      report_.attitude = "assumed near level, no rest at the start";
+      euler_sigma_ = {kAssumedLevelSigma, kAssumedLevelSigma,
+                      kUnknownHeadingSigma};
+    }
+    if (given().attitude_sigma) euler_sigma_ = *given().attitude_sigma;
+  }
+
+  void ChooseHeading() {
+    if (given().euler) {
+      report_.heading = "given";
+      return;
+    }
+    if (given().heading) {
+      euler_.z() = *given().heading;
+      euler_sigma_.z() =
+          given().attitude_sigma ? given().attitude_sigma->z() : 2.0 * kDegree;
+      report_.heading = "given";
+      return;
+    }
+    for (const TimedVelocity& v : velocities_) {
+      const double speed = v.v_n.head<2>().norm();
+      if (v.t < t_ || speed < std::max(kCourseSpeed, 10.0 * v.sigma)) continue;
+      TakeCourse(v, speed);
+      return;
+    }
+    report_.heading = "unknown: no motion above 3 m/s";
+  }
+
+  /// Carries the course at v.t back to the start with the gyros alone.
+  void TakeCourse(const TimedVelocity& v, double speed) {
+    const double course = std::atan2(v.v_n.y(), v.v_n.x());
+    ImuCalibration calibration;
+    calibration.b_g = b_g_;
+    ImuIntegrator integrator(dataset_.imu);
+    const ImuSummary summary = integrator.Summarize(t_, v.t, calibration);
+    const Eigen::Quaterniond there =
+        QuaternionFromEuler(euler_.x(), euler_.y(), 0.0) * summary.dR;
+    euler_.z() = WrapAngle(course - EulerFromQuaternion(there).z());
+    const double elapsed = v.t - t_;
+    const double drift =
+        std::hypot(b_g_sigma_.maxCoeff() * elapsed,
+                   dataset_.imu.noise.gyro_noise_density * std::sqrt(elapsed));
+    // A few degrees of side slip and of antenna sway are not in v.sigma.
+    constexpr double kCourseSigma = 3.0 * kDegree;
+    euler_sigma_.z() = std::hypot(kCourseSigma, v.sigma / speed, drift);
+    if (given().attitude_sigma) euler_sigma_.z() = given().attitude_sigma->z();
+    report_.heading =
+        Words("course at t = %.2f s (%.1f m/s), carried back by the gyros", v.t,
+              speed);
+  }
+
+  void ChooseVelocity() {
+    if (given().v_n) {
+      v_n_ = *given().v_n;
+      v_sigma_ =
+          given().velocity_sigma.value_or(Eigen::Vector3d::Constant(0.1));
+      return;
+    }
+    if (rest_) {
+      v_sigma_.setConstant(0.05);
+    } else if (!velocities_.empty()) {
+      v_n_ = velocities_.front().v_n;
+      v_sigma_.setConstant(velocities_.front().sigma +
+                           3.0 * std::abs(velocities_.front().t - t_) + 0.2);
+    } else {
+      v_sigma_.setConstant(10.0);
+    }
+    if (given().velocity_sigma) v_sigma_ = *given().velocity_sigma;
+  }
+
+  void ChoosePosition() {
+    if (given().position) {
+      position_e_ = EcefFromGeodetic(*given().position);
+      p_sigma_ =
+          given().position_sigma.value_or(Eigen::Vector3d::Constant(1.0));
+      report_.position = "given";
+      return;
+    }
+    const TimedFix& fix = fixes_.front();
+    const Eigen::Matrix3d C_en = NedAxes(fix.p_e);
+    const Eigen::Vector3d lever_n =
+        QuaternionFromEuler(euler_.x(), euler_.y(), euler_.z()) *
+        fix.sensor->lever_arm_b;
+    position_e_ = fix.p_e - C_en * (lever_n + (fix.t - t_) * v_n_);
+    const double lever = fix.sensor->lever_arm_b.norm();
+    const double swing = lever * std::min(euler_sigma_.z(), 1.0) +
+                         std::abs(fix.t - t_) * v_sigma_.x();
+    // The fix itself is used again as a measurement: its own sigma would count
+    // it twice.
+    p_sigma_ = 3.0 * fix.R_n.diagonal().cwiseSqrt();
+    p_sigma_.array() += swing + 1.0;
+    if (given().position_sigma) p_sigma_ = *given().position_sigma;
+    report_.position = Words("position fix at t = %.2f s", fix.t);
+  }
+
+  Start Finish() {
+    Start start;
+    State x = MakeState(t_, GeodeticFromEcef(position_e_), v_n_, euler_);
+    x.b_g = b_g_;
+    x.b_a = given().accel_bias;
+    NavigationPrior prior;
+    prior.position_sigma = p_sigma_;
+    prior.velocity_sigma = v_sigma_;
+    prior.attitude_sigma = euler_sigma_;
+    prior.gyro_bias_sigma = b_g_sigma_;
+    prior.accel_bias_sigma = given().accel_bias_sigma.value_or(
+        Eigen::Vector3d::Constant(kDefaultAccelBiasSigma));
+    prior.gyro_bias = dataset_.imu.noise.GyroBiasEvolution();
+    prior.accel_bias = dataset_.imu.noise.AccelBiasEvolution();
+    start.layout = BuildLayout(dataset_, prior);
+    x.parameters = InitialParameters(start.layout);
+    start.prior.x = x;
+    start.prior.P = start.layout.InitialCovariance();
+    // Roll and pitch turn about axes that heading (and pitch) have turned.
+    Eigen::Matrix3d M;
+    const Eigen::Quaterniond heading =
+        QuaternionFromEuler(0.0, 0.0, euler_.z());
+    M.col(0) = QuaternionFromEuler(0.0, euler_.y(), euler_.z()) *
+               Eigen::Vector3d::UnitX();
+    M.col(1) = heading * Eigen::Vector3d::UnitY();
+    M.col(2) = Eigen::Vector3d::UnitZ();
+    const int offset = start.layout.Find(BlockKind::kAttitude)->offset;
+    start.prior.P.block(offset, offset, 3, 3) =
+        M * euler_sigma_.cwiseAbs2().asDiagonal() * M.transpose();
+    report_.t = t_;
+    report_.state = x;
+    report_.position_sigma = p_sigma_;
+    report_.velocity_sigma = v_sigma_;
+    report_.attitude_sigma = euler_sigma_;
+    start.report = report_;
+    return start;
+  }
+
+  ParameterVector InitialParameters(const ErrorLayout& layout) const {
+    ParameterVector parameters =
+        ParameterVector::Zero(layout.parameter_count());
+    for (const Block& block : layout.blocks()) {
+      if (block.key.sensor == BlockKey::kNoSensor) continue;
+      const Sensor& sensor =
+          dataset_.streams[static_cast<std::size_t>(block.key.sensor)].sensor;
+      const int offset = block.parameter_offset;
+      if (block.key.kind == BlockKind::kLeverArm) {
+        parameters.segment<3>(offset) = sensor.lever_arm_b;
+      } else if (block.key.kind == BlockKind::kTimeOffset) {
+        parameters(offset) = sensor.time_offset;
+      } else if (block.key.kind == BlockKind::kScale) {
+        parameters(offset) = sensor.scale;
+      }
+    }
+    return parameters;
+  }
+
+  const Dataset& dataset_;
+  double from_;
+  double to_;
+  std::vector<TimedFix> fixes_;
+  std::vector<TimedVelocity> velocities_;
+  std::vector<TimeInterval> rests_;
+  std::optional<TimeInterval> rest_;
+  double t_ = 0.0;
+  Eigen::Vector3d position_e_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_n_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d euler_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d b_g_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_sigma_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_sigma_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d euler_sigma_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d b_g_sigma_ = Eigen::Vector3d::Zero();
+  StartReport report_;
+};
+
+void AddCalibration(BlockKind kind, int sensor, const std::string& name,
+                    const char* unit, const Eigen::Vector3d& sigma,
+                    ErrorLayout* layout) {
+  Block block;
+  block.key = {kind, sensor};
+  block.name = name;
+  block.unit = unit;
+  block.evolution = Evolution::Constant();
+  block.sigma0 = sigma;
+  layout->Add(block);
+}
+
+}  // namespace
+
+ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior) {
+  ErrorLayout layout = NavigationLayout(prior);
+  for (std::size_t i = 0; i < dataset.streams.size(); ++i) {
+    const Sensor& sensor = dataset.streams[i].sensor;
+    const int index = static_cast<int>(i);
+    if (sensor.scale_sigma) {
+      AddCalibration(BlockKind::kScale, index, sensor.name + "_scale", "1",
+                     Eigen::Vector3d::Constant(*sensor.scale_sigma), &layout);
+    }
+    if (sensor.mounting_sigma) {
+      AddCalibration(BlockKind::kMounting, index, sensor.name + "_mounting",
+                     "rad", *sensor.mounting_sigma, &layout);
+    }
+    if (sensor.lever_arm_sigma) {
+      AddCalibration(BlockKind::kLeverArm, index, sensor.name + "_lever_arm",
+                     "m", *sensor.lever_arm_sigma, &layout);
+    }
+    if (sensor.time_offset_sigma) {
+      AddCalibration(
+          BlockKind::kTimeOffset, index, sensor.name + "_time_offset", "s",
+          Eigen::Vector3d::Constant(*sensor.time_offset_sigma), &layout);
+    }
+  }
+  return layout;
+}
+
+Start FindStart(const Dataset& dataset, double from, double to) {
+  return StartFinder(dataset, from, to).Find();
+}
+
+}  // namespace hindsight

@@ -1,0 +1,93 @@
+#include "dataset/timeline_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hindsight {
+namespace {
+
+constexpr double kSameTime = 1e-7;
+
+struct TimedMeasurement {
+  double t = 0.0;
+  const Measurement* z = nullptr;
+};
+
+std::vector<TimedMeasurement> MeasurementsInside(const Dataset& dataset,
+                                                 double t_begin, double t_end) {
+  std::vector<TimedMeasurement> out;
+  for (const AidingStream& stream : dataset.streams) {
+    for (const Measurement& z : stream.measurements) {
+      const double t = z.t + stream.sensor.time_offset;
+      if (t >= t_begin - kSameTime && t <= t_end + kSameTime) {
+        out.push_back({t, &z});
+      }
+    }
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const TimedMeasurement& a, const TimedMeasurement& b) {
+                     return a.t < b.t;
+                   });
+  return out;
+}
+
+/// The required times and, between them, equal steps of at most `spacing`.
+std::vector<double> NodeTimes(std::vector<double> required, double spacing) {
+  std::sort(required.begin(), required.end());
+  std::vector<double> times;
+  for (const double t : required) {
+    if (times.empty()) {
+      times.push_back(t);
+      continue;
+    }
+    const double from = times.back();
+    if (t - from <= kSameTime) continue;
+    const int steps =
+        std::max(1, static_cast<int>(std::ceil((t - from) / spacing - 1e-9)));
+    for (int i = 1; i < steps; ++i) {
+      times.push_back(from + (t - from) * i / steps);
+    }
+    times.push_back(t);
+  }
+  return times;
+}
+
+}  // namespace
+
+Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options) {
+  const std::vector<TimedMeasurement> timed =
+      MeasurementsInside(dataset, options.t_begin, options.t_end);
+  std::vector<double> required = {options.t_begin, options.t_end};
+  for (const TimedMeasurement& m : timed) {
+    required.push_back(std::clamp(m.t, options.t_begin, options.t_end));
+  }
+  for (const double t : options.extra_times) {
+    if (t >= options.t_begin && t <= options.t_end) required.push_back(t);
+  }
+  const std::vector<double> times =
+      NodeTimes(std::move(required), dataset.max_node_spacing);
+
+  std::vector<Node> nodes(times.size());
+  std::vector<Measurement> measurements;
+  measurements.reserve(timed.size());
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    nodes[k].t = times[k];
+    nodes[k].first_measurement = static_cast<int>(measurements.size());
+    while (next < timed.size() &&
+           (timed[next].t <= times[k] + kSameTime || k + 1 == times.size())) {
+      measurements.push_back(*timed[next++].z);
+    }
+    nodes[k].measurement_count =
+        static_cast<int>(measurements.size()) - nodes[k].first_measurement;
+  }
+  std::vector<Sensor> sensors;
+  for (const AidingStream& stream : dataset.streams) {
+    sensors.push_back(stream.sensor);
+  }
+  return Timeline(std::move(nodes), std::move(measurements), std::move(sensors),
+                  dataset.imu, options.with_scale_jacobians);
+}
+
+}  // namespace hindsight

@@ -1,0 +1,32 @@
+#ifndef HINDSIGHT_DATASET_TIMELINE_BUILDER_H_
+#define HINDSIGHT_DATASET_TIMELINE_BUILDER_H_
+
+#include <vector>
+
+#include "dataset/dataset.h"
+#include "measurements/timeline.h"
+
+namespace hindsight {
+
+struct TimelineOptions {
+  double t_begin = 0.0;             ///< first node [s]
+  double t_end = 0.0;               ///< last node [s]
+  std::vector<double> extra_times;  ///< further nodes, any order
+  bool with_scale_jacobians = false;
+};
+
+/// Turns a data set into nodes and measurements. A node stands at every time an
+/// aiding sensor measured (stamp + time offset: nothing is rounded to a
+/// neighbour; times within 0.1 us are one node), at every extra time, at both
+/// ends, and between these so often that no interval is longer than
+/// Dataset::max_node_spacing. `dataset.imu` must outlive the timeline.
+Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options);
+
+/// Finds standstill in the IMU data and, if Dataset::stationary asks for it,
+/// adds the streams "zero_velocity" and "zero_angular_rate" with a measurement
+/// a second over each standstill. Does nothing when they are there already.
+void AddStandstillStreams(Dataset* dataset);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_DATASET_TIMELINE_BUILDER_H_
