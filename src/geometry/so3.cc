@@ -15,8 +15,8 @@ Eigen::Quaterniond Exp(const Eigen::Vector3d& v) {
     const double s =
         0.5 * (1.0 - h2 / 6.0 * (1.0 - h2 / 20.0 * (1.0 - h2 / 42.0)));
     const double w =
-        1.0 - h2 / 2.0 *
-                  (1.0 - h2 / 12.0 * (1.0 - h2 / 30.0 * (1.0 - h2 / 56.0)));
+        1.0 -
+        h2 / 2.0 * (1.0 - h2 / 12.0 * (1.0 - h2 / 30.0 * (1.0 - h2 / 56.0)));
     return {w, s * v.x(), s * v.y(), s * v.z()};
   }
   const double angle = std::sqrt(angle2);

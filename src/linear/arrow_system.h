@@ -30,6 +30,11 @@ struct Deficiency {
 /// (Golub and Van Loan, Matrix Computations, 4.5; the selected inverse is
 /// Takahashi, Fagan and Chin 1973 on blocks).
 ///
+/// Accuracy: about 1e-16 / q of the solution and the covariances, where q is
+/// the smallest ratio of a link's variance to the variance of the unknown it
+/// links (1e-6 still leaves nine digits). What hardly changes along the chain
+/// belongs in the border.
+///
 /// Use: fill the blocks and the right side, Factor, then Solve and
 /// VisitMarginals any number of times, in any order. Calls out of this order
 /// throw std::logic_error. Memory: K (2 n + m + 1) (n + 1) doubles.

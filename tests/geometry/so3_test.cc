@@ -25,7 +25,7 @@ std::vector<Vector3d> RotationVectors() {
        {1e-12, 1e-8, 1e-6, 0.999e-3, 1.001e-3, 0.999e-2, 1.001e-2, 0.0999,
         0.1001, 0.5, 1.5, 3.0, kPi - 1e-6}) {
     for (int i = 0; i < 4; ++i) {
-      vectors.push_back(angle * random.NormalVector3().normalized());
+      vectors.emplace_back(angle * random.NormalVector3().normalized());
     }
   }
   return vectors;

@@ -169,6 +169,37 @@ TEST(ArrowSystem, HandComputedRandomWalkOfTwoNodes) {
   EXPECT_NEAR(covariance, 4.0 - 24.0 / 9.0, 1e-14);
 }
 
+// A random walk of step variance q observed at every node with unit variance,
+// against the scalar Kalman filter and RTS smoother, which do not cancel.
+TEST(ArrowSystem, AccuracyFollowsTheStiffnessOfTheLinks) {
+  constexpr int kNodes = 500;
+  for (const double q : {1e-3, 1e-6, 1e-9}) {
+    ArrowSystem system(kNodes, 1, 0);
+    std::vector<double> filtered;
+    std::vector<double> predicted;
+    for (int k = 0; k < kNodes; ++k) {
+      const bool first = k == 0;
+      const bool last = k + 1 == kNodes;
+      system.node(k)(0, 0) = 1.0 + (first || last ? 1.0 : 2.0) / q;
+      if (!last) system.coupling(k)(0, 0) = -1.0 / q;
+      predicted.push_back(first ? 0.0 : filtered.back() + q);
+      filtered.push_back(first ? 1.0
+                               : predicted.back() / (1.0 + predicted.back()));
+    }
+    EXPECT_TRUE(system.Factor().empty());
+    double smoothed = filtered.back();
+    system.VisitMarginals([&](const ArrowSystem::NodeMarginal& marginal) {
+      const auto k = static_cast<std::size_t>(marginal.node);
+      if (marginal.node + 1 < kNodes) {
+        const double gain = filtered[k] / predicted[k + 1];
+        smoothed = filtered[k] + gain * gain * (smoothed - predicted[k + 1]);
+      }
+      EXPECT_NEAR(marginal.covariance(0, 0) / smoothed, 1.0,
+                  10.0 * std::numeric_limits<double>::epsilon() / q);
+    });
+  }
+}
+
 TEST(ArrowSystem, UpperTrianglesAreNotRead) {
   const Shape shape{3, 3, 2};
   Random random(3);
