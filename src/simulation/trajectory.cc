@@ -59,12 +59,18 @@ void SegmentTrajectory::Step(double from, double to, Place* place) const {
   }
   if (d_w.isZero(0.0)) return;
   const Eigen::Vector3d d_e = place->q_ew * d_w;
-  // The level axes turn by v dt / R, 1e-8 rad a step: to first order exact.
-  place->p_e += d_e + 0.5 * LevelRotation(*place, d_e).cross(d_e);
+  // Mean of the level axes' turn over a step along the same direction.
+  const Eigen::Vector3d turn_e = LevelRotation(*place, d_e);
+  const Eigen::Vector3d sideways = turn_e.cross(d_e);
+  const Eigen::Vector3d step =
+      d_e + 0.5 * sideways + turn_e.cross(sideways) / 6.0 + place->p_e_rest;
+  const Eigen::Vector3d p_e = place->p_e + step;
+  place->p_e_rest = step - (p_e - place->p_e);
+  place->p_e = p_e;
   const Eigen::Vector3d down_before = place->q_ew * Eigen::Vector3d::UnitZ();
   Locate(place);
-  const Eigen::Vector3d turn = down_before.cross(place->C_en.col(2));
-  place->q_ew = (Exp(turn) * place->q_ew).normalized();
+  const Eigen::Vector3d tilt = down_before.cross(place->C_en.col(2));
+  place->q_ew = (Exp(tilt) * place->q_ew).normalized();
 }
 
 void SegmentTrajectory::Advance(double from, double to, Place* place) const {

@@ -59,6 +59,8 @@ class SegmentTrajectory : public Trajectory {
   /// Position and carried axes, with the local curvature of the ellipsoid.
   struct Place {
     Eigen::Vector3d p_e;
+    /// Rounding of p_e, carried so that it does not add up over a day.
+    Eigen::Vector3d p_e_rest = Eigen::Vector3d::Zero();
     Eigen::Quaterniond q_ew;
     Eigen::Matrix3d C_en;
     double meridian_radius = 0.0;    ///< at height [m]
