@@ -54,10 +54,12 @@ TEST(Interpolation, OfACircleStaysWithinTheRemainderOfTheCubic) {
   const TrajectoryInterpolator interpolator(table, 1.0);
   const double fourth = kRadius * std::pow(kRate, 4);  // |p''''| = |v'''|
   const double p_bound = std::pow(h, 4) / 384.0 * fourth + 1e-8;
-  // Slopes from three rows are off by h^2/6 |v'''|, of which the cubic passes
-  // on at most h/4; the rest is the remainder of the cubic itself.
-  const double v_bound = h * h * h / 24.0 * fourth +
-                         std::pow(h, 4) / 384.0 * fourth * kRate + 1e-10;
+  // Slopes from three rows are off by h^2/6 times the third derivative, nearly
+  // the same at both ends, of which the cubic passes on h u (1 - u)(1 - 2 u);
+  // what they differ by and the remainder of the cubic are below h^4/24 times
+  // the fourth.
+  const double v_bound = std::pow(h, 3) / (36.0 * std::sqrt(3.0)) * fourth +
+                         std::pow(h, 4) / 24.0 * fourth * kRate;
   double p_worst = 0.0;
   double v_worst = 0.0;
   for (double t = h; t <= 19.5; t += 0.037) {
