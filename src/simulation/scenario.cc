@@ -90,6 +90,8 @@ Dataset MakeDataset(const Scenario& scenario,
   dataset.name = scenario.name;
   dataset.imu.kind = scenario.imu_kind;
   dataset.imu.noise = scenario.imu.noise;
+  dataset.imu.max_gap =
+      std::max(dataset.imu.max_gap, 1.5 / scenario.imu_rate_hz);
   for (std::size_t k = 0; k < scenario.aiding.size(); ++k) {
     AddMeasurementErrors(scenario.aiding[k], seed, &perfect[k]);
     dataset.streams.push_back(

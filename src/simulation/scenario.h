@@ -61,6 +61,7 @@ class Simulation {
   Simulation(const Scenario& scenario, std::uint64_t seed);
 
   std::size_t sample_count() const { return imu_.size(); }
+  ImuStream::Kind imu_kind() const { return scenario_.imu_kind; }
   /// The next measured sample, or false after the last.
   bool Next(ImuSample* sample);
   /// The data set without IMU samples: truth up to the last sample taken,

@@ -1,0 +1,217 @@
+#include "io/dataset_config.h"
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "io/number_format.h"
+
+namespace hindsight {
+namespace {
+
+constexpr int kDigits = 12;
+constexpr double kMilliG = 1e-3 * kStandardGravity;
+
+/// A unit as it is written and its size in SI.
+struct Unit {
+  const char* name;
+  double si = 1.0;
+};
+constexpr Unit kMetres{"m"};
+constexpr Unit kSeconds{"s"};
+constexpr Unit kMetresPerSecond{"m/s"};
+constexpr Unit kDegrees{"deg", kDegree};
+constexpr Unit kDegreesPerHour{"deg/h", kDegree / kHour};
+constexpr Unit kMilliGs{"mg", kMilliG};
+
+/// Builds block-style YAML, two blanks a level.
+class YamlText {
+ public:
+  void Open(const std::string& key) {
+    Line(key + ":");
+    ++level_;
+  }
+  void Close() { --level_; }
+  void Text(const std::string& key, const std::string& value) {
+    Line(key + ": " + value);
+  }
+  void Number(const std::string& key, double value, const Unit& unit) {
+    Text(key, FormatGeneral(value / unit.si, kDigits) + " " + unit.name);
+  }
+  void Vector(const std::string& key, const Eigen::Vector3d& value,
+              const Unit& unit) {
+    std::string list = "[";
+    for (int i = 0; i < 3; ++i) {
+      list += (i > 0 ? ", " : "") + FormatGeneral(value(i) / unit.si, kDigits) +
+              " " + unit.name;
+    }
+    Text(key, list + "]");
+  }
+  void Vector(const std::string& key,
+              const std::optional<Eigen::Vector3d>& value, const Unit& unit) {
+    if (value) Vector(key, *value, unit);
+  }
+  void Line(const std::string& line) {
+    text_.append(static_cast<std::size_t>(2 * level_), ' ');
+    text_ += line + "\n";
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+  int level_ = 0;
+};
+
+void AppendNoise(const ImuNoise& noise, YamlText* yaml) {
+  yaml->Open("noise");
+  yaml->Number("gyro", noise.gyro_noise_density,
+               {"deg/sqrt(h)", kDegreePerSqrtHour});
+  yaml->Number("accel", noise.accel_noise_density, {"m/s/sqrt(h)", 1.0 / 60.0});
+  const auto bias = [&](const std::string& sensor, double walk, double tau,
+                        const Unit& walk_unit, const Unit& bias_unit) {
+    if (walk <= 0.0) return;
+    if (std::isfinite(tau)) {
+      yaml->Number(sensor + "_bias_sigma", walk * std::sqrt(0.5 * tau),
+                   bias_unit);
+      yaml->Number(sensor + "_bias_tau", tau, kSeconds);
+    } else {
+      yaml->Number(sensor + "_bias_walk", walk, walk_unit);
+    }
+  };
+  bias("gyro", noise.gyro_bias_walk, noise.gyro_bias_tau, {"rad/s/sqrt(s)"},
+       kDegreesPerHour);
+  bias("accel", noise.accel_bias_walk, noise.accel_bias_tau, {"m/s^2/sqrt(s)"},
+       kMilliGs);
+  if (noise.gyro_noise_per_rate > 0.0) {
+    yaml->Number("gyro_per_rate", noise.gyro_noise_per_rate, {"sqrt(s)"});
+  }
+  yaml->Close();
+}
+
+const char* TypeName(const Sensor& sensor) {
+  switch (sensor.type) {
+    case SensorType::kPosition:
+      return "position";
+    case SensorType::kVelocity:
+      return "velocity";
+    case SensorType::kHeight:
+      return "height";
+    default:
+      throw InputError("aiding stream '" + sensor.name +
+                       "' is neither position, velocity nor height");
+  }
+}
+
+void AppendSensor(const Sensor& sensor, YamlText* yaml) {
+  yaml->Open(sensor.name);
+  yaml->Text("type", TypeName(sensor));
+  yaml->Text("file", sensor.name + ".csv");
+  if (!sensor.lever_arm_b.isZero(0.0)) {
+    yaml->Vector("lever_arm", sensor.lever_arm_b, kMetres);
+  }
+  if (sensor.time_offset != 0.0) {
+    yaml->Number("time_offset", sensor.time_offset, kSeconds);
+  }
+  if (sensor.gate_probability) {
+    yaml->Text("gate", FormatGeneral(*sensor.gate_probability, kDigits));
+  }
+  if (sensor.lever_arm_sigma || sensor.time_offset_sigma) {
+    yaml->Open("estimate");
+    yaml->Vector("lever_arm", sensor.lever_arm_sigma, kMetres);
+    if (sensor.time_offset_sigma) {
+      yaml->Number("time_offset", *sensor.time_offset_sigma, kSeconds);
+    }
+    yaml->Close();
+  }
+  yaml->Close();
+}
+
+void AppendInitial(const InitialState& initial, YamlText* yaml) {
+  yaml->Open("initial");
+  if (initial.t) yaml->Number("time", *initial.t, kSeconds);
+  if (initial.position) {
+    yaml->Text("position",
+               "[" + FormatGeneral(initial.position->latitude / kDegree, 16) +
+                   " deg, " +
+                   FormatGeneral(initial.position->longitude / kDegree, 16) +
+                   " deg, " + FormatGeneral(initial.position->height, kDigits) +
+                   " m]");
+  }
+  yaml->Vector("velocity", initial.v_n, kMetresPerSecond);
+  yaml->Vector("attitude", initial.euler, kDegrees);
+  if (initial.heading) yaml->Number("heading", *initial.heading, kDegrees);
+  yaml->Vector("gyro_bias", initial.gyro_bias, kDegreesPerHour);
+  yaml->Vector("accel_bias", initial.accel_bias, kMilliGs);
+  yaml->Vector("position_sigma", initial.position_sigma, kMetres);
+  yaml->Vector("velocity_sigma", initial.velocity_sigma, kMetresPerSecond);
+  yaml->Vector("attitude_sigma", initial.attitude_sigma, kDegrees);
+  yaml->Vector("gyro_bias_sigma", initial.gyro_bias_sigma, kDegreesPerHour);
+  yaml->Vector("accel_bias_sigma", initial.accel_bias_sigma, kMilliGs);
+  yaml->Close();
+}
+
+void AppendStationary(const StationaryOptions& options, YamlText* yaml) {
+  if (!options.enabled) return;
+  yaml->Open("stationary");
+  yaml->Number("window", options.window, kSeconds);
+  yaml->Number("gyro_threshold", options.gyro_threshold, {"rad/s"});
+  yaml->Number("accel_threshold", options.accel_threshold, {"m/s^2"});
+  yaml->Number("velocity_sigma", options.velocity_sigma, kMetresPerSecond);
+  yaml->Number("rate_sigma", options.rate_sigma, {"rad/s"});
+  yaml->Close();
+}
+
+void AppendWithholdings(const std::vector<Withholding>& withholdings,
+                        YamlText* yaml) {
+  if (withholdings.empty()) return;
+  yaml->Open("withhold");
+  for (const Withholding& w : withholdings) {
+    std::string line = "- {sensor: " + w.sensor +
+                       ", every: " + FormatGeneral(w.every, kDigits) +
+                       " s, length: " + FormatGeneral(w.length, kDigits) + " s";
+    if (w.from) line += ", from: " + FormatGeneral(*w.from, kDigits) + " s";
+    yaml->Line(line + "}");
+  }
+  yaml->Close();
+}
+
+}  // namespace
+
+std::string DatasetConfigYaml(const Dataset& dataset) {
+  YamlText yaml;
+  yaml.Line("# Simulated recording; truth.csv is exact.");
+  yaml.Text("name", dataset.name);
+  yaml.Open("imu");
+  yaml.Text("file", "imu.csv");
+  yaml.Text("kind", dataset.imu.kind == ImuStream::Kind::kRates ? "rates"
+                                                                : "increments");
+  yaml.Number("max_gap", dataset.imu.max_gap, kSeconds);
+  AppendNoise(dataset.imu.noise, &yaml);
+  yaml.Close();
+  if (!dataset.streams.empty()) {
+    yaml.Open("aiding");
+    for (const AidingStream& stream : dataset.streams) {
+      AppendSensor(stream.sensor, &yaml);
+    }
+    yaml.Close();
+  }
+  AppendInitial(dataset.initial, &yaml);
+  AppendStationary(dataset.stationary, &yaml);
+  if (!dataset.truth.empty()) {
+    yaml.Open("truth");
+    yaml.Text("file", "truth.csv");
+    if (!dataset.truth_lever_arm_b.isZero(0.0)) {
+      yaml.Vector("lever_arm", dataset.truth_lever_arm_b, kMetres);
+    }
+    yaml.Close();
+  }
+  AppendWithholdings(dataset.withholdings, &yaml);
+  yaml.Open("nodes");
+  yaml.Number("max_spacing", dataset.max_node_spacing, kSeconds);
+  yaml.Close();
+  return yaml.text();
+}
+
+}  // namespace hindsight

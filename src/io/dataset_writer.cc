@@ -1,0 +1,247 @@
+#include "io/dataset_writer.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "io/atomic_file.h"
+#include "io/dataset_config.h"
+#include "io/number_format.h"
+#include "io/solution_columns.h"
+
+namespace hindsight {
+namespace {
+
+constexpr int kImuDigits = 12;
+constexpr int kSigmaDigits = 12;
+
+/// Fills the next sample and returns true, or returns false after the last.
+using SampleSource = std::function<bool(ImuSample*)>;
+
+std::string PathIn(const std::string& folder, const std::string& name) {
+  return (std::filesystem::path(folder) / name).string();
+}
+
+void MakeFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw InputError(folder + ": the folder cannot be made (" +
+                     error.message() + ")");
+  }
+}
+
+/// One line of a CSV file, built value by value.
+class Row {
+ public:
+  void Add(const SolutionColumn& column, double value) {
+    Separate();
+    if (column.digits < 0) {
+      AppendGeneral(value / column.si, -column.digits, &text_);
+    } else {
+      AppendFixed(value / column.si, column.digits, &text_);
+    }
+  }
+  void AddGeneral(double value, int digits) {
+    Separate();
+    AppendGeneral(value, digits, &text_);
+  }
+  void AddShortest(double value) {
+    Separate();
+    AppendShortest(value, &text_);
+  }
+  void AddGroup(ColumnGroup group, const Eigen::Vector3d& values) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      Add(Columns(group)[i], values(static_cast<Eigen::Index>(i)));
+    }
+  }
+  void EndTo(AtomicFile* file) {
+    text_ += '\n';
+    file->Write(text_);
+    text_.clear();
+  }
+
+ private:
+  void Separate() {
+    if (!text_.empty()) text_ += ',';
+  }
+  std::string text_;
+};
+
+std::string GroupHeading(ColumnGroup group) {
+  std::string text;
+  for (const SolutionColumn& column : Columns(group)) {
+    text += "," + column.Heading();
+  }
+  return text;
+}
+
+void WriteImu(const std::string& path, ImuStream::Kind kind,
+              const SampleSource& next) {
+  AtomicFile file(path);
+  file.Write(kind == ImuStream::Kind::kRates
+                 ? "t[s],gyro_x[rad/s],gyro_y[rad/s],gyro_z[rad/s],"
+                   "accel_x[m/s^2],accel_y[m/s^2],accel_z[m/s^2]\n"
+                 : "t[s],dtheta_x[rad],dtheta_y[rad],dtheta_z[rad],"
+                   "dvel_x[m/s],dvel_y[m/s],dvel_z[m/s]\n");
+  Row row;
+  for (ImuSample sample; next(&sample);) {
+    row.AddShortest(sample.t);
+    for (const double value : sample.gyro) row.AddGeneral(value, kImuDigits);
+    for (const double value : sample.accel) row.AddGeneral(value, kImuDigits);
+    row.EndTo(&file);
+  }
+  file.Commit();
+}
+
+Eigen::Vector3d PositionValues(const Eigen::Vector3d& p_e) {
+  const Geodetic g = GeodeticFromEcef(p_e);
+  return {g.latitude, g.longitude, g.height};
+}
+
+Eigen::Vector3d SigmaOf(const Eigen::Matrix3d& R_n, const std::string& name) {
+  if (!R_n.isDiagonal(0.0)) {
+    throw InputError("aiding stream '" + name +
+                     "': correlated errors cannot be written as CSV");
+  }
+  return R_n.diagonal().cwiseSqrt();
+}
+
+const char* AidingHeading(SensorType type) {
+  switch (type) {
+    case SensorType::kPosition:
+      return ",sigma_n[m],sigma_e[m],sigma_d[m]\n";
+    case SensorType::kVelocity:
+      return ",sigma_v_n[m/s],sigma_v_e[m/s],sigma_v_d[m/s]\n";
+    default:
+      return ",h[m],sigma_h[m]\n";
+  }
+}
+
+void AddAidingValues(const AidingStream& stream, const Measurement& z,
+                     Row* row) {
+  const std::string& name = stream.sensor.name;
+  Eigen::Vector3d sigma = Eigen::Vector3d::Zero();
+  if (const auto* fix = std::get_if<PositionFix>(&z.model)) {
+    row->AddGroup(ColumnGroup::kPosition, PositionValues(fix->p_e));
+    sigma = SigmaOf(fix->R_n, name);
+  } else if (const auto* velocity = std::get_if<VelocityFix>(&z.model)) {
+    row->AddGroup(ColumnGroup::kVelocity, velocity->v_n);
+    sigma = SigmaOf(velocity->R_n, name);
+  } else if (const auto* height = std::get_if<HeightFix>(&z.model)) {
+    row->Add(Columns(ColumnGroup::kPosition)[2], height->height);
+    row->AddGeneral(height->sigma, kSigmaDigits);
+    return;
+  } else {
+    throw InputError("aiding stream '" + name +
+                     "' is neither position, velocity nor height");
+  }
+  for (const double value : sigma) row->AddGeneral(value, kSigmaDigits);
+}
+
+void WriteAiding(const std::string& path, const AidingStream& stream) {
+  AtomicFile file(path);
+  std::string heading = "t[s]";
+  if (stream.sensor.type == SensorType::kPosition) {
+    heading += GroupHeading(ColumnGroup::kPosition);
+  } else if (stream.sensor.type == SensorType::kVelocity) {
+    heading += GroupHeading(ColumnGroup::kVelocity);
+  }
+  file.Write(heading + AidingHeading(stream.sensor.type));
+  Row row;
+  for (const Measurement& z : stream.measurements) {
+    row.AddShortest(z.t);
+    AddAidingValues(stream, z, &row);
+    row.EndTo(&file);
+  }
+  file.Commit();
+}
+
+/// Quantities that every point of a truth has.
+struct TruthColumns {
+  bool position = true;
+  bool velocity = true;
+  bool attitude = true;
+  bool biases = true;
+};
+
+TruthColumns CommonColumns(const std::vector<TruthPoint>& truth) {
+  TruthColumns has;
+  for (const TruthPoint& point : truth) {
+    has.position = has.position && point.p_e;
+    has.velocity = has.velocity && point.v_n;
+    has.attitude = has.attitude && point.q_nb;
+    has.biases = has.biases && point.b_g && point.b_a;
+  }
+  return has;
+}
+
+void WriteTruth(const std::string& path, const std::vector<TruthPoint>& truth) {
+  const TruthColumns has = CommonColumns(truth);
+  AtomicFile file(path);
+  std::string heading = "t[s]";
+  if (has.position) heading += GroupHeading(ColumnGroup::kPosition);
+  if (has.velocity) heading += GroupHeading(ColumnGroup::kVelocity);
+  if (has.attitude) heading += GroupHeading(ColumnGroup::kAttitude);
+  if (has.biases) {
+    heading += GroupHeading(ColumnGroup::kGyroBias);
+    heading += GroupHeading(ColumnGroup::kAccelBias);
+  }
+  file.Write(heading + "\n");
+  Row row;
+  for (const TruthPoint& p : truth) {
+    row.AddShortest(p.t);
+    if (has.position) {
+      row.AddGroup(ColumnGroup::kPosition, PositionValues(*p.p_e));
+    }
+    if (has.velocity) row.AddGroup(ColumnGroup::kVelocity, *p.v_n);
+    if (has.attitude) {
+      row.AddGroup(ColumnGroup::kAttitude, EulerFromQuaternion(*p.q_nb));
+    }
+    if (has.biases) {
+      row.AddGroup(ColumnGroup::kGyroBias, *p.b_g);
+      row.AddGroup(ColumnGroup::kAccelBias, *p.b_a);
+    }
+    row.EndTo(&file);
+  }
+  file.Commit();
+}
+
+/// All files but the IMU's.
+void WriteBesidesImu(const Dataset& dataset, const std::string& folder) {
+  for (const AidingStream& stream : dataset.streams) {
+    WriteAiding(PathIn(folder, stream.sensor.name + ".csv"), stream);
+  }
+  if (!dataset.truth.empty()) {
+    WriteTruth(PathIn(folder, "truth.csv"), dataset.truth);
+  }
+  WriteFileAtomically(PathIn(folder, kDatasetConfigName),
+                      DatasetConfigYaml(dataset));
+}
+
+}  // namespace
+
+void WriteDataset(const Dataset& dataset, const std::string& folder) {
+  MakeFolder(folder);
+  std::size_t k = 0;
+  WriteImu(PathIn(folder, "imu.csv"), dataset.imu.kind, [&](ImuSample* sample) {
+    if (k == dataset.imu.samples.size()) return false;
+    *sample = dataset.imu.samples[k++];
+    return true;
+  });
+  WriteBesidesImu(dataset, folder);
+}
+
+void WriteDataset(Simulation* simulation, const std::string& folder) {
+  MakeFolder(folder);
+  WriteImu(PathIn(folder, "imu.csv"), simulation->imu_kind(),
+           [&](ImuSample* sample) { return simulation->Next(sample); });
+  WriteBesidesImu(simulation->Finish(), folder);
+}
+
+}  // namespace hindsight
