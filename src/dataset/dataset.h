@@ -62,7 +62,8 @@ struct Withholding {
   std::string sensor;    ///< stream name, or a type: "position", "velocity"...
   double every = 0.0;    ///< start to start [s]
   double length = 0.0;   ///< [s]
-  std::optional<double> from;  ///< first start; default: first fix + every
+  /// First start, counted from the first fix the IMU covers [s]; default: every.
+  std::optional<double> from;
 };
 
 /// An interval in which a sensor was withheld.

@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "dataset/dataset.h"
+
+namespace hindsight {
+namespace {
+
+const char* TypeName(SensorType type) {
+  switch (type) {
+    case SensorType::kPosition:
+      return "position";
+    case SensorType::kVelocity:
+      return "velocity";
+    case SensorType::kHeight:
+      return "height";
+    case SensorType::kZeroVelocity:
+      return "zero_velocity";
+    case SensorType::kZeroAngularRate:
+      return "zero_angular_rate";
+    case SensorType::kOdometer:
+      return "odometer";
+    case SensorType::kNonHolonomic:
+      return "non_holonomic";
+    case SensorType::kSpeedCourse:
+      return "speed_course";
+    case SensorType::kDvl:
+      return "dvl";
+    case SensorType::kMagnetometer:
+      return "magnetometer";
+  }
+  return "";
+}
+
+void Withhold(const Withholding& withholding, const Dataset& dataset, int index,
+              AidingStream* stream, std::vector<Outage>* outages) {
+  const double offset = stream->sensor.time_offset;
+  auto& measurements = stream->measurements;
+  // Fixes beyond the IMU's record are predicted by nobody.
+  const auto usable = [&](const Measurement& z) {
+    const double t = z.t + offset;
+    return dataset.imu.empty() ||
+           (t >= dataset.imu.t_begin() && t <= dataset.imu.t_end());
+  };
+  const auto first =
+      std::find_if(measurements.begin(), measurements.end(), usable);
+  const auto last =
+      std::find_if(measurements.rbegin(), measurements.rend(), usable);
+  if (first == measurements.end()) return;
+  const double first_fix = first->t + offset;
+  const double last_fix = last->t + offset;
+  const double start = first_fix + withholding.from.value_or(withholding.every);
+  auto z = first;
+  for (int k = 0;; ++k) {
+    const Outage outage{index, start + k * withholding.every,
+                        start + k * withholding.every + withholding.length};
+    if (outage.t_end > last_fix) return;
+    while (z != measurements.end() && z->t + offset < outage.t_begin) ++z;
+    for (; z != measurements.end() && z->t + offset < outage.t_end; ++z) {
+      z->withheld = true;
+    }
+    outages->push_back(outage);
+  }
+}
+
+}  // namespace
+
+void ApplyWithholding(Dataset* dataset) {
+  dataset->outages.clear();
+  for (AidingStream& stream : dataset->streams) {
+    for (Measurement& z : stream.measurements) z.withheld = false;
+  }
+  for (const Withholding& withholding : dataset->withholdings) {
+    bool found = false;
+    for (std::size_t i = 0; i < dataset->streams.size(); ++i) {
+      AidingStream& stream = dataset->streams[i];
+      if (withholding.sensor != stream.sensor.name &&
+          withholding.sensor != TypeName(stream.sensor.type)) {
+        continue;
+      }
+      found = true;
+      Withhold(withholding, *dataset, static_cast<int>(i), &stream,
+               &dataset->outages);
+    }
+    if (found) continue;
+    std::string known;
+    for (const AidingStream& stream : dataset->streams) {
+      known += (known.empty() ? "" : ", ") + stream.sensor.name;
+    }
+    throw InputError("'" + withholding.sensor +
+                     "' is no aiding stream to withhold; expected a type or "
+                     "one of " +
+                     (known.empty() ? "none: there is no aiding" : known));
+  }
+}
+
+}  // namespace hindsight

@@ -1,0 +1,227 @@
+#include "io/config.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "base/error.h"
+#include "io/atomic_file.h"
+#include "io/config_streams.h"
+
+namespace hindsight {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path FindFolder(ConfigMap* top, const LoadOptions& options) {
+  const fs::path folder = top->Text("folder", ".");
+  const fs::path beside = fs::path(top->file()).parent_path() / folder;
+  const fs::path below_root = fs::path(options.data_root) / folder;
+  for (const fs::path& candidate : {beside, below_root}) {
+    if (!fs::is_directory(candidate)) continue;
+    top->Resolve("folder", fs::absolute(candidate).lexically_normal().string());
+    return candidate;
+  }
+  top->Fail("folder", "there is no folder " +
+                          beside.lexically_normal().string() + " and no " +
+                          below_root.lexically_normal().string() +
+                          " (the data root is set by --data-root)");
+}
+
+std::optional<std::int64_t> ReadEpoch(ConfigMap* top) {
+  const auto text = top->OptionalText("epoch");
+  if (!text) return std::nullopt;
+  const auto stamp = ParseDateTime(*text);
+  if (!stamp) {
+    top->Fail("epoch", "'" + *text +
+                           "' is not a date; expected yyyy-mm-dd hh:mm:ss "
+                           "GPST or UTC");
+  }
+  return Nanoseconds(*stamp);
+}
+
+/// Everything the YAML file says, before any data file is read.
+struct Declared {
+  StreamSource imu;
+  ImuReadOptions imu_options;
+  std::vector<AidingConfig> aiding;
+  std::optional<StreamSource> truth;
+  TruthReadOptions truth_options;
+};
+
+void ReadImuConfig(ConfigMap* top, const fs::path& folder, Declared* declared,
+                   Dataset* dataset) {
+  if (!top->Has("imu")) top->Fail("imu", "is missing");
+  ConfigMap map = top->Map("imu");
+  declared->imu = ReadStreamSource(&map, folder, ImuFields());
+  ImuReadOptions& options = declared->imu_options;
+  if (map.Has("kind")) {
+    options.kind = map.Choice("kind", {"rates", "increments"}, 0) == 0
+                       ? ImuStream::Kind::kRates
+                       : ImuStream::Kind::kIncrements;
+  }
+  options.C_bs = ReadMounting(&map);
+  options.stamp_at_start = map.Choice("stamp", {"end", "start"}, 0) == 1;
+  declared->imu.clock.offset = map.Number("time_offset", Quantity::kTime, 0.0);
+  options.max_gap = map.Positive("max_gap", Quantity::kTime, options.max_gap);
+  dataset->imu.noise = ReadImuNoise(&map);
+  map.Finish();
+}
+
+void ReadTruthConfig(ConfigMap* top, const fs::path& folder, Declared* declared,
+                     Dataset* dataset) {
+  if (!top->Has("truth")) return;
+  ConfigMap map = top->Map("truth");
+  declared->truth = ReadStreamSource(&map, folder, TruthFields());
+  declared->truth->clock.offset =
+      map.Number("time_offset", Quantity::kTime, 0.0);
+  dataset->truth_lever_arm_b =
+      map.Vector("lever_arm", Quantity::kLength, Eigen::Vector3d::Zero());
+  declared->truth_options.absent_values = map.Flag("absent_values", false);
+  map.Finish();
+}
+
+Declared ReadDeclarations(ConfigMap* top, const LoadOptions& options,
+                          Dataset* dataset) {
+  Declared declared;
+  dataset->name = top->Text("name", fs::path(top->file()).stem().string());
+  const fs::path folder = FindFolder(top, options);
+  dataset->epoch_gps_ns = ReadEpoch(top);
+  ReadImuConfig(top, folder, &declared, dataset);
+  ConfigMap aiding = top->Map("aiding");
+  for (auto& [name, map] : aiding.NamedMaps()) {
+    declared.aiding.push_back(ReadAidingConfig(name, &map, folder));
+    declared.aiding.back().options.sensor =
+        static_cast<int>(declared.aiding.size()) - 1;
+  }
+  dataset->initial = ReadInitialState(top);
+  dataset->stationary = ReadStationary(top);
+  ReadTruthConfig(top, folder, &declared, dataset);
+  dataset->withholdings = ReadWithholdings(top);
+  ConfigMap nodes = top->Map("nodes");
+  dataset->max_node_spacing =
+      nodes.Positive("max_spacing", Quantity::kTime, dataset->max_node_spacing);
+  nodes.Finish();
+  top->Finish();
+  return declared;
+}
+
+std::string Span(double begin, double end) {
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.3f to %.3f s", begin, end);
+  return text;
+}
+
+void RequireOverlap(const StreamSource& source, const ImuStream& imu,
+                    double begin, double end) {
+  if (begin <= imu.t_end() && end >= imu.t_begin()) return;
+  throw InputError(source.config_path, source.config_line,
+                   source.name + " (" + source.path + ") covers " +
+                       Span(begin, end) + " and the IMU " +
+                       Span(imu.t_begin(), imu.t_end()) +
+                       ": expected streams that overlap");
+}
+
+void LoadImu(const Declared& declared, ConfigMap* top, Dataset* dataset) {
+  StreamClock clock;
+  const ImuNoise noise = dataset->imu.noise;
+  dataset->imu =
+      ReadImu(declared.imu, declared.imu_options, &clock, &dataset->policies);
+  dataset->imu.noise = noise;
+  top->resolved()["imu"]["kind"] =
+      dataset->imu.kind == ImuStream::Kind::kRates ? "rates" : "increments";
+  if (!dataset->epoch_gps_ns) {
+    if (const auto first = FirstGpsTime(declared.imu, clock)) {
+      constexpr std::int64_t kSecond = 1'000'000'000;
+      dataset->epoch_gps_ns = Nanoseconds(*first) / kSecond * kSecond;
+    }
+  }
+  if (dataset->epoch_gps_ns) {
+    top->Resolve("epoch", FormatGpsTime(*dataset->epoch_gps_ns));
+  }
+  const TimeLine line = MapClock(declared.imu, clock, dataset->epoch_gps_ns);
+  for (ImuSample& sample : dataset->imu.samples) sample.t = line(sample.t);
+}
+
+void LoadAiding(const AidingConfig& config, Dataset* dataset) {
+  StreamClock clock;
+  AidingStream stream;
+  stream.sensor = config.sensor;
+  stream.measurements =
+      ReadAiding(config.source, config.options, &clock, &dataset->policies);
+  const TimeLine line = MapClock(config.source, clock, dataset->epoch_gps_ns);
+  for (Measurement& z : stream.measurements) z.t = line(z.t);
+  const double offset = config.sensor.time_offset;
+  RequireOverlap(config.source, dataset->imu,
+                 stream.measurements.front().t + offset,
+                 stream.measurements.back().t + offset);
+  dataset->streams.push_back(std::move(stream));
+}
+
+void LoadTruth(const Declared& declared, Dataset* dataset) {
+  if (!declared.truth) return;
+  StreamClock clock;
+  dataset->truth = ReadTruth(*declared.truth, declared.truth_options, &clock,
+                             &dataset->policies);
+  const TimeLine line = MapClock(*declared.truth, clock, dataset->epoch_gps_ns);
+  for (TruthPoint& point : dataset->truth) point.t = line(point.t);
+  RequireOverlap(*declared.truth, dataset->imu, dataset->truth.front().t,
+                 dataset->truth.back().t);
+}
+
+std::string Emit(const YAML::Node& node) {
+  YAML::Emitter emitter;
+  emitter << node;
+  return std::string(emitter.c_str()) + "\n";
+}
+
+}  // namespace
+
+Dataset LoadDataset(const std::string& config_path, const LoadOptions& options,
+                    ResolvedConfig* resolved) {
+  ConfigMap top = ConfigMap::Load(config_path);
+  Dataset dataset;
+  const Declared declared = ReadDeclarations(&top, options, &dataset);
+  LoadImu(declared, &top, &dataset);
+  for (const AidingConfig& config : declared.aiding) {
+    LoadAiding(config, &dataset);
+  }
+  LoadTruth(declared, &dataset);
+  try {
+    ApplyWithholding(&dataset);
+  } catch (const InputError& error) {
+    top.Fail("withhold", error.what());
+  }
+  if (resolved != nullptr) resolved->yaml = Emit(top.resolved());
+  return dataset;
+}
+
+void SetWithholdings(const std::vector<Withholding>& withholdings,
+                     ResolvedConfig* resolved) {
+  YAML::Node top = YAML::Load(resolved->yaml);
+  YAML::Node list(YAML::NodeType::Sequence);
+  for (const Withholding& withholding : withholdings) {
+    YAML::Node entry;
+    entry["sensor"] = withholding.sensor;
+    entry["every"] = FormatNumber(withholding.every) + " s";
+    entry["length"] = FormatNumber(withholding.length) + " s";
+    if (withholding.from) {
+      entry["from"] = FormatNumber(*withholding.from) + " s";
+    }
+    list.push_back(entry);
+  }
+  top["withhold"] = list;
+  resolved->yaml = Emit(top);
+}
+
+void WriteResolvedConfig(const ResolvedConfig& resolved,
+                         const std::string& path) {
+  WriteFileAtomically(
+      path,
+      "# What was used, in SI units, defaults included.\n" + resolved.yaml);
+}
+
+}  // namespace hindsight

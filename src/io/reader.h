@@ -1,0 +1,121 @@
+#ifndef HINDSIGHT_IO_READER_H_
+#define HINDSIGHT_IO_READER_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "dataset/dataset.h"
+#include "io/text_format.h"
+#include "io/time_scale.h"
+
+namespace hindsight {
+
+/// How the stamps of a file become seconds since the data set's epoch.
+struct ClockMap {
+  enum class Scale {
+    kDataset,  ///< seconds since the epoch as they stand
+    kGps,      ///< since 1980-01-06, GPS time
+    kUnix,     ///< since 1970, UTC without leap seconds
+  };
+  Scale scale = Scale::kDataset;
+  std::optional<int> week;  ///< stamps are seconds of this GPS week
+  /// The first row is at this time, the others as far behind it as their
+  /// stamps say.
+  std::optional<Stamp> start_date;  ///< GPS time since 1980-01-06
+  std::optional<double> start;      ///< since the epoch [s]
+  /// The last row lies this much behind the first; stamps in between are
+  /// stretched linearly [s].
+  std::optional<double> duration;
+  std::optional<double> rate;  ///< stamps are row number / rate [Hz]
+  double offset = 0.0;         ///< added at last [s]
+};
+
+enum class DuplicatePolicy { kError, kDropFirst, kDropLast };
+
+/// One file as the configuration declares it.
+struct StreamSource {
+  std::string name;  ///< key in the configuration, for messages and counts
+  std::string path;
+  TextFormat format;
+  ClockMap clock;
+  DuplicatePolicy on_duplicate = DuplicatePolicy::kError;
+  bool allow_truncated_tail = false;
+  std::string config_path;
+  long config_line = 0;
+};
+
+/// Stamps of a stream just read: rows carry the time since `first`.
+struct StreamClock {
+  Stamp first;
+  bool dated = false;  ///< `first` is GPS time since 1980-01-06
+  double last = 0.0;   ///< of the last row since `first` [s]
+};
+
+/// t = offset + scale (time since the first row).
+struct TimeLine {
+  double offset = 0.0;
+  double scale = 1.0;
+  double operator()(double since_first) const {
+    return offset + scale * since_first;
+  }
+};
+
+/// Throws InputError if the stream is dated and the data set is not.
+TimeLine MapClock(const StreamSource& source, const StreamClock& clock,
+                  std::optional<std::int64_t> epoch_gps_ns);
+
+/// GPS time of the first row, if the stream knows it.
+std::optional<Stamp> FirstGpsTime(const StreamSource& source,
+                                  const StreamClock& clock);
+
+struct ImuReadOptions {
+  Eigen::Matrix3d C_bs = Eigen::Matrix3d::Identity();  ///< sensor to body
+  std::optional<ImuStream::Kind> kind;  ///< absent: as the columns say
+  bool stamp_at_start = false;          ///< of increments
+  double max_gap = 0.5;                 ///< [s]
+};
+
+/// Reads an IMU file; the samples' times are since the first row. Throws
+/// InputError for everything that makes a record unusable: see TextTable, and
+/// stamps that run backwards or repeat, and gaps longer than max_gap.
+ImuStream ReadImu(const StreamSource& source, const ImuReadOptions& options,
+                  StreamClock* clock, std::vector<PolicyCount>* policies);
+
+struct AidingReadOptions {
+  SensorType type = SensorType::kPosition;
+  int sensor = 0;  ///< index in Dataset::streams
+  /// Replaces the file's standard deviations: NED, or the height's in z.
+  std::optional<Eigen::Vector3d> sigma;
+  double sigma_scale = 1.0;
+  bool use_correlations = true;
+  std::set<int> accept_quality;  ///< empty: all
+};
+
+/// Reads position, velocity or height measurements; times since the first row.
+/// Throws InputError as ReadImu does, and for a standard deviation that is not
+/// positive, a latitude beyond 90 deg and a covariance that is not positive
+/// definite. Velocities that are all zero with zero standard deviations are
+/// absent in .pos files and left out.
+std::vector<Measurement> ReadAiding(const StreamSource& source,
+                                    const AidingReadOptions& options,
+                                    StreamClock* clock,
+                                    std::vector<PolicyCount>* policies);
+
+struct TruthReadOptions {
+  bool absent_values = false;  ///< empty and NaN values are absent
+};
+
+/// Reads a reference trajectory: any of position, velocity and attitude.
+std::vector<TruthPoint> ReadTruth(const StreamSource& source,
+                                  const TruthReadOptions& options,
+                                  StreamClock* clock,
+                                  std::vector<PolicyCount>* policies);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_READER_H_

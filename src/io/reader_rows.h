@@ -1,0 +1,55 @@
+#ifndef HINDSIGHT_IO_READER_ROWS_H_
+#define HINDSIGHT_IO_READER_ROWS_H_
+
+#include <string>
+#include <vector>
+
+#include "io/reader.h"
+
+namespace hindsight {
+
+/// Rows of one stream in time order, under its policies.
+class StreamRows {
+ public:
+  StreamRows(const StreamSource& source, const std::vector<FieldName>& fields,
+             bool allow_absent);
+
+  enum class Step {
+    kEnd,      ///< there are no more rows
+    kAppend,   ///< a row later than the last
+    kReplace,  ///< a row that takes the place of the last (drop_first)
+  };
+  /// Reads on. Throws InputError for time that runs backwards and for repeated
+  /// stamps without a policy.
+  Step Next();
+
+  const TextTable& table() const { return *opened_.table; }
+  const OpenedTable& opened() const { return opened_; }
+  /// Time of the row since the first row [s].
+  double t() const { return t_; }
+  /// Time since the row before [s]; zero for the first.
+  double dt() const { return dt_; }
+  const StreamClock& clock() const { return clock_; }
+
+  /// Appends what the policies did.
+  void CountPolicies(std::vector<PolicyCount>* policies) const;
+
+ private:
+  Stamp FileTime() const;
+
+  const StreamSource& source_;
+  OpenedTable opened_;
+  StreamClock clock_;
+  double t_ = 0.0;
+  double dt_ = 0.0;
+  long rows_ = 0;
+  long duplicates_ = 0;
+};
+
+/// Adds an entry if count is positive.
+void AddPolicy(const std::string& stream, const std::string& action, long count,
+               std::vector<PolicyCount>* policies);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_READER_ROWS_H_

@@ -1,0 +1,107 @@
+#ifndef HINDSIGHT_IO_TEXT_TABLE_H_
+#define HINDSIGHT_IO_TEXT_TABLE_H_
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/text_lines.h"
+#include "io/time_scale.h"
+
+namespace hindsight {
+
+/// Which column of a table holds what. Columns count from 0; -1 is none.
+struct TableLayout {
+  struct Field {
+    std::string name;     ///< of the quantity, for messages
+    int column = -1;      ///< -1: the table does not have it
+    double factor = 1.0;  ///< to SI, sign included
+  };
+  std::vector<Field> fields;
+
+  /// How the stamp is written.
+  enum class Clock {
+    kNone,     ///< there is no stamp: Stamp{}
+    kSeconds,  ///< time_column, in 1/ticks_per_second
+    kWeek,     ///< GPS week in time_column, seconds of week after it
+    kDate,     ///< yyyy/mm/dd in time_column, hh:mm:ss.sss after it, GPST
+    kDateUtc,  ///< the same in UTC
+  };
+  Clock clock = Clock::kSeconds;
+  int time_column = -1;
+  std::int64_t ticks_per_second = 1;
+
+  char delimiter = ',';         ///< ' ': any run of blanks
+  bool comma_is_blank = false;  ///< with ' ': commas separate too
+  /// Columns each row must have; 0: as many as the first row.
+  int column_count = 0;
+};
+
+/// Columns of the line, and the delimiter that would split it: ',' ';' or
+/// blanks.
+char GuessDelimiter(std::string_view line);
+std::vector<std::string_view> SplitLine(std::string_view line, char delimiter,
+                                        bool comma_is_blank = false);
+
+/// True for a line that is empty or starts with '#' or '%'.
+bool IsComment(std::string_view line);
+
+/// Rows of numbers out of a text file, checked as they are read.
+class TextTable {
+ public:
+  struct Options {
+    bool allow_truncated_tail = false;  ///< drop a last line that was cut off
+    bool allow_absent = false;          ///< empty and NaN values read as NaN
+  };
+
+  /// `first_row` is the first line of data if it was read already, else empty.
+  /// `lines` must outlive the table.
+  TextTable(TextLines* lines, TableLayout layout, Options options,
+            std::string first_row);
+
+  /// Reads the next row; comments are passed over. False at the end. Throws
+  /// InputError naming file, line and column for text, NaN or infinity where a
+  /// number belongs, a wrong number of columns, and a truncated last line.
+  bool Next();
+
+  const Stamp& stamp() const { return stamp_; }
+  /// Value of layout.fields[field] in SI; NaN if absent.
+  double value(std::size_t field) const { return values_[field]; }
+  bool Has(std::size_t field) const {
+    return layout_.fields[field].column >= 0;
+  }
+  long line() const { return line_; }
+  const std::string& path() const { return lines_->path(); }
+  /// Lines dropped under allow_truncated_tail.
+  long truncated() const { return truncated_; }
+  /// Rows that the file is likely to hold.
+  std::size_t RowsHint() const;
+
+  /// Throws InputError for the current line.
+  [[noreturn]] void Fail(const std::string& message) const;
+
+ private:
+  bool Parse(std::string_view line, std::string* problem);
+  bool ParseTime(const std::vector<std::string_view>& time_tokens,
+                 std::string* problem);
+  std::string ColumnName(int column) const;
+
+  TextLines* lines_;
+  TableLayout layout_;
+  Options options_;
+  std::string first_row_;
+  std::vector<char> wanted_;  ///< per column: 0 skip, 1 number, 2 part of time
+  std::vector<double> raw_;
+  std::vector<double> values_;
+  std::vector<std::string_view> time_tokens_;
+  Stamp stamp_;
+  long line_ = 0;
+  long truncated_ = 0;
+  std::size_t first_length_ = 0;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_TEXT_TABLE_H_

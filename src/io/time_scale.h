@@ -1,0 +1,57 @@
+#ifndef HINDSIGHT_IO_TIME_SCALE_H_
+#define HINDSIGHT_IO_TIME_SCALE_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace hindsight {
+
+/// A stamp as a file gives it, without loss for stamps of any age: `seconds`
+/// whole seconds and a `fraction` of any size on top.
+struct Stamp {
+  std::int64_t seconds = 0;
+  double fraction = 0.0;
+
+  /// this - other [s].
+  double Since(const Stamp& other) const {
+    return static_cast<double>(seconds - other.seconds) +
+           (fraction - other.fraction);
+  }
+  Stamp Later(double dt) const { return {seconds, fraction + dt}; }
+};
+
+/// Seconds of a GPS week.
+inline constexpr std::int64_t kWeekSeconds = 604800;
+
+/// Reads "1720467261.854" in units of 1/`ticks_per_second` (1, 1000, 1e6, 1e9);
+/// nanoseconds since 1970 are not rounded. Nothing if `text` is no finite
+/// number.
+std::optional<Stamp> ParseStamp(std::string_view text,
+                                std::int64_t ticks_per_second);
+
+/// GPS minus UTC [s] at a UTC instant, seconds since 1970 without leap seconds.
+int LeapSeconds(std::int64_t unix_seconds);
+
+/// GPS time since 1980-01-06 of UTC seconds since 1970.
+Stamp GpsFromUnix(const Stamp& unix_time);
+
+/// GPS time since 1980-01-06 of a calendar date and time of day; `utc` says in
+/// which scale. Separators are '-' or '/' and ':'. Nothing if the text is not
+/// "yyyy-mm-dd" and "hh:mm:ss[.sss]", or no such date.
+std::optional<Stamp> ParseDate(std::string_view date, std::string_view clock,
+                               bool utc);
+
+/// "2025-07-08 19:34:21.854 GPST" or "... UTC"; nothing if it is neither.
+std::optional<Stamp> ParseDateTime(std::string_view text);
+
+/// "yyyy-mm-dd hh:mm:ss.sssssssss GPST".
+std::string FormatGpsTime(std::int64_t gps_ns);
+
+std::int64_t Nanoseconds(const Stamp& stamp);
+Stamp StampFromNanoseconds(std::int64_t ns);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_TIME_SCALE_H_
