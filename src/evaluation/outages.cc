@@ -42,7 +42,8 @@ OutageError* FindOutage(const ResidualRecord& record, const Sensor& sensor,
     if (candidate.outage.sensor != record.sensor) continue;
     const double outside = std::max({0.0, candidate.outage.t_begin - record.t,
                                      record.t - candidate.outage.t_end});
-    if (outside < nearest) {
+    // Equally near at the seam of two outages: it belongs to the later one.
+    if (outside <= nearest) {
       nearest = outside;
       found = &candidate;
     }

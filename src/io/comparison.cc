@@ -65,14 +65,14 @@ void AppendErrorCells(const MethodSummary& m, std::vector<std::string>* row) {
 }
 
 void AddStatisticsRow(const std::string& name, const ErrorStatistics& s,
-                      double unit, TextTable* table) {
+                      double unit, ReportTable* table) {
   table->AddRow({name, Cell(s.rms / unit), Cell(s.std / unit),
                  Cell(s.mean / unit), Cell(s.p50 / unit), Cell(s.p68 / unit),
                  Cell(s.p95 / unit), Cell(s.p99 / unit), Cell(s.max / unit)});
 }
 
 void AddVectorRows(const VectorErrorStatistics& s, const std::string& name,
-                   const std::string& unit, TextTable* table) {
+                   const std::string& unit, ReportTable* table) {
   const char* axes[] = {"north", "east", "down"};
   for (std::size_t i = 0; i < 3; ++i) {
     AddStatisticsRow(name + " " + axes[i] + " [" + unit + "]", s.axis[i], 1.0,
@@ -104,7 +104,7 @@ std::string ComparisonTable(const RunSummary& summary) {
     heading.push_back(sensor + "\nresidual\nrms [1]");
   }
   heading.insert(heading.end(), {"iter.", "time\n[s]", "peak\n[MB]", "usable"});
-  TextTable table(heading);
+  ReportTable table(heading);
   for (const MethodSummary& m : summary.methods) {
     std::vector<std::string> row = {m.method};
     AppendOutageCells(m, &row);
@@ -122,8 +122,8 @@ std::string ComparisonTable(const RunSummary& summary) {
 }
 
 std::string ErrorTable(const TrajectoryStatistics& s) {
-  TextTable table({"error (truth - solution)", "RMS", "std", "mean", "50 %",
-                   "68 %", "95 %", "99 %", "max"});
+  ReportTable table({"error (truth - solution)", "RMS", "std", "mean", "50 %",
+                     "68 %", "95 %", "99 %", "max"});
   if (s.position) AddVectorRows(*s.position, "position", "m", &table);
   if (s.velocity) AddVectorRows(*s.velocity, "velocity", "m/s", &table);
   if (s.attitude) {

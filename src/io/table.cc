@@ -35,17 +35,17 @@ std::vector<std::vector<std::string>> HeadingRows(
 
 }  // namespace
 
-TextTable::TextTable(std::vector<std::string> heading)
+ReportTable::ReportTable(std::vector<std::string> heading)
     : heading_(std::move(heading)) {}
 
-void TextTable::AddRow(std::vector<std::string> cells) {
+void ReportTable::AddRow(std::vector<std::string> cells) {
   if (cells.size() != heading_.size()) {
     throw std::logic_error("a table row must be as wide as the heading");
   }
   rows_.push_back(std::move(cells));
 }
 
-std::string TextTable::Render() const {
+std::string ReportTable::Render() const {
   std::vector<std::vector<std::string>> all = HeadingRows(heading_);
   all.insert(all.end(), rows_.begin(), rows_.end());
   std::vector<std::size_t> width(heading_.size(), 0);

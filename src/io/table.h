@@ -8,10 +8,10 @@ namespace hindsight {
 
 /// Text in columns for a terminal. The first column is aligned left, the
 /// others right; a column whose cells are all empty is left out.
-class TextTable {
+class ReportTable {
  public:
   /// Heading cells may have several lines, separated by '\n'.
-  explicit TextTable(std::vector<std::string> heading);
+  explicit ReportTable(std::vector<std::string> heading);
 
   /// A row as wide as the heading; "" for a figure that does not exist.
   void AddRow(std::vector<std::string> cells);

@@ -104,6 +104,17 @@ TEST(Outages, AllowForTheTimeOffsetAtTheEdges) {
   EXPECT_EQ(ComputeOutageErrors(solution, dataset)[0].count, 1u);
 }
 
+TEST(Outages, BackToBackShareNoMeasurement) {
+  Dataset dataset;
+  dataset.streams = {Stream("gnss", SensorType::kPosition)};
+  dataset.outages = {{0, 0.0, 10.0}, {0, 10.0, 20.0}};
+  Solution solution = Accelerating(24.0);
+  solution.residuals = {Withheld(10.0, 0, {1.0, 0.0, 0.0})};
+  const auto outages = ComputeOutageErrors(solution, dataset);
+  EXPECT_EQ(outages[0].count, 0u);
+  EXPECT_EQ(outages[1].count, 1u);
+}
+
 TEST(Outages, HaveNoDriftAtStandstill) {
   Dataset dataset;
   dataset.streams = {Stream("gnss", SensorType::kPosition)};

@@ -1,0 +1,216 @@
+#include "io/summary.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "base/units.h"
+#include "io/comparison.h"
+#include "support/temporary_folder.h"
+
+namespace hindsight {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+std::vector<std::string> Keys(const Json& json) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : json.items()) keys.push_back(key);
+  return keys;
+}
+
+NavigationPrior UnitPrior() {
+  NavigationPrior prior;
+  prior.position_sigma.setOnes();
+  return prior;
+}
+
+/// Driving north at 10 m/s for 40 s.
+Solution Drive(const std::string& method) {
+  Solution solution;
+  solution.method = method;
+  solution.layout = NavigationLayout(UnitPrior());
+  Eigen::Vector3d p_e = EcefFromGeodetic({0.5, 0.1, 20.0});
+  for (int k = 0; k <= 40; ++k) {
+    State x;
+    x.t = k;
+    x.p_e = p_e;
+    x.v_e = x.C_en() * Eigen::Vector3d(10.0, 0.0, 0.0);
+    x.q_eb = Eigen::Quaterniond(x.C_en());
+    solution.states.push_back(x);
+    p_e += x.v_e;
+  }
+  const int dim = solution.layout.dim();
+  solution.covariances = CovarianceSeries(dim, solution.states.size());
+  for (std::size_t k = 0; k < solution.states.size(); ++k) {
+    solution.covariances.Set(k, 4.0 * ErrorMatrix::Identity(dim, dim));
+  }
+  solution.seconds = 0.25;
+  solution.verdict = "usable: all is well";
+  return solution;
+}
+
+ResidualRecord Residual(double t, const Eigen::Vector3d& residual,
+                        bool withheld) {
+  ResidualRecord record;
+  record.t = t;
+  record.residual = residual;
+  record.withheld = withheld;
+  record.nis = 3.0;
+  return record;
+}
+
+/// The truth runs 2 m east of the solution and heads 1 deg further right.
+Dataset WithTruth(const Solution& solution) {
+  Dataset dataset;
+  dataset.name = "drive";
+  dataset.streams.resize(1);
+  dataset.streams[0].sensor.name = "gnss";
+  for (const State& x : solution.states) {
+    TruthPoint truth;
+    truth.t = x.t;
+    truth.p_e = x.p_e + x.C_en() * Eigen::Vector3d(0.0, 2.0, 0.0);
+    truth.v_n = Eigen::Vector3d(10.0, 0.5, 0.0);
+    truth.q_nb = QuaternionFromEuler(0.0, 0.0, 1.0 * kDegree);
+    dataset.truth.push_back(truth);
+  }
+  return dataset;
+}
+
+RunSummary FullSummary() {
+  Solution solution = Drive("batch");
+  Dataset dataset = WithTruth(solution);
+  dataset.outages = {{0, 10.0, 20.0}};
+  solution.iterations = 4;
+  solution.residuals = {Residual(5.0, {0.0, 0.0, 0.0}, false),
+                        Residual(15.0, {3.0, 4.0, 12.0}, true)};
+  ConstantEstimate scale;
+  scale.name = "odometer_scale";
+  scale.unit = "1";
+  scale.value = 0.01;
+  scale.sigma = 0.001;
+  scale.prior_sigma = 0.1;
+  solution.constants = {scale};
+  solution.unobserved = {{"attitude[down]", 0.0, 12.0, 0.5}};
+  RunSummary summary;
+  summary.program = "hindsight 0";
+  summary.dataset = dataset.name;
+  StartSummary start;
+  start.heading = "given";
+  start.attitude_sigma.z() = 2.0 * kDegree;
+  summary.start = start;
+  summary.policies = {{"truth", "absent values skipped", 3}};
+  summary.methods = {
+      SummarizeMethod(dataset, solution, TableFromSolution(solution), 2.0)};
+  summary.methods[0].peak_rss_mb = 80.0;
+  return summary;
+}
+
+TEST(Summary, HasTheDocumentedKeys) {
+  const Json json = SummaryJson(FullSummary());
+  EXPECT_THAT(Keys(json), ElementsAre("program", "dataset", "start", "policies",
+                                      "methods"));
+  const Json& batch = json["methods"]["batch"];
+  EXPECT_THAT(Keys(batch),
+              ElementsAre("seconds", "peak_rss_mb", "converged", "iterations",
+                          "usable", "verdict", "error", "withheld", "nees",
+                          "residuals", "constants", "unobserved"));
+  EXPECT_THAT(
+      Keys(batch["error"]),
+      ElementsAre("position_rms_m", "position_max_m", "horizontal_rms_m",
+                  "horizontal_max_m", "total_rms_m", "total_max_m",
+                  "velocity_rms_mps", "velocity_max_mps", "attitude_rms_deg",
+                  "attitude_max_deg", "tilt_rms_deg", "matched_percent"));
+  EXPECT_THAT(Keys(batch["withheld"]),
+              ElementsAre("horizontal_rms_m", "horizontal_max_m", "total_rms_m",
+                          "total_max_m", "outages"));
+  EXPECT_THAT(Keys(batch["withheld"]["outages"][0]),
+              ElementsAre("sensor", "t_begin_s", "t_end_s", "count",
+                          "horizontal_rms_m", "horizontal_max_m", "total_rms_m",
+                          "total_max_m", "distance_m", "drift_percent"));
+}
+
+TEST(Summary, MatchesHandComputedFigures) {
+  const Json json = SummaryJson(FullSummary());
+  const Json& batch = json["methods"]["batch"];
+  const Json& error = batch["error"];
+  EXPECT_NEAR(error["position_rms_m"][0].get<double>(), 0.0, 1e-6);
+  EXPECT_NEAR(error["position_rms_m"][1].get<double>(), 2.0, 1e-6);
+  EXPECT_NEAR(error["horizontal_max_m"].get<double>(), 2.0, 1e-6);
+  EXPECT_NEAR(error["velocity_rms_mps"][1].get<double>(), 0.5, 1e-5);
+  EXPECT_NEAR(error["attitude_rms_deg"][2].get<double>(), 1.0, 1e-4);
+  EXPECT_DOUBLE_EQ(error["matched_percent"].get<double>(), 100.0);
+  EXPECT_NEAR(batch["nees"]["position"].get<double>(), 1.0, 1e-6);
+  const Json& outage = batch["withheld"]["outages"][0];
+  EXPECT_EQ(outage["sensor"], "gnss");
+  EXPECT_DOUBLE_EQ(outage["horizontal_max_m"].get<double>(), 5.0);
+  EXPECT_DOUBLE_EQ(outage["total_max_m"].get<double>(), 13.0);
+  EXPECT_NEAR(outage["distance_m"].get<double>(), 100.0, 1e-9);
+  EXPECT_NEAR(outage["drift_percent"].get<double>(), 5.0, 1e-9);
+  const Json& gnss = batch["residuals"]["gnss"];
+  EXPECT_EQ(gnss["count"], 1);
+  EXPECT_EQ(gnss["withheld"], 1);
+  EXPECT_DOUBLE_EQ(gnss["normalized_rms"].get<double>(), 1.0);
+  const Json& scale = batch["constants"]["odometer_scale"];
+  EXPECT_EQ(scale["unit"], "1");
+  EXPECT_EQ(scale["verdict"], "observed");
+  EXPECT_DOUBLE_EQ(json["start"]["attitude_sigma_deg"][2].get<double>(), 2.0);
+}
+
+TEST(Summary, LeavesOutFiguresThatDoNotExist) {
+  Solution solution = Drive("ekf");
+  solution.covariances = CovarianceSeries();
+  Dataset dataset;
+  dataset.streams.resize(1);
+  dataset.streams[0].sensor.name = "gnss";
+  RunSummary summary;
+  summary.methods = {
+      SummarizeMethod(dataset, solution, TableFromSolution(solution), 2.0)};
+  summary.methods[0].seconds = std::numeric_limits<double>::quiet_NaN();
+  const Json json = SummaryJson(summary);
+  EXPECT_THAT(Keys(json), ElementsAre("program", "dataset", "methods"));
+  EXPECT_THAT(
+      Keys(json["methods"]["ekf"]),
+      ElementsAre("converged", "usable", "verdict", "residuals", "constants"));
+  EXPECT_THAT(json.dump(), Not(HasSubstr("null")));
+}
+
+TEST(Summary, IsWrittenAsReadableJson) {
+  const TemporaryFolder folder;
+  const RunSummary summary = FullSummary();
+  WriteSummaryJson(folder.Path("summary.json"), summary);
+  EXPECT_EQ(Json::parse(folder.Read("summary.json")), SummaryJson(summary));
+}
+
+TEST(ComparisonTable, HasARowForEachMethodAndNoEmptyColumns) {
+  RunSummary summary = FullSummary();
+  const std::string with_truth = ComparisonTable(summary);
+  EXPECT_THAT(with_truth, HasSubstr("\nbatch "));
+  EXPECT_THAT(with_truth, HasSubstr("NEES"));
+  EXPECT_THAT(with_truth, HasSubstr(" 5.000 "));
+  summary.methods[0].error.reset();
+  const std::string without = ComparisonTable(summary);
+  EXPECT_THAT(without, Not(HasSubstr("NEES")));
+  EXPECT_THAT(without, Not(HasSubstr("truth")));
+  EXPECT_THAT(without, Not(HasSubstr(" \n")));
+}
+
+TEST(ErrorTable, ListsEveryComponentAndTheMatchedPart) {
+  const Solution solution = Drive("batch");
+  const Dataset dataset = WithTruth(solution);
+  const std::string text = ErrorTable(
+      EvaluateTrajectory(TableFromSolution(solution), dataset.truth, {}));
+  EXPECT_THAT(text, HasSubstr("position horizontal [m]"));
+  EXPECT_THAT(text, HasSubstr("velocity down [m/s]"));
+  EXPECT_THAT(text, HasSubstr("heading [deg]"));
+  EXPECT_THAT(text, HasSubstr("matched: 41 of 41 truth points (100.00 %)"));
+  EXPECT_THAT(text, HasSubstr("mean NEES position (3 if consistent): 1.000"));
+}
+
+}  // namespace
+}  // namespace hindsight
