@@ -1,0 +1,245 @@
+#include "dataset/checks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "base/units.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kForceTolerance = 0.05;
+constexpr double kMaxRestRate = 2.0 * kDegree;
+constexpr double kMaxForce = 200.0;
+constexpr double kMaxRate = 35.0;
+constexpr double kMaxJitter = 0.2;
+
+template <typename... Values>
+std::string Format(const char* format, Values... values) {
+  std::array<char, 320> text;
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+StreamReport ReportStamps(const std::string& name,
+                          const std::vector<double>& stamps,
+                          const ImuStream& imu) {
+  StreamReport report;
+  report.name = name;
+  report.count = static_cast<long>(stamps.size());
+  if (stamps.empty()) return report;
+  report.t_begin = stamps.front();
+  report.t_end = stamps.back();
+  report.overlap = std::max(0.0, std::min(report.t_end, imu.t_end()) -
+                                     std::max(report.t_begin, imu.t_begin()));
+  if (stamps.size() < 2) return report;
+  std::vector<double> intervals(stamps.size() - 1);
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    intervals[i] = stamps[i + 1] - stamps[i];
+  }
+  std::vector<double> sorted = intervals;
+  const auto middle =
+      sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double median = *middle;
+  if (median > 0.0) report.rate = 1.0 / median;
+  const double longest = std::max(3.0 * median, 0.1);
+  double squares = 0.0;
+  long regular = 0;
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    if (intervals[i] == 0.0) ++report.duplicates;
+    if (intervals[i] > longest) {
+      report.gaps.push_back({stamps[i], intervals[i]});
+    } else {
+      squares += (intervals[i] - median) * (intervals[i] - median);
+      ++regular;
+    }
+  }
+  if (regular > 0) {
+    report.jitter = std::sqrt(squares / static_cast<double>(regular));
+  }
+  return report;
+}
+
+std::vector<double> ImuStamps(const ImuStream& imu) {
+  std::vector<double> stamps;
+  stamps.reserve(imu.samples.size());
+  for (const ImuSample& sample : imu.samples) stamps.push_back(sample.t);
+  return stamps;
+}
+
+ImuReport ReportImu(const Dataset& dataset) {
+  ImuReport report;
+  const ImuStream& imu = dataset.imu;
+  report.rest = FindStandstill(imu, dataset.stationary);
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();
+  double weight = 0.0;
+  double duration = 0.0;
+  std::size_t interval = 0;
+  for (std::size_t k = 1; k < imu.samples.size(); ++k) {
+    const ImuSample& sample = imu.samples[k];
+    const double dt = sample.t - imu.samples[k - 1].t;
+    const double scale =
+        imu.kind == ImuStream::Kind::kIncrements ? 1.0 / dt : 1.0;
+    const Eigen::Vector3d f = scale * sample.accel;
+    const Eigen::Vector3d w = scale * sample.gyro;
+    report.mean_force += dt * f.norm();
+    duration += dt;
+    report.max_force = std::max(report.max_force, f.norm());
+    report.max_rate = std::max(report.max_rate, w.norm());
+    while (interval < report.rest.size() &&
+           report.rest[interval].end < sample.t) {
+      ++interval;
+    }
+    if (interval == report.rest.size() ||
+        sample.t <= report.rest[interval].begin) {
+      continue;
+    }
+    force += dt * f;
+    rate += dt * w;
+    weight += dt;
+  }
+  report.mean_force /= duration;
+  for (const TimeInterval& rest : report.rest) {
+    report.rest_seconds += rest.end - rest.begin;
+  }
+  if (weight > 0.0) {
+    report.rest_force = force / weight;
+    report.rest_rate = rate / weight;
+  }
+  return report;
+}
+
+/// At rest the specific force is 1 g upwards: (0, 0, -g) in
+/// forward-right-down.
+std::string SuggestAxes(const Eigen::Vector3d& force) {
+  struct Case {
+    Eigen::Vector3d up;
+    const char* looks;
+    const char* axes;
+  };
+  static const std::array<Case, 6> kCases = {{
+      {{0, 0, -1}, "z points down, as it should", ""},
+      {{0, 0, 1}, "z points up: this looks forward-left-up", "[x, -y, -z]"},
+      {{1, 0, 0}, "x points up", "[z, y, -x]"},
+      {{-1, 0, 0}, "x points down", "[-z, y, x]"},
+      {{0, 1, 0},
+       "y points up: this looks "
+       "forward-up-right",
+       "[x, z, -y]"},
+      {{0, -1, 0},
+       "y points down: this looks like a camera's axes",
+       "[z, x, y]"},
+  }};
+  const Eigen::Vector3d direction = force.normalized();
+  const Case* best = &kCases[0];
+  for (const Case& candidate : kCases) {
+    if (candidate.up.dot(direction) > best->up.dot(direction)) {
+      best = &candidate;
+    }
+  }
+  const double tilt =
+      std::acos(std::min(1.0, best->up.dot(direction))) / kDegree;
+  std::string text = best->looks;
+  if (*best->axes != '\0') {
+    text += std::string("; axes: ") + best->axes +
+            ", applied after those declared, makes z point down (gravity says "
+            "nothing about which way is forward)";
+  }
+  return text + Format("; tilt against that axis %.1f deg", tilt);
+}
+
+void WarnAboutImu(const CheckReport& report, const ImuStream& stream,
+                  std::vector<std::string>* warnings) {
+  const ImuReport& imu = report.imu;
+  const double force = imu.rest_force ? imu.rest_force->norm() : imu.mean_force;
+  const char* where = imu.rest_force ? "at rest" : "on average";
+  const double tolerance =
+      imu.rest_force ? kForceTolerance : 4 * kForceTolerance;
+  if (std::abs(force / kStandardGravity - 1.0) > tolerance) {
+    warnings->push_back(
+        Format("imu: |f| is %.4g m/s^2 %s, expected about 9.81: check the unit "
+               "of the accelerometer%s",
+               force, where,
+               stream.kind == ImuStream::Kind::kIncrements
+                   ? " and whether these are increments"
+                   : ", or whether these are increments"));
+  }
+  if (imu.rest_rate && imu.rest_rate->norm() > kMaxRestRate) {
+    warnings->push_back(Format(
+        "imu: |w| is %.3g deg/s at rest: a large bias, or the wrong unit "
+        "of the gyro",
+        imu.rest_rate->norm() / kDegree));
+  }
+  if (imu.max_force > kMaxForce) {
+    warnings->push_back(
+        Format("imu: |f| reaches %.4g m/s^2: check the unit", imu.max_force));
+  }
+  if (imu.max_rate > kMaxRate) {
+    warnings->push_back(Format("imu: |w| reaches %.4g deg/s: check the unit",
+                               imu.max_rate / kDegree));
+  }
+  if (imu.rest_force && imu.rest_force->normalized().z() > -0.7) {
+    warnings->push_back("imu: z does not point down at rest: " + report.axes);
+  }
+}
+
+void WarnAboutStream(const StreamReport& stream,
+                     std::vector<std::string>* warnings) {
+  if (stream.rate > 0.0 && stream.jitter * stream.rate > kMaxJitter) {
+    warnings->push_back(Format(
+        "%s: intervals vary by %.3g s about %.3g s: are the stamps those "
+        "of reception?",
+        stream.name.c_str(), stream.jitter, 1.0 / stream.rate));
+  }
+  const double span = stream.t_end - stream.t_begin;
+  if (span > 0.0 && stream.overlap < 0.5 * span) {
+    warnings->push_back(
+        Format("%s: only %.1f s of %.1f s lie within the IMU's "
+               "record",
+               stream.name.c_str(), stream.overlap, span));
+  }
+}
+
+}  // namespace
+
+CheckReport CheckDataset(const Dataset& dataset) {
+  CheckReport report;
+  if (dataset.imu.empty()) {
+    report.warnings.emplace_back("imu: fewer than two samples");
+    return report;
+  }
+  report.streams.push_back(
+      ReportStamps("imu", ImuStamps(dataset.imu), dataset.imu));
+  std::vector<double> stamps;
+  for (const AidingStream& stream : dataset.streams) {
+    stamps.clear();
+    for (const Measurement& z : stream.measurements) {
+      stamps.push_back(z.t + stream.sensor.time_offset);
+    }
+    report.streams.push_back(
+        ReportStamps(stream.sensor.name, stamps, dataset.imu));
+  }
+  if (!dataset.truth.empty()) {
+    stamps.clear();
+    for (const TruthPoint& point : dataset.truth) stamps.push_back(point.t);
+    report.streams.push_back(ReportStamps("truth", stamps, dataset.imu));
+  }
+  report.imu = ReportImu(dataset);
+  report.axes = report.imu.rest_force
+                    ? SuggestAxes(*report.imu.rest_force)
+                    : "unknown: the vehicle never stands still";
+  WarnAboutImu(report, dataset.imu, &report.warnings);
+  for (const StreamReport& stream : report.streams) {
+    WarnAboutStream(stream, &report.warnings);
+  }
+  if (dataset.streams.empty()) {
+    report.warnings.emplace_back("no aiding stream: the position will drift");
+  }
+  return report;
+}
+
+}  // namespace hindsight

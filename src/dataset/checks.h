@@ -1,0 +1,63 @@
+#ifndef HINDSIGHT_DATASET_CHECKS_H_
+#define HINDSIGHT_DATASET_CHECKS_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dataset/dataset.h"
+#include "dataset/standstill.h"
+
+namespace hindsight {
+
+/// An interval without rows, longer than three median intervals and 0.1 s.
+struct StreamGap {
+  double t = 0.0;       ///< of the row before [s]
+  double length = 0.0;  ///< [s]
+};
+
+/// What the stamps of one stream say. Times are in the IMU's clock: an aiding
+/// sensor's time offset is applied.
+struct StreamReport {
+  std::string name;
+  long count = 0;
+  double t_begin = 0.0;  ///< [s]
+  double t_end = 0.0;    ///< [s]
+  double rate = 0.0;     ///< one over the median interval [Hz]
+  double jitter = 0.0;   ///< standard deviation of intervals without gaps [s]
+  long duplicates = 0;   ///< rows with the stamp of the row before
+  std::vector<StreamGap> gaps;
+  double overlap = 0.0;  ///< with the IMU [s]
+};
+
+/// What the IMU reads, in body axes forward-right-down.
+struct ImuReport {
+  double rest_seconds = 0.0;  ///< total of `rest`
+  std::vector<TimeInterval> rest;
+  /// Mean over `rest`; absent if the vehicle never stands.
+  std::optional<Eigen::Vector3d> rest_force;  ///< [m/s^2]
+  std::optional<Eigen::Vector3d> rest_rate;   ///< [rad/s]
+  double mean_force = 0.0;  ///< mean |f| over the record [m/s^2]
+  double max_force = 0.0;   ///< [m/s^2]
+  double max_rate = 0.0;    ///< [rad/s]
+};
+
+struct CheckReport {
+  std::vector<StreamReport> streams;  ///< imu, aiding, truth
+  ImuReport imu;
+  /// One line each: what looks wrong, and what would put it right.
+  std::vector<std::string> warnings;
+  /// In words, from the axis that feels gravity at rest: "z points down, as it
+  /// should", or the `axes` that would make it so.
+  std::string axes;
+};
+
+/// Examines a data set and changes nothing. Thresholds: |f| at rest within 5 %
+/// of 9.81 m/s^2, |w| at rest below 2 deg/s, |f| below 200 m/s^2, |w| below
+/// 35 rad/s, jitter below a fifth of the interval. Standstill is looked for
+/// with the data set's own thresholds.
+CheckReport CheckDataset(const Dataset& dataset);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_DATASET_CHECKS_H_
