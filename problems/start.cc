@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
-#include "dataset/standstill.h"
+#include "dataset/ground_motion.h"
 #include "geometry/so3.h"
 
 namespace hindsight {
@@ -25,72 +25,6 @@ std::string Words(const char* format, double a, double b = 0.0) {
   char buffer[160];
   std::snprintf(buffer, sizeof(buffer), format, a, b);
   return buffer;
-}
-
-struct TimedFix {
-  double t = 0.0;
-  Eigen::Vector3d p_e;
-  double sigma = 0.0;
-  Eigen::Matrix3d R_n;
-  const Sensor* sensor = nullptr;
-};
-
-/// All usable position fixes in [from, to], in time order.
-std::vector<TimedFix> PositionFixes(const Dataset& dataset, double from,
-                                    double to) {
-  std::vector<TimedFix> fixes;
-  for (const AidingStream& stream : dataset.streams) {
-    for (const Measurement& z : stream.measurements) {
-      const double t = z.t + stream.sensor.time_offset;
-      const auto* fix = std::get_if<PositionFix>(&z.model);
-      if (fix == nullptr || z.withheld || t < from || t > to) continue;
-      fixes.push_back({t, fix->p_e,
-                       std::sqrt(fix->R_n.topLeftCorner<2, 2>().trace() / 2.0),
-                       fix->R_n, &stream.sensor});
-    }
-  }
-  std::stable_sort(
-      fixes.begin(), fixes.end(),
-      [](const TimedFix& a, const TimedFix& b) { return a.t < b.t; });
-  return fixes;
-}
-
-/// Velocity over the ground of a moment, with its standard deviation.
-struct TimedVelocity {
-  double t = 0.0;
-  Eigen::Vector3d v_n;
-  double sigma = 0.0;
-};
-
-/// Measured velocities, or differences of position fixes over at least so long
-/// that motion at walking pace stands above their noise.
-std::vector<TimedVelocity> Velocities(const Dataset& dataset,
-                                      const std::vector<TimedFix>& fixes,
-                                      double from, double to) {
-  std::vector<TimedVelocity> out;
-  for (const AidingStream& stream : dataset.streams) {
-    for (const Measurement& z : stream.measurements) {
-      const double t = z.t + stream.sensor.time_offset;
-      const auto* fix = std::get_if<VelocityFix>(&z.model);
-      if (fix == nullptr || z.withheld || t < from || t > to) continue;
-      out.push_back({t, fix->v_n,
-                     std::sqrt(fix->R_n.topLeftCorner<2, 2>().trace() / 2.0)});
-    }
-  }
-  if (!out.empty()) return out;
-  std::size_t first = 0;
-  for (std::size_t k = 1; k < fixes.size(); ++k) {
-    const double sigma = std::hypot(fixes[k].sigma, fixes[first].sigma);
-    // Long enough for 0.3 m/s, short enough to be one velocity.
-    const double need = std::clamp(sigma / 0.3, 0.2, 5.0);
-    while (first + 1 < k && fixes[k].t - fixes[first + 1].t >= need) ++first;
-    const double dt = fixes[k].t - fixes[first].t;
-    if (dt < need || dt > 10.0) continue;
-    const Eigen::Matrix3d C_ne = NedAxes(fixes[k].p_e).transpose();
-    out.push_back({0.5 * (fixes[k].t + fixes[first].t),
-                   C_ne * (fixes[k].p_e - fixes[first].p_e) / dt, sigma / dt});
-  }
-  return out;
 }
 
 /// Means of the readings over [begin, end].
@@ -122,9 +56,8 @@ class StartFinder {
                        " s contains no IMU data");
     }
     fixes_ = PositionFixes(dataset_, from_, to_);
-    velocities_ = Velocities(dataset_, fixes_, from_, to_);
-    StationaryOptions rest_options = dataset_.stationary;
-    rests_ = FindStandstill(dataset_.imu, rest_options);
+    velocities_ = GroundVelocities(dataset_, from_, to_);
+    rests_ = FindRests(dataset_);
     ChooseTime();
     ChooseGyroBias();
     ChooseAttitude();
@@ -275,12 +208,14 @@ class StartFinder {
       return;
     }
     const TimedFix& fix = fixes_.front();
+    const Eigen::Vector3d& lever_arm_b =
+        dataset_.streams[static_cast<std::size_t>(fix.sensor)]
+            .sensor.lever_arm_b;
     const Eigen::Matrix3d C_en = NedAxes(fix.p_e);
     const Eigen::Vector3d lever_n =
-        QuaternionFromEuler(euler_.x(), euler_.y(), euler_.z()) *
-        fix.sensor->lever_arm_b;
+        QuaternionFromEuler(euler_.x(), euler_.y(), euler_.z()) * lever_arm_b;
     position_e_ = fix.p_e - C_en * (lever_n + (fix.t - t_) * v_n_);
-    const double lever = fix.sensor->lever_arm_b.norm();
+    const double lever = lever_arm_b.norm();
     const double swing = lever * std::min(euler_sigma_.z(), 1.0) +
                          std::abs(fix.t - t_) * v_sigma_.x();
     // The fix itself is used again as a measurement: its own sigma would count

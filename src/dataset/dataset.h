@@ -24,10 +24,10 @@ struct AidingStream {
 struct TruthPoint {
   double t = 0.0;
   std::optional<Eigen::Vector3d> p_e;
-  std::optional<Eigen::Vector3d> v_n;         ///< NED [m/s]
-  std::optional<Eigen::Quaterniond> q_nb;     ///< body to NED
-  std::optional<Eigen::Vector3d> b_g;  ///< known of simulated data [rad/s]
-  std::optional<Eigen::Vector3d> b_a;  ///< known of simulated data [m/s^2]
+  std::optional<Eigen::Vector3d> v_n;      ///< NED [m/s]
+  std::optional<Eigen::Quaterniond> q_nb;  ///< body to NED
+  std::optional<Eigen::Vector3d> b_g;      ///< known of simulated data [rad/s]
+  std::optional<Eigen::Vector3d> b_a;      ///< known of simulated data [m/s^2]
 };
 
 /// Initial values. What is absent is found by alignment.
@@ -41,7 +41,8 @@ struct InitialState {
   Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();
   std::optional<Eigen::Vector3d> position_sigma;  ///< NED [m]
   std::optional<Eigen::Vector3d> velocity_sigma;  ///< NED [m/s]
-  std::optional<Eigen::Vector3d> attitude_sigma;  ///< roll, pitch, heading [rad]
+  std::optional<Eigen::Vector3d>
+      attitude_sigma;  ///< roll, pitch, heading [rad]
   std::optional<Eigen::Vector3d> gyro_bias_sigma;   ///< [rad/s]
   std::optional<Eigen::Vector3d> accel_bias_sigma;  ///< [m/s^2]
 };
@@ -59,10 +60,11 @@ struct StationaryOptions {
 
 /// Measurements of one sensor type or name kept from the estimators.
 struct Withholding {
-  std::string sensor;    ///< stream name, or a type: "position", "velocity"...
-  double every = 0.0;    ///< start to start [s]
-  double length = 0.0;   ///< [s]
-  /// First start, counted from the first fix the IMU covers [s]; default: every.
+  std::string sensor;   ///< stream name, or a type: "position", "velocity"...
+  double every = 0.0;   ///< start to start [s]
+  double length = 0.0;  ///< [s]
+  /// First start, counted from the first fix the IMU covers [s]; default:
+  /// every.
   std::optional<double> from;
 };
 
@@ -96,7 +98,7 @@ struct Dataset {
   InitialState initial;
   StationaryOptions stationary;
   std::vector<Withholding> withholdings;
-  std::vector<Outage> outages;  ///< filled by ApplyWithholding
+  std::vector<Outage> outages;    ///< filled by ApplyWithholding
   double max_node_spacing = 1.0;  ///< [s]
   std::vector<PolicyCount> policies;
 };

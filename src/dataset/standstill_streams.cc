@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dataset/standstill.h"
+#include "dataset/ground_motion.h"
 #include "dataset/timeline_builder.h"
 
 namespace hindsight {
@@ -53,7 +53,7 @@ void AddStandstillStreams(Dataset* dataset) {
   AidingStream rate =
       MakeStream("zero_angular_rate", SensorType::kZeroAngularRate);
   const int velocity_index = static_cast<int>(dataset->streams.size());
-  for (const TimeInterval& rest : FindStandstill(dataset->imu, options)) {
+  for (const TimeInterval& rest : FindRests(*dataset)) {
     const int count = static_cast<int>((rest.end - rest.begin) / kPeriod);
     for (int i = 0; i < count; ++i) {
       const double begin = rest.begin + i * kPeriod;

@@ -1,0 +1,114 @@
+#include "dataset/ground_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hindsight {
+namespace {
+
+double HorizontalSigma(const Eigen::Matrix3d& R_n) {
+  return std::sqrt(0.5 * R_n.topLeftCorner<2, 2>().trace());
+}
+
+/// Calls use(t, model, stream number) for each measurement of one model that is
+/// not withheld and lies in [from, to].
+template <typename Model, typename Use>
+void ForEach(const Dataset& dataset, double from, double to, const Use& use) {
+  for (std::size_t i = 0; i < dataset.streams.size(); ++i) {
+    const AidingStream& stream = dataset.streams[i];
+    for (const Measurement& z : stream.measurements) {
+      const double t = z.t + stream.sensor.time_offset;
+      const auto* model = std::get_if<Model>(&z.model);
+      if (model == nullptr || z.withheld || t < from || t > to) continue;
+      use(t, *model, static_cast<int>(i));
+    }
+  }
+}
+
+std::vector<TimedVelocity> Differences(const std::vector<TimedFix>& fixes) {
+  std::vector<TimedVelocity> out;
+  std::size_t first = 0;
+  for (std::size_t k = 1; k < fixes.size(); ++k) {
+    const double sigma = std::hypot(fixes[k].sigma, fixes[first].sigma);
+    const double need = std::clamp(sigma / 0.3, 0.2, 5.0);
+    while (first + 1 < k && fixes[k].t - fixes[first + 1].t >= need) ++first;
+    const double dt = fixes[k].t - fixes[first].t;
+    if (dt < need || dt > 10.0) continue;
+    const Eigen::Matrix3d C_ne = NedAxes(fixes[k].p_e).transpose();
+    out.push_back({0.5 * (fixes[k].t + fixes[first].t),
+                   C_ne * (fixes[k].p_e - fixes[first].p_e) / dt, sigma / dt});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<TimedFix> PositionFixes(const Dataset& dataset, double from,
+                                    double to) {
+  std::vector<TimedFix> fixes;
+  ForEach<PositionFix>(
+      dataset, from, to, [&](double t, const PositionFix& fix, int sensor) {
+        fixes.push_back(
+            {t, fix.p_e, fix.R_n, HorizontalSigma(fix.R_n), sensor});
+      });
+  std::stable_sort(
+      fixes.begin(), fixes.end(),
+      [](const TimedFix& a, const TimedFix& b) { return a.t < b.t; });
+  return fixes;
+}
+
+std::vector<TimedVelocity> GroundVelocities(const Dataset& dataset, double from,
+                                            double to) {
+  std::vector<TimedVelocity> out;
+  ForEach<VelocityFix>(dataset, from, to,
+                       [&](double t, const VelocityFix& fix, int) {
+                         out.push_back({t, fix.v_n, HorizontalSigma(fix.R_n)});
+                       });
+  if (out.empty()) return Differences(PositionFixes(dataset, from, to));
+  std::stable_sort(
+      out.begin(), out.end(),
+      [](const TimedVelocity& a, const TimedVelocity& b) { return a.t < b.t; });
+  return out;
+}
+
+std::vector<TimeInterval> FindRests(const Dataset& dataset) {
+  constexpr double kStep = 1.0;     // [s]
+  constexpr double kWalking = 0.3;  // [m/s]
+  constexpr double kMargin = 1.0;   // of a velocity's validity [s]
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::vector<TimedVelocity> velocities =
+      GroundVelocities(dataset, -infinity, infinity);
+  const auto moves = [&](double begin, double end) {
+    auto it = std::lower_bound(
+        velocities.begin(), velocities.end(), begin - kMargin,
+        [](const TimedVelocity& v, double t) { return v.t < t; });
+    for (; it != velocities.end() && it->t <= end + kMargin; ++it) {
+      if (it->v_n.head<2>().norm() > std::max(kWalking, 5.0 * it->sigma)) {
+        return true;
+      }
+    }
+    return false;
+  };
+  std::vector<TimeInterval> rests;
+  for (const TimeInterval& still :
+       FindStandstill(dataset.imu, dataset.stationary)) {
+    bool joined = false;
+    for (double t = still.begin; t < still.end; t += kStep) {
+      const double end = std::min(t + kStep, still.end);
+      if (moves(t, end)) {
+        joined = false;
+        continue;
+      }
+      if (joined) {
+        rests.back().end = end;
+      } else {
+        rests.push_back({t, end});
+      }
+      joined = true;
+    }
+  }
+  return rests;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,43 @@
+#ifndef HINDSIGHT_DATASET_GROUND_MOTION_H_
+#define HINDSIGHT_DATASET_GROUND_MOTION_H_
+
+#include <vector>
+
+#include "dataset/dataset.h"
+#include "dataset/standstill.h"
+
+namespace hindsight {
+
+/// A position fix at its true time, withheld ones left out.
+struct TimedFix {
+  double t = 0.0;
+  Eigen::Vector3d p_e;
+  Eigen::Matrix3d R_n;  ///< [m^2]
+  double sigma = 0.0;   ///< horizontal, an axis [m]
+  int sensor = 0;
+};
+
+/// Fixes of all position streams in [from, to], in time order.
+std::vector<TimedFix> PositionFixes(const Dataset& dataset, double from,
+                                    double to);
+
+/// Velocity over the ground of a moment, with its standard deviation an axis.
+struct TimedVelocity {
+  double t = 0.0;
+  Eigen::Vector3d v_n;  ///< [m/s]
+  double sigma = 0.0;
+};
+
+/// Measured velocities in [from, to]; without a velocity stream, differences of
+/// position fixes over so long that 0.3 m/s stands above their noise (at most
+/// 5 s).
+std::vector<TimedVelocity> GroundVelocities(const Dataset& dataset, double from,
+                                            double to);
+
+/// FindStandstill, less every second in which the aiding sensors see motion:
+/// even cruise on a good road or in still air looks like rest to an IMU.
+std::vector<TimeInterval> FindRests(const Dataset& dataset);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_DATASET_GROUND_MOTION_H_
