@@ -1,0 +1,19 @@
+#ifndef HINDSIGHT_IO_INIT_CONFIG_H_
+#define HINDSIGHT_IO_INIT_CONFIG_H_
+
+#include <string>
+
+namespace hindsight {
+
+/// A commented configuration for the files found in `folder`, told apart by
+/// their content: own CSV by its titles, RTKLIB .pos by its header, KF-GINS
+/// text by its columns; plain or gzip. It loads as it stands if an IMU was
+/// recognised; what it cannot know (noise, lever arms, axes) has values to be
+/// replaced, and says so. Files that were not recognised are named in comments.
+/// `folder:` is written as an absolute path. Throws InputError if the folder is
+/// missing or holds no files.
+std::string InitConfig(const std::string& folder);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_INIT_CONFIG_H_
