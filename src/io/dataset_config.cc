@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
 #include "base/error.h"
 #include "base/units.h"

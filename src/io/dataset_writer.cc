@@ -1,7 +1,5 @@
 #include "io/dataset_writer.h"
 
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <functional>

@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "io/config_streams.h"
-#include "io/text_lines.h"
 #include "simulation/builtin_scenarios.h"
 
 namespace hindsight {
