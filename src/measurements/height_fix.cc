@@ -11,7 +11,7 @@ void HeightFix::Evaluate(const ModelContext& context,
   const Geodetic g = GeodeticFromEcef(motion.p_e);
   const Eigen::RowVector3d up_e =
       -NedAxes(g.latitude, g.longitude).col(2).transpose();
-  out->Resize(kRows, context.layout.dim());
+  out->Resize(rows(), context.layout.dim());
   out->residual(0) = height - g.height -
                      Parameter1(context.layout, context.state,
                                 BlockKind::kOffset, context.sensor_index, 0.0);

@@ -12,7 +12,7 @@ struct HeightFix {
   double height = 0.0;  ///< measured [m]
   double sigma = 1.0;   ///< [m]
 
-  static constexpr int kRows = 1;
+  static constexpr int rows() { return 1; }
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
 };
 

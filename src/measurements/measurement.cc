@@ -3,7 +3,7 @@
 namespace hindsight {
 
 int Rows(const Measurement& z) {
-  return std::visit([](const auto& model) { return model.kRows; }, z.model);
+  return std::visit([](const auto& model) { return model.rows(); }, z.model);
 }
 
 void Evaluate(const Measurement& z, const ModelContext& context,

@@ -9,7 +9,7 @@ void PositionFix::Evaluate(const ModelContext& context,
                            LinearizedMeasurement* out) const {
   const PointMotion motion = MotionOfSensor(context);
   const Eigen::Matrix3d C_ne = NedAxes(p_e).transpose();
-  out->Resize(kRows, context.layout.dim());
+  out->Resize(rows(), context.layout.dim());
   out->residual =
       C_ne * (p_e - motion.p_e) -
       Parameter3(context.layout, context.state, BlockKind::kColouredNoise,

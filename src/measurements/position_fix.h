@@ -14,7 +14,7 @@ struct PositionFix {
   Eigen::Vector3d p_e = Eigen::Vector3d::Zero();      ///< measured, ECEF [m]
   Eigen::Matrix3d R_n = Eigen::Matrix3d::Identity();  ///< NED covariance [m^2]
 
-  static constexpr int kRows = 3;
+  static constexpr int rows() { return 3; }
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
 };
 

@@ -10,7 +10,7 @@ void ZeroVelocity::Evaluate(const ModelContext& context,
                             LinearizedMeasurement* out) const {
   const State& x = context.state;
   const Eigen::Vector3d v_n = x.v_n();
-  out->Resize(kRows, context.layout.dim());
+  out->Resize(rows(), context.layout.dim());
   out->residual = -v_n;
   context.layout.AddColumns(BlockKind::kVelocity, BlockKey::kNoSensor,
                             Eigen::Matrix3d::Identity(), &out->H);
@@ -27,7 +27,7 @@ void ZeroAngularRate::Evaluate(const ModelContext& context,
   const Eigen::Matrix3d C_be = x.q_eb.conjugate().toRotationMatrix();
   const Eigen::Vector3d earth_b = C_be * EarthRate_e();
   const Eigen::Vector3d factor = 1.0 + calibration.s_g.array();
-  out->Resize(kRows, layout.dim());
+  out->Resize(rows(), layout.dim());
   out->residual = w_ib_b - factor.cwiseProduct(earth_b) - x.b_g;
   layout.AddColumns(BlockKind::kAttitude, BlockKey::kNoSensor,
                     factor.asDiagonal() * C_be * Skew(EarthRate_e()) * x.C_en(),

@@ -9,7 +9,7 @@ namespace hindsight {
 struct ZeroVelocity {
   double sigma = 0.01;  ///< per axis [m/s]
 
-  static constexpr int kRows = 3;
+  static constexpr int rows() { return 3; }
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
 };
 
@@ -20,7 +20,7 @@ struct ZeroAngularRate {
   Eigen::Vector3d w_ib_b = Eigen::Vector3d::Zero();  ///< mean reading [rad/s]
   double sigma = 1e-4;                               ///< per axis [rad/s]
 
-  static constexpr int kRows = 3;
+  static constexpr int rows() { return 3; }
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
 };
 

@@ -10,7 +10,7 @@ void VelocityFix::Evaluate(const ModelContext& context,
   const PointMotion motion = MotionOfSensor(context);
   const Eigen::Matrix3d C_ne = motion.C_en.transpose();
   const Eigen::Vector3d predicted = C_ne * motion.v_e;
-  out->Resize(kRows, context.layout.dim());
+  out->Resize(rows(), context.layout.dim());
   out->residual = v_n - predicted;
   AddVelocityColumns(context, motion, C_ne, &out->H);
   context.layout.AddColumns(BlockKind::kPosition, BlockKey::kNoSensor,

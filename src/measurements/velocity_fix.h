@@ -12,7 +12,7 @@ struct VelocityFix {
   Eigen::Vector3d v_n = Eigen::Vector3d::Zero();      ///< measured NED [m/s]
   Eigen::Matrix3d R_n = Eigen::Matrix3d::Identity();  ///< [m^2/s^2]
 
-  static constexpr int kRows = 3;
+  static constexpr int rows() { return 3; }
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
 };
 

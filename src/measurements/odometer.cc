@@ -1,0 +1,51 @@
+#include "measurements/odometer.h"
+
+#include "geometry/so3.h"
+#include "measurements/point_motion.h"
+
+namespace hindsight {
+
+void Odometer::Evaluate(const ModelContext& context,
+                        LinearizedMeasurement* out) const {
+  const ErrorLayout& layout = context.layout;
+  const State& x = context.state;
+  const int sensor = context.sensor_index;
+  const PointMotion motion = MotionOfSensor(context);
+  const Eigen::Vector3d m = Parameter3(layout, x, BlockKind::kMounting, sensor,
+                                       Eigen::Vector3d::Zero());
+  const double k =
+      Parameter1(layout, x, BlockKind::kScale, sensor, context.sensor.scale);
+  const Eigen::Matrix3d C_ob =
+      (Exp(m) * context.sensor.q_sb).toRotationMatrix();
+  // The body has turned on since the node was placed.
+  const Eigen::Matrix3d C_oe =
+      C_ob * Exp(-motion.dt * motion.w_eb_b).toRotationMatrix() *
+      motion.C_eb.transpose();
+  const Eigen::Vector3d v_o = C_oe * motion.v_e;
+  const Eigen::Vector3d gain(1.0 + k, 1.0, 1.0);
+
+  LinearizedMeasurement full;
+  full.Resize(3, layout.dim());
+  full.residual = Eigen::Vector3d(speed, 0.0, 0.0) - gain.cwiseProduct(v_o);
+  full.R.diagonal() = sigma.cwiseAbs2();
+  const Eigen::Matrix3d A = gain.asDiagonal() * C_oe;
+  AddVelocityColumns(context, motion, A, &full.H);
+  layout.AddColumns(BlockKind::kAttitude, BlockKey::kNoSensor,
+                    A * Skew(motion.v_e) * motion.C_en, &full.H);
+  layout.AddColumns(
+      BlockKind::kTimeOffset, sensor,
+      -gain.asDiagonal() * C_ob * motion.w_eb_b.cross(C_ob.transpose() * v_o),
+      &full.H);
+  layout.AddColumns(BlockKind::kMounting, sensor,
+                    -gain.asDiagonal() * Skew(v_o) * LeftJacobian(m), &full.H);
+  layout.AddColumns(BlockKind::kScale, sensor,
+                    Eigen::Vector3d(v_o.x(), 0.0, 0.0), &full.H);
+
+  const int first = form == Form::kNonHolonomic ? 1 : 0;
+  out->Resize(rows(), layout.dim());
+  out->residual = full.residual.segment(first, rows());
+  out->H = full.H.middleRows(first, rows());
+  out->R = full.R.block(first, first, rows(), rows());
+}
+
+}  // namespace hindsight
