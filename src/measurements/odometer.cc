@@ -34,10 +34,11 @@ void Odometer::Evaluate(const ModelContext& context,
                     A * Skew(motion.v_e) * motion.C_en, &full.H);
   layout.AddColumns(
       BlockKind::kTimeOffset, sensor,
-      -gain.asDiagonal() * C_ob * motion.w_eb_b.cross(C_ob.transpose() * v_o),
+      -gain.cwiseProduct(C_ob * motion.w_eb_b.cross(C_ob.transpose() * v_o)),
       &full.H);
   layout.AddColumns(BlockKind::kMounting, sensor,
-                    -gain.asDiagonal() * Skew(v_o) * LeftJacobian(m), &full.H);
+                    -(gain.asDiagonal() * Skew(v_o) * LeftJacobian(m)),
+                    &full.H);
   layout.AddColumns(BlockKind::kScale, sensor,
                     Eigen::Vector3d(v_o.x(), 0.0, 0.0), &full.H);
 
