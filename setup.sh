@@ -8,6 +8,7 @@ packages="build-essential cmake ninja-build ccache
   libgflags-dev libgoogle-glog-dev libyaml-cpp-dev nlohmann-json3-dev
   zlib1g-dev libfast-float-dev
   libgtest-dev libgmock-dev libbenchmark-dev
+  libboost-dev
   clang-format clang-tidy"
 
 fail() {
