@@ -1,0 +1,111 @@
+#include <iostream>
+
+#include "app/command.h"
+#include "app/flags.h"
+#include "app/run_report.h"
+#include "app/text.h"
+#include "base/units.h"
+#include "dataset/checks.h"
+#include "io/config.h"
+#include "io/number_format.h"
+#include "io/table.h"
+
+namespace hindsight {
+namespace {
+
+constexpr const char* kHelp =
+    R"(Loads the recording that CONFIG describes and reports rates, gaps, duplicates
+and overlap of its streams, whether specific force and angular rate are
+plausible, and the axes of the IMU as gravity at rest shows them. Writes
+nothing; exits with 0 if the recording can be loaded.
+)";
+
+/// Gaps listed one by one; more are counted.
+constexpr std::size_t kListedGaps = 5;
+
+std::string StreamTable(const std::vector<StreamReport>& streams) {
+  ReportTable table({"stream", "rows", "from\n[s]", "to\n[s]", "rate\n[Hz]",
+                   "jitter\n[ms]", "gaps", "duplicates", "overlap\n[s]"});
+  for (const StreamReport& stream : streams) {
+    table.AddRow(
+        {stream.name, std::to_string(stream.count),
+         FormatFixed(stream.t_begin, 3), FormatFixed(stream.t_end, 3),
+         FormatFixed(stream.rate, 2), FormatFixed(1e3 * stream.jitter, 3),
+         std::to_string(stream.gaps.size()), std::to_string(stream.duplicates),
+         FormatFixed(stream.overlap, 3)});
+  }
+  return table.Render();
+}
+
+std::string DescribeGaps(const std::vector<StreamReport>& streams) {
+  std::string text;
+  for (const StreamReport& stream : streams) {
+    for (std::size_t i = 0; i < stream.gaps.size(); ++i) {
+      if (i == kListedGaps) {
+        text += Format("gap: %s: %zu more\n", stream.name.c_str(),
+                       stream.gaps.size() - i);
+        break;
+      }
+      text += Format("gap: %s: %.3f s from t = %.3f s\n", stream.name.c_str(),
+                     stream.gaps[i].length, stream.gaps[i].t);
+    }
+  }
+  return text;
+}
+
+std::string DescribeImu(const CheckReport& report) {
+  const ImuReport& imu = report.imu;
+  std::string text = Format(
+      "specific force: mean %.3f, largest %.2f m/s^2; angular rate: largest "
+      "%.2f deg/s\n",
+      imu.mean_force, imu.max_force, imu.max_rate / kDegree);
+  text += Format("at rest: %.1f s in %zu periods\n", imu.rest_seconds,
+                 imu.rest.size());
+  if (imu.rest_force) {
+    text +=
+        Format("  mean specific force [%.4f, %.4f, %.4f] m/s^2\n",
+               imu.rest_force->x(), imu.rest_force->y(), imu.rest_force->z());
+  }
+  if (imu.rest_rate) {
+    const Eigen::Vector3d rate = *imu.rest_rate / kDegree;
+    text += Format("  mean angular rate [%.5f, %.5f, %.5f] deg/s\n", rate.x(),
+                   rate.y(), rate.z());
+  }
+  return text + "axes: " + report.axes + "\n";
+}
+
+int Run(const std::vector<std::string>& arguments) {
+  const Dataset dataset =
+      LoadDataset(arguments[0], {.data_root = FLAGS_data_root});
+  const CheckReport report = CheckDataset(dataset);
+  std::cout << "recording '" << dataset.name << "'\n\n"
+            << StreamTable(report.streams) << "\n"
+            << DescribeGaps(report.streams) << DescribeImu(report)
+            << DescribePolicies(dataset);
+  for (const std::string& warning : report.warnings) {
+    std::cout << "warning: " << warning << "\n";
+  }
+  std::cout << (report.warnings.empty()
+                    ? "The recording can be used; nothing looks wrong.\n"
+                    : "The recording can be loaded; see the warnings.\n");
+  return kUsable;
+}
+
+}  // namespace
+
+Command CheckCommand() {
+  return {
+      .name = "check",
+      .summary = "examine a recording, change nothing",
+      .arguments = "CONFIG",
+      .help = kHelp,
+      .flags = {{"data_root", "DIR",
+                 "where a relative folder of CONFIG is looked for\n"
+                 "(../shared/data)"}},
+      .min_arguments = 1,
+      .max_arguments = 1,
+      .run = Run,
+  };
+}
+
+}  // namespace hindsight

@@ -1,0 +1,111 @@
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+#include "app/flags.h"
+#include "app/text.h"
+#include "base/error.h"
+#include "base/units.h"
+#include "evaluation/trajectory_error.h"
+#include "io/comparison.h"
+#include "io/solution_csv.h"
+
+namespace hindsight {
+namespace {
+
+constexpr const char* kHelp =
+    R"(Compares the trajectory SOLUTION with the reference TRUTH, both files in
+hindsight's CSV format (a result of 'run', or a data set's truth.csv). The
+solution is interpolated to the times of the truth. Errors are truth minus
+solution; normalised errors (mean of e' P^-1 e of three components, expected
+3) where the solution holds covariances.
+)";
+
+/// Statistics under one key; `scale` turns SI into `unit`.
+struct Row {
+  std::string key;
+  std::string unit;
+  double scale;
+  const ErrorStatistics* statistics;
+};
+
+std::vector<Row> Rows(const TrajectoryStatistics& all) {
+  std::vector<Row> rows;
+  const auto add_vector = [&](const std::string& key, const std::string& unit,
+                              const VectorErrorStatistics& v) {
+    rows.push_back({key + "_north", unit, 1.0, &v.axis[0]});
+    rows.push_back({key + "_east", unit, 1.0, &v.axis[1]});
+    rows.push_back({key + "_down", unit, 1.0, &v.axis[2]});
+    rows.push_back({key + "_horizontal", unit, 1.0, &v.horizontal});
+    rows.push_back({key + "_total", unit, 1.0, &v.total});
+  };
+  if (all.position) add_vector("position", "m", *all.position);
+  if (all.velocity) add_vector("velocity", "m/s", *all.velocity);
+  if (all.attitude) {
+    const AttitudeErrorStatistics& a = *all.attitude;
+    const double scale = 1.0 / kDegree;
+    rows.push_back({"roll", "deg", scale, &a.axis[0]});
+    rows.push_back({"pitch", "deg", scale, &a.axis[1]});
+    rows.push_back({"heading", "deg", scale, &a.axis[2]});
+    rows.push_back({"tilt", "deg", scale, &a.tilt});
+    rows.push_back({"rotation", "deg", scale, &a.total});
+  }
+  return rows;
+}
+
+void PrintJson(const TrajectoryStatistics& all) {
+  nlohmann::ordered_json json = {{"truth_count", all.truth_count},
+                                 {"matched_count", all.matched_count},
+                                 {"matched_percent", all.matched_percent()}};
+  for (const Row& row : Rows(all)) {
+    const ErrorStatistics& s = *row.statistics;
+    json["errors"][row.key] = {
+        {"unit", row.unit},           {"rms", row.scale * s.rms},
+        {"mean", row.scale * s.mean}, {"std", row.scale * s.std},
+        {"p50", row.scale * s.p50},   {"p68", row.scale * s.p68},
+        {"p95", row.scale * s.p95},   {"p99", row.scale * s.p99},
+        {"max", row.scale * s.max}};
+  }
+  if (all.position_nees) json["nees"]["position"] = *all.position_nees;
+  if (all.velocity_nees) json["nees"]["velocity"] = *all.velocity_nees;
+  if (all.attitude_nees) json["nees"]["attitude"] = *all.attitude_nees;
+  std::cout << json.dump(2) << "\n";
+}
+
+int Run(const std::vector<std::string>& arguments) {
+  const SolutionTable solution = ReadSolutionCsv(arguments[0]);
+  const SolutionTable truth = ReadSolutionCsv(arguments[1]);
+  const TrajectoryStatistics statistics =
+      EvaluateTrajectory(solution, TruthFromTable(truth), {});
+  if (statistics.matched_count == 0) {
+    throw InputError(
+        arguments[0], 0,
+        Format("nothing to compare with %s: the solution covers %.3f s to "
+               "%.3f s, the truth %.3f s to %.3f s",
+               arguments[1].c_str(), solution.t.front(), solution.t.back(),
+               truth.t.front(), truth.t.back()));
+  }
+  if (FLAGS_json) {
+    PrintJson(statistics);
+  } else {
+    std::cout << ErrorTable(statistics);
+  }
+  return kUsable;
+}
+
+}  // namespace
+
+Command EvaluateCommand() {
+  return {
+      .name = "evaluate",
+      .summary = "compare a trajectory with a reference",
+      .arguments = "SOLUTION TRUTH",
+      .help = kHelp,
+      .flags = {{"json", "", "print the figures as one JSON object"}},
+      .min_arguments = 2,
+      .max_arguments = 2,
+      .run = Run,
+  };
+}
+
+}  // namespace hindsight

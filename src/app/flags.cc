@@ -1,0 +1,168 @@
+#include "app/flags.h"
+
+#include <gflags/gflags.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "io/config_map.h"
+
+DEFINE_string(at, "", "");
+DEFINE_string(data_root, "../shared/data", "");
+DEFINE_string(export, "", "");
+DEFINE_bool(force, false, "");
+DEFINE_double(from, -std::numeric_limits<double>::infinity(), "");
+DEFINE_bool(json, false, "");
+DEFINE_bool(list, false, "");
+DEFINE_string(log, "none", "");
+DEFINE_string(methods, "ekf,rts,iterated,batch", "");
+DEFINE_string(out, "", "");
+DEFINE_string(point, "", "");
+DEFINE_string(profile, "", "");
+DEFINE_string(progress, "auto", "");
+DEFINE_double(rate, 0.0, "");
+DEFINE_uint64(seed, 1, "");
+DEFINE_double(to, std::numeric_limits<double>::infinity(), "");
+DEFINE_string(withhold, "", "");
+
+namespace hindsight {
+namespace {
+
+std::string Dashed(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+const FlagUse* FindFlag(const Command& command, const std::string& name) {
+  for (const auto* flags : {&command.flags, &CommonFlags()}) {
+    for (const FlagUse& flag : *flags) {
+      if (Dashed(flag.name) == name) return &flag;
+    }
+  }
+  return nullptr;
+}
+
+[[noreturn]] void ThrowUnknownFlag(const Command& command,
+                                   const std::string& name) {
+  std::vector<std::string> known = {"--help"};
+  for (const auto* flags : {&command.flags, &CommonFlags()}) {
+    for (const FlagUse& flag : *flags) {
+      known.push_back("--" + Dashed(flag.name));
+    }
+  }
+  throw UsageError("unknown flag --" + name + " for '" + command.name + "'" +
+                   Suggestion("--" + name, known));
+}
+
+void SetFlag(const FlagUse& flag, std::string value) {
+  gflags::CommandLineFlagInfo info;
+  gflags::GetCommandLineFlagInfo(flag.name.c_str(), &info);
+  if (flag.name == "withhold" && !info.is_default) {
+    value = info.current_value + ";" + value;
+  }
+  // gflags reads an unsigned value with strtoul, to which "-1" is a number.
+  const bool bad_sign = info.type == "uint64" && value.starts_with("-");
+  if (bad_sign ||
+      gflags::SetCommandLineOption(flag.name.c_str(), value.c_str()).empty()) {
+    throw UsageError("--" + Dashed(flag.name) + "=" + value +
+                     ": the value is not a " + info.type);
+  }
+}
+
+/// Reads the flag in words[*i] and, if its value is the next word, moves *i on.
+void ParseFlag(const Command& command, const std::vector<std::string>& words,
+               std::size_t* i) {
+  const std::string word =
+      words[*i].substr(words[*i].starts_with("--") ? 2 : 1);
+  const std::size_t equals = word.find('=');
+  const std::string name = Dashed(word.substr(0, equals));
+  const FlagUse* flag = FindFlag(command, name);
+  const bool negated =
+      flag == nullptr && name.starts_with("no") && equals == std::string::npos;
+  if (negated) {
+    flag = FindFlag(command, name.substr(2));
+    if (flag != nullptr && !flag->placeholder.empty()) flag = nullptr;
+  }
+  if (flag == nullptr) ThrowUnknownFlag(command, name);
+  if (equals != std::string::npos) {
+    SetFlag(*flag, word.substr(equals + 1));
+  } else if (flag->placeholder.empty()) {
+    SetFlag(*flag, negated ? "false" : "true");
+  } else if (*i + 1 < words.size() && !words[*i + 1].starts_with("--")) {
+    SetFlag(*flag, words[++*i]);
+  } else {
+    throw UsageError("--" + name + " needs a value: --" + name + "=" +
+                     flag->placeholder);
+  }
+}
+
+void CheckArgumentCount(const Command& command,
+                        const std::vector<std::string>& positional) {
+  const std::string usage =
+      " (usage: hindsight " + command.name + " " + command.arguments + ")";
+  if (positional.size() < command.min_arguments) {
+    throw UsageError("'" + command.name + "' needs " +
+                     std::to_string(command.min_arguments) + " argument" +
+                     (command.min_arguments == 1 ? "" : "s") + usage);
+  }
+  if (positional.size() > command.max_arguments) {
+    throw UsageError("unexpected argument '" +
+                     positional[command.max_arguments] + "'" + usage);
+  }
+}
+
+}  // namespace
+
+const std::vector<FlagUse>& CommonFlags() {
+  static const std::vector<FlagUse> flags = {
+      {"log", "LEVEL", "log to stderr: info, warning, error or none (none)"}};
+  return flags;
+}
+
+ParsedArguments ParseArguments(const Command& command,
+                               const std::vector<std::string>& words) {
+  ParsedArguments parsed;
+  bool flags_ended = false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (flags_ended || word.size() < 2 || word[0] != '-') {
+      parsed.positional.push_back(word);
+    } else if (word == "--") {
+      flags_ended = true;
+    } else if (word == "--help" || word == "-h" || word == "-help") {
+      parsed.help = true;
+      return parsed;
+    } else {
+      ParseFlag(command, words, &i);
+    }
+  }
+  CheckArgumentCount(command, parsed.positional);
+  return parsed;
+}
+
+bool IsGiven(const std::string& name) {
+  return !gflags::GetCommandLineFlagInfoOrDie(name.c_str()).is_default;
+}
+
+std::vector<std::string> Split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  if (text.empty()) return parts;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
+    std::string part = text.substr(begin, end - begin);
+    part.erase(0, part.find_first_not_of(" \t"));
+    part.erase(part.find_last_not_of(" \t") + 1);
+    parts.push_back(part);
+    begin = end + 1;
+  }
+  return parts;
+}
+
+std::string Suggestion(const std::string& word,
+                       const std::vector<std::string>& candidates) {
+  const std::string nearest = NearestWord(word, candidates);
+  return nearest.empty() ? "" : ", did you mean " + nearest + "?";
+}
+
+}  // namespace hindsight

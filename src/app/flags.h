@@ -1,0 +1,62 @@
+#ifndef HINDSIGHT_APP_FLAGS_H_
+#define HINDSIGHT_APP_FLAGS_H_
+
+#include <gflags/gflags_declare.h>
+
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+
+DECLARE_string(at);
+DECLARE_string(data_root);
+DECLARE_string(export);
+DECLARE_bool(force);
+DECLARE_double(from);
+DECLARE_bool(json);
+DECLARE_bool(list);
+DECLARE_string(log);
+DECLARE_string(methods);
+DECLARE_string(out);
+DECLARE_string(point);
+DECLARE_string(profile);
+DECLARE_string(progress);
+DECLARE_double(rate);
+DECLARE_uint64(seed);
+DECLARE_double(to);
+DECLARE_string(withhold);
+
+namespace hindsight {
+
+/// What the words after the sub-command's name say.
+struct ParsedArguments {
+  std::vector<std::string> positional;
+  bool help = false;  ///< --help or -h was among them
+};
+
+/// Sets the gflags of `command` from `words`. A value follows "=" or is the
+/// next word; flags and positional arguments may be mixed; "--" ends the
+/// flags. Values of a repeated --withhold are joined with ";". Throws
+/// UsageError for a flag the command does not accept, a bad value, and a wrong
+/// number of positional arguments.
+ParsedArguments ParseArguments(const Command& command,
+                               const std::vector<std::string>& words);
+
+/// True if the flag `name` was on the command line.
+bool IsGiven(const std::string& name);
+
+/// Flags that every sub-command accepts.
+const std::vector<FlagUse>& CommonFlags();
+
+/// The parts of `text` between `separator`s, blanks trimmed, empty parts kept;
+/// nothing for an empty text.
+std::vector<std::string> Split(const std::string& text, char separator);
+
+/// ", did you mean NAME?" for the candidate nearest to `word`, or "" if none
+/// is near.
+std::string Suggestion(const std::string& word,
+                       const std::vector<std::string>& candidates);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_APP_FLAGS_H_

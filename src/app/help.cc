@@ -1,0 +1,58 @@
+#include "app/help.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "app/flags.h"
+
+namespace hindsight {
+namespace {
+
+constexpr std::size_t kFlagColumn = 24;
+
+std::string FlagHelp(const FlagUse& flag) {
+  std::string left = "  --" + flag.name;
+  std::replace(left.begin(), left.end(), '_', '-');
+  if (!flag.placeholder.empty()) left += "=" + flag.placeholder;
+  if (left.size() + 2 > kFlagColumn) {
+    left += "\n" + std::string(kFlagColumn, ' ');
+  } else {
+    left.resize(kFlagColumn, ' ');
+  }
+  std::string text;
+  for (const char c : flag.help) {
+    text += c;
+    if (c == '\n') text.append(kFlagColumn, ' ');
+  }
+  return left + text + "\n";
+}
+
+}  // namespace
+
+std::string GeneralHelp(const std::vector<Command>& commands) {
+  std::ostringstream out;
+  out << "hindsight: reconstructs a vehicle's trajectory from a recording\n\n"
+         "Usage: hindsight COMMAND [arguments] [--flags]\n\nCommands:\n";
+  for (const Command& command : commands) {
+    out << "  " << command.name << std::string(12 - command.name.size(), ' ')
+        << command.summary << "\n";
+  }
+  out << "\n'hindsight COMMAND --help' describes a command and its flags;\n"
+         "'hindsight --version' prints the version.\n\n"
+         "Exit status: 0 usable answer, 1 no usable answer, 2 wrong usage or\n"
+         "bad input, 130 stopped by Ctrl-C. Errors are one line on stderr.\n";
+  return out.str();
+}
+
+std::string CommandHelp(const Command& command) {
+  std::ostringstream out;
+  out << "Usage: hindsight " << command.name << " " << command.arguments
+      << " [--flags]\n\n"
+      << command.help << "\nFlags (--flag=value or --flag value):\n";
+  for (const FlagUse& flag : command.flags) out << FlagHelp(flag);
+  for (const FlagUse& flag : CommonFlags()) out << FlagHelp(flag);
+  out << FlagHelp({"help", "", "print this page"});
+  return out.str();
+}
+
+}  // namespace hindsight

@@ -1,0 +1,107 @@
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+#include "app/flags.h"
+#include "app/help.h"
+#include "base/error.h"
+
+namespace hindsight {
+namespace {
+
+void StartLogging(const char* program) {
+  const std::vector<std::string> levels = {"info", "warning", "error", "none"};
+  int severity = 0;
+  while (severity < 4 &&
+         levels[static_cast<std::size_t>(severity)] != FLAGS_log) {
+    ++severity;
+  }
+  if (severity == 4) {
+    throw UsageError("--log=" + FLAGS_log +
+                     ": expected info, warning, error or none");
+  }
+  FLAGS_logtostderr = true;
+  FLAGS_minloglevel = severity;
+  google::InitGoogleLogging(program);
+}
+
+const Command& FindCommand(const std::vector<Command>& commands,
+                           const std::string& name) {
+  std::vector<std::string> names = {"help"};
+  for (const Command& command : commands) {
+    if (command.name == name) return command;
+    names.push_back(command.name);
+  }
+  throw UsageError("unknown command '" + name + "'" + Suggestion(name, names) +
+                   " ('hindsight --help' lists the commands)");
+}
+
+int Dispatch(const char* program, std::vector<std::string> words) {
+  const std::vector<Command> commands = {CheckCommand(), RunCommand(),
+                                         EvaluateCommand(), SimulateCommand(),
+                                         InitCommand()};
+  if (!words.empty() && words[0] == "help") {
+    words.erase(words.begin());
+    if (!words.empty()) words = {words[0], "--help"};
+  }
+  if (words.empty() || words[0] == "--help" || words[0] == "-h") {
+    std::cout << GeneralHelp(commands);
+    return kUsable;
+  }
+  if (words[0] == "--version") {
+    std::cout << "hindsight " HINDSIGHT_VERSION "\n";
+    return kUsable;
+  }
+  const Command& command = FindCommand(commands, words[0]);
+  words.erase(words.begin());
+  const ParsedArguments arguments = ParseArguments(command, words);
+  if (arguments.help) {
+    std::cout << CommandHelp(command);
+    return kUsable;
+  }
+  StartLogging(program);
+  return command.run(arguments.positional);
+}
+
+int Fail(int status, std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  // Whatever was printed so far comes before the error where both go to one
+  // file.
+  std::cout.flush();
+  std::fprintf(stderr, "hindsight: error: %s\n", message.c_str());
+  return status;
+}
+
+int Main(int argc, char** argv) {
+  try {
+    const int status =
+        Dispatch(argv[0], std::vector<std::string>(argv + 1, argv + argc));
+    std::cout.flush();
+    if (!std::cout) return Fail(kBadInput, "standard output cannot be written");
+    return status;
+  } catch (const UsageError& error) {
+    return Fail(kBadInput, error.what());
+  } catch (const InputError& error) {
+    return Fail(kBadInput, error.what());
+  } catch (const EstimationError& error) {
+    return Fail(kUnusable, error.what());
+  } catch (const Interrupted& error) {
+    return Fail(kStopped, error.what());
+  } catch (const std::bad_alloc&) {
+    return Fail(kUnusable, "out of memory");
+  } catch (const std::exception& error) {
+    return Fail(kUnusable, error.what());
+  }
+}
+
+}  // namespace
+}  // namespace hindsight
+
+int main(int argc, char** argv) { return hindsight::Main(argc, argv); }

@@ -1,0 +1,132 @@
+#include "app/run.h"
+
+#include <algorithm>
+#include <iostream>
+
+#include "app/command.h"
+#include "app/interrupt.h"
+#include "app/result_folder.h"
+#include "app/run_output.h"
+#include "app/run_report.h"
+#include "base/error.h"
+#include "dataset/timeline_builder.h"
+#include "io/comparison.h"
+#include "io/config.h"
+#include "io/residual_csv.h"
+#include "io/summary.h"
+
+namespace hindsight {
+namespace {
+
+/// The rules of the command line in place of the configuration's.
+void ReplaceWithholdings(const std::vector<Withholding>& withholdings,
+                         Dataset* dataset) {
+  for (AidingStream& stream : dataset->streams) {
+    for (Measurement& z : stream.measurements) z.withheld = false;
+  }
+  dataset->outages.clear();
+  dataset->withholdings = withholdings;
+  ApplyWithholding(dataset);
+}
+
+/// The data set as it is reconstructed; its resolved configuration goes into
+/// the results.
+Dataset Load(const RunRequest& request, const ResultFolder& folder) {
+  ResolvedConfig resolved;
+  Dataset dataset =
+      LoadDataset(request.config, {.data_root = request.data_root}, &resolved);
+  if (!request.withholdings.empty()) {
+    ReplaceWithholdings(request.withholdings, &dataset);
+    SetWithholdings(request.withholdings, &resolved);
+  }
+  AddStandstillStreams(&dataset);
+  ThinTruth(&dataset.truth);
+  WriteResolvedConfig(resolved, folder.Path("config.resolved.yaml"));
+  return dataset;
+}
+
+ReconstructionOptions Options(const RunRequest& request, Progress* progress) {
+  ReconstructionOptions options;
+  options.from = request.from;
+  options.to = request.to;
+  options.node_times = request.at;
+  options.progress = [progress](const std::string& stage, double fraction) {
+    progress->Update(stage, fraction);
+  };
+  options.stop = &StopRequested();
+  return options;
+}
+
+/// A method that fails leaves the others their say: its solution is empty and
+/// its verdict is the reason.
+Solution RunMethod(Reconstruction* reconstruction, Method method) {
+  try {
+    return reconstruction->Run(method);
+  } catch (const EstimationError& error) {
+    Solution failed;
+    failed.method = MethodName(method);
+    failed.converged = false;
+    failed.usable = false;
+    failed.verdict = std::string("not usable: ") + error.what();
+    return failed;
+  }
+}
+
+bool IsAnyUsable(const std::vector<Solution>& solutions) {
+  return std::any_of(solutions.begin(), solutions.end(),
+                     [](const Solution& solution) { return solution.usable; });
+}
+
+/// Throws the reason if no method gave as much as a trajectory.
+void CheckAnyTrajectory(const std::vector<Solution>& solutions) {
+  std::string reasons;
+  for (const Solution& solution : solutions) {
+    if (!solution.states.empty()) return;
+    reasons += (reasons.empty() ? "" : "; ") + solution.method + " is " +
+               solution.verdict;
+  }
+  throw EstimationError(reasons);
+}
+
+}  // namespace
+
+int Reconstruct(const RunRequest& request) {
+  CatchInterrupts();
+  ResultFolder folder(request.out, request.force, "summary.json");
+  Progress progress(request.progress);
+  progress.Update("reading", 0.0);
+  const Dataset dataset = Load(request, folder);
+  ThrowIfStopRequested();
+
+  Reconstruction reconstruction(dataset, Options(request, &progress));
+  RunSummary summary = {.program = kProgram,
+                        .dataset = dataset.name,
+                        .start = SummarizeStart(reconstruction.start()),
+                        .policies = dataset.policies,
+                        .methods = {}};
+  std::vector<Solution> solutions;
+  for (const Method method : request.methods) {
+    solutions.push_back(RunMethod(&reconstruction, method));
+    ThrowIfStopRequested();
+    summary.methods.push_back(
+        Summarize(dataset, reconstruction, solutions.back()));
+    WriteMethodFiles(request, dataset, reconstruction, solutions.back(),
+                     folder);
+    ThrowIfStopRequested();
+  }
+  CheckAnyTrajectory(solutions);
+  WriteResidualCsv(folder.Path("residuals.csv"), solutions, dataset);
+  WriteSummaryJson(folder.Path("summary.json"), summary);
+  progress.Clear();
+  folder.Commit();
+
+  std::cout << DescribePolicies(dataset)
+            << DescribeStart(reconstruction.start())
+            << DescribeUnobserved(solutions) << "\n"
+            << ComparisonTable(summary) << "\nresults in " << request.out
+            << "\n"
+            << DescribeVerdict(solutions);
+  return IsAnyUsable(solutions) ? kUsable : kUnusable;
+}
+
+}  // namespace hindsight

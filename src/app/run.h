@@ -1,0 +1,15 @@
+#ifndef HINDSIGHT_APP_RUN_H_
+#define HINDSIGHT_APP_RUN_H_
+
+#include "app/run_request.h"
+
+namespace hindsight {
+
+/// Loads the data set, reconstructs it by every method asked for, writes the
+/// results, prints the report and returns the exit status: kUsable if at least
+/// one method gave a usable answer.
+int Reconstruct(const RunRequest& request);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_APP_RUN_H_

@@ -1,0 +1,71 @@
+#include "app/command.h"
+#include "app/flags.h"
+#include "app/run.h"
+#include "app/run_request.h"
+
+namespace hindsight {
+namespace {
+
+constexpr const char* kHelp =
+    R"(Reconstructs the recording that CONFIG describes by every method asked for
+and writes into the folder of --out:
+  METHOD.csv            time, position, velocity, attitude, their standard
+                        deviations and covariances, biases
+  METHOD.at.csv         the same at the times of --at
+  METHOD.tum, .kml, .nav  what --export asks for
+  residuals.csv         every measurement's residual, sigma, weight and fate
+  summary.json          figures of every method, for programs
+  config.resolved.yaml  the configuration as used, in SI units
+The folder appears when all is done: an error or Ctrl-C leaves nothing behind.
+
+Methods: ekf       forward error-state Kalman filter
+         rts       ekf, smoothed by Rauch, Tung and Striebel's backward pass
+         iterated  rts, linearised anew about its result until it rests
+         batch     nonlinear least squares over the whole interval
+)";
+
+int Run(const std::vector<std::string>& arguments) {
+  return Reconstruct(ReadRunRequest(arguments[0]));
+}
+
+}  // namespace
+
+Command RunCommand() {
+  return {
+      .name = "run",
+      .summary = "reconstruct a trajectory by several methods",
+      .arguments = "CONFIG",
+      .help = kHelp,
+      .flags = {{"out", "DIR", "folder for the results (required)"},
+                {"force", "", "replace the results of an earlier run in DIR"},
+                {"methods", "LIST", "some of ekf,rts,iterated,batch (all)"},
+                {"from", "T", "begin at T seconds since the data set's epoch"},
+                {"to", "T", "end at T seconds"},
+                {"rate", "HZ", "rate of the output (at the estimator's nodes)"},
+                {"at", "FILE",
+                 "also poses with covariance at the times in FILE,\n"
+                 "seconds, one a line"},
+                {"point", "X,Y,Z",
+                 "output this point of the vehicle: metres\n"
+                 "forward, right, down of the IMU (0,0,0)"},
+                {"withhold", "RULE",
+                 "keep a sensor from the estimators now and then and report\n"
+                 "the errors over each outage, in place of the\n"
+                 "configuration's rules: position:every=120s,length=30s\n"
+                 "with ,from=90s for the first outage's start (the first\n"
+                 "fix + every); sensor is a stream or a type of streams;\n"
+                 "several rules: separate by ; or repeat the flag"},
+                {"export", "LIST", "some of tum,kml,nav"},
+                {"progress", "MODE",
+                 "on stderr: auto (a line on a terminal), json (an object\n"
+                 "a line) or none (auto)"},
+                {"data_root", "DIR",
+                 "where a relative folder of CONFIG is looked for\n"
+                 "(../shared/data)"}},
+      .min_arguments = 1,
+      .max_arguments = 1,
+      .run = Run,
+  };
+}
+
+}  // namespace hindsight

@@ -1,0 +1,130 @@
+#include "app/run_output.h"
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <limits>
+
+#include "app/text.h"
+#include "base/error.h"
+#include "io/kml.h"
+#include "io/nav.h"
+#include "io/solution_csv.h"
+#include "io/tum.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kLeastTruthSpacing = 0.1;  // [s]
+
+/// Multiples of 1/rate within the solution's span.
+std::vector<double> UniformTimes(const Solution& solution, double rate) {
+  const double begin = std::ceil(solution.states.front().t * rate);
+  const double end = std::floor(solution.states.back().t * rate);
+  std::vector<double> times;
+  for (double k = begin; k <= end; ++k) times.push_back(k / rate);
+  return times;
+}
+
+SolutionTable Table(const RunRequest& request, const Dataset& dataset,
+                    const Solution& solution) {
+  if (request.point_b.isZero(0.0)) return TableFromSolution(solution);
+  return TableFromSolution(MoveToPoint(solution, dataset.imu, request.point_b));
+}
+
+double PeakRssMb() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+/// Throws InputError if a time of --at is outside the solution's span.
+void CheckTimesCovered(const RunRequest& request, const Solution& solution) {
+  const double begin = solution.states.front().t;
+  const double end = solution.states.back().t;
+  for (const double t : request.at) {
+    if (t >= begin && t <= end) continue;
+    throw InputError(
+        Format("--at: t = %.6f s is outside the reconstructed "
+               "interval from %.6f s to %.6f s",
+               t, begin, end));
+  }
+}
+
+}  // namespace
+
+const char* const kProgram = "hindsight " HINDSIGHT_VERSION;
+
+void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
+                      const Reconstruction& reconstruction,
+                      const Solution& solution, const ResultFolder& folder) {
+  if (solution.states.empty()) return;
+  CheckTimesCovered(request, solution);
+  const std::string& method = solution.method;
+  const SolutionTable table =
+      request.rate ? Table(request, dataset,
+                           reconstruction.Sample(
+                               solution, UniformTimes(solution, *request.rate)))
+                   : Table(request, dataset, solution);
+  WriteSolutionCsv(folder.Path(method + ".csv"), table, kProgram);
+  if (!request.at.empty()) {
+    WriteSolutionCsv(
+        folder.Path(method + ".at.csv"),
+        Table(request, dataset, reconstruction.Sample(solution, request.at)),
+        kProgram);
+  }
+  if (request.exports.contains("tum")) {
+    WriteTum(folder.Path(method + ".tum"), table);
+  }
+  if (request.exports.contains("kml")) {
+    WriteKml(folder.Path(method + ".kml"), table, dataset.epoch_gps_ns,
+             dataset.name + " " + method);
+  }
+  if (request.exports.contains("nav")) {
+    WriteNav(folder.Path(method + ".nav"), table, dataset.epoch_gps_ns);
+  }
+}
+
+MethodSummary Summarize(const Dataset& dataset,
+                        const Reconstruction& reconstruction,
+                        const Solution& solution) {
+  const double peak_rss_mb = PeakRssMb();
+  MethodSummary summary;
+  if (solution.states.empty()) {
+    summary.method = solution.method;
+    summary.converged = solution.converged;
+    summary.usable = solution.usable;
+    summary.verdict = solution.verdict;
+  } else {
+    const std::vector<double> times = TruthTimes(
+        dataset, solution.states.front().t, solution.states.back().t);
+    summary = SummarizeMethod(
+        dataset, solution,
+        TableFromSolution(reconstruction.Sample(solution, times)),
+        std::numeric_limits<double>::infinity());
+  }
+  summary.peak_rss_mb = peak_rss_mb;
+  return summary;
+}
+
+void ThinTruth(std::vector<TruthPoint>* truth) {
+  double last = -std::numeric_limits<double>::infinity();
+  std::erase_if(*truth, [&last](const TruthPoint& point) {
+    // A truth at 10 Hz is kept whole, whatever its stamps' rounding.
+    if (point.t < last + 0.999 * kLeastTruthSpacing) return true;
+    last = point.t;
+    return false;
+  });
+}
+
+StartSummary SummarizeStart(const StartReport& start) {
+  return {.t = start.t,
+          .position = start.position,
+          .attitude = start.attitude,
+          .heading = start.heading,
+          .position_sigma = start.position_sigma,
+          .velocity_sigma = start.velocity_sigma,
+          .attitude_sigma = start.attitude_sigma};
+}
+
+}  // namespace hindsight

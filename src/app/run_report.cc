@@ -1,0 +1,78 @@
+#include "app/run_report.h"
+
+#include <set>
+
+#include "app/text.h"
+#include "base/units.h"
+#include "earth/wgs84.h"
+
+namespace hindsight {
+namespace {
+
+std::string Spread(const Eigen::Vector3d& sigma, double scale) {
+  return Format("%.3g, %.3g, %.3g", scale * sigma.x(), scale * sigma.y(),
+                scale * sigma.z());
+}
+
+}  // namespace
+
+std::string DescribeStart(const StartReport& start) {
+  const Geodetic place = GeodeticFromEcef(start.state.p_e);
+  const Eigen::Vector3d v = start.state.v_n();
+  const Eigen::Vector3d euler = start.state.euler() / kDegree;
+  std::string text = Format("start at t = %.3f s\n", start.t);
+  text +=
+      Format("  position  %.7f, %.7f deg, %.2f m; sigma %s m (N, E, D): %s\n",
+             place.latitude / kDegree, place.longitude / kDegree, place.height,
+             Spread(start.position_sigma, 1.0).c_str(), start.position.c_str());
+  text += Format("  velocity  %.2f, %.2f, %.2f m/s; sigma %s m/s\n", v.x(),
+                 v.y(), v.z(), Spread(start.velocity_sigma, 1.0).c_str());
+  text += Format(
+      "  attitude  roll %.2f, pitch %.2f, heading %.2f deg; sigma %s "
+      "deg\n            %s; heading: %s\n",
+      euler.x(), euler.y(), euler.z(),
+      Spread(start.attitude_sigma, 1.0 / kDegree).c_str(),
+      start.attitude.c_str(), start.heading.c_str());
+  return text;
+}
+
+std::string DescribePolicies(const Dataset& dataset) {
+  std::string text;
+  for (const PolicyCount& policy : dataset.policies) {
+    text += Format("note: %s: %s: %ld\n", policy.stream.c_str(),
+                   policy.action.c_str(), policy.count);
+  }
+  return text;
+}
+
+std::string DescribeUnobserved(const std::vector<Solution>& solutions) {
+  std::set<std::string> lines;
+  for (const Solution& solution : solutions) {
+    for (const UnobservedSpan& span : solution.unobserved) {
+      lines.insert(
+          Format("warning: %s is not observed from %.1f s to %.1f s "
+                 "(sigma stays above %.3g)\n",
+                 span.component.c_str(), span.t_begin, span.t_end, span.sigma));
+    }
+  }
+  std::string text;
+  for (const std::string& line : lines) text += line;
+  return text;
+}
+
+std::string DescribeVerdict(const std::vector<Solution>& solutions) {
+  const Solution* best = nullptr;
+  std::string failures;
+  for (const Solution& solution : solutions) {
+    if (solution.usable) {
+      best = &solution;
+    } else {
+      failures += "; " + solution.method + " is " + solution.verdict;
+    }
+  }
+  const std::string usable =
+      best == nullptr ? "" : best->method + " is " + best->verdict;
+  return (usable.empty() ? failures.substr(2) : usable + failures) + "\n";
+}
+
+}  // namespace hindsight

@@ -1,0 +1,29 @@
+#ifndef HINDSIGHT_APP_RUN_REPORT_H_
+#define HINDSIGHT_APP_RUN_REPORT_H_
+
+#include <string>
+#include <vector>
+
+#include "dataset/dataset.h"
+#include "problems/reconstruction.h"
+#include "state/solution.h"
+
+namespace hindsight {
+
+/// How the initial state was found, with its standard deviations.
+std::string DescribeStart(const StartReport& start);
+
+/// What readers did under declared policies, a line each.
+std::string DescribePolicies(const Dataset& dataset);
+
+/// Warnings of states that the data do not determine, a line each; the same
+/// span found by several methods is named once.
+std::string DescribeUnobserved(const std::vector<Solution>& solutions);
+
+/// The last line: whether the result is usable, and why, by the last usable
+/// method, and which methods failed.
+std::string DescribeVerdict(const std::vector<Solution>& solutions);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_APP_RUN_REPORT_H_

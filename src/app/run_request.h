@@ -1,0 +1,47 @@
+#ifndef HINDSIGHT_APP_RUN_REQUEST_H_
+#define HINDSIGHT_APP_RUN_REQUEST_H_
+
+#include <Eigen/Core>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/progress.h"
+#include "dataset/dataset.h"
+#include "problems/reconstruction.h"
+
+namespace hindsight {
+
+/// What the flags of `hindsight run` ask for, checked and in SI units.
+struct RunRequest {
+  std::string config;
+  std::string data_root;
+  std::string out;
+  bool force = false;
+  std::vector<Method> methods;  ///< in the order given, each once
+  double from = 0.0;            ///< [s]
+  double to = 0.0;              ///< [s]
+  std::optional<double> rate;   ///< of the output [Hz]; absent: at the nodes
+  std::vector<double> at;       ///< times of poses asked for, in order [s]
+  Eigen::Vector3d point_b = Eigen::Vector3d::Zero();  ///< from the IMU [m]
+  /// In place of the configuration's if not empty.
+  std::vector<Withholding> withholdings;
+  std::set<std::string> exports;  ///< of "tum", "kml", "nav"
+  Progress::Mode progress = Progress::Mode::kNone;
+};
+
+/// Reads the flags. Throws UsageError naming the flag, and InputError for a
+/// bad file of --at.
+RunRequest ReadRunRequest(const std::string& config);
+
+/// "SENSOR:every=120s,length=30s[,from=90s]"; several separated by ";".
+/// Throws UsageError.
+std::vector<Withholding> ParseWithholdings(const std::string& text);
+
+/// "x,y,z" [m], with or without the unit. Throws UsageError.
+Eigen::Vector3d ParsePoint(const std::string& text);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_APP_RUN_REQUEST_H_

@@ -1,0 +1,82 @@
+#include <filesystem>
+#include <iostream>
+
+#include "app/command.h"
+#include "app/flags.h"
+#include "app/interrupt.h"
+#include "app/result_folder.h"
+#include "io/dataset_writer.h"
+#include "io/scenario_config.h"
+#include "simulation/builtin_scenarios.h"
+
+namespace hindsight {
+namespace {
+
+constexpr const char* kHelp =
+    R"(Makes a recording with known truth: a vehicle's motion, the exact readings of
+an IMU that moves so on the rotating Earth, and the errors of IMU and aiding
+sensors, drawn from the seed. SCENARIO is the name of a built-in scenario
+(--list) or a YAML file. The folder of --out gets config.yaml, imu.csv, a file
+for each aiding sensor and truth.csv, and appears when it is complete.
+)";
+
+int ListScenarios() {
+  for (const std::string& name : BuiltinScenarioNames()) {
+    std::cout << name << "\n    " << BuiltinScenario(name).description << "\n";
+  }
+  return kUsable;
+}
+
+int Run(const std::vector<std::string>& arguments) {
+  if (FLAGS_list) return ListScenarios();
+  if (arguments.empty()) {
+    throw UsageError("'simulate' needs a scenario ('--list' names them)");
+  }
+  if (FLAGS_out.empty()) {
+    throw UsageError(
+        "'simulate' needs --out=DIR, the folder for the recording");
+  }
+  Scenario scenario = FindScenario(arguments[0]);
+  if (!FLAGS_profile.empty()) {
+    scenario.profile = ReadMotionProfile(FLAGS_profile);
+    scenario.name += "_profile";
+  }
+  CatchInterrupts();
+  ResultFolder folder(FLAGS_out, FLAGS_force, kDatasetConfigName);
+  Simulation simulation(scenario, FLAGS_seed);
+  ThrowIfStopRequested();
+  WriteDataset(&simulation, folder.staging().string());
+  ThrowIfStopRequested();
+  folder.Commit();
+  const std::string config =
+      (std::filesystem::path(FLAGS_out) / kDatasetConfigName).string();
+  std::cout << "wrote the recording '" << scenario.name << "', seed "
+            << FLAGS_seed << ", to " << FLAGS_out
+            << "\nreconstruct it with: hindsight run " << config
+            << " --out=results\n";
+  return kUsable;
+}
+
+}  // namespace
+
+Command SimulateCommand() {
+  return {
+      .name = "simulate",
+      .summary = "make a recording with known truth",
+      .arguments = "SCENARIO",
+      .help = kHelp,
+      .flags = {{"out", "DIR", "folder for the recording (required)"},
+                {"force", "", "replace an earlier recording in DIR"},
+                {"seed", "N", "of the random errors, 0 or more (1)"},
+                {"profile", "FILE",
+                 "move as in FILE in place of the scenario's segments:\n"
+                 "a truth.csv, or without header t, lat, lon, h, v north,\n"
+                 "east, down, roll, pitch, heading in s, deg, m, m/s"},
+                {"list", "", "list the built-in scenarios"}},
+      .min_arguments = 0,
+      .max_arguments = 1,
+      .run = Run,
+  };
+}
+
+}  // namespace hindsight

@@ -1,0 +1,13 @@
+#ifndef HINDSIGHT_APP_TEXT_H_
+#define HINDSIGHT_APP_TEXT_H_
+
+#include <string>
+
+namespace hindsight {
+
+/// printf into a string.
+[[gnu::format(printf, 1, 2)]] std::string Format(const char* format, ...);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_APP_TEXT_H_
