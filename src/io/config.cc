@@ -62,6 +62,9 @@ void ReadImuConfig(ConfigMap* top, const fs::path& folder, Declared* declared,
     options.kind = map.Choice("kind", {"rates", "increments"}, 0) == 0
                        ? ImuStream::Kind::kRates
                        : ImuStream::Kind::kIncrements;
+  } else {
+    // Keeps the key's place until the file has said which it is.
+    map.Resolve("kind", "rates");
   }
   options.C_bs = ReadMounting(&map);
   options.stamp_at_start = map.Choice("stamp", {"end", "start"}, 0) == 1;

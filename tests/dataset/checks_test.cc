@@ -1,0 +1,79 @@
+#include "dataset/checks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/units.h"
+
+namespace hindsight {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// 60 s at 100 Hz: at rest for the first 20 s, then shaken.
+Dataset Recording(const Eigen::Vector3d& rest_force) {
+  Dataset data;
+  for (int i = 0; i <= 6000; ++i) {
+    const double t = 0.01 * i;
+    const double shake = t < 20.0 ? 0.0 : std::sin(30.0 * t);
+    data.imu.samples.push_back({t, Eigen::Vector3d(0.001, 0.1 * shake, 0.0),
+                                rest_force + Eigen::Vector3d::Constant(shake)});
+  }
+  AidingStream stream;
+  stream.sensor.name = "gnss";
+  stream.sensor.time_offset = 0.2;
+  for (int i = 0; i <= 90; ++i) {
+    if (i >= 30 && i < 40) continue;
+    stream.measurements.push_back({1.0 * i, 0, false, PositionFix{}});
+  }
+  data.streams.push_back(stream);
+  return data;
+}
+
+TEST(CheckDataset, ReportsRateGapAndOverlap) {
+  const CheckReport report = CheckDataset(Recording({0, 0, -9.81}));
+  ASSERT_EQ(report.streams.size(), 2u);
+  EXPECT_NEAR(report.streams[0].rate, 100.0, 1e-6);
+  EXPECT_TRUE(report.streams[0].gaps.empty());
+  const StreamReport& gnss = report.streams[1];
+  EXPECT_EQ(gnss.count, 81);
+  EXPECT_NEAR(gnss.rate, 1.0, 1e-9);
+  ASSERT_EQ(gnss.gaps.size(), 1u);
+  EXPECT_NEAR(gnss.gaps[0].length, 11.0, 1e-9);
+  EXPECT_NEAR(gnss.t_begin, 0.2, 1e-12);
+  EXPECT_NEAR(gnss.overlap, 59.8, 1e-9);
+}
+
+TEST(CheckDataset, MeasuresForceAtRest) {
+  const CheckReport report = CheckDataset(Recording({0, 0, -9.81}));
+  EXPECT_NEAR(report.imu.rest_seconds, 20.0, 1.5);
+  ASSERT_TRUE(report.imu.rest_force);
+  EXPECT_NEAR(report.imu.rest_force->z(), -9.81, 1e-3);
+  EXPECT_NEAR(report.imu.rest_rate->x(), 0.001, 1e-5);
+  EXPECT_TRUE(report.warnings.empty());
+  EXPECT_THAT(report.axes, HasSubstr("as it should"));
+}
+
+TEST(CheckDataset, SuggestsAxesThatMakeZPointDown) {
+  const CheckReport up = CheckDataset(Recording({0, 0, 9.81}));
+  EXPECT_THAT(up.axes, HasSubstr("forward-left-up"));
+  EXPECT_THAT(up.axes, HasSubstr("[x, -y, -z]"));
+  ASSERT_EQ(up.warnings.size(), 1u);
+  EXPECT_THAT(CheckDataset(Recording({9.81, 0, 0})).axes,
+              HasSubstr("[z, y, -x]"));
+  EXPECT_THAT(CheckDataset(Recording({0, -9.81, 0})).axes,
+              HasSubstr("[z, x, y]"));
+}
+
+TEST(CheckDataset, WarnsOfForceInTheWrongUnit) {
+  Dataset data = Recording({0, 0, -9.81});
+  for (ImuSample& sample : data.imu.samples) sample.accel /= kStandardGravity;
+  const CheckReport report = CheckDataset(data);
+  ASSERT_FALSE(report.warnings.empty());
+  EXPECT_THAT(report.warnings[0], HasSubstr("check the unit"));
+}
+
+}  // namespace
+}  // namespace hindsight

@@ -1,0 +1,30 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "io/config.h"
+
+namespace hindsight {
+namespace {
+
+TEST(CarRtk, ConfigurationLoadsTheRecording) {
+  const std::string source = HINDSIGHT_SOURCE_DIR;
+  const std::string root = source + "/../shared/data";
+  if (!std::filesystem::exists(root + "/car_rtk")) {
+    GTEST_SKIP() << "the recording car_rtk is not here";
+  }
+  const Dataset data = LoadDataset(source + "/data/car_rtk.yaml", {root});
+  EXPECT_EQ(data.imu.samples.size(), 54860u);
+  EXPECT_NEAR(data.imu.t_begin(), 0.854, 1e-9);
+  EXPECT_NEAR(data.imu.t_end(), 549.585, 1e-9);
+  ASSERT_EQ(data.streams.size(), 1u);
+  EXPECT_EQ(data.streams[0].measurements.size(), 2189u);
+  EXPECT_NEAR(data.streams[0].measurements.front().t, -2.501, 1e-9);
+  // The first fix that the IMU covers is at 0.999 s.
+  ASSERT_EQ(data.outages.size(), 8u);
+  EXPECT_NEAR(data.outages[0].t_begin, 0.999 + 90.0, 1e-9);
+  EXPECT_NEAR(data.outages[7].t_end, 0.999 + 90.0 + 7 * 60.0 + 15.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace hindsight

@@ -1,0 +1,259 @@
+#include "io/config.h"
+
+#include <cmath>
+
+#include "base/units.h"
+#include "io/recording_folder.h"
+
+namespace hindsight {
+namespace {
+
+constexpr const char* kImu =
+    "t[s],gyro_x[deg/s],gyro_y[deg/s],gyro_z[deg/s],accel_x[g],accel_y[g],"
+    "accel_z[g]\n"
+    "10.0,1,2,3,0.1,0.2,1\n"
+    "10.1,1,2,3,0.1,0.2,1\n"
+    "10.2,1,2,3,0.1,0.2,1\n"
+    "10.3,4,5,6,0.1,0.2,1\n";
+constexpr const char* kGnss =
+    "t[s],lat[deg],lon[deg],h[m],sigma_n[m],sigma_e[m],sigma_d[m]\n"
+    "10.0,50,8,100,0.1,0.1,0.2\n"
+    "10.2,50,8,100,0.1,0.1,0.2\n";
+constexpr const char* kConfig =
+    "imu:\n"                             // 1
+    "  file: imu.csv\n"                  // 2
+    "  axes: [x, -y, -z]\n"              // 3
+    "  noise:\n"                         // 4
+    "    gyro: 0.2 deg/sqrt(h)\n"        // 5
+    "    accel: 70 ug/sqrt(Hz)\n"        // 6
+    "aiding:\n"                          // 7
+    "  gnss:\n"                          // 8
+    "    type: position\n"               // 9
+    "    file: gnss.csv\n"               // 10
+    "    lever_arm: [0, 0.5, -1.1 m]\n"  // 11
+    "    gate: 99.9 %\n";                // 12
+
+class ConfigTest : public RecordingFolder {
+ protected:
+  ConfigTest() {
+    Write("imu.csv", kImu);
+    Write("gnss.csv", kGnss);
+    Write("config.yaml", kConfig);
+  }
+};
+
+TEST_F(ConfigTest, LoadsWhatItSays) {
+  const Dataset data = Load();
+  EXPECT_EQ(data.name, "config");
+  EXPECT_FALSE(data.epoch_gps_ns);
+  ASSERT_EQ(data.imu.samples.size(), 4u);
+  EXPECT_EQ(data.imu.kind, ImuStream::Kind::kRates);
+  EXPECT_DOUBLE_EQ(data.imu.t_begin(), 10.0);
+  const ImuSample& last = data.imu.samples.back();
+  EXPECT_TRUE(last.gyro.isApprox(Eigen::Vector3d(4, -5, -6) * kDegree, 1e-14));
+  EXPECT_TRUE(last.accel.isApprox(
+      Eigen::Vector3d(0.1, -0.2, -1) * kStandardGravity, 1e-14));
+  EXPECT_NEAR(data.imu.noise.gyro_noise_density, 0.2 * kDegreePerSqrtHour,
+              1e-18);
+  ASSERT_EQ(data.streams.size(), 1u);
+  const AidingStream& gnss = data.streams[0];
+  EXPECT_EQ(gnss.sensor.name, "gnss");
+  EXPECT_EQ(gnss.sensor.lever_arm_b, Eigen::Vector3d(0, 0.5, -1.1));
+  EXPECT_DOUBLE_EQ(gnss.sensor.gate_probability.value(), 0.999);
+  ASSERT_EQ(gnss.measurements.size(), 2u);
+  const auto& fix = std::get<PositionFix>(gnss.measurements[1].model);
+  const Geodetic g = GeodeticFromEcef(fix.p_e);
+  EXPECT_NEAR(g.latitude / kDegree, 50.0, 1e-10);
+  EXPECT_NEAR(g.height, 100.0, 1e-6);
+  EXPECT_DOUBLE_EQ(fix.R_n(2, 2), 0.2 * 0.2);
+}
+
+TEST_F(ConfigTest, MountingTurnsAfterAxes) {
+  Write("config.yaml", ReplacedOnce(kConfig, "  noise:",
+                                    "  mounting: [0, 0, 90 deg]\n  noise:"));
+  // Heading 90 deg: body x' = -y, y' = x of the axes' result.
+  EXPECT_TRUE(Load().imu.samples[0].gyro.isApprox(
+      Eigen::Vector3d(2, 1, -3) * kDegree, 1e-12));
+}
+
+TEST_F(ConfigTest, ResolvedCopyLoadsTheSameDataSet) {
+  ResolvedConfig first;
+  const Dataset a = Load(&first);
+  WriteResolvedConfig(first, Path("config.yaml"));
+  ResolvedConfig second;
+  const Dataset b = Load(&second);
+  ASSERT_EQ(a.imu.samples.size(), b.imu.samples.size());
+  for (std::size_t i = 0; i < a.imu.samples.size(); ++i) {
+    EXPECT_EQ(a.imu.samples[i].gyro, b.imu.samples[i].gyro);
+  }
+  EXPECT_EQ(a.imu.noise.accel_noise_density, b.imu.noise.accel_noise_density);
+  EXPECT_EQ(a.streams[0].sensor.gate_probability,
+            b.streams[0].sensor.gate_probability);
+  EXPECT_EQ(first.yaml, second.yaml);
+  EXPECT_NE(first.yaml.find("max_spacing: 1 s"), std::string::npos);
+}
+
+TEST_F(ConfigTest, ByteOrderMarkAndCarriageReturnsAreRead) {
+  std::string windows = "\xEF\xBB\xBF";
+  for (const char c : std::string(kImu)) {
+    if (c == '\n') windows += '\r';
+    windows += c;
+  }
+  Write("imu.csv", windows);
+  EXPECT_EQ(Load().imu.samples.size(), 4u);
+}
+
+TEST_F(ConfigTest, LastLineWithoutLineFeedIsRead) {
+  std::string text = kImu;
+  text.pop_back();
+  Write("imu.csv", text);
+  EXPECT_EQ(Load().imu.samples.size(), 4u);
+}
+
+TEST_F(ConfigTest, PoliciesAreCounted) {
+  Write("imu.csv", ReplacedOnce(kImu, "10.2,", "10.1,") + "10.4,1,2");
+  Write("config.yaml", ReplacedOnce(kConfig, "  noise:",
+                                    "  on_duplicate: drop_first\n"
+                                    "  allow_truncated_tail: true\n  noise:"));
+  const Dataset data = Load();
+  EXPECT_EQ(data.imu.samples.size(), 3u);
+  ASSERT_EQ(data.policies.size(), 2u);
+  EXPECT_EQ(data.policies[0].action, "first of duplicate stamps dropped");
+  EXPECT_EQ(data.policies[0].count, 1);
+  EXPECT_EQ(data.policies[1].action, "truncated last line dropped");
+}
+
+TEST_F(ConfigTest, DeclaredGapIsBridged) {
+  Write("imu.csv", ReplacedOnce(kImu, "10.3,", "11.3,"));
+  Write("config.yaml",
+        ReplacedOnce(kConfig, "  noise:", "  max_gap: 2 s\n  noise:"));
+  const Dataset data = Load();
+  ASSERT_EQ(data.policies.size(), 1u);
+  EXPECT_EQ(data.policies[0].action, "gap bridged");
+  EXPECT_EQ(data.imu.max_gap, 2.0);
+}
+
+struct BadConfig {
+  const char* from;
+  const char* to;
+  const char* place;
+  const char* says;
+};
+
+TEST_F(ConfigTest, BadConfigurationNamesLineAndReason) {
+  const BadConfig cases[] = {
+      {"gate:", "gat:", "config.yaml:12: ", "perhaps 'gate'"},
+      {"    gate: 99.9 %", "    type: height", "config.yaml:12: ", "twice"},
+      {"0.2 deg/sqrt(h)", "0.2", "config.yaml:5: imu.noise.gyro: ", "no unit"},
+      {"0.2 deg/sqrt(h)", "0.2 deg/h", "config.yaml:5: ", "deg/sqrt(h)"},
+      {"0.2 deg/sqrt(h)", "0 deg/sqrt(h)", "config.yaml:5: ", "greater"},
+      {"0.2 deg/sqrt(h)", "-1 deg/sqrt(h)", "config.yaml:5: ", "greater"},
+      {"[x, -y, -z]", "[x, y, -z]", "config.yaml:3: ", "right-handed"},
+      {"imu.csv", "lost.csv", "config.yaml:2: imu.file: ", "lost.csv"},
+      {"99.9 %", "2", "config.yaml:12: ", "between 0 and 1"},
+      {"position", "positon", "config.yaml:9: ", "velocity"},
+      {"-1.1 m]", "m]", "config.yaml:11: ", "number"},
+      {"gate: 99.9 %", "sigma: 0 m", "config.yaml:12: ", "greater"},
+      {"aiding:", "folder: nowhere\naiding:", "config.yaml:7: ", "--data-root"},
+      {"aiding:", "withhold: [{sensor: dvl, every: 9 s, length: 1 s}]\naiding:",
+       "config.yaml:7: ", "'dvl'"},
+      {"gate: 99.9 %", "gate: [", "config.yaml:13: ", "YAML"},
+  };
+  for (const BadConfig& c : cases) {
+    SCOPED_TRACE(c.to);
+    Write("config.yaml", ReplacedOnce(kConfig, c.from, c.to));
+    std::string error = LoadError();
+    EXPECT_TRUE(error.starts_with(c.place)) << error;
+    EXPECT_NE(error.find(c.says), std::string::npos) << error;
+    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+  }
+}
+
+struct BadFile {
+  const char* from;
+  const char* to;
+  const char* place;
+  const char* says;
+};
+
+TEST_F(ConfigTest, BadImuFileNamesLineAndReason) {
+  const BadFile cases[] = {
+      {"10.2,1", "10.2,nan", "imu.csv:4: ", "gyro_x"},
+      {"10.2,1", "10.2,inf", "imu.csv:4: ", "finite"},
+      {"10.2,1", "10.2,abc", "imu.csv:4: ", "'abc'"},
+      {"10.2,1", "10.2,", "imu.csv:4: ", "finite"},
+      {"10.2,1,2", "10.2,1", "imu.csv:4: ", "found 6 columns, expected 7"},
+      {"10.2,1,2", "10.2,1,2,2", "imu.csv:4: ", "found 8 columns"},
+      {"10.2,", "9.9,", "imu.csv:4: ", "backwards"},
+      {"10.2,", "10.1,", "imu.csv:4: ", "on_duplicate"},
+      {"10.3,", "14.3,", "imu.csv:5: ", "gap of 4.100 s"},
+      {"10.3,4,5,6,0.1,0.2,1\n", "10.3,4,5", "imu.csv:5: ", "truncated"},
+      {"10.2,", "x,", "imu.csv:4: ", "not a time"},
+      {"accel_z[g]", "accel_z", "imu.csv:1: ", "no unit"},
+      {"accel_z[g]", "accel_z[deg]", "imu.csv:1: ", "m/s^2"},
+      {"accel_z[g]", "accel_x[g]", "imu.csv:1: ", "twice"},
+      {"accel_z[g]", "acc_z[g]", "imu.csv: ", "accel_z"},
+      {"t[s]", "time", "imu.csv:1: ", "no column t"},
+  };
+  for (const BadFile& c : cases) {
+    SCOPED_TRACE(c.to);
+    Write("imu.csv", ReplacedOnce(kImu, c.from, c.to));
+    const std::string error = LoadError();
+    EXPECT_TRUE(error.starts_with(c.place)) << error;
+    EXPECT_NE(error.find(c.says), std::string::npos) << error;
+  }
+}
+
+TEST_F(ConfigTest, BadAidingFileNamesLineAndReason) {
+  const BadFile cases[] = {
+      {"10.2,50,8,100,0.1", "10.2,50,8,100,0", "gnss.csv:3: ", "sigma_n"},
+      {"10.2,50,8,100,0.1", "10.2,50,8,100,-1", "gnss.csv:3: ", "positive"},
+      {"10.2,50", "10.2,95", "gnss.csv:3: ", "latitude"},
+      {"sigma_d[m]", "sd[m]", "config.yaml:10: ", "sigma_d"},
+  };
+  for (const BadFile& c : cases) {
+    SCOPED_TRACE(c.to);
+    Write("gnss.csv", ReplacedOnce(kGnss, c.from, c.to));
+    const std::string error = LoadError();
+    EXPECT_TRUE(error.starts_with(c.place)) << error;
+    EXPECT_NE(error.find(c.says), std::string::npos) << error;
+  }
+}
+
+TEST_F(ConfigTest, StreamsThatDoNotOverlapSayBothSpans) {
+  Write("gnss.csv",
+        ReplacedOnce(ReplacedOnce(kGnss, "10.0,", "20.0,"), "10.2,", "20.2,"));
+  const std::string error = LoadError();
+  EXPECT_TRUE(error.starts_with("config.yaml:10: aiding.gnss")) << error;
+  EXPECT_NE(error.find("20.000 to 20.200 s"), std::string::npos) << error;
+  EXPECT_NE(error.find("10.000 to 10.300 s"), std::string::npos) << error;
+}
+
+TEST_F(ConfigTest, EmptyFilesAreNamed) {
+  Write("imu.csv", "");
+  EXPECT_EQ(LoadError(), "imu.csv: the file is empty");
+  Write("imu.csv", "t[s],gyro_x[deg/s]\n");
+  EXPECT_EQ(LoadError(), "imu.csv: the file holds no rows of data");
+}
+
+TEST_F(ConfigTest, GzipIsReadAndDamageIsNamed) {
+  std::string text =
+      "t[s],gyro_x[deg/s],gyro_y[deg/s],gyro_z[deg/s],"
+      "accel_x[g],accel_y[g],accel_z[g]\n";
+  for (int i = 0; i < 3000; ++i) {
+    text += std::to_string(10.0 + 0.01 * i) + "," +
+            std::to_string(std::sin(i * 1.7)) + ",2,3,0.1,0.2,1\n";
+  }
+  WriteGzip("imu.csv", text);
+  EXPECT_EQ(Load().imu.samples.size(), 3000u);
+  const std::string good = Read("imu.csv");
+  Write("imu.csv", good.substr(0, good.size() / 2));
+  EXPECT_NE(LoadError().find("imu.csv: damaged gzip"), std::string::npos);
+  std::string damaged = good;
+  damaged[good.size() / 2] = static_cast<char>(damaged[good.size() / 2] ^ 0x55);
+  Write("imu.csv", damaged);
+  EXPECT_FALSE(LoadError().empty());
+}
+
+}  // namespace
+}  // namespace hindsight

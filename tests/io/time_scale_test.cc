@@ -1,0 +1,74 @@
+#include "io/time_scale.h"
+
+#include <gtest/gtest.h>
+
+namespace hindsight {
+namespace {
+
+TEST(TimeScale, NanosecondStampsKeepEveryDigit) {
+  const auto a = ParseStamp("1403636579763555584", 1'000'000'000);
+  const auto b = ParseStamp("1403636579763555585", 1'000'000'000);
+  ASSERT_TRUE(a && b);
+  EXPECT_NEAR(b->Since(*a), 1e-9, 1e-15);
+  EXPECT_EQ(a->seconds, 1403636579);
+}
+
+TEST(TimeScale, LongDecimalSecondsKeepEveryDigit) {
+  const auto a = ParseStamp("1403636579.763555584", 1);
+  const auto b = ParseStamp("1403636579.763555585", 1);
+  ASSERT_TRUE(a && b);
+  EXPECT_NEAR(b->Since(*a), 1e-9, 1e-15);
+}
+
+TEST(TimeScale, ShortStampsReadAsTheNearestDouble) {
+  EXPECT_EQ(ParseStamp("243258.499", 1)->Since({}), 243258.499);
+  EXPECT_EQ(ParseStamp("-0.25", 1)->Since({}), -0.25);
+  EXPECT_EQ(ParseStamp("2.5e3", 1000)->Since({}), 2.5);
+  EXPECT_FALSE(ParseStamp("12:30", 1));
+  EXPECT_FALSE(ParseStamp("nan", 1));
+}
+
+TEST(TimeScale, GpsTimeOfKnownInstants) {
+  // Week 2374, Tuesday: 2374 * 604800 + 2 * 86400.
+  const auto gps = ParseDateTime("2025-07-08 00:00:00 GPST");
+  ASSERT_TRUE(gps);
+  EXPECT_EQ(gps->seconds, 2374 * kWeekSeconds + 2 * 86400);
+  // Eighteen leap seconds since 2017.
+  const auto utc = ParseDateTime("2025/07/08 00:00:00.5 UTC");
+  ASSERT_TRUE(utc);
+  EXPECT_DOUBLE_EQ(utc->Since(*gps), 18.5);
+  EXPECT_EQ(ParseDateTime("1980-01-06 00:00:00 UTC")->seconds, 0);
+}
+
+TEST(TimeScale, LeapSecondOfTheEndOf2016) {
+  const auto before = ParseDateTime("2016-12-31 23:59:59 UTC");
+  const auto inside = ParseDateTime("2016-12-31 23:59:60 UTC");
+  const auto after = ParseDateTime("2017-01-01 00:00:00 UTC");
+  ASSERT_TRUE(before && inside && after);
+  EXPECT_EQ(inside->seconds - before->seconds, 1);
+  EXPECT_EQ(after->seconds - before->seconds, 2);
+}
+
+TEST(TimeScale, UnixTimeGainsTheLeapSeconds) {
+  const Stamp gps = GpsFromUnix({1483228800, 0.25});  // 2017-01-01 UTC
+  const auto date = ParseDateTime("2017-01-01 00:00:00 UTC");
+  EXPECT_DOUBLE_EQ(gps.Since(*date), 0.25);
+}
+
+TEST(TimeScale, RefusesWhatIsNoDate) {
+  for (const char* text :
+       {"2025-07-08 00:00:00", "2025-02-30 00:00:00 GPST",
+        "2025-07-08 25:00:00 UTC", "08.07.2025 00:00:00 UTC", "GPST"}) {
+    EXPECT_FALSE(ParseDateTime(text)) << text;
+  }
+}
+
+TEST(TimeScale, FormatReadsBack) {
+  const std::int64_t ns = 1'435'000'000'123'456'789;
+  const auto again = ParseDateTime(FormatGpsTime(ns));
+  ASSERT_TRUE(again);
+  EXPECT_EQ(Nanoseconds(*again), ns);
+}
+
+}  // namespace
+}  // namespace hindsight

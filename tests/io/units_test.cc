@@ -1,0 +1,100 @@
+#include "io/units.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "base/units.h"
+
+namespace hindsight {
+namespace {
+
+struct Case {
+  const char* text;
+  Quantity quantity;
+  double si;
+};
+
+TEST(Units, ConvertToSi) {
+  const Case cases[] = {
+      {"0.23 deg/sqrt(h)", Quantity::kGyroNoiseDensity,
+       0.23 * kPi / 180.0 / 60.0},
+      {"1 deg/s/sqrt(Hz)", Quantity::kGyroNoiseDensity, kPi / 180.0},
+      {"60 deg/h/sqrt(Hz)", Quantity::kGyroNoiseDensity, kPi / 180.0 / 60.0},
+      {"2 rad/sqrt(s)", Quantity::kGyroNoiseDensity, 2.0},
+      {"70 ug/sqrt(Hz)", Quantity::kAccelNoiseDensity, 70e-6 * 9.80665},
+      {"0.6 m/s/sqrt(h)", Quantity::kAccelNoiseDensity, 0.01},
+      {"0.5 m/s^2/sqrt(Hz)", Quantity::kAccelNoiseDensity, 0.5},
+      {"3.8e-5 deg/s^2/sqrt(Hz)", Quantity::kGyroBiasWalk,
+       3.8e-5 * kPi / 180.0},
+      {"3600 deg/h/sqrt(h)", Quantity::kGyroBiasWalk, kPi / 180.0 / 60.0},
+      {"7 ug/s/sqrt(Hz)", Quantity::kAccelBiasWalk, 7e-6 * 9.80665},
+      {"6 mg/sqrt(h)", Quantity::kAccelBiasWalk, 1e-4 * 9.80665},
+      {"1 mg", Quantity::kAcceleration, 9.80665e-3},
+      {"10 mGal", Quantity::kAcceleration, 1e-4},
+      {"5 ppm", Quantity::kRatio, 5e-6},
+      {"0.1 %", Quantity::kRatio, 1e-3},
+      {"3 deg/h", Quantity::kAngularRate, kPi / 180.0 / 1200.0},
+      {"20 ms", Quantity::kTime, 0.02},
+      {"-12.3 deg", Quantity::kAngle, -12.3 * kPi / 180.0},
+      {"36 km/h", Quantity::kSpeed, 10.0},
+      {"1 kn", Quantity::kSpeed, 1852.0 / 3600.0},
+      {"+20 cm", Quantity::kLength, 0.2},
+      {"100 Hz", Quantity::kFrequency, 100.0},
+      {"50 nT", Quantity::kMagneticField, 0.05},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.text);
+    EXPECT_NEAR(ParseQuantity(c.text, c.quantity), c.si,
+                1e-14 * std::abs(c.si));
+  }
+}
+
+TEST(Units, EverySiUnitIsAcceptedWithFactorOne) {
+  for (int i = 0; i <= static_cast<int>(Quantity::kMagneticField); ++i) {
+    const auto quantity = static_cast<Quantity>(i);
+    SCOPED_TRACE(SiUnit(quantity));
+    EXPECT_EQ(UnitFactor(SiUnit(quantity), quantity), 1.0);
+  }
+}
+
+TEST(Units, RefuseWhatIsMissingOrOfAnotherDimension) {
+  const Case cases[] = {
+      {"0.23", Quantity::kGyroNoiseDensity, 0},
+      {"0", Quantity::kLength, 0},
+      {"0.23 deg/h", Quantity::kGyroNoiseDensity, 0},
+      {"1 deg", Quantity::kRatio, 0},
+      {"1 m", Quantity::kTime, 0},
+      {"1 furlong", Quantity::kLength, 0},
+      {"m", Quantity::kLength, 0},
+      {"nan m", Quantity::kLength, 0},
+      {"inf m", Quantity::kLength, 0},
+      {"1.2.3 m", Quantity::kLength, 0},
+      {"1 m/", Quantity::kLength, 0},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.text);
+    try {
+      ParseQuantity(c.text, c.quantity);
+      ADD_FAILURE() << "accepted";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(UnitExamples(c.quantity)),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST(Units, ListsShareTheirLastUnit) {
+  const std::vector<double> expected = {0.0, 0.5, -1.1};
+  for (const char* text : {"[0, 0.5, -1.1] m", "0, 0.5, -1.1 m",
+                           "[0 m, 0.5 m, -1.1 m]", "0 m, 50 cm, -1.1 m"}) {
+    SCOPED_TRACE(text);
+    EXPECT_EQ(ParseQuantities(text, Quantity::kLength), expected);
+  }
+  EXPECT_THROW(ParseQuantities("[0, 0.5, -1.1]", Quantity::kLength),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace hindsight
