@@ -20,10 +20,11 @@ TEST(CarRtk, ConfigurationLoadsTheRecording) {
   ASSERT_EQ(data.streams.size(), 1u);
   EXPECT_EQ(data.streams[0].measurements.size(), 2189u);
   EXPECT_NEAR(data.streams[0].measurements.front().t, -2.501, 1e-9);
-  // The first fix that the IMU covers is at 0.999 s.
+  // The first fix that the IMU covers is stamped 0.749 s, at 0.949 s
+  // in the IMU's clock.
   ASSERT_EQ(data.outages.size(), 8u);
-  EXPECT_NEAR(data.outages[0].t_begin, 0.999 + 90.0, 1e-9);
-  EXPECT_NEAR(data.outages[7].t_end, 0.999 + 90.0 + 7 * 60.0 + 15.0, 1e-9);
+  EXPECT_NEAR(data.outages[0].t_begin, 0.949 + 90.0, 1e-9);
+  EXPECT_NEAR(data.outages[7].t_end, 0.949 + 90.0 + 7 * 60.0 + 15.0, 1e-9);
 }
 
 }  // namespace
