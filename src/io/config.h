@@ -78,6 +78,10 @@ namespace hindsight {
 /// velocity_sigma, attitude_sigma, gyro_bias_sigma, accel_bias_sigma. What is
 /// absent is found by alignment.
 ///
+/// withhold: outage k starts at first fix + from + k every and lasts length;
+/// from is every if it is absent. The first fix is the first that the IMU
+/// covers.
+///
 /// stationary: window 1 s, gyro_threshold 0.01 rad/s, accel_threshold
 /// 0.1 m/s^2, velocity_sigma 0.01 m/s, rate_sigma 5e-4 rad/s.
 
