@@ -18,9 +18,9 @@ void Odometer::Evaluate(const ModelContext& context,
   const Eigen::Matrix3d C_ob =
       (Exp(m) * context.sensor.q_sb).toRotationMatrix();
   // The body has turned on since the node was placed.
-  const Eigen::Matrix3d C_oe =
-      C_ob * Exp(-motion.dt * motion.w_eb_b).toRotationMatrix() *
-      motion.C_eb.transpose();
+  const Eigen::Vector3d turn = -motion.dt * motion.w_eb_b;
+  const Eigen::Matrix3d C_ob0 = C_ob * Exp(turn).toRotationMatrix();
+  const Eigen::Matrix3d C_oe = C_ob0 * motion.C_eb.transpose();
   const Eigen::Vector3d v_o = C_oe * motion.v_e;
   const Eigen::Vector3d gain(1.0 + k, 1.0, 1.0);
 
@@ -32,6 +32,13 @@ void Odometer::Evaluate(const ModelContext& context,
   AddVelocityColumns(context, motion, A, &full.H);
   layout.AddColumns(BlockKind::kAttitude, BlockKey::kNoSensor,
                     A * Skew(motion.v_e) * motion.C_en, &full.H);
+  if (motion.dt != 0.0) {
+    const Eigen::Vector3d v_b = motion.C_eb.transpose() * motion.v_e;
+    const Eigen::Matrix3d turned = motion.dt * C_ob0 * Skew(v_b);
+    AddBodyRateColumns(context, motion,
+                       gain.asDiagonal() * turned * RightJacobian(turn),
+                       &full.H);
+  }
   layout.AddColumns(
       BlockKind::kTimeOffset, sensor,
       -gain.cwiseProduct(C_ob * motion.w_eb_b.cross(C_ob.transpose() * v_o)),

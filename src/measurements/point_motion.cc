@@ -36,6 +36,19 @@ PointMotion MotionOfSensor(const ModelContext& context) {
   return m;
 }
 
+void AddBodyRateColumns(const ModelContext& context, const PointMotion& m,
+                        const RowTimes3& A, RowJacobian* H) {
+  const ErrorLayout& layout = context.layout;
+  const int none = BlockKey::kNoSensor;
+  const ImuCalibration calibration = CalibrationOf(layout, context.state);
+  const Eigen::Vector3d factor = 1.0 / (1.0 + calibration.s_g.array());
+  layout.AddColumns(BlockKind::kAttitude, none,
+                    -A * m.C_eb.transpose() * Skew(EarthRate_e()) * m.C_en, H);
+  layout.AddColumns(BlockKind::kGyroBias, none, -A * factor.asDiagonal(), H);
+  layout.AddColumns(BlockKind::kGyroScale, none,
+                    -A * m.w_ib_b.cwiseProduct(factor).asDiagonal(), H);
+}
+
 namespace {
 
 /// d a_e / d(error) times A, for the time-offset terms.
@@ -63,19 +76,11 @@ void AddRigidVelocityColumns(const ModelContext& context, const PointMotion& m,
                              const RowTimes3& A, RowJacobian* H) {
   const ErrorLayout& layout = context.layout;
   const int none = BlockKey::kNoSensor;
-  const ImuCalibration calibration = CalibrationOf(layout, context.state);
   const RowTimes3 A_b = A * m.C_eb;
-  const RowTimes3 A_l = A_b * Skew(m.l_b);
-  const Eigen::Vector3d factor = 1.0 / (1.0 + calibration.s_g.array());
   layout.AddColumns(BlockKind::kVelocity, none, A * m.C_en, H);
   layout.AddColumns(BlockKind::kAttitude, none,
-                    (-A * Skew(m.C_eb * m.w_eb_b.cross(m.l_b)) +
-                     A_l * m.C_eb.transpose() * Skew(EarthRate_e())) *
-                        m.C_en,
-                    H);
-  layout.AddColumns(BlockKind::kGyroBias, none, A_l * factor.asDiagonal(), H);
-  layout.AddColumns(BlockKind::kGyroScale, none,
-                    A_l * m.w_ib_b.cwiseProduct(factor).asDiagonal(), H);
+                    -A * Skew(m.C_eb * m.w_eb_b.cross(m.l_b)) * m.C_en, H);
+  AddBodyRateColumns(context, m, -A_b * Skew(m.l_b), H);
   layout.AddColumns(BlockKind::kLeverArm, context.sensor_index,
                     A_b * Skew(m.w_eb_b), H);
 }

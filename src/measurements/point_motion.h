@@ -38,6 +38,10 @@ void AddPositionColumns(const ModelContext& context, const PointMotion& motion,
 void AddVelocityColumns(const ModelContext& context, const PointMotion& motion,
                         const RowTimes3& A, RowJacobian* H);
 
+/// Adds A * dw_eb/d(error) to H, for any A that acts on vectors in b.
+void AddBodyRateColumns(const ModelContext& context, const PointMotion& motion,
+                        const RowTimes3& A, RowJacobian* H);
+
 /// Rotation of the NED axes with position: C_en(p + C_en dr) =
 /// C_en(p) (I + [theta x]), theta = NedTurn dr [rad/m].
 Eigen::Matrix3d NedTurn(const Eigen::Vector3d& p_e);
