@@ -72,40 +72,94 @@ std::vector<TimedVelocity> GroundVelocities(const Dataset& dataset, double from,
   return out;
 }
 
-std::vector<TimeInterval> FindRests(const Dataset& dataset) {
-  constexpr double kStep = 1.0;     // [s]
-  constexpr double kWalking = 0.3;  // [m/s]
-  constexpr double kMargin = 1.0;   // of a velocity's validity [s]
-  const double infinity = std::numeric_limits<double>::infinity();
-  const std::vector<TimedVelocity> velocities =
-      GroundVelocities(dataset, -infinity, infinity);
-  const auto moves = [&](double begin, double end) {
-    auto it = std::lower_bound(
-        velocities.begin(), velocities.end(), begin - kMargin,
-        [](const TimedVelocity& v, double t) { return v.t < t; });
-    for (; it != velocities.end() && it->t <= end + kMargin; ++it) {
-      if (it->v_n.head<2>().norm() > std::max(kWalking, 5.0 * it->sigma)) {
-        return true;
-      }
+namespace {
+
+constexpr double kStep = 1.0;          // [s]
+constexpr double kMargin = 1.0;        // of a velocity's validity [s]
+constexpr double kWalking = 0.3;       // certainly moving above this [m/s]
+constexpr double kResting = 0.1;       // at rest below this [m/s]
+constexpr double kShortestRest = 3.0;  // seen by aiding sensors alone [s]
+constexpr double kAidingGap = 2.5;     // [s]
+
+bool Moves(const std::vector<TimedVelocity>& velocities, double begin,
+           double end) {
+  auto it = std::lower_bound(
+      velocities.begin(), velocities.end(), begin - kMargin,
+      [](const TimedVelocity& v, double t) { return v.t < t; });
+  for (; it != velocities.end() && it->t <= end + kMargin; ++it) {
+    if (it->v_n.head<2>().norm() > std::max(kWalking, 5.0 * it->sigma)) {
+      return true;
     }
-    return false;
-  };
-  std::vector<TimeInterval> rests;
+  }
+  return false;
+}
+
+void AppendRestsSeenByImu(const Dataset& dataset,
+                          const std::vector<TimedVelocity>& velocities,
+                          std::vector<TimeInterval>* rests) {
   for (const TimeInterval& still :
        FindStandstill(dataset.imu, dataset.stationary)) {
     bool joined = false;
     for (double t = still.begin; t < still.end; t += kStep) {
       const double end = std::min(t + kStep, still.end);
-      if (moves(t, end)) {
+      if (Moves(velocities, t, end)) {
         joined = false;
         continue;
       }
       if (joined) {
-        rests.back().end = end;
+        rests->back().end = end;
       } else {
-        rests.push_back({t, end});
+        rests->push_back({t, end});
       }
       joined = true;
+    }
+  }
+}
+
+void AppendRestsSeenByAiding(const std::vector<TimedVelocity>& velocities,
+                             std::vector<TimeInterval>* rests) {
+  TimeInterval rest;
+  bool open = false;
+  const auto close = [&] {
+    // Half a second at either end may already be motion.
+    const TimeInterval inside{rest.begin + 0.5, rest.end - 0.5};
+    if (open && inside.end - inside.begin >= kShortestRest) {
+      rests->push_back(inside);
+    }
+    open = false;
+  };
+  for (const TimedVelocity& v : velocities) {
+    const bool rests_now =
+        v.sigma < kResting &&
+        v.v_n.head<2>().norm() < std::max(kResting, 2.0 * v.sigma);
+    if (!rests_now || (open && v.t - rest.end > kAidingGap)) close();
+    if (!rests_now) continue;
+    if (!open) rest.begin = v.t;
+    rest.end = v.t;
+    open = true;
+  }
+  close();
+}
+
+}  // namespace
+
+std::vector<TimeInterval> FindRests(const Dataset& dataset) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::vector<TimedVelocity> velocities =
+      GroundVelocities(dataset, -infinity, infinity);
+  std::vector<TimeInterval> found;
+  AppendRestsSeenByImu(dataset, velocities, &found);
+  AppendRestsSeenByAiding(velocities, &found);
+  std::sort(found.begin(), found.end(),
+            [](const TimeInterval& a, const TimeInterval& b) {
+              return a.begin < b.begin;
+            });
+  std::vector<TimeInterval> rests;
+  for (const TimeInterval& rest : found) {
+    if (!rests.empty() && rest.begin <= rests.back().end) {
+      rests.back().end = std::max(rests.back().end, rest.end);
+    } else {
+      rests.push_back(rest);
     }
   }
   return rests;

@@ -34,8 +34,11 @@ struct TimedVelocity {
 std::vector<TimedVelocity> GroundVelocities(const Dataset& dataset, double from,
                                             double to);
 
-/// FindStandstill, less every second in which the aiding sensors see motion:
-/// even cruise on a good road or in still air looks like rest to an IMU.
+/// Spans in which the vehicle stands, in time order: what FindStandstill says,
+/// less every second in which the aiding sensors see motion (even cruise on a
+/// good road or in still air looks like rest to an IMU), and every span of at
+/// least 3 s in which they see none (an idling engine shakes an IMU): speeds
+/// below 0.1 m/s and twice their sigma, known to 0.1 m/s, without gaps.
 std::vector<TimeInterval> FindRests(const Dataset& dataset);
 
 }  // namespace hindsight
