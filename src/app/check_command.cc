@@ -25,7 +25,7 @@ constexpr std::size_t kListedGaps = 5;
 
 std::string StreamTable(const std::vector<StreamReport>& streams) {
   ReportTable table({"stream", "rows", "from\n[s]", "to\n[s]", "rate\n[Hz]",
-                   "jitter\n[ms]", "gaps", "duplicates", "overlap\n[s]"});
+                     "jitter\n[ms]", "gaps", "duplicates", "overlap\n[s]"});
   for (const StreamReport& stream : streams) {
     table.AddRow(
         {stream.name, std::to_string(stream.count),
@@ -81,7 +81,7 @@ int Run(const std::vector<std::string>& arguments) {
   std::cout << "recording '" << dataset.name << "'\n\n"
             << StreamTable(report.streams) << "\n"
             << DescribeGaps(report.streams) << DescribeImu(report)
-            << DescribePolicies(dataset);
+            << DescribeNotes(dataset);
   for (const std::string& warning : report.warnings) {
     std::cout << "warning: " << warning << "\n";
   }

@@ -54,6 +54,11 @@ const FlagUse* FindFlag(const Command& command, const std::string& name) {
                    Suggestion("--" + name, known));
 }
 
+const char* Kind(const std::string& type) {
+  if (type == "bool") return "true or false";
+  return type == "double" ? "a number" : "a whole number of 0 or more";
+}
+
 void SetFlag(const FlagUse& flag, std::string value) {
   gflags::CommandLineFlagInfo info;
   gflags::GetCommandLineFlagInfo(flag.name.c_str(), &info);
@@ -65,7 +70,7 @@ void SetFlag(const FlagUse& flag, std::string value) {
   if (bad_sign ||
       gflags::SetCommandLineOption(flag.name.c_str(), value.c_str()).empty()) {
     throw UsageError("--" + Dashed(flag.name) + "=" + value +
-                     ": the value is not a " + info.type);
+                     ": the value is not " + Kind(info.type));
   }
 }
 

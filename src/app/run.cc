@@ -8,6 +8,7 @@
 #include "app/result_folder.h"
 #include "app/run_output.h"
 #include "app/run_report.h"
+#include "app/text.h"
 #include "base/error.h"
 #include "dataset/timeline_builder.h"
 #include "io/comparison.h"
@@ -29,6 +30,16 @@ void ReplaceWithholdings(const std::vector<Withholding>& withholdings,
   ApplyWithholding(dataset);
 }
 
+/// Samples closer than the IMU's own say nothing new and fill the disk.
+void CheckRate(const RunRequest& request, const ImuStream& imu) {
+  const double imu_rate = static_cast<double>(imu.samples.size() - 1) /
+                          (imu.t_end() - imu.t_begin());
+  if (request.rate.value_or(0.0) > 2.0 * imu_rate) {
+    throw InputError(Format("--rate=%g Hz is more than twice the IMU's %g Hz",
+                            *request.rate, imu_rate));
+  }
+}
+
 /// The data set as it is reconstructed; its resolved configuration goes into
 /// the results.
 Dataset Load(const RunRequest& request, const ResultFolder& folder) {
@@ -39,6 +50,7 @@ Dataset Load(const RunRequest& request, const ResultFolder& folder) {
     ReplaceWithholdings(request.withholdings, &dataset);
     SetWithholdings(request.withholdings, &resolved);
   }
+  CheckRate(request, dataset.imu);
   AddStandstillStreams(&dataset);
   ThinTruth(&dataset.truth);
   WriteResolvedConfig(resolved, folder.Path("config.resolved.yaml"));
@@ -118,10 +130,10 @@ int Reconstruct(const RunRequest& request) {
   WriteResidualCsv(folder.Path("residuals.csv"), solutions, dataset);
   WriteSummaryJson(folder.Path("summary.json"), summary);
   progress.Clear();
+  ThrowIfStopRequested();
   folder.Commit();
 
-  std::cout << DescribePolicies(dataset)
-            << DescribeStart(reconstruction.start())
+  std::cout << DescribeNotes(dataset) << DescribeStart(reconstruction.start())
             << DescribeUnobserved(solutions) << "\n"
             << ComparisonTable(summary) << "\nresults in " << request.out
             << "\n"

@@ -2,9 +2,11 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "app/interrupt.h"
 #include "app/text.h"
 #include "base/error.h"
 #include "io/kml.h"
@@ -30,6 +32,44 @@ SolutionTable Table(const RunRequest& request, const Dataset& dataset,
                     const Solution& solution) {
   if (request.point_b.isZero(0.0)) return TableFromSolution(solution);
   return TableFromSolution(MoveToPoint(solution, dataset.imu, request.point_b));
+}
+
+template <typename T>
+void Append(const std::vector<T>& tail, std::vector<T>* all) {
+  all->insert(all->end(), tail.begin(), tail.end());
+}
+
+void AppendRows(const SolutionTable& tail, SolutionTable* all) {
+  all->method = tail.method;
+  Append(tail.t, &all->t);
+  Append(tail.p_e, &all->p_e);
+  Append(tail.v_e, &all->v_e);
+  Append(tail.q_eb, &all->q_eb);
+  Append(tail.P_position, &all->P_position);
+  Append(tail.P_velocity, &all->P_velocity);
+  Append(tail.P_attitude, &all->P_attitude);
+  Append(tail.b_g, &all->b_g);
+  Append(tail.b_a, &all->b_a);
+  Append(tail.sigma_b_g, &all->sigma_b_g);
+  Append(tail.sigma_b_a, &all->sigma_b_a);
+}
+
+/// Piece by piece, since a row of a solution, with its whole covariance, is
+/// several times as large as that of a table.
+SolutionTable SampledTable(const RunRequest& request, const Dataset& dataset,
+                           const Reconstruction& reconstruction,
+                           const Solution& solution,
+                           const std::vector<double>& times) {
+  constexpr std::ptrdiff_t kPiece = 10000;
+  SolutionTable table;
+  for (auto begin = times.begin(); begin != times.end();) {
+    ThrowIfStopRequested();
+    const auto end = begin + std::min(kPiece, times.end() - begin);
+    const Solution piece = reconstruction.Sample(solution, {begin, end});
+    AppendRows(Table(request, dataset, piece), &table);
+    begin = end;
+  }
+  return table;
 }
 
 double PeakRssMb() {
@@ -61,17 +101,16 @@ void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
   if (solution.states.empty()) return;
   CheckTimesCovered(request, solution);
   const std::string& method = solution.method;
+  const auto sample = [&](const std::vector<double>& times) {
+    return SampledTable(request, dataset, reconstruction, solution, times);
+  };
   const SolutionTable table =
-      request.rate ? Table(request, dataset,
-                           reconstruction.Sample(
-                               solution, UniformTimes(solution, *request.rate)))
+      request.rate ? sample(UniformTimes(solution, *request.rate))
                    : Table(request, dataset, solution);
   WriteSolutionCsv(folder.Path(method + ".csv"), table, kProgram);
   if (!request.at.empty()) {
-    WriteSolutionCsv(
-        folder.Path(method + ".at.csv"),
-        Table(request, dataset, reconstruction.Sample(solution, request.at)),
-        kProgram);
+    WriteSolutionCsv(folder.Path(method + ".at.csv"), sample(request.at),
+                     kProgram);
   }
   if (request.exports.contains("tum")) {
     WriteTum(folder.Path(method + ".tum"), table);

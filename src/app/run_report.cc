@@ -36,11 +36,14 @@ std::string DescribeStart(const StartReport& start) {
   return text;
 }
 
-std::string DescribePolicies(const Dataset& dataset) {
+std::string DescribeNotes(const Dataset& dataset) {
   std::string text;
   for (const PolicyCount& policy : dataset.policies) {
     text += Format("note: %s: %s: %ld\n", policy.stream.c_str(),
                    policy.action.c_str(), policy.count);
+  }
+  if (!dataset.withholdings.empty() && dataset.outages.empty()) {
+    text += "warning: no whole outage of the withholding rules fits in\n";
   }
   return text;
 }

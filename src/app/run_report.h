@@ -13,8 +13,9 @@ namespace hindsight {
 /// How the initial state was found, with its standard deviations.
 std::string DescribeStart(const StartReport& start);
 
-/// What readers did under declared policies, a line each.
-std::string DescribePolicies(const Dataset& dataset);
+/// What readers did under declared policies, and withholding rules that no
+/// outage came of, a line each.
+std::string DescribeNotes(const Dataset& dataset);
 
 /// Warnings of states that the data do not determine, a line each; the same
 /// span found by several methods is named once.

@@ -1,0 +1,79 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/recording.h"
+
+namespace hindsight {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class OtherCommands : public ::testing::Test {
+ protected:
+  nlohmann::json Summary() const {
+    return nlohmann::json::parse(
+        ReadFile(recording_.root() / "out" / "summary.json"));
+  }
+  Recording recording_;
+};
+
+TEST_F(OtherCommands, CheckReportsAndChangesNothing) {
+  const std::vector<std::string> before = Names(recording_.root() / "data");
+  const Outcome outcome =
+      Hindsight({"check", "data/config.yaml"}, recording_.root());
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("imu"));
+  EXPECT_THAT(outcome.out, HasSubstr("Hz"));
+  EXPECT_EQ(Names(recording_.root() / "data"), before);
+  EXPECT_THAT(Names(recording_.root()), ElementsAre("data"));
+}
+
+TEST_F(OtherCommands, EvaluateAgreesWithTheSummary) {
+  ASSERT_EQ(
+      recording_.Run({"--out=out", "--methods=batch", "--rate=100"}).status, 0);
+  const Outcome outcome =
+      Hindsight({"evaluate", "out/batch.csv", "data/truth.csv", "--json"},
+                recording_.root());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json figures = nlohmann::json::parse(outcome.out);
+  const double summary =
+      Summary()["methods"]["batch"]["error"]["horizontal_rms_m"].get<double>();
+  EXPECT_NEAR(figures["errors"]["position_horizontal"]["rms"].get<double>(),
+              summary, 0.01 * summary);
+  const Outcome itself = Hindsight(
+      {"evaluate", "data/truth.csv", "data/truth.csv"}, recording_.root());
+  EXPECT_THAT(itself.out, HasSubstr("501 of 501 truth points (100.00 %)"));
+}
+
+TEST_F(OtherCommands, InitWritesAConfigurationThatRuns) {
+  std::filesystem::remove(recording_.file("config.yaml"));
+  ASSERT_EQ(
+      Hindsight({"init", "data", "--out=data/config.yaml"}, recording_.root())
+          .status,
+      0);
+  const Outcome again =
+      Hindsight({"init", "data", "--out=data/config.yaml"}, recording_.root());
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.err, HasSubstr("--force"));
+  const Outcome outcome = recording_.Run({"--out=out", "--methods=rts"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
+TEST_F(OtherCommands, SimulateIsReproducible) {
+  for (const std::string out : {"first", "second"}) {
+    ASSERT_EQ(Hindsight({"simulate", "short_drive", "--out=" + out, "--seed=3"},
+                        recording_.root())
+                  .status,
+              0);
+  }
+  for (const std::string& name : Names(recording_.root() / "first")) {
+    EXPECT_EQ(ReadFile(recording_.root() / "first" / name),
+              ReadFile(recording_.root() / "second" / name));
+  }
+}
+
+}  // namespace
+}  // namespace hindsight

@@ -1,0 +1,223 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/recording.h"
+
+namespace hindsight {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+using ::testing::UnorderedElementsAre;
+
+/// The rows of a result file without comments and header.
+std::vector<std::string> Rows(const std::filesystem::path& path) {
+  std::vector<std::string> rows;
+  for (const std::string& line : Lines(ReadFile(path))) {
+    if (line.find_first_of("0123456789+-") == 0) rows.push_back(line);
+  }
+  return rows;
+}
+
+double Field(const std::string& row, std::size_t column) {
+  std::istringstream in(row);
+  std::string field;
+  for (std::size_t i = 0; i <= column; ++i) std::getline(in, field, ',');
+  return std::stod(field);
+}
+
+class RunCommandTest : public ::testing::Test {
+ protected:
+  std::filesystem::path Result(const std::string& name) const {
+    return recording_.root() / "out" / name;
+  }
+  nlohmann::json Summary() const {
+    return nlohmann::json::parse(ReadFile(Result("summary.json")));
+  }
+  Recording recording_;
+};
+
+TEST_F(RunCommandTest, WritesTheFilesOfEveryMethodAndNothingElse) {
+  const Outcome outcome = recording_.Run({"--out=out", "--export=tum,kml,nav"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, IsEmpty());
+  std::vector<std::string> expected = {"config.resolved.yaml", "residuals.csv",
+                                       "summary.json"};
+  for (const std::string method : {"ekf", "rts", "iterated", "batch"}) {
+    for (const std::string ending : {"csv", "tum", "kml", "nav"}) {
+      expected.push_back(method + "." + ending);
+    }
+  }
+  EXPECT_THAT(Names(recording_.root() / "out"),
+              ::testing::UnorderedElementsAreArray(expected));
+  EXPECT_THAT(Names(recording_.root()), UnorderedElementsAre("data", "out"));
+  const std::vector<std::string> lines = Lines(outcome.out);
+  EXPECT_THAT(lines.back(), StartsWith("batch is usable"));
+  for (const std::string method : {"ekf", "rts", "iterated", "batch"}) {
+    EXPECT_THAT(lines, Contains(StartsWith(method)));
+  }
+}
+
+TEST_F(RunCommandTest, SummaryHoldsTheDocumentedKeys) {
+  ASSERT_EQ(recording_.Run({"--out=out", "--methods=rts,batch"}).status, 0);
+  const nlohmann::json summary = Summary();
+  EXPECT_THAT(summary["program"], HasSubstr("hindsight"));
+  ASSERT_THAT(summary["methods"], SizeIs(2));
+  for (const std::string method : {"rts", "batch"}) {
+    const nlohmann::json& entry = summary["methods"][method];
+    EXPECT_GT(entry["seconds"].get<double>(), 0.0);
+    EXPECT_GT(entry["peak_rss_mb"].get<double>(), 1.0);
+    EXPECT_TRUE(entry["converged"].get<bool>());
+    EXPECT_THAT(entry["error"]["position_rms_m"], SizeIs(3));
+    EXPECT_GT(entry["error"]["horizontal_rms_m"].get<double>(), 0.0);
+    EXPECT_LT(entry["error"]["horizontal_rms_m"].get<double>(), 1.0);
+    EXPECT_GT(entry["nees"]["position"].get<double>(), 0.0);
+    EXPECT_FALSE(entry["residuals"].empty());
+  }
+}
+
+TEST_F(RunCommandTest, OutputIsAtTheRateAndTimesAskedFor) {
+  WriteFile(recording_.root() / "times.txt", "# poses\n10.125\n20.0625\n");
+  ASSERT_EQ(recording_
+                .Run({"--out=out", "--methods=rts", "--from=5", "--to=25",
+                      "--rate=20", "--at=times.txt"})
+                .status,
+            0);
+  const std::vector<std::string> rows = Rows(Result("rts.csv"));
+  ASSERT_THAT(rows, SizeIs(401));
+  EXPECT_DOUBLE_EQ(Field(rows.front(), 0), 5.0);
+  EXPECT_DOUBLE_EQ(Field(rows[1], 0), 5.05);
+  EXPECT_DOUBLE_EQ(Field(rows.back(), 0), 25.0);
+  const std::vector<std::string> poses = Rows(Result("rts.at.csv"));
+  ASSERT_THAT(poses, SizeIs(2));
+  EXPECT_DOUBLE_EQ(Field(poses[0], 0), 10.125);
+  EXPECT_DOUBLE_EQ(Field(poses[1], 0), 20.0625);
+}
+
+TEST_F(RunCommandTest, PointMovesTheOutputByTheLeverArm) {
+  ASSERT_EQ(recording_.Run({"--out=out", "--methods=rts"}).status, 0);
+  ASSERT_EQ(
+      recording_.Run({"--out=moved", "--methods=rts", "--point", "0,0,-1.5"})
+          .status,
+      0);
+  const std::string at_imu = Rows(Result("rts.csv")).front();
+  const std::string moved =
+      Rows(recording_.root() / "moved" / "rts.csv").front();
+  // The vehicle is level to a fraction of a degree at the start.
+  EXPECT_NEAR(Field(moved, 3) - Field(at_imu, 3), 1.5, 1e-3);
+}
+
+TEST_F(RunCommandTest, WithheldFixesAreReportedAsOutages) {
+  ASSERT_EQ(recording_
+                .Run({"--out=out", "--methods=batch",
+                      "--withhold=position:every=20s,length=5s,from=10s"})
+                .status,
+            0);
+  const nlohmann::json withheld = Summary()["methods"]["batch"]["withheld"];
+  // Starts at 10 s and 30 s; one at 50 s would be cut by the end at 50 s.
+  EXPECT_THAT(withheld["outages"], SizeIs(2));
+  EXPECT_GE(withheld["horizontal_max_m"].get<double>(),
+            withheld["horizontal_rms_m"].get<double>());
+  const std::string residuals = ReadFile(Result("residuals.csv"));
+  EXPECT_THAT(residuals, HasSubstr(",withheld\n"));
+}
+
+TEST_F(RunCommandTest, ProgressForProgramsIsJsonLines) {
+  const Outcome outcome =
+      recording_.Run({"--out=out", "--methods=batch", "--progress=json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::vector<std::string> lines = Lines(outcome.err);
+  ASSERT_FALSE(lines.empty());
+  for (const std::string& line : lines) {
+    const nlohmann::json object = nlohmann::json::parse(line);
+    EXPECT_TRUE(object["stage"].is_string());
+    EXPECT_GE(object["fraction"].get<double>(), 0.0);
+    EXPECT_LE(object["fraction"].get<double>(), 1.0);
+  }
+}
+
+TEST_F(RunCommandTest, ExistingFolderIsReplacedOnlyByForce) {
+  ASSERT_EQ(recording_.Run({"--out=out", "--methods=rts"}).status, 0);
+  const Outcome refused = recording_.Run({"--out=out", "--methods=ekf"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("out"), HasSubstr("--force")));
+  EXPECT_THAT(Names(recording_.root() / "out"), Contains("rts.csv"));
+  ASSERT_EQ(recording_.Run({"--out=out/", "--methods=ekf", "--force"}).status,
+            0);
+  EXPECT_THAT(Names(recording_.root() / "out"), Contains("ekf.csv"));
+  EXPECT_THAT(Names(recording_.root() / "out"),
+              ::testing::Not(Contains("rts.csv")));
+  EXPECT_THAT(Names(recording_.root()), UnorderedElementsAre("data", "out"));
+}
+
+TEST_F(RunCommandTest, ForceSparesAFolderThatIsNoResult) {
+  const Outcome outcome =
+      recording_.Run({"--out=data", "--methods=ekf", "--force"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("summary.json"));
+  EXPECT_THAT(Names(recording_.root() / "data"), Contains("config.yaml"));
+}
+
+TEST_F(RunCommandTest, WhatPoliciesDidIsCountedInTheReport) {
+  recording_.Replace("config.yaml", "max_gap: 0.5 s",
+                     "on_duplicate: drop_first\n  allow_truncated_tail: true");
+  recording_.Edit("imu.csv", [](std::vector<std::string>* lines) {
+    lines->insert(lines->begin() + 300, (*lines)[299]);
+  });
+  std::string text = ReadFile(recording_.file("imu.csv"));
+  text.resize(text.size() - 40);
+  WriteFile(recording_.file("imu.csv"), text);
+  const Outcome outcome = recording_.Run({"--out=out", "--methods=rts"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json policies = Summary()["policies"];
+  ASSERT_THAT(policies, SizeIs(2));
+  for (const nlohmann::json& policy : policies) {
+    EXPECT_EQ(policy["stream"], "imu");
+    EXPECT_EQ(policy["count"], 1);
+    EXPECT_THAT(outcome.out,
+                HasSubstr("note: imu: " + policy["action"].get<std::string>()));
+  }
+}
+
+TEST_F(RunCommandTest, NoAnswerEndsWithOneAndLeavesNothing) {
+  // Velocities alone tell no place.
+  recording_.Edit("config.yaml", [](std::vector<std::string>* lines) {
+    const auto begin = std::find(lines->begin(), lines->end(), "  gnss:");
+    lines->erase(begin, std::find(begin, lines->end(), "  speed:"));
+  });
+  const Outcome outcome = recording_.Run({"--out=out"});
+  EXPECT_EQ(outcome.status, 1);
+  ASSERT_THAT(Lines(outcome.err), SizeIs(1)) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("position"));
+  EXPECT_THAT(Names(recording_.root()), ElementsAre("data"));
+}
+
+TEST_F(RunCommandTest, FlagsThatDoNotFitTheRecordingEndWithTwo) {
+  WriteFile(recording_.root() / "times.txt", "10\n70\n");
+  WriteFile(recording_.root() / "order.txt", "10\n9\n");
+  const std::vector<std::pair<std::string, std::string>> flags = {
+      {"--withhold=gps:every=9s,length=3s", "'gps'"},
+      {"--at=times.txt", "t = 70.000000 s"},
+      {"--at=order.txt", "order.txt:2:"},
+      {"--at=absent.txt", "absent.txt"},
+      {"--rate=1e7", "IMU's 100 Hz"},
+      {"--from=1000", "1000"}};
+  const std::vector<std::string> before = Names(recording_.root());
+  for (const auto& [flag, expected] : flags) {
+    const Outcome outcome = recording_.Run({"--out=out", flag});
+    EXPECT_EQ(outcome.status, 2) << flag;
+    ASSERT_THAT(Lines(outcome.err), SizeIs(1)) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(expected));
+    EXPECT_EQ(Names(recording_.root()), before);
+  }
+}
+
+}  // namespace
+}  // namespace hindsight
