@@ -92,16 +92,27 @@ class StartFinder {
     }
   }
 
+  /// At rest the mean rate is the bias, but for Earth rate. It makes the start
+  /// value and the sigma with which the gyros carry heading; the a priori sigma
+  /// is left as it was where zero-rate measurements will use the same data.
   void ChooseGyroBias() {
     b_g_ = given().gyro_bias;
     b_g_sigma_ = given().gyro_bias_sigma.value_or(
         Eigen::Vector3d::Constant(kDefaultGyroBiasSigma));
-    if (given().gyro_bias_sigma || !rest_) return;
-    const Kinematics mean = MeanReading(dataset_.imu, rest_->begin, rest_->end);
+    gyro_sigma_ = b_g_sigma_.maxCoeff();
+    if (!rest_) return;
     const double T = rest_->end - rest_->begin;
-    b_g_ = mean.w_ib_b;  // Earth rate is inside, and in the sigma
-    b_g_sigma_.setConstant(std::hypot(
-        dataset_.imu.noise.gyro_noise_density / std::sqrt(T), kEarthRate));
+    const double sigma = std::hypot(
+        dataset_.imu.noise.gyro_noise_density / std::sqrt(T), kEarthRate);
+    const Eigen::Array3d weight = b_g_sigma_.array().square() /
+                                  (b_g_sigma_.array().square() + sigma * sigma);
+    const Eigen::Vector3d mean =
+        MeanReading(dataset_.imu, rest_->begin, rest_->end).w_ib_b;
+    b_g_ += (weight * (mean - b_g_).array()).matrix();
+    gyro_sigma_ = std::min(gyro_sigma_, sigma);
+    if (!dataset_.stationary.enabled) {
+      b_g_sigma_ = b_g_sigma_.cwiseMin(sigma);
+    }
   }
 
   void ChooseAttitude() {
@@ -128,6 +139,7 @@ class StartFinder {
       report_.attitude =
           Words("levelled at rest for %.1f s", rest_->end - rest_->begin);
       euler_sigma_ = {tilt_sigma, tilt_sigma, kUnknownHeadingSigma};
+      levelled_ = !given().attitude_sigma;
     } else {
       report_.attitude = "assumed near level, no rest at the start";
       euler_sigma_ = {kAssumedLevelSigma, kAssumedLevelSigma,
@@ -169,7 +181,7 @@ class StartFinder {
     euler_.z() = WrapAngle(course - EulerFromQuaternion(there).z());
     const double elapsed = v.t - t_;
     const double drift =
-        std::hypot(b_g_sigma_.maxCoeff() * elapsed,
+        std::hypot(gyro_sigma_ * elapsed,
                    dataset_.imu.noise.gyro_noise_density * std::sqrt(elapsed));
     // A few degrees of side slip and of antenna sway are not in v.sigma.
     constexpr double kCourseSigma = 3.0 * kDegree;
@@ -255,6 +267,7 @@ class StartFinder {
     const int offset = start.layout.Find(BlockKind::kAttitude)->offset;
     start.prior.P.block(offset, offset, 3, 3) =
         M * euler_sigma_.cwiseAbs2().asDiagonal() * M.transpose();
+    if (levelled_) CorrelateTiltWithAccelBias(&start);
     report_.t = t_;
     report_.state = x;
     report_.position_sigma = p_sigma_;
@@ -262,6 +275,32 @@ class StartFinder {
     report_.attitude_sigma = euler_sigma_;
     start.report = report_;
     return start;
+  }
+
+  /// Levelling turns an accelerometer bias into tilt: psi x g = -C_nb db_a, so
+  /// psi_N = +db_E/g and psi_E = -db_N/g. Were the two left independent, the
+  /// first zero velocity would seem to halve both.
+  void CorrelateTiltWithAccelBias(Start* start) const {
+    const double rest = rest_->end - rest_->begin;
+    const double sway =
+        std::hypot(0.05 * kDegree, dataset_.imu.noise.accel_noise_density /
+                                       std::sqrt(rest) / kStandardGravity);
+    const Eigen::Matrix3d C_nb =
+        QuaternionFromEuler(euler_.x(), euler_.y(), euler_.z())
+            .toRotationMatrix();
+    Eigen::Matrix<double, 2, 3> M;
+    M.row(0) = C_nb.row(1) / kStandardGravity;
+    M.row(1) = -C_nb.row(0) / kStandardGravity;
+    ErrorMatrix& P = start->prior.P;
+    const int a = start->layout.Find(BlockKind::kAttitude)->offset;
+    const int b = start->layout.Find(BlockKind::kAccelBias)->offset;
+    const Eigen::Matrix3d P_b = P.block<3, 3>(b, b);
+    P.block<3, 3>(a, a).setZero();
+    P.block<2, 2>(a, a) = M * P_b * M.transpose();
+    P.block<2, 2>(a, a).diagonal().array() += sway * sway;
+    P(a + 2, a + 2) = euler_sigma_.z() * euler_sigma_.z();
+    P.block<2, 3>(a, b) = M * P_b;
+    P.block<3, 2>(b, a) = P.block<2, 3>(a, b).transpose();
   }
 
   ParameterVector InitialParameters(const ErrorLayout& layout) const {
@@ -299,6 +338,8 @@ class StartFinder {
   Eigen::Vector3d v_sigma_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d euler_sigma_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d b_g_sigma_ = Eigen::Vector3d::Zero();
+  double gyro_sigma_ = 0.0;
+  bool levelled_ = false;
   StartReport report_;
 };
 
