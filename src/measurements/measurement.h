@@ -8,6 +8,7 @@
 #include "measurements/model.h"
 #include "measurements/odometer.h"
 #include "measurements/position_fix.h"
+#include "measurements/speed_course.h"
 #include "measurements/stationary.h"
 #include "measurements/velocity_fix.h"
 
@@ -15,8 +16,9 @@ namespace hindsight {
 
 /// Every measurement model. Filters evaluate it through Evaluate below, the
 /// batch through one factor that wraps the same call.
-using MeasurementModel = std::variant<PositionFix, VelocityFix, HeightFix,
-                                      ZeroVelocity, ZeroAngularRate, Odometer>;
+using MeasurementModel =
+    std::variant<PositionFix, VelocityFix, HeightFix, ZeroVelocity,
+                 ZeroAngularRate, Odometer, SpeedCourse>;
 
 struct Measurement {
   double t = 0.0;  ///< stamp [s]; the sensor's time offset is not yet applied

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "measurements/robust_loss.h"
+
 namespace hindsight {
 
 enum class SensorType {
@@ -35,6 +37,9 @@ struct Sensor {
   /// Probability that a good measurement passes the chi-square gate; absent:
   /// no gate.
   std::optional<double> gate_probability;
+  /// Robust loss of the whole-interval methods; forward filters weigh a
+  /// measurement by it at its innovation.
+  RobustLoss loss;
   /// A priori standard deviations of calibration states; absent: not estimated.
   std::optional<Eigen::Vector3d> lever_arm_sigma;
   std::optional<Eigen::Vector3d> mounting_sigma;

@@ -1,0 +1,28 @@
+#ifndef HINDSIGHT_MEASUREMENTS_SPEED_COURSE_H_
+#define HINDSIGHT_MEASUREMENTS_SPEED_COURSE_H_
+
+#include "measurements/model.h"
+
+namespace hindsight {
+
+/// Speed and course over the ground of a point of the vehicle, as NMEA RMC and
+/// many receivers deliver them. With u the unit vector of the measured course
+/// and n the one to its right, both horizontal, v the point's velocity:
+///   speed = u . v,   0 = n . v,
+/// standard deviations sigma_speed and max(speed, 1 m/s) sigma_course [m/s].
+/// Linear in the velocity and regular at standstill, unlike the polar form.
+/// Without a course (receivers withhold it at low speed): speed = |v_h|.
+struct SpeedCourse {
+  double speed = 0.0;          ///< over the ground [m/s]
+  double course = 0.0;         ///< from north, clockwise [rad]
+  double sigma_speed = 0.1;    ///< [m/s]
+  double sigma_course = 0.02;  ///< [rad]
+  bool has_course = true;
+
+  int rows() const { return has_course ? 2 : 1; }
+  void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_MEASUREMENTS_SPEED_COURSE_H_
