@@ -25,6 +25,8 @@ struct BadInput {
   std::function<std::vector<std::string>(Recording*)> damage;
 };
 
+void PrintTo(const BadInput& row, std::ostream* out) { *out << row.name; }
+
 /// Sets a column of one data row and expects the row to be named.
 BadInput BadField(const std::string& name, const std::string& file,
                   std::size_t column, const std::string& value) {

@@ -66,6 +66,8 @@ struct BadUsage {
   std::vector<std::string> expected;  ///< parts of the one line on stderr
 };
 
+void PrintTo(const BadUsage& row, std::ostream* out) { *out << row.name; }
+
 class WrongUsage : public ::testing::TestWithParam<BadUsage> {};
 
 TEST_P(WrongUsage, EndsWithTwoAndOneLineThatSaysWhy) {
