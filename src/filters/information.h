@@ -1,0 +1,57 @@
+#ifndef HINDSIGHT_FILTERS_INFORMATION_H_
+#define HINDSIGHT_FILTERS_INFORMATION_H_
+
+#include "state/error_layout.h"
+
+namespace hindsight {
+
+/// What later measurements say of a vector x: the quadratic form
+/// -x' Y x / 2 + y' x of its log-likelihood, Y = P^-1, y = P^-1 x^. Starts at
+/// zero, when nothing is known. Kept in units of `scale`, a typical standard
+/// deviation of each component, without which metres, radians and m/s^2 side by
+/// side cost eight digits; arguments and results are in plain units.
+class Information {
+ public:
+  /// `scale` > 0 in every component.
+  explicit Information(const ErrorVector& scale);
+
+  /// Back over the interval x+ = Phi x + c + w, w ~ (0, Q):
+  ///   Y <- Phi' (I + Y Q)^-1 Y Phi,   y <- Phi' (I + Y Q)^-1 (y - Y c),
+  /// the exact discrete form of eqs. (18), (19), (26) of the 2002 paper, which
+  /// are derivatives by tau. Evaluated as S (I + S' Q S)^-1 S' with Y = S S':
+  /// symmetric and positive semidefinite, and Y may be singular.
+  void PropagateBack(const ErrorMatrix& Phi, const ErrorMatrix& Q,
+                     const ErrorVector& c);
+
+  /// To the variable u of x = T (u - shift).
+  void Substitute(const ErrorMatrix& T, const ErrorVector& shift);
+
+  /// Adds z = H x + v, v ~ (0, R): Y += H' R^-1 H, y += H' R^-1 z.
+  void Add(const RowJacobian& H, const RowMatrix& R, const RowVector& z);
+
+  struct Estimate {
+    ErrorVector mean;
+    ErrorMatrix P;
+  };
+  /// Fusion with an independent estimate (m, P_f):
+  ///   P_s = L (I + L' Y L)^-1 L',  L L' = P_f,   mean = m + P_s (y - Y m).
+  /// P_s <= P_f by construction. Throws EstimationError if P_f is not positive
+  /// definite.
+  Estimate Fuse(const ErrorVector& m, const ErrorMatrix& P_f) const;
+
+  /// Distance in sigmas between an independent estimate (m, P_f) and what this
+  /// information alone says, in components first ... first + count - 1:
+  /// sqrt(e' (P_f + Y^-1)^-1 e). NaN where the information alone leaves one of
+  /// them more than a million scales uncertain.
+  double Separation(const ErrorVector& m, const ErrorMatrix& P_f, int first,
+                    int count) const;
+
+ private:
+  ErrorVector scale_;
+  ErrorMatrix Y_;
+  ErrorVector y_;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_FILTERS_INFORMATION_H_
