@@ -149,7 +149,7 @@ inline TestProblem MakeProblem(const TestProblemOptions& options,
   const auto every =
       static_cast<std::size_t>(std::lround(options.spacing / dt));
   for (std::size_t k = 0; k < clean.samples.size(); ++k) {
-    if (k > 0) corruption.Apply(dt, &problem.imu.samples[k]);
+    corruption.Apply(dt, &problem.imu.samples[k]);
     if (k % every != 0) continue;
     const double t = clean.samples[k].t;
     if (k > 0) x = Predict(unbiased, x, integrator.Summarize(x.t, t, {}));

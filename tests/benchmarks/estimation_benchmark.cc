@@ -1,0 +1,139 @@
+#include <benchmark/benchmark.h>
+#include <sys/resource.h>
+
+#include <memory>
+
+#include "dataset/timeline_builder.h"
+#include "filters/iterated_smoother.h"
+#include "problems/batch.h"
+#include "problems/chain_problem.h"
+#include "problems/reconstruction.h"
+#include "problems/start.h"
+#include "simulation/builtin_scenarios.h"
+
+namespace hindsight {
+namespace {
+
+double PeakMegabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+/// 30 min at 200 Hz with 1 Hz GNSS; the biases walk, so that a node has 15
+/// unknowns.
+const Dataset& Drive() {
+  static const Dataset dataset = [] {
+    Scenario scenario = BuiltinScenario("car_drive");
+    scenario.imu.noise.gyro_bias_walk = 1e-7;
+    scenario.imu.noise.accel_bias_walk = 1e-5;
+    return Simulate(scenario, 1);
+  }();
+  return dataset;
+}
+
+/// What the batch starts from, made once.
+struct Smoothed {
+  Smoothed()
+      : start(FindStart(Drive(), 0.0, Drive().imu.t_end())),
+        timeline(
+            BuildTimeline(Drive(), {start.report.t, Drive().imu.t_end(), {}})) {
+    const LinearTape tape =
+        RunExtendedKalmanFilter(start.layout, start.prior, &timeline);
+    decisions = DecisionsOnTape(tape);
+    states = SmoothRts(tape).states;
+  }
+  Start start;
+  Timeline timeline;
+  GateDecisions decisions;
+  std::vector<State> states;
+};
+Smoothed& SmoothedDrive() {
+  static Smoothed smoothed;
+  return smoothed;
+}
+
+/// From raw samples to three solutions with all covariances, alignment, nodes
+/// and one preintegration included.
+void FilterSmootherAndBatch(benchmark::State& state) {
+  const Dataset& dataset = Drive();
+  for (auto _ : state) {
+    Reconstruction reconstruction(dataset, {});
+    const Solution ekf = reconstruction.Run(Method::kEkf);
+    const Solution rts = reconstruction.Run(Method::kRts);
+    const Solution batch = reconstruction.Run(Method::kBatch);
+    benchmark::DoNotOptimize(batch.states.data());
+    state.counters["ekf_s"] = ekf.seconds;
+    state.counters["rts_s"] = rts.seconds;
+    state.counters["batch_s"] = batch.seconds;
+    state.counters["nodes"] = static_cast<double>(batch.states.size());
+  }
+  state.counters["peak_rss_mb"] = PeakMegabytes();
+}
+BENCHMARK(FilterSmootherAndBatch)->Unit(benchmark::kMillisecond);
+
+void ForwardFilter(benchmark::State& state) {
+  Smoothed& drive = SmoothedDrive();
+  for (auto _ : state) {
+    const LinearTape tape = RunExtendedKalmanFilter(
+        drive.start.layout, drive.start.prior, &drive.timeline);
+    benchmark::DoNotOptimize(tape.back().x_plus.p_e.data());
+  }
+}
+BENCHMARK(ForwardFilter)->Unit(benchmark::kMillisecond);
+
+void RtsSmoother(benchmark::State& state) {
+  Smoothed& drive = SmoothedDrive();
+  const LinearTape tape = RunExtendedKalmanFilter(
+      drive.start.layout, drive.start.prior, &drive.timeline);
+  for (auto _ : state) {
+    const SmoothedTrajectory smoothed = SmoothRts(tape);
+    benchmark::DoNotOptimize(smoothed.states.data());
+  }
+}
+BENCHMARK(RtsSmoother)->Unit(benchmark::kMillisecond);
+
+/// The batch from the smoother's trajectory, its marginal covariances included.
+void BatchFromSmoother(benchmark::State& state) {
+  Smoothed& drive = SmoothedDrive();
+  for (auto _ : state) {
+    const BatchResult result =
+        SolveBatch(drive.start.layout, drive.start.prior, drive.states,
+                   &drive.timeline, drive.decisions, {});
+    state.counters["iterations"] = result.iterations;
+  }
+}
+BENCHMARK(BatchFromSmoother)->Unit(benchmark::kMillisecond);
+
+ChainProblem MakeChain(Smoothed* drive) {
+  return ChainProblem(drive->start.layout, drive->start.prior, drive->states,
+                      &drive->timeline, drive->decisions);
+}
+
+void BatchInformation(benchmark::State& state) {
+  ChainProblem chain = MakeChain(&SmoothedDrive());
+  for (auto _ : state) {
+    ArrowSystem information = chain.Information();
+    benchmark::DoNotOptimize(information.node(0).data());
+  }
+}
+BENCHMARK(BatchInformation)->Unit(benchmark::kMillisecond);
+
+/// Factorisation and all marginals from an information matrix at hand.
+void AllMarginals(benchmark::State& state) {
+  ChainProblem chain = MakeChain(&SmoothedDrive());
+  const ArrowSystem filled = chain.Information();
+  ArrowSystem information = filled;
+  for (auto _ : state) {
+    state.PauseTiming();
+    information = filled;
+    state.ResumeTiming();
+    information.Factor();
+    const CovarianceSeries marginals = chain.Marginals(information);
+    benchmark::DoNotOptimize(marginals.size());
+  }
+}
+BENCHMARK(AllMarginals)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace hindsight

@@ -1,0 +1,162 @@
+#include "filters/rts.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "filters/dense_least_squares.h"
+#include "filters/forward_filter.h"
+#include "support/test_problem.h"
+
+namespace hindsight {
+namespace {
+
+using testing::DenseSolution;
+using testing::MakeProblem;
+using testing::RichLayout;
+using testing::ScaledDifference;
+using testing::SolveDense;
+using testing::TacticalNoise;
+using testing::TestProblem;
+using testing::TestProblemOptions;
+using testing::TypicalLayout;
+
+/// Every block walks, so that the dense problem has a full rank noise.
+ErrorLayout WalkingRichLayout(const ImuNoise& noise) {
+  const ErrorLayout rich = RichLayout(noise);
+  ErrorLayout layout;
+  for (Block block : rich.blocks()) {
+    if (block.evolution.kind == Evolution::Kind::kConstant) {
+      block.evolution = Evolution::RandomWalk(0.01 * block.sigma0.x());
+    }
+    layout.Add(block);
+  }
+  return layout;
+}
+
+TestProblem NoisyProblem(bool rich) {
+  TestProblemOptions options;
+  // Walks strong enough to keep the dense normal equations well conditioned.
+  options.noise = TacticalNoise(true);
+  options.noise.gyro_bias_walk = 1e-5;
+  options.noise.accel_bias_walk = 1e-3;
+  options.layout =
+      rich ? WalkingRichLayout(options.noise) : TypicalLayout(options.noise);
+  options.errors = true;
+  options.duration = 10.0;
+  return MakeProblem(options, 5);
+}
+
+LinearTape FixedNominalTape(const TestProblem& problem, Timeline* timeline) {
+  // A nominal that is off: defects c do not vanish.
+  std::vector<State> nominal = problem.truth;
+  Random random(9);
+  for (State& x : nominal) {
+    x = Retract(
+        problem.layout, x,
+        0.1 * testing::Draw(problem.layout.InitialCovariance(), &random));
+  }
+  return RunLinearizedFilter(problem.layout, problem.prior, nominal, timeline);
+}
+
+TEST(Rts, EqualsDenseLeastSquaresOnTheTape) {
+  for (const bool rich : {false, true}) {
+    const TestProblem problem = NoisyProblem(rich);
+    Timeline timeline = problem.MakeTimeline();
+    const LinearTape tape = FixedNominalTape(problem, &timeline);
+    double largest_defect = 0.0;
+    for (std::size_t k = 1; k < tape.size(); ++k) {
+      largest_defect = std::max(largest_defect, tape.epoch(k).c.norm());
+    }
+    EXPECT_GT(largest_defect, 0.01);
+    const SmoothedTrajectory smoothed = SmoothRts(tape);
+    const DenseSolution dense = SolveDense(tape);
+    const int n = tape.dim();
+    for (std::size_t k = 0; k < tape.size(); ++k) {
+      const Eigen::MatrixXd P = dense.CovarianceAt(k, n);
+      // Scaled normal equations of condition 1e9 to 1e10 leave 6 digits.
+      EXPECT_LT(ScaledDifference(smoothed.P.Get(k), P), 1e-6) << k;
+      const Eigen::VectorXd scale = P.diagonal().cwiseSqrt().cwiseInverse();
+      EXPECT_LT((smoothed.d[k] - dense.At(k, n))
+                    .cwiseProduct(scale)
+                    .cwiseAbs()
+                    .maxCoeff(),
+                1e-5)
+          << k;
+    }
+  }
+}
+
+TEST(Rts, LastEpochIsTheFilters) {
+  const TestProblem problem = NoisyProblem(false);
+  Timeline timeline = problem.MakeTimeline();
+  const LinearTape tape =
+      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+  const SmoothedTrajectory smoothed = SmoothRts(tape);
+  EXPECT_EQ(smoothed.states.back().p_e, tape.back().x_plus.p_e);
+  EXPECT_EQ(smoothed.P.Get(tape.size() - 1), tape.P_plus(tape.size() - 1));
+}
+
+TEST(Rts, SmoothedIsNeverWorseThanFiltered) {
+  const TestProblem problem = NoisyProblem(true);
+  Timeline timeline = problem.MakeTimeline();
+  const LinearTape tape =
+      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+  const SmoothedTrajectory smoothed = SmoothRts(tape);
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    const ErrorMatrix P = tape.P_plus(k);
+    const Eigen::VectorXd s = P.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+        s.asDiagonal() * (P - smoothed.P.Get(k)) * s.asDiagonal());
+    EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-9) << k;
+  }
+}
+
+TEST(Rts, ConsumingTheTapeGivesTheSameBits) {
+  const TestProblem problem = NoisyProblem(true);
+  Timeline timeline = problem.MakeTimeline();
+  LinearTape tape =
+      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+  const SmoothedTrajectory kept = SmoothRts(tape);
+  const SmoothedTrajectory consumed = SmoothRts(std::move(tape));
+  ASSERT_EQ(consumed.states.size(), kept.states.size());
+  for (std::size_t k = 0; k < kept.states.size(); ++k) {
+    EXPECT_EQ(consumed.states[k].p_e, kept.states[k].p_e);
+    EXPECT_EQ(consumed.states[k].q_eb.coeffs(), kept.states[k].q_eb.coeffs());
+    EXPECT_EQ(consumed.d[k], kept.d[k]);
+    EXPECT_EQ(consumed.P.Get(k), kept.P.Get(k));
+  }
+}
+
+TEST(LinearTape, PopBackLeavesTheRestAndTakesNewEpochs) {
+  const TestProblem problem = NoisyProblem(true);
+  Timeline timeline = problem.MakeTimeline();
+  const LinearTape whole =
+      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+  LinearTape tape =
+      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+  const std::size_t size = tape.size();
+  const TapeEpoch last = tape.back();
+  const Transition transition{tape.Phi(size - 1), tape.Q(size - 1), last.c};
+  const ErrorMatrix P_minus = tape.P_minus(size - 1);
+  const ErrorMatrix P_plus = tape.P_plus(size - 1);
+  tape.PopBack();
+  tape.PopBack();
+  ASSERT_EQ(tape.size(), size - 2);
+  // What follows overwrites the memory given back, nothing else.
+  tape.Append(last, transition, P_minus, P_plus);
+  EXPECT_EQ(tape.measurements(size - 2).size(), 0u);
+  EXPECT_EQ(tape.P_plus(size - 2), P_plus);
+  for (std::size_t k = 0; k < size - 2; ++k) {
+    EXPECT_EQ(tape.P_minus(k), whole.P_minus(k)) << k;
+    EXPECT_EQ(tape.P_plus(k), whole.P_plus(k)) << k;
+    ASSERT_EQ(tape.measurements(k).size(), whole.measurements(k).size());
+    for (std::size_t i = 0; i < tape.measurements(k).size(); ++i) {
+      EXPECT_EQ(tape.measurements(k)[i].H, whole.measurements(k)[i].H);
+      EXPECT_EQ(tape.measurements(k)[i].S, whole.measurements(k)[i].S);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hindsight
