@@ -4,6 +4,7 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 
@@ -73,8 +74,9 @@ void AddBlocks(ChainProblem* chain, ceres::Manifold* manifold,
   for (std::size_t k = 0; k < chain->node_count(); ++k) {
     problem->AddParameterBlock(chain->node_values(k), size, manifold);
   }
-  for (const auto& factor : chain->factors()) {
-    problem->AddResidualBlock(factor.get(), nullptr,
+  for (std::size_t i = 0; i < chain->factors().size(); ++i) {
+    TangentFactor* factor = chain->factors()[i].get();
+    problem->AddResidualBlock(factor, chain->loss(i),
                               chain->ParametersOf(*factor));
   }
 }
@@ -82,9 +84,45 @@ void AddBlocks(ChainProblem* chain, ceres::Manifold* manifold,
 ceres::Problem::Options ProblemOptions() {
   ceres::Problem::Options options;
   options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   options.disable_all_safety_checks = true;
   return options;
+}
+
+ceres::Solver::Summary SolveOnce(const BatchOptions& options,
+                                 int max_iterations, const ChainProblem& chain,
+                                 ceres::Problem* problem) {
+  Callback callback(options.callback, chain.node_count());
+  ceres::Solver::Options solver_options = SolverOptions(options);
+  solver_options.max_num_iterations = max_iterations;
+  solver_options.callbacks.push_back(&callback);
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver_options, problem, &summary);
+  callback.Rethrow();
+  if (!summary.IsSolutionUsable()) {
+    throw EstimationError("batch solver failed: " + summary.message);
+  }
+  return summary;
+}
+
+/// Solves with the losses as they are; the first time with losses that
+/// redescend, first with all their scales so wide that no residual is beyond
+/// them, then halved with two iterations each.
+ceres::Solver::Summary SolveGraduated(const BatchOptions& options, bool first,
+                                      ChainProblem* chain,
+                                      ceres::Problem* problem) {
+  constexpr int kIterationsPerStage = 2;
+  constexpr double kWidest = 1024.0;
+  if (first) {
+    double widening = std::min(chain->LargestRobustRatio(), kWidest);
+    for (; widening > 1.0; widening *= 0.5) {
+      chain->SetWidening(widening);
+      SolveOnce(options, kIterationsPerStage, *chain, problem);
+    }
+    chain->SetWidening(1.0);
+  }
+  return SolveOnce(options, options.max_iterations, *chain, problem);
 }
 
 bool AnySummaryIsStale(const ErrorLayout& layout, const Timeline& timeline,
@@ -118,15 +156,8 @@ BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
     NodeManifold manifold(&chain.blocks());
     ceres::Problem problem(ProblemOptions());
     AddBlocks(&chain, &manifold, &problem);
-    Callback callback(options.callback, chain.node_count());
-    ceres::Solver::Options solver_options = SolverOptions(options);
-    solver_options.callbacks.push_back(&callback);
-    ceres::Solver::Summary summary;
-    ceres::Solve(solver_options, &problem, &summary);
-    callback.Rethrow();
-    if (!summary.IsSolutionUsable()) {
-      throw EstimationError("batch solver failed: " + summary.message);
-    }
+    const ceres::Solver::Summary summary =
+        SolveGraduated(options, outer == 0, &chain, &problem);
     result.states = chain.States();
     result.iterations += static_cast<int>(summary.iterations.size()) - 1;
     result.converged = summary.termination_type == ceres::CONVERGENCE ||

@@ -1,5 +1,8 @@
 #include "problems/chain_problem.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/error.h"
 #include "factors/imu_factor.h"
 #include "factors/measurement_factor.h"
@@ -39,6 +42,35 @@ ChainProblem::ChainProblem(const ErrorLayout& layout, const Prior& prior,
       if (!used) continue;
       factors_.push_back(std::make_unique<MeasurementFactor>(
           blocks_.get(), timeline, node, &z));
+      const RobustLoss& loss =
+          timeline->sensors()[static_cast<std::size_t>(z.sensor)].loss;
+      losses_.resize(factors_.size());
+      if (loss.kind != RobustLoss::Kind::kNone) {
+        losses_.back() = std::make_unique<RobustLossFunction>(loss);
+      }
+    }
+  }
+  losses_.resize(factors_.size());
+}
+
+double ChainProblem::LargestRobustRatio() {
+  double largest = 0.0;
+  Eigen::VectorXd residual(kMaxErrorDim);
+  for (std::size_t i = 0; i < factors_.size(); ++i) {
+    if (losses_[i] == nullptr || !losses_[i]->loss().redescends()) continue;
+    const std::vector<double*> parameters = ParametersOf(*factors_[i]);
+    factors_[i]->Linearize(parameters.data(), residual.data(), nullptr);
+    largest =
+        std::max(largest, residual.head(factors_[i]->num_residuals()).norm() /
+                              losses_[i]->loss().scale);
+  }
+  return largest;
+}
+
+void ChainProblem::SetWidening(double widening) {
+  for (const auto& loss : losses_) {
+    if (loss != nullptr && loss->loss().redescends()) {
+      loss->set_widening(widening);
     }
   }
 }
@@ -113,10 +145,15 @@ ArrowSystem ChainProblem::Information() {
                     blocks_->global_dim());
   TangentFactor::Jacobian J;
   Eigen::VectorXd residual(kMaxErrorDim);
-  for (const auto& factor : factors_) {
-    const std::vector<double*> parameters = ParametersOf(*factor);
-    factor->Linearize(parameters.data(), residual.data(), &J);
-    AddInformation(*blocks_, *factor, J, &arrow);
+  for (std::size_t i = 0; i < factors_.size(); ++i) {
+    const TangentFactor& factor = *factors_[i];
+    const std::vector<double*> parameters = ParametersOf(factor);
+    factor.Linearize(parameters.data(), residual.data(), &J);
+    if (losses_[i] != nullptr) {
+      const double s = residual.head(factor.num_residuals()).squaredNorm();
+      J *= std::sqrt(losses_[i]->loss().Weight(s));
+    }
+    AddInformation(*blocks_, factor, J, &arrow);
   }
   return arrow;
 }

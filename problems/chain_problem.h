@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "factors/robust_loss_function.h"
 #include "factors/state_blocks.h"
 #include "factors/tangent_factor.h"
 #include "filters/forward_filter.h"
@@ -25,6 +26,14 @@ class ChainProblem {
   const std::vector<std::unique_ptr<TangentFactor>>& factors() const {
     return factors_;
   }
+  /// The loss of factor i, or nullptr.
+  RobustLossFunction* loss(std::size_t i) { return losses_[i].get(); }
+  /// Largest |whitened residual| in units of its loss's scale, over all factors
+  /// whose loss redescends; 0 if there is none.
+  double LargestRobustRatio();
+  /// Widens the scale of every loss that redescends.
+  void SetWidening(double widening);
+
   std::size_t node_count() const { return times_.size(); }
   double* node_values(std::size_t k) {
     return nodes_.data() +
@@ -47,6 +56,7 @@ class ChainProblem {
   std::vector<double> nodes_;
   std::vector<std::vector<double>> globals_;
   std::vector<std::unique_ptr<TangentFactor>> factors_;
+  std::vector<std::unique_ptr<RobustLossFunction>> losses_;  // one a factor
 };
 
 }  // namespace hindsight

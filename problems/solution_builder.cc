@@ -79,8 +79,19 @@ Solution SmoothedSolution(const ErrorLayout& layout, const Timeline& timeline,
       Evaluate(measurement, timeline.Context(k, measurement, layout, states[k]),
                &z);
       ResidualRecord record = MakeRecord(measurement, timeline.node(k).t, used);
+      const RobustLoss& loss =
+          timeline.sensors()[static_cast<std::size_t>(measurement.sensor)].loss;
+      if (used && loss.kind != RobustLoss::Kind::kNone) {
+        record.weight = loss.Weight(Eigen::LLT<RowMatrix>(z.R)
+                                        .matrixL()
+                                        .solve(z.residual)
+                                        .squaredNorm());
+      }
+      // A measurement that the loss has all but taken out tells nothing of the
+      // state: its residual scatters by both.
+      const bool takes_part = used && record.weight > 0.1;
       const RowMatrix HPH = z.H * P_k * z.H.transpose();
-      RowMatrix S = used ? RowMatrix(z.R - HPH) : RowMatrix(z.R + HPH);
+      RowMatrix S = takes_part ? RowMatrix(z.R - HPH) : RowMatrix(z.R + HPH);
       Eigen::LLT<RowMatrix> llt(S);
       if (llt.info() != Eigen::Success) {
         // The measurement alone decides its state: its residual is zero by
@@ -163,37 +174,61 @@ std::vector<UnobservedSpan> FindUnobserved(const Solution& solution) {
   return spans;
 }
 
-void Conclude(Solution* solution) {
+namespace {
+
+constexpr double kWorstResidual = 5.0;
+
+std::string Words(const char* format, const std::string& name, double a,
+                  double b) {
+  char text[200];
+  std::snprintf(text, sizeof(text), format, name.c_str(), a, b);
+  return text;
+}
+
+/// Why a solution is not usable, or nothing.
+std::string Objection(const std::vector<Sensor>& sensors,
+                      const Solution& solution) {
+  if (!solution.converged) return "the iteration did not converge";
+  if (solution.states.empty()) return "no epoch was estimated";
+  const double duration = solution.states.back().t - solution.states.front().t;
+  for (const UnobservedSpan& span : solution.unobserved) {
+    // A forward filter need not know everything from its first second on.
+    if (span.t_end - span.t_begin < 0.5 * duration) continue;
+    return Words("%s is not observed from %.1f s to %.1f s", span.component,
+                 span.t_begin, span.t_end);
+  }
+  std::vector<double> sum(sensors.size(), 0.0);
+  std::vector<double> rows(sensors.size(), 0.0);
+  for (const ResidualRecord& record : solution.residuals) {
+    if (!record.accepted || record.withheld) continue;
+    const auto i = static_cast<std::size_t>(record.sensor);
+    sum[i] += record.weight * record.nis;
+    rows[i] += record.weight * static_cast<double>(record.residual.size());
+  }
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const double rms = rows[i] > 0.0 ? std::sqrt(sum[i] / rows[i]) : 0.0;
+    if (rms <= kWorstResidual) continue;
+    return Words(
+        "residuals of %s are %.1f times what their sigma says (limit %.0f)",
+        sensors[i].name, rms, kWorstResidual);
+  }
+  return "";
+}
+
+}  // namespace
+
+void Conclude(const std::vector<Sensor>& sensors, Solution* solution) {
   solution->constants = EstimateConstants(*solution);
   solution->unobserved = FindUnobserved(*solution);
-  if (!solution->converged) {
-    solution->usable = false;
-    solution->verdict = "not usable: the iteration did not converge";
-    return;
+  const std::string objection = Objection(sensors, *solution);
+  solution->usable = objection.empty();
+  if (!solution->usable) {
+    solution->verdict = "not usable: " + objection;
+  } else if (solution->unobserved.empty()) {
+    solution->verdict = "usable: every state is observed";
+  } else {
+    solution->verdict = "usable, but not everywhere: see the unobserved spans";
   }
-  if (solution->states.empty()) {
-    solution->usable = false;
-    solution->verdict = "not usable: no epoch was estimated";
-    return;
-  }
-  const double t_begin = solution->states.front().t;
-  const double t_end = solution->states.back().t;
-  for (const UnobservedSpan& span : solution->unobserved) {
-    // A forward filter need not know everything from its first second on.
-    if (span.t_end - span.t_begin < 0.5 * (t_end - t_begin)) continue;
-    char text[200];
-    std::snprintf(text, sizeof(text),
-                  "not usable: %s is not observed from %.1f s to %.1f s",
-                  span.component.c_str(), span.t_begin, span.t_end);
-    solution->usable = false;
-    solution->verdict = text;
-    return;
-  }
-  solution->usable = true;
-  solution->verdict = solution->unobserved.empty()
-                          ? "usable: every state is observed"
-                          : "usable, but not everywhere: see the unobserved "
-                            "spans";
 }
 
 }  // namespace hindsight

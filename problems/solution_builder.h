@@ -31,8 +31,12 @@ std::vector<ConstantEstimate> EstimateConstants(const Solution& solution);
 /// that they say nothing: 1 km, 10 m/s, 5 deg of tilt, 20 deg of heading.
 std::vector<UnobservedSpan> FindUnobserved(const Solution& solution);
 
-/// Fills `constants`, `unobserved`, `usable` and `verdict`.
-void Conclude(Solution* solution);
+/// Fills `constants`, `unobserved`, `usable` and `verdict`. Not usable: an
+/// iteration that did not converge, a navigation state unobserved over half of
+/// the interval, or a sensor whose accepted residuals are, in the root mean
+/// square, more than five times the sigma the model gives them - then the model
+/// or its noise is wrong, and with them every sigma of the solution.
+void Conclude(const std::vector<Sensor>& sensors, Solution* solution);
 
 }  // namespace hindsight
 

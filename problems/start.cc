@@ -51,9 +51,9 @@ class StartFinder {
 
   Start Find() {
     if (!(from_ < to_)) {
-      throw InputError("the asked interval from " + std::to_string(from_) +
-                       " s to " + std::to_string(to_) +
-                       " s contains no IMU data");
+      throw InputError("no IMU data in the asked interval: it covers " +
+                       std::to_string(dataset_.imu.t_begin()) + " s to " +
+                       std::to_string(dataset_.imu.t_end()) + " s");
     }
     fixes_ = PositionFixes(dataset_, from_, to_);
     velocities_ = GroundVelocities(dataset_, from_, to_);

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "base/units.h"
+#include "dataset/ground_motion.h"
 
 namespace hindsight {
 namespace {
@@ -73,7 +74,7 @@ std::vector<double> ImuStamps(const ImuStream& imu) {
 ImuReport ReportImu(const Dataset& dataset) {
   ImuReport report;
   const ImuStream& imu = dataset.imu;
-  report.rest = FindStandstill(imu, dataset.stationary);
+  report.rest = FindRests(dataset);
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();
   double weight = 0.0;

@@ -8,6 +8,7 @@ std::vector<ResidualStatistics> ComputeResidualStatistics(
     const Solution& solution, const Dataset& dataset) {
   std::vector<ResidualStatistics> all(dataset.streams.size());
   std::vector<double> sums(dataset.streams.size(), 0.0);
+  std::vector<double> weights(dataset.streams.size(), 0.0);
   for (const ResidualRecord& record : solution.residuals) {
     const auto sensor = static_cast<std::size_t>(record.sensor);
     ResidualStatistics& s = all.at(sensor);
@@ -20,16 +21,17 @@ std::vector<ResidualStatistics> ComputeResidualStatistics(
       ++s.rejected;
       continue;
     }
-    sums[sensor] += record.nis / static_cast<double>(record.residual.size());
+    sums[sensor] += record.weight * record.nis;
+    weights[sensor] +=
+        record.weight * static_cast<double>(record.residual.size());
   }
   std::vector<ResidualStatistics> present;
   for (std::size_t i = 0; i < all.size(); ++i) {
     ResidualStatistics& s = all[i];
     if (s.count + s.withheld == 0) continue;
     s.sensor = dataset.streams[i].sensor.name;
-    const std::size_t accepted = s.count - s.rejected;
-    if (accepted > 0) {
-      s.normalized_rms = std::sqrt(sums[i] / static_cast<double>(accepted));
+    if (weights[i] > 0.0) {
+      s.normalized_rms = std::sqrt(sums[i] / weights[i]);
     }
     present.push_back(s);
   }

@@ -1,5 +1,7 @@
 #include "filters/forward_filter.h"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <limits>
 
@@ -43,6 +45,7 @@ class ForwardPass {
   /// error, its covariance moves into the new tangent.
   void StartAbout(const State& nominal) {
     const State prior_mean = x_;
+    fixed_nominal_ = true;
     x_ = nominal;
     dx_ = Local(layout_, nominal, prior_mean);
     MoveCovariance(prior_mean);
@@ -105,7 +108,13 @@ class ForwardPass {
 
   void Use(std::size_t k, const Measurement& z, int index) {
     Evaluate(z, timeline_.Context(k, z, layout_, x_), &linearized_);
-    const Innovation innovation = Innovate(linearized_, dx_, P_);
+    Innovation innovation = Innovate(linearized_, dx_, P_);
+    const RobustLoss& loss =
+        timeline_.sensors()[static_cast<std::size_t>(z.sensor)].loss;
+    if (loss.kind != RobustLoss::Kind::kNone && !z.withheld) {
+      linearized_.R /= std::max(loss.Weight(RobustArgument(innovation)), 1e-9);
+      innovation = Innovate(linearized_, dx_, P_);
+    }
     TapeMeasurement header;
     header.index = index;
     header.sensor = z.sensor;
@@ -113,6 +122,18 @@ class ForwardPass {
     header.accepted = !z.withheld && Accept(k, z, index, innovation);
     tape_.Record(header, linearized_, innovation);
     if (header.accepted) Update(linearized_, innovation, &dx_, &P_);
+  }
+
+  /// What the robust loss is asked about. About a fixed nominal it is the
+  /// residual there, which makes the pass a step of iteratively reweighted
+  /// least squares; a filter that only knows the past must allow for its own
+  /// uncertainty.
+  double RobustArgument(const Innovation& innovation) const {
+    if (!fixed_nominal_) return innovation.nis;
+    return Eigen::LLT<RowMatrix>(linearized_.R)
+        .matrixL()
+        .solve(linearized_.residual)
+        .squaredNorm();
   }
 
   bool Accept(std::size_t k, const Measurement& z, int index,
@@ -144,6 +165,7 @@ class ForwardPass {
   Transition transition_;
   LinearizedMeasurement linearized_;
   std::vector<double> gate_limits_;
+  bool fixed_nominal_ = false;
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "imu/imu_stream.h"
 
+#include <algorithm>
+
 namespace hindsight {
 namespace {
 
@@ -20,6 +22,33 @@ Evolution ImuNoise::GyroBiasEvolution() const {
 
 Evolution ImuNoise::AccelBiasEvolution() const {
   return BiasEvolution(accel_bias_walk, accel_bias_tau);
+}
+
+double MedianInterval(const ImuStream& stream) {
+  if (stream.empty()) return 0.0;
+  // A sample of the intervals is enough, and spares a day's copy.
+  const std::size_t count = stream.samples.size() - 1;
+  const std::size_t stride = std::max<std::size_t>(1, count / 10000);
+  std::vector<double> intervals;
+  for (std::size_t k = 1; k <= count; k += stride) {
+    intervals.push_back(stream.samples[k].t - stream.samples[k - 1].t);
+  }
+  const auto middle =
+      intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), middle, intervals.end());
+  return *middle;
+}
+
+std::vector<std::size_t> DropOuts(const ImuStream& stream) {
+  std::vector<std::size_t> ends;
+  if (stream.nominal_dt <= 0.0) return ends;
+  const double limit = ImuStream::kGapFactor * stream.nominal_dt;
+  for (std::size_t k = 1; k < stream.samples.size(); ++k) {
+    if (stream.samples[k].t - stream.samples[k - 1].t > limit) {
+      ends.push_back(k);
+    }
+  }
+  return ends;
 }
 
 }  // namespace hindsight

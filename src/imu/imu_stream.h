@@ -43,14 +43,27 @@ struct ImuStream {
   Kind kind = Kind::kRates;
   std::vector<ImuSample> samples;  ///< strictly increasing stamps
   ImuNoise noise;
-  /// Intervals longer than this are gaps, which no summary may bridge [s].
+  /// Sample intervals longer than this are refused on reading [s].
   double max_gap = 0.5;
+  /// The usual sample interval, 0 if not known [s]. An interval of more than
+  /// kGapFactor times this is a drop-out: bridged by the straight line between
+  /// the readings on both sides, with noise that allows for what may have
+  /// happened meanwhile (see BridgeNoise).
+  double nominal_dt = 0.0;
+  static constexpr double kGapFactor = 3.5;
 
   bool empty() const { return samples.size() < 2; }
   /// First and last time at which the motion is known [s].
   double t_begin() const { return samples.front().t; }
   double t_end() const { return samples.back().t; }
 };
+
+/// Median sample interval [s].
+double MedianInterval(const ImuStream& stream);
+
+/// The drop-outs of a stream with a known nominal_dt: the sample numbers at
+/// their ends.
+std::vector<std::size_t> DropOuts(const ImuStream& stream);
 
 }  // namespace hindsight
 

@@ -57,6 +57,7 @@ void Preintegrator::Start(double t_i, const ImuCalibration& calibration) {
     m->setZero();
   }
   q_sum_ = 0.0;
+  a_sum_ = as_ = ass_ = 0.0;
   qv_.setZero();
   qu_.setZero();
   snapshot_count_ = 0;
@@ -79,7 +80,7 @@ void Preintegrator::TakeSnapshot() {
       T_, v_, p_, S_g_, V_g_, P_g_, S_a_, P_a_};
 }
 
-void Preintegrator::Add(const LinearRates& raw) {
+void Preintegrator::Add(const LinearRates& raw, const IntervalNoise& extra) {
   LinearRates r = raw;
   r.w0 -= calibration_.b_g;
   r.w1 -= calibration_.b_g;
@@ -105,7 +106,15 @@ void Preintegrator::Add(const LinearRates& raw) {
   // Gyro noise moments at the middle of the sample.
   const Eigen::Vector3d v_mid = 0.5 * (v_ + v_next);
   const Eigen::Vector3d u_mid = 0.5 * (p_ + p_next) - (T_ + 0.5 * dt) * v_mid;
-  double q_dt = noise_.gyro_noise_density * noise_.gyro_noise_density * dt;
+  double q_dt =
+      (noise_.gyro_noise_density * noise_.gyro_noise_density + extra.gyro) * dt;
+  const double a_dt =
+      (noise_.accel_noise_density * noise_.accel_noise_density + extra.accel) *
+      dt;
+  const double s_mid = T_ + 0.5 * dt;
+  a_sum_ += a_dt;
+  as_ += a_dt * s_mid;
+  ass_ += a_dt * (s_mid * s_mid + dt * dt / 12.0);
   if (noise_.gyro_noise_per_rate > 0.0) {
     const double w = 0.5 * (r.w0 + r.w1).norm();
     q_dt +=
@@ -233,12 +242,14 @@ void Preintegrator::AssembleWhiteNoise(ImuSummary* out) const {
   const Eigen::Matrix3d m_bb = q_sum_ * p_ * p_.transpose() -
                                p_ * m_w.transpose() - m_w * p_.transpose() +
                                T * m_sb + m_ub;
-  const double q_a = noise_.accel_noise_density * noise_.accel_noise_density;
+  // sums of q (T - s)^2, q (T - s), q.
+  const double a_pp = T * T * a_sum_ - 2.0 * T * as_ + ass_;
+  const double a_pv = T * a_sum_ - as_;
   auto& N = out->noise;
-  N.block<3, 3>(0, 0) = m_bb.trace() * I - m_bb + (q_a * T * T * T / 3.0) * I;
-  N.block<3, 3>(3, 3) = m_aa.trace() * I - m_aa + (q_a * T) * I;
+  N.block<3, 3>(0, 0) = m_bb.trace() * I - m_bb + a_pp * I;
+  N.block<3, 3>(3, 3) = m_aa.trace() * I - m_aa + a_sum_ * I;
   // e_p e_v' = [b x][a x]' = (a.b) I - a b'.
-  N.block<3, 3>(0, 3) = m_ab.trace() * I - m_ab + (0.5 * q_a * T * T) * I;
+  N.block<3, 3>(0, 3) = m_ab.trace() * I - m_ab + a_pv * I;
   N.block<3, 3>(6, 6) = q_sum_ * I;
   N.block<3, 3>(0, 6) = -Skew(m_b);
   N.block<3, 3>(3, 6) = -Skew(m_a);
@@ -321,6 +332,30 @@ LinearRates ImuIntegrator::RatesOfInterval(std::size_t k) const {
                              samples[k].accel);
 }
 
+bool ImuIntegrator::IsDropOut(std::size_t k) const {
+  return stream_->nominal_dt > 0.0 &&
+         stream_->samples[k].t - stream_->samples[k - 1].t >
+             ImuStream::kGapFactor * stream_->nominal_dt;
+}
+
+LinearRates ImuIntegrator::RatesAcrossDropOut(std::size_t k) const {
+  // The increments of the missing intervals are lost; the sample at the end
+  // holds those of one usual interval.
+  const auto& samples = stream_->samples;
+  const double scale = 1.0 / stream_->nominal_dt;
+  return {samples[k].t - samples[k - 1].t, scale * samples[k - 1].gyro,
+          scale * samples[k].gyro, scale * samples[k - 1].accel,
+          scale * samples[k].accel};
+}
+
+IntervalNoise BridgeNoise(const LinearRates& rates) {
+  constexpr double kRate = 0.1;
+  constexpr double kForce = 1.0;
+  const double w = std::max(kRate, (rates.w1 - rates.w0).norm());
+  const double f = std::max(kForce, (rates.f1 - rates.f0).norm());
+  return {w * w * rates.dt, f * f * rates.dt};
+}
+
 ImuSummary ImuIntegrator::Summarize(double t_i, double t_j,
                                     const ImuCalibration& calibration) {
   const auto& samples = stream_->samples;
@@ -339,6 +374,8 @@ ImuSummary ImuIntegrator::Summarize(double t_i, double t_j,
     const double t_end = samples[k].t;
     const double to = k + 1 == samples.size() ? t_j : std::min(t_end, t_j);
     LinearRates rates = RatesOfInterval(k);
+    IntervalNoise extra;
+    if (IsDropOut(k)) extra = BridgeNoise(rates);
     if (t > t_begin || to < t_end) {
       const double span = rates.dt;
       const double a = (t - t_begin) / span;
@@ -348,7 +385,7 @@ ImuSummary ImuIntegrator::Summarize(double t_i, double t_j,
       rates = {to - t, rates.w0 + a * dw, rates.w0 + b * dw, rates.f0 + a * df,
                rates.f0 + b * df};
     }
-    if (rates.dt > 0.0) integrator_.Add(rates);
+    if (rates.dt > 0.0) integrator_.Add(rates, extra);
     t = to;
     if (k + 1 < samples.size()) ++k;
   }

@@ -68,6 +68,12 @@ CorrectedMean Correct(const ImuSummary& summary, const ImuCalibration& at);
 /// the motion.
 bool NeedsReintegration(const ImuSummary& summary, const ImuCalibration& at);
 
+/// White noise of one sample interval on top of the IMU's own.
+struct IntervalNoise {
+  double gyro = 0.0;   ///< squared density [rad^2/s]
+  double accel = 0.0;  ///< squared density [m^2/s^3]
+};
+
 /// Accumulates sample intervals into a summary. Mean to second order per
 /// sample; Jacobians and noise by moments, exact in the limit of small samples
 /// and cheaper than propagating a covariance (one pass of sums, assembled once
@@ -79,7 +85,8 @@ class Preintegrator {
   /// Starts a new interval.
   void Start(double t_i, const ImuCalibration& calibration);
   /// Appends the next sample interval, calibration errors not yet removed.
-  void Add(const LinearRates& raw);
+  /// `extra` is noise of this interval on top of the IMU's own.
+  void Add(const LinearRates& raw, const IntervalNoise& extra = {});
   /// The summary from the start to the end of the last sample added.
   ImuSummary Finish() const;
 
@@ -114,6 +121,8 @@ class Preintegrator {
   // Moments over the gyro noise variance rate q: sums of q ds times products of
   // v(s) and u(s) = p(s) - s v(s).
   double q_sum_ = 0.0;
+  // The same of the accelerometer: sums of q ds times powers of s.
+  double a_sum_ = 0.0, as_ = 0.0, ass_ = 0.0;
   Eigen::Vector3d qv_, qu_;
   Eigen::Matrix3d qvv_, qvu_, quu_;
   std::array<Snapshot, kMaxSnapshots> snapshots_;
@@ -121,6 +130,12 @@ class Preintegrator {
   int snapshot_every_ = 1;
   int samples_since_snapshot_ = 0;
 };
+
+/// Noise of a bridged drop-out: over its whole length the true rate may be off
+/// the straight line between the readings at its ends by max(0.1 rad/s, their
+/// difference), the specific force by max(1 m/s^2, their difference), one
+/// sigma, constant over the drop-out.
+IntervalNoise BridgeNoise(const LinearRates& rates);
 
 /// Turns intervals of a stream into summaries. Splits a sample where an
 /// interval begins or ends inside it.
@@ -142,6 +157,9 @@ class ImuIntegrator {
   LinearRates RatesOfInterval(std::size_t k) const;
 
  private:
+  bool IsDropOut(std::size_t k) const;
+  LinearRates RatesAcrossDropOut(std::size_t k) const;
+
   /// Smallest k >= 1 with samples[k].t > t (or the last).
   std::size_t FindInterval(double t);
 
