@@ -26,7 +26,8 @@ void Odometer::Evaluate(const ModelContext& context,
 
   LinearizedMeasurement full;
   full.Resize(3, layout.dim());
-  full.residual = Eigen::Vector3d(speed, 0.0, 0.0) - gain.cwiseProduct(v_o);
+  full.residual = Eigen::Vector3d(speed, side_down.x(), side_down.y()) -
+                  gain.cwiseProduct(v_o);
   full.R.diagonal() = sigma.cwiseAbs2();
   const Eigen::Matrix3d A = gain.asDiagonal() * C_oe;
   AddVelocityColumns(context, motion, A, &full.H);

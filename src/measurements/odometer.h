@@ -9,7 +9,8 @@ namespace hindsight {
 /// nor leaves the ground. In the vehicle axes o (forward, right, down) of the
 /// axle at lever arm l,
 ///   v_o = C_ob (C_be v_e + w_eb x l),   C_ob = Exp(m) C_ob(nominal),
-///   z = ((1 + k) v_o,x, v_o,y, v_o,z) = (speed, 0, 0).
+///   z = ((1 + k) v_o,x, v_o,y, v_o,z) = (speed, side, down),
+/// side and down being zero unless a sensor measures them.
 /// Residual [m/s]: measured - predicted (eq. (44) of the 2002 paper has the
 /// opposite sign and navigation axes; its K of eq. (43) is -k).
 struct Odometer {
@@ -22,6 +23,8 @@ struct Odometer {
   double speed = 0.0;  ///< measured, signed [m/s]; unused by kNonHolonomic
   /// Forward, side, down [m/s].
   Eigen::Vector3d sigma = Eigen::Vector3d::Ones();
+  /// Side and down speed of the axle [m/s]; unused by kForward.
+  Eigen::Vector2d side_down = Eigen::Vector2d::Zero();
 
   int rows() const {
     return form == Form::kForward ? 1 : form == Form::kThreeAxis ? 3 : 2;

@@ -96,6 +96,10 @@ Dataset MakeDataset(const Scenario& scenario,
     AddMeasurementErrors(scenario.aiding[k], seed, &perfect[k]);
     dataset.streams.push_back(
         {scenario.aiding[k].sensor, std::move(perfect[k])});
+    if (scenario.aiding[k].sensor.type == SensorType::kOdometer) {
+      dataset.true_constants[scenario.aiding[k].sensor.name + "_scale"] =
+          DrawScale(scenario.aiding[k], seed);
+    }
   }
   dataset.initial = DrawInitialState(scenario, start, seed);
   dataset.stationary = scenario.stationary;

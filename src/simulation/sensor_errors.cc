@@ -104,10 +104,38 @@ MeasurementModel PerfectMeasurement(const AidingModel& model,
     }
     case SensorType::kHeight:
       return HeightFix{GeodeticFromEcef(p_e).height, model.sigma.z()};
+    case SensorType::kOdometer: {
+      Odometer odometer;
+      odometer.form = model.odometer_form;
+      odometer.sigma = model.sigma;
+      const Eigen::Vector3d v_o =
+          model.sensor.q_sb *
+          (motion.q_eb.conjugate() * motion.v_e + motion.w_eb_b.cross(l));
+      odometer.speed = v_o.x();
+      return odometer;
+    }
     default:
       throw std::logic_error("sensor '" + model.sensor.name +
                              "' is of a type that is not simulated");
   }
+}
+
+}  // namespace
+
+namespace {
+
+/// Stamps that the model asks for, whatever the span of the motion.
+std::vector<double> Stamps(const AidingModel& model, double first,
+                           double last) {
+  if (!model.times.empty()) return model.times;
+  constexpr double kStampTolerance = 1e-6;
+  std::vector<double> stamps;
+  for (auto k = static_cast<long>(
+           std::ceil(first * model.rate_hz - kStampTolerance));
+       static_cast<double>(k) / model.rate_hz <= last; ++k) {
+    stamps.push_back(static_cast<double>(k) / model.rate_hz);
+  }
+  return stamps;
 }
 
 }  // namespace
@@ -117,27 +145,37 @@ std::vector<Measurement> PerfectMeasurements(const AidingModel& model,
                                              double t_end) {
   std::vector<Measurement> measurements;
   const double offset = model.sensor.time_offset;
-  const double first =
-      std::max(trajectory->t_begin() - offset, model.from) * model.rate_hz;
-  constexpr double kStampTolerance = 1e-6;
-  for (auto k = static_cast<long>(std::ceil(first - kStampTolerance));; ++k) {
-    Measurement z;
-    z.t = static_cast<double>(k) / model.rate_hz;
-    const double t_true = z.t + offset;
-    if (z.t > model.to || t_true > t_end) return measurements;
+  const double first = std::max(trajectory->t_begin() - offset, model.from);
+  const double last = std::min(t_end - offset, model.to);
+  for (const double t : Stamps(model, first, last)) {
     const bool missing = std::any_of(
         model.outages.begin(), model.outages.end(),
-        [&](const TimeSpan& o) { return z.t >= o.begin && z.t < o.end; });
-    if (missing || t_true < trajectory->t_begin()) continue;
+        [&](const TimeSpan& o) { return t >= o.begin && t < o.end; });
+    const double t_true = t + offset;
+    if (missing || t < model.from || t > model.to || t_true > t_end ||
+        t_true < trajectory->t_begin()) {
+      continue;
+    }
+    Measurement z;
+    z.t = t;
     z.sensor = sensor;
     z.model = PerfectMeasurement(model, trajectory->At(t_true));
     measurements.push_back(z);
   }
+  return measurements;
+}
+
+double DrawScale(const AidingModel& model, std::uint64_t seed) {
+  if (!model.sensor.scale_sigma) return model.sensor.scale;
+  return model.sensor.scale +
+         *model.sensor.scale_sigma *
+             Random(seed, StreamOf(model.sensor.name + "_scale")).Normal();
 }
 
 void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
                           std::vector<Measurement>* measurements) {
   Random random(seed, StreamOf(model.sensor.name));
+  const double scale = DrawScale(model, seed);
   for (Measurement& z : *measurements) {
     if (auto* position = std::get_if<PositionFix>(&z.model)) {
       const Eigen::Vector3d error_n =
@@ -147,6 +185,11 @@ void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
       velocity->v_n += model.sigma.cwiseProduct(random.NormalVector3());
     } else if (auto* height = std::get_if<HeightFix>(&z.model)) {
       height->height += model.sigma.z() * random.Normal();
+    } else if (auto* odometer = std::get_if<Odometer>(&z.model)) {
+      const Eigen::Vector3d error =
+          model.sigma.cwiseProduct(random.NormalVector3());
+      odometer->speed = (1.0 + scale) * odometer->speed + error.x();
+      odometer->side_down += error.tail<2>();
     }
   }
 }

@@ -64,16 +64,22 @@ struct TimeSpan {
   double end = 0.0;
 };
 
-/// An aiding sensor to simulate: position, velocity or height.
+/// An aiding sensor to simulate: position, velocity, height or odometer. A
+/// priori sigma of its scale in `sensor` is also that from which the true scale
+/// is drawn.
 struct AidingModel {
   /// Type, lever arm, time offset, gate: the truth and what the data set says.
   Sensor sensor;
   double rate_hz = 1.0;
-  /// NED standard deviation [m] or [m/s]; height uses the third.
+  /// Stamps [s], ascending, in place of those of the rate if not empty.
+  std::vector<double> times;
+  /// NED standard deviation [m] or [m/s]; height uses the third; odometer:
+  /// forward, side, down, all of which get noise.
   Eigen::Vector3d sigma = Eigen::Vector3d::Ones();
   double from = -std::numeric_limits<double>::infinity();  ///< first stamp [s]
   double to = std::numeric_limits<double>::infinity();     ///< last stamp [s]
   std::vector<TimeSpan> outages;  ///< stamps in them are missing
+  Odometer::Form odometer_form = Odometer::Form::kThreeAxis;
 };
 
 /// Perfect measurements of `model` with their covariances: what the sensor's
@@ -83,9 +89,12 @@ std::vector<Measurement> PerfectMeasurements(const AidingModel& model,
                                              int sensor, Trajectory* trajectory,
                                              double t_end);
 
-/// Adds normal errors of the model's sigma. The deviates come from a stream of
-/// the seed that belongs to the sensor's name, so that adding a sensor changes
-/// no other one's errors.
+/// The scale error k of one seed: measured = (1 + k) true.
+double DrawScale(const AidingModel& model, std::uint64_t seed);
+
+/// Adds normal errors of the model's sigma, and the odometer its DrawScale. The
+/// deviates come from a stream of the seed that belongs to the sensor's name,
+/// so that adding a sensor changes no other one's errors.
 void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
                           std::vector<Measurement>* measurements);
 
