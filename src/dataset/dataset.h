@@ -93,6 +93,8 @@ struct Dataset {
   ImuStream imu;
   std::vector<AidingStream> streams;
   std::vector<TruthPoint> truth;
+  /// Known of simulated data, by the name of the estimated constant, SI.
+  std::map<std::string, double> true_constants;
   /// Point the truth speaks of, body axes from the IMU [m].
   Eigen::Vector3d truth_lever_arm_b = Eigen::Vector3d::Zero();
   InitialState initial;
