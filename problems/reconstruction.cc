@@ -1,11 +1,13 @@
 #include "problems/reconstruction.h"
 
+#include <cmath>
 #include <ctime>
 #include <optional>
 #include <utility>
 
 #include "base/error.h"
 #include "dataset/timeline_builder.h"
+#include "filters/two_filter.h"
 #include "problems/batch.h"
 #include "problems/sample_solution.h"
 #include "problems/solution_builder.h"
@@ -16,13 +18,16 @@ namespace {
 
 constexpr std::pair<Method, const char*> kMethods[] = {
     {Method::kEkf, "ekf"},
+    {Method::kTwoFilter, "two_filter"},
+    {Method::kTwoFilterConventional, "two_filter_conventional"},
+    {Method::kTwoFilterEuler, "two_filter_euler"},
     {Method::kRts, "rts"},
     {Method::kIterated, "iterated"},
     {Method::kBatch, "batch"}};
 
 double ProcessorSeconds() {
   timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) +
          1e-9 * static_cast<double>(now.tv_nsec);
 }
@@ -46,6 +51,16 @@ CovarianceSeries TransportSeries(const ErrorLayout& layout,
     out.Set(k, ErrorMatrix(T * P.Get(k) * T.transpose()));
   }
   return out;
+}
+
+/// The nominal about which the tape's smoothed covariances are.
+std::vector<State> NominalOf(const LinearTape& tape) {
+  std::vector<State> nominal;
+  nominal.reserve(tape.size());
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    nominal.push_back(tape.epoch(k).x_plus);
+  }
+  return nominal;
 }
 
 }  // namespace
@@ -80,6 +95,7 @@ struct Reconstruction::Impl {
     timeline_options.t_begin = start.report.t;
     timeline_options.t_end = std::min(options.to, dataset.imu.t_end());
     timeline_options.extra_times = options.node_times;
+    timeline_options.time_offsets = placed_offsets;
     timeline_options.with_scale_jacobians =
         start.layout.Has(BlockKind::kGyroScale) ||
         start.layout.Has(BlockKind::kAccelScale);
@@ -100,9 +116,18 @@ struct Reconstruction::Impl {
     };
   }
 
-  /// Forward filter and RTS pass about it; run once.
+  /// Forward filter and RTS pass about it; run once, and again wherever the
+  /// pass shows that measurements belong to other times.
   void RunForward() {
     if (rts) return;
+    constexpr int kMaxPlacements = 6;
+    for (int i = 0; i < kMaxPlacements; ++i) {
+      RunForwardOnce();
+      if (!PlaceNodesAnew()) return;
+    }
+  }
+
+  void RunForwardOnce() {
     const double t0 = ProcessorSeconds();
     LinearTape tape = RunExtendedKalmanFilter(start.layout, start.prior,
                                               &timeline, {}, Progress("ekf"));
@@ -114,12 +139,48 @@ struct Reconstruction::Impl {
     rts_seconds = ProcessorSeconds() - t0 - ekf->seconds;
   }
 
-  SmoothedTrajectory SmoothTape(LinearTape tape) const {
-    std::vector<State> about;
-    about.reserve(tape.size());
-    for (std::size_t k = 0; k < tape.size(); ++k) {
-      about.push_back(tape.epoch(k).x_plus);
+  /// Moves the nodes of every sensor whose estimated time offset is more than
+  /// 20 ms from where its nodes were placed; true if any was.
+  bool PlaceNodesAnew() {
+    constexpr double kFarthest = 0.02;
+    std::vector<double> offsets;
+    for (const Sensor& sensor : timeline.sensors()) {
+      offsets.push_back(sensor.time_offset);
     }
+    if (placed_offsets.empty()) placed_offsets = offsets;
+    bool moved = false;
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      const Block* block =
+          start.layout.Find(BlockKind::kTimeOffset, static_cast<int>(i));
+      if (block == nullptr) continue;
+      const double estimate = SettledParameters()(block->parameter_offset);
+      if (std::abs(estimate - placed_offsets[i]) < kFarthest) continue;
+      placed_offsets[i] = estimate;
+      moved = true;
+    }
+    if (!moved) return false;
+    timeline = BuildTimeline(dataset, MakeTimelineOptions());
+    settled.reset();
+    return true;
+  }
+
+  /// Constants after a few iterations about the smoothed trajectory: one pass
+  /// may still be far off where the start was.
+  const ParameterVector& SettledParameters() {
+    if (!settled) {
+      IterationOptions iteration;
+      iteration.max_iterations = 4;
+      iteration.callback = Progress("calibration");
+      settled = SmoothIterated(start.layout, start.prior, rts->states,
+                               &timeline, decisions, iteration)
+                    .trajectory.states.back()
+                    .parameters;
+    }
+    return *settled;
+  }
+
+  SmoothedTrajectory SmoothTape(LinearTape tape) const {
+    const std::vector<State> about = NominalOf(tape);
     SmoothedTrajectory smoothed = SmoothRts(std::move(tape));
     smoothed.P =
         TransportSeries(start.layout, about, smoothed.states, smoothed.P);
@@ -140,13 +201,36 @@ struct Reconstruction::Impl {
   Solution Finish(Solution solution, Method method, double seconds) const {
     solution.method = MethodName(method);
     solution.seconds = seconds;
-    Conclude(&solution);
+    Conclude(timeline.sensors(), &solution);
     return solution;
   }
 
   Solution FromSmoothed(std::vector<State> states, CovarianceSeries P) const {
     return SmoothedSolution(start.layout, timeline, std::move(states),
                             std::move(P), decisions);
+  }
+
+  /// The tape was released by the RTS pass; filtering again about the same
+  /// decisions costs less than keeping it.
+  Solution RunTwoFilter(Method method) {
+    const LinearTape tape =
+        RunExtendedKalmanFilter(start.layout, start.prior, &timeline, decisions,
+                                Progress(MethodName(method)));
+    const double t0 = ProcessorSeconds();
+    TwoFilterResult result = method == Method::kTwoFilter
+                                 ? SmoothTwoFilter(tape)
+                                 : SmoothTwoFilterConventional(
+                                       tape, method == Method::kTwoFilterEuler
+                                                 ? ChartKind::kEuler
+                                                 : ChartKind::kAdditive);
+    SmoothedTrajectory& trajectory = result.trajectory;
+    CovarianceSeries P = TransportSeries(start.layout, NominalOf(tape),
+                                         trajectory.states, trajectory.P);
+    const double seconds = ProcessorSeconds() - t0;
+    Solution solution =
+        FromSmoothed(std::move(trajectory.states), std::move(P));
+    solution.separation = std::move(result.separation);
+    return Finish(std::move(solution), method, seconds);
   }
 
   Solution RunIterated() {
@@ -187,6 +271,9 @@ struct Reconstruction::Impl {
 
   const Dataset& dataset;
   ReconstructionOptions options;
+  /// Time offsets the nodes are placed by; empty: those of the sensors.
+  std::vector<double> placed_offsets;
+  std::optional<ParameterVector> settled;
   Start start;
   Timeline timeline;
   std::optional<Solution> ekf;
@@ -206,6 +293,10 @@ Solution Reconstruction::Run(Method method) {
   switch (method) {
     case Method::kEkf:
       return impl_->Finish(*impl_->ekf, method, impl_->ekf->seconds);
+    case Method::kTwoFilter:
+    case Method::kTwoFilterConventional:
+    case Method::kTwoFilterEuler:
+      return impl_->RunTwoFilter(method);
     case Method::kRts:
       return impl_->Finish(
           impl_->FromSmoothed(impl_->rts->states, impl_->rts->P), method,

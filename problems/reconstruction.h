@@ -13,9 +13,18 @@
 
 namespace hindsight {
 
-enum class Method { kEkf, kRts, kIterated, kBatch };
+enum class Method {
+  kEkf,
+  kTwoFilter,              ///< error form
+  kTwoFilterConventional,  ///< full state in the additive chart
+  kTwoFilterEuler,         ///< full state in the Euler-angle chart
+  kRts,
+  kIterated,
+  kBatch
+};
 
-/// "ekf", "rts", "iterated", "batch".
+/// "ekf", "two_filter", "two_filter_conventional", "two_filter_euler", "rts",
+/// "iterated", "batch".
 const char* MethodName(Method method);
 /// Throws InputError for a name that is none, listing those that are.
 Method MethodFromName(const std::string& name);

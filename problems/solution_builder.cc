@@ -28,6 +28,32 @@ double LimitOf(BlockKind kind, int axis) {
   }
 }
 
+/// The motion that makes a constant observable.
+const char* AdviceFor(BlockKind kind) {
+  switch (kind) {
+    case BlockKind::kGyroBias:
+      return "rest, or position or velocity aiding over a longer time";
+    case BlockKind::kAccelBias:
+      return "rest in several attitudes, or turns and accelerations";
+    case BlockKind::kGyroScale:
+      return "fast turns both ways about the axis";
+    case BlockKind::kAccelScale:
+      return "strong accelerations along the axis both ways, or rest in "
+             "several attitudes";
+    case BlockKind::kScale:
+      return "travel between position fixes";
+    case BlockKind::kMounting:
+      return "travel at speed with heading and slope known from turns; roll "
+             "only from side slip in turns";
+    case BlockKind::kLeverArm:
+      return "turns (forward and right arm), and roll and pitch (down arm)";
+    case BlockKind::kTimeOffset:
+      return "changes of speed or direction";
+    default:
+      return "more motion, or a second sensor of the same quantity";
+  }
+}
+
 ResidualRecord MakeRecord(const Measurement& z, double t, bool accepted) {
   ResidualRecord record;
   record.t = t;
@@ -134,6 +160,9 @@ std::vector<ConstantEstimate> EstimateConstants(const Solution& solution) {
           ratio < kObservedRatio     ? ConstantEstimate::Verdict::kObserved
           : ratio < kUnobservedRatio ? ConstantEstimate::Verdict::kWeak
                                      : ConstantEstimate::Verdict::kUnobserved;
+      if (constant.verdict != ConstantEstimate::Verdict::kObserved) {
+        constant.advice = AdviceFor(block.key.kind);
+      }
       constants.push_back(std::move(constant));
       ++component;
     }

@@ -359,6 +359,15 @@ void AddCalibration(BlockKind kind, int sensor, const std::string& name,
 
 ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior) {
   ErrorLayout layout = NavigationLayout(prior);
+  const int none = BlockKey::kNoSensor;
+  if (dataset.gyro_scale_sigma) {
+    AddCalibration(BlockKind::kGyroScale, none, "gyro_scale", "1",
+                   *dataset.gyro_scale_sigma, &layout);
+  }
+  if (dataset.accel_scale_sigma) {
+    AddCalibration(BlockKind::kAccelScale, none, "accel_scale", "1",
+                   *dataset.accel_scale_sigma, &layout);
+  }
   for (std::size_t i = 0; i < dataset.streams.size(); ++i) {
     const Sensor& sensor = dataset.streams[i].sensor;
     const int index = static_cast<int>(i);

@@ -98,6 +98,10 @@ struct Dataset {
   /// Point the truth speaks of, body axes from the IMU [m].
   Eigen::Vector3d truth_lever_arm_b = Eigen::Vector3d::Zero();
   InitialState initial;
+  /// A priori standard deviations of the IMU's scale factors, per axis [1];
+  /// absent: not estimated.
+  std::optional<Eigen::Vector3d> gyro_scale_sigma;
+  std::optional<Eigen::Vector3d> accel_scale_sigma;
   StationaryOptions stationary;
   std::vector<Withholding> withholdings;
   std::vector<Outage> outages;    ///< filled by ApplyWithholding

@@ -14,13 +14,17 @@ struct TimedMeasurement {
   const Measurement* z = nullptr;
 };
 
-std::vector<TimedMeasurement> MeasurementsInside(const Dataset& dataset,
-                                                 double t_begin, double t_end) {
+std::vector<TimedMeasurement> MeasurementsInside(
+    const Dataset& dataset, const TimelineOptions& options) {
   std::vector<TimedMeasurement> out;
-  for (const AidingStream& stream : dataset.streams) {
+  for (std::size_t i = 0; i < dataset.streams.size(); ++i) {
+    const AidingStream& stream = dataset.streams[i];
+    const double offset = options.time_offsets.empty()
+                              ? stream.sensor.time_offset
+                              : options.time_offsets[i];
     for (const Measurement& z : stream.measurements) {
-      const double t = z.t + stream.sensor.time_offset;
-      if (t >= t_begin - kSameTime && t <= t_end + kSameTime) {
+      const double t = z.t + offset;
+      if (t >= options.t_begin - kSameTime && t <= options.t_end + kSameTime) {
         out.push_back({t, &z});
       }
     }
@@ -57,7 +61,7 @@ std::vector<double> NodeTimes(std::vector<double> required, double spacing) {
 
 Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options) {
   const std::vector<TimedMeasurement> timed =
-      MeasurementsInside(dataset, options.t_begin, options.t_end);
+      MeasurementsInside(dataset, options);
   std::vector<double> required = {options.t_begin, options.t_end};
   for (const TimedMeasurement& m : timed) {
     required.push_back(std::clamp(m.t, options.t_begin, options.t_end));

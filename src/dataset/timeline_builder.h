@@ -12,6 +12,9 @@ struct TimelineOptions {
   double t_begin = 0.0;             ///< first node [s]
   double t_end = 0.0;               ///< last node [s]
   std::vector<double> extra_times;  ///< further nodes, any order
+  /// Where to place each sensor's nodes, stamp + offset [s]; empty: at the
+  /// sensors' own time offsets.
+  std::vector<double> time_offsets;
   bool with_scale_jacobians = false;
 };
 

@@ -53,6 +53,9 @@ struct Solution {
   std::vector<ResidualRecord> residuals;
   std::vector<ConstantEstimate> constants;
   std::vector<UnobservedSpan> unobserved;
+  /// Distance between forward and backward positions in sigmas, of two-filter
+  /// smoothers: empty or as long as states, NaN where there is none.
+  std::vector<double> separation;
   bool converged = true;
   int iterations = 0;    ///< 0 for a method that does not iterate
   double seconds = 0.0;  ///< processor time of the method alone
