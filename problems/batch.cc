@@ -14,16 +14,20 @@
 namespace hindsight {
 namespace {
 
-/// Ends the iteration when the steps have come down to rounding size: the cost
-/// of ECEF positions of 6.4e6 m carries 1e-9 m of rounding a residual, so that
-/// no tolerance on its change can tell convergence from noise. Hands the
-/// iterations to the caller and keeps what the caller throws, as an exception
-/// must not cross Ceres.
+/// Steps so small, as root mean square a node [m and the rest], that the cost
+/// can no longer tell better from worse: with ECEF positions of 6.4e6 m each
+/// residual carries 1e-9 m of rounding. From there on FinishByNewton.
+constexpr double kRoughStep = 1e-3;
+/// The same with a robust loss, about which the last steps converge linearly.
+constexpr double kRoughRobustStep = 1e-6;
+constexpr double kFineStep = 1e-8;
+
+/// Ends Ceres's iteration at rough steps. Hands the iterations to the caller
+/// and keeps what the caller throws, as an exception must not cross Ceres.
 class Callback : public ceres::IterationCallback {
  public:
-  Callback(const std::function<void(int)>& call, std::size_t nodes)
-      : call_(call),
-        step_limit_(1e-6 * std::sqrt(static_cast<double>(nodes))) {}
+  Callback(const std::function<void(int)>& call, double step_limit)
+      : call_(call), step_limit_(step_limit) {}
 
   ceres::CallbackReturnType operator()(
       const ceres::IterationSummary& summary) override {
@@ -45,7 +49,7 @@ class Callback : public ceres::IterationCallback {
 
  private:
   const std::function<void(int)>& call_;
-  double step_limit_;  // norm over all nodes, metres leading
+  double step_limit_;
   std::exception_ptr thrown_;
 };
 
@@ -93,7 +97,9 @@ ceres::Problem::Options ProblemOptions() {
 ceres::Solver::Summary SolveOnce(const BatchOptions& options,
                                  int max_iterations, const ChainProblem& chain,
                                  ceres::Problem* problem) {
-  Callback callback(options.callback, chain.node_count());
+  const double rough = chain.HasLoss() ? kRoughRobustStep : kRoughStep;
+  Callback callback(options.callback,
+                    rough * std::sqrt(static_cast<double>(chain.node_count())));
   ceres::Solver::Options solver_options = SolverOptions(options);
   solver_options.max_num_iterations = max_iterations;
   solver_options.callbacks.push_back(&callback);
@@ -142,6 +148,21 @@ CovarianceSeries Marginals(ChainProblem* chain) {
   return chain->Marginals(information);
 }
 
+/// Full Gauss-Newton steps of the chain's own solver, which need no cost to be
+/// accepted, until they are of rounding size. The covariances come with them.
+CovarianceSeries FinishByNewton(ChainProblem* chain, int* iterations) {
+  constexpr int kMaxSteps = 4;
+  for (int i = 1;; ++i) {
+    ArrowSystem system = chain->Information();
+    system.Factor();
+    system.Solve();
+    ++*iterations;
+    if (chain->Step(&system) < kFineStep || i == kMaxSteps) {
+      return chain->Marginals(system);
+    }
+  }
+}
+
 }  // namespace
 
 BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
@@ -165,7 +186,9 @@ BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
     if (outer == 0) result.initial_cost = summary.initial_cost;
     result.final_cost = summary.final_cost;
     if (!AnySummaryIsStale(layout, *timeline, result.states)) {
-      result.P = Marginals(&chain);
+      result.P = result.converged ? FinishByNewton(&chain, &result.iterations)
+                                  : Marginals(&chain);
+      result.states = chain.States();
       return result;
     }
   }

@@ -29,7 +29,9 @@ struct BatchResult {
 /// a prior on the first node and the constants. Starts from `initial`, a state
 /// a node. Constants of the layout (IMU biases that do not walk, scale factors,
 /// lever arms...) are global unknowns; their start is that of the first state.
-/// Marginal covariances of every node come from the chain's structure in time
+/// The last steps, of a size that the rounding of the cost hides, are full
+/// Gauss-Newton steps solved by the chain's structure.
+/// Marginal covariances of every node come from that structure in time
 /// linear in the number of nodes.
 BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
                        const std::vector<State>& initial, Timeline* timeline,

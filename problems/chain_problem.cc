@@ -53,6 +53,11 @@ ChainProblem::ChainProblem(const ErrorLayout& layout, const Prior& prior,
   losses_.resize(factors_.size());
 }
 
+bool ChainProblem::HasLoss() const {
+  return std::any_of(losses_.begin(), losses_.end(),
+                     [](const auto& loss) { return loss != nullptr; });
+}
+
 double ChainProblem::LargestRobustRatio() {
   double largest = 0.0;
   Eigen::VectorXd residual(kMaxErrorDim);
@@ -100,6 +105,26 @@ std::vector<State> ChainProblem::States() const {
 }
 
 namespace {
+
+/// Subtracts J'r of one factor from the right side.
+void AddGradient(const StateBlocks& blocks, const TangentFactor& factor,
+                 const TangentFactor::Jacobian& J, const Eigen::VectorXd& r,
+                 ArrowSystem* arrow) {
+  const auto rows = r.head(factor.num_residuals());
+  Eigen::Index column = 0;
+  for (const int k : factor.nodes()) {
+    const auto J_k = J.middleCols(column, blocks.node_dim());
+    arrow->rhs(k).noalias() -= J_k.transpose() * rows;
+    column += blocks.node_dim();
+  }
+  for (const int g : factor.globals()) {
+    const StateBlocks::Entry& entry =
+        blocks.globals()[static_cast<std::size_t>(g)];
+    arrow->rhs_border().segment(entry.tangent, entry.block.dim).noalias() -=
+        J.middleCols(column, entry.block.dim).transpose() * rows;
+    column += entry.block.dim;
+  }
+}
 
 /// Adds J'J of one factor to the blocks of the arrow it touches.
 void AddInformation(const StateBlocks& blocks, const TangentFactor& factor,
@@ -151,11 +176,33 @@ ArrowSystem ChainProblem::Information() {
     factor.Linearize(parameters.data(), residual.data(), &J);
     if (losses_[i] != nullptr) {
       const double s = residual.head(factor.num_residuals()).squaredNorm();
-      J *= std::sqrt(losses_[i]->loss().Weight(s));
+      const double root_weight = std::sqrt(losses_[i]->loss().Weight(s));
+      J *= root_weight;
+      residual *= root_weight;
     }
     AddInformation(*blocks_, factor, J, &arrow);
+    AddGradient(*blocks_, factor, J, residual, &arrow);
   }
   return arrow;
+}
+
+double ChainProblem::Step(ArrowSystem* solved) {
+  const NodeManifold manifold(blocks_.get());
+  double sum = 0.0;
+  for (std::size_t k = 0; k < times_.size(); ++k) {
+    const auto step = solved->rhs(static_cast<int>(k));
+    sum += step.squaredNorm();
+    manifold.Plus(node_values(k), step.data(), node_values(k));
+  }
+  for (const StateBlocks::Entry& entry : blocks_->globals()) {
+    const auto step =
+        solved->rhs_border().segment(entry.tangent, entry.block.dim);
+    auto& values = globals_[static_cast<std::size_t>(entry.ambient)];
+    for (int i = 0; i < entry.block.dim; ++i) {
+      values[static_cast<std::size_t>(i)] += step(i);
+    }
+  }
+  return std::sqrt(sum / static_cast<double>(times_.size()));
 }
 
 CovarianceSeries ChainProblem::Marginals(const ArrowSystem& factored) const {

@@ -28,6 +28,7 @@ class ChainProblem {
   }
   /// The loss of factor i, or nullptr.
   RobustLossFunction* loss(std::size_t i) { return losses_[i].get(); }
+  bool HasLoss() const;
   /// Largest |whitened residual| in units of its loss's scale, over all factors
   /// whose loss redescends; 0 if there is none.
   double LargestRobustRatio();
@@ -45,8 +46,13 @@ class ChainProblem {
 
   std::vector<State> States() const;
 
-  /// Information matrix of all factors at the present values.
+  /// Normal equations of all factors at the present values: the information
+  /// matrix, and on the right side the negative gradient of the cost. Solved,
+  /// they are one Gauss-Newton step.
   ArrowSystem Information();
+  /// Moves the values by the solution; returns its root mean square a node,
+  /// over metres, m/s, radians and the rest.
+  double Step(ArrowSystem* solved);
   /// Marginal covariances over the layout from a factored information matrix.
   CovarianceSeries Marginals(const ArrowSystem& factored) const;
 

@@ -1,0 +1,285 @@
+#include "problems/batch.h"
+
+#include <ceres/covariance.h>
+#include <ceres/problem.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "filters/iterated_smoother.h"
+#include "problems/chain_problem.h"
+#include "support/test_problem.h"
+
+namespace hindsight {
+namespace {
+
+using testing::LargestError;
+using testing::MakeProblem;
+using testing::RichLayout;
+using testing::ScaledDifference;
+using testing::TacticalNoise;
+using testing::TestProblem;
+using testing::TestProblemOptions;
+using testing::TypicalLayout;
+
+struct Kind {
+  bool rich = false;
+  bool walk = true;  ///< of the biases; otherwise they are in the border
+};
+constexpr Kind kKinds[] = {{false, true}, {false, false}, {true, true}};
+
+TestProblem Problem(const Kind& kind, double duration = 20.0,
+                    bool errors = true) {
+  TestProblemOptions options;
+  options.noise = TacticalNoise(kind.walk);
+  // One gate decision for all: nothing is rejected.
+  options.layout =
+      kind.rich ? RichLayout(options.noise) : TypicalLayout(options.noise);
+  options.duration = duration;
+  options.errors = errors;
+  return MakeProblem(options, 11);
+}
+
+std::string Name(const Kind& kind) {
+  return std::string(kind.rich ? "rich" : "plain") +
+         (kind.walk ? ", walking" : ", constant");
+}
+
+GateDecisions All(const TestProblem& problem) {
+  return GateDecisions(problem.measurements.size(), 1);
+}
+
+std::vector<State> FilteredStates(const TestProblem& problem,
+                                  Timeline* timeline) {
+  return SmoothRts(RunExtendedKalmanFilter(problem.layout, problem.prior,
+                                           timeline, All(problem)))
+      .states;
+}
+
+/// A trajectory whose constants are the same everywhere, as the batch's are.
+std::vector<State> NominalOf(const TestProblem& problem, double size) {
+  std::vector<State> nominal = problem.truth;
+  Random random(21);
+  ErrorVector first;
+  for (State& x : nominal) {
+    ErrorVector d =
+        size * testing::Draw(problem.layout.InitialCovariance(), &random);
+    if (first.size() == 0) first = d;
+    for (const Block& block : problem.layout.blocks()) {
+      if (block.evolution.kind == Evolution::Kind::kConstant) {
+        d.segment(block.offset, block.dim) =
+            first.segment(block.offset, block.dim);
+      }
+    }
+    x = Retract(problem.layout, x, d);
+  }
+  for (State& x : nominal) {
+    if (problem.layout.Find(BlockKind::kGyroBias)->evolution.kind ==
+        Evolution::Kind::kConstant) {
+      x.b_g = nominal.front().b_g;
+      x.b_a = nominal.front().b_a;
+    }
+  }
+  return nominal;
+}
+
+TEST(Batch, OneGaussNewtonStepEqualsOneRtsPass) {
+  for (const Kind& kind : kKinds) {
+    const TestProblem problem = Problem(kind);
+    const ErrorLayout& layout = problem.layout;
+    Timeline timeline = problem.MakeTimeline();
+    const std::vector<State> nominal = NominalOf(problem, 0.1);
+    const SmoothedTrajectory rts = SmoothRts(RunLinearizedFilter(
+        layout, problem.prior, nominal, &timeline, All(problem)));
+
+    ChainProblem chain(layout, problem.prior, nominal, &timeline, All(problem));
+    const StateBlocks& blocks = chain.blocks();
+    ArrowSystem arrow = chain.Information();
+    EXPECT_TRUE(arrow.Factor().empty()) << Name(kind);
+    arrow.Solve();
+    const CovarianceSeries marginals = chain.Marginals(arrow);
+    double largest_step = 0.0;
+    for (std::size_t k = 0; k < nominal.size(); ++k) {
+      const ErrorMatrix P = marginals.Get(k);
+      // The information form has 1e-16 over the smallest ratio of a link's
+      // variance to that of what it links, here (1e-6/1e-4)^2 of a bias.
+      EXPECT_LT(ScaledDifference(rts.P.Get(k), P), 1e-6) << Name(kind) << k;
+      ErrorVector step(layout.dim());
+      for (const StateBlocks::Entry& entry : blocks.entries()) {
+        step.segment(entry.block.offset, entry.block.dim) =
+            entry.global
+                ? arrow.rhs_border().segment(entry.tangent, entry.block.dim)
+                : arrow.rhs(static_cast<int>(k))
+                      .segment(entry.tangent, entry.block.dim);
+      }
+      const Eigen::VectorXd sigmas =
+          (step - rts.d[k]).cwiseQuotient(P.diagonal().cwiseSqrt());
+      EXPECT_LT(sigmas.cwiseAbs().maxCoeff(), 1e-5) << Name(kind) << k;
+      largest_step = std::max(largest_step, step.norm());
+    }
+    EXPECT_GT(largest_step, 0.1);
+  }
+}
+
+TEST(Batch, ConvergedEqualsTheIteratedSmoother) {
+  for (const Kind& kind : kKinds) {
+    const TestProblem problem = Problem(kind);
+    Timeline timeline = problem.MakeTimeline();
+    const std::vector<State> start = FilteredStates(problem, &timeline);
+    const BatchResult batch = SolveBatch(problem.layout, problem.prior, start,
+                                         &timeline, All(problem), {});
+    IterationOptions options;
+    options.position_tolerance = 1e-8;
+    options.attitude_tolerance = 1e-11;
+    const IteratedResult iterated = SmoothIterated(
+        problem.layout, problem.prior, start, &timeline, All(problem), options);
+    EXPECT_TRUE(batch.converged) << Name(kind);
+    const std::vector<State>& a = batch.states;
+    const std::vector<State>& b = iterated.trajectory.states;
+    EXPECT_LT(LargestError(problem.layout, a, b, BlockKind::kPosition), 1e-6)
+        << Name(kind);
+    EXPECT_LT(LargestError(problem.layout, a, b, BlockKind::kVelocity), 1e-6)
+        << Name(kind);
+    EXPECT_LT(LargestError(problem.layout, a, b, BlockKind::kAttitude), 1e-7)
+        << Name(kind);
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      EXPECT_LT(ScaledDifference(iterated.trajectory.P.Get(k), batch.P.Get(k)),
+                1e-5)
+          << Name(kind) << k;
+    }
+  }
+}
+
+TEST(Batch, StartedOneMetreOffReachesAMicrometre) {
+  for (const Kind& kind : kKinds) {
+    const TestProblem problem = Problem(kind);
+    Timeline timeline = problem.MakeTimeline();
+    const std::vector<State> near = FilteredStates(problem, &timeline);
+    std::vector<State> far = near;
+    for (State& x : far) x.p_e += Eigen::Vector3d(0.6, -0.5, 0.6);
+    const BatchResult a = SolveBatch(problem.layout, problem.prior, near,
+                                     &timeline, All(problem), {});
+    const BatchResult b = SolveBatch(problem.layout, problem.prior, far,
+                                     &timeline, All(problem), {});
+    EXPECT_TRUE(b.converged);
+    EXPECT_GT(b.initial_cost, 10.0 * b.final_cost);
+    EXPECT_LT(
+        LargestError(problem.layout, a.states, b.states, BlockKind::kPosition),
+        1e-6)
+        << Name(kind);
+  }
+}
+
+TEST(Batch, ExactDataGiveZeroError) {
+  for (const Kind& kind : kKinds) {
+    const TestProblem problem = Problem(kind, 20.0, false);
+    Timeline timeline = problem.MakeTimeline();
+    std::vector<State> start = FilteredStates(problem, &timeline);
+    for (State& x : start) x.p_e += Eigen::Vector3d(0.6, -0.5, 0.6);
+    const BatchResult batch = SolveBatch(problem.layout, problem.prior, start,
+                                         &timeline, All(problem), {});
+    EXPECT_LT(LargestError(problem.layout, batch.states, problem.truth,
+                           BlockKind::kPosition),
+              1e-6)
+        << Name(kind);
+    EXPECT_LT(LargestError(problem.layout, batch.states, problem.truth,
+                           BlockKind::kAttitude),
+              1e-7)
+        << Name(kind);
+  }
+}
+
+TEST(Batch, MarginalsEqualCeresCovariance) {
+  for (const Kind& kind : kKinds) {
+    const TestProblem problem = Problem(kind, 5.0);
+    Timeline timeline = problem.MakeTimeline();
+    const std::vector<State> states = FilteredStates(problem, &timeline);
+    const CovarianceSeries marginals = BatchMarginals(
+        problem.layout, problem.prior, states, &timeline, All(problem));
+
+    ChainProblem chain(problem.layout, problem.prior, states, &timeline,
+                       All(problem));
+    const StateBlocks& blocks = chain.blocks();
+    NodeManifold manifold(&blocks);
+    ceres::Problem::Options ownership;
+    ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ceres::Problem ceres_problem(ownership);
+    for (std::size_t k = 0; k < chain.node_count(); ++k) {
+      ceres_problem.AddParameterBlock(chain.node_values(k),
+                                      blocks.node_ambient_dim(), &manifold);
+    }
+    for (const auto& factor : chain.factors()) {
+      ceres_problem.AddResidualBlock(factor.get(), nullptr,
+                                     chain.ParametersOf(*factor));
+    }
+    ceres::Covariance::Options options;
+    options.algorithm_type = ceres::DENSE_SVD;
+    options.min_reciprocal_condition_number = 1e-40;
+    ceres::Covariance covariance(options);
+    std::vector<const double*> all;
+    for (std::size_t k = 0; k < chain.node_count(); ++k) {
+      all.push_back(chain.node_values(k));
+    }
+    for (std::size_t g = 0; g < blocks.globals().size(); ++g) {
+      all.push_back(chain.global_values(g));
+    }
+    ASSERT_TRUE(covariance.Compute(all, &ceres_problem)) << Name(kind);
+    for (std::size_t k = 0; k < chain.node_count(); ++k) {
+      std::vector<const double*> own = {chain.node_values(k)};
+      for (std::size_t g = 0; g < blocks.globals().size(); ++g) {
+        own.push_back(chain.global_values(g));
+      }
+      const int dim = problem.layout.dim();
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> P(
+          dim, dim);
+      ASSERT_TRUE(covariance.GetCovarianceMatrixInTangentSpace(own, P.data()));
+      // Ceres's order is the node, then the globals; ours the layout's.
+      Eigen::VectorXi to_layout(dim);
+      for (const StateBlocks::Entry& entry : blocks.entries()) {
+        const int first = entry.global ? blocks.node_dim() : 0;
+        for (int i = 0; i < entry.block.dim; ++i) {
+          to_layout(first + entry.tangent + i) = entry.block.offset + i;
+        }
+      }
+      Eigen::MatrixXd expected(dim, dim);
+      for (int i = 0; i < dim; ++i) {
+        for (int j = 0; j < dim; ++j) {
+          expected(to_layout(i), to_layout(j)) = P(i, j);
+        }
+      }
+      EXPECT_LT(ScaledDifference(marginals.Get(k), expected), 1e-5)
+          << Name(kind) << ", node " << k;
+    }
+  }
+}
+
+TEST(Batch, TwoRunsGiveIdenticalBits) {
+  const TestProblem problem = Problem({true, true});
+  std::vector<BatchResult> results;
+  for (int run = 0; run < 2; ++run) {
+    Timeline timeline = problem.MakeTimeline();
+    const std::vector<State> start = FilteredStates(problem, &timeline);
+    results.push_back(SolveBatch(problem.layout, problem.prior, start,
+                                 &timeline, All(problem), {}));
+  }
+  for (std::size_t k = 0; k < results[0].states.size(); ++k) {
+    EXPECT_EQ(results[0].states[k].p_e, results[1].states[k].p_e);
+    EXPECT_EQ(results[0].states[k].q_eb.coeffs(),
+              results[1].states[k].q_eb.coeffs());
+    EXPECT_EQ(results[0].P.Get(k), results[1].P.Get(k));
+  }
+}
+
+TEST(Batch, WhatTheCallbackThrowsReachesTheCaller) {
+  const TestProblem problem = Problem({false, true});
+  Timeline timeline = problem.MakeTimeline();
+  const std::vector<State> start = FilteredStates(problem, &timeline);
+  BatchOptions options;
+  options.callback = [](int) { throw Interrupted(); };
+  EXPECT_THROW(SolveBatch(problem.layout, problem.prior, start, &timeline,
+                          All(problem), options),
+               Interrupted);
+}
+
+}  // namespace
+}  // namespace hindsight
