@@ -46,6 +46,7 @@ Command RunCommand();
 Command EvaluateCommand();
 Command SimulateCommand();
 Command InitCommand();
+Command MonteCarloCommand();
 
 }  // namespace hindsight
 

@@ -16,12 +16,17 @@ DEFINE_bool(json, false, "");
 DEFINE_bool(list, false, "");
 DEFINE_string(log, "none", "");
 DEFINE_string(methods, "ekf,rts,iterated,batch", "");
+DEFINE_string(noise, "sample", "");
 DEFINE_string(out, "", "");
+DEFINE_string(path, "winding", "");
 DEFINE_string(point, "", "");
 DEFINE_string(profile, "", "");
 DEFINE_string(progress, "auto", "");
 DEFINE_double(rate, 0.0, "");
+DEFINE_uint64(runs, 100, "");
 DEFINE_uint64(seed, 1, "");
+DEFINE_bool(sweep, false, "");
+DEFINE_uint64(threads, 0, "");
 DEFINE_double(to, std::numeric_limits<double>::infinity(), "");
 DEFINE_string(withhold, "", "");
 

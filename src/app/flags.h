@@ -17,12 +17,17 @@ DECLARE_bool(json);
 DECLARE_bool(list);
 DECLARE_string(log);
 DECLARE_string(methods);
+DECLARE_string(noise);
 DECLARE_string(out);
+DECLARE_string(path);
 DECLARE_string(point);
 DECLARE_string(profile);
 DECLARE_string(progress);
 DECLARE_double(rate);
+DECLARE_uint64(runs);
 DECLARE_uint64(seed);
+DECLARE_bool(sweep);
+DECLARE_uint64(threads);
 DECLARE_double(to);
 DECLARE_string(withhold);
 

@@ -19,6 +19,11 @@ and writes into the folder of --out:
 The folder appears when all is done: an error or Ctrl-C leaves nothing behind.
 
 Methods: ekf       forward error-state Kalman filter
+         two_filter  ekf, fused with a backward information filter in error
+                   form; two_filter_conventional and two_filter_euler do the
+                   same in the full state, in metres and small angles or in
+                   latitude, longitude and Euler angles. All give `separation`,
+                   the distance of forward and backward positions in sigmas
          rts       ekf, smoothed by Rauch, Tung and Striebel's backward pass
          iterated  rts, linearised anew about its result until it rests
          batch     nonlinear least squares over the whole interval
@@ -38,7 +43,10 @@ Command RunCommand() {
       .help = kHelp,
       .flags = {{"out", "DIR", "folder for the results (required)"},
                 {"force", "", "replace the results of an earlier run in DIR"},
-                {"methods", "LIST", "some of ekf,rts,iterated,batch (all)"},
+                {"methods", "LIST",
+                 "some of ekf,two_filter,two_filter_conventional,\n"
+                 "two_filter_euler,rts,iterated,batch\n"
+                 "(ekf,rts,iterated,batch)"},
                 {"from", "T", "begin at T seconds since the data set's epoch"},
                 {"to", "T", "end at T seconds"},
                 {"rate", "HZ", "rate of the output (at the estimator's nodes)"},

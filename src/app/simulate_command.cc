@@ -5,6 +5,7 @@
 #include "app/flags.h"
 #include "app/interrupt.h"
 #include "app/result_folder.h"
+#include "app/tunnel_flags.h"
 #include "io/dataset_writer.h"
 #include "io/scenario_config.h"
 #include "simulation/builtin_scenarios.h"
@@ -36,7 +37,13 @@ int Run(const std::vector<std::string>& arguments) {
     throw UsageError(
         "'simulate' needs --out=DIR, the folder for the recording");
   }
-  Scenario scenario = FindScenario(arguments[0]);
+  Scenario scenario = arguments[0] == kTunnelSurveyName
+                          ? TunnelSurvey(ReadTunnelFlags())
+                          : FindScenario(arguments[0]);
+  if (arguments[0] != kTunnelSurveyName &&
+      (IsGiven("path") || IsGiven("noise"))) {
+    throw UsageError("--path and --noise go with tunnel_survey only");
+  }
   if (!FLAGS_profile.empty()) {
     scenario.profile = ReadMotionProfile(FLAGS_profile);
     scenario.name += "_profile";
@@ -72,6 +79,12 @@ Command SimulateCommand() {
                  "move as in FILE in place of the scenario's segments:\n"
                  "a truth.csv, or without header t, lat, lon, h, v north,\n"
                  "east, down, roll, pitch, heading in s, deg, m, m/s"},
+                {"path", "NAME",
+                 "of tunnel_survey: winding, serpentine or straight\n"
+                 "(winding)"},
+                {"noise", "READING",
+                 "of tunnel_survey's IMU: sample, the standard deviation\n"
+                 "of each sample, or density, per sqrt(Hz) (sample)"},
                 {"list", "", "list the built-in scenarios"}},
       .min_arguments = 0,
       .max_arguments = 1,

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "base/units.h"
+#include "simulation/tunnel_survey.h"
 
 namespace hindsight {
 namespace {
@@ -134,8 +135,11 @@ struct Entry {
   const char* name;
   Scenario (*make)();
 };
-constexpr std::array<Entry, 3> kScenarios = {
-    {{"car_drive", CarDrive}, {"short_drive", ShortDrive}, {"flight", Flight}}};
+constexpr std::array<Entry, 4> kScenarios = {
+    {{"car_drive", CarDrive},
+     {"short_drive", ShortDrive},
+     {"flight", Flight},
+     {kTunnelSurveyName, [] { return TunnelSurvey({}); }}}};
 
 /// Seconds that a segment takes at least, blending aside.
 double LeastDuration(const Segment& s, double speed) {

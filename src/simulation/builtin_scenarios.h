@@ -14,6 +14,8 @@ namespace hindsight {
 ///                outages of 60 s
 ///   short_drive  3 min at 100 Hz from standstill, GNSS position and velocity
 ///   flight       10 min at 100 Hz, climbs and banked turns, GNSS position
+///   tunnel_survey  8 km in 2005 s at 100 Hz, odometer and reference points
+///                  (simulation/tunnel_survey.h, with its default options)
 std::vector<std::string> BuiltinScenarioNames();
 
 /// Throws InputError for a name that is none, listing those that are.

@@ -145,7 +145,7 @@ Scenario TunnelSurvey(const TunnelSurveyOptions& options) {
         "tunnel_survey: reference spacing and odometer noise must be positive");
   }
   Scenario s;
-  s.name = "tunnel_survey";
+  s.name = kTunnelSurveyName;
   s.description =
       "survey vehicle, 8 km in 2005 s at 100 Hz, odometer 1 Hz, reference "
       "points every 2 km";

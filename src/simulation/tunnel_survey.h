@@ -29,6 +29,8 @@ struct TunnelSurveyOptions {
   Odometer::Form odometer_form = Odometer::Form::kThreeAxis;
 };
 
+inline constexpr char kTunnelSurveyName[] = "tunnel_survey";
+
 /// Length of the path [m].
 inline constexpr double kTunnelLength = 8000.0;
 

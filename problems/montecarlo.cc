@@ -1,0 +1,291 @@
+#include "problems/montecarlo.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "base/error.h"
+#include "problems/start.h"
+
+namespace hindsight {
+namespace {
+
+/// What one method made of one run.
+struct MethodRun {
+  bool failed = false;
+  std::vector<Eigen::Vector3d> position;  ///< error, NED [m]
+  std::vector<double> yaw;                ///< error [rad]
+  std::vector<double> nees;
+  double nis_sum = 0.0;
+  double nis_rows = 0.0;
+  double seconds = 0.0;
+};
+
+struct Run {
+  std::vector<double> t;
+  std::vector<MethodRun> methods;
+  std::vector<Agreement> agreements;
+};
+
+/// True states at the nodes of a solution.
+std::vector<State> TrueStates(const Dataset& dataset,
+                              const Solution& solution) {
+  constexpr double kTimeTolerance = 1e-6;
+  std::vector<State> truth;
+  truth.reserve(solution.states.size());
+  std::size_t i = 0;
+  for (const State& x : solution.states) {
+    while (i < dataset.truth.size() &&
+           dataset.truth[i].t < x.t - kTimeTolerance) {
+      ++i;
+    }
+    if (i == dataset.truth.size() ||
+        dataset.truth[i].t > x.t + kTimeTolerance) {
+      throw InputError("data set '" + dataset.name + "' has no truth at " +
+                       std::to_string(x.t) + " s, where a node stands");
+    }
+    const TruthPoint& point = dataset.truth[i];
+    State& y = truth.emplace_back(x);
+    y.p_e = point.p_e.value();
+    const Eigen::Matrix3d C_en = NedAxes(y.p_e);
+    y.v_e = C_en * point.v_n.value();
+    y.q_eb = Eigen::Quaterniond(C_en) * point.q_nb.value();
+    y.b_g = point.b_g.value();
+    y.b_a = point.b_a.value();
+    for (const Block& block : solution.layout.blocks()) {
+      const auto constant = dataset.true_constants.find(block.name);
+      if (constant == dataset.true_constants.end()) continue;
+      y.parameters(block.parameter_offset) = constant->second;
+    }
+  }
+  return truth;
+}
+
+MethodRun Judge(const Solution& solution, const std::vector<State>& truth) {
+  MethodRun run;
+  run.seconds = solution.seconds;
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    const ErrorVector e = Local(solution.layout, solution.states[k], truth[k]);
+    run.position.push_back(
+        e.segment<3>(solution.layout.Find(BlockKind::kPosition)->offset));
+    run.yaw.push_back(
+        WrapAngle(truth[k].euler().z() - solution.states[k].euler().z()));
+    const ErrorMatrix P = solution.covariances.Get(k);
+    run.nees.push_back(e.dot(P.llt().solve(e)));
+  }
+  for (const ResidualRecord& record : solution.residuals) {
+    if (!record.accepted || record.withheld) continue;
+    run.nis_sum += record.nis;
+    run.nis_rows += static_cast<double>(record.residual.size());
+  }
+  return run;
+}
+
+Agreement Compare(const Solution& a, const Solution& b, double first_leg_end) {
+  Agreement out;
+  out.first = a.method;
+  out.second = b.method;
+  for (std::size_t k = 0; k < a.states.size(); ++k) {
+    const double position = (a.states[k].p_e - b.states[k].p_e).norm();
+    out.position = std::max(out.position, position);
+    out.attitude = std::max(out.attitude,
+                            a.states[k].q_eb.angularDistance(b.states[k].q_eb));
+    if (a.states[k].t > first_leg_end) {
+      out.position_after_first_leg =
+          std::max(out.position_after_first_leg, position);
+    }
+  }
+  return out;
+}
+
+void RunCase(const MonteCarloCase& c, const MonteCarloOptions& options,
+             std::uint64_t seed, Run* out) {
+  const Dataset dataset = c.dataset(seed);
+  ReconstructionOptions reconstruction_options;
+  reconstruction_options.stop = options.stop;
+  const double first_leg_end =
+      options.leg_ends.empty() ? 0.0 : options.leg_ends.front();
+  Reconstruction reconstruction(dataset, reconstruction_options);
+  std::vector<Solution> solutions;
+  std::vector<State> truth;
+  for (const Method method : c.methods) {
+    MethodRun& run = out->methods.emplace_back();
+    try {
+      Solution solution = reconstruction.Run(method);
+      if (truth.empty()) truth = TrueStates(dataset, solution);
+      run = Judge(solution, truth);
+      run.failed = !solution.converged;
+      solution.method += c.suffix;
+      solution.covariances = {};
+      solutions.push_back(std::move(solution));
+    } catch (const EstimationError&) {
+      run.failed = true;
+    }
+  }
+  if (out->t.empty()) {
+    for (const State& x : truth) out->t.push_back(x.t);
+  }
+  for (std::size_t i = 0; i < solutions.size(); ++i) {
+    for (std::size_t j = i + 1; j < solutions.size(); ++j) {
+      out->agreements.push_back(
+          Compare(solutions[i], solutions[j], first_leg_end));
+    }
+  }
+}
+
+std::vector<Run> RunAll(const std::vector<MonteCarloCase>& cases,
+                        const MonteCarloOptions& options) {
+  std::vector<Run> runs(static_cast<std::size_t>(options.runs));
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  int done = 0;
+  std::exception_ptr thrown;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < runs.size(); i = next++) {
+      try {
+        for (const MonteCarloCase& c : cases) {
+          RunCase(c, options, options.first_seed + i, &runs[i]);
+        }
+        const std::lock_guard lock(mutex);
+        ++done;
+        if (options.progress) options.progress(done);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!thrown) thrown = std::current_exception();
+        next = runs.size();
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 1; i < options.threads; ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  if (thrown) std::rethrow_exception(thrown);
+  return runs;
+}
+
+/// Standard deviation over the runs of the value that `get` takes from each.
+template <typename Value, typename Get>
+Value Deviation(const std::vector<const MethodRun*>& runs, const Value& zero,
+                Get get) {
+  const double n = static_cast<double>(runs.size());
+  Value mean = zero;
+  for (const MethodRun* run : runs) mean += get(*run) / n;
+  Value sum = zero;
+  for (const MethodRun* run : runs) {
+    const Value e = get(*run) - mean;
+    sum += e.cwiseProduct(e);
+  }
+  return (sum / std::max(1.0, n - 1.0)).cwiseSqrt();
+}
+
+void AddSeries(const std::vector<const MethodRun*>& runs, std::size_t k,
+               MethodStatistics* out) {
+  using Scalar = Eigen::Matrix<double, 1, 1>;
+  out->std_series.push_back(
+      Deviation(runs, Eigen::Vector3d(Eigen::Vector3d::Zero()),
+                [k](const MethodRun& run) { return run.position[k]; }));
+  out->yaw_series.push_back(
+      Deviation(runs, Scalar(Scalar::Zero()),
+                [k](const MethodRun& run) { return Scalar(run.yaw[k]); })(0));
+  double nees = 0.0;
+  for (const MethodRun* run : runs) nees += run->nees[k];
+  out->anees_series.push_back(nees / static_cast<double>(runs.size()));
+}
+
+/// Maxima and means over time of the series.
+void SummarizeSeries(const std::vector<double>& leg_ends,
+                     std::pair<double, double> bounds, MethodStatistics* out) {
+  std::vector<double> counts(std::max<std::size_t>(1, leg_ends.size()), 0.0);
+  out->legs.assign(counts.size(), {Eigen::Vector3d::Zero(), 0.0});
+  double outside = 0.0;
+  std::size_t leg = 0;
+  for (std::size_t k = 0; k < out->t.size(); ++k) {
+    while (leg + 1 < leg_ends.size() && out->t[k] > leg_ends[leg]) ++leg;
+    const double anees = out->anees_series[k];
+    out->legs[leg].max_std =
+        out->legs[leg].max_std.cwiseMax(out->std_series[k]);
+    out->legs[leg].anees += anees;
+    counts[leg] += 1.0;
+    out->anees += anees / static_cast<double>(out->t.size());
+    outside += anees < bounds.first || anees > bounds.second ? 1.0 : 0.0;
+    out->yaw_std = std::max(out->yaw_std, out->yaw_series[k]);
+  }
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    out->legs[i].anees /= std::max(1.0, counts[i]);
+    out->max_std = out->max_std.cwiseMax(out->legs[i].max_std);
+  }
+  out->anees_outside = outside / static_cast<double>(out->t.size());
+  out->final_std = out->std_series.back();
+}
+
+MethodStatistics Summarize(const std::string& name, std::size_t index,
+                           const std::vector<Run>& runs, int dim,
+                           const MonteCarloOptions& options) {
+  MethodStatistics out;
+  out.name = name;
+  out.max_std.setZero();
+  out.final_std.setZero();
+  std::vector<const MethodRun*> finished;
+  double nis_sum = 0.0;
+  double nis_rows = 0.0;
+  for (const Run& run : runs) {
+    const MethodRun& method = run.methods[index];
+    if (method.failed) {
+      ++out.failed;
+      continue;
+    }
+    finished.push_back(&method);
+    nis_sum += method.nis_sum;
+    nis_rows += method.nis_rows;
+    out.seconds += method.seconds;
+    if (out.t.empty()) out.t = run.t;
+  }
+  if (finished.empty()) return out;
+  out.seconds /= static_cast<double>(finished.size());
+  out.nis = nis_sum / nis_rows;
+  for (std::size_t k = 0; k < out.t.size(); ++k) AddSeries(finished, k, &out);
+  SummarizeSeries(options.leg_ends,
+                  options.anees_bounds(static_cast<int>(finished.size()), dim),
+                  &out);
+  return out;
+}
+
+void Widen(const Agreement& one, std::vector<Agreement>* all) {
+  for (Agreement& a : *all) {
+    if (a.first != one.first || a.second != one.second) continue;
+    a.position = std::max(a.position, one.position);
+    a.attitude = std::max(a.attitude, one.attitude);
+    a.position_after_first_leg =
+        std::max(a.position_after_first_leg, one.position_after_first_leg);
+    return;
+  }
+  all->push_back(one);
+}
+
+}  // namespace
+
+MonteCarloResult RunMonteCarlo(const std::vector<MonteCarloCase>& cases,
+                               const MonteCarloOptions& options) {
+  const std::vector<Run> runs = RunAll(cases, options);
+  MonteCarloResult result;
+  const Dataset first = cases.front().dataset(options.first_seed);
+  result.dim = BuildLayout(first, NavigationPrior{}).dim();
+  std::size_t index = 0;
+  for (const MonteCarloCase& c : cases) {
+    for (const Method method : c.methods) {
+      result.methods.push_back(Summarize(MethodName(method) + c.suffix, index++,
+                                         runs, result.dim, options));
+    }
+  }
+  for (const Run& run : runs) {
+    for (const Agreement& a : run.agreements) Widen(a, &result.agreements);
+  }
+  return result;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,84 @@
+#ifndef HINDSIGHT_PROBLEMS_MONTECARLO_H_
+#define HINDSIGHT_PROBLEMS_MONTECARLO_H_
+
+#include <Eigen/Core>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "problems/reconstruction.h"
+
+namespace hindsight {
+
+/// Recordings that differ in the seed of their errors alone, with truth at
+/// every node, and the methods to try on them.
+struct MonteCarloCase {
+  std::string suffix;  ///< of the methods' names in the results
+  std::function<Dataset(std::uint64_t seed)> dataset;
+  std::vector<Method> methods;
+};
+
+struct MonteCarloOptions {
+  int runs = 100;
+  std::uint64_t first_seed = 1;  ///< run i has seed first_seed + i
+  int threads = 1;
+  /// Ends of the legs into which the interval is divided [s], ascending.
+  std::vector<double> leg_ends;
+  /// ANEES bounds for `outside` of so many runs and states, two-sided.
+  std::function<std::pair<double, double>(int runs, int dim)> anees_bounds;
+  /// Called with the number of runs done, from any thread, one at a time.
+  std::function<void(int)> progress;
+  const std::atomic<bool>* stop = nullptr;  ///< Interrupted when it is set
+};
+
+/// One method over all runs that it finished. Standard deviations are over the
+/// runs, about their mean; maxima are over time.
+struct MethodStatistics {
+  std::string name;
+  int failed = 0;           ///< runs without an answer or convergence, left out
+  Eigen::Vector3d max_std;  ///< of the position error, NED [m]
+  struct Leg {
+    Eigen::Vector3d max_std;  ///< NED [m]
+    double anees = 0.0;       ///< mean over the leg
+  };
+  std::vector<Leg> legs;
+  Eigen::Vector3d final_std;  ///< at the last node, NED [m]
+  double yaw_std = 0.0;       ///< largest over time [rad]
+  /// Mean over time of the average over runs of e' P^-1 e, e the whole error
+  /// state; right is its dimension.
+  double anees = 0.0;
+  double anees_outside = 0.0;  ///< share of epochs outside the bounds
+  double nis = 0.0;            ///< per row of the residuals, mean; right is 1
+  double seconds = 0.0;        ///< processor time of the method alone, mean
+  std::vector<double> t;       ///< of the series that follow
+  std::vector<Eigen::Vector3d> std_series;
+  std::vector<double> yaw_series;
+  std::vector<double> anees_series;
+};
+
+/// Largest distance of two methods over all nodes and runs.
+struct Agreement {
+  std::string first, second;              ///< names of the methods
+  double position = 0.0;                  ///< [m]
+  double attitude = 0.0;                  ///< [rad]
+  double position_after_first_leg = 0.0;  ///< [m]
+};
+
+struct MonteCarloResult {
+  int dim = 0;  ///< of the error state
+  std::vector<MethodStatistics> methods;
+  std::vector<Agreement> agreements;  ///< of all pairs within a case
+};
+
+/// Runs every method on every seed. The result is the same to the last bit
+/// whatever the number of threads, seconds excepted. Throws InputError if a
+/// node has no truth, and what Reconstruction throws but EstimationError, which
+/// counts as failed.
+MonteCarloResult RunMonteCarlo(const std::vector<MonteCarloCase>& cases,
+                               const MonteCarloOptions& options);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_MONTECARLO_H_
