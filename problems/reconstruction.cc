@@ -309,6 +309,15 @@ Solution Reconstruction::Run(Method method) {
   throw std::logic_error("unknown method");
 }
 
+std::vector<UnobservedSpan> Reconstruction::Unobserved() {
+  impl_->RunForward();
+  Solution smoothed;
+  smoothed.layout = impl_->start.layout;
+  smoothed.states = impl_->rts->states;
+  smoothed.covariances = impl_->rts->P;
+  return FindUnobserved(smoothed);
+}
+
 const StartReport& Reconstruction::start() const { return impl_->start.report; }
 
 Solution Reconstruction::Sample(const Solution& solution,

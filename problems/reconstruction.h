@@ -70,6 +70,11 @@ class Reconstruction {
 
   const StartReport& start() const;
 
+  /// Navigation states that the data do not determine, over which time spans:
+  /// known from the covariances of the forward filter and RTS pass, before
+  /// anything is solved.
+  std::vector<UnobservedSpan> Unobserved();
+
   /// The solution at other times, in order: forward integration of the IMU
   /// from the node before (2002 paper, eq. 24), the jump at the node after
   /// spread evenly over the interval; covariances interpolated between nodes.

@@ -69,6 +69,21 @@ ReconstructionOptions Options(const RunRequest& request, Progress* progress) {
   return options;
 }
 
+/// What is known before anything is solved: notes, start, what the data cannot
+/// tell.
+void DescribeBeforehand(const Dataset& dataset, Reconstruction* reconstruction,
+                        Progress* progress) {
+  std::vector<UnobservedSpan> unobserved;
+  try {
+    unobserved = reconstruction->Unobserved();
+  } catch (const EstimationError&) {
+    // The filter diverged: every method says so of itself.
+  }
+  progress->Clear();
+  std::cout << DescribeNotes(dataset) << DescribeStart(reconstruction->start())
+            << DescribeUnobserved(unobserved) << std::flush;
+}
+
 /// A method that fails leaves the others their say: its solution is empty and
 /// its verdict is the reason.
 Solution RunMethod(Reconstruction* reconstruction, Method method) {
@@ -111,6 +126,8 @@ int Reconstruct(const RunRequest& request) {
   ThrowIfStopRequested();
 
   Reconstruction reconstruction(dataset, Options(request, &progress));
+  DescribeBeforehand(dataset, &reconstruction, &progress);
+  ThrowIfStopRequested();
   RunSummary summary = {.program = kProgram,
                         .dataset = dataset.name,
                         .start = SummarizeStart(reconstruction.start()),
@@ -133,8 +150,7 @@ int Reconstruct(const RunRequest& request) {
   ThrowIfStopRequested();
   folder.Commit();
 
-  std::cout << DescribeNotes(dataset) << DescribeStart(reconstruction.start())
-            << DescribeUnobserved(solutions) << "\n"
+  std::cout << "\n"
             << ComparisonTable(summary) << "\nresults in " << request.out
             << "\n"
             << DescribeVerdict(solutions);

@@ -1,7 +1,5 @@
 #include "app/run_report.h"
 
-#include <set>
-
 #include "app/text.h"
 #include "base/units.h"
 #include "earth/wgs84.h"
@@ -48,18 +46,14 @@ std::string DescribeNotes(const Dataset& dataset) {
   return text;
 }
 
-std::string DescribeUnobserved(const std::vector<Solution>& solutions) {
-  std::set<std::string> lines;
-  for (const Solution& solution : solutions) {
-    for (const UnobservedSpan& span : solution.unobserved) {
-      lines.insert(
-          Format("warning: %s is not observed from %.1f s to %.1f s "
-                 "(sigma stays above %.3g)\n",
-                 span.component.c_str(), span.t_begin, span.t_end, span.sigma));
-    }
-  }
+std::string DescribeUnobserved(const std::vector<UnobservedSpan>& spans) {
   std::string text;
-  for (const std::string& line : lines) text += line;
+  for (const UnobservedSpan& span : spans) {
+    text += Format(
+        "warning: %s is not observed from %.1f s to %.1f s "
+        "(sigma stays above %.3g)\n",
+        span.component.c_str(), span.t_begin, span.t_end, span.sigma);
+  }
   return text;
 }
 

@@ -17,9 +17,8 @@ std::string DescribeStart(const StartReport& start);
 /// outage came of, a line each.
 std::string DescribeNotes(const Dataset& dataset);
 
-/// Warnings of states that the data do not determine, a line each; the same
-/// span found by several methods is named once.
-std::string DescribeUnobserved(const std::vector<Solution>& solutions);
+/// Warnings of states that the data do not determine, a line each.
+std::string DescribeUnobserved(const std::vector<UnobservedSpan>& spans);
 
 /// The last line: whether the result is usable, and why, by the last usable
 /// method, and which methods failed.
