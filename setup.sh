@@ -6,7 +6,8 @@ set -eu
 packages="build-essential cmake ninja-build ccache
   libeigen3-dev libceres-dev libsuitesparse-dev libgeographiclib-dev
   libgflags-dev libgoogle-glog-dev libyaml-cpp-dev nlohmann-json3-dev
-  zlib1g-dev libfast-float-dev
+  zlib1g-dev libfast-float-dev libmatio-dev pkg-config
+  librosbag-storage-dev libsensor-msgs-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   libboost-dev
   clang-format clang-tidy"

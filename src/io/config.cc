@@ -71,6 +71,12 @@ void ReadImuConfig(ConfigMap* top, const fs::path& folder, Declared* declared,
   declared->imu.clock.offset = map.Number("time_offset", Quantity::kTime, 0.0);
   options.max_gap = map.Positive("max_gap", Quantity::kTime, options.max_gap);
   dataset->imu.noise = ReadImuNoise(&map);
+  ConfigMap estimate = map.Map("estimate");
+  dataset->gyro_scale_sigma =
+      estimate.OptionalSigma("gyro_scale", Quantity::kRatio);
+  dataset->accel_scale_sigma =
+      estimate.OptionalSigma("accel_scale", Quantity::kRatio);
+  estimate.Finish();
   map.Finish();
 }
 
@@ -83,7 +89,8 @@ void ReadTruthConfig(ConfigMap* top, const fs::path& folder, Declared* declared,
       map.Number("time_offset", Quantity::kTime, 0.0);
   dataset->truth_lever_arm_b =
       map.Vector("lever_arm", Quantity::kLength, Eigen::Vector3d::Zero());
-  declared->truth_options.absent_values = map.Flag("absent_values", false);
+  declared->truth_options.frame = ReadTruthFrame(&map);
+  declared->truth_options.C_bs = ReadMounting(&map);
   map.Finish();
 }
 
@@ -147,12 +154,34 @@ void LoadImu(const Declared& declared, ConfigMap* top, Dataset* dataset) {
   }
   const TimeLine line = MapClock(declared.imu, clock, dataset->epoch_gps_ns);
   for (ImuSample& sample : dataset->imu.samples) sample.t = line(sample.t);
+  dataset->imu.nominal_dt = MedianInterval(dataset->imu);
+}
+
+/// The constraint holds at all times: measurements of nobody's making.
+std::vector<Measurement> Generate(const AidingConfig& config,
+                                  const ImuStream& imu) {
+  Odometer odometer;
+  odometer.form = config.options.odometer_form;
+  odometer.sigma = *config.options.sigma;
+  const double step = 1.0 / *config.generated_rate;
+  std::vector<Measurement> measurements;
+  const auto count = static_cast<long>((imu.t_end() - imu.t_begin()) / step);
+  for (long k = 0; k <= count; ++k) {
+    measurements.push_back({imu.t_begin() + static_cast<double>(k) * step,
+                            config.options.sensor, false, odometer});
+  }
+  return measurements;
 }
 
 void LoadAiding(const AidingConfig& config, Dataset* dataset) {
-  StreamClock clock;
   AidingStream stream;
   stream.sensor = config.sensor;
+  if (config.generated_rate) {
+    stream.measurements = Generate(config, dataset->imu);
+    dataset->streams.push_back(std::move(stream));
+    return;
+  }
+  StreamClock clock;
   stream.measurements =
       ReadAiding(config.source, config.options, &clock, &dataset->policies);
   const TimeLine line = MapClock(config.source, clock, dataset->epoch_gps_ns);

@@ -15,8 +15,14 @@ StreamSource ReadStreamSource(ConfigMap* map,
                               const std::filesystem::path& folder,
                               const std::vector<FieldName>& fields);
 
-/// C_bs of `axes` and `mounting`.
-Eigen::Matrix3d ReadMounting(ConfigMap* imu);
+/// C_bs of `axes` and `mounting`, of the imu or the truth.
+Eigen::Matrix3d ReadMounting(ConfigMap* map);
+
+/// latitude, longitude, height under `key`; nothing if it is absent.
+std::optional<Geodetic> ReadGeodetic(ConfigMap* map, const std::string& key);
+
+/// The frame of a truth's p_x ..., v_x ... and q_w ...
+TruthFrame ReadTruthFrame(ConfigMap* truth);
 
 /// `noise` of the imu.
 ImuNoise ReadImuNoise(ConfigMap* imu);
@@ -26,6 +32,8 @@ struct AidingConfig {
   Sensor sensor;
   StreamSource source;
   AidingReadOptions options;
+  /// There is no file: one measurement each 1/rate over the IMU's record [Hz].
+  std::optional<double> generated_rate;
 };
 AidingConfig ReadAidingConfig(const std::string& name, ConfigMap* map,
                               const std::filesystem::path& folder);

@@ -32,7 +32,14 @@ struct ClockMap {
   /// stretched linearly [s].
   std::optional<double> duration;
   std::optional<double> rate;  ///< stamps are row number / rate [Hz]
-  double offset = 0.0;         ///< added at last [s]
+  double stretch = 1.0;        ///< factor on the time since the first row
+  /// Times 1024 weeks are added to dates of receivers whose week number has
+  /// started again from zero.
+  int week_rollovers = 0;
+  /// Only rows this much behind the first are used [s].
+  double from = -std::numeric_limits<double>::infinity();
+  double until = std::numeric_limits<double>::infinity();
+  double offset = 0.0;  ///< added at last [s]
 };
 
 enum class DuplicatePolicy { kError, kDropFirst, kDropLast };
@@ -44,7 +51,9 @@ struct StreamSource {
   TextFormat format;
   ClockMap clock;
   DuplicatePolicy on_duplicate = DuplicatePolicy::kError;
+  bool sort = false;  ///< rows may stand in any order
   bool allow_truncated_tail = false;
+  bool absent_values = false;  ///< empty and NaN values are absent
   std::string config_path;
   long config_line = 0;
 };
@@ -94,9 +103,15 @@ struct AidingReadOptions {
   double sigma_scale = 1.0;
   bool use_correlations = true;
   std::set<int> accept_quality;  ///< empty: all
+  double every = 0.0;            ///< use one measurement in this time [s]
+  Odometer::Form odometer_form = Odometer::Form::kThreeAxis;
+  /// Of speed_course: of the course [rad], and the speed below which a course
+  /// means nothing [m/s].
+  double course_sigma = 0.0;
+  double course_above = 0.0;
 };
 
-/// Reads position, velocity or height measurements; times since the first row.
+/// Reads the measurements of an aiding sensor; times since the first row.
 /// Throws InputError as ReadImu does, and for a standard deviation that is not
 /// positive, a latitude beyond 90 deg and a covariance that is not positive
 /// definite. Velocities that are all zero with zero standard deviations are
@@ -106,8 +121,20 @@ std::vector<Measurement> ReadAiding(const StreamSource& source,
                                     StreamClock* clock,
                                     std::vector<PolicyCount>* policies);
 
+/// The axes of p_x ..., v_x ... and q_w ... in a reference trajectory.
+struct TruthFrame {
+  enum class Axes { kEcef, kNed, kEnu, kNwu };
+  Axes axes = Axes::kEcef;
+  /// Where the local axes stand: NED, ENU or NWU there.
+  std::optional<Geodetic> origin;
+  /// The quaternion turns the frame's components to the body's, not the body's
+  /// to the frame's.
+  bool frame_to_body = false;
+};
+
 struct TruthReadOptions {
-  bool absent_values = false;  ///< empty and NaN values are absent
+  TruthFrame frame;
+  Eigen::Matrix3d C_bs = Eigen::Matrix3d::Identity();  ///< its axes to body
 };
 
 /// Reads a reference trajectory: any of position, velocity and attitude.

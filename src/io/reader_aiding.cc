@@ -11,22 +11,29 @@ namespace {
 /// Where a stream's quantities stand in its list of fields.
 struct FieldMap {
   const std::vector<FieldName>& fields;
-  std::size_t values;        ///< number of measured values, at the front
-  std::size_t sigmas;        ///< number of standard deviations behind them
-  std::size_t correlations;  ///< number of signed square roots behind those
-  std::size_t quality() const { return values + sigmas + correlations; }
+  std::size_t values;  ///< number of measured values, at the front
+  std::size_t sigmas;  ///< number of standard deviations behind them
+  std::size_t quality() const { return *FieldIndex(fields, "quality"); }
 };
 
 FieldMap MapOf(SensorType type) {
   switch (type) {
     case SensorType::kVelocity:
-      return {VelocityFields(), 3, 3, 3};
+      return {VelocityFields(), 3, 3};
     case SensorType::kHeight:
-      return {HeightFields(), 1, 1, 0};
+      return {HeightFields(), 1, 1};
+    case SensorType::kOdometer:
+      return {OdometerFields(), 1, 0};
+    case SensorType::kSpeedCourse:
+      return {SpeedCourseFields(), 1, 0};
     default:
-      return {PositionFields(), 3, 3, 3};
+      return {PositionFields(), 3, 3};
   }
 }
+
+/// How much early a measurement may come that is still used under `every`, as
+/// a part of it: stamps jitter.
+constexpr double kEarly = 0.05;
 
 class AidingReader {
  public:
@@ -34,7 +41,9 @@ class AidingReader {
       : source_(source),
         options_(options),
         map_(MapOf(options.type)),
-        rows_(source, map_.fields, false) {
+        rows_(source, map_.fields,
+              !options.accept_quality.empty() ||
+                  options.type == SensorType::kSpeedCourse) {
     RequireFields(rows_.opened(), source.format, map_.fields, 0,
                   map_.values - 1);
     if (!options.sigma) RequireSigmas();
@@ -52,10 +61,18 @@ class AidingReader {
       if (step == StreamRows::Step::kEnd) break;
       if (step == StreamRows::Step::kReplace && last_kept) {
         measurements.pop_back();
+      } else if (IsThinnedOut()) {
+        last_kept = false;
+        continue;
       }
-      last_kept = !IsRejected() && !IsAbsentVelocity();
+      last_kept = !IsRejected() && !IsAbsent() && !IsAbsentVelocity();
       if (!last_kept) continue;
       measurements.push_back({rows_.t(), options_.sensor, false, Model()});
+      if (measurements.size() == 1) due_ = rows_.t();
+      while (options_.every > 0.0 &&
+             due_ <= rows_.t() + kEarly * options_.every) {
+        due_ += options_.every;
+      }
     }
     return measurements;
   }
@@ -64,7 +81,9 @@ class AidingReader {
     *clock = rows_.clock();
     rows_.CountPolicies(policies);
     AddPolicy(source_.name, "quality not accepted", rejected_, policies);
-    AddPolicy(source_.name, "velocity absent", absent_, policies);
+    AddPolicy(source_.name, "velocity absent", zero_velocities_, policies);
+    AddPolicy(source_.name, "row with absent values", absent_, policies);
+    AddPolicy(source_.name, "thinned out", thinned_, policies);
   }
 
  private:
@@ -89,6 +108,26 @@ class AidingReader {
     return true;
   }
 
+  bool IsThinnedOut() {
+    if (rows_.t() >= due_ - kEarly * options_.every) return false;
+    ++thinned_;
+    return true;
+  }
+
+  bool IsAbsent() {
+    for (std::size_t i = 0; i < map_.values; ++i) {
+      if (std::isfinite(Value(i))) continue;
+      if (!source_.absent_values) {
+        rows_.table().Fail(std::string("the value of ") + map_.fields[i].name +
+                           " is absent; expected a finite number "
+                           "(absent_values: true passes over such rows)");
+      }
+      ++absent_;
+      return true;
+    }
+    return false;
+  }
+
   bool IsAbsentVelocity() {
     if (options_.type != SensorType::kVelocity ||
         source_.format.kind != TextFormat::Kind::kRtklibPos) {
@@ -97,7 +136,7 @@ class AidingReader {
     for (std::size_t i = 0; i < 6; ++i) {
       if (rows_.table().Has(i) && Value(i) != 0.0) return false;
     }
-    ++absent_;
+    ++zero_velocities_;
     return true;
   }
 
@@ -143,6 +182,10 @@ class AidingReader {
         return VelocityFix{{Value(0), Value(1), Value(2)}, Covariance()};
       case SensorType::kHeight:
         return HeightFix{Value(0), Sigma(0)};
+      case SensorType::kOdometer:
+        return OdometerModel();
+      case SensorType::kSpeedCourse:
+        return SpeedCourseModel();
       default:
         break;
     }
@@ -154,12 +197,36 @@ class AidingReader {
                        Covariance()};
   }
 
+  Odometer OdometerModel() const {
+    Odometer odometer;
+    odometer.form = options_.odometer_form;
+    odometer.speed = Value(0);
+    odometer.sigma = *options_.sigma;
+    if (rows_.table().Has(1)) odometer.side_down.x() = Value(1);
+    if (rows_.table().Has(2)) odometer.side_down.y() = Value(2);
+    return odometer;
+  }
+
+  SpeedCourse SpeedCourseModel() const {
+    SpeedCourse measured;
+    measured.speed = Value(0);
+    measured.sigma_speed = options_.sigma->x();
+    measured.sigma_course = options_.course_sigma;
+    measured.has_course = rows_.table().Has(1) && std::isfinite(Value(1)) &&
+                          Value(0) >= options_.course_above;
+    if (measured.has_course) measured.course = Value(1);
+    return measured;
+  }
+
   const StreamSource& source_;
   const AidingReadOptions& options_;
   FieldMap map_;
   StreamRows rows_;
   long rejected_ = 0;
+  long zero_velocities_ = 0;
   long absent_ = 0;
+  long thinned_ = 0;
+  double due_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace

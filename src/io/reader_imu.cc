@@ -11,7 +11,6 @@ constexpr std::size_t kRates = 0;
 constexpr std::size_t kIncrements = 6;
 
 /// Gaps up to here need no declaration [s].
-constexpr double kUsualGap = 0.5;
 
 ImuStream::Kind FindKind(const StreamSource& source,
                          const ImuReadOptions& options,
@@ -50,18 +49,16 @@ ImuStream ReadImu(const StreamSource& source, const ImuReadOptions& options,
   imu.max_gap = options.max_gap;
   const std::size_t first =
       imu.kind == ImuStream::Kind::kRates ? kRates : kIncrements;
-  const TextTable& table = rows.table();
+  const RowSource& table = rows.table();
   const auto vector = [&](std::size_t i) {
     return Eigen::Vector3d(table.value(i), table.value(i + 1),
                            table.value(i + 2));
   };
-  long bridged = 0;
   while (true) {
     const StreamRows::Step step = rows.Next();
     if (step == StreamRows::Step::kEnd) break;
     if (imu.samples.empty()) imu.samples.reserve(table.RowsHint());
     if (rows.dt() > options.max_gap) FailGap(rows, options.max_gap);
-    if (rows.dt() > kUsualGap) ++bridged;
     if (step == StreamRows::Step::kReplace) imu.samples.pop_back();
     imu.samples.push_back({rows.t(), options.C_bs * vector(first),
                            options.C_bs * vector(first + 3)});
@@ -81,7 +78,9 @@ ImuStream ReadImu(const StreamSource& source, const ImuReadOptions& options,
   }
   *clock = rows.clock();
   rows.CountPolicies(policies);
-  AddPolicy(source.name, "gap bridged", bridged, policies);
+  imu.nominal_dt = MedianInterval(imu);
+  AddPolicy(source.name, "gap bridged",
+            static_cast<long>(DropOuts(imu).size()), policies);
   return imu;
 }
 

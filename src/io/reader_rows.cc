@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "io/row_buffer.h"
 #include "io/units.h"
 
 namespace hindsight {
@@ -27,18 +28,37 @@ StreamRows::StreamRows(const StreamSource& source,
                        const std::vector<FieldName>& fields, bool allow_absent)
     : source_(source),
       opened_(OpenTable(source.path, WithClock(source), fields,
-                        {source.allow_truncated_tail, allow_absent})) {
+                        {source.allow_truncated_tail,
+                         allow_absent || source.absent_values})) {
   clock_.dated = opened_.dated || source.clock.week.has_value() ||
                  source.clock.scale != ClockMap::Scale::kDataset;
+  if (source.sort) Sort(fields, allow_absent || source.absent_values);
 }
 
-Stamp StreamRows::FileTime() const {
+void StreamRows::Sort(const std::vector<FieldName>& fields, bool allow_absent) {
+  RowBuffer buffer = Buffered(opened_.table.get(), fields, allow_absent);
+  sorted_ = buffer.Sort();
+  opened_.table = std::make_unique<RowBuffer>(std::move(buffer));
+}
+
+Stamp StreamRows::FileTime() {
   if (source_.clock.rate) {
     return {0, static_cast<double>(rows_) / *source_.clock.rate};
   }
   Stamp stamp = opened_.table->stamp();
-  if (source_.clock.scale == ClockMap::Scale::kUnix) return GpsFromUnix(stamp);
-  if (source_.clock.week) stamp.seconds += *source_.clock.week * kWeekSeconds;
+  if (!opened_.dated && source_.clock.scale == ClockMap::Scale::kUnix) {
+    return GpsFromUnix(stamp);
+  }
+  if (source_.clock.week) {
+    // Seconds of week start again from zero on Sunday.
+    if (last_stamp_ && stamp.Since(*last_stamp_) < -0.5 * kWeekSeconds) {
+      ++weeks_;
+    }
+    last_stamp_ = stamp;
+    stamp.seconds += (*source_.clock.week + weeks_) * kWeekSeconds;
+  }
+  stamp.seconds +=
+      std::int64_t{source_.clock.week_rollovers} * 1024 * kWeekSeconds;
   return stamp;
 }
 
@@ -46,18 +66,24 @@ StreamRows::Step StreamRows::Next() {
   while (opened_.table->Next()) {
     const Stamp stamp = FileTime();
     ++rows_;
-    if (rows_ == 1) {
-      clock_.first = stamp;
+    if (rows_ == 1) clock_.first = stamp;
+    const double since_first = stamp.Since(clock_.first);
+    if (since_first < source_.clock.from || since_first > source_.clock.until) {
+      ++outside_;
+      continue;
+    }
+    if (!started_) {
+      started_ = true;
+      t_ = clock_.last = since_first;
       return Step::kAppend;
     }
-    const double t = stamp.Since(clock_.first);
-    dt_ = t - t_;
+    dt_ = since_first - t_;
     if (dt_ < 0.0) {
       opened_.table->Fail("time runs backwards by " + Seconds(-dt_) +
-                          "; expected stamps that increase");
+                          "; expected stamps that increase (on_unordered: "
+                          "sort puts them in order)");
     }
-    t_ = t;
-    clock_.last = t;
+    t_ = clock_.last = since_first;
     if (dt_ > 0.0) return Step::kAppend;
     if (source_.on_duplicate == DuplicatePolicy::kError) {
       opened_.table->Fail(
@@ -78,8 +104,12 @@ void StreamRows::CountPolicies(std::vector<PolicyCount>* policies) const {
                 ? "first of duplicate stamps dropped"
                 : "last of duplicate stamps dropped",
             duplicates_, policies);
-  AddPolicy(source_.name, "truncated last line dropped",
-            opened_.table->truncated(), policies);
+  AddPolicy(source_.name, "row out of order sorted", sorted_, policies);
+  AddPolicy(source_.name, "row outside time.from and time.until", outside_,
+            policies);
+  for (const LeftOut& left : opened_.table->left_out()) {
+    AddPolicy(source_.name, left.action, left.count, policies);
+  }
 }
 
 void AddPolicy(const std::string& stream, const std::string& action, long count,
@@ -118,6 +148,7 @@ TimeLine MapClock(const StreamSource& source, const StreamClock& clock,
     }
     line.scale = *source.clock.duration / clock.last;
   }
+  line.scale *= source.clock.stretch;
   line.offset += source.clock.offset;
   return line;
 }

@@ -23,7 +23,7 @@ class StreamRows {
   /// stamps without a policy.
   Step Next();
 
-  const TextTable& table() const { return *opened_.table; }
+  const RowSource& table() const { return *opened_.table; }
   const OpenedTable& opened() const { return opened_; }
   /// Time of the row since the first row [s].
   double t() const { return t_; }
@@ -35,7 +35,8 @@ class StreamRows {
   void CountPolicies(std::vector<PolicyCount>* policies) const;
 
  private:
-  Stamp FileTime() const;
+  Stamp FileTime();
+  void Sort(const std::vector<FieldName>& fields, bool allow_absent);
 
   const StreamSource& source_;
   OpenedTable opened_;
@@ -43,7 +44,12 @@ class StreamRows {
   double t_ = 0.0;
   double dt_ = 0.0;
   long rows_ = 0;
+  bool started_ = false;
   long duplicates_ = 0;
+  long sorted_ = 0;
+  long outside_ = 0;
+  std::int64_t weeks_ = 0;
+  std::optional<Stamp> last_stamp_;
 };
 
 /// Adds an entry if count is positive.

@@ -6,46 +6,43 @@
 #include <string>
 #include <vector>
 
+#include "io/fields.h"
+#include "io/row_source.h"
 #include "io/text_table.h"
-#include "io/units.h"
 
 namespace hindsight {
-
-/// A quantity that a stream may hold, by its name in files and configurations.
-struct FieldName {
-  const char* name;
-  Quantity quantity;
-};
-
-/// Quantities of each kind of stream. sd_ne, sd_ed, sd_dn (and sd_v_ne, ...)
-/// are covariances as signed square roots: sd_ne |sd_ne| = cov(n, e).
-const std::vector<FieldName>& ImuFields();
-const std::vector<FieldName>& PositionFields();
-const std::vector<FieldName>& VelocityFields();
-const std::vector<FieldName>& HeightFields();
-const std::vector<FieldName>& TruthFields();
 
 /// One entry of `columns:` in a configuration.
 struct ColumnMapping {
   std::string quantity;  ///< a FieldName, or "t" or "week"
   int column = -1;       ///< from 0, or -1: found by `title`
-  std::string title;     ///< in the header line, unit not included
-  std::string unit;      ///< empty: the header line gives it
-  double scale = 1.0;    ///< applied after the unit, sign included
+  /// In the header line, unit not included; of npy and mat: io/array_rows.h.
+  std::string title;
+  std::string unit;    ///< empty: the header line gives it
+  double scale = 1.0;  ///< applied after the unit, sign included
 };
 
-/// How a text file is laid out.
+/// How a file is laid out.
 struct TextFormat {
   enum class Kind {
-    kCsv,        ///< io/csv_format.h
-    kColumns,    ///< `columns` says it
-    kKfGins,     ///< KF-GINS and OB_GINS text (FORMATS of that program)
-    kRtklibPos,  ///< RTKLIB .pos, latitude/longitude/height in degrees
+    kCsv,            ///< io/csv_format.h
+    kColumns,        ///< `columns` says it
+    kKfGins,         ///< KF-GINS and OB_GINS text, io/preset_columns.h
+    kRtklibPos,      ///< RTKLIB .pos, latitude/longitude/height in degrees
+    kEuroc,          ///< io/preset_columns.h
+    kNclt,           ///< io/preset_columns.h
+    kControlPoints,  ///< io/preset_columns.h
+    kOxts,           ///< KITTI's folder, io/oxts.h
+    kNmea,           ///< io/nmea.h
+    kNpy,            ///< io/array_rows.h
+    kMat,            ///< io/array_rows.h
+    kRosbag,         ///< io/rosbag.h
   };
   Kind kind = Kind::kCsv;
   char delimiter = '\0';  ///< '\0': guessed from the first line of data
   int skip_lines = 0;     ///< before everything else
   std::vector<ColumnMapping> columns;
+  std::string topic;  ///< of a bag; empty: the only one of a fitting type
   /// The file's stamps are not looked at.
   bool ignore_time = false;
   /// Where the format was declared, for messages.
@@ -53,13 +50,16 @@ struct TextFormat {
   long config_line = 0;
 };
 
-/// "csv", "columns", "kf_gins", "rtklib_pos".
-const char* FormatName(TextFormat::Kind kind);
+/// The names of the formats in configurations, in the order of Kind.
+const std::vector<std::string>& FormatNames();
+
+/// True if the configuration lists the columns of the format.
+bool TakesColumns(TextFormat::Kind kind);
 
 /// A table open for reading.
 struct OpenedTable {
-  std::unique_ptr<TextLines> lines;
-  std::unique_ptr<TextTable> table;
+  std::unique_ptr<TextLines> lines;  ///< null for formats that are not text
+  std::unique_ptr<RowSource> table;
   bool dated = false;  ///< stamps are GPS time since 1980-01-06
 };
 

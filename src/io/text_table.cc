@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
 #include "io/units.h"
 
 namespace hindsight {
@@ -126,8 +125,8 @@ TextTable::TextTable(TextLines* lines, TableLayout layout, Options options,
     : lines_(lines),
       layout_(std::move(layout)),
       options_(options),
-      first_row_(std::move(first_row)),
-      values_(layout_.fields.size(), kAbsent) {
+      first_row_(std::move(first_row)) {
+  values_.assign(layout_.fields.size(), kAbsent);
   int last = -1;
   for (const TableLayout::Field& field : layout_.fields) {
     last = std::max(last, field.column);
@@ -255,16 +254,17 @@ std::string TextTable::ColumnName(int column) const {
   return name;
 }
 
+std::vector<LeftOut> TextTable::left_out() const {
+  if (truncated_ == 0) return {};
+  return {{"truncated last line dropped", truncated_}};
+}
+
 std::size_t TextTable::RowsHint() const {
   // Rows differ in length; a little too much costs address space only.
   return first_length_ == 0
              ? 0
              : lines_->size_hint() / std::max<std::size_t>(first_length_, 2) *
                    11 / 10;
-}
-
-void TextTable::Fail(const std::string& message) const {
-  throw InputError(lines_->path(), line_, message);
 }
 
 }  // namespace hindsight

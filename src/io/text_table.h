@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/row_source.h"
 #include "io/text_lines.h"
 #include "io/time_scale.h"
 
@@ -49,7 +50,7 @@ std::vector<std::string_view> SplitLine(std::string_view line, char delimiter,
 bool IsComment(std::string_view line);
 
 /// Rows of numbers out of a text file, checked as they are read.
-class TextTable {
+class TextTable final : public RowSource {
  public:
   struct Options {
     bool allow_truncated_tail = false;  ///< drop a last line that was cut off
@@ -64,23 +65,14 @@ class TextTable {
   /// Reads the next row; comments are passed over. False at the end. Throws
   /// InputError naming file, line and column for text, NaN or infinity where a
   /// number belongs, a wrong number of columns, and a truncated last line.
-  bool Next();
-
-  const Stamp& stamp() const { return stamp_; }
-  /// Value of layout.fields[field] in SI; NaN if absent.
-  double value(std::size_t field) const { return values_[field]; }
-  bool Has(std::size_t field) const {
+  bool Next() override;
+  bool Has(std::size_t field) const override {
     return layout_.fields[field].column >= 0;
   }
-  long line() const { return line_; }
-  const std::string& path() const { return lines_->path(); }
+  const std::string& path() const override { return lines_->path(); }
   /// Lines dropped under allow_truncated_tail.
-  long truncated() const { return truncated_; }
-  /// Rows that the file is likely to hold.
-  std::size_t RowsHint() const;
-
-  /// Throws InputError for the current line.
-  [[noreturn]] void Fail(const std::string& message) const;
+  std::vector<LeftOut> left_out() const override;
+  std::size_t RowsHint() const override;
 
  private:
   bool Parse(std::string_view line, std::string* problem);
@@ -94,10 +86,7 @@ class TextTable {
   std::string first_row_;
   std::vector<char> wanted_;  ///< per column: 0 skip, 1 number, 2 part of time
   std::vector<double> raw_;
-  std::vector<double> values_;
   std::vector<std::string_view> time_tokens_;
-  Stamp stamp_;
-  long line_ = 0;
   long truncated_ = 0;
   std::size_t first_length_ = 0;
 };

@@ -126,6 +126,11 @@ Stamp GpsFromUnix(const Stamp& unix_time) {
           unix_time.fraction - whole};
 }
 
+Stamp GpsFromUtc(std::int64_t day, double time_of_day) {
+  const std::int64_t midnight = day * kDaySeconds;
+  return {midnight - kGpsEpochUnix + LeapSeconds(midnight), time_of_day};
+}
+
 std::optional<Stamp> ParseDate(std::string_view date, std::string_view clock,
                                bool utc) {
   const auto day = ParseDay(date);

@@ -37,6 +37,10 @@ int LeapSeconds(std::int64_t unix_seconds);
 /// GPS time since 1980-01-06 of UTC seconds since 1970.
 Stamp GpsFromUnix(const Stamp& unix_time);
 
+/// GPS time since 1980-01-06 of a UTC time of day [s], 86400 and more within a
+/// leap second, on a day counted from 1970.
+Stamp GpsFromUtc(std::int64_t day, double time_of_day);
+
 /// GPS time since 1980-01-06 of a calendar date and time of day; `utc` says in
 /// which scale. Separators are '-' or '/' and ':'. Nothing if the text is not
 /// "yyyy-mm-dd" and "hh:mm:ss[.sss]", or no such date.

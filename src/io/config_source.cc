@@ -1,10 +1,8 @@
-#include "io/config_streams.h"
-
-#include <algorithm>
 #include <array>
 #include <charconv>
 
 #include "base/error.h"
+#include "io/config_streams.h"
 
 namespace hindsight {
 namespace {
@@ -104,11 +102,29 @@ void ReadStart(ConfigMap* time, ClockMap* clock) {
   clock->start = time->Number("start", Quantity::kTime);
 }
 
-ClockMap ReadClock(ConfigMap* map) {
+void ReadSpan(ConfigMap* time, ClockMap* clock) {
+  if (const auto from = time->OptionalNumber("from", Quantity::kTime)) {
+    clock->from = *from;
+  }
+  if (const auto until = time->OptionalNumber("until", Quantity::kTime)) {
+    clock->until = *until;
+  }
+  if (!(clock->until > clock->from)) {
+    time->Fail("until", "must lie behind from");
+  }
+}
+
+/// These formats count from 1970 unless the configuration says otherwise.
+bool CountsFrom1970(TextFormat::Kind format) {
+  return format == TextFormat::Kind::kEuroc ||
+         format == TextFormat::Kind::kNclt;
+}
+
+ClockMap ReadClock(ConfigMap* map, TextFormat::Kind format) {
   ClockMap clock;
   ConfigMap time = map->Map("time");
-  clock.scale = static_cast<ClockMap::Scale>(
-      time.Choice("clock", {"dataset", "gps", "unix"}, 0));
+  clock.scale = static_cast<ClockMap::Scale>(time.Choice(
+      "clock", {"dataset", "gps", "unix"}, CountsFrom1970(format) ? 2 : 0));
   if (time.Has("week")) clock.week = time.Integer("week", 0);
   ReadStart(&time, &clock);
   clock.duration = time.OptionalNumber("duration", Quantity::kTime);
@@ -119,43 +135,19 @@ ClockMap ReadClock(ConfigMap* map) {
   if (clock.rate && !(*clock.rate > 0.0)) {
     time.Fail("rate", "must be greater than zero");
   }
+  const std::string stretch = time.Text("stretch", "1");
+  const auto factor = ParseNumber(stretch);
+  if (!factor || !(*factor > 0.0)) {
+    time.Fail("stretch", "'" + stretch + "' is not a positive number");
+  }
+  clock.stretch = *factor;
+  clock.week_rollovers = time.Integer("week_rollovers", 0);
+  ReadSpan(&time, &clock);
   if (clock.week && clock.scale != ClockMap::Scale::kDataset) {
     time.Fail("week", "does not go with clock");
   }
   time.Finish();
   return clock;
-}
-
-Eigen::RowVector3d ReadAxis(ConfigMap* imu, const std::string& text) {
-  const bool negative = text.starts_with('-');
-  const std::string letter =
-      text.substr(negative || text.starts_with('+') ? 1 : 0);
-  if (letter != "x" && letter != "y" && letter != "z") {
-    imu->Fail("axes", "'" + text +
-                          "' is no axis; expected x, y or z, with - "
-                          "where it points the other way");
-  }
-  Eigen::RowVector3d row = Eigen::RowVector3d::Zero();
-  row(letter[0] - 'x') = negative ? -1.0 : 1.0;
-  return row;
-}
-
-void ReadBias(ConfigMap* noise, const std::string& sensor, Quantity walk_unit,
-              Quantity bias_unit, double* walk, double* tau) {
-  const std::string walk_key = sensor + "_bias_walk";
-  const std::string sigma_key = sensor + "_bias_sigma";
-  const std::string tau_key = sensor + "_bias_tau";
-  if (!noise->Has(tau_key) && !noise->Has(sigma_key)) {
-    *walk = noise->Number(walk_key, walk_unit, 0.0);
-    if (*walk < 0.0) noise->Fail(walk_key, "must not be negative");
-    return;
-  }
-  if (noise->Has(walk_key)) {
-    noise->Fail(walk_key, "does not go with " + sigma_key + " and " + tau_key);
-  }
-  *tau = noise->Positive(tau_key, Quantity::kTime);
-  const double sigma = noise->Positive(sigma_key, bias_unit);
-  *walk = std::sqrt(2.0 / *tau) * sigma;
 }
 
 }  // namespace
@@ -178,9 +170,9 @@ StreamSource ReadStreamSource(ConfigMap* map,
   TextFormat& format = source.format;
   format.config_path = map->file();
   format.config_line = map->line();
-  format.kind = static_cast<TextFormat::Kind>(
-      map->Choice("format", {"csv", "columns", "kf_gins", "rtklib_pos"}, 0));
-  if (format.kind == TextFormat::Kind::kColumns) {
+  format.kind =
+      static_cast<TextFormat::Kind>(map->Choice("format", FormatNames(), 0));
+  if (TakesColumns(format.kind)) {
     if (!map->Has("columns")) map->Fail("columns", "is missing");
     format.config_line = map->Line("columns");
     format.columns = ReadColumns(map, fields);
@@ -189,52 +181,16 @@ StreamSource ReadStreamSource(ConfigMap* map,
   format.delimiter = kDelimiters[map->Choice(
       "delimiter", {"auto", "comma", "semicolon", "blank"}, 0)];
   format.skip_lines = map->Integer("skip_lines", 0);
-  source.clock = ReadClock(map);
+  if (format.kind == TextFormat::Kind::kRosbag) {
+    format.topic = map->OptionalText("topic").value_or("");
+  }
+  source.clock = ReadClock(map, format.kind);
   source.on_duplicate = static_cast<DuplicatePolicy>(
       map->Choice("on_duplicate", {"error", "drop_first", "drop_last"}, 0));
+  source.sort = map->Choice("on_unordered", {"error", "sort"}, 0) == 1;
+  source.absent_values = map->Flag("absent_values", false);
   source.allow_truncated_tail = map->Flag("allow_truncated_tail", false);
   return source;
-}
-
-Eigen::Matrix3d ReadMounting(ConfigMap* imu) {
-  Eigen::Matrix3d C_bs = Eigen::Matrix3d::Identity();
-  const std::vector<std::string> axes = imu->List("axes");
-  if (!axes.empty()) {
-    if (axes.size() != 3) imu->Fail("axes", "expected three axes");
-    for (std::size_t i = 0; i < 3; ++i) {
-      C_bs.row(static_cast<Eigen::Index>(i)) = ReadAxis(imu, axes[i]);
-    }
-    if (std::abs(C_bs.determinant() - 1.0) > 0.5) {
-      imu->Fail("axes",
-                "are not a rotation; expected each axis once and right-handed "
-                "(a sensor with a mirrored axis needs a sign in `columns`)");
-    }
-  }
-  const Eigen::Vector3d euler =
-      imu->Vector("mounting", Quantity::kAngle, Eigen::Vector3d::Zero());
-  return QuaternionFromEuler(euler.x(), euler.y(), euler.z())
-             .toRotationMatrix() *
-         C_bs;
-}
-
-ImuNoise ReadImuNoise(ConfigMap* imu) {
-  if (!imu->Has("noise")) imu->Fail("noise", "is missing");
-  ConfigMap map = imu->Map("noise");
-  ImuNoise noise;
-  noise.gyro_noise_density = map.Positive("gyro", Quantity::kGyroNoiseDensity);
-  noise.accel_noise_density =
-      map.Positive("accel", Quantity::kAccelNoiseDensity);
-  ReadBias(&map, "gyro", Quantity::kGyroBiasWalk, Quantity::kAngularRate,
-           &noise.gyro_bias_walk, &noise.gyro_bias_tau);
-  ReadBias(&map, "accel", Quantity::kAccelBiasWalk, Quantity::kAcceleration,
-           &noise.accel_bias_walk, &noise.accel_bias_tau);
-  noise.gyro_noise_per_rate =
-      map.Number("gyro_per_rate", Quantity::kNoisePerRate, 0.0);
-  if (noise.gyro_noise_per_rate < 0.0) {
-    map.Fail("gyro_per_rate", "must not be negative");
-  }
-  map.Finish();
-  return noise;
 }
 
 }  // namespace hindsight

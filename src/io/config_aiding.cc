@@ -1,0 +1,211 @@
+#include <array>
+#include <cmath>
+
+#include "base/units.h"
+#include "io/config_streams.h"
+
+namespace hindsight {
+namespace {
+
+struct AidingType {
+  const char* name;
+  SensorType type;
+  const std::vector<FieldName>& (*fields)();
+  Quantity sigma;
+  bool sigma_in_file;
+};
+
+constexpr std::array kAidingTypes = {
+    AidingType{"position", SensorType::kPosition, PositionFields,
+               Quantity::kLength, true},
+    AidingType{"velocity", SensorType::kVelocity, VelocityFields,
+               Quantity::kSpeed, true},
+    AidingType{"height", SensorType::kHeight, HeightFields, Quantity::kLength,
+               true},
+    AidingType{"speed_course", SensorType::kSpeedCourse, SpeedCourseFields,
+               Quantity::kSpeed, false},
+    AidingType{"odometer", SensorType::kOdometer, OdometerFields,
+               Quantity::kSpeed, false},
+    AidingType{"non_holonomic", SensorType::kNonHolonomic, OdometerFields,
+               Quantity::kSpeed, false},
+};
+
+const AidingType& ReadType(ConfigMap* map) {
+  std::vector<std::string> names;
+  for (const AidingType& type : kAidingTypes) names.emplace_back(type.name);
+  return kAidingTypes[map->Choice("type", names, std::nullopt)];
+}
+
+std::optional<double> ReadGate(ConfigMap* map) {
+  const std::string text = map->Text("gate", "off");
+  if (text == "off") return std::nullopt;
+  double probability = 0.0;
+  if (const auto number = ParseNumber(text)) {
+    probability = *number;
+  } else {
+    probability = map->Number("gate", Quantity::kRatio);
+  }
+  if (!(probability > 0.0 && probability < 1.0)) {
+    map->Fail("gate", "'" + text +
+                          "' is not a probability; expected off, or a value "
+                          "between 0 and 1, such as 99.9 %");
+  }
+  map->Resolve("gate", probability, Quantity::kRatio);
+  return probability;
+}
+
+std::set<int> ReadQualities(ConfigMap* map) {
+  std::set<int> accepted;
+  for (const std::string& text : map->List("accept_quality")) {
+    const auto number = ParseNumber(text);
+    if (!number || *number != std::floor(*number) || std::abs(*number) > 1e6) {
+      map->Fail("accept_quality", "'" + text + "' is not a whole number");
+    }
+    accepted.insert(static_cast<int>(*number));
+  }
+  return accepted;
+}
+
+double ReadFactor(ConfigMap* map, const std::string& key,
+                  const std::string& fallback) {
+  const std::string text = map->Text(key, fallback);
+  const auto number = ParseNumber(text);
+  if (!number || !(*number > 0.0)) {
+    map->Fail(key, "'" + text + "' is not a positive number");
+  }
+  return *number;
+}
+
+RobustLoss ReadLoss(ConfigMap* map) {
+  RobustLoss loss;
+  if (!map->Has("loss")) return loss;
+  ConfigMap entry = map->Map("loss");
+  const std::size_t kind = entry.Choice(
+      "kind", {"none", "huber", "cauchy", "tukey", "geman_mcclure"},
+      std::nullopt);
+  loss.kind = static_cast<RobustLoss::Kind>(kind);
+  loss.scale = ReadFactor(&entry, "scale", FormatNumber(loss.scale));
+  entry.Finish();
+  return loss;
+}
+
+/// Forward, side and down, or those that the form measures.
+Eigen::Vector3d ReadOdometerSigma(ConfigMap* map, Odometer::Form form) {
+  const auto fail = [&](const char* expected) {
+    map->Fail("sigma", std::string("expected ") + expected);
+  };
+  if (!map->Has("sigma")) fail("a standard deviation of each speed");
+  if (form == Odometer::Form::kNonHolonomic) {
+    const std::vector<std::string> items = map->List("sigma");
+    if (items.size() != 2) fail("[side, down]");
+    std::string text = items[0] + ", " + items[1];
+    std::vector<double> values;
+    try {
+      values = ParseQuantities(text, Quantity::kSpeed);
+    } catch (const std::invalid_argument& error) {
+      map->Fail("sigma", error.what());
+    }
+    if (!(values[0] > 0.0 && values[1] > 0.0)) {
+      fail("standard deviations greater than zero");
+    }
+    return {1.0, values[0], values[1]};
+  }
+  return *map->OptionalSigma("sigma", Quantity::kSpeed);
+}
+
+void ReadVehicle(ConfigMap* map, AidingConfig* config) {
+  AidingReadOptions& options = config->options;
+  Sensor& sensor = config->sensor;
+  if (sensor.type == SensorType::kNonHolonomic) {
+    options.odometer_form = Odometer::Form::kNonHolonomic;
+    config->generated_rate = map->Positive("rate", Quantity::kFrequency);
+  } else {
+    options.odometer_form =
+        map->Choice("form", {"three_axis", "forward"}, 0) == 0
+            ? Odometer::Form::kThreeAxis
+            : Odometer::Form::kForward;
+    sensor.scale = map->Number("scale", Quantity::kRatio, 0.0);
+  }
+  options.sigma = ReadOdometerSigma(map, options.odometer_form);
+  const Eigen::Vector3d euler =
+      map->Vector("mounting", Quantity::kAngle, Eigen::Vector3d::Zero());
+  sensor.q_sb = QuaternionFromEuler(euler.x(), euler.y(), euler.z());
+}
+
+void ReadSigmas(ConfigMap* map, const AidingType& type,
+                AidingReadOptions* options) {
+  options->sigma = map->OptionalSigma("sigma", type.sigma);
+  if (type.type == SensorType::kSpeedCourse) {
+    if (!options->sigma) map->Fail("sigma", "is missing; expected a speed");
+    options->course_sigma = map->Positive("course_sigma", Quantity::kAngle);
+    options->course_above = map->Number("course_above", Quantity::kSpeed, 1.0);
+    return;
+  }
+  if (options->sigma) {
+    if (map->Has("sigma_scale")) {
+      map->Fail("sigma_scale", "does not go with sigma");
+    }
+    return;
+  }
+  options->sigma_scale = ReadFactor(map, "sigma_scale", "1");
+  options->use_correlations = map->Flag("correlations", true);
+}
+
+void ReadEstimates(ConfigMap* map, Sensor* sensor) {
+  ConfigMap estimate = map->Map("estimate");
+  sensor->lever_arm_sigma =
+      estimate.OptionalSigma("lever_arm", Quantity::kLength);
+  const bool vehicle = sensor->type == SensorType::kOdometer ||
+                       sensor->type == SensorType::kNonHolonomic;
+  if (vehicle) {
+    sensor->mounting_sigma =
+        estimate.OptionalSigma("mounting", Quantity::kAngle);
+  }
+  if (sensor->type == SensorType::kOdometer && estimate.Has("scale")) {
+    sensor->scale_sigma = estimate.Positive("scale", Quantity::kRatio);
+  }
+  // What is generated at the IMU's own times has no clock to be estimated.
+  if (sensor->type != SensorType::kNonHolonomic &&
+      estimate.Has("time_offset")) {
+    sensor->time_offset_sigma =
+        estimate.Positive("time_offset", Quantity::kTime);
+  }
+  estimate.Finish();
+}
+
+}  // namespace
+
+AidingConfig ReadAidingConfig(const std::string& name, ConfigMap* map,
+                              const std::filesystem::path& folder) {
+  AidingConfig config;
+  const AidingType& type = ReadType(map);
+  config.sensor.name = name;
+  config.sensor.type = type.type;
+  config.options.type = type.type;
+  if (type.type == SensorType::kNonHolonomic) {
+    config.source.name = map->name();
+  } else {
+    config.source = ReadStreamSource(map, folder, type.fields());
+    config.options.accept_quality = ReadQualities(map);
+    if (map->Has("every")) {
+      config.options.every = map->Positive("every", Quantity::kTime);
+    }
+    config.sensor.time_offset =
+        map->Number("time_offset", Quantity::kTime, 0.0);
+  }
+  if (type.type == SensorType::kOdometer ||
+      type.type == SensorType::kNonHolonomic) {
+    ReadVehicle(map, &config);
+  } else {
+    ReadSigmas(map, type, &config.options);
+  }
+  config.sensor.lever_arm_b =
+      map->Vector("lever_arm", Quantity::kLength, Eigen::Vector3d::Zero());
+  config.sensor.gate_probability = ReadGate(map);
+  config.sensor.loss = ReadLoss(map);
+  ReadEstimates(map, &config.sensor);
+  map->Finish();
+  return config;
+}
+
+}  // namespace hindsight
