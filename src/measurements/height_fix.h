@@ -12,6 +12,8 @@ struct HeightFix {
   double height = 0.0;  ///< measured [m]
   double sigma = 1.0;   ///< [m]
 
+  /// Multiplies the standard deviations.
+  void ScaleSigma(double factor) { sigma *= factor; }
   static constexpr int rows() { return 1; }
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
 };

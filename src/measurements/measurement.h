@@ -30,6 +30,9 @@ struct Measurement {
 /// Rows of the measurement.
 int Rows(const Measurement& z);
 
+/// Multiplies the measurement's standard deviations.
+void ScaleSigma(double factor, Measurement* z);
+
 /// Residual (measured - predicted), H = d predicted / d error over the layout,
 /// and R.
 void Evaluate(const Measurement& z, const ModelContext& context,

@@ -26,6 +26,8 @@ struct Odometer {
   /// Side and down speed of the axle [m/s]; unused by kForward.
   Eigen::Vector2d side_down = Eigen::Vector2d::Zero();
 
+  /// Multiplies the standard deviations.
+  void ScaleSigma(double factor) { sigma *= factor; }
   int rows() const {
     return form == Form::kForward ? 1 : form == Form::kThreeAxis ? 3 : 2;
   }

@@ -14,6 +14,8 @@ struct PositionFix {
   Eigen::Vector3d p_e = Eigen::Vector3d::Zero();      ///< measured, ECEF [m]
   Eigen::Matrix3d R_n = Eigen::Matrix3d::Identity();  ///< NED covariance [m^2]
 
+  /// Multiplies the standard deviations.
+  void ScaleSigma(double factor) { R_n *= factor * factor; }
   static constexpr int rows() { return 3; }
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
 };

@@ -19,6 +19,11 @@ struct SpeedCourse {
   double sigma_course = 0.02;  ///< [rad]
   bool has_course = true;
 
+  /// Multiplies the standard deviations.
+  void ScaleSigma(double factor) {
+    sigma_speed *= factor;
+    sigma_course *= factor;
+  }
   int rows() const { return has_course ? 2 : 1; }
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
 };

@@ -9,6 +9,8 @@ namespace hindsight {
 struct ZeroVelocity {
   double sigma = 0.01;  ///< per axis [m/s]
 
+  /// Multiplies the standard deviations.
+  void ScaleSigma(double factor) { sigma *= factor; }
   static constexpr int rows() { return 3; }
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
 };
@@ -20,6 +22,8 @@ struct ZeroAngularRate {
   Eigen::Vector3d w_ib_b = Eigen::Vector3d::Zero();  ///< mean reading [rad/s]
   double sigma = 1e-4;                               ///< per axis [rad/s]
 
+  /// Multiplies the standard deviations.
+  void ScaleSigma(double factor) { sigma *= factor; }
   static constexpr int rows() { return 3; }
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
 };

@@ -12,6 +12,8 @@ struct VelocityFix {
   Eigen::Vector3d v_n = Eigen::Vector3d::Zero();      ///< measured NED [m/s]
   Eigen::Matrix3d R_n = Eigen::Matrix3d::Identity();  ///< [m^2/s^2]
 
+  /// Multiplies the standard deviations.
+  void ScaleSigma(double factor) { R_n *= factor * factor; }
   static constexpr int rows() { return 3; }
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
 };
