@@ -1,0 +1,131 @@
+#include "problems/start.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "simulation/builtin_scenarios.h"
+
+namespace hindsight {
+namespace {
+
+/// From rest, off after 20 s at heading 65 deg; no initial values.
+Scenario FromRest() {
+  Scenario scenario = BuiltinScenario("short_drive");
+  scenario.duration = 60.0;
+  return scenario;
+}
+
+Start FindWholeStart(const Dataset& dataset) {
+  return FindStart(dataset, dataset.imu.t_begin(), dataset.imu.t_end());
+}
+
+const TruthPoint& TruthAt(const Dataset& dataset, double t) {
+  std::size_t k = 0;
+  while (dataset.truth[k].t < t - 1e-6) ++k;
+  return dataset.truth[k];
+}
+
+TEST(Start, LevelsAtRestAndTakesTheHeadingFromTheCourse) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Dataset dataset = Simulate(FromRest(), seed);
+    const Start start = FindWholeStart(dataset);
+    EXPECT_NEAR(start.report.t, 0.0, 1e-9);
+    EXPECT_NE(start.report.attitude.find("levelled at rest"), std::string::npos)
+        << start.report.attitude;
+    EXPECT_NE(start.report.heading.find("course"), std::string::npos);
+    const TruthPoint& truth = TruthAt(dataset, start.report.t);
+    const Eigen::Vector3d euler = EulerFromQuaternion(*truth.q_nb);
+    const Eigen::Vector3d error = start.report.state.euler() - euler;
+    // Three sigma as reported: accelerometer bias of 1 mg over g.
+    const Eigen::Vector3d& sigma = start.report.attitude_sigma;
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_LT(std::abs(WrapAngle(error(axis))), 3.0 * sigma(axis)) << axis;
+    }
+    EXPECT_NEAR(sigma.x(), 1e-3, 2e-4);
+    EXPECT_LT(sigma.z(), 6.0 * kDegree);
+    const Eigen::Vector3d d = start.report.state.C_en().transpose() *
+                              (*truth.p_e - start.report.state.p_e);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_LT(std::abs(d(axis)), 3.0 * start.report.position_sigma(axis));
+    }
+  }
+}
+
+TEST(Start, PriorCovarianceIsThatOfTheReport) {
+  const Dataset dataset = Simulate(FromRest(), 1);
+  const Start start = FindWholeStart(dataset);
+  const ErrorMatrix& P = start.prior.P;
+  EXPECT_EQ(P.rows(), start.layout.dim());
+  const Eigen::Vector3d p = start.report.position_sigma;
+  EXPECT_LT((P.diagonal().head<3>().cwiseSqrt() - p).norm(), 1e-12);
+  // Level: psi_down is heading, the horizontal part is tilt whatever heading.
+  const Eigen::Vector3d s = start.report.attitude_sigma;
+  EXPECT_NEAR(std::sqrt(P(8, 8)), s.z(), 0.01 * s.z());
+  EXPECT_NEAR(P(6, 6) + P(7, 7), s.x() * s.x() + s.y() * s.y(),
+              1e-3 * s.z() * s.z());
+}
+
+TEST(Start, GivenValuesAreTakenAsTheyAre) {
+  Dataset dataset = Simulate(FromRest(), 1);
+  dataset.initial.t = 3.0;
+  dataset.initial.position = Geodetic{0.8, 0.2, 500.0};
+  dataset.initial.v_n = Eigen::Vector3d(0.1, 0.2, 0.3);
+  dataset.initial.euler = Eigen::Vector3d(0.01, 0.02, 1.5);
+  dataset.initial.attitude_sigma = Eigen::Vector3d(0.001, 0.002, 0.003);
+  dataset.initial.position_sigma = Eigen::Vector3d(1.0, 2.0, 3.0);
+  const Start start = FindWholeStart(dataset);
+  EXPECT_EQ(start.report.t, 3.0);
+  EXPECT_EQ(start.report.attitude, "given");
+  EXPECT_EQ(start.report.heading, "given");
+  EXPECT_EQ(start.report.position, "given");
+  EXPECT_LT((start.report.state.euler() - *dataset.initial.euler).norm(),
+            1e-12);
+  EXPECT_LT((start.report.state.v_n() - *dataset.initial.v_n).norm(), 1e-12);
+  EXPECT_EQ(start.report.position_sigma, Eigen::Vector3d(1.0, 2.0, 3.0));
+}
+
+TEST(Start, HeadingWithoutMotionIsReportedUnknown) {
+  Scenario scenario = FromRest();
+  scenario.duration = 15.0;
+  const Dataset dataset = Simulate(scenario, 1);
+  const Start start = FindWholeStart(dataset);
+  EXPECT_NE(start.report.heading.find("unknown"), std::string::npos);
+  // Uniform on the circle: 360 deg/sqrt(12).
+  EXPECT_NEAR(start.report.attitude_sigma.z(), 2.0 * kPi / std::sqrt(12.0),
+              0.01);
+}
+
+TEST(Start, WithoutPositionThereIsNoAnswer) {
+  Dataset dataset = Simulate(FromRest(), 1);
+  dataset.streams.erase(dataset.streams.begin());
+  for (AidingStream& stream : dataset.streams) {
+    for (Measurement& z : stream.measurements) --z.sensor;
+  }
+  EXPECT_THROW(FindWholeStart(dataset), EstimationError);
+}
+
+TEST(Start, IntervalWithoutImuIsAnInputError) {
+  const Dataset dataset = Simulate(FromRest(), 1);
+  EXPECT_THROW(FindStart(dataset, 1000.0, 2000.0), InputError);
+}
+
+TEST(Start, CalibrationWithASigmaEntersTheLayout) {
+  Dataset dataset = Simulate(FromRest(), 1);
+  Sensor& sensor = dataset.streams[0].sensor;
+  sensor.lever_arm_sigma = Eigen::Vector3d(0.1, 0.2, 0.3);
+  sensor.time_offset_sigma = 0.01;
+  const Start start = FindWholeStart(dataset);
+  const Block* lever = start.layout.Find(BlockKind::kLeverArm, 0);
+  ASSERT_NE(lever, nullptr);
+  EXPECT_EQ(lever->sigma0, Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(lever->name, "gnss_lever_arm");
+  const Eigen::Vector3d value =
+      start.prior.x.parameters.segment<3>(lever->parameter_offset);
+  EXPECT_EQ(value, sensor.lever_arm_b);
+  EXPECT_TRUE(start.layout.Has(BlockKind::kTimeOffset, 0));
+  EXPECT_FALSE(start.layout.Has(BlockKind::kLeverArm, 1));
+}
+
+}  // namespace
+}  // namespace hindsight
