@@ -32,12 +32,18 @@ const Dataset& Drive() {
   return dataset;
 }
 
+TimelineOptions WholeDrive(double begin) {
+  TimelineOptions options;
+  options.t_begin = begin;
+  options.t_end = Drive().imu.t_end();
+  return options;
+}
+
 /// What the batch starts from, made once.
 struct Smoothed {
   Smoothed()
       : start(FindStart(Drive(), 0.0, Drive().imu.t_end())),
-        timeline(
-            BuildTimeline(Drive(), {start.report.t, Drive().imu.t_end(), {}})) {
+        timeline(BuildTimeline(Drive(), WholeDrive(start.report.t))) {
     const LinearTape tape =
         RunExtendedKalmanFilter(start.layout, start.prior, &timeline);
     decisions = DecisionsOnTape(tape);

@@ -1,0 +1,164 @@
+#include "dataset/timeline_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "dataset/standstill.h"
+#include "support/test_motion.h"
+
+namespace hindsight {
+namespace {
+
+/// Ten seconds of IMU, heights stamped at the given times.
+Dataset Record(const std::vector<double>& stamps, double time_offset = 0.0) {
+  Dataset dataset;
+  dataset.imu = testing::LivelyImu(10.0, 100.0);
+  AidingStream stream;
+  stream.sensor.name = "barometer";
+  stream.sensor.type = SensorType::kHeight;
+  stream.sensor.time_offset = time_offset;
+  for (const double t : stamps) {
+    stream.measurements.push_back({t, 0, false, HeightFix{100.0 + t, 1.0}});
+  }
+  dataset.streams.push_back(stream);
+  return dataset;
+}
+
+Timeline Build(const Dataset& dataset, double begin, double end,
+               std::vector<double> extra_times) {
+  TimelineOptions options;
+  options.t_begin = begin;
+  options.t_end = end;
+  options.extra_times = std::move(extra_times);
+  return BuildTimeline(dataset, options);
+}
+
+std::vector<double> NodeTimes(const Timeline& timeline) {
+  std::vector<double> times;
+  for (const Node& node : timeline.nodes()) times.push_back(node.t);
+  return times;
+}
+
+TEST(TimelineBuilder, NodesStandAtTrueTimesAndFillTheRest) {
+  const Dataset dataset = Record({1.2345, 4.0}, 0.3);
+  const Timeline timeline = Build(dataset, 0.0, 5.0, {2.0});
+  const std::vector<double> times = NodeTimes(timeline);
+  EXPECT_EQ(times.front(), 0.0);
+  EXPECT_EQ(times.back(), 5.0);
+  // Measured at 1.5345 and 4.3; 2.0 asked for; never more than 1 s apart.
+  for (const double t : {1.5345, 2.0, 4.3}) {
+    EXPECT_TRUE(std::any_of(times.begin(), times.end(), [t](double x) {
+      return std::abs(x - t) < 1e-12;
+    })) << t;
+  }
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    EXPECT_LE(times[k] - times[k - 1], 1.0 + 1e-9);
+    EXPECT_GT(times[k] - times[k - 1], 0.1);
+  }
+}
+
+TEST(TimelineBuilder, MeasurementsBelongToTheirNode) {
+  Dataset dataset = Record({1.0, 2.0, 3.0});
+  AidingStream second = dataset.streams[0];
+  for (Measurement& z : second.measurements) z.sensor = 1;
+  dataset.streams.push_back(second);
+  const Timeline timeline = Build(dataset, 0.5, 3.5, {});
+  std::size_t total = 0;
+  for (std::size_t k = 0; k < timeline.size(); ++k) {
+    for (const Measurement& z : timeline.measurements(k)) {
+      EXPECT_NEAR(z.t, timeline.node(k).t, 1e-7);
+      ++total;
+    }
+  }
+  EXPECT_EQ(total, 6u);
+}
+
+TEST(TimelineBuilder, MeasurementsOutsideTheSpanAreLeftOut) {
+  const Dataset dataset = Record({0.2, 1.0, 4.0, 9.0});
+  const Timeline timeline = Build(dataset, 1.0, 4.0, {0.5, 7.0});
+  EXPECT_EQ(timeline.all_measurements().size(), 2u);
+  EXPECT_EQ(timeline.node(0).t, 1.0);
+  EXPECT_EQ(timeline.nodes().back().t, 4.0);
+  EXPECT_EQ(timeline.measurements(0).size(), 1u);
+  EXPECT_EQ(timeline.measurements(timeline.size() - 1).size(), 1u);
+}
+
+TEST(TimelineBuilder, KinematicsAreTheReadingOfTheNode) {
+  const Dataset dataset = Record({1.2345});
+  const Timeline timeline = Build(dataset, 0.0, 2.0, {});
+  ImuIntegrator integrator(dataset.imu);
+  for (const Node& node : timeline.nodes()) {
+    EXPECT_EQ(node.kinematics.f_b, integrator.ReadingAt(node.t).f_b);
+  }
+}
+
+TEST(Timeline, SummariesAreIntegratedAnewOnlyWhenTheBiasHasMovedFar) {
+  const Dataset dataset = Record({});
+  Timeline timeline = Build(dataset, 0.0, 3.0, {});
+  ImuCalibration calibration;
+  timeline.Summary(1, calibration);
+  calibration.b_g.x() = 1e-4;  // 0.1 mrad over the second
+  EXPECT_EQ(timeline.Summary(1, calibration).calibration.b_g.x(), 0.0);
+  calibration.b_g.x() = 2e-3;
+  EXPECT_EQ(timeline.Summary(1, calibration).calibration.b_g.x(), 2e-3);
+}
+
+/// Still from 3 s to 7 s, lively otherwise.
+ImuStream StopAndGo() {
+  ImuStream imu = testing::LivelyImu(10.0, 100.0);
+  for (ImuSample& s : imu.samples) {
+    if (s.t < 3.0 || s.t > 7.0) continue;
+    s.gyro = {1e-3, 2e-3, -1e-3};
+    s.accel = {0.1, 0.0, -9.80};
+  }
+  return imu;
+}
+
+TEST(Standstill, FindsTheStopAndNothingElse) {
+  const std::vector<TimeInterval> rests = FindStandstill(StopAndGo(), {});
+  ASSERT_EQ(rests.size(), 1u);
+  // Windows of one second lie wholly inside.
+  EXPECT_GE(rests[0].begin, 3.0 - 0.011);
+  EXPECT_LE(rests[0].begin, 4.0);
+  EXPECT_LE(rests[0].end, 7.0 + 1e-9);
+  EXPECT_GE(rests[0].end, 6.0);
+}
+
+TEST(Standstill, SteadyAccelerationIsNoRest) {
+  ImuStream imu = StopAndGo();
+  for (ImuSample& s : imu.samples) {
+    if (s.t >= 3.0 && s.t <= 7.0) s.accel.x() = 3.0;
+  }
+  EXPECT_TRUE(FindStandstill(imu, {}).empty());
+}
+
+TEST(StandstillStreams, MeasureZeroOncePerSecondOfRest) {
+  Dataset dataset = Record({});
+  dataset.imu = StopAndGo();
+  AddStandstillStreams(&dataset);
+  EXPECT_EQ(dataset.streams.size(), 1u) << "not asked for";
+  dataset.stationary.enabled = true;
+  AddStandstillStreams(&dataset);
+  AddStandstillStreams(&dataset);  // a second time adds nothing
+  ASSERT_EQ(dataset.streams.size(), 3u);
+  const AidingStream& velocity = dataset.streams[1];
+  const AidingStream& rate = dataset.streams[2];
+  EXPECT_EQ(velocity.sensor.name, "zero_velocity");
+  EXPECT_GE(velocity.measurements.size(), 3u);
+  EXPECT_LE(velocity.measurements.size(), 4u);
+  ASSERT_EQ(rate.measurements.size(), velocity.measurements.size());
+  for (std::size_t i = 0; i < rate.measurements.size(); ++i) {
+    EXPECT_EQ(velocity.measurements[i].sensor, 1);
+    EXPECT_EQ(rate.measurements[i].sensor, 2);
+    EXPECT_GT(rate.measurements[i].t, 3.0);
+    EXPECT_LT(rate.measurements[i].t, 7.0);
+    const auto& model = std::get<ZeroAngularRate>(rate.measurements[i].model);
+    EXPECT_LT((model.w_ib_b - Eigen::Vector3d(1e-3, 2e-3, -1e-3)).norm(),
+              1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace hindsight
