@@ -1,5 +1,6 @@
 #include "io/dataset_config.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -97,16 +98,47 @@ const char* TypeName(const Sensor& sensor) {
       return "velocity";
     case SensorType::kHeight:
       return "height";
+    case SensorType::kOdometer:
+      return "odometer";
     default:
       throw InputError("aiding stream '" + sensor.name +
-                       "' is neither position, velocity nor height");
+                       "' cannot be written as CSV");
   }
 }
 
-void AppendSensor(const Sensor& sensor, YamlText* yaml) {
+/// What an odometer's file does not say.
+void AppendOdometer(const AidingStream& stream, YamlText* yaml) {
+  const Sensor& sensor = stream.sensor;
+  if (sensor.type != SensorType::kOdometer) return;
+  const auto& first = std::get<Odometer>(stream.measurements.front().model);
+  yaml->Text("form",
+             first.form == Odometer::Form::kForward ? "forward" : "three_axis");
+  yaml->Vector("sigma", first.sigma, kMetresPerSecond);
+  yaml->Vector("mounting", EulerFromQuaternion(sensor.q_sb), kDegrees);
+  yaml->Number("scale", sensor.scale, {"1"});
+}
+
+void AppendEstimates(const Sensor& sensor, YamlText* yaml) {
+  if (!sensor.lever_arm_sigma && !sensor.mounting_sigma &&
+      !sensor.scale_sigma && !sensor.time_offset_sigma) {
+    return;
+  }
+  yaml->Open("estimate");
+  yaml->Vector("lever_arm", sensor.lever_arm_sigma, kMetres);
+  yaml->Vector("mounting", sensor.mounting_sigma, kDegrees);
+  if (sensor.scale_sigma) yaml->Number("scale", *sensor.scale_sigma, {"1"});
+  if (sensor.time_offset_sigma) {
+    yaml->Number("time_offset", *sensor.time_offset_sigma, kSeconds);
+  }
+  yaml->Close();
+}
+
+void AppendSensor(const AidingStream& stream, YamlText* yaml) {
+  const Sensor& sensor = stream.sensor;
   yaml->Open(sensor.name);
   yaml->Text("type", TypeName(sensor));
   yaml->Text("file", sensor.name + ".csv");
+  AppendOdometer(stream, yaml);
   if (!sensor.lever_arm_b.isZero(0.0)) {
     yaml->Vector("lever_arm", sensor.lever_arm_b, kMetres);
   }
@@ -116,14 +148,7 @@ void AppendSensor(const Sensor& sensor, YamlText* yaml) {
   if (sensor.gate_probability) {
     yaml->Text("gate", FormatGeneral(*sensor.gate_probability, kDigits));
   }
-  if (sensor.lever_arm_sigma || sensor.time_offset_sigma) {
-    yaml->Open("estimate");
-    yaml->Vector("lever_arm", sensor.lever_arm_sigma, kMetres);
-    if (sensor.time_offset_sigma) {
-      yaml->Number("time_offset", *sensor.time_offset_sigma, kSeconds);
-    }
-    yaml->Close();
-  }
+  AppendEstimates(sensor, yaml);
   yaml->Close();
 }
 
@@ -189,10 +214,15 @@ std::string DatasetConfigYaml(const Dataset& dataset) {
   yaml.Number("max_gap", dataset.imu.max_gap, kSeconds);
   AppendNoise(dataset.imu.noise, &yaml);
   yaml.Close();
-  if (!dataset.streams.empty()) {
+  if (std::any_of(dataset.streams.begin(), dataset.streams.end(),
+                  [](const AidingStream& stream) {
+                    return !stream.measurements.empty();
+                  })) {
     yaml.Open("aiding");
     for (const AidingStream& stream : dataset.streams) {
-      AppendSensor(stream.sensor, &yaml);
+      // A recording without a single measurement has no file either.
+      if (stream.measurements.empty()) continue;
+      AppendSensor(stream, &yaml);
     }
     yaml.Close();
   }

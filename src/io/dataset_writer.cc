@@ -116,6 +116,8 @@ const char* AidingHeading(SensorType type) {
       return ",sigma_n[m],sigma_e[m],sigma_d[m]\n";
     case SensorType::kVelocity:
       return ",sigma_v_n[m/s],sigma_v_e[m/s],sigma_v_d[m/s]\n";
+    case SensorType::kOdometer:
+      return ",speed[m/s],side[m/s],down[m/s]\n";
     default:
       return ",h[m],sigma_h[m]\n";
   }
@@ -135,9 +137,14 @@ void AddAidingValues(const AidingStream& stream, const Measurement& z,
     row->Add(Columns(ColumnGroup::kPosition)[2], height->height);
     row->AddGeneral(height->sigma, kSigmaDigits);
     return;
+  } else if (const auto* odometer = std::get_if<Odometer>(&z.model)) {
+    for (const double speed :
+         {odometer->speed, odometer->side_down.x(), odometer->side_down.y()}) {
+      row->AddShortest(speed);
+    }
+    return;
   } else {
-    throw InputError("aiding stream '" + name +
-                     "' is neither position, velocity nor height");
+    throw InputError("aiding stream '" + name + "' cannot be written as CSV");
   }
   for (const double value : sigma) row->AddGeneral(value, kSigmaDigits);
 }
@@ -213,6 +220,7 @@ void WriteTruth(const std::string& path, const std::vector<TruthPoint>& truth) {
 /// All files but the IMU's.
 void WriteBesidesImu(const Dataset& dataset, const std::string& folder) {
   for (const AidingStream& stream : dataset.streams) {
+    if (stream.measurements.empty()) continue;
     WriteAiding(PathIn(folder, stream.sensor.name + ".csv"), stream);
   }
   if (!dataset.truth.empty()) {

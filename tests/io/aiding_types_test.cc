@@ -1,0 +1,162 @@
+#include <cmath>
+
+#include "base/units.h"
+#include "io/sample_folder.h"
+
+namespace hindsight {
+namespace {
+
+constexpr const char* kImuConfig =
+    "imu:\n  file: imu.csv\n"
+    "  noise: {gyro: 0.2 deg/sqrt(h), accel: 70 ug/sqrt(Hz)}\n";
+
+class AidingTypes : public SampleFolder {
+ protected:
+  AidingTypes() { Write("imu.csv", kRestingImu); }
+  void Aiding(const std::string& text) const {
+    Write("config.yaml", std::string(kImuConfig) + "aiding:\n" + text);
+  }
+};
+
+TEST_F(AidingTypes, OdometerWithCalibration) {
+  Write("odo.csv", "t[s],speed[km/h]\n0.01,36\n0.03,-18\n");
+  Aiding(
+      "  odo:\n    type: odometer\n    file: odo.csv\n"
+      "    sigma: [0.1, 0.2, 0.3 m/s]\n    scale: -0.8 %\n"
+      "    lever_arm: [-1, 0, 0.5 m]\n    mounting: [0, 0, 90 deg]\n"
+      "    estimate: {scale: 2 %, mounting: 3 deg, lever_arm: 0.1 m, "
+      "time_offset: 20 ms}\n"
+      "    loss: {kind: tukey, scale: 4.6}\n");
+  const Dataset data = Load();
+  const Sensor& sensor = data.streams[0].sensor;
+  EXPECT_EQ(sensor.type, SensorType::kOdometer);
+  EXPECT_DOUBLE_EQ(sensor.scale, -0.008);
+  EXPECT_DOUBLE_EQ(*sensor.scale_sigma, 0.02);
+  EXPECT_DOUBLE_EQ(sensor.mounting_sigma->z(), 3.0 * kDegree);
+  EXPECT_DOUBLE_EQ(*sensor.time_offset_sigma, 0.02);
+  EXPECT_EQ(sensor.loss.kind, RobustLoss::Kind::kTukey);
+  EXPECT_EQ(sensor.loss.scale, 4.6);
+  // Vehicle = Rz(90 deg) body: what is forward in the body is on the right.
+  EXPECT_TRUE((sensor.q_sb * Eigen::Vector3d::UnitX())
+                  .isApprox(Eigen::Vector3d::UnitY(), 1e-12));
+  const auto& z = std::get<Odometer>(data.streams[0].measurements[1].model);
+  EXPECT_DOUBLE_EQ(z.speed, -5.0);
+  EXPECT_EQ(z.form, Odometer::Form::kThreeAxis);
+  EXPECT_EQ(z.sigma, Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(z.side_down, Eigen::Vector2d::Zero());
+}
+
+TEST_F(AidingTypes, OdometerMayMeasureThreeAxes) {
+  Write("dvl.csv", "t[s],speed[m/s],side[m/s],down[m/s]\n0.01,1,2,3\n");
+  Aiding("  dvl: {type: odometer, file: dvl.csv, sigma: 0.02 m/s}\n");
+  const auto z = std::get<Odometer>(Load().streams[0].measurements[0].model);
+  EXPECT_EQ(z.side_down, Eigen::Vector2d(2, 3));
+  EXPECT_EQ(z.sigma, Eigen::Vector3d::Constant(0.02));
+}
+
+TEST_F(AidingTypes, ObGinsOdometerStandsInColumnEight) {
+  std::string imu;
+  for (int i = 1; i < 4; ++i) {
+    imu += std::to_string(0.01 * i) + " 0 0 0 0 0 -0.098 " + std::to_string(i) +
+           "\n";
+  }
+  Write("imu.txt", imu);
+  Write("config.yaml",
+        ReplacedOnce(kImuConfig, "imu.csv", "imu.txt\n  format: kf_gins") +
+            std::string("aiding:\n  odo: {type: odometer, file: imu.txt, "
+                        "format: kf_gins, form: forward, sigma: 0.1 m/s}\n"));
+  const Dataset data = Load();
+  ASSERT_EQ(data.imu.samples.size(), 3u);
+  const auto& z = std::get<Odometer>(data.streams[0].measurements[2].model);
+  EXPECT_EQ(z.speed, 3.0);
+  EXPECT_EQ(z.form, Odometer::Form::kForward);
+}
+
+TEST_F(AidingTypes, TheConstraintIsGeneratedOverTheImusRecord) {
+  Aiding(
+      "  wheels: {type: non_holonomic, rate: 100 Hz, sigma: [0.1, 0.2 m/s], "
+      "estimate: {mounting: 5 deg}}\n");
+  const Dataset data = Load();
+  ASSERT_EQ(data.streams[0].measurements.size(), 5u);
+  EXPECT_NEAR(data.streams[0].measurements[4].t, 0.04, 1e-12);
+  const auto& z = std::get<Odometer>(data.streams[0].measurements[4].model);
+  EXPECT_EQ(z.form, Odometer::Form::kNonHolonomic);
+  EXPECT_EQ(z.sigma.tail<2>(), Eigen::Vector2d(0.1, 0.2));
+  EXPECT_DOUBLE_EQ(data.streams[0].sensor.mounting_sigma->x(), 5 * kDegree);
+}
+
+TEST_F(AidingTypes, CourseBelowTheThresholdIsNotUsed) {
+  Write("rmc.csv",
+        "t[s],speed[m/s],course[deg]\n0.01,0.5,30\n0.02,2,40\n0.03,2,\n");
+  Aiding(
+      "  rmc: {type: speed_course, file: rmc.csv, sigma: 0.1 m/s, "
+      "course_sigma: 1 deg, course_above: 1 m/s}\n");
+  const Dataset data = Load();
+  const auto at = [&](std::size_t i) {
+    return std::get<SpeedCourse>(data.streams[0].measurements[i].model);
+  };
+  EXPECT_FALSE(at(0).has_course);
+  EXPECT_TRUE(at(1).has_course);
+  EXPECT_DOUBLE_EQ(at(1).course, 40 * kDegree);
+  EXPECT_DOUBLE_EQ(at(1).sigma_course, kDegree);
+  EXPECT_FALSE(at(2).has_course);
+}
+
+TEST_F(AidingTypes, EveryThinsOutDespiteJitter) {
+  std::string text = "t[s],h[m],sigma_h[m]\n";
+  for (int i = 0; i < 40; ++i) {
+    text += std::to_string(0.001 * i + (i % 2 == 0 ? 1e-4 : 0.0)) + ",1,1\n";
+  }
+  Write("h.csv", text);
+  Aiding("  h: {type: height, file: h.csv, every: 10 ms}\n");
+  const Dataset data = Load();
+  ASSERT_EQ(data.streams[0].measurements.size(), 4u);
+  EXPECT_NEAR(data.streams[0].measurements[3].t, 0.0301, 1e-9);
+  EXPECT_EQ(data.policies[0].action, "thinned out");
+  EXPECT_EQ(data.policies[0].count, 36);
+}
+
+TEST_F(AidingTypes, ScaleFactorsOfTheImuMayBeEstimated) {
+  Write("config.yaml", std::string(kImuConfig) +
+                           "  estimate: {gyro_scale: 3 %, accel_scale: "
+                           "[1000, 2000, 3000 ppm]}\n");
+  const Dataset data = Load();
+  EXPECT_EQ(*data.gyro_scale_sigma, Eigen::Vector3d::Constant(0.03));
+  EXPECT_TRUE(data.accel_scale_sigma->isApprox(
+      Eigen::Vector3d(1e-3, 2e-3, 3e-3), 1e-14));
+}
+
+TEST_F(AidingTypes, MistakesNameLineAndKey) {
+  Write("odo.csv", "t[s],speed[m/s]\n0.01,1\n");
+  struct Case {
+    const char* aiding;
+    const char* says;
+  };
+  const Case cases[] = {
+      {"  odo: {type: odometer, file: odo.csv}\n", "aiding.odo.sigma"},
+      {"  odo: {type: odometer, file: odo.csv, sigma: 0 m/s}\n", "zero"},
+      {"  odo: {type: odometer, file: odo.csv, sigma: 1 m/s, form: sideways}\n",
+       "forward"},
+      {"  nhc: {type: non_holonomic, sigma: [1, 1 m/s]}\n", "rate"},
+      {"  nhc: {type: non_holonomic, rate: 1 Hz, sigma: 1 m/s}\n", "[ ]"},
+      {"  nhc: {type: non_holonomic, rate: 1 Hz, sigma: [1, 1 m/s], file: "
+       "odo.csv}\n",
+       "unknown key"},
+      {"  odo: {type: odometer, file: odo.csv, sigma: 1 m/s, loss: {kind: "
+       "l2}}\n",
+       "huber"},
+      {"  odo: {type: odometer, file: odo.csv, sigma: 1 m/s, format: euroc}\n",
+       "no such stream"},
+      {"  c: {type: speed_course, file: odo.csv, sigma: 1 m/s}\n",
+       "course_sigma"},
+  };
+  for (const Case& c : cases) {
+    Aiding(c.aiding);
+    const std::string error = LoadError();
+    EXPECT_TRUE(error.starts_with("config.yaml:")) << error;
+    EXPECT_NE(error.find(c.says), std::string::npos) << error;
+  }
+}
+
+}  // namespace
+}  // namespace hindsight
