@@ -9,6 +9,7 @@
 #include <exception>
 
 #include "base/error.h"
+#include "filters/iterated_smoother.h"
 #include "problems/chain_problem.h"
 
 namespace hindsight {
@@ -186,9 +187,13 @@ BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
     if (outer == 0) result.initial_cost = summary.initial_cost;
     result.final_cost = summary.final_cost;
     if (!AnySummaryIsStale(layout, *timeline, result.states)) {
-      result.P = result.converged ? FinishByNewton(&chain, &result.iterations)
-                                  : Marginals(&chain);
+      result.P = FinishByNewton(&chain, &result.iterations);
+      const std::vector<State> before = std::move(result.states);
       result.states = chain.States();
+      // Ceres may run out of iterations on the last micrometres.
+      result.converged =
+          result.converged || LargestMoveInSigmas(layout, before, result.states,
+                                                  result.P) < kSettledStep;
       return result;
     }
   }

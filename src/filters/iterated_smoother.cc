@@ -28,8 +28,9 @@ IteratedResult SmoothIterated(const ErrorLayout& layout, const Prior& prior,
                               const IterationOptions& options) {
   IteratedResult result;
   result.trajectory.states = std::move(nominal);
+  std::vector<State> about;
   for (int i = 0; i < options.max_iterations && !result.converged; ++i) {
-    const std::vector<State> about = std::move(result.trajectory.states);
+    about = std::move(result.trajectory.states);
     result.trajectory = SmoothRts(RunLinearizedFilter(
         layout, prior, about, timeline, decisions, options.callback));
     ++result.iterations;
@@ -39,7 +40,33 @@ IteratedResult SmoothIterated(const ErrorLayout& layout, const Prior& prior,
         LargestMove(layout, result.trajectory.d, BlockKind::kAttitude) <
             options.attitude_tolerance;
   }
+  if (!result.converged && result.iterations > 0) {
+    result.converged =
+        LargestMoveInSigmas(layout, about, result.trajectory.states,
+                            result.trajectory.P) < kSettledStep;
+  }
   return result;
+}
+
+double LargestMoveInSigmas(const ErrorLayout& layout,
+                           const std::vector<State>& from,
+                           const std::vector<State>& to,
+                           const CovarianceSeries& P) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    const ErrorVector d = Local(layout, from[k], to[k]);
+    const ErrorMatrix P_k = P.Get(k);
+    for (const Block& block : layout.blocks()) {
+      if (block.key.kind != BlockKind::kPosition &&
+          block.key.kind != BlockKind::kAttitude) {
+        continue;
+      }
+      for (int i = block.offset; i < block.offset + block.dim; ++i) {
+        largest = std::max(largest, std::abs(d(i)) / std::sqrt(P_k(i, i)));
+      }
+    }
+  }
+  return largest;
 }
 
 GateDecisions DecideGates(const ErrorLayout& layout, const Timeline& timeline,

@@ -17,8 +17,20 @@ struct IterationOptions {
 struct IteratedResult {
   SmoothedTrajectory trajectory;
   int iterations = 0;
+  /// Stopped by the tolerances, or out of iterations with a last step of less
+  /// than a hundredth of a standard deviation everywhere.
   bool converged = false;
 };
+
+/// A step this small, in standard deviations, changes no conclusion.
+inline constexpr double kSettledStep = 0.01;
+
+/// Largest difference of two trajectories in a component of position or
+/// attitude, in its standard deviations.
+double LargestMoveInSigmas(const ErrorLayout& layout,
+                           const std::vector<State>& from,
+                           const std::vector<State>& to,
+                           const CovarianceSeries& P);
 
 /// Iterated RTS smoother: Gauss-Newton on the whole interval. Each pass runs
 /// the linearised filter and the RTS smoother about the trajectory of the pass

@@ -24,14 +24,17 @@ void SpeedCourse::Evaluate(const ModelContext& context,
     out->residual(0) += speed;
     const double sigma_across = std::max(std::abs(speed), kSlow) * sigma_course;
     out->R(1, 1) = sigma_across * sigma_across;
+    out->R(0, 0) = sigma_speed * sigma_speed;
+  } else if (is_slow()) {
+    axes << 1.0, 0.0, 0.0, 0.0, 1.0, 0.0;
+    out->residual = -axes * v_n;
+    out->R.diagonal().setConstant(speed * speed + sigma_speed * sigma_speed);
   } else {
-    // Rounded at the origin, where |v| has no derivative.
-    const double predicted =
-        std::sqrt(v_n.head<2>().squaredNorm() + sigma_speed * sigma_speed);
+    const double predicted = std::max(v_n.head<2>().norm(), sigma_speed);
     axes << v_n.x() / predicted, v_n.y() / predicted, 0.0;
     out->residual(0) = speed - predicted;
+    out->R(0, 0) = sigma_speed * sigma_speed;
   }
-  out->R(0, 0) = sigma_speed * sigma_speed;
   AddVelocityColumns(context, motion, axes * C_ne, &out->H);
   context.layout.AddColumns(BlockKind::kPosition, BlockKey::kNoSensor,
                             axes * Skew(v_n) * NedTurn(context.state.p_e),

@@ -11,7 +11,9 @@ namespace hindsight {
 ///   speed = u . v,   0 = n . v,
 /// standard deviations sigma_speed and max(speed, 1 m/s) sigma_course [m/s].
 /// Linear in the velocity and regular at standstill, unlike the polar form.
-/// Without a course (receivers withhold it at low speed): speed = |v_h|.
+/// Without a course (receivers withhold it at low speed): speed = |v_h| above
+/// three sigmas; below, where |v_h| has no usable derivative, 0 = v_h north and
+/// east with sigma^2 = speed^2 + sigma_speed^2.
 struct SpeedCourse {
   double speed = 0.0;          ///< over the ground [m/s]
   double course = 0.0;         ///< from north, clockwise [rad]
@@ -24,7 +26,8 @@ struct SpeedCourse {
     sigma_speed *= factor;
     sigma_course *= factor;
   }
-  int rows() const { return has_course ? 2 : 1; }
+  bool is_slow() const { return !has_course && speed < 3.0 * sigma_speed; }
+  int rows() const { return has_course || is_slow() ? 2 : 1; }
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
 };
 
