@@ -1,6 +1,7 @@
 #include "filters/information.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
@@ -10,57 +11,55 @@
 namespace hindsight {
 namespace {
 
-/// S with S S' = Y for a Y that is positive semidefinite but for rounding.
-ErrorMatrix SquareRoot(const ErrorMatrix& Y) {
-  const Eigen::LDLT<ErrorMatrix> ldlt(Y);
-  const ErrorMatrix L = ldlt.matrixL();
-  const ErrorVector root = ldlt.vectorD().cwiseMax(0.0).cwiseSqrt();
-  return ldlt.transpositionsP().transpose() * (L * root.asDiagonal());
-}
+/// [U z] with the rows of a measurement below.
+using StackedMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
+                                    kMaxErrorDim + kMaxRows, kMaxErrorDim + 1>;
 
 }  // namespace
 
 Information::Information(const ErrorVector& scale)
     : scale_(scale),
-      Y_(ErrorMatrix::Zero(scale.size(), scale.size())),
-      y_(ErrorVector::Zero(scale.size())) {}
+      U_(ErrorMatrix::Zero(scale.size(), scale.size())),
+      z_(ErrorVector::Zero(scale.size())) {}
 
 void Information::PropagateBack(const ErrorMatrix& Phi, const ErrorMatrix& Q,
                                 const ErrorVector& c) {
-  const ErrorVector inverse = scale_.cwiseInverse();
-  const ErrorMatrix A = inverse.asDiagonal() * Phi * scale_.asDiagonal();
-  const ErrorMatrix N = inverse.asDiagonal() * Q * inverse.asDiagonal();
-  const ErrorMatrix S = SquareRoot(Y_);
-  const ErrorMatrix NS = N * S;
+  const ErrorMatrix V = U_ * scale_.cwiseInverse().asDiagonal();
+  const ErrorMatrix VQ = V * Q;
   ErrorMatrix M = ErrorMatrix::Identity(Phi.rows(), Phi.rows());
-  M.noalias() += S.transpose() * NS;
+  M.noalias() += VQ * V.transpose();
   const Eigen::LLT<ErrorMatrix> llt(M);
-  ErrorVector y = y_ - Y_ * inverse.cwiseProduct(c);
-  y -= S * llt.solve(NS.transpose() * y);
-  y_ = A.transpose() * y;
-  ErrorMatrix W = S.transpose() * A;
-  llt.matrixL().solveInPlace(W);
-  Y_.noalias() = W.transpose() * W;
-  Symmetrize(&Y_);
+  z_ -= V * c;
+  llt.matrixL().solveInPlace(z_);
+  U_.noalias() = V * Phi;
+  U_ = (U_ * scale_.asDiagonal()).eval();
+  llt.matrixL().solveInPlace(U_);
 }
 
 void Information::Substitute(const ErrorMatrix& T, const ErrorVector& shift) {
-  const ErrorVector inverse = scale_.cwiseInverse();
-  const ErrorMatrix A = inverse.asDiagonal() * T * scale_.asDiagonal();
-  const ErrorMatrix YA = Y_ * A;
-  y_ = (A.transpose() * (y_ + YA * inverse.cwiseProduct(shift))).eval();
-  Y_.noalias() = A.transpose() * YA;
-  Symmetrize(&Y_);
+  const ErrorMatrix V = U_ * scale_.cwiseInverse().asDiagonal();
+  const ErrorMatrix VT = V * T;
+  z_ += VT * shift;
+  U_ = VT * scale_.asDiagonal();
 }
 
 void Information::Add(const RowJacobian& H, const RowMatrix& R,
                       const RowVector& z) {
-  const RowJacobian A = H * scale_.asDiagonal();
   const Eigen::LLT<RowMatrix> llt(R);
-  const RowJacobian W = llt.matrixL().solve(A);
-  const RowVector w = llt.matrixL().solve(z);
-  Y_.noalias() += W.transpose() * W;
-  y_.noalias() += W.transpose() * w;
+  if (llt.info() != Eigen::Success) {
+    throw EstimationError("measurement noise is not positive definite");
+  }
+  const Eigen::Index n = scale_.size();
+  StackedMatrix stacked(n + H.rows(), n + 1);
+  stacked.topLeftCorner(n, n) = U_;
+  stacked.topRightCorner(n, 1) = z_;
+  stacked.bottomLeftCorner(H.rows(), n) =
+      llt.matrixL().solve(RowJacobian(H * scale_.asDiagonal()));
+  stacked.bottomRightCorner(H.rows(), 1) = llt.matrixL().solve(z);
+  const Eigen::HouseholderQR<StackedMatrix> qr(stacked);
+  const auto R_qr = qr.matrixQR().topRows(n);
+  U_ = R_qr.leftCols(n).triangularView<Eigen::Upper>();
+  z_ = R_qr.col(n);
 }
 
 Information::Estimate Information::Fuse(const ErrorVector& m,
@@ -72,15 +71,15 @@ Information::Estimate Information::Fuse(const ErrorVector& m,
     throw EstimationError("forward covariance is not positive definite");
   }
   const ErrorMatrix L = forward.matrixL();
-  const ErrorMatrix YL = Y_ * L;
+  const ErrorMatrix UL = U_ * L;
   ErrorMatrix M = ErrorMatrix::Identity(m.size(), m.size());
-  M.noalias() += L.transpose() * YL;
+  M.noalias() += UL.transpose() * UL;
   const Eigen::LLT<ErrorMatrix> llt(M);
   const ErrorMatrix W = llt.matrixL().solve(L.transpose());
+  const ErrorVector u = z_ - U_ * inverse.cwiseProduct(m);
   Estimate out;
+  out.mean = m + scale_.cwiseProduct(L * llt.solve(UL.transpose() * u));
   out.P.noalias() = W.transpose() * W;
-  const ErrorVector u = y_ - Y_ * inverse.cwiseProduct(m);
-  out.mean = m + scale_.cwiseProduct(W.transpose() * (W * u));
   out.P = (scale_.asDiagonal() * out.P * scale_.asDiagonal()).eval();
   Symmetrize(&out.P);
   return out;
@@ -94,13 +93,13 @@ double Information::Separation(const ErrorVector& m, const ErrorMatrix& P_f,
   constexpr double kLargestSigma = 1e6;
   const Eigen::Index n = m.size();
   const ErrorVector inverse = scale_.cwiseInverse();
-  ErrorMatrix Y = Y_;
+  ErrorMatrix Y = U_.transpose() * U_;
   Y.diagonal().array() += kWeakPrior;
   const Eigen::LDLT<ErrorMatrix> ldlt(Y);
   ErrorMatrix E = ErrorMatrix::Zero(n, count);
   E.middleRows(first, count).setIdentity();
   const ErrorMatrix X = ldlt.solve(E);
-  const ErrorVector u = y_ - Y_ * inverse.cwiseProduct(m);
+  const ErrorVector u = U_.transpose() * (z_ - U_ * inverse.cwiseProduct(m));
   ErrorMatrix P = X.middleRows(first, count);
   const double largest = P.diagonal().maxCoeff();
   const double smallest = P.diagonal().minCoeff();

@@ -7,9 +7,11 @@ namespace hindsight {
 
 /// What later measurements say of a vector x: the quadratic form
 /// -x' Y x / 2 + y' x of its log-likelihood, Y = P^-1, y = P^-1 x^. Starts at
-/// zero, when nothing is known. Kept in units of `scale`, a typical standard
-/// deviation of each component, without which metres, radians and m/s^2 side by
-/// side cost eight digits; arguments and results are in plain units.
+/// zero, when nothing is known. Held as the square root |U x - z|^2 / 2, with
+/// Y = U' U symmetric and positive semidefinite by construction and y = U' z,
+/// and in units of `scale`, a typical standard deviation of each component:
+/// metres, radians and m/s^2 side by side would cost eight digits. Arguments
+/// and results are in plain units.
 class Information {
  public:
   /// `scale` > 0 in every component.
@@ -18,15 +20,16 @@ class Information {
   /// Back over the interval x+ = Phi x + c + w, w ~ (0, Q):
   ///   Y <- Phi' (I + Y Q)^-1 Y Phi,   y <- Phi' (I + Y Q)^-1 (y - Y c),
   /// the exact discrete form of eqs. (18), (19), (26) of the 2002 paper, which
-  /// are derivatives by tau. Evaluated as S (I + S' Q S)^-1 S' with Y = S S':
-  /// symmetric and positive semidefinite, and Y may be singular.
+  /// are derivatives by tau. With L L' = I + U Q U':
+  ///   U <- L^-1 U Phi,   z <- L^-1 (z - U c).
   void PropagateBack(const ErrorMatrix& Phi, const ErrorMatrix& Q,
                      const ErrorVector& c);
 
   /// To the variable u of x = T (u - shift).
   void Substitute(const ErrorMatrix& T, const ErrorVector& shift);
 
-  /// Adds z = H x + v, v ~ (0, R): Y += H' R^-1 H, y += H' R^-1 z.
+  /// Adds z = H x + v, v ~ (0, R): Y += H' R^-1 H, y += H' R^-1 z. Throws
+  /// EstimationError if R is not positive definite.
   void Add(const RowJacobian& H, const RowMatrix& R, const RowVector& z);
 
   struct Estimate {
@@ -48,8 +51,8 @@ class Information {
 
  private:
   ErrorVector scale_;
-  ErrorMatrix Y_;
-  ErrorVector y_;
+  ErrorMatrix U_;
+  ErrorVector z_;
 };
 
 }  // namespace hindsight

@@ -1,0 +1,236 @@
+#include "filters/two_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "filters/dense_least_squares.h"
+#include "filters/forward_filter.h"
+#include "support/test_problem.h"
+
+namespace hindsight {
+namespace {
+
+using testing::DenseSolution;
+using testing::LargestError;
+using testing::MakeProblem;
+using testing::RichLayout;
+using testing::ScaledDifference;
+using testing::SolveDense;
+using testing::TacticalNoise;
+using testing::TestProblem;
+using testing::TestProblemOptions;
+using testing::TypicalLayout;
+
+TestProblem NoisyProblem(bool rich, bool walk) {
+  TestProblemOptions options;
+  options.noise = TacticalNoise(walk);
+  options.layout =
+      rich ? RichLayout(options.noise) : TypicalLayout(options.noise);
+  options.errors = true;
+  options.duration = 30.0;
+  return MakeProblem(options, 5);
+}
+
+LinearTape ResetTape(const TestProblem& problem, Timeline* timeline) {
+  return RunExtendedKalmanFilter(problem.layout, problem.prior, timeline);
+}
+
+/// A nominal that is off, so that means and defects do not vanish.
+LinearTape FixedTape(const TestProblem& problem, Timeline* timeline) {
+  std::vector<State> nominal = problem.truth;
+  Random random(9);
+  for (State& x : nominal) {
+    x = Retract(
+        problem.layout, x,
+        0.1 * testing::Draw(problem.layout.InitialCovariance(), &random));
+  }
+  return RunLinearizedFilter(problem.layout, problem.prior, nominal, timeline);
+}
+
+void ExpectSame(const ErrorLayout& layout, const SmoothedTrajectory& a,
+                const SmoothedTrajectory& b, double metres, double radians) {
+  EXPECT_LT(LargestError(layout, a.states, b.states, BlockKind::kPosition),
+            metres);
+  EXPECT_LT(LargestError(layout, a.states, b.states, BlockKind::kAttitude),
+            radians);
+  for (std::size_t k = 0; k < a.states.size(); ++k) {
+    EXPECT_LT(ScaledDifference(a.P.Get(k), b.P.Get(k)), 1e-6) << k;
+    EXPECT_LT((a.d[k] - b.d[k]).head<3>().norm(), metres) << k;
+  }
+}
+
+TEST(TwoFilter, EqualsRtsWhereTheNominalIsReset) {
+  for (const bool rich : {false, true}) {
+    for (const bool walk : {false, true}) {
+      const TestProblem problem = NoisyProblem(rich, walk);
+      Timeline timeline = problem.MakeTimeline();
+      const LinearTape tape = ResetTape(problem, &timeline);
+      ExpectSame(problem.layout, SmoothTwoFilter(tape).trajectory,
+                 SmoothRts(tape), 1e-6, 1e-9);
+    }
+  }
+}
+
+TEST(TwoFilter, EqualsRtsAboutAFixedNominal) {
+  for (const bool rich : {false, true}) {
+    const TestProblem problem = NoisyProblem(rich, true);
+    Timeline timeline = problem.MakeTimeline();
+    const LinearTape tape = FixedTape(problem, &timeline);
+    ExpectSame(problem.layout, SmoothTwoFilter(tape).trajectory,
+               SmoothRts(tape), 1e-6, 1e-9);
+  }
+}
+
+TEST(TwoFilter, EqualsDenseLeastSquares) {
+  TestProblemOptions options;
+  // Walks strong enough to keep the dense normal equations well conditioned.
+  options.noise = TacticalNoise(true);
+  options.noise.gyro_bias_walk = 1e-5;
+  options.noise.accel_bias_walk = 1e-3;
+  options.layout = TypicalLayout(options.noise);
+  options.errors = true;
+  options.duration = 10.0;
+  const TestProblem problem = MakeProblem(options, 5);
+  Timeline timeline = problem.MakeTimeline();
+  const LinearTape tape = FixedTape(problem, &timeline);
+  const SmoothedTrajectory smoothed = SmoothTwoFilter(tape).trajectory;
+  const DenseSolution dense = SolveDense(tape);
+  const int n = tape.dim();
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    const Eigen::MatrixXd P = dense.CovarianceAt(k, n);
+    EXPECT_LT(ScaledDifference(smoothed.P.Get(k), P), 1e-6) << k;
+    const Eigen::VectorXd scale = P.diagonal().cwiseSqrt().cwiseInverse();
+    EXPECT_LT((smoothed.d[k] - dense.At(k, n))
+                  .cwiseProduct(scale)
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-5)
+        << k;
+  }
+}
+
+TEST(TwoFilter, RejectedMeasurementsTakeNoPart) {
+  const TestProblem problem = NoisyProblem(false, true);
+  Timeline timeline = problem.MakeTimeline();
+  GateDecisions decisions(problem.measurements.size(), 1);
+  for (std::size_t i = 0; i < decisions.size(); i += 3) decisions[i] = 0;
+  const LinearTape tape = RunExtendedKalmanFilter(problem.layout, problem.prior,
+                                                  &timeline, decisions);
+  ExpectSame(problem.layout, SmoothTwoFilter(tape).trajectory, SmoothRts(tape),
+             1e-6, 1e-9);
+}
+
+TEST(TwoFilter, LastEpochIsTheFilters) {
+  const TestProblem problem = NoisyProblem(true, true);
+  Timeline timeline = problem.MakeTimeline();
+  for (const LinearTape& tape :
+       {ResetTape(problem, &timeline), FixedTape(problem, &timeline)}) {
+    const State filtered =
+        tape.back().reset
+            ? tape.back().x_plus
+            : Retract(problem.layout, tape.back().x_plus, tape.back().dx_plus);
+    const SmoothedTrajectory smoothed = SmoothTwoFilter(tape).trajectory;
+    EXPECT_LT((smoothed.states.back().p_e - filtered.p_e).norm(), 1e-8);
+    EXPECT_LT(ScaledDifference(smoothed.P.Get(tape.size() - 1),
+                               tape.P_plus(tape.size() - 1)),
+              1e-12);
+  }
+}
+
+TEST(TwoFilter, SmoothedIsNeverWorseThanFiltered) {
+  const TestProblem problem = NoisyProblem(true, true);
+  Timeline timeline = problem.MakeTimeline();
+  const LinearTape tape = ResetTape(problem, &timeline);
+  const SmoothedTrajectory smoothed = SmoothTwoFilter(tape).trajectory;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    const ErrorMatrix P = tape.P_plus(k);
+    const Eigen::VectorXd s = P.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+        s.asDiagonal() * (P - smoothed.P.Get(k)) * s.asDiagonal());
+    EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-12) << k;
+  }
+}
+
+TEST(TwoFilter, FullStateInTheAdditiveChartEqualsTheErrorForm) {
+  for (const bool rich : {false, true}) {
+    const TestProblem problem = NoisyProblem(rich, true);
+    Timeline timeline = problem.MakeTimeline();
+    for (const LinearTape& tape :
+         {ResetTape(problem, &timeline), FixedTape(problem, &timeline)}) {
+      const TwoFilterResult full =
+          SmoothTwoFilterConventional(tape, ChartKind::kAdditive);
+      const TwoFilterResult error = SmoothTwoFilter(tape);
+      // Rotations compose to second order in the smoother's correction, below
+      // 1e-3 rad here.
+      ExpectSame(problem.layout, full.trajectory, error.trajectory, 1e-4, 1e-6);
+      for (std::size_t k = 0; k + 5 < tape.size(); ++k) {
+        EXPECT_NEAR(full.separation[k], error.separation[k], 1e-4) << k;
+      }
+    }
+  }
+}
+
+TEST(TwoFilter, EulerChartAgreesToSecondOrderInTheErrors) {
+  // A tenth of the errors leaves a hundredth of the difference.
+  double difference[2];
+  for (int i = 0; i < 2; ++i) {
+    TestProblemOptions options;
+    options.noise = TacticalNoise(false);
+    NavigationPrior prior;
+    const double size = i == 0 ? 1.0 : 0.1;
+    prior.position_sigma.setConstant(size);
+    prior.velocity_sigma.setConstant(0.1 * size);
+    prior.attitude_sigma.setConstant(2.0 * size * kDegree);
+    prior.gyro_bias_sigma.setConstant(1e-5 * size);
+    prior.accel_bias_sigma.setConstant(1e-2 * size);
+    options.noise.gyro_noise_density *= size;
+    options.noise.accel_noise_density *= size;
+    options.position_sigma *= size;
+    options.velocity_sigma *= size;
+    options.layout = NavigationLayout(prior);
+    options.errors = true;
+    const TestProblem problem = MakeProblem(options, 3);
+    Timeline timeline = problem.MakeTimeline();
+    const LinearTape tape = ResetTape(problem, &timeline);
+    difference[i] = LargestError(
+        problem.layout, SmoothTwoFilter(tape).trajectory.states,
+        SmoothTwoFilterConventional(tape, ChartKind::kEuler).trajectory.states,
+        BlockKind::kPosition);
+  }
+  EXPECT_GT(difference[0], 1e-6);
+  EXPECT_LT(difference[1], 0.03 * difference[0]);
+}
+
+TEST(TwoFilter, SeparationIsChiSquare) {
+  // Mean square of 3 over 60 runs at an epoch in the middle; the bounds are
+  // four standard deviations of a mean of 60 chi-squares of 3.
+  constexpr int kRuns = 60;
+  double sum = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    TestProblemOptions options;
+    options.noise = TacticalNoise(true);
+    options.layout = TypicalLayout(options.noise);
+    options.errors = true;
+    const TestProblem problem =
+        MakeProblem(options, static_cast<std::uint64_t>(run) + 100);
+    Timeline timeline = problem.MakeTimeline();
+    const double s =
+        SmoothTwoFilter(ResetTape(problem, &timeline)).separation[10];
+    sum += s * s;
+  }
+  EXPECT_NEAR(sum / kRuns, 3.0, 4.0 * std::sqrt(6.0 / kRuns));
+}
+
+TEST(TwoFilter, NoSeparationWhereTheFutureKnowsNoPosition) {
+  const TestProblem problem = NoisyProblem(false, true);
+  Timeline timeline = problem.MakeTimeline();
+  const TwoFilterResult result = SmoothTwoFilter(ResetTape(problem, &timeline));
+  ASSERT_EQ(result.separation.size(), problem.nodes.size());
+  EXPECT_TRUE(std::isnan(result.separation.back()));
+  EXPECT_TRUE(std::isfinite(result.separation.front()));
+}
+
+}  // namespace
+}  // namespace hindsight
