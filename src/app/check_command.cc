@@ -1,3 +1,4 @@
+#include <cmath>
 #include <iostream>
 
 #include "app/command.h"
@@ -6,9 +7,11 @@
 #include "app/text.h"
 #include "base/units.h"
 #include "dataset/checks.h"
+#include "dataset/timeline_builder.h"
 #include "io/config.h"
 #include "io/number_format.h"
 #include "io/table.h"
+#include "problems/noise_estimation.h"
 
 namespace hindsight {
 namespace {
@@ -18,6 +21,11 @@ constexpr const char* kHelp =
 and overlap of its streams, whether specific force and angular rate are
 plausible, and the axes of the IMU as gravity at rest shows them. Writes
 nothing; exits with 0 if the recording can be loaded.
+
+With --noise it also finds, by maximum likelihood of the forward filter's
+innovations, the factor by which each sensor's sigma and the IMU's two noise
+densities must be multiplied to be honest. Gates and robust losses are off
+meanwhile.
 )";
 
 /// Gaps listed one by one; more are counted.
@@ -74,9 +82,25 @@ std::string DescribeImu(const CheckReport& report) {
   return text + "axes: " + report.axes + "\n";
 }
 
+std::string DescribeNoise(const Dataset& dataset) {
+  const NoiseEstimate estimate = EstimateNoise(dataset);
+  ReportTable table({"noise of", "factor", "from\n(2 sd)", "to\n(2 sd)"});
+  for (const NoiseFactor& noise : estimate.factors) {
+    const double spread = 2.0 * noise.log_sigma;
+    const bool known = std::isfinite(spread);
+    table.AddRow(
+        {noise.name, FormatFixed(noise.factor, 3),
+         known ? FormatFixed(noise.factor * std::exp(-spread), 3) : "?",
+         known ? FormatFixed(noise.factor * std::exp(spread), 3) : "?"});
+  }
+  return "\n" + table.Render() +
+         Format("log-likelihood %.1f -> %.1f%s\n",
+                estimate.log_likelihood_before, estimate.log_likelihood_after,
+                estimate.converged ? "" : " (not settled)");
+}
+
 int Run(const std::vector<std::string>& arguments) {
-  const Dataset dataset =
-      LoadDataset(arguments[0], {.data_root = FLAGS_data_root});
+  Dataset dataset = LoadDataset(arguments[0], {.data_root = FLAGS_data_root});
   const CheckReport report = CheckDataset(dataset);
   std::cout << "recording '" << dataset.name << "'\n\n"
             << StreamTable(report.streams) << "\n"
@@ -88,6 +112,10 @@ int Run(const std::vector<std::string>& arguments) {
   std::cout << (report.warnings.empty()
                     ? "The recording can be used; nothing looks wrong.\n"
                     : "The recording can be loaded; see the warnings.\n");
+  if (FLAGS_noise) {
+    AddStandstillStreams(&dataset);
+    std::cout << DescribeNoise(dataset);
+  }
   return kUsable;
 }
 
@@ -101,7 +129,8 @@ Command CheckCommand() {
       .help = kHelp,
       .flags = {{"data_root", "DIR",
                  "where a relative folder of CONFIG is looked for\n"
-                 "(../shared/data)"}},
+                 "(../shared/data)"},
+                {"noise", "", "also estimate by what the stated noise is off"}},
       .min_arguments = 1,
       .max_arguments = 1,
       .run = Run,

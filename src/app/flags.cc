@@ -16,7 +16,7 @@ DEFINE_bool(json, false, "");
 DEFINE_bool(list, false, "");
 DEFINE_string(log, "none", "");
 DEFINE_string(methods, "ekf,rts,iterated,batch", "");
-DEFINE_string(noise, "sample", "");
+DEFINE_bool(noise, false, "");
 DEFINE_string(out, "", "");
 DEFINE_string(path, "winding", "");
 DEFINE_string(point, "", "");
@@ -28,6 +28,7 @@ DEFINE_uint64(seed, 1, "");
 DEFINE_bool(sweep, false, "");
 DEFINE_uint64(threads, 0, "");
 DEFINE_double(to, std::numeric_limits<double>::infinity(), "");
+DEFINE_string(white_noise, "sample", "");
 DEFINE_string(withhold, "", "");
 
 namespace hindsight {

@@ -17,7 +17,7 @@ DECLARE_bool(json);
 DECLARE_bool(list);
 DECLARE_string(log);
 DECLARE_string(methods);
-DECLARE_string(noise);
+DECLARE_bool(noise);
 DECLARE_string(out);
 DECLARE_string(path);
 DECLARE_string(point);
@@ -29,6 +29,7 @@ DECLARE_uint64(seed);
 DECLARE_bool(sweep);
 DECLARE_uint64(threads);
 DECLARE_double(to);
+DECLARE_string(white_noise);
 DECLARE_string(withhold);
 
 namespace hindsight {

@@ -84,15 +84,15 @@ void Compare(const TunnelSurveyOptions& survey, MonteCarloOptions options,
   const MonteCarloResult result = RunMonteCarlo(cases, options);
   WriteFileAtomically(
       folder.Path(kJsonName),
-      MonteCarloJson({kTunnelSurveyName, FLAGS_path, FLAGS_noise, options.runs,
-                      options.first_seed},
+      MonteCarloJson({kTunnelSurveyName, FLAGS_path, FLAGS_white_noise,
+                      options.runs, options.first_seed},
                      result));
   for (const MethodStatistics& method : result.methods) {
     WriteFileAtomically(folder.Path(method.name + ".csv"),
                         MonteCarloCsv(method));
   }
-  std::cout << "tunnel_survey, path " << FLAGS_path << ", noise " << FLAGS_noise
-            << ", seeds " << options.first_seed << " to "
+  std::cout << "tunnel_survey, path " << FLAGS_path << ", noise "
+            << FLAGS_white_noise << ", seeds " << options.first_seed << " to "
             << options.first_seed + static_cast<std::uint64_t>(options.runs - 1)
             << "\n\n"
             << MonteCarloTable(result) << "\nLargest differences:\n"
@@ -136,8 +136,8 @@ void Sweep(TunnelSurveyOptions survey, const MonteCarloOptions& options,
   }
   WriteFileAtomically(folder.Path("sweep.csv"), csv);
   progress->Clear();
-  std::cout << "tunnel_survey, path " << FLAGS_path << ", noise " << FLAGS_noise
-            << ", " << options.runs
+  std::cout << "tunnel_survey, path " << FLAGS_path << ", noise "
+            << FLAGS_white_noise << ", " << options.runs
             << " runs a cell: largest standard deviation of an axis [m]\nby "
                "distance of the reference points\n\n"
             << table.Render();
@@ -185,7 +185,7 @@ Command MonteCarloCommand() {
                 {"seed", "N", "the first seed; the others follow it (1)"},
                 {"threads", "N", "0: as many as there are cores (0)"},
                 {"path", "NAME", "winding, serpentine or straight (winding)"},
-                {"noise", "READING",
+                {"white_noise", "READING",
                  "of the IMU's white noise: sample, the standard deviation\n"
                  "of each sample, or density, per sqrt(Hz) (sample)"},
                 {"sweep", "",

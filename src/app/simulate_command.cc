@@ -41,8 +41,8 @@ int Run(const std::vector<std::string>& arguments) {
                           ? TunnelSurvey(ReadTunnelFlags())
                           : FindScenario(arguments[0]);
   if (arguments[0] != kTunnelSurveyName &&
-      (IsGiven("path") || IsGiven("noise"))) {
-    throw UsageError("--path and --noise go with tunnel_survey only");
+      (IsGiven("path") || IsGiven("white_noise"))) {
+    throw UsageError("--path and --white-noise go with tunnel_survey only");
   }
   if (!FLAGS_profile.empty()) {
     scenario.profile = ReadMotionProfile(FLAGS_profile);
@@ -82,7 +82,7 @@ Command SimulateCommand() {
                 {"path", "NAME",
                  "of tunnel_survey: winding, serpentine or straight\n"
                  "(winding)"},
-                {"noise", "READING",
+                {"white_noise", "READING",
                  "of tunnel_survey's IMU: sample, the standard deviation\n"
                  "of each sample, or density, per sqrt(Hz) (sample)"},
                 {"list", "", "list the built-in scenarios"}},

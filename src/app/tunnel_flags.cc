@@ -15,10 +15,11 @@ TunnelSurveyOptions ReadTunnelFlags() {
   }
   TunnelSurveyOptions options;
   options.path = FLAGS_path;
-  if (FLAGS_noise == "density") {
+  if (FLAGS_white_noise == "density") {
     options.noise = TunnelSurveyOptions::Noise::kDensity;
-  } else if (FLAGS_noise != "sample") {
-    throw UsageError("--noise=" + FLAGS_noise + ": expected sample or density");
+  } else if (FLAGS_white_noise != "sample") {
+    throw UsageError("--white-noise=" + FLAGS_white_noise +
+                     ": expected sample or density");
   }
   return options;
 }

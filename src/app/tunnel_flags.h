@@ -5,7 +5,7 @@
 
 namespace hindsight {
 
-/// The tunnel survey that --path and --noise ask for. Throws UsageError.
+/// The tunnel survey that --path and --white-noise ask for. Throws UsageError.
 TunnelSurveyOptions ReadTunnelFlags();
 
 }  // namespace hindsight
