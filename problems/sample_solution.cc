@@ -52,6 +52,7 @@ Solution SampleSolution(const Solution& solution, const ImuStream& imu,
                         const std::vector<double>& times) {
   Solution out = solution;
   out.states.clear();
+  out.separation.clear();
   out.covariances =
       CovarianceSeries(solution.covariances.dim(),
                        solution.covariances.empty() ? 0 : times.size());
@@ -78,6 +79,13 @@ Solution SampleSolution(const Solution& solution, const ImuStream& imu,
                          : fill.At(k, t);
     x.t = t;
     out.states.push_back(x);
+    if (!solution.separation.empty()) {
+      const std::size_t next = std::min(k + 1, solution.states.size() - 1);
+      out.separation.push_back(a == 0.0   ? solution.separation[k]
+                               : a == 1.0 ? solution.separation[next]
+                                          : (1.0 - a) * solution.separation[k] +
+                                                a * solution.separation[next]);
+    }
     if (solution.covariances.empty()) continue;
     ErrorMatrix P = (1.0 - a) * solution.covariances.Get(k);
     if (a > 0.0) P += a * solution.covariances.Get(k + 1);

@@ -48,6 +48,7 @@ Eigen::Quaterniond SolutionTable::q_nb(std::size_t k) const {
 SolutionTable TableFromSolution(const Solution& solution) {
   SolutionTable table;
   table.method = solution.method;
+  table.separation = solution.separation;
   const ErrorLayout& layout = solution.layout;
   const bool has_position = layout.Has(BlockKind::kPosition);
   for (const State& x : solution.states) {

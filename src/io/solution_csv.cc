@@ -1,5 +1,7 @@
 #include "io/solution_csv.h"
 
+#include <cmath>
+
 #include "earth/wgs84.h"
 #include "evaluation/euler_error.h"
 #include "geometry/so3.h"
@@ -125,6 +127,7 @@ void WriteSolutionCsv(const std::string& path, const SolutionTable& table,
       line += "," + column.Heading();
     }
   }
+  if (!table.separation.empty()) line += ",separation[1]";
   file.Write(line + "\n");
   for (std::size_t k = 0; k < table.size(); ++k) {
     line.clear();
@@ -140,6 +143,13 @@ void WriteSolutionCsv(const std::string& path, const SolutionTable& table,
         } else {
           AppendFixed(value, column.digits, &line);
         }
+      }
+    }
+    if (!table.separation.empty()) {
+      line += ',';
+      constexpr int kSeparationDigits = 6;
+      if (std::isfinite(table.separation[k])) {
+        AppendGeneral(table.separation[k], kSeparationDigits, &line);
       }
     }
     line += '\n';

@@ -30,6 +30,9 @@ namespace hindsight {
 ///   cov_psi_ed[rad^2] cov_psi_dd[rad^2]
 ///                                psi in north-east-down,
 ///                                C_nb(true) = Exp(psi) C_nb(estimated)
+///   separation[1]                distance of forward and backward positions in
+///                                sigmas, of two-filter smoothers; empty where
+///                                the backward filter has no position
 ///
 /// Written to a temporary name and renamed. `program` ("hindsight 0.1.0") goes
 /// into the comments. Throws InputError if the file cannot be written.
