@@ -89,19 +89,28 @@ class ArrayReader {
 Stamp StampOf(const Column& column, std::size_t row, const std::string& path) {
   const NumericArray& array = *column.array;
   const std::size_t at = row * array.columns + column.index;
+  const double t = array.values[at] * column.factor;
+  if (!IsTime(t)) {
+    throw InputError(path, static_cast<long>(row) + 1,
+                     "the time is not a finite number of a usual size");
+  }
   if (!array.integers.empty()) {
     const std::int64_t ticks = array.integers[at];
     const std::int64_t rate =
         std::max<std::int64_t>(1, std::llround(1.0 / std::abs(column.factor)));
     return {ticks / rate, static_cast<double>(ticks % rate) * column.factor};
   }
-  const double t = array.values[at] * column.factor;
-  if (!std::isfinite(t) || std::abs(t) > 1e15) {
-    throw InputError(path, static_cast<long>(row) + 1,
-                     "the time is not a finite number");
-  }
   const double whole = std::floor(t);
   return {static_cast<std::int64_t>(whole), t - whole};
+}
+
+std::int64_t WeekOf(const Column& column, std::size_t row,
+                    const std::string& path) {
+  const double week = column.array->at(row, column.index);
+  if (!(week >= 0.0 && week <= kLastWeek) || week != std::floor(week)) {
+    throw InputError(path, static_cast<long>(row) + 1, "there is no such week");
+  }
+  return static_cast<std::int64_t>(week);
 }
 
 }  // namespace
@@ -139,7 +148,7 @@ RowBuffer ReadArrays(const std::string& path, const TextFormat& format,
   for (std::size_t row = 0; row < reader.rows(); ++row) {
     Stamp stamp = time ? StampOf(*time, row, path) : Stamp{};
     if (week) {
-      stamp.seconds += StampOf(*week, row, path).seconds * kWeekSeconds;
+      stamp.seconds += WeekOf(*week, row, path) * kWeekSeconds;
     }
     rows.Append(stamp, static_cast<long>(row) + 1);
     for (const auto& [field, column] : columns) {

@@ -8,70 +8,83 @@
 
 namespace hindsight {
 
+// clang-format off
 /// \file
 /// The configuration of a recording: one YAML file. Every physical value
 /// carries its unit (io/units.h). A key that is not in this list is an error.
-/// "-" marks a key without default; such a key may be left out unless it is
-/// marked *needed*.
+/// "-" marks a key without default; it may be left out unless it is *needed*.
 ///
-/// | key                      | meaning                           | default |
-/// |--------------------------|-----------------------------------|---------|
-/// | name                     | of the recording                  | file name |
-/// | folder                   | of the files: relative to the configuration, or
-/// to the data root | . | | epoch                    | date and time at t = 0,
-/// "yyyy-mm-dd hh:mm:ss GPST" or "UTC" | whole second before the first IMU
-/// sample, if that is dated | | imu                      | *needed*, see below
-/// |         | | aiding.NAME              | one aiding stream each, see below |
-/// | | initial                  | see below                         |         |
-/// | stationary               | `off`, or its thresholds          | off     |
-/// | truth                    | a stream, see below               | -       |
-/// | withhold                 | list of {sensor, every, length, from} | none |
-/// | nodes.max_spacing        | longest interval between states   | 1 s     |
+/// | key               | meaning                                  | default |
+/// |-------------------|------------------------------------------|---------|
+/// | name              | of the recording                         | file name |
+/// | folder            | of the files: relative to the configuration, or to the data root | . |
+/// | epoch             | date and time at t = 0, "yyyy-mm-dd hh:mm:ss GPST" or "UTC" | whole second before the first IMU sample, if that is dated |
+/// | imu               | *needed*, see below                      |         |
+/// | aiding.NAME       | one aiding stream each, see below        |         |
+/// | initial           | see below                                |         |
+/// | stationary        | `off`, `on`, or its thresholds           | off     |
+/// | truth             | a stream, see below                      | -       |
+/// | withhold          | list of {sensor, every, length, from}    | none    |
+/// | nodes.max_spacing | longest interval between states          | 1 s     |
 ///
 /// Every stream (imu, aiding.NAME, truth):
-/// | file                     | *needed*; plain or gzip           |         |
-/// | format                   | csv, columns, kf_gins, rtklib_pos | csv     |
-/// | columns                  | for `columns`: QUANTITY: COLUMN [UNIT], where
-/// COLUMN is a number from 1 or a title and a leading "-" turns the sign; or
-/// {column, unit, scale} | | | delimiter                | auto, comma,
-/// semicolon, blank     | auto    | | skip_lines               | lines before
-/// the header or data   | 0       | | time.clock               | dataset, gps,
-/// unix: what stamps count from | dataset | | time.week                | stamps
-/// are seconds of this GPS week | -     | | time.start               | first
-/// row is at this date or time; the rest follows | - | | time.duration | last
-/// row is this much later; stamps in between are stretched | - | | time.rate |
-/// stamps are row number / rate      | -       | | on_duplicate             |
-/// error, drop_first, drop_last      | error   | | allow_truncated_tail     |
-/// drop a last line that was cut off | false   |
+/// | file              | *needed*; plain or gzip; a folder for oxts and npy |  |
+/// | format            | csv, columns, kf_gins, rtklib_pos, euroc, nclt, control_points, oxts, nmea, npy, mat, rosbag | csv |
+/// | columns           | of columns, npy, mat: QUANTITY: COLUMN [UNIT]. COLUMN is a number from 1 or a title, of npy and mat ARRAY or ARRAY:NUMBER (io/array_rows.h); a leading "-" turns the sign; or {column, unit, scale} | - |
+/// | delimiter         | auto, comma, semicolon, blank            | auto    |
+/// | skip_lines        | lines before the header or data          | 0       |
+/// | topic             | of a rosbag                              | the only one that fits |
+/// | time.clock        | dataset, gps, unix: what stamps count from | dataset; unix for euroc and nclt |
+/// | time.week         | stamps are seconds of this GPS week, and may run over its end | - |
+/// | time.week_rollovers | times 1024 weeks that dates lack       | 0       |
+/// | time.start        | first row is at this date or time; the rest follows | - |
+/// | time.duration     | last row is this much later; stamps in between are stretched | - |
+/// | time.stretch      | factor on the time since the first row   | 1       |
+/// | time.rate         | stamps are row number / rate             | -       |
+/// | time.from, time.until | only rows this much behind the first are used | all |
+/// | on_duplicate      | error, drop_first, drop_last             | error   |
+/// | on_unordered      | error, sort                              | error   |
+/// | absent_values     | empty and NaN values are absent: truth keeps the rest of the row, aiding passes over it | false |
+/// | allow_truncated_tail | drop a last line that was cut off     | false   |
 ///
 /// imu besides:
-/// | kind                     | rates, increments                 | as the
-/// columns say | | axes                     | body x, y, z in sensor axes,
-/// "[-x, y, -z]" | [x, y, z] | | mounting                 | roll, pitch, yaw of
-/// a rotation after `axes`: body = Rz(yaw) Ry(pitch) Rx(roll) axes(sensor) | 0
-/// | | stamp                    | end or start of an increment's interval | end
-/// | | time_offset              | added to the stamps               | 0 s     |
-/// | max_gap                  | longer intervals are errors       | 0.5 s   |
-/// | noise.gyro, noise.accel  | *needed* noise densities          |         |
+/// | kind              | rates, increments                        | as the columns say |
+/// | axes              | body x, y, z in sensor axes, "[-x, y, -z]" | [x, y, z] |
+/// | mounting          | roll, pitch, yaw of a rotation after `axes`: body = Rz(yaw) Ry(pitch) Rx(roll) axes(sensor) | 0 |
+/// | stamp             | end or start of an increment's interval  | end     |
+/// | time_offset       | added to the stamps                      | 0 s     |
+/// | max_gap           | longer intervals are errors; shorter drop-outs are bridged with noise to match | 0.5 s |
+/// | noise.gyro, noise.accel | *needed* noise densities           |         |
 /// | noise.gyro_bias_walk, noise.accel_bias_walk | densities      | 0       |
-/// | noise.gyro_bias_sigma with noise.gyro_bias_tau | a Gauss-Markov bias
-/// instead of a walk; accel likewise | - | | noise.gyro_per_rate      | noise
-/// density per rad/s           | 0       |
+/// | noise.gyro_bias_sigma with noise.gyro_bias_tau | a Gauss-Markov bias instead of a walk; accel likewise | - |
+/// | noise.gyro_per_rate | noise density per rad/s                | 0       |
+/// | estimate.gyro_scale, estimate.accel_scale | a priori sigma of estimated scale factors | - |
 ///
 /// aiding.NAME besides:
-/// | type                     | *needed*: position, velocity, height |      |
-/// | lever_arm                | from the IMU, body axes           | 0       |
-/// | time_offset              | true time = stamp + offset        | 0 s     |
-/// | sigma                    | replaces the file's: one or NED   | -       |
-/// | sigma_scale              | multiplies the file's             | 1       |
-/// | correlations             | use the file's covariances        | true    |
-/// | accept_quality           | list of values of the column quality that are
-/// used | all | | gate                     | probability that a good
-/// measurement passes, or off | off | | estimate.lever_arm,
-/// estimate.time_offset | a priori sigma of an estimated one | - |
+/// | type              | *needed*: position, velocity, height, speed_course, odometer, non_holonomic | |
+/// | lever_arm         | from the IMU, body axes                  | 0       |
+/// | time_offset       | true time = stamp + offset               | 0 s     |
+/// | every             | use one measurement in this time         | all     |
+/// | sigma             | replaces the file's: one or NED; of the speed for speed_course; forward, side, down or one for odometer; [side, down] for non_holonomic | - |
+/// | sigma_scale       | multiplies the file's                    | 1       |
+/// | correlations      | use the file's covariances               | true    |
+/// | accept_quality    | list of values of the column quality that are used | all |
+/// | gate              | probability that a good measurement passes, or off | off |
+/// | loss              | {kind: huber, cauchy, tukey or geman_mcclure, scale in standard deviations} | none |
+/// | estimate.lever_arm, estimate.time_offset | a priori sigma of an estimated one | - |
+/// speed_course: course_sigma *needed*; course_above, the speed below which a
+/// course is not used, 1 m/s. odometer and non_holonomic: mounting (roll,
+/// pitch, yaw: vehicle = Rz(yaw) Ry(pitch) Rx(roll) body) and
+/// estimate.mounting. odometer: form, three_axis or forward; scale, measured =
+/// (1 + scale) true, and estimate.scale. Its columns side and down, if it has
+/// them, are measured speeds; else the vehicle moves along its x axis.
+/// non_holonomic: no file; rate *needed*.
 ///
-/// truth besides: lever_arm (of the point it speaks of), time_offset,
-/// absent_values (empty and NaN values are absent; default false).
+/// truth besides: lever_arm (of the point it speaks of), time_offset; axes and
+/// mounting as of the imu, of the axes that its attitude speaks of; for columns
+/// p_x, v_x and q_w and the like: frame (ecef, ned, enu, nwu; ecef), origin
+/// ([lat, lon, h] of local frames) and quaternion (body_to_frame,
+/// frame_to_body; body_to_frame).
 ///
 /// initial: time, position [lat, lon, h], velocity (NED), attitude (roll,
 /// pitch, heading), heading, gyro_bias, accel_bias, and position_sigma,
@@ -84,6 +97,7 @@ namespace hindsight {
 ///
 /// stationary: window 1 s, gyro_threshold 0.01 rad/s, accel_threshold
 /// 0.1 m/s^2, velocity_sigma 0.01 m/s, rate_sigma 5e-4 rad/s.
+// clang-format on
 
 struct LoadOptions {
   /// Where folders are looked for that are not beside the configuration.

@@ -125,7 +125,10 @@ ClockMap ReadClock(ConfigMap* map, TextFormat::Kind format) {
   ConfigMap time = map->Map("time");
   clock.scale = static_cast<ClockMap::Scale>(time.Choice(
       "clock", {"dataset", "gps", "unix"}, CountsFrom1970(format) ? 2 : 0));
-  if (time.Has("week")) clock.week = time.Integer("week", 0);
+  if (time.Has("week")) {
+    clock.week = time.Integer("week", 0);
+    if (*clock.week > kLastWeek) time.Fail("week", "is no GPS week");
+  }
   ReadStart(&time, &clock);
   clock.duration = time.OptionalNumber("duration", Quantity::kTime);
   clock.rate = time.OptionalNumber("rate", Quantity::kFrequency);
@@ -142,6 +145,9 @@ ClockMap ReadClock(ConfigMap* map, TextFormat::Kind format) {
   }
   clock.stretch = *factor;
   clock.week_rollovers = time.Integer("week_rollovers", 0);
+  if (clock.week_rollovers > 10) {
+    time.Fail("week_rollovers", "is too many; expected 1 or 2");
+  }
   ReadSpan(&time, &clock);
   if (clock.week && clock.scale != ClockMap::Scale::kDataset) {
     time.Fail("week", "does not go with clock");

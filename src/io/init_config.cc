@@ -1,132 +1,16 @@
 #include "io/init_config.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <optional>
-#include <set>
 #include <vector>
 
 #include "base/error.h"
-#include "io/text_format.h"
+#include "io/recognise_format.h"
 
 namespace hindsight {
 namespace {
 
 namespace fs = std::filesystem;
-
-enum class Role { kImu, kPosition, kVelocity, kHeight, kTruth };
-
-struct Found {
-  std::string file;
-  std::string format;
-  std::set<Role> roles;
-};
-
-/// Lines enough to tell formats and rates apart.
-constexpr int kProbeLines = 60;
-
-struct Probe {
-  std::vector<std::string> comments;
-  std::vector<std::string> lines;
-};
-
-Probe ReadProbe(const std::string& path) {
-  Probe probe;
-  TextLines lines(path);
-  std::string_view line;
-  while (static_cast<int>(probe.lines.size()) < kProbeLines &&
-         lines.Next(&line)) {
-    (IsComment(line) ? probe.comments : probe.lines).emplace_back(line);
-  }
-  return probe;
-}
-
-std::set<Role> RolesOfTitles(const std::set<std::string>& titles) {
-  const auto all = [&](std::initializer_list<const char*> names) {
-    return std::all_of(names.begin(), names.end(),
-                       [&](const char* name) { return titles.contains(name); });
-  };
-  std::set<Role> roles;
-  if (!titles.contains("t")) return roles;
-  if (all({"gyro_x", "gyro_y", "gyro_z", "accel_x", "accel_y", "accel_z"}) ||
-      all({"dtheta_x", "dtheta_y", "dtheta_z", "dvel_x", "dvel_y", "dvel_z"})) {
-    roles.insert(Role::kImu);
-  }
-  if (all({"lat", "lon", "h", "sigma_n", "sigma_e", "sigma_d"})) {
-    roles.insert(Role::kPosition);
-  }
-  if (all({"v_n", "v_e", "v_d", "sigma_v_n", "sigma_v_e", "sigma_v_d"})) {
-    roles.insert(Role::kVelocity);
-  }
-  if (all({"h", "sigma_h"})) roles.insert(Role::kHeight);
-  if (all({"roll", "pitch", "heading"}) ||
-      (roles.empty() && all({"lat", "lon", "h"}))) {
-    roles.insert(Role::kTruth);
-  }
-  return roles;
-}
-
-std::optional<Found> RecogniseCsv(const Probe& probe) {
-  std::set<std::string> titles;
-  for (const std::string_view title : SplitLine(probe.lines[0], ',')) {
-    titles.insert(SplitTitle(title).first);
-  }
-  std::set<Role> roles = RolesOfTitles(titles);
-  if (roles.empty()) return std::nullopt;
-  return Found{"", "csv", std::move(roles)};
-}
-
-std::optional<Found> RecognisePos(const Probe& probe) {
-  if (probe.comments.empty() ||
-      probe.comments.back().find("latitude(deg)") == std::string::npos) {
-    return std::nullopt;
-  }
-  return Found{"", "rtklib_pos", {Role::kPosition}};
-}
-
-std::vector<double> Numbers(const std::string& line) {
-  std::vector<double> numbers;
-  for (const std::string_view token : SplitLine(line, ' ')) {
-    const auto number = ParseNumber(token);
-    if (!number) return {};
-    numbers.push_back(*number);
-  }
-  return numbers;
-}
-
-std::optional<Found> RecogniseKfGins(const Probe& probe) {
-  if (probe.lines.size() < 3) return std::nullopt;
-  const std::vector<double> first = Numbers(probe.lines[0]);
-  const std::vector<double> second = Numbers(probe.lines[1]);
-  if (first.size() != second.size()) return std::nullopt;
-  const bool week = first.size() >= 11 && first[0] == second[0] &&
-                    first[0] == std::floor(first[0]) && first[0] >= 1000.0;
-  if (week) return Found{"", "kf_gins", {Role::kTruth}};
-  if (first.size() < 7 || second[0] <= first[0]) return std::nullopt;
-  // Increments come fast and are small; fixes hold degrees and metres.
-  const bool sigmas = first[4] > 0.0 && first[5] > 0.0 && first[6] > 0.0;
-  const bool place = std::abs(first[1]) <= 90.0 && std::abs(first[2]) <= 180.0;
-  const bool fast = second[0] - first[0] <= 0.05;
-  if (fast && first.size() <= 8) return Found{"", "kf_gins", {Role::kImu}};
-  if (!fast && sigmas && place) {
-    return Found{"", "kf_gins", {Role::kPosition}};
-  }
-  return std::nullopt;
-}
-
-std::optional<Found> Recognise(const std::string& path) {
-  Probe probe;
-  try {
-    probe = ReadProbe(path);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-  if (probe.lines.empty()) return std::nullopt;
-  if (auto found = RecognisePos(probe)) return found;
-  if (auto found = RecogniseCsv(probe)) return found;
-  return RecogniseKfGins(probe);
-}
 
 std::string FileLines(const Found& found, const std::string& indent) {
   return indent + "file: " + found.file + "\n" + indent +
@@ -169,6 +53,15 @@ std::string AidingText(const std::string& name, const char* type,
         "    # accept_quality: [1]  # 1 fix, 2 float, 4 differential, 5 "
         "single\n";
   }
+  text += found.keys;
+  const bool sigma_in_file = found.format != "nmea" && found.format != "nclt";
+  if (std::string(type) == "speed_course") {
+    text +=
+        "    sigma: 0.2 m/s         # REPLACE\n"
+        "    course_sigma: 2 deg    # REPLACE\n";
+  } else if (!sigma_in_file) {
+    text += "    sigma: [2, 2, 4 m]     # REPLACE\n";
+  }
   return text +
          "    lever_arm: [0, 0, 0 m] # REPLACE: from the IMU; forward, right, "
          "down\n"
@@ -184,14 +77,15 @@ std::string InitConfig(const std::string& folder) {
   }
   std::vector<fs::path> paths;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file()) paths.push_back(entry.path());
+    const bool oxts = fs::exists(entry.path() / "timestamps.txt");
+    if (entry.is_regular_file() || oxts) paths.push_back(entry.path());
   }
   std::sort(paths.begin(), paths.end());
   if (paths.empty()) throw InputError(folder, 0, "the folder holds no files");
   std::vector<Found> files;
   std::string unknown;
   for (const fs::path& path : paths) {
-    if (auto found = Recognise(path.string())) {
+    if (auto found = RecogniseFormat(path.string())) {
       found->file = path.filename().string();
       files.push_back(*found);
     } else {
@@ -216,7 +110,8 @@ std::string InitConfig(const std::string& folder) {
   std::string aiding;
   for (const Aiding& kind :
        {Aiding{Role::kPosition, "position"},
-        Aiding{Role::kVelocity, "velocity"}, Aiding{Role::kHeight, "height"}}) {
+        Aiding{Role::kVelocity, "velocity"}, Aiding{Role::kHeight, "height"},
+        Aiding{Role::kSpeedCourse, "speed_course"}}) {
     int count = 0;
     for (const Found& found : files) {
       if (!found.roles.contains(kind.role)) continue;
@@ -235,7 +130,7 @@ std::string InitConfig(const std::string& folder) {
       "# withhold:\n"
       "#   - {sensor: position, every: 120 s, length: 30 s}\n";
   if (const Found* truth = first(Role::kTruth)) {
-    text += "\ntruth:\n" + FileLines(*truth, "  ");
+    text += "\ntruth:\n" + FileLines(*truth, "  ") + truth->keys;
   }
   return text;
 }

@@ -6,12 +6,13 @@
 namespace hindsight {
 
 /// A commented configuration for the files found in `folder`, told apart by
-/// their content: own CSV by its titles, RTKLIB .pos by its header, KF-GINS
-/// text by its columns; plain or gzip. It loads as it stands if an IMU was
-/// recognised; what it cannot know (noise, lever arms, axes) has values to be
-/// replaced, and says so. Files that were not recognised are named in comments.
-/// `folder:` is written as an absolute path. Throws InputError if the folder is
-/// missing or holds no files.
+/// their content: own CSV by its titles, RTKLIB .pos and EuRoC by their header,
+/// KF-GINS, NCLT and control-point text by their columns, NMEA by its
+/// sentences, plain or gzip; bags and OXTS folders by their names. It loads as
+/// it stands if an IMU was recognised; what it cannot know (noise, lever arms,
+/// axes) has values to be replaced, and says so. Files that were not recognised
+/// are named in comments. `folder:` is written as an absolute path. Throws
+/// InputError if the folder is missing or holds no files.
 std::string InitConfig(const std::string& folder);
 
 }  // namespace hindsight

@@ -101,8 +101,8 @@ class AidingReader {
   bool IsRejected() {
     if (options_.accept_quality.empty()) return false;
     const double quality = Value(map_.quality());
-    if (options_.accept_quality.contains(static_cast<int>(quality))) {
-      return false;
+    for (const int accepted : options_.accept_quality) {
+      if (quality == accepted) return false;
     }
     ++rejected_;
     return true;

@@ -79,8 +79,8 @@ ImuStream ReadImu(const StreamSource& source, const ImuReadOptions& options,
   *clock = rows.clock();
   rows.CountPolicies(policies);
   imu.nominal_dt = MedianInterval(imu);
-  AddPolicy(source.name, "gap bridged",
-            static_cast<long>(DropOuts(imu).size()), policies);
+  AddPolicy(source.name, "gap bridged", static_cast<long>(DropOuts(imu).size()),
+            policies);
   return imu;
 }
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -27,6 +28,8 @@ class TextLines::Source {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{4} << 20;
+/// Deflated text is never longer than this times the file.
+constexpr std::size_t kDeflateLimit = 1032;
 
 class MappedSource : public TextLines::Source {
  public:
@@ -126,6 +129,8 @@ std::unique_ptr<TextLines::Source> OpenSource(const std::string& path) {
       source->size_hint = tail[0] | std::size_t{tail[1]} << 8 |
                           std::size_t{tail[2]} << 16 |
                           std::size_t{tail[3]} << 24;
+      // A damaged tail must not make readers reserve more than there can be.
+      source->size_hint = std::min(source->size_hint, kDeflateLimit * size);
     }
   } else {
     source = std::make_unique<MappedSource>(path, descriptor.file, size);

@@ -219,7 +219,10 @@ bool TextTable::ParseTime(const std::vector<std::string_view>& time_tokens,
     case TableLayout::Clock::kWeek: {
       const auto week = ParseNumber(time_tokens[0]);
       stamp = ParseStamp(time_tokens[1], 1);
-      if (!week || *week < 0.0 || *week != std::floor(*week)) stamp.reset();
+      if (!week || *week < 0.0 || *week > kLastWeek ||
+          *week != std::floor(*week)) {
+        stamp.reset();
+      }
       if (stamp) {
         stamp->seconds += static_cast<std::int64_t>(*week) * kWeekSeconds;
       }

@@ -16,6 +16,10 @@ using std::chrono::sys_days;
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 constexpr std::int64_t kDaySeconds = 86400;
 
+/// Between them nanoseconds since 1980 fit 64 bits.
+constexpr int kFirstYear = 1900;
+constexpr int kLastYear = 2250;
+
 std::int64_t UnixSeconds(int year, unsigned month, unsigned day) {
   const std::chrono::year_month_day date{std::chrono::year(year),
                                          std::chrono::month(month),
@@ -44,6 +48,7 @@ std::optional<std::int64_t> ParseDay(std::string_view date) {
   const auto month = ParseInteger(date.substr(5, 2));
   const auto day = ParseInteger(date.substr(8, 2));
   if (!year || !month || !day || *month < 1 || *day < 1) return std::nullopt;
+  if (*year < kFirstYear || *year > kLastYear) return std::nullopt;
   const std::chrono::year_month_day checked{
       std::chrono::year(*year), std::chrono::month(unsigned(*month)),
       std::chrono::day(unsigned(*day))};
@@ -74,6 +79,8 @@ std::optional<Stamp> ParseClock(std::string_view clock) {
 
 }  // namespace
 
+bool IsTime(double seconds) { return std::abs(seconds) <= kLongestTime; }
+
 std::optional<Stamp> ParseStamp(std::string_view text,
                                 std::int64_t ticks_per_second) {
   const std::size_t whole = text.find_first_not_of("0123456789");
@@ -81,6 +88,7 @@ std::optional<Stamp> ParseStamp(std::string_view text,
   const auto value = ParseNumber(text);
   if (!value) return std::nullopt;
   const double ticks = static_cast<double>(ticks_per_second);
+  if (!IsTime(*value / ticks)) return std::nullopt;
   // Below this size a double holds the stamp to better than 1e-8 of a tick.
   constexpr std::size_t kShort = 9;
   const bool plain = whole == text.npos || text[whole] == '.';

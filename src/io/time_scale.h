@@ -25,9 +25,15 @@ struct Stamp {
 /// Seconds of a GPS week.
 inline constexpr std::int64_t kWeekSeconds = 604800;
 
+/// Stamps beyond this are no times [s]: its nanoseconds fit 64 bits.
+inline constexpr double kLongestTime = 9e9;
+/// As a GPS week.
+inline constexpr int kLastWeek = 14000;
+bool IsTime(double seconds);
+
 /// Reads "1720467261.854" in units of 1/`ticks_per_second` (1, 1000, 1e6, 1e9);
 /// nanoseconds since 1970 are not rounded. Nothing if `text` is no finite
-/// number.
+/// number, or is beyond kLongestTime.
 std::optional<Stamp> ParseStamp(std::string_view text,
                                 std::int64_t ticks_per_second);
 

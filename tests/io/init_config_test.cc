@@ -34,6 +34,28 @@ TEST_F(InitConfigTest, WhatItWritesLoads) {
   EXPECT_EQ(data.truth.size(), 2u);
 }
 
+TEST_F(InitConfigTest, FormatsOfOthersAreRecognised) {
+  const std::string data = std::string(HINDSIGHT_SOURCE_DIR) + "/tests/data/";
+  for (const char* folder : {"euroc", "nclt", "oxts"}) {
+    SCOPED_TRACE(folder);
+    std::filesystem::remove_all(Path("in"));
+    std::filesystem::create_directories(Path("in"));
+    const bool whole = std::string(folder) == "oxts";
+    std::filesystem::copy(data + folder, Path(whole ? "in/oxts" : "in"),
+                          std::filesystem::copy_options::recursive);
+    const std::string config = InitConfig(Path("in"));
+    EXPECT_NE(config.find("format: " + std::string(folder)), std::string::npos);
+    Write("config.yaml", config);
+    EXPECT_EQ(LoadError(), "");
+  }
+  std::filesystem::copy(data + "nmea/drive.nmea", Path("in/drive.nmea"));
+  Write("in/points.txt", "0.5 50 8 -100 0.3\n0.9 50 8 -100 0.3\n");
+  const std::string config = InitConfig(Path("in"));
+  EXPECT_NE(config.find("format: nmea"), std::string::npos) << config;
+  EXPECT_NE(config.find("type: speed_course"), std::string::npos) << config;
+  EXPECT_NE(config.find("format: control_points"), std::string::npos) << config;
+}
+
 TEST_F(InitConfigTest, MissingOrEmptyFolderIsAnError) {
   EXPECT_THROW(InitConfig(folder_.string()), InputError);
   EXPECT_THROW(InitConfig(Path("nowhere")), InputError);
