@@ -1,6 +1,5 @@
 #include "io/text_layout.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -128,10 +127,7 @@ std::vector<ColumnMapping> TitledColumns(const std::string& path,
   for (std::size_t i = 0; i < header.titles.size(); ++i) {
     const auto [title, unit] = SplitTitle(header.titles[i]);
     const bool known =
-        title == "t" || title == "week" ||
-        std::any_of(fields.begin(), fields.end(), [&](const FieldName& field) {
-          return title == field.name;
-        });
+        title == "t" || title == "week" || FieldIndex(fields, title);
     if (!known) continue;
     for (const ColumnMapping& other : columns) {
       if (other.quantity == title) {
