@@ -1,5 +1,10 @@
 function(hindsight_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")
+    # False alarms of GCC 12 at -O3, inside std::string (bug 105651) and Eigen.
+    target_compile_options(${target} PRIVATE -Wno-restrict
+                           -Wno-maybe-uninitialized)
+  endif()
   if(HINDSIGHT_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
