@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+#include "base/units.h"
+#include "dataset/timeline_builder.h"
+#include "problems/reconstruction.h"
+#include "simulation/builtin_scenarios.h"
+#include "simulation/scenario.h"
+
+namespace hindsight {
+namespace {
+
+struct Accuracy {
+  double horizontal_rms = 0.0;
+  double position_nees = 0.0;
+};
+
+/// Against the truth at the nodes.
+Accuracy Judge(const Dataset& dataset, const Solution& solution) {
+  double squares = 0.0;
+  double nees = 0.0;
+  int count = 0;
+  std::size_t k = 0;
+  for (const TruthPoint& truth : dataset.truth) {
+    while (k + 1 < solution.states.size() &&
+           solution.states[k].t < truth.t - 1e-6) {
+      ++k;
+    }
+    const State& x = solution.states[k];
+    if (std::abs(x.t - truth.t) > 1e-6) continue;
+    const Eigen::Vector3d e = x.C_en().transpose() * (*truth.p_e - x.p_e);
+    const Eigen::Matrix3d P = solution.covariances.Get(k).topLeftCorner<3, 3>();
+    squares += e.head<2>().squaredNorm();
+    nees += e.dot(P.llt().solve(e));
+    ++count;
+  }
+  return {std::sqrt(squares / count), nees / count};
+}
+
+/// Every twentieth fix, on average, is put 20 m off in a random direction.
+int AddOutliers(Dataset* dataset) {
+  Random random(77);
+  int count = 0;
+  for (AidingStream& stream : dataset->streams) {
+    for (Measurement& z : stream.measurements) {
+      auto* fix = std::get_if<PositionFix>(&z.model);
+      if (fix == nullptr || random.Uniform() >= 0.05) continue;
+      const double azimuth = 2.0 * kPi * random.Uniform();
+      fix->p_e +=
+          NedAxes(fix->p_e) * Eigen::Vector3d(20.0 * std::cos(azimuth),
+                                              20.0 * std::sin(azimuth), 0.0);
+      ++count;
+    }
+  }
+  return count;
+}
+
+class RobustLossTest : public ::testing::TestWithParam<RobustLoss> {};
+
+TEST_P(RobustLossTest, OutliersOfTwentyMetresCostLittleAndSigmasStayHonest) {
+  const Dataset clean = Simulate(BuiltinScenario("car_drive"), 3);
+  ReconstructionOptions options;
+  options.method = Method::kBatch;
+  const Accuracy without = Judge(clean, Solve(clean, options));
+
+  Dataset dirty = clean;
+  ASSERT_GT(AddOutliers(&dirty), 60);
+  const Accuracy spoilt = Judge(dirty, Solve(dirty, options));
+  EXPECT_GT(spoilt.horizontal_rms, 3.0 * without.horizontal_rms);
+
+  for (AidingStream& stream : dirty.streams) {
+    stream.sensor.loss = GetParam();
+  }
+  const Solution solution = Solve(dirty, options);
+  const Accuracy robust = Judge(dirty, solution);
+  EXPECT_TRUE(solution.usable) << solution.verdict;
+  EXPECT_LT(robust.horizontal_rms, 1.2 * without.horizontal_rms);
+  // Three degrees of freedom, in the range asked of runs without outliers.
+  EXPECT_GT(robust.position_nees, 2.3);
+  EXPECT_LT(robust.position_nees, 3.7);
+  int listed = 0;
+  for (const ResidualRecord& record : solution.residuals) {
+    if (record.weight < 0.1) ++listed;
+  }
+  EXPECT_GT(listed, 60);
+}
+
+// Losses that redescend quickly need a wide scale: with three rows an honest
+// residual is beyond two sigmas as often as not.
+INSTANTIATE_TEST_SUITE_P(
+    Losses, RobustLossTest,
+    ::testing::Values(RobustLoss{RobustLoss::Kind::kHuber, 3.0},
+                      RobustLoss{RobustLoss::Kind::kCauchy, 3.0},
+                      RobustLoss{RobustLoss::Kind::kTukey, 7.0},
+                      RobustLoss{RobustLoss::Kind::kGemanMcClure, 6.0}),
+    [](const auto& info) {
+      return "Kind" + std::to_string(static_cast<int>(info.param.kind));
+    });
+
+}  // namespace
+}  // namespace hindsight
