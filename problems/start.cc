@@ -51,7 +51,11 @@ class StartFinder {
 
   Start Find() {
     if (!(from_ < to_)) {
-      throw InputError("no IMU data in the asked interval: it covers " +
+      throw InputError("no IMU data " +
+                       (from_ > dataset_.imu.t_begin()
+                            ? "after the asked " + std::to_string(from_)
+                            : "before the asked " + std::to_string(to_)) +
+                       " s: they cover " +
                        std::to_string(dataset_.imu.t_begin()) + " s to " +
                        std::to_string(dataset_.imu.t_end()) + " s");
     }
