@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "dataset/timeline_builder.h"
 #include "filters/two_filter.h"
 #include "problems/batch.h"
@@ -198,11 +199,35 @@ struct Reconstruction::Impl {
         start.layout, start.prior, &timeline, decisions, Progress("rts")));
   }
 
-  Solution Finish(Solution solution, Method method, double seconds) const {
+  Solution Finish(Solution solution, Method method, double seconds) {
     solution.method = MethodName(method);
     solution.seconds = seconds;
-    Conclude(timeline.sensors(), &solution);
+    Conclude(timeline.sensors(), Unobserved(), &solution);
     return solution;
+  }
+
+  /// Spans that the data leave undetermined. From an unknown heading the
+  /// covariances of a filter that resets its nominal feign information: there
+  /// the whole interval is linearised about one trajectory.
+  const std::vector<UnobservedSpan>& Unobserved() {
+    if (unobserved) return *unobserved;
+    RunForward();
+    Solution smoothed;
+    smoothed.layout = start.layout;
+    smoothed.states = rts->states;
+    smoothed.covariances = rts->P;
+    constexpr double kKnownHeading = 20.0 * kDegree;
+    if (start.report.attitude_sigma.z() > kKnownHeading) {
+      IterationOptions iteration;
+      iteration.max_iterations = 3;
+      iteration.callback = Progress("observability");
+      smoothed.covariances =
+          SmoothIterated(start.layout, start.prior, rts->states, &timeline,
+                         decisions, iteration)
+              .trajectory.P;
+    }
+    unobserved = FindUnobserved(smoothed);
+    return *unobserved;
   }
 
   Solution FromSmoothed(std::vector<State> states, CovarianceSeries P) const {
@@ -274,6 +299,7 @@ struct Reconstruction::Impl {
   /// Time offsets the nodes are placed by; empty: those of the sensors.
   std::vector<double> placed_offsets;
   std::optional<ParameterVector> settled;
+  std::optional<std::vector<UnobservedSpan>> unobserved;
   Start start;
   Timeline timeline;
   std::optional<Solution> ekf;
@@ -310,12 +336,7 @@ Solution Reconstruction::Run(Method method) {
 }
 
 std::vector<UnobservedSpan> Reconstruction::Unobserved() {
-  impl_->RunForward();
-  Solution smoothed;
-  smoothed.layout = impl_->start.layout;
-  smoothed.states = impl_->rts->states;
-  smoothed.covariances = impl_->rts->P;
-  return FindUnobserved(smoothed);
+  return impl_->Unobserved();
 }
 
 const StartReport& Reconstruction::start() const { return impl_->start.report; }

@@ -1,6 +1,7 @@
 #include "problems/solution_builder.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -246,9 +247,18 @@ std::string Objection(const std::vector<Sensor>& sensors,
 
 }  // namespace
 
-void Conclude(const std::vector<Sensor>& sensors, Solution* solution) {
+void Conclude(const std::vector<Sensor>& sensors,
+              const std::vector<UnobservedSpan>& known, Solution* solution) {
   solution->constants = EstimateConstants(*solution);
   solution->unobserved = FindUnobserved(*solution);
+  for (const UnobservedSpan& span : known) {
+    const bool named =
+        std::any_of(solution->unobserved.begin(), solution->unobserved.end(),
+                    [&span](const UnobservedSpan& own) {
+                      return own.component == span.component;
+                    });
+    if (!named) solution->unobserved.push_back(span);
+  }
   const std::string objection = Objection(sensors, *solution);
   solution->usable = objection.empty();
   if (!solution->usable) {

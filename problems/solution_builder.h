@@ -36,7 +36,10 @@ std::vector<UnobservedSpan> FindUnobserved(const Solution& solution);
 /// the interval, or a sensor whose accepted residuals are, in the root mean
 /// square, more than five times the sigma the model gives them - then the model
 /// or its noise is wrong, and with them every sigma of the solution.
-void Conclude(const std::vector<Sensor>& sensors, Solution* solution);
+/// What `known` names as unobserved is so for every method, whatever its own
+/// covariances say.
+void Conclude(const std::vector<Sensor>& sensors,
+              const std::vector<UnobservedSpan>& known, Solution* solution);
 
 }  // namespace hindsight
 

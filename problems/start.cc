@@ -206,9 +206,15 @@ class StartFinder {
     if (rest_) {
       v_sigma_.setConstant(0.05);
     } else if (!velocities_.empty()) {
-      v_n_ = velocities_.front().v_n;
-      v_sigma_.setConstant(velocities_.front().sigma +
-                           3.0 * std::abs(velocities_.front().t - t_) + 0.2);
+      const TimedVelocity& nearest = *std::min_element(
+          velocities_.begin(), velocities_.end(),
+          [this](const TimedVelocity& a, const TimedVelocity& b) {
+            return std::abs(a.t - t_) < std::abs(b.t - t_);
+          });
+      v_n_ = nearest.v_n;
+      // It is used again as a measurement, or made of fixes that are.
+      v_sigma_.setConstant(3.0 * nearest.sigma +
+                           3.0 * std::abs(nearest.t - t_) + 0.2);
     } else {
       v_sigma_.setConstant(10.0);
     }
@@ -240,6 +246,11 @@ class StartFinder {
     p_sigma_.array() += swing + 1.0;
     if (given().position_sigma) p_sigma_ = *given().position_sigma;
     report_.position = Words("position fix at t = %.2f s", fix.t);
+    if (t_ - from_ > 1.0) {
+      report_.position += Words(
+          "; the %.1f s before it are left out, as nothing gives a position",
+          t_ - from_);
+    }
   }
 
   Start Finish() {

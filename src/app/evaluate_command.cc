@@ -75,8 +75,12 @@ void PrintJson(const TrajectoryStatistics& all) {
 int Run(const std::vector<std::string>& arguments) {
   const SolutionTable solution = ReadSolutionCsv(arguments[0]);
   const SolutionTable truth = ReadSolutionCsv(arguments[1]);
-  const TrajectoryStatistics statistics =
-      EvaluateTrajectory(solution, TruthFromTable(truth), {});
+  const TrajectoryErrorOptions options;
+  const TrajectoryStatistics statistics = EvaluateTrajectory(
+      solution,
+      IsSparser(solution, truth) ? TruthAt(truth, solution.t, options.max_gap)
+                                 : TruthFromTable(truth),
+      options);
   if (statistics.matched_count == 0) {
     throw InputError(
         arguments[0], 0,

@@ -71,7 +71,13 @@ int Dispatch(const char* program, std::vector<std::string> words) {
 }
 
 int Fail(int status, std::string message) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
+  // A message may quote what a damaged file holds.
+  constexpr std::size_t kLongest = 500;
+  std::replace_if(
+      message.begin(), message.end(),
+      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; },
+      ' ');
+  if (message.size() > kLongest) message = message.substr(0, kLongest) + "...";
   // Whatever was printed so far comes before the error where both go to one
   // file.
   std::cout.flush();

@@ -10,6 +10,7 @@
 #include "app/run_report.h"
 #include "app/text.h"
 #include "base/error.h"
+#include "dataset/checks.h"
 #include "dataset/timeline_builder.h"
 #include "io/comparison.h"
 #include "io/config.h"
@@ -80,6 +81,9 @@ void DescribeBeforehand(const Dataset& dataset, Reconstruction* reconstruction,
     // The filter diverged: every method says so of itself.
   }
   progress->Clear();
+  for (const std::string& warning : CheckDataset(dataset).warnings) {
+    std::cout << "warning: " << warning << "\n";
+  }
   std::cout << DescribeNotes(dataset) << DescribeStart(reconstruction->start())
             << DescribeUnobserved(unobserved) << std::flush;
 }

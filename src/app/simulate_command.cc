@@ -52,7 +52,7 @@ int Run(const std::vector<std::string>& arguments) {
   ResultFolder folder(FLAGS_out, FLAGS_force, kDatasetConfigName);
   Simulation simulation(scenario, FLAGS_seed);
   ThrowIfStopRequested();
-  WriteDataset(&simulation, folder.staging().string());
+  WriteDataset(&simulation, folder.staging().string(), ThrowIfStopRequested);
   ThrowIfStopRequested();
   folder.Commit();
   const std::string config =

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/error.h"
+
 namespace hindsight {
 namespace {
 
@@ -60,6 +62,13 @@ std::vector<double> NodeTimes(std::vector<double> required, double spacing) {
 }  // namespace
 
 Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options) {
+  const double imu_interval = MedianInterval(dataset.imu);
+  if (dataset.max_node_spacing < imu_interval) {
+    throw InputError("nodes.max_spacing is " +
+                     std::to_string(dataset.max_node_spacing) +
+                     " s, shorter than the IMU's sample interval of " +
+                     std::to_string(imu_interval) + " s");
+  }
   const std::vector<TimedMeasurement> timed =
       MeasurementsInside(dataset, options);
   std::vector<double> required = {options.t_begin, options.t_end};

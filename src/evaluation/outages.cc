@@ -7,6 +7,7 @@
 namespace hindsight {
 namespace {
 
+constexpr double kEndTolerance = 1e-6;  // [s]
 constexpr double kLeastDistance = 1.0;  // [m]
 
 /// Trapezoidal integral of the speed over [begin, end], the part of it that
@@ -73,6 +74,11 @@ std::vector<OutageError> ComputeOutageErrors(const Solution& solution,
     const auto sensor = static_cast<std::size_t>(outage.sensor);
     const SensorType type = dataset.streams.at(sensor).sensor.type;
     if (!IsNedVector(type)) continue;
+    // What the solution does not cover from end to end is no outage of it.
+    if (solution.states.empty() || outage.t_begin < solution.states.front().t ||
+        outage.t_end > solution.states.back().t + kEndTolerance) {
+      continue;
+    }
     OutageError entry;
     entry.outage = outage;
     entry.type = type;

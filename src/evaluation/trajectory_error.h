@@ -79,6 +79,18 @@ TrajectoryStatistics EvaluateTrajectory(const SolutionTable& solution,
                                         const std::vector<TruthPoint>& truth,
                                         const TrajectoryErrorOptions& options);
 
+/// A reference at the stamps of a solution, interpolated; stamps outside its
+/// span or in gaps longer than `max_gap` [s] are left out. Of two trajectories
+/// the denser one is interpolated: a row a second says too little of a turn in
+/// between.
+std::vector<TruthPoint> TruthAt(const SolutionTable& truth,
+                                const std::vector<double>& times,
+                                double max_gap);
+
+/// True if the rows of `a` lie at least half as far again apart, on average, as
+/// those of `b`.
+bool IsSparser(const SolutionTable& a, const SolutionTable& b);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_EVALUATION_TRAJECTORY_ERROR_H_

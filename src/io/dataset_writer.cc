@@ -243,10 +243,16 @@ void WriteDataset(const Dataset& dataset, const std::string& folder) {
   WriteBesidesImu(dataset, folder);
 }
 
-void WriteDataset(Simulation* simulation, const std::string& folder) {
+void WriteDataset(Simulation* simulation, const std::string& folder,
+                  const std::function<void()>& poll) {
+  constexpr long kPollEvery = 4096;
   MakeFolder(folder);
+  long count = 0;
   WriteImu(PathIn(folder, "imu.csv"), simulation->imu_kind(),
-           [&](ImuSample* sample) { return simulation->Next(sample); });
+           [&](ImuSample* sample) {
+             if (poll && ++count % kPollEvery == 0) poll();
+             return simulation->Next(sample);
+           });
   WriteBesidesImu(simulation->Finish(), folder);
 }
 

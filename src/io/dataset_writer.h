@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_IO_DATASET_WRITER_H_
 #define HINDSIGHT_IO_DATASET_WRITER_H_
 
+#include <functional>
 #include <string>
 
 #include "dataset/dataset.h"
@@ -22,7 +23,9 @@ void WriteDataset(const Dataset& dataset, const std::string& folder);
 
 /// The same for a simulation not yet begun, whose IMU samples go straight to
 /// the file.
-void WriteDataset(Simulation* simulation, const std::string& folder);
+/// `poll` is called now and then; it may throw to stop.
+void WriteDataset(Simulation* simulation, const std::string& folder,
+                  const std::function<void()>& poll = {});
 
 }  // namespace hindsight
 

@@ -193,6 +193,11 @@ class AidingReader {
       rows_.table().Fail("the latitude is " + FormatNumber(Value(0) / kDegree) +
                          " deg; expected -90 to 90 deg");
     }
+    if (Value(1) < -kPi || Value(1) > 2.0 * kPi) {
+      rows_.table().Fail("the longitude is " +
+                         FormatNumber(Value(1) / kDegree) +
+                         " deg; expected -180 to 360 deg");
+    }
     return PositionFix{EcefFromGeodetic({Value(0), Value(1), Value(2)}),
                        Covariance()};
   }

@@ -108,6 +108,11 @@ class TruthReader {
                            FormatNumber(geodetic->x() / kDegree) +
                            " deg; expected -90 to 90 deg");
       }
+      if (geodetic->y() < -kPi || geodetic->y() > 2.0 * kPi) {
+        rows_.table().Fail("the longitude is " +
+                           FormatNumber(geodetic->y() / kDegree) +
+                           " deg; expected -180 to 360 deg");
+      }
       return EcefFromGeodetic({geodetic->x(), geodetic->y(), geodetic->z()});
     }
     const auto p = Group(kPosition);

@@ -124,6 +124,11 @@ std::vector<std::vector<Measurement>> AllPerfectMeasurements(
 
 std::unique_ptr<Trajectory> MakeTrajectory(const Scenario& scenario) {
   RequirePositive(scenario, scenario.imu_rate_hz, "rate of the IMU");
+  constexpr double kFastestImu = 20000.0;
+  if (scenario.imu_rate_hz > kFastestImu) {
+    throw InputError("scenario '" + scenario.name +
+                     "': the IMU rate is above 20 kHz");
+  }
   RequirePositive(scenario, scenario.truth_rate_hz, "rate of the truth");
   if (!scenario.profile.empty()) {
     return std::make_unique<SampledTrajectory>(scenario.profile);

@@ -29,8 +29,8 @@ TEST(ImuLink, PredictionLeavesNoResidual) {
   const ErrorLayout layout = TypicalLayout(SomeNoise());
   const State x_i = TypicalState();
   for (const double dt : {0.004, 0.1, 1.0, 2.5}) {
-    const ImuSummary s =
-        ImuIntegrator(stream).Summarize(0.2, 0.2 + dt, CalibrationOf(layout, x_i));
+    const ImuSummary s = ImuIntegrator(stream).Summarize(
+        0.2, 0.2 + dt, CalibrationOf(layout, x_i));
     ImuLink link;
     EvaluateLink(layout, s, x_i, Predict(layout, x_i, s), false, &link);
     EXPECT_LT(link.residual.norm(), 3e-9) << dt;
@@ -43,8 +43,8 @@ TEST(ImuLink, StepwiseAndWholePredictionAgree) {
   const ErrorLayout layout = TypicalLayout();
   const State x0 = TypicalState();
   ImuIntegrator integrator(stream);
-  const State whole =
-      Predict(layout, x0, integrator.Summarize(0.0, 1.0, CalibrationOf(layout, x0)));
+  const State whole = Predict(
+      layout, x0, integrator.Summarize(0.0, 1.0, CalibrationOf(layout, x0)));
   State x = x0;
   for (int k = 0; k < 200; ++k) {
     x = Predict(layout, x,
@@ -64,9 +64,8 @@ TEST(ImuLink, StandstillOnTheRotatingEarthStaysPut) {
                                {0.0, 0.0, 0.0}, {0.02, -0.03, 1.0});
     ImuStream stream;
     for (int k = 0; k <= 1000; ++k) {
-      stream.samples.push_back(
-          {k * 0.01, x0.q_eb.conjugate() * EarthRate_e(),
-           x0.q_eb.conjugate() * (-Gravity(x0.p_e))});
+      stream.samples.push_back({k * 0.01, x0.q_eb.conjugate() * EarthRate_e(),
+                                x0.q_eb.conjugate() * (-Gravity(x0.p_e))});
     }
     ImuIntegrator integrator(stream);
     const ErrorLayout layout = TypicalLayout();
@@ -105,9 +104,11 @@ TEST(ImuLink, JacobiansMatchNumericDifference) {
     const double tolerance = c < 3 ? 1e-8 : 5e-5;
     ErrorVector step = zero;
     step(c) = h;
-    const auto J_i = ((residual(step, zero) - residual(-step, zero)) / (2 * h)).eval();
+    const auto J_i =
+        ((residual(step, zero) - residual(-step, zero)) / (2 * h)).eval();
     if (c < 15) {
-      const auto J_j = ((residual(zero, step) - residual(zero, -step)) / (2 * h)).eval();
+      const auto J_j =
+          ((residual(zero, step) - residual(zero, -step)) / (2 * h)).eval();
       EXPECT_LT((J_i - link.J_i.col(c)).norm(), tolerance) << c;
       EXPECT_LT((J_j - link.J_j.col(c)).norm(), tolerance) << c;
     } else {
@@ -121,8 +122,8 @@ TEST(ImuLink, TransitionMatchesNumericDifferenceOfPropagation) {
   const ImuStream stream = LivelyImu(3.0, 100.0, SomeNoise());
   State x_i = TypicalState();
   x_i.parameters = ParameterVector::Constant(layout.parameter_count(), 1e-3);
-  const ImuSummary s =
-      ImuIntegrator(stream, true).Summarize(0.5, 1.5, CalibrationOf(layout, x_i));
+  const ImuSummary s = ImuIntegrator(stream, true)
+                           .Summarize(0.5, 1.5, CalibrationOf(layout, x_i));
   const State x_j = Predict(layout, x_i, s);
   Transition transition;
   LinearizeTransition(layout, s, x_i, x_j, &transition);
@@ -148,8 +149,8 @@ TEST(ImuLink, DefectIsTheDifferenceToThePrediction) {
   Random random(5);
   State x_i = TypicalState();
   x_i.parameters = ParameterVector::Zero(layout.parameter_count());
-  const ImuSummary s =
-      ImuIntegrator(stream, true).Summarize(0.5, 1.5, CalibrationOf(layout, x_i));
+  const ImuSummary s = ImuIntegrator(stream, true)
+                           .Summarize(0.5, 1.5, CalibrationOf(layout, x_i));
   const State predicted = Predict(layout, x_i, s);
   const State x_j =
       Retract(layout, predicted, RandomError(layout, &random, 1e-4));

@@ -31,10 +31,10 @@ Reference IntegrateFinely(const ImuStream& stream, double t_i, double t_j,
   const double h = (t_j - t_i) / steps;
   for (int i = 0; i < steps; ++i) {
     const Kinematics k = reading.ReadingAt(t_i + (i + 0.5) * h);
-    const Eigen::Vector3d w = (k.w_ib_b - calibration.b_g).array() /
-                              (1.0 + calibration.s_g.array());
-    const Eigen::Vector3d f = (k.f_b - calibration.b_a).array() /
-                              (1.0 + calibration.s_a.array());
+    const Eigen::Vector3d w =
+        (k.w_ib_b - calibration.b_g).array() / (1.0 + calibration.s_g.array());
+    const Eigen::Vector3d f =
+        (k.f_b - calibration.b_a).array() / (1.0 + calibration.s_a.array());
     const Eigen::Matrix3d C_mid = r.C * Exp(0.5 * h * w).toRotationMatrix();
     const Eigen::Vector3d a = C_mid * f;
     r.p += h * r.v + 0.5 * h * h * a;
@@ -49,8 +49,7 @@ TEST(Preintegration, EqualsFineStepwiseIntegration) {
   ImuCalibration calibration;
   calibration.b_g = {0.01, -0.02, 0.015};
   calibration.b_a = {0.1, 0.05, -0.08};
-  const ImuSummary s =
-      ImuIntegrator(stream).Summarize(0.3, 2.3, calibration);
+  const ImuSummary s = ImuIntegrator(stream).Summarize(0.3, 2.3, calibration);
   const Reference r = IntegrateFinely(stream, 0.3, 2.3, calibration);
   EXPECT_LT(Log(s.dR.conjugate() * Eigen::Quaterniond(r.C)).norm(), 1e-8);
   // Rotation beyond second order within a sample, (|w| dt)^3/24 |f| dt each
@@ -92,15 +91,13 @@ TEST(Preintegration, TwoSampleConingFollowsTheConicalMotion) {
     s.t = k * h;
     for (int i = 0; i < fine; ++i) {
       const double t = (k - 1) * h + i * h / fine;
-      s.gyro +=
-          Log(attitude(t).conjugate() * attitude(t + h / fine));
+      s.gyro += Log(attitude(t).conjugate() * attitude(t + h / fine));
     }
     stream.samples.push_back(s);
   }
   stream.samples[0].gyro = stream.samples[1].gyro;
   const ImuSummary s = ImuIntegrator(stream).Summarize(0.0, 10.0, {});
-  const Eigen::Quaterniond exact =
-      attitude(0.0).conjugate() * attitude(10.0);
+  const Eigen::Quaterniond exact = attitude(0.0).conjugate() * attitude(10.0);
   Eigen::Quaterniond plain = Eigen::Quaterniond::Identity();
   for (std::size_t k = 1; k < stream.samples.size(); ++k) {
     plain = plain * Exp(stream.samples[k].gyro);
@@ -127,8 +124,10 @@ TEST(Preintegration, CalibrationJacobiansMatchNumericDifference) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto moved = [&](double step) {
         ImuCalibration c = at;
-        (which == 0 ? c.b_g : which == 1 ? c.b_a : which == 2 ? c.s_g : c.s_a)(
-            axis) += step;
+        (which == 0   ? c.b_g
+         : which == 1 ? c.b_a
+         : which == 2 ? c.s_g
+                      : c.s_a)(axis) += step;
         return integrator.Summarize(0.2, 2.2, c);
       };
       const ImuSummary plus = moved(kStep);
@@ -187,23 +186,22 @@ void CheckNoise(const ImuNoise& noise) {
     const double dt = 1.0 / kRate;
     for (std::size_t k = 1; k < clean.samples.size(); ++k) {
       LinearRates r = exact.RatesOfInterval(k);
-      const Eigen::Vector3d n_g =
-          b_g + noise.gyro_noise_density / std::sqrt(dt) *
-                    random.NormalVector3();
-      const Eigen::Vector3d n_a =
-          b_a + noise.accel_noise_density / std::sqrt(dt) *
-                    random.NormalVector3();
+      const Eigen::Vector3d n_g = b_g + noise.gyro_noise_density /
+                                            std::sqrt(dt) *
+                                            random.NormalVector3();
+      const Eigen::Vector3d n_a = b_a + noise.accel_noise_density /
+                                            std::sqrt(dt) *
+                                            random.NormalVector3();
       r.w0 += n_g;
       r.w1 += n_g;
       r.f0 += n_a;
       r.f1 += n_a;
       noisy.Add(r);
       b_g = noise.GyroBiasEvolution().Phi(dt) * b_g +
-            std::sqrt(noise.GyroBiasEvolution().Q(dt)) *
-                random.NormalVector3();
-      b_a = noise.AccelBiasEvolution().Phi(dt) * b_a +
-            std::sqrt(noise.AccelBiasEvolution().Q(dt)) *
-                random.NormalVector3();
+            std::sqrt(noise.GyroBiasEvolution().Q(dt)) * random.NormalVector3();
+      b_a =
+          noise.AccelBiasEvolution().Phi(dt) * b_a +
+          std::sqrt(noise.AccelBiasEvolution().Q(dt)) * random.NormalVector3();
     }
     const ImuSummary s = noisy.Finish();
     Eigen::Matrix<double, 15, 1> e;
@@ -219,8 +217,7 @@ void CheckNoise(const ImuNoise& noise) {
   EXPECT_LT(sum, boost::math::quantile(distribution, 0.9995));
   // Each variance within 4.5 standard deviations of a sample variance.
   for (int i = 0; i < dim; ++i) {
-    EXPECT_NEAR(scatter(i, i) / S_used(i, i), 1.0,
-                4.5 * std::sqrt(2.0 / kRuns))
+    EXPECT_NEAR(scatter(i, i) / S_used(i, i), 1.0, 4.5 * std::sqrt(2.0 / kRuns))
         << i;
   }
 }

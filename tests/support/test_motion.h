@@ -73,8 +73,7 @@ inline ErrorLayout RichLayout(const ImuNoise& noise = {}) {
       Evolution::Constant());
   add(BlockKind::kColouredNoise, 0, "gnss_noise", 0.5,
       Evolution::GaussMarkov(0.5, 20.0));
-  add(BlockKind::kOffset, 0, "height_offset", 0.5,
-      Evolution::RandomWalk(0.01));
+  add(BlockKind::kOffset, 0, "height_offset", 0.5, Evolution::RandomWalk(0.01));
   return layout;
 }
 
