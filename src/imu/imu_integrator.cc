@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <string>
+
+#include "base/error.h"
+#include "imu/preintegration.h"
+
+namespace hindsight {
+
+std::size_t ImuIntegrator::FindInterval(double t) {
+  const auto& samples = stream_->samples;
+  const std::size_t last = samples.size() - 1;
+  std::size_t k = std::min(hint_, last);
+  if (samples[k - 1].t > t || k + 64 < last) {
+    const bool near =
+        samples[k - 1].t <= t && samples[std::min(k + 64, last)].t > t;
+    if (!near) {
+      const auto it = std::upper_bound(
+          samples.begin() + 1, samples.end(), t,
+          [](double value, const ImuSample& s) { return value < s.t; });
+      k = std::min(static_cast<std::size_t>(it - samples.begin()), last);
+    }
+  }
+  while (k < last && samples[k].t <= t) ++k;
+  hint_ = k;
+  return k;
+}
+
+LinearRates ImuIntegrator::RatesOfInterval(std::size_t k) const {
+  const auto& samples = stream_->samples;
+  const double dt = samples[k].t - samples[k - 1].t;
+  if (stream_->kind == ImuStream::Kind::kRates) {
+    return {dt, samples[k - 1].gyro, samples[k].gyro, samples[k - 1].accel,
+            samples[k].accel};
+  }
+  const double dt_previous = k >= 2 ? samples[k - 1].t - samples[k - 2].t : dt;
+  return RatesFromIncrements(dt_previous, samples[k - 1].gyro,
+                             samples[k - 1].accel, dt, samples[k].gyro,
+                             samples[k].accel);
+}
+
+bool ImuIntegrator::IsDropOut(std::size_t k) const {
+  return stream_->nominal_dt > 0.0 &&
+         stream_->samples[k].t - stream_->samples[k - 1].t >
+             ImuStream::kGapFactor * stream_->nominal_dt;
+}
+
+LinearRates ImuIntegrator::RatesAcrossDropOut(std::size_t k) const {
+  // The increments of the missing intervals are lost; the sample at the end
+  // holds those of one usual interval.
+  const auto& samples = stream_->samples;
+  const double scale = 1.0 / stream_->nominal_dt;
+  return {samples[k].t - samples[k - 1].t, scale * samples[k - 1].gyro,
+          scale * samples[k].gyro, scale * samples[k - 1].accel,
+          scale * samples[k].accel};
+}
+
+IntervalNoise BridgeNoise(const LinearRates& rates) {
+  constexpr double kRate = 0.1;
+  constexpr double kForce = 1.0;
+  const double w = std::max(kRate, (rates.w1 - rates.w0).norm());
+  const double f = std::max(kForce, (rates.f1 - rates.f0).norm());
+  return {w * w * rates.dt, f * f * rates.dt};
+}
+
+ImuSummary ImuIntegrator::Summarize(double t_i, double t_j,
+                                    const ImuCalibration& calibration) {
+  const auto& samples = stream_->samples;
+  constexpr double kTolerance = 1e-6;
+  if (t_i < stream_->t_begin() - kTolerance ||
+      t_j > stream_->t_end() + kTolerance || t_j < t_i) {
+    throw EstimationError("IMU data do not cover the interval from " +
+                          std::to_string(t_i) + " s to " + std::to_string(t_j) +
+                          " s");
+  }
+  integrator_.Start(t_i, calibration);
+  std::size_t k = FindInterval(t_i);
+  double t = t_i;
+  while (t < t_j) {
+    const double t_begin = samples[k - 1].t;
+    const double t_end = samples[k].t;
+    const double to = k + 1 == samples.size() ? t_j : std::min(t_end, t_j);
+    LinearRates rates = RatesOfInterval(k);
+    IntervalNoise extra;
+    if (IsDropOut(k)) extra = BridgeNoise(rates);
+    if (t > t_begin || to < t_end) {
+      const double span = rates.dt;
+      const double a = (t - t_begin) / span;
+      const double b = (to - t_begin) / span;
+      const Eigen::Vector3d dw = rates.w1 - rates.w0;
+      const Eigen::Vector3d df = rates.f1 - rates.f0;
+      rates = {to - t, rates.w0 + a * dw, rates.w0 + b * dw, rates.f0 + a * df,
+               rates.f0 + b * df};
+    }
+    if (rates.dt > 0.0) integrator_.Add(rates, extra);
+    t = to;
+    if (k + 1 < samples.size()) ++k;
+  }
+  hint_ = k;
+  ImuSummary summary = integrator_.Finish();
+  summary.t_j = t_j;
+  return summary;
+}
+
+Kinematics ImuIntegrator::ReadingAt(double t) {
+  const std::size_t k = FindInterval(t);
+  const LinearRates rates = RatesOfInterval(k);
+  const double a =
+      std::clamp((t - stream_->samples[k - 1].t) / rates.dt, 0.0, 1.0);
+  return {rates.w0 + a * (rates.w1 - rates.w0),
+          rates.f0 + a * (rates.f1 - rates.f0)};
+}
+
+}  // namespace hindsight
