@@ -77,7 +77,8 @@ TEST_P(RobustLossTest, OutliersOfTwentyMetresCostLittleAndSigmasStayHonest) {
   const Accuracy robust = Judge(dirty, solution);
   EXPECT_TRUE(solution.usable) << solution.verdict;
   EXPECT_LT(robust.horizontal_rms, 1.2 * without.horizontal_rms);
-  // Three degrees of freedom, in the range asked of runs without outliers.
+  // Three degrees of freedom; one seed, whose epochs are correlated, scatters
+  // more than a mean over many would.
   EXPECT_GT(robust.position_nees, 2.3);
   EXPECT_LT(robust.position_nees, 3.7);
   int listed = 0;
