@@ -1,0 +1,33 @@
+#ifndef HINDSIGHT_APP_MONTECARLO_SCENARIOS_H_
+#define HINDSIGHT_APP_MONTECARLO_SCENARIOS_H_
+
+#include <functional>
+#include <string>
+
+#include "app/progress.h"
+#include "app/result_folder.h"
+#include "problems/montecarlo.h"
+
+namespace hindsight {
+
+/// Name of the file with the figures of a Monte Carlo comparison.
+inline constexpr char kMonteCarloJson[] = "montecarlo.json";
+
+/// One scenario that `hindsight montecarlo` can repeat. `run` reads the flags
+/// of its own, writes its files into the folder and prints its table; it throws
+/// UsageError for flags that do not fit, before it computes anything.
+struct MonteCarloScenario {
+  std::string name;
+  void (*run)(MonteCarloOptions options, Progress* progress,
+              ResultFolder* folder) = nullptr;
+};
+
+void RunTunnelSurvey(MonteCarloOptions options, Progress* progress,
+                     ResultFolder* folder);
+
+/// Reports the number of finished runs out of `runs`.
+std::function<void(int)> RunProgress(int runs, Progress* progress);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_APP_MONTECARLO_SCENARIOS_H_
