@@ -16,6 +16,8 @@ namespace hindsight {
 ///   flight       10 min at 100 Hz, climbs and banked turns, GNSS position
 ///   tunnel_survey  8 km in 2005 s at 100 Hz, odometer and reference points
 ///                  (simulation/tunnel_survey.h, with its default options)
+///   in_flight_alignment  150 s at 100 Hz, velocity at 10 Hz, no attitude
+///                  (simulation/in_flight_alignment.h, default options)
 std::vector<std::string> BuiltinScenarioNames();
 
 /// Throws InputError for a name that is none, listing those that are.

@@ -74,9 +74,10 @@ InitialState DrawInitialState(const Scenario& scenario, const Motion& start,
   truth.q_eb = start.q_eb;
   initial.t = start.t;
   initial.position = GeodeticFromEcef(start.p_e + C_en * d_position);
+  initial.position_sigma = sigma.position;
+  if (sigma.position_alone) return initial;
   initial.v_n = truth.v_n() + d_velocity;
   initial.euler = truth.euler() + d_attitude;
-  initial.position_sigma = sigma.position;
   initial.velocity_sigma = sigma.velocity;
   initial.attitude_sigma = sigma.attitude;
   return initial;

@@ -20,6 +20,8 @@ struct StartErrors {
   Eigen::Vector3d position = Eigen::Vector3d::Ones();  ///< NED [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Ones();  ///< NED [m/s]
   Eigen::Vector3d attitude = Eigen::Vector3d::Ones();  ///< roll, pitch, heading
+  /// Gives the initial position alone: velocity and attitude are for alignment.
+  bool position_alone = false;
 };
 
 /// Everything that decides a simulated recording but the seed.
