@@ -10,7 +10,7 @@ packages="build-essential cmake ninja-build ccache
   librosbag-storage-dev libsensor-msgs-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   libboost-dev
-  clang-format clang-tidy"
+  clang-format clang-tidy clang libclang-rt-dev"
 
 fail() {
   echo "setup.sh: $*" >&2
