@@ -1,0 +1,309 @@
+#include "filters/imm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/error.h"
+#include "filters/vertical.h"
+
+namespace hindsight {
+namespace {
+
+/// A model while it runs.
+struct Filter {
+  const ImmModel* model;
+  State x;         ///< nominal
+  Gaussian error;  ///< about it
+  Transition transition;
+  std::vector<ComponentMap> shared;  ///< with each model, itself included
+};
+
+bool IsNavigation(const Block& block) { return block.parameter_offset < 0; }
+
+/// `to` with the navigation state of `from`.
+State WithNavigationOf(const State& from, State to) {
+  to.t = from.t;
+  to.p_e = from.p_e;
+  to.v_e = from.v_e;
+  to.q_eb = from.q_eb;
+  to.b_g = from.b_g;
+  to.b_a = from.b_a;
+  return to;
+}
+
+class ImmPass {
+ public:
+  ImmPass(const std::vector<ImmModel>& models, const ImmOptions& options,
+          Timeline* timeline)
+      : options_(options), timeline_(*timeline), mu_(options.start) {
+    if (models.empty()) throw std::logic_error("an IMM needs a model");
+    for (const ImmModel& model : models) {
+      Filter& filter = filters_.emplace_back();
+      filter.model = &model;
+      filter.x = WithNavigationOf(models.front().prior.x, model.prior.x);
+      filter.error = {ErrorVector::Zero(model.layout.dim()), model.prior.P};
+      filter.transition.c = filter.error.mean;
+      for (const ImmModel& other : models) {
+        filter.shared.push_back(SharedComponents(model.layout, other.layout));
+      }
+      CheckNavigation(model.layout, filter.shared.front());
+      result_.tape.tapes.emplace_back(model.layout);
+    }
+    result_.tape.transition = options.transition;
+    masks_vertical_ = MasksVertical(models.front().layout);
+    result_.trajectory.P =
+        CovarianceSeries(models.front().layout.dim(), timeline->size());
+  }
+
+  /// Mixes, eqs. (6) and (7), if the mode may switch at node k, and predicts,
+  /// eq. (8).
+  void PredictTo(std::size_t k) {
+    epoch_ = {};
+    epoch_.switched = MaySwitch(k);
+    if (epoch_.switched) Mix();
+    State nominal;
+    for (std::size_t j = 0; j < filters_.size(); ++j) {
+      Filter& f = filters_[j];
+      const ErrorLayout& layout = f.model->layout;
+      const ImuSummary& summary =
+          timeline_.Summary(k - 1, CalibrationOf(layout, f.x));
+      State predicted = Predict(layout, f.x, summary);
+      if (j == 0) {
+        nominal = predicted;
+      } else {
+        predicted = WithNavigationOf(nominal, predicted);
+      }
+      LinearizeTransition(layout, summary, f.x, predicted, &f.transition);
+      // Of the first model, whose prediction is the nominal, what is left of
+      // the defect is rounding.
+      if (j == 0) f.transition.c.setZero();
+      f.error.mean = (f.transition.Phi * f.error.mean + f.transition.c).eval();
+      PredictCovariance(f.transition.Phi, f.transition.Q, &f.error.P);
+      f.x = predicted;
+    }
+  }
+
+  /// Updates every model, eqs. (9)-(11), combines them, eq. (12), and writes
+  /// the tapes.
+  void UpdateAt(std::size_t k) {
+    epoch_.predicted = mu_;
+    if (masks_vertical_) OverwriteVertical(k);
+    const std::size_t count = filters_.size();
+    std::vector<TapeEpoch> epochs(count);
+    std::vector<ErrorMatrix> P_minus(count);
+    Eigen::VectorXd log_mu = mu_.array().log();
+    for (std::size_t j = 0; j < count; ++j) {
+      Filter& f = filters_[j];
+      epochs[j].t = timeline_.node(k).t;
+      epochs[j].x_minus = f.x;
+      epochs[j].c = f.transition.c;
+      epochs[j].dx_minus = f.error.mean;
+      P_minus[j] = f.error.P;
+      log_mu(static_cast<Eigen::Index>(j)) += Use(k, j);
+      epochs[j].dx_plus = f.error.mean;
+    }
+    const double largest = log_mu.maxCoeff();
+    if (!std::isfinite(largest)) {
+      throw EstimationError(
+          "no model of the IMM explains the measurements at "
+          "t = " +
+          std::to_string(timeline_.node(k).t) + " s");
+    }
+    mu_ = (log_mu.array() - largest).exp();
+    epoch_.log_likelihood = largest + std::log(mu_.sum());
+    mu_ /= mu_.sum();
+    epoch_.probability = mu_;
+    const Gaussian combined = CombineFilters();
+    WriteCombined(filters_[0].model->layout, filters_[0].x, combined, mu_, k,
+                  &result_.trajectory);
+    if (options_.feedback) Reset(combined, &epochs);
+    for (std::size_t j = 0; j < count; ++j) {
+      epoch_.mean_plus.push_back(filters_[j].error.mean);
+      epochs[j].x_plus = filters_[j].x;
+      result_.tape.tapes[j].Append(std::move(epochs[j]), filters_[j].transition,
+                                   P_minus[j], filters_[j].error.P);
+    }
+    result_.tape.epochs.push_back(std::move(epoch_));
+    epoch_ = {};
+  }
+
+  ImmResult TakeResult() { return std::move(result_); }
+
+ private:
+  static void CheckNavigation(const ErrorLayout& layout,
+                              const ComponentMap& in_first) {
+    for (const Block& block : layout.blocks()) {
+      if (!IsNavigation(block)) continue;
+      for (int i = block.offset; i < block.offset + block.dim; ++i) {
+        if (in_first[static_cast<std::size_t>(i)] < 0) {
+          throw std::logic_error("the first model of an IMM lacks " +
+                                 layout.ComponentName(i));
+        }
+      }
+    }
+  }
+
+  bool MaySwitch(std::size_t k) const {
+    for (const Measurement& z : timeline_.measurements(k)) {
+      const bool named =
+          options_.sensors.empty() ||
+          std::find(options_.sensors.begin(), options_.sensors.end(),
+                    z.sensor) != options_.sensors.end();
+      if (named && !z.withheld) return true;
+    }
+    return false;
+  }
+
+  std::vector<Gaussian> SeenBy(std::size_t j) const {
+    std::vector<Gaussian> parts;
+    for (std::size_t i = 0; i < filters_.size(); ++i) {
+      parts.push_back(i == j ? filters_[j].error
+                             : Transfer(filters_[i].error, filters_[j].error,
+                                        filters_[j].shared[i]));
+    }
+    return parts;
+  }
+
+  void Mix() {
+    const Eigen::MatrixXd joint =
+        mu_.asDiagonal() * options_.transition;  // of modes i, then j
+    std::vector<Gaussian> mixed;
+    for (std::size_t j = 0; j < filters_.size(); ++j) {
+      const Eigen::VectorXd column = joint.col(static_cast<Eigen::Index>(j));
+      mixed.push_back(Merge(SeenBy(j), column / column.sum()));
+    }
+    for (std::size_t j = 0; j < filters_.size(); ++j) {
+      filters_[j].error = std::move(mixed[j]);
+    }
+    mu_ = joint.colwise().sum().transpose();
+  }
+
+  void OverwriteVertical(std::size_t k) {
+    State& first = filters_[0].x;
+    vertical_.Overwrite(timeline_, k, filters_[0].model->layout, &first);
+    for (Filter& f : filters_) f.x = WithNavigationOf(first, f.x);
+  }
+
+  /// Updates model j with the measurements of node k; returns the logarithm of
+  /// their likelihood, eq. (10).
+  double Use(std::size_t k, std::size_t j) {
+    Filter& f = filters_[j];
+    double log_likelihood = 0.0;
+    int index = 0;
+    for (const Measurement& z : timeline_.measurements(k)) {
+      Evaluate(z, timeline_.Context(k, z, f.model->layout, f.x), &linearized_);
+      if (!f.model->sigma_factors.empty()) {
+        const double factor =
+            f.model->sigma_factors[static_cast<std::size_t>(z.sensor)];
+        linearized_.R *= factor * factor;
+      }
+      const Innovation innovation =
+          Innovate(linearized_, f.error.mean, f.error.P);
+      TapeMeasurement header;
+      header.index = index++;
+      header.sensor = z.sensor;
+      header.withheld = z.withheld;
+      header.accepted = !z.withheld;
+      result_.tape.tapes[j].Record(header, linearized_, innovation);
+      if (!header.accepted) continue;
+      log_likelihood += innovation.log_likelihood;
+      Update(linearized_, innovation, &f.error.mean, &f.error.P);
+    }
+    return log_likelihood;
+  }
+
+  Gaussian CombineFilters() const { return Merge(SeenBy(0), mu_); }
+
+  /// Moves every nominal by the combined mean and the models' errors into the
+  /// tangent there.
+  void Reset(const Gaussian& combined, std::vector<TapeEpoch>* epochs) {
+    std::vector<ErrorVector> steps;
+    for (std::size_t j = 0; j < filters_.size(); ++j) {
+      steps.push_back(j == 0 ? combined.mean : Merge(SeenBy(j), mu_).mean);
+      for (std::size_t i = 0; i < filters_[j].shared[0].size(); ++i) {
+        const int first = filters_[j].shared[0][i];
+        if (first >= 0) {
+          steps[j](static_cast<Eigen::Index>(i)) = combined.mean(first);
+        }
+      }
+    }
+    for (std::size_t j = 0; j < filters_.size(); ++j) {
+      Filter& f = filters_[j];
+      const ErrorLayout& layout = f.model->layout;
+      const State from = f.x;
+      f.x = Retract(layout, from, steps[j]);
+      (*epochs)[j].reset = true;
+      const ErrorMatrix T = Transport(layout, from, f.x);
+      f.error.mean = (T * (f.error.mean - steps[j])).eval();
+      const ErrorMatrix TP = T * f.error.P;
+      f.error.P.noalias() = TP * T.transpose();
+      Symmetrize(&f.error.P);
+    }
+  }
+
+  const ImmOptions& options_;
+  Timeline& timeline_;
+  std::vector<Filter> filters_;
+  Eigen::VectorXd mu_;
+  ImmEpoch epoch_;
+  ImmResult result_;
+  LinearizedMeasurement linearized_;
+  bool masks_vertical_ = false;
+  VerticalChannel vertical_;
+};
+
+}  // namespace
+
+double ImmTape::log_likelihood() const {
+  double sum = 0.0;
+  for (const ImmEpoch& epoch : epochs) sum += epoch.log_likelihood;
+  return sum;
+}
+
+ImmResult RunImm(const std::vector<ImmModel>& models, const ImmOptions& options,
+                 Timeline* timeline, const EpochCallback& callback) {
+  ImmPass pass(models, options, timeline);
+  for (std::size_t k = 0; k < timeline->size(); ++k) {
+    if (k > 0) pass.PredictTo(k);
+    pass.UpdateAt(k);
+    if (callback) callback(k + 1);
+  }
+  return pass.TakeResult();
+}
+
+Eigen::MatrixXd StayingTransition(int count, double stay) {
+  if (count == 1) return Eigen::MatrixXd::Ones(1, 1);
+  const double leave = (1.0 - stay) / (count - 1);
+  Eigen::MatrixXd transition = Eigen::MatrixXd::Constant(count, count, leave);
+  transition.diagonal().setConstant(stay);
+  return transition;
+}
+
+Gaussian Combine(const std::vector<LinearTape>& tapes,
+                 const std::vector<Gaussian>& models,
+                 const Eigen::VectorXd& probability) {
+  std::vector<Gaussian> parts = {models.front()};
+  for (std::size_t i = 1; i < models.size(); ++i) {
+    parts.push_back(
+        Transfer(models[i], models.front(),
+                 SharedComponents(tapes[0].layout(), tapes[i].layout())));
+  }
+  return Merge(parts, probability);
+}
+
+void WriteCombined(const ErrorLayout& layout, const State& nominal,
+                   const Gaussian& g, const Eigen::VectorXd& probability,
+                   std::size_t k, ImmTrajectory* out) {
+  if (out->states.size() <= k) {
+    out->states.resize(k + 1);
+    out->probabilities.resize(k + 1);
+  }
+  out->states[k] = Retract(layout, nominal, g.mean);
+  out->states[k].t = nominal.t;
+  const ErrorMatrix T = Transport(layout, nominal, out->states[k]);
+  out->P.Set(k, ErrorMatrix(T * g.P * T.transpose()));
+  out->probabilities[k] = probability;
+}
+
+}  // namespace hindsight
