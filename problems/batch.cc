@@ -23,6 +23,10 @@ constexpr double kRoughStep = 1e-3;
 constexpr double kRoughRobustStep = 1e-6;
 constexpr double kFineStep = 1e-8;
 
+double RoughStep(const ChainProblem& chain) {
+  return chain.HasLoss() ? kRoughRobustStep : kRoughStep;
+}
+
 /// Ends Ceres's iteration at rough steps. Hands the iterations to the caller
 /// and keeps what the caller throws, as an exception must not cross Ceres.
 class Callback : public ceres::IterationCallback {
@@ -73,16 +77,45 @@ ceres::Solver::Options SolverOptions(const BatchOptions& options) {
   return ceres_options;
 }
 
-void AddBlocks(ChainProblem* chain, ceres::Manifold* manifold,
-               ceres::Problem* problem) {
+/// The nodes [begin, end) that one Ceres problem moves.
+struct Window {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+std::vector<Window> Windows(const BatchOptions& options, std::size_t nodes) {
+  const std::size_t count =
+      (nodes + options.window_nodes - 1) / options.window_nodes;
+  std::vector<Window> windows;
+  for (std::size_t i = 0; i < count; ++i) {
+    windows.push_back({nodes * i / count, nodes * (i + 1) / count});
+  }
+  return windows;
+}
+
+/// The factors that see the window, and what else they see held fixed.
+void AddBlocks(const Window& window, ChainProblem* chain,
+               ceres::Manifold* manifold, ceres::Problem* problem) {
   const int size = chain->blocks().node_ambient_dim();
-  for (std::size_t k = 0; k < chain->node_count(); ++k) {
+  const bool whole = window.begin == 0 && window.end == chain->node_count();
+  const auto inside = [&](int k) {
+    const auto node = static_cast<std::size_t>(k);
+    return node >= window.begin && node < window.end;
+  };
+  for (std::size_t k = window.begin; k < window.end; ++k) {
     problem->AddParameterBlock(chain->node_values(k), size, manifold);
   }
   for (std::size_t i = 0; i < chain->factors().size(); ++i) {
     TangentFactor* factor = chain->factors()[i].get();
-    problem->AddResidualBlock(factor, chain->loss(i),
-                              chain->ParametersOf(*factor));
+    const std::vector<int>& nodes = factor->nodes();
+    if (std::none_of(nodes.begin(), nodes.end(), inside)) continue;
+    const std::vector<double*> parameters = chain->ParametersOf(*factor);
+    problem->AddResidualBlock(factor, chain->loss(i), parameters);
+    for (std::size_t j = 0; !whole && j < parameters.size(); ++j) {
+      if (j >= nodes.size() || !inside(nodes[j])) {
+        problem->SetParameterBlockConstant(parameters[j]);
+      }
+    }
   }
 }
 
@@ -95,41 +128,55 @@ ceres::Problem::Options ProblemOptions() {
   return options;
 }
 
-ceres::Solver::Summary SolveOnce(const BatchOptions& options,
-                                 int max_iterations, const ChainProblem& chain,
-                                 ceres::Problem* problem) {
-  const double rough = chain.HasLoss() ? kRoughRobustStep : kRoughStep;
-  Callback callback(options.callback,
-                    rough * std::sqrt(static_cast<double>(chain.node_count())));
-  ceres::Solver::Options solver_options = SolverOptions(options);
-  solver_options.max_num_iterations = max_iterations;
-  solver_options.callbacks.push_back(&callback);
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver_options, problem, &summary);
-  callback.Rethrow();
-  if (!summary.IsSolutionUsable()) {
-    throw EstimationError("batch solver failed: " + summary.message);
+struct Sweep {
+  int iterations = 0;  ///< the most of any window
+  bool converged = true;
+};
+
+/// Every window once, from the first to the last.
+Sweep SolveOnce(const BatchOptions& options, int max_iterations,
+                ChainProblem* chain) {
+  NodeManifold manifold(&chain->blocks());
+  Sweep sweep;
+  for (const Window& window : Windows(options, chain->node_count())) {
+    ceres::Problem problem(ProblemOptions());
+    AddBlocks(window, chain, &manifold, &problem);
+    const auto nodes = static_cast<double>(window.end - window.begin);
+    Callback callback(options.callback, RoughStep(*chain) * std::sqrt(nodes));
+    ceres::Solver::Options solver_options = SolverOptions(options);
+    solver_options.max_num_iterations = max_iterations;
+    solver_options.callbacks.push_back(&callback);
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver_options, &problem, &summary);
+    callback.Rethrow();
+    if (!summary.IsSolutionUsable()) {
+      throw EstimationError("batch solver failed: " + summary.message);
+    }
+    sweep.iterations = std::max(
+        sweep.iterations, static_cast<int>(summary.iterations.size()) - 1);
+    sweep.converged =
+        sweep.converged && (summary.termination_type == ceres::CONVERGENCE ||
+                            summary.termination_type == ceres::USER_SUCCESS);
   }
-  return summary;
+  return sweep;
 }
 
 /// Solves with the losses as they are; the first time with losses that
 /// redescend, first with all their scales so wide that no residual is beyond
 /// them, then halved with two iterations each.
-ceres::Solver::Summary SolveGraduated(const BatchOptions& options, bool first,
-                                      ChainProblem* chain,
-                                      ceres::Problem* problem) {
+Sweep SolveGraduated(const BatchOptions& options, bool first,
+                     ChainProblem* chain) {
   constexpr int kIterationsPerStage = 2;
   constexpr double kWidest = 1024.0;
   if (first) {
     double widening = std::min(chain->LargestRobustRatio(), kWidest);
     for (; widening > 1.0; widening *= 0.5) {
       chain->SetWidening(widening);
-      SolveOnce(options, kIterationsPerStage, *chain, problem);
+      SolveOnce(options, kIterationsPerStage, chain);
     }
     chain->SetWidening(1.0);
   }
-  return SolveOnce(options, options.max_iterations, *chain, problem);
+  return SolveOnce(options, options.max_iterations, chain);
 }
 
 bool AnySummaryIsStale(const ErrorLayout& layout, const Timeline& timeline,
@@ -143,6 +190,14 @@ bool AnySummaryIsStale(const ErrorLayout& layout, const Timeline& timeline,
   return false;
 }
 
+/// The whole chain's Gauss-Newton step, ready to be taken.
+ArrowSystem SolvedChain(ChainProblem* chain) {
+  ArrowSystem system = chain->Information();
+  system.Factor();
+  system.Solve();
+  return system;
+}
+
 CovarianceSeries Marginals(ChainProblem* chain) {
   ArrowSystem information = chain->Information();
   information.Factor();
@@ -154,14 +209,33 @@ CovarianceSeries Marginals(ChainProblem* chain) {
 CovarianceSeries FinishByNewton(ChainProblem* chain, int* iterations) {
   constexpr int kMaxSteps = 4;
   for (int i = 1;; ++i) {
-    ArrowSystem system = chain->Information();
-    system.Factor();
-    system.Solve();
+    ArrowSystem system = SolvedChain(chain);
     ++*iterations;
     if (chain->Step(&system) < kFineStep || i == kMaxSteps) {
       return chain->Marginals(system);
     }
   }
+}
+
+/// A long chain's windows and, in turn, full steps of the whole chain, which
+/// tell the windows of each other and move the constants, until such a step is
+/// a rough one.
+Sweep SolveInWindows(const BatchOptions& options, bool first,
+                     ChainProblem* chain) {
+  constexpr int kMaxSweeps = 10;
+  Sweep sweep = SolveGraduated(options, first, chain);
+  if (Windows(options, chain->node_count()).size() == 1) return sweep;
+  for (int i = 1;; ++i) {
+    ArrowSystem system = SolvedChain(chain);
+    ++sweep.iterations;
+    if (chain->Step(&system) < RoughStep(*chain)) return sweep;
+    if (i == kMaxSweeps) break;
+    const Sweep next = SolveOnce(options, options.max_iterations, chain);
+    sweep.iterations += next.iterations;
+    sweep.converged = next.converged;
+  }
+  sweep.converged = false;
+  return sweep;
 }
 
 }  // namespace
@@ -175,17 +249,10 @@ BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
   constexpr int kMaxReintegrations = 5;
   for (int outer = 0; outer < kMaxReintegrations; ++outer) {
     ChainProblem chain(layout, prior, result.states, timeline, decisions);
-    NodeManifold manifold(&chain.blocks());
-    ceres::Problem problem(ProblemOptions());
-    AddBlocks(&chain, &manifold, &problem);
-    const ceres::Solver::Summary summary =
-        SolveGraduated(options, outer == 0, &chain, &problem);
+    const Sweep sweep = SolveInWindows(options, outer == 0, &chain);
     result.states = chain.States();
-    result.iterations += static_cast<int>(summary.iterations.size()) - 1;
-    result.converged = summary.termination_type == ceres::CONVERGENCE ||
-                       summary.termination_type == ceres::USER_SUCCESS;
-    if (outer == 0) result.initial_cost = summary.initial_cost;
-    result.final_cost = summary.final_cost;
+    result.iterations += sweep.iterations;
+    result.converged = sweep.converged;
     if (!AnySummaryIsStale(layout, *timeline, result.states)) {
       result.P = FinishByNewton(&chain, &result.iterations);
       const std::vector<State> before = std::move(result.states);

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_PROBLEMS_BATCH_H_
 #define HINDSIGHT_PROBLEMS_BATCH_H_
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -11,6 +12,10 @@ namespace hindsight {
 
 struct BatchOptions {
   int max_iterations = 50;
+  /// Ceres takes 20 kB a node for its matrices. A longer chain is solved in
+  /// windows of at most so many nodes, in which the neighbours and the
+  /// constants are held fixed, in turn with steps of the whole chain.
+  std::size_t window_nodes = 10000;
   /// Called after each iteration with its number; may throw to stop.
   std::function<void(int)> callback;
 };
@@ -20,8 +25,6 @@ struct BatchResult {
   CovarianceSeries P;  ///< marginals over the layout, in the tangent at states
   int iterations = 0;
   bool converged = false;
-  double initial_cost = 0.0;  ///< half the sum of squared whitened residuals
-  double final_cost = 0.0;
 };
 
 /// The whole interval as one nonlinear least-squares problem, solved by Ceres:

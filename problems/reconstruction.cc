@@ -40,18 +40,14 @@ bool HasGates(const Timeline& timeline) {
   return false;
 }
 
-/// Covariances from the tangent of the nominal they were computed about into
-/// that at the smoothed states.
-CovarianceSeries TransportSeries(const ErrorLayout& layout,
-                                 const std::vector<State>& from,
-                                 const std::vector<State>& to,
-                                 const CovarianceSeries& P) {
-  CovarianceSeries out(P.dim(), P.size());
-  for (std::size_t k = 0; k < P.size(); ++k) {
+/// Moves covariances from the tangent of the nominal they were computed about
+/// into that at the smoothed states.
+void TransportSeries(const ErrorLayout& layout, const std::vector<State>& from,
+                     const std::vector<State>& to, CovarianceSeries* P) {
+  for (std::size_t k = 0; k < P->size(); ++k) {
     const ErrorMatrix T = Transport(layout, from[k], to[k]);
-    out.Set(k, ErrorMatrix(T * P.Get(k) * T.transpose()));
+    P->Set(k, ErrorMatrix(T * P->Get(k) * T.transpose()));
   }
-  return out;
 }
 
 /// The nominal about which the tape's smoothed covariances are.
@@ -183,8 +179,8 @@ struct Reconstruction::Impl {
   SmoothedTrajectory SmoothTape(LinearTape tape) const {
     const std::vector<State> about = NominalOf(tape);
     SmoothedTrajectory smoothed = SmoothRts(std::move(tape));
-    smoothed.P =
-        TransportSeries(start.layout, about, smoothed.states, smoothed.P);
+    TransportSeries(start.layout, about, smoothed.states, &smoothed.P);
+    smoothed.d = {};
     return smoothed;
   }
 
@@ -235,6 +231,21 @@ struct Reconstruction::Impl {
                             std::move(P), decisions);
   }
 
+  /// Hands out the forward pass's solution, which a day makes too large to keep
+  /// twice; whoever asks again has it filtered again.
+  Solution RunEkf() {
+    if (!ekf) {
+      const double t0 = ProcessorSeconds();
+      ekf = FilterSolution(RunExtendedKalmanFilter(
+          start.layout, start.prior, &timeline, {}, Progress("ekf")));
+      ekf->seconds = ProcessorSeconds() - t0;
+    }
+    Solution solution = std::move(*ekf);
+    ekf.reset();
+    const double seconds = solution.seconds;
+    return Finish(std::move(solution), Method::kEkf, seconds);
+  }
+
   /// The tape was released by the RTS pass; filtering again about the same
   /// decisions costs less than keeping it.
   Solution RunTwoFilter(Method method) {
@@ -249,11 +260,11 @@ struct Reconstruction::Impl {
                                                  ? ChartKind::kEuler
                                                  : ChartKind::kAdditive);
     SmoothedTrajectory& trajectory = result.trajectory;
-    CovarianceSeries P = TransportSeries(start.layout, NominalOf(tape),
-                                         trajectory.states, trajectory.P);
+    TransportSeries(start.layout, NominalOf(tape), trajectory.states,
+                    &trajectory.P);
     const double seconds = ProcessorSeconds() - t0;
     Solution solution =
-        FromSmoothed(std::move(trajectory.states), std::move(P));
+        FromSmoothed(std::move(trajectory.states), std::move(trajectory.P));
     solution.separation = std::move(result.separation);
     return Finish(std::move(solution), method, seconds);
   }
@@ -318,7 +329,7 @@ Solution Reconstruction::Run(Method method) {
   impl_->RunForward();
   switch (method) {
     case Method::kEkf:
-      return impl_->Finish(*impl_->ekf, method, impl_->ekf->seconds);
+      return impl_->RunEkf();
     case Method::kTwoFilter:
     case Method::kTwoFilterConventional:
     case Method::kTwoFilterEuler:

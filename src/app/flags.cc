@@ -9,6 +9,7 @@
 
 DEFINE_string(at, "", "");
 DEFINE_string(data_root, "../shared/data", "");
+DEFINE_double(duration, 0.0, "");
 DEFINE_string(export, "", "");
 DEFINE_bool(force, false, "");
 DEFINE_double(from, -std::numeric_limits<double>::infinity(), "");

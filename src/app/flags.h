@@ -10,6 +10,7 @@
 
 DECLARE_string(at);
 DECLARE_string(data_root);
+DECLARE_double(duration);
 DECLARE_string(export);
 DECLARE_bool(force);
 DECLARE_double(from);

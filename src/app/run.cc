@@ -108,6 +108,16 @@ bool IsAnyUsable(const std::vector<Solution>& solutions) {
                      [](const Solution& solution) { return solution.usable; });
 }
 
+/// Frees all of a written trajectory but its last state: of a day, 120 MB a
+/// method.
+void ForgetTrajectory(Solution* solution) {
+  if (!solution->states.empty()) {
+    solution->states = std::vector<State>(1, solution->states.back());
+  }
+  solution->covariances = {};
+  solution->separation = {};
+}
+
 /// Throws the reason if no method gave as much as a trajectory.
 void CheckAnyTrajectory(const std::vector<Solution>& solutions) {
   std::string reasons;
@@ -145,6 +155,7 @@ int Reconstruct(const RunRequest& request) {
         Summarize(dataset, reconstruction, solutions.back()));
     WriteMethodFiles(request, dataset, reconstruction, solutions.back(),
                      folder);
+    ForgetTrajectory(&solutions.back());
     ThrowIfStopRequested();
   }
   CheckAnyTrajectory(solutions);

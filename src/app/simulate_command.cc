@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -48,6 +49,12 @@ int Run(const std::vector<std::string>& arguments) {
     scenario.profile = ReadMotionProfile(FLAGS_profile);
     scenario.name += "_profile";
   }
+  if (IsGiven("duration")) {
+    if (!(FLAGS_duration > 0.0)) {
+      throw UsageError("--duration must be longer than 0 s");
+    }
+    scenario.duration = std::min(scenario.duration, FLAGS_duration);
+  }
   CatchInterrupts();
   ResultFolder folder(FLAGS_out, FLAGS_force, kDatasetConfigName);
   Simulation simulation(scenario, FLAGS_seed);
@@ -79,6 +86,7 @@ Command SimulateCommand() {
                  "move as in FILE in place of the scenario's segments:\n"
                  "a truth.csv, or without header t, lat, lon, h, v north,\n"
                  "east, down, roll, pitch, heading in s, deg, m, m/s"},
+                {"duration", "T", "end after T seconds (that of the scenario)"},
                 {"path", "NAME",
                  "of tunnel_survey: winding, serpentine or straight\n"
                  "(winding)"},

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/recording.h"
@@ -60,6 +61,26 @@ TEST_F(OtherCommands, InitWritesAConfigurationThatRuns) {
   EXPECT_THAT(again.err, HasSubstr("--force"));
   const Outcome outcome = recording_.Run({"--out=out", "--methods=rts"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
+TEST_F(OtherCommands, SimulateEndsEarlier) {
+  ASSERT_EQ(
+      Hindsight({"simulate", "short_drive", "--out=whole"}, recording_.root())
+          .status,
+      0);
+  ASSERT_EQ(Hindsight({"simulate", "short_drive", "--out=part", "--duration=9"},
+                      recording_.root())
+                .status,
+            0);
+  const std::string whole = ReadFile(recording_.root() / "whole" / "imu.csv");
+  const std::string part = ReadFile(recording_.root() / "part" / "imu.csv");
+  EXPECT_EQ(std::count(part.begin(), part.end(), '\n'), 1 + 901);
+  EXPECT_TRUE(whole.starts_with(part));
+  const Outcome never =
+      Hindsight({"simulate", "short_drive", "--out=no", "--duration=0"},
+                recording_.root());
+  EXPECT_EQ(never.status, 2);
+  EXPECT_THAT(never.err, HasSubstr("--duration"));
 }
 
 TEST_F(OtherCommands, SimulateIsReproducible) {
