@@ -8,8 +8,8 @@
 #include <thread>
 #include <utility>
 
+#include "alignment/start.h"
 #include "base/error.h"
-#include "problems/start.h"
 
 namespace hindsight {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "alignment/start.h"
 #include "base/error.h"
 #include "dataset/timeline_builder.h"
-#include "problems/start.h"
 
 namespace hindsight {
 namespace {

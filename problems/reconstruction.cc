@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "alignment/start.h"
 #include "base/error.h"
 #include "base/units.h"
 #include "dataset/timeline_builder.h"
@@ -12,7 +13,6 @@
 #include "problems/batch.h"
 #include "problems/sample_solution.h"
 #include "problems/solution_builder.h"
-#include "problems/start.h"
 
 namespace hindsight {
 namespace {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "alignment/start.h"
 #include "dataset/dataset.h"
 #include "state/solution.h"
 
@@ -42,18 +43,6 @@ struct ReconstructionOptions {
   std::function<void(const std::string& stage, double fraction)> progress;
   /// Polled; when it becomes true Interrupted is thrown.
   const std::atomic<bool>* stop = nullptr;
-};
-
-/// How the initial state came about.
-struct StartReport {
-  double t = 0.0;
-  std::string position;  ///< in words: "given", "first position fix"
-  std::string attitude;  ///< "given", "levelled at rest for 12.3 s", ...
-  std::string heading;   ///< "given", "course at t = 31.2 s", ...
-  State state;
-  Eigen::Vector3d position_sigma;  ///< NED [m]
-  Eigen::Vector3d velocity_sigma;  ///< NED [m/s]
-  Eigen::Vector3d attitude_sigma;  ///< roll, pitch, heading [rad]
 };
 
 /// One data set, reconstructed by any number of methods that share the start,

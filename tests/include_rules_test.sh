@@ -19,10 +19,11 @@ declare -A allowed=(
   [simulation]="base geometry earth state imu measurements dataset"
   [evaluation]="base geometry earth state imu measurements dataset"
   [io]="base geometry earth state imu measurements dataset simulation evaluation"
+  [alignment]="base geometry earth state imu measurements dataset filters"
   [problems]="base geometry earth linear state imu measurements dataset filters
-    factors"
+    alignment factors"
   [app]="base geometry earth linear state imu measurements dataset filters
-    factors simulation evaluation io problems"
+    alignment factors simulation evaluation io problems"
 )
 
 # Constructs that belong to some folders only: pattern | folders.

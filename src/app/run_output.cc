@@ -158,6 +158,8 @@ void ThinTruth(std::vector<TruthPoint>* truth) {
 
 StartSummary SummarizeStart(const StartReport& start) {
   return {.t = start.t,
+          .alignment = start.alignment,
+          .why = start.why,
           .position = start.position,
           .attitude = start.attitude,
           .heading = start.heading,

@@ -25,6 +25,8 @@ std::string DescribeStart(const StartReport& start) {
              Spread(start.position_sigma, 1.0).c_str(), start.position.c_str());
   text += Format("  velocity  %.2f, %.2f, %.2f m/s; sigma %s m/s\n", v.x(),
                  v.y(), v.z(), Spread(start.velocity_sigma, 1.0).c_str());
+  text += Format("  alignment %s: %s\n", start.alignment.c_str(),
+                 start.why.c_str());
   text += Format(
       "  attitude  roll %.2f, pitch %.2f, heading %.2f deg; sigma %s "
       "deg\n            %s; heading: %s\n",

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dataset/alignment_choice.h"
 #include "imu/imu_stream.h"
 #include "measurements/measurement.h"
 #include "measurements/sensor.h"
@@ -32,6 +33,7 @@ struct TruthPoint {
 
 /// Initial values. What is absent is found by alignment.
 struct InitialState {
+  AlignmentKind alignment = AlignmentKind::kAuto;
   std::optional<double> t;  ///< start here instead of the common start [s]
   std::optional<Geodetic> position;
   std::optional<Eigen::Vector3d> v_n;

@@ -22,6 +22,7 @@ namespace hindsight {
 /// | imu               | *needed*, see below                      |         |
 /// | aiding.NAME       | one aiding stream each, see below        |         |
 /// | initial           | see below                                |         |
+/// | alignment         | auto, given, static, gyrocompass, course, velocity, magnetometer, ahrs: how the attitude at the start is found | auto |
 /// | stationary        | `off`, `on`, or its thresholds           | off     |
 /// | truth             | a stream, see below                      | -       |
 /// | withhold          | list of {sensor, every, length, from}    | none    |

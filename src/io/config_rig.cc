@@ -50,6 +50,8 @@ TruthFrame ReadTruthFrame(ConfigMap* truth) {
 
 InitialState ReadInitialState(ConfigMap* top) {
   InitialState initial;
+  initial.alignment =
+      static_cast<AlignmentKind>(top->Choice("alignment", AlignmentNames(), 0));
   ConfigMap map = top->Map("initial");
   initial.t = map.OptionalNumber("time", Quantity::kTime);
   initial.position = ReadGeodetic(&map, "position");
@@ -58,6 +60,10 @@ InitialState ReadInitialState(ConfigMap* top) {
   initial.heading = map.OptionalNumber("heading", Quantity::kAngle);
   if (initial.euler && initial.heading) {
     map.Fail("heading", "does not go with attitude, which holds it");
+  }
+  if (initial.alignment == AlignmentKind::kGiven && !initial.euler &&
+      !initial.heading) {
+    top->Fail("alignment", "given needs initial.attitude or initial.heading");
   }
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
   initial.gyro_bias = map.Vector("gyro_bias", Quantity::kAngularRate, zero);

@@ -153,6 +153,8 @@ void AppendSensor(const AidingStream& stream, YamlText* yaml) {
 }
 
 void AppendInitial(const InitialState& initial, YamlText* yaml) {
+  yaml->Text("alignment",
+             AlignmentNames()[static_cast<std::size_t>(initial.alignment)]);
   yaml->Open("initial");
   if (initial.t) yaml->Number("time", *initial.t, kSeconds);
   if (initial.position) {

@@ -18,10 +18,12 @@ namespace hindsight {
 
 /// How the initial state came about, in words, and how well it is known.
 struct StartSummary {
-  double t = 0.0;        ///< [s]
-  std::string position;  ///< "given", "first position fix", ...
-  std::string attitude;  ///< "given", "levelled at rest for 12.3 s", ...
-  std::string heading;   ///< "given", "course at t = 31.2 s", ...
+  double t = 0.0;         ///< [s]
+  std::string alignment;  ///< the method: "velocity", "course", ...
+  std::string why;        ///< it was chosen, and what others would give
+  std::string position;   ///< "given", "first position fix", ...
+  std::string attitude;   ///< "given", "levelled at rest for 12.3 s", ...
+  std::string heading;    ///< "given", "course at t = 31.2 s", ...
   Eigen::Vector3d position_sigma = Eigen::Vector3d::Zero();  ///< NED [m]
   Eigen::Vector3d velocity_sigma = Eigen::Vector3d::Zero();  ///< NED [m/s]
   /// Roll, pitch, heading [rad].
@@ -70,7 +72,7 @@ std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
 ///
 ///   program, dataset
 ///   start                       how the initial state came about
-///     t_s, position, attitude, heading        words
+///     t_s, position, attitude, heading, alignment, why        words
 ///     position_sigma_m, velocity_sigma_mps, attitude_sigma_deg
 ///   policies[]                  what readers did as the configuration allows
 ///     stream, action, count

@@ -178,6 +178,8 @@ Json StartJson(const StartSummary& start) {
   PutText(&json, "position", start.position);
   PutText(&json, "attitude", start.attitude);
   PutText(&json, "heading", start.heading);
+  PutText(&json, "alignment", start.alignment);
+  PutText(&json, "why", start.why);
   Put(&json, "position_sigma_m", start.position_sigma);
   Put(&json, "velocity_sigma_mps", start.velocity_sigma);
   Put(&json, "attitude_sigma_deg",

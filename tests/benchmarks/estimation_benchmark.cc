@@ -3,12 +3,12 @@
 
 #include <memory>
 
+#include "alignment/start.h"
 #include "dataset/timeline_builder.h"
 #include "filters/iterated_smoother.h"
 #include "problems/batch.h"
 #include "problems/chain_problem.h"
 #include "problems/reconstruction.h"
-#include "problems/start.h"
 #include "simulation/builtin_scenarios.h"
 
 namespace hindsight {

@@ -1,4 +1,4 @@
-#include "problems/start.h"
+#include "alignment/start.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,9 @@ TEST(Start, LevelsAtRestAndTakesTheHeadingFromTheCourse) {
     for (int axis = 0; axis < 3; ++axis) {
       EXPECT_LT(std::abs(WrapAngle(error(axis))), 3.0 * sigma(axis)) << axis;
     }
-    EXPECT_NEAR(sigma.x(), 1e-3, 2e-4);
+    EXPECT_EQ(start.report.alignment, "course");
+    // Accelerometer bias of 1 mg, and 0.05 deg of sway.
+    EXPECT_NEAR(sigma.x(), std::hypot(1e-3, 0.05 * kDegree), 1e-5);
     EXPECT_LT(sigma.z(), 6.0 * kDegree);
     const Eigen::Vector3d d = start.report.state.C_en().transpose() *
                               (*truth.p_e - start.report.state.p_e);
@@ -108,6 +110,28 @@ TEST(Start, WithoutPositionThereIsNoAnswer) {
 TEST(Start, IntervalWithoutImuIsAnInputError) {
   const Dataset dataset = Simulate(FromRest(), 1);
   EXPECT_THROW(FindStart(dataset, 1000.0, 2000.0), InputError);
+}
+
+TEST(Start, ReachesBackToTheFirstSampleWhereTheFirstFixComesLater) {
+  constexpr double kFirstFix = 40.0;
+  Dataset dataset = Simulate(FromRest(), 1);
+  for (AidingStream& stream : dataset.streams) {
+    std::erase_if(stream.measurements,
+                  [](const Measurement& z) { return z.t < kFirstFix; });
+  }
+  const Start start = FindWholeStart(dataset);
+  EXPECT_NEAR(start.report.t, 0.0, 1e-9);
+  EXPECT_EQ(start.prior.x.t, start.report.t);
+  EXPECT_NE(start.report.position.find("back to the start"), std::string::npos)
+      << start.report.position;
+  const TruthPoint& truth = dataset.truth.front();
+  const Eigen::Vector3d d = start.report.state.C_en().transpose() *
+                            (*truth.p_e - start.report.state.p_e);
+  const Eigen::Vector3d v = *truth.v_n - start.report.state.v_n();
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_LT(std::abs(d(axis)), 3.0 * start.report.position_sigma(axis));
+    EXPECT_LT(std::abs(v(axis)), 3.0 * start.report.velocity_sigma(axis));
+  }
 }
 
 TEST(Start, CalibrationWithASigmaEntersTheLayout) {

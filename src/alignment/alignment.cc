@@ -1,0 +1,95 @@
+#include "alignment/alignment.h"
+
+#include <array>
+#include <cstdio>
+
+#include "alignment/course.h"
+#include "alignment/given.h"
+#include "alignment/gyrocompass.h"
+#include "alignment/levelling.h"
+#include "base/error.h"
+
+namespace hindsight {
+namespace {
+
+constexpr std::array<AlignmentMethod, 4> kMethods = {
+    {{AlignmentKind::kGiven, AlignAsGiven, false},
+     {AlignmentKind::kStatic, AlignAtRest},
+     {AlignmentKind::kGyrocompass, AlignByGyrocompass},
+     {AlignmentKind::kCourse, AlignByCourse}}};
+
+std::string HeadingWords(const AlignedAttitude& attitude) {
+  const double sigma = std::sqrt(attitude.P(2, 2));
+  if (sigma >= kUnknownHeadingSigma) return "heading open";
+  char text[64];
+  std::snprintf(text, sizeof(text), "heading to %.2g deg", sigma / kDegree);
+  return text;
+}
+
+bool IsGiven(const InitialState& initial) {
+  return initial.euler.has_value() || initial.heading.has_value();
+}
+
+AlignmentChoice AlignBy(AlignmentKind kind, const AlignmentInput& input) {
+  for (const AlignmentMethod& method : kMethods) {
+    if (method.kind != kind) continue;
+    const AlignmentOutcome outcome = method.align(input);
+    if (!outcome.found) {
+      throw EstimationError("alignment " + AlignmentName(kind) + ": " +
+                            outcome.reason);
+    }
+    return {kind, *outcome.found, "given by the configuration"};
+  }
+  throw EstimationError("alignment " + AlignmentName(kind) +
+                        " is not available");
+}
+
+AlignmentChoice AlignBest(const AlignmentInput& input) {
+  AlignmentChoice best;
+  std::string others;
+  bool found = false;
+  for (const AlignmentMethod& method : kMethods) {
+    if (!method.in_auto) continue;
+    AlignmentOutcome outcome = method.align(input);
+    const std::string name = AlignmentName(method.kind);
+    if (!outcome.found) {
+      others += "; " + name + ": " + outcome.reason;
+      continue;
+    }
+    const bool better =
+        !found || outcome.found->P.trace() < best.attitude.P.trace();
+    const AlignedAttitude& loser = better ? best.attitude : *outcome.found;
+    if (found) {
+      others += "; " + (better ? AlignmentName(best.kind) : name) + ": " +
+                HeadingWords(loser);
+    }
+    if (better) best = {method.kind, std::move(*outcome.found), ""};
+    found = true;
+  }
+  if (!found) {
+    best = {AlignmentKind::kStatic, LevelAttitude(input), ""};
+    best.attitude.heading = "unknown";
+  }
+  best.why = HeadingWords(best.attitude) + ", the best of" +
+             (others.empty() ? " one" : others.substr(1));
+  return best;
+}
+
+}  // namespace
+
+std::span<const AlignmentMethod> AlignmentMethods() { return kMethods; }
+
+std::string AlignmentName(AlignmentKind kind) {
+  return AlignmentNames()[static_cast<std::size_t>(kind)];
+}
+
+AlignmentChoice Align(const AlignmentInput& input) {
+  const InitialState& initial = input.dataset.initial;
+  if (initial.alignment != AlignmentKind::kAuto) {
+    return AlignBy(initial.alignment, input);
+  }
+  if (IsGiven(initial)) return AlignBy(AlignmentKind::kGiven, input);
+  return AlignBest(input);
+}
+
+}  // namespace hindsight

@@ -1,0 +1,91 @@
+#ifndef HINDSIGHT_ALIGNMENT_ALIGNMENT_H_
+#define HINDSIGHT_ALIGNMENT_ALIGNMENT_H_
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/units.h"
+#include "dataset/dataset.h"
+#include "dataset/ground_motion.h"
+#include "dataset/standstill.h"
+
+namespace hindsight {
+
+/// Standard deviation of a heading of which nothing is known: uniform on a
+/// circle, 360 deg/sqrt(12).
+inline constexpr double kUnknownHeadingSigma = 104.0 * kDegree;
+
+/// What every alignment method sees. Biases are the best values known before
+/// the attitude, with the sigma with which a gyro carries an attitude.
+struct AlignmentInput {
+  const Dataset& dataset;
+  double t = 0.0;   ///< epoch at which the attitude is asked for [s]
+  double to = 0.0;  ///< data up to here may be used [s]
+  Eigen::Vector3d p_e = Eigen::Vector3d::Zero();  ///< near the vehicle [m]
+  /// Position fixes and velocities over the ground, withheld ones left out.
+  std::vector<TimedFix> fixes;
+  std::vector<TimedVelocity> velocities;
+  /// Rest that begins at t.
+  std::optional<TimeInterval> rest;
+  Eigen::Vector3d b_g = Eigen::Vector3d::Zero();  ///< [rad/s]
+  Eigen::Vector3d b_a = Eigen::Vector3d::Zero();  ///< [m/s^2]
+  double gyro_sigma = 0.0;  ///< of b_g, the worst axis [rad/s]
+};
+
+/// An attitude at the epoch asked for.
+struct AlignedAttitude {
+  Eigen::Quaterniond q_nb = Eigen::Quaterniond::Identity();
+  /// Covariance of psi, C_nb = Exp(psi) C_nb^, in NED axes [rad^2].
+  Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
+  /// Covariance of psi with the errors of the gyro (columns 0-2) and
+  /// accelerometer biases (3-5).
+  Eigen::Matrix<double, 3, 6> P_bias = Eigen::Matrix<double, 3, 6>::Zero();
+  /// Factor on the sigmas in the prior of an estimation that uses the same
+  /// measurements again: at 10 they count twice by one per cent.
+  double reuse = 1.0;
+  std::string attitude;  ///< how roll and pitch were found, in words
+  std::string heading;   ///< how the heading was found, in words
+};
+
+/// An attitude, or why there is none.
+struct AlignmentOutcome {
+  std::optional<AlignedAttitude> found;
+  std::string reason;
+};
+
+/// One way to find an attitude. `in_auto`: a candidate where the configuration
+/// names none.
+struct AlignmentMethod {
+  AlignmentKind kind;
+  AlignmentOutcome (*align)(const AlignmentInput& input);
+  bool in_auto = true;
+};
+
+/// All methods, in the order in which they are tried.
+std::span<const AlignmentMethod> AlignmentMethods();
+
+/// Name of a kind as in a configuration.
+std::string AlignmentName(AlignmentKind kind);
+
+/// What was chosen.
+struct AlignmentChoice {
+  AlignmentKind kind = AlignmentKind::kAuto;
+  AlignedAttitude attitude;
+  /// "velocity: heading to 0.3 deg; course would give 5 deg; gyrocompass: ..."
+  std::string why;
+};
+
+/// Aligns by the method that Dataset::initial asks for; by default by the given
+/// attitude or heading, and without one by the method whose covariance has the
+/// smallest trace (the first second taken as level if there is none). Throws
+/// EstimationError if the method asked for finds nothing (its reason is the
+/// message).
+AlignmentChoice Align(const AlignmentInput& input);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_ALIGNMENT_ALIGNMENT_H_

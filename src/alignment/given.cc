@@ -1,0 +1,66 @@
+#include "alignment/given.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "alignment/levelling.h"
+#include "geometry/so3.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kGivenTiltSigma = 1.0 * kDegree;
+constexpr double kGivenHeadingSigma = 2.0 * kDegree;
+
+/// Axes in NED about which roll, pitch and heading turn.
+Eigen::Matrix3d EulerAxes(const Eigen::Vector3d& euler) {
+  Eigen::Matrix3d M;
+  M.col(0) =
+      QuaternionFromEuler(0.0, euler.y(), euler.z()) * Eigen::Vector3d::UnitX();
+  M.col(1) =
+      QuaternionFromEuler(0.0, 0.0, euler.z()) * Eigen::Vector3d::UnitY();
+  M.col(2) = Eigen::Vector3d::UnitZ();
+  return M;
+}
+
+}  // namespace
+
+Eigen::Matrix3d AttitudeCovariance(const Eigen::Vector3d& euler,
+                                   const Eigen::Vector3d& sigma) {
+  const Eigen::Matrix3d M = EulerAxes(euler);
+  return M * sigma.cwiseAbs2().asDiagonal() * M.transpose();
+}
+
+Eigen::Vector3d EulerSigma(const Eigen::Vector3d& euler,
+                           const Eigen::Matrix3d& P) {
+  if (std::abs(euler.y()) > 89.0 * kDegree) {
+    return P.diagonal().cwiseSqrt();
+  }
+  const Eigen::Matrix3d J = EulerAxes(euler).inverse();
+  return (J * P * J.transpose()).diagonal().cwiseSqrt();
+}
+
+AlignmentOutcome AlignAsGiven(const AlignmentInput& input) {
+  const InitialState& initial = input.dataset.initial;
+  AlignedAttitude out;
+  if (initial.euler) {
+    const Eigen::Vector3d& euler = *initial.euler;
+    out.q_nb = QuaternionFromEuler(euler.x(), euler.y(), euler.z());
+    out.P = AttitudeCovariance(
+        euler, initial.attitude_sigma.value_or(Eigen::Vector3d(
+                   kGivenTiltSigma, kGivenTiltSigma, kGivenHeadingSigma)));
+    out.attitude = "given";
+  } else if (initial.heading) {
+    out = LevelAttitude(input);
+    TurnToHeading(*initial.heading,
+                  initial.attitude_sigma ? initial.attitude_sigma->z()
+                                         : kGivenHeadingSigma,
+                  &out);
+  } else {
+    return {std::nullopt, "neither attitude nor heading is given"};
+  }
+  out.heading = "given";
+  return {out, ""};
+}
+
+}  // namespace hindsight

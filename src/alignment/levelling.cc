@@ -1,0 +1,109 @@
+#include "alignment/levelling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "alignment/start_layout.h"
+#include "earth/wgs84.h"
+#include "geometry/so3.h"
+#include "imu/preintegration.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kAssumedLevelSigma = 5.0 * kDegree;
+constexpr double kSway = 0.05 * kDegree;
+
+}  // namespace
+
+Kinematics MeanReading(const ImuStream& imu, double begin, double end) {
+  const ImuIntegrator integrator(imu);
+  Kinematics mean;
+  double total = 0.0;
+  auto it = std::upper_bound(
+      imu.samples.begin(), imu.samples.end(), begin,
+      [](double t, const ImuSample& sample) { return t < sample.t; });
+  if (it == imu.samples.begin()) ++it;
+  for (; it != imu.samples.end(); ++it) {
+    const LinearRates rates = integrator.RatesOfInterval(
+        static_cast<std::size_t>(it - imu.samples.begin()));
+    if (total > 0.0 && it->t > end) break;
+    mean.w_ib_b += 0.5 * rates.dt * (rates.w0 + rates.w1);
+    mean.f_b += 0.5 * rates.dt * (rates.f0 + rates.f1);
+    total += rates.dt;
+  }
+  mean.w_ib_b /= total;
+  mean.f_b /= total;
+  return mean;
+}
+
+AlignedAttitude LevelAttitude(const AlignmentInput& input) {
+  const ImuStream& imu = input.dataset.imu;
+  const double end =
+      input.rest ? input.rest->end : std::min(input.t + 1.0, input.to);
+  const Eigen::Vector3d f = MeanReading(imu, input.t, end).f_b - input.b_a;
+  AlignedAttitude out;
+  out.q_nb =
+      QuaternionFromEuler(std::atan2(-f.y(), -f.z()),
+                          std::atan2(f.x(), std::hypot(f.y(), f.z())), 0.0);
+  out.heading = "open";
+  out.P(2, 2) = kUnknownHeadingSigma * kUnknownHeadingSigma;
+  if (!input.rest) {
+    out.attitude = "assumed near level, no rest at the start";
+    out.P(0, 0) = out.P(1, 1) = kAssumedLevelSigma * kAssumedLevelSigma;
+    return out;
+  }
+  const double rest = end - input.t;
+  char words[64];
+  std::snprintf(words, sizeof(words), "levelled at rest for %.1f s", rest);
+  out.attitude = words;
+  const double sway = std::hypot(kSway, imu.noise.accel_noise_density /
+                                            std::sqrt(rest) / kStandardGravity);
+  const Eigen::Matrix3d C_nb = out.q_nb.toRotationMatrix();
+  Eigen::Matrix<double, 2, 3> M;
+  M.row(0) = C_nb.row(1) / kStandardGravity;
+  M.row(1) = -C_nb.row(0) / kStandardGravity;
+  const Eigen::Matrix3d P_b = AccelBiasSigma(input.dataset.initial)
+                                  .cwiseAbs2()
+                                  .asDiagonal()
+                                  .toDenseMatrix();
+  out.P.topLeftCorner<2, 2>() = M * P_b * M.transpose();
+  out.P(0, 0) += sway * sway;
+  out.P(1, 1) += sway * sway;
+  out.P_bias.block<2, 3>(0, 3) = M * P_b;
+  return out;
+}
+
+void TurnToHeading(double heading, double sigma, AlignedAttitude* attitude) {
+  const Eigen::Quaterniond turn = QuaternionFromEuler(0.0, 0.0, heading);
+  const Eigen::Matrix3d C = turn.toRotationMatrix();
+  attitude->q_nb = turn * attitude->q_nb;
+  attitude->P(2, 2) = sigma * sigma;
+  attitude->P = (C * attitude->P * C.transpose()).eval();
+  attitude->P_bias = (C * attitude->P_bias).eval();
+}
+
+AlignmentOutcome AlignAtRest(const AlignmentInput& input) {
+  if (!input.rest) return {std::nullopt, "no rest at the start"};
+  AlignedAttitude attitude = LevelAttitude(input);
+  attitude.heading = "unknown: levelling does not tell it";
+  return {attitude, ""};
+}
+
+RestingGyro GyroBiasAtRest(const Dataset& dataset, const TimeInterval& rest) {
+  const double T = rest.end - rest.begin;
+  RestingGyro out;
+  out.sigma = std::hypot(dataset.imu.noise.gyro_noise_density / std::sqrt(T),
+                         kEarthRate);
+  const Eigen::Array3d variance =
+      GyroBiasSigma(dataset.initial).cwiseAbs2().array();
+  const Eigen::Array3d weight = variance / (variance + out.sigma * out.sigma);
+  const Eigen::Vector3d& given = dataset.initial.gyro_bias;
+  const Eigen::Vector3d mean =
+      MeanReading(dataset.imu, rest.begin, rest.end).w_ib_b;
+  out.b_g = given + (weight * (mean - given).array()).matrix();
+  return out;
+}
+
+}  // namespace hindsight

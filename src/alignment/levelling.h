@@ -1,0 +1,39 @@
+#ifndef HINDSIGHT_ALIGNMENT_LEVELLING_H_
+#define HINDSIGHT_ALIGNMENT_LEVELLING_H_
+
+#include "alignment/alignment.h"
+#include "imu/imu_stream.h"
+#include "imu/kinematics.h"
+
+namespace hindsight {
+
+/// Means of all readings over [begin, end].
+Kinematics MeanReading(const ImuStream& imu, double begin, double end);
+
+/// Levels by the mean specific force over the rest at input.t:
+///   roll = atan2(-f_y, -f_z),  pitch = atan2(f_x, |f_yz|),
+/// heading zero with kUnknownHeadingSigma. An accelerometer bias db_a turns
+/// into tilt, psi_N = +(C_nb db_a)_E / g and psi_E = -(C_nb db_a)_N / g: P and
+/// P_bias say so, with 0.05 deg of sway on top. Without rest the first second
+/// is levelled and 5 deg assumed.
+AlignedAttitude LevelAttitude(const AlignmentInput& input);
+
+/// Turns a levelled attitude about the vertical to `heading` [rad], with a
+/// standard deviation independent of the tilt.
+void TurnToHeading(double heading, double sigma, AlignedAttitude* attitude);
+
+/// Method `static`: LevelAttitude at rest, heading left open.
+AlignmentOutcome AlignAtRest(const AlignmentInput& input);
+
+/// Gyro bias from the mean rate at rest, a priori value and mean weighted by
+/// their variances; the unknown direction of the Earth's rate counts as noise:
+///   sigma^2 = density^2 / T + w_ie^2.
+struct RestingGyro {
+  Eigen::Vector3d b_g;
+  double sigma = 0.0;  ///< [rad/s]
+};
+RestingGyro GyroBiasAtRest(const Dataset& dataset, const TimeInterval& rest);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_ALIGNMENT_LEVELLING_H_

@@ -1,0 +1,263 @@
+#include "alignment/start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "alignment/alignment.h"
+#include "alignment/backward_extension.h"
+#include "alignment/given.h"
+#include "alignment/levelling.h"
+#include "base/error.h"
+#include "geometry/so3.h"
+
+namespace hindsight {
+namespace {
+
+std::string Words(const char* format, double a) {
+  char buffer[160];
+  std::snprintf(buffer, sizeof(buffer), format, a);
+  return buffer;
+}
+
+/// Works through the steps of FindStart; each fills its part of the report.
+class StartFinder {
+ public:
+  StartFinder(const Dataset& dataset, double from, double to)
+      : dataset_(dataset),
+        from_(std::max(from, dataset.imu.t_begin())),
+        to_(std::min(to, dataset.imu.t_end())) {}
+
+  Start Find() {
+    if (!(from_ < to_)) {
+      throw InputError("no IMU data " +
+                       (from_ > dataset_.imu.t_begin()
+                            ? "after the asked " + std::to_string(from_)
+                            : "before the asked " + std::to_string(to_)) +
+                       " s: they cover " +
+                       std::to_string(dataset_.imu.t_begin()) + " s to " +
+                       std::to_string(dataset_.imu.t_end()) + " s");
+    }
+    fixes_ = PositionFixes(dataset_, from_, to_);
+    velocities_ = GroundVelocities(dataset_, from_, to_);
+    rests_ = FindRests(dataset_);
+    ChooseTime();
+    ChooseGyroBias();
+    ChooseAttitude();
+    ChooseVelocity();
+    ChoosePosition();
+    return Finish();
+  }
+
+ private:
+  const InitialState& given() const { return dataset_.initial; }
+
+  void ChooseTime() {
+    if (given().t) {
+      t_ = std::max(*given().t, from_);
+    } else if (given().position) {
+      t_ = from_;
+    } else if (!fixes_.empty()) {
+      t_ = fixes_.front().t;
+      for (const TimeInterval& rest : rests_) {
+        if (rest.begin <= from_ + 1.0 && rest.end >= t_) t_ = from_;
+      }
+    } else {
+      throw EstimationError(
+          "no initial position: give initial.position or a position stream "
+          "with fixes inside the interval");
+    }
+    for (const TimeInterval& rest : rests_) {
+      if (rest.begin <= t_ + 1.0 && rest.end > t_ + 1.0) {
+        rest_ = TimeInterval{std::max(t_, rest.begin), rest.end};
+      }
+    }
+  }
+
+  /// The rest makes the start value and the sigma with which the gyros carry
+  /// heading; the a priori sigma is left as it was where zero-rate measurements
+  /// will use the same data.
+  void ChooseGyroBias() {
+    b_g_ = given().gyro_bias;
+    b_g_sigma_ = GyroBiasSigma(given());
+    gyro_sigma_ = b_g_sigma_.maxCoeff();
+    if (!rest_) return;
+    const RestingGyro resting = GyroBiasAtRest(dataset_, *rest_);
+    b_g_ = resting.b_g;
+    gyro_sigma_ = std::min(gyro_sigma_, resting.sigma);
+    if (!dataset_.stationary.enabled) {
+      b_g_sigma_ = b_g_sigma_.cwiseMin(resting.sigma);
+    }
+  }
+
+  void ChooseAttitude() {
+    AlignmentInput input{.dataset = dataset_,
+                         .t = t_,
+                         .to = to_,
+                         .p_e = given().position
+                                    ? EcefFromGeodetic(*given().position)
+                                    : fixes_.front().p_e,
+                         .fixes = fixes_,
+                         .velocities = velocities_,
+                         .rest = rest_,
+                         .b_g = b_g_,
+                         .b_a = given().accel_bias,
+                         .gyro_sigma = gyro_sigma_};
+    AlignmentChoice choice = Align(input);
+    attitude_ = std::move(choice.attitude);
+    euler_ = EulerFromQuaternion(attitude_.q_nb);
+    if (given().attitude_sigma) {
+      attitude_.P = AttitudeCovariance(euler_, *given().attitude_sigma);
+      attitude_.P_bias.setZero();
+      attitude_.reuse = 1.0;
+    }
+    report_.alignment = AlignmentName(choice.kind);
+    report_.why = choice.why;
+    report_.attitude = attitude_.attitude;
+    report_.heading = attitude_.heading;
+  }
+
+  void ChooseVelocity() {
+    if (given().v_n) {
+      v_n_ = *given().v_n;
+      v_sigma_ =
+          given().velocity_sigma.value_or(Eigen::Vector3d::Constant(0.1));
+      return;
+    }
+    if (rest_) {
+      v_sigma_.setConstant(0.05);
+    } else if (!velocities_.empty()) {
+      const TimedVelocity& nearest = *std::min_element(
+          velocities_.begin(), velocities_.end(),
+          [this](const TimedVelocity& a, const TimedVelocity& b) {
+            return std::abs(a.t - t_) < std::abs(b.t - t_);
+          });
+      v_n_ = nearest.v_n;
+      // It is used again as a measurement, or made of fixes that are.
+      v_sigma_.setConstant(3.0 * nearest.sigma +
+                           3.0 * std::abs(nearest.t - t_) + 0.2);
+    } else {
+      v_sigma_.setConstant(10.0);
+    }
+    if (given().velocity_sigma) v_sigma_ = *given().velocity_sigma;
+  }
+
+  void ChoosePosition() {
+    if (given().position) {
+      position_e_ = EcefFromGeodetic(*given().position);
+      p_sigma_ =
+          given().position_sigma.value_or(Eigen::Vector3d::Constant(1.0));
+      report_.position = "given";
+      return;
+    }
+    const TimedFix& fix = fixes_.front();
+    const Eigen::Vector3d& lever_arm_b =
+        dataset_.streams[static_cast<std::size_t>(fix.sensor)]
+            .sensor.lever_arm_b;
+    const Eigen::Matrix3d C_en = NedAxes(fix.p_e);
+    const Eigen::Vector3d lever_n = attitude_.q_nb * lever_arm_b;
+    position_e_ = fix.p_e - C_en * (lever_n + (fix.t - t_) * v_n_);
+    const double lever = lever_arm_b.norm();
+    const double swing = lever * std::min(std::sqrt(attitude_.P.trace()), 1.0) +
+                         std::abs(fix.t - t_) * v_sigma_.x();
+    // The fix itself is used again as a measurement: its own sigma would count
+    // it twice.
+    p_sigma_ = 3.0 * fix.R_n.diagonal().cwiseSqrt();
+    p_sigma_.array() += swing + 1.0;
+    if (given().position_sigma) p_sigma_ = *given().position_sigma;
+    report_.position = Words("position fix at t = %.2f s", fix.t);
+  }
+
+  NavigationPrior BuildPrior() const {
+    NavigationPrior prior;
+    prior.position_sigma = p_sigma_;
+    prior.velocity_sigma = v_sigma_;
+    prior.attitude_sigma = attitude_.P.diagonal().cwiseSqrt();
+    prior.gyro_bias_sigma = b_g_sigma_;
+    prior.accel_bias_sigma = AccelBiasSigma(given());
+    prior.gyro_bias = dataset_.imu.noise.GyroBiasEvolution();
+    prior.accel_bias = dataset_.imu.noise.AccelBiasEvolution();
+    return prior;
+  }
+
+  /// A priori covariance with the sigmas of the attitude times `factor`, but
+  /// not beyond those of an attitude of which nothing is known.
+  ErrorMatrix Covariance(const ErrorLayout& layout, double factor) const {
+    ErrorMatrix P = layout.InitialCovariance();
+    const int a = layout.Find(BlockKind::kAttitude)->offset;
+    const int b = layout.Find(BlockKind::kGyroBias)->offset;
+    const double largest = std::sqrt(attitude_.P.diagonal().maxCoeff());
+    const double f = std::clamp(kUnknownHeadingSigma / largest, 1.0, factor);
+    P.block<3, 3>(a, a) = f * f * attitude_.P;
+    if (f == 1.0) {
+      P.block<3, 6>(a, b) = attitude_.P_bias;
+      P.block<6, 3>(b, a) = attitude_.P_bias.transpose();
+    }
+    return P;
+  }
+
+  Start Finish() {
+    Start start;
+    State x = MakeState(t_, GeodeticFromEcef(position_e_), v_n_, euler_);
+    x.b_g = b_g_;
+    x.b_a = given().accel_bias;
+    start.layout = BuildLayout(dataset_, BuildPrior());
+    x.parameters = InitialParameters(dataset_, start.layout);
+    Prior known{x, Covariance(start.layout, 1.0)};
+    start.prior = {x, Covariance(start.layout, attitude_.reuse)};
+    if (t_ > from_ && !given().t) {
+      ExtendBackward(start.layout, dataset_.imu, from_, &start.prior);
+      ExtendBackward(start.layout, dataset_.imu, start.prior.x.t, &known);
+    }
+    Report(known);
+    start.report = report_;
+    return start;
+  }
+
+  void Report(const Prior& known) {
+    const State& x = known.x;
+    report_.t = x.t;
+    report_.state = x;
+    const Eigen::VectorXd sigma = known.P.diagonal().cwiseSqrt();
+    report_.position_sigma = sigma.head<3>();
+    report_.velocity_sigma = sigma.segment<3>(3);
+    report_.attitude_sigma = EulerSigma(x.euler(), known.P.block<3, 3>(6, 6));
+    if (t_ - x.t > 1.0) {
+      report_.position +=
+          Words("; %.1f s back to the start by the IMU", t_ - x.t);
+    }
+    if (!given().t && x.t - from_ > 1.0) {
+      report_.position += Words(
+          "; the %.1f s before it are left out, as nothing gives a position",
+          x.t - from_);
+    }
+  }
+
+  const Dataset& dataset_;
+  double from_;
+  double to_;
+  std::vector<TimedFix> fixes_;
+  std::vector<TimedVelocity> velocities_;
+  std::vector<TimeInterval> rests_;
+  std::optional<TimeInterval> rest_;
+  double t_ = 0.0;
+  AlignedAttitude attitude_;
+  Eigen::Vector3d position_e_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_n_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d euler_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d b_g_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_sigma_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_sigma_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d b_g_sigma_ = Eigen::Vector3d::Zero();
+  double gyro_sigma_ = 0.0;
+  StartReport report_;
+};
+
+}  // namespace
+
+Start FindStart(const Dataset& dataset, double from, double to) {
+  return StartFinder(dataset, from, to).Find();
+}
+
+}  // namespace hindsight

@@ -1,0 +1,47 @@
+#ifndef HINDSIGHT_ALIGNMENT_START_H_
+#define HINDSIGHT_ALIGNMENT_START_H_
+
+#include <string>
+
+#include "alignment/start_layout.h"
+#include "dataset/dataset.h"
+#include "filters/forward_filter.h"
+
+namespace hindsight {
+
+/// How the initial state came about.
+struct StartReport {
+  double t = 0.0;
+  std::string alignment;  ///< name of the method, as in a configuration
+  std::string why;        ///< why this method, and what others would give
+  std::string position;   ///< in words: "given", "first position fix"
+  std::string attitude;   ///< "given", "levelled at rest for 12.3 s", ...
+  std::string heading;    ///< "given", "course at t = 31.2 s", ...
+  State state;
+  Eigen::Vector3d position_sigma;  ///< NED [m]
+  Eigen::Vector3d velocity_sigma;  ///< NED [m/s]
+  Eigen::Vector3d attitude_sigma;  ///< roll, pitch, heading [rad]
+};
+
+/// The start of an estimation: report in words, layout, prior. The prior is
+/// wider than the report where the same measurements are used again.
+struct Start {
+  StartReport report;
+  ErrorLayout layout;
+  Prior prior;
+};
+
+/// Finds the initial state of a data set over [from, to].
+///   time      given; else the first IMU sample, reached backward from the
+///             alignment epoch (ExtendBackward) if nothing gives a position
+///             before.
+///   position  given, else the first position fix less its lever arm.
+///   attitude  as Align finds it.
+///   velocity  given, else zero at rest, else from the first fixes.
+///   gyro bias mean rate at rest less Earth rate, else as given.
+/// Throws EstimationError if there is no position.
+Start FindStart(const Dataset& dataset, double from, double to);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_ALIGNMENT_START_H_

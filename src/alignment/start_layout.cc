@@ -1,0 +1,91 @@
+#include "alignment/start_layout.h"
+
+#include <string>
+
+#include "base/units.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kDefaultGyroBiasSigma = 0.2 * kDegree;
+constexpr double kDefaultAccelBiasSigma = 0.2;
+
+void AddCalibration(BlockKind kind, int sensor, const std::string& name,
+                    const char* unit, const Eigen::Vector3d& sigma,
+                    ErrorLayout* layout) {
+  Block block;
+  block.key = {kind, sensor};
+  block.name = name;
+  block.unit = unit;
+  block.evolution = Evolution::Constant();
+  block.sigma0 = sigma;
+  layout->Add(block);
+}
+
+}  // namespace
+
+ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior) {
+  ErrorLayout layout = NavigationLayout(prior);
+  const int none = BlockKey::kNoSensor;
+  if (dataset.gyro_scale_sigma) {
+    AddCalibration(BlockKind::kGyroScale, none, "gyro_scale", "1",
+                   *dataset.gyro_scale_sigma, &layout);
+  }
+  if (dataset.accel_scale_sigma) {
+    AddCalibration(BlockKind::kAccelScale, none, "accel_scale", "1",
+                   *dataset.accel_scale_sigma, &layout);
+  }
+  for (std::size_t i = 0; i < dataset.streams.size(); ++i) {
+    const Sensor& sensor = dataset.streams[i].sensor;
+    const int index = static_cast<int>(i);
+    if (sensor.scale_sigma) {
+      AddCalibration(BlockKind::kScale, index, sensor.name + "_scale", "1",
+                     Eigen::Vector3d::Constant(*sensor.scale_sigma), &layout);
+    }
+    if (sensor.mounting_sigma) {
+      AddCalibration(BlockKind::kMounting, index, sensor.name + "_mounting",
+                     "rad", *sensor.mounting_sigma, &layout);
+    }
+    if (sensor.lever_arm_sigma) {
+      AddCalibration(BlockKind::kLeverArm, index, sensor.name + "_lever_arm",
+                     "m", *sensor.lever_arm_sigma, &layout);
+    }
+    if (sensor.time_offset_sigma) {
+      AddCalibration(
+          BlockKind::kTimeOffset, index, sensor.name + "_time_offset", "s",
+          Eigen::Vector3d::Constant(*sensor.time_offset_sigma), &layout);
+    }
+  }
+  return layout;
+}
+
+ParameterVector InitialParameters(const Dataset& dataset,
+                                  const ErrorLayout& layout) {
+  ParameterVector parameters = ParameterVector::Zero(layout.parameter_count());
+  for (const Block& block : layout.blocks()) {
+    if (block.key.sensor == BlockKey::kNoSensor) continue;
+    const Sensor& sensor =
+        dataset.streams[static_cast<std::size_t>(block.key.sensor)].sensor;
+    const int offset = block.parameter_offset;
+    if (block.key.kind == BlockKind::kLeverArm) {
+      parameters.segment<3>(offset) = sensor.lever_arm_b;
+    } else if (block.key.kind == BlockKind::kTimeOffset) {
+      parameters(offset) = sensor.time_offset;
+    } else if (block.key.kind == BlockKind::kScale) {
+      parameters(offset) = sensor.scale;
+    }
+  }
+  return parameters;
+}
+
+Eigen::Vector3d GyroBiasSigma(const InitialState& given) {
+  return given.gyro_bias_sigma.value_or(
+      Eigen::Vector3d::Constant(kDefaultGyroBiasSigma));
+}
+
+Eigen::Vector3d AccelBiasSigma(const InitialState& given) {
+  return given.accel_bias_sigma.value_or(
+      Eigen::Vector3d::Constant(kDefaultAccelBiasSigma));
+}
+
+}  // namespace hindsight
