@@ -23,17 +23,21 @@ namespace {
 /// nominal comes from and whether the update moves it.
 class ForwardPass {
  public:
-  ForwardPass(const ErrorLayout& layout, const Prior& prior, Timeline* timeline,
+  ForwardPass(const ForwardModel& model, const ErrorLayout& layout,
+              const Prior& prior, Timeline* timeline,
               const GateDecisions& decisions)
       : layout_(layout),
         timeline_(*timeline),
         decisions_(decisions),
-        tape_(layout),
+        error_(model.error),
+        policy_(model.covariance, layout),
+        tape_(layout, model.error),
         x_(prior.x),
         P_(prior.P),
         dx_(ErrorVector::Zero(layout.dim())) {
     tape_.Reserve(timeline->size());
     transition_.c = ErrorVector::Zero(layout.dim());
+    if (!policy_.is_kalman()) tape_.ForbidSmoothing();
     for (const Sensor& sensor : timeline_.sensors()) {
       for (int rows = 1; rows <= kMaxRows; ++rows) {
         gate_limits_.push_back(GateLimit(sensor, rows));
@@ -48,7 +52,7 @@ class ForwardPass {
     fixed_nominal_ = true;
     x_ = nominal;
     dx_ = Local(layout_, nominal, prior_mean);
-    MoveCovariance(prior_mean);
+    MoveCovariance(Transport(layout_, prior_mean, nominal));
   }
 
   /// Time update of the interval that ends at node k, to the predicted state.
@@ -58,7 +62,7 @@ class ForwardPass {
     const State predicted = Predict(layout_, x_, summary);
     LinearizeTransition(layout_, summary, x_, predicted, &transition_);
     transition_.c.setZero();
-    Propagate(predicted);
+    Propagate(predicted, summary.dt());
   }
 
   /// Time update to a given nominal, with its defect.
@@ -66,7 +70,7 @@ class ForwardPass {
     const ImuSummary& summary =
         timeline_.Summary(k - 1, CalibrationOf(layout_, x_));
     LinearizeTransition(layout_, summary, x_, nominal, &transition_);
-    Propagate(nominal);
+    Propagate(nominal, summary.dt());
   }
 
   /// Measurement update at node k and a new epoch on the tape.
@@ -81,12 +85,15 @@ class ForwardPass {
     for (std::size_t i = 0; i < measurements.size(); ++i) {
       Use(k, measurements[i], static_cast<int>(i));
     }
+    if (k > 0) policy_.Bound(epoch.t, StepTo(k), &dx_, &P_);
     epoch.dx_plus = dx_;
     if (reset) {
       epoch.reset = true;
-      x_ = Retract(layout_, x_, dx_);
+      x_ = Retract(error_, layout_, x_, dx_);
       x_.t = epoch.t;
-      if (!measurements.empty()) MoveCovariance(epoch.x_minus);
+      if (!measurements.empty()) {
+        MoveCovariance(Transport(error_, layout_, epoch.x_minus, dx_, x_));
+      }
       dx_.setZero();
     }
     if (!dx_.allFinite() || !x_.p_e.allFinite() || !P_.allFinite()) {
@@ -100,9 +107,13 @@ class ForwardPass {
   LinearTape TakeTape() { return std::move(tape_); }
 
  private:
-  void Propagate(const State& nominal) {
+  double StepTo(std::size_t k) const {
+    return timeline_.node(k).t - timeline_.node(k - 1).t;
+  }
+
+  void Propagate(const State& nominal, double dt) {
     dx_ = (transition_.Phi * dx_ + transition_.c).eval();
-    PredictCovariance(transition_.Phi, transition_.Q, &P_);
+    policy_.Predict(transition_, dt, &P_);
     x_ = nominal;
   }
 
@@ -147,9 +158,7 @@ class ForwardPass {
                                  z.sensor * kMaxRows + rows - 1)];
   }
 
-  /// Carries P from the tangent at `from` to the one at the reset nominal.
-  void MoveCovariance(const State& from) {
-    const ErrorMatrix T = Transport(layout_, from, x_);
+  void MoveCovariance(const ErrorMatrix& T) {
     const ErrorMatrix TP = T * P_;
     P_.noalias() = TP * T.transpose();
     Symmetrize(&P_);
@@ -158,6 +167,8 @@ class ForwardPass {
   const ErrorLayout& layout_;
   Timeline& timeline_;
   const GateDecisions& decisions_;
+  ErrorDefinition error_;
+  CovariancePolicy policy_;
   LinearTape tape_;
   State x_;
   ErrorMatrix P_;
@@ -170,11 +181,11 @@ class ForwardPass {
 
 }  // namespace
 
-LinearTape RunExtendedKalmanFilter(const ErrorLayout& layout,
-                                   const Prior& prior, Timeline* timeline,
-                                   const GateDecisions& decisions,
-                                   const EpochCallback& callback) {
-  ForwardPass pass(layout, prior, timeline, decisions);
+LinearTape RunForwardFilter(const ForwardModel& model,
+                            const ErrorLayout& layout, const Prior& prior,
+                            Timeline* timeline, const GateDecisions& decisions,
+                            const EpochCallback& callback) {
+  ForwardPass pass(model, layout, prior, timeline, decisions);
   for (std::size_t k = 0; k < timeline->size(); ++k) {
     if (k > 0) pass.PredictTo(k);
     pass.UpdateAt(k, /*reset=*/true);
@@ -183,12 +194,19 @@ LinearTape RunExtendedKalmanFilter(const ErrorLayout& layout,
   return pass.TakeTape();
 }
 
+LinearTape RunExtendedKalmanFilter(const ErrorLayout& layout,
+                                   const Prior& prior, Timeline* timeline,
+                                   const GateDecisions& decisions,
+                                   const EpochCallback& callback) {
+  return RunForwardFilter({}, layout, prior, timeline, decisions, callback);
+}
+
 LinearTape RunLinearizedFilter(const ErrorLayout& layout, const Prior& prior,
                                std::span<const State> nominal,
                                Timeline* timeline,
                                const GateDecisions& decisions,
                                const EpochCallback& callback) {
-  ForwardPass pass(layout, prior, timeline, decisions);
+  ForwardPass pass({}, layout, prior, timeline, decisions);
   pass.StartAbout(nominal.front());
   for (std::size_t k = 0; k < timeline->size(); ++k) {
     if (k > 0) pass.PredictTo(k, nominal[k]);

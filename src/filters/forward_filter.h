@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "filters/covariance_policy.h"
 #include "filters/linear_tape.h"
 #include "measurements/timeline.h"
 
@@ -27,9 +28,24 @@ using EpochCallback = std::function<void(std::size_t)>;
 /// pass for so many rows, infinity without a gate.
 double GateLimit(const Sensor& sensor, int rows);
 
-/// Error-state extended Kalman filter: predicts through the IMU summaries,
-/// updates about x_minus, resets the nominal at each epoch. Writes the tape and
-/// integrates the timeline's summaries at its own bias estimates.
+/// What a forward filter calls its error, and how its P evolves.
+struct ForwardModel {
+  ErrorDefinition error = ErrorDefinition::kNavigation;
+  CovarianceOptions covariance;
+};
+
+/// Forward observer x^' = f(x^) + K (y - h(x^)): predicts through the IMU
+/// summaries, updates about x_minus, resets the nominal at each epoch. Writes
+/// the tape and integrates the timeline's summaries at its own bias estimates.
+/// Throws FiniteEscape if the rule of the covariance has no solution any more,
+/// EstimationError if the state is no number.
+LinearTape RunForwardFilter(const ForwardModel& model,
+                            const ErrorLayout& layout, const Prior& prior,
+                            Timeline* timeline,
+                            const GateDecisions& decisions = {},
+                            const EpochCallback& callback = nullptr);
+
+/// Error-state extended Kalman filter: RunForwardFilter with the defaults.
 LinearTape RunExtendedKalmanFilter(const ErrorLayout& layout,
                                    const Prior& prior, Timeline* timeline,
                                    const GateDecisions& decisions = {},

@@ -1,5 +1,6 @@
 #include "filters/linear_tape.h"
 
+#include <stdexcept>
 #include <utility>
 
 namespace hindsight {
@@ -106,6 +107,18 @@ ErrorMatrix LinearTape::P_plus(std::size_t k) const {
   return Unpack(matrices_[k].P_plus);
 }
 
+ErrorMatrix LinearTape::ResetTransport(std::size_t k) const {
+  const TapeEpoch& epoch = epochs_[k];
+  if (!epoch.moves_nominal()) return ErrorMatrix::Identity(dim(), dim());
+  return Transport(error_, layout_, epoch.x_minus, epoch.dx_plus, epoch.x_plus);
+}
+
+State LinearTape::StateAt(std::size_t k, const ErrorVector& d) const {
+  State x = Retract(error_, layout_, epochs_[k].x_plus, d);
+  x.t = epochs_[k].t;
+  return x;
+}
+
 void LinearTape::PopBack() {
   mark_chunk_ = matrices_.back().chunk;
   mark_used_ = matrices_.back().used;
@@ -114,6 +127,13 @@ void LinearTape::PopBack() {
   matrices_.pop_back();
   chunks_.resize(mark_chunk_ + (epochs_.empty() ? 0 : 1));
   if (!chunks_.empty()) chunks_.back().used = mark_used_;
+}
+
+void RequireSmoothable(const LinearTape& tape) {
+  if (!tape.smoothable()) {
+    throw std::logic_error(
+        "the tape's matrices P are not covariances of its system");
+  }
 }
 
 }  // namespace hindsight

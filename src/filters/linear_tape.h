@@ -8,6 +8,7 @@
 
 #include "filters/kalman.h"
 #include "imu/imu_link.h"
+#include "state/error_definition.h"
 
 namespace hindsight {
 
@@ -31,6 +32,9 @@ struct TapeMeasurement {
 /// One epoch: the interval that ends at t and the update at t. Errors about
 /// x_minus, in its tangent, unless said otherwise.
 struct TapeEpoch {
+  /// Whether the update moved the nominal.
+  bool moves_nominal() const { return reset && measurement_count > 0; }
+
   double t = 0.0;
   State x_minus;  ///< nominal before the update
   State x_plus;   ///< nominal after it; equal to x_minus if it was not reset
@@ -50,11 +54,20 @@ struct TapeEpoch {
 /// transport T(k) leads from the tangent at x_minus(k) to that at x_plus(k).
 /// Forward filters write it; RTS, two-filter and IMM smoothing read it and know
 /// no sensor. Its matrices lie in chunks that are released as it is shortened.
+/// All are in canonical axes, whatever the definition of the error; that
+/// decides where a reset leads and how it carries errors, ResetTransport.
 class LinearTape {
  public:
-  explicit LinearTape(ErrorLayout layout) : layout_(std::move(layout)) {}
+  explicit LinearTape(ErrorLayout layout,
+                      ErrorDefinition error = ErrorDefinition::kNavigation)
+      : layout_(std::move(layout)), error_(error) {}
 
   const ErrorLayout& layout() const { return layout_; }
+  ErrorDefinition error() const { return error_; }
+  /// False if P- and P+ follow another rule than the covariances of this
+  /// system: then there is nothing that smoothing it could mean.
+  bool smoothable() const { return smoothable_; }
+  void ForbidSmoothing() { smoothable_ = false; }
   int dim() const { return layout_.dim(); }
   std::size_t size() const { return epochs_.size(); }
   const TapeEpoch& epoch(std::size_t k) const { return epochs_[k]; }
@@ -81,6 +94,12 @@ class LinearTape {
   ErrorMatrix P_minus(std::size_t k) const;
   ErrorMatrix P_plus(std::size_t k) const;
 
+  /// T(k), from the tangent at x_minus to that at x_plus; identity but for
+  /// epochs that moved their nominal.
+  ErrorMatrix ResetTransport(std::size_t k) const;
+  /// The state that the error d about x_plus of epoch k leads to.
+  State StateAt(std::size_t k, const ErrorVector& d) const;
+
   /// Drops the last epoch and the memory it alone used.
   void PopBack();
   void Reserve(std::size_t count) { epochs_.reserve(count); }
@@ -103,6 +122,8 @@ class LinearTape {
   ErrorMatrix Unpack(const double* packed) const;
 
   ErrorLayout layout_;
+  ErrorDefinition error_;
+  bool smoothable_ = true;
   std::vector<TapeEpoch> epochs_;
   std::vector<TapeMeasurement> measurements_;
   std::vector<Matrices> matrices_;
@@ -110,6 +131,9 @@ class LinearTape {
   std::size_t mark_chunk_ = 0;  ///< pool position after the last epoch
   std::size_t mark_used_ = 0;
 };
+
+/// Throws std::logic_error for a tape that is not smoothable.
+void RequireSmoothable(const LinearTape& tape);
 
 }  // namespace hindsight
 

@@ -13,12 +13,10 @@ namespace {
 void WriteEpoch(const LinearTape& tape, std::size_t k, ErrorVector* d,
                 ErrorMatrix* P, SmoothedTrajectory* out) {
   const TapeEpoch& epoch = tape.epoch(k);
-  out->states[k] = Retract(tape.layout(), epoch.x_plus, *d);
-  out->states[k].t = epoch.t;
+  out->states[k] = tape.StateAt(k, *d);
   out->P.Set(k, *P);
-  if (epoch.reset && epoch.measurement_count > 0) {
-    const ErrorMatrix T = Transport(tape.layout(), epoch.x_minus, epoch.x_plus);
-    const Eigen::PartialPivLU<ErrorMatrix> lu(T);
+  if (epoch.moves_nominal()) {
+    const Eigen::PartialPivLU<ErrorMatrix> lu(tape.ResetTransport(k));
     *d = (epoch.dx_plus + lu.solve(*d)).eval();
     const ErrorMatrix half = lu.solve(*P);
     *P = lu.solve(half.transpose()).eval();
@@ -28,6 +26,7 @@ void WriteEpoch(const LinearTape& tape, std::size_t k, ErrorVector* d,
 }
 
 SmoothedTrajectory Smooth(const LinearTape& tape, LinearTape* consumed) {
+  RequireSmoothable(tape);
   const std::size_t count = tape.size();
   SmoothedTrajectory out;
   out.states.resize(count);

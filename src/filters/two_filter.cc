@@ -10,6 +10,7 @@ namespace hindsight {
 namespace {
 
 TwoFilterResult Allocate(const LinearTape& tape) {
+  RequireSmoothable(tape);
   TwoFilterResult out;
   out.trajectory.states.resize(tape.size());
   out.trajectory.d.resize(tape.size());
@@ -42,16 +43,11 @@ Information::Estimate FuseAt(const LinearTape& tape, std::size_t k,
   return information.Fuse(m, P_f);
 }
 
-bool MovesNominal(const TapeEpoch& epoch) {
-  return epoch.reset && epoch.measurement_count > 0;
-}
-
 }  // namespace
 
 TwoFilterResult SmoothTwoFilter(const LinearTape& tape) {
   TwoFilterResult out = Allocate(tape);
   if (tape.size() == 0) return out;
-  const ErrorLayout& layout = tape.layout();
   const ErrorVector zero = ErrorVector::Zero(tape.dim());
   Information information(ScaleOf(tape.P_plus(tape.size() - 1)));
   for (std::size_t k = tape.size(); k-- > 0;) {
@@ -60,12 +56,11 @@ TwoFilterResult SmoothTwoFilter(const LinearTape& tape) {
         FuseAt(tape, k, information, epoch.reset ? zero : epoch.dx_plus,
                tape.P_plus(k), &out);
     SmoothedTrajectory& trajectory = out.trajectory;
-    trajectory.states[k] = Retract(layout, epoch.x_plus, smoothed.mean);
-    trajectory.states[k].t = epoch.t;
+    trajectory.states[k] = tape.StateAt(k, smoothed.mean);
     trajectory.P.Set(k, smoothed.P);
     trajectory.d[k] = smoothed.mean;
-    if (MovesNominal(epoch)) {
-      const ErrorMatrix T = Transport(layout, epoch.x_minus, epoch.x_plus);
+    if (epoch.moves_nominal()) {
+      const ErrorMatrix T = tape.ResetTransport(k);
       trajectory.d[k] = epoch.dx_plus + T.partialPivLu().solve(smoothed.mean);
       information.Substitute(T, epoch.dx_plus);
     }
