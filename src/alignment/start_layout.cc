@@ -22,6 +22,29 @@ void AddCalibration(BlockKind kind, int sensor, const std::string& name,
   layout->Add(block);
 }
 
+void AddMagneticBlocks(const Sensor& sensor, int index, ErrorLayout* layout) {
+  const MagneticSurroundings& magnetic = sensor.magnetic;
+  if (magnetic.hard_iron_sigma) {
+    AddCalibration(BlockKind::kHardIron, index, sensor.name + "_hard_iron",
+                   "uT", *magnetic.hard_iron_sigma, layout);
+  }
+  if (magnetic.declination_sigma) {
+    AddCalibration(
+        BlockKind::kDeclination, index, sensor.name + "_declination", "rad",
+        Eigen::Vector3d::Constant(*magnetic.declination_sigma), layout);
+  }
+  if (magnetic.disturbance_sigma) {
+    Block block;
+    block.key = {BlockKind::kDisturbance, index};
+    block.name = sensor.name + "_disturbance";
+    block.unit = "uT";
+    block.sigma0.setConstant(*magnetic.disturbance_sigma);
+    block.evolution = Evolution::GaussMarkov(*magnetic.disturbance_sigma,
+                                             magnetic.disturbance_tau);
+    layout->Add(block);
+  }
+}
+
 }  // namespace
 
 ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior) {
@@ -55,6 +78,7 @@ ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior) {
           BlockKind::kTimeOffset, index, sensor.name + "_time_offset", "s",
           Eigen::Vector3d::Constant(*sensor.time_offset_sigma), &layout);
     }
+    AddMagneticBlocks(sensor, index, &layout);
   }
   return layout;
 }
@@ -73,6 +97,10 @@ ParameterVector InitialParameters(const Dataset& dataset,
       parameters(offset) = sensor.time_offset;
     } else if (block.key.kind == BlockKind::kScale) {
       parameters(offset) = sensor.scale;
+    } else if (block.key.kind == BlockKind::kHardIron) {
+      parameters.segment<3>(offset) = sensor.magnetic.hard_iron_b;
+    } else if (block.key.kind == BlockKind::kDeclination) {
+      parameters(offset) = sensor.magnetic.declination;
     }
   }
   return parameters;

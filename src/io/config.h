@@ -62,7 +62,7 @@ namespace hindsight {
 /// | estimate.gyro_scale, estimate.accel_scale | a priori sigma of estimated scale factors | - |
 ///
 /// aiding.NAME besides:
-/// | type              | *needed*: position, velocity, height, speed_course, odometer, non_holonomic | |
+/// | type              | *needed*: position, velocity, height, speed_course, odometer, non_holonomic, magnetometer | |
 /// | lever_arm         | from the IMU, body axes                  | 0       |
 /// | time_offset       | true time = stamp + offset               | 0 s     |
 /// | every             | use one measurement in this time         | all     |
@@ -80,6 +80,13 @@ namespace hindsight {
 /// (1 + scale) true, and estimate.scale. Its columns side and down, if it has
 /// them, are measured speeds; else the vehicle moves along its x axis.
 /// non_holonomic: no file; rate *needed*.
+/// magnetometer: sigma *needed*, per axis; columns mag_x, mag_y, mag_z; axes
+/// and mounting as of the imu; form, heading or vector (heading); declination,
+/// magnetic from true north, east positive, 0; hard_iron, field of the vehicle
+/// itself in body axes, 0; horizontal, the horizontal field, 20 uT, and down, its
+/// downward part, both *needed* for vector; estimate.hard_iron,
+/// estimate.declination, estimate.disturbance, a Gauss-Markov field in NED axes
+/// with estimate.disturbance_tau, 10 s. It has no lever arm.
 ///
 /// truth besides: lever_arm (of the point it speaks of), time_offset; axes and
 /// mounting as of the imu, of the axes that its attitude speaks of; for columns

@@ -28,6 +28,8 @@ constexpr std::array kAidingTypes = {
                Quantity::kSpeed, false},
     AidingType{"non_holonomic", SensorType::kNonHolonomic, OdometerFields,
                Quantity::kSpeed, false},
+    AidingType{"magnetometer", SensorType::kMagnetometer, MagnetometerFields,
+               Quantity::kMagneticField, false},
 };
 
 const AidingType& ReadType(ConfigMap* map) {
@@ -132,6 +134,48 @@ void ReadVehicle(ConfigMap* map, AidingConfig* config) {
   sensor.q_sb = QuaternionFromEuler(euler.x(), euler.y(), euler.z());
 }
 
+/// The heading needs only the horizontal part of the field, and that only as a
+/// scale of its noise; the vector needs all of it.
+void ReadMagnetometer(ConfigMap* map, AidingConfig* config) {
+  AidingReadOptions& options = config->options;
+  MagneticSurroundings& magnetic = config->sensor.magnetic;
+  options.magnetic_form = map->Choice("form", {"vector", "heading"}, 1) == 0
+                              ? MagneticField::Form::kVector
+                              : MagneticField::Form::kHeading;
+  options.C_bs = ReadMounting(map);
+  options.sigma = Eigen::Vector3d::Constant(
+      map->Positive("sigma", Quantity::kMagneticField));
+  magnetic.declination = map->Number("declination", Quantity::kAngle, 0.0);
+  magnetic.hard_iron_b = map->Vector("hard_iron", Quantity::kMagneticField,
+                                     Eigen::Vector3d::Zero());
+  if (options.magnetic_form == MagneticField::Form::kHeading) {
+    magnetic.horizontal = map->Positive("horizontal", Quantity::kMagneticField,
+                                        magnetic.horizontal);
+    return;
+  }
+  magnetic.horizontal = map->Positive("horizontal", Quantity::kMagneticField);
+  if (!map->Has("down")) {
+    map->Fail("down", "is missing; expected the field's downward component");
+  }
+  magnetic.down = map->Number("down", Quantity::kMagneticField, 0.0);
+}
+
+void ReadMagneticEstimates(ConfigMap* estimate,
+                           MagneticSurroundings* magnetic) {
+  magnetic->hard_iron_sigma =
+      estimate->OptionalSigma("hard_iron", Quantity::kMagneticField);
+  if (estimate->Has("declination")) {
+    magnetic->declination_sigma =
+        estimate->Positive("declination", Quantity::kAngle);
+  }
+  if (estimate->Has("disturbance")) {
+    magnetic->disturbance_sigma =
+        estimate->Positive("disturbance", Quantity::kMagneticField);
+    magnetic->disturbance_tau = estimate->Positive(
+        "disturbance_tau", Quantity::kTime, magnetic->disturbance_tau);
+  }
+}
+
 void ReadSigmas(ConfigMap* map, const AidingType& type,
                 AidingReadOptions* options) {
   options->sigma = map->OptionalSigma("sigma", type.sigma);
@@ -153,8 +197,10 @@ void ReadSigmas(ConfigMap* map, const AidingType& type,
 
 void ReadEstimates(ConfigMap* map, Sensor* sensor) {
   ConfigMap estimate = map->Map("estimate");
-  sensor->lever_arm_sigma =
-      estimate.OptionalSigma("lever_arm", Quantity::kLength);
+  if (sensor->type != SensorType::kMagnetometer) {
+    sensor->lever_arm_sigma =
+        estimate.OptionalSigma("lever_arm", Quantity::kLength);
+  }
   const bool vehicle = sensor->type == SensorType::kOdometer ||
                        sensor->type == SensorType::kNonHolonomic;
   if (vehicle) {
@@ -163,6 +209,9 @@ void ReadEstimates(ConfigMap* map, Sensor* sensor) {
   }
   if (sensor->type == SensorType::kOdometer && estimate.Has("scale")) {
     sensor->scale_sigma = estimate.Positive("scale", Quantity::kRatio);
+  }
+  if (sensor->type == SensorType::kMagnetometer) {
+    ReadMagneticEstimates(&estimate, &sensor->magnetic);
   }
   // What is generated at the IMU's own times has no clock to be estimated.
   if (sensor->type != SensorType::kNonHolonomic &&
@@ -196,11 +245,15 @@ AidingConfig ReadAidingConfig(const std::string& name, ConfigMap* map,
   if (type.type == SensorType::kOdometer ||
       type.type == SensorType::kNonHolonomic) {
     ReadVehicle(map, &config);
+  } else if (type.type == SensorType::kMagnetometer) {
+    ReadMagnetometer(map, &config);
   } else {
     ReadSigmas(map, type, &config.options);
   }
-  config.sensor.lever_arm_b =
-      map->Vector("lever_arm", Quantity::kLength, Eigen::Vector3d::Zero());
+  if (type.type != SensorType::kMagnetometer) {
+    config.sensor.lever_arm_b =
+        map->Vector("lever_arm", Quantity::kLength, Eigen::Vector3d::Zero());
+  }
   config.sensor.gate_probability = ReadGate(map);
   config.sensor.loss = ReadLoss(map);
   ReadEstimates(map, &config.sensor);

@@ -25,6 +25,7 @@ constexpr Unit kMetresPerSecond{"m/s"};
 constexpr Unit kDegrees{"deg", kDegree};
 constexpr Unit kDegreesPerHour{"deg/h", kDegree / kHour};
 constexpr Unit kMilliGs{"mg", kMilliG};
+constexpr Unit kMicrotesla{"uT"};
 
 /// Builds block-style YAML, two blanks a level.
 class YamlText {
@@ -100,6 +101,8 @@ const char* TypeName(const Sensor& sensor) {
       return "height";
     case SensorType::kOdometer:
       return "odometer";
+    case SensorType::kMagnetometer:
+      return "magnetometer";
     default:
       throw InputError("aiding stream '" + sensor.name +
                        "' cannot be written as CSV");
@@ -118,13 +121,44 @@ void AppendOdometer(const AidingStream& stream, YamlText* yaml) {
   yaml->Number("scale", sensor.scale, {"1"});
 }
 
+/// What a magnetometer's file does not say.
+void AppendMagnetometer(const AidingStream& stream, YamlText* yaml) {
+  if (stream.sensor.type != SensorType::kMagnetometer) return;
+  const MagneticSurroundings& magnetic = stream.sensor.magnetic;
+  const auto& first =
+      std::get<MagneticField>(stream.measurements.front().model);
+  const bool vector = first.form == MagneticField::Form::kVector;
+  yaml->Text("form", vector ? "vector" : "heading");
+  yaml->Number("sigma", first.sigma, kMicrotesla);
+  yaml->Number("horizontal", magnetic.horizontal, kMicrotesla);
+  if (vector) yaml->Number("down", magnetic.down, kMicrotesla);
+  yaml->Number("declination", magnetic.declination, kDegrees);
+  yaml->Vector("hard_iron", magnetic.hard_iron_b, kMicrotesla);
+}
+
+void AppendMagneticEstimates(const MagneticSurroundings& magnetic,
+                             YamlText* yaml) {
+  yaml->Vector("hard_iron", magnetic.hard_iron_sigma, kMicrotesla);
+  if (magnetic.declination_sigma) {
+    yaml->Number("declination", *magnetic.declination_sigma, kDegrees);
+  }
+  if (magnetic.disturbance_sigma) {
+    yaml->Number("disturbance", *magnetic.disturbance_sigma, kMicrotesla);
+    yaml->Number("disturbance_tau", magnetic.disturbance_tau, kSeconds);
+  }
+}
+
 void AppendEstimates(const Sensor& sensor, YamlText* yaml) {
+  const MagneticSurroundings& magnetic = sensor.magnetic;
   if (!sensor.lever_arm_sigma && !sensor.mounting_sigma &&
-      !sensor.scale_sigma && !sensor.time_offset_sigma) {
+      !sensor.scale_sigma && !sensor.time_offset_sigma &&
+      !magnetic.hard_iron_sigma && !magnetic.declination_sigma &&
+      !magnetic.disturbance_sigma) {
     return;
   }
   yaml->Open("estimate");
   yaml->Vector("lever_arm", sensor.lever_arm_sigma, kMetres);
+  AppendMagneticEstimates(magnetic, yaml);
   yaml->Vector("mounting", sensor.mounting_sigma, kDegrees);
   if (sensor.scale_sigma) yaml->Number("scale", *sensor.scale_sigma, {"1"});
   if (sensor.time_offset_sigma) {
@@ -139,6 +173,7 @@ void AppendSensor(const AidingStream& stream, YamlText* yaml) {
   yaml->Text("type", TypeName(sensor));
   yaml->Text("file", sensor.name + ".csv");
   AppendOdometer(stream, yaml);
+  AppendMagnetometer(stream, yaml);
   if (!sensor.lever_arm_b.isZero(0.0)) {
     yaml->Vector("lever_arm", sensor.lever_arm_b, kMetres);
   }

@@ -118,6 +118,8 @@ const char* AidingHeading(SensorType type) {
       return ",sigma_v_n[m/s],sigma_v_e[m/s],sigma_v_d[m/s]\n";
     case SensorType::kOdometer:
       return ",speed[m/s],side[m/s],down[m/s]\n";
+    case SensorType::kMagnetometer:
+      return ",mag_x[uT],mag_y[uT],mag_z[uT]\n";
     default:
       return ",h[m],sigma_h[m]\n";
   }
@@ -142,6 +144,9 @@ void AddAidingValues(const AidingStream& stream, const Measurement& z,
          {odometer->speed, odometer->side_down.x(), odometer->side_down.y()}) {
       row->AddShortest(speed);
     }
+    return;
+  } else if (const auto* magnetic = std::get_if<MagneticField>(&z.model)) {
+    for (const double value : magnetic->field_b) row->AddShortest(value);
     return;
   } else {
     throw InputError("aiding stream '" + name + "' cannot be written as CSV");

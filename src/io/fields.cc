@@ -70,6 +70,16 @@ const std::vector<FieldName>& SpeedCourseFields() {
   return kFields;
 }
 
+const std::vector<FieldName>& MagnetometerFields() {
+  static const std::vector<FieldName> kFields = {
+      {"mag_x", Quantity::kMagneticField},
+      {"mag_y", Quantity::kMagneticField},
+      {"mag_z", Quantity::kMagneticField},
+      {"quality", Quantity::kRatio},
+  };
+  return kFields;
+}
+
 const std::vector<FieldName>& TruthFields() {
   static const std::vector<FieldName> kFields = {
       {"lat", Quantity::kAngle},     {"lon", Quantity::kAngle},

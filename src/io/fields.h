@@ -26,6 +26,8 @@ const std::vector<FieldName>& HeightFields();
 const std::vector<FieldName>& OdometerFields();
 /// Speed and course over the ground.
 const std::vector<FieldName>& SpeedCourseFields();
+/// Magnetic field in sensor axes.
+const std::vector<FieldName>& MagnetometerFields();
 /// Geodetic position, NED velocity, Euler angles; then the same as vectors and
 /// quaternion in a frame that the configuration names.
 const std::vector<FieldName>& TruthFields();

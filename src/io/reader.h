@@ -109,6 +109,9 @@ struct AidingReadOptions {
   /// means nothing [m/s].
   double course_sigma = 0.0;
   double course_above = 0.0;
+  /// Of a magnetometer, whose sigma is per axis [uT].
+  MagneticField::Form magnetic_form = MagneticField::Form::kHeading;
+  Eigen::Matrix3d C_bs = Eigen::Matrix3d::Identity();  ///< its axes to body
 };
 
 /// Reads the measurements of an aiding sensor; times since the first row.

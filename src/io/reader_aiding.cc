@@ -26,6 +26,8 @@ FieldMap MapOf(SensorType type) {
       return {OdometerFields(), 1, 0};
     case SensorType::kSpeedCourse:
       return {SpeedCourseFields(), 1, 0};
+    case SensorType::kMagnetometer:
+      return {MagnetometerFields(), 3, 0};
     default:
       return {PositionFields(), 3, 3};
   }
@@ -186,6 +188,10 @@ class AidingReader {
         return OdometerModel();
       case SensorType::kSpeedCourse:
         return SpeedCourseModel();
+      case SensorType::kMagnetometer:
+        return MagneticField{
+            options_.C_bs * Eigen::Vector3d(Value(0), Value(1), Value(2)),
+            options_.sigma->x(), options_.magnetic_form};
       default:
         break;
     }

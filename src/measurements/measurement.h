@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "measurements/height_fix.h"
+#include "measurements/magnetic_field.h"
 #include "measurements/model.h"
 #include "measurements/odometer.h"
 #include "measurements/position_fix.h"
@@ -18,7 +19,7 @@ namespace hindsight {
 /// batch through one factor that wraps the same call.
 using MeasurementModel =
     std::variant<PositionFix, VelocityFix, HeightFix, ZeroVelocity,
-                 ZeroAngularRate, Odometer, SpeedCourse>;
+                 ZeroAngularRate, Odometer, SpeedCourse, MagneticField>;
 
 struct Measurement {
   double t = 0.0;  ///< stamp [s]; the sensor's time offset is not yet applied

@@ -24,6 +24,23 @@ enum class SensorType {
   kMagnetometer,
 };
 
+/// The Earth's field around a magnetometer and the vehicle's own.
+struct MagneticSurroundings {
+  /// Undisturbed field, horizontal (towards magnetic north) and down [uT].
+  /// The heading-only form uses the horizontal part alone, as a scale of noise.
+  double horizontal = 20.0;
+  double down = 40.0;
+  double declination = 0.0;  ///< of magnetic from true north, east + [rad]
+  /// Field that turns with the vehicle, body axes [uT].
+  Eigen::Vector3d hard_iron_b = Eigen::Vector3d::Zero();
+  /// A priori standard deviations; absent: not estimated. The disturbance is a
+  /// Gauss-Markov process in NED axes with this correlation time [s].
+  std::optional<Eigen::Vector3d> hard_iron_sigma;
+  std::optional<double> declination_sigma;
+  std::optional<double> disturbance_sigma;
+  double disturbance_tau = 10.0;
+};
+
 /// What is known of one aiding sensor beforehand: geometry, calibration and how
 /// its measurements are to be trusted. Values in a layout take precedence.
 struct Sensor {
@@ -32,8 +49,9 @@ struct Sensor {
   Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();  ///< IMU to sensor [m]
   /// Sensor axes from body axes, v_s = q_sb * v_b.
   Eigen::Quaterniond q_sb = Eigen::Quaterniond::Identity();
-  double scale = 0.0;        ///< k: measured = (1 + k) true
-  double time_offset = 0.0;  ///< true time = stamp + time_offset [s]
+  double scale = 0.0;             ///< k: measured = (1 + k) true
+  double time_offset = 0.0;       ///< true time = stamp + time_offset [s]
+  MagneticSurroundings magnetic;  ///< of a magnetometer
   /// Probability that a good measurement passes the chi-square gate; absent:
   /// no gate.
   std::optional<double> gate_probability;

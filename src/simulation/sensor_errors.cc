@@ -114,6 +114,14 @@ MeasurementModel PerfectMeasurement(const AidingModel& model,
       odometer.speed = v_o.x();
       return odometer;
     }
+    case SensorType::kMagnetometer: {
+      const MagneticSurroundings& magnetic = model.sensor.magnetic;
+      const Eigen::Vector3d m_e =
+          NedAxes(motion.p_e) *
+          UndisturbedField(magnetic, magnetic.declination);
+      return MagneticField{motion.q_eb.conjugate() * m_e + magnetic.hard_iron_b,
+                           model.sigma.x(), model.magnetic_form};
+    }
     default:
       throw std::logic_error("sensor '" + model.sensor.name +
                              "' is of a type that is not simulated");
@@ -185,6 +193,8 @@ void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
       velocity->v_n += model.sigma.cwiseProduct(random.NormalVector3());
     } else if (auto* height = std::get_if<HeightFix>(&z.model)) {
       height->height += model.sigma.z() * random.Normal();
+    } else if (auto* magnetic = std::get_if<MagneticField>(&z.model)) {
+      magnetic->field_b += model.sigma.x() * random.NormalVector3();
     } else if (auto* odometer = std::get_if<Odometer>(&z.model)) {
       const Eigen::Vector3d error =
           model.sigma.cwiseProduct(random.NormalVector3());

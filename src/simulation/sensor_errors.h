@@ -80,6 +80,7 @@ struct AidingModel {
   double to = std::numeric_limits<double>::infinity();     ///< last stamp [s]
   std::vector<TimeSpan> outages;  ///< stamps in them are missing
   Odometer::Form odometer_form = Odometer::Form::kThreeAxis;
+  MagneticField::Form magnetic_form = MagneticField::Form::kHeading;
 };
 
 /// Perfect measurements of `model` with their covariances: what the sensor's

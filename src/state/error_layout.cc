@@ -14,7 +14,7 @@ bool IsNavigation(BlockKind kind) { return kind <= BlockKind::kAccelBias; }
 
 bool IsResolvedInNed(BlockKind kind) {
   return kind <= BlockKind::kAttitude || kind == BlockKind::kColouredNoise ||
-         kind == BlockKind::kCurrent;
+         kind == BlockKind::kCurrent || kind == BlockKind::kDisturbance;
 }
 
 }  // namespace
@@ -24,6 +24,7 @@ int FullDimension(BlockKind kind) {
     case BlockKind::kScale:
     case BlockKind::kTimeOffset:
     case BlockKind::kOffset:
+    case BlockKind::kDeclination:
       return 1;
     default:
       return 3;

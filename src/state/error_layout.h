@@ -49,6 +49,8 @@ enum class BlockKind {
   kOffset,         ///< scalar additive error (height, depth, barometer) [m]
   kCurrent,        ///< water current or wind, NED [m/s]
   kHardIron,       ///< additive field in body axes [uT]
+  kDeclination,    ///< of the magnetic field from true north [rad]
+  kDisturbance,    ///< additive magnetic field, NED [uT]
 };
 
 /// Number of components of a block before any axis is masked.

@@ -40,9 +40,9 @@ constexpr TextFormat::Kind kFormats[] = {
     TextFormat::Kind::kControlPoints, TextFormat::Kind::kNmea,
     TextFormat::Kind::kNpy,
 };
-constexpr SensorType kTypes[] = {SensorType::kPosition, SensorType::kVelocity,
-                                 SensorType::kHeight, SensorType::kOdometer,
-                                 SensorType::kSpeedCourse};
+constexpr SensorType kTypes[] = {
+    SensorType::kPosition, SensorType::kVelocity,    SensorType::kHeight,
+    SensorType::kOdometer, SensorType::kSpeedCourse, SensorType::kMagnetometer};
 
 void AddColumns(const std::vector<FieldName>& fields, TextFormat* format) {
   format->columns.push_back({"t", 0, "", "ms", 1.0});
@@ -63,6 +63,8 @@ const std::vector<FieldName>& FieldsOf(SensorType type) {
       return OdometerFields();
     case SensorType::kSpeedCourse:
       return SpeedCourseFields();
+    case SensorType::kMagnetometer:
+      return MagnetometerFields();
     default:
       return PositionFields();
   }

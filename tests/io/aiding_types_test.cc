@@ -54,6 +54,39 @@ TEST_F(AidingTypes, OdometerMayMeasureThreeAxes) {
   EXPECT_EQ(z.sigma, Eigen::Vector3d::Constant(0.02));
 }
 
+TEST_F(AidingTypes, MagnetometerInBodyAxesWithItsSurroundings) {
+  Write("mag.csv", "t[s],mag_x[mG],mag_y[mG],mag_z[mG]\n0.01,200,10,-400\n");
+  Aiding(
+      "  mag:\n    type: magnetometer\n    file: mag.csv\n"
+      "    form: vector\n    sigma: 300 nT\n    axes: [y, x, -z]\n"
+      "    horizontal: 20 uT\n    down: 44 uT\n    declination: 3 deg\n"
+      "    hard_iron: [1, 2, 3 uT]\n"
+      "    estimate: {hard_iron: 2 uT, declination: 1 deg, disturbance: 5 uT, "
+      "disturbance_tau: 4 s}\n");
+  const Dataset data = Load();
+  const MagneticSurroundings& magnetic = data.streams[0].sensor.magnetic;
+  EXPECT_DOUBLE_EQ(magnetic.horizontal, 20.0);
+  EXPECT_DOUBLE_EQ(magnetic.down, 44.0);
+  EXPECT_DOUBLE_EQ(magnetic.declination, 3.0 * kDegree);
+  EXPECT_TRUE(magnetic.hard_iron_b.isApprox(Eigen::Vector3d(1, 2, 3), 1e-12));
+  EXPECT_DOUBLE_EQ(magnetic.hard_iron_sigma->y(), 2.0);
+  EXPECT_DOUBLE_EQ(*magnetic.declination_sigma, 1.0 * kDegree);
+  EXPECT_DOUBLE_EQ(*magnetic.disturbance_sigma, 5.0);
+  EXPECT_DOUBLE_EQ(magnetic.disturbance_tau, 4.0);
+  const auto z = std::get<MagneticField>(data.streams[0].measurements[0].model);
+  EXPECT_TRUE(z.field_b.isApprox(Eigen::Vector3d(1.0, 20.0, 40.0), 1e-12));
+  EXPECT_DOUBLE_EQ(z.sigma, 0.3);
+  EXPECT_EQ(z.form, MagneticField::Form::kVector);
+}
+
+TEST_F(AidingTypes, MagneticVectorNeedsTheField) {
+  Write("mag.csv", "t[s],mag_x[uT],mag_y[uT],mag_z[uT]\n0.01,20,1,40\n");
+  Aiding(
+      "  mag: {type: magnetometer, file: mag.csv, form: vector, sigma: 1 "
+      "uT}\n");
+  EXPECT_NE(LoadError().find("horizontal"), std::string::npos);
+}
+
 TEST_F(AidingTypes, ObGinsOdometerStandsInColumnEight) {
   std::string imu;
   for (int i = 1; i < 4; ++i) {

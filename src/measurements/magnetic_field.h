@@ -1,0 +1,35 @@
+#ifndef HINDSIGHT_MEASUREMENTS_MAGNETIC_FIELD_H_
+#define HINDSIGHT_MEASUREMENTS_MAGNETIC_FIELD_H_
+
+#include "measurements/model.h"
+
+namespace hindsight {
+
+/// Magnetic field at the vehicle. With the field of the surroundings
+///   m_n = Rz(D) (horizontal, 0, down)' + d_n,
+/// D the declination (Sensor::magnetic, or its block), d_n the disturbance
+/// block, h_b the hard iron (Sensor::magnetic, or its block):
+///   kVector:   field_b = C_bn m_n + h_b, three rows [uT];
+///   kHeading:  0 = azimuth(C_nb (field_b - h_b)) - azimuth(m_n), one row
+///              [rad], sigma / |m_n horizontal|: norm and dip do not matter,
+///              and tilt only by how it levels the field.
+/// The attitude is that at stamp + time offset.
+struct MagneticField {
+  enum class Form { kVector, kHeading };
+  Eigen::Vector3d field_b = Eigen::Vector3d::Zero();  ///< body axes [uT]
+  double sigma = 1.0;                                 ///< per axis [uT]
+  Form form = Form::kHeading;
+
+  /// Multiplies the standard deviation.
+  void ScaleSigma(double factor) { sigma *= factor; }
+  int rows() const { return form == Form::kVector ? 3 : 1; }
+  void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
+};
+
+/// m_n without the disturbance [uT].
+Eigen::Vector3d UndisturbedField(const MagneticSurroundings& magnetic,
+                                 double declination);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_MEASUREMENTS_MAGNETIC_FIELD_H_
