@@ -7,16 +7,18 @@
 #include "alignment/given.h"
 #include "alignment/gyrocompass.h"
 #include "alignment/levelling.h"
+#include "alignment/velocity_alignment.h"
 #include "base/error.h"
 
 namespace hindsight {
 namespace {
 
-constexpr std::array<AlignmentMethod, 4> kMethods = {
+constexpr std::array<AlignmentMethod, 5> kMethods = {
     {{AlignmentKind::kGiven, AlignAsGiven, false},
      {AlignmentKind::kStatic, AlignAtRest},
      {AlignmentKind::kGyrocompass, AlignByGyrocompass},
-     {AlignmentKind::kCourse, AlignByCourse}}};
+     {AlignmentKind::kCourse, AlignByCourse},
+     {AlignmentKind::kVelocity, AlignByVelocity}}};
 
 std::string HeadingWords(const AlignedAttitude& attitude) {
   const double sigma = std::sqrt(attitude.P(2, 2));
@@ -48,16 +50,23 @@ AlignmentChoice AlignBest(const AlignmentInput& input) {
   AlignmentChoice best;
   std::string others;
   bool found = false;
+  constexpr double kWellKnown = 0.5 * kDegree;
   for (const AlignmentMethod& method : kMethods) {
     if (!method.in_auto) continue;
+    if (found &&
+        best.attitude.P.diagonal().maxCoeff() < kWellKnown * kWellKnown) {
+      break;
+    }
     AlignmentOutcome outcome = method.align(input);
     const std::string name = AlignmentName(method.kind);
     if (!outcome.found) {
       others += "; " + name + ": " + outcome.reason;
       continue;
     }
+    // Where all leave the heading open, the first found stays.
+    constexpr double kNotably = 0.9;
     const bool better =
-        !found || outcome.found->P.trace() < best.attitude.P.trace();
+        !found || outcome.found->P.trace() < kNotably * best.attitude.P.trace();
     const AlignedAttitude& loser = better ? best.attitude : *outcome.found;
     if (found) {
       others += "; " + (better ? AlignmentName(best.kind) : name) + ": " +

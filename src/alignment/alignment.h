@@ -27,10 +27,10 @@ struct AlignmentInput {
   double to = 0.0;  ///< data up to here may be used [s]
   Eigen::Vector3d p_e = Eigen::Vector3d::Zero();  ///< near the vehicle [m]
   /// Position fixes and velocities over the ground, withheld ones left out.
-  std::vector<TimedFix> fixes;
-  std::vector<TimedVelocity> velocities;
+  std::vector<TimedFix> fixes = {};
+  std::vector<TimedVelocity> velocities = {};
   /// Rest that begins at t.
-  std::optional<TimeInterval> rest;
+  std::optional<TimeInterval> rest = std::nullopt;
   Eigen::Vector3d b_g = Eigen::Vector3d::Zero();  ///< [rad/s]
   Eigen::Vector3d b_a = Eigen::Vector3d::Zero();  ///< [m/s^2]
   double gyro_sigma = 0.0;  ///< of b_g, the worst axis [rad/s]
@@ -47,6 +47,8 @@ struct AlignedAttitude {
   /// Factor on the sigmas in the prior of an estimation that uses the same
   /// measurements again: at 10 they count twice by one per cent.
   double reuse = 1.0;
+  /// Direction of travel in body axes, where the alignment has found one.
+  std::optional<Eigen::Vector3d> travel_b;
   std::string attitude;  ///< how roll and pitch were found, in words
   std::string heading;   ///< how the heading was found, in words
 };
@@ -81,9 +83,10 @@ struct AlignmentChoice {
 
 /// Aligns by the method that Dataset::initial asks for; by default by the given
 /// attitude or heading, and without one by the method whose covariance has the
-/// smallest trace (the first second taken as level if there is none). Throws
-/// EstimationError if the method asked for finds nothing (its reason is the
-/// message).
+/// smallest trace, by a tenth or more below those before it; none is tried
+/// after one that knows all axes to 0.5 deg. If none finds any, the first
+/// second is taken as level. Throws EstimationError if the method asked for
+/// finds nothing (its reason is the message).
 AlignmentChoice Align(const AlignmentInput& input);
 
 }  // namespace hindsight

@@ -11,7 +11,7 @@
 namespace hindsight {
 namespace {
 
-constexpr double kLargestSigma = 10.0 * kDegree;
+constexpr double kLargestSigma = 20.0 * kDegree;
 
 }  // namespace
 

@@ -12,7 +12,7 @@ namespace hindsight {
 ///   psi_D = ((C_nb db_g)_E + psi_N W_D + noise) / W_N,
 /// noise = density / sqrt(T) (Groves, Principles of GNSS, Inertial and
 /// Multisensor Integrated Navigation Systems, 5.6.2). P and P_bias follow. A
-/// sigma above 10 deg counts as no heading.
+/// sigma above 20 deg counts as no heading.
 AlignmentOutcome AlignByGyrocompass(const AlignmentInput& input);
 
 }  // namespace hindsight

@@ -203,7 +203,8 @@ class StartFinder {
     x.b_g = b_g_;
     x.b_a = given().accel_bias;
     start.layout = BuildLayout(dataset_, BuildPrior());
-    x.parameters = InitialParameters(dataset_, start.layout);
+    x.parameters =
+        InitialParameters(dataset_, start.layout, attitude_.travel_b);
     Prior known{x, Covariance(start.layout, 1.0)};
     start.prior = {x, Covariance(start.layout, attitude_.reuse)};
     if (t_ > from_ && !given().t) {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/units.h"
+#include "geometry/so3.h"
 
 namespace hindsight {
 namespace {
@@ -83,8 +84,10 @@ ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior) {
   return layout;
 }
 
-ParameterVector InitialParameters(const Dataset& dataset,
-                                  const ErrorLayout& layout) {
+ParameterVector InitialParameters(
+    const Dataset& dataset, const ErrorLayout& layout,
+    const std::optional<Eigen::Vector3d>& travel_b) {
+  constexpr double kRoughlyKnown = 20.0 * kDegree;
   ParameterVector parameters = ParameterVector::Zero(layout.parameter_count());
   for (const Block& block : layout.blocks()) {
     if (block.key.sensor == BlockKey::kNoSensor) continue;
@@ -101,6 +104,10 @@ ParameterVector InitialParameters(const Dataset& dataset,
       parameters.segment<3>(offset) = sensor.magnetic.hard_iron_b;
     } else if (block.key.kind == BlockKind::kDeclination) {
       parameters(offset) = sensor.magnetic.declination;
+    } else if (block.key.kind == BlockKind::kMounting && travel_b &&
+               sensor.mounting_sigma->z() > kRoughlyKnown) {
+      parameters.segment<3>(offset) = Log(Eigen::Quaterniond::FromTwoVectors(
+          sensor.q_sb * *travel_b, Eigen::Vector3d::UnitX()));
     }
   }
   return parameters;

@@ -1,6 +1,8 @@
 #ifndef HINDSIGHT_ALIGNMENT_START_LAYOUT_H_
 #define HINDSIGHT_ALIGNMENT_START_LAYOUT_H_
 
+#include <optional>
+
 #include "dataset/dataset.h"
 #include "state/error_layout.h"
 
@@ -11,9 +13,12 @@ namespace hindsight {
 ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior);
 
 /// A priori values of the layout's parameters: what the data set says of each
-/// sensor.
-ParameterVector InitialParameters(const Dataset& dataset,
-                                  const ErrorLayout& layout);
+/// sensor. A mounting whose yaw is not known to 20 deg starts from the least
+/// rotation that turns `travel_b`, the direction of travel in body axes, into
+/// the vehicle's forward axis.
+ParameterVector InitialParameters(
+    const Dataset& dataset, const ErrorLayout& layout,
+    const std::optional<Eigen::Vector3d>& travel_b = std::nullopt);
 
 /// A priori standard deviations of the biases: as given, or those of a consumer
 /// IMU straight from power-up, 0.2 deg/s and 0.2 m/s^2.

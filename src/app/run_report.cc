@@ -1,5 +1,7 @@
 #include "app/run_report.h"
 
+#include <algorithm>
+
 #include "app/text.h"
 #include "base/units.h"
 #include "earth/wgs84.h"
@@ -10,6 +12,24 @@ namespace {
 std::string Spread(const Eigen::Vector3d& sigma, double scale) {
   return Format("%.3g, %.3g, %.3g", scale * sigma.x(), scale * sigma.y(),
                 scale * sigma.z());
+}
+
+/// The bridged drop-outs, the first of many.
+std::string DescribeDropOuts(const ImuStream& imu) {
+  constexpr std::size_t kMost = 10;
+  const std::vector<std::size_t> ends = DropOuts(imu);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(ends.size(), kMost); ++i) {
+    const double begin = imu.samples[ends[i] - 1].t;
+    text +=
+        Format("note: imu: no samples for %.3f s from t = %.3f s, bridged\n",
+               imu.samples[ends[i]].t - begin, begin);
+  }
+  if (ends.size() > kMost) {
+    text +=
+        Format("note: imu: %zu more drop-outs bridged\n", ends.size() - kMost);
+  }
+  return text;
 }
 
 }  // namespace
@@ -42,6 +62,7 @@ std::string DescribeNotes(const Dataset& dataset) {
     text += Format("note: %s: %s: %ld\n", policy.stream.c_str(),
                    policy.action.c_str(), policy.count);
   }
+  text += DescribeDropOuts(dataset.imu);
   if (!dataset.withholdings.empty() && dataset.outages.empty()) {
     text += "warning: no whole outage of the withholding rules fits in\n";
   }

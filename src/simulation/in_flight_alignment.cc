@@ -19,6 +19,7 @@ constexpr double kThrottleBlend = 1.0;
 /// Random stream of the bad start, clear of those of sensors and initial
 /// values.
 constexpr std::uint64_t kBadStartStream = 200;
+constexpr std::uint64_t kMountStream = 201;
 
 /// A turn that takes kTurnTime, blends included.
 Segment TurnAt(double speed, double side) {
@@ -101,6 +102,22 @@ void GiveBadStart(const BadStart& start, std::uint64_t seed, Dataset* dataset) {
       dataset->streams.front().measurements.front().model);
   initial.v_n = first.v_n;
   initial.velocity_sigma = first.R_n.diagonal().cwiseSqrt();
+}
+
+void MountAnywhere(std::uint64_t seed, Dataset* dataset) {
+  Random random(seed, kMountStream);
+  Eigen::Vector4d v;
+  for (int i = 0; i < 4; ++i) v(i) = random.Normal();
+  const Eigen::Quaterniond q_bm = Eigen::Quaterniond(v).normalized();
+  for (ImuSample& sample : dataset->imu.samples) {
+    sample.gyro = q_bm * sample.gyro;
+    sample.accel = q_bm * sample.accel;
+  }
+  for (TruthPoint& truth : dataset->truth) {
+    truth.q_nb = *truth.q_nb * q_bm.conjugate();
+    truth.b_g = q_bm * *truth.b_g;
+    truth.b_a = q_bm * *truth.b_a;
+  }
 }
 
 }  // namespace hindsight

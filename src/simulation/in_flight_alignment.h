@@ -39,6 +39,10 @@ struct BadStart {
 /// the first measured velocity with its sigma.
 void GiveBadStart(const BadStart& start, std::uint64_t seed, Dataset* dataset);
 
+/// Turns the IMU in the aircraft of a simulated data set, at an attitude drawn
+/// evenly from all rotations: its axes, the truth and the biases with them.
+void MountAnywhere(std::uint64_t seed, Dataset* dataset);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_SIMULATION_IN_FLIGHT_ALIGNMENT_H_

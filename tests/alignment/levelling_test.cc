@@ -53,7 +53,7 @@ TEST(Gyrocompass, FindsTheHeadingWithItsOwnCovariance) {
 
 TEST(Gyrocompass, SaysThatAWorseGyroDoesNotTellTheHeading) {
   const Dataset dataset =
-      Simulate(Standing(3.0 * kDegree / kHour, 1e-3 * kStandardGravity), 1);
+      Simulate(Standing(20.0 * kDegree / kHour, 1e-3 * kStandardGravity), 1);
   const Start start = FindStart(dataset, 0.0, 120.0);
   EXPECT_EQ(start.report.alignment, "static");
   EXPECT_NE(start.report.why.find("gyrocompass: the gyros would give"),

@@ -28,7 +28,8 @@ const TruthPoint& TruthAt(const Dataset& dataset, double t) {
 
 TEST(Start, LevelsAtRestAndTakesTheHeadingFromTheCourse) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const Dataset dataset = Simulate(FromRest(), seed);
+    Dataset dataset = Simulate(FromRest(), seed);
+    dataset.initial.alignment = AlignmentKind::kCourse;
     const Start start = FindWholeStart(dataset);
     EXPECT_NEAR(start.report.t, 0.0, 1e-9);
     EXPECT_NE(start.report.attitude.find("levelled at rest"), std::string::npos)
@@ -55,7 +56,8 @@ TEST(Start, LevelsAtRestAndTakesTheHeadingFromTheCourse) {
 }
 
 TEST(Start, PriorCovarianceIsThatOfTheReport) {
-  const Dataset dataset = Simulate(FromRest(), 1);
+  Dataset dataset = Simulate(FromRest(), 1);
+  dataset.initial.alignment = AlignmentKind::kCourse;
   const Start start = FindWholeStart(dataset);
   const ErrorMatrix& P = start.prior.P;
   EXPECT_EQ(P.rows(), start.layout.dim());
@@ -90,6 +92,7 @@ TEST(Start, GivenValuesAreTakenAsTheyAre) {
 TEST(Start, HeadingWithoutMotionIsReportedUnknown) {
   Scenario scenario = FromRest();
   scenario.duration = 15.0;
+  scenario.imu.gyro_bias_sigma.setConstant(30.0 * kDegree / kHour);
   const Dataset dataset = Simulate(scenario, 1);
   const Start start = FindWholeStart(dataset);
   EXPECT_NE(start.report.heading.find("unknown"), std::string::npos);
@@ -110,6 +113,27 @@ TEST(Start, WithoutPositionThereIsNoAnswer) {
 TEST(Start, IntervalWithoutImuIsAnInputError) {
   const Dataset dataset = Simulate(FromRest(), 1);
   EXPECT_THROW(FindStart(dataset, 1000.0, 2000.0), InputError);
+}
+
+TEST(Start, TakesTheVelocityChangeWhereItTellsTheHeadingBest) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Dataset dataset = Simulate(FromRest(), seed);
+    const Start start = FindWholeStart(dataset);
+    EXPECT_EQ(start.report.alignment, "velocity");
+    EXPECT_NE(start.report.why.find("course: heading to"), std::string::npos)
+        << start.report.why;
+    const Eigen::Vector3d error =
+        start.report.state.euler() -
+        EulerFromQuaternion(*dataset.truth.front().q_nb);
+    const Eigen::Vector3d& sigma = start.report.attitude_sigma;
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_LT(std::abs(WrapAngle(error(axis))), 4.0 * sigma(axis)) << axis;
+    }
+    EXPECT_LT(sigma.z(), 1.0 * kDegree);
+    // Its measurements come again: the prior is ten times as wide.
+    EXPECT_NEAR(std::sqrt(start.prior.P(8, 8)), 10.0 * sigma.z(),
+                0.5 * sigma.z());
+  }
 }
 
 TEST(Start, ReachesBackToTheFirstSampleWhereTheFirstFixComesLater) {

@@ -1,0 +1,139 @@
+#include "alignment/velocity_alignment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "earth/wgs84.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kKnownHeading = 20.0 * kDegree;
+constexpr double kWellKnown = 0.5 * kDegree;
+constexpr double kClearlyWorse = 25.0;  // five sigmas
+constexpr double kFirstWindow = 10.0;   // [s]
+constexpr double kLongestWindow = 320.0;
+/// The same measurements serve again in what starts from here.
+constexpr double kReuse = 10.0;
+
+/// An attitude as good as its covariance, but of unknown heading.
+void ForgetHeading(AlignedAttitude* attitude) {
+  const double tilt = std::min(
+      kUnknownHeadingSigma,
+      std::sqrt(attitude->P.topLeftCorner<2, 2>().diagonal().maxCoeff()));
+  attitude->P = Eigen::Vector3d(tilt, tilt, kUnknownHeadingSigma)
+                    .cwiseAbs2()
+                    .asDiagonal();
+}
+
+std::string AxisName(const Eigen::Vector3d& axis) {
+  Eigen::Index largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  constexpr const char* kNames[] = {"north", "east", "the vertical"};
+  return kNames[largest];
+}
+
+void Describe(VelocityAlignment* alignment) {
+  AlignedAttitude& attitude = alignment->attitude;
+  const CoarseAlignment& coarse = alignment->coarse;
+  const double heading = std::sqrt(attitude.P(2, 2));
+  char words[192];
+  std::snprintf(words, sizeof(words),
+                "specific force against %zu measured motions up to t = %.1f s",
+                coarse.count, alignment->t_end);
+  attitude.attitude = words;
+  if (!alignment->refined) {
+    attitude.heading = "unknown: the refinement did not settle";
+  } else if (coarse.ambiguity < kClearlyWorse) {
+    attitude.heading = "unknown: turned by 180 deg about " +
+                       AxisName(coarse.ambiguous_axis) +
+                       " the motion fits nearly as well";
+  } else if (heading > kKnownHeading) {
+    std::snprintf(words, sizeof(words),
+                  "unknown: too little acceleration, any heading fits within "
+                  "%.0f deg",
+                  heading / kDegree);
+    attitude.heading = words;
+  } else {
+    attitude.heading = "the same";
+    return;
+  }
+  ForgetHeading(&attitude);
+}
+
+/// Mean direction of travel, by speed; absent if the vehicle hardly moves.
+std::optional<Eigen::Vector3d> DirectionOfTravel(
+    const WindowSolution& solution) {
+  constexpr double kMoving = 3.0;  // [m/s]
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const State& x : solution.states) {
+    if (x.v_e.norm() > kMoving) sum += x.q_eb.conjugate() * x.v_e;
+  }
+  if (sum.norm() == 0.0) return std::nullopt;
+  return sum.normalized();
+}
+
+double FirstMotion(const AlignmentInput& input) {
+  double t = input.to;
+  const bool has_velocity =
+      std::any_of(input.dataset.streams.begin(), input.dataset.streams.end(),
+                  [](const AidingStream& stream) {
+                    return !stream.measurements.empty() &&
+                           std::holds_alternative<VelocityFix>(
+                               stream.measurements.front().model);
+                  });
+  for (const TimedVelocity& v : input.velocities) {
+    if (has_velocity && v.t >= input.t) t = std::min(t, v.t);
+  }
+  for (const TimedFix& fix : input.fixes) {
+    if (!has_velocity && fix.t >= input.t) t = std::min(t, fix.t);
+  }
+  return t;
+}
+
+}  // namespace
+
+std::optional<VelocityAlignment> AlignOverWindow(const AlignmentInput& input,
+                                                 double t_end) {
+  const auto coarse = AlignCoarsely(input, t_end, input.b_g, input.b_a);
+  if (!coarse) return std::nullopt;
+  VelocityAlignment out;
+  out.coarse = *coarse;
+  out.t_end = t_end;
+  out.refined = SmoothWindow(input, t_end, *coarse);
+  const Eigen::Matrix3d C_ne = NedAxes(input.p_e).transpose();
+  out.attitude.q_nb = Eigen::Quaterniond(C_ne) * coarse->q_eb;
+  out.attitude.P = coarse->P;
+  if (out.refined) {
+    const State& first = out.refined->states.front();
+    out.attitude.q_nb =
+        Eigen::Quaterniond(first.C_en().transpose()) * first.q_eb;
+    const int a = out.refined->layout.Find(BlockKind::kAttitude)->offset;
+    out.attitude.P = out.refined->P.Get(0).block<3, 3>(a, a);
+    out.attitude.travel_b = DirectionOfTravel(*out.refined);
+  }
+  out.attitude.reuse = kReuse;
+  Describe(&out);
+  return out;
+}
+
+AlignmentOutcome AlignByVelocity(const AlignmentInput& input) {
+  const double first = FirstMotion(input);
+  std::optional<VelocityAlignment> best;
+  for (double window = kFirstWindow; window <= kLongestWindow; window *= 2.0) {
+    const double t_end = std::min(first + window, input.to);
+    auto found = AlignOverWindow(input, t_end);
+    if (found &&
+        (!best || found->attitude.P.trace() < best->attitude.P.trace())) {
+      best = std::move(found);
+    }
+    const bool done = best && best->attitude.P.diagonal().maxCoeff() <
+                                  kWellKnown * kWellKnown;
+    if (done || t_end >= input.to) break;
+  }
+  if (!best) return {std::nullopt, "too few velocities or positions"};
+  return {best->attitude, ""};
+}
+
+}  // namespace hindsight

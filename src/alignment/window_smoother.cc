@@ -1,0 +1,217 @@
+#include "alignment/window_smoother.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "alignment/start_layout.h"
+#include "base/error.h"
+#include "dataset/timeline_builder.h"
+#include "filters/iterated_smoother.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kVagueVelocity = 100.0;   // [m/s]
+constexpr double kVaguePosition = 1000.0;  // [m]
+constexpr int kMaxIterations = 15;
+
+/// Measurements that need no calibration found elsewhere first.
+bool IsPlain(const MeasurementModel& model) {
+  return std::holds_alternative<PositionFix>(model) ||
+         std::holds_alternative<VelocityFix>(model) ||
+         std::holds_alternative<HeightFix>(model) ||
+         std::holds_alternative<SpeedCourse>(model) ||
+         std::holds_alternative<ZeroVelocity>(model) ||
+         std::holds_alternative<ZeroAngularRate>(model);
+}
+
+/// What the window holds of a recording, samples included.
+Dataset CutOut(const Dataset& whole, double t_begin, double t_end) {
+  Dataset cut;
+  cut.imu = ImuStream{whole.imu.kind,
+                      {},
+                      whole.imu.noise,
+                      whole.imu.max_gap,
+                      whole.imu.nominal_dt};
+  const auto before = [](const ImuSample& sample, double t) {
+    return sample.t < t;
+  };
+  const auto& samples = whole.imu.samples;
+  auto first =
+      std::lower_bound(samples.begin(), samples.end(), t_begin, before);
+  auto last = std::lower_bound(first, samples.end(), t_end, before);
+  first -= std::min<std::ptrdiff_t>(2, first - samples.begin());
+  last += std::min<std::ptrdiff_t>(2, samples.end() - last);
+  cut.imu.samples.assign(first, last);
+  cut.gyro_scale_sigma = whole.gyro_scale_sigma;
+  cut.accel_scale_sigma = whole.accel_scale_sigma;
+  cut.max_node_spacing = whole.max_node_spacing;
+  cut.initial = whole.initial;
+  for (const AidingStream& stream : whole.streams) {
+    AidingStream& kept = cut.streams.emplace_back();
+    kept.sensor = stream.sensor;
+    for (const Measurement& z : stream.measurements) {
+      const double t = z.t + stream.sensor.time_offset;
+      if (t >= t_begin && t <= t_end && !z.withheld && IsPlain(z.model)) {
+        kept.measurements.push_back(z);
+      }
+    }
+    if (!kept.measurements.empty()) continue;
+    kept.sensor.lever_arm_sigma.reset();
+    kept.sensor.mounting_sigma.reset();
+    kept.sensor.scale_sigma.reset();
+    kept.sensor.time_offset_sigma.reset();
+  }
+  return cut;
+}
+
+/// Velocity at input.t as the earliest measurements have it.
+Eigen::Vector3d FirstVelocity(const AlignmentInput& input) {
+  if (input.rest || input.velocities.empty()) return Eigen::Vector3d::Zero();
+  return std::min_element(input.velocities.begin(), input.velocities.end(),
+                          [&](const TimedVelocity& a, const TimedVelocity& b) {
+                            return std::abs(a.t - input.t) <
+                                   std::abs(b.t - input.t);
+                          })
+      ->v_n;
+}
+
+/// Sets the blocks of the navigation state of a covariance.
+void SetSigmas(const ErrorLayout& layout, BlockKind kind, double sigma,
+               ErrorMatrix* P) {
+  const int offset = layout.Find(kind)->offset;
+  P->block<3, 3>(offset, offset) = Eigen::Matrix3d::Identity() * sigma * sigma;
+}
+
+class WindowSmoother {
+ public:
+  WindowSmoother(const AlignmentInput& input, double t_end,
+                 const CoarseAlignment& coarse)
+      : input_(input),
+        coarse_(coarse),
+        dataset_(CutOut(input.dataset, input.t, t_end)),
+        layout_(BuildLayout(dataset_, BiasPrior())),
+        timeline_(BuildTimeline(
+            dataset_,
+            {.t_begin = input.t,
+             .t_end = t_end,
+             .extra_times = {},
+             .time_offsets = {},
+             .with_scale_jacobians = layout_.Has(BlockKind::kGyroScale) ||
+                                     layout_.Has(BlockKind::kAccelScale)})) {}
+
+  std::optional<WindowSolution> Solve() {
+    const GateDecisions all(timeline_.all_measurements().size(), 1);
+    SmoothedTrajectory rts = SmoothRts(
+        RunExtendedKalmanFilter(layout_, CoarsePrior(), &timeline_, all));
+    IterationOptions options;
+    options.max_iterations = kMaxIterations;
+    const Prior prior = VaguePrior(rts.states.front());
+    IteratedResult result = SmoothIterated(
+        layout_, prior, std::move(rts.states), &timeline_, all, options);
+    if (!result.converged) return std::nullopt;
+    WindowSolution out;
+    out.layout = layout_;
+    out.nis = Nis(result.trajectory.states);
+    const double scale = std::max(1.0, out.nis);
+    out.P = CovarianceSeries(layout_.dim(), result.trajectory.P.size());
+    for (std::size_t k = 0; k < out.P.size(); ++k) {
+      out.P.Set(k, ErrorMatrix(scale * result.trajectory.P.Get(k)));
+    }
+    out.states = std::move(result.trajectory.states);
+    return out;
+  }
+
+ private:
+  NavigationPrior BiasPrior() const {
+    NavigationPrior prior;
+    prior.gyro_bias_sigma = GyroBiasSigma(dataset_.initial);
+    prior.accel_bias_sigma = AccelBiasSigma(dataset_.initial);
+    prior.gyro_bias = dataset_.imu.noise.GyroBiasEvolution();
+    prior.accel_bias = dataset_.imu.noise.AccelBiasEvolution();
+    return prior;
+  }
+
+  ErrorMatrix Covariance(double position, double velocity) const {
+    ErrorMatrix P = layout_.InitialCovariance();
+    SetSigmas(layout_, BlockKind::kPosition, position, &P);
+    SetSigmas(layout_, BlockKind::kVelocity, velocity, &P);
+    SetSigmas(layout_, BlockKind::kAttitude, kUnknownHeadingSigma, &P);
+    return P;
+  }
+
+  /// Near enough to be filtered from: the attitude three times as uncertain as
+  /// the coarse alignment says, and a degree.
+  Prior CoarsePrior() const {
+    State x;
+    x.t = input_.t;
+    x.p_e = input_.p_e;
+    x.v_e = x.C_en() * FirstVelocity(input_);
+    x.q_eb = coarse_.q_eb;
+    x.b_g = coarse_.b_g;
+    x.b_a = coarse_.b_a;
+    x.parameters = InitialParameters(dataset_, layout_);
+    constexpr double kNearPosition = 30.0;
+    constexpr double kNearVelocity = 3.0;
+    ErrorMatrix P = Covariance(kNearPosition, kNearVelocity);
+    const int a = layout_.Find(BlockKind::kAttitude)->offset;
+    P.block<3, 3>(a, a) =
+        9.0 * coarse_.P + Eigen::Matrix3d::Identity() * kDegree * kDegree;
+    return {x, P};
+  }
+
+  /// Says nothing of attitude, velocity and, unless it is given, position.
+  Prior VaguePrior(const State& near) const {
+    State x = near;
+    const InitialState& given = dataset_.initial;
+    x.b_g = given.gyro_bias;
+    x.b_a = given.accel_bias;
+    x.parameters = InitialParameters(dataset_, layout_);
+    ErrorMatrix P = Covariance(kVaguePosition, kVagueVelocity);
+    if (given.position) {
+      x.p_e = EcefFromGeodetic(*given.position);
+      P.topLeftCorner<3, 3>() =
+          given.position_sigma.value_or(Eigen::Vector3d::Ones())
+              .cwiseAbs2()
+              .asDiagonal();
+    }
+    return {x, P};
+  }
+
+  double Nis(const std::vector<State>& states) const {
+    LinearizedMeasurement z;
+    double sum = 0.0;
+    double rows = 0.0;
+    for (std::size_t k = 0; k < timeline_.size(); ++k) {
+      for (const Measurement& measurement : timeline_.measurements(k)) {
+        Evaluate(measurement,
+                 timeline_.Context(k, measurement, layout_, states[k]), &z);
+        sum += z.residual.dot(Eigen::LLT<RowMatrix>(z.R).solve(z.residual));
+        rows += static_cast<double>(z.residual.size());
+      }
+    }
+    return rows > 0.0 ? sum / rows : 1.0;
+  }
+
+  const AlignmentInput& input_;
+  const CoarseAlignment& coarse_;
+  Dataset dataset_;
+  ErrorLayout layout_;
+  Timeline timeline_;
+};
+
+}  // namespace
+
+std::optional<WindowSolution> SmoothWindow(const AlignmentInput& input,
+                                           double t_end,
+                                           const CoarseAlignment& coarse) {
+  try {
+    return WindowSmoother(input, t_end, coarse).Solve();
+  } catch (const EstimationError&) {
+    return std::nullopt;  // diverged
+  }
+}
+
+}  // namespace hindsight

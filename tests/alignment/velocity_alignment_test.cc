@@ -1,0 +1,99 @@
+#include "alignment/velocity_alignment.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "alignment/start.h"
+#include "evaluation/chi_square.h"
+#include "geometry/so3.h"
+#include "simulation/in_flight_alignment.h"
+
+namespace hindsight {
+namespace {
+
+AlignmentInput InputOf(const Dataset& dataset, double to) {
+  AlignmentInput input{.dataset = dataset, .t = 0.0, .to = to};
+  input.p_e = EcefFromGeodetic(*dataset.initial.position);
+  input.velocities = GroundVelocities(dataset, 0.0, to);
+  input.gyro_sigma = dataset.initial.gyro_bias_sigma->maxCoeff();
+  return input;
+}
+
+const TruthPoint& TruthAt(const Dataset& dataset, double t) {
+  return dataset.truth[static_cast<std::size_t>(std::lround(10.0 * t))];
+}
+
+TEST(VelocityAlignment, ExactDataGiveTheExactAttitudeWhereverTheBodyPoints) {
+  Scenario scenario = InFlightAlignment({});
+  scenario.imu.noise.gyro_noise_density = 1e-12;
+  scenario.imu.noise.accel_noise_density = 1e-12;
+  scenario.imu.gyro_bias_sigma.setConstant(1e-12);
+  scenario.imu.accel_bias_sigma.setConstant(1e-12);
+  scenario.aiding[0].sigma.setConstant(1e-6);
+  scenario.start_errors->position.setConstant(1e-6);
+  const PerfectRecording recording(scenario);
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Dataset dataset = recording.Realize(seed);
+    MountAnywhere(seed, &dataset);
+    const auto coarse =
+        AlignCoarsely(InputOf(dataset, 40.0), 40.0, Eigen::Vector3d::Zero(),
+                      Eigen::Vector3d::Zero());
+    ASSERT_TRUE(coarse);
+    const TruthPoint& truth = dataset.truth.front();
+    const Eigen::Quaterniond q_eb =
+        Eigen::Quaterniond(NedAxes(*truth.p_e)) * *truth.q_nb;
+    EXPECT_LT(coarse->q_eb.angularDistance(q_eb), 1e-5) << seed;
+  }
+}
+
+class InFlight : public ::testing::TestWithParam<double> {};
+
+TEST_P(InFlight, AlignsFromAnyAttitudeWithAnHonestCovariance) {
+  const PerfectRecording recording(
+      InFlightAlignment({.velocity_rate_hz = GetParam()}));
+  constexpr int kRuns = 30;
+  constexpr double kEnd = kFirstManoeuvre + 10.0;
+  double nees = 0.0;
+  double square = 0.0;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    Dataset dataset = recording.Realize(seed);
+    MountAnywhere(seed, &dataset);
+    const auto found = AlignOverWindow(InputOf(dataset, kEnd), kEnd);
+    ASSERT_TRUE(found && found->refined) << seed;
+    const TruthPoint& first = dataset.truth.front();
+    const Eigen::Vector3d e =
+        Log(*first.q_nb * found->attitude.q_nb.conjugate());
+    nees += e.dot(found->attitude.P.llt().solve(e)) / kRuns;
+    const State& last = found->refined->states.back();
+    const Eigen::Vector3d d =
+        Log(Eigen::Quaterniond(NedAxes(last.p_e)) *
+            *TruthAt(dataset, kEnd).q_nb * last.q_eb.conjugate());
+    square += std::pow((NedAxes(last.p_e).transpose() * d).z(), 2) / kRuns;
+  }
+  const Interval bounds = AneesBounds(kRuns, 3, 0.999);
+  EXPECT_TRUE(bounds.Contains(nees)) << nees;
+  EXPECT_LT(std::sqrt(square), 0.2 * kDegree);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rates, InFlight, ::testing::Values(10.0, 1.0));
+
+TEST(VelocityAlignment, StraightFlightLeavesTheHeadingOpenAndSaysSo) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Dataset dataset =
+        Simulate(InFlightAlignment({.velocity_rate_hz = 1.0}), seed);
+    const auto found = AlignOverWindow(InputOf(dataset, 9.0), 9.0);
+    ASSERT_TRUE(found);
+    EXPECT_NE(found->attitude.heading.find("unknown"), std::string::npos)
+        << found->attitude.heading;
+    EXPECT_GE(found->attitude.P(2, 2),
+              kUnknownHeadingSigma * kUnknownHeadingSigma);
+    const Eigen::Vector3d down = *dataset.truth.front().q_nb *
+                                 found->attitude.q_nb.conjugate() *
+                                 Eigen::Vector3d::UnitZ();
+    EXPECT_LT(std::acos(down.z()), 4.0 * std::sqrt(found->attitude.P(0, 0)));
+  }
+}
+
+}  // namespace
+}  // namespace hindsight
