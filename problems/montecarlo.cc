@@ -31,40 +31,6 @@ struct Run {
   std::vector<Agreement> agreements;
 };
 
-/// True states at the nodes of a solution.
-std::vector<State> TrueStates(const Dataset& dataset,
-                              const Solution& solution) {
-  constexpr double kTimeTolerance = 1e-6;
-  std::vector<State> truth;
-  truth.reserve(solution.states.size());
-  std::size_t i = 0;
-  for (const State& x : solution.states) {
-    while (i < dataset.truth.size() &&
-           dataset.truth[i].t < x.t - kTimeTolerance) {
-      ++i;
-    }
-    if (i == dataset.truth.size() ||
-        dataset.truth[i].t > x.t + kTimeTolerance) {
-      throw InputError("data set '" + dataset.name + "' has no truth at " +
-                       std::to_string(x.t) + " s, where a node stands");
-    }
-    const TruthPoint& point = dataset.truth[i];
-    State& y = truth.emplace_back(x);
-    y.p_e = point.p_e.value();
-    const Eigen::Matrix3d C_en = NedAxes(y.p_e);
-    y.v_e = C_en * point.v_n.value();
-    y.q_eb = Eigen::Quaterniond(C_en) * point.q_nb.value();
-    y.b_g = point.b_g.value();
-    y.b_a = point.b_a.value();
-    for (const Block& block : solution.layout.blocks()) {
-      const auto constant = dataset.true_constants.find(block.name);
-      if (constant == dataset.true_constants.end()) continue;
-      y.parameters(block.parameter_offset) = constant->second;
-    }
-  }
-  return truth;
-}
-
 MethodRun Judge(const Solution& solution, const std::vector<State>& truth) {
   MethodRun run;
   run.seconds = solution.seconds;
@@ -116,7 +82,9 @@ void RunCase(const MonteCarloCase& c, const MonteCarloOptions& options,
     MethodRun& run = out->methods.emplace_back();
     try {
       Solution solution = reconstruction.Run(method);
-      if (truth.empty()) truth = TrueStates(dataset, solution);
+      if (truth.empty()) {
+        truth = TrueStates(dataset, solution.layout, solution.states);
+      }
       run = Judge(solution, truth);
       run.failed = !solution.converged;
       solution.method += c.suffix;
@@ -140,31 +108,9 @@ void RunCase(const MonteCarloCase& c, const MonteCarloOptions& options,
 std::vector<Run> RunAll(const std::vector<MonteCarloCase>& cases,
                         const MonteCarloOptions& options) {
   std::vector<Run> runs(static_cast<std::size_t>(options.runs));
-  std::atomic<std::size_t> next = 0;
-  std::mutex mutex;
-  int done = 0;
-  std::exception_ptr thrown;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < runs.size(); i = next++) {
-      try {
-        for (const MonteCarloCase& c : cases) {
-          RunCase(c, options, options.first_seed + i, &runs[i]);
-        }
-        const std::lock_guard lock(mutex);
-        ++done;
-        if (options.progress) options.progress(done);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!thrown) thrown = std::current_exception();
-        next = runs.size();
-      }
-    }
-  };
-  std::vector<std::thread> threads;
-  for (int i = 1; i < options.threads; ++i) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
-  if (thrown) std::rethrow_exception(thrown);
+  ForEachSeed(options, [&](std::size_t i, std::uint64_t seed) {
+    for (const MonteCarloCase& c : cases) RunCase(c, options, seed, &runs[i]);
+  });
   return runs;
 }
 
@@ -268,6 +214,68 @@ void Widen(const Agreement& one, std::vector<Agreement>* all) {
 }
 
 }  // namespace
+
+std::vector<State> TrueStates(const Dataset& dataset, const ErrorLayout& layout,
+                              const std::vector<State>& states) {
+  constexpr double kTimeTolerance = 1e-6;
+  std::vector<State> truth;
+  truth.reserve(states.size());
+  std::size_t i = 0;
+  for (const State& x : states) {
+    while (i < dataset.truth.size() &&
+           dataset.truth[i].t < x.t - kTimeTolerance) {
+      ++i;
+    }
+    if (i == dataset.truth.size() ||
+        dataset.truth[i].t > x.t + kTimeTolerance) {
+      throw InputError("data set '" + dataset.name + "' has no truth at " +
+                       std::to_string(x.t) + " s, where a node stands");
+    }
+    const TruthPoint& point = dataset.truth[i];
+    State& y = truth.emplace_back(x);
+    y.p_e = point.p_e.value();
+    const Eigen::Matrix3d C_en = NedAxes(y.p_e);
+    y.v_e = C_en * point.v_n.value();
+    y.q_eb = Eigen::Quaterniond(C_en) * point.q_nb.value();
+    y.b_g = point.b_g.value();
+    y.b_a = point.b_a.value();
+    for (const Block& block : layout.blocks()) {
+      const auto constant = dataset.true_constants.find(block.name);
+      if (constant == dataset.true_constants.end()) continue;
+      y.parameters(block.parameter_offset) = constant->second;
+    }
+  }
+  return truth;
+}
+
+void ForEachSeed(
+    const MonteCarloOptions& options,
+    const std::function<void(std::size_t i, std::uint64_t seed)>& work) {
+  const auto count = static_cast<std::size_t>(options.runs);
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  int done = 0;
+  std::exception_ptr thrown;
+  const auto run = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        work(i, options.first_seed + i);
+        const std::lock_guard lock(mutex);
+        ++done;
+        if (options.progress) options.progress(done);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!thrown) thrown = std::current_exception();
+        next = count;
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 1; i < options.threads; ++i) threads.emplace_back(run);
+  run();
+  for (std::thread& thread : threads) thread.join();
+  if (thrown) std::rethrow_exception(thrown);
+}
 
 MonteCarloResult RunMonteCarlo(const std::vector<MonteCarloCase>& cases,
                                const MonteCarloOptions& options) {

@@ -72,6 +72,17 @@ struct MonteCarloResult {
   std::vector<Agreement> agreements;  ///< of all pairs within a case
 };
 
+/// Calls work(i, first_seed + i) for every run on so many threads and reports
+/// progress. The first exception stops the rest and is thrown.
+void ForEachSeed(
+    const MonteCarloOptions& options,
+    const std::function<void(std::size_t i, std::uint64_t seed)>& work);
+
+/// True states at the times of `states`, in a layout's parameters too where
+/// the data set knows them. Throws InputError where there is no truth.
+std::vector<State> TrueStates(const Dataset& dataset, const ErrorLayout& layout,
+                              const std::vector<State>& states);
+
 /// Runs every method on every seed. The result is the same to the last bit
 /// whatever the number of threads, seconds excepted. Throws InputError if a
 /// node has no truth, and what Reconstruction throws but EstimationError, which

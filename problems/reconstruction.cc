@@ -22,6 +22,8 @@ constexpr std::pair<Method, const char*> kMethods[] = {
     {Method::kTwoFilter, "two_filter"},
     {Method::kTwoFilterConventional, "two_filter_conventional"},
     {Method::kTwoFilterEuler, "two_filter_euler"},
+    {Method::kHInfinity, "hinf"},
+    {Method::kModifiedHInfinity, "modified_hinf"},
     {Method::kRts, "rts"},
     {Method::kIterated, "iterated"},
     {Method::kBatch, "batch"}};
@@ -124,10 +126,15 @@ struct Reconstruction::Impl {
     }
   }
 
+  LinearTape RunKalman(const GateDecisions& gates,
+                       const EpochCallback& callback) {
+    return RunForwardFilter({options.error, {}}, start.layout, start.prior,
+                            &timeline, gates, callback);
+  }
+
   void RunForwardOnce() {
     const double t0 = ProcessorSeconds();
-    LinearTape tape = RunExtendedKalmanFilter(start.layout, start.prior,
-                                              &timeline, {}, Progress("ekf"));
+    LinearTape tape = RunKalman({}, Progress("ekf"));
     ekf = FilterSolution(tape);
     ekf->seconds = ProcessorSeconds() - t0;
     decisions = DecisionsOnTape(tape);
@@ -191,8 +198,7 @@ struct Reconstruction::Impl {
         DecideGates(start.layout, timeline, *rts, decisions);
     if (smoothed == decisions) return;
     decisions = smoothed;
-    rts = SmoothTape(RunExtendedKalmanFilter(
-        start.layout, start.prior, &timeline, decisions, Progress("rts")));
+    rts = SmoothTape(RunKalman(decisions, Progress("rts")));
   }
 
   Solution Finish(Solution solution, Method method, double seconds) {
@@ -236,8 +242,7 @@ struct Reconstruction::Impl {
   Solution RunEkf() {
     if (!ekf) {
       const double t0 = ProcessorSeconds();
-      ekf = FilterSolution(RunExtendedKalmanFilter(
-          start.layout, start.prior, &timeline, {}, Progress("ekf")));
+      ekf = FilterSolution(RunKalman({}, Progress("ekf")));
       ekf->seconds = ProcessorSeconds() - t0;
     }
     Solution solution = std::move(*ekf);
@@ -249,9 +254,7 @@ struct Reconstruction::Impl {
   /// The tape was released by the RTS pass; filtering again about the same
   /// decisions costs less than keeping it.
   Solution RunTwoFilter(Method method) {
-    const LinearTape tape =
-        RunExtendedKalmanFilter(start.layout, start.prior, &timeline, decisions,
-                                Progress(MethodName(method)));
+    const LinearTape tape = RunKalman(decisions, Progress(MethodName(method)));
     const double t0 = ProcessorSeconds();
     TwoFilterResult result = method == Method::kTwoFilter
                                  ? SmoothTwoFilter(tape)
@@ -267,6 +270,14 @@ struct Reconstruction::Impl {
         FromSmoothed(std::move(trajectory.states), std::move(trajectory.P));
     solution.separation = std::move(result.separation);
     return Finish(std::move(solution), method, seconds);
+  }
+
+  Solution RunObserver(Method method, const CovarianceOptions& covariance) {
+    const double t0 = ProcessorSeconds();
+    Solution solution = FilterSolution(
+        RunForwardFilter({options.error, covariance}, start.layout, start.prior,
+                         &timeline, {}, Progress(MethodName(method))));
+    return Finish(std::move(solution), method, ProcessorSeconds() - t0);
   }
 
   Solution RunIterated() {
@@ -334,6 +345,10 @@ Solution Reconstruction::Run(Method method) {
     case Method::kTwoFilterConventional:
     case Method::kTwoFilterEuler:
       return impl_->RunTwoFilter(method);
+    case Method::kHInfinity:
+      return impl_->RunObserver(method, impl_->options.h_infinity);
+    case Method::kModifiedHInfinity:
+      return impl_->RunObserver(method, impl_->options.modified_h_infinity);
     case Method::kRts:
       return impl_->Finish(
           impl_->FromSmoothed(impl_->rts->states, impl_->rts->P), method,

@@ -10,6 +10,7 @@
 
 #include "alignment/start.h"
 #include "dataset/dataset.h"
+#include "filters/forward_filter.h"
 #include "state/solution.h"
 
 namespace hindsight {
@@ -19,13 +20,15 @@ enum class Method {
   kTwoFilter,              ///< error form
   kTwoFilterConventional,  ///< full state in the additive chart
   kTwoFilterEuler,         ///< full state in the Euler-angle chart
+  kHInfinity,              ///< forward observer
+  kModifiedHInfinity,      ///< forward observer
   kRts,
   kIterated,
   kBatch
 };
 
-/// "ekf", "two_filter", "two_filter_conventional", "two_filter_euler", "rts",
-/// "iterated", "batch".
+/// "ekf", "two_filter", "two_filter_conventional", "two_filter_euler", "hinf",
+/// "modified_hinf", "rts", "iterated", "batch".
 const char* MethodName(Method method);
 /// Throws InputError for a name that is none, listing those that are.
 Method MethodFromName(const std::string& name);
@@ -38,6 +41,14 @@ struct ReconstructionOptions {
   /// Nodes are also placed at these times [s], so that their states have
   /// exact covariances (--at).
   std::vector<double> node_times;
+  /// What forward filters, and the smoothers on the tape of the Kalman filter,
+  /// call the error; the batch and the iterated smoother do not depend on it
+  /// but through their start.
+  ErrorDefinition error = ErrorDefinition::kNavigation;
+  /// Riccati equations of the two observers. Their tapes are not smoothed: P is
+  /// no covariance there.
+  CovarianceOptions h_infinity;
+  CovarianceOptions modified_h_infinity;
   int max_iterations = 20;  ///< of the iterated smoother and the batch
   /// Called with a stage in words and its fraction done, in [0, 1].
   std::function<void(const std::string& stage, double fraction)> progress;

@@ -7,12 +7,20 @@
 
 #include "io/config_map.h"
 
+DEFINE_double(alpha, 0.03, "");
+DEFINE_string(alpha_blocks, "velocity_attitude", "");
 DEFINE_string(at, "", "");
+DEFINE_bool(back_off, false, "");
+DEFINE_string(bounded, "attitude=1rad", "");
 DEFINE_string(data_root, "../shared/data", "");
 DEFINE_double(duration, 0.0, "");
+DEFINE_double(delta, 0.0, "");
+DEFINE_string(error, "navigation", "");
 DEFINE_string(export, "", "");
 DEFINE_bool(force, false, "");
 DEFINE_double(from, -std::numeric_limits<double>::infinity(), "");
+DEFINE_string(gamma, "20", "");
+DEFINE_string(heading, "30,60,120,175", "");
 DEFINE_bool(json, false, "");
 DEFINE_bool(list, false, "");
 DEFINE_string(log, "none", "");
@@ -24,10 +32,13 @@ DEFINE_string(point, "", "");
 DEFINE_string(profile, "", "");
 DEFINE_string(progress, "auto", "");
 DEFINE_double(rate, 0.0, "");
+DEFINE_string(rates, "10,1", "");
+DEFINE_string(rules, "ekf,hinf,modified_hinf", "");
 DEFINE_uint64(runs, 100, "");
 DEFINE_uint64(seed, 1, "");
 DEFINE_bool(sweep, false, "");
 DEFINE_uint64(threads, 0, "");
+DEFINE_string(tilt, "10,30", "");
 DEFINE_double(to, std::numeric_limits<double>::infinity(), "");
 DEFINE_string(white_noise, "sample", "");
 DEFINE_string(withhold, "", "");

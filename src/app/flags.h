@@ -8,12 +8,20 @@
 
 #include "app/command.h"
 
+DECLARE_double(alpha);
+DECLARE_string(alpha_blocks);
 DECLARE_string(at);
+DECLARE_bool(back_off);
+DECLARE_string(bounded);
 DECLARE_string(data_root);
 DECLARE_double(duration);
+DECLARE_double(delta);
+DECLARE_string(error);
 DECLARE_string(export);
 DECLARE_bool(force);
 DECLARE_double(from);
+DECLARE_string(gamma);
+DECLARE_string(heading);
 DECLARE_bool(json);
 DECLARE_bool(list);
 DECLARE_string(log);
@@ -25,10 +33,13 @@ DECLARE_string(point);
 DECLARE_string(profile);
 DECLARE_string(progress);
 DECLARE_double(rate);
+DECLARE_string(rates);
+DECLARE_string(rules);
 DECLARE_uint64(runs);
 DECLARE_uint64(seed);
 DECLARE_bool(sweep);
 DECLARE_uint64(threads);
+DECLARE_string(tilt);
 DECLARE_double(to);
 DECLARE_string(white_noise);
 DECLARE_string(withhold);

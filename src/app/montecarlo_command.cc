@@ -5,9 +5,11 @@
 #include "app/flags.h"
 #include "app/interrupt.h"
 #include "app/montecarlo_scenarios.h"
+#include "app/observer_flags.h"
 #include "app/progress.h"
 #include "app/result_folder.h"
 #include "evaluation/chi_square.h"
+#include "simulation/in_flight_alignment.h"
 #include "simulation/tunnel_survey.h"
 
 namespace hindsight {
@@ -17,9 +19,13 @@ constexpr const char* kHelp =
     R"(Repeats a built-in scenario with other seeds and compares what each method
 makes of it: standard deviation of the position over the runs (largest over
 time, north, east, down, all and by leg), heading, consistency (ANEES of the
-whole state, NIS), processor time. SCENARIO is tunnel_survey. Writes into the
-folder of --out:
+whole state, NIS), processor time. SCENARIO is tunnel_survey; or
+in_flight_alignment, which compares forward observers from bad initial
+attitudes, Riccati rule x definition of the error x start: shares that diverge
+or escape, time to settle, final errors, Lyapunov figures. Writes into the folder
+of --out:
   montecarlo.json   the figures of all methods and how far they agree
+  cells.csv         of in_flight_alignment: a row a cell
   METHOD.csv        standard deviations and ANEES against time
   sweep.csv         with --sweep in place of both: largest standard deviation
                     for reference points every 0.25 to 8 km and odometer noise
@@ -54,7 +60,8 @@ MonteCarloOptions ReadOptions() {
 
 const std::vector<MonteCarloScenario>& Scenarios() {
   static const std::vector<MonteCarloScenario> scenarios = {
-      {kTunnelSurveyName, RunTunnelSurvey}};
+      {kTunnelSurveyName, RunTunnelSurvey},
+      {kInFlightAlignmentName, RunInFlightAlignment}};
   return scenarios;
 }
 
@@ -99,19 +106,31 @@ Command MonteCarloCommand() {
       .summary = "compare the methods over many seeds of a scenario",
       .arguments = "SCENARIO",
       .help = kHelp,
-      .flags = {{"out", "DIR", "folder for the results (required)"},
-                {"force", "", "replace the results of an earlier call in DIR"},
-                {"runs", "N", "number of seeds (100)"},
-                {"seed", "N", "the first seed; the others follow it (1)"},
-                {"threads", "N", "0: as many as there are cores (0)"},
-                {"path", "NAME", "winding, serpentine or straight (winding)"},
-                {"white_noise", "READING",
-                 "of the IMU's white noise: sample, the standard deviation\n"
-                 "of each sample, or density, per sqrt(Hz) (sample)"},
-                {"sweep", "",
-                 "table over the distance of reference points and the\n"
-                 "odometer noise"},
-                {"progress", "MODE", "on stderr: auto, json or none (auto)"}},
+      .flags = WithObserverFlags(
+          {{"out", "DIR", "folder for the results (required)"},
+           {"force", "", "replace the results of an earlier call in DIR"},
+           {"runs", "N", "number of seeds (100; 300 of in_flight_alignment)"},
+           {"seed", "N", "the first seed; the others follow it (1)"},
+           {"threads", "N", "0: as many as there are cores (0)"},
+           {"path", "NAME", "winding, serpentine or straight (winding)"},
+           {"white_noise", "READING",
+            "of the IMU's white noise: sample, the standard deviation\n"
+            "of each sample, or density, per sqrt(Hz) (sample)"},
+           {"sweep", "",
+            "table over the distance of reference points and the\n"
+            "odometer noise"},
+           {"rates", "LIST",
+            "of in_flight_alignment: rates of the velocity [Hz]\n"
+            "(10,1)"},
+           {"tilt", "LIST", "... tilts of the start [deg] (10,30)"},
+           {"heading", "LIST",
+            "... heading errors of the start [deg]\n"
+            "(30,60,120,175)"},
+           {"rules", "LIST",
+            "... some of ekf,hinf,modified_hinf (all); there --error\n"
+            "takes a list (all three), --gamma too (1,5), and\n"
+            "modified_hinf runs with both --alpha-blocks"},
+           {"progress", "MODE", "on stderr: auto, json or none (auto)"}}),
       .min_arguments = 1,
       .max_arguments = 1,
       .run = Run,

@@ -25,6 +25,9 @@ struct MonteCarloScenario {
 void RunTunnelSurvey(MonteCarloOptions options, Progress* progress,
                      ResultFolder* folder);
 
+void RunInFlightAlignment(MonteCarloOptions options, Progress* progress,
+                          ResultFolder* folder);
+
 /// Reports the number of finished runs out of `runs`.
 std::function<void(int)> RunProgress(int runs, Progress* progress);
 

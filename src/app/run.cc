@@ -63,6 +63,9 @@ ReconstructionOptions Options(const RunRequest& request, Progress* progress) {
   options.from = request.from;
   options.to = request.to;
   options.node_times = request.at;
+  options.error = request.error;
+  options.h_infinity = request.h_infinity;
+  options.modified_h_infinity = request.modified_h_infinity;
   options.progress = [progress](const std::string& stage, double fraction) {
     progress->Update(stage, fraction);
   };

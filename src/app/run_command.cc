@@ -1,5 +1,6 @@
 #include "app/command.h"
 #include "app/flags.h"
+#include "app/observer_flags.h"
 #include "app/run.h"
 #include "app/run_request.h"
 
@@ -24,6 +25,10 @@ Methods: ekf       forward error-state Kalman filter
                    same in the full state, in metres and small angles or in
                    latitude, longitude and Euler angles. All give `separation`,
                    the distance of forward and backward positions in sigmas
+         hinf, modified_hinf  forward observers with an H-infinity Riccati
+                   equation (--gamma) or one with a degree of stability
+                   (--alpha) and a free weight (--delta). Their P is no
+                   covariance: rts and two_filter smooth the ekf alone
          rts       ekf, smoothed by Rauch, Tung and Striebel's backward pass
          iterated  rts, linearised anew about its result until it rests
          batch     nonlinear least squares over the whole interval
@@ -41,35 +46,36 @@ Command RunCommand() {
       .summary = "reconstruct a trajectory by several methods",
       .arguments = "CONFIG",
       .help = kHelp,
-      .flags = {{"out", "DIR", "folder for the results (required)"},
-                {"force", "", "replace the results of an earlier run in DIR"},
-                {"methods", "LIST",
-                 "some of ekf,two_filter,two_filter_conventional,\n"
-                 "two_filter_euler,rts,iterated,batch\n"
-                 "(ekf,rts,iterated,batch)"},
-                {"from", "T", "begin at T seconds since the data set's epoch"},
-                {"to", "T", "end at T seconds"},
-                {"rate", "HZ", "rate of the output (at the estimator's nodes)"},
-                {"at", "FILE",
-                 "also poses with covariance at the times in FILE,\n"
-                 "seconds, one a line"},
-                {"point", "X,Y,Z",
-                 "output this point of the vehicle: metres\n"
-                 "forward, right, down of the IMU (0,0,0)"},
-                {"withhold", "RULE",
-                 "keep a sensor from the estimators now and then and report\n"
-                 "the errors over each outage, in place of the\n"
-                 "configuration's rules: position:every=120s,length=30s\n"
-                 "with ,from=90s for the first outage's start (the first\n"
-                 "fix + every); sensor is a stream or a type of streams;\n"
-                 "several rules: separate by ; or repeat the flag"},
-                {"export", "LIST", "some of tum,kml,nav"},
-                {"progress", "MODE",
-                 "on stderr: auto (a line on a terminal), json (an object\n"
-                 "a line) or none (auto)"},
-                {"data_root", "DIR",
-                 "where a relative folder of CONFIG is looked for\n"
-                 "(../shared/data)"}},
+      .flags = WithObserverFlags(
+          {{"out", "DIR", "folder for the results (required)"},
+           {"force", "", "replace the results of an earlier run in DIR"},
+           {"methods", "LIST",
+            "some of ekf,two_filter,two_filter_conventional,\n"
+            "two_filter_euler,hinf,modified_hinf,rts,iterated,batch\n"
+            "(ekf,rts,iterated,batch)"},
+           {"from", "T", "begin at T seconds since the data set's epoch"},
+           {"to", "T", "end at T seconds"},
+           {"rate", "HZ", "rate of the output (at the estimator's nodes)"},
+           {"at", "FILE",
+            "also poses with covariance at the times in FILE,\n"
+            "seconds, one a line"},
+           {"point", "X,Y,Z",
+            "output this point of the vehicle: metres\n"
+            "forward, right, down of the IMU (0,0,0)"},
+           {"withhold", "RULE",
+            "keep a sensor from the estimators now and then and report\n"
+            "the errors over each outage, in place of the\n"
+            "configuration's rules: position:every=120s,length=30s\n"
+            "with ,from=90s for the first outage's start (the first\n"
+            "fix + every); sensor is a stream or a type of streams;\n"
+            "several rules: separate by ; or repeat the flag"},
+           {"export", "LIST", "some of tum,kml,nav"},
+           {"progress", "MODE",
+            "on stderr: auto (a line on a terminal), json (an object\n"
+            "a line) or none (auto)"},
+           {"data_root", "DIR",
+            "where a relative folder of CONFIG is looked for\n"
+            "(../shared/data)"}}),
       .min_arguments = 1,
       .max_arguments = 1,
       .run = Run,

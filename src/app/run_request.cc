@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "app/flags.h"
+#include "app/observer_flags.h"
 #include "io/time_list.h"
 #include "io/units.h"
 
@@ -126,6 +127,13 @@ RunRequest ReadRunRequest(const std::string& config) {
   }
   request.withholdings = ParseWithholdings(FLAGS_withhold);
   request.exports = ParseExports(FLAGS_export);
+  const std::vector<ErrorDefinition> errors = ReadErrors();
+  if (errors.size() != 1 || ReadGammas().size() != 1) {
+    throw UsageError("'run' takes one value of --error and of --gamma");
+  }
+  request.error = errors.front();
+  request.h_infinity = ReadCovariance(RiccatiRule::kHInfinity);
+  request.modified_h_infinity = ReadCovariance(RiccatiRule::kModifiedHInfinity);
   request.progress = Progress::ModeFromName(FLAGS_progress);
   if (IsGiven("at")) request.at = ReadTimeList(FLAGS_at);
   return request;

@@ -28,6 +28,9 @@ struct RunRequest {
   /// In place of the configuration's if not empty.
   std::vector<Withholding> withholdings;
   std::set<std::string> exports;  ///< of "tum", "kml", "nav"
+  ErrorDefinition error = ErrorDefinition::kNavigation;
+  CovarianceOptions h_infinity;
+  CovarianceOptions modified_h_infinity;
   Progress::Mode progress = Progress::Mode::kNone;
 };
 

@@ -101,4 +101,8 @@ void CovariancePolicy::Bound(double t, double dt, ErrorVector* dx,
   Symmetrize(P);
 }
 
+ErrorMatrix CovariancePolicy::WeightMatrix() const {
+  return weight_ * L_.transpose() * L_;
+}
+
 }  // namespace hindsight

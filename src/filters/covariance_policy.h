@@ -84,6 +84,10 @@ class CovariancePolicy {
   /// with the time at which P^-1, falling linearly over the step, is singular.
   void Bound(double t, double dt, ErrorVector* dx, ErrorMatrix* P);
 
+  /// gamma^-2 L' L or delta L' L [1/s].
+  ErrorMatrix WeightMatrix() const;
+  /// Per component [1/s]; empty without alpha.
+  const ErrorVector& alpha() const { return alpha_; }
   /// Steps at which gamma was backed off.
   int back_offs() const { return back_offs_; }
 

@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "app/flags.h"
+#include "app/in_flight_report.h"
+#include "app/montecarlo_scenarios.h"
+#include "app/observer_flags.h"
+#include "app/text.h"
+#include "base/units.h"
+#include "io/atomic_file.h"
+#include "problems/observer_comparison.h"
+#include "simulation/in_flight_alignment.h"
+
+namespace hindsight {
+namespace {
+
+constexpr int kDefaultRuns = 300;
+constexpr ObserverLimits kLimits = {.settled_tilt = 0.5 * kDegree,
+                                    .settled_heading = 2.0 * kDegree,
+                                    .diverged_tilt = 2.0 * kDegree,
+                                    .diverged_heading = 10.0 * kDegree,
+                                    .last = 20.0};
+
+std::vector<ObserverRecording> Recordings() {
+  std::vector<ObserverRecording> recordings;
+  for (const double rate : ParseNumbers("rates", FLAGS_rates)) {
+    InFlightAlignmentOptions options;
+    options.velocity_rate_hz = rate;
+    const auto perfect =
+        std::make_shared<const PerfectRecording>(InFlightAlignment(options));
+    recordings.push_back({Format("%g Hz", rate), [perfect](std::uint64_t seed) {
+                            return perfect->Realize(seed);
+                          }});
+  }
+  return recordings;
+}
+
+std::vector<ObserverStart> Starts() {
+  std::vector<ObserverStart> starts;
+  for (const double tilt : ParseNumbers("tilt", FLAGS_tilt)) {
+    for (const double heading : ParseNumbers("heading", FLAGS_heading)) {
+      const BadStart start{tilt * kDegree, heading * kDegree};
+      starts.push_back({Format("tilt %g heading %g", tilt, heading),
+                        [start](std::uint64_t seed, Dataset* dataset) {
+                          GiveBadStart(start, seed, dataset);
+                        }});
+    }
+  }
+  return starts;
+}
+
+/// The rules with their parameters in words, before each error definition.
+std::vector<std::pair<std::string, CovarianceOptions>> Rules() {
+  std::vector<std::pair<std::string, CovarianceOptions>> rules;
+  for (const std::string& name : Split(FLAGS_rules, ',')) {
+    if (name == "ekf") {
+      rules.emplace_back(name, ReadCovariance(RiccatiRule::kKalman));
+    } else if (name == "hinf") {
+      CovarianceOptions options = ReadCovariance(RiccatiRule::kHInfinity);
+      const std::vector<double> gammas =
+          IsGiven("gamma") ? ReadGammas() : std::vector<double>{1.0, 5.0};
+      for (const double gamma : gammas) {
+        options.gamma = gamma;
+        rules.emplace_back(Format("hinf gamma=%g", gamma), options);
+      }
+    } else if (name == "modified_hinf") {
+      CovarianceOptions options =
+          ReadCovariance(RiccatiRule::kModifiedHInfinity);
+      const std::vector<bool> choices =
+          IsGiven("alpha_blocks") ? std::vector<bool>{options.alpha_on_all}
+                                  : std::vector<bool>{false, true};
+      for (const bool on_all : choices) {
+        options.alpha_on_all = on_all;
+        rules.emplace_back(
+            Format("modified_hinf alpha=%g%s delta=%g", options.alpha,
+                   on_all ? " on all" : "", options.delta),
+            options);
+      }
+    } else {
+      throw UsageError("--rules=" + FLAGS_rules + ": unknown rule '" + name +
+                       "', expected some of ekf,hinf,modified_hinf");
+    }
+  }
+  return rules;
+}
+
+std::vector<ObserverModel> Models() {
+  const std::vector<ErrorDefinition> errors =
+      IsGiven("error") ? ReadErrors()
+                       : std::vector{ErrorDefinition::kNavigation,
+                                     ErrorDefinition::kQuaternion,
+                                     ErrorDefinition::kLeftInvariant};
+  std::vector<ObserverModel> models;
+  for (const auto& [name, covariance] : Rules()) {
+    for (const ErrorDefinition error : errors) {
+      models.push_back({name, {error, covariance}});
+    }
+  }
+  return models;
+}
+
+}  // namespace
+
+void RunInFlightAlignment(MonteCarloOptions options, Progress* progress,
+                          ResultFolder* folder) {
+  if (IsGiven("path") || IsGiven("white_noise") || FLAGS_sweep) {
+    throw UsageError(
+        "--path, --white-noise and --sweep go with tunnel_survey only");
+  }
+  if (!IsGiven("runs")) options.runs = kDefaultRuns;
+  options.progress = RunProgress(options.runs, progress);
+  const std::vector<ObserverModel> models = Models();
+  const std::vector<ObserverStart> starts = Starts();
+  const std::vector<ObserverCell> cells =
+      CompareObservers(Recordings(), starts, models, kLimits, options);
+  WriteFileAtomically(folder->Path(kMonteCarloJson),
+                      ObserverJson(cells, options));
+  WriteFileAtomically(folder->Path("cells.csv"), ObserverCsv(cells));
+  std::cout << kInFlightAlignmentName << ", seeds " << options.first_seed
+            << " to "
+            << options.first_seed + static_cast<std::uint64_t>(options.runs - 1)
+            << "\n\n"
+            << ObserverTable(cells);
+}
+
+}  // namespace hindsight

@@ -1,0 +1,134 @@
+#include "app/observer_flags.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "app/flags.h"
+#include "io/units.h"
+
+namespace hindsight {
+namespace {
+
+UsageError BadFlag(const std::string& flag, const std::string& value,
+                   const std::string& expected) {
+  return UsageError("--" + flag + "=" + value + ": expected " + expected);
+}
+
+double ParseNumber(const std::string& flag, const std::string& text) {
+  std::size_t end = 0;
+  double value = 0.0;
+  try {
+    value = std::stod(text, &end);
+  } catch (const std::exception&) {
+    end = std::string::npos;
+  }
+  if (end != text.size() || std::isnan(value)) {
+    throw BadFlag(flag, text, "a number");
+  }
+  return value;
+}
+
+/// "attitude=1rad" or "velocity=0.5m/s".
+CovarianceOptions::Bounded ParseBounded(const std::string& text) {
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const std::string name = text.substr(0, equals);
+  CovarianceOptions::Bounded bounded;
+  Quantity quantity = Quantity::kAngle;
+  if (name == "velocity") {
+    bounded.kind = BlockKind::kVelocity;
+    quantity = Quantity::kSpeed;
+  } else if (name != "attitude") {
+    throw BadFlag("bounded", text, "attitude or velocity");
+  }
+  if (equals == text.size()) return bounded;
+  try {
+    bounded.unit = ParseQuantity(text.substr(equals + 1), quantity);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError("--bounded=" + text + ": " + error.what());
+  }
+  if (!(bounded.unit > 0.0)) throw BadFlag("bounded", text, "a positive unit");
+  return bounded;
+}
+
+}  // namespace
+
+std::vector<FlagUse> WithObserverFlags(std::vector<FlagUse> flags) {
+  const std::vector<FlagUse> observer = {
+      {"error", "NAME",
+       "what forward filters call the error: navigation (angles\n"
+       "north, east, down), quaternion (additive) or\n"
+       "left_invariant (body axes, as of a group) (navigation)"},
+      {"gamma", "G",
+       "of hinf: bound of the gain from disturbances to the\n"
+       "error of what --bounded names [sqrt(s)] (20)"},
+      {"alpha", "A", "of modified_hinf: degree of stability [1/s] (0.03)"},
+      {"alpha_blocks", "NAME",
+       "what alpha acts on: velocity_attitude or all\n"
+       "(velocity_attitude)"},
+      {"delta", "D", "of modified_hinf: weight of L'L [1/s] (0)"},
+      {"bounded", "LIST",
+       "blocks of L with the error that counts one: attitude=1rad,\n"
+       "velocity=1m/s (attitude=1rad)"},
+      {"back_off", "",
+       "drop gamma (delta) at steps that would double an\n"
+       "eigenvalue of P; without it an escape is a failure"}};
+  flags.insert(flags.end(), observer.begin(), observer.end());
+  return flags;
+}
+
+std::vector<ErrorDefinition> ReadErrors() {
+  std::vector<ErrorDefinition> errors;
+  for (const std::string& name : Split(FLAGS_error, ',')) {
+    try {
+      errors.push_back(ErrorFromName(name));
+    } catch (const InputError& error) {
+      throw UsageError("--error=" + FLAGS_error + ": " + error.what());
+    }
+  }
+  if (errors.empty()) throw BadFlag("error", "", "an error definition");
+  return errors;
+}
+
+std::vector<double> ParseNumbers(const std::string& flag,
+                                 const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& part : Split(text, ',')) {
+    const double value = ParseNumber(flag, part);
+    if (!(value > 0.0)) throw BadFlag(flag, text, "positive numbers");
+    numbers.push_back(value);
+  }
+  if (numbers.empty()) throw BadFlag(flag, text, "positive numbers");
+  return numbers;
+}
+
+std::vector<double> ReadGammas() { return ParseNumbers("gamma", FLAGS_gamma); }
+
+CovarianceOptions ReadCovariance(RiccatiRule rule) {
+  CovarianceOptions options;
+  options.rule = rule;
+  options.gamma = ReadGammas().front();
+  options.alpha = FLAGS_alpha;
+  if (!std::isfinite(FLAGS_alpha) || FLAGS_alpha < 0.0) {
+    throw UsageError("--alpha must be zero or a positive number of 1/s");
+  }
+  options.delta = FLAGS_delta;
+  if (!std::isfinite(FLAGS_delta)) {
+    throw UsageError("--delta must be a number of 1/s");
+  }
+  if (FLAGS_alpha_blocks != "all" &&
+      FLAGS_alpha_blocks != "velocity_attitude") {
+    throw BadFlag("alpha-blocks", FLAGS_alpha_blocks,
+                  "velocity_attitude or all");
+  }
+  options.alpha_on_all = FLAGS_alpha_blocks == "all";
+  options.back_off = FLAGS_back_off;
+  options.L.clear();
+  for (const std::string& part : Split(FLAGS_bounded, ',')) {
+    options.L.push_back(ParseBounded(part));
+  }
+  if (options.L.empty()) throw BadFlag("bounded", "", "attitude or velocity");
+  return options;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,29 @@
+#ifndef HINDSIGHT_APP_OBSERVER_FLAGS_H_
+#define HINDSIGHT_APP_OBSERVER_FLAGS_H_
+
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+#include "filters/forward_filter.h"
+
+namespace hindsight {
+
+/// A command's flags followed by those of forward observers: error, gamma,
+/// alpha, alpha_blocks, delta, bounded, back_off.
+std::vector<FlagUse> WithObserverFlags(std::vector<FlagUse> flags);
+
+/// What the flags ask for. All throw UsageError naming the flag.
+std::vector<ErrorDefinition> ReadErrors();
+std::vector<double> ReadGammas();
+/// The rule with the parameters of the flags, gamma being the first of its
+/// list.
+CovarianceOptions ReadCovariance(RiccatiRule rule);
+
+/// Positive numbers separated by commas in the value of a flag.
+std::vector<double> ParseNumbers(const std::string& flag,
+                                 const std::string& text);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_APP_OBSERVER_FLAGS_H_
