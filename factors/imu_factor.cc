@@ -8,10 +8,15 @@ bool IsImuBlock(BlockKind kind) {
          kind == BlockKind::kGyroScale || kind == BlockKind::kAccelScale;
 }
 
-std::vector<int> ImuGlobals(const StateBlocks& blocks) {
+/// Constants of the IMU and of the odometers that count distance.
+std::vector<int> LinkGlobals(const StateBlocks& blocks) {
   std::vector<int> globals;
   for (const StateBlocks::Entry& entry : blocks.globals()) {
-    if (IsImuBlock(entry.block.key.kind)) globals.push_back(entry.ambient);
+    const BlockKey& key = entry.block.key;
+    if (IsImuBlock(key.kind) ||
+        blocks.layout().Has(BlockKind::kDistance, key.sensor)) {
+      globals.push_back(entry.ambient);
+    }
   }
   return globals;
 }
@@ -39,6 +44,8 @@ Eigen::MatrixXd FactorNoise(const StateBlocks& blocks,
       diagonal = S15.diagonal().segment<3>(row);
       S.block<9, 3>(0, entry.tangent) = S15.block<9, 3>(0, row);
       S.block<3, 9>(entry.tangent, 0) = S15.block<3, 9>(row, 0);
+    } else if (entry.block.key.kind == BlockKind::kDistance) {
+      diagonal.setConstant(kDistanceFloor * kDistanceFloor);
     } else {
       diagonal.setConstant(entry.block.evolution.Q(summary.dt()));
     }
@@ -48,12 +55,39 @@ Eigen::MatrixXd FactorNoise(const StateBlocks& blocks,
 
 }  // namespace
 
-ImuFactor::ImuFactor(const StateBlocks* blocks, const ImuSummary* summary,
-                     int k)
+ImuFactor::ImuFactor(const StateBlocks* blocks, const Timeline* timeline, int k)
     : TangentFactor(blocks, blocks->node_dim(), {k, k + 1},
-                    ImuGlobals(*blocks)),
-      summary_(*summary),
-      whitener_(Whitener(FactorNoise(*blocks, *summary))) {}
+                    LinkGlobals(*blocks)),
+      timeline_(*timeline),
+      k_(static_cast<std::size_t>(k)),
+      summary_(timeline->Summary(k_)),
+      whitener_(Whitener(FactorNoise(*blocks, summary_))) {}
+
+void ImuFactor::LinearizeDistance(const StateBlocks::Entry& entry,
+                                  const std::vector<State>& states,
+                                  Eigen::Map<Eigen::VectorXd> residual,
+                                  Jacobian* J) const {
+  const Block& distance = entry.block;
+  const DistanceLink link =
+      EvaluateDistanceLink(blocks().layout(), timeline_, k_, states[0],
+                           states[1], distance.key.sensor);
+  const int row = entry.tangent;
+  residual(row) =
+      states[1].parameters(distance.parameter_offset) - link.distance;
+  if (J == nullptr) return;
+  for (const StateBlocks::Entry& other : blocks().entries()) {
+    const Block& block = other.block;
+    const int at_i = ColumnOf(other, 0);
+    if (at_i >= 0) {
+      J->block(row, at_i, 1, block.dim) -=
+          link.J_i.segment(block.offset, block.dim);
+    }
+    if (other.global) continue;
+    J->block(row, ColumnOf(other, 1), 1, block.dim) -=
+        link.J_j.segment(block.offset, block.dim);
+  }
+  (*J)(row, blocks().node_dim() + row) += 1.0;
+}
 
 void ImuFactor::LinearizeStates(const std::vector<State>& states,
                                 Eigen::Map<Eigen::VectorXd> residual,
@@ -79,6 +113,10 @@ void ImuFactor::LinearizeStates(const std::vector<State>& states,
       }
     }
     if (entry.global) continue;
+    if (kind == BlockKind::kDistance) {
+      LinearizeDistance(entry, states, residual, J);
+      continue;
+    }
     const int dim = FullDimension(kind);
     double phi = entry.block.evolution.Phi(summary_.dt());
     if (IsBias(kind)) {

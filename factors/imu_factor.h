@@ -4,19 +4,20 @@
 #include <memory>
 
 #include "factors/tangent_factor.h"
-#include "imu/imu_link.h"
+#include "measurements/distance_link.h"
 
 namespace hindsight {
 
 /// The IMU link between nodes k and k + 1: residual of EvaluateLink (position,
 /// velocity, attitude; the biases' rows where they change with time), then one
-/// defect x_{k+1} - phi x_k for every other block that changes with time. All
+/// defect x_{k+1} - phi x_k for every other block that changes with time, of
+/// travelled distances that of their link (measurements/distance_link.h). All
 /// whitened with the noise of the summary and of the evolutions.
 class ImuFactor : public TangentFactor {
  public:
-  /// `summary` is referred to, not copied: it must outlive the factor and not
-  /// be integrated anew meanwhile.
-  ImuFactor(const StateBlocks* blocks, const ImuSummary* summary, int k);
+  /// `timeline` must outlive the factor, have the summary of its interval k
+  /// and not integrate it anew meanwhile.
+  ImuFactor(const StateBlocks* blocks, const Timeline* timeline, int k);
 
  protected:
   void LinearizeStates(const std::vector<State>& states,
@@ -27,6 +28,13 @@ class ImuFactor : public TangentFactor {
   }
 
  private:
+  void LinearizeDistance(const StateBlocks::Entry& entry,
+                         const std::vector<State>& states,
+                         Eigen::Map<Eigen::VectorXd> residual,
+                         Jacobian* J) const;
+
+  const Timeline& timeline_;
+  std::size_t k_;
   const ImuSummary& summary_;
   Eigen::MatrixXd whitener_;  ///< lower triangular
 };

@@ -3,13 +3,17 @@
 namespace hindsight {
 namespace {
 
-/// The constants a measurement may depend on: those of its sensor and the
-/// IMU's.
-std::vector<int> GlobalsOf(const StateBlocks& blocks, const Measurement& z) {
+/// The constants a measurement may depend on: those of its sensor, of the
+/// vehicle it speaks of and the IMU's.
+std::vector<int> GlobalsOf(const StateBlocks& blocks, const Timeline& timeline,
+                           const Measurement& z) {
+  const int vehicle =
+      timeline.sensors()[static_cast<std::size_t>(z.sensor)].vehicle;
   std::vector<int> globals;
   for (const StateBlocks::Entry& entry : blocks.globals()) {
     const int sensor = entry.block.key.sensor;
-    if (sensor == z.sensor || sensor == BlockKey::kNoSensor) {
+    if (sensor == z.sensor || sensor == vehicle ||
+        sensor == BlockKey::kNoSensor) {
       globals.push_back(entry.ambient);
     }
   }
@@ -21,7 +25,7 @@ std::vector<int> GlobalsOf(const StateBlocks& blocks, const Measurement& z) {
 MeasurementFactor::MeasurementFactor(const StateBlocks* blocks,
                                      const Timeline* timeline, int k,
                                      const Measurement* z)
-    : TangentFactor(blocks, Rows(*z), {k}, GlobalsOf(*blocks, *z)),
+    : TangentFactor(blocks, Rows(*z), {k}, GlobalsOf(*blocks, *timeline, *z)),
       timeline_(*timeline),
       k_(static_cast<std::size_t>(k)),
       z_(*z) {}

@@ -31,10 +31,9 @@ ChainProblem::ChainProblem(const ErrorLayout& layout, const Prior& prior,
   for (std::size_t k = 0; k < states.size(); ++k) {
     const int node = static_cast<int>(k);
     if (k + 1 < states.size()) {
-      const ImuSummary& summary =
-          timeline->Summary(k, CalibrationOf(layout, states[k]));
+      timeline->Summary(k, CalibrationOf(layout, states[k]));
       factors_.push_back(
-          std::make_unique<ImuFactor>(blocks_.get(), &summary, node));
+          std::make_unique<ImuFactor>(blocks_.get(), timeline, node));
     }
     for (const Measurement& z : timeline->measurements(k)) {
       const bool used = decisions.empty() ? !z.withheld : decisions[index] != 0;

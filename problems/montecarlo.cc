@@ -23,6 +23,7 @@ struct MethodRun {
   double nis_sum = 0.0;
   double nis_rows = 0.0;
   double seconds = 0.0;
+  std::vector<ConstantStatistics> constants;  ///< of this run alone
 };
 
 struct Run {
@@ -31,16 +32,79 @@ struct Run {
   std::vector<Agreement> agreements;
 };
 
-MethodRun Judge(const Solution& solution, const std::vector<State>& truth) {
+constexpr double kTimeTolerance = 1e-6;
+
+/// The nodes of a solution at which it is judged.
+std::vector<std::size_t> JudgedNodes(const std::vector<double>& times,
+                                     const Solution& solution) {
+  std::vector<std::size_t> nodes;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < solution.states.size(); ++k) {
+    const double t = solution.states[k].t;
+    while (next < times.size() && times[next] < t - kTimeTolerance) ++next;
+    if (times.empty() ||
+        (next < times.size() && times[next] <= t + kTimeTolerance)) {
+      nodes.push_back(k);
+    }
+  }
+  return nodes;
+}
+
+/// The known parameters of the state, constants of simulated data.
+void TakeTrueConstants(const Dataset& dataset, const ErrorLayout& layout,
+                       State* y) {
+  for (const Block& block : layout.blocks()) {
+    if (block.parameter_offset < 0) continue;
+    for (int i = 0; i < block.dim; ++i) {
+      const auto constant =
+          dataset.true_constants.find(layout.ComponentName(block.offset + i));
+      if (constant == dataset.true_constants.end()) continue;
+      y->parameters(block.parameter_offset + i) = constant->second;
+    }
+  }
+}
+
+/// States of a solution at those nodes.
+std::vector<State> StatesAt(const Solution& solution,
+                            const std::vector<std::size_t>& nodes) {
+  std::vector<State> states;
+  states.reserve(nodes.size());
+  for (const std::size_t k : nodes) states.push_back(solution.states[k]);
+  return states;
+}
+
+std::vector<ConstantStatistics> JudgeConstants(const Dataset& dataset,
+                                               const Solution& solution) {
+  std::vector<ConstantStatistics> out;
+  for (const ConstantEstimate& c : solution.constants) {
+    const auto truth = dataset.true_constants.find(c.name);
+    if (truth == dataset.true_constants.end()) continue;
+    ConstantStatistics s;
+    s.name = c.name;
+    s.unit = c.unit;
+    s.prior_sigma = c.prior_sigma;
+    s.sigma = c.sigma;
+    s.rms = std::abs(c.value - truth->second);
+    s.anees = (s.rms / s.sigma) * (s.rms / s.sigma);
+    s.runs = 1;
+    s.observed = c.verdict == ConstantEstimate::Verdict::kObserved ? 1 : 0;
+    s.unobserved = c.verdict == ConstantEstimate::Verdict::kUnobserved ? 1 : 0;
+    out.push_back(s);
+  }
+  return out;
+}
+
+MethodRun Judge(const Solution& solution, const std::vector<std::size_t>& nodes,
+                const std::vector<State>& truth) {
   MethodRun run;
   run.seconds = solution.seconds;
-  for (std::size_t k = 0; k < truth.size(); ++k) {
-    const ErrorVector e = Local(solution.layout, solution.states[k], truth[k]);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const State& x = solution.states[nodes[i]];
+    const ErrorVector e = Local(solution.layout, x, truth[i]);
     run.position.push_back(
         e.segment<3>(solution.layout.Find(BlockKind::kPosition)->offset));
-    run.yaw.push_back(
-        WrapAngle(truth[k].euler().z() - solution.states[k].euler().z()));
-    const ErrorMatrix P = solution.covariances.Get(k);
+    run.yaw.push_back(WrapAngle(truth[i].euler().z() - x.euler().z()));
+    const ErrorMatrix P = solution.covariances.Get(nodes[i]);
     run.nees.push_back(e.dot(P.llt().solve(e)));
   }
   for (const ResidualRecord& record : solution.residuals) {
@@ -73,6 +137,7 @@ void RunCase(const MonteCarloCase& c, const MonteCarloOptions& options,
   const Dataset dataset = c.dataset(seed);
   ReconstructionOptions reconstruction_options;
   reconstruction_options.stop = options.stop;
+  reconstruction_options.node_times = options.node_times;
   const double first_leg_end =
       options.leg_ends.empty() ? 0.0 : options.leg_ends.front();
   Reconstruction reconstruction(dataset, reconstruction_options);
@@ -82,10 +147,13 @@ void RunCase(const MonteCarloCase& c, const MonteCarloOptions& options,
     MethodRun& run = out->methods.emplace_back();
     try {
       Solution solution = reconstruction.Run(method);
+      const std::vector<std::size_t> nodes =
+          JudgedNodes(options.node_times, solution);
       if (truth.empty()) {
-        truth = TrueStates(dataset, solution.layout, solution.states);
+        truth = TrueStates(dataset, solution.layout, StatesAt(solution, nodes));
       }
-      run = Judge(solution, truth);
+      run = Judge(solution, nodes, truth);
+      run.constants = JudgeConstants(dataset, solution);
       run.failed = !solution.converged;
       solution.method += c.suffix;
       solution.covariances = {};
@@ -127,6 +195,33 @@ Value Deviation(const std::vector<const MethodRun*>& runs, const Value& zero,
     sum += e.cwiseProduct(e);
   }
   return (sum / std::max(1.0, n - 1.0)).cwiseSqrt();
+}
+
+/// Sums one run's constants into those of all; FinishConstants divides.
+void AddConstants(const std::vector<ConstantStatistics>& of_run,
+                  std::vector<ConstantStatistics>* all) {
+  if (all->empty()) *all = std::vector<ConstantStatistics>(of_run.size());
+  for (std::size_t i = 0; i < of_run.size(); ++i) {
+    ConstantStatistics& sum = (*all)[i];
+    const ConstantStatistics& one = of_run[i];
+    sum.name = one.name;
+    sum.unit = one.unit;
+    sum.prior_sigma = one.prior_sigma;
+    sum.sigma += one.sigma;
+    sum.rms += one.rms * one.rms;
+    sum.anees += one.anees;
+    sum.runs += 1;
+    sum.observed += one.observed;
+    sum.unobserved += one.unobserved;
+  }
+}
+
+void FinishConstants(std::vector<ConstantStatistics>* all) {
+  for (ConstantStatistics& c : *all) {
+    c.sigma /= c.runs;
+    c.rms = std::sqrt(c.rms / c.runs);
+    c.anees /= c.runs;
+  }
 }
 
 void AddSeries(const std::vector<const MethodRun*>& runs, std::size_t k,
@@ -189,11 +284,13 @@ MethodStatistics Summarize(const std::string& name, std::size_t index,
     nis_sum += method.nis_sum;
     nis_rows += method.nis_rows;
     out.seconds += method.seconds;
+    AddConstants(method.constants, &out.constants);
     if (out.t.empty()) out.t = run.t;
   }
   if (finished.empty()) return out;
   out.seconds /= static_cast<double>(finished.size());
   out.nis = nis_sum / nis_rows;
+  FinishConstants(&out.constants);
   for (std::size_t k = 0; k < out.t.size(); ++k) AddSeries(finished, k, &out);
   SummarizeSeries(options.leg_ends,
                   options.anees_bounds(static_cast<int>(finished.size()), dim),
@@ -217,7 +314,6 @@ void Widen(const Agreement& one, std::vector<Agreement>* all) {
 
 std::vector<State> TrueStates(const Dataset& dataset, const ErrorLayout& layout,
                               const std::vector<State>& states) {
-  constexpr double kTimeTolerance = 1e-6;
   std::vector<State> truth;
   truth.reserve(states.size());
   std::size_t i = 0;
@@ -239,11 +335,7 @@ std::vector<State> TrueStates(const Dataset& dataset, const ErrorLayout& layout,
     y.q_eb = Eigen::Quaterniond(C_en) * point.q_nb.value();
     y.b_g = point.b_g.value();
     y.b_a = point.b_a.value();
-    for (const Block& block : layout.blocks()) {
-      const auto constant = dataset.true_constants.find(block.name);
-      if (constant == dataset.true_constants.end()) continue;
-      y.parameters(block.parameter_offset) = constant->second;
-    }
+    TakeTrueConstants(dataset, layout, &y);
   }
   return truth;
 }

@@ -26,11 +26,28 @@ struct MonteCarloOptions {
   int threads = 1;
   /// Ends of the legs into which the interval is divided [s], ascending.
   std::vector<double> leg_ends;
+  /// Nodes are also placed at these times, and the states judged at them alone
+  /// [s]; empty: at every node, each of which then needs truth.
+  std::vector<double> node_times;
   /// ANEES bounds for `outside` of so many runs and states, two-sided.
   std::function<std::pair<double, double>(int runs, int dim)> anees_bounds;
   /// Called with the number of runs done, from any thread, one at a time.
   std::function<void(int)> progress;
   const std::atomic<bool>* stop = nullptr;  ///< Interrupted when it is set
+};
+
+/// An estimated constant over all runs whose data set knows its true value.
+struct ConstantStatistics {
+  std::string name;
+  std::string unit;
+  double prior_sigma = 0.0;
+  double sigma = 0.0;  ///< as estimated, mean over the runs
+  double rms = 0.0;    ///< of the error
+  /// Mean of (error / sigma)^2; right is 1.
+  double anees = 0.0;
+  int runs = 0;
+  int observed = 0;    ///< runs with that verdict
+  int unobserved = 0;  ///< likewise; the others are weak
 };
 
 /// One method over all runs that it finished. Standard deviations are over the
@@ -52,7 +69,8 @@ struct MethodStatistics {
   double anees_outside = 0.0;  ///< share of epochs outside the bounds
   double nis = 0.0;            ///< per row of the residuals, mean; right is 1
   double seconds = 0.0;        ///< processor time of the method alone, mean
-  std::vector<double> t;       ///< of the series that follow
+  std::vector<ConstantStatistics> constants;
+  std::vector<double> t;  ///< of the series that follow
   std::vector<Eigen::Vector3d> std_series;
   std::vector<double> yaw_series;
   std::vector<double> anees_series;

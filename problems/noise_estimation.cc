@@ -22,19 +22,23 @@ constexpr double kCurvatureStep = 0.1;
 class Likelihood {
  public:
   explicit Likelihood(const Dataset& dataset) : dataset_(dataset) {
+    // A prior is no noise that the data could tell.
     for (AidingStream& stream : dataset_.streams) {
+      is_noise_.push_back(stream.sensor.type != SensorType::kVehicleLevel);
       stream.sensor.gate_probability.reset();
       stream.sensor.loss = RobustLoss();
       names_.push_back(stream.sensor.name);
     }
     names_.push_back("imu.gyro");
     names_.push_back("imu.accel");
+    is_noise_.resize(names_.size(), true);
     applied_.assign(names_.size(), 0.0);
     start_ = FindStart(dataset_, -std::numeric_limits<double>::infinity(),
                        std::numeric_limits<double>::infinity());
   }
 
   const std::vector<std::string>& names() const { return names_; }
+  bool is_noise(std::size_t i) const { return is_noise_[i]; }
 
   double operator()(const std::vector<double>& logs) {
     Apply(logs);
@@ -79,6 +83,7 @@ class Likelihood {
   Dataset dataset_;
   Start start_;
   std::vector<std::string> names_;
+  std::vector<bool> is_noise_;
   std::vector<double> applied_;
 };
 
@@ -137,6 +142,7 @@ NoiseEstimate EstimateNoise(const Dataset& dataset,
   for (int sweep = 0; sweep < kSweeps && !estimate.converged; ++sweep) {
     const std::vector<double> before = logs;
     for (std::size_t i = 0; i < count; ++i) {
+      if (!likelihood.is_noise(i)) continue;
       value = Climb(&likelihood, i, value, &logs);
       if (progress) {
         progress(
@@ -152,6 +158,7 @@ NoiseEstimate EstimateNoise(const Dataset& dataset,
   }
   estimate.log_likelihood_after = value;
   for (std::size_t i = 0; i < count; ++i) {
+    if (!likelihood.is_noise(i)) continue;
     estimate.factors.push_back({likelihood.names()[i], std::exp(logs[i]),
                                 LogSigma(&likelihood, i, value, logs)});
   }

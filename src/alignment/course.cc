@@ -25,6 +25,17 @@ double MountingYawSigma(const Dataset& dataset) {
   return sigma;
 }
 
+/// The vehicle's forward axis in the body.
+Eigen::Vector3d ForwardAxis(const Dataset& dataset) {
+  for (const AidingStream& stream : dataset.streams) {
+    const SensorType type = stream.sensor.type;
+    if (type == SensorType::kOdometer || type == SensorType::kNonHolonomic) {
+      return stream.sensor.q_sb.conjugate() * Eigen::Vector3d::UnitX();
+    }
+  }
+  return Eigen::Vector3d::UnitX();
+}
+
 }  // namespace
 
 AlignmentOutcome AlignByCourse(const AlignmentInput& input) {
@@ -45,7 +56,9 @@ AlignmentOutcome AlignByCourse(const AlignmentInput& input) {
   ImuIntegrator integrator(input.dataset.imu);
   const ImuSummary summary =
       integrator.Summarize(input.t, first->t, calibration);
-  const double turned = EulerFromQuaternion(out.q_nb * summary.dR).z();
+  const Eigen::Vector3d forward =
+      out.q_nb * summary.dR * ForwardAxis(input.dataset);
+  const double turned = std::atan2(forward.y(), forward.x());
   const double elapsed = first->t - input.t;
   const double drift = std::hypot(
       input.gyro_sigma * elapsed,

@@ -7,9 +7,11 @@ namespace hindsight {
 
 /// Method `course`: LevelAttitude, and as heading the course of the first
 /// motion above 3 m/s and ten sigmas, carried back to the epoch by the gyros;
-/// forward motion along the body's x axis is assumed. Sigma: 3 deg of side
-/// slip, the velocity's sigma over the speed, the gyros' drift meanwhile, and
-/// the a priori sigma of the yaw of a vehicle mounting that is estimated.
+/// forward motion is assumed, along the forward axis of
+/// the first odometer or non-holonomic stream, else of the body. Sigma: 3 deg
+/// of side slip, the velocity's sigma over the speed, the gyros' drift
+/// meanwhile, and the a priori sigma of the yaw of a vehicle mounting that is
+/// estimated.
 AlignmentOutcome AlignByCourse(const AlignmentInput& input);
 
 }  // namespace hindsight

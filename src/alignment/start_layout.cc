@@ -46,6 +46,33 @@ void AddMagneticBlocks(const Sensor& sensor, int index, ErrorLayout* layout) {
   }
 }
 
+bool CountsDistance(const AidingStream& stream) {
+  if (stream.measurements.empty()) return false;
+  const auto* odometer =
+      std::get_if<Odometer>(&stream.measurements.front().model);
+  return odometer != nullptr && odometer->form == Odometer::Form::kIncrements;
+}
+
+/// The travelled distance, and the error of each count if it is an error of its
+/// own: white, which is a correlation time below any interval.
+void AddDistance(const Sensor& sensor, int index, ErrorLayout* layout) {
+  constexpr double kAnyDistance = 1.0;  // it is forgotten at the first count
+  constexpr double kNoTime = 1e-6;
+  Block block;
+  block.key = {BlockKind::kDistance, index};
+  block.name = sensor.name + "_distance";
+  block.unit = "m";
+  block.evolution = Evolution::Navigation();
+  block.sigma0.setConstant(kAnyDistance);
+  layout->Add(block);
+  if (sensor.count_sigma <= 0.0) return;
+  block.key.kind = BlockKind::kOffset;
+  block.name = sensor.name + "_count_error";
+  block.evolution = Evolution::GaussMarkov(sensor.count_sigma, kNoTime);
+  block.sigma0.setConstant(sensor.count_sigma);
+  layout->Add(block);
+}
+
 }  // namespace
 
 ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior) {
@@ -73,6 +100,9 @@ ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior) {
     if (sensor.lever_arm_sigma) {
       AddCalibration(BlockKind::kLeverArm, index, sensor.name + "_lever_arm",
                      "m", *sensor.lever_arm_sigma, &layout);
+    }
+    if (CountsDistance(dataset.streams[i])) {
+      AddDistance(sensor, index, &layout);
     }
     if (sensor.time_offset_sigma) {
       AddCalibration(

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "alignment/mounting_search.h"
 #include "app/command.h"
 #include "app/flags.h"
 #include "app/run_report.h"
@@ -100,7 +101,9 @@ std::string DescribeNoise(const Dataset& dataset) {
 }
 
 int Run(const std::vector<std::string>& arguments) {
-  Dataset dataset = LoadDataset(arguments[0], {.data_root = FLAGS_data_root});
+  Dataset dataset = LoadDataset(
+      arguments[0],
+      {.data_root = FLAGS_data_root, .without = Split(FLAGS_without, ',')});
   const CheckReport report = CheckDataset(dataset);
   std::cout << "recording '" << dataset.name << "'\n\n"
             << StreamTable(report.streams) << "\n"
@@ -113,6 +116,7 @@ int Run(const std::vector<std::string>& arguments) {
                     ? "The recording can be used; nothing looks wrong.\n"
                     : "The recording can be loaded; see the warnings.\n");
   if (FLAGS_noise) {
+    ResolveMountings(&dataset);
     AddStandstillStreams(&dataset);
     std::cout << DescribeNoise(dataset);
   }
@@ -130,6 +134,8 @@ Command CheckCommand() {
       .flags = {{"data_root", "DIR",
                  "where a relative folder of CONFIG is looked for\n"
                  "(../shared/data)"},
+                {"without", "NAMES",
+                 "leave out these aiding streams of CONFIG"},
                 {"noise", "", "also estimate by what the stated noise is off"}},
       .min_arguments = 1,
       .max_arguments = 1,

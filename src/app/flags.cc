@@ -42,6 +42,7 @@ DEFINE_string(tilt, "10,30", "");
 DEFINE_double(to, std::numeric_limits<double>::infinity(), "");
 DEFINE_string(white_noise, "sample", "");
 DEFINE_string(withhold, "", "");
+DEFINE_string(without, "", "");
 
 namespace hindsight {
 namespace {

@@ -43,6 +43,7 @@ DECLARE_string(tilt);
 DECLARE_double(to);
 DECLARE_string(white_noise);
 DECLARE_string(withhold);
+DECLARE_string(without);
 
 namespace hindsight {
 

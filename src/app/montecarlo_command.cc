@@ -9,6 +9,7 @@
 #include "app/progress.h"
 #include "app/result_folder.h"
 #include "evaluation/chi_square.h"
+#include "simulation/calibration_drive.h"
 #include "simulation/in_flight_alignment.h"
 #include "simulation/tunnel_survey.h"
 
@@ -19,7 +20,9 @@ constexpr const char* kHelp =
     R"(Repeats a built-in scenario with other seeds and compares what each method
 makes of it: standard deviation of the position over the runs (largest over
 time, north, east, down, all and by leg), heading, consistency (ANEES of the
-whole state, NIS), processor time. SCENARIO is tunnel_survey; or
+whole state, NIS), processor time. SCENARIO is tunnel_survey; or calibration,
+ten minutes on which lever arms, time offsets, scale factors and the mounting are
+all unknown and estimated, each judged by its errors over its sigmas; or
 in_flight_alignment, which compares forward observers from bad initial
 attitudes, Riccati rule x definition of the error x start: shares that diverge
 or escape, time to settle, final errors, Lyapunov figures. Writes into the folder
@@ -61,7 +64,8 @@ MonteCarloOptions ReadOptions() {
 const std::vector<MonteCarloScenario>& Scenarios() {
   static const std::vector<MonteCarloScenario> scenarios = {
       {kTunnelSurveyName, RunTunnelSurvey},
-      {kInFlightAlignmentName, RunInFlightAlignment}};
+      {kInFlightAlignmentName, RunInFlightAlignment},
+      {kCalibrationName, RunCalibration}};
   return scenarios;
 }
 

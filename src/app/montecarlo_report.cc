@@ -112,6 +112,13 @@ std::string MonteCarloJson(const MonteCarloTitle& title,
     method["anees_outside"] = m.anees_outside;
     method["nis"] = m.nis;
     method["seconds_per_run"] = m.seconds;
+    for (const ConstantStatistics& c : m.constants) {
+      method["constants"][c.name] = {
+          {"unit", c.unit},         {"prior_sigma", c.prior_sigma},
+          {"sigma", c.sigma},       {"rms", c.rms},
+          {"anees", c.anees},       {"runs", c.runs},
+          {"observed", c.observed}, {"unobserved", c.unobserved}};
+    }
   }
   Json& agreement = json["agreement"] = Json::object();
   for (const auto& [name, a] : Comparisons(result)) {

@@ -28,14 +28,17 @@ std::string AgreementText(const MonteCarloResult& result);
 ///    "methods": {NAME: {"max_std_m": [N, E, D],
 ///        "legs": [{"max_std_m": [N, E, D], "anees"}], "final_std_m": [N, E,
 ///        D], "yaw_std_deg", "anees", "anees_outside", "nis", "failed",
-///        "seconds_per_run"}},
+///        "seconds_per_run",
+///        "constants": {NAME: {"unit", "prior_sigma", "sigma", "rms", "anees",
+///            "runs", "observed", "unobserved"}}}},
 ///    "agreement": {"A_vs_B_m", "A_vs_B_rad", "A_vs_B_after_first_leg_m"}}
 /// Standard deviations are over the runs and their maxima over time; anees is
 /// the mean over time and should equal `states`; anees_outside is the share of
 /// epochs outside the two-sided 95 % bounds; nis is a row's mean and should be
-/// 1; seconds are processor time of the method alone (smoothers without the
-/// forward filter, iterated and batch from the smoother on). A figure that does
-/// not exist is absent.
+/// 1; constants are those whose true value the data know, anees the mean square
+/// of error over sigma; seconds are processor time of the method alone
+/// (smoothers without the forward filter, iterated and batch from the smoother
+/// on). A figure that does not exist is absent.
 std::string MonteCarloJson(const MonteCarloTitle& title,
                            const MonteCarloResult& result);
 

@@ -27,6 +27,8 @@ void RunTunnelSurvey(MonteCarloOptions options, Progress* progress,
 
 void RunInFlightAlignment(MonteCarloOptions options, Progress* progress,
                           ResultFolder* folder);
+void RunCalibration(MonteCarloOptions options, Progress* progress,
+                    ResultFolder* folder);
 
 /// Reports the number of finished runs out of `runs`.
 std::function<void(int)> RunProgress(int runs, Progress* progress);

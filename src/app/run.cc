@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "alignment/mounting_search.h"
 #include "app/command.h"
 #include "app/interrupt.h"
 #include "app/result_folder.h"
@@ -45,13 +46,15 @@ void CheckRate(const RunRequest& request, const ImuStream& imu) {
 /// the results.
 Dataset Load(const RunRequest& request, const ResultFolder& folder) {
   ResolvedConfig resolved;
-  Dataset dataset =
-      LoadDataset(request.config, {.data_root = request.data_root}, &resolved);
+  Dataset dataset = LoadDataset(
+      request.config,
+      {.data_root = request.data_root, .without = request.without}, &resolved);
   if (!request.withholdings.empty()) {
     ReplaceWithholdings(request.withholdings, &dataset);
     SetWithholdings(request.withholdings, &resolved);
   }
   CheckRate(request, dataset.imu);
+  ResolveMountings(&dataset);
   AddStandstillStreams(&dataset);
   ThinTruth(&dataset.truth);
   WriteResolvedConfig(resolved, folder.Path("config.resolved.yaml"));
@@ -169,8 +172,8 @@ int Reconstruct(const RunRequest& request) {
   folder.Commit();
 
   std::cout << "\n"
-            << ComparisonTable(summary) << "\nresults in " << request.out
-            << "\n"
+            << ComparisonTable(summary) << DescribeConstants(dataset, solutions)
+            << "\nresults in " << request.out << "\n"
             << DescribeVerdict(solutions);
   return IsAnyUsable(solutions) ? kUsable : kUnusable;
 }

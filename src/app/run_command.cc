@@ -69,6 +69,7 @@ Command RunCommand() {
             "with ,from=90s for the first outage's start (the first\n"
             "fix + every); sensor is a stream or a type of streams;\n"
             "several rules: separate by ; or repeat the flag"},
+           {"without", "NAMES", "leave out these aiding streams of CONFIG"},
            {"export", "LIST", "some of tum,kml,nav"},
            {"progress", "MODE",
             "on stderr: auto (a line on a terminal), json (an object\n"

@@ -5,6 +5,7 @@
 #include "app/text.h"
 #include "base/units.h"
 #include "earth/wgs84.h"
+#include "geometry/so3.h"
 
 namespace hindsight {
 namespace {
@@ -63,6 +64,9 @@ std::string DescribeNotes(const Dataset& dataset) {
                    policy.action.c_str(), policy.count);
   }
   text += DescribeDropOuts(dataset.imu);
+  for (const std::string& note : dataset.notes) {
+    text += "note: " + note + "\n";
+  }
   if (!dataset.withholdings.empty() && dataset.outages.empty()) {
     text += "warning: no whole outage of the withholding rules fits in\n";
   }
@@ -76,6 +80,54 @@ std::string DescribeUnobserved(const std::vector<UnobservedSpan>& spans) {
         "warning: %s is not observed from %.1f s to %.1f s "
         "(sigma stays above %.3g)\n",
         span.component.c_str(), span.t_begin, span.t_end, span.sigma);
+  }
+  return text;
+}
+
+namespace {
+
+const char* VerdictName(ConstantEstimate::Verdict verdict) {
+  switch (verdict) {
+    case ConstantEstimate::Verdict::kObserved:
+      return "observed";
+    case ConstantEstimate::Verdict::kWeak:
+      return "weak";
+    case ConstantEstimate::Verdict::kUnobserved:
+      return "unobserved, kept at its prior";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string DescribeConstants(const Dataset& dataset,
+                              const std::vector<Solution>& solutions) {
+  const Solution* last = nullptr;
+  for (const Solution& solution : solutions) {
+    if (solution.usable && !solution.constants.empty()) last = &solution;
+  }
+  if (last == nullptr) return "";
+  std::string text = "\nconstants of " + last->method + ":\n";
+  for (const ConstantEstimate& c : last->constants) {
+    const bool angle = c.unit.starts_with("rad");
+    const double unit = angle ? kDegree : 1.0;
+    const std::string name = angle ? "deg" + c.unit.substr(3) : c.unit;
+    text += Format("  %-24s %10.5g  sigma %9.3g %-6s %s%s%s\n", c.name.c_str(),
+                   c.value / unit, c.sigma / unit, name.c_str(),
+                   VerdictName(c.verdict),
+                   c.advice.empty() ? "" : "; helps: ", c.advice.c_str());
+  }
+  for (const Block& block : last->layout.blocks()) {
+    if (block.key.kind != BlockKind::kMounting) continue;
+    const Eigen::Vector3d m =
+        last->states.back().parameters.segment<3>(block.parameter_offset);
+    const Sensor& sensor =
+        dataset.streams[static_cast<std::size_t>(block.key.sensor)].sensor;
+    const Eigen::Vector3d euler =
+        EulerFromQuaternion(Exp(m) * sensor.q_sb) / kDegree;
+    text +=
+        Format("  %s: roll %.2f, pitch %.2f, yaw %.2f deg, vehicle from body\n",
+               sensor.name.c_str(), euler.x(), euler.y(), euler.z());
   }
   return text;
 }

@@ -20,6 +20,12 @@ std::string DescribeNotes(const Dataset& dataset);
 /// Warnings of states that the data do not determine, a line each.
 std::string DescribeUnobserved(const std::vector<UnobservedSpan>& spans);
 
+/// Estimated constants of the last usable method: value, sigma (angles in
+/// degrees), verdict and, where it helps, the motion that would; and the whole
+/// mounting that a mounting's correction belongs to. Nothing if there is none.
+std::string DescribeConstants(const Dataset& dataset,
+                              const std::vector<Solution>& solutions);
+
 /// The last line: whether the result is usable, and why, by the last usable
 /// method, and which methods failed.
 std::string DescribeVerdict(const std::vector<Solution>& solutions);

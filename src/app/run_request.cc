@@ -107,6 +107,7 @@ RunRequest ReadRunRequest(const std::string& config) {
   RunRequest request;
   request.config = config;
   request.data_root = FLAGS_data_root;
+  request.without = Split(FLAGS_without, ',');
   request.out = FLAGS_out;
   request.force = FLAGS_force;
   request.methods = ParseMethods(FLAGS_methods);

@@ -17,6 +17,7 @@ namespace hindsight {
 struct RunRequest {
   std::string config;
   std::string data_root;
+  std::vector<std::string> without;  ///< aiding streams that are left out
   std::string out;
   bool force = false;
   std::vector<Method> methods;  ///< in the order given, each once

@@ -109,6 +109,7 @@ struct Dataset {
   std::vector<Outage> outages;    ///< filled by ApplyWithholding
   double max_node_spacing = 1.0;  ///< [s]
   std::vector<PolicyCount> policies;
+  std::vector<std::string> notes;  ///< what else was done to it, in words
 };
 
 /// Marks the measurements named by `withholdings` as withheld and lists the

@@ -10,11 +10,33 @@ namespace hindsight {
 namespace {
 
 constexpr double kSameTime = 1e-7;
+// Over so long a turn may begin and a distance is still good to a millimetre.
+constexpr double kIncrementSpacing = 0.2;
 
 struct TimedMeasurement {
   double t = 0.0;
   const Measurement* z = nullptr;
 };
+
+/// The count with which an increment begins, or nullptr for a measurement of
+/// one instant.
+const Odometer* AsIncrement(const Measurement& z) {
+  const auto* odometer = std::get_if<Odometer>(&z.model);
+  const bool increment =
+      odometer != nullptr && odometer->form == Odometer::Form::kIncrements;
+  return increment ? odometer : nullptr;
+}
+
+bool HasIncrements(const std::vector<TimedMeasurement>& timed) {
+  return std::any_of(timed.begin(), timed.end(), [](const TimedMeasurement& m) {
+    return AsIncrement(*m.z) != nullptr;
+  });
+}
+
+/// Time of the node from which an increment counts.
+double TimeOfStart(const TimedMeasurement& m) {
+  return m.t - (m.z->t - AsIncrement(*m.z)->t_from);
+}
 
 std::vector<TimedMeasurement> MeasurementsInside(
     const Dataset& dataset, const TimelineOptions& options) {
@@ -26,8 +48,11 @@ std::vector<TimedMeasurement> MeasurementsInside(
                               : options.time_offsets[i];
     for (const Measurement& z : stream.measurements) {
       const double t = z.t + offset;
-      if (t >= options.t_begin - kSameTime && t <= options.t_end + kSameTime) {
-        out.push_back({t, &z});
+      const TimedMeasurement timed{t, &z};
+      const double begin = AsIncrement(z) != nullptr ? TimeOfStart(timed) : t;
+      if (begin >= options.t_begin - kSameTime &&
+          t <= options.t_end + kSameTime) {
+        out.push_back(timed);
       }
     }
   }
@@ -36,6 +61,25 @@ std::vector<TimedMeasurement> MeasurementsInside(
                      return a.t < b.t;
                    });
   return out;
+}
+
+std::vector<IncrementStart> IncrementStarts(
+    const std::vector<TimedMeasurement>& timed,
+    const std::vector<double>& node_times) {
+  std::vector<IncrementStart> starts;
+  for (const TimedMeasurement& m : timed) {
+    const Odometer* increment = AsIncrement(*m.z);
+    if (increment == nullptr) continue;
+    const auto node = std::lower_bound(node_times.begin(), node_times.end(),
+                                       TimeOfStart(m) - kSameTime) -
+                      node_times.begin();
+    starts.push_back({static_cast<int>(node), m.z->sensor, increment->t_from});
+  }
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const IncrementStart& a, const IncrementStart& b) {
+                     return a.node < b.node;
+                   });
+  return starts;
 }
 
 /// The required times and, between them, equal steps of at most `spacing`.
@@ -74,12 +118,16 @@ Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options) {
   std::vector<double> required = {options.t_begin, options.t_end};
   for (const TimedMeasurement& m : timed) {
     required.push_back(std::clamp(m.t, options.t_begin, options.t_end));
+    if (AsIncrement(*m.z) != nullptr) required.push_back(TimeOfStart(m));
   }
   for (const double t : options.extra_times) {
     if (t >= options.t_begin && t <= options.t_end) required.push_back(t);
   }
-  const std::vector<double> times =
-      NodeTimes(std::move(required), dataset.max_node_spacing);
+  const double spacing =
+      HasIncrements(timed) ? std::min(dataset.max_node_spacing,
+                                      std::max(kIncrementSpacing, imu_interval))
+                           : dataset.max_node_spacing;
+  const std::vector<double> times = NodeTimes(std::move(required), spacing);
 
   std::vector<Node> nodes(times.size());
   std::vector<Measurement> measurements;
@@ -99,8 +147,11 @@ Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options) {
   for (const AidingStream& stream : dataset.streams) {
     sensors.push_back(stream.sensor);
   }
-  return Timeline(std::move(nodes), std::move(measurements), std::move(sensors),
-                  dataset.imu, options.with_scale_jacobians);
+  Timeline timeline(std::move(nodes), std::move(measurements),
+                    std::move(sensors), dataset.imu,
+                    options.with_scale_jacobians);
+  timeline.SetIncrementStarts(IncrementStarts(timed, times));
+  return timeline;
 }
 
 }  // namespace hindsight

@@ -22,7 +22,8 @@ struct TimelineOptions {
 /// aiding sensor measured (stamp + time offset: nothing is rounded to a
 /// neighbour; times within 0.1 us are one node), at every extra time, at both
 /// ends, and between these so often that no interval is longer than
-/// Dataset::max_node_spacing. `dataset.imu` must outlive the timeline.
+/// Dataset::max_node_spacing; with distance increments than 0.2 s, and a node
+/// stands at the beginning of each. `dataset.imu` must outlive the timeline.
 Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options);
 
 /// Finds standstill in the IMU data and, if Dataset::stationary asks for it,

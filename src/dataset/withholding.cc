@@ -25,6 +25,8 @@ const char* TypeName(SensorType type) {
       return "non_holonomic";
     case SensorType::kSpeedCourse:
       return "speed_course";
+    case SensorType::kVehicleLevel:
+      return "vehicle_level";
     case SensorType::kDvl:
       return "dvl";
     case SensorType::kMagnetometer:

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "measurements/distance_link.h"
 
 namespace hindsight {
 
@@ -59,9 +60,11 @@ class ForwardPass {
   void PredictTo(std::size_t k) {
     const ImuSummary& summary =
         timeline_.Summary(k - 1, CalibrationOf(layout_, x_));
-    const State predicted = Predict(layout_, x_, summary);
+    State predicted = Predict(layout_, x_, summary);
+    PredictDistances(layout_, timeline_, k - 1, x_, &predicted);
     LinearizeTransition(layout_, summary, x_, predicted, &transition_);
     transition_.c.setZero();
+    LinearizeDistances(layout_, timeline_, k - 1, x_, predicted, &transition_);
     Propagate(predicted, summary.dt());
   }
 
@@ -70,6 +73,7 @@ class ForwardPass {
     const ImuSummary& summary =
         timeline_.Summary(k - 1, CalibrationOf(layout_, x_));
     LinearizeTransition(layout_, summary, x_, nominal, &transition_);
+    LinearizeDistances(layout_, timeline_, k - 1, x_, nominal, &transition_);
     Propagate(nominal, summary.dt());
   }
 

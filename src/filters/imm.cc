@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "filters/vertical.h"
+#include "measurements/distance_link.h"
 
 namespace hindsight {
 namespace {
@@ -74,10 +75,13 @@ class ImmPass {
       } else {
         predicted = WithNavigationOf(nominal, predicted);
       }
+      PredictDistances(layout, timeline_, k - 1, f.x, &predicted);
       LinearizeTransition(layout, summary, f.x, predicted, &f.transition);
       // Of the first model, whose prediction is the nominal, what is left of
       // the defect is rounding.
       if (j == 0) f.transition.c.setZero();
+      LinearizeDistances(layout, timeline_, k - 1, f.x, predicted,
+                         &f.transition);
       f.error.mean = (f.transition.Phi * f.error.mean + f.transition.c).eval();
       PredictCovariance(f.transition.Phi, f.transition.Q, &f.error.P);
       f.x = predicted;

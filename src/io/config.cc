@@ -102,10 +102,19 @@ Declared ReadDeclarations(ConfigMap* top, const LoadOptions& options,
   dataset->epoch_gps_ns = ReadEpoch(top);
   ReadImuConfig(top, folder, &declared, dataset);
   ConfigMap aiding = top->Map("aiding");
+  std::vector<std::string> without = options.without;
   for (auto& [name, map] : aiding.NamedMaps()) {
+    if (std::erase(without, name) > 0) {
+      aiding.resolved().remove(name);
+      continue;
+    }
     declared.aiding.push_back(ReadAidingConfig(name, &map, folder));
     declared.aiding.back().options.sensor =
         static_cast<int>(declared.aiding.size()) - 1;
+  }
+  if (!without.empty()) {
+    throw InputError(top->file() + " has no aiding stream '" + without.front() +
+                     "' to be left out");
   }
   dataset->initial = ReadInitialState(top);
   dataset->stationary = ReadStationary(top);
@@ -185,11 +194,38 @@ void LoadAiding(const AidingConfig& config, Dataset* dataset) {
   stream.measurements =
       ReadAiding(config.source, config.options, &clock, &dataset->policies);
   const TimeLine line = MapClock(config.source, clock, dataset->epoch_gps_ns);
-  for (Measurement& z : stream.measurements) z.t = line(z.t);
+  for (Measurement& z : stream.measurements) {
+    z.t = line(z.t);
+    if (auto* odometer = std::get_if<Odometer>(&z.model)) {
+      odometer->t_from = line(odometer->t_from);
+    }
+  }
   const double offset = config.sensor.time_offset;
   RequireOverlap(config.source, dataset->imu,
                  stream.measurements.front().t + offset,
                  stream.measurements.back().t + offset);
+  dataset->streams.push_back(std::move(stream));
+}
+
+/// The prior "level on average", spread over the record: a second stream.
+void AddLevel(const AidingConfig& config, Dataset* dataset) {
+  if (!config.level_sigma) return;
+  constexpr double kPeriod = 1.0;
+  const ImuStream& imu = dataset->imu;
+  AidingStream stream;
+  stream.sensor.name = config.sensor.name + "_level";
+  stream.sensor.type = SensorType::kVehicleLevel;
+  stream.sensor.q_sb = config.sensor.q_sb;
+  stream.sensor.vehicle = config.options.sensor;
+  const int count =
+      static_cast<int>((imu.t_end() - imu.t_begin()) / kPeriod) + 1;
+  const VehicleLevel level{*config.level_sigma *
+                           std::sqrt(static_cast<double>(count))};
+  const int index = static_cast<int>(dataset->streams.size());
+  for (int k = 0; k < count; ++k) {
+    stream.measurements.push_back(
+        {imu.t_begin() + k * kPeriod, index, false, level});
+  }
   dataset->streams.push_back(std::move(stream));
 }
 
@@ -220,6 +256,9 @@ Dataset LoadDataset(const std::string& config_path, const LoadOptions& options,
   LoadImu(declared, &top, &dataset);
   for (const AidingConfig& config : declared.aiding) {
     LoadAiding(config, &dataset);
+  }
+  for (const AidingConfig& config : declared.aiding) {
+    AddLevel(config, &dataset);
   }
   LoadTruth(declared, &dataset);
   try {

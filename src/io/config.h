@@ -66,7 +66,7 @@ namespace hindsight {
 /// | lever_arm         | from the IMU, body axes                  | 0       |
 /// | time_offset       | true time = stamp + offset               | 0 s     |
 /// | every             | use one measurement in this time         | all     |
-/// | sigma             | replaces the file's: one or NED; of the speed for speed_course; forward, side, down or one for odometer; [side, down] for non_holonomic | - |
+/// | sigma             | replaces the file's: one or NED; of the speed for speed_course; forward, side, down or one for odometer, of an increment for its increments; [side, down] for non_holonomic | - |
 /// | sigma_scale       | multiplies the file's                    | 1       |
 /// | correlations      | use the file's covariances               | true    |
 /// | accept_quality    | list of values of the column quality that are used | all |
@@ -75,10 +75,16 @@ namespace hindsight {
 /// | estimate.lever_arm, estimate.time_offset | a priori sigma of an estimated one | - |
 /// speed_course: course_sigma *needed*; course_above, the speed below which a
 /// course is not used, 1 m/s. odometer and non_holonomic: mounting (roll,
-/// pitch, yaw: vehicle = Rz(yaw) Ry(pitch) Rx(roll) body) and
-/// estimate.mounting. odometer: form, three_axis or forward; scale, measured =
-/// (1 + scale) true, and estimate.scale. Its columns side and down, if it has
-/// them, are measured speeds; else the vehicle moves along its x axis.
+/// pitch, yaw: vehicle = Rz(yaw) Ry(pitch) Rx(roll) body; or `unknown`: the first
+/// value comes from the data, see alignment/mounting_search.h, and 10 deg is the
+/// default of) estimate.mounting; level_on_average (-), the sigma with which the
+/// vehicle's mean roll over the record is zero, without which the mounting's roll
+/// is not observed. odometer: form, three_axis, forward or increments; scale,
+/// measured = (1 + scale) true, and estimate.scale. Its columns side and down,
+/// if it has them, are measured speeds; else the vehicle moves along its x axis.
+/// increments take a column `distance` that counts up; sigma [m] is of one
+/// increment, independent of the others (ground, slip), count_sigma (0 m) of one
+/// count, whose error the next count does not inherit (resolution/sqrt(12)).
 /// non_holonomic: no file; rate *needed*.
 /// magnetometer: sigma *needed*, per axis; columns mag_x, mag_y, mag_z; axes
 /// and mounting as of the imu; form, heading or vector (heading); declination,
@@ -110,6 +116,8 @@ namespace hindsight {
 struct LoadOptions {
   /// Where folders are looked for that are not beside the configuration.
   std::string data_root = "../shared/data";
+  /// Aiding streams of the configuration that are left out, by name.
+  std::vector<std::string> without = {};
 };
 
 /// Everything a load used, in SI units, defaults included; itself a

@@ -32,6 +32,9 @@ constexpr std::array kAidingTypes = {
                Quantity::kMagneticField, false},
 };
 
+/// Of a mounting that the data give a first value.
+constexpr double kFoundMountingSigma = 10.0 * kDegree;
+
 const AidingType& ReadType(ConfigMap* map) {
   std::vector<std::string> names;
   for (const AidingType& type : kAidingTypes) names.emplace_back(type.name);
@@ -91,6 +94,11 @@ RobustLoss ReadLoss(ConfigMap* map) {
   return loss;
 }
 
+/// Of an increment in the first place.
+Eigen::Vector3d ReadIncrementSigma(ConfigMap* map) {
+  return {map->Positive("sigma", Quantity::kLength), 1.0, 1.0};
+}
+
 /// Forward, side and down, or those that the form measures.
 Eigen::Vector3d ReadOdometerSigma(ConfigMap* map, Odometer::Form form) {
   const auto fail = [&](const char* expected) {
@@ -122,13 +130,30 @@ void ReadVehicle(ConfigMap* map, AidingConfig* config) {
     options.odometer_form = Odometer::Form::kNonHolonomic;
     config->generated_rate = map->Positive("rate", Quantity::kFrequency);
   } else {
+    constexpr std::array kForms = {Odometer::Form::kThreeAxis,
+                                   Odometer::Form::kForward,
+                                   Odometer::Form::kIncrements};
     options.odometer_form =
-        map->Choice("form", {"three_axis", "forward"}, 0) == 0
-            ? Odometer::Form::kThreeAxis
-            : Odometer::Form::kForward;
+        kForms[map->Choice("form", {"three_axis", "forward", "increments"}, 0)];
     sensor.scale = map->Number("scale", Quantity::kRatio, 0.0);
   }
-  options.sigma = ReadOdometerSigma(map, options.odometer_form);
+  if (options.odometer_form == Odometer::Form::kIncrements) {
+    options.sigma = ReadIncrementSigma(map);
+    sensor.count_sigma = map->Number("count_sigma", Quantity::kLength, 0.0);
+    if (sensor.count_sigma < 0.0) {
+      map->Fail("count_sigma", "must not be negative");
+    }
+  } else {
+    options.sigma = ReadOdometerSigma(map, options.odometer_form);
+  }
+  if (map->Has("level_on_average")) {
+    config->level_sigma = map->Positive("level_on_average", Quantity::kAngle);
+  }
+  if (map->IsScalar("mounting")) {
+    map->Choice("mounting", {"unknown"}, std::nullopt);
+    sensor.mounting_unknown = true;
+    return;
+  }
   const Eigen::Vector3d euler =
       map->Vector("mounting", Quantity::kAngle, Eigen::Vector3d::Zero());
   sensor.q_sb = QuaternionFromEuler(euler.x(), euler.y(), euler.z());
@@ -206,6 +231,11 @@ void ReadEstimates(ConfigMap* map, Sensor* sensor) {
   if (vehicle) {
     sensor->mounting_sigma =
         estimate.OptionalSigma("mounting", Quantity::kAngle);
+    if (sensor->mounting_unknown && !sensor->mounting_sigma) {
+      sensor->mounting_sigma = Eigen::Vector3d::Constant(kFoundMountingSigma);
+      map->resolved()["estimate"]["mounting"] =
+          FormatNumber(kFoundMountingSigma) + " rad";
+    }
   }
   if (sensor->type == SensorType::kOdometer && estimate.Has("scale")) {
     sensor->scale_sigma = estimate.Positive("scale", Quantity::kRatio);

@@ -132,6 +132,11 @@ bool ConfigMap::IsMap(const std::string& key) {
   return node && node->IsMap();
 }
 
+bool ConfigMap::IsScalar(const std::string& key) {
+  const auto node = Find(key);
+  return node && node->IsScalar();
+}
+
 std::vector<std::string> ConfigMap::Keys() const {
   std::vector<std::string> keys;
   for (const auto& entry : entries_) keys.push_back(entry.first);

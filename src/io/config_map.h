@@ -65,6 +65,8 @@ class ConfigMap {
 
   /// True if the value of `key` is a map rather than a scalar or a list.
   bool IsMap(const std::string& key);
+  /// True if the value of `key` is a single word or number.
+  bool IsScalar(const std::string& key);
 
   /// Keys of this map in the file's order.
   std::vector<std::string> Keys() const;

@@ -34,6 +34,8 @@ struct AidingConfig {
   AidingReadOptions options;
   /// There is no file: one measurement each 1/rate over the IMU's record [Hz].
   std::optional<double> generated_rate;
+  /// Standard deviation of the vehicle's mean roll about zero [rad].
+  std::optional<double> level_sigma;
 };
 AidingConfig ReadAidingConfig(const std::string& name, ConfigMap* map,
                               const std::filesystem::path& folder);

@@ -20,6 +20,7 @@
 /// | position            | t, lat, lon, h, sigma_n, sigma_e, sigma_d          |
 /// | velocity            | t, v_n, v_e, v_d, sigma_v_n, sigma_v_e, sigma_v_d  |
 /// | height              | t, h, sigma_h                                      |
+/// | odometer            | t, speed or, of increments, distance; side, down   |
 /// | truth               | t and any of {lat, lon, h}, {v_n, v_e, v_d},       |
 /// |                     | {roll, pitch, heading}                             |
 ///

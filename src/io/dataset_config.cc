@@ -114,9 +114,17 @@ void AppendOdometer(const AidingStream& stream, YamlText* yaml) {
   const Sensor& sensor = stream.sensor;
   if (sensor.type != SensorType::kOdometer) return;
   const auto& first = std::get<Odometer>(stream.measurements.front().model);
-  yaml->Text("form",
-             first.form == Odometer::Form::kForward ? "forward" : "three_axis");
-  yaml->Vector("sigma", first.sigma, kMetresPerSecond);
+  if (first.form == Odometer::Form::kIncrements) {
+    yaml->Text("form", "increments");
+    yaml->Number("sigma", first.sigma.x(), kMetres);
+    if (sensor.count_sigma > 0.0) {
+      yaml->Number("count_sigma", sensor.count_sigma, kMetres);
+    }
+  } else {
+    yaml->Text("form", first.form == Odometer::Form::kForward ? "forward"
+                                                              : "three_axis");
+    yaml->Vector("sigma", first.sigma, kMetresPerSecond);
+  }
   yaml->Vector("mounting", EulerFromQuaternion(sensor.q_sb), kDegrees);
   yaml->Number("scale", sensor.scale, {"1"});
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <system_error>
 
 #include "base/error.h"
@@ -110,6 +111,33 @@ Eigen::Vector3d SigmaOf(const Eigen::Matrix3d& R_n, const std::string& name) {
   return R_n.diagonal().cwiseSqrt();
 }
 
+bool CountsDistance(const AidingStream& stream) {
+  const auto* odometer =
+      std::get_if<Odometer>(&stream.measurements.front().model);
+  return odometer != nullptr && odometer->form == Odometer::Form::kIncrements;
+}
+
+/// Increments as a count that stands still where one is missing.
+void WriteCounts(const AidingStream& stream, AtomicFile* file) {
+  file->Write("t[s],distance[m]\n");
+  Row row;
+  double count = 0.0;
+  double t = -std::numeric_limits<double>::infinity();
+  for (const Measurement& z : stream.measurements) {
+    const auto& odometer = std::get<Odometer>(z.model);
+    if (odometer.t_from > t) {
+      row.AddShortest(odometer.t_from);
+      row.AddShortest(count);
+      row.EndTo(file);
+    }
+    count += odometer.distance;
+    t = z.t;
+    row.AddShortest(t);
+    row.AddShortest(count);
+    row.EndTo(file);
+  }
+}
+
 const char* AidingHeading(SensorType type) {
   switch (type) {
     case SensorType::kPosition:
@@ -156,6 +184,11 @@ void AddAidingValues(const AidingStream& stream, const Measurement& z,
 
 void WriteAiding(const std::string& path, const AidingStream& stream) {
   AtomicFile file(path);
+  if (CountsDistance(stream)) {
+    WriteCounts(stream, &file);
+    file.Commit();
+    return;
+  }
   std::string heading = "t[s]";
   if (stream.sensor.type == SensorType::kPosition) {
     heading += GroupHeading(ColumnGroup::kPosition);

@@ -53,10 +53,9 @@ const std::vector<FieldName>& HeightFields() {
 
 const std::vector<FieldName>& OdometerFields() {
   static const std::vector<FieldName> kFields = {
-      {"speed", Quantity::kSpeed},
-      {"side", Quantity::kSpeed},
-      {"down", Quantity::kSpeed},
-      {"quality", Quantity::kRatio},
+      {"speed", Quantity::kSpeed},     {"side", Quantity::kSpeed},
+      {"down", Quantity::kSpeed},      {"quality", Quantity::kRatio},
+      {"distance", Quantity::kLength},
   };
   return kFields;
 }

@@ -104,6 +104,7 @@ struct AidingReadOptions {
   bool use_correlations = true;
   std::set<int> accept_quality;  ///< empty: all
   double every = 0.0;            ///< use one measurement in this time [s]
+  /// Increments are made of a column that counts the distance.
   Odometer::Form odometer_form = Odometer::Form::kThreeAxis;
   /// Of speed_course: of the course [rad], and the speed below which a course
   /// means nothing [m/s].

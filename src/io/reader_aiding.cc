@@ -11,18 +11,23 @@ namespace {
 /// Where a stream's quantities stand in its list of fields.
 struct FieldMap {
   const std::vector<FieldName>& fields;
-  std::size_t values;  ///< number of measured values, at the front
-  std::size_t sigmas;  ///< number of standard deviations behind them
+  std::size_t values;     ///< number of measured values, at the front
+  std::size_t sigmas;     ///< number of standard deviations behind them
+  std::size_t first = 0;  ///< of the measured values
   std::size_t quality() const { return *FieldIndex(fields, "quality"); }
 };
 
-FieldMap MapOf(SensorType type) {
-  switch (type) {
+FieldMap MapOf(const AidingReadOptions& options) {
+  switch (options.type) {
     case SensorType::kVelocity:
       return {VelocityFields(), 3, 3};
     case SensorType::kHeight:
       return {HeightFields(), 1, 1};
     case SensorType::kOdometer:
+      if (options.odometer_form == Odometer::Form::kIncrements) {
+        return {OdometerFields(), 1, 0,
+                *FieldIndex(OdometerFields(), "distance")};
+      }
       return {OdometerFields(), 1, 0};
     case SensorType::kSpeedCourse:
       return {SpeedCourseFields(), 1, 0};
@@ -42,12 +47,12 @@ class AidingReader {
   AidingReader(const StreamSource& source, const AidingReadOptions& options)
       : source_(source),
         options_(options),
-        map_(MapOf(options.type)),
+        map_(MapOf(options)),
         rows_(source, map_.fields,
               !options.accept_quality.empty() ||
                   options.type == SensorType::kSpeedCourse) {
-    RequireFields(rows_.opened(), source.format, map_.fields, 0,
-                  map_.values - 1);
+    RequireFields(rows_.opened(), source.format, map_.fields, map_.first,
+                  map_.first + map_.values - 1);
     if (!options.sigma) RequireSigmas();
     if (!options.accept_quality.empty()) {
       RequireFields(rows_.opened(), source.format, map_.fields, map_.quality(),
@@ -75,6 +80,10 @@ class AidingReader {
              due_ <= rows_.t() + kEarly * options_.every) {
         due_ += options_.every;
       }
+    }
+    if (options_.type == SensorType::kOdometer &&
+        options_.odometer_form == Odometer::Form::kIncrements) {
+      TakeDifferences(&measurements);
     }
     return measurements;
   }
@@ -117,7 +126,7 @@ class AidingReader {
   }
 
   bool IsAbsent() {
-    for (std::size_t i = 0; i < map_.values; ++i) {
+    for (std::size_t i = map_.first; i < map_.first + map_.values; ++i) {
       if (std::isfinite(Value(i))) continue;
       if (!source_.absent_values) {
         rows_.table().Fail(std::string("the value of ") + map_.fields[i].name +
@@ -211,11 +220,26 @@ class AidingReader {
   Odometer OdometerModel() const {
     Odometer odometer;
     odometer.form = options_.odometer_form;
-    odometer.speed = Value(0);
     odometer.sigma = *options_.sigma;
+    if (odometer.form == Odometer::Form::kIncrements) {
+      odometer.distance = Value(map_.first);
+      return odometer;
+    }
+    odometer.speed = Value(0);
     if (rows_.table().Has(1)) odometer.side_down.x() = Value(1);
     if (rows_.table().Has(2)) odometer.side_down.y() = Value(2);
     return odometer;
+  }
+
+  /// From counts to what has come since the count before; the first has none.
+  static void TakeDifferences(std::vector<Measurement>* measurements) {
+    for (std::size_t i = measurements->size(); i-- > 1;) {
+      auto& here = std::get<Odometer>((*measurements)[i].model);
+      const Measurement& before = (*measurements)[i - 1];
+      here.distance -= std::get<Odometer>(before.model).distance;
+      here.t_from = before.t;
+    }
+    if (!measurements->empty()) measurements->erase(measurements->begin());
   }
 
   SpeedCourse SpeedCourseModel() const {

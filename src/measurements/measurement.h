@@ -11,6 +11,7 @@
 #include "measurements/position_fix.h"
 #include "measurements/speed_course.h"
 #include "measurements/stationary.h"
+#include "measurements/vehicle_level.h"
 #include "measurements/velocity_fix.h"
 
 namespace hindsight {
@@ -19,7 +20,8 @@ namespace hindsight {
 /// batch through one factor that wraps the same call.
 using MeasurementModel =
     std::variant<PositionFix, VelocityFix, HeightFix, ZeroVelocity,
-                 ZeroAngularRate, Odometer, SpeedCourse, MagneticField>;
+                 ZeroAngularRate, Odometer, SpeedCourse, MagneticField,
+                 VehicleLevel>;
 
 struct Measurement {
   double t = 0.0;  ///< stamp [s]; the sensor's time offset is not yet applied

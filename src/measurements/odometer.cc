@@ -5,8 +5,72 @@
 
 namespace hindsight {
 
+namespace {
+
+/// True time of the measurement less the state's.
+double TimeFromState(const ModelContext& context) {
+  const Block* offset =
+      context.layout.Find(BlockKind::kTimeOffset, context.sensor_index);
+  if (offset == nullptr) return 0.0;
+  return context.stamp + context.state.parameters(offset->parameter_offset) -
+         context.state.t;
+}
+
+}  // namespace
+
 void Odometer::Evaluate(const ModelContext& context,
                         LinearizedMeasurement* out) const {
+  if (form == Form::kIncrements) {
+    EvaluateIncrement(context, out);
+    return;
+  }
+  LinearizedMeasurement full;
+  EvaluateSpeeds(context, &full);
+  const int first = form == Form::kNonHolonomic ? 1 : 0;
+  out->Resize(rows(), context.layout.dim());
+  out->residual = full.residual.segment(first, rows());
+  out->H = full.H.middleRows(first, rows());
+  out->R = full.R.block(first, first, rows(), rows());
+}
+
+void DistanceToStamp(const ModelContext& context, LinearizedMeasurement* out) {
+  out->Resize(1, context.layout.dim());
+  out->residual.setZero();
+  const double dt = TimeFromState(context);
+  if (!context.layout.Has(BlockKind::kTimeOffset, context.sensor_index)) return;
+  // The speed half way is the mean speed but for the third order.
+  const ModelContext half{context.layout,       context.state,
+                          context.kinematics,   context.sensor,
+                          context.sensor_index, context.stamp - 0.5 * dt};
+  Odometer speed;
+  speed.form = Odometer::Form::kForward;
+  LinearizedMeasurement at;
+  speed.Evaluate(half, &at);
+  out->residual = dt * at.residual;
+  const Block& offset =
+      *context.layout.Find(BlockKind::kTimeOffset, context.sensor_index);
+  at.H(0, offset.offset) *= 0.5;
+  out->H = dt * at.H;
+  out->H(0, offset.offset) -= at.residual(0);
+}
+
+void Odometer::EvaluateIncrement(const ModelContext& context,
+                                 LinearizedMeasurement* out) const {
+  const ErrorLayout& layout = context.layout;
+  const int sensor = context.sensor_index;
+  DistanceToStamp(context, out);
+  out->residual(0) +=
+      distance -
+      Parameter1(layout, context.state, BlockKind::kDistance, sensor, 0.0) -
+      Parameter1(layout, context.state, BlockKind::kOffset, sensor, 0.0);
+  const Eigen::Matrix<double, 1, 1> one(1.0);
+  layout.AddColumns(BlockKind::kDistance, sensor, one, &out->H);
+  layout.AddColumns(BlockKind::kOffset, sensor, one, &out->H);
+  out->R(0, 0) = sigma.x() * sigma.x();
+}
+
+void Odometer::EvaluateSpeeds(const ModelContext& context,
+                              LinearizedMeasurement* full) const {
   const ErrorLayout& layout = context.layout;
   const State& x = context.state;
   const int sensor = context.sensor_index;
@@ -24,37 +88,30 @@ void Odometer::Evaluate(const ModelContext& context,
   const Eigen::Vector3d v_o = C_oe * motion.v_e;
   const Eigen::Vector3d gain(1.0 + k, 1.0, 1.0);
 
-  LinearizedMeasurement full;
-  full.Resize(3, layout.dim());
-  full.residual = Eigen::Vector3d(speed, side_down.x(), side_down.y()) -
-                  gain.cwiseProduct(v_o);
-  full.R.diagonal() = sigma.cwiseAbs2();
+  full->Resize(3, layout.dim());
+  full->residual = Eigen::Vector3d(speed, side_down.x(), side_down.y()) -
+                   gain.cwiseProduct(v_o);
+  full->R.diagonal() = sigma.cwiseAbs2();
   const Eigen::Matrix3d A = gain.asDiagonal() * C_oe;
-  AddVelocityColumns(context, motion, A, &full.H);
+  AddVelocityColumns(context, motion, A, &full->H);
   layout.AddColumns(BlockKind::kAttitude, BlockKey::kNoSensor,
-                    A * Skew(motion.v_e) * motion.C_en, &full.H);
+                    A * Skew(motion.v_e) * motion.C_en, &full->H);
   if (motion.dt != 0.0) {
     const Eigen::Vector3d v_b = motion.C_eb.transpose() * motion.v_e;
     const Eigen::Matrix3d turned = motion.dt * C_ob0 * Skew(v_b);
     AddBodyRateColumns(context, motion,
                        gain.asDiagonal() * turned * RightJacobian(turn),
-                       &full.H);
+                       &full->H);
   }
   layout.AddColumns(
       BlockKind::kTimeOffset, sensor,
       -gain.cwiseProduct(C_ob * motion.w_eb_b.cross(C_ob.transpose() * v_o)),
-      &full.H);
+      &full->H);
   layout.AddColumns(BlockKind::kMounting, sensor,
                     -(gain.asDiagonal() * Skew(v_o) * LeftJacobian(m)),
-                    &full.H);
+                    &full->H);
   layout.AddColumns(BlockKind::kScale, sensor,
-                    Eigen::Vector3d(v_o.x(), 0.0, 0.0), &full.H);
-
-  const int first = form == Form::kNonHolonomic ? 1 : 0;
-  out->Resize(rows(), layout.dim());
-  out->residual = full.residual.segment(first, rows());
-  out->H = full.H.middleRows(first, rows());
-  out->R = full.R.block(first, first, rows(), rows());
+                    Eigen::Vector3d(v_o.x(), 0.0, 0.0), &full->H);
 }
 
 }  // namespace hindsight

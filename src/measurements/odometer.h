@@ -13,26 +13,48 @@ namespace hindsight {
 /// side and down being zero unless a sensor measures them.
 /// Residual [m/s]: measured - predicted (eq. (44) of the 2002 paper has the
 /// opposite sign and navigation axes; its K of eq. (43) is -k).
+///
+/// As distance increments, z = D + e is the distance travelled since the count
+/// before, by the state block kDistance, whose transition distance_link.h has:
+/// a speed that is wrong for an instant (rail joints, jolts) does not enter.
+/// `sigma.x()` is the error of one increment, independent of all others (slip,
+/// ground); e, the block kOffset if the layout has it, is the error of one
+/// count (resolution), which enters two increments with opposite signs.
 struct Odometer {
   enum class Form {
     kForward,       ///< the speed alone
     kThreeAxis,     ///< the speed with zero side and down velocity
     kNonHolonomic,  ///< zero side and down velocity alone, no odometer needed
+    kIncrements,    ///< the distance since the count before
   };
   Form form = Form::kThreeAxis;
-  double speed = 0.0;  ///< measured, signed [m/s]; unused by kNonHolonomic
-  /// Forward, side, down [m/s].
+  double speed = 0.0;     ///< measured, signed [m/s]; unused by kNonHolonomic
+  double distance = 0.0;  ///< of kIncrements, signed [m]
+  double t_from = 0.0;    ///< stamp of the count before [s]
+  /// Forward, side, down [m/s]; forward [m] of kIncrements.
   Eigen::Vector3d sigma = Eigen::Vector3d::Ones();
-  /// Side and down speed of the axle [m/s]; unused by kForward.
+  /// Side and down speed of the axle [m/s]; used by kThreeAxis and
+  /// kNonHolonomic.
   Eigen::Vector2d side_down = Eigen::Vector2d::Zero();
 
   /// Multiplies the standard deviations.
   void ScaleSigma(double factor) { sigma *= factor; }
   int rows() const {
-    return form == Form::kForward ? 1 : form == Form::kThreeAxis ? 3 : 2;
+    return form == Form::kThreeAxis ? 3 : form == Form::kNonHolonomic ? 2 : 1;
   }
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
+
+ private:
+  void EvaluateSpeeds(const ModelContext& context,
+                      LinearizedMeasurement* full) const;
+  void EvaluateIncrement(const ModelContext& context,
+                         LinearizedMeasurement* out) const;
 };
+
+/// Distance travelled after the state's time and before the count at
+/// `context.stamp` (zero but for an estimated time offset), as a prediction:
+/// out->residual is minus the distance [m], out->H its derivatives.
+void DistanceToStamp(const ModelContext& context, LinearizedMeasurement* out);
 
 }  // namespace hindsight
 

@@ -20,6 +20,7 @@ enum class SensorType {
   kOdometer,
   kNonHolonomic,
   kSpeedCourse,
+  kVehicleLevel,
   kDvl,
   kMagnetometer,
 };
@@ -52,6 +53,14 @@ struct Sensor {
   double scale = 0.0;             ///< k: measured = (1 + k) true
   double time_offset = 0.0;       ///< true time = stamp + time_offset [s]
   MagneticSurroundings magnetic;  ///< of a magnetometer
+  /// Error of a counted distance that the next count does not inherit (the
+  /// counter's resolution), white [m]; 0: none.
+  double count_sigma = 0.0;
+  /// Stream whose vehicle axes this sensor speaks of: its mounting is used.
+  int vehicle = -1;
+  /// Nothing is known of q_sb: the data must give a first value
+  /// (alignment/mounting_search.h) before anything is estimated.
+  bool mounting_unknown = false;
   /// Probability that a good measurement passes the chi-square gate; absent:
   /// no gate.
   std::optional<double> gate_probability;

@@ -1,5 +1,6 @@
 #include "measurements/timeline.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace hindsight {
@@ -15,6 +16,18 @@ Timeline::Timeline(std::vector<Node> nodes,
       summaries_(nodes_.empty() ? 0 : nodes_.size() - 1),
       integrated_(summaries_.size(), 0) {
   for (Node& node : nodes_) node.kinematics = integrator_.ReadingAt(node.t);
+}
+
+const IncrementStart* Timeline::IncrementStartAt(std::size_t k,
+                                                 int sensor) const {
+  const int node = static_cast<int>(k);
+  auto it = std::lower_bound(
+      increment_starts_.begin(), increment_starts_.end(), node,
+      [](const IncrementStart& start, int n) { return start.node < n; });
+  for (; it != increment_starts_.end() && it->node == node; ++it) {
+    if (it->sensor == sensor) return &*it;
+  }
+  return nullptr;
 }
 
 const ImuSummary& Timeline::Summary(std::size_t k,

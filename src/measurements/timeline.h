@@ -2,6 +2,7 @@
 #define HINDSIGHT_MEASUREMENTS_TIMELINE_H_
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "imu/preintegration.h"
@@ -15,6 +16,13 @@ struct Node {
   Kinematics kinematics;
   int first_measurement = 0;  ///< range in Timeline::measurements
   int measurement_count = 0;
+};
+
+/// A count of an odometer with which an increment begins, at a node.
+struct IncrementStart {
+  int node = 0;
+  int sensor = 0;
+  double stamp = 0.0;  ///< of the count [s]
 };
 
 /// What every estimator works on: nodes in time order, the measurements of each
@@ -40,6 +48,14 @@ class Timeline {
     return measurements_;
   }
 
+  /// The count at node k with which the sensor's next increment begins, or
+  /// nullptr.
+  const IncrementStart* IncrementStartAt(std::size_t k, int sensor) const;
+  /// In the order of nodes.
+  void SetIncrementStarts(std::vector<IncrementStart> starts) {
+    increment_starts_ = std::move(starts);
+  }
+
   /// Summary of the interval from node k to k + 1, integrated at `calibration`
   /// or near enough for its first-order correction.
   const ImuSummary& Summary(std::size_t k, const ImuCalibration& calibration);
@@ -62,6 +78,7 @@ class Timeline {
   std::vector<Node> nodes_;
   std::vector<Measurement> measurements_;
   std::vector<Sensor> sensors_;
+  std::vector<IncrementStart> increment_starts_;
   ImuIntegrator integrator_;
   std::vector<ImuSummary> summaries_;
   std::vector<char> integrated_;

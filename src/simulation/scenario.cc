@@ -95,12 +95,9 @@ Dataset MakeDataset(const Scenario& scenario,
       std::max(dataset.imu.max_gap, 1.5 / scenario.imu_rate_hz);
   for (std::size_t k = 0; k < scenario.aiding.size(); ++k) {
     AddMeasurementErrors(scenario.aiding[k], seed, &perfect[k]);
-    dataset.streams.push_back(
-        {scenario.aiding[k].sensor, std::move(perfect[k])});
-    if (scenario.aiding[k].sensor.type == SensorType::kOdometer) {
-      dataset.true_constants[scenario.aiding[k].sensor.name + "_scale"] =
-          DrawScale(scenario.aiding[k], seed);
-    }
+    DrawnSensor drawn = DrawSensor(scenario.aiding[k], seed);
+    dataset.streams.push_back({std::move(drawn.sensor), std::move(perfect[k])});
+    dataset.true_constants.merge(drawn.true_constants);
   }
   dataset.initial = DrawInitialState(scenario, start, seed);
   dataset.stationary = scenario.stationary;
@@ -108,6 +105,25 @@ Dataset MakeDataset(const Scenario& scenario,
   dataset.withholdings = scenario.withholdings;
   ApplyWithholding(&dataset);
   return dataset;
+}
+
+/// What the data set says of the IMU's scale factors, and what they are.
+void AddImuScales(const ImuErrorModel& model, const ImuErrors& errors,
+                  Dataset* dataset) {
+  const auto add = [&](const char* name, const Eigen::Vector3d& sigma,
+                       const Eigen::Vector3d& truth,
+                       std::optional<Eigen::Vector3d>* prior) {
+    if (sigma.isZero(0.0)) return;
+    *prior = sigma;
+    static const char* const kAxes[] = {"[x]", "[y]", "[z]"};
+    for (int i = 0; i < 3; ++i) {
+      dataset->true_constants[std::string(name) + kAxes[i]] = truth(i);
+    }
+  };
+  add("gyro_scale", model.gyro_scale_sigma, errors.gyro_scale(),
+      &dataset->gyro_scale_sigma);
+  add("accel_scale", model.accel_scale_sigma, errors.accel_scale(),
+      &dataset->accel_scale_sigma);
 }
 
 std::vector<std::vector<Measurement>> AllPerfectMeasurements(
@@ -164,6 +180,7 @@ Dataset Simulation::Finish() {
       scenario_, AllPerfectMeasurements(scenario_, trajectory_.get(), t_end_),
       trajectory_->At(trajectory_->t_begin()), seed_);
   dataset.truth = std::move(truth_);
+  AddImuScales(scenario_.imu, errors_, &dataset);
   return dataset;
 }
 
@@ -194,6 +211,7 @@ Dataset PerfectRecording::Realize(std::uint64_t seed) const {
   Dataset dataset = MakeDataset(scenario_, aiding_, truth_.front(), seed);
   ImuErrors errors(scenario_.imu, scenario_.imu_kind, scenario_.imu_rate_hz,
                    seed);
+  AddImuScales(scenario_.imu, errors, &dataset);
   dataset.imu.samples = samples_;
   dataset.truth.reserve(truth_.size());
   for (std::size_t k = 0; k < samples_.size(); ++k) {

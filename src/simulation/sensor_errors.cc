@@ -16,6 +16,8 @@ enum Stream : std::uint64_t {
   kAccelNoise,
   kAccelBias,
   kAccelWalk,
+  kGyroScale,
+  kAccelScale,
 };
 
 /// 64-bit FNV-1a, kept clear of the small numbers of the IMU's streams.
@@ -41,7 +43,9 @@ ImuErrors::ImuErrors(const ImuErrorModel& model, ImuStream::Kind kind,
     : kind_(kind),
       dt_(1.0 / rate_hz),
       gyro_{StartBias(model.gyro_bias, model.gyro_bias_sigma, seed, kGyroBias),
-            (1.0 + model.gyro_scale.array()).matrix(),
+            Eigen::Vector3d::Ones() + StartBias(model.gyro_scale,
+                                                model.gyro_scale_sigma, seed,
+                                                kGyroScale),
             model.noise.GyroBiasEvolution().Phi(dt_),
             std::sqrt(model.noise.GyroBiasEvolution().Q(dt_)),
             model.noise.gyro_noise_density,
@@ -50,7 +54,9 @@ ImuErrors::ImuErrors(const ImuErrorModel& model, ImuStream::Kind kind,
             Random(seed, kGyroWalk)},
       accel_{
           StartBias(model.accel_bias, model.accel_bias_sigma, seed, kAccelBias),
-          (1.0 + model.accel_scale.array()).matrix(),
+          Eigen::Vector3d::Ones() + StartBias(model.accel_scale,
+                                              model.accel_scale_sigma, seed,
+                                              kAccelScale),
           model.noise.AccelBiasEvolution().Phi(dt_),
           std::sqrt(model.noise.AccelBiasEvolution().Q(dt_)),
           model.noise.accel_noise_density,
@@ -89,6 +95,34 @@ void ImuErrors::Apply(ImuSample* sample) {
 
 namespace {
 
+/// Velocity of the sensor's point in the sensor's axes.
+Eigen::Vector3d SensorVelocity(const Sensor& sensor, const Motion& motion) {
+  return sensor.q_sb * (motion.q_eb.conjugate() * motion.v_e +
+                        motion.w_eb_b.cross(sensor.lever_arm_b));
+}
+
+/// Forward distance over [from, to], by Gauss's rule of three points in steps
+/// of at most 20 ms.
+double DistanceTravelled(const Sensor& sensor, double from, double to,
+                         Trajectory* trajectory) {
+  constexpr double kStep = 0.02;
+  const double root = std::sqrt(0.6);
+  const int steps =
+      std::max(1, static_cast<int>(std::ceil((to - from) / kStep)));
+  const double half = 0.5 * (to - from) / steps;
+  double sum = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double middle = from + (2 * i + 1) * half;
+    const auto speed = [&](double t) {
+      return SensorVelocity(sensor, trajectory->At(t)).x();
+    };
+    sum += half / 9.0 *
+           (5.0 * speed(middle - root * half) + 8.0 * speed(middle) +
+            5.0 * speed(middle + root * half));
+  }
+  return sum;
+}
+
 MeasurementModel PerfectMeasurement(const AidingModel& model,
                                     const Motion& motion) {
   const Eigen::Vector3d& l = model.sensor.lever_arm_b;
@@ -108,10 +142,7 @@ MeasurementModel PerfectMeasurement(const AidingModel& model,
       Odometer odometer;
       odometer.form = model.odometer_form;
       odometer.sigma = model.sigma;
-      const Eigen::Vector3d v_o =
-          model.sensor.q_sb *
-          (motion.q_eb.conjugate() * motion.v_e + motion.w_eb_b.cross(l));
-      odometer.speed = v_o.x();
+      odometer.speed = SensorVelocity(model.sensor, motion).x();
       return odometer;
     }
     case SensorType::kMagnetometer: {
@@ -128,10 +159,6 @@ MeasurementModel PerfectMeasurement(const AidingModel& model,
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// Stamps that the model asks for, whatever the span of the motion.
 std::vector<double> Stamps(const AidingModel& model, double first,
                            double last) {
@@ -144,6 +171,19 @@ std::vector<double> Stamps(const AidingModel& model, double first,
     stamps.push_back(static_cast<double>(k) / model.rate_hz);
   }
   return stamps;
+}
+
+/// Increments between neighbours; the first count begins the first of them.
+void CountDistance(const Sensor& sensor, Trajectory* trajectory,
+                   std::vector<Measurement>* measurements) {
+  for (std::size_t i = 1; i < measurements->size(); ++i) {
+    auto& odometer = std::get<Odometer>((*measurements)[i].model);
+    odometer.t_from = (*measurements)[i - 1].t;
+    odometer.distance = DistanceTravelled(
+        sensor, odometer.t_from + sensor.time_offset,
+        (*measurements)[i].t + sensor.time_offset, trajectory);
+  }
+  if (!measurements->empty()) measurements->erase(measurements->begin());
 }
 
 }  // namespace
@@ -170,6 +210,10 @@ std::vector<Measurement> PerfectMeasurements(const AidingModel& model,
     z.model = PerfectMeasurement(model, trajectory->At(t_true));
     measurements.push_back(z);
   }
+  if (model.sensor.type == SensorType::kOdometer &&
+      model.odometer_form == Odometer::Form::kIncrements) {
+    CountDistance(model.sensor, trajectory, &measurements);
+  }
   return measurements;
 }
 
@@ -180,10 +224,46 @@ double DrawScale(const AidingModel& model, std::uint64_t seed) {
              Random(seed, StreamOf(model.sensor.name + "_scale")).Normal();
 }
 
+DrawnSensor DrawSensor(const AidingModel& model, std::uint64_t seed) {
+  DrawnSensor drawn{model.sensor, {}};
+  Sensor& sensor = drawn.sensor;
+  auto& truth = drawn.true_constants;
+  if (sensor.type == SensorType::kOdometer) {
+    truth[sensor.name + "_scale"] = DrawScale(model, seed);
+  }
+  if (!model.draw_calibration) return drawn;
+  Random random(seed, StreamOf(sensor.name + "_calibration"));
+  const auto add = [&](const char* what, const Eigen::Vector3d& value) {
+    static const char* const kAxes[] = {"[x]", "[y]", "[z]"};
+    for (int i = 0; i < 3; ++i) {
+      truth[sensor.name + what + kAxes[i]] = value(i);
+    }
+  };
+  if (sensor.lever_arm_sigma) {
+    add("_lever_arm", sensor.lever_arm_b);
+    sensor.lever_arm_b +=
+        sensor.lever_arm_sigma->cwiseProduct(random.NormalVector3());
+  }
+  if (sensor.mounting_sigma) {
+    const Eigen::Vector3d m =
+        sensor.mounting_sigma->cwiseProduct(random.NormalVector3());
+    add("_mounting", m);
+    sensor.q_sb = Exp(m).conjugate() * sensor.q_sb;
+  }
+  if (sensor.time_offset_sigma) {
+    truth[sensor.name + "_time_offset"] = sensor.time_offset;
+    sensor.time_offset += *sensor.time_offset_sigma * random.Normal();
+  }
+  return drawn;
+}
+
 void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
                           std::vector<Measurement>* measurements) {
   Random random(seed, StreamOf(model.sensor.name));
   const double scale = DrawScale(model, seed);
+  double count_error = model.sensor.count_sigma > 0.0
+                           ? model.sensor.count_sigma * random.Normal()
+                           : 0.0;
   for (Measurement& z : *measurements) {
     if (auto* position = std::get_if<PositionFix>(&z.model)) {
       const Eigen::Vector3d error_n =
@@ -198,6 +278,15 @@ void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
     } else if (auto* odometer = std::get_if<Odometer>(&z.model)) {
       const Eigen::Vector3d error =
           model.sigma.cwiseProduct(random.NormalVector3());
+      if (odometer->form == Odometer::Form::kIncrements) {
+        odometer->distance =
+            (1.0 + scale) * odometer->distance + error.x() - count_error;
+        if (model.sensor.count_sigma > 0.0) {
+          count_error = model.sensor.count_sigma * random.Normal();
+          odometer->distance += count_error;
+        }
+        continue;
+      }
       odometer->speed = (1.0 + scale) * odometer->speed + error.x();
       odometer->side_down += error.tail<2>();
     }

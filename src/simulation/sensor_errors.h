@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "base/random.h"
@@ -22,6 +24,10 @@ struct ImuErrorModel {
   Eigen::Vector3d accel_bias_sigma = Eigen::Vector3d::Zero();  ///< [m/s^2]
   Eigen::Vector3d gyro_scale = Eigen::Vector3d::Zero();        ///< [1] per axis
   Eigen::Vector3d accel_scale = Eigen::Vector3d::Zero();       ///< [1] per axis
+  /// Normal deviates added to the scale factors, drawn per seed; if not zero,
+  /// the data set says so as its a priori sigmas.
+  Eigen::Vector3d gyro_scale_sigma = Eigen::Vector3d::Zero();
+  Eigen::Vector3d accel_scale_sigma = Eigen::Vector3d::Zero();
 };
 
 /// Turns perfect samples into measured ones, in time order. Gyro noise, gyro
@@ -35,6 +41,11 @@ class ImuErrors {
   /// Biases at the stamp of the sample last given (at first: the start values).
   const Eigen::Vector3d& gyro_bias() const { return gyro_.bias; }
   const Eigen::Vector3d& accel_bias() const { return accel_.bias; }
+  /// The scale factors of the seed.
+  Eigen::Vector3d gyro_scale() const { return gyro_.scale_factor.array() - 1; }
+  Eigen::Vector3d accel_scale() const {
+    return accel_.scale_factor.array() - 1;
+  }
 
   void Apply(ImuSample* sample);
 
@@ -74,13 +85,17 @@ struct AidingModel {
   /// Stamps [s], ascending, in place of those of the rate if not empty.
   std::vector<double> times;
   /// NED standard deviation [m] or [m/s]; height uses the third; odometer:
-  /// forward, side, down, all of which get noise.
+  /// forward, side, down, all of which get noise, or that of an increment [m]
+  /// in the first, with Sensor::count_sigma beside it.
   Eigen::Vector3d sigma = Eigen::Vector3d::Ones();
   double from = -std::numeric_limits<double>::infinity();  ///< first stamp [s]
   double to = std::numeric_limits<double>::infinity();     ///< last stamp [s]
   std::vector<TimeSpan> outages;  ///< stamps in them are missing
   Odometer::Form odometer_form = Odometer::Form::kThreeAxis;
   MagneticField::Form magnetic_form = MagneticField::Form::kHeading;
+  /// The data set's lever arm, mounting and time offset are not the true ones:
+  /// the true ones are off by normal deviates of their a priori sigmas.
+  bool draw_calibration = false;
 };
 
 /// Perfect measurements of `model` with their covariances: what the sensor's
@@ -92,6 +107,14 @@ std::vector<Measurement> PerfectMeasurements(const AidingModel& model,
 
 /// The scale error k of one seed: measured = (1 + k) true.
 double DrawScale(const AidingModel& model, std::uint64_t seed);
+
+/// The sensor as the data set of one seed has it, and what its constants truly
+/// are, by the names that the estimators give them.
+struct DrawnSensor {
+  Sensor sensor;
+  std::map<std::string, double> true_constants;
+};
+DrawnSensor DrawSensor(const AidingModel& model, std::uint64_t seed);
 
 /// Adds normal errors of the model's sigma, and the odometer its DrawScale. The
 /// deviates come from a stream of the seed that belongs to the sensor's name,

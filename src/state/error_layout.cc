@@ -25,6 +25,7 @@ int FullDimension(BlockKind kind) {
     case BlockKind::kTimeOffset:
     case BlockKind::kOffset:
     case BlockKind::kDeclination:
+    case BlockKind::kDistance:
       return 1;
     default:
       return 3;

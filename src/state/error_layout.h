@@ -51,6 +51,7 @@ enum class BlockKind {
   kHardIron,       ///< additive field in body axes [uT]
   kDeclination,    ///< of the magnetic field from true north [rad]
   kDisturbance,    ///< additive magnetic field, NED [uT]
+  kDistance,       ///< travelled since the last count of an odometer [m]
 };
 
 /// Number of components of a block before any axis is masked.

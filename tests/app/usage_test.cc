@@ -48,7 +48,8 @@ TEST_F(Usage, HelpNamesEveryFlagOfRun) {
   const std::string page = Run({"run", "--help"}).out;
   for (const std::string flag :
        {"methods", "out", "force", "from", "to", "rate", "at", "point",
-        "withhold", "export", "progress", "data-root", "log", "help"}) {
+        "withhold", "without", "export", "progress", "data-root", "log",
+        "help"}) {
     EXPECT_THAT(page, HasSubstr("\n  --" + flag)) << flag;
   }
 }

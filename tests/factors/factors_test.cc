@@ -170,9 +170,8 @@ TEST(ImuFactor, JacobianMatchesNumericDifference) {
       const TestProblem problem = Problem(rich, walk);
       Timeline timeline = problem.MakeTimeline();
       const StateBlocks blocks(problem.layout);
-      const ImuSummary& summary =
-          timeline.Summary(1, CalibrationOf(problem.layout, problem.truth[1]));
-      const ImuFactor factor(&blocks, &summary, 1);
+      timeline.Summary(1, CalibrationOf(problem.layout, problem.truth[1]));
+      const ImuFactor factor(&blocks, &timeline, 1);
       EXPECT_EQ(factor.num_residuals(), blocks.node_dim());
       ExpectJacobian(blocks, factor, PairAt(problem, 1),
                      std::string(rich ? "rich" : "plain") +
@@ -185,13 +184,15 @@ TEST(ImuFactor, ConstantBiasesAreGlobals) {
   const TestProblem constant = Problem(true, false);
   const StateBlocks blocks(constant.layout);
   Timeline timeline = constant.MakeTimeline();
-  const ImuFactor factor(&blocks, &timeline.Summary(0, {}), 0);
+  timeline.Summary(0, {});
+  const ImuFactor factor(&blocks, &timeline, 0);
   EXPECT_EQ(factor.nodes(), (std::vector<int>{0, 1}));
   EXPECT_EQ(factor.globals().size(), 4u);  // two biases, two scales
   const TestProblem walking = Problem(false, true);
   const StateBlocks walking_blocks(walking.layout);
   Timeline walking_timeline = walking.MakeTimeline();
-  const ImuFactor other(&walking_blocks, &walking_timeline.Summary(0, {}), 0);
+  walking_timeline.Summary(0, {});
+  const ImuFactor other(&walking_blocks, &walking_timeline, 0);
   EXPECT_TRUE(other.globals().empty());
 }
 
@@ -201,7 +202,7 @@ TEST(ImuFactor, CostIsTheMahalanobisDistanceOfTheLink) {
   const StateBlocks blocks(problem.layout);
   const ImuSummary& summary =
       timeline.Summary(1, CalibrationOf(problem.layout, problem.truth[1]));
-  const ImuFactor factor(&blocks, &summary, 1);
+  const ImuFactor factor(&blocks, &timeline, 1);
   const std::vector<State> pair = PairAt(problem, 1);
   ImuLink link;
   EvaluateLink(problem.layout, summary, pair[0], pair[1], false, &link);
@@ -220,7 +221,7 @@ TEST(ImuFactor, WhitenedJacobianIsTheFiltersTransition) {
   const StateBlocks blocks(problem.layout);
   const ImuSummary& summary =
       timeline.Summary(1, CalibrationOf(problem.layout, problem.truth[1]));
-  const ImuFactor factor(&blocks, &summary, 1);
+  const ImuFactor factor(&blocks, &timeline, 1);
   const std::vector<State> pair = PairAt(problem, 1);
   const Eigen::MatrixXd J = Point(blocks, factor, pair).TangentJacobian();
   Transition transition;

@@ -1,3 +1,5 @@
+#include <gmock/gmock.h>
+
 #include <cmath>
 
 #include "base/units.h"
@@ -116,6 +118,74 @@ TEST_F(AidingTypes, TheConstraintIsGeneratedOverTheImusRecord) {
   EXPECT_EQ(z.form, Odometer::Form::kNonHolonomic);
   EXPECT_EQ(z.sigma.tail<2>(), Eigen::Vector2d(0.1, 0.2));
   EXPECT_DOUBLE_EQ(data.streams[0].sensor.mounting_sigma->x(), 5 * kDegree);
+}
+
+TEST_F(AidingTypes, IncrementsAreDifferencesOfACount) {
+  Write("ticks.csv", "t[s],distance[m]\n0.01,100\n0.02,100.5\n0.04,100.25\n");
+  Aiding(
+      "  wheel: {type: odometer, form: increments, file: ticks.csv, sigma: 5 "
+      "mm, count_sigma: 2 mm, scale: 1 %, time_offset: 0.1 ms}\n");
+  const Dataset data = Load();
+  EXPECT_DOUBLE_EQ(data.streams[0].sensor.count_sigma, 0.002);
+  EXPECT_DOUBLE_EQ(data.streams[0].sensor.scale, 0.01);
+  const auto& measurements = data.streams[0].measurements;
+  // The first count only begins the first increment.
+  ASSERT_EQ(measurements.size(), 2u);
+  const auto& first = std::get<Odometer>(measurements[0].model);
+  EXPECT_EQ(first.form, Odometer::Form::kIncrements);
+  EXPECT_DOUBLE_EQ(first.distance, 0.5);
+  EXPECT_DOUBLE_EQ(first.sigma.x(), 0.005);
+  EXPECT_NEAR(first.t_from, 0.01, 1e-12);
+  EXPECT_NEAR(measurements[0].t, 0.02, 1e-12);
+  const auto& second = std::get<Odometer>(measurements[1].model);
+  EXPECT_DOUBLE_EQ(second.distance, -0.25);
+  EXPECT_EQ(second.t_from, measurements[0].t);
+}
+
+TEST_F(AidingTypes, IncrementsNeedACount) {
+  Write("odo.csv", "t[s],speed[m/s]\n0.01,1\n0.03,2\n");
+  Aiding(
+      "  wheel: {type: odometer, form: increments, file: odo.csv, sigma: 5 "
+      "mm}\n");
+  EXPECT_THAT(LoadError(), ::testing::HasSubstr("no column distance"));
+}
+
+TEST_F(AidingTypes, MountingMayBeUnknownAndTheVehicleLevelOnAverage) {
+  Aiding(
+      "  wheels: {type: non_holonomic, rate: 100 Hz, sigma: [0.1, 0.2 m/s], "
+      "mounting: unknown, level_on_average: 0.5 deg}\n");
+  ResolvedConfig resolved;
+  const Dataset data = Load(&resolved);
+  EXPECT_TRUE(data.streams[0].sensor.mounting_unknown);
+  EXPECT_DOUBLE_EQ(data.streams[0].sensor.mounting_sigma->x(), 10 * kDegree);
+  ASSERT_EQ(data.streams.size(), 2u);
+  const AidingStream& level = data.streams[1];
+  EXPECT_EQ(level.sensor.name, "wheels_level");
+  EXPECT_EQ(level.sensor.vehicle, 0);
+  // So many of them that their mean has the sigma asked for.
+  const auto& z = std::get<VehicleLevel>(level.measurements[0].model);
+  EXPECT_NEAR(z.sigma / std::sqrt(level.measurements.size()), 0.5 * kDegree,
+              1e-12);
+  EXPECT_EQ(level.measurements[0].sensor, 1);
+  // What was resolved loads the same.
+  Write("config.yaml", resolved.yaml);
+  EXPECT_TRUE(Load().streams[0].sensor.mounting_unknown);
+}
+
+TEST_F(AidingTypes, StreamsCanBeLeftOut) {
+  Write("odo.csv", "t[s],speed[m/s]\n0.01,1\n0.03,2\n");
+  Aiding(
+      "  wheels: {type: non_holonomic, rate: 100 Hz, sigma: [0.1, 0.2 m/s], "
+      "level_on_average: 1 deg}\n"
+      "  odo: {type: odometer, file: odo.csv, sigma: 0.1 m/s}\n");
+  LoadOptions options;
+  options.without = {"wheels"};
+  const Dataset data = LoadDataset(Path("config.yaml"), options);
+  ASSERT_EQ(data.streams.size(), 1u);
+  EXPECT_EQ(data.streams[0].sensor.name, "odo");
+  EXPECT_EQ(data.streams[0].measurements[0].sensor, 0);
+  options.without = {"wheel"};
+  EXPECT_THROW(LoadDataset(Path("config.yaml"), options), InputError);
 }
 
 TEST_F(AidingTypes, CourseBelowTheThresholdIsNotUsed) {

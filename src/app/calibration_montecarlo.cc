@@ -1,0 +1,75 @@
+#include <iostream>
+#include <memory>
+
+#include "app/flags.h"
+#include "app/montecarlo_report.h"
+#include "app/montecarlo_scenarios.h"
+#include "app/text.h"
+#include "evaluation/chi_square.h"
+#include "io/atomic_file.h"
+#include "io/table.h"
+#include "simulation/calibration_drive.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kDuration = 600.0;
+constexpr double kJudgedEvery = 10.0;  // of truth, away from the ends [s]
+
+std::string Verdicts(const ConstantStatistics& c) {
+  if (c.observed == c.runs) return "observed";
+  if (c.unobserved == c.runs) return "unobserved";
+  return Format("%d observed, %d weak, %d unobserved", c.observed,
+                c.runs - c.observed - c.unobserved, c.unobserved);
+}
+
+/// One line a constant; the bounds are those of one constant at a time.
+std::string ConstantTable(const MethodStatistics& method) {
+  ReportTable table({"constant", "prior\nsigma", "sigma\nmean", "error\nrms",
+                     "(error/sigma)^2\nmean", "99.9 %\nbounds", "verdict"});
+  for (const ConstantStatistics& c : method.constants) {
+    const Interval bounds = AneesBounds(c.runs, 1, 0.999);
+    table.AddRow({c.name + " [" + c.unit + "]", Format("%.3g", c.prior_sigma),
+                  Format("%.3g", c.sigma), Format("%.3g", c.rms),
+                  Format("%.2f", c.anees),
+                  Format("%.2f %.2f%s", bounds.lower, bounds.upper,
+                         bounds.Contains(c.anees) ? "" : " outside"),
+                  Verdicts(c)});
+  }
+  return table.Render();
+}
+
+}  // namespace
+
+void RunCalibration(MonteCarloOptions options, Progress* progress,
+                    ResultFolder* folder) {
+  const auto recording =
+      std::make_shared<const PerfectRecording>(CalibrationDrive(kDuration));
+  for (double t = kJudgedEvery; t < kDuration; t += kJudgedEvery) {
+    options.node_times.push_back(t);
+  }
+  options.progress = RunProgress(options.runs, progress);
+  const MonteCarloResult result = RunMonteCarlo(
+      {{"",
+        [recording](std::uint64_t seed) { return recording->Realize(seed); },
+        {Method::kEkf, Method::kRts, Method::kIterated, Method::kBatch}}},
+      options);
+  WriteFileAtomically(folder->Path(kMonteCarloJson),
+                      MonteCarloJson({kCalibrationName, "", "", options.runs,
+                                      options.first_seed},
+                                     result));
+  std::cout << kCalibrationName << ", " << options.runs << " runs, "
+            << result.dim << " states\n\n"
+            << MonteCarloTable(result);
+  for (const MethodStatistics& method : result.methods) {
+    WriteFileAtomically(folder->Path(method.name + ".csv"),
+                        MonteCarloCsv(method));
+    if (method.name != MethodName(Method::kEkf) &&
+        method.name != MethodName(Method::kBatch)) {
+      continue;
+    }
+    std::cout << "\n" << method.name << ":\n" << ConstantTable(method);
+  }
+}
+
+}  // namespace hindsight
