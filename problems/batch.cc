@@ -22,6 +22,8 @@ constexpr double kRoughStep = 1e-3;
 /// The same with a robust loss, about which the last steps converge linearly.
 constexpr double kRoughRobustStep = 1e-6;
 constexpr double kFineStep = 1e-8;
+/// Without a loss a Newton step leaves an error of its own size squared.
+constexpr double kLastNewtonStep = 1e-5;
 
 double RoughStep(const ChainProblem& chain) {
   return chain.HasLoss() ? kRoughRobustStep : kRoughStep;
@@ -85,7 +87,9 @@ struct Window {
 
 std::vector<Window> Windows(const BatchOptions& options, std::size_t nodes) {
   const std::size_t count =
-      (nodes + options.window_nodes - 1) / options.window_nodes;
+      nodes <= options.whole_nodes
+          ? 1
+          : (nodes + options.window_nodes - 1) / options.window_nodes;
   std::vector<Window> windows;
   for (std::size_t i = 0; i < count; ++i) {
     windows.push_back({nodes * i / count, nodes * (i + 1) / count});
@@ -190,14 +194,6 @@ bool AnySummaryIsStale(const ErrorLayout& layout, const Timeline& timeline,
   return false;
 }
 
-/// The whole chain's Gauss-Newton step, ready to be taken.
-ArrowSystem SolvedChain(ChainProblem* chain) {
-  ArrowSystem system = chain->Information();
-  system.Factor();
-  system.Solve();
-  return system;
-}
-
 CovarianceSeries Marginals(ChainProblem* chain) {
   ArrowSystem information = chain->Information();
   information.Factor();
@@ -205,37 +201,31 @@ CovarianceSeries Marginals(ChainProblem* chain) {
 }
 
 /// Full Gauss-Newton steps of the chain's own solver, which need no cost to be
-/// accepted, until they are of rounding size. The covariances come with them.
-CovarianceSeries FinishByNewton(ChainProblem* chain, int* iterations) {
+/// accepted. They also tell a long chain's windows of each other and move the
+/// constants: after a large one the windows are solved anew. The covariances
+/// come with the last.
+CovarianceSeries FinishByNewton(const BatchOptions& options,
+                                ChainProblem* chain, Sweep* sweep) {
   constexpr int kMaxSteps = 4;
+  constexpr int kMaxSweeps = 10;
+  const bool windowed = chain->node_count() > options.whole_nodes;
+  const double last = chain->HasLoss() ? kFineStep : kLastNewtonStep;
   for (int i = 1;; ++i) {
-    ArrowSystem system = SolvedChain(chain);
-    ++*iterations;
-    if (chain->Step(&system) < kFineStep || i == kMaxSteps) {
+    ArrowSystem system = chain->Information();
+    system.Factor();
+    system.Solve();
+    ++sweep->iterations;
+    const double step = chain->Step(&system);
+    const bool rough = windowed && step > RoughStep(*chain);
+    if (step < last || i == (rough ? kMaxSweeps : kMaxSteps)) {
+      sweep->converged = sweep->converged && !rough;
       return chain->Marginals(system);
     }
+    if (!rough) continue;
+    const int before = sweep->iterations;
+    *sweep = SolveOnce(options, options.max_iterations, chain);
+    sweep->iterations += before;
   }
-}
-
-/// A long chain's windows and, in turn, full steps of the whole chain, which
-/// tell the windows of each other and move the constants, until such a step is
-/// a rough one.
-Sweep SolveInWindows(const BatchOptions& options, bool first,
-                     ChainProblem* chain) {
-  constexpr int kMaxSweeps = 10;
-  Sweep sweep = SolveGraduated(options, first, chain);
-  if (Windows(options, chain->node_count()).size() == 1) return sweep;
-  for (int i = 1;; ++i) {
-    ArrowSystem system = SolvedChain(chain);
-    ++sweep.iterations;
-    if (chain->Step(&system) < RoughStep(*chain)) return sweep;
-    if (i == kMaxSweeps) break;
-    const Sweep next = SolveOnce(options, options.max_iterations, chain);
-    sweep.iterations += next.iterations;
-    sweep.converged = next.converged;
-  }
-  sweep.converged = false;
-  return sweep;
 }
 
 }  // namespace
@@ -249,20 +239,20 @@ BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
   constexpr int kMaxReintegrations = 5;
   for (int outer = 0; outer < kMaxReintegrations; ++outer) {
     ChainProblem chain(layout, prior, result.states, timeline, decisions);
-    const Sweep sweep = SolveInWindows(options, outer == 0, &chain);
+    Sweep sweep = SolveGraduated(options, outer == 0, &chain);
     result.states = chain.States();
-    result.iterations += sweep.iterations;
-    result.converged = sweep.converged;
     if (!AnySummaryIsStale(layout, *timeline, result.states)) {
-      result.P = FinishByNewton(&chain, &result.iterations);
-      const std::vector<State> before = std::move(result.states);
-      result.states = chain.States();
-      // Ceres may run out of iterations on the last micrometres.
-      result.converged =
-          result.converged || LargestMoveInSigmas(layout, before, result.states,
-                                                  result.P) < kSettledStep;
-      return result;
+      result.P = FinishByNewton(options, &chain, &sweep);
     }
+    result.iterations += sweep.iterations;
+    const std::vector<State> before = std::move(result.states);
+    result.states = chain.States();
+    if (AnySummaryIsStale(layout, *timeline, result.states)) continue;
+    // Ceres may run out of iterations on the last micrometres.
+    result.converged =
+        sweep.converged || LargestMoveInSigmas(layout, before, result.states,
+                                               result.P) < kSettledStep;
+    return result;
   }
   result.converged = false;
   result.P = BatchMarginals(layout, prior, result.states, timeline, decisions);

@@ -12,10 +12,12 @@ namespace hindsight {
 
 struct BatchOptions {
   int max_iterations = 50;
-  /// Ceres takes 20 kB a node for its matrices. A longer chain is solved in
-  /// windows of at most so many nodes, in which the neighbours and the
-  /// constants are held fixed, in turn with steps of the whole chain.
-  std::size_t window_nodes = 10000;
+  /// Ceres takes 20 kB a node for its matrices. A chain longer than
+  /// `whole_nodes` is solved in windows of at most `window_nodes`, in which the
+  /// neighbours and the constants are held fixed, in turn with steps of the
+  /// whole chain.
+  std::size_t whole_nodes = 10000;
+  std::size_t window_nodes = 2500;
   /// Called after each iteration with its number; may throw to stop.
   std::function<void(int)> callback;
 };

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "dataset/timeline_builder.h"
+#include "filters/transport.h"
 #include "filters/two_filter.h"
 #include "problems/batch.h"
 #include "problems/sample_solution.h"
@@ -47,8 +48,9 @@ bool HasGates(const Timeline& timeline) {
 void TransportSeries(const ErrorLayout& layout, const std::vector<State>& from,
                      const std::vector<State>& to, CovarianceSeries* P) {
   for (std::size_t k = 0; k < P->size(); ++k) {
-    const ErrorMatrix T = Transport(layout, from[k], to[k]);
-    P->Set(k, ErrorMatrix(T * P->Get(k) * T.transpose()));
+    ErrorMatrix P_k = P->Get(k);
+    MoveCovariance(Transport(layout, from[k], to[k]), &P_k);
+    P->Set(k, P_k);
   }
 }
 

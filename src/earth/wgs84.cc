@@ -34,11 +34,10 @@ Geodetic GeodeticFromEcef(const Eigen::Vector3d& p_e) {
   return g;
 }
 
-Eigen::Matrix3d NedAxes(double latitude, double longitude) {
-  const double sin_lat = std::sin(latitude);
-  const double cos_lat = std::cos(latitude);
-  const double sin_lon = std::sin(longitude);
-  const double cos_lon = std::cos(longitude);
+namespace {
+
+Eigen::Matrix3d NedAxes(double sin_lat, double cos_lat, double sin_lon,
+                        double cos_lon) {
   Eigen::Matrix3d C_en;
   C_en << -sin_lat * cos_lon, -sin_lon, -cos_lat * cos_lon,  //
       -sin_lat * sin_lon, cos_lon, -cos_lat * sin_lon,       //
@@ -46,9 +45,40 @@ Eigen::Matrix3d NedAxes(double latitude, double longitude) {
   return C_en;
 }
 
+}  // namespace
+
+Eigen::Matrix3d NedAxes(double latitude, double longitude) {
+  return NedAxes(std::sin(latitude), std::cos(latitude), std::sin(longitude),
+                 std::cos(longitude));
+}
+
 Eigen::Matrix3d NedAxes(const Eigen::Vector3d& p_e) {
-  const Geodetic g = GeodeticFromEcef(p_e);
-  return NedAxes(g.latitude, g.longitude);
+  constexpr double kNearSurface = 0.1 * kEarthSemiMajorAxis;
+  const double p2 = p_e.x() * p_e.x() + p_e.y() * p_e.y();
+  const double r = std::sqrt(p2 + p_e.z() * p_e.z());
+  if (!(std::abs(r - kEarthSemiMajorAxis) < kNearSurface)) {
+    const Geodetic g = GeodeticFromEcef(p_e);
+    return NedAxes(g.latitude, g.longitude);
+  }
+  const double p = std::sqrt(p2);
+  // Sine and cosine of the parametric latitude, of a better one, of the
+  // geodetic one (Bowring 1976): so near to the surface two rounds leave
+  // rounding alone, at a third of the time.
+  double s = p_e.z();
+  double c = (1.0 - kEarthFlattening) * p;
+  constexpr double kOuter = kEccentricity2 * kEarthSemiMajorAxis;
+  constexpr double kInner = kOuter / (1.0 - kEarthFlattening);
+  for (int i = 0; i < 3; ++i) {
+    const double scale = 1.0 / std::sqrt(s * s + c * c);
+    s *= scale;
+    c *= scale;
+    if (i == 2) break;
+    s = p_e.z() + kInner * s * s * s;
+    c = p - kOuter * c * c * c;
+    if (i == 0) s *= 1.0 - kEarthFlattening;
+  }
+  return p > 0.0 ? NedAxes(s, c, p_e.y() / p, p_e.x() / p)
+                 : NedAxes(s, c, 0.0, 1.0);
 }
 
 double MeridianRadius(double latitude) {

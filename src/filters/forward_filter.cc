@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "filters/transport.h"
 #include "measurements/distance_link.h"
 
 namespace hindsight {
@@ -53,7 +54,7 @@ class ForwardPass {
     fixed_nominal_ = true;
     x_ = nominal;
     dx_ = Local(layout_, nominal, prior_mean);
-    MoveCovariance(Transport(layout_, prior_mean, nominal));
+    MoveCovariance(Transport(layout_, prior_mean, nominal), &P_);
   }
 
   /// Time update of the interval that ends at node k, to the predicted state.
@@ -96,7 +97,7 @@ class ForwardPass {
       x_ = Retract(error_, layout_, x_, dx_);
       x_.t = epoch.t;
       if (!measurements.empty()) {
-        MoveCovariance(Transport(error_, layout_, epoch.x_minus, dx_, x_));
+        MoveCovariance(Transport(error_, layout_, epoch.x_minus, dx_, x_), &P_);
       }
       dx_.setZero();
     }
@@ -160,12 +161,6 @@ class ForwardPass {
     const auto rows = innovation.residual.size();
     return innovation.nis <= gate_limits_[static_cast<std::size_t>(
                                  z.sensor * kMaxRows + rows - 1)];
-  }
-
-  void MoveCovariance(const ErrorMatrix& T) {
-    const ErrorMatrix TP = T * P_;
-    P_.noalias() = TP * T.transpose();
-    Symmetrize(&P_);
   }
 
   const ErrorLayout& layout_;

@@ -1,9 +1,9 @@
 #include "filters/rts.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 
 #include "base/error.h"
+#include "filters/transport.h"
 
 namespace hindsight {
 namespace {
@@ -16,11 +16,8 @@ void WriteEpoch(const LinearTape& tape, std::size_t k, ErrorVector* d,
   out->states[k] = tape.StateAt(k, *d);
   out->P.Set(k, *P);
   if (epoch.moves_nominal()) {
-    const Eigen::PartialPivLU<ErrorMatrix> lu(tape.ResetTransport(k));
-    *d = (epoch.dx_plus + lu.solve(*d)).eval();
-    const ErrorMatrix half = lu.solve(*P);
-    *P = lu.solve(half.transpose()).eval();
-    Symmetrize(P);
+    MoveBack(tape.ResetTransport(k), d, P);
+    *d += epoch.dx_plus;
   }
   out->d[k] = *d;
 }

@@ -19,7 +19,7 @@ for h in "${hours[@]}"; do
   scenario=$source/data/scenarios/day.yaml
   n=$h
   if [ "$h" = 10hz ]; then
-    sed 's/rate: 1 Hz/rate: 10 Hz/' "$scenario" > "$folder/day_10hz.yaml"
+    sed 's/^    rate: 1 Hz/    rate: 10 Hz/' "$scenario" > "$folder/day_10hz.yaml"
     scenario=$folder/day_10hz.yaml
     n=2
   fi

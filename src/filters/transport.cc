@@ -1,0 +1,47 @@
+#include "filters/transport.h"
+
+#include <Eigen/LU>
+
+#include "filters/kalman.h"
+
+namespace hindsight {
+namespace {
+
+/// Size of the leading part of T beyond which it is the identity.
+Eigen::Index TurnedSize(const ErrorMatrix& T) {
+  Eigen::Index size = T.rows();
+  while (size > 0 && T(size - 1, size - 1) == 1.0 &&
+         T.col(size - 1).head(size - 1).isZero(0.0) &&
+         T.row(size - 1).head(size - 1).isZero(0.0)) {
+    --size;
+  }
+  return size;
+}
+
+/// P <- A P A' with A the identity but for its leading part.
+void Turn(const ErrorMatrix& A, ErrorMatrix* P) {
+  const Eigen::Index size = A.rows();
+  const ErrorMatrix rows = A * P->topRows(size);
+  P->topRows(size) = rows;
+  const ErrorMatrix columns = P->leftCols(size) * A.transpose();
+  P->leftCols(size) = columns;
+  Symmetrize(P);
+}
+
+}  // namespace
+
+void MoveCovariance(const ErrorMatrix& T, ErrorMatrix* P) {
+  const Eigen::Index size = TurnedSize(T);
+  Turn(T.topLeftCorner(size, size), P);
+}
+
+void MoveBack(const ErrorMatrix& T, ErrorVector* d, ErrorMatrix* P) {
+  const Eigen::Index size = TurnedSize(T);
+  if (size == 0) return;
+  const ErrorMatrix inverse =
+      ErrorMatrix(T.topLeftCorner(size, size)).partialPivLu().inverse();
+  d->head(size) = (inverse * d->head(size)).eval();
+  Turn(inverse, P);
+}
+
+}  // namespace hindsight
