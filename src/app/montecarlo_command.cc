@@ -92,6 +92,7 @@ int Run(const std::vector<std::string>& arguments) {
   Progress progress(Progress::ModeFromName(FLAGS_progress));
   scenario.run(options, &progress, &folder);
   folder.Commit();
+  progress.Finish();
   return kUsable;
 }
 

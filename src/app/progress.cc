@@ -36,6 +36,11 @@ void Progress::Clear() {
   line_open_ = false;
 }
 
+void Progress::Finish() {
+  Clear();
+  if (mode_ == Mode::kJson) Update("done", 1.0);
+}
+
 void Progress::Update(const std::string& stage, double fraction) {
   if (mode_ == Mode::kNone) return;
   const Clock::time_point now = Clock::now();

@@ -9,7 +9,8 @@ namespace hindsight {
 /// Progress on stderr: on a terminal one line that is overwritten, with the
 /// time left; for programs one JSON object a line,
 ///   {"stage": "...", "fraction": 0.25, "seconds_left": 3.1},
-/// with seconds_left absent while it is unknown.
+/// with seconds_left absent while it is unknown; the last has the stage "done",
+/// when the results are in place.
 class Progress {
  public:
   enum class Mode { kNone, kTerminal, kJson };
@@ -25,6 +26,9 @@ class Progress {
 
   /// `fraction` in [0, 1] of `stage`; the time left is that of the stage.
   void Update(const std::string& stage, double fraction);
+
+  /// Clears the terminal line and tells programs that all is done.
+  void Finish();
 
   /// Clears the terminal line, before other output.
   void Clear();

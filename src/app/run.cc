@@ -170,6 +170,7 @@ int Reconstruct(const RunRequest& request) {
   progress.Clear();
   ThrowIfStopRequested();
   folder.Commit();
+  progress.Finish();
 
   std::cout << "\n"
             << ComparisonTable(summary) << DescribeConstants(dataset, solutions)

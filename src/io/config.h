@@ -46,7 +46,7 @@ namespace hindsight {
 /// | on_duplicate      | error, drop_first, drop_last             | error   |
 /// | on_unordered      | error, sort                              | error   |
 /// | absent_values     | empty and NaN values are absent: truth keeps the rest of the row, aiding passes over it | false |
-/// | allow_truncated_tail | drop a last line that was cut off     | false   |
+/// | allow_truncated_tail | drop a last line that was cut off: without line end, and incomplete or with a last value shorter than any before | false   |
 ///
 /// imu besides:
 /// | kind              | rates, increments                        | as the columns say |

@@ -43,6 +43,22 @@ std::vector<std::size_t> ThinnedIndices(std::size_t size) {
   return indices;
 }
 
+/// The indices, parted where the path crosses +-180 deg of longitude: a viewer
+/// would draw the step around the Earth.
+std::vector<std::vector<std::size_t>> Pieces(const SolutionTable& table) {
+  std::vector<std::vector<std::size_t>> pieces(1);
+  double last = 0.0;
+  for (const std::size_t k : ThinnedIndices(table.size())) {
+    const double longitude = GeodeticFromEcef(table.p_e[k]).longitude;
+    if (!pieces.back().empty() && std::abs(longitude - last) > kPi) {
+      pieces.emplace_back();
+    }
+    pieces.back().push_back(k);
+    last = longitude;
+  }
+  return pieces;
+}
+
 /// "yyyy-mm-ddThh:mm:ss.sssZ".
 std::string UtcTime(std::int64_t gps_ns) {
   namespace chrono = std::chrono;
@@ -118,15 +134,22 @@ void WriteKml(const std::string& path, const SolutionTable& table,
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<kml xmlns=\"http://www.opengis.net/kml/2.2\" "
       "xmlns:gx=\"http://www.google.com/kml/ext/2.2\">\n<Document><name>" +
-      EscapeXml(name) +
-      "</name>\n<Placemark><name>path</name><LineString>"
-      "<altitudeMode>absolute</altitudeMode><coordinates>\n");
-  const std::vector<std::size_t> indices = ThinnedIndices(table.size());
-  for (const std::size_t k : indices) {
-    file.Write(Coordinates(table.p_e[k], ',') + "\n");
+      EscapeXml(name) + "</name>\n");
+  const std::vector<std::vector<std::size_t>> pieces = Pieces(table);
+  for (const std::vector<std::size_t>& piece : pieces) {
+    file.Write(
+        "<Placemark><name>path</name><LineString>"
+        "<altitudeMode>absolute</altitudeMode><coordinates>\n");
+    for (const std::size_t k : piece) {
+      file.Write(Coordinates(table.p_e[k], ',') + "\n");
+    }
+    file.Write("</coordinates></LineString></Placemark>\n");
   }
-  file.Write("</coordinates></LineString></Placemark>\n");
-  if (epoch_gps_ns) WriteTrack(table, indices, *epoch_gps_ns, &file);
+  if (epoch_gps_ns) {
+    for (const std::vector<std::size_t>& piece : pieces) {
+      WriteTrack(table, piece, *epoch_gps_ns, &file);
+    }
+  }
   file.Write("</Document>\n</kml>\n");
   file.Commit();
 }

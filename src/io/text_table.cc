@@ -157,7 +157,7 @@ bool TextTable::Next() {
   line_ = lines_->number();
   if (first_length_ == 0) first_length_ = line.size() + 1;
   std::string problem;
-  const bool good = Parse(line, &problem);
+  const bool good = Parse(line, &problem) && IsLastValueWhole(line, &problem);
   first_row_.clear();
   if (good) return true;
   if (lines_->terminated()) Fail(problem);
@@ -167,6 +167,27 @@ bool TextTable::Next() {
   }
   ++truncated_;
   return false;
+}
+
+bool TextTable::IsLastValueWhole(std::string_view line, std::string* problem) {
+  if (wanted_.empty() ||
+      layout_.column_count != static_cast<int>(wanted_.size())) {
+    return true;
+  }
+  std::size_t length = 0;
+  for (auto c = line.rbegin(); c != line.rend(); ++c) {
+    if (*c == layout_.delimiter || *c == ' ' || *c == '\t') break;
+    ++length;
+  }
+  if (!lines_->terminated() && length < shortest_last_value_ &&
+      shortest_last_value_ != kNoLength) {
+    *problem = ColumnName(static_cast<int>(wanted_.size()) - 1) + ": '" +
+               std::string(line.substr(line.size() - length)) +
+               "' is shorter than in all lines before, and no line end follows";
+    return false;
+  }
+  shortest_last_value_ = std::min(shortest_last_value_, length);
+  return true;
 }
 
 bool TextTable::Parse(std::string_view line, std::string* problem) {

@@ -64,7 +64,10 @@ class TextTable final : public RowSource {
 
   /// Reads the next row; comments are passed over. False at the end. Throws
   /// InputError naming file, line and column for text, NaN or infinity where a
-  /// number belongs, a wrong number of columns, and a truncated last line.
+  /// number belongs, a wrong number of columns, and a truncated last line. A
+  /// last line without line end is legal; it counts as truncated if it does not
+  /// parse, or if its last value, when that is read, is shorter than those of
+  /// all lines before.
   bool Next() override;
   bool Has(std::size_t field) const override {
     return layout_.fields[field].column >= 0;
@@ -78,6 +81,8 @@ class TextTable final : public RowSource {
   bool Parse(std::string_view line, std::string* problem);
   bool ParseTime(const std::vector<std::string_view>& time_tokens,
                  std::string* problem);
+  /// False if the line may have been cut off inside its last number.
+  bool IsLastValueWhole(std::string_view line, std::string* problem);
   std::string ColumnName(int column) const;
 
   TextLines* lines_;
@@ -89,6 +94,8 @@ class TextTable final : public RowSource {
   std::vector<std::string_view> time_tokens_;
   long truncated_ = 0;
   std::size_t first_length_ = 0;
+  static constexpr std::size_t kNoLength = static_cast<std::size_t>(-1);
+  std::size_t shortest_last_value_ = kNoLength;
 };
 
 }  // namespace hindsight

@@ -141,6 +141,10 @@ TEST_F(RunCommandTest, ProgressForProgramsIsJsonLines) {
     EXPECT_GE(object["fraction"].get<double>(), 0.0);
     EXPECT_LE(object["fraction"].get<double>(), 1.0);
   }
+  const nlohmann::json last = nlohmann::json::parse(lines.back());
+  EXPECT_EQ(last["stage"], "done");
+  EXPECT_EQ(last["fraction"], 1.0);
+  EXPECT_EQ(last["seconds_left"], 0.0);
 }
 
 TEST_F(RunCommandTest, ExistingFolderIsReplacedOnlyByForce) {

@@ -110,6 +110,27 @@ TEST_F(ConfigTest, LastLineWithoutLineFeedIsRead) {
   EXPECT_EQ(Load().imu.samples.size(), 4u);
 }
 
+TEST_F(ConfigTest, LastValueCutShortIsRefused) {
+  const std::string rows =
+      "t[s],gyro_x[rad/s],gyro_y[rad/s],gyro_z[rad/s],accel_x[m/s^2],"
+      "accel_y[m/s^2],accel_z[m/s^2]\n"
+      "10.0,1,2,3,4,5,-9.81\n10.1,1,2,3,4,5,-9.80\n10.2,1,2,3,4,5,";
+  for (const std::string whole : {"-9.81", "-9.8\n", "-19.8125"}) {
+    Write("imu.csv", rows + whole);
+    EXPECT_EQ(Load().imu.samples.size(), 3u) << whole;
+  }
+  for (const std::string cut : {"-9.8", "-9", "-9.\r"}) {
+    Write("imu.csv", rows + cut);
+    const std::string error = LoadError();
+    EXPECT_TRUE(error.starts_with("imu.csv:4: ")) << error;
+    EXPECT_NE(error.find("truncated"), std::string::npos) << error;
+    EXPECT_NE(error.find("accel_z"), std::string::npos) << error;
+  }
+  Write("config.yaml", ReplacedOnce(kConfig, "  noise:",
+                                    "  allow_truncated_tail: true\n  noise:"));
+  EXPECT_EQ(Load().imu.samples.size(), 2u);
+}
+
 TEST_F(ConfigTest, PoliciesAreCounted) {
   Write("imu.csv", ReplacedOnce(kImu, "10.2,", "10.1,") + "10.4,1,2");
   Write("config.yaml", ReplacedOnce(kConfig, "  noise:",

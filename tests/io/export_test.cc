@@ -107,6 +107,29 @@ TEST(Kml, WithoutADateHasNoTrack) {
   EXPECT_THAT(folder.Read("a.kml"), Not(HasSubstr("gx:Track")));
 }
 
+TEST(Kml, PartsThePathAtTheDateLine) {
+  const TemporaryFolder folder;
+  SolutionTable table;
+  for (const double longitude : {179.0, 180.0, -179.0, -178.0}) {
+    table.t.push_back(static_cast<double>(table.t.size()));
+    table.p_e.push_back(EcefFromGeodetic({0.0, longitude * kDegree, 0.0}));
+  }
+  WriteKml(folder.Path("a.kml"), table, 0, "x");
+  const std::string text = folder.Read("a.kml");
+  EXPECT_THAT(text, HasSubstr("180.000000000,0.000000000,0.000\n"
+                              "</coordinates></LineString></Placemark>\n"
+                              "<Placemark><name>path</name><LineString>"
+                              "<altitudeMode>absolute</altitudeMode>"
+                              "<coordinates>\n"
+                              "-179.000000000,0.000000000,0.000\n"));
+  const std::vector<std::string> lines = Lines(text);
+  EXPECT_EQ(std::count_if(lines.begin(), lines.end(),
+                          [](const std::string& line) {
+                            return line.find("</gx:Track>") != line.npos;
+                          }),
+            2);
+}
+
 TEST(Kml, ThinsLongPathsAndKeepsTheirEnds) {
   const TemporaryFolder folder;
   SolutionTable table;
