@@ -47,7 +47,7 @@ Eigen::MatrixXd FactorNoise(const StateBlocks& blocks,
     } else if (entry.block.key.kind == BlockKind::kDistance) {
       diagonal.setConstant(kDistanceFloor * kDistanceFloor);
     } else {
-      diagonal.setConstant(entry.block.evolution.Q(summary.dt()));
+      diagonal.setConstant(VarianceOf(entry.block, summary));
     }
   }
   return S;
@@ -118,7 +118,7 @@ void ImuFactor::LinearizeStates(const std::vector<State>& states,
       continue;
     }
     const int dim = FullDimension(kind);
-    double phi = entry.block.evolution.Phi(summary_.dt());
+    const double phi = PhiOf(entry.block, summary_);
     if (IsBias(kind)) {
       residual.segment<3>(entry.tangent) =
           link.residual.segment<3>(LinkRow(kind));

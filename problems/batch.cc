@@ -239,7 +239,8 @@ BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
   constexpr int kMaxReintegrations = 5;
   for (int outer = 0; outer < kMaxReintegrations; ++outer) {
     ChainProblem chain(layout, prior, result.states, timeline, decisions);
-    Sweep sweep = SolveGraduated(options, outer == 0, &chain);
+    Sweep sweep =
+        SolveGraduated(options, options.graduated && outer == 0, &chain);
     result.states = chain.States();
     if (!AnySummaryIsStale(layout, *timeline, result.states)) {
       result.P = FinishByNewton(options, &chain, &sweep);

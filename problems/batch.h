@@ -18,6 +18,9 @@ struct BatchOptions {
   /// whole chain.
   std::size_t whole_nodes = 10000;
   std::size_t window_nodes = 2500;
+  /// Approaches losses that redescend by graduated non-convexity. False: the
+  /// start is known to be near.
+  bool graduated = true;
   /// Called after each iteration with its number; may throw to stop.
   std::function<void(int)> callback;
 };

@@ -12,7 +12,9 @@
 #include "filters/transport.h"
 #include "filters/two_filter.h"
 #include "problems/batch.h"
+#include "problems/robust_batch.h"
 #include "problems/sample_solution.h"
+#include "problems/sensor_imm.h"
 #include "problems/solution_builder.h"
 
 namespace hindsight {
@@ -27,7 +29,11 @@ constexpr std::pair<Method, const char*> kMethods[] = {
     {Method::kModifiedHInfinity, "modified_hinf"},
     {Method::kRts, "rts"},
     {Method::kIterated, "iterated"},
-    {Method::kBatch, "batch"}};
+    {Method::kBatch, "batch"},
+    {Method::kGatedEkf, "gated_ekf"},
+    {Method::kImm, "imm"},
+    {Method::kImmSmoother, "imm_smoother"},
+    {Method::kRobustBatch, "robust_batch"}};
 
 double ProcessorSeconds() {
   timespec now{};
@@ -298,8 +304,7 @@ struct Reconstruction::Impl {
                   ProcessorSeconds() - t0);
   }
 
-  Solution RunBatch() {
-    const double t0 = ProcessorSeconds();
+  BatchOptions MakeBatchOptions() const {
     BatchOptions batch;
     batch.max_iterations = options.max_iterations;
     batch.callback = [this](int iteration) {
@@ -309,13 +314,76 @@ struct Reconstruction::Impl {
             "batch", static_cast<double>(iteration) / options.max_iterations);
       }
     };
+    return batch;
+  }
+
+  Solution RunBatch() {
+    const double t0 = ProcessorSeconds();
     BatchResult result = SolveBatch(start.layout, start.prior, rts->states,
-                                    &timeline, decisions, batch);
+                                    &timeline, decisions, MakeBatchOptions());
     Solution solution =
         FromSmoothed(std::move(result.states), std::move(result.P));
     solution.iterations = result.iterations;
     solution.converged = result.converged;
     return Finish(std::move(solution), Method::kBatch, ProcessorSeconds() - t0);
+  }
+
+  Solution RunGatedEkf() {
+    constexpr double kGate = 0.999;
+    const double t0 = ProcessorSeconds();
+    Timeline gated = timeline;
+    for (std::size_t i = 0; i < gated.sensors().size(); ++i) {
+      Sensor sensor = gated.sensors()[i];
+      if (!sensor.gate_probability) sensor.gate_probability = kGate;
+      gated.SetSensor(i, sensor);
+    }
+    return Finish(
+        FilterSolution(RunExtendedKalmanFilter(
+            start.layout, start.prior, &gated, {}, Progress("gated_ekf"))),
+        Method::kGatedEkf, ProcessorSeconds() - t0);
+  }
+
+  Solution RunImmMethod(Method method) {
+    const double t0 = ProcessorSeconds();
+    const SensorImm imm = MakeSensorImm(start, timeline, decisions);
+    const ImmResult result =
+        RunImm(imm.models, imm.options, &timeline, Progress("imm"));
+    Solution solution =
+        method == Method::kImm
+            ? ImmFilterSolution(imm, result)
+            : ImmSmootherSolution(imm, timeline, SmoothImm(result.tape));
+    return Finish(std::move(solution), method, ProcessorSeconds() - t0);
+  }
+
+  Solution RunRobustBatch() {
+    const double t0 = ProcessorSeconds();
+    int receiver = -1;
+    for (std::size_t i = timeline.sensors().size(); i-- > 0;) {
+      if (timeline.sensors()[i].type == SensorType::kPosition) {
+        receiver = static_cast<int>(i);
+      }
+    }
+    if (receiver < 0) {
+      throw EstimationError("robust_batch needs a position sensor");
+    }
+    GateDecisions used = decisions;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      const Measurement& z = timeline.all_measurements()[i];
+      if (z.sensor == receiver) used[i] = static_cast<char>(!z.withheld);
+    }
+    RobustBatchResult result = SolveRobustBatch(
+        start.layout, start.prior, rts->states, receiver, timeline, used,
+        MakeBatchOptions(), Progress("robust_batch"));
+    Solution solution = SmoothedSolution(
+        result.layout, result.timeline, std::move(result.batch.states),
+        std::move(result.batch.P), result.decisions);
+    solution.iterations = result.batch.iterations;
+    solution.converged = result.batch.converged;
+    solution.mode_probabilities = std::move(result.probabilities);
+    solution.mode_names = result.regimes.ModeNames();
+    solution.notes = std::move(result.notes);
+    return Finish(std::move(solution), Method::kRobustBatch,
+                  ProcessorSeconds() - t0);
   }
 
   const Dataset& dataset;
@@ -359,6 +427,13 @@ Solution Reconstruction::Run(Method method) {
       return impl_->RunIterated();
     case Method::kBatch:
       return impl_->RunBatch();
+    case Method::kGatedEkf:
+      return impl_->RunGatedEkf();
+    case Method::kImm:
+    case Method::kImmSmoother:
+      return impl_->RunImmMethod(method);
+    case Method::kRobustBatch:
+      return impl_->RunRobustBatch();
   }
   throw std::logic_error("unknown method");
 }

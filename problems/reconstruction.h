@@ -24,11 +24,16 @@ enum class Method {
   kModifiedHInfinity,      ///< forward observer
   kRts,
   kIterated,
-  kBatch
+  kBatch,
+  kGatedEkf,     ///< kEkf, with a gate of 99.9 % where a sensor has none
+  kImm,          ///< good and poor positions, problems/sensor_imm.h
+  kImmSmoother,  ///< its smoother
+  kRobustBatch   ///< batch that finds the positions' error model itself
 };
 
 /// "ekf", "two_filter", "two_filter_conventional", "two_filter_euler", "hinf",
-/// "modified_hinf", "rts", "iterated", "batch".
+/// "modified_hinf", "rts", "iterated", "batch", "gated_ekf", "imm",
+/// "imm_smoother", "robust_batch".
 const char* MethodName(Method method);
 /// Throws InputError for a name that is none, listing those that are.
 Method MethodFromName(const std::string& name);

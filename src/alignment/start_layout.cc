@@ -73,6 +73,21 @@ void AddDistance(const Sensor& sensor, int index, ErrorLayout* layout) {
   layout->Add(block);
 }
 
+/// The errors that a sensor's noise model keeps as states.
+void AddColouredNoise(const Sensor& sensor, int index, ErrorLayout* layout) {
+  if (sensor.noise.kind != NoiseModel::Kind::kGaussMarkov) return;
+  Block block;
+  block.key = {sensor.type == SensorType::kHeight ? BlockKind::kOffset
+                                                  : BlockKind::kColouredNoise,
+               index};
+  block.name = sensor.name + "_noise";
+  block.unit = sensor.type == SensorType::kVelocity ? "m/s" : "m";
+  block.evolution =
+      Evolution::GaussMarkov(sensor.noise.sigma, sensor.noise.tau);
+  block.sigma0.setConstant(sensor.noise.sigma);
+  layout->Add(block);
+}
+
 }  // namespace
 
 ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior) {
@@ -110,6 +125,7 @@ ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior) {
           Eigen::Vector3d::Constant(*sensor.time_offset_sigma), &layout);
     }
     AddMagneticBlocks(sensor, index, &layout);
+    AddColouredNoise(sensor, index, &layout);
   }
   return layout;
 }

@@ -21,6 +21,10 @@ DEFINE_bool(force, false, "");
 DEFINE_double(from, -std::numeric_limits<double>::infinity(), "");
 DEFINE_string(gamma, "20", "");
 DEFINE_string(heading, "30,60,120,175", "");
+DEFINE_string(errors, "", "");
+DEFINE_string(gps_rate, "1", "");
+DEFINE_string(gps_sigma, "1", "");
+DEFINE_string(inject, "", "");
 DEFINE_bool(json, false, "");
 DEFINE_bool(list, false, "");
 DEFINE_string(log, "none", "");
@@ -81,7 +85,7 @@ const char* Kind(const std::string& type) {
 void SetFlag(const FlagUse& flag, std::string value) {
   gflags::CommandLineFlagInfo info;
   gflags::GetCommandLineFlagInfo(flag.name.c_str(), &info);
-  if (flag.name == "withhold" && !info.is_default) {
+  if ((flag.name == "withhold" || flag.name == "inject") && !info.is_default) {
     value = info.current_value + ";" + value;
   }
   // gflags reads an unsigned value with strtoul, to which "-1" is a number.

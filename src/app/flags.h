@@ -22,6 +22,10 @@ DECLARE_bool(force);
 DECLARE_double(from);
 DECLARE_string(gamma);
 DECLARE_string(heading);
+DECLARE_string(errors);
+DECLARE_string(gps_rate);
+DECLARE_string(gps_sigma);
+DECLARE_string(inject);
 DECLARE_bool(json);
 DECLARE_bool(list);
 DECLARE_string(log);
@@ -55,9 +59,9 @@ struct ParsedArguments {
 
 /// Sets the gflags of `command` from `words`. A value follows "=" or is the
 /// next word; flags and positional arguments may be mixed; "--" ends the
-/// flags. Values of a repeated --withhold are joined with ";". Throws
-/// UsageError for a flag the command does not accept, a bad value, and a wrong
-/// number of positional arguments.
+/// flags. Values of a repeated --withhold or --inject are joined with ";".
+/// Throws UsageError for a flag the command does not accept, a bad value, and a
+/// wrong number of positional arguments.
 ParsedArguments ParseArguments(const Command& command,
                                const std::vector<std::string>& words);
 

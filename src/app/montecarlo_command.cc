@@ -10,6 +10,7 @@
 #include "app/result_folder.h"
 #include "evaluation/chi_square.h"
 #include "simulation/calibration_drive.h"
+#include "simulation/gps_jumps.h"
 #include "simulation/in_flight_alignment.h"
 #include "simulation/tunnel_survey.h"
 
@@ -25,10 +26,14 @@ ten minutes on which lever arms, time offsets, scale factors and the mounting ar
 all unknown and estimated, each judged by its errors over its sigmas; or
 in_flight_alignment, which compares forward observers from bad initial
 attitudes, Riccati rule x definition of the error x start: shares that diverge
-or escape, time to settle, final errors, Lyapunov figures. Writes into the folder
-of --out:
+or escape, time to settle, final errors, Lyapunov figures; or gps_jumps, which
+compares filters and batches under errors of the positions. Writes into the
+folder of --out:
   montecarlo.json   the figures of all methods and how far they agree
   cells.csv         of in_flight_alignment: a row a cell
+  gps_jumps.csv     of gps_jumps: one line for profile, sigma, rate and method
+  PROFILE_SIGMAm_RATEhz_METHOD.csv  root mean square errors of position and
+                    velocity, ANEES and mode probabilities against time
   METHOD.csv        standard deviations and ANEES against time
   sweep.csv         with --sweep in place of both: largest standard deviation
                     for reference points every 0.25 to 8 km and odometer noise
@@ -65,7 +70,8 @@ const std::vector<MonteCarloScenario>& Scenarios() {
   static const std::vector<MonteCarloScenario> scenarios = {
       {kTunnelSurveyName, RunTunnelSurvey},
       {kInFlightAlignmentName, RunInFlightAlignment},
-      {kCalibrationName, RunCalibration}};
+      {kCalibrationName, RunCalibration},
+      {kGpsJumpsName, RunGpsJumps}};
   return scenarios;
 }
 
@@ -135,6 +141,11 @@ Command MonteCarloCommand() {
             "... some of ekf,hinf,modified_hinf (all); there --error\n"
             "takes a list (all three), --gamma too (1,5), and\n"
             "modified_hinf runs with both --alpha-blocks"},
+           {"errors", "LIST",
+            "of gps_jumps: some of none,pulses,spikes,steps,ramp,\n"
+            "multipath (all)"},
+           {"gps_sigma", "LIST", "of gps_jumps [m] (1)"},
+           {"gps_rate", "LIST", "of gps_jumps [Hz] (1)"},
            {"progress", "MODE", "on stderr: auto, json or none (auto)"}}),
       .min_arguments = 1,
       .max_arguments = 1,

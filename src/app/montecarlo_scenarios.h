@@ -29,6 +29,8 @@ void RunInFlightAlignment(MonteCarloOptions options, Progress* progress,
                           ResultFolder* folder);
 void RunCalibration(MonteCarloOptions options, Progress* progress,
                     ResultFolder* folder);
+void RunGpsJumps(MonteCarloOptions options, Progress* progress,
+                 ResultFolder* folder);
 
 /// Reports the number of finished runs out of `runs`.
 std::function<void(int)> RunProgress(int runs, Progress* progress);

@@ -12,6 +12,7 @@
 #include "app/text.h"
 #include "base/error.h"
 #include "dataset/checks.h"
+#include "dataset/injection.h"
 #include "dataset/timeline_builder.h"
 #include "io/comparison.h"
 #include "io/config.h"
@@ -30,6 +31,25 @@ void ReplaceWithholdings(const std::vector<Withholding>& withholdings,
   dataset->outages.clear();
   dataset->withholdings = withholdings;
   ApplyWithholding(dataset);
+}
+
+/// What the clean positions say, to judge by when errors are injected into data
+/// without a truth of their own.
+void KeepCleanPositions(Dataset* dataset) {
+  if (!dataset->truth.empty()) return;
+  for (const AidingStream& stream : dataset->streams) {
+    if (stream.sensor.type != SensorType::kPosition) continue;
+    dataset->truth_lever_arm_b = stream.sensor.lever_arm_b;
+    for (const Measurement& z : stream.measurements) {
+      TruthPoint& point = dataset->truth.emplace_back();
+      point.t = z.t + stream.sensor.time_offset;
+      point.p_e = std::get<PositionFix>(z.model).p_e;
+    }
+    dataset->policies.push_back({stream.sensor.name,
+                                 "positions before injection taken as truth",
+                                 static_cast<long>(dataset->truth.size())});
+    return;
+  }
 }
 
 /// Samples closer than the IMU's own say nothing new and fill the disk.
@@ -53,6 +73,13 @@ Dataset Load(const RunRequest& request, const ResultFolder& folder) {
     ReplaceWithholdings(request.withholdings, &dataset);
     SetWithholdings(request.withholdings, &resolved);
   }
+  if (!request.injections.empty()) KeepCleanPositions(&dataset);
+  ApplyInjections(request.injections, request.seed, &dataset);
+  for (const Injection& injection : dataset.injections) {
+    resolved.yaml = "# Error injected on purpose: " + Describe(injection) +
+                    "\n" + resolved.yaml;
+  }
+  if (!dataset.injections.empty()) dataset.name += " (with injected errors)";
   CheckRate(request, dataset.imu);
   ResolveMountings(&dataset);
   AddStandstillStreams(&dataset);
@@ -173,8 +200,9 @@ int Reconstruct(const RunRequest& request) {
   progress.Finish();
 
   std::cout << "\n"
-            << ComparisonTable(summary) << DescribeConstants(dataset, solutions)
-            << "\nresults in " << request.out << "\n"
+            << ComparisonTable(summary) << DescribeMethodNotes(solutions)
+            << DescribeConstants(dataset, solutions) << "\nresults in "
+            << request.out << "\n"
             << DescribeVerdict(solutions);
   return IsAnyUsable(solutions) ? kUsable : kUnusable;
 }

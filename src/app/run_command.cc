@@ -14,6 +14,8 @@ and writes into the folder of --out:
                         deviations and covariances, biases
   METHOD.at.csv         the same at the times of --at
   METHOD.tum, .kml, .nav  what --export asks for
+  METHOD.modes.csv      probabilities of the modes of imm, imm_smoother and
+                        robust_batch
   residuals.csv         every measurement's residual, sigma, weight and fate
   summary.json          figures of every method, for programs
   config.resolved.yaml  the configuration as used, in SI units
@@ -32,6 +34,11 @@ Methods: ekf       forward error-state Kalman filter
          rts       ekf, smoothed by Rauch, Tung and Striebel's backward pass
          iterated  rts, linearised anew about its result until it rests
          batch     nonlinear least squares over the whole interval
+         gated_ekf  ekf, with a gate of 99.9 % where a sensor has none
+         imm       two filters that mix: positions are as good as stated, or
+                   twenty times worse; imm_smoother, its smoother
+         robust_batch  batch that finds out from the data whether positions
+                   have outliers, correlated errors or jumps
 )";
 
 int Run(const std::vector<std::string>& arguments) {
@@ -51,7 +58,8 @@ Command RunCommand() {
            {"force", "", "replace the results of an earlier run in DIR"},
            {"methods", "LIST",
             "some of ekf,two_filter,two_filter_conventional,\n"
-            "two_filter_euler,hinf,modified_hinf,rts,iterated,batch\n"
+            "two_filter_euler,hinf,modified_hinf,rts,iterated,batch,\n"
+            "gated_ekf,imm,imm_smoother,robust_batch\n"
             "(ekf,rts,iterated,batch)"},
            {"from", "T", "begin at T seconds since the data set's epoch"},
            {"to", "T", "end at T seconds"},
@@ -70,6 +78,12 @@ Command RunCommand() {
             "fix + every); sensor is a stream or a type of streams;\n"
             "several rules: separate by ; or repeat the flag"},
            {"without", "NAMES", "leave out these aiding streams of CONFIG"},
+           {"inject", "ERROR",
+            "add an error on purpose, marked in every output:\n"
+            "position:step=12m,from=140s,to=150s; or pulse, ramp,\n"
+            "spikes (share=10%) or multipath (tau=20s) in place of\n"
+            "step, with axes=ne; several: separate by ; or repeat"},
+           {"seed", "N", "of the injected spikes and multipath (1)"},
            {"export", "LIST", "some of tum,kml,nav"},
            {"progress", "MODE",
             "on stderr: auto (a line on a terminal), json (an object\n"

@@ -9,6 +9,8 @@
 #include "app/interrupt.h"
 #include "app/text.h"
 #include "base/error.h"
+#include "dataset/injection.h"
+#include "io/atomic_file.h"
 #include "io/kml.h"
 #include "io/nav.h"
 #include "io/solution_csv.h"
@@ -37,6 +39,31 @@ SolutionTable Table(const RunRequest& request, const Dataset& dataset,
 template <typename T>
 void Append(const std::vector<T>& tail, std::vector<T>* all) {
   all->insert(all->end(), tail.begin(), tail.end());
+}
+
+/// The program, and that the data are not as recorded.
+std::string ProgramLine(const Dataset& dataset) {
+  std::string line = kProgram;
+  for (const Injection& injection : dataset.injections) {
+    line += "; error injected on purpose: " + Describe(injection);
+  }
+  return line;
+}
+
+/// t[s] and the probability of each mode.
+void WriteModes(const std::string& path, const Solution& solution,
+                const std::string& program) {
+  std::string text = "# program: " + program + "\nt[s]";
+  for (const std::string& name : solution.mode_names) text += "," + name;
+  text += "\n";
+  for (std::size_t k = 0; k < solution.states.size(); ++k) {
+    text += Format("%.6f", solution.states[k].t);
+    for (const double p : solution.mode_probabilities[k]) {
+      text += Format(",%.6g", p);
+    }
+    text += "\n";
+  }
+  WriteFileAtomically(path, text);
 }
 
 void AppendRows(const SolutionTable& tail, SolutionTable* all) {
@@ -107,10 +134,14 @@ void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
   const SolutionTable table =
       request.rate ? sample(UniformTimes(solution, *request.rate))
                    : Table(request, dataset, solution);
-  WriteSolutionCsv(folder.Path(method + ".csv"), table, kProgram);
+  WriteSolutionCsv(folder.Path(method + ".csv"), table, ProgramLine(dataset));
   if (!request.at.empty()) {
     WriteSolutionCsv(folder.Path(method + ".at.csv"), sample(request.at),
-                     kProgram);
+                     ProgramLine(dataset));
+  }
+  if (!solution.mode_probabilities.empty()) {
+    WriteModes(folder.Path(method + ".modes.csv"), solution,
+               ProgramLine(dataset));
   }
   if (request.exports.contains("tum")) {
     WriteTum(folder.Path(method + ".tum"), table);

@@ -132,6 +132,16 @@ std::string DescribeConstants(const Dataset& dataset,
   return text;
 }
 
+std::string DescribeMethodNotes(const std::vector<Solution>& solutions) {
+  std::string text;
+  for (const Solution& solution : solutions) {
+    for (const std::string& note : solution.notes) {
+      text += solution.method + " found " + note + "\n";
+    }
+  }
+  return text;
+}
+
 std::string DescribeVerdict(const std::vector<Solution>& solutions) {
   const Solution* best = nullptr;
   std::string failures;

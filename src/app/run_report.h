@@ -30,6 +30,9 @@ std::string DescribeConstants(const Dataset& dataset,
 /// method, and which methods failed.
 std::string DescribeVerdict(const std::vector<Solution>& solutions);
 
+/// What self-tuning methods found out, a line each; "" if there is nothing.
+std::string DescribeMethodNotes(const std::vector<Solution>& solutions);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_APP_RUN_REPORT_H_

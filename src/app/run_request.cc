@@ -46,6 +46,95 @@ Withholding ParseWithholding(const std::string& text) {
   return withholding;
 }
 
+/// One injection, key by key.
+class InjectionParser {
+ public:
+  explicit InjectionParser(const std::string& text) : text_(text) {}
+
+  Injection Parse() {
+    const std::size_t colon = text_.find(':');
+    if (colon == 0 || colon == std::string::npos) Fail("no sensor");
+    injection_.sensor = text_.substr(0, colon);
+    for (const std::string& part : Split(text_.substr(colon + 1), ',')) {
+      const std::size_t equals = std::min(part.find('='), part.size());
+      Take(part.substr(0, equals),
+           part.substr(std::min(equals + 1, part.size())));
+    }
+    if (!has_kind_) Fail("no kind of error");
+    if (injection_.size == 0.0) Fail("an error of zero");
+    if (is_pulse_ && !std::isfinite(injection_.to)) Fail("a pulse needs to");
+    return injection_;
+  }
+
+ private:
+  [[noreturn]] void Fail(const std::string& what) const {
+    throw UsageError("--inject=" + text_ + ": " + what +
+                     "; expected SENSOR:KIND=SIZE[,from=140s][,to=150s], KIND "
+                     "step, pulse, ramp, spikes or multipath");
+  }
+
+  double Value(const std::string& text, Quantity quantity) const {
+    try {
+      return ParseQuantity(text, quantity);
+    } catch (const std::invalid_argument& error) {
+      Fail("'" + text + "': " + error.what());
+    }
+  }
+
+  void Take(const std::string& key, const std::string& value) {
+    static const std::vector<std::pair<std::string, Injection::Kind>> kinds = {
+        {"step", Injection::Kind::kStep},
+        {"pulse", Injection::Kind::kStep},
+        {"ramp", Injection::Kind::kRamp},
+        {"spikes", Injection::Kind::kSpikes},
+        {"multipath", Injection::Kind::kMultipath}};
+    for (const auto& [name, kind] : kinds) {
+      if (key != name) continue;
+      if (has_kind_) Fail("more than one kind of error");
+      has_kind_ = true;
+      is_pulse_ = key == "pulse";
+      injection_.kind = kind;
+      injection_.size = Value(value, value.find("/s") == std::string::npos
+                                         ? Quantity::kLength
+                                         : Quantity::kSpeed);
+      return;
+    }
+    if (key == "from") {
+      injection_.from = Value(value, Quantity::kTime);
+    } else if (key == "to") {
+      injection_.to = Value(value, Quantity::kTime);
+    } else if (key == "tau") {
+      injection_.tau = Value(value, Quantity::kTime);
+      if (injection_.tau <= 0.0) Fail("tau must be positive");
+    } else if (key == "share") {
+      injection_.share = Value(value, Quantity::kRatio);
+      if (injection_.share <= 0.0 || injection_.share > 1.0) {
+        Fail("share must be above 0 and at most 100 %");
+      }
+    } else if (key == "axes") {
+      TakeAxes(value);
+    } else {
+      Fail("unknown key '" + key + "'");
+    }
+  }
+
+  void TakeAxes(const std::string& value) {
+    const std::string names = "ned";
+    injection_.axes = {false, false, false};
+    for (const char c : value) {
+      const std::size_t axis = names.find(c);
+      if (axis == std::string::npos) Fail("axes are of n, e, d");
+      injection_.axes[axis] = true;
+    }
+    if (value.empty()) Fail("axes are of n, e, d");
+  }
+
+  const std::string& text_;
+  Injection injection_;
+  bool has_kind_ = false;
+  bool is_pulse_ = false;
+};
+
 std::vector<Method> ParseMethods(const std::string& text) {
   std::vector<Method> methods;
   for (const std::string& name : Split(text, ',')) {
@@ -88,6 +177,14 @@ std::vector<Withholding> ParseWithholdings(const std::string& text) {
   return withholdings;
 }
 
+std::vector<Injection> ParseInjections(const std::string& text) {
+  std::vector<Injection> injections;
+  for (const std::string& part : Split(text, ';')) {
+    injections.push_back(InjectionParser(part).Parse());
+  }
+  return injections;
+}
+
 Eigen::Vector3d ParsePoint(const std::string& text) {
   std::vector<double> values;
   try {
@@ -127,6 +224,8 @@ RunRequest ReadRunRequest(const std::string& config) {
     throw UsageError("'run' needs --out=DIR, the folder for the results");
   }
   request.withholdings = ParseWithholdings(FLAGS_withhold);
+  request.injections = ParseInjections(FLAGS_inject);
+  request.seed = FLAGS_seed;
   request.exports = ParseExports(FLAGS_export);
   const std::vector<ErrorDefinition> errors = ReadErrors();
   if (errors.size() != 1 || ReadGammas().size() != 1) {

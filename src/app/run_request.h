@@ -2,6 +2,7 @@
 #define HINDSIGHT_APP_RUN_REQUEST_H_
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
@@ -28,10 +29,12 @@ struct RunRequest {
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();  ///< from the IMU [m]
   /// In place of the configuration's if not empty.
   std::vector<Withholding> withholdings;
-  std::set<std::string> exports;  ///< of "tum", "kml", "nav"
   ErrorDefinition error = ErrorDefinition::kNavigation;
   CovarianceOptions h_infinity;
   CovarianceOptions modified_h_infinity;
+  std::vector<Injection> injections;  ///< errors to add on purpose
+  std::uint64_t seed = 1;             ///< of the injections
+  std::set<std::string> exports;      ///< of "tum", "kml", "nav"
   Progress::Mode progress = Progress::Mode::kNone;
 };
 
@@ -42,6 +45,11 @@ RunRequest ReadRunRequest(const std::string& config);
 /// "SENSOR:every=120s,length=30s[,from=90s]"; several separated by ";".
 /// Throws UsageError.
 std::vector<Withholding> ParseWithholdings(const std::string& text);
+
+/// "SENSOR:step=12m,from=140s,to=150s"; step, pulse (which needs to), ramp,
+/// spikes or multipath; besides axes=ned, share=10%, tau=20s; several separated
+/// by ";". Throws UsageError.
+std::vector<Injection> ParseInjections(const std::string& text);
 
 /// "x,y,z" [m], with or without the unit. Throws UsageError.
 Eigen::Vector3d ParsePoint(const std::string& text);

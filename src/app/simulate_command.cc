@@ -4,6 +4,7 @@
 
 #include "app/command.h"
 #include "app/flags.h"
+#include "app/gps_jumps_flags.h"
 #include "app/interrupt.h"
 #include "app/result_folder.h"
 #include "app/tunnel_flags.h"
@@ -41,6 +42,11 @@ int Run(const std::vector<std::string>& arguments) {
   Scenario scenario = arguments[0] == kTunnelSurveyName
                           ? TunnelSurvey(ReadTunnelFlags())
                           : FindScenario(arguments[0]);
+  if (arguments[0] == kGpsJumpsName) {
+    scenario = GpsJumps(ReadGpsJumpsFlags().front());
+  } else if (IsGiven("errors") || IsGiven("gps_sigma") || IsGiven("gps_rate")) {
+    throw UsageError("--errors, --gps-sigma and --gps-rate go with gps_jumps");
+  }
   if (arguments[0] != kTunnelSurveyName &&
       (IsGiven("path") || IsGiven("white_noise"))) {
     throw UsageError("--path and --white-noise go with tunnel_survey only");
@@ -93,6 +99,11 @@ Command SimulateCommand() {
                 {"white_noise", "READING",
                  "of tunnel_survey's IMU: sample, the standard deviation\n"
                  "of each sample, or density, per sqrt(Hz) (sample)"},
+                {"errors", "NAME",
+                 "of gps_jumps: none, pulses, spikes, steps, ramp or\n"
+                 "multipath (pulses)"},
+                {"gps_sigma", "M", "of gps_jumps (1)"},
+                {"gps_rate", "HZ", "of gps_jumps (1)"},
                 {"list", "", "list the built-in scenarios"}},
       .min_arguments = 0,
       .max_arguments = 1,

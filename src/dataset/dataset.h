@@ -1,7 +1,9 @@
 #ifndef HINDSIGHT_DATASET_DATASET_H_
 #define HINDSIGHT_DATASET_DATASET_H_
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -70,6 +72,19 @@ struct Withholding {
   std::optional<double> from;
 };
 
+/// An error added on purpose to a sensor's measurements.
+struct Injection {
+  enum class Kind { kStep, kRamp, kSpikes, kMultipath };
+  std::string sensor;  ///< stream name, or a type: "position", "velocity"...
+  Kind kind = Kind::kStep;
+  double size = 0.0;  ///< [m] or [m/s]; of each axis that is hit
+  double from = -std::numeric_limits<double>::infinity();  ///< [s]
+  double to = std::numeric_limits<double>::infinity();     ///< exclusive [s]
+  std::array<bool, 3> axes = {true, true, false};          ///< NED
+  double share = 0.1;  ///< of the measurements that a spike hits
+  double tau = 20.0;   ///< of multipath [s]
+};
+
 /// An interval in which a sensor was withheld.
 struct Outage {
   int sensor = 0;
@@ -106,8 +121,9 @@ struct Dataset {
   std::optional<Eigen::Vector3d> accel_scale_sigma;
   StationaryOptions stationary;
   std::vector<Withholding> withholdings;
-  std::vector<Outage> outages;    ///< filled by ApplyWithholding
-  double max_node_spacing = 1.0;  ///< [s]
+  std::vector<Injection> injections;  ///< what ApplyInjections has added
+  std::vector<Outage> outages;        ///< filled by ApplyWithholding
+  double max_node_spacing = 1.0;      ///< [s]
   std::vector<PolicyCount> policies;
   std::vector<std::string> notes;  ///< what else was done to it, in words
 };

@@ -53,6 +53,7 @@ class ImmPass {
     }
     result_.tape.transition = options.transition;
     masks_vertical_ = MasksVertical(models.front().layout);
+    if (!options.nominal.empty()) StartAbout(options.nominal.front());
     result_.trajectory.P =
         CovarianceSeries(models.front().layout.dim(), timeline->size());
   }
@@ -69,17 +70,19 @@ class ImmPass {
       const ErrorLayout& layout = f.model->layout;
       const ImuSummary& summary =
           timeline_.Summary(k - 1, CalibrationOf(layout, f.x));
-      State predicted = Predict(layout, f.x, summary);
-      if (j == 0) {
-        nominal = predicted;
+      State predicted;
+      if (!options_.nominal.empty()) {
+        predicted = options_.nominal[k];
       } else {
+        predicted = Predict(layout, f.x, summary);
+        if (j == 0) nominal = predicted;
         predicted = WithNavigationOf(nominal, predicted);
+        PredictDistances(layout, timeline_, k - 1, f.x, &predicted);
       }
-      PredictDistances(layout, timeline_, k - 1, f.x, &predicted);
       LinearizeTransition(layout, summary, f.x, predicted, &f.transition);
       // Of the first model, whose prediction is the nominal, what is left of
       // the defect is rounding.
-      if (j == 0) f.transition.c.setZero();
+      if (options_.nominal.empty() && j == 0) f.transition.c.setZero();
       LinearizeDistances(layout, timeline_, k - 1, f.x, predicted,
                          &f.transition);
       f.error.mean = (f.transition.Phi * f.error.mean + f.transition.c).eval();
@@ -121,7 +124,9 @@ class ImmPass {
     const Gaussian combined = CombineFilters();
     WriteCombined(filters_[0].model->layout, filters_[0].x, combined, mu_, k,
                   &result_.trajectory);
-    if (options_.feedback) Reset(combined, &epochs);
+    if (options_.feedback && options_.nominal.empty()) {
+      Reset(combined, &epochs);
+    }
     for (std::size_t j = 0; j < count; ++j) {
       epoch_.mean_plus.push_back(filters_[j].error.mean);
       epochs[j].x_plus = filters_[j].x;
@@ -145,6 +150,19 @@ class ImmPass {
                                  layout.ComponentName(i));
         }
       }
+    }
+  }
+
+  void StartAbout(const State& nominal) {
+    for (Filter& f : filters_) {
+      const ErrorLayout& layout = f.model->layout;
+      if (nominal.parameters.size() != layout.parameter_count()) {
+        throw std::logic_error("parameters of the nominal are not the models'");
+      }
+      f.error.mean = Local(layout, nominal, f.x);
+      const ErrorMatrix T = Transport(layout, f.x, nominal);
+      f.error.P = ErrorMatrix(T * f.error.P * T.transpose());
+      f.x = nominal;
     }
   }
 
@@ -208,7 +226,11 @@ class ImmPass {
       header.index = index++;
       header.sensor = z.sensor;
       header.withheld = z.withheld;
-      header.accepted = !z.withheld;
+      const bool decided =
+          options_.decisions.empty() ||
+          options_.decisions[static_cast<std::size_t>(
+              timeline_.node(k).first_measurement + header.index)] != 0;
+      header.accepted = !z.withheld && decided;
       result_.tape.tapes[j].Record(header, linearized_, innovation);
       if (!header.accepted) continue;
       log_likelihood += innovation.log_likelihood;

@@ -2,6 +2,7 @@
 #define HINDSIGHT_FILTERS_IMM_H_
 
 #include <Eigen/Core>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,11 @@ struct ImmOptions {
   /// True: the nominal is reset to the combined estimate at each node. False
   /// (feed-forward): it is the free inertial trajectory from the prior.
   bool feedback = true;
+  /// If not empty: the fixed nominal, a state a node with the parameters that
+  /// all layouts then must have; `feedback` is void. Its defects are c.
+  std::span<const State> nominal;
+  /// Empty: all that is not withheld is used.
+  GateDecisions decisions;
 };
 
 /// What the filter knew of the mode at a node.
@@ -78,8 +84,9 @@ struct ImmResult {
 /// A layout that masks the down axis of its position takes height and vertical
 /// velocity of the nominal from the height measurements (filters/vertical.h).
 ///
-/// Throws std::logic_error if there is no model, or if a later model has a
-/// navigation component that the first does not.
+/// Throws std::logic_error if there is no model, if a later model has a
+/// navigation component that the first does not, or if parameters are not
+/// those of `nominal`.
 ImmResult RunImm(const std::vector<ImmModel>& models, const ImmOptions& options,
                  Timeline* timeline, const EpochCallback& callback = nullptr);
 

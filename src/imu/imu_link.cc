@@ -30,7 +30,22 @@ Eigen::Vector3d EarthRateCross(const Eigen::Vector3d& v) {
   return {-kEarthRate * v.y(), kEarthRate * v.x(), 0.0};
 }
 
+bool HasOwnStep(const Block& block, const ImuSummary& summary) {
+  return block.key.kind == BlockKind::kColouredNoise &&
+         block.key.sensor == summary.coloured.sensor;
+}
+
 }  // namespace
+
+double PhiOf(const Block& block, const ImuSummary& summary) {
+  return HasOwnStep(block, summary) ? summary.coloured.phi
+                                    : block.evolution.Phi(summary.dt());
+}
+
+double VarianceOf(const Block& block, const ImuSummary& summary) {
+  return HasOwnStep(block, summary) ? summary.coloured.variance
+                                    : block.evolution.Q(summary.dt());
+}
 
 ImuCalibration CalibrationOf(const ErrorLayout& layout, const State& x) {
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
@@ -71,7 +86,7 @@ State Predict(const ErrorLayout& layout, const State& x_i,
     if (block.parameter_offset < 0) continue;
     x.parameters.segment(block.parameter_offset,
                          FullDimension(block.key.kind)) *=
-        block.evolution.Phi(dt);
+        PhiOf(block, summary);
   }
   return x;
 }
@@ -261,13 +276,13 @@ void LinearizeTransition(const ErrorLayout& layout, const ImuSummary& summary,
   }
   for (const Block& block : layout.blocks()) {
     if (block.parameter_offset < 0) continue;
-    const double phi = block.evolution.Phi(summary.dt());
+    const double phi = PhiOf(block, summary);
     int component = block.offset;
     for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {
       if (!block.active[static_cast<std::size_t>(axis)]) continue;
       const int parameter = block.parameter_offset + axis;
       out->Phi(component, component) = phi;
-      out->Q(component, component) = block.evolution.Q(summary.dt());
+      out->Q(component, component) = VarianceOf(block, summary);
       out->c(component) =
           phi * x_i.parameters(parameter) - x_j.parameters(parameter);
       ++component;

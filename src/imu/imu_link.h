@@ -10,6 +10,11 @@ namespace hindsight {
 /// layout estimates them.
 ImuCalibration CalibrationOf(const ErrorLayout& layout, const State& x);
 
+/// exp(-dt/tau) of a block beyond the navigation state over the interval of a
+/// summary, and the variance its evolution adds.
+double PhiOf(const Block& block, const ImuSummary& summary);
+double VarianceOf(const Block& block, const ImuSummary& summary);
+
 /// The state at t_j that the summary and the Earth predict from x_i. Biases and
 /// parameters decay as their evolutions say.
 ///   P_j = p_i + V_i dt + R_i dp + dt^2 (g_i/3 + g_j/6),

@@ -21,6 +21,14 @@ struct ImuCalibration {
   Eigen::Vector3d s_a = Eigen::Vector3d::Zero();  ///< [1]
 };
 
+/// How the coloured noise of one sensor goes through an interval, where that is
+/// known better than by its evolution: e_j = phi e_i + w, w ~ (0, variance).
+struct ColouredStep {
+  int sensor = -1;
+  double phi = 1.0;
+  double variance = 0.0;
+};
+
 /// All that the samples of one interval [t_i, t_j] say about motion, in the
 /// inertial axes that coincide with the body axes at t_i:
 ///   dR = C(t_i <- t_j),  dv = int C f,  dp = int int C f.
@@ -50,6 +58,7 @@ struct ImuSummary {
   double accel_bias_variance = 0.0;
   double gyro_bias_phi = 1.0;  ///< exp(-dt/tau)
   double accel_bias_phi = 1.0;
+  ColouredStep coloured;  ///< not of the IMU: see Timeline::SetColouredSteps
 
   double dt() const { return t_j - t_i; }
 };

@@ -72,6 +72,7 @@ namespace hindsight {
 /// | accept_quality    | list of values of the column quality that are used | all |
 /// | gate              | probability that a good measurement passes, or off | off |
 /// | loss              | {kind: huber, cauchy, tukey or geman_mcclure, scale in standard deviations} | none |
+/// | noise             | {model: white}; {model: gauss_markov, sigma and tau *needed*, white: a tenth of sigma}, for position, velocity and height, in place of the file's sigma; {model: mixture, outliers: 5 %, ratio: 20}, a share of outliers of so many sigmas | white |
 /// | estimate.lever_arm, estimate.time_offset | a priori sigma of an estimated one | - |
 /// speed_course: course_sigma *needed*; course_above, the speed below which a
 /// course is not used, 1 m/s. odometer and non_holonomic: mounting (roll,

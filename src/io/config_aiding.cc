@@ -99,6 +99,72 @@ Eigen::Vector3d ReadIncrementSigma(ConfigMap* map) {
   return {map->Positive("sigma", Quantity::kLength), 1.0, 1.0};
 }
 
+Quantity NoiseQuantity(SensorType type) {
+  return type == SensorType::kVelocity ? Quantity::kSpeed : Quantity::kLength;
+}
+
+int RowsOf(const AidingConfig& config) {
+  Odometer odometer;
+  switch (config.sensor.type) {
+    case SensorType::kHeight:
+      return HeightFix::rows();
+    case SensorType::kSpeedCourse:
+      return 2;
+    case SensorType::kOdometer:
+    case SensorType::kNonHolonomic:
+      odometer.form = config.options.odometer_form;
+      return odometer.rows();
+    case SensorType::kMagnetometer:
+      return config.options.magnetic_form == MagneticField::Form::kVector ? 3
+                                                                          : 1;
+    default:
+      return 3;
+  }
+}
+
+/// White, a Gauss-Markov error as states, or a mixture of inliers and outliers,
+/// which is a loss.
+void ReadNoise(ConfigMap* map, AidingConfig* config) {
+  if (!map->Has("noise")) return;
+  Sensor* sensor = &config->sensor;
+  ConfigMap entry = map->Map("noise");
+  const std::size_t model =
+      entry.Choice("model", {"white", "gauss_markov", "mixture"}, std::nullopt);
+  if (model == 1) {
+    if (sensor->type != SensorType::kPosition &&
+        sensor->type != SensorType::kVelocity &&
+        sensor->type != SensorType::kHeight) {
+      entry.Fail("model",
+                 "gauss_markov is for position, velocity and height sensors");
+    }
+    const Quantity quantity = NoiseQuantity(sensor->type);
+    NoiseModel& noise = sensor->noise;
+    noise.kind = NoiseModel::Kind::kGaussMarkov;
+    noise.sigma = entry.Positive("sigma", quantity);
+    noise.tau = entry.Positive("tau", Quantity::kTime);
+    noise.white_sigma = entry.Positive("white", quantity, 0.1 * noise.sigma);
+  } else if (model == 2) {
+    if (sensor->loss.kind != RobustLoss::Kind::kNone) {
+      entry.Fail("model", "a mixture does not go with a loss");
+    }
+    RobustLoss& loss = sensor->loss;
+    loss.kind = RobustLoss::Kind::kMixture;
+    loss.scale = 1.0;
+    loss.rows = RowsOf(*config);
+    loss.outlier_share =
+        entry.Positive("outliers", Quantity::kRatio, loss.outlier_share);
+    if (loss.outlier_share >= 1.0) {
+      entry.Fail("outliers", "expected a share of less than 100 %");
+    }
+    loss.outlier_ratio =
+        ReadFactor(&entry, "ratio", FormatNumber(loss.outlier_ratio));
+    if (loss.outlier_ratio <= 1.0) {
+      entry.Fail("ratio", "expected a number above 1");
+    }
+  }
+  entry.Finish();
+}
+
 /// Forward, side and down, or those that the form measures.
 Eigen::Vector3d ReadOdometerSigma(ConfigMap* map, Odometer::Form form) {
   const auto fail = [&](const char* expected) {
@@ -286,6 +352,7 @@ AidingConfig ReadAidingConfig(const std::string& name, ConfigMap* map,
   }
   config.sensor.gate_probability = ReadGate(map);
   config.sensor.loss = ReadLoss(map);
+  ReadNoise(map, &config);
   ReadEstimates(map, &config.sensor);
   map->Finish();
   return config;

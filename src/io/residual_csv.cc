@@ -1,5 +1,6 @@
 #include "io/residual_csv.h"
 
+#include "dataset/injection.h"
 #include "io/atomic_file.h"
 #include "io/number_format.h"
 
@@ -36,6 +37,9 @@ void WriteResidualCsv(const std::string& path,
                       const std::vector<Solution>& solutions,
                       const Dataset& dataset) {
   AtomicFile file(path);
+  for (const Injection& injection : dataset.injections) {
+    file.Write("# error injected on purpose: " + Describe(injection) + "\n");
+  }
   file.Write(
       "# residual = measured - predicted and sigma in SI units, a line for "
       "each component\n"

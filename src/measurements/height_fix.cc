@@ -18,7 +18,12 @@ void HeightFix::Evaluate(const ModelContext& context,
   AddPositionColumns(context, motion, up_e, &out->H);
   context.layout.AddColumns(BlockKind::kOffset, context.sensor_index,
                             Eigen::Matrix<double, 1, 1>::Identity(), &out->H);
-  out->R(0, 0) = sigma * sigma;
+  const NoiseModel& noise = context.sensor.noise;
+  const bool coloured =
+      noise.kind == NoiseModel::Kind::kGaussMarkov &&
+      context.layout.Has(BlockKind::kOffset, context.sensor_index);
+  const double white = coloured ? noise.white_sigma : sigma;
+  out->R(0, 0) = white * white;
 }
 
 }  // namespace hindsight

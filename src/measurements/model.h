@@ -32,6 +32,13 @@ struct LinearizedMeasurement {
   }
 };
 
+/// The white covariance of a measurement whose stated one is R: where the
+/// layout has its error as coloured states, white_sigma^2 takes the place of
+/// R's rows and columns of the active axes. Nothing changes without such states
+/// or for a sensor of white noise.
+Eigen::Matrix3d WhiteCovariance(const ModelContext& context,
+                                const Eigen::Matrix3d& R);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_MEASUREMENTS_MODEL_H_

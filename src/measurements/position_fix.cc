@@ -17,7 +17,7 @@ void PositionFix::Evaluate(const ModelContext& context,
   AddPositionColumns(context, motion, C_ne, &out->H);
   context.layout.AddColumns(BlockKind::kColouredNoise, context.sensor_index,
                             Eigen::Matrix3d::Identity(), &out->H);
-  out->R = R_n;
+  out->R = WhiteCovariance(context, R_n);
 }
 
 }  // namespace hindsight

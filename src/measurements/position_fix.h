@@ -8,8 +8,9 @@ namespace hindsight {
 /// Position of a point of the vehicle: a GNSS antenna, a transponder, or the
 /// IMU over a surveyed reference point.
 ///   z = p_e + C_eb l,  resolved in the NED axes at the measured position;
-/// residual [m] NED. Position reference points: eq. (45) of the 2002 paper,
-/// with the opposite sign of the residual.
+/// residual [m] NED. With coloured noise e of the sensor (kColouredNoise) the
+/// prediction has + C_en e, and R is what is left white. Position reference
+/// points: eq. (45) of the 2002 paper, with the opposite sign of the residual.
 struct PositionFix {
   Eigen::Vector3d p_e = Eigen::Vector3d::Zero();      ///< measured, ECEF [m]
   Eigen::Matrix3d R_n = Eigen::Matrix3d::Identity();  ///< NED covariance [m^2]

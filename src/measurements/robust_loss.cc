@@ -1,8 +1,30 @@
 #include "measurements/robust_loss.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hindsight {
+
+namespace {
+
+/// Logarithm of the odds of an inlier.
+double LogOdds(const RobustLoss& loss, double s) {
+  const double a = loss.outlier_share;
+  const double k2 = loss.outlier_ratio * loss.outlier_ratio;
+  return std::log((1.0 - a) / a) + 0.5 * loss.rows * std::log(k2) -
+         0.5 * s * (1.0 - 1.0 / k2);
+}
+
+/// ln of the inlier probability, for any odds.
+double LogInlier(double log_odds) {
+  return std::min(log_odds, 0.0) - std::log1p(std::exp(-std::abs(log_odds)));
+}
+
+}  // namespace
+
+double RobustLoss::InlierProbability(double s) const {
+  return std::exp(LogInlier(LogOdds(*this, s)));
+}
 
 double RobustLoss::Cost(double s) const {
   const double c2 = scale * scale;
@@ -19,6 +41,11 @@ double RobustLoss::Cost(double s) const {
     }
     case Kind::kGemanMcClure:
       return c2 * s / (c2 + s);
+    case Kind::kMixture:
+      // -2 ln of the mixture is s + 2 ln g but for a constant.
+      return s + 2.0 * c2 *
+                     (LogInlier(LogOdds(*this, s / c2)) -
+                      LogInlier(LogOdds(*this, 0.0)));
   }
   return s;
 }
@@ -38,6 +65,10 @@ double RobustLoss::Weight(double s) const {
     }
     case Kind::kGemanMcClure:
       return c2 * c2 / ((c2 + s) * (c2 + s));
+    case Kind::kMixture: {
+      const double g = InlierProbability(s / c2);
+      return g + (1.0 - g) / (outlier_ratio * outlier_ratio);
+    }
   }
   return 1.0;
 }
@@ -55,6 +86,11 @@ double RobustLoss::Curvature(double s) const {
       return s < c2 ? -2.0 * (1.0 - s / c2) / c2 : 0.0;
     case Kind::kGemanMcClure:
       return -2.0 * c2 * c2 / ((c2 + s) * (c2 + s) * (c2 + s));
+    case Kind::kMixture: {
+      const double g = InlierProbability(s / c2);
+      const double slope = 1.0 - 1.0 / (outlier_ratio * outlier_ratio);
+      return -0.5 * slope * slope * g * (1.0 - g) / c2;
+    }
   }
   return 0.0;
 }

@@ -42,6 +42,19 @@ struct MagneticSurroundings {
   double disturbance_tau = 10.0;
 };
 
+/// How a sensor's errors are correlated in time. A Gauss-Markov error is a
+/// state of the layout, kColouredNoise or, of a height, kOffset,
+///   e_k = phi e_k-1 + w,  phi = exp(-dt/tau),  w ~ (0, sigma^2 (1 - phi^2)),
+/// in place of the covariance stated with the measurements; what is left white
+/// beside it has `white_sigma`.
+struct NoiseModel {
+  enum class Kind { kWhite, kGaussMarkov };
+  Kind kind = Kind::kWhite;
+  double sigma = 1.0;        ///< stationary, an axis [m or m/s]
+  double tau = 10.0;         ///< correlation time [s]
+  double white_sigma = 0.1;  ///< an axis [m or m/s]
+};
+
 /// What is known of one aiding sensor beforehand: geometry, calibration and how
 /// its measurements are to be trusted. Values in a layout take precedence.
 struct Sensor {
@@ -67,6 +80,7 @@ struct Sensor {
   /// Robust loss of the whole-interval methods; forward filters weigh a
   /// measurement by it at its innovation.
   RobustLoss loss;
+  NoiseModel noise;
   /// A priori standard deviations of calibration states; absent: not estimated.
   std::optional<Eigen::Vector3d> lever_arm_sigma;
   std::optional<Eigen::Vector3d> mounting_sigma;

@@ -36,8 +36,23 @@ const ImuSummary& Timeline::Summary(std::size_t k,
     summaries_[k] =
         integrator_.Summarize(nodes_[k].t, nodes_[k + 1].t, calibration);
     integrated_[k] = 1;
+    if (!coloured_steps_.empty()) summaries_[k].coloured = coloured_steps_[k];
   }
   return summaries_[k];
+}
+
+void Timeline::SetColouredSteps(std::vector<ColouredStep> steps) {
+  coloured_steps_ = std::move(steps);
+  for (std::size_t k = 0; k < summaries_.size(); ++k) {
+    summaries_[k].coloured =
+        coloured_steps_.empty() ? ColouredStep{} : coloured_steps_[k];
+  }
+}
+
+void Timeline::ScaleSensor(int sensor, double factor) {
+  for (Measurement& z : measurements_) {
+    if (z.sensor == sensor) ScaleSigma(factor, &z);
+  }
 }
 
 }  // namespace hindsight

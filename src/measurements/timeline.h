@@ -63,6 +63,15 @@ class Timeline {
   /// The summary as last integrated; it must have been asked for before.
   const ImuSummary& Summary(std::size_t k) const { return summaries_[k]; }
 
+  /// Gives the coloured noise of a sensor a step of its own for each interval;
+  /// as many as intervals, or none to take them back.
+  void SetColouredSteps(std::vector<ColouredStep> steps);
+
+  /// Gives a sensor another noise or loss from here on.
+  void SetSensor(std::size_t i, const Sensor& sensor) { sensors_[i] = sensor; }
+  /// Multiplies the standard deviations of all measurements of a sensor.
+  void ScaleSensor(int sensor, double factor);
+
   /// The context in which measurement z of node k is evaluated at state x.
   ModelContext Context(std::size_t k, const Measurement& z,
                        const ErrorLayout& layout, const State& x) const {
@@ -82,6 +91,7 @@ class Timeline {
   ImuIntegrator integrator_;
   std::vector<ImuSummary> summaries_;
   std::vector<char> integrated_;
+  std::vector<ColouredStep> coloured_steps_;
 };
 
 }  // namespace hindsight

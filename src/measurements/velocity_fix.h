@@ -7,7 +7,8 @@ namespace hindsight {
 
 /// Velocity over the Earth of a point of the vehicle (GNSS Doppler).
 ///   z = C_ne (v_e + C_eb (w_eb x l)),  w_eb = w_ib - b_g - C_be w_ie,
-/// in the NED axes at the state's position; residual [m/s] NED.
+/// in the NED axes at the state's position; residual [m/s] NED. With coloured
+/// noise of the sensor (kColouredNoise) as in PositionFix.
 struct VelocityFix {
   Eigen::Vector3d v_n = Eigen::Vector3d::Zero();      ///< measured NED [m/s]
   Eigen::Matrix3d R_n = Eigen::Matrix3d::Identity();  ///< [m^2/s^2]

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "base/units.h"
+#include "simulation/gps_jumps.h"
 #include "simulation/in_flight_alignment.h"
 #include "simulation/tunnel_survey.h"
 
@@ -136,12 +137,13 @@ struct Entry {
   const char* name;
   Scenario (*make)();
 };
-constexpr std::array<Entry, 5> kScenarios = {
+constexpr std::array<Entry, 6> kScenarios = {
     {{"car_drive", CarDrive},
      {"short_drive", ShortDrive},
      {"flight", Flight},
      {kTunnelSurveyName, [] { return TunnelSurvey({}); }},
-     {kInFlightAlignmentName, [] { return InFlightAlignment({}); }}}};
+     {kInFlightAlignmentName, [] { return InFlightAlignment({}); }},
+     {kGpsJumpsName, [] { return GpsJumps({}); }}}};
 
 /// Seconds that a segment takes at least, blending aside.
 double LeastDuration(const Segment& s, double speed) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "dataset/injection.h"
 
 namespace hindsight {
 namespace {
@@ -100,10 +101,14 @@ Dataset MakeDataset(const Scenario& scenario,
     dataset.true_constants.merge(drawn.true_constants);
   }
   dataset.initial = DrawInitialState(scenario, start, seed);
+  if (!scenario.imu.accel_scale_sigma.isZero(0.0)) {
+    dataset.accel_scale_sigma = scenario.imu.accel_scale_sigma;
+  }
   dataset.stationary = scenario.stationary;
   dataset.max_node_spacing = scenario.max_node_spacing;
   dataset.withholdings = scenario.withholdings;
   ApplyWithholding(&dataset);
+  ApplyInjections(scenario.injections, seed, &dataset);
   return dataset;
 }
 

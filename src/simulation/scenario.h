@@ -49,6 +49,7 @@ struct Scenario {
   std::optional<StartErrors> start_errors;
   StationaryOptions stationary;
   std::vector<Withholding> withholdings;
+  std::vector<Injection> injections;
   double max_node_spacing = 1.0;  ///< [s]
 };
 

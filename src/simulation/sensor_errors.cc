@@ -16,8 +16,8 @@ enum Stream : std::uint64_t {
   kAccelNoise,
   kAccelBias,
   kAccelWalk,
-  kGyroScale,
   kAccelScale,
+  kGyroScale,
 };
 
 /// 64-bit FNV-1a, kept clear of the small numbers of the IMU's streams.

@@ -56,6 +56,12 @@ struct Solution {
   /// Distance between forward and backward positions in sigmas, of two-filter
   /// smoothers: empty or as long as states, NaN where there is none.
   std::vector<double> separation;
+  /// Probability of each mode, of multiple-model methods: empty or as long as
+  /// states, with the modes' names.
+  std::vector<Eigen::VectorXd> mode_probabilities;
+  std::vector<std::string> mode_names;
+  /// What a self-tuning method made of the sensors' noise, in words.
+  std::vector<std::string> notes;
   bool converged = true;
   int iterations = 0;    ///< 0 for a method that does not iterate
   double seconds = 0.0;  ///< processor time of the method alone

@@ -223,5 +223,52 @@ TEST_F(RunCommandTest, FlagsThatDoNotFitTheRecordingEndWithTwo) {
   }
 }
 
+TEST_F(RunCommandTest, InjectedErrorsAreMarkedInEveryOutput) {
+  const Outcome outcome = recording_.Run(
+      {"--out=out", "--methods=gated_ekf,imm,imm_smoother,robust_batch",
+       "--inject=position:step=12m,from=30s,to=40s", "--export=kml"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string mark =
+      "injected on purpose: position: step of 12 north, east from 30 s to 40 s";
+  EXPECT_THAT(outcome.out, HasSubstr(mark));
+  EXPECT_THAT(ReadFile(Result("imm.csv")), HasSubstr(mark));
+  EXPECT_THAT(ReadFile(Result("residuals.csv")), HasSubstr(mark));
+  EXPECT_THAT(ReadFile(Result("summary.json")), HasSubstr(mark));
+  EXPECT_THAT(ReadFile(Result("config.resolved.yaml")), HasSubstr(mark));
+  EXPECT_THAT(ReadFile(Result("robust_batch.kml")), HasSubstr("injected"));
+  for (const char* name :
+       {"imm.modes.csv", "imm_smoother.modes.csv", "robust_batch.modes.csv"}) {
+    const std::vector<std::string> rows = Rows(Result(name));
+    ASSERT_FALSE(rows.empty()) << name;
+    double total = Field(rows[0], 1) + Field(rows[0], 2);
+    if (std::count(rows[0].begin(), rows[0].end(), ',') > 2) {
+      total += Field(rows[0], 3) + Field(rows[0], 4);
+    }
+    EXPECT_NEAR(total, 1.0, 1e-4) << name;
+  }
+  // Every one of the ten fixes is named with a weight of nearly nothing.
+  int down = 0;
+  for (const std::string& line : Lines(ReadFile(Result("residuals.csv")))) {
+    if (!line.starts_with("imm_smoother,")) continue;
+    if (Field(line, 3) == 0.0 && Field(line, 7) < 0.1) ++down;
+  }
+  EXPECT_GE(down, 10);
+}
+
+TEST_F(RunCommandTest, RefusesAnInjectionThatMakesNoSense) {
+  for (const std::string text :
+       {"position", "position:step=12", "position:step=1m,ramp=1m",
+        "position:bend=1m", "position:pulse=1m", "position:step=1m,axes=x",
+        "position:spikes=1m,share=200%", "position:step=0m"}) {
+    const Outcome outcome = recording_.Run({"--out=out", "--inject=" + text});
+    EXPECT_EQ(outcome.status, 2) << text;
+    EXPECT_THAT(outcome.err, HasSubstr("--inject=" + text)) << text;
+  }
+  const Outcome outcome =
+      recording_.Run({"--out=out", "--inject=height:step=1m"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("height"));
+}
+
 }  // namespace
 }  // namespace hindsight

@@ -248,6 +248,26 @@ Exact Enumerate(const TestProblem& problem, const ImmTape& tape, double factor,
   return exact;
 }
 
+/// A fixed nominal is that of the linearised filter.
+TEST(Imm, OfOneModeAboutAFixedNominalIsTheLinearizedFilter) {
+  const TestProblem problem = NoisyProblem(15.0);
+  Timeline timeline = problem.MakeTimeline();
+  const LinearTape linear = RunLinearizedFilter(problem.layout, problem.prior,
+                                                problem.truth, &timeline);
+  ImmOptions options;
+  options.transition = StayingTransition(1, 1.0);
+  options.start = Eigen::VectorXd::Ones(1);
+  options.nominal = problem.truth;
+  const ImmResult imm = RunImm({Model(problem, 1.0)}, options, &timeline);
+  for (std::size_t k = 0; k < linear.size(); ++k) {
+    const ErrorMatrix P = linear.P_plus(k);
+    EXPECT_LT(ScaledDifference(imm.tape.tapes[0].P_plus(k), P), 1e-9);
+    EXPECT_LT(
+        InSigmas(imm.tape.epochs[k].mean_plus[0], linear.epoch(k).dx_plus, P),
+        1e-6);
+  }
+}
+
 /// Between two nodes nothing has been merged yet but the prediction, which the
 /// smoother divides out again.
 TEST(ImmSmoother, IsExactOverOneInterval) {

@@ -20,6 +20,29 @@ class AidingTypes : public SampleFolder {
   }
 };
 
+TEST_F(AidingTypes, NoiseModels) {
+  Write("gnss.csv",
+        "t[s],latitude[deg],longitude[deg],height[m]\n0.01,48,11,500\n");
+  Write("odo.csv", "t[s],speed[km/h]\n0.01,36\n");
+  Aiding(
+      "  gnss:\n    type: position\n    file: gnss.csv\n    sigma: 1 m\n"
+      "    noise: {model: gauss_markov, sigma: 50 cm, tau: 20 s}\n"
+      "  odo:\n    type: odometer\n    file: odo.csv\n    form: forward\n"
+      "    sigma: 0.1 m/s\n    noise: {model: mixture, outliers: 10 %}\n");
+  const Dataset data = Load();
+  const Sensor& gnss = data.streams[0].sensor;
+  EXPECT_EQ(gnss.noise.kind, NoiseModel::Kind::kGaussMarkov);
+  EXPECT_DOUBLE_EQ(gnss.noise.sigma, 0.5);
+  EXPECT_DOUBLE_EQ(gnss.noise.tau, 20.0);
+  EXPECT_DOUBLE_EQ(gnss.noise.white_sigma, 0.05);
+  const RobustLoss& loss = data.streams[1].sensor.loss;
+  EXPECT_EQ(loss.kind, RobustLoss::Kind::kMixture);
+  EXPECT_DOUBLE_EQ(loss.outlier_share, 0.1);
+  EXPECT_DOUBLE_EQ(loss.outlier_ratio, 20.0);
+  EXPECT_EQ(loss.rows, 1);
+  EXPECT_DOUBLE_EQ(loss.scale, 1.0);
+}
+
 TEST_F(AidingTypes, OdometerWithCalibration) {
   Write("odo.csv", "t[s],speed[km/h]\n0.01,36\n0.03,-18\n");
   Aiding(
@@ -250,6 +273,15 @@ TEST_F(AidingTypes, MistakesNameLineAndKey) {
        "huber"},
       {"  odo: {type: odometer, file: odo.csv, sigma: 1 m/s, format: euroc}\n",
        "no such stream"},
+      {"  odo: {type: odometer, file: odo.csv, sigma: 1 m/s, noise: {model: "
+       "gauss_markov, sigma: 1 m, tau: 1 s}}\n",
+       "position, velocity and height"},
+      {"  odo: {type: odometer, file: odo.csv, sigma: 1 m/s, noise: {model: "
+       "mixture, ratio: 0.5}}\n",
+       "above 1"},
+      {"  odo: {type: odometer, file: odo.csv, sigma: 1 m/s, loss: {kind: "
+       "cauchy}, noise: {model: mixture}}\n",
+       "does not go with a loss"},
       {"  c: {type: speed_course, file: odo.csv, sigma: 1 m/s}\n",
        "course_sigma"},
   };

@@ -141,5 +141,38 @@ TEST(Fixes, WithoutTimeOffsetStateTheStampIsNotLookedAt) {
   EXPECT_LT(scene.Evaluate(Position(antenna)).residual.norm(), 3e-9);
 }
 
+/// What stands as states is not noise a second time.
+TEST(ColouredNoise, TakesThePlaceOfTheStatedCovariance) {
+  Scene scene = RichScene();
+  const LinearizedMeasurement beside =
+      scene.Evaluate(Position(scene.state.p_e));
+  EXPECT_EQ(beside.R(1, 1), 4.0);
+  scene.sensor.noise.kind = NoiseModel::Kind::kGaussMarkov;
+  scene.sensor.noise.white_sigma = 0.2;
+  for (const Measurement& z :
+       {Position(scene.state.p_e), Velocity(Eigen::Vector3d(1.0, 2.0, 3.0))}) {
+    const LinearizedMeasurement white = scene.Evaluate(z);
+    EXPECT_LT((white.R - 0.04 * Eigen::Matrix3d::Identity()).norm(), 1e-12);
+    const Block* block = scene.layout.Find(BlockKind::kColouredNoise, 0);
+    EXPECT_TRUE(white.H.middleCols(block->offset, 3).isIdentity());
+  }
+}
+
+TEST(ColouredNoise, LeavesAMaskedAxisItsCovariance) {
+  Scene scene = RichScene();
+  ErrorLayout masked;
+  for (Block block : scene.layout.blocks()) {
+    if (block.key.kind == BlockKind::kColouredNoise) block.active[2] = false;
+    masked.Add(block);
+  }
+  scene.layout = masked;
+  scene.sensor.noise.kind = NoiseModel::Kind::kGaussMarkov;
+  scene.sensor.noise.white_sigma = 0.0;
+  const LinearizedMeasurement z = scene.Evaluate(Position(scene.state.p_e));
+  EXPECT_LT((z.R - Eigen::Matrix3d(Eigen::Vector3d(0.0, 0.0, 9.0).asDiagonal()))
+                .norm(),
+            1e-12);
+}
+
 }  // namespace
 }  // namespace hindsight
