@@ -47,6 +47,13 @@ ObserverModel HInfinity(double gamma) {
   return model;
 }
 
+Timeline TimelineOf(const Dataset& dataset) {
+  TimelineOptions options;
+  options.t_begin = dataset.imu.t_begin();
+  options.t_end = dataset.imu.t_end();
+  return BuildTimeline(dataset, options);
+}
+
 MonteCarloOptions Runs(int runs, int threads = 1) {
   MonteCarloOptions options;
   options.runs = runs;
@@ -106,8 +113,7 @@ TEST(ObserverComparison, ConsistentFromASmallStart) {
     Dataset dataset = Recording(1.0).Realize(static_cast<std::uint64_t>(i) + 1);
     GiveBadStart({0.3 * kDegree, 0.5 * kDegree},
                  static_cast<std::uint64_t>(i) + 1, &dataset);
-    Timeline timeline =
-        BuildTimeline(dataset, {.t_begin = 0.0, .t_end = dataset.imu.t_end()});
+    Timeline timeline = TimelineOf(dataset);
     sum += RunObserver({}, dataset, kLimits, &timeline).lyapunov.v_last;
   }
   const Interval bounds = AneesBounds(kRuns, 12, 0.99);
@@ -138,8 +144,7 @@ TEST(Lyapunov, FallsAtEveryStepOfANoiselessRunFromASmallStart) {
        {ErrorDefinition::kNavigation, ErrorDefinition::kQuaternion,
         ErrorDefinition::kLeftInvariant}) {
     const Dataset dataset = Noiseless(0.01, 0.02);
-    Timeline timeline =
-        BuildTimeline(dataset, {.t_begin = 0.0, .t_end = dataset.imu.t_end()});
+    Timeline timeline = TimelineOf(dataset);
     const LyapunovFigures figures =
         RunObserver({error, {}}, dataset, kLimits, &timeline).lyapunov;
     EXPECT_EQ(figures.share_falling, 1.0) << ErrorName(error);
@@ -150,8 +155,7 @@ TEST(Lyapunov, FallsAtEveryStepOfANoiselessRunFromASmallStart) {
 
 TEST(Lyapunov, RisesOnTheWayFromABadStart) {
   const Dataset dataset = Noiseless(30.0, 175.0);
-  Timeline timeline =
-      BuildTimeline(dataset, {.t_begin = 0.0, .t_end = dataset.imu.t_end()});
+  Timeline timeline = TimelineOf(dataset);
   const LyapunovFigures figures =
       RunObserver({}, dataset, kLimits, &timeline).lyapunov;
   EXPECT_LT(figures.share_falling, 1.0);
@@ -166,10 +170,8 @@ TEST(Lyapunov, ADegreeOfStabilityWidensTheGuaranteedRadius) {
   modified.covariance.rule = RiccatiRule::kModifiedHInfinity;
   modified.covariance.alpha = 0.03;
   modified.covariance.alpha_on_all = true;
-  const TimelineOptions options = {.t_begin = 0.0,
-                                   .t_end = dataset.imu.t_end()};
-  Timeline a = BuildTimeline(dataset, options);
-  Timeline b = BuildTimeline(dataset, options);
+  Timeline a = TimelineOf(dataset);
+  Timeline b = TimelineOf(dataset);
   const LyapunovFigures kalman = RunObserver({}, dataset, kLimits, &a).lyapunov;
   const LyapunovFigures stable =
       RunObserver(modified, dataset, kLimits, &b).lyapunov;
