@@ -7,16 +7,18 @@
 #include "alignment/given.h"
 #include "alignment/gyrocompass.h"
 #include "alignment/levelling.h"
+#include "alignment/magnetic_heading.h"
 #include "alignment/velocity_alignment.h"
 #include "base/error.h"
 
 namespace hindsight {
 namespace {
 
-constexpr std::array<AlignmentMethod, 5> kMethods = {
+constexpr std::array<AlignmentMethod, 6> kMethods = {
     {{AlignmentKind::kGiven, AlignAsGiven, false},
      {AlignmentKind::kStatic, AlignAtRest},
      {AlignmentKind::kGyrocompass, AlignByGyrocompass},
+     {AlignmentKind::kMagnetometer, AlignByMagnetometer},
      {AlignmentKind::kCourse, AlignByCourse},
      {AlignmentKind::kVelocity, AlignByVelocity}}};
 

@@ -59,10 +59,9 @@ Dataset CutOut(const Dataset& whole, double t_begin, double t_end) {
       }
     }
     if (!kept.measurements.empty()) continue;
-    kept.sensor.lever_arm_sigma.reset();
-    kept.sensor.mounting_sigma.reset();
-    kept.sensor.scale_sigma.reset();
-    kept.sensor.time_offset_sigma.reset();
+    // Without measurements it needs no states.
+    kept.sensor = Sensor();
+    kept.sensor.name = stream.sensor.name;
   }
   return cut;
 }
