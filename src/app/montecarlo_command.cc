@@ -26,7 +26,9 @@ ten minutes on which lever arms, time offsets, scale factors and the mounting ar
 all unknown and estimated, each judged by its errors over its sigmas; or
 in_flight_alignment, which compares forward observers from bad initial
 attitudes, Riccati rule x definition of the error x start: shares that diverge
-or escape, time to settle, final errors, Lyapunov figures; or gps_jumps, which
+or escape, time to settle, final errors, Lyapunov figures; or
+velocity_alignment, which aligns the same flight from no start value, the IMU
+mounted at any attitude, and then solves it as a batch; or gps_jumps, which
 compares filters and batches under errors of the positions. Writes into the
 folder of --out:
   montecarlo.json   the figures of all methods and how far they agree
@@ -70,6 +72,7 @@ const std::vector<MonteCarloScenario>& Scenarios() {
   static const std::vector<MonteCarloScenario> scenarios = {
       {kTunnelSurveyName, RunTunnelSurvey},
       {kInFlightAlignmentName, RunInFlightAlignment},
+      {"velocity_alignment", RunVelocityAlignment},
       {kCalibrationName, RunCalibration},
       {kGpsJumpsName, RunGpsJumps}};
   return scenarios;

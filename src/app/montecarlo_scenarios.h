@@ -27,6 +27,10 @@ void RunTunnelSurvey(MonteCarloOptions options, Progress* progress,
 
 void RunInFlightAlignment(MonteCarloOptions options, Progress* progress,
                           ResultFolder* folder);
+/// The same flight from no start value at all, at 10 Hz and 1 Hz of velocity,
+/// the IMU mounted at any attitude.
+void RunVelocityAlignment(MonteCarloOptions options, Progress* progress,
+                          ResultFolder* folder);
 void RunCalibration(MonteCarloOptions options, Progress* progress,
                     ResultFolder* folder);
 void RunGpsJumps(MonteCarloOptions options, Progress* progress,

@@ -1,0 +1,163 @@
+#include "problems/alignment_trial.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <tuple>
+
+#include "alignment/velocity_alignment.h"
+#include "base/error.h"
+
+namespace hindsight {
+namespace {
+
+/// Errors of one run, an entry a node.
+struct TrialRun {
+  bool failed = true;
+  std::vector<double> tilt, heading, nees;
+  double seconds = 0.0;
+};
+
+double ProcessorSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) +
+         1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+void Judge(const Dataset& dataset, const ErrorLayout& layout,
+           const std::vector<State>& states, const CovarianceSeries& P,
+           TrialRun* run) {
+  const std::vector<State> truth = TrueStates(dataset, layout, states);
+  const int a = layout.Find(BlockKind::kAttitude)->offset;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const Eigen::Vector3d e = Local(layout, states[k], truth[k]).segment<3>(a);
+    const Eigen::Matrix3d P_k = P.Get(k).block<3, 3>(a, a);
+    run->tilt.push_back(e.head<2>().norm());
+    run->heading.push_back(std::abs(e.z()));
+    run->nees.push_back(e.dot(P_k.llt().solve(e)));
+  }
+}
+
+AlignmentInput InputOf(const Dataset& dataset, double to) {
+  AlignmentInput input{.dataset = dataset,
+                       .t = dataset.imu.t_begin(),
+                       .to = to,
+                       .p_e = EcefFromGeodetic(*dataset.initial.position),
+                       .fixes = {},
+                       .velocities = {},
+                       .rest = std::nullopt,
+                       .b_g = dataset.initial.gyro_bias,
+                       .b_a = dataset.initial.accel_bias};
+  input.velocities = GroundVelocities(dataset, input.t, to);
+  input.gyro_sigma = dataset.initial.gyro_bias_sigma->maxCoeff();
+  return input;
+}
+
+/// The attitude of the first epoch for the consistency, that of the last for
+/// the errors.
+TrialRun TryEarly(const Dataset& dataset, const AlignmentTrialOptions& trial) {
+  TrialRun run;
+  const double t0 = ProcessorSeconds();
+  const auto found =
+      AlignOverWindow(InputOf(dataset, trial.t_early), trial.t_early);
+  run.seconds = ProcessorSeconds() - t0;
+  if (!found || !found->refined) return run;
+  Judge(dataset, found->refined->layout, found->refined->states,
+        found->refined->P, &run);
+  run.tilt = {run.tilt.back()};
+  run.heading = {run.heading.back()};
+  run.nees = {run.nees.front()};
+  run.failed = run.tilt.back() > trial.diverged_tilt ||
+               run.heading.back() > trial.diverged_heading;
+  return run;
+}
+
+TrialRun TryBatch(const Dataset& dataset, const AlignmentTrialOptions& trial) {
+  TrialRun run;
+  const double t0 = ProcessorSeconds();
+  try {
+    const Solution solution = Solve(dataset, ReconstructionOptions{});
+    run.seconds = ProcessorSeconds() - t0;
+    Judge(dataset, solution.layout, solution.states, solution.covariances,
+          &run);
+    run.failed = !solution.converged;
+    const double t_end = solution.states.back().t;
+    for (std::size_t k = 0; k < solution.states.size(); ++k) {
+      if (solution.states[k].t < t_end - trial.last) continue;
+      run.failed = run.failed || run.tilt[k] > trial.diverged_tilt ||
+                   run.heading[k] > trial.diverged_heading;
+    }
+  } catch (const EstimationError&) {
+    run.failed = true;
+  }
+  return run;
+}
+
+AlignmentStatistics Summarize(const std::vector<TrialRun>& runs,
+                              const MonteCarloOptions& options) {
+  AlignmentStatistics out;
+  out.runs = static_cast<int>(runs.size());
+  std::size_t nodes = 0;
+  int finished = 0;
+  for (const TrialRun& run : runs) {
+    nodes = std::max(nodes, run.nees.size());
+    if (run.failed) ++out.failed;
+    if (!run.nees.empty()) ++finished;
+    out.seconds += run.seconds / static_cast<double>(runs.size());
+  }
+  std::tie(out.anees_lower, out.anees_upper) =
+      options.anees_bounds(finished, 3);
+  for (std::size_t k = 0; k < nodes; ++k) {
+    double tilt = 0.0, heading = 0.0, nees = 0.0;
+    for (const TrialRun& run : runs) {
+      if (run.nees.empty()) continue;
+      tilt += run.tilt[k] * run.tilt[k] / finished;
+      heading += run.heading[k] * run.heading[k] / finished;
+      nees += run.nees[k] / finished;
+      out.tilt_largest = std::max(out.tilt_largest, run.tilt[k]);
+      out.heading_largest = std::max(out.heading_largest, run.heading[k]);
+    }
+    out.tilt_rms = std::max(out.tilt_rms, std::sqrt(tilt));
+    out.heading_rms = std::max(out.heading_rms, std::sqrt(heading));
+    out.anees += nees / static_cast<double>(nodes);
+    const bool outside = nees < out.anees_lower || nees > out.anees_upper;
+    out.anees_outside += (outside ? 1.0 : 0.0) / static_cast<double>(nodes);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<AlignmentStatistics> TryAlignment(
+    const std::vector<AlignmentRecording>& recordings,
+    const AlignmentTrialOptions& trial, const MonteCarloOptions& options) {
+  const auto count = static_cast<std::size_t>(options.runs);
+  std::vector<std::vector<TrialRun>> early(recordings.size()),
+      batch(recordings.size());
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    early[r].resize(count);
+    batch[r].resize(count);
+  }
+  ForEachSeed(options, [&](std::size_t i, std::uint64_t seed) {
+    for (std::size_t r = 0; r < recordings.size(); ++r) {
+      if (options.stop != nullptr && *options.stop) throw Interrupted();
+      const Dataset dataset = recordings[r].dataset(seed);
+      early[r][i] = TryEarly(dataset, trial);
+      batch[r][i] = TryBatch(dataset, trial);
+    }
+  });
+  std::vector<AlignmentStatistics> out;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    out.push_back(Summarize(early[r], options));
+    out.back().name = "velocity_alignment";
+    out.push_back(Summarize(batch[r], options));
+    out.back().name = "velocity_alignment_batch";
+    out[out.size() - 2].recording = recordings[r].name;
+    out.back().recording = recordings[r].name;
+  }
+  return out;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,57 @@
+#ifndef HINDSIGHT_PROBLEMS_ALIGNMENT_TRIAL_H_
+#define HINDSIGHT_PROBLEMS_ALIGNMENT_TRIAL_H_
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "problems/montecarlo.h"
+
+namespace hindsight {
+
+/// Recordings without a start value, on which alignment by velocity is tried.
+struct AlignmentRecording {
+  std::string name;
+  std::function<Dataset(std::uint64_t seed)> dataset;
+};
+
+struct AlignmentTrialOptions {
+  double t_early = 0.0;        ///< data up to here make the early attitude [s]
+  double diverged_tilt = 0.0;  ///< [rad]
+  double diverged_heading = 0.0;  ///< [rad]
+  double last = 0.0;  ///< length of the end that decides on failure [s]
+};
+
+/// What one way of aligning made of all runs. Errors of the attitude in NED:
+/// tilt is the norm of its horizontal part.
+struct AlignmentStatistics {
+  std::string recording;
+  std::string name;  ///< "velocity_alignment", "velocity_alignment_batch"
+  int runs = 0;
+  int failed = 0;  ///< no answer, or beyond the limits at the end
+  /// Root mean square over the runs: of velocity_alignment at t_early, of the
+  /// batch the largest over the whole interval [rad].
+  double tilt_rms = 0.0;
+  double heading_rms = 0.0;
+  double tilt_largest = 0.0;     ///< of a single run, the same epochs [rad]
+  double heading_largest = 0.0;  ///< [rad]
+  /// Mean of e' P^-1 e: of the attitude (3 is right) at the first epoch, and of
+  /// the batch over all nodes.
+  double anees = 0.0;
+  /// Share of the nodes at which the average over the runs is outside the
+  /// bounds; of velocity_alignment 1 or 0.
+  double anees_outside = 0.0;
+  double anees_lower = 0.0;
+  double anees_upper = 0.0;
+  double seconds = 0.0;  ///< processor time, mean
+};
+
+/// Tries both on every seed: AlignOverWindow up to t_early, and the batch over
+/// the whole interval from the start that `alignment: velocity` finds.
+std::vector<AlignmentStatistics> TryAlignment(
+    const std::vector<AlignmentRecording>& recordings,
+    const AlignmentTrialOptions& trial, const MonteCarloOptions& options);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_ALIGNMENT_TRIAL_H_
