@@ -33,7 +33,7 @@ struct TapeMeasurement {
 /// x_minus, in its tangent, unless said otherwise.
 struct TapeEpoch {
   /// Whether the update moved the nominal.
-  bool moves_nominal() const { return reset && measurement_count > 0; }
+  bool moves_nominal() const { return reset && !dx_plus.isZero(0.0); }
 
   double t = 0.0;
   State x_minus;  ///< nominal before the update
@@ -83,6 +83,11 @@ class LinearTape {
   void Record(TapeMeasurement header, const LinearizedMeasurement& z,
               const Innovation& innovation);
 
+  /// Of a filter that does not carry its covariance over a reset, because it
+  /// resets at every sample by next to nothing: T(k) is the identity.
+  void NeglectTransport() { transports_ = false; }
+  bool transports() const { return transports_; }
+
   /// Appends an epoch; `transition` is of the interval before it (ignored for
   /// the first). P_minus about x_minus, P_plus about x_plus.
   void Append(TapeEpoch epoch, const Transition& transition,
@@ -123,6 +128,7 @@ class LinearTape {
 
   ErrorLayout layout_;
   ErrorDefinition error_;
+  bool transports_ = true;
   bool smoothable_ = true;
   std::vector<TapeEpoch> epochs_;
   std::vector<TapeMeasurement> measurements_;

@@ -8,58 +8,102 @@
 namespace hindsight {
 namespace {
 
-/// Writes epoch k from the smoothed error about x_plus, and carries that error
-/// and covariance into the tangent at x_minus, where the interval before ends.
-void WriteEpoch(const LinearTape& tape, std::size_t k, ErrorVector* d,
-                ErrorMatrix* P, SmoothedTrajectory* out) {
-  const TapeEpoch& epoch = tape.epoch(k);
-  out->states[k] = tape.StateAt(k, *d);
-  out->P.Set(k, *P);
-  if (epoch.moves_nominal()) {
-    MoveBack(tape.ResetTransport(k), d, P);
-    *d += epoch.dx_plus;
+/// The pass over a tape of `Dim` components (Eigen::Dynamic: of any number).
+/// Attitude alone is smoothed at every IMU sample: matrices of fixed size make
+/// that several times as fast.
+template <int Dim>
+class RtsPass {
+ public:
+  static constexpr int kMax = Dim == Eigen::Dynamic ? kMaxErrorDim : Dim;
+  using Vector = Eigen::Matrix<double, Dim, 1, 0, kMax, 1>;
+  using Matrix = Eigen::Matrix<double, Dim, Dim, 0, kMax, kMax>;
+
+  explicit RtsPass(const LinearTape& tape)
+      : tape_(tape), count_(tape.size()), d_(Vector::Zero(tape.dim())) {
+    out_.states.resize(count_);
+    out_.d.resize(count_);
+    out_.P = CovarianceSeries(tape.dim(), count_);
   }
-  out->d[k] = *d;
-}
 
-SmoothedTrajectory Smooth(const LinearTape& tape, LinearTape* consumed) {
-  RequireSmoothable(tape);
-  const std::size_t count = tape.size();
-  SmoothedTrajectory out;
-  out.states.resize(count);
-  out.d.resize(count);
-  out.P = CovarianceSeries(tape.dim(), count);
-  if (count == 0) return out;
+  SmoothedTrajectory Run(LinearTape* consumed) {
+    if (count_ == 0) return std::move(out_);
+    if (!tape_.back().reset) d_ = tape_.back().dx_plus;
+    P_ = tape_.P_plus(count_ - 1);
+    WriteEpoch(count_ - 1);
+    for (std::size_t k = count_ - 1; k-- > 0;) {
+      StepBack(k);
+      if (consumed != nullptr) consumed->PopBack();
+      WriteEpoch(k);
+    }
+    return std::move(out_);
+  }
 
-  ErrorVector d = ErrorVector::Zero(tape.dim());
-  if (!tape.back().reset) d = tape.back().dx_plus;
-  ErrorMatrix P = tape.P_plus(count - 1);
-  WriteEpoch(tape, count - 1, &d, &P, &out);
-  for (std::size_t k = count - 1; k-- > 0;) {
-    const ErrorMatrix Phi = tape.Phi(k + 1);
-    const ErrorMatrix P_plus = tape.P_plus(k);
-    const Eigen::LLT<ErrorMatrix> llt(tape.P_minus(k + 1));
+ private:
+  /// From the tangent at x_minus of epoch k + 1 to that at x_plus of k.
+  void StepBack(std::size_t k) {
+    const Matrix Phi = tape_.Phi(k + 1);
+    const Matrix P_plus = tape_.P_plus(k);
+    const Matrix P_minus = tape_.P_minus(k + 1);
+    const Eigen::LLT<Matrix> llt(P_minus);
     if (llt.info() != Eigen::Success) {
       throw EstimationError(
           "predicted covariance is not positive definite at t = " +
-          std::to_string(tape.epoch(k + 1).t) + " s");
+          std::to_string(tape_.epoch(k + 1).t) + " s");
     }
-    const ErrorMatrix PhiP = Phi * P_plus;
-    const ErrorMatrix C = llt.solve(PhiP).transpose();
-    ErrorMatrix A = ErrorMatrix::Identity(tape.dim(), tape.dim());
+    const Matrix PhiP = Phi * P_plus;
+    const Matrix C = llt.solve(PhiP).transpose();
+    Matrix A = Matrix::Identity(tape_.dim(), tape_.dim());
     A.noalias() -= C * Phi;
-    d = (C * (d - tape.epoch(k + 1).dx_minus)).eval();
-    if (!tape.epoch(k).reset) d += tape.epoch(k).dx_plus;
-    P += tape.Q(k + 1);
-    const ErrorMatrix CP = C * P;
-    P.noalias() = CP * C.transpose();
-    const ErrorMatrix AP = A * P_plus;
-    P.noalias() += AP * A.transpose();
-    Symmetrize(&P);
-    if (consumed != nullptr) consumed->PopBack();
-    WriteEpoch(tape, k, &d, &P, &out);
+    const Vector ahead = d_ - tape_.epoch(k + 1).dx_minus;
+    d_ = C * ahead;
+    if (!tape_.epoch(k).reset) d_ += tape_.epoch(k).dx_plus;
+    P_ += tape_.Q(k + 1);
+    const Matrix CP = C * P_;
+    P_.noalias() = CP * C.transpose();
+    const Matrix AP = A * P_plus;
+    P_.noalias() += AP * A.transpose();
+    MakeSymmetric();
   }
-  return out;
+
+  /// Writes epoch k from the smoothed error about x_plus, and carries that
+  /// error and covariance into the tangent at x_minus, where the interval
+  /// before ends.
+  void WriteEpoch(std::size_t k) {
+    const TapeEpoch& epoch = tape_.epoch(k);
+    out_.states[k] = tape_.StateAt(k, d_);
+    out_.P.Set(k, P_);
+    if (epoch.moves_nominal()) {
+      if (tape_.transports()) {
+        ErrorVector d = d_;
+        ErrorMatrix P = P_;
+        MoveBack(tape_.ResetTransport(k), &d, &P);
+        d_ = d;
+        P_ = P;
+      }
+      d_ += epoch.dx_plus;
+    }
+    out_.d[k] = d_;
+  }
+
+  void MakeSymmetric() {
+    const Matrix symmetric = 0.5 * (P_ + P_.transpose());
+    P_ = symmetric;
+  }
+
+  const LinearTape& tape_;
+  std::size_t count_;
+  Vector d_;
+  Matrix P_;
+  SmoothedTrajectory out_;
+};
+
+SmoothedTrajectory Smooth(const LinearTape& tape, LinearTape* consumed) {
+  RequireSmoothable(tape);
+  constexpr int kAttitudeDim = 6;
+  if (tape.dim() == kAttitudeDim) {
+    return RtsPass<kAttitudeDim>(tape).Run(consumed);
+  }
+  return RtsPass<Eigen::Dynamic>(tape).Run(consumed);
 }
 
 }  // namespace

@@ -45,6 +45,10 @@ struct ImuStream {
   ImuNoise noise;
   /// Sample intervals longer than this are refused on reading [s].
   double max_gap = 0.5;
+  /// What reading added to the stamps of the file [s]; a negative one says that
+  /// the readings are late. Attitude-only solutions are given at the file's own
+  /// stamps.
+  double stamp_offset = 0.0;
   /// The usual sample interval, 0 if not known [s]. An interval of more than
   /// kGapFactor times this is a drop-out: bridged by the straight line between
   /// the readings on both sides, with noise that allows for what may have
