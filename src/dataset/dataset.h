@@ -29,8 +29,10 @@ struct TruthPoint {
   std::optional<Eigen::Vector3d> p_e;
   std::optional<Eigen::Vector3d> v_n;      ///< NED [m/s]
   std::optional<Eigen::Quaterniond> q_nb;  ///< body to NED
-  std::optional<Eigen::Vector3d> b_g;      ///< known of simulated data [rad/s]
-  std::optional<Eigen::Vector3d> b_a;      ///< known of simulated data [m/s^2]
+  /// The reference says whether the body moves.
+  std::optional<bool> moving;
+  std::optional<Eigen::Vector3d> b_g;  ///< known of simulated data [rad/s]
+  std::optional<Eigen::Vector3d> b_a;  ///< known of simulated data [m/s^2]
 };
 
 /// Initial values. What is absent is found by alignment.
@@ -60,6 +62,33 @@ struct StationaryOptions {
   double accel_threshold = 0.10;  ///< [m/s^2], standard deviation
   double velocity_sigma = 0.01;   ///< of the zero-velocity measurement [m/s]
   double rate_sigma = 5e-4;       ///< of the zero-rate measurement [rad/s]
+};
+
+/// How attitude alone is estimated. The defaults suit a sensor held in the hand
+/// or worn.
+struct AhrsSettings {
+  /// Accelerometer rule: fixed, gate, held_gate, adaptive, smnc (see
+  /// filters/accelerometer_rule.h, as for the following).
+  std::string rule = "fixed";
+  double accel_sigma = 0.18;  ///< R0 [m/s^2]
+  double gate = 0.88;         ///< [m/s^2]
+  double lambda = 0.05;
+  int samples = 4;                ///< N
+  std::optional<double> seconds;  ///< N as a time [s]
+  /// Of the accelerometer in the quasi-inertial frame [s], 0: off; absent: 1.5
+  /// s for the fixed rule, off for those that judge the readings themselves.
+  std::optional<double> low_pass;
+  /// The errors of accelerometer and magnetometer go on for this long [s].
+  double correlation_time = 1.0;
+  /// Reading of the gyro bias at rest [rad/s], 0: off.
+  double rest_sigma = 0.0175;
+  bool reject_disturbances = true;  ///< by norm and dip of the field
+  /// Smoother and batch survey the field of the whole recording first.
+  bool survey = true;
+  /// The body does not leave a room: about `room` of its mean place, not faster
+  /// than `room_speed`, one sigma (batch) [m], [m/s].
+  double room = 1.0;
+  double room_speed = 1.0;
 };
 
 /// Measurements of one sensor type or name kept from the estimators.
@@ -115,6 +144,9 @@ struct Dataset {
   /// Point the truth speaks of, body axes from the IMU [m].
   Eigen::Vector3d truth_lever_arm_b = Eigen::Vector3d::Zero();
   InitialState initial;
+  /// Where attitude alone is estimated: gives gravity and the Earth's rate.
+  std::optional<Geodetic> place;
+  AhrsSettings ahrs;
   /// A priori standard deviations of the IMU's scale factors, per axis [1];
   /// absent: not estimated.
   std::optional<Eigen::Vector3d> gyro_scale_sigma;

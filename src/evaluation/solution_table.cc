@@ -49,6 +49,8 @@ SolutionTable TableFromSolution(const Solution& solution) {
   SolutionTable table;
   table.method = solution.method;
   table.separation = solution.separation;
+  table.accel_sigma = solution.accel_sigma;
+  table.magnetic = solution.magnetic;
   const ErrorLayout& layout = solution.layout;
   const bool has_position = layout.Has(BlockKind::kPosition);
   for (const State& x : solution.states) {

@@ -29,7 +29,9 @@ struct SolutionTable {
   std::vector<Eigen::Vector3d> b_a;         ///< [m/s^2]
   std::vector<Eigen::Vector3d> sigma_b_g;   ///< [rad/s]
   std::vector<Eigen::Vector3d> sigma_b_a;   ///< [m/s^2]
-  std::vector<double> separation;  ///< see Solution, NaN where there is none
+  std::vector<double> separation;     ///< see Solution, NaN where there is none
+  std::vector<double> accel_sigma;    ///< see Solution
+  std::vector<signed char> magnetic;  ///< see Solution
 
   std::size_t size() const { return t.size(); }
   /// NED axes at row k; identity without positions.

@@ -116,6 +116,8 @@ Declared ReadDeclarations(ConfigMap* top, const LoadOptions& options,
     throw InputError(top->file() + " has no aiding stream '" + without.front() +
                      "' to be left out");
   }
+  dataset->place = ReadGeodetic(top, "place");
+  dataset->ahrs = ReadAhrs(top);
   dataset->initial = ReadInitialState(top);
   dataset->stationary = ReadStationary(top);
   ReadTruthConfig(top, folder, &declared, dataset);
@@ -163,6 +165,7 @@ void LoadImu(const Declared& declared, ConfigMap* top, Dataset* dataset) {
   }
   const TimeLine line = MapClock(declared.imu, clock, dataset->epoch_gps_ns);
   for (ImuSample& sample : dataset->imu.samples) sample.t = line(sample.t);
+  dataset->imu.stamp_offset = declared.imu.clock.offset;
   dataset->imu.nominal_dt = MedianInterval(dataset->imu);
 }
 

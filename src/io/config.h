@@ -22,6 +22,8 @@ namespace hindsight {
 /// | imu               | *needed*, see below                      |         |
 /// | aiding.NAME       | one aiding stream each, see below        |         |
 /// | initial           | see below                                |         |
+/// | place             | [lat, lon, h] where attitude alone is estimated: gives gravity and the Earth's rate, which are 9.80665 m/s^2 and nothing without it | - |
+/// | ahrs              | see below                                |         |
 /// | alignment         | auto, given, static, gyrocompass, course, velocity, magnetometer, ahrs: how the attitude at the start is found | auto |
 /// | stationary        | `off`, `on`, or its thresholds           | off     |
 /// | truth             | a stream, see below                      | -       |
@@ -97,7 +99,7 @@ namespace hindsight {
 ///
 /// truth besides: lever_arm (of the point it speaks of), time_offset; axes and
 /// mounting as of the imu, of the axes that its attitude speaks of; for columns
-/// p_x, v_x and q_w and the like: frame (ecef, ned, enu, nwu; ecef), origin
+/// p_x, v_x and q_w and the like, moving (0 or 1): frame (ecef, ned, enu, nwu; ecef), origin
 /// ([lat, lon, h] of local frames) and quaternion (body_to_frame,
 /// frame_to_body; body_to_frame).
 ///
@@ -105,6 +107,16 @@ namespace hindsight {
 /// pitch, heading), heading, gyro_bias, accel_bias, and position_sigma,
 /// velocity_sigma, attitude_sigma, gyro_bias_sigma, accel_bias_sigma. What is
 /// absent is found by alignment.
+///
+/// ahrs (methods ahrs, ahrs_smoother, ahrs_batch): rule, of the accelerometer:
+/// fixed, gate, held_gate, adaptive, smnc (fixed); accel_sigma 0.18 m/s^2; gate
+/// 0.88 m/s^2; lambda 0.05; samples 4, N of smnc and held_gate, or seconds in its
+/// place; low_pass, 1.5 s with the fixed rule and 0 s with the others;
+/// correlation_time 1 s, of the errors of accelerometer and magnetometer;
+/// rest_sigma 1 deg/s, of the gyro bias as read at rest; reject_disturbances
+/// true, by norm and dip of the field; survey true, smoother and batch find field
+/// and hard iron of the whole recording first; room 1 m and room_speed 1 m/s, what the
+/// batch knows of the motion.
 ///
 /// withhold: outage k starts at first fix + from + k every and lasts length;
 /// from is every if it is absent. The first fix is the first that the IMU

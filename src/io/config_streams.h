@@ -40,6 +40,7 @@ struct AidingConfig {
 AidingConfig ReadAidingConfig(const std::string& name, ConfigMap* map,
                               const std::filesystem::path& folder);
 
+AhrsSettings ReadAhrs(ConfigMap* top);
 InitialState ReadInitialState(ConfigMap* top);
 StationaryOptions ReadStationary(ConfigMap* top);
 std::vector<Withholding> ReadWithholdings(ConfigMap* top);

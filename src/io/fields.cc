@@ -90,7 +90,7 @@ const std::vector<FieldName>& TruthFields() {
       {"v_x", Quantity::kSpeed},     {"v_y", Quantity::kSpeed},
       {"v_z", Quantity::kSpeed},     {"q_w", Quantity::kRatio},
       {"q_x", Quantity::kRatio},     {"q_y", Quantity::kRatio},
-      {"q_z", Quantity::kRatio},
+      {"q_z", Quantity::kRatio},     {"moving", Quantity::kRatio},
   };
   return kFields;
 }

@@ -14,6 +14,7 @@ constexpr std::size_t kEuler = 6;
 constexpr std::size_t kPosition = 9;
 constexpr std::size_t kVelocity = 12;
 constexpr std::size_t kQuaternion = 15;
+constexpr std::size_t kMoving = 19;
 
 /// A unit quaternion in a file is one to about this.
 constexpr double kNormTolerance = 0.01;
@@ -98,6 +99,10 @@ class TruthReader {
                    Eigen::Quaterniond(options_.C_bs.transpose());
     }
     if (const auto q = Attitude(point)) point.q_nb = q;
+    const RowSource& table = rows_.table();
+    if (table.Has(kMoving) && std::isfinite(table.value(kMoving))) {
+      point.moving = table.value(kMoving) != 0.0;
+    }
     return point;
   }
 

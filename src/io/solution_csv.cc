@@ -109,7 +109,35 @@ std::string Comments(const SolutionTable& table, const std::string& program) {
          "# bg, ba: gyro and accelerometer bias, measured minus true, body "
          "axes\n"
          "# cov_: covariances, north-east-down; psi is the rotation from the "
-         "estimated to the true attitude\n";
+         "estimated to the true attitude\n" +
+         (table.magnetic.empty()
+              ? ""
+              : "# q: body to north-east-down; accel_sigma: R in force as a "
+                "standard deviation, empty where the accelerometer was not "
+                "used; magnetic: 1 used, 0 no reading, -1 disturbed\n");
+}
+
+void AppendQuaternion(const Eigen::Quaterniond& q_nb, std::string* line) {
+  constexpr int kDigits = 12;
+  for (const double value : {q_nb.w(), q_nb.x(), q_nb.y(), q_nb.z()}) {
+    *line += ',';
+    AppendFixed(value, kDigits, line);
+  }
+}
+
+/// An accelerometer that was not used has no R: its field stays empty.
+void AppendAttitudeVerdicts(const SolutionTable& table, std::size_t k,
+                            std::string* line) {
+  constexpr int kDigits = 6;
+  if (!table.accel_sigma.empty()) {
+    *line += ',';
+    if (std::isfinite(table.accel_sigma[k])) {
+      AppendGeneral(table.accel_sigma[k], kDigits, line);
+    }
+  }
+  if (!table.magnetic.empty()) {
+    *line += ',' + std::to_string(table.magnetic[k]);
+  }
 }
 
 }  // namespace
@@ -128,6 +156,10 @@ void WriteSolutionCsv(const std::string& path, const SolutionTable& table,
     }
   }
   if (!table.separation.empty()) line += ",separation[1]";
+  const bool quaternion = table.p_e.empty() && !table.q_eb.empty();
+  if (quaternion) line += ",q_w[1],q_x[1],q_y[1],q_z[1]";
+  if (!table.accel_sigma.empty()) line += ",accel_sigma[m/s^2]";
+  if (!table.magnetic.empty()) line += ",magnetic[1]";
   file.Write(line + "\n");
   for (std::size_t k = 0; k < table.size(); ++k) {
     line.clear();
@@ -152,6 +184,8 @@ void WriteSolutionCsv(const std::string& path, const SolutionTable& table,
         AppendGeneral(table.separation[k], kSeparationDigits, &line);
       }
     }
+    if (quaternion) AppendQuaternion(table.q_nb(k), &line);
+    AppendAttitudeVerdicts(table, k, &line);
     line += '\n';
     file.Write(line);
   }

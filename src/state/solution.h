@@ -62,6 +62,12 @@ struct Solution {
   std::vector<std::string> mode_names;
   /// What a self-tuning method made of the sensors' noise, in words.
   std::vector<std::string> notes;
+  /// Of attitude-only estimators: empty or as long as states. R in force of the
+  /// accelerometer as a standard deviation, infinity where it was not used
+  /// [m/s^2]; 1 where the field was used, 0 without a reading, -1 where it was
+  /// taken for disturbed.
+  std::vector<double> accel_sigma;
+  std::vector<signed char> magnetic;
   bool converged = true;
   int iterations = 0;    ///< 0 for a method that does not iterate
   double seconds = 0.0;  ///< processor time of the method alone
