@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 
+#include "alignment/ahrs.h"
 #include "alignment/course.h"
 #include "alignment/given.h"
 #include "alignment/gyrocompass.h"
@@ -14,13 +15,14 @@
 namespace hindsight {
 namespace {
 
-constexpr std::array<AlignmentMethod, 6> kMethods = {
+constexpr std::array<AlignmentMethod, 7> kMethods = {
     {{AlignmentKind::kGiven, AlignAsGiven, false},
      {AlignmentKind::kStatic, AlignAtRest},
      {AlignmentKind::kGyrocompass, AlignByGyrocompass},
      {AlignmentKind::kMagnetometer, AlignByMagnetometer},
      {AlignmentKind::kCourse, AlignByCourse},
-     {AlignmentKind::kVelocity, AlignByVelocity}}};
+     {AlignmentKind::kVelocity, AlignByVelocity},
+     {AlignmentKind::kAhrs, AlignByAhrs, false}}};
 
 std::string HeadingWords(const AlignedAttitude& attitude) {
   const double sigma = std::sqrt(attitude.P(2, 2));

@@ -49,6 +49,9 @@ struct AlignedAttitude {
   double reuse = 1.0;
   /// Direction of travel in body axes, where the alignment has found one.
   std::optional<Eigen::Vector3d> travel_b;
+  /// Gyro bias where the method estimates it, with its sigma [rad/s].
+  std::optional<Eigen::Vector3d> b_g;
+  Eigen::Vector3d b_g_sigma = Eigen::Vector3d::Zero();
   std::string attitude;  ///< how roll and pitch were found, in words
   std::string heading;   ///< how the heading was found, in words
 };

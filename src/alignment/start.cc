@@ -112,6 +112,10 @@ class StartFinder {
       attitude_.P_bias.setZero();
       attitude_.reuse = 1.0;
     }
+    if (attitude_.b_g) {
+      b_g_ = *attitude_.b_g;
+      b_g_sigma_ = b_g_sigma_.cwiseMin(attitude_.reuse * attitude_.b_g_sigma);
+    }
     report_.alignment = AlignmentName(choice.kind);
     report_.why = choice.why;
     report_.attitude = attitude_.attitude;

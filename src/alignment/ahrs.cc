@@ -1,0 +1,62 @@
+#include "alignment/ahrs.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "alignment/attitude_start.h"
+#include "earth/wgs84.h"
+#include "filters/rts.h"
+
+namespace hindsight {
+
+AlignmentOutcome AlignByAhrs(const AlignmentInput& input) {
+  constexpr double kSpan = 30.0;     // [s]
+  constexpr double kShortest = 5.0;  // [s]
+  const double end = std::min(input.t + kSpan, input.to);
+  if (end - input.t < kShortest) {
+    return {std::nullopt, "less than 5 s of IMU data"};
+  }
+  const ImuStream& all = input.dataset.imu;
+  if (all.kind != ImuStream::Kind::kRates) {
+    return {std::nullopt, "the IMU gives increments, no rates"};
+  }
+  ImuStream imu = all;
+  std::erase_if(imu.samples, [&](const ImuSample& sample) {
+    return sample.t < input.t || sample.t > end;
+  });
+  std::vector<MagneticSample> magnetic = MagneticSamples(input.dataset);
+  std::erase_if(magnetic, [&](const MagneticSample& sample) {
+    return sample.t < imu.t_begin() || sample.t > end;
+  });
+  AttitudeFilterOptions options = FilterOptionsOf(input.dataset);
+  options.place = PlaceOnEarth(input.p_e);
+  AttitudeState start = StartOfAttitude(input.dataset, imu, magnetic);
+  start.b_g = input.b_g;
+  LinearTape tape(AttitudeLayout(imu.noise, start));
+  RunAttitudeFilter(imu, magnetic, options, start, &tape);
+  const SmoothedTrajectory smoothed = SmoothRts(std::move(tape));
+
+  const State& x = smoothed.states.front();
+  const ErrorMatrix P = smoothed.P.Get(0);
+  AlignedAttitude out;
+  out.q_nb = Eigen::Quaterniond(NedAxes(input.p_e)).conjugate() * x.q_eb;
+  out.P = P.topLeftCorner<3, 3>();
+  out.b_g = x.b_g;
+  out.b_g_sigma = P.diagonal().tail<3>().cwiseSqrt();
+  constexpr double kReuse = 10.0;
+  out.reuse = kReuse;
+  char words[96];
+  std::snprintf(words, sizeof(words), "attitude filter over %.1f s",
+                end - input.t);
+  out.attitude = words;
+  out.heading = "magnetic field, by the attitude filter";
+  if (magnetic.empty()) {
+    out.P(2, 2) = kUnknownHeadingSigma * kUnknownHeadingSigma;
+    out.P.row(2).head<2>().setZero();
+    out.P.col(2).head<2>().setZero();
+    out.heading = "unknown: no magnetometer";
+  }
+  return {out, ""};
+}
+
+}  // namespace hindsight

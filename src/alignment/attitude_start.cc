@@ -1,0 +1,103 @@
+#include "alignment/attitude_start.h"
+
+#include <cmath>
+
+#include "base/units.h"
+#include "geometry/so3.h"
+
+namespace hindsight {
+namespace {
+
+const AidingStream* MagnetometerOf(const Dataset& dataset) {
+  for (const AidingStream& stream : dataset.streams) {
+    if (stream.sensor.type == SensorType::kMagnetometer &&
+        !stream.measurements.empty()) {
+      return &stream;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+AttitudeFilterOptions FilterOptionsOf(const Dataset& dataset) {
+  constexpr double kLowPass = 1.5;  // [s]
+  const AhrsSettings& ahrs = dataset.ahrs;
+  AttitudeFilterOptions options;
+  if (dataset.place) {
+    options.place = PlaceOnEarth(EcefFromGeodetic(*dataset.place));
+  }
+  options.rule.name = ahrs.rule;
+  options.rule.sigma = ahrs.accel_sigma;
+  options.rule.limit = ahrs.gate;
+  options.rule.lambda = ahrs.lambda;
+  options.rule.N = ahrs.seconds
+                       ? SamplesIn(*ahrs.seconds, MedianInterval(dataset.imu))
+                       : ahrs.samples;
+  options.low_pass_tau =
+      ahrs.low_pass.value_or(ahrs.rule == "fixed" ? kLowPass : 0.0);
+  options.accel_correlation_time = ahrs.correlation_time;
+  options.magnetic_correlation_time = ahrs.correlation_time;
+  options.rest_sigma = ahrs.rest_sigma;
+  options.reference.enabled = ahrs.reject_disturbances;
+  if (const AidingStream* stream = MagnetometerOf(dataset)) {
+    const auto& first =
+        std::get<MagneticField>(stream->measurements.front().model);
+    options.magnetic_sigma = first.sigma;
+    options.magnetic_form = first.form;
+    options.magnetic = stream->sensor.magnetic;
+  }
+  return options;
+}
+
+std::vector<MagneticSample> MagneticSamples(const Dataset& dataset) {
+  std::vector<MagneticSample> samples;
+  const AidingStream* stream = MagnetometerOf(dataset);
+  if (stream == nullptr) return samples;
+  samples.reserve(stream->measurements.size());
+  for (const Measurement& z : stream->measurements) {
+    samples.push_back({z.t + stream->sensor.time_offset,
+                       std::get<MagneticField>(z.model).field_b -
+                           stream->sensor.magnetic.hard_iron_b});
+  }
+  return samples;
+}
+
+AttitudeState StartOfAttitude(const Dataset& dataset, const ImuStream& imu,
+                              std::span<const MagneticSample> magnetic) {
+  constexpr double kSpan = 0.5;  // [s]
+  AttitudeState start;
+  start.t = imu.t_begin();
+  start.b_g = dataset.initial.gyro_bias;
+  Eigen::Vector3d f = Eigen::Vector3d::Zero();
+  for (const ImuSample& sample : imu.samples) {
+    if (sample.t > start.t + kSpan) break;
+    f += sample.accel;
+  }
+  Eigen::Vector3d m = Eigen::Vector3d::Zero();
+  double declination = 0.0;
+  for (const MagneticSample& sample : magnetic) {
+    if (sample.t > start.t + kSpan && !m.isZero(0.0)) break;
+    m += sample.field_b;
+  }
+  if (const AidingStream* stream = MagnetometerOf(dataset)) {
+    declination = stream->sensor.magnetic.declination;
+  }
+  const double roll = std::atan2(-f.y(), -f.z());
+  const double pitch = std::atan2(f.x(), f.tail<2>().norm());
+  const Eigen::Vector3d level = QuaternionFromEuler(roll, pitch, 0.0) * m;
+  double heading = std::atan2(-level.y(), level.x()) + declination;
+  if (m.isZero(0.0)) heading = dataset.initial.heading.value_or(0.0);
+  start.q_nb = QuaternionFromEuler(roll, pitch, heading);
+  if (const auto& euler = dataset.initial.euler) {
+    start.q_nb = QuaternionFromEuler(euler->x(), euler->y(), euler->z());
+  }
+  const Eigen::Vector3d sigma = dataset.initial.attitude_sigma.value_or(
+      Eigen::Vector3d(5.0, 5.0, 10.0) * kDegree);
+  const Eigen::Vector3d bias_sigma = dataset.initial.gyro_bias_sigma.value_or(
+      Eigen::Vector3d::Constant(0.5 * kDegree));
+  start.P.diagonal() << sigma.cwiseAbs2(), bias_sigma.cwiseAbs2();
+  return start;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,29 @@
+#ifndef HINDSIGHT_ALIGNMENT_ATTITUDE_START_H_
+#define HINDSIGHT_ALIGNMENT_ATTITUDE_START_H_
+
+#include <span>
+#include <vector>
+
+#include "dataset/dataset.h"
+#include "filters/attitude_filter.h"
+
+namespace hindsight {
+
+/// The filter's settings that a data set asks for. Its first magnetometer
+/// stream is used; without one the heading is that of the start.
+AttitudeFilterOptions FilterOptionsOf(const Dataset& dataset);
+
+/// The readings of the data set's first magnetometer, its given hard iron
+/// removed; none without one.
+std::vector<MagneticSample> MagneticSamples(const Dataset& dataset);
+
+/// Attitude at the first sample: levelled by the mean specific force of the
+/// first half second and turned to the field's mean; 5 deg of tilt, 10 deg of
+/// heading unless the data set gives them. Without readings the heading is
+/// that of the configuration, or zero.
+AttitudeState StartOfAttitude(const Dataset& dataset, const ImuStream& imu,
+                              std::span<const MagneticSample> magnetic);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_ALIGNMENT_ATTITUDE_START_H_
