@@ -6,8 +6,10 @@
 #include "app/text.h"
 #include "base/error.h"
 #include "base/units.h"
+#include "evaluation/broad_metric.h"
 #include "evaluation/trajectory_error.h"
 #include "io/comparison.h"
+#include "io/config.h"
 #include "io/solution_csv.h"
 
 namespace hindsight {
@@ -18,7 +20,9 @@ constexpr const char* kHelp =
 hindsight's CSV format (a result of 'run', or a data set's truth.csv). The
 solution is interpolated to the times of the truth. Errors are truth minus
 solution; normalised errors (mean of e' P^-1 e of three components, expected
-3) where the solution holds covariances.
+3) where the solution holds covariances. --metric=broad gives the attitude errors of the BROAD benchmark: total, heading
+and inclination, root mean square in motion; there TRUTH may also be a
+configuration (.yaml) whose truth is meant.
 )";
 
 /// Statistics under one key; `scale` turns SI into `unit`.
@@ -72,7 +76,42 @@ void PrintJson(const TrajectoryStatistics& all) {
   std::cout << json.dump(2) << "\n";
 }
 
+std::vector<TruthPoint> ReadTruthOf(const std::string& path) {
+  if (!path.ends_with(".yaml")) return TruthFromTable(ReadSolutionCsv(path));
+  return LoadDataset(path, {.data_root = FLAGS_data_root}).truth;
+}
+
+int PrintBroad(const std::string& solution_path,
+               const std::string& truth_path) {
+  const BroadMetric metric =
+      EvaluateBroad(ReadSolutionCsv(solution_path), ReadTruthOf(truth_path));
+  if (metric.count == 0) {
+    throw InputError(solution_path, 0,
+                     "no attitude to compare with " + truth_path);
+  }
+  if (FLAGS_json) {
+    const nlohmann::ordered_json json = {
+        {"total_rmse_deg", metric.rms.total / kDegree},
+        {"heading_rmse_deg", metric.rms.heading / kDegree},
+        {"inclination_rmse_deg", metric.rms.inclination / kDegree},
+        {"count", metric.count}};
+    std::cout << json.dump(2) << "\n";
+  } else {
+    std::cout << Format(
+        "RMSE [deg]: total %.3f, heading %.3f, inclination %.3f (%zu points "
+        "in motion)\n",
+        metric.rms.total / kDegree, metric.rms.heading / kDegree,
+        metric.rms.inclination / kDegree, metric.count);
+  }
+  return kUsable;
+}
+
 int Run(const std::vector<std::string>& arguments) {
+  if (FLAGS_metric == "broad") return PrintBroad(arguments[0], arguments[1]);
+  if (FLAGS_metric != "trajectory") {
+    throw UsageError("--metric=" + FLAGS_metric +
+                     ": expected trajectory or broad");
+  }
   const SolutionTable solution = ReadSolutionCsv(arguments[0]);
   const SolutionTable truth = ReadSolutionCsv(arguments[1]);
   const TrajectoryErrorOptions options;
@@ -105,7 +144,11 @@ Command EvaluateCommand() {
       .summary = "compare a trajectory with a reference",
       .arguments = "SOLUTION TRUTH",
       .help = kHelp,
-      .flags = {{"json", "", "print the figures as one JSON object"}},
+      .flags = {{"json", "", "print the figures as one JSON object"},
+                {"metric", "NAME", "trajectory or broad (trajectory)"},
+                {"data_root", "DIR",
+                 "where a relative folder of a configuration is looked for\n"
+                 "(../shared/data)"}},
       .min_arguments = 2,
       .max_arguments = 2,
       .run = Run,

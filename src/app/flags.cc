@@ -9,6 +9,7 @@
 
 DEFINE_double(alpha, 0.03, "");
 DEFINE_string(alpha_blocks, "velocity_attitude", "");
+DEFINE_string(ahrs_rule, "", "");
 DEFINE_string(at, "", "");
 DEFINE_bool(back_off, false, "");
 DEFINE_string(bounded, "attitude=1rad", "");
@@ -29,6 +30,7 @@ DEFINE_bool(json, false, "");
 DEFINE_bool(list, false, "");
 DEFINE_string(log, "none", "");
 DEFINE_string(methods, "ekf,rts,iterated,batch", "");
+DEFINE_string(metric, "trajectory", "");
 DEFINE_bool(noise, false, "");
 DEFINE_string(out, "", "");
 DEFINE_string(path, "winding", "");

@@ -10,6 +10,7 @@
 
 DECLARE_double(alpha);
 DECLARE_string(alpha_blocks);
+DECLARE_string(ahrs_rule);
 DECLARE_string(at);
 DECLARE_bool(back_off);
 DECLARE_string(bounded);
@@ -30,6 +31,7 @@ DECLARE_bool(json);
 DECLARE_bool(list);
 DECLARE_string(log);
 DECLARE_string(methods);
+DECLARE_string(metric);
 DECLARE_bool(noise);
 DECLARE_string(out);
 DECLARE_string(path);

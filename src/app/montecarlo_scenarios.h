@@ -36,6 +36,9 @@ void RunCalibration(MonteCarloOptions options, Progress* progress,
 void RunGpsJumps(MonteCarloOptions options, Progress* progress,
                  ResultFolder* folder);
 
+void RunVibrationAttitude(MonteCarloOptions options, Progress* progress,
+                          ResultFolder* folder);
+
 /// Reports the number of finished runs out of `runs`.
 std::function<void(int)> RunProgress(int runs, Progress* progress);
 

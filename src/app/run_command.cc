@@ -2,6 +2,7 @@
 #include "app/flags.h"
 #include "app/observer_flags.h"
 #include "app/run.h"
+#include "app/run_attitude.h"
 #include "app/run_request.h"
 
 namespace hindsight {
@@ -39,10 +40,18 @@ Methods: ekf       forward error-state Kalman filter
                    twenty times worse; imm_smoother, its smoother
          robust_batch  batch that finds out from the data whether positions
                    have outliers, correlated errors or jumps
+Attitude alone, from IMU and magnetometer, without any position:
+         ahrs      causal filter of attitude and gyro bias at every sample
+         ahrs_smoother  its Rauch-Tung-Striebel smoother
+         ahrs_batch     least squares with the linear acceleration as unknown
+These write attitude (angles and quaternion), gyro bias, the accelerometer's
+sigma in force and the verdict on the magnetometer, at the stamps of the IMU.
 )";
 
 int Run(const std::vector<std::string>& arguments) {
-  return Reconstruct(ReadRunRequest(arguments[0]));
+  const RunRequest request = ReadRunRequest(arguments[0]);
+  return request.ahrs_methods.empty() ? Reconstruct(request)
+                                      : EstimateAttitude(request);
 }
 
 }  // namespace
@@ -59,8 +68,12 @@ Command RunCommand() {
            {"methods", "LIST",
             "some of ekf,two_filter,two_filter_conventional,\n"
             "two_filter_euler,hinf,modified_hinf,rts,iterated,batch,\n"
-            "gated_ekf,imm,imm_smoother,robust_batch\n"
+            "gated_ekf,imm,imm_smoother,robust_batch,\n"
+            "or some of ahrs,ahrs_smoother,ahrs_batch\n"
             "(ekf,rts,iterated,batch)"},
+           {"ahrs_rule", "NAME",
+            "how the accelerometer is trusted: fixed, gate,\n"
+            "held_gate, adaptive or smnc (as the configuration says)"},
            {"from", "T", "begin at T seconds since the data set's epoch"},
            {"to", "T", "end at T seconds"},
            {"rate", "HZ", "rate of the output (at the estimator's nodes)"},

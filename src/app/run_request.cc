@@ -6,6 +6,7 @@
 
 #include "app/flags.h"
 #include "app/observer_flags.h"
+#include "base/error.h"
 #include "io/time_list.h"
 #include "io/units.h"
 
@@ -154,6 +155,43 @@ std::vector<Method> ParseMethods(const std::string& text) {
   return methods;
 }
 
+/// Methods for attitude alone; nothing if the list names none.
+std::vector<AhrsMethod> ParseAhrsMethods(const std::string& text) {
+  std::vector<AhrsMethod> methods;
+  const std::vector<std::string> names = Split(text, ',');
+  for (const std::string& name : names) {
+    if (!IsAhrsMethod(name)) continue;
+    const AhrsMethod method = AhrsMethodFromName(name);
+    if (std::find(methods.begin(), methods.end(), method) == methods.end()) {
+      methods.push_back(method);
+    }
+  }
+  if (!methods.empty() &&
+      !std::all_of(names.begin(), names.end(), IsAhrsMethod)) {
+    throw UsageError("--methods=" + text +
+                     ": ahrs, ahrs_smoother and ahrs_batch estimate attitude "
+                     "alone and do not go with the other methods");
+  }
+  return methods;
+}
+
+std::string ReadRule(const RunRequest& request) {
+  if (FLAGS_ahrs_rule.empty()) return "";
+  if (request.ahrs_methods.empty()) {
+    throw UsageError(
+        "--ahrs-rule goes with the methods ahrs, ahrs_smoother, "
+        "ahrs_batch");
+  }
+  AccelerometerRuleOptions options;
+  options.name = FLAGS_ahrs_rule;
+  try {
+    MakeAccelerometerRule(options);
+  } catch (const InputError& error) {
+    throw UsageError("--ahrs-rule: " + std::string(error.what()));
+  }
+  return FLAGS_ahrs_rule;
+}
+
 std::set<std::string> ParseExports(const std::string& text) {
   const std::vector<std::string> known = {"tum", "kml", "nav"};
   std::set<std::string> exports;
@@ -207,7 +245,11 @@ RunRequest ReadRunRequest(const std::string& config) {
   request.without = Split(FLAGS_without, ',');
   request.out = FLAGS_out;
   request.force = FLAGS_force;
-  request.methods = ParseMethods(FLAGS_methods);
+  request.ahrs_methods = ParseAhrsMethods(FLAGS_methods);
+  if (request.ahrs_methods.empty()) {
+    request.methods = ParseMethods(FLAGS_methods);
+  }
+  request.ahrs_rule = ReadRule(request);
   request.from = FLAGS_from;
   request.to = FLAGS_to;
   if (!(FLAGS_from < FLAGS_to)) {

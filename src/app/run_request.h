@@ -10,6 +10,7 @@
 
 #include "app/progress.h"
 #include "dataset/dataset.h"
+#include "problems/attitude.h"
 #include "problems/reconstruction.h"
 
 namespace hindsight {
@@ -22,10 +23,13 @@ struct RunRequest {
   std::string out;
   bool force = false;
   std::vector<Method> methods;  ///< in the order given, each once
-  double from = 0.0;            ///< [s]
-  double to = 0.0;              ///< [s]
-  std::optional<double> rate;   ///< of the output [Hz]; absent: at the nodes
-  std::vector<double> at;       ///< times of poses asked for, in order [s]
+  /// Methods for attitude alone; then `methods` is empty.
+  std::vector<AhrsMethod> ahrs_methods;
+  std::string ahrs_rule;       ///< in place of the configuration's if not empty
+  double from = 0.0;           ///< [s]
+  double to = 0.0;             ///< [s]
+  std::optional<double> rate;  ///< of the output [Hz]; absent: at the nodes
+  std::vector<double> at;      ///< times of poses asked for, in order [s]
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();  ///< from the IMU [m]
   /// In place of the configuration's if not empty.
   std::vector<Withholding> withholdings;

@@ -1,0 +1,264 @@
+#include "problems/attitude.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "filters/rts.h"
+#include "geometry/so3.h"
+#include "problems/attitude_batch.h"
+
+namespace hindsight {
+namespace {
+
+constexpr std::pair<AhrsMethod, const char*> kMethods[] = {
+    {AhrsMethod::kFilter, "ahrs"},
+    {AhrsMethod::kSmoother, "ahrs_smoother"},
+    {AhrsMethod::kBatch, "ahrs_batch"}};
+
+double ProcessorSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) +
+         1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// The samples of [from, to], increments as mean rates.
+ImuStream RatesWithin(const ImuStream& imu, double from, double to) {
+  ImuStream out = imu;
+  out.kind = ImuStream::Kind::kRates;
+  out.samples.clear();
+  for (std::size_t k = 0; k < imu.samples.size(); ++k) {
+    ImuSample sample = imu.samples[k];
+    if (sample.t < from || sample.t > to) continue;
+    if (imu.kind == ImuStream::Kind::kIncrements) {
+      const std::size_t j = std::max<std::size_t>(k, 1);
+      const double dt = imu.samples[j].t - imu.samples[j - 1].t;
+      // The mean over the interval is the rate at its middle.
+      sample.t -= 0.5 * dt;
+      sample.gyro /= dt;
+      sample.accel /= dt;
+    }
+    out.samples.push_back(sample);
+  }
+  if (out.empty()) throw InputError("no IMU data in the asked interval");
+  return out;
+}
+
+}  // namespace
+
+const char* AhrsMethodName(AhrsMethod method) {
+  return kMethods[static_cast<std::size_t>(method)].second;
+}
+
+bool IsAhrsMethod(const std::string& name) {
+  return std::any_of(std::begin(kMethods), std::end(kMethods),
+                     [&](const auto& entry) { return entry.second == name; });
+}
+
+AhrsMethod AhrsMethodFromName(const std::string& name) {
+  for (const auto& [method, text] : kMethods) {
+    if (name == text) return method;
+  }
+  throw InputError("unknown method '" + name +
+                   "'; known are ahrs, ahrs_smoother, ahrs_batch");
+}
+
+AttitudeEstimation::AttitudeEstimation(const Dataset& dataset,
+                                       AttitudeOptions options)
+    : dataset_(dataset),
+      options_(std::move(options)),
+      imu_(RatesWithin(dataset.imu, options_.from, options_.to)),
+      magnetic_(MagneticSamples(dataset)),
+      filter_options_(FilterOptionsOf(dataset)) {
+  std::erase_if(magnetic_, [this](const MagneticSample& sample) {
+    return sample.t < imu_.t_begin() || sample.t > imu_.t_end();
+  });
+  start_ = StartOfAttitude(dataset, imu_, magnetic_);
+}
+
+void AttitudeEstimation::Poll(const std::string& stage, double fraction) const {
+  if (options_.stop != nullptr && *options_.stop) throw Interrupted();
+  if (options_.progress) options_.progress(stage, fraction);
+}
+
+namespace {
+
+Eigen::Quaterniond NedAttitude(const State& x) {
+  return Eigen::Quaterniond(Eigen::Matrix3d(x.C_en().transpose())) * x.q_eb;
+}
+
+void FillVerdicts(const AttitudeRun& run, Solution* solution) {
+  for (const AttitudeEpoch& epoch : run.epochs) {
+    solution->accel_sigma.push_back(std::sqrt(epoch.accel_variance));
+    solution->magnetic.push_back(static_cast<signed char>(
+        epoch.magnetic_used ? 1 : (epoch.magnetic_disturbed ? -1 : 0)));
+  }
+}
+
+}  // namespace
+
+Solution AttitudeEstimation::RunFilter() {
+  const AttitudeRun run = RunAttitudeFilter(
+      imu_, magnetic_, filter_options_, start_, nullptr, [&](std::size_t k) {
+        Poll("ahrs",
+             static_cast<double>(k) / static_cast<double>(imu_.samples.size()));
+      });
+  Solution solution;
+  solution.layout = AttitudeLayout(imu_.noise, start_);
+  solution.covariances = CovarianceSeries(6, run.epochs.size());
+  const Eigen::Quaterniond q_en(NedAxes(filter_options_.place.p_e));
+  for (std::size_t k = 0; k < run.epochs.size(); ++k) {
+    const AttitudeState& a = run.epochs[k].x;
+    State x;
+    x.t = a.t;
+    x.p_e = filter_options_.place.p_e;
+    x.q_eb = (q_en * a.q_nb).normalized();
+    x.b_g = a.b_g;
+    solution.states.push_back(x);
+    solution.covariances.Set(k, a.P);
+  }
+  FillVerdicts(run, &solution);
+  return solution;
+}
+
+Solution AttitudeEstimation::Smooth(std::span<const MagneticSample> magnetic,
+                                    const AttitudeFilterOptions& options,
+                                    const std::string& stage) const {
+  AttitudeState start = start_;
+  if (level_) start.q_nb = NedAttitude(level_->states.front());
+  LinearTape tape(AttitudeLayout(imu_.noise, start));
+  const AttitudeRun run = RunAttitudeFilter(
+      imu_, magnetic, options, start, &tape, [&](std::size_t k) {
+        Poll(stage,
+             static_cast<double>(k) / static_cast<double>(imu_.samples.size()));
+      });
+  Solution solution;
+  solution.layout = tape.layout();
+  SmoothedTrajectory smoothed = SmoothRts(std::move(tape));
+  solution.states = std::move(smoothed.states);
+  solution.covariances = std::move(smoothed.P);
+  FillVerdicts(run, &solution);
+  return solution;
+}
+
+/// Runs once; turns the levelled solution to the field it finds.
+void AttitudeEstimation::Survey() {
+  if (level_) return;
+  level_ = Smooth({}, filter_options_, "survey");
+  std::vector<double> times;
+  std::vector<const MagneticSample*> chosen;
+  for (const MagneticSample& sample : magnetic_) {
+    if (!times.empty() && sample.t < times.back() + kRoomNodeSpacing) continue;
+    times.push_back(sample.t);
+    chosen.push_back(&sample);
+  }
+  if (times.empty()) return;
+  const Solution at = SampleAttitude(*level_, imu_, times);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    SurveyedField reading{times[k], NedAttitude(at.states[k]),
+                          chosen[k]->field_b};
+    const std::size_t before = k > 0 ? k - 1 : 0;
+    const double angle =
+        at.states[before].q_eb.angularDistance(at.states[k].q_eb);
+    const double dt = k > 0 ? times[k] - times[before] : kRoomNodeSpacing;
+    reading.weight = IndependentPart(dt, angle);
+    readings_.push_back(reading);
+  }
+  survey_ = SurveyField(readings_);
+  const double turn = filter_options_.magnetic.declination -
+                      std::atan2(survey_.field_n.y(), survey_.field_n.x());
+  const Eigen::Matrix3d C_en = NedAxes(filter_options_.place.p_e);
+  const Eigen::Quaterniond q_turn = Exp(C_en * Eigen::Vector3d(0.0, 0.0, turn));
+  for (State& x : level_->states) x.q_eb = q_turn * x.q_eb;
+}
+
+Solution AttitudeEstimation::RunSmoother() {
+  if (magnetic_.empty() || !dataset_.ahrs.survey) {
+    return Smooth(magnetic_, filter_options_, "ahrs_smoother");
+  }
+  Survey();
+  AttitudeFilterOptions options = filter_options_;
+  options.reference.norm = survey_.field_n.norm();
+  options.reference.dip = std::asin(survey_.field_n.normalized().z());
+  std::vector<MagneticSample> corrected = magnetic_;
+  for (MagneticSample& sample : corrected) {
+    sample.field_b -= survey_.hard_iron_b;
+  }
+  return Smooth(corrected, options, "ahrs_smoother");
+}
+
+Solution AttitudeEstimation::RunBatch() {
+  Survey();
+  return SolveRoomBatch(
+      {dataset_, imu_, readings_, survey_, *level_, filter_options_.place},
+      [this](double fraction) { Poll("ahrs_batch", fraction); });
+}
+
+Solution AttitudeEstimation::Run(AhrsMethod method) {
+  const double t0 = ProcessorSeconds();
+  Solution solution = method == AhrsMethod::kFilter     ? RunFilter()
+                      : method == AhrsMethod::kSmoother ? RunSmoother()
+                                                        : RunBatch();
+  solution.method = AhrsMethodName(method);
+  solution.seconds = ProcessorSeconds() - t0;
+  if (!solution.converged) {
+    solution.usable = false;
+    solution.verdict = "not usable: the iteration did not converge";
+  } else {
+    solution.verdict = magnetic_.empty()
+                           ? "usable, but the heading counts from the start: "
+                             "there is no magnetometer"
+                           : "usable";
+  }
+  if (imu_.stamp_offset != 0.0) {
+    std::vector<double> stamps;
+    for (const ImuSample& sample : imu_.samples) {
+      const double t = sample.t - imu_.stamp_offset;
+      if (t >= imu_.t_begin()) stamps.push_back(t);
+    }
+    solution = SampleAttitude(solution, imu_, stamps);
+  }
+  return solution;
+}
+
+Solution SampleAttitude(const Solution& solution, const ImuStream& imu,
+                        const std::vector<double>& times) {
+  Solution out = solution;
+  out.states.clear();
+  out.accel_sigma.clear();
+  out.magnetic.clear();
+  out.covariances =
+      CovarianceSeries(solution.covariances.dim(),
+                       solution.covariances.empty() ? 0 : times.size());
+  std::size_t k = 0;
+  std::size_t s = 0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    while (k + 1 < solution.states.size() &&
+           solution.states[k + 1].t <= times[i]) {
+      ++k;
+    }
+    while (s + 1 < imu.samples.size() &&
+           imu.samples[s + 1].t <= solution.states[k].t) {
+      ++s;
+    }
+    State x = solution.states[k];
+    const Eigen::Vector3d w = imu.samples[s].gyro - x.b_g;
+    x.q_eb = (x.q_eb * Exp((times[i] - x.t) * w)).normalized();
+    x.t = times[i];
+    out.states.push_back(x);
+    if (!solution.covariances.empty()) {
+      out.covariances.Set(i, solution.covariances.Get(k));
+    }
+    if (!solution.accel_sigma.empty()) {
+      out.accel_sigma.push_back(solution.accel_sigma[k]);
+      out.magnetic.push_back(solution.magnetic[k]);
+    }
+  }
+  return out;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,89 @@
+#ifndef HINDSIGHT_PROBLEMS_ATTITUDE_H_
+#define HINDSIGHT_PROBLEMS_ATTITUDE_H_
+
+#include <atomic>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "alignment/attitude_start.h"
+#include "dataset/dataset.h"
+#include "filters/attitude_filter.h"
+#include "problems/field_survey.h"
+#include "state/solution.h"
+
+namespace hindsight {
+
+/// Estimators of attitude alone, from an IMU and, if there is one, a
+/// magnetometer; no position is needed.
+enum class AhrsMethod {
+  kFilter,    ///< "ahrs": causal
+  kSmoother,  ///< "ahrs_smoother": its RTS smoother
+  kBatch,     ///< "ahrs_batch": least squares over the whole interval
+};
+const char* AhrsMethodName(AhrsMethod method);
+/// Whether `name` is one of them.
+bool IsAhrsMethod(const std::string& name);
+/// Throws InputError for a name that is none.
+AhrsMethod AhrsMethodFromName(const std::string& name);
+
+struct AttitudeOptions {
+  double from = -std::numeric_limits<double>::infinity();  ///< [s]
+  double to = std::numeric_limits<double>::infinity();     ///< [s]
+  std::function<void(const std::string& stage, double fraction)> progress;
+  const std::atomic<bool>* stop = nullptr;  ///< polled; throws Interrupted
+};
+
+/// One recording, estimated by any of the methods. Solutions have the layout
+/// {attitude, gyro bias}, one state an IMU sample, and are given at the stamps
+/// of the file (ImuStream::stamp_offset).
+///   Smoother and batch know the field of the whole recording, and the body's
+/// own, from a survey about gyros and accelerometers alone (field_survey.h).
+///   Batch: the inertial navigation problem of the same samples
+///   (Reconstruction)
+/// with only the knowledge that the body stays in a room,
+///   p = 0 +- room, v = 0 +- room_speed every 50 ms,
+/// which makes the linear acceleration an unknown that must integrate to
+/// little, where a tilt filter has to call it noise. The field enters as a
+/// vector, a reading with the weight that the survey gave it.
+class AttitudeEstimation {
+ public:
+  /// `dataset` must outlive the object.
+  AttitudeEstimation(const Dataset& dataset, AttitudeOptions options);
+
+  /// Throws EstimationError, Interrupted.
+  Solution Run(AhrsMethod method);
+
+ private:
+  Solution RunFilter();
+  Solution RunSmoother();
+  Solution RunBatch();
+  Solution Smooth(std::span<const MagneticSample> magnetic,
+                  const AttitudeFilterOptions& options,
+                  const std::string& stage) const;
+  void Survey();
+  void Poll(const std::string& stage, double fraction) const;
+
+  const Dataset& dataset_;
+  AttitudeOptions options_;
+  ImuStream imu_;  ///< of the asked interval, rates
+  std::vector<MagneticSample> magnetic_;
+  AttitudeFilterOptions filter_options_;
+  AttitudeState start_;
+  /// Gyros and accelerometers alone, turned to the surveyed field.
+  std::optional<Solution> level_;
+  std::vector<SurveyedField> readings_;
+  FieldSurvey survey_;
+};
+
+/// Attitudes at other times: the state at the sample before, turned by the rate
+/// of that sample. Nothing later enters, so a causal solution stays causal.
+Solution SampleAttitude(const Solution& solution, const ImuStream& imu,
+                        const std::vector<double>& times);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_ATTITUDE_H_

@@ -1,0 +1,182 @@
+#include "problems/attitude_batch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "geometry/so3.h"
+#include "problems/reconstruction.h"
+
+namespace hindsight {
+namespace {
+
+/// Error of one independent magnetometer reading indoors, all that its hard
+/// iron and the mean field leave [uT].
+constexpr double kMagneticSigma = 5.0;
+
+/// Without a place the Earth does not turn: its rate at the room's stand-in
+/// place is put into the gyros' readings, to be taken out again.
+void AddEarthRate(const RoomProblem& problem, ImuStream* imu) {
+  const Eigen::Vector3d w_ie_e = EarthRate_e();
+  for (std::size_t k = 0; k < imu->samples.size(); ++k) {
+    imu->samples[k].gyro +=
+        problem.smoothed.states[k].q_eb.conjugate() * w_ie_e;
+  }
+}
+
+AidingStream RoomStream(const char* name, SensorType type) {
+  AidingStream stream;
+  stream.sensor.name = name;
+  stream.sensor.type = type;
+  return stream;
+}
+
+/// p = 0 +- room and v = 0 +- room_speed at every node.
+void AddRoom(const RoomProblem& problem, Dataset* room) {
+  const AhrsSettings& ahrs = problem.dataset.ahrs;
+  AidingStream position = RoomStream("room", SensorType::kPosition);
+  AidingStream velocity = RoomStream("room_speed", SensorType::kVelocity);
+  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+  const int first = static_cast<int>(room->streams.size());
+  const double begin = problem.imu.t_begin();
+  const double span = problem.imu.t_end() - begin;
+  const int steps = static_cast<int>(std::ceil(span / kRoomNodeSpacing));
+  for (int i = 0; i <= steps; ++i) {
+    const double t = begin + span * i / steps;
+    position.measurements.push_back(
+        {t, first, false,
+         PositionFix{problem.place.p_e, ahrs.room * ahrs.room * I}});
+    velocity.measurements.push_back(
+        {t, first + 1, false,
+         VelocityFix{Eigen::Vector3d::Zero(),
+                     ahrs.room_speed * ahrs.room_speed * I}});
+  }
+  room->streams.push_back(std::move(position));
+  room->streams.push_back(std::move(velocity));
+}
+
+/// The field as a vector about the survey's, each reading with the weight it
+/// has there.
+void AddMagnetometer(const RoomProblem& problem, Dataset* room) {
+  if (problem.readings.empty()) return;
+  AidingStream stream = RoomStream("field", SensorType::kMagnetometer);
+  for (const AidingStream& given : problem.dataset.streams) {
+    if (given.sensor.type == SensorType::kMagnetometer) {
+      stream.sensor.magnetic = given.sensor.magnetic;
+    }
+  }
+  MagneticSurroundings& magnetic = stream.sensor.magnetic;
+  magnetic.horizontal = problem.survey.field_n.head<2>().norm();
+  magnetic.down = problem.survey.field_n.z();
+  magnetic.hard_iron_b = problem.survey.hard_iron_b;
+  const int index = static_cast<int>(room->streams.size());
+  for (std::size_t k = 0; k < problem.readings.size(); ++k) {
+    const SurveyedField& reading = problem.readings[k];
+    const double weight = reading.weight * problem.survey.trust[k];
+    stream.measurements.push_back(
+        {reading.t, index, false,
+         MagneticField{reading.field_b, kMagneticSigma / std::sqrt(weight),
+                       MagneticField::Form::kVector}});
+  }
+  room->streams.push_back(std::move(stream));
+}
+
+Dataset RoomDataset(const RoomProblem& problem) {
+  const Eigen::Vector3d kDefaultAccelBias = Eigen::Vector3d::Constant(0.02);
+  Dataset room;
+  room.name = problem.dataset.name;
+  room.imu = problem.imu;
+  if (!problem.dataset.place) AddEarthRate(problem, &room.imu);
+  const State& first = problem.smoothed.states.front();
+  room.initial = problem.dataset.initial;
+  room.initial.t = problem.imu.t_begin();
+  room.initial.position = GeodeticFromEcef(problem.place.p_e);
+  room.initial.v_n = Eigen::Vector3d::Zero();
+  room.initial.euler = first.euler();
+  room.initial.attitude_sigma = Eigen::Vector3d(3.0, 3.0, 10.0) * kDegree;
+  room.initial.position_sigma =
+      Eigen::Vector3d::Constant(problem.dataset.ahrs.room);
+  room.initial.velocity_sigma =
+      Eigen::Vector3d::Constant(problem.dataset.ahrs.room_speed);
+  room.initial.gyro_bias = first.b_g;
+  room.initial.gyro_bias_sigma =
+      problem.dataset.initial.gyro_bias_sigma.value_or(
+          Eigen::Vector3d::Constant(0.5 * kDegree));
+  room.initial.accel_bias_sigma =
+      problem.dataset.initial.accel_bias_sigma.value_or(kDefaultAccelBias);
+  room.gyro_scale_sigma = problem.dataset.gyro_scale_sigma;
+  room.accel_scale_sigma = problem.dataset.accel_scale_sigma;
+  room.max_node_spacing = kRoomNodeSpacing;
+  AddRoom(problem, &room);
+  AddMagnetometer(problem, &room);
+  return room;
+}
+
+/// Attitudes at the IMU samples: the gyros' integral from node to node, what it
+/// misses at the next node spread evenly over the interval.
+Solution AtSamples(const Solution& nodes, const ImuStream& imu,
+                   const ErrorLayout& layout) {
+  Solution out;
+  out.layout = layout;
+  out.converged = nodes.converged;
+  out.iterations = nodes.iterations;
+  const int a = nodes.layout.Find(BlockKind::kAttitude)->offset;
+  const int b = nodes.layout.Find(BlockKind::kGyroBias)->offset;
+  out.covariances = CovarianceSeries(6, imu.samples.size());
+  ImuIntegrator integrator(imu);
+  std::size_t k = 0;
+  std::size_t summarized = nodes.states.size();
+  Eigen::Vector3d miss = Eigen::Vector3d::Zero();
+  const auto turn = [&](const State& x, double to) {
+    ImuCalibration calibration;
+    calibration.b_g = x.b_g;
+    return integrator.Summarize(x.t, to, calibration).dR;
+  };
+  for (std::size_t i = 0; i < imu.samples.size(); ++i) {
+    const double t = imu.samples[i].t;
+    while (k + 2 < nodes.states.size() && nodes.states[k + 1].t <= t) ++k;
+    const State& begin = nodes.states[k];
+    const State& end = nodes.states[k + 1];
+    if (summarized != k) {
+      miss = Log((begin.q_eb * turn(begin, end.t)).conjugate() * end.q_eb);
+      summarized = k;
+    }
+    State x = begin;
+    x.t = t;
+    const double part = (t - begin.t) / (end.t - begin.t);
+    if (t > begin.t) {
+      x.q_eb = (begin.q_eb * turn(begin, std::min(t, end.t)) * Exp(part * miss))
+                   .normalized();
+    }
+    out.states.push_back(x);
+    Eigen::Matrix<double, 6, 6> P;
+    const ErrorMatrix full = nodes.covariances.Get(part < 0.5 ? k : k + 1);
+    P.topLeftCorner<3, 3>() = full.block<3, 3>(a, a);
+    P.topRightCorner<3, 3>() = full.block<3, 3>(a, b);
+    P.bottomLeftCorner<3, 3>() = full.block<3, 3>(b, a);
+    P.bottomRightCorner<3, 3>() = full.block<3, 3>(b, b);
+    out.covariances.Set(i, P);
+  }
+  return out;
+}
+
+}  // namespace
+
+Solution SolveRoomBatch(const RoomProblem& problem,
+                        const std::function<void(double)>& progress) {
+  const Dataset room = RoomDataset(problem);
+  ReconstructionOptions options;
+  if (progress) {
+    options.progress = [&](const std::string&, double fraction) {
+      progress(fraction);
+    };
+  }
+  Reconstruction reconstruction(room, options);
+  const Solution nodes = reconstruction.Run(Method::kBatch);
+  Solution out = AtSamples(nodes, room.imu, problem.smoothed.layout);
+  for (State& x : out.states) x.p_e = problem.place.p_e;
+  out.constants = nodes.constants;
+  return out;
+}
+
+}  // namespace hindsight

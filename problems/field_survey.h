@@ -1,0 +1,45 @@
+#ifndef HINDSIGHT_PROBLEMS_FIELD_SURVEY_H_
+#define HINDSIGHT_PROBLEMS_FIELD_SURVEY_H_
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "filters/attitude_filter.h"
+#include "state/solution.h"
+
+namespace hindsight {
+
+/// A magnetometer's reading and the attitude at that time, from gyros and
+/// accelerometers alone: its heading counts from anywhere and may drift slowly.
+struct SurveyedField {
+  double t = 0.0;
+  Eigen::Quaterniond q_nb;
+  Eigen::Vector3d field_b;
+  double weight = 1.0;  ///< how much of an independent reading this is
+};
+
+struct FieldSurvey {
+  Eigen::Vector3d field_n = Eigen::Vector3d::Zero();      ///< [uT]
+  Eigen::Vector3d hard_iron_b = Eigen::Vector3d::Zero();  ///< [uT]
+  /// Weight that each reading ended with: 1 agrees, towards 0 disturbed.
+  std::vector<double> trust;
+};
+
+/// Field of the place and of the body itself, over a whole recording at once:
+///   field_b = C_bn field_n + hard_iron_b + noise,
+/// linear in both, by iteratively reweighted least squares. Noise and hard iron
+/// have Cauchy distributions with scales of 2 uT and 0.5 uT: a magnet that a
+/// part of the recording comes near loses its say, one that travels along is
+/// found, and without one nothing is invented.
+FieldSurvey SurveyField(std::span<const SurveyedField> readings);
+
+/// Weight of a reading that follows another by dt [s] after turning by `angle`
+/// [rad]: its error is a function of place and attitude, so many readings at
+/// rest are one,
+///   w = min(1, min(dt / 1 s, angle / 0.5 rad) + dt / 50 s).
+double IndependentPart(double dt, double angle);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_FIELD_SURVEY_H_

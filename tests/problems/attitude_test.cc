@@ -1,0 +1,145 @@
+#include "problems/attitude.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "evaluation/chi_square.h"
+#include "geometry/so3.h"
+#include "problems/vibration_comparison.h"
+#include "simulation/vibration_attitude.h"
+
+namespace hindsight {
+namespace {
+
+VibrationAttitudeOptions Calm() {
+  VibrationAttitudeOptions options;
+  options.acceleration = 0.0;
+  options.vibration_sigma = 0.0;
+  return options;
+}
+
+/// e' P^-1 e of attitude and gyro bias at sample k.
+double Nees(const Dataset& dataset, const Solution& solution, std::size_t k) {
+  const State& x = solution.states[k];
+  const Eigen::Quaterniond q_nb =
+      Eigen::Quaterniond(x.C_en()).conjugate() * x.q_eb;
+  Eigen::Matrix<double, 6, 1> e;
+  e << Log(*dataset.truth[k].q_nb * q_nb.conjugate()),
+      *dataset.truth[k].b_g - x.b_g;
+  const Eigen::Matrix<double, 6, 6> P = solution.covariances.Get(k);
+  return e.dot(P.llt().solve(e));
+}
+
+TEST(AttitudeEstimation, FilterAndSmootherAreConsistent) {
+  constexpr int kRuns = 60;
+  double filter = 0.0;
+  double smoother = 0.0;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    Dataset dataset = SimulateVibrationAttitude(Calm(), seed);
+    dataset.ahrs.survey = false;
+    AttitudeEstimation estimation(dataset, {});
+    filter += Nees(dataset, estimation.Run(AhrsMethod::kFilter), 300) / kRuns;
+    smoother +=
+        Nees(dataset, estimation.Run(AhrsMethod::kSmoother), 300) / kRuns;
+  }
+  const Interval bounds = AneesBounds(kRuns, 6, 0.999);
+  EXPECT_TRUE(bounds.Contains(filter)) << filter;
+  EXPECT_TRUE(bounds.Contains(smoother)) << smoother;
+}
+
+TEST(AttitudeEstimation, SmncWithstandsVibrationBetterThanTheGate) {
+  constexpr std::size_t kVibration = 3;
+  constexpr std::size_t kAfterTenSeconds = 5;
+  const std::vector<VibrationResult> results = CompareUnderVibration(
+      [](std::uint64_t seed) { return SimulateVibrationAttitude({}, seed); },
+      20, 1, nullptr, nullptr);
+  const auto find = [&](const std::string& name) {
+    for (const VibrationResult& result : results) {
+      if (result.name == name) return result.intervals;
+    }
+    throw std::logic_error(name);
+  };
+  const auto smnc = find("smnc");
+  EXPECT_LT(smnc[kVibration].rms_total,
+            0.7 * find("gate 0.88")[kVibration].rms_total);
+  EXPECT_GT(smnc[kVibration].inside, 0.99);
+  EXPECT_LT(smnc[kAfterTenSeconds].rms_total, 0.5 * kDegree);
+}
+
+TEST(AttitudeEstimation, SolutionsAreGivenAtTheStampsOfTheFile) {
+  Dataset dataset = SimulateVibrationAttitude(Calm(), 3);
+  const std::vector<ImuSample> samples = dataset.imu.samples;
+  dataset.imu.stamp_offset = -0.02;
+  for (ImuSample& sample : dataset.imu.samples) sample.t -= 0.02;
+  AttitudeEstimation estimation(dataset, {});
+  const Solution solution = estimation.Run(AhrsMethod::kFilter);
+  ASSERT_EQ(solution.states.size(), samples.size());
+  ASSERT_EQ(solution.covariances.size(), samples.size());
+  ASSERT_EQ(solution.accel_sigma.size(), samples.size());
+  for (std::size_t k = 0; k < samples.size(); k += 50) {
+    EXPECT_NEAR(solution.states[k].t, samples[k].t, 1e-12);
+  }
+}
+
+/// What the batch knows of linear acceleration: a body swung about in a room,
+/// three times its own weight at the peaks.
+TEST(AttitudeEstimation, BatchSeesTheHorizonThroughTheSwing) {
+  Dataset dataset;
+  constexpr double kStep = 0.01;
+  const Eigen::Vector3d kAmplitude(0.3, 0.2, 0.15);
+  const double kRate = 5.0;
+  Eigen::Quaterniond q_nb = Eigen::Quaterniond::Identity();
+  AidingStream magnetometer;
+  magnetometer.sensor.type = SensorType::kMagnetometer;
+  const auto w_at = [](double t) {
+    return Eigen::Vector3d(0.8 * std::sin(0.7 * t), 0.6 * std::cos(0.9 * t),
+                           0.7 * std::sin(1.1 * t));
+  };
+  for (int k = 0; k <= 4000; ++k) {
+    const double t = k * kStep;
+    if (k > 0) {
+      q_nb = (q_nb * Exp(kStep * w_at(t - 0.5 * kStep))).normalized();
+    }
+    const Eigen::Vector3d a_n =
+        -kRate * kRate * kAmplitude * std::sin(kRate * t);
+    dataset.imu.samples.push_back(
+        {t, w_at(t),
+         q_nb.conjugate() *
+             (a_n - Eigen::Vector3d(0.0, 0.0, kStandardGravity))});
+    magnetometer.measurements.push_back(
+        {t, 0, false,
+         MagneticField{q_nb.conjugate() * Eigen::Vector3d(20.0, 0.0, 40.0), 3.5,
+                       MagneticField::Form::kVector}});
+    TruthPoint truth;
+    truth.t = t;
+    truth.q_nb = q_nb;
+    dataset.truth.push_back(truth);
+  }
+  dataset.imu.noise.gyro_noise_density = 1e-4;
+  dataset.imu.noise.accel_noise_density = 1e-2;
+  dataset.streams.push_back(magnetometer);
+  AttitudeEstimation estimation(dataset, {});
+  const Solution batch = estimation.Run(AhrsMethod::kBatch);
+  ASSERT_EQ(batch.states.size(), dataset.imu.samples.size());
+  EXPECT_TRUE(batch.converged);
+  for (std::size_t k = 500; k < 3500; k += 100) {
+    const State& x = batch.states[k];
+    const Eigen::Quaterniond estimate =
+        Eigen::Quaterniond(x.C_en()).conjugate() * x.q_eb;
+    EXPECT_LT(estimate.angularDistance(*dataset.truth[k].q_nb), 0.5 * kDegree)
+        << "at " << x.t << " s";
+  }
+}
+
+TEST(AttitudeEstimation, TellsItsMethodsByName) {
+  EXPECT_TRUE(IsAhrsMethod("ahrs_batch"));
+  EXPECT_FALSE(IsAhrsMethod("batch"));
+  EXPECT_EQ(AhrsMethodFromName("ahrs_smoother"), AhrsMethod::kSmoother);
+  EXPECT_THROW(AhrsMethodFromName("rts"), InputError);
+}
+
+}  // namespace
+}  // namespace hindsight
