@@ -30,7 +30,7 @@ bool IsBias(BlockKind kind) {
 
 /// Covariance of all rows of the factor.
 Eigen::MatrixXd FactorNoise(const StateBlocks& blocks,
-                            const ImuSummary& summary) {
+                            const ImuSummary& summary, double distance) {
   const ImuLink::Matrix15 S15 = LinkNoise(summary);
   Eigen::MatrixXd S =
       Eigen::MatrixXd::Zero(blocks.node_dim(), blocks.node_dim());
@@ -47,7 +47,7 @@ Eigen::MatrixXd FactorNoise(const StateBlocks& blocks,
     } else if (entry.block.key.kind == BlockKind::kDistance) {
       diagonal.setConstant(kDistanceFloor * kDistanceFloor);
     } else {
-      diagonal.setConstant(VarianceOf(entry.block, summary));
+      diagonal.setConstant(VarianceOf(entry.block, summary, distance));
     }
   }
   return S;
@@ -55,13 +55,15 @@ Eigen::MatrixXd FactorNoise(const StateBlocks& blocks,
 
 }  // namespace
 
-ImuFactor::ImuFactor(const StateBlocks* blocks, const Timeline* timeline, int k)
+ImuFactor::ImuFactor(const StateBlocks* blocks, const Timeline* timeline, int k,
+                     double distance)
     : TangentFactor(blocks, blocks->node_dim(), {k, k + 1},
                     LinkGlobals(*blocks)),
       timeline_(*timeline),
       k_(static_cast<std::size_t>(k)),
       summary_(timeline->Summary(k_)),
-      whitener_(Whitener(FactorNoise(*blocks, summary_))) {}
+      distance_(distance),
+      whitener_(Whitener(FactorNoise(*blocks, summary_, distance))) {}
 
 void ImuFactor::LinearizeDistance(const StateBlocks::Entry& entry,
                                   const std::vector<State>& states,
@@ -118,7 +120,7 @@ void ImuFactor::LinearizeStates(const std::vector<State>& states,
       continue;
     }
     const int dim = FullDimension(kind);
-    const double phi = PhiOf(entry.block, summary_);
+    const double phi = PhiOf(entry.block, summary_, distance_);
     if (IsBias(kind)) {
       residual.segment<3>(entry.tangent) =
           link.residual.segment<3>(LinkRow(kind));

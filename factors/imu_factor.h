@@ -12,12 +12,15 @@ namespace hindsight {
 /// velocity, attitude; the biases' rows where they change with time), then one
 /// defect x_{k+1} - phi x_k for every other block that changes with time, of
 /// travelled distances that of their link (measurements/distance_link.h). All
-/// whitened with the noise of the summary and of the evolutions.
+/// whitened with the noise of the summary and of the evolutions; for blocks
+/// that change with the distance travelled that distance is held fixed.
 class ImuFactor : public TangentFactor {
  public:
   /// `timeline` must outlive the factor, have the summary of its interval k
-  /// and not integrate it anew meanwhile.
-  ImuFactor(const StateBlocks* blocks, const Timeline* timeline, int k);
+  /// and not integrate it anew meanwhile. `distance`: Travelled of the interval
+  /// [m], which only blocks that change with it need.
+  ImuFactor(const StateBlocks* blocks, const Timeline* timeline, int k,
+            double distance = 0.0);
 
  protected:
   void LinearizeStates(const std::vector<State>& states,
@@ -36,6 +39,7 @@ class ImuFactor : public TangentFactor {
   const Timeline& timeline_;
   std::size_t k_;
   const ImuSummary& summary_;
+  double distance_;
   Eigen::MatrixXd whitener_;  ///< lower triangular
 };
 

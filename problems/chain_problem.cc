@@ -31,9 +31,10 @@ ChainProblem::ChainProblem(const ErrorLayout& layout, const Prior& prior,
   for (std::size_t k = 0; k < states.size(); ++k) {
     const int node = static_cast<int>(k);
     if (k + 1 < states.size()) {
-      timeline->Summary(k, CalibrationOf(layout, states[k]));
-      factors_.push_back(
-          std::make_unique<ImuFactor>(blocks_.get(), timeline, node));
+      const ImuSummary& summary =
+          timeline->Summary(k, CalibrationOf(layout, states[k]));
+      factors_.push_back(std::make_unique<ImuFactor>(
+          blocks_.get(), timeline, node, Travelled(states[k], summary.dt())));
     }
     for (const Measurement& z : timeline->measurements(k)) {
       const bool used = decisions.empty() ? !z.withheld : decisions[index] != 0;

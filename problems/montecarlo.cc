@@ -20,6 +20,7 @@ struct MethodRun {
   std::vector<Eigen::Vector3d> position;  ///< error, NED [m]
   std::vector<double> yaw;                ///< error [rad]
   std::vector<double> nees;
+  double position_nees_sum = 0.0;
   double nis_sum = 0.0;
   double nis_rows = 0.0;
   double seconds = 0.0;
@@ -106,6 +107,9 @@ MethodRun Judge(const Solution& solution, const std::vector<std::size_t>& nodes,
     run.yaw.push_back(WrapAngle(truth[i].euler().z() - x.euler().z()));
     const ErrorMatrix P = solution.covariances.Get(nodes[i]);
     run.nees.push_back(e.dot(P.llt().solve(e)));
+    const int p = solution.layout.Find(BlockKind::kPosition)->offset;
+    const Eigen::Vector3d e_p = e.segment<3>(p);
+    run.position_nees_sum += e_p.dot(P.block<3, 3>(p, p).llt().solve(e_p));
   }
   for (const ResidualRecord& record : solution.residuals) {
     if (!record.accepted || record.withheld) continue;
@@ -264,6 +268,24 @@ void SummarizeSeries(const std::vector<double>& leg_ends,
   out->final_std = out->std_series.back();
 }
 
+void SummarizeErrors(const std::vector<const MethodRun*>& runs,
+                     MethodStatistics* out) {
+  const double n = static_cast<double>(runs.size() * out->t.size());
+  double position = 0.0;
+  double heading = 0.0;
+  double final_horizontal = 0.0;
+  for (const MethodRun* run : runs) {
+    for (const Eigen::Vector3d& e : run->position) position += e.squaredNorm();
+    for (const double yaw : run->yaw) heading += yaw * yaw;
+    final_horizontal += run->position.back().head<2>().squaredNorm();
+    out->position_nees += run->position_nees_sum / n;
+  }
+  out->position_rms = std::sqrt(position / n);
+  out->heading_rms = std::sqrt(heading / n);
+  out->final_horizontal =
+      std::sqrt(final_horizontal / static_cast<double>(runs.size()));
+}
+
 MethodStatistics Summarize(const std::string& name, std::size_t index,
                            const std::vector<Run>& runs, int dim,
                            const MonteCarloOptions& options) {
@@ -292,6 +314,7 @@ MethodStatistics Summarize(const std::string& name, std::size_t index,
   out.nis = nis_sum / nis_rows;
   FinishConstants(&out.constants);
   for (std::size_t k = 0; k < out.t.size(); ++k) AddSeries(finished, k, &out);
+  SummarizeErrors(finished, &out);
   SummarizeSeries(options.leg_ends,
                   options.anees_bounds(static_cast<int>(finished.size()), dim),
                   &out);

@@ -67,8 +67,16 @@ struct MethodStatistics {
   /// state; right is its dimension.
   double anees = 0.0;
   double anees_outside = 0.0;  ///< share of epochs outside the bounds
-  double nis = 0.0;            ///< per row of the residuals, mean; right is 1
-  double seconds = 0.0;        ///< processor time of the method alone, mean
+  /// Mean over time and runs of e' P^-1 e, e the position error; right is 3.
+  double position_nees = 0.0;
+  double nis = 0.0;  ///< per row of the residuals, mean; right is 1
+  /// Root mean squares over time and runs.
+  double position_rms = 0.0;  ///< of the 3-D error [m]
+  double heading_rms = 0.0;   ///< [rad]
+  /// Root mean square over the runs of the horizontal error at the last node
+  /// [m].
+  double final_horizontal = 0.0;
+  double seconds = 0.0;  ///< processor time of the method alone, mean
   std::vector<ConstantStatistics> constants;
   std::vector<double> t;  ///< of the series that follow
   std::vector<Eigen::Vector3d> std_series;

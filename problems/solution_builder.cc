@@ -50,6 +50,10 @@ const char* AdviceFor(BlockKind kind) {
       return "turns (forward and right arm), and roll and pitch (down arm)";
     case BlockKind::kTimeOffset:
       return "changes of speed or direction";
+    case BlockKind::kOffset:
+      return "position fixes with height";
+    case BlockKind::kCurrent:
+      return "bottom track, position fixes, or turns both ways";
     default:
       return "more motion, or a second sensor of the same quantity";
   }

@@ -1,5 +1,6 @@
 #include "alignment/start_layout.h"
 
+#include <cmath>
 #include <string>
 
 #include "base/units.h"
@@ -88,6 +89,24 @@ void AddColouredNoise(const Sensor& sensor, int index, ErrorLayout* layout) {
   layout->Add(block);
 }
 
+void AddCurrent(const Sensor& sensor, int index, ErrorLayout* layout) {
+  Block block;
+  block.key = {BlockKind::kCurrent, index};
+  block.name = sensor.name + "_current";
+  block.unit = "m/s";
+  const double sigma = *sensor.current_sigma;
+  block.sigma0.setConstant(sigma);
+  if (std::isfinite(sensor.current_length)) {
+    block.evolution =
+        Evolution::SpatialGaussMarkov(sigma, sensor.current_length);
+  } else if (std::isfinite(sensor.current_tau)) {
+    block.evolution = Evolution::GaussMarkov(sigma, sensor.current_tau);
+  } else {
+    block.evolution = Evolution::Constant();
+  }
+  layout->Add(block);
+}
+
 }  // namespace
 
 ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior) {
@@ -126,6 +145,11 @@ ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior) {
     }
     AddMagneticBlocks(sensor, index, &layout);
     AddColouredNoise(sensor, index, &layout);
+    if (sensor.offset_sigma) {
+      AddCalibration(BlockKind::kOffset, index, sensor.name + "_offset", "m",
+                     Eigen::Vector3d::Constant(*sensor.offset_sigma), &layout);
+    }
+    if (sensor.current_sigma) AddCurrent(sensor, index, &layout);
   }
   return layout;
 }

@@ -41,6 +41,7 @@ DECLARE_string(progress);
 DECLARE_double(rate);
 DECLARE_string(rates);
 DECLARE_string(rules);
+DECLARE_string(reading);
 DECLARE_uint64(runs);
 DECLARE_uint64(seed);
 DECLARE_bool(sweep);

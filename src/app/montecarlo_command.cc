@@ -13,6 +13,7 @@
 #include "simulation/gps_jumps.h"
 #include "simulation/in_flight_alignment.h"
 #include "simulation/tunnel_survey.h"
+#include "simulation/uuv_scenarios.h"
 #include "simulation/vibration_attitude.h"
 
 namespace hindsight {
@@ -22,22 +23,30 @@ constexpr const char* kHelp =
     R"(Repeats a built-in scenario with other seeds and compares what each method
 makes of it: standard deviation of the position over the runs (largest over
 time, north, east, down, all and by leg), heading, consistency (ANEES of the
-whole state, NIS), processor time. SCENARIO is tunnel_survey; or calibration,
-ten minutes on which lever arms, time offsets, scale factors and the mounting are
-all unknown and estimated, each judged by its errors over its sigmas; or
-in_flight_alignment, which compares forward observers from bad initial
-attitudes, Riccati rule x definition of the error x start: shares that diverge
-or escape, time to settle, final errors, Lyapunov figures; or
-velocity_alignment, which aligns the same flight from no start value, the IMU
-mounted at any attitude, and then solves it as a batch; or gps_jumps, which
-compares filters and batches under errors of the positions. Writes into the
-folder of --out:
+whole state, NIS), processor time. SCENARIO is one of
+  tunnel_survey        an odometer survey of 8 km
+  calibration          ten minutes on which lever arms, time offsets, scale
+                       factors and the mounting are all unknown and estimated,
+                       each judged by its errors over its sigmas
+  in_flight_alignment  forward observers from bad initial attitudes, Riccati
+                       rule x definition of the error x start: shares that
+                       diverge or escape, time to settle, final errors, Lyapunov
+                       figures
+  velocity_alignment   aligns the same flight from no start value, the IMU
+                       mounted at any attitude, and then solves it as a batch
+  gps_jumps            filters and batches under errors of the positions
+  uuv_survey           a dive with INS, DVL and depth, lawn-mower and straight,
+                       without and with a final fix and a gap of the DVL
+  uuv_search           the fusions of Lee and Yoon (2011) as printed, 16
+                       readings: 2-D and 3-D distance error with histograms
+Writes into the folder of --out:
   montecarlo.json   the figures of all methods and how far they agree
   cells.csv         of in_flight_alignment: a row a cell
   gps_jumps.csv     of gps_jumps: one line for profile, sigma, rate and method
   PROFILE_SIGMAm_RATEhz_METHOD.csv  root mean square errors of position and
                     velocity, ANEES and mode probabilities against time
-  METHOD.csv        standard deviations and ANEES against time
+  METHOD.csv        of tunnel_survey: standard deviations and ANEES against
+                    time
   sweep.csv         with --sweep in place of both: largest standard deviation
                     for reference points every 0.25 to 8 km and odometer noise
                     of 5 to 100 mm/s
@@ -80,7 +89,9 @@ const std::vector<MonteCarloScenario>& Scenarios() {
       {"velocity_alignment", RunVelocityAlignment},
       {kCalibrationName, RunCalibration},
       {kGpsJumpsName, RunGpsJumps},
-      {kVibrationAttitudeName, RunVibrationAttitude}};
+      {kVibrationAttitudeName, RunVibrationAttitude},
+      {kUuvSurveyName, RunUuvSurvey},
+      {kUuvSearchName, RunUuvSearch}};
   return scenarios;
 }
 
@@ -155,6 +166,10 @@ Command MonteCarloCommand() {
             "multipath (all)"},
            {"gps_sigma", "LIST", "of gps_jumps [m] (1)"},
            {"gps_rate", "LIST", "of gps_jumps [Hz] (1)"},
+           {"reading", "WORDS",
+            "of uuv_search: sum or position, diagonal or acceleration,\n"
+            "white or accumulating, by_noise or alike, with commas\n"
+            "(all)"},
            {"progress", "MODE", "on stderr: auto, json or none (auto)"}}),
       .min_arguments = 1,
       .max_arguments = 1,

@@ -13,6 +13,9 @@ namespace hindsight {
 /// Name of the file with the figures of a Monte Carlo comparison.
 inline constexpr char kMonteCarloJson[] = "montecarlo.json";
 
+/// The name of RunUuvSearch.
+inline constexpr char kUuvSearchName[] = "uuv_search";
+
 /// One scenario that `hindsight montecarlo` can repeat. `run` reads the flags
 /// of its own, writes its files into the folder and prints its table; it throws
 /// UsageError for flags that do not fit, before it computes anything.
@@ -38,6 +41,12 @@ void RunGpsJumps(MonteCarloOptions options, Progress* progress,
 
 void RunVibrationAttitude(MonteCarloOptions options, Progress* progress,
                           ResultFolder* folder);
+/// The fusions of Lee and Yoon (2011) as printed, under --reading.
+void RunUuvSearch(MonteCarloOptions options, Progress* progress,
+                  ResultFolder* folder);
+/// INS, DVL and depth on the lawn-mower and on a straight line.
+void RunUuvSurvey(MonteCarloOptions options, Progress* progress,
+                  ResultFolder* folder);
 
 /// Reports the number of finished runs out of `runs`.
 std::function<void(int)> RunProgress(int runs, Progress* progress);

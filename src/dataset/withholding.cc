@@ -29,6 +29,8 @@ const char* TypeName(SensorType type) {
       return "vehicle_level";
     case SensorType::kDvl:
       return "dvl";
+    case SensorType::kAcousticFix:
+      return "acoustic";
     case SensorType::kMagnetometer:
       return "magnetometer";
   }

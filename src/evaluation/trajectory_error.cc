@@ -162,8 +162,24 @@ TrajectoryStatistics SummarizeErrors(const std::vector<TrajectoryError>& errors,
 TrajectoryStatistics EvaluateTrajectory(const SolutionTable& solution,
                                         const std::vector<TruthPoint>& truth,
                                         const TrajectoryErrorOptions& options) {
-  return SummarizeErrors(ComputeTrajectoryErrors(solution, truth, options),
-                         truth.size());
+  const std::vector<TrajectoryError> errors =
+      ComputeTrajectoryErrors(solution, truth, options);
+  TrajectoryStatistics s = SummarizeErrors(errors, truth.size());
+  if (!s.position) return s;
+  std::optional<Eigen::Vector3d> last;
+  double distance = 0.0;
+  for (const TruthPoint& point : truth) {
+    if (!point.p_e || point.t < errors.front().t || point.t > errors.back().t) {
+      continue;
+    }
+    if (last) distance += (*point.p_e - *last).norm();
+    last = point.p_e;
+  }
+  for (const TrajectoryError& error : errors) {
+    if (error.position) s.final_horizontal = error.position->head<2>().norm();
+  }
+  s.distance = distance;
+  return s;
 }
 
 std::vector<TruthPoint> TruthAt(const SolutionTable& truth,

@@ -66,6 +66,10 @@ struct TrajectoryStatistics {
   std::optional<VectorErrorStatistics> position;  ///< [m]
   std::optional<VectorErrorStatistics> velocity;  ///< [m/s]
   std::optional<AttitudeErrorStatistics> attitude;
+  /// Horizontal error at the last point compared [m], and the way of the truth
+  /// between the first and that [m].
+  std::optional<double> final_horizontal;
+  std::optional<double> distance;
   std::optional<double> position_nees;  ///< mean over the points
   std::optional<double> velocity_nees;
   std::optional<double> attitude_nees;

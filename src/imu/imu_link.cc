@@ -1,6 +1,7 @@
 #include "imu/imu_link.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -37,14 +38,16 @@ bool HasOwnStep(const Block& block, const ImuSummary& summary) {
 
 }  // namespace
 
-double PhiOf(const Block& block, const ImuSummary& summary) {
-  return HasOwnStep(block, summary) ? summary.coloured.phi
-                                    : block.evolution.Phi(summary.dt());
+double PhiOf(const Block& block, const ImuSummary& summary, double distance) {
+  return HasOwnStep(block, summary)
+             ? summary.coloured.phi
+             : block.evolution.Phi(summary.dt(), distance);
 }
 
-double VarianceOf(const Block& block, const ImuSummary& summary) {
+double VarianceOf(const Block& block, const ImuSummary& summary,
+                  double distance) {
   return HasOwnStep(block, summary) ? summary.coloured.variance
-                                    : block.evolution.Q(summary.dt());
+                                    : block.evolution.Q(summary.dt(), distance);
 }
 
 ImuCalibration CalibrationOf(const ErrorLayout& layout, const State& x) {
@@ -53,6 +56,11 @@ ImuCalibration CalibrationOf(const ErrorLayout& layout, const State& x) {
       x.b_g, x.b_a,
       Parameter3(layout, x, BlockKind::kGyroScale, BlockKey::kNoSensor, none),
       Parameter3(layout, x, BlockKind::kAccelScale, BlockKey::kNoSensor, none)};
+}
+
+double Travelled(const State& x, double dt) {
+  constexpr double kLeastSpeed = 0.01;
+  return std::max(x.v_e.norm(), kLeastSpeed) * dt;
 }
 
 State Predict(const ErrorLayout& layout, const State& x_i,
@@ -86,7 +94,7 @@ State Predict(const ErrorLayout& layout, const State& x_i,
     if (block.parameter_offset < 0) continue;
     x.parameters.segment(block.parameter_offset,
                          FullDimension(block.key.kind)) *=
-        PhiOf(block, summary);
+        PhiOf(block, summary, Travelled(x_i, dt));
   }
   return x;
 }
@@ -274,15 +282,17 @@ void LinearizeTransition(const ErrorLayout& layout, const ImuSummary& summary,
       }
     }
   }
+  const double dt = summary.dt();
+  const double distance = Travelled(x_i, dt);
   for (const Block& block : layout.blocks()) {
     if (block.parameter_offset < 0) continue;
-    const double phi = PhiOf(block, summary);
+    const double phi = PhiOf(block, summary, distance);
     int component = block.offset;
     for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {
       if (!block.active[static_cast<std::size_t>(axis)]) continue;
       const int parameter = block.parameter_offset + axis;
       out->Phi(component, component) = phi;
-      out->Q(component, component) = VarianceOf(block, summary);
+      out->Q(component, component) = VarianceOf(block, summary, distance);
       out->c(component) =
           phi * x_i.parameters(parameter) - x_j.parameters(parameter);
       ++component;

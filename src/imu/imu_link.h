@@ -11,9 +11,15 @@ namespace hindsight {
 ImuCalibration CalibrationOf(const ErrorLayout& layout, const State& x);
 
 /// exp(-dt/tau) of a block beyond the navigation state over the interval of a
-/// summary, and the variance its evolution adds.
-double PhiOf(const Block& block, const ImuSummary& summary);
-double VarianceOf(const Block& block, const ImuSummary& summary);
+/// summary, and the variance its evolution adds; `distance` travelled in it [m]
+/// for blocks that change with that.
+double PhiOf(const Block& block, const ImuSummary& summary, double distance);
+double VarianceOf(const Block& block, const ImuSummary& summary,
+                  double distance);
+
+/// Distance over the ground from x in dt [m], for blocks that change with it:
+/// |v| dt, at least 1 cm/s, since water and wind change of themselves too.
+double Travelled(const State& x, double dt);
 
 /// The state at t_j that the summary and the Earth predict from x_i. Biases and
 /// parameters decay as their evolutions say.

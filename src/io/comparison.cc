@@ -55,6 +55,7 @@ void AppendErrorCells(const MethodSummary& m, std::vector<std::string>* row) {
   row->push_back(s.position ? Cell(s.position->horizontal.rms) : "");
   row->push_back(s.position ? Cell(s.position->horizontal.max) : "");
   row->push_back(s.position ? Cell(s.position->axis[2].rms) : "");
+  row->push_back(Cell(s.final_horizontal));
   row->push_back(s.velocity ? Cell(s.velocity->total.rms) : "");
   for (std::size_t i = 0; i < 3; ++i) {
     row->push_back(s.attitude ? Cell(s.attitude->axis[i].rms / kDegree) : "");
@@ -92,6 +93,7 @@ std::string ComparisonTable(const RunSummary& summary) {
                                       "truth\nhoriz.\nrms [m]",
                                       "truth\nhoriz.\nmax [m]",
                                       "truth\ndown\nrms [m]",
+                                      "truth\nend\nhor. [m]",
                                       "velocity\nrms\n[m/s]",
                                       "roll\nrms\n[deg]",
                                       "pitch\nrms\n[deg]",
@@ -140,6 +142,11 @@ std::string ErrorTable(const TrajectoryStatistics& s) {
   text += "matched: " + std::to_string(s.matched_count) + " of " +
           std::to_string(s.truth_count) + " truth points (" +
           FormatFixed(s.matched_percent(), 2) + " %)\n";
+  if (s.final_horizontal && s.distance && *s.distance > 0.0) {
+    text += "horizontal error at the end " + Cell(s.final_horizontal) + " m, " +
+            Cell(100.0 * *s.final_horizontal / *s.distance) + " % of " +
+            FormatFixed(*s.distance, 0) + " m\n";
+  }
   const auto add_nees = [&text](const char* name, std::optional<double> nees) {
     if (!nees) return;
     text += std::string("mean NEES ") + name +

@@ -65,6 +65,7 @@ namespace hindsight {
 ///
 /// aiding.NAME besides:
 /// | type              | *needed*: position, velocity, height, speed_course, odometer, non_holonomic, magnetometer | |
+/// | type              | *needed*: position, velocity, height, depth, speed_course, odometer, non_holonomic, dvl, acoustic | |
 /// | lever_arm         | from the IMU, body axes                  | 0       |
 /// | time_offset       | true time = stamp + offset               | 0 s     |
 /// | every             | use one measurement in this time         | all     |
@@ -96,6 +97,24 @@ namespace hindsight {
 /// downward part, both *needed* for vector; estimate.hard_iron,
 /// estimate.declination, estimate.disturbance, a Gauss-Markov field in NED axes
 /// with estimate.disturbance_tau, 10 s. It has no lever arm.
+///
+/// height: estimate.offset, an additive constant. depth, besides: surface, the
+/// height of the water above the ellipsoid, 0 m.
+///
+/// dvl (measurements/dvl.h): form, three_axis (columns v_x, v_y, v_z) or beams
+/// (beam_1 to beam_4, each of which may be absent or have a 0 in valid_1 to
+/// valid_4); beam_angle from the vertical, 30 deg; beam_azimuth of the first
+/// beam from forward to right, 45 deg; sigma *needed*, one, or forward, right,
+/// down of three_axis; mounting and scale as of an odometer; track, bottom or
+/// water, for rows where a column water (1, 0) does not say; current, *needed*
+/// by water track: {sigma of each component; time or length over which it is
+/// correlated, else it is constant}; estimate.scale, estimate.mounting.
+///
+/// acoustic: range and bearing to a transponder (measurements/acoustic_fix.h):
+/// transponder [lat, lon, h] *needed*; sigma of the range if it is used (column
+/// range), bearing_sigma if the bearing is (azimuth, depression); mounting;
+/// scale of the range; estimate.scale, estimate.mounting. The position that an
+/// array on a ship gives is a position.
 ///
 /// truth besides: lever_arm (of the point it speaks of), time_offset; axes and
 /// mounting as of the imu, of the axes that its attitude speaks of; for columns

@@ -22,6 +22,11 @@ constexpr std::array kAidingTypes = {
                Quantity::kSpeed, true},
     AidingType{"height", SensorType::kHeight, HeightFields, Quantity::kLength,
                true},
+    AidingType{"depth", SensorType::kHeight, DepthFields, Quantity::kLength,
+               true},
+    AidingType{"dvl", SensorType::kDvl, DvlFields, Quantity::kSpeed, false},
+    AidingType{"acoustic", SensorType::kAcousticFix, AcousticFields,
+               Quantity::kLength, false},
     AidingType{"speed_course", SensorType::kSpeedCourse, SpeedCourseFields,
                Quantity::kSpeed, false},
     AidingType{"odometer", SensorType::kOdometer, OdometerFields,
@@ -220,9 +225,7 @@ void ReadVehicle(ConfigMap* map, AidingConfig* config) {
     sensor.mounting_unknown = true;
     return;
   }
-  const Eigen::Vector3d euler =
-      map->Vector("mounting", Quantity::kAngle, Eigen::Vector3d::Zero());
-  sensor.q_sb = QuaternionFromEuler(euler.x(), euler.y(), euler.z());
+  sensor.q_sb = ReadSensorMounting(map);
 }
 
 /// The heading needs only the horizontal part of the field, and that only as a
@@ -286,15 +289,18 @@ void ReadSigmas(ConfigMap* map, const AidingType& type,
   options->use_correlations = map->Flag("correlations", true);
 }
 
-void ReadEstimates(ConfigMap* map, Sensor* sensor) {
+}  // namespace
+
+void ReadCalibrationSigmas(ConfigMap* map, Sensor* sensor) {
   ConfigMap estimate = map->Map("estimate");
   if (sensor->type != SensorType::kMagnetometer) {
     sensor->lever_arm_sigma =
         estimate.OptionalSigma("lever_arm", Quantity::kLength);
   }
-  const bool vehicle = sensor->type == SensorType::kOdometer ||
-                       sensor->type == SensorType::kNonHolonomic;
-  if (vehicle) {
+  const bool scaled = sensor->type == SensorType::kOdometer ||
+                      sensor->type == SensorType::kDvl ||
+                      sensor->type == SensorType::kAcousticFix;
+  if (scaled || sensor->type == SensorType::kNonHolonomic) {
     sensor->mounting_sigma =
         estimate.OptionalSigma("mounting", Quantity::kAngle);
     if (sensor->mounting_unknown && !sensor->mounting_sigma) {
@@ -303,11 +309,14 @@ void ReadEstimates(ConfigMap* map, Sensor* sensor) {
           FormatNumber(kFoundMountingSigma) + " rad";
     }
   }
-  if (sensor->type == SensorType::kOdometer && estimate.Has("scale")) {
+  if (scaled && estimate.Has("scale")) {
     sensor->scale_sigma = estimate.Positive("scale", Quantity::kRatio);
   }
   if (sensor->type == SensorType::kMagnetometer) {
     ReadMagneticEstimates(&estimate, &sensor->magnetic);
+  }
+  if (sensor->type == SensorType::kHeight && estimate.Has("offset")) {
+    sensor->offset_sigma = estimate.Positive("offset", Quantity::kLength);
   }
   // What is generated at the IMU's own times has no clock to be estimated.
   if (sensor->type != SensorType::kNonHolonomic &&
@@ -317,8 +326,6 @@ void ReadEstimates(ConfigMap* map, Sensor* sensor) {
   }
   estimate.Finish();
 }
-
-}  // namespace
 
 AidingConfig ReadAidingConfig(const std::string& name, ConfigMap* map,
                               const std::filesystem::path& folder) {
@@ -343,8 +350,16 @@ AidingConfig ReadAidingConfig(const std::string& name, ConfigMap* map,
     ReadVehicle(map, &config);
   } else if (type.type == SensorType::kMagnetometer) {
     ReadMagnetometer(map, &config);
+  } else if (type.type == SensorType::kDvl) {
+    ReadDvl(map, &config.sensor, &config.options.dvl);
+    config.options.has_current = config.sensor.current_sigma.has_value();
+  } else if (type.type == SensorType::kAcousticFix) {
+    ReadAcoustic(map, &config.sensor, &config.options.acoustic);
   } else {
     ReadSigmas(map, type, &config.options);
+  }
+  if (type.fields == DepthFields) {
+    config.options.surface = map->Number("surface", Quantity::kLength, 0.0);
   }
   if (type.type != SensorType::kMagnetometer) {
     config.sensor.lever_arm_b =
@@ -353,7 +368,11 @@ AidingConfig ReadAidingConfig(const std::string& name, ConfigMap* map,
   config.sensor.gate_probability = ReadGate(map);
   config.sensor.loss = ReadLoss(map);
   ReadNoise(map, &config);
-  ReadEstimates(map, &config.sensor);
+  ReadCalibrationSigmas(map, &config.sensor);
+  if (config.sensor.offset_sigma &&
+      config.sensor.noise.kind == NoiseModel::Kind::kGaussMarkov) {
+    map->Fail("estimate", "offset does not go with correlated noise");
+  }
   map->Finish();
   return config;
 }

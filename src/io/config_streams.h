@@ -40,6 +40,20 @@ struct AidingConfig {
 AidingConfig ReadAidingConfig(const std::string& name, ConfigMap* map,
                               const std::filesystem::path& folder);
 
+/// The keys of a DVL that a recording and a scenario share: form, beam_angle,
+/// beam_azimuth, sigma, track, mounting, scale, current.
+void ReadDvl(ConfigMap* map, Sensor* sensor, Dvl* dvl);
+
+/// The keys of an acoustic range or bearing: transponder, sigma, bearing_sigma,
+/// mounting, scale.
+void ReadAcoustic(ConfigMap* map, Sensor* sensor, AcousticFix* fix);
+
+/// The a priori sigmas under `estimate` that the type of the sensor allows.
+void ReadCalibrationSigmas(ConfigMap* map, Sensor* sensor);
+
+/// Sensor axes from body axes: roll, pitch, yaw under `mounting`.
+Eigen::Quaterniond ReadSensorMounting(ConfigMap* map);
+
 AhrsSettings ReadAhrs(ConfigMap* top);
 InitialState ReadInitialState(ConfigMap* top);
 StationaryOptions ReadStationary(ConfigMap* top);

@@ -20,7 +20,13 @@
 /// | position            | t, lat, lon, h, sigma_n, sigma_e, sigma_d          |
 /// | velocity            | t, v_n, v_e, v_d, sigma_v_n, sigma_v_e, sigma_v_d  |
 /// | height              | t, h, sigma_h                                      |
+/// | depth               | t, depth, sigma_depth                              |
 /// | odometer            | t, speed or, of increments, distance; side, down   |
+/// | dvl, three axes     | t, v_x, v_y, v_z                                   |
+/// | dvl, beams          | t, beam_1 ... beam_4 and, if known, valid_1 ...    |
+/// |                     | valid_4 (0 is lost; so is a speed that is absent)  |
+/// | acoustic            | t and what `sigma` and `bearing_sigma` are given   |
+/// |                     | for: range; azimuth, depression                    |
 /// | truth               | t and any of {lat, lon, h}, {v_n, v_e, v_d},       |
 /// |                     | {roll, pitch, heading}                             |
 ///
@@ -38,6 +44,7 @@
 /// configuration says `stamp: start`. t is seconds since the data set's epoch
 /// unless the stream's `time` says otherwise. A position and a velocity stream
 /// may name the same file. In position and height streams an optional column
-/// `quality` holds an integer that `accept_quality` selects by.
+/// `quality` holds an integer that `accept_quality` selects by. A dvl's column
+/// `water` is 1 where it tracks the water and 0 where the bottom.
 
 #endif  // HINDSIGHT_IO_CSV_FORMAT_H_

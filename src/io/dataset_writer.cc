@@ -138,8 +138,16 @@ void WriteCounts(const AidingStream& stream, AtomicFile* file) {
   }
 }
 
-const char* AidingHeading(SensorType type) {
-  switch (type) {
+std::string AidingHeading(const AidingStream& stream) {
+  switch (stream.sensor.type) {
+    case SensorType::kDvl:
+      return std::get<Dvl>(stream.measurements.front().model).form ==
+                     Dvl::Form::kBeams
+                 ? ",beam_1[m/s],beam_2[m/s],beam_3[m/s],beam_4[m/s],"
+                   "valid_1[1],valid_2[1],valid_3[1],valid_4[1]\n"
+                 : ",v_x[m/s],v_y[m/s],v_z[m/s]\n";
+    case SensorType::kAcousticFix:
+      return ",range[m],azimuth[rad],depression[rad]\n";
     case SensorType::kPosition:
       return ",sigma_n[m],sigma_e[m],sigma_d[m]\n";
     case SensorType::kVelocity:
@@ -151,6 +159,12 @@ const char* AidingHeading(SensorType type) {
     default:
       return ",h[m],sigma_h[m]\n";
   }
+}
+
+void AddDvlValues(const Dvl& dvl, Row* row) {
+  for (int i = 0; i < dvl.components(); ++i) row->AddShortest(dvl.speed(i));
+  if (dvl.form == Dvl::Form::kThreeAxis) return;
+  for (const bool valid : dvl.valid) row->AddGeneral(valid ? 1.0 : 0.0, 1);
 }
 
 void AddAidingValues(const AidingStream& stream, const Measurement& z,
@@ -175,6 +189,14 @@ void AddAidingValues(const AidingStream& stream, const Measurement& z,
     return;
   } else if (const auto* magnetic = std::get_if<MagneticField>(&z.model)) {
     for (const double value : magnetic->field_b) row->AddShortest(value);
+  } else if (const auto* dvl = std::get_if<Dvl>(&z.model)) {
+    AddDvlValues(*dvl, row);
+    return;
+  } else if (const auto* acoustic = std::get_if<AcousticFix>(&z.model)) {
+    for (const double value :
+         {acoustic->range, acoustic->azimuth, acoustic->depression}) {
+      row->AddShortest(value);
+    }
     return;
   } else {
     throw InputError("aiding stream '" + name + "' cannot be written as CSV");
@@ -195,7 +217,7 @@ void WriteAiding(const std::string& path, const AidingStream& stream) {
   } else if (stream.sensor.type == SensorType::kVelocity) {
     heading += GroupHeading(ColumnGroup::kVelocity);
   }
-  file.Write(heading + AidingHeading(stream.sensor.type));
+  file.Write(heading + AidingHeading(stream));
   Row row;
   for (const Measurement& z : stream.measurements) {
     row.AddShortest(z.t);

@@ -18,7 +18,7 @@ inline constexpr char kDatasetConfigName[] = "config.yaml";
 /// keep 12 significant digits, positions 1e-13 deg.
 /// The folder is made if need be. Throws InputError if it cannot be written, or
 /// for what the format cannot hold: correlated errors of a fix, a sensor that
-/// is neither position, velocity nor height.
+/// is none of position, velocity, height, odometer, DVL and acoustic fix.
 void WriteDataset(const Dataset& dataset, const std::string& folder);
 
 /// The same for a simulation not yet begun, whose IMU samples go straight to

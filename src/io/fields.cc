@@ -60,6 +60,38 @@ const std::vector<FieldName>& OdometerFields() {
   return kFields;
 }
 
+const std::vector<FieldName>& DepthFields() {
+  static const std::vector<FieldName> kFields = {
+      {"depth", Quantity::kLength},
+      {"sigma_depth", Quantity::kLength},
+      {"quality", Quantity::kRatio},
+  };
+  return kFields;
+}
+
+const std::vector<FieldName>& DvlFields() {
+  static const std::vector<FieldName> kFields = {
+      {"v_x", Quantity::kSpeed},     {"v_y", Quantity::kSpeed},
+      {"v_z", Quantity::kSpeed},     {"beam_1", Quantity::kSpeed},
+      {"beam_2", Quantity::kSpeed},  {"beam_3", Quantity::kSpeed},
+      {"beam_4", Quantity::kSpeed},  {"valid_1", Quantity::kRatio},
+      {"valid_2", Quantity::kRatio}, {"valid_3", Quantity::kRatio},
+      {"valid_4", Quantity::kRatio}, {"water", Quantity::kRatio},
+      {"quality", Quantity::kRatio},
+  };
+  return kFields;
+}
+
+const std::vector<FieldName>& AcousticFields() {
+  static const std::vector<FieldName> kFields = {
+      {"range", Quantity::kLength},
+      {"azimuth", Quantity::kAngle},
+      {"depression", Quantity::kAngle},
+      {"quality", Quantity::kRatio},
+  };
+  return kFields;
+}
+
 const std::vector<FieldName>& SpeedCourseFields() {
   static const std::vector<FieldName> kFields = {
       {"speed", Quantity::kSpeed},

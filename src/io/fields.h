@@ -24,6 +24,13 @@ const std::vector<FieldName>& VelocityFields();
 const std::vector<FieldName>& HeightFields();
 /// Speed along the vehicle's x axis, and across it where a sensor measures it.
 const std::vector<FieldName>& OdometerFields();
+/// Depth below the water's surface.
+const std::vector<FieldName>& DepthFields();
+/// Velocity along a DVL's own axes, or along its beams with a flag each (0 is
+/// lost); water is 1 for water track.
+const std::vector<FieldName>& DvlFields();
+/// Range, azimuth and depression of a transponder from the vehicle.
+const std::vector<FieldName>& AcousticFields();
 /// Speed and course over the ground.
 const std::vector<FieldName>& SpeedCourseFields();
 /// Magnetic field in sensor axes.

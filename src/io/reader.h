@@ -106,6 +106,12 @@ struct AidingReadOptions {
   double every = 0.0;            ///< use one measurement in this time [s]
   /// Increments are made of a column that counts the distance.
   Odometer::Form odometer_form = Odometer::Form::kThreeAxis;
+  /// Of a height stream that holds depths: height of the surface above the
+  /// ellipsoid [m].
+  std::optional<double> surface;
+  Dvl dvl;                   ///< of dvl: all but the speeds
+  bool has_current = false;  ///< of dvl: water track can be used
+  AcousticFix acoustic;      ///< of acoustic: all but range and angles
   /// Of speed_course: of the course [rad], and the speed below which a course
   /// means nothing [m/s].
   double course_sigma = 0.0;

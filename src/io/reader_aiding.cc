@@ -13,7 +13,7 @@ struct FieldMap {
   const std::vector<FieldName>& fields;
   std::size_t values;     ///< number of measured values, at the front
   std::size_t sigmas;     ///< number of standard deviations behind them
-  std::size_t first = 0;  ///< of the measured values
+  std::size_t first = 0;  ///< of the measured values, where none is in front
   std::size_t quality() const { return *FieldIndex(fields, "quality"); }
 };
 
@@ -22,7 +22,16 @@ FieldMap MapOf(const AidingReadOptions& options) {
     case SensorType::kVelocity:
       return {VelocityFields(), 3, 3};
     case SensorType::kHeight:
-      return {HeightFields(), 1, 1};
+      return {options.surface ? DepthFields() : HeightFields(), 1, 1};
+    case SensorType::kDvl:
+      return options.dvl.form == Dvl::Form::kThreeAxis
+                 ? FieldMap{DvlFields(), 3, 0}
+                 : FieldMap{DvlFields(), 4, 0, 3};
+    case SensorType::kAcousticFix: {
+      const std::size_t first = options.acoustic.has_range ? 0 : 1;
+      const std::size_t last = options.acoustic.has_bearing ? 3 : 1;
+      return {AcousticFields(), last - first, 0, first};
+    }
     case SensorType::kOdometer:
       if (options.odometer_form == Odometer::Form::kIncrements) {
         return {OdometerFields(), 1, 0,
@@ -50,7 +59,7 @@ class AidingReader {
         map_(MapOf(options)),
         rows_(source, map_.fields,
               !options.accept_quality.empty() ||
-                  options.type == SensorType::kSpeedCourse) {
+                  options.type == SensorType::kSpeedCourse || HasBeams()) {
     RequireFields(rows_.opened(), source.format, map_.fields, map_.first,
                   map_.first + map_.values - 1);
     if (!options.sigma) RequireSigmas();
@@ -74,7 +83,13 @@ class AidingReader {
       }
       last_kept = !IsRejected() && !IsAbsent() && !IsAbsentVelocity();
       if (!last_kept) continue;
-      measurements.push_back({rows_.t(), options_.sensor, false, Model()});
+      Measurement z{rows_.t(), options_.sensor, false, Model()};
+      last_kept = Rows(z) > 0;
+      if (!last_kept) {
+        ++lost_;
+        continue;
+      }
+      measurements.push_back(std::move(z));
       if (measurements.size() == 1) due_ = rows_.t();
       while (options_.every > 0.0 &&
              due_ <= rows_.t() + kEarly * options_.every) {
@@ -95,10 +110,16 @@ class AidingReader {
     AddPolicy(source_.name, "velocity absent", zero_velocities_, policies);
     AddPolicy(source_.name, "row with absent values", absent_, policies);
     AddPolicy(source_.name, "thinned out", thinned_, policies);
+    AddPolicy(source_.name, "row without a valid beam", lost_, policies);
   }
 
  private:
   double Value(std::size_t i) const { return rows_.table().value(i); }
+
+  bool HasBeams() const {
+    return options_.type == SensorType::kDvl &&
+           options_.dvl.form == Dvl::Form::kBeams;
+  }
 
   void RequireSigmas() const {
     for (std::size_t i = map_.values; i < map_.values + map_.sigmas; ++i) {
@@ -126,6 +147,7 @@ class AidingReader {
   }
 
   bool IsAbsent() {
+    if (HasBeams()) return false;
     for (std::size_t i = map_.first; i < map_.first + map_.values; ++i) {
       if (std::isfinite(Value(i))) continue;
       if (!source_.absent_values) {
@@ -192,7 +214,13 @@ class AidingReader {
       case SensorType::kVelocity:
         return VelocityFix{{Value(0), Value(1), Value(2)}, Covariance()};
       case SensorType::kHeight:
-        return HeightFix{Value(0), Sigma(0)};
+        return options_.surface
+                   ? HeightFix{*options_.surface - Value(0), Sigma(0)}
+                   : HeightFix{Value(0), Sigma(0)};
+      case SensorType::kDvl:
+        return DvlModel();
+      case SensorType::kAcousticFix:
+        return AcousticModel();
       case SensorType::kOdometer:
         return OdometerModel();
       case SensorType::kSpeedCourse:
@@ -231,6 +259,35 @@ class AidingReader {
     return odometer;
   }
 
+  Dvl DvlModel() const {
+    Dvl dvl = options_.dvl;
+    constexpr std::size_t kValid = 7;
+    constexpr std::size_t kWater = 11;
+    for (int i = 0; i < dvl.components(); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      dvl.speed(i) = Value(map_.first + k);
+      dvl.valid[k] =
+          std::isfinite(dvl.speed(i)) &&
+          (!rows_.table().Has(kValid + k) || Value(kValid + k) > 0.5);
+    }
+    if (rows_.table().Has(kWater)) dvl.water = Value(kWater) > 0.5;
+    if (dvl.water && !options_.has_current) {
+      rows_.table().Fail(source_.name +
+                         ": water track needs `current` in the configuration");
+    }
+    return dvl;
+  }
+
+  AcousticFix AcousticModel() const {
+    AcousticFix fix = options_.acoustic;
+    if (fix.has_range) fix.range = Value(0);
+    if (fix.has_bearing) {
+      fix.azimuth = Value(1);
+      fix.depression = Value(2);
+    }
+    return fix;
+  }
+
   /// From counts to what has come since the count before; the first has none.
   static void TakeDifferences(std::vector<Measurement>* measurements) {
     for (std::size_t i = measurements->size(); i-- > 1;) {
@@ -261,6 +318,7 @@ class AidingReader {
   long zero_velocities_ = 0;
   long absent_ = 0;
   long thinned_ = 0;
+  long lost_ = 0;
   double due_ = -std::numeric_limits<double>::infinity();
 };
 

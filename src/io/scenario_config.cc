@@ -156,22 +156,41 @@ std::optional<double> ReadGate(ConfigMap* map) {
   return probability;
 }
 
+/// What a sensor errs by: its noise, and the a priori sigmas of its
+/// calibration.
+void ReadAidingErrors(ConfigMap* map, AidingModel* model) {
+  Sensor& sensor = model->sensor;
+  if (sensor.type == SensorType::kDvl) {
+    ReadDvl(map, &sensor, &model->dvl);
+    model->beam_dropout = map->Number("beam_dropout", Quantity::kRatio, 0.0);
+    model->current_n =
+        map->Vector("true_current", Quantity::kSpeed, Eigen::Vector3d::Zero());
+  } else if (sensor.type == SensorType::kAcousticFix) {
+    ReadAcoustic(map, &sensor, &model->acoustic);
+  } else {
+    const auto sigma = map->OptionalSigma(
+        "sigma", sensor.type == SensorType::kVelocity ? Quantity::kSpeed
+                                                      : Quantity::kLength);
+    if (!sigma) map->Fail("sigma", "is missing");
+    model->sigma = *sigma;
+  }
+  ReadCalibrationSigmas(map, &sensor);
+  model->draw_calibration = true;
+}
+
 AidingModel ReadAidingModel(const std::string& name, ConfigMap* map) {
   constexpr std::array kTypes = {SensorType::kPosition, SensorType::kVelocity,
-                                 SensorType::kHeight};
+                                 SensorType::kHeight, SensorType::kDvl,
+                                 SensorType::kAcousticFix};
   if (name == "imu" || name == "truth") {
     map->Fail("type", "the name '" + name + "' is taken by another file");
   }
   AidingModel model;
   model.sensor.name = name;
   model.sensor.type = kTypes[map->Choice(
-      "type", {"position", "velocity", "height"}, std::nullopt)];
-  const Quantity quantity = model.sensor.type == SensorType::kVelocity
-                                ? Quantity::kSpeed
-                                : Quantity::kLength;
-  const auto sigma = map->OptionalSigma("sigma", quantity);
-  if (!sigma) map->Fail("sigma", "is missing");
-  model.sigma = *sigma;
+      "type", {"position", "velocity", "height", "dvl", "acoustic"},
+      std::nullopt)];
+  ReadAidingErrors(map, &model);
   model.rate_hz = map->Positive("rate", Quantity::kFrequency, model.rate_hz);
   model.sensor.lever_arm_b =
       map->Vector("lever_arm", Quantity::kLength, Eigen::Vector3d::Zero());

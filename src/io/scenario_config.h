@@ -35,6 +35,12 @@ namespace hindsight {
 /// sigmas of the initial values, which are left out without it | | |
 /// stationary, withhold, nodes.max_spacing | as in a data set    |         |
 ///
+/// Types are position, velocity, height, dvl and acoustic, the latter two with
+/// the keys they have in a data set; dvl besides: beam_dropout, the probability
+/// that a ping loses a beam (0), and true_current (NED, 0 m/s). `estimate` as
+/// in a data set; the errors of scale, mounting, lever arm and offset are drawn
+/// from its sigmas.
+///
 /// A segment is a map with its kind in `type`:
 ///   {type: straight, duration}
 ///   {type: stop, duration, deceleration 2 m/s^2}

@@ -83,6 +83,7 @@ std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
 ///     usable, verdict           is the result usable, and why, in words
 ///     error                     against the truth
 ///       position_rms_m, position_max_m, horizontal_rms_m, horizontal_max_m,
+///       end_horizontal_m (at the last truth point), distance_m (way of truth),
 ///       total_rms_m, total_max_m
 ///       velocity_rms_mps, velocity_max_mps
 ///       attitude_rms_deg, attitude_max_deg, tilt_rms_deg

@@ -46,6 +46,8 @@ Json ErrorJson(const TrajectoryStatistics& s) {
     Put(&json, "horizontal_max_m", s.position->horizontal.max);
     Put(&json, "total_rms_m", s.position->total.rms);
     Put(&json, "total_max_m", s.position->total.max);
+    Put(&json, "end_horizontal_m", s.final_horizontal);
+    Put(&json, "distance_m", s.distance);
   }
   if (s.velocity) {
     Put(&json, "velocity_rms_mps", Rms(s.velocity->axis));

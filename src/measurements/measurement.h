@@ -4,6 +4,8 @@
 #include <string>
 #include <variant>
 
+#include "measurements/acoustic_fix.h"
+#include "measurements/dvl.h"
 #include "measurements/height_fix.h"
 #include "measurements/magnetic_field.h"
 #include "measurements/model.h"
@@ -21,7 +23,7 @@ namespace hindsight {
 using MeasurementModel =
     std::variant<PositionFix, VelocityFix, HeightFix, ZeroVelocity,
                  ZeroAngularRate, Odometer, SpeedCourse, MagneticField,
-                 VehicleLevel>;
+                 VehicleLevel, Dvl, AcousticFix>;
 
 struct Measurement {
   double t = 0.0;  ///< stamp [s]; the sensor's time offset is not yet applied

@@ -1,7 +1,6 @@
 #include "measurements/odometer.h"
 
-#include "geometry/so3.h"
-#include "measurements/point_motion.h"
+#include "measurements/sensor_axes.h"
 
 namespace hindsight {
 
@@ -75,41 +74,18 @@ void Odometer::EvaluateSpeeds(const ModelContext& context,
   const State& x = context.state;
   const int sensor = context.sensor_index;
   const PointMotion motion = MotionOfSensor(context);
-  const Eigen::Vector3d m = Parameter3(layout, x, BlockKind::kMounting, sensor,
-                                       Eigen::Vector3d::Zero());
   const double k =
       Parameter1(layout, x, BlockKind::kScale, sensor, context.sensor.scale);
-  const Eigen::Matrix3d C_ob =
-      (Exp(m) * context.sensor.q_sb).toRotationMatrix();
-  // The body has turned on since the node was placed.
-  const Eigen::Vector3d turn = -motion.dt * motion.w_eb_b;
-  const Eigen::Matrix3d C_ob0 = C_ob * Exp(turn).toRotationMatrix();
-  const Eigen::Matrix3d C_oe = C_ob0 * motion.C_eb.transpose();
-  const Eigen::Vector3d v_o = C_oe * motion.v_e;
+  const SensorAxes axes = AxesOfSensor(context, motion);
+  const Eigen::Vector3d v_o = axes.C_se * motion.v_e;
   const Eigen::Vector3d gain(1.0 + k, 1.0, 1.0);
 
   full->Resize(3, layout.dim());
   full->residual = Eigen::Vector3d(speed, side_down.x(), side_down.y()) -
                    gain.cwiseProduct(v_o);
   full->R.diagonal() = sigma.cwiseAbs2();
-  const Eigen::Matrix3d A = gain.asDiagonal() * C_oe;
-  AddVelocityColumns(context, motion, A, &full->H);
-  layout.AddColumns(BlockKind::kAttitude, BlockKey::kNoSensor,
-                    A * Skew(motion.v_e) * motion.C_en, &full->H);
-  if (motion.dt != 0.0) {
-    const Eigen::Vector3d v_b = motion.C_eb.transpose() * motion.v_e;
-    const Eigen::Matrix3d turned = motion.dt * C_ob0 * Skew(v_b);
-    AddBodyRateColumns(context, motion,
-                       gain.asDiagonal() * turned * RightJacobian(turn),
-                       &full->H);
-  }
-  layout.AddColumns(
-      BlockKind::kTimeOffset, sensor,
-      -gain.cwiseProduct(C_ob * motion.w_eb_b.cross(C_ob.transpose() * v_o)),
-      &full->H);
-  layout.AddColumns(BlockKind::kMounting, sensor,
-                    -(gain.asDiagonal() * Skew(v_o) * LeftJacobian(m)),
-                    &full->H);
+  AddSensorVelocityColumns(context, motion, axes,
+                           Eigen::Matrix3d(gain.asDiagonal()), &full->H);
   layout.AddColumns(BlockKind::kScale, sensor,
                     Eigen::Vector3d(v_o.x(), 0.0, 0.0), &full->H);
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ enum class SensorType {
   kSpeedCourse,
   kVehicleLevel,
   kDvl,
+  kAcousticFix,
   kMagnetometer,
 };
 
@@ -86,6 +88,13 @@ struct Sensor {
   std::optional<Eigen::Vector3d> mounting_sigma;
   std::optional<double> scale_sigma;
   std::optional<double> time_offset_sigma;
+  std::optional<double> offset_sigma;  ///< of a height or depth [m]
+  /// Water current that a DVL's water track is relative to: stationary standard
+  /// deviation of each component [m/s]; correlated over time [s] or, if finite,
+  /// over the distance travelled [m].
+  std::optional<double> current_sigma;
+  double current_tau = std::numeric_limits<double>::infinity();
+  double current_length = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace hindsight

@@ -10,6 +10,7 @@
 #include "simulation/gps_jumps.h"
 #include "simulation/in_flight_alignment.h"
 #include "simulation/tunnel_survey.h"
+#include "simulation/uuv_scenarios.h"
 
 namespace hindsight {
 namespace {
@@ -137,13 +138,16 @@ struct Entry {
   const char* name;
   Scenario (*make)();
 };
-constexpr std::array<Entry, 6> kScenarios = {
+constexpr std::array<Entry, 9> kScenarios = {
     {{"car_drive", CarDrive},
      {"short_drive", ShortDrive},
      {"flight", Flight},
      {kTunnelSurveyName, [] { return TunnelSurvey({}); }},
      {kInFlightAlignmentName, [] { return InFlightAlignment({}); }},
-     {kGpsJumpsName, [] { return GpsJumps({}); }}}};
+     {kGpsJumpsName, [] { return GpsJumps({}); }},
+     {kUuvSurveyName, [] { return UuvSurvey({}); }},
+     {kUuvStraightName, [] { return UuvSurvey({.path = "straight"}); }},
+     {kUuvCalibrationName, UuvCalibration}}};
 
 /// Seconds that a segment takes at least, blending aside.
 double LeastDuration(const Segment& s, double speed) {

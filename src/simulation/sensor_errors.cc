@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "geometry/so3.h"
+
 namespace hindsight {
 namespace {
 
@@ -123,6 +125,31 @@ double DistanceTravelled(const Sensor& sensor, double from, double to,
   return sum;
 }
 
+Dvl PerfectDvl(const AidingModel& model, const Motion& motion) {
+  Dvl dvl = model.dvl;
+  Eigen::Vector3d v_e = motion.v_e;
+  if (dvl.water) v_e -= NedAxes(motion.p_e) * model.current_n;
+  Motion through = motion;
+  through.v_e = v_e;
+  const Eigen::Vector3d v_d = SensorVelocity(model.sensor, through);
+  for (int i = 0; i < dvl.components(); ++i) {
+    dvl.speed(i) = dvl.Direction(i).dot(v_d);
+  }
+  return dvl;
+}
+
+AcousticFix PerfectAcoustic(const AidingModel& model, const Motion& motion) {
+  AcousticFix fix = model.acoustic;
+  const Eigen::Vector3d d_b =
+      motion.q_eb.conjugate() * (fix.p_t_e - motion.p_e) -
+      model.sensor.lever_arm_b;
+  const Eigen::Vector3d d_s = model.sensor.q_sb * d_b;
+  fix.range = d_s.norm();
+  fix.azimuth = std::atan2(d_s.y(), d_s.x());
+  fix.depression = std::atan2(d_s.z(), d_s.head<2>().norm());
+  return fix;
+}
+
 MeasurementModel PerfectMeasurement(const AidingModel& model,
                                     const Motion& motion) {
   const Eigen::Vector3d& l = model.sensor.lever_arm_b;
@@ -153,6 +180,10 @@ MeasurementModel PerfectMeasurement(const AidingModel& model,
       return MagneticField{motion.q_eb.conjugate() * m_e + magnetic.hard_iron_b,
                            model.sigma.x(), model.magnetic_form};
     }
+    case SensorType::kDvl:
+      return PerfectDvl(model, motion);
+    case SensorType::kAcousticFix:
+      return PerfectAcoustic(model, motion);
     default:
       throw std::logic_error("sensor '" + model.sensor.name +
                              "' is of a type that is not simulated");
@@ -224,12 +255,25 @@ double DrawScale(const AidingModel& model, std::uint64_t seed) {
              Random(seed, StreamOf(model.sensor.name + "_scale")).Normal();
 }
 
+double DrawOffset(const AidingModel& model, std::uint64_t seed) {
+  return model.sensor.offset_sigma.value_or(0.0) *
+         Random(seed, StreamOf(model.sensor.name + "_offset")).Normal();
+}
+
 DrawnSensor DrawSensor(const AidingModel& model, std::uint64_t seed) {
   DrawnSensor drawn{model.sensor, {}};
   Sensor& sensor = drawn.sensor;
   auto& truth = drawn.true_constants;
-  if (sensor.type == SensorType::kOdometer) {
+  if (sensor.type == SensorType::kOdometer || sensor.scale_sigma) {
     truth[sensor.name + "_scale"] = DrawScale(model, seed);
+  }
+  if (sensor.offset_sigma) {
+    truth[sensor.name + "_offset"] = DrawOffset(model, seed);
+  }
+  if (sensor.current_sigma) {
+    truth[sensor.name + "_current[north]"] = model.current_n.x();
+    truth[sensor.name + "_current[east]"] = model.current_n.y();
+    truth[sensor.name + "_current[down]"] = model.current_n.z();
   }
   if (!model.draw_calibration) return drawn;
   Random random(seed, StreamOf(sensor.name + "_calibration"));
@@ -257,6 +301,30 @@ DrawnSensor DrawSensor(const AidingModel& model, std::uint64_t seed) {
   return drawn;
 }
 
+namespace {
+
+void AddDvlErrors(const AidingModel& model, double scale, Random* random,
+                  Dvl* dvl) {
+  for (int i = 0; i < dvl->components(); ++i) {
+    dvl->speed(i) =
+        (1.0 + scale) * dvl->speed(i) + dvl->sigma(i) * random->Normal();
+    if (model.beam_dropout > 0.0) {
+      dvl->valid[static_cast<std::size_t>(i)] =
+          random->Uniform() >= model.beam_dropout;
+    }
+  }
+}
+
+void AddAcousticErrors(double scale, Random* random, AcousticFix* fix) {
+  fix->range = (1.0 + scale) * fix->range + fix->sigma_range * random->Normal();
+  // Across the line of sight, so that azimuths scatter more near the vertical.
+  fix->azimuth +=
+      fix->sigma_bearing * random->Normal() / std::cos(fix->depression);
+  fix->depression += fix->sigma_bearing * random->Normal();
+}
+
+}  // namespace
+
 void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
                           std::vector<Measurement>* measurements) {
   Random random(seed, StreamOf(model.sensor.name));
@@ -264,6 +332,7 @@ void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
   double count_error = model.sensor.count_sigma > 0.0
                            ? model.sensor.count_sigma * random.Normal()
                            : 0.0;
+  const double offset = DrawOffset(model, seed);
   for (Measurement& z : *measurements) {
     if (auto* position = std::get_if<PositionFix>(&z.model)) {
       const Eigen::Vector3d error_n =
@@ -275,6 +344,7 @@ void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
       height->height += model.sigma.z() * random.Normal();
     } else if (auto* magnetic = std::get_if<MagneticField>(&z.model)) {
       magnetic->field_b += model.sigma.x() * random.NormalVector3();
+      height->height += offset + model.sigma.z() * random.Normal();
     } else if (auto* odometer = std::get_if<Odometer>(&z.model)) {
       const Eigen::Vector3d error =
           model.sigma.cwiseProduct(random.NormalVector3());
@@ -289,8 +359,14 @@ void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
       }
       odometer->speed = (1.0 + scale) * odometer->speed + error.x();
       odometer->side_down += error.tail<2>();
+    } else if (auto* dvl = std::get_if<Dvl>(&z.model)) {
+      AddDvlErrors(model, scale, &random, dvl);
+    } else if (auto* fix = std::get_if<AcousticFix>(&z.model)) {
+      AddAcousticErrors(scale, &random, fix);
     }
   }
+  std::erase_if(*measurements,
+                [](const Measurement& z) { return Rows(z) == 0; });
 }
 
 }  // namespace hindsight

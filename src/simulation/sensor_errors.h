@@ -75,9 +75,9 @@ struct TimeSpan {
   double end = 0.0;
 };
 
-/// An aiding sensor to simulate: position, velocity, height or odometer. A
-/// priori sigma of its scale in `sensor` is also that from which the true scale
-/// is drawn.
+/// An aiding sensor to simulate: position, velocity, height, odometer, DVL or
+/// acoustic fix. A priori sigmas of its scale and offset in `sensor` are also
+/// those from which the true ones are drawn.
 struct AidingModel {
   /// Type, lever arm, time offset, gate: the truth and what the data set says.
   Sensor sensor;
@@ -96,6 +96,10 @@ struct AidingModel {
   /// The data set's lever arm, mounting and time offset are not the true ones:
   /// the true ones are off by normal deviates of their a priori sigmas.
   bool draw_calibration = false;
+  Dvl dvl;                    ///< all but the speeds; its sigma is used
+  double beam_dropout = 0.0;  ///< probability that a ping loses a beam
+  Eigen::Vector3d current_n = Eigen::Vector3d::Zero();  ///< true, NED [m/s]
+  AcousticFix acoustic;  ///< all but range and angles; its sigmas are used
 };
 
 /// Perfect measurements of `model` with their covariances: what the sensor's
@@ -107,6 +111,8 @@ std::vector<Measurement> PerfectMeasurements(const AidingModel& model,
 
 /// The scale error k of one seed: measured = (1 + k) true.
 double DrawScale(const AidingModel& model, std::uint64_t seed);
+/// The additive error of a height in one seed [m].
+double DrawOffset(const AidingModel& model, std::uint64_t seed);
 
 /// The sensor as the data set of one seed has it, and what its constants truly
 /// are, by the names that the estimators give them.

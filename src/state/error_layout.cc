@@ -41,16 +41,31 @@ Evolution Evolution::GaussMarkov(double sigma, double tau) {
   return {Kind::kGaussMarkov, sigma * std::sqrt(2.0 / tau), tau};
 }
 
-double Evolution::Phi(double dt) const {
-  return kind == Kind::kGaussMarkov ? std::exp(-dt / tau) : 1.0;
+Evolution Evolution::SpatialGaussMarkov(double sigma, double length) {
+  Evolution evolution{Kind::kSpatialGaussMarkov, sigma};
+  evolution.length = length;
+  return evolution;
 }
 
-double Evolution::Q(double dt) const {
+double Evolution::Phi(double dt, double distance) const {
+  switch (kind) {
+    case Kind::kGaussMarkov:
+      return std::exp(-dt / tau);
+    case Kind::kSpatialGaussMarkov:
+      return std::exp(-distance / length);
+    default:
+      return 1.0;
+  }
+}
+
+double Evolution::Q(double dt, double distance) const {
   switch (kind) {
     case Kind::kRandomWalk:
       return density * density * dt;
     case Kind::kGaussMarkov:
       return -0.5 * density * density * tau * std::expm1(-2.0 * dt / tau);
+    case Kind::kSpatialGaussMarkov:
+      return -density * density * std::expm1(-2.0 * distance / length);
     default:
       return 0.0;
   }

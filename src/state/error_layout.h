@@ -66,23 +66,35 @@ struct BlockKey {
   bool operator==(const BlockKey&) const = default;
 };
 
-/// How a block changes with time, db = -b/tau dt + density dw.
+/// How a block changes with time, db = -b/tau dt + density dw, or with the
+/// distance travelled, correlated as exp(-distance/length).
 struct Evolution {
-  enum class Kind { kNavigation, kConstant, kRandomWalk, kGaussMarkov };
+  enum class Kind {
+    kNavigation,
+    kConstant,
+    kRandomWalk,
+    kGaussMarkov,
+    kSpatialGaussMarkov
+  };
   Kind kind = Kind::kConstant;
   double density = 0.0;  ///< [unit/sqrt(s)]; for Gauss-Markov sqrt(2/tau) sigma
-  double tau = std::numeric_limits<double>::infinity();  ///< [s]
+  double tau = std::numeric_limits<double>::infinity();     ///< [s]
+  double length = std::numeric_limits<double>::infinity();  ///< [m]
 
   static Evolution Navigation() { return {Kind::kNavigation}; }
   static Evolution Constant() { return {Kind::kConstant}; }
   static Evolution RandomWalk(double density);
   /// Stationary standard deviation `sigma` and correlation time `tau`.
   static Evolution GaussMarkov(double sigma, double tau);
+  /// Stationary standard deviation `sigma`, which is then the `density`, and
+  /// correlation length [m].
+  static Evolution SpatialGaussMarkov(double sigma, double length);
 
-  /// exp(-dt/tau).
-  double Phi(double dt) const;
-  /// Variance added over dt.
-  double Q(double dt) const;
+  /// exp(-dt/tau), or exp(-distance/length); only a spatial one looks at the
+  /// distance travelled in dt [m].
+  double Phi(double dt, double distance = 0.0) const;
+  /// Variance added over dt and distance.
+  double Q(double dt, double distance = 0.0) const;
 };
 
 /// One block of the error state.

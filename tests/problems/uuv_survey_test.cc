@@ -1,0 +1,216 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/units.h"
+#include "problems/montecarlo.h"
+#include "simulation/uuv_scenarios.h"
+
+namespace hindsight {
+namespace {
+
+/// The first `duration` seconds of the dive at 50 Hz, which is quick.
+Scenario ShortDive(double duration, Dvl::Form form = Dvl::Form::kThreeAxis) {
+  Scenario s = UuvSurvey({.form = form, .final_fix = false});
+  s.duration = duration;
+  s.imu_rate_hz = 50.0;
+  return s;
+}
+
+/// The data set without any error but what rounding makes; noise as stated.
+Dataset Perfect(const Scenario& scenario) {
+  Scenario exact = scenario;
+  exact.imu = ImuErrorModel{};
+  Dataset dataset = Simulate(exact, 1);
+  dataset.imu.noise = scenario.imu.noise;
+  const auto trajectory = MakeTrajectory(exact);
+  for (std::size_t k = 0; k < exact.aiding.size(); ++k) {
+    dataset.streams[k].sensor.lever_arm_b = exact.aiding[k].sensor.lever_arm_b;
+    dataset.streams[k].measurements = PerfectMeasurements(
+        exact.aiding[k], static_cast<int>(k), trajectory.get(), exact.duration);
+  }
+  const TruthPoint& start = dataset.truth.front();
+  dataset.initial.position = GeodeticFromEcef(*start.p_e);
+  dataset.initial.v_n = start.v_n;
+  dataset.initial.euler = EulerFromQuaternion(*start.q_nb);
+  return dataset;
+}
+
+double LargestPositionError(const Dataset& dataset, const Solution& solution) {
+  double largest = 0.0;
+  for (const State& x : solution.states) {
+    for (const TruthPoint& point : dataset.truth) {
+      if (std::abs(point.t - x.t) > 1e-6) continue;
+      largest = std::max(largest, (*point.p_e - x.p_e).norm());
+    }
+  }
+  return largest;
+}
+
+TEST(UuvSurvey, NoiselessDataGiveNoError) {
+  for (const Dvl::Form form : {Dvl::Form::kThreeAxis, Dvl::Form::kBeams}) {
+    const Dataset dataset = Perfect(ShortDive(120.0, form));
+    Reconstruction reconstruction(dataset, {});
+    for (const Method method : {Method::kEkf, Method::kRts, Method::kBatch}) {
+      // Sampling the rates at 50 Hz between the spline's knots leaves this.
+      EXPECT_LT(LargestPositionError(dataset, reconstruction.Run(method)), 2e-3)
+          << MethodName(method);
+    }
+  }
+}
+
+TEST(UuvSurvey, SmoothersAndBatchAgree) {
+  Scenario scenario = UuvSurvey({.form = Dvl::Form::kBeams});
+  scenario.imu_rate_hz = 50.0;
+  scenario.aiding[0].beam_dropout = 0.3;
+  const Dataset dataset = Simulate(scenario, 3);
+  Reconstruction reconstruction(dataset, {});
+  const Solution rts = reconstruction.Run(Method::kRts);
+  const Solution two_filter = reconstruction.Run(Method::kTwoFilter);
+  const Solution iterated = reconstruction.Run(Method::kIterated);
+  const Solution batch = reconstruction.Run(Method::kBatch);
+  const int p = rts.layout.Find(BlockKind::kPosition)->offset;
+  for (std::size_t k = 0; k < rts.states.size(); ++k) {
+    EXPECT_LT((rts.states[k].p_e - two_filter.states[k].p_e).norm(), 1e-5);
+    EXPECT_LT((iterated.states[k].p_e - batch.states[k].p_e).norm(), 1e-5);
+    // The first linearisation is a small part of a sigma away.
+    const double sigma =
+        std::sqrt(batch.covariances.Get(k).block<3, 3>(p, p).trace());
+    EXPECT_LT((rts.states[k].p_e - batch.states[k].p_e).norm(), 0.3 * sigma);
+  }
+}
+
+TEST(UuvSurvey, PositionsAreAsGoodAsTheySay) {
+  MonteCarloOptions options;
+  options.runs = 12;
+  options.anees_bounds = [](int, int) { return std::pair(0.0, 1e9); };
+  for (const std::string path : {"lawnmower", "straight"}) {
+    Scenario scenario = UuvSurvey({.path = path});
+    scenario.imu_rate_hz = 50.0;
+    const PerfectRecording recording(scenario);
+    const MonteCarloResult result = RunMonteCarlo(
+        {{"",
+          [&](std::uint64_t seed) { return recording.Realize(seed); },
+          {Method::kEkf, Method::kRts}}},
+        options);
+    for (const MethodStatistics& m : result.methods) {
+      EXPECT_EQ(m.failed, 0);
+      // A dive is worth some five independent errors of the position: 99.9 %
+      // of chi-square with 12 * 5 * 3 degrees of freedom is 0.68 to 1.38.
+      EXPECT_GT(m.position_nees / 3.0, 0.68) << path << " " << m.name;
+      EXPECT_LT(m.position_nees / 3.0, 1.38) << path << " " << m.name;
+    }
+    // A later fix improves what came before.
+    EXPECT_LT(result.methods[1].position_rms, result.methods[0].position_rms);
+  }
+}
+
+/// Water track over the ground's GNSS: the current is what is left.
+Scenario WaterTrack(const Eigen::Vector3d& current) {
+  Scenario s = UuvCalibration();
+  s.duration = 120.0;
+  s.imu_rate_hz = 50.0;
+  AidingModel& dvl = s.aiding[0];
+  dvl.sensor.scale_sigma.reset();
+  dvl.sensor.mounting_sigma.reset();
+  dvl.sensor.lever_arm_sigma.reset();
+  dvl.dvl.water = true;
+  dvl.sensor.current_sigma = 0.5;
+  dvl.current_n = current;
+  return s;
+}
+
+void ExpectCurrent(const Scenario& scenario, const Eigen::Vector3d& current) {
+  const Dataset dataset = Simulate(scenario, 5);
+  Reconstruction reconstruction(dataset, {});
+  for (const Method method : {Method::kRts, Method::kBatch}) {
+    const Solution solution = reconstruction.Run(method);
+    const Block& block = *solution.layout.Find(BlockKind::kCurrent, 0);
+    const std::size_t middle = solution.states.size() / 2;
+    const Eigen::Vector3d estimate =
+        solution.states[middle].parameters.segment<3>(block.parameter_offset);
+    const ErrorMatrix P = solution.covariances.Get(middle);
+    for (int i = 0; i < 3; ++i) {
+      const double sigma = std::sqrt(P(block.offset + i, block.offset + i));
+      EXPECT_LT(sigma, 0.1) << MethodName(method);
+      EXPECT_LT(std::abs(estimate(i) - current(i)), 4.0 * sigma)
+          << MethodName(method) << " axis " << i;
+    }
+  }
+}
+
+TEST(UuvSurvey, WaterTrackObservesTheCurrent) {
+  const Eigen::Vector3d current(0.3, -0.2, 0.0);
+  Scenario constant = WaterTrack(current);
+  ExpectCurrent(constant, current);
+  Scenario in_time = constant;
+  in_time.aiding[0].sensor.current_tau = 600.0;
+  ExpectCurrent(in_time, current);
+  Scenario in_space = constant;
+  in_space.aiding[0].sensor.current_length = 500.0;
+  ExpectCurrent(in_space, current);
+}
+
+TEST(UuvSurvey, SpatialCurrentIsTheSameForSmootherAndBatch) {
+  Scenario scenario = WaterTrack({0.3, -0.2, 0.0});
+  scenario.aiding[0].sensor.current_length = 100.0;
+  const Dataset dataset = Simulate(scenario, 6);
+  Reconstruction reconstruction(dataset, {});
+  const Solution iterated = reconstruction.Run(Method::kIterated);
+  const Solution batch = reconstruction.Run(Method::kBatch);
+  for (std::size_t k = 0; k < batch.states.size(); ++k) {
+    // The batch holds the way between nodes at its start's.
+    EXPECT_LT((iterated.states[k].p_e - batch.states[k].p_e).norm(), 1e-3);
+  }
+}
+
+TEST(UuvSurvey, CalibrationFindsScaleBoresightAndHorizontalLeverArm) {
+  Scenario scenario = UuvCalibration();
+  scenario.imu_rate_hz = 50.0;
+  const Dataset dataset = Simulate(scenario, 2);
+  const Solution solution = Reconstruction(dataset, {}).Run(Method::kBatch);
+  int found = 0;
+  for (const ConstantEstimate& c : solution.constants) {
+    const auto truth = dataset.true_constants.find(c.name);
+    if (truth == dataset.true_constants.end()) continue;
+    ++found;
+    EXPECT_LT(std::abs(c.value - truth->second), 4.0 * c.sigma) << c.name;
+    const bool level_arm =
+        c.name == "dvl_lever_arm[x]" || c.name == "dvl_lever_arm[y]";
+    if (level_arm || c.name == "dvl_scale" || c.name == "dvl_mounting[z]") {
+      EXPECT_EQ(c.verdict, ConstantEstimate::Verdict::kObserved) << c.name;
+    }
+    // Without roll and pitch nothing tells how deep the transducer sits.
+    if (c.name == "dvl_lever_arm[z]") {
+      EXPECT_NE(c.verdict, ConstantEstimate::Verdict::kObserved);
+    }
+  }
+  EXPECT_EQ(found, 8);  // scale, mounting, lever arm, offset of the depth
+}
+
+TEST(UuvSurvey, RangesToATransponderBoundTheDrift) {
+  Scenario free = UuvSurvey({.final_fix = false});
+  free.imu_rate_hz = 50.0;
+  Scenario ranged = free;
+  for (const double north : {-200.0, 800.0}) {
+    AidingModel beacon;
+    beacon.sensor.name = north < 0.0 ? "lbl_south" : "lbl_north";
+    beacon.sensor.type = SensorType::kAcousticFix;
+    beacon.sensor.scale_sigma = 2e-3;
+    beacon.rate_hz = 0.1;
+    const Eigen::Vector3d p_e = EcefFromGeodetic(free.start);
+    beacon.acoustic.p_t_e =
+        p_e + NedAxes(p_e) * Eigen::Vector3d(north, 500.0, 120.0);
+    beacon.acoustic.sigma_range = 0.5;
+    ranged.aiding.push_back(beacon);
+  }
+  const auto error = [](const Scenario& scenario) {
+    const Dataset dataset = Simulate(scenario, 4);
+    return LargestPositionError(dataset,
+                                Reconstruction(dataset, {}).Run(Method::kEkf));
+  };
+  EXPECT_LT(error(ranged), 0.5 * error(free));
+}
+
+}  // namespace
+}  // namespace hindsight
