@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "base/units.h"
+#include "evaluation/trajectory_error.h"
+#include "io/config.h"
+#include "problems/reconstruction.h"
+
+namespace hindsight {
+namespace {
+
+/// Two real dives of one vehicle, with INS and DVL alone.
+class AuvDive : public ::testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    const std::string source = HINDSIGHT_SOURCE_DIR;
+    const std::string root = source + "/../shared/data";
+    if (!std::filesystem::exists(root + "/auv_dvl")) {
+      GTEST_SKIP() << "the recording auv_dvl is not here";
+    }
+    dataset_ = LoadDataset(source + "/data/" + GetParam() + ".yaml", {root});
+  }
+
+  TrajectoryStatistics Evaluate(const Reconstruction& reconstruction,
+                                const Solution& solution) const {
+    std::vector<double> times;
+    for (const TruthPoint& point : dataset_.truth) {
+      if (point.t < solution.states.front().t) continue;
+      if (point.t <= solution.states.back().t) times.push_back(point.t);
+    }
+    const Solution sampled = reconstruction.Sample(solution, times);
+    TrajectoryErrorOptions options;
+    options.truth_lever_arm_b = dataset_.truth_lever_arm_b;
+    return EvaluateTrajectory(TableFromSolution(sampled), dataset_.truth,
+                              options);
+  }
+
+  static const ConstantEstimate& Find(const Solution& solution,
+                                      const std::string& name) {
+    for (const ConstantEstimate& c : solution.constants) {
+      if (c.name == name) return c;
+    }
+    throw std::out_of_range(name);
+  }
+
+  Dataset dataset_;
+};
+
+TEST_P(AuvDive, DeadReckoningAndGeometry) {
+  Reconstruction reconstruction(dataset_, {});
+  for (const Method method : {Method::kEkf, Method::kRts, Method::kBatch}) {
+    const Solution solution = reconstruction.Run(method);
+    const TrajectoryStatistics s = Evaluate(reconstruction, solution);
+    // The truth is good for 0.2 to 0.3 % of the way.
+    EXPECT_LT(*s.final_horizontal, 0.006 * *s.distance) << solution.method;
+    EXPECT_LT(s.attitude->axis[0].rms, 0.03 * kDegree) << solution.method;
+    // What is known of the vehicle: the log within 0.1 m of the IMU fore and
+    // aft, and row k at k + 1.02 s to some 10 ms.
+    EXPECT_NEAR(Find(solution, "dvl_lever_arm[x]").value, 0.0, 0.15);
+    EXPECT_NEAR(Find(solution, "dvl_time_offset").value, 0.0, 0.03);
+    EXPECT_EQ(Find(solution, "dvl_lever_arm[x]").verdict,
+              ConstantEstimate::Verdict::kObserved);
+    EXPECT_TRUE(solution.usable) << solution.verdict;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Recorded, AuvDive,
+                         ::testing::Values("auv_dvl_2", "auv_dvl_5"),
+                         [](const auto& info) {
+                           return std::string(info.param);
+                         });
+
+}  // namespace
+}  // namespace hindsight
