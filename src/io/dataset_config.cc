@@ -158,187 +158,185 @@ void AppendMagneticEstimates(const MagneticSurroundings& magnetic,
     yaml->Number("disturbance", *magnetic.disturbance_sigma, kMicrotesla);
     yaml->Number("disturbance_tau", magnetic.disturbance_tau, kSeconds);
   }
-  void AppendDvl(const AidingStream& stream, YamlText* yaml) {
-    const Sensor& sensor = stream.sensor;
-    if (sensor.type != SensorType::kDvl) return;
-    const auto& first = std::get<Dvl>(stream.measurements.front().model);
-    if (first.form == Dvl::Form::kBeams) {
-      yaml->Text("form", "beams");
-      yaml->Number("beam_angle", first.beam_angle, kDegrees);
-      yaml->Number("beam_azimuth", first.beam_azimuth, kDegrees);
-      yaml->Number("sigma", first.sigma.x(), kMetresPerSecond);
-    } else {
-      yaml->Text("form", "three_axis");
-      yaml->Vector("sigma", Eigen::Vector3d(first.sigma.head<3>()),
-                   kMetresPerSecond);
-    }
-    yaml->Text("track", first.water ? "water" : "bottom");
-    yaml->Vector("mounting", EulerFromQuaternion(sensor.q_sb), kDegrees);
-    yaml->Number("scale", sensor.scale, {"1"});
-    if (!sensor.current_sigma) return;
-    yaml->Open("current");
-    yaml->Number("sigma", *sensor.current_sigma, kMetresPerSecond);
-    if (std::isfinite(sensor.current_length)) {
-      yaml->Number("length", sensor.current_length, kMetres);
-    } else if (std::isfinite(sensor.current_tau)) {
-      yaml->Number("time", sensor.current_tau, kSeconds);
-    }
-    yaml->Close();
-  }
+}
 
-  std::string PositionText(const Geodetic& position) {
-    return "[" + FormatGeneral(position.latitude / kDegree, 16) + " deg, " +
-           FormatGeneral(position.longitude / kDegree, 16) + " deg, " +
-           FormatGeneral(position.height, kDigits) + " m]";
+void AppendDvl(const AidingStream& stream, YamlText* yaml) {
+  const Sensor& sensor = stream.sensor;
+  if (sensor.type != SensorType::kDvl) return;
+  const auto& first = std::get<Dvl>(stream.measurements.front().model);
+  if (first.form == Dvl::Form::kBeams) {
+    yaml->Text("form", "beams");
+    yaml->Number("beam_angle", first.beam_angle, kDegrees);
+    yaml->Number("beam_azimuth", first.beam_azimuth, kDegrees);
+    yaml->Number("sigma", first.sigma.x(), kMetresPerSecond);
+  } else {
+    yaml->Text("form", "three_axis");
+    yaml->Vector("sigma", Eigen::Vector3d(first.sigma.head<3>()),
+                 kMetresPerSecond);
   }
-
-  void AppendAcoustic(const AidingStream& stream, YamlText* yaml) {
-    const Sensor& sensor = stream.sensor;
-    if (sensor.type != SensorType::kAcousticFix) return;
-    const auto& first =
-        std::get<AcousticFix>(stream.measurements.front().model);
-    yaml->Text("transponder", PositionText(GeodeticFromEcef(first.p_t_e)));
-    if (first.has_range) yaml->Number("sigma", first.sigma_range, kMetres);
-    if (first.has_bearing) {
-      yaml->Number("bearing_sigma", first.sigma_bearing, kDegrees);
-    }
-    yaml->Vector("mounting", EulerFromQuaternion(sensor.q_sb), kDegrees);
-    yaml->Number("scale", sensor.scale, {"1"});
+  yaml->Text("track", first.water ? "water" : "bottom");
+  yaml->Vector("mounting", EulerFromQuaternion(sensor.q_sb), kDegrees);
+  yaml->Number("scale", sensor.scale, {"1"});
+  if (!sensor.current_sigma) return;
+  yaml->Open("current");
+  yaml->Number("sigma", *sensor.current_sigma, kMetresPerSecond);
+  if (std::isfinite(sensor.current_length)) {
+    yaml->Number("length", sensor.current_length, kMetres);
+  } else if (std::isfinite(sensor.current_tau)) {
+    yaml->Number("time", sensor.current_tau, kSeconds);
   }
+  yaml->Close();
+}
 
-  void AppendEstimates(const Sensor& sensor, YamlText* yaml) {
-    const MagneticSurroundings& magnetic = sensor.magnetic;
-    if (!sensor.lever_arm_sigma && !sensor.mounting_sigma &&
-        !sensor.scale_sigma && !sensor.time_offset_sigma &&
-        !magnetic.hard_iron_sigma && !magnetic.declination_sigma &&
-        !magnetic.disturbance_sigma) {
-      !sensor.offset_sigma) {
+std::string PositionText(const Geodetic& position) {
+  return "[" + FormatGeneral(position.latitude / kDegree, 16) + " deg, " +
+         FormatGeneral(position.longitude / kDegree, 16) + " deg, " +
+         FormatGeneral(position.height, kDigits) + " m]";
+}
+
+void AppendAcoustic(const AidingStream& stream, YamlText* yaml) {
+  const Sensor& sensor = stream.sensor;
+  if (sensor.type != SensorType::kAcousticFix) return;
+  const auto& first = std::get<AcousticFix>(stream.measurements.front().model);
+  yaml->Text("transponder", PositionText(GeodeticFromEcef(first.p_t_e)));
+  if (first.has_range) yaml->Number("sigma", first.sigma_range, kMetres);
+  if (first.has_bearing) {
+    yaml->Number("bearing_sigma", first.sigma_bearing, kDegrees);
+  }
+  yaml->Vector("mounting", EulerFromQuaternion(sensor.q_sb), kDegrees);
+  yaml->Number("scale", sensor.scale, {"1"});
+}
+
+void AppendEstimates(const Sensor& sensor, YamlText* yaml) {
+  const MagneticSurroundings& magnetic = sensor.magnetic;
+  if (!sensor.lever_arm_sigma && !sensor.mounting_sigma &&
+      !sensor.scale_sigma && !sensor.time_offset_sigma &&
+      !magnetic.hard_iron_sigma && !magnetic.declination_sigma &&
+      !magnetic.disturbance_sigma && !sensor.offset_sigma) {
     return;
   }
-      yaml->Open("estimate");
-      yaml->Vector("lever_arm", sensor.lever_arm_sigma, kMetres);
-      AppendMagneticEstimates(magnetic, yaml);
-      yaml->Vector("mounting", sensor.mounting_sigma, kDegrees);
-      if (sensor.scale_sigma) yaml->Number("scale", *sensor.scale_sigma, {"1"});
-      if (sensor.time_offset_sigma) {
-        yaml->Number("time_offset", *sensor.time_offset_sigma, kSeconds);
-      }
-      if (sensor.offset_sigma) {
-        yaml->Number("offset", *sensor.offset_sigma, kMetres);
-      }
-      yaml->Close();
-    }
-
-    void AppendSensor(const AidingStream& stream, YamlText* yaml) {
-      const Sensor& sensor = stream.sensor;
-      yaml->Open(sensor.name);
-      yaml->Text("type", TypeName(sensor));
-      yaml->Text("file", sensor.name + ".csv");
-      AppendOdometer(stream, yaml);
-      AppendMagnetometer(stream, yaml);
-      AppendDvl(stream, yaml);
-      AppendAcoustic(stream, yaml);
-      if (!sensor.lever_arm_b.isZero(0.0)) {
-        yaml->Vector("lever_arm", sensor.lever_arm_b, kMetres);
-      }
-      if (sensor.time_offset != 0.0) {
-        yaml->Number("time_offset", sensor.time_offset, kSeconds);
-      }
-      if (sensor.gate_probability) {
-        yaml->Text("gate", FormatGeneral(*sensor.gate_probability, kDigits));
-      }
-      AppendEstimates(sensor, yaml);
-      yaml->Close();
-    }
-
-    void AppendInitial(const InitialState& initial, YamlText* yaml) {
-      yaml->Text("alignment",
-                 AlignmentNames()[static_cast<std::size_t>(initial.alignment)]);
-      yaml->Open("initial");
-      if (initial.t) yaml->Number("time", *initial.t, kSeconds);
-      if (initial.position) {
-        yaml->Text("position", PositionText(*initial.position));
-      }
-      yaml->Vector("velocity", initial.v_n, kMetresPerSecond);
-      yaml->Vector("attitude", initial.euler, kDegrees);
-      if (initial.heading) yaml->Number("heading", *initial.heading, kDegrees);
-      yaml->Vector("gyro_bias", initial.gyro_bias, kDegreesPerHour);
-      yaml->Vector("accel_bias", initial.accel_bias, kMilliGs);
-      yaml->Vector("position_sigma", initial.position_sigma, kMetres);
-      yaml->Vector("velocity_sigma", initial.velocity_sigma, kMetresPerSecond);
-      yaml->Vector("attitude_sigma", initial.attitude_sigma, kDegrees);
-      yaml->Vector("gyro_bias_sigma", initial.gyro_bias_sigma, kDegreesPerHour);
-      yaml->Vector("accel_bias_sigma", initial.accel_bias_sigma, kMilliGs);
-      yaml->Close();
-    }
-
-    void AppendStationary(const StationaryOptions& options, YamlText* yaml) {
-      if (!options.enabled) return;
-      yaml->Open("stationary");
-      yaml->Number("window", options.window, kSeconds);
-      yaml->Number("gyro_threshold", options.gyro_threshold, {"rad/s"});
-      yaml->Number("accel_threshold", options.accel_threshold, {"m/s^2"});
-      yaml->Number("velocity_sigma", options.velocity_sigma, kMetresPerSecond);
-      yaml->Number("rate_sigma", options.rate_sigma, {"rad/s"});
-      yaml->Close();
-    }
-
-    void AppendWithholdings(const std::vector<Withholding>& withholdings,
-                            YamlText* yaml) {
-      if (withholdings.empty()) return;
-      yaml->Open("withhold");
-      for (const Withholding& w : withholdings) {
-        std::string line = "- {sensor: " + w.sensor +
-                           ", every: " + FormatGeneral(w.every, kDigits) +
-                           " s, length: " + FormatGeneral(w.length, kDigits) +
-                           " s";
-        if (w.from) line += ", from: " + FormatGeneral(*w.from, kDigits) + " s";
-        yaml->Line(line + "}");
-      }
-      yaml->Close();
-    }
-
-  }  // namespace
-
-  std::string DatasetConfigYaml(const Dataset& dataset) {
-    YamlText yaml;
-    yaml.Line("# Simulated recording; truth.csv is exact.");
-    yaml.Text("name", dataset.name);
-    yaml.Open("imu");
-    yaml.Text("file", "imu.csv");
-    yaml.Text("kind", dataset.imu.kind == ImuStream::Kind::kRates
-                          ? "rates"
-                          : "increments");
-    yaml.Number("max_gap", dataset.imu.max_gap, kSeconds);
-    AppendNoise(dataset.imu.noise, &yaml);
-    yaml.Close();
-    if (std::any_of(dataset.streams.begin(), dataset.streams.end(),
-                    [](const AidingStream& stream) {
-                      return !stream.measurements.empty();
-                    })) {
-      yaml.Open("aiding");
-      for (const AidingStream& stream : dataset.streams) {
-        // A recording without a single measurement has no file either.
-        if (stream.measurements.empty()) continue;
-        AppendSensor(stream, &yaml);
-      }
-      yaml.Close();
-    }
-    AppendInitial(dataset.initial, &yaml);
-    AppendStationary(dataset.stationary, &yaml);
-    if (!dataset.truth.empty()) {
-      yaml.Open("truth");
-      yaml.Text("file", "truth.csv");
-      if (!dataset.truth_lever_arm_b.isZero(0.0)) {
-        yaml.Vector("lever_arm", dataset.truth_lever_arm_b, kMetres);
-      }
-      yaml.Close();
-    }
-    AppendWithholdings(dataset.withholdings, &yaml);
-    yaml.Open("nodes");
-    yaml.Number("max_spacing", dataset.max_node_spacing, kSeconds);
-    yaml.Close();
-    return yaml.text();
+  yaml->Open("estimate");
+  yaml->Vector("lever_arm", sensor.lever_arm_sigma, kMetres);
+  AppendMagneticEstimates(magnetic, yaml);
+  yaml->Vector("mounting", sensor.mounting_sigma, kDegrees);
+  if (sensor.scale_sigma) yaml->Number("scale", *sensor.scale_sigma, {"1"});
+  if (sensor.time_offset_sigma) {
+    yaml->Number("time_offset", *sensor.time_offset_sigma, kSeconds);
   }
+  if (sensor.offset_sigma) {
+    yaml->Number("offset", *sensor.offset_sigma, kMetres);
+  }
+  yaml->Close();
+}
+
+void AppendSensor(const AidingStream& stream, YamlText* yaml) {
+  const Sensor& sensor = stream.sensor;
+  yaml->Open(sensor.name);
+  yaml->Text("type", TypeName(sensor));
+  yaml->Text("file", sensor.name + ".csv");
+  AppendOdometer(stream, yaml);
+  AppendMagnetometer(stream, yaml);
+  AppendDvl(stream, yaml);
+  AppendAcoustic(stream, yaml);
+  if (!sensor.lever_arm_b.isZero(0.0)) {
+    yaml->Vector("lever_arm", sensor.lever_arm_b, kMetres);
+  }
+  if (sensor.time_offset != 0.0) {
+    yaml->Number("time_offset", sensor.time_offset, kSeconds);
+  }
+  if (sensor.gate_probability) {
+    yaml->Text("gate", FormatGeneral(*sensor.gate_probability, kDigits));
+  }
+  AppendEstimates(sensor, yaml);
+  yaml->Close();
+}
+
+void AppendInitial(const InitialState& initial, YamlText* yaml) {
+  yaml->Text("alignment",
+             AlignmentNames()[static_cast<std::size_t>(initial.alignment)]);
+  yaml->Open("initial");
+  if (initial.t) yaml->Number("time", *initial.t, kSeconds);
+  if (initial.position) {
+    yaml->Text("position", PositionText(*initial.position));
+  }
+  yaml->Vector("velocity", initial.v_n, kMetresPerSecond);
+  yaml->Vector("attitude", initial.euler, kDegrees);
+  if (initial.heading) yaml->Number("heading", *initial.heading, kDegrees);
+  yaml->Vector("gyro_bias", initial.gyro_bias, kDegreesPerHour);
+  yaml->Vector("accel_bias", initial.accel_bias, kMilliGs);
+  yaml->Vector("position_sigma", initial.position_sigma, kMetres);
+  yaml->Vector("velocity_sigma", initial.velocity_sigma, kMetresPerSecond);
+  yaml->Vector("attitude_sigma", initial.attitude_sigma, kDegrees);
+  yaml->Vector("gyro_bias_sigma", initial.gyro_bias_sigma, kDegreesPerHour);
+  yaml->Vector("accel_bias_sigma", initial.accel_bias_sigma, kMilliGs);
+  yaml->Close();
+}
+
+void AppendStationary(const StationaryOptions& options, YamlText* yaml) {
+  if (!options.enabled) return;
+  yaml->Open("stationary");
+  yaml->Number("window", options.window, kSeconds);
+  yaml->Number("gyro_threshold", options.gyro_threshold, {"rad/s"});
+  yaml->Number("accel_threshold", options.accel_threshold, {"m/s^2"});
+  yaml->Number("velocity_sigma", options.velocity_sigma, kMetresPerSecond);
+  yaml->Number("rate_sigma", options.rate_sigma, {"rad/s"});
+  yaml->Close();
+}
+
+void AppendWithholdings(const std::vector<Withholding>& withholdings,
+                        YamlText* yaml) {
+  if (withholdings.empty()) return;
+  yaml->Open("withhold");
+  for (const Withholding& w : withholdings) {
+    std::string line = "- {sensor: " + w.sensor +
+                       ", every: " + FormatGeneral(w.every, kDigits) +
+                       " s, length: " + FormatGeneral(w.length, kDigits) + " s";
+    if (w.from) line += ", from: " + FormatGeneral(*w.from, kDigits) + " s";
+    yaml->Line(line + "}");
+  }
+  yaml->Close();
+}
+
+}  // namespace
+
+std::string DatasetConfigYaml(const Dataset& dataset) {
+  YamlText yaml;
+  yaml.Line("# Simulated recording; truth.csv is exact.");
+  yaml.Text("name", dataset.name);
+  yaml.Open("imu");
+  yaml.Text("file", "imu.csv");
+  yaml.Text("kind", dataset.imu.kind == ImuStream::Kind::kRates ? "rates"
+                                                                : "increments");
+  yaml.Number("max_gap", dataset.imu.max_gap, kSeconds);
+  AppendNoise(dataset.imu.noise, &yaml);
+  yaml.Close();
+  if (std::any_of(dataset.streams.begin(), dataset.streams.end(),
+                  [](const AidingStream& stream) {
+                    return !stream.measurements.empty();
+                  })) {
+    yaml.Open("aiding");
+    for (const AidingStream& stream : dataset.streams) {
+      // A recording without a single measurement has no file either.
+      if (stream.measurements.empty()) continue;
+      AppendSensor(stream, &yaml);
+    }
+    yaml.Close();
+  }
+  AppendInitial(dataset.initial, &yaml);
+  AppendStationary(dataset.stationary, &yaml);
+  if (!dataset.truth.empty()) {
+    yaml.Open("truth");
+    yaml.Text("file", "truth.csv");
+    if (!dataset.truth_lever_arm_b.isZero(0.0)) {
+      yaml.Vector("lever_arm", dataset.truth_lever_arm_b, kMetres);
+    }
+    yaml.Close();
+  }
+  AppendWithholdings(dataset.withholdings, &yaml);
+  yaml.Open("nodes");
+  yaml.Number("max_spacing", dataset.max_node_spacing, kSeconds);
+  yaml.Close();
+  return yaml.text();
+}
 
 }  // namespace hindsight
