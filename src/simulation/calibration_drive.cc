@@ -36,7 +36,8 @@ AidingModel UncalibratedOdometer() {
   AidingModel odometer;
   odometer.sensor.name = "odometer";
   odometer.sensor.type = SensorType::kOdometer;
-  odometer.sensor.lever_arm_b = {-1.0, 0.2, 0.5};
+  // The simulated IMU runs without side slip: the axle is beside it.
+  odometer.sensor.lever_arm_b = {0.0, 0.2, 0.5};
   odometer.sensor.lever_arm_sigma = Eigen::Vector3d::Constant(0.2);
   odometer.sensor.scale_sigma = 0.01;
   odometer.sensor.mounting_sigma = Eigen::Vector3d::Constant(2.0 * kDegree);
