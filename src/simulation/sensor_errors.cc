@@ -341,10 +341,9 @@ void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
     } else if (auto* velocity = std::get_if<VelocityFix>(&z.model)) {
       velocity->v_n += model.sigma.cwiseProduct(random.NormalVector3());
     } else if (auto* height = std::get_if<HeightFix>(&z.model)) {
-      height->height += model.sigma.z() * random.Normal();
+      height->height += offset + model.sigma.z() * random.Normal();
     } else if (auto* magnetic = std::get_if<MagneticField>(&z.model)) {
       magnetic->field_b += model.sigma.x() * random.NormalVector3();
-      height->height += offset + model.sigma.z() * random.Normal();
     } else if (auto* odometer = std::get_if<Odometer>(&z.model)) {
       const Eigen::Vector3d error =
           model.sigma.cwiseProduct(random.NormalVector3());

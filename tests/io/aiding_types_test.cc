@@ -21,8 +21,7 @@ class AidingTypes : public SampleFolder {
 };
 
 TEST_F(AidingTypes, NoiseModels) {
-  Write("gnss.csv",
-        "t[s],latitude[deg],longitude[deg],height[m]\n0.01,48,11,500\n");
+  Write("gnss.csv", "t[s],lat[deg],lon[deg],h[m]\n0.01,48,11,500\n");
   Write("odo.csv", "t[s],speed[km/h]\n0.01,36\n");
   Aiding(
       "  gnss:\n    type: position\n    file: gnss.csv\n    sigma: 1 m\n"

@@ -177,6 +177,7 @@ TEST_F(DatasetWriter, EveryBuiltinScenarioLoads) {
     Scenario scenario = BuiltinScenario(name);
     scenario.duration = std::min(scenario.duration, 90.0);
     scenario.withholdings.clear();
+    scenario.injections.clear();
     WriteDataset(Simulate(scenario, 1), folder_.string());
     EXPECT_EQ(Load().name, name);
   }

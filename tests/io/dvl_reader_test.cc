@@ -66,8 +66,9 @@ TEST_F(DvlReader, BeamsDropOutByFlagAndByAbsence) {
 }
 
 TEST_F(DvlReader, WaterTrackBringsItsCurrent) {
-  Write("dvl.csv",
-        "t[s],v_x[m/s],v_y[m/s],v_z[m/s],water\n0.01,1,2,3,0\n0.02,1,2,3,1\n");
+  Write(
+      "dvl.csv",
+      "t[s],v_x[m/s],v_y[m/s],v_z[m/s],water[1]\n0.01,1,2,3,0\n0.02,1,2,3,1\n");
   const std::string log = "  log: {type: dvl, file: dvl.csv, sigma: 0.02 m/s";
   Aiding(log + ", current: {sigma: 0.3 m/s, length: 500 m}}\n");
   const Dataset data = Load();

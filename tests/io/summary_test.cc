@@ -124,8 +124,9 @@ TEST(Summary, HasTheDocumentedKeys) {
       Keys(batch["error"]),
       ElementsAre("position_rms_m", "position_max_m", "horizontal_rms_m",
                   "horizontal_max_m", "total_rms_m", "total_max_m",
-                  "velocity_rms_mps", "velocity_max_mps", "attitude_rms_deg",
-                  "attitude_max_deg", "tilt_rms_deg", "matched_percent"));
+                  "end_horizontal_m", "distance_m", "velocity_rms_mps",
+                  "velocity_max_mps", "attitude_rms_deg", "attitude_max_deg",
+                  "tilt_rms_deg", "matched_percent"));
   EXPECT_THAT(Keys(batch["withheld"]),
               ElementsAre("horizontal_rms_m", "horizontal_max_m", "total_rms_m",
                           "total_max_m", "outages"));
