@@ -25,7 +25,7 @@ Dataset Perfect(const Scenario& scenario) {
   dataset.imu.noise = scenario.imu.noise;
   const auto trajectory = MakeTrajectory(exact);
   for (std::size_t k = 0; k < exact.aiding.size(); ++k) {
-    dataset.streams[k].sensor.lever_arm_b = exact.aiding[k].sensor.lever_arm_b;
+    dataset.streams[k].sensor = exact.aiding[k].sensor;
     dataset.streams[k].measurements = PerfectMeasurements(
         exact.aiding[k], static_cast<int>(k), trajectory.get(), exact.duration);
   }
