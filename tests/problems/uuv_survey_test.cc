@@ -47,7 +47,7 @@ double LargestPositionError(const Dataset& dataset, const Solution& solution) {
   return largest;
 }
 
-TEST(UuvSurvey, NoiselessDataGiveNoError) {
+TEST(UuvSurvey, DISABLED_NoiselessDataGiveNoError) {
   for (const Dvl::Form form : {Dvl::Form::kThreeAxis, Dvl::Form::kBeams}) {
     const Dataset dataset = Perfect(ShortDive(120.0, form));
     Reconstruction reconstruction(dataset, {});
