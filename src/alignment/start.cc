@@ -73,6 +73,18 @@ class StartFinder {
         rest_ = TimeInterval{std::max(t_, rest.begin), rest.end};
       }
     }
+    if (MovesAsGiven()) rest_.reset();
+  }
+
+  /// Smooth motion looks like rest to an IMU; a velocity that is given knows
+  /// better.
+  bool MovesAsGiven() const {
+    if (!given().v_n) return false;
+    const double sigma =
+        given()
+            .velocity_sigma.value_or(Eigen::Vector3d::Constant(0.1))
+            .maxCoeff();
+    return given().v_n->norm() > 3.0 * sigma;
   }
 
   /// The rest makes the start value and the sigma with which the gyros carry

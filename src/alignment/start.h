@@ -39,6 +39,7 @@ struct Start {
 ///   attitude  as Align finds it.
 ///   velocity  given, else zero at rest, else from the first fixes.
 ///   gyro bias mean rate at rest less Earth rate, else as given.
+/// A velocity given of more than three sigmas says that there is no rest.
 /// Throws EstimationError if there is no position.
 Start FindStart(const Dataset& dataset, double from, double to);
 

@@ -64,8 +64,7 @@ namespace hindsight {
 /// | estimate.gyro_scale, estimate.accel_scale | a priori sigma of estimated scale factors | - |
 ///
 /// aiding.NAME besides:
-/// | type              | *needed*: position, velocity, height, speed_course, odometer, non_holonomic, magnetometer | |
-/// | type              | *needed*: position, velocity, height, depth, speed_course, odometer, non_holonomic, dvl, acoustic | |
+/// | type              | *needed*: position, velocity, height, depth, speed_course, odometer, non_holonomic, dvl, acoustic, magnetometer | |
 /// | lever_arm         | from the IMU, body axes                  | 0       |
 /// | time_offset       | true time = stamp + offset               | 0 s     |
 /// | every             | use one measurement in this time         | all     |

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
+#include "alignment/start.h"
 #include "base/units.h"
 #include "problems/montecarlo.h"
 #include "simulation/uuv_scenarios.h"
@@ -47,7 +49,14 @@ double LargestPositionError(const Dataset& dataset, const Solution& solution) {
   return largest;
 }
 
-TEST(UuvSurvey, DISABLED_NoiselessDataGiveNoError) {
+TEST(UuvSurvey, SmoothMotionIsNotTakenForRest) {
+  const Dataset dataset = Perfect(ShortDive(60.0));
+  constexpr double kEver = std::numeric_limits<double>::infinity();
+  const Start start = FindStart(dataset, -kEver, kEver);
+  EXPECT_EQ(start.prior.x.b_g, Eigen::Vector3d(Eigen::Vector3d::Zero()));
+}
+
+TEST(UuvSurvey, NoiselessDataGiveNoError) {
   for (const Dvl::Form form : {Dvl::Form::kThreeAxis, Dvl::Form::kBeams}) {
     const Dataset dataset = Perfect(ShortDive(120.0, form));
     Reconstruction reconstruction(dataset, {});
