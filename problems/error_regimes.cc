@@ -39,12 +39,17 @@ int FixCount(const RegimeProblem& problem) {
   return count;
 }
 
-ErrorRegimes Initial(const RegimeProblem& problem, ErrorRegimes::Kind kind) {
+/// Where the fit of a kind begins; `jump` is a guess of the size of errors [m].
+ErrorRegimes Initial(const RegimeProblem& problem, ErrorRegimes::Kind kind,
+                     double jump) {
   ErrorRegimes regimes;
   regimes.kind = kind;
-  regimes.sigma = (kind == ErrorRegimes::Kind::kSwitching ? 10.0 : 1.0) *
-                  StatedSigma(problem);
-  regimes.tau = 100.0;
+  const double stated = StatedSigma(problem);
+  regimes.sigma = kind == ErrorRegimes::Kind::kSwitching
+                      ? std::max(10.0 * stated, jump)
+                      : stated;
+  // A bias is first taken to stay: one that walks fast explains anything.
+  regimes.tau = kind == ErrorRegimes::Kind::kSwitching ? 3000.0 : 100.0;
   if (kind == ErrorRegimes::Kind::kSwitching) {
     regimes.transition.resize(4, 4);
     regimes.transition << 0.97, 0.02, 0.005, 0.005,  //
@@ -142,7 +147,8 @@ void Maximize(const RegimeProblem& problem, const ImmTape& tape,
   double outliers = 1.0;
   double outlier_squares = regimes->scale * regimes->scale *
                            regimes->outlier_ratio * regimes->outlier_ratio;
-  Eigen::MatrixXd counts = kPrior * Initial(problem, regimes->kind).transition;
+  Eigen::MatrixXd counts =
+      kPrior * Initial(problem, regimes->kind, 0.0).transition;
   const std::size_t modes = tape.tapes.size();
   for (std::size_t k = 0; k < tape.size(); ++k) {
     if (smoothed.pairs[k].size() > 0) counts += smoothed.pairs[k];
@@ -248,11 +254,11 @@ ExtendedProblem Extend(const RegimeProblem& problem,
   return out;
 }
 
-TunedRegimes TuneRegimes(const RegimeProblem& problem,
-                         ErrorRegimes::Kind kind) {
+TunedRegimes TuneRegimes(const RegimeProblem& problem, ErrorRegimes::Kind kind,
+                         double jump) {
   constexpr int kIterations = 3;
   TunedRegimes out;
-  out.regimes = Initial(problem, kind);
+  out.regimes = Initial(problem, kind, jump);
   for (int i = 0;; ++i) {
     if (i == 1 && out.regimes.HasGaussMarkov()) {
       SearchGaussMarkov(problem, &out.regimes);
@@ -275,9 +281,11 @@ TunedRegimes ChooseRegimes(const RegimeProblem& problem) {
   if (problem.layout.Has(BlockKind::kColouredNoise, problem.receiver)) {
     return best;
   }
+  const double outlier =
+      best.regimes.scale * best.regimes.outlier_ratio * StatedSigma(problem);
   for (const auto kind :
        {ErrorRegimes::Kind::kGaussMarkov, ErrorRegimes::Kind::kSwitching}) {
-    TunedRegimes tuned = TuneRegimes(problem, kind);
+    TunedRegimes tuned = TuneRegimes(problem, kind, outlier);
     if (tuned.regimes.criterion > best.regimes.criterion) {
       best = std::move(tuned);
     }

@@ -70,10 +70,13 @@ struct TunedRegimes {
 /// for scale, ratio and transition (the expectations are those of SmoothImm;
 /// Dempster, Laird and Rubin 1977; for mixtures of noise, Pfeifer and Protzel,
 /// ICRA 2019), a pattern search of the filter's likelihood for sigma and tau.
-/// Weak priors keep what the data do not show near its start.
-TunedRegimes TuneRegimes(const RegimeProblem& problem, ErrorRegimes::Kind kind);
+/// Weak priors keep what the data do not show near its start. `jump` is a guess
+/// of the size of a bias, where it is more than ten stated sigmas [m].
+TunedRegimes TuneRegimes(const RegimeProblem& problem, ErrorRegimes::Kind kind,
+                         double jump = 0.0);
 
-/// The kind with the largest criterion. No truth takes part.
+/// The kind with the largest criterion. No truth takes part. The outliers of
+/// the white kind tell the others what size of bias to begin with.
 TunedRegimes ChooseRegimes(const RegimeProblem& problem);
 
 }  // namespace hindsight

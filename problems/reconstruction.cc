@@ -371,12 +371,25 @@ struct Reconstruction::Impl {
       const Measurement& z = timeline.all_measurements()[i];
       if (z.sensor == receiver) used[i] = static_cast<char>(!z.withheld);
     }
+    // The EKF's trajectory may be so far off after an outlier that a
+    // linearisation about it is of no use.
+    const SensorImm imm = MakeSensorImm(start, timeline, decisions);
+    const ImmSmoothed rough = SmoothImm(
+        RunImm(imm.models, imm.options, &timeline, Progress("robust_batch"))
+            .tape);
     RobustBatchResult result = SolveRobustBatch(
-        start.layout, start.prior, rts->states, receiver, timeline, used,
-        MakeBatchOptions(), Progress("robust_batch"));
+        start.layout, start.prior, rough.trajectory.states, receiver, timeline,
+        used, MakeBatchOptions(), Progress("robust_batch"));
     Solution solution = SmoothedSolution(
         result.layout, result.timeline, std::move(result.batch.states),
         std::move(result.batch.P), result.decisions);
+    std::size_t record = 0;
+    for (std::size_t k = 0; k < result.timeline.size(); ++k) {
+      for (const Measurement& z : result.timeline.measurements(k)) {
+        ResidualRecord& r = solution.residuals[record++];
+        if (z.sensor == receiver && !z.withheld) r.weight *= result.Trust(k);
+      }
+    }
     solution.iterations = result.batch.iterations;
     solution.converged = result.batch.converged;
     solution.mode_probabilities = std::move(result.probabilities);

@@ -91,6 +91,12 @@ std::vector<std::string> Notes(const RegimeProblem& problem,
 
 }  // namespace
 
+double RobustBatchResult::Trust(std::size_t k) const {
+  return regimes.kind == ErrorRegimes::Kind::kSwitching
+             ? probabilities[k].head(2).sum()
+             : 1.0;
+}
+
 RobustBatchResult SolveRobustBatch(const ErrorLayout& layout,
                                    const Prior& prior,
                                    const std::vector<State>& initial,
@@ -108,6 +114,8 @@ RobustBatchResult SolveRobustBatch(const ErrorLayout& layout,
   }
   BatchOptions batch = options;
   batch.graduated = false;
+  // About the edge of a mixture the last steps converge linearly.
+  batch.max_iterations = std::max(batch.max_iterations, 200);
   BatchResult result =
       SolveBatch(extended.layout, extended.prior,
                  tuned.smoothed.trajectory.states, &timeline, decisions, batch);

@@ -19,6 +19,9 @@ struct RobustBatchResult {
   ErrorRegimes regimes;
   std::vector<Eigen::VectorXd> probabilities;  ///< of the modes, by node
   std::vector<std::string> notes;              ///< what was found, in words
+
+  /// Probability that a fix at node k is taken at its word: not as biased.
+  double Trust(std::size_t k) const;
 };
 
 /// Whole-interval least squares that finds out by itself what a position

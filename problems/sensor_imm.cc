@@ -1,5 +1,8 @@
 #include "problems/sensor_imm.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "problems/solution_builder.h"
@@ -53,6 +56,21 @@ ImmModel Model(const Start& start, const Timeline& timeline,
   return model;
 }
 
+/// Root mean square of the stated sigmas of the position sensors, an axis [m];
+/// infinite if there is none.
+double StatedPositionSigma(const Timeline& timeline) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Measurement& z : timeline.all_measurements()) {
+    const auto* fix = std::get_if<PositionFix>(&z.model);
+    if (fix == nullptr) continue;
+    sum += fix->R_n.trace() / 3.0;
+    ++count;
+  }
+  return count == 0 ? std::numeric_limits<double>::infinity()
+                    : std::sqrt(sum / count);
+}
+
 /// Mean of 1/factor^2 over the modes.
 double WeightOf(const SensorImm& imm, int sensor, const Eigen::VectorXd& p) {
   double weight = 0.0;
@@ -77,9 +95,11 @@ void AddModes(const SensorImm& imm, std::vector<Eigen::VectorXd> probabilities,
 SensorImm MakeSensorImm(const Start& start, const Timeline& timeline,
                         const GateDecisions& decisions) {
   const std::vector<int> questioned = QuestionedSensors(timeline);
+  const double factor =
+      std::max(kPoorFactor, kPoorSigma / StatedPositionSigma(timeline));
   SensorImm imm;
   imm.models = {Model(start, timeline, questioned, "good", 1.0),
-                Model(start, timeline, questioned, "poor", kPoorFactor)};
+                Model(start, timeline, questioned, "poor", factor)};
   imm.options.transition = StayingTransition(2, 0.9);
   imm.options.start = Eigen::Vector2d(0.5, 0.5);
   imm.options.sensors = questioned;

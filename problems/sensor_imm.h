@@ -11,14 +11,16 @@ namespace hindsight {
 
 /// The multiple-model filter for any recording: model "good" believes the noise
 /// of the sensors as stated, model "poor" multiplies the standard deviations of
-/// the position sensors (without any, of all sensors) by the paper's 20,
-/// whether they are white or coloured states. From fix to fix the mode stays
+/// the position sensors (without any, of all sensors) by the paper's ratio of
+/// 20, or to its 20 m where that is more, whether they are white or coloured
+/// states. From fix to fix the mode stays
 /// with probability 0.9 (Baek 2019, eq. (14)).
 struct SensorImm {
   std::vector<ImmModel> models;
   ImmOptions options;  ///< with feedback
 };
 inline constexpr double kPoorFactor = 20.0;
+inline constexpr double kPoorSigma = 20.0;  ///< an axis [m]
 
 /// `decisions` of gates hold for all sensors but those whose trust is in
 /// question.
