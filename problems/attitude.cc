@@ -177,25 +177,47 @@ void AttitudeEstimation::Survey() {
 }
 
 Solution AttitudeEstimation::RunSmoother() {
+  AttitudeFilterOptions options = filter_options_;
+  if (!dataset_.ahrs.low_pass && options.low_pass_tau > 0.0) {
+    // What comes after a sample averages the acceleration too.
+    constexpr double kLowPass = 0.5;  // [s]
+    options.low_pass_tau = kLowPass;
+  }
   if (magnetic_.empty() || !dataset_.ahrs.survey) {
-    return Smooth(magnetic_, filter_options_, "ahrs_smoother");
+    return Smooth(magnetic_, options, "ahrs_smoother");
   }
   Survey();
-  AttitudeFilterOptions options = filter_options_;
-  options.reference.norm = survey_.field_n.norm();
-  options.reference.dip = std::asin(survey_.field_n.normalized().z());
-  std::vector<MagneticSample> corrected = magnetic_;
-  for (MagneticSample& sample : corrected) {
-    sample.field_b -= survey_.hard_iron_b;
+  options.reference.enabled = false;
+  options.magnetic.horizontal = survey_.field_n.head<2>().norm();
+  options.magnetic.down = survey_.field_n.z();
+  options.magnetic_sigma = kFieldScale;
+  options.magnetic_correlation_time = 0.0;
+  std::vector<MagneticSample> weighed;
+  for (std::size_t k = 0; k < readings_.size(); ++k) {
+    weighed.push_back(
+        {readings_[k].t, readings_[k].field_b - survey_.hard_iron_b,
+         survey_.IsDisturbed(k) ? 0.0
+                                : readings_[k].weight * survey_.trust[k]});
   }
-  return Smooth(corrected, options, "ahrs_smoother");
+  return Smooth(weighed, options, "ahrs_smoother");
 }
 
 Solution AttitudeEstimation::RunBatch() {
   Survey();
-  return SolveRoomBatch(
+  Solution solution = SolveRoomBatch(
       {dataset_, imu_, readings_, survey_, *level_, filter_options_.place},
       [this](double fraction) { Poll("ahrs_batch", fraction); });
+  solution.magnetic.assign(solution.states.size(), 0);
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < readings_.size(); ++k) {
+    while (i + 1 < solution.states.size() &&
+           solution.states[i].t < readings_[k].t) {
+      ++i;
+    }
+    solution.magnetic[i] =
+        static_cast<signed char>(survey_.IsDisturbed(k) ? -1 : 1);
+  }
+  return solution;
 }
 
 Solution AttitudeEstimation::Run(AhrsMethod method) {
@@ -255,6 +277,8 @@ Solution SampleAttitude(const Solution& solution, const ImuStream& imu,
     }
     if (!solution.accel_sigma.empty()) {
       out.accel_sigma.push_back(solution.accel_sigma[k]);
+    }
+    if (!solution.magnetic.empty()) {
       out.magnetic.push_back(solution.magnetic[k]);
     }
   }

@@ -40,15 +40,17 @@ struct AttitudeOptions {
 /// One recording, estimated by any of the methods. Solutions have the layout
 /// {attitude, gyro bias}, one state an IMU sample, and are given at the stamps
 /// of the file (ImuStream::stamp_offset).
-///   Smoother and batch know the field of the whole recording, and the body's
-/// own, from a survey about gyros and accelerometers alone (field_survey.h).
+///   Smoother and batch know the field of the whole recording, and a magnet
+///   that
+/// travels along, from a survey about gyros and accelerometers alone
+/// (field_survey.h), and take the field as a vector, a reading with the weight
+/// that the survey gave it.
 ///   Batch: the inertial navigation problem of the same samples
 ///   (Reconstruction)
 /// with only the knowledge that the body stays in a room,
-///   p = 0 +- room, v = 0 +- room_speed every 50 ms,
+///   p = 0 +- room, v = 0 +- room_speed once a correlation time,
 /// which makes the linear acceleration an unknown that must integrate to
-/// little, where a tilt filter has to call it noise. The field enters as a
-/// vector, a reading with the weight that the survey gave it.
+/// little, where a tilt filter has to call it noise.
 class AttitudeEstimation {
  public:
   /// `dataset` must outlive the object.

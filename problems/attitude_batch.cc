@@ -10,10 +10,6 @@
 namespace hindsight {
 namespace {
 
-/// Error of one independent magnetometer reading indoors, all that its hard
-/// iron and the mean field leave [uT].
-constexpr double kMagneticSigma = 5.0;
-
 /// Without a place the Earth does not turn: its rate at the room's stand-in
 /// place is put into the gyros' readings, to be taken out again.
 void AddEarthRate(const RoomProblem& problem, ImuStream* imu) {
@@ -31,18 +27,34 @@ AidingStream RoomStream(const char* name, SensorType type) {
   return stream;
 }
 
-/// p = 0 +- room and v = 0 +- room_speed at every node.
+/// The readings' times, and what they leave of the interval filled evenly.
+std::vector<double> NodeTimes(const RoomProblem& problem) {
+  std::vector<double> times = {problem.imu.t_begin()};
+  const auto fill = [&](double to) {
+    const double from = times.back();
+    const auto steps =
+        static_cast<int>(std::lround((to - from) / kRoomNodeSpacing));
+    for (int i = 1; i < steps; ++i) {
+      times.push_back(from + (to - from) * i / steps);
+    }
+    if (to > times.back()) times.push_back(to);
+  };
+  for (const SurveyedField& reading : problem.readings) fill(reading.t);
+  fill(problem.imu.t_end());
+  return times;
+}
+
+/// p = 0 +- room and v = 0 +- room_speed, once in `correlation_time`: where the
+/// body is does not change from node to node, so each of n nodes in that time
+/// counts as 1/n.
 void AddRoom(const RoomProblem& problem, Dataset* room) {
   const AhrsSettings& ahrs = problem.dataset.ahrs;
   AidingStream position = RoomStream("room", SensorType::kPosition);
   AidingStream velocity = RoomStream("room_speed", SensorType::kVelocity);
-  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+  const double nodes = std::max(1.0, ahrs.correlation_time / kRoomNodeSpacing);
+  const Eigen::Matrix3d I = nodes * Eigen::Matrix3d::Identity();
   const int first = static_cast<int>(room->streams.size());
-  const double begin = problem.imu.t_begin();
-  const double span = problem.imu.t_end() - begin;
-  const int steps = static_cast<int>(std::ceil(span / kRoomNodeSpacing));
-  for (int i = 0; i <= steps; ++i) {
-    const double t = begin + span * i / steps;
+  for (const double t : NodeTimes(problem)) {
     position.measurements.push_back(
         {t, first, false,
          PositionFix{problem.place.p_e, ahrs.room * ahrs.room * I}});
@@ -75,14 +87,17 @@ void AddMagnetometer(const RoomProblem& problem, Dataset* room) {
     const double weight = reading.weight * problem.survey.trust[k];
     stream.measurements.push_back(
         {reading.t, index, false,
-         MagneticField{reading.field_b, kMagneticSigma / std::sqrt(weight),
+         MagneticField{reading.field_b, kFieldScale / std::sqrt(weight),
                        MagneticField::Form::kVector}});
   }
   room->streams.push_back(std::move(stream));
 }
 
 Dataset RoomDataset(const RoomProblem& problem) {
-  const Eigen::Vector3d kDefaultAccelBias = Eigen::Vector3d::Constant(0.02);
+  // Of a calibrated MEMS sensor, where the data set says nothing.
+  const Eigen::Vector3d kAccelBias = Eigen::Vector3d::Constant(0.05);
+  const Eigen::Vector3d kGyroScale = Eigen::Vector3d::Constant(0.005);
+  const Eigen::Vector3d kAccelScale = Eigen::Vector3d::Constant(0.003);
   Dataset room;
   room.name = problem.dataset.name;
   room.imu = problem.imu;
@@ -103,10 +118,12 @@ Dataset RoomDataset(const RoomProblem& problem) {
       problem.dataset.initial.gyro_bias_sigma.value_or(
           Eigen::Vector3d::Constant(0.5 * kDegree));
   room.initial.accel_bias_sigma =
-      problem.dataset.initial.accel_bias_sigma.value_or(kDefaultAccelBias);
-  room.gyro_scale_sigma = problem.dataset.gyro_scale_sigma;
-  room.accel_scale_sigma = problem.dataset.accel_scale_sigma;
-  room.max_node_spacing = kRoomNodeSpacing;
+      problem.dataset.initial.accel_bias_sigma.value_or(kAccelBias);
+  room.gyro_scale_sigma = problem.dataset.gyro_scale_sigma.value_or(kGyroScale);
+  room.accel_scale_sigma =
+      problem.dataset.accel_scale_sigma.value_or(kAccelScale);
+  // The nodes are where the measurements are.
+  room.max_node_spacing = 2.0 * kRoomNodeSpacing;
   AddRoom(problem, &room);
   AddMagnetometer(problem, &room);
   return room;

@@ -23,7 +23,7 @@ struct RoomProblem {
 
 /// Longest interval between nodes of the batch and between the magnetometer
 /// readings it uses [s].
-inline constexpr double kRoomNodeSpacing = 0.05;
+inline constexpr double kRoomNodeSpacing = 0.1;
 
 /// The navigation problem of a body that stays in a room, in Ceres; a state an
 /// IMU sample, layout {attitude, gyro bias}.

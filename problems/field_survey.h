@@ -2,6 +2,7 @@
 #define HINDSIGHT_PROBLEMS_FIELD_SURVEY_H_
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -24,14 +25,25 @@ struct FieldSurvey {
   Eigen::Vector3d hard_iron_b = Eigen::Vector3d::Zero();  ///< [uT]
   /// Weight that each reading ended with: 1 agrees, towards 0 disturbed.
   std::vector<double> trust;
+
+  /// Whether reading k differs from the survey by more than two scales.
+  bool IsDisturbed(std::size_t k) const {
+    constexpr double kLeast = 0.2;
+    return trust[k] < kLeast;
+  }
 };
+
+/// Error of one independent magnetometer reading indoors, Cauchy distributed:
+/// what a field that differs from place to place leaves [uT].
+inline constexpr double kFieldScale = 5.0;
 
 /// Field of the place and of the body itself, over a whole recording at once:
 ///   field_b = C_bn field_n + hard_iron_b + noise,
-/// linear in both, by iteratively reweighted least squares. Noise and hard iron
-/// have Cauchy distributions with scales of 2 uT and 0.5 uT: a magnet that a
-/// part of the recording comes near loses its say, one that travels along is
-/// found, and without one nothing is invented.
+/// linear in both, by iteratively reweighted least squares: a magnet that a
+/// part of the recording comes near loses its say. A hard iron is believed if
+/// it is larger than that scale and significant, h' P_h^-1 h above the
+/// chi-square of 99.99 %; otherwise there is none: over few places and
+/// attitudes a field that differs from place to place passes for one.
 FieldSurvey SurveyField(std::span<const SurveyedField> readings);
 
 /// Weight of a reading that follows another by dt [s] after turning by `angle`

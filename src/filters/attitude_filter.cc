@@ -145,15 +145,16 @@ void AttitudeFilter::UseAccelerometer(const Eigen::Vector3d& f_b) {
   UpdateComponent(0, -g, f_n.y(), R);
 }
 
-void AttitudeFilter::UseMagnetometer(double dt,
-                                     const Eigen::Vector3d& field_b) {
+void AttitudeFilter::UseMagnetometer(double dt, const Eigen::Vector3d& field_b,
+                                     double weight) {
   const Eigen::Vector3d u_n = C_nb_ * field_b;
   const double norm = u_n.norm();
   const double dip = std::atan2(u_n.z(), u_n.head<2>().norm());
-  epoch_.magnetic_disturbed = !reference_.Accept(dt, norm, dip, rate_);
+  epoch_.magnetic_disturbed =
+      !reference_.Accept(dt, norm, dip, rate_) || weight <= 0.0;
   if (epoch_.magnetic_disturbed) return;
   epoch_.magnetic_used = true;
-  const double R = options_.magnetic_sigma * options_.magnetic_sigma *
+  const double R = options_.magnetic_sigma * options_.magnetic_sigma / weight *
                    Inflation(options_.magnetic_correlation_time, dt);
   MagneticSurroundings magnetic = options_.magnetic;
   if (reference_.is_known()) {
@@ -269,7 +270,8 @@ AttitudeRun RunAttitudeFilter(const ImuStream& imu,
       const double age = sample.t - magnetic[next].t;
       const Eigen::Vector3d turn = age * (sample.gyro - filter.state().b_g);
       filter.UseMagnetometer(magnetic[next].t - magnetic_t,
-                             Exp(-turn) * magnetic[next].field_b);
+                             Exp(-turn) * magnetic[next].field_b,
+                             magnetic[next].weight);
       magnetic_t = magnetic[next].t;
     }
     if (options.rest_sigma > 0.0 && k > 0) {

@@ -33,6 +33,8 @@ AttitudePlace PlaceOnEarth(const Eigen::Vector3d& p_e);
 struct MagneticSample {
   double t = 0.0;  ///< [s], clock offset applied
   Eigen::Vector3d field_b = Eigen::Vector3d::Zero();  ///< [uT]
+  /// Divides the variance; 0 makes the reading a disturbed one.
+  double weight = 1.0;
 };
 
 struct AttitudeFilterOptions {
@@ -105,8 +107,10 @@ class AttitudeFilter {
   void Predict(double dt, const Eigen::Vector3d& w0, const Eigen::Vector3d& w1);
   /// Uses the specific force at the current time [m/s^2].
   void UseAccelerometer(const Eigen::Vector3d& f_b);
-  /// Uses the field at the current time; dt since the reading before [s].
-  void UseMagnetometer(double dt, const Eigen::Vector3d& field_b);
+  /// Uses the field at the current time; dt since the reading before [s],
+  /// `weight` as in MagneticSample.
+  void UseMagnetometer(double dt, const Eigen::Vector3d& field_b,
+                       double weight = 1.0);
   /// Uses the rate if the body rests; dt since the sample before [s].
   void UseRest(double dt, const Eigen::Vector3d& w, const Eigen::Vector3d& f);
   /// Moves the corrections into the state. To be called after the updates.
