@@ -125,8 +125,9 @@ double LogSigma(Likelihood* likelihood, std::size_t i, double value,
   const double minus = (*likelihood)(moved);
   const double curvature =
       (2.0 * value - plus - minus) / (kCurvatureStep * kCurvatureStep);
-  return curvature > 0.0 ? 1.0 / std::sqrt(curvature)
-                         : std::numeric_limits<double>::infinity();
+  return curvature > 1.0 / (kFarthest * kFarthest)
+             ? 1.0 / std::sqrt(curvature)
+             : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "app/flags.h"
 #include "app/montecarlo_report.h"
@@ -9,6 +10,7 @@
 #include "io/atomic_file.h"
 #include "io/table.h"
 #include "simulation/calibration_drive.h"
+#include "simulation/uuv_scenarios.h"
 
 namespace hindsight {
 namespace {
@@ -39,12 +41,10 @@ std::string ConstantTable(const MethodStatistics& method) {
   return table.Render();
 }
 
-}  // namespace
-
-void RunCalibration(MonteCarloOptions options, Progress* progress,
-                    ResultFolder* folder) {
-  const auto recording =
-      std::make_shared<const PerfectRecording>(CalibrationDrive(kDuration));
+void RunConstants(const char* name, const Scenario& scenario,
+                  MonteCarloOptions options, Progress* progress,
+                  ResultFolder* folder) {
+  const auto recording = std::make_shared<const PerfectRecording>(scenario);
   for (double t = kJudgedEvery; t < kDuration; t += kJudgedEvery) {
     options.node_times.push_back(t);
   }
@@ -54,12 +54,11 @@ void RunCalibration(MonteCarloOptions options, Progress* progress,
         [recording](std::uint64_t seed) { return recording->Realize(seed); },
         {Method::kEkf, Method::kRts, Method::kIterated, Method::kBatch}}},
       options);
-  WriteFileAtomically(folder->Path(kMonteCarloJson),
-                      MonteCarloJson({kCalibrationName, "", "", options.runs,
-                                      options.first_seed},
-                                     result));
-  std::cout << kCalibrationName << ", " << options.runs << " runs, "
-            << result.dim << " states\n\n"
+  WriteFileAtomically(
+      folder->Path(kMonteCarloJson),
+      MonteCarloJson({name, "", "", options.runs, options.first_seed}, result));
+  std::cout << name << ", " << options.runs << " runs, " << result.dim
+            << " states\n\n"
             << MonteCarloTable(result);
   for (const MethodStatistics& method : result.methods) {
     WriteFileAtomically(folder->Path(method.name + ".csv"),
@@ -70,6 +69,20 @@ void RunCalibration(MonteCarloOptions options, Progress* progress,
     }
     std::cout << "\n" << method.name << ":\n" << ConstantTable(method);
   }
+}
+
+}  // namespace
+
+void RunCalibration(MonteCarloOptions options, Progress* progress,
+                    ResultFolder* folder) {
+  RunConstants(kCalibrationName, CalibrationDrive(kDuration),
+               std::move(options), progress, folder);
+}
+
+void RunUuvCalibration(MonteCarloOptions options, Progress* progress,
+                       ResultFolder* folder) {
+  RunConstants(kUuvCalibrationName, UuvCalibration(), std::move(options),
+               progress, folder);
 }
 
 }  // namespace hindsight

@@ -35,8 +35,11 @@ whole state, NIS), processor time. SCENARIO is one of
   velocity_alignment   aligns the same flight from no start value, the IMU
                        mounted at any attitude, and then solves it as a batch
   gps_jumps            filters and batches under errors of the positions
-  uuv_survey           a dive with INS, DVL and depth, lawn-mower and straight,
-                       without and with a final fix and a gap of the DVL
+  uuv_survey           a dive with INS, DVL and depth: lawn-mower, straight leg
+                       and lawn-mower that ends near its start, each without
+                       and with a final fix and with a gap of the DVL
+  uuv_calibration      figures of eight at the surface with GNSS: scale,
+                       boresight and lever arm of the DVL, judged as above
   uuv_search           the fusions of Lee and Yoon (2011) as printed, 16
                        readings: 2-D and 3-D distance error with histograms
 Writes into the folder of --out:
@@ -45,8 +48,8 @@ Writes into the folder of --out:
   gps_jumps.csv     of gps_jumps: one line for profile, sigma, rate and method
   PROFILE_SIGMAm_RATEhz_METHOD.csv  root mean square errors of position and
                     velocity, ANEES and mode probabilities against time
-  METHOD.csv        of tunnel_survey: standard deviations and ANEES against
-                    time
+  METHOD.csv        of tunnel_survey and both calibrations: standard deviations
+                    and ANEES against time
   sweep.csv         with --sweep in place of both: largest standard deviation
                     for reference points every 0.25 to 8 km and odometer noise
                     of 5 to 100 mm/s
@@ -91,6 +94,7 @@ const std::vector<MonteCarloScenario>& Scenarios() {
       {kGpsJumpsName, RunGpsJumps},
       {kVibrationAttitudeName, RunVibrationAttitude},
       {kUuvSurveyName, RunUuvSurvey},
+      {kUuvCalibrationName, RunUuvCalibration},
       {kUuvSearchName, RunUuvSearch}};
   return scenarios;
 }
@@ -143,7 +147,9 @@ Command MonteCarloCommand() {
            {"runs", "N", "number of seeds (100; 300 of in_flight_alignment)"},
            {"seed", "N", "the first seed; the others follow it (1)"},
            {"threads", "N", "0: as many as there are cores (0)"},
-           {"path", "NAME", "winding, serpentine or straight (winding)"},
+           {"path", "NAME",
+            "of tunnel_survey: winding, serpentine or straight (winding);\n"
+            "of uuv_survey: lawnmower, straight or returning (all)"},
            {"white_noise", "READING",
             "of the IMU's white noise: sample, the standard deviation\n"
             "of each sample, or density, per sqrt(Hz) (sample)"},

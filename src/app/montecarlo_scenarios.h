@@ -44,9 +44,12 @@ void RunVibrationAttitude(MonteCarloOptions options, Progress* progress,
 /// The fusions of Lee and Yoon (2011) as printed, under --reading.
 void RunUuvSearch(MonteCarloOptions options, Progress* progress,
                   ResultFolder* folder);
-/// INS, DVL and depth on the lawn-mower and on a straight line.
+/// INS, DVL and depth on the paths of UuvPathNames.
 void RunUuvSurvey(MonteCarloOptions options, Progress* progress,
                   ResultFolder* folder);
+/// Calibration of a DVL in figures of eight, every constant judged.
+void RunUuvCalibration(MonteCarloOptions options, Progress* progress,
+                       ResultFolder* folder);
 
 /// Reports the number of finished runs out of `runs`.
 std::function<void(int)> RunProgress(int runs, Progress* progress);

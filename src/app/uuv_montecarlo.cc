@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -105,6 +106,18 @@ void AddSurvey(const SurveyCase& c, const MonteCarloOptions& options,
   }
 }
 
+/// The path that --path asks for, or all.
+std::vector<std::string> SurveyPaths() {
+  std::vector<std::string> paths = UuvPathNames();
+  if (!IsGiven("path")) return paths;
+  if (std::find(paths.begin(), paths.end(), FLAGS_path) == paths.end()) {
+    throw UsageError("--path=" + FLAGS_path +
+                     ": expected lawnmower, straight or returning" +
+                     Suggestion(FLAGS_path, paths));
+  }
+  return {FLAGS_path};
+}
+
 }  // namespace
 
 void RunUuvSearch(MonteCarloOptions options, Progress* progress,
@@ -161,7 +174,7 @@ void RunUuvSurvey(MonteCarloOptions options, Progress* progress,
   Json json;
   json["scenario"] = kUuvSurveyName;
   json["runs"] = options.runs;
-  for (const std::string& path : UuvPathNames()) {
+  for (const std::string& path : SurveyPaths()) {
     for (const SurveyCase& c :
          {SurveyCase{"no fix", {.path = path, .final_fix = false}},
           SurveyCase{"final fix", {.path = path}},

@@ -1,6 +1,7 @@
 #include "simulation/uuv_path.h"
 
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 
@@ -10,15 +11,19 @@ namespace {
 constexpr double kDuration = 1000.0;
 constexpr std::size_t kWayPoints = 25;
 
-/// Down to the depth of search along north, two kilometres from the surface and
-/// back to it.
+constexpr double kDepth = 100.0;
+
+/// From the surface along north to the first way-point at depth.
+std::vector<Eigen::Vector3d> Dive() {
+  return {{0.0, 0.0, 0.0},
+          {45.0, 0.0, 12.0},
+          {110.0, 0.0, 50.0},
+          {185.0, 0.0, 88.0}};
+}
+
 std::vector<Eigen::Vector3d> Straight() {
-  constexpr double kDepth = 100.0;
   constexpr double kSpacing = 85.0;
-  std::vector<Eigen::Vector3d> points = {{0.0, 0.0, 0.0},
-                                         {45.0, 0.0, 12.0},
-                                         {110.0, 0.0, 50.0},
-                                         {185.0, 0.0, 88.0}};
+  std::vector<Eigen::Vector3d> points = Dive();
   while (points.size() < kWayPoints - 3) {
     const double north =
         265.0 + kSpacing * static_cast<double>(points.size() - 4);
@@ -32,12 +37,26 @@ std::vector<Eigen::Vector3d> Straight() {
 }
 
 std::vector<Eigen::Vector3d> LawnMower() {
-  constexpr double kDepth = 100.0;
+  constexpr int kLanes = 5;
+  std::vector<Eigen::Vector3d> points = Dive();
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const double north = 250.0 + 60.0 * lane;
+    for (const double along : {0.0, 100.0, 200.0}) {
+      points.emplace_back(north, lane % 2 == 0 ? along : 200.0 - along, kDepth);
+    }
+  }
+  const Eigen::Vector3d end = points.back();
+  for (const auto& [on, depth] :
+       {std::pair(55.0, 97.0), std::pair(110.0, 80.0), std::pair(165.0, 50.0),
+        std::pair(220.0, 22.0), std::pair(270.0, 5.0), std::pair(315.0, 0.0)}) {
+    points.emplace_back(end.x() + on, end.y(), depth);
+  }
+  return points;
+}
+
+std::vector<Eigen::Vector3d> Returning() {
   constexpr int kLanes = 6;
-  std::vector<Eigen::Vector3d> points = {{0.0, 0.0, 0.0},
-                                         {45.0, 0.0, 12.0},
-                                         {110.0, 0.0, 50.0},
-                                         {185.0, 0.0, 88.0}};
+  std::vector<Eigen::Vector3d> points = Dive();
   for (int lane = 0; lane < kLanes; ++lane) {
     const double east = 60.0 * lane;
     for (const double along : {0.0, 100.0, 200.0}) {
@@ -100,14 +119,17 @@ std::vector<ProfilePoint> UuvPath::Profile(const Geodetic& start,
   return points;
 }
 
-std::vector<std::string> UuvPathNames() { return {"lawnmower", "straight"}; }
+std::vector<std::string> UuvPathNames() {
+  return {"lawnmower", "straight", "returning"};
+}
 
 UuvPath MakeUuvPath(const std::string& name) {
   constexpr double kInterval = kDuration / (kWayPoints - 1);
   if (name == "lawnmower") return UuvPath(LawnMower(), kInterval);
   if (name == "straight") return UuvPath(Straight(), kInterval);
+  if (name == "returning") return UuvPath(Returning(), kInterval);
   throw InputError("unknown path '" + name +
-                   "'; known are lawnmower, straight");
+                   "'; known are lawnmower, straight, returning");
 }
 
 }  // namespace hindsight

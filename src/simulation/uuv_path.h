@@ -39,9 +39,13 @@ class UuvPath {
 
 /// The paths of the simulated dives, each of 25 way-points in 1000 s, down to
 /// 100 m and up again, at 1 to 6 kt (Lee and Yoon 2011, section 4.1; their
-/// way-points are not printed).
-///   lawnmower  six lanes of 200 m, 60 m apart: ten changes of course
-///   straight   the same without a turn
+/// way-points are not printed, but the turns it names come in four pairs, as
+/// between five lanes).
+///   lawnmower  north, five lanes of 200 m across, 60 m apart, and on to the
+///              north: ten changes of course
+///   straight   north alone
+///   returning  lawn-mower of six lanes of 200 m that ends 300 m beside its
+///              start, which is the farthest but 40 % of the way out
 std::vector<std::string> UuvPathNames();
 /// Throws InputError for an unknown name.
 UuvPath MakeUuvPath(const std::string& name);

@@ -107,13 +107,34 @@ TEST(Uuv, FusionsOfThePaperPrintTheReadingsAskedFor) {
   EXPECT_NE(unknown.err.find("tidal"), std::string::npos);
 }
 
-TEST(Uuv, SurveyComparesLawnMowerAndStraight) {
+TEST(Uuv, CalibrationJudgesTheConstantsOfTheLog) {
   const TemporaryFolder folder;
-  const Outcome run = Hindsight(
-      {"montecarlo", "uuv_survey", "--runs=2", "--out=survey"}, folder.path());
+  const Outcome run =
+      Hindsight({"montecarlo", "uuv_calibration", "--runs=4", "--out=out"},
+                folder.path());
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Json constants =
+      ReadJson(folder.path() / "out" /
+               "montecarlo.json")["methods"]["batch"]["constants"];
+  for (const char* name :
+       {"dvl_scale", "dvl_mounting[z]", "dvl_lever_arm[x]"}) {
+    EXPECT_EQ(constants[name]["observed"], 4) << name;
+    EXPECT_LT(constants[name]["sigma"].get<double>(),
+              0.1 * constants[name]["prior_sigma"].get<double>())
+        << name;
+  }
+  // The eights are level: nothing tells how deep the transducer sits.
+  EXPECT_EQ(constants["dvl_lever_arm[z]"]["unobserved"], 4);
+}
+
+TEST(Uuv, SurveySmoothsTheTrackFromOneFix) {
+  const TemporaryFolder folder;
+  const Outcome run = Hindsight({"montecarlo", "uuv_survey", "--runs=2",
+                                 "--path=lawnmower", "--out=survey"},
+                                folder.path());
   ASSERT_EQ(run.status, 0) << run.err;
   const Json json = ReadJson(folder.path() / "survey" / "montecarlo.json");
-  ASSERT_EQ(json["dives"].size(), 6u);
+  ASSERT_EQ(json["dives"].size(), 3u);
   for (const auto& [name, dive] : json["dives"].items()) {
     EXPECT_EQ(dive.size(), 4u) << name;
     EXPECT_EQ(dive["batch"]["failed"].get<int>(), 0) << name;
@@ -121,8 +142,13 @@ TEST(Uuv, SurveyComparesLawnMowerAndStraight) {
   const auto rms = [&](const char* dive, const char* method) {
     return json["dives"][dive][method]["position_rms_m"].get<double>();
   };
-  EXPECT_LT(rms("straight, final fix", "batch"),
-            0.5 * rms("straight, final fix", "ekf"));
+  EXPECT_LT(rms("lawnmower, final fix", "batch"),
+            0.5 * rms("lawnmower, final fix", "ekf"));
+
+  const Outcome unknown = Hindsight(
+      {"montecarlo", "uuv_survey", "--path=winding", "--out=x"}, folder.path());
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_NE(unknown.err.find("--path=winding"), std::string::npos);
 }
 
 }  // namespace
