@@ -63,7 +63,8 @@ struct RunSummary {
 MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
                               const SolutionTable& trajectory, double max_gap);
 
-/// Times of the truth points within [from, to] [s].
+/// Times of the truth points within [from, to] [s]; of a truth with a lever arm
+/// also 10 ms beside them, which tells the angular rates there.
 std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
 
 /// The keys of summary.json. A figure that does not exist is absent. Vectors

@@ -151,5 +151,32 @@ TEST(Uuv, SurveySmoothsTheTrackFromOneFix) {
   EXPECT_NE(unknown.err.find("--path=winding"), std::string::npos);
 }
 
+/// The DVL is kept back for two minutes of a real dive that ends with a fix.
+TEST(Uuv, SmootherBridgesAGapOfTheLogOnARealDive) {
+  const std::filesystem::path source = HINDSIGHT_SOURCE_DIR;
+  const std::filesystem::path root = source / "../shared/data";
+  if (!std::filesystem::exists(root / "auv_dvl")) {
+    GTEST_SKIP() << "the recording auv_dvl is not here";
+  }
+  for (const char* dive : {"auv_dvl_2_fix", "auv_dvl_5_fix"}) {
+    const TemporaryFolder folder;
+    const Outcome run = Hindsight(
+        {"run", (source / "data" / dive).string() + ".yaml",
+         "--data-root=" + root.string(), "--methods=ekf,rts,batch",
+         "--withhold=dvl:every=400s,length=120s,from=150s", "--out=out"},
+        folder.path());
+    ASSERT_EQ(run.status, 0) << run.err;
+    const Json methods =
+        ReadJson(folder.path() / "out" / "summary.json")["methods"];
+    const auto largest = [&](const char* method) {
+      return methods[method]["error"]["horizontal_max_m"].get<double>();
+    };
+    // The truth itself is good for a metre or two.
+    EXPECT_LT(largest("batch"), 2.0) << dive;
+    EXPECT_LT(largest("batch"), largest("ekf")) << dive;
+    EXPECT_LT(largest("rts"), largest("ekf")) << dive;
+  }
+}
+
 }  // namespace
 }  // namespace hindsight

@@ -213,5 +213,21 @@ TEST(ErrorTable, ListsEveryComponentAndTheMatchedPart) {
   EXPECT_THAT(text, HasSubstr("mean NEES position (3 if consistent): 1.000"));
 }
 
+TEST(TruthTimes, StandBesideThePointsOfALeverArm) {
+  Dataset dataset;
+  for (const double t : {0.0, 1.0, 1.005, 2.0}) {
+    dataset.truth.emplace_back().t = t;
+  }
+  EXPECT_EQ(TruthTimes(dataset, 0.5, 2.0),
+            (std::vector<double>{1.0, 1.005, 2.0}));
+  dataset.truth_lever_arm_b = {1.0, 0.0, 0.0};
+  const std::vector<double> times = TruthTimes(dataset, 0.5, 2.0);
+  const std::vector<double> expected = {0.99, 1.0, 1.005, 1.015, 1.99, 2.0};
+  ASSERT_EQ(times.size(), expected.size());
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    EXPECT_DOUBLE_EQ(times[k], expected[k]);
+  }
+}
+
 }  // namespace
 }  // namespace hindsight
