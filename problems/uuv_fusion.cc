@@ -75,49 +75,53 @@ class Reader {
   Eigen::Vector3d error_ = Eigen::Vector3d::Zero();
 };
 
-/// Moments and histogram of a distance, filled value by value.
-class Distances {
- public:
-  explicit Distances(double bin) : bin_(bin) {}
-  void Add(double d) {
-    ++count_;
-    sum_ += d;
-    squares_ += d * d;
-    constexpr double kLastBin = 2000.0;
-    const auto i = static_cast<std::size_t>(std::min(d / bin_, kLastBin));
-    if (histogram_.size() <= i) histogram_.resize(i + 1, 0);
-    ++histogram_[i];
+/// The largest of 1, 2 and 5 times a power of ten that is not above `width`.
+double RoundDown(double width) {
+  const double power = std::pow(10.0, std::floor(std::log10(width)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * power <= width) return digit * power;
   }
-  DistanceError Result() const {
-    const double mean = sum_ / count_;
-    return {mean, std::sqrt(std::max(0.0, squares_ / count_ - mean * mean)),
-            histogram_};
-  }
+  return power;
+}
 
- private:
-  double bin_;
-  double count_ = 0.0;
-  double sum_ = 0.0;
-  double squares_ = 0.0;
-  std::vector<long> histogram_;
-};
+/// Moments and histogram of distances.
+DistanceError Describe(const std::vector<double>& distances) {
+  const auto count = static_cast<double>(distances.size());
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const double d : distances) {
+    sum += d;
+    squares += d * d;
+  }
+  DistanceError error;
+  error.mean = sum / count;
+  error.deviation =
+      std::sqrt(std::max(0.0, squares / count - error.mean * error.mean));
+  if (error.deviation == 0.0) return error;
+  constexpr double kBinsPerDeviation = 4.0;
+  error.bin = RoundDown(error.deviation / kBinsPerDeviation);
+  for (const double d : distances) {
+    const auto i = static_cast<std::size_t>(d / error.bin);
+    if (error.histogram.size() <= i) error.histogram.resize(i + 1, 0);
+    ++error.histogram[i];
+  }
+  return error;
+}
 
 struct Judge {
-  explicit Judge(double bin) : horizontal(bin), spatial(bin) {}
   void Add(const Track& estimate, const ErrorVector& truth) {
     const ErrorVector e = truth - estimate.x;
-    horizontal.Add(std::hypot(e(0), e(2)));
-    spatial.Add(std::hypot(e(0), e(2), e(4)));
+    horizontal.push_back(std::hypot(e(0), e(2)));
+    spatial.push_back(std::hypot(e(0), e(2), e(4)));
     nees += e.dot(estimate.P.llt().solve(e)) / kStates;
-    ++epochs;
   }
   UuvFusionResult Result(FusionArchitecture architecture) const {
-    return {architecture, horizontal.Result(), spatial.Result(), nees / epochs};
+    return {architecture, Describe(horizontal), Describe(spatial),
+            nees / static_cast<double>(spatial.size())};
   }
-  Distances horizontal;
-  Distances spatial;
+  std::vector<double> horizontal;
+  std::vector<double> spatial;
   double nees = 0.0;
-  double epochs = 0.0;
 };
 
 /// The sensors' true standard deviations and how their errors go on.
@@ -220,7 +224,7 @@ std::vector<UuvFusionResult> SolveUuvFusion(const UuvTruth& truth,
         !reading.weighs_by_noise) {
       sensors[0].R = sensors[1].R = 0.5 * (sensors[0].R + sensors[1].R);
     }
-    Judge judge(options.bin);
+    Judge judge;
     for (int run = 0; run < options.runs; ++run) {
       Follow(architecture, sensors, truth, errors,
              options.first_seed + static_cast<std::uint64_t>(run), &judge);
@@ -240,7 +244,7 @@ std::vector<UuvFusionResult> SolveMatchedFusion(
       MakeSensor(reading, kDvlProcess, sigma[1])};
   std::vector<UuvFusionResult> results;
   for (const FusionArchitecture architecture : kFusionArchitectures) {
-    Judge judge(options.bin);
+    Judge judge;
     for (int run = 0; run < options.runs; ++run) {
       const std::uint64_t seed =
           options.first_seed + static_cast<std::uint64_t>(run);

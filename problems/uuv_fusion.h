@@ -46,14 +46,16 @@ using UuvTruth = std::vector<ErrorVector>;
 struct UuvFusionOptions {
   int runs = 100;
   std::uint64_t first_seed = 1;
-  double bin = 0.1;  ///< of the histograms [m]
 };
 
 /// Mean, standard deviation and histogram of a distance error over all epochs
 /// and runs.
 struct DistanceError {
-  double mean = 0.0;            ///< [m]
-  double deviation = 0.0;       ///< [m]
+  double mean = 0.0;       ///< [m]
+  double deviation = 0.0;  ///< [m]
+  /// Width of a bin [m]: 1, 2 or 5 times a power of ten, a quarter of the
+  /// standard deviation or the next below it.
+  double bin = 0.0;
   std::vector<long> histogram;  ///< counts from zero in steps of the bin
 };
 

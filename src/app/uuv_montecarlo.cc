@@ -35,6 +35,7 @@ UuvTruth SearchTruth() {
 Json ToJson(const DistanceError& error) {
   return {{"mean_m", error.mean},
           {"std_m", error.deviation},
+          {"bin_m", error.bin},
           {"histogram", error.histogram}};
 }
 
@@ -137,7 +138,6 @@ void RunUuvSearch(MonteCarloOptions options, Progress* progress,
   Json json;
   json["scenario"] = kUuvSearchName;
   json["runs"] = options.runs;
-  json["bin_m"] = fusion.bin;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     if (options.stop != nullptr && *options.stop) throw Interrupted();
     AddRows(readings[i].Name(), SolveUuvFusion(truth, readings[i], fusion),

@@ -107,13 +107,21 @@ TEST(UuvFusion, OnlyDoubleUseOfInformationIsInconsistent) {
   }
 }
 
-TEST(UuvFusion, HistogramCountsEveryEpoch) {
+TEST(UuvFusion, HistogramCountsEveryEpochAndShowsTheShape) {
   UuvFusionOptions options;
   options.runs = 2;
   for (const UuvFusionResult& r : SolveUuvFusion(SearchPath(), {}, options)) {
     long count = 0;
-    for (const long n : r.spatial.histogram) count += n;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < r.spatial.histogram.size(); ++i) {
+      count += r.spatial.histogram[i];
+      sum += static_cast<double>(r.spatial.histogram[i]) *
+             (static_cast<double>(i) + 0.5) * r.spatial.bin;
+    }
     EXPECT_EQ(count, 2000);
+    EXPECT_NEAR(sum / 2000.0, r.spatial.mean, 0.5 * r.spatial.bin);
+    EXPECT_LE(r.spatial.bin, 0.25 * r.spatial.deviation);
+    EXPECT_GT(r.spatial.bin, 0.09 * r.spatial.deviation);
   }
 }
 
