@@ -1,6 +1,7 @@
 #include "alignment/alignment.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "alignment/ahrs.h"
@@ -11,6 +12,7 @@
 #include "alignment/magnetic_heading.h"
 #include "alignment/velocity_alignment.h"
 #include "base/error.h"
+#include "geometry/so3.h"
 
 namespace hindsight {
 namespace {
@@ -24,12 +26,24 @@ constexpr std::array<AlignmentMethod, 7> kMethods = {
      {AlignmentKind::kVelocity, AlignByVelocity},
      {AlignmentKind::kAhrs, AlignByAhrs, false}}};
 
+bool TellsHeading(const AlignedAttitude& attitude) {
+  return attitude.P(2, 2) < kUnknownHeadingSigma * kUnknownHeadingSigma;
+}
+
 std::string HeadingWords(const AlignedAttitude& attitude) {
-  const double sigma = std::sqrt(attitude.P(2, 2));
-  if (sigma >= kUnknownHeadingSigma) return "heading open";
+  if (!TellsHeading(attitude)) return "heading open";
   char text[64];
-  std::snprintf(text, sizeof(text), "heading to %.2g deg", sigma / kDegree);
+  std::snprintf(text, sizeof(text), "heading to %.2g deg",
+                std::sqrt(attitude.P(2, 2)) / kDegree);
   return text;
+}
+
+/// Whether two attitudes are more than five sigmas apart.
+bool Contradict(const AlignedAttitude& a, const AlignedAttitude& b) {
+  constexpr double kFiveSigmas = 25.0;
+  const Eigen::Vector3d d = Log(a.q_nb * b.q_nb.conjugate());
+  const Eigen::Matrix3d P = a.P + b.P;
+  return d.dot(P.llt().solve(d)) > kFiveSigmas;
 }
 
 bool IsGiven(const InitialState& initial) {
@@ -67,14 +81,20 @@ AlignmentChoice AlignBest(const AlignmentInput& input) {
       others += "; " + name + ": " + outcome.reason;
       continue;
     }
-    // Where all leave the heading open, the first found stays.
+    // Where all leave the heading open, the first found stays. Motion that
+    // fits no body whose x axis points forward refutes the course.
     constexpr double kNotably = 0.9;
+    const bool refuted = found && best.kind == AlignmentKind::kCourse &&
+                         method.kind == AlignmentKind::kVelocity &&
+                         TellsHeading(*outcome.found) &&
+                         Contradict(*outcome.found, best.attitude);
     const bool better =
-        !found || outcome.found->P.trace() < kNotably * best.attitude.P.trace();
+        !found || refuted ||
+        outcome.found->P.trace() < kNotably * best.attitude.P.trace();
     const AlignedAttitude& loser = better ? best.attitude : *outcome.found;
     if (found) {
       others += "; " + (better ? AlignmentName(best.kind) : name) + ": " +
-                HeadingWords(loser);
+                HeadingWords(loser) + (refuted ? ", but refuted" : "");
     }
     if (better) best = {method.kind, std::move(*outcome.found), ""};
     found = true;

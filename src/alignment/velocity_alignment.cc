@@ -1,10 +1,12 @@
 #include "alignment/velocity_alignment.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "earth/wgs84.h"
+#include "geometry/so3.h"
 
 namespace hindsight {
 namespace {
@@ -34,32 +36,50 @@ std::string AxisName(const Eigen::Vector3d& axis) {
   return kNames[largest];
 }
 
+/// Why the heading is not to be relied on; empty if it is.
+std::string WhyUnknown(const VelocityAlignment& alignment) {
+  const double heading = std::sqrt(alignment.attitude.P(2, 2));
+  const bool turns = alignment.coarse.ambiguity < kClearlyWorse;
+  if (heading > kKnownHeading && turns) {
+    return "too little acceleration, every heading fits nearly as well";
+  }
+  if (heading > kKnownHeading) {
+    char words[96];
+    std::snprintf(words, sizeof(words),
+                  "too little acceleration, which tells it to %.0f deg alone",
+                  heading / kDegree);
+    return words;
+  }
+  if (turns) {
+    return "turned by 180 deg about " +
+           AxisName(alignment.coarse.ambiguous_axis) +
+           " the motion fits nearly as well";
+  }
+  return alignment.refined ? "" : "the refinement did not settle";
+}
+
 void Describe(VelocityAlignment* alignment) {
   AlignedAttitude& attitude = alignment->attitude;
-  const CoarseAlignment& coarse = alignment->coarse;
-  const double heading = std::sqrt(attitude.P(2, 2));
-  char words[192];
+  char words[96];
   std::snprintf(words, sizeof(words),
                 "specific force against %zu measured motions up to t = %.1f s",
-                coarse.count, alignment->t_end);
+                alignment->coarse.count, alignment->t_end);
   attitude.attitude = words;
-  if (!alignment->refined) {
-    attitude.heading = "unknown: the refinement did not settle";
-  } else if (coarse.ambiguity < kClearlyWorse) {
-    attitude.heading = "unknown: turned by 180 deg about " +
-                       AxisName(coarse.ambiguous_axis) +
-                       " the motion fits nearly as well";
-  } else if (heading > kKnownHeading) {
-    std::snprintf(words, sizeof(words),
-                  "unknown: too little acceleration, any heading fits within "
-                  "%.0f deg",
-                  heading / kDegree);
-    attitude.heading = words;
-  } else {
-    attitude.heading = "the same";
-    return;
-  }
-  ForgetHeading(&attitude);
+  const std::string why = WhyUnknown(*alignment);
+  attitude.heading = why.empty() ? "the same" : "unknown: " + why;
+  if (!why.empty()) ForgetHeading(&attitude);
+}
+
+/// Whether the refinement stayed where the coarse alignment, which knows no
+/// other minimum, had led it: within ten degrees or five sigmas.
+bool StaysNear(const CoarseAlignment& coarse, const AlignedAttitude& refined,
+               const Eigen::Matrix3d& C_ne) {
+  constexpr double kNear = 10.0 * kDegree;
+  constexpr double kFiveSigmas = 25.0;
+  const Eigen::Vector3d d =
+      Log(refined.q_nb * (Eigen::Quaterniond(C_ne) * coarse.q_eb).conjugate());
+  const Eigen::Matrix3d P = coarse.P + refined.P;
+  return d.norm() < kNear || d.dot(P.llt().solve(d)) < kFiveSigmas;
 }
 
 /// Mean direction of travel, by speed; absent if the vehicle hardly moves.
@@ -72,6 +92,16 @@ std::optional<Eigen::Vector3d> DirectionOfTravel(
   }
   if (sum.norm() == 0.0) return std::nullopt;
   return sum.normalized();
+}
+
+AlignedAttitude RefinedAttitude(const WindowSolution& refined) {
+  AlignedAttitude out;
+  const State& first = refined.states.front();
+  out.q_nb = Eigen::Quaterniond(first.C_en().transpose()) * first.q_eb;
+  const int a = refined.layout.Find(BlockKind::kAttitude)->offset;
+  out.P = refined.P.Get(0).block<3, 3>(a, a);
+  out.travel_b = DirectionOfTravel(refined);
+  return out;
 }
 
 double FirstMotion(const AlignmentInput& input) {
@@ -103,15 +133,14 @@ std::optional<VelocityAlignment> AlignOverWindow(const AlignmentInput& input,
   out.t_end = t_end;
   out.refined = SmoothWindow(input, t_end, *coarse);
   const Eigen::Matrix3d C_ne = NedAxes(input.p_e).transpose();
-  out.attitude.q_nb = Eigen::Quaterniond(C_ne) * coarse->q_eb;
-  out.attitude.P = coarse->P;
   if (out.refined) {
-    const State& first = out.refined->states.front();
-    out.attitude.q_nb =
-        Eigen::Quaterniond(first.C_en().transpose()) * first.q_eb;
-    const int a = out.refined->layout.Find(BlockKind::kAttitude)->offset;
-    out.attitude.P = out.refined->P.Get(0).block<3, 3>(a, a);
-    out.attitude.travel_b = DirectionOfTravel(*out.refined);
+    out.attitude = RefinedAttitude(*out.refined);
+    if (!StaysNear(*coarse, out.attitude, C_ne)) out.refined.reset();
+  }
+  if (!out.refined) {
+    out.attitude = {};
+    out.attitude.q_nb = Eigen::Quaterniond(C_ne) * coarse->q_eb;
+    out.attitude.P = coarse->P;
   }
   out.attitude.reuse = kReuse;
   Describe(&out);

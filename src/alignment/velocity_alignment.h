@@ -8,14 +8,15 @@ namespace hindsight {
 /// What the data of [input.t, t_end] tell of the attitude, start value or not.
 struct VelocityAlignment {
   CoarseAlignment coarse;
-  /// Absent where the refinement did not settle.
+  /// Absent where the refinement did not settle near the coarse attitude.
   std::optional<WindowSolution> refined;
   AlignedAttitude attitude;  ///< at input.t
   double t_end = 0.0;
 };
 
 /// AlignCoarsely over the window, refined by SmoothWindow. Covariance and words
-/// are those of the refinement; where it does not settle, where the heading
+/// are those of the refinement; where it does not settle, or elsewhere than the
+/// coarse attitude and its covariance say, where the heading
 /// sigma stays above 20 deg, or where the attitude turned by 180 deg about some
 /// axis fits nearly as well (chi-square less than 25 larger) the heading counts
 /// as unknown and the words name the ambiguity. Empty without enough vectors.

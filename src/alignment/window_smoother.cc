@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kVagueVelocity = 100.0;   // [m/s]
 constexpr double kVaguePosition = 1000.0;  // [m]
-constexpr int kMaxIterations = 15;
+constexpr int kMaxIterations = 40;
 
 /// Measurements that need no calibration found elsewhere first.
 bool IsPlain(const MeasurementModel& model) {

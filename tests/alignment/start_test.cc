@@ -4,7 +4,9 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "geometry/so3.h"
 #include "simulation/builtin_scenarios.h"
+#include "simulation/in_flight_alignment.h"
 
 namespace hindsight {
 namespace {
@@ -133,6 +135,30 @@ TEST(Start, TakesTheVelocityChangeWhereItTellsTheHeadingBest) {
     // Its measurements come again: the prior is ten times as wide.
     EXPECT_NEAR(std::sqrt(start.prior.P(8, 8)), 10.0 * sigma.z(),
                 0.5 * sigma.z());
+  }
+}
+
+TEST(Start, MotionRefutesTheCourseOfABodyThatPointsElsewhere) {
+  const PerfectRecording recording(InFlightAlignment({}));
+  // So early in the first turn the motion tells the heading to 10 deg alone,
+  // the course would say 3.
+  constexpr double kEnd = kFirstManoeuvre + 0.9;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Dataset dataset = recording.Realize(seed);
+    EXPECT_EQ(FindStart(dataset, 0.0, kEnd).report.alignment, "course");
+    MountAnywhere(seed, &dataset);
+    const Start start = FindStart(dataset, 0.0, kEnd);
+    EXPECT_EQ(start.report.alignment, "velocity");
+    EXPECT_NE(start.report.why.find("course: heading to 3 deg, but refuted"),
+              std::string::npos)
+        << start.report.why;
+    const Eigen::Vector3d e =
+        Log(*dataset.truth.front().q_nb *
+            QuaternionFromEuler(start.report.state.euler().x(),
+                                start.report.state.euler().y(),
+                                start.report.state.euler().z())
+                .conjugate());
+    EXPECT_LT(std::abs(e.z()), 30.0 * kDegree) << seed;
   }
 }
 
