@@ -282,9 +282,16 @@ struct Reconstruction::Impl {
 
   Solution RunObserver(Method method, const CovarianceOptions& covariance) {
     const double t0 = ProcessorSeconds();
-    Solution solution = FilterSolution(
+    const LinearTape tape =
         RunForwardFilter({options.error, covariance}, start.layout, start.prior,
-                         &timeline, {}, Progress(MethodName(method))));
+                         &timeline, {}, Progress(MethodName(method)));
+    Solution solution = FilterSolution(tape);
+    if (tape.back_offs() > 0) {
+      solution.notes.push_back(
+          "no bounded gain at " + std::to_string(tape.back_offs()) + " of " +
+          std::to_string(tape.size() - 1) +
+          " steps, which it took without the weight of L'L");
+    }
     return Finish(std::move(solution), method, ProcessorSeconds() - t0);
   }
 

@@ -36,10 +36,20 @@ std::vector<ObserverRecording> Recordings() {
   return recordings;
 }
 
+std::vector<double> ReadAngles(const std::string& flag,
+                               const std::string& text) {
+  const std::vector<double> angles = ParseNumbers(flag, text);
+  for (const double angle : angles) {
+    if (angle <= 180.0) continue;
+    throw UsageError("--" + flag + "=" + text + ": expected at most 180 deg");
+  }
+  return angles;
+}
+
 std::vector<ObserverStart> Starts() {
   std::vector<ObserverStart> starts;
-  for (const double tilt : ParseNumbers("tilt", FLAGS_tilt)) {
-    for (const double heading : ParseNumbers("heading", FLAGS_heading)) {
+  for (const double tilt : ReadAngles("tilt", FLAGS_tilt)) {
+    for (const double heading : ReadAngles("heading", FLAGS_heading)) {
       const BadStart start{tilt * kDegree, heading * kDegree};
       starts.push_back({Format("tilt %g heading %g", tilt, heading),
                         [start](std::uint64_t seed, Dataset* dataset) {
@@ -53,7 +63,12 @@ std::vector<ObserverStart> Starts() {
 /// The rules with their parameters in words, before each error definition.
 std::vector<std::pair<std::string, CovarianceOptions>> Rules() {
   std::vector<std::pair<std::string, CovarianceOptions>> rules;
-  for (const std::string& name : Split(FLAGS_rules, ',')) {
+  const std::vector<std::string> names = Split(FLAGS_rules, ',');
+  const auto runs = [&](const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  CheckObserverFlags(runs("hinf"), runs("modified_hinf"));
+  for (const std::string& name : names) {
     if (name == "ekf") {
       rules.emplace_back(name, ReadCovariance(RiccatiRule::kKalman));
     } else if (name == "hinf") {

@@ -104,6 +104,26 @@ std::vector<double> ParseNumbers(const std::string& flag,
 
 std::vector<double> ReadGammas() { return ParseNumbers("gamma", FLAGS_gamma); }
 
+void CheckObserverFlags(bool hinf, bool modified) {
+  const struct {
+    const char* flag;
+    const char* rules;
+    bool used;
+  } uses[] = {{"gamma", "hinf", hinf},
+              {"alpha", "modified_hinf", modified},
+              {"alpha_blocks", "modified_hinf", modified},
+              {"delta", "modified_hinf", modified},
+              {"bounded", "hinf or modified_hinf", hinf || modified},
+              {"back_off", "hinf or modified_hinf", hinf || modified}};
+  for (const auto& [flag, rules, used] : uses) {
+    if (used || !IsGiven(flag)) continue;
+    std::string name = flag;
+    std::replace(name.begin(), name.end(), '_', '-');
+    throw UsageError("--" + name + " is of " + rules +
+                     ", which is not asked for");
+  }
+}
+
 CovarianceOptions ReadCovariance(RiccatiRule rule) {
   CovarianceOptions options;
   options.rule = rule;

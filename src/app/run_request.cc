@@ -273,6 +273,12 @@ RunRequest ReadRunRequest(const std::string& config) {
   if (errors.size() != 1 || ReadGammas().size() != 1) {
     throw UsageError("'run' takes one value of --error and of --gamma");
   }
+  const auto runs = [&](Method method) {
+    return std::find(request.methods.begin(), request.methods.end(), method) !=
+           request.methods.end();
+  };
+  CheckObserverFlags(runs(Method::kHInfinity),
+                     runs(Method::kModifiedHInfinity));
   request.error = errors.front();
   request.h_infinity = ReadCovariance(RiccatiRule::kHInfinity);
   request.modified_h_infinity = ReadCovariance(RiccatiRule::kModifiedHInfinity);

@@ -20,11 +20,19 @@ std::string EscapeMessage(double t, double weight) {
   return text;
 }
 
-double LargestEigenvalue(const Eigen::MatrixXd& M) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M,
-                                                        Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .maxCoeff();
+/// After how long the weight has used up the information of L P L'; zero where
+/// numbers do not reach.
+double TimeToEscape(double weight, const Eigen::MatrixXd& LPL) {
+  if (!LPL.allFinite()) return 0.0;
+  return 1.0 / (weight * Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+                             LPL, Eigen::EigenvaluesOnly)
+                             .eigenvalues()
+                             .maxCoeff());
+}
+
+bool IsPositiveDefinite(const Eigen::MatrixXd& M) {
+  // The factorisation lets NaN pass.
+  return M.allFinite() && M.llt().info() == Eigen::Success;
 }
 
 }  // namespace
@@ -76,24 +84,20 @@ void CovariancePolicy::Predict(const Transition& transition, double dt,
 void CovariancePolicy::Bound(double t, double dt, ErrorVector* dx,
                              ErrorMatrix* P) {
   if (is_kalman()) return;
-  if (!P->allFinite() || P->llt().info() != Eigen::Success) {
-    throw FiniteEscape(t, weight_);
-  }
+  if (!IsPositiveDefinite(*P)) throw FiniteEscape(t, weight_);
   if (weight_ == 0.0 || dt <= 0.0) return;
   const LMatrix LP = L_ * *P;
   const LMatrix LPL = LP * L_.transpose();
   const LMatrix I = LMatrix::Identity(L_.rows(), L_.rows());
   const LMatrix M = I - weight_ * dt * LPL;
-  if (may_back_off_ && (M - 0.5 * I).llt().info() != Eigen::Success) {
+  if (may_back_off_ && !IsPositiveDefinite(M - 0.5 * I)) {
     ++back_offs_;
     return;
   }
-  const Eigen::LLT<LMatrix> llt(M);
-  if (llt.info() != Eigen::Success) {
-    throw FiniteEscape(t - dt + 1.0 / (weight_ * LargestEigenvalue(LPL)),
-                       weight_);
+  if (!IsPositiveDefinite(M)) {
+    throw FiniteEscape(t - dt + TimeToEscape(weight_, LPL), weight_);
   }
-  const LMatrix gain = weight_ * dt * llt.solve(LP);  // theta (...)^-1 L P
+  const LMatrix gain = weight_ * dt * M.llt().solve(LP);  // theta (...)^-1 L P
   const ErrorMatrix added = LP.transpose() * gain;
   // P P_before^-1 dx = dx + P L' theta (...)^-1 L dx.
   *dx += (gain.transpose() * (L_ * *dx)).eval();

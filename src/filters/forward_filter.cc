@@ -109,7 +109,10 @@ class ForwardPass {
     tape_.Append(std::move(epoch), transition_, P_minus, P_);
   }
 
-  LinearTape TakeTape() { return std::move(tape_); }
+  LinearTape TakeTape() {
+    tape_.CountBackOffs(policy_.back_offs());
+    return std::move(tape_);
+  }
 
  private:
   double StepTo(std::size_t k) const {

@@ -128,6 +128,26 @@ TEST(CovariancePolicy, ExistsExactlyWhereTheInformationIsPositiveDefinite) {
   EXPECT_LT(escaped, kTrials * 9 / 10);
 }
 
+TEST(CovariancePolicy, AWeightBeyondNumbersEscapesAtOnceAndIsNeverNaN) {
+  const ErrorLayout layout = TwelveStates();
+  CovarianceOptions small_unit = HInfinity(kGamma);
+  small_unit.L[0].unit = 1e-200;
+  for (CovarianceOptions options : {small_unit, HInfinity(1e-200)}) {
+    ErrorMatrix P = ErrorMatrix::Identity(12, 12);
+    ErrorVector dx = ErrorVector::Zero(12);
+    try {
+      CovariancePolicy(options, layout).Bound(1.0, 0.1, &dx, &P);
+      FAIL() << "no escape";
+    } catch (const FiniteEscape& escape) {
+      EXPECT_NEAR(escape.t(), 0.9, 1e-9);
+    }
+    options.back_off = true;
+    CovariancePolicy(options, layout).Bound(1.0, 0.1, &dx, &P);
+    EXPECT_EQ(P, ErrorMatrix::Identity(12, 12));
+    EXPECT_TRUE(dx.isZero(0.0));
+  }
+}
+
 TEST(CovariancePolicy, BackedOffItStaysFinite) {
   const ErrorLayout layout = TwelveStates();
   CovarianceOptions options = HInfinity(kGamma);
