@@ -16,6 +16,7 @@ namespace {
 struct TrialRun {
   bool failed = true;
   std::vector<double> tilt, heading, nees;
+  std::vector<double> tilt_sigma, heading_sigma;
   double seconds = 0.0;
 };
 
@@ -37,6 +38,8 @@ void Judge(const Dataset& dataset, const ErrorLayout& layout,
     run->tilt.push_back(e.head<2>().norm());
     run->heading.push_back(std::abs(e.z()));
     run->nees.push_back(e.dot(P_k.llt().solve(e)));
+    run->tilt_sigma.push_back(std::sqrt(P_k(0, 0) + P_k(1, 1)));
+    run->heading_sigma.push_back(std::sqrt(P_k(2, 2)));
   }
 }
 
@@ -66,9 +69,12 @@ TrialRun TryEarly(const Dataset& dataset, const AlignmentTrialOptions& trial) {
   if (!found || !found->refined) return run;
   Judge(dataset, found->refined->layout, found->refined->states,
         found->refined->P, &run);
-  run.tilt = {run.tilt.back()};
-  run.heading = {run.heading.back()};
   run.nees = {run.nees.front()};
+  for (std::vector<double> TrialRun::*series :
+       {&TrialRun::tilt, &TrialRun::heading, &TrialRun::tilt_sigma,
+        &TrialRun::heading_sigma}) {
+    run.*series = {(run.*series).back()};
+  }
   run.failed = run.tilt.back() > trial.diverged_tilt ||
                run.heading.back() > trial.diverged_heading;
   return run;
@@ -95,32 +101,55 @@ TrialRun TryBatch(const Dataset& dataset, const AlignmentTrialOptions& trial) {
   return run;
 }
 
+AlignmentStatistics::Angle SummarizeAngle(
+    const std::vector<TrialRun>& runs, std::size_t epochs,
+    std::vector<double> TrialRun::*error,
+    std::vector<double> TrialRun::*sigma) {
+  AlignmentStatistics::Angle out;
+  double square = 0.0, variance = 0.0, count = 0.0;
+  for (std::size_t k = 0; k < epochs; ++k) {
+    double at_epoch = 0.0, finished = 0.0;
+    for (const TrialRun& run : runs) {
+      if (run.nees.empty()) continue;
+      const double e = (run.*error)[k];
+      at_epoch += e * e;
+      variance += std::pow((run.*sigma)[k], 2);
+      out.largest = std::max(out.largest, e);
+      finished += 1.0;
+    }
+    square += at_epoch;
+    count += finished;
+    out.worst = std::max(out.worst, std::sqrt(at_epoch / finished));
+  }
+  if (count == 0.0) return out;
+  out.rms = std::sqrt(square / count);
+  out.sigma = std::sqrt(variance / count);
+  return out;
+}
+
 AlignmentStatistics Summarize(const std::vector<TrialRun>& runs,
                               const MonteCarloOptions& options) {
   AlignmentStatistics out;
   out.runs = static_cast<int>(runs.size());
   std::size_t nodes = 0;
-  int finished = 0;
   for (const TrialRun& run : runs) {
     nodes = std::max(nodes, run.nees.size());
     if (run.failed) ++out.failed;
-    if (!run.nees.empty()) ++finished;
+    if (!run.nees.empty()) ++out.answered;
     out.seconds += run.seconds / static_cast<double>(runs.size());
   }
+  if (out.answered == 0) return out;
   std::tie(out.anees_lower, out.anees_upper) =
-      options.anees_bounds(finished, 3);
+      options.anees_bounds(out.answered, 3);
+  out.tilt =
+      SummarizeAngle(runs, nodes, &TrialRun::tilt, &TrialRun::tilt_sigma);
+  out.heading =
+      SummarizeAngle(runs, nodes, &TrialRun::heading, &TrialRun::heading_sigma);
   for (std::size_t k = 0; k < nodes; ++k) {
-    double tilt = 0.0, heading = 0.0, nees = 0.0;
+    double nees = 0.0;
     for (const TrialRun& run : runs) {
-      if (run.nees.empty()) continue;
-      tilt += run.tilt[k] * run.tilt[k] / finished;
-      heading += run.heading[k] * run.heading[k] / finished;
-      nees += run.nees[k] / finished;
-      out.tilt_largest = std::max(out.tilt_largest, run.tilt[k]);
-      out.heading_largest = std::max(out.heading_largest, run.heading[k]);
+      if (!run.nees.empty()) nees += run.nees[k] / out.answered;
     }
-    out.tilt_rms = std::max(out.tilt_rms, std::sqrt(tilt));
-    out.heading_rms = std::max(out.heading_rms, std::sqrt(heading));
     out.anees += nees / static_cast<double>(nodes);
     const bool outside = nees < out.anees_lower || nees > out.anees_upper;
     out.anees_outside += (outside ? 1.0 : 0.0) / static_cast<double>(nodes);

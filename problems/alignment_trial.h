@@ -23,18 +23,21 @@ struct AlignmentTrialOptions {
 };
 
 /// What one way of aligning made of all runs. Errors of the attitude in NED:
-/// tilt is the norm of its horizontal part.
+/// tilt is the norm of its horizontal part, about two axes.
 struct AlignmentStatistics {
   std::string recording;
   std::string name;  ///< "velocity_alignment", "velocity_alignment_batch"
   int runs = 0;
-  int failed = 0;  ///< no answer, or beyond the limits at the end
-  /// Root mean square over the runs: of velocity_alignment at t_early, of the
-  /// batch the largest over the whole interval [rad].
-  double tilt_rms = 0.0;
-  double heading_rms = 0.0;
-  double tilt_largest = 0.0;     ///< of a single run, the same epochs [rad]
-  double heading_largest = 0.0;  ///< [rad]
+  int failed = 0;    ///< no answer, or beyond the limits at the end
+  int answered = 0;  ///< runs whose errors the figures below are of
+  /// Of velocity_alignment the epoch t_early, of the batch the whole interval.
+  struct Angle {
+    double rms = 0.0;      ///< over runs and epochs [rad]
+    double worst = 0.0;    ///< over the runs, at the epoch where it is largest
+    double sigma = 0.0;    ///< stated, root mean square over runs and epochs
+    double largest = 0.0;  ///< of a single run at a single epoch
+  };
+  Angle tilt, heading;
   /// Mean of e' P^-1 e: of the attitude (3 is right) at the first epoch, and of
   /// the batch over all nodes.
   double anees = 0.0;

@@ -2,7 +2,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/flags.h"
 #include "app/montecarlo_scenarios.h"
+#include "app/observer_flags.h"
 #include "app/text.h"
 #include "base/units.h"
 #include "io/atomic_file.h"
@@ -22,7 +24,7 @@ constexpr AlignmentTrialOptions kTrial = {
 
 std::vector<AlignmentRecording> Recordings() {
   std::vector<AlignmentRecording> recordings;
-  for (const double rate : {10.0, 1.0}) {
+  for (const double rate : ParseNumbers("rates", FLAGS_rates)) {
     const auto perfect = std::make_shared<const PerfectRecording>(
         InFlightAlignment({.velocity_rate_hz = rate}));
     recordings.push_back({Format("%g Hz", rate), [perfect](std::uint64_t seed) {
@@ -36,20 +38,36 @@ std::vector<AlignmentRecording> Recordings() {
   return recordings;
 }
 
+std::string AngleCell(const AlignmentStatistics::Angle& angle) {
+  return Format("%.4f %.4f %.4f %.3f", angle.rms / kDegree,
+                angle.worst / kDegree, angle.sigma / kDegree,
+                angle.largest / kDegree);
+}
+
+nlohmann::ordered_json AngleJson(const AlignmentStatistics::Angle& angle) {
+  return {{"rms_deg", angle.rms / kDegree},
+          {"worst_epoch_rms_deg", angle.worst / kDegree},
+          {"sigma_deg", angle.sigma / kDegree},
+          {"max_deg", angle.largest / kDegree}};
+}
+
 std::string Table(const std::vector<AlignmentStatistics>& all) {
-  ReportTable table({"velocity", "method", "failed", "tilt rms\n[deg]",
-                     "heading rms\n[deg]", "tilt max\n[deg]",
-                     "heading max\n[deg]", "ANEES\n(3)", "bounds",
-                     "outside\n[%]", "s/run"});
+  ReportTable table({"velocity", "method", "failed",
+                     "tilt [deg]\nrms  worst  sigma  max",
+                     "heading [deg]\nrms  worst  sigma  max", "ANEES\n(3)",
+                     "bounds", "outside\n[%]", "s/run"});
   for (const AlignmentStatistics& s : all) {
-    table.AddRow(
-        {s.recording, s.name, Format("%d of %d", s.failed, s.runs),
-         Format("%.4f", s.tilt_rms / kDegree),
-         Format("%.4f", s.heading_rms / kDegree),
-         Format("%.4f", s.tilt_largest / kDegree),
-         Format("%.4f", s.heading_largest / kDegree), Format("%.2f", s.anees),
-         Format("%.2f-%.2f", s.anees_lower, s.anees_upper),
-         Format("%.1f", 100.0 * s.anees_outside), Format("%.3f", s.seconds)});
+    std::vector<std::string> row = {s.recording, s.name,
+                                    Format("%d of %d", s.failed, s.runs)};
+    if (s.answered > 0) {
+      row.insert(row.end(), {AngleCell(s.tilt), AngleCell(s.heading),
+                             Format("%.2f", s.anees),
+                             Format("%.2f-%.2f", s.anees_lower, s.anees_upper),
+                             Format("%.1f", 100.0 * s.anees_outside)});
+    }
+    row.resize(8);
+    row.push_back(Format("%.3f", s.seconds));
+    table.AddRow(std::move(row));
   }
   return table.Render();
 }
@@ -60,16 +78,14 @@ std::string JsonText(const std::vector<AlignmentStatistics>& all,
                                  {"runs", options.runs},
                                  {"first_seed", options.first_seed}};
   for (const AlignmentStatistics& s : all) {
-    json["methods"][s.recording][s.name] = {
-        {"failed", s.failed},
-        {"tilt_rms_deg", s.tilt_rms / kDegree},
-        {"heading_rms_deg", s.heading_rms / kDegree},
-        {"tilt_max_deg", s.tilt_largest / kDegree},
-        {"heading_max_deg", s.heading_largest / kDegree},
-        {"anees", s.anees},
-        {"anees_bounds", {s.anees_lower, s.anees_upper}},
-        {"anees_outside", s.anees_outside},
-        {"seconds_per_run", s.seconds}};
+    nlohmann::ordered_json& method = json["methods"][s.recording][s.name];
+    method = {{"failed", s.failed}, {"seconds_per_run", s.seconds}};
+    if (s.answered == 0) continue;
+    method["tilt"] = AngleJson(s.tilt);
+    method["heading"] = AngleJson(s.heading);
+    method["anees"] = s.anees;
+    method["anees_bounds"] = {s.anees_lower, s.anees_upper};
+    method["anees_outside"] = s.anees_outside;
   }
   return json.dump(2) + "\n";
 }
@@ -88,8 +104,9 @@ void RunVelocityAlignment(MonteCarloOptions options, Progress* progress,
             << options.first_seed << " to "
             << options.first_seed + static_cast<std::uint64_t>(options.runs - 1)
             << "\nvelocity_alignment: data up to " << kTrial.t_early
-            << " s, errors there; velocity_alignment_batch: largest error over "
-               "the whole interval\n\n"
+            << " s, errors there; velocity_alignment_batch: over the whole "
+               "interval\nrms: over runs and epochs; worst: over the runs, at "
+               "the worst epoch; sigma: stated\n\n"
             << Table(all);
 }
 

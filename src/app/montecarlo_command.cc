@@ -157,9 +157,11 @@ Command MonteCarloCommand() {
             "table over the distance of reference points and the\n"
             "odometer noise"},
            {"rates", "LIST",
-            "of in_flight_alignment: rates of the velocity [Hz]\n"
-            "(10,1)"},
-           {"tilt", "LIST", "... tilts of the start [deg] (10,30)"},
+            "of in_flight_alignment and velocity_alignment: rates of\n"
+            "the velocity [Hz] (10,1)"},
+           {"tilt", "LIST",
+            "of in_flight_alignment: tilts of the start [deg]\n"
+            "(10,30)"},
            {"heading", "LIST",
             "... heading errors of the start [deg]\n"
             "(30,60,120,175)"},

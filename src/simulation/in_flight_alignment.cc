@@ -9,6 +9,7 @@
 namespace hindsight {
 namespace {
 
+constexpr double kImuRate = 100.0;  // [Hz]
 constexpr double kCruiseSpeed = 150.0;
 constexpr double kBank = 35.0 * kDegree;
 constexpr double kTurnTime = 20.0;
@@ -59,6 +60,12 @@ Scenario InFlightAlignment(const InFlightAlignmentOptions& options) {
     throw InputError(
         "in_flight_alignment: velocity rate and sigma must be positive");
   }
+  const double samples = kImuRate / options.velocity_rate_hz;
+  if (samples < 0.5 || std::abs(samples - std::round(samples)) > 1e-6) {
+    throw InputError(
+        "in_flight_alignment: velocity rate must be the IMU's 100 Hz divided "
+        "by a whole number");
+  }
   Scenario s;
   s.name = kInFlightAlignmentName;
   s.description =
@@ -68,7 +75,7 @@ Scenario InFlightAlignment(const InFlightAlignmentOptions& options) {
   s.start_speed = kCruiseSpeed;
   s.start_heading = 70.0 * kDegree;
   s.segments = Flight();
-  s.imu_rate_hz = 100.0;
+  s.imu_rate_hz = kImuRate;
   s.imu.noise.gyro_noise_density = 0.1 * kDegreePerSqrtHour;
   s.imu.noise.accel_noise_density = 100e-6 * kStandardGravity;
   s.imu.gyro_bias_sigma.setConstant(3.0 * kDegree / kHour);

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/recording.h"
@@ -8,6 +9,7 @@
 namespace hindsight {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 TEST(ObserverCommand, RunTakesObserversAndErrorDefinitions) {
@@ -36,6 +38,8 @@ TEST(ObserverCommand, AnEscapeIsReportedWithItsTimeAndLeavesTheOthers) {
   const Outcome backed_off = recording.Run(
       {"--out=backed_off", "--methods=hinf", "--gamma=1e-4", "--back-off"});
   EXPECT_EQ(backed_off.status, 0) << backed_off.out;
+  EXPECT_THAT(backed_off.out, ContainsRegex("hinf found no bounded gain at "
+                                            "[0-9]+ of [0-9]+ steps"));
 }
 
 TEST(ObserverCommand, MonteCarloWritesEveryCell) {
@@ -57,6 +61,64 @@ TEST(ObserverCommand, MonteCarloWritesEveryCell) {
   }
 }
 
+TEST(ObserverCommand, ParametersOfRulesThatDoNotRunAreRefused) {
+  Recording recording;
+  for (const char* flag : {"--gamma=5", "--alpha=0.1", "--alpha-blocks=all",
+                           "--delta=1", "--bounded=velocity", "--back-off"}) {
+    const Outcome outcome = recording.Run({"--out=out", "--methods=ekf", flag});
+    EXPECT_EQ(outcome.status, 2) << flag;
+    EXPECT_THAT(outcome.err, HasSubstr("which is not asked for"));
+    EXPECT_EQ(Lines(outcome.err).size(), 1u) << outcome.err;
+  }
+  const Outcome montecarlo =
+      Hindsight({"montecarlo", "in_flight_alignment", "--out=mc",
+                 "--rules=modified_hinf", "--gamma=5"},
+                recording.root());
+  EXPECT_EQ(montecarlo.status, 2);
+  EXPECT_THAT(montecarlo.err, HasSubstr("--gamma is of hinf"));
+}
+
+TEST(ObserverCommand, AlignmentWithoutAStartIsTriedOnManySeeds) {
+  TemporaryFolder folder;
+  const Outcome outcome = Hindsight({"montecarlo", "velocity_alignment",
+                                     "--out=mc", "--runs=10", "--rates=1"},
+                                    folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json methods = nlohmann::json::parse(
+      ReadFile(folder.path() / "mc" / "montecarlo.json"))["methods"];
+  ASSERT_EQ(methods.size(), 1u);
+  const nlohmann::json& early = methods["1 Hz"]["velocity_alignment"];
+  EXPECT_EQ(early["failed"], 0);
+  EXPECT_LT(early["heading"]["rms_deg"], 0.2);
+  const nlohmann::json& batch = methods["1 Hz"]["velocity_alignment_batch"];
+  EXPECT_EQ(batch["failed"], 0);
+  for (const char* angle : {"tilt", "heading"}) {
+    // Ten runs: 4 sigmas of a root mean square.
+    const double rms = batch[angle]["rms_deg"];
+    const double sigma = batch[angle]["sigma_deg"];
+    EXPECT_GT(rms, 0.1 * sigma) << angle;
+    EXPECT_LT(rms, (1.0 + 4.0 / std::sqrt(20.0)) * sigma) << angle;
+    EXPECT_LT(sigma, 0.03) << angle;
+    EXPECT_GE(batch[angle]["worst_epoch_rms_deg"], rms);
+    EXPECT_GE(batch[angle]["max_deg"], batch[angle]["worst_epoch_rms_deg"]);
+  }
+}
+
+TEST(ObserverCommand, AlignmentThatFindsNothingHasNoFigures) {
+  TemporaryFolder folder;
+  const Outcome outcome = Hindsight({"montecarlo", "velocity_alignment",
+                                     "--out=mc", "--runs=2", "--rates=0.001"},
+                                    folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("2 of 2"));
+  const nlohmann::json methods = nlohmann::json::parse(
+      ReadFile(folder.path() / "mc" / "montecarlo.json"))["methods"];
+  for (const nlohmann::json& method : methods["0.001 Hz"]) {
+    EXPECT_EQ(method["failed"], 2);
+    EXPECT_FALSE(method.contains("heading"));
+  }
+}
+
 TEST(ObserverCommand, BadFlagsAreNamedInOneLine) {
   TemporaryFolder folder;
   const std::vector<std::pair<std::string, std::string>> cases = {
@@ -69,6 +131,10 @@ TEST(ObserverCommand, BadFlagsAreNamedInOneLine) {
       {"--bounded=attitude=3m", "--bounded=attitude=3m"},
       {"--rules=kalman", "expected some of ekf,hinf,modified_hinf"},
       {"--heading=0", "--heading=0"},
+      {"--heading=190", "at most 180 deg"},
+      {"--rates=0", "--rates=0"},
+      {"--rates=1000", "100 Hz divided by a whole number"},
+      {"--rates=7", "100 Hz divided by a whole number"},
       {"--sweep", "tunnel_survey"}};
   for (const auto& [flag, expected] : cases) {
     const Outcome outcome = Hindsight(
