@@ -64,16 +64,19 @@ std::string Text(const std::vector<VibrationResult>& results) {
 
 void RunVibrationAttitude(MonteCarloOptions options, Progress* progress,
                           ResultFolder* folder) {
-  const double work = static_cast<double>(options.runs) *
-                      static_cast<double>(VibrationAxes().size());
+  std::vector<VibrationAttitudeOptions> variants;
+  for (const std::string& axis : VibrationAxes()) {
+    variants.emplace_back().axis = axis;
+  }
+  variants.emplace_back().vibration_along_axis = true;
+  const double work =
+      static_cast<double>(options.runs) * static_cast<double>(variants.size());
   nlohmann::ordered_json json = {{"scenario", kVibrationAttitudeName},
                                  {"runs", options.runs},
                                  {"first_seed", options.first_seed}};
   std::string text;
   int before = 0;
-  for (const std::string& axis : VibrationAxes()) {
-    VibrationAttitudeOptions scenario;
-    scenario.axis = axis;
+  for (const VibrationAttitudeOptions& scenario : variants) {
     const auto results = CompareUnderVibration(
         [&](std::uint64_t seed) {
           return SimulateVibrationAttitude(scenario, seed);
@@ -82,8 +85,11 @@ void RunVibrationAttitude(MonteCarloOptions options, Progress* progress,
         [&](int done) { progress->Update("runs", (before + done) / work); },
         &StopRequested());
     before += options.runs;
-    json["axes"][axis] = Json(results);
-    text += "\ndisturbance along " + axis + "\n" + Text(results);
+    const std::string along =
+        scenario.vibration_along_axis ? " and vibration" : "";
+    json["axes"][scenario.axis + along] = Json(results);
+    text += "\nacceleration" + along + " along " + scenario.axis + "\n" +
+            Text(results);
   }
   WriteFileAtomically(folder->Path(kMonteCarloJson), json.dump(2) + "\n");
   progress->Clear();

@@ -15,7 +15,9 @@ constexpr std::uint64_t kStream = 0x76696272;  // of random numbers
 /// 1 ms.
 class FreeBody {
  public:
-  explicit FreeBody(const Eigen::Quaterniond& q_nb) : q_nb_(q_nb) {}
+  FreeBody(const VibrationAttitudeOptions& options,
+           const Eigen::Quaterniond& q_nb)
+      : inertia_(options.inertia), w_(options.initial_rate), q_nb_(q_nb) {}
 
   void Advance(double dt) {
     const int steps = static_cast<int>(std::lround(dt / kStep));
@@ -30,12 +32,12 @@ class FreeBody {
 
  private:
   static constexpr double kStep = 1e-3;
-  static Eigen::Vector3d Derivative(const Eigen::Vector3d& w) {
-    const Eigen::Vector3d I(1.0, 1.3, 1.6);
-    return I.cwiseProduct(w).cross(w).cwiseQuotient(I);
+  Eigen::Vector3d Derivative(const Eigen::Vector3d& w) const {
+    return inertia_.cwiseProduct(w).cross(w).cwiseQuotient(inertia_);
   }
+  Eigen::Vector3d inertia_;
+  Eigen::Vector3d w_;
   Eigen::Quaterniond q_nb_;
-  Eigen::Vector3d w_ = Eigen::Vector3d(12.0, 20.0, -15.0) * kDegree;
 };
 
 /// Acceleration of the body at a sample, body axes.
@@ -45,6 +47,9 @@ Eigen::Vector3d Disturbance(const VibrationAttitudeOptions& options, double t,
   const bool accelerates = t >= 5.0 - kEarly && t < 10.0 - kEarly;
   const bool vibrates = t >= 40.0 - kEarly && t < 45.0 - kEarly;
   if (!accelerates && !vibrates) return Eigen::Vector3d::Zero();
+  if (vibrates && !options.vibration_along_axis) {
+    return options.vibration_sigma * random->NormalVector3();
+  }
   Eigen::Vector3d size = Eigen::Vector3d::Constant(options.acceleration);
   if (vibrates) size = options.vibration_sigma * random->NormalVector3();
   if (options.axis == "body_xyz") return size;
@@ -80,7 +85,7 @@ Dataset SimulateVibrationAttitude(const VibrationAttitudeOptions& options,
   const double dt = 1.0 / options.rate;
   const Eigen::Vector3d g_n(0.0, 0.0, kStandardGravity);
   const Eigen::Vector3d b_g = options.gyro_bias_sigma * random.NormalVector3();
-  FreeBody body(QuaternionFromEuler(0.1, -0.2, 0.5));
+  FreeBody body(options, QuaternionFromEuler(0.1, -0.2, 0.5));
   Dataset dataset;
   dataset.name = kVibrationAttitudeName;
   AidingStream magnetometer = Magnetometer(options);
@@ -126,6 +131,7 @@ Dataset SimulateVibrationAttitude(const VibrationAttitudeOptions& options,
   dataset.ahrs.correlation_time = 0.0;
   dataset.ahrs.rest_sigma = 0.0;
   dataset.ahrs.reject_disturbances = false;
+  dataset.ahrs.survey = false;
   return dataset;
 }
 
