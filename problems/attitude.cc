@@ -10,6 +10,7 @@
 #include "filters/rts.h"
 #include "geometry/so3.h"
 #include "problems/attitude_batch.h"
+#include "problems/tilt_batch.h"
 
 namespace hindsight {
 namespace {
@@ -17,7 +18,8 @@ namespace {
 constexpr std::pair<AhrsMethod, const char*> kMethods[] = {
     {AhrsMethod::kFilter, "ahrs"},
     {AhrsMethod::kSmoother, "ahrs_smoother"},
-    {AhrsMethod::kBatch, "ahrs_batch"}};
+    {AhrsMethod::kBatch, "ahrs_batch"},
+    {AhrsMethod::kTiltBatch, "ahrs_tilt_batch"}};
 
 double ProcessorSeconds() {
   timespec now{};
@@ -63,8 +65,9 @@ AhrsMethod AhrsMethodFromName(const std::string& name) {
   for (const auto& [method, text] : kMethods) {
     if (name == text) return method;
   }
-  throw InputError("unknown method '" + name +
-                   "'; known are ahrs, ahrs_smoother, ahrs_batch");
+  throw InputError(
+      "unknown method '" + name +
+      "'; known are ahrs, ahrs_smoother, ahrs_batch, ahrs_tilt_batch");
 }
 
 AttitudeEstimation::AttitudeEstimation(const Dataset& dataset,
@@ -202,11 +205,15 @@ Solution AttitudeEstimation::RunSmoother() {
   return Smooth(weighed, options, "ahrs_smoother");
 }
 
-Solution AttitudeEstimation::RunBatch() {
+Solution AttitudeEstimation::RunBatch(AhrsMethod method) {
   Survey();
-  Solution solution = SolveRoomBatch(
-      {dataset_, imu_, readings_, survey_, *level_, filter_options_.place},
-      [this](double fraction) { Poll("ahrs_batch", fraction); });
+  const RoomProblem problem{dataset_, imu_,    readings_,
+                            survey_,  *level_, filter_options_.place};
+  const auto solve =
+      method == AhrsMethod::kBatch ? SolveRoomBatch : SolveTiltBatch;
+  Solution solution = solve(problem, [&](double fraction) {
+    Poll(AhrsMethodName(method), fraction);
+  });
   solution.magnetic.assign(solution.states.size(), 0);
   std::size_t i = 0;
   for (std::size_t k = 0; k < readings_.size(); ++k) {
@@ -224,7 +231,7 @@ Solution AttitudeEstimation::Run(AhrsMethod method) {
   const double t0 = ProcessorSeconds();
   Solution solution = method == AhrsMethod::kFilter     ? RunFilter()
                       : method == AhrsMethod::kSmoother ? RunSmoother()
-                                                        : RunBatch();
+                                                        : RunBatch(method);
   solution.method = AhrsMethodName(method);
   solution.seconds = ProcessorSeconds() - t0;
   if (!solution.converged) {

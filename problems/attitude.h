@@ -20,9 +20,10 @@ namespace hindsight {
 /// Estimators of attitude alone, from an IMU and, if there is one, a
 /// magnetometer; no position is needed.
 enum class AhrsMethod {
-  kFilter,    ///< "ahrs": causal
-  kSmoother,  ///< "ahrs_smoother": its RTS smoother
-  kBatch,     ///< "ahrs_batch": least squares over the whole interval
+  kFilter,     ///< "ahrs": causal
+  kSmoother,   ///< "ahrs_smoother": its RTS smoother
+  kBatch,      ///< "ahrs_batch": least squares over the whole interval
+  kTiltBatch,  ///< "ahrs_tilt_batch": the same, of attitude alone
 };
 const char* AhrsMethodName(AhrsMethod method);
 /// Whether `name` is one of them.
@@ -51,6 +52,8 @@ struct AttitudeOptions {
 ///   p = 0 +- room, v = 0 +- room_speed once a correlation time,
 /// which makes the linear acceleration an unknown that must integrate to
 /// little, where a tilt filter has to call it noise.
+///   Tilt batch: attitude and gyro bias alone, as in the smoother
+/// (tilt_batch.h).
 class AttitudeEstimation {
  public:
   /// `dataset` must outlive the object.
@@ -62,7 +65,7 @@ class AttitudeEstimation {
  private:
   Solution RunFilter();
   Solution RunSmoother();
-  Solution RunBatch();
+  Solution RunBatch(AhrsMethod method);
   Solution Smooth(std::span<const MagneticSample> magnetic,
                   const AttitudeFilterOptions& options,
                   const std::string& stage) const;

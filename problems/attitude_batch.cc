@@ -8,6 +8,23 @@
 #include "problems/reconstruction.h"
 
 namespace hindsight {
+
+std::vector<double> RoomNodeTimes(const RoomProblem& problem) {
+  std::vector<double> times = {problem.imu.t_begin()};
+  const auto fill = [&](double to) {
+    const double from = times.back();
+    const auto steps =
+        static_cast<int>(std::lround((to - from) / kRoomNodeSpacing));
+    for (int i = 1; i < steps; ++i) {
+      times.push_back(from + (to - from) * i / steps);
+    }
+    if (to > times.back()) times.push_back(to);
+  };
+  for (const SurveyedField& reading : problem.readings) fill(reading.t);
+  fill(problem.imu.t_end());
+  return times;
+}
+
 namespace {
 
 /// Without a place the Earth does not turn: its rate at the room's stand-in
@@ -27,23 +44,6 @@ AidingStream RoomStream(const char* name, SensorType type) {
   return stream;
 }
 
-/// The readings' times, and what they leave of the interval filled evenly.
-std::vector<double> NodeTimes(const RoomProblem& problem) {
-  std::vector<double> times = {problem.imu.t_begin()};
-  const auto fill = [&](double to) {
-    const double from = times.back();
-    const auto steps =
-        static_cast<int>(std::lround((to - from) / kRoomNodeSpacing));
-    for (int i = 1; i < steps; ++i) {
-      times.push_back(from + (to - from) * i / steps);
-    }
-    if (to > times.back()) times.push_back(to);
-  };
-  for (const SurveyedField& reading : problem.readings) fill(reading.t);
-  fill(problem.imu.t_end());
-  return times;
-}
-
 /// p = 0 +- room and v = 0 +- room_speed, once in `correlation_time`: where the
 /// body is does not change from node to node, so each of n nodes in that time
 /// counts as 1/n.
@@ -54,7 +54,7 @@ void AddRoom(const RoomProblem& problem, Dataset* room) {
   const double nodes = std::max(1.0, ahrs.correlation_time / kRoomNodeSpacing);
   const Eigen::Matrix3d I = nodes * Eigen::Matrix3d::Identity();
   const int first = static_cast<int>(room->streams.size());
-  for (const double t : NodeTimes(problem)) {
+  for (const double t : RoomNodeTimes(problem)) {
     position.measurements.push_back(
         {t, first, false,
          PositionFix{problem.place.p_e, ahrs.room * ahrs.room * I}});
@@ -129,10 +129,10 @@ Dataset RoomDataset(const RoomProblem& problem) {
   return room;
 }
 
-/// Attitudes at the IMU samples: the gyros' integral from node to node, what it
-/// misses at the next node spread evenly over the interval.
-Solution AtSamples(const Solution& nodes, const ImuStream& imu,
-                   const ErrorLayout& layout) {
+}  // namespace
+
+Solution NodesAtSamples(const Solution& nodes, const ImuStream& imu,
+                        const ErrorLayout& layout) {
   Solution out;
   out.layout = layout;
   out.converged = nodes.converged;
@@ -177,8 +177,6 @@ Solution AtSamples(const Solution& nodes, const ImuStream& imu,
   return out;
 }
 
-}  // namespace
-
 Solution SolveRoomBatch(const RoomProblem& problem,
                         const std::function<void(double)>& progress) {
   const Dataset room = RoomDataset(problem);
@@ -190,7 +188,7 @@ Solution SolveRoomBatch(const RoomProblem& problem,
   }
   Reconstruction reconstruction(room, options);
   const Solution nodes = reconstruction.Run(Method::kBatch);
-  Solution out = AtSamples(nodes, room.imu, problem.smoothed.layout);
+  Solution out = NodesAtSamples(nodes, room.imu, problem.smoothed.layout);
   for (State& x : out.states) x.p_e = problem.place.p_e;
   out.constants = nodes.constants;
   return out;

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "dataset/dataset.h"
 #include "filters/attitude_filter.h"
@@ -24,6 +25,20 @@ struct RoomProblem {
 /// Longest interval between nodes of the batch and between the magnetometer
 /// readings it uses [s].
 inline constexpr double kRoomNodeSpacing = 0.1;
+
+/// Magnetic disturbance as a Gauss-Markov state [uT], [s].
+inline constexpr double kDisturbanceSigma = 2.0;
+inline constexpr double kDisturbanceTime = 5.0;
+
+/// Times of the nodes: those of the readings, and what they leave of the
+/// interval filled evenly.
+std::vector<double> RoomNodeTimes(const RoomProblem& problem);
+
+/// Attitudes at the IMU samples: the gyros' integral from node to node, what it
+/// misses at the next node spread evenly over the interval. Of the nodes'
+/// layout attitude and gyro bias are kept.
+Solution NodesAtSamples(const Solution& nodes, const ImuStream& imu,
+                        const ErrorLayout& layout);
 
 /// The navigation problem of a body that stays in a room, in Ceres; a state an
 /// IMU sample, layout {attitude, gyro bias}.

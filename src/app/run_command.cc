@@ -44,6 +44,7 @@ Attitude alone, from IMU and magnetometer, without any position:
          ahrs      causal filter of attitude and gyro bias at every sample
          ahrs_smoother  its Rauch-Tung-Striebel smoother
          ahrs_batch     least squares with the linear acceleration as unknown
+         ahrs_tilt_batch  least squares with it as noise
 These write attitude (angles and quaternion), gyro bias, the accelerometer's
 sigma in force and the verdict on the magnetometer, at the stamps of the IMU.
 )";
@@ -69,7 +70,7 @@ Command RunCommand() {
             "some of ekf,two_filter,two_filter_conventional,\n"
             "two_filter_euler,hinf,modified_hinf,rts,iterated,batch,\n"
             "gated_ekf,imm,imm_smoother,robust_batch,\n"
-            "or some of ahrs,ahrs_smoother,ahrs_batch\n"
+            "or some of ahrs,ahrs_smoother,ahrs_batch,ahrs_tilt_batch\n"
             "(ekf,rts,iterated,batch)"},
            {"ahrs_rule", "NAME",
             "how the accelerometer is trusted: fixed, gate,\n"

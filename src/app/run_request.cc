@@ -169,8 +169,9 @@ std::vector<AhrsMethod> ParseAhrsMethods(const std::string& text) {
   if (!methods.empty() &&
       !std::all_of(names.begin(), names.end(), IsAhrsMethod)) {
     throw UsageError("--methods=" + text +
-                     ": ahrs, ahrs_smoother and ahrs_batch estimate attitude "
-                     "alone and do not go with the other methods");
+                     ": ahrs, ahrs_smoother, ahrs_batch and ahrs_tilt_batch "
+                     "estimate attitude alone and do not go with the other "
+                     "methods");
   }
   return methods;
 }
@@ -179,8 +180,8 @@ std::string ReadRule(const RunRequest& request) {
   if (FLAGS_ahrs_rule.empty()) return "";
   if (request.ahrs_methods.empty()) {
     throw UsageError(
-        "--ahrs-rule goes with the methods ahrs, ahrs_smoother, "
-        "ahrs_batch");
+        "--ahrs-rule goes with the methods ahrs, ahrs_smoother, ahrs_batch, "
+        "ahrs_tilt_batch");
   }
   AccelerometerRuleOptions options;
   options.name = FLAGS_ahrs_rule;

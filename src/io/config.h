@@ -126,7 +126,7 @@ namespace hindsight {
 /// velocity_sigma, attitude_sigma, gyro_bias_sigma, accel_bias_sigma. What is
 /// absent is found by alignment.
 ///
-/// ahrs (methods ahrs, ahrs_smoother, ahrs_batch): rule, of the accelerometer:
+/// ahrs (methods ahrs, ahrs_smoother, ahrs_batch, ahrs_tilt_batch): rule, of the accelerometer:
 /// fixed, gate, held_gate, adaptive, smnc (fixed); accel_sigma 0.18 m/s^2; gate
 /// 0.88 m/s^2; lambda 0.05; samples 4, N of smnc and held_gate, or seconds in its
 /// place; low_pass, 1.5 s with the fixed rule and 0 s with the others;

@@ -17,8 +17,8 @@ inline constexpr char kVibrationAttitudeName[] = "vibration_attitude";
 
 /// The scenario of Kim and Leeghim (2016), tables 2 and 3: a body that turns
 /// gently, accelerates from 5 s to 10 s and vibrates from 40 s to 45 s. What
-/// the paper leaves open is chosen here: a free body (Euler's equations, 20 to
-/// 30 deg/s throughout), a vibration of all three axes, field of 30 uT
+/// the paper leaves open is chosen here: a free body (Euler's equations, about
+/// 50 deg/s throughout), a vibration of all three axes, field of 30 uT
 /// horizontal and 40 uT down, attitude error at the start of 2 deg an axis.
 struct VibrationAttitudeOptions {
   /// Where the acceleration points: "north", "body_x", "body_xyz" (all three
@@ -28,7 +28,7 @@ struct VibrationAttitudeOptions {
   bool vibration_along_axis = false;
   Eigen::Vector3d inertia{1.0, 1.3, 1.6};  ///< principal moments, any unit
   /// Rate at the start, body axes [rad/s].
-  Eigen::Vector3d initial_rate = Eigen::Vector3d(12.0, 20.0, -15.0) * kDegree;
+  Eigen::Vector3d initial_rate = Eigen::Vector3d(20.0, 30.0, 40.0) * kDegree;
   double duration = 60.0;                           ///< [s]
   double rate = 10.0;                               ///< [Hz]
   double gyro_sigma = 0.1 * kDegree;                ///< of a sample [rad/s]
