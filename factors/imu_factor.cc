@@ -1,5 +1,7 @@
 #include "factors/imu_factor.h"
 
+#include "imu/error_drift.h"
+
 namespace hindsight {
 namespace {
 
@@ -91,6 +93,24 @@ void ImuFactor::LinearizeDistance(const StateBlocks::Entry& entry,
   (*J)(row, blocks().node_dim() + row) += 1.0;
 }
 
+void ImuFactor::LinearizeDrift(const StateBlocks::Entry& entry,
+                               const std::vector<State>& states,
+                               Eigen::Map<Eigen::VectorXd> residual,
+                               Jacobian* J) const {
+  const Block* rate = DriftRate(blocks().layout(), entry.block, summary_);
+  if (rate == nullptr) return;
+  const double dt = summary_.dt();
+  residual.segment<3>(entry.tangent) -=
+      dt * states[0].parameters.segment<3>(rate->parameter_offset);
+  if (J == nullptr) return;
+  for (const StateBlocks::Entry& other : blocks().entries()) {
+    if (!(other.block.key == rate->key)) continue;
+    J->block<3, 3>(entry.tangent, ColumnOf(other, 0))
+        .diagonal()
+        .setConstant(-dt);
+  }
+}
+
 void ImuFactor::LinearizeStates(const std::vector<State>& states,
                                 Eigen::Map<Eigen::VectorXd> residual,
                                 Jacobian* J) const {
@@ -130,6 +150,7 @@ void ImuFactor::LinearizeStates(const std::vector<State>& states,
           states[1].parameters.segment(offset, dim) -
           phi * states[0].parameters.segment(offset, dim);
     }
+    LinearizeDrift(entry, states, residual, J);
     if (J == nullptr) continue;
     for (int i = 0; i < dim; ++i) {
       const int row = entry.tangent + i;

@@ -35,6 +35,10 @@ class ImuFactor : public TangentFactor {
                          const std::vector<State>& states,
                          Eigen::Map<Eigen::VectorXd> residual,
                          Jacobian* J) const;
+  /// What a drifting error adds, see imu/error_drift.h.
+  void LinearizeDrift(const StateBlocks::Entry& entry,
+                      const std::vector<State>& states,
+                      Eigen::Map<Eigen::VectorXd> residual, Jacobian* J) const;
 
   const Timeline& timeline_;
   std::size_t k_;

@@ -1,296 +1,306 @@
 #include "problems/error_regimes.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "filters/history_refinement.h"
+#include "filters/history_smoother.h"
+
 namespace hindsight {
 namespace {
 
-constexpr std::size_t kGood = 0;
-constexpr std::size_t kOutlier = 1;
-constexpr std::size_t kBiased = 2;
-constexpr std::size_t kJump = 3;
-
-/// What is left of a receiver's bias in its good mode, in its sigma.
-constexpr double kZeroError = 1e-3;
-/// Correlation time by which an error is forgotten between any two nodes [s].
-constexpr double kForgotten = 1e-6;
-
-/// Root mean square of the stated sigmas of the receiver, north and east [m].
-double StatedSigma(const RegimeProblem& problem) {
-  double sum = 0.0;
-  int count = 0;
-  for (const Measurement& z : problem.timeline->all_measurements()) {
-    const auto* fix = std::get_if<PositionFix>(&z.model);
-    if (fix == nullptr || z.sensor != problem.receiver) continue;
-    sum += 0.5 * (fix->R_n(0, 0) + fix->R_n(1, 1));
-    ++count;
-  }
-  return std::sqrt(sum / std::max(1, count));
-}
+/// A parameter that the likelihood decides, with its prior: normal in the
+/// logarithm.
+struct Tunable {
+  double ErrorParameters::*member;
+  double least;
+  double most;
+  double typical;
+  double spread;  ///< standard deviation of the logarithm
+};
 
 int FixCount(const RegimeProblem& problem) {
   int count = 0;
-  for (const Measurement& z : problem.timeline->all_measurements()) {
-    if (z.sensor == problem.receiver && !z.withheld) ++count;
+  for (std::size_t k = 0; k < problem.tape.size(); ++k) {
+    if (HasFix(problem.tape, k, problem.receiver)) ++count;
   }
   return count;
 }
 
-/// Where the fit of a kind begins; `jump` is a guess of the size of errors [m].
-ErrorRegimes Initial(const RegimeProblem& problem, ErrorRegimes::Kind kind,
-                     double jump) {
-  ErrorRegimes regimes;
-  regimes.kind = kind;
-  const double stated = StatedSigma(problem);
-  regimes.sigma = kind == ErrorRegimes::Kind::kSwitching
-                      ? std::max(10.0 * stated, jump)
-                      : stated;
-  // A bias is first taken to stay: one that walks fast explains anything.
-  regimes.tau = kind == ErrorRegimes::Kind::kSwitching ? 3000.0 : 100.0;
-  if (kind == ErrorRegimes::Kind::kSwitching) {
-    regimes.transition.resize(4, 4);
-    regimes.transition << 0.97, 0.02, 0.005, 0.005,  //
-        0.85, 0.10, 0.025, 0.025,                    //
-        0.02, 0.02, 0.95, 0.01,                      //
-        0.10, 0.02, 0.85, 0.03;
-    regimes.start = Eigen::Vector4d(0.94, 0.04, 0.01, 0.01);
-  } else {
-    regimes.transition.resize(2, 2);
-    regimes.transition << 0.98, 0.02, 0.7, 0.3;
-    regimes.start = Eigen::Vector2d(0.96, 0.04);
+ErrorHistory Uniform(const RegimeProblem& problem, ErrorMode mode) {
+  return ErrorHistory(static_cast<std::size_t>(FixCount(problem)),
+                      ErrorStep{mode, false});
+}
+
+std::vector<Tunable> TunablesOf(const ErrorHistory& history,
+                                const ErrorParameters& from) {
+  std::vector<Tunable> out = {
+      {&ErrorParameters::scale, 0.01, 100.0, 1.0, 1.0},
+      {&ErrorParameters::outlier_share, 1e-3, 0.4, 0.02, 1.5},
+      {&ErrorParameters::outlier_ratio, 3.0, 1000.0, 10.0, 1.5}};
+  bool biased = false;
+  bool drifting = false;
+  for (const ErrorStep& step : history) {
+    biased |= step.mode == ErrorMode::kBiased;
+    drifting |= step.mode == ErrorMode::kDrifting || step.jolt;
   }
-  return regimes;
-}
-
-double StartSigma(const ErrorRegimes& regimes, std::size_t mode) {
-  const bool zero = regimes.kind == ErrorRegimes::Kind::kSwitching &&
-                    (mode == kGood || mode == kOutlier);
-  return zero ? kZeroError * regimes.sigma : regimes.sigma;
-}
-
-Block ErrorBlock(const RegimeProblem& problem, const ErrorRegimes& regimes,
-                 std::size_t mode) {
-  Block block;
-  block.key = {BlockKind::kColouredNoise, problem.receiver};
-  block.name =
-      problem.timeline->sensors()[static_cast<std::size_t>(problem.receiver)]
-          .name +
-      "_error";
-  block.unit = "m";
-  block.evolution = ErrorEvolution(regimes, mode);
-  block.sigma0.setConstant(StartSigma(regimes, mode));
-  return block;
-}
-
-/// The prior of the base layout beside that of the last block of `layout`.
-ErrorMatrix WithBlock(const ErrorMatrix& P, const ErrorLayout& layout) {
-  ErrorMatrix out = layout.InitialCovariance();
-  out.topLeftCorner(P.rows(), P.cols()) = P;
+  if (biased) {
+    out.push_back({&ErrorParameters::tau, 0.1, 1e9, from.tau, 2.3});
+    out.push_back({&ErrorParameters::sigma, 1e-4, 1e5, from.sigma, 2.3});
+  }
+  if (drifting) {
+    out.push_back(
+        {&ErrorParameters::rate_sigma, 1e-6, 1e3, from.rate_sigma, 2.3});
+  }
   return out;
 }
 
-std::vector<ImmModel> Models(const RegimeProblem& problem,
-                             const ExtendedProblem& extended,
-                             const ErrorRegimes& regimes) {
-  std::vector<ImmModel> models;
-  const std::vector<std::string> names = regimes.ModeNames();
-  for (std::size_t j = 0; j < names.size(); ++j) {
-    ImmModel& model = models.emplace_back();
-    model.name = names[j];
-    model.layout = problem.layout;
-    if (regimes.HasGaussMarkov()) {
-      model.layout.Add(ErrorBlock(problem, regimes, j));
-    }
-    model.prior.x = extended.prior.x;
-    model.prior.P = WithBlock(problem.prior.P, model.layout);
-    model.sigma_factors.assign(problem.timeline->sensors().size(), 1.0);
-    model.sigma_factors[static_cast<std::size_t>(problem.receiver)] =
-        regimes.scale * (j == kOutlier ? regimes.outlier_ratio : 1.0);
-  }
-  return models;
-}
+/// The likelihood of a history as a function of the parameters.
+class Tuning {
+ public:
+  Tuning(const RegimeProblem& problem, const ErrorHistory& history,
+         const ErrorParameters& from)
+      : problem_(problem),
+        history_(history),
+        tunables_(TunablesOf(history, from)),
+        parameters_(from) {}
 
-ImmTape Filter(const RegimeProblem& problem, const ErrorRegimes& regimes) {
-  const ExtendedProblem extended = Extend(problem, regimes);
-  ImmOptions options;
-  options.transition = regimes.transition;
-  options.start = regimes.start;
-  options.sensors = {problem.receiver};
-  options.nominal = extended.nominal;
-  options.decisions = problem.decisions;
-  return RunImm(Models(problem, extended, regimes), options, problem.timeline,
-                problem.callback)
-      .tape;
-}
-
-/// Mean over the rows of E r' R^-1 r of a fix, R as stated: r has the smoothed
-/// mean and covariance of a mode.
-double NormalizedSquare(const TapeMeasurement& z, const Gaussian& smoothed,
-                        double factor) {
-  const Eigen::VectorXd r = z.residual - z.H * smoothed.mean;
-  const Eigen::MatrixXd M =
-      r * r.transpose() + z.H * smoothed.P * z.H.transpose();
-  return factor * factor * z.R.llt().solve(M).trace() /
-         static_cast<double>(r.size());
-}
-
-/// The maximisation step for scale, ratio and transition.
-void Maximize(const RegimeProblem& problem, const ImmTape& tape,
-              const ImmSmoothed& smoothed, ErrorRegimes* regimes) {
-  // The prior counts as so many fixes.
-  constexpr double kPrior = 5.0;
-  double inliers = kPrior;
-  double inlier_squares = kPrior;
-  double outliers = 1.0;
-  double outlier_squares = regimes->scale * regimes->scale *
-                           regimes->outlier_ratio * regimes->outlier_ratio;
-  Eigen::MatrixXd counts =
-      kPrior * Initial(problem, regimes->kind, 0.0).transition;
-  const std::size_t modes = tape.tapes.size();
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    if (smoothed.pairs[k].size() > 0) counts += smoothed.pairs[k];
-    for (std::size_t j = 0; j < modes; ++j) {
-      const double p =
-          smoothed.trajectory.probabilities[k](static_cast<Eigen::Index>(j));
-      if (p < 1e-6) continue;
-      const double factor =
-          regimes->scale * (j == kOutlier ? regimes->outlier_ratio : 1.0);
-      for (const TapeMeasurement& z : tape.tapes[j].measurements(k)) {
-        if (!z.accepted || z.sensor != problem.receiver) continue;
-        const double square =
-            NormalizedSquare(z, smoothed.models[k][j], factor);
-        (j == kOutlier ? outliers : inliers) += p;
-        (j == kOutlier ? outlier_squares : inlier_squares) += p * square;
+  /// Multiplies each parameter by smaller and smaller steps while it gains.
+  ErrorParameters Climb() {
+    value_ = Value(parameters_);
+    for (const double step : {2.5, 1.3}) {
+      for (const Tunable& tunable : tunables_) {
+        if (!Walk(tunable, step)) Walk(tunable, 1.0 / step);
       }
     }
+    constexpr double kFine = 1.08;
+    const Tunable& scale = tunables_.front();
+    if (!Walk(scale, kFine)) Walk(scale, 1.0 / kFine);
+    return parameters_;
   }
-  constexpr double kLeastRatio = 3.0;
-  constexpr double kLargestRatio = 1000.0;
-  regimes->scale = std::sqrt(inlier_squares / inliers);
-  regimes->outlier_ratio =
-      std::clamp(std::sqrt(outlier_squares / outliers) / regimes->scale,
-                 kLeastRatio, kLargestRatio);
-  regimes->transition =
-      counts.array().colwise() / counts.rowwise().sum().array();
+
+  std::size_t count() const { return tunables_.size(); }
+
+ private:
+  double Value(const ErrorParameters& p) const {
+    double value = ScoreHistory(problem_.tape, problem_.receiver, p, history_)
+                       .log_likelihood;
+    for (const Tunable& tunable : tunables_) {
+      const double z =
+          std::log(p.*tunable.member / tunable.typical) / tunable.spread;
+      value -= 0.5 * z * z;
+    }
+    return value;
+  }
+
+  bool Walk(const Tunable& tunable, double step) {
+    constexpr int kMost = 8;
+    for (int i = 0; i < kMost; ++i) {
+      ErrorParameters trial = parameters_;
+      trial.*tunable.member =
+          std::clamp(trial.*tunable.member * step, tunable.least, tunable.most);
+      const double value = Value(trial);
+      if (!(value > value_)) return i > 0;
+      parameters_ = trial;
+      value_ = value;
+    }
+    return true;
+  }
+
+  const RegimeProblem& problem_;
+  const ErrorHistory& history_;
+  std::vector<Tunable> tunables_;
+  ErrorParameters parameters_;
+  double value_ = 0.0;
+};
+
+double Criterion(const RegimeProblem& problem, ErrorRegimes::Kind kind,
+                 double log_posterior) {
+  const int parameters = kind == ErrorRegimes::Kind::kWhite         ? 3
+                         : kind == ErrorRegimes::Kind::kGaussMarkov ? 5
+                                                                    : 6;
+  return log_posterior -
+         0.5 * parameters * std::log(std::max(2, FixCount(problem)));
 }
 
-/// Multiplies sigma and tau by steps that the likelihood asks for.
-void SearchGaussMarkov(const RegimeProblem& problem, ErrorRegimes* regimes) {
-  constexpr double kSteps[] = {3.0, 1.0 / 3.0};
-  constexpr double kLargestTau = 1e4;
-  regimes->log_likelihood = Filter(problem, *regimes).log_likelihood();
-  for (double ErrorRegimes::*parameter :
-       {&ErrorRegimes::tau, &ErrorRegimes::sigma}) {
-    for (const double step : kSteps) {
-      bool moved = false;
-      for (int i = 0; i < 4; ++i) {
-        ErrorRegimes trial = *regimes;
-        trial.*parameter *= step;
-        if (trial.tau > kLargestTau) break;
-        trial.log_likelihood = Filter(problem, trial).log_likelihood();
-        if (trial.log_likelihood <= regimes->log_likelihood) break;
-        *regimes = trial;
-        moved = true;
-      }
-      if (moved) break;
+/// White or Gauss-Markov throughout: there is but one history.
+ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
+                        ErrorParameters from) {
+  const ErrorMode mode = kind == ErrorRegimes::Kind::kWhite
+                             ? ErrorMode::kGood
+                             : ErrorMode::kBiased;
+  ErrorRegimes out;
+  out.kind = kind;
+  ErrorHistory history = Uniform(problem, mode);
+  if (mode == ErrorMode::kBiased) history.front().anew = true;
+  out.parameters = Tuning(problem, history, from).Climb();
+  const double log_likelihood =
+      ScoreHistory(problem.tape, problem.receiver, out.parameters, history)
+          .log_likelihood;
+  out.criterion = Criterion(problem, kind, log_likelihood);
+  out.histories.push_back({std::move(history), log_likelihood});
+  return out;
+}
+
+bool IsGood(const ErrorHistory& history) {
+  return std::all_of(history.begin(), history.end(), [](const ErrorStep& s) {
+    return s.mode == ErrorMode::kGood;
+  });
+}
+
+/// Where the search for histories begins: errors of several sizes, short or
+/// lasting.
+std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
+                                    const ErrorParameters& white) {
+  constexpr double kRateTime = 100.0;
+  std::vector<ErrorParameters> starts;
+  for (const auto& [size, tau] : {std::pair{5.0, 1e8},
+                                  {5.0, 30.0},
+                                  {50.0, 1e8},
+                                  {50.0, 30.0},
+                                  {500.0, 1e8}}) {
+    ErrorParameters& p = starts.emplace_back(white);
+    p.sigma = size * problem.stated_sigma;
+    p.tau = tau;
+    p.rate_sigma = p.sigma / kRateTime;
+  }
+  return starts;
+}
+
+struct Attempt {
+  ErrorParameters parameters;
+  ScoredHistory found;
+};
+
+/// The most promising starts by a narrow search.
+std::vector<Attempt> BestAttempts(const RegimeProblem& problem,
+                                  const ErrorParameters& white) {
+  constexpr std::size_t kNarrow = 4;
+  constexpr std::size_t kMost = 2;
+  constexpr double kLeastLog = 15.0;
+  std::vector<Attempt> attempts;
+  for (const ErrorParameters& start : Starts(problem, white)) {
+    attempts.push_back(
+        {start, SearchHistories(problem.tape, problem.receiver, start, kNarrow)
+                    .front()});
+  }
+  std::sort(attempts.begin(), attempts.end(), [](const auto& a, const auto& b) {
+    return a.found.log_posterior > b.found.log_posterior;
+  });
+  const double least = attempts.front().found.log_posterior - kLeastLog;
+  std::vector<Attempt> best;
+  for (Attempt& attempt : attempts) {
+    if (best.size() == kMost || attempt.found.log_posterior < least) break;
+    if (IsGood(attempt.found.history)) continue;
+    if (!best.empty() && best.back().found.history == attempt.found.history) {
+      continue;
+    }
+    best.push_back(std::move(attempt));
+  }
+  return best;
+}
+
+/// Of inliers and outliers together.
+double MeanScale(const ErrorParameters& p) {
+  const double ratio = p.outlier_ratio * p.outlier_ratio;
+  return p.scale * std::sqrt(1.0 + p.outlier_share * (ratio - 1.0));
+}
+
+/// The same with the noise that goes with the best of them: to a fit of white
+/// errors biases look like noise and outliers.
+std::vector<Attempt> AttemptsWithNoise(const RegimeProblem& problem,
+                                       ErrorParameters start) {
+  std::vector<Attempt> attempts = BestAttempts(problem, start);
+  if (attempts.empty()) return attempts;
+  const ErrorParameters tuned =
+      Tuning(problem, attempts[0].found.history, attempts[0].parameters)
+          .Climb();
+  const auto near = [](double a, double b, double factor) {
+    return a < factor * b && b < factor * a;
+  };
+  if (near(tuned.scale, start.scale, 1.1) &&
+      near(tuned.outlier_share, start.outlier_share, 3.0)) {
+    return attempts;
+  }
+  start.scale = tuned.scale;
+  start.outlier_share = tuned.outlier_share;
+  start.outlier_ratio = tuned.outlier_ratio;
+  return BestAttempts(problem, start);
+}
+
+ErrorRegimes FitSwitching(const RegimeProblem& problem,
+                          const Attempt& attempt) {
+  const auto& [tape, receiver, stated, only_white] = problem;
+  ErrorRegimes out;
+  out.kind = ErrorRegimes::Kind::kSwitching;
+  out.parameters = attempt.parameters;
+  for (int i = 0; i < 2; ++i) {
+    out.histories = SearchHistories(tape, receiver, out.parameters);
+    out.parameters = Tuning(problem, out.best(), out.parameters).Climb();
+  }
+  out.histories =
+      RefineHistories(tape, receiver, out.parameters, out.histories);
+  out.criterion =
+      Criterion(problem, out.kind, out.histories.front().log_posterior);
+  return out;
+}
+
+/// The kind of the largest criterion. Beside a switching one the histories of
+/// the others, but for Gauss-Markov errors, go on as alternatives.
+ErrorRegimes Best(std::vector<ErrorRegimes> all) {
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return a.criterion > b.criterion;
+  });
+  ErrorRegimes best = std::move(all.front());
+  if (best.kind != ErrorRegimes::Kind::kSwitching) return best;
+  const double level = best.histories.front().log_posterior - best.criterion;
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (all[i].kind == ErrorRegimes::Kind::kGaussMarkov) continue;
+    const double own =
+        all[i].histories.front().log_posterior - all[i].criterion;
+    for (ScoredHistory& h : all[i].histories) {
+      const bool known =
+          std::any_of(best.histories.begin(), best.histories.end(),
+                      [&](const auto& b) { return b.history == h.history; });
+      if (known) continue;
+      best.histories.push_back(
+          {std::move(h.history), h.log_posterior - own + level});
     }
   }
-}
-
-/// Scale, ratio, sigma and tau, and one for each mode beside the good one: the
-/// transitions are held by their prior otherwise.
-int ParameterCount(ErrorRegimes::Kind kind) {
-  switch (kind) {
-    case ErrorRegimes::Kind::kWhite:
-      return 3;
-    case ErrorRegimes::Kind::kGaussMarkov:
-      return 5;
-    case ErrorRegimes::Kind::kSwitching:
-      return 7;
-  }
-  return 0;
+  std::stable_sort(best.histories.begin(), best.histories.end(),
+                   [](const auto& a, const auto& b) {
+                     return a.log_posterior > b.log_posterior;
+                   });
+  return best;
 }
 
 }  // namespace
+
+bool ErrorRegimes::Has(ErrorMode mode) const {
+  return std::any_of(best().begin(), best().end(),
+                     [&](const ErrorStep& s) { return s.mode == mode; });
+}
 
 const char* RegimeName(ErrorRegimes::Kind kind) {
   static const char* const kNames[] = {"white", "gauss_markov", "switching"};
   return kNames[static_cast<int>(kind)];
 }
 
-std::vector<std::string> ErrorRegimes::ModeNames() const {
-  if (kind != Kind::kSwitching) return {"good", "outlier"};
-  return {"good", "outlier", "biased", "jump"};
-}
-
-Evolution ErrorEvolution(const ErrorRegimes& regimes, std::size_t mode) {
-  if (regimes.kind == ErrorRegimes::Kind::kGaussMarkov || mode == kBiased) {
-    return Evolution::GaussMarkov(regimes.sigma, regimes.tau);
-  }
-  if (mode == kOutlier) return Evolution::Constant();
-  const double sigma =
-      mode == kGood ? kZeroError * regimes.sigma : regimes.sigma;
-  return Evolution::GaussMarkov(sigma, kForgotten);
-}
-
-ExtendedProblem Extend(const RegimeProblem& problem,
-                       const ErrorRegimes& regimes) {
-  ExtendedProblem out{problem.layout, problem.prior, problem.nominal};
-  if (!regimes.HasGaussMarkov()) return out;
-  const std::size_t mode =
-      regimes.kind == ErrorRegimes::Kind::kSwitching ? kBiased : kGood;
-  out.layout.Add(ErrorBlock(problem, regimes, mode));
-  const auto extend = [&](State* x) {
-    const Eigen::Index count = out.layout.parameter_count();
-    x->parameters.conservativeResize(count);
-    x->parameters.tail<3>().setZero();
-  };
-  extend(&out.prior.x);
-  for (State& x : out.nominal) extend(&x);
-  out.prior.P = WithBlock(problem.prior.P, out.layout);
-  return out;
-}
-
-TunedRegimes TuneRegimes(const RegimeProblem& problem, ErrorRegimes::Kind kind,
-                         double jump) {
-  constexpr int kIterations = 3;
-  TunedRegimes out;
-  out.regimes = Initial(problem, kind, jump);
-  for (int i = 0;; ++i) {
-    if (i == 1 && out.regimes.HasGaussMarkov()) {
-      SearchGaussMarkov(problem, &out.regimes);
-    }
-    const ImmTape tape = Filter(problem, out.regimes);
-    out.regimes.log_likelihood = tape.log_likelihood();
-    out.smoothed = SmoothImm(tape);
-    if (i == kIterations) break;
-    Maximize(problem, tape, out.smoothed, &out.regimes);
-  }
-  out.regimes.criterion =
-      out.regimes.log_likelihood -
-      0.5 * ParameterCount(kind) * std::log(std::max(2, FixCount(problem)));
-  return out;
-}
-
-TunedRegimes ChooseRegimes(const RegimeProblem& problem) {
-  TunedRegimes best = TuneRegimes(problem, ErrorRegimes::Kind::kWhite);
-  // A sensor that is said to have a Gauss-Markov error has it already.
-  if (problem.layout.Has(BlockKind::kColouredNoise, problem.receiver)) {
-    return best;
-  }
-  const double outlier =
-      best.regimes.scale * best.regimes.outlier_ratio * StatedSigma(problem);
-  for (const auto kind :
-       {ErrorRegimes::Kind::kGaussMarkov, ErrorRegimes::Kind::kSwitching}) {
-    TunedRegimes tuned = TuneRegimes(problem, kind, outlier);
-    if (tuned.regimes.criterion > best.regimes.criterion) {
-      best = std::move(tuned);
+ErrorRegimes ChooseRegimes(const RegimeProblem& problem) {
+  std::vector<ErrorRegimes> all = {
+      FitUniform(problem, ErrorRegimes::Kind::kWhite, {})};
+  ErrorParameters start = all[0].parameters;
+  if (!problem.only_white) {
+    start.sigma = problem.stated_sigma;
+    start.tau = 100.0;
+    all.push_back(FitUniform(problem, ErrorRegimes::Kind::kGaussMarkov, start));
+    start.scale = std::min(start.scale, MeanScale(all[1].parameters));
+    for (const Attempt& attempt : AttemptsWithNoise(problem, start)) {
+      all.push_back(FitSwitching(problem, attempt));
     }
   }
-  return best;
+  return Best(std::move(all));
 }
 
 }  // namespace hindsight

@@ -400,7 +400,7 @@ struct Reconstruction::Impl {
     solution.iterations = result.batch.iterations;
     solution.converged = result.batch.converged;
     solution.mode_probabilities = std::move(result.probabilities);
-    solution.mode_names = result.regimes.ModeNames();
+    solution.mode_names = {"good", "biased", "drifting"};
     solution.notes = std::move(result.notes);
     return Finish(std::move(solution), Method::kRobustBatch,
                   ProcessorSeconds() - t0);

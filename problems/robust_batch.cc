@@ -5,85 +5,185 @@
 #include <cstdio>
 #include <utility>
 
+#include "problems/history_alternatives.h"
+
 namespace hindsight {
 namespace {
 
-constexpr double kLeastProbability = 0.01;
+/// What is left of an error where the receiver is good, in its sigma: exact
+/// steps would leave the problem singular.
+constexpr double kNoError = 1e-3;
 
-/// What the receiver's error does over each interval, from the probabilities of
-/// the modes at its end.
-std::vector<ColouredStep> ErrorSteps(const RegimeProblem& problem,
-                                     const TunedRegimes& tuned) {
-  std::vector<ColouredStep> steps;
-  const Timeline& timeline = *problem.timeline;
-  for (std::size_t k = 1; k < timeline.size(); ++k) {
-    const Eigen::VectorXd& p = tuned.smoothed.trajectory.probabilities[k];
-    const double dt = timeline.node(k).t - timeline.node(k - 1).t;
-    Eigen::Index likeliest = 0;
-    p.maxCoeff(&likeliest);
-    ColouredStep step;
-    step.sensor = problem.receiver;
-    step.phi =
-        ErrorEvolution(tuned.regimes, static_cast<std::size_t>(likeliest))
-            .Phi(dt);
-    for (Eigen::Index j = 0; j < p.size(); ++j) {
-      if (p(j) < kLeastProbability) continue;
-      step.variance +=
-          p(j) *
-          ErrorEvolution(tuned.regimes, static_cast<std::size_t>(j)).Q(dt);
-    }
-    // An exact step would leave the problem singular.
-    constexpr double kFloor = 1e-4;
-    step.variance =
-        std::max(step.variance,
-                 kFloor * kFloor * tuned.regimes.sigma * tuned.regimes.sigma);
-    steps.push_back(step);
+/// Root mean square of the stated sigmas of the receiver, north and east [m].
+double StatedSigma(const Timeline& timeline, int receiver) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Measurement& z : timeline.all_measurements()) {
+    const auto* fix = std::get_if<PositionFix>(&z.model);
+    if (fix == nullptr || z.sensor != receiver) continue;
+    sum += 0.5 * (fix->R_n(0, 0) + fix->R_n(1, 1));
+    ++count;
   }
-  return steps;
+  return std::sqrt(sum / std::max(1, count));
 }
 
-/// Mean probability of an outlier over the fixes.
-double OutlierShare(const RegimeProblem& problem, const TunedRegimes& tuned) {
-  double sum = 1.0;
-  double count = 20.0;
-  for (std::size_t k = 0; k < problem.timeline->size(); ++k) {
-    for (const Measurement& z : problem.timeline->measurements(k)) {
-      if (z.sensor != problem.receiver || z.withheld) continue;
-      sum += tuned.smoothed.trajectory.probabilities[k](1);
-      count += 1.0;
-    }
-  }
-  return std::clamp(sum / count, 1e-3, 0.5);
-}
+class RobustProblem {
+ public:
+  RobustProblem(const LinearTape& tape, const ErrorLayout& layout,
+                const Prior& prior, int receiver, double stated_sigma,
+                const ErrorRegimes& regimes,
+                const std::vector<ErrorStep>& steps)
+      : tape_(tape),
+        receiver_(receiver),
+        floor_(kNoError * stated_sigma),
+        regimes_(regimes),
+        layout_(layout),
+        prior_(prior),
+        steps_(steps) {}
 
-void ApplyToSensor(const RegimeProblem& problem, const TunedRegimes& tuned) {
-  const auto i = static_cast<std::size_t>(problem.receiver);
-  Sensor sensor = problem.timeline->sensors()[i];
+  /// Layout and prior with e and r behind all other blocks, as far as the
+  /// history has them.
+  void Extend(const Sensor& sensor) {
+    if (!HasError()) return;
+    const bool starts_biased = steps_.front().mode != ErrorMode::kGood;
+    const double sigma =
+        std::max(floor_, starts_biased ? regimes_.parameters.sigma : 0.0);
+    AddBlock(BlockKind::kColouredNoise, sensor.name + "_error", "m", sigma);
+    if (HasRate()) {
+      AddBlock(BlockKind::kCurrent, sensor.name + "_error_rate", "m/s",
+               regimes_.parameters.rate_sigma);
+    }
+    const int added = HasRate() ? 6 : 3;
+    prior_.x.parameters.conservativeResize(layout_.parameter_count());
+    prior_.x.parameters.tail(added).setZero();
+    ErrorMatrix P = layout_.InitialCovariance();
+    P.topLeftCorner(prior_.P.rows(), prior_.P.cols()) = prior_.P;
+    prior_.P = P;
+  }
+
+  std::vector<ColouredStep> ErrorSteps() const {
+    std::vector<ColouredStep> out;
+    if (!HasError()) return out;
+    for (std::size_t k = 1; k < steps_.size(); ++k) out.push_back(Step(k));
+    return out;
+  }
+
+  /// The smoothed trajectory of a history.
+  std::vector<State> States(const std::vector<ErrorVector>& smoothed) const {
+    std::vector<State> states;
+    for (std::size_t k = 0; k < tape_.size(); ++k) {
+      State x = tape_.epoch(k).x_plus;
+      const Eigen::Index count = x.parameters.size();
+      x.parameters.conservativeResize(layout_.parameter_count());
+      x.parameters.tail(layout_.parameter_count() - count).setZero();
+      states.push_back(
+          Retract(layout_, x, ErrorVector(smoothed[k].head(layout_.dim()))));
+    }
+    return states;
+  }
+
+  const ErrorLayout& layout() const { return layout_; }
+  const Prior& prior() const { return prior_; }
+
+ private:
+  bool HasError() const { return regimes_.kind != ErrorRegimes::Kind::kWhite; }
+  bool HasRate() const {
+    return std::any_of(steps_.begin(), steps_.end(), [](const ErrorStep& s) {
+      return s.mode == ErrorMode::kDrifting;
+    });
+  }
+
+  void AddBlock(BlockKind kind, const std::string& name, const char* unit,
+                double sigma0) {
+    Block block;
+    block.key = {kind, receiver_};
+    block.name = name;
+    block.unit = unit;
+    block.evolution = Evolution::GaussMarkov(regimes_.parameters.sigma,
+                                             regimes_.parameters.tau);
+    block.sigma0.setConstant(sigma0);
+    layout_.Add(block);
+  }
+
+  /// The step of the error over the interval into node k.
+  ColouredStep Step(std::size_t k) const {
+    const double dt = tape_.epoch(k).t - tape_.epoch(k - 1).t;
+    const ErrorDynamics d = DynamicsOf(regimes_.parameters, steps_[k], dt);
+    ColouredStep out;
+    out.sensor = receiver_;
+    out.phi = d.ee;
+    out.variance = d.q_ee + floor_ * floor_;
+    // A rate is free before a drift that begins; one that follows another needs
+    // an interval in which it is drawn anew.
+    const bool begins =
+        steps_[k].mode == ErrorMode::kDrifting && steps_[k].anew;
+    if (begins && steps_[k - 1].mode != ErrorMode::kDrifting) {
+      out.variance = floor_ * floor_;
+    } else if (out.phi == 1.0 &&
+               (begins || steps_[k].mode != ErrorMode::kDrifting)) {
+      out.phi = std::nextafter(1.0, 0.0);
+    }
+    return out;
+  }
+
+  const LinearTape& tape_;
+  int receiver_;
+  double floor_;
+  const ErrorRegimes& regimes_;
+  ErrorLayout layout_;
+  Prior prior_;
+  const std::vector<ErrorStep>& steps_;  ///< by node
+};
+
+void ApplyToSensor(const ErrorParameters& p, int receiver, Timeline* timeline) {
+  const auto i = static_cast<std::size_t>(receiver);
+  Sensor sensor = timeline->sensors()[i];
   sensor.loss.kind = RobustLoss::Kind::kMixture;
   sensor.loss.scale = 1.0;
   sensor.loss.rows = 3;
-  sensor.loss.outlier_ratio = tuned.regimes.outlier_ratio;
-  sensor.loss.outlier_share = OutlierShare(problem, tuned);
-  problem.timeline->SetSensor(i, sensor);
-  problem.timeline->ScaleSensor(problem.receiver, tuned.regimes.scale);
+  sensor.loss.outlier_ratio = p.outlier_ratio;
+  sensor.loss.outlier_share = p.outlier_share;
+  timeline->SetSensor(i, sensor);
+  timeline->ScaleSensor(receiver, p.scale);
 }
 
-std::vector<std::string> Notes(const RegimeProblem& problem,
+/// Widens P by what the other histories say, and finds the modes'
+/// probabilities.
+void AddAlternatives(int dim, const std::vector<HistoryAlternative>& all,
+                     const HistoryAlternative& chosen,
+                     RobustBatchResult* result) {
+  const std::size_t nodes = chosen.steps.size();
+  result->probabilities.assign(nodes, Eigen::VectorXd::Zero(3));
+  for (std::size_t k = 0; k < nodes; ++k) {
+    for (const HistoryAlternative& one : all) {
+      result->probabilities[k](static_cast<int>(one.steps[k].mode)) +=
+          one.weight;
+    }
+    ErrorMatrix P = result->batch.P.Get(k);
+    P.topLeftCorner(dim, dim) += Spread(all, chosen, k, dim);
+    result->batch.P.Set(k, P);
+  }
+}
+
+std::vector<std::string> Notes(const std::string& sensor,
                                const ErrorRegimes& regimes) {
-  const Sensor& sensor =
-      problem.timeline->sensors()[static_cast<std::size_t>(problem.receiver)];
+  const ErrorParameters& p = regimes.parameters;
   char text[200];
-  std::snprintf(
-      text, sizeof(text),
-      "%s: %s errors, sigma %.3g times as stated, outliers %.3g %% of "
-      "%.3g times that",
-      sensor.name.c_str(), RegimeName(regimes.kind), regimes.scale,
-      100.0 * sensor.loss.outlier_share, regimes.outlier_ratio);
+  std::snprintf(text, sizeof(text),
+                "%s: %s errors, sigma %.3g times as stated, outliers %.3g %% "
+                "of %.3g times that",
+                sensor.c_str(), RegimeName(regimes.kind), p.scale,
+                100.0 * p.outlier_share, p.outlier_ratio);
   std::vector<std::string> notes = {text};
-  if (regimes.HasGaussMarkov()) {
+  if (regimes.Has(ErrorMode::kBiased)) {
     std::snprintf(text, sizeof(text),
                   "%s: Gauss-Markov error of %.3g m, correlation time %.3g s",
-                  sensor.name.c_str(), regimes.sigma, regimes.tau);
+                  sensor.c_str(), p.sigma, p.tau);
+    notes.emplace_back(text);
+  }
+  if (regimes.Has(ErrorMode::kDrifting)) {
+    std::snprintf(text, sizeof(text), "%s: errors that grow by %.3g m/s",
+                  sensor.c_str(), p.rate_sigma);
     notes.emplace_back(text);
   }
   return notes;
@@ -92,9 +192,8 @@ std::vector<std::string> Notes(const RegimeProblem& problem,
 }  // namespace
 
 double RobustBatchResult::Trust(std::size_t k) const {
-  return regimes.kind == ErrorRegimes::Kind::kSwitching
-             ? probabilities[k].head(2).sum()
-             : 1.0;
+  return regimes.kind == ErrorRegimes::Kind::kSwitching ? probabilities[k](0)
+                                                        : 1.0;
 }
 
 RobustBatchResult SolveRobustBatch(const ErrorLayout& layout,
@@ -104,26 +203,35 @@ RobustBatchResult SolveRobustBatch(const ErrorLayout& layout,
                                    const GateDecisions& decisions,
                                    const BatchOptions& options,
                                    const EpochCallback& callback) {
-  const RegimeProblem problem{layout,    prior,     initial, receiver,
-                              &timeline, decisions, callback};
-  const TunedRegimes tuned = ChooseRegimes(problem);
-  const ExtendedProblem extended = Extend(problem, tuned.regimes);
-  ApplyToSensor(problem, tuned);
-  if (tuned.regimes.kind == ErrorRegimes::Kind::kSwitching) {
-    timeline.SetColouredSteps(ErrorSteps(problem, tuned));
-  }
+  const LinearTape tape = RunLinearizedFilter(layout, prior, initial, &timeline,
+                                              decisions, callback);
+  const double stated = StatedSigma(timeline, receiver);
+  ErrorRegimes regimes =
+      ChooseRegimes({tape, receiver, stated,
+                     layout.Has(BlockKind::kColouredNoise, receiver)});
+  const std::vector<HistoryAlternative> alternatives =
+      WeighHistories(tape, receiver, regimes);
+  const HistoryAlternative& chosen = MostCentral(alternatives);
+  const Sensor& sensor = timeline.sensors()[static_cast<std::size_t>(receiver)];
+  RobustProblem problem(tape, layout, prior, receiver, stated, regimes,
+                        chosen.steps);
+  problem.Extend(sensor);
+  std::vector<std::string> notes = Notes(sensor.name, regimes);
+  ApplyToSensor(regimes.parameters, receiver, &timeline);
+  timeline.SetColouredSteps(problem.ErrorSteps());
   BatchOptions batch = options;
   batch.graduated = false;
   // About the edge of a mixture the last steps converge linearly.
   batch.max_iterations = std::max(batch.max_iterations, 200);
-  BatchResult result =
-      SolveBatch(extended.layout, extended.prior,
-                 tuned.smoothed.trajectory.states, &timeline, decisions, batch);
-  std::vector<std::string> notes = Notes(problem, tuned.regimes);
-  return {extended.layout,     std::move(result),
-          std::move(timeline), decisions,
-          tuned.regimes,       tuned.smoothed.trajectory.probabilities,
-          std::move(notes)};
+  BatchResult solved =
+      SolveBatch(problem.layout(), problem.prior(),
+                 problem.States(chosen.smoothed), &timeline, decisions, batch);
+  RobustBatchResult result{problem.layout(),    std::move(solved),
+                           std::move(timeline), decisions,
+                           std::move(regimes),  {},
+                           std::move(notes)};
+  AddAlternatives(tape.dim(), alternatives, chosen, &result);
+  return result;
 }
 
 }  // namespace hindsight

@@ -11,14 +11,15 @@ namespace hindsight {
 
 struct RobustBatchResult {
   ErrorLayout
-      layout;  ///< with the receiver's Gauss-Markov error, if it has one
-  BatchResult batch;
+      layout;         ///< with the receiver's error and its rate, if it has one
+  BatchResult batch;  ///< P widened by the other histories
   /// The timeline as it was solved: sigmas, loss and error steps as found.
   Timeline timeline;
   GateDecisions decisions;
   ErrorRegimes regimes;
-  std::vector<Eigen::VectorXd> probabilities;  ///< of the modes, by node
-  std::vector<std::string> notes;              ///< what was found, in words
+  /// Probabilities of the modes "good", "biased", "drifting", by node.
+  std::vector<Eigen::VectorXd> probabilities;
+  std::vector<std::string> notes;  ///< what was found, in words
 
   /// Probability that a fix at node k is taken at its word: not as biased.
   double Trust(std::size_t k) const;
@@ -28,16 +29,16 @@ struct RobustBatchResult {
 /// sensor's errors are like.
 ///
 /// ChooseRegimes fits white, Gauss-Markov and switching errors to the data,
-/// about the trajectory `initial`, and takes the one that explains them best.
+/// about the trajectory `initial`, and takes the kind that explains them best.
 /// The batch then has
 ///   - the sensor's sigmas as found, with a two-component mixture as its loss;
-///   - the Gauss-Markov error, if there is one, as three states a node, with
-///     sigma and tau as found. Over an interval into node k they do what the
-///     modes there say: phi of the likeliest mode, variance
-///     sum_j p_j(k) q_j over the modes j of more than one per cent, so that
-///     doubt of a jump leaves the error free rather than exact.
-/// It starts from the smoothed multiple-model trajectory. `receiver` is the
-/// index of the sensor.
+///   - the receiver's error as three states a node, and if it drifts its rate
+///     as three more (imu/error_drift.h), which go from node to node as a
+///     history says, with sigma and tau as found.
+/// Of the histories that the data do not rule out it is the most central one
+/// (problems/history_alternatives.h), from whose trajectory the batch starts;
+/// the distances of the others widen the covariances. `receiver` is the index
+/// of the sensor.
 RobustBatchResult SolveRobustBatch(const ErrorLayout& layout,
                                    const Prior& prior,
                                    const std::vector<State>& initial,

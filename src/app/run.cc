@@ -6,6 +6,7 @@
 #include "alignment/mounting_search.h"
 #include "app/command.h"
 #include "app/interrupt.h"
+#include "app/measurement_log.h"
 #include "app/result_folder.h"
 #include "app/run_output.h"
 #include "app/run_report.h"
@@ -183,6 +184,7 @@ int Reconstruct(const RunRequest& request) {
   std::vector<Solution> solutions;
   for (const Method method : request.methods) {
     solutions.push_back(RunMethod(&reconstruction, method));
+    LogDownWeighted(dataset, solutions.back());
     ThrowIfStopRequested();
     summary.methods.push_back(
         Summarize(dataset, reconstruction, solutions.back()));

@@ -60,6 +60,9 @@ int Run(const std::vector<std::string>& arguments) {
       throw UsageError("--duration must be longer than 0 s");
     }
     scenario.duration = std::min(scenario.duration, FLAGS_duration);
+    std::erase_if(scenario.injections, [&](const Injection& injection) {
+      return injection.from >= scenario.duration;
+    });
   }
   CatchInterrupts();
   ResultFolder folder(FLAGS_out, FLAGS_force, kDatasetConfigName);

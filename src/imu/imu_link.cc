@@ -7,6 +7,7 @@
 
 #include "earth/wgs84.h"
 #include "geometry/so3.h"
+#include "imu/error_drift.h"
 
 namespace hindsight {
 namespace {
@@ -31,22 +32,17 @@ Eigen::Vector3d EarthRateCross(const Eigen::Vector3d& v) {
   return {-kEarthRate * v.y(), kEarthRate * v.x(), 0.0};
 }
 
-bool HasOwnStep(const Block& block, const ImuSummary& summary) {
-  return block.key.kind == BlockKind::kColouredNoise &&
-         block.key.sensor == summary.coloured.sensor;
-}
-
 }  // namespace
 
 double PhiOf(const Block& block, const ImuSummary& summary, double distance) {
   return HasOwnStep(block, summary)
-             ? summary.coloured.phi
+             ? OwnPhi(block, summary)
              : block.evolution.Phi(summary.dt(), distance);
 }
 
 double VarianceOf(const Block& block, const ImuSummary& summary,
                   double distance) {
-  return HasOwnStep(block, summary) ? summary.coloured.variance
+  return HasOwnStep(block, summary) ? OwnVariance(block, summary)
                                     : block.evolution.Q(summary.dt(), distance);
 }
 
@@ -95,6 +91,10 @@ State Predict(const ErrorLayout& layout, const State& x_i,
     x.parameters.segment(block.parameter_offset,
                          FullDimension(block.key.kind)) *=
         PhiOf(block, summary, Travelled(x_i, dt));
+    if (const Block* rate = DriftRate(layout, block, summary)) {
+      x.parameters.segment<3>(block.parameter_offset) +=
+          dt * x_i.parameters.segment<3>(rate->parameter_offset);
+    }
   }
   return x;
 }
@@ -287,6 +287,7 @@ void LinearizeTransition(const ErrorLayout& layout, const ImuSummary& summary,
   for (const Block& block : layout.blocks()) {
     if (block.parameter_offset < 0) continue;
     const double phi = PhiOf(block, summary, distance);
+    const Block* rate = DriftRate(layout, block, summary);
     int component = block.offset;
     for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {
       if (!block.active[static_cast<std::size_t>(axis)]) continue;
@@ -295,6 +296,10 @@ void LinearizeTransition(const ErrorLayout& layout, const ImuSummary& summary,
       out->Q(component, component) = VarianceOf(block, summary, distance);
       out->c(component) =
           phi * x_i.parameters(parameter) - x_j.parameters(parameter);
+      if (rate != nullptr) {
+        out->Phi(component, rate->offset + axis) = dt;
+        out->c(component) += dt * x_i.parameters(rate->parameter_offset + axis);
+      }
       ++component;
     }
   }

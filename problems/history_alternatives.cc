@@ -1,0 +1,67 @@
+#include "problems/history_alternatives.h"
+
+#include <cmath>
+#include <limits>
+
+#include "filters/history_smoother.h"
+
+namespace hindsight {
+namespace {
+
+double HorizontalSquares(const HistoryAlternative& a,
+                         const HistoryAlternative& b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.smoothed.size(); ++k) {
+    sum += (a.smoothed[k] - b.smoothed[k]).head<2>().squaredNorm();
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<HistoryAlternative> WeighHistories(const LinearTape& tape,
+                                               int receiver,
+                                               const ErrorRegimes& regimes) {
+  constexpr std::size_t kMost = 16;
+  const double best = regimes.histories.front().log_posterior;
+  std::vector<HistoryAlternative> all;
+  double sum = 0.0;
+  for (const ScoredHistory& h : regimes.histories) {
+    if (all.size() == kMost) break;
+    all.push_back(
+        {std::exp(h.log_posterior - best),
+         StepsByNode(tape, receiver, h.history),
+         SmoothHistory(tape, receiver, regimes.parameters, h.history)});
+    sum += all.back().weight;
+  }
+  for (HistoryAlternative& one : all) one.weight /= sum;
+  return all;
+}
+
+const HistoryAlternative& MostCentral(
+    const std::vector<HistoryAlternative>& all) {
+  const HistoryAlternative* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const HistoryAlternative& one : all) {
+    double sum = 0.0;
+    for (const HistoryAlternative& other : all) {
+      sum += other.weight * HorizontalSquares(one, other);
+    }
+    if (sum >= least) continue;
+    least = sum;
+    best = &one;
+  }
+  return *best;
+}
+
+ErrorMatrix Spread(const std::vector<HistoryAlternative>& all,
+                   const HistoryAlternative& center, std::size_t k, int dim) {
+  ErrorMatrix sum = ErrorMatrix::Zero(dim, dim);
+  for (const HistoryAlternative& one : all) {
+    const ErrorVector d = (one.smoothed[k] - center.smoothed[k]).head(dim);
+    sum.noalias() += (one.weight * d) * d.transpose();
+  }
+  return sum;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,27 @@
+#ifndef HINDSIGHT_FILTERS_HISTORY_SEARCH_H_
+#define HINDSIGHT_FILTERS_HISTORY_SEARCH_H_
+
+#include "filters/error_history.h"
+
+namespace hindsight {
+
+struct ScoredHistory {
+  ErrorHistory history;
+  double log_posterior = 0.0;  ///< but for a constant of the data
+};
+
+/// The likeliest histories of a receiver's error, best first: a Kalman filter
+/// each, split at every fix into all steps that may follow and pruned again
+/// (Singer, Sea and Housewright, IEEE Trans. Inf. Theory 20(4), 1974; merging
+/// of near ones as in Salmond, SPIE 1305, 1990). Unlike an IMM, which mixes
+/// what its modes know at every fix, a history remembers when its error began,
+/// so that one that begins too slowly for any single fix to show is found once
+/// the fixes together do.
+/// At most `width` histories of each mode stay after a fix.
+std::vector<ScoredHistory> SearchHistories(const LinearTape& tape, int receiver,
+                                           const ErrorParameters& parameters,
+                                           std::size_t width = 8);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_FILTERS_HISTORY_SEARCH_H_
