@@ -16,6 +16,17 @@ function(hindsight_compile_options target)
   endif()
 endfunction()
 
+# Compiles several sources as one: most of the time goes into the templates of
+# Eigen, which all share. HINDSIGHT_UNITY=OFF compiles each alone, which suits
+# work on a single file.
+option(HINDSIGHT_UNITY "Compile several sources of a folder as one" ON)
+function(hindsight_unity target batch)
+  if(HINDSIGHT_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON
+      UNITY_BUILD_BATCH_SIZE ${batch})
+  endif()
+endfunction()
+
 # hindsight_library(name folder DEPENDS ...) builds one library from all the
 # sources of a folder, header-only when it has none.
 function(hindsight_library name folder)
@@ -35,6 +46,7 @@ function(hindsight_library name folder)
       ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR})
     target_link_libraries(hindsight_${name} PUBLIC ${dependencies})
     hindsight_compile_options(hindsight_${name})
+    hindsight_unity(hindsight_${name} 8)
   else()
     add_library(hindsight_${name} INTERFACE)
     target_include_directories(hindsight_${name} INTERFACE

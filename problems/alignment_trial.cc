@@ -3,11 +3,11 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <tuple>
 
 #include "alignment/velocity_alignment.h"
 #include "base/error.h"
+#include "base/processor_time.h"
 
 namespace hindsight {
 namespace {
@@ -20,16 +20,9 @@ struct TrialRun {
   double seconds = 0.0;
 };
 
-double ProcessorSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) +
-         1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-void Judge(const Dataset& dataset, const ErrorLayout& layout,
-           const std::vector<State>& states, const CovarianceSeries& P,
-           TrialRun* run) {
+void JudgeTrial(const Dataset& dataset, const ErrorLayout& layout,
+                const std::vector<State>& states, const CovarianceSeries& P,
+                TrialRun* run) {
   const std::vector<State> truth = TrueStates(dataset, layout, states);
   const int a = layout.Find(BlockKind::kAttitude)->offset;
   for (std::size_t k = 0; k < states.size(); ++k) {
@@ -67,8 +60,8 @@ TrialRun TryEarly(const Dataset& dataset, const AlignmentTrialOptions& trial) {
       AlignOverWindow(InputOf(dataset, trial.t_early), trial.t_early);
   run.seconds = ProcessorSeconds() - t0;
   if (!found || !found->refined) return run;
-  Judge(dataset, found->refined->layout, found->refined->states,
-        found->refined->P, &run);
+  JudgeTrial(dataset, found->refined->layout, found->refined->states,
+             found->refined->P, &run);
   run.nees = {run.nees.front()};
   for (std::vector<double> TrialRun::*series :
        {&TrialRun::tilt, &TrialRun::heading, &TrialRun::tilt_sigma,
@@ -86,8 +79,8 @@ TrialRun TryBatch(const Dataset& dataset, const AlignmentTrialOptions& trial) {
   try {
     const Solution solution = Solve(dataset, ReconstructionOptions{});
     run.seconds = ProcessorSeconds() - t0;
-    Judge(dataset, solution.layout, solution.states, solution.covariances,
-          &run);
+    JudgeTrial(dataset, solution.layout, solution.states, solution.covariances,
+               &run);
     run.failed = !solution.converged;
     const double t_end = solution.states.back().t;
     for (std::size_t k = 0; k < solution.states.size(); ++k) {

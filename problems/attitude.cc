@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 
 #include "base/error.h"
+#include "base/processor_time.h"
 #include "base/units.h"
 #include "filters/rts.h"
 #include "geometry/so3.h"
@@ -15,18 +15,11 @@
 namespace hindsight {
 namespace {
 
-constexpr std::pair<AhrsMethod, const char*> kMethods[] = {
+constexpr std::pair<AhrsMethod, const char*> kAhrsMethods[] = {
     {AhrsMethod::kFilter, "ahrs"},
     {AhrsMethod::kSmoother, "ahrs_smoother"},
     {AhrsMethod::kBatch, "ahrs_batch"},
     {AhrsMethod::kTiltBatch, "ahrs_tilt_batch"}};
-
-double ProcessorSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) +
-         1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// The samples of [from, to], increments as mean rates.
 ImuStream RatesWithin(const ImuStream& imu, double from, double to) {
@@ -53,16 +46,16 @@ ImuStream RatesWithin(const ImuStream& imu, double from, double to) {
 }  // namespace
 
 const char* AhrsMethodName(AhrsMethod method) {
-  return kMethods[static_cast<std::size_t>(method)].second;
+  return kAhrsMethods[static_cast<std::size_t>(method)].second;
 }
 
 bool IsAhrsMethod(const std::string& name) {
-  return std::any_of(std::begin(kMethods), std::end(kMethods),
+  return std::any_of(std::begin(kAhrsMethods), std::end(kAhrsMethods),
                      [&](const auto& entry) { return entry.second == name; });
 }
 
 AhrsMethod AhrsMethodFromName(const std::string& name) {
-  for (const auto& [method, text] : kMethods) {
+  for (const auto& [method, text] : kAhrsMethods) {
     if (name == text) return method;
   }
   throw InputError(

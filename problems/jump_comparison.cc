@@ -3,13 +3,13 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <utility>
 
 #include "base/error.h"
+#include "base/processor_time.h"
 #include "dataset/timeline_builder.h"
 #include "filters/imm_smoother.h"
 #include "problems/position_imm.h"
@@ -30,13 +30,6 @@ struct Sums {
   std::vector<Eigen::VectorXd> probabilities;
 };
 
-double ProcessorSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) +
-         1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 const TruthPoint& TruthAt(const Dataset& dataset, double t, std::size_t* hint) {
   constexpr double kTimeTolerance = 1e-6;
   std::size_t& i = *hint;
@@ -52,9 +45,9 @@ const TruthPoint& TruthAt(const Dataset& dataset, double t, std::size_t* hint) {
 
 /// One run of one method; `P` is over a layout whose first two components are
 /// the position north and east.
-Sums Judge(const Dataset& dataset, const std::vector<State>& states,
-           const CovarianceSeries& P,
-           const std::vector<Eigen::VectorXd>& probabilities) {
+Sums JudgeJumps(const Dataset& dataset, const std::vector<State>& states,
+                const CovarianceSeries& P,
+                const std::vector<Eigen::VectorXd>& probabilities) {
   Sums out;
   out.runs = 1;
   out.probabilities = probabilities;
@@ -138,8 +131,8 @@ class OneRun {
 
   void Keep(const std::string& name, const ImmTrajectory& trajectory,
             double seconds) {
-    Sums sums = Judge(dataset_, trajectory.states, trajectory.P,
-                      trajectory.probabilities);
+    Sums sums = JudgeJumps(dataset_, trajectory.states, trajectory.P,
+                           trajectory.probabilities);
     sums.name = name;
     sums.seconds = seconds;
     out_.push_back(std::move(sums));
@@ -156,7 +149,8 @@ class OneRun {
         const Solution solution = reconstruction.Run(method);
         if (solution.converged) {
           // Modes may differ from seed to seed: no mean of them.
-          sums = Judge(dataset_, solution.states, solution.covariances, {});
+          sums =
+              JudgeJumps(dataset_, solution.states, solution.covariances, {});
           sums.seconds = solution.seconds;
         }
       } catch (const EstimationError&) {

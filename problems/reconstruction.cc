@@ -1,12 +1,12 @@
 #include "problems/reconstruction.h"
 
 #include <cmath>
-#include <ctime>
 #include <optional>
 #include <utility>
 
 #include "alignment/start.h"
 #include "base/error.h"
+#include "base/processor_time.h"
 #include "base/units.h"
 #include "dataset/timeline_builder.h"
 #include "filters/transport.h"
@@ -34,13 +34,6 @@ constexpr std::pair<Method, const char*> kMethods[] = {
     {Method::kImm, "imm"},
     {Method::kImmSmoother, "imm_smoother"},
     {Method::kRobustBatch, "robust_batch"}};
-
-double ProcessorSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) +
-         1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 bool HasGates(const Timeline& timeline) {
   for (const Sensor& sensor : timeline.sensors()) {

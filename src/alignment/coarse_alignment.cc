@@ -13,7 +13,7 @@ namespace hindsight {
 namespace {
 
 constexpr double kSegment = 20.0;  // [s]
-constexpr std::size_t kFewest = 4;
+constexpr std::size_t kFewestVelocities = 4;
 constexpr int kTurns = 6;
 constexpr double kUnknownAttitude = kPi * kPi / 3.0;  // [rad^2], uniform
 
@@ -69,7 +69,7 @@ ProjectedMotion Project(const MotionVectors& motion) {
   while (begin < v.size()) {
     std::size_t end = begin;
     while (end < v.size() && v[end].t <= v[begin].t + kSegment) ++end;
-    if (end - begin >= kFewest) {
+    if (end - begin >= kFewestVelocities) {
       ProjectOut(v, begin, end, motion.of_velocity, &out);
     }
     begin = end;
@@ -120,7 +120,8 @@ std::optional<CoarseAlignment> AlignCoarsely(const AlignmentInput& input,
   for (int turn = 0; turn < kTurns; ++turn) {
     const MotionVectors motion = CollectMotion(input, t_end, out.b_g, out.b_a);
     const ProjectedMotion projected = Project(motion);
-    if (projected.freedom < static_cast<double>(kFewest)) return std::nullopt;
+    if (projected.freedom < static_cast<double>(kFewestVelocities))
+      return std::nullopt;
     const VectorMatch match =
         MatchVectors(projected.a().transpose() * projected.b());
     out.q_eb = match.q;

@@ -23,7 +23,7 @@ constexpr double kLongest = 2.5;      // [s]
 constexpr double kFarthestLag = 1.0;  // [s]
 constexpr double kLagStep = 0.05;     // [s]
 constexpr double kWorstYaw = 15.0 * kDegree;
-constexpr std::size_t kFewest = 10;
+constexpr std::size_t kFewestChanges = 10;
 
 /// How the velocity changed over a window, seen by somebody who looks along
 /// the course.
@@ -138,21 +138,21 @@ std::optional<FoundMounting> FindMounting(const Dataset& dataset, double from,
                                           double to) {
   const std::vector<Change> changes =
       Changes(GroundVelocities(dataset, from, to));
-  if (changes.size() < kFewest) return std::nullopt;
+  if (changes.size() < kFewestChanges) return std::nullopt;
   const ForceIntegral force(dataset.imu);
   Fit best;
   double best_lag = 0.0;
   const int steps = static_cast<int>(std::lround(kFarthestLag / kLagStep));
   for (int i = -steps; i <= steps; ++i) {
     const Fit fit = FitAt(i * kLagStep, changes, force);
-    if (fit.count < kFewest) continue;
+    if (fit.count < kFewestChanges) continue;
     if (best.count > 0 && fit.misfit >= best.misfit) continue;
     best = fit;
     best_lag = i * kLagStep;
   }
   // Noise alone is not explained by turning it.
   constexpr double kUnexplained = 0.5;
-  if (best.count < kFewest ||
+  if (best.count < kFewestChanges ||
       !(best.misfit < kUnexplained * best.information)) {
     return std::nullopt;
   }

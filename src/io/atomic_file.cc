@@ -12,7 +12,7 @@
 namespace hindsight {
 namespace {
 
-constexpr std::size_t kBufferSize = 1 << 18;
+constexpr std::size_t kFileBuffer = 1 << 18;
 
 std::string TemporaryName(const std::string& path) {
   static std::atomic<unsigned> counter = 0;
@@ -29,7 +29,7 @@ AtomicFile::AtomicFile(const std::string& path)
     : path_(path), temporary_(TemporaryName(path)) {
   file_ = std::fopen(temporary_.c_str(), "wbx");
   if (file_ == nullptr) Fail();
-  buffer_.reserve(kBufferSize);
+  buffer_.reserve(kFileBuffer);
 }
 
 AtomicFile::~AtomicFile() {
@@ -51,7 +51,7 @@ void AtomicFile::Flush() {
 }
 
 void AtomicFile::Write(std::string_view text) {
-  if (buffer_.size() + text.size() > kBufferSize) Flush();
+  if (buffer_.size() + text.size() > kFileBuffer) Flush();
   buffer_.append(text);
 }
 

@@ -46,24 +46,6 @@ const AidingType& ReadType(ConfigMap* map) {
   return kAidingTypes[map->Choice("type", names, std::nullopt)];
 }
 
-std::optional<double> ReadGate(ConfigMap* map) {
-  const std::string text = map->Text("gate", "off");
-  if (text == "off") return std::nullopt;
-  double probability = 0.0;
-  if (const auto number = ParseNumber(text)) {
-    probability = *number;
-  } else {
-    probability = map->Number("gate", Quantity::kRatio);
-  }
-  if (!(probability > 0.0 && probability < 1.0)) {
-    map->Fail("gate", "'" + text +
-                          "' is not a probability; expected off, or a value "
-                          "between 0 and 1, such as 99.9 %");
-  }
-  map->Resolve("gate", probability, Quantity::kRatio);
-  return probability;
-}
-
 std::set<int> ReadQualities(ConfigMap* map) {
   std::set<int> accepted;
   for (const std::string& text : map->List("accept_quality")) {
@@ -290,6 +272,24 @@ void ReadSigmas(ConfigMap* map, const AidingType& type,
 }
 
 }  // namespace
+
+std::optional<double> ReadGate(ConfigMap* map) {
+  const std::string text = map->Text("gate", "off");
+  if (text == "off") return std::nullopt;
+  double probability = 0.0;
+  if (const auto number = ParseNumber(text)) {
+    probability = *number;
+  } else {
+    probability = map->Number("gate", Quantity::kRatio);
+  }
+  if (!(probability > 0.0 && probability < 1.0)) {
+    map->Fail("gate", "'" + text +
+                          "' is not a probability; expected off, or a value "
+                          "between 0 and 1, such as 99.9 %");
+  }
+  map->Resolve("gate", probability, Quantity::kRatio);
+  return probability;
+}
 
 void ReadCalibrationSigmas(ConfigMap* map, Sensor* sensor) {
   ConfigMap estimate = map->Map("estimate");

@@ -48,6 +48,9 @@ void ReadDvl(ConfigMap* map, Sensor* sensor, Dvl* dvl);
 /// mounting, scale.
 void ReadAcoustic(ConfigMap* map, Sensor* sensor, AcousticFix* fix);
 
+/// `gate`: off, or the probability of the chi-square gate.
+std::optional<double> ReadGate(ConfigMap* map);
+
 /// The a priori sigmas under `estimate` that the type of the sensor allows.
 void ReadCalibrationSigmas(ConfigMap* map, Sensor* sensor);
 

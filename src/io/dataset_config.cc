@@ -12,20 +12,19 @@ namespace hindsight {
 namespace {
 
 constexpr int kDigits = 12;
-constexpr double kMilliG = 1e-3 * kStandardGravity;
 
 /// A unit as it is written and its size in SI.
-struct Unit {
+struct PrintedUnit {
   const char* name;
   double si = 1.0;
 };
-constexpr Unit kMetres{"m"};
-constexpr Unit kSeconds{"s"};
-constexpr Unit kMetresPerSecond{"m/s"};
-constexpr Unit kDegrees{"deg", kDegree};
-constexpr Unit kDegreesPerHour{"deg/h", kDegree / kHour};
-constexpr Unit kMilliGs{"mg", kMilliG};
-constexpr Unit kMicrotesla{"uT"};
+constexpr PrintedUnit kMetres{"m"};
+constexpr PrintedUnit kSeconds{"s"};
+constexpr PrintedUnit kMetresPerSecond{"m/s"};
+constexpr PrintedUnit kDegrees{"deg", kDegree};
+constexpr PrintedUnit kDegreesPerHour{"deg/h", kDegree / kHour};
+constexpr PrintedUnit kMilliGs{"mg", kMilliG};
+constexpr PrintedUnit kMicrotesla{"uT"};
 
 /// Builds block-style YAML, two blanks a level.
 class YamlText {
@@ -38,11 +37,11 @@ class YamlText {
   void Text(const std::string& key, const std::string& value) {
     Line(key + ": " + value);
   }
-  void Number(const std::string& key, double value, const Unit& unit) {
+  void Number(const std::string& key, double value, const PrintedUnit& unit) {
     Text(key, FormatGeneral(value / unit.si, kDigits) + " " + unit.name);
   }
   void Vector(const std::string& key, const Eigen::Vector3d& value,
-              const Unit& unit) {
+              const PrintedUnit& unit) {
     std::string list = "[";
     for (int i = 0; i < 3; ++i) {
       list += (i > 0 ? ", " : "") + FormatGeneral(value(i) / unit.si, kDigits) +
@@ -51,7 +50,8 @@ class YamlText {
     Text(key, list + "]");
   }
   void Vector(const std::string& key,
-              const std::optional<Eigen::Vector3d>& value, const Unit& unit) {
+              const std::optional<Eigen::Vector3d>& value,
+              const PrintedUnit& unit) {
     if (value) Vector(key, *value, unit);
   }
   void Line(const std::string& line) {
@@ -71,7 +71,8 @@ void AppendNoise(const ImuNoise& noise, YamlText* yaml) {
                {"deg/sqrt(h)", kDegreePerSqrtHour});
   yaml->Number("accel", noise.accel_noise_density, {"m/s/sqrt(h)", 1.0 / 60.0});
   const auto bias = [&](const std::string& sensor, double walk, double tau,
-                        const Unit& walk_unit, const Unit& bias_unit) {
+                        const PrintedUnit& walk_unit,
+                        const PrintedUnit& bias_unit) {
     if (walk <= 0.0) return;
     if (std::isfinite(tau)) {
       yaml->Number(sensor + "_bias_sigma", walk * std::sqrt(0.5 * tau),

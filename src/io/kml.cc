@@ -17,9 +17,6 @@
 namespace hindsight {
 namespace {
 
-/// GPS time counts from 1980-01-06.
-constexpr std::int64_t kGpsEpochUnix = 315964800;
-
 std::string EscapeXml(const std::string& text) {
   std::string escaped;
   for (const char c : text) {

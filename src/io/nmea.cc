@@ -12,7 +12,7 @@
 namespace hindsight {
 namespace {
 
-constexpr double kDaySeconds = 86400.0;
+constexpr double kHalfDay = 43200.0;
 
 /// What is wrong with a sentence; the reader adds file and line.
 struct Problem {
@@ -111,8 +111,8 @@ int DayOfRmc(std::string_view text) {
 class DayCounter {
  public:
   void Observe(double time_of_day) {
-    if (last_ && time_of_day < *last_ - 0.5 * kDaySeconds) ++day_;
-    if (last_ && time_of_day > *last_ + 0.5 * kDaySeconds) --day_;
+    if (last_ && time_of_day < *last_ - kHalfDay) ++day_;
+    if (last_ && time_of_day > *last_ + kHalfDay) --day_;
     last_ = time_of_day;
   }
   /// `date` is that of the sentence just observed.

@@ -7,13 +7,13 @@ namespace hindsight {
 namespace {
 
 // Room for the fixed form of the largest double and its decimals.
-constexpr std::size_t kBufferSize = 400;
+constexpr std::size_t kLongestNumber = 400;
 
 }  // namespace
 
 void AppendFixed(double value, int decimals, std::string* out) {
-  char buffer[kBufferSize];
-  const auto result = std::to_chars(buffer, buffer + kBufferSize, value,
+  char buffer[kLongestNumber];
+  const auto result = std::to_chars(buffer, buffer + kLongestNumber, value,
                                     std::chars_format::fixed, decimals);
   const std::string_view text(buffer,
                               static_cast<std::size_t>(result.ptr - buffer));
@@ -22,15 +22,15 @@ void AppendFixed(double value, int decimals, std::string* out) {
 }
 
 void AppendGeneral(double value, int digits, std::string* out) {
-  char buffer[kBufferSize];
-  const auto result = std::to_chars(buffer, buffer + kBufferSize, value,
+  char buffer[kLongestNumber];
+  const auto result = std::to_chars(buffer, buffer + kLongestNumber, value,
                                     std::chars_format::general, digits);
   out->append(buffer, result.ptr);
 }
 
 void AppendShortest(double value, std::string* out) {
-  char buffer[kBufferSize];
-  const auto result = std::to_chars(buffer, buffer + kBufferSize, value,
+  char buffer[kLongestNumber];
+  const auto result = std::to_chars(buffer, buffer + kLongestNumber, value,
                                     std::chars_format::fixed);
   out->append(buffer, result.ptr);
 }

@@ -3,7 +3,7 @@
 namespace hindsight {
 namespace {
 
-using Columns = std::vector<ColumnMapping>;
+using Preset = std::vector<ColumnMapping>;
 
 /// Column number from 1, quantity, unit.
 ColumnMapping Column(int number, const char* quantity, const char* unit) {
@@ -15,14 +15,14 @@ ColumnMapping Column(int number, const char* quantity, const char* unit) {
 }
 
 void AppendVector(int number, const std::string& stem, const char* unit,
-                  Columns* columns) {
+                  Preset* columns) {
   for (const char* axis : {"_x", "_y", "_z"}) {
     columns->push_back(Column(number++, (stem + axis).c_str(), unit));
   }
 }
 
-Columns KfGinsColumns(const std::vector<FieldName>& fields) {
-  Columns columns = {Column(1, "t", "s")};
+Preset KfGinsColumns(const std::vector<FieldName>& fields) {
+  Preset columns = {Column(1, "t", "s")};
   if (&fields == &ImuFields()) {
     AppendVector(2, "dtheta", "rad", &columns);
     AppendVector(5, "dvel", "m/s", &columns);
@@ -48,8 +48,8 @@ Columns KfGinsColumns(const std::vector<FieldName>& fields) {
   return columns;
 }
 
-Columns EurocColumns(const std::vector<FieldName>& fields) {
-  Columns columns = {Column(1, "t", "ns")};
+Preset EurocColumns(const std::vector<FieldName>& fields) {
+  Preset columns = {Column(1, "t", "ns")};
   if (&fields == &ImuFields()) {
     AppendVector(2, "gyro", "rad/s", &columns);
     AppendVector(5, "accel", "m/s^2", &columns);
@@ -64,8 +64,8 @@ Columns EurocColumns(const std::vector<FieldName>& fields) {
   return columns;
 }
 
-Columns NcltColumns(const std::vector<FieldName>& fields) {
-  Columns columns = {Column(1, "t", "us")};
+Preset NcltColumns(const std::vector<FieldName>& fields) {
+  Preset columns = {Column(1, "t", "us")};
   if (&fields == &ImuFields()) {
     AppendVector(5, "accel", "m/s^2", &columns);
     AppendVector(8, "gyro", "rad/s", &columns);
@@ -85,7 +85,7 @@ Columns NcltColumns(const std::vector<FieldName>& fields) {
   return columns;
 }
 
-Columns ControlPointColumns(const std::vector<FieldName>& fields) {
+Preset ControlPointColumns(const std::vector<FieldName>& fields) {
   if (&fields != &PositionFields() && &fields != &HeightFields()) return {};
   return {Column(1, "t", "s"),       Column(2, "lat", "deg"),
           Column(3, "lon", "deg"),   Column(4, "h", "m"),

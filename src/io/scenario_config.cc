@@ -142,20 +142,6 @@ void ReadImuModel(ConfigMap* top, Scenario* scenario) {
   map.Finish();
 }
 
-std::optional<double> ReadGate(ConfigMap* map) {
-  const std::string text = map->Text("gate", "off");
-  if (text == "off") return std::nullopt;
-  const auto bare = ParseNumber(text);
-  const double probability =
-      bare ? *bare : map->Number("gate", Quantity::kRatio);
-  if (!(probability > 0.0 && probability < 1.0)) {
-    map->Fail("gate", "'" + text +
-                          "' is not a probability; expected off, or a "
-                          "value between 0 and 1");
-  }
-  return probability;
-}
-
 /// What a sensor errs by: its noise, and the a priori sigmas of its
 /// calibration.
 void ReadAidingErrors(ConfigMap* map, AidingModel* model) {

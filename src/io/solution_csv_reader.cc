@@ -119,15 +119,15 @@ double ParseField(std::string_view text, const Place& place) {
   return *value;
 }
 
-using Row = std::map<ColumnGroup, GroupValues>;
+using EpochRow = std::map<ColumnGroup, GroupValues>;
 
-const GroupValues* Find(const Row& row, ColumnGroup group) {
+const GroupValues* Find(const EpochRow& row, ColumnGroup group) {
   const auto found = row.find(group);
   return found == row.end() ? nullptr : &found->second;
 }
 
 /// From standard deviations and, if they are there, cross terms.
-void AppendCovariance(const Row& row, ColumnGroup sd, ColumnGroup cross,
+void AppendCovariance(const EpochRow& row, ColumnGroup sd, ColumnGroup cross,
                       std::vector<Eigen::Matrix3d>* out) {
   const GroupValues* sigma = Find(row, sd);
   if (sigma == nullptr) return;
@@ -140,7 +140,7 @@ void AppendCovariance(const Row& row, ColumnGroup sd, ColumnGroup cross,
   out->push_back(P);
 }
 
-void AppendAttitudeCovariance(const Row& row, SolutionTable* table) {
+void AppendAttitudeCovariance(const EpochRow& row, SolutionTable* table) {
   if (const GroupValues* c = Find(row, ColumnGroup::kCovAttitude)) {
     Eigen::Matrix3d P;
     P << (*c)(0), (*c)(1), (*c)(2),  //
@@ -157,7 +157,7 @@ void AppendAttitudeCovariance(const Row& row, SolutionTable* table) {
                               J.transpose());
 }
 
-void AppendRow(double t, const Row& row, SolutionTable* table) {
+void AppendRow(double t, const EpochRow& row, SolutionTable* table) {
   table->t.push_back(t);
   if (const GroupValues* g = Find(row, ColumnGroup::kPosition)) {
     table->p_e.push_back(EcefFromGeodetic({(*g)(0), (*g)(1), (*g)(2)}));
@@ -198,7 +198,7 @@ void ParseRow(const Header& header, const std::vector<std::string_view>& cells,
     place.Fail("time " + std::string(time) +
                " is not after that of the line before");
   }
-  Row row;
+  EpochRow row;
   for (const auto& [group, fields] : header.groups) {
     GroupValues values = GroupValues::Zero();
     Eigen::Index i = 0;

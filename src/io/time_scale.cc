@@ -14,7 +14,6 @@ namespace {
 using std::chrono::sys_days;
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-constexpr std::int64_t kDaySeconds = 86400;
 
 /// Between them nanoseconds since 1980 fit 64 bits.
 constexpr int kFirstYear = 1900;
@@ -26,8 +25,6 @@ std::int64_t UnixSeconds(int year, unsigned month, unsigned day) {
                                          std::chrono::day(day)};
   return sys_days(date).time_since_epoch().count() * kDaySeconds;
 }
-
-const std::int64_t kGpsEpochUnix = UnixSeconds(1980, 1, 6);
 
 std::optional<int> ParseInteger(std::string_view text) {
   int value = 0;

@@ -22,8 +22,11 @@ struct Stamp {
   Stamp Later(double dt) const { return {seconds, fraction + dt}; }
 };
 
+inline constexpr std::int64_t kDaySeconds = 86400;
 /// Seconds of a GPS week.
-inline constexpr std::int64_t kWeekSeconds = 604800;
+inline constexpr std::int64_t kWeekSeconds = 7 * kDaySeconds;
+/// 1980-01-06 0 h UTC, where GPS time begins, in seconds since 1970.
+inline constexpr std::int64_t kGpsEpochUnix = 315964800;
 
 /// Stamps beyond this are no times [s]: its nanoseconds fit 64 bits.
 inline constexpr double kLongestTime = 9e9;

@@ -15,8 +15,6 @@
 namespace hindsight {
 namespace {
 
-constexpr double kMilliG = 1e-3 * kStandardGravity;
-
 /// Tactical grade: 0.1 deg/sqrt(h), 0.05 m/s/sqrt(h), biases 3 deg/h and 1 mg
 /// that stay constant.
 ImuErrorModel TacticalImu() {

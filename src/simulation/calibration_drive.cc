@@ -6,8 +6,6 @@
 namespace hindsight {
 namespace {
 
-constexpr double kMilliG = 1e-3 * kStandardGravity;
-
 ImuErrorModel UncalibratedImu() {
   ImuErrorModel imu;
   imu.noise.gyro_noise_density = 0.1 * kDegreePerSqrtHour;

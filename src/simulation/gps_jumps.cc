@@ -6,8 +6,7 @@
 namespace hindsight {
 namespace {
 
-constexpr double kDuration = 250.0;
-constexpr double kMicroG = 1e-6 * kStandardGravity;
+constexpr double kFlightTime = 250.0;
 
 Injection Error(Injection::Kind kind, double size, double from, double to) {
   Injection injection;
@@ -19,7 +18,7 @@ Injection Error(Injection::Kind kind, double size, double from, double to) {
   return injection;
 }
 
-std::vector<Segment> Flight() {
+std::vector<Segment> LevelFlight() {
   constexpr double kTurnBegin = 60.0;
   constexpr double kTurnTime = 30.0;
   constexpr double kBlend = 3.0;
@@ -27,7 +26,7 @@ std::vector<Segment> Flight() {
   Segment turn = Segment::BankedTurn(kRate * (kTurnTime - kBlend), kRate);
   turn.blend = kBlend;
   return {Segment::Straight(kTurnBegin), turn,
-          Segment::Straight(kDuration - kTurnBegin - kTurnTime)};
+          Segment::Straight(kFlightTime - kTurnBegin - kTurnTime)};
 }
 
 ImuErrorModel Imu() {
@@ -71,8 +70,8 @@ Scenario GpsJumps(const GpsJumpsOptions& options) {
   s.start = {36.0 * kDegree, 127.0 * kDegree, 1000.0};
   s.start_speed = 150.0;
   s.start_heading = 30.0 * kDegree;
-  s.segments = Flight();
-  s.duration = kDuration;
+  s.segments = LevelFlight();
+  s.duration = kFlightTime;
   s.imu_rate_hz = 100.0;
   s.imu = Imu();
   AidingModel gnss;

@@ -38,7 +38,7 @@ Segment Throttle(double from, double to) {
   return throttle;
 }
 
-std::vector<Segment> Flight() {
+std::vector<Segment> TurnsAndThrottle() {
   constexpr double kSpeeds[] = {kCruiseSpeed, 165.0, 145.0, 165.0, 150.0};
   std::vector<Segment> segments = {Segment::Straight(kFirstManoeuvre)};
   double side = 1.0;
@@ -74,12 +74,12 @@ Scenario InFlightAlignment(const InFlightAlignmentOptions& options) {
   s.start = {48.0 * kDegree, 11.5 * kDegree, 3000.0};
   s.start_speed = kCruiseSpeed;
   s.start_heading = 70.0 * kDegree;
-  s.segments = Flight();
+  s.segments = TurnsAndThrottle();
   s.imu_rate_hz = kImuRate;
   s.imu.noise.gyro_noise_density = 0.1 * kDegreePerSqrtHour;
-  s.imu.noise.accel_noise_density = 100e-6 * kStandardGravity;
+  s.imu.noise.accel_noise_density = 100.0 * kMicroG;
   s.imu.gyro_bias_sigma.setConstant(3.0 * kDegree / kHour);
-  s.imu.accel_bias_sigma.setConstant(1e-3 * kStandardGravity);
+  s.imu.accel_bias_sigma.setConstant(kMilliG);
   AidingModel velocity;
   velocity.sensor.name = "velocity";
   velocity.sensor.type = SensorType::kVelocity;

@@ -8,13 +8,13 @@
 namespace hindsight {
 namespace {
 
-constexpr double kCruiseSpeed = 4.0;
+constexpr double kRigSpeed = 4.0;
 constexpr double kAcceleration = 0.8;
-constexpr double kRampUpTime = kCruiseSpeed / kAcceleration;
-constexpr double kRampUpLength = 0.5 * kCruiseSpeed * kRampUpTime;
-constexpr double kDuration =
-    2.0 * kRampUpTime + (kTunnelLength - 2.0 * kRampUpLength) / kCruiseSpeed;
-constexpr double kImuRate = 100.0;
+constexpr double kRampUpTime = kRigSpeed / kAcceleration;
+constexpr double kRampUpLength = 0.5 * kRigSpeed * kRampUpTime;
+constexpr double kSurveyTime =
+    2.0 * kRampUpTime + (kTunnelLength - 2.0 * kRampUpLength) / kRigSpeed;
+constexpr double kSurveyImuRate = 100.0;
 
 /// Changes of direction at a distance from the one before [m, deg]; the list is
 /// repeated until the path is long enough.
@@ -60,12 +60,12 @@ std::vector<Segment> Drive(const std::vector<Bend>& bends) {
   constexpr double kYawRate = 45.0 * kDegree;
   constexpr double kPitchRate = 30.0 * kDegree;
   std::vector<Segment> segments;
-  Append(Segment::Accelerate(kCruiseSpeed, kAcceleration), &segments);
-  const double t_brake = kDuration - kRampUpTime;
+  Append(Segment::Accelerate(kRigSpeed, kAcceleration), &segments);
+  const double t_brake = kSurveyTime - kRampUpTime;
   double t = kRampUpTime;
   for (std::size_t i = 0;; ++i) {
     const Bend& bend = bends[i % bends.size()];
-    const double hold = bend.distance / kCruiseSpeed;
+    const double hold = bend.distance / kRigSpeed;
     // The last bends are left out rather than cut.
     constexpr double kRoom = 10.0;
     if (t + hold + kRoom > t_brake) break;
@@ -85,9 +85,8 @@ std::vector<Segment> Drive(const std::vector<Bend>& bends) {
 
 ImuErrorModel TableOne(TunnelSurveyOptions::Noise noise) {
   constexpr double kDegreePerHour = kDegree / kHour;
-  constexpr double kMicroG = 1e-6 * kStandardGravity;
   const double root_dt = noise == TunnelSurveyOptions::Noise::kSample
-                             ? std::sqrt(1.0 / kImuRate)
+                             ? std::sqrt(1.0 / kSurveyImuRate)
                              : 1.0;
   ImuErrorModel imu;
   imu.gyro_bias_sigma.setConstant(3.0 * kDegreePerHour);
@@ -130,9 +129,9 @@ std::vector<double> ReferenceTimes(double spacing) {
     if (s <= kRampUpLength) {
       times.push_back(std::sqrt(2.0 * s / kAcceleration));
     } else if (s <= s_brake) {
-      times.push_back(kRampUpTime + (s - kRampUpLength) / kCruiseSpeed);
+      times.push_back(kRampUpTime + (s - kRampUpLength) / kRigSpeed);
     } else {
-      times.push_back(kDuration -
+      times.push_back(kSurveyTime -
                       std::sqrt(2.0 * (kTunnelLength - s) / kAcceleration));
     }
   }
@@ -151,7 +150,7 @@ Scenario TunnelSurvey(const TunnelSurveyOptions& options) {
       "points every 2 km";
   s.start = {37.0 * kDegree, 127.0 * kDegree, 0.0};
   s.segments = Drive(BendsOf(options.path));
-  s.imu_rate_hz = kImuRate;
+  s.imu_rate_hz = kSurveyImuRate;
   s.imu = TableOne(options.noise);
   s.aiding = {OdometerModel(options),
               ReferencePoints(options.reference_spacing)};

@@ -8,7 +8,7 @@
 namespace hindsight {
 namespace {
 
-constexpr double kDuration = 1000.0;
+constexpr double kDiveTime = 1000.0;
 constexpr std::size_t kWayPoints = 25;
 
 constexpr double kDepth = 100.0;
@@ -124,7 +124,7 @@ std::vector<std::string> UuvPathNames() {
 }
 
 UuvPath MakeUuvPath(const std::string& name) {
-  constexpr double kInterval = kDuration / (kWayPoints - 1);
+  constexpr double kInterval = kDiveTime / (kWayPoints - 1);
   if (name == "lawnmower") return UuvPath(LawnMower(), kInterval);
   if (name == "straight") return UuvPath(Straight(), kInterval);
   if (name == "returning") return UuvPath(Returning(), kInterval);

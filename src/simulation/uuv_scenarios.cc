@@ -7,16 +7,16 @@ namespace hindsight {
 namespace {
 
 const Geodetic kStart{35.0 * kDegree, 129.3 * kDegree, 0.0};
-constexpr double kImuRate = 100.0;
+constexpr double kDiveImuRate = 100.0;
 
 /// The usual fibre-optic unit of the 1 deg/h class: 0.07 deg/sqrt(h), 0.3 mg,
 /// 50 ug/sqrt(Hz).
-ImuErrorModel TacticalImu() {
+ImuErrorModel FibreOpticImu() {
   ImuErrorModel imu;
   imu.noise.gyro_noise_density = 0.07 * kDegreePerSqrtHour;
-  imu.noise.accel_noise_density = 50e-6 * kStandardGravity;
+  imu.noise.accel_noise_density = 50.0 * kMicroG;
   imu.gyro_bias_sigma.setConstant(1.0 * kDegree / kHour);
-  imu.accel_bias_sigma.setConstant(0.3e-3 * kStandardGravity);
+  imu.accel_bias_sigma.setConstant(0.3 * kMilliG);
   return imu;
 }
 
@@ -75,8 +75,8 @@ Scenario UuvSurvey(const UuvSurveyOptions& options) {
                   ", 1000 s at 100 m, tactical IMU, DVL and depth at 1 Hz";
   s.start = kStart;
   s.profile = path.Profile(kStart, kProfileStep);
-  s.imu_rate_hz = kImuRate;
-  s.imu = TacticalImu();
+  s.imu_rate_hz = kDiveImuRate;
+  s.imu = FibreOpticImu();
   s.aiding = {DvlModel(options.form), DepthModel()};
   if (options.gap > 0.0) {
     const double middle = 0.5 * path.duration();
@@ -108,8 +108,8 @@ Scenario UuvCalibration() {
     s.segments.push_back(Segment::Turn(360.0 * kDegree, kTurnRate));
     s.segments.push_back(Segment::Turn(-360.0 * kDegree, kTurnRate));
   }
-  s.imu_rate_hz = kImuRate;
-  s.imu = TacticalImu();
+  s.imu_rate_hz = kDiveImuRate;
+  s.imu = FibreOpticImu();
   AidingModel dvl = DvlModel(Dvl::Form::kBeams);
   dvl.sensor.scale_sigma = 0.01;
   dvl.sensor.mounting_sigma = Eigen::Vector3d::Constant(2.0 * kDegree);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "state/active_axes.h"
 
 namespace hindsight {
 namespace {
@@ -16,26 +17,6 @@ constexpr std::pair<ErrorDefinition, const char*> kNames[] = {
 bool IsVelocityOrPosition(const Block& block) {
   return block.key.kind == BlockKind::kPosition ||
          block.key.kind == BlockKind::kVelocity;
-}
-
-Eigen::Vector3d Expand(const Block& block, const ErrorVector& d) {
-  Eigen::Vector3d full = Eigen::Vector3d::Zero();
-  int component = block.offset;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (block.active[static_cast<std::size_t>(axis)]) {
-      full(axis) = d(component++);
-    }
-  }
-  return full;
-}
-
-void Compress(const Block& block, const Eigen::Vector3d& full, ErrorVector* d) {
-  int component = block.offset;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (block.active[static_cast<std::size_t>(axis)]) {
-      (*d)(component++) = full(axis);
-    }
-  }
 }
 
 /// The attitude part of d, NED.

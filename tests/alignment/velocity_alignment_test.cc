@@ -21,7 +21,7 @@ AlignmentInput InputOf(const Dataset& dataset, double to) {
   return input;
 }
 
-const TruthPoint& TruthAt(const Dataset& dataset, double t) {
+const TruthPoint& FlightTruthAt(const Dataset& dataset, double t) {
   return dataset.truth[static_cast<std::size_t>(std::lround(10.0 * t))];
 }
 
@@ -111,7 +111,7 @@ TEST_P(InFlight, AlignsFromAnyAttitudeWithAnHonestCovariance) {
     const State& last = found->refined->states.back();
     const Eigen::Vector3d d =
         Log(Eigen::Quaterniond(NedAxes(last.p_e)) *
-            *TruthAt(dataset, kEnd).q_nb * last.q_eb.conjugate());
+            *FlightTruthAt(dataset, kEnd).q_nb * last.q_eb.conjugate());
     square += std::pow((NedAxes(last.p_e).transpose() * d).z(), 2) / kRuns;
   }
   const Interval bounds = AneesBounds(kRuns, 3, 0.999);

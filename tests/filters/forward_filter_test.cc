@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "filters/iterated_smoother.h"
 #include "filters/rts.h"
+#include "filters/tape_states.h"
 #include "support/test_problem.h"
 
 namespace hindsight {
@@ -16,6 +17,7 @@ using testing::LargestError;
 using testing::MakeProblem;
 using testing::RichLayout;
 using testing::ScaledDifference;
+using testing::StatesAfter;
 using testing::TacticalNoise;
 using testing::TestProblem;
 using testing::TestProblemOptions;
@@ -28,14 +30,6 @@ TestProblemOptions Options(bool errors, bool rich = false) {
       rich ? RichLayout(options.noise) : TypicalLayout(options.noise);
   options.errors = errors;
   return options;
-}
-
-std::vector<State> StatesAfter(const LinearTape& tape) {
-  std::vector<State> states;
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    states.push_back(tape.epoch(k).x_plus);
-  }
-  return states;
 }
 
 void ExpectEqualTrajectories(const ErrorLayout& layout,

@@ -5,6 +5,7 @@
 
 #include "filters/forward_filter.h"
 #include "filters/rts.h"
+#include "filters/tape_states.h"
 #include "filters/two_filter.h"
 #include "support/test_problem.h"
 
@@ -14,6 +15,7 @@ namespace {
 using testing::LargestError;
 using testing::MakeProblem;
 using testing::ScaledDifference;
+using testing::StatesAfter;
 using testing::TacticalNoise;
 using testing::TestProblem;
 using testing::TestProblemOptions;
@@ -44,19 +46,11 @@ LinearTape RunModel(const TestProblem& problem, const ForwardModel& model) {
   return RunForwardFilter(model, problem.layout, problem.prior, &timeline);
 }
 
-ForwardModel HInfinity(double gamma) {
+ForwardModel HInfinityModel(double gamma) {
   ForwardModel model;
   model.covariance.rule = RiccatiRule::kHInfinity;
   model.covariance.gamma = gamma;
   return model;
-}
-
-std::vector<State> StatesAfter(const LinearTape& tape) {
-  std::vector<State> states;
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    states.push_back(tape.epoch(k).x_plus);
-  }
-  return states;
 }
 
 TEST(Observer, ExactDataGiveZeroErrorByEveryRuleAndError) {
@@ -65,7 +59,7 @@ TEST(Observer, ExactDataGiveZeroErrorByEveryRuleAndError) {
   modified.covariance.rule = RiccatiRule::kModifiedHInfinity;
   modified.covariance.alpha = 0.03;
   modified.covariance.delta = 0.01;
-  for (ForwardModel model : {ForwardModel{}, HInfinity(10.0), modified}) {
+  for (ForwardModel model : {ForwardModel{}, HInfinityModel(10.0), modified}) {
     for (const ErrorDefinition error : kErrors) {
       model.error = error;
       const LinearTape tape = RunModel(problem, model);
@@ -83,9 +77,9 @@ TEST(Observer, ExactDataGiveZeroErrorByEveryRuleAndError) {
 TEST(Observer, GammaToInfinityIsTheKalmanFilter) {
   const TestProblem problem = Problem(true);
   const LinearTape kalman = RunModel(problem, {});
-  const LinearTape infinite =
-      RunModel(problem, HInfinity(std::numeric_limits<double>::infinity()));
-  const LinearTape large = RunModel(problem, HInfinity(1e6));
+  const LinearTape infinite = RunModel(
+      problem, HInfinityModel(std::numeric_limits<double>::infinity()));
+  const LinearTape large = RunModel(problem, HInfinityModel(1e6));
   for (std::size_t k = 0; k < kalman.size(); ++k) {
     EXPECT_EQ(kalman.P_plus(k), infinite.P_plus(k));
     EXPECT_EQ(kalman.epoch(k).x_plus.p_e, infinite.epoch(k).x_plus.p_e);
@@ -99,7 +93,7 @@ TEST(Observer, GammaToInfinityIsTheKalmanFilter) {
 TEST(Observer, HInfinityIsMoreCautiousThanKalman) {
   const TestProblem problem = Problem(true);
   const LinearTape kalman = RunModel(problem, {});
-  const LinearTape bounded = RunModel(problem, HInfinity(0.1));
+  const LinearTape bounded = RunModel(problem, HInfinityModel(0.1));
   for (std::size_t k = 1; k < kalman.size(); ++k) {
     const Eigen::Vector3d difference =
         (bounded.P_plus(k) - kalman.P_plus(k)).diagonal().segment<3>(6);
@@ -110,7 +104,7 @@ TEST(Observer, HInfinityIsMoreCautiousThanKalman) {
 TEST(Observer, EscapesWithItsTimeAndNeverWithoutANumber) {
   TestProblem problem = Problem(true);
   for (Measurement& z : problem.measurements) z.withheld = true;
-  ForwardModel model = HInfinity(0.05);
+  ForwardModel model = HInfinityModel(0.05);
   const double expected =
       0.05 * 0.05 / std::pow(kDegree, 2);  // gamma^2 / P0, but for Q
   ASSERT_LT(expected, 15.0);
@@ -172,7 +166,7 @@ TEST(Observer, SmoothersFollowTheErrorDefinitionOfTheTape) {
 
 TEST(Observer, TapesOfOtherRulesAreNotSmoothed) {
   const TestProblem problem = Problem(true);
-  const LinearTape tape = RunModel(problem, HInfinity(1.0));
+  const LinearTape tape = RunModel(problem, HInfinityModel(1.0));
   EXPECT_FALSE(tape.smoothable());
   EXPECT_THROW(SmoothRts(tape), std::logic_error);
   EXPECT_THROW(SmoothTwoFilter(tape), std::logic_error);

@@ -4,7 +4,7 @@
 namespace hindsight {
 namespace {
 
-constexpr const char* kImuConfig =
+constexpr const char* kDvlImuConfig =
     "imu:\n  file: imu.csv\n"
     "  noise: {gyro: 0.2 deg/sqrt(h), accel: 70 ug/sqrt(Hz)}\n";
 
@@ -12,7 +12,7 @@ class DvlReader : public SampleFolder {
  protected:
   DvlReader() { Write("imu.csv", kRestingImu); }
   void Aiding(const std::string& text) const {
-    Write("config.yaml", std::string(kImuConfig) + "aiding:\n" + text);
+    Write("config.yaml", std::string(kDvlImuConfig) + "aiding:\n" + text);
   }
   static const Dvl& At(const Dataset& data, std::size_t i) {
     return std::get<Dvl>(data.streams[0].measurements[i].model);

@@ -5,7 +5,7 @@
 namespace hindsight {
 namespace {
 
-constexpr const char* kConfig =
+constexpr const char* kNmeaConfig =
     "epoch: 2016-12-31 23:59:58 UTC\n"
     "imu:\n  file: imu.csv\n  max_gap: 10 s\n"
     "  noise: {gyro: 0.2 deg/sqrt(h), accel: 70 ug/sqrt(Hz)}\n"
@@ -27,7 +27,7 @@ class Nmea : public SampleFolder {
   Nmea() {
     Write("imu.csv", std::string(kRestingImu) + "9.9,0,0,0,0,0,-9.8\n");
     std::filesystem::copy(Sample("nmea/drive.nmea"), Path("drive.nmea"));
-    Write("config.yaml", kConfig);
+    Write("config.yaml", kNmeaConfig);
   }
 };
 
@@ -80,7 +80,7 @@ TEST_F(Nmea, WithoutADateStampsAreSecondsOfTheFirstDay) {
   Write("drive.nmea",
         Sentence("GPGGA,235958.00,4807,N,01131,E,4,08,0.9,545,M,46,M,,") +
             Sentence("GPGGA,000001.50,4807,N,01131,E,4,08,0.9,545,M,46,M,,"));
-  const std::string config = kConfig;
+  const std::string config = kNmeaConfig;
   const std::size_t course = config.find("  course:");
   Write("config.yaml",
         ReplacedOnce(ReplacedOnce(config.substr(0, course),

@@ -46,7 +46,7 @@ constexpr char kSegments[] =
     "  - {type: turn, angle: -90 deg, rate: 9 deg/s, banked: true}\n"
     "  - {type: pitch, angle: 5 deg, rate: 2 deg/s}\n"
     "  - {type: straight, duration: 1 min}\n";
-constexpr char kImu[] =
+constexpr char kScenarioImu[] =
     "imu:\n"
     "  kind: rates\n"
     "  rate: 100 Hz\n"
@@ -65,8 +65,8 @@ constexpr char kRest[] =
     "start_errors: {position: 0.1 m, velocity: 0.02 m/s, attitude: 0.5 deg}\n";
 
 TEST_F(ScenarioConfig, ReadsEveryPartInSi) {
-  const Scenario s =
-      Load(std::string("name: demo\n") + kHead + kSegments + kImu + kRest);
+  const Scenario s = Load(std::string("name: demo\n") + kHead + kSegments +
+                          kScenarioImu + kRest);
   EXPECT_EQ(s.name, "demo");
   EXPECT_NEAR(s.start.latitude, 48.0 * kDegree, 1e-15);
   EXPECT_NEAR(s.start_heading, 0.5 * kPi, 1e-15);
@@ -97,14 +97,15 @@ TEST_F(ScenarioConfig, ReadsEveryPartInSi) {
 
 TEST_F(ScenarioConfig, WanderingRouteEndsWhenAsked) {
   const Scenario s =
-      Load(std::string(kHead) + "wander: {duration: 300 s, seed: 4}\n" + kImu);
+      Load(std::string(kHead) + "wander: {duration: 300 s, seed: 4}\n" +
+           kScenarioImu);
   EXPECT_GT(s.segments.size(), 10U);
   EXPECT_EQ(Simulate(s, 1).imu.t_end(), 300.0);
 }
 
 TEST_F(ScenarioConfig, NamesFileLineAndWhatIsWrong) {
   const std::string head = kHead;
-  const std::string imu = kImu;
+  const std::string imu = kScenarioImu;
   EXPECT_THAT(ErrorOf(head + imu), testing::HasSubstr("segments: is missing"));
   EXPECT_THAT(
       ErrorOf(head + "segments:\n  - {type: turn, angle: 9 deg, rate: 9}\n" +
@@ -130,7 +131,7 @@ TEST_F(ScenarioConfig, NamesFileLineAndWhatIsWrong) {
 
 TEST_F(ScenarioConfig, FindsBuiltinNamesAndFiles) {
   EXPECT_EQ(FindScenario("short_drive").name, "short_drive");
-  Load(std::string("name: mine\n") + kHead + kSegments + kImu);
+  Load(std::string("name: mine\n") + kHead + kSegments + kScenarioImu);
   EXPECT_EQ(FindScenario(path_.string()).name, "mine");
   EXPECT_THROW(FindScenario("no_such_scenario"), InputError);
 }

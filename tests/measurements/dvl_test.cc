@@ -31,7 +31,7 @@ Dvl Janus(const Eigen::Vector3d& v_d) {
 /// East at 3 m/s, drifting north at 0.5 m/s and sinking at 0.2 m/s, turning to
 /// the right at 0.1 rad/s; transducer at (2, 3, -1): v_b + w x l =
 /// (3 - 0.3, -0.5 + 0.2, 0.2).
-Scene HeadingEast() {
+Scene DvlHeadingEast() {
   Scene scene;
   scene.state = MakeState(0.0, {0.0, 0.0, -50.0}, {0.5, 3.0, 0.2},
                           {0.0, 0.0, 90.0 * kDegree});
@@ -61,7 +61,7 @@ Scene WithCurrent(Scene scene, const Eigen::Vector3d& v_c) {
 
 TEST(Dvl, ThreeAxesWithLeverArmAtHeading90Degrees) {
   const LinearizedMeasurement z =
-      HeadingEast().Evaluate({0.0, 0, false, ThreeAxis(kTrueVelocity)});
+      DvlHeadingEast().Evaluate({0.0, 0, false, ThreeAxis(kTrueVelocity)});
   ASSERT_EQ(z.residual.size(), 3);
   EXPECT_LT((z.residual + 0.02 * kTrueVelocity).norm(), 1e-12);
   // North, east and down velocity of the vehicle in forward, right, down.
@@ -75,7 +75,8 @@ TEST(Dvl, BeamsByHand) {
   // The first beam of this head looks forward, the second to the right.
   Dvl dvl = Janus(Eigen::Vector3d::Zero());
   dvl.beam_azimuth = 0.0;
-  const LinearizedMeasurement z = HeadingEast().Evaluate({0.0, 0, false, dvl});
+  const LinearizedMeasurement z =
+      DvlHeadingEast().Evaluate({0.0, 0, false, dvl});
   const double c = std::sqrt(0.75);
   const Eigen::Vector4d beams(0.5 * 2.7 + c * 0.2, -0.5 * 0.3 + c * 0.2,
                               -0.5 * 2.7 + c * 0.2, 0.5 * 0.3 + c * 0.2);
@@ -117,7 +118,7 @@ TEST(Dvl, WaterTrackIsRelativeToTheCurrent) {
   // Along with the water: 0.5 m/s to the north is to the left.
   Dvl dvl = ThreeAxis(kTrueVelocity + Eigen::Vector3d(0.0, 0.5, 0.0));
   dvl.water = true;
-  Scene scene = WithCurrent(HeadingEast(), {0.5, 0.0, 0.0});
+  Scene scene = WithCurrent(DvlHeadingEast(), {0.5, 0.0, 0.0});
   scene.sensor.scale = 0.0;
   LinearizedMeasurement z = scene.Evaluate({0.0, 0, false, dvl});
   EXPECT_LT(z.residual.norm(), 1e-12);
@@ -130,7 +131,7 @@ TEST(Dvl, WaterTrackIsRelativeToTheCurrent) {
 
 TEST(Dvl, BoresightTurnsTheTransducer) {
   // Mounted 90 deg to the right, its forward is the body's right.
-  Scene scene = HeadingEast();
+  Scene scene = DvlHeadingEast();
   scene.sensor.scale = 0.0;
   scene.sensor.q_sb = Exp(Eigen::Vector3d(0.0, 0.0, -90.0 * kDegree));
   const LinearizedMeasurement z =

@@ -17,7 +17,7 @@ Measurement Reading(MagneticField::Form form, const Eigen::Vector3d& field_b) {
 }
 
 /// Level, heading east, field 20 uT towards 5 deg east of north and 40 uT down.
-Scene HeadingEast() {
+Scene MagnetometerHeadingEast() {
   Scene scene;
   scene.state = MakeState(0.0, {0.9, 0.2, 10.0}, {1.0, 2.0, 0.5},
                           {0.0, 0.0, 90.0 * kDegree});
@@ -50,7 +50,7 @@ Scene RichMagneticScene() {
 }
 
 TEST(MagneticField, VectorAtHeading90Degrees) {
-  Scene scene = HeadingEast();
+  Scene scene = MagnetometerHeadingEast();
   scene.sensor.magnetic.hard_iron_b = {1.0, 2.0, 3.0};
   // Forward is east, right is south.
   const Eigen::Vector3d expected(20.0 * std::sin(kDeclination) + 1.0,
@@ -64,7 +64,7 @@ TEST(MagneticField, VectorAtHeading90Degrees) {
 }
 
 TEST(MagneticField, HeadingIsTheAngleFromMagneticNorth) {
-  const Scene scene = HeadingEast();
+  const Scene scene = MagnetometerHeadingEast();
   // The field lies 88 deg left of the nose: the magnetic heading is 88 deg, the
   // true one 93 deg where the state says 90 deg.
   const double left = 88.0 * kDegree;
@@ -78,7 +78,7 @@ TEST(MagneticField, HeadingIsTheAngleFromMagneticNorth) {
 }
 
 TEST(MagneticField, HeadingTakesTheShortWayAround) {
-  Scene scene = HeadingEast();
+  Scene scene = MagnetometerHeadingEast();
   scene.sensor.magnetic.declination = 0.0;
   scene.state = MakeState(0.0, {0.9, 0.2, 10.0}, Eigen::Vector3d::Zero(),
                           {0.0, 0.0, 179.0 * kDegree});

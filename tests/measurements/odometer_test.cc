@@ -21,7 +21,7 @@ Measurement Reading(Odometer::Form form, double speed) {
 
 /// East at 10 m/s, drifting north at 1 m/s and sinking at 0.5 m/s, turning to
 /// the right at 0.2 rad/s; axle at (2, 3, -1): v_o = (9.4, -0.6, 0.5).
-Scene HeadingEast() {
+Scene OdometerHeadingEast() {
   Scene scene;
   scene.state = MakeState(0.0, {0.0, 0.0, 10.0}, {1.0, 10.0, 0.5},
                           {0.0, 0.0, 90.0 * kDegree});
@@ -34,7 +34,7 @@ Scene HeadingEast() {
 }
 
 TEST(Odometer, ThreeAxesWithLeverArmAtHeading90Degrees) {
-  const LinearizedMeasurement z = HeadingEast().Evaluate(
+  const LinearizedMeasurement z = OdometerHeadingEast().Evaluate(
       Reading(Odometer::Form::kThreeAxis, 1.02 * 9.4 + 0.05));
   ASSERT_EQ(z.residual.size(), 3);
   EXPECT_LT((z.residual - Eigen::Vector3d(0.05, 0.6, -0.5)).norm(), 1e-12);
@@ -65,7 +65,7 @@ TEST(Odometer, FormsAreRowsOfTheThreeAxes) {
 
 TEST(Odometer, MountingTurnsTheVehicleAxes) {
   // The odometer's forward is the body's right.
-  Scene scene = HeadingEast();
+  Scene scene = OdometerHeadingEast();
   scene.sensor.scale = 0.0;
   scene.sensor.q_sb = Exp(Eigen::Vector3d(0.0, 0.0, -90.0 * kDegree));
   const LinearizedMeasurement z =
