@@ -1,16 +1,24 @@
-// Feeds bytes to every reader of text. The first byte chooses the format, the
-// second the stream; the rest is the file. Whatever it holds, a reader returns
-// rows or throws InputError.
+// Feeds bytes to everything that reads a file. The first byte chooses the
+// format or the kind of file, the second the stream; the rest is the file.
+// Whatever it holds, a reader returns what it read or throws InputError.
 
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <string_view>
 
 #include "base/error.h"
+#include "io/config.h"
 #include "io/reader.h"
+#include "io/scenario_config.h"
+#include "io/solution_csv.h"
+#include "io/time_list.h"
 
 namespace hindsight {
 namespace {
@@ -32,6 +40,44 @@ class MemoryFile {
  private:
   int file_;
 };
+
+/// A folder of this process, for what is more than one file.
+class Folder {
+ public:
+  Folder()
+      : path_(std::filesystem::temp_directory_path() /
+              ("reader_fuzz_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path_ / "oxts" / "data");
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  std::string Path(const std::string& name) const {
+    return (path_ / name).string();
+  }
+  std::string Write(const std::string& name, std::string_view text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return Path(name);
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+const Folder& TheFolder() {
+  static const Folder folder;
+  return folder;
+}
+
+/// The text up to `separator`, which is removed from it.
+std::string_view Cut(std::string_view separator, std::string_view* text) {
+  const std::size_t end = text->find(separator);
+  const std::string_view head = text->substr(0, end);
+  text->remove_prefix(end == std::string_view::npos ? text->size()
+                                                    : end + separator.size());
+  return head;
+}
 
 constexpr TextFormat::Kind kFormats[] = {
     TextFormat::Kind::kCsv,           TextFormat::Kind::kColumns,
@@ -92,6 +138,69 @@ void Read(StreamSource source, unsigned stream) {
   MapClock(source, clock, std::int64_t{1'000'000'000'000'000'000});
 }
 
+/// timestamps.txt up to an empty line, then each line a file of data/.
+void ReadOxtsFolder(std::string_view text, StreamSource source,
+                    unsigned stream) {
+  constexpr int kMostFiles = 8;
+  const Folder& folder = TheFolder();
+  for (int i = 0; i < kMostFiles; ++i) {
+    std::filesystem::remove(
+        folder.Path("oxts/data/" + std::to_string(i) + ".txt"));
+  }
+  folder.Write("oxts/timestamps.txt", Cut("\n\n", &text));
+  for (int i = 0; i < kMostFiles && !text.empty(); ++i) {
+    folder.Write("oxts/data/" + std::to_string(i) + ".txt", Cut("\n", &text));
+  }
+  source.path = folder.Path("oxts");
+  source.format.kind = TextFormat::Kind::kOxts;
+  Read(std::move(source), stream);
+}
+
+/// A configuration beside a recording in own CSV.
+void ReadConfiguration(std::string_view text) {
+  const Folder& folder = TheFolder();
+  static const bool written = [&] {
+    folder.Write("imu.csv",
+                 "t[s],gyro_x[rad/s],gyro_y[rad/s],gyro_z[rad/s],"
+                 "accel_x[m/s^2],accel_y[m/s^2],accel_z[m/s^2]\n"
+                 "0,0,0,0,0,0,-9.8\n0.1,0,0,0,0,0,-9.8\n");
+    folder.Write("gnss.csv",
+                 "t[s],lat[deg],lon[deg],h[m]\n0,48,11,500\n0.1,48,11,500\n");
+    folder.Write("speed.csv", "t[s],speed[m/s]\n0,1\n0.1,1\n");
+    folder.Write("truth.csv", "t[s],lat[deg],lon[deg],h[m]\n0,48,11,500\n");
+    return true;
+  }();
+  static_cast<void>(written);
+  ResolvedConfig resolved;
+  LoadDataset(folder.Write("config.yaml", text), {.data_root = "."}, &resolved);
+}
+
+/// `kind` counts on from the formats.
+void ReadOther(std::size_t kind, unsigned stream, std::string_view text,
+               StreamSource source) {
+  switch (kind) {
+    case 0:
+      return ReadOxtsFolder(text, std::move(source), stream);
+    case 1:
+      return ReadConfiguration(text);
+    case 2:
+      LoadScenario(source.path);
+      return;
+    case 3:
+      ReadSolutionCsv(source.path);
+      return;
+    case 4:
+      ReadTimeList(source.path);
+      return;
+    case 5:
+      ReadMotionProfile(source.path);
+      return;
+    default:
+      source.format.kind = TextFormat::Kind::kMat;
+      return Read(std::move(source), stream);
+  }
+}
+
 }  // namespace
 }  // namespace hindsight
 
@@ -103,13 +212,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   StreamSource source;
   source.name = "fuzz";
   source.path = file.path();
-  source.format.kind = kFormats[(data[0] & 0x0f) % std::size(kFormats)];
+  const std::size_t kind = data[0] & 0x0fu;
+  if (kind < std::size(kFormats)) source.format.kind = kFormats[kind];
   source.sort = (data[0] & 0x10) != 0;
   source.absent_values = (data[0] & 0x20) != 0;
   source.allow_truncated_tail = (data[0] & 0x40) != 0;
   if ((data[0] & 0x80) != 0) source.clock.scale = ClockMap::Scale::kUnix;
   try {
-    Read(source, data[1] % 16u);
+    if (kind < std::size(kFormats)) {
+      Read(source, data[1] % 16u);
+    } else {
+      ReadOther(kind - std::size(kFormats), data[1] % 16u,
+                {reinterpret_cast<const char*>(data) + 2, size - 2}, source);
+    }
   } catch (const InputError&) {
   }
   return 0;
