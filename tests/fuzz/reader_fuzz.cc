@@ -1,6 +1,8 @@
-// Feeds bytes to everything that reads a file. The first byte chooses the
-// format or the kind of file, the second the stream; the rest is the file.
-// Whatever it holds, a reader returns what it read or throws InputError.
+// Feeds bytes to everything that reads text. MATLAB files and ROS bags are left
+// out: libmatio and librosbag take memory as the file asks. The first byte
+// chooses the format or the kind of file, the second the stream; the rest is
+// the file. Whatever it holds, a reader returns what it read or throws
+// InputError.
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -192,12 +194,8 @@ void ReadOther(std::size_t kind, unsigned stream, std::string_view text,
     case 4:
       ReadTimeList(source.path);
       return;
-    case 5:
-      ReadMotionProfile(source.path);
-      return;
     default:
-      source.format.kind = TextFormat::Kind::kMat;
-      return Read(std::move(source), stream);
+      ReadMotionProfile(source.path);
   }
 }
 

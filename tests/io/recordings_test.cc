@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(
         Recording{"car_odometer", "car_odometer", 6256, 3, 60, true},
         Recording{"car_ublox_1", "car_ublox", 39703, 4, 799, true},
         Recording{"car_ublox_2", "car_ublox", 52994, 4, 1065, true},
-        Recording{"drone_quad", "drone_quad", 40520, 3, 4235, false},
+        Recording{"drone_quad", "drone_quad", 40520, 4, 4235, false},
         Recording{"auv_dvl_2", "auv_dvl", 40000, 1, 400, true},
         Recording{"auv_dvl_5", "auv_dvl", 40000, 1, 400, true},
         Recording{"auv_dvl_2_fix", "auv_dvl", 40000, 2, 400, true},
