@@ -12,10 +12,11 @@ namespace {
 
 constexpr double kRadius = 50.0;  // [m]
 constexpr double kRate = 0.2;     // [rad/s]
+constexpr Geodetic kCentre{0.8, 0.2, 100.0};
 
 /// A circle in the tangent plane at a fixed point, forward along the path.
 struct Circle {
-  Eigen::Vector3d origin = EcefFromGeodetic({0.8, 0.2, 100.0});
+  Eigen::Vector3d origin = EcefFromGeodetic(kCentre);
   Eigen::Matrix3d C_en = NedAxes(origin);
 
   Eigen::Vector3d p_e(double t) const {

@@ -13,7 +13,7 @@ constexpr double kYawRate = 0.2;
 
 /// On the equator at longitude zero, heading east: e axes are up, east, north;
 /// body axes forward, right, down are east, south, down.
-Scene HeadingEast(double pitch = 0.0) {
+Scene FixHeadingEast(double pitch = 0.0) {
   Scene scene;
   scene.state = MakeState(0.0, {0.0, 0.0, 10.0}, {1.0, 10.0, 0.5},
                           {0.0, pitch, 90.0 * kDegree});
@@ -44,7 +44,7 @@ Measurement Height(double height) {
 }
 
 TEST(PositionFix, LeverArmAtHeading90Degrees) {
-  const Scene scene = HeadingEast();
+  const Scene scene = FixHeadingEast();
   // Antenna 3 m south, 2 m east, 1 m up.
   const Eigen::Vector3d antenna(kEarthSemiMajorAxis + 11.0, 2.0, -3.0);
   const LinearizedMeasurement exact = scene.Evaluate(Position(antenna));
@@ -91,7 +91,7 @@ TEST(PositionFix, JacobianMatchesNumericDifference) {
 }
 
 TEST(VelocityFix, LeverArmAtHeading90Degrees) {
-  const Scene scene = HeadingEast();
+  const Scene scene = FixHeadingEast();
   // Yaw rate times lever arm: 0.6 m/s west, 0.4 m/s north... of the forward
   // (-0.6) and right (0.4) components at heading east.
   const LinearizedMeasurement z =
@@ -108,7 +108,7 @@ TEST(VelocityFix, JacobianMatchesNumericDifference) {
 }
 
 TEST(HeightFix, LeverArmAtHeading90Degrees) {
-  const Scene scene = HeadingEast(30.0 * kDegree);
+  const Scene scene = FixHeadingEast(30.0 * kDegree);
   // Nose up by 30 deg: forward 2 m gives 1 m, down -1 m gives cos 30 deg.
   const double up = 10.0 + 1.0 + std::sqrt(0.75);
   const LinearizedMeasurement z = scene.Evaluate(Height(up + 0.25));
@@ -135,7 +135,7 @@ TEST(HeightFix, JacobianMatchesNumericDifference) {
 
 TEST(Fixes, WithoutTimeOffsetStateTheStampIsNotLookedAt) {
   // The node stands at stamp + time offset: nothing may move it again.
-  Scene scene = HeadingEast();
+  Scene scene = FixHeadingEast();
   scene.stamp = 5.0;
   const Eigen::Vector3d antenna(kEarthSemiMajorAxis + 11.0, 2.0, -3.0);
   EXPECT_LT(scene.Evaluate(Position(antenna)).residual.norm(), 3e-9);

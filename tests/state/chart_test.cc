@@ -6,9 +6,12 @@
 
 #include "base/random.h"
 #include "base/units.h"
+#include "state/random_error.h"
 
 namespace hindsight {
 namespace {
+
+using testing::RandomError;
 
 ErrorLayout LayoutWithParameters() {
   ErrorLayout layout = NavigationLayout({});
@@ -22,14 +25,7 @@ ErrorLayout LayoutWithParameters() {
   return layout;
 }
 
-ErrorVector RandomError(const ErrorLayout& layout, Random* random,
-                        double size) {
-  ErrorVector d(layout.dim());
-  for (double& value : d) value = size * random->Normal();
-  return d;
-}
-
-State TypicalState() {
+State StateWithParameters() {
   State x = MakeState(0.0, {37.0 * kDegree, 127.0 * kDegree, 50.0},
                       {12.0, -7.0, 0.5}, {0.1, -0.2, 2.1});
   x.b_g = {1e-3, -2e-3, 1.5e-3};
@@ -39,7 +35,7 @@ State TypicalState() {
 
 class ChartOfKind : public ::testing::TestWithParam<ChartKind> {
  protected:
-  ChartOfKind() : layout_(LayoutWithParameters()), x_(TypicalState()) {
+  ChartOfKind() : layout_(LayoutWithParameters()), x_(StateWithParameters()) {
     x_.parameters = ParameterVector::Zero(layout_.parameter_count());
     Random random(4);
     for (double& value : x_.parameters) value = 0.1 * random.Normal();
@@ -130,7 +126,7 @@ TEST(Chart, RefusesALayoutWithoutTheNavigationBlocks) {
   Block block;
   block.key = {BlockKind::kAttitude};
   layout.Add(block);
-  const State x = TypicalState();
+  const State x = StateWithParameters();
   EXPECT_THROW(Chart(layout, ChartKind::kEuler, x, x.p_e), std::logic_error);
 }
 

@@ -7,9 +7,12 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "base/units.h"
+#include "state/random_error.h"
 
 namespace hindsight {
 namespace {
+
+using testing::RandomError;
 
 constexpr ErrorDefinition kAll[] = {ErrorDefinition::kNavigation,
                                     ErrorDefinition::kQuaternion,
@@ -22,13 +25,6 @@ ErrorLayout LayoutWithoutPosition() {
     if (block.key.kind != BlockKind::kPosition) layout.Add(block);
   }
   return layout;
-}
-
-ErrorVector RandomError(const ErrorLayout& layout, Random* random,
-                        double size) {
-  ErrorVector d(layout.dim());
-  for (double& value : d) value = size * random->Normal();
-  return d;
 }
 
 State TypicalState() {

@@ -92,7 +92,7 @@ TEST(ErrorLayout, ExceededCapacityIsRefusedByName) {
     layout.Add(MakeBlock(BlockKind::kScale, "one_too_many", 0));
     FAIL() << "accepted";
   } catch (const std::logic_error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("one_too_many"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("one_too_many"));
   }
   // A refused block leaves the layout as it was.
   EXPECT_EQ(layout.dim(), kMaxErrorDim);
