@@ -176,9 +176,11 @@ TEST(Batch, WindowsGiveTheSolutionOfTheWholeChain) {
     for (State& x : start) x.p_e += Eigen::Vector3d(0.6, -0.5, 0.6);
     ASSERT_GT(start.size(), 14u);
     const auto solve = [&](std::size_t window_nodes) {
-      return SolveBatch(
-          problem.layout, problem.prior, start, &timeline, All(problem),
-          {.whole_nodes = window_nodes, .window_nodes = window_nodes});
+      return SolveBatch(problem.layout, problem.prior, start, &timeline,
+                        All(problem),
+                        {.whole_nodes = window_nodes,
+                         .window_nodes = window_nodes,
+                         .callback = {}});
     };
     const BatchResult whole = solve(start.size());
     const BatchResult parts = solve(7);
