@@ -95,8 +95,9 @@ std::vector<ConstantStatistics> JudgeConstants(const Dataset& dataset,
   return out;
 }
 
-MethodRun Judge(const Solution& solution, const std::vector<std::size_t>& nodes,
-                const std::vector<State>& truth) {
+MethodRun JudgeRun(const Solution& solution,
+                   const std::vector<std::size_t>& nodes,
+                   const std::vector<State>& truth) {
   MethodRun run;
   run.seconds = solution.seconds;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -156,7 +157,7 @@ void RunCase(const MonteCarloCase& c, const MonteCarloOptions& options,
       if (truth.empty()) {
         truth = TrueStates(dataset, solution.layout, StatesAt(solution, nodes));
       }
-      run = Judge(solution, nodes, truth);
+      run = JudgeRun(solution, nodes, truth);
       run.constants = JudgeConstants(dataset, solution);
       run.failed = !solution.converged;
       solution.method += c.suffix;

@@ -9,8 +9,8 @@
 namespace hindsight {
 namespace {
 
-/// Sums over samples, turned into statistics at the end.
-struct Sums {
+/// IntervalSums over samples, turned into statistics at the end.
+struct IntervalSums {
   VibrationStatistics s;
   long count = 0;
 
@@ -52,7 +52,7 @@ VibrationRow Row(const std::string& name, const std::string& rule,
 }
 
 void AddRun(const Dataset& dataset, const Solution& solution,
-            std::vector<Sums>* sums) {
+            std::vector<IntervalSums>* sums) {
   const auto& intervals = VibrationIntervals();
   for (std::size_t k = 0; k < solution.states.size(); ++k) {
     const State& x = solution.states[k];
@@ -98,8 +98,8 @@ std::vector<VibrationResult> CompareUnderVibration(
     std::uint64_t first_seed, const std::function<void(int)>& done,
     const std::atomic<bool>* stop) {
   const std::vector<VibrationRow> rows = VibrationRows();
-  std::vector<std::vector<Sums>> sums(
-      rows.size(), std::vector<Sums>(VibrationIntervals().size()));
+  std::vector<std::vector<IntervalSums>> sums(
+      rows.size(), std::vector<IntervalSums>(VibrationIntervals().size()));
   for (int run = 0; run < runs; ++run) {
     if (stop != nullptr && *stop) throw Interrupted();
     Dataset dataset = simulate(first_seed + static_cast<std::uint64_t>(run));
@@ -119,7 +119,7 @@ std::vector<VibrationResult> CompareUnderVibration(
   std::vector<VibrationResult> results;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     results.push_back({rows[r].name, {}});
-    for (const Sums& s : sums[r])
+    for (const IntervalSums& s : sums[r])
       results.back().intervals.push_back(s.Finish());
   }
   return results;
