@@ -228,6 +228,14 @@ CovarianceSeries FinishByNewton(const BatchOptions& options,
   }
 }
 
+bool AllFinite(const std::vector<State>& states) {
+  return std::all_of(states.begin(), states.end(), [](const State& x) {
+    return x.p_e.allFinite() && x.v_e.allFinite() &&
+           x.q_eb.coeffs().allFinite() && x.b_g.allFinite() &&
+           x.b_a.allFinite() && x.parameters.allFinite();
+  });
+}
+
 }  // namespace
 
 BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
@@ -251,8 +259,9 @@ BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
     if (AnySummaryIsStale(layout, *timeline, result.states)) continue;
     // Ceres may run out of iterations on the last micrometres.
     result.converged =
-        sweep.converged || LargestMoveInSigmas(layout, before, result.states,
-                                               result.P) < kSettledStep;
+        AllFinite(result.states) &&
+        (sweep.converged || LargestMoveInSigmas(layout, before, result.states,
+                                                result.P) < kSettledStep);
     return result;
   }
   result.converged = false;

@@ -7,7 +7,7 @@
 namespace hindsight {
 namespace {
 
-constexpr double kLeastLog = 10.0;
+constexpr double kLeastPosterior = 10.0;
 constexpr std::size_t kMostRescored = 8;
 constexpr int kMostRounds = 6;
 
@@ -114,7 +114,7 @@ class Refinement {
     std::sort(met_.begin(), met_.end(), [](const auto& a, const auto& b) {
       return a.log_posterior > b.log_posterior;
     });
-    const double least = met_.front().log_posterior - kLeastLog;
+    const double least = met_.front().log_posterior - kLeastPosterior;
     std::erase_if(met_, [&](const auto& h) { return h.log_posterior < least; });
     return std::move(met_);
   }

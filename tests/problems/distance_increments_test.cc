@@ -54,7 +54,7 @@ Scenario WithoutErrors(Scenario s) {
 }
 
 /// Largest horizontal error against the truth at nodes.
-double LargestError(const Dataset& dataset, const Solution& solution) {
+double LargestDriveError(const Dataset& dataset, const Solution& solution) {
   double largest = 0.0;
   std::size_t k = 0;
   for (const TruthPoint& truth : dataset.truth) {
@@ -98,7 +98,7 @@ TEST(DistanceIncrements, NoErrorsWithoutNoise) {
         Method::kTwoFilterEuler, Method::kRts, Method::kIterated,
         Method::kBatch}) {
     const Solution solution = reconstruction.Run(method);
-    EXPECT_LT(LargestError(dataset, solution), 1e-4) << MethodName(method);
+    EXPECT_LT(LargestDriveError(dataset, solution), 1e-4) << MethodName(method);
     for (const ResidualRecord& record : solution.residuals) {
       if (record.sensor != 1) continue;
       ASSERT_LT(std::abs(record.residual(0)), 1e-5)
@@ -173,7 +173,7 @@ TEST(DistanceIncrements, ForgiveJoltsThatASpeedDoesNot) {
     }
     ReconstructionOptions options;
     options.method = Method::kBatch;
-    return LargestError(dataset, Solve(dataset, options));
+    return LargestDriveError(dataset, Solve(dataset, options));
   };
   const double speed = shaken(Odometer::Form::kForward);
   const double increments = shaken(Odometer::Form::kIncrements);
@@ -213,8 +213,8 @@ TEST(DistanceIncrements, SlipIsGatedAndForgotten) {
     }
     EXPECT_EQ(rejected, slips) << MethodName(method);
     EXPECT_LE(false_alarms, 3) << MethodName(method);
-    EXPECT_LT(LargestError(slipped, with),
-              1.2 * LargestError(clean, without) + 0.05)
+    EXPECT_LT(LargestDriveError(slipped, with),
+              1.2 * LargestDriveError(clean, without) + 0.05)
         << MethodName(method);
   }
 }
@@ -239,8 +239,8 @@ TEST(DistanceIncrements, SlipOfASpeedIsGatedToo) {
     }
   }
   EXPECT_EQ(rejected, 10);
-  EXPECT_LT(LargestError(slipped, solution),
-            1.2 * LargestError(clean, Solve(clean, options)) + 0.05);
+  EXPECT_LT(LargestDriveError(slipped, solution),
+            1.2 * LargestDriveError(clean, Solve(clean, options)) + 0.05);
 }
 
 }  // namespace
