@@ -50,7 +50,7 @@ class RobustProblem {
         std::max(floor_, starts_biased ? regimes_.parameters.sigma : 0.0);
     AddBlock(BlockKind::kColouredNoise, sensor.name + "_error", "m", sigma);
     if (HasRate()) {
-      AddBlock(BlockKind::kCurrent, sensor.name + "_error_rate", "m/s",
+      AddBlock(BlockKind::kErrorRate, sensor.name + "_error_rate", "m/s",
                regimes_.parameters.rate_sigma);
     }
     const int added = HasRate() ? 6 : 3;
@@ -115,14 +115,10 @@ class RobustProblem {
     out.variance = d.q_ee + floor_ * floor_;
     // A rate is free before a drift that begins; one that follows another needs
     // an interval in which it is drawn anew.
-    const bool begins =
-        steps_[k].mode == ErrorMode::kDrifting && steps_[k].anew;
-    if (begins && steps_[k - 1].mode != ErrorMode::kDrifting) {
-      out.variance = floor_ * floor_;
-    } else if (out.phi == 1.0 &&
-               (begins || steps_[k].mode != ErrorMode::kDrifting)) {
-      out.phi = std::nextafter(1.0, 0.0);
-    }
+    const bool drifts = steps_[k].mode == ErrorMode::kDrifting;
+    const bool follows = steps_[k - 1].mode == ErrorMode::kDrifting;
+    out.drifts = drifts && !(steps_[k].anew && follows);
+    if (drifts && steps_[k].anew && !follows) out.variance = floor_ * floor_;
     return out;
   }
 

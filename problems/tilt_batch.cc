@@ -262,8 +262,6 @@ CovarianceSeries TiltBatch::Marginals() {
   return series;
 }
 
-/// Reports to `progress`, which may throw: the exception waits until Ceres has
-/// come to an end.
 Solution TiltBatch::Run(const std::function<void(double)>& progress) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;

@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <iostream>
 
 #include "app/command.h"
@@ -6,6 +5,7 @@
 #include "base/error.h"
 #include "io/atomic_file.h"
 #include "io/init_config.h"
+#include "io/paths.h"
 
 namespace hindsight {
 namespace {
@@ -16,8 +16,7 @@ recognises, to be completed and given to 'check' and 'run'.
 )";
 
 int Run(const std::vector<std::string>& arguments) {
-  if (!FLAGS_out.empty() && !FLAGS_force &&
-      std::filesystem::exists(FLAGS_out)) {
+  if (!FLAGS_out.empty() && !FLAGS_force && PathExists(FLAGS_out)) {
     throw InputError("output file " + FLAGS_out +
                      " exists; choose another or replace it with --force");
   }

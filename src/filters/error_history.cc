@@ -52,8 +52,7 @@ ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt) {
 
 double LogTransition(ErrorMode before, ErrorStep step, int fixes) {
   // Expected numbers of changes in a record that is all of one mode: errors are
-  // rare, and end. An IMU rather jolts
-  // than a receiver drifts.
+  // rare, and end. An IMU rather jolts than a receiver drifts.
   constexpr double kEnd = 4.0;
   constexpr double kJumps = 1.0;
   constexpr double kDrifts = 0.05;

@@ -12,14 +12,14 @@ inline constexpr double kDriftWalk = 1e-3;
 
 /// Whether the summary says how the block goes through its interval: coloured
 /// noise e of the sensor (kColouredNoise) and, of a position sensor, the rate r
-/// at which it drifts (kCurrent, all axes of both estimated). Where the step
-/// has phi = 1, exactly, and r is estimated, the error drifts:
-///   e_j = e_i + r_i dt + w,   r_j = r_i + w_r, a walk of kDriftWalk times the
-///   a priori sigma of r;
+/// at which it drifts (kErrorRate, all axes of both estimated). Where the
+/// step drifts and r is estimated,
+///   e_j = phi e_i + r_i dt + w,   r_j = r_i + w_r, a walk of kDriftWalk times
+///   the a priori sigma of r;
 /// elsewhere r is drawn anew, so that it is free where a drift begins.
 inline bool HasOwnStep(const Block& block, const ImuSummary& summary) {
   return (block.key.kind == BlockKind::kColouredNoise ||
-          block.key.kind == BlockKind::kCurrent) &&
+          block.key.kind == BlockKind::kErrorRate) &&
          block.key.sensor == summary.coloured.sensor;
 }
 
@@ -27,16 +27,16 @@ inline bool HasOwnStep(const Block& block, const ImuSummary& summary) {
 inline const Block* DriftRate(const ErrorLayout& layout, const Block& block,
                               const ImuSummary& summary) {
   if (block.key.kind != BlockKind::kColouredNoise ||
-      !HasOwnStep(block, summary) || summary.coloured.phi != 1.0) {
+      !HasOwnStep(block, summary) || !summary.coloured.drifts) {
     return nullptr;
   }
-  return layout.Find(BlockKind::kCurrent, block.key.sensor);
+  return layout.Find(BlockKind::kErrorRate, block.key.sensor);
 }
 
 /// phi and added variance of a block that HasOwnStep.
 inline double OwnPhi(const Block& block, const ImuSummary& summary) {
   if (block.key.kind == BlockKind::kColouredNoise) return summary.coloured.phi;
-  return summary.coloured.phi == 1.0 ? 1.0 : 0.0;
+  return summary.coloured.drifts ? 1.0 : 0.0;
 }
 
 inline double OwnVariance(const Block& block, const ImuSummary& summary) {
@@ -44,7 +44,7 @@ inline double OwnVariance(const Block& block, const ImuSummary& summary) {
     return summary.coloured.variance;
   }
   const double variance = block.sigma0.x() * block.sigma0.x();
-  return summary.coloured.phi == 1.0
+  return summary.coloured.drifts
              ? variance * kDriftWalk * kDriftWalk * summary.dt()
              : variance;
 }

@@ -23,10 +23,12 @@ struct ImuCalibration {
 
 /// How the coloured noise of one sensor goes through an interval, where that is
 /// known better than by its evolution: e_j = phi e_i + w, w ~ (0, variance).
+/// With `drifts` it also grows at a rate, see imu/error_drift.h.
 struct ColouredStep {
   int sensor = -1;
   double phi = 1.0;
   double variance = 0.0;
+  bool drifts = false;
 };
 
 /// All that the samples of one interval [t_i, t_j] say about motion, in the

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "io/atomic_file.h"
 #include "io/config_streams.h"
+#include "io/paths.h"
 
 namespace hindsight {
 namespace {
@@ -21,7 +22,7 @@ fs::path FindFolder(ConfigMap* top, const LoadOptions& options) {
   const fs::path beside = fs::path(top->file()).parent_path() / folder;
   const fs::path below_root = fs::path(options.data_root) / folder;
   for (const fs::path& candidate : {beside, below_root}) {
-    if (!fs::is_directory(candidate)) continue;
+    if (!IsFolder(candidate)) continue;
     top->Resolve("folder", fs::absolute(candidate).lexically_normal().string());
     return candidate;
   }

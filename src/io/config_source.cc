@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "io/config_streams.h"
+#include "io/paths.h"
 
 namespace hindsight {
 namespace {
@@ -167,7 +168,7 @@ StreamSource ReadStreamSource(ConfigMap* map,
   const std::string file = map->Text("file");
   source.path = (folder / file).lexically_normal().string();
   source.config_line = map->Line("file");
-  if (!std::filesystem::exists(source.path)) {
+  if (!PathExists(source.path)) {
     map->Fail("file", "there is no file " + source.path);
   }
   map->Resolve(

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "io/paths.h"
 #include "io/recognise_format.h"
 
 namespace hindsight {
@@ -72,15 +73,15 @@ std::string AidingText(const std::string& name, const char* type,
 }  // namespace
 
 std::string InitConfig(const std::string& folder) {
-  if (!fs::is_directory(folder)) {
+  if (!IsFolder(folder)) {
     throw InputError(folder, 0, "there is no such folder");
   }
   std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const bool oxts = fs::exists(entry.path() / "timestamps.txt");
-    if (entry.is_regular_file() || oxts) paths.push_back(entry.path());
+  for (const fs::path& entry : FolderEntries(folder)) {
+    if (IsFile(entry) || PathExists(entry / "timestamps.txt")) {
+      paths.push_back(entry);
+    }
   }
-  std::sort(paths.begin(), paths.end());
   if (paths.empty()) throw InputError(folder, 0, "the folder holds no files");
   std::vector<Found> files;
   std::string unknown;

@@ -1,11 +1,11 @@
 #include "io/oxts.h"
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 
 #include "base/error.h"
 #include "base/units.h"
+#include "io/paths.h"
 #include "io/text_lines.h"
 #include "io/text_table.h"
 
@@ -96,15 +96,14 @@ std::array<double, kValues> ReadEpoch(const std::string& path) {
 RowBuffer ReadOxts(const std::string& folder,
                    const std::vector<FieldName>& fields) {
   const fs::path data = fs::path(folder) / "data";
-  if (!fs::is_directory(data)) {
+  if (!IsFolder(data)) {
     throw InputError(folder, 0,
                      "is no OXTS folder; expected timestamps.txt and data/");
   }
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(data)) {
-    if (entry.path().extension() == ".txt") files.push_back(entry.path());
+  for (const fs::path& entry : FolderEntries(data)) {
+    if (entry.extension() == ".txt") files.push_back(entry);
   }
-  std::sort(files.begin(), files.end());
   const std::string stamps_path =
       (fs::path(folder) / "timestamps.txt").string();
   const std::vector<Stamp> stamps = ReadStamps(stamps_path);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "io/paths.h"
 #include "io/text_layout.h"
 
 namespace hindsight {
@@ -164,8 +165,8 @@ std::optional<Found> RecogniseControlPoints(const Probe& probe) {
 
 /// Formats told by their name: their content is not text.
 std::optional<Found> RecogniseName(const fs::path& path) {
-  if (fs::is_directory(path)) {
-    if (!fs::exists(path / "timestamps.txt") || !fs::exists(path / "data")) {
+  if (IsFolder(path)) {
+    if (!PathExists(path / "timestamps.txt") || !PathExists(path / "data")) {
       return std::nullopt;
     }
     return Found{"",

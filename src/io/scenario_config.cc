@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "io/config_streams.h"
+#include "io/paths.h"
 #include "simulation/builtin_scenarios.h"
 
 namespace hindsight {
@@ -247,7 +248,7 @@ Scenario LoadScenario(const std::string& path) {
 Scenario FindScenario(const std::string& name_or_path) {
   const std::vector<std::string> names = BuiltinScenarioNames();
   if (std::find(names.begin(), names.end(), name_or_path) != names.end() ||
-      !std::filesystem::exists(name_or_path)) {
+      !PathExists(name_or_path)) {
     return BuiltinScenario(name_or_path);
   }
   return LoadScenario(name_or_path);

@@ -14,7 +14,8 @@ bool IsNavigation(BlockKind kind) { return kind <= BlockKind::kAccelBias; }
 
 bool IsResolvedInNed(BlockKind kind) {
   return kind <= BlockKind::kAttitude || kind == BlockKind::kColouredNoise ||
-         kind == BlockKind::kCurrent || kind == BlockKind::kDisturbance;
+         kind == BlockKind::kCurrent || kind == BlockKind::kDisturbance ||
+         kind == BlockKind::kErrorRate;
 }
 
 }  // namespace

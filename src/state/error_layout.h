@@ -52,6 +52,7 @@ enum class BlockKind {
   kDeclination,    ///< of the magnetic field from true north [rad]
   kDisturbance,    ///< additive magnetic field, NED [uT]
   kDistance,       ///< travelled since the last count of an odometer [m]
+  kErrorRate,      ///< at which kColouredNoise of a position drifts, NED [m/s]
 };
 
 /// Number of components of a block before any axis is masked.

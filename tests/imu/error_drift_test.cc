@@ -18,7 +18,7 @@ TestProblem DriftingProblem() {
   TestProblemOptions options;
   options.noise = TacticalNoise(true);
   options.layout = TypicalLayout(options.noise);
-  for (const auto kind : {BlockKind::kColouredNoise, BlockKind::kCurrent}) {
+  for (const auto kind : {BlockKind::kColouredNoise, BlockKind::kErrorRate}) {
     Block block;
     block.key = {kind, 0};
     block.evolution = Evolution::GaussMarkov(1.0, 100.0);
@@ -32,10 +32,11 @@ TestProblem DriftingProblem() {
 TEST(ErrorDrift, GrowsByItsRateWhereTheStepSaysSoAndElseDrawsTheRateAnew) {
   const TestProblem problem = DriftingProblem();
   Timeline timeline = problem.MakeTimeline();
-  timeline.SetColouredSteps({{0, 1.0, 1e-6}, {0, 0.9, 0.19}, {0, 0.0, 1.0}});
+  timeline.SetColouredSteps(
+      {{0, 1.0, 1e-6, true}, {0, 0.9, 0.19}, {0, 0.0, 1.0}});
   const ErrorLayout& layout = problem.layout;
   const Block& e = *layout.Find(BlockKind::kColouredNoise, 0);
-  const Block& r = *layout.Find(BlockKind::kCurrent, 0);
+  const Block& r = *layout.Find(BlockKind::kErrorRate, 0);
   State x = problem.truth[0];
   x.parameters.segment<3>(e.parameter_offset) << 1.0, 2.0, 3.0;
   x.parameters.segment<3>(r.parameter_offset) << 0.1, -0.2, 0.3;
