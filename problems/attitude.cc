@@ -88,10 +88,13 @@ Eigen::Quaterniond NedAttitude(const State& x) {
 }
 
 void FillVerdicts(const AttitudeRun& run, Solution* solution) {
+  solution->accel_sigma.reserve(run.epochs.size());
+  solution->magnetic.reserve(run.epochs.size());
   for (const AttitudeEpoch& epoch : run.epochs) {
-    solution->accel_sigma.push_back(std::sqrt(epoch.accel_variance));
+    const AttitudeVerdict& verdict = epoch.verdict;
+    solution->accel_sigma.push_back(std::sqrt(verdict.accel_variance));
     solution->magnetic.push_back(static_cast<signed char>(
-        epoch.magnetic_used ? 1 : (epoch.magnetic_disturbed ? -1 : 0)));
+        verdict.magnetic_used ? 1 : (verdict.magnetic_disturbed ? -1 : 0)));
   }
 }
 
@@ -106,6 +109,7 @@ Solution AttitudeEstimation::RunFilter() {
   Solution solution;
   solution.layout = AttitudeLayout(imu_.noise, start_);
   solution.covariances = CovarianceSeries(6, run.epochs.size());
+  solution.states.reserve(run.epochs.size());
   const Eigen::Quaterniond q_en(NedAxes(filter_options_.place.p_e));
   for (std::size_t k = 0; k < run.epochs.size(); ++k) {
     const AttitudeState& a = run.epochs[k].x;
@@ -132,11 +136,12 @@ Solution AttitudeEstimation::Smooth(std::span<const MagneticSample> magnetic,
         Poll(stage,
              static_cast<double>(k) / static_cast<double>(imu_.samples.size()));
       });
-  Solution solution;
-  solution.layout = tape.layout();
+  Solution nodes;
+  nodes.layout = tape.layout();
   SmoothedTrajectory smoothed = SmoothRts(std::move(tape));
-  solution.states = std::move(smoothed.states);
-  solution.covariances = std::move(smoothed.P);
+  nodes.states = std::move(smoothed.states);
+  nodes.covariances = std::move(smoothed.P);
+  Solution solution = NodesAtSamples(nodes, imu_, nodes.layout);
   FillVerdicts(run, &solution);
   return solution;
 }
@@ -245,44 +250,6 @@ Solution AttitudeEstimation::Run(AhrsMethod method) {
     solution = SampleAttitude(solution, imu_, stamps);
   }
   return solution;
-}
-
-Solution SampleAttitude(const Solution& solution, const ImuStream& imu,
-                        const std::vector<double>& times) {
-  Solution out = solution;
-  out.states.clear();
-  out.accel_sigma.clear();
-  out.magnetic.clear();
-  out.covariances =
-      CovarianceSeries(solution.covariances.dim(),
-                       solution.covariances.empty() ? 0 : times.size());
-  std::size_t k = 0;
-  std::size_t s = 0;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    while (k + 1 < solution.states.size() &&
-           solution.states[k + 1].t <= times[i]) {
-      ++k;
-    }
-    while (s + 1 < imu.samples.size() &&
-           imu.samples[s + 1].t <= solution.states[k].t) {
-      ++s;
-    }
-    State x = solution.states[k];
-    const Eigen::Vector3d w = imu.samples[s].gyro - x.b_g;
-    x.q_eb = (x.q_eb * Exp((times[i] - x.t) * w)).normalized();
-    x.t = times[i];
-    out.states.push_back(x);
-    if (!solution.covariances.empty()) {
-      out.covariances.Set(i, solution.covariances.Get(k));
-    }
-    if (!solution.accel_sigma.empty()) {
-      out.accel_sigma.push_back(solution.accel_sigma[k]);
-    }
-    if (!solution.magnetic.empty()) {
-      out.magnetic.push_back(solution.magnetic[k]);
-    }
-  }
-  return out;
 }
 
 }  // namespace hindsight

@@ -11,7 +11,8 @@
 
 #include "alignment/attitude_start.h"
 #include "dataset/dataset.h"
-#include "filters/attitude_filter.h"
+#include "filters/attitude_run.h"
+#include "problems/attitude_samples.h"
 #include "problems/field_survey.h"
 #include "state/solution.h"
 
@@ -66,6 +67,7 @@ class AttitudeEstimation {
   Solution RunFilter();
   Solution RunSmoother();
   Solution RunBatch(AhrsMethod method);
+  /// At every sample, from the nodes of the filter's updates.
   Solution Smooth(std::span<const MagneticSample> magnetic,
                   const AttitudeFilterOptions& options,
                   const std::string& stage) const;
@@ -83,11 +85,6 @@ class AttitudeEstimation {
   std::vector<SurveyedField> readings_;
   FieldSurvey survey_;
 };
-
-/// Attitudes at other times: the state at the sample before, turned by the rate
-/// of that sample. Nothing later enters, so a causal solution stays causal.
-Solution SampleAttitude(const Solution& solution, const ImuStream& imu,
-                        const std::vector<double>& times);
 
 }  // namespace hindsight
 

@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "geometry/so3.h"
+#include "problems/attitude_samples.h"
 #include "problems/reconstruction.h"
 
 namespace hindsight {
@@ -130,52 +131,6 @@ Dataset RoomDataset(const RoomProblem& problem) {
 }
 
 }  // namespace
-
-Solution NodesAtSamples(const Solution& nodes, const ImuStream& imu,
-                        const ErrorLayout& layout) {
-  Solution out;
-  out.layout = layout;
-  out.converged = nodes.converged;
-  out.iterations = nodes.iterations;
-  const int a = nodes.layout.Find(BlockKind::kAttitude)->offset;
-  const int b = nodes.layout.Find(BlockKind::kGyroBias)->offset;
-  out.covariances = CovarianceSeries(6, imu.samples.size());
-  ImuIntegrator integrator(imu);
-  std::size_t k = 0;
-  std::size_t summarized = nodes.states.size();
-  Eigen::Vector3d miss = Eigen::Vector3d::Zero();
-  const auto turn = [&](const State& x, double to) {
-    ImuCalibration calibration;
-    calibration.b_g = x.b_g;
-    return integrator.Summarize(x.t, to, calibration).dR;
-  };
-  for (std::size_t i = 0; i < imu.samples.size(); ++i) {
-    const double t = imu.samples[i].t;
-    while (k + 2 < nodes.states.size() && nodes.states[k + 1].t <= t) ++k;
-    const State& begin = nodes.states[k];
-    const State& end = nodes.states[k + 1];
-    if (summarized != k) {
-      miss = Log((begin.q_eb * turn(begin, end.t)).conjugate() * end.q_eb);
-      summarized = k;
-    }
-    State x = begin;
-    x.t = t;
-    const double part = (t - begin.t) / (end.t - begin.t);
-    if (t > begin.t) {
-      x.q_eb = (begin.q_eb * turn(begin, std::min(t, end.t)) * Exp(part * miss))
-                   .normalized();
-    }
-    out.states.push_back(x);
-    Eigen::Matrix<double, 6, 6> P;
-    const ErrorMatrix full = nodes.covariances.Get(part < 0.5 ? k : k + 1);
-    P.topLeftCorner<3, 3>() = full.block<3, 3>(a, a);
-    P.topRightCorner<3, 3>() = full.block<3, 3>(a, b);
-    P.bottomLeftCorner<3, 3>() = full.block<3, 3>(b, a);
-    P.bottomRightCorner<3, 3>() = full.block<3, 3>(b, b);
-    out.covariances.Set(i, P);
-  }
-  return out;
-}
 
 Solution SolveRoomBatch(const RoomProblem& problem,
                         const std::function<void(double)>& progress) {

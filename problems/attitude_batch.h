@@ -34,12 +34,6 @@ inline constexpr double kDisturbanceTime = 5.0;
 /// interval filled evenly.
 std::vector<double> RoomNodeTimes(const RoomProblem& problem);
 
-/// Attitudes at the IMU samples: the gyros' integral from node to node, what it
-/// misses at the next node spread evenly over the interval. Of the nodes'
-/// layout attitude and gyro bias are kept.
-Solution NodesAtSamples(const Solution& nodes, const ImuStream& imu,
-                        const ErrorLayout& layout);
-
 /// The navigation problem of a body that stays in a room, in Ceres; a state an
 /// IMU sample, layout {attitude, gyro bias}.
 Solution SolveRoomBatch(const RoomProblem& problem,

@@ -15,6 +15,7 @@
 #include "geometry/so3.h"
 #include "imu/preintegration.h"
 #include "linear/arrow_system.h"
+#include "problems/attitude_samples.h"
 
 namespace hindsight {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "alignment/attitude_start.h"
 #include "earth/wgs84.h"
+#include "filters/attitude_run.h"
 #include "filters/rts.h"
 
 namespace hindsight {

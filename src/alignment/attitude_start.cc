@@ -21,7 +21,8 @@ const AidingStream* MagnetometerOf(const Dataset& dataset) {
 }  // namespace
 
 AttitudeFilterOptions FilterOptionsOf(const Dataset& dataset) {
-  constexpr double kLowPass = 1.5;  // [s]
+  constexpr double kLowPass = 1.5;   // [s]
+  constexpr double kUpdates = 50.0;  // in one correlation time
   const AhrsSettings& ahrs = dataset.ahrs;
   AttitudeFilterOptions options;
   if (dataset.place) {
@@ -38,6 +39,7 @@ AttitudeFilterOptions FilterOptionsOf(const Dataset& dataset) {
       ahrs.low_pass.value_or(ahrs.rule == "fixed" ? kLowPass : 0.0);
   options.accel_correlation_time = ahrs.correlation_time;
   options.magnetic_correlation_time = ahrs.correlation_time;
+  options.update_interval = ahrs.correlation_time / kUpdates;
   options.rest_sigma = ahrs.rest_sigma;
   options.reference.enabled = ahrs.reject_disturbances;
   if (const AidingStream* stream = MagnetometerOf(dataset)) {

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "base/error.h"
 #include "base/units.h"
 #include "earth/wgs84.h"
 #include "geometry/so3.h"
@@ -37,9 +35,10 @@ ErrorLayout AttitudeLayout(const ImuNoise& noise, const AttitudeState& start) {
 
 namespace {
 
-/// How many samples dt apart share one error that goes on for `time`.
-double Inflation(double time, double dt) {
-  return time > dt && dt > 0.0 ? time / dt : 1.0;
+/// Variance of the mean of `count` readings within dt, in that of one, if their
+/// errors go on for `time`.
+double Inflation(double time, double dt, int count) {
+  return std::max(1.0 / count, dt > 0.0 ? time / dt : 0.0);
 }
 
 }  // namespace
@@ -50,58 +49,74 @@ AttitudeFilter::AttitudeFilter(const AttitudeFilterOptions& options,
                                double sample_interval)
     : options_(options),
       noise_(noise),
+      bias_evolution_(noise.GyroBiasEvolution()),
       rule_(MakeAccelerometerRule(options.rule)),
       reference_(options.reference),
       q_ni_(start.q_nb),
       q_ib_(Eigen::Quaterniond::Identity()),
-      C_nb_(start.q_nb.toRotationMatrix()),
-      dt_(sample_interval),
+      C_ib_(Eigen::Matrix3d::Identity()),
       t_(start.t),
       b_g_(start.b_g),
-      P_(start.P) {
+      P_(start.P),
+      dt_(std::max(sample_interval, options.update_interval)),
+      field_t_(start.t) {
   if (options.low_pass_tau > 0.0) {
     low_pass_.emplace(options.low_pass_tau, sample_interval);
   }
 }
 
-void AttitudeFilter::Predict(double dt, const Eigen::Vector3d& w0,
-                             const Eigen::Vector3d& w1) {
+void AttitudeFilter::Turn(double dt, const Eigen::Vector3d& w0,
+                          const Eigen::Vector3d& w1) {
   const RotationSummary summary = SummarizeRotation(noise_, dt, w0, w1, b_g_);
-  rate_ = summary.phi.norm() / dt;
-  const Eigen::Matrix3d C_before = C_nb_;
+  const Eigen::Matrix3d C_before = C_ib_;
   q_ib_ = q_ib_ * Exp(summary.phi);
   q_ib_.coeffs() *= 1.5 - 0.5 * q_ib_.squaredNorm();
-  if (!options_.place.w_ie_n.isZero(0.0)) {
-    q_ni_ = Exp(-dt * options_.place.w_ie_n) * q_ni_;
+  C_ib_ = q_ib_.toRotationMatrix();
+  turned_.A.noalias() -= (0.5 * dt * turned_.phi) * (C_before + C_ib_);
+  turned_.q_attitude += summary.variance;
+  turned_.angle += summary.phi.norm();
+  turned_.dt += dt;
+  ++turned_.samples;
+  if (bias_evolution_.kind == Evolution::Kind::kGaussMarkov) {
+    const double phi = bias_evolution_.Phi(dt);
+    turned_.phi *= phi;
+    b_g_ *= phi;
   }
-  C_nb_ = (q_ni_ * q_ib_).toRotationMatrix();
-  A_ = (-0.5 * dt) * (C_before + C_nb_);
-  const double phi = noise_.GyroBiasEvolution().Phi(dt);
-  q_attitude_ = summary.variance;
-  q_bias_ = noise_.GyroBiasEvolution().Q(dt);
+  t_ += dt;
+}
 
+void AttitudeFilter::Predict() {
+  predicted_ = turned_;
+  turned_ = Interval();
+  if (predicted_.samples == 0) return;
+  dt_ = predicted_.dt;
+  predicted_.q_bias = bias_evolution_.Q(dt_);
+  if (!options_.place.w_ie_n.isZero(0.0)) {
+    q_ni_ = Exp(-dt_ * options_.place.w_ie_n) * q_ni_;
+  }
+  predicted_.A = q_ni_.toRotationMatrix() * predicted_.A;
+
+  const Eigen::Matrix3d& A = predicted_.A;
+  const double phi = predicted_.phi;
   const Eigen::Matrix3d P_bb = P_.bottomRightCorner<3, 3>();
   const Eigen::Matrix3d P_ab = P_.topRightCorner<3, 3>();
-  const Eigen::Matrix3d AP_bb = A_ * P_bb;
-  const Eigen::Matrix3d AP_ba = A_ * P_ab.transpose();
-  P_.topLeftCorner<3, 3>() +=
-      AP_ba + AP_ba.transpose() + AP_bb * A_.transpose();
+  const Eigen::Matrix3d AP_bb = A * P_bb;
+  const Eigen::Matrix3d AP_ba = A * P_ab.transpose();
+  P_.topLeftCorner<3, 3>() += AP_ba + AP_ba.transpose() + AP_bb * A.transpose();
   P_.topRightCorner<3, 3>() = phi * (P_ab + AP_bb);
   P_.bottomLeftCorner<3, 3>() = P_.topRightCorner<3, 3>().transpose();
   P_.bottomRightCorner<3, 3>() = (phi * phi) * P_bb;
-  P_.diagonal().head<3>().array() += q_attitude_;
-  P_.diagonal().tail<3>().array() += q_bias_;
-  b_g_ *= phi;
-  t_ += dt;
-  dt_ = dt;
+  P_.diagonal().head<3>().array() += predicted_.q_attitude;
+  P_.diagonal().tail<3>().array() += predicted_.q_bias;
 }
 
 void AttitudeFilter::FillTransition(Transition* out) const {
   out->Phi.setIdentity(6, 6);
-  out->Phi.topRightCorner<3, 3>() = A_;
+  out->Phi.topRightCorner<3, 3>() = predicted_.A;
+  out->Phi.diagonal().tail<3>().setConstant(predicted_.phi);
   out->Q.setZero(6, 6);
-  out->Q.diagonal().head<3>().setConstant(q_attitude_);
-  out->Q.diagonal().tail<3>().setConstant(q_bias_);
+  out->Q.diagonal().head<3>().setConstant(predicted_.q_attitude);
+  out->Q.diagonal().tail<3>().setConstant(predicted_.q_bias);
 }
 
 void AttitudeFilter::ApplyGain(const Vector6& PHt, double S,
@@ -123,39 +138,52 @@ void AttitudeFilter::UpdateAttitude(const Eigen::Vector3d& h, double residual,
   ApplyGain(PHt, h.dot(PHt.head<3>()) + R, residual - h.dot(dx_.head<3>()));
 }
 
-void AttitudeFilter::UseAccelerometer(const Eigen::Vector3d& f_b) {
-  const double g = options_.place.gravity;
-  Eigen::Vector3d f_n;
-  double norm = 0.0;
-  if (low_pass_) {
-    const Eigen::Vector3d& f_i = low_pass_->Filter(q_ib_ * f_b);
-    f_n = q_ni_ * f_i;
-    norm = f_i.norm();
-  } else {
-    f_n = C_nb_ * f_b;
-    norm = f_b.norm();
-  }
-  const double s = std::abs(norm - g);
-  const double R =
-      std::visit([s](auto& rule) { return rule.Variance(s); }, rule_) *
-      Inflation(options_.accel_correlation_time, dt_);
-  epoch_.accel_variance = R;
+void AttitudeFilter::AddForce(const Eigen::Vector3d& f_b) {
+  f_i_ = C_ib_ * f_b;
+  if (low_pass_) f_i_ = low_pass_->Filter(f_i_);
+  const double s = std::abs(f_i_.norm() - options_.place.gravity);
+  verdict_.accel_variance =
+      std::visit([s](auto& rule) { return rule.Variance(s); }, rule_);
+}
+
+void AttitudeFilter::UseAccelerometer() {
+  verdict_.accel_variance *= Inflation(options_.accel_correlation_time, dt_, 1);
+  const double R = verdict_.accel_variance;
   if (!std::isfinite(R)) return;
+  const double g = options_.place.gravity;
+  const Eigen::Vector3d f_n = q_ni_ * f_i_;
   UpdateComponent(1, g, f_n.x(), R);
   UpdateComponent(0, -g, f_n.y(), R);
 }
 
-void AttitudeFilter::UseMagnetometer(double dt, const Eigen::Vector3d& field_b,
-                                     double weight) {
-  const Eigen::Vector3d u_n = C_nb_ * field_b;
+void AttitudeFilter::AddField(const MagneticSample& reading) {
+  field_.sum_i += reading.weight * (C_ib_ * reading.field_b);
+  field_.weight += reading.weight;
+  ++field_.count;
+  field_.t = reading.t;
+}
+
+void AttitudeFilter::UseMagnetometer() {
+  verdict_.magnetic_used = false;
+  verdict_.magnetic_disturbed = false;
+  if (field_.count == 0) return;
+  const FieldMean field = field_;
+  field_ = FieldMean();
+  const double dt = field.t - field_t_;
+  field_t_ = field.t;
+  verdict_.magnetic_disturbed = field.weight <= 0.0;
+  if (verdict_.magnetic_disturbed) return;
+  const Eigen::Vector3d u_n = q_ni_ * (field.sum_i / field.weight);
   const double norm = u_n.norm();
   const double dip = std::atan2(u_n.z(), u_n.head<2>().norm());
-  epoch_.magnetic_disturbed =
-      !reference_.Accept(dt, norm, dip, rate_) || weight <= 0.0;
-  if (epoch_.magnetic_disturbed) return;
-  epoch_.magnetic_used = true;
-  const double R = options_.magnetic_sigma * options_.magnetic_sigma / weight *
-                   Inflation(options_.magnetic_correlation_time, dt);
+  const double rate = predicted_.dt > 0.0 ? predicted_.angle / dt_ : 0.0;
+  verdict_.magnetic_disturbed = !reference_.Accept(dt, norm, dip, rate);
+  if (verdict_.magnetic_disturbed) return;
+  verdict_.magnetic_used = true;
+  const double R =
+      options_.magnetic_sigma * options_.magnetic_sigma * field.count /
+      field.weight *
+      Inflation(options_.magnetic_correlation_time, dt, field.count);
   MagneticSurroundings magnetic = options_.magnetic;
   if (reference_.is_known()) {
     magnetic.horizontal = reference_.norm() * std::cos(reference_.dip());
@@ -182,7 +210,7 @@ void AttitudeFilter::UseMagnetometer(double dt, const Eigen::Vector3d& field_b,
   }
 }
 
-void AttitudeFilter::UseRest(double dt, const Eigen::Vector3d& w,
+void AttitudeFilter::AddRest(double dt, const Eigen::Vector3d& w,
                              const Eigen::Vector3d& f) {
   constexpr double kSmoothing = 0.5;  // [s]
   if (!rest_started_) {
@@ -198,9 +226,14 @@ void AttitudeFilter::UseRest(double dt, const Eigen::Vector3d& w,
       (f - rest_f_).squaredNorm() < options_.rest_force * options_.rest_force &&
       rest_w_.squaredNorm() < options_.rest_rate * options_.rest_rate;
   rest_for_ = still ? rest_for_ + dt : 0.0;
+}
+
+void AttitudeFilter::UseRest() {
   if (rest_for_ < options_.rest_time) return;
-  const Eigen::Vector3d earth_b = C_nb_.transpose() * options_.place.w_ie_n;
-  const double R = options_.rest_sigma * options_.rest_sigma;
+  const Eigen::Vector3d earth_b =
+      (q_ni_ * q_ib_).conjugate() * options_.place.w_ie_n;
+  const double R = options_.rest_sigma * options_.rest_sigma /
+                   std::max(predicted_.samples, 1);
   for (int i = 0; i < 3; ++i) {
     UpdateComponent(3 + i, 1.0, rest_w_(i) - earth_b(i) - b_g_(i), R);
   }
@@ -209,98 +242,12 @@ void AttitudeFilter::UseRest(double dt, const Eigen::Vector3d& w,
 void AttitudeFilter::Reset() {
   q_ni_ = Exp(dx_.head<3>()) * q_ni_;
   q_ni_.coeffs() *= 1.5 - 0.5 * q_ni_.squaredNorm();
-  C_nb_ = (q_ni_ * q_ib_).toRotationMatrix();
   b_g_ += dx_.tail<3>();
   dx_.setZero();
-  epoch_ = {};
 }
 
 AttitudeState AttitudeFilter::state() const {
   return {t_, q_ni_ * q_ib_, b_g_, P_};
-}
-
-namespace {
-
-State StateOf(const AttitudePlace& place, const Eigen::Quaterniond& q_en,
-              const AttitudeState& a) {
-  State x;
-  x.t = a.t;
-  x.p_e = place.p_e;
-  x.q_eb = (q_en * a.q_nb).normalized();
-  x.b_g = a.b_g;
-  return x;
-}
-
-}  // namespace
-
-AttitudeRun RunAttitudeFilter(const ImuStream& imu,
-                              std::span<const MagneticSample> magnetic,
-                              const AttitudeFilterOptions& options,
-                              const AttitudeState& start, LinearTape* tape,
-                              const std::function<void(std::size_t)>& poll) {
-  constexpr std::size_t kPollEvery = 8192;
-  const Eigen::Quaterniond q_en(NedAxes(options.place.p_e));
-  AttitudeFilter filter(options, imu.noise, start, MedianInterval(imu));
-  AttitudeRun run;
-  run.epochs.resize(imu.samples.size());
-  if (tape != nullptr) {
-    tape->Reserve(imu.samples.size());
-    tape->NeglectTransport();
-  }
-  Transition transition;
-  transition.c = ErrorVector::Zero(6);
-  std::size_t next = 0;
-  double magnetic_t = start.t;
-  for (std::size_t k = 0; k < imu.samples.size(); ++k) {
-    const ImuSample& sample = imu.samples[k];
-    if (k > 0) {
-      const ImuSample& before = imu.samples[k - 1];
-      filter.Predict(sample.t - before.t, before.gyro, sample.gyro);
-    }
-    TapeEpoch epoch;
-    Eigen::Matrix<double, 6, 6> P_minus;
-    if (tape != nullptr) {
-      epoch.t = sample.t;
-      epoch.x_minus = StateOf(options.place, q_en, filter.state());
-      P_minus = filter.P();
-      filter.FillTransition(&transition);
-    }
-    filter.UseAccelerometer(sample.accel);
-    for (; next < magnetic.size() && magnetic[next].t <= sample.t; ++next) {
-      const double age = sample.t - magnetic[next].t;
-      const Eigen::Vector3d turn = age * (sample.gyro - filter.state().b_g);
-      filter.UseMagnetometer(magnetic[next].t - magnetic_t,
-                             Exp(-turn) * magnetic[next].field_b,
-                             magnetic[next].weight);
-      magnetic_t = magnetic[next].t;
-    }
-    if (options.rest_sigma > 0.0 && k > 0) {
-      filter.UseRest(sample.t - imu.samples[k - 1].t, sample.gyro,
-                     sample.accel);
-    }
-    AttitudeEpoch& out = run.epochs[k];
-    out = filter.epoch();
-    if (tape != nullptr) {
-      epoch.dx_minus = ErrorVector::Zero(6);
-      epoch.c = epoch.dx_minus;
-      epoch.dx_plus = filter.dx();
-    }
-    filter.Reset();
-    out.x = filter.state();
-    if (tape != nullptr) {
-      epoch.reset = true;
-      epoch.x_plus = StateOf(options.place, q_en, out.x);
-      tape->Append(std::move(epoch), transition, P_minus, out.x.P);
-    }
-    if (k % kPollEvery == 0) {
-      if (!out.x.P.allFinite() || !out.x.q_nb.coeffs().allFinite()) {
-        throw EstimationError("attitude filter diverged at t = " +
-                              std::to_string(sample.t) + " s");
-      }
-      if (poll) poll(k + 1);
-    }
-  }
-  return run;
 }
 
 }  // namespace hindsight

@@ -3,15 +3,12 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <functional>
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "filters/accelerometer_rule.h"
 #include "filters/inertial_low_pass.h"
-#include "filters/linear_tape.h"
 #include "filters/magnetic_reference.h"
+#include "imu/imu_link.h"
 #include "imu/imu_stream.h"
 #include "measurements/magnetic_field.h"
 
@@ -51,6 +48,9 @@ struct AttitudeFilterOptions {
   /// of the rule, or sigma^2, times max(1, time / dt). 0: white.
   double accel_correlation_time = 0.0;
   double magnetic_correlation_time = 0.0;
+  /// Between updates of the filter [s], 0: every sample. What lies closer
+  /// together than a small part of those times says the same twice.
+  double update_interval = 0.0;
   MagneticField::Form magnetic_form = MagneticField::Form::kHeading;
   /// The heading corrects heading (and what is correlated with it) alone: a
   /// disturbed field cannot tilt the horizon.
@@ -76,9 +76,8 @@ struct AttitudeState {
   Matrix6 P = Matrix6::Zero();
 };
 
-/// What became of one sample, beside the state after it.
-struct AttitudeEpoch {
-  AttitudeState x;
+/// What became of the readings of one update.
+struct AttitudeVerdict {
   double accel_variance = 0.0;  ///< R in force [m^2/s^4]; infinity: not used
   bool magnetic_used = false;
   bool magnetic_disturbed = false;
@@ -89,8 +88,10 @@ ErrorLayout AttitudeLayout(const ImuNoise& noise, const AttitudeState& start);
 
 /// The forward filter of the layout {attitude, gyro bias}: the error-state
 /// extended Kalman filter of forward_filter.h, in the same tangent
-/// (C_nb = Exp(psi) C^_nb), with every matrix of fixed size, light enough for
-/// an update at every sample. Time update of RotationSummary:
+/// (C_nb = Exp(psi) C^_nb), with every matrix of fixed size. The attitude
+/// follows every sample (Turn, and the readings with it); covariance and
+/// updates come once an interval (Predict, the uses, Reset), which may be of
+/// one sample. Time update, summed over the RotationSummaries of the interval:
 ///   psi' = psi - C_nb dt db_g + noise,   db_g' = db_g + walk.
 /// Measurements, isotropic and therefore resolved in n, row by row:
 ///   C_nb f_b = -g e_D,   rows north and east of g [psi x] e_D,
@@ -103,22 +104,31 @@ class AttitudeFilter {
   AttitudeFilter(const AttitudeFilterOptions& options, const ImuNoise& noise,
                  const AttitudeState& start, double sample_interval);
 
-  /// Time update over `dt` with rates linear from w0 to w1 [rad/s].
-  void Predict(double dt, const Eigen::Vector3d& w0, const Eigen::Vector3d& w1);
-  /// Uses the specific force at the current time [m/s^2].
-  void UseAccelerometer(const Eigen::Vector3d& f_b);
-  /// Uses the field at the current time; dt since the reading before [s],
-  /// `weight` as in MagneticSample.
-  void UseMagnetometer(double dt, const Eigen::Vector3d& field_b,
-                       double weight = 1.0);
-  /// Uses the rate if the body rests; dt since the sample before [s].
-  void UseRest(double dt, const Eigen::Vector3d& w, const Eigen::Vector3d& f);
+  /// Turns through `dt` with rates linear from w0 to w1 [rad/s].
+  void Turn(double dt, const Eigen::Vector3d& w0, const Eigen::Vector3d& w1);
+  /// Low-pass and rule see the specific force at the current time [m/s^2].
+  void AddForce(const Eigen::Vector3d& f_b);
+  /// A reading taken at time t [s], turned to the current one; those of an
+  /// interval are averaged in axes that do not turn.
+  void AddField(const MagneticSample& reading);
+  /// Looks for rest; dt since the sample before [s].
+  void AddRest(double dt, const Eigen::Vector3d& w, const Eigen::Vector3d& f);
+
+  /// Time update of the covariance over the turns since the last one.
+  void Predict();
+  /// Uses the force as last added.
+  void UseAccelerometer();
+  /// Uses the field of the interval, if there was a reading.
+  void UseMagnetometer();
+  /// Uses the rate if the body rests.
+  void UseRest();
   /// Moves the corrections into the state. To be called after the updates.
   void Reset();
 
   AttitudeState state() const;
-  /// Verdicts since the last Reset.
-  const AttitudeEpoch& epoch() const { return epoch_; }
+  const Eigen::Vector3d& gyro_bias() const { return b_g_; }
+  /// Verdict on the last update.
+  const AttitudeVerdict& verdict() const { return verdict_; }
   /// Transition and noise of the last Predict.
   void FillTransition(Transition* out) const;
   const Eigen::Matrix<double, 6, 1>& dx() const { return dx_; }
@@ -134,44 +144,50 @@ class AttitudeFilter {
   void UpdateAttitude(const Eigen::Vector3d& h, double residual, double R);
   void ApplyGain(const Vector6& PHt, double S, double innovation);
 
+  /// Sums over the turns since the last Predict.
+  struct Interval {
+    double dt = 0.0;                              ///< [s]
+    double phi = 1.0;                             ///< of the gyro bias
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();  ///< d psi / d b_g
+    double q_attitude = 0.0;
+    double q_bias = 0.0;
+    int samples = 0;
+    double angle = 0.0;  ///< [rad]
+  };
+  /// Readings of the field since the last update.
+  struct FieldMean {
+    Eigen::Vector3d sum_i = Eigen::Vector3d::Zero();  ///< weighed [uT]
+    double weight = 0.0;                              ///< sum
+    int count = 0;
+    double t = 0.0;  ///< of the last [s]
+  };
+
   const AttitudeFilterOptions& options_;
   const ImuNoise& noise_;
+  Evolution bias_evolution_;
   AccelerometerRule rule_;
   MagneticReference reference_;
   std::optional<InertialLowPass> low_pass_;
   /// q_nb = q_ni q_ib: i turns with nothing but the gyros' integral, and the
   /// corrections move n to it.
   Eigen::Quaterniond q_ni_, q_ib_;
-  Eigen::Matrix3d C_nb_;
-  double dt_;  ///< of the last sample [s]
+  Eigen::Matrix3d C_ib_;
   double t_;
   Eigen::Vector3d b_g_;
   Matrix6 P_;
   Vector6 dx_ = Vector6::Zero();
-  Eigen::Matrix3d A_ = Eigen::Matrix3d::Zero();  ///< d psi / d b_g of Predict
-  double q_attitude_ = 0.0;
-  double q_bias_ = 0.0;
-  double rate_ = 0.0;
+  Interval turned_;     ///< since the last Predict
+  Interval predicted_;  ///< of the last Predict
+  double dt_;           ///< between updates [s]
+  Eigen::Vector3d f_i_ = Eigen::Vector3d::Zero();
+  FieldMean field_;
+  double field_t_;  ///< of the last reading used [s]
   Eigen::Vector3d rest_w_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d rest_f_ = Eigen::Vector3d::Zero();
   double rest_for_ = 0.0;
   bool rest_started_ = false;
-  AttitudeEpoch epoch_;
+  AttitudeVerdict verdict_;
 };
-
-struct AttitudeRun {
-  std::vector<AttitudeEpoch> epochs;  ///< one a sample
-};
-
-/// Runs the filter over a record of rates; each magnetic sample is used at the
-/// first IMU sample that is not earlier, turned there by the gyros. `tape`, if
-/// not null, receives every epoch for the RTS smoother. `poll` is called now
-/// and then with the samples done, and may throw.
-AttitudeRun RunAttitudeFilter(
-    const ImuStream& imu, std::span<const MagneticSample> magnetic,
-    const AttitudeFilterOptions& options, const AttitudeState& start,
-    LinearTape* tape = nullptr,
-    const std::function<void(std::size_t)>& poll = nullptr);
 
 }  // namespace hindsight
 

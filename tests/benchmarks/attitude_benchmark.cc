@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "alignment/attitude_start.h"
-#include "filters/rts.h"
+#include "filters/attitude_run.h"
 #include "geometry/so3.h"
 #include "problems/attitude.h"
 
@@ -56,27 +56,30 @@ void BM_AttitudeFilter(benchmark::State& state) {
 }
 BENCHMARK(BM_AttitudeFilter)->Unit(benchmark::kMillisecond);
 
-void BM_AttitudeSmoother(benchmark::State& state) {
-  const std::vector<MagneticSample> magnetic = MagneticSamples(Waved());
-  const AttitudeFilterOptions options = FilterOptionsOf(Waved());
-  const AttitudeState start = StartOfAttitude(Waved(), Waved().imu, magnetic);
+void EstimateWaved(benchmark::State& state, AhrsMethod method) {
   for (auto _ : state) {
-    LinearTape tape(AttitudeLayout(Waved().imu.noise, start));
-    RunAttitudeFilter(Waved().imu, magnetic, options, start, &tape);
-    benchmark::DoNotOptimize(SmoothRts(std::move(tape)));
+    AttitudeEstimation estimation(Waved(), {});
+    benchmark::DoNotOptimize(estimation.Run(method));
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(
                                                    Waved().imu.samples.size()));
 }
+
+/// With its survey of the field.
+void BM_AttitudeSmoother(benchmark::State& state) {
+  EstimateWaved(state, AhrsMethod::kSmoother);
+}
 BENCHMARK(BM_AttitudeSmoother)->Unit(benchmark::kMillisecond);
 
 void BM_AttitudeBatch(benchmark::State& state) {
-  for (auto _ : state) {
-    AttitudeEstimation estimation(Waved(), {});
-    benchmark::DoNotOptimize(estimation.Run(AhrsMethod::kBatch));
-  }
+  EstimateWaved(state, AhrsMethod::kBatch);
 }
 BENCHMARK(BM_AttitudeBatch)->Unit(benchmark::kMillisecond);
+
+void BM_AttitudeTiltBatch(benchmark::State& state) {
+  EstimateWaved(state, AhrsMethod::kTiltBatch);
+}
+BENCHMARK(BM_AttitudeTiltBatch)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace hindsight

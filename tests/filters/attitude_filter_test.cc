@@ -4,6 +4,7 @@
 
 #include "base/units.h"
 #include "earth/wgs84.h"
+#include "filters/attitude_run.h"
 #include "filters/forward_filter.h"
 #include "filters/rts.h"
 #include "geometry/so3.h"
@@ -189,6 +190,43 @@ TEST(AttitudeFilter, SmootherEndsWhereTheFilterEnds) {
       Eigen::Quaterniond(first.C_en()).conjugate() * first.q_eb;
   EXPECT_LT(q_nb.angularDistance(table.q_nb.front()), 2e-3);
   EXPECT_LT((first.b_g - table.b_g).norm(), 2e-3);
+}
+
+/// Errors that go on for a second: an update each 20 ms is told as much as one
+/// each 5 ms. Between updates no more is neglected than what the attitude has
+/// to be corrected by within one of them.
+TEST(AttitudeFilter, FewerUpdatesTellAsMuchOfErrorsThatGoOn) {
+  Turntable table;
+  table.b_g = {0.01, -0.02, 0.015};
+  table.Turn(20.0, 200.0);
+  table.imu.noise.gyro_noise_density = 1e-3;
+  AttitudeFilterOptions options = VectorOptions();
+  options.accel_correlation_time = 1.0;
+  options.magnetic_correlation_time = 1.0;
+  options.rest_sigma = 0.02;
+  AttitudeState start = table.Start(0.1, 0.02);
+  start.q_nb = Exp(Eigen::Vector3d(0.1, -0.1, 0.05)) * start.q_nb;
+  const AttitudeRun every =
+      RunAttitudeFilter(table.imu, table.magnetic, options, start);
+  options.update_interval = 0.02;
+  const AttitudeRun fewer =
+      RunAttitudeFilter(table.imu, table.magnetic, options, start);
+  ASSERT_EQ(fewer.epochs.size(), every.epochs.size());
+  for (std::size_t k = 400; k < every.epochs.size(); k += 37) {
+    const AttitudeState& a = every.epochs[k].x;
+    const AttitudeState& b = fewer.epochs[k].x;
+    EXPECT_EQ(a.t, b.t);
+    const Eigen::Matrix<double, 6, 1> sigma = a.P.diagonal().cwiseSqrt();
+    const Eigen::Vector3d psi = Log(b.q_nb * a.q_nb.conjugate());
+    EXPECT_LT((psi.array() / sigma.head<3>().array()).abs().maxCoeff(), 0.05);
+    EXPECT_LT(
+        ((b.b_g - a.b_g).array() / sigma.tail<3>().array()).abs().maxCoeff(),
+        0.05);
+    EXPECT_LT((b.P.diagonal().cwiseSqrt().array() / sigma.array() - 1.0)
+                  .abs()
+                  .maxCoeff(),
+              0.03);
+  }
 }
 
 }  // namespace

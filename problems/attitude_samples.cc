@@ -1,0 +1,151 @@
+#include "problems/attitude_samples.h"
+
+#include <algorithm>
+
+#include "geometry/so3.h"
+#include "imu/rotation_summary.h"
+
+namespace hindsight {
+namespace {
+
+/// All of a solution that is not a series over its states.
+Solution WithoutStates(const Solution& solution) {
+  Solution out;
+  out.method = solution.method;
+  out.layout = solution.layout;
+  out.constants = solution.constants;
+  out.notes = solution.notes;
+  out.converged = solution.converged;
+  out.iterations = solution.iterations;
+  out.seconds = solution.seconds;
+  out.usable = solution.usable;
+  out.verdict = solution.verdict;
+  return out;
+}
+
+/// The gyros' integral over intervals that come in time order.
+class GyroPath {
+ public:
+  explicit GyroPath(const ImuStream& imu) : imu_(imu) {}
+
+  Eigen::Quaterniond Turn(double from, double to, const Eigen::Vector3d& b_g) {
+    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+    while (next_ + 1 < imu_.samples.size() && imu_.samples[next_].t <= from) {
+      ++next_;
+    }
+    for (std::size_t k = next_; from < to; ++k) {
+      const bool last = k + 1 >= imu_.samples.size();
+      const double end = last ? to : std::min(to, imu_.samples[k].t);
+      const RotationSummary summary = SummarizeRotation(
+          imu_.noise, end - from, RateAt(k, from), RateAt(k, end), b_g);
+      q = q * Exp(summary.phi);
+      from = end;
+    }
+    return q;
+  }
+
+ private:
+  /// Linear over the interval that ends at sample k.
+  Eigen::Vector3d RateAt(std::size_t k, double t) const {
+    const ImuSample& a = imu_.samples[k - 1];
+    const ImuSample& b = imu_.samples[k];
+    return a.gyro + (t - a.t) / (b.t - a.t) * (b.gyro - a.gyro);
+  }
+
+  const ImuStream& imu_;
+  std::size_t next_ = 1;
+};
+
+Eigen::Matrix<double, 6, 6> AttitudeAndBias(const Solution& nodes,
+                                            std::size_t k) {
+  const int a = nodes.layout.Find(BlockKind::kAttitude)->offset;
+  const int b = nodes.layout.Find(BlockKind::kGyroBias)->offset;
+  const ErrorMatrix full = nodes.covariances.Get(k);
+  Eigen::Matrix<double, 6, 6> P;
+  P << full.block<3, 3>(a, a), full.block<3, 3>(a, b), full.block<3, 3>(b, a),
+      full.block<3, 3>(b, b);
+  return P;
+}
+
+}  // namespace
+
+Solution NodesAtSamples(const Solution& nodes, const ImuStream& imu,
+                        const ErrorLayout& layout) {
+  Solution out = WithoutStates(nodes);
+  out.layout = layout;
+  const std::size_t count = imu.samples.size();
+  out.states.reserve(count);
+  out.covariances = CovarianceSeries(6, count);
+  GyroPath path(imu);
+  std::vector<Eigen::Quaterniond> turned;
+  std::size_t i = 0;
+  Eigen::Matrix<double, 6, 6> P_end = AttitudeAndBias(nodes, 0);
+  for (std::size_t k = 0; k + 1 < nodes.states.size(); ++k) {
+    const State& begin = nodes.states[k];
+    const State& end = nodes.states[k + 1];
+    const Eigen::Matrix<double, 6, 6> P_begin = P_end;
+    P_end = AttitudeAndBias(nodes, k + 1);
+    const bool last = k + 2 == nodes.states.size();
+    turned.clear();
+    Eigen::Quaterniond q = begin.q_eb;
+    double t = begin.t;
+    const auto advance = [&](double to) {
+      q = q * path.Turn(t, to, begin.b_g);
+      t = to;
+    };
+    const std::size_t first = i;
+    for (; i < count && (last || imu.samples[i].t < end.t); ++i) {
+      advance(std::clamp(imu.samples[i].t, t, end.t));
+      turned.push_back(q);
+    }
+    advance(end.t);
+    const Eigen::Vector3d miss = Log(q.conjugate() * end.q_eb);
+    for (std::size_t j = first; j < i; ++j) {
+      State x = begin;
+      x.t = imu.samples[j].t;
+      const double part = (x.t - begin.t) / (end.t - begin.t);
+      x.q_eb = (turned[j - first] * Exp(part * miss)).normalized();
+      out.states.push_back(x);
+      out.covariances.Set(j, part < 0.5 ? P_begin : P_end);
+    }
+  }
+  return out;
+}
+
+Solution SampleAttitude(const Solution& solution, const ImuStream& imu,
+                        const std::vector<double>& times) {
+  Solution out = WithoutStates(solution);
+  out.states.reserve(times.size());
+  out.covariances =
+      CovarianceSeries(solution.covariances.dim(),
+                       solution.covariances.empty() ? 0 : times.size());
+  std::size_t k = 0;
+  std::size_t s = 0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    while (k + 1 < solution.states.size() &&
+           solution.states[k + 1].t <= times[i]) {
+      ++k;
+    }
+    while (s + 1 < imu.samples.size() &&
+           imu.samples[s + 1].t <= solution.states[k].t) {
+      ++s;
+    }
+    State x = solution.states[k];
+    const Eigen::Vector3d w = imu.samples[s].gyro - x.b_g;
+    x.q_eb = (x.q_eb * Exp((times[i] - x.t) * w)).normalized();
+    x.t = times[i];
+    out.states.push_back(x);
+    if (!solution.covariances.empty()) {
+      out.covariances.Set(i, solution.covariances.Get(k));
+    }
+    if (!solution.accel_sigma.empty()) {
+      out.accel_sigma.push_back(solution.accel_sigma[k]);
+    }
+    if (!solution.magnetic.empty()) {
+      out.magnetic.push_back(solution.magnetic[k]);
+    }
+  }
+  return out;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,26 @@
+#ifndef HINDSIGHT_PROBLEMS_ATTITUDE_SAMPLES_H_
+#define HINDSIGHT_PROBLEMS_ATTITUDE_SAMPLES_H_
+
+#include <vector>
+
+#include "imu/imu_stream.h"
+#include "state/solution.h"
+
+namespace hindsight {
+
+/// Attitudes at every IMU sample from those of nodes, of which the first and
+/// the last enclose the samples: turned by the gyros from the node before, with
+/// what they miss of the node after spread evenly over the interval. Gyro bias
+/// of the node before, covariances of the nearer one, reduced to `layout`,
+/// which is {attitude, gyro bias}.
+Solution NodesAtSamples(const Solution& nodes, const ImuStream& imu,
+                        const ErrorLayout& layout);
+
+/// Attitudes at other times: the state at the sample before, turned by the rate
+/// of that sample. Nothing later enters, so a causal solution stays causal.
+Solution SampleAttitude(const Solution& solution, const ImuStream& imu,
+                        const std::vector<double>& times);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_ATTITUDE_SAMPLES_H_
