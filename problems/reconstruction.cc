@@ -12,6 +12,7 @@
 #include "filters/transport.h"
 #include "filters/two_filter.h"
 #include "problems/batch.h"
+#include "problems/contradictions.h"
 #include "problems/robust_batch.h"
 #include "problems/sample_solution.h"
 #include "problems/sensor_imm.h"
@@ -121,9 +122,19 @@ struct Reconstruction::Impl {
   void RunForward() {
     if (rts) return;
     constexpr int kMaxPlacements = 6;
-    for (int i = 0; i < kMaxPlacements; ++i) {
+    for (const Sensor& sensor : timeline.sensors()) {
+      placed_offsets.push_back(sensor.time_offset);
+    }
+    for (int i = 1;; ++i) {
       RunForwardOnce();
-      if (!PlaceNodesAnew()) return;
+      const int moved = MoveOffsets();
+      if (moved < 0) return;
+      if (i == kMaxPlacements) {
+        unsettled = timeline.sensors()[static_cast<std::size_t>(moved)].name;
+        return;
+      }
+      timeline = BuildTimeline(dataset, MakeTimelineOptions());
+      settled.reset();
     }
   }
 
@@ -144,29 +155,25 @@ struct Reconstruction::Impl {
     rts_seconds = ProcessorSeconds() - t0 - ekf->seconds;
   }
 
-  /// Moves the nodes of every sensor whose estimated time offset is more than
-  /// 20 ms from where its nodes were placed; true if any was.
-  bool PlaceNodesAnew() {
+  /// Takes over every estimated time offset that is more than 20 ms from where
+  /// the sensor's nodes were placed; the last such sensor, or -1.
+  int MoveOffsets() {
     constexpr double kFarthest = 0.02;
-    std::vector<double> offsets;
-    for (const Sensor& sensor : timeline.sensors()) {
-      offsets.push_back(sensor.time_offset);
-    }
-    if (placed_offsets.empty()) placed_offsets = offsets;
-    bool moved = false;
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
+    int moved = -1;
+    for (std::size_t i = 0; i < placed_offsets.size(); ++i) {
       const Block* block =
           start.layout.Find(BlockKind::kTimeOffset, static_cast<int>(i));
       if (block == nullptr) continue;
       const double estimate = SettledParameters()(block->parameter_offset);
       if (std::abs(estimate - placed_offsets[i]) < kFarthest) continue;
+      if (!std::isfinite(estimate)) {
+        throw EstimationError("the time offset of " +
+                              timeline.sensors()[i].name + " diverged");
+      }
       placed_offsets[i] = estimate;
-      moved = true;
+      moved = static_cast<int>(i);
     }
-    if (!moved) return false;
-    timeline = BuildTimeline(dataset, MakeTimelineOptions());
-    settled.reset();
-    return true;
+    return moved;
   }
 
   /// Constants after a few iterations about the smoothed trajectory: one pass
@@ -206,6 +213,15 @@ struct Reconstruction::Impl {
     solution.method = MethodName(method);
     solution.seconds = seconds;
     Conclude(timeline.sensors(), Unobserved(), &solution);
+    for (std::string& note :
+         FindContradictions(timeline.sensors(), start.prior, solution)) {
+      solution.notes.push_back(std::move(note));
+    }
+    if (!unsettled.empty()) {
+      solution.usable = false;
+      solution.verdict =
+          "not usable: the time offset of " + unsettled + " does not settle";
+    }
     return solution;
   }
 
@@ -403,6 +419,8 @@ struct Reconstruction::Impl {
   ReconstructionOptions options;
   /// Time offsets the nodes are placed by; empty: those of the sensors.
   std::vector<double> placed_offsets;
+  /// Sensor whose estimated time offset went on moving; empty: none.
+  std::string unsettled;
   std::optional<ParameterVector> settled;
   std::optional<std::vector<UnobservedSpan>> unobserved;
   Start start;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
 
 #include "alignment/alignment.h"
@@ -54,19 +55,21 @@ class StartFinder {
   const InitialState& given() const { return dataset_.initial; }
 
   void ChooseTime() {
+    if (!given().position && fixes_.empty()) {
+      throw EstimationError(
+          "no initial position: give initial.position or a position stream "
+          "with fixes inside the interval");
+    }
     if (given().t) {
+      RequireValuesInside(*given().t);
       t_ = std::max(*given().t, from_);
     } else if (given().position) {
       t_ = from_;
-    } else if (!fixes_.empty()) {
+    } else {
       t_ = fixes_.front().t;
       for (const TimeInterval& rest : rests_) {
         if (rest.begin <= from_ + 1.0 && rest.end >= t_) t_ = from_;
       }
-    } else {
-      throw EstimationError(
-          "no initial position: give initial.position or a position stream "
-          "with fixes inside the interval");
     }
     for (const TimeInterval& rest : rests_) {
       if (rest.begin <= t_ + 1.0 && rest.end > t_ + 1.0) {
@@ -74,6 +77,17 @@ class StartFinder {
       }
     }
     if (MovesAsGiven()) rest_.reset();
+  }
+
+  /// Where the vehicle was and how it moved at t says nothing of another time.
+  void RequireValuesInside(double t) const {
+    const double slack = 2.0 * dataset_.imu.nominal_dt;
+    const bool moves = given().position || given().v_n || given().euler;
+    if (t < to_ && (!moves || t >= from_ - slack)) return;
+    throw InputError("initial.time is " + std::to_string(t) +
+                     " s; expected a time inside the interval, " +
+                     std::to_string(from_) + " to " + std::to_string(to_) +
+                     " s");
   }
 
   /// Smooth motion looks like rest to an IMU; a velocity that is given knows
@@ -143,20 +157,41 @@ class StartFinder {
     }
     if (rest_) {
       v_sigma_.setConstant(0.05);
-    } else if (!velocities_.empty()) {
-      const TimedVelocity& nearest = *std::min_element(
-          velocities_.begin(), velocities_.end(),
-          [this](const TimedVelocity& a, const TimedVelocity& b) {
-            return std::abs(a.t - t_) < std::abs(b.t - t_);
-          });
-      v_n_ = nearest.v_n;
-      // It is used again as a measurement, or made of fixes that are.
-      v_sigma_.setConstant(3.0 * nearest.sigma +
-                           3.0 * std::abs(nearest.t - t_) + 0.2);
     } else {
-      v_sigma_.setConstant(10.0);
+      v_sigma_.setConstant(kNoVelocity);
+      if (!velocities_.empty()) {
+        const TimedVelocity& v = Nearest(velocities_);
+        TakeVelocity(v.v_n, v.sigma, v.t);
+      }
+      const auto bottom = BottomVelocities(dataset_, from_, to_);
+      if (!bottom.empty()) {
+        const BottomVelocity& v = Nearest(bottom);
+        const double turned =
+            std::min(std::sqrt(attitude_.P.trace()), 1.0) * v.v_b.norm();
+        TakeVelocity(attitude_.q_nb * v.v_b, v.sigma + turned, v.t);
+      }
+      if (v_sigma_.x() == kNoVelocity) v_sigma_.setConstant(10.0);
     }
     if (given().velocity_sigma) v_sigma_ = *given().velocity_sigma;
+  }
+
+  template <typename Velocity>
+  const Velocity& Nearest(const std::vector<Velocity>& velocities) const {
+    return *std::min_element(velocities.begin(), velocities.end(),
+                             [this](const Velocity& a, const Velocity& b) {
+                               return std::abs(a.t - t_) < std::abs(b.t - t_);
+                             });
+  }
+
+  static constexpr double kNoVelocity = std::numeric_limits<double>::infinity();
+
+  /// Unless a better one is there.
+  void TakeVelocity(const Eigen::Vector3d& v_n, double sigma, double t) {
+    // It is used again as a measurement, or made of fixes that are.
+    const double loose = 3.0 * sigma + 3.0 * std::abs(t - t_) + 0.2;
+    if (loose >= v_sigma_.x()) return;
+    v_n_ = v_n;
+    v_sigma_.setConstant(loose);
   }
 
   void ChoosePosition() {

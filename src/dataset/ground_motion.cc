@@ -1,8 +1,10 @@
 #include "dataset/ground_motion.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace hindsight {
 namespace {
@@ -74,6 +76,46 @@ std::vector<TimedVelocity> GroundVelocities(const Dataset& dataset, double from,
 
 namespace {
 
+/// Of what was received, in the log's axes and as measured; nothing where less
+/// than three components were.
+std::optional<Eigen::Vector3d> VelocityOf(const Dvl& dvl) {
+  if (dvl.rows() < 3) return std::nullopt;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> B(dvl.rows(), 3);
+  Eigen::VectorXd z(dvl.rows());
+  for (int i = 0, row = 0; i < dvl.components(); ++i) {
+    if (!dvl.valid[static_cast<std::size_t>(i)]) continue;
+    B.row(row) = dvl.Direction(i).transpose();
+    z(row++) = dvl.speed(i);
+  }
+  return Eigen::Vector3d(B.colPivHouseholderQr().solve(z));
+}
+
+}  // namespace
+
+std::vector<BottomVelocity> BottomVelocities(const Dataset& dataset,
+                                             double from, double to) {
+  std::vector<BottomVelocity> out;
+  ForEach<Dvl>(dataset, from, to, [&](double t, const Dvl& dvl, int i) {
+    const auto v_d = VelocityOf(dvl);
+    if (dvl.water || !v_d) return;
+    const Sensor& sensor = dataset.streams[static_cast<std::size_t>(i)].sensor;
+    // The horizontal part of a Janus head's velocity is known to
+    // sigma / (sqrt(2) sin a).
+    const double beams = dvl.form == Dvl::Form::kThreeAxis
+                             ? 1.0
+                             : std::sqrt(2.0) * std::sin(dvl.beam_angle);
+    out.push_back({t, sensor.q_sb.conjugate() * *v_d / (1.0 + sensor.scale),
+                   dvl.sigma(0) / beams});
+  });
+  std::stable_sort(out.begin(), out.end(),
+                   [](const BottomVelocity& a, const BottomVelocity& b) {
+                     return a.t < b.t;
+                   });
+  return out;
+}
+
+namespace {
+
 constexpr double kStep = 1.0;          // [s]
 constexpr double kMargin = 1.0;        // of a velocity's validity [s]
 constexpr double kWalking = 0.3;       // certainly moving above this [m/s]
@@ -81,28 +123,41 @@ constexpr double kResting = 0.1;       // at rest below this [m/s]
 constexpr double kShortestRest = 3.0;  // seen by aiding sensors alone [s]
 constexpr double kAidingGap = 2.5;     // [s]
 
-bool Moves(const std::vector<TimedVelocity>& velocities, double begin,
-           double end) {
-  auto it = std::lower_bound(
-      velocities.begin(), velocities.end(), begin - kMargin,
-      [](const TimedVelocity& v, double t) { return v.t < t; });
-  for (; it != velocities.end() && it->t <= end + kMargin; ++it) {
-    if (it->v_n.head<2>().norm() > std::max(kWalking, 5.0 * it->sigma)) {
-      return true;
+/// Times of certain motion, in order.
+std::vector<double> MotionTimes(const Dataset& dataset,
+                                const std::vector<TimedVelocity>& velocities) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> times;
+  const auto look = [&times](double t, const Eigen::Vector3d& v, double sigma) {
+    if (v.head<2>().norm() > std::max(kWalking, 5.0 * sigma)) {
+      times.push_back(t);
     }
+  };
+  for (const TimedVelocity& v : velocities) look(v.t, v.v_n, v.sigma);
+  for (const BottomVelocity& v :
+       BottomVelocities(dataset, -infinity, infinity)) {
+    look(v.t, v.v_b, v.sigma);
   }
-  return false;
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+bool Moves(const std::vector<double>& motion, double begin, double end) {
+  const auto it =
+      std::lower_bound(motion.begin(), motion.end(), begin - kMargin);
+  return it != motion.end() && *it <= end + kMargin;
 }
 
 void AppendRestsSeenByImu(const Dataset& dataset,
                           const std::vector<TimedVelocity>& velocities,
                           std::vector<TimeInterval>* rests) {
+  const std::vector<double> motion = MotionTimes(dataset, velocities);
   for (const TimeInterval& still :
        FindStandstill(dataset.imu, dataset.stationary)) {
     bool joined = false;
     for (double t = still.begin; t < still.end; t += kStep) {
       const double end = std::min(t + kStep, still.end);
-      if (Moves(velocities, t, end)) {
+      if (Moves(motion, t, end)) {
         joined = false;
         continue;
       }

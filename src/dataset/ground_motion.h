@@ -34,11 +34,25 @@ struct TimedVelocity {
 std::vector<TimedVelocity> GroundVelocities(const Dataset& dataset, double from,
                                             double to);
 
+/// Velocity of a Doppler log's transducer over the bottom, body axes [m/s], as
+/// the told scale and boresight have it, with its standard deviation an axis.
+struct BottomVelocity {
+  double t = 0.0;
+  Eigen::Vector3d v_b;
+  double sigma = 0.0;
+};
+
+/// Those of all bottom-tracking logs in [from, to], in time order. Beams give
+/// one where three were received.
+std::vector<BottomVelocity> BottomVelocities(const Dataset& dataset,
+                                             double from, double to);
+
 /// Spans in which the vehicle stands, in time order: what FindStandstill says,
-/// less every second in which the aiding sensors see motion (even cruise on a
-/// good road or in still air looks like rest to an IMU), and every span of at
-/// least 3 s in which they see none (an idling engine shakes an IMU): speeds
-/// below 0.1 m/s and twice their sigma, known to 0.1 m/s, without gaps.
+/// less every second in which GNSS or a Doppler log sees motion (even cruise on
+/// a good road, in still air or under water looks like rest to an IMU), and
+/// every span of at least 3 s in which GNSS sees none (an idling engine shakes
+/// an IMU): speeds below 0.1 m/s and twice their sigma, known to 0.1 m/s,
+/// without gaps.
 std::vector<TimeInterval> FindRests(const Dataset& dataset);
 
 }  // namespace hindsight

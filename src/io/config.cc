@@ -170,6 +170,17 @@ void LoadImu(const Declared& declared, ConfigMap* top, Dataset* dataset) {
   dataset->imu.nominal_dt = MedianInterval(dataset->imu);
 }
 
+/// Values of a time at which nobody was there are values of another.
+void RequireStartInside(ConfigMap* top, const Dataset& dataset) {
+  const ImuStream& imu = dataset.imu;
+  if (!dataset.initial.t) return;
+  const double t = *dataset.initial.t;
+  const double slack = 2.0 * imu.nominal_dt;
+  if (t >= imu.t_begin() - slack && t < imu.t_end()) return;
+  top->Map("initial").Fail("time", "lies outside the IMU's record, " +
+                                       Span(imu.t_begin(), imu.t_end()));
+}
+
 /// The constraint holds at all times: measurements of nobody's making.
 std::vector<Measurement> Generate(const AidingConfig& config,
                                   const ImuStream& imu) {
@@ -258,6 +269,7 @@ Dataset LoadDataset(const std::string& config_path, const LoadOptions& options,
   Dataset dataset;
   const Declared declared = ReadDeclarations(&top, options, &dataset);
   LoadImu(declared, &top, &dataset);
+  RequireStartInside(&top, dataset);
   for (const AidingConfig& config : declared.aiding) {
     LoadAiding(config, &dataset);
   }

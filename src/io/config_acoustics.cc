@@ -42,6 +42,7 @@ void ReadCurrent(ConfigMap* map, const Dvl& dvl, Sensor* sensor) {
 Eigen::Quaterniond ReadSensorMounting(ConfigMap* map) {
   const Eigen::Vector3d euler =
       map->Vector("mounting", Quantity::kAngle, Eigen::Vector3d::Zero());
+  RequireTurns(map, "mounting", euler);
   return QuaternionFromEuler(euler.x(), euler.y(), euler.z());
 }
 
@@ -63,7 +64,7 @@ void ReadDvl(ConfigMap* map, Sensor* sensor, Dvl* dvl) {
   dvl->sigma = ReadDvlSigma(map, dvl->form);
   dvl->water = map->Choice("track", {"bottom", "water"}, 0) == 1;
   sensor->q_sb = ReadSensorMounting(map);
-  sensor->scale = map->Number("scale", Quantity::kRatio, 0.0);
+  sensor->scale = ReadScale(map);
   ReadCurrent(map, *dvl, sensor);
 }
 
@@ -87,7 +88,7 @@ void ReadAcoustic(ConfigMap* map, Sensor* sensor, AcousticFix* fix) {
     fix->sigma_bearing = map->Positive("bearing_sigma", Quantity::kAngle);
   }
   sensor->q_sb = ReadSensorMounting(map);
-  sensor->scale = map->Number("scale", Quantity::kRatio, 0.0);
+  sensor->scale = ReadScale(map);
 }
 
 }  // namespace hindsight

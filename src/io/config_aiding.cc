@@ -188,7 +188,7 @@ void ReadVehicle(ConfigMap* map, AidingConfig* config) {
                                    Odometer::Form::kIncrements};
     options.odometer_form =
         kForms[map->Choice("form", {"three_axis", "forward", "increments"}, 0)];
-    sensor.scale = map->Number("scale", Quantity::kRatio, 0.0);
+    sensor.scale = ReadScale(map);
   }
   if (options.odometer_form == Odometer::Form::kIncrements) {
     options.sigma = ReadIncrementSigma(map);
@@ -254,7 +254,13 @@ void ReadMagneticEstimates(ConfigMap* estimate,
 
 void ReadSigmas(ConfigMap* map, const AidingType& type,
                 AidingReadOptions* options) {
-  options->sigma = map->OptionalSigma("sigma", type.sigma);
+  const bool one =
+      type.type == SensorType::kHeight || type.type == SensorType::kSpeedCourse;
+  if (!one) {
+    options->sigma = map->OptionalSigma("sigma", type.sigma);
+  } else if (map->Has("sigma")) {
+    options->sigma.emplace().setConstant(map->Positive("sigma", type.sigma));
+  }
   if (type.type == SensorType::kSpeedCourse) {
     if (!options->sigma) map->Fail("sigma", "is missing; expected a speed");
     options->course_sigma = map->Positive("course_sigma", Quantity::kAngle);

@@ -56,6 +56,7 @@ Eigen::Matrix3d ReadMounting(ConfigMap* imu) {
   }
   const Eigen::Vector3d euler =
       imu->Vector("mounting", Quantity::kAngle, Eigen::Vector3d::Zero());
+  RequireTurns(imu, "mounting", euler);
   return QuaternionFromEuler(euler.x(), euler.y(), euler.z())
              .toRotationMatrix() *
          C_bs;

@@ -6,6 +6,21 @@
 
 namespace hindsight {
 
+void RequireTurns(ConfigMap* map, const std::string& key,
+                  const Eigen::Vector3d& angles) {
+  if (angles.cwiseAbs().maxCoeff() <= 2.0 * kPi) return;
+  map->Fail(key, "expected angles of -360 to 360 deg");
+}
+
+double ReadScale(ConfigMap* map) {
+  const double scale = map->Number("scale", Quantity::kRatio, 0.0);
+  if (scale <= -1.0) {
+    map->Fail("scale",
+              "expected more than -100 %: measured = (1 + scale) true");
+  }
+  return scale;
+}
+
 std::optional<Geodetic> ReadGeodetic(ConfigMap* map, const std::string& key) {
   if (!map->Has(key)) return std::nullopt;
   const std::vector<std::string> items = map->List(key);
@@ -57,6 +72,7 @@ InitialState ReadInitialState(ConfigMap* top) {
   initial.position = ReadGeodetic(&map, "position");
   initial.v_n = map.OptionalVector("velocity", Quantity::kSpeed);
   initial.euler = map.OptionalVector("attitude", Quantity::kAngle);
+  if (initial.euler) RequireTurns(&map, "attitude", *initial.euler);
   initial.heading = map.OptionalNumber("heading", Quantity::kAngle);
   if (initial.euler && initial.heading) {
     map.Fail("heading", "does not go with attitude, which holds it");

@@ -18,6 +18,13 @@ StreamSource ReadStreamSource(ConfigMap* map,
 /// C_bs of `axes` and `mounting`, of the imu or the truth.
 Eigen::Matrix3d ReadMounting(ConfigMap* map);
 
+/// Fails for a turn by more than 360 deg: it is another unit's.
+void RequireTurns(ConfigMap* map, const std::string& key,
+                  const Eigen::Vector3d& angles);
+
+/// `scale`, measured = (1 + scale) true; 0.
+double ReadScale(ConfigMap* map);
+
 /// latitude, longitude, height under `key`; nothing if it is absent.
 std::optional<Geodetic> ReadGeodetic(ConfigMap* map, const std::string& key);
 

@@ -63,6 +63,7 @@ class AidingReader {
     RequireFields(rows_.opened(), source.format, map_.fields, map_.first,
                   map_.first + map_.values - 1);
     if (!options.sigma) RequireSigmas();
+    if (options.type == SensorType::kDvl && !HasBeams()) RefuseBeamFlags();
     if (!options.accept_quality.empty()) {
       RequireFields(rows_.opened(), source.format, map_.fields, map_.quality(),
                     map_.quality());
@@ -128,6 +129,25 @@ class AidingReader {
                        source_.name + ": " + source_.path + " has no column " +
                            map_.fields[i].name + "; expected it, or `sigma`");
     }
+  }
+
+  void RefuseBeamFlags() const {
+    for (std::size_t i = kValid; i < kWater; ++i) {
+      if (!rows_.table().Has(i)) continue;
+      throw InputError(source_.config_path, source_.config_line,
+                       source_.name + ": the column " + map_.fields[i].name +
+                           " goes with `form: beams`; of three axes, expected "
+                           "`quality` with accept_quality");
+    }
+  }
+
+  /// A column of 1 and 0.
+  bool Flag(std::size_t i) const {
+    const double value = Value(i);
+    if (value == 1.0 || value == 0.0) return value == 1.0;
+    if (source_.absent_values && std::isnan(value)) return false;
+    rows_.table().Fail(std::string(map_.fields[i].name) + " is " +
+                       FormatNumber(value) + "; expected 1 or 0");
   }
 
   bool IsRejected() {
@@ -261,16 +281,13 @@ class AidingReader {
 
   Dvl DvlModel() const {
     Dvl dvl = options_.dvl;
-    constexpr std::size_t kValid = 7;
-    constexpr std::size_t kWater = 11;
     for (int i = 0; i < dvl.components(); ++i) {
       const auto k = static_cast<std::size_t>(i);
       dvl.speed(i) = Value(map_.first + k);
-      dvl.valid[k] =
-          std::isfinite(dvl.speed(i)) &&
-          (!rows_.table().Has(kValid + k) || Value(kValid + k) > 0.5);
+      dvl.valid[k] = std::isfinite(dvl.speed(i)) &&
+                     (!rows_.table().Has(kValid + k) || Flag(kValid + k));
     }
-    if (rows_.table().Has(kWater)) dvl.water = Value(kWater) > 0.5;
+    if (rows_.table().Has(kWater)) dvl.water = Flag(kWater);
     if (dvl.water && !options_.has_current) {
       rows_.table().Fail(source_.name +
                          ": water track needs `current` in the configuration");
@@ -309,6 +326,10 @@ class AidingReader {
     if (measured.has_course) measured.course = Value(1);
     return measured;
   }
+
+  /// Of DvlFields.
+  static constexpr std::size_t kValid = 7;
+  static constexpr std::size_t kWater = 11;
 
   const StreamSource& source_;
   const AidingReadOptions& options_;

@@ -180,10 +180,16 @@ std::size_t NumberLength(std::string_view text) {
   return static_cast<std::size_t>(result.ptr - text.data());
 }
 
+/// "a length", "an angle".
+std::string WithArticle(Quantity quantity) {
+  const std::string name = Describe(quantity).name;
+  return (name.starts_with('a') ? "an " : "a ") + name;
+}
+
 [[noreturn]] void Fail(std::string_view text, const std::string& what,
                        Quantity quantity) {
   throw std::invalid_argument("'" + std::string(text) + "' " + what +
-                              "; expected a " + Describe(quantity).name +
+                              "; expected " + WithArticle(quantity) +
                               " in one of " + UnitExamples(quantity));
 }
 
@@ -196,7 +202,7 @@ double Convert(std::string_view text, std::string_view number,
   if (!factor) {
     Fail(text,
          std::string("has the unit '") + std::string(unit) +
-             "', which is not one of a " + Describe(quantity).name,
+             "', which is not one of " + WithArticle(quantity),
          quantity);
   }
   return *value * *factor;

@@ -110,6 +110,49 @@ TEST(Start, WithoutPositionThereIsNoAnswer) {
     for (Measurement& z : stream.measurements) --z.sensor;
   }
   EXPECT_THROW(FindWholeStart(dataset), EstimationError);
+  dataset.initial.t = 1.0;
+  EXPECT_THROW(FindWholeStart(dataset), EstimationError);
+}
+
+TEST(Start, ValuesOfAnotherTimeAreRefused) {
+  Dataset dataset = Simulate(FromRest(), 1);
+  dataset.initial.t = 1.0;
+  dataset.initial.v_n = Eigen::Vector3d::Zero();
+  EXPECT_NO_THROW(FindStart(dataset, 0.0, 50.0));
+  EXPECT_THROW(FindStart(dataset, 20.0, 50.0), InputError);
+  EXPECT_THROW(FindStart(dataset, 0.0, 0.5), InputError);
+  // Where nothing but the time is given, the data say the rest.
+  dataset.initial.v_n.reset();
+  EXPECT_NO_THROW(FindStart(dataset, 20.0, 50.0));
+}
+
+TEST(Start, VelocityComesFromTheDopplerLog) {
+  // 2 m/s ahead and 1 m/s to the right, heading east; the log looks to the
+  // right and reads 2 % too much. The IMU feels nothing of it.
+  Dataset dataset;
+  for (int k = 0; k <= 2000; ++k) {
+    dataset.imu.samples.push_back(
+        {0.01 * k, {0.0, 0.0, 0.0}, {0.0, 0.0, -kStandardGravity}});
+  }
+  AidingStream stream;
+  stream.sensor.name = "log";
+  stream.sensor.type = SensorType::kDvl;
+  stream.sensor.scale = 0.02;
+  stream.sensor.q_sb = Exp(Eigen::Vector3d(0.0, 0.0, -90.0 * kDegree));
+  for (int k = 0; k < 20; ++k) {
+    Dvl dvl;
+    dvl.speed.head<3>() = 1.02 * Eigen::Vector3d(1.0, -2.0, 0.0);
+    dvl.sigma.setConstant(0.01);
+    stream.measurements.push_back({0.5 + k, 0, false, dvl});
+  }
+  dataset.streams.push_back(stream);
+  dataset.initial.position = Geodetic{0.8, 0.2, -20.0};
+  dataset.initial.heading = 90.0 * kDegree;
+  const Start start = FindWholeStart(dataset);
+  const Eigen::Vector3d v_n =
+      start.report.state.C_en().transpose() * start.report.state.v_e;
+  EXPECT_LT((v_n - Eigen::Vector3d(-1.0, 2.0, 0.0)).norm(), 0.05) << v_n;
+  EXPECT_LT(start.report.velocity_sigma.maxCoeff(), 3.0);
 }
 
 TEST(Start, IntervalWithoutImuIsAnInputError) {

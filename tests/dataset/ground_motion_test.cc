@@ -78,5 +78,53 @@ TEST(GroundMotion, EvenCruiseIsNoRest) {
   EXPECT_LE(rests[0].end, 10.5);
 }
 
+TEST(GroundMotion, CruiseThatADopplerLogSeesIsNoRest) {
+  for (const bool water : {false, true}) {
+    Dataset dataset = Cruise(0.0, 0.0, 0.05);
+    dataset.streams.clear();
+    AidingStream stream;
+    for (int k = 0; k < 20; ++k) {
+      Dvl dvl;
+      dvl.form = Dvl::Form::kBeams;
+      dvl.beam_angle = 30.0 * kDegree;
+      dvl.valid[static_cast<std::size_t>(k % 4)] = false;
+      dvl.water = water;
+      dvl.sigma.setConstant(0.02);
+      const Eigen::Vector3d v_d(k < 10 ? 0.0 : 1.5, 0.2, 0.1);
+      for (int i = 0; i < 4; ++i) dvl.speed(i) = dvl.Direction(i).dot(v_d);
+      stream.measurements.push_back({static_cast<double>(k), 0, false, dvl});
+    }
+    dataset.streams.push_back(stream);
+    const std::vector<BottomVelocity> velocities =
+        BottomVelocities(dataset, 0.0, 20.0);
+    const std::vector<TimeInterval> rests = FindRests(dataset);
+    ASSERT_EQ(rests.size(), 1u);
+    if (water) {
+      // Speed through the water is none over the ground.
+      EXPECT_TRUE(velocities.empty());
+      EXPECT_GT(rests[0].end, 19.0);
+      continue;
+    }
+    ASSERT_EQ(velocities.size(), 20u);
+    EXPECT_LT((velocities[15].v_b - Eigen::Vector3d(1.5, 0.2, 0.1)).norm(),
+              1e-12);
+    EXPECT_NEAR(velocities[0].sigma, 0.02 / std::sqrt(0.5), 1e-12);
+    EXPECT_GT(rests[0].end, 7.0);
+    EXPECT_LE(rests[0].end, 9.5);
+  }
+}
+
+TEST(GroundMotion, TwoBeamsAreNoVelocity) {
+  Dataset dataset;
+  AidingStream stream;
+  Dvl dvl;
+  dvl.form = Dvl::Form::kBeams;
+  dvl.beam_angle = 30.0 * kDegree;
+  dvl.valid = {true, false, true, false};
+  stream.measurements.push_back({1.0, 0, false, dvl});
+  dataset.streams.push_back(stream);
+  EXPECT_TRUE(BottomVelocities(dataset, 0.0, 2.0).empty());
+}
+
 }  // namespace
 }  // namespace hindsight

@@ -179,6 +179,14 @@ TEST_F(ConfigTest, BadConfigurationNamesLineAndReason) {
       {"aiding:", "withhold: [{sensor: dvl, every: 9 s, length: 1 s}]\naiding:",
        "config.yaml:7: ", "'dvl'"},
       {"gate: 99.9 %", "gate: [", "config.yaml:13: ", "YAML"},
+      {"aiding:", "initial: {time: 9 s}\naiding:",
+       "config.yaml:7: initial.time: ", "10.000 to 10.300 s"},
+      {"aiding:", "initial: {time: 11 s}\naiding:",
+       "config.yaml:7: initial.time: ", "10.000 to 10.300 s"},
+      {"aiding:", "initial: {attitude: [0, 0, 500 deg]}\naiding:",
+       "config.yaml:7: initial.attitude: ", "-360 to 360 deg"},
+      {"aiding:", "initial: {attitude: [0, 0, 5 m]}\naiding:",
+       "config.yaml:7: initial.attitude: ", "not one of an angle"},
   };
   for (const BadConfig& c : cases) {
     SCOPED_TRACE(c.to);

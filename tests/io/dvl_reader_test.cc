@@ -116,6 +116,37 @@ TEST_F(DvlReader, RangeAndBearingToATransponder) {
       1e-6);
 }
 
+TEST_F(DvlReader, FlagsAreOneOrZero) {
+  const std::string head =
+      "t[s],beam_1[m/s],beam_2[m/s],beam_3[m/s],beam_4[m/s],valid_2[1],"
+      "water[1]\n0.01,1,1,1,1,1,0\n0.02,1,1,1,1,";
+  const std::string log =
+      "  log: {type: dvl, form: beams, file: dvl.csv, sigma: 0.02 m/s, "
+      "current: {sigma: 1 m/s}";
+  Aiding(log + "}\n");
+  for (const char* row : {"0.5,0", "2,0", "nan,0", "1,-1", "1,nan"}) {
+    Write("dvl.csv", head + row + "\n");
+    const std::string error = LoadError();
+    EXPECT_EQ(error.find("dvl.csv:3: "), 0u) << error;
+    EXPECT_NE(error.find("; expected 1 or 0"), std::string::npos) << error;
+  }
+  // Absent, if they may be: not received, over the bottom.
+  Aiding(log + ", absent_values: true}\n");
+  Write("dvl.csv", head + "nan,nan\n");
+  const Dataset data = Load();
+  EXPECT_EQ(At(data, 1).rows(), 3);
+  EXPECT_FALSE(At(data, 1).water);
+}
+
+TEST_F(DvlReader, FlagsOfBeamsDoNotGoWithThreeAxes) {
+  Write("dvl.csv",
+        "t[s],v_x[m/s],v_y[m/s],v_z[m/s],valid_1[1]\n0.01,1,2,3,0\n");
+  Aiding("  log: {type: dvl, file: dvl.csv, sigma: 0.02 m/s}\n");
+  EXPECT_NE(LoadError().find("valid_1 goes with `form: beams`"),
+            std::string::npos)
+      << LoadError();
+}
+
 TEST_F(DvlReader, MistakesNameLineAndKey) {
   Write("dvl.csv", "t[s],v_x[m/s],v_y[m/s],v_z[m/s]\n0.01,1,2,3\n");
   struct Case {
@@ -138,6 +169,13 @@ TEST_F(DvlReader, MistakesNameLineAndKey) {
        "bearing_sigma"},
       {"  d: {type: acoustic, file: dvl.csv, sigma: 1 m}\n", "transponder"},
       {"  d: {type: depth, file: dvl.csv, sigma: 1 m}\n", "depth"},
+      {"  d: {type: depth, file: dvl.csv, sigma: [1, 2, 3 m]}\n",
+       "config.yaml:5: aiding.d.sigma: expected one value"},
+      {"  d: {type: dvl, file: dvl.csv, sigma: 1 m/s, scale: -100 %}\n",
+       "config.yaml:5: aiding.d.scale: expected more than -100 %"},
+      {"  d: {type: dvl, file: dvl.csv, sigma: 1 m/s, mounting: [0, 0, 400 "
+       "deg]}\n",
+       "config.yaml:5: aiding.d.mounting: expected angles of -360 to 360 deg"},
   };
   for (const Case& c : cases) {
     Aiding(c.aiding);

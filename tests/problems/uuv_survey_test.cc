@@ -68,6 +68,21 @@ TEST(UuvSurvey, NoiselessDataGiveNoError) {
   }
 }
 
+TEST(UuvSurvey, ClockThatDoesNotSettleIsNotUsable) {
+  // One wild ping, and the time offset takes the blame for it.
+  Scenario scenario = ShortDive(60.0);
+  Dataset dataset = Simulate(scenario, 1);
+  dataset.streams[0].sensor.time_offset_sigma = 0.05;
+  std::get<Dvl>(dataset.streams[0].measurements[4].model).speed.x() = 1000.0;
+  Reconstruction reconstruction(dataset, {});
+  for (const Method method : {Method::kEkf, Method::kRts}) {
+    const Solution solution = reconstruction.Run(method);
+    EXPECT_FALSE(solution.usable) << solution.verdict;
+    EXPECT_NE(solution.verdict.find("time offset of dvl"), std::string::npos)
+        << solution.verdict;
+  }
+}
+
 TEST(UuvSurvey, SmoothersAndBatchAgree) {
   Scenario scenario = UuvSurvey({.form = Dvl::Form::kBeams});
   scenario.imu_rate_hz = 50.0;
