@@ -6,7 +6,7 @@
 namespace hindsight {
 namespace {
 
-constexpr double kFarthest = 5.0;
+constexpr double kStrained = 5.0;
 constexpr double kSameTime = 1e-6;  // [s]
 
 void AddStrains(const Prior& prior, const Solution& solution,
@@ -20,7 +20,7 @@ void AddStrains(const Prior& prior, const Solution& solution,
   const ErrorVector d = Local(solution.layout, prior.x, x);
   for (int i = 0; i < solution.layout.dim(); ++i) {
     const double sigmas = std::abs(d(i)) / std::sqrt(prior.P(i, i));
-    if (!(sigmas > kFarthest)) continue;
+    if (!(sigmas > kStrained)) continue;
     char text[160];
     std::snprintf(text, sizeof(text),
                   "%s at the start %.1f sigmas from its given value",

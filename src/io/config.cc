@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "dataset/truth_start.h"
 #include "io/atomic_file.h"
 #include "io/config_streams.h"
 #include "io/paths.h"
@@ -51,6 +52,8 @@ struct Declared {
   std::vector<AidingConfig> aiding;
   std::optional<StreamSource> truth;
   TruthReadOptions truth_options;
+  bool truth_clock_unknown = false;
+  bool start_from_truth = false;
 };
 
 void ReadImuConfig(ConfigMap* top, const fs::path& folder, Declared* declared,
@@ -86,8 +89,11 @@ void ReadTruthConfig(ConfigMap* top, const fs::path& folder, Declared* declared,
   if (!top->Has("truth")) return;
   ConfigMap map = top->Map("truth");
   declared->truth = ReadStreamSource(&map, folder, TruthFields());
-  declared->truth->clock.offset =
-      map.Number("time_offset", Quantity::kTime, 0.0);
+  declared->truth_clock_unknown = map.Is("time_offset", "unknown");
+  if (!declared->truth_clock_unknown) {
+    declared->truth->clock.offset =
+        map.Number("time_offset", Quantity::kTime, 0.0);
+  }
   dataset->truth_lever_arm_b =
       map.Vector("lever_arm", Quantity::kLength, Eigen::Vector3d::Zero());
   declared->truth_options.frame = ReadTruthFrame(&map);
@@ -119,7 +125,7 @@ Declared ReadDeclarations(ConfigMap* top, const LoadOptions& options,
   }
   dataset->place = ReadGeodetic(top, "place");
   dataset->ahrs = ReadAhrs(top);
-  dataset->initial = ReadInitialState(top);
+  dataset->initial = ReadInitialState(top, &declared.start_from_truth);
   dataset->stationary = ReadStationary(top);
   ReadTruthConfig(top, folder, &declared, dataset);
   dataset->withholdings = ReadWithholdings(top);
@@ -197,9 +203,11 @@ std::vector<Measurement> Generate(const AidingConfig& config,
   return measurements;
 }
 
-void LoadAiding(const AidingConfig& config, Dataset* dataset) {
+void LoadAiding(const AidingConfig& config, double truth_offset,
+                Dataset* dataset) {
   AidingStream stream;
   stream.sensor = config.sensor;
+  if (config.clock_of_truth) stream.sensor.time_offset = truth_offset;
   if (config.generated_rate) {
     stream.measurements = Generate(config, dataset->imu);
     dataset->streams.push_back(std::move(stream));
@@ -215,7 +223,7 @@ void LoadAiding(const AidingConfig& config, Dataset* dataset) {
       odometer->t_from = line(odometer->t_from);
     }
   }
-  const double offset = config.sensor.time_offset;
+  const double offset = stream.sensor.time_offset;
   RequireOverlap(config.source, dataset->imu,
                  stream.measurements.front().t + offset,
                  stream.measurements.back().t + offset);
@@ -244,15 +252,63 @@ void AddLevel(const AidingConfig& config, Dataset* dataset) {
   dataset->streams.push_back(std::move(stream));
 }
 
-void LoadTruth(const Declared& declared, Dataset* dataset) {
-  if (!declared.truth) return;
+/// Moves the truth to where its attitudes fit the gyros; by how much.
+double FitTruthClock(const StreamSource& source, Dataset* dataset) {
+  const auto clock = FindTruthClock(dataset->imu, dataset->truth);
+  if (!clock) {
+    throw InputError(source.config_path, source.config_line,
+                     "truth.time_offset: is not found within 2 s by the "
+                     "gyros; expected a truth with attitudes that turn");
+  }
+  for (TruthPoint& point : dataset->truth) point.t += clock->offset;
+  char text[120];
+  std::snprintf(text, sizeof(text),
+                "truth: time offset found from the gyros: %.4f s, sigma %.2g "
+                "ms",
+                clock->offset, 1e3 * clock->sigma);
+  dataset->notes.emplace_back(text);
+  return clock->offset;
+}
+
+/// The time offset of the truth's stamps.
+double LoadTruth(const Declared& declared, Dataset* dataset) {
+  if (!declared.truth) return 0.0;
   StreamClock clock;
   dataset->truth = ReadTruth(*declared.truth, declared.truth_options, &clock,
                              &dataset->policies);
   const TimeLine line = MapClock(*declared.truth, clock, dataset->epoch_gps_ns);
   for (TruthPoint& point : dataset->truth) point.t = line(point.t);
+  const double offset = declared.truth_clock_unknown
+                            ? FitTruthClock(*declared.truth, dataset)
+                            : declared.truth->clock.offset;
   RequireOverlap(*declared.truth, dataset->imu, dataset->truth.front().t,
                  dataset->truth.back().t);
+  return offset;
+}
+
+/// So that the resolved configuration loads the same whatever the data say.
+void ResolveTruthOffset(const Declared& declared, double offset,
+                        ConfigMap* top) {
+  const std::string text = FormatNumber(offset) + " s";
+  if (declared.truth_clock_unknown) {
+    top->resolved()["truth"]["time_offset"] = text;
+  }
+  for (const AidingConfig& config : declared.aiding) {
+    if (!config.clock_of_truth) continue;
+    if (!declared.truth) {
+      throw InputError(config.source.config_path, config.source.config_line,
+                       config.source.name + ".time_offset: there is no truth");
+    }
+    top->resolved()["aiding"][config.sensor.name]["time_offset"] = text;
+  }
+}
+
+void TakeStart(ConfigMap* top, Dataset* dataset) {
+  try {
+    StartFromTruth(dataset);
+  } catch (const InputError& error) {
+    top->Map("initial").Fail("from", error.what());
+  }
 }
 
 std::string Emit(const YAML::Node& node) {
@@ -270,13 +326,15 @@ Dataset LoadDataset(const std::string& config_path, const LoadOptions& options,
   const Declared declared = ReadDeclarations(&top, options, &dataset);
   LoadImu(declared, &top, &dataset);
   RequireStartInside(&top, dataset);
+  const double truth_offset = LoadTruth(declared, &dataset);
+  ResolveTruthOffset(declared, truth_offset, &top);
   for (const AidingConfig& config : declared.aiding) {
-    LoadAiding(config, &dataset);
+    LoadAiding(config, truth_offset, &dataset);
   }
   for (const AidingConfig& config : declared.aiding) {
     AddLevel(config, &dataset);
   }
-  LoadTruth(declared, &dataset);
+  if (declared.start_from_truth) TakeStart(&top, &dataset);
   try {
     ApplyWithholding(&dataset);
   } catch (const InputError& error) {

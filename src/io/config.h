@@ -66,7 +66,7 @@ namespace hindsight {
 /// aiding.NAME besides:
 /// | type              | *needed*: position, velocity, height, depth, speed_course, odometer, non_holonomic, dvl, acoustic, magnetometer | |
 /// | lever_arm         | from the IMU, body axes                  | 0       |
-/// | time_offset       | true time = stamp + offset               | 0 s     |
+/// | time_offset       | true time = stamp + offset; `truth`: that of the truth | 0 s     |
 /// | every             | use one measurement in this time         | all     |
 /// | sigma             | replaces the file's: one or NED; of the speed for speed_course; forward, side, down or one for odometer, of an increment for its increments; [side, down] for non_holonomic | - |
 /// | sigma_scale       | multiplies the file's                    | 1       |
@@ -115,13 +115,15 @@ namespace hindsight {
 /// scale of the range; estimate.scale, estimate.mounting. The position that an
 /// array on a ship gives is a position.
 ///
-/// truth besides: lever_arm (of the point it speaks of), time_offset; axes and
+/// truth besides: lever_arm (of the point it speaks of); time_offset, or `unknown`: found from the
+/// gyros (dataset/truth_start.h); axes and
 /// mounting as of the imu, of the axes that its attitude speaks of; for columns
 /// p_x, v_x and q_w and the like, moving (0 or 1): frame (ecef, ned, enu, nwu; ecef), origin
 /// ([lat, lon, h] of local frames) and quaternion (body_to_frame,
 /// frame_to_body; body_to_frame).
 ///
-/// initial: time, position [lat, lon, h], velocity (NED), attitude (roll,
+/// initial: from, given or truth (given): time, position, velocity and attitude that are absent
+/// are the truth's at its first point inside the record; time, position [lat, lon, h], velocity (NED), attitude (roll,
 /// pitch, heading), heading, gyro_bias, accel_bias, and position_sigma,
 /// velocity_sigma, attitude_sigma, gyro_bias_sigma, accel_bias_sigma. What is
 /// absent is found by alignment.

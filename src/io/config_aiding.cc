@@ -348,8 +348,11 @@ AidingConfig ReadAidingConfig(const std::string& name, ConfigMap* map,
     if (map->Has("every")) {
       config.options.every = map->Positive("every", Quantity::kTime);
     }
-    config.sensor.time_offset =
-        map->Number("time_offset", Quantity::kTime, 0.0);
+    config.clock_of_truth = map->Is("time_offset", "truth");
+    if (!config.clock_of_truth) {
+      config.sensor.time_offset =
+          map->Number("time_offset", Quantity::kTime, 0.0);
+    }
   }
   if (type.type == SensorType::kOdometer ||
       type.type == SensorType::kNonHolonomic) {

@@ -137,6 +137,12 @@ bool ConfigMap::IsScalar(const std::string& key) {
   return node && node->IsScalar();
 }
 
+bool ConfigMap::Is(const std::string& key, const std::string& word) {
+  if (!IsScalar(key) || ScalarText(key, *Find(key)) != word) return false;
+  Resolve(key, word);
+  return true;
+}
+
 std::vector<std::string> ConfigMap::Keys() const {
   std::vector<std::string> keys;
   for (const auto& entry : entries_) keys.push_back(entry.first);

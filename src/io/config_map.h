@@ -67,6 +67,8 @@ class ConfigMap {
   bool IsMap(const std::string& key);
   /// True if the value of `key` is a single word or number.
   bool IsScalar(const std::string& key);
+  /// True if the value of `key` is that word; it then counts as read.
+  bool Is(const std::string& key, const std::string& word);
 
   /// Keys of this map in the file's order.
   std::vector<std::string> Keys() const;

@@ -63,11 +63,15 @@ TruthFrame ReadTruthFrame(ConfigMap* truth) {
   return frame;
 }
 
-InitialState ReadInitialState(ConfigMap* top) {
+InitialState ReadInitialState(ConfigMap* top, bool* from_truth) {
   InitialState initial;
   initial.alignment =
       static_cast<AlignmentKind>(top->Choice("alignment", AlignmentNames(), 0));
   ConfigMap map = top->Map("initial");
+  *from_truth = map.Choice("from", {"given", "truth"}, 0) == 1;
+  if (*from_truth && !top->Has("truth")) {
+    map.Fail("from", "there is no truth");
+  }
   initial.t = map.OptionalNumber("time", Quantity::kTime);
   initial.position = ReadGeodetic(&map, "position");
   initial.v_n = map.OptionalVector("velocity", Quantity::kSpeed);
@@ -78,7 +82,7 @@ InitialState ReadInitialState(ConfigMap* top) {
     map.Fail("heading", "does not go with attitude, which holds it");
   }
   if (initial.alignment == AlignmentKind::kGiven && !initial.euler &&
-      !initial.heading) {
+      !initial.heading && !*from_truth) {
     top->Fail("alignment", "given needs initial.attitude or initial.heading");
   }
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();

@@ -41,6 +41,7 @@ struct AidingConfig {
   AidingReadOptions options;
   /// There is no file: one measurement each 1/rate over the IMU's record [Hz].
   std::optional<double> generated_rate;
+  bool clock_of_truth = false;  ///< its time offset is the truth's
   /// Standard deviation of the vehicle's mean roll about zero [rad].
   std::optional<double> level_sigma;
 };
@@ -65,7 +66,8 @@ void ReadCalibrationSigmas(ConfigMap* map, Sensor* sensor);
 Eigen::Quaterniond ReadSensorMounting(ConfigMap* map);
 
 AhrsSettings ReadAhrs(ConfigMap* top);
-InitialState ReadInitialState(ConfigMap* top);
+/// `from_truth`: what is absent is the truth's.
+InitialState ReadInitialState(ConfigMap* top, bool* from_truth);
 StationaryOptions ReadStationary(ConfigMap* top);
 std::vector<Withholding> ReadWithholdings(ConfigMap* top);
 

@@ -198,6 +198,62 @@ TEST_F(ConfigTest, BadConfigurationNamesLineAndReason) {
   }
 }
 
+TEST_F(ConfigTest, StartAndClockComeFromTheTruth) {
+  // Turns to the right by 0.2 rad a second from t = 20 s on for 5 s, and back.
+  std::string imu =
+      "t[s],gyro_x[rad/s],gyro_y[rad/s],gyro_z[rad/s],"
+      "accel_x[g],accel_y[g],accel_z[g]\n";
+  const auto rate = [](double t) {
+    return t < 20.0 || t > 30.0 ? 0.0 : t < 25.0 ? 0.2 : -0.2;
+  };
+  const auto heading = [](double t) {
+    return 0.2 * (t < 25.0 ? std::max(t - 20.0, 0.0) : std::max(30.0 - t, 0.0));
+  };
+  for (double t = 10.005; t < 40.0; t += 0.01) {
+    imu += std::to_string(t) + ",0,0," + std::to_string(rate(t)) + ",0,0,-1\n";
+  }
+  std::string truth =
+      "t[s],lat[deg],lon[deg],h[m],v_n[m/s],v_e[m/s],v_d[m/s],roll[rad],"
+      "pitch[rad],heading[rad]\n";
+  for (int k = 10; k < 40; ++k) {
+    truth += std::to_string(k) + ",50,8,100,1,2,3,0,0," +
+             std::to_string(heading(k + 0.4)) + "\n";
+  }
+  Write("imu.csv", imu);
+  Write("truth.csv", truth);
+  std::string config = ReplacedOnce(kConfig, "  axes: [x, -y, -z]\n", "") +
+                       "    time_offset: truth\n"
+                       "initial: {from: truth}\n"
+                       "truth: {file: truth.csv, time_offset: unknown}\n";
+  Write("config.yaml", config);
+  ResolvedConfig resolved;
+  const Dataset data = Load(&resolved);
+  EXPECT_NEAR(data.streams[0].sensor.time_offset, 0.4, 0.01);
+  EXPECT_NEAR(data.truth.front().t, 10.4, 0.01);
+  EXPECT_EQ(data.initial.t, data.truth.front().t);
+  EXPECT_EQ(*data.initial.v_n, Eigen::Vector3d(1.0, 2.0, 3.0));
+  Write("config.yaml", resolved.yaml);
+  EXPECT_EQ(Load().streams[0].sensor.time_offset,
+            data.streams[0].sensor.time_offset);
+  EXPECT_EQ(Load().initial.t, data.initial.t);
+
+  // Nothing turns.
+  config.replace(config.find("truth.csv"), 9, "still.csv");
+  Write("still.csv", "t[s],lat[deg],lon[deg],h[m]\n10,50,8,100\n11,50,8,100\n");
+  Write("config.yaml", config);
+  EXPECT_NE(LoadError().find("truth.time_offset: is not found"),
+            std::string::npos)
+      << LoadError();
+  Write("config.yaml", std::string(kConfig) + "initial: {from: truth}\n");
+  EXPECT_NE(LoadError().find("initial.from: there is no truth"),
+            std::string::npos)
+      << LoadError();
+  Write("config.yaml", std::string(kConfig) + "    time_offset: truth\n");
+  EXPECT_NE(LoadError().find("gnss.time_offset: there is no truth"),
+            std::string::npos)
+      << LoadError();
+}
+
 struct BadFile {
   const char* from;
   const char* to;
