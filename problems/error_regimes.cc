@@ -176,7 +176,7 @@ struct Attempt {
 /// The most promising starts by a narrow search.
 std::vector<Attempt> BestAttempts(const RegimeProblem& problem,
                                   const ErrorParameters& white) {
-  constexpr std::size_t kNarrow = 4;
+  constexpr std::size_t kNarrow = 1;
   constexpr std::size_t kMost = 2;
   constexpr double kLeastLog = 15.0;
   std::vector<Attempt> attempts;
@@ -265,7 +265,7 @@ ErrorRegimes Best(std::vector<ErrorRegimes> all) {
                       [&](const auto& b) { return b.history == h.history; });
       if (known) continue;
       best.histories.push_back(
-          {std::move(h.history), h.log_posterior - own + level});
+          {std::move(h.history), h.log_posterior - own + level, h.count});
     }
   }
   std::stable_sort(best.histories.begin(), best.histories.end(),

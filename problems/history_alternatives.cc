@@ -1,5 +1,6 @@
 #include "problems/history_alternatives.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -22,16 +23,23 @@ double HorizontalSquares(const HistoryAlternative& a,
 std::vector<HistoryAlternative> WeighHistories(const LinearTape& tape,
                                                int receiver,
                                                const ErrorRegimes& regimes) {
-  constexpr std::size_t kMost = 16;
+  constexpr std::size_t kMost = 24;
   const double best = regimes.histories.front().log_posterior;
+  const auto weight = [&](const ScoredHistory& h) {
+    return h.count * std::exp(h.log_posterior - best);
+  };
+  std::vector<const ScoredHistory*> sorted;
+  for (const ScoredHistory& h : regimes.histories) sorted.push_back(&h);
+  std::stable_sort(
+      sorted.begin(), sorted.end(),
+      [&](const auto* a, const auto* b) { return weight(*a) > weight(*b); });
+  sorted.resize(std::min(kMost, sorted.size()));
   std::vector<HistoryAlternative> all;
   double sum = 0.0;
-  for (const ScoredHistory& h : regimes.histories) {
-    if (all.size() == kMost) break;
+  for (const ScoredHistory* h : sorted) {
     all.push_back(
-        {std::exp(h.log_posterior - best),
-         StepsByNode(tape, receiver, h.history),
-         SmoothHistory(tape, receiver, regimes.parameters, h.history)});
+        {weight(*h), StepsByNode(tape, receiver, h->history),
+         SmoothHistory(tape, receiver, regimes.parameters, h->history)});
     sum += all.back().weight;
   }
   for (HistoryAlternative& one : all) one.weight /= sum;

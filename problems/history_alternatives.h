@@ -14,7 +14,7 @@ struct HistoryAlternative {
   std::vector<ErrorVector> smoothed;  ///< SmoothHistory of it
 };
 
-/// The likeliest histories of the regimes, at most 16.
+/// The likeliest histories of the regimes, at most 24.
 std::vector<HistoryAlternative> WeighHistories(const LinearTape& tape,
                                                int receiver,
                                                const ErrorRegimes& regimes);

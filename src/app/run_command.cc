@@ -15,6 +15,8 @@ and writes into the folder of --out:
                         deviations and covariances, biases
   METHOD.at.csv         the same at the times of --at
   METHOD.tum, .kml, .nav  what --export asks for
+  METHOD.nav.txt        with --inject: the errors injected, for .nav, which knows
+                        no comments
   METHOD.modes.csv      probabilities of the modes of imm, imm_smoother and
                         robust_batch
   residuals.csv         every measurement's residual, sigma, weight and fate

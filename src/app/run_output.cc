@@ -41,13 +41,38 @@ void Append(const std::vector<T>& tail, std::vector<T>* all) {
   all->insert(all->end(), tail.begin(), tail.end());
 }
 
-/// The program, and that the data are not as recorded.
-std::string ProgramLine(const Dataset& dataset) {
-  std::string line = kProgram;
+/// That the data are not as recorded; empty if they are.
+std::string InjectionRemark(const Dataset& dataset) {
+  std::string remark;
   for (const Injection& injection : dataset.injections) {
-    line += "; error injected on purpose: " + Describe(injection);
+    remark += std::string(remark.empty() ? "" : "; ") +
+              "error injected on purpose: " + Describe(injection);
   }
-  return line;
+  return remark;
+}
+
+/// The program and the remark.
+std::string ProgramLine(const Dataset& dataset) {
+  const std::string remark = InjectionRemark(dataset);
+  return kProgram + (remark.empty() ? "" : "; " + remark);
+}
+
+void WriteExports(const RunRequest& request, const Dataset& dataset,
+                  const std::string& method, const SolutionTable& table,
+                  const ResultFolder& folder) {
+  const std::string remark = InjectionRemark(dataset);
+  if (request.exports.contains("tum")) {
+    WriteTum(folder.Path(method + ".tum"), table, remark);
+  }
+  if (request.exports.contains("kml")) {
+    WriteKml(folder.Path(method + ".kml"), table, dataset.epoch_gps_ns,
+             dataset.name + " " + method, remark);
+  }
+  if (!request.exports.contains("nav")) return;
+  WriteNav(folder.Path(method + ".nav"), table, dataset.epoch_gps_ns);
+  // The format knows no comments.
+  if (remark.empty()) return;
+  WriteFileAtomically(folder.Path(method + ".nav.txt"), remark + "\n");
 }
 
 /// t[s] and the probability of each mode.
@@ -143,16 +168,7 @@ void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
     WriteModes(folder.Path(method + ".modes.csv"), solution,
                ProgramLine(dataset));
   }
-  if (request.exports.contains("tum")) {
-    WriteTum(folder.Path(method + ".tum"), table);
-  }
-  if (request.exports.contains("kml")) {
-    WriteKml(folder.Path(method + ".kml"), table, dataset.epoch_gps_ns,
-             dataset.name + " " + method);
-  }
-  if (request.exports.contains("nav")) {
-    WriteNav(folder.Path(method + ".nav"), table, dataset.epoch_gps_ns);
-  }
+  WriteExports(request, dataset, method, table, folder);
 }
 
 MethodSummary Summarize(const Dataset& dataset,

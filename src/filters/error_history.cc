@@ -215,33 +215,45 @@ ErrorMatrix ErrorChain::Phi(ErrorStep step) const {
 ErrorChain::FixLikelihood ErrorChain::LikelihoodOfFix(const Gaussian& x) const {
   ErrorDynamics as_it_is;
   as_it_is.ee = 1.0;
-  return Likelihood(as_it_is, x);
+  return Likelihood(as_it_is, ViewOf(x));
 }
 
-ErrorChain::FixLikelihood ErrorChain::LikelihoodAfter(ErrorStep step,
-                                                      const Gaussian& x) const {
-  return Likelihood(DynamicsOf(parameters_, step, dt_), x);
-}
-
-ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
-                                                 const Gaussian& x) const {
+ErrorChain::FixView ErrorChain::ViewOf(const Gaussian& x) const {
   const int n = navigation_dim_;
   const LinearizedMeasurement& z = z_[static_cast<std::size_t>(fix_)];
   const auto H = z.H.leftCols(n);
-  const Eigen::Vector3d innovation = z.residual - H * x.mean.head(n) -
-                                     d.ee * x.mean.segment<3>(n) -
-                                     d.er * x.mean.segment<3>(n + 3);
-  const Eigen::Matrix3d cross =
-      H * (d.ee * x.P.block(0, n, n, 3) + d.er * x.P.block(0, n + 3, n, 3));
-  const Eigen::Matrix3d P_er = x.P.block<3, 3>(n, n + 3);
-  Eigen::Matrix3d S = H * x.P.topLeftCorner(n, n) * H.transpose();
-  S += cross + cross.transpose() + d.ee * d.ee * x.P.block<3, 3>(n, n) +
-       d.ee * d.er * (P_er + P_er.transpose()) +
-       d.er * d.er * x.P.block<3, 3>(n + 3, n + 3);
+  const RowJacobian HP = H * x.P.topRows(n);
+  FixView view;
+  view.innovation = z.residual - H * x.mean.head(n);
+  view.S = HP.leftCols(n) * H.transpose();
+  view.P_ze = HP.middleCols(n, 3);
+  view.P_zr = HP.middleCols(n + 3, 3);
+  view.e = x.mean.segment<3>(n);
+  view.r = x.mean.segment<3>(n + 3);
+  view.P_ee = x.P.block<3, 3>(n, n);
+  view.P_er = x.P.block<3, 3>(n, n + 3);
+  view.P_rr = x.P.block<3, 3>(n + 3, n + 3);
+  return view;
+}
+
+ErrorChain::FixLikelihood ErrorChain::LikelihoodAfter(
+    ErrorStep step, const FixView& view) const {
+  return Likelihood(DynamicsOf(parameters_, step, dt_), view);
+}
+
+ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
+                                                 const FixView& view) const {
+  const LinearizedMeasurement& z = z_[static_cast<std::size_t>(fix_)];
+  const Eigen::Vector3d innovation =
+      view.innovation - d.ee * view.e - d.er * view.r;
+  const Eigen::Matrix3d cross = d.ee * view.P_ze + d.er * view.P_zr;
+  Eigen::Matrix3d S = view.S + cross + cross.transpose() +
+                      d.ee * d.ee * view.P_ee + d.er * d.er * view.P_rr;
+  S += d.ee * d.er * (view.P_er + view.P_er.transpose());
   S.diagonal().array() += d.q_ee;
-  if (velocity_ >= 0) {
+  if (velocity_ >= 0 && d.q_vv > 0.0) {
     const Eigen::Matrix3d H_v =
-        dt_ * H.middleCols(position_, 3) + H.middleCols(velocity_, 3);
+        dt_ * z.H.middleCols(position_, 3) + z.H.middleCols(velocity_, 3);
     S += d.q_vv * H_v * H_v.transpose();
   }
   const double k = parameters_.outlier_ratio;

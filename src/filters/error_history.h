@@ -99,8 +99,18 @@ class ErrorChain {
   };
   /// After PredictError.
   FixLikelihood LikelihoodOfFix(const Gaussian& x) const;
-  /// After PredictNavigation, as if PredictError of `step` came next.
-  FixLikelihood LikelihoodAfter(ErrorStep step, const Gaussian& x) const;
+  /// What the fix sees of a state after PredictNavigation, whatever the step of
+  /// the error.
+  struct FixView {
+    Eigen::Vector3d innovation;  ///< residual - H_n mean_n
+    Eigen::Matrix3d S;           ///< H_n P_n H_n'
+    Eigen::Matrix3d P_ze, P_zr;  ///< H_n P_ne, H_n P_nr
+    Eigen::Vector3d e, r;
+    Eigen::Matrix3d P_ee, P_er, P_rr;
+  };
+  FixView ViewOf(const Gaussian& x) const;
+  /// As if PredictError of `step` came next.
+  FixLikelihood LikelihoodAfter(ErrorStep step, const FixView& view) const;
 
   /// Updates with all measurements of the node; returns ln of the likelihood of
   /// those beside the fix. `used` gets what was used, if asked for.
@@ -113,7 +123,7 @@ class ErrorChain {
                    std::vector<Used>* used = nullptr) const;
 
  private:
-  FixLikelihood Likelihood(const ErrorDynamics& d, const Gaussian& x) const;
+  FixLikelihood Likelihood(const ErrorDynamics& d, const FixView& view) const;
 
   const LinearTape& tape_;
   int receiver_;

@@ -1,6 +1,7 @@
 #include "filters/history_refinement.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "filters/history_smoother.h"
 
@@ -8,6 +9,10 @@ namespace hindsight {
 namespace {
 
 constexpr double kLeastPosterior = 10.0;
+/// Fixes of the shortest earlier bias that is looked for, and the ratio of the
+/// lengths that are.
+constexpr std::size_t kShortest = 5;
+constexpr double kLengthRatio = 1.25;
 constexpr std::size_t kMostRescored = 8;
 constexpr int kMostRounds = 6;
 
@@ -76,7 +81,7 @@ std::vector<ErrorHistory> Variations(const ErrorHistory& h) {
     }
     all.push_back(WithJolts(h, at, c));
     // An error too small to be found alone may have come before a larger one.
-    for (std::size_t length = 5; at[c] >= least + length; length *= 2) {
+    for (std::size_t length = kShortest; at[c] >= least + length; length *= 2) {
       all.push_back(
           WithSegment(h, at[c] - length, at[c], {ErrorMode::kBiased, true}));
     }
@@ -90,13 +95,15 @@ class Refinement {
              const ErrorParameters& parameters)
       : tape_(tape), receiver_(receiver), parameters_(parameters) {}
 
-  void Try(const ErrorHistory& history) {
-    for (const ScoredHistory& one : met_) {
-      if (one.history == history) return;
+  void Try(const ErrorHistory& history, double count = 1.0) {
+    for (ScoredHistory& one : met_) {
+      if (one.history != history) continue;
+      one.count = std::max(one.count, count);
+      return;
     }
     const HistoryScore score =
         ScoreHistory(tape_, receiver_, parameters_, history);
-    met_.push_back({history, score.log_likelihood + score.log_prior});
+    met_.push_back({history, score.log_likelihood + score.log_prior, count});
     if (met_.back().log_posterior > met_[best_].log_posterior) {
       best_ = met_.size() - 1;
     }
@@ -107,6 +114,25 @@ class Refinement {
       const std::size_t before = best_;
       for (const ErrorHistory& h : Variations(met_[best_].history)) Try(h);
       if (best_ == before) break;
+    }
+  }
+
+  /// An error too small to be found alone may have begun at any time before a
+  /// larger one: each time is unlikely, all together may not be.
+  void TryEarlierBiases() {
+    const ErrorHistory best = met_[best_].history;
+    const std::vector<std::size_t> at = Changes(best);
+    for (std::size_t c = 0; c + 1 < at.size(); ++c) {
+      const std::size_t least = c == 0 ? 0 : at[c - 1] + 1;
+      std::size_t next = 0;
+      for (std::size_t length = kShortest; at[c] >= least + length;
+           length = next) {
+        next = static_cast<std::size_t>(
+            std::ceil(kLengthRatio * static_cast<double>(length)));
+        Try(WithSegment(best, at[c] - length, at[c],
+                        {ErrorMode::kBiased, true}),
+            static_cast<double>(next - length));
+      }
     }
   }
 
@@ -137,6 +163,7 @@ std::vector<ScoredHistory> RefineHistories(
     refinement.Try(found[i].history);
   }
   refinement.Climb();
+  refinement.TryEarlierBiases();
   return refinement.Result();
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace hindsight {
@@ -18,6 +19,7 @@ struct Hypothesis {
   ErrorMode mode = ErrorMode::kGood;
   double log_weight = 0.0;
   int record = -1;
+  int began = 0;  ///< fix at which what goes on began
 };
 
 /// A step of a history and the record before it.
@@ -31,6 +33,29 @@ struct Candidate {
   ErrorStep step;
   double log_weight = 0.0;
   bool outlier = false;
+  int began = 0;
+};
+
+/// Counts histories by mode and by how long ago what goes on began, in powers
+/// of two of fixes. Every fix gives birth to histories of an error that has
+/// just begun; were they counted with the older ones, they would in time drive
+/// out the one that is right, as nothing tells it yet from one that is not.
+class Quota {
+ public:
+  explicit Quota(std::size_t most) : most_(most) {}
+
+  bool Take(ErrorMode mode, int age) {
+    const int width = std::bit_width(static_cast<unsigned>(age));
+    std::size_t& count =
+        kept_[static_cast<std::size_t>(mode)][static_cast<std::size_t>(width)];
+    if (count == most_) return false;
+    ++count;
+    return true;
+  }
+
+ private:
+  std::size_t most_;
+  std::array<std::array<std::size_t, 33>, 3> kept_ = {};
 };
 
 double LogSum(double a, double b) {
@@ -54,6 +79,7 @@ class Search {
       if (chain_.has_fix()) {
         Branch();
         Merge();
+        ++fix_;
       } else {
         GoOn();
       }
@@ -70,11 +96,14 @@ class Search {
   }
 
   void Branch() {
+    const std::vector<Candidate> best = Best(AllCandidates());
     std::vector<Hypothesis> next;
-    for (const Candidate& c : Best(AllCandidates())) {
+    next.reserve(best.size());
+    for (const Candidate& c : best) {
       Hypothesis& h = next.emplace_back();
       h.x = hypotheses_[c.parent].x;
       h.mode = c.step.mode;
+      h.began = c.began;
       h.record = static_cast<int>(records_.size());
       records_.push_back({hypotheses_[c.parent].record, c.step});
       chain_.PredictError(c.step, &h.x);
@@ -87,12 +116,14 @@ class Search {
     std::vector<Candidate> all;
     for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
       const Hypothesis& h = hypotheses_[i];
+      const ErrorChain::FixView view = chain_.ViewOf(h.x);
       for (const ErrorStep step : StepsAfter(h.mode)) {
-        const auto likelihood = chain_.LikelihoodAfter(step, h.x);
+        const auto likelihood = chain_.LikelihoodAfter(step, view);
+        const bool goes_on = step == ErrorStep{h.mode};
         all.push_back({i, step,
                        h.log_weight + likelihood.log +
                            LogTransition(h.mode, step, chain_.fix_count()),
-                       likelihood.outlier});
+                       likelihood.outlier, goes_on ? h.began : fix_});
       }
     }
     return all;
@@ -102,44 +133,47 @@ class Search {
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
       return a.log_weight > b.log_weight;
     });
-    std::array<std::size_t, 3> kept = {};
+    Quota quota(2 * width_);
     std::vector<Candidate> best;
     for (const Candidate& c : all) {
       if (c.log_weight < all.front().log_weight - kLeastLog) break;
-      if (++kept[static_cast<std::size_t>(c.step.mode)] > 2 * width_) {
-        continue;
-      }
-      best.push_back(c);
+      if (quota.Take(c.step.mode, fix_ - c.began)) best.push_back(c);
     }
     return best;
   }
 
   /// Lets the likelier of two near hypotheses of a mode stand for both.
   void Merge() {
-    std::sort(hypotheses_.begin(), hypotheses_.end(),
-              [](const auto& a, const auto& b) {
-                return a.log_weight > b.log_weight;
-              });
+    std::vector<Hypothesis*> sorted;
+    for (Hypothesis& h : hypotheses_) sorted.push_back(&h);
+    std::sort(sorted.begin(), sorted.end(), [](const auto* a, const auto* b) {
+      return a->log_weight > b->log_weight;
+    });
     std::vector<Hypothesis> merged;
-    std::array<std::size_t, 3> kept = {};
-    std::vector<Eigen::LLT<ErrorMatrix>> factors;
-    for (Hypothesis& h : hypotheses_) {
-      bool is_new = true;
-      for (std::size_t i = 0; i < merged.size() && is_new; ++i) {
-        if (merged[i].mode != h.mode) continue;
-        const ErrorVector d =
-            (h.x.mean - merged[i].x.mean).head(navigation_dim_);
-        if (factors[i].matrixL().solve(d).squaredNorm() > kNear) continue;
-        merged[i].log_weight = LogSum(merged[i].log_weight, h.log_weight);
-        is_new = false;
+    merged.reserve(sorted.size());
+    Quota quota(width_);
+    for (Hypothesis* h : sorted) {
+      const auto near =
+          std::find_if(merged.begin(), merged.end(), [&](const auto& other) {
+            return other.mode == h->mode && IsNear(*h, other);
+          });
+      if (near != merged.end()) {
+        near->log_weight = LogSum(near->log_weight, h->log_weight);
+      } else if (quota.Take(h->mode, fix_ - h->began)) {
+        merged.push_back(std::move(*h));
       }
-      if (!is_new) continue;
-      if (++kept[static_cast<std::size_t>(h.mode)] > width_) continue;
-      factors.emplace_back(
-          ErrorMatrix(h.x.P.topLeftCorner(navigation_dim_, navigation_dim_)));
-      merged.push_back(std::move(h));
     }
     hypotheses_ = std::move(merged);
+  }
+
+  /// Whether the mean of h is within the covariance of `other`.
+  bool IsNear(const Hypothesis& h, const Hypothesis& other) const {
+    const ErrorVector d = (h.x.mean - other.x.mean).head(navigation_dim_);
+    const auto P = other.x.P.topLeftCorner(navigation_dim_, navigation_dim_);
+    // No component can be farther off than all together.
+    if ((d.array().square() > kNear * P.diagonal().array()).any()) return false;
+    const Eigen::LLT<ErrorMatrix> llt(ErrorMatrix{P});
+    return llt.matrixL().solve(d).squaredNorm() <= kNear;
   }
 
   std::vector<ScoredHistory> Histories() const {
@@ -159,6 +193,7 @@ class Search {
   ErrorChain chain_;
   int navigation_dim_;
   std::size_t width_;
+  int fix_ = 0;
   std::vector<Hypothesis> hypotheses_;
   std::vector<Record> records_;
 };

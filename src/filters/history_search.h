@@ -8,6 +8,9 @@ namespace hindsight {
 struct ScoredHistory {
   ErrorHistory history;
   double log_posterior = 0.0;  ///< but for a constant of the data
+  /// Of histories next to each other, about as likely, one may stand for this
+  /// many.
+  double count = 1.0;
 };
 
 /// The likeliest histories of a receiver's error, best first: a Kalman filter
@@ -17,10 +20,11 @@ struct ScoredHistory {
 /// what its modes know at every fix, a history remembers when its error began,
 /// so that one that begins too slowly for any single fix to show is found once
 /// the fixes together do.
-/// At most `width` histories of each mode stay after a fix.
+/// At most `width` histories of each mode, and of each power of two of fixes
+/// since what goes on began, stay after a fix.
 std::vector<ScoredHistory> SearchHistories(const LinearTape& tape, int receiver,
                                            const ErrorParameters& parameters,
-                                           std::size_t width = 8);
+                                           std::size_t width = 3);
 
 }  // namespace hindsight
 

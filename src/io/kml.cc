@@ -119,8 +119,8 @@ void WriteTrack(const SolutionTable& table,
 }  // namespace
 
 void WriteKml(const std::string& path, const SolutionTable& table,
-              std::optional<std::int64_t> epoch_gps_ns,
-              const std::string& name) {
+              std::optional<std::int64_t> epoch_gps_ns, const std::string& name,
+              const std::string& description) {
   if (table.p_e.empty()) {
     throw EstimationError(path +
                           ": a KML file needs positions, which the solution "
@@ -132,6 +132,9 @@ void WriteKml(const std::string& path, const SolutionTable& table,
       "<kml xmlns=\"http://www.opengis.net/kml/2.2\" "
       "xmlns:gx=\"http://www.google.com/kml/ext/2.2\">\n<Document><name>" +
       EscapeXml(name) + "</name>\n");
+  if (!description.empty()) {
+    file.Write("<description>" + EscapeXml(description) + "</description>\n");
+  }
   const std::vector<std::vector<std::size_t>> pieces = Pieces(table);
   for (const std::vector<std::size_t>& piece : pieces) {
     file.Write(

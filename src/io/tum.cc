@@ -13,7 +13,8 @@ constexpr int kQuaternionDecimals = 12;
 
 }  // namespace
 
-void WriteTum(const std::string& path, const SolutionTable& table) {
+void WriteTum(const std::string& path, const SolutionTable& table,
+              const std::string& remark) {
   if (table.p_e.empty() || table.q_eb.empty()) {
     throw EstimationError(path +
                           ": a TUM trajectory needs position and "
@@ -26,6 +27,7 @@ void WriteTum(const std::string& path, const SolutionTable& table) {
   // Forward-left-up and forward-right-down differ by half a turn about x.
   const Eigen::Quaterniond q_frd_flu(0.0, 1.0, 0.0, 0.0);
   AtomicFile file(path);
+  if (!remark.empty()) file.Write("# " + remark + "\n");
   std::string line;
   for (std::size_t k = 0; k < table.size(); ++k) {
     const Eigen::Vector3d p = C_ue * (table.p_e[k] - table.p_e[0]);

@@ -11,9 +11,12 @@ namespace hindsight {
 /// header: t [s] of the data set; position [m] in the east-north-up tangent
 /// plane of the ellipsoid at the first epoch, origin there; quaternion of the
 /// rotation from body forward-left-up to these axes (the ROS convention),
-/// qw >= 0. Throws InputError if the file cannot be written, and
-/// EstimationError if the table has no positions or no attitudes.
-void WriteTum(const std::string& path, const SolutionTable& table);
+/// qw >= 0. `remark`, if not empty, goes before them as a comment line, "#
+/// ...", which readers of the format skip. Throws InputError if the file cannot
+/// be written, and EstimationError if the table has no positions or no
+/// attitudes.
+void WriteTum(const std::string& path, const SolutionTable& table,
+              const std::string& remark = "");
 
 }  // namespace hindsight
 

@@ -62,6 +62,15 @@ TEST(Tum, HasAPositiveScalarPartAndNeverAMinusZero) {
   EXPECT_THAT(folder.Read("a.tum"), Not(HasSubstr("-0.000000 ")));
 }
 
+TEST(Tum, PutsARemarkIntoACommentLine) {
+  const TemporaryFolder folder;
+  WriteTum(folder.Path("a.tum"), TwoEpochs(), "not as recorded");
+  const std::vector<std::string> lines = Lines(folder.Read("a.tum"));
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0], "# not as recorded");
+  EXPECT_THAT(lines[1], ::testing::StartsWith("0.500000000 "));
+}
+
 TEST(Nav, MatchesHandComputedLine) {
   const TemporaryFolder folder;
   SolutionTable table = TwoEpochs();
@@ -99,6 +108,15 @@ TEST(Kml, HoldsPathAndTimedTrack) {
                               "<gx:coord>90.000000000 0.000000000 50.000"));
   EXPECT_THAT(text, HasSubstr("<gx:angles>90.00 0 0</gx:angles>"));
   EXPECT_THAT(text, HasSubstr("drive &lt;1> &amp; back"));
+}
+
+TEST(Kml, ShowsADescription) {
+  const TemporaryFolder folder;
+  WriteKml(folder.Path("a.kml"), TwoEpochs(), 0, "x", "1 < 2 & so on");
+  EXPECT_THAT(folder.Read("a.kml"),
+              HasSubstr("<description>1 &lt; 2 &amp; so on</description>"));
+  WriteKml(folder.Path("b.kml"), TwoEpochs(), 0, "x");
+  EXPECT_THAT(folder.Read("b.kml"), Not(HasSubstr("description")));
 }
 
 TEST(Kml, WithoutADateHasNoTrack) {
