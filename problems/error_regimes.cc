@@ -6,19 +6,10 @@
 
 #include "filters/history_refinement.h"
 #include "filters/history_smoother.h"
+#include "problems/error_tuning.h"
 
 namespace hindsight {
 namespace {
-
-/// A parameter that the likelihood decides, with its prior: normal in the
-/// logarithm.
-struct Tunable {
-  double ErrorParameters::*member;
-  double least;
-  double most;
-  double typical;
-  double spread;  ///< standard deviation of the logarithm
-};
 
 int FixCount(const RegimeProblem& problem) {
   int count = 0;
@@ -33,87 +24,10 @@ ErrorHistory Uniform(const RegimeProblem& problem, ErrorMode mode) {
                       ErrorStep{mode, false});
 }
 
-std::vector<Tunable> TunablesOf(const ErrorHistory& history,
-                                const ErrorParameters& from) {
-  std::vector<Tunable> out = {
-      {&ErrorParameters::scale, 0.01, 100.0, 1.0, 1.0},
-      {&ErrorParameters::outlier_share, 1e-3, 0.4, 0.02, 1.5},
-      {&ErrorParameters::outlier_ratio, 3.0, 1000.0, 10.0, 1.5}};
-  bool biased = false;
-  bool drifting = false;
-  for (const ErrorStep& step : history) {
-    biased |= step.mode == ErrorMode::kBiased;
-    drifting |= step.mode == ErrorMode::kDrifting || step.jolt;
-  }
-  if (biased) {
-    out.push_back({&ErrorParameters::tau, 0.1, 1e9, from.tau, 2.3});
-    out.push_back({&ErrorParameters::sigma, 1e-4, 1e5, from.sigma, 2.3});
-  }
-  if (drifting) {
-    out.push_back(
-        {&ErrorParameters::rate_sigma, 1e-6, 1e3, from.rate_sigma, 2.3});
-  }
-  return out;
+ErrorParameters Tune(const RegimeProblem& problem, const ErrorHistory& history,
+                     const ErrorParameters& from) {
+  return TuneParameters(problem.tape, problem.receiver, history, from);
 }
-
-/// The likelihood of a history as a function of the parameters.
-class Tuning {
- public:
-  Tuning(const RegimeProblem& problem, const ErrorHistory& history,
-         const ErrorParameters& from)
-      : problem_(problem),
-        history_(history),
-        tunables_(TunablesOf(history, from)),
-        parameters_(from) {}
-
-  /// Multiplies each parameter by smaller and smaller steps while it gains.
-  ErrorParameters Climb() {
-    value_ = Value(parameters_);
-    for (const double step : {2.5, 1.3}) {
-      for (const Tunable& tunable : tunables_) {
-        if (!Walk(tunable, step)) Walk(tunable, 1.0 / step);
-      }
-    }
-    constexpr double kFine = 1.08;
-    const Tunable& scale = tunables_.front();
-    if (!Walk(scale, kFine)) Walk(scale, 1.0 / kFine);
-    return parameters_;
-  }
-
-  std::size_t count() const { return tunables_.size(); }
-
- private:
-  double Value(const ErrorParameters& p) const {
-    double value = ScoreHistory(problem_.tape, problem_.receiver, p, history_)
-                       .log_likelihood;
-    for (const Tunable& tunable : tunables_) {
-      const double z =
-          std::log(p.*tunable.member / tunable.typical) / tunable.spread;
-      value -= 0.5 * z * z;
-    }
-    return value;
-  }
-
-  bool Walk(const Tunable& tunable, double step) {
-    constexpr int kMost = 8;
-    for (int i = 0; i < kMost; ++i) {
-      ErrorParameters trial = parameters_;
-      trial.*tunable.member =
-          std::clamp(trial.*tunable.member * step, tunable.least, tunable.most);
-      const double value = Value(trial);
-      if (!(value > value_)) return i > 0;
-      parameters_ = trial;
-      value_ = value;
-    }
-    return true;
-  }
-
-  const RegimeProblem& problem_;
-  const ErrorHistory& history_;
-  std::vector<Tunable> tunables_;
-  ErrorParameters parameters_;
-  double value_ = 0.0;
-};
 
 double Criterion(const RegimeProblem& problem, ErrorRegimes::Kind kind,
                  double log_posterior) {
@@ -134,7 +48,7 @@ ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
   out.kind = kind;
   ErrorHistory history = Uniform(problem, mode);
   if (mode == ErrorMode::kBiased) history.front().anew = true;
-  out.parameters = Tuning(problem, history, from).Climb();
+  out.parameters = Tune(problem, history, from);
   const double log_likelihood =
       ScoreHistory(problem.tape, problem.receiver, out.parameters, history)
           .log_likelihood;
@@ -214,8 +128,7 @@ std::vector<Attempt> AttemptsWithNoise(const RegimeProblem& problem,
   std::vector<Attempt> attempts = BestAttempts(problem, start);
   if (attempts.empty()) return attempts;
   const ErrorParameters tuned =
-      Tuning(problem, attempts[0].found.history, attempts[0].parameters)
-          .Climb();
+      Tune(problem, attempts[0].found.history, attempts[0].parameters);
   const auto near = [](double a, double b, double factor) {
     return a < factor * b && b < factor * a;
   };
@@ -237,7 +150,7 @@ ErrorRegimes FitSwitching(const RegimeProblem& problem,
   out.parameters = attempt.parameters;
   for (int i = 0; i < 2; ++i) {
     out.histories = SearchHistories(tape, receiver, out.parameters);
-    out.parameters = Tuning(problem, out.best(), out.parameters).Climb();
+    out.parameters = Tune(problem, out.best(), out.parameters);
   }
   out.histories =
       RefineHistories(tape, receiver, out.parameters, out.histories);

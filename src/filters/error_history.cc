@@ -51,15 +51,18 @@ ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt) {
 }
 
 double LogTransition(ErrorMode before, ErrorStep step, int fixes) {
-  // Expected numbers of changes in a record that is all of one mode: errors are
-  // rare, and end. An IMU rather jolts than a receiver drifts.
-  constexpr double kEnd = 4.0;
-  constexpr double kJumps = 1.0;
-  constexpr double kDrifts = 0.05;
-  constexpr double kStops = 0.05;
-  constexpr double kJolts = 2.0;
-  constexpr double kChanges = 3.0;
-  constexpr double kBends = 0.001;
+  // Expected numbers of changes in a record that is all of one mode, the prior
+  // of a Markov chain. Orders of magnitude: errors are rare, and end; an IMU
+  // rather jolts than a receiver drifts. A factor of ten is 2.3 in the
+  // logarithm of a posterior, of which an error of three sigmas over ten fixes
+  // has 45.
+  constexpr double kEnd = 4.0;    // a bias or drift ends, the receiver is good
+  constexpr double kJumps = 1.0;  // a good receiver becomes biased
+  constexpr double kDrifts = 0.05;  // a good receiver begins to drift
+  constexpr double kStops = 0.05;   // a drift stops, its error stays
+  constexpr double kJolts = 2.0;    // the velocity of the IMU jumps
+  constexpr double kChanges = 3.0;  // a biased receiver jumps to another bias
+  constexpr double kBends = 0.001;  // a drifting one gets another rate
   const double once = 1.0 / std::max(fixes, 20);
   const bool good = before == ErrorMode::kGood;
   const double jumps = good ? kJumps : kChanges;

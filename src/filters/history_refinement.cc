@@ -8,12 +8,16 @@
 namespace hindsight {
 namespace {
 
+/// Histories less likely than the best by this are left out [ln].
 constexpr double kLeastPosterior = 10.0;
 /// Fixes of the shortest earlier bias that is looked for, and the ratio of the
 /// lengths that are.
 constexpr std::size_t kShortest = 5;
 constexpr double kLengthRatio = 1.25;
+/// Of the search's histories, whose weights have those of merged ones in them,
+/// so many are scored on their own.
 constexpr std::size_t kMostRescored = 8;
+/// Rounds of variations, if a climb does not rest before.
 constexpr int kMostRounds = 6;
 
 ErrorMode ModeBefore(const ErrorHistory& h, std::size_t i) {

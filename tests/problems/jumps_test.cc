@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dataset/timeline_builder.h"
+#include "evaluation/chi_square.h"
 #include "filters/imm_smoother.h"
 #include "problems/jump_comparison.h"
 #include "problems/position_imm.h"
@@ -21,10 +22,11 @@ const JumpStatistics& Find(const std::vector<JumpStatistics>& all,
 }
 
 std::vector<JumpStatistics> Compare(const std::string& profile, double sigma,
-                                    int runs) {
+                                    int runs, std::uint64_t first_seed = 1) {
   const PerfectRecording recording(GpsJumps({profile, sigma, 1.0}));
   MonteCarloOptions options;
   options.runs = runs;
+  options.first_seed = first_seed;
   return CompareOnJumps(
       [&](std::uint64_t seed) { return recording.Realize(seed); }, options);
 }
@@ -100,13 +102,15 @@ TEST(PositionImm, KeepsThePapersBoundsOnPulses) {
 class RobustBatchOn : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RobustBatchOn, IsNoWorseThanTheImmAndHonest) {
-  const std::vector<JumpStatistics> all = Compare(GetParam(), 1.0, 2);
+  constexpr int kRuns = 2;
+  const std::vector<JumpStatistics> all = Compare(GetParam(), 1.0, kRuns);
   const JumpStatistics& robust = Find(all, "robust_batch");
   EXPECT_EQ(robust.failed, 0);
   EXPECT_LT(robust.PositionRms(10.0, 250.0),
             1.05 * Find(all, "imm").PositionRms(10.0, 250.0));
-  // Two runs, correlated in time, scatter about the right 2.
-  EXPECT_LT(robust.Anees(10.0, 250.0), 8.0);
+  // When an error began is one guess a run, which moves all positions under it:
+  // at worst a run is one draw of two components.
+  EXPECT_LT(robust.Anees(10.0, 250.0), AneesBounds(kRuns, 2, 0.98).upper);
   const std::string profile = GetParam();
   if (profile == "steps" || profile == "ramp" || profile == "multipath") {
     EXPECT_LT(robust.PositionRms(10.0, 250.0),
@@ -120,6 +124,15 @@ INSTANTIATE_TEST_SUITE_P(Profiles, RobustBatchOn,
                          [](const auto& info) {
                            return std::string(info.param);
                          });
+
+TEST(RobustBatch, RemembersForAHundredSecondsThatItMayBeARamp) {
+  // Until it ends, a jolt of the IMU explains the ramp of this seed as well and
+  // is the likelier of the two.
+  const std::vector<JumpStatistics> all = Compare("ramp", 1.0, 1, 27);
+  const JumpStatistics& robust = Find(all, "robust_batch");
+  EXPECT_LT(robust.PositionRms(10.0, 250.0), 0.5);
+  EXPECT_LT(robust.Anees(10.0, 250.0), AneesBounds(1, 2, 0.98).upper);
+}
 
 TEST(RobustBatch, IsTheBatchWhereNothingIsWrong) {
   const std::vector<JumpStatistics> none = Compare("none", 1.0, 3);
