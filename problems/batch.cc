@@ -74,6 +74,8 @@ ceres::Solver::Options SolverOptions(const BatchOptions& options) {
   // Relative to |x|, of which ECEF positions are 6.4e6 m a node: only a step of
   // rounding size may end the iteration.
   ceres_options.parameter_tolerance = 1e-16;
+  // Whitened information needs no scaling before its Cholesky decomposition.
+  ceres_options.jacobi_scaling = false;
   ceres_options.logging_type = ceres::SILENT;
   ceres_options.num_threads = 1;
   return ceres_options;
@@ -194,6 +196,24 @@ bool AnySummaryIsStale(const ErrorLayout& layout, const Timeline& timeline,
   return false;
 }
 
+bool IsWindowed(const BatchOptions& options, const ChainProblem& chain) {
+  return chain.node_count() > options.whole_nodes;
+}
+
+/// Takes a Gauss-Newton step of a long chain that has no losses, if it is a
+/// rough one: from a start so near, windows would only find it in pieces.
+bool StartsNear(const BatchOptions& options, ChainProblem* chain,
+                Sweep* sweep) {
+  if (!IsWindowed(options, *chain) || chain->HasLoss()) return false;
+  ArrowSystem system = chain->Information();
+  system.Factor();
+  system.Solve();
+  if (!(chain->StepSize(system) < RoughStep(*chain))) return false;
+  chain->Apply(system);
+  ++sweep->iterations;
+  return true;
+}
+
 CovarianceSeries Marginals(ChainProblem* chain) {
   ArrowSystem information = chain->Information();
   information.Factor();
@@ -208,14 +228,15 @@ CovarianceSeries FinishByNewton(const BatchOptions& options,
                                 ChainProblem* chain, Sweep* sweep) {
   constexpr int kMaxSteps = 4;
   constexpr int kMaxSweeps = 10;
-  const bool windowed = chain->node_count() > options.whole_nodes;
+  const bool windowed = IsWindowed(options, *chain);
   const double last = chain->HasLoss() ? kFineStep : kLastNewtonStep;
   for (int i = 1;; ++i) {
     ArrowSystem system = chain->Information();
     system.Factor();
     system.Solve();
     ++sweep->iterations;
-    const double step = chain->Step(&system);
+    const double step = chain->StepSize(system);
+    chain->Apply(system);
     const bool rough = windowed && step > RoughStep(*chain);
     if (step < last || i == (rough ? kMaxSweeps : kMaxSteps)) {
       sweep->converged = sweep->converged && !rough;
@@ -247,8 +268,10 @@ BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
   constexpr int kMaxReintegrations = 5;
   for (int outer = 0; outer < kMaxReintegrations; ++outer) {
     ChainProblem chain(layout, prior, result.states, timeline, decisions);
-    Sweep sweep =
-        SolveGraduated(options, options.graduated && outer == 0, &chain);
+    Sweep sweep;
+    if (!StartsNear(options, &chain, &sweep)) {
+      sweep = SolveGraduated(options, options.graduated && outer == 0, &chain);
+    }
     result.states = chain.States();
     if (!AnySummaryIsStale(layout, *timeline, result.states)) {
       result.P = FinishByNewton(options, &chain, &sweep);

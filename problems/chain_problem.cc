@@ -186,23 +186,28 @@ ArrowSystem ChainProblem::Information() {
   return arrow;
 }
 
-double ChainProblem::Step(ArrowSystem* solved) {
-  const NodeManifold manifold(blocks_.get());
+double ChainProblem::StepSize(const ArrowSystem& solved) const {
   double sum = 0.0;
   for (std::size_t k = 0; k < times_.size(); ++k) {
-    const auto step = solved->rhs(static_cast<int>(k));
-    sum += step.squaredNorm();
+    sum += solved.rhs(static_cast<int>(k)).squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(times_.size()));
+}
+
+void ChainProblem::Apply(const ArrowSystem& solved) {
+  const NodeManifold manifold(blocks_.get());
+  for (std::size_t k = 0; k < times_.size(); ++k) {
+    const auto step = solved.rhs(static_cast<int>(k));
     manifold.Plus(node_values(k), step.data(), node_values(k));
   }
   for (const StateBlocks::Entry& entry : blocks_->globals()) {
     const auto step =
-        solved->rhs_border().segment(entry.tangent, entry.block.dim);
+        solved.rhs_border().segment(entry.tangent, entry.block.dim);
     auto& values = globals_[static_cast<std::size_t>(entry.ambient)];
     for (int i = 0; i < entry.block.dim; ++i) {
       values[static_cast<std::size_t>(i)] += step(i);
     }
   }
-  return std::sqrt(sum / static_cast<double>(times_.size()));
 }
 
 CovarianceSeries ChainProblem::Marginals(const ArrowSystem& factored) const {

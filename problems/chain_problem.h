@@ -50,9 +50,11 @@ class ChainProblem {
   /// matrix, and on the right side the negative gradient of the cost. Solved,
   /// they are one Gauss-Newton step.
   ArrowSystem Information();
-  /// Moves the values by the solution; returns its root mean square a node,
-  /// over metres, m/s, radians and the rest.
-  double Step(ArrowSystem* solved);
+  /// Root mean square a node of a solved step, over metres, m/s, radians and
+  /// the rest.
+  double StepSize(const ArrowSystem& solved) const;
+  /// Moves the values by a solved step.
+  void Apply(const ArrowSystem& solved);
   /// Marginal covariances over the layout from a factored information matrix.
   CovarianceSeries Marginals(const ArrowSystem& factored) const;
 

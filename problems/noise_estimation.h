@@ -11,10 +11,13 @@ namespace hindsight {
 
 /// By what the stated noise of a sensor has to be multiplied.
 struct NoiseFactor {
-  std::string name;  ///< a stream, "imu.gyro" or "imu.accel"
+  /// A stream, "imu.gyro" or "imu.accel"; of a stream with a Gauss-Markov error
+  /// its "NAME.white", "NAME.gauss_markov" and "NAME.gauss_markov_tau"; of a
+  /// magnetometer's disturbance "NAME.disturbance" and "NAME.disturbance_tau".
+  std::string name;
   double factor = 1.0;
-  /// Standard deviation of ln(factor), from the curvature of the likelihood;
-  /// infinite where the data do not tell.
+  /// Standard deviation of ln(factor), all factors being unknown together, from
+  /// the curvature of the likelihood; infinite where the data do not tell.
   double log_sigma = 0.0;
 };
 
@@ -25,11 +28,13 @@ struct NoiseEstimate {
   bool converged = false;
 };
 
-/// Maximum-likelihood noise: the factors on every sensor's standard deviations
-/// and on the IMU's two white-noise densities that maximise the likelihood of
-/// the forward filter's innovations (Schweppe 1965), by cyclic line searches in
-/// the logarithm. Gates and robust losses are off meanwhile: they would judge
-/// by the very sigmas that are sought. `progress` gets the fraction done.
+/// Maximum-likelihood noise: the factors on every sensor's standard deviations,
+/// on sigma and correlation time of errors that last, and on the IMU's two
+/// white-noise densities that maximise the likelihood of
+/// the forward filter's innovations (Schweppe 1965), by parabolas along each
+/// logarithm in turn and along the sum of a turn's moves. Gates and robust
+/// losses are off meanwhile: they would judge by the very sigmas that are
+/// sought. `progress` gets the fraction done.
 NoiseEstimate EstimateNoise(const Dataset& dataset,
                             const std::function<void(double)>& progress = {});
 

@@ -130,6 +130,9 @@ void ReadNoise(ConfigMap* map, AidingConfig* config) {
     noise.sigma = entry.Positive("sigma", quantity);
     noise.tau = entry.Positive("tau", Quantity::kTime);
     noise.white_sigma = entry.Positive("white", quantity, 0.1 * noise.sigma);
+    // The file need not state what is not used.
+    std::optional<Eigen::Vector3d>& stated = config->options.sigma;
+    if (!stated) stated = Eigen::Vector3d::Constant(noise.white_sigma);
   } else if (model == 2) {
     if (sensor->loss.kind != RobustLoss::Kind::kNone) {
       entry.Fail("model", "a mixture does not go with a loss");

@@ -43,6 +43,7 @@ class ArrowSystem {
   using Block = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
   using ConstBlock = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
   using Segment = Eigen::VectorBlock<Eigen::VectorXd>;
+  using ConstSegment = Eigen::VectorBlock<const Eigen::VectorXd>;
 
   /// All elements zero. nodes >= 1, node_dim >= 1, border_dim >= 0.
   ArrowSystem(int nodes, int node_dim, int border_dim);
@@ -65,7 +66,9 @@ class ArrowSystem {
 
   /// Right side before Solve, solution after it.
   Segment rhs(int k) { return rhs_.segment(k * n_, n_); }
+  ConstSegment rhs(int k) const { return rhs_.segment(k * n_, n_); }
   Segment rhs_border() { return rhs_.tail(m_); }
+  ConstSegment rhs_border() const { return rhs_.tail(m_); }
 
   /// Replaces Lambda by its Cholesky factor, after scaling its diagonal to one.
   /// An unknown whose pivot falls to `tolerance` or below (or is not a number)

@@ -24,7 +24,7 @@ TEST_F(AidingTypes, NoiseModels) {
   Write("gnss.csv", "t[s],lat[deg],lon[deg],h[m]\n0.01,48,11,500\n");
   Write("odo.csv", "t[s],speed[km/h]\n0.01,36\n");
   Aiding(
-      "  gnss:\n    type: position\n    file: gnss.csv\n    sigma: 1 m\n"
+      "  gnss:\n    type: position\n    file: gnss.csv\n"
       "    noise: {model: gauss_markov, sigma: 50 cm, tau: 20 s}\n"
       "  odo:\n    type: odometer\n    file: odo.csv\n    form: forward\n"
       "    sigma: 0.1 m/s\n    noise: {model: mixture, outliers: 10 %}\n");

@@ -200,6 +200,31 @@ TEST(Batch, WindowsGiveTheSolutionOfTheWholeChain) {
   }
 }
 
+TEST(Batch, AStartNearTheSolutionNeedsNoWindows) {
+  const TestProblem problem = Problem(kKinds[0]);
+  Timeline timeline = problem.MakeTimeline();
+  const std::vector<State> filtered = FilteredStates(problem, &timeline);
+  const BatchResult whole = SolveBatch(problem.layout, problem.prior, filtered,
+                                       &timeline, All(problem), {});
+  for (const double distance : {1e-4, 1e-1}) {
+    std::vector<State> start = whole.states;
+    for (std::size_t k = 0; k < start.size(); k += 2) {
+      start[k].p_e.x() += distance;
+    }
+    int iterations_in_windows = 0;
+    const BatchResult parts = SolveBatch(
+        problem.layout, problem.prior, start, &timeline, All(problem),
+        {.whole_nodes = 7, .window_nodes = 7, .callback = [&](int) {
+           ++iterations_in_windows;
+         }});
+    EXPECT_EQ(iterations_in_windows == 0, distance < 1e-3);
+    EXPECT_TRUE(parts.converged);
+    EXPECT_LT(LargestError(problem.layout, whole.states, parts.states,
+                           BlockKind::kPosition),
+              1e-6);
+  }
+}
+
 TEST(Batch, ExactDataGiveZeroError) {
   for (const Kind& kind : kKinds) {
     const TestProblem problem = Problem(kind, 20.0, false);
