@@ -16,7 +16,7 @@ struct BatchOptions {
   /// `whole_nodes` is solved in windows of at most `window_nodes`, in which the
   /// neighbours and the constants are held fixed, in turn with steps of the
   /// whole chain.
-  std::size_t whole_nodes = 10000;
+  std::size_t whole_nodes = 25000;
   std::size_t window_nodes = 2500;
   /// Approaches losses that redescend by graduated non-convexity. False: the
   /// start is known to be near.
