@@ -76,6 +76,11 @@ TEST_F(OtherCommands, SimulateEndsEarlier) {
   const std::string part = ReadFile(recording_.root() / "part" / "imu.csv");
   EXPECT_EQ(std::count(part.begin(), part.end(), '\n'), 1 + 901);
   EXPECT_TRUE(whole.starts_with(part));
+  // The errors of this one's positions would begin at 120 s.
+  EXPECT_EQ(Hindsight({"simulate", "gps_jumps", "--out=quiet", "--duration=5"},
+                      recording_.root())
+                .status,
+            0);
   const Outcome never =
       Hindsight({"simulate", "short_drive", "--out=no", "--duration=0"},
                 recording_.root());

@@ -256,6 +256,21 @@ TEST_F(RunCommandTest, InjectedErrorsAreMarkedInEveryOutput) {
   EXPECT_GE(down, 10);
 }
 
+TEST_F(RunCommandTest, LogsEveryMeasurementThatLostHalfOfItsWeight) {
+  const Outcome outcome =
+      recording_.Run({"--out=out", "--methods=robust_batch", "--log=info",
+                      "--inject=position:step=12m,from=30s,to=40s"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  int listed = 0;
+  for (const std::string& line : Lines(outcome.err)) {
+    if (line.find("robust_batch: gnss at 3") == line.npos) continue;
+    EXPECT_THAT(line, HasSubstr("residual"));
+    EXPECT_THAT(line, HasSubstr("weight"));
+    ++listed;
+  }
+  EXPECT_EQ(listed, 10);
+}
+
 TEST_F(RunCommandTest, RefusesAnInjectionThatMakesNoSense) {
   for (const std::string text :
        {"position", "position:step=12", "position:step=1m,ramp=1m",
