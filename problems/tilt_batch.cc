@@ -37,6 +37,12 @@ std::vector<Eigen::Vector3d> AveragedForce(
   return f_n;
 }
 
+/// Of a component of the force at a node, whose error goes on for several.
+double GravitySigma(const AhrsSettings& ahrs) {
+  return ahrs.accel_sigma *
+         std::sqrt(std::max(1.0, ahrs.correlation_time / kRoomNodeSpacing));
+}
+
 class TiltBatch {
  public:
   explicit TiltBatch(const RoomProblem& problem)
@@ -171,10 +177,7 @@ void TiltBatch::AddGyros() {
 }
 
 void TiltBatch::AddGravity() {
-  const AhrsSettings& ahrs = problem_.dataset.ahrs;
-  const double sigma =
-      ahrs.accel_sigma *
-      std::sqrt(std::max(1.0, ahrs.correlation_time / kRoomNodeSpacing));
+  const double sigma = GravitySigma(problem_.dataset.ahrs);
   const std::vector<Eigen::Vector3d> f_n = AveragedForce(problem_, q_nb_);
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     const Eigen::Vector3d f_b = nodes_[k].q.conjugate() * f_n[samples_[k]];
@@ -185,13 +188,15 @@ void TiltBatch::AddGravity() {
 
 void TiltBatch::AddField() {
   std::size_t node = 0;
-  for (const SurveyedField& reading : problem_.readings) {
+  for (std::size_t k = 0; k < problem_.readings.size(); ++k) {
+    const SurveyedField& reading = problem_.readings[k];
     while (node + 1 < times_.size() && times_[node] < reading.t) ++node;
     const FieldResidual residual{reading.field_b - problem_.survey.hard_iron_b,
                                  kFieldScale};
     ceres_->AddResidualBlock(
         Cost<FieldResidual, 3, 4, 3, 2, 1>(residual),
-        new ceres::ScaledLoss(new ceres::CauchyLoss(1.0), reading.weight,
+        new ceres::ScaledLoss(nullptr,
+                              reading.weight * problem_.survey.trust[k],
                               ceres::TAKE_OWNERSHIP),
         nodes_[node].q.coeffs().data(), nodes_[node].d.data(), field_.data(),
         &declination_);
@@ -296,8 +301,10 @@ Solution TiltBatch::Run(const std::function<void(double)>& progress) {
 Solution SolveTiltBatch(const RoomProblem& problem,
                         const std::function<void(double)>& progress) {
   TiltBatch batch(problem);
-  return NodesAtSamples(batch.Run(progress), problem.imu,
-                        problem.smoothed.layout);
+  Solution out =
+      NodesAtSamples(batch.Run(progress), problem.imu, problem.smoothed.layout);
+  out.accel_sigma.assign(out.states.size(), GravitySigma(problem.dataset.ahrs));
+  return out;
 }
 
 }  // namespace hindsight

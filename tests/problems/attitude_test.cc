@@ -155,9 +155,9 @@ TEST(AttitudeEstimation, BatchSeesTheHorizonThroughTheSwing) {
   EXPECT_LT(LargestError(dataset, batch), LargestError(dataset, tilt));
 }
 
-/// 30 uT that travel along, and 30 uT that pass by for a quarter of the time: a
-/// Cauchy loss of 5 uT lets a reading pull by 2.5 uT at most, a third of the
-/// others' weight by 0.8 uT or 2.4 deg of heading; the swing adds its own.
+/// 30 uT that travel along, and 30 uT that pass by for a quarter of the time:
+/// had these their full say they would turn the heading by some 20 deg; the
+/// swing adds its own.
 TEST(AttitudeEstimation, SmootherAndBatchesSeeThroughMagnets) {
   const Eigen::Vector3d magnet(15.0, -20.0, 16.0);
   for (const bool attached : {true, false}) {

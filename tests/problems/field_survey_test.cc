@@ -47,6 +47,37 @@ TEST(FieldSurvey, PassesOverAMagnetThatOnlyAThirdComesNear) {
   EXPECT_GT(survey.trust[1], 0.5);
 }
 
+/// 8 uT are nothing in a field that differs by as much from place to place,
+/// and a magnet in one that is even.
+TEST(FieldSurvey, LearnsHowEvenTheFieldIs) {
+  for (const bool even : {true, false}) {
+    Random random(11);
+    std::vector<SurveyedField> readings = Readings(Eigen::Vector3d::Zero());
+    for (std::size_t k = 0; k < readings.size(); ++k) {
+      if (!even) readings[k].field_b += 6.0 * random.NormalVector3();
+      if (k % 10 == 0) {
+        readings[k].field_b +=
+            readings[k].q_nb.conjugate() * Eigen::Vector3d(0.0, 8.0, 0.0);
+      }
+    }
+    const FieldSurvey survey = SurveyField(readings);
+    int disturbed = 0;
+    for (std::size_t k = 0; k < readings.size(); k += 10) {
+      if (survey.IsDisturbed(k)) ++disturbed;
+    }
+    if (even) {
+      EXPECT_EQ(disturbed, 40);
+      // The sensor's 0.5 uT lie below the least scale.
+      EXPECT_EQ(survey.scale, 1.0);
+      EXPECT_LT((survey.field_n - kField_n).norm(), 0.3);
+    } else {
+      // Of 40, those beyond three sigmas.
+      EXPECT_LE(disturbed, 3);
+      EXPECT_NEAR(survey.scale, 6.0, 1.0);
+    }
+  }
+}
+
 TEST(FieldSurvey, ManyReadingsAtRestAreOne) {
   EXPECT_NEAR(IndependentPart(0.05, 0.0), 0.001, 1e-12);
   EXPECT_NEAR(IndependentPart(0.05, 0.005), 0.011, 1e-12);
