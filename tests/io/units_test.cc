@@ -85,6 +85,22 @@ TEST(Units, RefuseWhatIsMissingOrOfAnotherDimension) {
   }
 }
 
+TEST(Units, MessagesPutTheRightArticle) {
+  const auto message = [](Quantity quantity) -> std::string {
+    try {
+      ParseQuantity("1 furlong", quantity);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string angle = message(Quantity::kAngle);
+  EXPECT_NE(angle.find("not one of an angle"), std::string::npos) << angle;
+  EXPECT_NE(angle.find("expected an angle"), std::string::npos) << angle;
+  const std::string length = message(Quantity::kLength);
+  EXPECT_NE(length.find("not one of a length"), std::string::npos) << length;
+}
+
 TEST(Units, ListsShareTheirLastUnit) {
   const std::vector<double> expected = {0.0, 0.5, -1.1};
   for (const char* text : {"[0, 0.5, -1.1] m", "0, 0.5, -1.1 m",
