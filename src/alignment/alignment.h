@@ -87,9 +87,10 @@ struct AlignmentChoice {
 /// Aligns by the method that Dataset::initial asks for; by default by the given
 /// attitude or heading, and without one by the method whose covariance has the
 /// smallest trace, by a tenth or more below those before it; none is tried
-/// after one that knows all axes to 0.5 deg. The course, which takes the body's
-/// x axis for forward, gives way to `velocity` where that tells the heading too
-/// and the two are more than five sigmas apart. If none finds any, the first
+/// after one that knows all axes to 0.5 deg. The course is a
+/// candidate where an odometer or constraint says where the vehicle's forward
+/// axis is in the body; it gives way to `velocity` where that tells the heading
+/// too and the two are more than five sigmas apart. If none finds any, the first
 /// second is taken as level. Throws EstimationError if the method asked for
 /// finds nothing (its reason is the message).
 AlignmentChoice Align(const AlignmentInput& input);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "alignment/levelling.h"
 #include "geometry/so3.h"
@@ -25,20 +26,30 @@ double MountingYawSigma(const Dataset& dataset) {
   return sigma;
 }
 
-/// The vehicle's forward axis in the body.
-Eigen::Vector3d ForwardAxis(const Dataset& dataset) {
+/// The vehicle's forward axis in the body. It is the IMU's x axis where the
+/// configuration asks for the course; by itself nothing says that the IMU was
+/// put in that way but a sensor or constraint of the vehicle.
+std::optional<Eigen::Vector3d> ForwardAxis(const Dataset& dataset) {
   for (const AidingStream& stream : dataset.streams) {
     const SensorType type = stream.sensor.type;
     if (type == SensorType::kOdometer || type == SensorType::kNonHolonomic) {
       return stream.sensor.q_sb.conjugate() * Eigen::Vector3d::UnitX();
     }
   }
-  return Eigen::Vector3d::UnitX();
+  if (dataset.initial.alignment == AlignmentKind::kCourse) {
+    return Eigen::Vector3d::UnitX();
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 AlignmentOutcome AlignByCourse(const AlignmentInput& input) {
+  const std::optional<Eigen::Vector3d> forward_b = ForwardAxis(input.dataset);
+  if (!forward_b) {
+    return {std::nullopt,
+            "no odometer or constraint says where forward is in the IMU"};
+  }
   const auto moves = [&](const TimedVelocity& v) {
     return v.t >= input.t && v.t <= input.to &&
            v.v_n.head<2>().norm() >= std::max(kCourseSpeed, 10.0 * v.sigma);
@@ -56,8 +67,7 @@ AlignmentOutcome AlignByCourse(const AlignmentInput& input) {
   ImuIntegrator integrator(input.dataset.imu);
   const ImuSummary summary =
       integrator.Summarize(input.t, first->t, calibration);
-  const Eigen::Vector3d forward =
-      out.q_nb * summary.dR * ForwardAxis(input.dataset);
+  const Eigen::Vector3d forward = out.q_nb * summary.dR * *forward_b;
   const double turned = std::atan2(forward.y(), forward.x());
   const double elapsed = first->t - input.t;
   const double drift = std::hypot(

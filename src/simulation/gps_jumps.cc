@@ -62,6 +62,11 @@ Scenario GpsJumps(const GpsJumpsOptions& options) {
   if (!(options.gps_sigma > 0.0) || !(options.gps_rate_hz > 0.0)) {
     throw InputError("gps_jumps: GPS sigma and rate must be positive");
   }
+  if (options.gps_rate_hz * kFlightTime < 1.0) {
+    throw InputError(
+        "gps_jumps: a GPS rate below 1/250 Hz gives one position in all of the "
+        "flight");
+  }
   Scenario s;
   s.name = kGpsJumpsName;
   s.description =

@@ -39,7 +39,7 @@ struct GpsErrorProfile {
 const std::vector<GpsErrorProfile>& GpsErrorProfiles();
 
 /// The scenario "gps_jumps". Throws InputError for an unknown profile and for a
-/// sigma or rate that is not positive.
+/// sigma or rate that is not positive, or a rate that gives a single position.
 Scenario GpsJumps(const GpsJumpsOptions& options);
 
 }  // namespace hindsight

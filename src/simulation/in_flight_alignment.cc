@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kImuRate = 100.0;  // [Hz]
 constexpr double kCruiseSpeed = 150.0;
+constexpr double kAlignmentTime = 150.0;  // what the segments add up to [s]
 constexpr double kBank = 35.0 * kDegree;
 constexpr double kTurnTime = 20.0;
 constexpr double kTurnBlend = 3.0;
@@ -66,6 +67,11 @@ Scenario InFlightAlignment(const InFlightAlignmentOptions& options) {
         "in_flight_alignment: velocity rate must be the IMU's 100 Hz divided "
         "by a whole number");
   }
+  if (samples > kAlignmentTime * kImuRate) {
+    throw InputError(
+        "in_flight_alignment: a velocity rate below 1/150 Hz gives one "
+        "velocity in all of the flight");
+  }
   Scenario s;
   s.name = kInFlightAlignmentName;
   s.description =
@@ -76,6 +82,11 @@ Scenario InFlightAlignment(const InFlightAlignmentOptions& options) {
   s.start_heading = 70.0 * kDegree;
   s.segments = TurnsAndThrottle();
   s.imu_rate_hz = kImuRate;
+  // Truth at every velocity, where the filters have their nodes.
+  const double truths = s.truth_rate_hz / options.velocity_rate_hz;
+  if (std::abs(truths - std::round(truths)) > 1e-6) {
+    s.truth_rate_hz = kImuRate;
+  }
   s.imu.noise.gyro_noise_density = 0.1 * kDegreePerSqrtHour;
   s.imu.noise.accel_noise_density = 100.0 * kMicroG;
   s.imu.gyro_bias_sigma.setConstant(3.0 * kDegree / kHour);

@@ -24,8 +24,9 @@ inline constexpr double kFirstManoeuvre = 10.0;
 
 /// The scenario "in_flight_alignment", stream "velocity". Of the start only the
 /// position is given, to 10 m: attitude and velocity are for alignment to find.
-/// Throws InputError for a rate or sigma that is not positive, and for a rate
-/// whose measurements fall between IMU samples.
+/// Throws InputError for a rate or sigma that is not positive, for a rate whose
+/// measurements fall between IMU samples, and for one that gives a single
+/// measurement.
 Scenario InFlightAlignment(const InFlightAlignmentOptions& options);
 
 /// A bad start: size of the initial attitude error, drawn in direction alone.

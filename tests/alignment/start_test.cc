@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "alignment/alignment.h"
 #include "base/error.h"
 #include "base/units.h"
 #include "geometry/so3.h"
 #include "simulation/builtin_scenarios.h"
 #include "simulation/in_flight_alignment.h"
+#include "support/truth_at.h"
+#include "support/turned_imu.h"
 
 namespace hindsight {
 namespace {
@@ -22,12 +25,6 @@ Start FindWholeStart(const Dataset& dataset) {
   return FindStart(dataset, dataset.imu.t_begin(), dataset.imu.t_end());
 }
 
-const TruthPoint& TruthAt(const Dataset& dataset, double t) {
-  std::size_t k = 0;
-  while (dataset.truth[k].t < t - 1e-6) ++k;
-  return dataset.truth[k];
-}
-
 TEST(Start, LevelsAtRestAndTakesTheHeadingFromTheCourse) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Dataset dataset = Simulate(FromRest(), seed);
@@ -37,7 +34,7 @@ TEST(Start, LevelsAtRestAndTakesTheHeadingFromTheCourse) {
     EXPECT_NE(start.report.attitude.find("levelled at rest"), std::string::npos)
         << start.report.attitude;
     EXPECT_NE(start.report.heading.find("course"), std::string::npos);
-    const TruthPoint& truth = TruthAt(dataset, start.report.t);
+    const TruthPoint& truth = testing::TruthAt(dataset, start.report.t);
     const Eigen::Vector3d euler = EulerFromQuaternion(*truth.q_nb);
     const Eigen::Vector3d error = start.report.state.euler() - euler;
     // Three sigma as reported: accelerometer bias of 1 mg over g.
@@ -89,6 +86,17 @@ TEST(Start, GivenValuesAreTakenAsTheyAre) {
             1e-12);
   EXPECT_LT((start.report.state.v_n() - *dataset.initial.v_n).norm(), 1e-12);
   EXPECT_EQ(start.report.position_sigma, Eigen::Vector3d(1.0, 2.0, 3.0));
+}
+
+TEST(Start, ValuesOfATimeBeforeTheIntervalAreRefused) {
+  Dataset dataset = Simulate(FromRest(), 1);
+  dataset.initial.t = 0.0;
+  const double t_end = dataset.imu.t_end();
+  // A time alone gives nothing that could be wrong.
+  EXPECT_NO_THROW(FindStart(dataset, 20.0, t_end));
+  dataset.initial.position = Geodetic{0.8, 0.2, 500.0};
+  EXPECT_NO_THROW(FindStart(dataset, 0.0, t_end));
+  EXPECT_THROW(FindStart(dataset, 20.0, t_end), InputError);
 }
 
 TEST(Start, HeadingWithoutMotionIsReportedUnknown) {
@@ -162,7 +170,8 @@ TEST(Start, IntervalWithoutImuIsAnInputError) {
 
 TEST(Start, TakesTheVelocityChangeWhereItTellsTheHeadingBest) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const Dataset dataset = Simulate(FromRest(), seed);
+    Dataset dataset = Simulate(FromRest(), seed);
+    dataset.streams.push_back(testing::Constraint(dataset));
     const Start start = FindWholeStart(dataset);
     EXPECT_EQ(start.report.alignment, "velocity");
     EXPECT_NE(start.report.why.find("course: heading to"), std::string::npos)
@@ -188,6 +197,7 @@ TEST(Start, MotionRefutesTheCourseOfABodyThatPointsElsewhere) {
   constexpr double kEnd = kFirstManoeuvre + 0.9;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Dataset dataset = recording.Realize(seed);
+    dataset.streams.push_back(testing::Constraint(dataset));
     EXPECT_EQ(FindStart(dataset, 0.0, kEnd).report.alignment, "course");
     MountAnywhere(seed, &dataset);
     const Start start = FindStart(dataset, 0.0, kEnd);
@@ -202,6 +212,48 @@ TEST(Start, MotionRefutesTheCourseOfABodyThatPointsElsewhere) {
                                 start.report.state.euler().z())
                 .conjugate());
     EXPECT_LT(std::abs(e.z()), 30.0 * kDegree) << seed;
+  }
+}
+
+/// The largest component of the attitude's error in reported sigmas.
+double ErrorInSigmas(const Dataset& dataset, const Start& start) {
+  const Eigen::Vector3d euler = start.report.state.euler();
+  const Eigen::Vector3d e =
+      Log(*dataset.truth.front().q_nb *
+          QuaternionFromEuler(euler.x(), euler.y(), euler.z()).conjugate());
+  const int a = start.layout.Find(BlockKind::kAttitude)->offset;
+  return (e.array() /
+          start.prior.P.diagonal().segment<3>(a).cwiseSqrt().array())
+      .abs()
+      .maxCoeff();
+}
+
+TEST(Start, StraightMotionTellsNoHeadingOfAnImuThatSitsAnyhow) {
+  const PerfectRecording recording(InFlightAlignment({}));
+  constexpr double kEnd = kFirstManoeuvre - 1.0;
+  std::uint64_t seed = 1;
+  for (const Eigen::Quaterniond& q_ob : testing::kMountings) {
+    const Dataset flight = recording.Realize(seed++);
+    const Dataset turned = testing::Turned(flight, q_ob);
+    const Start start = FindStart(turned, 0.0, kEnd);
+    EXPECT_NE(start.report.alignment, "course");
+    EXPECT_NE(start.report.heading.find("unknown"), std::string::npos)
+        << start.report.heading;
+    EXPECT_NE(start.report.why.find("course: no odometer or constraint says"),
+              std::string::npos)
+        << start.report.why;
+    EXPECT_GE(start.prior.P(8, 8), kUnknownHeadingSigma * kUnknownHeadingSigma);
+    EXPECT_LT(ErrorInSigmas(turned, start), 4.0);
+    // A constraint that says where forward is makes the course a heading.
+    Dataset constrained = turned;
+    constrained.streams.push_back(testing::Constraint(turned));
+    constrained.streams.back().sensor.q_sb = q_ob;
+    // The course levels to 5 deg the axes as they are.
+    if (q_ob.angularDistance(Eigen::Quaterniond::Identity()) > 0.1) continue;
+    const Start known = FindStart(constrained, 0.0, kEnd);
+    EXPECT_EQ(known.report.alignment, "course");
+    EXPECT_LT(known.report.attitude_sigma.z(), 4.0 * kDegree);
+    EXPECT_LT(ErrorInSigmas(constrained, known), 4.0);
   }
 }
 

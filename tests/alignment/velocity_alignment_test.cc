@@ -9,6 +9,7 @@
 #include "geometry/so3.h"
 #include "simulation/builtin_scenarios.h"
 #include "simulation/in_flight_alignment.h"
+#include "support/truth_at.h"
 
 namespace hindsight {
 namespace {
@@ -79,8 +80,8 @@ TEST(VelocityAlignment, ARefinementThatStraysIsNotBelieved) {
     input.gyro_sigma = dataset.initial.gyro_bias_sigma->maxCoeff();
     const auto found = AlignOverWindow(input, input.t + 40.0);
     ASSERT_TRUE(found);
-    const Eigen::Vector3d e =
-        Log(*TruthAt(dataset, input.t).q_nb * found->attitude.q_nb.conjugate());
+    const Eigen::Vector3d e = Log(*testing::TruthAt(dataset, input.t).q_nb *
+                                  found->attitude.q_nb.conjugate());
     if (found->attitude.heading == "the same") {
       EXPECT_LT(e.norm(), 10.0 * kDegree) << seed;
     } else {
@@ -88,6 +89,40 @@ TEST(VelocityAlignment, ARefinementThatStraysIsNotBelieved) {
                 kUnknownHeadingSigma * kUnknownHeadingSigma);
     }
   }
+}
+
+TEST(VelocityAlignment, TheRefinementEstimatesALeverArm) {
+  const Eigen::Vector3d l_b(6.0, -4.0, -3.0);
+  constexpr double kPrior = 5.0;
+  constexpr double kEnd = 60.0;
+  Scenario scenario = InFlightAlignment({});
+  scenario.aiding[0].sensor.lever_arm_b = l_b;
+  const PerfectRecording recording(scenario);
+  double nees = 0.0;
+  constexpr int kRuns = 10;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    Dataset dataset = recording.Realize(seed);
+    Sensor& sensor = dataset.streams[0].sensor;
+    ASSERT_EQ(sensor.lever_arm_b, l_b);
+    sensor.lever_arm_b.setZero();
+    sensor.lever_arm_sigma = Eigen::Vector3d::Constant(kPrior);
+    const auto found = AlignOverWindow(InputOf(dataset, kEnd), kEnd);
+    ASSERT_TRUE(found && found->refined) << seed;
+    const WindowSolution& refined = *found->refined;
+    const Block* block = refined.layout.Find(BlockKind::kLeverArm, 0);
+    ASSERT_NE(block, nullptr);
+    const Eigen::Vector3d e = l_b - refined.states.back().parameters.segment<3>(
+                                        block->parameter_offset);
+    const Eigen::Matrix3d P = refined.P.Get(refined.states.size() - 1)
+                                  .block<3, 3>(block->offset, block->offset);
+    nees += e.dot(P.llt().solve(e)) / kRuns;
+    EXPECT_LT(std::sqrt(P(0, 0)), kPrior / 3.0);
+    const Eigen::Vector3d psi =
+        Log(*dataset.truth.front().q_nb * found->attitude.q_nb.conjugate());
+    EXPECT_LT(psi.dot(found->attitude.P.llt().solve(psi)), 25.0) << seed;
+  }
+  const Interval bounds = AneesBounds(kRuns, 3, 0.999);
+  EXPECT_TRUE(bounds.Contains(nees)) << nees;
 }
 
 class InFlight : public ::testing::TestWithParam<double> {};

@@ -44,6 +44,19 @@ TEST(InFlightAlignment, GivesThePositionAloneAndTheRateAskedFor) {
   EXPECT_FALSE(data.initial.euler);
   EXPECT_EQ(data.streams[0].measurements.size(), 151u);
   EXPECT_THROW(InFlightAlignment({.velocity_rate_hz = 0.0}), InputError);
+  EXPECT_THROW(InFlightAlignment({.velocity_rate_hz = 1e-5}), InputError);
+}
+
+TEST(InFlightAlignment, HasTruthAtEveryVelocity) {
+  for (const double rate : {100.0, 20.0, 10.0, 4.0, 1.0}) {
+    const Dataset data =
+        Simulate(InFlightAlignment({.velocity_rate_hz = rate}), 1);
+    std::size_t k = 0;
+    for (const Measurement& z : data.streams[0].measurements) {
+      while (k + 1 < data.truth.size() && data.truth[k].t < z.t - 1e-6) ++k;
+      ASSERT_NEAR(data.truth[k].t, z.t, 1e-6) << rate << " Hz";
+    }
+  }
 }
 
 TEST(InFlightAlignment, ABadStartHasItsSizeInAnyDirection) {
