@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/flags.h"
+#include "app/list_flags.h"
 #include "app/montecarlo_scenarios.h"
-#include "app/observer_flags.h"
 #include "app/text.h"
 #include "base/units.h"
 #include "io/atomic_file.h"
@@ -24,7 +24,7 @@ constexpr AlignmentTrialOptions kTrial = {
 
 std::vector<AlignmentRecording> Recordings() {
   std::vector<AlignmentRecording> recordings;
-  for (const double rate : ParseNumbers("rates", FLAGS_rates)) {
+  for (const double rate : ReadPositiveNumbers("rates", FLAGS_rates)) {
     const auto perfect = std::make_shared<const PerfectRecording>(
         InFlightAlignment({.velocity_rate_hz = rate}));
     recordings.push_back({Format("%g Hz", rate), [perfect](std::uint64_t seed) {
@@ -74,7 +74,7 @@ std::string Table(const std::vector<AlignmentStatistics>& all) {
 
 std::string JsonText(const std::vector<AlignmentStatistics>& all,
                      const MonteCarloOptions& options) {
-  nlohmann::ordered_json json = {{"scenario", "velocity_alignment"},
+  nlohmann::ordered_json json = {{"scenario", kVelocityAlignmentName},
                                  {"runs", options.runs},
                                  {"first_seed", options.first_seed}};
   for (const AlignmentStatistics& s : all) {

@@ -4,6 +4,7 @@
 #include "alignment/mounting_search.h"
 #include "app/command.h"
 #include "app/flags.h"
+#include "app/list_flags.h"
 #include "app/run_report.h"
 #include "app/text.h"
 #include "base/units.h"
@@ -102,8 +103,8 @@ std::string DescribeNoise(const Dataset& dataset) {
 
 int Run(const std::vector<std::string>& arguments) {
   Dataset dataset = LoadDataset(
-      arguments[0],
-      {.data_root = FLAGS_data_root, .without = Split(FLAGS_without, ',')});
+      arguments[0], {.data_root = FLAGS_data_root,
+                     .without = ReadWords("without", FLAGS_without)});
   const CheckReport report = CheckDataset(dataset);
   std::cout << "recording '" << dataset.name << "'\n\n"
             << StreamTable(report.streams) << "\n"

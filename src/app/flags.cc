@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "app/list_flags.h"
 #include "io/config_map.h"
 
 DEFINE_double(alpha, 0.03, "");
@@ -54,11 +55,6 @@ DEFINE_string(without, "", "");
 namespace hindsight {
 namespace {
 
-std::string Dashed(std::string name) {
-  std::replace(name.begin(), name.end(), '_', '-');
-  return name;
-}
-
 const FlagUse* FindFlag(const Command& command, const std::string& name) {
   for (const auto* flags : {&command.flags, &CommonFlags()}) {
     for (const FlagUse& flag : *flags) {
@@ -80,9 +76,16 @@ const FlagUse* FindFlag(const Command& command, const std::string& name) {
                    Suggestion("--" + name, known));
 }
 
-const char* Kind(const std::string& type) {
-  if (type == "bool") return "true or false";
-  return type == "double" ? "a number" : "a whole number of 0 or more";
+std::string Refusal(const std::string& type, const std::string& value) {
+  if (type == "bool") return "the value is not true or false";
+  if (type == "double") {
+    return IsOutOfRange(value) ? "the value is out of range"
+                               : "the value is not a number";
+  }
+  const bool digits = value.find_first_not_of("0123456789") == value.npos;
+  return digits && !value.empty()
+             ? "the value is out of range"
+             : "the value is not a whole number of 0 or more";
 }
 
 void SetFlag(const FlagUse& flag, std::string value) {
@@ -95,8 +98,8 @@ void SetFlag(const FlagUse& flag, std::string value) {
   const bool bad_sign = info.type == "uint64" && value.starts_with("-");
   if (bad_sign ||
       gflags::SetCommandLineOption(flag.name.c_str(), value.c_str()).empty()) {
-    throw UsageError("--" + Dashed(flag.name) + "=" + value +
-                     ": the value is not " + Kind(info.type));
+    throw UsageError("--" + Dashed(flag.name) + "=" + value + ": " +
+                     Refusal(info.type, value));
   }
 }
 
@@ -169,6 +172,11 @@ ParsedArguments ParseArguments(const Command& command,
   }
   CheckArgumentCount(command, parsed.positional);
   return parsed;
+}
+
+std::string Dashed(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
 }
 
 bool IsGiven(const std::string& name) {

@@ -68,6 +68,9 @@ struct ParsedArguments {
 ParsedArguments ParseArguments(const Command& command,
                                const std::vector<std::string>& words);
 
+/// "alpha-blocks" of "alpha_blocks": a flag as it is written.
+std::string Dashed(std::string name);
+
 /// True if the flag `name` was on the command line.
 bool IsGiven(const std::string& name);
 

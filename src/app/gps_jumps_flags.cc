@@ -3,23 +3,10 @@
 #include <algorithm>
 
 #include "app/flags.h"
-#include "io/units.h"
+#include "app/list_flags.h"
 
 namespace hindsight {
 namespace {
-
-std::vector<double> PositiveNumbers(const char* flag, const std::string& text) {
-  std::vector<double> values;
-  for (const std::string& part : Split(text, ',')) {
-    const auto value = ParseNumber(part);
-    if (!value || !(*value > 0.0)) {
-      throw UsageError(std::string("--") + flag + "=" + text +
-                       ": expected positive numbers");
-    }
-    values.push_back(*value);
-  }
-  return values;
-}
 
 std::vector<std::string> Profiles() {
   std::vector<std::string> known;
@@ -30,7 +17,7 @@ std::vector<std::string> Profiles() {
     std::rotate(known.begin(), known.begin() + 1, known.end());
     return known;
   }
-  const std::vector<std::string> asked = Split(FLAGS_errors, ',');
+  const std::vector<std::string> asked = ReadWords("errors", FLAGS_errors);
   for (const std::string& name : asked) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     std::string all;
@@ -45,8 +32,9 @@ std::vector<std::string> Profiles() {
 
 std::vector<GpsJumpsOptions> ReadGpsJumpsFlags() {
   std::vector<GpsJumpsOptions> all;
-  for (const double rate : PositiveNumbers("gps-rate", FLAGS_gps_rate)) {
-    for (const double sigma : PositiveNumbers("gps-sigma", FLAGS_gps_sigma)) {
+  for (const double rate : ReadPositiveNumbers("gps-rate", FLAGS_gps_rate)) {
+    for (const double sigma :
+         ReadPositiveNumbers("gps-sigma", FLAGS_gps_sigma)) {
       for (const std::string& profile : Profiles()) {
         all.push_back({profile, sigma, rate});
       }

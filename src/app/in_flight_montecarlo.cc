@@ -4,6 +4,7 @@
 
 #include "app/flags.h"
 #include "app/in_flight_report.h"
+#include "app/list_flags.h"
 #include "app/montecarlo_scenarios.h"
 #include "app/observer_flags.h"
 #include "app/text.h"
@@ -15,16 +16,17 @@
 namespace hindsight {
 namespace {
 
-constexpr int kDefaultRuns = 300;
 constexpr ObserverLimits kLimits = {.settled_tilt = 0.5 * kDegree,
                                     .settled_heading = 2.0 * kDegree,
                                     .diverged_tilt = 2.0 * kDegree,
                                     .diverged_heading = 10.0 * kDegree,
                                     .last = 20.0};
 
+const std::string kRules = "ekf,hinf,modified_hinf";
+
 std::vector<ObserverRecording> Recordings() {
   std::vector<ObserverRecording> recordings;
-  for (const double rate : ParseNumbers("rates", FLAGS_rates)) {
+  for (const double rate : ReadPositiveNumbers("rates", FLAGS_rates)) {
     InFlightAlignmentOptions options;
     options.velocity_rate_hz = rate;
     const auto perfect =
@@ -38,7 +40,7 @@ std::vector<ObserverRecording> Recordings() {
 
 std::vector<double> ReadAngles(const std::string& flag,
                                const std::string& text) {
-  const std::vector<double> angles = ParseNumbers(flag, text);
+  const std::vector<double> angles = ReadPositiveNumbers(flag, text);
   for (const double angle : angles) {
     if (angle <= 180.0) continue;
     throw UsageError("--" + flag + "=" + text + ": expected at most 180 deg");
@@ -63,7 +65,7 @@ std::vector<ObserverStart> Starts() {
 /// The rules with their parameters in words, before each error definition.
 std::vector<std::pair<std::string, CovarianceOptions>> Rules() {
   std::vector<std::pair<std::string, CovarianceOptions>> rules;
-  const std::vector<std::string> names = Split(FLAGS_rules, ',');
+  const std::vector<std::string> names = ReadWords("rules", FLAGS_rules);
   const auto runs = [&](const char* name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
@@ -94,9 +96,10 @@ std::vector<std::pair<std::string, CovarianceOptions>> Rules() {
       }
     } else {
       throw UsageError("--rules=" + FLAGS_rules + ": unknown rule '" + name +
-                       "', expected some of ekf,hinf,modified_hinf");
+                       "', expected some of " + kRules);
     }
   }
+  if (rules.empty()) throw UsageError("--rules=: expected some of " + kRules);
   return rules;
 }
 
@@ -119,11 +122,6 @@ std::vector<ObserverModel> Models() {
 
 void RunInFlightAlignment(MonteCarloOptions options, Progress* progress,
                           ResultFolder* folder) {
-  if (IsGiven("path") || IsGiven("white_noise") || FLAGS_sweep) {
-    throw UsageError(
-        "--path, --white-noise and --sweep go with tunnel_survey only");
-  }
-  if (!IsGiven("runs")) options.runs = kDefaultRuns;
   options.progress = RunProgress(options.runs, progress);
   const std::vector<ObserverModel> models = Models();
   const std::vector<ObserverStart> starts = Starts();

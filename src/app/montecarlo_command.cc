@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <thread>
 
 #include "app/command.h"
@@ -9,12 +10,6 @@
 #include "app/progress.h"
 #include "app/result_folder.h"
 #include "evaluation/chi_square.h"
-#include "simulation/calibration_drive.h"
-#include "simulation/gps_jumps.h"
-#include "simulation/in_flight_alignment.h"
-#include "simulation/tunnel_survey.h"
-#include "simulation/uuv_scenarios.h"
-#include "simulation/vibration_attitude.h"
 
 namespace hindsight {
 namespace {
@@ -60,9 +55,10 @@ and all body axes, and up: montecarlo.json holds RMS and maximum of the attitude
 by axis and interval, gyro bias, and the shares inside 3 sigma.
 )";
 
-MonteCarloOptions ReadOptions() {
-  if (FLAGS_runs < 2 || FLAGS_runs > 1000000) {
-    throw UsageError("--runs=" + std::to_string(FLAGS_runs) +
+MonteCarloOptions ReadOptions(std::uint64_t default_runs) {
+  const std::uint64_t runs = IsGiven("runs") ? FLAGS_runs : default_runs;
+  if (runs < 2 || runs > 1000000) {
+    throw UsageError("--runs=" + std::to_string(runs) +
                      ": expected 2 to 1000000");
   }
   constexpr std::uint64_t kMostThreads = 1024;
@@ -70,8 +66,14 @@ MonteCarloOptions ReadOptions() {
     throw UsageError("--threads=" + std::to_string(FLAGS_threads) +
                      ": expected 0 to 1024");
   }
+  constexpr std::uint64_t kLastSeed = std::numeric_limits<std::uint64_t>::max();
+  if (FLAGS_seed > kLastSeed - (runs - 1)) {
+    throw UsageError("--seed=" + std::to_string(FLAGS_seed) + ": the last of " +
+                     std::to_string(runs) + " seeds would be beyond " +
+                     std::to_string(kLastSeed));
+  }
   MonteCarloOptions options;
-  options.runs = static_cast<int>(FLAGS_runs);
+  options.runs = static_cast<int>(runs);
   options.first_seed = FLAGS_seed;
   options.threads =
       FLAGS_threads > 0
@@ -85,37 +87,49 @@ MonteCarloOptions ReadOptions() {
   return options;
 }
 
-const std::vector<MonteCarloScenario>& Scenarios() {
-  static const std::vector<MonteCarloScenario> scenarios = {
-      {kTunnelSurveyName, RunTunnelSurvey},
-      {kInFlightAlignmentName, RunInFlightAlignment},
-      {"velocity_alignment", RunVelocityAlignment},
-      {kCalibrationName, RunCalibration},
-      {kGpsJumpsName, RunGpsJumps},
-      {kVibrationAttitudeName, RunVibrationAttitude},
-      {kUuvSurveyName, RunUuvSurvey},
-      {kUuvCalibrationName, RunUuvCalibration},
-      {kUuvSearchName, RunUuvSearch}};
-  return scenarios;
-}
-
-const MonteCarloScenario& FindScenario(const std::string& name) {
-  std::string names;
-  for (const MonteCarloScenario& scenario : Scenarios()) {
-    if (scenario.name == name) return scenario;
-    names += (names.empty() ? "" : ", ") + scenario.name;
-  }
-  throw UsageError("'montecarlo' knows no scenario '" + name + "'; there is " +
-                   names);
+std::vector<FlagUse> Flags() {
+  return WithScenarioNames(WithObserverFlags(
+      {{"out", "DIR", "folder for the results (required)"},
+       {"force", "", "replace the results of an earlier call in DIR"},
+       {"runs", "N", "number of seeds (100; 300 of in_flight_alignment)"},
+       {"seed", "N", "the first seed; the others follow it (1)"},
+       {"threads", "N",
+        "0: as many as there are cores; vibration_attitude and\n"
+        "uuv_search use one (0)"},
+       {"path", "NAME",
+        "winding, serpentine or straight (winding), of uuv_survey\n"
+        "lawnmower, straight or returning (all)"},
+       {"white_noise", "READING",
+        "of the IMU's white noise: sample, the standard deviation\n"
+        "of each sample, or density, per sqrt(Hz) (sample)"},
+       {"sweep", "",
+        "table over the distance of reference points and the\n"
+        "odometer noise"},
+       {"rates", "LIST", "rates of the velocity [Hz] (10,1)"},
+       {"tilt", "LIST", "tilts of the start [deg] (10,30)"},
+       {"heading", "LIST", "heading errors of the start [deg] (30,60,120,175)"},
+       {"rules", "LIST",
+        "some of ekf,hinf,modified_hinf (all); with them --error\n"
+        "takes a list (all three), --gamma too (1,5), and\n"
+        "modified_hinf runs with both --alpha-blocks"},
+       {"errors", "LIST",
+        "some of none,pulses,spikes,steps,ramp,multipath (all)"},
+       {"gps_sigma", "LIST", "of the positions [m] (1)"},
+       {"gps_rate", "LIST", "of the positions [Hz] (1)"},
+       {"reading", "WORDS",
+        "sum or position, diagonal or acceleration, white or\n"
+        "accumulating, by_noise or alike, with commas (all)"},
+       {"progress", "MODE", "on stderr: auto, json or none (auto)"}}));
 }
 
 int Run(const std::vector<std::string>& arguments) {
-  const MonteCarloScenario& scenario = FindScenario(arguments[0]);
+  const MonteCarloScenario& scenario = FindMonteCarloScenario(arguments[0]);
+  CheckScenarioFlags(scenario, Flags());
   if (FLAGS_out.empty()) {
     throw UsageError(
         "'montecarlo' needs --out=DIR, the folder for the results");
   }
-  const MonteCarloOptions options = ReadOptions();
+  const MonteCarloOptions options = ReadOptions(scenario.default_runs);
   CatchInterrupts();
   ResultFolder folder(FLAGS_out, FLAGS_force,
                       FLAGS_sweep ? "sweep.csv" : kMonteCarloJson);
@@ -141,44 +155,7 @@ Command MonteCarloCommand() {
       .summary = "compare the methods over many seeds of a scenario",
       .arguments = "SCENARIO",
       .help = kHelp,
-      .flags = WithObserverFlags(
-          {{"out", "DIR", "folder for the results (required)"},
-           {"force", "", "replace the results of an earlier call in DIR"},
-           {"runs", "N", "number of seeds (100; 300 of in_flight_alignment)"},
-           {"seed", "N", "the first seed; the others follow it (1)"},
-           {"threads", "N", "0: as many as there are cores (0)"},
-           {"path", "NAME",
-            "of tunnel_survey: winding, serpentine or straight (winding);\n"
-            "of uuv_survey: lawnmower, straight or returning (all)"},
-           {"white_noise", "READING",
-            "of the IMU's white noise: sample, the standard deviation\n"
-            "of each sample, or density, per sqrt(Hz) (sample)"},
-           {"sweep", "",
-            "table over the distance of reference points and the\n"
-            "odometer noise"},
-           {"rates", "LIST",
-            "of in_flight_alignment and velocity_alignment: rates of\n"
-            "the velocity [Hz] (10,1)"},
-           {"tilt", "LIST",
-            "of in_flight_alignment: tilts of the start [deg]\n"
-            "(10,30)"},
-           {"heading", "LIST",
-            "... heading errors of the start [deg]\n"
-            "(30,60,120,175)"},
-           {"rules", "LIST",
-            "... some of ekf,hinf,modified_hinf (all); there --error\n"
-            "takes a list (all three), --gamma too (1,5), and\n"
-            "modified_hinf runs with both --alpha-blocks"},
-           {"errors", "LIST",
-            "of gps_jumps: some of none,pulses,spikes,steps,ramp,\n"
-            "multipath (all)"},
-           {"gps_sigma", "LIST", "of gps_jumps [m] (1)"},
-           {"gps_rate", "LIST", "of gps_jumps [Hz] (1)"},
-           {"reading", "WORDS",
-            "of uuv_search: sum or position, diagonal or acceleration,\n"
-            "white or accumulating, by_noise or alike, with commas\n"
-            "(all)"},
-           {"progress", "MODE", "on stderr: auto, json or none (auto)"}}),
+      .flags = Flags(),
       .min_arguments = 1,
       .max_arguments = 1,
       .run = Run,

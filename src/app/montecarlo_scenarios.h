@@ -1,9 +1,12 @@
 #ifndef HINDSIGHT_APP_MONTECARLO_SCENARIOS_H_
 #define HINDSIGHT_APP_MONTECARLO_SCENARIOS_H_
 
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
+#include "app/command.h"
 #include "app/progress.h"
 #include "app/result_folder.h"
 #include "problems/montecarlo.h"
@@ -13,8 +16,9 @@ namespace hindsight {
 /// Name of the file with the figures of a Monte Carlo comparison.
 inline constexpr char kMonteCarloJson[] = "montecarlo.json";
 
-/// The name of RunUuvSearch.
+/// The names of RunUuvSearch and RunVelocityAlignment.
 inline constexpr char kUuvSearchName[] = "uuv_search";
+inline constexpr char kVelocityAlignmentName[] = "velocity_alignment";
 
 /// One scenario that `hindsight montecarlo` can repeat. `run` reads the flags
 /// of its own, writes its files into the folder and prints its table; it throws
@@ -23,7 +27,23 @@ struct MonteCarloScenario {
   std::string name;
   void (*run)(MonteCarloOptions options, Progress* progress,
               ResultFolder* folder) = nullptr;
+  /// What it takes besides --out, --force, --runs, --seed, --threads and
+  /// --progress, with underscores for dashes.
+  std::vector<std::string> flags;
+  std::uint64_t default_runs = 100;
 };
+
+/// All scenarios. Throws UsageError for a name that is none.
+const std::vector<MonteCarloScenario>& MonteCarloScenarios();
+const MonteCarloScenario& FindMonteCarloScenario(const std::string& name);
+
+/// Throws UsageError naming the first of `flags` that is given although it
+/// means nothing to the scenario, and what it goes with.
+void CheckScenarioFlags(const MonteCarloScenario& scenario,
+                        const std::vector<FlagUse>& flags);
+
+/// The flags with the scenarios that take them at the end of their help.
+std::vector<FlagUse> WithScenarioNames(std::vector<FlagUse> flags);
 
 void RunTunnelSurvey(MonteCarloOptions options, Progress* progress,
                      ResultFolder* folder);

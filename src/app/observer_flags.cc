@@ -1,10 +1,10 @@
 #include "app/observer_flags.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "app/flags.h"
+#include "app/list_flags.h"
 #include "io/units.h"
 
 namespace hindsight {
@@ -15,18 +15,19 @@ UsageError BadFlag(const std::string& flag, const std::string& value,
   return UsageError("--" + flag + "=" + value + ": expected " + expected);
 }
 
-double ParseNumber(const std::string& flag, const std::string& text) {
-  std::size_t end = 0;
-  double value = 0.0;
-  try {
-    value = std::stod(text, &end);
-  } catch (const std::exception&) {
-    end = std::string::npos;
-  }
-  if (end != text.size() || std::isnan(value)) {
-    throw BadFlag(flag, text, "a number");
-  }
-  return value;
+/// Limits of what still is a number after squaring, in SI units.
+constexpr double kLeastGamma = 1e-6;
+constexpr double kLargestGamma = 1e9;
+constexpr double kLargestAlpha = 100.0;
+constexpr double kLargestDelta = 1e12;
+constexpr double kLeastUnit = 1e-9;
+constexpr double kLargestUnit = 1e9;
+
+void CheckWithin(const char* flag, double value, double least, double largest,
+                 const char* unit) {
+  if (value >= least && value <= largest) return;
+  throw BadFlag(flag, FormatNumber(value),
+                FormatNumber(least) + " to " + FormatNumber(largest) + unit);
 }
 
 /// "attitude=1rad" or "velocity=0.5m/s".
@@ -47,7 +48,11 @@ CovarianceOptions::Bounded ParseBounded(const std::string& text) {
   } catch (const std::invalid_argument& error) {
     throw UsageError("--bounded=" + text + ": " + error.what());
   }
-  if (!(bounded.unit > 0.0)) throw BadFlag("bounded", text, "a positive unit");
+  if (!(bounded.unit >= kLeastUnit && bounded.unit <= kLargestUnit)) {
+    throw BadFlag("bounded", text,
+                  "a unit of " + FormatNumber(kLeastUnit) + " to " +
+                      FormatNumber(kLargestUnit) + " rad or m/s");
+  }
   return bounded;
 }
 
@@ -79,7 +84,7 @@ std::vector<FlagUse> WithObserverFlags(std::vector<FlagUse> flags) {
 
 std::vector<ErrorDefinition> ReadErrors() {
   std::vector<ErrorDefinition> errors;
-  for (const std::string& name : Split(FLAGS_error, ',')) {
+  for (const std::string& name : ReadWords("error", FLAGS_error)) {
     try {
       errors.push_back(ErrorFromName(name));
     } catch (const InputError& error) {
@@ -90,19 +95,13 @@ std::vector<ErrorDefinition> ReadErrors() {
   return errors;
 }
 
-std::vector<double> ParseNumbers(const std::string& flag,
-                                 const std::string& text) {
-  std::vector<double> numbers;
-  for (const std::string& part : Split(text, ',')) {
-    const double value = ParseNumber(flag, part);
-    if (!(value > 0.0)) throw BadFlag(flag, text, "positive numbers");
-    numbers.push_back(value);
+std::vector<double> ReadGammas() {
+  const std::vector<double> gammas = ReadPositiveNumbers("gamma", FLAGS_gamma);
+  for (const double gamma : gammas) {
+    CheckWithin("gamma", gamma, kLeastGamma, kLargestGamma, " sqrt(s)");
   }
-  if (numbers.empty()) throw BadFlag(flag, text, "positive numbers");
-  return numbers;
+  return gammas;
 }
-
-std::vector<double> ReadGammas() { return ParseNumbers("gamma", FLAGS_gamma); }
 
 void CheckObserverFlags(bool hinf, bool modified) {
   const struct {
@@ -117,9 +116,7 @@ void CheckObserverFlags(bool hinf, bool modified) {
               {"back_off", "hinf or modified_hinf", hinf || modified}};
   for (const auto& [flag, rules, used] : uses) {
     if (used || !IsGiven(flag)) continue;
-    std::string name = flag;
-    std::replace(name.begin(), name.end(), '_', '-');
-    throw UsageError("--" + name + " is of " + rules +
+    throw UsageError("--" + Dashed(flag) + " is of " + rules +
                      ", which is not asked for");
   }
 }
@@ -128,14 +125,10 @@ CovarianceOptions ReadCovariance(RiccatiRule rule) {
   CovarianceOptions options;
   options.rule = rule;
   options.gamma = ReadGammas().front();
+  CheckWithin("alpha", FLAGS_alpha, 0.0, kLargestAlpha, " 1/s");
   options.alpha = FLAGS_alpha;
-  if (!std::isfinite(FLAGS_alpha) || FLAGS_alpha < 0.0) {
-    throw UsageError("--alpha must be zero or a positive number of 1/s");
-  }
+  CheckWithin("delta", FLAGS_delta, -kLargestDelta, kLargestDelta, " 1/s");
   options.delta = FLAGS_delta;
-  if (!std::isfinite(FLAGS_delta)) {
-    throw UsageError("--delta must be a number of 1/s");
-  }
   if (FLAGS_alpha_blocks != "all" &&
       FLAGS_alpha_blocks != "velocity_attitude") {
     throw BadFlag("alpha-blocks", FLAGS_alpha_blocks,
@@ -144,8 +137,13 @@ CovarianceOptions ReadCovariance(RiccatiRule rule) {
   options.alpha_on_all = FLAGS_alpha_blocks == "all";
   options.back_off = FLAGS_back_off;
   options.L.clear();
-  for (const std::string& part : Split(FLAGS_bounded, ',')) {
-    options.L.push_back(ParseBounded(part));
+  for (const std::string& part : ReadWords("bounded", FLAGS_bounded)) {
+    const CovarianceOptions::Bounded bounded = ParseBounded(part);
+    for (const CovarianceOptions::Bounded& before : options.L) {
+      if (before.kind != bounded.kind) continue;
+      throw BadFlag("bounded", FLAGS_bounded, "each block once");
+    }
+    options.L.push_back(bounded);
   }
   if (options.L.empty()) throw BadFlag("bounded", "", "attitude or velocity");
   return options;

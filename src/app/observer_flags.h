@@ -23,10 +23,6 @@ CovarianceOptions ReadCovariance(RiccatiRule rule);
 /// Throws UsageError if a parameter is given of a rule that does not run.
 void CheckObserverFlags(bool hinf, bool modified);
 
-/// Positive numbers separated by commas in the value of a flag.
-std::vector<double> ParseNumbers(const std::string& flag,
-                                 const std::string& text);
-
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_APP_OBSERVER_FLAGS_H_

@@ -43,6 +43,11 @@ int Run(const std::vector<std::string>& arguments) {
                           ? TunnelSurvey(ReadTunnelFlags())
                           : FindScenario(arguments[0]);
   if (arguments[0] == kGpsJumpsName) {
+    if ((FLAGS_errors + FLAGS_gps_sigma + FLAGS_gps_rate).find(',') !=
+        std::string::npos) {
+      throw UsageError(
+          "'simulate' takes one value of --errors, --gps-sigma and --gps-rate");
+    }
     scenario = GpsJumps(ReadGpsJumpsFlags().front());
   } else if (IsGiven("errors") || IsGiven("gps_sigma") || IsGiven("gps_rate")) {
     throw UsageError("--errors, --gps-sigma and --gps-rate go with gps_jumps");

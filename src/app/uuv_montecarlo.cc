@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/flags.h"
+#include "app/list_flags.h"
 #include "app/montecarlo_scenarios.h"
 #include "app/text.h"
 #include "base/error.h"
@@ -127,6 +128,7 @@ void RunUuvSearch(MonteCarloOptions options, Progress* progress,
   UuvFusionOptions fusion;
   fusion.runs = options.runs;
   fusion.first_seed = options.first_seed;
+  ReadWords("reading", FLAGS_reading);
   std::vector<UuvReading> readings;
   try {
     readings = UuvReadings(FLAGS_reading);

@@ -1,0 +1,67 @@
+#include "app/list_flags.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "app/flags.h"
+#include "io/units.h"
+
+namespace hindsight {
+namespace {
+
+UsageError BadList(const std::string& flag, const std::string& value,
+                   const std::string& what) {
+  return UsageError("--" + flag + "=" + value + ": " + what);
+}
+
+template <typename T>
+bool Contains(const std::vector<T>& list, const T& value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+}  // namespace
+
+bool IsOutOfRange(const std::string& text) {
+  try {
+    std::stod(text);
+  } catch (const std::out_of_range&) {
+    return true;
+  } catch (const std::invalid_argument&) {
+  }
+  return false;
+}
+
+std::vector<std::string> ReadWords(const std::string& flag,
+                                   const std::string& value) {
+  std::vector<std::string> words;
+  for (const std::string& word : Split(value, ',')) {
+    if (word.empty()) throw BadList(flag, value, "nothing beside a comma");
+    if (Contains(words, word)) {
+      throw BadList(flag, value, "'" + word + "' stands there twice");
+    }
+    words.push_back(word);
+  }
+  return words;
+}
+
+std::vector<double> ReadPositiveNumbers(const std::string& flag,
+                                        const std::string& value) {
+  std::vector<double> numbers;
+  for (const std::string& word : ReadWords(flag, value)) {
+    if (IsOutOfRange(word)) {
+      throw BadList(flag, value, "'" + word + "' is out of range");
+    }
+    const auto number = ParseNumber(word);
+    if (!number || !(*number > 0.0)) {
+      throw BadList(flag, value, "'" + word + "' is not a positive number");
+    }
+    if (Contains(numbers, *number)) {
+      throw BadList(flag, value, "'" + word + "' stands there twice");
+    }
+    numbers.push_back(*number);
+  }
+  if (numbers.empty()) throw BadList(flag, value, "expected positive numbers");
+  return numbers;
+}
+
+}  // namespace hindsight
