@@ -120,6 +120,15 @@ ObserverCell Summarize(const std::vector<ObserverRun>& runs) {
   cell.tilt_95 = RankOf(runs, 0.95, tilt);
   cell.heading_50 = RankOf(runs, 0.5, heading);
   cell.heading_95 = RankOf(runs, 0.95, heading);
+  std::vector<double> information;
+  for (const ObserverRun& run : runs) {
+    if (run.escaped) continue;
+    cell.backed_off += run.backed_off / (cell.runs - cell.escaped);
+    information.push_back(run.least_information);
+  }
+  if (!information.empty()) {
+    cell.least_information = Rank(std::move(information), 0.5);
+  }
   cell.lyapunov = Medians(runs);
   return cell;
 }
@@ -170,6 +179,9 @@ ObserverRun RunObserver(const ForwardModel& model, const Dataset& dataset,
     }
     const std::vector<State> truth = TrueStates(dataset, layout, states);
     JudgeAttitude(tape, truth, limits, &run);
+    run.backed_off = static_cast<double>(tape.bound().back_offs) /
+                     static_cast<double>(tape.size() - 1);
+    run.least_information = tape.bound().least_information;
     run.lyapunov = AnalyseRun(tape, model, *timeline, truth);
   } catch (const FiniteEscape& escape) {
     run = {};

@@ -38,8 +38,10 @@ struct ObserverRun {
   /// First time from which tilt and heading stay inside the settled limits;
   /// infinite if they do not at the end [s].
   double t_settled = 0.0;
-  double tilt = 0.0;     ///< at the end [rad]
-  double heading = 0.0;  ///< at the end, absolute [rad]
+  double tilt = 0.0;               ///< at the end [rad]
+  double heading = 0.0;            ///< at the end, absolute [rad]
+  double backed_off = 0.0;         ///< share of the steps, of BoundRecord
+  double least_information = 1.0;  ///< of BoundRecord
   LyapunovFigures lyapunov;
 };
 
@@ -64,6 +66,10 @@ struct ObserverCell {
   double t_settled_50 = 0.0, t_settled_95 = 0.0;  ///< [s]
   double tilt_50 = 0.0, tilt_95 = 0.0;            ///< at the end [rad]
   double heading_50 = 0.0, heading_95 = 0.0;      ///< at the end [rad]
+  /// Mean share of the steps backed off and median of the least information
+  /// left, of the runs that did not escape.
+  double backed_off = 0.0;
+  double least_information = 1.0;
   /// Medians of the runs that did not escape; extremes of the eigenvalues.
   LyapunovFigures lyapunov;
 };

@@ -1,6 +1,7 @@
 #include "problems/reconstruction.h"
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -13,10 +14,12 @@
 #include "filters/two_filter.h"
 #include "problems/batch.h"
 #include "problems/contradictions.h"
+#include "problems/linearisation.h"
 #include "problems/robust_batch.h"
 #include "problems/sample_solution.h"
 #include "problems/sensor_imm.h"
 #include "problems/solution_builder.h"
+#include "problems/verdict.h"
 
 namespace hindsight {
 namespace {
@@ -82,6 +85,11 @@ Method MethodFromName(const std::string& name) {
   throw InputError("unknown method '" + name + "'; known are " + known);
 }
 
+bool DependsOnError(Method method) {
+  return method != Method::kImm && method != Method::kImmSmoother &&
+         method != Method::kRobustBatch;
+}
+
 struct Reconstruction::Impl {
   Impl(const Dataset& dataset_in, ReconstructionOptions options_in)
       : dataset(dataset_in),
@@ -128,13 +136,54 @@ struct Reconstruction::Impl {
     for (int i = 1;; ++i) {
       RunForwardOnce();
       const int moved = MoveOffsets();
-      if (moved < 0) return;
+      if (moved < 0) break;
       if (i == kMaxPlacements) {
         unsettled = timeline.sensors()[static_cast<std::size_t>(moved)].name;
-        return;
+        break;
       }
       timeline = BuildTimeline(dataset, MakeTimelineOptions());
       settled.reset();
+    }
+    JudgeLinearisation();
+  }
+
+  /// Looks at the interval as linearised anew about its smoothed trajectory
+  /// where one linearisation may not do. From an unknown heading the
+  /// covariances of a filter that resets its nominal feign information; and a
+  /// filter that turned far was linearised far off.
+  void JudgeLinearisation() {
+    constexpr double kKnownHeading = 20.0 * kDegree;
+    constexpr double kFarTurn = 5.0 * kDegree;
+    Solution smoothed;
+    smoothed.layout = start.layout;
+    smoothed.states = rts->states;
+    smoothed.covariances = rts->P;
+    const bool knows_heading = start.report.attitude_sigma.z() <= kKnownHeading;
+    const double turn = LargestTurn(ekf->states, rts->states);
+    if (!knows_heading || turn > kFarTurn) {
+      CovarianceSeries P = Relinearise(turn);
+      if (!knows_heading && !P.empty()) smoothed.covariances = std::move(P);
+    }
+    unobserved = FindUnobserved(smoothed);
+  }
+
+  /// Returns the covariances of the new linearisation, none if none held.
+  CovarianceSeries Relinearise(double turn) {
+    IterationOptions iteration;
+    iteration.max_iterations = 3;
+    iteration.callback = Progress("observability");
+    anew = Relinearised{turn, {}, std::numeric_limits<double>::infinity()};
+    try {
+      SmoothedTrajectory trajectory =
+          SmoothIterated(start.layout, start.prior, rts->states, &timeline,
+                         decisions, iteration)
+              .trajectory;
+      anew->states = std::move(trajectory.states);
+      anew->smoother_sigmas =
+          DistanceInSigmas(start.layout, rts->states, rts->P, anew->states);
+      return std::move(trajectory.P);
+    } catch (const EstimationError&) {
+      return {};
     }
   }
 
@@ -212,7 +261,8 @@ struct Reconstruction::Impl {
   Solution Finish(Solution solution, Method method, double seconds) {
     solution.method = MethodName(method);
     solution.seconds = seconds;
-    Conclude(timeline.sensors(), Unobserved(), &solution);
+    Conclude(timeline.sensors(), unobserved,
+             LinearisedTooFarOff(method, solution, anew), &solution);
     for (std::string& note :
          FindContradictions(timeline.sensors(), start.prior, solution)) {
       solution.notes.push_back(std::move(note));
@@ -223,30 +273,6 @@ struct Reconstruction::Impl {
           "not usable: the time offset of " + unsettled + " does not settle";
     }
     return solution;
-  }
-
-  /// Spans that the data leave undetermined. From an unknown heading the
-  /// covariances of a filter that resets its nominal feign information: there
-  /// the whole interval is linearised about one trajectory.
-  const std::vector<UnobservedSpan>& Unobserved() {
-    if (unobserved) return *unobserved;
-    RunForward();
-    Solution smoothed;
-    smoothed.layout = start.layout;
-    smoothed.states = rts->states;
-    smoothed.covariances = rts->P;
-    constexpr double kKnownHeading = 20.0 * kDegree;
-    if (start.report.attitude_sigma.z() > kKnownHeading) {
-      IterationOptions iteration;
-      iteration.max_iterations = 3;
-      iteration.callback = Progress("observability");
-      smoothed.covariances =
-          SmoothIterated(start.layout, start.prior, rts->states, &timeline,
-                         decisions, iteration)
-              .trajectory.P;
-    }
-    unobserved = FindUnobserved(smoothed);
-    return *unobserved;
   }
 
   Solution FromSmoothed(std::vector<State> states, CovarianceSeries P) const {
@@ -295,12 +321,21 @@ struct Reconstruction::Impl {
         RunForwardFilter({options.error, covariance}, start.layout, start.prior,
                          &timeline, {}, Progress(MethodName(method)));
     Solution solution = FilterSolution(tape);
-    if (tape.back_offs() > 0) {
+    const bool has_gamma = covariance.rule == RiccatiRule::kHInfinity;
+    const ObserverFigures figures = {
+        .gamma = has_gamma ? covariance.gamma : 0.0,
+        .alpha = has_gamma ? 0.0 : covariance.alpha,
+        .delta = has_gamma ? 0.0 : covariance.delta,
+        .steps = static_cast<int>(tape.size()) - 1,
+        .back_offs = tape.bound().back_offs,
+        .least_information = tape.bound().least_information};
+    if (figures.back_offs > 0) {
       solution.notes.push_back(
-          "no bounded gain at " + std::to_string(tape.back_offs()) + " of " +
-          std::to_string(tape.size() - 1) +
+          "no bounded gain at " + std::to_string(figures.back_offs) + " of " +
+          std::to_string(figures.steps) +
           " steps, which it took without the weight of L'L");
     }
+    solution.observer = figures;
     return Finish(std::move(solution), method, ProcessorSeconds() - t0);
   }
 
@@ -353,10 +388,10 @@ struct Reconstruction::Impl {
       if (!sensor.gate_probability) sensor.gate_probability = kGate;
       gated.SetSensor(i, sensor);
     }
-    return Finish(
-        FilterSolution(RunExtendedKalmanFilter(
-            start.layout, start.prior, &gated, {}, Progress("gated_ekf"))),
-        Method::kGatedEkf, ProcessorSeconds() - t0);
+    return Finish(FilterSolution(RunForwardFilter(
+                      {options.error, {}}, start.layout, start.prior, &gated,
+                      {}, Progress("gated_ekf"))),
+                  Method::kGatedEkf, ProcessorSeconds() - t0);
   }
 
   Solution RunImmMethod(Method method) {
@@ -422,7 +457,9 @@ struct Reconstruction::Impl {
   /// Sensor whose estimated time offset went on moving; empty: none.
   std::string unsettled;
   std::optional<ParameterVector> settled;
-  std::optional<std::vector<UnobservedSpan>> unobserved;
+  /// Spans that the data leave undetermined.
+  std::vector<UnobservedSpan> unobserved;
+  std::optional<Relinearised> anew;
   Start start;
   Timeline timeline;
   std::optional<Solution> ekf;
@@ -470,7 +507,8 @@ Solution Reconstruction::Run(Method method) {
 }
 
 std::vector<UnobservedSpan> Reconstruction::Unobserved() {
-  return impl_->Unobserved();
+  impl_->RunForward();
+  return impl_->unobserved;
 }
 
 const StartReport& Reconstruction::start() const { return impl_->start.report; }

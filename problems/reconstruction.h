@@ -38,6 +38,10 @@ const char* MethodName(Method method);
 /// Throws InputError for a name that is none, listing those that are.
 Method MethodFromName(const std::string& name);
 
+/// Whether ReconstructionOptions::error changes the method's solution, be it
+/// through the trajectory from which it starts to iterate.
+bool DependsOnError(Method method);
+
 struct ReconstructionOptions {
   Method method = Method::kBatch;
   /// The interval to reconstruct [s]; defaults to all that the IMU covers.
@@ -48,7 +52,7 @@ struct ReconstructionOptions {
   std::vector<double> node_times;
   /// What forward filters, and the smoothers on the tape of the Kalman filter,
   /// call the error; the batch and the iterated smoother do not depend on it
-  /// but through their start.
+  /// but through their start, multiple-model methods not at all.
   ErrorDefinition error = ErrorDefinition::kNavigation;
   /// Riccati equations of the two observers. Their tapes are not smoothed: P is
   /// no covariance there.

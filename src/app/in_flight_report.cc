@@ -1,5 +1,6 @@
 #include "app/in_flight_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -21,6 +22,10 @@ struct Figure {
 
 double Share(int count, const ObserverCell& cell) {
   return static_cast<double>(count) / cell.runs;
+}
+
+double OrNan(const ObserverCell& c, double value) {
+  return c.escaped == c.runs ? std::nan("") : value;
 }
 
 bool HasEscapes(const ObserverCell& cell) { return cell.escaped > 0; }
@@ -47,11 +52,11 @@ constexpr Figure kFigures[] = {
     {"heading_50_deg", "heading_50[deg]",
      [](const ObserverCell& c) { return c.heading_50 / kDegree; }},
     {"heading_95_deg", "heading_95[deg]",
-     [](const ObserverCell& c) { return c.heading_95 / kDegree; }}};
-
-double OrNan(const ObserverCell& c, double value) {
-  return c.escaped == c.runs ? std::nan("") : value;
-}
+     [](const ObserverCell& c) { return c.heading_95 / kDegree; }},
+    {"backed_off", "backed_off[1]",
+     [](const ObserverCell& c) { return OrNan(c, c.backed_off); }},
+    {"least_information", "least_information[1]",
+     [](const ObserverCell& c) { return OrNan(c, c.least_information); }}};
 
 constexpr Figure kLyapunov[] = {
     {"v_first", "v_first[1]",
@@ -101,7 +106,8 @@ std::string OutcomeTable(const std::vector<ObserverCell>& cells) {
   ReportTable table(
       {"velocity, start, rule", "error", "diverged\n[%]", "escaped\n[%]",
        "escape\nat [s]", "converged\n[%]", "settled after [s]\n50 %  95 %",
-       "final tilt [deg]\n50 %  95 %", "final heading [deg]\n50 %  95 %"});
+       "final tilt [deg]\n50 %  95 %", "final heading [deg]\n50 %  95 %",
+       "backed\noff [%]", "least\ninform."});
   for (const ObserverCell& c : cells) {
     std::vector<std::string> row = NameCells(c);
     row.push_back(Cell("%.1f", 100.0 * Share(c.diverged, c)));
@@ -112,6 +118,9 @@ std::string OutcomeTable(const std::vector<ObserverCell>& cells) {
     row.push_back(Pair("%.1f", c.t_settled_50, c.t_settled_95));
     row.push_back(Pair("%.3f", c.tilt_50 / kDegree, c.tilt_95 / kDegree));
     row.push_back(Pair("%.3f", c.heading_50 / kDegree, c.heading_95 / kDegree));
+    const bool weighs = c.least_information < 1.0 || c.backed_off > 0.0;
+    row.push_back(weighs ? Cell("%.1f", 100.0 * OrNan(c, c.backed_off)) : "");
+    row.push_back(weighs ? Cell("%.2g", OrNan(c, c.least_information)) : "");
     table.AddRow(std::move(row));
   }
   return table.Render();
@@ -141,6 +150,10 @@ std::string LyapunovTable(const std::vector<ObserverCell>& cells) {
 }  // namespace
 
 std::string ObserverTable(const std::vector<ObserverCell>& cells) {
+  const bool any_ends =
+      std::any_of(cells.begin(), cells.end(),
+                  [](const ObserverCell& c) { return c.escaped < c.runs; });
+  if (!any_ends) return OutcomeTable(cells);
   return OutcomeTable(cells) +
          "\nV = e' P^-1 e, P in a priori standard deviations, radius of "
          "guaranteed decay:\n\n" +

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "app/flags.h"
+#include "app/list_flags.h"
 #include "app/observer_flags.h"
 #include "base/error.h"
 #include "io/time_list.h"
@@ -138,15 +139,11 @@ class InjectionParser {
 
 std::vector<Method> ParseMethods(const std::string& text) {
   std::vector<Method> methods;
-  for (const std::string& name : Split(text, ',')) {
-    Method method;
+  for (const std::string& name : ReadWords("methods", text)) {
     try {
-      method = MethodFromName(name);
+      methods.push_back(MethodFromName(name));
     } catch (const std::exception& error) {
       throw UsageError("--methods=" + text + ": " + error.what());
-    }
-    if (std::find(methods.begin(), methods.end(), method) == methods.end()) {
-      methods.push_back(method);
     }
   }
   if (methods.empty()) {
@@ -158,13 +155,9 @@ std::vector<Method> ParseMethods(const std::string& text) {
 /// Methods for attitude alone; nothing if the list names none.
 std::vector<AhrsMethod> ParseAhrsMethods(const std::string& text) {
   std::vector<AhrsMethod> methods;
-  const std::vector<std::string> names = Split(text, ',');
+  const std::vector<std::string> names = ReadWords("methods", text);
   for (const std::string& name : names) {
-    if (!IsAhrsMethod(name)) continue;
-    const AhrsMethod method = AhrsMethodFromName(name);
-    if (std::find(methods.begin(), methods.end(), method) == methods.end()) {
-      methods.push_back(method);
-    }
+    if (IsAhrsMethod(name)) methods.push_back(AhrsMethodFromName(name));
   }
   if (!methods.empty() &&
       !std::all_of(names.begin(), names.end(), IsAhrsMethod)) {
@@ -196,7 +189,7 @@ std::string ReadRule(const RunRequest& request) {
 std::set<std::string> ParseExports(const std::string& text) {
   const std::vector<std::string> known = {"tum", "kml", "nav"};
   std::set<std::string> exports;
-  for (const std::string& name : Split(text, ',')) {
+  for (const std::string& name : ReadWords("export", text)) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       throw UsageError("--export=" + text + ": unknown format '" + name +
                        "', expected some of tum,kml,nav");
@@ -204,6 +197,31 @@ std::set<std::string> ParseExports(const std::string& text) {
     exports.insert(name);
   }
   return exports;
+}
+
+bool Runs(const RunRequest& request, std::initializer_list<Method> some) {
+  return std::any_of(some.begin(), some.end(), [&](Method method) {
+    return std::find(request.methods.begin(), request.methods.end(), method) !=
+           request.methods.end();
+  });
+}
+
+/// Throws UsageError for a flag that none of the methods asked for heeds.
+void CheckFlagsAreHeeded(const RunRequest& request) {
+  CheckObserverFlags(Runs(request, {Method::kHInfinity}),
+                     Runs(request, {Method::kModifiedHInfinity}));
+  if (IsGiven("error") &&
+      std::all_of(request.methods.begin(), request.methods.end(),
+                  [](Method method) { return !DependsOnError(method); })) {
+    throw UsageError("--error changes nothing in " + FLAGS_methods);
+  }
+  if (request.ahrs_methods.empty()) return;
+  for (const char* flag :
+       {"without", "withhold", "inject", "seed", "point", "export"}) {
+    if (!IsGiven(flag)) continue;
+    throw UsageError("--" + Dashed(flag) + " means nothing to " +
+                     FLAGS_methods + ", which estimate attitude alone");
+  }
 }
 
 }  // namespace
@@ -243,7 +261,7 @@ RunRequest ReadRunRequest(const std::string& config) {
   RunRequest request;
   request.config = config;
   request.data_root = FLAGS_data_root;
-  request.without = Split(FLAGS_without, ',');
+  request.without = ReadWords("without", FLAGS_without);
   request.out = FLAGS_out;
   request.force = FLAGS_force;
   request.ahrs_methods = ParseAhrsMethods(FLAGS_methods);
@@ -274,12 +292,7 @@ RunRequest ReadRunRequest(const std::string& config) {
   if (errors.size() != 1 || ReadGammas().size() != 1) {
     throw UsageError("'run' takes one value of --error and of --gamma");
   }
-  const auto runs = [&](Method method) {
-    return std::find(request.methods.begin(), request.methods.end(), method) !=
-           request.methods.end();
-  };
-  CheckObserverFlags(runs(Method::kHInfinity),
-                     runs(Method::kModifiedHInfinity));
+  CheckFlagsAreHeeded(request);
   request.error = errors.front();
   request.h_infinity = ReadCovariance(RiccatiRule::kHInfinity);
   request.modified_h_infinity = ReadCovariance(RiccatiRule::kModifiedHInfinity);

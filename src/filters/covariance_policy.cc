@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -20,14 +21,18 @@ std::string EscapeMessage(double t, double weight) {
   return text;
 }
 
+double LargestEigenvalue(const Eigen::MatrixXd& M) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M,
+                                                        Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
+}
+
 /// After how long the weight has used up the information of L P L'; zero where
 /// numbers do not reach.
 double TimeToEscape(double weight, const Eigen::MatrixXd& LPL) {
   if (!LPL.allFinite()) return 0.0;
-  return 1.0 / (weight * Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
-                             LPL, Eigen::EigenvaluesOnly)
-                             .eigenvalues()
-                             .maxCoeff());
+  return 1.0 / (weight * LargestEigenvalue(LPL));
 }
 
 bool IsPositiveDefinite(const Eigen::MatrixXd& M) {
@@ -91,12 +96,14 @@ void CovariancePolicy::Bound(double t, double dt, ErrorVector* dx,
   const LMatrix I = LMatrix::Identity(L_.rows(), L_.rows());
   const LMatrix M = I - weight_ * dt * LPL;
   if (may_back_off_ && !IsPositiveDefinite(M - 0.5 * I)) {
-    ++back_offs_;
+    ++record_.back_offs;
     return;
   }
   if (!IsPositiveDefinite(M)) {
     throw FiniteEscape(t - dt + TimeToEscape(weight_, LPL), weight_);
   }
+  record_.least_information = std::min(
+      record_.least_information, 1.0 - weight_ * dt * LargestEigenvalue(LPL));
   const LMatrix gain = weight_ * dt * M.llt().solve(LP);  // theta (...)^-1 L P
   const ErrorMatrix added = LP.transpose() * gain;
   // P P_before^-1 dx = dx + P L' theta (...)^-1 L dx.

@@ -44,6 +44,14 @@ struct CovarianceOptions {
   bool back_off = false;
 };
 
+/// How the weight of L' L fared over a pass.
+struct BoundRecord {
+  int back_offs = 0;  ///< steps at which gamma was backed off
+  /// Smallest eigenvalue of I - theta L P L' over the other steps: the share of
+  /// the information on L x that the weight left; 0 is the escape.
+  double least_information = 1.0;
+};
+
 /// P has no solution any more: an eigenvalue reached infinity.
 class FiniteEscape : public EstimationError {
  public:
@@ -88,8 +96,7 @@ class CovariancePolicy {
   ErrorMatrix WeightMatrix() const;
   /// Per component [1/s]; empty without alpha.
   const ErrorVector& alpha() const { return alpha_; }
-  /// Steps at which gamma was backed off.
-  int back_offs() const { return back_offs_; }
+  const BoundRecord& record() const { return record_; }
 
  private:
   using LMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
@@ -97,7 +104,7 @@ class CovariancePolicy {
 
   double weight_ = 0.0;
   bool may_back_off_ = false;
-  int back_offs_ = 0;
+  BoundRecord record_;
   LMatrix L_;
   ErrorVector alpha_;  ///< per component; empty: none
 };

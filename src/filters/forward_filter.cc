@@ -110,7 +110,7 @@ class ForwardPass {
   }
 
   LinearTape TakeTape() {
-    tape_.CountBackOffs(policy_.back_offs());
+    tape_.SetBound(policy_.record());
     return std::move(tape_);
   }
 

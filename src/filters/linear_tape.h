@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "filters/covariance_policy.h"
 #include "filters/kalman.h"
 #include "imu/imu_link.h"
 #include "state/error_definition.h"
@@ -68,9 +69,9 @@ class LinearTape {
   /// system: then there is nothing that smoothing it could mean.
   bool smoothable() const { return smoothable_; }
   void ForbidSmoothing() { smoothable_ = false; }
-  /// Steps at which the rule of the covariance was backed off.
-  int back_offs() const { return back_offs_; }
-  void CountBackOffs(int count) { back_offs_ = count; }
+  /// How the weight of an H-infinity rule fared.
+  const BoundRecord& bound() const { return bound_; }
+  void SetBound(const BoundRecord& bound) { bound_ = bound; }
   int dim() const { return layout_.dim(); }
   std::size_t size() const { return epochs_.size(); }
   const TapeEpoch& epoch(std::size_t k) const { return epochs_[k]; }
@@ -133,7 +134,7 @@ class LinearTape {
   ErrorDefinition error_;
   bool transports_ = true;
   bool smoothable_ = true;
-  int back_offs_ = 0;
+  BoundRecord bound_;
   std::vector<TapeEpoch> epochs_;
   std::vector<TapeMeasurement> measurements_;
   std::vector<Matrices> matrices_;

@@ -45,6 +45,7 @@ struct MethodSummary {
   std::vector<ResidualStatistics> residuals;
   std::vector<ConstantEstimate> constants;
   std::vector<UnobservedSpan> unobserved;
+  std::optional<ObserverFigures> observer;
 };
 
 /// The figures of a run.
@@ -102,6 +103,12 @@ std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
 ///     constants.<name>          value, sigma, unit, prior_sigma, verdict
 ///                               ("observed", "weak", "unobserved"), advice
 ///     unobserved[]              component, t_begin_s, t_end_s, sigma (SI)
+///     observer                  of hinf and modified_hinf alone
+///       gamma_sqrt_s, or alpha_per_s and delta_per_s; steps;
+///       back_offs               steps at which gamma or delta was dropped
+///       least_information       smallest share of the information on what is
+///                               bounded that the weight left at the other
+///                               steps, 0 being the escape
 nlohmann::ordered_json SummaryJson(const RunSummary& summary);
 
 /// SummaryJson, indented. Throws InputError if the file cannot be written.

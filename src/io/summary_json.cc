@@ -147,6 +147,20 @@ Json ConstantsJson(const std::vector<ConstantEstimate>& constants) {
   return json;
 }
 
+Json ObserverJson(const ObserverFigures& figures) {
+  Json json;
+  if (figures.gamma > 0.0) {
+    Put(&json, "gamma_sqrt_s", figures.gamma);
+  } else {
+    Put(&json, "alpha_per_s", figures.alpha);
+    Put(&json, "delta_per_s", figures.delta);
+  }
+  json["steps"] = figures.steps;
+  json["back_offs"] = figures.back_offs;
+  Put(&json, "least_information", figures.least_information);
+  return json;
+}
+
 Json MethodJson(const MethodSummary& m) {
   Json json;
   Put(&json, "seconds", m.seconds);
@@ -171,6 +185,7 @@ Json MethodJson(const MethodSummary& m) {
     Put(&entry, "sigma", span.sigma);
     json["unobserved"].push_back(std::move(entry));
   }
+  if (m.observer) json["observer"] = ObserverJson(*m.observer);
   return json;
 }
 

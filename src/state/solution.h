@@ -43,6 +43,18 @@ struct UnobservedSpan {
   double sigma = 0.0;  ///< the smallest reached in the span, SI
 };
 
+/// The Riccati equation of a forward observer and how it fared.
+struct ObserverFigures {
+  double gamma = 0.0;  ///< of H-infinity [sqrt(s)]; 0: of another rule
+  double alpha = 0.0;  ///< [1/s]
+  double delta = 0.0;  ///< [1/s]
+  int steps = 0;
+  int back_offs = 0;  ///< steps without gamma or delta
+  /// Smallest share of the information on L x that the weight of L' L left at
+  /// any step it was in force; 0 is the escape.
+  double least_information = 1.0;
+};
+
 /// What one estimator made of a data set: the trajectory at the nodes with
 /// covariances over `layout` (NED-resolved, metres, m/s, radians).
 struct Solution {
@@ -68,6 +80,7 @@ struct Solution {
   /// taken for disturbed.
   std::vector<double> accel_sigma;
   std::vector<signed char> magnetic;
+  std::optional<ObserverFigures> observer;  ///< of forward observers alone
   bool converged = true;
   int iterations = 0;    ///< 0 for a method that does not iterate
   double seconds = 0.0;  ///< processor time of the method alone

@@ -11,6 +11,7 @@ namespace {
 
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(ObserverCommand, RunTakesObserversAndErrorDefinitions) {
   Recording recording;
@@ -40,6 +41,76 @@ TEST(ObserverCommand, AnEscapeIsReportedWithItsTimeAndLeavesTheOthers) {
   EXPECT_EQ(backed_off.status, 0) << backed_off.out;
   EXPECT_THAT(backed_off.out, ContainsRegex("hinf found no bounded gain at "
                                             "[0-9]+ of [0-9]+ steps"));
+  const nlohmann::json figures =
+      nlohmann::json::parse(ReadFile(recording.root() / "backed_off" /
+                                     "summary.json"))["methods"]["hinf"]
+                                                     ["observer"];
+  EXPECT_EQ(figures["gamma_sqrt_s"], 1e-4);
+  EXPECT_THAT(backed_off.out,
+              HasSubstr("no bounded gain at " + figures["back_offs"].dump() +
+                        " of " + figures["steps"].dump() + " steps"));
+  EXPECT_GE(figures["least_information"], 0.5);
+  EXPECT_FALSE(figures.contains("delta_per_s"));
+}
+
+TEST(ObserverCommand, SummaryHoldsTheRiccatiEquationOfEveryObserver) {
+  Recording recording;
+  ASSERT_EQ(recording
+                .Run({"--out=out", "--methods=ekf,hinf,modified_hinf",
+                      "--gamma=1", "--alpha=0.01", "--delta=-2"})
+                .status,
+            0);
+  const nlohmann::json methods = nlohmann::json::parse(
+      ReadFile(recording.root() / "out" / "summary.json"))["methods"];
+  EXPECT_FALSE(methods["ekf"].contains("observer"));
+  const nlohmann::json& hinf = methods["hinf"]["observer"];
+  EXPECT_EQ(hinf["gamma_sqrt_s"], 1.0);
+  EXPECT_EQ(hinf["back_offs"], 0);
+  EXPECT_GT(hinf["steps"], 40);
+  EXPECT_GT(hinf["least_information"], 0.0);
+  EXPECT_LT(hinf["least_information"], 1.0);
+  const nlohmann::json& modified = methods["modified_hinf"]["observer"];
+  EXPECT_EQ(modified["alpha_per_s"], 0.01);
+  EXPECT_EQ(modified["delta_per_s"], -2.0);
+  EXPECT_EQ(modified["least_information"], 1.0);
+  EXPECT_THAT(methods["hinf"]["verdict"].get<std::string>(),
+              HasSubstr("P, which is no covariance"));
+}
+
+TEST(ObserverCommand, MonteCarloCountsTheStepsBackedOff) {
+  TemporaryFolder folder;
+  const Outcome outcome = Hindsight(
+      {"montecarlo", "in_flight_alignment", "--out=mc", "--runs=2", "--rates=1",
+       "--tilt=30", "--heading=175", "--rules=ekf,hinf", "--gamma=1,1e9",
+       "--error=left_invariant", "--back-off"},
+      folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("least"));
+  const nlohmann::json cells = nlohmann::json::parse(
+      ReadFile(folder.path() / "mc" / "montecarlo.json"))["cells"];
+  ASSERT_EQ(cells.size(), 3u);
+  EXPECT_EQ(cells[0]["backed_off"], 0.0);
+  EXPECT_EQ(cells[0]["least_information"], 1.0);
+  EXPECT_EQ(cells[1]["escaped"], 0.0);
+  EXPECT_GT(cells[1]["backed_off"], 0.0);
+  EXPECT_LT(cells[1]["backed_off"], 0.5);
+  EXPECT_GE(cells[1]["least_information"], 0.5);
+  EXPECT_LT(cells[1]["least_information"], 1.0);
+  EXPECT_EQ(cells[2]["backed_off"], 0.0);
+  EXPECT_THAT(ReadFile(folder.path() / "mc" / "cells.csv"),
+              HasSubstr(",backed_off[1],least_information[1],"));
+}
+
+TEST(ObserverCommand, WhereAllRunsEscapeNoEmptyTableIsPrinted) {
+  TemporaryFolder folder;
+  const Outcome outcome = Hindsight(
+      {"montecarlo", "in_flight_alignment", "--out=mc", "--runs=2", "--rates=1",
+       "--tilt=10", "--heading=30", "--rules=hinf", "--gamma=0.1",
+       "--error=left_invariant"},
+      folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("100.0"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("P^-1")));
 }
 
 TEST(ObserverCommand, MonteCarloWritesEveryCell) {
@@ -78,6 +149,43 @@ TEST(ObserverCommand, ParametersOfRulesThatDoNotRunAreRefused) {
   EXPECT_THAT(montecarlo.err, HasSubstr("--gamma is of hinf"));
 }
 
+TEST(ObserverCommand, TheErrorDefinitionIsRefusedWhereItChangesNothing) {
+  Recording recording;
+  for (const char* methods :
+       {"--methods=imm", "--methods=robust_batch,imm_smoother",
+        "--methods=ahrs"}) {
+    const Outcome outcome =
+        recording.Run({"--out=out", methods, "--error=quaternion"});
+    EXPECT_EQ(outcome.status, 2) << methods;
+    EXPECT_THAT(outcome.err, HasSubstr("--error changes nothing in "));
+    EXPECT_EQ(Lines(outcome.err).size(), 1u) << outcome.err;
+  }
+  ASSERT_EQ(recording.Run({"--out=a", "--methods=ekf,gated_ekf"}).status, 0);
+  ASSERT_EQ(
+      recording
+          .Run({"--out=b", "--methods=ekf,gated_ekf", "--error=left_invariant"})
+          .status,
+      0);
+  for (const char* file : {"ekf.csv", "gated_ekf.csv"}) {
+    EXPECT_NE(ReadFile(recording.root() / "a" / file),
+              ReadFile(recording.root() / "b" / file))
+        << file;
+  }
+}
+
+TEST(ObserverCommand, FlagsThatMeanNothingToAttitudeAloneAreRefused) {
+  Recording recording;
+  for (const char* flag :
+       {"--without=gnss", "--withhold=gnss:every=9s,length=3s",
+        "--inject=gnss:step=3m", "--seed=2", "--point=1,2,3", "--export=tum"}) {
+    const Outcome outcome =
+        recording.Run({"--out=out", "--methods=ahrs", flag});
+    EXPECT_EQ(outcome.status, 2) << flag;
+    EXPECT_THAT(outcome.err, HasSubstr("means nothing to ahrs"));
+    EXPECT_EQ(Lines(outcome.err).size(), 1u) << outcome.err;
+  }
+}
+
 TEST(ObserverCommand, AlignmentWithoutAStartIsTriedOnManySeeds) {
   TemporaryFolder folder;
   const Outcome outcome = Hindsight({"montecarlo", "velocity_alignment",
@@ -107,13 +215,13 @@ TEST(ObserverCommand, AlignmentWithoutAStartIsTriedOnManySeeds) {
 TEST(ObserverCommand, AlignmentThatFindsNothingHasNoFigures) {
   TemporaryFolder folder;
   const Outcome outcome = Hindsight({"montecarlo", "velocity_alignment",
-                                     "--out=mc", "--runs=2", "--rates=0.001"},
+                                     "--out=mc", "--runs=2", "--rates=0.01"},
                                     folder.path());
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("2 of 2"));
   const nlohmann::json methods = nlohmann::json::parse(
       ReadFile(folder.path() / "mc" / "montecarlo.json"))["methods"];
-  for (const nlohmann::json& method : methods["0.001 Hz"]) {
+  for (const nlohmann::json& method : methods["0.01 Hz"]) {
     EXPECT_EQ(method["failed"], 2);
     EXPECT_FALSE(method.contains("heading"));
   }

@@ -148,6 +148,22 @@ TEST(CovariancePolicy, AWeightBeyondNumbersEscapesAtOnceAndIsNeverNaN) {
   }
 }
 
+TEST(CovariancePolicy, RecordsTheShareOfInformationThatTheWeightLeft) {
+  const ErrorLayout layout = TwelveStates();
+  CovariancePolicy policy(HInfinity(kGamma), layout);
+  ErrorMatrix P = 2.0 * ErrorMatrix::Identity(12, 12);
+  ErrorVector dx = ErrorVector::Zero(12);
+  EXPECT_EQ(policy.record().least_information, 1.0);
+  policy.Bound(0.5, 0.5, &dx, &P);
+  EXPECT_NEAR(policy.record().least_information,
+              1.0 - 0.5 * 2.0 / (kGamma * kGamma), 1e-12);
+  P = ErrorMatrix::Identity(12, 12);
+  policy.Bound(1.0, 0.5, &dx, &P);
+  EXPECT_NEAR(policy.record().least_information,
+              1.0 - 0.5 * 2.0 / (kGamma * kGamma), 1e-12);
+  EXPECT_EQ(policy.record().back_offs, 0);
+}
+
 TEST(CovariancePolicy, BackedOffItStaysFinite) {
   const ErrorLayout layout = TwelveStates();
   CovarianceOptions options = HInfinity(kGamma);
@@ -158,7 +174,10 @@ TEST(CovariancePolicy, BackedOffItStaysFinite) {
   for (int i = 0; i < 1000; ++i) policy.Bound(0.1 * i, 0.1, &dx, &P);
   EXPECT_TRUE(P.allFinite());
   EXPECT_EQ(P.llt().info(), Eigen::Success);
-  EXPECT_GT(policy.back_offs(), 0);
+  EXPECT_GT(policy.record().back_offs, 0);
+  // P^-1 = 0.25 falls by 1 / 90 a step: after 20 of them 2.5 steps are left, of
+  // which the next takes 1 / 2.5; the one after would take more than half.
+  EXPECT_NEAR(policy.record().least_information, 0.6, 1e-9);
   // A step of theta = 0.1 / 9 doubles what is above 45 rad^2.
   EXPECT_GT(P(3, 3), 40.0);
   EXPECT_LT(P(3, 3), 90.0 + 1e-9);

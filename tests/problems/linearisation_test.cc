@@ -1,0 +1,99 @@
+#include "problems/linearisation.h"
+
+#include <gtest/gtest.h>
+
+#include "base/units.h"
+#include "problems/montecarlo.h"
+#include "simulation/in_flight_alignment.h"
+
+namespace hindsight {
+namespace {
+
+constexpr Method kMethods[] = {Method::kEkf, Method::kRts, Method::kTwoFilter,
+                               Method::kIterated, Method::kBatch};
+
+/// Root of a third of the attitude's mean normalised squared error; one is
+/// right.
+double AttitudeSigmas(const Dataset& dataset, const Solution& solution) {
+  const std::vector<State> truth =
+      TrueStates(dataset, solution.layout, solution.states);
+  const int a = solution.layout.Find(BlockKind::kAttitude)->offset;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    const Eigen::Vector3d e =
+        Local(solution.layout, solution.states[k], truth[k]).segment<3>(a);
+    const Eigen::Matrix3d P =
+        solution.covariances.Get(k).block<3, 3>(a, a).inverse();
+    sum += e.dot(P * e) / 3.0;
+  }
+  return std::sqrt(sum / static_cast<double>(truth.size()));
+}
+
+/// What the verdict calls usable has right sigmas, and what is linearised from
+/// a bad start too far off is not usable.
+TEST(Linearisation, FromABadStartFalselySureSmoothersAreNotUsable) {
+  const PerfectRecording flight(InFlightAlignment({}));
+  int refused = 0;
+  for (const std::uint64_t seed : {1u, 2u}) {
+    for (const double heading : {120.0, 175.0}) {
+      for (const ErrorDefinition error :
+           {ErrorDefinition::kNavigation, ErrorDefinition::kLeftInvariant}) {
+        Dataset dataset = flight.Realize(seed);
+        GiveBadStart({10.0 * kDegree, heading * kDegree}, seed, &dataset);
+        ReconstructionOptions options;
+        options.error = error;
+        Reconstruction reconstruction(dataset, options);
+        for (const Method method : kMethods) {
+          const Solution solution = reconstruction.Run(method);
+          const double sigmas = AttitudeSigmas(dataset, solution);
+          SCOPED_TRACE(::testing::Message()
+                       << MethodName(method) << " " << ErrorName(error) << " "
+                       << heading << " deg, seed " << seed << ": " << sigmas
+                       << " sigmas, " << solution.verdict);
+          if (method == Method::kIterated || method == Method::kBatch) {
+            EXPECT_TRUE(solution.usable);
+          }
+          if (solution.usable) {
+            EXPECT_LT(sigmas, 4.0);
+          } else {
+            EXPECT_GT(sigmas, 2.0);
+            ++refused;
+          }
+        }
+      }
+    }
+  }
+  // All smoothers, at least.
+  EXPECT_GE(refused, 16);
+}
+
+TEST(Linearisation, TheVerdictNamesTheCure) {
+  const PerfectRecording flight(InFlightAlignment({}));
+  Dataset dataset = flight.Realize(1);
+  GiveBadStart({10.0 * kDegree, 120.0 * kDegree}, 1, &dataset);
+  ReconstructionOptions options;
+  options.error = ErrorDefinition::kLeftInvariant;
+  options.method = Method::kRts;
+  const Solution solution = Solve(dataset, options);
+  EXPECT_FALSE(solution.usable);
+  EXPECT_NE(solution.verdict.find("take iterated or batch"), std::string::npos)
+      << solution.verdict;
+  options.method = Method::kEkf;
+  EXPECT_TRUE(Solve(dataset, options).usable);
+}
+
+TEST(Linearisation, FromAnAlignedStartEveryMethodIsUsable) {
+  const PerfectRecording flight(InFlightAlignment({}));
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    const Dataset dataset = flight.Realize(seed);
+    Reconstruction reconstruction(dataset, {});
+    for (const Method method : kMethods) {
+      const Solution solution = reconstruction.Run(method);
+      EXPECT_TRUE(solution.usable)
+          << MethodName(method) << ": " << solution.verdict;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hindsight
