@@ -90,9 +90,9 @@ struct AlignmentChoice {
 /// after one that knows all axes to 0.5 deg. The course is a
 /// candidate where an odometer or constraint says where the vehicle's forward
 /// axis is in the body; it gives way to `velocity` where that tells the heading
-/// too and the two are more than five sigmas apart. If none finds any, the first
-/// second is taken as level. Throws EstimationError if the method asked for
-/// finds nothing (its reason is the message).
+/// too and the two are more than five sigmas apart. If none finds any, the
+/// first second is taken as level. Throws EstimationError if the method asked
+/// for finds nothing (its reason is the message).
 AlignmentChoice Align(const AlignmentInput& input);
 
 }  // namespace hindsight

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <ostream>
 
 #include "app/command_line.h"
 
@@ -11,6 +12,10 @@ struct RealStart {
   std::string recording;  ///< folder below shared/data
   std::string config;     ///< in data/
 };
+
+void PrintTo(const RealStart& start, std::ostream* out) {
+  *out << start.config;
+}
 
 class AlignmentOfRecordings : public ::testing::TestWithParam<RealStart> {};
 

@@ -41,10 +41,9 @@ TEST(ObserverCommand, AnEscapeIsReportedWithItsTimeAndLeavesTheOthers) {
   EXPECT_EQ(backed_off.status, 0) << backed_off.out;
   EXPECT_THAT(backed_off.out, ContainsRegex("hinf found no bounded gain at "
                                             "[0-9]+ of [0-9]+ steps"));
-  const nlohmann::json figures =
-      nlohmann::json::parse(ReadFile(recording.root() / "backed_off" /
-                                     "summary.json"))["methods"]["hinf"]
-                                                     ["observer"];
+  const nlohmann::json figures = nlohmann::json::parse(
+      ReadFile(recording.root() / "backed_off" /
+               "summary.json"))["methods"]["hinf"]["observer"];
   EXPECT_EQ(figures["gamma_sqrt_s"], 1e-4);
   EXPECT_THAT(backed_off.out,
               HasSubstr("no bounded gain at " + figures["back_offs"].dump() +
@@ -79,11 +78,11 @@ TEST(ObserverCommand, SummaryHoldsTheRiccatiEquationOfEveryObserver) {
 
 TEST(ObserverCommand, MonteCarloCountsTheStepsBackedOff) {
   TemporaryFolder folder;
-  const Outcome outcome = Hindsight(
-      {"montecarlo", "in_flight_alignment", "--out=mc", "--runs=2", "--rates=1",
-       "--tilt=30", "--heading=175", "--rules=ekf,hinf", "--gamma=1,1e9",
-       "--error=left_invariant", "--back-off"},
-      folder.path());
+  const Outcome outcome =
+      Hindsight({"montecarlo", "in_flight_alignment", "--out=mc", "--runs=2",
+                 "--rates=1", "--tilt=30", "--heading=175", "--rules=ekf,hinf",
+                 "--gamma=1,1e9", "--error=left_invariant", "--back-off"},
+                folder.path());
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("least"));
   const nlohmann::json cells = nlohmann::json::parse(
@@ -103,11 +102,11 @@ TEST(ObserverCommand, MonteCarloCountsTheStepsBackedOff) {
 
 TEST(ObserverCommand, WhereAllRunsEscapeNoEmptyTableIsPrinted) {
   TemporaryFolder folder;
-  const Outcome outcome = Hindsight(
-      {"montecarlo", "in_flight_alignment", "--out=mc", "--runs=2", "--rates=1",
-       "--tilt=10", "--heading=30", "--rules=hinf", "--gamma=0.1",
-       "--error=left_invariant"},
-      folder.path());
+  const Outcome outcome =
+      Hindsight({"montecarlo", "in_flight_alignment", "--out=mc", "--runs=2",
+                 "--rates=1", "--tilt=10", "--heading=30", "--rules=hinf",
+                 "--gamma=0.1", "--error=left_invariant"},
+                folder.path());
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("100.0"));
   EXPECT_THAT(outcome.out, Not(HasSubstr("P^-1")));
