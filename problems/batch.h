@@ -12,7 +12,7 @@ namespace hindsight {
 
 struct BatchOptions {
   int max_iterations = 50;
-  /// Ceres takes 20 kB a node for its matrices. A chain longer than
+  /// Ceres takes 30 to 70 kB a node for its matrices. A chain longer than
   /// `whole_nodes` is solved in windows of at most `window_nodes`, in which the
   /// neighbours and the constants are held fixed, in turn with steps of the
   /// whole chain.
