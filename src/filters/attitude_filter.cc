@@ -142,13 +142,14 @@ void AttitudeFilter::AddForce(const Eigen::Vector3d& f_b) {
   f_i_ = C_ib_ * f_b;
   if (low_pass_) f_i_ = low_pass_->Filter(f_i_);
   const double s = std::abs(f_i_.norm() - options_.place.gravity);
-  verdict_.accel_variance =
+  force_variance_ =
       std::visit([s](auto& rule) { return rule.Variance(s); }, rule_);
 }
 
 void AttitudeFilter::UseAccelerometer() {
-  verdict_.accel_variance *= Inflation(options_.accel_correlation_time, dt_, 1);
-  const double R = verdict_.accel_variance;
+  const double R =
+      force_variance_ * Inflation(options_.accel_correlation_time, dt_, 1);
+  verdict_.accel_variance = R;
   if (!std::isfinite(R)) return;
   const double g = options_.place.gravity;
   const Eigen::Vector3d f_n = q_ni_ * f_i_;

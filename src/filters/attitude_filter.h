@@ -180,6 +180,7 @@ class AttitudeFilter {
   Interval predicted_;  ///< of the last Predict
   double dt_;           ///< between updates [s]
   Eigen::Vector3d f_i_ = Eigen::Vector3d::Zero();
+  double force_variance_ = 0.0;  ///< of f_i_, by the rule alone [m^2/s^4]
   FieldMean field_;
   double field_t_;  ///< of the last reading used [s]
   Eigen::Vector3d rest_w_ = Eigen::Vector3d::Zero();

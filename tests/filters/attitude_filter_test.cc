@@ -216,6 +216,9 @@ TEST(AttitudeFilter, FewerUpdatesTellAsMuchOfErrorsThatGoOn) {
     const AttitudeState& a = every.epochs[k].x;
     const AttitudeState& b = fewer.epochs[k].x;
     EXPECT_EQ(a.t, b.t);
+    const double sigma2 = options.rule.sigma * options.rule.sigma;
+    EXPECT_NEAR(every.epochs[k].verdict.accel_variance, sigma2 / 0.005, 1e-6);
+    EXPECT_NEAR(fewer.epochs[k].verdict.accel_variance, sigma2 / 0.02, 1e-6);
     const Eigen::Matrix<double, 6, 1> sigma = a.P.diagonal().cwiseSqrt();
     const Eigen::Vector3d psi = Log(b.q_nb * a.q_nb.conjugate());
     EXPECT_LT((psi.array() / sigma.head<3>().array()).abs().maxCoeff(), 0.05);
