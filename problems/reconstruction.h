@@ -58,7 +58,7 @@ struct ReconstructionOptions {
   /// no covariance there.
   CovarianceOptions h_infinity;
   CovarianceOptions modified_h_infinity;
-  int max_iterations = 20;  ///< of the iterated smoother and the batch
+  int max_iterations = 50;  ///< of the iterated smoother and the batch
   /// Called with a stage in words and its fraction done, in [0, 1].
   std::function<void(const std::string& stage, double fraction)> progress;
   /// Polled; when it becomes true Interrupted is thrown.

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "alignment/attitude_start.h"
+#include "alignment/magnetic_heading.h"
 #include "earth/wgs84.h"
 #include "filters/attitude_run.h"
 #include "filters/rts.h"
@@ -51,6 +52,12 @@ AlignmentOutcome AlignByAhrs(const AlignmentInput& input) {
                 end - input.t);
   out.attitude = words;
   out.heading = "magnetic field, by the attitude filter";
+  for (const AidingStream& stream : input.dataset.streams) {
+    if (stream.sensor.type != SensorType::kMagnetometer) continue;
+    const double shared = SharedHeadingSigma(stream.sensor.magnetic);
+    out.P(2, 2) = std::min(out.P(2, 2) + shared * shared,
+                           kUnknownHeadingSigma * kUnknownHeadingSigma);
+  }
   if (magnetic.empty()) {
     out.P(2, 2) = kUnknownHeadingSigma * kUnknownHeadingSigma;
     out.P.row(2).head<2>().setZero();

@@ -44,20 +44,23 @@ MeanField MeanFieldOf(const AlignmentInput& input, const AidingStream& stream,
 
 double SigmaOf(const MagneticSurroundings& magnetic, double reading,
                double tilt) {
-  const double hard_iron =
-      magnetic.hard_iron_sigma ? magnetic.hard_iron_sigma->maxCoeff() : 0.0;
-  const double field =
-      std::hypot(reading, hard_iron, magnetic.disturbance_sigma.value_or(0.0)) /
-      magnetic.horizontal;
   const double dip = std::abs(magnetic.down) / magnetic.horizontal;
   return std::min(
       kUnknownHeadingSigma,
-      std::hypot(kSurroundings,
-                 std::hypot(field, magnetic.declination_sigma.value_or(0.0)),
-                 tilt * dip));
+      std::hypot(std::hypot(kSurroundings, tilt * dip),
+                 reading / magnetic.horizontal, SharedHeadingSigma(magnetic)));
 }
 
 }  // namespace
+
+double SharedHeadingSigma(const MagneticSurroundings& magnetic) {
+  const double hard_iron =
+      magnetic.hard_iron_sigma ? magnetic.hard_iron_sigma->maxCoeff() : 0.0;
+  return std::hypot(
+      hard_iron / magnetic.horizontal,
+      magnetic.disturbance_sigma.value_or(0.0) / magnetic.horizontal,
+      magnetic.declination_sigma.value_or(0.0));
+}
 
 AlignmentOutcome AlignByMagnetometer(const AlignmentInput& input) {
   constexpr double kWithoutRest = 1.0;  // [s]

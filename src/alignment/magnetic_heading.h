@@ -5,6 +5,10 @@
 
 namespace hindsight {
 
+/// What the stated a priori hard iron, disturbance and declination leave open
+/// of a magnetic heading [rad]; all readings share it.
+double SharedHeadingSigma(const MagneticSurroundings& magnetic);
+
 /// Method `magnetometer`: LevelAttitude, and as heading
 ///   D - azimuth(C_level m),
 /// D the declination, m the mean of the field in the body axes of the epoch,

@@ -44,6 +44,18 @@ TEST(AhrsAlignment, FindsAttitudeAndBiasOfATurningBody) {
   EXPECT_TRUE(AneesBounds(kRuns, 3, 0.999).Contains(nees)) << nees;
 }
 
+TEST(AhrsAlignment, IsNoSurerThanTheFieldIsKnown) {
+  Dataset dataset = TurningBody(1);
+  ASSERT_EQ(dataset.streams.size(), 1u);
+  MagneticSurroundings& magnetic = dataset.streams[0].sensor.magnetic;
+  magnetic.disturbance_sigma = 0.1 * magnetic.horizontal;
+  const AlignmentOutcome outcome = AlignTurningBody(dataset, 60.0);
+  ASSERT_TRUE(outcome.found.has_value());
+  EXPECT_GT(outcome.found->P(2, 2), 0.1 * 0.1);
+  EXPECT_LT(outcome.found->P(2, 2), 0.12 * 0.12);
+  EXPECT_LT(outcome.found->P(0, 0), 0.01 * 0.01);
+}
+
 TEST(AhrsAlignment, LeavesTheHeadingOpenWithoutAMagnetometer) {
   Dataset dataset = TurningBody(1);
   dataset.streams.clear();
