@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "problems/reconstruction.h"
+#include "problems/method.h"
 #include "state/covariance_series.h"
+#include "state/solution.h"
 
 namespace hindsight {
 

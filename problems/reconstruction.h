@@ -11,36 +11,10 @@
 #include "alignment/start.h"
 #include "dataset/dataset.h"
 #include "filters/forward_filter.h"
+#include "problems/method.h"
 #include "state/solution.h"
 
 namespace hindsight {
-
-enum class Method {
-  kEkf,
-  kTwoFilter,              ///< error form
-  kTwoFilterConventional,  ///< full state in the additive chart
-  kTwoFilterEuler,         ///< full state in the Euler-angle chart
-  kHInfinity,              ///< forward observer
-  kModifiedHInfinity,      ///< forward observer
-  kRts,
-  kIterated,
-  kBatch,
-  kGatedEkf,     ///< kEkf, with a gate of 99.9 % where a sensor has none
-  kImm,          ///< good and poor positions, problems/sensor_imm.h
-  kImmSmoother,  ///< its smoother
-  kRobustBatch   ///< batch that finds the positions' error model itself
-};
-
-/// "ekf", "two_filter", "two_filter_conventional", "two_filter_euler", "hinf",
-/// "modified_hinf", "rts", "iterated", "batch", "gated_ekf", "imm",
-/// "imm_smoother", "robust_batch".
-const char* MethodName(Method method);
-/// Throws InputError for a name that is none, listing those that are.
-Method MethodFromName(const std::string& name);
-
-/// Whether ReconstructionOptions::error changes the method's solution, be it
-/// through the trajectory from which it starts to iterate.
-bool DependsOnError(Method method);
 
 struct ReconstructionOptions {
   Method method = Method::kBatch;

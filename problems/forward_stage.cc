@@ -1,0 +1,226 @@
+#include "problems/forward_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/error.h"
+#include "base/processor_time.h"
+#include "base/units.h"
+#include "filters/iterated_smoother.h"
+#include "filters/transport.h"
+#include "problems/solution_builder.h"
+#include "problems/verdict.h"
+
+namespace hindsight {
+namespace {
+
+bool HasGates(const Timeline& timeline) {
+  for (const Sensor& sensor : timeline.sensors()) {
+    if (sensor.gate_probability) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<State> NominalOf(const LinearTape& tape) {
+  std::vector<State> nominal;
+  nominal.reserve(tape.size());
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    nominal.push_back(tape.epoch(k).x_plus);
+  }
+  return nominal;
+}
+
+void MoveToSmoothed(const ErrorLayout& layout,
+                    const std::vector<State>& nominal,
+                    SmoothedTrajectory* trajectory) {
+  CovarianceSeries& P = trajectory->P;
+  for (std::size_t k = 0; k < P.size(); ++k) {
+    ErrorMatrix P_k = P.Get(k);
+    MoveCovariance(Transport(layout, nominal[k], trajectory->states[k]), &P_k);
+    P.Set(k, P_k);
+  }
+}
+
+ForwardStage::ForwardStage(const Dataset& dataset,
+                           ReconstructionOptions options)
+    : dataset_(dataset),
+      options_(std::move(options)),
+      start_(FindStart(dataset_, options_.from, options_.to)),
+      timeline_(BuildTimeline(dataset_, MakeTimelineOptions())) {
+  start_.prior.x.t = timeline_.node(0).t;
+}
+
+TimelineOptions ForwardStage::MakeTimelineOptions() const {
+  TimelineOptions timeline_options;
+  timeline_options.t_begin = start_.report.t;
+  timeline_options.t_end = std::min(options_.to, dataset_.imu.t_end());
+  timeline_options.extra_times = options_.node_times;
+  timeline_options.time_offsets = placed_offsets_;
+  timeline_options.with_scale_jacobians =
+      start_.layout.Has(BlockKind::kGyroScale) ||
+      start_.layout.Has(BlockKind::kAccelScale);
+  if (timeline_options.t_end <= timeline_options.t_begin) {
+    throw EstimationError("the start at " + std::to_string(start_.report.t) +
+                          " s leaves no interval to reconstruct");
+  }
+  return timeline_options;
+}
+
+EpochCallback ForwardStage::Progress(const std::string& stage) const {
+  return [this, stage](std::size_t done) {
+    if (options_.stop != nullptr && *options_.stop) throw Interrupted();
+    if (options_.progress && (done % 64 == 0 || done == timeline_.size())) {
+      options_.progress(stage, static_cast<double>(done) /
+                                   static_cast<double>(timeline_.size()));
+    }
+  };
+}
+
+void ForwardStage::Run() {
+  if (smoothed_) return;
+  constexpr int kMaxPlacements = 6;
+  for (const Sensor& sensor : timeline_.sensors()) {
+    placed_offsets_.push_back(sensor.time_offset);
+  }
+  for (int i = 1;; ++i) {
+    RunOnce();
+    const int moved = MoveOffsets();
+    if (moved < 0) break;
+    if (i == kMaxPlacements) {
+      unsettled_ = timeline_.sensors()[static_cast<std::size_t>(moved)].name;
+      break;
+    }
+    timeline_ = BuildTimeline(dataset_, MakeTimelineOptions());
+    settled_.reset();
+  }
+  JudgeLinearisation();
+}
+
+/// Looks at the interval as linearised anew about its smoothed trajectory where
+/// one linearisation may not do. From an unknown heading the covariances of a
+/// filter that resets its nominal feign information; and a filter that turned
+/// far was linearised far off.
+void ForwardStage::JudgeLinearisation() {
+  constexpr double kKnownHeading = 20.0 * kDegree;
+  constexpr double kFarTurn = 5.0 * kDegree;
+  Solution solution;
+  solution.layout = start_.layout;
+  solution.states = smoothed_->states;
+  solution.covariances = smoothed_->P;
+  const bool knows_heading = start_.report.attitude_sigma.z() <= kKnownHeading;
+  const double turn = LargestTurn(filtered_->states, smoothed_->states);
+  if (!knows_heading || turn > kFarTurn) {
+    CovarianceSeries P = Relinearise(turn);
+    if (!knows_heading && !P.empty()) solution.covariances = std::move(P);
+  }
+  unobserved_ = FindUnobserved(solution);
+}
+
+/// Returns the covariances of the new linearisation, none if none held.
+CovarianceSeries ForwardStage::Relinearise(double turn) {
+  IterationOptions iteration;
+  iteration.max_iterations = 3;
+  iteration.callback = Progress("observability");
+  relinearised_ =
+      Relinearised{turn, {}, std::numeric_limits<double>::infinity()};
+  try {
+    SmoothedTrajectory trajectory =
+        SmoothIterated(start_.layout, start_.prior, smoothed_->states,
+                       &timeline_, decisions_, iteration)
+            .trajectory;
+    relinearised_->states = std::move(trajectory.states);
+    relinearised_->smoother_sigmas = DistanceInSigmas(
+        start_.layout, smoothed_->states, smoothed_->P, relinearised_->states);
+    return std::move(trajectory.P);
+  } catch (const EstimationError&) {
+    return {};
+  }
+}
+
+LinearTape ForwardStage::Filter(const GateDecisions& gates,
+                                const std::string& stage) {
+  return RunForwardFilter({options_.error, {}}, start_.layout, start_.prior,
+                          &timeline_, gates, Progress(stage));
+}
+
+Solution ForwardStage::TakeFiltered() {
+  if (!filtered_) {
+    const double t0 = ProcessorSeconds();
+    filtered_ = FilterSolution(Filter({}, "ekf"));
+    filtered_->seconds = ProcessorSeconds() - t0;
+  }
+  Solution solution = std::move(*filtered_);
+  filtered_.reset();
+  return solution;
+}
+
+void ForwardStage::RunOnce() {
+  const double t0 = ProcessorSeconds();
+  LinearTape tape = Filter({}, "ekf");
+  filtered_ = FilterSolution(tape);
+  filtered_->seconds = ProcessorSeconds() - t0;
+  decisions_ = DecisionsOnTape(tape);
+  smoothed_ = SmoothTape(std::move(tape));
+  if (HasGates(timeline_)) RepeatWithSmoothedGates();
+  smoothing_seconds_ = ProcessorSeconds() - t0 - filtered_->seconds;
+}
+
+/// Takes over every estimated time offset that is more than 20 ms from where
+/// the sensor's nodes were placed; the last such sensor, or -1.
+int ForwardStage::MoveOffsets() {
+  constexpr double kFarthest = 0.02;
+  int moved = -1;
+  for (std::size_t i = 0; i < placed_offsets_.size(); ++i) {
+    const Block* block =
+        start_.layout.Find(BlockKind::kTimeOffset, static_cast<int>(i));
+    if (block == nullptr) continue;
+    const double estimate = SettledParameters()(block->parameter_offset);
+    if (std::abs(estimate - placed_offsets_[i]) < kFarthest) continue;
+    if (!std::isfinite(estimate)) {
+      throw EstimationError("the time offset of " +
+                            timeline_.sensors()[i].name + " diverged");
+    }
+    placed_offsets_[i] = estimate;
+    moved = static_cast<int>(i);
+  }
+  return moved;
+}
+
+/// Constants after a few iterations about the smoothed trajectory: one pass
+/// may still be far off where the start was.
+const ParameterVector& ForwardStage::SettledParameters() {
+  if (!settled_) {
+    IterationOptions iteration;
+    iteration.max_iterations = 4;
+    iteration.callback = Progress("calibration");
+    settled_ = SmoothIterated(start_.layout, start_.prior, smoothed_->states,
+                              &timeline_, decisions_, iteration)
+                   .trajectory.states.back()
+                   .parameters;
+  }
+  return *settled_;
+}
+
+SmoothedTrajectory ForwardStage::SmoothTape(LinearTape tape) const {
+  const std::vector<State> nominal = NominalOf(tape);
+  SmoothedTrajectory trajectory = SmoothRts(std::move(tape));
+  MoveToSmoothed(start_.layout, nominal, &trajectory);
+  trajectory.d = {};
+  return trajectory;
+}
+
+/// The innovation gate knows only the past; what the whole interval says of a
+/// measurement decides for all whole-interval methods.
+void ForwardStage::RepeatWithSmoothedGates() {
+  const GateDecisions again =
+      DecideGates(start_.layout, timeline_, *smoothed_, decisions_);
+  if (again == decisions_) return;
+  decisions_ = again;
+  smoothed_ = SmoothTape(Filter(decisions_, "rts"));
+}
+
+}  // namespace hindsight

@@ -1,0 +1,95 @@
+#ifndef HINDSIGHT_PROBLEMS_FORWARD_STAGE_H_
+#define HINDSIGHT_PROBLEMS_FORWARD_STAGE_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "alignment/start.h"
+#include "dataset/timeline_builder.h"
+#include "filters/rts.h"
+#include "problems/linearisation.h"
+#include "problems/reconstruction.h"
+#include "state/solution.h"
+
+namespace hindsight {
+
+/// What every method of a reconstruction begins with: the start, the timeline
+/// with its nodes where the measurements belong, the forward filter, the gates
+/// as the whole interval decides them, and the RTS pass about them.
+class ForwardStage {
+ public:
+  /// Aligns, places the nodes, preintegrates. `dataset` must outlive the
+  /// object. Errors as of Reconstruction.
+  ForwardStage(const Dataset& dataset, ReconstructionOptions options);
+
+  /// Filters and smooths, once, and again wherever the pass shows that
+  /// measurements belong to other times. What follows is valid after it.
+  void Run();
+
+  const Dataset& dataset() const { return dataset_; }
+  const ReconstructionOptions& options() const { return options_; }
+  const Start& start() const { return start_; }
+  Timeline& timeline() { return timeline_; }
+  const Timeline& timeline() const { return timeline_; }
+  /// Which measurements the whole-interval methods use.
+  const GateDecisions& decisions() const { return decisions_; }
+  const SmoothedTrajectory& smoothed() const { return *smoothed_; }
+  double smoothing_seconds() const { return smoothing_seconds_; }
+  /// Spans that the data leave undetermined.
+  const std::vector<UnobservedSpan>& unobserved() const { return unobserved_; }
+  /// Absent where one linearisation does.
+  const std::optional<Relinearised>& relinearised() const {
+    return relinearised_;
+  }
+  /// Sensor whose estimated time offset went on moving; empty: none.
+  const std::string& unsettled() const { return unsettled_; }
+
+  /// Hands out the forward filter's solution, which a day makes too large to
+  /// keep twice; whoever asks again has it filtered again.
+  Solution TakeFiltered();
+
+  /// A pass of the Kalman filter with the error definition of the options.
+  LinearTape Filter(const GateDecisions& gates, const std::string& stage);
+
+  /// Reports progress under the name of a stage; throws Interrupted if asked.
+  EpochCallback Progress(const std::string& stage) const;
+
+ private:
+  TimelineOptions MakeTimelineOptions() const;
+  void RunOnce();
+  int MoveOffsets();
+  const ParameterVector& SettledParameters();
+  void JudgeLinearisation();
+  CovarianceSeries Relinearise(double turn);
+  SmoothedTrajectory SmoothTape(LinearTape tape) const;
+  void RepeatWithSmoothedGates();
+
+  const Dataset& dataset_;
+  ReconstructionOptions options_;
+  /// Time offsets the nodes are placed by; empty: those of the sensors.
+  std::vector<double> placed_offsets_;
+  std::string unsettled_;
+  std::optional<ParameterVector> settled_;
+  std::vector<UnobservedSpan> unobserved_;
+  std::optional<Relinearised> relinearised_;
+  Start start_;
+  Timeline timeline_;
+  std::optional<Solution> filtered_;
+  std::optional<SmoothedTrajectory> smoothed_;
+  double smoothing_seconds_ = 0.0;
+  GateDecisions decisions_;
+};
+
+/// Moves the covariances of a trajectory smoothed on `tape`, which are in the
+/// tangent of the tape's nominal, into that at the smoothed states.
+void MoveToSmoothed(const ErrorLayout& layout,
+                    const std::vector<State>& nominal,
+                    SmoothedTrajectory* trajectory);
+
+/// The nominal of a tape, x_plus of every epoch.
+std::vector<State> NominalOf(const LinearTape& tape);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_FORWARD_STAGE_H_
