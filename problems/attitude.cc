@@ -125,14 +125,15 @@ Solution AttitudeEstimation::RunFilter() {
   return solution;
 }
 
-Solution AttitudeEstimation::Smooth(std::span<const MagneticSample> magnetic,
+Solution AttitudeEstimation::Smooth(const ImuStream& imu,
+                                    std::span<const MagneticSample> magnetic,
                                     const AttitudeFilterOptions& options,
                                     const std::string& stage) const {
   AttitudeState start = start_;
   if (level_) start.q_nb = NedAttitude(level_->states.front());
   LinearTape tape(AttitudeLayout(imu_.noise, start));
   const AttitudeRun run = RunAttitudeFilter(
-      imu_, magnetic, options, start, &tape, [&](std::size_t k) {
+      imu, magnetic, options, start, &tape, [&](std::size_t k) {
         Poll(stage,
              static_cast<double>(k) / static_cast<double>(imu_.samples.size()));
       });
@@ -149,7 +150,7 @@ Solution AttitudeEstimation::Smooth(std::span<const MagneticSample> magnetic,
 /// Runs once; turns the levelled solution to the field it finds.
 void AttitudeEstimation::Survey() {
   if (level_) return;
-  level_ = Smooth({}, filter_options_, "survey");
+  level_ = Smooth(imu_, {}, filter_options_, "survey");
   std::vector<double> times;
   std::vector<const MagneticSample*> chosen;
   for (const MagneticSample& sample : magnetic_) {
@@ -177,15 +178,30 @@ void AttitudeEstimation::Survey() {
   for (State& x : level_->states) x.q_eb = q_turn * x.q_eb;
 }
 
+/// What comes after a sample averages the acceleration too, in the axes that
+/// the levelled solution keeps still.
+ImuStream AttitudeEstimation::WithAveragedForce() const {
+  std::vector<Eigen::Quaterniond> q_nb;
+  q_nb.reserve(level_->states.size());
+  for (const State& x : level_->states) q_nb.push_back(NedAttitude(x));
+  const std::vector<Eigen::Vector3d> f_n = AveragedForce(imu_, q_nb);
+  ImuStream averaged = imu_;
+  for (std::size_t k = 0; k < f_n.size(); ++k) {
+    averaged.samples[k].accel = q_nb[k].conjugate() * f_n[k];
+  }
+  return averaged;
+}
+
 Solution AttitudeEstimation::RunSmoother() {
   AttitudeFilterOptions options = filter_options_;
+  ImuStream imu = imu_;
   if (!dataset_.ahrs.low_pass && options.low_pass_tau > 0.0) {
-    // What comes after a sample averages the acceleration too.
-    constexpr double kLowPass = 0.5;  // [s]
-    options.low_pass_tau = kLowPass;
+    Survey();
+    imu = WithAveragedForce();
+    options.low_pass_tau = 0.0;
   }
   if (magnetic_.empty() || !dataset_.ahrs.survey) {
-    return Smooth(magnetic_, options, "ahrs_smoother");
+    return Smooth(imu, magnetic_, options, "ahrs_smoother");
   }
   Survey();
   options.reference.enabled = false;
@@ -200,7 +216,7 @@ Solution AttitudeEstimation::RunSmoother() {
          survey_.IsDisturbed(k) ? 0.0
                                 : readings_[k].weight * survey_.trust[k]});
   }
-  return Smooth(weighed, options, "ahrs_smoother");
+  return Smooth(imu, weighed, options, "ahrs_smoother");
 }
 
 Solution AttitudeEstimation::RunBatch(AhrsMethod method) {

@@ -68,10 +68,12 @@ class AttitudeEstimation {
   Solution RunSmoother();
   Solution RunBatch(AhrsMethod method);
   /// At every sample, from the nodes of the filter's updates.
-  Solution Smooth(std::span<const MagneticSample> magnetic,
+  Solution Smooth(const ImuStream& imu,
+                  std::span<const MagneticSample> magnetic,
                   const AttitudeFilterOptions& options,
                   const std::string& stage) const;
   void Survey();
+  ImuStream WithAveragedForce() const;
   void Poll(const std::string& stage, double fraction) const;
 
   const Dataset& dataset_;

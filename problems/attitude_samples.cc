@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "filters/inertial_low_pass.h"
 #include "geometry/so3.h"
 #include "imu/rotation_summary.h"
 
@@ -146,6 +147,20 @@ Solution SampleAttitude(const Solution& solution, const ImuStream& imu,
     }
   }
   return out;
+}
+
+std::vector<Eigen::Vector3d> AveragedForce(
+    const ImuStream& imu, const std::vector<Eigen::Quaterniond>& q_nb) {
+  constexpr double kTimeConstant = 0.5;  // [s]
+  const double dt = MedianInterval(imu);
+  std::vector<Eigen::Vector3d> f_n(q_nb.size());
+  InertialLowPass forward(kTimeConstant, dt);
+  for (std::size_t k = 0; k < f_n.size(); ++k) {
+    f_n[k] = forward.Filter(q_nb[k] * imu.samples[k].accel);
+  }
+  InertialLowPass backward(kTimeConstant, dt);
+  for (std::size_t k = f_n.size(); k-- > 0;) f_n[k] = backward.Filter(f_n[k]);
+  return f_n;
 }
 
 }  // namespace hindsight

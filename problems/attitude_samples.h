@@ -21,6 +21,13 @@ Solution NodesAtSamples(const Solution& nodes, const ImuStream& imu,
 Solution SampleAttitude(const Solution& solution, const ImuStream& imu,
                         const std::vector<double>& times);
 
+/// Specific force in n of every sample, low-passed forwards and backwards with
+/// 0.5 s in axes that do not turn (IFLP, Laidig and Seel 2023): what a hand
+/// accelerates falls out, gravity stays, and nothing lags. `q_nb` is the
+/// attitude at every sample.
+std::vector<Eigen::Vector3d> AveragedForce(
+    const ImuStream& imu, const std::vector<Eigen::Quaterniond>& q_nb);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_PROBLEMS_ATTITUDE_SAMPLES_H_

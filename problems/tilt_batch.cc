@@ -22,21 +22,6 @@ namespace {
 
 constexpr int kTiltNodeDim = 9;
 
-/// Specific force in n of every sample, low-passed forwards and backwards.
-std::vector<Eigen::Vector3d> AveragedForce(
-    const RoomProblem& problem, const std::vector<Eigen::Quaterniond>& q_nb) {
-  constexpr double kTimeConstant = 0.5;  // [s]
-  const double dt = MedianInterval(problem.imu);
-  std::vector<Eigen::Vector3d> f_n(q_nb.size());
-  InertialLowPass forward(kTimeConstant, dt);
-  for (std::size_t k = 0; k < f_n.size(); ++k) {
-    f_n[k] = forward.Filter(q_nb[k] * problem.imu.samples[k].accel);
-  }
-  InertialLowPass backward(kTimeConstant, dt);
-  for (std::size_t k = f_n.size(); k-- > 0;) f_n[k] = backward.Filter(f_n[k]);
-  return f_n;
-}
-
 /// Of a component of the force at a node, whose error goes on for several.
 double GravitySigma(const AhrsSettings& ahrs) {
   return ahrs.accel_sigma *
@@ -178,7 +163,7 @@ void TiltBatch::AddGyros() {
 
 void TiltBatch::AddGravity() {
   const double sigma = GravitySigma(problem_.dataset.ahrs);
-  const std::vector<Eigen::Vector3d> f_n = AveragedForce(problem_, q_nb_);
+  const std::vector<Eigen::Vector3d> f_n = AveragedForce(problem_.imu, q_nb_);
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     const Eigen::Vector3d f_b = nodes_[k].q.conjugate() * f_n[samples_[k]];
     ceres_->AddResidualBlock(Cost<GravityResidual, 2, 4>({f_b, sigma}), nullptr,
