@@ -4,7 +4,7 @@
 
 #include "filters/inertial_low_pass.h"
 #include "geometry/so3.h"
-#include "imu/rotation_summary.h"
+#include "imu/preintegration.h"
 
 namespace hindsight {
 namespace {
@@ -23,39 +23,6 @@ Solution WithoutStates(const Solution& solution) {
   out.verdict = solution.verdict;
   return out;
 }
-
-/// The gyros' integral over intervals that come in time order.
-class GyroPath {
- public:
-  explicit GyroPath(const ImuStream& imu) : imu_(imu) {}
-
-  Eigen::Quaterniond Turn(double from, double to, const Eigen::Vector3d& b_g) {
-    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
-    while (next_ + 1 < imu_.samples.size() && imu_.samples[next_].t <= from) {
-      ++next_;
-    }
-    for (std::size_t k = next_; from < to; ++k) {
-      const bool last = k + 1 >= imu_.samples.size();
-      const double end = last ? to : std::min(to, imu_.samples[k].t);
-      const RotationSummary summary = SummarizeRotation(
-          imu_.noise, end - from, RateAt(k, from), RateAt(k, end), b_g);
-      q = q * Exp(summary.phi);
-      from = end;
-    }
-    return q;
-  }
-
- private:
-  /// Linear over the interval that ends at sample k.
-  Eigen::Vector3d RateAt(std::size_t k, double t) const {
-    const ImuSample& a = imu_.samples[k - 1];
-    const ImuSample& b = imu_.samples[k];
-    return a.gyro + (t - a.t) / (b.t - a.t) * (b.gyro - a.gyro);
-  }
-
-  const ImuStream& imu_;
-  std::size_t next_ = 1;
-};
 
 Eigen::Matrix<double, 6, 6> AttitudeAndBias(const Solution& nodes,
                                             std::size_t k) {
@@ -77,7 +44,7 @@ Solution NodesAtSamples(const Solution& nodes, const ImuStream& imu,
   const std::size_t count = imu.samples.size();
   out.states.reserve(count);
   out.covariances = CovarianceSeries(6, count);
-  GyroPath path(imu);
+  ImuIntegrator path(imu);
   std::vector<Eigen::Quaterniond> turned;
   std::size_t i = 0;
   Eigen::Matrix<double, 6, 6> P_end = AttitudeAndBias(nodes, 0);

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "earth/wgs84.h"
 #include "geometry/so3.h"
+#include "imu/preintegration.h"
 
 namespace hindsight {
 namespace {
@@ -21,34 +22,30 @@ constexpr std::size_t kFewestTurns = 20;
 /// Attitude of the body at any time of the record, against its first.
 class IntegratedGyro {
  public:
-  explicit IntegratedGyro(const ImuStream& imu) : imu_(imu) {
-    q_.reserve(imu.samples.size());
+  explicit IntegratedGyro(const ImuStream& imu)
+      : samples_(imu.samples), integrator_(imu) {
+    q_.reserve(samples_.size());
     q_.push_back(Eigen::Quaterniond::Identity());
-    for (std::size_t k = 1; k < imu.samples.size(); ++k) {
-      q_.push_back((q_.back() * Exp(Turn(k))).normalized());
+    for (std::size_t k = 1; k < samples_.size(); ++k) {
+      q_.push_back(q_.back() * Turn(samples_[k - 1].t, samples_[k].t));
     }
   }
 
-  Eigen::Quaterniond At(double t) const {
+  Eigen::Quaterniond At(double t) {
     const auto it = std::lower_bound(
-        imu_.samples.begin() + 1, imu_.samples.end() - 1, t,
+        samples_.begin() + 1, samples_.end() - 1, t,
         [](const ImuSample& s, double time) { return s.t < time; });
-    const auto k = static_cast<std::size_t>(it - imu_.samples.begin());
-    const double begin = imu_.samples[k - 1].t;
-    const double part = (t - begin) / (imu_.samples[k].t - begin);
-    return q_[k - 1] * Exp(part * Turn(k));
+    const auto k = static_cast<std::size_t>(it - samples_.begin());
+    return q_[k - 1] * Turn(samples_[k - 1].t, t);
   }
 
  private:
-  /// Over the interval that ends at sample k.
-  Eigen::Vector3d Turn(std::size_t k) const {
-    const ImuSample& s = imu_.samples[k];
-    if (imu_.kind == ImuStream::Kind::kIncrements) return s.gyro;
-    const ImuSample& before = imu_.samples[k - 1];
-    return 0.5 * (s.t - before.t) * (s.gyro + before.gyro);
+  Eigen::Quaterniond Turn(double from, double to) {
+    return integrator_.Turn(from, to, Eigen::Vector3d::Zero());
   }
 
-  const ImuStream& imu_;
+  const std::vector<ImuSample>& samples_;
+  ImuIntegrator integrator_;
   std::vector<Eigen::Quaterniond> q_;
 };
 
@@ -80,8 +77,8 @@ std::vector<TrueTurn> TrueTurns(const std::vector<TruthPoint>& truth) {
 
 /// Mean square of the misfit about its mean, an axis [rad^2]; infinite where
 /// the IMU covers too few turns.
-double Misfit(const IntegratedGyro& gyro, const ImuStream& imu,
-              const std::vector<TrueTurn>& turns, double offset) {
+double Misfit(const ImuStream& imu, const std::vector<TrueTurn>& turns,
+              double offset, IntegratedGyro* gyro) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double squares = 0.0;
   std::size_t count = 0;
@@ -90,7 +87,7 @@ double Misfit(const IntegratedGyro& gyro, const ImuStream& imu,
     const double to = turn.to + offset;
     if (from < imu.t_begin() || to > imu.t_end()) continue;
     const Eigen::Vector3d r =
-        Log(turn.q.conjugate() * gyro.At(from).conjugate() * gyro.At(to));
+        Log(turn.q.conjugate() * gyro->At(from).conjugate() * gyro->At(to));
     sum += r;
     squares += r.squaredNorm();
     ++count;
@@ -103,10 +100,11 @@ double Misfit(const IntegratedGyro& gyro, const ImuStream& imu,
 /// Mean angular rate within 50 ms of t [rad/s].
 Eigen::Vector3d RateAt(const ImuStream& imu, double t) {
   constexpr double kHalf = 0.05;
-  const IntegratedGyro gyro(imu);
   const double from = std::max(t - kHalf, imu.t_begin());
   const double to = std::min(t + kHalf, imu.t_end());
-  return Log(gyro.At(from).conjugate() * gyro.At(to)) / (to - from);
+  const Eigen::Quaterniond turn =
+      ImuIntegrator(imu).Turn(from, to, Eigen::Vector3d::Zero());
+  return Log(turn) / (to - from);
 }
 
 }  // namespace
@@ -114,10 +112,10 @@ Eigen::Vector3d RateAt(const ImuStream& imu, double t) {
 std::optional<TruthClock> FindTruthClock(const ImuStream& imu,
                                          const std::vector<TruthPoint>& truth) {
   if (imu.empty()) return std::nullopt;
-  const IntegratedGyro gyro(imu);
+  IntegratedGyro gyro(imu);
   const std::vector<TrueTurn> turns = TrueTurns(truth);
   const auto misfit = [&](double offset) {
-    return Misfit(gyro, imu, turns, offset);
+    return Misfit(imu, turns, offset, &gyro);
   };
   const int steps = static_cast<int>(std::lround(kSearchRange / kSearchStep));
   int best = -steps;
@@ -174,8 +172,7 @@ void StartFromTruth(Dataset* dataset) {
   }
   throw InputError(
       "no point of the truth inside the IMU's record has position, velocity "
-      "and "
-      "attitude");
+      "and attitude");
 }
 
 }  // namespace hindsight

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "imu/preintegration.h"
+#include "imu/rotation_summary.h"
 
 namespace hindsight {
 
@@ -32,7 +33,11 @@ LinearRates ImuIntegrator::RatesOfInterval(std::size_t k) const {
     return {dt, samples[k - 1].gyro, samples[k].gyro, samples[k - 1].accel,
             samples[k].accel};
   }
-  const double dt_previous = k >= 2 ? samples[k - 1].t - samples[k - 2].t : dt;
+  if (IsDropOut(k)) return RatesAcrossDropOut(k);
+  const double dt_previous = k < 2 ? dt
+                             : IsDropOut(k - 1)
+                                 ? stream_->nominal_dt
+                                 : samples[k - 1].t - samples[k - 2].t;
   return RatesFromIncrements(dt_previous, samples[k - 1].gyro,
                              samples[k - 1].accel, dt, samples[k].gyro,
                              samples[k].accel);
@@ -62,8 +67,8 @@ IntervalNoise BridgeNoise(const LinearRates& rates) {
   return {w * w * rates.dt, f * f * rates.dt};
 }
 
-ImuSummary ImuIntegrator::Summarize(double t_i, double t_j,
-                                    const ImuCalibration& calibration) {
+template <typename Use>
+void ImuIntegrator::Walk(double t_i, double t_j, const Use& use) {
   const auto& samples = stream_->samples;
   constexpr double kTolerance = 1e-6;
   if (t_i < stream_->t_begin() - kTolerance ||
@@ -72,33 +77,49 @@ ImuSummary ImuIntegrator::Summarize(double t_i, double t_j,
                           std::to_string(t_i) + " s to " + std::to_string(t_j) +
                           " s");
   }
-  integrator_.Start(t_i, calibration);
   std::size_t k = FindInterval(t_i);
   double t = t_i;
   while (t < t_j) {
     const double t_begin = samples[k - 1].t;
     const double t_end = samples[k].t;
     const double to = k + 1 == samples.size() ? t_j : std::min(t_end, t_j);
-    LinearRates rates = RatesOfInterval(k);
-    IntervalNoise extra;
-    if (IsDropOut(k)) extra = BridgeNoise(rates);
+    const LinearRates whole = RatesOfInterval(k);
+    LinearRates rates = whole;
     if (t > t_begin || to < t_end) {
-      const double span = rates.dt;
-      const double a = (t - t_begin) / span;
-      const double b = (to - t_begin) / span;
-      const Eigen::Vector3d dw = rates.w1 - rates.w0;
-      const Eigen::Vector3d df = rates.f1 - rates.f0;
-      rates = {to - t, rates.w0 + a * dw, rates.w0 + b * dw, rates.f0 + a * df,
-               rates.f0 + b * df};
+      const double a = (t - t_begin) / whole.dt;
+      const double b = (to - t_begin) / whole.dt;
+      const Eigen::Vector3d dw = whole.w1 - whole.w0;
+      const Eigen::Vector3d df = whole.f1 - whole.f0;
+      rates = {to - t, whole.w0 + a * dw, whole.w0 + b * dw, whole.f0 + a * df,
+               whole.f0 + b * df};
     }
-    if (rates.dt > 0.0) integrator_.Add(rates, extra);
+    if (rates.dt > 0.0) use(rates, IsDropOut(k) ? &whole : nullptr);
     t = to;
     if (k + 1 < samples.size()) ++k;
   }
   hint_ = k;
+}
+
+ImuSummary ImuIntegrator::Summarize(double t_i, double t_j,
+                                    const ImuCalibration& calibration) {
+  integrator_.Start(t_i, calibration);
+  Walk(t_i, t_j, [this](const LinearRates& rates, const LinearRates* bridged) {
+    integrator_.Add(rates, bridged ? BridgeNoise(*bridged) : IntervalNoise());
+  });
   ImuSummary summary = integrator_.Finish();
   summary.t_j = t_j;
   return summary;
+}
+
+Eigen::Quaterniond ImuIntegrator::Turn(double t_i, double t_j,
+                                       const Eigen::Vector3d& b_g) {
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+  Walk(t_i, t_j, [&](const LinearRates& rates, const LinearRates*) {
+    q = q *
+        Exp(SummarizeRotation(stream_->noise, rates.dt, rates.w0, rates.w1, b_g)
+                .phi);
+  });
+  return q.normalized();
 }
 
 Kinematics ImuIntegrator::ReadingAt(double t) {

@@ -161,6 +161,9 @@ class ImuIntegrator {
   ImuSummary Summarize(double t_i, double t_j,
                        const ImuCalibration& calibration);
 
+  /// dR of the same alone, at a fraction of the cost; `b_g` is subtracted.
+  Eigen::Quaterniond Turn(double t_i, double t_j, const Eigen::Vector3d& b_g);
+
   /// Reading at t, linear between samples.
   Kinematics ReadingAt(double t);
 
@@ -168,6 +171,10 @@ class ImuIntegrator {
   LinearRates RatesOfInterval(std::size_t k) const;
 
  private:
+  /// Hands over the rates of [t_i, t_j], sample interval by sample interval,
+  /// and the whole interval of one that bridges a drop-out, else nullptr.
+  template <typename Use>
+  void Walk(double t_i, double t_j, const Use& use);
   bool IsDropOut(std::size_t k) const;
   LinearRates RatesAcrossDropOut(std::size_t k) const;
 

@@ -71,6 +71,40 @@ TEST(Preintegration, SplitIntervalsComposeToTheWhole) {
   EXPECT_LT((a.dp + b.dt() * a.dv + a.dR * b.dp - whole.dp).norm(), 1e-8);
 }
 
+TEST(Preintegration, TheTurnAloneIsThatOfTheSummary) {
+  const ImuStream stream = LivelyImu(3.0, 100.0);
+  ImuIntegrator integrator(stream);
+  ImuCalibration calibration;
+  calibration.b_g = {0.01, -0.02, 0.03};
+  const Eigen::Quaterniond dR =
+      integrator.Summarize(0.4321, 2.1234, calibration).dR;
+  const Eigen::Quaterniond q = integrator.Turn(0.4321, 2.1234, calibration.b_g);
+  EXPECT_LT(Log(q.conjugate() * dR).norm(), 1e-12);
+}
+
+TEST(Preintegration, IncrementsAcrossADropOutAreThoseOfOneInterval) {
+  constexpr double kStep = 0.01;
+  const Eigen::Vector3d w(0.1, -0.2, 0.3);
+  const Eigen::Vector3d f(0.5, 0.2, -9.8);
+  ImuStream whole;
+  whole.kind = ImuStream::Kind::kIncrements;
+  whole.nominal_dt = kStep;
+  for (int k = 0; k <= 200; ++k) {
+    ImuSample s;
+    s.t = k * kStep;
+    s.gyro = kStep * w;
+    s.accel = kStep * f;
+    whole.samples.push_back(s);
+  }
+  ImuStream gap = whole;
+  gap.samples.erase(gap.samples.begin() + 80, gap.samples.begin() + 120);
+  const ImuSummary a = ImuIntegrator(whole).Summarize(0.0, 2.0, {});
+  const ImuSummary b = ImuIntegrator(gap).Summarize(0.0, 2.0, {});
+  EXPECT_LT(Log(a.dR.conjugate() * b.dR).norm(), 1e-9);
+  // Over the bridge a sample's rotation is no longer small: 0.15 rad.
+  EXPECT_LT((a.dv - b.dv).norm(), 2e-3);
+}
+
 TEST(Preintegration, TwoSampleConingFollowsTheConicalMotion) {
   // Classical coning: attitude of constant angle about an axis that circles.
   // Increments by exact integration; drift of the two-sample algorithm over
