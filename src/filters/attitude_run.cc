@@ -1,5 +1,7 @@
 #include "filters/attitude_run.h"
 
+#include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 

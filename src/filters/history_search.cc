@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 
+#include "filters/error_chain.h"
+
 namespace hindsight {
 namespace {
 

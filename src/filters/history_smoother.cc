@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "filters/error_chain.h"
 #include "state/covariance_series.h"
 
 namespace hindsight {
@@ -56,7 +57,6 @@ HistoryScore ScoreHistory(const LinearTape& tape, int receiver,
     if (walk.chain().has_fix()) {
       const auto fix = walk.Fix();
       outlier = fix.outlier;
-      (outlier ? score.outliers : score.inliers) += 1.0;
       score.log_likelihood += fix.log;
       score.log_prior +=
           LogTransition(k == 0 ? ErrorMode::kGood : walk.steps()[k - 1].mode,

@@ -9,8 +9,6 @@ namespace hindsight {
 struct HistoryScore {
   double log_likelihood = 0.0;  ///< of all measurements, given the history
   double log_prior = 0.0;       ///< of the history
-  double inliers = 0.0;         ///< expected numbers of fixes
-  double outliers = 0.0;
 };
 HistoryScore ScoreHistory(const LinearTape& tape, int receiver,
                           const ErrorParameters& parameters,
