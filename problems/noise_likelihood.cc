@@ -1,0 +1,104 @@
+#include "problems/noise_likelihood.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "dataset/timeline_builder.h"
+
+namespace hindsight {
+
+NoiseLikelihood::NoiseLikelihood(const Dataset& dataset) : dataset_(dataset) {
+  for (std::size_t i = 0; i < dataset_.streams.size(); ++i) {
+    AidingStream& stream = dataset_.streams[i];
+    stream.sensor.gate_probability.reset();
+    stream.sensor.loss = RobustLoss();
+    // A prior is no noise that the data could tell.
+    if (stream.sensor.type == SensorType::kVehicleLevel) continue;
+    AddStream(static_cast<int>(i), &stream);
+  }
+  Add("imu.gyro", &dataset_.imu.noise.gyro_noise_density);
+  Add("imu.accel", &dataset_.imu.noise.accel_noise_density);
+  applied_.assign(values_.size(), 0.0);
+  start_ = FindStart(dataset_, -std::numeric_limits<double>::infinity(),
+                     std::numeric_limits<double>::infinity());
+}
+
+double NoiseLikelihood::operator()(const std::vector<double>& logs) {
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    if (logs[i] != applied_[i]) {
+      values_[i].multiply(std::exp(logs[i] - applied_[i]));
+    }
+  }
+  applied_ = logs;
+  TimelineOptions options;
+  options.t_begin = start_.report.t;
+  options.t_end = dataset_.imu.t_end();
+  Timeline timeline = BuildTimeline(dataset_, options);
+  Prior prior = start_.prior;
+  prior.x.t = timeline.node(0).t;
+  const ErrorLayout layout = PresentLayout(&prior);
+  try {
+    const LinearTape tape = RunExtendedKalmanFilter(layout, prior, &timeline);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < tape.size(); ++k) {
+      for (const TapeMeasurement& z : tape.measurements(k)) {
+        if (z.accepted) sum += z.log_likelihood;
+      }
+    }
+    return sum;
+  } catch (const EstimationError&) {
+    return -std::numeric_limits<double>::infinity();
+  }
+}
+
+void NoiseLikelihood::Add(const std::string& name, double* value) {
+  values_.push_back({name, [value](double factor) { *value *= factor; }});
+}
+
+void NoiseLikelihood::AddProcess(const std::string& name, int sensor,
+                                 double* sigma, double* tau) {
+  processes_.push_back({sensor, sigma, tau});
+  Add(name, sigma);
+  Add(name + "_tau", tau);
+}
+
+void NoiseLikelihood::AddStream(int index, AidingStream* stream) {
+  Sensor& sensor = stream->sensor;
+  NoiseModel& noise = sensor.noise;
+  if (noise.kind == NoiseModel::Kind::kGaussMarkov) {
+    Add(sensor.name + ".white", &noise.white_sigma);
+    AddProcess(sensor.name + ".gauss_markov", index, &noise.sigma, &noise.tau);
+    return;
+  }
+  values_.push_back({sensor.name, [stream](double factor) {
+                       for (Measurement& z : stream->measurements) {
+                         ScaleSigma(factor, &z);
+                       }
+                     }});
+  MagneticSurroundings& magnetic = sensor.magnetic;
+  if (!magnetic.disturbance_sigma) return;
+  AddProcess(sensor.name + ".disturbance", index, &*magnetic.disturbance_sigma,
+             &magnetic.disturbance_tau);
+}
+
+ErrorLayout NoiseLikelihood::PresentLayout(Prior* prior) const {
+  ErrorLayout layout;
+  for (Block block : start_.layout.blocks()) {
+    for (const Process& process : processes_) {
+      if (block.key.sensor != process.sensor ||
+          block.evolution.kind != Evolution::Kind::kGaussMarkov) {
+        continue;
+      }
+      block.evolution = Evolution::GaussMarkov(*process.sigma, *process.tau);
+      block.sigma0.setConstant(*process.sigma);
+      prior->P.diagonal()
+          .segment(block.offset, block.dim)
+          .setConstant(*process.sigma * *process.sigma);
+    }
+    layout.Add(block);
+  }
+  return layout;
+}
+
+}  // namespace hindsight
