@@ -130,7 +130,7 @@ Solution AttitudeEstimation::Smooth(const ImuStream& imu,
                                     const AttitudeFilterOptions& options,
                                     const std::string& stage) const {
   AttitudeState start = start_;
-  if (level_) start.q_nb = NedAttitude(level_->states.front());
+  if (!readings_.empty()) start.q_nb = NedAttitude(level_->states.front());
   LinearTape tape(AttitudeLayout(imu_.noise, start));
   const AttitudeRun run = RunAttitudeFilter(
       imu, magnetic, options, start, &tape, [&](std::size_t k) {
@@ -147,10 +147,15 @@ Solution AttitudeEstimation::Smooth(const ImuStream& imu,
   return solution;
 }
 
+/// Runs once: gravity and the gyros alone.
+void AttitudeEstimation::Level() {
+  if (!level_) level_ = Smooth(imu_, {}, filter_options_, "survey");
+}
+
 /// Runs once; turns the levelled solution to the field it finds.
 void AttitudeEstimation::Survey() {
-  if (level_) return;
-  level_ = Smooth(imu_, {}, filter_options_, "survey");
+  if (!readings_.empty()) return;
+  Level();
   std::vector<double> times;
   std::vector<const MagneticSample*> chosen;
   for (const MagneticSample& sample : magnetic_) {
@@ -196,7 +201,7 @@ Solution AttitudeEstimation::RunSmoother() {
   AttitudeFilterOptions options = filter_options_;
   ImuStream imu = imu_;
   if (!dataset_.ahrs.low_pass && options.low_pass_tau > 0.0) {
-    Survey();
+    Level();
     imu = WithAveragedForce();
     options.low_pass_tau = 0.0;
   }

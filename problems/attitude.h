@@ -72,6 +72,7 @@ class AttitudeEstimation {
                   std::span<const MagneticSample> magnetic,
                   const AttitudeFilterOptions& options,
                   const std::string& stage) const;
+  void Level();
   void Survey();
   ImuStream WithAveragedForce() const;
   void Poll(const std::string& stage, double fraction) const;
