@@ -13,9 +13,9 @@ namespace hindsight {
 struct BatchOptions {
   int max_iterations = 50;
   /// Ceres takes 30 to 70 kB a node for its matrices. A chain longer than
-  /// `whole_nodes` is solved in windows of at most `window_nodes`, in which the
-  /// neighbours and the constants are held fixed, in turn with steps of the
-  /// whole chain.
+  /// `whole_nodes` that does not start within a step of 1 mm of the solution is
+  /// solved in windows of at most `window_nodes`, in which the neighbours and
+  /// the constants are held fixed, in turn with steps of the whole chain.
   std::size_t whole_nodes = 25000;
   std::size_t window_nodes = 2500;
   /// Approaches losses that redescend by graduated non-convexity. False: the
@@ -38,7 +38,8 @@ struct BatchResult {
 /// a node. Constants of the layout (IMU biases that do not walk, scale factors,
 /// lever arms...) are global unknowns; their start is that of the first state.
 /// The last steps, of a size that the rounding of the cost hides, are full
-/// Gauss-Newton steps solved by the chain's structure.
+/// Gauss-Newton steps solved by the chain's structure; of a long chain without
+/// losses that starts so near, all of them.
 /// Marginal covariances of every node come from that structure in time
 /// linear in the number of nodes.
 BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,

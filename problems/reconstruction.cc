@@ -25,17 +25,15 @@ struct Reconstruction::Impl {
   Solution Finish(Solution solution, Method method, double seconds) {
     solution.method = MethodName(method);
     solution.seconds = seconds;
-    Conclude(forward.timeline().sensors(), forward.unobserved(),
-             LinearisedTooFarOff(method, solution, forward.relinearised()),
+    const std::string objection =
+        forward.unsettled().empty()
+            ? LinearisedTooFarOff(method, solution, forward.relinearised())
+            : "the time offset of " + forward.unsettled() + " does not settle";
+    Conclude(forward.timeline().sensors(), forward.unobserved(), objection,
              &solution);
     for (std::string& note : FindContradictions(
              forward.timeline().sensors(), forward.start().prior, solution)) {
       solution.notes.push_back(std::move(note));
-    }
-    if (!forward.unsettled().empty()) {
-      solution.usable = false;
-      solution.verdict = "not usable: the time offset of " +
-                         forward.unsettled() + " does not settle";
     }
     return solution;
   }

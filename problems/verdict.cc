@@ -219,8 +219,8 @@ void Conclude(const std::vector<Sensor>& sensors,
                     });
     if (!named) solution->unobserved.push_back(span);
   }
-  std::string why = Objection(sensors, *solution);
-  if (why.empty()) why = objection;
+  const std::string why =
+      objection.empty() ? Objection(sensors, *solution) : objection;
   solution->usable = why.empty();
   solution->verdict =
       solution->usable ? Praise(*solution) : "not usable: " + why;

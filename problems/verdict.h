@@ -24,8 +24,9 @@ std::vector<UnobservedSpan> FindUnobserved(const Solution& solution);
 /// square, more than five times the sigma the model gives them - then the model
 /// or its noise is wrong, and with them every sigma of the solution.
 /// What `known` names as unobserved is so for every method, whatever its own
-/// covariances say; `objection`, if not empty, is a further reason. The verdict
-/// of a usable solution names the constants that are kept at their priors.
+/// covariances say; `objection`, if not empty, is a reason that goes before
+/// these. The verdict of a usable solution names the constants that are kept at
+/// their priors.
 void Conclude(const std::vector<Sensor>& sensors,
               const std::vector<UnobservedSpan>& known,
               const std::string& objection, Solution* solution);

@@ -9,7 +9,7 @@
 namespace hindsight {
 namespace {
 
-/// IntervalSums over samples, turned into statistics at the end.
+/// Sums over samples, turned into statistics at the end.
 struct IntervalSums {
   VibrationStatistics s;
   long count = 0;

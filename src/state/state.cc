@@ -3,6 +3,7 @@
 #include "state/active_axes.h"
 
 namespace hindsight {
+
 State MakeState(double t, const Geodetic& position, const Eigen::Vector3d& v_n,
                 const Eigen::Vector3d& euler) {
   State x;
