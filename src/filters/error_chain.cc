@@ -122,6 +122,34 @@ ErrorMatrix ErrorChain::Phi(ErrorStep step) const {
   return Phi;
 }
 
+ErrorMatrix ErrorChain::Q(ErrorStep step) const {
+  const int n = navigation_dim_;
+  const ErrorDynamics d = DynamicsOf(parameters_, step, dt_);
+  ErrorMatrix Q = ErrorMatrix::Zero(dim(), dim());
+  Q.topLeftCorner(n, n) = Q_n_;
+  for (int i = 0; i < 3; ++i) {
+    const int e = n + i;
+    const int r = n + 3 + i;
+    Q(e, e) = d.q_ee;
+    Q(e, r) = Q(r, e) = d.q_er;
+    Q(r, r) = d.q_rr;
+    if (velocity_ < 0) continue;
+    const int p = position_ + i;
+    const int v = velocity_ + i;
+    Q(p, p) += d.q_vv * dt_ * dt_;
+    Q(p, v) += d.q_vv * dt_;
+    Q(v, p) += d.q_vv * dt_;
+    Q(v, v) += d.q_vv;
+  }
+  return Q;
+}
+
+ErrorVector ErrorChain::Defect() const {
+  ErrorVector c = ErrorVector::Zero(dim());
+  c.head(navigation_dim_) = tape_.epoch(k_).c;
+  return c;
+}
+
 ErrorChain::FixLikelihood ErrorChain::LikelihoodOfFix(const Gaussian& x) const {
   ErrorDynamics as_it_is;
   as_it_is.ee = 1.0;
@@ -174,16 +202,22 @@ ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
   return {largest + std::log1p(std::exp(-std::abs(in - out))), out > in};
 }
 
+LinearizedMeasurement ErrorChain::MeasurementAs(std::size_t i,
+                                                bool outlier) const {
+  LinearizedMeasurement z = z_[i];
+  if (outlier && static_cast<int>(i) == fix_) {
+    z.R *= parameters_.outlier_ratio * parameters_.outlier_ratio;
+  }
+  return z;
+}
+
 double ErrorChain::UpdateAll(bool outlier, Gaussian* x,
                              std::vector<Used>* used) const {
   double log_likelihood = 0.0;
   for (std::size_t i = 0; i < z_.size(); ++i) {
-    LinearizedMeasurement z = z_[i];
-    const bool is_fix = static_cast<int>(i) == fix_;
-    if (is_fix && outlier) {
-      z.R *= parameters_.outlier_ratio * parameters_.outlier_ratio;
-    }
+    const LinearizedMeasurement z = MeasurementAs(i, outlier);
     const Innovation innovation = Innovate(z, x->mean, x->P);
+    const bool is_fix = static_cast<int>(i) == fix_;
     if (!is_fix) log_likelihood += innovation.log_likelihood;
     if (used != nullptr) used->push_back({z, innovation, z.H * x->P});
     Update(z, innovation, &x->mean, &x->P);

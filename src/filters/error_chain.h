@@ -35,6 +35,13 @@ class ErrorChain {
   void PredictError(ErrorStep step, Gaussian* x) const;
   /// The transition of the whole system.
   ErrorMatrix Phi(ErrorStep step) const;
+  /// Its process noise: the two predictions together are
+  ///   x <- Phi x + (c, 0, 0) + w,   w ~ (0, Q),
+  /// with the tape's defect c. Singular: what a step leaves or draws of e and r
+  /// may have no noise.
+  ErrorMatrix Q(ErrorStep step) const;
+  /// (c, 0, 0) of the interval; of no meaning before the first node, as Phi, Q.
+  ErrorVector Defect() const;
 
   /// ln of the likelihood of the fix, which may be an outlier, and whether it
   /// rather is one.
@@ -57,6 +64,9 @@ class ErrorChain {
   /// As if PredictError of `step` came next.
   FixLikelihood LikelihoodAfter(ErrorStep step, const FixView& view) const;
 
+  /// Measurement i of the node as UpdateAll uses it, the fix with the noise of
+  /// an outlier if it is taken for one.
+  LinearizedMeasurement MeasurementAs(std::size_t i, bool outlier) const;
   /// Updates with all measurements of the node; returns ln of the likelihood of
   /// those beside the fix. `used` gets what was used, if asked for.
   struct Used {
