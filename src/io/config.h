@@ -20,7 +20,7 @@ namespace hindsight {
 /// | folder            | of the files: relative to the configuration, or to the data root | . |
 /// | epoch             | date and time at t = 0, "yyyy-mm-dd hh:mm:ss GPST" or "UTC" | whole second before the first IMU sample, if that is dated |
 /// | imu               | *needed*, see below                      |         |
-/// | aiding.NAME       | one aiding stream each, see below        |         |
+/// | aiding.NAME       | one aiding stream each, see below; NAME of letters, digits, _ - . |         |
 /// | initial           | see below                                |         |
 /// | place             | [lat, lon, h] where attitude alone is estimated: gives gravity and the Earth's rate, which are 9.80665 m/s^2 and nothing without it | - |
 /// | ahrs              | see below                                |         |

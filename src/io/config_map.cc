@@ -21,6 +21,21 @@ std::string Join(const std::vector<std::string>& words) {
   return text;
 }
 
+bool IsPlainName(const std::string& name) {
+  return !name.empty() && name.find_first_not_of(
+                              "abcdefghijklmnopqrstuvwxyz"
+                              "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                              "0123456789_-.") == name.npos;
+}
+
+/// A message is one line, whatever it quotes.
+std::string Printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(),
+      [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  return text;
+}
+
 long LineOf(const YAML::Node& node) { return node.Mark().line + 1L; }
 
 std::string ReadText(const std::string& path) {
@@ -361,7 +376,15 @@ std::vector<ConfigMap> ConfigMap::Maps(const std::string& key) {
 
 std::vector<std::pair<std::string, ConfigMap>> ConfigMap::NamedMaps() {
   std::vector<std::pair<std::string, ConfigMap>> maps;
-  for (const std::string& key : Keys()) maps.emplace_back(key, Map(key));
+  for (const std::string& key : Keys()) {
+    if (!IsPlainName(key)) {
+      throw InputError(file_, Line(key),
+                       Path(Printable(key)) +
+                           ": is no name; expected letters, digits, '_', '-' "
+                           "and '.'");
+    }
+    maps.emplace_back(key, Map(key));
+  }
   return maps;
 }
 

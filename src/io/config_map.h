@@ -60,7 +60,8 @@ class ConfigMap {
   ConfigMap Defaults(const std::string& key);
   /// The maps of the list under `key`; nothing if absent.
   std::vector<ConfigMap> Maps(const std::string& key);
-  /// The maps under free names, in the file's order.
+  /// The maps under free names, in the file's order. Names stand in file names
+  /// and CSV fields: letters, digits, '_', '-' and '.'.
   std::vector<std::pair<std::string, ConfigMap>> NamedMaps();
 
   /// True if the value of `key` is a map rather than a scalar or a list.

@@ -187,6 +187,10 @@ TEST_F(ConfigTest, BadConfigurationNamesLineAndReason) {
        "config.yaml:7: initial.attitude: ", "-360 to 360 deg"},
       {"aiding:", "initial: {attitude: [0, 0, 5 m]}\naiding:",
        "config.yaml:7: initial.attitude: ", "not one of an angle"},
+      {"gnss:", "\"gnss,b\":", "config.yaml:8: aiding.gnss,b: ", "letters"},
+      {"gnss:", "\"gn\\nss\":", "config.yaml:8: aiding.gn?ss: ", "letters"},
+      {"gnss:", "\"gn/ss\":", "config.yaml:8: aiding.gn/ss: ", "letters"},
+      {"gnss:", "\"\":", "config.yaml:8: aiding.: ", "letters"},
   };
   for (const BadConfig& c : cases) {
     SCOPED_TRACE(c.to);
