@@ -91,7 +91,8 @@ std::vector<FlagUse> Flags() {
   return WithScenarioNames(WithObserverFlags(
       {{"out", "DIR", "folder for the results (required)"},
        {"force", "", "replace the results of an earlier call in DIR"},
-       {"runs", "N", "number of seeds (100; 300 of in_flight_alignment)"},
+       {"runs", "N",
+        "number of seeds, at least 2 (100; 300 of in_flight_alignment)"},
        {"seed", "N", "the first seed; the others follow it (1)"},
        {"threads", "N",
         "0: as many as there are cores; vibration_attitude and\n"
@@ -114,8 +115,9 @@ std::vector<FlagUse> Flags() {
         "modified_hinf runs with both --alpha-blocks"},
        {"errors", "LIST",
         "some of none,pulses,spikes,steps,ramp,multipath (all)"},
-       {"gps_sigma", "LIST", "of the positions [m] (1)"},
-       {"gps_rate", "LIST", "of the positions [Hz] (1)"},
+       {"gps_sigma", "LIST", "of the positions, 0.001 to 1000 [m] (1)"},
+       {"gps_rate", "LIST",
+        "of the positions: 100 or 1 over a whole number [Hz] (1)"},
        {"reading", "WORDS",
         "sum or position, diagonal or acceleration, white or\n"
         "accumulating, by_noise or alike, with commas (all)"},

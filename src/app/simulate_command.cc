@@ -110,8 +110,9 @@ Command SimulateCommand() {
                 {"errors", "NAME",
                  "of gps_jumps: none, pulses, spikes, steps, ramp or\n"
                  "multipath (pulses)"},
-                {"gps_sigma", "M", "of gps_jumps (1)"},
-                {"gps_rate", "HZ", "of gps_jumps (1)"},
+                {"gps_sigma", "M", "of gps_jumps, 0.001 to 1000 (1)"},
+                {"gps_rate", "HZ",
+                 "of gps_jumps, 100 or 1 over a whole number (1)"},
                 {"list", "", "list the built-in scenarios"}},
       .min_arguments = 0,
       .max_arguments = 1,

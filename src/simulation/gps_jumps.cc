@@ -1,5 +1,8 @@
 #include "simulation/gps_jumps.h"
 
+#include <cmath>
+#include <limits>
+
 #include "base/error.h"
 #include "base/units.h"
 
@@ -77,7 +80,12 @@ Scenario GpsJumps(const GpsJumpsOptions& options) {
   s.start_heading = 30.0 * kDegree;
   s.segments = LevelFlight();
   s.duration = kFlightTime;
-  s.imu_rate_hz = 100.0;
+  s.imu_rate_hz = kGpsJumpsImuRate;
+  // Truth at every position, where the filters have their nodes.
+  const double truths = s.truth_rate_hz / options.gps_rate_hz;
+  if (std::abs(truths - std::round(truths)) > 1e-6) {
+    s.truth_rate_hz = kGpsJumpsImuRate;
+  }
   s.imu = Imu();
   AidingModel gnss;
   gnss.sensor.name = "gnss";

@@ -18,11 +18,14 @@ namespace hindsight {
 /// 0.5 m at the same times.
 struct GpsJumpsOptions {
   std::string profile = "pulses";
-  double gps_sigma = 1.0;    ///< an axis [m]
-  double gps_rate_hz = 1.0;  ///< of both streams
+  double gps_sigma = 1.0;  ///< an axis [m]
+  /// Of both streams; the truth has 10 Hz, or the IMU's rate where those do not
+  /// fall on the positions, which needs a whole number of samples between them.
+  double gps_rate_hz = 1.0;
 };
 
 inline constexpr char kGpsJumpsName[] = "gps_jumps";
+inline constexpr double kGpsJumpsImuRate = 100.0;  ///< [Hz]
 
 /// An error profile: what is added to the positions, north and east alike.
 struct GpsErrorProfile {

@@ -162,7 +162,14 @@ TEST_F(MonteCarloFlags, SillyValuesAreRefused) {
       {"in_flight_alignment", "--bounded=attitude,attitude=2rad", "once"},
       {"gps_jumps", "--errors=steps,steps", "twice"},
       {"gps_jumps", "--gps-rate=1e-5", "1/250 Hz"},
+      {"gps_jumps", "--gps-rate=3", "100 Hz over a whole number"},
+      {"gps_jumps", "--gps-rate=1,30", "--gps-rate=1,30: 30 Hz"},
+      {"gps_jumps", "--gps-rate=200", "100 Hz over a whole number"},
+      {"gps_jumps", "--gps-rate=1e6", "100 Hz over a whole number"},
+      {"gps_jumps", "--gps-rate=0.4", "1 Hz over a whole number"},
       {"gps_jumps", "--gps-sigma=1,1", "twice"},
+      {"gps_jumps", "--gps-sigma=1e-9", "expected 0.001 to 1000 m"},
+      {"gps_jumps", "--gps-sigma=1,1e30", "expected 0.001 to 1000 m"},
       {"uuv_search", "--reading=sum,sum", "twice"}};
   for (const std::vector<std::string>& row : cases) {
     EXPECT_THAT(Refusal({row[0], "--out=mc", row[1]}), HasSubstr(row[2]));
