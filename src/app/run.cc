@@ -46,11 +46,36 @@ void KeepCleanPositions(Dataset* dataset) {
       point.t = z.t + stream.sensor.time_offset;
       point.p_e = std::get<PositionFix>(z.model).p_e;
     }
-    dataset->policies.push_back({stream.sensor.name,
-                                 "positions before injection taken as truth",
-                                 static_cast<long>(dataset->truth.size())});
+    std::string action = "positions before injection taken as truth";
+    if (stream.sensor.time_offset_sigma || stream.sensor.lever_arm_sigma) {
+      action +=
+          " at the configured time offset and lever arm; these are estimated, "
+          "and errors against the truth contain what they are off";
+    }
+    dataset->policies.push_back(
+        {stream.sensor.name, action, static_cast<long>(dataset->truth.size())});
     return;
   }
+}
+
+/// Adds the errors asked for, and says so in the data set's name and in the
+/// resolved configuration.
+void Inject(const RunRequest& request, Dataset* dataset,
+            ResolvedConfig* resolved) {
+  if (request.injections.empty()) return;
+  KeepCleanPositions(dataset);
+  try {
+    ApplyInjections(request.injections, request.seed,
+                    {request.from, request.to}, dataset);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--inject: ") + error.what());
+  }
+  std::string lines;
+  for (const Injection& injection : dataset->injections) {
+    lines += "# Error injected on purpose: " + Describe(injection) + "\n";
+  }
+  resolved->yaml = lines + resolved->yaml;
+  dataset->name += " (with injected errors)";
 }
 
 /// Samples closer than the IMU's own say nothing new and fill the disk.
@@ -74,13 +99,7 @@ Dataset Load(const RunRequest& request, const ResultFolder& folder) {
     ReplaceWithholdings(request.withholdings, &dataset);
     SetWithholdings(request.withholdings, &resolved);
   }
-  if (!request.injections.empty()) KeepCleanPositions(&dataset);
-  ApplyInjections(request.injections, request.seed, &dataset);
-  for (const Injection& injection : dataset.injections) {
-    resolved.yaml = "# Error injected on purpose: " + Describe(injection) +
-                    "\n" + resolved.yaml;
-  }
-  if (!dataset.injections.empty()) dataset.name += " (with injected errors)";
+  Inject(request, &dataset, &resolved);
   CheckRate(request, dataset.imu);
   ResolveMountings(&dataset);
   AddStandstillStreams(&dataset);

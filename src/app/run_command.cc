@@ -98,8 +98,10 @@ Command RunCommand() {
             "add an error on purpose, marked in every output:\n"
             "position:step=12m,from=140s,to=150s; or pulse, ramp,\n"
             "spikes (share=10%) or multipath (tau=20s) in place of\n"
-            "step, with axes=ne; several: separate by ; or repeat"},
-           {"seed", "N", "of the injected spikes and multipath (1)"},
+            "step, with axes=ne; a size in m, of a velocity in m/s;\n"
+            "withheld measurements stay as they are; several:\n"
+            "separate by ; or repeat"},
+           {"seed", "N", "of --inject's spikes and multipath (1)"},
            {"export", "LIST", "some of tum,kml,nav"},
            {"progress", "MODE",
             "on stderr: auto (a line on a terminal), json (an object\n"

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "app/flags.h"
 #include "app/list_flags.h"
@@ -59,20 +61,22 @@ class InjectionParser {
     injection_.sensor = text_.substr(0, colon);
     for (const std::string& part : Split(text_.substr(colon + 1), ',')) {
       const std::size_t equals = std::min(part.find('='), part.size());
-      Take(part.substr(0, equals),
-           part.substr(std::min(equals + 1, part.size())));
+      const std::string key = part.substr(0, equals);
+      if (!keys_.insert(key).second) Fail("'" + key + "' stands there twice");
+      Take(key, part.substr(std::min(equals + 1, part.size())));
     }
-    if (!has_kind_) Fail("no kind of error");
-    if (injection_.size == 0.0) Fail("an error of zero");
-    if (is_pulse_ && !std::isfinite(injection_.to)) Fail("a pulse needs to");
+    CheckSize();
+    CheckKeys();
+    CheckSpan();
     return injection_;
   }
 
  private:
   [[noreturn]] void Fail(const std::string& what) const {
     throw UsageError("--inject=" + text_ + ": " + what +
-                     "; expected SENSOR:KIND=SIZE[,from=140s][,to=150s], KIND "
-                     "step, pulse, ramp, spikes or multipath");
+                     "; expected SENSOR:KIND=SIZE[,from=140s][,to=150s]"
+                     "[,axes=ne], KIND step, pulse, ramp, spikes (with "
+                     "[,share=10%]) or multipath (with [,tau=20s])");
   }
 
   double Value(const std::string& text, Quantity quantity) const {
@@ -86,19 +90,16 @@ class InjectionParser {
   void Take(const std::string& key, const std::string& value) {
     static const std::vector<std::pair<std::string, Injection::Kind>> kinds = {
         {"step", Injection::Kind::kStep},
-        {"pulse", Injection::Kind::kStep},
+        {"pulse", Injection::Kind::kPulse},
         {"ramp", Injection::Kind::kRamp},
         {"spikes", Injection::Kind::kSpikes},
         {"multipath", Injection::Kind::kMultipath}};
     for (const auto& [name, kind] : kinds) {
       if (key != name) continue;
-      if (has_kind_) Fail("more than one kind of error");
-      has_kind_ = true;
-      is_pulse_ = key == "pulse";
+      if (!kind_.empty()) Fail("more than one kind of error");
+      kind_ = key;
       injection_.kind = kind;
-      injection_.size = Value(value, value.find("/s") == std::string::npos
-                                         ? Quantity::kLength
-                                         : Quantity::kSpeed);
+      TakeSize(value);
       return;
     }
     if (key == "from") {
@@ -120,22 +121,74 @@ class InjectionParser {
     }
   }
 
+  /// The sensor, which says what unit it must be, is known only once the
+  /// recording is read.
+  void TakeSize(const std::string& value) {
+    for (const Quantity quantity : {Quantity::kLength, Quantity::kSpeed}) {
+      try {
+        injection_.size = ParseQuantity(value, quantity);
+        injection_.speed = quantity == Quantity::kSpeed;
+        return;
+      } catch (const std::invalid_argument&) {
+      }
+    }
+    Fail("'" + value + "' is neither a length, as 12m, nor a speed, as 0.5m/s");
+  }
+
   void TakeAxes(const std::string& value) {
     const std::string names = "ned";
-    injection_.axes = {false, false, false};
+    std::array<bool, 3>& axes = injection_.axes.emplace();
     for (const char c : value) {
       const std::size_t axis = names.find(c);
       if (axis == std::string::npos) Fail("axes are of n, e, d");
-      injection_.axes[axis] = true;
+      if (axes[axis]) Fail("axis " + names.substr(axis, 1) + " stands twice");
+      axes[axis] = true;
     }
     if (value.empty()) Fail("axes are of n, e, d");
   }
 
+  void CheckSize() const {
+    if (kind_.empty()) Fail("no kind of error");
+    if (injection_.size == 0.0) Fail("an error of zero");
+    const bool is_signed = kind_ != "spikes" && kind_ != "multipath";
+    if (!is_signed && injection_.size < 0.0) {
+      Fail("the signs of " + kind_ + " are drawn; its size must be positive");
+    }
+  }
+
+  void CheckKeys() const {
+    for (const auto& [key, kind] :
+         {std::pair("share", "spikes"), std::pair("tau", "multipath")}) {
+      if (keys_.contains(key) && kind_ != kind) {
+        Fail(std::string(key) + " goes with " + kind + ", not with " + kind_);
+      }
+    }
+  }
+
+  void CheckSpan() const {
+    if (kind_ == "pulse" && !keys_.contains("to")) Fail("a pulse needs to");
+    if (kind_ == "ramp" && !(keys_.contains("from") && keys_.contains("to"))) {
+      Fail("a ramp needs from and to");
+    }
+    if (!(injection_.from < injection_.to)) Fail("from must be before to");
+  }
+
   const std::string& text_;
   Injection injection_;
-  bool has_kind_ = false;
-  bool is_pulse_ = false;
+  std::set<std::string> keys_;
+  std::string kind_;  ///< as it is written; empty: none yet
 };
+
+/// The rules of a flag that takes several.
+std::vector<std::string> SplitRules(const std::string& flag,
+                                    const std::string& text) {
+  const std::vector<std::string> rules = Split(text, ';');
+  for (const std::string& rule : rules) {
+    if (!rule.empty()) continue;
+    throw UsageError("--" + flag + "=" + text + ": nothing beside a semicolon");
+  }
+  return rules;
+}
 
 std::vector<Method> ParseMethods(const std::string& text) {
   std::vector<Method> methods;
@@ -215,7 +268,12 @@ void CheckFlagsAreHeeded(const RunRequest& request) {
                   [](Method method) { return !DependsOnError(method); })) {
     throw UsageError("--error changes nothing in " + FLAGS_methods);
   }
-  if (request.ahrs_methods.empty()) return;
+  if (request.ahrs_methods.empty()) {
+    if (IsGiven("seed") && request.injections.empty()) {
+      throw UsageError("--seed goes with --inject");
+    }
+    return;
+  }
   for (const char* flag :
        {"without", "withhold", "inject", "seed", "point", "export"}) {
     if (!IsGiven(flag)) continue;
@@ -228,7 +286,7 @@ void CheckFlagsAreHeeded(const RunRequest& request) {
 
 std::vector<Withholding> ParseWithholdings(const std::string& text) {
   std::vector<Withholding> withholdings;
-  for (const std::string& part : Split(text, ';')) {
+  for (const std::string& part : SplitRules("withhold", text)) {
     withholdings.push_back(ParseWithholding(part));
   }
   return withholdings;
@@ -236,7 +294,7 @@ std::vector<Withholding> ParseWithholdings(const std::string& text) {
 
 std::vector<Injection> ParseInjections(const std::string& text) {
   std::vector<Injection> injections;
-  for (const std::string& part : Split(text, ';')) {
+  for (const std::string& part : SplitRules("inject", text)) {
     injections.push_back(InjectionParser(part).Parse());
   }
   return injections;

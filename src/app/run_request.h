@@ -50,9 +50,10 @@ RunRequest ReadRunRequest(const std::string& config);
 /// Throws UsageError.
 std::vector<Withholding> ParseWithholdings(const std::string& text);
 
-/// "SENSOR:step=12m,from=140s,to=150s"; step, pulse (which needs to), ramp,
-/// spikes or multipath; besides axes=ned, share=10%, tau=20s; several separated
-/// by ";". Throws UsageError.
+/// "SENSOR:step=12m,from=140s,to=150s"; step, pulse (which needs to), ramp
+/// (which needs both), spikes (with share=10%) or multipath (with tau=20s); all
+/// with axes=ned; several separated by ";". The size is a length or a speed.
+/// Throws UsageError.
 std::vector<Injection> ParseInjections(const std::string& text);
 
 /// "x,y,z" [m], with or without the unit. Throws UsageError.

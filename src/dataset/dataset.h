@@ -103,13 +103,16 @@ struct Withholding {
 
 /// An error added on purpose to a sensor's measurements.
 struct Injection {
-  enum class Kind { kStep, kRamp, kSpikes, kMultipath };
+  enum class Kind { kStep, kPulse, kRamp, kSpikes, kMultipath };
   std::string sensor;  ///< stream name, or a type: "position", "velocity"...
   Kind kind = Kind::kStep;
-  double size = 0.0;  ///< [m] or [m/s]; of each axis that is hit
+  double size = 0.0;  ///< [m], or [m/s] if `speed`; of each axis that is hit
   double from = -std::numeric_limits<double>::infinity();  ///< [s]
   double to = std::numeric_limits<double>::infinity();     ///< exclusive [s]
-  std::array<bool, 3> axes = {true, true, false};          ///< NED
+  /// NED; absent: north and east, of a height up.
+  std::optional<std::array<bool, 3>> axes;
+  bool speed = false;  ///< the sensor measures velocities
+  bool up = false;  ///< the sensor measures heights; ApplyInjections fills it
   double share = 0.1;  ///< of the measurements that a spike hits
   double tau = 20.0;   ///< of multipath [s]
 };

@@ -1,7 +1,9 @@
 #include "dataset/injection.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -12,18 +14,30 @@ namespace {
 /// Random streams of injections, clear of those of the simulation.
 constexpr std::uint64_t kFirstStream = 1000;
 
-bool Fits(const std::string& name, const Sensor& sensor) {
-  if (name == sensor.name) return true;
+/// Between those of two streams that one injection fits.
+constexpr std::uint64_t kNextStream = 1000000;
+
+constexpr std::array<bool, 3> kHorizontal = {true, true, false};
+
+/// Its name as a type, or nullptr if it takes no injections.
+const char* TypeOf(const Sensor& sensor) {
   switch (sensor.type) {
     case SensorType::kPosition:
-      return name == "position";
+      return "position";
     case SensorType::kVelocity:
-      return name == "velocity";
+      return "velocity";
     case SensorType::kHeight:
-      return name == "height";
+      return "height";
     default:
-      return false;
+      return nullptr;
   }
+}
+
+std::string Time(const char* word, double t) {
+  if (!std::isfinite(t)) return "";
+  char text[64];
+  std::snprintf(text, sizeof(text), " %s %.10g s", word, t);
+  return text;
 }
 
 /// The errors of one injection, asked for in time order.
@@ -35,8 +49,9 @@ class ErrorSource {
 
   Eigen::Vector3d At(double t) {
     Eigen::Vector3d error = Shape(t);
+    const std::array<bool, 3> axes = injection_.axes.value_or(kHorizontal);
     for (int axis = 0; axis < 3; ++axis) {
-      if (!injection_.axes[static_cast<std::size_t>(axis)]) error(axis) = 0.0;
+      if (!axes[static_cast<std::size_t>(axis)]) error(axis) = 0.0;
     }
     return error;
   }
@@ -46,6 +61,7 @@ class ErrorSource {
     const double size = injection_.size;
     switch (injection_.kind) {
       case Injection::Kind::kStep:
+      case Injection::Kind::kPulse:
         return Eigen::Vector3d::Constant(size);
       case Injection::Kind::kRamp:
         return Eigen::Vector3d::Constant(size * (t - injection_.from) /
@@ -84,69 +100,160 @@ void AddError(const Eigen::Vector3d& error_n, Measurement* z) {
 }
 
 [[noreturn]] void Fail(const Injection& injection, const std::string& what) {
-  throw InputError("injection '" + Describe(injection) + "': " + what);
+  throw InputError("error '" + Describe(injection) + "': " + what);
 }
 
-void Apply(const Injection& injection, std::uint64_t seed,
-           std::uint64_t stream_number, Dataset* dataset) {
+std::vector<AidingStream*> FittingStreams(const Injection& injection,
+                                          Dataset* dataset) {
+  std::vector<AidingStream*> streams;
+  std::string known;
+  for (AidingStream& stream : dataset->streams) {
+    const char* type = TypeOf(stream.sensor);
+    const bool named = injection.sensor == stream.sensor.name;
+    if (type == nullptr) {
+      if (!named) continue;
+      Fail(injection, "'" + injection.sensor +
+                          "' is of another type; expected a sensor of type "
+                          "position, velocity or height");
+    }
+    known += (known.empty() ? "" : ", ") + stream.sensor.name;
+    if (named || injection.sensor == type) streams.push_back(&stream);
+  }
+  if (streams.empty()) {
+    Fail(injection,
+         "no stream has that name or type; expected position, velocity or "
+         "height, or one of " +
+             (known.empty() ? "them, of which there is none" : known));
+  }
+  return streams;
+}
+
+void CheckSpan(const Injection& injection) {
+  if (!(injection.from < injection.to)) {
+    Fail(injection, "it ends before it begins; expected from before to");
+  }
+  if (injection.kind == Injection::Kind::kPulse &&
+      !std::isfinite(injection.to)) {
+    Fail(injection, "a pulse needs to");
+  }
   if (injection.kind == Injection::Kind::kRamp &&
       !(std::isfinite(injection.from) && std::isfinite(injection.to))) {
     Fail(injection, "a ramp needs from and to");
   }
-  if (!(injection.from < injection.to)) Fail(injection, "it ends at its start");
-  bool found = false;
-  long hit = 0;
-  for (AidingStream& stream : dataset->streams) {
-    if (!Fits(injection.sensor, stream.sensor)) continue;
-    if (stream.sensor.type != SensorType::kPosition &&
-        stream.sensor.type != SensorType::kVelocity &&
-        stream.sensor.type != SensorType::kHeight) {
-      Fail(injection, "only position, velocity and height take injections");
-    }
-    found = true;
-    Injection own = injection;
-    if (stream.sensor.type == SensorType::kHeight) own.axes[0] = true;
-    ErrorSource source(own, seed, stream_number);
-    for (Measurement& z : stream.measurements) {
-      if (z.t < injection.from || z.t >= injection.to) continue;
-      AddError(source.At(z.t), &z);
-      ++hit;
-    }
-  }
-  if (!found) {
-    Fail(injection, "no position, velocity or height stream of that name");
-  }
-  if (hit == 0) Fail(injection, "no measurement in its span");
-  dataset->injections.push_back(injection);
-  dataset->policies.push_back(
-      {injection.sensor, "error injected on purpose: " + Describe(injection),
-       hit});
 }
 
-std::string Time(const char* word, double t) {
-  if (!std::isfinite(t)) return "";
-  char text[64];
-  std::snprintf(text, sizeof(text), " %s %g s", word, t);
-  return text;
+void CheckFitsSensor(const Injection& injection, const Sensor& sensor) {
+  const bool velocity = sensor.type == SensorType::kVelocity;
+  if (injection.speed != velocity) {
+    Fail(injection, "'" + sensor.name + "' is of type " + TypeOf(sensor) +
+                        "; expected a size in " + (velocity ? "m/s" : "m"));
+  }
+  const bool height = sensor.type == SensorType::kHeight;
+  if (height && injection.axes) {
+    Fail(injection, "'" + sensor.name + "' is a height; expected no axes");
+  }
+  if (injection.up != height) {
+    Fail(injection,
+         "streams of several types have that name; expected one type");
+  }
+}
+
+/// What an injection meets, of the part of the recording that is used.
+struct Reach {
+  long hit = 0;
+  long withheld = 0;
+  double first = std::numeric_limits<double>::infinity();  ///< stamp, any [s]
+  double last = -std::numeric_limits<double>::infinity();
+};
+
+void CheckReach(const Injection& injection, const Reach& reach) {
+  if (reach.hit > 0) return;
+  if (reach.withheld > 0) {
+    Fail(injection, "all measurements in its span are withheld, " +
+                        std::to_string(reach.withheld) +
+                        ", and those stay as they are");
+  }
+  const bool any = reach.first <= reach.last;
+  Fail(injection,
+       "no measurement in its span" +
+           (any ? "; expected one that meets those used," +
+                      Time("from", reach.first) + Time("to", reach.last)
+                : ", and none is used at all"));
+}
+
+void AddErrors(ErrorSource source, const Injection& injection,
+               const TimeInterval& used, AidingStream* stream, Reach* reach) {
+  for (Measurement& z : stream->measurements) {
+    const double t = z.t + stream->sensor.time_offset;
+    const bool is_used = t >= used.begin && t <= used.end;
+    if (is_used) {
+      reach->first = std::min(reach->first, z.t);
+      reach->last = std::max(reach->last, z.t);
+    }
+    if (z.t < injection.from || z.t >= injection.to) continue;
+    // Asked for every measurement, so that the others' errors do not depend on
+    // what is withheld.
+    const Eigen::Vector3d error = source.At(z.t);
+    if (!z.withheld) AddError(error, &z);
+    if (is_used) ++(z.withheld ? reach->withheld : reach->hit);
+  }
+}
+
+void Apply(Injection injection, std::uint64_t seed, std::uint64_t number,
+           const TimeInterval& used, Dataset* dataset) {
+  CheckSpan(injection);
+  const std::vector<AidingStream*> streams = FittingStreams(injection, dataset);
+  injection.up = streams.front()->sensor.type == SensorType::kHeight;
+  for (const AidingStream* stream : streams) {
+    CheckFitsSensor(injection, stream->sensor);
+  }
+  if (!injection.up && !injection.axes) injection.axes = kHorizontal;
+  Reach reach;
+  for (AidingStream* stream : streams) {
+    AddErrors(ErrorSource(injection, seed, number), injection, used, stream,
+              &reach);
+    number += kNextStream;
+  }
+  CheckReach(injection, reach);
+  dataset->injections.push_back(injection);
+  std::string action = "error injected on purpose: " + Describe(injection);
+  if (reach.withheld > 0) {
+    action += " (" + std::to_string(reach.withheld) +
+              " withheld ones left as they are)";
+  }
+  dataset->policies.push_back({injection.sensor, action, reach.hit});
 }
 
 }  // namespace
 
 void ApplyInjections(const std::vector<Injection>& injections,
-                     std::uint64_t seed, Dataset* dataset) {
-  std::uint64_t stream = kFirstStream;
+                     std::uint64_t seed, const TimeInterval& used,
+                     Dataset* dataset) {
+  TimeInterval both = used;
+  if (!dataset->imu.empty()) {
+    both.begin = std::max(both.begin, dataset->imu.t_begin());
+    both.end = std::min(both.end, dataset->imu.t_end());
+  }
+  std::uint64_t number = kFirstStream;
   for (const Injection& injection : injections) {
-    Apply(injection, seed, stream++, dataset);
+    Apply(injection, seed, number++, both, dataset);
   }
 }
 
+void ApplyInjections(const std::vector<Injection>& injections,
+                     std::uint64_t seed, Dataset* dataset) {
+  constexpr double kEnd = std::numeric_limits<double>::infinity();
+  ApplyInjections(injections, seed, {-kEnd, kEnd}, dataset);
+}
+
 std::string Describe(const Injection& injection) {
-  static const char* const kNames[] = {"step", "ramp", "spikes", "multipath"};
+  static const char* const kNames[] = {"step", "pulse", "ramp", "spikes",
+                                       "multipath"};
   static const char* const kAxes[] = {"north", "east", "down"};
   char text[96];
-  std::snprintf(text, sizeof(text), ": %s of %g",
+  std::snprintf(text, sizeof(text), ": %s of %g %s",
                 kNames[static_cast<std::size_t>(injection.kind)],
-                injection.size);
+                injection.size, injection.speed ? "m/s" : "m");
   std::string out = injection.sensor + text;
   if (injection.kind == Injection::Kind::kSpikes) {
     std::snprintf(text, sizeof(text), " on %g %%", 100.0 * injection.share);
@@ -155,9 +262,10 @@ std::string Describe(const Injection& injection) {
     std::snprintf(text, sizeof(text), ", tau %g s,", injection.tau);
     out += text;
   }
+  if (injection.up) out += " up";
   const char* separator = " ";
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!injection.axes[axis]) continue;
+  for (std::size_t axis = 0; injection.axes && axis < 3; ++axis) {
+    if (!(*injection.axes)[axis]) continue;
     out += separator + std::string(kAxes[axis]);
     separator = ", ";
   }

@@ -50,8 +50,8 @@ const std::vector<GpsErrorProfile>& GpsErrorProfiles() {
   static const std::vector<GpsErrorProfile> profiles = {
       {"none", {}},
       {"pulses",
-       {Error(Kind::kStep, 3.5, 120.0, 125.0),
-        Error(Kind::kStep, 12.5, 140.0, 150.0)}},
+       {Error(Kind::kPulse, 3.5, 120.0, 125.0),
+        Error(Kind::kPulse, 12.5, 140.0, 150.0)}},
       {"spikes", {Error(Kind::kSpikes, 12.5, 100.0, 200.0)}},
       {"steps",
        {Error(Kind::kStep, 3.5, 120.0, 140.0),

@@ -1,5 +1,6 @@
 #include "dataset/injection.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,11 +33,12 @@ Dataset Fixes() {
   return dataset;
 }
 
-Eigen::Vector3d ErrorOf(const Dataset& dataset, std::size_t k) {
+Eigen::Vector3d ErrorOf(const Dataset& dataset, std::size_t k,
+                        std::size_t stream = 0) {
   const Eigen::Vector3d p_e =
       EcefFromGeodetic({48.0 * kDegree, 11.0 * kDegree, 500.0});
   const auto& fix =
-      std::get<PositionFix>(dataset.streams[0].measurements[k].model);
+      std::get<PositionFix>(dataset.streams[stream].measurements[k].model);
   return NedAxes(p_e).transpose() * (fix.p_e - p_e);
 }
 
@@ -67,14 +69,14 @@ TEST(Injection, StepAndRampHaveTheirShapes) {
   ASSERT_EQ(dataset.policies.size(), 2u);
   EXPECT_EQ(dataset.policies[0].count, 10);
   EXPECT_EQ(Describe(dataset.injections[0]),
-            "position: step of 12 north, east from 140 s to 150 s");
+            "position: step of 12 m north, east from 140 s to 150 s");
 }
 
 TEST(Injection, SpikesHitTheirShareAndMultipathHasItsMoments) {
   Dataset dataset = Fixes();
   Injection spikes = Make(Injection::Kind::kSpikes, 5.0, 0.0, 1000.0);
   spikes.share = 0.2;
-  spikes.axes = {true, false, false};
+  spikes.axes = std::array<bool, 3>{true, false, false};
   ApplyInjections({spikes}, 3, &dataset);
   int hit = 0;
   for (std::size_t k = 0; k < 1000; ++k) {
@@ -116,6 +118,122 @@ TEST(Injection, IsReproducibleAndLeavesEarlierOnesAlone) {
   EXPECT_NE(ErrorOf(a, 300), ErrorOf(c, 300));
 }
 
+TEST(Injection, TwoStreamsHaveErrorsOfTheirOwn) {
+  for (const auto kind :
+       {Injection::Kind::kMultipath, Injection::Kind::kSpikes}) {
+    Injection injection = Make(kind, 4.0, 0.0, 1000.0);
+    injection.share = 0.5;
+    Dataset one = Fixes();
+    Dataset two = Fixes();
+    AidingStream second = two.streams[0];
+    second.sensor.name = "gnss2";
+    two.streams.push_back(second);
+    Dataset again = two;
+    ApplyInjections({injection}, 7, &one);
+    ApplyInjections({injection}, 7, &two);
+    ApplyInjections({injection}, 7, &again);
+    double product = 0.0;
+    double square = 0.0;
+    for (std::size_t k = 0; k < 1000; ++k) {
+      EXPECT_EQ(ErrorOf(one, k), ErrorOf(two, k)) << k;
+      EXPECT_EQ(ErrorOf(again, k, 3), ErrorOf(two, k, 3)) << k;
+      product += ErrorOf(two, k).x() * ErrorOf(two, k, 3).x();
+      square += ErrorOf(two, k).x() * ErrorOf(two, k).x();
+    }
+    // Some 50 independent values of the multipath.
+    EXPECT_LT(std::abs(product / square), 0.5);
+    EXPECT_EQ(two.policies[0].count, 2000);
+  }
+}
+
+TEST(Injection, LeavesWithheldMeasurementsAsTheyAre) {
+  const Injection injection =
+      Make(Injection::Kind::kMultipath, 4.0, 100.0, 200.0);
+  Dataset all = Fixes();
+  Dataset some = Fixes();
+  for (std::size_t k = 120; k < 150; ++k) {
+    some.streams[0].measurements[k].withheld = true;
+  }
+  ApplyInjections({injection}, 7, &all);
+  ApplyInjections({injection}, 7, &some);
+  for (std::size_t k = 100; k < 200; ++k) {
+    const bool withheld = k >= 120 && k < 150;
+    EXPECT_EQ(ErrorOf(some, k),
+              withheld ? Eigen::Vector3d::Zero() : ErrorOf(all, k))
+        << k;
+  }
+  EXPECT_EQ(some.policies[0].count, 70);
+  EXPECT_THAT(some.policies[0].action, ::testing::HasSubstr("30 withheld"));
+}
+
+std::string Refusal(const Injection& injection, const TimeInterval& used,
+                    Dataset dataset) {
+  try {
+    ApplyInjections({injection}, 1, used, &dataset);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Injection, CountsAndNeedsWhatIsUsed) {
+  Dataset dataset = Fixes();
+  dataset.streams[0].sensor.time_offset = 0.5;
+  const Injection step = Make(Injection::Kind::kStep, 4.0, 95.0, 300.0);
+  // Stamps of 100 s to 199 s are within 100 s to 200 s of the IMU's clock.
+  const TimeInterval used{100.0, 200.0};
+  Dataset changed = dataset;
+  ApplyInjections({step}, 1, used, &changed);
+  EXPECT_EQ(changed.policies[0].count, 100);
+  EXPECT_THAT(
+      Refusal(Make(Injection::Kind::kStep, 4.0, 300.0, 400.0), used, dataset),
+      ::testing::HasSubstr("from 100 s to 199 s"));
+  for (Measurement& z : dataset.streams[0].measurements) z.withheld = true;
+  EXPECT_THAT(Refusal(step, used, dataset),
+              ::testing::HasSubstr("withheld, 100"));
+}
+
+TEST(Injection, TakesTheUnitAndTheAxesOfTheSensor) {
+  Dataset dataset = Fixes();
+  AidingStream doppler;
+  doppler.sensor.name = "doppler";
+  doppler.sensor.type = SensorType::kVelocity;
+  VelocityFix still;
+  still.v_n.setZero();
+  doppler.measurements.push_back({1.0, 3, false, still});
+  dataset.streams.push_back(doppler);
+  const TimeInterval used{0.0, 1000.0};
+  Injection step = Make(Injection::Kind::kStep, 3.0, 0.0, 10.0);
+  step.sensor = "doppler";
+  EXPECT_THAT(Refusal(step, used, dataset),
+              ::testing::HasSubstr("expected a size in m/s"));
+  step.speed = true;
+  Dataset changed = dataset;
+  ApplyInjections({step}, 1, &changed);
+  EXPECT_EQ(Describe(changed.injections[0]),
+            "doppler: step of 3 m/s north, east from 0 s to 10 s");
+  for (const char* sensor : {"gnss", "height"}) {
+    step.sensor = sensor;
+    EXPECT_THAT(Refusal(step, used, dataset),
+                ::testing::EndsWith("expected a size in m"));
+  }
+  step.speed = false;
+  step.kind = Injection::Kind::kPulse;
+  changed = dataset;
+  ApplyInjections({step}, 1, &changed);
+  EXPECT_EQ(Describe(changed.injections[0]),
+            "height: pulse of 3 m up from 0 s to 10 s");
+  EXPECT_EQ(
+      std::get<HeightFix>(changed.streams[1].measurements[9].model).height,
+      503.0);
+  step.axes = std::array<bool, 3>{false, false, true};
+  EXPECT_THAT(Refusal(step, used, dataset),
+              ::testing::HasSubstr("expected no axes"));
+  step.sensor = "vel";
+  EXPECT_THAT(Refusal(step, used, dataset),
+              ::testing::HasSubstr("one of gnss, baro, doppler"));
+}
+
 TEST(Injection, RefusesWhatItCannotDo) {
   Dataset dataset = Fixes();
   const auto refuse = [&](Injection injection, const char* sensor) {
@@ -129,6 +247,8 @@ TEST(Injection, RefusesWhatItCannotDo) {
   refuse(Make(Injection::Kind::kStep, 1.0, 2000.0, 3000.0), "gnss");
   Injection endless = Make(Injection::Kind::kRamp, 1.0, 0.0, 0.0);
   endless.to = std::numeric_limits<double>::infinity();
+  refuse(endless, "gnss");
+  endless.kind = Injection::Kind::kPulse;
   refuse(endless, "gnss");
   EXPECT_TRUE(dataset.injections.empty());
 }
