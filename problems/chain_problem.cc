@@ -46,7 +46,8 @@ ChainProblem::ChainProblem(const ErrorLayout& layout, const Prior& prior,
           timeline->sensors()[static_cast<std::size_t>(z.sensor)].loss;
       losses_.resize(factors_.size());
       if (loss.kind != RobustLoss::Kind::kNone) {
-        losses_.back() = std::make_unique<RobustLossFunction>(loss);
+        losses_.back() =
+            std::make_unique<RobustLossFunction>(loss.OfRows(Rows(z)));
       }
     }
   }

@@ -13,8 +13,8 @@ namespace hindsight {
 /// Where a solution and what it was told cannot both be right, in words: a
 /// component of its first state more than five a priori sigmas from the prior
 /// (a wrong sign, unit or clock, or a sigma that is too small), and a sensor
-/// that lost more than half of its measurements to its gate. A solution may be
-/// good all the same, so neither makes it unusable.
+/// that lost more than half of its measurements to its gate. The verdict has
+/// rules of its own.
 std::vector<std::string> FindContradictions(const std::vector<Sensor>& sensors,
                                             const Prior& prior,
                                             const Solution& solution);

@@ -159,14 +159,13 @@ struct Reconstruction::Impl {
 
   Solution RunImmMethod(Method method) {
     const double t0 = ProcessorSeconds();
-    const SensorImm imm =
-        MakeSensorImm(forward.start(), forward.timeline(), forward.decisions());
-    const ImmResult result = RunImm(
-        imm.models, imm.options, &forward.timeline(), forward.Progress("imm"));
-    Solution solution = method == Method::kImm
-                            ? ImmFilterSolution(imm, result)
-                            : ImmSmootherSolution(imm, forward.timeline(),
-                                                  SmoothImm(result.tape));
+    SensorImm imm = MakeSensorImm(forward.start(), forward.timeline());
+    const EpochCallback progress = forward.Progress("imm");
+    Solution solution =
+        method == Method::kImm
+            ? ImmFilterSolution(
+                  imm, RunImm(imm.models, imm.options, &imm.timeline, progress))
+            : ImmSmootherSolution(imm, SmoothSensorImm(&imm, progress));
     return Finish(std::move(solution), method, ProcessorSeconds() - t0);
   }
 
@@ -188,12 +187,9 @@ struct Reconstruction::Impl {
     }
     // The EKF's trajectory may be so far off after an outlier that a
     // linearisation about it is of no use.
-    const SensorImm imm =
-        MakeSensorImm(forward.start(), forward.timeline(), forward.decisions());
+    SensorImm imm = MakeSensorImm(forward.start(), forward.timeline());
     const ImmSmoothed rough =
-        SmoothImm(RunImm(imm.models, imm.options, &forward.timeline(),
-                         forward.Progress("robust_batch"))
-                      .tape);
+        SmoothSensorImm(&imm, forward.Progress("robust_batch")).smoothed;
     RobustBatchResult result = SolveRobustBatch(
         forward.start().layout, forward.start().prior, rough.trajectory.states,
         receiver, forward.timeline(), used, MakeBatchOptions(),

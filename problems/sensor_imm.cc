@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "filters/iterated_smoother.h"
 #include "problems/solution_builder.h"
 
 namespace hindsight {
@@ -88,60 +89,103 @@ void AddModes(const SensorImm& imm, std::vector<Eigen::VectorXd> probabilities,
   for (const ImmModel& model : imm.models) {
     solution->mode_names.push_back(model.name);
   }
+  if (!imm.replaced.empty()) solution->notes.push_back(imm.replaced);
+}
+
+/// Takes the losses and gates of the questioned sensors away and names them.
+std::string LeaveToModes(const std::vector<int>& questioned,
+                         Timeline* timeline) {
+  std::string names;
+  for (const int i : questioned) {
+    const auto index = static_cast<std::size_t>(i);
+    Sensor sensor = timeline->sensors()[index];
+    const bool has_loss = sensor.loss.kind != RobustLoss::Kind::kNone;
+    if (!has_loss && !sensor.gate_probability) continue;
+    names += (names.empty() ? "" : ", ") + sensor.name;
+    sensor.loss = {};
+    sensor.gate_probability.reset();
+    timeline->SetSensor(index, sensor);
+  }
+  return names.empty()
+             ? ""
+             : "a loss or gate of " + names + ", which its modes replace";
+}
+
+bool IsGated(const Timeline& timeline) {
+  for (const Sensor& sensor : timeline.sensors()) {
+    if (sensor.gate_probability) return true;
+  }
+  return false;
+}
+
+void WeighByModes(const SensorImm& imm,
+                  const std::vector<Eigen::VectorXd>& probabilities,
+                  Solution* solution) {
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < imm.timeline.size(); ++k) {
+    for (std::size_t n = 0; n < imm.timeline.measurements(k).size(); ++n) {
+      ResidualRecord& record = solution->residuals[i++];
+      record.weight *= WeightOf(imm, record.sensor, probabilities[k]);
+    }
+  }
 }
 
 }  // namespace
 
-SensorImm MakeSensorImm(const Start& start, const Timeline& timeline,
-                        const GateDecisions& decisions) {
+SensorImm MakeSensorImm(const Start& start, const Timeline& timeline) {
   const std::vector<int> questioned = QuestionedSensors(timeline);
   const double factor =
       std::max(kPoorFactor, kPoorSigma / StatedPositionSigma(timeline));
-  SensorImm imm;
-  imm.models = {Model(start, timeline, questioned, "good", 1.0),
-                Model(start, timeline, questioned, "poor", factor)};
+  SensorImm imm{.models = {Model(start, timeline, questioned, "good", 1.0),
+                           Model(start, timeline, questioned, "poor", factor)},
+                .options = {},
+                .timeline = timeline,
+                .replaced = {}};
+  imm.replaced = LeaveToModes(questioned, &imm.timeline);
   imm.options.transition = StayingTransition(2, 0.9);
   imm.options.start = Eigen::Vector2d(0.5, 0.5);
   imm.options.sensors = questioned;
-  for (std::size_t i = 0; i < timeline.all_measurements().size(); ++i) {
-    const Measurement& z = timeline.all_measurements()[i];
-    const bool gated = !Contains(questioned, z.sensor) && !decisions.empty();
-    imm.options.decisions.push_back(gated ? decisions[i]
-                                          : static_cast<char>(!z.withheld));
-  }
   return imm;
+}
+
+SensorImmSmoothed SmoothSensorImm(SensorImm* imm,
+                                  const EpochCallback& callback) {
+  SensorImmSmoothed out;
+  {
+    const ImmResult result =
+        RunImm(imm->models, imm->options, &imm->timeline, callback);
+    out.decisions = DecisionsOnTape(result.tape.tapes.front());
+    out.smoothed = SmoothImm(result.tape);
+  }
+  if (!IsGated(imm->timeline)) return out;
+  SmoothedTrajectory about;
+  about.states = out.smoothed.trajectory.states;
+  about.P = out.smoothed.trajectory.P;
+  const GateDecisions again = DecideGates(imm->models.front().layout,
+                                          imm->timeline, about, out.decisions);
+  if (again == out.decisions) return out;
+  imm->options.decisions = again;
+  out.decisions = again;
+  out.smoothed = SmoothImm(
+      RunImm(imm->models, imm->options, &imm->timeline, callback).tape);
+  return out;
 }
 
 Solution ImmFilterSolution(const SensorImm& imm, const ImmResult& result) {
   Solution solution = FilterSolution(result.tape.tapes.front());
   solution.states = result.trajectory.states;
   solution.covariances = result.trajectory.P;
-  std::size_t i = 0;
-  for (std::size_t k = 0; k < result.tape.size(); ++k) {
-    const auto count = result.tape.tapes.front().measurements(k).size();
-    for (std::size_t n = 0; n < count; ++n) {
-      ResidualRecord& record = solution.residuals[i++];
-      record.weight =
-          WeightOf(imm, record.sensor, result.trajectory.probabilities[k]);
-    }
-  }
+  WeighByModes(imm, result.trajectory.probabilities, &solution);
   AddModes(imm, result.trajectory.probabilities, &solution);
   return solution;
 }
 
-Solution ImmSmootherSolution(const SensorImm& imm, const Timeline& timeline,
-                             ImmSmoothed smoothed) {
-  ImmTrajectory& trajectory = smoothed.trajectory;
+Solution ImmSmootherSolution(const SensorImm& imm, SensorImmSmoothed smoothed) {
+  ImmTrajectory& trajectory = smoothed.smoothed.trajectory;
   Solution solution = SmoothedSolution(
-      imm.models.front().layout, timeline, std::move(trajectory.states),
-      std::move(trajectory.P), imm.options.decisions);
-  std::size_t i = 0;
-  for (std::size_t k = 0; k < timeline.size(); ++k) {
-    for (std::size_t n = 0; n < timeline.measurements(k).size(); ++n) {
-      ResidualRecord& record = solution.residuals[i++];
-      record.weight = WeightOf(imm, record.sensor, trajectory.probabilities[k]);
-    }
-  }
+      imm.models.front().layout, imm.timeline, std::move(trajectory.states),
+      std::move(trajectory.P), smoothed.decisions);
+  WeighByModes(imm, trajectory.probabilities, &solution);
   AddModes(imm, std::move(trajectory.probabilities), &solution);
   return solution;
 }

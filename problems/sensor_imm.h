@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_PROBLEMS_SENSOR_IMM_H_
 #define HINDSIGHT_PROBLEMS_SENSOR_IMM_H_
 
+#include <string>
 #include <vector>
 
 #include "alignment/start.h"
@@ -13,25 +14,36 @@ namespace hindsight {
 /// of the sensors as stated, model "poor" multiplies the standard deviations of
 /// the position sensors (without any, of all sensors) by the paper's ratio of
 /// 20, or to its 20 m where that is more, whether they are white or coloured
-/// states. From fix to fix the mode stays
-/// with probability 0.9 (Baek 2019, eq. (14)).
+/// states. From fix to fix the mode stays with probability 0.9 (Baek 2019, eq.
+/// (14)). The modes take the place of the loss and the gate of those sensors;
+/// the other sensors keep theirs.
 struct SensorImm {
   std::vector<ImmModel> models;
   ImmOptions options;  ///< with feedback
+  Timeline timeline;   ///< with the sensors as the models take them
+  /// In words, whose loss or gate the modes replace; "" if none has any.
+  std::string replaced;
 };
 inline constexpr double kPoorFactor = 20.0;
 inline constexpr double kPoorSigma = 20.0;  ///< an axis [m]
 
-/// `decisions` of gates hold for all sensors but those whose trust is in
-/// question.
-SensorImm MakeSensorImm(const Start& start, const Timeline& timeline,
-                        const GateDecisions& decisions);
+SensorImm MakeSensorImm(const Start& start, const Timeline& timeline);
+
+/// The smoothed filter. Where gates are left, they are decided again about the
+/// smoothed trajectory, and the filter is run once more by `imm->options` with
+/// these decisions if they differ.
+struct SensorImmSmoothed {
+  ImmSmoothed smoothed;
+  GateDecisions decisions;  ///< on the tapes that were smoothed
+};
+SensorImmSmoothed SmoothSensorImm(SensorImm* imm,
+                                  const EpochCallback& callback);
 
 /// Solutions of the filter and of the smoother, the modes' probabilities with
-/// them. The weight of a measurement is the mean of 1/factor^2 over the modes.
+/// them. The weight of a measurement is that of its loss times the mean of
+/// 1/factor^2 over the modes.
 Solution ImmFilterSolution(const SensorImm& imm, const ImmResult& result);
-Solution ImmSmootherSolution(const SensorImm& imm, const Timeline& timeline,
-                             ImmSmoothed smoothed);
+Solution ImmSmootherSolution(const SensorImm& imm, SensorImmSmoothed smoothed);
 
 }  // namespace hindsight
 

@@ -12,6 +12,7 @@ ResidualRecord MakeRecord(const Measurement& z, double t, bool accepted) {
   record.sensor = z.sensor;
   record.accepted = accepted || z.withheld;
   record.withheld = z.withheld;
+  if (!record.accepted) record.weight = 0.0;
   return record;
 }
 
@@ -33,8 +34,19 @@ Solution FilterSolution(const LinearTape& tape) {
       record.accepted = z.accepted || z.withheld;
       record.withheld = z.withheld;
       record.residual = z.innovation;
-      record.sigma = z.S.diagonal().cwiseSqrt();
-      record.nis = z.nis;
+      if (z.weight < 1.0) {
+        // As of the smoothers, by the covariance that the sensor states.
+        const RowMatrix S = z.S - (1.0 - z.weight) * z.R;
+        record.sigma = S.diagonal().cwiseSqrt();
+        record.nis = Eigen::LLT<RowMatrix>(S)
+                         .matrixL()
+                         .solve(record.residual)
+                         .squaredNorm();
+      } else {
+        record.sigma = z.S.diagonal().cwiseSqrt();
+        record.nis = z.nis;
+      }
+      record.weight = record.accepted ? z.weight : 0.0;
       solution.residuals.push_back(std::move(record));
     }
   }
@@ -60,7 +72,8 @@ Solution SmoothedSolution(const ErrorLayout& layout, const Timeline& timeline,
       const RobustLoss& loss =
           timeline.sensors()[static_cast<std::size_t>(measurement.sensor)].loss;
       if (used && loss.kind != RobustLoss::Kind::kNone) {
-        record.weight = loss.Weight(Eigen::LLT<RowMatrix>(z.R)
+        record.weight = loss.OfRows(static_cast<int>(z.residual.size()))
+                            .Weight(Eigen::LLT<RowMatrix>(z.R)
                                         .matrixL()
                                         .solve(z.residual)
                                         .squaredNorm());

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/units.h"
+#include "problems/refusals.h"
 
 namespace hindsight {
 namespace {
@@ -150,6 +151,8 @@ std::string Objection(const std::vector<Sensor>& sensors,
     return Words("%s is not observed from %.1f s to %.1f s", span.component,
                  span.t_begin, span.t_end);
   }
+  const std::string refusal = FindRefusal(sensors, solution);
+  if (!refusal.empty()) return refusal;
   std::vector<double> sum(sensors.size(), 0.0);
   std::vector<double> rows(sensors.size(), 0.0);
   for (const ResidualRecord& record : solution.residuals) {

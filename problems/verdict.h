@@ -20,7 +20,8 @@ std::vector<UnobservedSpan> FindUnobserved(const Solution& solution);
 
 /// Fills `constants`, `unobserved`, `usable` and `verdict`. Not usable: an
 /// iteration that did not converge, a navigation state unobserved over half of
-/// the interval, or a sensor whose accepted residuals are, in the root mean
+/// the interval, a sensor whose measurements were refused
+/// (problems/refusals.h), or one whose accepted residuals are, in the root mean
 /// square, more than five times the sigma the model gives them - then the model
 /// or its noise is wrong, and with them every sigma of the solution.
 /// What `known` names as unobserved is so for every method, whatever its own

@@ -56,9 +56,10 @@ class StartFinder {
 
   void ChooseTime() {
     if (!given().position && fixes_.empty()) {
-      throw EstimationError(
-          "no initial position: give initial.position or a position stream "
-          "with fixes inside the interval");
+      throw NoInitialPosition(
+          "no initial position: expected initial.position, initial.from: truth "
+          "or a stream under aiding of type position, with fixes inside the "
+          "interval of --from and --to that are not withheld");
     }
     if (given().t) {
       RequireValuesInside(*given().t);

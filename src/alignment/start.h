@@ -4,6 +4,7 @@
 #include <string>
 
 #include "alignment/start_layout.h"
+#include "base/error.h"
 #include "dataset/dataset.h"
 #include "filters/forward_filter.h"
 
@@ -31,6 +32,12 @@ struct Start {
   Prior prior;
 };
 
+/// Neither the configuration nor the data say where the data set begins.
+class NoInitialPosition : public EstimationError {
+ public:
+  using EstimationError::EstimationError;
+};
+
 /// Finds the initial state of a data set over [from, to].
 ///   time      given; else the first IMU sample, reached backward from the
 ///             alignment epoch (ExtendBackward) if nothing gives a position
@@ -40,7 +47,7 @@ struct Start {
 ///   velocity  given, else zero at rest, else from the first fixes.
 ///   gyro bias mean rate at rest less Earth rate, else as given.
 /// A velocity given of more than three sigmas says that there is no rest.
-/// Throws EstimationError if there is no position.
+/// Throws NoInitialPosition if there is no position.
 Start FindStart(const Dataset& dataset, double from, double to);
 
 }  // namespace hindsight

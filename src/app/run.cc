@@ -123,10 +123,21 @@ ReconstructionOptions Options(const RunRequest& request, Progress* progress) {
   return options;
 }
 
+/// Throws InputError if nothing says where the recording begins.
+Reconstruction Prepare(const std::string& config, const Dataset& dataset,
+                       const ReconstructionOptions& options) {
+  try {
+    return Reconstruction(dataset, options);
+  } catch (const NoInitialPosition& error) {
+    throw InputError(config + ": " + error.what());
+  }
+}
+
 /// What is known before anything is solved: notes, start, what the data cannot
-/// tell.
-void DescribeBeforehand(const Dataset& dataset, Reconstruction* reconstruction,
-                        Progress* progress) {
+/// tell. Returns the latter.
+std::vector<UnobservedSpan> DescribeBeforehand(const Dataset& dataset,
+                                               Reconstruction* reconstruction,
+                                               Progress* progress) {
   std::vector<UnobservedSpan> unobserved;
   try {
     unobserved = reconstruction->Unobserved();
@@ -139,6 +150,7 @@ void DescribeBeforehand(const Dataset& dataset, Reconstruction* reconstruction,
   }
   std::cout << DescribeNotes(dataset) << DescribeStart(reconstruction->start())
             << DescribeUnobserved(unobserved) << std::flush;
+  return unobserved;
 }
 
 /// A method that fails leaves the others their say: its solution is empty and
@@ -192,8 +204,10 @@ int Reconstruct(const RunRequest& request) {
   const Dataset dataset = Load(request, folder);
   ThrowIfStopRequested();
 
-  Reconstruction reconstruction(dataset, Options(request, &progress));
-  DescribeBeforehand(dataset, &reconstruction, &progress);
+  Reconstruction reconstruction =
+      Prepare(request.config, dataset, Options(request, &progress));
+  const std::vector<UnobservedSpan> unobserved =
+      DescribeBeforehand(dataset, &reconstruction, &progress);
   ThrowIfStopRequested();
   RunSummary summary = {.program = kProgram,
                         .dataset = dataset.name,
@@ -222,6 +236,8 @@ int Reconstruct(const RunRequest& request) {
 
   std::cout << "\n"
             << ComparisonTable(summary) << DescribeMethodNotes(solutions)
+            << DescribeOwnUnobserved(unobserved, solutions)
+            << DescribeIncredible(summary)
             << DescribeConstants(dataset, solutions) << "\nresults in "
             << request.out << "\n"
             << DescribeVerdict(solutions);

@@ -38,8 +38,9 @@ Methods: ekf       forward error-state Kalman filter
          iterated  rts, linearised anew about its result until it rests
          batch     nonlinear least squares over the whole interval
          gated_ekf  ekf, with a gate of 99.9 % where a sensor has none
-         imm       two filters that mix: positions are as good as stated, or
-                   twenty times worse; imm_smoother, its smoother
+         imm       two filters that mix: positions (without any, all
+                   measurements) are as good as stated, or twenty times worse,
+                   at least 20 m; imm_smoother, its smoother
          robust_batch  batch that finds out from the data whether positions
                    have outliers, correlated errors or jumps
 Attitude alone, from IMU and magnetometer, without any position:

@@ -84,6 +84,49 @@ std::string DescribeUnobserved(const std::vector<UnobservedSpan>& spans) {
   return text;
 }
 
+std::string DescribeOwnUnobserved(const std::vector<UnobservedSpan>& known,
+                                  const std::vector<Solution>& solutions) {
+  constexpr int kMost = 10;
+  std::string text;
+  for (const Solution& solution : solutions) {
+    int count = 0;
+    for (const UnobservedSpan& span : solution.unobserved) {
+      const bool told = std::any_of(
+          known.begin(), known.end(), [&span](const UnobservedSpan& other) {
+            return other.component == span.component &&
+                   other.t_begin == span.t_begin && other.t_end == span.t_end;
+          });
+      if (told || ++count > kMost) continue;
+      text += Format(
+          "%s: %s is not observed from %.1f s to %.1f s (sigma stays above "
+          "%.3g)\n",
+          solution.method.c_str(), span.component.c_str(), span.t_begin,
+          span.t_end, span.sigma);
+    }
+    if (count > kMost) {
+      text += Format("%s: %d more such spans are in summary.json\n",
+                     solution.method.c_str(), count - kMost);
+    }
+  }
+  return text;
+}
+
+std::string DescribeIncredible(const RunSummary& summary) {
+  constexpr double kBeyondDoubt = 100.0;
+  std::string text;
+  for (const MethodSummary& method : summary.methods) {
+    // P of an observer is no covariance to begin with.
+    if (!method.error || method.observer) continue;
+    const double nees = method.error->position_nees.value_or(0.0);
+    if (!(nees > kBeyondDoubt)) continue;
+    text += Format(
+        "%s: its covariances are not credible against the truth: mean NEES of "
+        "position %.4g, where 3 is right\n",
+        method.method.c_str(), nees);
+  }
+  return text;
+}
+
 namespace {
 
 const char* VerdictName(ConstantEstimate::Verdict verdict) {

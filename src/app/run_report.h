@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dataset/dataset.h"
+#include "io/summary.h"
 #include "problems/reconstruction.h"
 #include "state/solution.h"
 
@@ -25,6 +26,15 @@ std::string DescribeUnobserved(const std::vector<UnobservedSpan>& spans);
 /// mounting that a mounting's correction belongs to. Nothing if there is none.
 std::string DescribeConstants(const Dataset& dataset,
                               const std::vector<Solution>& solutions);
+
+/// The spans that a method's own covariances call unobserved and that `known`
+/// lacks, a line each.
+std::string DescribeOwnUnobserved(const std::vector<UnobservedSpan>& known,
+                                  const std::vector<Solution>& solutions);
+
+/// A line for each method whose position is far from the truth by its own
+/// covariances: a mean normalised squared error above 100, where 3 is right.
+std::string DescribeIncredible(const RunSummary& summary);
 
 /// The last line: whether the result is usable, and why, by the last usable
 /// method, and which methods failed.

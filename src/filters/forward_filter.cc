@@ -1,23 +1,13 @@
 #include "filters/forward_filter.h"
 
-#include <Eigen/Cholesky>
-#include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <limits>
+#include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "filters/transport.h"
 #include "measurements/distance_link.h"
 
 namespace hindsight {
-
-double GateLimit(const Sensor& sensor, int rows) {
-  if (!sensor.gate_probability) {
-    return std::numeric_limits<double>::infinity();
-  }
-  return boost::math::quantile(boost::math::chi_squared(rows),
-                               *sensor.gate_probability);
-}
 
 namespace {
 
@@ -30,7 +20,7 @@ class ForwardPass {
               const GateDecisions& decisions)
       : layout_(layout),
         timeline_(*timeline),
-        decisions_(decisions),
+        rule_(*timeline, decisions),
         error_(model.error),
         policy_(model.covariance, layout),
         tape_(layout, model.error),
@@ -40,18 +30,13 @@ class ForwardPass {
     tape_.Reserve(timeline->size());
     transition_.c = ErrorVector::Zero(layout.dim());
     if (!policy_.is_kalman()) tape_.ForbidSmoothing();
-    for (const Sensor& sensor : timeline_.sensors()) {
-      for (int rows = 1; rows <= kMaxRows; ++rows) {
-        gate_limits_.push_back(GateLimit(sensor, rows));
-      }
-    }
   }
 
   /// Expresses the prior about another nominal: the prior's mean becomes an
   /// error, its covariance moves into the new tangent.
   void StartAbout(const State& nominal) {
     const State prior_mean = x_;
-    fixed_nominal_ = true;
+    rule_.AboutFixedNominal();
     x_ = nominal;
     dx_ = Local(layout_, nominal, prior_mean);
     MoveCovariance(Transport(layout_, prior_mean, nominal), &P_);
@@ -127,48 +112,22 @@ class ForwardPass {
 
   void Use(std::size_t k, const Measurement& z, int index) {
     Evaluate(z, timeline_.Context(k, z, layout_, x_), &linearized_);
-    Innovation innovation = Innovate(linearized_, dx_, P_);
-    const RobustLoss& loss =
-        timeline_.sensors()[static_cast<std::size_t>(z.sensor)].loss;
-    if (loss.kind != RobustLoss::Kind::kNone && !z.withheld) {
-      linearized_.R /= std::max(loss.Weight(RobustArgument(innovation)), 1e-9);
-      innovation = Innovate(linearized_, dx_, P_);
-    }
+    Innovation innovation;
+    const MeasurementVerdict verdict =
+        rule_.Judge(k, index, dx_, P_, &linearized_, &innovation);
     TapeMeasurement header;
     header.index = index;
     header.sensor = z.sensor;
     header.withheld = z.withheld;
-    header.accepted = !z.withheld && Accept(k, z, index, innovation);
+    header.accepted = verdict.accepted;
+    header.weight = verdict.weight;
     tape_.Record(header, linearized_, innovation);
     if (header.accepted) Update(linearized_, innovation, &dx_, &P_);
   }
 
-  /// What the robust loss is asked about. About a fixed nominal it is the
-  /// residual there, which makes the pass a step of iteratively reweighted
-  /// least squares; a filter that only knows the past must allow for its own
-  /// uncertainty.
-  double RobustArgument(const Innovation& innovation) const {
-    if (!fixed_nominal_) return innovation.nis;
-    return Eigen::LLT<RowMatrix>(linearized_.R)
-        .matrixL()
-        .solve(linearized_.residual)
-        .squaredNorm();
-  }
-
-  bool Accept(std::size_t k, const Measurement& z, int index,
-              const Innovation& innovation) const {
-    if (!decisions_.empty()) {
-      return decisions_[static_cast<std::size_t>(
-                 timeline_.node(k).first_measurement + index)] != 0;
-    }
-    const auto rows = innovation.residual.size();
-    return innovation.nis <= gate_limits_[static_cast<std::size_t>(
-                                 z.sensor * kMaxRows + rows - 1)];
-  }
-
   const ErrorLayout& layout_;
   Timeline& timeline_;
-  const GateDecisions& decisions_;
+  MeasurementRule rule_;
   ErrorDefinition error_;
   CovariancePolicy policy_;
   LinearTape tape_;
@@ -177,8 +136,6 @@ class ForwardPass {
   ErrorVector dx_;
   Transition transition_;
   LinearizedMeasurement linearized_;
-  std::vector<double> gate_limits_;
-  bool fixed_nominal_ = false;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "filters/covariance_policy.h"
 #include "filters/linear_tape.h"
+#include "filters/measurement_rule.h"
 #include "measurements/timeline.h"
 
 namespace hindsight {
@@ -17,16 +18,8 @@ struct Prior {
   ErrorMatrix P;
 };
 
-/// Which measurements a pass uses. Empty: the gate of each sensor decides by
-/// the innovation. Otherwise one flag a measurement of the timeline, in order.
-using GateDecisions = std::vector<char>;
-
 /// Called after each epoch with the number done; may throw to stop.
 using EpochCallback = std::function<void(std::size_t)>;
-
-/// Upper limit of the normalised innovation squared that the sensor's gate lets
-/// pass for so many rows, infinity without a gate.
-double GateLimit(const Sensor& sensor, int rows);
 
 /// What a forward filter calls its error, and how its P evolves.
 struct ForwardModel {
@@ -35,10 +28,11 @@ struct ForwardModel {
 };
 
 /// Forward observer x^' = f(x^) + K (y - h(x^)): predicts through the IMU
-/// summaries, updates about x_minus, resets the nominal at each epoch. Writes
-/// the tape and integrates the timeline's summaries at its own bias estimates.
-/// Throws FiniteEscape if the rule of the covariance has no solution any more,
-/// EstimationError if the state is no number.
+/// summaries, updates about x_minus by the sensors' MeasurementRule, resets the
+/// nominal at each epoch. Writes the tape and integrates the timeline's
+/// summaries at its own bias estimates. Throws FiniteEscape if the rule of the
+/// covariance has no solution any more, EstimationError if the state is no
+/// number.
 LinearTape RunForwardFilter(const ForwardModel& model,
                             const ErrorLayout& layout, const Prior& prior,
                             Timeline* timeline,

@@ -37,7 +37,10 @@ class ImmPass {
  public:
   ImmPass(const std::vector<ImmModel>& models, const ImmOptions& options,
           Timeline* timeline)
-      : options_(options), timeline_(*timeline), mu_(options.start) {
+      : options_(options),
+        timeline_(*timeline),
+        rule_(*timeline, options.decisions),
+        mu_(options.start) {
     if (models.empty()) throw std::logic_error("an IMM needs a model");
     for (const ImmModel& model : models) {
       Filter& filter = filters_.emplace_back();
@@ -53,7 +56,10 @@ class ImmPass {
     }
     result_.tape.transition = options.transition;
     masks_vertical_ = MasksVertical(models.front().layout);
-    if (!options.nominal.empty()) StartAbout(options.nominal.front());
+    if (!options.nominal.empty()) {
+      StartAbout(options.nominal.front());
+      rule_.AboutFixedNominal();
+    }
     result_.trajectory.P =
         CovarianceSeries(models.front().layout.dim(), timeline->size());
   }
@@ -99,7 +105,6 @@ class ImmPass {
     const std::size_t count = filters_.size();
     std::vector<TapeEpoch> epochs(count);
     std::vector<ErrorMatrix> P_minus(count);
-    Eigen::VectorXd log_mu = mu_.array().log();
     for (std::size_t j = 0; j < count; ++j) {
       Filter& f = filters_[j];
       epochs[j].t = timeline_.node(k).t;
@@ -107,19 +112,14 @@ class ImmPass {
       epochs[j].c = f.transition.c;
       epochs[j].dx_minus = f.error.mean;
       P_minus[j] = f.error.P;
-      log_mu(static_cast<Eigen::Index>(j)) += Use(k, j);
-      epochs[j].dx_plus = f.error.mean;
     }
-    const double largest = log_mu.maxCoeff();
-    if (!std::isfinite(largest)) {
-      throw EstimationError(
-          "no model of the IMM explains the measurements at "
-          "t = " +
-          std::to_string(timeline_.node(k).t) + " s");
+    const auto used = static_cast<int>(timeline_.measurements(k).size());
+    log_mu_ = mu_.array().log();
+    for (int i = 0; i < used; ++i) Use(k, i);
+    epoch_.log_likelihood = Normalize(k);
+    for (std::size_t j = 0; j < count; ++j) {
+      epochs[j].dx_plus = filters_[j].error.mean;
     }
-    mu_ = (log_mu.array() - largest).exp();
-    epoch_.log_likelihood = largest + std::log(mu_.sum());
-    mu_ /= mu_.sum();
     epoch_.probability = mu_;
     const Gaussian combined = CombineFilters();
     WriteCombined(filters_[0].model->layout, filters_[0].x, combined, mu_, k,
@@ -207,36 +207,80 @@ class ImmPass {
     for (Filter& f : filters_) f.x = WithNavigationOf(first, f.x);
   }
 
-  /// Updates model j with the measurements of node k; returns the logarithm of
-  /// their likelihood, eq. (10).
-  double Use(std::size_t k, std::size_t j) {
-    Filter& f = filters_[j];
-    double log_likelihood = 0.0;
-    int index = 0;
-    for (const Measurement& z : timeline_.measurements(k)) {
+  double FactorOf(std::size_t j, int sensor) const {
+    const std::vector<double>& factors = filters_[j].model->sigma_factors;
+    return factors.empty() ? 1.0 : factors[static_cast<std::size_t>(sensor)];
+  }
+
+  /// What the models' mixture makes of measurement i of node k.
+  MeasurementVerdict JudgeTogether(std::size_t k, int i) {
+    const Measurement& z =
+        timeline_.measurements(k)[static_cast<std::size_t>(i)];
+    const Filter& first = filters_.front();
+    Evaluate(z, timeline_.Context(k, z, first.model->layout, first.x),
+             &linearized_);
+    double mean_square = 0.0;
+    for (std::size_t j = 0; j < filters_.size(); ++j) {
+      const double factor = FactorOf(j, z.sensor);
+      mean_square += mu_(static_cast<Eigen::Index>(j)) * factor * factor;
+    }
+    linearized_.R *= mean_square;
+    const Gaussian combined = CombineFilters();
+    Innovation innovation;
+    return rule_.Judge(k, i, combined.mean, combined.P, &linearized_,
+                       &innovation);
+  }
+
+  MeasurementVerdict Judge(std::size_t k, int i) {
+    const Measurement& z =
+        timeline_.measurements(k)[static_cast<std::size_t>(i)];
+    if (rule_.AsksTheInnovation(z.sensor)) return JudgeTogether(k, i);
+    const bool decided = options_.decisions.empty() ||
+                         options_.decisions[static_cast<std::size_t>(
+                             timeline_.node(k).first_measurement + i)] != 0;
+    return {.weight = 1.0, .accepted = !z.withheld && decided};
+  }
+
+  /// Sets the modes' probabilities from their unscaled logarithms; returns the
+  /// logarithm of the sum.
+  double Normalize(std::size_t k) {
+    const double largest = log_mu_.maxCoeff();
+    if (!std::isfinite(largest)) {
+      throw EstimationError(
+          "no model of the IMM explains the measurements at "
+          "t = " +
+          std::to_string(timeline_.node(k).t) + " s");
+    }
+    mu_ = (log_mu_.array() - largest).exp();
+    const double sum = mu_.sum();
+    mu_ /= sum;
+    return largest + std::log(sum);
+  }
+
+  /// Updates every model and its likelihood with measurement i of node k.
+  void Use(std::size_t k, int i) {
+    const Measurement& z =
+        timeline_.measurements(k)[static_cast<std::size_t>(i)];
+    Normalize(k);
+    const MeasurementVerdict verdict = Judge(k, i);
+    TapeMeasurement header;
+    header.index = i;
+    header.sensor = z.sensor;
+    header.withheld = z.withheld;
+    header.accepted = verdict.accepted;
+    header.weight = verdict.weight;
+    for (std::size_t j = 0; j < filters_.size(); ++j) {
+      Filter& f = filters_[j];
       Evaluate(z, timeline_.Context(k, z, f.model->layout, f.x), &linearized_);
-      if (!f.model->sigma_factors.empty()) {
-        const double factor =
-            f.model->sigma_factors[static_cast<std::size_t>(z.sensor)];
-        linearized_.R *= factor * factor;
-      }
+      const double factor = FactorOf(j, z.sensor);
+      linearized_.R *= factor * factor / verdict.weight;
       const Innovation innovation =
           Innovate(linearized_, f.error.mean, f.error.P);
-      TapeMeasurement header;
-      header.index = index++;
-      header.sensor = z.sensor;
-      header.withheld = z.withheld;
-      const bool decided =
-          options_.decisions.empty() ||
-          options_.decisions[static_cast<std::size_t>(
-              timeline_.node(k).first_measurement + header.index)] != 0;
-      header.accepted = !z.withheld && decided;
       result_.tape.tapes[j].Record(header, linearized_, innovation);
       if (!header.accepted) continue;
-      log_likelihood += innovation.log_likelihood;
+      log_mu_(static_cast<Eigen::Index>(j)) += innovation.log_likelihood;
       Update(linearized_, innovation, &f.error.mean, &f.error.P);
     }
-    return log_likelihood;
   }
 
   Gaussian CombineFilters() const { return Merge(SeenBy(0), mu_); }
@@ -270,8 +314,10 @@ class ImmPass {
 
   const ImmOptions& options_;
   Timeline& timeline_;
+  MeasurementRule rule_;
   std::vector<Filter> filters_;
   Eigen::VectorXd mu_;
+  Eigen::VectorXd log_mu_;  ///< of the node's update so far, unscaled
   ImmEpoch epoch_;
   ImmResult result_;
   LinearizedMeasurement linearized_;

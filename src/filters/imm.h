@@ -35,7 +35,6 @@ struct ImmOptions {
   /// If not empty: the fixed nominal, a state a node with the parameters that
   /// all layouts then must have; `feedback` is void. Its defects are c.
   std::span<const State> nominal;
-  /// Empty: all that is not withheld is used.
   GateDecisions decisions;
 };
 
@@ -77,9 +76,10 @@ struct ImmResult {
 /// (6)-(12)) of any number of models over layouts of their own. All models are
 /// errors about one navigation nominal, so that mixing is arithmetic in one
 /// tangent; unequal layouts mix over what they share (filters/mixing.h). The
-/// likelihoods (10) are multiplied in the logarithm. Gates and robust losses
-/// are off: a measurement that one model rejects and another takes would leave
-/// nothing to compare.
+/// likelihoods (10) are multiplied in the logarithm. Gates and robust losses of
+/// the sensors hold (MeasurementRule), but for all models alike, by what they
+/// expect together - the mean and covariance of their mixture: what one model
+/// rejects and another takes would leave nothing to compare.
 ///
 /// A layout that masks the down axis of its position takes height and vertical
 /// velocity of the nominal from the height measurements (filters/vertical.h).

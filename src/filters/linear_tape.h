@@ -19,6 +19,7 @@ struct TapeMeasurement {
   int sensor = 0;
   bool accepted = true;
   bool withheld = false;
+  double weight = 1.0;  ///< of a robust loss; R and S are those after it
   double nis = 0.0;
   double log_likelihood = 0.0;
   Eigen::Map<const Eigen::VectorXd> residual{nullptr, 0};  ///< at x_minus

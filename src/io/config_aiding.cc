@@ -90,23 +90,14 @@ Quantity NoiseQuantity(SensorType type) {
   return type == SensorType::kVelocity ? Quantity::kSpeed : Quantity::kLength;
 }
 
-int RowsOf(const AidingConfig& config) {
-  Odometer odometer;
-  switch (config.sensor.type) {
-    case SensorType::kHeight:
-      return HeightFix::rows();
-    case SensorType::kSpeedCourse:
-      return 2;
-    case SensorType::kOdometer:
-    case SensorType::kNonHolonomic:
-      odometer.form = config.options.odometer_form;
-      return odometer.rows();
-    case SensorType::kMagnetometer:
-      return config.options.magnetic_form == MagneticField::Form::kVector ? 3
-                                                                          : 1;
-    default:
-      return 3;
-  }
+/// Refuses a standard deviation of a Gauss-Markov error so small that rounding
+/// would leave nothing positive definite.
+void CheckNoiseSigma(ConfigMap* entry, const std::string& key,
+                     Quantity quantity, double sigma) {
+  constexpr double kLeast = 1e-6;
+  if (!entry->Has(key) || sigma >= kLeast) return;
+  entry->Fail(key, quantity == Quantity::kSpeed ? "expected at least 1e-6 m/s"
+                                                : "expected at least 1e-6 m");
 }
 
 /// White, a Gauss-Markov error as states, or a mixture of inliers and outliers,
@@ -124,15 +115,22 @@ void ReadNoise(ConfigMap* map, AidingConfig* config) {
       entry.Fail("model",
                  "gauss_markov is for position, velocity and height sensors");
     }
+    for (const char* key : {"sigma", "sigma_scale", "correlations"}) {
+      if (!map->Has(key)) continue;
+      map->Fail(key,
+                "does not go with noise of model gauss_markov, whose sigma and "
+                "white take its place");
+    }
     const Quantity quantity = NoiseQuantity(sensor->type);
     NoiseModel& noise = sensor->noise;
     noise.kind = NoiseModel::Kind::kGaussMarkov;
     noise.sigma = entry.Positive("sigma", quantity);
+    CheckNoiseSigma(&entry, "sigma", quantity, noise.sigma);
     noise.tau = entry.Positive("tau", Quantity::kTime);
     noise.white_sigma = entry.Positive("white", quantity, 0.1 * noise.sigma);
+    CheckNoiseSigma(&entry, "white", quantity, noise.white_sigma);
     // The file need not state what is not used.
-    std::optional<Eigen::Vector3d>& stated = config->options.sigma;
-    if (!stated) stated = Eigen::Vector3d::Constant(noise.white_sigma);
+    config->options.sigma = Eigen::Vector3d::Constant(noise.white_sigma);
   } else if (model == 2) {
     if (sensor->loss.kind != RobustLoss::Kind::kNone) {
       entry.Fail("model", "a mixture does not go with a loss");
@@ -140,7 +138,6 @@ void ReadNoise(ConfigMap* map, AidingConfig* config) {
     RobustLoss& loss = sensor->loss;
     loss.kind = RobustLoss::Kind::kMixture;
     loss.scale = 1.0;
-    loss.rows = RowsOf(*config);
     loss.outlier_share =
         entry.Positive("outliers", Quantity::kRatio, loss.outlier_share);
     if (loss.outlier_share >= 1.0) {

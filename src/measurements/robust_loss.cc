@@ -22,6 +22,12 @@ double LogInlier(double log_odds) {
 
 }  // namespace
 
+RobustLoss RobustLoss::OfRows(int count) const {
+  RobustLoss loss = *this;
+  loss.rows = count;
+  return loss;
+}
+
 double RobustLoss::InlierProbability(double s) const {
   return std::exp(LogInlier(LogOdds(*this, s)));
 }

@@ -26,7 +26,10 @@ struct RobustLoss {
   double scale = 3.0;           ///< c; of a mixture 1, but for widening
   double outlier_share = 0.05;  ///< a
   double outlier_ratio = 20.0;  ///< k
-  int rows = 3;                 ///< n
+  int rows = 3;  ///< n; see OfRows: a sensor's may differ from one to another
+
+  /// The loss of a measurement that has so many rows.
+  RobustLoss OfRows(int count) const;
 
   bool redescends() const { return kind > Kind::kHuber; }
   /// Of a mixture: probability that s is of an inlier.

@@ -17,10 +17,12 @@ struct ResidualRecord {
   int sensor = 0;         ///< index into Dataset::streams
   bool accepted = true;   ///< false: rejected by the gate
   bool withheld = false;  ///< true: predicted, not used
-  double weight = 1.0;    ///< of a robust loss, 1 = full
-  RowVector residual;     ///< measured - predicted, in the model's axes
-  RowVector sigma;        ///< predicted standard deviation of `residual`
-  double nis = 0.0;       ///< residual' S^-1 residual
+  /// Of a robust loss or of modes, 1 = full; 0 if rejected.
+  double weight = 1.0;
+  RowVector residual;  ///< measured - predicted, in the model's axes
+  /// Predicted standard deviation of `residual`, with the stated R.
+  RowVector sigma;
+  double nis = 0.0;  ///< residual' S^-1 residual
 };
 
 /// An estimated constant (scale factor, lever arm component, time offset...).

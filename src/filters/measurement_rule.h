@@ -1,0 +1,63 @@
+#ifndef HINDSIGHT_FILTERS_MEASUREMENT_RULE_H_
+#define HINDSIGHT_FILTERS_MEASUREMENT_RULE_H_
+
+#include <array>
+#include <vector>
+
+#include "filters/kalman.h"
+#include "measurements/timeline.h"
+
+namespace hindsight {
+
+/// Which measurements a pass uses. Empty: the gate of each sensor decides by
+/// the innovation. Otherwise one flag a measurement of the timeline, in order.
+using GateDecisions = std::vector<char>;
+
+/// Upper limit of the normalised innovation squared that the sensor's gate lets
+/// pass for so many rows, infinity without a gate.
+double GateLimit(const Sensor& sensor, int rows);
+
+/// What a recursive filter makes of one measurement.
+struct MeasurementVerdict {
+  double weight = 1.0;   ///< of the sensor's loss; R is divided by it
+  bool accepted = true;  ///< by the gate or the decision, and not withheld
+};
+
+/// How a recursive filter takes the sensors' robust losses and gates. The loss
+/// divides R by its weight rho'(s), 1e-9 at least; s is the normalised
+/// innovation squared, for a filter that only knows the past must allow for its
+/// own uncertainty. About a fixed nominal s is that of the residual there,
+/// which makes the pass a step of iteratively reweighted least squares. The
+/// gate then tests the innovation with that R. Withheld measurements keep
+/// theirs.
+class MeasurementRule {
+ public:
+  /// Keeps references to both; the losses and gates are those of now.
+  MeasurementRule(const Timeline& timeline, const GateDecisions& decisions);
+
+  void AboutFixedNominal() { fixed_nominal_ = true; }
+
+  /// Whether the sensor has a loss, or a gate that is not decided beforehand.
+  bool AsksTheInnovation(int sensor) const;
+
+  /// Judges measurement `index` of node k, linearised as `z`, by what (dx, P)
+  /// predict: divides z->R by the weight and gives the innovation with it.
+  MeasurementVerdict Judge(std::size_t k, int index, const ErrorVector& dx,
+                           const ErrorMatrix& P, LinearizedMeasurement* z,
+                           Innovation* innovation) const;
+
+ private:
+  double RobustArgument(const LinearizedMeasurement& z,
+                        const Innovation& innovation) const;
+  bool Accept(std::size_t k, int index, int sensor,
+              const Innovation& innovation) const;
+
+  const Timeline& timeline_;
+  const GateDecisions& decisions_;
+  std::vector<std::array<double, kMaxRows>> gate_limits_;  // by sensor
+  bool fixed_nominal_ = false;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_FILTERS_MEASUREMENT_RULE_H_
