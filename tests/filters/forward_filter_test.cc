@@ -173,6 +173,34 @@ TEST(ForwardFilter, GateRejectsAnOutlierAndRecordsIt) {
   EXPECT_EQ(tape.P_plus(tape.size() - 1), expected.P_plus(expected.size() - 1));
 }
 
+TEST(ForwardFilter, WeightOfALossIsOnTheTapeAndDividesR) {
+  TestProblem problem = MakeProblem(Options(true));
+  constexpr std::size_t kOutlier = 10;
+  const auto index =
+      static_cast<std::size_t>(problem.nodes[kOutlier].first_measurement);
+  auto& fix = std::get<PositionFix>(problem.measurements[index].model);
+  const double variance = fix.R_n(0, 0);
+  fix.p_e += Eigen::Vector3d(3.0, 3.0, 3.0);
+  RobustLoss& loss = problem.sensors[0].loss;
+  loss.kind = RobustLoss::Kind::kMixture;
+  loss.scale = 1.0;
+  loss.rows = 1;  // those of the measurement count
+  Timeline timeline = problem.MakeTimeline();
+  const LinearTape tape =
+      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+  const TapeMeasurement& outlier = tape.measurements(kOutlier)[0];
+  EXPECT_TRUE(outlier.accepted);
+  EXPECT_NEAR(outlier.weight, 1.0 / 400.0, 1e-6);
+  EXPECT_NEAR(outlier.R(0, 0), 400.0 * variance, 1e-3 * variance);
+  // ln of the odds of an inlier at s = 0, for three rows.
+  const double odds = 0.95 / 0.05 * std::pow(20.0, 3);
+  const TapeMeasurement& good = tape.measurements(kOutlier + 5)[0];
+  EXPECT_GT(good.weight, 1.0 - 100.0 / odds * std::exp(0.5 * good.nis));
+  EXPECT_LT(good.weight, 1.0);
+  EXPECT_NEAR(loss.OfRows(3).Weight(0.0),
+              1.0 - (1.0 - 1.0 / 400.0) / (1.0 + odds), 1e-12);
+}
+
 TEST(ForwardFilter, GateLimitIsTheChiSquareQuantile) {
   Sensor sensor;
   EXPECT_EQ(GateLimit(sensor, 3), std::numeric_limits<double>::infinity());

@@ -89,6 +89,71 @@ TEST(Imm, OfOneModeIsTheExtendedKalmanFilter) {
               1e-9 * std::abs(log_likelihood));
 }
 
+/// Outliers that a mixture and a gate take out, after a first ten epochs.
+TestProblem ProblemWithRules() {
+  TestProblem problem = NoisyProblem(30.0);
+  problem.sensors[0].loss.kind = RobustLoss::Kind::kMixture;
+  problem.sensors[0].loss.scale = 1.0;
+  problem.sensors[0].gate_probability = 0.9999;
+  PutOff(12, {8.0, -8.0, 0.0}, &problem);  // the mixture's
+  PutOff(20, {800.0, 0.0, 800.0},
+         &problem);  // beyond twenty sigmas: the gate's
+  return problem;
+}
+
+TEST(Imm, OfOneModeTakesLossesAndGatesAsTheExtendedKalmanFilterDoes) {
+  const TestProblem problem = ProblemWithRules();
+  Timeline timeline = problem.MakeTimeline();
+  const LinearTape ekf =
+      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+  ImmOptions options;
+  options.transition = StayingTransition(1, 1.0);
+  options.start = Eigen::VectorXd::Ones(1);
+  Timeline again = problem.MakeTimeline();
+  const ImmResult imm = RunImm({Model(problem, 1.0)}, options, &again);
+  const LinearTape& tape = imm.tape.tapes[0];
+  EXPECT_LT(ekf.measurements(12)[0].weight, 0.01);
+  EXPECT_TRUE(ekf.measurements(12)[0].accepted);
+  EXPECT_FALSE(ekf.measurements(20)[0].accepted);
+  const SmoothedTrajectory rts = SmoothRts(ekf);
+  const ImmSmoothed smoothed = SmoothImm(imm.tape);
+  for (std::size_t k = 0; k < ekf.size(); ++k) {
+    ASSERT_EQ(tape.measurements(k).size(), ekf.measurements(k).size());
+    for (std::size_t i = 0; i < tape.measurements(k).size(); ++i) {
+      const TapeMeasurement& a = tape.measurements(k)[i];
+      const TapeMeasurement& b = ekf.measurements(k)[i];
+      EXPECT_EQ(a.accepted, b.accepted) << k;
+      EXPECT_NEAR(a.weight, b.weight, 1e-6 * b.weight) << k;
+    }
+    EXPECT_LT(ScaledDifference(imm.trajectory.P.Get(k), ekf.P_plus(k)), 1e-6);
+    EXPECT_LT(ScaledDifference(smoothed.models[k][0].P, rts.P.Get(k)), 1e-6);
+    EXPECT_LT(InSigmas(Local(problem.layout, rts.states[k],
+                             smoothed.trajectory.states[k]),
+                       ErrorVector::Zero(rts.P.Get(k).rows()), rts.P.Get(k)),
+              1e-4);
+  }
+}
+
+TEST(Imm, AllModelsShareOneWeightAndOneGate) {
+  const TestProblem problem = ProblemWithRules();
+  Timeline timeline = problem.MakeTimeline();
+  ImmModel unsure = Model(problem, 1.0);
+  unsure.prior.P *= 25.0;
+  const ImmResult imm =
+      RunImm({Model(problem, 1.0), unsure}, TwoModes(true), &timeline);
+  for (std::size_t k = 0; k < imm.tape.size(); ++k) {
+    for (std::size_t i = 0; i < imm.tape.tapes[0].measurements(k).size(); ++i) {
+      const TapeMeasurement& a = imm.tape.tapes[0].measurements(k)[i];
+      const TapeMeasurement& b = imm.tape.tapes[1].measurements(k)[i];
+      EXPECT_EQ(a.weight, b.weight);
+      EXPECT_EQ(a.accepted, b.accepted);
+    }
+  }
+  EXPECT_LT(imm.tape.tapes[1].measurements(12)[0].weight, 0.01);
+  EXPECT_FALSE(imm.tape.tapes[1].measurements(20)[0].accepted);
+  EXPECT_TRUE(imm.tape.tapes[1].measurements(21)[0].accepted);
+}
+
 TEST(Imm, ModeProbabilitiesSumToOneAndFollowTheOutliers) {
   TestProblem problem = NoisyProblem(40.0);
   for (std::size_t k = 20; k < 26; ++k) PutOff(k, {8.0, -8.0, 0.0}, &problem);

@@ -38,7 +38,6 @@ TEST_F(AidingTypes, NoiseModels) {
   EXPECT_EQ(loss.kind, RobustLoss::Kind::kMixture);
   EXPECT_DOUBLE_EQ(loss.outlier_share, 0.1);
   EXPECT_DOUBLE_EQ(loss.outlier_ratio, 20.0);
-  EXPECT_EQ(loss.rows, 1);
   EXPECT_DOUBLE_EQ(loss.scale, 1.0);
 }
 
@@ -283,6 +282,18 @@ TEST_F(AidingTypes, MistakesNameLineAndKey) {
        "does not go with a loss"},
       {"  c: {type: speed_course, file: odo.csv, sigma: 1 m/s}\n",
        "course_sigma"},
+      {"  h: {type: height, file: odo.csv, sigma: 5 m, noise: {model: "
+       "gauss_markov, sigma: 1 m, tau: 1 s}}\n",
+       "aiding.h.sigma: does not go with noise of model gauss_markov"},
+      {"  h: {type: height, file: odo.csv, sigma_scale: 7, noise: {model: "
+       "gauss_markov, sigma: 1 m, tau: 1 s}}\n",
+       "aiding.h.sigma_scale: does not go with noise of model gauss_markov"},
+      {"  h: {type: height, file: odo.csv, noise: {model: gauss_markov, "
+       "sigma: 1e-30 m, tau: 1 s}}\n",
+       "aiding.h.noise.sigma: expected at least 1e-6 m"},
+      {"  h: {type: height, file: odo.csv, noise: {model: gauss_markov, "
+       "sigma: 1 m, tau: 1 s, white: 1e-9 m}}\n",
+       "aiding.h.noise.white: expected at least 1e-6 m"},
   };
   for (const Case& c : cases) {
     Aiding(c.aiding);
