@@ -123,13 +123,13 @@ ReconstructionOptions Options(const RunRequest& request, Progress* progress) {
   return options;
 }
 
-/// Throws InputError if nothing says where the recording begins.
+/// Names the configuration if it does not say where the recording begins.
 Reconstruction Prepare(const std::string& config, const Dataset& dataset,
                        const ReconstructionOptions& options) {
   try {
     return Reconstruction(dataset, options);
   } catch (const NoInitialPosition& error) {
-    throw InputError(config + ": " + error.what());
+    throw NoInitialPosition(config + ": " + error.what());
   }
 }
 

@@ -13,6 +13,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 using ::testing::UnorderedElementsAre;
@@ -199,8 +200,60 @@ TEST_F(RunCommandTest, NoAnswerEndsWithOneAndLeavesNothing) {
   const Outcome outcome = recording_.Run({"--out=out"});
   EXPECT_EQ(outcome.status, 1);
   ASSERT_THAT(Lines(outcome.err), SizeIs(1)) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("position"));
+  EXPECT_THAT(outcome.err,
+              StartsWith("hindsight: error: data/config.yaml: no initial "
+                         "position: expected initial.position, "));
   EXPECT_THAT(Names(recording_.root()), ElementsAre("data"));
+}
+
+TEST_F(RunCommandTest, WeightsOfRejectedAndDownWeightedMeasurementsAreTold) {
+  const auto with = [this](const std::string& line) {
+    recording_.Replace("config.yaml", "    file: gnss.csv\n",
+                       "    file: gnss.csv\n" + line);
+    return recording_.Run({"--out=out", "--force", "--methods=ekf,rts",
+                           "--log=info",
+                           "--inject=position:pulse=8m,from=30s,to=34s"});
+  };
+  Outcome outcome = with("    noise: {model: mixture}\n");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  int down = 0;
+  for (const std::string& line : Lines(ReadFile(Result("residuals.csv")))) {
+    if (line.find(",gnss,0,") == line.npos) continue;
+    EXPECT_TRUE(line.ends_with(",used")) << line;
+    if (line.starts_with("ekf,") && Field(line, 7) < 0.01) ++down;
+  }
+  EXPECT_EQ(down, 4);
+  int logged = 0;
+  for (const std::string& line : Lines(outcome.err)) {
+    if (line.find(" ekf: gnss at 3") == line.npos) continue;
+    EXPECT_THAT(line, HasSubstr("down-weighted"));
+    ++logged;
+  }
+  EXPECT_EQ(logged, 4);
+
+  recording_.Replace("config.yaml", "    noise: {model: mixture}\n", "");
+  outcome = with("    gate: 99.99 %\n");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  int rejected = 0;
+  for (const std::string& line : Lines(ReadFile(Result("residuals.csv")))) {
+    if (!line.ends_with(",rejected")) continue;
+    EXPECT_EQ(Field(line, 7), 0.0) << line;
+    ++rejected;
+  }
+  EXPECT_EQ(rejected, 2 * 4 * 3);
+}
+
+TEST_F(RunCommandTest, GateThatRefusesMostIsNotUsableAndTheTruthIsHeard) {
+  const Outcome outcome =
+      recording_.Run({"--out=out", "--methods=gated_ekf,ekf", "--without=speed",
+                      "--inject=position:step=60m,from=25s"});
+  EXPECT_THAT(outcome.out, HasSubstr("gated_ekf is not usable: the gate "
+                                     "refused 26 of 51 measurements of gnss"));
+  EXPECT_THAT(outcome.out,
+              HasSubstr("\nekf: its covariances are not credible against the "
+                        "truth: mean NEES of position "));
+  EXPECT_THAT(outcome.out,
+              Not(HasSubstr("\ngated_ekf: its covariances are not")));
 }
 
 TEST_F(RunCommandTest, FlagsThatDoNotFitTheRecordingEndWithTwo) {
