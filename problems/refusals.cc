@@ -19,7 +19,7 @@ bool GivesPosition(const Sensor& sensor) {
 }
 
 /// Refusals of one sensor in a row.
-struct Run {
+struct Refused {
   double t_begin = 0.0;
   double t_end = 0.0;
   std::vector<double> nis;
@@ -40,8 +40,8 @@ struct Tally {
   int all = 0;
   int rejected = 0;
   int weightless = 0;
-  Run run;
-  Run worst;  ///< the longest that speaks against the solution
+  Refused run;
+  Refused worst;  ///< the longest that speaks against the solution
 };
 
 void EndRun(Tally* tally) {
