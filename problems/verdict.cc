@@ -144,6 +144,13 @@ std::string Objection(const std::vector<Sensor>& sensors,
                       const Solution& solution) {
   if (!solution.converged) return "the iteration did not converge";
   if (solution.states.empty()) return "no epoch was estimated";
+  for (std::size_t k = 0; k < solution.states.size(); ++k) {
+    if (!solution.states[k].p_e.allFinite() ||
+        !solution.covariances.Get(k).allFinite()) {
+      return Words("%s from %.1f s on are not finite", "states or covariances",
+                   solution.states[k].t, 0.0);
+    }
+  }
   const double duration = solution.states.back().t - solution.states.front().t;
   for (const UnobservedSpan& span : solution.unobserved) {
     // A forward filter need not know everything from its first second on.

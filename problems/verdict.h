@@ -19,15 +19,15 @@ std::vector<ConstantEstimate> EstimateConstants(const Solution& solution);
 std::vector<UnobservedSpan> FindUnobserved(const Solution& solution);
 
 /// Fills `constants`, `unobserved`, `usable` and `verdict`. Not usable: an
-/// iteration that did not converge, a navigation state unobserved over half of
-/// the interval, a sensor whose measurements were refused
-/// (problems/refusals.h), or one whose accepted residuals are, in the root mean
-/// square, more than five times the sigma the model gives them - then the model
-/// or its noise is wrong, and with them every sigma of the solution.
-/// What `known` names as unobserved is so for every method, whatever its own
-/// covariances say; `objection`, if not empty, is a reason that goes before
-/// these. The verdict of a usable solution names the constants that are kept at
-/// their priors.
+/// iteration that did not converge, states or covariances that are not finite,
+/// a navigation state unobserved over half of the interval, a sensor whose
+/// measurements were refused (problems/refusals.h), or one whose accepted
+/// residuals are, in the root mean square, more than five times the sigma the
+/// model gives them - then the model or its noise is wrong, and with them every
+/// sigma of the solution. What `known` names as unobserved is so for every
+/// method, whatever its own covariances say; `objection`, if not empty, is a
+/// reason that goes before these. The verdict of a usable solution names the
+/// constants that are kept at their priors.
 void Conclude(const std::vector<Sensor>& sensors,
               const std::vector<UnobservedSpan>& known,
               const std::string& objection, Solution* solution);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "problems/reconstruction.h"
 #include "simulation/in_flight_alignment.h"
 
@@ -45,6 +47,18 @@ TEST(Verdict, SaysNothingOfConstantsWhereAllAreObserved) {
   const Solution solution = Solve(dataset, {});
   EXPECT_TRUE(KeptAtPriors(solution).empty());
   EXPECT_EQ(solution.verdict, kObserved);
+}
+
+TEST(Verdict, WhatIsNotFiniteIsNotUsable) {
+  const Dataset dataset = Simulate(InFlightAlignment({}), 1);
+  Solution solution = Solve(dataset, {});
+  ASSERT_TRUE(solution.usable);
+  ErrorMatrix P = solution.covariances.Get(3);
+  P(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  solution.covariances.Set(3, P);
+  Conclude({}, {}, "", &solution);
+  EXPECT_FALSE(solution.usable);
+  EXPECT_NE(solution.verdict.find("not finite"), std::string::npos);
 }
 
 }  // namespace
