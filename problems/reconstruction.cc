@@ -157,9 +157,16 @@ struct Reconstruction::Impl {
         Method::kGatedEkf, ProcessorSeconds() - t0);
   }
 
+  /// Questions every position sensor.
+  SensorImm MakeImm() const {
+    const Start& start = forward.start();
+    return MakeSensorImm(WithoutTrustIn(start.position_sensor, start),
+                         forward.timeline());
+  }
+
   Solution RunImmMethod(Method method) {
     const double t0 = ProcessorSeconds();
-    SensorImm imm = MakeSensorImm(forward.start(), forward.timeline());
+    SensorImm imm = MakeImm();
     const EpochCallback progress = forward.Progress("imm");
     Solution solution =
         method == Method::kImm
@@ -187,13 +194,14 @@ struct Reconstruction::Impl {
     }
     // The EKF's trajectory may be so far off after an outlier that a
     // linearisation about it is of no use.
-    SensorImm imm = MakeSensorImm(forward.start(), forward.timeline());
+    SensorImm imm = MakeImm();
     const ImmSmoothed rough =
         SmoothSensorImm(&imm, forward.Progress("robust_batch")).smoothed;
-    RobustBatchResult result = SolveRobustBatch(
-        forward.start().layout, forward.start().prior, rough.trajectory.states,
-        receiver, forward.timeline(), used, MakeBatchOptions(),
-        forward.Progress("robust_batch"));
+    const Start start = WithoutTrustIn(receiver, forward.start());
+    RobustBatchResult result =
+        SolveRobustBatch(start.layout, start.prior, rough.trajectory.states,
+                         receiver, forward.timeline(), used, MakeBatchOptions(),
+                         forward.Progress("robust_batch"));
     Solution solution = SmoothedSolution(
         result.layout, result.timeline, std::move(result.batch.states),
         std::move(result.batch.P), result.decisions);
@@ -207,7 +215,7 @@ struct Reconstruction::Impl {
     solution.iterations = result.batch.iterations;
     solution.converged = result.batch.converged;
     solution.mode_probabilities = std::move(result.probabilities);
-    solution.mode_names = {"good", "biased", "drifting"};
+    solution.mode_names = {"good", "biased", "drifting", "slight"};
     solution.notes = std::move(result.notes);
     return Finish(std::move(solution), Method::kRobustBatch,
                   ProcessorSeconds() - t0);

@@ -217,7 +217,11 @@ class StartFinder {
     // it twice.
     p_sigma_ = 3.0 * fix.R_n.diagonal().cwiseSqrt();
     p_sigma_.array() += swing + 1.0;
-    if (given().position_sigma) p_sigma_ = *given().position_sigma;
+    if (given().position_sigma) {
+      p_sigma_ = *given().position_sigma;
+    } else {
+      position_sensor_ = fix.sensor;
+    }
     report_.position = Words("position fix at t = %.2f s", fix.t);
   }
 
@@ -265,6 +269,7 @@ class StartFinder {
     }
     Report(known);
     start.report = report_;
+    start.position_sensor = position_sensor_;
     return start;
   }
 
@@ -297,6 +302,7 @@ class StartFinder {
   double t_ = 0.0;
   AlignedAttitude attitude_;
   Eigen::Vector3d position_e_ = Eigen::Vector3d::Zero();
+  int position_sensor_ = -1;
   Eigen::Vector3d v_n_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d euler_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d b_g_ = Eigen::Vector3d::Zero();
@@ -308,6 +314,15 @@ class StartFinder {
 };
 
 }  // namespace
+
+Start WithoutTrustIn(int sensor, Start start) {
+  constexpr double kLargestError = 1e3;
+  if (sensor < 0 || sensor != start.position_sensor) return start;
+  const int p = start.layout.Find(BlockKind::kPosition)->offset;
+  start.prior.P.diagonal().segment<3>(p).array() +=
+      kLargestError * kLargestError;
+  return start;
+}
 
 Start FindStart(const Dataset& dataset, double from, double to) {
   return StartFinder(dataset, from, to).Find();

@@ -30,7 +30,14 @@ struct Start {
   StartReport report;
   ErrorLayout layout;
   Prior prior;
+  /// Index of the sensor whose fix gave the position and its sigma; -1: given.
+  int position_sensor = -1;
 };
+
+/// The start for a method that does not take a sensor at its word: if the
+/// position is that of its fix, with 1 km added to the sigma of each axis, so
+/// that an error which the sensor begins with does not stay for good.
+Start WithoutTrustIn(int sensor, Start start);
 
 /// Neither the configuration nor the data say where the data set begins.
 class NoInitialPosition : public EstimationError {

@@ -69,6 +69,26 @@ TEST(Start, PriorCovarianceIsThatOfTheReport) {
               1e-3 * s.z() * s.z());
 }
 
+TEST(Start, PositionOfAFixIsWideForWhoDoesNotTrustItsSensor) {
+  Dataset dataset = Simulate(FromRest(), 1);
+  const Start start = FindWholeStart(dataset);
+  const int gnss = start.position_sensor;
+  ASSERT_GE(gnss, 0);
+  EXPECT_EQ(dataset.streams[static_cast<std::size_t>(gnss)].sensor.type,
+            SensorType::kPosition);
+  const Start wide = WithoutTrustIn(gnss, start);
+  const int p = start.layout.Find(BlockKind::kPosition)->offset;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(wide.prior.P(p + i, p + i), start.prior.P(p + i, p + i) + 1e6,
+                1e-6);
+  }
+  EXPECT_EQ(WithoutTrustIn(gnss + 1, start).prior.P, start.prior.P);
+  dataset.initial.position = GeodeticFromEcef(start.report.state.p_e);
+  const Start given = FindWholeStart(dataset);
+  EXPECT_EQ(given.position_sensor, -1);
+  EXPECT_EQ(WithoutTrustIn(gnss, given).prior.P, given.prior.P);
+}
+
 TEST(Start, GivenValuesAreTakenAsTheyAre) {
   Dataset dataset = Simulate(FromRest(), 1);
   dataset.initial.t = 3.0;
