@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "filters/history_refinement.h"
 #include "filters/history_smoother.h"
 #include "problems/error_tuning.h"
+#include "problems/history_attempts.h"
 
 namespace hindsight {
 namespace {
@@ -33,7 +37,7 @@ double Criterion(const RegimeProblem& problem, ErrorRegimes::Kind kind,
                  double log_posterior) {
   const int parameters = kind == ErrorRegimes::Kind::kWhite         ? 3
                          : kind == ErrorRegimes::Kind::kGaussMarkov ? 5
-                                                                    : 6;
+                                                                    : 7;
   return log_posterior -
          0.5 * parameters * std::log(std::max(2, FixCount(problem)));
 }
@@ -57,103 +61,64 @@ ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
   return out;
 }
 
-bool IsGood(const ErrorHistory& history) {
-  return std::all_of(history.begin(), history.end(), [](const ErrorStep& s) {
-    return s.mode == ErrorMode::kGood;
-  });
-}
-
-/// Where the search for histories begins: errors of several sizes, short or
-/// lasting.
-std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
-                                    const ErrorParameters& white) {
-  constexpr double kRateTime = 100.0;
-  std::vector<ErrorParameters> starts;
-  for (const auto& [size, tau] : {std::pair{5.0, 1e8},
-                                  {5.0, 30.0},
-                                  {50.0, 1e8},
-                                  {50.0, 30.0},
-                                  {500.0, 1e8}}) {
-    ErrorParameters& p = starts.emplace_back(white);
-    p.sigma = size * problem.stated_sigma;
-    p.tau = tau;
-    p.rate_sigma = p.sigma / kRateTime;
-  }
-  return starts;
-}
-
-struct Attempt {
-  ErrorParameters parameters;
-  ScoredHistory found;
-};
-
-/// The most promising starts by a narrow search.
-std::vector<Attempt> BestAttempts(const RegimeProblem& problem,
-                                  const ErrorParameters& white) {
-  constexpr std::size_t kNarrow = 1;
-  constexpr std::size_t kMost = 2;
-  constexpr double kLeastLog = 15.0;
-  std::vector<Attempt> attempts;
-  for (const ErrorParameters& start : Starts(problem, white)) {
-    attempts.push_back(
-        {start, SearchHistories(problem.tape, problem.receiver, start, kNarrow)
-                    .front()});
-  }
-  std::sort(attempts.begin(), attempts.end(), [](const auto& a, const auto& b) {
-    return a.found.log_posterior > b.found.log_posterior;
-  });
-  const double least = attempts.front().found.log_posterior - kLeastLog;
-  std::vector<Attempt> best;
-  for (Attempt& attempt : attempts) {
-    if (best.size() == kMost || attempt.found.log_posterior < least) break;
-    if (IsGood(attempt.found.history)) continue;
-    if (!best.empty() && best.back().found.history == attempt.found.history) {
-      continue;
-    }
-    best.push_back(std::move(attempt));
-  }
-  return best;
-}
-
 /// Of inliers and outliers together.
 double MeanScale(const ErrorParameters& p) {
   const double ratio = p.outlier_ratio * p.outlier_ratio;
   return p.scale * std::sqrt(1.0 + p.outlier_share * (ratio - 1.0));
 }
 
-/// The same with the noise that goes with the best of them: to a fit of white
-/// errors biases look like noise and outliers.
-std::vector<Attempt> AttemptsWithNoise(const RegimeProblem& problem,
-                                       ErrorParameters start) {
-  std::vector<Attempt> attempts = BestAttempts(problem, start);
-  if (attempts.empty()) return attempts;
-  const ErrorParameters tuned =
-      Tune(problem, attempts[0].found.history, attempts[0].parameters);
-  const auto near = [](double a, double b, double factor) {
-    return a < factor * b && b < factor * a;
-  };
-  if (near(tuned.scale, start.scale, 1.1) &&
-      near(tuned.outlier_share, start.outlier_share, 3.0)) {
-    return attempts;
-  }
-  start.scale = tuned.scale;
-  start.outlier_share = tuned.outlier_share;
-  start.outlier_ratio = tuned.outlier_ratio;
-  return BestAttempts(problem, start);
-}
-
-ErrorRegimes FitSwitching(const RegimeProblem& problem,
-                          const Attempt& attempt) {
+/// Climbs from an attempt; `all` may be nearer to the end of the climb than
+/// what a wider search finds.
+ErrorRegimes FitSwitching(const RegimeProblem& problem, const Attempt& attempt,
+                          const std::vector<Attempt>& all) {
   const auto& [tape, receiver, stated, only_white] = problem;
   ErrorRegimes out;
   out.kind = ErrorRegimes::Kind::kSwitching;
   out.parameters = attempt.parameters;
-  for (int i = 0; i < 2; ++i) {
-    out.histories = SearchHistories(tape, receiver, out.parameters);
-    out.parameters = Tune(problem, out.best(), out.parameters);
+  std::vector<ScoredHistory> from =
+      SearchHistories(tape, receiver, out.parameters);
+  for (const Attempt& other : all) from.push_back({other.history});
+  const ErrorHistory best =
+      ClimbHistories(tape, receiver, out.parameters, from);
+  out.parameters = Tune(problem, best, out.parameters);
+  out.histories = RefineHistories(tape, receiver, out.parameters, {{best}});
+  out.criterion =
+      Criterion(problem, out.kind, out.histories.front().log_posterior);
+  return out;
+}
+
+/// Fits the best history that tells another story than any of `fits`: where it
+/// was met the parameters are those of its rival.
+std::optional<ErrorRegimes> FitNextRival(
+    const RegimeProblem& problem, const std::vector<ErrorRegimes>& fits) {
+  constexpr double kLeastLog = 8.0;
+  std::vector<std::vector<ErrorMode>> told;
+  double best = -std::numeric_limits<double>::infinity();
+  for (const ErrorRegimes& fit : fits) {
+    told.push_back(StoryOf(fit.best()));
+    best = std::max(best, fit.histories.front().log_posterior);
   }
+  const ScoredHistory* rival = nullptr;
+  const ErrorRegimes* from = nullptr;
+  double least = best - kLeastLog;
+  for (const ErrorRegimes& fit : fits) {
+    for (const ScoredHistory& one : fit.histories) {
+      if (one.log_posterior <= least) break;
+      if (std::find(told.begin(), told.end(), StoryOf(one.history)) !=
+          told.end()) {
+        continue;
+      }
+      rival = &one;
+      from = &fit;
+      least = one.log_posterior;
+    }
+  }
+  if (rival == nullptr) return std::nullopt;
+  ErrorRegimes out;
+  out.kind = ErrorRegimes::Kind::kSwitching;
+  out.parameters = Tune(problem, rival->history, from->parameters);
   out.histories =
-      RefineHistories(tape, receiver, out.parameters, out.histories);
+      RefineHistories(problem.tape, problem.receiver, out.parameters, {*rival});
   out.criterion =
       Criterion(problem, out.kind, out.histories.front().log_posterior);
   return out;
@@ -173,12 +138,15 @@ ErrorRegimes Best(std::vector<ErrorRegimes> all) {
     const double own =
         all[i].histories.front().log_posterior - all[i].criterion;
     for (ScoredHistory& h : all[i].histories) {
-      const bool known =
-          std::any_of(best.histories.begin(), best.histories.end(),
-                      [&](const auto& b) { return b.history == h.history; });
-      if (known) continue;
-      best.histories.push_back(
-          {std::move(h.history), h.log_posterior - own + level, h.count});
+      const double log_posterior = h.log_posterior - own + level;
+      const auto known =
+          std::find_if(best.histories.begin(), best.histories.end(),
+                       [&](const auto& b) { return b.history == h.history; });
+      if (known != best.histories.end()) {
+        known->log_posterior = std::max(known->log_posterior, log_posterior);
+        continue;
+      }
+      best.histories.push_back({std::move(h.history), log_posterior, h.count});
     }
   }
   std::stable_sort(best.histories.begin(), best.histories.end(),
@@ -209,9 +177,18 @@ ErrorRegimes ChooseRegimes(const RegimeProblem& problem) {
     start.tau = 100.0;
     all.push_back(FitUniform(problem, ErrorRegimes::Kind::kGaussMarkov, start));
     start.scale = std::min(start.scale, MeanScale(all[1].parameters));
-    for (const Attempt& attempt : AttemptsWithNoise(problem, start)) {
-      all.push_back(FitSwitching(problem, attempt));
+    const std::vector<Attempt> attempts = MakeAttempts(problem, start);
+    std::vector<ErrorRegimes> fits;
+    for (const Attempt& attempt : BestAttempts(problem, attempts)) {
+      fits.push_back(FitSwitching(problem, attempt, attempts));
     }
+    constexpr int kMostRivals = 2;
+    for (int i = 0; i < kMostRivals && !fits.empty(); ++i) {
+      std::optional<ErrorRegimes> rival = FitNextRival(problem, fits);
+      if (!rival) break;
+      fits.push_back(std::move(*rival));
+    }
+    std::move(fits.begin(), fits.end(), std::back_inserter(all));
   }
   return Best(std::move(all));
 }

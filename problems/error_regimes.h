@@ -47,7 +47,8 @@ struct RegimeProblem {
 /// likelihood of the fixes, a mixture of two normal densities each (as in
 /// Pfeifer and Protzel, ICRA 2019), under weak priors that keep what the data
 /// do not show near its start. Histories are sought from several sizes of
-/// errors, and sought again with the parameters fitted to what was found.
+/// errors, in turn with fits of the parameters to what was found; the best that
+/// tell different stories are refined, each with parameters of its own.
 ErrorRegimes ChooseRegimes(const RegimeProblem& problem);
 
 }  // namespace hindsight

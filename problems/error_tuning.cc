@@ -25,14 +25,22 @@ std::vector<Tunable> TunablesOf(const ErrorHistory& history,
       {&ErrorParameters::outlier_share, 1e-3, 0.4, 0.02, 1.5},
       {&ErrorParameters::outlier_ratio, 3.0, 1000.0, 10.0, 1.5}};
   bool biased = false;
+  bool slight = false;
   bool drifting = false;
   for (const ErrorStep& step : history) {
     biased |= step.mode == ErrorMode::kBiased;
+    slight |= step.mode == ErrorMode::kSlight;
     drifting |= step.mode == ErrorMode::kDrifting || step.jolt;
   }
   if (biased) {
     out.push_back({&ErrorParameters::tau, 0.1, 1e9, from.tau, 2.3});
     out.push_back({&ErrorParameters::sigma, 1e-4, 1e5, from.sigma, 2.3});
+  }
+  if (slight) {
+    out.push_back(
+        {&ErrorParameters::slight_tau, 0.1, 1e9, from.slight_tau, 2.3});
+    out.push_back(
+        {&ErrorParameters::slight_sigma, 1e-4, 1e5, from.slight_sigma, 1.0});
   }
   if (drifting) {
     out.push_back(

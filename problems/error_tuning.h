@@ -7,7 +7,7 @@ namespace hindsight {
 
 /// The parameters that maximise the likelihood of a history's fixes times their
 /// prior, from `from` on: scale, share and ratio of outliers, and, where the
-/// history has them, sigma and tau of biases and the sigma of rates. The prior
+/// history has them, sigmas and tau of biases and the sigma of rates. The prior
 /// is normal in the logarithm of each, so weak that it only keeps what the data
 /// do not show.
 ///

@@ -14,7 +14,9 @@ struct HistoryAlternative {
   std::vector<ErrorVector> smoothed;  ///< SmoothHistory of it
 };
 
-/// The likeliest histories of the regimes, at most 24.
+/// The likeliest histories of the regimes, at most 24, of each story (StoryOf)
+/// at most 8, which have the weight of all that tell it: one story with many
+/// possible times does not drive out another.
 std::vector<HistoryAlternative> WeighHistories(const LinearTape& tape,
                                                int receiver,
                                                const ErrorRegimes& regimes);

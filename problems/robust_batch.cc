@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "problems/history_alternatives.h"
+#include "problems/history_words.h"
 
 namespace hindsight {
 namespace {
@@ -45,9 +46,11 @@ class RobustProblem {
   /// history has them.
   void Extend(const Sensor& sensor) {
     if (!HasError()) return;
-    const bool starts_biased = steps_.front().mode != ErrorMode::kGood;
-    const double sigma =
-        std::max(floor_, starts_biased ? regimes_.parameters.sigma : 0.0);
+    const ErrorMode first = steps_.front().mode;
+    const double sigma = std::max(floor_, first == ErrorMode::kGood ? 0.0
+                                          : first == ErrorMode::kSlight
+                                              ? regimes_.parameters.slight_sigma
+                                              : regimes_.parameters.sigma);
     AddBlock(BlockKind::kColouredNoise, sensor.name + "_error", "m", sigma);
     if (HasRate()) {
       AddBlock(BlockKind::kErrorRate, sensor.name + "_error_rate", "m/s",
@@ -149,7 +152,7 @@ void AddAlternatives(int dim, const std::vector<HistoryAlternative>& all,
                      const HistoryAlternative& chosen,
                      RobustBatchResult* result) {
   const std::size_t nodes = chosen.steps.size();
-  result->probabilities.assign(nodes, Eigen::VectorXd::Zero(3));
+  result->probabilities.assign(nodes, Eigen::VectorXd::Zero(4));
   for (std::size_t k = 0; k < nodes; ++k) {
     for (const HistoryAlternative& one : all) {
       result->probabilities[k](static_cast<int>(one.steps[k].mode)) +=
@@ -177,12 +180,36 @@ std::vector<std::string> Notes(const std::string& sensor,
                   sensor.c_str(), p.sigma, p.tau);
     notes.emplace_back(text);
   }
+  if (regimes.Has(ErrorMode::kSlight)) {
+    std::snprintf(text, sizeof(text), "%s: slight errors of %.3g m",
+                  sensor.c_str(), p.slight_sigma);
+    notes.emplace_back(text);
+  }
   if (regimes.Has(ErrorMode::kDrifting)) {
     std::snprintf(text, sizeof(text), "%s: errors that grow by %.3g m/s",
                   sensor.c_str(), p.rate_sigma);
     notes.emplace_back(text);
   }
   return notes;
+}
+
+/// What happened, and what else may have, as far as it matters.
+void TellHistory(const LinearTape& tape, const std::string& sensor,
+                 const std::vector<HistoryAlternative>& all,
+                 const HistoryAlternative& chosen, RobustBatchResult* result) {
+  constexpr double kWorthTelling = 1e-3;
+  if (result->regimes.kind != ErrorRegimes::Kind::kSwitching) return;
+  std::vector<double> times;
+  for (std::size_t k = 0; k < tape.size(); ++k)
+    times.push_back(tape.epoch(k).t);
+  result->notes.push_back(sensor + ": " + DescribeHistory(chosen.steps, times));
+  const RivalHistory rival = FindRival(all, chosen, result->batch.P);
+  if (rival.probability < kWorthTelling) return;
+  char text[120];
+  std::snprintf(text, sizeof(text),
+                "%s: or, with a probability of %.2g %%, up to %.3g m away: ",
+                sensor.c_str(), 100.0 * rival.probability, rival.distance);
+  result->notes.push_back(text + DescribeHistory(rival.history->steps, times));
 }
 
 }  // namespace
@@ -208,7 +235,7 @@ RobustBatchResult SolveRobustBatch(const ErrorLayout& layout,
   const std::vector<HistoryAlternative> alternatives =
       WeighHistories(tape, receiver, regimes);
   const HistoryAlternative& chosen = MostCentral(alternatives);
-  const Sensor& sensor = timeline.sensors()[static_cast<std::size_t>(receiver)];
+  const Sensor sensor = timeline.sensors()[static_cast<std::size_t>(receiver)];
   RobustProblem problem(tape, layout, prior, receiver, stated, regimes,
                         chosen.steps);
   problem.Extend(sensor);
@@ -226,6 +253,7 @@ RobustBatchResult SolveRobustBatch(const ErrorLayout& layout,
                            std::move(timeline), decisions,
                            std::move(regimes),  {},
                            std::move(notes)};
+  TellHistory(tape, sensor.name, alternatives, chosen, &result);
   AddAlternatives(tape.dim(), alternatives, chosen, &result);
   return result;
 }

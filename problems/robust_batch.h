@@ -17,7 +17,8 @@ struct RobustBatchResult {
   Timeline timeline;
   GateDecisions decisions;
   ErrorRegimes regimes;
-  /// Probabilities of the modes "good", "biased", "drifting", by node.
+  /// Probabilities of the modes "good", "biased", "drifting", "slight", by
+  /// node.
   std::vector<Eigen::VectorXd> probabilities;
   std::vector<std::string> notes;  ///< what was found, in words
 

@@ -55,7 +55,10 @@ void ErrorChain::MoveTo(std::size_t k) {
   fix_ = -1;
   for (const TapeMeasurement& z : tape_.measurements(k)) {
     if (!z.accepted || z.withheld) continue;
-    LinearizedMeasurement& wide = z_.emplace_back();
+    // The fix comes first: its likelihood is taken before any update.
+    const bool is_fix = z.sensor == receiver_ && fix_ < 0;
+    if (is_fix) fix_ = 0;
+    LinearizedMeasurement& wide = *z_.emplace(is_fix ? z_.begin() : z_.end());
     wide.residual = z.residual;
     wide.R = z.R;
     wide.H = RowJacobian::Zero(z.H.rows(), dim());
@@ -63,7 +66,6 @@ void ErrorChain::MoveTo(std::size_t k) {
     if (z.sensor != receiver_) continue;
     wide.H.middleCols(navigation_dim_, 3).setIdentity();
     wide.R *= parameters_.scale * parameters_.scale;
-    if (fix_ < 0) fix_ = static_cast<int>(z_.size()) - 1;
   }
 }
 

@@ -11,10 +11,22 @@ namespace {
 constexpr ErrorStep kStayGood = {ErrorMode::kGood};
 constexpr ErrorStep kGoOnBiased = {ErrorMode::kBiased};
 constexpr ErrorStep kJump = {ErrorMode::kBiased, true};
+constexpr ErrorStep kGoOnSlight = {ErrorMode::kSlight};
+constexpr ErrorStep kSlightJump = {ErrorMode::kSlight, true};
 constexpr ErrorStep kGoOnDrifting = {ErrorMode::kDrifting};
 constexpr ErrorStep kBeginDrift = {ErrorMode::kDrifting, true};
 
 }  // namespace
+
+std::vector<ErrorMode> StoryOf(const ErrorHistory& history) {
+  std::vector<ErrorMode> story;
+  ErrorMode mode = ErrorMode::kGood;
+  for (const ErrorStep& step : history) {
+    if (step.anew || step.mode != mode) story.push_back(step.mode);
+    mode = step.mode;
+  }
+  return story;
+}
 
 ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt) {
   ErrorDynamics d;
@@ -23,9 +35,14 @@ ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt) {
     case ErrorMode::kGood:
       break;
     case ErrorMode::kBiased:
-      d.ee = step.anew ? 0.0 : std::exp(-dt / p.tau);
-      d.q_ee = p.sigma * p.sigma * (1.0 - d.ee * d.ee);
+    case ErrorMode::kSlight: {
+      const bool slight = step.mode == ErrorMode::kSlight;
+      const double sigma = slight ? p.slight_sigma : p.sigma;
+      const double tau = slight ? p.slight_tau : p.tau;
+      d.ee = step.anew ? 0.0 : std::exp(-dt / tau);
+      d.q_ee = sigma * sigma * (1.0 - d.ee * d.ee);
       break;
+    }
     case ErrorMode::kDrifting: {
       const double rate = p.rate_sigma * p.rate_sigma;
       d.ee = 1.0;
@@ -48,36 +65,43 @@ double LogTransition(ErrorMode before, ErrorStep step, int fixes) {
   // has 45.
   constexpr double kEnd = 4.0;    // a bias or drift ends, the receiver is good
   constexpr double kJumps = 1.0;  // a good receiver becomes biased
-  constexpr double kDrifts = 0.05;  // a good receiver begins to drift
-  constexpr double kStops = 0.05;   // a drift stops, its error stays
+  constexpr double kSlights = 1.0;  // a receiver becomes slightly biased
+  constexpr double kDrifts = 0.2;   // a good receiver begins to drift
+  constexpr double kStops = 0.2;    // a drift stops, its error stays
   constexpr double kJolts = 2.0;    // the velocity of the IMU jumps
   constexpr double kChanges = 3.0;  // a biased receiver jumps to another bias
   constexpr double kBends = 0.001;  // a drifting one gets another rate
   const double once = 1.0 / std::max(fixes, 20);
   const bool good = before == ErrorMode::kGood;
-  const double jumps = good ? kJumps : kChanges;
-  const double drifts = good ? kDrifts : kBends;
+  const bool small = good || before == ErrorMode::kSlight;
+  const double jumps = small ? kJumps : kChanges;
+  const double drifts = small ? kDrifts : kBends;
   const double stops = before == ErrorMode::kDrifting ? kStops : 0.0;
   const double ends = good ? 0.0 : kEnd;
   if (step == kJump) return std::log(jumps * once);
+  if (step == kSlightJump) return std::log(kSlights * once);
   if (step == kBeginDrift) return std::log(drifts * once);
   if (step.jolt) return std::log(kJolts * once);
   if (step.mode == before) {
-    return std::log1p(-(jumps + drifts + stops + ends + kJolts) * once);
+    return std::log1p(-(jumps + kSlights + drifts + stops + ends + kJolts) *
+                      once);
   }
   if (step == kStayGood) return std::log(kEnd * once);
-  return std::log((good ? kDrifts : kStops) * once);
+  return std::log(kStops * once);
 }
 
 std::vector<ErrorStep> StepsAfter(ErrorMode before) {
   const ErrorStep jolt = {before, false, true};
   switch (before) {
     case ErrorMode::kGood:
-      return {kStayGood, jolt, kJump, kBeginDrift};
+      return {kStayGood, jolt, kJump, kSlightJump, kBeginDrift};
     case ErrorMode::kBiased:
-      return {kGoOnBiased, jolt, kStayGood, kJump, kBeginDrift};
+      return {kGoOnBiased, jolt, kStayGood, kJump, kSlightJump, kBeginDrift};
+    case ErrorMode::kSlight:
+      return {kGoOnSlight, jolt, kStayGood, kJump, kSlightJump, kBeginDrift};
     case ErrorMode::kDrifting:
-      return {kGoOnDrifting, jolt, kStayGood, kGoOnBiased, kJump, kBeginDrift};
+      return {kGoOnDrifting, jolt,        kStayGood,  kGoOnBiased,
+              kJump,         kSlightJump, kBeginDrift};
   }
   return {};
 }

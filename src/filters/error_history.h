@@ -9,9 +9,10 @@ namespace hindsight {
 
 /// What a position receiver's error is at a fix, beyond white noise.
 enum class ErrorMode : char {
-  kGood,     ///< none
-  kBiased,   ///< e, a Gauss-Markov process
-  kDrifting  ///< e grows at a rate r that hardly changes
+  kGood,      ///< none
+  kBiased,    ///< e, a Gauss-Markov process
+  kDrifting,  ///< e grows at a rate r that hardly changes
+  kSlight     ///< as kBiased, but for a smaller sigma
 };
 
 /// How the error came to a fix from the one before it. `anew`: of a bias, e is
@@ -29,12 +30,18 @@ struct ErrorStep {
 /// A step for each node that has a fix of the receiver, in order.
 using ErrorHistory = std::vector<ErrorStep>;
 
+/// The modes of a history in their order, whatever their times: the story that
+/// it tells.
+std::vector<ErrorMode> StoryOf(const ErrorHistory& history);
+
 struct ErrorParameters {
   double scale = 1.0;           ///< on the stated sigma of a fix
   double outlier_share = 0.02;  ///< of the fixes
   double outlier_ratio = 10.0;  ///< sigma of an outlier, by that of others
   double sigma = 10.0;          ///< of a bias, an axis [m]
   double tau = 1000.0;          ///< its correlation time [s]
+  double slight_sigma = 2.0;    ///< of a slight bias: receivers have both
+  double slight_tau = 100.0;    ///< its correlation time [s]
   double rate_sigma = 0.1;      ///< of a drift, and of a jolt, an axis [m/s]
 };
 

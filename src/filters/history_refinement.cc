@@ -2,95 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "filters/history_smoother.h"
+#include "filters/history_splice.h"
+#include "filters/history_variations.h"
 
 namespace hindsight {
 namespace {
 
 /// Histories less likely than the best by this are left out [ln].
 constexpr double kLeastPosterior = 10.0;
-/// Fixes of the shortest earlier bias that is looked for, and the ratio of the
-/// lengths that are.
-constexpr std::size_t kShortest = 5;
-constexpr double kLengthRatio = 1.25;
-/// Of the search's histories, whose weights have those of merged ones in them,
-/// so many are scored on their own.
-constexpr std::size_t kMostRescored = 8;
+/// A history whose filter breaks down.
+constexpr double kImpossible = -1e300;
 /// Rounds of variations, if a climb does not rest before.
-constexpr int kMostRounds = 6;
+constexpr int kMostRounds = 20;
+/// Variations of a round that together may be better still are so many fixes
+/// apart.
+constexpr std::size_t kApart = 10;
 
-ErrorMode ModeBefore(const ErrorHistory& h, std::size_t i) {
-  return i == 0 ? ErrorMode::kGood : h[i - 1].mode;
-}
+/// Fixes at which two histories differ, first and past the last.
+struct Stretch {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
 
-/// Fixes at which something changes, and the end.
-std::vector<std::size_t> Changes(const ErrorHistory& h) {
-  std::vector<std::size_t> at;
-  for (std::size_t i = 0; i < h.size(); ++i) {
-    if (h[i].anew || h[i].jolt || h[i].mode != ModeBefore(h, i))
-      at.push_back(i);
+Stretch WhereTheyDiffer(const ErrorHistory& a, const ErrorHistory& b) {
+  Stretch out{a.size(), 0};
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i] == b[i]) continue;
+    out.begin = std::min(out.begin, i);
+    out.end = i + 1;
   }
-  at.push_back(h.size());
-  return at;
-}
-
-/// Fills [begin, end) with what goes on in a mode.
-void GoOn(ErrorMode mode, std::size_t begin, std::size_t end, ErrorHistory* h) {
-  for (std::size_t i = begin; i < end; ++i) (*h)[i] = {mode};
-}
-
-/// The history with its change at `from`, between `first` and `end`, at `to`.
-ErrorHistory Moved(ErrorHistory h, std::size_t from, std::size_t to) {
-  const ErrorStep step = h[from];
-  GoOn(ModeBefore(h, from), from, to, &h);
-  GoOn(step.mode, to, from + 1, &h);
-  h[to] = step;
-  return h;
-}
-
-ErrorHistory WithSegment(ErrorHistory h, std::size_t begin, std::size_t end,
-                         ErrorStep step) {
-  GoOn(step.mode, begin, end, &h);
-  h[begin] = step;
-  return h;
-}
-
-/// From change c on the receiver is good and the IMU jolts instead.
-ErrorHistory WithJolts(ErrorHistory h, const std::vector<std::size_t>& at,
-                       std::size_t c) {
-  const bool returns = ModeBefore(h, at[c]) != ErrorMode::kGood;
-  GoOn(ErrorMode::kGood, at[c], h.size(), &h);
-  for (std::size_t i = returns ? c + 1 : c; i + 1 < at.size(); ++i) {
-    h[at[i]].jolt = true;
-  }
-  return h;
-}
-
-std::vector<ErrorHistory> Variations(const ErrorHistory& h) {
-  std::vector<ErrorHistory> all;
-  const std::vector<std::size_t> at = Changes(h);
-  for (std::size_t c = 0; c + 1 < at.size(); ++c) {
-    const std::size_t least = c == 0 ? 0 : at[c - 1] + 1;
-    for (const std::size_t shift : {1u, 2u, 4u, 8u}) {
-      if (at[c] >= least + shift) {
-        all.push_back(Moved(h, at[c], at[c] - shift));
-      }
-      if (at[c] + shift < at[c + 1]) {
-        all.push_back(Moved(h, at[c], at[c] + shift));
-      }
-    }
-    for (const ErrorStep step : StepsAfter(ModeBefore(h, at[c]))) {
-      all.push_back(WithSegment(h, at[c], at[c + 1], step));
-    }
-    all.push_back(WithJolts(h, at, c));
-    // An error too small to be found alone may have come before a larger one.
-    for (std::size_t length = kShortest; at[c] >= least + length; length *= 2) {
-      all.push_back(
-          WithSegment(h, at[c] - length, at[c], {ErrorMode::kBiased, true}));
-    }
-  }
-  return all;
+  return out;
 }
 
 class Refinement {
@@ -99,46 +42,30 @@ class Refinement {
              const ErrorParameters& parameters)
       : tape_(tape), receiver_(receiver), parameters_(parameters) {}
 
-  void Try(const ErrorHistory& history, double count = 1.0) {
-    for (ScoredHistory& one : met_) {
-      if (one.history != history) continue;
-      one.count = std::max(one.count, count);
-      return;
-    }
-    const HistoryScore score =
-        ScoreHistory(tape_, receiver_, parameters_, history);
-    met_.push_back({history, score.log_likelihood + score.log_prior, count});
-    if (met_.back().log_posterior > met_[best_].log_posterior) {
-      best_ = met_.size() - 1;
-    }
+  /// Weights that a search gives have those of merged histories in them: each
+  /// is scored on its own.
+  void Begin(const std::vector<ScoredHistory>& found) {
+    splice_.emplace(tape_, receiver_, parameters_, found.front().history);
+    for (const ScoredHistory& one : found) Try(one.history, one.count);
   }
 
   void Climb() {
     for (int round = 0; round < kMostRounds; ++round) {
-      const std::size_t before = best_;
-      for (const ErrorHistory& h : Variations(met_[best_].history)) Try(h);
-      if (best_ == before) break;
-    }
-  }
-
-  /// An error too small to be found alone may have begun at any time before a
-  /// larger one: each time is unlikely, all together may not be.
-  void TryEarlierBiases() {
-    const ErrorHistory best = met_[best_].history;
-    const std::vector<std::size_t> at = Changes(best);
-    for (std::size_t c = 0; c + 1 < at.size(); ++c) {
-      const std::size_t least = c == 0 ? 0 : at[c - 1] + 1;
-      std::size_t next = 0;
-      for (std::size_t length = kShortest; at[c] >= least + length;
-           length = next) {
-        next = static_cast<std::size_t>(
-            std::ceil(kLengthRatio * static_cast<double>(length)));
-        Try(WithSegment(best, at[c] - length, at[c],
-                        {ErrorMode::kBiased, true}),
-            static_cast<double>(next - length));
+      const ErrorHistory base = SpliceBest();
+      if (!TryAll(base, Variations(base)) && !TryAll(base, WithOneJolt(base))) {
+        break;
       }
     }
   }
+
+  void TryEarlierErrors() {
+    const ErrorHistory base = SpliceBest();
+    for (const ScoredHistory& one : EarlierErrors(base)) {
+      Try(one.history, one.count);
+    }
+  }
+
+  ErrorHistory Best() const { return met_[best_].history; }
 
   std::vector<ScoredHistory> Result() {
     std::sort(met_.begin(), met_.end(), [](const auto& a, const auto& b) {
@@ -150,24 +77,92 @@ class Refinement {
   }
 
  private:
+  /// Whether one, or several together, are better than the base, the best.
+  bool TryAll(const ErrorHistory& base, const std::vector<ErrorHistory>& all) {
+    const std::size_t before = best_;
+    const double level = met_[best_].log_posterior;
+    const std::size_t first = met_.size();
+    for (const ErrorHistory& h : all) Try(h);
+    if (best_ == before) return false;
+    Try(Together(base, level, first));
+    return true;
+  }
+
+  ErrorHistory SpliceBest() {
+    ErrorHistory best = met_[best_].history;
+    splice_.emplace(tape_, receiver_, parameters_, best);
+    return best;
+  }
+
+  /// The base with the best of the variations met since `first` that leave each
+  /// other alone.
+  ErrorHistory Together(const ErrorHistory& base, double level,
+                        std::size_t first) const {
+    std::vector<const ScoredHistory*> better;
+    for (std::size_t i = first; i < met_.size(); ++i) {
+      if (met_[i].log_posterior > level) better.push_back(&met_[i]);
+    }
+    std::sort(better.begin(), better.end(), [](const auto* a, const auto* b) {
+      return a->log_posterior > b->log_posterior;
+    });
+    ErrorHistory all = base;
+    std::vector<Stretch> taken;
+    for (const ScoredHistory* one : better) {
+      const Stretch at = WhereTheyDiffer(base, one->history);
+      const bool free =
+          std::none_of(taken.begin(), taken.end(), [&](const Stretch& other) {
+            return at.begin < other.end + kApart &&
+                   other.begin < at.end + kApart;
+          });
+      if (!free) continue;
+      taken.push_back(at);
+      for (std::size_t i = at.begin; i < at.end; ++i) all[i] = one->history[i];
+    }
+    return all;
+  }
+
+  void Try(const ErrorHistory& history, double count = 1.0) {
+    for (ScoredHistory& one : met_) {
+      if (one.history != history) continue;
+      one.count = std::max(one.count, count);
+      return;
+    }
+    const HistoryScore score = splice_->Score(history);
+    const double log_posterior = score.log_likelihood + score.log_prior;
+    met_.push_back({history,
+                    std::isfinite(log_posterior) ? log_posterior : kImpossible,
+                    count});
+    if (met_.back().log_posterior > met_[best_].log_posterior) {
+      best_ = met_.size() - 1;
+    }
+  }
+
   const LinearTape& tape_;
   int receiver_;
   const ErrorParameters& parameters_;
+  std::optional<HistorySplice> splice_;
   std::vector<ScoredHistory> met_;
   std::size_t best_ = 0;
 };
 
 }  // namespace
 
+ErrorHistory ClimbHistories(const LinearTape& tape, int receiver,
+                            const ErrorParameters& parameters,
+                            const std::vector<ScoredHistory>& found) {
+  Refinement refinement(tape, receiver, parameters);
+  refinement.Begin(found);
+  refinement.Climb();
+  return refinement.Best();
+}
+
 std::vector<ScoredHistory> RefineHistories(
     const LinearTape& tape, int receiver, const ErrorParameters& parameters,
     const std::vector<ScoredHistory>& found) {
   Refinement refinement(tape, receiver, parameters);
-  for (std::size_t i = 0; i < std::min(kMostRescored, found.size()); ++i) {
-    refinement.Try(found[i].history);
-  }
+  refinement.Begin(found);
   refinement.Climb();
-  refinement.TryEarlierBiases();
+  refinement.TryEarlierErrors();
   return refinement.Result();
 }
 

@@ -5,12 +5,16 @@
 
 namespace hindsight {
 
-/// Climbs from the best of `found` to the most likely history near it - changes
-/// moved by up to eight fixes, left out, of another kind, with a bias before
-/// them, or taken for jolts of the IMU - and returns what was met on the way
+/// Climbs from the best of `found` over Variations, and WithOneJolt where those
+/// do no better, to the most likely history near it. Scores are those of
+/// HistorySplice about the best of the round before.
+ErrorHistory ClimbHistories(const LinearTape& tape, int receiver,
+                            const ErrorParameters& parameters,
+                            const std::vector<ScoredHistory>& found);
+
+/// Climbs, tries EarlierErrors of the best, and returns what was met on the way
 /// and is within 10 of its logarithm, best first: the posterior of when errors
-/// began and ended. Of biases before a larger error lengths a
-/// quarter apart are tried, each of which stands for those up to the next.
+/// began and ended.
 std::vector<ScoredHistory> RefineHistories(
     const LinearTape& tape, int receiver, const ErrorParameters& parameters,
     const std::vector<ScoredHistory>& found);

@@ -57,7 +57,7 @@ class Quota {
 
  private:
   std::size_t most_;
-  std::array<std::array<std::size_t, 33>, 3> kept_ = {};
+  std::array<std::array<std::size_t, 33>, 4> kept_ = {};
 };
 
 double LogSum(double a, double b) {

@@ -162,7 +162,8 @@ HistorySplice::Place HistorySplice::PlaceBefore(std::size_t i) const {
   return place;
 }
 
-HistoryScore HistorySplice::Joined(std::size_t i, const Place& after) const {
+std::optional<HistoryScore> HistorySplice::Joined(std::size_t i,
+                                                  const Place& after) const {
   const Eigen::Index n = chain_.dim();
   const auto column = static_cast<Eigen::Index>(i);
   const auto U = U_.middleCols(n * column, n);
@@ -170,6 +171,7 @@ HistoryScore HistorySplice::Joined(std::size_t i, const Place& after) const {
   const ErrorMatrix UP = U * after.x.P;
   S.noalias() += UP * U.transpose();
   const Eigen::LLT<ErrorMatrix> G(S);
+  if (G.info() != Eigen::Success) return std::nullopt;
   ErrorVector whitened = z_.col(column) - U * after.x.mean;
   G.matrixL().solveInPlace(whitened);
   HistoryScore score = after.score;
@@ -197,7 +199,9 @@ HistoryScore HistorySplice::Score(const ErrorHistory& history) {
     const bool alike = taken.outlier == base.outlier &&
                        std::abs(taken.excess - base.excess) < kExcessAsInBase;
     as_in_base = alike ? as_in_base + 1 : 0;
-    if (as_in_base == kFixesAsInBase) return Joined(i, at);
+    if (as_in_base < kFixesAsInBase) continue;
+    const std::optional<HistoryScore> joined = Joined(i, at);
+    if (joined) return *joined;
   }
   return at.score;
 }

@@ -2,6 +2,7 @@
 #define HINDSIGHT_FILTERS_HISTORY_SPLICE_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "filters/error_chain.h"
@@ -78,7 +79,8 @@ class HistorySplice {
   void RunForward();
   void RunBackward();
   Place PlaceBefore(std::size_t i) const;
-  HistoryScore Joined(std::size_t i, const Place& after) const;
+  /// None where P is too near to singular for the U there.
+  std::optional<HistoryScore> Joined(std::size_t i, const Place& after) const;
 
   ErrorChain chain_;
   ErrorHistory base_;

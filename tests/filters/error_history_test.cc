@@ -45,6 +45,7 @@ ErrorParameters WithoutOutliers() {
   p.outlier_share = 1e-12;
   p.sigma = 10.0;
   p.tau = 1e8;
+  p.slight_tau = 1e8;
   return p;
 }
 
@@ -103,8 +104,10 @@ TEST(ErrorHistory, RemembersADriftThatNoSingleFixShows) {
         Eigen::Vector3d(kRate * (static_cast<double>(k) - 20.0), 0.0, 0.0);
   }
   const LinearTape tape = TapeOf(problem);
-  const ErrorHistory best =
-      SearchHistories(tape, 0, WithoutOutliers()).front().history;
+  const std::vector<ScoredHistory> found =
+      SearchHistories(tape, 0, WithoutOutliers());
+  EXPECT_EQ(found.front().history[35].mode, ErrorMode::kDrifting);
+  const ErrorHistory best = ClimbHistories(tape, 0, WithoutOutliers(), found);
   EXPECT_EQ(best[10].mode, ErrorMode::kGood);
   EXPECT_EQ(best[35].mode, ErrorMode::kDrifting);
   EXPECT_EQ(best[50].mode, ErrorMode::kGood);
