@@ -30,6 +30,7 @@ ErrorHistory Uniform(const RegimeProblem& problem, ErrorMode mode) {
 
 ErrorParameters Tune(const RegimeProblem& problem, const ErrorHistory& history,
                      const ErrorParameters& from) {
+  if (problem.poll) problem.poll();
   return TuneParameters(problem.tape, problem.receiver, history, from);
 }
 
@@ -71,7 +72,9 @@ double MeanScale(const ErrorParameters& p) {
 /// what a wider search finds.
 ErrorRegimes FitSwitching(const RegimeProblem& problem, const Attempt& attempt,
                           const std::vector<Attempt>& all) {
-  const auto& [tape, receiver, stated, only_white] = problem;
+  const LinearTape& tape = problem.tape;
+  const int receiver = problem.receiver;
+  if (problem.poll) problem.poll();
   ErrorRegimes out;
   out.kind = ErrorRegimes::Kind::kSwitching;
   out.parameters = attempt.parameters;

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_PROBLEMS_ERROR_REGIMES_H_
 #define HINDSIGHT_PROBLEMS_ERROR_REGIMES_H_
 
+#include <functional>
 #include <vector>
 
 #include "filters/history_search.h"
@@ -39,6 +40,8 @@ struct RegimeProblem {
   /// The layout has a Gauss-Markov error of the receiver already: only outliers
   /// are looked for.
   bool only_white = false;
+  /// Called between the steps of the search; may throw to end it.
+  std::function<void()> poll;
 };
 
 /// Fits every kind to the data and takes the one of the largest criterion; no

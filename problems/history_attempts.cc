@@ -68,6 +68,7 @@ std::vector<Attempt> MakeAttempts(const RegimeProblem& problem,
   };
   for (ErrorParameters parameters : Starts(problem, white)) {
     for (int round = 0; round < kMostRounds; ++round) {
+      if (problem.poll) problem.poll();
       ErrorHistory found =
           SearchHistories(problem.tape, problem.receiver, parameters, kNarrow)
               .front()

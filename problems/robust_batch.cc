@@ -229,9 +229,11 @@ RobustBatchResult SolveRobustBatch(const ErrorLayout& layout,
   const LinearTape tape = RunLinearizedFilter(layout, prior, initial, &timeline,
                                               decisions, callback);
   const double stated = StatedSigma(timeline, receiver);
-  ErrorRegimes regimes =
-      ChooseRegimes({tape, receiver, stated,
-                     layout.Has(BlockKind::kColouredNoise, receiver)});
+  ErrorRegimes regimes = ChooseRegimes(
+      {tape, receiver, stated, layout.Has(BlockKind::kColouredNoise, receiver),
+       [&callback, &tape] {
+         if (callback) callback(tape.size());
+       }});
   const std::vector<HistoryAlternative> alternatives =
       WeighHistories(tape, receiver, regimes);
   const HistoryAlternative& chosen = MostCentral(alternatives);

@@ -128,29 +128,29 @@ INSTANTIATE_TEST_SUITE_P(Profiles, RobustBatchOn,
                            return std::string(info.param);
                          });
 
+/// One flight on which the robust batch is right and says so.
+void ExpectFound(const std::string& profile, double sigma, std::uint64_t seed,
+                 double largest_rms) {
+  const std::vector<JumpStatistics> all = Compare(profile, sigma, 1, seed);
+  const JumpStatistics& robust = Find(all, "robust_batch");
+  EXPECT_LT(robust.PositionRms(10.0, 250.0), largest_rms);
+  EXPECT_LT(robust.Anees(10.0, 250.0), AneesBounds(1, 2, 0.98).upper);
+}
+
 TEST(RobustBatch, RemembersForAHundredSecondsThatItMayBeARamp) {
   // Until it ends, a jolt of the IMU explains the ramp of this seed as well and
   // is the likelier of the two.
-  const std::vector<JumpStatistics> all = Compare("ramp", 1.0, 1, 27);
-  const JumpStatistics& robust = Find(all, "robust_batch");
-  EXPECT_LT(robust.PositionRms(10.0, 250.0), 0.5);
-  EXPECT_LT(robust.Anees(10.0, 250.0), AneesBounds(1, 2, 0.98).upper);
+  ExpectFound("ramp", 1.0, 27, 0.5);
 }
 
 TEST(RobustBatch, KnowsTheErroneousStretchFromTheGoodOne) {
   // Of this seed a narrow search says that the receiver was wrong before the
   // step and is right after it, until the parameters are fitted.
-  const std::vector<JumpStatistics> all = Compare("steps", 1.0, 1, 98);
-  const JumpStatistics& robust = Find(all, "robust_batch");
-  EXPECT_LT(robust.PositionRms(10.0, 250.0), 0.5);
-  EXPECT_LT(robust.Anees(10.0, 250.0), AneesBounds(1, 2, 0.98).upper);
+  ExpectFound("steps", 1.0, 98, 0.5);
 }
 
 TEST(RobustBatch, FindsABurstOfWhatSizeItMayBe) {
-  const std::vector<JumpStatistics> all = Compare("multipath", 0.3, 1, 2);
-  const JumpStatistics& robust = Find(all, "robust_batch");
-  EXPECT_LT(robust.PositionRms(10.0, 250.0), 0.15);
-  EXPECT_LT(robust.Anees(10.0, 250.0), AneesBounds(1, 2, 0.98).upper);
+  ExpectFound("multipath", 0.3, 2, 0.15);
 }
 
 TEST(RobustBatch, DoesNotTakeTheFirstFixAtItsWord) {
