@@ -10,6 +10,7 @@
 #include "app/list_flags.h"
 #include "app/observer_flags.h"
 #include "base/error.h"
+#include "dataset/injection.h"
 #include "io/time_list.h"
 #include "io/units.h"
 
@@ -67,7 +68,8 @@ class InjectionParser {
     }
     CheckSize();
     CheckKeys();
-    CheckSpan();
+    const std::string objection = SpanObjection(injection_);
+    if (!objection.empty()) Fail(objection);
     return injection_;
   }
 
@@ -163,14 +165,6 @@ class InjectionParser {
         Fail(std::string(key) + " goes with " + kind + ", not with " + kind_);
       }
     }
-  }
-
-  void CheckSpan() const {
-    if (kind_ == "pulse" && !keys_.contains("to")) Fail("a pulse needs to");
-    if (kind_ == "ramp" && !(keys_.contains("from") && keys_.contains("to"))) {
-      Fail("a ramp needs from and to");
-    }
-    if (!(injection_.from < injection_.to)) Fail("from must be before to");
   }
 
   const std::string& text_;

@@ -120,26 +120,13 @@ std::vector<AidingStream*> FittingStreams(const Injection& injection,
     if (named || injection.sensor == type) streams.push_back(&stream);
   }
   if (streams.empty()) {
+    if (known.empty()) known = "none at all";
     Fail(injection,
          "no stream has that name or type; expected position, velocity or "
-         "height, or one of " +
-             (known.empty() ? "them, of which there is none" : known));
+         "height, or the name of such a stream: " +
+             known);
   }
   return streams;
-}
-
-void CheckSpan(const Injection& injection) {
-  if (!(injection.from < injection.to)) {
-    Fail(injection, "it ends before it begins; expected from before to");
-  }
-  if (injection.kind == Injection::Kind::kPulse &&
-      !std::isfinite(injection.to)) {
-    Fail(injection, "a pulse needs to");
-  }
-  if (injection.kind == Injection::Kind::kRamp &&
-      !(std::isfinite(injection.from) && std::isfinite(injection.to))) {
-    Fail(injection, "a ramp needs from and to");
-  }
 }
 
 void CheckFitsSensor(const Injection& injection, const Sensor& sensor) {
@@ -201,7 +188,8 @@ void AddErrors(ErrorSource source, const Injection& injection,
 
 void Apply(Injection injection, std::uint64_t seed, std::uint64_t number,
            const TimeInterval& used, Dataset* dataset) {
-  CheckSpan(injection);
+  const std::string objection = SpanObjection(injection);
+  if (!objection.empty()) Fail(injection, objection);
   const std::vector<AidingStream*> streams = FittingStreams(injection, dataset);
   injection.up = streams.front()->sensor.type == SensorType::kHeight;
   for (const AidingStream* stream : streams) {
@@ -225,6 +213,18 @@ void Apply(Injection injection, std::uint64_t seed, std::uint64_t number,
 }
 
 }  // namespace
+
+std::string SpanObjection(const Injection& injection) {
+  const bool begins = std::isfinite(injection.from);
+  const bool ends = std::isfinite(injection.to);
+  if (injection.kind == Injection::Kind::kPulse && !ends) {
+    return "a pulse needs to";
+  }
+  if (injection.kind == Injection::Kind::kRamp && !(begins && ends)) {
+    return "a ramp needs from and to";
+  }
+  return injection.from < injection.to ? "" : "from must be before to";
+}
 
 void ApplyInjections(const std::vector<Injection>& injections,
                      std::uint64_t seed, const TimeInterval& used,

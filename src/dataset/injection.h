@@ -10,6 +10,10 @@
 
 namespace hindsight {
 
+/// What is wrong with the span of an injection, and what was expected; "" if
+/// nothing is.
+std::string SpanObjection(const Injection& injection);
+
 /// Adds errors to position, velocity and height measurements and lists them in
 /// the data set; of a height, up. Within [from, to) of the stamps:
 ///   step       `size`
