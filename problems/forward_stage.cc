@@ -14,17 +14,6 @@
 #include "problems/verdict.h"
 
 namespace hindsight {
-namespace {
-
-bool HasGates(const Timeline& timeline) {
-  for (const Sensor& sensor : timeline.sensors()) {
-    if (sensor.gate_probability) return true;
-  }
-  return false;
-}
-
-}  // namespace
-
 std::vector<State> NominalOf(const LinearTape& tape) {
   std::vector<State> nominal;
   nominal.reserve(tape.size());
@@ -165,7 +154,7 @@ void ForwardStage::RunOnce() {
   filtered_->seconds = ProcessorSeconds() - t0;
   decisions_ = DecisionsOnTape(tape);
   smoothed_ = SmoothTape(std::move(tape));
-  if (HasGates(timeline_)) RepeatWithSmoothedGates();
+  if (timeline_.HasGates()) RepeatWithSmoothedGates();
   smoothing_seconds_ = ProcessorSeconds() - t0 - filtered_->seconds;
 }
 

@@ -111,13 +111,6 @@ std::string LeaveToModes(const std::vector<int>& questioned,
              : "a loss or gate of " + names + ", which its modes replace";
 }
 
-bool IsGated(const Timeline& timeline) {
-  for (const Sensor& sensor : timeline.sensors()) {
-    if (sensor.gate_probability) return true;
-  }
-  return false;
-}
-
 void WeighByModes(const SensorImm& imm,
                   const std::vector<Eigen::VectorXd>& probabilities,
                   Solution* solution) {
@@ -157,7 +150,7 @@ SensorImmSmoothed SmoothSensorImm(SensorImm* imm,
     out.decisions = DecisionsOnTape(result.tape.tapes.front());
     out.smoothed = SmoothImm(result.tape);
   }
-  if (!IsGated(imm->timeline)) return out;
+  if (!imm->timeline.HasGates()) return out;
   SmoothedTrajectory about;
   about.states = out.smoothed.trajectory.states;
   about.P = out.smoothed.trajectory.P;

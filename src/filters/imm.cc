@@ -235,10 +235,7 @@ class ImmPass {
     const Measurement& z =
         timeline_.measurements(k)[static_cast<std::size_t>(i)];
     if (rule_.AsksTheInnovation(z.sensor)) return JudgeTogether(k, i);
-    const bool decided = options_.decisions.empty() ||
-                         options_.decisions[static_cast<std::size_t>(
-                             timeline_.node(k).first_measurement + i)] != 0;
-    return {.weight = 1.0, .accepted = !z.withheld && decided};
+    return {.weight = 1.0, .accepted = rule_.MayUse(k, i)};
   }
 
   /// Sets the modes' probabilities from their unscaled logarithms; returns the

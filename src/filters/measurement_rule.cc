@@ -31,6 +31,14 @@ MeasurementRule::MeasurementRule(const Timeline& timeline,
   }
 }
 
+bool MeasurementRule::MayUse(std::size_t k, int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  if (timeline_.measurements(k)[i].withheld) return false;
+  return decisions_.empty() ||
+         decisions_[static_cast<std::size_t>(
+             timeline_.node(k).first_measurement + index)] != 0;
+}
+
 bool MeasurementRule::AsksTheInnovation(int sensor) const {
   const Sensor& s = timeline_.sensors()[static_cast<std::size_t>(sensor)];
   return s.loss.kind != RobustLoss::Kind::kNone ||
@@ -55,8 +63,8 @@ MeasurementVerdict MeasurementRule::Judge(std::size_t k, int index,
     z->R /= verdict.weight;
     *innovation = Innovate(*z, dx, P);
   }
-  verdict.accepted = !measurement.withheld &&
-                     Accept(k, index, measurement.sensor, *innovation);
+  verdict.accepted =
+      MayUse(k, index) && Passes(measurement.sensor, *innovation);
   return verdict;
 }
 
@@ -66,12 +74,9 @@ double MeasurementRule::RobustArgument(const LinearizedMeasurement& z,
   return Eigen::LLT<RowMatrix>(z.R).matrixL().solve(z.residual).squaredNorm();
 }
 
-bool MeasurementRule::Accept(std::size_t k, int index, int sensor,
-                             const Innovation& innovation) const {
-  if (!decisions_.empty()) {
-    return decisions_[static_cast<std::size_t>(
-               timeline_.node(k).first_measurement + index)] != 0;
-  }
+/// The gate has no say where it is decided beforehand.
+bool MeasurementRule::Passes(int sensor, const Innovation& innovation) const {
+  if (!decisions_.empty()) return true;
   const auto rows = static_cast<std::size_t>(innovation.residual.size());
   return innovation.nis <=
          gate_limits_[static_cast<std::size_t>(sensor)][rows - 1];

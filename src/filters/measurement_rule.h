@@ -37,6 +37,10 @@ class MeasurementRule {
 
   void AboutFixedNominal() { fixed_nominal_ = true; }
 
+  /// Whether measurement `index` of node k is used as far as it is decided
+  /// beforehand: not withheld, nor decided against.
+  bool MayUse(std::size_t k, int index) const;
+
   /// Whether the sensor has a loss, or a gate that is not decided beforehand.
   bool AsksTheInnovation(int sensor) const;
 
@@ -49,8 +53,7 @@ class MeasurementRule {
  private:
   double RobustArgument(const LinearizedMeasurement& z,
                         const Innovation& innovation) const;
-  bool Accept(std::size_t k, int index, int sensor,
-              const Innovation& innovation) const;
+  bool Passes(int sensor, const Innovation& innovation) const;
 
   const Timeline& timeline_;
   const GateDecisions& decisions_;

@@ -55,4 +55,10 @@ void Timeline::ScaleSensor(int sensor, double factor) {
   }
 }
 
+bool Timeline::HasGates() const {
+  return std::any_of(
+      sensors_.begin(), sensors_.end(),
+      [](const Sensor& sensor) { return sensor.gate_probability.has_value(); });
+}
+
 }  // namespace hindsight

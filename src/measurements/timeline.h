@@ -69,6 +69,8 @@ class Timeline {
 
   /// Gives a sensor another noise or loss from here on.
   void SetSensor(std::size_t i, const Sensor& sensor) { sensors_[i] = sensor; }
+  /// Whether any sensor has a gate.
+  bool HasGates() const;
   /// Multiplies the standard deviations of all measurements of a sensor.
   void ScaleSensor(int sensor, double factor);
 
