@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "filters/history_refinement.h"
@@ -38,27 +37,28 @@ double Criterion(const RegimeProblem& problem, ErrorRegimes::Kind kind,
                  double log_posterior) {
   const int parameters = kind == ErrorRegimes::Kind::kWhite         ? 3
                          : kind == ErrorRegimes::Kind::kGaussMarkov ? 5
-                                                                    : 7;
+                                                                    : 8;
   return log_posterior -
          0.5 * parameters * std::log(std::max(2, FixCount(problem)));
 }
 
 /// White or Gauss-Markov throughout: there is but one history.
 ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
-                        ErrorParameters from) {
+                        const ErrorParameters& from) {
   const ErrorMode mode = kind == ErrorRegimes::Kind::kWhite
                              ? ErrorMode::kGood
                              : ErrorMode::kBiased;
-  ErrorRegimes out;
-  out.kind = kind;
   ErrorHistory history = Uniform(problem, mode);
   if (mode == ErrorMode::kBiased) history.front().anew = true;
-  out.parameters = Tune(problem, history, from);
+  const ErrorParameters parameters = Tune(problem, history, from);
   const double log_likelihood =
-      ScoreHistory(problem.tape, problem.receiver, out.parameters, history)
+      ScoreHistory(problem.tape, problem.receiver, parameters, history)
           .log_likelihood;
+  ErrorRegimes out;
+  out.kind = kind;
   out.criterion = Criterion(problem, kind, log_likelihood);
-  out.histories.push_back({std::move(history), log_likelihood});
+  out.histories.push_back(
+      {std::move(history), log_likelihood, 1.0, parameters});
   return out;
 }
 
@@ -68,42 +68,44 @@ double MeanScale(const ErrorParameters& p) {
   return p.scale * std::sqrt(1.0 + p.outlier_share * (ratio - 1.0));
 }
 
-/// Climbs from an attempt; `all` may be nearer to the end of the climb than
-/// what a wider search finds.
-ErrorRegimes FitSwitching(const RegimeProblem& problem, const Attempt& attempt,
-                          const std::vector<Attempt>& all) {
-  const LinearTape& tape = problem.tape;
-  const int receiver = problem.receiver;
-  if (problem.poll) problem.poll();
+/// Fits the parameters to a history, and refines it by them.
+ErrorRegimes FitSwitching(const RegimeProblem& problem,
+                          const ErrorHistory& history,
+                          const ErrorParameters& from) {
   ErrorRegimes out;
   out.kind = ErrorRegimes::Kind::kSwitching;
-  out.parameters = attempt.parameters;
-  std::vector<ScoredHistory> from =
-      SearchHistories(tape, receiver, out.parameters);
-  for (const Attempt& other : all) from.push_back({other.history});
-  const ErrorHistory best =
-      ClimbHistories(tape, receiver, out.parameters, from);
-  out.parameters = Tune(problem, best, out.parameters);
-  out.histories = RefineHistories(tape, receiver, out.parameters, {{best}});
+  out.histories = RefineHistories(problem.tape, problem.receiver,
+                                  Tune(problem, history, from), {{history}});
   out.criterion =
       Criterion(problem, out.kind, out.histories.front().log_posterior);
   return out;
 }
 
-/// Fits the best history that tells another story than any of `fits`: where it
-/// was met the parameters are those of its rival.
-std::optional<ErrorRegimes> FitNextRival(
-    const RegimeProblem& problem, const std::vector<ErrorRegimes>& fits) {
+/// Climbs from an attempt; `all` may be nearer to the end of the climb than
+/// what a wider search finds.
+ErrorRegimes FitAttempt(const RegimeProblem& problem, const Attempt& attempt,
+                        const std::vector<Attempt>& all) {
+  if (problem.poll) problem.poll();
+  std::vector<ScoredHistory> from =
+      SearchHistories(problem.tape, problem.receiver, attempt.parameters);
+  for (const Attempt& other : all) from.push_back({other.history});
+  return FitSwitching(
+      problem,
+      ClimbHistories(problem.tape, problem.receiver, attempt.parameters, from),
+      attempt.parameters);
+}
+
+/// The best history that tells another story than the best of any of `fits`,
+/// or nullptr: where it was met the parameters are those of its rival.
+const ScoredHistory* NextRival(const std::vector<ErrorRegimes>& fits) {
   constexpr double kLeastLog = 8.0;
   std::vector<std::vector<ErrorMode>> told;
-  double best = -std::numeric_limits<double>::infinity();
+  double least = -std::numeric_limits<double>::infinity();
   for (const ErrorRegimes& fit : fits) {
-    told.push_back(StoryOf(fit.best()));
-    best = std::max(best, fit.histories.front().log_posterior);
+    told.push_back(StoryOf(fit.histories.front().history));
+    least = std::max(least, fit.histories.front().log_posterior - kLeastLog);
   }
   const ScoredHistory* rival = nullptr;
-  const ErrorRegimes* from = nullptr;
-  double least = best - kLeastLog;
   for (const ErrorRegimes& fit : fits) {
     for (const ScoredHistory& one : fit.histories) {
       if (one.log_posterior <= least) break;
@@ -112,19 +114,27 @@ std::optional<ErrorRegimes> FitNextRival(
         continue;
       }
       rival = &one;
-      from = &fit;
       least = one.log_posterior;
     }
   }
-  if (rival == nullptr) return std::nullopt;
-  ErrorRegimes out;
-  out.kind = ErrorRegimes::Kind::kSwitching;
-  out.parameters = Tune(problem, rival->history, from->parameters);
-  out.histories =
-      RefineHistories(problem.tape, problem.receiver, out.parameters, {*rival});
-  out.criterion =
-      Criterion(problem, out.kind, out.histories.front().log_posterior);
-  return out;
+  return rival;
+}
+
+/// Every story by parameters of its own.
+std::vector<ErrorRegimes> FitStories(const RegimeProblem& problem,
+                                     const ErrorParameters& start) {
+  constexpr int kMostRivals = 2;
+  const std::vector<Attempt> attempts = MakeAttempts(problem, start);
+  std::vector<ErrorRegimes> fits;
+  for (const Attempt& attempt : BestAttempts(problem, attempts)) {
+    fits.push_back(FitAttempt(problem, attempt, attempts));
+  }
+  for (int i = 0; i < kMostRivals; ++i) {
+    const ScoredHistory* rival = NextRival(fits);
+    if (rival == nullptr) break;
+    fits.push_back(FitSwitching(problem, rival->history, rival->parameters));
+  }
+  return fits;
 }
 
 /// The kind of the largest criterion. Beside a switching one the histories of
@@ -145,11 +155,12 @@ ErrorRegimes Best(std::vector<ErrorRegimes> all) {
       const auto known =
           std::find_if(best.histories.begin(), best.histories.end(),
                        [&](const auto& b) { return b.history == h.history; });
-      if (known != best.histories.end()) {
-        known->log_posterior = std::max(known->log_posterior, log_posterior);
-        continue;
+      h.log_posterior = log_posterior;
+      if (known == best.histories.end()) {
+        best.histories.push_back(std::move(h));
+      } else if (known->log_posterior < log_posterior) {
+        *known = std::move(h);
       }
-      best.histories.push_back({std::move(h.history), log_posterior, h.count});
     }
   }
   std::stable_sort(best.histories.begin(), best.histories.end(),
@@ -161,11 +172,6 @@ ErrorRegimes Best(std::vector<ErrorRegimes> all) {
 
 }  // namespace
 
-bool ErrorRegimes::Has(ErrorMode mode) const {
-  return std::any_of(best().begin(), best().end(),
-                     [&](const ErrorStep& s) { return s.mode == mode; });
-}
-
 const char* RegimeName(ErrorRegimes::Kind kind) {
   static const char* const kNames[] = {"white", "gauss_markov", "switching"};
   return kNames[static_cast<int>(kind)];
@@ -174,23 +180,14 @@ const char* RegimeName(ErrorRegimes::Kind kind) {
 ErrorRegimes ChooseRegimes(const RegimeProblem& problem) {
   std::vector<ErrorRegimes> all = {
       FitUniform(problem, ErrorRegimes::Kind::kWhite, {})};
-  ErrorParameters start = all[0].parameters;
   if (!problem.only_white) {
+    ErrorParameters start = all[0].histories.front().parameters;
     start.sigma = problem.stated_sigma;
     start.tau = 100.0;
     all.push_back(FitUniform(problem, ErrorRegimes::Kind::kGaussMarkov, start));
-    start.scale = std::min(start.scale, MeanScale(all[1].parameters));
-    const std::vector<Attempt> attempts = MakeAttempts(problem, start);
-    std::vector<ErrorRegimes> fits;
-    for (const Attempt& attempt : BestAttempts(problem, attempts)) {
-      fits.push_back(FitSwitching(problem, attempt, attempts));
-    }
-    constexpr int kMostRivals = 2;
-    for (int i = 0; i < kMostRivals && !fits.empty(); ++i) {
-      std::optional<ErrorRegimes> rival = FitNextRival(problem, fits);
-      if (!rival) break;
-      fits.push_back(std::move(*rival));
-    }
+    start.scale =
+        std::min(start.scale, MeanScale(all[1].histories.front().parameters));
+    std::vector<ErrorRegimes> fits = FitStories(problem, start);
     std::move(fits.begin(), fits.end(), std::back_inserter(all));
   }
   return Best(std::move(all));

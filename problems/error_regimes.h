@@ -17,16 +17,12 @@ namespace hindsight {
 struct ErrorRegimes {
   enum class Kind { kWhite, kGaussMarkov, kSwitching };
   Kind kind = Kind::kWhite;
-  ErrorParameters parameters;
   /// The likeliest history first; with kSwitching, others that the data do not
-  /// rule out.
+  /// rule out, each with the parameters of the fit that likes it best.
   std::vector<ScoredHistory> histories;
   /// ln of likelihood and prior of the first history, less (parameters / 2)
   /// ln(fixes): Schwarz's criterion.
   double criterion = 0.0;
-
-  const ErrorHistory& best() const { return histories.front().history; }
-  bool Has(ErrorMode mode) const;
 };
 
 /// "white", "gauss_markov", "switching".

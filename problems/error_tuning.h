@@ -7,9 +7,9 @@ namespace hindsight {
 
 /// The parameters that maximise the likelihood of a history's fixes times their
 /// prior, from `from` on: scale, share and ratio of outliers, and, where the
-/// history has them, sigmas and tau of biases and the sigma of rates. The prior
-/// is normal in the logarithm of each, so weak that it only keeps what the data
-/// do not show.
+/// history has them, sigmas and taus of biases and the sigma of rates. The
+/// prior is normal in the logarithm of each, so weak that it only keeps what
+/// the data do not show.
 ///
 /// A fix is a mixture of two normal densities about the innovation, inlier and
 /// outlier, whose covariances have the uncertainty of the trajectory in them:

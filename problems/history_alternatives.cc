@@ -4,12 +4,15 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <utility>
 
 #include "filters/history_smoother.h"
 
 namespace hindsight {
 namespace {
+struct Kept {
+  const ScoredHistory* scored = nullptr;
+  double weight = 0.0;  ///< not normalised
+};
 
 /// Histories of the same modes in the same order.
 struct Story {
@@ -18,13 +21,36 @@ struct Story {
   double kept_weight = 0.0;
 };
 
-double HorizontalSquares(const HistoryAlternative& a,
-                         const HistoryAlternative& b) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < a.smoothed.size(); ++k) {
-    sum += (a.smoothed[k] - b.smoothed[k]).head<2>().squaredNorm();
+std::vector<Kept> Keep(const ErrorRegimes& regimes) {
+  constexpr std::size_t kMost = 24;
+  constexpr std::size_t kMostOfOne = 8;
+  constexpr double kLeast = 1e-9;
+  const double best = regimes.histories.front().log_posterior;
+  std::vector<Kept> all;
+  std::map<std::vector<ErrorMode>, Story> stories;
+  for (const ScoredHistory& h : regimes.histories) {
+    const double weight = h.count * std::exp(h.log_posterior - best);
+    if (weight < kLeast) continue;
+    stories[StoryOf(h.history)].weight += weight;
+    all.push_back({&h, weight});
   }
-  return sum;
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return a.weight > b.weight;
+  });
+  std::vector<Kept> kept;
+  for (const Kept& one : all) {
+    if (kept.size() == kMost) break;
+    Story& story = stories[StoryOf(one.scored->history)];
+    if (story.kept == kMostOfOne) continue;
+    ++story.kept;
+    story.kept_weight += one.weight;
+    kept.push_back(one);
+  }
+  for (Kept& one : kept) {
+    const Story& story = stories[StoryOf(one.scored->history)];
+    one.weight *= story.weight / story.kept_weight;
+  }
+  return kept;
 }
 
 }  // namespace
@@ -32,40 +58,15 @@ double HorizontalSquares(const HistoryAlternative& a,
 std::vector<HistoryAlternative> WeighHistories(const LinearTape& tape,
                                                int receiver,
                                                const ErrorRegimes& regimes) {
-  constexpr std::size_t kMost = 24;
-  constexpr std::size_t kMostOfOne = 8;
-  constexpr double kLeast = 1e-9;
-  const double best = regimes.histories.front().log_posterior;
-  const auto weight = [&](const ScoredHistory& h) {
-    return h.count * std::exp(h.log_posterior - best);
-  };
-  std::map<std::vector<ErrorMode>, Story> stories;
-  std::vector<const ScoredHistory*> sorted;
-  for (const ScoredHistory& h : regimes.histories) {
-    if (weight(h) < kLeast) continue;
-    stories[StoryOf(h.history)].weight += weight(h);
-    sorted.push_back(&h);
-  }
-  std::stable_sort(
-      sorted.begin(), sorted.end(),
-      [&](const auto* a, const auto* b) { return weight(*a) > weight(*b); });
-  std::vector<std::pair<const ScoredHistory*, Story*>> kept;
-  for (const ScoredHistory* h : sorted) {
-    if (kept.size() == kMost) break;
-    Story& story = stories[StoryOf(h->history)];
-    if (story.kept == kMostOfOne) continue;
-    ++story.kept;
-    story.kept_weight += weight(*h);
-    kept.emplace_back(h, &story);
-  }
   std::vector<HistoryAlternative> all;
   double sum = 0.0;
-  for (const auto& [h, story] : kept) {
+  for (const Kept& one : Keep(regimes)) {
+    const ErrorHistory& history = one.scored->history;
     all.push_back(
-        {weight(*h) * story->weight / story->kept_weight,
-         StepsByNode(tape, receiver, h->history),
-         SmoothHistory(tape, receiver, regimes.parameters, h->history)});
-    sum += all.back().weight;
+        {one.weight, one.scored->parameters,
+         StepsByNode(tape, receiver, history),
+         SmoothHistory(tape, receiver, one.scored->parameters, history)});
+    sum += one.weight;
   }
   for (HistoryAlternative& one : all) one.weight /= sum;
   return all;
@@ -78,7 +79,7 @@ const HistoryAlternative& MostCentral(
   for (const HistoryAlternative& one : all) {
     double sum = 0.0;
     for (const HistoryAlternative& other : all) {
-      sum += other.weight * HorizontalSquares(one, other);
+      sum += other.weight * MeanSquareDistance(one.smoothed, other.smoothed);
     }
     if (sum >= least) continue;
     least = sum;

@@ -10,6 +10,7 @@ namespace hindsight {
 /// A history that the data do not rule out.
 struct HistoryAlternative {
   double weight = 0.0;                ///< its probability among them
+  ErrorParameters parameters;         ///< as fitted to its kind
   std::vector<ErrorStep> steps;       ///< by node
   std::vector<ErrorVector> smoothed;  ///< SmoothHistory of it
 };

@@ -45,16 +45,6 @@ double LogPosterior(const RegimeProblem& problem,
   return score.log_likelihood + score.log_prior;
 }
 
-/// Root mean square of the horizontal distances of two trajectories.
-double DistanceOf(const std::vector<ErrorVector>& a,
-                  const std::vector<ErrorVector>& b) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    sum += (a[k] - b[k]).head<2>().squaredNorm();
-  }
-  return std::sqrt(sum / static_cast<double>(a.size()));
-}
-
 }  // namespace
 
 std::vector<Attempt> MakeAttempts(const RegimeProblem& problem,
@@ -103,8 +93,9 @@ std::vector<Attempt> BestAttempts(const RegimeProblem& problem,
     const double apart =
         kApart * attempt.parameters.scale * problem.stated_sigma;
     const bool known = std::any_of(
-        trajectories.begin(), trajectories.end(),
-        [&](const auto& t) { return DistanceOf(t, trajectory) < apart; });
+        trajectories.begin(), trajectories.end(), [&](const auto& t) {
+          return MeanSquareDistance(t, trajectory) < apart * apart;
+        });
     if (known) continue;
     best.push_back(attempt);
     trajectories.push_back(std::move(trajectory));

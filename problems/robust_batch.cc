@@ -32,15 +32,15 @@ class RobustProblem {
  public:
   RobustProblem(const LinearTape& tape, const ErrorLayout& layout,
                 const Prior& prior, int receiver, double stated_sigma,
-                const ErrorRegimes& regimes,
-                const std::vector<ErrorStep>& steps)
+                ErrorRegimes::Kind kind, const HistoryAlternative& chosen)
       : tape_(tape),
         receiver_(receiver),
         floor_(kNoError * stated_sigma),
-        regimes_(regimes),
+        kind_(kind),
         layout_(layout),
         prior_(prior),
-        steps_(steps) {}
+        parameters_(chosen.parameters),
+        steps_(chosen.steps) {}
 
   /// Layout and prior with e and r behind all other blocks, as far as the
   /// history has them.
@@ -49,12 +49,12 @@ class RobustProblem {
     const ErrorMode first = steps_.front().mode;
     const double sigma = std::max(floor_, first == ErrorMode::kGood ? 0.0
                                           : first == ErrorMode::kSlight
-                                              ? regimes_.parameters.slight_sigma
-                                              : regimes_.parameters.sigma);
+                                              ? parameters_.slight_sigma
+                                              : parameters_.sigma);
     AddBlock(BlockKind::kColouredNoise, sensor.name + "_error", "m", sigma);
     if (HasRate()) {
       AddBlock(BlockKind::kErrorRate, sensor.name + "_error_rate", "m/s",
-               regimes_.parameters.rate_sigma);
+               parameters_.rate_sigma);
     }
     const int added = HasRate() ? 6 : 3;
     prior_.x.parameters.conservativeResize(layout_.parameter_count());
@@ -89,7 +89,7 @@ class RobustProblem {
   const Prior& prior() const { return prior_; }
 
  private:
-  bool HasError() const { return regimes_.kind != ErrorRegimes::Kind::kWhite; }
+  bool HasError() const { return kind_ != ErrorRegimes::Kind::kWhite; }
   bool HasRate() const {
     return std::any_of(steps_.begin(), steps_.end(), [](const ErrorStep& s) {
       return s.mode == ErrorMode::kDrifting;
@@ -102,8 +102,8 @@ class RobustProblem {
     block.key = {kind, receiver_};
     block.name = name;
     block.unit = unit;
-    block.evolution = Evolution::GaussMarkov(regimes_.parameters.sigma,
-                                             regimes_.parameters.tau);
+    block.evolution =
+        Evolution::GaussMarkov(parameters_.sigma, parameters_.tau);
     block.sigma0.setConstant(sigma0);
     layout_.Add(block);
   }
@@ -111,7 +111,7 @@ class RobustProblem {
   /// The step of the error over the interval into node k.
   ColouredStep Step(std::size_t k) const {
     const double dt = tape_.epoch(k).t - tape_.epoch(k - 1).t;
-    const ErrorDynamics d = DynamicsOf(regimes_.parameters, steps_[k], dt);
+    const ErrorDynamics d = DynamicsOf(parameters_, steps_[k], dt);
     ColouredStep out;
     out.sensor = receiver_;
     out.phi = d.ee;
@@ -128,9 +128,10 @@ class RobustProblem {
   const LinearTape& tape_;
   int receiver_;
   double floor_;
-  const ErrorRegimes& regimes_;
+  ErrorRegimes::Kind kind_;
   ErrorLayout layout_;
   Prior prior_;
+  const ErrorParameters& parameters_;
   const std::vector<ErrorStep>& steps_;  ///< by node
 };
 
@@ -165,27 +166,32 @@ void AddAlternatives(int dim, const std::vector<HistoryAlternative>& all,
 }
 
 std::vector<std::string> Notes(const std::string& sensor,
-                               const ErrorRegimes& regimes) {
-  const ErrorParameters& p = regimes.parameters;
+                               ErrorRegimes::Kind kind,
+                               const HistoryAlternative& chosen) {
+  const ErrorParameters& p = chosen.parameters;
+  const auto has = [&](ErrorMode mode) {
+    return std::any_of(chosen.steps.begin(), chosen.steps.end(),
+                       [&](const ErrorStep& s) { return s.mode == mode; });
+  };
   char text[200];
   std::snprintf(text, sizeof(text),
                 "%s: %s errors, sigma %.3g times as stated, outliers %.3g %% "
                 "of %.3g times that",
-                sensor.c_str(), RegimeName(regimes.kind), p.scale,
+                sensor.c_str(), RegimeName(kind), p.scale,
                 100.0 * p.outlier_share, p.outlier_ratio);
   std::vector<std::string> notes = {text};
-  if (regimes.Has(ErrorMode::kBiased)) {
+  if (has(ErrorMode::kBiased)) {
     std::snprintf(text, sizeof(text),
                   "%s: Gauss-Markov error of %.3g m, correlation time %.3g s",
                   sensor.c_str(), p.sigma, p.tau);
     notes.emplace_back(text);
   }
-  if (regimes.Has(ErrorMode::kSlight)) {
+  if (has(ErrorMode::kSlight)) {
     std::snprintf(text, sizeof(text), "%s: slight errors of %.3g m",
                   sensor.c_str(), p.slight_sigma);
     notes.emplace_back(text);
   }
-  if (regimes.Has(ErrorMode::kDrifting)) {
+  if (has(ErrorMode::kDrifting)) {
     std::snprintf(text, sizeof(text), "%s: errors that grow by %.3g m/s",
                   sensor.c_str(), p.rate_sigma);
     notes.emplace_back(text);
@@ -238,11 +244,11 @@ RobustBatchResult SolveRobustBatch(const ErrorLayout& layout,
       WeighHistories(tape, receiver, regimes);
   const HistoryAlternative& chosen = MostCentral(alternatives);
   const Sensor sensor = timeline.sensors()[static_cast<std::size_t>(receiver)];
-  RobustProblem problem(tape, layout, prior, receiver, stated, regimes,
-                        chosen.steps);
+  RobustProblem problem(tape, layout, prior, receiver, stated, regimes.kind,
+                        chosen);
   problem.Extend(sensor);
-  std::vector<std::string> notes = Notes(sensor.name, regimes);
-  ApplyToSensor(regimes.parameters, receiver, &timeline);
+  std::vector<std::string> notes = Notes(sensor.name, regimes.kind, chosen);
+  ApplyToSensor(chosen.parameters, receiver, &timeline);
   timeline.SetColouredSteps(problem.ErrorSteps());
   BatchOptions batch = options;
   batch.graduated = false;

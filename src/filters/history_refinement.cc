@@ -131,7 +131,7 @@ class Refinement {
     const double log_posterior = score.log_likelihood + score.log_prior;
     met_.push_back({history,
                     std::isfinite(log_posterior) ? log_posterior : kImpossible,
-                    count});
+                    count, parameters_});
     if (met_.back().log_posterior > met_[best_].log_posterior) {
       best_ = met_.size() - 1;
     }

@@ -70,6 +70,7 @@ class Search {
          const ErrorParameters& parameters, std::size_t width)
       : chain_(tape, receiver, parameters),
         navigation_dim_(tape.dim()),
+        parameters_(parameters),
         width_(width) {}
 
   std::vector<ScoredHistory> Run() {
@@ -183,6 +184,7 @@ class Search {
     for (const Hypothesis& h : hypotheses_) {
       ScoredHistory& one = out.emplace_back();
       one.log_posterior = h.log_weight;
+      one.parameters = parameters_;
       for (int i = h.record; i >= 0;
            i = records_[static_cast<std::size_t>(i)].before) {
         one.history.push_back(records_[static_cast<std::size_t>(i)].step);
@@ -194,6 +196,7 @@ class Search {
 
   ErrorChain chain_;
   int navigation_dim_;
+  ErrorParameters parameters_;
   std::size_t width_;
   int fix_ = 0;
   std::vector<Hypothesis> hypotheses_;

@@ -11,6 +11,7 @@ struct ScoredHistory {
   /// Of histories next to each other, about as likely, one may stand for this
   /// many.
   double count = 1.0;
+  ErrorParameters parameters = {};  ///< that it was scored with
 };
 
 /// The likeliest histories of a receiver's error, best first: a Kalman filter

@@ -96,4 +96,13 @@ std::vector<ErrorVector> SmoothHistory(const LinearTape& tape, int receiver,
   return mean;
 }
 
+double MeanSquareDistance(const std::vector<ErrorVector>& a,
+                          const std::vector<ErrorVector>& b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    sum += (a[k] - b[k]).head<2>().squaredNorm();
+  }
+  return sum / static_cast<double>(a.size());
+}
+
 }  // namespace hindsight

@@ -21,6 +21,10 @@ std::vector<ErrorVector> SmoothHistory(const LinearTape& tape, int receiver,
                                        const ErrorParameters& parameters,
                                        const ErrorHistory& history);
 
+/// Mean square of the horizontal distances of two trajectories so given [m^2].
+double MeanSquareDistance(const std::vector<ErrorVector>& a,
+                          const std::vector<ErrorVector>& b);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_FILTERS_HISTORY_SMOOTHER_H_

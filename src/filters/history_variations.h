@@ -18,7 +18,7 @@ std::vector<ErrorHistory> WithOneJolt(const ErrorHistory& history);
 /// An error too small to be found alone may have begun at any time before a
 /// change: each time is unlikely, all together may not be. And a jump may be
 /// the end of a drift that began unseen. Lengths are a quarter apart, each
-/// stands (`count`) for those up to the next; posteriors are not filled.
+/// stands (`count`) for those up to the next; the rest is not filled.
 std::vector<ScoredHistory> EarlierErrors(const ErrorHistory& history);
 
 }  // namespace hindsight
