@@ -355,7 +355,7 @@ TEST_F(RunCommandTest, RefusesAnInjectionThatMakesNoSense) {
 
 TEST_F(RunCommandTest, RefusesAnInjectionThatDoesNotFitTheRecording) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"height:step=1m", "one of gnss, speed"},
+      {"height:step=1m", "name of such a stream: gnss, speed"},
       {"position:step=1m/s", "expected a size in m"},
       {"speed:step=10m", "expected a size in m/s"},
       {"gnss:step=1m,from=30s", "from 5 s to 20 s"},

@@ -230,8 +230,9 @@ TEST(Injection, TakesTheUnitAndTheAxesOfTheSensor) {
   EXPECT_THAT(Refusal(step, used, dataset),
               ::testing::HasSubstr("expected no axes"));
   step.sensor = "vel";
-  EXPECT_THAT(Refusal(step, used, dataset),
-              ::testing::HasSubstr("one of gnss, baro, doppler"));
+  EXPECT_THAT(
+      Refusal(step, used, dataset),
+      ::testing::HasSubstr("name of such a stream: gnss, baro, doppler"));
 }
 
 TEST(Injection, RefusesWhatItCannotDo) {
