@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/processor_time.h"
 #include "base/units.h"
+#include "evaluation/grade.h"
 #include "filters/rts.h"
 #include "geometry/so3.h"
 #include "problems/attitude_batch.h"
@@ -253,15 +254,8 @@ Solution AttitudeEstimation::Run(AhrsMethod method) {
                                                         : RunBatch(method);
   solution.method = AhrsMethodName(method);
   solution.seconds = ProcessorSeconds() - t0;
-  if (!solution.converged) {
-    solution.usable = false;
-    solution.verdict = "not usable: the iteration did not converge";
-  } else {
-    solution.verdict = magnetic_.empty()
-                           ? "usable, but the heading counts from the start: "
-                             "there is no magnetometer"
-                           : "usable";
-  }
+  Conclude({.solution = solution, .relative_heading = magnetic_.empty()}, {},
+           &solution);
   if (imu_.stamp_offset != 0.0) {
     std::vector<double> stamps;
     for (const ImuSample& sample : imu_.samples) {

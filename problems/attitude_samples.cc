@@ -19,7 +19,8 @@ Solution WithoutStates(const Solution& solution) {
   out.converged = solution.converged;
   out.iterations = solution.iterations;
   out.seconds = solution.seconds;
-  out.usable = solution.usable;
+  out.grade = solution.grade;
+  out.evidence = solution.evidence;
   out.verdict = solution.verdict;
   return out;
 }

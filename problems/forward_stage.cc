@@ -8,10 +8,10 @@
 #include "base/error.h"
 #include "base/processor_time.h"
 #include "base/units.h"
+#include "evaluation/observability.h"
 #include "filters/iterated_smoother.h"
 #include "filters/transport.h"
 #include "problems/solution_builder.h"
-#include "problems/verdict.h"
 
 namespace hindsight {
 std::vector<State> NominalOf(const LinearTape& tape) {
@@ -89,44 +89,50 @@ void ForwardStage::Run() {
   JudgeLinearisation();
 }
 
-/// Looks at the interval as linearised anew about its smoothed trajectory where
-/// one linearisation may not do. From an unknown heading the covariances of a
-/// filter that resets its nominal feign information; and a filter that turned
-/// far was linearised far off.
+/// From an unknown heading the covariances of a filter that resets its nominal
+/// feign information: what is not observed is then seen in the interval as
+/// linearised anew.
 void ForwardStage::JudgeLinearisation() {
   constexpr double kKnownHeading = 20.0 * kDegree;
-  constexpr double kFarTurn = 5.0 * kDegree;
+  Relinearise();
   Solution solution;
   solution.layout = start_.layout;
   solution.states = smoothed_->states;
-  solution.covariances = smoothed_->P;
   const bool knows_heading = start_.report.attitude_sigma.z() <= kKnownHeading;
-  const double turn = LargestTurn(filtered_->states, smoothed_->states);
-  if (!knows_heading || turn > kFarTurn) {
-    CovarianceSeries P = Relinearise(turn);
-    if (!knows_heading && !P.empty()) solution.covariances = std::move(P);
-  }
+  solution.covariances = knows_heading || relinearised_.P.empty()
+                             ? smoothed_->P
+                             : std::move(relinearised_.P);
+  relinearised_.P = {};
   unobserved_ = FindUnobserved(solution);
 }
 
-/// Returns the covariances of the new linearisation, none if none held.
-CovarianceSeries ForwardStage::Relinearise(double turn) {
+/// One more linearisation tells how far the smoothed trajectory is off; where
+/// that matters, further ones tell where it ends.
+void ForwardStage::Relinearise() {
+  constexpr int kMost = 4;
+  constexpr double kNegligible = 0.1;  // sigma
+  relinearised_.smoother.sigmas = std::numeric_limits<double>::infinity();
   IterationOptions iteration;
-  iteration.max_iterations = 3;
-  iteration.callback = Progress("observability");
-  relinearised_ =
-      Relinearised{turn, {}, std::numeric_limits<double>::infinity()};
+  iteration.max_iterations = 1;
+  iteration.callback = Progress("linearisation");
+  std::vector<State> about = smoothed_->states;
   try {
-    SmoothedTrajectory trajectory =
-        SmoothIterated(start_.layout, start_.prior, smoothed_->states,
-                       &timeline_, decisions_, iteration)
-            .trajectory;
-    relinearised_->states = std::move(trajectory.states);
-    relinearised_->smoother_sigmas = DistanceInSigmas(
-        start_.layout, smoothed_->states, smoothed_->P, relinearised_->states);
-    return std::move(trajectory.P);
+    for (int i = 0; i < kMost; ++i) {
+      SmoothedTrajectory anew =
+          SmoothIterated(start_.layout, start_.prior, about, &timeline_,
+                         decisions_, iteration)
+              .trajectory;
+      const double step =
+          LargestMove(start_.layout, about, anew.P, anew.states).sigmas;
+      about = anew.states;
+      relinearised_.states = std::move(anew.states);
+      relinearised_.P = std::move(anew.P);
+      relinearised_.smoother = LargestMove(start_.layout, smoothed_->states,
+                                           smoothed_->P, relinearised_.states);
+      relinearised_.smoother.settled = step < kDoubtfulBias;
+      if (step < kNegligible) break;
+    }
   } catch (const EstimationError&) {
-    return {};
   }
 }
 

@@ -38,10 +38,7 @@ class ForwardStage {
   double smoothing_seconds() const { return smoothing_seconds_; }
   /// Spans that the data leave undetermined.
   const std::vector<UnobservedSpan>& unobserved() const { return unobserved_; }
-  /// Absent where one linearisation does.
-  const std::optional<Relinearised>& relinearised() const {
-    return relinearised_;
-  }
+  const Relinearised& relinearised() const { return relinearised_; }
   /// Sensor whose estimated time offset went on moving; empty: none.
   const std::string& unsettled() const { return unsettled_; }
 
@@ -61,7 +58,7 @@ class ForwardStage {
   int MoveOffsets();
   const ParameterVector& SettledParameters();
   void JudgeLinearisation();
-  CovarianceSeries Relinearise(double turn);
+  void Relinearise();
   SmoothedTrajectory SmoothTape(LinearTape tape) const;
   void RepeatWithSmoothedGates();
 
@@ -72,7 +69,7 @@ class ForwardStage {
   std::string unsettled_;
   std::optional<ParameterVector> settled_;
   std::vector<UnobservedSpan> unobserved_;
-  std::optional<Relinearised> relinearised_;
+  Relinearised relinearised_;
   Start start_;
   Timeline timeline_;
   std::optional<Solution> filtered_;

@@ -2,9 +2,9 @@
 #define HINDSIGHT_PROBLEMS_LINEARISATION_H_
 
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "evaluation/grade.h"
 #include "problems/method.h"
 #include "state/covariance_series.h"
 #include "state/solution.h"
@@ -13,35 +13,26 @@ namespace hindsight {
 
 /// The whole interval, linearised anew about a smoothed trajectory.
 struct Relinearised {
-  /// Largest angle between an attitude that the forward filter was linearised
-  /// about and the smoothed one [rad].
-  double turn = 0.0;
   /// Empty if no new linearisation held.
   std::vector<State> states;
-  /// Root mean square distance of the smoothed trajectory from `states`,
-  /// DistanceInSigmas.
-  double smoother_sigmas = 0.0;
+  CovarianceSeries P;
+  /// Of the smoothed trajectory to `states`.
+  LinearisationMove smoother;
 };
 
-/// Largest angle between the attitudes of two trajectories [rad].
-double LargestTurn(const std::vector<State>& a, const std::vector<State>& b);
+/// The largest distance of `states` from `from`, component by component of
+/// position, velocity and attitude, in standard deviations of P.
+LinearisationMove LargestMove(const ErrorLayout& layout,
+                              const std::vector<State>& from,
+                              const CovarianceSeries& P,
+                              const std::vector<State>& states);
 
-/// Root mean square over all nodes of the distance of the solution from
-/// `states` in its own standard deviations: sqrt(d' P^-1 d / 3) of position,
-/// velocity and attitude, the largest of the three. Of a solution that is
-/// linearised closely enough it is a fraction of one.
-double DistanceInSigmas(const ErrorLayout& layout,
-                        const std::vector<State>& solution,
-                        const CovarianceSeries& P,
-                        const std::vector<State>& states);
-
-/// Why the sigmas of a method that linearises about the forward filter's
-/// trajectory are not to be believed, in words; empty if they are. A smoother
-/// more than three sigmas from a new linearisation about it was linearised too
-/// far off. The filter is judged only where its smoother is: its distance also
-/// grows where noise is larger than stated.
-std::string LinearisedTooFarOff(Method method, const Solution& solution,
-                                const std::optional<Relinearised>& anew);
+/// How far the solution of a method that linearises about the forward filter's
+/// trajectory is from a new linearisation; nothing for other methods. The
+/// filter is judged only where its smoother is beyond kDoubtfulBias: its
+/// distance also grows where noise is larger than stated.
+std::optional<LinearisationMove> MoveOf(Method method, const Solution& solution,
+                                        const Relinearised& anew);
 
 }  // namespace hindsight
 

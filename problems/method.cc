@@ -40,6 +40,27 @@ Method MethodFromName(const std::string& name) {
   throw InputError("unknown method '" + name + "'; known are " + known);
 }
 
+std::span<const char* const> MethodPreference() {
+  static constexpr const char* kPreference[] = {"batch",
+                                                "iterated",
+                                                "robust_batch",
+                                                "rts",
+                                                "two_filter",
+                                                "two_filter_conventional",
+                                                "two_filter_euler",
+                                                "imm_smoother",
+                                                "ekf",
+                                                "gated_ekf",
+                                                "imm",
+                                                "hinf",
+                                                "modified_hinf",
+                                                "ahrs_batch",
+                                                "ahrs_tilt_batch",
+                                                "ahrs_smoother",
+                                                "ahrs"};
+  return kPreference;
+}
+
 bool DependsOnError(Method method) {
   return method != Method::kImm && method != Method::kImmSmoother &&
          method != Method::kRobustBatch;

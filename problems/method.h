@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_PROBLEMS_METHOD_H_
 #define HINDSIGHT_PROBLEMS_METHOD_H_
 
+#include <span>
 #include <string>
 
 namespace hindsight {
@@ -27,6 +28,13 @@ enum class Method {
 const char* MethodName(Method method);
 /// Throws InputError for a name that is none, listing those that are.
 Method MethodFromName(const std::string& name);
+
+/// Names of all methods, of attitude alone too, in the order in which they are
+/// preferred where nothing else decides: the whole interval before smoothers on
+/// one linearisation, these before filters, which know the past alone, and
+/// observers last, whose P is no covariance; of each kind the plain model
+/// before the richer.
+std::span<const char* const> MethodPreference();
 
 /// Whether ReconstructionOptions::error changes the method's solution, be it
 /// through the trajectory from which it starts to iterate.

@@ -5,17 +5,16 @@
 
 #include "base/error.h"
 #include "base/processor_time.h"
+#include "evaluation/grade.h"
 #include "filters/iterated_smoother.h"
 #include "filters/two_filter.h"
 #include "problems/batch.h"
-#include "problems/contradictions.h"
 #include "problems/forward_stage.h"
 #include "problems/linearisation.h"
 #include "problems/robust_batch.h"
 #include "problems/sample_solution.h"
 #include "problems/sensor_imm.h"
 #include "problems/solution_builder.h"
-#include "problems/verdict.h"
 
 namespace hindsight {
 struct Reconstruction::Impl {
@@ -25,16 +24,17 @@ struct Reconstruction::Impl {
   Solution Finish(Solution solution, Method method, double seconds) {
     solution.method = MethodName(method);
     solution.seconds = seconds;
-    const std::string objection =
-        forward.unsettled().empty()
-            ? LinearisedTooFarOff(method, solution, forward.relinearised())
-            : "the time offset of " + forward.unsettled() + " does not settle";
-    Conclude(forward.timeline().sensors(), forward.unobserved(), objection,
-             &solution);
-    for (std::string& note : FindContradictions(
-             forward.timeline().sensors(), forward.start().prior, solution)) {
-      solution.notes.push_back(std::move(note));
-    }
+    const Start& start = forward.start();
+    Conclude({.solution = solution,
+              .sensors = forward.timeline().sensors(),
+              .start = StartValues{.x = start.prior.x,
+                                   .P = start.prior.P,
+                                   .given = forward.dataset().initial,
+                                   .position = start.report.position,
+                                   .alignment = start.report.alignment},
+              .move = MoveOf(method, solution, forward.relinearised()),
+              .unsettled = forward.unsettled()},
+             forward.unobserved(), &solution);
     return solution;
   }
 

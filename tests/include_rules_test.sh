@@ -21,7 +21,7 @@ declare -A allowed=(
   [io]="base geometry earth state imu measurements dataset simulation evaluation"
   [alignment]="base geometry earth state imu measurements dataset filters"
   [problems]="base geometry earth linear state imu measurements dataset filters
-    alignment factors"
+    alignment factors evaluation"
   [app]="base geometry earth linear state imu measurements dataset filters
     alignment factors simulation evaluation io problems"
 )

@@ -5,7 +5,7 @@
 #include "app/flags.h"
 #include "app/montecarlo_report.h"
 #include "app/montecarlo_scenarios.h"
-#include "app/text.h"
+#include "base/text.h"
 #include "evaluation/chi_square.h"
 #include "io/atomic_file.h"
 #include "io/table.h"

@@ -6,7 +6,7 @@
 #include "app/flags.h"
 #include "app/list_flags.h"
 #include "app/run_report.h"
-#include "app/text.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "dataset/checks.h"
 #include "dataset/timeline_builder.h"

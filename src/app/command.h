@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "state/evidence.h"
+
 namespace hindsight {
 
 /// Exit statuses of the command.
@@ -12,8 +14,12 @@ enum ExitStatus {
   kUsable = 0,     ///< a usable answer
   kUnusable = 1,   ///< the data give no usable answer
   kBadInput = 2,   ///< wrong usage or bad input
+  kDoubtful = 3,   ///< an answer that something contradicts
   kStopped = 130,  ///< stopped by Ctrl-C
 };
+
+/// The exit status that says a grade.
+ExitStatus StatusOf(Grade grade);
 
 /// The command line does not say what to do; ends with kBadInput.
 class UsageError : public std::runtime_error {

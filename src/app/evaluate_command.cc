@@ -3,8 +3,8 @@
 
 #include "app/command.h"
 #include "app/flags.h"
-#include "app/text.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "evaluation/broad_metric.h"
 #include "evaluation/trajectory_error.h"
@@ -73,6 +73,8 @@ void PrintJson(const TrajectoryStatistics& all) {
   if (all.position_nees) json["nees"]["position"] = *all.position_nees;
   if (all.velocity_nees) json["nees"]["velocity"] = *all.velocity_nees;
   if (all.attitude_nees) json["nees"]["attitude"] = *all.attitude_nees;
+  const std::string contradiction = Contradiction(all);
+  if (!contradiction.empty()) json["contradicts_truth"] = contradiction;
   std::cout << json.dump(2) << "\n";
 }
 
@@ -132,6 +134,10 @@ int Run(const std::vector<std::string>& arguments) {
     PrintJson(statistics);
   } else {
     std::cout << ErrorTable(statistics);
+    const std::string contradiction = Contradiction(statistics);
+    if (!contradiction.empty()) {
+      std::cout << arguments[0] << ": " << contradiction << "\n";
+    }
   }
   return kUsable;
 }

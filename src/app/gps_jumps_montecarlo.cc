@@ -2,7 +2,7 @@
 
 #include "app/gps_jumps_flags.h"
 #include "app/montecarlo_scenarios.h"
-#include "app/text.h"
+#include "base/text.h"
 #include "io/atomic_file.h"
 #include "io/table.h"
 #include "problems/jump_comparison.h"

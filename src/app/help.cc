@@ -29,6 +29,18 @@ std::string FlagHelp(const FlagUse& flag) {
 
 }  // namespace
 
+ExitStatus StatusOf(Grade grade) {
+  switch (grade) {
+    case Grade::kUsable:
+      return kUsable;
+    case Grade::kDoubtful:
+      return kDoubtful;
+    case Grade::kUnusable:
+      return kUnusable;
+  }
+  return kUnusable;
+}
+
 std::string GeneralHelp(const std::vector<Command>& commands) {
   std::ostringstream out;
   out << "hindsight: reconstructs a vehicle's trajectory from a recording\n\n"
@@ -39,8 +51,11 @@ std::string GeneralHelp(const std::vector<Command>& commands) {
   }
   out << "\n'hindsight COMMAND --help' describes a command and its flags;\n"
          "'hindsight --version' prints the version.\n\n"
-         "Exit status: 0 usable answer, 1 no usable answer, 2 wrong usage or\n"
-         "bad input, 130 stopped by Ctrl-C. Errors are one line on stderr.\n";
+         "Exit status: 0 usable answer, 3 doubtful answer, 1 no usable "
+         "answer,\n"
+         "2 wrong usage or bad input, 130 stopped by Ctrl-C. Errors are one "
+         "line\n"
+         "on stderr.\n";
   return out.str();
 }
 

@@ -7,7 +7,7 @@
 #include "app/list_flags.h"
 #include "app/montecarlo_scenarios.h"
 #include "app/observer_flags.h"
-#include "app/text.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "io/atomic_file.h"
 #include "problems/observer_comparison.h"

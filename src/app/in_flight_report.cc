@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/text.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "io/table.h"
 #include "simulation/in_flight_alignment.h"

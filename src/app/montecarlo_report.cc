@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "app/text.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "io/number_format.h"
 #include "io/table.h"

@@ -10,11 +10,12 @@
 #include "app/result_folder.h"
 #include "app/run_output.h"
 #include "app/run_report.h"
-#include "app/text.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "dataset/checks.h"
 #include "dataset/injection.h"
 #include "dataset/timeline_builder.h"
+#include "evaluation/grade.h"
 #include "io/comparison.h"
 #include "io/config.h"
 #include "io/residual_csv.h"
@@ -159,18 +160,8 @@ Solution RunMethod(Reconstruction* reconstruction, Method method) {
   try {
     return reconstruction->Run(method);
   } catch (const EstimationError& error) {
-    Solution failed;
-    failed.method = MethodName(method);
-    failed.converged = false;
-    failed.usable = false;
-    failed.verdict = std::string("not usable: ") + error.what();
-    return failed;
+    return FailedSolution(MethodName(method), error.what());
   }
-}
-
-bool IsAnyUsable(const std::vector<Solution>& solutions) {
-  return std::any_of(solutions.begin(), solutions.end(),
-                     [](const Solution& solution) { return solution.usable; });
 }
 
 /// Frees all of a written trajectory but its last state: of a day, 120 MB a
@@ -213,6 +204,7 @@ int Reconstruct(const RunRequest& request) {
                         .dataset = dataset.name,
                         .start = SummarizeStart(reconstruction.start()),
                         .policies = dataset.policies,
+                        .best = "",
                         .methods = {}};
   std::vector<Solution> solutions;
   for (const Method method : request.methods) {
@@ -227,6 +219,9 @@ int Reconstruct(const RunRequest& request) {
     ThrowIfStopRequested();
   }
   CheckAnyTrajectory(solutions);
+  KeepBetterMethods(&solutions);
+  const Solution& best = Best(solutions);
+  NameBest(best, solutions, &summary);
   WriteResidualCsv(folder.Path("residuals.csv"), solutions, dataset);
   WriteSummaryJson(folder.Path("summary.json"), summary);
   progress.Clear();
@@ -237,11 +232,11 @@ int Reconstruct(const RunRequest& request) {
   std::cout << "\n"
             << ComparisonTable(summary) << DescribeMethodNotes(solutions)
             << DescribeOwnUnobserved(unobserved, solutions)
-            << DescribeIncredible(summary)
-            << DescribeConstants(dataset, solutions) << "\nresults in "
+            << DescribeEvidence(solutions) << DescribeContradictions(summary)
+            << DescribeConstants(dataset, best) << "\nresults in "
             << request.out << "\n"
-            << DescribeVerdict(solutions);
-  return IsAnyUsable(solutions) ? kUsable : kUnusable;
+            << DescribeVerdict(best, solutions);
+  return StatusOf(best.grade);
 }
 
 }  // namespace hindsight

@@ -6,8 +6,8 @@
 namespace hindsight {
 
 /// Loads the data set, reconstructs it by every method asked for, writes the
-/// results, prints the report and returns the exit status: kUsable if at least
-/// one method gave a usable answer.
+/// results, prints the report and returns the exit status, which says the grade
+/// of the best method.
 int Reconstruct(const RunRequest& request);
 
 }  // namespace hindsight

@@ -10,8 +10,8 @@
 #include "app/result_folder.h"
 #include "app/run_output.h"
 #include "app/run_report.h"
-#include "app/text.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "evaluation/broad_metric.h"
 #include "io/config.h"
@@ -85,7 +85,7 @@ void AddRow(const Dataset& dataset, const Solution& solution,
                     ? ""
                     : Format("%.1f", 100.0 * Share(solution.magnetic, -1)));
   row.push_back(Format("%.3f", solution.seconds));
-  row.push_back(solution.usable ? "yes" : "no");
+  row.emplace_back(GradeName(solution.grade));
   table->AddRow(row);
 }
 
@@ -95,8 +95,7 @@ ReportTable EmptyTable(const Dataset& dataset) {
     heading.insert(heading.end(), {"total\nRMSE [deg]", "heading\nRMSE [deg]",
                                    "inclination\nRMSE [deg]"});
   }
-  heading.insert(heading.end(),
-                 {"field\ndisturbed [%]", "time\n[s]", "usable"});
+  heading.insert(heading.end(), {"field\ndisturbed [%]", "time\n[s]", "grade"});
   return ReportTable(heading);
 }
 
@@ -125,6 +124,7 @@ int EstimateAttitude(const RunRequest& request) {
                         .dataset = dataset.name,
                         .start = {},
                         .policies = dataset.policies,
+                        .best = "",
                         .methods = {}};
   ReportTable table = EmptyTable(dataset);
   std::vector<Solution> verdicts;
@@ -135,21 +135,23 @@ int EstimateAttitude(const RunRequest& request) {
     AddRow(dataset, solution, &table);
     Solution verdict;
     verdict.method = solution.method;
-    verdict.usable = solution.usable;
+    verdict.grade = solution.grade;
+    verdict.evidence = solution.evidence;
     verdict.verdict = solution.verdict;
     verdicts.push_back(std::move(verdict));
     ThrowIfStopRequested();
   }
+  const Solution& best = Best(verdicts);
+  NameBest(best, verdicts, &summary);
   WriteSummaryJson(folder.Path("summary.json"), summary);
   progress.Clear();
   folder.Commit();
   std::cout << DescribeNotes(dataset) << "\n"
-            << table.Render() << "\nresults in " << request.out << "\n"
-            << DescribeVerdict(verdicts);
-  const bool usable =
-      std::any_of(verdicts.begin(), verdicts.end(),
-                  [](const Solution& verdict) { return verdict.usable; });
-  return usable ? kUsable : kUnusable;
+            << table.Render() << DescribeEvidence(verdicts)
+            << DescribeContradictions(summary) << "\nresults in " << request.out
+            << "\n"
+            << DescribeVerdict(best, verdicts);
+  return StatusOf(best.grade);
 }
 
 }  // namespace hindsight

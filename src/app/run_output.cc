@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "app/interrupt.h"
-#include "app/text.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "dataset/injection.h"
 #include "io/atomic_file.h"
 #include "io/kml.h"
@@ -179,7 +179,8 @@ MethodSummary Summarize(const Dataset& dataset,
   if (solution.states.empty()) {
     summary.method = solution.method;
     summary.converged = solution.converged;
-    summary.usable = solution.usable;
+    summary.grade = solution.grade;
+    summary.evidence = solution.evidence;
     summary.verdict = solution.verdict;
   } else {
     const std::vector<double> times = TruthTimes(

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
-#include "app/text.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "earth/wgs84.h"
+#include "evaluation/grade.h"
 #include "geometry/so3.h"
+#include "problems/method.h"
 
 namespace hindsight {
 namespace {
@@ -111,18 +113,23 @@ std::string DescribeOwnUnobserved(const std::vector<UnobservedSpan>& known,
   return text;
 }
 
-std::string DescribeIncredible(const RunSummary& summary) {
-  constexpr double kBeyondDoubt = 100.0;
+std::string DescribeEvidence(const std::vector<Solution>& solutions) {
+  std::string text;
+  for (const Solution& solution : solutions) {
+    for (const Evidence& evidence : solution.evidence) {
+      if (evidence.grade == Grade::kUsable) continue;
+      text += solution.method + " is " + GradeName(evidence.grade) + ": " +
+              Describe(evidence) + "\n";
+    }
+  }
+  return text;
+}
+
+std::string DescribeContradictions(const RunSummary& summary) {
   std::string text;
   for (const MethodSummary& method : summary.methods) {
-    // P of an observer is no covariance to begin with.
-    if (!method.error || method.observer) continue;
-    const double nees = method.error->position_nees.value_or(0.0);
-    if (!(nees > kBeyondDoubt)) continue;
-    text += Format(
-        "%s: its covariances are not credible against the truth: mean NEES of "
-        "position %.4g, where 3 is right\n",
-        method.method.c_str(), nees);
+    if (method.contradiction.empty()) continue;
+    text += method.method + ": " + method.contradiction + "\n";
   }
   return text;
 }
@@ -144,14 +151,10 @@ const char* VerdictName(ConstantEstimate::Verdict verdict) {
 }  // namespace
 
 std::string DescribeConstants(const Dataset& dataset,
-                              const std::vector<Solution>& solutions) {
-  const Solution* last = nullptr;
-  for (const Solution& solution : solutions) {
-    if (solution.usable && !solution.constants.empty()) last = &solution;
-  }
-  if (last == nullptr) return "";
-  std::string text = "\nconstants of " + last->method + ":\n";
-  for (const ConstantEstimate& c : last->constants) {
+                              const Solution& solution) {
+  if (solution.constants.empty()) return "";
+  std::string text = "\nconstants of " + solution.method + ":\n";
+  for (const ConstantEstimate& c : solution.constants) {
     const bool angle = c.unit.starts_with("rad");
     const double unit = angle ? kDegree : 1.0;
     const std::string name = angle ? "deg" + c.unit.substr(3) : c.unit;
@@ -160,10 +163,10 @@ std::string DescribeConstants(const Dataset& dataset,
                    VerdictName(c.verdict),
                    c.advice.empty() ? "" : "; helps: ", c.advice.c_str());
   }
-  for (const Block& block : last->layout.blocks()) {
+  for (const Block& block : solution.layout.blocks()) {
     if (block.key.kind != BlockKind::kMounting) continue;
     const Eigen::Vector3d m =
-        last->states.back().parameters.segment<3>(block.parameter_offset);
+        solution.states.back().parameters.segment<3>(block.parameter_offset);
     const Sensor& sensor =
         dataset.streams[static_cast<std::size_t>(block.key.sensor)].sensor;
     const Eigen::Vector3d euler =
@@ -185,19 +188,28 @@ std::string DescribeMethodNotes(const std::vector<Solution>& solutions) {
   return text;
 }
 
-std::string DescribeVerdict(const std::vector<Solution>& solutions) {
-  const Solution* best = nullptr;
-  std::string failures;
-  for (const Solution& solution : solutions) {
-    if (solution.usable) {
-      best = &solution;
-    } else {
-      failures += "; " + solution.method + " is " + solution.verdict;
-    }
+const Solution& Best(const std::vector<Solution>& solutions) {
+  return solutions.at(
+      static_cast<std::size_t>(BestOf(solutions, MethodPreference())));
+}
+
+void NameBest(const Solution& best, const std::vector<Solution>& solutions,
+              RunSummary* summary) {
+  summary->best = best.method;
+  for (std::size_t i = 0; i < solutions.size(); ++i) {
+    summary->methods[i].evidence = solutions[i].evidence;
+    summary->methods[i].verdict = solutions[i].verdict;
   }
-  const std::string usable =
-      best == nullptr ? "" : best->method + " is " + best->verdict;
-  return (usable.empty() ? failures.substr(2) : usable + failures) + "\n";
+}
+
+std::string DescribeVerdict(const Solution& best,
+                            const std::vector<Solution>& solutions) {
+  std::string text = best.method + " is " + best.verdict;
+  for (const Solution& solution : solutions) {
+    if (solution.method == best.method || solution.usable()) continue;
+    text += "; " + solution.method + " is " + solution.verdict;
+  }
+  return text + "\n";
 }
 
 }  // namespace hindsight

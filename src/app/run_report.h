@@ -21,24 +21,35 @@ std::string DescribeNotes(const Dataset& dataset);
 /// Warnings of states that the data do not determine, a line each.
 std::string DescribeUnobserved(const std::vector<UnobservedSpan>& spans);
 
-/// Estimated constants of the last usable method: value, sigma (angles in
-/// degrees), verdict and, where it helps, the motion that would; and the whole
-/// mounting that a mounting's correction belongs to. Nothing if there is none.
-std::string DescribeConstants(const Dataset& dataset,
-                              const std::vector<Solution>& solutions);
+/// Estimated constants of a solution: value, sigma (angles in degrees), verdict
+/// and, where it helps, the motion that would; and the whole mounting that a
+/// mounting's correction belongs to. Nothing if there is none.
+std::string DescribeConstants(const Dataset& dataset, const Solution& solution);
 
 /// The spans that a method's own covariances call unobserved and that `known`
 /// lacks, a line each.
 std::string DescribeOwnUnobserved(const std::vector<UnobservedSpan>& known,
                                   const std::vector<Solution>& solutions);
 
-/// A line for each method whose position is far from the truth by its own
-/// covariances: a mean normalised squared error above 100, where 3 is right.
-std::string DescribeIncredible(const RunSummary& summary);
+/// What speaks against each solution, a line each.
+std::string DescribeEvidence(const std::vector<Solution>& solutions);
 
-/// The last line: whether the result is usable, and why, by the last usable
-/// method, and which methods failed.
-std::string DescribeVerdict(const std::vector<Solution>& solutions);
+/// What the truth says against each method, a line each. The grades know
+/// nothing of it.
+std::string DescribeContradictions(const RunSummary& summary);
+
+/// The best of several solutions, of which there must be one (BestOf).
+const Solution& Best(const std::vector<Solution>& solutions);
+
+/// Notes the best solution in the summary, and the evidence as it stands after
+/// all methods have run.
+void NameBest(const Solution& best, const std::vector<Solution>& solutions,
+              RunSummary* summary);
+
+/// The last line: the grade of the best solution, and why, and which others
+/// are not usable.
+std::string DescribeVerdict(const Solution& best,
+                            const std::vector<Solution>& solutions);
 
 /// What self-tuning methods found out, a line each; "" if there is nothing.
 std::string DescribeMethodNotes(const std::vector<Solution>& solutions);

@@ -6,8 +6,8 @@
 #include "app/montecarlo_scenarios.h"
 #include "app/progress.h"
 #include "app/result_folder.h"
-#include "app/text.h"
 #include "app/tunnel_flags.h"
+#include "base/text.h"
 #include "io/atomic_file.h"
 #include "io/table.h"
 

@@ -4,7 +4,7 @@
 
 #include "app/interrupt.h"
 #include "app/montecarlo_scenarios.h"
-#include "app/text.h"
+#include "base/text.h"
 #include "io/atomic_file.h"
 #include "io/table.h"
 #include "problems/vibration_comparison.h"

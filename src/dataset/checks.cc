@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "base/text.h"
 #include "base/units.h"
 #include "dataset/ground_motion.h"
 
@@ -16,13 +16,6 @@ constexpr double kMaxRestRate = 2.0 * kDegree;
 constexpr double kMaxForce = 200.0;
 constexpr double kMaxRate = 35.0;
 constexpr double kMaxJitter = 0.2;
-
-template <typename... Values>
-std::string Format(const char* format, Values... values) {
-  std::array<char, 320> text;
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
 
 StreamReport ReportStamps(const std::string& name,
                           const std::vector<double>& stamps,

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <functional>
 
+#include "base/text.h"
 #include "evaluation/interpolation.h"
 #include "geometry/so3.h"
 
@@ -157,6 +158,21 @@ TrajectoryStatistics SummarizeErrors(const std::vector<TrajectoryError>& errors,
   s.velocity_nees = Mean(errors, &TrajectoryError::velocity_nees);
   s.attitude_nees = Mean(errors, &TrajectoryError::attitude_nees);
   return s;
+}
+
+std::string Contradiction(const TrajectoryStatistics& statistics) {
+  constexpr double kBeyondDoubt = 100.0;
+  std::string text;
+  const auto add = [&text](const char* name, std::optional<double> nees) {
+    if (!nees || *nees <= kBeyondDoubt) return;
+    text += Format("%s%s %.4g", text.empty() ? "" : ", ", name, *nees);
+  };
+  add("position", statistics.position_nees);
+  add("velocity", statistics.velocity_nees);
+  add("attitude", statistics.attitude_nees);
+  if (text.empty()) return "";
+  return "its covariances are not credible against the truth: mean NEES of " +
+         text + ", where 3 is right";
 }
 
 TrajectoryStatistics EvaluateTrajectory(const SolutionTable& solution,

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "dataset/dataset.h"
@@ -82,6 +83,11 @@ TrajectoryStatistics SummarizeErrors(const std::vector<TrajectoryError>& errors,
 TrajectoryStatistics EvaluateTrajectory(const SolutionTable& solution,
                                         const std::vector<TruthPoint>& truth,
                                         const TrajectoryErrorOptions& options);
+
+/// What a truth says against the covariances of a solution, in words: mean
+/// normalised squared errors above 100, where 3 is right. Empty if there is
+/// nothing.
+std::string Contradiction(const TrajectoryStatistics& statistics);
 
 /// A reference at the stamps of a solution, interpolated; stamps outside its
 /// span or in gaps longer than `max_gap` [s] are left out. Of two trajectories

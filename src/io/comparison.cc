@@ -105,7 +105,7 @@ std::string ComparisonTable(const RunSummary& summary) {
   for (const std::string& sensor : sensors) {
     heading.push_back(sensor + "\nresidual\nrms [1]");
   }
-  heading.insert(heading.end(), {"iter.", "time\n[s]", "peak\n[MB]", "usable"});
+  heading.insert(heading.end(), {"iter.", "time\n[s]", "peak\n[MB]", "grade"});
   ReportTable table(heading);
   for (const MethodSummary& m : summary.methods) {
     std::vector<std::string> row = {m.method};
@@ -117,7 +117,7 @@ std::string ComparisonTable(const RunSummary& summary) {
     row.push_back(m.iterations > 0 ? std::to_string(m.iterations) : "");
     row.push_back(FormatFixed(m.seconds, 3));
     row.push_back(m.peak_rss_mb ? FormatFixed(*m.peak_rss_mb, 0) : "");
-    row.push_back(m.usable ? "yes" : "no");
+    row.emplace_back(GradeName(m.grade));
     table.AddRow(row);
   }
   return table.Render();

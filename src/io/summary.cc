@@ -9,12 +9,15 @@ MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
   m.seconds = solution.seconds;
   m.converged = solution.converged;
   m.iterations = solution.iterations;
-  m.usable = solution.usable;
+  m.grade = solution.grade;
+  m.evidence = solution.evidence;
   m.verdict = solution.verdict;
   if (!dataset.truth.empty()) {
     m.error = EvaluateTrajectory(
         trajectory, dataset.truth,
         {.max_gap = max_gap, .truth_lever_arm_b = dataset.truth_lever_arm_b});
+    // P of an observer is no covariance to begin with.
+    if (!solution.observer) m.contradiction = Contradiction(*m.error);
   }
   m.outages = ComputeOutageErrors(solution, dataset);
   for (const OutageError& outage : m.outages) {

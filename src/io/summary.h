@@ -37,8 +37,11 @@ struct MethodSummary {
   std::optional<double> peak_rss_mb;
   bool converged = true;
   int iterations = 0;
-  bool usable = true;
+  Grade grade = Grade::kUsable;
+  std::vector<Evidence> evidence;
   std::string verdict;
+  /// What the truth says against the covariances, in words; empty: nothing.
+  std::string contradiction;
   std::optional<TrajectoryStatistics> error;  ///< absent without truth
   std::vector<OutageError> outages;
   std::vector<std::string> outage_sensors;  ///< stream of each outage
@@ -54,6 +57,8 @@ struct RunSummary {
   std::string dataset;
   std::optional<StartSummary> start;
   std::vector<PolicyCount> policies;
+  /// The best method, whose grade is that of the run; empty: none.
+  std::string best;
   std::vector<MethodSummary> methods;
 };
 
@@ -78,11 +83,22 @@ std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
 ///     position_sigma_m, velocity_sigma_mps, attitude_sigma_deg
 ///   policies[]                  what readers did as the configuration allows
 ///     stream, action, count
+///   best, grade                 the best method, and its grade
 ///   methods.<name>
 ///     seconds                   processor time of the method alone
 ///     peak_rss_mb               of the process when the method had ended
 ///     converged, iterations     iterations only of a method that iterates
-///     usable, verdict           is the result usable, and why, in words
+///     grade                     "usable", "doubtful" or "not usable"
+///     verdict                   the grade and why, in words
+///     evidence[]                what the grade is concluded from, no truth
+///       rule                    that found it
+///       grade                   the best that a result with it can have
+///       what                    in words
+///       value, limit, unit      the figure, and where it lowers the grade
+///       span_s                  [from, to] that it speaks of
+///       likely_causes[], what_to_try[]          words
+///     contradicts_truth         what the truth says against the covariances,
+///                               in words; has no part in the grade
 ///     error                     against the truth
 ///       position_rms_m, position_max_m, horizontal_rms_m, horizontal_max_m,
 ///       end_horizontal_m (at the last truth point), distance_m (way of truth),

@@ -161,14 +161,34 @@ Json ObserverJson(const ObserverFigures& figures) {
   return json;
 }
 
+Json EvidenceJson(const Evidence& e) {
+  Json json;
+  json["rule"] = e.rule;
+  json["grade"] = GradeName(e.grade);
+  json["what"] = e.what;
+  Put(&json, "value", e.value);
+  Put(&json, "limit", e.limit);
+  PutText(&json, "unit", e.unit);
+  if (e.t_begin) json["span_s"] = {*e.t_begin, e.t_end.value_or(*e.t_begin)};
+  if (!e.causes.empty()) json["likely_causes"] = e.causes;
+  const std::vector<std::string> words = WhatToTry(e);
+  if (!words.empty()) json["what_to_try"] = words;
+  return json;
+}
+
 Json MethodJson(const MethodSummary& m) {
   Json json;
   Put(&json, "seconds", m.seconds);
   Put(&json, "peak_rss_mb", m.peak_rss_mb);
   json["converged"] = m.converged;
   if (m.iterations > 0) json["iterations"] = m.iterations;
-  json["usable"] = m.usable;
+  json["grade"] = GradeName(m.grade);
   PutText(&json, "verdict", m.verdict);
+  json["evidence"] = Json::array();
+  for (const Evidence& e : m.evidence) {
+    json["evidence"].push_back(EvidenceJson(e));
+  }
+  PutText(&json, "contradicts_truth", m.contradiction);
   if (m.error) json["error"] = ErrorJson(*m.error);
   if (!m.outages.empty()) json["withheld"] = WithheldJson(m);
   if (m.error) {
@@ -215,6 +235,11 @@ nlohmann::ordered_json SummaryJson(const RunSummary& summary) {
     json["policies"].push_back({{"stream", policy.stream},
                                 {"action", policy.action},
                                 {"count", policy.count}});
+  }
+  for (const MethodSummary& m : summary.methods) {
+    if (m.method != summary.best) continue;
+    json["best"] = m.method;
+    json["grade"] = GradeName(m.grade);
   }
   json["methods"] = Json::object();
   for (const MethodSummary& m : summary.methods) {

@@ -7,6 +7,7 @@
 
 #include "state/covariance_series.h"
 #include "state/error_layout.h"
+#include "state/evidence.h"
 #include "state/state.h"
 
 namespace hindsight {
@@ -43,6 +44,15 @@ struct UnobservedSpan {
   double t_begin = 0.0;
   double t_end = 0.0;
   double sigma = 0.0;  ///< the smallest reached in the span, SI
+};
+
+/// What a search within bounds found.
+struct BoundedValue {
+  std::string name;
+  std::string unit;
+  double value = 0.0;
+  double least = 0.0;
+  double most = 0.0;
 };
 
 /// The Riccati equation of a forward observer and how it fared.
@@ -86,8 +96,13 @@ struct Solution {
   bool converged = true;
   int iterations = 0;    ///< 0 for a method that does not iterate
   double seconds = 0.0;  ///< processor time of the method alone
-  bool usable = true;
-  std::string verdict;  ///< in words: usable or not, and why
+  /// Estimates that were sought within bounds.
+  std::vector<BoundedValue> bounded;
+  Grade grade = Grade::kUsable;
+  std::vector<Evidence> evidence;  ///< what `grade` is concluded from
+  std::string verdict;             ///< in words: the grade, and why
+
+  bool usable() const { return grade == Grade::kUsable; }
 };
 
 }  // namespace hindsight

@@ -68,7 +68,7 @@ TEST_P(AuvDive, DeadReckoningAndGeometry) {
     EXPECT_NEAR(Find(solution, "dvl_time_offset").value, 0.0, 0.03);
     EXPECT_EQ(Find(solution, "dvl_lever_arm[x]").verdict,
               ConstantEstimate::Verdict::kObserved);
-    EXPECT_TRUE(solution.usable) << solution.verdict;
+    EXPECT_TRUE(solution.usable()) << solution.verdict;
   }
 }
 

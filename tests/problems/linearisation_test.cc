@@ -51,9 +51,9 @@ TEST(Linearisation, FromABadStartFalselySureSmoothersAreNotUsable) {
                        << heading << " deg, seed " << seed << ": " << sigmas
                        << " sigmas, " << solution.verdict);
           if (method == Method::kIterated || method == Method::kBatch) {
-            EXPECT_TRUE(solution.usable);
+            EXPECT_TRUE(solution.usable());
           }
-          if (solution.usable) {
+          if (solution.usable()) {
             EXPECT_LT(sigmas, 4.0);
           } else {
             EXPECT_GT(sigmas, 2.0);
@@ -75,11 +75,11 @@ TEST(Linearisation, TheVerdictNamesTheCure) {
   options.error = ErrorDefinition::kLeftInvariant;
   options.method = Method::kRts;
   const Solution solution = Solve(dataset, options);
-  EXPECT_FALSE(solution.usable);
+  EXPECT_FALSE(solution.usable());
   EXPECT_NE(solution.verdict.find("take iterated or batch"), std::string::npos)
       << solution.verdict;
   options.method = Method::kEkf;
-  EXPECT_TRUE(Solve(dataset, options).usable);
+  EXPECT_TRUE(Solve(dataset, options).usable());
 }
 
 TEST(Linearisation, FromAnAlignedStartEveryMethodIsUsable) {
@@ -89,7 +89,7 @@ TEST(Linearisation, FromAnAlignedStartEveryMethodIsUsable) {
     Reconstruction reconstruction(dataset, {});
     for (const Method method : kMethods) {
       const Solution solution = reconstruction.Run(method);
-      EXPECT_TRUE(solution.usable)
+      EXPECT_TRUE(solution.usable())
           << MethodName(method) << ": " << solution.verdict;
     }
   }

@@ -31,7 +31,7 @@ TEST(Reconstruction, EveryMethodReconstructsAShortDrive) {
   for (const Method method : kMethods) {
     const Solution solution = reconstruction.Run(method);
     EXPECT_EQ(solution.method, MethodName(method));
-    EXPECT_TRUE(solution.usable) << solution.verdict;
+    EXPECT_TRUE(solution.usable()) << solution.verdict;
     EXPECT_TRUE(solution.converged);
     ASSERT_EQ(solution.covariances.size(), solution.states.size());
     const TrajectoryStatistics statistics =
@@ -82,7 +82,7 @@ TEST(Reconstruction, WithoutAidingTheUnobservedStatesAreNamed) {
   dataset.initial.attitude_sigma = Eigen::Vector3d::Constant(10.0 * kDegree);
   dataset.initial.gyro_bias_sigma = Eigen::Vector3d::Constant(1e-3);
   const Solution solution = Solve(dataset, {});
-  EXPECT_FALSE(solution.usable);
+  EXPECT_FALSE(solution.usable());
   ASSERT_FALSE(solution.unobserved.empty());
   EXPECT_NE(solution.verdict.find("not observed from"), std::string::npos)
       << solution.verdict;

@@ -75,7 +75,7 @@ TEST_P(RobustLossTest, OutliersOfTwentyMetresCostLittleAndSigmasStayHonest) {
   }
   const Solution solution = Solve(dirty, options);
   const Accuracy robust = Judge(dirty, solution);
-  EXPECT_TRUE(solution.usable) << solution.verdict;
+  EXPECT_TRUE(solution.usable()) << solution.verdict;
   EXPECT_LT(robust.horizontal_rms, 1.2 * without.horizontal_rms);
   // Three degrees of freedom; one seed, whose epochs are correlated, scatters
   // more than a mean over many would.

@@ -77,7 +77,7 @@ TEST(UuvSurvey, ClockThatDoesNotSettleIsNotUsable) {
   Reconstruction reconstruction(dataset, {});
   for (const Method method : {Method::kEkf, Method::kRts}) {
     const Solution solution = reconstruction.Run(method);
-    EXPECT_FALSE(solution.usable) << solution.verdict;
+    EXPECT_FALSE(solution.usable()) << solution.verdict;
     EXPECT_NE(solution.verdict.find("time offset of dvl"), std::string::npos)
         << solution.verdict;
   }

@@ -1,9 +1,10 @@
-#include "problems/refusals.h"
+#include "evaluation/refusals.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdio>
 #include <numeric>
+
+#include "base/text.h"
 
 namespace hindsight {
 namespace {
@@ -66,41 +67,62 @@ void Count(const ResidualRecord& record, Tally* tally) {
   EndRun(tally);
 }
 
-std::string MostOf(const char* format, int part, int all,
-                   const std::string& name) {
-  char text[240];
-  std::snprintf(text, sizeof(text), format, part, all, name.c_str());
-  return text;
+Evidence ShutOut(const std::string& what, const std::string& name) {
+  return {.grade = Grade::kUnusable,
+          .what = what,
+          .causes = {"a sign, unit, clock or lever arm of " + name,
+                     "a solution that had gone astray before"},
+          .remedies = {"a larger sigma of " + name +
+                       ", or its loss or gate taken off"}};
 }
 
-std::string Refusal(const Sensor& sensor, const Tally& tally,
-                    bool weighs_by_modes) {
+std::optional<Evidence> Refusal(const Sensor& sensor, const Tally& tally,
+                                bool weighs_by_modes) {
+  const char* name = sensor.name.c_str();
+  const auto share = [&tally](int part) {
+    return 100.0 * static_cast<double>(part) / static_cast<double>(tally.all);
+  };
   if (2 * tally.rejected > tally.all) {
-    return MostOf("the gate refused %d of %d measurements of %.120s",
-                  tally.rejected, tally.all, sensor.name);
+    Evidence e = ShutOut(Format("the gate refused %d of %d measurements of %s",
+                                tally.rejected, tally.all, name),
+                         sensor.name);
+    e.value = share(tally.rejected);
+    e.limit = 50.0;
+    e.unit = "%";
+    return e;
   }
   if (!tally.worst.nis.empty()) {
-    char text[240];
-    std::snprintf(text, sizeof(text),
-                  "the gate refused %zu measurements of %.120s in a row, from "
-                  "%.1f s to %.1f s",
-                  tally.worst.nis.size(), sensor.name.c_str(),
-                  tally.worst.t_begin, tally.worst.t_end);
-    return text;
+    const Refused& run = tally.worst;
+    Evidence e = ShutOut(
+        Format("the gate refused %zu measurements of %s in a row, from %.1f s "
+               "to %.1f s",
+               run.nis.size(), name, run.t_begin, run.t_end),
+        sensor.name);
+    e.value = run.t_end - run.t_begin;
+    e.limit = kLongSpan;
+    e.unit = "s";
+    e.t_begin = run.t_begin;
+    e.t_end = run.t_end;
+    return e;
   }
   if (!weighs_by_modes && 2 * tally.weightless > tally.all) {
-    return MostOf(
-        "the loss left %d of %d measurements of %.120s less than a tenth of "
-        "their weight",
-        tally.weightless, tally.all, sensor.name);
+    Evidence e = ShutOut(
+        Format("the loss left %d of %d measurements of %s less than a tenth of "
+               "their weight",
+               tally.weightless, tally.all, name),
+        sensor.name);
+    e.value = share(tally.weightless);
+    e.limit = 50.0;
+    e.unit = "%";
+    return e;
   }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace
 
-std::string FindRefusal(const std::vector<Sensor>& sensors,
-                        const Solution& solution) {
+std::optional<Evidence> FindRefusal(std::span<const Sensor> sensors,
+                                    const Solution& solution) {
   std::vector<Tally> tallies(sensors.size());
   for (const ResidualRecord& record : solution.residuals) {
     if (record.withheld) continue;
@@ -115,11 +137,10 @@ std::string FindRefusal(const std::vector<Sensor>& sensors,
   }
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     EndRun(&tallies[i]);
-    const std::string why =
-        Refusal(sensors[i], tallies[i], !solution.mode_names.empty());
-    if (!why.empty()) return why;
+    auto found = Refusal(sensors[i], tallies[i], !solution.mode_names.empty());
+    if (found) return found;
   }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace hindsight

@@ -1,4 +1,4 @@
-#include "problems/refusals.h"
+#include "evaluation/refusals.h"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,10 @@ class Refusals : public ::testing::Test {
     }
   }
 
-  std::string Find() const { return FindRefusal(ThreeSensors(), solution_); }
+  std::string Find() const {
+    const auto found = FindRefusal(ThreeSensors(), solution_);
+    return found ? found->what : "";
+  }
 
   Solution solution_;
 };

@@ -1,10 +1,9 @@
-#include "problems/verdict.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "problems/reconstruction.h"
+#include "problems/verdict.h"
 #include "simulation/in_flight_alignment.h"
 
 namespace hindsight {
@@ -52,12 +51,12 @@ TEST(Verdict, SaysNothingOfConstantsWhereAllAreObserved) {
 TEST(Verdict, WhatIsNotFiniteIsNotUsable) {
   const Dataset dataset = Simulate(InFlightAlignment({}), 1);
   Solution solution = Solve(dataset, {});
-  ASSERT_TRUE(solution.usable);
+  ASSERT_TRUE(solution.usable());
   ErrorMatrix P = solution.covariances.Get(3);
   P(0, 0) = std::numeric_limits<double>::quiet_NaN();
   solution.covariances.Set(3, P);
   Conclude({}, {}, "", &solution);
-  EXPECT_FALSE(solution.usable);
+  EXPECT_FALSE(solution.usable());
   EXPECT_NE(solution.verdict.find("not finite"), std::string::npos);
 }
 

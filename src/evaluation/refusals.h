@@ -1,8 +1,8 @@
-#ifndef HINDSIGHT_PROBLEMS_REFUSALS_H_
-#define HINDSIGHT_PROBLEMS_REFUSALS_H_
+#ifndef HINDSIGHT_EVALUATION_REFUSALS_H_
+#define HINDSIGHT_EVALUATION_REFUSALS_H_
 
-#include <string>
-#include <vector>
+#include <optional>
+#include <span>
 
 #include "measurements/sensor.h"
 #include "state/solution.h"
@@ -10,7 +10,7 @@
 namespace hindsight {
 
 /// What a solution left of a sensor's measurements, if that is too little to
-/// believe it, in words; "" otherwise. Withheld measurements do not count.
+/// believe it: not usable. Withheld measurements do not count.
 ///   - More than half of a sensor's measurements refused by its gate.
 ///   - More than ten in a row, over more than 10 s, refused by a gate. That a
 ///     gate that passes 99.9 % does so by chance has a probability of 1e-33;
@@ -23,9 +23,9 @@ namespace hindsight {
 ///   - Less than a tenth of its weight left by a robust loss to each of more
 ///     than half of a sensor's measurements. Weights of methods with modes say
 ///     how well a mode explains a measurement, and do not count.
-std::string FindRefusal(const std::vector<Sensor>& sensors,
-                        const Solution& solution);
+std::optional<Evidence> FindRefusal(std::span<const Sensor> sensors,
+                                    const Solution& solution);
 
 }  // namespace hindsight
 
-#endif  // HINDSIGHT_PROBLEMS_REFUSALS_H_
+#endif  // HINDSIGHT_EVALUATION_REFUSALS_H_

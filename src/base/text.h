@@ -1,5 +1,5 @@
-#ifndef HINDSIGHT_APP_TEXT_H_
-#define HINDSIGHT_APP_TEXT_H_
+#ifndef HINDSIGHT_BASE_TEXT_H_
+#define HINDSIGHT_BASE_TEXT_H_
 
 #include <string>
 
@@ -10,4 +10,4 @@ namespace hindsight {
 
 }  // namespace hindsight
 
-#endif  // HINDSIGHT_APP_TEXT_H_
+#endif  // HINDSIGHT_BASE_TEXT_H_

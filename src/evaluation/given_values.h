@@ -1,0 +1,24 @@
+#ifndef HINDSIGHT_EVALUATION_GIVEN_VALUES_H_
+#define HINDSIGHT_EVALUATION_GIVEN_VALUES_H_
+
+#include <vector>
+
+#include "evaluation/grade.h"
+
+namespace hindsight {
+
+/// Doubtful: a start value, or a constant, that ends more than five a priori
+/// sigmas from what it started from, which chance does once in two million
+/// times. If the configuration gave it, that is a wrong value, sign, unit or
+/// clock, or too small a sigma; if the program chose it, its own sigma was
+/// wrong, and what helps is to give the value.
+///
+/// The solution is a mean of that start and all else, weighted by
+/// information. A start that is wrong by d pulls it by r d / (1 - r^2) of its
+/// own sigmas, d in a priori sigmas and r the ratio of the two sigmas. Not
+/// usable if that is kUnusableBias or more.
+void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_EVALUATION_GIVEN_VALUES_H_

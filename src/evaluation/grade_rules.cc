@@ -1,0 +1,221 @@
+#include "evaluation/grade_rules.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "base/units.h"
+#include "evaluation/observability.h"
+#include "evaluation/refusals.h"
+
+namespace hindsight {
+
+void FindFailure(const Judged& judged, std::vector<Evidence>* evidence) {
+  const Solution& solution = judged.solution;
+  const auto fail = [evidence](const std::string& what) -> Evidence& {
+    return evidence->emplace_back(
+        Evidence{.grade = Grade::kUnusable, .what = what});
+  };
+  if (!solution.converged) {
+    fail("the iteration did not converge").value = solution.iterations;
+    return;
+  }
+  if (solution.states.empty()) {
+    fail("no epoch was estimated");
+    return;
+  }
+  for (std::size_t k = 0; k < solution.states.size(); ++k) {
+    if (solution.states[k].p_e.allFinite() &&
+        (solution.covariances.empty() ||
+         solution.covariances.Get(k).allFinite())) {
+      continue;
+    }
+    const double t = solution.states[k].t;
+    fail(Format("states or covariances from %.1f s on are not finite", t))
+        .t_begin = t;
+    return;
+  }
+}
+
+void FindUnsettledClock(const Judged& judged, std::vector<Evidence>* evidence) {
+  if (judged.unsettled.empty()) return;
+  evidence->push_back(
+      {.grade = Grade::kUnusable,
+       .what = "the time offset of " + judged.unsettled + " does not settle",
+       .causes = {"a sigma of the offset that is too small",
+                  "too little motion to tell the clocks apart"},
+       .remedies = {"a larger estimate.time_offset, or a value nearer to the "
+                    "true one"}});
+}
+
+void FindLinearisedFarOff(const Judged& judged,
+                          std::vector<Evidence>* evidence) {
+  if (!judged.move || !(judged.move->sigmas >= kDoubtfulBias)) return;
+  const LinearisationMove& move = *judged.move;
+  const bool wrong = move.sigmas >= kUnusableBias;
+  const double limit = wrong ? kUnusableBias : kDoubtfulBias;
+  Evidence e{.grade = wrong ? Grade::kUnusable : Grade::kDoubtful,
+             .value = move.sigmas,
+             .limit = limit,
+             .unit = "sigma",
+             .causes = {"a start so uncertain that the filter was linearised "
+                        "far from the truth"}};
+  if (std::isfinite(move.sigmas)) {
+    e.what = Format(
+        "linearised anew about itself it moves by %.2g sigma in %s at %.1f s "
+        "(limit %g)",
+        move.sigmas, move.component.c_str(), move.t, limit);
+    e.t_begin = e.t_end = move.t;
+  } else {
+    e.what = "no linearisation about its own result holds";
+  }
+  if (move.settled) e.better_methods = {"iterated", "batch"};
+  e.remedies = {"a better start value of attitude and position"};
+  evidence->push_back(std::move(e));
+}
+
+void FindUnobservedState(const Judged& judged,
+                         std::vector<Evidence>* evidence) {
+  const Solution& solution = judged.solution;
+  const double duration = solution.states.back().t - solution.states.front().t;
+  for (const UnobservedSpan& span : solution.unobserved) {
+    if (span.t_end - span.t_begin < 0.5 * duration) continue;
+    evidence->push_back(
+        {.grade = Grade::kUnusable,
+         .what = Format("%s is not observed from %.1f s to %.1f s",
+                        span.component.c_str(), span.t_begin, span.t_end),
+         .value = span.sigma,
+         .unit = "SI",
+         .t_begin = span.t_begin,
+         .t_end = span.t_end,
+         .causes = {"nothing that measures it"},
+         .remedies = {"a sensor of it, or a given start value"}});
+  }
+}
+
+void FindShutOut(const Judged& judged, std::vector<Evidence>* evidence) {
+  if (auto refusal = FindRefusal(judged.sensors, judged.solution)) {
+    evidence->push_back(std::move(*refusal));
+  }
+}
+
+void FindLargeResiduals(const Judged& judged, std::vector<Evidence>* evidence) {
+  constexpr double kWorst = 5.0;
+  std::vector<double> sum(judged.sensors.size(), 0.0);
+  std::vector<double> rows(judged.sensors.size(), 0.0);
+  for (const ResidualRecord& record : judged.solution.residuals) {
+    if (!record.accepted || record.withheld) continue;
+    const auto i = static_cast<std::size_t>(record.sensor);
+    sum[i] += record.weight * record.nis;
+    rows[i] += record.weight * static_cast<double>(record.residual.size());
+  }
+  for (std::size_t i = 0; i < judged.sensors.size(); ++i) {
+    const double rms = rows[i] > 0.0 ? std::sqrt(sum[i] / rows[i]) : 0.0;
+    if (rms <= kWorst) continue;
+    const std::string& name = judged.sensors[i].name;
+    evidence->push_back(
+        {.grade = Grade::kUnusable,
+         .what = Format("residuals of %s are %.1f times what their sigma says "
+                        "(limit %.0f)",
+                        name.c_str(), rms, kWorst),
+         .value = rms,
+         .limit = kWorst,
+         .unit = "sigma",
+         .causes = {"a sign, unit, clock or lever arm of " + name +
+                        " or of what contradicts it",
+                    "noise that is stated too small"},
+         .remedies = {"'check --noise', which finds by what factor"}});
+  }
+}
+
+void FindValuesAtBounds(const Judged& judged, std::vector<Evidence>* evidence) {
+  constexpr double kTouching = 1e-6;  // of the value
+  for (const BoundedValue& v : judged.solution.bounded) {
+    for (const double bound : {v.least, v.most}) {
+      if (std::abs(v.value - bound) > kTouching * std::abs(bound)) continue;
+      evidence->push_back(
+          {.grade = Grade::kDoubtful,
+           .what = Format("%s ends at the bound of its search, %.4g %s",
+                          v.name.c_str(), bound, v.unit.c_str()),
+           .value = v.value,
+           .limit = bound,
+           .unit = v.unit,
+           .causes = {"errors of another kind than those that are modelled"},
+           .remedies = {"a sigma that suits the data"}});
+    }
+  }
+}
+
+namespace {
+
+/// Standard deviations of one quantity over time.
+struct Spread {
+  double squares = 0.0;
+  double worst = 0.0;
+
+  void Add(double variance) {
+    squares += variance;
+    worst = std::max(worst, variance);
+  }
+};
+
+void AddSpread(const char* name, const char* unit, double scale, double limit,
+               const Spread& spread, double count,
+               std::vector<Evidence>* evidence) {
+  const double rms = std::sqrt(spread.squares / count) / scale;
+  const double worst = std::sqrt(spread.worst) / scale;
+  Evidence e{.what = Format("%s to %.2g %s", name, rms, unit),
+             .value = rms,
+             .limit = limit / scale,
+             .unit = unit};
+  if (worst > 2.0 * rms) e.what += Format(" (%.2g at worst)", worst);
+  evidence->push_back(std::move(e));
+}
+
+}  // namespace
+
+void DescribeAccuracy(const Judged& judged, std::vector<Evidence>* evidence) {
+  const Solution& solution = judged.solution;
+  if (solution.observer) {
+    evidence->push_back({.what = "by P, which is no covariance"});
+    return;
+  }
+  if (solution.covariances.empty()) return;
+  const Block* position = solution.layout.Find(BlockKind::kPosition);
+  const Block* velocity = solution.layout.Find(BlockKind::kVelocity);
+  const Block* attitude = solution.layout.Find(BlockKind::kAttitude);
+  Spread p, v, tilt, heading;
+  for (std::size_t k = 0; k < solution.covariances.size(); ++k) {
+    const ErrorVector P = solution.covariances.Get(k).diagonal();
+    if (position != nullptr) {
+      p.Add(P.segment(position->offset, position->dim).sum());
+    }
+    if (velocity != nullptr) {
+      v.Add(P.segment(velocity->offset, velocity->dim).sum());
+    }
+    if (attitude != nullptr && attitude->dim == 3) {
+      tilt.Add(P.segment(attitude->offset, 2).sum());
+      heading.Add(P(attitude->offset + 2));
+    }
+  }
+  const auto count = static_cast<double>(solution.covariances.size());
+  if (position != nullptr) {
+    AddSpread("position", "m", 1.0, kLargestPositionSigma, p, count, evidence);
+  }
+  if (velocity != nullptr) {
+    AddSpread("velocity", "m/s", 1.0, kLargestVelocitySigma, v, count,
+              evidence);
+  }
+  if (attitude == nullptr || attitude->dim != 3) return;
+  AddSpread("tilt", "deg", kDegree, kLargestTiltSigma, tilt, count, evidence);
+  if (judged.relative_heading) {
+    evidence->push_back(
+        {.what = "but the heading counts from the start: there is no "
+                 "magnetometer"});
+  } else {
+    AddSpread("heading", "deg", kDegree, kLargestHeadingSigma, heading, count,
+              evidence);
+  }
+}
+
+}  // namespace hindsight

@@ -1,0 +1,45 @@
+#ifndef HINDSIGHT_EVALUATION_GRADE_RULES_H_
+#define HINDSIGHT_EVALUATION_GRADE_RULES_H_
+
+#include <vector>
+
+#include "evaluation/grade.h"
+
+namespace hindsight {
+
+/// Not usable: no epoch, states or covariances that are not finite, or an
+/// iteration that did not converge.
+void FindFailure(const Judged& judged, std::vector<Evidence>* evidence);
+
+/// Not usable: an estimated time offset that does not settle.
+void FindUnsettledClock(const Judged& judged, std::vector<Evidence>* evidence);
+
+/// Doubtful from kDoubtfulBias on, not usable from kUnusableBias on: a solution
+/// that moves when the interval is linearised anew about it. Its sigmas know
+/// nothing of that.
+void FindLinearisedFarOff(const Judged& judged,
+                          std::vector<Evidence>* evidence);
+
+/// Not usable: a navigation state that says nothing over half of the interval.
+/// A forward filter need not know everything from its first second on.
+void FindUnobservedState(const Judged& judged, std::vector<Evidence>* evidence);
+
+/// Not usable: a sensor that was shut out (evaluation/refusals.h).
+void FindShutOut(const Judged& judged, std::vector<Evidence>* evidence);
+
+/// Not usable: accepted residuals of a sensor that are in the root mean square
+/// more than five times their sigma. Then the model or its noise is wrong, and
+/// with them every sigma of the solution.
+void FindLargeResiduals(const Judged& judged, std::vector<Evidence>* evidence);
+
+/// Doubtful: an estimate that ends at a bound of its search, where it is no
+/// maximum of anything.
+void FindValuesAtBounds(const Judged& judged, std::vector<Evidence>* evidence);
+
+/// How well the states are known: standard deviations in the root mean square
+/// over the interval, and at worst. Never lowers the grade.
+void DescribeAccuracy(const Judged& judged, std::vector<Evidence>* evidence);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_EVALUATION_GRADE_RULES_H_

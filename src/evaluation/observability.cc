@@ -1,0 +1,125 @@
+#include "evaluation/observability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/units.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kObservedRatio = 1.0 / 3.0;
+constexpr double kUnobservedRatio = 0.9;
+
+double LimitOf(BlockKind kind, int axis) {
+  switch (kind) {
+    case BlockKind::kPosition:
+      return kLargestPositionSigma;
+    case BlockKind::kVelocity:
+      return kLargestVelocitySigma;
+    default:
+      return axis == 2 ? kLargestHeadingSigma : kLargestTiltSigma;
+  }
+}
+
+/// The motion that makes a constant observable.
+const char* AdviceFor(BlockKind kind) {
+  switch (kind) {
+    case BlockKind::kGyroBias:
+      return "rest, or position or velocity aiding over a longer time";
+    case BlockKind::kAccelBias:
+      return "rest in several attitudes, or turns and accelerations";
+    case BlockKind::kGyroScale:
+      return "fast turns both ways about the axis";
+    case BlockKind::kAccelScale:
+      return "strong accelerations along the axis both ways, or rest in "
+             "several attitudes";
+    case BlockKind::kScale:
+      return "travel between position fixes";
+    case BlockKind::kMounting:
+      return "travel at speed with heading and slope known from turns; roll "
+             "only from side slip in turns";
+    case BlockKind::kLeverArm:
+      return "turns (forward and right arm), and roll and pitch (down arm)";
+    case BlockKind::kTimeOffset:
+      return "changes of speed or direction";
+    case BlockKind::kOffset:
+      return "position fixes with height";
+    case BlockKind::kCurrent:
+      return "bottom track, position fixes, or turns both ways";
+    default:
+      return "more motion, or a second sensor of the same quantity";
+  }
+}
+
+}  // namespace
+
+std::vector<ConstantEstimate> EstimateConstants(const Solution& solution) {
+  std::vector<ConstantEstimate> constants;
+  if (solution.states.empty() || solution.covariances.empty()) return constants;
+  const State& x = solution.states.back();
+  const ErrorMatrix P = solution.covariances.Get(solution.states.size() - 1);
+  for (const Block& block : solution.layout.blocks()) {
+    if (block.evolution.kind != Evolution::Kind::kConstant) continue;
+    int component = block.offset;
+    for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {
+      if (!block.active[static_cast<std::size_t>(axis)]) continue;
+      ConstantEstimate constant;
+      constant.name = solution.layout.ComponentName(component);
+      constant.unit = block.unit;
+      constant.value = block.key.kind == BlockKind::kGyroBias ? x.b_g(axis)
+                       : block.key.kind == BlockKind::kAccelBias
+                           ? x.b_a(axis)
+                           : x.parameters(block.parameter_offset + axis);
+      constant.sigma = std::sqrt(P(component, component));
+      constant.prior_sigma = block.sigma0(axis);
+      const double ratio = constant.sigma / constant.prior_sigma;
+      constant.verdict =
+          ratio < kObservedRatio     ? ConstantEstimate::Verdict::kObserved
+          : ratio < kUnobservedRatio ? ConstantEstimate::Verdict::kWeak
+                                     : ConstantEstimate::Verdict::kUnobserved;
+      if (constant.verdict != ConstantEstimate::Verdict::kObserved) {
+        constant.advice = AdviceFor(block.key.kind);
+      }
+      constants.push_back(std::move(constant));
+      ++component;
+    }
+  }
+  return constants;
+}
+
+std::vector<UnobservedSpan> FindUnobserved(const Solution& solution) {
+  std::vector<UnobservedSpan> spans;
+  const std::size_t count = solution.covariances.size();
+  std::vector<int> open(static_cast<std::size_t>(solution.layout.dim()), -1);
+  for (std::size_t k = 0; k < count; ++k) {
+    const ErrorMatrix P = solution.covariances.Get(k);
+    const double t = solution.states[k].t;
+    for (const Block& block : solution.layout.blocks()) {
+      if (block.key.kind > BlockKind::kAttitude) continue;
+      for (int i = 0; i < block.dim; ++i) {
+        const int component = block.offset + i;
+        const double sigma = std::sqrt(P(component, component));
+        int& span = open[static_cast<std::size_t>(component)];
+        // With masked axes component i may be another axis; the limits of the
+        // horizontal ones are the same.
+        if (sigma <= LimitOf(block.key.kind, block.dim == 3 ? i : 0)) {
+          span = -1;
+          continue;
+        }
+        if (span < 0) {
+          span = static_cast<int>(spans.size());
+          spans.push_back(
+              {solution.layout.ComponentName(component), t, t, sigma});
+        }
+        UnobservedSpan& s = spans[static_cast<std::size_t>(span)];
+        s.t_end = t;
+        s.sigma = std::min(s.sigma, sigma);
+      }
+    }
+  }
+  return spans;
+}
+
+}  // namespace hindsight

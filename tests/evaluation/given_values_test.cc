@@ -1,0 +1,89 @@
+#include "evaluation/given_values.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/test_motion.h"
+
+namespace hindsight {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using testing::TypicalLayout;
+using testing::TypicalState;
+
+/// A start of sigma one in every component, and a solution whose first and
+/// last states are that far from it in one, with sigmas of `ratio`.
+class GivenValues : public ::testing::Test {
+ protected:
+  GivenValues() {
+    start_.x = TypicalState();
+    start_.P = TypicalLayout().InitialCovariance();
+    start_.position = "position fix at t = 3.00 s";
+    start_.alignment = "velocity";
+  }
+
+  std::vector<Evidence> Find(int component, double sigmas,
+                             double ratio = 0.01) {
+    Solution solution;
+    solution.layout = TypicalLayout();
+    const int dim = solution.layout.dim();
+    ErrorVector d = ErrorVector::Zero(dim);
+    d(component) = sigmas * std::sqrt(start_.P(component, component));
+    solution.states = {Retract(solution.layout, start_.x, d)};
+    solution.covariances = CovarianceSeries(dim, 1);
+    solution.covariances.Set(0, ratio * ratio * start_.P);
+    std::vector<Evidence> found;
+    FindStrainedValues({.solution = solution, .start = start_}, &found);
+    return found;
+  }
+
+  StartValues start_;
+};
+
+TEST_F(GivenValues, ChanceIsNoContradiction) {
+  for (int i = 0; i < TypicalLayout().dim(); ++i) {
+    EXPECT_TRUE(Find(i, 4.9).empty()) << i;
+  }
+}
+
+TEST_F(GivenValues, WhatTheConfigurationGaveIsNamedByItsKey) {
+  start_.given.position = Geodetic{};
+  for (const double sigmas : {5.1, -30.0}) {
+    const auto found = Find(2, sigmas);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].grade, Grade::kDoubtful);
+    EXPECT_THAT(found[0].what, StartsWith("position[down] at the start is "));
+    EXPECT_THAT(found[0].what, HasSubstr("from its given value"));
+    EXPECT_NEAR(*found[0].value, std::abs(sigmas), 0.01);
+    EXPECT_EQ(found[0].limit, 5.0);
+    EXPECT_THAT(found[0].causes.at(0), HasSubstr("initial.position"));
+  }
+}
+
+/// The program's own start had too small a sigma, which is nobody's input.
+TEST_F(GivenValues, OwnStartIsNamedWithTheKeyToSet) {
+  const auto found = Find(8, 7.0);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].what, HasSubstr("from the program's own start "
+                                       "(alignment velocity)"));
+  EXPECT_THAT(found[0].remedies.at(0), HasSubstr("initial.attitude"));
+  start_.given.heading = 0.0;
+  EXPECT_THAT(Find(8, 7.0).at(0).what, HasSubstr("from its given value"));
+  EXPECT_THAT(Find(7, 7.0).at(0).what, HasSubstr("the program's own start"));
+}
+
+/// x = (1 - r^2) of all else + r^2 of the start: a false start weighs.
+TEST_F(GivenValues, StartThatPullsTheSolutionByThreeSigmasIsNotUsable) {
+  EXPECT_EQ(Find(2, 6.0, 0.35).at(0).grade, Grade::kDoubtful);
+  EXPECT_EQ(Find(2, 6.0, 0.45).at(0).grade, Grade::kUnusable);
+}
+
+TEST_F(GivenValues, OfAStartThatLiesElsewhereNothingIsKnown) {
+  start_.x.t += 1.0;
+  EXPECT_TRUE(Find(2, 30.0).empty());
+}
+
+}  // namespace
+}  // namespace hindsight
