@@ -1,21 +1,39 @@
 #!/bin/sh
-# Installs the Debian packages that Hindsight is built from. Safe to run again:
-# only what is missing is installed.
+# Installs the Debian packages that Hindsight is built from, by sets:
+#   ./setup.sh          what building and running the program needs
+#   ./setup.sh tests    that, and what the tests, fuzzers and benchmarks need
+#   ./setup.sh docs     that, and what makes the figures of the documentation
+#   ./setup.sh all      every set
+# Safe to run again: only what is missing is installed.
 set -eu
 
-packages="build-essential cmake ninja-build ccache
+build="build-essential cmake ninja-build ccache
   libeigen3-dev libceres-dev libsuitesparse-dev libgeographiclib-dev
   libgflags-dev libgoogle-glog-dev libyaml-cpp-dev nlohmann-json3-dev
-  zlib1g-dev libfast-float-dev libmatio-dev pkg-config
-  librosbag-storage-dev libsensor-msgs-dev
-  libgtest-dev libgmock-dev libbenchmark-dev
-  libboost-dev
+  zlib1g-dev libfast-float-dev libmatio-dev libboost-dev pkg-config
+  librosbag-storage-dev libsensor-msgs-dev"
+tests="libgtest-dev libgmock-dev libbenchmark-dev locales
   clang-format clang-tidy clang libclang-rt-dev"
+docs="gcovr"
 
 fail() {
   echo "setup.sh: $*" >&2
   exit 1
 }
+
+packages=$build
+for set in "$@"; do
+  case "$set" in
+    build) ;;
+    tests) packages="$packages $tests" ;;
+    docs) packages="$packages $tests $docs" ;;
+    all) packages="$build $tests $docs" ;;
+    *)
+      echo "setup.sh: '$set' is no set; expected build, tests, docs or all" >&2
+      exit 2
+      ;;
+  esac
+done
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
   fail "this system has no apt-get; Hindsight is set up on Debian 12 or newer." \
@@ -24,6 +42,7 @@ fi
 
 missing=""
 for package in $packages; do
+  case " $missing " in *" $package "*) continue ;; esac
   status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null || true)
   [ "$status" = "install ok installed" ] || missing="$missing $package"
 done

@@ -8,6 +8,10 @@ function(hindsight_compile_options target)
   if(HINDSIGHT_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
+  if(HINDSIGHT_COVERAGE)
+    target_compile_options(${target} PRIVATE --coverage -fprofile-update=atomic)
+    target_link_options(${target} PRIVATE --coverage)
+  endif()
   if(HINDSIGHT_SANITIZE)
     target_compile_options(${target} PRIVATE
       -fsanitize=${HINDSIGHT_SANITIZE} -fno-omit-frame-pointer

@@ -5,6 +5,7 @@
 #include "filters/attitude_filter.h"
 #include "geometry/so3.h"
 #include "simulation/vibration_attitude.h"
+#include "support/seed_count.h"
 
 namespace hindsight {
 namespace {
@@ -25,7 +26,7 @@ Dataset TurningBody(std::uint64_t seed) {
 }
 
 TEST(AhrsAlignment, FindsAttitudeAndBiasOfATurningBody) {
-  constexpr int kRuns = 20;
+  constexpr int kRuns = testing::SeedCount(20);
   double nees = 0.0;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
     const Dataset dataset = TurningBody(seed);

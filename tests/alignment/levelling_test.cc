@@ -8,7 +8,9 @@
 #include "alignment/gyrocompass.h"
 #include "alignment/start.h"
 #include "base/error.h"
+#include "evaluation/chi_square.h"
 #include "simulation/builtin_scenarios.h"
+#include "support/seed_count.h"
 
 namespace hindsight {
 namespace {
@@ -30,7 +32,7 @@ constexpr double kNavigationAccel = 50e-6 * kStandardGravity;
 
 TEST(Gyrocompass, FindsTheHeadingWithItsOwnCovariance) {
   const PerfectRecording recording(Standing(kNavigationGyro, kNavigationAccel));
-  constexpr int kRuns = 60;
+  constexpr int kRuns = testing::SeedCount(60);
   double nees = 0.0;
   double square = 0.0;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
@@ -45,9 +47,7 @@ TEST(Gyrocompass, FindsTheHeadingWithItsOwnCovariance) {
     nees += std::pow(error / sigma, 2) / kRuns;
     square += error * error / kRuns;
   }
-  // Chi-square of 60 degrees of freedom, 99.9 % two-sided, over 60.
-  EXPECT_GT(nees, 30.3 / kRuns);
-  EXPECT_LT(nees, 102.7 / kRuns);
+  EXPECT_TRUE(AneesBounds(kRuns, 1, 0.999).Contains(nees)) << nees;
   EXPECT_LT(std::sqrt(square), 0.15 * kDegree);
 }
 

@@ -9,6 +9,7 @@
 #include "geometry/so3.h"
 #include "simulation/builtin_scenarios.h"
 #include "simulation/in_flight_alignment.h"
+#include "support/seed_count.h"
 #include "support/truth_at.h"
 
 namespace hindsight {
@@ -130,7 +131,7 @@ class InFlight : public ::testing::TestWithParam<double> {};
 TEST_P(InFlight, AlignsFromAnyAttitudeWithAnHonestCovariance) {
   const PerfectRecording recording(
       InFlightAlignment({.velocity_rate_hz = GetParam()}));
-  constexpr int kRuns = 30;
+  constexpr int kRuns = testing::SeedCount(30);
   constexpr double kEnd = kFirstManoeuvre + 10.0;
   double nees = 0.0;
   double square = 0.0;

@@ -8,6 +8,7 @@
 #include "filters/iterated_smoother.h"
 #include "filters/rts.h"
 #include "filters/tape_states.h"
+#include "support/seed_count.h"
 #include "support/test_problem.h"
 
 namespace hindsight {
@@ -225,7 +226,7 @@ TEST(ForwardFilter, NisAveragesItsDegreesOfFreedom) {
   // chi-square.
   double sum = 0.0;
   double dof = 0.0;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint64_t seed = 1; seed <= testing::SeedCount(60); ++seed) {
     const TestProblem problem = MakeProblem(Options(true), seed);
     Timeline timeline = problem.MakeTimeline();
     const LinearTape tape =

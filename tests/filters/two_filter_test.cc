@@ -7,6 +7,7 @@
 
 #include "filters/dense_least_squares.h"
 #include "filters/forward_filter.h"
+#include "support/seed_count.h"
 #include "support/test_problem.h"
 
 namespace hindsight {
@@ -204,9 +205,9 @@ TEST(TwoFilter, EulerChartAgreesToSecondOrderInTheErrors) {
 }
 
 TEST(TwoFilter, SeparationIsChiSquare) {
-  // Mean square of 3 over 60 runs at an epoch in the middle; the bounds are
-  // four standard deviations of a mean of 60 chi-squares of 3.
-  constexpr int kRuns = 60;
+  // Mean square of 3 over the runs at an epoch in the middle; the bounds are
+  // four standard deviations of a mean of so many chi-squares of 3.
+  constexpr int kRuns = testing::SeedCount(60);
   double sum = 0.0;
   for (int run = 0; run < kRuns; ++run) {
     TestProblemOptions options;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "geometry/so3.h"
+#include "support/seed_count.h"
 #include "support/test_motion.h"
 
 namespace hindsight {
@@ -193,7 +194,7 @@ TEST(Preintegration, CalibrationJacobiansMatchNumericDifference) {
 /// Scatter of simulated noisy summaries against the computed covariance: for
 /// N runs the sum of normalised squares of a 15-vector is chi-square of 15 N.
 void CheckNoise(const ImuNoise& noise) {
-  constexpr int kRuns = 400;
+  constexpr int kRuns = testing::SeedCount(400);
   constexpr double kRate = 50.0;
   const ImuStream clean = LivelyImu(2.0, kRate, noise);
   ImuIntegrator exact(clean);

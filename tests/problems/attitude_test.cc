@@ -11,6 +11,7 @@
 #include "geometry/so3.h"
 #include "problems/vibration_comparison.h"
 #include "simulation/vibration_attitude.h"
+#include "support/seed_count.h"
 
 namespace hindsight {
 namespace {
@@ -35,7 +36,7 @@ double Nees(const Dataset& dataset, const Solution& solution, std::size_t k) {
 }
 
 TEST(AttitudeEstimation, FilterAndSmootherAreConsistent) {
-  constexpr int kRuns = 60;
+  constexpr int kRuns = testing::SeedCount(60);
   double filter = 0.0;
   double smoother = 0.0;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {

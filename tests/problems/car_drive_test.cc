@@ -8,6 +8,7 @@
 #include "evaluation/trajectory_error.h"
 #include "problems/reconstruction.h"
 #include "simulation/builtin_scenarios.h"
+#include "support/seed_count.h"
 
 namespace hindsight {
 namespace {
@@ -39,11 +40,7 @@ struct Accuracy {
 /// Half an hour, tactical IMU, three outages of 60 s: the figures that a right
 /// whole-interval estimator reaches on such a drive.
 TEST(CarDrive, WholeIntervalAccuracyAndConsistency) {
-#ifdef NDEBUG
-  constexpr int kSeeds = 50;
-#else
-  constexpr int kSeeds = 6;
-#endif
+  constexpr int kSeeds = testing::SeedCount(50);
   Scenario scenario = BuiltinScenario("car_drive");
   scenario.truth_rate_hz = 1.0;
   const PerfectRecording recording(scenario);

@@ -6,6 +6,7 @@
 #include "evaluation/chi_square.h"
 #include "filters/iterated_smoother.h"
 #include "problems/batch.h"
+#include "support/seed_count.h"
 #include "support/test_problem.h"
 
 namespace hindsight {
@@ -16,7 +17,7 @@ using testing::TacticalNoise;
 using testing::TestProblem;
 using testing::TestProblemOptions;
 
-constexpr int kRuns = 100;
+constexpr int kRuns = testing::SeedCount(100);
 
 /// Sums of normalised squared errors over runs at single epochs: those of one
 /// run are correlated over time, those of different runs are independent.

@@ -8,6 +8,7 @@
 #include "dataset/timeline_builder.h"
 #include "evaluation/chi_square.h"
 #include "simulation/in_flight_alignment.h"
+#include "support/seed_count.h"
 
 namespace hindsight {
 namespace {
@@ -107,7 +108,7 @@ TEST(ObserverComparison, ThreadsAndOtherCellsChangeNoBit) {
 }
 
 TEST(ObserverComparison, ConsistentFromASmallStart) {
-  constexpr int kRuns = 40;
+  constexpr int kRuns = testing::SeedCount(40);
   double sum = 0.0;
   for (int i = 0; i < kRuns; ++i) {
     Dataset dataset = Recording(1.0).Realize(static_cast<std::uint64_t>(i) + 1);

@@ -1,0 +1,28 @@
+#ifndef HINDSIGHT_TESTS_SUPPORT_SEED_COUNT_H_
+#define HINDSIGHT_TESTS_SUPPORT_SEED_COUNT_H_
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace hindsight::testing {
+
+/// Runs of a statistical test: `usual`, but a tenth of them (at least 2) where
+/// a sanitizer makes each ten times slower. Bounds are computed from what this
+/// returns.
+constexpr int SeedCount(int usual) {
+#ifdef HINDSIGHT_FEW_SEEDS
+  return std::max(2, usual / 10);
+#else
+  return usual;
+#endif
+}
+
+/// The same, but `all` of them if the environment sets HINDSIGHT_ALL_SEEDS.
+inline int SeedCount(int usual, int all) {
+  return std::getenv("HINDSIGHT_ALL_SEEDS") != nullptr ? all
+                                                       : SeedCount(usual);
+}
+
+}  // namespace hindsight::testing
+
+#endif  // HINDSIGHT_TESTS_SUPPORT_SEED_COUNT_H_
