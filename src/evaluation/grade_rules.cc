@@ -54,7 +54,8 @@ void FindLinearisedFarOff(const Judged& judged,
   constexpr double kOnceInTwenty = 1.96;
   if (!judged.linearisation) return;
   const LinearisationError& e = *judged.linearisation;
-  const double wrong = e.causal ? kOnceInAThousand : kDoubtfulError;
+  const double wrong =
+      e.causal ? kOnceInAThousand : std::hypot(1.0, kUnusableBias);
   const double odd = e.causal ? kOnceInTwenty : kDoubtfulError;
   const bool throughout = e.rms >= wrong;
   if (!throughout && !((e.causal ? e.rms : e.largest) >= odd)) return;

@@ -16,11 +16,12 @@ void FindUnsettledClock(const Judged& judged, std::vector<Evidence>* evidence);
 
 /// A solution whose sigmas do not cover what a new linearisation about it
 /// changes. A smoother is doubtful where any component at any time has errors
-/// of kDoubtfulError sigmas, and not usable if one has them in the root mean
-/// square over the interval. A filter, which is judged only if its smoother is
-/// not usable, must be beyond chance: 3.29 sigmas in the root mean square over
-/// the interval are not usable, as errors that last as long as the interval
-/// reach them once in a thousand times, and 1.96 are doubtful.
+/// of kDoubtfulError sigmas, and not usable if one has those of a systematic
+/// error of kUnusableBias in the root mean square over the interval. A filter,
+/// which is judged only if its smoother has kDoubtfulError in the root mean
+/// square, must be beyond chance: 3.29 sigmas in the root mean square over the
+/// interval are not usable, as errors that last as long as the interval reach
+/// them once in a thousand times, and 1.96 are doubtful.
 void FindLinearisedFarOff(const Judged& judged,
                           std::vector<Evidence>* evidence);
 

@@ -172,7 +172,10 @@ TEST_F(GradeTest, SmootherIsDoubtfulAtOneTimeAndNotUsableThroughout) {
                                        HasSubstr("velocity[north] at "
                                                  "12.0 s"),
                                        HasSubstr("take iterated or batch")));
-  error.rms = 1.5;
+  error.rms = 3.1;
+  conclude();
+  EXPECT_EQ(solution_.grade, Grade::kDoubtful);
+  error.rms = 3.2;
   conclude();
   EXPECT_EQ(solution_.grade, Grade::kUnusable);
   // A new linearisation that does not rest cures nothing.
