@@ -51,7 +51,7 @@ struct LinearisationError {
 /// What the rules look at.
 struct Judged {
   const Solution& solution;
-  std::span<const Sensor> sensors = {};
+  std::span<const Sensor> sensors = {};  ///< empty: residuals are not judged
   std::optional<StartValues> start = std::nullopt;
   std::optional<LinearisationError> linearisation = std::nullopt;
   /// Sensor whose estimated time offset goes on moving; empty: none.

@@ -125,6 +125,7 @@ void FindUnobservedState(const Judged& judged,
 }
 
 void FindShutOut(const Judged& judged, std::vector<Evidence>* evidence) {
+  if (judged.sensors.empty()) return;
   if (auto refusal = FindRefusal(judged.sensors, judged.solution)) {
     evidence->push_back(std::move(*refusal));
   }
@@ -132,6 +133,7 @@ void FindShutOut(const Judged& judged, std::vector<Evidence>* evidence) {
 
 void FindLargeResiduals(const Judged& judged, std::vector<Evidence>* evidence) {
   constexpr double kWorst = 5.0;
+  if (judged.sensors.empty()) return;
   std::vector<double> sum(judged.sensors.size(), 0.0);
   std::vector<double> rows(judged.sensors.size(), 0.0);
   for (const ResidualRecord& record : judged.solution.residuals) {

@@ -30,7 +30,7 @@ class GivenValues : public ::testing::Test {
     const int dim = solution.layout.dim();
     ErrorVector d = ErrorVector::Zero(dim);
     d(component) = sigmas * std::sqrt(start_.P(component, component));
-    solution.states = {Retract(solution.layout, start_.x, d)};
+    solution.states = {Retract(solution.layout, TypicalState(), d)};
     std::vector<Evidence> found;
     FindStrainedValues({.solution = solution, .start = start_}, &found);
     return found;
