@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/processor_time.h"
 #include "base/units.h"
+#include "dataset/repeated_readings.h"
 #include "evaluation/grade.h"
 #include "filters/rts.h"
 #include "geometry/so3.h"
@@ -254,8 +255,11 @@ Solution AttitudeEstimation::Run(AhrsMethod method) {
                                                         : RunBatch(method);
   solution.method = AhrsMethodName(method);
   solution.seconds = ProcessorSeconds() - t0;
-  Conclude({.solution = solution, .relative_heading = magnetic_.empty()}, {},
-           &solution);
+  Conclude({.solution = solution,
+            .recording = FindRepeatedReadings(dataset_, imu_.t_begin(),
+                                              imu_.t_end()),
+            .relative_heading = magnetic_.empty()},
+           {}, &solution);
   if (imu_.stamp_offset != 0.0) {
     std::vector<double> stamps;
     for (const ImuSample& sample : imu_.samples) {

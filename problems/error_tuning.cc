@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "filters/history_smoother.h"
 
@@ -16,13 +17,18 @@ struct Tunable {
   double most;
   double typical;
   double spread;  ///< standard deviation of the logarithm
+  /// Of the quantity, where its bounds mean something.
+  const char* name = nullptr;
+  const char* unit = "";
 };
 
 std::vector<Tunable> TunablesOf(const ErrorHistory& history,
                                 const ErrorParameters& from) {
   std::vector<Tunable> out = {
-      {&ErrorParameters::scale, 0.01, 100.0, 1.0, 1.0},
-      {&ErrorParameters::outlier_share, 1e-3, 0.4, 0.02, 1.5},
+      {&ErrorParameters::scale, 0.01, 100.0, 1.0, 1.0,
+       "the factor on the stated sigma", "1"},
+      {&ErrorParameters::outlier_share, 1e-3, 0.4, 0.02, 1.5,
+       "the share of outliers", "1"},
       {&ErrorParameters::outlier_ratio, 3.0, 1000.0, 10.0, 1.5}};
   bool biased = false;
   bool slight = false;
@@ -34,7 +40,8 @@ std::vector<Tunable> TunablesOf(const ErrorHistory& history,
   }
   if (biased) {
     out.push_back({&ErrorParameters::tau, 0.1, 1e9, from.tau, 2.3});
-    out.push_back({&ErrorParameters::sigma, 1e-4, 1e5, from.sigma, 2.3});
+    out.push_back({&ErrorParameters::sigma, 1e-4, 1e5, from.sigma, 2.3,
+                   "the sigma of the bias", "m"});
   }
   if (slight) {
     out.push_back(
@@ -113,6 +120,22 @@ ErrorParameters TuneParameters(const LinearTape& tape, int receiver,
                                const ErrorHistory& history,
                                const ErrorParameters& from) {
   return Tuning(tape, receiver, history, from).Climb();
+}
+
+std::vector<BoundedValue> BoundedParameters(const ErrorHistory& history,
+                                            const ErrorParameters& found) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::vector<BoundedValue> values;
+  for (const Tunable& t : TunablesOf(history, found)) {
+    if (t.name == nullptr) continue;
+    const bool share = t.member == &ErrorParameters::outlier_share;
+    values.push_back({.name = t.name,
+                      .unit = t.unit,
+                      .value = found.*t.member,
+                      .least = share ? -kNone : t.least,
+                      .most = t.most});
+  }
+  return values;
 }
 
 }  // namespace hindsight

@@ -1,7 +1,10 @@
 #ifndef HINDSIGHT_PROBLEMS_ERROR_TUNING_H_
 #define HINDSIGHT_PROBLEMS_ERROR_TUNING_H_
 
+#include <vector>
+
 #include "filters/error_history.h"
+#include "state/solution.h"
 
 namespace hindsight {
 
@@ -19,6 +22,12 @@ namespace hindsight {
 ErrorParameters TuneParameters(const LinearTape& tape, int receiver,
                                const ErrorHistory& history,
                                const ErrorParameters& from);
+
+/// The parameters of a history that TuneParameters seeks within bounds which
+/// mean something: a share of outliers may be as small as it likes, and a bias
+/// last for ever.
+std::vector<BoundedValue> BoundedParameters(const ErrorHistory& history,
+                                            const ErrorParameters& found);
 
 }  // namespace hindsight
 

@@ -86,53 +86,65 @@ void ForwardStage::Run() {
     timeline_ = BuildTimeline(dataset_, MakeTimelineOptions());
     settled_.reset();
   }
-  JudgeLinearisation();
+  JudgeObservability();
 }
 
 /// From an unknown heading the covariances of a filter that resets its nominal
 /// feign information: what is not observed is then seen in the interval as
 /// linearised anew.
-void ForwardStage::JudgeLinearisation() {
+void ForwardStage::JudgeObservability() {
   constexpr double kKnownHeading = 20.0 * kDegree;
-  Relinearise();
   Solution solution;
   solution.layout = start_.layout;
   solution.states = smoothed_->states;
-  const bool knows_heading = start_.report.attitude_sigma.z() <= kKnownHeading;
-  solution.covariances = knows_heading || relinearised_.P.empty()
-                             ? smoothed_->P
-                             : std::move(relinearised_.P);
-  relinearised_.P = {};
+  solution.covariances = smoothed_->P;
+  if (start_.report.attitude_sigma.z() > kKnownHeading) {
+    CovarianceSeries P = Relinearise();
+    if (!P.empty()) solution.covariances = std::move(P);
+  }
   unobserved_ = FindUnobserved(solution);
 }
 
+const Relinearised& ForwardStage::relinearised() {
+  if (!relinearised_) Relinearise();
+  return *relinearised_;
+}
+
 /// One more linearisation tells how far the smoothed trajectory is off; where
-/// that matters, further ones tell where it ends.
-void ForwardStage::Relinearise() {
+/// that is much, further ones tell where it ends. Returns the covariances,
+/// none if no new linearisation held.
+CovarianceSeries ForwardStage::Relinearise() {
   constexpr int kMost = 4;
   constexpr double kNegligible = 0.1;  // sigma
-  relinearised_.smoother.sigmas = std::numeric_limits<double>::infinity();
+  relinearised_.emplace();
+  Relinearised& anew = *relinearised_;
+  anew.smoother.largest = anew.smoother.rms =
+      std::numeric_limits<double>::infinity();
   IterationOptions iteration;
   iteration.max_iterations = 1;
   iteration.callback = Progress("linearisation");
-  std::vector<State> about = smoothed_->states;
+  SmoothedTrajectory last;
+  last.states = smoothed_->states;
   try {
+    double step = 0.0;
     for (int i = 0; i < kMost; ++i) {
-      SmoothedTrajectory anew =
-          SmoothIterated(start_.layout, start_.prior, about, &timeline_,
+      SmoothedTrajectory next =
+          SmoothIterated(start_.layout, start_.prior, last.states, &timeline_,
                          decisions_, iteration)
               .trajectory;
-      const double step =
-          LargestMove(start_.layout, about, anew.P, anew.states).sigmas;
-      about = anew.states;
-      relinearised_.states = std::move(anew.states);
-      relinearised_.P = std::move(anew.P);
-      relinearised_.smoother = LargestMove(start_.layout, smoothed_->states,
-                                           smoothed_->P, relinearised_.states);
-      relinearised_.smoother.settled = step < kDoubtfulBias;
+      anew.variances = VariancesOf(start_.layout, next.P);
+      step = LargestDistance(start_.layout, last.states, next.states,
+                             anew.variances);
+      last = std::move(next);
       if (step < kNegligible) break;
     }
+    anew.states = std::move(last.states);
+    anew.smoother =
+        Compare(start_.layout, smoothed_->states, smoothed_->P, anew);
+    anew.smoother.settled = step < 1.0;
+    return std::move(last.P);
   } catch (const EstimationError&) {
+    return {};
   }
 }
 

@@ -38,7 +38,8 @@ class ForwardStage {
   double smoothing_seconds() const { return smoothing_seconds_; }
   /// Spans that the data leave undetermined.
   const std::vector<UnobservedSpan>& unobserved() const { return unobserved_; }
-  const Relinearised& relinearised() const { return relinearised_; }
+  /// Found when first asked for.
+  const Relinearised& relinearised();
   /// Sensor whose estimated time offset went on moving; empty: none.
   const std::string& unsettled() const { return unsettled_; }
 
@@ -57,8 +58,8 @@ class ForwardStage {
   void RunOnce();
   int MoveOffsets();
   const ParameterVector& SettledParameters();
-  void JudgeLinearisation();
-  void Relinearise();
+  void JudgeObservability();
+  CovarianceSeries Relinearise();
   SmoothedTrajectory SmoothTape(LinearTape tape) const;
   void RepeatWithSmoothedGates();
 
@@ -69,7 +70,7 @@ class ForwardStage {
   std::string unsettled_;
   std::optional<ParameterVector> settled_;
   std::vector<UnobservedSpan> unobserved_;
-  Relinearised relinearised_;
+  std::optional<Relinearised> relinearised_;
   Start start_;
   Timeline timeline_;
   std::optional<Solution> filtered_;

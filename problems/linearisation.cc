@@ -1,50 +1,100 @@
 #include "problems/linearisation.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hindsight {
+namespace {
 
-LinearisationMove LargestMove(const ErrorLayout& layout,
-                              const std::vector<State>& from,
-                              const CovarianceSeries& P,
-                              const std::vector<State>& states) {
-  LinearisationMove move;
-  for (std::size_t k = 0; k < from.size(); ++k) {
-    const ErrorVector d = Local(layout, from[k], states[k]);
-    const ErrorVector variance = P.Get(k).diagonal();
-    for (const Block& block : layout.blocks()) {
-      if (block.key.kind > BlockKind::kAttitude) continue;
-      for (int i = block.offset; i < block.offset + block.dim; ++i) {
-        const double sigmas = std::abs(d(i)) / std::sqrt(variance(i));
-        if (!(sigmas > move.sigmas)) continue;
-        move.sigmas = sigmas;
-        move.component = layout.ComponentName(i);
-        move.t = from[k].t;
-      }
+/// Calls with the number among nine and the component of the layout.
+template <typename Function>
+void ForEachNavigationComponent(const ErrorLayout& layout, Function function) {
+  int i = 0;
+  for (const Block& block : layout.blocks()) {
+    if (block.key.kind > BlockKind::kAttitude) continue;
+    for (int c = block.offset; c < block.offset + block.dim; ++c) {
+      function(i++, c);
     }
   }
-  return move;
 }
 
-std::optional<LinearisationMove> MoveOf(Method method, const Solution& solution,
-                                        const Relinearised& anew) {
-  switch (method) {
-    case Method::kRts:
-    case Method::kTwoFilter:
-    case Method::kTwoFilterConventional:
-    case Method::kTwoFilterEuler:
-      break;
-    case Method::kEkf:
-      if (anew.smoother.sigmas < kDoubtfulBias) return std::nullopt;
-      break;
-    default:
-      return std::nullopt;
+}  // namespace
+
+std::vector<NavigationVariances> VariancesOf(const ErrorLayout& layout,
+                                             const CovarianceSeries& P) {
+  std::vector<NavigationVariances> variances(P.size(),
+                                             NavigationVariances::Zero());
+  for (std::size_t k = 0; k < P.size(); ++k) {
+    const ErrorMatrix P_k = P.Get(k);
+    ForEachNavigationComponent(
+        layout, [&](int i, int c) { variances[k](i) = P_k(c, c); });
   }
-  if (anew.states.empty()) return anew.smoother;
-  LinearisationMove move = LargestMove(solution.layout, solution.states,
-                                       solution.covariances, anew.states);
-  move.settled = anew.smoother.settled;
-  return move;
+  return variances;
+}
+
+double LargestDistance(const ErrorLayout& layout,
+                       const std::vector<State>& from,
+                       const std::vector<State>& to,
+                       const std::vector<NavigationVariances>& variances) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    const ErrorVector d = Local(layout, from[k], to[k]);
+    ForEachNavigationComponent(layout, [&](int i, int c) {
+      largest = std::max(largest, std::abs(d(c)) / std::sqrt(variances[k](i)));
+    });
+  }
+  return largest;
+}
+
+LinearisationError Compare(const ErrorLayout& layout,
+                           const std::vector<State>& states,
+                           const CovarianceSeries& P,
+                           const Relinearised& anew) {
+  LinearisationError error;
+  double largest = 0.0;
+  NavigationVariances sum = NavigationVariances::Zero();
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const ErrorVector d = Local(layout, states[k], anew.states[k]);
+    const ErrorMatrix P_k = P.Get(k);
+    ForEachNavigationComponent(layout, [&](int i, int c) {
+      const double square = (d(c) * d(c) + anew.variances[k](i)) / P_k(c, c);
+      sum(i) += square;
+      if (!(square > largest)) return;
+      largest = square;
+      error.component = layout.ComponentName(c);
+      error.t = states[k].t;
+    });
+  }
+  error.largest = std::sqrt(largest);
+  double worst = 0.0;
+  ForEachNavigationComponent(layout, [&](int i, int c) {
+    if (!(sum(i) > worst)) return;
+    worst = sum(i);
+    error.rms_component = layout.ComponentName(c);
+  });
+  error.rms = std::sqrt(worst / static_cast<double>(states.size()));
+  return error;
+}
+
+bool LinearisesOnce(Method method) {
+  return method == Method::kEkf || method == Method::kRts ||
+         method == Method::kTwoFilter ||
+         method == Method::kTwoFilterConventional ||
+         method == Method::kTwoFilterEuler;
+}
+
+std::optional<LinearisationError> LinearisationErrorOf(
+    Method method, const Solution& solution, const Relinearised& anew) {
+  if (!LinearisesOnce(method)) return std::nullopt;
+  const bool causal = method == Method::kEkf;
+  if (causal && anew.smoother.rms < kDoubtfulError) return std::nullopt;
+  LinearisationError error = anew.states.empty()
+                                 ? anew.smoother
+                                 : Compare(solution.layout, solution.states,
+                                           solution.covariances, anew);
+  error.causal = causal;
+  error.settled = anew.smoother.settled;
+  return error;
 }
 
 }  // namespace hindsight

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_PROBLEMS_LINEARISATION_H_
 #define HINDSIGHT_PROBLEMS_LINEARISATION_H_
 
+#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
@@ -11,28 +12,40 @@
 
 namespace hindsight {
 
+/// Variances of position, velocity and attitude.
+using NavigationVariances = Eigen::Matrix<double, 9, 1>;
+
 /// The whole interval, linearised anew about a smoothed trajectory.
 struct Relinearised {
-  /// Empty if no new linearisation held.
-  std::vector<State> states;
-  CovarianceSeries P;
-  /// Of the smoothed trajectory to `states`.
-  LinearisationMove smoother;
+  std::vector<State> states;  ///< empty if no new linearisation held
+  std::vector<NavigationVariances> variances;
+  LinearisationError smoother;  ///< of the smoothed trajectory
 };
 
-/// The largest distance of `states` from `from`, component by component of
-/// position, velocity and attitude, in standard deviations of P.
-LinearisationMove LargestMove(const ErrorLayout& layout,
-                              const std::vector<State>& from,
-                              const CovarianceSeries& P,
-                              const std::vector<State>& states);
+/// The navigation part of the diagonals of P.
+std::vector<NavigationVariances> VariancesOf(const ErrorLayout& layout,
+                                             const CovarianceSeries& P);
 
-/// How far the solution of a method that linearises about the forward filter's
-/// trajectory is from a new linearisation; nothing for other methods. The
-/// filter is judged only where its smoother is beyond kDoubtfulBias: its
-/// distance also grows where noise is larger than stated.
-std::optional<LinearisationMove> MoveOf(Method method, const Solution& solution,
-                                        const Relinearised& anew);
+/// The largest distance of two trajectories in a component of position,
+/// velocity or attitude, in standard deviations.
+double LargestDistance(const ErrorLayout& layout,
+                       const std::vector<State>& from,
+                       const std::vector<State>& to,
+                       const std::vector<NavigationVariances>& variances);
+
+/// How a trajectory with covariances P compares with a new linearisation.
+LinearisationError Compare(const ErrorLayout& layout,
+                           const std::vector<State>& states,
+                           const CovarianceSeries& P, const Relinearised& anew);
+
+/// Compare of a solution that is linearised about the forward filter's
+/// trajectory; nothing for other methods, nor for the filter where its smoother
+/// is usable.
+std::optional<LinearisationError> LinearisationErrorOf(
+    Method method, const Solution& solution, const Relinearised& anew);
+
+/// Whether a method linearises about the forward filter's trajectory.
+bool LinearisesOnce(Method method);
 
 }  // namespace hindsight
 

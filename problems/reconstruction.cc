@@ -5,10 +5,12 @@
 
 #include "base/error.h"
 #include "base/processor_time.h"
+#include "dataset/repeated_readings.h"
 #include "evaluation/grade.h"
 #include "filters/iterated_smoother.h"
 #include "filters/two_filter.h"
 #include "problems/batch.h"
+#include "problems/error_tuning.h"
 #include "problems/forward_stage.h"
 #include "problems/linearisation.h"
 #include "problems/robust_batch.h"
@@ -19,22 +21,29 @@
 namespace hindsight {
 struct Reconstruction::Impl {
   Impl(const Dataset& dataset, ReconstructionOptions options)
-      : forward(dataset, std::move(options)) {}
+      : forward(dataset, std::move(options)),
+        recording(FindRepeatedReadings(dataset, forward.start().report.t,
+                                       forward.options().to)) {}
 
   Solution Finish(Solution solution, Method method, double seconds) {
     solution.method = MethodName(method);
     solution.seconds = seconds;
     const Start& start = forward.start();
-    Conclude({.solution = solution,
-              .sensors = forward.timeline().sensors(),
-              .start = StartValues{.x = start.prior.x,
-                                   .P = start.prior.P,
-                                   .given = forward.dataset().initial,
-                                   .position = start.report.position,
-                                   .alignment = start.report.alignment},
-              .move = MoveOf(method, solution, forward.relinearised()),
-              .unsettled = forward.unsettled()},
-             forward.unobserved(), &solution);
+    Conclude(
+        {.solution = solution,
+         .sensors = forward.timeline().sensors(),
+         .start = StartValues{.x = start.prior.x,
+                              .P = start.prior.P,
+                              .given = forward.dataset().initial,
+                              .position = start.report.position,
+                              .alignment = start.report.alignment},
+         .linearisation = LinearisesOnce(method)
+                              ? LinearisationErrorOf(method, solution,
+                                                     forward.relinearised())
+                              : std::nullopt,
+         .unsettled = forward.unsettled(),
+         .recording = recording},
+        forward.unobserved(), &solution);
     return solution;
   }
 
@@ -217,11 +226,15 @@ struct Reconstruction::Impl {
     solution.mode_probabilities = std::move(result.probabilities);
     solution.mode_names = {"good", "biased", "drifting", "slight"};
     solution.notes = std::move(result.notes);
+    const ScoredHistory& likeliest = result.regimes.histories.front();
+    solution.bounded =
+        BoundedParameters(likeliest.history, likeliest.parameters);
     return Finish(std::move(solution), Method::kRobustBatch,
                   ProcessorSeconds() - t0);
   }
 
   ForwardStage forward;
+  std::vector<Evidence> recording;  ///< what it shows by itself
 };
 
 Reconstruction::Reconstruction(const Dataset& dataset,

@@ -22,7 +22,9 @@ constexpr const char* kHelp =
     R"(Loads the recording that CONFIG describes and reports rates, gaps, duplicates
 and overlap of its streams, whether specific force and angular rate are
 plausible, and the axes of the IMU as gravity at rest shows them. Writes
-nothing; exits with 0 if the recording can be loaded.
+nothing. The last line says whether the recording is usable (exit status 0),
+doubtful, as each warning makes it that is not of the truth (3), or not usable
+(1).
 
 With --noise it also finds, by maximum likelihood of the forward filter's
 innovations, the factor by which each sensor's sigma and the IMU's two noise
@@ -101,6 +103,15 @@ std::string DescribeNoise(const Dataset& dataset) {
                 estimate.converged ? "" : " (not settled)");
 }
 
+/// The last line.
+std::string DescribeGrade(const CheckReport& report) {
+  const std::size_t warnings = report.warnings.size() + report.evidence.size();
+  return std::string("the recording is ") + GradeName(report.grade()) +
+         (warnings == 0 ? ": nothing looks wrong\n"
+                        : Format(": %zu warning%s\n", warnings,
+                                 warnings == 1 ? "" : "s"));
+}
+
 int Run(const std::vector<std::string>& arguments) {
   Dataset dataset = LoadDataset(
       arguments[0], {.data_root = FLAGS_data_root,
@@ -110,18 +121,21 @@ int Run(const std::vector<std::string>& arguments) {
             << StreamTable(report.streams) << "\n"
             << DescribeGaps(report.streams) << DescribeImu(report)
             << DescribeNotes(dataset);
-  for (const std::string& warning : report.warnings) {
-    std::cout << "warning: " << warning << "\n";
+  for (const auto* warnings : {&report.warnings, &report.truth_warnings}) {
+    for (const std::string& warning : *warnings) {
+      std::cout << "warning: " << warning << "\n";
+    }
   }
-  std::cout << (report.warnings.empty()
-                    ? "The recording can be used; nothing looks wrong.\n"
-                    : "The recording can be loaded; see the warnings.\n");
+  for (const Evidence& evidence : report.evidence) {
+    std::cout << "warning: " << Describe(evidence) << "\n";
+  }
   if (FLAGS_noise) {
     ResolveMountings(&dataset);
     AddStandstillStreams(&dataset);
     std::cout << DescribeNoise(dataset);
   }
-  return kUsable;
+  std::cout << DescribeGrade(report);
+  return StatusOf(report.grade());
 }
 
 }  // namespace

@@ -146,8 +146,11 @@ std::vector<UnobservedSpan> DescribeBeforehand(const Dataset& dataset,
     // The filter diverged: every method says so of itself.
   }
   progress->Clear();
-  for (const std::string& warning : CheckDataset(dataset).warnings) {
-    std::cout << "warning: " << warning << "\n";
+  const CheckReport check = CheckDataset(dataset);
+  for (const auto* warnings : {&check.warnings, &check.truth_warnings}) {
+    for (const std::string& warning : *warnings) {
+      std::cout << "warning: " << warning << "\n";
+    }
   }
   std::cout << DescribeNotes(dataset) << DescribeStart(reconstruction->start())
             << DescribeUnobserved(unobserved) << std::flush;

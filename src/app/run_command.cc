@@ -43,6 +43,13 @@ Methods: ekf       forward error-state Kalman filter
                    at least 20 m; imm_smoother, its smoother
          robust_batch  batch that finds out from the data whether positions
                    have outliers, correlated errors or jumps
+Every result is usable, doubtful or not usable, by one set of rules that looks
+at no truth; summary.json holds the evidence, and the report what to try. The
+last line and the exit status are those of the best method: the best grade; of
+equal ones the least evidence against it; then batch, iterated, robust_batch,
+rts, two_filter, two_filter_conventional, two_filter_euler, imm_smoother, ekf,
+gated_ekf, imm, hinf, modified_hinf; ahrs_batch, ahrs_tilt_batch, ahrs_smoother,
+ahrs. What a truth contradicts stands in a line of its own.
 Attitude alone, from IMU and magnetometer, without any position:
          ahrs      causal filter of attitude and gyro bias at every sample
          ahrs_smoother  its Rauch-Tung-Striebel smoother

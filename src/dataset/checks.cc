@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "dataset/ground_motion.h"
+#include "dataset/repeated_readings.h"
 
 namespace hindsight {
 namespace {
@@ -200,6 +201,12 @@ void WarnAboutStream(const StreamReport& stream,
 
 }  // namespace
 
+Grade CheckReport::grade() const {
+  if (streams.empty()) return Grade::kUnusable;
+  return std::max(GradeOf(evidence),
+                  warnings.empty() ? Grade::kUsable : Grade::kDoubtful);
+}
+
 CheckReport CheckDataset(const Dataset& dataset) {
   CheckReport report;
   if (dataset.imu.empty()) {
@@ -217,11 +224,6 @@ CheckReport CheckDataset(const Dataset& dataset) {
     report.streams.push_back(
         ReportStamps(stream.sensor.name, stamps, dataset.imu));
   }
-  if (!dataset.truth.empty()) {
-    stamps.clear();
-    for (const TruthPoint& point : dataset.truth) stamps.push_back(point.t);
-    report.streams.push_back(ReportStamps("truth", stamps, dataset.imu));
-  }
   report.imu = ReportImu(dataset);
   report.axes = report.imu.rest_force
                     ? SuggestAxes(*report.imu.rest_force)
@@ -230,6 +232,14 @@ CheckReport CheckDataset(const Dataset& dataset) {
   for (const StreamReport& stream : report.streams) {
     WarnAboutStream(stream, &report.warnings);
   }
+  if (!dataset.truth.empty()) {
+    stamps.clear();
+    for (const TruthPoint& point : dataset.truth) stamps.push_back(point.t);
+    report.streams.push_back(ReportStamps("truth", stamps, dataset.imu));
+    WarnAboutStream(report.streams.back(), &report.truth_warnings);
+  }
+  report.evidence =
+      FindRepeatedReadings(dataset, dataset.imu.t_begin(), dataset.imu.t_end());
   if (dataset.streams.empty()) {
     report.warnings.emplace_back("no aiding stream: the position will drift");
   }

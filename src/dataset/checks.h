@@ -7,6 +7,7 @@
 
 #include "dataset/dataset.h"
 #include "dataset/standstill.h"
+#include "state/evidence.h"
 
 namespace hindsight {
 
@@ -47,9 +48,17 @@ struct CheckReport {
   ImuReport imu;
   /// One line each: what looks wrong, and what would put it right.
   std::vector<std::string> warnings;
+  /// Likewise of the truth, which no grade depends on.
+  std::vector<std::string> truth_warnings;
+  /// What the recording's repetitions say (dataset/repeated_readings.h).
+  std::vector<Evidence> evidence;
   /// In words, from the axis that feels gravity at rest: "z points down, as it
   /// should", or the `axes` that would make it so.
   std::string axes;
+
+  /// Not usable: no IMU. Otherwise the worst of the evidence; doubtful where
+  /// there are warnings.
+  Grade grade() const;
 };
 
 /// Examines a data set and changes nothing. Thresholds: |f| at rest within 5 %

@@ -12,33 +12,76 @@ constexpr double kSameTime = 1e-6;  // [s]
 
 /// Where a component of the start came from.
 struct Origin {
-  bool given = true;  ///< by the configuration
-  std::string key;    ///< that says it, or would
+  bool given = true;      ///< by the configuration
+  std::string key;        ///< that says the value, or would
+  std::string sigma_key;  ///< that says how well it is known
 };
+
+Origin OfStart(bool given, const std::string& key) {
+  return {given, "initial." + key, "initial." + key + "_sigma"};
+}
+
+/// The word of a configuration for a constant of a sensor.
+const char* WordOf(BlockKind kind) {
+  switch (kind) {
+    case BlockKind::kScale:
+      return "scale";
+    case BlockKind::kMounting:
+      return "mounting";
+    case BlockKind::kLeverArm:
+      return "lever_arm";
+    case BlockKind::kTimeOffset:
+      return "time_offset";
+    case BlockKind::kOffset:
+      return "offset";
+    case BlockKind::kHardIron:
+      return "hard_iron";
+    case BlockKind::kDeclination:
+      return "declination";
+    default:
+      return nullptr;
+  }
+}
+
+Origin OfSensor(const Judged& judged, const Block& block) {
+  const auto i = static_cast<std::size_t>(block.key.sensor);
+  if (i >= judged.sensors.size()) return {true, block.name, block.name};
+  const Sensor& sensor = judged.sensors[i];
+  const std::string stream = "aiding." + sensor.name;
+  const char* word = WordOf(block.key.kind);
+  // Of errors that come and go the configuration gives the size alone.
+  if (word == nullptr) return {true, stream, stream + ".noise"};
+  // A mounting that the direction of travel has turned is the program's own.
+  const bool found =
+      block.key.kind == BlockKind::kMounting &&
+      !judged.start->x.parameters.segment<3>(block.parameter_offset).isZero();
+  return {!found, stream + "." + word, stream + ".estimate." + word};
+}
 
 Origin OriginOf(const Judged& judged, const Block& block, int axis) {
   const InitialState& given = judged.start->given;
   switch (block.key.kind) {
     case BlockKind::kPosition:
-      return {given.position.has_value(), "initial.position"};
+      return OfStart(given.position.has_value(), "position");
     case BlockKind::kVelocity:
-      return {given.v_n.has_value(), "initial.velocity"};
+      return OfStart(given.v_n.has_value(), "velocity");
     case BlockKind::kAttitude:
-      if (given.heading && axis == 2) return {true, "initial.heading"};
-      return {given.euler.has_value(), "initial.attitude"};
+      if (given.heading && axis == 2) {
+        return {true, "initial.heading", "initial.attitude_sigma"};
+      }
+      return OfStart(given.euler.has_value(), "attitude");
     case BlockKind::kGyroBias:
-      return {given.gyro_bias_sigma && judged.start->x.b_g == given.gyro_bias,
-              "initial.gyro_bias"};
+      return OfStart(given.gyro_bias_sigma.has_value() &&
+                         judged.start->x.b_g == given.gyro_bias,
+                     "gyro_bias");
     case BlockKind::kAccelBias:
-      return {given.accel_bias_sigma.has_value(), "initial.accel_bias"};
+      return OfStart(given.accel_bias_sigma.has_value(), "accel_bias");
+    case BlockKind::kGyroScale:
+    case BlockKind::kAccelScale:
+      return {true, "imu.estimate." + block.name, "imu.estimate." + block.name};
     default:
-      break;
+      return OfSensor(judged, block);
   }
-  if (block.key.sensor == BlockKey::kNoSensor) return {true, "imu"};
-  const auto sensor = static_cast<std::size_t>(block.key.sensor);
-  return {true, sensor < judged.sensors.size()
-                    ? "aiding." + judged.sensors[sensor].name
-                    : block.name};
 }
 
 /// How the program came by a start value of its own.
@@ -54,29 +97,31 @@ std::string OwnSource(const StartValues& start, BlockKind kind) {
 }
 
 Evidence Strain(const Judged& judged, const Block& block, int axis,
-                const std::string& component, double sigmas, double pull) {
+                const std::string& component, double sigmas) {
   const Origin origin = OriginOf(judged, block, axis);
   const bool constant = block.evolution.kind == Evolution::Kind::kConstant;
-  Evidence e{
-      .grade = pull >= kUnusableBias ? Grade::kUnusable : Grade::kDoubtful,
-      .value = sigmas,
-      .limit = kStrained,
-      .unit = "sigma"};
-  const std::string when = constant ? " is " : " at the start is ";
+  Evidence e{.grade = Grade::kDoubtful,
+             .what = component + (constant ? " is " : " at the start is "),
+             .value = sigmas,
+             .limit = kStrained,
+             .unit = "sigma"};
   if (origin.given) {
-    e.what =
-        component + when + Format("%.1f sigma from its given value", sigmas);
+    e.what += Format("%.1f sigma from its given value", sigmas);
     e.causes = {"a wrong value, sign, unit or clock of " + origin.key,
-                "too small a sigma of it"};
-    e.remedies = {"the configuration without " + origin.key +
-                  " or with a larger sigma of it"};
+                "too small a sigma of it",
+                "an error that is not modelled and ends up there"};
+    e.remedies = {"another " + origin.key, "a larger " + origin.sigma_key};
   } else {
-    e.what = component + when +
-             Format("%.1f sigma from the program's own start", sigmas) +
-             OwnSource(*judged.start, block.key.kind);
-    e.causes = {"too small a sigma of that start"};
-    e.remedies = {origin.key + " and " + origin.key +
-                  "_sigma in the configuration"};
+    e.what += Format("%.1f sigma from the program's own start", sigmas) +
+              OwnSource(*judged.start, block.key.kind);
+    e.causes = {"too small a sigma of that start",
+                "an error that is not modelled and ends up there"};
+    e.remedies = {origin.key + " and " + origin.sigma_key +
+                  " in the configuration"};
+  }
+  // Both are the same key where the value is zero by definition.
+  if (origin.given && origin.key == origin.sigma_key) {
+    e.remedies.erase(e.remedies.begin());
   }
   if (!constant) e.t_begin = e.t_end = judged.start->x.t;
   return e;
@@ -87,7 +132,7 @@ Evidence Strain(const Judged& judged, const Block& block, int axis,
 void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence) {
   const Solution& solution = judged.solution;
   // P of an observer weighs nothing against its start.
-  if (!judged.start || solution.observer || solution.covariances.empty() ||
+  if (!judged.start || solution.observer ||
       solution.layout.dim() != judged.start->P.rows()) {
     return;
   }
@@ -98,9 +143,6 @@ void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence) {
       Local(solution.layout, start.x, solution.states.front());
   const ErrorVector last =
       Local(solution.layout, start.x, solution.states.back());
-  const ErrorMatrix P_first = solution.covariances.Get(0);
-  const ErrorMatrix P_last =
-      solution.covariances.Get(solution.covariances.size() - 1);
   for (const Block& block : solution.layout.blocks()) {
     const bool constant = block.evolution.kind == Evolution::Kind::kConstant;
     if (!constant && !from_start) continue;
@@ -109,13 +151,9 @@ void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence) {
       if (!block.active[static_cast<std::size_t>(axis)]) continue;
       const double sigma0 = std::sqrt(start.P(i, i));
       const double sigmas = std::abs(constant ? last(i) : first(i)) / sigma0;
-      const double r =
-          std::sqrt(constant ? P_last(i, i) : P_first(i, i)) / sigma0;
       if (sigmas > kStrained) {
-        const double pull = r < 1.0 ? sigmas * r / (1.0 - r * r) : sigmas;
         evidence->push_back(Strain(judged, block, axis,
-                                   solution.layout.ComponentName(i), sigmas,
-                                   pull));
+                                   solution.layout.ComponentName(i), sigmas));
       }
       ++i;
     }

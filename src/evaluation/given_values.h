@@ -12,11 +12,6 @@ namespace hindsight {
 /// times. If the configuration gave it, that is a wrong value, sign, unit or
 /// clock, or too small a sigma; if the program chose it, its own sigma was
 /// wrong, and what helps is to give the value.
-///
-/// The solution is a mean of that start and all else, weighted by
-/// information. A start that is wrong by d pulls it by r d / (1 - r^2) of its
-/// own sigmas, d in a priori sigmas and r the ratio of the two sigmas. Not
-/// usable if that is kUnusableBias or more.
 void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence);
 
 }  // namespace hindsight

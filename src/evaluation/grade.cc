@@ -20,6 +20,7 @@ constexpr GradeRule kRules[] = {
     {"failure", FindFailure},
     {"clock", FindUnsettledClock},
     {"recording", PassOnRecording},
+    {"rival", FindLikelyRival},
     {"linearisation", FindLinearisedFarOff},
     {"unobserved", FindUnobservedState},
     {"shut_out", FindShutOut},

@@ -11,12 +11,13 @@
 
 namespace hindsight {
 
-/// A systematic error of b standard deviations that sigma does not cover leaves
-/// root mean square errors of sqrt(1 + b^2) sigma. At one sigma these are 1.4
-/// times as large as stated; at three, the truth is outside of the 3-sigma
+/// Root mean square errors so many times as large as sigma make a result
+/// doubtful. That is a systematic error of one sigma beside it, or twice the
+/// variance: half of what the covariance should have covered.
+inline constexpr double kDoubtfulError = 1.4142135623730951;
+/// With a systematic error of three sigmas the truth is outside of the 3-sigma
 /// interval half of the time.
-inline constexpr double kDoubtfulBias = 1.0;  // sigma
-inline constexpr double kUnusableBias = 3.0;  // sigma
+inline constexpr double kUnusableBias = 3.0;
 
 /// What an estimate started from, and how it came about.
 struct StartValues {
@@ -28,22 +29,31 @@ struct StartValues {
   std::string alignment;  ///< name of the method that chose the attitude
 };
 
-/// How far a solution moves where the whole interval is linearised anew about
-/// it: the largest distance of a component of position, velocity or attitude at
-/// any epoch, in the solution's own standard deviations.
-struct LinearisationMove {
-  double sigmas = 0.0;  ///< infinity if no new linearisation holds
-  std::string component;
-  double t = 0.0;        ///< [s]
-  bool settled = false;  ///< linearised again, the interval moves no farther
+/// How a solution compares with the whole interval linearised anew about its
+/// smoothed trajectory. Of a component of position, velocity or attitude,
+///   e^2 = (d^2 + s^2) / sigma^2,
+/// d the distance from the new trajectory, s the new standard deviation: the
+/// mean square error of the solution, in its own sigma, as the new
+/// linearisation has it. It is one where both agree.
+struct LinearisationError {
+  double largest = 1.0;   ///< e of any component at any epoch
+  std::string component;  ///< with the largest e
+  double t = 0.0;         ///< at which it has it [s]
+  double rms = 1.0;       ///< over the interval, of the worst component
+  std::string rms_component;
+  /// Of a filter: d is then no error of linearisation but what the future
+  /// tells, and scatters as a normal variable does.
+  bool causal = false;
+  /// Linearised again, the new trajectory stays where it is.
+  bool settled = false;
 };
 
 /// What the rules look at.
 struct Judged {
   const Solution& solution;
-  std::span<const Sensor> sensors = {};
+  std::span<const Sensor> sensors = {};  ///< empty: residuals are not judged
   std::optional<StartValues> start = std::nullopt;
-  std::optional<LinearisationMove> move = std::nullopt;
+  std::optional<LinearisationError> linearisation = std::nullopt;
   /// Sensor whose estimated time offset goes on moving; empty: none.
   std::string unsettled = "";
   /// What the recording shows by itself, of the solution's interval.

@@ -50,28 +50,59 @@ void FindUnsettledClock(const Judged& judged, std::vector<Evidence>* evidence) {
 
 void FindLinearisedFarOff(const Judged& judged,
                           std::vector<Evidence>* evidence) {
-  if (!judged.move || !(judged.move->sigmas >= kDoubtfulBias)) return;
-  const LinearisationMove& move = *judged.move;
-  const bool wrong = move.sigmas >= kUnusableBias;
-  const double limit = wrong ? kUnusableBias : kDoubtfulBias;
-  Evidence e{.grade = wrong ? Grade::kUnusable : Grade::kDoubtful,
-             .value = move.sigmas,
-             .limit = limit,
-             .unit = "sigma",
-             .causes = {"a start so uncertain that the filter was linearised "
-                        "far from the truth"}};
-  if (std::isfinite(move.sigmas)) {
-    e.what = Format(
-        "linearised anew about itself it moves by %.2g sigma in %s at %.1f s "
-        "(limit %g)",
-        move.sigmas, move.component.c_str(), move.t, limit);
-    e.t_begin = e.t_end = move.t;
+  constexpr double kOnceInAThousand = 3.29;  // of a normal variable
+  constexpr double kOnceInTwenty = 1.96;
+  if (!judged.linearisation) return;
+  const LinearisationError& e = *judged.linearisation;
+  const double wrong =
+      e.causal ? kOnceInAThousand : std::hypot(1.0, kUnusableBias);
+  const double odd = e.causal ? kOnceInTwenty : kDoubtfulError;
+  const bool throughout = e.rms >= wrong;
+  if (!throughout && !((e.causal ? e.rms : e.largest) >= odd)) return;
+  const double value = throughout || e.causal ? e.rms : e.largest;
+  const double limit = throughout ? wrong : odd;
+  Evidence found{.grade = throughout ? Grade::kUnusable : Grade::kDoubtful,
+                 .value = value,
+                 .limit = limit,
+                 .unit = "sigma",
+                 .causes = {"a start so uncertain that the filter was "
+                            "linearised far from the truth"},
+                 .remedies = {"a better known start"}};
+  if (!std::isfinite(value)) {
+    found.what = "no linearisation about its own result holds";
+  } else if (throughout || e.causal) {
+    found.what = Format(
+        "linearised anew, the interval shows errors of %.2g sigma in %s "
+        "throughout (limit %.2g)",
+        value, e.rms_component.c_str(), limit);
   } else {
-    e.what = "no linearisation about its own result holds";
+    found.what = Format(
+        "linearised anew, the interval shows an error of %.2g sigma in %s at "
+        "%.1f s (limit %.2g)",
+        value, e.component.c_str(), e.t, limit);
+    found.t_begin = found.t_end = e.t;
   }
-  if (move.settled) e.better_methods = {"iterated", "batch"};
-  e.remedies = {"a better start value of attitude and position"};
-  evidence->push_back(std::move(e));
+  if (e.settled) found.better_methods = {"iterated", "batch"};
+  evidence->push_back(std::move(found));
+}
+
+void FindLikelyRival(const Judged& judged, std::vector<Evidence>* evidence) {
+  constexpr double kOutsideThreeSigmas = 0.0027;
+  constexpr double kOutsideOneSigma = 0.3173;
+  for (const RivalSolution& rival : judged.solution.rivals) {
+    if (rival.probability < kOutsideThreeSigmas) continue;
+    const bool coin = rival.probability >= kOutsideOneSigma;
+    evidence->push_back(
+        {.grade = coin ? Grade::kUnusable : Grade::kDoubtful,
+         .what = Format("another solution is %.2g %% likely: %s",
+                        100.0 * rival.probability, rival.description.c_str()),
+         .value = 100.0 * rival.probability,
+         .limit = 100.0 * (coin ? kOutsideOneSigma : kOutsideThreeSigmas),
+         .unit = "%",
+         .causes = {"motion that looks the same both ways"},
+         .remedies = {"a given value of what differs, or a recording with "
+                      "more varied motion"}});
+  }
 }
 
 void FindUnobservedState(const Judged& judged,
@@ -94,6 +125,7 @@ void FindUnobservedState(const Judged& judged,
 }
 
 void FindShutOut(const Judged& judged, std::vector<Evidence>* evidence) {
+  if (judged.sensors.empty()) return;
   if (auto refusal = FindRefusal(judged.sensors, judged.solution)) {
     evidence->push_back(std::move(*refusal));
   }
@@ -101,6 +133,7 @@ void FindShutOut(const Judged& judged, std::vector<Evidence>* evidence) {
 
 void FindLargeResiduals(const Judged& judged, std::vector<Evidence>* evidence) {
   constexpr double kWorst = 5.0;
+  if (judged.sensors.empty()) return;
   std::vector<double> sum(judged.sensors.size(), 0.0);
   std::vector<double> rows(judged.sensors.size(), 0.0);
   for (const ResidualRecord& record : judged.solution.residuals) {
@@ -132,7 +165,10 @@ void FindValuesAtBounds(const Judged& judged, std::vector<Evidence>* evidence) {
   constexpr double kTouching = 1e-6;  // of the value
   for (const BoundedValue& v : judged.solution.bounded) {
     for (const double bound : {v.least, v.most}) {
-      if (std::abs(v.value - bound) > kTouching * std::abs(bound)) continue;
+      if (!(std::abs(v.value - bound) <= kTouching * std::abs(bound)) ||
+          !std::isfinite(bound)) {
+        continue;
+      }
       evidence->push_back(
           {.grade = Grade::kDoubtful,
            .what = Format("%s ends at the bound of its search, %.4g %s",

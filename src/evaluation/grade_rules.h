@@ -14,11 +14,21 @@ void FindFailure(const Judged& judged, std::vector<Evidence>* evidence);
 /// Not usable: an estimated time offset that does not settle.
 void FindUnsettledClock(const Judged& judged, std::vector<Evidence>* evidence);
 
-/// Doubtful from kDoubtfulBias on, not usable from kUnusableBias on: a solution
-/// that moves when the interval is linearised anew about it. Its sigmas know
-/// nothing of that.
+/// A solution whose sigmas do not cover what a new linearisation about it
+/// changes. A smoother is doubtful where any component at any time has errors
+/// of kDoubtfulError sigmas, and not usable if one has those of a systematic
+/// error of kUnusableBias in the root mean square over the interval. A filter,
+/// which is judged only if its smoother has kDoubtfulError in the root mean
+/// square, must be beyond chance: 3.29 sigmas in the root mean square over the
+/// interval are not usable, as errors that last as long as the interval reach
+/// them once in a thousand times, and 1.96 are doubtful.
 void FindLinearisedFarOff(const Judged& judged,
                           std::vector<Evidence>* evidence);
+
+/// Another explanation of the data. Doubtful from a probability of 0.27 % on,
+/// with which the truth is as often there as it is outside of a 3-sigma
+/// interval by chance; not usable from 32 %, as often as outside of one sigma.
+void FindLikelyRival(const Judged& judged, std::vector<Evidence>* evidence);
 
 /// Not usable: a navigation state that says nothing over half of the interval.
 /// A forward filter need not know everything from its first second on.

@@ -28,8 +28,27 @@ TEST_F(OtherCommands, CheckReportsAndChangesNothing) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("imu"));
   EXPECT_THAT(outcome.out, HasSubstr("Hz"));
+  EXPECT_EQ(Lines(outcome.out).back(),
+            "the recording is usable: nothing looks wrong");
   EXPECT_EQ(Names(recording_.root() / "data"), before);
   EXPECT_THAT(Names(recording_.root()), ElementsAre("data"));
+}
+
+TEST_F(OtherCommands, CheckEndsWithThreeWhereTheImuFreezes) {
+  const std::size_t first = recording_.FirstRow("imu.csv");
+  recording_.Edit("imu.csv", [first](std::vector<std::string>* lines) {
+    const std::string& held = (*lines)[first + 2000];
+    const std::string readings = held.substr(held.find(','));
+    for (std::size_t i = first + 2001; i < first + 2500; ++i) {
+      std::string& line = (*lines)[i];
+      line = line.substr(0, line.find(',')) + readings;
+    }
+  });
+  const Outcome outcome =
+      Hindsight({"check", "data/config.yaml"}, recording_.root());
+  EXPECT_EQ(outcome.status, 3) << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("the IMU repeats one sample for 4.99 s"));
+  EXPECT_EQ(Lines(outcome.out).back(), "the recording is doubtful: 1 warning");
 }
 
 TEST_F(OtherCommands, EvaluateAgreesWithTheSummary) {

@@ -84,6 +84,44 @@ TEST_F(RunCommandTest, SummaryHoldsTheDocumentedKeys) {
   }
 }
 
+TEST_F(RunCommandTest, AGivenValueThatTheDataContradictEndsWithThree) {
+  const Outcome right = recording_.Run({"--out=right", "--methods=ekf,batch"});
+  EXPECT_EQ(right.status, 0) << right.out;
+  recording_.Edit("config.yaml", [](std::vector<std::string>* lines) {
+    for (std::string& line : *lines) {
+      if (line.find("  gyro_bias:") == 0) {
+        line = "  gyro_bias: [1 deg/s, 0 deg/s, 0 deg/s]";
+      }
+    }
+  });
+  const Outcome outcome = recording_.Run({"--out=out", "--methods=batch"});
+  EXPECT_EQ(outcome.status, 3) << outcome.out;
+  const std::vector<std::string> lines = Lines(outcome.out);
+  EXPECT_THAT(lines.back(), StartsWith("batch is doubtful: gyro_bias[x] "));
+  EXPECT_THAT(lines, Contains(AllOf(StartsWith("batch is doubtful: gyro_bias"),
+                                    HasSubstr("; likely: "),
+                                    HasSubstr("initial.gyro_bias"))));
+  const nlohmann::json summary = Summary();
+  EXPECT_EQ(summary["best"], "batch");
+  EXPECT_EQ(summary["grade"], "doubtful");
+  const nlohmann::json& evidence = summary["methods"]["batch"]["evidence"];
+  ASSERT_FALSE(evidence.empty());
+  EXPECT_EQ(evidence[0]["rule"], "given_values");
+  EXPECT_GT(evidence[0]["value"].get<double>(),
+            evidence[0]["limit"].get<double>());
+}
+
+TEST_F(RunCommandTest, StatusAndLastLineAreThoseOfTheBestMethod) {
+  // A step that the gate shuts out; the smoother of two modes lives with it.
+  const Outcome outcome =
+      recording_.Run({"--out=out", "--methods=gated_ekf", "--without=speed",
+                      "--inject=position:step=60m,from=25s"});
+  EXPECT_EQ(outcome.status, 1) << outcome.out;
+  EXPECT_THAT(Lines(outcome.out).back(),
+              StartsWith("gated_ekf is not usable: the gate refused"));
+  EXPECT_EQ(Summary()["grade"], "not usable");
+}
+
 TEST_F(RunCommandTest, OutputIsAtTheRateAndTimesAskedFor) {
   WriteFile(recording_.root() / "times.txt", "# poses\n10.125\n20.0625\n");
   ASSERT_EQ(recording_

@@ -24,16 +24,13 @@ class GivenValues : public ::testing::Test {
     start_.alignment = "velocity";
   }
 
-  std::vector<Evidence> Find(int component, double sigmas,
-                             double ratio = 0.01) {
+  std::vector<Evidence> Find(int component, double sigmas) {
     Solution solution;
     solution.layout = TypicalLayout();
     const int dim = solution.layout.dim();
     ErrorVector d = ErrorVector::Zero(dim);
     d(component) = sigmas * std::sqrt(start_.P(component, component));
-    solution.states = {Retract(solution.layout, start_.x, d)};
-    solution.covariances = CovarianceSeries(dim, 1);
-    solution.covariances.Set(0, ratio * ratio * start_.P);
+    solution.states = {Retract(solution.layout, TypicalState(), d)};
     std::vector<Evidence> found;
     FindStrainedValues({.solution = solution, .start = start_}, &found);
     return found;
@@ -74,10 +71,40 @@ TEST_F(GivenValues, OwnStartIsNamedWithTheKeyToSet) {
   EXPECT_THAT(Find(7, 7.0).at(0).what, HasSubstr("the program's own start"));
 }
 
-/// x = (1 - r^2) of all else + r^2 of the start: a false start weighs.
-TEST_F(GivenValues, StartThatPullsTheSolutionByThreeSigmasIsNotUsable) {
-  EXPECT_EQ(Find(2, 6.0, 0.35).at(0).grade, Grade::kDoubtful);
-  EXPECT_EQ(Find(2, 6.0, 0.45).at(0).grade, Grade::kUnusable);
+TEST_F(GivenValues, ConstantOfASensorIsNamedByItsKey) {
+  Sensor sensor;
+  sensor.name = "gnss";
+  ErrorLayout layout = TypicalLayout();
+  Block block;
+  block.key = {BlockKind::kLeverArm, 0};
+  block.name = "gnss_lever_arm";
+  block.sigma0.setConstant(0.1);
+  layout.Add(block);
+  start_.x.parameters = ParameterVector::Zero(layout.parameter_count());
+  start_.P = layout.InitialCovariance();
+  Solution solution;
+  solution.layout = layout;
+  // A filter's first state knows nothing yet of a constant.
+  solution.states = {start_.x, start_.x};
+  solution.states[1].t += 10.0;
+  std::vector<Evidence> found;
+  const auto find = [&](double metres) {
+    found.clear();
+    solution.states[1].parameters(layout.blocks().back().parameter_offset + 1) =
+        metres;
+    FindStrainedValues({.solution = solution,
+                        .sensors = std::span<const Sensor>(&sensor, 1),
+                        .start = start_},
+                       &found);
+  };
+  find(0.49);
+  EXPECT_TRUE(found.empty());
+  find(0.51);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].what,
+            "gnss_lever_arm[y] is 5.1 sigma from its given value");
+  EXPECT_EQ(found[0].remedies.at(0), "another aiding.gnss.lever_arm");
+  EXPECT_EQ(found[0].remedies.at(1), "a larger aiding.gnss.estimate.lever_arm");
 }
 
 TEST_F(GivenValues, OfAStartThatLiesElsewhereNothingIsKnown) {

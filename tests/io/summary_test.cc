@@ -51,7 +51,20 @@ Solution Drive(const std::string& method) {
     solution.covariances.Set(k, 4.0 * ErrorMatrix::Identity(dim, dim));
   }
   solution.seconds = 0.25;
-  solution.verdict = "usable: all is well";
+  solution.grade = Grade::kDoubtful;
+  solution.verdict = "doubtful: see there";
+  solution.evidence = {{.rule = "residuals",
+                        .grade = Grade::kDoubtful,
+                        .what = "residuals of gnss are large",
+                        .value = 7.0,
+                        .limit = 5.0,
+                        .unit = "sigma",
+                        .t_begin = 3.0,
+                        .t_end = 9.0,
+                        .causes = {"a wrong clock"},
+                        .remedies = {"a larger sigma"},
+                        .better_methods = {"iterated", "batch"}},
+                       {.rule = "accuracy", .what = "heading to 19 deg"}};
   return solution;
 }
 
@@ -108,18 +121,19 @@ RunSummary FullSummary() {
   summary.methods = {
       SummarizeMethod(dataset, solution, TableFromSolution(solution), 2.0)};
   summary.methods[0].peak_rss_mb = 80.0;
+  summary.best = "batch";
   return summary;
 }
 
 TEST(Summary, HasTheDocumentedKeys) {
   const Json json = SummaryJson(FullSummary());
   EXPECT_THAT(Keys(json), ElementsAre("program", "dataset", "start", "policies",
-                                      "methods"));
+                                      "best", "grade", "methods"));
   const Json& batch = json["methods"]["batch"];
   EXPECT_THAT(Keys(batch),
               ElementsAre("seconds", "peak_rss_mb", "converged", "iterations",
-                          "usable", "verdict", "error", "withheld", "nees",
-                          "residuals", "constants", "unobserved"));
+                          "grade", "verdict", "evidence", "error", "withheld",
+                          "nees", "residuals", "constants", "unobserved"));
   EXPECT_THAT(
       Keys(batch["error"]),
       ElementsAre("position_rms_m", "position_max_m", "horizontal_rms_m",
@@ -163,6 +177,47 @@ TEST(Summary, MatchesHandComputedFigures) {
   EXPECT_DOUBLE_EQ(json["start"]["attitude_sigma_deg"][2].get<double>(), 2.0);
 }
 
+TEST(Summary, HoldsTheGradeAndItsEvidence) {
+  const Json json = SummaryJson(FullSummary());
+  EXPECT_EQ(json["best"], "batch");
+  EXPECT_EQ(json["grade"], "doubtful");
+  const Json& batch = json["methods"]["batch"];
+  EXPECT_EQ(batch["grade"], "doubtful");
+  ASSERT_EQ(batch["evidence"].size(), 2u);
+  const Json expected = {
+      {"rule", "residuals"},
+      {"grade", "doubtful"},
+      {"what", "residuals of gnss are large"},
+      {"value", 7.0},
+      {"limit", 5.0},
+      {"unit", "sigma"},
+      {"span_s", {3.0, 9.0}},
+      {"likely_causes", {"a wrong clock"}},
+      {"what_to_try", {"method iterated or batch", "a larger sigma"}}};
+  EXPECT_EQ(batch["evidence"][0], expected);
+  EXPECT_THAT(Keys(batch["evidence"][1]), ElementsAre("rule", "grade", "what"));
+  // A NEES of one contradicts nothing.
+  EXPECT_FALSE(batch.contains("contradicts_truth"));
+}
+
+TEST(Summary, WhatTheTruthContradictsStandsBesideTheGrade) {
+  Solution solution = Drive("batch");
+  const Dataset dataset = WithTruth(solution);
+  const int dim = solution.layout.dim();
+  for (std::size_t k = 0; k < solution.states.size(); ++k) {
+    solution.covariances.Set(k, 1e-2 * ErrorMatrix::Identity(dim, dim));
+  }
+  const MethodSummary m =
+      SummarizeMethod(dataset, solution, TableFromSolution(solution), 2.0);
+  RunSummary summary;
+  summary.methods = {m};
+  const Json batch = SummaryJson(summary)["methods"]["batch"];
+  EXPECT_EQ(batch["grade"], "doubtful");
+  // 2 m off at a sigma of 0.1 m.
+  EXPECT_THAT(batch["contradicts_truth"].get<std::string>(),
+              HasSubstr("mean NEES of position 400, where 3 is right"));
+}
+
 TEST(Summary, LeavesOutFiguresThatDoNotExist) {
   Solution solution = Drive("ekf");
   solution.covariances = CovarianceSeries();
@@ -175,9 +230,9 @@ TEST(Summary, LeavesOutFiguresThatDoNotExist) {
   summary.methods[0].seconds = std::numeric_limits<double>::quiet_NaN();
   const Json json = SummaryJson(summary);
   EXPECT_THAT(Keys(json), ElementsAre("program", "dataset", "methods"));
-  EXPECT_THAT(
-      Keys(json["methods"]["ekf"]),
-      ElementsAre("converged", "usable", "verdict", "residuals", "constants"));
+  EXPECT_THAT(Keys(json["methods"]["ekf"]),
+              ElementsAre("converged", "grade", "verdict", "evidence",
+                          "residuals", "constants"));
   EXPECT_THAT(json.dump(), Not(HasSubstr("null")));
 }
 

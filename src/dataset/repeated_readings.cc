@@ -1,0 +1,212 @@
+#include "dataset/repeated_readings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/text.h"
+#include "earth/wgs84.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kLeastFrozen = 0.1;  // [s]
+constexpr double kChance = 1e-6;
+/// Runs shorter than this share of the one in question tell what is usual.
+constexpr long kUsualShare = 4;
+constexpr double kStepsOfResolution = 4.0;
+constexpr double kRounding = 1e-6;       // of a coordinate [m or m/s]
+constexpr double kEarthRadius = 6.37e6;  // [m], for lengths of degrees
+constexpr double kDoubtfulShare = 1.0 / 2.0;
+constexpr double kUnusableShare = 8.0 / 9.0;
+
+/// Runs of two and more equal samples.
+std::vector<RepeatedRun> RunsOf(const ImuStream& imu) {
+  std::vector<RepeatedRun> runs;
+  bool open = false;
+  for (std::size_t k = 1; k < imu.samples.size(); ++k) {
+    const ImuSample& a = imu.samples[k - 1];
+    const ImuSample& b = imu.samples[k];
+    if (a.gyro != b.gyro || a.accel != b.accel) {
+      open = false;
+      continue;
+    }
+    if (!open) runs.push_back({a.t, a.t, 1});
+    open = true;
+    runs.back().t_end = b.t;
+    ++runs.back().rows;
+  }
+  return runs;
+}
+
+/// Whether chance makes a run of so many rows, among runs of which those
+/// shorter than a quarter of it tell how likely they go on. `rows` ascends.
+bool IsByChance(const std::vector<long>& rows, long length) {
+  double repeats = 1.0;  // a repetition that ends, so that none is certain
+  double ends = 1.0;
+  for (const long r : rows) {
+    if (kUsualShare * r >= length) break;
+    repeats += static_cast<double>(r - 2);
+    ends += 1.0;
+  }
+  const double go_on = repeats / (repeats + ends);
+  const double expected = static_cast<double>(rows.size()) *
+                          std::pow(go_on, static_cast<double>(length - 2));
+  return expected > kChance;
+}
+
+using Vectors = std::vector<Eigen::Vector3d>;
+
+/// Positions as metres north, east and up, or velocities; empty for a stream of
+/// another kind.
+Vectors ReadingsOf(const AidingStream& stream) {
+  Vectors readings;
+  double cosine = 1.0;
+  for (const Measurement& z : stream.measurements) {
+    if (const auto* position = std::get_if<PositionFix>(&z.model)) {
+      const Geodetic place = GeodeticFromEcef(position->p_e);
+      if (readings.empty()) cosine = std::cos(place.latitude);
+      readings.emplace_back(kEarthRadius * place.latitude,
+                            kEarthRadius * cosine * place.longitude,
+                            place.height);
+    } else if (const auto* velocity = std::get_if<VelocityFix>(&z.model)) {
+      readings.push_back(velocity->v_n);
+    }
+  }
+  return readings;
+}
+
+struct HeldReading {
+  Eigen::Vector3d value;
+  long rows = 1;
+};
+
+std::vector<HeldReading> HeldReadings(const Vectors& readings) {
+  std::vector<HeldReading> held;
+  for (const Eigen::Vector3d& value : readings) {
+    if (!held.empty() && held.back().value == value) {
+      ++held.back().rows;
+    } else {
+      held.push_back({value, 1});
+    }
+  }
+  return held;
+}
+
+/// Of each coordinate the least difference of any two of its values.
+Eigen::Vector3d Resolution(const std::vector<HeldReading>& held) {
+  Eigen::Vector3d least;
+  std::vector<double> values(held.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      values[i] = held[i].value(axis);
+    }
+    std::sort(values.begin(), values.end());
+    least(axis) = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      const double difference = values[i] - values[i - 1];
+      if (difference > kRounding)
+        least(axis) = std::min(least(axis), difference);
+    }
+  }
+  return least;
+}
+
+long MedianRows(std::vector<HeldReading> held) {
+  const auto middle =
+      held.begin() + static_cast<std::ptrdiff_t>(held.size() / 2);
+  std::nth_element(held.begin(), middle, held.end(),
+                   [](const HeldReading& a, const HeldReading& b) {
+                     return a.rows < b.rows;
+                   });
+  return middle->rows;
+}
+
+Evidence FrozenEvidence(const std::vector<RepeatedRun>& runs) {
+  const RepeatedRun& worst = *std::max_element(
+      runs.begin(), runs.end(), [](const RepeatedRun& a, const RepeatedRun& b) {
+        return a.t_end - a.t_begin < b.t_end - b.t_begin;
+      });
+  Evidence e{.rule = "frozen_imu",
+             .grade = Grade::kDoubtful,
+             .value = worst.t_end - worst.t_begin,
+             .limit = kLeastFrozen,
+             .unit = "s",
+             .t_begin = worst.t_begin,
+             .t_end = worst.t_end,
+             .causes = {"a logger or driver that repeats the last sample"},
+             .remedies = {"the recording without these samples: a gap is "
+                          "bridged with noise that allows for it"}};
+  e.what = Format("the IMU repeats one sample for %.3g s from %.3f s", *e.value,
+                  worst.t_begin);
+  if (runs.size() > 1) {
+    e.what += Format(", and %zu more times", runs.size() - 1);
+  }
+  return e;
+}
+
+Evidence StaleEvidence(const std::string& name, double share) {
+  const bool wrong = share >= kUnusableShare;
+  const double limit = 100.0 * (wrong ? kUnusableShare : kDoubtfulShare);
+  return {
+      .rule = "stale_readings",
+      .grade = wrong ? Grade::kUnusable : Grade::kDoubtful,
+      .what = Format("%s repeats the row before in %.0f %% of its rows "
+                     "while it moves (limit %.0f)",
+                     name.c_str(), 100.0 * share, limit),
+      .value = 100.0 * share,
+      .limit = limit,
+      .unit = "%",
+      .causes = {"a logger that writes " + name +
+                 " faster than it is measured"},
+      .remedies = {"the rows of " + name + " at which it was measured, alone"}};
+}
+
+}  // namespace
+
+std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu) {
+  std::vector<RepeatedRun> runs = RunsOf(imu);
+  std::vector<long> rows;
+  for (const RepeatedRun& run : runs) rows.push_back(run.rows);
+  std::sort(rows.begin(), rows.end());
+  std::erase_if(runs, [&rows](const RepeatedRun& run) {
+    return run.t_end - run.t_begin < kLeastFrozen || IsByChance(rows, run.rows);
+  });
+  return runs;
+}
+
+double StaleShare(const AidingStream& stream) {
+  const Vectors readings = ReadingsOf(stream);
+  const std::vector<HeldReading> held = HeldReadings(readings);
+  if (held.size() < 3) return 0.0;
+  const Eigen::Array3d step = kStepsOfResolution * Resolution(held).array();
+  const long usual = 2 * MedianRows(held);
+  long stale = 0;
+  for (std::size_t i = 1; i + 1 < held.size(); ++i) {
+    const auto far = [&](std::size_t j) {
+      return ((held[j].value - held[i].value).array().abs() > step).any();
+    };
+    if (held[i].rows <= usual && far(i - 1) && far(i + 1)) {
+      stale += held[i].rows - 1;
+    }
+  }
+  return static_cast<double>(stale) / static_cast<double>(readings.size());
+}
+
+std::vector<Evidence> FindRepeatedReadings(const Dataset& dataset, double from,
+                                           double to) {
+  std::vector<Evidence> evidence;
+  std::vector<RepeatedRun> frozen = FindFrozenImu(dataset.imu);
+  std::erase_if(frozen, [from, to](const RepeatedRun& run) {
+    return run.t_end < from || run.t_begin > to;
+  });
+  if (!frozen.empty()) evidence.push_back(FrozenEvidence(frozen));
+  for (const AidingStream& stream : dataset.streams) {
+    const double share = StaleShare(stream);
+    if (share < kDoubtfulShare) continue;
+    evidence.push_back(StaleEvidence(stream.sensor.name, share));
+  }
+  return evidence;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,149 @@
+#include "dataset/repeated_readings.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+#include "base/units.h"
+
+namespace hindsight {
+namespace {
+
+/// A minute at 100 Hz with noise of `steps` least significant bits.
+ImuStream Imu(double steps) {
+  ImuStream imu;
+  imu.nominal_dt = 0.01;
+  Random random(1);
+  constexpr double kBit = 1e-3;
+  const auto reading = [&] {
+    const Eigen::Vector3d v = steps * random.NormalVector3();
+    return Eigen::Vector3d(kBit * v.array().round().matrix());
+  };
+  for (int k = 0; k < 6000; ++k) {
+    imu.samples.push_back({0.01 * k, reading(), reading()});
+  }
+  return imu;
+}
+
+void Freeze(double from, double to, ImuStream* imu) {
+  const ImuSample* held = nullptr;
+  for (ImuSample& sample : imu->samples) {
+    if (sample.t < from || sample.t > to) continue;
+    if (held == nullptr) held = &sample;
+    sample.gyro = held->gyro;
+    sample.accel = held->accel;
+  }
+}
+
+TEST(FrozenImu, IsFoundWithItsTime) {
+  for (const double steps : {0.2, 1.0, 100.0}) {
+    ImuStream imu = Imu(steps);
+    EXPECT_TRUE(FindFrozenImu(imu).empty()) << steps;
+    Freeze(20.0, 25.0, &imu);
+    const std::vector<RepeatedRun> found = FindFrozenImu(imu);
+    ASSERT_EQ(found.size(), 1u) << steps;
+    // A coarse reading may happen to repeat at the ends.
+    EXPECT_NEAR(found[0].t_begin, 20.0, 1.0);
+    EXPECT_NEAR(found[0].t_end, 25.0, 1.0);
+  }
+}
+
+TEST(FrozenImu, IsFoundAsOftenAsItHappens) {
+  ImuStream imu = Imu(1.0);
+  for (const double t : {10.0, 20.0, 30.0, 40.0}) Freeze(t, t + 3.0, &imu);
+  EXPECT_EQ(FindFrozenImu(imu).size(), 4u);
+}
+
+/// A sensor so coarse that it rests on the same reading for a second.
+TEST(FrozenImu, CoarseReadingsRepeatByThemselves) {
+  const ImuStream imu = Imu(0.2);
+  long longest = 0;
+  long run = 0;
+  for (std::size_t k = 1; k < imu.samples.size(); ++k) {
+    const bool same = imu.samples[k].gyro == imu.samples[k - 1].gyro &&
+                      imu.samples[k].accel == imu.samples[k - 1].accel;
+    run = same ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  ASSERT_GT(longest, 50);
+  EXPECT_TRUE(FindFrozenImu(imu).empty());
+}
+
+constexpr double kStep = 1.0 / 6.37e6;  // a metre of latitude [rad]
+
+/// Ten minutes along the meridian at `rate`; `Hold` turns the time of a row
+/// into that of the reading that it has, `resolution` in metres.
+template <typename Hold>
+AidingStream Positions(double rate, double speed, double resolution,
+                       Hold hold) {
+  AidingStream stream;
+  stream.sensor.name = "gnss";
+  for (int k = 0; k < 600 * rate; ++k) {
+    const double t = k / rate;
+    const double at = hold(t);
+    const auto grid = [resolution](double metres) {
+      return resolution * std::round(metres / resolution);
+    };
+    PositionFix fix;
+    fix.p_e = EcefFromGeodetic({0.8 + kStep * grid(speed * at), 0.1,
+                                grid(100.0 + 3.0 * std::sin(0.1 * at))});
+    stream.measurements.push_back({.t = t, .model = fix});
+  }
+  return stream;
+}
+
+TEST(StaleShare, OfPositionsWrittenFasterThanMeasured) {
+  const auto each_second = [](double t) { return std::floor(t + 1e-9); };
+  EXPECT_NEAR(StaleShare(Positions(25.0, 10.0, 1e-3, each_second)), 0.96, 0.01);
+  EXPECT_NEAR(StaleShare(Positions(4.0, 10.0, 1e-3, each_second)), 0.75, 0.01);
+  EXPECT_EQ(StaleShare(Positions(1.0, 10.0, 1e-3, each_second)), 0.0);
+}
+
+TEST(StaleShare, NotOfACoarseReceiverOnASlowVehicle) {
+  const auto now = [](double t) { return t; };
+  EXPECT_EQ(StaleShare(Positions(10.0, 0.5, 0.18, now)), 0.0);
+}
+
+/// Half a minute of driving, then half a minute at rest with the position held.
+TEST(StaleShare, NotOfAReceiverThatHoldsItsPositionAtRest) {
+  const auto stop_and_go = [](double t) {
+    const double cycle = std::floor(t / 60.0);
+    return 30.0 * cycle + std::min(t - 60.0 * cycle, 30.0);
+  };
+  EXPECT_LT(StaleShare(Positions(10.0, 10.0, 1e-3, stop_and_go)), 0.02);
+}
+
+TEST(RepeatedReadings, GradeByHowOftenAReadingIsCounted) {
+  Dataset dataset;
+  dataset.imu = Imu(100.0);
+  const auto evidence = [&](double rate) {
+    dataset.streams = {Positions(
+        rate, 10.0, 1e-3, [](double t) { return std::floor(t + 1e-9); })};
+    return FindRepeatedReadings(dataset, 0.0, 60.0);
+  };
+  EXPECT_TRUE(evidence(1.0).empty());
+  ASSERT_EQ(evidence(4.0).size(), 1u);
+  EXPECT_EQ(evidence(4.0)[0].grade, Grade::kDoubtful);
+  ASSERT_EQ(evidence(25.0).size(), 1u);
+  EXPECT_EQ(evidence(25.0)[0].rule, "stale_readings");
+  EXPECT_EQ(evidence(25.0)[0].grade, Grade::kUnusable);
+  EXPECT_NEAR(*evidence(25.0)[0].value, 96.0, 1.0);
+  EXPECT_NE(evidence(25.0)[0].what.find("gnss"), std::string::npos);
+}
+
+TEST(RepeatedReadings, FrozenImuIsDoubtfulWithinTheInterval) {
+  Dataset dataset;
+  dataset.imu = Imu(100.0);
+  Freeze(20.0, 25.0, &dataset.imu);
+  EXPECT_TRUE(FindRepeatedReadings(dataset, 30.0, 60.0).empty());
+  const auto evidence = FindRepeatedReadings(dataset, 0.0, 60.0);
+  ASSERT_EQ(evidence.size(), 1u);
+  EXPECT_EQ(evidence[0].rule, "frozen_imu");
+  EXPECT_EQ(evidence[0].grade, Grade::kDoubtful);
+  EXPECT_NEAR(*evidence[0].t_begin, 20.0, 0.02);
+  EXPECT_NEAR(*evidence[0].value, 5.0, 0.02);
+}
+
+}  // namespace
+}  // namespace hindsight

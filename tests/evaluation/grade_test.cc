@@ -1,0 +1,305 @@
+#include "evaluation/grade.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/units.h"
+#include "support/test_motion.h"
+
+namespace hindsight {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+using testing::TypicalLayout;
+using testing::TypicalState;
+
+/// A hundred seconds, known to 0.1 m, 0.01 m/s, 0.1 deg and 1 deg of heading,
+/// with a residual of one sigma each second.
+class GradeTest : public ::testing::Test {
+ protected:
+  GradeTest() {
+    solution_.method = "batch";
+    solution_.layout = TypicalLayout();
+    const int dim = solution_.layout.dim();
+    solution_.covariances = CovarianceSeries(dim, 101);
+    ErrorVector sigma = ErrorVector::Constant(dim, 1e-4);
+    sigma.segment<3>(0).setConstant(0.1);
+    sigma.segment<3>(3).setConstant(0.01);
+    sigma.segment<3>(6) = Eigen::Vector3d(0.1, 0.1, 1.0) * kDegree;
+    for (int k = 0; k <= 100; ++k) {
+      State x = TypicalState();
+      x.t = k;
+      solution_.states.push_back(x);
+      Set(static_cast<std::size_t>(k), sigma);
+      ResidualRecord record;
+      record.t = k;
+      record.residual = Eigen::Vector3d::Zero();
+      record.nis = 3.0;
+      solution_.residuals.push_back(record);
+    }
+    sigma_ = sigma;
+    sensors_.resize(1);
+    sensors_[0].name = "gnss";
+  }
+
+  void Set(std::size_t k, const ErrorVector& sigma) {
+    const ErrorMatrix P = sigma.cwiseAbs2().asDiagonal();
+    solution_.covariances.Set(k, P);
+  }
+
+  void ConcludeWith(const Judged& judged) { Conclude(judged, {}, &solution_); }
+  void ConcludePlain() {
+    ConcludeWith({.solution = solution_, .sensors = sensors_});
+  }
+
+  /// The one piece of evidence that lowers the grade.
+  const Evidence& Against() const {
+    const Evidence* found = nullptr;
+    int count = 0;
+    for (const Evidence& e : solution_.evidence) {
+      if (e.grade == Grade::kUsable) continue;
+      found = &e;
+      ++count;
+    }
+    EXPECT_EQ(count, 1);
+    static const Evidence kNone;
+    return found == nullptr ? kNone : *found;
+  }
+
+  Solution solution_;
+  std::vector<Sensor> sensors_;
+  ErrorVector sigma_;
+};
+
+TEST_F(GradeTest, AHealthySolutionIsUsableAndSaysHowWellEverythingIsKnown) {
+  sigma_(8) = 19.0 * kDegree;
+  Set(0, sigma_);
+  ConcludePlain();
+  EXPECT_EQ(solution_.grade, Grade::kUsable);
+  // sqrt(3) of an axis; the heading is 19 deg at one epoch, 1 deg at others.
+  EXPECT_THAT(solution_.verdict,
+              StartsWith("usable: position to 0.17 m, velocity to 0.017 m/s, "
+                         "tilt to 0.14 deg, heading to 2.1 deg (19 at worst)"));
+  for (const Evidence& e : solution_.evidence) {
+    EXPECT_EQ(e.rule, "accuracy");
+    EXPECT_EQ(e.grade, Grade::kUsable);
+  }
+}
+
+TEST_F(GradeTest, WhatIsNotFiniteOrDidNotConvergeIsNotUsable) {
+  solution_.converged = false;
+  ConcludePlain();
+  EXPECT_EQ(solution_.grade, Grade::kUnusable);
+  EXPECT_EQ(solution_.verdict, "not usable: the iteration did not converge");
+  solution_.converged = true;
+  sigma_(3) = std::numeric_limits<double>::quiet_NaN();
+  Set(7, sigma_);
+  ConcludePlain();
+  EXPECT_EQ(Against().rule, "failure");
+  EXPECT_EQ(Against().t_begin, 7.0);
+  EXPECT_THAT(solution_.verdict, HasSubstr("from 7.0 s on are not finite"));
+}
+
+TEST_F(GradeTest, StateThatIsUnobservedOverHalfOfTheIntervalIsNotUsable) {
+  ErrorVector unknown = sigma_;
+  unknown(8) = 21.0 * kDegree;
+  for (std::size_t k = 0; k < 50; ++k) Set(k, unknown);
+  ConcludePlain();
+  EXPECT_EQ(solution_.grade, Grade::kUsable);
+  EXPECT_THAT(solution_.unobserved, SizeIs(1));
+  for (std::size_t k = 50; k < 60; ++k) Set(k, unknown);
+  ConcludePlain();
+  EXPECT_EQ(solution_.grade, Grade::kUnusable);
+  EXPECT_EQ(Against().rule, "unobserved");
+  EXPECT_THAT(solution_.verdict,
+              StartsWith("not usable: attitude[down] is not observed from 0.0 "
+                         "s to 59.0 s"));
+  // Where nothing tells north, the heading is not asked for.
+  ConcludeWith({.solution = solution_, .relative_heading = true});
+  EXPECT_EQ(solution_.grade, Grade::kUsable);
+  EXPECT_THAT(solution_.verdict, HasSubstr("counts from the start"));
+}
+
+TEST_F(GradeTest, LargeResidualsAreNotUsable) {
+  for (ResidualRecord& r : solution_.residuals) r.nis = 3.0 * 4.9 * 4.9;
+  ConcludePlain();
+  EXPECT_EQ(solution_.grade, Grade::kUsable);
+  for (ResidualRecord& r : solution_.residuals) r.nis = 3.0 * 5.1 * 5.1;
+  ConcludePlain();
+  EXPECT_EQ(solution_.grade, Grade::kUnusable);
+  EXPECT_EQ(Against().rule, "residuals");
+  EXPECT_NEAR(*Against().value, 5.1, 1e-9);
+  EXPECT_EQ(Against().limit, 5.0);
+  EXPECT_FALSE(Against().causes.empty());
+  EXPECT_FALSE(Against().remedies.empty());
+}
+
+TEST_F(GradeTest, ClockThatDoesNotSettleIsNotUsable) {
+  ConcludeWith({.solution = solution_, .unsettled = "gnss"});
+  EXPECT_EQ(Against().rule, "clock");
+  EXPECT_THAT(
+      solution_.verdict,
+      StartsWith("not usable: the time offset of gnss does not settle"));
+}
+
+TEST_F(GradeTest, SmootherIsDoubtfulAtOneTimeAndNotUsableThroughout) {
+  LinearisationError error{.largest = 1.4,
+                           .component = "velocity[north]",
+                           .t = 12.0,
+                           .rms = 1.4,
+                           .rms_component = "velocity[north]",
+                           .settled = true};
+  const auto conclude = [&] {
+    ConcludeWith({.solution = solution_, .linearisation = error});
+  };
+  conclude();
+  EXPECT_EQ(solution_.grade, Grade::kUsable);
+  error.largest = 40.0;
+  conclude();
+  EXPECT_EQ(solution_.grade, Grade::kDoubtful);
+  EXPECT_EQ(Against().t_begin, 12.0);
+  EXPECT_EQ(Against().value, 40.0);
+  EXPECT_THAT(solution_.verdict, AllOf(StartsWith("doubtful: "),
+                                       HasSubstr("velocity[north] at "
+                                                 "12.0 s"),
+                                       HasSubstr("take iterated or batch")));
+  error.rms = 3.1;
+  conclude();
+  EXPECT_EQ(solution_.grade, Grade::kDoubtful);
+  error.rms = 3.2;
+  conclude();
+  EXPECT_EQ(solution_.grade, Grade::kUnusable);
+  // A new linearisation that does not rest cures nothing.
+  error.settled = false;
+  conclude();
+  EXPECT_THAT(Against().better_methods, IsEmpty());
+}
+
+TEST_F(GradeTest, FilterMustBeBeyondChance) {
+  LinearisationError error{.largest = 40.0, .causal = true};
+  for (const auto& [rms, grade] :
+       {std::pair(1.9, Grade::kUsable), std::pair(2.0, Grade::kDoubtful),
+        std::pair(3.2, Grade::kDoubtful), std::pair(3.3, Grade::kUnusable)}) {
+    error.rms = rms;
+    ConcludeWith({.solution = solution_, .linearisation = error});
+    EXPECT_EQ(solution_.grade, grade) << rms;
+  }
+}
+
+TEST_F(GradeTest, RivalNearlyAsLikelyIsToldWithItsProbability) {
+  RivalSolution rival;
+  rival.description = "heading turned by 178 deg";
+  for (const auto& [probability, grade] :
+       {std::pair(0.002, Grade::kUsable), std::pair(0.003, Grade::kDoubtful),
+        std::pair(0.31, Grade::kDoubtful), std::pair(0.33, Grade::kUnusable)}) {
+    rival.probability = probability;
+    solution_.rivals = {rival};
+    ConcludePlain();
+    EXPECT_EQ(solution_.grade, grade) << probability;
+    if (grade == Grade::kUsable) continue;
+    EXPECT_EQ(Against().rule, "rival");
+    EXPECT_NEAR(*Against().value, 100.0 * probability, 1e-9);
+    EXPECT_THAT(solution_.verdict, HasSubstr("heading turned by 178 deg"));
+  }
+}
+
+TEST_F(GradeTest, ValueAtABoundIsDoubtful) {
+  solution_.bounded = {
+      {"the factor on the stated sigma", "1", 99.0, 0.01, 100.0},
+      {"the share of outliers", "1", 0.001,
+       -std::numeric_limits<double>::infinity(), 0.4}};
+  ConcludePlain();
+  EXPECT_EQ(solution_.grade, Grade::kUsable);
+  for (const double bound : {0.01, 100.0}) {
+    solution_.bounded[0].value = bound;
+    ConcludePlain();
+    EXPECT_EQ(solution_.grade, Grade::kDoubtful);
+    EXPECT_EQ(Against().rule, "bounds");
+    EXPECT_EQ(Against().limit, bound);
+  }
+}
+
+TEST_F(GradeTest, WhatTheRecordingShowsIsPassedOnUnderItsOwnName) {
+  const Evidence frozen{
+      .rule = "frozen_imu", .grade = Grade::kDoubtful, .what = "the IMU rests"};
+  ConcludeWith({.solution = solution_, .recording = {frozen}});
+  EXPECT_EQ(solution_.grade, Grade::kDoubtful);
+  EXPECT_EQ(Against().rule, "frozen_imu");
+}
+
+TEST_F(GradeTest, ObserverHasNoSigmasToSpeakOf) {
+  solution_.observer = ObserverFigures{};
+  ConcludePlain();
+  EXPECT_EQ(solution_.verdict, "usable: by P, which is no covariance");
+}
+
+TEST(GradeRules, HaveNamesOfTheirOwn) {
+  std::vector<std::string> names;
+  for (const GradeRule& rule : GradeRules()) names.emplace_back(rule.name);
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+}
+
+Solution Graded(const std::string& method, Grade grade, int pieces = 1) {
+  Solution solution;
+  solution.method = method;
+  solution.grade = grade;
+  for (int i = 0; i < pieces && grade != Grade::kUsable; ++i) {
+    solution.evidence.push_back({.rule = "residuals", .grade = grade});
+  }
+  solution.evidence.push_back({.rule = "accuracy"});
+  return solution;
+}
+
+constexpr const char* kPreference[] = {"batch", "rts", "ekf"};
+
+TEST(Best, IsByGradeThenByEvidenceThenByPreference) {
+  using enum Grade;
+  const auto best = [](const std::vector<Solution>& solutions) {
+    return solutions
+        .at(static_cast<std::size_t>(BestOf(solutions, kPreference)))
+        .method;
+  };
+  EXPECT_EQ(best({Graded("ekf", kUsable), Graded("batch", kUsable),
+                  Graded("rts", kUsable)}),
+            "batch");
+  EXPECT_EQ(best({Graded("batch", kDoubtful), Graded("ekf", kUsable)}), "ekf");
+  EXPECT_EQ(best({Graded("batch", kUnusable), Graded("ekf", kDoubtful)}),
+            "ekf");
+  EXPECT_EQ(best({Graded("batch", kDoubtful, 2), Graded("rts", kDoubtful, 1)}),
+            "rts");
+  EXPECT_EQ(BestOf({}, kPreference), -1);
+}
+
+TEST(Best, AdviceNamesOnlyMethodsThatAreBetter) {
+  std::vector<Solution> solutions = {Graded("rts", Grade::kUnusable),
+                                     Graded("batch", Grade::kUnusable)};
+  solutions[0].evidence[0].better_methods = {"iterated", "batch"};
+  KeepBetterMethods(&solutions);
+  EXPECT_THAT(solutions[0].evidence[0].better_methods, ElementsAre("iterated"));
+  EXPECT_THAT(solutions[0].verdict, HasSubstr("take iterated"));
+  solutions[0].evidence[0].better_methods = {"iterated", "batch"};
+  solutions[1].grade = Grade::kUsable;
+  KeepBetterMethods(&solutions);
+  EXPECT_THAT(solutions[0].evidence[0].better_methods,
+              ElementsAre("iterated", "batch"));
+}
+
+TEST(FailedSolution, IsNotUsableForItsReason) {
+  const Solution failed = FailedSolution("hinf", "the filter diverged");
+  EXPECT_EQ(failed.grade, Grade::kUnusable);
+  EXPECT_FALSE(failed.usable());
+  EXPECT_EQ(failed.verdict, "not usable: the filter diverged");
+}
+
+}  // namespace
+}  // namespace hindsight
