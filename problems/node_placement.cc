@@ -10,7 +10,7 @@
 namespace hindsight {
 namespace {
 
-constexpr double kSettled = 0.1;  // sigmas
+constexpr double kSettledOffset = 0.1;  // sigmas
 
 std::vector<double> OffsetsOf(const ErrorLayout& layout, const State& x,
                               const std::vector<Sensor>& sensors,
@@ -83,7 +83,7 @@ bool EstimatesTimeOffsets(const ErrorLayout& layout) {
 int FarthestFromNodes(const ErrorLayout& layout,
                       const std::vector<double>& offsets, const State& x,
                       const ErrorMatrix& P) {
-  double farthest = kSettled;
+  double farthest = kSettledOffset;
   int sensor = -1;
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     const Block* block =

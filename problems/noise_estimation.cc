@@ -184,15 +184,15 @@ Maximum Maximise(NoiseLikelihood* likelihood, std::vector<double>* logs,
 
 NoiseEstimate EstimateNoise(const Dataset& dataset,
                             const std::function<void(double)>& progress) {
-  constexpr int kMaxPlacements = 4;
+  constexpr int kMaxClimbs = 4;
   NoiseLikelihood likelihood(dataset);
   NoiseEstimate estimate;
   std::vector<double> logs(likelihood.size(), 0.0);
   estimate.log_likelihood_before = likelihood(logs);
   Maximum maximum;
-  for (int i = 0; i < kMaxPlacements && !estimate.converged; ++i) {
+  for (int i = 0; i < kMaxClimbs && !estimate.converged; ++i) {
     maximum = Maximise(&likelihood, &logs, [&](double fraction) {
-      if (progress) progress((i + fraction) / kMaxPlacements);
+      if (progress) progress((i + fraction) / kMaxClimbs);
     });
     // Time offsets that the noise as stated had misplaced.
     estimate.converged = maximum.converged && !likelihood.PlaceNodes(logs);
