@@ -36,9 +36,14 @@ void MoveToSmoothed(const ErrorLayout& layout,
 
 ForwardStage::ForwardStage(const Dataset& dataset,
                            ReconstructionOptions options)
+    : ForwardStage(dataset, options,
+                   FindStart(dataset, options.from, options.to)) {}
+
+ForwardStage::ForwardStage(const Dataset& dataset,
+                           ReconstructionOptions options, Start start)
     : dataset_(dataset),
       options_(std::move(options)),
-      start_(FindStart(dataset_, options_.from, options_.to)),
+      start_(std::move(start)),
       timeline_(BuildTimeline(dataset_, MakeTimelineOptions())) {
   start_.prior.x.t = timeline_.node(0).t;
 }
@@ -48,7 +53,7 @@ TimelineOptions ForwardStage::MakeTimelineOptions() const {
   timeline_options.t_begin = start_.report.t;
   timeline_options.t_end = std::min(options_.to, dataset_.imu.t_end());
   timeline_options.extra_times = options_.node_times;
-  timeline_options.time_offsets = placed_offsets_;
+  timeline_options.time_offsets = offsets_;
   timeline_options.with_scale_jacobians =
       start_.layout.Has(BlockKind::kGyroScale) ||
       start_.layout.Has(BlockKind::kAccelScale);
@@ -71,22 +76,46 @@ EpochCallback ForwardStage::Progress(const std::string& stage) const {
 
 void ForwardStage::Run() {
   if (smoothed_) return;
-  constexpr int kMaxPlacements = 6;
+  std::vector<double> offsets;
   for (const Sensor& sensor : timeline_.sensors()) {
-    placed_offsets_.push_back(sensor.time_offset);
+    offsets.push_back(sensor.time_offset);
   }
+  Settle(std::move(offsets));
+  JudgeObservability();
+}
+
+void ForwardStage::Settle(std::vector<double> offsets) {
+  offsets_ = std::move(offsets);
+  unsettled_.clear();
+  relinearised_.reset();
+  timeline_ = BuildTimeline(dataset_, MakeTimelineOptions());
+  RunOnce();
+  if (!EstimatesTimeOffsets(start_.layout)) return;
+  timeline_.LinearizeTimeOffsets(start_.layout, smoothed_->states);
   for (int i = 1;; ++i) {
     RunOnce();
-    const int moved = MoveOffsets();
-    if (moved < 0) break;
+    const int sensor =
+        FarthestFromNodes(start_.layout, offsets_, smoothed_->states.back(),
+                          smoothed_->P.Get(smoothed_->P.size() - 1));
+    if (sensor < 0) return;
     if (i == kMaxPlacements) {
-      unsettled_ = timeline_.sensors()[static_cast<std::size_t>(moved)].name;
-      break;
+      unsettled_ = timeline_.sensors()[static_cast<std::size_t>(sensor)].name;
+      return;
     }
-    timeline_ = BuildTimeline(dataset_, MakeTimelineOptions());
-    settled_.reset();
+    PlacedNodes nodes = PlaceAnew(start_.layout, smoothed_->states, offsets_,
+                                  timeline_, decisions_);
+    offsets_ = std::move(nodes.offsets);
+    timeline_ = std::move(nodes.timeline);
   }
-  JudgeObservability();
+}
+
+PlacedNodes ForwardStage::PlaceAnew(const ErrorLayout& layout,
+                                    const std::vector<State>& states,
+                                    const std::vector<double>& placed,
+                                    const Timeline& timeline,
+                                    const GateDecisions& decisions) const {
+  return PlaceNodesAnew(dataset_, MakeTimelineOptions(), start_.layout, layout,
+                        states, placed, timeline, decisions);
 }
 
 /// From an unknown heading the covariances of a filter that resets its nominal
@@ -174,42 +203,6 @@ void ForwardStage::RunOnce() {
   smoothed_ = SmoothTape(std::move(tape));
   if (timeline_.HasGates()) RepeatWithSmoothedGates();
   smoothing_seconds_ = ProcessorSeconds() - t0 - filtered_->seconds;
-}
-
-/// Takes over every estimated time offset that is more than 20 ms from where
-/// the sensor's nodes were placed; the last such sensor, or -1.
-int ForwardStage::MoveOffsets() {
-  constexpr double kFarthest = 0.02;
-  int moved = -1;
-  for (std::size_t i = 0; i < placed_offsets_.size(); ++i) {
-    const Block* block =
-        start_.layout.Find(BlockKind::kTimeOffset, static_cast<int>(i));
-    if (block == nullptr) continue;
-    const double estimate = SettledParameters()(block->parameter_offset);
-    if (std::abs(estimate - placed_offsets_[i]) < kFarthest) continue;
-    if (!std::isfinite(estimate)) {
-      throw EstimationError("the time offset of " +
-                            timeline_.sensors()[i].name + " diverged");
-    }
-    placed_offsets_[i] = estimate;
-    moved = static_cast<int>(i);
-  }
-  return moved;
-}
-
-/// Constants after a few iterations about the smoothed trajectory: one pass
-/// may still be far off where the start was.
-const ParameterVector& ForwardStage::SettledParameters() {
-  if (!settled_) {
-    IterationOptions iteration;
-    iteration.max_iterations = 4;
-    iteration.callback = Progress("calibration");
-    settled_ = SmoothIterated(start_.layout, start_.prior, smoothed_->states,
-                              &timeline_, decisions_, iteration)
-                   .trajectory.states.back()
-                   .parameters;
-  }
-  return *settled_;
 }
 
 SmoothedTrajectory ForwardStage::SmoothTape(LinearTape tape) const {

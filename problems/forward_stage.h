@@ -9,6 +9,7 @@
 #include "dataset/timeline_builder.h"
 #include "filters/rts.h"
 #include "problems/linearisation.h"
+#include "problems/node_placement.h"
 #include "problems/reconstruction.h"
 #include "state/solution.h"
 
@@ -22,10 +23,21 @@ class ForwardStage {
   /// Aligns, places the nodes, preintegrates. `dataset` must outlive the
   /// object. Errors as of Reconstruction.
   ForwardStage(const Dataset& dataset, ReconstructionOptions options);
+  /// From a start that is known.
+  ForwardStage(const Dataset& dataset, ReconstructionOptions options,
+               Start start);
 
-  /// Filters and smooths, once, and again wherever the pass shows that
-  /// measurements belong to other times. What follows is valid after it.
+  /// Settles from the sensors' time offsets and judges the linearisation. What
+  /// follows is valid after it.
   void Run();
+
+  /// Filters and smooths on nodes placed by `offsets`, one a sensor [s]. Where
+  /// time offsets are estimated: first with them as noise, for a trajectory to
+  /// linearise them along (Timeline::LinearizeTimeOffsets); then as states,
+  /// nodes being placed anew at the smoother's estimates until these are within
+  /// a tenth of their sigmas of where the nodes stand, or `unsettled` says
+  /// whose never were.
+  void Settle(std::vector<double> offsets);
 
   const Dataset& dataset() const { return dataset_; }
   const ReconstructionOptions& options() const { return options_; }
@@ -40,8 +52,17 @@ class ForwardStage {
   const std::vector<UnobservedSpan>& unobserved() const { return unobserved_; }
   /// Found when first asked for.
   const Relinearised& relinearised();
+  /// Time offsets that the nodes are placed by, one a sensor [s].
+  const std::vector<double>& offsets() const { return offsets_; }
   /// Sensor whose estimated time offset went on moving; empty: none.
   const std::string& unsettled() const { return unsettled_; }
+  /// Nodes where a solution, on `timeline` with nodes at `placed`, says that
+  /// the measurements belong.
+  PlacedNodes PlaceAnew(const ErrorLayout& layout,
+                        const std::vector<State>& states,
+                        const std::vector<double>& placed,
+                        const Timeline& timeline,
+                        const GateDecisions& decisions) const;
 
   /// Hands out the forward filter's solution, which a day makes too large to
   /// keep twice; whoever asks again has it filtered again.
@@ -56,8 +77,6 @@ class ForwardStage {
  private:
   TimelineOptions MakeTimelineOptions() const;
   void RunOnce();
-  int MoveOffsets();
-  const ParameterVector& SettledParameters();
   void JudgeObservability();
   CovarianceSeries Relinearise();
   SmoothedTrajectory SmoothTape(LinearTape tape) const;
@@ -65,10 +84,8 @@ class ForwardStage {
 
   const Dataset& dataset_;
   ReconstructionOptions options_;
-  /// Time offsets the nodes are placed by; empty: those of the sensors.
-  std::vector<double> placed_offsets_;
+  std::vector<double> offsets_;
   std::string unsettled_;
-  std::optional<ParameterVector> settled_;
   std::vector<UnobservedSpan> unobserved_;
   std::optional<Relinearised> relinearised_;
   Start start_;

@@ -146,39 +146,62 @@ std::vector<double> MarginalSigmas(NoiseLikelihood* likelihood,
   return sigmas;
 }
 
+/// Where the climb from `logs` ended, which are moved there.
+struct Maximum {
+  double value = 0.0;
+  std::vector<Coordinate> coordinates;
+  bool converged = false;
+};
+
+Maximum Maximise(NoiseLikelihood* likelihood, std::vector<double>* logs,
+                 const std::function<void(double)>& progress) {
+  const std::size_t count = logs->size();
+  Maximum maximum;
+  maximum.coordinates.resize(count);
+  maximum.value = (*likelihood)(*logs);
+  for (int sweep = 0; sweep < kSweeps && !maximum.converged; ++sweep) {
+    for (std::size_t i = 0; i < count; ++i) {
+      maximum.value = Climb(likelihood, i, maximum.value, logs,
+                            &maximum.coordinates[i]);
+      progress((sweep + static_cast<double>(i + 1) /
+                            static_cast<double>(count)) /
+               kSweeps);
+    }
+    // The first parabolas are too wide to settle anything.
+    maximum.converged =
+        sweep > 0 &&
+        std::all_of(maximum.coordinates.begin(), maximum.coordinates.end(),
+                    [](const Coordinate& c) { return c.IsSettled(); });
+    if (!maximum.converged) {
+      maximum.value =
+          Extrapolate(likelihood, maximum.coordinates, maximum.value, logs);
+    }
+  }
+  return maximum;
+}
+
 }  // namespace
 
 NoiseEstimate EstimateNoise(const Dataset& dataset,
                             const std::function<void(double)>& progress) {
+  constexpr int kMaxClimbs = 4;
   NoiseLikelihood likelihood(dataset);
-  const std::size_t count = likelihood.size();
-  std::vector<double> logs(count, 0.0);
-  std::vector<Coordinate> coordinates(count);
   NoiseEstimate estimate;
-  double value = likelihood(logs);
-  estimate.log_likelihood_before = value;
-  for (int sweep = 0; sweep < kSweeps && !estimate.converged; ++sweep) {
-    for (std::size_t i = 0; i < count; ++i) {
-      value = Climb(&likelihood, i, value, &logs, &coordinates[i]);
-      if (progress) {
-        progress(
-            (sweep + static_cast<double>(i + 1) / static_cast<double>(count)) /
-            kSweeps);
-      }
-    }
-    // The first parabolas are too wide to settle anything.
-    estimate.converged =
-        sweep > 0 &&
-        std::all_of(coordinates.begin(), coordinates.end(),
-                    [](const Coordinate& c) { return c.IsSettled(); });
-    if (!estimate.converged) {
-      value = Extrapolate(&likelihood, coordinates, value, &logs);
-    }
+  std::vector<double> logs(likelihood.size(), 0.0);
+  estimate.log_likelihood_before = likelihood(logs);
+  Maximum maximum;
+  for (int i = 0; i < kMaxClimbs && !estimate.converged; ++i) {
+    maximum = Maximise(&likelihood, &logs, [&](double fraction) {
+      if (progress) progress((i + fraction) / kMaxClimbs);
+    });
+    // Time offsets that the noise as stated had misplaced.
+    estimate.converged = maximum.converged && !likelihood.PlaceNodes(logs);
+    if (!maximum.converged) break;
   }
-  estimate.log_likelihood_after = value;
-  const std::vector<double> sigmas =
-      MarginalSigmas(&likelihood, coordinates, value, logs);
-  for (std::size_t i = 0; i < count; ++i) {
+  estimate.log_likelihood_after = maximum.value;
+  const std::vector<double> sigmas = MarginalSigmas(
+      &likelihood, maximum.coordinates, likelihood(logs), logs);
+  for (std::size_t i = 0; i < logs.size(); ++i) {
     estimate.factors.push_back(
         {likelihood.name(i), std::exp(logs[i]), sigmas[i]});
   }

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "dataset/timeline_builder.h"
+#include "problems/forward_stage.h"
 
 namespace hindsight {
 
@@ -22,19 +22,46 @@ NoiseLikelihood::NoiseLikelihood(const Dataset& dataset) : dataset_(dataset) {
   applied_.assign(values_.size(), 0.0);
   start_ = FindStart(dataset_, -std::numeric_limits<double>::infinity(),
                      std::numeric_limits<double>::infinity());
+  for (const AidingStream& stream : dataset_.streams) {
+    offsets_.push_back(stream.sensor.time_offset);
+  }
+  PlaceNodes(applied_);
 }
 
-double NoiseLikelihood::operator()(const std::vector<double>& logs) {
+bool NoiseLikelihood::PlaceNodes(const std::vector<double>& logs) {
+  if (!EstimatesTimeOffsets(start_.layout)) return false;
+  Apply(logs);
+  Start start = start_;
+  start.layout = PresentLayout(&start.prior);
+  ForwardStage stage(dataset_, {}, std::move(start));
+  stage.Settle(offsets_);
+  const std::size_t last = stage.smoothed().states.size() - 1;
+  const bool moved =
+      FarthestFromNodes(stage.start().layout, offsets_,
+                        stage.smoothed().states[last],
+                        stage.smoothed().P.Get(last)) >= 0;
+  offsets_ = stage.offsets();
+  rates_ = stage.timeline().time_offset_rates();
+  return moved;
+}
+
+void NoiseLikelihood::Apply(const std::vector<double>& logs) {
   for (std::size_t i = 0; i < logs.size(); ++i) {
     if (logs[i] != applied_[i]) {
       values_[i].multiply(std::exp(logs[i] - applied_[i]));
     }
   }
   applied_ = logs;
+}
+
+double NoiseLikelihood::operator()(const std::vector<double>& logs) {
+  Apply(logs);
   TimelineOptions options;
   options.t_begin = start_.report.t;
   options.t_end = dataset_.imu.t_end();
+  options.time_offsets = offsets_;
   Timeline timeline = BuildTimeline(dataset_, options);
+  if (!rates_.measurements.empty()) timeline.SetTimeOffsetRates(rates_);
   Prior prior = start_.prior;
   prior.x.t = timeline.node(0).t;
   const ErrorLayout layout = PresentLayout(&prior);

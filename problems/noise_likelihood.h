@@ -13,7 +13,10 @@ namespace hindsight {
 /// ln of the likelihood of the forward filter's innovations as a function of
 /// the logarithms of the factors on a data set's noise values, which are named
 /// as in NoiseFactor. Gates and robust losses are off. Aligned once, with the
-/// noise as stated. Errors as of FindStart.
+/// noise as stated. Constants are estimated as the configuration asks; nodes
+/// stand where the estimated time offsets place them (ForwardStage::Settle),
+/// with the noise as stated or as last given to PlaceNodes. Errors as of
+/// FindStart and Settle.
 class NoiseLikelihood {
  public:
   explicit NoiseLikelihood(const Dataset& dataset);
@@ -25,6 +28,10 @@ class NoiseLikelihood {
 
   /// -infinity where the filter diverges.
   double operator()(const std::vector<double>& logs);
+
+  /// Places the nodes by the time offsets that the data have with these
+  /// factors. Returns whether any moved by a tenth of its sigma or more.
+  bool PlaceNodes(const std::vector<double>& logs);
 
  private:
   /// A noise value of the data set.
@@ -39,6 +46,7 @@ class NoiseLikelihood {
     const double* tau;
   };
 
+  void Apply(const std::vector<double>& logs);
   void Add(const std::string& name, double* value);
   void AddProcess(const std::string& name, int sensor, double* sigma,
                   double* tau);
@@ -51,6 +59,8 @@ class NoiseLikelihood {
   std::vector<Value> values_;
   std::vector<Process> processes_;
   std::vector<double> applied_;
+  std::vector<double> offsets_;  // of the nodes, by sensor
+  TimeOffsetRates rates_;        // empty: no time offset is estimated
 };
 
 }  // namespace hindsight

@@ -1,5 +1,6 @@
 #include "problems/reconstruction.h"
 
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "problems/error_tuning.h"
 #include "problems/forward_stage.h"
 #include "problems/linearisation.h"
+#include "problems/node_placement.h"
 #include "problems/robust_batch.h"
 #include "problems/sample_solution.h"
 #include "problems/sensor_imm.h"
@@ -41,16 +43,58 @@ struct Reconstruction::Impl {
                               ? LinearisationErrorOf(method, solution,
                                                      forward.relinearised())
                               : std::nullopt,
-         .unsettled = forward.unsettled(),
+         .unsettled =
+             own_unsettled.empty() ? forward.unsettled() : own_unsettled,
          .recording = recording},
         forward.unobserved(), &solution);
+    own_unsettled.clear();
     return solution;
   }
 
-  Solution FromSmoothed(std::vector<State> states, CovarianceSeries P) const {
-    return SmoothedSolution(forward.start().layout, forward.timeline(),
-                            std::move(states), std::move(P),
-                            forward.decisions());
+  /// What a method solves on: nodes, the measurements used there, and a
+  /// trajectory to begin from.
+  struct Stage {
+    Timeline* timeline;
+    const GateDecisions* decisions;
+    const std::vector<State>* states;
+  };
+
+  /// Solves on the shared nodes, and on nodes of its own as long as the
+  /// method's time offsets are elsewhere.
+  template <typename Solver>
+  Solution AtOwnNodes(const Solver& solve) {
+    Solution solution = solve({&forward.timeline(), &forward.decisions(),
+                               &forward.smoothed().states});
+    std::optional<PlacedNodes> own;
+    for (int i = 1; forward.unsettled().empty(); ++i) {
+      const std::vector<double>& offsets =
+          own ? own->offsets : forward.offsets();
+      const Timeline& timeline = own ? own->timeline : forward.timeline();
+      const int sensor = FarthestFromNodes(
+          solution.layout, offsets, solution.states.back(),
+          solution.covariances.Get(solution.states.size() - 1));
+      if (sensor < 0) break;
+      if (i == kMaxPlacements) {
+        own_unsettled =
+            timeline.sensors()[static_cast<std::size_t>(sensor)].name;
+        break;
+      }
+      own = forward.PlaceAnew(solution.layout, solution.states, offsets,
+                              timeline,
+                              own ? own->decisions : forward.decisions());
+      solution = solve({&own->timeline, &own->decisions, &own->states});
+    }
+    return solution;
+  }
+
+  Solution FromSmoothed(std::vector<State> states, CovarianceSeries P,
+                        const Stage& stage) const {
+    return SmoothedSolution(forward.start().layout, *stage.timeline,
+                            std::move(states), std::move(P), *stage.decisions);
+  }
+  Solution FromSmoothed(std::vector<State> states, CovarianceSeries P) {
+    return FromSmoothed(std::move(states), std::move(P),
+                        {&forward.timeline(), &forward.decisions(), nullptr});
   }
 
   Solution RunEkf() {
@@ -110,14 +154,16 @@ struct Reconstruction::Impl {
     IterationOptions iteration;
     iteration.max_iterations = forward.options().max_iterations;
     iteration.callback = forward.Progress("iterated");
-    IteratedResult result =
-        SmoothIterated(forward.start().layout, forward.start().prior,
-                       forward.smoothed().states, &forward.timeline(),
-                       forward.decisions(), iteration);
-    Solution solution = FromSmoothed(std::move(result.trajectory.states),
-                                     std::move(result.trajectory.P));
-    solution.iterations = result.iterations;
-    solution.converged = result.converged;
+    Solution solution = AtOwnNodes([&](const Stage& stage) {
+      IteratedResult result = SmoothIterated(
+          forward.start().layout, forward.start().prior, *stage.states,
+          stage.timeline, *stage.decisions, iteration);
+      Solution one = FromSmoothed(std::move(result.trajectory.states),
+                                  std::move(result.trajectory.P), stage);
+      one.iterations = result.iterations;
+      one.converged = result.converged;
+      return one;
+    });
     return Finish(std::move(solution), Method::kIterated,
                   ProcessorSeconds() - t0);
   }
@@ -139,14 +185,16 @@ struct Reconstruction::Impl {
 
   Solution RunBatch() {
     const double t0 = ProcessorSeconds();
-    BatchResult result =
-        SolveBatch(forward.start().layout, forward.start().prior,
-                   forward.smoothed().states, &forward.timeline(),
-                   forward.decisions(), MakeBatchOptions());
-    Solution solution =
-        FromSmoothed(std::move(result.states), std::move(result.P));
-    solution.iterations = result.iterations;
-    solution.converged = result.converged;
+    Solution solution = AtOwnNodes([&](const Stage& stage) {
+      BatchResult result = SolveBatch(
+          forward.start().layout, forward.start().prior, *stage.states,
+          stage.timeline, *stage.decisions, MakeBatchOptions());
+      Solution one =
+          FromSmoothed(std::move(result.states), std::move(result.P), stage);
+      one.iterations = result.iterations;
+      one.converged = result.converged;
+      return one;
+    });
     return Finish(std::move(solution), Method::kBatch, ProcessorSeconds() - t0);
   }
 
@@ -167,21 +215,22 @@ struct Reconstruction::Impl {
   }
 
   /// Questions every position sensor.
-  SensorImm MakeImm() const {
+  SensorImm MakeImm(const Timeline& timeline) const {
     const Start& start = forward.start();
     return MakeSensorImm(WithoutTrustIn(start.position_sensor, start),
-                         forward.timeline());
+                         timeline);
   }
 
   Solution RunImmMethod(Method method) {
     const double t0 = ProcessorSeconds();
-    SensorImm imm = MakeImm();
     const EpochCallback progress = forward.Progress("imm");
-    Solution solution =
-        method == Method::kImm
-            ? ImmFilterSolution(
-                  imm, RunImm(imm.models, imm.options, &imm.timeline, progress))
-            : ImmSmootherSolution(imm, SmoothSensorImm(&imm, progress));
+    Solution solution = AtOwnNodes([&](const Stage& stage) {
+      SensorImm imm = MakeImm(*stage.timeline);
+      return method == Method::kImm
+                 ? ImmFilterSolution(imm, RunImm(imm.models, imm.options,
+                                                 &imm.timeline, progress))
+                 : ImmSmootherSolution(imm, SmoothSensorImm(&imm, progress));
+    });
     return Finish(std::move(solution), method, ProcessorSeconds() - t0);
   }
 
@@ -196,20 +245,27 @@ struct Reconstruction::Impl {
     if (receiver < 0) {
       throw EstimationError("robust_batch needs a position sensor");
     }
-    GateDecisions used = forward.decisions();
+    return Finish(AtOwnNodes([&](const Stage& stage) {
+                    return SolveRobustly(receiver, stage);
+                  }),
+                  Method::kRobustBatch, ProcessorSeconds() - t0);
+  }
+
+  Solution SolveRobustly(int receiver, const Stage& stage) const {
+    GateDecisions used = *stage.decisions;
     for (std::size_t i = 0; i < used.size(); ++i) {
-      const Measurement& z = forward.timeline().all_measurements()[i];
+      const Measurement& z = stage.timeline->all_measurements()[i];
       if (z.sensor == receiver) used[i] = static_cast<char>(!z.withheld);
     }
     // The EKF's trajectory may be so far off after an outlier that a
     // linearisation about it is of no use.
-    SensorImm imm = MakeImm();
+    SensorImm imm = MakeImm(*stage.timeline);
     const ImmSmoothed rough =
         SmoothSensorImm(&imm, forward.Progress("robust_batch")).smoothed;
     const Start start = WithoutTrustIn(receiver, forward.start());
     RobustBatchResult result =
         SolveRobustBatch(start.layout, start.prior, rough.trajectory.states,
-                         receiver, forward.timeline(), used, MakeBatchOptions(),
+                         receiver, *stage.timeline, used, MakeBatchOptions(),
                          forward.Progress("robust_batch"));
     Solution solution = SmoothedSolution(
         result.layout, result.timeline, std::move(result.batch.states),
@@ -229,12 +285,13 @@ struct Reconstruction::Impl {
     const ScoredHistory& likeliest = result.regimes.histories.front();
     solution.bounded =
         BoundedParameters(likeliest.history, likeliest.parameters);
-    return Finish(std::move(solution), Method::kRobustBatch,
-                  ProcessorSeconds() - t0);
+    return solution;
   }
 
   ForwardStage forward;
   std::vector<Evidence> recording;  ///< what it shows by itself
+  /// Sensor whose time offset a method's own nodes did not settle; empty: none.
+  std::string own_unsettled;
 };
 
 Reconstruction::Reconstruction(const Dataset& dataset,

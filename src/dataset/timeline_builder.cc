@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -73,7 +74,8 @@ std::vector<IncrementStart> IncrementStarts(
     const auto node = std::lower_bound(node_times.begin(), node_times.end(),
                                        TimeOfStart(m) - kSameTime) -
                       node_times.begin();
-    starts.push_back({static_cast<int>(node), m.z->sensor, increment->t_from});
+    starts.push_back({static_cast<int>(node), m.z->sensor, increment->t_from,
+                      std::nullopt});
   }
   std::stable_sort(starts.begin(), starts.end(),
                    [](const IncrementStart& a, const IncrementStart& b) {

@@ -34,24 +34,18 @@ Eigen::Matrix3d DerivativeOfLeftInverse(const Eigen::Vector3d& phi,
 }
 
 /// D0 of a new increment and its derivatives at x_i.
-void StartIncrement(const ErrorLayout& layout, const Timeline& timeline,
-                    std::size_t k, const State& x_i,
+void StartIncrement(const ErrorLayout& layout, const State& x_i,
                     const IncrementStart& start, DistanceLink* link) {
   const int sensor = start.sensor;
-  const ModelContext context{
-      layout,
-      x_i,
-      timeline.node(k).kinematics,
-      timeline.sensors()[static_cast<std::size_t>(sensor)],
-      sensor,
-      start.stamp};
-  LinearizedMeasurement before;
-  DistanceToStamp(context, &before);
-  link->distance = before.residual(0) -
-                   Parameter1(layout, x_i, BlockKind::kOffset, sensor, 0.0);
-  link->J_i = -before.H;
+  link->distance = -Parameter1(layout, x_i, BlockKind::kOffset, sensor, 0.0);
   layout.AddColumns(BlockKind::kOffset, sensor,
                     Eigen::Matrix<double, 1, 1>(-1.0), &link->J_i);
+  if (!start.offset_rate) return;
+  const Block& offset = *layout.Find(BlockKind::kTimeOffset, sensor);
+  const double dt =
+      start.stamp + x_i.parameters(offset.parameter_offset) - x_i.t;
+  link->distance -= dt * *start.offset_rate;
+  link->J_i(offset.offset) = -*start.offset_rate;
 }
 
 }  // namespace
@@ -64,7 +58,7 @@ DistanceLink EvaluateDistanceLink(const ErrorLayout& layout,
   link.J_i.setZero(layout.dim());
   link.J_j.setZero(layout.dim());
   if (const IncrementStart* start = timeline.IncrementStartAt(k, sensor)) {
-    StartIncrement(layout, timeline, k, x_i, *start, &link);
+    StartIncrement(layout, x_i, *start, &link);
   } else {
     link.distance = Parameter1(layout, x_i, BlockKind::kDistance, sensor, 0.0);
     layout.AddColumns(BlockKind::kDistance, sensor,

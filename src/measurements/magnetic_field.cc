@@ -20,8 +20,7 @@ namespace {
 /// What both forms share: the field around the vehicle and the vehicle's.
 struct FieldScene {
   PointMotion motion;
-  Eigen::Matrix3d C_nb;     ///< at the measurement's time
-  Eigen::Vector3d turn;     ///< rotation since the state's time, body [rad]
+  Eigen::Matrix3d C_nb;
   Eigen::Vector3d m_n;      ///< with the disturbance
   Eigen::Vector3d dm_n_dD;  ///< derivative by the declination
   Eigen::Vector3d hard_iron_b;
@@ -32,9 +31,7 @@ FieldScene SceneOf(const ModelContext& context) {
   const int sensor = context.sensor_index;
   FieldScene scene;
   scene.motion = MotionOfSensor(context);
-  scene.turn = scene.motion.w_eb_b * scene.motion.dt;
-  scene.C_nb = scene.motion.C_en.transpose() * scene.motion.C_eb *
-               Exp(scene.turn).toRotationMatrix();
+  scene.C_nb = scene.motion.C_en.transpose() * scene.motion.C_eb;
   const double declination =
       Parameter1(context.layout, context.state, BlockKind::kDeclination, sensor,
                  magnetic.declination);
@@ -61,10 +58,8 @@ void EvaluateVector(const MagneticField& z, const ModelContext& context,
   layout.AddColumns(BlockKind::kAttitude, BlockKey::kNoSensor, by_psi, &out->H);
   layout.AddColumns(BlockKind::kPosition, BlockKey::kNoSensor,
                     -by_psi * NedTurn(context.state.p_e), &out->H);
-  const Eigen::Matrix3d by_turn = Skew(m_b) * LeftJacobian(-scene.turn);
-  AddBodyRateColumns(context, scene.motion, scene.motion.dt * by_turn, &out->H);
   layout.AddColumns(BlockKind::kTimeOffset, context.sensor_index,
-                    by_turn * scene.motion.w_eb_b, &out->H);
+                    m_b.cross(scene.motion.w_eb_b), &out->H);
   layout.AddColumns(BlockKind::kHardIron, context.sensor_index,
                     Eigen::Matrix3d::Identity(), &out->H);
   layout.AddColumns(BlockKind::kDisturbance, context.sensor_index, C_bn,
@@ -97,11 +92,9 @@ void EvaluateHeading(const MagneticField& z, const ModelContext& context,
   layout.AddColumns(BlockKind::kAttitude, BlockKey::kNoSensor, by_psi, &out->H);
   layout.AddColumns(BlockKind::kPosition, BlockKey::kNoSensor,
                     -by_psi * NedTurn(context.state.p_e), &out->H);
-  const Eigen::RowVector3d by_turn =
-      -by_u * scene.C_nb * Skew(own_b) * RightJacobian(scene.turn);
-  AddBodyRateColumns(context, scene.motion, scene.motion.dt * by_turn, &out->H);
   layout.AddColumns(BlockKind::kTimeOffset, context.sensor_index,
-                    by_turn * scene.motion.w_eb_b, &out->H);
+                    by_u * scene.C_nb * scene.motion.w_eb_b.cross(own_b),
+                    &out->H);
   layout.AddColumns(BlockKind::kHardIron, context.sensor_index,
                     -by_u * scene.C_nb, &out->H);
   layout.AddColumns(BlockKind::kDisturbance, context.sensor_index, -by_m,

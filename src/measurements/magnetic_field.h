@@ -13,7 +13,6 @@ namespace hindsight {
 ///   kHeading:  0 = azimuth(C_nb (field_b - h_b)) - azimuth(m_n), one row
 ///              [rad], sigma / |m_n horizontal|: norm and dip do not matter,
 ///              and tilt only by how it levels the field.
-/// The attitude is that at stamp + time offset.
 struct MagneticField {
   enum class Form { kVector, kHeading };
   Eigen::Vector3d field_b = Eigen::Vector3d::Zero();  ///< body axes [uT]

@@ -10,9 +10,44 @@ void ScaleSigma(double factor, Measurement* z) {
   std::visit([factor](auto& model) { model.ScaleSigma(factor); }, z->model);
 }
 
+namespace {
+
+void EvaluateAtState(const Measurement& z, const ModelContext& context,
+                     LinearizedMeasurement* out) {
+  std::visit([&](const auto& model) { model.Evaluate(context, out); }, z.model);
+}
+
+const Block* TimeOffsetOf(const ModelContext& context) {
+  return context.layout.Find(BlockKind::kTimeOffset, context.sensor_index);
+}
+
+}  // namespace
+
 void Evaluate(const Measurement& z, const ModelContext& context,
               LinearizedMeasurement* out) {
-  std::visit([&](const auto& model) { model.Evaluate(context, out); }, z.model);
+  EvaluateAtState(z, context, out);
+  const Block* offset = TimeOffsetOf(context);
+  if (offset == nullptr) return;
+  auto column = out->H.col(offset->offset);
+  if (context.offset_rate == nullptr) {
+    const RowVector scatter = offset->sigma0(0) * column;
+    out->R += scatter * scatter.transpose();
+    column.setZero();
+    return;
+  }
+  const State& x = context.state;
+  const double dt =
+      context.stamp + x.parameters(offset->parameter_offset) - x.t;
+  out->residual -= dt * *context.offset_rate;
+  column = *context.offset_rate;
+}
+
+RowVector TimeOffsetRate(const Measurement& z, const ModelContext& context) {
+  const Block* offset = TimeOffsetOf(context);
+  if (offset == nullptr) return RowVector::Zero(Rows(z));
+  LinearizedMeasurement at;
+  EvaluateAtState(z, context, &at);
+  return at.H.col(offset->offset);
 }
 
 }  // namespace hindsight

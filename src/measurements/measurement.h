@@ -39,9 +39,19 @@ int Rows(const Measurement& z);
 void ScaleSigma(double factor, Measurement* z);
 
 /// Residual (measured - predicted), H = d predicted / d error over the layout,
-/// and R.
+/// and R. An estimated time offset tau enters linearly about the node: with
+/// dt = stamp + tau - state time and the rate s of context.offset_rate,
+///   residual = measured - predicted(state) - s dt,   H_tau = s;
+/// s is held fixed, so that no product of dt and a state stands in any cost.
+/// While no rate is known an offset is not estimated: it is white noise of its
+/// a priori sigma, R + s s' sigma^2 with s of the state, H_tau = 0.
 void Evaluate(const Measurement& z, const ModelContext& context,
               LinearizedMeasurement* out);
+
+/// d predicted / d(time offset) at a state that stands at the measurement's
+/// time: how fast the prediction changes along the motion. Zero if the layout
+/// does not estimate the offset.
+RowVector TimeOffsetRate(const Measurement& z, const ModelContext& context);
 
 }  // namespace hindsight
 

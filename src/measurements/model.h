@@ -16,6 +16,9 @@ struct ModelContext {
   const Sensor& sensor;
   int sensor_index = 0;  ///< the sensor's blocks in the layout
   double stamp = 0.0;    ///< of the measurement, time offset not applied [s]
+  /// Rate of the prediction with the sensor's estimated time offset along a
+  /// known trajectory (TimeOffsetRate), or nullptr while none is known.
+  const RowVector* offset_rate = nullptr;
 };
 
 /// A measurement about a state: residual = measured - predicted,

@@ -4,19 +4,6 @@
 
 namespace hindsight {
 
-namespace {
-
-/// True time of the measurement less the state's.
-double TimeFromState(const ModelContext& context) {
-  const Block* offset =
-      context.layout.Find(BlockKind::kTimeOffset, context.sensor_index);
-  if (offset == nullptr) return 0.0;
-  return context.stamp + context.state.parameters(offset->parameter_offset) -
-         context.state.t;
-}
-
-}  // namespace
-
 void Odometer::Evaluate(const ModelContext& context,
                         LinearizedMeasurement* out) const {
   if (form == Form::kIncrements) {
@@ -32,39 +19,30 @@ void Odometer::Evaluate(const ModelContext& context,
   out->R = full.R.block(first, first, rows(), rows());
 }
 
-void DistanceToStamp(const ModelContext& context, LinearizedMeasurement* out) {
-  out->Resize(1, context.layout.dim());
-  out->residual.setZero();
-  const double dt = TimeFromState(context);
-  if (!context.layout.Has(BlockKind::kTimeOffset, context.sensor_index)) return;
-  // The speed half way is the mean speed but for the third order.
-  const ModelContext half{context.layout,       context.state,
-                          context.kinematics,   context.sensor,
-                          context.sensor_index, context.stamp - 0.5 * dt};
-  Odometer speed;
-  speed.form = Odometer::Form::kForward;
+double PredictedSpeed(const ModelContext& context) {
+  Odometer standing;
+  standing.form = Odometer::Form::kForward;
   LinearizedMeasurement at;
-  speed.Evaluate(half, &at);
-  out->residual = dt * at.residual;
-  const Block& offset =
-      *context.layout.Find(BlockKind::kTimeOffset, context.sensor_index);
-  at.H(0, offset.offset) *= 0.5;
-  out->H = dt * at.H;
-  out->H(0, offset.offset) -= at.residual(0);
+  standing.Evaluate(context, &at);
+  return -at.residual(0);
 }
 
 void Odometer::EvaluateIncrement(const ModelContext& context,
                                  LinearizedMeasurement* out) const {
   const ErrorLayout& layout = context.layout;
   const int sensor = context.sensor_index;
-  DistanceToStamp(context, out);
-  out->residual(0) +=
+  out->Resize(1, layout.dim());
+  out->residual(0) =
       distance -
       Parameter1(layout, context.state, BlockKind::kDistance, sensor, 0.0) -
       Parameter1(layout, context.state, BlockKind::kOffset, sensor, 0.0);
   const Eigen::Matrix<double, 1, 1> one(1.0);
   layout.AddColumns(BlockKind::kDistance, sensor, one, &out->H);
   layout.AddColumns(BlockKind::kOffset, sensor, one, &out->H);
+  if (layout.Has(BlockKind::kTimeOffset, sensor)) {
+    layout.AddColumns(BlockKind::kTimeOffset, sensor,
+                      one * PredictedSpeed(context), &out->H);
+  }
   out->R(0, 0) = sigma.x() * sigma.x();
 }
 

@@ -51,10 +51,8 @@ struct Odometer {
                          LinearizedMeasurement* out) const;
 };
 
-/// Distance travelled after the state's time and before the count at
-/// `context.stamp` (zero but for an estimated time offset), as a prediction:
-/// out->residual is minus the distance [m], out->H its derivatives.
-void DistanceToStamp(const ModelContext& context, LinearizedMeasurement* out);
+/// (1 + k) v_o,x as a kForward odometer would predict it [m/s].
+double PredictedSpeed(const ModelContext& context);
 
 }  // namespace hindsight
 

@@ -21,17 +21,13 @@ PointMotion MotionOfSensor(const ModelContext& context) {
   m.w_eb_b = m.w_ib_b - m.C_eb.transpose() * EarthRate_e();
   m.p_e = x.p_e + m.C_eb * m.l_b;
   m.v_e = x.v_e + m.C_eb * m.w_eb_b.cross(m.l_b);
-  const Block* offset =
-      context.layout.Find(BlockKind::kTimeOffset, context.sensor_index);
   m.a_e.setZero();
-  if (offset != nullptr) {
+  if (context.layout.Has(BlockKind::kTimeOffset, context.sensor_index)) {
     const Eigen::Vector3d f_b =
         (context.kinematics.f_b - calibration.b_a).array() /
         (1.0 + calibration.s_a.array());
-    m.a_e = m.C_eb * f_b + Gravity(x.p_e) - 2.0 * EarthRate_e().cross(x.v_e);
-    m.dt = context.stamp + x.parameters(offset->parameter_offset) - x.t;
-    m.p_e += m.dt * m.v_e + (0.5 * m.dt * m.dt) * m.a_e;
-    m.v_e += m.dt * m.a_e;
+    m.a_e = m.C_eb * (f_b + m.w_eb_b.cross(m.w_eb_b.cross(m.l_b))) +
+            Gravity(x.p_e) - 2.0 * EarthRate_e().cross(x.v_e);
   }
   return m;
 }
@@ -49,31 +45,19 @@ void AddBodyRateColumns(const ModelContext& context, const PointMotion& m,
                     -A * m.w_ib_b.cwiseProduct(factor).asDiagonal(), H);
 }
 
-namespace {
-
-/// d a_e / d(error) times A, for the time-offset terms.
-void AddAccelerationColumns(const ModelContext& context, const PointMotion& m,
-                            const RowTimes3& A, RowJacobian* H) {
+void AddPositionColumns(const ModelContext& context, const PointMotion& m,
+                        const RowTimes3& A, RowJacobian* H) {
   const ErrorLayout& layout = context.layout;
   const int none = BlockKey::kNoSensor;
-  const ImuCalibration calibration = CalibrationOf(layout, context.state);
-  const Eigen::Vector3d f_b =
-      (context.kinematics.f_b - calibration.b_a).array() /
-      (1.0 + calibration.s_a.array());
-  const Eigen::Vector3d factor = 1.0 / (1.0 + calibration.s_a.array());
-  const RowTimes3 A_b = A * m.C_eb;
-  layout.AddColumns(BlockKind::kVelocity, none,
-                    -2.0 * A * Skew(EarthRate_e()) * m.C_en, H);
+  layout.AddColumns(BlockKind::kPosition, none, A * m.C_en, H);
   layout.AddColumns(BlockKind::kAttitude, none,
-                    -A * Skew(m.C_eb * f_b) * m.C_en, H);
-  layout.AddColumns(BlockKind::kAccelBias, none, -A_b * factor.asDiagonal(), H);
-  layout.AddColumns(BlockKind::kAccelScale, none,
-                    -A_b * f_b.cwiseProduct(factor).asDiagonal(), H);
+                    -A * Skew(m.C_eb * m.l_b) * m.C_en, H);
+  layout.AddColumns(BlockKind::kLeverArm, context.sensor_index, A * m.C_eb, H);
+  layout.AddColumns(BlockKind::kTimeOffset, context.sensor_index, A * m.v_e, H);
 }
 
-/// d(v_e + C_eb (w_eb x l)) / d(error) times A.
-void AddRigidVelocityColumns(const ModelContext& context, const PointMotion& m,
-                             const RowTimes3& A, RowJacobian* H) {
+void AddVelocityColumns(const ModelContext& context, const PointMotion& m,
+                        const RowTimes3& A, RowJacobian* H) {
   const ErrorLayout& layout = context.layout;
   const int none = BlockKey::kNoSensor;
   const RowTimes3 A_b = A * m.C_eb;
@@ -83,32 +67,7 @@ void AddRigidVelocityColumns(const ModelContext& context, const PointMotion& m,
   AddBodyRateColumns(context, m, -A_b * Skew(m.l_b), H);
   layout.AddColumns(BlockKind::kLeverArm, context.sensor_index,
                     A_b * Skew(m.w_eb_b), H);
-}
-
-}  // namespace
-
-void AddPositionColumns(const ModelContext& context, const PointMotion& m,
-                        const RowTimes3& A, RowJacobian* H) {
-  const ErrorLayout& layout = context.layout;
-  const int none = BlockKey::kNoSensor;
-  layout.AddColumns(BlockKind::kPosition, none, A * m.C_en, H);
-  layout.AddColumns(BlockKind::kAttitude, none,
-                    -A * Skew(m.C_eb * m.l_b) * m.C_en, H);
-  layout.AddColumns(BlockKind::kLeverArm, context.sensor_index, A * m.C_eb, H);
-  if (!layout.Has(BlockKind::kTimeOffset, context.sensor_index)) return;
-  layout.AddColumns(BlockKind::kTimeOffset, context.sensor_index, A * m.v_e, H);
-  if (m.dt == 0.0) return;
-  AddRigidVelocityColumns(context, m, m.dt * A, H);
-  AddAccelerationColumns(context, m, (0.5 * m.dt * m.dt) * A, H);
-}
-
-void AddVelocityColumns(const ModelContext& context, const PointMotion& m,
-                        const RowTimes3& A, RowJacobian* H) {
-  AddRigidVelocityColumns(context, m, A, H);
-  if (!context.layout.Has(BlockKind::kTimeOffset, context.sensor_index)) return;
-  context.layout.AddColumns(BlockKind::kTimeOffset, context.sensor_index,
-                            A * m.a_e, H);
-  if (m.dt != 0.0) AddAccelerationColumns(context, m, m.dt * A, H);
+  layout.AddColumns(BlockKind::kTimeOffset, context.sensor_index, A * m.a_e, H);
 }
 
 Eigen::Matrix3d NedTurn(const Eigen::Vector3d& p_e) {

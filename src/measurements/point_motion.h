@@ -8,22 +8,21 @@ namespace hindsight {
 /// A linear map of a vector in e to the rows of a measurement.
 using RowTimes3 = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMaxRows, 3>;
 
-/// Motion of a sensor's mounting point at the measurement's own time, and its
+/// Motion of a sensor's mounting point at the state's time, and its
 /// sensitivities: what the lever-arm and time-offset terms of every model come
 /// from. Earth frame e.
-///   p = p_e + C_eb l + v dt + a dt^2/2,   v = v_e + C_eb (w_eb x l) + a dt,
+///   p = p_e + C_eb l,   v = v_e + C_eb (w_eb x l),
 ///   w_eb = (w_ib - b_g)/(1 + s_g) - C_be w_ie,
-///   a = C_eb (f - b_a)/(1 + s_a) + g - 2 w_ie x v_e,
-/// where dt = stamp + time offset - state time is what the estimated time
-/// offset has moved since the node was placed.
+///   a = C_eb ((f - b_a)/(1 + s_a) + w_eb x (w_eb x l)) + g - 2 w_ie x v_e;
+/// a leaves out the change of w_eb.
 struct PointMotion {
   Eigen::Matrix3d C_en;  ///< at the state's position
   Eigen::Matrix3d C_eb;
   Eigen::Vector3d l_b;
   Eigen::Vector3d w_ib_b;  ///< calibrated [rad/s]
   Eigen::Vector3d w_eb_b;  ///< [rad/s]
-  Eigen::Vector3d a_e;     ///< of the IMU over the Earth [m/s^2]
-  double dt = 0.0;
+  /// Over the Earth [m/s^2]; zero unless a time offset is estimated.
+  Eigen::Vector3d a_e;
   Eigen::Vector3d p_e;
   Eigen::Vector3d v_e;
 };

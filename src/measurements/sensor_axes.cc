@@ -9,10 +9,8 @@ SensorAxes AxesOfSensor(const ModelContext& context,
   SensorAxes axes;
   axes.m = Parameter3(context.layout, context.state, BlockKind::kMounting,
                       context.sensor_index, Eigen::Vector3d::Zero());
-  axes.turn = -motion.dt * motion.w_eb_b;
   axes.C_sb = (Exp(axes.m) * context.sensor.q_sb).toRotationMatrix();
-  axes.C_se =
-      axes.C_sb * Exp(axes.turn).toRotationMatrix() * motion.C_eb.transpose();
+  axes.C_se = axes.C_sb * motion.C_eb.transpose();
   return axes;
 }
 
@@ -25,16 +23,9 @@ void AddAxesColumns(const ModelContext& context, const PointMotion& motion,
   const RowTimes3 A_e = A * axes.C_se;
   layout.AddColumns(BlockKind::kAttitude, BlockKey::kNoSensor,
                     A_e * Skew(u_e) * motion.C_en, H);
-  if (motion.dt != 0.0) {
-    const Eigen::Vector3d u_b = motion.C_eb.transpose() * u_e;
-    AddBodyRateColumns(
-        context, motion,
-        motion.dt * A_e * motion.C_eb * Skew(u_b) * RightJacobian(axes.turn),
-        H);
-  }
-  const Eigen::Vector3d u_b1 = axes.C_sb.transpose() * u_s;
+  const Eigen::Vector3d u_b = motion.C_eb.transpose() * u_e;
   layout.AddColumns(BlockKind::kTimeOffset, sensor,
-                    -A * (axes.C_sb * motion.w_eb_b.cross(u_b1)), H);
+                    -A * (axes.C_sb * motion.w_eb_b.cross(u_b)), H);
   layout.AddColumns(BlockKind::kMounting, sensor,
                     -A * Skew(u_s) * LeftJacobian(axes.m), H);
 }

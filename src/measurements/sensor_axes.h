@@ -5,15 +5,11 @@
 
 namespace hindsight {
 
-/// The axes s of a sensor at the measurement's own time, and their
-/// sensitivities: what every model that measures in its own axes (odometer,
-/// DVL, acoustic bearing) shares.
-///   C_se = C_sb Exp(-dt w_eb) C_be,   C_sb = Exp(m) C_sb(nominal),
-/// with dt and w_eb as in PointMotion: the body has turned on since the node
-/// was placed.
+/// The axes s of a sensor, and their sensitivities: what every model that
+/// measures in its own axes (odometer, DVL, acoustic bearing) shares.
+///   C_se = C_sb C_be,   C_sb = Exp(m) C_sb(nominal),   C_se' = -C_sb [w_eb x] C_be
 struct SensorAxes {
-  Eigen::Vector3d m;     ///< mounting (boresight) rotation vector [rad]
-  Eigen::Vector3d turn;  ///< -dt w_eb [rad]
+  Eigen::Vector3d m;  ///< mounting (boresight) rotation vector [rad]
   Eigen::Matrix3d C_sb;
   Eigen::Matrix3d C_se;
 };

@@ -49,6 +49,36 @@ void Timeline::SetColouredSteps(std::vector<ColouredStep> steps) {
   }
 }
 
+void Timeline::LinearizeTimeOffsets(const ErrorLayout& layout,
+                                    std::span<const State> states) {
+  TimeOffsetRates rates;
+  rates.measurements.resize(measurements_.size());
+  for (std::size_t k = 0; k < size(); ++k) {
+    for (const Measurement& z : measurements(k)) {
+      if (!layout.Has(BlockKind::kTimeOffset, z.sensor)) continue;
+      rates.measurements[static_cast<std::size_t>(&z - measurements_.data())] =
+          TimeOffsetRate(z, Context(k, z, layout, states[k]));
+    }
+  }
+  for (const IncrementStart& start : increment_starts_) {
+    std::optional<double>& rate = rates.increment_starts.emplace_back();
+    if (!layout.Has(BlockKind::kTimeOffset, start.sensor)) continue;
+    const auto k = static_cast<std::size_t>(start.node);
+    rate =
+        PredictedSpeed({layout, states[k], nodes_[k].kinematics,
+                        sensors_[static_cast<std::size_t>(start.sensor)],
+                        start.sensor, start.stamp});
+  }
+  SetTimeOffsetRates(std::move(rates));
+}
+
+void Timeline::SetTimeOffsetRates(TimeOffsetRates rates) {
+  offset_rates_ = std::move(rates);
+  for (std::size_t i = 0; i < increment_starts_.size(); ++i) {
+    increment_starts_[i].offset_rate = offset_rates_.increment_starts[i];
+  }
+}
+
 void Timeline::ScaleSensor(int sensor, double factor) {
   for (Measurement& z : measurements_) {
     if (z.sensor == sensor) ScaleSigma(factor, &z);

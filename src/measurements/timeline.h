@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_MEASUREMENTS_TIMELINE_H_
 #define HINDSIGHT_MEASUREMENTS_TIMELINE_H_
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,6 +24,16 @@ struct IncrementStart {
   int node = 0;
   int sensor = 0;
   double stamp = 0.0;  ///< of the count [s]
+  /// Speed of the axle along a known trajectory [m/s], as
+  /// ModelContext::offset_rate.
+  std::optional<double> offset_rate;
+};
+
+/// Rates of the predictions with estimated time offsets: one a measurement,
+/// empty where its sensor's is not estimated, and one an increment's start.
+struct TimeOffsetRates {
+  std::vector<RowVector> measurements;
+  std::vector<std::optional<double>> increment_starts;
 };
 
 /// What every estimator works on: nodes in time order, the measurements of each
@@ -63,6 +74,15 @@ class Timeline {
   /// The summary as last integrated; it must have been asked for before.
   const ImuSummary& Summary(std::size_t k) const { return summaries_[k]; }
 
+  /// Linearises the estimated time offsets along a trajectory, a state a node.
+  /// From here on every method takes them by these rates, until others are set;
+  /// before, as noise (Evaluate).
+  void LinearizeTimeOffsets(const ErrorLayout& layout,
+                            std::span<const State> states);
+  /// The rates, to carry them to a timeline with the same nodes.
+  const TimeOffsetRates& time_offset_rates() const { return offset_rates_; }
+  void SetTimeOffsetRates(TimeOffsetRates rates);
+
   /// Gives the coloured noise of a sensor a step of its own for each interval;
   /// as many as intervals, or none to take them back.
   void SetColouredSteps(std::vector<ColouredStep> steps);
@@ -74,7 +94,8 @@ class Timeline {
   /// Multiplies the standard deviations of all measurements of a sensor.
   void ScaleSensor(int sensor, double factor);
 
-  /// The context in which measurement z of node k is evaluated at state x.
+  /// The context in which measurement z of node k, one of measurements(k), is
+  /// evaluated at state x.
   ModelContext Context(std::size_t k, const Measurement& z,
                        const ErrorLayout& layout, const State& x) const {
     return {layout,
@@ -82,14 +103,22 @@ class Timeline {
             nodes_[k].kinematics,
             sensors_[static_cast<std::size_t>(z.sensor)],
             z.sensor,
-            z.t};
+            z.t,
+            OffsetRate(z)};
   }
 
  private:
+  const RowVector* OffsetRate(const Measurement& z) const {
+    if (offset_rates_.measurements.empty()) return nullptr;
+    return &offset_rates_
+                .measurements[static_cast<std::size_t>(&z - measurements_.data())];
+  }
+
   std::vector<Node> nodes_;
   std::vector<Measurement> measurements_;
   std::vector<Sensor> sensors_;
   std::vector<IncrementStart> increment_starts_;
+  TimeOffsetRates offset_rates_;
   ImuIntegrator integrator_;
   std::vector<ImuSummary> summaries_;
   std::vector<char> integrated_;

@@ -249,12 +249,15 @@ Measurement Correlated(const TestProblem& problem, std::size_t index) {
 
 TEST(MeasurementFactor, IsTheFiltersModelWhitened) {
   for (const bool rich : {false, true}) {
-    const TestProblem problem = Problem(rich, true);
+    TestProblem problem = Problem(rich, true);
+    for (const std::size_t i : {4, 5}) {
+      problem.measurements[i] = Correlated(problem, i);
+    }
     const Timeline timeline = problem.MakeTimeline();
     const StateBlocks blocks(problem.layout);
     const std::vector<State> pair = PairAt(problem, 2);
     for (const std::size_t i : {4, 5}) {
-      const Measurement z = Correlated(problem, i);
+      const Measurement& z = timeline.all_measurements()[i];
       const MeasurementFactor factor(&blocks, &timeline, 2, &z);
       LinearizedMeasurement expected;
       Evaluate(z, timeline.Context(2, z, problem.layout, pair[0]), &expected);
@@ -293,11 +296,14 @@ TEST(MeasurementFactor, IsTheFiltersModelWhitened) {
 
 TEST(MeasurementFactor, JacobianMatchesNumericDifference) {
   for (const bool rich : {false, true}) {
-    const TestProblem problem = Problem(rich, true);
+    TestProblem problem = Problem(rich, true);
+    for (const std::size_t i : {4, 5}) {
+      problem.measurements[i] = Correlated(problem, i);
+    }
     const Timeline timeline = problem.MakeTimeline();
     const StateBlocks blocks(problem.layout);
     for (const std::size_t i : {4, 5}) {
-      const Measurement z = Correlated(problem, i);
+      const Measurement& z = timeline.all_measurements()[i];
       const MeasurementFactor factor(&blocks, &timeline, 2, &z);
       ExpectJacobian(blocks, factor, {PairAt(problem, 2)[0]},
                      i == 4 ? "position" : "velocity");

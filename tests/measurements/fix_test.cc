@@ -61,19 +61,6 @@ TEST(PositionFix, LeverArmAtHeading90Degrees) {
   EXPECT_EQ(z.R, RowMatrix(Eigen::Vector3d(1.0, 4.0, 9.0).asDiagonal()));
 }
 
-TEST(PositionFix, TimeOffsetMovesThePointAlongItsPath) {
-  Scene scene = RichScene();
-  const Measurement z = Position(scene.state.p_e);
-  const Block& offset = *scene.layout.Find(BlockKind::kTimeOffset, 0);
-  const RowVector with = scene.Evaluate(z).residual;
-  scene.state.parameters(offset.parameter_offset) = -0.02;  // dt = 0
-  const RowVector without = scene.Evaluate(z).residual;
-  // 14 m/s for 70 ms, the antenna's own 0.7 m/s, acceleration 1/2 a dt^2.
-  const Eigen::Vector3d moved = without - with;
-  EXPECT_NEAR((moved - 0.07 * scene.state.v_n()).norm(), 0.0, 0.07);
-  EXPECT_GT(moved.norm(), 0.07 * 12.0);
-}
-
 TEST(PositionFix, ColouredNoiseAdds) {
   Scene scene = RichScene();
   const Measurement z = Position(scene.state.p_e);

@@ -21,9 +21,13 @@ struct Scene {
   LinearizedMeasurement Evaluate(const Measurement& z) const {
     return EvaluateAt(z, state);
   }
+  /// A time offset is linearised at `state`.
   LinearizedMeasurement EvaluateAt(const Measurement& z, const State& x) const {
+    const RowVector rate =
+        TimeOffsetRate(z, {layout, state, kinematics, sensor, 0, stamp});
     LinearizedMeasurement out;
-    hindsight::Evaluate(z, {layout, x, kinematics, sensor, 0, stamp}, &out);
+    hindsight::Evaluate(z, {layout, x, kinematics, sensor, 0, stamp, &rate},
+                        &out);
     return out;
   }
 };
@@ -58,7 +62,7 @@ inline Scene RichScene() {
   set(BlockKind::kScale, 0, {0.02, 0.0, 0.0});
   set(BlockKind::kMounting, 0, {0.03, -0.05, 0.08});
   scene.sensor.q_sb = Exp(Eigen::Vector3d(0.1, 0.2, -0.3));
-  scene.stamp = scene.state.t + 0.02;  // 0.07 s after the node in true time
+  scene.stamp = scene.state.t + 0.02;  // 0.07 s after the node by the offset
   return scene;
 }
 
@@ -67,9 +71,7 @@ inline Scene RichScene() {
 ///   rounding of ECEF positions, 2e-9 m over 2 h: 1e-9 for the steps of 1 m and
 ///   1e-5 for those of 1e-4 where the row is a position,
 ///   third derivatives: h^2/6 of a rotation of the largest vector seen, 100 m
-///   or m/s: 2e-7; for a metre the turn of the axes, 2e-7 rad, squared,
-///   what the models leave out: the change of gravity with position over the
-///   70 ms of the rich scene, 2.2e-7 1/s of a velocity.
+///   or m/s: 2e-7; for a metre the turn of the axes, 2e-7 rad, squared.
 inline void ExpectJacobian(const Scene& scene, const Measurement& z,
                            const std::string& name) {
   const LinearizedMeasurement at = scene.Evaluate(z);

@@ -125,6 +125,7 @@ TEST(DistanceIncrements, SmootherIsTheBatch) {
   const GateDecisions all(timeline.all_measurements().size(), 1);
   const SmoothedTrajectory first = SmoothRts(
       RunExtendedKalmanFilter(start.layout, start.prior, &timeline, all));
+  timeline.LinearizeTimeOffsets(start.layout, first.states);
   const BatchResult batch =
       SolveBatch(start.layout, start.prior, first.states, &timeline, all, {});
   ASSERT_TRUE(batch.converged);

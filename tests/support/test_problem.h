@@ -40,7 +40,9 @@ struct TestProblem {
   Timeline MakeTimeline() const {
     const bool scale =
         layout.Has(BlockKind::kGyroScale) || layout.Has(BlockKind::kAccelScale);
-    return Timeline(nodes, measurements, sensors, imu, scale);
+    Timeline timeline(nodes, measurements, sensors, imu, scale);
+    timeline.LinearizeTimeOffsets(layout, truth);
+    return timeline;
   }
 };
 

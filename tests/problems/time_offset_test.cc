@@ -1,0 +1,262 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/random.h"
+#include "base/units.h"
+#include "evaluation/chi_square.h"
+#include "problems/forward_stage.h"
+#include "problems/noise_estimation.h"
+#include "problems/reconstruction.h"
+#include "simulation/scenario.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kDuration = 30.0;
+constexpr double kPriorSigma = 0.3;  // of the time offset [s]
+constexpr char kOffset[] = "gnss_time_offset";
+
+/// A hand that shakes and turns an IMU about a spot: three sinusoids an axis of
+/// 0.15 to 1.2 Hz, speeds of some 0.5 m/s and turns of some 20 deg.
+std::vector<ProfilePoint> ShakenHand() {
+  constexpr double kStep = 0.02;
+  struct Wave {
+    double rate, phase, speed, angle;
+  };
+  Random random(5);
+  std::vector<Wave> waves[3];
+  for (auto& axis : waves) {
+    for (const double frequency : {0.15, 0.45, 1.0}) {
+      axis.push_back({2.0 * kPi * frequency * (1.0 + 0.2 * random.Uniform()),
+                      2.0 * kPi * random.Uniform(), 0.4, 0.12});
+    }
+  }
+  std::vector<ProfilePoint> points;
+  for (int k = 0; k * kStep <= kDuration + 0.5 * kStep; ++k) {
+    ProfilePoint p;
+    p.t = k * kStep;
+    p.position = {37.0 * kDegree, 127.0 * kDegree, 50.0};
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const Wave& w : waves[axis]) {
+        p.v_n(axis) += w.speed * std::sin(w.rate * p.t + w.phase);
+        p.euler(axis) += w.angle * std::cos(w.rate * p.t + 2.0 * w.phase);
+      }
+    }
+    points.push_back(p);
+  }
+  return points;
+}
+
+Scenario ShakenScenario() {
+  Scenario s;
+  s.name = "shaken";
+  s.profile = ShakenHand();
+  s.imu_rate_hz = 100.0;
+  s.imu.noise.gyro_noise_density = 1.5e-3;
+  s.imu.noise.accel_noise_density = 0.12;
+  AidingModel gnss;
+  gnss.sensor.name = "gnss";
+  gnss.sensor.type = SensorType::kPosition;
+  gnss.sensor.time_offset_sigma = kPriorSigma;
+  gnss.rate_hz = 20.0;
+  gnss.sigma.setConstant(0.003);
+  s.aiding = {gnss};
+  StartErrors errors;
+  errors.position.setConstant(0.01);
+  errors.velocity.setConstant(0.1);
+  errors.attitude.setConstant(2.0 * kDegree);
+  s.start_errors = errors;
+  return s;
+}
+
+/// Seed `seed` with positions that are told `delay` too early; the data set
+/// believes in `start`.
+Dataset Delayed(const PerfectRecording& recording, std::uint64_t seed,
+                double delay, double start = 0.0) {
+  Dataset dataset = recording.Realize(seed);
+  AidingStream& gnss = dataset.streams.front();
+  for (Measurement& z : gnss.measurements) z.t -= delay;
+  gnss.sensor.time_offset = start;
+  return dataset;
+}
+
+double DelayOf(std::uint64_t seed) {
+  return -0.3 + 0.6 * Random(seed, 77).Uniform();
+}
+
+const ConstantEstimate& Offset(const Solution& solution) {
+  return *std::find_if(
+      solution.constants.begin(), solution.constants.end(),
+      [](const ConstantEstimate& c) { return c.name == kOffset; });
+}
+
+constexpr Method kSmoothers[] = {Method::kRts,   Method::kTwoFilter,
+                                 Method::kIterated, Method::kBatch,
+                                 Method::kImmSmoother};
+
+/// The number of seeds; more than in the suite by the environment.
+int Seeds(int few) {
+  const char* many = std::getenv("HINDSIGHT_TIME_OFFSET_SEEDS");
+  return many == nullptr ? few : std::atoi(many);
+}
+
+/// Errors over their sigmas, as a normal deviate has them, and the same from
+/// another start. A noisy IMU used to push the offset away from where the nodes
+/// stood: 85 ms beside it, by a sigma of 1 ms.
+TEST(TimeOffset, ErrorsAreWhatTheSigmaSaysFromAnyStart) {
+#ifdef NDEBUG
+  const int seeds = Seeds(8);
+#else
+  const int seeds = Seeds(2);
+#endif
+  const PerfectRecording recording(ShakenScenario());
+  std::map<Method, double> sum;
+  std::map<Method, int> beyond;
+  for (int i = 0; i < seeds; ++i) {
+    const std::uint64_t seed = 1000 + static_cast<std::uint64_t>(i);
+    const double delay = DelayOf(seed);
+    const Dataset dataset = Delayed(recording, seed, delay);
+    Reconstruction from_zero(dataset, {});
+    const Dataset other = Delayed(recording, seed, delay, 0.5 * delay);
+    Reconstruction from_near(other, {});
+    for (const Method method : kSmoothers) {
+      const Solution solution = from_zero.Run(method);
+      EXPECT_TRUE(solution.usable) << seed << " " << solution.verdict;
+      const ConstantEstimate& offset = Offset(solution);
+      const double error = (offset.value - delay) / offset.sigma;
+      RecordProperty("error", std::to_string(error));
+      sum[method] += error * error;
+      beyond[method] += std::abs(error) > 3.0 ? 1 : 0;
+      if (method != Method::kRts && method != Method::kBatch) continue;
+      EXPECT_NEAR(Offset(from_near.Run(method)).value, offset.value,
+                  0.1 * offset.sigma)
+          << seed << " " << solution.method << " delay " << delay;
+    }
+  }
+  const Interval bounds = AneesBounds(seeds, 1, 0.99);
+  for (const Method method : kSmoothers) {
+    EXPECT_TRUE(bounds.Contains(sum[method] / seeds))
+        << MethodName(method) << ": " << sum[method] / seeds << " against "
+        << bounds.lower << " to " << bounds.upper;
+    // Three of two hundred: beyond three sigmas are 0.27 %.
+    EXPECT_LE(beyond[method], seeds < 100 ? 1 : 3) << MethodName(method);
+    if (seeds < 100) continue;
+    std::printf("%s: mean (error/sigma)^2 %.3f of %d, %d beyond 3 sigmas\n",
+                MethodName(method).c_str(), sum[method] / seeds, seeds,
+                beyond[method]);
+  }
+}
+
+/// ln of the likelihood of the positions with nodes placed by a given offset.
+double FixedOffsetLikelihood(const Dataset& dataset, double offset) {
+  Dataset fixed = dataset;
+  Sensor& sensor = fixed.streams.front().sensor;
+  sensor.time_offset = offset;
+  sensor.time_offset_sigma.reset();
+  ReconstructionOptions options;
+  options.method = Method::kEkf;
+  // The same interval whatever the offset.
+  ForwardStage stage(fixed, options);
+  const LinearTape tape = stage.Filter({}, "");
+  double sum = 0.0;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      sum += z.log_likelihood;
+    }
+  }
+  return sum;
+}
+
+TEST(TimeOffset, AgreesWithTheLikelihoodOverFixedOffsets) {
+  const PerfectRecording recording(ShakenScenario());
+  for (const std::uint64_t seed : {2001u, 2002u}) {
+    Dataset dataset = Delayed(recording, seed, DelayOf(seed));
+    // Not a fix may come or go with the offset.
+    std::vector<Measurement>& fixes = dataset.streams.front().measurements;
+    std::erase_if(fixes, [](const Measurement& z) {
+      return z.t < 1.0 || z.t > kDuration - 1.0;
+    });
+    const Solution batch = Solve(dataset, {});
+    const ConstantEstimate& offset = Offset(batch);
+    // A parabola through five points, two sigmas either way.
+    double with_square = 0.0;
+    double with_slope = 0.0;
+    for (const int i : {-2, -1, 0, 1, 2}) {
+      const double L =
+          FixedOffsetLikelihood(dataset, offset.value + i * offset.sigma);
+      with_slope += i * L / 10.0;
+      with_square += (i * i - 2.0) * L / 14.0;
+    }
+    const double peak = -0.5 * with_slope / with_square;  // in sigmas
+    const double sigma = 1.0 / std::sqrt(-2.0 * with_square);
+    EXPECT_NEAR(peak, 0.0, 0.1) << seed;
+    EXPECT_NEAR(sigma, 1.0, 0.1) << seed;
+  }
+}
+
+/// Readings that shake and lever arms: velocities, whose rate is an
+/// acceleration.
+TEST(TimeOffset, OfVelocitiesIsAsGoodAsItsSigma) {
+  const int seeds = Seeds(6);
+  Scenario scenario = ShakenScenario();
+  scenario.imu.noise.accel_noise_density = 0.02;
+  AidingModel& gnss = scenario.aiding.front();
+  gnss.sensor.type = SensorType::kVelocity;
+  gnss.sensor.lever_arm_b = {0.3, -0.2, 0.1};
+  gnss.rate_hz = 5.0;
+  gnss.sigma.setConstant(0.05);
+  const PerfectRecording recording(scenario);
+  double sum = 0.0;
+  for (int i = 0; i < seeds; ++i) {
+    const std::uint64_t seed = 3000 + static_cast<std::uint64_t>(i);
+    const double delay = 0.5 * DelayOf(seed);
+    const Solution batch = Solve(Delayed(recording, seed, delay), {});
+    const ConstantEstimate& offset = Offset(batch);
+    EXPECT_EQ(batch.verdict.find("does not settle"), std::string::npos);
+    sum += std::pow((offset.value - delay) / offset.sigma, 2);
+  }
+  const Interval bounds = AneesBounds(seeds, 1, 0.99);
+  EXPECT_TRUE(bounds.Contains(sum / seeds))
+      << sum / seeds << " against " << bounds.lower << " to " << bounds.upper;
+}
+
+/// Two kinds of motion explain nothing alike: the offset jumps to and fro.
+TEST(TimeOffset, ThatDoesNotSettleIsNamed) {
+  const PerfectRecording recording(ShakenScenario());
+  Dataset dataset = Delayed(recording, 1, 0.1);
+  // Positions of another motion altogether.
+  std::vector<Measurement>& fixes = dataset.streams.front().measurements;
+  for (std::size_t i = 0; i < fixes.size() / 2; ++i) {
+    std::swap(std::get<PositionFix>(fixes[i].model).p_e,
+              std::get<PositionFix>(fixes[fixes.size() - 1 - i].model).p_e);
+  }
+  dataset.streams.front().sensor.time_offset_sigma = 5.0;
+  const Solution solution = Solve(dataset, {});
+  EXPECT_FALSE(solution.usable);
+}
+
+TEST(TimeOffset, NoiseIsEstimatedWithIt) {
+  constexpr double kStatedTooSmall = 10.0;
+  const PerfectRecording recording(ShakenScenario());
+  Dataset dataset = Delayed(recording, 4001, 0.15);
+  dataset.imu.noise.accel_noise_density /= kStatedTooSmall;
+  const NoiseEstimate estimate = EstimateNoise(dataset);
+  EXPECT_TRUE(estimate.converged);
+  constexpr double kFourSigma = 4.0;
+  for (const NoiseFactor& noise : estimate.factors) {
+    const double truth = noise.name == "imu.accel" ? kStatedTooSmall : 1.0;
+    EXPECT_LT(std::abs(std::log(noise.factor / truth)) / noise.log_sigma,
+              kFourSigma)
+        << noise.name << " " << noise.factor << " +- " << noise.log_sigma;
+  }
+}
+
+}  // namespace
+}  // namespace hindsight
