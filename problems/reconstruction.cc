@@ -187,6 +187,13 @@ struct Reconstruction::Impl {
     if (receiver < 0) {
       throw EstimationError("robust_batch needs a position sensor");
     }
+    constexpr int kOwnStates = 6;
+    if (forward.start().layout.parameter_count() + kOwnStates >
+        kMaxParameters) {
+      throw EstimationError(
+          "robust_batch adds 6 values to those estimated: expected at most " +
+          std::to_string(kMaxParameters - kOwnStates) + " of them");
+    }
     GateDecisions used = forward.decisions();
     for (std::size_t i = 0; i < used.size(); ++i) {
       const Measurement& z = forward.timeline().all_measurements()[i];
