@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "base/units.h"
 #include "filters/kalman.h"
@@ -42,25 +41,43 @@ double StandingVariance(const Block& block) {
   return std::max(stationary, block.sigma0.cwiseAbs2().maxCoeff());
 }
 
-/// The components of a layout that do not forget (u, with all of the motion)
-/// and those that do (s), with the standing variance of the latter.
+/// A layout in another order: first the components that do not forget (u, with
+/// all of the motion), then those that do (s), with their standing variances.
 struct Components {
-  std::vector<int> u, s;
+  Eigen::PermutationMatrix<Eigen::Dynamic> order;
+  Eigen::Index n_u = 0;
+  Eigen::Index n_s = 0;
   Eigen::VectorXd variance;
+
+  Eigen::MatrixXd Ordered(const ErrorMatrix& M) const {
+    return order * Eigen::MatrixXd(M) * order.transpose();
+  }
+  Eigen::VectorXd Ordered(const ErrorVector& d) const {
+    return order * Eigen::VectorXd(d);
+  }
 };
 
 Components Split(const ErrorLayout& layout) {
   Components out;
-  std::vector<double> variances;
+  out.order.resize(layout.dim());
+  out.variance.setZero(layout.dim());
+  for (const Block& block : layout.blocks()) {
+    (StandingVariance(block) > 0.0 ? out.n_s : out.n_u) += block.dim;
+  }
+  int u = 0;
+  int s = 0;
   for (const Block& block : layout.blocks()) {
     const double variance = StandingVariance(block);
     for (int i = block.offset; i < block.offset + block.dim; ++i) {
-      if (variance > 0.0) variances.push_back(variance);
-      (variance > 0.0 ? out.s : out.u).push_back(i);
+      if (variance > 0.0) {
+        out.variance(s) = variance;
+        out.order.indices()(i) = static_cast<int>(out.n_u) + s++;
+      } else {
+        out.order.indices()(i) = u++;
+      }
     }
   }
-  out.variance = Eigen::Map<const Eigen::VectorXd>(
-      variances.data(), static_cast<Eigen::Index>(variances.size()));
+  out.variance.conservativeResize(out.n_s);
   return out;
 }
 
@@ -73,49 +90,50 @@ struct BackwardParts {
 
 BackwardParts PartsOf(const Components& components,
                       const Transition& transition) {
-  const auto& [u, s, V] = components;
+  const Eigen::Index n_u = components.n_u;
+  const Eigen::Index n_s = components.n_s;
+  const Eigen::VectorXd& V = components.variance;
+  const Eigen::MatrixXd Phi = components.Ordered(transition.Phi);
+  const Eigen::MatrixXd Q = components.Ordered(transition.Q);
+  const Eigen::VectorXd phi = Phi.diagonal().tail(n_s);
+  const Eigen::VectorXd V_j =
+      phi.cwiseAbs2().cwiseProduct(V) + Q.diagonal().tail(n_s);
+  const Eigen::MatrixXd Q_us = Q.topRightCorner(n_u, n_s);
   BackwardParts out;
-  out.A = Eigen::MatrixXd(transition.Phi(u, u)).inverse();
-  out.Phi_us = transition.Phi(u, s);
-  const Eigen::VectorXd phi = Eigen::MatrixXd(transition.Phi(s, s)).diagonal();
-  const Eigen::VectorXd q = Eigen::MatrixXd(transition.Q(s, s)).diagonal();
-  const Eigen::VectorXd V_j = phi.cwiseAbs2().cwiseProduct(V) + q;
-  const Eigen::MatrixXd Q_us = transition.Q(u, s);
+  out.A = Phi.topLeftCorner(n_u, n_u).partialPivLu().inverse();
+  out.Phi_us = Phi.topRightCorner(n_u, n_s);
   out.B = phi.cwiseProduct(V).cwiseQuotient(V_j);
   out.Q_ss = V - out.B.cwiseAbs2().cwiseProduct(V_j);
   out.K = Q_us * V_j.cwiseInverse().asDiagonal();
-  out.Q_uu = Eigen::MatrixXd(transition.Q(u, u)) - out.K * Q_us.transpose();
+  out.Q_uu = Q.topLeftCorner(n_u, n_u) - out.K * Q_us.transpose();
   out.Q_us = -Q_us * out.B.asDiagonal();
   return out;
 }
 
 ErrorMatrix CovarianceBefore(const Components& components,
                              const BackwardParts& parts, const ErrorMatrix& P) {
-  const auto& [u, s, V] = components;
   const Eigen::Index n = P.rows();
-  const auto n_s = static_cast<Eigen::Index>(s.size());
-  const Eigen::MatrixXd B = parts.B.asDiagonal();
+  const Eigen::Index n_u = components.n_u;
+  const Eigen::Index n_s = components.n_s;
   const Eigen::MatrixXd A_s = -parts.A * parts.Phi_us;
   Eigen::MatrixXd F = Eigen::MatrixXd::Zero(n, n);  // of d_j
-  F(u, u) = parts.A;
-  F(u, s) = A_s * B - parts.A * parts.K;
-  F(s, s) = B;
-  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(n, n);  // of (w_u', w')
-  G(u, u) = -parts.A;
-  G(u, s) = A_s;
-  G(s, s) = Eigen::MatrixXd::Identity(n_s, n_s);
-  Eigen::MatrixXd N = Eigen::MatrixXd::Zero(n, n);
-  N(u, u) = parts.Q_uu;
-  N(u, s) = parts.Q_us;
-  N(s, u) = parts.Q_us.transpose();
-  N(s, s) = Eigen::MatrixXd(parts.Q_ss.asDiagonal());
-  ErrorMatrix out =
-      F * Eigen::MatrixXd(P) * F.transpose() + G * N * G.transpose();
+  F.topLeftCorner(n_u, n_u) = parts.A;
+  F.topRightCorner(n_u, n_s) = A_s * parts.B.asDiagonal() - parts.A * parts.K;
+  F.bottomRightCorner(n_s, n_s) = parts.B.asDiagonal();
+  Eigen::MatrixXd G = Eigen::MatrixXd::Identity(n, n);  // of (w_u', w')
+  G.topLeftCorner(n_u, n_u) = -parts.A;
+  G.topRightCorner(n_u, n_s) = A_s;
+  Eigen::MatrixXd N(n, n);
+  N << parts.Q_uu, parts.Q_us, parts.Q_us.transpose(),
+      Eigen::MatrixXd(parts.Q_ss.asDiagonal());
+  const Eigen::MatrixXd before =
+      F * components.Ordered(P) * F.transpose() + G * N * G.transpose();
+  ErrorMatrix out = components.order.transpose() * before * components.order;
   Symmetrize(&out);
   return out;
 }
 
-/// The values of the components that forget, in the order of Components::s.
+/// The values that a state has, of what is additive.
 ErrorVector ValuesOf(const ErrorLayout& layout, const State& x) {
   State zero = x;
   zero.b_g.setZero();
@@ -131,25 +149,27 @@ State PredictBackward(const ErrorLayout& layout, const State& x_j,
   constexpr int kMaxIterations = 5;
   constexpr double kSettled = 1e-12;
   const Components components = Split(layout);
-  const auto& [u, s, V] = components;
+  const Eigen::Index n_s = components.n_s;
+  const auto forgetting = [&](const State& x) -> Eigen::VectorXd {
+    return components.Ordered(ValuesOf(layout, x)).tail(n_s);
+  };
   State x = x_j;
   x.t = summary.t_i;
   x.q_eb = x_j.q_eb * Correct(summary, CalibrationOf(layout, x_j)).dR.inverse();
   x.p_e -= summary.dt() * x_j.v_e;
   Transition transition;
   transition.c = ErrorVector::Zero(layout.dim());
-  const Eigen::VectorXd s_j = ValuesOf(layout, x_j)(s);
+  const Eigen::VectorXd s_j = forgetting(x_j);
   for (int i = 0; i < kMaxIterations; ++i) {
     const State there = Predict(layout, x, summary);
     LinearizeTransition(layout, summary, x, there, &transition);
     const BackwardParts parts = PartsOf(components, transition);
-    const Eigen::VectorXd missing = Local(layout, there, x_j)(u);
-    ErrorVector d = ErrorVector::Zero(layout.dim());
-    const Eigen::VectorXd d_s =
-        parts.B.cwiseProduct(s_j) - Eigen::VectorXd(ValuesOf(layout, x)(s));
-    d(s) = d_s;
-    d(u) = parts.A * (missing - parts.K * s_j - parts.Phi_us * d_s);
-    x = Retract(layout, x, d);
+    const Eigen::VectorXd d_s = parts.B.cwiseProduct(s_j) - forgetting(x);
+    const Eigen::VectorXd missing =
+        components.Ordered(Local(layout, there, x_j)).head(components.n_u);
+    Eigen::VectorXd d(layout.dim());
+    d << parts.A * (missing - parts.K * s_j - parts.Phi_us * d_s), d_s;
+    x = Retract(layout, x, components.order.transpose() * d);
     x.t = summary.t_i;
     if (d.norm() < kSettled * x.p_e.norm()) break;
   }
