@@ -17,7 +17,7 @@ namespace {
 constexpr double kWindow = 10.0;  // [s]
 constexpr int kMostWindows = 60;
 constexpr double kTurn = 30.0 * kDegree;
-constexpr double kScatterSigma = 0.1;
+constexpr double kScatterSigma = 0.05;
 constexpr double kDipSigma = 0.35;
 constexpr double kClearlyBetter = 9.0;
 constexpr double kAsGood = 4.0;

@@ -27,7 +27,7 @@ std::string FieldContradiction(const Eigen::Vector3d& field_level,
 /// makes the field turn against the gyros, or point up in the northern or down
 /// in the southern magnetic hemisphere; a configured `down` of the wrong sign.
 /// The signs are found over windows of 10 s: all eight are compared by
-///   chi2 = T / 0.1^2 + (s - s_0)^2 / 0.35^2 + flipped axes,
+///   chi2 = T / 0.05^2 + (s - s_0)^2 / 0.35^2 + flipped axes,
 /// T the squared scatter of the field, carried to the begin of the window by
 /// the gyros, over its squared norm, where the body turns by 30 deg and more; s
 /// and s_0 the sines of its dip against gravity and of the dipole's. They count

@@ -37,9 +37,7 @@ struct ImuNoise {
 
 /// The IMU's record. Rates are instantaneous values at the stamps, taken as
 /// linear in between; increments are integrals over the interval that ends at
-/// the stamp. The first sample of increments is where the second's interval
-/// begins; its own values only say how the rates came to be there, and a stream
-/// that was read repeats the second's.
+/// the stamp (the first sample is where the second's interval begins).
 struct ImuStream {
   enum class Kind { kRates, kIncrements };
   Kind kind = Kind::kRates;
