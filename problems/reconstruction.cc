@@ -245,6 +245,13 @@ struct Reconstruction::Impl {
     if (receiver < 0) {
       throw EstimationError("robust_batch needs a position sensor");
     }
+    constexpr int kOwnStates = 6;
+    if (forward.start().layout.parameter_count() + kOwnStates >
+        kMaxParameters) {
+      throw EstimationError(
+          "robust_batch adds 6 values to those estimated: expected at most " +
+          std::to_string(kMaxParameters - kOwnStates) + " of them");
+    }
     return Finish(AtOwnNodes([&](const Stage& stage) {
                     return SolveRobustly(receiver, stage);
                   }),

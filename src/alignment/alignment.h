@@ -56,6 +56,17 @@ struct AlignedAttitude {
   std::string heading;   ///< how the heading was found, in words
 };
 
+/// Whether the heading is known at all.
+bool TellsHeading(const AlignedAttitude& attitude);
+
+/// By what `a` is turned against `b` (NED) [rad]; where one of them leaves the
+/// heading open, after it has been turned about the vertical to the other.
+Eigen::Vector3d Difference(const AlignedAttitude& a, const AlignedAttitude& b);
+
+/// Whether two attitudes, taken as independent, are more than five sigmas
+/// apart.
+bool Contradict(const AlignedAttitude& a, const AlignedAttitude& b);
+
 /// An attitude, or why there is none.
 struct AlignmentOutcome {
   std::optional<AlignedAttitude> found;
@@ -87,12 +98,15 @@ struct AlignmentChoice {
 /// Aligns by the method that Dataset::initial asks for; by default by the given
 /// attitude or heading, and without one by the method whose covariance has the
 /// smallest trace, by a tenth or more below those before it; none is tried
-/// after one that knows all axes to 0.5 deg. The course is a
-/// candidate where an odometer or constraint says where the vehicle's forward
-/// axis is in the body; it gives way to `velocity` where that tells the heading
-/// too and the two are more than five sigmas apart. If none finds any, the
-/// first second is taken as level. Throws EstimationError if the method asked
-/// for finds nothing (its reason is the message).
+/// after one that knows all axes to 0.5 deg. Stated sigmas do not settle a
+/// contradiction: where Contradict says that another candidate is in conflict
+/// with that one, Judge compares how well either explains the measured motion
+/// and gravity, and the loser is refuted. Where that is undecided, too, the
+/// sigmas grow by what lies between them. The course is a candidate where an
+/// odometer or constraint says where the vehicle's forward axis is in the body.
+/// If none finds any, the first second is taken as level. Throws
+/// EstimationError if the method asked for finds nothing (its reason is the
+/// message).
 AlignmentChoice Align(const AlignmentInput& input);
 
 }  // namespace hindsight

@@ -1,6 +1,5 @@
 #include "alignment/given.h"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "alignment/levelling.h"
@@ -29,15 +28,6 @@ Eigen::Matrix3d AttitudeCovariance(const Eigen::Vector3d& euler,
                                    const Eigen::Vector3d& sigma) {
   const Eigen::Matrix3d M = EulerAxes(euler);
   return M * sigma.cwiseAbs2().asDiagonal() * M.transpose();
-}
-
-Eigen::Vector3d EulerSigma(const Eigen::Vector3d& euler,
-                           const Eigen::Matrix3d& P) {
-  if (std::abs(euler.y()) > 89.0 * kDegree) {
-    return P.diagonal().cwiseSqrt();
-  }
-  const Eigen::Matrix3d J = EulerAxes(euler).inverse();
-  return (J * P * J.transpose()).diagonal().cwiseSqrt();
 }
 
 AlignmentOutcome AlignAsGiven(const AlignmentInput& input) {

@@ -15,11 +15,6 @@ AlignmentOutcome AlignAsGiven(const AlignmentInput& input);
 Eigen::Matrix3d AttitudeCovariance(const Eigen::Vector3d& euler,
                                    const Eigen::Vector3d& sigma);
 
-/// Standard deviations of roll, pitch, heading from a covariance of psi; those
-/// of psi itself within 1 deg of the vertical.
-Eigen::Vector3d EulerSigma(const Eigen::Vector3d& euler,
-                           const Eigen::Matrix3d& P);
-
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_ALIGNMENT_GIVEN_H_

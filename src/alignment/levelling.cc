@@ -91,11 +91,30 @@ AlignmentOutcome AlignAtRest(const AlignmentInput& input) {
   return {attitude, ""};
 }
 
+namespace {
+
+/// By what the mean rates of both halves differ, the worst axis, if that is
+/// more than three sigmas of their noise: what an even drift leaves between the
+/// mean and either end.
+double DriftAtRest(const ImuStream& imu, const TimeInterval& rest) {
+  constexpr double kThreeSigmas = 3.0;
+  const double T = rest.end - rest.begin;
+  const double middle = rest.begin + 0.5 * T;
+  const double drift = (MeanReading(imu, middle, rest.end).w_ib_b -
+                        MeanReading(imu, rest.begin, middle).w_ib_b)
+                           .cwiseAbs()
+                           .maxCoeff();
+  const double noise = 2.0 * imu.noise.gyro_noise_density / std::sqrt(T);
+  return drift > kThreeSigmas * noise ? drift : 0.0;
+}
+
+}  // namespace
+
 RestingGyro GyroBiasAtRest(const Dataset& dataset, const TimeInterval& rest) {
   const double T = rest.end - rest.begin;
   RestingGyro out;
   out.sigma = std::hypot(dataset.imu.noise.gyro_noise_density / std::sqrt(T),
-                         kEarthRate);
+                         kEarthRate, DriftAtRest(dataset.imu, rest));
   const Eigen::Array3d variance =
       GyroBiasSigma(dataset.initial).cwiseAbs2().array();
   const Eigen::Array3d weight = variance / (variance + out.sigma * out.sigma);

@@ -26,8 +26,10 @@ void TurnToHeading(double heading, double sigma, AlignedAttitude* attitude);
 AlignmentOutcome AlignAtRest(const AlignmentInput& input);
 
 /// Gyro bias from the mean rate at rest, a priori value and mean weighted by
-/// their variances; the unknown direction of the Earth's rate counts as noise:
-///   sigma^2 = density^2 / T + w_ie^2.
+/// their variances; the unknown direction of the Earth's rate counts as noise,
+/// and so does drift, the difference between the means of both halves of the
+/// rest where that stands out of their noise:
+///   sigma^2 = density^2 / T + w_ie^2 + drift^2.
 struct RestingGyro {
   Eigen::Vector3d b_g;
   double sigma = 0.0;  ///< [rad/s]

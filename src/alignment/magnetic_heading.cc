@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "alignment/levelling.h"
+#include "dataset/magnetic_check.h"
 #include "geometry/so3.h"
 #include "imu/preintegration.h"
 
@@ -72,6 +73,10 @@ AlignmentOutcome AlignByMagnetometer(const AlignmentInput& input) {
     if (mean.count == 0) continue;
     AlignedAttitude out = LevelAttitude(input);
     const Eigen::Vector3d level = out.q_nb * mean.m_b;
+    const std::string wrong = FieldContradiction(level, input.p_e);
+    if (!wrong.empty()) {
+      return {std::nullopt, stream.sensor.name + ": " + wrong};
+    }
     const double heading =
         stream.sensor.magnetic.declination - std::atan2(level.y(), level.x());
     const double tilt = std::sqrt(out.P(0, 0));

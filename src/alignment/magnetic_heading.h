@@ -15,7 +15,8 @@ double SharedHeadingSigma(const MagneticSurroundings& magnetic);
 /// hard iron removed, over the rest or else the first second; the gyros turn
 /// each reading back to the epoch. Sigma: 2 deg for what surrounds the sensor;
 /// one reading's noise, a priori hard iron and disturbance over the horizontal
-/// field; the declination's; and the tilt times down / horizontal.
+/// field; the declination's; and the tilt times down / horizontal. Gives no
+/// answer where FieldContradiction finds something.
 AlignmentOutcome AlignByMagnetometer(const AlignmentInput& input);
 
 }  // namespace hindsight

@@ -12,6 +12,7 @@
 #include "alignment/levelling.h"
 #include "base/error.h"
 #include "geometry/so3.h"
+#include "state/euler_error.h"
 
 namespace hindsight {
 namespace {
@@ -267,20 +268,20 @@ class StartFinder {
       ExtendBackward(start.layout, dataset_.imu, from_, &start.prior);
       ExtendBackward(start.layout, dataset_.imu, start.prior.x.t, &known);
     }
-    Report(known);
+    Report(start.layout, known);
     start.report = report_;
     start.position_sensor = position_sensor_;
     return start;
   }
 
-  void Report(const Prior& known) {
+  void Report(const ErrorLayout& layout, const Prior& known) {
     const State& x = known.x;
     report_.t = x.t;
     report_.state = x;
     const Eigen::VectorXd sigma = known.P.diagonal().cwiseSqrt();
     report_.position_sigma = sigma.head<3>();
     report_.velocity_sigma = sigma.segment<3>(3);
-    report_.attitude_sigma = EulerSigma(x.euler(), known.P.block<3, 3>(6, 6));
+    report_.attitude_sigma = EulerSigma(layout, x, known.P);
     if (t_ - x.t > 1.0) {
       report_.position +=
           Words("; %.1f s back to the start by the IMU", t_ - x.t);

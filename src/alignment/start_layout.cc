@@ -1,8 +1,12 @@
 #include "alignment/start_layout.h"
 
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "base/error.h"
 #include "base/units.h"
 #include "geometry/so3.h"
 
@@ -14,26 +18,27 @@ constexpr double kDefaultAccelBiasSigma = 0.2;
 
 void AddCalibration(BlockKind kind, int sensor, const std::string& name,
                     const char* unit, const Eigen::Vector3d& sigma,
-                    ErrorLayout* layout) {
+                    std::vector<Block>* blocks) {
   Block block;
   block.key = {kind, sensor};
   block.name = name;
   block.unit = unit;
   block.evolution = Evolution::Constant();
   block.sigma0 = sigma;
-  layout->Add(block);
+  blocks->push_back(block);
 }
 
-void AddMagneticBlocks(const Sensor& sensor, int index, ErrorLayout* layout) {
+void AddMagneticBlocks(const Sensor& sensor, int index,
+                       std::vector<Block>* blocks) {
   const MagneticSurroundings& magnetic = sensor.magnetic;
   if (magnetic.hard_iron_sigma) {
     AddCalibration(BlockKind::kHardIron, index, sensor.name + "_hard_iron",
-                   "uT", *magnetic.hard_iron_sigma, layout);
+                   "uT", *magnetic.hard_iron_sigma, blocks);
   }
   if (magnetic.declination_sigma) {
     AddCalibration(
         BlockKind::kDeclination, index, sensor.name + "_declination", "rad",
-        Eigen::Vector3d::Constant(*magnetic.declination_sigma), layout);
+        Eigen::Vector3d::Constant(*magnetic.declination_sigma), blocks);
   }
   if (magnetic.disturbance_sigma) {
     Block block;
@@ -43,7 +48,7 @@ void AddMagneticBlocks(const Sensor& sensor, int index, ErrorLayout* layout) {
     block.sigma0.setConstant(*magnetic.disturbance_sigma);
     block.evolution = Evolution::GaussMarkov(*magnetic.disturbance_sigma,
                                              magnetic.disturbance_tau);
-    layout->Add(block);
+    blocks->push_back(block);
   }
 }
 
@@ -56,7 +61,7 @@ bool CountsDistance(const AidingStream& stream) {
 
 /// The travelled distance, and the error of each count if it is an error of its
 /// own: white, which is a correlation time below any interval.
-void AddDistance(const Sensor& sensor, int index, ErrorLayout* layout) {
+void AddDistance(const Sensor& sensor, int index, std::vector<Block>* blocks) {
   constexpr double kAnyDistance = 1.0;  // it is forgotten at the first count
   constexpr double kNoTime = 1e-6;
   Block block;
@@ -65,17 +70,18 @@ void AddDistance(const Sensor& sensor, int index, ErrorLayout* layout) {
   block.unit = "m";
   block.evolution = Evolution::Navigation();
   block.sigma0.setConstant(kAnyDistance);
-  layout->Add(block);
+  blocks->push_back(block);
   if (sensor.count_sigma <= 0.0) return;
   block.key.kind = BlockKind::kOffset;
   block.name = sensor.name + "_count_error";
   block.evolution = Evolution::GaussMarkov(sensor.count_sigma, kNoTime);
   block.sigma0.setConstant(sensor.count_sigma);
-  layout->Add(block);
+  blocks->push_back(block);
 }
 
 /// The errors that a sensor's noise model keeps as states.
-void AddColouredNoise(const Sensor& sensor, int index, ErrorLayout* layout) {
+void AddColouredNoise(const Sensor& sensor, int index,
+                      std::vector<Block>* blocks) {
   if (sensor.noise.kind != NoiseModel::Kind::kGaussMarkov) return;
   Block block;
   block.key = {sensor.type == SensorType::kHeight ? BlockKind::kOffset
@@ -86,10 +92,10 @@ void AddColouredNoise(const Sensor& sensor, int index, ErrorLayout* layout) {
   block.evolution =
       Evolution::GaussMarkov(sensor.noise.sigma, sensor.noise.tau);
   block.sigma0.setConstant(sensor.noise.sigma);
-  layout->Add(block);
+  blocks->push_back(block);
 }
 
-void AddCurrent(const Sensor& sensor, int index, ErrorLayout* layout) {
+void AddCurrent(const Sensor& sensor, int index, std::vector<Block>* blocks) {
   Block block;
   block.key = {BlockKind::kCurrent, index};
   block.name = sensor.name + "_current";
@@ -104,54 +110,86 @@ void AddCurrent(const Sensor& sensor, int index, ErrorLayout* layout) {
   } else {
     block.evolution = Evolution::Constant();
   }
-  layout->Add(block);
+  blocks->push_back(block);
 }
 
-}  // namespace
-
-ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior) {
-  ErrorLayout layout = NavigationLayout(prior);
+/// Every block beyond the navigation state, in the order of the layout.
+std::vector<Block> CalibrationBlocks(const Dataset& dataset) {
+  std::vector<Block> blocks;
   const int none = BlockKey::kNoSensor;
   if (dataset.gyro_scale_sigma) {
     AddCalibration(BlockKind::kGyroScale, none, "gyro_scale", "1",
-                   *dataset.gyro_scale_sigma, &layout);
+                   *dataset.gyro_scale_sigma, &blocks);
   }
   if (dataset.accel_scale_sigma) {
     AddCalibration(BlockKind::kAccelScale, none, "accel_scale", "1",
-                   *dataset.accel_scale_sigma, &layout);
+                   *dataset.accel_scale_sigma, &blocks);
   }
   for (std::size_t i = 0; i < dataset.streams.size(); ++i) {
     const Sensor& sensor = dataset.streams[i].sensor;
     const int index = static_cast<int>(i);
     if (sensor.scale_sigma) {
       AddCalibration(BlockKind::kScale, index, sensor.name + "_scale", "1",
-                     Eigen::Vector3d::Constant(*sensor.scale_sigma), &layout);
+                     Eigen::Vector3d::Constant(*sensor.scale_sigma), &blocks);
     }
     if (sensor.mounting_sigma) {
       AddCalibration(BlockKind::kMounting, index, sensor.name + "_mounting",
-                     "rad", *sensor.mounting_sigma, &layout);
+                     "rad", *sensor.mounting_sigma, &blocks);
     }
     if (sensor.lever_arm_sigma) {
       AddCalibration(BlockKind::kLeverArm, index, sensor.name + "_lever_arm",
-                     "m", *sensor.lever_arm_sigma, &layout);
+                     "m", *sensor.lever_arm_sigma, &blocks);
     }
     if (CountsDistance(dataset.streams[i])) {
-      AddDistance(sensor, index, &layout);
+      AddDistance(sensor, index, &blocks);
     }
     if (sensor.time_offset_sigma) {
       AddCalibration(
           BlockKind::kTimeOffset, index, sensor.name + "_time_offset", "s",
-          Eigen::Vector3d::Constant(*sensor.time_offset_sigma), &layout);
+          Eigen::Vector3d::Constant(*sensor.time_offset_sigma), &blocks);
     }
-    AddMagneticBlocks(sensor, index, &layout);
-    AddColouredNoise(sensor, index, &layout);
+    AddMagneticBlocks(sensor, index, &blocks);
+    AddColouredNoise(sensor, index, &blocks);
     if (sensor.offset_sigma) {
       AddCalibration(BlockKind::kOffset, index, sensor.name + "_offset", "m",
-                     Eigen::Vector3d::Constant(*sensor.offset_sigma), &layout);
+                     Eigen::Vector3d::Constant(*sensor.offset_sigma), &blocks);
     }
-    if (sensor.current_sigma) AddCurrent(sensor, index, &layout);
+    if (sensor.current_sigma) AddCurrent(sensor, index, &blocks);
   }
+  return blocks;
+}
+
+}  // namespace
+
+ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior) {
+  ErrorLayout layout = NavigationLayout(prior);
+  for (Block& block : CalibrationBlocks(dataset)) layout.Add(std::move(block));
   return layout;
+}
+
+void RequireCapacity(const Dataset& dataset, const std::string& config) {
+  std::map<int, int> counts;
+  int total = 0;
+  for (const Block& block : CalibrationBlocks(dataset)) {
+    const int count = FullDimension(block.key.kind);
+    counts[block.key.sensor] += count;
+    total += count;
+  }
+  if (total <= kMaxParameters) return;
+  std::string parts;
+  for (const auto& [sensor, count] : counts) {
+    const std::string key =
+        sensor == BlockKey::kNoSensor
+            ? "imu.estimate"
+            : "aiding." +
+                  dataset.streams[static_cast<std::size_t>(sensor)].sensor.name;
+    parts += ", " + key + " " + std::to_string(count);
+  }
+  throw InputError(config, 0,
+                   std::to_string(total) +
+                       " values to estimate beside position, velocity, "
+                       "attitude and biases; expected at most " +
+                       std::to_string(kMaxParameters) + ": " + parts.substr(2));
 }
 
 ParameterVector InitialParameters(

@@ -2,6 +2,7 @@
 #define HINDSIGHT_ALIGNMENT_START_LAYOUT_H_
 
 #include <optional>
+#include <string>
 
 #include "dataset/dataset.h"
 #include "state/error_layout.h"
@@ -11,6 +12,10 @@ namespace hindsight {
 /// The error layout a data set asks for: the navigation blocks and every
 /// calibration block with an a priori sigma in its sensor.
 ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior);
+
+/// Throws InputError, naming `config` and what each sensor adds, if the data
+/// set asks for more than kMaxParameters values beyond the navigation state.
+void RequireCapacity(const Dataset& dataset, const std::string& config);
 
 /// A priori values of the layout's parameters: what the data set says of each
 /// sensor. A mounting whose yaw is not known to 20 deg starts from the least

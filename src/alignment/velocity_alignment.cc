@@ -58,6 +58,16 @@ std::string WhyUnknown(const VelocityAlignment& alignment) {
   return alignment.refined ? "" : "the refinement did not settle";
 }
 
+WindowStart StartFrom(const CoarseAlignment& coarse) {
+  return {coarse.q_eb, coarse.b_g, coarse.b_a, coarse.P};
+}
+
+WindowStart StartFrom(const WindowSolution& refined) {
+  const State& x = refined.states.front();
+  const int a = refined.layout.Find(BlockKind::kAttitude)->offset;
+  return {x.q_eb, x.b_g, x.b_a, refined.P.Get(0).block<3, 3>(a, a)};
+}
+
 void Describe(VelocityAlignment* alignment) {
   AlignedAttitude& attitude = alignment->attitude;
   char words[96];
@@ -65,6 +75,13 @@ void Describe(VelocityAlignment* alignment) {
                 "specific force against %zu measured motions up to t = %.1f s",
                 alignment->coarse.count, alignment->t_end);
   attitude.attitude = words;
+  if (alignment->refined && alignment->drifts) {
+    std::snprintf(
+        words, sizeof(words),
+        ", while the gyros drifted by some %.2g deg/s a minute",
+        alignment->refined->gyro_bias_walk * std::sqrt(60.0) / kDegree);
+    attitude.attitude += words;
+  }
   const std::string why = WhyUnknown(*alignment);
   attitude.heading = why.empty() ? "the same" : "unknown: " + why;
   if (!why.empty()) ForgetHeading(&attitude);
@@ -104,6 +121,8 @@ AlignedAttitude RefinedAttitude(const WindowSolution& refined) {
   return out;
 }
 
+}  // namespace
+
 double FirstMotion(const AlignmentInput& input) {
   double t = input.to;
   const bool has_velocity =
@@ -122,26 +141,32 @@ double FirstMotion(const AlignmentInput& input) {
   return t;
 }
 
-}  // namespace
-
-std::optional<VelocityAlignment> AlignOverWindow(const AlignmentInput& input,
-                                                 double t_end) {
+std::optional<VelocityAlignment> AlignOverWindow(
+    const AlignmentInput& input, double t_end,
+    const VelocityAlignment* before) {
   const auto coarse = AlignCoarsely(input, t_end, input.b_g, input.b_a);
   if (!coarse) return std::nullopt;
   VelocityAlignment out;
   out.coarse = *coarse;
   out.t_end = t_end;
-  out.refined = SmoothWindow(input, t_end, *coarse);
+  const bool goes_on =
+      before != nullptr && before->refined && TellsHeading(before->attitude);
+  out.refined = SmoothWindow(
+      input, t_end, goes_on ? StartFrom(*before->refined) : StartFrom(*coarse));
   const Eigen::Matrix3d C_ne = NedAxes(input.p_e).transpose();
   if (out.refined) {
     out.attitude = RefinedAttitude(*out.refined);
-    if (!StaysNear(*coarse, out.attitude, C_ne)) out.refined.reset();
+    if (!goes_on && !StaysNear(*coarse, out.attitude, C_ne)) {
+      out.refined.reset();
+    }
   }
   if (!out.refined) {
     out.attitude = {};
     out.attitude.q_nb = Eigen::Quaterniond(C_ne) * coarse->q_eb;
     out.attitude.P = coarse->P;
   }
+  out.drifts = out.refined && out.refined->gyro_bias_walk >
+                                  input.dataset.imu.noise.gyro_bias_walk;
   out.attitude.reuse = kReuse;
   Describe(&out);
   return out;
@@ -152,9 +177,13 @@ AlignmentOutcome AlignByVelocity(const AlignmentInput& input) {
   std::optional<VelocityAlignment> best;
   for (double window = kFirstWindow; window <= kLongestWindow; window *= 2.0) {
     const double t_end = std::min(first + window, input.to);
-    auto found = AlignOverWindow(input, t_end);
-    if (found &&
-        (!best || found->attitude.P.trace() < best->attitude.P.trace())) {
+    auto found = AlignOverWindow(input, t_end, best ? &*best : nullptr);
+    if (found && best && best->refined && found->refined &&
+        Contradict(found->attitude, best->attitude)) {
+      break;
+    }
+    if (found && (!best || (found->refined && found->attitude.P.trace() <
+                                                  best->attitude.P.trace()))) {
       best = std::move(found);
     }
     const bool done = best && best->attitude.P.diagonal().maxCoeff() <

@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <variant>
 
 #include "alignment/start_layout.h"
@@ -16,6 +18,11 @@ namespace {
 constexpr double kVagueVelocity = 100.0;   // [m/s]
 constexpr double kVaguePosition = 1000.0;  // [m]
 constexpr int kMaxIterations = 40;
+/// Gyro bias walks of a warm-up: 0.1 are 0.8 deg/s in a minute [rad/s/sqrt(s)].
+constexpr double kDriftingWalks[] = {0.003 * kDegree, 0.01 * kDegree,
+                                     0.03 * kDegree, 0.1 * kDegree,
+                                     0.3 * kDegree};
+constexpr double kNotably = 3.0;
 
 /// Measurements that need no calibration found elsewhere first.
 bool IsPlain(const MeasurementModel& model) {
@@ -84,13 +91,25 @@ void SetSigmas(const ErrorLayout& layout, BlockKind kind, double sigma,
   P->block<3, 3>(offset, offset) = Eigen::Matrix3d::Identity() * sigma * sigma;
 }
 
+Dataset WithWalk(Dataset dataset, double least_walk) {
+  ImuNoise& noise = dataset.imu.noise;
+  if (least_walk > noise.gyro_bias_walk) {
+    noise.gyro_bias_walk = least_walk;
+    noise.gyro_bias_tau = std::numeric_limits<double>::infinity();
+  }
+  return dataset;
+}
+
 class WindowSmoother {
  public:
+  /// The largest of the stated gyro bias walk and `least_walk` is used.
   WindowSmoother(const AlignmentInput& input, double t_end,
-                 const CoarseAlignment& coarse)
+                 const WindowStart& start,
+                 const std::optional<AttitudePrior>& known, double least_walk)
       : input_(input),
-        coarse_(coarse),
-        dataset_(CutOut(input.dataset, input.t, t_end)),
+        start_(start),
+        known_(known),
+        dataset_(WithWalk(CutOut(input.dataset, input.t, t_end), least_walk)),
         layout_(BuildLayout(dataset_, BiasPrior())),
         timeline_(BuildTimeline(
             dataset_,
@@ -104,7 +123,7 @@ class WindowSmoother {
   std::optional<WindowSolution> Solve() {
     const GateDecisions all(timeline_.all_measurements().size(), 1);
     SmoothedTrajectory rts = SmoothRts(
-        RunExtendedKalmanFilter(layout_, CoarsePrior(), &timeline_, all));
+        RunExtendedKalmanFilter(layout_, NearPrior(), &timeline_, all));
     IterationOptions options;
     options.max_iterations = kMaxIterations;
     const Prior prior = VaguePrior(rts.states.front());
@@ -113,6 +132,8 @@ class WindowSmoother {
     if (!result.converged) return std::nullopt;
     WindowSolution out;
     out.layout = layout_;
+    out.gyro_bias_walk = dataset_.imu.noise.gyro_bias_walk;
+    out.log_likelihood = LogLikelihood(prior, result.trajectory.states, all);
     out.nis = Nis(result.trajectory.states);
     const double scale = std::max(1.0, out.nis);
     out.P = CovarianceSeries(layout_.dim(), result.trajectory.P.size());
@@ -143,25 +164,26 @@ class WindowSmoother {
 
   /// Near enough to be filtered from: the attitude three times as uncertain as
   /// the coarse alignment says, and a degree.
-  Prior CoarsePrior() const {
+  Prior NearPrior() const {
     State x;
     x.t = input_.t;
     x.p_e = input_.p_e;
     x.v_e = x.C_en() * FirstVelocity(input_);
-    x.q_eb = coarse_.q_eb;
-    x.b_g = coarse_.b_g;
-    x.b_a = coarse_.b_a;
+    x.q_eb = start_.q_eb;
+    x.b_g = start_.b_g;
+    x.b_a = start_.b_a;
     x.parameters = InitialParameters(dataset_, layout_);
     constexpr double kNearPosition = 30.0;
     constexpr double kNearVelocity = 3.0;
     ErrorMatrix P = Covariance(kNearPosition, kNearVelocity);
     const int a = layout_.Find(BlockKind::kAttitude)->offset;
     P.block<3, 3>(a, a) =
-        9.0 * coarse_.P + Eigen::Matrix3d::Identity() * kDegree * kDegree;
+        9.0 * start_.P + Eigen::Matrix3d::Identity() * kDegree * kDegree;
     return {x, P};
   }
 
-  /// Says nothing of attitude, velocity and, unless it is given, position.
+  /// Says nothing of velocity and, unless they are given, attitude and
+  /// position.
   Prior VaguePrior(const State& near) const {
     State x = near;
     const InitialState& given = dataset_.initial;
@@ -176,7 +198,25 @@ class WindowSmoother {
               .cwiseAbs2()
               .asDiagonal();
     }
+    if (known_) {
+      const int a = layout_.Find(BlockKind::kAttitude)->offset;
+      x.q_eb = known_->q_eb;
+      P.block<3, 3>(a, a) = known_->P;
+    }
     return {x, P};
+  }
+
+  double LogLikelihood(const Prior& prior, const std::vector<State>& states,
+                       const GateDecisions& all) {
+    const LinearTape tape =
+        RunLinearizedFilter(layout_, prior, states, &timeline_, all);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < tape.size(); ++k) {
+      for (const TapeMeasurement& z : tape.measurements(k)) {
+        sum += z.log_likelihood;
+      }
+    }
+    return sum;
   }
 
   double Nis(const std::vector<State>& states) const {
@@ -195,22 +235,42 @@ class WindowSmoother {
   }
 
   const AlignmentInput& input_;
-  const CoarseAlignment& coarse_;
+  const WindowStart& start_;
+  const std::optional<AttitudePrior>& known_;
   Dataset dataset_;
   ErrorLayout layout_;
   Timeline timeline_;
 };
 
-}  // namespace
-
-std::optional<WindowSolution> SmoothWindow(const AlignmentInput& input,
-                                           double t_end,
-                                           const CoarseAlignment& coarse) {
+std::optional<WindowSolution> SmoothWithWalk(
+    const AlignmentInput& input, double t_end, const WindowStart& start,
+    const std::optional<AttitudePrior>& known, double least_walk) {
   try {
-    return WindowSmoother(input, t_end, coarse).Solve();
+    return WindowSmoother(input, t_end, start, known, least_walk).Solve();
   } catch (const EstimationError&) {
     return std::nullopt;  // diverged
   }
+}
+
+}  // namespace
+
+std::optional<WindowSolution> SmoothWindow(
+    const AlignmentInput& input, double t_end, const WindowStart& start,
+    const std::optional<AttitudePrior>& known) {
+  std::optional<WindowSolution> best =
+      SmoothWithWalk(input, t_end, start, known, 0.0);
+  for (const double walk : kDriftingWalks) {
+    if (walk < 2.0 * input.dataset.imu.noise.gyro_bias_walk) continue;
+    auto found = SmoothWithWalk(input, t_end, start, known, walk);
+    if (!found) continue;
+    if (best) {
+      const double gain = found->log_likelihood - best->log_likelihood;
+      if (gain < 0.0) break;
+      if (gain < kNotably * std::max(1.0, found->nis)) continue;
+    }
+    best = std::move(found);
+  }
+  return best;
 }
 
 }  // namespace hindsight

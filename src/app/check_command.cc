@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "alignment/mounting_search.h"
+#include "alignment/start_layout.h"
 #include "app/command.h"
 #include "app/flags.h"
 #include "app/list_flags.h"
@@ -116,6 +117,7 @@ int Run(const std::vector<std::string>& arguments) {
   Dataset dataset = LoadDataset(
       arguments[0], {.data_root = FLAGS_data_root,
                      .without = ReadWords("without", FLAGS_without)});
+  RequireCapacity(dataset, arguments[0]);
   const CheckReport report = CheckDataset(dataset);
   std::cout << "recording '" << dataset.name << "'\n\n"
             << StreamTable(report.streams) << "\n"

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "alignment/mounting_search.h"
+#include "alignment/start_layout.h"
 #include "app/command.h"
 #include "app/interrupt.h"
 #include "app/measurement_log.h"
@@ -96,6 +97,7 @@ Dataset Load(const RunRequest& request, const ResultFolder& folder) {
   Dataset dataset = LoadDataset(
       request.config,
       {.data_root = request.data_root, .without = request.without}, &resolved);
+  RequireCapacity(dataset, request.config);
   if (!request.withholdings.empty()) {
     ReplaceWithholdings(request.withholdings, &dataset);
     SetWithholdings(request.withholdings, &resolved);

@@ -100,6 +100,7 @@ void AppendRows(const SolutionTable& tail, SolutionTable* all) {
   Append(tail.P_position, &all->P_position);
   Append(tail.P_velocity, &all->P_velocity);
   Append(tail.P_attitude, &all->P_attitude);
+  Append(tail.sigma_euler, &all->sigma_euler);
   Append(tail.b_g, &all->b_g);
   Append(tail.b_a, &all->b_a);
   Append(tail.sigma_b_g, &all->sigma_b_g);

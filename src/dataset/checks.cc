@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "dataset/ground_motion.h"
+#include "dataset/magnetic_check.h"
 #include "dataset/repeated_readings.h"
 
 namespace hindsight {
@@ -58,10 +59,12 @@ StreamReport ReportStamps(const std::string& name,
   return report;
 }
 
+/// Of the rows: the first sample of increments is none.
 std::vector<double> ImuStamps(const ImuStream& imu) {
   std::vector<double> stamps;
   stamps.reserve(imu.samples.size());
   for (const ImuSample& sample : imu.samples) stamps.push_back(sample.t);
+  if (imu.kind == ImuStream::Kind::kIncrements) stamps.erase(stamps.begin());
   return stamps;
 }
 
@@ -240,6 +243,9 @@ CheckReport CheckDataset(const Dataset& dataset) {
   }
   report.evidence =
       FindRepeatedReadings(dataset, dataset.imu.t_begin(), dataset.imu.t_end());
+  for (std::string& warning : CheckMagnetometers(dataset)) {
+    report.warnings.push_back(std::move(warning));
+  }
   if (dataset.streams.empty()) {
     report.warnings.emplace_back("no aiding stream: the position will drift");
   }

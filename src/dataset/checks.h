@@ -64,7 +64,7 @@ struct CheckReport {
 /// Examines a data set and changes nothing. Thresholds: |f| at rest within 5 %
 /// of 9.81 m/s^2, |w| at rest below 2 deg/s, |f| below 200 m/s^2, |w| below
 /// 35 rad/s, jitter below a fifth of the interval. Standstill is looked for
-/// with the data set's own thresholds.
+/// with the data set's own thresholds. Magnetometers: see CheckMagnetometers.
 CheckReport CheckDataset(const Dataset& dataset);
 
 }  // namespace hindsight

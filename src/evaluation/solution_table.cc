@@ -1,5 +1,7 @@
 #include "evaluation/solution_table.h"
 
+#include "state/euler_error.h"
+
 namespace hindsight {
 namespace {
 
@@ -24,6 +26,9 @@ void FillCovariances(const Solution& solution, SolutionTable* table) {
     append(position, &table->P_position);
     append(velocity, &table->P_velocity);
     append(attitude, &table->P_attitude);
+    if (attitude >= 0) {
+      table->sigma_euler.push_back(EulerSigma(layout, solution.states[k], P));
+    }
     const auto append_sigma = [&P](int offset,
                                    std::vector<Eigen::Vector3d>* out) {
       if (offset < 0) return;

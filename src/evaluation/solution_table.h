@@ -25,10 +25,12 @@ struct SolutionTable {
   std::vector<Eigen::Matrix3d> P_position;  ///< of dr, NED [m^2]
   std::vector<Eigen::Matrix3d> P_velocity;  ///< of dv, NED [m^2/s^2]
   std::vector<Eigen::Matrix3d> P_attitude;  ///< of psi, NED [rad^2]
-  std::vector<Eigen::Vector3d> b_g;         ///< [rad/s]
-  std::vector<Eigen::Vector3d> b_a;         ///< [m/s^2]
-  std::vector<Eigen::Vector3d> sigma_b_g;   ///< [rad/s]
-  std::vector<Eigen::Vector3d> sigma_b_a;   ///< [m/s^2]
+  /// Of roll, pitch and heading, see EulerSigma [rad].
+  std::vector<Eigen::Vector3d> sigma_euler;
+  std::vector<Eigen::Vector3d> b_g;        ///< [rad/s]
+  std::vector<Eigen::Vector3d> b_a;        ///< [m/s^2]
+  std::vector<Eigen::Vector3d> sigma_b_g;  ///< [rad/s]
+  std::vector<Eigen::Vector3d> sigma_b_a;  ///< [m/s^2]
   std::vector<double> separation;     ///< see Solution, NaN where there is none
   std::vector<double> accel_sigma;    ///< see Solution
   std::vector<signed char> magnetic;  ///< see Solution

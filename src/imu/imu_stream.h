@@ -37,7 +37,7 @@ struct ImuNoise {
 
 /// The IMU's record. Rates are instantaneous values at the stamps, taken as
 /// linear in between; increments are integrals over the interval that ends at
-/// the stamp (the first sample's interval is as long as the second's).
+/// the stamp (the first sample is where the second's interval begins).
 struct ImuStream {
   enum class Kind { kRates, kIncrements };
   Kind kind = Kind::kRates;

@@ -54,7 +54,7 @@ namespace hindsight {
 /// | kind              | rates, increments                        | as the columns say |
 /// | axes              | body x, y, z in sensor axes, "[-x, y, -z]" | [x, y, z] |
 /// | mounting          | roll, pitch, yaw of a rotation after `axes`: body = Rz(yaw) Ry(pitch) Rx(roll) axes(sensor) | 0 |
-/// | stamp             | end or start of an increment's interval  | end     |
+/// | stamp             | end or start of an increment's interval; the first row's is taken as long as the median one, with `start` the last row's too | end     |
 /// | time_offset       | added to the stamps                      | 0 s     |
 /// | max_gap           | longer intervals are errors; shorter drop-outs are bridged with noise to match | 0.5 s |
 /// | noise.gyro, noise.accel | *needed* noise densities           |         |

@@ -294,7 +294,8 @@ void WriteBesidesImu(const Dataset& dataset, const std::string& folder) {
 
 void WriteDataset(const Dataset& dataset, const std::string& folder) {
   MakeFolder(folder);
-  std::size_t k = 0;
+  // The first increments are those before the recording.
+  std::size_t k = dataset.imu.kind == ImuStream::Kind::kIncrements ? 1 : 0;
   WriteImu(PathIn(folder, "imu.csv"), dataset.imu.kind, [&](ImuSample* sample) {
     if (k == dataset.imu.samples.size()) return false;
     *sample = dataset.imu.samples[k++];
@@ -308,6 +309,10 @@ void WriteDataset(Simulation* simulation, const std::string& folder,
   constexpr long kPollEvery = 4096;
   MakeFolder(folder);
   long count = 0;
+  ImuSample before;
+  if (simulation->imu_kind() == ImuStream::Kind::kIncrements) {
+    simulation->Next(&before);
+  }
   WriteImu(PathIn(folder, "imu.csv"), simulation->imu_kind(),
            [&](ImuSample* sample) {
              if (poll && ++count % kPollEvery == 0) poll();

@@ -10,8 +10,6 @@ namespace {
 constexpr std::size_t kRates = 0;
 constexpr std::size_t kIncrements = 6;
 
-/// Gaps up to here need no declaration [s].
-
 ImuStream::Kind FindKind(const StreamSource& source,
                          const ImuReadOptions& options,
                          const OpenedTable& opened) {
@@ -28,6 +26,31 @@ ImuStream::Kind FindKind(const StreamSource& source,
       kind == ImuStream::Kind::kRates ? kRates : kIncrements;
   RequireFields(opened, source.format, ImuFields(), first, first + 5);
   return kind;
+}
+
+/// Moves each row from the start of its interval to its end: the next row's
+/// stamp, or one usual interval later before a drop-out and at the last row.
+void StampAtEnd(ImuStream* imu) {
+  std::vector<ImuSample>& samples = imu->samples;
+  const double usual = imu->nominal_dt;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double start = samples[i].t;
+    const double next =
+        i + 1 < samples.size() ? samples[i + 1].t : start + usual;
+    samples[i].t =
+        next - start > ImuStream::kGapFactor * usual ? start + usual : next;
+  }
+}
+
+/// The sample before the first row, where the row's interval begins: at the
+/// row's stamp, or one usual interval before.
+void SetBegin(bool stamp_at_start, ImuStream* imu) {
+  imu->samples[0] = imu->samples[1];
+  if (stamp_at_start) {
+    StampAtEnd(imu);
+  } else {
+    imu->samples[0].t -= imu->nominal_dt;
+  }
 }
 
 [[noreturn]] void FailGap(const StreamRows& rows, double max_gap) {
@@ -47,8 +70,9 @@ ImuStream ReadImu(const StreamSource& source, const ImuReadOptions& options,
   ImuStream imu;
   imu.kind = FindKind(source, options, rows.opened());
   imu.max_gap = options.max_gap;
-  const std::size_t first =
-      imu.kind == ImuStream::Kind::kRates ? kRates : kIncrements;
+  const bool rates = imu.kind == ImuStream::Kind::kRates;
+  const std::size_t first = rates ? kRates : kIncrements;
+  const std::size_t begin = rates ? 0 : 1;
   const RowSource& table = rows.table();
   const auto vector = [&](std::size_t i) {
     return Eigen::Vector3d(table.value(i), table.value(i + 1),
@@ -57,28 +81,31 @@ ImuStream ReadImu(const StreamSource& source, const ImuReadOptions& options,
   while (true) {
     const StreamRows::Step step = rows.Next();
     if (step == StreamRows::Step::kEnd) break;
-    if (imu.samples.empty()) imu.samples.reserve(table.RowsHint());
+    if (imu.samples.empty()) {
+      imu.samples.reserve(table.RowsHint() + begin);
+      imu.samples.resize(begin, {rows.t()});
+    }
     if (rows.dt() > options.max_gap) FailGap(rows, options.max_gap);
     if (step == StreamRows::Step::kReplace) imu.samples.pop_back();
     imu.samples.push_back({rows.t(), options.C_bs * vector(first),
                            options.C_bs * vector(first + 3)});
   }
-  if (imu.samples.size() < 2) {
-    throw InputError(source.path, 0,
-                     "holds " + std::to_string(imu.samples.size()) +
-                         " IMU samples; expected at least 2");
+  if (imu.samples.size() < begin + 2) {
+    const std::size_t count = imu.samples.empty() ? 0 : 1;
+    throw InputError(
+        source.path, 0,
+        "holds " + std::to_string(count) + " IMU samples; expected at least 2");
   }
-  if (imu.kind == ImuStream::Kind::kIncrements && options.stamp_at_start) {
-    const std::size_t last = imu.samples.size() - 1;
-    const double dt = imu.samples[last].t - imu.samples[last - 1].t;
-    for (std::size_t i = 0; i < last; ++i) {
-      imu.samples[i].t = imu.samples[i + 1].t;
-    }
-    imu.samples[last].t += dt;
+  imu.nominal_dt = MedianInterval(imu);
+  if (!rates) {
+    SetBegin(options.stamp_at_start, &imu);
+  } else if (options.stamp_at_start) {
+    throw InputError(source.path, 0,
+                     "imu.stamp: start goes with increments; these are rates, "
+                     "which belong to their stamps");
   }
   *clock = rows.clock();
   rows.CountPolicies(policies);
-  imu.nominal_dt = MedianInterval(imu);
   AddPolicy(source.name, "gap bridged", static_cast<long>(DropOuts(imu).size()),
             policies);
   return imu;

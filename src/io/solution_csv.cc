@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "earth/wgs84.h"
-#include "evaluation/euler_error.h"
 #include "geometry/so3.h"
 #include "io/atomic_file.h"
 #include "io/number_format.h"
@@ -27,6 +26,7 @@ bool HasGroup(const SolutionTable& table, ColumnGroup group) {
     case ColumnGroup::kCovVelocity:
       return !table.P_velocity.empty();
     case ColumnGroup::kSdAttitude:
+      return !table.sigma_euler.empty();
     case ColumnGroup::kCovAttitude:
       return !table.P_attitude.empty();
     case ColumnGroup::kGyroBias:
@@ -70,11 +70,8 @@ GroupValues RowValues(const SolutionTable& table, std::size_t k,
       return Sigmas(table.P_position[k]);
     case ColumnGroup::kSdVelocity:
       return Sigmas(table.P_velocity[k]);
-    case ColumnGroup::kSdAttitude: {
-      const Eigen::Matrix3d J =
-          EulerErrorJacobian(EulerFromQuaternion(table.q_nb(k)));
-      return Sigmas(J * table.P_attitude[k] * J.transpose());
-    }
+    case ColumnGroup::kSdAttitude:
+      return Values(table.sigma_euler[k]);
     case ColumnGroup::kGyroBias:
       return Values(table.b_g[k]);
     case ColumnGroup::kAccelBias:
@@ -104,12 +101,13 @@ std::string Comments(const SolutionTable& table, const std::string& program) {
          "Earth, north-east-down\n"
          "# attitude: body forward-right-down to north-east-down, "
          "Rz(heading) Ry(pitch) Rx(roll)\n"
-         "# sd_: standard deviations; those of roll, pitch and heading follow "
-         "from cov_psi\n"
+         "# sd_: standard deviations; those of roll, pitch and heading are "
+         "of these angles, at most 103.9 deg\n"
          "# bg, ba: gyro and accelerometer bias, measured minus true, body "
          "axes\n"
-         "# cov_: covariances, north-east-down; psi is the rotation from the "
-         "estimated to the true attitude\n" +
+         "# cov_: covariances, north-east-down at the estimated position; psi "
+         "is the rotation from the estimated to the true attitude in Earth "
+         "axes\n" +
          (table.magnetic.empty()
               ? ""
               : "# q: body to north-east-down; accel_sigma: R in force as a "

@@ -19,8 +19,10 @@ namespace hindsight {
 ///                                forward-right-down; (-180, 180]
 ///   sd_n[m] sd_e[m] sd_d[m], sd_v_n[m/s] sd_v_e[m/s] sd_v_d[m/s]
 ///   sd_roll[deg] sd_pitch[deg] sd_heading[deg]
-///                                from the covariance of the rotation error psi
-///                                through EulerErrorJacobian
+///                                of these angles, which are against the axes
+///                                of a position that is uncertain itself
+///                                (EulerSigma); at most 103.9 deg, which those
+///                                of roll and heading reach at pitch +-90 deg
 ///   bg_x[deg/h] bg_y[deg/h] bg_z[deg/h], ba_x[m/s^2] ba_y[m/s^2] ba_z[m/s^2]
 ///                                biases, measured minus true, body axes
 ///   sd_bg_x[deg/h] ... sd_ba_z[m/s^2]
@@ -28,8 +30,8 @@ namespace hindsight {
 ///   cov_v_ne[m^2/s^2] cov_v_nd[m^2/s^2] cov_v_ed[m^2/s^2]
 ///   cov_psi_nn[rad^2] cov_psi_ne[rad^2] cov_psi_nd[rad^2] cov_psi_ee[rad^2]
 ///   cov_psi_ed[rad^2] cov_psi_dd[rad^2]
-///                                psi in north-east-down,
-///                                C_nb(true) = Exp(psi) C_nb(estimated)
+///                                psi in the axes of the estimated position,
+///                                C_eb(true) = Exp(C_en psi) C_eb(estimated)
 ///   separation[1]                distance of forward and backward positions in
 ///                                sigmas, of two-filter smoothers; empty where
 ///                                the backward filter has no position
@@ -44,7 +46,8 @@ void WriteSolutionCsv(const std::string& path, const SolutionTable& table,
 /// required, but of a group (position, velocity, attitude, a bias, a set of
 /// standard deviations or covariances) all columns or none must be there.
 /// Standard deviations without cross terms make a diagonal covariance; without
-/// cov_psi the attitude's is built from sd_roll, sd_pitch and sd_heading.
+/// cov_psi the attitude's is built from sd_roll, sd_pitch and sd_heading, as
+/// if the position were exact.
 /// Throws InputError "file:line: ..." for a file that is missing, empty or cut
 /// off, a wrong unit, a wrong number of fields, a field that is no finite
 /// number, a latitude beyond 90 deg, and a time that does not increase.

@@ -7,12 +7,12 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "earth/wgs84.h"
-#include "evaluation/euler_error.h"
 #include "geometry/so3.h"
 #include "io/solution_columns.h"
 #include "io/solution_csv.h"
 #include "io/text_lines.h"
 #include "io/units.h"
+#include "state/euler_error.h"
 
 namespace hindsight {
 namespace {
@@ -141,6 +141,8 @@ void AppendCovariance(const EpochRow& row, ColumnGroup sd, ColumnGroup cross,
 }
 
 void AppendAttitudeCovariance(const EpochRow& row, SolutionTable* table) {
+  const GroupValues* sigma = Find(row, ColumnGroup::kSdAttitude);
+  if (sigma != nullptr) table->sigma_euler.push_back(sigma->head<3>());
   if (const GroupValues* c = Find(row, ColumnGroup::kCovAttitude)) {
     Eigen::Matrix3d P;
     P << (*c)(0), (*c)(1), (*c)(2),  //
@@ -149,7 +151,6 @@ void AppendAttitudeCovariance(const EpochRow& row, SolutionTable* table) {
     table->P_attitude.push_back(P);
     return;
   }
-  const GroupValues* sigma = Find(row, ColumnGroup::kSdAttitude);
   const GroupValues* euler = Find(row, ColumnGroup::kAttitude);
   if (sigma == nullptr || euler == nullptr) return;
   const Eigen::Matrix3d J = EulerErrorJacobian(euler->head<3>()).inverse();

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <cmath>
+
 #include "alignment/start_layout.h"
 #include "imu/imu_link.h"
 #include "simulation/builtin_scenarios.h"
@@ -81,6 +84,116 @@ TEST_F(BackwardExtension, StopsWhereNothingIsKnownAnyMore) {
   ExtendBackward(layout_, dataset_.imu, 0.0, &prior);
   EXPECT_GT(prior.x.t, 20.0);
   EXPECT_LT(prior.x.t, 25.0);
+}
+
+/// Exact inference on one interval: what is known at its begin is the standing
+/// covariance of what forgets and nothing of the rest, and P_j at its end.
+ErrorMatrix Inferred(const ErrorMatrix& V_i, const Transition& transition,
+                     const ErrorMatrix& P_j) {
+  const Eigen::MatrixXd V = V_i;
+  const Eigen::MatrixXd Phi = transition.Phi;
+  const Eigen::MatrixXd V_j = Phi * V * Phi.transpose() + transition.Q;
+  const Eigen::MatrixXd G =
+      V * Phi.transpose() *
+      V_j.ldlt().solve(Eigen::MatrixXd::Identity(V.rows(), V.cols()));
+  return V - G * (V_j - P_j) * G.transpose();
+}
+
+class ForgettingBlocks : public BackwardExtension {
+ protected:
+  /// Gauss-Markov gyro biases and, of the receiver, errors that last 0.1 s.
+  ForgettingBlocks() {
+    dataset_.imu.noise.gyro_bias_walk = 1e-4;
+    dataset_.imu.noise.gyro_bias_tau = 0.5;
+    Sensor& receiver = dataset_.streams.front().sensor;
+    receiver.noise = {NoiseModel::Kind::kGaussMarkov, 2.0, 0.1, 0.1};
+    NavigationPrior prior;
+    prior.position_sigma.setConstant(1.0);
+    prior.velocity_sigma.setConstant(0.1);
+    prior.attitude_sigma.setConstant(0.01);
+    prior.gyro_bias_sigma.setConstant(1e-4 * std::sqrt(0.25));
+    prior.accel_bias_sigma.setConstant(1e-2);
+    prior.gyro_bias = dataset_.imu.noise.GyroBiasEvolution();
+    layout_ = BuildLayout(dataset_, prior);
+    x_.b_g.setZero();
+    x_.parameters = InitialParameters(dataset_, layout_);
+  }
+};
+
+TEST_F(ForgettingBlocks, AreCarriedBackAsExactInferenceDoes) {
+  constexpr double kStep = 0.25;
+  const ErrorMatrix P_j = [&] {
+    ErrorMatrix P = layout_.InitialCovariance();
+    const int g = layout_.Find(BlockKind::kGyroBias)->offset;
+    P.block<3, 3>(g, g) *= 0.3;  // something is known of it at the end
+    P(g, 6) = P(6, g) = 0.4 * std::sqrt(P(g, g) * P(6, 6));
+    return P;
+  }();
+  Prior prior{x_, P_j};
+  ExtendBackward(layout_, dataset_.imu, x_.t - kStep, &prior);
+  ImuIntegrator integrator(dataset_.imu);
+  const ImuSummary summary =
+      integrator.Summarize(x_.t - kStep, x_.t, CalibrationOf(layout_, prior.x));
+  Transition transition;
+  LinearizeTransition(layout_, summary, prior.x, x_, &transition);
+  ErrorMatrix V = layout_.InitialCovariance();
+  V.diagonal().head<9>() *= 1e6;
+  V.diagonal().segment<3>(12) *= 1e6;
+  const ErrorMatrix expected = Inferred(V, transition, P_j);
+  for (int i = 0; i < layout_.dim(); ++i) {
+    for (int j = 0; j < layout_.dim(); ++j) {
+      EXPECT_NEAR(prior.P(i, j), expected(i, j),
+                  1e-4 * std::sqrt(expected(i, i) * expected(j, j)))
+          << layout_.ComponentName(i) << ", " << layout_.ComponentName(j);
+    }
+  }
+}
+
+TEST_F(ForgettingBlocks, KeepTheirStationaryCovariance) {
+  Prior prior{x_, layout_.InitialCovariance()};
+  ExtendBackward(layout_, dataset_.imu, 20.0, &prior);
+  EXPECT_NEAR(prior.x.t, 20.0, 1e-9);
+  ASSERT_TRUE(prior.P.allFinite());
+  for (const BlockKind kind : {BlockKind::kColouredNoise}) {
+    const Block* block = layout_.Find(kind, 0);
+    ASSERT_NE(block, nullptr);
+    for (int i = block->offset; i < block->offset + block->dim; ++i) {
+      EXPECT_NEAR(prior.P(i, i), 4.0, 1e-9);
+      ErrorVector others = prior.P.row(i);
+      others(i) = 0.0;
+      EXPECT_LT(others.cwiseAbs().maxCoeff(), 1e-9);
+    }
+  }
+  const int g = layout_.Find(BlockKind::kGyroBias)->offset;
+  EXPECT_NEAR(prior.P(g, g), 1e-8 * 0.25, 1e-12);
+}
+
+TEST_F(BackwardExtension, ACountBeginsAtItsFirstReading) {
+  AidingStream& odometer = dataset_.streams.emplace_back();
+  odometer.sensor.name = "wheel";
+  odometer.sensor.type = SensorType::kOdometer;
+  odometer.sensor.count_sigma = 0.01;
+  Odometer increment;
+  increment.form = Odometer::Form::kIncrements;
+  odometer.measurements.push_back({1.0, 1, false, increment});
+  NavigationPrior prior_sigmas;
+  prior_sigmas.position_sigma.setConstant(1.0);
+  prior_sigmas.velocity_sigma.setConstant(0.1);
+  prior_sigmas.attitude_sigma.setConstant(0.01);
+  prior_sigmas.gyro_bias_sigma.setConstant(1e-5);
+  prior_sigmas.accel_bias_sigma.setConstant(1e-2);
+  layout_ = BuildLayout(dataset_, prior_sigmas);
+  x_.parameters = InitialParameters(dataset_, layout_);
+  Prior prior{x_, layout_.InitialCovariance()};
+  ExtendBackward(layout_, dataset_.imu, 20.0, &prior);
+  EXPECT_NEAR(prior.x.t, 20.0, 1e-9);
+  ASSERT_TRUE(prior.P.allFinite());
+  const Block* error = layout_.Find(BlockKind::kOffset, 1);
+  const Block* distance = layout_.Find(BlockKind::kDistance, 1);
+  ASSERT_TRUE(error != nullptr && distance != nullptr);
+  EXPECT_NEAR(prior.P(error->offset, error->offset), 1e-4, 1e-12);
+  EXPECT_NEAR(prior.P(distance->offset, distance->offset), 1.0, 1e-12);
+  EXPECT_EQ(prior.x.parameters(distance->parameter_offset), 0.0);
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ TEST_F(OtherCommands, SimulateEndsEarlier) {
             0);
   const std::string whole = ReadFile(recording_.root() / "whole" / "imu.csv");
   const std::string part = ReadFile(recording_.root() / "part" / "imu.csv");
-  EXPECT_EQ(std::count(part.begin(), part.end(), '\n'), 1 + 901);
+  EXPECT_EQ(std::count(part.begin(), part.end(), '\n'), 1 + 900);
   EXPECT_TRUE(whole.starts_with(part));
   // The errors of this one's positions would begin at 120 s.
   EXPECT_EQ(Hindsight({"simulate", "gps_jumps", "--out=quiet", "--duration=5"},

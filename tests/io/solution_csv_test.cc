@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "io/atomic_file.h"
+#include "state/euler_error.h"
 #include "support/temporary_folder.h"
 
 namespace hindsight {
@@ -38,6 +39,7 @@ SolutionTable FullTable() {
     table.P_position.push_back(RandomCovariance(0.02, &random));
     table.P_velocity.push_back(RandomCovariance(1e-3, &random));
     table.P_attitude.push_back(RandomCovariance(1e-4, &random));
+    table.sigma_euler.push_back(1e-4 * random.NormalVector3().cwiseAbs());
     table.b_g.push_back(1e-5 * random.NormalVector3());
     table.b_a.push_back(1e-2 * random.NormalVector3());
     table.sigma_b_g.push_back(1e-6 * random.NormalVector3().cwiseAbs());
@@ -63,6 +65,7 @@ TEST(SolutionCsv, ComesBackAsWritten) {
     EXPECT_TRUE(back.P_position[k].isApprox(table.P_position[k], 1e-11));
     EXPECT_TRUE(back.P_velocity[k].isApprox(table.P_velocity[k], 1e-11));
     EXPECT_TRUE(back.P_attitude[k].isApprox(table.P_attitude[k], 1e-11));
+    EXPECT_TRUE(back.sigma_euler[k].isApprox(table.sigma_euler[k], 1e-11));
     EXPECT_TRUE(back.b_g[k].isApprox(table.b_g[k], 1e-11));
     EXPECT_TRUE(back.b_a[k].isApprox(table.b_a[k], 1e-11));
     EXPECT_TRUE(back.sigma_b_g[k].isApprox(table.sigma_b_g[k], 1e-11));
@@ -97,6 +100,7 @@ TEST(SolutionCsv, GivesRollAndPitchSigmasInTheBodysDirections) {
   table.q_eb = {QuaternionFromEuler(0.0, 0.0, 0.5 * kPi)};
   table.P_attitude = {Eigen::Matrix3d(
       Eigen::Vector3d(1.0, 4.0, 9.0).asDiagonal() * (kDegree * kDegree))};
+  table.sigma_euler = {EulerSigma({0.0, 0.0, 0.5 * kPi}, table.P_attitude[0])};
   WriteSolutionCsv(folder.Path("a.csv"), table, "hindsight 0");
   const std::string text = folder.Read("a.csv");
   EXPECT_THAT(text, HasSubstr("\nt[s],roll[deg],pitch[deg],heading[deg],"
