@@ -92,9 +92,11 @@ class AidingReader {
       }
       measurements.push_back(std::move(z));
       if (measurements.size() == 1) due_ = rows_.t();
-      while (options_.every > 0.0 &&
-             due_ <= rows_.t() + kEarly * options_.every) {
-        due_ += options_.every;
+      if (options_.every > 0.0) {
+        const double late = rows_.t() + kEarly * options_.every - due_;
+        if (late >= 0.0) {
+          due_ += options_.every * (std::floor(late / options_.every) + 1.0);
+        }
       }
     }
     if (options_.type == SensorType::kOdometer &&

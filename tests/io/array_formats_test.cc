@@ -116,8 +116,6 @@ class Rosbag : public SampleFolder {
       "aiding:\n  gnss: {type: position, file: drive.bag, format: rosbag}\n";
 };
 
-#ifdef HINDSIGHT_ROSBAG
-
 TEST_F(Rosbag, ImuAndNavSatFix) {
   const Dataset data =
       LoadSample("rosbag", std::string(kImu) + "  axes: [x, -y, -z]\n", kFix);
@@ -148,15 +146,6 @@ TEST_F(Rosbag, MissingTopicAndDamage) {
                 .find("cannot be read as a ROS 1 bag"),
             std::string::npos);
 }
-
-#else
-
-TEST_F(Rosbag, ABuildWithoutItSaysSo) {
-  EXPECT_NE(SampleError("rosbag", kImu).find("librosbag-storage-dev"),
-            std::string::npos);
-}
-
-#endif  // HINDSIGHT_ROSBAG
 
 }  // namespace
 }  // namespace hindsight
