@@ -11,7 +11,7 @@
 namespace hindsight {
 namespace {
 
-constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
+constexpr std::string_view kBagMagic = "#ROSBAG V2.0\n";
 
 enum Op : std::uint8_t {
   kMessage = 0x02,
@@ -20,9 +20,9 @@ enum Op : std::uint8_t {
   kConnection = 0x07,
 };
 
-using Fields = std::map<std::string, std::string, std::less<>>;
+using BagFields = std::map<std::string, std::string, std::less<>>;
 
-std::uint32_t Word(std::string_view bytes) {
+std::uint32_t BagWord(std::string_view bytes) {
   std::uint32_t word = 0;
   std::memcpy(&word, bytes.data(), sizeof(word));
   return word;
@@ -39,11 +39,11 @@ bool Cut(std::size_t count, std::string_view* bytes, std::string_view* front) {
 /// Takes a length and that many bytes.
 bool CutSized(std::string_view* bytes, std::string_view* front) {
   std::string_view length;
-  return Cut(4, bytes, &length) && Cut(Word(length), bytes, front);
+  return Cut(4, bytes, &length) && Cut(BagWord(length), bytes, front);
 }
 
 /// "name=value", each behind its length.
-bool ParseFields(std::string_view bytes, Fields* fields) {
+bool ParseBagFields(std::string_view bytes, BagFields* fields) {
   while (!bytes.empty()) {
     std::string_view field;
     if (!CutSized(&bytes, &field)) return false;
@@ -58,7 +58,7 @@ bool ParseFields(std::string_view bytes, Fields* fields) {
 
 struct BagFile::Record {
   const BagFile* bag = nullptr;
-  Fields fields;
+  BagFields fields;
   std::string held;  ///< the data of a record read from the file
   std::string_view data;
 
@@ -87,15 +87,15 @@ void BagFile::Fail(const std::string& what) const {
 }
 
 BagFile::BagFile(const std::string& path) : file_(path) {
-  std::array<char, kMagic.size()> magic;
+  std::array<char, kBagMagic.size()> magic;
   const std::size_t count = file_.ReadAt(0, magic.data(), magic.size());
   if (count == 0) throw InputError(path, 0, "the file is empty");
   const std::string_view start(magic.data(), count);
-  if (start != kMagic) {
+  if (start != kBagMagic) {
     Fail(start.starts_with("#ROSBAG") ? "expected version 2.0"
                                       : "expected '#ROSBAG V2.0' at its start");
   }
-  first_ = kMagic.size();
+  first_ = kBagMagic.size();
   const Record header = ReadRecord(&first_, file_.size());
   if (header.op() != kBagHeader) Fail("it has no header");
   const auto encryptor = header.fields.find("encryptor");
@@ -118,8 +118,8 @@ void BagFile::ReadIndex() {
   for (std::size_t offset = index_; offset < file_.size();) {
     const Record record = ReadRecord(&offset, file_.size());
     if (record.op() != kConnection) continue;
-    Fields fields;
-    if (!ParseFields(record.data, &fields)) Fail("a connection is damaged");
+    BagFields fields;
+    if (!ParseBagFields(record.data, &fields)) Fail("a connection is damaged");
     connections_.push_back({record.Number<std::uint32_t>("conn"),
                             std::string(record.Text("topic")), fields["type"]});
   }
@@ -134,14 +134,14 @@ BagFile::Record BagFile::ReadRecord(std::size_t* offset,
     if (end - *offset < length.size()) Fail("it is cut off");
     file_.ReadAt(*offset, length.data(), length.size());
     *offset += length.size();
-    const std::size_t size = Word({length.data(), length.size()});
+    const std::size_t size = BagWord({length.data(), length.size()});
     if (end - *offset < size) Fail("it is cut off");
     std::string bytes(size, '\0');
     file_.ReadAt(*offset, bytes.data(), size);
     *offset += size;
     return bytes;
   };
-  if (!ParseFields(read(), &record.fields)) Fail("a record is damaged");
+  if (!ParseBagFields(read(), &record.fields)) Fail("a record is damaged");
   record.held = read();
   record.data = record.held;
   return record;
@@ -151,7 +151,7 @@ BagFile::Record BagFile::ParseRecord(std::string_view* bytes) const {
   Record record;
   record.bag = this;
   std::string_view header;
-  if (!CutSized(bytes, &header) || !ParseFields(header, &record.fields) ||
+  if (!CutSized(bytes, &header) || !ParseBagFields(header, &record.fields) ||
       !CutSized(bytes, &record.data)) {
     Fail("a record within a chunk is damaged");
   }

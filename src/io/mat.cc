@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <optional>
 #include <string_view>
 
@@ -9,27 +10,32 @@
 namespace hindsight {
 namespace {
 
-/// Where a file of version 5 says its version and its order of bytes.
-constexpr std::size_t kVersion = 124;
-constexpr std::size_t kHeader = 128;
+enum class MatVersion { kNone, k4, k5, k73 };
 
-enum class Version { kNone, k4, k5, k73 };
-
-Version VersionOf(const InputFile& file) {
+MatVersion VersionOf(const InputFile& file) {
+  // Where a file of version 5 says its version and its order of bytes.
+  constexpr std::size_t kVersion = 124;
+  constexpr std::size_t kHeader = 128;
   std::array<char, kHeader> header = {};
   const std::size_t count = file.ReadAt(0, header.data(), header.size());
   if (count == 0) throw InputError(file.path(), 0, "the file is empty");
   const std::string_view mark(header.data() + kVersion, kHeader - kVersion);
   using namespace std::string_view_literals;
-  if (mark == "\x00\x01IM"sv || mark == "\x01\x00MI"sv) return Version::k5;
-  if (mark == "\x00\x02IM"sv || mark == "\x02\x00MI"sv) return Version::k73;
+  if (mark == "\x00\x01IM"sv || mark == "\x01\x00MI"sv) return MatVersion::k5;
+  if (mark == "\x00\x02IM"sv || mark == "\x02\x00MI"sv) return MatVersion::k73;
   // The type of a first variable is four digits, 0 to 4052.
   const bool little = header[2] == 0 && header[3] == 0;
   const bool big = header[0] == 0 && header[1] == 0;
-  return count >= 20 && (little || big) ? Version::k4 : Version::kNone;
+  return count >= 20 && (little || big) ? MatVersion::k4 : MatVersion::kNone;
 }
 
 }  // namespace
+
+std::uint32_t MatWord(const char* data, bool big_endian) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, data, sizeof(word));
+  return big_endian ? __builtin_bswap32(word) : word;
+}
 
 void FailCutOff(const InputFile& file, const std::string& name) {
   throw InputError(
@@ -62,11 +68,11 @@ NumericArray ReadMatValues(const MatVariable& variable, NumberType type,
 
 NumericArray ReadMat(const std::string& path, const std::string& variable) {
   const InputFile file(path);
-  const Version version = VersionOf(file);
-  if (version == Version::kNone) {
+  const MatVersion version = VersionOf(file);
+  if (version == MatVersion::kNone) {
     throw InputError(path, 0, "is no MATLAB file");
   }
-  if (version == Version::k73) {
+  if (version == MatVersion::k73) {
     throw InputError(path, 0,
                      "is a MATLAB file of version 7.3; expected one saved with "
                      "-v7, -v6 or -v4");
@@ -85,7 +91,7 @@ NumericArray ReadMat(const std::string& path, const std::string& variable) {
     }
     found = values();
   };
-  if (version == Version::k5) {
+  if (version == MatVersion::k5) {
     VisitMat5(file, visit);
   } else {
     VisitMat4(file, visit);

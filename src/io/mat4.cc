@@ -8,14 +8,13 @@
 namespace hindsight {
 namespace {
 
-constexpr std::size_t kHeader = 20;
-constexpr std::size_t kLongestName = 4096;
-constexpr std::array kTypes = {NumberType::kF8, NumberType::kF4,
-                               NumberType::kI4, NumberType::kI2,
-                               NumberType::kU2, NumberType::kU1};
+constexpr std::size_t kMat4Header = 20;
+constexpr std::array kMat4Types = {NumberType::kF8, NumberType::kF4,
+                                   NumberType::kI4, NumberType::kI2,
+                                   NumberType::kU2, NumberType::kU1};
 
 /// The five words before a variable's name and values.
-struct Header {
+struct Mat4Header {
   bool big_endian = false;
   NumberType type = NumberType::kF8;
   MatVariable variable;
@@ -23,43 +22,37 @@ struct Header {
   std::size_t numbers = 0;  ///< of the real and of the imaginary part together
 };
 
-std::uint32_t Word(const char* data, bool big_endian) {
-  std::uint32_t word = 0;
-  std::memcpy(&word, data, sizeof(word));
-  return big_endian ? __builtin_bswap32(word) : word;
-}
-
 /// The type is M*1000 + P*10 + T: order of bytes, numbers, kind of matrix.
-bool ParseType(std::uint32_t code, bool big_endian, Header* header) {
+bool ParseMat4Type(std::uint32_t code, bool big_endian, Mat4Header* header) {
   const std::uint32_t order = code / 1000;
   const std::uint32_t zero = code / 100 % 10;
   const std::uint32_t numbers = code / 10 % 10;
   const std::uint32_t kind = code % 10;
-  if (order != (big_endian ? 1 : 0) || zero != 0 || numbers >= kTypes.size() ||
-      kind > 2) {
+  if (order != (big_endian ? 1 : 0) || zero != 0 ||
+      numbers >= kMat4Types.size() || kind > 2) {
     return false;
   }
   header->big_endian = big_endian;
-  header->type = kTypes[numbers];
+  header->type = kMat4Types[numbers];
   if (kind == 1) header->variable.unfit = "text";
   if (kind == 2) header->variable.unfit = "a sparse matrix";
   return true;
 }
 
-Header ReadHeader(const InputFile& file, std::size_t offset) {
-  std::array<char, kHeader> words;
-  if (file.ReadAt(offset, words.data(), kHeader) < kHeader) {
+Mat4Header ReadMat4Header(const InputFile& file, std::size_t offset) {
+  std::array<char, kMat4Header> words;
+  if (file.ReadAt(offset, words.data(), kMat4Header) < kMat4Header) {
     FailCutOff(file, "");
   }
-  Header header;
-  if (!ParseType(Word(words.data(), false), false, &header) &&
-      !ParseType(Word(words.data(), true), true, &header)) {
+  Mat4Header header;
+  if (!ParseMat4Type(MatWord(words.data(), false), false, &header) &&
+      !ParseMat4Type(MatWord(words.data(), true), true, &header)) {
     throw InputError(file.path(), 0,
                      offset == 0 ? "is no MATLAB file"
                                  : "is a damaged MATLAB file of version 4");
   }
   const auto word = [&](std::size_t i) -> std::size_t {
-    return Word(words.data() + 4 * i, header.big_endian);
+    return MatWord(words.data() + 4 * i, header.big_endian);
   };
   header.variable.shape = {word(1), word(2)};
   // Far beyond any file, and not yet beyond the type.
@@ -78,9 +71,9 @@ Header ReadHeader(const InputFile& file, std::size_t offset) {
 void VisitMat4(const InputFile& file, const MatVisitor& visit) {
   std::size_t offset = 0;
   while (offset < file.size()) {
-    Header header = ReadHeader(file, offset);
-    offset += kHeader;
-    if (header.name_length == 0 || header.name_length > kLongestName) {
+    Mat4Header header = ReadMat4Header(file, offset);
+    offset += kMat4Header;
+    if (header.name_length == 0 || header.name_length > kLongestMatName) {
       throw InputError(file.path(), 0,
                        "is a damaged MATLAB file of version 4: a name of " +
                            std::to_string(header.name_length) + " bytes");

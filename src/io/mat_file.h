@@ -12,6 +12,12 @@
 
 namespace hindsight {
 
+/// Bytes of a variable's name.
+inline constexpr std::size_t kLongestMatName = 4096;
+
+/// A word of a MATLAB file.
+std::uint32_t MatWord(const char* data, bool big_endian);
+
 /// Bytes of a MATLAB file one after the other, as they stand or inflated.
 /// Throws InputError past their end.
 using ByteSource = std::function<void(char* data, std::size_t count)>;

@@ -12,7 +12,7 @@
 namespace hindsight {
 namespace {
 
-constexpr std::string_view kMagic = "\x93NUMPY";
+constexpr std::string_view kNpyMagic = "\x93NUMPY";
 
 struct NpyHeader {
   std::string type;  ///< "<f8"
@@ -52,7 +52,7 @@ std::vector<std::size_t> ParseShape(std::string_view text,
   return shape;
 }
 
-NpyHeader ParseHeader(std::string_view header, const std::string& path) {
+NpyHeader ParseNpyHeader(std::string_view header, const std::string& path) {
   NpyHeader parsed;
   const std::string_view type = ValueOf(header, "descr", path);
   const std::size_t quote =
@@ -75,7 +75,7 @@ struct NpyType {
   NumberType type;
 };
 
-constexpr std::array kTypes = {
+constexpr std::array kNpyTypes = {
     NpyType{"<f8", NumberType::kF8}, NpyType{"<f4", NumberType::kF4},
     NpyType{"<i8", NumberType::kI8}, NpyType{"<i4", NumberType::kI4},
     NpyType{"<u8", NumberType::kU8}, NpyType{"<u4", NumberType::kU4},
@@ -83,9 +83,9 @@ constexpr std::array kTypes = {
     NpyType{"|i1", NumberType::kI1}, NpyType{"|u1", NumberType::kU1},
 };
 
-NumberType TypeOf(const NpyHeader& header, const std::string& path) {
+NumberType NpyTypeOf(const NpyHeader& header, const std::string& path) {
   std::string known;
-  for (const NpyType& type : kTypes) {
+  for (const NpyType& type : kNpyTypes) {
     if (header.type == type.name) return type.type;
     known += (known.empty() ? "" : ", ") + std::string(type.name);
   }
@@ -95,7 +95,7 @@ NumberType TypeOf(const NpyHeader& header, const std::string& path) {
 }
 
 /// The header's text; `data` becomes where it ends.
-std::string ReadHeader(const InputFile& file, std::size_t* data) {
+std::string ReadNpyHeader(const InputFile& file, std::size_t* data) {
   constexpr std::size_t kShort = 10;
   constexpr std::size_t kLong = 12;
   /// NumPy itself refuses longer ones.
@@ -103,7 +103,7 @@ std::string ReadHeader(const InputFile& file, std::size_t* data) {
   std::array<char, kLong> start = {};
   const std::size_t count = file.ReadAt(0, start.data(), start.size());
   if (count == 0) throw InputError(file.path(), 0, "the file is empty");
-  if (!std::string_view(start.data(), count).starts_with(kMagic) ||
+  if (!std::string_view(start.data(), count).starts_with(kNpyMagic) ||
       count < kLong) {
     throw InputError(file.path(), 0, "is no NumPy file");
   }
@@ -128,10 +128,10 @@ std::string ReadHeader(const InputFile& file, std::size_t* data) {
 NumericArray ReadNpy(const std::string& path) {
   const InputFile file(path);
   std::size_t data = 0;
-  const std::string text = ReadHeader(file, &data);
-  const NpyHeader header = ParseHeader(text, path);
+  const std::string text = ReadNpyHeader(file, &data);
+  const NpyHeader header = ParseNpyHeader(text, path);
   NumericArray array;
-  array.type = TypeOf(header, path);
+  array.type = NpyTypeOf(header, path);
   array.column_major = header.fortran_order;
   array.rows = header.shape[0];
   array.columns = header.shape.size() > 1 ? header.shape[1] : 1;

@@ -15,9 +15,9 @@ namespace hindsight {
 namespace {
 
 /// Takes the fields of a serialized message one after the other.
-class Message {
+class RosMessage {
  public:
-  explicit Message(std::string_view bytes) : rest_(bytes) {}
+  explicit RosMessage(std::string_view bytes) : rest_(bytes) {}
 
   template <typename T>
   T Take() {
@@ -74,7 +74,7 @@ struct FixMessage {
 };
 
 bool Parse(std::string_view bytes, ImuMessage* imu) {
-  Message message(bytes);
+  RosMessage message(bytes);
   imu->stamp = message.Header();
   message.Numbers<4 + 9>();  // orientation
   imu->rate = message.Numbers<3>();
@@ -85,7 +85,7 @@ bool Parse(std::string_view bytes, ImuMessage* imu) {
 }
 
 bool Parse(std::string_view bytes, FixMessage* fix) {
-  Message message(bytes);
+  RosMessage message(bytes);
   fix->stamp = message.Header();
   fix->status = message.Take<std::int8_t>();
   message.Take<std::uint16_t>();  // systems in use
@@ -172,7 +172,7 @@ std::vector<T> ReadMessages(const BagFile& bag, const std::string& topic) {
 }
 
 template <typename T>
-void Append(const std::vector<T>& messages, RowBuffer* rows) {
+void AppendMessages(const std::vector<T>& messages, RowBuffer* rows) {
   long left_out = 0;
   long number = 0;
   bool sigmas = true;
@@ -202,12 +202,12 @@ RowBuffer ReadRosbag(const std::string& path, const std::string& topic,
   const BagFile bag(path);
   if (&fields == &ImuFields()) {
     for (std::size_t i = 0; i < 6; ++i) rows.Declare(i);
-    Append(ReadMessages<ImuMessage>(bag, topic), &rows);
+    AppendMessages(ReadMessages<ImuMessage>(bag, topic), &rows);
   } else {
     for (const char* field : {"lat", "lon", "h", "quality"}) {
       rows.Declare(field);
     }
-    Append(ReadMessages<FixMessage>(bag, topic), &rows);
+    AppendMessages(ReadMessages<FixMessage>(bag, topic), &rows);
   }
   if (rows.size() == 0) throw InputError(path, 0, "the topic holds no rows");
   return rows;

@@ -8,7 +8,7 @@
 namespace hindsight {
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{1} << 20;
+constexpr std::size_t kLinePiece = std::size_t{1} << 20;
 
 bool Holds(std::string_view text, char c) {
   return !text.empty() && std::memchr(text.data(), c, text.size()) != nullptr;
@@ -17,7 +17,7 @@ bool Holds(std::string_view text, char c) {
 }  // namespace
 
 TextLines::TextLines(const std::string& path)
-    : file_(path), buffer_(new char[kLongestLine + kPiece]) {
+    : file_(path), buffer_(new char[kLongestLine + kLinePiece]) {
   size_hint_ = file_.size();
   if (GzipReader::IsGzip(file_)) {
     gzip_ = std::make_unique<GzipReader>(file_);
@@ -39,8 +39,8 @@ bool TextLines::Fill() {
     std::memmove(buffer_.get(), window_.data(), window_.size());
   }
   char* end = buffer_.get() + window_.size();
-  const std::size_t count =
-      gzip_ ? gzip_->Read(end, kPiece) : file_.ReadAt(offset_, end, kPiece);
+  const std::size_t count = gzip_ ? gzip_->Read(end, kLinePiece)
+                                  : file_.ReadAt(offset_, end, kLinePiece);
   offset_ += count;
   const std::string_view piece(end, count);
   odd_ = Holds(piece, '\0') || Holds(piece, '\r') || (odd_ && !window_.empty());

@@ -12,13 +12,13 @@
 namespace hindsight {
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{1} << 20;
+constexpr std::size_t kUnpackPiece = std::size_t{1} << 20;
 
 /// Makes room for the next piece of at most `size` bytes in all, and one more,
 /// so that too many are noticed.
 std::size_t Grow(std::size_t done, std::size_t size, std::string* bytes) {
   ThrowIfStopRequested();
-  const std::size_t room = std::min(kPiece, size + 1 - done);
+  const std::size_t room = std::min(kUnpackPiece, size + 1 - done);
   bytes->resize(done + room);
   return room;
 }
