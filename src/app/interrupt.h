@@ -1,13 +1,19 @@
 #ifndef HINDSIGHT_APP_INTERRUPT_H_
 #define HINDSIGHT_APP_INTERRUPT_H_
 
-#include "base/stop.h"
+#include <atomic>
 
 namespace hindsight {
 
-/// From now on SIGINT and SIGTERM request a stop (base/stop.h) instead of
-/// ending the process.
+/// From now on SIGINT and SIGTERM set StopRequested() instead of ending the
+/// process.
 void CatchInterrupts();
+
+/// Becomes true when the user has asked to stop.
+const std::atomic<bool>& StopRequested();
+
+/// Throws Interrupted if the user has asked to stop.
+void ThrowIfStopRequested();
 
 }  // namespace hindsight
 

@@ -9,7 +9,6 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "base/stop.h"
 
 namespace hindsight {
 namespace {
@@ -52,15 +51,11 @@ InputFile::~InputFile() { close(file_); }
 
 std::size_t InputFile::ReadAt(std::size_t offset, char* data,
                               std::size_t count) const {
-  /// Small enough to hear a signal between two, even from a slow disk.
-  constexpr std::size_t kLargest = std::size_t{1} << 20;
   count = std::min(count, size_ - std::min(offset, size_));
   std::size_t done = 0;
   while (done < count) {
-    ThrowIfStopRequested();
-    const ssize_t got =
-        pread(file_, data + done, std::min(count - done, kLargest),
-              static_cast<off_t>(offset + done));
+    const ssize_t got = pread(file_, data + done, count - done,
+                              static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) FailWithErrno(path_);
     if (got == 0) {

@@ -25,7 +25,7 @@ class InputFile {
 
   /// Copies up to `count` bytes from `offset` on, fewer only at the end of the
   /// file; returns their number. Throws InputError if the file has become
-  /// shorter or cannot be read, and Interrupted if a stop was requested.
+  /// shorter or cannot be read.
   std::size_t ReadAt(std::size_t offset, char* data, std::size_t count) const;
 
  private:

@@ -98,7 +98,7 @@ NumberType NpyTypeOf(const NpyHeader& header, const std::string& path) {
 std::string ReadNpyHeader(const InputFile& file, std::size_t* data) {
   constexpr std::size_t kShort = 10;
   constexpr std::size_t kLong = 12;
-  /// NumPy itself refuses longer ones.
+  // NumPy itself refuses longer ones.
   constexpr std::size_t kLongestHeader = 10000;
   std::array<char, kLong> start = {};
   const std::size_t count = file.ReadAt(0, start.data(), start.size());

@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "base/error.h"
-#include "base/stop.h"
 #include "base/units.h"
 #include "io/paths.h"
 #include "io/text_lines.h"
@@ -152,7 +151,6 @@ RowBuffer ReadOxts(const std::string& folder,
   auto file = files.begin();
   long missing = 0;
   for (std::size_t i = 0; i < stamps.size(); ++i, ++number) {
-    ThrowIfStopRequested();
     const auto line = static_cast<long>(i) + 1;
     const bool exists = file != files.end() && file->first == number;
     if (exists != stamps[i].has_value()) {

@@ -21,8 +21,7 @@ class StreamRows {
   };
   /// Reads on. Throws InputError for time that runs backwards, for repeated
   /// stamps without a policy and for values out of all proportion: beyond
-  /// 1e9 m, 1e6 m/s, 1e6 m/s^2, 1e6 rad, 1e5 rad/s or 1e6 uT. Throws
-  /// Interrupted if a stop was requested.
+  /// 1e9 m, 1e6 m/s, 1e6 m/s^2, 1e6 rad, 1e5 rad/s or 1e6 uT.
   Step Next();
 
   const RowSource& table() const { return *opened_.table; }

@@ -3,7 +3,6 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "base/stop.h"
 
 namespace hindsight {
 namespace {
@@ -34,7 +33,6 @@ TextLines::TextLines(const std::string& path)
 }
 
 bool TextLines::Fill() {
-  ThrowIfStopRequested();
   if (!window_.empty()) {
     std::memmove(buffer_.get(), window_.data(), window_.size());
   }

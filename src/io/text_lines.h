@@ -27,7 +27,7 @@ class TextLines {
   /// Throws InputError for a line that is longer than kLongestLine or holds a
   /// NUL byte or a carriage return of its own, if gzip data are damaged, cut
   /// off or followed by anything else, and if the file becomes shorter
-  /// meanwhile. Throws Interrupted if a stop was requested.
+  /// meanwhile.
   bool Next(std::string_view* line);
 
   /// Number of the line last returned, from 1.

@@ -7,8 +7,6 @@
 #include <memory>
 #include <new>
 
-#include "base/stop.h"
-
 namespace hindsight {
 namespace {
 
@@ -17,7 +15,6 @@ constexpr std::size_t kUnpackPiece = std::size_t{1} << 20;
 /// Makes room for the next piece of at most `size` bytes in all, and one more,
 /// so that too many are noticed.
 std::size_t Grow(std::size_t done, std::size_t size, std::string* bytes) {
-  ThrowIfStopRequested();
   const std::size_t room = std::min(kUnpackPiece, size + 1 - done);
   bytes->resize(done + room);
   return room;
