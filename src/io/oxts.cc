@@ -61,10 +61,17 @@ std::vector<std::optional<Stamp>> ReadStamps(const std::string& path) {
   TextLines lines(path);
   std::vector<std::optional<Stamp>> stamps;
   std::size_t used = 0;
+  std::size_t shortest = std::string::npos;
   std::string_view line;
   while (lines.Next(&line)) {
     stamps.emplace_back();
     if (Trim(line).empty()) continue;
+    if (!lines.terminated() && line.size() < shortest && used > 0) {
+      throw InputError(path, lines.number(),
+                       "the last line is truncated: it is shorter than all "
+                       "before, and no line end follows");
+    }
+    shortest = std::min(shortest, line.size());
     stamps.back() = ParseDateTime(std::string(line) + " UTC");
     if (!stamps.back()) {
       throw InputError(path, lines.number(),

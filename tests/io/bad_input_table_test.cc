@@ -41,7 +41,16 @@ constexpr Accepted kAccepted[] = {
      "files of these formats have columns that are not read"},
     {"a further column everywhere", "pos",
      "RTKLIB writes further columns behind"},
-    {"a further field", "nmea", "versions of NMEA differ in their last fields"},
+    {"not a number", "csv_dvl_beams", "a beam that is absent is lost"},
+    {"an empty value", "csv_dvl_beams", "a beam that is absent is lost"},
+    {"an empty value", "nmea",
+     "a receiver without a fix leaves its fields empty; `check` counts them"},
+    {"without its last column", "csv_speed_course",
+     "a course need not be measured"},
+    {"zeros at its end", "mat_imu",
+     "numbers of a matrix that is not compressed have no checksum"},
+    {"a further field", "nmea_position",
+     "versions of NMEA differ in their last fields"},
 };
 
 class BadInputTable : public RecordingFolder,
