@@ -10,8 +10,7 @@ set -eu
 build="build-essential cmake ninja-build ccache
   libeigen3-dev libceres-dev libsuitesparse-dev libgeographiclib-dev
   libgflags-dev libgoogle-glog-dev libyaml-cpp-dev nlohmann-json3-dev
-  zlib1g-dev libfast-float-dev libmatio-dev libboost-dev pkg-config
-  librosbag-storage-dev libsensor-msgs-dev"
+  zlib1g-dev libbz2-dev liblz4-dev libfast-float-dev libboost-dev pkg-config"
 tests="libgtest-dev libgmock-dev libbenchmark-dev locales
   clang-format clang-tidy clang libclang-rt-dev"
 docs="gcovr"

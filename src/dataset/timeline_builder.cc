@@ -86,7 +86,14 @@ std::vector<IncrementStart> IncrementStarts(
 
 /// The required times and, between them, equal steps of at most `spacing`.
 std::vector<double> NodeTimes(std::vector<double> required, double spacing) {
+  constexpr double kMostNodes = 10e6;
   std::sort(required.begin(), required.end());
+  const double steps_in_all = (required.back() - required.front()) / spacing;
+  if (steps_in_all > kMostNodes) {
+    throw InputError("nodes.max_spacing of " + std::to_string(spacing) +
+                     " s makes " + std::to_string(std::llround(steps_in_all)) +
+                     " nodes; expected at most 10000000");
+  }
   std::vector<double> times;
   for (const double t : required) {
     if (times.empty()) {

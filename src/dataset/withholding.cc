@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "base/error.h"
 #include "dataset/dataset.h"
@@ -55,6 +56,17 @@ void Withhold(const Withholding& withholding, const Dataset& dataset, int index,
   const double first_fix = first->t + offset;
   const double last_fix = last->t + offset;
   const double start = first_fix + withholding.from.value_or(withholding.every);
+  constexpr double kMostOutages = 100000.0;
+  const double count = (last_fix - start) / withholding.every;
+  if (count > kMostOutages) {
+    char text[160];
+    std::snprintf(text, sizeof(text),
+                  "every %.6g s makes %.3g outages of '%s'; expected at most "
+                  "%.0f",
+                  withholding.every, count, stream->sensor.name.c_str(),
+                  kMostOutages);
+    throw InputError(text);
+  }
   auto z = first;
   for (int k = 0;; ++k) {
     const Outage outage{index, start + k * withholding.every,

@@ -3,10 +3,14 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
+#include <optional>
 
 #include "base/error.h"
 #include "io/numeric_array.h"
+#include "io/tick_clock.h"
+#include "io/units.h"
 
 namespace hindsight {
 namespace {
@@ -59,6 +63,13 @@ class ArrayReader {
     return arrays_.empty() ? 0 : arrays_.begin()->second.rows;
   }
 
+  [[noreturn]] void Fail(const ColumnMapping& mapping,
+                         const std::string& message) const {
+    throw InputError(
+        format_.config_path, format_.config_line,
+        "columns." + mapping.quantity + " (" + path_ + "): " + message);
+  }
+
  private:
   const NumericArray& Array(const std::string& name) {
     const auto known = arrays_.find(name);
@@ -74,88 +85,116 @@ class ArrayReader {
     return arrays_.emplace(name, std::move(array)).first->second;
   }
 
-  [[noreturn]] void Fail(const ColumnMapping& mapping,
-                         const std::string& message) const {
-    throw InputError(
-        format_.config_path, format_.config_line,
-        "columns." + mapping.quantity + " (" + path_ + "): " + message);
-  }
-
-  const std::string& path_;
-  const TextFormat& format_;
+  std::string path_;
+  TextFormat format_;
   std::map<std::string, NumericArray> arrays_;
 };
 
-Stamp StampOf(const Column& column, std::size_t row, const std::string& path) {
-  const NumericArray& array = *column.array;
-  const std::size_t at = row * array.columns + column.index;
-  const double t = array.values[at] * column.factor;
-  if (!IsTime(t)) {
-    throw InputError(path, static_cast<long>(row) + 1,
-                     "the time is not a finite number of a usual size");
+class ArrayRows final : public RowSource {
+ public:
+  ArrayRows(const std::string& path, const TextFormat& format,
+            const std::vector<FieldName>& fields, bool allow_absent)
+      : reader_(path, format),
+        path_(path),
+        fields_(fields),
+        allow_absent_(allow_absent),
+        columns_(fields.size()) {
+    values_.assign(fields.size(), std::numeric_limits<double>::quiet_NaN());
+    for (const ColumnMapping& mapping : format.columns) {
+      if (mapping.quantity == "t") {
+        if (!format.ignore_time) OpenTime(mapping);
+      } else if (mapping.quantity == "week") {
+        ColumnMapping plain = mapping;
+        plain.unit = "1";
+        week_ = reader_.Open(plain, Quantity::kRatio);
+      } else if (const auto field = FieldIndex(fields, mapping.quantity)) {
+        columns_[*field] = reader_.Open(mapping, fields[*field].quantity);
+      }
+    }
+    if (!time_ && !format.ignore_time) {
+      throw InputError(format.config_path, format.config_line,
+                       "no column t with the time; expected it, or time.rate");
+    }
+    if (reader_.rows() == 0) throw InputError(path, 0, "holds no rows of data");
   }
-  if (!array.integers.empty()) {
-    const std::int64_t ticks = array.integers[at];
-    const std::int64_t rate =
-        std::max<std::int64_t>(1, std::llround(1.0 / std::abs(column.factor)));
-    return {ticks / rate, static_cast<double>(ticks % rate) * column.factor};
-  }
-  const double whole = std::floor(t);
-  return {static_cast<std::int64_t>(whole), t - whole};
-}
 
-std::int64_t WeekOf(const Column& column, std::size_t row,
-                    const std::string& path) {
-  const double week = column.array->at(row, column.index);
-  if (!(week >= 0.0 && week <= kLastWeek) || week != std::floor(week)) {
-    throw InputError(path, static_cast<long>(row) + 1, "there is no such week");
+  bool dated() const { return week_.has_value(); }
+
+  bool Next() override {
+    if (row_ == reader_.rows()) return false;
+    const std::size_t row = row_++;
+    line_ = static_cast<long>(row_);
+    stamp_ = time_ ? StampAt(row) : Stamp{};
+    if (week_) stamp_.seconds += WeekAt(row) * kWeekSeconds;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (!columns_[i]) continue;
+      values_[i] =
+          columns_[i]->factor * columns_[i]->array->at(row, columns_[i]->index);
+      if (std::isfinite(values_[i])) continue;
+      if (allow_absent_ && std::isnan(values_[i])) continue;
+      Fail(std::string("the value of ") + fields_[i].name +
+           " is not a finite number");
+    }
+    return true;
   }
-  return static_cast<std::int64_t>(week);
-}
+  bool Has(std::size_t field) const override {
+    return columns_[field].has_value();
+  }
+  std::size_t RowsHint() const override { return reader_.rows(); }
+  const std::string& path() const override { return path_; }
+
+ private:
+  void OpenTime(const ColumnMapping& mapping) {
+    time_ = reader_.Open(mapping, Quantity::kTime);
+    if (!TickClock::IsLength(time_->factor)) {
+      reader_.Fail(mapping, "has a unit or scale of " +
+                                FormatNumber(time_->factor) +
+                                " s; expected between 1e-12 and 1e9");
+    }
+    if (time_->array->IsInteger()) ticks_.emplace(time_->factor);
+  }
+
+  Stamp StampAt(std::size_t row) const {
+    const NumericArray& array = *time_->array;
+    const double t = array.at(row, time_->index) * time_->factor;
+    if (!IsTime(t)) {
+      Fail("the time is not a finite number of a usual size");
+    }
+    if (ticks_) {
+      const auto [negative, ticks] = array.IntegerAt(row, time_->index);
+      return ticks_->At(negative, ticks);
+    }
+    const double whole = std::floor(t);
+    return {static_cast<std::int64_t>(whole), t - whole};
+  }
+
+  std::int64_t WeekAt(std::size_t row) const {
+    const double week = week_->array->at(row, week_->index);
+    if (!(week >= 0.0 && week <= kLastWeek) || week != std::floor(week)) {
+      Fail("there is no such week");
+    }
+    return static_cast<std::int64_t>(week);
+  }
+
+  ArrayReader reader_;
+  std::string path_;
+  const std::vector<FieldName>& fields_;
+  bool allow_absent_;
+  std::optional<Column> time_;
+  std::optional<Column> week_;
+  std::optional<TickClock> ticks_;  ///< of stamps that are whole numbers
+  std::vector<std::optional<Column>> columns_;  ///< of each field
+  std::size_t row_ = 0;
+};
 
 }  // namespace
 
-RowBuffer ReadArrays(const std::string& path, const TextFormat& format,
-                     const std::vector<FieldName>& fields, bool allow_absent,
-                     bool* dated) {
-  ArrayReader reader(path, format);
-  std::optional<Column> time;
-  std::optional<Column> week;
-  std::vector<std::pair<std::size_t, Column>> columns;
-  for (const ColumnMapping& mapping : format.columns) {
-    if (mapping.quantity == "t") {
-      if (!format.ignore_time) time = reader.Open(mapping, Quantity::kTime);
-      continue;
-    }
-    if (mapping.quantity == "week") {
-      ColumnMapping plain = mapping;
-      plain.unit = "1";
-      week = reader.Open(plain, Quantity::kRatio);
-      continue;
-    }
-    const auto field = FieldIndex(fields, mapping.quantity);
-    if (!field) continue;
-    columns.emplace_back(*field, reader.Open(mapping, fields[*field].quantity));
-  }
-  if (!time && !format.ignore_time) {
-    throw InputError(format.config_path, format.config_line,
-                     "no column t with the time; expected it, or time.rate");
-  }
-  *dated = week.has_value();
-  RowBuffer rows(path, fields, allow_absent);
-  rows.Reserve(reader.rows());
-  for (const auto& [field, column] : columns) rows.Declare(field);
-  for (std::size_t row = 0; row < reader.rows(); ++row) {
-    Stamp stamp = time ? StampOf(*time, row, path) : Stamp{};
-    if (week) {
-      stamp.seconds += WeekOf(*week, row, path) * kWeekSeconds;
-    }
-    rows.Append(stamp, static_cast<long>(row) + 1);
-    for (const auto& [field, column] : columns) {
-      rows.Set(row, field, column.factor * column.array->at(row, column.index));
-    }
-  }
-  if (rows.size() == 0) throw InputError(path, 0, "holds no rows of data");
+std::unique_ptr<RowSource> OpenArrays(const std::string& path,
+                                      const TextFormat& format,
+                                      const std::vector<FieldName>& fields,
+                                      bool allow_absent, bool* dated) {
+  auto rows = std::make_unique<ArrayRows>(path, format, fields, allow_absent);
+  *dated = rows->dated();
   return rows;
 }
 

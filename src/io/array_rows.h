@@ -1,10 +1,11 @@
 #ifndef HINDSIGHT_IO_ARRAY_ROWS_H_
 #define HINDSIGHT_IO_ARRAY_ROWS_H_
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "io/row_buffer.h"
+#include "io/row_source.h"
 #include "io/text_format.h"
 
 namespace hindsight {
@@ -14,11 +15,14 @@ namespace hindsight {
 /// that is a folder; or `path` is the file and a COLUMN alone is named. For
 /// mat, NAME is a variable of the file `path`. All arrays must have the same
 /// number of rows. A file without a time needs `rate` (format.ignore_time).
-/// With a column week stamps are GPS time and `dated` becomes true. Throws
-/// InputError naming file and row, or the configuration.
-RowBuffer ReadArrays(const std::string& path, const TextFormat& format,
-                     const std::vector<FieldName>& fields, bool allow_absent,
-                     bool* dated);
+/// Stamps that are whole numbers keep every digit, whatever their unit and
+/// scale. With a column week stamps are GPS time and `dated` becomes true.
+/// Throws InputError naming file and row, or the configuration, also for a time
+/// whose scale is not positive.
+std::unique_ptr<RowSource> OpenArrays(const std::string& path,
+                                      const TextFormat& format,
+                                      const std::vector<FieldName>& fields,
+                                      bool allow_absent, bool* dated);
 
 }  // namespace hindsight
 

@@ -153,6 +153,32 @@ void RequireOverlap(const StreamSource& source, const ImuStream& imu,
                        ": expected streams that overlap");
 }
 
+/// What is made for every second of the record is bounded by this.
+void RequireModestSpan(const StreamSource& source, const ImuStream& imu) {
+  constexpr double kMostDays = 31.0;
+  if (imu.t_end() - imu.t_begin() <= kMostDays * kDaySeconds) return;
+  throw InputError(source.config_path, source.config_line,
+                   source.name + " (" + source.path + ") covers " +
+                       Span(imu.t_begin(), imu.t_end()) +
+                       "; expected at most 31 days");
+}
+
+/// How many measurements `step` apart the record takes.
+long CountGenerated(const AidingConfig& config, const ImuStream& imu,
+                    double step) {
+  const double count = (imu.t_end() - imu.t_begin()) / step;
+  const auto most = static_cast<double>(imu.samples.size());
+  if (count <= most) return static_cast<long>(count);
+  char text[160];
+  std::snprintf(
+      text, sizeof(text),
+      ": the rate makes %.3g measurements; expected at most as many as the IMU "
+      "has samples, %.0f",
+      count, most);
+  throw InputError(config.source.config_path, config.source.config_line,
+                   config.source.name + text);
+}
+
 void LoadImu(const Declared& declared, ConfigMap* top, Dataset* dataset) {
   StreamClock clock;
   const ImuNoise noise = dataset->imu.noise;
@@ -172,6 +198,7 @@ void LoadImu(const Declared& declared, ConfigMap* top, Dataset* dataset) {
   }
   const TimeLine line = MapClock(declared.imu, clock, dataset->epoch_gps_ns);
   for (ImuSample& sample : dataset->imu.samples) sample.t = line(sample.t);
+  RequireModestSpan(declared.imu, dataset->imu);
   dataset->imu.stamp_offset = declared.imu.clock.offset;
   dataset->imu.nominal_dt = MedianInterval(dataset->imu);
 }
@@ -195,7 +222,7 @@ std::vector<Measurement> Generate(const AidingConfig& config,
   odometer.sigma = *config.options.sigma;
   const double step = 1.0 / *config.generated_rate;
   std::vector<Measurement> measurements;
-  const auto count = static_cast<long>((imu.t_end() - imu.t_begin()) / step);
+  const long count = CountGenerated(config, imu, step);
   for (long k = 0; k <= count; ++k) {
     measurements.push_back({imu.t_begin() + static_cast<double>(k) * step,
                             config.options.sensor, false, odometer});

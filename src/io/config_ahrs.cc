@@ -3,6 +3,10 @@
 namespace hindsight {
 namespace {
 
+/// The accelerometer rules keep so much.
+constexpr int kMostSamples = 1000000;
+constexpr double kMostSeconds = 3600.0;
+
 double ReadNotNegative(ConfigMap* map, const std::string& key,
                        Quantity quantity, double fallback) {
   const double value = map->Number(key, quantity, fallback);
@@ -27,8 +31,14 @@ AhrsSettings ReadAhrs(ConfigMap* top) {
   }
   if (map.Has("seconds")) {
     ahrs.seconds = map.Positive("seconds", Quantity::kTime);
+    if (*ahrs.seconds > kMostSeconds) {
+      map.Fail("seconds", "expected at most 3600 s");
+    }
   } else {
     ahrs.samples = map.Integer("samples", ahrs.samples);
+    if (ahrs.samples > kMostSamples) {
+      map.Fail("samples", "expected at most 1000000");
+    }
   }
   if (map.Has("low_pass")) {
     ahrs.low_pass = ReadNotNegative(&map, "low_pass", Quantity::kTime, 0.0);

@@ -342,6 +342,8 @@ AidingConfig ReadAidingConfig(const std::string& name, ConfigMap* map,
   config.options.type = type.type;
   if (type.type == SensorType::kNonHolonomic) {
     config.source.name = map->name();
+    config.source.config_path = map->file();
+    config.source.config_line = map->Line("rate");
   } else {
     config.source = ReadStreamSource(map, folder, type.fields());
     config.options.accept_quality = ReadQualities(map);

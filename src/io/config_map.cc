@@ -38,11 +38,19 @@ std::string Printable(std::string text) {
 
 long LineOf(const YAML::Node& node) { return node.Mark().line + 1L; }
 
+constexpr std::size_t kLongestText = std::size_t{4} << 20;
+
 std::string ReadText(const std::string& path) {
   TextLines lines(path);
   std::string text;
   std::string_view line;
-  while (lines.Next(&line)) text.append(line).push_back('\n');
+  while (lines.Next(&line)) {
+    text.append(line).push_back('\n');
+    if (text.size() > kLongestText) {
+      throw InputError(path, 0,
+                       "is longer than 4 MB; expected a configuration");
+    }
+  }
   return text;
 }
 

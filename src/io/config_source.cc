@@ -28,17 +28,27 @@ Quantity QuantityOf(ConfigMap* columns, const std::string& name,
   columns->Fail(name, "is not a quantity of this stream; expected " + expected);
 }
 
-/// A column is a number from 1, or else a title.
-void SetColumn(const std::string& text, ColumnMapping* mapping) {
+/// Of a file.
+constexpr int kMostColumns = 100000;
+
+/// A column is a number from 1, or else a title; false for a number beyond the
+/// last column that there can be.
+bool SetColumn(const std::string& text, ColumnMapping* mapping) {
   int number = 0;
   const auto result =
       std::from_chars(text.data(), text.data() + text.size(), number);
-  if (result.ec == std::errc() && result.ptr == text.data() + text.size() &&
-      number >= 1) {
+  const bool whole = result.ptr == text.data() + text.size() && !text.empty();
+  if (whole && result.ec == std::errc::result_out_of_range) return false;
+  if (whole && result.ec == std::errc() && number >= 1) {
     mapping->column = number - 1;
   } else {
     mapping->title = text;
   }
+  return number <= kMostColumns;
+}
+
+std::string TooManyColumns() {
+  return "expected a column of 1 to " + std::to_string(kMostColumns);
 }
 
 ColumnMapping ReadColumn(ConfigMap* columns, const std::string& name,
@@ -47,7 +57,9 @@ ColumnMapping ReadColumn(ConfigMap* columns, const std::string& name,
   mapping.quantity = name;
   if (columns->IsMap(name)) {
     ConfigMap entry = columns->Map(name);
-    SetColumn(entry.Text("column"), &mapping);
+    if (!SetColumn(entry.Text("column"), &mapping)) {
+      entry.Fail("column", TooManyColumns());
+    }
     mapping.unit = entry.Text("unit", "");
     const std::string scale = entry.Text("scale", "1");
     const auto number = ParseNumber(scale);
@@ -62,7 +74,7 @@ ColumnMapping ReadColumn(ConfigMap* columns, const std::string& name,
       mapping.scale = -1.0;
       title.erase(0, 1);
     }
-    SetColumn(title, &mapping);
+    if (!SetColumn(title, &mapping)) columns->Fail(name, TooManyColumns());
     mapping.unit = unit;
   }
   if (name == "week") return mapping;

@@ -1,35 +1,24 @@
-#include <bit>
+#include <array>
 #include <charconv>
 #include <cstring>
-#include <fstream>
-#include <iterator>
-#include <limits>
+#include <string_view>
+#include <vector>
 
 #include "base/error.h"
+#include "io/input_file.h"
 #include "io/numeric_array.h"
 #include "io/units.h"
 
 namespace hindsight {
 namespace {
 
-static_assert(std::endian::native == std::endian::little,
-              "the bytes of the file are used as they stand");
-
-constexpr std::string_view kMagic = "\x93NUMPY";
+constexpr std::string_view kNpyMagic = "\x93NUMPY";
 
 struct NpyHeader {
   std::string type;  ///< "<f8"
   bool fortran_order = false;
   std::vector<std::size_t> shape;
 };
-
-std::string ReadBytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file && bytes.empty()) throw InputError(path, 0, "cannot be read");
-  if (bytes.empty()) throw InputError(path, 0, "the file is empty");
-  return bytes;
-}
 
 /// The text behind "'key':" in the header, which is a Python dictionary.
 std::string_view ValueOf(std::string_view header, const std::string& key,
@@ -63,7 +52,7 @@ std::vector<std::size_t> ParseShape(std::string_view text,
   return shape;
 }
 
-NpyHeader ParseHeader(std::string_view header, const std::string& path) {
+NpyHeader ParseNpyHeader(std::string_view header, const std::string& path) {
   NpyHeader parsed;
   const std::string_view type = ValueOf(header, "descr", path);
   const std::size_t quote =
@@ -72,72 +61,93 @@ NpyHeader ParseHeader(std::string_view header, const std::string& path) {
     throw InputError(path, 0, "holds a structure; expected plain numbers");
   }
   parsed.type = type.substr(1, quote - 1);
-  parsed.fortran_order =
-      ValueOf(header, "fortran_order", path).starts_with("True");
+  const std::string_view order = ValueOf(header, "fortran_order", path);
+  parsed.fortran_order = order.starts_with("True");
+  if (!parsed.fortran_order && !order.starts_with("False")) {
+    throw InputError(path, 0, "has no order in its NumPy header");
+  }
   parsed.shape = ParseShape(ValueOf(header, "shape", path), path);
   return parsed;
 }
 
-template <typename T>
-void Fill(std::string_view data, const NpyHeader& header, NumericArray* array) {
-  const std::size_t count = array->rows * array->columns;
-  array->values.resize(count);
-  if (std::is_integral_v<T>) array->integers.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    T value;
-    std::memcpy(&value, data.data() + i * sizeof(T), sizeof(T));
-    const std::size_t at =
-        header.fortran_order
-            ? i % array->rows * array->columns + i / array->rows
-            : i;
-    array->values[at] = static_cast<double>(value);
-    if constexpr (std::is_integral_v<T>) array->integers[at] = value;
+struct NpyType {
+  const char* name;
+  NumberType type;
+};
+
+constexpr std::array kNpyTypes = {
+    NpyType{"<f8", NumberType::kF8}, NpyType{"<f4", NumberType::kF4},
+    NpyType{"<i8", NumberType::kI8}, NpyType{"<i4", NumberType::kI4},
+    NpyType{"<u8", NumberType::kU8}, NpyType{"<u4", NumberType::kU4},
+    NpyType{"<i2", NumberType::kI2}, NpyType{"<u2", NumberType::kU2},
+    NpyType{"|i1", NumberType::kI1}, NpyType{"|u1", NumberType::kU1},
+};
+
+NumberType NpyTypeOf(const NpyHeader& header, const std::string& path) {
+  std::string known;
+  for (const NpyType& type : kNpyTypes) {
+    if (header.type == type.name) return type.type;
+    known += (known.empty() ? "" : ", ") + std::string(type.name);
   }
+  throw InputError(
+      path, 0,
+      "holds numbers of type '" + header.type + "'; expected one of " + known);
+}
+
+/// The header's text; `data` becomes where it ends.
+std::string ReadNpyHeader(const InputFile& file, std::size_t* data) {
+  constexpr std::size_t kShort = 10;
+  constexpr std::size_t kLong = 12;
+  // NumPy itself refuses longer ones.
+  constexpr std::size_t kLongestHeader = 10000;
+  std::array<char, kLong> start = {};
+  const std::size_t count = file.ReadAt(0, start.data(), start.size());
+  if (count == 0) throw InputError(file.path(), 0, "the file is empty");
+  if (!std::string_view(start.data(), count).starts_with(kNpyMagic) ||
+      count < kLong) {
+    throw InputError(file.path(), 0, "is no NumPy file");
+  }
+  const int version = start[6];
+  if (version < 1 || version > 3) {
+    throw InputError(file.path(), 0, "is a NumPy file of an unknown version");
+  }
+  const std::size_t begin = version == 1 ? kShort : kLong;
+  std::uint32_t length = 0;
+  std::memcpy(&length, start.data() + 8, begin - 8);
+  if (length > kLongestHeader || length > file.size() - begin) {
+    throw InputError(file.path(), 0, "ends within its NumPy header");
+  }
+  std::string header(length, '\0');
+  file.ReadAt(begin, header.data(), length);
+  *data = begin + length;
+  return header;
 }
 
 }  // namespace
 
 NumericArray ReadNpy(const std::string& path) {
-  const std::string bytes = ReadBytes(path);
-  const std::string_view view = bytes;
-  if (!view.starts_with(kMagic) || view.size() < 12) {
-    throw InputError(path, 0, "is no NumPy file");
-  }
-  const int version = view[6];
-  if (version < 1 || version > 3) {
-    throw InputError(path, 0, "is a NumPy file of an unknown version");
-  }
-  const std::size_t start = version == 1 ? 10 : 12;
-  std::uint32_t length = 0;
-  std::memcpy(&length, view.data() + 8, start - 8);
-  if (length > view.size() - start) {
-    throw InputError(path, 0, "ends within its NumPy header");
-  }
-  const NpyHeader header = ParseHeader(view.substr(start, length), path);
+  const InputFile file(path);
+  std::size_t data = 0;
+  const std::string text = ReadNpyHeader(file, &data);
+  const NpyHeader header = ParseNpyHeader(text, path);
   NumericArray array;
+  array.type = NpyTypeOf(header, path);
+  array.column_major = header.fortran_order;
   array.rows = header.shape[0];
   array.columns = header.shape.size() > 1 ? header.shape[1] : 1;
-  const std::string_view data = view.substr(start + length);
-  const std::size_t width = header.type == "<f8" || header.type == "<i8"   ? 8
-                            : header.type == "<f4" || header.type == "<i4" ? 4
-                                                                           : 0;
-  if (width == 0) {
+  const std::size_t bytes = file.size() - data;
+  const std::size_t count = bytes / Width(array.type);
+  const bool fits = array.columns == 0 ? bytes == 0
+                                       : count / array.columns == array.rows &&
+                                             count % array.columns == 0 &&
+                                             bytes % Width(array.type) == 0;
+  if (!fits) {
     throw InputError(path, 0,
-                     "holds numbers of type '" + header.type +
-                         "'; expected <f4, <f8, <i4 or <i8");
-  }
-  const bool fits =
-      array.columns == 0 ||
-      array.rows <= std::numeric_limits<std::uint32_t>::max() / array.columns;
-  if (!fits || data.size() != array.rows * array.columns * width) {
-    throw InputError(path, 0,
-                     "holds " + std::to_string(data.size()) +
+                     "holds " + std::to_string(bytes) +
                          " bytes of data, which do not fit its shape");
   }
-  if (header.type == "<f8") Fill<double>(data, header, &array);
-  if (header.type == "<f4") Fill<float>(data, header, &array);
-  if (header.type == "<i8") Fill<std::int64_t>(data, header, &array);
-  if (header.type == "<i4") Fill<std::int32_t>(data, header, &array);
+  array.bytes.resize(bytes);
+  file.ReadAt(data, array.bytes.data(), bytes);
   return array;
 }
 

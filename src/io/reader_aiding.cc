@@ -1,4 +1,5 @@
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -51,6 +52,9 @@ FieldMap MapOf(const AidingReadOptions& options) {
 /// a part of it: stamps jitter.
 constexpr double kEarly = 0.05;
 
+/// Rows that space is taken for before they are there: 0.5 GB of addresses.
+constexpr std::size_t kMostReserved = std::size_t{1} << 22;
+
 class AidingReader {
  public:
   AidingReader(const StreamSource& source, const AidingReadOptions& options)
@@ -90,11 +94,16 @@ class AidingReader {
         ++lost_;
         continue;
       }
+      if (measurements.empty()) {
+        measurements.reserve(std::min(rows_.table().RowsHint(), kMostReserved));
+        due_ = rows_.t();
+      }
       measurements.push_back(std::move(z));
-      if (measurements.size() == 1) due_ = rows_.t();
-      while (options_.every > 0.0 &&
-             due_ <= rows_.t() + kEarly * options_.every) {
-        due_ += options_.every;
+      if (options_.every > 0.0) {
+        const double late = rows_.t() + kEarly * options_.every - due_;
+        if (late >= 0.0) {
+          due_ += options_.every * (std::floor(late / options_.every) + 1.0);
+        }
       }
     }
     if (options_.type == SensorType::kOdometer &&

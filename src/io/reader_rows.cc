@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "base/error.h"
 #include "io/row_buffer.h"
@@ -16,6 +17,23 @@ TextFormat WithClock(const StreamSource& source) {
   return format;
 }
 
+/// What no reading of a vehicle on Earth comes near.
+double Largest(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kLength:
+      return 1e9;
+    case Quantity::kSpeed:
+    case Quantity::kAcceleration:
+    case Quantity::kAngle:
+    case Quantity::kMagneticField:
+      return 1e6;
+    case Quantity::kAngularRate:
+      return 1e5;
+    default:
+      return std::numeric_limits<double>::max();
+  }
+}
+
 std::string Seconds(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.6g s", value);
@@ -27,12 +45,27 @@ std::string Seconds(double value) {
 StreamRows::StreamRows(const StreamSource& source,
                        const std::vector<FieldName>& fields, bool allow_absent)
     : source_(source),
+      fields_(fields),
       opened_(OpenTable(source.path, WithClock(source), fields,
                         {source.allow_truncated_tail,
                          allow_absent || source.absent_values})) {
   clock_.dated = opened_.dated || source.clock.week.has_value() ||
                  source.clock.scale != ClockMap::Scale::kDataset;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (opened_.table->Has(i)) present_.push_back(i);
+  }
   if (source.sort) Sort(fields, allow_absent || source.absent_values);
+}
+
+void StreamRows::CheckSizes() const {
+  for (const std::size_t i : present_) {
+    const double most = Largest(fields_[i].quantity);
+    if (!(std::abs(opened_.table->value(i)) > most)) continue;
+    opened_.table->Fail(std::string(fields_[i].name) + " is " +
+                        FormatNumber(opened_.table->value(i)) + " " +
+                        SiUnit(fields_[i].quantity) + "; expected at most " +
+                        FormatNumber(most));
+  }
 }
 
 void StreamRows::Sort(const std::vector<FieldName>& fields, bool allow_absent) {
@@ -66,6 +99,7 @@ StreamRows::Step StreamRows::Next() {
   while (opened_.table->Next()) {
     const Stamp stamp = FileTime();
     ++rows_;
+    CheckSizes();
     if (rows_ == 1) clock_.first = stamp;
     const double since_first = stamp.Since(clock_.first);
     if (since_first < source_.clock.from || since_first > source_.clock.until) {

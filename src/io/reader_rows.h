@@ -19,8 +19,9 @@ class StreamRows {
     kAppend,   ///< a row later than the last
     kReplace,  ///< a row that takes the place of the last (drop_first)
   };
-  /// Reads on. Throws InputError for time that runs backwards and for repeated
-  /// stamps without a policy.
+  /// Reads on. Throws InputError for time that runs backwards, for repeated
+  /// stamps without a policy and for values out of all proportion: beyond
+  /// 1e9 m, 1e6 m/s, 1e6 m/s^2, 1e6 rad, 1e5 rad/s or 1e6 uT.
   Step Next();
 
   const RowSource& table() const { return *opened_.table; }
@@ -36,9 +37,13 @@ class StreamRows {
 
  private:
   Stamp FileTime();
+  /// Throws InputError for a value that no vehicle on Earth has.
+  void CheckSizes() const;
   void Sort(const std::vector<FieldName>& fields, bool allow_absent);
 
   const StreamSource& source_;
+  const std::vector<FieldName>& fields_;
+  std::vector<std::size_t> present_;  ///< the fields that the file holds
   OpenedTable opened_;
   StreamClock clock_;
   double t_ = 0.0;

@@ -1,69 +1,119 @@
 #include "io/rosbag.h"
 
-#include "base/error.h"
-
-#ifdef HINDSIGHT_ROSBAG
-
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-#include <sensor_msgs/Imu.h>
-#include <sensor_msgs/NavSatFix.h>
-
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <optional>
 #include <set>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "io/bag_file.h"
 
 namespace hindsight {
 namespace {
 
-/// base/units.h is C++20, which the message headers do not compile with.
-constexpr double kDegree = M_PI / 180.0;
+/// Takes the fields of a serialized message one after the other.
+class RosMessage {
+ public:
+  explicit RosMessage(std::string_view bytes) : rest_(bytes) {}
 
-/// The topic asked for, or the only one whose messages are of `type`.
-std::string FindTopic(const rosbag::Bag& bag, const std::string& path,
-                      const std::string& wanted, const std::string& type) {
-  rosbag::View view(bag);
-  std::set<std::string> topics;
-  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
-    if (connection->datatype == type &&
-        (wanted.empty() || connection->topic == wanted)) {
-      topics.insert(connection->topic);
+  template <typename T>
+  T Take() {
+    T value{};
+    if (rest_.size() < sizeof(T)) {
+      whole_ = false;
+      return value;
     }
+    std::memcpy(&value, rest_.data(), sizeof(T));
+    rest_.remove_prefix(sizeof(T));
+    return value;
   }
-  if (topics.size() == 1) return *topics.begin();
-  std::string list;
-  for (const std::string& topic : topics) list += " " + topic;
-  throw InputError(path, 0,
-                   topics.empty() ? "holds no topic" +
-                                        (wanted.empty() ? "" : " " + wanted) +
-                                        " of " + type
-                                  : "holds several topics of " + type + ":" +
-                                        list + "; expected `topic`");
+  template <std::size_t n>
+  std::array<double, n> Numbers() {
+    return Take<std::array<double, n>>();
+  }
+  void SkipText() {
+    const std::size_t size = Take<std::uint32_t>();
+    whole_ = whole_ && size <= rest_.size();
+    rest_.remove_prefix(std::min(size, rest_.size()));
+  }
+  /// Sequence number, stamp and frame; the stamp, UTC since 1970.
+  Stamp Header() {
+    Take<std::uint32_t>();
+    const auto seconds = Take<std::uint32_t>();
+    const auto nanoseconds = Take<std::uint32_t>();
+    SkipText();
+    return GpsFromUnix({std::int64_t{seconds}, 1e-9 * nanoseconds});
+  }
+  /// Nothing was missing and nothing is left.
+  bool IsWhole() const { return whole_ && rest_.empty(); }
+
+ private:
+  std::string_view rest_;
+  bool whole_ = true;
+};
+
+struct ImuMessage {
+  static constexpr const char* kType = "sensor_msgs/Imu";
+  std::uint64_t received = 0;
+  Stamp stamp;
+  std::array<double, 3> rate;
+  std::array<double, 3> force;
+};
+
+struct FixMessage {
+  static constexpr const char* kType = "sensor_msgs/NavSatFix";
+  std::uint64_t received = 0;
+  Stamp stamp;
+  int status = 0;
+  std::array<double, 3> position;    ///< latitude, longitude [deg], height
+  std::array<double, 9> covariance;  ///< east, north, up, row by row
+  int covariance_type = 0;           ///< 0: unknown
+};
+
+bool Parse(std::string_view bytes, ImuMessage* imu) {
+  RosMessage message(bytes);
+  imu->stamp = message.Header();
+  message.Numbers<4 + 9>();  // orientation
+  imu->rate = message.Numbers<3>();
+  message.Numbers<9>();
+  imu->force = message.Numbers<3>();
+  message.Numbers<9>();
+  return message.IsWhole();
 }
 
-Stamp GpsStamp(const ros::Time& time) {
-  return GpsFromUnix({std::int64_t{time.sec}, 1e-9 * time.nsec});
+bool Parse(std::string_view bytes, FixMessage* fix) {
+  RosMessage message(bytes);
+  fix->stamp = message.Header();
+  fix->status = message.Take<std::int8_t>();
+  message.Take<std::uint16_t>();  // systems in use
+  fix->position = message.Numbers<3>();
+  fix->covariance = message.Numbers<9>();
+  fix->covariance_type = message.Take<std::uint8_t>();
+  return message.IsWhole();
 }
 
 double SignedRoot(double covariance) {
   return std::copysign(std::sqrt(std::abs(covariance)), covariance);
 }
 
-void Take(const sensor_msgs::Imu& message, RowBuffer* rows) {
-  rows->Set("gyro_x", message.angular_velocity.x);
-  rows->Set("gyro_y", message.angular_velocity.y);
-  rows->Set("gyro_z", message.angular_velocity.z);
-  rows->Set("accel_x", message.linear_acceleration.x);
-  rows->Set("accel_y", message.linear_acceleration.y);
-  rows->Set("accel_z", message.linear_acceleration.z);
+void SetValues(const ImuMessage& imu, RowBuffer* rows) {
+  constexpr std::array kRates = {"gyro_x", "gyro_y", "gyro_z"};
+  constexpr std::array kForces = {"accel_x", "accel_y", "accel_z"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    rows->Set(kRates[i], imu.rate[i]);
+    rows->Set(kForces[i], imu.force[i]);
+  }
 }
 
-void Take(const sensor_msgs::NavSatFix& message, RowBuffer* rows) {
-  rows->Set("lat", message.latitude * kDegree);
-  rows->Set("lon", message.longitude * kDegree);
-  rows->Set("h", message.altitude);
-  rows->Set("quality", message.status.status);
-  // East, north, up, row by row.
-  const auto& P = message.position_covariance;
+void SetValues(const FixMessage& fix, RowBuffer* rows) {
+  rows->Set("lat", fix.position[0] * kDegree);
+  rows->Set("lon", fix.position[1] * kDegree);
+  rows->Set("h", fix.position[2]);
+  rows->Set("quality", fix.status);
+  const auto& P = fix.covariance;
   rows->Set("sigma_n", std::sqrt(P[4]));
   rows->Set("sigma_e", std::sqrt(P[0]));
   rows->Set("sigma_d", std::sqrt(P[8]));
@@ -73,36 +123,68 @@ void Take(const sensor_msgs::NavSatFix& message, RowBuffer* rows) {
   rows->Set("sd_dn", SignedRoot(-P[5]));
 }
 
-/// Counts what the rows must not hold.
-bool IsLeftOut(const sensor_msgs::Imu&) { return false; }
-bool IsLeftOut(const sensor_msgs::NavSatFix& message) {
-  return message.status.status == sensor_msgs::NavSatStatus::STATUS_NO_FIX;
+bool IsLeftOut(const ImuMessage&) { return false; }
+bool IsLeftOut(const FixMessage& fix) { return fix.status == -1; }
+
+bool HasSigmas(const ImuMessage&) { return false; }
+bool HasSigmas(const FixMessage& fix) { return fix.covariance_type != 0; }
+
+/// The connections of the topic asked for, or of the only one of this type.
+std::set<std::uint32_t> FindTopic(const BagFile& bag, const std::string& wanted,
+                                  const std::string& type) {
+  std::set<std::string> topics;
+  std::set<std::uint32_t> connections;
+  for (const BagConnection& connection : bag.connections()) {
+    if (connection.type != type) continue;
+    if (!wanted.empty() && connection.topic != wanted) continue;
+    topics.insert(connection.topic);
+    connections.insert(connection.id);
+  }
+  if (topics.size() == 1) return connections;
+  if (topics.empty()) {
+    throw InputError(bag.path(), 0,
+                     "holds no topic" + (wanted.empty() ? "" : " " + wanted) +
+                         " of " + type);
+  }
+  std::string list;
+  for (const std::string& topic : topics) list += " " + topic;
+  throw InputError(
+      bag.path(), 0,
+      "holds several topics of " + type + ":" + list + "; expected `topic`");
 }
 
-bool HasSigmas(const sensor_msgs::Imu&) { return false; }
-bool HasSigmas(const sensor_msgs::NavSatFix& message) {
-  return message.position_covariance_type !=
-         sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN;
+/// The topic's messages in the order in which they were received.
+template <typename T>
+std::vector<T> ReadMessages(const BagFile& bag, const std::string& topic) {
+  const std::set<std::uint32_t> wanted = FindTopic(bag, topic, T::kType);
+  std::vector<T> messages;
+  bag.Visit([&](std::uint32_t connection, std::uint64_t received,
+                std::string_view bytes) {
+    if (!wanted.contains(connection)) return;
+    T& message = messages.emplace_back();
+    message.received = received;
+    if (!Parse(bytes, &message)) bag.Fail("it holds a damaged message");
+  });
+  std::stable_sort(
+      messages.begin(), messages.end(),
+      [](const T& a, const T& b) { return a.received < b.received; });
+  return messages;
 }
 
-template <typename Message>
-void ReadMessages(const rosbag::Bag& bag, const std::string& topic,
-                  RowBuffer* rows) {
+template <typename T>
+void AppendMessages(const std::vector<T>& messages, RowBuffer* rows) {
   long left_out = 0;
   long number = 0;
   bool sigmas = true;
-  rosbag::View view(bag, rosbag::TopicQuery(topic));
-  for (const rosbag::MessageInstance& instance : view) {
+  for (const T& message : messages) {
     ++number;
-    const auto message = instance.instantiate<Message>();
-    if (!message) continue;
-    if (IsLeftOut(*message)) {
+    if (IsLeftOut(message)) {
       ++left_out;
       continue;
     }
-    rows->Append(GpsStamp(message->header.stamp), number);
-    Take(*message, rows);
-    sigmas = sigmas && HasSigmas(*message);
+    rows->Append(message.stamp, number);
+    SetValues(message, rows);
+    sigmas = sigmas && HasSigmas(message);
   }
   rows->LeaveOut("no fix", left_out);
   if (!sigmas) return;
@@ -116,44 +198,19 @@ void ReadMessages(const rosbag::Bag& bag, const std::string& topic,
 
 RowBuffer ReadRosbag(const std::string& path, const std::string& topic,
                      const std::vector<FieldName>& fields) {
-  const bool imu = &fields == &ImuFields();
   RowBuffer rows(path, fields, false);
-  try {
-    const rosbag::Bag bag(path);
-    const std::string found = FindTopic(
-        bag, path, topic, imu ? "sensor_msgs/Imu" : "sensor_msgs/NavSatFix");
-    if (imu) {
-      for (std::size_t i = 0; i < 6; ++i) rows.Declare(i);
-      ReadMessages<sensor_msgs::Imu>(bag, found, &rows);
-    } else {
-      for (const char* field : {"lat", "lon", "h", "quality"}) {
-        rows.Declare(field);
-      }
-      ReadMessages<sensor_msgs::NavSatFix>(bag, found, &rows);
+  const BagFile bag(path);
+  if (&fields == &ImuFields()) {
+    for (std::size_t i = 0; i < 6; ++i) rows.Declare(i);
+    AppendMessages(ReadMessages<ImuMessage>(bag, topic), &rows);
+  } else {
+    for (const char* field : {"lat", "lon", "h", "quality"}) {
+      rows.Declare(field);
     }
-  } catch (const rosbag::BagException& error) {
-    throw InputError(
-        path, 0, std::string("cannot be read as a ROS 1 bag: ") + error.what());
-  } catch (const ros::serialization::StreamOverrunException& error) {
-    throw InputError(path, 0, "holds a damaged message");
+    AppendMessages(ReadMessages<FixMessage>(bag, topic), &rows);
   }
   if (rows.size() == 0) throw InputError(path, 0, "the topic holds no rows");
   return rows;
 }
 
 }  // namespace hindsight
-
-#else
-
-namespace hindsight {
-
-RowBuffer ReadRosbag(const std::string& path, const std::string&,
-                     const std::vector<FieldName>&) {
-  throw InputError(path, 0,
-                   "is a ROS 1 bag, which this build cannot read; expected a "
-                   "build with librosbag-storage-dev and libsensor-msgs-dev");
-}
-
-}  // namespace hindsight
-
-#endif  // HINDSIGHT_ROSBAG

@@ -75,6 +75,9 @@ void ReadSegments(ConfigMap* top, Scenario* scenario) {
     const int seed = wander.Integer("seed", 1);
     if (seed < 0) wander.Fail("seed", "must not be negative");
     const double duration = wander.Positive("duration", Quantity::kTime);
+    if (duration > kLongestScenario) {
+      wander.Fail("duration", "expected at most 31 days");
+    }
     wander.Finish();
     scenario->segments =
         WanderingDrive(duration, static_cast<std::uint64_t>(seed));

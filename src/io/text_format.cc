@@ -119,8 +119,9 @@ OpenedTable OpenTable(const std::string& path, const TextFormat& format,
   switch (format.kind) {
     case TextFormat::Kind::kNpy:
     case TextFormat::Kind::kMat:
-      return take(ReadArrays(path, format, fields, options.allow_absent,
-                             &opened.dated));
+      opened.table =
+          OpenArrays(path, format, fields, options.allow_absent, &opened.dated);
+      return opened;
     case TextFormat::Kind::kOxts:
       opened.dated = true;
       return take(ReadOxts(path, fields));
@@ -132,7 +133,9 @@ OpenedTable OpenTable(const std::string& path, const TextFormat& format,
   }
   opened.lines = std::make_unique<TextLines>(path);
   std::string_view skipped;
-  for (int i = 0; i < format.skip_lines; ++i) opened.lines->Next(&skipped);
+  for (int i = 0; i < format.skip_lines; ++i) {
+    if (!opened.lines->Next(&skipped)) NoRows(path);
+  }
   if (format.kind == TextFormat::Kind::kNmea) {
     return take(ReadNmea(opened.lines.get(), fields, options, &opened.dated));
   }

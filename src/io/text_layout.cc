@@ -1,6 +1,7 @@
 #include "io/text_layout.h"
 
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 
@@ -31,6 +32,9 @@ class LayoutBuilder {
       if (unit.empty()) unit = header_unit;
     }
     if (mapping.quantity == "t" || mapping.quantity == "week") {
+      if (mapping.scale != 1.0) {
+        Fail("column " + mapping.quantity + " takes no scale; expected a unit");
+      }
       AddTime(mapping.quantity, column, unit);
       return;
     }
@@ -60,11 +64,15 @@ class LayoutBuilder {
 
  private:
   std::pair<int, std::string> FindTitle(const ColumnMapping& mapping) const {
+    std::optional<std::pair<int, std::string>> found;
     for (std::size_t i = 0; i < header_.titles.size(); ++i) {
       const auto [title, unit] = SplitTitle(header_.titles[i]);
-      if (title == mapping.title) return {static_cast<int>(i), unit};
+      if (title != mapping.title) continue;
+      if (found) Fail("column '" + title + "' stands twice in the header");
+      found.emplace(static_cast<int>(i), unit);
     }
-    Fail("no column '" + mapping.title + "' in the header");
+    if (!found) Fail("no column '" + mapping.title + "' in the header");
+    return *found;
   }
 
   double Factor(const ColumnMapping& mapping, const std::string& unit,

@@ -1,155 +1,67 @@
 #include "io/text_lines.h"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-#include <zlib.h>
-
-#include <algorithm>
-#include <array>
-#include <cerrno>
 #include <cstring>
 
 #include "base/error.h"
 
 namespace hindsight {
-
-/// Yields a file's text as a window that grows at its end.
-class TextLines::Source {
- public:
-  virtual ~Source() = default;
-  /// Keeps `rest`, the tail of the last window, and puts more text behind it.
-  /// The returned window is no longer than `rest` at the end of the file.
-  virtual std::string_view Extend(std::string_view rest) = 0;
-  std::size_t size_hint = 0;
-};
-
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{4} << 20;
-/// Deflated text is never longer than this times the file.
-constexpr std::size_t kDeflateLimit = 1032;
+constexpr std::size_t kLinePiece = std::size_t{1} << 20;
 
-class MappedSource : public TextLines::Source {
- public:
-  MappedSource(const std::string& path, int file, std::size_t size)
-      : size_(size) {
-    void* address = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0);
-    if (address == MAP_FAILED) {
-      throw InputError(path, 0,
-                       std::string("cannot be read: ") + std::strerror(errno));
-    }
-    data_ = static_cast<const char*>(address);
-    madvise(address, size, MADV_SEQUENTIAL);
-  }
-  ~MappedSource() override { munmap(const_cast<char*>(data_), size_); }
-
-  std::string_view Extend(std::string_view rest) override {
-    const std::size_t begin = shown_ - rest.size();
-    // Pages read already would otherwise count as the program's memory.
-    const std::size_t done = begin / kPiece * kPiece;
-    if (done > released_) {
-      madvise(const_cast<char*>(data_) + released_, done - released_,
-              MADV_DONTNEED);
-      released_ = done;
-    }
-    shown_ = std::min(size_, shown_ + kPiece);
-    return {data_ + begin, shown_ - begin};
-  }
-
- private:
-  const char* data_ = nullptr;
-  std::size_t size_;
-  std::size_t shown_ = 0;
-  std::size_t released_ = 0;
-};
-
-class GzipSource : public TextLines::Source {
- public:
-  explicit GzipSource(const std::string& path)
-      : path_(path), file_(gzopen(path.c_str(), "rb")) {
-    if (file_ == nullptr) throw InputError(path, 0, "cannot be read");
-    gzbuffer(file_, 1 << 18);
-  }
-  ~GzipSource() override { gzclose(file_); }
-
-  std::string_view Extend(std::string_view rest) override {
-    std::string next;
-    next.reserve(rest.size() + kPiece);
-    next.assign(rest);
-    next.resize(rest.size() + kPiece);
-    const int count =
-        gzread(file_, next.data() + rest.size(), static_cast<unsigned>(kPiece));
-    // A cut-off file reads short without an error until it is asked for one.
-    int code = Z_OK;
-    gzerror(file_, &code);
-    if (count < 0 || (code != Z_OK && code != Z_STREAM_END)) {
-      throw InputError(path_, 0,
-                       "damaged gzip data; expected a complete .gz file");
-    }
-    next.resize(rest.size() + static_cast<std::size_t>(count));
-    text_.swap(next);
-    return text_;
-  }
-
- private:
-  std::string path_;
-  gzFile file_;
-  std::string text_;
-};
-
-/// Closes the descriptor when the file is mapped or refused.
-struct Descriptor {
-  int file = -1;
-  ~Descriptor() {
-    if (file >= 0) close(file);
-  }
-};
-
-std::unique_ptr<TextLines::Source> OpenSource(const std::string& path) {
-  const Descriptor descriptor{open(path.c_str(), O_RDONLY)};
-  struct stat status = {};
-  if (descriptor.file < 0 || fstat(descriptor.file, &status) != 0) {
-    throw InputError(path, 0,
-                     std::string("cannot be read: ") + std::strerror(errno));
-  }
-  if (!S_ISREG(status.st_mode)) {
-    throw InputError(path, 0, "is not a file");
-  }
-  std::array<unsigned char, 2> magic = {};
-  const ssize_t count = pread(descriptor.file, magic.data(), magic.size(), 0);
-  if (status.st_size == 0) throw InputError(path, 0, "the file is empty");
-  const auto size = static_cast<std::size_t>(status.st_size);
-  std::unique_ptr<TextLines::Source> source;
-  if (count == 2 && magic[0] == 0x1f && magic[1] == 0x8b) {
-    source = std::make_unique<GzipSource>(path);
-    std::array<unsigned char, 4> tail = {};
-    if (pread(descriptor.file, tail.data(), 4, status.st_size - 4) == 4) {
-      source->size_hint = tail[0] | std::size_t{tail[1]} << 8 |
-                          std::size_t{tail[2]} << 16 |
-                          std::size_t{tail[3]} << 24;
-      // A damaged tail must not make readers reserve more than there can be.
-      source->size_hint = std::min(source->size_hint, kDeflateLimit * size);
-    }
-  } else {
-    source = std::make_unique<MappedSource>(path, descriptor.file, size);
-    source->size_hint = size;
-  }
-  return source;
+bool Holds(std::string_view text, char c) {
+  return !text.empty() && std::memchr(text.data(), c, text.size()) != nullptr;
 }
 
 }  // namespace
 
 TextLines::TextLines(const std::string& path)
-    : path_(path), source_(OpenSource(path)) {
-  size_hint_ = source_->size_hint;
-  window_ = source_->Extend({});
-  if (window_.empty()) throw InputError(path, 0, "the file is empty");
+    : file_(path), buffer_(new char[kLongestLine + kLinePiece]) {
+  size_hint_ = file_.size();
+  if (GzipReader::IsGzip(file_)) {
+    gzip_ = std::make_unique<GzipReader>(file_);
+    size_hint_ = gzip_->size_hint();
+  }
+  if (!Fill()) throw InputError(path, 0, "the file is empty");
+  if (window_.starts_with("\xFF\xFE") || window_.starts_with("\xFE\xFF")) {
+    throw InputError(path, 0, "is UTF-16 text; expected UTF-8 or ASCII");
+  }
+  if (gzip_ && window_.starts_with("\x1F\x8B")) {
+    throw InputError(path, 0, "is gzip within gzip; expected text in it");
+  }
   if (window_.starts_with("\xEF\xBB\xBF")) window_.remove_prefix(3);
 }
 
-TextLines::~TextLines() = default;
+bool TextLines::Fill() {
+  if (!window_.empty()) {
+    std::memmove(buffer_.get(), window_.data(), window_.size());
+  }
+  char* end = buffer_.get() + window_.size();
+  const std::size_t count = gzip_ ? gzip_->Read(end, kLinePiece)
+                                  : file_.ReadAt(offset_, end, kLinePiece);
+  offset_ += count;
+  const std::string_view piece(end, count);
+  odd_ = Holds(piece, '\0') || Holds(piece, '\r') || (odd_ && !window_.empty());
+  window_ = {buffer_.get(), window_.size() + count};
+  return count > 0;
+}
+
+void TextLines::Check(std::string_view line) const {
+  if (line.size() > kLongestLine) {
+    throw InputError(path(), number_,
+                     "the line is longer than " + std::to_string(kLongestLine) +
+                         " bytes; expected lines of text");
+  }
+  if (!odd_) return;
+  if (Holds(line, '\0')) {
+    throw InputError(path(), number_, "holds a NUL byte; expected text");
+  }
+  if (Holds(line, '\r')) {
+    throw InputError(path(), number_,
+                     "holds a carriage return within the line; expected line "
+                     "feeds, with or without one before, as line ends");
+  }
+}
 
 bool TextLines::Next(std::string_view* line) {
   std::size_t searched = 0;
@@ -167,16 +79,16 @@ bool TextLines::Next(std::string_view* line) {
       break;
     }
     searched = window_.size();
-    window_ = source_->Extend(window_);
-    if (window_.size() > searched) continue;
+    if (searched <= kLongestLine && Fill()) continue;
     if (window_.empty()) return false;
     *line = window_;
     window_ = {};
     terminated_ = false;
     break;
   }
-  if (line->ends_with('\r')) line->remove_suffix(1);
   ++number_;
+  if (line->ends_with('\r')) line->remove_suffix(1);
+  Check(*line);
   return true;
 }
 

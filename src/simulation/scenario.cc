@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -21,8 +22,39 @@ void RequirePositive(const Scenario& scenario, double value,
                    " is not positive");
 }
 
+/// Of the rows that a rate makes of `span`; those of truth and aiding are held
+/// in memory.
+void RequireModest(const Scenario& scenario, double span, double rate_hz,
+                   double most, const char* rows) {
+  if (span * rate_hz <= most) return;
+  char text[120];
+  std::snprintf(text, sizeof(text), "': makes %.3g %s; expected at most %.0f",
+                span * rate_hz, rows, most);
+  throw InputError("scenario '" + scenario.name + text);
+}
+
+/// Checks that the scenario is not too long.
 double EndOf(const Scenario& scenario, const Trajectory& trajectory) {
-  return std::min(trajectory.t_end(), trajectory.t_begin() + scenario.duration);
+  constexpr double kMostSamples = 200e6;
+  constexpr double kMostRows = 10e6;
+  const double span =
+      std::min(trajectory.t_end() - trajectory.t_begin(), scenario.duration);
+  if (span > kLongestScenario) {
+    char text[120];
+    std::snprintf(text, sizeof(text), "': lasts %.6g s; expected at most %.0f",
+                  span, kLongestScenario);
+    throw InputError("scenario '" + scenario.name + text);
+  }
+  RequireModest(scenario, span, scenario.imu_rate_hz, kMostSamples,
+                "IMU samples");
+  RequireModest(scenario, span,
+                std::min(scenario.truth_rate_hz, scenario.imu_rate_hz),
+                kMostRows, "rows of truth");
+  for (const AidingModel& model : scenario.aiding) {
+    RequireModest(scenario, span, model.rate_hz, kMostRows,
+                  "measurements of a sensor");
+  }
+  return trajectory.t_begin() + span;
 }
 
 std::size_t TruthEvery(const Scenario& scenario) {

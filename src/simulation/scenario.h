@@ -24,6 +24,9 @@ struct StartErrors {
   bool position_alone = false;
 };
 
+/// A simulation lasts at most 31 days [s].
+inline constexpr double kLongestScenario = 31.0 * 86400.0;
+
 /// Everything that decides a simulated recording but the seed.
 struct Scenario {
   std::string name;
@@ -58,7 +61,9 @@ struct Scenario {
 std::unique_ptr<Trajectory> MakeTrajectory(const Scenario& scenario);
 
 /// One seed of a scenario, sample by sample: of a day, nothing but truth and
-/// aiding is held.
+/// aiding is held. Throws InputError for a scenario of more than
+/// kLongestScenario, 200 million IMU samples, or 10 million rows of truth or of
+/// one sensor.
 class Simulation {
  public:
   Simulation(const Scenario& scenario, std::uint64_t seed);

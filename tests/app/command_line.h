@@ -2,6 +2,7 @@
 #define HINDSIGHT_TESTS_APP_COMMAND_LINE_H_
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -84,6 +85,7 @@ struct Outcome {
   int status = -1;  ///< exit status, or 128 + signal
   std::string out;
   std::string err;
+  double peak_memory = 0.0;  ///< [MB]
 };
 
 /// `hindsight words...` as a child process in the folder `directory`.
@@ -128,9 +130,11 @@ class Child {
 
   Outcome Wait() {
     int raw = 0;
-    waitpid(pid_, &raw, 0);
+    struct rusage usage = {};
+    wait4(pid_, &raw, 0, &usage);
     ended_ = true;
     Outcome outcome;
+    outcome.peak_memory = static_cast<double>(usage.ru_maxrss) / 1024.0;
     outcome.status = WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw);
     outcome.out = ReadFile(streams_.path() / "out");
     outcome.err = ReadFile(streams_.path() / "err");

@@ -1,21 +1,13 @@
-// Feeds bytes to everything that reads text. MATLAB files and ROS bags are left
-// out: libmatio and librosbag take memory as the file asks. The first byte
-// chooses the format or the kind of file, the second the stream; the rest is
-// the file. Whatever it holds, a reader returns what it read or throws
-// InputError.
-
-#include <sys/mman.h>
-#include <unistd.h>
+// Feeds bytes to everything that reads text. The first byte chooses the format
+// or the kind of file, the second the stream; the rest is the file. Whatever it
+// holds, a reader returns what it read or throws InputError.
 
 #include <algorithm>
-#include <cstdint>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 
 #include "base/error.h"
+#include "fuzz/fuzz_input.h"
 #include "io/config.h"
 #include "io/reader.h"
 #include "io/scenario_config.h"
@@ -25,50 +17,8 @@
 namespace hindsight {
 namespace {
 
-/// A file in memory that can be opened by its path.
-class MemoryFile {
- public:
-  MemoryFile(const std::uint8_t* data, std::size_t size)
-      : file_(memfd_create("reader_fuzz", 0)) {
-    if (file_ < 0 || write(file_, data, size) != static_cast<ssize_t>(size)) {
-      std::abort();
-    }
-  }
-  ~MemoryFile() { close(file_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
-
- private:
-  int file_;
-};
-
-/// A folder of this process, for what is more than one file.
-class Folder {
- public:
-  Folder()
-      : path_(std::filesystem::temp_directory_path() /
-              ("reader_fuzz_" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(path_ / "oxts" / "data");
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::string Path(const std::string& name) const {
-    return (path_ / name).string();
-  }
-  std::string Write(const std::string& name, std::string_view text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return Path(name);
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
-const Folder& TheFolder() {
-  static const Folder folder;
+const FuzzFolder& TheFolder() {
+  static const FuzzFolder folder("reader_fuzz");
   return folder;
 }
 
@@ -144,7 +94,7 @@ void Read(StreamSource source, unsigned stream) {
 void ReadOxtsFolder(std::string_view text, StreamSource source,
                     unsigned stream) {
   constexpr int kMostFiles = 8;
-  const Folder& folder = TheFolder();
+  const FuzzFolder& folder = TheFolder();
   for (int i = 0; i < kMostFiles; ++i) {
     std::filesystem::remove(
         folder.Path("oxts/data/" + std::to_string(i) + ".txt"));
@@ -160,7 +110,7 @@ void ReadOxtsFolder(std::string_view text, StreamSource source,
 
 /// A configuration beside a recording in own CSV.
 void ReadConfiguration(std::string_view text) {
-  const Folder& folder = TheFolder();
+  const FuzzFolder& folder = TheFolder();
   static const bool written = [&] {
     folder.Write("imu.csv",
                  "t[s],gyro_x[rad/s],gyro_y[rad/s],gyro_z[rad/s],"
@@ -200,12 +150,9 @@ void ReadOther(std::size_t kind, unsigned stream, std::string_view text,
 }
 
 }  // namespace
-}  // namespace hindsight
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
-                                      std::size_t size) {
-  using namespace hindsight;
-  if (size < 3) return 0;
+void FuzzReaders(const std::uint8_t* data, std::size_t size) {
+  if (size < 3) return;
   const MemoryFile file(data + 2, size - 2);
   StreamSource source;
   source.name = "fuzz";
@@ -225,5 +172,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
     }
   } catch (const InputError&) {
   }
-  return 0;
 }
+
+}  // namespace hindsight

@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "dataset/timeline_builder.h"
+#include "io/recording_folder.h"
+#include "io/sample_stream_list.h"
+#include "io/scenario_config.h"
+#include "simulation/scenario.h"
+
+namespace hindsight {
+namespace {
+
+/// Every list that a configuration can make has a bound, which its error says.
+class Bounds : public RecordingFolder {
+ protected:
+  /// What loading says with these keys, of the imu and besides.
+  std::string ErrorWith(const std::string& imu, const std::string& rest) const {
+    Write("imu.csv", Encode(RestingImu(), RestingImu().table));
+    Write("gnss.csv",
+          "t[s],lat[deg],lon[deg],h[m]\n0,48,11,500\n0.5,48,11,500\n"
+          "1,48,11,500\n");
+    Write("config.yaml",
+          "imu:\n  file: imu.csv\n"
+          "  noise: {gyro: 0.2 deg/sqrt(h), accel: 70 ug/sqrt(Hz)}\n" +
+              imu + rest);
+    return LoadError();
+  }
+  std::string ErrorWithGnss(const std::string& keys,
+                            const std::string& rest = "") const {
+    return ErrorWith("",
+                     "aiding:\n  gnss: {type: position, file: gnss.csv, "
+                     "sigma: 1 m" +
+                         keys + "}\n" + rest);
+  }
+  std::string ScenarioError(const std::string& motion,
+                            const std::string& sensors = "") const {
+    Write(
+        "scenario.yaml",
+        "start: {position: [48 deg, 11 deg, 500 m]}\n" + motion +
+            "imu:\n  noise: {gyro: 0.2 deg/sqrt(h), accel: 70 ug/sqrt(Hz)}\n" +
+            sensors);
+    try {
+      Simulation(LoadScenario(Path("scenario.yaml")), 1);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+#define EXPECT_SAYS(error, words) \
+  EXPECT_NE((error).find(words), std::string::npos) << (error)
+
+TEST_F(Bounds, OfOutages) {
+  const auto withhold = [](const std::string& every) {
+    return "withhold:\n  - {sensor: gnss, every: " + every +
+           ", length: 1 us}\n";
+  };
+  EXPECT_SAYS(ErrorWithGnss("", withhold("1 us")),
+              "config.yaml:6: withhold: every 1e-06 s makes 1e+06 outages of "
+              "'gnss'; expected at most 100000");
+  EXPECT_EQ(ErrorWithGnss("", withhold("10 us")), "");
+}
+
+TEST_F(Bounds, OfThinningIsNone) {
+  EXPECT_EQ(ErrorWithGnss(", every: 1e-300 s"), "");
+}
+
+TEST_F(Bounds, OfSkippedLines) {
+  EXPECT_SAYS(ErrorWithGnss(", skip_lines: 1000000000"), "no rows of data");
+}
+
+TEST_F(Bounds, OfColumns) {
+  EXPECT_SAYS(
+      ErrorWithGnss(", format: columns, columns: {t: '100001 [s]', lat: 2 "
+                    "[deg], lon: 3 [deg], h: 4 [m]}"),
+      "aiding.gnss.columns.t: expected a column of 1 to 100000");
+  EXPECT_SAYS(
+      ErrorWithGnss(", format: columns, columns: {t: {column: 99999999999, "
+                    "unit: s}}"),
+      "expected a column of 1 to 100000");
+}
+
+TEST_F(Bounds, OfGeneratedMeasurements) {
+  const auto rate = [&](const std::string& value) {
+    return ErrorWith("", "aiding:\n  nhc: {type: non_holonomic, rate: " +
+                             value + ", sigma: [1 m/s, 1 m/s]}\n");
+  };
+  EXPECT_EQ(rate("10 Hz"), "");
+  EXPECT_SAYS(rate("1e9 Hz"),
+              "expected at most as many as the IMU has samples, 40");
+}
+
+TEST_F(Bounds, OfTheRecordsLength) {
+  EXPECT_SAYS(ErrorWith("  time: {duration: 1e9 s}\n", ""),
+              "expected at most 31 days");
+}
+
+TEST_F(Bounds, OfTheRulesWindow) {
+  EXPECT_SAYS(ErrorWith("", "ahrs: {rule: smnc, samples: 1000001}\n"),
+              "ahrs.samples: expected at most 1000000");
+  EXPECT_SAYS(ErrorWith("", "ahrs: {rule: smnc, seconds: 2 h}\n"),
+              "ahrs.seconds: expected at most 3600 s");
+}
+
+TEST_F(Bounds, OfTheConfigurationItself) {
+  EXPECT_SAYS(ErrorWith("", std::string(5u << 20, '\n')),
+              "config.yaml: is longer than 4 MB");
+}
+
+TEST_F(Bounds, OfNodes) {
+  Dataset dataset;
+  for (int i = 0; i < 1000; ++i) {
+    ImuSample sample;
+    sample.t = 0.001 * i;
+    dataset.imu.samples.push_back(sample);
+  }
+  dataset.max_node_spacing = 0.001;
+  TimelineOptions options;
+  options.t_end = 2e6;
+  try {
+    BuildTimeline(dataset, options);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_SAYS(std::string(error.what()), "expected at most 10000000");
+  }
+}
+
+TEST_F(Bounds, OfSimulations) {
+  EXPECT_SAYS(ScenarioError("wander: {duration: 1e12 s}\n"),
+              "wander.duration: expected at most 31 days");
+  EXPECT_SAYS(ScenarioError("segments: [{type: straight, duration: 1e12 s}]\n"),
+              "expected at most 2678400");
+  EXPECT_SAYS(
+      ScenarioError("segments: [{type: straight, duration: 100 s}]\n",
+                    "aiding:\n  gnss: {type: position, rate: 1e9 Hz, sigma: 1 "
+                    "m}\n"),
+      "measurements of a sensor; expected at most 10000000");
+}
+
+#undef EXPECT_SAYS
+
+}  // namespace
+}  // namespace hindsight

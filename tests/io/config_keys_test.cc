@@ -1,0 +1,134 @@
+#include "fuzz/config_keys.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "io/recording_folder.h"
+#include "io/sample_stream_list.h"
+
+namespace hindsight {
+namespace {
+
+using Keys = std::set<std::string>;
+
+/// The fuzzer of configurations knows every key that a configuration can have:
+/// what an unknown key's error lists.
+class ConfigKeys : public RecordingFolder {
+ protected:
+  static constexpr const char* kUnknown = "zzzzzzzzzzzzzzzzzzzz: 1";
+
+  void SetUp() override {
+    Write("imu.csv", Encode(RestingImu(), RestingImu().table));
+  }
+
+  /// The keys that are asked for where `rest` holds an unknown one. `imu` are
+  /// further keys of the imu.
+  Keys Asked(const std::string& rest, const std::string& imu = "",
+             const std::string& noise = "") const {
+    Write("config.yaml",
+          "imu:\n  file: imu.csv\n  noise: {gyro: 0.2 deg/sqrt(h), accel: 70 "
+          "ug/sqrt(Hz)" +
+              noise + "}\n" + imu + rest);
+    const std::string error = LoadError();
+    const std::string head = "expected one of ";
+    const std::size_t at = error.find(head);
+    EXPECT_NE(at, std::string::npos) << error;
+    if (at == std::string::npos) return {};
+    Keys keys;
+    std::istringstream list(error.substr(at + head.size()));
+    for (std::string key; list >> key;) {
+      if (key.ends_with(',')) key.pop_back();
+      keys.insert(key);
+    }
+    return keys;
+  }
+  Keys AskedOfSensor(const std::string& keys) const {
+    return Asked("aiding:\n  s:\n    file: imu.csv\n    " + keys + "\n    " +
+                 kUnknown + "\n");
+  }
+
+  static Keys Known(const std::vector<std::string>& maps) {
+    Keys keys;
+    for (const FuzzMap& map : RecordingMaps()) {
+      if (std::find(maps.begin(), maps.end(), map.name) == maps.end()) continue;
+      for (const FuzzKey& key : map.keys) keys.emplace(key.key);
+    }
+    return keys;
+  }
+};
+
+TEST_F(ConfigKeys, OfTheRecordingAndItsStreams) {
+  const std::string unknown = std::string("{") + kUnknown + "}\n";
+  EXPECT_EQ(Asked(std::string(kUnknown) + "\n"), Known({"top"}));
+  EXPECT_EQ(Asked("", std::string("  ") + kUnknown +
+                          "\n  format: columns\n  columns: {t: 1 [s]}\n"),
+            [] {
+              Keys keys = Known({"stream", "imu"});
+              keys.erase("topic");
+              return keys;
+            }());
+  EXPECT_TRUE(Asked("", std::string("  format: rosbag\n  ") + kUnknown + "\n")
+                  .contains("topic"));
+  EXPECT_EQ(Asked("", "  time: " + unknown), Known({"time"}));
+  EXPECT_EQ(Asked("", "",
+                  ", gyro_bias_walk: 0 deg/h/sqrt(h), "
+                  "accel_bias_tau: 1 h, accel_bias_sigma: 1 mg, " +
+                      std::string(kUnknown)),
+            Known({"imu_noise"}));
+  for (const std::string map : {"initial", "ahrs", "stationary", "nodes"}) {
+    Keys known = Known({map});
+    // One stands in the other's place.
+    if (map == "ahrs") known.erase("samples"), known.erase("seconds");
+    Keys asked = Asked(map + ": " + unknown);
+    asked.erase("samples"), asked.erase("seconds");
+    EXPECT_EQ(asked, known) << map;
+  }
+  EXPECT_EQ(Asked("withhold: [{sensor: s, every: 2 s, length: 1 s, " +
+                  std::string(kUnknown) + "}]\n"),
+            Known({"withhold"}));
+  Keys truth = Asked("truth:\n  file: imu.csv\n  " + std::string(kUnknown) +
+                     "\n  format: columns\n  columns: {t: 1 [s]}\n");
+  truth.insert("topic");
+  EXPECT_EQ(truth, Known({"stream", "truth"}));
+}
+
+TEST_F(ConfigKeys, OfEveryTypeOfSensor) {
+  const std::string place = "transponder: [48 deg, 11 deg, 0 m]";
+  const std::vector<std::string> sensors = {
+      "type: position",
+      "type: velocity",
+      "type: height",
+      "type: depth",
+      "type: acoustic\n    sigma: 1 m\n    bearing_sigma: 1 deg\n    " + place,
+      "type: speed_course\n    sigma: 1 m/s\n    course_sigma: 1 deg",
+      "type: odometer\n    sigma: 1 m/s",
+      "type: odometer\n    sigma: 1 m\n    form: increments",
+      "type: magnetometer\n    sigma: 1 uT\n    form: vector\n    horizontal: "
+      "20 "
+      "uT\n    down: 40 uT",
+      "type: dvl\n    sigma: 1 m/s\n    form: beams"};
+  Keys asked;
+  Keys estimated;
+  for (const std::string& sensor : sensors) {
+    const Keys keys = AskedOfSensor(sensor);
+    asked.insert(keys.begin(), keys.end());
+    const Keys inner =
+        AskedOfSensor(sensor + "\n    estimate: {" + kUnknown + "}\n    #");
+    estimated.insert(inner.begin(), inner.end());
+  }
+  const Keys constraint = Asked(
+      "aiding:\n  s: {type: non_holonomic, rate: 1 Hz, sigma: [1 m/s, 1 "
+      "m/s], " +
+      std::string(kUnknown) + "}\n");
+  asked.insert(constraint.begin(), constraint.end());
+  asked.insert("topic");
+  asked.insert("columns");
+  EXPECT_EQ(asked, Known({"stream", "aiding"}));
+  EXPECT_EQ(estimated, Known({"estimate"}));
+}
+
+}  // namespace
+}  // namespace hindsight
