@@ -9,10 +9,11 @@ namespace hindsight {
 
 /// Exit statuses of the command.
 enum ExitStatus {
-  kUsable = 0,     ///< a usable answer
-  kUnusable = 1,   ///< the data give no usable answer
-  kBadInput = 2,   ///< wrong usage or bad input
-  kStopped = 130,  ///< stopped by Ctrl-C
+  kUsable = 0,      ///< a usable answer
+  kUnusable = 1,    ///< the data give no usable answer
+  kBadInput = 2,    ///< wrong usage or bad input
+  kNotWritten = 4,  ///< results could not be written where they were to be
+  kStopped = 130,   ///< stopped by Ctrl-C, SIGTERM or SIGHUP
 };
 
 /// The command line does not say what to do; ends with kBadInput.
@@ -37,7 +38,8 @@ struct Command {
   std::vector<FlagUse> flags;
   std::size_t min_arguments = 0;
   std::size_t max_arguments = 0;
-  /// Returns the exit status. Throws what base/error.h declares.
+  /// Returns the exit status. Throws what base/error.h and io/output_error.h
+  /// declare.
   int (*run)(const std::vector<std::string>& arguments) = nullptr;
 };
 

@@ -21,13 +21,15 @@ inline constexpr char kUuvSearchName[] = "uuv_search";
 inline constexpr char kVelocityAlignmentName[] = "velocity_alignment";
 
 /// One scenario that `hindsight montecarlo` can repeat. `run` reads the flags
-/// of its own, writes its files into the folder and prints its table; it throws
-/// UsageError for flags that do not fit, before it computes anything.
+/// of its own, writes its files into the folder, keeps there what is done
+/// before its end, and prints its table; it throws UsageError for flags that do
+/// not fit, before it computes anything.
 struct MonteCarloScenario {
   std::string name;
   void (*run)(MonteCarloOptions options, Progress* progress,
               ResultFolder* folder) = nullptr;
-  /// What it takes besides --out, --force, --runs, --seed, --threads and
+  /// What it takes besides --out, --force, --clean, --runs, --seed, --threads
+  /// and
   /// --progress, with underscores for dashes.
   std::vector<std::string> flags;
   std::uint64_t default_runs = 100;
