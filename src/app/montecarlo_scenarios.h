@@ -21,9 +21,8 @@ inline constexpr char kUuvSearchName[] = "uuv_search";
 inline constexpr char kVelocityAlignmentName[] = "velocity_alignment";
 
 /// One scenario that `hindsight montecarlo` can repeat. `run` reads the flags
-/// of its own, writes its files into the folder, keeps there what is done
-/// before its end, and prints its table; it throws UsageError for flags that do
-/// not fit, before it computes anything.
+/// of its own, writes its files into the folder and prints its table; it throws
+/// UsageError for flags that do not fit, before it computes anything.
 struct MonteCarloScenario {
   std::string name;
   void (*run)(MonteCarloOptions options, Progress* progress,

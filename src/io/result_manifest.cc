@@ -20,7 +20,7 @@ bool IsRegular(const fs::path& path) {
 }
 
 /// A name in the folder itself: what is listed may be removed.
-bool IsPlainName(const std::string& name) {
+bool IsEntryName(const std::string& name) {
   return !name.empty() && name != "." && name != ".." &&
          name.find('/') == name.npos;
 }
@@ -45,7 +45,7 @@ std::optional<ResultManifest> ReadManifest(const fs::path& folder) {
         json.at("complete").get<bool>(),
         json.at("files").get<std::vector<std::string>>()};
     if (!std::all_of(manifest.files.begin(), manifest.files.end(),
-                     IsPlainName)) {
+                     IsEntryName)) {
       return std::nullopt;
     }
     return manifest;

@@ -13,6 +13,7 @@
 namespace hindsight {
 namespace {
 
+namespace fs = std::filesystem;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -37,11 +38,11 @@ class Interrupt : public ::testing::Test {
   }
   void TearDown() override {
     for (const std::string& name : Names(root())) {
-      if (name != "data") std::filesystem::remove_all(root() / name);
+      if (name != "data") fs::remove_all(root() / name);
     }
   }
 
-  static const std::filesystem::path& root() { return drive_->path(); }
+  static const fs::path& root() { return drive_->path(); }
 
   static std::vector<std::string> Words(
       const std::vector<std::string>& further) {
@@ -64,12 +65,12 @@ class Interrupt : public ::testing::Test {
     return outcome;
   }
 
-  static nlohmann::json Json(const std::filesystem::path& path) {
+  static nlohmann::json Json(const fs::path& path) {
     return nlohmann::json::parse(ReadFile(path));
   }
 
   /// That the folder holds what ekf made, and says so.
-  static void ExpectEkfAlone(const std::filesystem::path& folder) {
+  static void ExpectEkfAlone(const fs::path& folder) {
     EXPECT_THAT(Names(folder), ElementsAre("config.resolved.yaml", "ekf.csv",
                                            "manifest.json", "summary.json"));
     const nlohmann::json summary = Json(folder / "summary.json");
@@ -116,7 +117,7 @@ TEST_F(Interrupt, LeavesFinishedMethodsWhateverTheSignal) {
     ExpectEkfAlone(root() / "out");
     EXPECT_EQ(ReadFile(root() / "out" / "ekf.csv"),
               ReadFile(root() / "whole" / "ekf.csv"));
-    std::filesystem::remove_all(root() / "out");
+    fs::remove_all(root() / "out");
   }
 }
 
@@ -135,8 +136,8 @@ TEST_F(Interrupt, NeverReplacesCompleteResultsButIncompleteOnes) {
   EXPECT_EQ(ReadFile(root() / "out" / "rts.csv"), complete);
   ExpectEkfAlone(root() / "out.1");
 
-  std::filesystem::remove_all(root() / "out");
-  std::filesystem::rename(root() / "out.1", root() / "out");
+  fs::remove_all(root() / "out");
+  fs::rename(root() / "out.1", root() / "out");
   outcome = Stopped(words, "batch", SIGTERM);
   EXPECT_EQ(outcome.status, 130);
   EXPECT_THAT(Names(root()), UnorderedElementsAre("data", "out"));
@@ -182,14 +183,14 @@ TEST_F(Interrupt, IsAnsweredWithinASecondAtAnyMoment) {
       for (const std::string& name : Names(root())) {
         EXPECT_THAT(name, ::testing::AnyOf("data", "out"));
       }
-      std::filesystem::remove_all(root() / "out");
+      fs::remove_all(root() / "out");
     }
   }
 }
 
 TEST_F(Interrupt, TheSecondEndsAtOnce) {
   if (!CanInjectFaults()) GTEST_SKIP() << "no preloading under a sanitizer";
-  // The first waits for a medium that does not answer: the fifth file that is
+  // The first waits for a medium that does not answer: the third file that is
   // synced is the summary after ekf.
   Child run(Words({"--methods=ekf,batch"}), root(),
             WithFaults({{"", "fsync:3:hang"}}));
@@ -221,21 +222,31 @@ class MediumThatEnds : public ::testing::Test {
 };
 
 TEST_F(MediumThatEnds, LimitOfFileSizeKeepsTheMethodsThatFit) {
-  ASSERT_EQ(Run({"--methods=ekf,rts"}, {}).status, 0);
+  ASSERT_EQ(Run({"--methods=ekf,two_filter"}, {}).status, 0);
   const auto size = [&](const std::string& name) {
-    return std::filesystem::file_size(recording_.root() / "out" / name);
+    return fs::file_size(recording_.root() / "out" / name);
   };
-  const auto least = size("ekf.csv");
-  std::filesystem::remove_all(recording_.root() / "out");
-  // Written at 100 Hz besides, rts is larger than ekf at its nodes.
-  WriteFile(recording_.root() / "times", "1\n2\n");
-  const rlimit limit = {least - 1, least - 1};
-  const Outcome nothing =
-      Run({"--methods=ekf"}, [&] { setrlimit(RLIMIT_FSIZE, &limit); });
-  EXPECT_EQ(nothing.status, 4);
-  EXPECT_THAT(nothing.err, HasSubstr("File too large"));
-  EXPECT_THAT(nothing.err, HasSubstr("nothing is left"));
-  EXPECT_THAT(Names(recording_.root()), UnorderedElementsAre("data", "times"));
+  // A column more.
+  const auto fits = size("ekf.csv");
+  ASSERT_LT(fits, size("two_filter.csv"));
+  ASSERT_LT(size("summary.json"), fits);
+  for (const auto limit : {fits, fits - 1}) {
+    fs::remove_all(recording_.root() / "out");
+    const rlimit both = {limit, limit};
+    const Outcome outcome = Run({"--methods=ekf,two_filter"},
+                                [&] { setrlimit(RLIMIT_FSIZE, &both); });
+    EXPECT_EQ(outcome.status, 4);
+    EXPECT_THAT(outcome.err, HasSubstr("File too large"));
+    if (limit == fits) {
+      EXPECT_EQ(Summary()["complete"], false);
+      EXPECT_THAT(Names(recording_.root() / "out"), Contains("ekf.csv"));
+      EXPECT_THAT(Names(recording_.root() / "out"),
+                  Not(Contains("two_filter.csv")));
+    } else {
+      EXPECT_THAT(outcome.err, HasSubstr("nothing is left"));
+      EXPECT_THAT(Names(recording_.root()), ElementsAre("data"));
+    }
+  }
 }
 
 TEST_F(MediumThatEnds, FullDiskKeepsTheMethodsThatWereDone) {
@@ -250,13 +261,13 @@ TEST_F(MediumThatEnds, FullDiskKeepsTheMethodsThatWereDone) {
     if (outcome.status == 0) break;
     EXPECT_EQ(outcome.status, 4) << fault;
     EXPECT_THAT(Lines(outcome.err).back(), HasSubstr("No space left"));
-    if (std::filesystem::exists(recording_.root() / "out")) {
+    if (fs::exists(recording_.root() / "out")) {
       ++kept;
       EXPECT_THAT(Lines(outcome.err).back(), HasSubstr("complete: false"));
       EXPECT_EQ(Summary()["complete"], false);
       EXPECT_TRUE(Summary()["methods"].contains("ekf"));
       EXPECT_THAT(Names(recording_.root() / "out"), Contains("ekf.csv"));
-      std::filesystem::remove_all(recording_.root() / "out");
+      fs::remove_all(recording_.root() / "out");
     } else {
       ++none;
       EXPECT_THAT(Lines(outcome.err).back(), HasSubstr("nothing is left"));

@@ -70,7 +70,9 @@ long Perform(Call call, const Do& act) {
   const std::string_view action = Action(call);
   if (action.empty()) return act();
   if (action == "before") Kill();
-  if (action == "hang") sleep(20);
+  if (action == "hang") {
+    for (unsigned left = 20; left > 0;) left = sleep(left);
+  }
   // A close that fails has closed.
   const bool acts = action == "after" || action == "hang" || call == kClose;
   const long result = acts ? act() : -1;
