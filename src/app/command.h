@@ -11,11 +11,12 @@ namespace hindsight {
 
 /// Exit statuses of the command.
 enum ExitStatus {
-  kUsable = 0,     ///< a usable answer
-  kUnusable = 1,   ///< the data give no usable answer
-  kBadInput = 2,   ///< wrong usage or bad input
-  kDoubtful = 3,   ///< an answer that something contradicts
-  kStopped = 130,  ///< stopped by Ctrl-C
+  kUsable = 0,      ///< a usable answer
+  kUnusable = 1,    ///< the data give no usable answer
+  kBadInput = 2,    ///< wrong usage or bad input
+  kDoubtful = 3,    ///< an answer that something contradicts
+  kNotWritten = 4,  ///< results could not be written where they were to be
+  kStopped = 130,   ///< stopped by Ctrl-C, SIGTERM or SIGHUP
 };
 
 /// The exit status that says a grade.
@@ -43,7 +44,8 @@ struct Command {
   std::vector<FlagUse> flags;
   std::size_t min_arguments = 0;
   std::size_t max_arguments = 0;
-  /// Returns the exit status. Throws what base/error.h declares.
+  /// Returns the exit status. Throws what base/error.h and io/output_error.h
+  /// declare.
   int (*run)(const std::vector<std::string>& arguments) = nullptr;
 };
 

@@ -14,6 +14,7 @@ DEFINE_string(ahrs_rule, "", "");
 DEFINE_string(at, "", "");
 DEFINE_bool(back_off, false, "");
 DEFINE_string(bounded, "attitude=1rad", "");
+DEFINE_bool(clean, false, "");
 DEFINE_string(data_root, "../shared/data", "");
 DEFINE_double(duration, 0.0, "");
 DEFINE_double(delta, 0.0, "");

@@ -14,6 +14,7 @@ DECLARE_string(ahrs_rule);
 DECLARE_string(at);
 DECLARE_bool(back_off);
 DECLARE_string(bounded);
+DECLARE_bool(clean);
 DECLARE_string(data_root);
 DECLARE_double(duration);
 DECLARE_double(delta);

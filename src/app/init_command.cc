@@ -1,11 +1,16 @@
+#include <filesystem>
 #include <iostream>
+#include <system_error>
 
 #include "app/command.h"
 #include "app/flags.h"
+#include "app/result_folder.h"
 #include "base/error.h"
 #include "io/atomic_file.h"
 #include "io/init_config.h"
+#include "io/output_error.h"
 #include "io/paths.h"
+#include "io/unpublished.h"
 
 namespace hindsight {
 namespace {
@@ -15,17 +20,44 @@ constexpr const char* kHelp =
 recognises, to be completed and given to 'check' and 'run'.
 )";
 
-int Run(const std::vector<std::string>& arguments) {
-  if (!FLAGS_out.empty() && !FLAGS_force && PathExists(FLAGS_out)) {
-    throw InputError("output file " + FLAGS_out +
+/// A recording in the folder looks like any other file to be replaced.
+void CheckMayReplace(const std::string& file) {
+  const std::filesystem::path folder =
+      std::filesystem::absolute(file).parent_path();
+  if (!IsFolder(folder)) {
+    throw InputError("output file " + file +
+                     " cannot be written: there is no "
+                     "folder " +
+                     folder.string());
+  }
+  if (!PathExists(file)) return;
+  if (!FLAGS_force) {
+    throw InputError("output file " + file +
                      " exists; choose another or replace it with --force");
   }
+  if (!IsInitConfig(file)) {
+    throw InputError("output file " + file +
+                     " was not written by 'init'; --force does not replace it");
+  }
+}
+
+int Run(const std::vector<std::string>& arguments) {
+  if (!FLAGS_out.empty()) CheckMayReplace(FLAGS_out);
   const std::string config = InitConfig(arguments[0]);
   if (FLAGS_out.empty()) {
     std::cout << config;
     return kUsable;
   }
-  WriteFileAtomically(FLAGS_out, config);
+  TreatAbandoned(FLAGS_out, FLAGS_clean);
+  AtomicFile file(FLAGS_out);
+  file.Write(config);
+  file.Commit(FLAGS_force);
+  if (const std::error_code error =
+          SyncFolder(std::filesystem::absolute(FLAGS_out).parent_path())) {
+    throw OutputError(
+        "output file " + FLAGS_out +
+        " is in place, but may be lost with the power: " + error.message());
+  }
   std::cout << "wrote " << FLAGS_out << "\nlook at the recording with: "
             << "hindsight check " << FLAGS_out << "\n";
   return kUsable;
@@ -40,7 +72,8 @@ Command InitCommand() {
       .arguments = "FOLDER",
       .help = kHelp,
       .flags = {{"out", "FILE", "write the configuration there"},
-                {"force", "", "replace FILE if it exists"}},
+                {"force", "", "replace FILE if 'init' wrote it"},
+                {"clean", "", "remove what killed calls left beside FILE"}},
       .min_arguments = 1,
       .max_arguments = 1,
       .run = Run,

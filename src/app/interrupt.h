@@ -1,19 +1,34 @@
 #ifndef HINDSIGHT_APP_INTERRUPT_H_
 #define HINDSIGHT_APP_INTERRUPT_H_
 
-#include <atomic>
+#include <functional>
+#include <string>
+#include <thread>
 
 namespace hindsight {
 
-/// From now on SIGINT and SIGTERM set StopRequested() instead of ending the
-/// process.
-void CatchInterrupts();
+/// From now on SIGINT, SIGTERM and, unless it was ignored, SIGHUP end the
+/// process with kStopped, and a limit on the size of files makes writing fail
+/// instead of ending the process.
+void CatchSignals();
 
-/// Becomes true when the user has asked to stop.
-const std::atomic<bool>& StopRequested();
+/// While it lives, the first of those signals has `finish` called on a thread
+/// of its own, whatever the other threads are at, its words printed as the
+/// error, and the process ended with kStopped by that thread. A second signal
+/// ends the process at once; one within 50 ms is taken for the first, as some
+/// programs signal both a process and its group. A closed pipe makes writing
+/// fail instead of ending the process. At most one lives at a time, after
+/// CatchSignals.
+class StopWatch {
+ public:
+  explicit StopWatch(std::function<std::string()> finish);
+  ~StopWatch();
+  StopWatch(const StopWatch&) = delete;
+  StopWatch& operator=(const StopWatch&) = delete;
 
-/// Throws Interrupted if the user has asked to stop.
-void ThrowIfStopRequested();
+ private:
+  std::thread thread_;
+};
 
 }  // namespace hindsight
 

@@ -1,8 +1,6 @@
 #include <glog/logging.h>
 #include <malloc.h>
 
-#include <algorithm>
-#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <limits>
@@ -11,9 +9,13 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/error_line.h"
 #include "app/flags.h"
 #include "app/help.h"
+#include "app/interrupt.h"
 #include "base/error.h"
+#include "io/output_error.h"
+#include "io/unpublished.h"
 
 namespace hindsight {
 namespace {
@@ -80,29 +82,31 @@ int Dispatch(const char* program, std::vector<std::string> words) {
   return command.run(arguments.positional);
 }
 
-int Fail(int status, std::string message) {
-  // A message may quote what a damaged file holds.
-  constexpr std::size_t kLongest = 500;
-  std::replace_if(
-      message.begin(), message.end(),
-      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; },
-      ' ');
-  if (message.size() > kLongest) message = message.substr(0, kLongest) + "...";
+int Fail(int status, const std::string& message) {
   // Whatever was printed so far comes before the error where both go to one
   // file.
   std::cout.flush();
-  std::fprintf(stderr, "hindsight: error: %s\n", message.c_str());
+  PrintError(message);
+  return status;
+}
+
+/// Results in a folder or file are there whether or not they could be told of.
+int StatusWithoutOutput(int status) {
+  const std::string message = "standard output cannot be written";
+  if (FLAGS_out.empty()) return Fail(kNotWritten, message);
+  PrintNote(message + "; the results are in " + FLAGS_out);
   return status;
 }
 
 int Main(int argc, char** argv) {
   KeepFreedMemory();
+  OccupyStandardStreams();
+  CatchSignals();
   try {
     const int status =
         Dispatch(argv[0], std::vector<std::string>(argv + 1, argv + argc));
     std::cout.flush();
-    if (!std::cout) return Fail(kBadInput, "standard output cannot be written");
-    return status;
+    return std::cout ? status : StatusWithoutOutput(status);
   } catch (const UsageError& error) {
     return Fail(kBadInput, error.what());
   } catch (const InputError& error) {
@@ -111,6 +115,8 @@ int Main(int argc, char** argv) {
     return Fail(kUnusable, error.what());
   } catch (const Interrupted& error) {
     return Fail(kStopped, error.what());
+  } catch (const OutputError& error) {
+    return Fail(kNotWritten, error.what());
   } catch (const std::bad_alloc&) {
     return Fail(kUnusable, "out of memory");
   } catch (const std::exception& error) {

@@ -4,7 +4,6 @@
 
 #include "app/command.h"
 #include "app/flags.h"
-#include "app/interrupt.h"
 #include "app/montecarlo_scenarios.h"
 #include "app/observer_flags.h"
 #include "app/progress.h"
@@ -48,6 +47,9 @@ Writes into the folder of --out:
   sweep.csv         with --sweep in place of both: largest standard deviation
                     for reference points every 0.25 to 8 km and odometer noise
                     of 5 to 100 mm/s
+  manifest.json     the files of this folder
+The folder appears when all is done, as that of 'run' does; what ends earlier
+leaves nothing.
 The figures do not depend on the number of threads.
 SCENARIO vibration_attitude compares the accelerometer rules of attitude-only
 estimation under acceleration and vibration, for disturbances along north, one
@@ -83,14 +85,16 @@ MonteCarloOptions ReadOptions(std::uint64_t default_runs) {
     const Interval bounds = AneesBounds(runs, dim, 0.95);
     return std::pair(bounds.lower, bounds.upper);
   };
-  options.stop = &StopRequested();
   return options;
 }
 
 std::vector<FlagUse> Flags() {
   return WithScenarioNames(WithObserverFlags(
       {{"out", "DIR", "folder for the results (required)"},
-       {"force", "", "replace the results of an earlier call in DIR"},
+       {"force", "",
+        "replace DIR if it holds nothing but results of an\n"
+        "earlier call, by its manifest.json"},
+       {"clean", "", "remove what killed calls left beside DIR"},
        {"runs", "N",
         "number of seeds, at least 2 (100; 300 of in_flight_alignment)"},
        {"seed", "N", "the first seed; the others follow it (1)"},
@@ -132,14 +136,16 @@ int Run(const std::vector<std::string>& arguments) {
         "'montecarlo' needs --out=DIR, the folder for the results");
   }
   const MonteCarloOptions options = ReadOptions(scenario.default_runs);
-  CatchInterrupts();
-  ResultFolder folder(FLAGS_out, FLAGS_force,
-                      FLAGS_sweep ? "sweep.csv" : kMonteCarloJson);
   Progress progress(Progress::ModeFromName(FLAGS_progress));
-  scenario.run(options, &progress, &folder);
-  folder.Commit();
-  progress.Finish();
-  return kUsable;
+  return WithResultFolder(
+      {FLAGS_out, FLAGS_force, FLAGS_clean},
+      [] { return ResultFolder::Paths{}; },
+      [&](ResultFolder* folder) {
+        scenario.run(options, &progress, folder);
+        folder->Commit();
+        progress.Finish();
+        return kUsable;
+      });
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ namespace hindsight {
 namespace {
 
 /// Flags that every scenario takes.
-const std::vector<std::string> kFlagsOfAll = {"out",  "force",   "runs",
-                                              "seed", "threads", "progress"};
+const std::vector<std::string> kFlagsOfAll = {
+    "out", "force", "clean", "runs", "seed", "threads", "progress"};
 
 bool Has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();

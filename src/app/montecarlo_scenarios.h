@@ -27,7 +27,8 @@ struct MonteCarloScenario {
   std::string name;
   void (*run)(MonteCarloOptions options, Progress* progress,
               ResultFolder* folder) = nullptr;
-  /// What it takes besides --out, --force, --runs, --seed, --threads and
+  /// What it takes besides --out, --force, --clean, --runs, --seed, --threads
+  /// and
   /// --progress, with underscores for dashes.
   std::vector<std::string> flags;
   std::uint64_t default_runs = 100;

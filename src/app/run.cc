@@ -6,7 +6,6 @@
 #include "alignment/mounting_search.h"
 #include "alignment/start_layout.h"
 #include "app/command.h"
-#include "app/interrupt.h"
 #include "app/measurement_log.h"
 #include "app/result_folder.h"
 #include "app/run_output.h"
@@ -122,7 +121,6 @@ ReconstructionOptions Options(const RunRequest& request, Progress* progress) {
   options.progress = [progress](const std::string& stage, double fraction) {
     progress->Update(stage, fraction);
   };
-  options.stop = &StopRequested();
   return options;
 }
 
@@ -190,21 +188,15 @@ void CheckAnyTrajectory(const std::vector<Solution>& solutions) {
   throw EstimationError(reasons);
 }
 
-}  // namespace
-
-int Reconstruct(const RunRequest& request) {
-  CatchInterrupts();
-  ResultFolder folder(request.out, request.force, "summary.json");
+int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   Progress progress(request.progress);
   progress.Update("reading", 0.0);
-  const Dataset dataset = Load(request, folder);
-  ThrowIfStopRequested();
+  const Dataset dataset = Load(request, *folder);
 
   Reconstruction reconstruction =
       Prepare(request.config, dataset, Options(request, &progress));
   const std::vector<UnobservedSpan> unobserved =
       DescribeBeforehand(dataset, &reconstruction, &progress);
-  ThrowIfStopRequested();
   RunSummary summary = {.program = kProgram,
                         .dataset = dataset.name,
                         .start = SummarizeStart(reconstruction.start()),
@@ -215,23 +207,22 @@ int Reconstruct(const RunRequest& request) {
   for (const Method method : request.methods) {
     solutions.push_back(RunMethod(&reconstruction, method));
     LogDownWeighted(dataset, solutions.back());
-    ThrowIfStopRequested();
     summary.methods.push_back(
         Summarize(dataset, reconstruction, solutions.back()));
     WriteMethodFiles(request, dataset, reconstruction, solutions.back(),
-                     folder);
+                     *folder);
+    const bool has_trajectory = !solutions.back().states.empty();
     ForgetTrajectory(&solutions.back());
-    ThrowIfStopRequested();
+    if (has_trajectory) folder->Keep(kSummaryName, SummaryText(summary));
   }
   CheckAnyTrajectory(solutions);
   KeepBetterMethods(&solutions);
   const Solution& best = Best(solutions);
   NameBest(best, solutions, &summary);
-  WriteResidualCsv(folder.Path("residuals.csv"), solutions, dataset);
-  WriteSummaryJson(folder.Path("summary.json"), summary);
+  WriteResidualCsv(folder->Path("residuals.csv"), solutions, dataset);
   progress.Clear();
-  ThrowIfStopRequested();
-  folder.Commit();
+  summary.complete = true;
+  folder->Commit(kSummaryName, SummaryText(summary));
   progress.Finish();
 
   std::cout << "\n"
@@ -242,6 +233,14 @@ int Reconstruct(const RunRequest& request) {
             << request.out << "\n"
             << DescribeVerdict(best, solutions);
   return StatusOf(best.grade);
+}
+
+}  // namespace
+
+int Reconstruct(const RunRequest& request) {
+  return WithResultFolder(
+      OutputOf(request), [&] { return InputsOf(request); },
+      [&](ResultFolder* folder) { return ReconstructInto(request, folder); });
 }
 
 }  // namespace hindsight

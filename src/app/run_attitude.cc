@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "app/command.h"
-#include "app/interrupt.h"
 #include "app/result_folder.h"
 #include "app/run_output.h"
 #include "app/run_report.h"
@@ -104,21 +103,16 @@ MethodSummary SummaryOf(const Dataset& dataset, const Solution& solution) {
                          TrajectoryErrorOptions().max_gap);
 }
 
-}  // namespace
-
-int EstimateAttitude(const RunRequest& request) {
-  CatchInterrupts();
-  ResultFolder folder(request.out, request.force, "summary.json");
+int EstimateInto(const RunRequest& request, ResultFolder* folder) {
   Progress progress(request.progress);
   progress.Update("reading", 0.0);
-  const Dataset dataset = Load(request, folder);
+  const Dataset dataset = Load(request, *folder);
   AttitudeOptions options;
   options.from = request.from;
   options.to = request.to;
   options.progress = [&](const std::string& stage, double fraction) {
     progress.Update(stage, fraction);
   };
-  options.stop = &StopRequested();
   AttitudeEstimation estimation(dataset, options);
   RunSummary summary = {.program = kProgram,
                         .dataset = dataset.name,
@@ -130,7 +124,7 @@ int EstimateAttitude(const RunRequest& request) {
   std::vector<Solution> verdicts;
   for (const AhrsMethod method : request.ahrs_methods) {
     const Solution solution = estimation.Run(method);
-    WriteFiles(request, dataset, solution, folder);
+    WriteFiles(request, dataset, solution, *folder);
     summary.methods.push_back(SummaryOf(dataset, solution));
     AddRow(dataset, solution, &table);
     Solution verdict;
@@ -139,19 +133,27 @@ int EstimateAttitude(const RunRequest& request) {
     verdict.evidence = solution.evidence;
     verdict.verdict = solution.verdict;
     verdicts.push_back(std::move(verdict));
-    ThrowIfStopRequested();
+    folder->Keep(kSummaryName, SummaryText(summary));
   }
   const Solution& best = Best(verdicts);
   NameBest(best, verdicts, &summary);
-  WriteSummaryJson(folder.Path("summary.json"), summary);
   progress.Clear();
-  folder.Commit();
+  summary.complete = true;
+  folder->Commit(kSummaryName, SummaryText(summary));
   std::cout << DescribeNotes(dataset) << "\n"
             << table.Render() << DescribeEvidence(verdicts)
             << DescribeContradictions(summary) << "\nresults in " << request.out
             << "\n"
             << DescribeVerdict(best, verdicts);
   return StatusOf(best.grade);
+}
+
+}  // namespace
+
+int EstimateAttitude(const RunRequest& request) {
+  return WithResultFolder(
+      OutputOf(request), [&] { return InputsOf(request); },
+      [&](ResultFolder* folder) { return EstimateInto(request, folder); });
 }
 
 }  // namespace hindsight

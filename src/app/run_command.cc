@@ -22,7 +22,16 @@ and writes into the folder of --out:
   residuals.csv         every measurement's residual, sigma, weight and fate
   summary.json          figures of every method, for programs
   config.resolved.yaml  the configuration as used, in SI units
-The folder appears when all is done: an error or Ctrl-C leaves nothing behind.
+  manifest.json         the files of this folder
+The folder appears when all is done and on the medium. What is in the way by
+then stays, and the results are beside it as DIR.1. After Ctrl-C, SIGTERM,
+SIGHUP, an error or on a full disk the methods that were done stay, without
+residuals.csv, and summary.json says complete: false; they never replace
+complete results. If no method was done, or summary.json cannot be written,
+nothing stays. A second Ctrl-C ends at once. A killed run leaves a folder
+.DIR.partial-*, which the next one names. On a file system that cannot exchange
+two names in one step, --force renames twice, and a kill in between leaves both
+folders so.
 
 Methods: ekf       forward error-state Kalman filter
          two_filter  ekf, fused with a backward information filter in error
@@ -75,7 +84,10 @@ Command RunCommand() {
       .help = kHelp,
       .flags = WithObserverFlags(
           {{"out", "DIR", "folder for the results (required)"},
-           {"force", "", "replace the results of an earlier run in DIR"},
+           {"force", "",
+            "replace DIR if it holds nothing but results of an\n"
+            "earlier run, by its manifest.json"},
+           {"clean", "", "remove what killed runs left beside DIR"},
            {"methods", "LIST",
             "some of ekf,two_filter,two_filter_conventional,\n"
             "two_filter_euler,hinf,modified_hinf,rts,iterated,batch,\n"

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "app/interrupt.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "dataset/injection.h"
 #include "io/atomic_file.h"
+#include "io/config.h"
 #include "io/kml.h"
 #include "io/nav.h"
 #include "io/solution_csv.h"
@@ -116,7 +116,6 @@ SolutionTable SampledTable(const RunRequest& request, const Dataset& dataset,
   constexpr std::ptrdiff_t kPiece = 10000;
   SolutionTable table;
   for (auto begin = times.begin(); begin != times.end();) {
-    ThrowIfStopRequested();
     const auto end = begin + std::min(kPiece, times.end() - begin);
     const Solution piece = reconstruction.Sample(solution, {begin, end});
     AppendRows(Table(request, dataset, piece), &table);
@@ -147,6 +146,18 @@ void CheckTimesCovered(const RunRequest& request, const Solution& solution) {
 }  // namespace
 
 const char* const kProgram = "hindsight " HINDSIGHT_VERSION;
+
+OutputRequest OutputOf(const RunRequest& request) {
+  return {request.out, request.force, request.clean};
+}
+
+ResultFolder::Paths InputsOf(const RunRequest& request) {
+  ResultFolder::Paths inputs = ConfigInputs(
+      request.config,
+      {.data_root = request.data_root, .without = request.without});
+  if (!request.at_file.empty()) inputs.emplace_back(request.at_file);
+  return inputs;
+}
 
 void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
                       const Reconstruction& reconstruction,

@@ -13,6 +13,14 @@ namespace hindsight {
 /// "hindsight 0.1.0", as results name the program.
 extern const char* const kProgram;
 
+/// Name of the file with the figures of a run.
+inline constexpr char kSummaryName[] = "summary.json";
+
+OutputRequest OutputOf(const RunRequest& request);
+
+/// All files that the run reads.
+ResultFolder::Paths InputsOf(const RunRequest& request);
+
 /// Writes METHOD.csv, METHOD.at.csv and the exports of one solution, nothing
 /// for one without states. Throws InputError if a time of --at is outside its
 /// span.

@@ -316,6 +316,7 @@ RunRequest ReadRunRequest(const std::string& config) {
   request.without = ReadWords("without", FLAGS_without);
   request.out = FLAGS_out;
   request.force = FLAGS_force;
+  request.clean = FLAGS_clean;
   request.ahrs_methods = ParseAhrsMethods(FLAGS_methods);
   if (request.ahrs_methods.empty()) {
     request.methods = ParseMethods(FLAGS_methods);
@@ -349,7 +350,10 @@ RunRequest ReadRunRequest(const std::string& config) {
   request.h_infinity = ReadCovariance(RiccatiRule::kHInfinity);
   request.modified_h_infinity = ReadCovariance(RiccatiRule::kModifiedHInfinity);
   request.progress = Progress::ModeFromName(FLAGS_progress);
-  if (IsGiven("at")) request.at = ReadTimeList(FLAGS_at);
+  if (IsGiven("at")) {
+    request.at_file = FLAGS_at;
+    request.at = ReadTimeList(FLAGS_at);
+  }
   return request;
 }
 

@@ -22,6 +22,8 @@ struct RunRequest {
   std::vector<std::string> without;  ///< aiding streams that are left out
   std::string out;
   bool force = false;
+  bool clean = false;           ///< remove what killed runs left
+  std::string at_file;          ///< that `at` comes from, "" for none
   std::vector<Method> methods;  ///< in the order given, each once
   /// Methods for attitude alone; then `methods` is empty.
   std::vector<AhrsMethod> ahrs_methods;

@@ -5,10 +5,10 @@
 #include "app/command.h"
 #include "app/flags.h"
 #include "app/gps_jumps_flags.h"
-#include "app/interrupt.h"
 #include "app/result_folder.h"
 #include "app/tunnel_flags.h"
 #include "io/dataset_writer.h"
+#include "io/paths.h"
 #include "io/scenario_config.h"
 #include "simulation/builtin_scenarios.h"
 
@@ -20,13 +20,28 @@ constexpr const char* kHelp =
 an IMU that moves so on the rotating Earth, and the errors of IMU and aiding
 sensors, drawn from the seed. SCENARIO is the name of a built-in scenario
 (--list) or a YAML file. The folder of --out gets config.yaml, imu.csv, a file
-for each aiding sensor and truth.csv, and appears when it is complete.
+for each aiding sensor, truth.csv and manifest.json, the list of these, and
+appears when it is complete. What is in the way by then stays, and the recording
+is beside it as DIR.1.
 )";
 
 int ListScenarios() {
   for (const std::string& name : BuiltinScenarioNames()) {
     std::cout << name << "\n    " << BuiltinScenario(name).description << "\n";
   }
+  return kUsable;
+}
+
+int Write(const Scenario& scenario, ResultFolder* folder) {
+  Simulation simulation(scenario, FLAGS_seed);
+  WriteDataset(&simulation, folder->staging().string());
+  folder->Commit();
+  const std::string config =
+      (std::filesystem::path(FLAGS_out) / kDatasetConfigName).string();
+  std::cout << "wrote the recording '" << scenario.name << "', seed "
+            << FLAGS_seed << ", to " << FLAGS_out
+            << "\nreconstruct it with: hindsight run " << config
+            << " --out=results\n";
   return kUsable;
 }
 
@@ -69,20 +84,14 @@ int Run(const std::vector<std::string>& arguments) {
       return injection.from >= scenario.duration;
     });
   }
-  CatchInterrupts();
-  ResultFolder folder(FLAGS_out, FLAGS_force, kDatasetConfigName);
-  Simulation simulation(scenario, FLAGS_seed);
-  ThrowIfStopRequested();
-  WriteDataset(&simulation, folder.staging().string(), ThrowIfStopRequested);
-  ThrowIfStopRequested();
-  folder.Commit();
-  const std::string config =
-      (std::filesystem::path(FLAGS_out) / kDatasetConfigName).string();
-  std::cout << "wrote the recording '" << scenario.name << "', seed "
-            << FLAGS_seed << ", to " << FLAGS_out
-            << "\nreconstruct it with: hindsight run " << config
-            << " --out=results\n";
-  return kUsable;
+  const auto inputs = [&] {
+    ResultFolder::Paths files = {arguments[0], FLAGS_profile};
+    std::erase_if(files, [](const auto& file) { return !IsFile(file); });
+    return files;
+  };
+  return WithResultFolder(
+      {FLAGS_out, FLAGS_force, FLAGS_clean}, inputs,
+      [&](ResultFolder* folder) { return Write(scenario, folder); });
 }
 
 }  // namespace
@@ -94,7 +103,10 @@ Command SimulateCommand() {
       .arguments = "SCENARIO",
       .help = kHelp,
       .flags = {{"out", "DIR", "folder for the recording (required)"},
-                {"force", "", "replace an earlier recording in DIR"},
+                {"force", "",
+                 "replace DIR if it holds nothing but an earlier\n"
+                 "recording, by its manifest.json"},
+                {"clean", "", "remove what killed calls left beside DIR"},
                 {"seed", "N", "of the random errors, 0 or more (1)"},
                 {"profile", "FILE",
                  "move as in FILE in place of the scenario's segments:\n"

@@ -2,7 +2,6 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "app/interrupt.h"
 #include "app/montecarlo_scenarios.h"
 #include "base/text.h"
 #include "io/atomic_file.h"
@@ -83,7 +82,7 @@ void RunVibrationAttitude(MonteCarloOptions options, Progress* progress,
         },
         options.runs, options.first_seed,
         [&](int done) { progress->Update("runs", (before + done) / work); },
-        &StopRequested());
+        nullptr);
     before += options.runs;
     const std::string along =
         scenario.vibration_along_axis ? " and vibration" : "";

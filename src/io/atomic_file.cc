@@ -2,50 +2,46 @@
 
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 
-#include "base/error.h"
+#include "io/output_error.h"
 
 namespace hindsight {
 namespace {
 
 constexpr std::size_t kFileBuffer = 1 << 18;
 
-std::string TemporaryName(const std::string& path) {
-  static std::atomic<unsigned> counter = 0;
-  const std::filesystem::path target(path);
-  const std::string name = "." + target.filename().string() + ".partial-" +
-                           std::to_string(getpid()) + "-" +
-                           std::to_string(counter++);
-  return (target.parent_path() / name).string();
-}
+std::error_code LastError() { return {errno, std::system_category()}; }
 
 }  // namespace
 
-AtomicFile::AtomicFile(const std::string& path)
-    : path_(path), temporary_(TemporaryName(path)) {
-  file_ = std::fopen(temporary_.c_str(), "wbx");
-  if (file_ == nullptr) Fail();
+AtomicFile::AtomicFile(const std::string& path) : path_(path) {
+  std::error_code error;
+  file_ = CreateUnpublishedFile(path, &error);
+  if (error) Fail(error);
   buffer_.reserve(kFileBuffer);
 }
 
 AtomicFile::~AtomicFile() {
-  if (file_ == nullptr) return;
-  std::fclose(file_);
-  std::remove(temporary_.c_str());
+  if (!committed_) unlink(file_.path.c_str());
 }
 
-void AtomicFile::Fail() const {
-  throw InputError("output file " + path_ +
-                   " cannot be written: " + std::strerror(errno));
+void AtomicFile::Fail(const std::error_code& cause) const {
+  throw OutputError("output file " + path_ +
+                    " cannot be written: " + cause.message());
 }
 
 void AtomicFile::Flush() {
-  if (std::fwrite(buffer_.data(), 1, buffer_.size(), file_) != buffer_.size()) {
-    Fail();
+  std::string_view rest = buffer_;
+  while (!rest.empty()) {
+    const ssize_t written =
+        write(file_.descriptor.get(), rest.data(), rest.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      Fail(LastError());
+    }
+    rest.remove_prefix(static_cast<std::size_t>(written));
   }
   buffer_.clear();
 }
@@ -55,17 +51,18 @@ void AtomicFile::Write(std::string_view text) {
   buffer_.append(text);
 }
 
-void AtomicFile::Commit() {
+void AtomicFile::Commit(bool replace) {
   Flush();
-  std::FILE* file = file_;
-  file_ = nullptr;
-  if (std::fclose(file) != 0 ||
-      std::rename(temporary_.c_str(), path_.c_str()) != 0) {
-    const int cause = errno;
-    std::remove(temporary_.c_str());
-    errno = cause;
-    Fail();
+  if (fsync(file_.descriptor.get()) != 0) Fail(LastError());
+  // Named before it is closed, with which its lock ends.
+  std::error_code error;
+  if (replace) {
+    std::filesystem::rename(file_.path, path_, error);
+  } else {
+    error = RenameToFree(file_.path, path_);
   }
+  if (error) Fail(error);
+  committed_ = true;
 }
 
 void WriteFileAtomically(const std::string& path, std::string_view text) {

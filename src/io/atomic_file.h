@@ -1,38 +1,41 @@
 #ifndef HINDSIGHT_IO_ATOMIC_FILE_H_
 #define HINDSIGHT_IO_ATOMIC_FILE_H_
 
-#include <cstdio>
 #include <string>
 #include <string_view>
+#include <system_error>
+
+#include "io/unpublished.h"
 
 namespace hindsight {
 
 /// A file that appears complete or not at all: it is written under a temporary
-/// name in the same folder and gets its own name by Commit(), which replaces a
-/// file of that name.
+/// name in the same folder (io/unpublished.h) and gets its own by Commit(). Every member throws
+/// OutputError naming the path if that fails.
 class AtomicFile {
  public:
-  /// Throws InputError naming `path` if its folder cannot be written.
   explicit AtomicFile(const std::string& path);
   /// Removes what was written unless committed.
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Buffered. Throws InputError naming the path if the medium fails.
+  /// Buffered.
   void Write(std::string_view text);
 
-  /// Throws InputError naming the path if the file cannot be completed.
-  void Commit();
+  /// Returns when the medium has the content and the file has its name. That a
+  /// crash of the system leaves the name takes SyncFolder besides. A file of
+  /// that name is replaced, or an error without `replace`.
+  void Commit(bool replace = true);
 
  private:
-  [[noreturn]] void Fail() const;
+  [[noreturn]] void Fail(const std::error_code& cause) const;
   void Flush();
 
   std::string path_;
-  std::string temporary_;
-  std::FILE* file_ = nullptr;
+  Unpublished file_;
   std::string buffer_;
+  bool committed_ = false;
 };
 
 /// Writes `text` as the whole of the file.

@@ -346,6 +346,19 @@ std::string Emit(const YAML::Node& node) {
 
 }  // namespace
 
+std::vector<fs::path> ConfigInputs(const std::string& config_path,
+                                   const LoadOptions& options) {
+  ConfigMap top = ConfigMap::Load(config_path);
+  Dataset dataset;
+  const Declared declared = ReadDeclarations(&top, options, &dataset);
+  std::vector<fs::path> inputs = {config_path, declared.imu.path};
+  for (const AidingConfig& config : declared.aiding) {
+    if (!config.generated_rate) inputs.emplace_back(config.source.path);
+  }
+  if (declared.truth) inputs.emplace_back(declared.truth->path);
+  return inputs;
+}
+
 Dataset LoadDataset(const std::string& config_path, const LoadOptions& options,
                     ResolvedConfig* resolved) {
   ConfigMap top = ConfigMap::Load(config_path);

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_IO_CONFIG_H_
 #define HINDSIGHT_IO_CONFIG_H_
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -158,6 +159,11 @@ struct LoadOptions {
 struct ResolvedConfig {
   std::string yaml;
 };
+
+/// The files and folders that loading the configuration reads, itself included.
+/// Throws InputError as LoadDataset does for what the configuration says.
+std::vector<std::filesystem::path> ConfigInputs(
+    const std::string& config_path, const LoadOptions& options = {});
 
 /// Reads a configuration and all files it names. Throws InputError, one line
 /// naming file and line. `resolved` may be null.

@@ -11,6 +11,7 @@
 #include "io/atomic_file.h"
 #include "io/dataset_config.h"
 #include "io/number_format.h"
+#include "io/output_error.h"
 #include "io/solution_columns.h"
 
 namespace hindsight {
@@ -30,8 +31,8 @@ void MakeFolder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
-    throw InputError(folder + ": the folder cannot be made (" +
-                     error.message() + ")");
+    throw OutputError(folder + ": the folder cannot be made (" +
+                      error.message() + ")");
   }
 }
 
@@ -304,20 +305,14 @@ void WriteDataset(const Dataset& dataset, const std::string& folder) {
   WriteBesidesImu(dataset, folder);
 }
 
-void WriteDataset(Simulation* simulation, const std::string& folder,
-                  const std::function<void()>& poll) {
-  constexpr long kPollEvery = 4096;
+void WriteDataset(Simulation* simulation, const std::string& folder) {
   MakeFolder(folder);
-  long count = 0;
   ImuSample before;
   if (simulation->imu_kind() == ImuStream::Kind::kIncrements) {
     simulation->Next(&before);
   }
   WriteImu(PathIn(folder, "imu.csv"), simulation->imu_kind(),
-           [&](ImuSample* sample) {
-             if (poll && ++count % kPollEvery == 0) poll();
-             return simulation->Next(sample);
-           });
+           [&](ImuSample* sample) { return simulation->Next(sample); });
   WriteBesidesImu(simulation->Finish(), folder);
 }
 

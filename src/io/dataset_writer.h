@@ -1,7 +1,6 @@
 #ifndef HINDSIGHT_IO_DATASET_WRITER_H_
 #define HINDSIGHT_IO_DATASET_WRITER_H_
 
-#include <functional>
 #include <string>
 
 #include "dataset/dataset.h"
@@ -16,16 +15,15 @@ inline constexpr char kDatasetConfigName[] = "config.yaml";
 /// imu.csv, one NAME.csv for each aiding stream and truth.csv (io/csv_format.h;
 /// truth carries the biases in columns bg_x[deg/h]... ba_z[m/s^2]). IMU samples
 /// keep 12 significant digits, positions 1e-13 deg.
-/// The folder is made if need be. Throws InputError if it cannot be written, or
-/// for what the format cannot hold: correlated errors of a fix, a sensor that
-/// is none of position, velocity, height, odometer, DVL and acoustic fix.
+/// The folder is made if need be. Throws OutputError if it cannot be written,
+/// and InputError for what the format cannot hold: correlated errors of a fix,
+/// a sensor that is none of position, velocity, height, odometer, DVL and
+/// acoustic fix.
 void WriteDataset(const Dataset& dataset, const std::string& folder);
 
 /// The same for a simulation not yet begun, whose IMU samples go straight to
 /// the file.
-/// `poll` is called now and then; it may throw to stop.
-void WriteDataset(Simulation* simulation, const std::string& folder,
-                  const std::function<void()>& poll = {});
+void WriteDataset(Simulation* simulation, const std::string& folder);
 
 }  // namespace hindsight
 

@@ -7,11 +7,14 @@
 #include "base/error.h"
 #include "io/paths.h"
 #include "io/recognise_format.h"
+#include "io/text_lines.h"
 
 namespace hindsight {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr char kFirstLine[] = "# Written from what was found in the folder.";
 
 std::string FileLines(const Found& found, const std::string& indent) {
   return indent + "file: " + found.file + "\n" + indent +
@@ -100,7 +103,7 @@ std::string InitConfig(const std::string& folder) {
     return at == files.end() ? nullptr : &*at;
   };
   const fs::path absolute = fs::absolute(folder).lexically_normal();
-  std::string text = "# Written from what was found in the folder.\n";
+  std::string text = std::string(kFirstLine) + "\n";
   if (!unknown.empty()) text += "# Not recognised:\n" + unknown;
   text += "folder: \"" + absolute.string() + "\"\n\n";
   text += ImuText(first(Role::kImu)) + kImuRest;
@@ -134,6 +137,12 @@ std::string InitConfig(const std::string& folder) {
     text += "\ntruth:\n" + FileLines(*truth, "  ") + truth->keys;
   }
   return text;
+}
+
+bool IsInitConfig(const std::string& path) {
+  TextLines lines(path);
+  std::string_view line;
+  return lines.Next(&line) && line == kFirstLine;
 }
 
 }  // namespace hindsight

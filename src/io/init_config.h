@@ -15,6 +15,10 @@ namespace hindsight {
 /// InputError if the folder is missing or holds no files.
 std::string InitConfig(const std::string& folder);
 
+/// Whether the file begins as what InitConfig writes. Throws InputError if it
+/// cannot be read.
+bool IsInitConfig(const std::string& path);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_IO_INIT_CONFIG_H_

@@ -18,7 +18,7 @@ inline constexpr std::size_t kMaxKmlPoints = 5000;
 /// At most kMaxKmlPoints epochs, evenly thinned by index, first and last
 /// kept. Heights are above the ellipsoid, while viewers take them above the
 /// sea; `name` is the title, `description`, if not empty, what viewers show
-/// with it. Throws InputError if the file cannot be written,
+/// with it. Throws OutputError if the file cannot be written,
 /// and EstimationError if the table has no positions.
 void WriteKml(const std::string& path, const SolutionTable& table,
               std::optional<std::int64_t> epoch_gps_ns, const std::string& name,

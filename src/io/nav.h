@@ -13,7 +13,7 @@ namespace hindsight {
 ///   week  seconds of week  lat lon [deg]  h [m]  vN vE vD [m/s]
 ///   roll pitch yaw [deg], yaw in [0, 360)
 /// `epoch_gps_ns` as in Dataset; without a date the week is 0 and the seconds
-/// are those of the data set. Throws InputError if the file cannot be written,
+/// are those of the data set. Throws OutputError if the file cannot be written,
 /// and EstimationError if the table lacks position, velocity or attitude.
 void WriteNav(const std::string& path, const SolutionTable& table,
               std::optional<std::int64_t> epoch_gps_ns);

@@ -37,7 +37,7 @@ namespace hindsight {
 ///                                the backward filter has no position
 ///
 /// Written to a temporary name and renamed. `program` ("hindsight 0.1.0") goes
-/// into the comments. Throws InputError if the file cannot be written.
+/// into the comments. Throws OutputError if the file cannot be written.
 void WriteSolutionCsv(const std::string& path, const SolutionTable& table,
                       const std::string& program);
 

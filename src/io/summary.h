@@ -55,6 +55,8 @@ struct MethodSummary {
 struct RunSummary {
   std::string program;  ///< "hindsight 0.1.0"
   std::string dataset;
+  /// All methods asked for have ended and all files are written.
+  bool complete = false;
   std::optional<StartSummary> start;
   std::vector<PolicyCount> policies;
   /// The best method, whose grade is that of the run; empty: none.
@@ -78,6 +80,9 @@ std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
 /// estimate.
 ///
 ///   program, dataset
+///   complete                    false: the run was interrupted, and the
+///   methods
+///                               here are those that were done
 ///   start                       how the initial state came about
 ///     t_s, position, attitude, heading, alignment, why        words
 ///     position_sigma_m, velocity_sigma_mps, attitude_sigma_deg
@@ -127,8 +132,8 @@ std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
 ///                               steps, 0 being the escape
 nlohmann::ordered_json SummaryJson(const RunSummary& summary);
 
-/// SummaryJson, indented. Throws InputError if the file cannot be written.
-void WriteSummaryJson(const std::string& path, const RunSummary& summary);
+/// SummaryJson, indented: the text of summary.json.
+std::string SummaryText(const RunSummary& summary);
 
 }  // namespace hindsight
 

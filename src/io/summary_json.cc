@@ -3,7 +3,6 @@
 #include <string_view>
 
 #include "base/units.h"
-#include "io/atomic_file.h"
 #include "io/summary.h"
 
 namespace hindsight {
@@ -230,6 +229,7 @@ nlohmann::ordered_json SummaryJson(const RunSummary& summary) {
   Json json;
   json["program"] = summary.program;
   json["dataset"] = summary.dataset;
+  json["complete"] = summary.complete;
   if (summary.start) json["start"] = StartJson(*summary.start);
   for (const PolicyCount& policy : summary.policies) {
     json["policies"].push_back({{"stream", policy.stream},
@@ -248,8 +248,8 @@ nlohmann::ordered_json SummaryJson(const RunSummary& summary) {
   return json;
 }
 
-void WriteSummaryJson(const std::string& path, const RunSummary& summary) {
-  WriteFileAtomically(path, SummaryJson(summary).dump(2) + "\n");
+std::string SummaryText(const RunSummary& summary) {
+  return SummaryJson(summary).dump(2) + "\n";
 }
 
 }  // namespace hindsight

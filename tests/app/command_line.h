@@ -7,13 +7,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace hindsight {
@@ -88,11 +91,12 @@ struct Outcome {
   double peak_memory = 0.0;  ///< [MB]
 };
 
-/// `hindsight words...` as a child process in the folder `directory`.
+/// `hindsight words...` as a child process in the folder `directory`, after
+/// `prepare` in that process.
 class Child {
  public:
-  Child(std::vector<std::string> words,
-        const std::filesystem::path& directory) {
+  Child(std::vector<std::string> words, const std::filesystem::path& directory,
+        const std::function<void()>& prepare = {}) {
     words.insert(words.begin(), HINDSIGHT_BINARY);
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
@@ -107,6 +111,7 @@ class Child {
           dup2(out, STDOUT_FILENO) < 0 || dup2(err, STDERR_FILENO) < 0) {
         _exit(125);
       }
+      if (prepare) prepare();
       execv(argv[0], argv.data());
       _exit(126);
     }
@@ -121,6 +126,19 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   void Signal(int signal) const { kill(pid_, signal); }
+
+  /// Waits until it has reported the stage, with --progress=json; false if it
+  /// ends before.
+  bool AwaitStage(const std::string& stage) const {
+    while (Err().find('"' + stage + '"') == std::string::npos) {
+      siginfo_t ended = {};
+      waitid(P_PID, static_cast<id_t>(pid_), &ended,
+             WEXITED | WNOHANG | WNOWAIT);
+      if (ended.si_pid != 0) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
+  }
 
   /// What it has written to stderr so far.
   std::string Err() const {
@@ -149,8 +167,9 @@ class Child {
 
 /// Runs `hindsight words...` in `directory` to its end.
 inline Outcome Hindsight(const std::vector<std::string>& words,
-                         const std::filesystem::path& directory) {
-  return Child(words, directory).Wait();
+                         const std::filesystem::path& directory,
+                         const std::function<void()>& prepare = {}) {
+  return Child(words, directory, prepare).Wait();
 }
 
 }  // namespace hindsight

@@ -44,8 +44,9 @@ const std::map<std::string, Use>& Uses() {
   return uses;
 }
 
-const std::set<std::string> kOfAll = {"out",     "force", "runs", "seed",
-                                      "threads", "log",   "help", "progress"};
+const std::set<std::string> kOfAll = {"out",  "force", "clean",
+                                      "runs", "seed",  "threads",
+                                      "log",  "help",  "progress"};
 
 class MonteCarloFlags : public ::testing::Test {
  protected:

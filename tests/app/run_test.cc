@@ -200,14 +200,6 @@ TEST_F(RunCommandTest, ExistingFolderIsReplacedOnlyByForce) {
   EXPECT_THAT(Names(recording_.root()), UnorderedElementsAre("data", "out"));
 }
 
-TEST_F(RunCommandTest, ForceSparesAFolderThatIsNoResult) {
-  const Outcome outcome =
-      recording_.Run({"--out=data", "--methods=ekf", "--force"});
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("summary.json"));
-  EXPECT_THAT(Names(recording_.root() / "data"), Contains("config.yaml"));
-}
-
 TEST_F(RunCommandTest, WhatPoliciesDidIsCountedInTheReport) {
   recording_.Replace("config.yaml", "max_gap: 0.5 s",
                      "on_duplicate: drop_first\n  allow_truncated_tail: true");

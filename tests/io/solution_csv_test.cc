@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "io/atomic_file.h"
+#include "io/output_error.h"
 #include "state/euler_error.h"
 #include "support/temporary_folder.h"
 
@@ -187,12 +188,12 @@ TEST(AtomicFile, NamesThePathThatCannotBeWritten) {
   try {
     AtomicFile file(path);
     FAIL();
-  } catch (const InputError& error) {
+  } catch (const OutputError& error) {
     EXPECT_THAT(error.what(), HasSubstr(path));
     EXPECT_THAT(error.what(), HasSubstr("No such file or directory"));
   }
   std::filesystem::create_directory(folder.Path("d"));
-  EXPECT_THROW(WriteFileAtomically(folder.Path("d"), "x"), InputError);
+  EXPECT_THROW(WriteFileAtomically(folder.Path("d"), "x"), OutputError);
   EXPECT_THAT(folder.Entries(), UnorderedElementsAre("d"));
 }
 

@@ -127,8 +127,8 @@ RunSummary FullSummary() {
 
 TEST(Summary, HasTheDocumentedKeys) {
   const Json json = SummaryJson(FullSummary());
-  EXPECT_THAT(Keys(json), ElementsAre("program", "dataset", "start", "policies",
-                                      "best", "grade", "methods"));
+  EXPECT_THAT(Keys(json), ElementsAre("program", "dataset", "complete", "start",
+                                      "policies", "best", "grade", "methods"));
   const Json& batch = json["methods"]["batch"];
   EXPECT_THAT(Keys(batch),
               ElementsAre("seconds", "peak_rss_mb", "converged", "iterations",
@@ -229,7 +229,7 @@ TEST(Summary, LeavesOutFiguresThatDoNotExist) {
       SummarizeMethod(dataset, solution, TableFromSolution(solution), 2.0)};
   summary.methods[0].seconds = std::numeric_limits<double>::quiet_NaN();
   const Json json = SummaryJson(summary);
-  EXPECT_THAT(Keys(json), ElementsAre("program", "dataset", "methods"));
+  EXPECT_THAT(Keys(json), ElementsAre("program", "dataset", "complete", "methods"));
   EXPECT_THAT(Keys(json["methods"]["ekf"]),
               ElementsAre("converged", "grade", "verdict", "evidence",
                           "residuals", "constants"));
@@ -237,10 +237,11 @@ TEST(Summary, LeavesOutFiguresThatDoNotExist) {
 }
 
 TEST(Summary, IsWrittenAsReadableJson) {
-  const TemporaryFolder folder;
-  const RunSummary summary = FullSummary();
-  WriteSummaryJson(folder.Path("summary.json"), summary);
-  EXPECT_EQ(Json::parse(folder.Read("summary.json")), SummaryJson(summary));
+  RunSummary summary = FullSummary();
+  EXPECT_EQ(Json::parse(SummaryText(summary)), SummaryJson(summary));
+  EXPECT_EQ(SummaryJson(summary)["complete"], false);
+  summary.complete = true;
+  EXPECT_EQ(SummaryJson(summary)["complete"], true);
 }
 
 TEST(ComparisonTable, HasARowForEachMethodAndNoEmptyColumns) {

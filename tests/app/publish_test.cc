@@ -1,0 +1,212 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cerrno>
+
+#include "app/faults.h"
+#include "app/recording.h"
+
+namespace hindsight {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
+
+class Publish : public ::testing::Test {
+ protected:
+  fs::path root() const { return recording_.root(); }
+  Outcome Simulate(std::vector<std::string> words) const {
+    words.insert(words.begin(), {"simulate", "short_drive", "--duration=5"});
+    return Hindsight(words, root());
+  }
+  /// Refused with status 2 and these words, and nothing changed.
+  void ExpectRefused(const std::vector<std::string>& words,
+                     const std::vector<std::string>& expected) const {
+    const auto list = [&] {
+      std::vector<std::string> all;
+      for (const auto& entry : fs::recursive_directory_iterator(root())) {
+        all.push_back(entry.path().string() +
+                      (entry.is_regular_file() ? ReadFile(entry) : ""));
+      }
+      std::sort(all.begin(), all.end());
+      return all;
+    };
+    const std::vector<std::string> before = list();
+    const Outcome outcome = Hindsight(words, root());
+    EXPECT_EQ(outcome.status, 2) << ::testing::PrintToString(words);
+    for (const std::string& word : expected) {
+      EXPECT_THAT(outcome.err, HasSubstr(word));
+    }
+    EXPECT_EQ(list(), before) << ::testing::PrintToString(words);
+  }
+  Recording recording_;
+};
+
+TEST_F(Publish, AFolderThatAppearsMeanwhileStays) {
+  Child run({"run", "data/config.yaml", "--out=out", "--methods=ekf,batch",
+             "--progress=json"},
+            root());
+  ASSERT_TRUE(run.AwaitStage("ekf"));
+  fs::create_directory(root() / "out");
+  WriteFile(root() / "out" / "thesis.txt", "mine");
+  const Outcome outcome = run.Wait();
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_THAT(Lines(outcome.err).back(),
+              AllOf(HasSubstr((root() / "out").string()),
+                    HasSubstr((root() / "out.1").string())));
+  EXPECT_THAT(Names(root() / "out"), ElementsAre("thesis.txt"));
+  EXPECT_THAT(Names(root() / "out.1"), ::testing::Contains("batch.csv"));
+  EXPECT_THAT(Names(root()), UnorderedElementsAre("data", "out", "out.1"));
+}
+
+TEST_F(Publish, WithForceAFolderThatAppearsMeanwhileStaysToo) {
+  Child run({"run", "data/config.yaml", "--out=out", "--methods=ekf,batch",
+             "--progress=json", "--force"},
+            root());
+  ASSERT_TRUE(run.AwaitStage("ekf"));
+  ASSERT_EQ(Simulate({"--out=out"}).status, 0);
+  const Outcome outcome = run.Wait();
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_THAT(Names(root() / "out"), ::testing::Contains("imu.csv"));
+  EXPECT_THAT(Names(root() / "out.1"), ::testing::Contains("batch.csv"));
+}
+
+TEST_F(Publish, AnEmptyFolderIsFilled) {
+  fs::create_directory(root() / "out");
+  EXPECT_EQ(recording_.Run({"--out=out", "--methods=ekf"}).status, 0);
+  EXPECT_THAT(Names(root()), UnorderedElementsAre("data", "out"));
+}
+
+TEST_F(Publish, ForceNeverTakesAFolderThatHoldsAnInput) {
+  const std::vector<std::string> force = {"--methods=ekf", "--force"};
+  const auto words = [&](const std::string& config, const std::string& out) {
+    return std::vector<std::string>{"run", config, "--out=" + out,
+                                    "--methods=ekf", "--force"};
+  };
+  // The recording is nothing but files of its manifest.
+  ExpectRefused(words("data/config.yaml", "data"), {"data", "which is read"});
+  ExpectRefused(words("data/config.yaml", "."), {"which is read"});
+  // The configuration elsewhere, its files through a link.
+  fs::create_directory_symlink("data", root() / "link");
+  fs::create_directory(root() / "elsewhere");
+  WriteFile(root() / "elsewhere" / "config.yaml",
+            "folder: " + (root() / "link").string() + "\n" +
+                ReadFile(recording_.file("config.yaml")));
+  ExpectRefused(words("elsewhere/config.yaml", "data"), {"imu.csv"});
+  ExpectRefused(words("elsewhere/config.yaml", "link"), {"imu.csv"});
+  ExpectRefused(words("elsewhere/config.yaml", "elsewhere"), {"config.yaml"});
+  // A link to the configuration.
+  fs::create_directory(root() / "links");
+  fs::create_symlink("../data/config.yaml", root() / "links" / "config.yaml");
+  ExpectRefused(words("links/config.yaml", "data"), {"which is read"});
+  // The list of times.
+  ASSERT_EQ(recording_.Run({"--out=out", "--methods=ekf"}).status, 0);
+  WriteFile(root() / "out" / "times", "5\n");
+  std::vector<std::string> at = words("data/config.yaml", "out");
+  at.emplace_back("--at=out/times");
+  ExpectRefused(at, {"times", "which is read"});
+  // A scenario and a profile.
+  ASSERT_EQ(Simulate({"--out=made"}).status, 0);
+  ExpectRefused({"simulate", "car_drive", "--profile=made/truth.csv",
+                 "--out=made", "--force"},
+                {"truth.csv", "which is read"});
+}
+
+TEST_F(Publish, ForceReplacesNothingButFilesOfTheManifest) {
+  ASSERT_EQ(Simulate({"--out=made"}).status, 0);
+  ASSERT_EQ(recording_.Run({"--out=out", "--methods=ekf"}).status, 0);
+  for (const std::string folder : {"made", "out"}) {
+    const std::vector<std::string> words =
+        folder == "made"
+            ? std::vector<std::string>{"simulate", "car_drive", "--duration=5",
+                                       "--out=made", "--force"}
+            : std::vector<std::string>{"run", "data/config.yaml", "--out=out",
+                                       "--methods=ekf", "--force"};
+    WriteFile(root() / folder / "thesis.txt", "mine");
+    ExpectRefused(words, {folder, "thesis.txt"});
+    fs::remove(root() / folder / "thesis.txt");
+    fs::create_directory(root() / folder / "photos");
+    ExpectRefused(words, {folder, "photos"});
+    fs::remove(root() / folder / "photos");
+    // A link is not the file that was written.
+    const std::string file = folder == "made" ? "imu.csv" : "ekf.csv";
+    fs::rename(root() / folder / file, root() / file);
+    fs::create_symlink(root() / file, root() / folder / file);
+    ExpectRefused(words, {folder, file});
+    fs::remove(root() / folder / file);
+    fs::rename(root() / file, root() / folder / file);
+    EXPECT_EQ(Hindsight(words, root()).status, 0);
+    fs::remove(root() / folder / "manifest.json");
+    ExpectRefused(words, {folder, "manifest.json"});
+  }
+  // A folder of the user's own with a config.yaml in it.
+  fs::create_directories(root() / "real" / "photos");
+  WriteFile(root() / "real" / "config.yaml", "name: mine\n");
+  ExpectRefused({"simulate", "short_drive", "--out=real", "--force"},
+                {"manifest.json"});
+}
+
+TEST_F(Publish, OutThatIsALinkFillsWhatItLeadsTo) {
+  fs::create_directories(root() / "disk" / "out");
+  fs::create_directory_symlink("disk/out", root() / "out");
+  EXPECT_EQ(recording_.Run({"--out=out", "--methods=ekf"}).status, 0);
+  EXPECT_TRUE(fs::is_symlink(root() / "out"));
+  EXPECT_TRUE(fs::exists(root() / "disk" / "out" / "ekf.csv"));
+}
+
+TEST_F(Publish, InitReplacesWhatItWroteAlone) {
+  const std::vector<std::string> words = {"init", "data", "--out=data/imu.csv",
+                                          "--force"};
+  ExpectRefused(words, {"imu.csv", "init"});
+  ExpectRefused({"init", "data", "--out=data/config.yaml", "--force"},
+                {"config.yaml", "init"});
+  ExpectRefused({"init", "data", "--out=absent/config.yaml"}, {"absent"});
+  EXPECT_EQ(Hindsight({"init", "data", "--out=new.yaml"}, root()).status, 0);
+  EXPECT_EQ(
+      Hindsight({"init", "data", "--out=new.yaml", "--force"}, root()).status,
+      0);
+}
+
+TEST_F(Publish, ClosedStandardOutputLeavesCompleteResultsUsable) {
+  const auto close_output = [] { close(STDOUT_FILENO); };
+  const auto fill_output = [] {
+    dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO);
+  };
+  ASSERT_EQ(recording_.Run({"--out=open", "--methods=ekf"}).status, 0);
+  for (const std::function<void()>& prepare :
+       {std::function<void()>(close_output),
+        std::function<void()>(fill_output)}) {
+    const Outcome run =
+        Hindsight({"run", "data/config.yaml", "--out=out", "--methods=ekf"},
+                  root(), prepare);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("standard output cannot be written"));
+    EXPECT_THAT(run.err, ::testing::Not(HasSubstr("error")));
+    for (const std::string file : {"ekf.csv", "residuals.csv"}) {
+      EXPECT_EQ(ReadFile(root() / "out" / file),
+                ReadFile(root() / "open" / file));
+    }
+    fs::remove_all(root() / "out");
+    const Outcome check =
+        Hindsight({"check", "data/config.yaml"}, root(), prepare);
+    EXPECT_EQ(check.status, 4);
+  }
+}
+
+TEST_F(Publish, AClosedPipeDoesNotEndARun) {
+  const Outcome run = Hindsight(
+      {"run", "data/config.yaml", "--out=out", "--methods=ekf"}, root(), [] {
+        int ends[2];
+        if (pipe(ends) != 0) _exit(125);
+        close(ends[0]);
+        dup2(ends[1], STDOUT_FILENO);
+      });
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(Names(root()), UnorderedElementsAre("data", "out"));
+}
+
+}  // namespace
+}  // namespace hindsight
