@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "app/interrupt.h"
 #include "base/error.h"
@@ -151,10 +152,16 @@ void SampleOnce(const Dataset& dataset, const Reconstruction& reconstruction,
     ThrowIfStopRequested();
     const auto end = begin + std::min(kPiece, times.end() - begin);
     const Solution piece = reconstruction.Sample(solution, {begin, end});
+    std::optional<Eigen::Vector3d> point_b;
+    SolutionTable table;
     for (const Wish& wish : wishes) {
       const std::vector<std::size_t> rows = RowsAt(wish.times, piece);
       if (rows.empty()) continue;
-      AppendRows(TableAt(wish.point_b, dataset.imu, piece), rows, wish.table);
+      if (point_b != wish.point_b) {
+        point_b = wish.point_b;
+        table = TableAt(wish.point_b, dataset.imu, piece);
+      }
+      AppendRows(table, rows, wish.table);
     }
     begin = end;
   }

@@ -41,7 +41,9 @@ ReconstructionOptions SamplingOptions(
     const std::vector<double>& node_times = {}) {
   ReconstructionOptions options;
   options.node_times = node_times;
+  options.h_infinity.rule = RiccatiRule::kHInfinity;
   options.h_infinity.gamma = 5.0;
+  options.modified_h_infinity.rule = RiccatiRule::kModifiedHInfinity;
   options.modified_h_infinity.alpha = 0.02;
   return options;
 }
@@ -79,7 +81,8 @@ TEST(SampleSolution, AForwardMethodKnowsNothingOfTheNextFix) {
         largest_after_fix = std::max(largest_after_fix, d);
       }
     }
-    if (method != Method::kGatedEkf) {
+    // The others do not believe a fix that is 3 m off.
+    if (method != Method::kGatedEkf && method != Method::kImm) {
       EXPECT_GT(largest_after_fix, 0.1) << MethodName(method);
     }
   }
@@ -163,14 +166,20 @@ TEST(SampleSolution, OfASmootherIsCloseToNodesAtEveryTime) {
   Reconstruction fine(dataset, SamplingOptions(times));
   const Solution sampled = coarse.Sample(coarse.Run(Method::kRts), times);
   const Solution exact = fine.Sample(fine.Run(Method::kRts), times);
+  // White noise q of the accelerometer leaves a jump (dp, dv) over T = 1 s. The
+  // mean in between is a cubic; the straight line is off by up to 0.43 q T^1/2
+  // in velocity and 0.15 q T^3/2 in position, one sigma; a tenth more comes
+  // from the gyros' noise. Their own jump is spread linearly by the mean, too.
+  constexpr double kSigmas = 5.0 * 1.1;
+  const double q = dataset.imu.noise.accel_noise_density;
   for (std::size_t i = 0; i < times.size(); ++i) {
     const ErrorVector d =
         Local(exact.layout, exact.states[i], sampled.states[i]);
-    const ErrorVector sigma = exact.covariances.Get(i).diagonal().cwiseSqrt();
-    // What a second's white noise, spread linearly, leaves of a sigma.
-    EXPECT_LT(d.head<9>().cwiseQuotient(sigma.head<9>()).cwiseAbs().maxCoeff(),
-              0.2)
+    EXPECT_LT(d.head<3>().cwiseAbs().maxCoeff(), kSigmas * 0.15 * q)
         << times[i];
+    EXPECT_LT(d.segment<3>(3).cwiseAbs().maxCoeff(), kSigmas * 0.43 * q)
+        << times[i];
+    EXPECT_LT(d.segment<3>(6).cwiseAbs().maxCoeff(), 1e-6) << times[i];
   }
 }
 
