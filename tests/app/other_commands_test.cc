@@ -58,7 +58,8 @@ TEST_F(OtherCommands, EvaluatePrintsTheFiguresOfRun) {
       EXPECT_EQ(figures["at"], "truth points");
       EXPECT_EQ(figures["truth_count"], 501);
       const nlohmann::json summary = Summary()["methods"][method];
-      for (const auto& [key, value] : ErrorsOf(figures).items()) {
+      const nlohmann::json errors = ErrorsOf(figures);
+      for (const auto& [key, value] : errors.items()) {
         // The files' decimals: 1e-7 m.
         EXPECT_NEAR(value.get<double>(), summary["error"][key].get<double>(),
                     3e-7)
