@@ -9,22 +9,6 @@
 namespace hindsight {
 namespace {
 
-/// All of a solution that is not a series over its states.
-Solution WithoutStates(const Solution& solution) {
-  Solution out;
-  out.method = solution.method;
-  out.layout = solution.layout;
-  out.constants = solution.constants;
-  out.notes = solution.notes;
-  out.converged = solution.converged;
-  out.iterations = solution.iterations;
-  out.seconds = solution.seconds;
-  out.grade = solution.grade;
-  out.evidence = solution.evidence;
-  out.verdict = solution.verdict;
-  return out;
-}
-
 Eigen::Matrix<double, 6, 6> AttitudeAndBias(const Solution& nodes,
                                             std::size_t k) {
   const int a = nodes.layout.Find(BlockKind::kAttitude)->offset;
@@ -40,7 +24,7 @@ Eigen::Matrix<double, 6, 6> AttitudeAndBias(const Solution& nodes,
 
 Solution NodesAtSamples(const Solution& nodes, const ImuStream& imu,
                         const ErrorLayout& layout) {
-  Solution out = WithoutStates(nodes);
+  Solution out = WithoutSeries(nodes);
   out.layout = layout;
   const std::size_t count = imu.samples.size();
   out.states.reserve(count);
@@ -83,7 +67,7 @@ Solution NodesAtSamples(const Solution& nodes, const ImuStream& imu,
 
 Solution SampleAttitude(const Solution& solution, const ImuStream& imu,
                         const std::vector<double>& times) {
-  Solution out = WithoutStates(solution);
+  Solution out = WithoutSeries(solution);
   out.states.reserve(times.size());
   out.covariances =
       CovarianceSeries(solution.covariances.dim(),

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "filters/iterated_smoother.h"
 #include "problems/chain_problem.h"
+#include "problems/iteration_progress.h"
 
 namespace hindsight {
 namespace {
@@ -25,6 +26,10 @@ constexpr double kFineStep = 1e-8;
 /// Without a loss a Newton step leaves an error of its own size squared.
 constexpr double kLastNewtonStep = 1e-5;
 
+/// What a solve takes in Ceres, and by Newton after it: for the time left.
+constexpr int kUsualIterations = 3;
+constexpr double kLastSteps = 2.0;
+
 double RoughStep(const ChainProblem& chain) {
   return chain.HasLoss() ? kRoughRobustStep : kRoughStep;
 }
@@ -33,13 +38,13 @@ double RoughStep(const ChainProblem& chain) {
 /// and keeps what the caller throws, as an exception must not cross Ceres.
 class Callback : public ceres::IterationCallback {
  public:
-  Callback(const std::function<void(int)>& call, double step_limit)
-      : call_(call), step_limit_(step_limit) {}
+  Callback(double step_limit, IterationProgress* progress)
+      : step_limit_(step_limit), progress_(*progress) {}
 
   ceres::CallbackReturnType operator()(
       const ceres::IterationSummary& summary) override {
     try {
-      if (call_) call_(summary.iteration);
+      progress_.After(summary.iteration, summary.step_norm / step_limit_);
     } catch (...) {
       thrown_ = std::current_exception();
       return ceres::SOLVER_ABORT;
@@ -55,8 +60,8 @@ class Callback : public ceres::IterationCallback {
   }
 
  private:
-  const std::function<void(int)>& call_;
   double step_limit_;
+  IterationProgress& progress_;
   std::exception_ptr thrown_;
 };
 
@@ -139,16 +144,23 @@ struct Sweep {
   bool converged = true;
 };
 
-/// Every window once, from the first to the last.
-Sweep SolveOnce(const BatchOptions& options, int max_iterations,
-                ChainProblem* chain) {
+/// Every window once, from the first to the last; `later` iterations are
+/// expected after them.
+Sweep SolveOnce(const BatchOptions& options, int max_iterations, double later,
+                IterationProgress* progress, ChainProblem* chain) {
   NodeManifold manifold(&chain->blocks());
   Sweep sweep;
-  for (const Window& window : Windows(options, chain->node_count())) {
+  const std::vector<Window> windows = Windows(options, chain->node_count());
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    const Window& window = windows[i];
+    const int usual = i == 0 ? kUsualIterations : sweep.iterations;
+    progress->Begin(
+        max_iterations,
+        later + usual * static_cast<double>(windows.size() - 1 - i));
     ceres::Problem problem(ProblemOptions());
     AddBlocks(window, chain, &manifold, &problem);
     const auto nodes = static_cast<double>(window.end - window.begin);
-    Callback callback(options.callback, RoughStep(*chain) * std::sqrt(nodes));
+    Callback callback(RoughStep(*chain) * std::sqrt(nodes), progress);
     ceres::Solver::Options solver_options = SolverOptions(options);
     solver_options.max_num_iterations = max_iterations;
     solver_options.callbacks.push_back(&callback);
@@ -171,18 +183,22 @@ Sweep SolveOnce(const BatchOptions& options, int max_iterations,
 /// redescend, first with all their scales so wide that no residual is beyond
 /// them, then halved with two iterations each.
 Sweep SolveGraduated(const BatchOptions& options, bool first,
-                     ChainProblem* chain) {
+                     IterationProgress* progress, ChainProblem* chain) {
   constexpr int kIterationsPerStage = 2;
   constexpr double kWidest = 1024.0;
   if (first) {
     double widening = std::min(chain->LargestRobustRatio(), kWidest);
     for (; widening > 1.0; widening *= 0.5) {
       chain->SetWidening(widening);
-      SolveOnce(options, kIterationsPerStage, chain);
+      const double stages = std::ceil(std::log2(widening)) - 1.0;
+      SolveOnce(options, kIterationsPerStage,
+                kIterationsPerStage * stages + kUsualIterations + kLastSteps,
+                progress, chain);
     }
     chain->SetWidening(1.0);
   }
-  return SolveOnce(options, options.max_iterations, chain);
+  return SolveOnce(options, options.max_iterations, kLastSteps, progress,
+                   chain);
 }
 
 bool AnySummaryIsStale(const ErrorLayout& layout, const Timeline& timeline,
@@ -225,6 +241,7 @@ CovarianceSeries Marginals(ChainProblem* chain) {
 /// constants: after a large one the windows are solved anew. The covariances
 /// come with the last.
 CovarianceSeries FinishByNewton(const BatchOptions& options,
+                                IterationProgress* progress,
                                 ChainProblem* chain, Sweep* sweep) {
   constexpr int kMaxSteps = 4;
   constexpr int kMaxSweeps = 10;
@@ -244,7 +261,8 @@ CovarianceSeries FinishByNewton(const BatchOptions& options,
     }
     if (!rough) continue;
     const int before = sweep->iterations;
-    *sweep = SolveOnce(options, options.max_iterations, chain);
+    *sweep =
+        SolveOnce(options, options.max_iterations, kLastSteps, progress, chain);
     sweep->iterations += before;
   }
 }
@@ -265,16 +283,18 @@ BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
                        const BatchOptions& options) {
   BatchResult result;
   result.states = initial;
+  IterationProgress progress(options.callback);
   constexpr int kMaxReintegrations = 5;
   for (int outer = 0; outer < kMaxReintegrations; ++outer) {
     ChainProblem chain(layout, prior, result.states, timeline, decisions);
     Sweep sweep;
     if (!StartsNear(options, &chain, &sweep)) {
-      sweep = SolveGraduated(options, options.graduated && outer == 0, &chain);
+      sweep = SolveGraduated(options, options.graduated && outer == 0,
+                             &progress, &chain);
     }
     result.states = chain.States();
     if (!AnySummaryIsStale(layout, *timeline, result.states)) {
-      result.P = FinishByNewton(options, &chain, &sweep);
+      result.P = FinishByNewton(options, &progress, &chain, &sweep);
     }
     result.iterations += sweep.iterations;
     const std::vector<State> before = std::move(result.states);

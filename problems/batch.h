@@ -21,8 +21,9 @@ struct BatchOptions {
   /// Approaches losses that redescend by graduated non-convexity. False: the
   /// start is known to be near.
   bool graduated = true;
-  /// Called after each iteration with its number; may throw to stop.
-  std::function<void(int)> callback;
+  /// Called after each of Ceres's iterations with the fraction that is done, by
+  /// how many are still expected (IterationProgress); may throw to stop.
+  std::function<void(double)> callback;
 };
 
 struct BatchResult {

@@ -61,6 +61,12 @@ std::span<const char* const> MethodPreference() {
   return kPreference;
 }
 
+bool IsForward(Method method) {
+  return method == Method::kEkf || method == Method::kGatedEkf ||
+         method == Method::kHInfinity || method == Method::kModifiedHInfinity ||
+         method == Method::kImm;
+}
+
 bool DependsOnError(Method method) {
   return method != Method::kImm && method != Method::kImmSmoother &&
          method != Method::kRobustBatch;

@@ -36,6 +36,9 @@ Method MethodFromName(const std::string& name);
 /// before the richer.
 std::span<const char* const> MethodPreference();
 
+/// Whether the method knows nothing later at each node; see Solution::forward.
+bool IsForward(Method method);
+
 /// Whether ReconstructionOptions::error changes the method's solution, be it
 /// through the trajectory from which it starts to iterate.
 bool DependsOnError(Method method);

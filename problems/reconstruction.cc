@@ -29,6 +29,7 @@ struct Reconstruction::Impl {
 
   Solution Finish(Solution solution, Method method, double seconds) {
     solution.method = MethodName(method);
+    solution.forward = IsForward(method);
     solution.seconds = seconds;
     const Start& start = forward.start();
     Conclude(
@@ -171,13 +172,11 @@ struct Reconstruction::Impl {
   BatchOptions MakeBatchOptions() const {
     BatchOptions batch;
     batch.max_iterations = forward.options().max_iterations;
-    batch.callback = [this](int iteration) {
+    batch.callback = [this](double fraction) {
       if (forward.options().stop != nullptr && *forward.options().stop)
         throw Interrupted();
       if (forward.options().progress) {
-        forward.options().progress(
-            "batch",
-            static_cast<double>(iteration) / forward.options().max_iterations);
+        forward.options().progress("batch", fraction);
       }
     };
     return batch;
@@ -207,11 +206,11 @@ struct Reconstruction::Impl {
       if (!sensor.gate_probability) sensor.gate_probability = kGate;
       gated.SetSensor(i, sensor);
     }
-    return Finish(
-        FilterSolution(RunForwardFilter(
-            {forward.options().error, {}}, forward.start().layout,
-            forward.start().prior, &gated, {}, forward.Progress("gated_ekf"))),
-        Method::kGatedEkf, ProcessorSeconds() - t0);
+    Solution solution = FilterSolution(RunForwardFilter(
+        {forward.options().error, {}}, forward.start().layout,
+        forward.start().prior, &gated, {}, forward.Progress("gated_ekf")));
+    return Finish(std::move(solution), Method::kGatedEkf,
+                  ProcessorSeconds() - t0);
   }
 
   /// Questions every position sensor.
@@ -351,7 +350,13 @@ const StartReport& Reconstruction::start() const {
 
 Solution Reconstruction::Sample(const Solution& solution,
                                 const std::vector<double>& times) const {
-  return SampleSolution(solution, impl_->forward.dataset().imu, times);
+  const ReconstructionOptions& options = impl_->forward.options();
+  const Method method = MethodFromName(solution.method);
+  return SampleSolution(solution, impl_->forward.dataset().imu, times,
+                        method == Method::kHInfinity ? options.h_infinity
+                        : method == Method::kModifiedHInfinity
+                            ? options.modified_h_infinity
+                            : CovarianceOptions());
 }
 
 Solution Solve(const Dataset& dataset, const ReconstructionOptions& options) {

@@ -58,9 +58,7 @@ class Reconstruction {
   /// anything is solved.
   std::vector<UnobservedSpan> Unobserved();
 
-  /// The solution at other times, in order: forward integration of the IMU
-  /// from the node before (2002 paper, eq. 24), the jump at the node after
-  /// spread evenly over the interval; covariances interpolated between nodes.
+  /// A solution of Run at other times, in order: see SampleSolution.
   Solution Sample(const Solution& solution,
                   const std::vector<double>& times) const;
 
@@ -74,7 +72,7 @@ Solution Solve(const Dataset& dataset, const ReconstructionOptions& options);
 
 /// The trajectory of another point of the vehicle, l_b [m] from the IMU in body
 /// axes: positions, velocities and covariances are moved. The body rate needed
-/// for the velocity is taken from `imu`.
+/// for the velocity is the mean of `imu` over 20 ms.
 Solution MoveToPoint(const Solution& solution, const ImuStream& imu,
                      const Eigen::Vector3d& l_b);
 

@@ -1,7 +1,10 @@
 #include "problems/sample_solution.h"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "geometry/so3.h"
@@ -11,88 +14,207 @@
 namespace hindsight {
 namespace {
 
-/// Integrates from node to node in steps of the asked times.
-class IntervalFill {
- public:
-  IntervalFill(const Solution& solution, const ImuStream& imu)
-      : solution_(solution), integrator_(imu, HasScale(solution.layout)) {}
+/// Closer to a node than this is at the node: stamps are rounded [s].
+constexpr double kSameInstant = 1e-9;
 
-  State At(std::size_t k, double t) {
-    const State& begin = solution_.states[k];
-    const State& end = solution_.states[k + 1];
-    if (k != node_) {
-      node_ = k;
-      jump_ = Local(solution_.layout, Advance(begin, end.t), end);
-    }
-    const double a = (t - begin.t) / (end.t - begin.t);
-    return Retract(solution_.layout, Advance(begin, t), a * jump_);
+bool HasScale(const ErrorLayout& layout) {
+  return layout.Has(BlockKind::kGyroScale) ||
+         layout.Has(BlockKind::kAccelScale);
+}
+
+/// A forward method's P between its nodes.
+class ForwardCovariance {
+ public:
+  ForwardCovariance(const Solution& solution, const ImuStream& imu,
+                    const CovarianceOptions& covariance)
+      : solution_(solution),
+        integrator_(imu, HasScale(solution.layout)),
+        policy_(covariance, solution.layout) {}
+
+  /// At t between node k and the next; within k times ascend.
+  ErrorMatrix At(std::size_t k, double t) {
+    if (k != node_) StartAt(k);
+    while (end_.t < t) Advance();
+    const double a = (t - begin_t_) / (end_.t - begin_t_);
+    return (1.0 - a) * P_begin_ + a * P_end_;
   }
 
  private:
-  static bool HasScale(const ErrorLayout& layout) {
-    return layout.Has(BlockKind::kGyroScale) ||
-           layout.Has(BlockKind::kAccelScale);
+  void StartAt(std::size_t k) {
+    node_ = k;
+    step_ = 0;
+    const double T = solution_.states[k + 1].t - solution_.states[k].t;
+    steps_ = std::max(1, static_cast<int>(std::ceil(T / kPropagationStep)));
+    end_ = solution_.states[k];
+    P_end_ = solution_.covariances.Get(k);
+    Advance();
   }
 
-  State Advance(const State& from, double t) {
-    return Predict(solution_.layout, from,
-                   integrator_.Summarize(
-                       from.t, t, CalibrationOf(solution_.layout, from)));
+  void Advance() {
+    const double t_node = solution_.states[node_].t;
+    const double t_next = solution_.states[node_ + 1].t;
+    const double t = ++step_ == steps_
+                         ? t_next
+                         : t_node + (t_next - t_node) * step_ / steps_;
+    const State begin = end_;
+    begin_t_ = begin.t;
+    P_begin_ = P_end_;
+    const ImuSummary summary = integrator_.Summarize(
+        begin.t, t, CalibrationOf(solution_.layout, begin));
+    end_ = Predict(solution_.layout, begin, summary);
+    LinearizeTransition(solution_.layout, summary, begin, end_, &transition_);
+    policy_.Predict(transition_, summary.dt(), &P_end_);
   }
 
   const Solution& solution_;
   ImuIntegrator integrator_;
+  CovariancePolicy policy_;
+  Transition transition_;
   std::size_t node_ = static_cast<std::size_t>(-1);
-  ErrorVector jump_;
+  int step_ = 0;
+  int steps_ = 1;
+  double begin_t_ = 0.0;
+  State end_;
+  ErrorMatrix P_begin_, P_end_;
 };
+
+/// One walk through the IMU, from node to node.
+class Sampler {
+ public:
+  Sampler(const Solution& solution, const ImuStream& imu,
+          const CovarianceOptions& covariance, Solution* out)
+      : solution_(solution),
+        integrator_(imu, HasScale(solution.layout)),
+        covariance_(solution, imu, covariance),
+        out_(*out) {}
+
+  /// Node k, as it is at time t.
+  void AtNode(std::size_t k, double t) {
+    out_.states.push_back(solution_.states[k]);
+    out_.states.back().t = t;
+    if (!solution_.separation.empty()) {
+      out_.separation.push_back(solution_.separation[k]);
+    }
+    if (HasCovariances()) Append(solution_.covariances.Get(k));
+  }
+
+  /// Times between node k and the next, ascending.
+  void Between(std::size_t k, std::span<const double> times) {
+    const State& begin = solution_.states[k];
+    const State& end = solution_.states[k + 1];
+    ImuSummary mean =
+        EmptyMean(begin.t, CalibrationOf(solution_.layout, begin));
+    const std::size_t first = out_.states.size();
+    for (const double t : times) {
+      integrator_.AppendMean(t, &mean);
+      out_.states.push_back(Predict(solution_.layout, begin, mean));
+    }
+    if (!solution_.forward) {
+      integrator_.AppendMean(end.t, &mean);
+      const ErrorVector jump =
+          Local(solution_.layout, Predict(solution_.layout, begin, mean), end);
+      for (std::size_t i = 0; i < times.size(); ++i) {
+        State& x = out_.states[first + i];
+        x = Retract(solution_.layout, x, Part(k, times[i]) * jump);
+        x.t = times[i];
+      }
+    }
+    for (const double t : times) AppendSpread(k, t);
+  }
+
+ private:
+  bool HasCovariances() const { return !solution_.covariances.empty(); }
+
+  double Part(std::size_t k, double t) const {
+    const double begin = solution_.states[k].t;
+    return (t - begin) / (solution_.states[k + 1].t - begin);
+  }
+
+  void Append(const ErrorMatrix& P) { out_.covariances.Set(count_++, P); }
+
+  /// What says how sure the state at t is.
+  void AppendSpread(std::size_t k, double t) {
+    const double a = Part(k, t);
+    if (!solution_.separation.empty()) {
+      out_.separation.push_back((1.0 - a) * solution_.separation[k] +
+                                a * solution_.separation[k + 1]);
+    }
+    if (!HasCovariances()) return;
+    Append(solution_.forward
+               ? covariance_.At(k, t)
+               : ErrorMatrix((1.0 - a) * solution_.covariances.Get(k) +
+                             a * solution_.covariances.Get(k + 1)));
+  }
+
+  const Solution& solution_;
+  ImuIntegrator integrator_;
+  ForwardCovariance covariance_;
+  Solution& out_;
+  std::size_t count_ = 0;
+};
+
+void CheckInside(const Solution& solution, const std::vector<double>& times) {
+  if (!solution.states.empty() &&
+      times.front() >= solution.states.front().t - kSameInstant &&
+      times.back() <= solution.states.back().t + kSameInstant) {
+    return;
+  }
+  throw InputError("time " + std::to_string(times.front()) + " s to " +
+                   std::to_string(times.back()) +
+                   " s is not inside the solution");
+}
 
 }  // namespace
 
 Solution SampleSolution(const Solution& solution, const ImuStream& imu,
-                        const std::vector<double>& times) {
-  Solution out = solution;
-  out.states.clear();
-  out.separation.clear();
-  out.covariances =
-      CovarianceSeries(solution.covariances.dim(),
-                       solution.covariances.empty() ? 0 : times.size());
+                        const std::vector<double>& times,
+                        const CovarianceOptions& covariance) {
+  Solution out = WithoutSeries(solution);
   if (times.empty()) return out;
-  constexpr double kTolerance = 1e-9;
-  if (solution.states.empty() ||
-      times.front() < solution.states.front().t - kTolerance ||
-      times.back() > solution.states.back().t + kTolerance) {
-    throw InputError("time " + std::to_string(times.front()) + " s to " +
-                     std::to_string(times.back()) +
-                     " s is not inside the solution");
+  CheckInside(solution, times);
+  if (!solution.covariances.empty()) {
+    out.covariances =
+        CovarianceSeries(solution.covariances.dim(), times.size());
   }
-  IntervalFill fill(solution, imu);
+  out.states.reserve(times.size());
+  Sampler sampler(solution, imu, covariance, &out);
+  const std::vector<State>& nodes = solution.states;
   std::size_t k = 0;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const double t = times[i];
-    while (k + 2 < solution.states.size() && solution.states[k + 1].t <= t) ++k;
-    const State& begin = solution.states[k];
-    const bool last = solution.states.size() == 1;
-    const double span = last ? 1.0 : solution.states[k + 1].t - begin.t;
-    const double a = std::clamp((t - begin.t) / span, 0.0, 1.0);
-    State x = a == 0.0   ? begin
-              : a == 1.0 ? solution.states[k + 1]
-                         : fill.At(k, t);
-    x.t = t;
-    out.states.push_back(x);
-    if (!solution.separation.empty()) {
-      const std::size_t next = std::min(k + 1, solution.states.size() - 1);
-      out.separation.push_back(a == 0.0   ? solution.separation[k]
-                               : a == 1.0 ? solution.separation[next]
-                                          : (1.0 - a) * solution.separation[k] +
-                                                a * solution.separation[next]);
+  for (std::size_t i = 0; i < times.size();) {
+    while (k + 1 < nodes.size() && nodes[k + 1].t <= times[i] + kSameInstant) {
+      ++k;
     }
-    if (solution.covariances.empty()) continue;
-    ErrorMatrix P = (1.0 - a) * solution.covariances.Get(k);
-    if (a > 0.0) P += a * solution.covariances.Get(k + 1);
-    out.covariances.Set(i, P);
+    if (k + 1 == nodes.size() || times[i] <= nodes[k].t + kSameInstant) {
+      sampler.AtNode(k, times[i++]);
+      continue;
+    }
+    std::size_t end = i + 1;
+    while (end < times.size() && times[end] + kSameInstant < nodes[k + 1].t) {
+      ++end;
+    }
+    sampler.Between(k, std::span(times).subspan(i, end - i));
+    i = end;
   }
   return out;
 }
+
+namespace {
+
+/// Rate of the body over the Earth, body axes: the mean over 20 ms, since a
+/// single reading of a cheap gyro is mostly noise.
+Eigen::Vector3d BodyRate(const ErrorLayout& layout, const ImuStream& imu,
+                         const State& x, ImuIntegrator* integrator) {
+  constexpr double kHalf = 0.01;
+  const double begin = std::max(x.t - kHalf, imu.t_begin());
+  const double end = std::min(x.t + kHalf, imu.t_end());
+  const Eigen::Vector3d w_ib_b =
+      Log(integrator->Turn(begin, end, x.b_g)) / (end - begin);
+  const Eigen::Array3d scale = CalibrationOf(layout, x).s_g;
+  return (w_ib_b.array() / (1.0 + scale)).matrix() -
+         x.q_eb.conjugate() * EarthRate_e();
+}
+
+}  // namespace
 
 Solution MoveToPoint(const Solution& solution, const ImuStream& imu,
                      const Eigen::Vector3d& l_b) {
@@ -103,8 +225,7 @@ Solution MoveToPoint(const Solution& solution, const ImuStream& imu,
     const State& x = solution.states[k];
     const Eigen::Matrix3d C_en = x.C_en();
     const Eigen::Matrix3d C_eb = x.q_eb.toRotationMatrix();
-    const Eigen::Vector3d w_eb_b = integrator.ReadingAt(x.t).w_ib_b - x.b_g -
-                                   C_eb.transpose() * EarthRate_e();
+    const Eigen::Vector3d w_eb_b = BodyRate(layout, imu, x, &integrator);
     const Eigen::Vector3d arm_e = C_eb * l_b;
     const Eigen::Vector3d velocity_e = C_eb * w_eb_b.cross(l_b);
     out.states[k].p_e += arm_e;

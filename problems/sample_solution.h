@@ -3,18 +3,32 @@
 
 #include <vector>
 
+#include "filters/covariance_policy.h"
 #include "imu/imu_stream.h"
 #include "state/solution.h"
 
 namespace hindsight {
 
-/// A solution at other times (ascending, inside its span): the state of the
-/// node before, integrated with the IMU (2002 paper, eq. 24), and the jump that
-/// remains at the node after spread over the interval in proportion to time.
-/// Covariances are interpolated between the two nodes. Throws InputError for a
-/// time outside the span.
+/// Longest step in which a forward method's covariance is propagated between
+/// nodes [s]. It is linear within a step, which leaves P_pp too large by up to
+/// P_vv step^2 / 4: half a percent of sigma where velocity errors move the
+/// position by its own sigma in a second.
+inline constexpr double kPropagationStep = 0.2;
+
+/// A solution at other times (ascending, inside its span; at a node, the node):
+/// the state of the node before, integrated with the IMU (2002 paper, eq. 24)
+/// in one walk over the samples that needs neither Jacobians nor noise.
+///   smoothers  what the prediction misses of the node after is spread over
+///              the interval in proportion to time; covariances are
+///              interpolated between the two nodes.
+///   forward methods (Solution::forward)
+///              the prediction as it is, P <- Phi P Phi' + Q from the node
+///              before, of an observer with its prescribed stability
+///              (`covariance`): no later measurement shows.
+/// Throws InputError for a time outside the span.
 Solution SampleSolution(const Solution& solution, const ImuStream& imu,
-                        const std::vector<double>& times);
+                        const std::vector<double>& times,
+                        const CovarianceOptions& covariance = {});
 
 }  // namespace hindsight
 

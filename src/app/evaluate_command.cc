@@ -1,13 +1,17 @@
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
 
 #include "app/command.h"
 #include "app/flags.h"
+#include "app/run_output.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "evaluation/broad_metric.h"
-#include "evaluation/trajectory_error.h"
+#include "evaluation/truth_comparison.h"
 #include "io/comparison.h"
 #include "io/config.h"
 #include "io/solution_csv.h"
@@ -16,13 +20,20 @@ namespace hindsight {
 namespace {
 
 constexpr const char* kHelp =
-    R"(Compares the trajectory SOLUTION with the reference TRUTH, both files in
-hindsight's CSV format (a result of 'run', or a data set's truth.csv). The
-solution is interpolated to the times of the truth. Errors are truth minus
-solution; normalised errors (mean of e' P^-1 e of three components, expected
-3) where the solution holds covariances. --metric=broad gives the attitude errors of the BROAD benchmark: total, heading
-and inclination, root mean square in motion; there TRUTH may also be a
-configuration (.yaml) whose truth is meant.
+    R"(Compares the trajectory SOLUTION with the reference TRUTH: SOLUTION a file in
+hindsight's CSV format, a result of 'run' above all; TRUTH such a file, a data
+set's truth.csv or a configuration (.yaml) whose truth is meant.
+
+Errors are truth minus solution, at the truth's times (points closer than 0.1 s
+to the one before are left out), just as 'run' prints them. For a METHOD.csv of
+'run' the rows at these times stand in METHOD.truth.csv beside it, which is used
+if it fits TRUTH. Without it a solution sparser than the truth is compared at
+its own rows, to which the truth is interpolated, and any other is interpolated
+to the truth's times; the last lines say which.
+
+Normalised errors (mean of e' P^-1 e of three components, expected 3) where the
+solution holds covariances. --metric=broad gives the attitude errors of the
+BROAD benchmark: total, heading and inclination, root mean square in motion.
 )";
 
 /// Statistics under one key; `scale` turns SI into `unit`.
@@ -57,10 +68,13 @@ std::vector<Row> Rows(const TrajectoryStatistics& all) {
   return rows;
 }
 
-void PrintJson(const TrajectoryStatistics& all) {
-  nlohmann::ordered_json json = {{"truth_count", all.truth_count},
-                                 {"matched_count", all.matched_count},
-                                 {"matched_percent", all.matched_percent()}};
+void PrintJson(const TrajectoryStatistics& all, const std::string& file) {
+  nlohmann::ordered_json json = {
+      {"solution", file},
+      {"at", all.at_solution_rows ? "solution rows" : "truth points"},
+      {"truth_count", all.truth_count},
+      {"matched_count", all.matched_count},
+      {"matched_percent", all.matched_percent()}};
   for (const Row& row : Rows(all)) {
     const ErrorStatistics& s = *row.statistics;
     json["errors"][row.key] = {
@@ -78,15 +92,37 @@ void PrintJson(const TrajectoryStatistics& all) {
   std::cout << json.dump(2) << "\n";
 }
 
-std::vector<TruthPoint> ReadTruthOf(const std::string& path) {
-  if (!path.ends_with(".yaml")) return TruthFromTable(ReadSolutionCsv(path));
-  return LoadDataset(path, {.data_root = FLAGS_data_root}).truth;
+struct Reference {
+  std::vector<TruthPoint> points;
+  Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();
+};
+
+Reference ReadReference(const std::string& path) {
+  if (!path.ends_with(".yaml")) {
+    return {.points = TruthFromTable(ReadSolutionCsv(path))};
+  }
+  Dataset dataset = LoadDataset(path, {.data_root = FLAGS_data_root});
+  if (dataset.truth.empty()) throw InputError(path + ": there is no truth");
+  return {std::move(dataset.truth), dataset.truth_lever_arm_b};
+}
+
+/// The file that is compared: METHOD.truth.csv in place of METHOD.csv if it has
+/// the truth's times.
+std::string ComparedFile(const std::string& path, const Reference& reference) {
+  constexpr std::string_view kCsv = ".csv";
+  if (!path.ends_with(kCsv) || path.ends_with(kTruthSuffix)) return path;
+  const std::string sampled =
+      path.substr(0, path.size() - kCsv.size()) + kTruthSuffix;
+  if (!std::filesystem::exists(sampled)) return path;
+  std::vector<TruthPoint> thinned = reference.points;
+  ThinTruth(&thinned);
+  return HasRowsAtTruth(ReadSolutionCsv(sampled), thinned) ? sampled : path;
 }
 
 int PrintBroad(const std::string& solution_path,
                const std::string& truth_path) {
-  const BroadMetric metric =
-      EvaluateBroad(ReadSolutionCsv(solution_path), ReadTruthOf(truth_path));
+  const BroadMetric metric = EvaluateBroad(ReadSolutionCsv(solution_path),
+                                           ReadReference(truth_path).points);
   if (metric.count == 0) {
     throw InputError(solution_path, 0,
                      "no attitude to compare with " + truth_path);
@@ -114,26 +150,27 @@ int Run(const std::vector<std::string>& arguments) {
     throw UsageError("--metric=" + FLAGS_metric +
                      ": expected trajectory or broad");
   }
-  const SolutionTable solution = ReadSolutionCsv(arguments[0]);
-  const SolutionTable truth = ReadSolutionCsv(arguments[1]);
-  const TrajectoryErrorOptions options;
-  const TrajectoryStatistics statistics = EvaluateTrajectory(
-      solution,
-      IsSparser(solution, truth) ? TruthAt(truth, solution.t, options.max_gap)
-                                 : TruthFromTable(truth),
-      options);
+  const Reference truth = ReadReference(arguments[1]);
+  const std::string file = ComparedFile(arguments[0], truth);
+  const SolutionTable solution = ReadSolutionCsv(file);
+  TrajectoryErrorOptions options;
+  // The rows at the truth's times are those of its point.
+  if (file == arguments[0]) options.truth_lever_arm_b = truth.lever_arm_b;
+  const TrajectoryStatistics statistics =
+      CompareWithTruth(solution, truth.points, options);
   if (statistics.matched_count == 0) {
     throw InputError(
         arguments[0], 0,
         Format("nothing to compare with %s: the solution covers %.3f s to "
                "%.3f s, the truth %.3f s to %.3f s",
                arguments[1].c_str(), solution.t.front(), solution.t.back(),
-               truth.t.front(), truth.t.back()));
+               truth.points.front().t, truth.points.back().t));
   }
   if (FLAGS_json) {
-    PrintJson(statistics);
+    PrintJson(statistics, file);
   } else {
-    std::cout << ErrorTable(statistics);
+    std::cout << ErrorTable(statistics) << "compared: " << file << " with "
+              << arguments[1] << "\n";
     const std::string contradiction = Contradiction(statistics);
     if (!contradiction.empty()) {
       std::cout << arguments[0] << ": " << contradiction << "\n";

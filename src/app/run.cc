@@ -16,6 +16,7 @@
 #include "dataset/injection.h"
 #include "dataset/timeline_builder.h"
 #include "evaluation/grade.h"
+#include "evaluation/truth_comparison.h"
 #include "io/comparison.h"
 #include "io/config.h"
 #include "io/residual_csv.h"
@@ -199,6 +200,7 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
       DescribeBeforehand(dataset, &reconstruction, &progress);
   RunSummary summary = {.program = kProgram,
                         .dataset = dataset.name,
+                        .epoch_gps_ns = dataset.epoch_gps_ns,
                         .start = SummarizeStart(reconstruction.start()),
                         .policies = dataset.policies,
                         .best = "",
@@ -207,10 +209,12 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   for (const Method method : request.methods) {
     solutions.push_back(RunMethod(&reconstruction, method));
     LogDownWeighted(dataset, solutions.back());
-    summary.methods.push_back(
-        Summarize(dataset, reconstruction, solutions.back()));
-    WriteMethodFiles(request, dataset, reconstruction, solutions.back(),
-                     *folder);
+    const double peak_rss_mb = PeakRssMb();
+    const MethodTables tables =
+        SampleMethod(request, dataset, reconstruction, solutions.back());
+    summary.methods.push_back(Summarize(dataset, solutions.back(), tables));
+    summary.methods.back().peak_rss_mb = peak_rss_mb;
+    WriteMethodFiles(request, dataset, solutions.back(), tables, *folder);
     const bool has_trajectory = !solutions.back().states.empty();
     ForgetTrajectory(&solutions.back());
     if (has_trajectory) folder->Keep(kSummaryName, SummaryText(summary));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <limits>
 
 #include "app/command.h"
 #include "app/result_folder.h"
@@ -52,10 +51,11 @@ void WriteFiles(const RunRequest& request, const Dataset& dataset,
   const SolutionTable table =
       request.rate ? sample(UniformTimes(solution, *request.rate))
                    : TableFromSolution(solution);
-  WriteSolutionCsv(folder.Path(solution.method + ".csv"), table, kProgram);
+  WriteSolutionCsv(folder.Path(solution.method + ".csv"), table, kProgram,
+                   dataset.epoch_gps_ns);
   if (!request.at.empty()) {
     WriteSolutionCsv(folder.Path(solution.method + ".at.csv"),
-                     sample(request.at), kProgram);
+                     sample(request.at), kProgram, dataset.epoch_gps_ns);
   }
 }
 
@@ -69,15 +69,13 @@ double Share(const std::vector<signed char>& magnetic, int verdict) {
 }
 
 /// One line a method.
-void AddRow(const Dataset& dataset, const Solution& solution,
+void AddRow(const MethodSummary& summary, const Solution& solution,
             ReportTable* table) {
   std::vector<std::string> row = {solution.method};
-  if (!dataset.truth.empty()) {
-    const BroadMetric metric =
-        EvaluateBroad(TableFromSolution(solution), dataset.truth);
-    for (const double angle :
-         {metric.rms.total, metric.rms.heading, metric.rms.inclination}) {
-      row.push_back(metric.count > 0 ? Format("%.3f", angle / kDegree) : "");
+  if (summary.error) {
+    const BroadError e = summary.broad.value_or(BroadMetric()).rms;
+    for (const double angle : {e.total, e.heading, e.inclination}) {
+      row.push_back(summary.broad ? Format("%.3f", angle / kDegree) : "");
     }
   }
   row.push_back(solution.magnetic.empty()
@@ -99,8 +97,11 @@ ReportTable EmptyTable(const Dataset& dataset) {
 }
 
 MethodSummary SummaryOf(const Dataset& dataset, const Solution& solution) {
-  return SummarizeMethod(dataset, solution, TableFromSolution(solution),
-                         TrajectoryErrorOptions().max_gap);
+  const SolutionTable table = TableFromSolution(solution);
+  MethodSummary summary = SummarizeMethod(dataset, solution, table);
+  const BroadMetric broad = EvaluateBroad(table, dataset.truth);
+  if (broad.count > 0) summary.broad = broad;
+  return summary;
 }
 
 int EstimateInto(const RunRequest& request, ResultFolder* folder) {
@@ -116,6 +117,7 @@ int EstimateInto(const RunRequest& request, ResultFolder* folder) {
   AttitudeEstimation estimation(dataset, options);
   RunSummary summary = {.program = kProgram,
                         .dataset = dataset.name,
+                        .epoch_gps_ns = dataset.epoch_gps_ns,
                         .start = {},
                         .policies = dataset.policies,
                         .best = "",
@@ -126,7 +128,7 @@ int EstimateInto(const RunRequest& request, ResultFolder* folder) {
     const Solution solution = estimation.Run(method);
     WriteFiles(request, dataset, solution, *folder);
     summary.methods.push_back(SummaryOf(dataset, solution));
-    AddRow(dataset, solution, &table);
+    AddRow(summary.methods.back(), solution, &table);
     Solution verdict;
     verdict.method = solution.method;
     verdict.grade = solution.grade;

@@ -14,6 +14,9 @@ and writes into the folder of --out:
   METHOD.csv            time, position, velocity, attitude, their standard
                         deviations and covariances, biases
   METHOD.at.csv         the same at the times of --at
+  METHOD.truth.csv      the same at the times of the truth and the point that it
+                        speaks of: what the errors are taken of, here and by
+                        'evaluate'
   METHOD.tum, .kml, .nav  what --export asks for
   METHOD.nav.txt        with --inject: the errors injected, for .nav, which knows
                         no comments
@@ -23,6 +26,11 @@ and writes into the folder of --out:
   summary.json          figures of every method, for programs
   config.resolved.yaml  the configuration as used, in SI units
   manifest.json         the files of this folder
+Comments of every .csv, lines that begin with '#', say what t = 0 is: GPS week
+and second, and UTC. Between the nodes a solution is integrated through the IMU:
+of a forward method (ekf, gated_ekf, hinf, modified_hinf, imm) from the node
+before, knowing nothing later; of a smoother what that misses of the node after
+is spread over the interval.
 The folder appears when all is done and on the medium. What is in the way by
 then stays, and the results are beside it as DIR.1. After Ctrl-C, SIGTERM,
 SIGHUP, an error or on a full disk the methods that were done stay, without

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -14,12 +14,11 @@
 #include "io/kml.h"
 #include "io/nav.h"
 #include "io/solution_csv.h"
+#include "io/time_scale.h"
 #include "io/tum.h"
 
 namespace hindsight {
 namespace {
-
-constexpr double kLeastTruthSpacing = 0.1;  // [s]
 
 /// Multiples of 1/rate within the solution's span.
 std::vector<double> UniformTimes(const Solution& solution, double rate) {
@@ -30,15 +29,18 @@ std::vector<double> UniformTimes(const Solution& solution, double rate) {
   return times;
 }
 
-SolutionTable Table(const RunRequest& request, const Dataset& dataset,
-                    const Solution& solution) {
-  if (request.point_b.isZero(0.0)) return TableFromSolution(solution);
-  return TableFromSolution(MoveToPoint(solution, dataset.imu, request.point_b));
+SolutionTable TableAt(const Eigen::Vector3d& point_b, const ImuStream& imu,
+                      const Solution& solution) {
+  if (point_b.isZero(0.0)) return TableFromSolution(solution);
+  return TableFromSolution(MoveToPoint(solution, imu, point_b));
 }
 
+/// Some rows of a column that may be empty.
 template <typename T>
-void Append(const std::vector<T>& tail, std::vector<T>* all) {
-  all->insert(all->end(), tail.begin(), tail.end());
+void AppendRows(const std::vector<T>& from,
+                const std::vector<std::size_t>& rows, std::vector<T>* to) {
+  if (from.empty()) return;
+  for (const std::size_t row : rows) to->push_back(from[row]);
 }
 
 /// That the data are not as recorded; empty if they are.
@@ -77,11 +79,12 @@ void WriteExports(const RunRequest& request, const Dataset& dataset,
 
 /// t[s] and the probability of each mode.
 void WriteModes(const std::string& path, const Solution& solution,
-                const std::string& program) {
-  std::string text = "# program: " + program + "\nt[s]";
+                const Dataset& dataset) {
+  std::string text = "# program: " + ProgramLine(dataset) + "\n" +
+                     EpochComment(dataset.epoch_gps_ns) + "t[s]";
   for (const std::string& name : solution.mode_names) text += "," + name;
   text += "\n";
-  for (std::size_t k = 0; k < solution.states.size(); ++k) {
+  for (std::size_t k = 0; k < solution.mode_probabilities.size(); ++k) {
     text += Format("%.6f", solution.states[k].t);
     for (const double p : solution.mode_probabilities[k]) {
       text += Format(",%.6g", p);
@@ -91,43 +94,77 @@ void WriteModes(const std::string& path, const Solution& solution,
   WriteFileAtomically(path, text);
 }
 
-void AppendRows(const SolutionTable& tail, SolutionTable* all) {
-  all->method = tail.method;
-  Append(tail.t, &all->t);
-  Append(tail.p_e, &all->p_e);
-  Append(tail.v_e, &all->v_e);
-  Append(tail.q_eb, &all->q_eb);
-  Append(tail.P_position, &all->P_position);
-  Append(tail.P_velocity, &all->P_velocity);
-  Append(tail.P_attitude, &all->P_attitude);
-  Append(tail.sigma_euler, &all->sigma_euler);
-  Append(tail.b_g, &all->b_g);
-  Append(tail.b_a, &all->b_a);
-  Append(tail.sigma_b_g, &all->sigma_b_g);
-  Append(tail.sigma_b_a, &all->sigma_b_a);
+void AppendRows(const SolutionTable& from, const std::vector<std::size_t>& rows,
+                SolutionTable* to) {
+  to->method = from.method;
+  AppendRows(from.t, rows, &to->t);
+  AppendRows(from.p_e, rows, &to->p_e);
+  AppendRows(from.v_e, rows, &to->v_e);
+  AppendRows(from.q_eb, rows, &to->q_eb);
+  AppendRows(from.P_position, rows, &to->P_position);
+  AppendRows(from.P_velocity, rows, &to->P_velocity);
+  AppendRows(from.P_attitude, rows, &to->P_attitude);
+  AppendRows(from.sigma_euler, rows, &to->sigma_euler);
+  AppendRows(from.b_g, rows, &to->b_g);
+  AppendRows(from.b_a, rows, &to->b_a);
+  AppendRows(from.sigma_b_g, rows, &to->sigma_b_g);
+  AppendRows(from.sigma_b_a, rows, &to->sigma_b_a);
+  AppendRows(from.separation, rows, &to->separation);
 }
 
-/// Piece by piece, since a row of a solution, with its whole covariance, is
-/// several times as large as that of a table.
-SolutionTable SampledTable(const RunRequest& request, const Dataset& dataset,
-                           const Reconstruction& reconstruction,
-                           const Solution& solution,
-                           const std::vector<double>& times) {
+/// One who wants rows of a solution.
+struct Wish {
+  std::vector<double> times;  ///< ascending
+  Eigen::Vector3d point_b;    ///< of which point, from the IMU [m]
+  SolutionTable* table;
+};
+
+/// Times that anyone wishes, once.
+std::vector<double> AllTimes(const std::vector<Wish>& wishes) {
+  std::vector<double> all;
+  for (const Wish& wish : wishes) {
+    all.insert(all.end(), wish.times.begin(), wish.times.end());
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+/// The rows of `sampled` at those of `times` that are among its own.
+std::vector<std::size_t> RowsAt(const std::vector<double>& times,
+                                const Solution& sampled) {
+  std::vector<std::size_t> rows;
+  auto t =
+      std::lower_bound(times.begin(), times.end(), sampled.states.front().t);
+  for (std::size_t k = 0; k < sampled.states.size(); ++k) {
+    while (t != times.end() && *t < sampled.states[k].t) ++t;
+    if (t != times.end() && *t == sampled.states[k].t) rows.push_back(k);
+  }
+  return rows;
+}
+
+/// Fulfils all wishes in one walk, piece by piece, since a row of a solution,
+/// with its whole covariance, is several times as large as that of a table.
+void SampleOnce(const Dataset& dataset, const Reconstruction& reconstruction,
+                const Solution& solution, const std::vector<Wish>& wishes) {
   constexpr std::ptrdiff_t kPiece = 10000;
-  SolutionTable table;
+  const std::vector<double> times = AllTimes(wishes);
   for (auto begin = times.begin(); begin != times.end();) {
     const auto end = begin + std::min(kPiece, times.end() - begin);
     const Solution piece = reconstruction.Sample(solution, {begin, end});
-    AppendRows(Table(request, dataset, piece), &table);
+    std::optional<Eigen::Vector3d> point_b;
+    SolutionTable table;
+    for (const Wish& wish : wishes) {
+      const std::vector<std::size_t> rows = RowsAt(wish.times, piece);
+      if (rows.empty()) continue;
+      if (point_b != wish.point_b) {
+        point_b = wish.point_b;
+        table = TableAt(wish.point_b, dataset.imu, piece);
+      }
+      AppendRows(table, rows, wish.table);
+    }
     begin = end;
   }
-  return table;
-}
-
-double PeakRssMb() {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
 /// Throws InputError if a time of --at is outside the solution's span.
@@ -159,61 +196,64 @@ ResultFolder::Paths InputsOf(const RunRequest& request) {
   return inputs;
 }
 
-void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
-                      const Reconstruction& reconstruction,
-                      const Solution& solution, const ResultFolder& folder) {
-  if (solution.states.empty()) return;
+double PeakRssMb() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
+                          const Reconstruction& reconstruction,
+                          const Solution& solution) {
+  MethodTables tables;
+  if (solution.states.empty()) return tables;
   CheckTimesCovered(request, solution);
-  const std::string& method = solution.method;
-  const auto sample = [&](const std::vector<double>& times) {
-    return SampledTable(request, dataset, reconstruction, solution, times);
-  };
-  const SolutionTable table =
-      request.rate ? sample(UniformTimes(solution, *request.rate))
-                   : Table(request, dataset, solution);
-  WriteSolutionCsv(folder.Path(method + ".csv"), table, ProgramLine(dataset));
-  if (!request.at.empty()) {
-    WriteSolutionCsv(folder.Path(method + ".at.csv"), sample(request.at),
-                     ProgramLine(dataset));
-  }
-  if (!solution.mode_probabilities.empty()) {
-    WriteModes(folder.Path(method + ".modes.csv"), solution,
-               ProgramLine(dataset));
-  }
-  WriteExports(request, dataset, method, table, folder);
-}
-
-MethodSummary Summarize(const Dataset& dataset,
-                        const Reconstruction& reconstruction,
-                        const Solution& solution) {
-  const double peak_rss_mb = PeakRssMb();
-  MethodSummary summary;
-  if (solution.states.empty()) {
-    summary.method = solution.method;
-    summary.converged = solution.converged;
-    summary.grade = solution.grade;
-    summary.evidence = solution.evidence;
-    summary.verdict = solution.verdict;
+  std::vector<Wish> wishes = {
+      {TruthTimes(dataset, solution.states.front().t, solution.states.back().t),
+       dataset.truth_lever_arm_b, &tables.truth},
+      {request.at, request.point_b, &tables.at}};
+  if (request.rate) {
+    wishes.push_back({UniformTimes(solution, *request.rate), request.point_b,
+                      &tables.output});
   } else {
-    const std::vector<double> times = TruthTimes(
-        dataset, solution.states.front().t, solution.states.back().t);
-    summary = SummarizeMethod(
-        dataset, solution,
-        TableFromSolution(reconstruction.Sample(solution, times)),
-        std::numeric_limits<double>::infinity());
+    tables.output = TableAt(request.point_b, dataset.imu, solution);
   }
-  summary.peak_rss_mb = peak_rss_mb;
-  return summary;
+  SampleOnce(dataset, reconstruction, solution, wishes);
+  return tables;
 }
 
-void ThinTruth(std::vector<TruthPoint>* truth) {
-  double last = -std::numeric_limits<double>::infinity();
-  std::erase_if(*truth, [&last](const TruthPoint& point) {
-    // A truth at 10 Hz is kept whole, whatever its stamps' rounding.
-    if (point.t < last + 0.999 * kLeastTruthSpacing) return true;
-    last = point.t;
-    return false;
-  });
+void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
+                      const Solution& solution, const MethodTables& tables,
+                      const ResultFolder& folder) {
+  if (solution.states.empty()) return;
+  const std::string& method = solution.method;
+  const auto write = [&](const std::string& suffix,
+                         const SolutionTable& table) {
+    if (table.size() == 0) return;
+    WriteSolutionCsv(folder.Path(method + suffix), table, ProgramLine(dataset),
+                     dataset.epoch_gps_ns);
+  };
+  write(".csv", tables.output);
+  write(".at.csv", tables.at);
+  write(kTruthSuffix, tables.truth);
+  if (!solution.mode_probabilities.empty()) {
+    WriteModes(folder.Path(method + ".modes.csv"), solution, dataset);
+  }
+  WriteExports(request, dataset, method, tables.output, folder);
+}
+
+MethodSummary Summarize(const Dataset& dataset, const Solution& solution,
+                        const MethodTables& tables) {
+  if (!solution.states.empty()) {
+    return SummarizeMethod(dataset, solution, tables.truth);
+  }
+  MethodSummary summary;
+  summary.method = solution.method;
+  summary.converged = solution.converged;
+  summary.grade = solution.grade;
+  summary.evidence = solution.evidence;
+  summary.verdict = solution.verdict;
+  return summary;
 }
 
 StartSummary SummarizeStart(const StartReport& start) {

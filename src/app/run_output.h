@@ -21,23 +21,36 @@ OutputRequest OutputOf(const RunRequest& request);
 /// All files that the run reads.
 ResultFolder::Paths InputsOf(const RunRequest& request);
 
-/// Writes METHOD.csv, METHOD.at.csv and the exports of one solution, nothing
-/// for one without states. Throws InputError if a time of --at is outside its
-/// span.
+/// Of the file beside METHOD.csv that holds MethodTables::truth.
+inline constexpr const char* kTruthSuffix = ".truth.csv";
+
+/// The solution of a method as its files hold it.
+struct MethodTables {
+  SolutionTable output;  ///< METHOD.csv: the nodes, or at --rate
+  SolutionTable at;      ///< METHOD.at.csv, at the times of --at
+  /// METHOD.truth.csv, at the truth's times and the point it speaks of: what is
+  /// compared with it, here and by `evaluate`.
+  SolutionTable truth;
+};
+
+/// Samples the solution through the IMU, once for all three. Throws InputError
+/// if a time of --at is outside its span.
+MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
+                          const Reconstruction& reconstruction,
+                          const Solution& solution);
+
+/// Writes the tables that have rows, mode probabilities and exports; nothing
+/// for a solution without states.
 void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
-                      const Reconstruction& reconstruction,
-                      const Solution& solution, const ResultFolder& folder);
+                      const Solution& solution, const MethodTables& tables,
+                      const ResultFolder& folder);
 
-/// The figures of one solution; of one without states, only that it failed. It
-/// is compared with the truth as sampled through the IMU at the truth's times,
-/// so that nothing is interpolated.
-MethodSummary Summarize(const Dataset& dataset,
-                        const Reconstruction& reconstruction,
-                        const Solution& solution);
+/// The figures of one solution; of one without states, only that it failed.
+MethodSummary Summarize(const Dataset& dataset, const Solution& solution,
+                        const MethodTables& tables);
 
-/// Leaves out truth points closer than 0.1 s to the one before: a trajectory
-/// says nothing new in between, and samples with covariances are large.
-void ThinTruth(std::vector<TruthPoint>* truth);
+/// The most memory that the process has held [MB].
+double PeakRssMb();
 
 StartSummary SummarizeStart(const StartReport& start);
 

@@ -198,34 +198,4 @@ TrajectoryStatistics EvaluateTrajectory(const SolutionTable& solution,
   return s;
 }
 
-std::vector<TruthPoint> TruthAt(const SolutionTable& truth,
-                                const std::vector<double>& times,
-                                double max_gap) {
-  const TrajectoryInterpolator interpolator(truth, max_gap);
-  std::vector<TruthPoint> points;
-  for (const double t : times) {
-    const std::optional<InterpolatedState> x = interpolator.At(t);
-    if (!x) continue;
-    TruthPoint point;
-    point.t = t;
-    point.p_e = x->p_e;
-    const Eigen::Matrix3d C_ne =
-        x->p_e ? Eigen::Matrix3d(NedAxes(*x->p_e).transpose())
-               : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-    if (x->v_e) point.v_n = C_ne * *x->v_e;
-    if (x->q_eb) point.q_nb = Eigen::Quaterniond(C_ne) * *x->q_eb;
-    points.push_back(point);
-  }
-  return points;
-}
-
-bool IsSparser(const SolutionTable& a, const SolutionTable& b) {
-  if (a.size() < 2 || b.size() < 2) return false;
-  const auto spacing = [](const SolutionTable& table) {
-    return (table.t.back() - table.t.front()) /
-           static_cast<double>(table.size() - 1);
-  };
-  return spacing(a) > 1.5 * spacing(b);
-}
-
 }  // namespace hindsight

@@ -60,9 +60,12 @@ struct AttitudeErrorStatistics {
 /// Statistics of a whole trajectory; a part is absent where no truth point
 /// could be compared.
 struct TrajectoryStatistics {
-  std::size_t truth_count = 0;
+  /// What the figures are taken at: truth points, or with `at_solution_rows`
+  /// the rows of the solution.
+  bool at_solution_rows = false;
+  std::size_t truth_count = 0;  ///< such points
   std::size_t matched_count = 0;
-  /// Truth points compared, of all there are [%].
+  /// Points compared, of all there are [%].
   double matched_percent() const;
   std::optional<VectorErrorStatistics> position;  ///< [m]
   std::optional<VectorErrorStatistics> velocity;  ///< [m/s]
@@ -88,18 +91,6 @@ TrajectoryStatistics EvaluateTrajectory(const SolutionTable& solution,
 /// normalised squared errors above 100, where 3 is right. Empty if there is
 /// nothing.
 std::string Contradiction(const TrajectoryStatistics& statistics);
-
-/// A reference at the stamps of a solution, interpolated; stamps outside its
-/// span or in gaps longer than `max_gap` [s] are left out. Of two trajectories
-/// the denser one is interpolated: a row a second says too little of a turn in
-/// between.
-std::vector<TruthPoint> TruthAt(const SolutionTable& truth,
-                                const std::vector<double>& times,
-                                double max_gap);
-
-/// True if the rows of `a` lie at least half as far again apart, on average, as
-/// those of `b`.
-bool IsSparser(const SolutionTable& a, const SolutionTable& b);
 
 }  // namespace hindsight
 

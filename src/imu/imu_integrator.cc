@@ -111,6 +111,20 @@ ImuSummary ImuIntegrator::Summarize(double t_i, double t_j,
   return summary;
 }
 
+void ImuIntegrator::AppendMean(double t_j, ImuSummary* mean) {
+  ImuSummary& s = *mean;
+  Walk(s.t_j, t_j, [&s](const LinearRates& rates, const LinearRates*) {
+    const SampleIntegral sample = Integrate(Calibrated(rates, s.calibration));
+    s.dp += rates.dt * s.dv + s.dR * sample.dp;
+    s.dv += s.dR * sample.dv;
+    s.dR = s.dR * Exp(sample.phi);
+  });
+  s.dR.normalize();
+  s.t_j = t_j;
+  s.gyro_bias_phi = stream_->noise.GyroBiasEvolution().Phi(s.dt());
+  s.accel_bias_phi = stream_->noise.AccelBiasEvolution().Phi(s.dt());
+}
+
 Eigen::Quaterniond ImuIntegrator::Turn(double t_i, double t_j,
                                        const Eigen::Vector3d& b_g) {
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();

@@ -7,6 +7,20 @@
 
 namespace hindsight {
 
+ImuSummary EmptyMean(double t, const ImuCalibration& calibration) {
+  ImuSummary mean;
+  mean.t_i = mean.t_j = t;
+  mean.calibration = calibration;
+  for (Eigen::Matrix3d* m :
+       {&mean.R_bg, &mean.v_bg, &mean.p_bg, &mean.v_ba, &mean.p_ba, &mean.R_sg,
+        &mean.v_sg, &mean.p_sg, &mean.v_sa, &mean.p_sa}) {
+    m->setZero();
+  }
+  mean.noise.setZero();
+  mean.bias_cross.setZero();
+  return mean;
+}
+
 CorrectedMean Correct(const ImuSummary& summary, const ImuCalibration& at) {
   const Eigen::Vector3d d_bg = at.b_g - summary.calibration.b_g;
   const Eigen::Vector3d d_ba = at.b_a - summary.calibration.b_a;
@@ -33,6 +47,23 @@ bool NeedsReintegration(const ImuSummary& summary, const ImuCalibration& at) {
       (d_sg.isZero(0.0) ? 0.0 : (summary.R_sg * d_sg).norm());
   const Eigen::Vector3d d_sa = at.s_a - summary.calibration.s_a;
   return rotation > kMaxRotation || d_sa.norm() > kMaxRotation;
+}
+
+LinearRates Calibrated(const LinearRates& raw,
+                       const ImuCalibration& calibration) {
+  LinearRates r = {raw.dt, raw.w0 - calibration.b_g, raw.w1 - calibration.b_g,
+                   raw.f0 - calibration.b_a, raw.f1 - calibration.b_a};
+  if (!calibration.s_g.isZero(0.0)) {
+    const Eigen::Array3d factor = 1.0 / (1.0 + calibration.s_g.array());
+    r.w0.array() *= factor;
+    r.w1.array() *= factor;
+  }
+  if (!calibration.s_a.isZero(0.0)) {
+    const Eigen::Array3d factor = 1.0 / (1.0 + calibration.s_a.array());
+    r.f0.array() *= factor;
+    r.f1.array() *= factor;
+  }
+  return r;
 }
 
 Preintegrator::Preintegrator(const ImuNoise& noise, bool with_scale_jacobians)
@@ -80,19 +111,7 @@ void Preintegrator::TakeSnapshot() {
 }
 
 void Preintegrator::Add(const LinearRates& raw, const IntervalNoise& extra) {
-  LinearRates r = raw;
-  r.w0 -= calibration_.b_g;
-  r.w1 -= calibration_.b_g;
-  r.f0 -= calibration_.b_a;
-  r.f1 -= calibration_.b_a;
-  if (with_scale_) {
-    const Eigen::Array3d gyro_factor = 1.0 / (1.0 + calibration_.s_g.array());
-    const Eigen::Array3d accel_factor = 1.0 / (1.0 + calibration_.s_a.array());
-    r.w0.array() *= gyro_factor;
-    r.w1.array() *= gyro_factor;
-    r.f0.array() *= accel_factor;
-    r.f1.array() *= accel_factor;
-  }
+  const LinearRates r = Calibrated(raw, calibration_);
   const double dt = r.dt;
   const SampleIntegral sample = Integrate(r);
 

@@ -65,6 +65,10 @@ struct ImuSummary {
   double dt() const { return t_j - t_i; }
 };
 
+/// A summary of no length at t, for ImuIntegrator::AppendMean to let grow: of
+/// its mean alone, Jacobians and noise stay zero.
+ImuSummary EmptyMean(double t, const ImuCalibration& calibration);
+
 /// Mean of a summary moved to another calibration, to first order.
 struct CorrectedMean {
   Eigen::Quaterniond dR;
@@ -78,6 +82,10 @@ CorrectedMean Correct(const ImuSummary& summary, const ImuCalibration& at);
 /// terms matter: rotation correction above 1 mrad, or scale above 1e-3 times
 /// the motion.
 bool NeedsReintegration(const ImuSummary& summary, const ImuCalibration& at);
+
+/// Rates with the errors of a calibration taken out, (raw - bias)/(1 + scale).
+LinearRates Calibrated(const LinearRates& raw,
+                       const ImuCalibration& calibration);
 
 /// White noise of one sample interval on top of the IMU's own.
 struct IntervalNoise {
@@ -160,6 +168,9 @@ class ImuIntegrator {
   /// time order cost time in proportion to the samples of the interval.
   ImuSummary Summarize(double t_i, double t_j,
                        const ImuCalibration& calibration);
+
+  /// Appends [mean->t_j, t_j] to what began as EmptyMean, at its calibration.
+  void AppendMean(double t_j, ImuSummary* mean);
 
   /// dR of the same alone, at a fraction of the cost; `b_g` is subtracted.
   Eigen::Quaterniond Turn(double t_i, double t_j, const Eigen::Vector3d& b_g);

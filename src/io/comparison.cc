@@ -140,7 +140,11 @@ std::string ErrorTable(const TrajectoryStatistics& s) {
   }
   std::string text = table.Render();
   text += "matched: " + std::to_string(s.matched_count) + " of " +
-          std::to_string(s.truth_count) + " truth points (" +
+          std::to_string(s.truth_count) +
+          (s.at_solution_rows
+               ? " rows of the solution, to which the denser truth is "
+                 "interpolated ("
+               : " truth points (") +
           FormatFixed(s.matched_percent(), 2) + " %)\n";
   if (s.final_horizontal && s.distance && *s.distance > 0.0) {
     text += "horizontal error at the end " + Cell(s.final_horizontal) + " m, " +

@@ -1,9 +1,7 @@
 #include "io/kml.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "base/error.h"
@@ -56,30 +54,6 @@ std::vector<std::vector<std::size_t>> Pieces(const SolutionTable& table) {
   return pieces;
 }
 
-/// "yyyy-mm-ddThh:mm:ss.sssZ".
-std::string UtcTime(std::int64_t gps_ns) {
-  namespace chrono = std::chrono;
-  const std::int64_t gps_ms = (gps_ns + 500'000) / 1'000'000;
-  const std::int64_t gps_unix = gps_ms / 1000 + kGpsEpochUnix;
-  // The leap seconds are listed by UTC, which is what is sought.
-  const std::int64_t unix_s =
-      gps_unix - LeapSeconds(gps_unix - LeapSeconds(gps_unix));
-  const chrono::sys_seconds time{chrono::seconds(unix_s)};
-  const auto day = chrono::floor<chrono::days>(time);
-  const chrono::year_month_day date(day);
-  const chrono::hh_mm_ss clock(time - day);
-  char text[40];
-  std::snprintf(text, sizeof(text), "%04d-%02u-%02uT%02d:%02d:%02d.%03dZ",
-                static_cast<int>(date.year()),
-                static_cast<unsigned>(date.month()),
-                static_cast<unsigned>(date.day()),
-                static_cast<int>(clock.hours().count()),
-                static_cast<int>(clock.minutes().count()),
-                static_cast<int>(clock.seconds().count()),
-                static_cast<int>(gps_ms % 1000));
-  return text;
-}
-
 /// "lon<separator>lat<separator>h".
 std::string Coordinates(const Eigen::Vector3d& p_e, char separator) {
   const Geodetic g = GeodeticFromEcef(p_e);
@@ -100,7 +74,7 @@ void WriteTrack(const SolutionTable& table,
       "<altitudeMode>absolute</altitudeMode>\n");
   for (const std::size_t k : indices) {
     const std::int64_t gps_ns = epoch_gps_ns + std::llround(table.t[k] * 1e9);
-    file->Write("<when>" + UtcTime(gps_ns) + "</when>\n");
+    file->Write("<when>" + FormatUtcTime(gps_ns) + "</when>\n");
   }
   for (const std::size_t k : indices) {
     file->Write("<gx:coord>" + Coordinates(table.p_e[k], ' ') +

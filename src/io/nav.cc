@@ -8,22 +8,17 @@
 #include "geometry/so3.h"
 #include "io/atomic_file.h"
 #include "io/number_format.h"
+#include "io/time_scale.h"
 
 namespace hindsight {
 namespace {
 
-constexpr std::int64_t kWeekNs = 604'800'000'000'000;
-constexpr double kWeek = 604800.0;
-
-struct GpsTime {
-  std::int64_t week = 0;
-  double seconds = 0.0;
-};
-
-GpsTime GpsTimeOf(double t, std::optional<std::int64_t> epoch_gps_ns) {
+/// t = 0 is the beginning of week 0 if the clock has no date.
+GpsWeekTime TimeAt(double t, std::optional<std::int64_t> epoch_gps_ns) {
+  constexpr auto kWeek = static_cast<double>(kWeekSeconds);
   if (!epoch_gps_ns) return {0, t};
-  GpsTime time{*epoch_gps_ns / kWeekNs,
-               1e-9 * static_cast<double>(*epoch_gps_ns % kWeekNs) + t};
+  GpsWeekTime time = GpsWeekOf(*epoch_gps_ns);
+  time.seconds += t;
   const double weeks = std::floor(time.seconds / kWeek);
   time.week += static_cast<std::int64_t>(weeks);
   time.seconds -= weeks * kWeek;
@@ -42,7 +37,7 @@ void WriteNav(const std::string& path, const SolutionTable& table,
   AtomicFile file(path);
   std::string line;
   for (std::size_t k = 0; k < table.size(); ++k) {
-    const GpsTime time = GpsTimeOf(table.t[k], epoch_gps_ns);
+    const GpsWeekTime time = TimeAt(table.t[k], epoch_gps_ns);
     const Geodetic g = GeodeticFromEcef(table.p_e[k]);
     const Eigen::Vector3d v_n = table.C_en(k).transpose() * table.v_e[k];
     const Eigen::Vector3d euler = EulerFromQuaternion(table.q_nb(k));

@@ -3,6 +3,7 @@
 #include "dataset/injection.h"
 #include "io/atomic_file.h"
 #include "io/number_format.h"
+#include "io/time_scale.h"
 
 namespace hindsight {
 namespace {
@@ -40,6 +41,7 @@ void WriteResidualCsv(const std::string& path,
   for (const Injection& injection : dataset.injections) {
     file.Write("# error injected on purpose: " + Describe(injection) + "\n");
   }
+  file.Write(EpochComment(dataset.epoch_gps_ns));
   file.Write(
       "# residual = measured - predicted and sigma in SI units, a line for "
       "each component\n"

@@ -17,7 +17,8 @@ namespace hindsight {
 ///   nis                               of the whole measurement
 ///   weight                            of a robust loss, 1 = full
 ///   status                            used, rejected (by the gate), withheld
-/// Written to a temporary name and renamed. Throws OutputError if the file
+/// after comments that begin with '#', one of which says what t = 0 is. Written
+/// to a temporary name and renamed. Throws OutputError if the file
 /// cannot be written.
 void WriteResidualCsv(const std::string& path,
                       const std::vector<Solution>& solutions,

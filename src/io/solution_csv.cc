@@ -7,6 +7,7 @@
 #include "io/atomic_file.h"
 #include "io/number_format.h"
 #include "io/solution_columns.h"
+#include "io/time_scale.h"
 
 namespace hindsight {
 namespace {
@@ -94,9 +95,10 @@ GroupValues RowValues(const SolutionTable& table, std::size_t k,
   return GroupValues::Zero();
 }
 
-std::string Comments(const SolutionTable& table, const std::string& program) {
-  return "# program: " + program + "\n# method: " + table.method +
-         "\n"
+std::string Comments(const SolutionTable& table, const std::string& program,
+                     std::optional<std::int64_t> epoch_gps_ns) {
+  return "# program: " + program + "\n# method: " + table.method + "\n" +
+         EpochComment(epoch_gps_ns) +
          "# position: WGS-84, height above the ellipsoid; velocity over the "
          "Earth, north-east-down\n"
          "# attitude: body forward-right-down to north-east-down, "
@@ -141,10 +143,11 @@ void AppendAttitudeVerdicts(const SolutionTable& table, std::size_t k,
 }  // namespace
 
 void WriteSolutionCsv(const std::string& path, const SolutionTable& table,
-                      const std::string& program) {
+                      const std::string& program,
+                      std::optional<std::int64_t> epoch_gps_ns) {
   AtomicFile file(path);
   std::vector<ColumnGroup> groups;
-  std::string line = Comments(table, program) + "t[s]";
+  std::string line = Comments(table, program, epoch_gps_ns) + "t[s]";
   for (int i = 0; i < kColumnGroups; ++i) {
     const auto group = static_cast<ColumnGroup>(i);
     if (!HasGroup(table, group)) continue;

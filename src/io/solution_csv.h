@@ -1,6 +1,8 @@
 #ifndef HINDSIGHT_IO_SOLUTION_CSV_H_
 #define HINDSIGHT_IO_SOLUTION_CSV_H_
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "evaluation/solution_table.h"
@@ -36,10 +38,12 @@ namespace hindsight {
 ///                                sigmas, of two-filter smoothers; empty where
 ///                                the backward filter has no position
 ///
-/// Written to a temporary name and renamed. `program` ("hindsight 0.1.0") goes
-/// into the comments. Throws OutputError if the file cannot be written.
+/// Written to a temporary name and renamed. `program` ("hindsight 0.1.0") and
+/// what t = 0 is (EpochComment; `epoch_gps_ns` as in Dataset) go into the
+/// comments. Throws OutputError if the file cannot be written.
 void WriteSolutionCsv(const std::string& path, const SolutionTable& table,
-                      const std::string& program);
+                      const std::string& program,
+                      std::optional<std::int64_t> epoch_gps_ns);
 
 /// Reads a file of the columns above, plain or gzip, in any order, other
 /// columns skipped; units are converted except those of covariances. Only t is

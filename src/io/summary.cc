@@ -1,9 +1,11 @@
 #include "io/summary.h"
 
+#include "evaluation/truth_comparison.h"
+
 namespace hindsight {
 
 MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
-                              const SolutionTable& trajectory, double max_gap) {
+                              const SolutionTable& trajectory) {
   MethodSummary m;
   m.method = solution.method;
   m.seconds = solution.seconds;
@@ -13,9 +15,7 @@ MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
   m.evidence = solution.evidence;
   m.verdict = solution.verdict;
   if (!dataset.truth.empty()) {
-    m.error = EvaluateTrajectory(
-        trajectory, dataset.truth,
-        {.max_gap = max_gap, .truth_lever_arm_b = dataset.truth_lever_arm_b});
+    m.error = CompareWithTruth(trajectory, dataset.truth, {});
     // P of an observer is no covariance to begin with.
     if (!solution.observer) m.contradiction = Contradiction(*m.error);
   }
@@ -32,22 +32,9 @@ MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
 }
 
 std::vector<double> TruthTimes(const Dataset& dataset, double from, double to) {
-  // The rows beside a truth point tell the angular rate at it, by which a
-  // lever arm moves its velocity.
-  constexpr double kBeside = 0.01;
-  const bool beside = !dataset.truth_lever_arm_b.isZero(0.0);
   std::vector<double> times;
-  const auto add = [&](double t) {
-    const bool later = times.empty() || t > times.back();
-    if (later && from <= t && t <= to) times.push_back(t);
-  };
-  for (std::size_t k = 0; k < dataset.truth.size(); ++k) {
-    const double t = dataset.truth[k].t;
-    if (beside) add(t - kBeside);
-    add(t);
-    const bool dense =
-        k + 1 < dataset.truth.size() && dataset.truth[k + 1].t <= t + kBeside;
-    if (beside && !dense) add(t + kBeside);
+  for (const TruthPoint& point : dataset.truth) {
+    if (from <= point.t && point.t <= to) times.push_back(point.t);
   }
   return times;
 }

@@ -2,12 +2,14 @@
 #define HINDSIGHT_IO_SUMMARY_H_
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "dataset/dataset.h"
+#include "evaluation/broad_metric.h"
 #include "evaluation/outages.h"
 #include "evaluation/residual_statistics.h"
 #include "evaluation/solution_table.h"
@@ -43,6 +45,7 @@ struct MethodSummary {
   /// What the truth says against the covariances, in words; empty: nothing.
   std::string contradiction;
   std::optional<TrajectoryStatistics> error;  ///< absent without truth
+  std::optional<BroadMetric> broad;           ///< of attitude alone
   std::vector<OutageError> outages;
   std::vector<std::string> outage_sensors;  ///< stream of each outage
   std::vector<ResidualStatistics> residuals;
@@ -57,6 +60,7 @@ struct RunSummary {
   std::string dataset;
   /// All methods asked for have ended and all files are written.
   bool complete = false;
+  std::optional<std::int64_t> epoch_gps_ns;  ///< see Dataset
   std::optional<StartSummary> start;
   std::vector<PolicyCount> policies;
   /// The best method, whose grade is that of the run; empty: none.
@@ -64,15 +68,13 @@ struct RunSummary {
   std::vector<MethodSummary> methods;
 };
 
-/// Compares `solution` with the data set's truth and withheld measurements.
-/// `trajectory` is what is compared with the truth: the solution's own table,
-/// or better the solution sampled at the truth's times through the IMU.
-/// `max_gap` is that of TrajectoryErrorOptions [s].
+/// Compares `solution` with the data set's truth (CompareWithTruth) and
+/// withheld measurements. `trajectory` is the solution at the point that the
+/// truth speaks of and, where it can be sampled through the IMU, at TruthTimes.
 MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
-                              const SolutionTable& trajectory, double max_gap);
+                              const SolutionTable& trajectory);
 
-/// Times of the truth points within [from, to] [s]; of a truth with a lever arm
-/// also 10 ms beside them, which tells the angular rates there.
+/// Times of the truth points within [from, to] [s].
 std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
 
 /// The keys of summary.json. A figure that does not exist is absent. Vectors
@@ -83,6 +85,8 @@ std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
 ///   complete                    false: the run was interrupted, and the
 ///   methods
 ///                               here are those that were done
+///   epoch                       t = 0; absent if the clock has no date
+///     gps_week, gps_second, utc       "yyyy-mm-ddThh:mm:ss.sssZ"
 ///   start                       how the initial state came about
 ///     t_s, position, attitude, heading, alignment, why        words
 ///     position_sigma_m, velocity_sigma_mps, attitude_sigma_deg
@@ -111,6 +115,10 @@ std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
 ///       velocity_rms_mps, velocity_max_mps
 ///       attitude_rms_deg, attitude_max_deg, tilt_rms_deg
 ///       matched_percent         truth points that could be compared
+///     broad                     of attitude alone, the BROAD benchmark's
+///     errors
+///       total_rmse_deg, heading_rmse_deg, inclination_rmse_deg
+///       count                   reference points in motion
 ///     withheld                  against withheld position measurements, all
 ///                               measurements of all outages together
 ///       horizontal_rms_m, horizontal_max_m, total_rms_m, total_max_m

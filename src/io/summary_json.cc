@@ -4,6 +4,7 @@
 
 #include "base/units.h"
 #include "io/summary.h"
+#include "io/time_scale.h"
 
 namespace hindsight {
 namespace {
@@ -175,6 +176,15 @@ Json EvidenceJson(const Evidence& e) {
   return json;
 }
 
+Json BroadJson(const BroadMetric& metric) {
+  Json json;
+  Put(&json, "total_rmse_deg", metric.rms.total / kDegree);
+  Put(&json, "heading_rmse_deg", metric.rms.heading / kDegree);
+  Put(&json, "inclination_rmse_deg", metric.rms.inclination / kDegree);
+  json["count"] = metric.count;
+  return json;
+}
+
 Json MethodJson(const MethodSummary& m) {
   Json json;
   Put(&json, "seconds", m.seconds);
@@ -189,6 +199,7 @@ Json MethodJson(const MethodSummary& m) {
   }
   PutText(&json, "contradicts_truth", m.contradiction);
   if (m.error) json["error"] = ErrorJson(*m.error);
+  if (m.broad) json["broad"] = BroadJson(*m.broad);
   if (!m.outages.empty()) json["withheld"] = WithheldJson(m);
   if (m.error) {
     Json nees = NeesJson(*m.error);
@@ -206,6 +217,13 @@ Json MethodJson(const MethodSummary& m) {
   }
   if (m.observer) json["observer"] = ObserverJson(*m.observer);
   return json;
+}
+
+Json EpochJson(std::int64_t gps_ns) {
+  const GpsWeekTime time = GpsWeekOf(gps_ns);
+  return {{"gps_week", time.week},
+          {"gps_second", time.seconds},
+          {"utc", FormatUtcTime(gps_ns)}};
 }
 
 Json StartJson(const StartSummary& start) {
@@ -230,6 +248,7 @@ nlohmann::ordered_json SummaryJson(const RunSummary& summary) {
   json["program"] = summary.program;
   json["dataset"] = summary.dataset;
   json["complete"] = summary.complete;
+  if (summary.epoch_gps_ns) json["epoch"] = EpochJson(*summary.epoch_gps_ns);
   if (summary.start) json["start"] = StartJson(*summary.start);
   for (const PolicyCount& policy : summary.policies) {
     json["policies"].push_back({{"stream", policy.stream},

@@ -176,6 +176,44 @@ std::string FormatGpsTime(std::int64_t gps_ns) {
   return text.data();
 }
 
+std::string FormatUtcTime(std::int64_t gps_ns) {
+  const std::int64_t gps_ms = (gps_ns + 500'000) / 1'000'000;
+  const std::int64_t gps_unix = gps_ms / 1000 + kGpsEpochUnix;
+  // The leap seconds are listed by UTC, which is what is sought.
+  const std::int64_t unix_s =
+      gps_unix - LeapSeconds(gps_unix - LeapSeconds(gps_unix));
+  const std::chrono::sys_seconds time{std::chrono::seconds(unix_s)};
+  const auto day = std::chrono::floor<std::chrono::days>(time);
+  const std::chrono::year_month_day date(day);
+  const std::chrono::hh_mm_ss clock(time - day);
+  char text[40];
+  std::snprintf(text, sizeof(text), "%04d-%02u-%02uT%02d:%02d:%02d.%03dZ",
+                static_cast<int>(date.year()),
+                static_cast<unsigned>(date.month()),
+                static_cast<unsigned>(date.day()),
+                static_cast<int>(clock.hours().count()),
+                static_cast<int>(clock.minutes().count()),
+                static_cast<int>(clock.seconds().count()),
+                static_cast<int>(gps_ms % 1000));
+  return text;
+}
+
+GpsWeekTime GpsWeekOf(std::int64_t gps_ns) {
+  constexpr std::int64_t kWeekNs = kWeekSeconds * kNanosecondsPerSecond;
+  return {gps_ns / kWeekNs, 1e-9 * static_cast<double>(gps_ns % kWeekNs)};
+}
+
+std::string EpochComment(std::optional<std::int64_t> epoch_gps_ns) {
+  if (!epoch_gps_ns) return "# epoch: the recording's clock has no date\n";
+  const GpsWeekTime time = GpsWeekOf(*epoch_gps_ns);
+  std::array<char, 128> text;
+  std::snprintf(text.data(), text.size(),
+                "# epoch: t = 0 is GPS week %lld second %.9f, %s\n",
+                static_cast<long long>(time.week), time.seconds,
+                FormatUtcTime(*epoch_gps_ns).c_str());
+  return text.data();
+}
+
 std::int64_t Nanoseconds(const Stamp& stamp) {
   return stamp.seconds * kNanosecondsPerSecond +
          std::llround(stamp.fraction * 1e9);

@@ -62,6 +62,21 @@ std::optional<Stamp> ParseDateTime(std::string_view text);
 /// "yyyy-mm-dd hh:mm:ss.sssssssss GPST".
 std::string FormatGpsTime(std::int64_t gps_ns);
 
+/// "yyyy-mm-ddThh:mm:ss.sssZ", UTC.
+std::string FormatUtcTime(std::int64_t gps_ns);
+
+/// An instant as GPS receivers count it.
+struct GpsWeekTime {
+  std::int64_t week = 0;
+  double seconds = 0.0;  ///< [0, kWeekSeconds)
+};
+GpsWeekTime GpsWeekOf(std::int64_t gps_ns);
+
+/// What the header of a result says of t = 0: "# epoch: t = 0 is GPS week 2374
+/// second 243261.854000000, 2025-07-08T19:34:03.854Z\n", or that the clock has
+/// no date.
+std::string EpochComment(std::optional<std::int64_t> epoch_gps_ns);
+
 std::int64_t Nanoseconds(const Stamp& stamp);
 Stamp StampFromNanoseconds(std::int64_t ns);
 

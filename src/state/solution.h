@@ -96,6 +96,9 @@ struct Solution {
   std::vector<double> accel_sigma;
   std::vector<signed char> magnetic;
   std::optional<ObserverFigures> observer;  ///< of forward observers alone
+  /// Of a method that at each node knows nothing later: between nodes its state
+  /// is what the one before predicts.
+  bool forward = false;
   bool converged = true;
   int iterations = 0;    ///< 0 for a method that does not iterate
   double seconds = 0.0;  ///< processor time of the method alone
@@ -107,6 +110,25 @@ struct Solution {
 
   bool usable() const { return grade == Grade::kUsable; }
 };
+
+/// All of a solution that is no series over its states or measurements.
+inline Solution WithoutSeries(const Solution& solution) {
+  Solution out;
+  out.method = solution.method;
+  out.layout = solution.layout;
+  out.constants = solution.constants;
+  out.unobserved = solution.unobserved;
+  out.notes = solution.notes;
+  out.observer = solution.observer;
+  out.forward = solution.forward;
+  out.converged = solution.converged;
+  out.iterations = solution.iterations;
+  out.seconds = solution.seconds;
+  out.grade = solution.grade;
+  out.evidence = solution.evidence;
+  out.verdict = solution.verdict;
+  return out;
+}
 
 }  // namespace hindsight
 

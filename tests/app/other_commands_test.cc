@@ -51,21 +51,78 @@ TEST_F(OtherCommands, CheckEndsWithThreeWhereTheImuFreezes) {
   EXPECT_EQ(Lines(outcome.out).back(), "the recording is doubtful: 1 warning");
 }
 
-TEST_F(OtherCommands, EvaluateAgreesWithTheSummary) {
-  ASSERT_EQ(
-      recording_.Run({"--out=out", "--methods=batch", "--rate=100"}).status, 0);
-  const Outcome outcome =
-      Hindsight({"evaluate", "out/batch.csv", "data/truth.csv", "--json"},
-                recording_.root());
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const nlohmann::json figures = nlohmann::json::parse(outcome.out);
-  const double summary =
-      Summary()["methods"]["batch"]["error"]["horizontal_rms_m"].get<double>();
-  EXPECT_NEAR(figures["errors"]["position_horizontal"]["rms"].get<double>(),
-              summary, 0.01 * summary);
-  const Outcome itself = Hindsight(
-      {"evaluate", "data/truth.csv", "data/truth.csv"}, recording_.root());
-  EXPECT_THAT(itself.out, HasSubstr("501 of 501 truth points (100.00 %)"));
+/// Figures of `evaluate` in the words of summary.json.
+nlohmann::json ErrorsOf(const nlohmann::json& figures) {
+  const nlohmann::json& errors = figures["errors"];
+  return {{"horizontal_rms_m", errors["position_horizontal"]["rms"]},
+          {"horizontal_max_m", errors["position_horizontal"]["max"]},
+          {"total_rms_m", errors["position_total"]["rms"]},
+          {"matched_percent", figures["matched_percent"]}};
+}
+
+TEST_F(OtherCommands, EvaluatePrintsTheFiguresOfRun) {
+  // Nodes a second apart, ten rows a second, and another point of the vehicle:
+  // the truth stands ten times a second.
+  const std::vector<std::vector<std::string>> outputs = {
+      {}, {"--rate=7"}, {"--point=1,0.5,-2"}};
+  for (std::vector<std::string> flags : outputs) {
+    flags.insert(flags.end(), {"--out=out", "--methods=ekf,batch", "--force"});
+    ASSERT_EQ(recording_.Run(flags).status, 0);
+    for (const std::string method : {"ekf", "batch"}) {
+      const Outcome outcome = Hindsight(
+          {"evaluate", "out/" + method + ".csv", "data/truth.csv", "--json"},
+          recording_.root());
+      ASSERT_EQ(outcome.status, 0) << outcome.err;
+      const nlohmann::json figures = nlohmann::json::parse(outcome.out);
+      EXPECT_EQ(figures["at"], "truth points");
+      EXPECT_EQ(figures["truth_count"], 501);
+      const nlohmann::json summary = Summary()["methods"][method];
+      const nlohmann::json errors = ErrorsOf(figures);
+      for (const auto& [key, value] : errors.items()) {
+        // The files' decimals: 1e-7 m.
+        EXPECT_NEAR(value.get<double>(), summary["error"][key].get<double>(),
+                    3e-7)
+            << method << " " << key;
+      }
+      EXPECT_NEAR(figures["nees"]["position"].get<double>(),
+                  summary["nees"]["position"].get<double>(), 1e-4);
+    }
+  }
+}
+
+TEST_F(OtherCommands, EvaluateSaysWhereItCompares) {
+  ASSERT_EQ(recording_.Run({"--out=out", "--methods=batch"}).status, 0);
+  const auto evaluate = [&](const std::string& solution) {
+    return Hindsight({"evaluate", solution, "data/truth.csv"},
+                     recording_.root())
+        .out;
+  };
+  EXPECT_THAT(evaluate("out/batch.csv"),
+              HasSubstr("compared: out/batch.truth.csv with data/truth.csv\n"));
+  // Taken from its folder it is only its rows.
+  std::filesystem::copy(recording_.root() / "out" / "batch.csv",
+                        recording_.root() / "alone.csv");
+  const std::string alone = evaluate("alone.csv");
+  EXPECT_THAT(alone, HasSubstr("compared: alone.csv with data/truth.csv\n"));
+  EXPECT_THAT(alone, HasSubstr("rows of the solution, to which the denser "
+                               "truth is interpolated"));
+  EXPECT_THAT(evaluate("data/truth.csv"),
+              HasSubstr("501 of 501 truth points (100.00 %)"));
+}
+
+TEST_F(OtherCommands, EvaluateTakesTheTruthOfAConfiguration) {
+  ASSERT_EQ(recording_.Run({"--out=out", "--methods=batch"}).status, 0);
+  const auto evaluate = [&](const std::string& truth) {
+    return nlohmann::json::parse(
+        Hindsight({"evaluate", "out/batch.csv", truth, "--json"},
+                  recording_.root())
+            .out);
+  };
+  const auto total = [&](const std::string& truth) {
+    const nlohmann::json figures = evaluate(truth);
+    return figures["errors"]["position_total"]["rms"].get<double>();
+  };
+  EXPECT_NEAR(total("data/config.yaml"), total("data/truth.csv"), 1e-8);
 }
 
 TEST_F(OtherCommands, InitWritesAConfigurationThatRuns) {

@@ -52,7 +52,7 @@ TEST_F(RunCommandTest, WritesTheFilesOfEveryMethodAndNothingElse) {
   std::vector<std::string> expected = {"config.resolved.yaml", "residuals.csv",
                                        "summary.json"};
   for (const std::string method : {"ekf", "rts", "iterated", "batch"}) {
-    for (const std::string ending : {"csv", "tum", "kml", "nav"}) {
+    for (const std::string ending : {"csv", "truth.csv", "tum", "kml", "nav"}) {
       expected.push_back(method + "." + ending);
     }
   }
@@ -138,6 +138,32 @@ TEST_F(RunCommandTest, OutputIsAtTheRateAndTimesAskedFor) {
   ASSERT_THAT(poses, SizeIs(2));
   EXPECT_DOUBLE_EQ(Field(poses[0], 0), 10.125);
   EXPECT_DOUBLE_EQ(Field(poses[1], 0), 20.0625);
+}
+
+TEST_F(RunCommandTest, EveryResultSaysWhatItsTimesCountFrom) {
+  recording_.Replace("config.yaml", "name: short\n",
+                     "name: short\nepoch: 2025-07-08 19:34:21.5 GPST\n");
+  WriteFile(recording_.root() / "times.txt", "10.125\n");
+  ASSERT_EQ(recording_.Run({"--out=out", "--methods=ekf,imm", "--at=times.txt"})
+                .status,
+            0);
+  int count = 0;
+  for (const std::string& name : Names(recording_.root() / "out")) {
+    if (!name.ends_with(".csv")) continue;
+    ++count;
+    bool said = false;
+    for (const std::string& line : Lines(ReadFile(Result(name)))) {
+      if (!line.starts_with('#')) break;
+      said = said || line ==
+                         "# epoch: t = 0 is GPS week 2374 second "
+                         "243261.500000000, 2025-07-08T19:34:03.500Z";
+    }
+    EXPECT_TRUE(said) << name;
+  }
+  // Solution, --at and truth of two methods, the modes of one, residuals.
+  EXPECT_EQ(count, 8);
+  EXPECT_EQ(Summary()["epoch"]["gps_week"], 2374);
+  EXPECT_EQ(Summary()["epoch"]["gps_second"], 243261.5);
 }
 
 TEST_F(RunCommandTest, PointMovesTheOutputByTheLeverArm) {

@@ -83,6 +83,28 @@ TEST(Preintegration, TheTurnAloneIsThatOfTheSummary) {
   EXPECT_LT(Log(q.conjugate() * dR).norm(), 1e-12);
 }
 
+TEST(Preintegration, AMeanThatGrowsIsThatOfTheSummary) {
+  ImuStream stream = LivelyImu(3.0, 100.0);
+  stream.noise.gyro_bias_walk = 1e-5;
+  stream.noise.gyro_bias_tau = 100.0;
+  ImuIntegrator integrator(stream, /*with_scale_jacobians=*/true);
+  ImuCalibration calibration;
+  calibration.b_g = {0.01, -0.02, 0.03};
+  calibration.b_a = {0.1, -0.2, 0.3};
+  calibration.s_g = {0.01, 0.02, -0.01};
+  calibration.s_a = {-0.01, 0.005, 0.02};
+  ImuSummary mean = EmptyMean(0.4321, calibration);
+  for (const double t : {0.4329, 0.5, 1.23456, 2.1234}) {
+    integrator.AppendMean(t, &mean);
+    const ImuSummary whole = integrator.Summarize(0.4321, t, calibration);
+    EXPECT_EQ(mean.t_j, t);
+    EXPECT_LT(Log(mean.dR.conjugate() * whole.dR).norm(), 1e-9);
+    EXPECT_LT((mean.dv - whole.dv).norm(), 1e-8);
+    EXPECT_LT((mean.dp - whole.dp).norm(), 1e-8);
+    EXPECT_EQ(mean.gyro_bias_phi, whole.gyro_bias_phi);
+  }
+}
+
 TEST(Preintegration, IncrementsAcrossADropOutAreThoseOfOneInterval) {
   constexpr double kStep = 0.01;
   const Eigen::Vector3d w(0.1, -0.2, 0.3);

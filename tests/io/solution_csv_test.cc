@@ -52,7 +52,7 @@ SolutionTable FullTable() {
 TEST(SolutionCsv, ComesBackAsWritten) {
   const TemporaryFolder folder;
   const SolutionTable table = FullTable();
-  WriteSolutionCsv(folder.Path("a.csv"), table, "hindsight 0");
+  WriteSolutionCsv(folder.Path("a.csv"), table, "hindsight 0", {});
   const SolutionTable back = ReadSolutionCsv(folder.Path("a.csv"));
   EXPECT_EQ(back.method, "batch");
   ASSERT_EQ(back.t, table.t);
@@ -75,9 +75,23 @@ TEST(SolutionCsv, ComesBackAsWritten) {
   EXPECT_THAT(folder.Entries(), UnorderedElementsAre("a.csv"));
 }
 
+TEST(SolutionCsv, SaysInACommentWhatItsTimesCountFrom) {
+  const TemporaryFolder folder;
+  // 2025-07-08 19:34:21.5 of GPS time, 18 s ahead of UTC.
+  WriteSolutionCsv(folder.Path("a.csv"), FullTable(), "hindsight 0",
+                   (2374LL * 604800 + 243261) * 1'000'000'000 + 500'000'000);
+  EXPECT_THAT(folder.Read("a.csv"),
+              HasSubstr("\n# epoch: t = 0 is GPS week 2374 second "
+                        "243261.500000000, 2025-07-08T19:34:03.500Z\n"));
+  EXPECT_EQ(ReadSolutionCsv(folder.Path("a.csv")).t, FullTable().t);
+  WriteSolutionCsv(folder.Path("b.csv"), FullTable(), "hindsight 0", {});
+  EXPECT_THAT(folder.Read("b.csv"),
+              HasSubstr("\n# epoch: the recording's clock has no date\n"));
+}
+
 TEST(SolutionCsv, HasTheDocumentedColumns) {
   const TemporaryFolder folder;
-  WriteSolutionCsv(folder.Path("a.csv"), FullTable(), "hindsight 0");
+  WriteSolutionCsv(folder.Path("a.csv"), FullTable(), "hindsight 0", {});
   EXPECT_THAT(
       folder.Read("a.csv"),
       HasSubstr(
@@ -102,7 +116,7 @@ TEST(SolutionCsv, GivesRollAndPitchSigmasInTheBodysDirections) {
   table.P_attitude = {Eigen::Matrix3d(
       Eigen::Vector3d(1.0, 4.0, 9.0).asDiagonal() * (kDegree * kDegree))};
   table.sigma_euler = {EulerSigma({0.0, 0.0, 0.5 * kPi}, table.P_attitude[0])};
-  WriteSolutionCsv(folder.Path("a.csv"), table, "hindsight 0");
+  WriteSolutionCsv(folder.Path("a.csv"), table, "hindsight 0", {});
   const std::string text = folder.Read("a.csv");
   EXPECT_THAT(text, HasSubstr("\nt[s],roll[deg],pitch[deg],heading[deg],"
                               "sd_roll[deg],sd_pitch[deg],sd_heading[deg],"
@@ -129,7 +143,7 @@ TEST(SolutionCsv, ReadsSigmasWithoutCrossTermsAndOtherUnits) {
       1e-12);
   EXPECT_TRUE(table.p_e.empty());
   // Written again, the standard deviations are those read.
-  WriteSolutionCsv(folder.Path("b.csv"), table, "hindsight 0");
+  WriteSolutionCsv(folder.Path("b.csv"), table, "hindsight 0", {});
   EXPECT_THAT(folder.Read("b.csv"), HasSubstr(",1,2,3,"));
 }
 

@@ -214,7 +214,7 @@ TEST(Batch, AStartNearTheSolutionNeedsNoWindows) {
     int iterations_in_windows = 0;
     const BatchResult parts = SolveBatch(
         problem.layout, problem.prior, start, &timeline, All(problem),
-        {.whole_nodes = 7, .window_nodes = 7, .callback = [&](int) {
+        {.whole_nodes = 7, .window_nodes = 7, .callback = [&](double) {
            ++iterations_in_windows;
          }});
     EXPECT_EQ(iterations_in_windows == 0, distance < 1e-3);
@@ -331,7 +331,7 @@ TEST(Batch, WhatTheCallbackThrowsReachesTheCaller) {
   Timeline timeline = problem.MakeTimeline();
   const std::vector<State> start = FilteredStates(problem, &timeline);
   BatchOptions options;
-  options.callback = [](int) { throw Interrupted(); };
+  options.callback = [](double) { throw Interrupted(); };
   EXPECT_THROW(SolveBatch(problem.layout, problem.prior, start, &timeline,
                           All(problem), options),
                Interrupted);

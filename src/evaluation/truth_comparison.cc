@@ -1,0 +1,121 @@
+#include "evaluation/truth_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "evaluation/interpolation.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kLeastTruthSpacing = 0.1;  // [s]
+constexpr std::size_t kMostTruthPoints = 50000;
+/// Stamps of two files for one instant [s].
+constexpr double kSameStamp = 1e-6;
+
+/// Columns that every point has.
+SolutionTable TableFromTruth(const std::vector<TruthPoint>& truth) {
+  const auto all = [&truth](const auto& part) {
+    return std::all_of(
+        truth.begin(), truth.end(),
+        [&part](const TruthPoint& point) { return (point.*part).has_value(); });
+  };
+  const bool position = all(&TruthPoint::p_e);
+  const bool velocity = all(&TruthPoint::v_n);
+  const bool attitude = all(&TruthPoint::q_nb);
+  SolutionTable table;
+  for (const TruthPoint& point : truth) {
+    table.t.push_back(point.t);
+    if (position) table.p_e.push_back(*point.p_e);
+    const Eigen::Matrix3d C_en = table.C_en(table.size() - 1);
+    if (velocity) table.v_e.push_back(C_en * *point.v_n);
+    if (attitude) {
+      table.q_eb.push_back(Eigen::Quaterniond(C_en) * *point.q_nb);
+    }
+  }
+  return table;
+}
+
+/// The reference at given times, interpolated; those outside its span or in its
+/// gaps are left out.
+std::vector<TruthPoint> TruthAt(const std::vector<TruthPoint>& truth,
+                                const std::vector<double>& times,
+                                double max_gap) {
+  const SolutionTable table = TableFromTruth(truth);
+  const TrajectoryInterpolator interpolator(table, max_gap);
+  std::vector<TruthPoint> points;
+  for (const double t : times) {
+    const std::optional<InterpolatedState> x = interpolator.At(t);
+    if (!x) continue;
+    TruthPoint& point = points.emplace_back();
+    point.t = t;
+    point.p_e = x->p_e;
+    const Eigen::Matrix3d C_ne =
+        x->p_e ? Eigen::Matrix3d(NedAxes(*x->p_e).transpose())
+               : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+    if (x->v_e) point.v_n = C_ne * *x->v_e;
+    if (x->q_eb) point.q_nb = Eigen::Quaterniond(C_ne) * *x->q_eb;
+  }
+  return points;
+}
+
+bool IsSparser(const SolutionTable& solution,
+               const std::vector<TruthPoint>& truth) {
+  if (solution.size() < 2 || truth.size() < 2) return false;
+  const double rows = (solution.t.back() - solution.t.front()) /
+                      static_cast<double>(solution.size() - 1);
+  const double points = (truth.back().t - truth.front().t) /
+                        static_cast<double>(truth.size() - 1);
+  return rows > 1.5 * points;
+}
+
+}  // namespace
+
+void ThinTruth(std::vector<TruthPoint>* truth) {
+  double last = -std::numeric_limits<double>::infinity();
+  std::erase_if(*truth, [&last](const TruthPoint& point) {
+    // A truth at 10 Hz is kept whole, whatever its stamps' rounding.
+    if (point.t < last + 0.999 * kLeastTruthSpacing) return true;
+    last = point.t;
+    return false;
+  });
+  const std::size_t every =
+      (truth->size() + kMostTruthPoints - 1) / kMostTruthPoints;
+  if (every < 2) return;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < truth->size(); k += every) {
+    (*truth)[kept++] = (*truth)[k];
+  }
+  truth->resize(kept);
+}
+
+bool HasRowsAtTruth(const SolutionTable& solution,
+                    const std::vector<TruthPoint>& truth) {
+  if (solution.size() == 0) return false;
+  const std::vector<double>& t = solution.t;
+  return std::all_of(truth.begin(), truth.end(), [&t](const TruthPoint& point) {
+    if (point.t < t.front() - kSameStamp || point.t > t.back() + kSameStamp)
+      return true;
+    const auto row = std::lower_bound(t.begin(), t.end(), point.t - kSameStamp);
+    return row != t.end() && *row <= point.t + kSameStamp;
+  });
+}
+
+TrajectoryStatistics CompareWithTruth(const SolutionTable& solution,
+                                      std::vector<TruthPoint> truth,
+                                      const TrajectoryErrorOptions& options) {
+  std::vector<TruthPoint> thinned = truth;
+  ThinTruth(&thinned);
+  if (HasRowsAtTruth(solution, thinned) || !IsSparser(solution, truth)) {
+    return EvaluateTrajectory(solution, thinned, options);
+  }
+  TrajectoryStatistics statistics = EvaluateTrajectory(
+      solution, TruthAt(truth, solution.t, options.max_gap), options);
+  statistics.at_solution_rows = true;
+  statistics.truth_count = solution.size();
+  return statistics;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,36 @@
+#ifndef HINDSIGHT_EVALUATION_TRUTH_COMPARISON_H_
+#define HINDSIGHT_EVALUATION_TRUTH_COMPARISON_H_
+
+#include <vector>
+
+#include "dataset/dataset.h"
+#include "evaluation/solution_table.h"
+#include "evaluation/trajectory_error.h"
+
+namespace hindsight {
+
+/// Leaves out truth points closer than 0.1 s to the one before, and of more
+/// than 50 000 so many that they are evenly fewer: a trajectory says nothing
+/// new in between, and samples with covariances are large.
+void ThinTruth(std::vector<TruthPoint>* truth);
+
+/// Whether `solution` has a row at every one of the truth's times between its
+/// first and its last.
+bool HasRowsAtTruth(const SolutionTable& solution,
+                    const std::vector<TruthPoint>& truth);
+
+/// The errors of a solution against a reference, of whatever command asks:
+///   where the solution has a row at every (thinned) truth point in its span,
+///       there; `run` samples its solutions so, through the IMU
+///   else where the truth is the denser of the two (its points on average at
+///       least half as far again as close), at the solution's rows, the truth
+///       interpolated: a row a second says too little of a turn in between
+///   else at the (thinned) truth points, the solution interpolated.
+/// Interpolation as of TrajectoryInterpolator, with the gap of the options.
+TrajectoryStatistics CompareWithTruth(const SolutionTable& solution,
+                                      std::vector<TruthPoint> truth,
+                                      const TrajectoryErrorOptions& options);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_EVALUATION_TRUTH_COMPARISON_H_

@@ -1,0 +1,198 @@
+#include "problems/sample_solution.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+#include "base/error.h"
+#include "imu/imu_link.h"
+#include "problems/reconstruction.h"
+#include "simulation/builtin_scenarios.h"
+
+namespace hindsight {
+namespace {
+
+constexpr Method kForward[] = {Method::kEkf, Method::kGatedEkf,
+                               Method::kHInfinity, Method::kModifiedHInfinity,
+                               Method::kImm};
+
+/// One minute of the car drive with a fix a second, of which those from 31 s to
+/// 40 s are withheld.
+Dataset DriveWithOutage() {
+  Scenario scenario = BuiltinScenario("car_drive");
+  scenario.duration = 60.0;
+  scenario.withholdings = {
+      {.sensor = "position", .every = 1000.0, .length = 10.0, .from = 30.5}};
+  return Simulate(scenario, 1);
+}
+
+/// Moves the fixes at and after t by 3 m to the north.
+void MoveFixesFrom(double t, Dataset* dataset) {
+  for (AidingStream& stream : dataset->streams) {
+    for (Measurement& z : stream.measurements) {
+      auto* fix = std::get_if<PositionFix>(&z.model);
+      if (fix == nullptr || z.t < t) continue;
+      fix->p_e += NedAxes(fix->p_e) * Eigen::Vector3d(3.0, 0.0, 0.0);
+    }
+  }
+}
+
+ReconstructionOptions SamplingOptions(
+    const std::vector<double>& node_times = {}) {
+  ReconstructionOptions options;
+  options.node_times = node_times;
+  options.h_infinity.rule = RiccatiRule::kHInfinity;
+  options.h_infinity.gamma = 5.0;
+  options.modified_h_infinity.rule = RiccatiRule::kModifiedHInfinity;
+  options.modified_h_infinity.alpha = 0.02;
+  return options;
+}
+
+std::vector<double> TimesFrom(double from, double to, double step) {
+  std::vector<double> times;
+  for (double t = from; t < to; t += step) times.push_back(t);
+  return times;
+}
+
+/// Largest |P_a - P_b| in units of the standard deviations of P_b.
+double DifferenceInSigmas(const ErrorMatrix& a, const ErrorMatrix& b) {
+  const ErrorVector s = b.diagonal().cwiseSqrt().cwiseInverse();
+  return (s.asDiagonal() * (a - b) * s.asDiagonal()).cwiseAbs().maxCoeff();
+}
+
+TEST(SampleSolution, AForwardMethodKnowsNothingOfTheNextFix) {
+  const Dataset dataset = DriveWithOutage();
+  // The outage ends with the fix at 41 s.
+  constexpr double kFix = 40.5;
+  Dataset moved = dataset;
+  MoveFixesFrom(kFix, &moved);
+  const std::vector<double> times = TimesFrom(38.03, 43.0, 0.1);
+  Reconstruction a(dataset, SamplingOptions());
+  Reconstruction b(moved, SamplingOptions());
+  for (const Method method : kForward) {
+    const Solution before = a.Sample(a.Run(method), times);
+    const Solution after = b.Sample(b.Run(method), times);
+    double largest_after_fix = 0.0;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const double d = (before.states[i].p_e - after.states[i].p_e).norm();
+      if (times[i] < 40.95) {
+        EXPECT_EQ(d, 0.0) << MethodName(method) << " " << times[i];
+      } else {
+        largest_after_fix = std::max(largest_after_fix, d);
+      }
+    }
+    // The others do not believe a fix that is 3 m off.
+    if (method != Method::kGatedEkf && method != Method::kImm) {
+      EXPECT_GT(largest_after_fix, 0.1) << MethodName(method);
+    }
+  }
+}
+
+TEST(SampleSolution, OfAForwardMethodIsWhatANodeThereWouldHold) {
+  const Dataset dataset = DriveWithOutage();
+  // Within a fix's second, in the outage and half a second before its end.
+  const std::vector<double> times = {20.05, 20.37, 33.91, 36.5, 40.5, 50.77};
+  Reconstruction coarse(dataset, SamplingOptions());
+  Reconstruction fine(dataset, SamplingOptions(times));
+  for (const Method method : kForward) {
+    const Solution sampled = coarse.Sample(coarse.Run(method), times);
+    const Solution exact = fine.Sample(fine.Run(method), times);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const ErrorVector d =
+          Local(exact.layout, exact.states[i], sampled.states[i]);
+      EXPECT_LT(d.head<6>().norm(), 1e-5) << MethodName(method) << times[i];
+      // The bound of kPropagationStep, as variance.
+      EXPECT_LT(DifferenceInSigmas(sampled.covariances.Get(i),
+                                   exact.covariances.Get(i)),
+                0.01)
+          << MethodName(method) << " " << times[i];
+    }
+  }
+}
+
+TEST(SampleSolution, ConsistsOfTheNodesAtTheNodes) {
+  const Dataset dataset = DriveWithOutage();
+  Reconstruction reconstruction(dataset, SamplingOptions());
+  for (const Method method :
+       {Method::kEkf, Method::kImm, Method::kRts, Method::kTwoFilter}) {
+    const Solution solution = reconstruction.Run(method);
+    std::vector<double> times;
+    for (const State& x : solution.states) {
+      // Stamps are rounded in files.
+      times.push_back(x.t + 1e-10);
+    }
+    times.back() = solution.states.back().t;
+    const Solution sampled = reconstruction.Sample(solution, times);
+    ASSERT_EQ(sampled.states.size(), times.size());
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      EXPECT_EQ(sampled.states[k].p_e, solution.states[k].p_e) << k;
+      EXPECT_EQ(sampled.covariances.Get(k), solution.covariances.Get(k)) << k;
+    }
+  }
+}
+
+TEST(SampleSolution, OneWalkEqualsAnIntegrationForEachTime) {
+  const Dataset dataset = DriveWithOutage();
+  Reconstruction reconstruction(dataset, SamplingOptions());
+  const Solution solution = reconstruction.Run(Method::kRts);
+  const std::vector<double> times = TimesFrom(solution.states.front().t + 0.003,
+                                              solution.states.back().t, 0.0101);
+  const Solution sampled = reconstruction.Sample(solution, times);
+  ImuIntegrator integrator(dataset.imu);
+  const auto advance = [&](const State& from, double t) {
+    return Predict(
+        solution.layout, from,
+        integrator.Summarize(from.t, t, CalibrationOf(solution.layout, from)));
+  };
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    while (solution.states[k + 1].t <= times[i]) ++k;
+    const State& begin = solution.states[k];
+    const State& end = solution.states[k + 1];
+    const ErrorVector jump = Local(solution.layout, advance(begin, end.t), end);
+    const double part = (times[i] - begin.t) / (end.t - begin.t);
+    const State expected =
+        Retract(solution.layout, advance(begin, times[i]), part * jump);
+    const ErrorVector d = Local(solution.layout, expected, sampled.states[i]);
+    EXPECT_LT(d.head<3>().norm(), 1e-6) << times[i];
+    EXPECT_LT(d.segment<6>(3).norm(), 1e-6) << times[i];
+  }
+}
+
+TEST(SampleSolution, OfASmootherIsCloseToNodesAtEveryTime) {
+  const Dataset dataset = DriveWithOutage();
+  const std::vector<double> times = TimesFrom(12.05, 55.0, 0.1);
+  Reconstruction coarse(dataset, SamplingOptions());
+  Reconstruction fine(dataset, SamplingOptions(times));
+  const Solution sampled = coarse.Sample(coarse.Run(Method::kRts), times);
+  const Solution exact = fine.Sample(fine.Run(Method::kRts), times);
+  // White noise q of the accelerometer leaves a jump (dp, dv) over T = 1 s. The
+  // mean in between is a cubic; the straight line is off by up to 0.43 q T^1/2
+  // in velocity and 0.15 q T^3/2 in position, one sigma; a tenth more comes
+  // from the gyros' noise. Their own jump is spread linearly by the mean, too.
+  constexpr double kSigmas = 5.0 * 1.1;
+  const double q = dataset.imu.noise.accel_noise_density;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const ErrorVector d =
+        Local(exact.layout, exact.states[i], sampled.states[i]);
+    EXPECT_LT(d.head<3>().cwiseAbs().maxCoeff(), kSigmas * 0.15 * q)
+        << times[i];
+    EXPECT_LT(d.segment<3>(3).cwiseAbs().maxCoeff(), kSigmas * 0.43 * q)
+        << times[i];
+    EXPECT_LT(d.segment<3>(6).cwiseAbs().maxCoeff(), 1e-6) << times[i];
+  }
+}
+
+TEST(SampleSolution, HasPositiveDefiniteCovariancesEverywhere) {
+  const Dataset dataset = DriveWithOutage();
+  Reconstruction reconstruction(dataset, SamplingOptions());
+  const Solution sampled = reconstruction.Sample(
+      reconstruction.Run(Method::kEkf), TimesFrom(5.0, 59.0, 0.017));
+  for (std::size_t i = 0; i < sampled.states.size(); ++i) {
+    const Eigen::LLT<ErrorMatrix> llt(sampled.covariances.Get(i));
+    EXPECT_EQ(llt.info(), Eigen::Success) << sampled.states[i].t;
+  }
+}
+
+}  // namespace
+}  // namespace hindsight
