@@ -9,6 +9,7 @@
 #include "filters/iterated_smoother.h"
 #include "filters/two_filter.h"
 #include "problems/batch.h"
+#include "problems/clock_choice.h"
 #include "problems/forward_stage.h"
 #include "problems/linearisation.h"
 #include "problems/robust_batch.h"
@@ -18,12 +19,13 @@
 
 namespace hindsight {
 struct Reconstruction::Impl {
-  Impl(const Dataset& dataset, ReconstructionOptions options)
-      : forward(dataset, std::move(options)) {}
+  Impl(const Dataset& dataset, const ReconstructionOptions& options)
+      : clocks(ChooseClocks(dataset, options)), forward(*clocks.stage) {}
 
   Solution Finish(Solution solution, Method method, double seconds) {
     solution.method = MethodName(method);
     solution.seconds = seconds;
+    solution.rivals = clocks.rivals;
     const Start& start = forward.start();
     Conclude({.solution = solution,
               .sensors = forward.timeline().sensors(),
@@ -221,12 +223,13 @@ struct Reconstruction::Impl {
                   ProcessorSeconds() - t0);
   }
 
-  ForwardStage forward;
+  ClockChoice clocks;
+  ForwardStage& forward;
 };
 
 Reconstruction::Reconstruction(const Dataset& dataset,
                                ReconstructionOptions options)
-    : impl_(std::make_unique<Impl>(dataset, std::move(options))) {}
+    : impl_(std::make_unique<Impl>(dataset, options)) {}
 
 Reconstruction::~Reconstruction() = default;
 

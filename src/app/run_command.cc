@@ -23,6 +23,9 @@ and writes into the folder of --out:
   summary.json          figures of every method, for programs
   config.resolved.yaml  the configuration as used, in SI units
 The folder appears when all is done: an error or Ctrl-C leaves nothing behind.
+Where the data allow several clocks (time_offset: unknown, or estimated with a
+sigma of 0.1 s or more) each is solved to its end; the likeliest is taken, and
+what the others differ in is told with their probability.
 
 Methods: ekf       forward error-state Kalman filter
          two_filter  ekf, fused with a backward information filter in error

@@ -8,6 +8,7 @@
 #include "state/covariance_series.h"
 #include "state/error_layout.h"
 #include "state/evidence.h"
+#include "state/rival_solution.h"
 #include "state/state.h"
 
 namespace hindsight {
@@ -86,6 +87,8 @@ struct Solution {
   std::vector<std::string> mode_names;
   /// What a self-tuning method made of the sensors' noise, in words.
   std::vector<std::string> notes;
+  /// Other explanations of the same data, the likeliest first.
+  std::vector<RivalSolution> rivals;
   /// Of attitude-only estimators: empty or as long as states. R in force of the
   /// accelerometer as a standard deviation, infinity where it was not used
   /// [m/s^2]; 1 where the field was used, 0 without a reading, -1 where it was
