@@ -20,6 +20,7 @@ constexpr double kReach = 4.0;
 struct ClockQuestion {
   std::size_t stream = 0;
   std::vector<ClockCandidate> candidates;
+  double resolution = 0.0;  ///< of the search [s]
 };
 
 std::vector<std::size_t> StreamsOf(
@@ -45,7 +46,7 @@ std::optional<ClockQuestion> AskUnknown(const Dataset& dataset, std::size_t i) {
                           " stands is not found: its readings and the IMU "
                           "have no motion in common that tells it");
   }
-  return ClockQuestion{i, found.candidates};
+  return ClockQuestion{i, found.candidates, found.resolution};
 }
 
 std::optional<ClockQuestion> AskEstimated(const Dataset& dataset,
@@ -65,7 +66,7 @@ std::optional<ClockQuestion> AskEstimated(const Dataset& dataset,
   } else {
     found.candidates.push_back({given, 0.0, 1.0});
   }
-  return ClockQuestion{i, found.candidates};
+  return ClockQuestion{i, found.candidates, found.resolution};
 }
 
 std::vector<ClockQuestion> AskClocks(const Dataset& dataset) {
@@ -110,23 +111,12 @@ std::vector<ClockCombination> Combine(
 void PlaceClocks(const std::vector<ClockQuestion>& questions,
                  const std::vector<double>& offsets, Dataset* dataset) {
   for (std::size_t i = 0; i < questions.size(); ++i) {
-    dataset->streams[questions[i].stream].sensor.time_offset = offsets[i];
-  }
-}
-
-/// Keeps the a priori distributions where the configuration has them.
-Dataset WithPriors(const Dataset& dataset,
-                   const std::vector<ClockQuestion>& questions) {
-  Dataset out = dataset;
-  for (const ClockQuestion& question : questions) {
-    AidingStream& stream = out.streams[question.stream];
-    if (!stream.clock_unknown) {
-      stream.prior_time_offset = stream.sensor.time_offset;
-    } else if (!stream.sensor.time_offset_sigma) {
-      TakeClock(SearchClock(out.imu, out.initial, stream), &stream);
+    Sensor& sensor = dataset->streams[questions[i].stream].sensor;
+    sensor.time_offset = offsets[i];
+    if (!sensor.time_offset_sigma) {
+      sensor.time_offset_sigma = questions[i].resolution;
     }
   }
-  return out;
 }
 
 }  // namespace
@@ -139,7 +129,7 @@ ClockChoice ChooseClocks(const Dataset& dataset,
     choice.stage = std::make_unique<ForwardStage>(dataset, options);
     return choice;
   }
-  choice.dataset = std::make_unique<Dataset>(WithPriors(dataset, questions));
+  choice.dataset = std::make_unique<Dataset>(dataset);
   const std::vector<ClockCombination> combinations = Combine(questions);
   std::vector<SolvedClocks> solved;
   for (const ClockCombination& combination : combinations) {
@@ -156,8 +146,8 @@ ClockChoice ChooseClocks(const Dataset& dataset,
     choice.stage = std::make_unique<ForwardStage>(*choice.dataset, options);
     return choice;
   }
-  const std::size_t best = Likeliest(*choice.dataset, solved);
-  choice.rivals = Rivals(*choice.dataset, StreamsOf(questions), solved, best);
+  const std::size_t best = Likeliest(dataset, solved);
+  choice.rivals = Rivals(dataset, StreamsOf(questions), solved, best);
   PlaceClocks(questions, solved[best].offsets, choice.dataset.get());
   choice.stage = std::move(solved[best].stage);
   return choice;

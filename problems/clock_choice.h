@@ -22,11 +22,12 @@ struct ClockChoice {
 /// SearchClock finds, of the latter within four sigmas, and at the given one if
 /// that is none of them, the data are aligned and solved to the end with nodes
 /// placed there; of several streams up to eight combinations. Chosen is the
-/// solution of the largest evidence (MarginalLikelihoodOf), two at a time and
-/// on the measurements that both have inside the IMU's record. The others are
-/// rivals; where noise is larger than stated, by the innovations of the chosen
-/// one, their evidence counts accordingly less. Nothing is solved where one
-/// offset alone comes into question and is where the configuration has it.
+/// solution of the largest evidence (MarginalLikelihoodOf, the given time
+/// offset and its sigma in it), two at a time and on the measurements that both
+/// have inside the IMU's record. Methods then start at its offsets. The others
+/// are rivals; where noise is larger than stated, by the innovations of the
+/// chosen one, their evidence counts accordingly less. Nothing is solved where
+/// one offset alone comes into question and is where the configuration has it.
 /// Throws EstimationError if an unknown clock is not found, and as
 /// ForwardStage.
 ClockChoice ChooseClocks(const Dataset& dataset,

@@ -24,8 +24,9 @@ SolvedClocks SolveWithClocks(const std::vector<double>& offsets,
                              const Dataset& dataset,
                              const ReconstructionOptions& options);
 
-/// Which has the largest evidence, compared two at a time on the measurements
-/// that both have inside the IMU's record.
+/// Which has the largest evidence, with the a priori distributions of
+/// `dataset`, where the clocks are as they are given, compared two at a time on
+/// the measurements that both have inside the IMU's record.
 std::size_t Likeliest(const Dataset& dataset,
                       const std::vector<SolvedClocks>& solved);
 

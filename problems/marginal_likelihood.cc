@@ -53,10 +53,11 @@ Prior PriorOfComparison(const Dataset& dataset, const Start& start,
   widen(BlockKind::kAccelBias, AccelBiasSigma(given));
   for (const Block& block : start.layout.blocks()) {
     if (block.key.kind != BlockKind::kTimeOffset) continue;
-    const auto sensor = static_cast<std::size_t>(block.key.sensor);
-    if (!dataset.streams[sensor].clock_unknown) continue;
+    const AidingStream& stream =
+        dataset.streams[static_cast<std::size_t>(block.key.sensor)];
     prior.x.parameters(block.parameter_offset) =
-        x.parameters(block.parameter_offset);
+        stream.clock_unknown ? x.parameters(block.parameter_offset)
+                             : stream.sensor.time_offset;
   }
   return prior;
 }

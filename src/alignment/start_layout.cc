@@ -161,15 +161,13 @@ ParameterVector InitialParameters(
   ParameterVector parameters = ParameterVector::Zero(layout.parameter_count());
   for (const Block& block : layout.blocks()) {
     if (block.key.sensor == BlockKey::kNoSensor) continue;
-    const AidingStream& stream =
-        dataset.streams[static_cast<std::size_t>(block.key.sensor)];
-    const Sensor& sensor = stream.sensor;
+    const Sensor& sensor =
+        dataset.streams[static_cast<std::size_t>(block.key.sensor)].sensor;
     const int offset = block.parameter_offset;
     if (block.key.kind == BlockKind::kLeverArm) {
       parameters.segment<3>(offset) = sensor.lever_arm_b;
     } else if (block.key.kind == BlockKind::kTimeOffset) {
-      parameters(offset) =
-          stream.prior_time_offset.value_or(sensor.time_offset);
+      parameters(offset) = sensor.time_offset;
     } else if (block.key.kind == BlockKind::kScale) {
       parameters(offset) = sensor.scale;
     } else if (block.key.kind == BlockKind::kHardIron) {

@@ -21,6 +21,7 @@ namespace {
 constexpr double kShortestWindow = 0.5;  // [s]
 constexpr double kLongestWindow = 5.0;   // [s]
 constexpr double kFineEnough = 0.3;      // noise of an acceleration [m/s^2]
+constexpr double kFineTurn = 0.01;       // noise of a turn [rad/s]
 constexpr double kFewestIndependent = 10.0;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -213,6 +214,14 @@ double WindowLength(double sigma, bool twice) {
   return std::clamp(length, kShortestWindow, kLongestWindow);
 }
 
+double FieldWindowLength(const TimedRows& rows) {
+  double norm = 0.0;
+  for (const Eigen::Vector3d& field : rows.value) norm += field.norm();
+  norm /= static_cast<double>(rows.value.size());
+  return std::clamp(std::sqrt(2.0) * rows.MedianSigma() / (kFineTurn * norm),
+                    kShortestWindow, kLongestWindow);
+}
+
 ClockComparison Finish(const std::shared_ptr<const Comparison>& c,
                        std::string compared, double components,
                        std::function<double(double)> misfit) {
@@ -241,8 +250,8 @@ std::optional<ClockComparison> CompareStream(const ImuStream& imu,
   TimedRows rows = RowsOf(stream);
   if (generated || rows.t.size() < kFewestRows) return std::nullopt;
   const bool twice = positions || heights;
-  const double length =
-      fields ? kShortestWindow : WindowLength(rows.MedianSigma(), twice);
+  const double length = fields ? FieldWindowLength(rows)
+                               : WindowLength(rows.MedianSigma(), twice);
   ClockWindows windows =
       MakeWindows(rows.t, length, twice, PieceLength(initial));
   if (windows.windows.empty()) return std::nullopt;

@@ -41,7 +41,7 @@ OffsetRange OverlappingOffsets(double a_begin, double a_end, double b_begin,
 /// The offsets, within `range` and OverlappingOffsets, at which the
 /// measurements that are not withheld fit the IMU best. Compared are, over
 /// windows of half a second or as long as it takes the noise to fall to 0.3
-/// m/s^2, at most 5 s:
+/// m/s^2 or 0.01 rad/s, at most 5 s:
 ///   position, velocity,  accelerations less gravity against the specific
 ///   speed and course     force in axes that the gyros hold, turned to fit
 ///                        (Wahba 1965) in pieces of 5 to 15 s, in which the

@@ -24,9 +24,6 @@ struct AidingStream {
   /// Nothing is known of Sensor::time_offset: the data tell where its clock
   /// stands (dataset/clock_search.h).
   bool clock_unknown = false;
-  /// Mean of the a priori distribution of an estimated time offset, where
-  /// Sensor::time_offset is already a better value [s].
-  std::optional<double> prior_time_offset;
 };
 
 /// A reference trajectory. Absent quantities are absent, not zero.

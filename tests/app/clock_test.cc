@@ -43,7 +43,7 @@ TEST_F(UnknownClock, IsFoundCheckedAndEstimated) {
   EXPECT_THAT(check.out, HasSubstr("gnss: time offset found: "));
   EXPECT_THAT(check.out, HasSubstr("speed: time offset found: "));
   const Outcome run = recording_.Run({"--out=out", "--methods=batch"});
-  ASSERT_EQ(run.status, 0) << run.err << run.out;
+  ASSERT_TRUE(run.status == 0 || run.status == 3) << run.err << run.out;
   const nlohmann::json batch = nlohmann::json::parse(
       ReadFile(recording_.root() / "out/summary.json"))["methods"]["batch"];
   for (const char* name : {"gnss_time_offset", "speed_time_offset"}) {
@@ -107,7 +107,8 @@ TEST(ClocksOfRecordings, DronesToAndFro) {
          "--data-root=" + kRecordings.string(), "--methods=batch", "--out=out",
          "--force"},
         folder.path());
-    EXPECT_EQ(outcome.status, 0) << path << outcome.err << outcome.out;
+    ASSERT_TRUE(outcome.status == 0 || outcome.status == 3)
+        << path << outcome.err << outcome.out;
     const nlohmann::json batch = nlohmann::json::parse(
         ReadFile(folder.path() / "out/summary.json"))["methods"]["batch"];
     EXPECT_LT(batch["withheld"]["horizontal_rms_m"].get<double>(), 0.08)
