@@ -22,7 +22,7 @@ constexpr double kShortestWindow = 0.5;  // [s]
 constexpr double kLongestWindow = 5.0;   // [s]
 constexpr double kFineEnough = 0.3;      // noise of an acceleration [m/s^2]
 constexpr double kFineTurn = 0.01;       // noise of a turn [rad/s]
-constexpr double kFewestIndependent = 10.0;
+constexpr double kFewestWindows = 5.0;   // that do not overlap
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Over which the gyros' bias turns the held axes by some 3 deg.
@@ -57,7 +57,7 @@ struct Comparison {
       }
       add(i, w);
     }
-    return independent >= kFewestIndependent;
+    return independent >= kFewestWindows;
   }
 
   HeldMotion::Instant At(std::size_t row, double offset) const {
@@ -285,6 +285,7 @@ std::optional<ClockComparison> CompareStream(const ImuStream& imu,
 
 std::optional<ClockComparison> CompareTurns(
     const ImuStream& imu, const std::vector<TruthPoint>& truth) {
+  constexpr int kFewestTurns = 20;
   struct Turns {
     HeldMotion motion;
     std::vector<double> t;
@@ -331,7 +332,7 @@ std::optional<ClockComparison> CompareTurns(
       left += r.squaredNorm();
       sum += r;
     }
-    if (common.count() < 2.0 * kFewestIndependent) return kNever;
+    if (common.count() < kFewestTurns) return kNever;
     left -= sum.squaredNorm() / common.count();
     return left / common.Motion();
   };

@@ -27,7 +27,22 @@ ClockCandidate Refine(const ClockComparison& comparison, double from,
           least};
 }
 
-ClockSearch Search(const ClockComparison& comparison,
+/// Whether chance would not fit so well: the correlation 1 - misfit/2, by
+/// Fisher's transformation, is five standard deviations from none.
+bool IsSignificant(const ClockComparison& comparison, const ImuStream& imu,
+                   const ClockCandidate& candidate) {
+  constexpr double kFiveSigmas = 5.0;
+  const double begin =
+      std::max(imu.t_begin(), comparison.first + candidate.offset);
+  const double end = std::min(imu.t_end(), comparison.last + candidate.offset);
+  const double share = (end - begin) / (comparison.last - comparison.first);
+  const double n = share * comparison.freedom;
+  return n > 3.0 &&
+         std::atanh(1.0 - 0.5 * candidate.misfit) * std::sqrt(n - 3.0) >
+             kFiveSigmas;
+}
+
+ClockSearch Search(const ClockComparison& comparison, const ImuStream& imu,
                    const OffsetRange& range) {
   ClockSearch out;
   out.compared = comparison.compared;
@@ -49,6 +64,11 @@ ClockSearch Search(const ClockComparison& comparison,
     const ClockCandidate refined = Refine(comparison, at - step, at + step);
     if (refined.misfit < kSameMotion) found.push_back(refined);
   }
+  const bool tells = std::any_of(
+      found.begin(), found.end(), [&](const ClockCandidate& candidate) {
+        return IsSignificant(comparison, imu, candidate);
+      });
+  if (!tells) return out;
   std::stable_sort(found.begin(), found.end(),
                    [](const ClockCandidate& a, const ClockCandidate& b) {
                      return a.misfit < b.misfit;
@@ -80,7 +100,7 @@ ClockSearch SearchClock(const ImuStream& imu, const InitialState& initial,
   if (!comparison) return {};
   const OffsetRange all = OverlappingOffsets(
       imu.t_begin(), imu.t_end(), comparison->first, comparison->last);
-  return Search(*comparison,
+  return Search(*comparison, imu,
                 {std::max(all.from, range.from), std::min(all.to, range.to)});
 }
 
@@ -90,9 +110,10 @@ ClockSearch SearchClock(const ImuStream& imu,
       0.02;  // an offset known worse is not known [s]
   const auto comparison = CompareTurns(imu, truth);
   if (!comparison) return {};
-  ClockSearch found = Search(
-      *comparison, OverlappingOffsets(imu.t_begin(), imu.t_end(),
-                                      comparison->first, comparison->last));
+  ClockSearch found =
+      Search(*comparison, imu,
+             OverlappingOffsets(imu.t_begin(), imu.t_end(), comparison->first,
+                                comparison->last));
   std::erase_if(found.candidates, [](const ClockCandidate& candidate) {
     return !(candidate.sigma < kKnownClock);
   });

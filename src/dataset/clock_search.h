@@ -55,7 +55,8 @@ OffsetRange OverlappingOffsets(double a_begin, double a_end, double b_begin,
 ///                        vertical free in each piece
 /// A candidate is a minimum of the misfit below a half (and the quarter of what
 /// no common motion leaves), the lowest of those closer than the resolution; at
-/// most six. Nothing is compared for other types.
+/// most six, and none if chance would give the best within five sigmas. Nothing
+/// is compared for other types.
 ClockSearch SearchClock(const ImuStream& imu, const InitialState& initial,
                         const AidingStream& stream, OffsetRange range = {});
 
