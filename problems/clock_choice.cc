@@ -20,6 +20,7 @@ constexpr double kReach = 4.0;
 struct ClockQuestion {
   std::size_t stream = 0;
   std::vector<ClockCandidate> candidates;
+  int left_out = 0;         ///< further candidates
   double resolution = 0.0;  ///< of the search [s]
 };
 
@@ -46,7 +47,7 @@ std::optional<ClockQuestion> AskUnknown(const Dataset& dataset, std::size_t i) {
                           " stands is not found: its readings and the IMU "
                           "have no motion in common that tells it");
   }
-  return ClockQuestion{i, found.candidates, found.resolution};
+  return ClockQuestion{i, found.candidates, found.left_out, found.resolution};
 }
 
 std::optional<ClockQuestion> AskEstimated(const Dataset& dataset,
@@ -66,7 +67,7 @@ std::optional<ClockQuestion> AskEstimated(const Dataset& dataset,
   } else {
     found.candidates.push_back({given, 0.0, 1.0});
   }
-  return ClockQuestion{i, found.candidates, found.resolution};
+  return ClockQuestion{i, found.candidates, found.left_out, found.resolution};
 }
 
 std::vector<ClockQuestion> AskClocks(const Dataset& dataset) {
@@ -82,6 +83,16 @@ std::vector<ClockQuestion> AskClocks(const Dataset& dataset) {
     if (question) questions.push_back(std::move(*question));
   }
   return questions;
+}
+
+/// How many there would be of all candidates.
+double Combinations(const std::vector<ClockQuestion>& questions) {
+  double count = 1.0;
+  for (const ClockQuestion& question : questions) {
+    count *= static_cast<double>(question.candidates.size()) +
+             static_cast<double>(question.left_out);
+  }
+  return count;
 }
 
 /// Every combination, those that fit best first.
@@ -148,6 +159,9 @@ ClockChoice ChooseClocks(const Dataset& dataset,
   }
   const std::size_t best = Likeliest(dataset, solved);
   choice.rivals = Rivals(dataset, StreamsOf(questions), solved, best);
+  AddUnsolved(
+      Combinations(questions) - static_cast<double>(combinations.size()),
+      &choice.rivals);
   PlaceClocks(questions, solved[best].offsets, choice.dataset.get());
   choice.stage = std::move(solved[best].stage);
   return choice;

@@ -110,6 +110,21 @@ std::optional<RivalSolution> Differ(const Dataset& dataset,
   return out;
 }
 
+/// Probabilities from the evidence, the likeliest first.
+void SetProbabilities(std::vector<RivalSolution>* rivals) {
+  double sum = 1.0;
+  for (const RivalSolution& rival : *rivals) {
+    sum += std::exp(rival.log_evidence);
+  }
+  for (RivalSolution& rival : *rivals) {
+    rival.probability = std::exp(rival.log_evidence) / sum;
+  }
+  std::stable_sort(rivals->begin(), rivals->end(),
+                   [](const RivalSolution& a, const RivalSolution& b) {
+                     return a.log_evidence > b.log_evidence;
+                   });
+}
+
 }  // namespace
 
 SolvedClocks SolveWithClocks(const std::vector<double>& offsets,
@@ -147,7 +162,6 @@ std::vector<RivalSolution> Rivals(const Dataset& dataset,
                                   const std::vector<SolvedClocks>& solved,
                                   std::size_t chosen) {
   std::vector<RivalSolution> rivals;
-  double sum = 1.0;
   for (std::size_t i = 0; i < solved.size(); ++i) {
     if (i == chosen) continue;
     auto rival = Differ(dataset, streams, solved[i], solved[chosen]);
@@ -159,17 +173,23 @@ std::vector<RivalSolution> Rivals(const Dataset& dataset,
     if (!rival || told) continue;
     rival->log_evidence =
         std::min(0.0, LogRatio(dataset, solved[i], solved[chosen]));
-    sum += std::exp(rival->log_evidence);
     rivals.push_back(std::move(*rival));
   }
-  for (RivalSolution& rival : rivals) {
-    rival.probability = std::exp(rival.log_evidence) / sum;
-  }
-  std::stable_sort(rivals.begin(), rivals.end(),
-                   [](const RivalSolution& a, const RivalSolution& b) {
-                     return a.log_evidence > b.log_evidence;
-                   });
+  SetProbabilities(&rivals);
   return rivals;
+}
+
+void AddUnsolved(double count, std::vector<RivalSolution>* rivals) {
+  if (count < 1.0 || rivals->empty()) return;
+  RivalSolution further;
+  char words[80];
+  std::snprintf(words, sizeof(words),
+                "one of %.0f further clock settings, not solved", count);
+  further.description = words;
+  further.log_evidence =
+      std::min(0.0, rivals->back().log_evidence + std::log(count));
+  rivals->push_back(std::move(further));
+  SetProbabilities(rivals);
 }
 
 }  // namespace hindsight

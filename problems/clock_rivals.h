@@ -40,6 +40,11 @@ std::vector<RivalSolution> Rivals(const Dataset& dataset,
                                   const std::vector<SolvedClocks>& solved,
                                   std::size_t chosen);
 
+/// Adds as one rival the `count` combinations that were not solved, as fitting
+/// less well by the coarse search. Each is taken to be as likely as the least
+/// likely of those that were: where the motion repeats itself, one of many.
+void AddUnsolved(double count, std::vector<RivalSolution>* rivals);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_PROBLEMS_CLOCK_RIVALS_H_

@@ -11,7 +11,7 @@ namespace hindsight {
 namespace {
 
 constexpr double kSameMotion = 0.5;  // misfit
-constexpr std::size_t kMostCandidates = 6;
+constexpr std::size_t kMostCandidates = 8;
 constexpr double kStepsPerWindow = 10.0;
 
 ClockCandidate Refine(const ClockComparison& comparison, double from,
@@ -79,8 +79,11 @@ ClockSearch Search(const ClockComparison& comparison, const ImuStream& imu,
         [&](const ClockCandidate& better) {
           return std::abs(better.offset - candidate.offset) < out.resolution;
         });
-    if (!near && out.candidates.size() < kMostCandidates) {
+    if (near) continue;
+    if (out.candidates.size() < kMostCandidates) {
       out.candidates.push_back(candidate);
+    } else {
+      ++out.left_out;
     }
   }
   return out;
@@ -135,6 +138,9 @@ std::string Describe(const ClockSearch& search) {
                   words.empty() ? "" : "; or ", candidate.offset,
                   1e3 * candidate.sigma, candidate.misfit);
     words += text;
+  }
+  if (search.left_out > 0) {
+    words += "; and " + std::to_string(search.left_out) + " more";
   }
   return words + "; from " + search.compared;
 }

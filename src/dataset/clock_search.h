@@ -23,6 +23,7 @@ struct ClockCandidate {
 struct ClockSearch {
   /// The best first; empty if the records do not tell.
   std::vector<ClockCandidate> candidates;
+  int left_out = 0;         ///< further ones, of which there were too many
   std::string compared;     ///< "accelerations", "turns": what was compared
   double resolution = 0.0;  ///< time over which motion was averaged [s]
 };
@@ -55,8 +56,8 @@ OffsetRange OverlappingOffsets(double a_begin, double a_end, double b_begin,
 ///                        vertical free in each piece
 /// A candidate is a minimum of the misfit below a half (and the quarter of what
 /// no common motion leaves), the lowest of those closer than the resolution; at
-/// most six, and none if chance would give the best within five sigmas. Nothing
-/// is compared for other types.
+/// most eight, and none if chance would give the best within five sigmas.
+/// Nothing is compared for other types.
 ClockSearch SearchClock(const ImuStream& imu, const InitialState& initial,
                         const AidingStream& stream, OffsetRange range = {});
 
