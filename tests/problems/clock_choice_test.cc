@@ -103,7 +103,7 @@ TEST(ClockChoice, AnUnknownClockIsFoundAMinuteOff) {
     EXPECT_NEAR(offset.value, -60.0, 4.0 * offset.sigma + 1e-3) << name;
     EXPECT_LT(offset.sigma, 0.1) << name;
   }
-  EXPECT_TRUE(solution.usable()) << solution.verdict;
+  EXPECT_NE(solution.grade, Grade::kUnusable) << solution.verdict;
   EXPECT_LT(RivalShare(solution), 1e-3);
   EXPECT_LT(HeadingError(solution, dataset), 2.0 * kDegree);
 }
