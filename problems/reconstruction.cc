@@ -11,6 +11,7 @@
 #include "filters/iterated_smoother.h"
 #include "filters/two_filter.h"
 #include "problems/batch.h"
+#include "problems/clock_choice.h"
 #include "problems/error_tuning.h"
 #include "problems/forward_stage.h"
 #include "problems/linearisation.h"
@@ -22,8 +23,9 @@
 
 namespace hindsight {
 struct Reconstruction::Impl {
-  Impl(const Dataset& dataset, ReconstructionOptions options)
-      : forward(dataset, std::move(options)),
+  Impl(const Dataset& dataset, const ReconstructionOptions& options)
+      : clocks(ChooseClocks(dataset, options)),
+        forward(*clocks.stage),
         recording(FindRepeatedReadings(dataset, forward.start().report.t,
                                        forward.options().to)) {}
 
@@ -31,6 +33,7 @@ struct Reconstruction::Impl {
     solution.method = MethodName(method);
     solution.forward = IsForward(method);
     solution.seconds = seconds;
+    solution.rivals = clocks.rivals;
     const Start& start = forward.start();
     Conclude(
         {.solution = solution,
@@ -294,7 +297,8 @@ struct Reconstruction::Impl {
     return solution;
   }
 
-  ForwardStage forward;
+  ClockChoice clocks;
+  ForwardStage& forward;
   std::vector<Evidence> recording;  ///< what it shows by itself
   /// Sensor whose time offset a method's own nodes did not settle; empty: none.
   std::string own_unsettled;
@@ -302,7 +306,7 @@ struct Reconstruction::Impl {
 
 Reconstruction::Reconstruction(const Dataset& dataset,
                                ReconstructionOptions options)
-    : impl_(std::make_unique<Impl>(dataset, std::move(options))) {}
+    : impl_(std::make_unique<Impl>(dataset, options)) {}
 
 Reconstruction::~Reconstruction() = default;
 

@@ -22,10 +22,11 @@ namespace {
 constexpr const char* kHelp =
     R"(Loads the recording that CONFIG describes and reports rates, gaps, duplicates
 and overlap of its streams, whether specific force and angular rate are
-plausible, and the axes of the IMU as gravity at rest shows them. Writes
-nothing. The last line says whether the recording is usable (exit status 0),
-doubtful, as each warning makes it that is not of the truth (3), or not usable
-(1).
+plausible, the axes of the IMU as gravity at rest shows them, and at which
+offsets a truth or an aiding stream with `time_offset: unknown` fits the IMU.
+Writes nothing. The last line says whether the recording is usable (exit status
+0), doubtful, as each warning makes it that is not of the truth (3), or not
+usable (1).
 
 With --noise it also finds, by maximum likelihood of the forward filter's
 innovations, the factor by which each sensor's sigma and the IMU's two noise

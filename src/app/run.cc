@@ -230,7 +230,8 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   progress.Finish();
 
   std::cout << "\n"
-            << ComparisonTable(summary) << DescribeMethodNotes(solutions)
+            << ComparisonTable(summary) << DescribeRivals(solutions)
+            << DescribeMethodNotes(solutions)
             << DescribeOwnUnobserved(unobserved, solutions)
             << DescribeEvidence(solutions) << DescribeContradictions(summary)
             << DescribeConstants(dataset, best) << "\nresults in "

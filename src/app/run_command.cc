@@ -40,6 +40,9 @@ nothing stays. A second Ctrl-C ends at once. A killed run leaves a folder
 .DIR.partial-*, which the next one names. On a file system that cannot exchange
 two names in one step, --force renames twice, and a kill in between leaves both
 folders so.
+Where the data allow several clocks (time_offset: unknown, or estimated with a
+sigma of 0.1 s or more) each is solved to its end; the likeliest is taken, and
+what the others differ in is told with their probability.
 
 Methods: ekf       forward error-state Kalman filter
          two_filter  ekf, fused with a backward information filter in error

@@ -188,6 +188,21 @@ std::string DescribeMethodNotes(const std::vector<Solution>& solutions) {
   return text;
 }
 
+std::string DescribeRivals(const std::vector<Solution>& solutions) {
+  constexpr double kWorthTelling = 1e-3;
+  std::string text;
+  for (const Solution& solution : solutions) {
+    for (const RivalSolution& rival : solution.rivals) {
+      if (rival.probability < kWorthTelling) continue;
+      const std::string line =
+          Format("another solution is %.2g %% likely: %s\n",
+                 100.0 * rival.probability, rival.description.c_str());
+      if (text.find(line) == std::string::npos) text += line;
+    }
+  }
+  return text;
+}
+
 const Solution& Best(const std::vector<Solution>& solutions) {
   return solutions.at(
       static_cast<std::size_t>(BestOf(solutions, MethodPreference())));

@@ -51,6 +51,10 @@ void NameBest(const Solution& best, const std::vector<Solution>& solutions,
 std::string DescribeVerdict(const Solution& best,
                             const std::vector<Solution>& solutions);
 
+/// The other explanations of the data that are more than 0.1 % likely, a line
+/// each; "" if there is none.
+std::string DescribeRivals(const std::vector<Solution>& solutions);
+
 /// What self-tuning methods found out, a line each; "" if there is nothing.
 std::string DescribeMethodNotes(const std::vector<Solution>& solutions);
 

@@ -21,6 +21,9 @@ namespace hindsight {
 struct AidingStream {
   Sensor sensor;
   std::vector<Measurement> measurements;
+  /// Nothing is known of Sensor::time_offset: the data tell where its clock
+  /// stands (dataset/clock_search.h).
+  bool clock_unknown = false;
 };
 
 /// A reference trajectory. Absent quantities are absent, not zero.

@@ -36,8 +36,11 @@ bool IsNedVector(SensorType type) {
 /// The outage that the withheld measurement belongs to, or nullptr.
 OutageError* FindOutage(const ResidualRecord& record, const Sensor& sensor,
                         std::vector<OutageError>* outages) {
-  // A record may carry the stamp or the instant after the time offset.
-  double nearest = std::abs(sensor.time_offset) + 1e-6;
+  // A record may carry the stamp or the instant after the time offset, which
+  // may be estimated.
+  constexpr double kSigmas = 4.0;
+  double nearest = std::abs(sensor.time_offset) +
+                   kSigmas * sensor.time_offset_sigma.value_or(0.0) + 1e-6;
   OutageError* found = nullptr;
   for (OutageError& candidate : *outages) {
     if (candidate.outage.sensor != record.sensor) continue;

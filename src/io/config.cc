@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "dataset/clock_search.h"
 #include "dataset/truth_start.h"
 #include "io/atomic_file.h"
 #include "io/config_streams.h"
@@ -230,6 +231,24 @@ std::vector<Measurement> Generate(const AidingConfig& config,
   return measurements;
 }
 
+/// Where the stream's clock stands as far as the motion tells; which of several
+/// is for the estimators to say.
+void FindClock(const AidingConfig& config, Dataset* dataset,
+               AidingStream* stream) {
+  stream->clock_unknown = true;
+  const ClockSearch found =
+      SearchClock(dataset->imu, dataset->initial, *stream);
+  if (!TakeClock(found, stream)) {
+    throw InputError(config.source.config_path, config.source.config_line,
+                     config.source.name +
+                         ".time_offset: is not found: no offset brings its "
+                         "motion into line with the IMU's; expected readings "
+                         "of changing speed or turns, or a value");
+  }
+  dataset->notes.push_back(config.sensor.name +
+                           ": time offset found: " + Describe(found));
+}
+
 void LoadAiding(const AidingConfig& config, double truth_offset,
                 Dataset* dataset) {
   AidingStream stream;
@@ -250,6 +269,7 @@ void LoadAiding(const AidingConfig& config, double truth_offset,
       odometer->t_from = line(odometer->t_from);
     }
   }
+  if (config.clock_unknown) FindClock(config, dataset, &stream);
   const double offset = stream.sensor.time_offset;
   RequireOverlap(config.source, dataset->imu,
                  stream.measurements.front().t + offset,
@@ -281,20 +301,16 @@ void AddLevel(const AidingConfig& config, Dataset* dataset) {
 
 /// Moves the truth to where its attitudes fit the gyros; by how much.
 double FitTruthClock(const StreamSource& source, Dataset* dataset) {
-  const auto clock = FindTruthClock(dataset->imu, dataset->truth);
-  if (!clock) {
+  const ClockSearch found = SearchClock(dataset->imu, dataset->truth);
+  if (found.candidates.empty()) {
     throw InputError(source.config_path, source.config_line,
-                     "truth.time_offset: is not found within 2 s by the "
-                     "gyros; expected a truth with attitudes that turn");
+                     "truth.time_offset: is not found by the gyros; expected "
+                     "a truth with attitudes that turn");
   }
-  for (TruthPoint& point : dataset->truth) point.t += clock->offset;
-  char text[120];
-  std::snprintf(text, sizeof(text),
-                "truth: time offset found from the gyros: %.4f s, sigma %.2g "
-                "ms",
-                clock->offset, 1e3 * clock->sigma);
-  dataset->notes.emplace_back(text);
-  return clock->offset;
+  const double offset = found.candidates.front().offset;
+  for (TruthPoint& point : dataset->truth) point.t += offset;
+  dataset->notes.push_back("truth: time offset found: " + Describe(found));
+  return offset;
 }
 
 /// The time offset of the truth's stamps.

@@ -67,7 +67,7 @@ namespace hindsight {
 /// aiding.NAME besides:
 /// | type              | *needed*: position, velocity, height, depth, speed_course, odometer, non_holonomic, dvl, acoustic, magnetometer | |
 /// | lever_arm         | from the IMU, body axes                  | 0       |
-/// | time_offset       | true time = stamp + offset; `truth`: that of the truth | 0 s     |
+/// | time_offset       | true time = stamp + offset; `truth`: that of the truth; `unknown`: the data tell, see below | 0 s     |
 /// | every             | use one measurement in this time         | all     |
 /// | sigma             | replaces the file's: one or NED; of the speed for speed_course; forward, side, down or one for odometer, of an increment for its increments; [side, down] for non_holonomic | - |
 /// | sigma_scale       | multiplies the file's                    | 1       |
@@ -77,6 +77,13 @@ namespace hindsight {
 /// | loss              | {kind: huber, cauchy, tukey or geman_mcclure, scale in standard deviations} | none |
 /// | noise             | {model: white}; {model: gauss_markov, sigma and tau *needed*, white: a tenth of sigma}, for position, velocity and height, in place of the file's sigma; {model: mixture, outliers: 5 %, ratio: 20}, a share of outliers of so many sigmas | white |
 /// | estimate.lever_arm, estimate.time_offset | a priori sigma of an estimated one | - |
+/// `time_offset: unknown` searches for the offsets, with at least half of the shorter
+/// record inside the other, at which the stream's turns or accelerations fit
+/// the IMU's (dataset/clock_search.h; position, velocity, height, depth,
+/// speed_course, odometer, dvl and magnetometer); it is then estimated. Of
+/// several, and of those within four sigmas of an estimate.time_offset of 0.1 s
+/// or more, each is solved to its end, the likeliest is taken and the others are
+/// told with their probability (problems/clock_choice.h).
 /// speed_course: course_sigma *needed*; course_above, the speed below which a
 /// course is not used, 1 m/s. odometer and non_holonomic: mounting (roll,
 /// pitch, yaw: vehicle = Rz(yaw) Ry(pitch) Rx(roll) body; or `unknown`: the first
@@ -117,7 +124,7 @@ namespace hindsight {
 /// array on a ship gives is a position.
 ///
 /// truth besides: lever_arm (of the point it speaks of); time_offset, or `unknown`: found from the
-/// gyros (dataset/truth_start.h); axes and
+/// gyros (dataset/clock_search.h); axes and
 /// mounting as of the imu, of the axes that its attitude speaks of; for columns
 /// p_x, v_x and q_w and the like, moving (0 or 1): frame (ecef, ned, enu, nwu; ecef), origin
 /// ([lat, lon, h] of local frames) and quaternion (body_to_frame,

@@ -351,7 +351,8 @@ AidingConfig ReadAidingConfig(const std::string& name, ConfigMap* map,
       config.options.every = map->Positive("every", Quantity::kTime);
     }
     config.clock_of_truth = map->Is("time_offset", "truth");
-    if (!config.clock_of_truth) {
+    config.clock_unknown = map->Is("time_offset", "unknown");
+    if (!config.clock_of_truth && !config.clock_unknown) {
       config.sensor.time_offset =
           map->Number("time_offset", Quantity::kTime, 0.0);
     }
@@ -380,6 +381,12 @@ AidingConfig ReadAidingConfig(const std::string& name, ConfigMap* map,
   config.sensor.loss = ReadLoss(map);
   ReadNoise(map, &config);
   ReadCalibrationSigmas(map, &config.sensor);
+  if (config.clock_unknown && config.sensor.time_offset_sigma) {
+    map->Fail("estimate",
+              "time_offset does not go with `time_offset: unknown`, which is "
+              "estimated as it is; expected a value of time_offset that the "
+              "sigma belongs to, or no sigma");
+  }
   if (config.sensor.offset_sigma &&
       config.sensor.noise.kind == NoiseModel::Kind::kGaussMarkov) {
     map->Fail("estimate", "offset does not go with correlated noise");

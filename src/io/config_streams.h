@@ -42,6 +42,7 @@ struct AidingConfig {
   /// There is no file: one measurement each 1/rate over the IMU's record [Hz].
   std::optional<double> generated_rate;
   bool clock_of_truth = false;  ///< its time offset is the truth's
+  bool clock_unknown = false;   ///< the data tell its time offset
   /// Standard deviation of the vehicle's mean roll about zero [rad].
   std::optional<double> level_sigma;
 };

@@ -208,12 +208,15 @@ void AppendAcoustic(const AidingStream& stream, YamlText* yaml) {
   yaml->Number("scale", sensor.scale, {"1"});
 }
 
-void AppendEstimates(const Sensor& sensor, YamlText* yaml) {
+void AppendEstimates(const AidingStream& stream, YamlText* yaml) {
+  const Sensor& sensor = stream.sensor;
   const MagneticSurroundings& magnetic = sensor.magnetic;
+  // That of an unknown clock comes with the search for it.
+  const bool clock = sensor.time_offset_sigma && !stream.clock_unknown;
   if (!sensor.lever_arm_sigma && !sensor.mounting_sigma &&
-      !sensor.scale_sigma && !sensor.time_offset_sigma &&
-      !magnetic.hard_iron_sigma && !magnetic.declination_sigma &&
-      !magnetic.disturbance_sigma && !sensor.offset_sigma) {
+      !sensor.scale_sigma && !clock && !magnetic.hard_iron_sigma &&
+      !magnetic.declination_sigma && !magnetic.disturbance_sigma &&
+      !sensor.offset_sigma) {
     return;
   }
   yaml->Open("estimate");
@@ -221,7 +224,7 @@ void AppendEstimates(const Sensor& sensor, YamlText* yaml) {
   AppendMagneticEstimates(magnetic, yaml);
   yaml->Vector("mounting", sensor.mounting_sigma, kDegrees);
   if (sensor.scale_sigma) yaml->Number("scale", *sensor.scale_sigma, {"1"});
-  if (sensor.time_offset_sigma) {
+  if (clock) {
     yaml->Number("time_offset", *sensor.time_offset_sigma, kSeconds);
   }
   if (sensor.offset_sigma) {
@@ -242,13 +245,15 @@ void AppendSensor(const AidingStream& stream, YamlText* yaml) {
   if (!sensor.lever_arm_b.isZero(0.0)) {
     yaml->Vector("lever_arm", sensor.lever_arm_b, kMetres);
   }
-  if (sensor.time_offset != 0.0) {
+  if (stream.clock_unknown) {
+    yaml->Text("time_offset", "unknown");
+  } else if (sensor.time_offset != 0.0) {
     yaml->Number("time_offset", sensor.time_offset, kSeconds);
   }
   if (sensor.gate_probability) {
     yaml->Text("gate", FormatGeneral(*sensor.gate_probability, kDigits));
   }
-  AppendEstimates(sensor, yaml);
+  AppendEstimates(stream, yaml);
   yaml->Close();
 }
 

@@ -27,6 +27,7 @@ MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
   m.residuals = ComputeResidualStatistics(solution, dataset);
   m.constants = solution.constants;
   m.unobserved = solution.unobserved;
+  m.rivals = solution.rivals;
   m.observer = solution.observer;
   return m;
 }

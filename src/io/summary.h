@@ -51,6 +51,7 @@ struct MethodSummary {
   std::vector<ResidualStatistics> residuals;
   std::vector<ConstantEstimate> constants;
   std::vector<UnobservedSpan> unobserved;
+  std::vector<RivalSolution> rivals;
   std::optional<ObserverFigures> observer;
 };
 
@@ -132,6 +133,10 @@ std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
 ///     constants.<name>          value, sigma, unit, prior_sigma, verdict
 ///                               ("observed", "weak", "unobserved"), advice
 ///     unobserved[]              component, t_begin_s, t_end_s, sigma (SI)
+///     rivals[]                  other explanations, the likeliest first
+///       description, probability
+///       log_evidence            less that of the chosen one
+///       differences[]           quantity, value, unit (SI): rival minus chosen
 ///     observer                  of hinf and modified_hinf alone
 ///       gamma_sqrt_s, or alpha_per_s and delta_per_s; steps;
 ///       back_offs               steps at which gamma or delta was dropped

@@ -185,6 +185,22 @@ Json BroadJson(const BroadMetric& metric) {
   return json;
 }
 
+Json RivalJson(const RivalSolution& rival) {
+  Json json;
+  json["description"] = rival.description;
+  Put(&json, "probability", rival.probability);
+  Put(&json, "log_evidence", rival.log_evidence);
+  json["differences"] = Json::array();
+  for (const RivalSolution::Difference& difference : rival.differences) {
+    Json entry;
+    entry["quantity"] = difference.quantity;
+    Put(&entry, "value", difference.value);
+    entry["unit"] = difference.unit;
+    json["differences"].push_back(std::move(entry));
+  }
+  return json;
+}
+
 Json MethodJson(const MethodSummary& m) {
   Json json;
   Put(&json, "seconds", m.seconds);
@@ -214,6 +230,9 @@ Json MethodJson(const MethodSummary& m) {
     Put(&entry, "t_end_s", span.t_end);
     Put(&entry, "sigma", span.sigma);
     json["unobserved"].push_back(std::move(entry));
+  }
+  for (const RivalSolution& rival : m.rivals) {
+    json["rivals"].push_back(RivalJson(rival));
   }
   if (m.observer) json["observer"] = ObserverJson(*m.observer);
   return json;

@@ -4,46 +4,9 @@
 
 #include "base/error.h"
 #include "base/units.h"
-#include "simulation/builtin_scenarios.h"
-#include "simulation/scenario.h"
 
 namespace hindsight {
 namespace {
-
-/// A minute of driving with turns, the truth once a second and by `late`
-/// seconds late.
-Dataset LateTruth(double late) {
-  Scenario scenario = BuiltinScenario("short_drive");
-  scenario.truth_rate_hz = 1.0;
-  Dataset dataset = Simulate(scenario, 1);
-  for (TruthPoint& point : dataset.truth) point.t += late;
-  return dataset;
-}
-
-TEST(TruthStart, ClockIsFoundFromTheGyros) {
-  for (const double late : {-0.455, 0.0, 1.237}) {
-    const Dataset dataset = LateTruth(late);
-    const auto clock = FindTruthClock(dataset.imu, dataset.truth);
-    ASSERT_TRUE(clock) << late;
-    EXPECT_NEAR(clock->offset, -late, 4.0 * clock->sigma + 1e-4);
-    EXPECT_LT(clock->sigma, 5e-3);
-  }
-}
-
-TEST(TruthStart, ClockIsNotFoundWhereNothingTellsIt) {
-  EXPECT_FALSE(FindTruthClock(LateTruth(2.5).imu, LateTruth(2.5).truth));
-  Dataset straight = LateTruth(0.0);
-  for (TruthPoint& point : straight.truth) {
-    point.q_nb = Eigen::Quaterniond::Identity();
-  }
-  for (ImuSample& sample : straight.imu.samples) {
-    sample.gyro = 1e-5 * Eigen::Vector3d(std::sin(100.0 * sample.t), 0.0, 0.0);
-  }
-  EXPECT_FALSE(FindTruthClock(straight.imu, straight.truth));
-  Dataset positions = LateTruth(0.0);
-  for (TruthPoint& point : positions.truth) point.q_nb.reset();
-  EXPECT_FALSE(FindTruthClock(positions.imu, positions.truth));
-}
 
 /// Heading east, turning to the right at 0.1 rad/s; the truth speaks of a point
 /// 2 m ahead, which the turn moves to the south at 0.2 m/s. Its second point is

@@ -1,0 +1,170 @@
+#include "problems/clock_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "dataset/clock_search.h"
+#include "problems/clock_rivals.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kWidePrior = 0.1;  // below it one clock alone fits [s]
+constexpr double kReach = 4.0;
+
+/// A stream and the offsets at which its clock may stand.
+struct ClockQuestion {
+  std::size_t stream = 0;
+  std::vector<ClockCandidate> candidates;
+  int left_out = 0;         ///< further candidates
+  double resolution = 0.0;  ///< of the search [s]
+};
+
+std::vector<std::size_t> StreamsOf(
+    const std::vector<ClockQuestion>& questions) {
+  std::vector<std::size_t> streams;
+  for (const ClockQuestion& question : questions) {
+    streams.push_back(question.stream);
+  }
+  return streams;
+}
+
+/// An offset for each question, and the sum of the misfits there.
+struct ClockCombination {
+  std::vector<double> offsets;
+  double misfit = 0.0;
+};
+
+std::optional<ClockQuestion> AskUnknown(const Dataset& dataset, std::size_t i) {
+  const AidingStream& stream = dataset.streams[i];
+  const ClockSearch found = SearchClock(dataset.imu, dataset.initial, stream);
+  if (found.candidates.empty()) {
+    throw EstimationError("where the clock of " + stream.sensor.name +
+                          " stands is not found: its readings and the IMU "
+                          "have no motion in common that tells it");
+  }
+  return ClockQuestion{i, found.candidates, found.left_out, found.resolution};
+}
+
+std::optional<ClockQuestion> AskEstimated(const Dataset& dataset,
+                                          std::size_t i) {
+  const AidingStream& stream = dataset.streams[i];
+  const double given = stream.sensor.time_offset;
+  const double reach = kReach * *stream.sensor.time_offset_sigma;
+  ClockSearch found = SearchClock(dataset.imu, dataset.initial, stream,
+                                  {given - reach, given + reach});
+  if (found.candidates.empty()) return std::nullopt;
+  const auto near_given = [&](const ClockCandidate& candidate) {
+    return std::abs(candidate.offset - given) < 0.5 * found.resolution;
+  };
+  if (std::any_of(found.candidates.begin(), found.candidates.end(),
+                  near_given)) {
+    if (found.candidates.size() == 1) return std::nullopt;
+  } else {
+    found.candidates.push_back({given, 0.0, 1.0});
+  }
+  return ClockQuestion{i, found.candidates, found.left_out, found.resolution};
+}
+
+std::vector<ClockQuestion> AskClocks(const Dataset& dataset) {
+  std::vector<ClockQuestion> questions;
+  for (std::size_t i = 0; i < dataset.streams.size(); ++i) {
+    const AidingStream& stream = dataset.streams[i];
+    std::optional<ClockQuestion> question;
+    if (stream.clock_unknown) {
+      question = AskUnknown(dataset, i);
+    } else if (stream.sensor.time_offset_sigma.value_or(0.0) >= kWidePrior) {
+      question = AskEstimated(dataset, i);
+    }
+    if (question) questions.push_back(std::move(*question));
+  }
+  return questions;
+}
+
+/// How many there would be of all candidates.
+double Combinations(const std::vector<ClockQuestion>& questions) {
+  double count = 1.0;
+  for (const ClockQuestion& question : questions) {
+    count *= static_cast<double>(question.candidates.size()) +
+             static_cast<double>(question.left_out);
+  }
+  return count;
+}
+
+/// Every combination, those that fit best first.
+std::vector<ClockCombination> Combine(
+    const std::vector<ClockQuestion>& questions) {
+  constexpr std::size_t kMost = 8;
+  std::vector<ClockCombination> all(1);
+  for (const ClockQuestion& question : questions) {
+    std::vector<ClockCombination> longer;
+    for (const ClockCombination& begun : all) {
+      for (const ClockCandidate& candidate : question.candidates) {
+        longer.push_back(begun);
+        longer.back().offsets.push_back(candidate.offset);
+        longer.back().misfit += candidate.misfit;
+      }
+    }
+    std::stable_sort(longer.begin(), longer.end(),
+                     [](const ClockCombination& a, const ClockCombination& b) {
+                       return a.misfit < b.misfit;
+                     });
+    if (longer.size() > kMost) longer.resize(kMost);
+    all = std::move(longer);
+  }
+  return all;
+}
+
+void PlaceClocks(const std::vector<ClockQuestion>& questions,
+                 const std::vector<double>& offsets, Dataset* dataset) {
+  for (std::size_t i = 0; i < questions.size(); ++i) {
+    Sensor& sensor = dataset->streams[questions[i].stream].sensor;
+    sensor.time_offset = offsets[i];
+    if (!sensor.time_offset_sigma) {
+      sensor.time_offset_sigma = questions[i].resolution;
+    }
+  }
+}
+
+}  // namespace
+
+ClockChoice ChooseClocks(const Dataset& dataset,
+                         const ReconstructionOptions& options) {
+  ClockChoice choice;
+  const std::vector<ClockQuestion> questions = AskClocks(dataset);
+  if (questions.empty()) {
+    choice.stage = std::make_unique<ForwardStage>(dataset, options);
+    return choice;
+  }
+  choice.dataset = std::make_unique<Dataset>(dataset);
+  const std::vector<ClockCombination> combinations = Combine(questions);
+  std::vector<SolvedClocks> solved;
+  for (const ClockCombination& combination : combinations) {
+    PlaceClocks(questions, combination.offsets, choice.dataset.get());
+    try {
+      solved.push_back(
+          SolveWithClocks(combination.offsets, *choice.dataset, options));
+    } catch (const EstimationError&) {
+      // An offset at which the data cannot be explained is no explanation.
+    }
+  }
+  if (solved.empty()) {
+    PlaceClocks(questions, combinations.front().offsets, choice.dataset.get());
+    choice.stage = std::make_unique<ForwardStage>(*choice.dataset, options);
+    return choice;
+  }
+  const std::size_t best = Likeliest(dataset, solved);
+  choice.rivals = Rivals(dataset, StreamsOf(questions), solved, best);
+  AddUnsolved(
+      Combinations(questions) - static_cast<double>(combinations.size()),
+      &choice.rivals);
+  PlaceClocks(questions, solved[best].offsets, choice.dataset.get());
+  choice.stage = std::move(solved[best].stage);
+  return choice;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,41 @@
+#ifndef HINDSIGHT_PROBLEMS_MARGINAL_LIKELIHOOD_H_
+#define HINDSIGHT_PROBLEMS_MARGINAL_LIKELIHOOD_H_
+
+#include <vector>
+
+#include "alignment/start.h"
+#include "measurements/timeline.h"
+
+namespace hindsight {
+
+/// ln p(measurements) of an explanation, and how its innovations fare.
+struct MarginalLikelihood {
+  double log = 0.0;
+  double squares = 0.0;  ///< sum of the normalised squared innovations
+  double rows = 0.0;     ///< their components
+};
+
+/// The prior by which explanations are compared, as all of them share it: what
+/// the data set states of biases and constants; what it gives of position,
+/// velocity and attitude, and 100 m, 100 m/s and nothing of what the start was
+/// taken from the data, about `x`, the first state of the explanation. So is
+/// the clock of a stream of which nothing is known.
+Prior PriorOfComparison(const Dataset& dataset, const Start& start,
+                        const State& x);
+
+/// Marginal likelihood of the measurements that `used` names, in the system
+/// linearised about `nominal`, the converged trajectory: the likelihood of the
+/// forward filter's innovations there, which is Laplace's approximation
+///   -cost(MAP) + ln det(2 pi P)/2 with all priors in it.
+/// Of a measurement that is used but rejected by `decisions` its gate's limit
+/// counts in place of its innovation.
+MarginalLikelihood MarginalLikelihoodOf(const ErrorLayout& layout,
+                                        const Prior& prior,
+                                        const std::vector<State>& nominal,
+                                        const GateDecisions& decisions,
+                                        const GateDecisions& used,
+                                        Timeline* timeline);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_MARGINAL_LIKELIHOOD_H_

@@ -1,0 +1,33 @@
+#ifndef HINDSIGHT_DATASET_CLOCK_COMPARISON_H_
+#define HINDSIGHT_DATASET_CLOCK_COMPARISON_H_
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dataset/dataset.h"
+
+namespace hindsight {
+
+/// A record beside the IMU's, as a function of where its clock stands.
+struct ClockComparison {
+  /// As ClockCandidate::misfit; infinite where too little overlaps.
+  std::function<double(double offset)> misfit;
+  double first = 0.0;  ///< stamps it covers [s]
+  double last = 0.0;
+  double resolution = 0.0;  ///< length of the windows compared [s]
+  double freedom = 0.0;     ///< independent components of them all
+  std::string compared;     ///< in words
+};
+
+/// Nothing for a type that is not compared, or too few measurements.
+std::optional<ClockComparison> CompareStream(const ImuStream& imu,
+                                             const InitialState& initial,
+                                             const AidingStream& stream);
+std::optional<ClockComparison> CompareTurns(
+    const ImuStream& imu, const std::vector<TruthPoint>& truth);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_DATASET_CLOCK_COMPARISON_H_

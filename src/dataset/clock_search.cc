@@ -1,0 +1,148 @@
+#include "dataset/clock_search.h"
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "dataset/clock_comparison.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kSameMotion = 0.5;  // misfit
+constexpr std::size_t kMostCandidates = 8;
+constexpr double kStepsPerWindow = 10.0;
+
+ClockCandidate Refine(const ClockComparison& comparison, double from,
+                      double to) {
+  constexpr int kBits = 20;
+  const auto [offset, least] =
+      boost::math::tools::brent_find_minima(comparison.misfit, from, to, kBits);
+  const double step = 0.5 * (to - from);
+  const double curvature = (comparison.misfit(offset - step) +
+                            comparison.misfit(offset + step) - 2.0 * least) /
+                           (step * step);
+  return {offset, std::sqrt(2.0 * least / (comparison.freedom * curvature)),
+          least};
+}
+
+/// Whether chance would not fit so well: the correlation 1 - misfit/2, by
+/// Fisher's transformation, is five standard deviations from none.
+bool IsSignificant(const ClockComparison& comparison, const ImuStream& imu,
+                   const ClockCandidate& candidate) {
+  constexpr double kFiveSigmas = 5.0;
+  const double begin =
+      std::max(imu.t_begin(), comparison.first + candidate.offset);
+  const double end = std::min(imu.t_end(), comparison.last + candidate.offset);
+  const double share = (end - begin) / (comparison.last - comparison.first);
+  const double n = share * comparison.freedom;
+  return n > 3.0 &&
+         std::atanh(1.0 - 0.5 * candidate.misfit) * std::sqrt(n - 3.0) >
+             kFiveSigmas;
+}
+
+ClockSearch Search(const ClockComparison& comparison, const ImuStream& imu,
+                   const OffsetRange& range) {
+  ClockSearch out;
+  out.compared = comparison.compared;
+  out.resolution = comparison.resolution;
+  const double step = comparison.resolution / kStepsPerWindow;
+  const double count = std::ceil((range.to - range.from) / step);
+  if (!(count >= 2.0)) return out;
+  std::vector<double> misfit;
+  for (double i = 0.0; i <= count; ++i) {
+    misfit.push_back(comparison.misfit(range.from + i * step));
+  }
+  std::vector<ClockCandidate> found;
+  for (std::size_t i = 1; i + 1 < misfit.size(); ++i) {
+    const bool minimum = misfit[i] <= misfit[i - 1] &&
+                         misfit[i] < misfit[i + 1] &&
+                         std::isfinite(misfit[i - 1] + misfit[i + 1]);
+    if (!minimum || misfit[i] > 2.0 * kSameMotion) continue;
+    const double at = range.from + static_cast<double>(i) * step;
+    const ClockCandidate refined = Refine(comparison, at - step, at + step);
+    if (refined.misfit < kSameMotion) found.push_back(refined);
+  }
+  const bool tells = std::any_of(
+      found.begin(), found.end(), [&](const ClockCandidate& candidate) {
+        return IsSignificant(comparison, imu, candidate);
+      });
+  if (!tells) return out;
+  std::stable_sort(found.begin(), found.end(),
+                   [](const ClockCandidate& a, const ClockCandidate& b) {
+                     return a.misfit < b.misfit;
+                   });
+  for (const ClockCandidate& candidate : found) {
+    const bool near = std::any_of(
+        out.candidates.begin(), out.candidates.end(),
+        [&](const ClockCandidate& better) {
+          return std::abs(better.offset - candidate.offset) < out.resolution;
+        });
+    if (near) continue;
+    if (out.candidates.size() < kMostCandidates) {
+      out.candidates.push_back(candidate);
+    } else {
+      ++out.left_out;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+OffsetRange OverlappingOffsets(double a_begin, double a_end, double b_begin,
+                               double b_end) {
+  const double least = 0.5 * std::min(a_end - a_begin, b_end - b_begin);
+  return {a_begin + least - b_end, a_end - least - b_begin};
+}
+
+ClockSearch SearchClock(const ImuStream& imu, const InitialState& initial,
+                        const AidingStream& stream, OffsetRange range) {
+  const auto comparison = CompareStream(imu, initial, stream);
+  if (!comparison) return {};
+  const OffsetRange all = OverlappingOffsets(
+      imu.t_begin(), imu.t_end(), comparison->first, comparison->last);
+  return Search(*comparison, imu,
+                {std::max(all.from, range.from), std::min(all.to, range.to)});
+}
+
+ClockSearch SearchClock(const ImuStream& imu,
+                        const std::vector<TruthPoint>& truth) {
+  constexpr double kKnownClock =
+      0.02;  // an offset known worse is not known [s]
+  const auto comparison = CompareTurns(imu, truth);
+  if (!comparison) return {};
+  ClockSearch found =
+      Search(*comparison, imu,
+             OverlappingOffsets(imu.t_begin(), imu.t_end(), comparison->first,
+                                comparison->last));
+  std::erase_if(found.candidates, [](const ClockCandidate& candidate) {
+    return !(candidate.sigma < kKnownClock);
+  });
+  return found;
+}
+
+bool TakeClock(const ClockSearch& found, AidingStream* stream) {
+  if (found.candidates.empty()) return false;
+  stream->sensor.time_offset = found.candidates.front().offset;
+  stream->sensor.time_offset_sigma = found.resolution;
+  return true;
+}
+
+std::string Describe(const ClockSearch& search) {
+  std::string words;
+  for (const ClockCandidate& candidate : search.candidates) {
+    char text[120];
+    std::snprintf(text, sizeof(text), "%s%.4f s, sigma %.2g ms, misfit %.2g",
+                  words.empty() ? "" : "; or ", candidate.offset,
+                  1e3 * candidate.sigma, candidate.misfit);
+    words += text;
+  }
+  if (search.left_out > 0) {
+    words += "; and " + std::to_string(search.left_out) + " more";
+  }
+  return words + "; from " + search.compared;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,125 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/recording.h"
+
+namespace hindsight {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::filesystem::path kData =
+    std::filesystem::path(HINDSIGHT_SOURCE_DIR) / "data";
+const std::filesystem::path kRecordings =
+    std::filesystem::path(HINDSIGHT_SOURCE_DIR) / "../shared/data";
+
+/// The IMU's clock is put 500 s ahead, so that the records do not overlap.
+class UnknownClock : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    recording_.Replace("config.yaml", "imu:\n", "imu:\n  time_offset: 500 s\n");
+    recording_.Edit("config.yaml", [](std::vector<std::string>* lines) {
+      const auto begin = std::find_if(
+          lines->begin(), lines->end(),
+          [](const std::string& line) { return line.starts_with("truth:"); });
+      lines->erase(begin, begin + 2);
+    });
+  }
+  void MakeUnknown(const std::string& stream) {
+    recording_.Replace("config.yaml", "  " + stream + ":\n",
+                       "  " + stream + ":\n    time_offset: unknown\n");
+  }
+  Recording recording_;
+};
+
+TEST_F(UnknownClock, IsFoundCheckedAndEstimated) {
+  MakeUnknown("gnss");
+  MakeUnknown("speed");
+  const Outcome check =
+      Hindsight({"check", "data/config.yaml"}, recording_.root());
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_THAT(check.out, HasSubstr("gnss: time offset found: "));
+  EXPECT_THAT(check.out, HasSubstr("speed: time offset found: "));
+  const Outcome run = recording_.Run({"--out=out", "--methods=batch"});
+  ASSERT_TRUE(run.status == 0 || run.status == 3) << run.err << run.out;
+  const nlohmann::json batch = nlohmann::json::parse(
+      ReadFile(recording_.root() / "out/summary.json"))["methods"]["batch"];
+  for (const char* name : {"gnss_time_offset", "speed_time_offset"}) {
+    const nlohmann::json& offset = batch["constants"][name];
+    EXPECT_NEAR(offset["value"].get<double>(), 500.0,
+                4.0 * offset["sigma"].get<double>());
+  }
+  EXPECT_THAT(ReadFile(recording_.root() / "out/config.resolved.yaml"),
+              HasSubstr("time_offset: unknown"));
+}
+
+TEST_F(UnknownClock, GoesWithNoSigma) {
+  recording_.Replace("config.yaml", "  gnss:\n",
+                     "  gnss:\n    time_offset: unknown\n    estimate: "
+                     "{time_offset: 0.1 s}\n");
+  const Outcome outcome = recording_.Run({"--out=out"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("config.yaml:"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("time_offset does not go with `time_offset: unknown`"));
+}
+
+TEST_F(UnknownClock, OfAVehicleAtRestIsNotFound) {
+  WriteFile(recording_.root() / "still.yaml",
+            "name: still\n"
+            "start: {position: [48 deg, 11.5 deg, 500 m], heading: 65 deg}\n"
+            "segments: [{type: stop, duration: 60 s}]\n"
+            "imu:\n"
+            "  rate: 100 Hz\n"
+            "  noise: {gyro: 0.1 deg/sqrt(h), accel: 0.05 m/s/sqrt(h)}\n"
+            "aiding:\n"
+            "  gnss: {type: position, rate: 1 Hz, sigma: 0.2 m}\n");
+  ASSERT_EQ(
+      Hindsight({"simulate", "still.yaml", "--out=still"}, recording_.root())
+          .status,
+      0);
+  const auto config = recording_.root() / "still/config.yaml";
+  std::string text = ReadFile(config);
+  const std::string key = "  gnss:\n";
+  text.insert(text.find(key) + key.size(), "    time_offset: unknown\n");
+  WriteFile(config, text);
+  for (const char* command : {"check", "run"}) {
+    std::vector<std::string> words = {command, "still/config.yaml"};
+    if (command == std::string("run")) words.push_back("--out=out");
+    const Outcome outcome = Hindsight(words, recording_.root());
+    EXPECT_EQ(outcome.status, 2) << outcome.out;
+    EXPECT_THAT(outcome.err, HasSubstr("gnss.time_offset: is not found"));
+  }
+}
+
+/// Half a period off and turned round fits these flights nearly as well.
+TEST(ClocksOfRecordings, DronesToAndFro) {
+  if (!std::filesystem::exists(kRecordings / "drone_paths")) {
+    GTEST_SKIP() << "the recording drone_paths is not here";
+  }
+  const TemporaryFolder folder;
+  for (const char* path : {"5", "23", "27"}) {
+    const Outcome outcome = Hindsight(
+        {"run",
+         (kData / (std::string("drone_path_") + path + ".yaml")).string(),
+         "--data-root=" + kRecordings.string(), "--methods=batch", "--out=out",
+         "--force"},
+        folder.path());
+    ASSERT_TRUE(outcome.status == 0 || outcome.status == 3)
+        << path << outcome.err << outcome.out;
+    const nlohmann::json batch = nlohmann::json::parse(
+        ReadFile(folder.path() / "out/summary.json"))["methods"]["batch"];
+    EXPECT_LT(batch["withheld"]["horizontal_rms_m"].get<double>(), 0.08)
+        << path;
+    const double offset = batch["constants"]["rtk_time_offset"]["value"];
+    if (path != std::string("5")) {
+      EXPECT_NEAR(offset, -0.63, 0.1) << path;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hindsight

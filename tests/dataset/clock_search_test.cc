@@ -1,0 +1,161 @@
+#include "dataset/clock_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "geometry/so3.h"
+#include "simulation/builtin_scenarios.h"
+#include "simulation/scenario.h"
+#include "support/shuttle_flight.h"
+
+namespace hindsight {
+namespace {
+
+/// Three minutes of driving, the truth once a second and by `late` seconds
+/// late.
+Dataset LateTruth(double late) {
+  Scenario scenario = BuiltinScenario("short_drive");
+  scenario.truth_rate_hz = 1.0;
+  Dataset dataset = Simulate(scenario, 1);
+  for (TruthPoint& point : dataset.truth) point.t += late;
+  return dataset;
+}
+
+TEST(ClockSearch, TruthsClockIsFoundFromTheGyros) {
+  for (const double late : {-0.455, 0.0, 1.237, 2.5, -61.3, 1000.0}) {
+    const Dataset dataset = LateTruth(late);
+    const ClockSearch found = SearchClock(dataset.imu, dataset.truth);
+    ASSERT_FALSE(found.candidates.empty()) << late;
+    const ClockCandidate& clock = found.candidates.front();
+    EXPECT_NEAR(clock.offset, -late, 4.0 * clock.sigma + 1e-4);
+    EXPECT_LT(clock.sigma, 5e-3);
+  }
+}
+
+TEST(ClockSearch, TruthsClockIsNotFoundWhereNothingTellsIt) {
+  Dataset straight = LateTruth(0.0);
+  for (TruthPoint& point : straight.truth) {
+    point.q_nb = Eigen::Quaterniond::Identity();
+  }
+  for (ImuSample& sample : straight.imu.samples) {
+    sample.gyro = 1e-5 * Eigen::Vector3d(std::sin(100.0 * sample.t), 0.0, 0.0);
+  }
+  EXPECT_TRUE(SearchClock(straight.imu, straight.truth).candidates.empty());
+  Dataset positions = LateTruth(0.0);
+  for (TruthPoint& point : positions.truth) point.q_nb.reset();
+  EXPECT_TRUE(SearchClock(positions.imu, positions.truth).candidates.empty());
+}
+
+AidingModel Model(SensorType type, const Eigen::Vector3d& sigma,
+                  double rate_hz) {
+  AidingModel model;
+  model.sensor.name = "sensor";
+  model.sensor.type = type;
+  model.sigma = sigma;
+  model.rate_hz = rate_hz;
+  return model;
+}
+
+/// Every kind of stream that can tell its clock, on a drive.
+std::vector<AidingModel> TellingSensors() {
+  std::vector<AidingModel> models = {
+      Model(SensorType::kPosition, Eigen::Vector3d::Constant(0.5), 1.0),
+      Model(SensorType::kPosition, Eigen::Vector3d::Constant(0.05), 5.0),
+      Model(SensorType::kVelocity, Eigen::Vector3d::Constant(0.05), 5.0),
+      Model(SensorType::kOdometer, Eigen::Vector3d::Constant(0.05), 10.0),
+      Model(SensorType::kDvl, Eigen::Vector3d::Constant(0.02), 2.0),
+      Model(SensorType::kMagnetometer, Eigen::Vector3d::Constant(0.5), 20.0)};
+  models[3].odometer_form = Odometer::Form::kForward;
+  models[4].dvl.sigma.setConstant(0.02);
+  models[5].magnetic_form = MagneticField::Form::kVector;
+  return models;
+}
+
+Dataset Drive(const AidingModel& model, std::uint64_t seed) {
+  Scenario scenario = BuiltinScenario("short_drive");
+  scenario.segments = WanderingDrive(180.0, seed);
+  scenario.aiding = {model};
+  return Simulate(scenario, seed);
+}
+
+TEST(ClockSearch, FindsDelaysUpToHalfTheRecordingOfEveryKindOfStream) {
+  for (const AidingModel& model : TellingSensors()) {
+    Dataset dataset = Drive(model, 11);
+    AidingStream& stream = dataset.streams[0];
+    double delayed = 0.0;
+    for (const double late : {-85.0, 0.7, 1e6}) {
+      Delay(late - delayed, &stream);
+      delayed = late;
+      const ClockSearch found =
+          SearchClock(dataset.imu, dataset.initial, stream);
+      ASSERT_FALSE(found.candidates.empty())
+          << static_cast<int>(model.sensor.type) << " " << late;
+      // Windows hide what their length hides.
+      EXPECT_NEAR(found.candidates.front().offset, -late,
+                  0.25 * found.resolution)
+          << static_cast<int>(model.sensor.type) << " " << late;
+    }
+  }
+}
+
+TEST(ClockSearch, FindsTheClockOfARecordThatBeganEarlierAndEndedLater) {
+  AidingModel model =
+      Model(SensorType::kVelocity, Eigen::Vector3d::Constant(0.05), 5.0);
+  Dataset dataset = Drive(model, 12);
+  auto& samples = dataset.imu.samples;
+  std::erase_if(samples, [](const ImuSample& sample) {
+    return sample.t < 70.0 || sample.t > 130.0;
+  });
+  Delay(-40.0, &dataset.streams[0]);
+  const ClockSearch found =
+      SearchClock(dataset.imu, dataset.initial, dataset.streams[0]);
+  ASSERT_FALSE(found.candidates.empty());
+  EXPECT_NEAR(found.candidates.front().offset, 40.0, 0.1);
+}
+
+TEST(ClockSearch, FindsNothingAtRest) {
+  for (const AidingModel& model : TellingSensors()) {
+    Scenario scenario = BuiltinScenario("short_drive");
+    scenario.segments = {Segment::Stop(120.0)};
+    scenario.aiding = {model};
+    const Dataset dataset = Simulate(scenario, 3);
+    EXPECT_TRUE(SearchClock(dataset.imu, dataset.initial, dataset.streams[0])
+                    .candidates.empty())
+        << static_cast<int>(model.sensor.type);
+  }
+}
+
+TEST(ClockSearch, HalfAPeriodOffIsACandidateOfAFlightToAndFro) {
+  const Dataset dataset = LateShuttle({}, 5, 0.6, 0.5);
+  const ClockSearch found = SearchClock(dataset.imu, dataset.initial,
+                                        dataset.streams[0], {-2.0, 2.0});
+  ASSERT_GE(found.candidates.size(), 2u);
+  const auto finds = [&](double offset) {
+    return std::any_of(found.candidates.begin(), found.candidates.end(),
+                       [&](const ClockCandidate& candidate) {
+                         return std::abs(candidate.offset - offset) < 0.15;
+                       });
+  };
+  EXPECT_TRUE(finds(-0.6));
+  EXPECT_TRUE(finds(-0.6 + 0.5 * 2.7));
+}
+
+TEST(ClockSearch, WithheldMeasurementsTakeNoPart) {
+  Dataset dataset = Drive(
+      Model(SensorType::kVelocity, Eigen::Vector3d::Constant(0.05), 5.0), 13);
+  for (Measurement& z : dataset.streams[0].measurements) z.withheld = true;
+  EXPECT_TRUE(SearchClock(dataset.imu, dataset.initial, dataset.streams[0])
+                  .candidates.empty());
+}
+
+TEST(ClockSearch, OffsetsLeaveHalfOfTheShorterRecord) {
+  const OffsetRange range = OverlappingOffsets(100.0, 200.0, 0.0, 20.0);
+  EXPECT_DOUBLE_EQ(range.from, 90.0);
+  EXPECT_DOUBLE_EQ(range.to, 190.0);
+}
+
+}  // namespace
+}  // namespace hindsight

@@ -1,0 +1,127 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "base/units.h"
+#include "problems/reconstruction.h"
+#include "simulation/builtin_scenarios.h"
+#include "support/shuttle_flight.h"
+
+namespace hindsight {
+namespace {
+
+const ConstantEstimate& Constant(const Solution& solution,
+                                 const std::string& name) {
+  return *std::find_if(
+      solution.constants.begin(), solution.constants.end(),
+      [&](const ConstantEstimate& c) { return c.name == name; });
+}
+
+double RivalShare(const Solution& solution) {
+  double sum = 0.0;
+  for (const RivalSolution& rival : solution.rivals) sum += rival.probability;
+  return sum;
+}
+
+/// Root mean square of the heading's error over the nodes [rad].
+double HeadingError(const Solution& solution, const Dataset& dataset) {
+  double square = 0.0, count = 0.0;
+  auto point = dataset.truth.begin();
+  for (const State& x : solution.states) {
+    while (point + 1 != dataset.truth.end() && (point + 1)->t <= x.t) ++point;
+    const double e =
+        WrapAngle(x.euler().z() - EulerFromQuaternion(*point->q_nb).z());
+    square += e * e;
+    count += 1.0;
+  }
+  return std::sqrt(square / count);
+}
+
+/// Flights to and fro, the positions up to three quarters of a second late or
+/// early: how often the wrong clock is chosen is what the rivals' probabilities
+/// say.
+TEST(ClockChoice, FlightsToAndFroAreTurnedRoundAsOftenAsTheRivalsSay) {
+  constexpr int kSeeds = 12;
+  int wrong = 0;
+  double expected = 0.0, variance = 0.0;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    const auto s = static_cast<std::uint64_t>(7000 + seed);
+    Random random(s, 1);
+    const double late = 1.5 * random.Uniform() - 0.75;
+    const Dataset dataset = LateShuttle({}, s, late, 0.5);
+    const Solution solution = Solve(dataset, {});
+    const double offset = Constant(solution, "gnss_time_offset").value;
+    const bool right = std::abs(offset + late) < 0.2 &&
+                       HeadingError(solution, dataset) < 20.0 * kDegree;
+    const double share = RivalShare(solution);
+    wrong += right ? 0 : 1;
+    expected += share;
+    variance += share * (1.0 - share);
+  }
+  EXPECT_LE(wrong, expected + 3.0 * std::sqrt(variance) + 1e-3);
+  // Far more often right than by the prior alone.
+  EXPECT_LE(wrong, kSeeds / 6);
+}
+
+/// Every swing like the one before: turned round and half a period later only
+/// the prior of the clock tells.
+TEST(ClockChoice, PerfectlyPeriodicFlightsHaveARival) {
+  ShuttleOptions options;
+  options.irregularity = 0.0;
+  options.drift = 0.0;
+  options.turning = 0.0;
+  const Dataset dataset = LateShuttle(options, 21, 0.3, 0.5);
+  const Solution solution = Solve(dataset, {});
+  ASSERT_FALSE(solution.rivals.empty());
+  const RivalSolution& rival = solution.rivals.front();
+  EXPECT_GT(rival.probability, 0.01);
+  EXPECT_LE(rival.probability, 0.5);
+  ASSERT_EQ(rival.differences.size(), 2u) << rival.description;
+  EXPECT_EQ(rival.differences[0].quantity, "gnss_time_offset");
+  EXPECT_NEAR(std::abs(rival.differences[0].value), 0.5 * options.period, 0.1);
+  EXPECT_EQ(rival.differences[1].quantity, "heading");
+  EXPECT_NEAR(std::abs(rival.differences[1].value), kPi, 20.0 * kDegree);
+  EXPECT_NE(rival.description.find("clock of gnss 1.3"), std::string::npos)
+      << rival.description;
+  EXPECT_NE(rival.description.find("heading turned by"), std::string::npos);
+  EXPECT_TRUE(rival.final_state);
+}
+
+TEST(ClockChoice, AnUnknownClockIsFoundAMinuteOff) {
+  Scenario scenario = BuiltinScenario("short_drive");
+  Dataset dataset = Simulate(scenario, 4);
+  for (AidingStream& stream : dataset.streams) {
+    Delay(60.0, &stream);
+    stream.clock_unknown = true;
+  }
+  const Solution solution = Solve(dataset, {});
+  for (const char* name : {"gnss_time_offset", "gnss_velocity_time_offset"}) {
+    const ConstantEstimate& offset = Constant(solution, name);
+    EXPECT_NEAR(offset.value, -60.0, 4.0 * offset.sigma + 1e-3) << name;
+    EXPECT_LT(offset.sigma, 0.1) << name;
+  }
+  EXPECT_NE(solution.grade, Grade::kUnusable) << solution.verdict;
+  EXPECT_LT(RivalShare(solution), 1e-3);
+  EXPECT_LT(HeadingError(solution, dataset), 2.0 * kDegree);
+}
+
+TEST(ClockChoice, AnUnknownClockAtRestIsRefusedByName) {
+  Scenario scenario = BuiltinScenario("short_drive");
+  scenario.segments = {Segment::Stop(60.0)};
+  Dataset dataset = Simulate(scenario, 4);
+  dataset.streams[0].clock_unknown = true;
+  try {
+    Solve(dataset, {});
+    FAIL() << "was solved";
+  } catch (const EstimationError& error) {
+    EXPECT_STREQ(error.what(),
+                 "where the clock of gnss stands is not found: its readings "
+                 "and the IMU have no motion in common that tells it");
+  }
+}
+
+}  // namespace
+}  // namespace hindsight
