@@ -25,12 +25,13 @@ void TurnToHeading(double heading, double sigma, AlignedAttitude* attitude);
 /// Method `static`: LevelAttitude at rest, heading left open.
 AlignmentOutcome AlignAtRest(const AlignmentInput& input);
 
-/// Gyro bias from the mean rate at rest, a priori value and mean weighted by
-/// their variances; the unknown direction of the Earth's rate counts as noise:
-///   sigma^2 = density^2 / T + w_ie^2.
+/// Gyro bias from the mean rate at rest, whose sigma counts the unknown
+/// direction of the Earth's rate as noise, s^2 = density^2 / T + w_ie^2, and
+/// the a priori value b_0 +- s_0, weighted by their information:
+///   1/sigma^2 = 1/s_0^2 + 1/s^2,   b_g = sigma^2 (b_0/s_0^2 + mean/s^2).
 struct RestingGyro {
   Eigen::Vector3d b_g;
-  double sigma = 0.0;  ///< [rad/s]
+  Eigen::Vector3d sigma;  ///< [rad/s]
 };
 RestingGyro GyroBiasAtRest(const Dataset& dataset, const TimeInterval& rest);
 

@@ -14,11 +14,11 @@
 #include "base/error.h"
 #include "dataset/checks.h"
 #include "dataset/injection.h"
-#include "dataset/timeline_builder.h"
 #include "io/comparison.h"
 #include "io/config.h"
 #include "io/residual_csv.h"
 #include "io/summary.h"
+#include "problems/rest_by_estimate.h"
 
 namespace hindsight {
 namespace {
@@ -102,7 +102,7 @@ Dataset Load(const RunRequest& request, const ResultFolder& folder) {
   Inject(request, &dataset, &resolved);
   CheckRate(request, dataset.imu);
   ResolveMountings(&dataset);
-  AddStandstillStreams(&dataset);
+  AddDecidedRest(request.from, request.to, &dataset);
   ThinTruth(&dataset.truth);
   WriteResolvedConfig(resolved, folder.Path("config.resolved.yaml"));
   return dataset;
