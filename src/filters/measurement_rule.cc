@@ -42,8 +42,7 @@ bool MeasurementRule::MayUse(std::size_t k, int index) const {
 bool MeasurementRule::AsksTheInnovation(int sensor) const {
   const Sensor& s = timeline_.sensors()[static_cast<std::size_t>(sensor)];
   return s.loss.kind != RobustLoss::Kind::kNone ||
-         (decisions_.empty() &&
-          (s.gate_probability.has_value() || s.known_to.has_value()));
+         (decisions_.empty() && s.gate_probability.has_value());
 }
 
 MeasurementVerdict MeasurementRule::Judge(std::size_t k, int index,
@@ -78,11 +77,6 @@ double MeasurementRule::RobustArgument(const LinearizedMeasurement& z,
 /// The gate has no say where it is decided beforehand.
 bool MeasurementRule::Passes(int sensor, const Innovation& innovation) const {
   if (!decisions_.empty()) return true;
-  const auto& known_to =
-      timeline_.sensors()[static_cast<std::size_t>(sensor)].known_to;
-  if (known_to && innovation.S.diagonal().maxCoeff() > *known_to * *known_to) {
-    return false;
-  }
   const auto rows = static_cast<std::size_t>(innovation.residual.size());
   return innovation.nis <=
          gate_limits_[static_cast<std::size_t>(sensor)][rows - 1];

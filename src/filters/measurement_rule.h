@@ -10,8 +10,7 @@
 namespace hindsight {
 
 /// Which measurements a pass uses. Empty: the gate of each sensor decides by
-/// the innovation, and its known_to by the innovation's covariance. Otherwise
-/// one flag a measurement of the timeline, in order.
+/// the innovation. Otherwise one flag a measurement of the timeline, in order.
 using GateDecisions = std::vector<char>;
 
 /// Upper limit of the normalised innovation squared that the sensor's gate lets
@@ -42,8 +41,7 @@ class MeasurementRule {
   /// beforehand: not withheld, nor decided against.
   bool MayUse(std::size_t k, int index) const;
 
-  /// Whether the sensor has a loss, or a gate or known_to that is not decided
-  /// beforehand.
+  /// Whether the sensor has a loss, or a gate that is not decided beforehand.
   bool AsksTheInnovation(int sensor) const;
 
   /// Judges measurement `index` of node k, linearised as `z`, by what (dx, P)

@@ -79,10 +79,6 @@ struct Sensor {
   /// Probability that a good measurement passes the chi-square gate; absent:
   /// no gate.
   std::optional<double> gate_probability;
-  /// A measurement that holds under a hypothesis (that the vehicle stands):
-  /// used only where what is predicted without it is known to this in every
-  /// row, one sigma [row's unit]; absent: always.
-  std::optional<double> known_to;
   /// Robust loss of the whole-interval methods; forward filters weigh a
   /// measurement by it at its innovation.
   RobustLoss loss;
