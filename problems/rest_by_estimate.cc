@@ -56,7 +56,6 @@ class EstimatedRest {
         candidates_.push_back({window});
       }
     }
-    zero_.known_to = kKnownTo;
     zero_.gate_probability = kGate;
     zero_.type = SensorType::kZeroVelocity;
   }
@@ -94,8 +93,11 @@ class EstimatedRest {
                                    start.layout.Has(BlockKind::kAccelScale);
     Timeline timeline = BuildTimeline(dataset_, options);
     start.prior.x.t = timeline.node(0).t;
-    LinearTape tape =
-        RunExtendedKalmanFilter(start.layout, start.prior, &timeline);
+    hypothesis_ = {static_cast<int>(dataset_.streams.size()) - 1, kKnownTo};
+    LinearTape tape = RunForwardFilter({.error = ErrorDefinition::kNavigation,
+                                        .covariance = {},
+                                        .hypothesis = hypothesis_},
+                                       start.layout, start.prior, &timeline);
     bool found = JudgePredictions(timeline, tape);
     if (HasOpen()) {
       found |=
@@ -117,10 +119,6 @@ class EstimatedRest {
     }
   }
 
-  bool IsHypothesis(int sensor) const {
-    return sensor + 1 == static_cast<int>(dataset_.streams.size());
-  }
-
   Candidate* CandidateOf(const Measurement& z) {
     return &*std::lower_bound(candidates_.begin(), candidates_.end(), z.t,
                               [](const Candidate& candidate, double t) {
@@ -131,7 +129,7 @@ class EstimatedRest {
   /// By the innovation and its covariance; whether it is at rest.
   template <typename Matrix>
   bool Judge(const Matrix& S, double nis, const Measurement& z) {
-    if (S.diagonal().maxCoeff() > kKnownTo * kKnownTo) return false;
+    if (!hypothesis_.IsDecisive(S)) return false;
     const bool at_rest = nis <= GateLimit(zero_, Rows(z));
     CandidateOf(z)->standing = at_rest ? Standing::kAtRest : Standing::kMoving;
     return at_rest;
@@ -141,7 +139,7 @@ class EstimatedRest {
     bool found = false;
     for (std::size_t k = 0; k < tape.size(); ++k) {
       for (const TapeMeasurement& m : tape.measurements(k)) {
-        if (!IsHypothesis(m.sensor)) continue;
+        if (m.sensor != hypothesis_.sensor) continue;
         found |=
             Judge(m.S, m.nis,
                   timeline.measurements(k)[static_cast<std::size_t>(m.index)]);
@@ -157,7 +155,7 @@ class EstimatedRest {
     const ErrorVector none = ErrorVector::Zero(layout.dim());
     for (std::size_t k = 0; k < timeline.size(); ++k) {
       for (const Measurement& z : timeline.measurements(k)) {
-        if (!IsHypothesis(z.sensor) ||
+        if (z.sensor != hypothesis_.sensor ||
             CandidateOf(z)->standing != Standing::kOpen) {
           continue;
         }
@@ -201,6 +199,7 @@ class EstimatedRest {
   double to_;
   std::size_t streams_ = dataset_.streams.size();
   Sensor zero_;
+  Hypothesis hypothesis_;
   Rest rest_;
   std::vector<Candidate> candidates_;
 };
