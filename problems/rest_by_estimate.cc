@@ -29,22 +29,11 @@ struct Candidate {
   Standing standing = Standing::kOpen;
 };
 
-/// Joins neighbours that touch.
-std::vector<TimeInterval> Joined(std::vector<TimeInterval> spans) {
-  constexpr double kTouching = 1e-9;
-  std::sort(spans.begin(), spans.end(),
+void SortByTime(std::vector<TimeInterval>* spans) {
+  std::sort(spans->begin(), spans->end(),
             [](const TimeInterval& a, const TimeInterval& b) {
               return a.begin < b.begin;
             });
-  std::vector<TimeInterval> joined;
-  for (const TimeInterval& span : spans) {
-    if (!joined.empty() && span.begin - joined.back().end < kTouching) {
-      joined.back().end = span.end;
-    } else {
-      joined.push_back(span);
-    }
-  }
-  return joined;
 }
 
 class EstimatedRest {
@@ -169,28 +158,44 @@ class EstimatedRest {
     return found;
   }
 
-  /// What is decided so far.
+  std::vector<TimeInterval>* ListOf(Standing standing, Rest* rest) const {
+    switch (standing) {
+      case Standing::kAtRest:
+        return &rest->at_rest;
+      case Standing::kMoving:
+        return &rest->moving;
+      default:
+        return &rest->undecided;
+    }
+  }
+
+  /// What is decided so far; windows of a span that say the same are one.
   Rest Conclude() const {
     Rest rest = rest_;
     rest.undecided.clear();
     auto candidate = candidates_.begin();
     for (const TimeInterval& span : rest_.undecided) {
-      double done = span.begin;
+      TimeInterval part = {span.begin, span.begin};
+      Standing standing = Standing::kOpen;
+      const auto close = [&] {
+        if (part.end > part.begin) ListOf(standing, &rest)->push_back(part);
+      };
       for (;
            candidate != candidates_.end() && candidate->window.begin < span.end;
            ++candidate) {
-        std::vector<TimeInterval>& list =
-            candidate->standing == Standing::kAtRest   ? rest.at_rest
-            : candidate->standing == Standing::kMoving ? rest.moving
-                                                       : rest.undecided;
-        list.push_back(candidate->window);
-        done = candidate->window.end;
+        if (candidate->standing != standing) {
+          close();
+          part.begin = candidate->window.begin;
+          standing = candidate->standing;
+        }
+        part.end = candidate->window.end;
       }
-      if (done < span.end) rest.undecided.push_back({done, span.end});
+      close();
+      if (part.end < span.end) rest.undecided.push_back({part.end, span.end});
     }
-    rest.at_rest = Joined(std::move(rest.at_rest));
-    rest.moving = Joined(std::move(rest.moving));
-    rest.undecided = Joined(std::move(rest.undecided));
+    SortByTime(&rest.at_rest);
+    SortByTime(&rest.moving);
+    SortByTime(&rest.undecided);
     return rest;
   }
 

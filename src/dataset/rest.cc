@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "dataset/imu_cells.h"
 #include "dataset/speed_evidence.h"
@@ -19,6 +20,7 @@ constexpr double kSigmas = 4.0;
 
 enum class Verdict { kNone, kContradicted, kMoving, kAtRest };
 
+/// In the order of their numbers.
 std::vector<TimeInterval> SpansOf(const std::vector<ImuCell>& cells) {
   std::vector<TimeInterval> spans;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -93,20 +95,15 @@ class Decision {
   void MarkRests() {
     const SpeedEvidence* before = nullptr;
     for (const SpeedEvidence& speed : speeds_) {
-      if (Judge(speed) != Verdict::kAtRest) continue;
-      const std::size_t first = CellAt(speed.begin);
-      std::size_t from = first;
-      if (before != nullptr && speed.begin - before->end <= kTogether) {
-        from = CellAt(before->end);
-      }
+      if (speed.span < 0 || Judge(speed) != Verdict::kAtRest) continue;
+      const bool together = before != nullptr && before->span == speed.span &&
+                            speed.begin - before->end <= kTogether;
       const double information = std::pow(speed.horizontal_sigma(), -2);
       const double length = speed.end - speed.begin;
-      for (std::size_t i = from;
+      for (std::size_t i = CellAt(together ? std::min(before->end, speed.begin)
+                                           : speed.begin);
            i < cells_.size() && cells_[i].begin <= speed.end; ++i) {
-        if (first == cells_.size() || cells_[i].span < 0 ||
-            cells_[i].span != cells_[first].span) {
-          continue;
-        }
+        if (cells_[i].span != speed.span) continue;
         verdicts_[i] = Verdict::kAtRest;
         const double cell = cells_[i].length();
         information_[i] = information * cell / std::max(length, cell);

@@ -82,8 +82,8 @@ SpeedEvidence MeanOf(std::span<const Reading> speeds, const NoiseModel& noise) {
 class Stretches {
  public:
   Stretches(const Readings& stream, std::span<const Reading> readings,
-            std::vector<SpeedEvidence>* out)
-      : stream_(stream), readings_(readings), out_(out) {}
+            int number, std::vector<SpeedEvidence>* out)
+      : stream_(stream), readings_(readings), number_(number), out_(out) {}
 
   void Append() {
     const std::size_t fewest = stream_.are_places ? 2 : 1;
@@ -107,8 +107,10 @@ class Stretches {
  private:
   SpeedEvidence Over(std::size_t first, std::size_t last) const {
     const auto part = readings_.subspan(first, last - first + 1);
-    return stream_.are_places ? SlopeOf(part, stream_.noise)
-                              : MeanOf(part, stream_.noise);
+    SpeedEvidence speed = stream_.are_places ? SlopeOf(part, stream_.noise)
+                                             : MeanOf(part, stream_.noise);
+    speed.span = number_;
+    return speed;
   }
 
   /// So that long stretches cost little.
@@ -139,6 +141,7 @@ class Stretches {
 
   const Readings& stream_;
   std::span<const Reading> readings_;
+  int number_;
   std::vector<SpeedEvidence>* out_;
 };
 
@@ -212,14 +215,24 @@ class Reader {
   Readings readings_;
 };
 
-void AppendGiven(const Dataset& dataset, std::vector<SpeedEvidence>* out) {
+void AppendGiven(const Dataset& dataset, const std::vector<TimeInterval>& spans,
+                 std::vector<SpeedEvidence>* out) {
   const InitialState& given = dataset.initial;
   if (!given.v_n || dataset.imu.empty()) return;
   constexpr double kUsual = 0.1;
   const double t = given.t.value_or(dataset.imu.t_begin());
-  out->push_back(
-      {t, t, *given.v_n,
-       given.velocity_sigma.value_or(Eigen::Vector3d::Constant(kUsual))});
+  const auto holds =
+      std::find_if(spans.begin(), spans.end(), [t](const TimeInterval& span) {
+        return t >= span.begin && t <= span.end;
+      });
+  SpeedEvidence speed;
+  if (holds != spans.end())
+    speed.span = static_cast<int>(holds - spans.begin());
+  speed.begin = speed.end = t;
+  speed.v = *given.v_n;
+  speed.sigma =
+      given.velocity_sigma.value_or(Eigen::Vector3d::Constant(kUsual));
+  out->push_back(speed);
 }
 
 }  // namespace
@@ -227,16 +240,18 @@ void AppendGiven(const Dataset& dataset, std::vector<SpeedEvidence>* out) {
 std::vector<SpeedEvidence> MeasureSpeeds(
     const Dataset& dataset, const std::vector<TimeInterval>& spans) {
   std::vector<SpeedEvidence> out;
-  AppendGiven(dataset, &out);
+  AppendGiven(dataset, spans, &out);
   for (const AidingStream& stream : dataset.streams) {
     const Reader reader(stream);
     const std::span<const Reading> all(reader.readings().all);
     std::size_t first = 0;
+    int number = 0;
     for (const TimeInterval& span : spans) {
       while (first < all.size() && all[first].begin < span.begin) ++first;
       std::size_t last = first;
       while (last < all.size() && all[last].end <= span.end) ++last;
-      Stretches(reader.readings(), all.subspan(first, last - first), &out)
+      Stretches(reader.readings(), all.subspan(first, last - first), number++,
+                &out)
           .Append();
       first = last;
     }

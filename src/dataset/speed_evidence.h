@@ -13,6 +13,7 @@ namespace hindsight {
 /// vehicle does not turn: a lever arm then adds nothing, and axes fixed in the
 /// vehicle are as good as those of the Earth.
 struct SpeedEvidence {
+  int span = -1;       ///< number of that span; -1: of an instant outside all
   double begin = 0.0;  ///< true time of the first measurement [s]
   double end = 0.0;    ///< and of the last
   /// Axes of the sensor, two horizontal and one vertical [m/s].
