@@ -190,8 +190,13 @@ class EstimatedRest {
         }
         part.end = candidate->window.end;
       }
+      if (standing != Standing::kOpen) {
+        close();
+        part.begin = part.end;
+        standing = Standing::kOpen;
+      }
+      part.end = span.end;
       close();
-      if (part.end < span.end) rest.undecided.push_back({part.end, span.end});
     }
     SortByTime(&rest.at_rest);
     SortByTime(&rest.moving);
