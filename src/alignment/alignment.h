@@ -11,7 +11,7 @@
 #include "base/units.h"
 #include "dataset/dataset.h"
 #include "dataset/ground_motion.h"
-#include "dataset/standstill.h"
+#include "dataset/time_interval.h"
 
 namespace hindsight {
 

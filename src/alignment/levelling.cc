@@ -112,16 +112,18 @@ double DriftAtRest(const ImuStream& imu, const TimeInterval& rest) {
 
 RestingGyro GyroBiasAtRest(const Dataset& dataset, const TimeInterval& rest) {
   const double T = rest.end - rest.begin;
-  RestingGyro out;
-  out.sigma = std::hypot(dataset.imu.noise.gyro_noise_density / std::sqrt(T),
-                         kEarthRate, DriftAtRest(dataset.imu, rest));
-  const Eigen::Array3d variance =
-      GyroBiasSigma(dataset.initial).cwiseAbs2().array();
-  const Eigen::Array3d weight = variance / (variance + out.sigma * out.sigma);
-  const Eigen::Vector3d& given = dataset.initial.gyro_bias;
+  const double reading =
+      std::hypot(dataset.imu.noise.gyro_noise_density / std::sqrt(T),
+                 kEarthRate, DriftAtRest(dataset.imu, rest));
+  const Eigen::Array3d given =
+      GyroBiasSigma(dataset.initial).array().square().inverse();
+  const Eigen::Array3d information = given + 1.0 / (reading * reading);
+  const Eigen::Vector3d& b_0 = dataset.initial.gyro_bias;
   const Eigen::Vector3d mean =
       MeanReading(dataset.imu, rest.begin, rest.end).w_ib_b;
-  out.b_g = given + (weight * (mean - given).array()).matrix();
+  RestingGyro out;
+  out.b_g = mean + (given / information * (b_0 - mean).array()).matrix();
+  out.sigma = information.rsqrt().matrix();
   return out;
 }
 

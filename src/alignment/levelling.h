@@ -25,14 +25,15 @@ void TurnToHeading(double heading, double sigma, AlignedAttitude* attitude);
 /// Method `static`: LevelAttitude at rest, heading left open.
 AlignmentOutcome AlignAtRest(const AlignmentInput& input);
 
-/// Gyro bias from the mean rate at rest, a priori value and mean weighted by
-/// their variances; the unknown direction of the Earth's rate counts as noise,
-/// and so does drift, the difference between the means of both halves of the
-/// rest where that stands out of their noise:
-///   sigma^2 = density^2 / T + w_ie^2 + drift^2.
+/// Gyro bias from the mean rate at rest, whose sigma counts as noise the unknown
+/// direction of the Earth's rate and drift, the difference between the means of
+/// both halves of the rest where that stands out of their noise,
+///   s^2 = density^2 / T + w_ie^2 + drift^2,
+/// and the a priori value b_0 +- s_0, weighted by their information:
+///   1/sigma^2 = 1/s_0^2 + 1/s^2,   b_g = sigma^2 (b_0/s_0^2 + mean/s^2).
 struct RestingGyro {
   Eigen::Vector3d b_g;
-  double sigma = 0.0;  ///< [rad/s]
+  Eigen::Vector3d sigma;  ///< [rad/s]
 };
 RestingGyro GyroBiasAtRest(const Dataset& dataset, const TimeInterval& rest);
 

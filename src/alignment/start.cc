@@ -11,6 +11,7 @@
 #include "alignment/given.h"
 #include "alignment/levelling.h"
 #include "base/error.h"
+#include "dataset/rest.h"
 #include "geometry/so3.h"
 #include "state/euler_error.h"
 
@@ -43,7 +44,7 @@ class StartFinder {
     }
     fixes_ = PositionFixes(dataset_, from_, to_);
     velocities_ = GroundVelocities(dataset_, from_, to_);
-    rests_ = FindRests(dataset_);
+    rests_ = FindRest(dataset_).at_rest;
     ChooseTime();
     ChooseGyroBias();
     ChooseAttitude();
@@ -78,7 +79,6 @@ class StartFinder {
         rest_ = TimeInterval{std::max(t_, rest.begin), rest.end};
       }
     }
-    if (MovesAsGiven()) rest_.reset();
   }
 
   /// Where the vehicle was and how it moved at t says nothing of another time.
@@ -92,17 +92,6 @@ class StartFinder {
                      " s");
   }
 
-  /// Smooth motion looks like rest to an IMU; a velocity that is given knows
-  /// better.
-  bool MovesAsGiven() const {
-    if (!given().v_n) return false;
-    const double sigma =
-        given()
-            .velocity_sigma.value_or(Eigen::Vector3d::Constant(0.1))
-            .maxCoeff();
-    return given().v_n->norm() > 3.0 * sigma;
-  }
-
   /// The rest makes the start value and the sigma with which the gyros carry
   /// heading; the a priori sigma is left as it was where zero-rate measurements
   /// will use the same data.
@@ -113,10 +102,8 @@ class StartFinder {
     if (!rest_) return;
     const RestingGyro resting = GyroBiasAtRest(dataset_, *rest_);
     b_g_ = resting.b_g;
-    gyro_sigma_ = std::min(gyro_sigma_, resting.sigma);
-    if (!dataset_.stationary.enabled) {
-      b_g_sigma_ = b_g_sigma_.cwiseMin(resting.sigma);
-    }
+    gyro_sigma_ = resting.sigma.maxCoeff();
+    if (!dataset_.stationary.enabled) b_g_sigma_ = resting.sigma;
   }
 
   void ChooseAttitude() {

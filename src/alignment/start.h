@@ -52,8 +52,8 @@ class NoInitialPosition : public EstimationError {
 ///   position  given, else the first position fix less its lever arm.
 ///   attitude  as Align finds it.
 ///   velocity  given, else zero at rest, else from the first fixes.
-///   gyro bias mean rate at rest less Earth rate, else as given.
-/// A velocity given of more than three sigmas says that there is no rest.
+///   gyro bias mean rate at rest and as given, by their sigmas; else as given.
+/// Rest is what FindRest says of data and given velocity.
 /// Throws NoInitialPosition if there is no position.
 Start FindStart(const Dataset& dataset, double from, double to);
 

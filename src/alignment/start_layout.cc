@@ -13,9 +13,6 @@
 namespace hindsight {
 namespace {
 
-constexpr double kDefaultGyroBiasSigma = 0.2 * kDegree;
-constexpr double kDefaultAccelBiasSigma = 0.2;
-
 void AddCalibration(BlockKind kind, int sensor, const std::string& name,
                     const char* unit, const Eigen::Vector3d& sigma,
                     std::vector<Block>* blocks) {
@@ -219,16 +216,6 @@ ParameterVector InitialParameters(
     }
   }
   return parameters;
-}
-
-Eigen::Vector3d GyroBiasSigma(const InitialState& given) {
-  return given.gyro_bias_sigma.value_or(
-      Eigen::Vector3d::Constant(kDefaultGyroBiasSigma));
-}
-
-Eigen::Vector3d AccelBiasSigma(const InitialState& given) {
-  return given.accel_bias_sigma.value_or(
-      Eigen::Vector3d::Constant(kDefaultAccelBiasSigma));
 }
 
 }  // namespace hindsight

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "dataset/bias_sigma.h"
 #include "dataset/dataset.h"
 #include "state/error_layout.h"
 
@@ -24,11 +25,6 @@ void RequireCapacity(const Dataset& dataset, const std::string& config);
 ParameterVector InitialParameters(
     const Dataset& dataset, const ErrorLayout& layout,
     const std::optional<Eigen::Vector3d>& travel_b = std::nullopt);
-
-/// A priori standard deviations of the biases: as given, or those of a consumer
-/// IMU straight from power-up, 0.2 deg/s and 0.2 m/s^2.
-Eigen::Vector3d GyroBiasSigma(const InitialState& given);
-Eigen::Vector3d AccelBiasSigma(const InitialState& given);
 
 }  // namespace hindsight
 

@@ -7,14 +7,15 @@
 #include "app/flags.h"
 #include "app/list_flags.h"
 #include "app/run_report.h"
+#include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "dataset/checks.h"
-#include "dataset/timeline_builder.h"
 #include "io/config.h"
 #include "io/number_format.h"
 #include "io/table.h"
 #include "problems/noise_estimation.h"
+#include "problems/rest_by_estimate.h"
 
 namespace hindsight {
 namespace {
@@ -67,14 +68,36 @@ std::string DescribeGaps(const std::vector<StreamReport>& streams) {
   return text;
 }
 
+std::string DescribeSpans(const char* what,
+                          const std::vector<TimeInterval>& spans) {
+  std::string text =
+      Format("%s: %.1f s in %zu spans", what, TotalLength(spans), spans.size());
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    text += Format("%s%.2f to %.2f", i == 0 ? ": " : ", ", spans[i].begin,
+                   spans[i].end);
+  }
+  return text + "\n";
+}
+
+std::string DescribeRest(const Rest& rest) {
+  std::string text = DescribeSpans("at rest", rest.at_rest);
+  if (!rest.moving.empty()) {
+    text += DescribeSpans("not turning, but moving", rest.moving);
+  }
+  if (!rest.undecided.empty()) {
+    text +=
+        DescribeSpans("not turning, moving or not undecided", rest.undecided);
+  }
+  return text;
+}
+
 std::string DescribeImu(const CheckReport& report) {
   const ImuReport& imu = report.imu;
   std::string text = Format(
       "specific force: mean %.3f, largest %.2f m/s^2; angular rate: largest "
       "%.2f deg/s\n",
       imu.mean_force, imu.max_force, imu.max_rate / kDegree);
-  text += Format("at rest: %.1f s in %zu periods\n", imu.rest_seconds,
-                 imu.rest.size());
+  text += DescribeRest(imu.rest);
   if (imu.rest_force) {
     text +=
         Format("  mean specific force [%.4f, %.4f, %.4f] m/s^2\n",
@@ -114,12 +137,23 @@ std::string DescribeGrade(const CheckReport& report) {
                                  warnings == 1 ? "" : "s"));
 }
 
+/// What the estimate adds to the decisions of rest, if there is one.
+void DecideAsRunDoes(Dataset* dataset, Rest* rest) {
+  try {
+    ResolveMountings(dataset);
+    *rest = DecideRest(dataset);
+  } catch (const EstimationError&) {
+    // `run` says what is missing.
+  }
+}
+
 int Run(const std::vector<std::string>& arguments) {
   Dataset dataset = LoadDataset(
       arguments[0], {.data_root = FLAGS_data_root,
                      .without = ReadWords("without", FLAGS_without)});
   RequireCapacity(dataset, arguments[0]);
-  const CheckReport report = CheckDataset(dataset);
+  CheckReport report = CheckDataset(dataset);
+  if (dataset.stationary.enabled) DecideAsRunDoes(&dataset, &report.imu.rest);
   std::cout << "recording '" << dataset.name << "'\n\n"
             << StreamTable(report.streams) << "\n"
             << DescribeGaps(report.streams) << DescribeImu(report)
@@ -134,7 +168,7 @@ int Run(const std::vector<std::string>& arguments) {
   }
   if (FLAGS_noise) {
     ResolveMountings(&dataset);
-    AddStandstillStreams(&dataset);
+    if (dataset.stationary.enabled) AddRestStreams(report.imu.rest, &dataset);
     std::cout << DescribeNoise(dataset);
   }
   std::cout << DescribeGrade(report);

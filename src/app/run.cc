@@ -14,13 +14,13 @@
 #include "base/text.h"
 #include "dataset/checks.h"
 #include "dataset/injection.h"
-#include "dataset/timeline_builder.h"
 #include "evaluation/grade.h"
 #include "evaluation/truth_comparison.h"
 #include "io/comparison.h"
 #include "io/config.h"
 #include "io/residual_csv.h"
 #include "io/summary.h"
+#include "problems/rest_by_estimate.h"
 
 namespace hindsight {
 namespace {
@@ -105,7 +105,7 @@ Dataset Load(const RunRequest& request, const ResultFolder& folder) {
   Inject(request, &dataset, &resolved);
   CheckRate(request, dataset.imu);
   ResolveMountings(&dataset);
-  AddStandstillStreams(&dataset);
+  AddDecidedRest(request.from, request.to, &dataset);
   ThinTruth(&dataset.truth);
   WriteResolvedConfig(resolved, folder.Path("config.resolved.yaml"));
   return dataset;

@@ -6,7 +6,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
-#include "dataset/ground_motion.h"
+#include "dataset/imu_cells.h"
 #include "dataset/magnetic_check.h"
 #include "dataset/repeated_readings.h"
 
@@ -68,15 +68,55 @@ std::vector<double> ImuStamps(const ImuStream& imu) {
   return stamps;
 }
 
+/// Means over spans of time, of readings in time order.
+class SpanMean {
+ public:
+  explicit SpanMean(const std::vector<TimeInterval>& spans) : spans_(spans) {}
+
+  void Add(double t, double dt, const Eigen::Vector3d& f,
+           const Eigen::Vector3d& w) {
+    while (next_ < spans_.size() && spans_[next_].end < t) ++next_;
+    if (next_ == spans_.size() || t <= spans_[next_].begin) return;
+    force_ += dt * f;
+    rate_ += dt * w;
+    weight_ += dt;
+  }
+
+  std::optional<Eigen::Vector3d> force() const { return Mean(force_); }
+  std::optional<Eigen::Vector3d> rate() const { return Mean(rate_); }
+
+ private:
+  std::optional<Eigen::Vector3d> Mean(const Eigen::Vector3d& sum) const {
+    if (weight_ <= 0.0) return std::nullopt;
+    return sum / weight_;
+  }
+
+  const std::vector<TimeInterval>& spans_;
+  std::size_t next_ = 0;
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
+  double weight_ = 0.0;
+};
+
+std::vector<TimeInterval> AllSpans(const Rest& rest) {
+  std::vector<TimeInterval> all = rest.at_rest;
+  all.insert(all.end(), rest.moving.begin(), rest.moving.end());
+  all.insert(all.end(), rest.undecided.begin(), rest.undecided.end());
+  std::sort(all.begin(), all.end(),
+            [](const TimeInterval& a, const TimeInterval& b) {
+              return a.begin < b.begin;
+            });
+  return all;
+}
+
 ImuReport ReportImu(const Dataset& dataset) {
   ImuReport report;
   const ImuStream& imu = dataset.imu;
-  report.rest = FindRests(dataset);
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  Eigen::Vector3d rate = Eigen::Vector3d::Zero();
-  double weight = 0.0;
+  report.rest = FindRest(dataset);
+  const std::vector<TimeInterval> all = AllSpans(report.rest);
+  SpanMean rest(report.rest.at_rest);
+  SpanMean still(all);
   double duration = 0.0;
-  std::size_t interval = 0;
   for (std::size_t k = 1; k < imu.samples.size(); ++k) {
     const ImuSample& sample = imu.samples[k];
     const double dt = sample.t - imu.samples[k - 1].t;
@@ -88,30 +128,17 @@ ImuReport ReportImu(const Dataset& dataset) {
     duration += dt;
     report.max_force = std::max(report.max_force, f.norm());
     report.max_rate = std::max(report.max_rate, w.norm());
-    while (interval < report.rest.size() &&
-           report.rest[interval].end < sample.t) {
-      ++interval;
-    }
-    if (interval == report.rest.size() ||
-        sample.t <= report.rest[interval].begin) {
-      continue;
-    }
-    force += dt * f;
-    rate += dt * w;
-    weight += dt;
+    rest.Add(sample.t, dt, f, w);
+    still.Add(sample.t, dt, f, w);
   }
   report.mean_force /= duration;
-  for (const TimeInterval& rest : report.rest) {
-    report.rest_seconds += rest.end - rest.begin;
-  }
-  if (weight > 0.0) {
-    report.rest_force = force / weight;
-    report.rest_rate = rate / weight;
-  }
+  report.rest_force = rest.force();
+  report.rest_rate = rest.rate();
+  report.still_force = still.force();
   return report;
 }
 
-/// At rest the specific force is 1 g upwards: (0, 0, -g) in
+/// Unaccelerated, the specific force is 1 g upwards: (0, 0, -g) in
 /// forward-right-down.
 std::string SuggestAxes(const Eigen::Vector3d& force) {
   struct Case {
@@ -185,6 +212,17 @@ void WarnAboutImu(const CheckReport& report, const ImuStream& stream,
   }
 }
 
+void WarnAboutRate(const Dataset& dataset, std::vector<std::string>* warnings) {
+  constexpr double kLong = 5.0;
+  const UnexplainedRate rate = FindUnexplainedRate(dataset);
+  if (rate.seconds < kLong) return;
+  warnings->push_back(Format(
+      "imu: for %.1f s nothing shakes it and the gyros read up to %.3g deg/s, "
+      "more than initial.gyro_bias and its sigma allow: a steady turn; or, if "
+      "it stands there, a bias to be given or the wrong unit of the gyro",
+      rate.seconds, rate.rate / kDegree));
+}
+
 void WarnAboutStream(const StreamReport& stream,
                      std::vector<std::string>* warnings) {
   if (stream.rate > 0.0 && stream.jitter * stream.rate > kMaxJitter) {
@@ -228,10 +266,11 @@ CheckReport CheckDataset(const Dataset& dataset) {
         ReportStamps(stream.sensor.name, stamps, dataset.imu));
   }
   report.imu = ReportImu(dataset);
-  report.axes = report.imu.rest_force
-                    ? SuggestAxes(*report.imu.rest_force)
-                    : "unknown: the vehicle never stands still";
+  report.axes = report.imu.still_force
+                    ? SuggestAxes(*report.imu.still_force)
+                    : "unknown: the vehicle always turns or is shaken";
   WarnAboutImu(report, dataset.imu, &report.warnings);
+  WarnAboutRate(dataset, &report.warnings);
   for (const StreamReport& stream : report.streams) {
     WarnAboutStream(stream, &report.warnings);
   }

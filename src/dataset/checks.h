@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dataset/dataset.h"
-#include "dataset/standstill.h"
+#include "dataset/rest.h"
 #include "state/evidence.h"
 
 namespace hindsight {
@@ -33,11 +33,12 @@ struct StreamReport {
 
 /// What the IMU reads, in body axes forward-right-down.
 struct ImuReport {
-  double rest_seconds = 0.0;  ///< total of `rest`
-  std::vector<TimeInterval> rest;
-  /// Mean over `rest`; absent if the vehicle never stands.
+  Rest rest;
+  /// Mean over rest.at_rest; absent if the vehicle never stands.
   std::optional<Eigen::Vector3d> rest_force;  ///< [m/s^2]
   std::optional<Eigen::Vector3d> rest_rate;   ///< [rad/s]
+  /// Mean over all spans of `rest`; absent if there are none.
+  std::optional<Eigen::Vector3d> still_force;  ///< [m/s^2]
   double mean_force = 0.0;  ///< mean |f| over the record [m/s^2]
   double max_force = 0.0;   ///< [m/s^2]
   double max_rate = 0.0;    ///< [rad/s]
@@ -52,8 +53,8 @@ struct CheckReport {
   std::vector<std::string> truth_warnings;
   /// What the recording's repetitions say (dataset/repeated_readings.h).
   std::vector<Evidence> evidence;
-  /// In words, from the axis that feels gravity at rest: "z points down, as it
-  /// should", or the `axes` that would make it so.
+  /// In words, from the axis that feels gravity where the vehicle does not
+  /// turn: "z points down, as it should", or the `axes` that would make it so.
   std::string axes;
 
   /// Not usable: no IMU. Otherwise the worst of the evidence; doubtful where
@@ -63,8 +64,9 @@ struct CheckReport {
 
 /// Examines a data set and changes nothing. Thresholds: |f| at rest within 5 %
 /// of 9.81 m/s^2, |w| at rest below 2 deg/s, |f| below 200 m/s^2, |w| below
-/// 35 rad/s, jitter below a fifth of the interval. Standstill is looked for
-/// with the data set's own thresholds. Magnetometers: see CheckMagnetometers.
+/// 35 rad/s, jitter below a fifth of the interval. Rest is what FindRest
+/// says; what is quiet but turns faster than the gyro bias may be is warned of.
+/// Magnetometers: see CheckMagnetometers.
 CheckReport CheckDataset(const Dataset& dataset);
 
 }  // namespace hindsight

@@ -56,8 +56,8 @@ struct InitialState {
   std::optional<Eigen::Vector3d> accel_bias_sigma;  ///< [m/s^2]
 };
 
-/// Detects standstill from the IMU alone: over `window`, the standard
-/// deviations of rate and specific force stay below the thresholds.
+/// Whether rest (dataset/rest.h) makes measurements, and when an IMU is quiet:
+/// over `window`, the standard deviations of its readings are below thresholds.
 struct StationaryOptions {
   bool enabled = false;
   double window = 1.0;            ///< [s]

@@ -1,10 +1,10 @@
 #ifndef HINDSIGHT_DATASET_GROUND_MOTION_H_
 #define HINDSIGHT_DATASET_GROUND_MOTION_H_
 
+#include <optional>
 #include <vector>
 
 #include "dataset/dataset.h"
-#include "dataset/standstill.h"
 
 namespace hindsight {
 
@@ -42,18 +42,14 @@ struct BottomVelocity {
   double sigma = 0.0;
 };
 
-/// Those of all bottom-tracking logs in [from, to], in time order. Beams give
-/// one where three were received.
+/// Of one measurement, at its true time t; nothing of water track, nor where
+/// less than three components were received.
+std::optional<BottomVelocity> BottomVelocityOf(const Dvl& dvl,
+                                               const Sensor& sensor, double t);
+
+/// Those of all bottom-tracking logs in [from, to], in time order.
 std::vector<BottomVelocity> BottomVelocities(const Dataset& dataset,
                                              double from, double to);
-
-/// Spans in which the vehicle stands, in time order: what FindStandstill says,
-/// less every second in which GNSS or a Doppler log sees motion (even cruise on
-/// a good road, in still air or under water looks like rest to an IMU), and
-/// every span of at least 3 s in which GNSS sees none (an idling engine shakes
-/// an IMU): speeds below 0.1 m/s and twice their sigma, known to 0.1 m/s,
-/// without gaps.
-std::vector<TimeInterval> FindRests(const Dataset& dataset);
 
 }  // namespace hindsight
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dataset/dataset.h"
-#include "dataset/standstill.h"
+#include "dataset/time_interval.h"
 
 namespace hindsight {
 

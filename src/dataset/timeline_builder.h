@@ -26,11 +26,6 @@ struct TimelineOptions {
 /// stands at the beginning of each. `dataset.imu` must outlive the timeline.
 Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options);
 
-/// Finds standstill in the IMU data and, if Dataset::stationary asks for it,
-/// adds the streams "zero_velocity" and "zero_angular_rate" with a measurement
-/// a second over each standstill. Does nothing when they are there already.
-void AddStandstillStreams(Dataset* dataset);
-
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_DATASET_TIMELINE_BUILDER_H_

@@ -29,6 +29,7 @@ class ForwardPass {
         dx_(ErrorVector::Zero(layout.dim())) {
     tape_.Reserve(timeline->size());
     transition_.c = ErrorVector::Zero(layout.dim());
+    rule_.Suppose(model.hypothesis);
     if (!policy_.is_kalman()) tape_.ForbidSmoothing();
   }
 

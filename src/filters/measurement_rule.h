@@ -17,6 +17,19 @@ using GateDecisions = std::vector<char>;
 /// pass for so many rows, infinity without a gate.
 double GateLimit(const Sensor& sensor, int rows);
 
+/// A sensor whose measurements hold under a hypothesis, that the vehicle
+/// stands: they are used only where what is predicted without them is known
+/// well enough to speak for it or against it, and its gate lets them pass.
+struct Hypothesis {
+  int sensor = -1;        ///< -1: none
+  double known_to = 0.0;  ///< of every row, one sigma of the innovation
+  /// The innovation's covariance is small enough to decide.
+  template <typename Matrix>
+  bool IsDecisive(const Matrix& S) const {
+    return S.diagonal().maxCoeff() <= known_to * known_to;
+  }
+};
+
 /// What a recursive filter makes of one measurement.
 struct MeasurementVerdict {
   double weight = 1.0;   ///< of the sensor's loss; R is divided by it
@@ -36,6 +49,7 @@ class MeasurementRule {
   MeasurementRule(const Timeline& timeline, const GateDecisions& decisions);
 
   void AboutFixedNominal() { fixed_nominal_ = true; }
+  void Suppose(const Hypothesis& hypothesis) { hypothesis_ = hypothesis; }
 
   /// Whether measurement `index` of node k is used as far as it is decided
   /// beforehand: not withheld, nor decided against.
@@ -59,6 +73,7 @@ class MeasurementRule {
   const GateDecisions& decisions_;
   std::vector<std::array<double, kMaxRows>> gate_limits_;  // by sensor
   bool fixed_nominal_ = false;
+  Hypothesis hypothesis_;
 };
 
 }  // namespace hindsight

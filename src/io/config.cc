@@ -102,6 +102,17 @@ void ReadTruthConfig(ConfigMap* top, const fs::path& folder, Declared* declared,
   map.Finish();
 }
 
+/// Names of the streams that rest makes.
+void RefuseNamesOfRest(const Declared& declared, ConfigMap* aiding) {
+  for (const AidingConfig& stream : declared.aiding) {
+    const std::string& name = stream.sensor.name;
+    if (name != "zero_velocity" && name != "zero_angular_rate") continue;
+    aiding->Fail(name,
+                 "the name is that of measurements which `stationary` makes; "
+                 "expected another");
+  }
+}
+
 Declared ReadDeclarations(ConfigMap* top, const LoadOptions& options,
                           Dataset* dataset) {
   Declared declared;
@@ -128,6 +139,7 @@ Declared ReadDeclarations(ConfigMap* top, const LoadOptions& options,
   dataset->ahrs = ReadAhrs(top);
   dataset->initial = ReadInitialState(top, &declared.start_from_truth);
   dataset->stationary = ReadStationary(top);
+  if (dataset->stationary.enabled) RefuseNamesOfRest(declared, &aiding);
   ReadTruthConfig(top, folder, &declared, dataset);
   dataset->withholdings = ReadWithholdings(top);
   ConfigMap nodes = top->Map("nodes");

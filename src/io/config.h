@@ -65,7 +65,7 @@ namespace hindsight {
 /// | estimate.gyro_scale, estimate.accel_scale | a priori sigma of estimated scale factors | - |
 ///
 /// aiding.NAME besides:
-/// | type              | *needed*: position, velocity, height, depth, speed_course, odometer, non_holonomic, dvl, acoustic, magnetometer | |
+/// | type              | *needed*: position, velocity, height, depth, speed_course, odometer, non_holonomic, dvl, acoustic, magnetometer, zero_velocity | |
 /// | lever_arm         | from the IMU, body axes                  | 0       |
 /// | time_offset       | true time = stamp + offset; `truth`: that of the truth; `unknown`: the data tell, see below | 0 s     |
 /// | every             | use one measurement in this time         | all     |
@@ -104,6 +104,10 @@ namespace hindsight {
 /// downward part, both *needed* for vector; estimate.hard_iron,
 /// estimate.declination, estimate.disturbance, a Gauss-Markov field in NED axes
 /// with estimate.disturbance_tau, 10 s. It has no lever arm.
+///
+/// zero_velocity: the IMU stands where its column zero_velocity is 1 (0 elsewhere);
+/// sigma *needed*, of each axis [m/s]. It has no lever arm. Rows that are not thinned
+/// out by `every` are correlated: their sigma is that of one of them alone.
 ///
 /// height: estimate.offset, an additive constant. depth, besides: surface, the
 /// height of the water above the ellipsoid, 0 m.

@@ -35,6 +35,8 @@ constexpr std::array kAidingTypes = {
                Quantity::kSpeed, false},
     AidingType{"magnetometer", SensorType::kMagnetometer, MagnetometerFields,
                Quantity::kMagneticField, false},
+    AidingType{"zero_velocity", SensorType::kZeroVelocity, ZeroVelocityFields,
+               Quantity::kSpeed, false},
 };
 
 /// Of a mounting that the data give a first value.
@@ -252,6 +254,11 @@ void ReadMagneticEstimates(ConfigMap* estimate,
   }
 }
 
+/// A sensor at a point of the vehicle, not of the IMU itself or of the field.
+bool HasLeverArm(SensorType type) {
+  return type != SensorType::kMagnetometer && type != SensorType::kZeroVelocity;
+}
+
 void ReadSigmas(ConfigMap* map, const AidingType& type,
                 AidingReadOptions* options) {
   const bool one =
@@ -299,7 +306,7 @@ std::optional<double> ReadGate(ConfigMap* map) {
 
 void ReadCalibrationSigmas(ConfigMap* map, Sensor* sensor) {
   ConfigMap estimate = map->Map("estimate");
-  if (sensor->type != SensorType::kMagnetometer) {
+  if (HasLeverArm(sensor->type)) {
     sensor->lever_arm_sigma =
         estimate.OptionalSigma("lever_arm", Quantity::kLength);
   }
@@ -324,8 +331,10 @@ void ReadCalibrationSigmas(ConfigMap* map, Sensor* sensor) {
   if (sensor->type == SensorType::kHeight && estimate.Has("offset")) {
     sensor->offset_sigma = estimate.Positive("offset", Quantity::kLength);
   }
-  // What is generated at the IMU's own times has no clock to be estimated.
+  // What is generated at the IMU's own times has no clock to be estimated, and
+  // what stands still shows none.
   if (sensor->type != SensorType::kNonHolonomic &&
+      sensor->type != SensorType::kZeroVelocity &&
       estimate.Has("time_offset")) {
     sensor->time_offset_sigma =
         estimate.Positive("time_offset", Quantity::kTime);
@@ -367,13 +376,16 @@ AidingConfig ReadAidingConfig(const std::string& name, ConfigMap* map,
     config.options.has_current = config.sensor.current_sigma.has_value();
   } else if (type.type == SensorType::kAcousticFix) {
     ReadAcoustic(map, &config.sensor, &config.options.acoustic);
+  } else if (type.type == SensorType::kZeroVelocity) {
+    config.options.sigma.emplace().setConstant(
+        map->Positive("sigma", type.sigma));
   } else {
     ReadSigmas(map, type, &config.options);
   }
   if (type.fields == DepthFields) {
     config.options.surface = map->Number("surface", Quantity::kLength, 0.0);
   }
-  if (type.type != SensorType::kMagnetometer) {
+  if (HasLeverArm(type.type)) {
     config.sensor.lever_arm_b =
         map->Vector("lever_arm", Quantity::kLength, Eigen::Vector3d::Zero());
   }

@@ -111,6 +111,14 @@ const std::vector<FieldName>& MagnetometerFields() {
   return kFields;
 }
 
+const std::vector<FieldName>& ZeroVelocityFields() {
+  static const std::vector<FieldName> kFields = {
+      {"zero_velocity", Quantity::kRatio},
+      {"quality", Quantity::kRatio},
+  };
+  return kFields;
+}
+
 const std::vector<FieldName>& TruthFields() {
   static const std::vector<FieldName> kFields = {
       {"lat", Quantity::kAngle},     {"lon", Quantity::kAngle},

@@ -35,6 +35,8 @@ const std::vector<FieldName>& AcousticFields();
 const std::vector<FieldName>& SpeedCourseFields();
 /// Magnetic field in sensor axes.
 const std::vector<FieldName>& MagnetometerFields();
+/// Whether the vehicle is said to stand: 1 or 0.
+const std::vector<FieldName>& ZeroVelocityFields();
 /// Geodetic position, NED velocity, Euler angles; then the same as vectors and
 /// quaternion in a frame that the configuration names.
 const std::vector<FieldName>& TruthFields();

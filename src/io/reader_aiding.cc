@@ -43,6 +43,8 @@ FieldMap MapOf(const AidingReadOptions& options) {
       return {SpeedCourseFields(), 1, 0};
     case SensorType::kMagnetometer:
       return {MagnetometerFields(), 3, 0};
+    case SensorType::kZeroVelocity:
+      return {ZeroVelocityFields(), 1, 0};
     default:
       return {PositionFields(), 3, 3};
   }
@@ -86,7 +88,8 @@ class AidingReader {
         last_kept = false;
         continue;
       }
-      last_kept = !IsRejected() && !IsAbsent() && !IsAbsentVelocity();
+      last_kept =
+          !IsRejected() && !IsAbsent() && !IsAbsentVelocity() && !IsUnflagged();
       if (!last_kept) continue;
       Measurement z{rows_.t(), options_.sensor, false, Model()};
       last_kept = Rows(z) > 0;
@@ -121,6 +124,7 @@ class AidingReader {
     AddPolicy(source_.name, "row with absent values", absent_, policies);
     AddPolicy(source_.name, "thinned out", thinned_, policies);
     AddPolicy(source_.name, "row without a valid beam", lost_, policies);
+    AddPolicy(source_.name, "row without the flag", unflagged_, policies);
   }
 
  private:
@@ -202,6 +206,13 @@ class AidingReader {
     return true;
   }
 
+  /// A row that does not say that the vehicle stands.
+  bool IsUnflagged() {
+    if (options_.type != SensorType::kZeroVelocity || Flag(0)) return false;
+    ++unflagged_;
+    return true;
+  }
+
   double Sigma(std::size_t axis) const {
     if (options_.sigma) {
       // A height's only standard deviation is the vertical one.
@@ -254,6 +265,8 @@ class AidingReader {
         return OdometerModel();
       case SensorType::kSpeedCourse:
         return SpeedCourseModel();
+      case SensorType::kZeroVelocity:
+        return ZeroVelocity{options_.sigma->x()};
       case SensorType::kMagnetometer:
         return MagneticField{
             options_.C_bs * Eigen::Vector3d(Value(0), Value(1), Value(2)),
@@ -349,6 +362,7 @@ class AidingReader {
   long absent_ = 0;
   long thinned_ = 0;
   long lost_ = 0;
+  long unflagged_ = 0;
   double due_ = -std::numeric_limits<double>::infinity();
 };
 

@@ -48,12 +48,33 @@ TEST(CheckDataset, ReportsRateGapAndOverlap) {
 
 TEST(CheckDataset, MeasuresForceAtRest) {
   const CheckReport report = CheckDataset(Recording({0, 0, -9.81}));
-  EXPECT_NEAR(report.imu.rest_seconds, 20.0, 1.5);
+  EXPECT_NEAR(TotalLength(report.imu.rest.at_rest), 20.0, 1.5);
   ASSERT_TRUE(report.imu.rest_force);
   EXPECT_NEAR(report.imu.rest_force->z(), -9.81, 1e-3);
   EXPECT_NEAR(report.imu.rest_rate->x(), 0.001, 1e-5);
   EXPECT_TRUE(report.warnings.empty());
   EXPECT_THAT(report.axes, HasSubstr("as it should"));
+}
+
+TEST(CheckDataset, AnImuAloneIsNotSaidToStand) {
+  Dataset data = Recording({0, 0, 9.81});
+  data.streams.clear();
+  const CheckReport report = CheckDataset(data);
+  EXPECT_TRUE(report.imu.rest.at_rest.empty());
+  ASSERT_EQ(report.imu.rest.undecided.size(), 1u);
+  EXPECT_NEAR(TotalLength(report.imu.rest.undecided), 20.0, 1.5);
+  EXPECT_FALSE(report.imu.rest_force);
+  // Gravity is felt all the same.
+  EXPECT_THAT(report.axes, HasSubstr("forward-left-up"));
+}
+
+TEST(CheckDataset, WarnsOfASteadyRateThatNoBiasExplains) {
+  Dataset data = Recording({0, 0, -9.81});
+  for (ImuSample& sample : data.imu.samples) sample.gyro.z() += 0.1;
+  EXPECT_THAT(CheckDataset(data).warnings,
+              ::testing::Contains(HasSubstr("5.73 deg/s, more than")));
+  data.initial.gyro_bias.z() = 0.1;
+  EXPECT_TRUE(CheckDataset(data).warnings.empty());
 }
 
 TEST(CheckDataset, SuggestsAxesThatMakeZPointDown) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "dataset/standstill.h"
 #include "support/test_motion.h"
 
 namespace hindsight {
@@ -103,61 +102,6 @@ TEST(Timeline, SummariesAreIntegratedAnewOnlyWhenTheBiasHasMovedFar) {
   EXPECT_EQ(timeline.Summary(1, calibration).calibration.b_g.x(), 0.0);
   calibration.b_g.x() = 2e-3;
   EXPECT_EQ(timeline.Summary(1, calibration).calibration.b_g.x(), 2e-3);
-}
-
-/// Still from 3 s to 7 s, lively otherwise.
-ImuStream StopAndGo() {
-  ImuStream imu = testing::LivelyImu(10.0, 100.0);
-  for (ImuSample& s : imu.samples) {
-    if (s.t < 3.0 || s.t > 7.0) continue;
-    s.gyro = {1e-3, 2e-3, -1e-3};
-    s.accel = {0.1, 0.0, -9.80};
-  }
-  return imu;
-}
-
-TEST(Standstill, FindsTheStopAndNothingElse) {
-  const std::vector<TimeInterval> rests = FindStandstill(StopAndGo(), {});
-  ASSERT_EQ(rests.size(), 1u);
-  // Windows of one second lie wholly inside.
-  EXPECT_GE(rests[0].begin, 3.0 - 0.011);
-  EXPECT_LE(rests[0].begin, 4.0);
-  EXPECT_LE(rests[0].end, 7.0 + 1e-9);
-  EXPECT_GE(rests[0].end, 6.0);
-}
-
-TEST(Standstill, SteadyAccelerationIsNoRest) {
-  ImuStream imu = StopAndGo();
-  for (ImuSample& s : imu.samples) {
-    if (s.t >= 3.0 && s.t <= 7.0) s.accel.x() = 3.0;
-  }
-  EXPECT_TRUE(FindStandstill(imu, {}).empty());
-}
-
-TEST(StandstillStreams, MeasureZeroOncePerSecondOfRest) {
-  Dataset dataset = Record({});
-  dataset.imu = StopAndGo();
-  AddStandstillStreams(&dataset);
-  EXPECT_EQ(dataset.streams.size(), 1u) << "not asked for";
-  dataset.stationary.enabled = true;
-  AddStandstillStreams(&dataset);
-  AddStandstillStreams(&dataset);  // a second time adds nothing
-  ASSERT_EQ(dataset.streams.size(), 3u);
-  const AidingStream& velocity = dataset.streams[1];
-  const AidingStream& rate = dataset.streams[2];
-  EXPECT_EQ(velocity.sensor.name, "zero_velocity");
-  EXPECT_GE(velocity.measurements.size(), 3u);
-  EXPECT_LE(velocity.measurements.size(), 4u);
-  ASSERT_EQ(rate.measurements.size(), velocity.measurements.size());
-  for (std::size_t i = 0; i < rate.measurements.size(); ++i) {
-    EXPECT_EQ(velocity.measurements[i].sensor, 1);
-    EXPECT_EQ(rate.measurements[i].sensor, 2);
-    EXPECT_GT(rate.measurements[i].t, 3.0);
-    EXPECT_LT(rate.measurements[i].t, 7.0);
-    const auto& model = std::get<ZeroAngularRate>(rate.measurements[i].model);
-    EXPECT_LT((model.w_ib_b - Eigen::Vector3d(1e-3, 2e-3, -1e-3)).norm(),
-              1e-12);
-  }
 }
 
 }  // namespace

@@ -141,6 +141,37 @@ TEST_F(AidingTypes, TheConstraintIsGeneratedOverTheImusRecord) {
   EXPECT_DOUBLE_EQ(data.streams[0].sensor.mounting_sigma->x(), 5 * kDegree);
 }
 
+TEST_F(AidingTypes, RowsThatAreFlaggedMeasureZeroVelocity) {
+  Write("flags.csv", "t,stance\n0.005,1\n0.01,0\n0.015,1\n");
+  Aiding(
+      "  stance:\n    type: zero_velocity\n    file: flags.csv\n"
+      "    format: columns\n"
+      "    columns: {t: \"t [s]\", zero_velocity: \"stance [1]\"}\n"
+      "    sigma: 20 cm/s\n");
+  const Dataset data = Load();
+  EXPECT_EQ(data.streams[0].sensor.type, SensorType::kZeroVelocity);
+  const auto& measurements = data.streams[0].measurements;
+  ASSERT_EQ(measurements.size(), 2u);
+  EXPECT_DOUBLE_EQ(measurements[1].t, 0.015);
+  EXPECT_DOUBLE_EQ(std::get<ZeroVelocity>(measurements[1].model).sigma, 0.2);
+  ASSERT_EQ(data.policies.size(), 1u);
+  EXPECT_EQ(data.policies[0].action, "row without the flag");
+  EXPECT_EQ(data.policies[0].count, 1);
+}
+
+TEST_F(AidingTypes, AFlagIsOneOrZeroAndItsSigmaGiven) {
+  Write("flags.csv", "t[s],zero_velocity[1]\n0.005,1\n0.01,2\n");
+  Aiding("  flag: {type: zero_velocity, file: flags.csv, sigma: 1 cm/s}\n");
+  EXPECT_THAT(LoadError(),
+              ::testing::HasSubstr("zero_velocity is 2; expected 1 or 0"));
+  Aiding("  flag: {type: zero_velocity, file: flags.csv}\n");
+  EXPECT_THAT(LoadError(), ::testing::HasSubstr("sigma"));
+  Aiding(
+      "  flag: {type: zero_velocity, file: flags.csv, sigma: 1 cm/s, "
+      "lever_arm: [1, 0, 0 m]}\n");
+  EXPECT_THAT(LoadError(), ::testing::HasSubstr("lever_arm"));
+}
+
 TEST_F(AidingTypes, IncrementsAreDifferencesOfACount) {
   Write("ticks.csv", "t[s],distance[m]\n0.01,100\n0.02,100.5\n0.04,100.25\n");
   Aiding(

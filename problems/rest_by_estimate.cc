@@ -1,0 +1,228 @@
+#include "problems/rest_by_estimate.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "alignment/start.h"
+#include "base/error.h"
+#include "base/units.h"
+#include "dataset/timeline_builder.h"
+#include "filters/forward_filter.h"
+#include "filters/rts.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kKnownTo = 0.2;  // [m/s]
+constexpr double kGate = 0.999;
+constexpr double kKnownHeading = 20.0 * kDegree;
+constexpr int kMostRounds = 3;
+
+enum class Standing { kOpen, kAtRest, kMoving };
+
+/// A window of an undecided span.
+struct Candidate {
+  double middle() const { return 0.5 * (window.begin + window.end); }
+
+  TimeInterval window;
+  Standing standing = Standing::kOpen;
+};
+
+void SortByTime(std::vector<TimeInterval>* spans) {
+  std::sort(spans->begin(), spans->end(),
+            [](const TimeInterval& a, const TimeInterval& b) {
+              return a.begin < b.begin;
+            });
+}
+
+class EstimatedRest {
+ public:
+  EstimatedRest(Dataset* dataset, double from, double to)
+      : dataset_(*dataset), from_(from), to_(to), rest_(FindRest(*dataset)) {
+    for (const TimeInterval& span : rest_.undecided) {
+      for (const TimeInterval& window : WindowsOf(span, dataset_.stationary)) {
+        candidates_.push_back({window});
+      }
+    }
+    zero_.gate_probability = kGate;
+    zero_.type = SensorType::kZeroVelocity;
+  }
+
+  Rest Decide() {
+    try {
+      for (int i = 0; i < kMostRounds && HasOpen(); ++i) {
+        if (!DecideMore()) break;
+      }
+    } catch (const EstimationError&) {
+      // Without an estimate nothing more is decided.
+    }
+    dataset_.streams.resize(streams_);
+    return Conclude();
+  }
+
+ private:
+  bool HasOpen() const {
+    return std::any_of(
+        candidates_.begin(), candidates_.end(),
+        [](const Candidate& c) { return c.standing == Standing::kOpen; });
+  }
+
+  /// One forward pass and one back; whether anything new is at rest.
+  bool DecideMore() {
+    dataset_.streams.resize(streams_);
+    AddRestStreams(Conclude(), &dataset_);
+    Start start = FindStart(dataset_, from_, to_);
+    if (start.report.attitude_sigma.z() > kKnownHeading) return false;
+    AddHypotheses();
+    TimelineOptions options;
+    options.t_begin = start.report.t;
+    options.t_end = std::min(to_, dataset_.imu.t_end());
+    options.with_scale_jacobians = start.layout.Has(BlockKind::kGyroScale) ||
+                                   start.layout.Has(BlockKind::kAccelScale);
+    Timeline timeline = BuildTimeline(dataset_, options);
+    start.prior.x.t = timeline.node(0).t;
+    hypothesis_ = {static_cast<int>(dataset_.streams.size()) - 1, kKnownTo};
+    LinearTape tape = RunForwardFilter({.error = ErrorDefinition::kNavigation,
+                                        .covariance = {},
+                                        .hypothesis = hypothesis_},
+                                       start.layout, start.prior, &timeline);
+    bool found = JudgePredictions(timeline, tape);
+    if (HasOpen()) {
+      found |=
+          JudgeSmoothed(start.layout, timeline, SmoothRts(std::move(tape)));
+    }
+    return found;
+  }
+
+  /// A zero velocity in every window that is open, as the last stream.
+  void AddHypotheses() {
+    AidingStream& stream = dataset_.streams.emplace_back();
+    stream.sensor = zero_;
+    const int index = static_cast<int>(dataset_.streams.size()) - 1;
+    for (const Candidate& candidate : candidates_) {
+      if (candidate.standing != Standing::kOpen) continue;
+      stream.measurements.push_back(
+          {candidate.middle(), index, false,
+           ZeroVelocity{dataset_.stationary.velocity_sigma}});
+    }
+  }
+
+  Candidate* CandidateOf(const Measurement& z) {
+    return &*std::lower_bound(candidates_.begin(), candidates_.end(), z.t,
+                              [](const Candidate& candidate, double t) {
+                                return candidate.middle() < t;
+                              });
+  }
+
+  /// By the innovation and its covariance; whether it is at rest.
+  template <typename Matrix>
+  bool Judge(const Matrix& S, double nis, const Measurement& z) {
+    if (!hypothesis_.IsDecisive(S)) return false;
+    const bool at_rest = nis <= GateLimit(zero_, Rows(z));
+    CandidateOf(z)->standing = at_rest ? Standing::kAtRest : Standing::kMoving;
+    return at_rest;
+  }
+
+  bool JudgePredictions(const Timeline& timeline, const LinearTape& tape) {
+    bool found = false;
+    for (std::size_t k = 0; k < tape.size(); ++k) {
+      for (const TapeMeasurement& m : tape.measurements(k)) {
+        if (m.sensor != hypothesis_.sensor) continue;
+        found |=
+            Judge(m.S, m.nis,
+                  timeline.measurements(k)[static_cast<std::size_t>(m.index)]);
+      }
+    }
+    return found;
+  }
+
+  bool JudgeSmoothed(const ErrorLayout& layout, const Timeline& timeline,
+                     const SmoothedTrajectory& smoothed) {
+    bool found = false;
+    LinearizedMeasurement linearized;
+    const ErrorVector none = ErrorVector::Zero(layout.dim());
+    for (std::size_t k = 0; k < timeline.size(); ++k) {
+      for (const Measurement& z : timeline.measurements(k)) {
+        if (z.sensor != hypothesis_.sensor ||
+            CandidateOf(z)->standing != Standing::kOpen) {
+          continue;
+        }
+        Evaluate(z, timeline.Context(k, z, layout, smoothed.states[k]),
+                 &linearized);
+        const Innovation innovation =
+            Innovate(linearized, none, smoothed.P.Get(k));
+        found |= Judge(innovation.S, innovation.nis, z);
+      }
+    }
+    return found;
+  }
+
+  std::vector<TimeInterval>* ListOf(Standing standing, Rest* rest) const {
+    switch (standing) {
+      case Standing::kAtRest:
+        return &rest->at_rest;
+      case Standing::kMoving:
+        return &rest->moving;
+      default:
+        return &rest->undecided;
+    }
+  }
+
+  /// What is decided so far; windows of a span that say the same are one.
+  Rest Conclude() const {
+    Rest rest = rest_;
+    rest.undecided.clear();
+    auto candidate = candidates_.begin();
+    for (const TimeInterval& span : rest_.undecided) {
+      TimeInterval part = {span.begin, span.begin};
+      Standing standing = Standing::kOpen;
+      const auto close = [&] {
+        if (part.end > part.begin) ListOf(standing, &rest)->push_back(part);
+      };
+      for (;
+           candidate != candidates_.end() && candidate->window.begin < span.end;
+           ++candidate) {
+        if (candidate->standing != standing) {
+          close();
+          part.begin = candidate->window.begin;
+          standing = candidate->standing;
+        }
+        part.end = candidate->window.end;
+      }
+      if (standing != Standing::kOpen) {
+        close();
+        part.begin = part.end;
+        standing = Standing::kOpen;
+      }
+      part.end = span.end;
+      close();
+    }
+    SortByTime(&rest.at_rest);
+    SortByTime(&rest.moving);
+    SortByTime(&rest.undecided);
+    return rest;
+  }
+
+  Dataset& dataset_;
+  double from_;
+  double to_;
+  std::size_t streams_ = dataset_.streams.size();
+  Sensor zero_;
+  Hypothesis hypothesis_;
+  Rest rest_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace
+
+Rest DecideRest(Dataset* dataset, double from, double to) {
+  return EstimatedRest(dataset, from, to).Decide();
+}
+
+void AddDecidedRest(double from, double to, Dataset* dataset) {
+  if (!dataset->stationary.enabled) return;
+  AddRestStreams(DecideRest(dataset, from, to), dataset);
+}
+
+}  // namespace hindsight

@@ -1,0 +1,256 @@
+#include "dataset/rest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "dataset/imu_cells.h"
+#include "dataset/speed_evidence.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kMotion = 0.3;        // certainly moving above this [m/s]
+constexpr double kMargin = 1.0;        // of certain motion [s]
+constexpr double kTogether = 2.5;      // between two that say the same [s]
+constexpr double kShortestRest = 3.0;  // of what is shaken [s]
+constexpr double kTrim = 0.5;          // of what is in doubt, either end [s]
+constexpr double kSigmas = 4.0;
+
+enum class Verdict { kNone, kContradicted, kMoving, kAtRest };
+
+/// In the order of their numbers.
+std::vector<TimeInterval> SpansOf(const std::vector<ImuCell>& cells) {
+  std::vector<TimeInterval> spans;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i].span < 0) continue;
+    if (i == 0 || cells[i].span != cells[i - 1].span) {
+      spans.push_back({cells[i].begin, cells[i].end});
+    }
+    spans.back().end = cells[i].end;
+  }
+  return spans;
+}
+
+class Decision {
+ public:
+  explicit Decision(const Dataset& dataset)
+      : noise_(dataset.imu.noise),
+        options_(dataset.stationary),
+        cells_(ExamineImu(dataset)),
+        verdicts_(cells_.size(), Verdict::kNone),
+        information_(cells_.size(), 0.0) {
+    speeds_ = MeasureSpeeds(dataset, SpansOf(cells_));
+  }
+
+  Rest Decide() {
+    MarkRests();
+    MarkContradictions();
+    CarryRests();
+    LeaveOutShortShaken();
+    Rest rest;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (verdicts_[i] == Verdict::kAtRest) {
+        Append(i, &rest.at_rest);
+      } else if (!cells_[i].quiet) {
+        continue;
+      } else if (verdicts_[i] == Verdict::kMoving) {
+        Append(i, &rest.moving);
+      } else {
+        Append(i, &rest.undecided);
+      }
+    }
+    return rest;
+  }
+
+ private:
+  Verdict Judge(const SpeedEvidence& speed) const {
+    const double v_h = speed.v.head<2>().norm();
+    const double s_h = speed.horizontal_sigma();
+    if (v_h > std::max(kMotion, 5.0 * s_h) ||
+        std::abs(speed.v.z()) > std::max(kMotion, 5.0 * speed.sigma.z())) {
+      return Verdict::kMoving;
+    }
+    const double slack = 2.0 * options_.velocity_sigma;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(speed.v(axis)) > kSigmas * speed.sigma(axis) + slack) {
+        return Verdict::kContradicted;
+      }
+    }
+    return s_h <= kKnownSpeed ? Verdict::kAtRest : Verdict::kNone;
+  }
+
+  /// First cell that ends at or after t.
+  std::size_t CellAt(double t) const {
+    return static_cast<std::size_t>(
+        std::lower_bound(
+            cells_.begin(), cells_.end(), t,
+            [](const ImuCell& cell, double time) { return cell.end < time; }) -
+        cells_.begin());
+  }
+
+  /// Neighbouring measurements that say the same speak of the time between
+  /// them, too.
+  void MarkRests() {
+    const SpeedEvidence* before = nullptr;
+    for (const SpeedEvidence& speed : speeds_) {
+      if (speed.span < 0 || Judge(speed) != Verdict::kAtRest) continue;
+      const bool together = before != nullptr && before->span == speed.span &&
+                            speed.begin - before->end <= kTogether;
+      const double information = std::pow(speed.horizontal_sigma(), -2);
+      const double length = speed.end - speed.begin;
+      for (std::size_t i = CellAt(together ? std::min(before->end, speed.begin)
+                                           : speed.begin);
+           i < cells_.size() && cells_[i].begin <= speed.end; ++i) {
+        if (cells_[i].span != speed.span) continue;
+        verdicts_[i] = Verdict::kAtRest;
+        const double cell = cells_[i].length();
+        information_[i] = information * cell / std::max(length, cell);
+      }
+      if (before == nullptr || speed.end > before->end) before = &speed;
+    }
+  }
+
+  void MarkContradictions() {
+    for (const SpeedEvidence& speed : speeds_) {
+      const Verdict verdict = Judge(speed);
+      if (verdict == Verdict::kAtRest || verdict == Verdict::kNone) continue;
+      const double margin = verdict == Verdict::kMoving ? kMargin : kTrim;
+      for (std::size_t i = CellAt(speed.begin - margin);
+           i < cells_.size() && cells_[i].begin <= speed.end + margin; ++i) {
+        if (verdicts_[i] != Verdict::kMoving) verdicts_[i] = verdict;
+      }
+    }
+  }
+
+  void CarryRests() {
+    std::vector<std::pair<std::size_t, std::size_t>> runs;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (verdicts_[i] != Verdict::kAtRest) continue;
+      if (i > 0 && verdicts_[i - 1] == Verdict::kAtRest &&
+          cells_[i].span == cells_[i - 1].span) {
+        runs.back().second = i;
+      } else {
+        runs.emplace_back(i, i);
+      }
+    }
+    for (const auto& [first, last] : runs) {
+      Carry(first, last, +1);
+      Carry(first, last, -1);
+    }
+  }
+
+  /// From a run of cells at rest while the speed gathered since stays small.
+  void Carry(std::size_t first, std::size_t last, int step) {
+    Eigen::Vector3d f = Eigen::Vector3d::Zero();
+    double T = 0.0;
+    double information = 0.0;
+    for (std::size_t i = first; i <= last; ++i) {
+      if (!cells_[i].quiet) continue;
+      f += cells_[i].length() * cells_[i].f;
+      T += cells_[i].length();
+      information += information_[i];
+    }
+    if (T == 0.0) return;
+    f /= T;
+    const double wide = std::max(T, options_.window);
+    const double slope = std::sqrt(12.0 / information) / wide;
+    const double density = noise_.accel_noise_density;
+    Eigen::Vector3d gathered = Eigen::Vector3d::Zero();
+    double tau = 0.0;
+    std::size_t i = step > 0 ? last : first;
+    while (true) {
+      if (step < 0 && i == 0) return;
+      i = step > 0 ? i + 1 : i - 1;
+      if (i == cells_.size() || !cells_[i].quiet ||
+          cells_[i].span != cells_[first].span ||
+          verdicts_[i] != Verdict::kNone) {
+        return;
+      }
+      gathered += cells_[i].length() * (cells_[i].f - f);
+      tau += cells_[i].length();
+      const double sigma = std::sqrt(
+          slope * slope * tau * tau +
+          density * density * (tau + tau * tau / wide) +
+          std::pow(noise_.accel_bias_walk, 2) * tau * tau * tau / 3.0);
+      if (sigma > kKnownSpeed || gathered.norm() > kSigmas * kKnownSpeed) {
+        return;
+      }
+      verdicts_[i] = Verdict::kAtRest;
+    }
+  }
+
+  /// What idles may have begun to move where its speed is not yet seen.
+  void LeaveOutShortShaken() {
+    for (std::size_t i = 0; i < cells_.size();) {
+      std::size_t end = i;
+      bool quiet = false;
+      while (end < cells_.size() && verdicts_[end] == Verdict::kAtRest &&
+             cells_[end].span == cells_[i].span) {
+        quiet = quiet || cells_[end].quiet;
+        ++end;
+      }
+      if (end == i) {
+        ++i;
+        continue;
+      }
+      const double from = cells_[i].begin + kTrim;
+      const double to = cells_[end - 1].end - kTrim;
+      for (std::size_t k = i; k < end; ++k) {
+        if (cells_[k].quiet) continue;
+        const bool inside = cells_[k].begin >= from && cells_[k].end <= to;
+        if (!inside || (!quiet && to - from < kShortestRest)) {
+          verdicts_[k] = Verdict::kNone;
+        }
+      }
+      i = end;
+    }
+  }
+
+  void Append(std::size_t i, std::vector<TimeInterval>* spans) const {
+    const ImuCell& cell = cells_[i];
+    const bool joined =
+        i > 0 && !spans->empty() && spans->back().end == cells_[i - 1].end &&
+        cells_[i - 1].end == cell.begin && cells_[i - 1].span == cell.span;
+    if (joined) {
+      spans->back().end = cell.end;
+    } else {
+      spans->push_back({cell.begin, cell.end});
+    }
+  }
+
+  const ImuNoise& noise_;
+  const StationaryOptions& options_;
+  std::vector<ImuCell> cells_;
+  std::vector<Verdict> verdicts_;
+  /// A cell's part of that of the speed which shows its rest [s^2/m^2].
+  std::vector<double> information_;
+  std::vector<SpeedEvidence> speeds_;
+};
+
+}  // namespace
+
+Rest FindRest(const Dataset& dataset) { return Decision(dataset).Decide(); }
+
+double TotalLength(const std::vector<TimeInterval>& spans) {
+  double total = 0.0;
+  for (const TimeInterval& span : spans) total += span.length();
+  return total;
+}
+
+std::vector<TimeInterval> WindowsOf(const TimeInterval& span,
+                                    const StationaryOptions& options) {
+  constexpr double kLongest = 1.0;
+  constexpr double kRounding = 1e-6;
+  const double window = std::min(options.window, kLongest);
+  const auto count =
+      static_cast<int>(std::floor(span.length() / window + kRounding));
+  std::vector<TimeInterval> windows;
+  for (int i = 0; i < count; ++i) {
+    windows.push_back({span.begin + i * window, span.begin + (i + 1) * window});
+  }
+  return windows;
+}
+
+}  // namespace hindsight

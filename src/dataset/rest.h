@@ -1,0 +1,52 @@
+#ifndef HINDSIGHT_DATASET_REST_H_
+#define HINDSIGHT_DATASET_REST_H_
+
+#include <vector>
+
+#include "dataset/dataset.h"
+#include "dataset/time_interval.h"
+
+namespace hindsight {
+
+/// Where a vehicle is at rest: two decisions, of which an IMU can make the
+/// first alone. Each list is in time order and none overlaps another.
+struct Rest {
+  /// It does not turn and does not move.
+  std::vector<TimeInterval> at_rest;
+  /// It does not turn, and moves smoothly and straight on.
+  std::vector<TimeInterval> moving;
+  /// It does not turn; whether it moves, nothing says.
+  std::vector<TimeInterval> undecided;
+};
+
+/// Decides by IMU and aiding. Not turning: ExamineImu. Not moving: only where
+/// measurements exclude motion, horizontally to kKnownSpeed, one sigma, none of
+/// them against it by more than four sigmas and twice
+/// StationaryOptions::velocity_sigma on any axis; and, while nothing shakes the
+/// IMU, as long before and after as the speed that it has gathered since stays
+/// as small, with the uncertainty of carrying it (noise, bias walk, and how
+/// well the reading at rest is known). A horizontal or vertical speed above 0.3
+/// m/s and five sigmas is motion, a second before and after as well. What idles
+/// shaken is at rest where aiding says so for 3 s, half a second at each end
+/// left out. Spans that are shaken or turn are in none of the lists.
+Rest FindRest(const Dataset& dataset);
+
+/// Sum of the lengths [s].
+double TotalLength(const std::vector<TimeInterval>& spans);
+
+/// Adds the streams "zero_velocity" and "zero_angular_rate": over each span at
+/// rest a measurement of each in every window (of at most 1 s), with the sigmas
+/// of StationaryOptions. Over the other spans, in which it does not turn, zero
+/// angular rates where the bias is known to rate_sigma, from a rest or as
+/// given, and the mean reading agrees with it to three sigmas; a span of n
+/// windows counts as one reading (sigma times sqrt(n)), for a turn too slow to
+/// be told lasts as long as it does. Streams of these names must not be there.
+void AddRestStreams(const Rest& rest, Dataset* dataset);
+
+/// The windows of a span, each of which holds one measurement.
+std::vector<TimeInterval> WindowsOf(const TimeInterval& span,
+                                    const StationaryOptions& options);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_DATASET_REST_H_

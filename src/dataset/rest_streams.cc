@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <cmath>
+
+#include "dataset/bias_sigma.h"
+#include "dataset/rest.h"
+
+namespace hindsight {
+namespace {
+
+AidingStream MakeStream(const char* name, SensorType type) {
+  AidingStream stream;
+  stream.sensor.name = name;
+  stream.sensor.type = type;
+  return stream;
+}
+
+/// Mean rate of the samples in [begin, end].
+Eigen::Vector3d MeanRate(const ImuStream& imu, const TimeInterval& span) {
+  const auto first =
+      std::lower_bound(imu.samples.begin(), imu.samples.end(), span.begin,
+                       [](const ImuSample& s, double t) { return s.t < t; });
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double weight = 0.0;
+  for (auto it = first; it != imu.samples.end() && it->t <= span.end; ++it) {
+    sum += it->gyro;
+    if (imu.kind == ImuStream::Kind::kRates) {
+      weight += 1.0;
+    } else if (it != imu.samples.begin()) {
+      weight += it->t - (it - 1)->t;
+    } else {
+      sum -= it->gyro;  // its interval's length is not known
+    }
+  }
+  return weight > 0.0 ? Eigen::Vector3d(sum / weight)
+                      : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
+class StreamBuilder {
+ public:
+  StreamBuilder(const Rest& rest, Dataset* dataset)
+      : rest_(rest), dataset_(*dataset), options_(dataset->stationary) {}
+
+  void AppendRests() {
+    for (const TimeInterval& span : rest_.at_rest) {
+      for (const TimeInterval& window : WindowsOf(span, options_)) {
+        const double t = 0.5 * (window.begin + window.end);
+        velocity_.measurements.push_back(
+            {t, index(), false, ZeroVelocity{options_.velocity_sigma}});
+        AppendRate(window, options_.rate_sigma);
+      }
+    }
+  }
+
+  void AppendStraight(const TimeInterval& span) {
+    const std::vector<TimeInterval> windows = WindowsOf(span, options_);
+    if (windows.empty()) return;
+    const std::optional<Eigen::Vector3d> bias = BiasNear(span);
+    constexpr double kSigmas = 3.0;
+    if (!bias || (MeanRate(dataset_.imu, span) - *bias).cwiseAbs().maxCoeff() >
+                     kSigmas * options_.rate_sigma) {
+      return;
+    }
+    const double once = std::sqrt(static_cast<double>(windows.size()));
+    for (const TimeInterval& window : windows) {
+      AppendRate(window, once * options_.rate_sigma);
+    }
+  }
+
+  void Finish() {
+    auto& rates = rate_.measurements;
+    std::sort(
+        rates.begin(), rates.end(),
+        [](const Measurement& a, const Measurement& b) { return a.t < b.t; });
+    dataset_.streams.push_back(std::move(velocity_));
+    dataset_.streams.push_back(std::move(rate_));
+  }
+
+ private:
+  int index() const { return static_cast<int>(dataset_.streams.size()); }
+
+  void AppendRate(const TimeInterval& window, double sigma) {
+    rate_.measurements.push_back(
+        {0.5 * (window.begin + window.end), index() + 1, false,
+         ZeroAngularRate{MeanRate(dataset_.imu, window), sigma}});
+  }
+
+  /// What the gyros read without a turn, if that is known well enough.
+  std::optional<Eigen::Vector3d> BiasNear(const TimeInterval& span) const {
+    const auto distance = [&span](const TimeInterval& rest) {
+      return std::max(rest.begin - span.end, span.begin - rest.end);
+    };
+    const auto nearest =
+        std::min_element(rest_.at_rest.begin(), rest_.at_rest.end(),
+                         [&](const TimeInterval& a, const TimeInterval& b) {
+                           return distance(a) < distance(b);
+                         });
+    const ImuNoise& noise = dataset_.imu.noise;
+    if (nearest != rest_.at_rest.end()) {
+      const double sigma = std::hypot(
+          noise.gyro_noise_density / std::sqrt(nearest->length()),
+          noise.gyro_bias_walk * std::sqrt(std::max(0.0, distance(*nearest))));
+      if (sigma <= options_.rate_sigma) return MeanRate(dataset_.imu, *nearest);
+    }
+    const InitialState& given = dataset_.initial;
+    if (GyroBiasSigma(given).maxCoeff() > options_.rate_sigma) {
+      return std::nullopt;
+    }
+    return given.gyro_bias;
+  }
+
+  const Rest& rest_;
+  Dataset& dataset_;
+  const StationaryOptions& options_;
+  AidingStream velocity_ =
+      MakeStream("zero_velocity", SensorType::kZeroVelocity);
+  AidingStream rate_ =
+      MakeStream("zero_angular_rate", SensorType::kZeroAngularRate);
+};
+
+}  // namespace
+
+void AddRestStreams(const Rest& rest, Dataset* dataset) {
+  StreamBuilder builder(rest, dataset);
+  builder.AppendRests();
+  for (const TimeInterval& span : rest.moving) builder.AppendStraight(span);
+  for (const TimeInterval& span : rest.undecided) builder.AppendStraight(span);
+  builder.Finish();
+}
+
+}  // namespace hindsight
