@@ -35,8 +35,8 @@ struct Reconstruction::Impl {
                                    .position = start.report.position,
                                    .alignment = start.report.alignment},
               .move = MoveOf(method, solution, forward.relinearised()),
-              .unsettled = own_unsettled.empty() ? forward.unsettled()
-                                                 : own_unsettled},
+              .unsettled =
+                  own_unsettled.empty() ? forward.unsettled() : own_unsettled},
              forward.unobserved(), &solution);
     own_unsettled.clear();
     return solution;
@@ -57,6 +57,7 @@ struct Reconstruction::Impl {
     Solution solution = solve({&forward.timeline(), &forward.decisions(),
                                &forward.smoothed().states});
     std::optional<PlacedNodes> own;
+    OffsetSearch search;
     for (int i = 1; forward.unsettled().empty(); ++i) {
       const std::vector<double>& offsets =
           own ? own->offsets : forward.offsets();
@@ -70,8 +71,9 @@ struct Reconstruction::Impl {
             timeline.sensors()[static_cast<std::size_t>(sensor)].name;
         break;
       }
-      own = forward.PlaceAnew(solution.layout, solution.states, offsets,
-                              timeline,
+      own = forward.PlaceAnew(search.Next(solution.layout, timeline.sensors(),
+                                          solution.states.back(), offsets),
+                              solution.layout, solution.states, timeline,
                               own ? own->decisions : forward.decisions());
       solution = solve({&own->timeline, &own->decisions, &own->states});
     }

@@ -97,7 +97,7 @@ const ConstantEstimate& Offset(const Solution& solution) {
       [](const ConstantEstimate& c) { return c.name == kOffset; });
 }
 
-constexpr Method kSmoothers[] = {Method::kRts,   Method::kTwoFilter,
+constexpr Method kSmoothers[] = {Method::kRts, Method::kTwoFilter,
                                  Method::kIterated, Method::kBatch,
                                  Method::kImmSmoother};
 
