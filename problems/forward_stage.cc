@@ -92,6 +92,7 @@ void ForwardStage::Settle(std::vector<double> offsets) {
   RunOnce();
   if (!EstimatesTimeOffsets(start_.layout)) return;
   timeline_.LinearizeTimeOffsets(start_.layout, smoothed_->states);
+  OffsetSearch search;
   for (int i = 1;; ++i) {
     RunOnce();
     const int sensor =
@@ -102,20 +103,24 @@ void ForwardStage::Settle(std::vector<double> offsets) {
       unsettled_ = timeline_.sensors()[static_cast<std::size_t>(sensor)].name;
       return;
     }
-    PlacedNodes nodes = PlaceAnew(start_.layout, smoothed_->states, offsets_,
-                                  timeline_, decisions_);
+    PlacedNodes nodes =
+        PlaceAnew(search.Next(start_.layout, timeline_.sensors(),
+                              smoothed_->states.back(), offsets_),
+                  start_.layout, smoothed_->states, timeline_, decisions_);
     offsets_ = std::move(nodes.offsets);
     timeline_ = std::move(nodes.timeline);
   }
 }
 
-PlacedNodes ForwardStage::PlaceAnew(const ErrorLayout& layout,
+PlacedNodes ForwardStage::PlaceAnew(std::vector<double> offsets,
+                                    const ErrorLayout& layout,
                                     const std::vector<State>& states,
-                                    const std::vector<double>& placed,
                                     const Timeline& timeline,
                                     const GateDecisions& decisions) const {
-  return PlaceNodesAnew(dataset_, MakeTimelineOptions(), start_.layout, layout,
-                        states, placed, timeline, decisions);
+  TimelineOptions options = MakeTimelineOptions();
+  options.time_offsets = std::move(offsets);
+  return PlaceNodesAnew(dataset_, options, start_.layout, layout, states,
+                        timeline, decisions);
 }
 
 /// From an unknown heading the covariances of a filter that resets its nominal

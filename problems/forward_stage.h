@@ -56,11 +56,9 @@ class ForwardStage {
   const std::vector<double>& offsets() const { return offsets_; }
   /// Sensor whose estimated time offset went on moving; empty: none.
   const std::string& unsettled() const { return unsettled_; }
-  /// Nodes where a solution, on `timeline` with nodes at `placed`, says that
-  /// the measurements belong.
-  PlacedNodes PlaceAnew(const ErrorLayout& layout,
+  /// Nodes placed by other time offsets, as PlaceNodesAnew.
+  PlacedNodes PlaceAnew(std::vector<double> offsets, const ErrorLayout& layout,
                         const std::vector<State>& states,
-                        const std::vector<double>& placed,
                         const Timeline& timeline,
                         const GateDecisions& decisions) const;
 

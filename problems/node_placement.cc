@@ -12,22 +12,6 @@ namespace {
 
 constexpr double kSettledOffset = 0.1;  // sigmas
 
-std::vector<double> OffsetsOf(const ErrorLayout& layout, const State& x,
-                              const std::vector<Sensor>& sensors,
-                              std::vector<double> offsets) {
-  for (std::size_t i = 0; i < offsets.size(); ++i) {
-    const Block* block =
-        layout.Find(BlockKind::kTimeOffset, static_cast<int>(i));
-    if (block == nullptr) continue;
-    offsets[i] = x.parameters(block->parameter_offset);
-    if (!std::isfinite(offsets[i])) {
-      throw EstimationError("the time offset of " + sensors[i].name +
-                            " diverged");
-    }
-  }
-  return offsets;
-}
-
 /// The trajectory at the nodes of another timeline, over the blocks of `base`.
 std::vector<State> StatesAt(const Timeline& timeline, const ErrorLayout& base,
                             const ErrorLayout& layout,
@@ -99,18 +83,40 @@ int FarthestFromNodes(const ErrorLayout& layout,
   return sensor;
 }
 
-PlacedNodes PlaceNodesAnew(const Dataset& dataset, TimelineOptions options,
+std::vector<double> OffsetSearch::Next(const ErrorLayout& layout,
+                                       const std::vector<Sensor>& sensors,
+                                       const State& x,
+                                       const std::vector<double>& placed) {
+  std::vector<double> next = placed;
+  std::vector<double> steps(placed.size(), 0.0);
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const Block* block =
+        layout.Find(BlockKind::kTimeOffset, static_cast<int>(i));
+    if (block == nullptr) continue;
+    steps[i] = x.parameters(block->parameter_offset) - placed[i];
+    if (!std::isfinite(steps[i])) {
+      throw EstimationError("the time offset of " + sensors[i].name +
+                            " diverged");
+    }
+    const bool turned = !steps_.empty() && steps_[i] * steps[i] < 0.0;
+    next[i] +=
+        turned ? steps[i] * (placed[i] - placed_[i]) / (steps_[i] - steps[i])
+               : steps[i];
+  }
+  placed_ = placed;
+  steps_ = std::move(steps);
+  return next;
+}
+
+PlacedNodes PlaceNodesAnew(const Dataset& dataset,
+                           const TimelineOptions& options,
                            const ErrorLayout& base, const ErrorLayout& layout,
                            const std::vector<State>& states,
-                           const std::vector<double>& placed,
                            const Timeline& timeline,
                            const GateDecisions& decisions) {
-  options.time_offsets =
-      OffsetsOf(layout, states.back(), timeline.sensors(), placed);
-  PlacedNodes nodes{options.time_offsets, BuildTimeline(dataset, options), {},
-                    {}};
-  nodes.states =
-      StatesAt(nodes.timeline, base, layout, states, dataset.imu);
+  PlacedNodes nodes{
+      options.time_offsets, BuildTimeline(dataset, options), {}, {}};
+  nodes.states = StatesAt(nodes.timeline, base, layout, states, dataset.imu);
   nodes.timeline.LinearizeTimeOffsets(base, nodes.states);
   nodes.decisions = CarryDecisions(timeline, decisions, nodes.timeline);
   return nodes;

@@ -30,14 +30,29 @@ int FarthestFromNodes(const ErrorLayout& layout,
                       const std::vector<double>& offsets, const State& x,
                       const ErrorMatrix& P);
 
-/// Places nodes by the time offsets that `states` estimate over `layout`, whose
-/// first blocks are those of `base`; `options` says all else. `placed` are the
-/// offsets of `timeline`, on which the states stand and the decisions were
-/// taken. Throws EstimationError if an offset is no number.
-PlacedNodes PlaceNodesAnew(const Dataset& dataset, TimelineOptions options,
+/// Where the nodes of estimated time offsets go next: to the estimates; where
+/// the last two steps of an offset point at each other, to the root of the line
+/// through them, so that it does not go to and fro.
+class OffsetSearch {
+ public:
+  /// `placed` are the offsets of the nodes on which state x was estimated over
+  /// `layout`. Throws EstimationError, by the sensor's name, if an offset is no
+  /// number.
+  std::vector<double> Next(const ErrorLayout& layout,
+                           const std::vector<Sensor>& sensors, const State& x,
+                           const std::vector<double>& placed);
+
+ private:
+  std::vector<double> placed_;  // of the call before
+  std::vector<double> steps_;
+};
+
+/// Places nodes by `options` at a solution: `states` over `layout`, whose first
+/// blocks are those of `base`, on `timeline`, where the decisions were taken.
+PlacedNodes PlaceNodesAnew(const Dataset& dataset,
+                           const TimelineOptions& options,
                            const ErrorLayout& base, const ErrorLayout& layout,
                            const std::vector<State>& states,
-                           const std::vector<double>& placed,
                            const Timeline& timeline,
                            const GateDecisions& decisions);
 

@@ -161,11 +161,11 @@ Maximum Maximise(NoiseLikelihood* likelihood, std::vector<double>* logs,
   maximum.value = (*likelihood)(*logs);
   for (int sweep = 0; sweep < kSweeps && !maximum.converged; ++sweep) {
     for (std::size_t i = 0; i < count; ++i) {
-      maximum.value = Climb(likelihood, i, maximum.value, logs,
-                            &maximum.coordinates[i]);
-      progress((sweep + static_cast<double>(i + 1) /
-                            static_cast<double>(count)) /
-               kSweeps);
+      maximum.value =
+          Climb(likelihood, i, maximum.value, logs, &maximum.coordinates[i]);
+      progress(
+          (sweep + static_cast<double>(i + 1) / static_cast<double>(count)) /
+          kSweeps);
     }
     // The first parabolas are too wide to settle anything.
     maximum.converged =
@@ -199,8 +199,8 @@ NoiseEstimate EstimateNoise(const Dataset& dataset,
     if (!maximum.converged) break;
   }
   estimate.log_likelihood_after = maximum.value;
-  const std::vector<double> sigmas = MarginalSigmas(
-      &likelihood, maximum.coordinates, likelihood(logs), logs);
+  const std::vector<double> sigmas =
+      MarginalSigmas(&likelihood, maximum.coordinates, likelihood(logs), logs);
   for (std::size_t i = 0; i < logs.size(); ++i) {
     estimate.factors.push_back(
         {likelihood.name(i), std::exp(logs[i]), sigmas[i]});

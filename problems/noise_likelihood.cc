@@ -36,10 +36,9 @@ bool NoiseLikelihood::PlaceNodes(const std::vector<double>& logs) {
   ForwardStage stage(dataset_, {}, std::move(start));
   stage.Settle(offsets_);
   const std::size_t last = stage.smoothed().states.size() - 1;
-  const bool moved =
-      FarthestFromNodes(stage.start().layout, offsets_,
-                        stage.smoothed().states[last],
-                        stage.smoothed().P.Get(last)) >= 0;
+  const bool moved = FarthestFromNodes(stage.start().layout, offsets_,
+                                       stage.smoothed().states[last],
+                                       stage.smoothed().P.Get(last)) >= 0;
   offsets_ = stage.offsets();
   rates_ = stage.timeline().time_offset_rates();
   return moved;

@@ -70,6 +70,7 @@ struct Reconstruction::Impl {
     Solution solution = solve({&forward.timeline(), &forward.decisions(),
                                &forward.smoothed().states});
     std::optional<PlacedNodes> own;
+    OffsetSearch search;
     for (int i = 1; forward.unsettled().empty(); ++i) {
       const std::vector<double>& offsets =
           own ? own->offsets : forward.offsets();
@@ -83,8 +84,9 @@ struct Reconstruction::Impl {
             timeline.sensors()[static_cast<std::size_t>(sensor)].name;
         break;
       }
-      own = forward.PlaceAnew(solution.layout, solution.states, offsets,
-                              timeline,
+      own = forward.PlaceAnew(search.Next(solution.layout, timeline.sensors(),
+                                          solution.states.back(), offsets),
+                              solution.layout, solution.states, timeline,
                               own ? own->decisions : forward.decisions());
       solution = solve({&own->timeline, &own->decisions, &own->states});
     }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/error.h"
@@ -64,6 +66,50 @@ std::vector<TimedMeasurement> MeasurementsInside(
   return out;
 }
 
+/// Moves the measurements whose time offset is estimated to a node beside them,
+/// if one is within a millisecond: the linear offset makes up for so little,
+/// and an interval that short would leave the IMU's noise to rounding.
+void ShareNodes(const Dataset& dataset, const std::vector<double>& required,
+                std::vector<TimedMeasurement>* timed) {
+  constexpr double kNear = 1e-3;
+  if (std::none_of(dataset.streams.begin(), dataset.streams.end(),
+                   [](const AidingStream& stream) {
+                     return stream.sensor.time_offset_sigma.has_value();
+                   })) {
+    return;
+  }
+  std::set<double> nodes(required.begin(), required.end());
+  const auto may_move = [&](const TimedMeasurement& m) {
+    return AsIncrement(*m.z) == nullptr &&
+           dataset.streams[static_cast<std::size_t>(m.z->sensor)]
+               .sensor.time_offset_sigma.has_value();
+  };
+  for (const TimedMeasurement& m : *timed) {
+    if (may_move(m)) continue;
+    nodes.insert(m.t);
+    if (AsIncrement(*m.z) != nullptr) nodes.insert(TimeOfStart(m));
+  }
+  for (TimedMeasurement& m : *timed) {
+    if (!may_move(m)) continue;
+    const auto after = nodes.lower_bound(m.t);
+    double nearest = m.t + 2.0 * kNear;
+    if (after != nodes.end()) nearest = *after;
+    if (after != nodes.begin() &&
+        m.t - *std::prev(after) < std::abs(nearest - m.t)) {
+      nearest = *std::prev(after);
+    }
+    if (std::abs(nearest - m.t) <= kNear) {
+      m.t = nearest;
+    } else {
+      nodes.insert(m.t);
+    }
+  }
+  std::stable_sort(timed->begin(), timed->end(),
+                   [](const TimedMeasurement& a, const TimedMeasurement& b) {
+                     return a.t < b.t;
+                   });
+}
+
 std::vector<IncrementStart> IncrementStarts(
     const std::vector<TimedMeasurement>& timed,
     const std::vector<double>& node_times) {
@@ -74,8 +120,8 @@ std::vector<IncrementStart> IncrementStarts(
     const auto node = std::lower_bound(node_times.begin(), node_times.end(),
                                        TimeOfStart(m) - kSameTime) -
                       node_times.begin();
-    starts.push_back({static_cast<int>(node), m.z->sensor, increment->t_from,
-                      std::nullopt});
+    starts.push_back(
+        {static_cast<int>(node), m.z->sensor, increment->t_from, std::nullopt});
   }
   std::stable_sort(starts.begin(), starts.end(),
                    [](const IncrementStart& a, const IncrementStart& b) {
@@ -122,15 +168,15 @@ Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options) {
                      " s, shorter than the IMU's sample interval of " +
                      std::to_string(imu_interval) + " s");
   }
-  const std::vector<TimedMeasurement> timed =
-      MeasurementsInside(dataset, options);
+  std::vector<TimedMeasurement> timed = MeasurementsInside(dataset, options);
   std::vector<double> required = {options.t_begin, options.t_end};
+  for (const double t : options.extra_times) {
+    if (t >= options.t_begin && t <= options.t_end) required.push_back(t);
+  }
+  ShareNodes(dataset, required, &timed);
   for (const TimedMeasurement& m : timed) {
     required.push_back(std::clamp(m.t, options.t_begin, options.t_end));
     if (AsIncrement(*m.z) != nullptr) required.push_back(TimeOfStart(m));
-  }
-  for (const double t : options.extra_times) {
-    if (t >= options.t_begin && t <= options.t_end) required.push_back(t);
   }
   const double spacing =
       HasIncrements(timed) ? std::min(dataset.max_node_spacing,

@@ -49,6 +49,24 @@ void Timeline::SetColouredSteps(std::vector<ColouredStep> steps) {
   }
 }
 
+namespace {
+
+/// What the IMU reads on average within 25 ms of t: of a rate that must hold
+/// over the uncertainty of an offset, noise and vibration are no part.
+Kinematics MeanReading(double t, ImuIntegrator* integrator) {
+  constexpr int kHalf = 5;
+  constexpr double kStep = 0.005;
+  Kinematics mean;
+  for (int i = -kHalf; i <= kHalf; ++i) {
+    const Kinematics k = integrator->ReadingAt(t + i * kStep);
+    mean.w_ib_b += k.w_ib_b / (2 * kHalf + 1);
+    mean.f_b += k.f_b / (2 * kHalf + 1);
+  }
+  return mean;
+}
+
+}  // namespace
+
 void Timeline::LinearizeTimeOffsets(const ErrorLayout& layout,
                                     std::span<const State> states) {
   TimeOffsetRates rates;
@@ -56,18 +74,20 @@ void Timeline::LinearizeTimeOffsets(const ErrorLayout& layout,
   for (std::size_t k = 0; k < size(); ++k) {
     for (const Measurement& z : measurements(k)) {
       if (!layout.Has(BlockKind::kTimeOffset, z.sensor)) continue;
+      const Kinematics mean = MeanReading(nodes_[k].t, &integrator_);
       rates.measurements[static_cast<std::size_t>(&z - measurements_.data())] =
-          TimeOffsetRate(z, Context(k, z, layout, states[k]));
+          TimeOffsetRate(
+              z, {layout, states[k], mean,
+                  sensors_[static_cast<std::size_t>(z.sensor)], z.sensor, z.t});
     }
   }
   for (const IncrementStart& start : increment_starts_) {
     std::optional<double>& rate = rates.increment_starts.emplace_back();
     if (!layout.Has(BlockKind::kTimeOffset, start.sensor)) continue;
     const auto k = static_cast<std::size_t>(start.node);
-    rate =
-        PredictedSpeed({layout, states[k], nodes_[k].kinematics,
-                        sensors_[static_cast<std::size_t>(start.sensor)],
-                        start.sensor, start.stamp});
+    rate = PredictedSpeed({layout, states[k], nodes_[k].kinematics,
+                           sensors_[static_cast<std::size_t>(start.sensor)],
+                           start.sensor, start.stamp});
   }
   SetTimeOffsetRates(std::move(rates));
 }

@@ -31,7 +31,7 @@ struct Pair {
     nodes[1].t = 4.2;
     timeline.emplace(nodes, std::vector<Measurement>{},
                      std::vector<Sensor>{sensor}, imu, true);
-    if (starts) timeline->SetIncrementStarts({{0, 0, 3.99}});
+    if (starts) timeline->SetIncrementStarts({{0, 0, 3.99, std::nullopt}});
     x_i = scene.state;
     x_i.t = 4.0;
     x_i.parameters.conservativeResize(layout.parameter_count());

@@ -19,12 +19,11 @@ using testing::Scene;
 State After(const Scene& scene, double dt) {
   State x = scene.state;
   const ImuCalibration c = CalibrationOf(scene.layout, x);
-  const Eigen::Vector3d w_ib_b = (scene.kinematics.w_ib_b - c.b_g).array() /
-                                 (1.0 + c.s_g.array());
+  const Eigen::Vector3d w_ib_b =
+      (scene.kinematics.w_ib_b - c.b_g).array() / (1.0 + c.s_g.array());
   const Eigen::Vector3d f_b =
       (scene.kinematics.f_b - c.b_a).array() / (1.0 + c.s_a.array());
-  const Eigen::Vector3d w_eb_b =
-      w_ib_b - x.q_eb.conjugate() * EarthRate_e();
+  const Eigen::Vector3d w_eb_b = w_ib_b - x.q_eb.conjugate() * EarthRate_e();
   const Eigen::Vector3d a_e =
       x.q_eb * f_b + Gravity(x.p_e) - 2.0 * EarthRate_e().cross(x.v_e);
   x.p_e += dt * x.v_e + 0.5 * dt * dt * a_e;
@@ -37,7 +36,8 @@ std::vector<std::pair<std::string, MeasurementModel>> Models(
     const Scene& scene) {
   std::vector<std::pair<std::string, MeasurementModel>> models;
   models.emplace_back("position", PositionFix{scene.state.p_e});
-  models.emplace_back("velocity", VelocityFix{Eigen::Vector3d(11.0, -6.0, 0.3)});
+  models.emplace_back("velocity",
+                      VelocityFix{Eigen::Vector3d(11.0, -6.0, 0.3)});
   models.emplace_back("height", HeightFix{51.0, 0.5});
   Odometer odometer;
   odometer.speed = 12.0;
@@ -55,8 +55,8 @@ std::vector<std::pair<std::string, MeasurementModel>> Models(
   models.emplace_back("dvl", dvl);
   AcousticFix acoustic;
   acoustic.has_bearing = true;
-  acoustic.p_t_e = scene.state.p_e + scene.state.C_en() *
-                                         Eigen::Vector3d(100.0, -160.0, 48.0);
+  acoustic.p_t_e = scene.state.p_e +
+                   scene.state.C_en() * Eigen::Vector3d(100.0, -160.0, 48.0);
   models.emplace_back("range and bearing", acoustic);
   const Eigen::Vector3d field_b(11.0, -25.0, 30.0);
   models.emplace_back(
@@ -81,8 +81,7 @@ TEST(TimeOffsetRate, IsTheChangeOfThePredictionAlongTheMotion) {
     const auto residual = [&](double dt) {
       const State x = After(scene, dt);
       LinearizedMeasurement out;
-      Evaluate(z,
-               {scene.layout, x, scene.kinematics, scene.sensor, 0, 0.0},
+      Evaluate(z, {scene.layout, x, scene.kinematics, scene.sensor, 0, 0.0},
                &out);
       return out.residual;
     };
@@ -98,7 +97,8 @@ TEST(TimeOffsetRate, IsTheChangeOfThePredictionAlongTheMotion) {
 /// Linear in the offset, and without a product of the offset and the state.
 TEST(TimeOffsetRate, EntersTheResidualLinearly) {
   Scene scene = RichScene();
-  const Measurement z{0.0, 0, false, VelocityFix{Eigen::Vector3d(11.0, -6.0, 0.3)}};
+  const Measurement z{0.0, 0, false,
+                      VelocityFix{Eigen::Vector3d(11.0, -6.0, 0.3)}};
   const Block& offset = *scene.layout.Find(BlockKind::kTimeOffset, 0);
   const LinearizedMeasurement at = scene.Evaluate(z);
   State x = scene.state;
@@ -113,17 +113,17 @@ TEST(TimeOffsetRate, EntersTheResidualLinearly) {
   State both = faster;
   both.parameters(offset.parameter_offset) += 0.2;
   EXPECT_LT((scene.EvaluateAt(z, faster).residual -
-             scene.EvaluateAt(z, both).residual -
-             0.2 * at.H.col(offset.offset))
+             scene.EvaluateAt(z, both).residual - 0.2 * at.H.col(offset.offset))
                 .norm(),
             1e-12);
 }
 
 TEST(TimeOffsetRate, IsNoiseUntilATrajectoryIsKnown) {
   const Scene scene = RichScene();
-  const Measurement z{0.0, 0, false, VelocityFix{Eigen::Vector3d(11.0, -6.0, 0.3)}};
-  const ModelContext context{scene.layout,     scene.state, scene.kinematics,
-                             scene.sensor,     0,           scene.stamp};
+  const Measurement z{0.0, 0, false,
+                      VelocityFix{Eigen::Vector3d(11.0, -6.0, 0.3)}};
+  const ModelContext context{scene.layout, scene.state, scene.kinematics,
+                             scene.sensor, 0,           scene.stamp};
   LinearizedMeasurement unknown;
   Evaluate(z, context, &unknown);
   const Block& offset = *scene.layout.Find(BlockKind::kTimeOffset, 0);

@@ -97,7 +97,7 @@ const ConstantEstimate& Offset(const Solution& solution) {
       [](const ConstantEstimate& c) { return c.name == kOffset; });
 }
 
-constexpr Method kSmoothers[] = {Method::kRts,   Method::kTwoFilter,
+constexpr Method kSmoothers[] = {Method::kRts, Method::kTwoFilter,
                                  Method::kIterated, Method::kBatch,
                                  Method::kImmSmoother};
 
@@ -128,7 +128,7 @@ TEST(TimeOffset, ErrorsAreWhatTheSigmaSaysFromAnyStart) {
     Reconstruction from_near(other, {});
     for (const Method method : kSmoothers) {
       const Solution solution = from_zero.Run(method);
-      EXPECT_TRUE(solution.usable) << seed << " " << solution.verdict;
+      EXPECT_TRUE(solution.usable()) << seed << " " << solution.verdict;
       const ConstantEstimate& offset = Offset(solution);
       const double error = (offset.value - delay) / offset.sigma;
       RecordProperty("error", std::to_string(error));
@@ -149,7 +149,7 @@ TEST(TimeOffset, ErrorsAreWhatTheSigmaSaysFromAnyStart) {
     EXPECT_LE(beyond[method], seeds < 100 ? 1 : 3) << MethodName(method);
     if (seeds < 100) continue;
     std::printf("%s: mean (error/sigma)^2 %.3f of %d, %d beyond 3 sigmas\n",
-                MethodName(method).c_str(), sum[method] / seeds, seeds,
+                MethodName(method), sum[method] / seeds, seeds,
                 beyond[method]);
   }
 }
@@ -239,7 +239,7 @@ TEST(TimeOffset, ThatDoesNotSettleIsNamed) {
   }
   dataset.streams.front().sensor.time_offset_sigma = 5.0;
   const Solution solution = Solve(dataset, {});
-  EXPECT_FALSE(solution.usable);
+  EXPECT_FALSE(solution.usable());
 }
 
 TEST(TimeOffset, NoiseIsEstimatedWithIt) {
