@@ -10,8 +10,8 @@
 namespace hindsight {
 
 /// A file that appears complete or not at all: it is written under a temporary
-/// name in the same folder (io/unpublished.h) and gets its own by Commit(). Every member throws
-/// OutputError naming the path if that fails.
+/// name in the same folder (io/unpublished.h) and gets its own by Commit().
+/// Every member throws OutputError naming the path if that fails.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);

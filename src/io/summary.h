@@ -83,9 +83,8 @@ std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
 /// estimate.
 ///
 ///   program, dataset
-///   complete                    false: the run was interrupted, and the
-///   methods
-///                               here are those that were done
+///   complete                    false: the run was interrupted, these are
+///                               the methods that were done, and no best is
 ///   epoch                       t = 0; absent if the clock has no date
 ///     gps_week, gps_second, utc       "yyyy-mm-ddThh:mm:ss.sssZ"
 ///   start                       how the initial state came about

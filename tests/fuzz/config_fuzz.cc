@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "dataset/rest.h"
 #include "dataset/timeline_builder.h"
 #include "fuzz/config_keys.h"
 #include "fuzz/fuzz_input.h"
@@ -167,7 +168,7 @@ void FuzzConfigurations(const std::uint8_t* data, std::size_t size) {
     }
     ResolvedConfig resolved;
     Dataset dataset = LoadDataset(path, {.data_root = "."}, &resolved);
-    AddStandstillStreams(&dataset);
+    AddRestStreams(FindRest(dataset), &dataset);
     TimelineOptions options;
     options.t_begin = dataset.imu.t_begin();
     options.t_end = dataset.imu.t_end();

@@ -247,7 +247,8 @@ TEST(Summary, LeavesOutFiguresThatDoNotExist) {
       SummarizeMethod(dataset, solution, TableFromSolution(solution))};
   summary.methods[0].seconds = std::numeric_limits<double>::quiet_NaN();
   const Json json = SummaryJson(summary);
-  EXPECT_THAT(Keys(json), ElementsAre("program", "dataset", "complete", "methods"));
+  EXPECT_THAT(Keys(json),
+              ElementsAre("program", "dataset", "complete", "methods"));
   EXPECT_THAT(Keys(json["methods"]["ekf"]),
               ElementsAre("converged", "grade", "verdict", "evidence",
                           "residuals", "constants"));
