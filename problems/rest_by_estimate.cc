@@ -82,10 +82,10 @@ class EstimatedRest {
                                    start.layout.Has(BlockKind::kAccelScale);
     Timeline timeline = BuildTimeline(dataset_, options);
     start.prior.x.t = timeline.node(0).t;
-    hypothesis_ = {static_cast<int>(dataset_.streams.size()) - 1, kKnownTo};
+    supposition_ = {static_cast<int>(dataset_.streams.size()) - 1, kKnownTo};
     LinearTape tape = RunForwardFilter({.error = ErrorDefinition::kNavigation,
                                         .covariance = {},
-                                        .hypothesis = hypothesis_},
+                                        .supposition = supposition_},
                                        start.layout, start.prior, &timeline);
     bool found = JudgePredictions(timeline, tape);
     if (HasOpen()) {
@@ -118,7 +118,7 @@ class EstimatedRest {
   /// By the innovation and its covariance; whether it is at rest.
   template <typename Matrix>
   bool Judge(const Matrix& S, double nis, const Measurement& z) {
-    if (!hypothesis_.IsDecisive(S)) return false;
+    if (!supposition_.IsDecisive(S)) return false;
     const bool at_rest = nis <= GateLimit(zero_, Rows(z));
     CandidateOf(z)->standing = at_rest ? Standing::kAtRest : Standing::kMoving;
     return at_rest;
@@ -128,7 +128,7 @@ class EstimatedRest {
     bool found = false;
     for (std::size_t k = 0; k < tape.size(); ++k) {
       for (const TapeMeasurement& m : tape.measurements(k)) {
-        if (m.sensor != hypothesis_.sensor) continue;
+        if (m.sensor != supposition_.sensor) continue;
         found |=
             Judge(m.S, m.nis,
                   timeline.measurements(k)[static_cast<std::size_t>(m.index)]);
@@ -144,7 +144,7 @@ class EstimatedRest {
     const ErrorVector none = ErrorVector::Zero(layout.dim());
     for (std::size_t k = 0; k < timeline.size(); ++k) {
       for (const Measurement& z : timeline.measurements(k)) {
-        if (z.sensor != hypothesis_.sensor ||
+        if (z.sensor != supposition_.sensor ||
             CandidateOf(z)->standing != Standing::kOpen) {
           continue;
         }
@@ -209,7 +209,7 @@ class EstimatedRest {
   double to_;
   std::size_t streams_ = dataset_.streams.size();
   Sensor zero_;
-  Hypothesis hypothesis_;
+  Supposition supposition_;
   Rest rest_;
   std::vector<Candidate> candidates_;
 };

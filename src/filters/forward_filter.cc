@@ -29,7 +29,7 @@ class ForwardPass {
         dx_(ErrorVector::Zero(layout.dim())) {
     tape_.Reserve(timeline->size());
     transition_.c = ErrorVector::Zero(layout.dim());
-    rule_.Suppose(model.hypothesis);
+    rule_.Suppose(model.supposition);
     if (!policy_.is_kalman()) tape_.ForbidSmoothing();
   }
 

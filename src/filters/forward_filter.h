@@ -25,7 +25,7 @@ using EpochCallback = std::function<void(std::size_t)>;
 struct ForwardModel {
   ErrorDefinition error = ErrorDefinition::kNavigation;
   CovarianceOptions covariance;
-  Hypothesis hypothesis = {};
+  Supposition supposition = {};
 };
 
 /// Forward observer x^' = f(x^) + K (y - h(x^)): predicts through the IMU

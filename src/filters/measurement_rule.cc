@@ -77,7 +77,7 @@ double MeasurementRule::RobustArgument(const LinearizedMeasurement& z,
 /// The gate has no say where it is decided beforehand.
 bool MeasurementRule::Passes(int sensor, const Innovation& innovation) const {
   if (!decisions_.empty()) return true;
-  if (sensor == hypothesis_.sensor && !hypothesis_.IsDecisive(innovation.S)) {
+  if (sensor == supposition_.sensor && !supposition_.IsDecisive(innovation.S)) {
     return false;
   }
   const auto rows = static_cast<std::size_t>(innovation.residual.size());

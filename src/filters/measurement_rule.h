@@ -20,7 +20,7 @@ double GateLimit(const Sensor& sensor, int rows);
 /// A sensor whose measurements hold under a hypothesis, that the vehicle
 /// stands: they are used only where what is predicted without them is known
 /// well enough to speak for it or against it, and its gate lets them pass.
-struct Hypothesis {
+struct Supposition {
   int sensor = -1;        ///< -1: none
   double known_to = 0.0;  ///< of every row, one sigma of the innovation
   /// The innovation's covariance is small enough to decide.
@@ -49,7 +49,7 @@ class MeasurementRule {
   MeasurementRule(const Timeline& timeline, const GateDecisions& decisions);
 
   void AboutFixedNominal() { fixed_nominal_ = true; }
-  void Suppose(const Hypothesis& hypothesis) { hypothesis_ = hypothesis; }
+  void Suppose(const Supposition& supposition) { supposition_ = supposition; }
 
   /// Whether measurement `index` of node k is used as far as it is decided
   /// beforehand: not withheld, nor decided against.
@@ -73,7 +73,7 @@ class MeasurementRule {
   const GateDecisions& decisions_;
   std::vector<std::array<double, kMaxRows>> gate_limits_;  // by sensor
   bool fixed_nominal_ = false;
-  Hypothesis hypothesis_;
+  Supposition supposition_;
 };
 
 }  // namespace hindsight
