@@ -16,8 +16,9 @@ namespace {
 
 constexpr double kWindow = 10.0;  // [s]
 constexpr int kMostWindows = 60;
-constexpr double kTurn = 30.0 * kDegree;
-constexpr double kScatterSigma = 0.05;
+constexpr double kTurn = 20.0 * kDegree;
+constexpr double kLeastScatter = 0.02;
+constexpr int kMostCounted = 20;
 constexpr double kDipSigma = 0.35;
 constexpr double kClearlyBetter = 9.0;
 constexpr double kAsGood = 4.0;
@@ -68,8 +69,8 @@ struct FieldWindow {
 struct SignCosts {
   std::array<double, 8> scatter = {};   ///< T
   std::array<double, 8> dip_sine = {};  ///< s
-  bool turned = false;
-  double norm = 0.0;  ///< root mean square [uT]
+  int turned = 0;                       ///< windows with a turn
+  double norm = 0.0;                    ///< root mean square [uT]
 };
 
 class FieldReader {
@@ -84,7 +85,7 @@ class FieldReader {
     const std::vector<std::size_t> begins = WindowBegins();
     SignCosts costs;
     double squared_norm = 0.0;
-    double turned = 0.0;
+    double turned = 0.0;  // squared norms
     int windows = 0;
     for (const std::size_t begin : begins) {
       const std::optional<FieldWindow> window = ReadWindow(begin);
@@ -92,7 +93,10 @@ class FieldReader {
       ++windows;
       squared_norm += window->squared_norm;
       const bool turns = window->turn > kTurn;
-      if (turns) turned += window->squared_norm;
+      if (turns) {
+        turned += window->squared_norm;
+        ++costs.turned;
+      }
       for (std::size_t i = 0; i < 8; ++i) {
         costs.dip_sine[i] +=
             window->mean[i].dot(window->down) / std::sqrt(window->squared_norm);
@@ -101,10 +105,9 @@ class FieldReader {
     }
     if (windows == 0) return costs;
     costs.norm = std::sqrt(squared_norm / windows);
-    costs.turned = turned > 0.0;
     for (std::size_t i = 0; i < 8; ++i) {
       costs.dip_sine[i] /= windows;
-      if (costs.turned) costs.scatter[i] /= turned;
+      if (costs.turned > 0) costs.scatter[i] /= turned;
     }
     return costs;
   }
@@ -184,6 +187,10 @@ class FieldReader {
   ImuIntegrator integrator_;
 };
 
+double ScatterOf(const SignCosts& costs, std::size_t i) {
+  return costs.scatter[i] + kLeastScatter * kLeastScatter;
+}
+
 /// chi2 of each choice of signs; see CheckMagnetometers.
 std::array<double, 8> Compare(const SignCosts& costs,
                               const std::optional<double>& sine) {
@@ -192,7 +199,7 @@ std::array<double, 8> Compare(const SignCosts& costs,
     const Signs flipped = SignsOf(static_cast<int>(i));
     chi2[i] =
         static_cast<double>(std::count(flipped.begin(), flipped.end(), true)) +
-        costs.scatter[i] / (kScatterSigma * kScatterSigma);
+        std::min(costs.turned, kMostCounted) * std::log(ScatterOf(costs, i));
     if (!sine) continue;
     const double off = (costs.dip_sine[i] - *sine) / kDipSigma;
     chi2[i] += off * off;
@@ -236,7 +243,7 @@ void CheckSigns(const std::string& name, const SignCosts& costs,
     why = "the field points " + DipWords(costs.dip_sine[0]) + ", at latitude " +
           LatitudeWords(*p_e) + " it should point " + DipWords(*sine);
   }
-  if (costs.turned && costs.scatter[best] < 0.25 * costs.scatter[0]) {
+  if (costs.turned > 0 && ScatterOf(costs, best) < 0.25 * ScatterOf(costs, 0)) {
     why += std::string(why.empty() ? "" : "; ") +
            Words(
                "where the body turns the field does not turn back: it "

@@ -27,11 +27,12 @@ std::string FieldContradiction(const Eigen::Vector3d& field_level,
 /// makes the field turn against the gyros, or point up in the northern or down
 /// in the southern magnetic hemisphere; a configured `down` of the wrong sign.
 /// The signs are found over windows of 10 s: all eight are compared by
-///   chi2 = T / 0.05^2 + (s - s_0)^2 / 0.35^2 + flipped axes,
+///   chi2 = n log(T + 0.02^2) + (s - s_0)^2 / 0.35^2 + flipped axes,
 /// T the squared scatter of the field, carried to the begin of the window by
-/// the gyros, over its squared norm, where the body turns by 30 deg and more; s
-/// and s_0 the sines of its dip against gravity and of the dipole's. They count
-/// as flipped where that lowers chi2 by more than 9.
+/// the gyros, over its squared norm, in the n windows (20 count) in which the
+/// body turns by 20 deg and more; s and s_0 the sines of its dip against
+/// gravity and of the dipole's. They count as flipped where that lowers chi2 by
+/// more than 9, and T to a quarter or the dip has the wrong sign.
 std::vector<std::string> CheckMagnetometers(const Dataset& dataset);
 
 }  // namespace hindsight
