@@ -200,7 +200,7 @@ std::string FormatUtcTime(std::int64_t gps_ns) {
 
 GpsWeekTime GpsWeekOf(std::int64_t gps_ns) {
   constexpr std::int64_t kWeekNs = kWeekSeconds * kNanosecondsPerSecond;
-  return {gps_ns / kWeekNs, 1e-9 * static_cast<double>(gps_ns % kWeekNs)};
+  return {gps_ns / kWeekNs, static_cast<double>(gps_ns % kWeekNs) / 1e9};
 }
 
 std::string EpochComment(std::optional<std::int64_t> epoch_gps_ns) {
