@@ -136,13 +136,17 @@ class MatrixReader {
   MatTag ReadTag() {
     std::array<char, kTagSize> data;
     element_.Read(data.data(), data.size());
-    return ParseTag(data.data(), big_endian_);
+    const MatTag tag = ParseTag(data.data(), big_endian_);
+    if (tag.small && tag.size > tag.data.size()) {
+      element_.Fail("a small part is longer than its tag");
+    }
+    return tag;
   }
 
   /// The bytes of a part of this type, which are at most `most`.
   std::string Bytes(std::uint32_t type, std::size_t most) {
     const MatTag tag = ReadTag();
-    if (tag.type != type || tag.size > (tag.small ? 4 : most)) {
+    if (tag.type != type || tag.size > most) {
       element_.Fail("a part of its header is none");
     }
     if (tag.small) return {tag.data.data(), tag.size};
