@@ -34,7 +34,7 @@ namespace hindsight {
 /// Every stream (imu, aiding.NAME, truth):
 /// | file              | *needed*; plain or gzip; a folder for oxts and npy |  |
 /// | format            | csv, columns, kf_gins, rtklib_pos, euroc, nclt, control_points, oxts, nmea, npy, mat, rosbag | csv |
-/// | columns           | of columns, npy, mat: QUANTITY: COLUMN [UNIT]. COLUMN is a number from 1 or a title, of npy and mat ARRAY or ARRAY:NUMBER (io/array_rows.h); a leading "-" turns the sign; or {column, unit, scale} | - |
+/// | columns           | of columns, npy, mat: QUANTITY: COLUMN [UNIT]. COLUMN is a number from 1 or a title, of npy and mat ARRAY or ARRAY:NUMBER (io/array_rows.h); a leading "-" turns the sign; or {column, unit, scale}. The time t has no sign, and a scale in npy and mat only | - |
 /// | delimiter         | auto, comma, semicolon, blank            | auto    |
 /// | skip_lines        | lines before the header or data          | 0       |
 /// | topic             | of a rosbag                              | the only one that fits |
@@ -153,6 +153,11 @@ namespace hindsight {
 /// withhold: outage k starts at first fix + from + k every and lasts length;
 /// from is every if it is absent. The first fix is the first that the IMU
 /// covers.
+///
+/// What is asked for is bounded: 31 days of the IMU's record, 100000 outages of
+/// a sensor, columns up to the 100000th, as many non_holonomic measurements as
+/// the IMU has samples, 1000000 ahrs.samples or 3600 s, 10 million nodes, 4 MB
+/// of configuration.
 ///
 /// stationary: window 1 s, gyro_threshold 0.01 rad/s, accel_threshold
 /// 0.1 m/s^2, velocity_sigma 0.01 m/s, rate_sigma 5e-4 rad/s.
