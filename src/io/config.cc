@@ -180,13 +180,13 @@ void RequireModestSpan(const StreamSource& source, const ImuStream& imu) {
 long CountGenerated(const AidingConfig& config, const ImuStream& imu,
                     double step) {
   const double count = (imu.t_end() - imu.t_begin()) / step;
-  const auto most = static_cast<double>(imu.samples.size());
+  const double most = 10.0 * static_cast<double>(imu.samples.size());
   if (count <= most) return static_cast<long>(count);
-  char text[160];
+  char text[200];
   std::snprintf(
       text, sizeof(text),
-      ": the rate makes %.3g measurements; expected at most as many as the IMU "
-      "has samples, %.0f",
+      ": the rate makes %.3g measurements; expected at most %.0f, ten "
+      "for each sample of the IMU",
       count, most);
   throw InputError(config.source.config_path, config.source.config_line,
                    config.source.name + text);

@@ -155,8 +155,8 @@ namespace hindsight {
 /// covers.
 ///
 /// What is asked for is bounded: 31 days of the IMU's record, 100000 outages of
-/// a sensor, columns up to the 100000th, as many non_holonomic measurements as
-/// the IMU has samples, 1000000 ahrs.samples or 3600 s, 10 million nodes, 4 MB
+/// a sensor, columns up to the 100000th, ten non_holonomic measurements for
+/// each sample of the IMU, 1000000 ahrs.samples or 3600 s, 10 million nodes, 4 MB
 /// of configuration.
 ///
 /// stationary: window 1 s, gyro_threshold 0.01 rad/s, accel_threshold

@@ -14,8 +14,7 @@ using Wide = unsigned __int128;
 TickClock::TickClock(double seconds_per_tick) {
   // Convergents of the continued fraction, until one rounds to the double.
   const long double tick = seconds_per_tick;
-  const long double tolerance =
-      tick * std::numeric_limits<double>::epsilon() / 2;
+  const long double tolerance = tick * std::numeric_limits<double>::epsilon();
   std::uint64_t p = 1, p_before = 0, q = 0, q_before = 1;
   long double rest = tick;
   constexpr int kMostTerms = 40;

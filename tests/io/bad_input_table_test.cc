@@ -119,9 +119,11 @@ TEST_P(BadInputTable, IsRefusedWithItsPlaceOrListedAsAccepted) {
       continue;
     }
     EXPECT_NE(error, "") << "is read in silence";
-    const std::string place =
-        stream.file + ":" +
-        (damage.line > 0 ? std::to_string(damage.line) + ": " : "");
+    std::string place = damage.place;
+    if (place.empty()) {
+      place = stream.file + ":" +
+              (damage.line > 0 ? std::to_string(damage.line) + ": " : "");
+    }
     const bool named =
         error.find(place) != std::string::npos ||
         // Where there is no file the configuration's line is the place.

@@ -72,8 +72,8 @@ TEST_F(Bounds, OfSkippedLines) {
 
 TEST_F(Bounds, OfColumns) {
   EXPECT_SAYS(
-      ErrorWithGnss(", format: columns, columns: {t: '100001 [s]', lat: 2 "
-                    "[deg], lon: 3 [deg], h: 4 [m]}"),
+      ErrorWithGnss(", format: columns, columns: {t: '100001 [s]', lat: "
+                    "'2 [deg]', lon: '3 [deg]', h: '4 [m]'}"),
       "aiding.gnss.columns.t: expected a column of 1 to 100000");
   EXPECT_SAYS(
       ErrorWithGnss(", format: columns, columns: {t: {column: 99999999999, "
@@ -88,7 +88,7 @@ TEST_F(Bounds, OfGeneratedMeasurements) {
   };
   EXPECT_EQ(rate("10 Hz"), "");
   EXPECT_SAYS(rate("1e9 Hz"),
-              "expected at most as many as the IMU has samples, 40");
+              "expected at most 400, ten for each sample of the IMU");
 }
 
 TEST_F(Bounds, OfTheRecordsLength) {
@@ -115,7 +115,7 @@ TEST_F(Bounds, OfNodes) {
     sample.t = 0.001 * i;
     dataset.imu.samples.push_back(sample);
   }
-  dataset.max_node_spacing = 0.001;
+  dataset.max_node_spacing = 0.0011;
   TimelineOptions options;
   options.t_end = 2e6;
   try {

@@ -200,7 +200,7 @@ class DamageList {
     const bool text = IsText(stream_.encoding);
     return [text](const std::string& bytes) {
       const std::size_t half = bytes.size() / 2;
-      return text ? bytes.find_first_of("123456789", half) : half;
+      return text ? bytes.find_first_of("123456789", half + 12) : half;
     };
   }
 
@@ -216,10 +216,12 @@ class DamageList {
         return mixed;
       });
     }
-    OfBytes("CR alone as line end", [](std::string bytes) {
-      std::replace(bytes.begin(), bytes.end(), '\n', '\r');
-      return bytes + "\n";
-    });
+    if (!IsEpoch()) {
+      OfBytes("CR alone as line end", [](std::string bytes) {
+        std::replace(bytes.begin(), bytes.end(), '\n', '\r');
+        return bytes + "\n";
+      });
+    }
     const int line = IsEpoch() ? 2 : Line(kDamagedRow);
     const auto insert = [line](std::string bytes, const std::string& text) {
       std::size_t at = 0;

@@ -51,13 +51,13 @@ inline void DamageList::AddRows() {
     OfCell("a minute that is none", 0, "2017-01-01 00:61:01.000000000");
     return;
   }
-  OfCell("not a number", 1, "nan");
-  OfCell("infinity", 1, "inf");
-  OfCell("a value of 1e300", 1, "1e300");
+  OfCell("not a number", stream_.value_column, "nan");
+  OfCell("infinity", stream_.value_column, "inf");
+  OfCell("a value of 1e300", stream_.value_column, "1e300");
   if (IsText(stream_.encoding)) {
-    OfCell("text in a number", 1, "1.2x4");
-    OfCell("a number with a comma", 1, "48,5");
-    OfCell("an empty value", 1, "");
+    OfCell("text in a number", stream_.value_column, "1.2x4");
+    OfCell("a number with a comma", stream_.value_column, "48,5");
+    OfCell("an empty value", stream_.value_column, "");
   }
   if (IsImu()) {
     OfTable("a single row", [](TextRows* table) { table->rows.resize(1); });
@@ -100,8 +100,8 @@ inline void DamageList::AddTable() {
     return bytes;
   });
   OfCell("an empty time", 0, "");
-  OfCell("two numbers in one", 1, "1.5 2.5");
-  OfCell("a number in hexadecimal", 1, "0x1A");
+  OfCell("two numbers in one", stream_.value_column, "1.5 2.5");
+  OfCell("a number in hexadecimal", stream_.value_column, "0x1A");
   OfBytes(
       "bytes that are no text",
       [line = Line(kDamagedRow)](std::string bytes) {
@@ -275,7 +275,7 @@ inline void DamageList::AddMat() {
   file("no values", matrix(6, ""));
   file("another variable", MatBytes({{"date", rows}}).substr(128));
   OfBytes("version 7.3", [](std::string bytes) {
-    bytes[125] = '\x02';
+    bytes.at(125) = '\x02';
     return bytes;
   });
   OfBytes("without 800 bytes", [](const std::string& bytes) {

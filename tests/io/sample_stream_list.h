@@ -116,9 +116,9 @@ inline std::vector<SampleStream> SampleStreams() {
   };
   add("plain_columns_imu", Encoding::kPlain, "imu.dat",
       "imu:\n  file: FILE\n  format: columns\n  delimiter: semicolon\n"
-      "  columns: {t: 1 [s], gyro_x: 2 [rad/s], gyro_y: 3 [rad/s], gyro_z: 4 "
-      "[rad/s], accel_x: 5 [m/s^2], accel_y: 6 [m/s^2], accel_z: 7 "
-      "[m/s^2]}\n",
+      "  columns: {t: '1 [s]', gyro_x: '2 [rad/s]', gyro_y: '3 [rad/s]', "
+      "gyro_z: '4 [rad/s]', accel_x: '5 [m/s^2]', accel_y: '6 [m/s^2]', "
+      "accel_z: '7 [m/s^2]'}\n",
       rows(rest, Seconds), ';');
   add("plain_kf_gins_imu", Encoding::kPlain, "imu.txt",
       "imu:\n  file: FILE\n  format: kf_gins\n",
@@ -136,6 +136,7 @@ inline std::vector<SampleStream> SampleStreams() {
       "imu:\n  file: FILE\n  format: nclt\n",
       rows({.1, .2, .3, .1, .2, -9.8, .001, .002, .003},
            [](double t) { return UnixTicks(t, 1000000); }));
+  streams.back().value_column = 4;
   add("pos_position", Encoding::kPos, "rover.pos",
       position + "format: rtklib_pos}\n",
       MakeRows({"", "", "", "", "", "", "", ""},

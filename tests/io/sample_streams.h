@@ -33,6 +33,7 @@ struct SampleStream {
   std::string keys;
   TextRows table;
   char delimiter = ',';
+  std::size_t value_column = 1;  ///< that is read, from 0
 };
 
 inline std::string Printed(double value, int digits = 6) {
