@@ -91,6 +91,11 @@ struct Outcome {
   double peak_memory = 0.0;  ///< [MB]
 };
 
+/// Whether it ended with complete results, usable or doubtful.
+inline bool HasResults(const Outcome& outcome) {
+  return outcome.status == 0 || outcome.status == 3;
+}
+
 /// `hindsight words...` as a child process in the folder `directory`, after
 /// `prepare` in that process.
 class Child {
