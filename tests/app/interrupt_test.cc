@@ -14,6 +14,7 @@ namespace hindsight {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AnyOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -103,11 +104,8 @@ TEST_F(Interrupt, LeavesNothingBeforeTheFirstMethodIsDone) {
 }
 
 TEST_F(Interrupt, LeavesFinishedMethodsWhateverTheSignal) {
-  ASSERT_EQ(
-      Hindsight({"run", "data/config.yaml", "--out=whole", "--methods=ekf"},
-                root())
-          .status,
-      0);
+  ASSERT_TRUE(HasResults(Hindsight(
+      {"run", "data/config.yaml", "--out=whole", "--methods=ekf"}, root())));
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const Outcome outcome =
         Stopped(Words({"--methods=ekf,batch"}), "batch", signal);
@@ -124,10 +122,8 @@ TEST_F(Interrupt, LeavesFinishedMethodsWhateverTheSignal) {
 TEST_F(Interrupt, NeverReplacesCompleteResultsButIncompleteOnes) {
   const std::vector<std::string> words =
       Words({"--methods=ekf,batch", "--force"});
-  ASSERT_EQ(Hindsight({"run", "data/config.yaml", "--out=out", "--methods=rts"},
-                      root())
-                .status,
-            0);
+  ASSERT_TRUE(HasResults(Hindsight(
+      {"run", "data/config.yaml", "--out=out", "--methods=rts"}, root())));
   const std::string complete = ReadFile(root() / "out" / "rts.csv");
   Outcome outcome = Stopped(words, "batch", SIGINT);
   EXPECT_EQ(outcome.status, 130);
@@ -142,11 +138,9 @@ TEST_F(Interrupt, NeverReplacesCompleteResultsButIncompleteOnes) {
   EXPECT_EQ(outcome.status, 130);
   EXPECT_THAT(Names(root()), UnorderedElementsAre("data", "out"));
   ExpectEkfAlone(root() / "out");
-  EXPECT_EQ(Hindsight({"run", "data/config.yaml", "--out=out", "--methods=rts",
-                       "--force"},
-                      root())
-                .status,
-            0);
+  EXPECT_TRUE(HasResults(Hindsight(
+      {"run", "data/config.yaml", "--out=out", "--methods=rts", "--force"},
+      root())));
   EXPECT_EQ(Json(root() / "out" / "summary.json")["complete"], true);
 }
 
@@ -155,7 +149,7 @@ TEST_F(Interrupt, HangUpIsIgnoredWhereItWas) {
             [] { std::signal(SIGHUP, SIG_IGN); });
   ASSERT_TRUE(run.AwaitStage("ekf"));
   run.Signal(SIGHUP);
-  EXPECT_EQ(run.Wait().status, 0);
+  EXPECT_TRUE(HasResults(run.Wait()));
   EXPECT_EQ(Json(root() / "out" / "summary.json")["complete"], true);
 }
 
@@ -167,6 +161,7 @@ TEST_F(Interrupt, IsAnsweredWithinASecondAtAnyMoment) {
       {"montecarlo", "calibration", "--runs=4", "--out=out"},
       {"montecarlo", "uuv_search", "--runs=2", "--out=out"},
       {"montecarlo", "vibration_attitude", "--runs=2", "--out=out"}};
+  int stopped = 0;
   for (const std::vector<std::string>& words : commands) {
     for (const int delay : {3, 40, 110, 350, 900}) {
       Child run(words, root());
@@ -176,16 +171,17 @@ TEST_F(Interrupt, IsAnsweredWithinASecondAtAnyMoment) {
       const int status = run.Wait().status;
       EXPECT_LT(Clock::now() - sent, milliseconds(1000))
           << words[0] << " " << words[1] << " after " << delay << " ms";
-      // The youngest process may not have got as far as to take signals.
-      EXPECT_THAT(status,
-                  ::testing::AnyOf(130, delay == 3 ? 128 + SIGTERM : 130,
-                                   delay > 40 ? 0 : 130));
+      // A young process has not got as far as to catch signals, and an old one
+      // may have ended.
+      EXPECT_THAT(status, AnyOf(130, 128 + SIGTERM, 0, 3));
+      if (status == 130) ++stopped;
       for (const std::string& name : Names(root())) {
-        EXPECT_THAT(name, ::testing::AnyOf("data", "out"));
+        EXPECT_THAT(name, AnyOf("data", "out"));
       }
       fs::remove_all(root() / "out");
     }
   }
+  EXPECT_GE(stopped, 10);
 }
 
 TEST_F(Interrupt, TheSecondEndsAtOnce) {
@@ -222,7 +218,7 @@ class MediumThatEnds : public ::testing::Test {
 };
 
 TEST_F(MediumThatEnds, LimitOfFileSizeKeepsTheMethodsThatFit) {
-  ASSERT_EQ(Run({"--methods=ekf,two_filter"}, {}).status, 0);
+  ASSERT_TRUE(HasResults(Run({"--methods=ekf,two_filter"}, {})));
   const auto size = [&](const std::string& name) {
     return fs::file_size(recording_.root() / "out" / name);
   };
@@ -258,7 +254,7 @@ TEST_F(MediumThatEnds, FullDiskKeepsTheMethodsThatWereDone) {
     const std::string fault = "write:" + std::to_string(at) + "+:" + full;
     const Outcome outcome =
         Run({"--methods=ekf,rts"}, WithFaults({{"", fault}}));
-    if (outcome.status == 0) break;
+    if (HasResults(outcome)) break;
     EXPECT_EQ(outcome.status, 4) << fault;
     EXPECT_THAT(Lines(outcome.err).back(), HasSubstr("No space left"));
     if (fs::exists(recording_.root() / "out")) {
