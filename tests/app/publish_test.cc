@@ -81,7 +81,6 @@ TEST_F(Publish, AnEmptyFolderIsFilled) {
 }
 
 TEST_F(Publish, ForceNeverTakesAFolderThatHoldsAnInput) {
-  const std::vector<std::string> force = {"--methods=ekf", "--force"};
   const auto words = [&](const std::string& config, const std::string& out) {
     return std::vector<std::string>{"run", config, "--out=" + out,
                                     "--methods=ekf", "--force"};
