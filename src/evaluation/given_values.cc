@@ -49,8 +49,7 @@ Origin OfSensor(const Judged& judged, const Block& block) {
   const Sensor& sensor = judged.sensors[i];
   const std::string stream = "aiding." + sensor.name;
   const char* word = WordOf(block.key.kind);
-  // Of errors that come and go the configuration gives the size alone.
-  if (word == nullptr) return {true, stream, stream + ".noise"};
+  if (word == nullptr) return {true, stream, stream};
   // A mounting that the direction of travel has turned is the program's own.
   const bool found =
       block.key.kind == BlockKind::kMounting &&
@@ -145,7 +144,8 @@ void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence) {
       Local(solution.layout, start.x, solution.states.back());
   for (const Block& block : solution.layout.blocks()) {
     const bool constant = block.evolution.kind == Evolution::Kind::kConstant;
-    if (!constant && !from_start) continue;
+    const bool start_value = block.key.kind <= BlockKind::kAccelBias;
+    if (!constant && !(start_value && from_start)) continue;
     int i = block.offset;
     for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {
       if (!block.active[static_cast<std::size_t>(axis)]) continue;

@@ -87,20 +87,18 @@ TEST_F(RunCommandTest, SummaryHoldsTheDocumentedKeys) {
 TEST_F(RunCommandTest, AGivenValueThatTheDataContradictEndsWithThree) {
   const Outcome right = recording_.Run({"--out=right", "--methods=ekf,batch"});
   EXPECT_EQ(right.status, 0) << right.out;
-  recording_.Edit("config.yaml", [](std::vector<std::string>* lines) {
-    for (std::string& line : *lines) {
-      if (line.find("  gyro_bias:") == 0) {
-        line = "  gyro_bias: [1 deg/s, 0 deg/s, 0 deg/s]";
-      }
-    }
-  });
+  // 65 deg is right.
+  recording_.Replace("config.yaml", "alignment: auto\ninitial:\n",
+                     "alignment: given\ninitial:\n"
+                     "  attitude: [0 deg, 0 deg, 95 deg]\n"
+                     "  attitude_sigma: [1 deg, 1 deg, 3 deg]\n");
   const Outcome outcome = recording_.Run({"--out=out", "--methods=batch"});
   EXPECT_EQ(outcome.status, 3) << outcome.out;
   const std::vector<std::string> lines = Lines(outcome.out);
-  EXPECT_THAT(lines.back(), StartsWith("batch is doubtful: gyro_bias[x] "));
-  EXPECT_THAT(lines, Contains(AllOf(StartsWith("batch is doubtful: gyro_bias"),
+  EXPECT_THAT(lines.back(), StartsWith("batch is doubtful: attitude[down] "));
+  EXPECT_THAT(lines, Contains(AllOf(StartsWith("batch is doubtful: attitude"),
                                     HasSubstr("; likely: "),
-                                    HasSubstr("initial.gyro_bias"))));
+                                    HasSubstr("initial.attitude_sigma"))));
   const nlohmann::json summary = Summary();
   EXPECT_EQ(summary["best"], "batch");
   EXPECT_EQ(summary["grade"], "doubtful");
@@ -112,7 +110,6 @@ TEST_F(RunCommandTest, AGivenValueThatTheDataContradictEndsWithThree) {
 }
 
 TEST_F(RunCommandTest, StatusAndLastLineAreThoseOfTheBestMethod) {
-  // A step that the gate shuts out; the smoother of two modes lives with it.
   const Outcome outcome =
       recording_.Run({"--out=out", "--methods=gated_ekf", "--without=speed",
                       "--inject=position:step=60m,from=25s"});

@@ -185,7 +185,9 @@ TEST_F(GradeTest, SmootherIsDoubtfulAtOneTimeAndNotUsableThroughout) {
 }
 
 TEST_F(GradeTest, FilterMustBeBeyondChance) {
-  LinearisationError error{.largest = 40.0, .causal = true};
+  LinearisationError error;
+  error.largest = 40.0;
+  error.causal = true;
   for (const auto& [rms, grade] :
        {std::pair(1.9, Grade::kUsable), std::pair(2.0, Grade::kDoubtful),
         std::pair(3.2, Grade::kDoubtful), std::pair(3.3, Grade::kUnusable)}) {
