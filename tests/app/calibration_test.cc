@@ -22,7 +22,7 @@ nlohmann::json RunBatch(const std::string& config,
                                "--data-root=" + kRecordings.string(),
                                "--methods=batch", "--out=out"});
   const Outcome outcome = Hindsight(flags, folder.path());
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.status, ::testing::AnyOf(0, 3)) << outcome.out;
   EXPECT_THAT(outcome.out, ::testing::HasSubstr("constants of batch"));
   return nlohmann::json::parse(
       ReadFile(folder.path() / "out/summary.json"))["methods"]["batch"];
@@ -42,6 +42,11 @@ TEST(CalibrationOfRecordings, CarRtkFromARoughStart) {
   }
   const nlohmann::json batch = RunBatch("car_rtk.yaml", {});
   EXPECT_EQ(batch["constants"]["gnss_time_offset"]["verdict"], "observed");
+  // The scale of the pitch gyro is five times what data sheets allow: something
+  // is not modelled.
+  EXPECT_EQ(batch["grade"], "doubtful");
+  EXPECT_THAT(batch["verdict"].get<std::string>(),
+              ::testing::HasSubstr("gyro_scale[y] is 5."));
   // The figures of the recording's own notes.
   EXPECT_NEAR(Value(batch, "gnss_time_offset"), 0.2, 0.02);
   EXPECT_NEAR(Value(batch, "wheels_mounting[y]"), -0.119, 0.02);
