@@ -79,15 +79,16 @@ Vectors ReadingsOf(const AidingStream& stream) {
 struct HeldReading {
   Eigen::Vector3d value;
   long rows = 1;
+  std::size_t first = 0;  ///< row
 };
 
 std::vector<HeldReading> HeldReadings(const Vectors& readings) {
   std::vector<HeldReading> held;
-  for (const Eigen::Vector3d& value : readings) {
-    if (!held.empty() && held.back().value == value) {
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    if (!held.empty() && held.back().value == readings[i]) {
       ++held.back().rows;
     } else {
-      held.push_back({value, 1});
+      held.push_back({readings[i], 1, i});
     }
   }
   return held;
@@ -122,27 +123,65 @@ long MedianRows(std::vector<HeldReading> held) {
   return middle->rows;
 }
 
-Evidence FrozenEvidence(const std::vector<RepeatedRun>& runs) {
+/// The median distance of two readings in a row that differ.
+double MedianStep(const std::vector<HeldReading>& held) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < held.size(); ++i) {
+    steps.push_back((held[i].value - held[i - 1].value).norm());
+  }
+  const auto middle =
+      steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+/// Spans over which a stream repeats one reading while the vehicle goes on, as
+/// the jump at the end shows: at least half of what as many usual steps make. A
+/// receiver that holds its position at rest does not jump.
+std::vector<RepeatedRun> FrozenSpans(const AidingStream& stream) {
+  const std::vector<HeldReading> held = HeldReadings(ReadingsOf(stream));
+  if (held.size() < 3) return {};
+  const Eigen::Array3d resolution = Resolution(held).array();
+  const double usual = MedianStep(held);
+  std::vector<long> rows;
+  for (const HeldReading& reading : held) {
+    if (reading.rows > 1) rows.push_back(reading.rows);
+  }
+  std::sort(rows.begin(), rows.end());
+  std::vector<RepeatedRun> spans;
+  for (std::size_t i = 0; i + 1 < held.size(); ++i) {
+    const Eigen::Vector3d jump = held[i + 1].value - held[i].value;
+    const long count = held[i].rows;
+    if (count < 3 || jump.norm() < 0.5 * static_cast<double>(count) * usual ||
+        !(jump.array().abs() > kStepsOfResolution * resolution).any() ||
+        IsByChance(rows, count)) {
+      continue;
+    }
+    const auto last = held[i].first + static_cast<std::size_t>(count) - 1;
+    spans.push_back({stream.measurements[held[i].first].t,
+                     stream.measurements[last].t, count});
+  }
+  return spans;
+}
+
+Evidence FrozenEvidence(const std::string& name,
+                        const std::vector<RepeatedRun>& runs) {
   const RepeatedRun& worst = *std::max_element(
       runs.begin(), runs.end(), [](const RepeatedRun& a, const RepeatedRun& b) {
         return a.t_end - a.t_begin < b.t_end - b.t_begin;
       });
-  Evidence e{.rule = "frozen_imu",
-             .grade = Grade::kDoubtful,
-             .value = worst.t_end - worst.t_begin,
-             .limit = kLeastFrozen,
-             .unit = "s",
-             .t_begin = worst.t_begin,
-             .t_end = worst.t_end,
-             .causes = {"a logger or driver that repeats the last sample"},
-             .remedies = {"the recording without these samples: a gap is "
-                          "bridged with noise that allows for it"}};
-  e.what = Format("the IMU repeats one sample for %.3g s from %.3f s", *e.value,
-                  worst.t_begin);
-  if (runs.size() > 1) {
-    e.what += Format(", and %zu more times", runs.size() - 1);
-  }
-  return e;
+  const double length = worst.t_end - worst.t_begin;
+  std::string what = Format("%s repeats one reading for %.3g s from %.3f s",
+                            name.c_str(), length, worst.t_begin);
+  if (runs.size() > 1) what += Format(", and %zu more times", runs.size() - 1);
+  return {.grade = Grade::kDoubtful,
+          .what = what,
+          .value = length,
+          .unit = "s",
+          .t_begin = worst.t_begin,
+          .t_end = worst.t_end,
+          .causes = {"a logger or driver that repeats the last reading"},
+          .remedies = {"the recording without these rows"}};
 }
 
 Evidence StaleEvidence(const std::string& name, double share) {
@@ -196,12 +235,18 @@ double StaleShare(const AidingStream& stream) {
 std::vector<Evidence> FindRepeatedReadings(const Dataset& dataset, double from,
                                            double to) {
   std::vector<Evidence> evidence;
-  std::vector<RepeatedRun> frozen = FindFrozenImu(dataset.imu);
-  std::erase_if(frozen, [from, to](const RepeatedRun& run) {
-    return run.t_end < from || run.t_begin > to;
-  });
-  if (!frozen.empty()) evidence.push_back(FrozenEvidence(frozen));
+  const auto add = [&](const char* rule, const std::string& name,
+                       std::vector<RepeatedRun> runs) {
+    std::erase_if(runs, [from, to](const RepeatedRun& run) {
+      return run.t_end < from || run.t_begin > to;
+    });
+    if (runs.empty()) return;
+    evidence.push_back(FrozenEvidence(name, runs));
+    evidence.back().rule = rule;
+  };
+  add("frozen_imu", "imu", FindFrozenImu(dataset.imu));
   for (const AidingStream& stream : dataset.streams) {
+    add("frozen_stream", stream.sensor.name, FrozenSpans(stream));
     const double share = StaleShare(stream);
     if (share < kDoubtfulShare) continue;
     evidence.push_back(StaleEvidence(stream.sensor.name, share));

@@ -47,7 +47,7 @@ TEST_F(OtherCommands, CheckEndsWithThreeWhereTheImuFreezes) {
   const Outcome outcome =
       Hindsight({"check", "data/config.yaml"}, recording_.root());
   EXPECT_EQ(outcome.status, 3) << outcome.out;
-  EXPECT_THAT(outcome.out, HasSubstr("the IMU repeats one sample for 4.99 s"));
+  EXPECT_THAT(outcome.out, HasSubstr("imu repeats one reading for 4.99 s"));
   EXPECT_EQ(Lines(outcome.out).back(), "the recording is doubtful: 1 warning");
 }
 

@@ -145,5 +145,23 @@ TEST(RepeatedReadings, FrozenImuIsDoubtfulWithinTheInterval) {
   EXPECT_NEAR(*evidence[0].value, 5.0, 0.02);
 }
 
+TEST(RepeatedReadings, FrozenPositionsAreDoubtfulUnlessTheVehicleRests) {
+  Dataset dataset;
+  dataset.imu = Imu(100.0);
+  const auto frozen = [](double t) { return t > 20.0 && t < 40.0 ? 20.0 : t; };
+  dataset.streams = {Positions(10.0, 10.0, 1e-3, frozen)};
+  const auto evidence = FindRepeatedReadings(dataset, 0.0, 600.0);
+  ASSERT_EQ(evidence.size(), 1u);
+  EXPECT_EQ(evidence[0].rule, "frozen_stream");
+  EXPECT_EQ(evidence[0].grade, Grade::kDoubtful);
+  EXPECT_NEAR(*evidence[0].t_begin, 20.0, 0.11);
+  EXPECT_NEAR(*evidence[0].t_end, 40.0, 0.11);
+  const auto stops = [](double t) {
+    return t < 20.0 ? t : std::max(20.0, t - 20.0);
+  };
+  dataset.streams = {Positions(10.0, 10.0, 1e-3, stops)};
+  EXPECT_TRUE(FindRepeatedReadings(dataset, 0.0, 600.0).empty());
+}
+
 }  // namespace
 }  // namespace hindsight
