@@ -32,10 +32,7 @@ std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu);
 double StaleShare(const AidingStream& stream);
 
 /// What the recording's own repetitions say about any solution of [from, to].
-///   Frozen IMU: doubtful; its noise does not cover what happened meanwhile.
-///   Frozen positions or velocities, a run as improbable as of the IMU that
-///   ends with a jump of at least half of what as many usual steps make:
-///   doubtful.
+///   Frozen IMU, or positions or velocities that then jump: doubtful.
 ///   Stale rows, a share s of all: each reading is counted 1/(1 - s) times, so
 ///   that its sigma is too small by 1/sqrt(1 - s). Doubtful from s = 1/2 on, a
 ///   factor of 1.4; not usable from 8/9 on, a factor of three.
