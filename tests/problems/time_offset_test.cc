@@ -108,8 +108,8 @@ int Seeds(int few) {
 }
 
 /// Errors over their sigmas, as a normal deviate has them, and the same from
-/// another start. A noisy IMU used to push the offset away from where the nodes
-/// stood: 85 ms beside it, by a sigma of 1 ms.
+/// another start: a noisy IMU must not push the offset away from where the
+/// nodes stood first.
 TEST(TimeOffset, ErrorsAreWhatTheSigmaSaysFromAnyStart) {
 #ifdef NDEBUG
   const int seeds = Seeds(8);
@@ -131,7 +131,6 @@ TEST(TimeOffset, ErrorsAreWhatTheSigmaSaysFromAnyStart) {
       EXPECT_TRUE(solution.usable()) << seed << " " << solution.verdict;
       const ConstantEstimate& offset = Offset(solution);
       const double error = (offset.value - delay) / offset.sigma;
-      RecordProperty("error", std::to_string(error));
       sum[method] += error * error;
       beyond[method] += std::abs(error) > 3.0 ? 1 : 0;
       if (method != Method::kRts && method != Method::kBatch) continue;
@@ -149,8 +148,7 @@ TEST(TimeOffset, ErrorsAreWhatTheSigmaSaysFromAnyStart) {
     EXPECT_LE(beyond[method], seeds < 100 ? 1 : 3) << MethodName(method);
     if (seeds < 100) continue;
     std::printf("%s: mean (error/sigma)^2 %.3f of %d, %d beyond 3 sigmas\n",
-                MethodName(method), sum[method] / seeds, seeds,
-                beyond[method]);
+                MethodName(method), sum[method] / seeds, seeds, beyond[method]);
   }
 }
 
@@ -201,12 +199,11 @@ TEST(TimeOffset, AgreesWithTheLikelihoodOverFixedOffsets) {
   }
 }
 
-/// Readings that shake and lever arms: velocities, whose rate is an
-/// acceleration.
+/// Velocities, whose rate is an acceleration: what a noisy accelerometer reads
+/// at the instant tells nothing of the clock.
 TEST(TimeOffset, OfVelocitiesIsAsGoodAsItsSigma) {
   const int seeds = Seeds(6);
   Scenario scenario = ShakenScenario();
-  scenario.imu.noise.accel_noise_density = 0.02;
   AidingModel& gnss = scenario.aiding.front();
   gnss.sensor.type = SensorType::kVelocity;
   gnss.sensor.lever_arm_b = {0.3, -0.2, 0.1};
@@ -227,21 +224,8 @@ TEST(TimeOffset, OfVelocitiesIsAsGoodAsItsSigma) {
       << sum / seeds << " against " << bounds.lower << " to " << bounds.upper;
 }
 
-/// Two kinds of motion explain nothing alike: the offset jumps to and fro.
-TEST(TimeOffset, ThatDoesNotSettleIsNamed) {
-  const PerfectRecording recording(ShakenScenario());
-  Dataset dataset = Delayed(recording, 1, 0.1);
-  // Positions of another motion altogether.
-  std::vector<Measurement>& fixes = dataset.streams.front().measurements;
-  for (std::size_t i = 0; i < fixes.size() / 2; ++i) {
-    std::swap(std::get<PositionFix>(fixes[i].model).p_e,
-              std::get<PositionFix>(fixes[fixes.size() - 1 - i].model).p_e);
-  }
-  dataset.streams.front().sensor.time_offset_sigma = 5.0;
-  const Solution solution = Solve(dataset, {});
-  EXPECT_FALSE(solution.usable());
-}
-
+/// The densities that the data have, from a stated one a tenth of that: a delay
+/// is no reason to take the IMU for noisier than it is.
 TEST(TimeOffset, NoiseIsEstimatedWithIt) {
   constexpr double kStatedTooSmall = 10.0;
   const PerfectRecording recording(ShakenScenario());
