@@ -93,13 +93,21 @@ void ForwardStage::Settle(std::vector<double> offsets) {
   if (!EstimatesTimeOffsets(start_.layout)) return;
   timeline_.LinearizeTimeOffsets(start_.layout, smoothed_->states);
   OffsetSearch search;
+  bool near = false;
   for (int i = 1;; ++i) {
     RunOnce();
     const int sensor =
         FarthestFromNodes(start_.layout, offsets_, smoothed_->states.back(),
                           smoothed_->P.Get(smoothed_->P.size() - 1));
-    if (sensor < 0) return;
-    if (i == kMaxPlacements) {
+    // The first to be near may be so by chance, along a trajectory from nodes
+    // that were far off: what counts is to stay there along its own.
+    if (sensor < 0 && near) return;
+    near = sensor < 0;
+    if (near) {
+      timeline_.LinearizeTimeOffsets(start_.layout, smoothed_->states);
+      continue;
+    }
+    if (i >= kMaxPlacements) {
       unsettled_ = timeline_.sensors()[static_cast<std::size_t>(sensor)].name;
       return;
     }

@@ -35,8 +35,8 @@ class ForwardStage {
   /// time offsets are estimated: first with them as noise, for a trajectory to
   /// linearise them along (Timeline::LinearizeTimeOffsets); then as states,
   /// nodes being placed anew at the smoother's estimates until these are within
-  /// a tenth of their sigmas of where the nodes stand, or `unsettled` says
-  /// whose never were.
+  /// a tenth of their sigmas of where the nodes stand, and stay so when they
+  /// are linearised along that solution; or `unsettled` says whose never were.
   void Settle(std::vector<double> offsets);
 
   const Dataset& dataset() const { return dataset_; }
