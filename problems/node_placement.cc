@@ -98,7 +98,8 @@ std::vector<double> OffsetSearch::Next(const ErrorLayout& layout,
       throw EstimationError("the time offset of " + sensors[i].name +
                             " diverged");
     }
-    const bool turned = !steps_.empty() && steps_[i] * steps[i] < 0.0;
+    const bool turned = !steps_.empty() && steps_[i] * steps[i] < 0.0 &&
+                        placed[i] != placed_[i];
     next[i] +=
         turned ? steps[i] * (placed[i] - placed_[i]) / (steps_[i] - steps[i])
                : steps[i];
