@@ -110,8 +110,8 @@ class Timeline {
  private:
   const RowVector* OffsetRate(const Measurement& z) const {
     if (offset_rates_.measurements.empty()) return nullptr;
-    return &offset_rates_
-                .measurements[static_cast<std::size_t>(&z - measurements_.data())];
+    return &offset_rates_.measurements[static_cast<std::size_t>(
+        &z - measurements_.data())];
   }
 
   std::vector<Node> nodes_;
