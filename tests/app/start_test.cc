@@ -12,7 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::vector<double> Numbers(const std::string& line) {
+std::vector<double> NumbersOf(const std::string& line) {
   std::vector<double> numbers;
   std::istringstream in(line);
   for (std::string cell; std::getline(in, cell, ',');) {
@@ -21,11 +21,12 @@ std::vector<double> Numbers(const std::string& line) {
   return numbers;
 }
 
-std::vector<std::vector<double>> Rows(const std::filesystem::path& path) {
+std::vector<std::vector<double>> NumericRows(
+    const std::filesystem::path& path) {
   std::vector<std::vector<double>> rows;
   for (const std::string& line : Lines(ReadFile(path))) {
     if (line.starts_with('#') || line.starts_with('t')) continue;
-    rows.push_back(Numbers(line));
+    rows.push_back(NumbersOf(line));
   }
   return rows;
 }
@@ -70,8 +71,8 @@ TEST_F(StartOfARun, StampsOfEitherEndGiveTheSameTrajectory) {
   ASSERT_TRUE(
       GivesAnAnswer(recording_.Run({"--out=by_start", "--methods=ekf,batch"})));
   for (const char* name : {"ekf.csv", "batch.csv"}) {
-    const auto a = Rows(recording_.root() / "by_end" / name);
-    const auto b = Rows(recording_.root() / "by_start" / name);
+    const auto a = NumericRows(recording_.root() / "by_end" / name);
+    const auto b = NumericRows(recording_.root() / "by_start" / name);
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t k = 0; k < a.size(); ++k) {
       // Time, latitude, longitude [deg], height, velocity, attitude.
@@ -102,7 +103,7 @@ TEST_F(StartOfARun, ShortErrorsAndCountsAreCarriedBackToTheFirstSample) {
   std::string counts = "t[s],distance[m]\n";
   double distance = 0.0;
   double before = 0.0;
-  for (const auto& row : Rows(recording_.file("truth.csv"))) {
+  for (const auto& row : NumericRows(recording_.file("truth.csv"))) {
     distance += std::hypot(row[4], row[5]) * (row[0] - before);
     before = row[0];
     if (row[0] > 22.0) {
@@ -151,7 +152,7 @@ TEST_F(StartOfARun, MoreValuesThanTheLayoutHoldsAreRefusedByCheckToo) {
 TEST_F(StartOfARun, AFlippedMagnetometerIsNamedByCheckAndRun) {
   // The field of Munich in body axes, the z axis up.
   std::string text = "t[s],mag_x[uT],mag_y[uT],mag_z[uT]\n";
-  for (const auto& row : Rows(recording_.file("truth.csv"))) {
+  for (const auto& row : NumericRows(recording_.file("truth.csv"))) {
     const double heading = row[9] * M_PI / 180.0;
     text += std::to_string(row[0]) + "," +
             std::to_string(21.0 * std::cos(heading)) + "," +
