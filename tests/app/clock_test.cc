@@ -11,9 +11,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::filesystem::path kData =
+const std::filesystem::path kClockData =
     std::filesystem::path(HINDSIGHT_SOURCE_DIR) / "data";
-const std::filesystem::path kRecordings =
+const std::filesystem::path kClockRecordings =
     std::filesystem::path(HINDSIGHT_SOURCE_DIR) / "../shared/data";
 
 /// The IMU's clock is put 500 s ahead, so that the records do not overlap.
@@ -97,16 +97,16 @@ TEST_F(UnknownClock, OfAVehicleAtRestIsNotFound) {
 
 /// Half a period off and turned round fits these flights nearly as well.
 TEST(ClocksOfRecordings, DronesToAndFro) {
-  if (!std::filesystem::exists(kRecordings / "drone_paths")) {
+  if (!std::filesystem::exists(kClockRecordings / "drone_paths")) {
     GTEST_SKIP() << "the recording drone_paths is not here";
   }
   const TemporaryFolder folder;
   for (const char* path : {"5", "23", "27"}) {
     const Outcome outcome = Hindsight(
         {"run",
-         (kData / (std::string("drone_path_") + path + ".yaml")).string(),
-         "--data-root=" + kRecordings.string(), "--methods=batch", "--out=out",
-         "--force"},
+         (kClockData / (std::string("drone_path_") + path + ".yaml")).string(),
+         "--data-root=" + kClockRecordings.string(), "--methods=batch",
+         "--out=out", "--force"},
         folder.path());
     ASSERT_TRUE(outcome.status == 0 || outcome.status == 3)
         << path << outcome.err << outcome.out;

@@ -65,7 +65,7 @@ TEST(Verdict, SaysNothingOfConstantsWhereAllAreObserved) {
 }
 
 /// One minute of the car drive.
-Dataset Drive(std::uint64_t seed = 1) {
+Dataset GradedDrive(std::uint64_t seed = 1) {
   Scenario scenario = BuiltinScenario("car_drive");
   scenario.duration = 60.0;
   scenario.withholdings.clear();
@@ -73,7 +73,7 @@ Dataset Drive(std::uint64_t seed = 1) {
 }
 
 TEST(Grade, StartThatWasGivenWronglyIsDoubtfulAndNamed) {
-  Dataset dataset = Drive();
+  Dataset dataset = GradedDrive();
   const Solution right = Solve(dataset, {});
   EXPECT_EQ(right.grade, Grade::kUsable) << right.verdict;
   dataset.initial.alignment = AlignmentKind::kGiven;
@@ -89,7 +89,7 @@ TEST(Grade, StartThatWasGivenWronglyIsDoubtfulAndNamed) {
 }
 
 TEST(Grade, ImuThatFreezesIsDoubtful) {
-  Dataset dataset = Drive();
+  Dataset dataset = GradedDrive();
   const ImuSample* held = nullptr;
   for (ImuSample& sample : dataset.imu.samples) {
     if (sample.t < 30.0 || sample.t > 35.0) continue;
@@ -103,7 +103,7 @@ TEST(Grade, ImuThatFreezesIsDoubtful) {
 }
 
 TEST(Grade, PositionsThatRepeatAreNotUsable) {
-  Dataset dataset = Drive();
+  Dataset dataset = GradedDrive();
   for (AidingStream& stream : dataset.streams) {
     if (stream.sensor.type != SensorType::kPosition) continue;
     std::vector<Measurement> written;

@@ -13,7 +13,7 @@
 namespace hindsight {
 namespace {
 
-Dataset Drive() {
+Dataset NoisyDrive() {
   Scenario scenario = BuiltinScenario("car_drive");
   scenario.duration = 300.0;
   scenario.withholdings.clear();
@@ -35,7 +35,7 @@ std::map<std::string, double> Normalised(const NoiseEstimate& estimate,
 TEST(NoiseEstimation, FindsWhatTheStatedNoiseIsOffBy) {
   constexpr double kFourSigma = 4.0;
   for (const double factor : {1.0, 5.0, 0.1}) {
-    Dataset dataset = Drive();
+    Dataset dataset = NoisyDrive();
     ASSERT_FALSE(dataset.streams.empty());
     AidingStream& gnss = dataset.streams.front();
     for (Measurement& z : gnss.measurements) ScaleSigma(factor, &z);
@@ -53,7 +53,7 @@ TEST(NoiseEstimation, FindsAnErrorThatLasts) {
   constexpr double kSigma = 0.5;
   constexpr double kTau = 8.0;
   constexpr double kFourSigma = 4.0;
-  Dataset dataset = Drive();
+  Dataset dataset = NoisyDrive();
   AidingStream& gnss = dataset.streams.front();
   Random random(7);
   const double phi = std::exp(-1.0 / kTau);  // fixes come at 1 Hz
@@ -86,7 +86,7 @@ TEST(NoiseEstimation, FindsAnErrorThatLasts) {
 }
 
 TEST(NoiseEstimation, TheStartDoesNotDecide) {
-  Dataset dataset = Drive();
+  Dataset dataset = NoisyDrive();
   const NoiseEstimate from_right = EstimateNoise(dataset);
   dataset.imu.noise.accel_noise_density *= 10.0;
   dataset.imu.noise.gyro_noise_density *= 0.2;
