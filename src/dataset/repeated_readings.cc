@@ -13,7 +13,7 @@ namespace {
 constexpr double kLeastFrozen = 0.1;  // [s]
 constexpr double kChance = 1e-6;
 /// Runs shorter than this share of the one in question tell what is usual.
-constexpr long kUsualShare = 4;
+constexpr long kUsualShare = 2;
 constexpr double kStepsOfResolution = 4.0;
 constexpr double kRounding = 1e-6;       // of a coordinate [m or m/s]
 constexpr double kEarthRadius = 6.37e6;  // [m], for lengths of degrees
@@ -40,7 +40,7 @@ std::vector<RepeatedRun> RunsOf(const ImuStream& imu) {
 }
 
 /// Whether chance makes a run of so many rows, among runs of which those
-/// shorter than a quarter of it tell how likely they go on. `rows` ascends.
+/// shorter than half of it tell how likely they go on. `rows` ascends.
 bool IsByChance(const std::vector<long>& rows, long length) {
   double repeats = 1.0;  // a repetition that ends, so that none is certain
   double ends = 1.0;

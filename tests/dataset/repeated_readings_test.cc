@@ -86,8 +86,9 @@ AidingStream Positions(double rate, double speed, double resolution,
       return resolution * std::round(metres / resolution);
     };
     PositionFix fix;
-    fix.p_e = EcefFromGeodetic({0.8 + kStep * grid(speed * at), 0.1,
-                                grid(100.0 + 3.0 * std::sin(0.1 * at))});
+    fix.p_e = EcefFromGeodetic(
+        {0.8 + kStep * grid(speed * at + 0.37 * std::sin(1.3 * at)), 0.1,
+         grid(100.0 + 3.0 * std::sin(0.1 * at))});
     stream.measurements.push_back({.t = t, .model = fix});
   }
   return stream;
