@@ -40,7 +40,8 @@ std::vector<RepeatedRun> RunsOf(const ImuStream& imu) {
 }
 
 /// Whether chance makes a run of so many rows, among runs of which those
-/// shorter than half of it tell how likely they go on. `rows` ascends.
+/// shorter than half of it tell how likely they go on, which they do if the
+/// noise is at least a fifth of a step of the resolution. `rows` ascends.
 bool IsByChance(const std::vector<long>& rows, long length) {
   double repeats = 1.0;  // a repetition that ends, so that none is certain
   double ends = 1.0;
