@@ -95,20 +95,33 @@ std::vector<HeldReading> HeldReadings(const Vectors& readings) {
   return held;
 }
 
-/// Of each coordinate the least difference of any two of its values.
+/// The differences of neighbours in order of size, ascending.
+std::vector<double> Gaps(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double gap = values[i] - values[i - 1];
+    if (gap > kRounding) gaps.push_back(gap);
+  }
+  std::sort(gaps.begin(), gaps.end());
+  return gaps;
+}
+
+/// Of each coordinate the step that all its differences are multiples of, or
+/// less: the least gap between values, or between the sizes of gaps, as values
+/// that only grow may all be far from each other.
 Eigen::Vector3d Resolution(const std::vector<HeldReading>& held) {
-  Eigen::Vector3d least;
+  Eigen::Vector3d least =
+      Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   std::vector<double> values(held.size());
   for (int axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < held.size(); ++i) {
       values[i] = held[i].value(axis);
     }
-    std::sort(values.begin(), values.end());
-    least(axis) = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 1; i < values.size(); ++i) {
-      const double difference = values[i] - values[i - 1];
-      if (difference > kRounding)
-        least(axis) = std::min(least(axis), difference);
+    const std::vector<double> gaps = Gaps(values);
+    for (const auto& candidates : {gaps, Gaps(gaps)}) {
+      if (candidates.empty()) continue;
+      least(axis) = std::min(least(axis), candidates.front());
     }
   }
   return least;
