@@ -49,7 +49,9 @@ void SetBegin(bool stamp_at_start, ImuStream* imu) {
   if (stamp_at_start) {
     StampAtEnd(imu);
   } else {
-    imu->samples[0].t -= imu->nominal_dt;
+    // Rounding must not put it behind a fix of the same instant.
+    constexpr double kRounding = 1e-9;
+    imu->samples[0].t -= (1.0 + kRounding) * imu->nominal_dt;
   }
 }
 

@@ -119,6 +119,15 @@ TEST_F(StartOfARun, ShortErrorsAndCountsAreCarriedBackToTheFirstSample) {
   recording_.Replace("config.yaml", "aiding:\n",
                      "aiding:\n  wheel: {type: odometer, form: increments, "
                      "file: wheel.csv, sigma: 0.05 m, count_sigma: 0.01 m}\n");
+  // Without aiding smooth motion would be called rest.
+  recording_.Edit("config.yaml", [](std::vector<std::string>* lines) {
+    bool inside = false;
+    std::erase_if(*lines, [&](const std::string& line) {
+      inside =
+          line.starts_with("stationary:") || (inside && line.starts_with(' '));
+      return inside;
+    });
+  });
   const Outcome outcome = recording_.Run(
       {"--out=out", "--methods=ekf,two_filter,rts,iterated,batch"});
   EXPECT_TRUE(GivesAnAnswer(outcome)) << outcome.err << outcome.out;
