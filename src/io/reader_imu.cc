@@ -50,7 +50,7 @@ void SetBegin(bool stamp_at_start, ImuStream* imu) {
     StampAtEnd(imu);
   } else {
     // Rounding must not put it behind a fix of the same instant.
-    constexpr double kRounding = 1e-9;
+    constexpr double kRounding = 1e-6;
     imu->samples[0].t -= (1.0 + kRounding) * imu->nominal_dt;
   }
 }

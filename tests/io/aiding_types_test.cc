@@ -122,7 +122,7 @@ TEST_F(AidingTypes, ObGinsOdometerStandsInColumnEight) {
             std::string("aiding:\n  odo: {type: odometer, file: imu.txt, "
                         "format: kf_gins, form: forward, sigma: 0.1 m/s}\n"));
   const Dataset data = Load();
-  ASSERT_EQ(data.imu.samples.size(), 3u);
+  ASSERT_EQ(data.imu.samples.size(), 1u + 3u);
   const auto& z = std::get<Odometer>(data.streams[0].measurements[2].model);
   EXPECT_EQ(z.speed, 3.0);
   EXPECT_EQ(z.form, Odometer::Form::kForward);

@@ -27,7 +27,8 @@ TEST_F(InitConfigTest, WhatItWritesLoads) {
   Write("config.yaml", config);
   EXPECT_EQ(LoadError(), "");
   const Dataset data = Load();
-  EXPECT_EQ(data.imu.samples.size(), 100u);
+  // Where the first interval begins, and its rows.
+  EXPECT_EQ(data.imu.samples.size(), 1u + 100u);
   ASSERT_EQ(data.streams.size(), 2u);
   EXPECT_EQ(data.streams[0].measurements.size(), 2u);
   EXPECT_EQ(data.streams[1].measurements.size(), 3u);

@@ -34,9 +34,11 @@ TEST_F(ReaderFormats, KfGinsFilesOfOneSet) {
               "truth: {file: truth.nav, format: kf_gins}\n");
   const Dataset data = Load();
   EXPECT_EQ(data.imu.kind, ImuStream::Kind::kIncrements);
-  EXPECT_DOUBLE_EQ(data.imu.samples[2].t, 456300.015);
-  EXPECT_EQ(data.imu.samples[2].gyro, Eigen::Vector3d(4e-6, 5e-6, 6e-6));
-  EXPECT_EQ(data.imu.samples[2].accel, Eigen::Vector3d(0.001, 0.002, -0.049));
+  // The first row's interval begins 5 ms before its stamp.
+  EXPECT_NEAR(data.imu.samples[0].t, 456300.0, 1e-7);
+  EXPECT_DOUBLE_EQ(data.imu.samples[3].t, 456300.015);
+  EXPECT_EQ(data.imu.samples[3].gyro, Eigen::Vector3d(4e-6, 5e-6, 6e-6));
+  EXPECT_EQ(data.imu.samples[3].accel, Eigen::Vector3d(0.001, 0.002, -0.049));
   const auto& fix =
       std::get<PositionFix>(data.streams[0].measurements[0].model);
   EXPECT_NEAR(GeodeticFromEcef(fix.p_e).longitude / kDegree, 114.25, 1e-10);
@@ -159,8 +161,10 @@ TEST_F(ReaderFormats, RateReplacesStampsAndStartMovesIncrements) {
       "dvel_z: '7 [m/s]'}\n"
       "  time: {rate: 100 Hz, start: 5 s}\n  stamp: start\n");
   const Dataset data = Load();
-  EXPECT_NEAR(data.imu.samples[0].t, 5.01, 1e-12);
-  EXPECT_NEAR(data.imu.samples[2].t, 5.03, 1e-12);
+  ASSERT_EQ(data.imu.samples.size(), 1u + 3u);
+  EXPECT_NEAR(data.imu.samples[0].t, 5.0, 1e-12);
+  EXPECT_NEAR(data.imu.samples[1].t, 5.01, 1e-12);
+  EXPECT_NEAR(data.imu.samples[3].t, 5.03, 1e-12);
 }
 
 TEST_F(ReaderFormats, DatedAidingNeedsADatedImu) {
