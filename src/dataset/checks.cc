@@ -193,12 +193,6 @@ void WarnAboutImu(const CheckReport& report, const ImuStream& stream,
                    ? " and whether these are increments"
                    : ", or whether these are increments"));
   }
-  if (imu.rest_rate && imu.rest_rate->norm() > kMaxRestRate) {
-    warnings->push_back(Format(
-        "imu: |w| is %.3g deg/s at rest: a large bias, or the wrong unit "
-        "of the gyro",
-        imu.rest_rate->norm() / kDegree));
-  }
   if (imu.max_force > kMaxForce) {
     warnings->push_back(
         Format("imu: |f| reaches %.4g m/s^2: check the unit", imu.max_force));
@@ -212,10 +206,21 @@ void WarnAboutImu(const CheckReport& report, const ImuStream& stream,
   }
 }
 
-void WarnAboutRate(const Dataset& dataset, std::vector<std::string>* warnings) {
+/// A constant rate that the given bias does not explain.
+void WarnAboutRate(const Dataset& dataset, const ImuReport& imu,
+                   std::vector<std::string>* warnings) {
+  if (imu.rest_rate) {
+    const double rate = (*imu.rest_rate - dataset.initial.gyro_bias).norm();
+    if (rate <= kMaxRestRate) return;
+    warnings->push_back(
+        Format("imu: |w| is %.3g deg/s at rest: a large bias, or the wrong "
+               "unit of the gyro",
+               rate / kDegree));
+    return;
+  }
   constexpr double kLong = 5.0;
   const UnexplainedRate rate = FindUnexplainedRate(dataset);
-  if (rate.seconds < kLong) return;
+  if (imu.still_force || rate.seconds < kLong) return;
   warnings->push_back(Format(
       "imu: for %.1f s nothing shakes it and the gyros read up to %.3g deg/s, "
       "more than initial.gyro_bias and its sigma allow: a steady turn; or, if "
@@ -270,7 +275,7 @@ CheckReport CheckDataset(const Dataset& dataset) {
                     ? SuggestAxes(*report.imu.still_force)
                     : "unknown: the vehicle always turns or is shaken";
   WarnAboutImu(report, dataset.imu, &report.warnings);
-  WarnAboutRate(dataset, &report.warnings);
+  WarnAboutRate(dataset, report.imu, &report.warnings);
   for (const StreamReport& stream : report.streams) {
     WarnAboutStream(stream, &report.warnings);
   }

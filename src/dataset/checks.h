@@ -63,10 +63,11 @@ struct CheckReport {
 };
 
 /// Examines a data set and changes nothing. Thresholds: |f| at rest within 5 %
-/// of 9.81 m/s^2, |w| at rest below 2 deg/s, |f| below 200 m/s^2, |w| below
-/// 35 rad/s, jitter below a fifth of the interval. Rest is what FindRest
-/// says; what is quiet but turns faster than the gyro bias may be is warned of.
-/// Magnetometers: see CheckMagnetometers.
+/// of 9.81 m/s^2, |w| at rest within 2 deg/s of the given bias, |f| below 200
+/// m/s^2, |w| below 35 rad/s, jitter below a fifth of the interval. Rest is
+/// what FindRest says; an IMU that is quiet, but only while it turns faster
+/// than its gyro bias may be, is warned of. Magnetometers: see
+/// CheckMagnetometers.
 CheckReport CheckDataset(const Dataset& dataset);
 
 }  // namespace hindsight

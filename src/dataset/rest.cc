@@ -116,7 +116,10 @@ class Decision {
     for (const SpeedEvidence& speed : speeds_) {
       const Verdict verdict = Judge(speed);
       if (verdict == Verdict::kAtRest || verdict == Verdict::kNone) continue;
-      const double margin = verdict == Verdict::kMoving ? kMargin : kTrim;
+      // From the middle of what was measured, but all of that.
+      const double margin =
+          std::max(0.0, (verdict == Verdict::kMoving ? kMargin : kTrim) -
+                            0.5 * (speed.end - speed.begin));
       for (std::size_t i = CellAt(speed.begin - margin);
            i < cells_.size() && cells_[i].begin <= speed.end + margin; ++i) {
         if (verdicts_[i] != Verdict::kMoving) verdicts_[i] = verdict;

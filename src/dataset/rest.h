@@ -26,9 +26,9 @@ struct Rest {
 /// IMU, as long before and after as the speed that it has gathered since stays
 /// as small, with the uncertainty of carrying it (noise, bias walk, and how
 /// well the reading at rest is known). A horizontal or vertical speed above 0.3
-/// m/s and five sigmas is motion, a second before and after as well. What idles
-/// shaken is at rest where aiding says so for 3 s, half a second at each end
-/// left out. Spans that are shaken or turn are in none of the lists.
+/// m/s and five sigmas is motion, a second before and after its middle as well.
+/// What idles shaken is at rest where aiding says so for 3 s, half a second at
+/// each end left out. Spans that are shaken or turn are in none of the lists.
 Rest FindRest(const Dataset& dataset);
 
 /// Sum of the lengths [s].

@@ -122,9 +122,8 @@ class Stretches {
     constexpr double kLong = 1.0;
     const bool height = !std::isfinite(speed.horizontal_sigma());
     const double sigma = height ? speed.sigma.z() : speed.horizontal_sigma();
-    if (!stream_.are_places) return sigma <= kKnownSpeed;
-    return sigma <= 0.2 * kKnownSpeed ||
-           (sigma <= kKnownSpeed && speed.end - speed.begin >= kLong);
+    const double shortest = stream_.are_places ? kLong : 0.0;
+    return sigma <= kKnownSpeed && speed.end - speed.begin >= shortest;
   }
 
   /// The last readings, reaching back until they tell the speed.

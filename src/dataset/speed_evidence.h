@@ -31,10 +31,9 @@ inline constexpr double kKnownSpeed = 0.1;
 /// Speeds in each of `spans`, which are in time order, of all that is not
 /// withheld: slopes of positions and heights, means of velocities, Doppler log
 /// (bottom track), odometer, speed and course, zero velocities, and the given
-/// initial velocity. Each is as short as makes it known to kKnownSpeed (of
-/// positions: and a second long, unless a fifth of that is reached before);
-/// what a span as a whole does not tell that well comes as it is. In order of
-/// `begin`.
+/// initial velocity. Each is as short as makes it known to kKnownSpeed, of
+/// positions and heights a second long at least; what a span as a whole does
+/// not tell that well comes as it is. In order of `begin`.
 std::vector<SpeedEvidence> MeasureSpeeds(
     const Dataset& dataset, const std::vector<TimeInterval>& spans);
 
