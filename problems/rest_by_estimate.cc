@@ -14,7 +14,9 @@
 namespace hindsight {
 namespace {
 
-constexpr double kKnownTo = 0.2;  // [m/s]
+// A velocity of zero known to this is sixty times as likely at rest as under
+// horizontal speeds anywhere within 3 m/s [m/s].
+constexpr double kKnownTo = 0.3;
 constexpr double kGate = 0.999;
 constexpr double kKnownHeading = 20.0 * kDegree;
 constexpr int kMostRounds = 3;

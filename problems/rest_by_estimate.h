@@ -10,7 +10,7 @@ namespace hindsight {
 /// The decisions of FindRest, and where it leaves one open those of the
 /// estimate. Over each window of an undecided span the forward filter, which
 /// then knows nothing of that rest but all rests before it, predicts the
-/// velocity: where it knows it to 0.2 m/s, one sigma of each axis, and zero
+/// velocity: where it knows it to 0.3 m/s, one sigma of each axis, and zero
 /// lies within the chi-square bound of 99.9 %, the vehicle stands and is
 /// updated by that at once; where it knows it as well and zero lies outside, it
 /// moves. What then is still open is asked of the smoothed estimate by the same
