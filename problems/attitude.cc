@@ -256,8 +256,8 @@ Solution AttitudeEstimation::Run(AhrsMethod method) {
   solution.method = AhrsMethodName(method);
   solution.seconds = ProcessorSeconds() - t0;
   Conclude({.solution = solution,
-            .recording = FindRepeatedReadings(dataset_, imu_.t_begin(),
-                                              imu_.t_end()),
+            .recording =
+                FindRepeatedReadings(dataset_, imu_.t_begin(), imu_.t_end()),
             .relative_heading = magnetic_.empty()},
            {}, &solution);
   if (imu_.stamp_offset != 0.0) {

@@ -25,9 +25,9 @@ void TurnToHeading(double heading, double sigma, AlignedAttitude* attitude);
 /// Method `static`: LevelAttitude at rest, heading left open.
 AlignmentOutcome AlignAtRest(const AlignmentInput& input);
 
-/// Gyro bias from the mean rate at rest, whose sigma counts as noise the unknown
-/// direction of the Earth's rate and drift, the difference between the means of
-/// both halves of the rest where that stands out of their noise,
+/// Gyro bias from the mean rate at rest, whose sigma counts as noise the
+/// unknown direction of the Earth's rate and drift, the difference between the
+/// means of both halves of the rest where that stands out of their noise,
 ///   s^2 = density^2 / T + w_ie^2 + drift^2,
 /// and the a priori value b_0 +- s_0, weighted by their information:
 ///   1/sigma^2 = 1/s_0^2 + 1/s^2,   b_g = sigma^2 (b_0/s_0^2 + mean/s^2).

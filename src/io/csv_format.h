@@ -42,10 +42,10 @@
 /// turn them; specific force is -g upwards at rest (body z negative).
 /// Increments belong to the interval that ends at the stamp unless the
 /// configuration says `stamp: start`; every row is used, so that the IMU begins
-/// one interval before the first row's end. t is seconds since the data set's epoch
-/// unless the stream's `time` says otherwise. A position and a velocity stream
-/// may name the same file. In position and height streams an optional column
-/// `quality` holds an integer that `accept_quality` selects by. A dvl's column
-/// `water` is 1 where it tracks the water and 0 where the bottom.
+/// one interval before the first row's end. t is seconds since the data set's
+/// epoch unless the stream's `time` says otherwise. A position and a velocity
+/// stream may name the same file. In position and height streams an optional
+/// column `quality` holds an integer that `accept_quality` selects by. A dvl's
+/// column `water` is 1 where it tracks the water and 0 where the bottom.
 
 #endif  // HINDSIGHT_IO_CSV_FORMAT_H_

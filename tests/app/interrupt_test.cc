@@ -72,15 +72,16 @@ class Interrupt : public ::testing::Test {
 
   /// That the folder holds what ekf made, and says so.
   static void ExpectEkfAlone(const fs::path& folder) {
-    EXPECT_THAT(Names(folder), ElementsAre("config.resolved.yaml", "ekf.csv",
-                                           "manifest.json", "summary.json"));
+    EXPECT_THAT(Names(folder),
+                ElementsAre("config.resolved.yaml", "ekf.csv", "ekf.truth.csv",
+                            "manifest.json", "summary.json"));
     const nlohmann::json summary = Json(folder / "summary.json");
     EXPECT_EQ(summary["complete"], false);
     EXPECT_EQ(summary["methods"].size(), 1u);
     EXPECT_TRUE(summary["methods"].contains("ekf"));
     const nlohmann::json manifest = Json(folder / "manifest.json");
     EXPECT_EQ(manifest["complete"], false);
-    EXPECT_EQ(manifest["files"].size(), 3u);
+    EXPECT_EQ(manifest["files"].size(), 4u);
   }
 
   static TemporaryFolder* drive_;
@@ -223,8 +224,9 @@ TEST_F(MediumThatEnds, LimitOfFileSizeKeepsTheMethodsThatFit) {
     return fs::file_size(recording_.root() / "out" / name);
   };
   // A column more.
-  const auto fits = size("ekf.csv");
-  ASSERT_LT(fits, size("two_filter.csv"));
+  const auto fits = size("ekf.truth.csv");
+  ASSERT_LT(size("ekf.csv"), fits);
+  ASSERT_LT(fits, size("two_filter.truth.csv"));
   ASSERT_LT(size("summary.json"), fits);
   for (const auto limit : {fits, fits - 1}) {
     fs::remove_all(recording_.root() / "out");

@@ -45,9 +45,9 @@ TEST(Reading, RefusesWhatIsNoFileAtOnce) {
                 HasSubstr("imu.csv: is a pipe; expected a regular file"));
   }
   const std::string columns =
-      "file: imu.npy\n  format: npy\n  columns: {t: 1 [s], gyro_x: 2 [rad/s], "
-      "gyro_y: 3 [rad/s], gyro_z: 4 [rad/s], accel_x: 5 [m/s^2], accel_y: 6 "
-      "[m/s^2], accel_z: 7 [m/s^2]}";
+      "file: imu.npy\n  format: npy\n  columns: {t: '1 [s]', gyro_x: '2 "
+      "[rad/s]', gyro_y: '3 [rad/s]', gyro_z: '4 [rad/s]', accel_x: '5 "
+      "[m/s^2]', accel_y: '6 [m/s^2]', accel_z: '7 [m/s^2]'}";
   recording.Replace("config.yaml", "file: imu.csv", columns);
   const std::filesystem::path npy = recording.file("imu.npy");
   std::filesystem::create_symlink("/dev/zero", npy);

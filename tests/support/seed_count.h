@@ -19,8 +19,7 @@ constexpr int SeedCount(int usual) {
 
 /// The same, but `all` of them if the environment sets HINDSIGHT_ALL_SEEDS.
 inline int SeedCount(int usual, int all) {
-  return std::getenv("HINDSIGHT_ALL_SEEDS") != nullptr ? all
-                                                       : SeedCount(usual);
+  return std::getenv("HINDSIGHT_ALL_SEEDS") != nullptr ? all : SeedCount(usual);
 }
 
 }  // namespace hindsight::testing
