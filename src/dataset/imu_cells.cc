@@ -158,15 +158,18 @@ class Examination {
   }
 
   void Join(std::size_t i, const Window& window) {
+    const bool quiet = IsQuiet(window);
     if (!open_ || !IsAsBefore(window)) {
-      open_ = i >= next_free_;
+      // What is shaken, and lasts until then, gives way to what is not.
+      open_ = i >= next_free_ || (quiet && !span_is_quiet_);
       if (!open_) return;
       ++span_;
+      span_is_quiet_ = false;
       span_w_.setZero();
       span_f_.setZero();
       span_time_ = 0.0;
     }
-    const bool quiet = IsQuiet(window);
+    span_is_quiet_ = span_is_quiet_ || quiet;
     for (std::size_t k = i; k < i + kCellsOfWindow; ++k) {
       ImuCell& cell = cells_[k];
       cell.quiet = cell.quiet || quiet;
@@ -187,6 +190,7 @@ class Examination {
   std::vector<Sums> sums_;
   bool open_ = false;
   int span_ = -1;
+  bool span_is_quiet_ = false;
   std::size_t next_free_ = 0;
   Eigen::Vector3d span_w_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d span_f_ = Eigen::Vector3d::Zero();

@@ -100,7 +100,8 @@ TEST(DecideRest, ADriveThatBeginsInMotionIsNotSaidToStand) {
 
 TEST(DecideRest, WithheldFixesLeaveTheResultAsItIs) {
   Scenario scenario = LoadCorners("corners_moving");
-  scenario.withholdings = {{.sensor = "gnss", .every = 20.0, .length = 12.0}};
+  scenario.withholdings = {
+      {.sensor = "gnss", .every = 20.0, .length = 12.0, .from = std::nullopt}};
   const PerfectRecording recording(scenario);
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const Compared compared = Compare(recording.Realize(seed));
