@@ -1,7 +1,9 @@
 function(hindsight_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")
-    # False alarms of GCC 12 at -O3, inside std::string (bug 105651) and Eigen.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND
+     (CMAKE_BUILD_TYPE STREQUAL "Release" OR HINDSIGHT_SANITIZE))
+    # False alarms of GCC 12 at -O3, inside std::string (bug 105651) and Eigen,
+    # and of its sanitizers, inside std::optional.
     target_compile_options(${target} PRIVATE -Wno-restrict
                            -Wno-maybe-uninitialized)
   endif()

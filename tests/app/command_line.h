@@ -146,10 +146,7 @@ class Child {
   }
 
   /// What it has written to stderr so far.
-  std::string Err() const {
-    const std::filesystem::path path = streams_.path() / "err";
-    return std::filesystem::exists(path) ? ReadFile(path) : "";
-  }
+  std::string Err() const { return Stream("err"); }
 
   Outcome Wait() {
     int raw = 0;
@@ -159,12 +156,18 @@ class Child {
     Outcome outcome;
     outcome.peak_memory = static_cast<double>(usage.ru_maxrss) / 1024.0;
     outcome.status = WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw);
-    outcome.out = ReadFile(streams_.path() / "out");
-    outcome.err = ReadFile(streams_.path() / "err");
+    outcome.out = Stream("out");
+    outcome.err = Stream("err");
     return outcome;
   }
 
  private:
+  /// What is in one of its streams; a process killed while young has none.
+  std::string Stream(const char* name) const {
+    const std::filesystem::path path = streams_.path() / name;
+    return std::filesystem::exists(path) ? ReadFile(path) : "";
+  }
+
   TemporaryFolder streams_;
   pid_t pid_ = -1;
   bool ended_ = false;
