@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/processor_time.h"
+#include "dataset/magnetic_check.h"
 #include "dataset/repeated_readings.h"
 #include "evaluation/grade.h"
 #include "filters/iterated_smoother.h"
@@ -22,12 +23,28 @@
 #include "problems/solution_builder.h"
 
 namespace hindsight {
+namespace {
+
+/// What the recording shows by itself, over [from, to].
+std::vector<Evidence> ExamineRecording(const Dataset& dataset, double from,
+                                       double to) {
+  std::vector<Evidence> all = FindRepeatedReadings(dataset, from, to);
+  for (std::string& warning : CheckMagnetometers(dataset)) {
+    all.push_back({.rule = "magnetic_field",
+                   .grade = Grade::kDoubtful,
+                   .what = std::move(warning)});
+  }
+  return all;
+}
+
+}  // namespace
+
 struct Reconstruction::Impl {
   Impl(const Dataset& dataset, const ReconstructionOptions& options)
       : clocks(ChooseClocks(dataset, options)),
         forward(*clocks.stage),
-        recording(FindRepeatedReadings(dataset, forward.start().report.t,
-                                       forward.options().to)) {}
+        recording(ExamineRecording(dataset, forward.start().report.t,
+                                   forward.options().to)) {}
 
   Solution Finish(Solution solution, Method method, double seconds) {
     solution.method = MethodName(method);

@@ -269,6 +269,10 @@ CheckReport CheckDataset(const Dataset& dataset) {
     }
     report.streams.push_back(
         ReportStamps(stream.sensor.name, stamps, dataset.imu));
+    if (stream.sensor.type == SensorType::kZeroVelocity ||
+        stream.sensor.type == SensorType::kZeroAngularRate) {
+      report.streams.back().jitter = 0.0;  // they come when the vehicle rests
+    }
   }
   report.imu = ReportImu(dataset);
   report.axes = report.imu.still_force

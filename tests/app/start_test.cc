@@ -180,6 +180,12 @@ TEST_F(StartOfARun, AFlippedMagnetometerIsNamedByCheckAndRun) {
   EXPECT_THAT(check.out, HasSubstr("compass: axis z looks flipped"));
   const Outcome run = recording_.Run({"--out=out", "--methods=ekf,rts"});
   EXPECT_THAT(run.out, HasSubstr("compass: axis z looks flipped"));
+  EXPECT_THAT(run.status, ::testing::AnyOf(1, 3));
+  const nlohmann::json summary =
+      nlohmann::json::parse(ReadFile(recording_.root() / "out/summary.json"));
+  for (const auto& [name, method] : summary["methods"].items()) {
+    EXPECT_NE(method["grade"], "usable") << name;
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/units.h"
@@ -44,6 +45,27 @@ TEST(CheckDataset, ReportsRateGapAndOverlap) {
   EXPECT_NEAR(gnss.gaps[0].length, 11.0, 1e-9);
   EXPECT_NEAR(gnss.t_begin, 0.2, 1e-12);
   EXPECT_NEAR(gnss.overlap, 59.8, 1e-9);
+}
+
+TEST(CheckDataset, FlagsOfStandingComeWhenTheyCome) {
+  for (const bool flag : {false, true}) {
+    Dataset data = Recording({0, 0, -9.81});
+    AidingStream stream;
+    stream.sensor.name = "stance";
+    if (flag) stream.sensor.type = SensorType::kZeroVelocity;
+    for (int i = 0; i < 100; ++i) {
+      const double t = 0.5 * i + (i % 3 == 0 ? 0.3 : 0.0);
+      stream.measurements.push_back({t, 1, false, PositionFix{}});
+      if (flag) stream.measurements.back().model = ZeroVelocity{0.05};
+    }
+    data.streams.push_back(stream);
+    const CheckReport report = CheckDataset(data);
+    EXPECT_EQ(std::any_of(report.warnings.begin(), report.warnings.end(),
+                          [](const std::string& warning) {
+                            return warning.starts_with("stance: intervals");
+                          }),
+              !flag);
+  }
 }
 
 TEST(CheckDataset, MeasuresForceAtRest) {
