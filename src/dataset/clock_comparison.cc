@@ -255,8 +255,8 @@ std::optional<ClockComparison> CompareStream(const ImuStream& imu,
   ClockWindows windows =
       MakeWindows(rows.t, length, twice, PieceLength(initial));
   if (windows.windows.empty()) return std::nullopt;
-  const auto c = std::make_shared<const Comparison>(
-      HeldMotion(imu, initial.gyro_bias), std::move(rows), std::move(windows));
+  const auto c = std::make_shared<const Comparison>(Comparison{
+      HeldMotion(imu, initial.gyro_bias), std::move(rows), std::move(windows)});
   if (fields) {
     return Finish(c, "turns", 2.0,
                   [c](double offset) { return FieldMisfit(*c, offset); });
@@ -314,8 +314,8 @@ std::optional<ClockComparison> CompareTurns(
     turned.push_back(Log(q));
   }
   const auto c = std::make_shared<const Turns>(
-      HeldMotion(imu, Eigen::Vector3d::Zero()), std::move(t),
-      std::move(windows), std::move(turned));
+      Turns{HeldMotion(imu, Eigen::Vector3d::Zero()), std::move(t),
+            std::move(windows), std::move(turned)});
   const auto misfit = [c](double offset) {
     CommonMotion common;
     double left = 0.0;
