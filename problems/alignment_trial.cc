@@ -3,7 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <tuple>
+#include <utility>
 
 #include "alignment/velocity_alignment.h"
 #include "base/error.h"
@@ -150,36 +152,57 @@ AlignmentStatistics Summarize(const std::vector<TrialRun>& runs,
   return out;
 }
 
+/// Both ways on one recording.
+struct Trial {
+  TrialRun early, batch;
+};
+
+std::vector<AlignmentStatistics> StatisticsOf(
+    const std::vector<AlignmentRecording>& recordings,
+    const MonteCarloOptions& options,
+    std::span<const std::vector<Trial>> trials) {
+  std::vector<AlignmentStatistics> out;
+  if (trials.empty()) return out;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    for (const auto& [name, way] :
+         {std::pair("velocity_alignment", &Trial::early),
+          std::pair("velocity_alignment_batch", &Trial::batch)}) {
+      std::vector<TrialRun> runs;
+      for (const std::vector<Trial>& trial : trials) {
+        runs.push_back(trial[r].*way);
+      }
+      out.push_back(Summarize(runs, options));
+      out.back().name = name;
+      out.back().recording = recordings[r].name;
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<AlignmentStatistics> TryAlignment(
     const std::vector<AlignmentRecording>& recordings,
-    const AlignmentTrialOptions& trial, const MonteCarloOptions& options) {
-  const auto count = static_cast<std::size_t>(options.runs);
-  std::vector<std::vector<TrialRun>> early(recordings.size()),
-      batch(recordings.size());
-  for (std::size_t r = 0; r < recordings.size(); ++r) {
-    early[r].resize(count);
-    batch[r].resize(count);
-  }
+    const AlignmentTrialOptions& trial, const MonteCarloOptions& options,
+    const Watch<std::vector<AlignmentStatistics>>& watch) {
+  const auto trials =
+      std::make_shared<FinishedRuns<std::vector<Trial>>>(options.runs);
+  const auto so_far = [trials, recordings, options] {
+    return trials->OfFirst([&](std::span<const std::vector<Trial>> finished) {
+      return StatisticsOf(recordings, options, finished);
+    });
+  };
+  if (watch) watch(so_far);
   ForEachSeed(options, [&](std::size_t i, std::uint64_t seed) {
-    for (std::size_t r = 0; r < recordings.size(); ++r) {
+    std::vector<Trial> of_seed;
+    for (const AlignmentRecording& recording : recordings) {
       if (options.stop != nullptr && *options.stop) throw Interrupted();
-      const Dataset dataset = recordings[r].dataset(seed);
-      early[r][i] = TryEarly(dataset, trial);
-      batch[r][i] = TryBatch(dataset, trial);
+      const Dataset dataset = recording.dataset(seed);
+      of_seed.push_back({TryEarly(dataset, trial), TryBatch(dataset, trial)});
     }
+    trials->Set(i, std::move(of_seed));
   });
-  std::vector<AlignmentStatistics> out;
-  for (std::size_t r = 0; r < recordings.size(); ++r) {
-    out.push_back(Summarize(early[r], options));
-    out.back().name = "velocity_alignment";
-    out.push_back(Summarize(batch[r], options));
-    out.back().name = "velocity_alignment_batch";
-    out[out.size() - 2].recording = recordings[r].name;
-    out.back().recording = recordings[r].name;
-  }
-  return out;
+  return so_far();
 }
 
 }  // namespace hindsight

@@ -50,10 +50,12 @@ struct AlignmentStatistics {
 };
 
 /// Tries both on every seed: AlignOverWindow up to t_early, and the batch over
-/// the whole interval from the start that `alignment: velocity` finds.
+/// the whole interval from the start that `alignment: velocity` finds. Empty
+/// where no run is finished.
 std::vector<AlignmentStatistics> TryAlignment(
     const std::vector<AlignmentRecording>& recordings,
-    const AlignmentTrialOptions& trial, const MonteCarloOptions& options);
+    const AlignmentTrialOptions& trial, const MonteCarloOptions& options,
+    const Watch<std::vector<AlignmentStatistics>>& watch = {});
 
 }  // namespace hindsight
 

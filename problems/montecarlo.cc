@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -178,15 +179,6 @@ void RunCase(const MonteCarloCase& c, const MonteCarloOptions& options,
   }
 }
 
-std::vector<Run> RunAll(const std::vector<MonteCarloCase>& cases,
-                        const MonteCarloOptions& options) {
-  std::vector<Run> runs(static_cast<std::size_t>(options.runs));
-  ForEachSeed(options, [&](std::size_t i, std::uint64_t seed) {
-    for (const MonteCarloCase& c : cases) RunCase(c, options, seed, &runs[i]);
-  });
-  return runs;
-}
-
 /// Standard deviation over the runs of the value that `get` takes from each.
 template <typename Value, typename Get>
 Value Deviation(const std::vector<const MethodRun*>& runs, const Value& zero,
@@ -288,7 +280,7 @@ void SummarizeErrors(const std::vector<const MethodRun*>& runs,
 }
 
 MethodStatistics Summarize(const std::string& name, std::size_t index,
-                           const std::vector<Run>& runs, int dim,
+                           std::span<const Run> runs, int dim,
                            const MonteCarloOptions& options) {
   MethodStatistics out;
   out.name = name;
@@ -332,6 +324,25 @@ void Widen(const Agreement& one, std::vector<Agreement>* all) {
     return;
   }
   all->push_back(one);
+}
+
+MonteCarloResult ResultOf(const std::vector<MonteCarloCase>& cases,
+                          const MonteCarloOptions& options, int dim,
+                          std::span<const Run> runs) {
+  MonteCarloResult result;
+  result.runs = static_cast<int>(runs.size());
+  result.dim = dim;
+  std::size_t index = 0;
+  for (const MonteCarloCase& c : cases) {
+    for (const Method method : c.methods) {
+      result.methods.push_back(Summarize(MethodName(method) + c.suffix, index++,
+                                         runs, result.dim, options));
+    }
+  }
+  for (const Run& run : runs) {
+    for (const Agreement& a : run.agreements) Widen(a, &result.agreements);
+  }
+  return result;
 }
 
 }  // namespace
@@ -394,22 +405,23 @@ void ForEachSeed(
 }
 
 MonteCarloResult RunMonteCarlo(const std::vector<MonteCarloCase>& cases,
-                               const MonteCarloOptions& options) {
-  const std::vector<Run> runs = RunAll(cases, options);
-  MonteCarloResult result;
+                               const MonteCarloOptions& options,
+                               const Watch<MonteCarloResult>& watch) {
+  const auto runs = std::make_shared<FinishedRuns<Run>>(options.runs);
   const Dataset first = cases.front().dataset(options.first_seed);
-  result.dim = BuildLayout(first, NavigationPrior{}).dim();
-  std::size_t index = 0;
-  for (const MonteCarloCase& c : cases) {
-    for (const Method method : c.methods) {
-      result.methods.push_back(Summarize(MethodName(method) + c.suffix, index++,
-                                         runs, result.dim, options));
-    }
-  }
-  for (const Run& run : runs) {
-    for (const Agreement& a : run.agreements) Widen(a, &result.agreements);
-  }
-  return result;
+  const int dim = BuildLayout(first, NavigationPrior{}).dim();
+  const auto so_far = [runs, cases, options, dim] {
+    return runs->OfFirst([&](std::span<const Run> finished) {
+      return ResultOf(cases, options, dim, finished);
+    });
+  };
+  if (watch) watch(so_far);
+  ForEachSeed(options, [&](std::size_t i, std::uint64_t seed) {
+    Run run;
+    for (const MonteCarloCase& c : cases) RunCase(c, options, seed, &run);
+    runs->Set(i, std::move(run));
+  });
+  return so_far();
 }
 
 }  // namespace hindsight

@@ -2,10 +2,14 @@
 #define HINDSIGHT_PROBLEMS_MONTECARLO_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <mutex>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "problems/reconstruction.h"
@@ -93,10 +97,46 @@ struct Agreement {
 };
 
 struct MonteCarloResult {
-  int dim = 0;  ///< of the error state
+  int runs = 0;  ///< behind the figures, the first ones
+  int dim = 0;   ///< of the error state
   std::vector<MethodStatistics> methods;
   std::vector<Agreement> agreements;  ///< of all pairs within a case
 };
+
+/// What every run gave, set by the threads that do the work and read by others
+/// meanwhile.
+template <typename Run>
+class FinishedRuns {
+ public:
+  explicit FinishedRuns(int runs)
+      : runs_(static_cast<std::size_t>(runs)), is_finished_(runs_.size()) {}
+
+  void Set(std::size_t i, Run run) {
+    const std::lock_guard lock(mutex_);
+    runs_[i] = std::move(run);
+    is_finished_[i] = true;
+  }
+
+  /// summarize(span of the first runs, as many as are finished without a gap):
+  /// what a comparison of that many runs gives.
+  template <typename Summarize>
+  auto OfFirst(const Summarize& summarize) const {
+    const std::lock_guard lock(mutex_);
+    const auto gap = std::find(is_finished_.begin(), is_finished_.end(), false);
+    const auto count = static_cast<std::size_t>(gap - is_finished_.begin());
+    return summarize(std::span<const Run>(runs_.data(), count));
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<Run> runs_;
+  std::vector<bool> is_finished_;
+};
+
+/// Gets, before the first run, a function that gives at any time and to any
+/// thread the result of the runs that are finished then (FinishedRuns).
+template <typename Result>
+using Watch = std::function<void(std::function<Result()> so_far)>;
 
 /// Calls work(i, first_seed + i) for every run on so many threads and reports
 /// progress. The first exception stops the rest and is thrown.
@@ -114,7 +154,8 @@ std::vector<State> TrueStates(const Dataset& dataset, const ErrorLayout& layout,
 /// node has no truth, and what Reconstruction throws but EstimationError, which
 /// counts as failed.
 MonteCarloResult RunMonteCarlo(const std::vector<MonteCarloCase>& cases,
-                               const MonteCarloOptions& options);
+                               const MonteCarloOptions& options,
+                               const Watch<MonteCarloResult>& watch = {});
 
 }  // namespace hindsight
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "alignment/given.h"
 #include "base/error.h"
@@ -191,35 +192,26 @@ ObserverRun RunObserver(const ForwardModel& model, const Dataset& dataset,
   return run;
 }
 
-std::vector<ObserverCell> CompareObservers(
+namespace {
+
+/// All cells of one seed, models before starts before recordings.
+using ObserverRuns = std::vector<ObserverRun>;
+
+std::vector<ObserverCell> CellsOf(
     const std::vector<ObserverRecording>& recordings,
     const std::vector<ObserverStart>& starts,
-    const std::vector<ObserverModel>& models, const ObserverLimits& limits,
-    const MonteCarloOptions& options) {
-  const std::size_t cells = recordings.size() * starts.size() * models.size();
-  std::vector<std::vector<ObserverRun>> runs(
-      cells, std::vector<ObserverRun>(static_cast<std::size_t>(options.runs)));
-  ForEachSeed(options, [&](std::size_t i, std::uint64_t seed) {
-    std::size_t cell = 0;
-    for (const ObserverRecording& recording : recordings) {
-      Dataset dataset = recording.dataset(seed);
-      const Timeline timeline = TimelineOf(dataset);
-      for (const ObserverStart& start : starts) {
-        start.apply(seed, &dataset);
-        for (const ObserverModel& model : models) {
-          if (options.stop != nullptr && *options.stop) throw Interrupted();
-          // A filter may integrate anew; the next one must not see it.
-          Timeline own = timeline;
-          runs[cell++][i] = RunObserver(model.model, dataset, limits, &own);
-        }
-      }
-    }
-  });
+    const std::vector<ObserverModel>& models,
+    std::span<const ObserverRuns> seeds) {
   std::vector<ObserverCell> out;
+  if (seeds.empty()) return out;
   for (const ObserverRecording& recording : recordings) {
     for (const ObserverStart& start : starts) {
       for (const ObserverModel& model : models) {
-        ObserverCell cell = Summarize(runs[out.size()]);
+        std::vector<ObserverRun> runs;
+        for (const ObserverRuns& of_seed : seeds) {
+          runs.push_back(of_seed[out.size()]);
+        }
+        ObserverCell cell = Summarize(runs);
         cell.recording = recording.name;
         cell.start = start.name;
         cell.rule = model.rule;
@@ -229,6 +221,41 @@ std::vector<ObserverCell> CompareObservers(
     }
   }
   return out;
+}
+
+}  // namespace
+
+std::vector<ObserverCell> CompareObservers(
+    const std::vector<ObserverRecording>& recordings,
+    const std::vector<ObserverStart>& starts,
+    const std::vector<ObserverModel>& models, const ObserverLimits& limits,
+    const MonteCarloOptions& options,
+    const Watch<std::vector<ObserverCell>>& watch) {
+  const auto runs = std::make_shared<FinishedRuns<ObserverRuns>>(options.runs);
+  const auto so_far = [runs, recordings, starts, models] {
+    return runs->OfFirst([&](std::span<const ObserverRuns> finished) {
+      return CellsOf(recordings, starts, models, finished);
+    });
+  };
+  if (watch) watch(so_far);
+  ForEachSeed(options, [&](std::size_t i, std::uint64_t seed) {
+    ObserverRuns of_seed;
+    for (const ObserverRecording& recording : recordings) {
+      Dataset dataset = recording.dataset(seed);
+      const Timeline timeline = TimelineOf(dataset);
+      for (const ObserverStart& start : starts) {
+        start.apply(seed, &dataset);
+        for (const ObserverModel& model : models) {
+          if (options.stop != nullptr && *options.stop) throw Interrupted();
+          // A filter may integrate anew; the next one must not see it.
+          Timeline own = timeline;
+          of_seed.push_back(RunObserver(model.model, dataset, limits, &own));
+        }
+      }
+    }
+    runs->Set(i, std::move(of_seed));
+  });
+  return so_far();
 }
 
 }  // namespace hindsight

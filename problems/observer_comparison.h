@@ -86,12 +86,14 @@ ObserverRun RunObserver(const ForwardModel& model, const Dataset& dataset,
 /// Every filter from every start of every recording, on common seeds. The
 /// recording, its nodes and its preintegration are made once a seed. The result
 /// is the same to the last bit whatever the number of threads and whichever
-/// cells are left out. Throws InputError if a node has no truth.
+/// cells are left out. Empty where no run is finished. Throws InputError if a
+/// node has no truth.
 std::vector<ObserverCell> CompareObservers(
     const std::vector<ObserverRecording>& recordings,
     const std::vector<ObserverStart>& starts,
     const std::vector<ObserverModel>& models, const ObserverLimits& limits,
-    const MonteCarloOptions& options);
+    const MonteCarloOptions& options,
+    const Watch<std::vector<ObserverCell>>& watch = {});
 
 }  // namespace hindsight
 

@@ -2,12 +2,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/finished_runs.h"
 #include "app/flags.h"
 #include "app/list_flags.h"
 #include "app/montecarlo_scenarios.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "io/atomic_file.h"
 #include "io/table.h"
 #include "problems/alignment_trial.h"
 #include "simulation/in_flight_alignment.h"
@@ -73,9 +73,11 @@ std::string Table(const std::vector<AlignmentStatistics>& all) {
 }
 
 std::string JsonText(const std::vector<AlignmentStatistics>& all,
-                     const MonteCarloOptions& options) {
+                     const MonteCarloOptions& options, bool complete) {
   nlohmann::ordered_json json = {{"scenario", kVelocityAlignmentName},
-                                 {"runs", options.runs},
+                                 {"complete", complete},
+                                 {"runs", RunsOf(all)},
+                                 {"runs_asked", options.runs},
                                  {"first_seed", options.first_seed}};
   for (const AlignmentStatistics& s : all) {
     nlohmann::ordered_json& method = json["methods"][s.recording][s.name];
@@ -95,9 +97,13 @@ std::string JsonText(const std::vector<AlignmentStatistics>& all,
 void RunVelocityAlignment(MonteCarloOptions options, Progress* progress,
                           ResultFolder* folder) {
   options.progress = RunProgress(options.runs, progress);
-  const std::vector<AlignmentStatistics> all =
-      TryAlignment(Recordings(), kTrial, options);
-  WriteFileAtomically(folder->Path(kMonteCarloJson), JsonText(all, options));
+  const auto files = [options](const std::vector<AlignmentStatistics>& all,
+                               bool complete) -> std::vector<OutputFile> {
+    return {{kMonteCarloJson, JsonText(all, options, complete)}};
+  };
+  const std::vector<AlignmentStatistics> all = TryAlignment(
+      Recordings(), kTrial, options,
+      KeepFinishedRuns<std::vector<AlignmentStatistics>>(folder, files));
   progress->Clear();
   std::cout << "in_flight_alignment from no start value, the IMU mounted at "
                "any attitude, seeds "
@@ -108,6 +114,7 @@ void RunVelocityAlignment(MonteCarloOptions options, Progress* progress,
                "interval\nrms: over runs and epochs; worst: over the runs, at "
                "the worst epoch; sigma: stated\n\n"
             << Table(all);
+  CommitFiles(files(all, true), folder);
 }
 
 }  // namespace hindsight

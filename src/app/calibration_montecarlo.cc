@@ -2,12 +2,12 @@
 #include <memory>
 #include <utility>
 
+#include "app/finished_runs.h"
 #include "app/flags.h"
 #include "app/montecarlo_report.h"
 #include "app/montecarlo_scenarios.h"
 #include "base/text.h"
 #include "evaluation/chi_square.h"
-#include "io/atomic_file.h"
 #include "io/table.h"
 #include "simulation/calibration_drive.h"
 #include "simulation/uuv_scenarios.h"
@@ -49,26 +49,27 @@ void RunConstants(const char* name, const Scenario& scenario,
     options.node_times.push_back(t);
   }
   options.progress = RunProgress(options.runs, progress);
+  const auto files = [name, options](const MonteCarloResult& all,
+                                     bool complete) {
+    return MonteCarloFiles(
+        {name, "", "", options.runs, options.first_seed, complete}, all);
+  };
   const MonteCarloResult result = RunMonteCarlo(
       {{"",
         [recording](std::uint64_t seed) { return recording->Realize(seed); },
         {Method::kEkf, Method::kRts, Method::kIterated, Method::kBatch}}},
-      options);
-  WriteFileAtomically(
-      folder->Path(kMonteCarloJson),
-      MonteCarloJson({name, "", "", options.runs, options.first_seed}, result));
+      options, KeepFinishedRuns<MonteCarloResult>(folder, files));
   std::cout << name << ", " << options.runs << " runs, " << result.dim
             << " states\n\n"
             << MonteCarloTable(result);
   for (const MethodStatistics& method : result.methods) {
-    WriteFileAtomically(folder->Path(method.name + ".csv"),
-                        MonteCarloCsv(method));
     if (method.name != MethodName(Method::kEkf) &&
         method.name != MethodName(Method::kBatch)) {
       continue;
     }
     std::cout << "\n" << method.name << ":\n" << ConstantTable(method);
   }
+  CommitFiles(files(result, true), folder);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "app/gps_jumps_flags.h"
 #include "app/montecarlo_scenarios.h"
 #include "base/text.h"
-#include "io/atomic_file.h"
 #include "io/table.h"
 #include "problems/jump_comparison.h"
 
@@ -45,6 +45,14 @@ std::string Line(const GpsJumpsOptions& o, const JumpStatistics& m) {
                 m.Anees(kSettled, kEnd), m.failed, m.seconds);
 }
 
+std::string JsonText(const MonteCarloOptions& options, bool complete) {
+  const nlohmann::ordered_json json = {{"scenario", kGpsJumpsName},
+                                       {"complete", complete},
+                                       {"runs", options.runs},
+                                       {"first_seed", options.first_seed}};
+  return json.dump(2) + "\n";
+}
+
 }  // namespace
 
 void RunGpsJumps(MonteCarloOptions options, Progress* progress,
@@ -72,18 +80,13 @@ void RunGpsJumps(MonteCarloOptions options, Progress* progress,
       rows.back().push_back(Format("%.3f  %.1f", m.PositionRms(kSettled, kEnd),
                                    m.Anees(kSettled, kEnd)));
       lines += Line(o, m);
-      WriteFileAtomically(
-          folder->Path(Format("%s_%gm_%ghz_%s.csv", o.profile.c_str(),
-                              o.gps_sigma, o.gps_rate_hz, m.name.c_str())),
-          Series(m));
+      folder->Write({Format("%s_%gm_%ghz_%s.csv", o.profile.c_str(),
+                            o.gps_sigma, o.gps_rate_hz, m.name.c_str()),
+                     Series(m)});
     }
+    folder->Write({"gps_jumps.csv", lines});
+    folder->Keep(kMonteCarloJson, JsonText(options, false));
   }
-  WriteFileAtomically(folder->Path("gps_jumps.csv"), lines);
-  WriteFileAtomically(
-      folder->Path(kMonteCarloJson),
-      Format("{\"scenario\": \"%s\", \"runs\": %d, \"first_seed\": %llu}\n",
-             kGpsJumpsName, options.runs,
-             static_cast<unsigned long long>(options.first_seed)));
   progress->Clear();
   ReportTable table(heading);
   for (const std::vector<std::string>& row : rows) table.AddRow(row);
@@ -91,6 +94,7 @@ void RunGpsJumps(MonteCarloOptions options, Progress* progress,
             << " runs: root mean square of an axis of the position from 10 s "
                "on [m],\nand ANEES of the horizontal position (2 is right)\n\n"
             << table.Render();
+  folder->Commit(kMonteCarloJson, JsonText(options, true));
 }
 
 }  // namespace hindsight

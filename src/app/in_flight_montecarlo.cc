@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "app/finished_runs.h"
 #include "app/flags.h"
 #include "app/in_flight_report.h"
 #include "app/list_flags.h"
@@ -9,7 +10,6 @@
 #include "app/observer_flags.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "io/atomic_file.h"
 #include "problems/observer_comparison.h"
 #include "simulation/in_flight_alignment.h"
 
@@ -125,16 +125,20 @@ void RunInFlightAlignment(MonteCarloOptions options, Progress* progress,
   options.progress = RunProgress(options.runs, progress);
   const std::vector<ObserverModel> models = Models();
   const std::vector<ObserverStart> starts = Starts();
-  const std::vector<ObserverCell> cells =
-      CompareObservers(Recordings(), starts, models, kLimits, options);
-  WriteFileAtomically(folder->Path(kMonteCarloJson),
-                      ObserverJson(cells, options));
-  WriteFileAtomically(folder->Path("cells.csv"), ObserverCsv(cells));
+  const auto files = [options](const std::vector<ObserverCell>& cells,
+                               bool complete) -> std::vector<OutputFile> {
+    return {{kMonteCarloJson, ObserverJson(cells, options, complete)},
+            {"cells.csv", ObserverCsv(cells)}};
+  };
+  const std::vector<ObserverCell> cells = CompareObservers(
+      Recordings(), starts, models, kLimits, options,
+      KeepFinishedRuns<std::vector<ObserverCell>>(folder, files));
   std::cout << kInFlightAlignmentName << ", seeds " << options.first_seed
             << " to "
             << options.first_seed + static_cast<std::uint64_t>(options.runs - 1)
             << "\n\n"
             << ObserverTable(cells);
+  CommitFiles(files(cells, true), folder);
 }
 
 }  // namespace hindsight

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/finished_runs.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "io/table.h"
@@ -161,10 +162,12 @@ std::string ObserverTable(const std::vector<ObserverCell>& cells) {
 }
 
 std::string ObserverJson(const std::vector<ObserverCell>& cells,
-                         const MonteCarloOptions& options) {
+                         const MonteCarloOptions& options, bool complete) {
   Json json;
   json["scenario"] = kInFlightAlignmentName;
-  json["runs"] = options.runs;
+  json["complete"] = complete;
+  json["runs"] = RunsOf(cells);
+  json["runs_asked"] = options.runs;
   json["first_seed"] = options.first_seed;
   for (const ObserverCell& c : cells) {
     Json cell;

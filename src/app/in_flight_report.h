@@ -14,7 +14,8 @@ namespace hindsight {
 std::string ObserverTable(const std::vector<ObserverCell>& cells);
 
 /// montecarlo.json:
-///   {"scenario", "runs", "first_seed", "cells": [{"velocity", "start", "rule",
+///   {"scenario", "complete", "runs", "runs_asked", "first_seed", "cells":
+///   [{"velocity", "start", "rule",
 ///    "error", "diverged", "escaped", "t_escape_s", "converged",
 ///    "t_settled_50_s", "t_settled_95_s", "tilt_50_deg", "tilt_95_deg",
 ///    "heading_50_deg", "heading_95_deg", "lyapunov": {"v_first", "v_last",
@@ -24,7 +25,7 @@ std::string ObserverTable(const std::vector<ObserverCell>& cells);
 /// is infinite (never settled) or does not exist is absent. See
 /// problems/lyapunov.h for the last group.
 std::string ObserverJson(const std::vector<ObserverCell>& cells,
-                         const MonteCarloOptions& options);
+                         const MonteCarloOptions& options, bool complete);
 
 /// The same, a row a cell.
 std::string ObserverCsv(const std::vector<ObserverCell>& cells);

@@ -2,9 +2,9 @@
 #include <iostream>
 #include <system_error>
 
+#include "app/abandoned.h"
 #include "app/command.h"
 #include "app/flags.h"
-#include "app/result_folder.h"
 #include "base/error.h"
 #include "io/atomic_file.h"
 #include "io/init_config.h"
@@ -41,6 +41,15 @@ void CheckMayReplace(const std::string& file) {
   }
 }
 
+/// A killed call leaves a whole configuration or an empty file.
+std::string Disowned(const std::filesystem::path& path) {
+  std::error_code refused;
+  if (!IsFile(path)) return "is no file";
+  return std::filesystem::file_size(path, refused) == 0 || IsInitConfig(path)
+             ? ""
+             : "was not written by 'init'";
+}
+
 int Run(const std::vector<std::string>& arguments) {
   if (!FLAGS_out.empty()) CheckMayReplace(FLAGS_out);
   const std::string config = InitConfig(arguments[0]);
@@ -48,7 +57,7 @@ int Run(const std::vector<std::string>& arguments) {
     std::cout << config;
     return kUsable;
   }
-  TreatAbandoned(FLAGS_out, FLAGS_clean);
+  TreatAbandoned(FLAGS_out, FLAGS_clean, Disowned);
   AtomicFile file(FLAGS_out);
   file.Write(config);
   file.Commit(FLAGS_force);

@@ -44,12 +44,15 @@ Writes into the folder of --out:
                     velocity, ANEES and mode probabilities against time
   METHOD.csv        of tunnel_survey and both calibrations: standard deviations
                     and ANEES against time
-  sweep.csv         with --sweep in place of both: largest standard deviation
+  sweep.csv         with --sweep, its figures: largest standard deviation
                     for reference points every 0.25 to 8 km and odometer noise
                     of 5 to 100 mm/s
   manifest.json     the files of this folder
-The folder appears when all is done, as that of 'run' does; what ends earlier
-leaves nothing.
+The folder appears when all is done, as that of 'run' does. After Ctrl-C,
+SIGTERM, SIGHUP or on a full disk montecarlo.json says complete: false and holds
+the first runs as far as they are finished, as --runs of that number makes them
+(two at least, or nothing stays); of gps_jumps, uuv_survey, uuv_search,
+vibration_attitude and --sweep the settings that are finished.
 The figures do not depend on the number of threads.
 SCENARIO vibration_attitude compares the accelerometer rules of attitude-only
 estimation under acceleration and vibration, for disturbances along north, one
@@ -142,7 +145,6 @@ int Run(const std::vector<std::string>& arguments) {
       [] { return ResultFolder::Paths{}; },
       [&](ResultFolder* folder) {
         scenario.run(options, &progress, folder);
-        folder->Commit();
         progress.Finish();
         return kUsable;
       });

@@ -93,7 +93,9 @@ std::string MonteCarloJson(const MonteCarloTitle& title,
   json["scenario"] = title.scenario;
   json["path"] = title.path;
   json["noise"] = title.noise;
-  json["runs"] = title.runs;
+  json["complete"] = title.complete;
+  json["runs"] = result.runs;
+  json["runs_asked"] = title.runs_asked;
   json["first_seed"] = title.first_seed;
   json["states"] = result.dim;
   json["methods"] = Json::object();
@@ -144,6 +146,16 @@ std::string MonteCarloCsv(const MethodStatistics& method) {
     text += '\n';
   }
   return text;
+}
+
+std::vector<OutputFile> MonteCarloFiles(const MonteCarloTitle& title,
+                                        const MonteCarloResult& result) {
+  std::vector<OutputFile> files = {
+      {kMonteCarloJson, MonteCarloJson(title, result)}};
+  for (const MethodStatistics& method : result.methods) {
+    files.push_back({method.name + ".csv", MonteCarloCsv(method)});
+  }
+  return files;
 }
 
 }  // namespace hindsight

@@ -7,22 +7,21 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/montecarlo_report.h"
 #include "app/progress.h"
 #include "app/result_folder.h"
 #include "problems/montecarlo.h"
 
 namespace hindsight {
 
-/// Name of the file with the figures of a Monte Carlo comparison.
-inline constexpr char kMonteCarloJson[] = "montecarlo.json";
-
 /// The names of RunUuvSearch and RunVelocityAlignment.
 inline constexpr char kUuvSearchName[] = "uuv_search";
 inline constexpr char kVelocityAlignmentName[] = "velocity_alignment";
 
 /// One scenario that `hindsight montecarlo` can repeat. `run` reads the flags
-/// of its own, writes its files into the folder and prints its table; it throws
-/// UsageError for flags that do not fit, before it computes anything.
+/// of its own, prints its table and commits its files, montecarlo.json among
+/// them; an early end leaves the runs, or the settings, that are finished. It
+/// throws UsageError for flags that do not fit, before it computes anything.
 struct MonteCarloScenario {
   std::string name;
   void (*run)(MonteCarloOptions options, Progress* progress,

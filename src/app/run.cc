@@ -92,7 +92,7 @@ void CheckRate(const RunRequest& request, const ImuStream& imu) {
 
 /// The data set as it is reconstructed; its resolved configuration goes into
 /// the results.
-Dataset Load(const RunRequest& request, const ResultFolder& folder) {
+Dataset Load(const RunRequest& request, ResultFolder* folder) {
   ResolvedConfig resolved;
   Dataset dataset = LoadDataset(
       request.config,
@@ -107,7 +107,7 @@ Dataset Load(const RunRequest& request, const ResultFolder& folder) {
   ResolveMountings(&dataset);
   AddDecidedRest(request.from, request.to, &dataset);
   ThinTruth(&dataset.truth);
-  WriteResolvedConfig(resolved, folder.Path("config.resolved.yaml"));
+  WriteResolvedConfig(resolved, folder->Path("config.resolved.yaml"));
   return dataset;
 }
 
@@ -192,7 +192,7 @@ void CheckAnyTrajectory(const std::vector<Solution>& solutions) {
 int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   Progress progress(request.progress);
   progress.Update("reading", 0.0);
-  const Dataset dataset = Load(request, *folder);
+  const Dataset dataset = Load(request, folder);
 
   Reconstruction reconstruction =
       Prepare(request.config, dataset, Options(request, &progress));
@@ -214,7 +214,7 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
         SampleMethod(request, dataset, reconstruction, solutions.back());
     summary.methods.push_back(Summarize(dataset, solutions.back(), tables));
     summary.methods.back().peak_rss_mb = peak_rss_mb;
-    WriteMethodFiles(request, dataset, solutions.back(), tables, *folder);
+    WriteMethodFiles(request, dataset, solutions.back(), tables, folder);
     const bool has_trajectory = !solutions.back().states.empty();
     ForgetTrajectory(&solutions.back());
     if (has_trajectory) folder->Keep(kSummaryName, SummaryText(summary));

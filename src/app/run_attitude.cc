@@ -21,12 +21,12 @@
 namespace hindsight {
 namespace {
 
-Dataset Load(const RunRequest& request, const ResultFolder& folder) {
+Dataset Load(const RunRequest& request, ResultFolder* folder) {
   ResolvedConfig resolved;
   Dataset dataset =
       LoadDataset(request.config, {.data_root = request.data_root}, &resolved);
   if (!request.ahrs_rule.empty()) dataset.ahrs.rule = request.ahrs_rule;
-  WriteResolvedConfig(resolved, folder.Path("config.resolved.yaml"));
+  WriteResolvedConfig(resolved, folder->Path("config.resolved.yaml"));
   return dataset;
 }
 
@@ -40,7 +40,7 @@ std::vector<double> UniformTimes(const Solution& solution, double rate) {
 }
 
 void WriteFiles(const RunRequest& request, const Dataset& dataset,
-                const Solution& solution, const ResultFolder& folder) {
+                const Solution& solution, ResultFolder* folder) {
   const auto sample = [&](const std::vector<double>& times) {
     if (times.front() < solution.states.front().t ||
         times.back() > solution.states.back().t + 1.0) {
@@ -51,10 +51,10 @@ void WriteFiles(const RunRequest& request, const Dataset& dataset,
   const SolutionTable table =
       request.rate ? sample(UniformTimes(solution, *request.rate))
                    : TableFromSolution(solution);
-  WriteSolutionCsv(folder.Path(solution.method + ".csv"), table, kProgram,
+  WriteSolutionCsv(folder->Path(solution.method + ".csv"), table, kProgram,
                    dataset.epoch_gps_ns);
   if (!request.at.empty()) {
-    WriteSolutionCsv(folder.Path(solution.method + ".at.csv"),
+    WriteSolutionCsv(folder->Path(solution.method + ".at.csv"),
                      sample(request.at), kProgram, dataset.epoch_gps_ns);
   }
 }
@@ -107,7 +107,7 @@ MethodSummary SummaryOf(const Dataset& dataset, const Solution& solution) {
 int EstimateInto(const RunRequest& request, ResultFolder* folder) {
   Progress progress(request.progress);
   progress.Update("reading", 0.0);
-  const Dataset dataset = Load(request, *folder);
+  const Dataset dataset = Load(request, folder);
   AttitudeOptions options;
   options.from = request.from;
   options.to = request.to;
@@ -126,7 +126,7 @@ int EstimateInto(const RunRequest& request, ResultFolder* folder) {
   std::vector<Solution> verdicts;
   for (const AhrsMethod method : request.ahrs_methods) {
     const Solution solution = estimation.Run(method);
-    WriteFiles(request, dataset, solution, *folder);
+    WriteFiles(request, dataset, solution, folder);
     summary.methods.push_back(SummaryOf(dataset, solution));
     AddRow(summary.methods.back(), solution, &table);
     Solution verdict;

@@ -61,20 +61,20 @@ std::string ProgramLine(const Dataset& dataset) {
 
 void WriteExports(const RunRequest& request, const Dataset& dataset,
                   const std::string& method, const SolutionTable& table,
-                  const ResultFolder& folder) {
+                  ResultFolder* folder) {
   const std::string remark = InjectionRemark(dataset);
   if (request.exports.contains("tum")) {
-    WriteTum(folder.Path(method + ".tum"), table, remark);
+    WriteTum(folder->Path(method + ".tum"), table, remark);
   }
   if (request.exports.contains("kml")) {
-    WriteKml(folder.Path(method + ".kml"), table, dataset.epoch_gps_ns,
+    WriteKml(folder->Path(method + ".kml"), table, dataset.epoch_gps_ns,
              dataset.name + " " + method, remark);
   }
   if (!request.exports.contains("nav")) return;
-  WriteNav(folder.Path(method + ".nav"), table, dataset.epoch_gps_ns);
+  WriteNav(folder->Path(method + ".nav"), table, dataset.epoch_gps_ns);
   // The format knows no comments.
   if (remark.empty()) return;
-  WriteFileAtomically(folder.Path(method + ".nav.txt"), remark + "\n");
+  WriteFileAtomically(folder->Path(method + ".nav.txt"), remark + "\n");
 }
 
 /// t[s] and the probability of each mode.
@@ -224,20 +224,20 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
 
 void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
                       const Solution& solution, const MethodTables& tables,
-                      const ResultFolder& folder) {
+                      ResultFolder* folder) {
   if (solution.states.empty()) return;
   const std::string& method = solution.method;
   const auto write = [&](const std::string& suffix,
                          const SolutionTable& table) {
     if (table.size() == 0) return;
-    WriteSolutionCsv(folder.Path(method + suffix), table, ProgramLine(dataset),
+    WriteSolutionCsv(folder->Path(method + suffix), table, ProgramLine(dataset),
                      dataset.epoch_gps_ns);
   };
   write(".csv", tables.output);
   write(".at.csv", tables.at);
   write(kTruthSuffix, tables.truth);
   if (!solution.mode_probabilities.empty()) {
-    WriteModes(folder.Path(method + ".modes.csv"), solution, dataset);
+    WriteModes(folder->Path(method + ".modes.csv"), solution, dataset);
   }
   WriteExports(request, dataset, method, tables.output, folder);
 }

@@ -43,7 +43,7 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
 /// for a solution without states.
 void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
                       const Solution& solution, const MethodTables& tables,
-                      const ResultFolder& folder);
+                      ResultFolder* folder);
 
 /// The figures of one solution; of one without states, only that it failed.
 MethodSummary Summarize(const Dataset& dataset, const Solution& solution,

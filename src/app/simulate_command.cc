@@ -21,8 +21,8 @@ an IMU that moves so on the rotating Earth, and the errors of IMU and aiding
 sensors, drawn from the seed. SCENARIO is the name of a built-in scenario
 (--list) or a YAML file. The folder of --out gets config.yaml, imu.csv, a file
 for each aiding sensor, truth.csv and manifest.json, the list of these, and
-appears when it is complete. What is in the way by then stays, and the recording
-is beside it as DIR.1.
+appears when it is complete; after Ctrl-C or on a full disk nothing stays. What
+is in the way by then stays, and the recording is beside it as DIR.1.
 )";
 
 int ListScenarios() {
@@ -34,7 +34,8 @@ int ListScenarios() {
 
 int Write(const Scenario& scenario, ResultFolder* folder) {
   Simulation simulation(scenario, FLAGS_seed);
-  WriteDataset(&simulation, folder->staging().string());
+  WriteDataset(&simulation,
+               [&](const std::string& name) { return folder->Path(name); });
   folder->Commit();
   const std::string config =
       (std::filesystem::path(FLAGS_out) / kDatasetConfigName).string();

@@ -1,6 +1,8 @@
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
+#include "app/finished_runs.h"
 #include "app/flags.h"
 #include "app/montecarlo_report.h"
 #include "app/montecarlo_scenarios.h"
@@ -8,7 +10,6 @@
 #include "app/result_folder.h"
 #include "app/tunnel_flags.h"
 #include "base/text.h"
-#include "io/atomic_file.h"
 #include "io/table.h"
 
 namespace hindsight {
@@ -24,7 +25,7 @@ MonteCarloCase CaseOf(const TunnelSurveyOptions& options, std::string suffix,
 }
 
 void Compare(const TunnelSurveyOptions& survey, MonteCarloOptions options,
-             const ResultFolder& folder) {
+             ResultFolder* folder) {
   TunnelSurveyOptions forward_only = survey;
   forward_only.odometer_form = Odometer::Form::kForward;
   const std::vector<MonteCarloCase> cases = {
@@ -36,27 +37,37 @@ void Compare(const TunnelSurveyOptions& survey, MonteCarloOptions options,
              {Method::kEkf, Method::kTwoFilter, Method::kIterated,
               Method::kBatch})};
   options.leg_ends = ReferenceTimes(survey.reference_spacing);
-  const MonteCarloResult result = RunMonteCarlo(cases, options);
-  WriteFileAtomically(
-      folder.Path(kMonteCarloJson),
-      MonteCarloJson({kTunnelSurveyName, FLAGS_path, FLAGS_white_noise,
-                      options.runs, options.first_seed},
-                     result));
-  for (const MethodStatistics& method : result.methods) {
-    WriteFileAtomically(folder.Path(method.name + ".csv"),
-                        MonteCarloCsv(method));
-  }
+  const auto files = [options](const MonteCarloResult& all, bool complete) {
+    return MonteCarloFiles({kTunnelSurveyName, FLAGS_path, FLAGS_white_noise,
+                            options.runs, options.first_seed, complete},
+                           all);
+  };
+  const MonteCarloResult result = RunMonteCarlo(
+      cases, options, KeepFinishedRuns<MonteCarloResult>(folder, files));
   std::cout << "tunnel_survey, path " << FLAGS_path << ", noise "
             << FLAGS_white_noise << ", seeds " << options.first_seed << " to "
             << options.first_seed + static_cast<std::uint64_t>(options.runs - 1)
             << "\n\n"
             << MonteCarloTable(result) << "\nLargest differences:\n"
             << AgreementText(result);
+  CommitFiles(files(result, true), folder);
+}
+
+/// montecarlo.json of a sweep, whose figures are in sweep.csv.
+std::string SweepJson(const MonteCarloOptions& options, bool complete) {
+  const nlohmann::ordered_json json = {{"scenario", kTunnelSurveyName},
+                                       {"path", FLAGS_path},
+                                       {"noise", FLAGS_white_noise},
+                                       {"sweep", true},
+                                       {"complete", complete},
+                                       {"runs", options.runs},
+                                       {"first_seed", options.first_seed}};
+  return json.dump(2) + "\n";
 }
 
 /// Largest standard deviation of any axis at any time, per spacing and noise.
 void Sweep(TunnelSurveyOptions survey, const MonteCarloOptions& options,
-           Progress* progress, const ResultFolder& folder) {
+           Progress* progress, ResultFolder* folder) {
   constexpr double kSpacings[] = {250.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0};
   constexpr double kSigmas[] = {0.005, 0.01, 0.02, 0.05, 0.1};
   constexpr double kCells = std::size(kSpacings) * std::size(kSigmas);
@@ -85,17 +96,19 @@ void Sweep(TunnelSurveyOptions survey, const MonteCarloOptions& options,
                       m.max_std.z(), m.anees);
       }
       row.push_back(cell);
+      folder->Write({"sweep.csv", csv});
+      folder->Keep(kMonteCarloJson, SweepJson(options, false));
       progress->Update("sweep", ++cells_done / kCells);
     }
     table.AddRow(row);
   }
-  WriteFileAtomically(folder.Path("sweep.csv"), csv);
   progress->Clear();
   std::cout << "tunnel_survey, path " << FLAGS_path << ", noise "
             << FLAGS_white_noise << ", " << options.runs
             << " runs a cell: largest standard deviation of an axis [m]\nby "
                "distance of the reference points\n\n"
             << table.Render();
+  folder->Commit(kMonteCarloJson, SweepJson(options, true));
 }
 
 }  // namespace
@@ -104,10 +117,10 @@ void RunTunnelSurvey(MonteCarloOptions options, Progress* progress,
                      ResultFolder* folder) {
   const TunnelSurveyOptions survey = ReadTunnelFlags();
   if (FLAGS_sweep) {
-    Sweep(survey, options, progress, *folder);
+    Sweep(survey, options, progress, folder);
   } else {
     options.progress = RunProgress(options.runs, progress);
-    Compare(survey, options, *folder);
+    Compare(survey, options, folder);
   }
 }
 

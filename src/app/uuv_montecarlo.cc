@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "io/atomic_file.h"
 #include "io/table.h"
 #include "problems/uuv_fusion.h"
 #include "simulation/uuv_path.h"
@@ -139,11 +138,13 @@ void RunUuvSearch(MonteCarloOptions options, Progress* progress,
   ReportTable table = FusionTable();
   Json json;
   json["scenario"] = kUuvSearchName;
+  json["complete"] = false;
   json["runs"] = options.runs;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     if (options.stop != nullptr && *options.stop) throw Interrupted();
     AddRows(readings[i].Name(), SolveUuvFusion(truth, readings[i], fusion),
             &table, &json["readings"]);
+    folder->Keep(kMonteCarloJson, json.dump(1) + "\n");
     progress->Update("readings", static_cast<double>(i + 1) /
                                      static_cast<double>(readings.size()));
   }
@@ -155,7 +156,6 @@ void RunUuvSearch(MonteCarloOptions options, Progress* progress,
             &json["matched"]);
   }
   progress->Clear();
-  WriteFileAtomically(folder->Path(kMonteCarloJson), json.dump(1) + "\n");
   std::cout << "uuv_search, " << options.runs << " runs of " << kEpochs
             << " s; the paper has 3-D 3.67 (std 1.01) central, 1.83 (1.53) "
                "track to\ntrack, 1.38 (0.32) equalised; 2-D 3.57, 2.70, "
@@ -164,6 +164,8 @@ void RunUuvSearch(MonteCarloOptions options, Progress* progress,
             << "\nWith a truth that moves as the filters think (NEES / 6 "
                "should be 1):\n\n"
             << matched.Render();
+  json["complete"] = true;
+  folder->Commit(kMonteCarloJson, json.dump(1) + "\n");
 }
 
 void RunUuvSurvey(MonteCarloOptions options, Progress* progress,
@@ -175,6 +177,7 @@ void RunUuvSurvey(MonteCarloOptions options, Progress* progress,
                      "s/run"});
   Json json;
   json["scenario"] = kUuvSurveyName;
+  json["complete"] = false;
   json["runs"] = options.runs;
   for (const std::string& path : SurveyPaths()) {
     for (const SurveyCase& c :
@@ -184,13 +187,15 @@ void RunUuvSurvey(MonteCarloOptions options, Progress* progress,
                      {.path = path, .gap = kGap}}}) {
       options.progress = RunProgress(options.runs, progress);
       AddSurvey(c, options, &table, &json["dives"]);
+      folder->Keep(kMonteCarloJson, json.dump(2) + "\n");
     }
   }
-  WriteFileAtomically(folder->Path(kMonteCarloJson), json.dump(2) + "\n");
   std::cout << "uuv_survey, seeds " << options.first_seed << " to "
             << options.first_seed + static_cast<std::uint64_t>(options.runs - 1)
             << "\n\n"
             << table.Render();
+  json["complete"] = true;
+  folder->Commit(kMonteCarloJson, json.dump(2) + "\n");
 }
 
 }  // namespace hindsight

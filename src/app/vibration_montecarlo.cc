@@ -4,7 +4,6 @@
 
 #include "app/montecarlo_scenarios.h"
 #include "base/text.h"
-#include "io/atomic_file.h"
 #include "io/table.h"
 #include "problems/vibration_comparison.h"
 #include "simulation/vibration_attitude.h"
@@ -71,6 +70,7 @@ void RunVibrationAttitude(MonteCarloOptions options, Progress* progress,
   const double work =
       static_cast<double>(options.runs) * static_cast<double>(variants.size());
   nlohmann::ordered_json json = {{"scenario", kVibrationAttitudeName},
+                                 {"complete", false},
                                  {"runs", options.runs},
                                  {"first_seed", options.first_seed}};
   std::string text;
@@ -89,11 +89,13 @@ void RunVibrationAttitude(MonteCarloOptions options, Progress* progress,
     json["axes"][scenario.axis + along] = Json(results);
     text += "\nacceleration" + along + " along " + scenario.axis + "\n" +
             Text(results);
+    folder->Keep(kMonteCarloJson, json.dump(2) + "\n");
   }
-  WriteFileAtomically(folder->Path(kMonteCarloJson), json.dump(2) + "\n");
   progress->Clear();
   std::cout << kVibrationAttitudeName << ", " << options.runs << " runs\n"
             << text;
+  json["complete"] = true;
+  folder->Commit(kMonteCarloJson, json.dump(2) + "\n");
 }
 
 }  // namespace hindsight

@@ -278,42 +278,45 @@ void WriteTruth(const std::string& path, const std::vector<TruthPoint>& truth) {
   file.Commit();
 }
 
+using PathOf = std::function<std::string(const std::string& name)>;
+
 /// All files but the IMU's.
-void WriteBesidesImu(const Dataset& dataset, const std::string& folder) {
+void WriteBesidesImu(const Dataset& dataset, const PathOf& path_of) {
   for (const AidingStream& stream : dataset.streams) {
     if (stream.measurements.empty()) continue;
-    WriteAiding(PathIn(folder, stream.sensor.name + ".csv"), stream);
+    WriteAiding(path_of(stream.sensor.name + ".csv"), stream);
   }
   if (!dataset.truth.empty()) {
-    WriteTruth(PathIn(folder, "truth.csv"), dataset.truth);
+    WriteTruth(path_of("truth.csv"), dataset.truth);
   }
-  WriteFileAtomically(PathIn(folder, kDatasetConfigName),
-                      DatasetConfigYaml(dataset));
+  WriteFileAtomically(path_of(kDatasetConfigName), DatasetConfigYaml(dataset));
 }
 
 }  // namespace
 
 void WriteDataset(const Dataset& dataset, const std::string& folder) {
   MakeFolder(folder);
+  const PathOf path_of = [&](const std::string& name) {
+    return PathIn(folder, name);
+  };
   // The first increments are those before the recording.
   std::size_t k = dataset.imu.kind == ImuStream::Kind::kIncrements ? 1 : 0;
-  WriteImu(PathIn(folder, "imu.csv"), dataset.imu.kind, [&](ImuSample* sample) {
+  WriteImu(path_of("imu.csv"), dataset.imu.kind, [&](ImuSample* sample) {
     if (k == dataset.imu.samples.size()) return false;
     *sample = dataset.imu.samples[k++];
     return true;
   });
-  WriteBesidesImu(dataset, folder);
+  WriteBesidesImu(dataset, path_of);
 }
 
-void WriteDataset(Simulation* simulation, const std::string& folder) {
-  MakeFolder(folder);
+void WriteDataset(Simulation* simulation, const PathOf& path_of) {
   ImuSample before;
   if (simulation->imu_kind() == ImuStream::Kind::kIncrements) {
     simulation->Next(&before);
   }
-  WriteImu(PathIn(folder, "imu.csv"), simulation->imu_kind(),
+  WriteImu(path_of("imu.csv"), simulation->imu_kind(),
            [&](ImuSample* sample) { return simulation->Next(sample); });
-  WriteBesidesImu(simulation->Finish(), folder);
+  WriteBesidesImu(simulation->Finish(), path_of);
 }
 
 }  // namespace hindsight

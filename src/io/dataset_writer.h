@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_IO_DATASET_WRITER_H_
 #define HINDSIGHT_IO_DATASET_WRITER_H_
 
+#include <functional>
 #include <string>
 
 #include "dataset/dataset.h"
@@ -22,8 +23,10 @@ inline constexpr char kDatasetConfigName[] = "config.yaml";
 void WriteDataset(const Dataset& dataset, const std::string& folder);
 
 /// The same for a simulation not yet begun, whose IMU samples go straight to
-/// the file.
-void WriteDataset(Simulation* simulation, const std::string& folder);
+/// the file. `path_of` says where the file of a name is to be written.
+void WriteDataset(
+    Simulation* simulation,
+    const std::function<std::string(const std::string& name)>& path_of);
 
 }  // namespace hindsight
 

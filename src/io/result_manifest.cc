@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "base/error.h"
 #include "io/atomic_file.h"
 #include "io/paths.h"
+#include "io/unpublished.h"
 
 namespace hindsight {
 namespace fs = std::filesystem;
@@ -23,6 +25,48 @@ bool IsRegular(const fs::path& path) {
 bool IsEntryName(const std::string& name) {
   return !name.empty() && name != "." && name != ".." &&
          name.find('/') == name.npos;
+}
+
+/// The names that the manifest lists and its own; the latter also where there
+/// is none yet, but not where somebody else's lies.
+std::vector<std::string> Listed(const fs::path& folder) {
+  const std::optional<ResultManifest> manifest = ReadManifest(folder);
+  std::vector<std::string> names;
+  if (manifest) names = manifest->files;
+  if (manifest || !PathExists(folder / kManifestName)) {
+    names.emplace_back(kManifestName);
+  }
+  return names;
+}
+
+bool IsOf(const std::vector<std::string>& listed, const std::string& name,
+          Finished finished) {
+  return std::any_of(listed.begin(), listed.end(), [&](const auto& own) {
+    return name == own ||
+           (finished == Finished::kNo && IsUnpublishedName(name, own));
+  });
+}
+
+bool Remove(const fs::path& folder, Finished finished) {
+  const std::vector<std::string> listed = Listed(folder);
+  std::vector<fs::path> entries;
+  try {
+    entries = FolderEntries(folder);
+  } catch (const InputError&) {
+    return false;
+  }
+  std::error_code refused;
+  for (const fs::path& entry : entries) {
+    const std::string name = entry.filename().string();
+    if (name != kManifestName && IsRegular(entry) &&
+        IsOf(listed, name, finished)) {
+      fs::remove(entry, refused);
+    }
+  }
+  // Last, so that a kill leaves a folder whose files are still listed.
+  if (ReadManifest(folder)) fs::remove(folder / kManifestName, refused);
+  fs::remove(folder, refused);
+  return !fs::exists(fs::symlink_status(folder, refused));
 }
 
 }  // namespace
@@ -54,31 +98,21 @@ std::optional<ResultManifest> ReadManifest(const fs::path& folder) {
   }
 }
 
-std::string FindUnlisted(const fs::path& folder) {
-  const std::optional<ResultManifest> manifest = ReadManifest(folder);
+std::string FindUnlisted(const fs::path& folder, Finished finished) {
+  const std::vector<std::string> listed = Listed(folder);
   for (const fs::path& entry : FolderEntries(folder)) {
     const std::string name = entry.filename().string();
-    const bool listed =
-        manifest && (name == kManifestName ||
-                     std::find(manifest->files.begin(), manifest->files.end(),
-                               name) != manifest->files.end());
-    if (!listed || !IsRegular(entry)) return name;
+    if (!IsRegular(entry) || !IsOf(listed, name, finished)) return name;
   }
   return "";
 }
 
 bool RemoveListed(const fs::path& folder) {
-  const std::optional<ResultManifest> manifest = ReadManifest(folder);
-  std::error_code refused;
-  if (manifest) {
-    for (const std::string& name : manifest->files) {
-      if (IsRegular(folder / name)) fs::remove(folder / name, refused);
-    }
-    // Last, so that a kill leaves a folder whose files are still listed.
-    fs::remove(folder / kManifestName, refused);
-  }
-  fs::remove(folder, refused);
-  return !fs::exists(fs::symlink_status(folder, refused));
+  return Remove(folder, Finished::kYes);
+}
+
+bool RemoveUnfinished(const fs::path& folder) {
+  return Remove(folder, Finished::kNo);
 }
 
 }  // namespace hindsight

@@ -13,6 +13,9 @@ namespace hindsight {
 ///    "files": ["config.resolved.yaml", "ekf.csv", ...]}
 inline constexpr char kManifestName[] = "manifest.json";
 
+/// It is there before the first of them: what lies in a folder that is being
+/// written is listed. Of incomplete results it may list files that were never
+/// finished.
 struct ResultManifest {
   bool complete = false;           ///< false: the run was interrupted
   std::vector<std::string> files;  ///< names, without the manifest's own
@@ -25,14 +28,22 @@ void WriteManifest(const ResultManifest& manifest,
 /// Nothing if `folder` holds none that this program wrote.
 std::optional<ResultManifest> ReadManifest(const std::filesystem::path& folder);
 
+/// Whether a folder's files have their names; if not, they may also have those
+/// of io/unpublished.h.
+enum class Finished { kYes, kNo };
+
 /// The name of something in `folder` that is not a regular file listed in its
 /// manifest, nor the manifest; "" if all is. Throws InputError if the folder
 /// cannot be listed.
-std::string FindUnlisted(const std::filesystem::path& folder);
+std::string FindUnlisted(const std::filesystem::path& folder,
+                         Finished finished = Finished::kYes);
 
 /// Removes the files that the manifest lists, the manifest, and the folder if
 /// nothing is left in it; whether it is gone.
 bool RemoveListed(const std::filesystem::path& folder);
+
+/// The same of a folder that was being written, with its unfinished files.
+bool RemoveUnfinished(const std::filesystem::path& folder);
 
 }  // namespace hindsight
 

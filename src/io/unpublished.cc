@@ -98,6 +98,13 @@ fs::path UnpublishedName(const fs::path& target) {
   return target.parent_path() / (Prefix(target) + RandomDigits());
 }
 
+bool IsUnpublishedName(const std::string& name, const fs::path& target) {
+  const std::string prefix = Prefix(target);
+  return name.size() == prefix.size() + kRandomDigits &&
+         name.starts_with(prefix) &&
+         name.find_first_not_of(kHexadecimal, prefix.size()) == name.npos;
+}
+
 Unpublished CreateUnpublishedFile(const fs::path& target,
                                   std::error_code* error) {
   return CreateLocked(
@@ -124,16 +131,12 @@ Unpublished CreateUnpublishedFolder(const fs::path& target,
 }
 
 std::vector<fs::path> FindAbandoned(const fs::path& target) {
-  const std::string prefix = Prefix(target);
   std::vector<fs::path> found;
   std::error_code refused;
   fs::directory_iterator entry(FolderOf(target), refused);
   for (; !refused && entry != fs::directory_iterator();
        entry.increment(refused)) {
-    const std::string name = entry->path().filename().string();
-    if (name.size() == prefix.size() + kRandomDigits &&
-        name.starts_with(prefix) &&
-        name.find_first_not_of(kHexadecimal, prefix.size()) == name.npos &&
+    if (IsUnpublishedName(entry->path().filename().string(), target) &&
         IsAbandoned(entry->path())) {
       found.push_back(entry->path());
     }

@@ -40,6 +40,11 @@ struct Unpublished {
 /// A name for something unpublished beside `target`. Nothing is created.
 std::filesystem::path UnpublishedName(const std::filesystem::path& target);
 
+/// Whether an entry of that name has the form of something unpublished that is
+/// to be called `target`.
+bool IsUnpublishedName(const std::string& name,
+                       const std::filesystem::path& target);
+
 /// A new empty file, open for writing, or a new empty folder beside `target`.
 /// Either is created by this call or the call fails with `error` set.
 Unpublished CreateUnpublishedFile(const std::filesystem::path& target,

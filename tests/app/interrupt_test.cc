@@ -185,12 +185,114 @@ TEST_F(Interrupt, IsAnsweredWithinASecondAtAnyMoment) {
   EXPECT_GE(stopped, 10);
 }
 
+TEST_F(Interrupt, HalfARecordingIsNoRecording) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    Child run({"simulate", "car_drive", "--out=out"}, root());
+    while (Names(root()).size() < 2) {
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+    std::this_thread::sleep_for(milliseconds(100));
+    run.Signal(signal);
+    const Clock::time_point sent = Clock::now();
+    const Outcome outcome = run.Wait();
+    EXPECT_LT(Clock::now() - sent, milliseconds(1000));
+    EXPECT_EQ(outcome.status, 130);
+    EXPECT_EQ(outcome.err,
+              "hindsight: error: interrupted; nothing was finished, nothing is "
+              "left\n");
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_THAT(Names(root()), ElementsAre("data"));
+  }
+}
+
+/// A comparison by seeds, of one cell, and one by settings.
+std::vector<std::string> BySeeds(const std::string& runs) {
+  return {"montecarlo",         "in_flight_alignment", "--rules=ekf",
+          "--error=quaternion", "--tilt=10",           "--heading=30",
+          "--rates=1",          "--runs=" + runs,      "--out=out",
+          "--progress=json"};
+}
+std::vector<std::string> BySettings() {
+  return {"montecarlo",     "gps_jumps",    "--errors=none,pulses,steps",
+          "--runs=2",       "--gps-rate=1", "--out=out",
+          "--progress=json"};
+}
+
+TEST_F(Interrupt, MonteCarloKeepsTheRunsThatAreFinished) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    Child run(BySeeds("100000"), root());
+    ASSERT_TRUE(run.AwaitStage("runs")) << run.Err();
+    std::this_thread::sleep_for(milliseconds(1500));
+    run.Signal(signal);
+    const Clock::time_point sent = Clock::now();
+    const Outcome outcome = run.Wait();
+    EXPECT_LT(Clock::now() - sent, milliseconds(1000));
+    EXPECT_EQ(outcome.status, 130);
+    EXPECT_THAT(Lines(outcome.err).back(),
+                HasSubstr("montecarlo.json says complete: false"));
+    EXPECT_THAT(Names(root()), UnorderedElementsAre("data", "out"));
+    EXPECT_THAT(Names(root() / "out"),
+                ElementsAre("cells.csv", "manifest.json", "montecarlo.json"));
+    EXPECT_EQ(Json(root() / "out" / "manifest.json")["complete"], false);
+    nlohmann::json part = Json(root() / "out" / "montecarlo.json");
+    EXPECT_EQ(part["complete"], false);
+    EXPECT_EQ(part["runs_asked"], 100000);
+    const int runs = part["runs"];
+    EXPECT_GE(runs, 2);
+    const std::string cells = ReadFile(root() / "out" / "cells.csv");
+    fs::remove_all(root() / "out");
+    // What so many runs make.
+    ASSERT_EQ(Hindsight(BySeeds(std::to_string(runs)), root()).status, 0);
+    EXPECT_EQ(ReadFile(root() / "out" / "cells.csv"), cells);
+    const nlohmann::json whole = Json(root() / "out" / "montecarlo.json");
+    EXPECT_EQ(whole["complete"], true);
+    EXPECT_EQ(whole["cells"], part["cells"]);
+    fs::remove_all(root() / "out");
+  }
+}
+
+TEST_F(Interrupt, MonteCarloKeepsNothingOfASingleRun) {
+  Child run({"montecarlo", "calibration", "--threads=1", "--out=out"}, root());
+  while (Names(root()).size() < 2) {
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  run.Signal(SIGINT);
+  const Outcome outcome = run.Wait();
+  EXPECT_EQ(outcome.status, 130);
+  EXPECT_THAT(outcome.err, HasSubstr("nothing was finished, nothing is left"));
+  EXPECT_THAT(Names(root()), ElementsAre("data"));
+}
+
+TEST_F(Interrupt, MonteCarloKeepsTheSettingsThatAreFinished) {
+  Child run(BySettings(), root());
+  ASSERT_TRUE(run.AwaitStage("gps_jumps")) << run.Err();
+  const auto first_is_done = [] {
+    for (const std::string& name : Names(root())) {
+      if (fs::exists(root() / name / "montecarlo.json")) return true;
+    }
+    return false;
+  };
+  while (!first_is_done()) std::this_thread::sleep_for(milliseconds(1));
+  run.Signal(SIGTERM);
+  EXPECT_EQ(run.Wait().status, 130);
+  EXPECT_EQ(Json(root() / "out" / "montecarlo.json")["complete"], false);
+  const std::vector<std::string> names = Names(root() / "out");
+  EXPECT_THAT(names, Contains("gps_jumps.csv"));
+  EXPECT_THAT(names, Contains("none_1m_1hz_ekf.csv"));
+  for (const std::string& name : names) {
+    EXPECT_THAT(name, Not(HasSubstr("pulses")));
+  }
+  const std::string lines = ReadFile(root() / "out" / "gps_jumps.csv");
+  EXPECT_THAT(lines, HasSubstr("none,"));
+  EXPECT_THAT(lines, Not(HasSubstr("pulses,")));
+}
+
 TEST_F(Interrupt, TheSecondEndsAtOnce) {
   if (!CanInjectFaults()) GTEST_SKIP() << "no preloading under a sanitizer";
   // The first waits for a medium that does not answer: the third file that is
   // synced is the summary after ekf.
   Child run(Words({"--methods=ekf,batch"}), root(),
-            WithFaults({{"", "fsync:3:hang"}}));
+            WithFaults({{"", "fsync:8:hang"}}));
   ASSERT_TRUE(run.AwaitStage("ekf"));
   std::this_thread::sleep_for(milliseconds(1500));
   run.Signal(SIGINT);
@@ -245,6 +347,48 @@ TEST_F(MediumThatEnds, LimitOfFileSizeKeepsTheMethodsThatFit) {
       EXPECT_THAT(Names(recording_.root()), ElementsAre("data"));
     }
   }
+}
+
+TEST_F(MediumThatEnds, FullDiskLeavesNoHalfRecordingAndFinishedRuns) {
+  if (!CanInjectFaults()) GTEST_SKIP() << "no preloading under a sanitizer";
+  const std::string full = std::to_string(ENOSPC);
+  const fs::path root = recording_.root();
+  const auto command = [&](const std::vector<std::string>& words,
+                           const std::string& fault) {
+    return Hindsight(words, root, WithFaults({{"", fault}}));
+  };
+  for (int at = 1; at <= 8; ++at) {
+    const Outcome outcome =
+        command({"simulate", "short_drive", "--out=out"},
+                "write:" + std::to_string(at) + "+:" + full);
+    EXPECT_EQ(outcome.status, 4) << at;
+    EXPECT_THAT(outcome.err, HasSubstr("nothing is left"));
+    EXPECT_THAT(outcome.err, HasSubstr("No space left"));
+    EXPECT_THAT(Names(root), ElementsAre("data"));
+  }
+  int kept = 0;
+  for (int at = 1; at <= 20; ++at) {
+    // Room that comes free is room for what matters most.
+    const Outcome outcome =
+        command(BySeeds("2"), "write:" + std::to_string(at) + ":" + full);
+    if (outcome.status == 0) break;
+    EXPECT_EQ(outcome.status, 4) << outcome.err;
+    EXPECT_THAT(Lines(outcome.err).back(), HasSubstr("complete: false"));
+    EXPECT_THAT(Names(root / "out"),
+                ElementsAre("cells.csv", "manifest.json", "montecarlo.json"));
+    const nlohmann::json json =
+        nlohmann::json::parse(ReadFile(root / "out" / "montecarlo.json"));
+    EXPECT_EQ(json["complete"], false);
+    EXPECT_EQ(json["runs"], 2);
+    ++kept;
+    fs::remove_all(root / "out");
+  }
+  EXPECT_GE(kept, 4);
+  fs::remove_all(root / "out");
+  const Outcome none = command(BySeeds("2"), "write:1+:" + full);
+  EXPECT_EQ(none.status, 4);
+  EXPECT_THAT(none.err, HasSubstr("nothing is left"));
+  EXPECT_THAT(Names(root), ElementsAre("data"));
 }
 
 TEST_F(MediumThatEnds, FullDiskKeepsTheMethodsThatWereDone) {

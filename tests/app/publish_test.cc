@@ -147,6 +147,100 @@ TEST_F(Publish, ForceReplacesNothingButFilesOfTheManifest) {
                 {"manifest.json"});
 }
 
+TEST_F(Publish, CleanRemovesNothingButFilesOfTheProgram) {
+  const std::string name = ".out.partial-0123456789ab";
+  const fs::path left = root() / name;
+  const std::vector<std::string> words = {"run", "data/config.yaml",
+                                          "--out=out", "--methods=ekf"};
+  std::vector<std::string> clean = words;
+  clean.emplace_back("--clean");
+  fs::create_directory(left);
+  WriteFile(left / "thesis.txt", "mine");
+  ExpectRefused(clean, {name, "thesis.txt", "--clean does not remove it"});
+  const std::string manifest =
+      R"({"program": "hindsight", "complete": false, "files": ["ekf.csv"]})";
+  WriteFile(left / "manifest.json", manifest);
+  WriteFile(left / "ekf.csv", "");
+  ExpectRefused(clean, {name, "thesis.txt"});
+  fs::rename(left / "thesis.txt", left / ".rts.csv.partial-0123456789ab");
+  ExpectRefused(clean, {name, ".rts.csv.partial-0123456789ab"});
+  fs::remove(left / ".rts.csv.partial-0123456789ab");
+  fs::create_directory(left / "photos");
+  ExpectRefused(clean, {name, "photos"});
+  // Without the request it is named, and in no run's way.
+  const Outcome named = Hindsight(words, root());
+  EXPECT_EQ(named.status, 0);
+  EXPECT_THAT(named.err, AllOf(HasSubstr(name), HasSubstr("photos")));
+  EXPECT_TRUE(fs::exists(left / "photos"));
+  fs::remove_all(root() / "out");
+  fs::remove(left / "photos");
+  // A manifest of another program lists nothing.
+  WriteFile(left / "manifest.json", R"({"files": ["ekf.csv"]})");
+  ExpectRefused(clean, {name, "ekf.csv"});
+  WriteFile(left / "manifest.json", manifest);
+  WriteFile(left / ".ekf.csv.partial-0123456789ab", "t[s]");
+  const Outcome outcome = Hindsight(clean, root());
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(Names(root()), UnorderedElementsAre("data", "out"));
+}
+
+TEST_F(Publish, CleanRemovesNoFileOfOthers) {
+  WriteFile(root() / ".out.partial-0123456789ab", "mine");
+  ExpectRefused({"simulate", "short_drive", "--out=out", "--clean"},
+                {".out.partial-0123456789ab", "is no folder"});
+  const fs::path left = root() / ".new.yaml.partial-0123456789ab";
+  const std::vector<std::string> words = {"init", "data", "--out=new.yaml",
+                                          "--clean"};
+  WriteFile(left, "mine");
+  ExpectRefused(words, {left.filename(), "was not written by 'init'"});
+  for (const std::string& own :
+       {std::string(), Hindsight({"init", "data"}, root()).out}) {
+    WriteFile(left, own);
+    fs::remove(root() / "new.yaml");
+    EXPECT_EQ(Hindsight(words, root()).status, 0);
+    EXPECT_FALSE(fs::exists(left));
+  }
+}
+
+TEST_F(Publish, TheWorkingDirectoryAndWhatHoldsItAreNotReplaced) {
+  fs::create_directories(root() / "here" / "below");
+  fs::create_directory_symlink("here", root() / "link");
+  const fs::path below = root() / "here" / "below";
+  for (const std::string out :
+       {".", "./", "..", "../", "../below", "../below/", "../../link/below",
+        "../../link/below/", "../../link", "../../link/", "/"}) {
+    for (const std::string flag : {"--force", "--clean"}) {
+      const Outcome outcome = Hindsight(
+          {"simulate", "short_drive", "--duration=5", "--out=" + out, flag},
+          below);
+      EXPECT_EQ(outcome.status, 2) << out;
+      ASSERT_EQ(Lines(outcome.err).size(), 1u) << outcome.err;
+      EXPECT_THAT(outcome.err, HasSubstr("the working directory")) << out;
+    }
+  }
+  EXPECT_THAT(Names(below), ElementsAre());
+  EXPECT_THAT(Names(root() / "here"), ElementsAre("below"));
+  // A folder of the working directory, with a slash behind, through a link.
+  int made = 0;
+  for (const std::string out : {"new/", "./other/.", "../../link/third/"}) {
+    const Outcome outcome = Hindsight(
+        {"simulate", "short_drive", "--duration=5", "--out=" + out}, below);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    ++made;
+  }
+  EXPECT_EQ(made, 3);
+  EXPECT_THAT(Names(below), ElementsAre("new", "other"));
+  EXPECT_THAT(Names(root() / "here"), ElementsAre("below", "third"));
+  EXPECT_TRUE(fs::is_symlink(root() / "link"));
+}
+
+TEST_F(Publish, OutBehindALinkIsWhereTheSystemFindsIt) {
+  fs::create_directories(root() / "disk" / "deep");
+  fs::create_directory_symlink("disk/deep", root() / "link");
+  EXPECT_EQ(Simulate({"--out=link/../out"}).status, 0);
+  EXPECT_THAT(Names(root() / "disk"), ElementsAre("deep", "out"));
+}
+
 TEST_F(Publish, OutThatIsALinkFillsWhatItLeadsTo) {
   fs::create_directories(root() / "disk" / "out");
   fs::create_directory_symlink("disk/out", root() / "out");

@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
-#include <sstream>
 
 #include "io/recording_folder.h"
 #include "io/sample_stream_list.h"
+#include "io/scenario_config.h"
 
 namespace hindsight {
 namespace {
@@ -32,27 +33,18 @@ class ConfigKeys : public RecordingFolder {
           "imu:\n  file: imu.csv\n  noise: {gyro: 0.2 deg/sqrt(h), accel: 70 "
           "ug/sqrt(Hz)" +
               noise + "}\n" + imu + rest);
-    const std::string error = LoadError();
-    const std::string head = "expected one of ";
-    const std::size_t at = error.find(head);
-    EXPECT_NE(at, std::string::npos) << error;
-    if (at == std::string::npos) return {};
-    Keys keys;
-    std::istringstream list(error.substr(at + head.size()));
-    for (std::string key; list >> key;) {
-      if (key.ends_with(',')) key.pop_back();
-      keys.insert(key);
-    }
-    return keys;
+    const std::vector<std::string> keys = Expected(LoadError());
+    return {keys.begin(), keys.end()};
   }
   Keys AskedOfSensor(const std::string& keys) const {
     return Asked("aiding:\n  s:\n    file: imu.csv\n    " + keys + "\n    " +
                  kUnknown + "\n");
   }
 
-  static Keys Known(const std::vector<std::string>& maps) {
+  static Keys Known(const std::vector<std::string>& maps,
+                    const std::vector<FuzzMap>& all = RecordingMaps()) {
     Keys keys;
-    for (const FuzzMap& map : RecordingMaps()) {
+    for (const FuzzMap& map : all) {
       if (std::find(maps.begin(), maps.end(), map.name) == maps.end()) continue;
       for (const FuzzKey& key : map.keys) keys.emplace(key.key);
     }
@@ -109,7 +101,20 @@ TEST_F(ConfigKeys, OfEveryTypeOfSensor) {
       "type: magnetometer\n    sigma: 1 uT\n    form: vector\n    horizontal: "
       "20 "
       "uT\n    down: 40 uT",
-      "type: dvl\n    sigma: 1 m/s\n    form: beams"};
+      "type: dvl\n    sigma: 1 m/s\n    form: beams",
+      "type: zero_velocity\n    sigma: 1 cm/s"};
+  // That has no file; its keys are asked for below.
+  Keys types = {"non_holonomic"};
+  for (const std::string& sensor : sensors) {
+    types.insert(sensor.substr(6, sensor.find('\n') - 6));
+  }
+  EXPECT_EQ(AskedOfSensor("type: zzzz"), types);
+  Keys values(FuzzValues().begin(), FuzzValues().end());
+  EXPECT_TRUE(
+      std::includes(values.begin(), values.end(), types.begin(), types.end()));
+  const Keys formats = AskedOfSensor("type: position\n    format: zzzz");
+  EXPECT_TRUE(std::includes(values.begin(), values.end(), formats.begin(),
+                            formats.end()));
   Keys asked;
   Keys estimated;
   for (const std::string& sensor : sensors) {
@@ -130,6 +135,64 @@ TEST_F(ConfigKeys, OfEveryTypeOfSensor) {
   asked.insert("columns");
   EXPECT_EQ(asked, Known({"stream", "aiding"}));
   EXPECT_EQ(estimated, Known({"estimate"}));
+}
+
+/// A scenario's parts, of which `unknown` replaces one.
+class ScenarioKeys : public ConfigKeys {
+ protected:
+  Keys AskedOf(const std::string& part, const std::string& unknown) const {
+    std::map<std::string, std::string> parts = {
+        {"segments", "[{type: straight, duration: 5 s}]"},
+        {"imu", "{noise: {gyro: 0.1 deg/sqrt(h), accel: 70 ug/sqrt(Hz)}}"},
+        {"start", "{position: [48 deg, 11 deg, 500 m]}"},
+        {"start_errors", "{position: 1 m, velocity: 1 m/s, attitude: 1 deg}"}};
+    parts[part] = unknown;
+    std::string text;
+    for (const auto& [key, value] : parts) text += key + ": " + value + "\n";
+    Write("scenario.yaml", text);
+    try {
+      LoadScenario(Path("scenario.yaml"));
+    } catch (const InputError& error) {
+      const std::vector<std::string> keys = Expected(error.what());
+      return {keys.begin(), keys.end()};
+    }
+    ADD_FAILURE() << text;
+    return {};
+  }
+};
+
+TEST_F(ScenarioKeys, AreThoseOfTheFuzzer) {
+  const std::string zzzz = "zzzz: 1";
+  const auto known = [](const std::string& map) {
+    return Known({map}, ScenarioMaps());
+  };
+  Keys top = AskedOf("zzzz", "1");
+  // Each stands in the place of others.
+  top.insert({"profile", "wander", "segments", "start", "aiding", "duration",
+              "withhold"});
+  EXPECT_EQ(top, known("top"));
+  Keys segment;
+  for (const std::string keys :
+       {"type: straight, duration: 1 s", "type: stop, duration: 1 s",
+        "type: accelerate, speed: 1 m/s, rate: 1 m/s^2",
+        "type: turn, angle: 1 deg, rate: 1 deg/s",
+        "type: pitch, angle: 1 deg, rate: 1 deg/s"}) {
+    segment.merge(AskedOf("segments", "[{" + keys + ", " + zzzz + "}]"));
+  }
+  EXPECT_EQ(segment, known("segment"));
+  EXPECT_EQ(AskedOf("imu",
+                    "{noise: {gyro: 0.1 deg/sqrt(h), accel: 70 ug/sqrt(Hz)}, " +
+                        zzzz + "}"),
+            known("scenario_imu"));
+  Keys sensor;
+  for (const std::string keys :
+       {"type: position, sigma: 1 m", "type: velocity, sigma: 1 m/s",
+        "type: height, sigma: 1 m", "type: dvl, sigma: 1 m/s, form: beams",
+        "type: acoustic, sigma: 1 m, bearing_sigma: 1 deg, transponder: [48 "
+        "deg, 11 deg, 0 m]"}) {
+    sensor.merge(AskedOf("aiding", "{s: {" + keys + ", " + zzzz + "}}"));
+  }
+  EXPECT_EQ(sensor, known("scenario_sensor"));
 }
 
 }  // namespace

@@ -160,7 +160,9 @@ TEST_F(DatasetWriter, StreamedSimulationWritesTheSameFiles) {
   const std::string streamed = (folder_ / "streamed").string();
   WriteDataset(Simulate(Rich(), 5), at_once);
   Simulation simulation(Rich(), 5);
-  WriteDataset(&simulation, streamed);
+  std::filesystem::create_directory(streamed);
+  WriteDataset(&simulation,
+               [&](const std::string& name) { return streamed + "/" + name; });
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(at_once)) {
     ++files;

@@ -7,12 +7,29 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "io/config.h"
 
 namespace hindsight {
+
+/// The words of which an error says that it expects one.
+inline std::vector<std::string> Expected(const std::string& error) {
+  const std::string head = "expected one of ";
+  const std::size_t at = error.find(head);
+  EXPECT_NE(at, std::string::npos) << error;
+  std::vector<std::string> words;
+  if (at == std::string::npos) return words;
+  std::istringstream list(error.substr(at + head.size()));
+  for (std::string word; list >> word;) {
+    if (word.ends_with(',')) word.pop_back();
+    words.push_back(word);
+  }
+  return words;
+}
 
 /// A folder of its own for each test, removed at the end.
 class RecordingFolder : public ::testing::Test {

@@ -97,6 +97,14 @@ inline std::vector<SampleStream> SampleStreams() {
          {"t[s]", "distance[m]"}, {5.0});
   aiding("magnetometer", "type: magnetometer, sigma: 1 uT",
          {"t[s]", "mag_x[uT]", "mag_y[uT]", "mag_z[uT]"}, {20.0, 1.0, 40.0});
+  aiding("zero_velocity", "type: zero_velocity, sigma: 1 cm/s",
+         {"t[s]", "zero_velocity[1]"}, {1.0});
+  for (auto& row : streams.back().table.rows) row[1] = "1";
+  // At rest there is no clock to be found, once the stream has been read.
+  aiding("velocity_unknown_clock",
+         "type: velocity, sigma: 0.1 m/s, time_offset: unknown",
+         {"t[s]", "v_n[m/s]", "v_e[m/s]", "v_d[m/s]"}, {0.0, 0.0, 0.0});
+  streams.back().error = "s.time_offset: is not found";
   csv("csv_truth", "truth: {file: FILE}\n",
       {"t[s]", "lat[deg]", "lon[deg]", "h[m]", "v_n[m/s]", "v_e[m/s]",
        "v_d[m/s]", "roll[deg]", "pitch[deg]", "heading[deg]"},

@@ -34,6 +34,7 @@ struct SampleStream {
   TextRows table;
   char delimiter = ',';
   std::size_t value_column = 1;  ///< that is read, from 0
+  std::string error = {};        ///< held by the error of the undamaged stream
 };
 
 inline std::string Printed(double value, int digits = 6) {
