@@ -184,10 +184,13 @@ std::string ResultFolder::AbandonLocked() {
            ", whose " + kept_->file.name + " says complete: false" + cause;
   }
   fs::remove_all(finished_, refused);
+  std::string words = has_finished ? "nothing is left"
+                                   : "nothing was finished, nothing is left";
+  if (PathExists(finished_)) {
+    words += " but " + finished_.string() + ", which cannot be removed";
+  }
   finished_.clear();
-  return (has_finished ? "nothing is left"
-                       : "nothing was finished, nothing is left") +
-         cause;
+  return words + cause;
 }
 
 std::string ResultFolder::Abandon() {

@@ -47,21 +47,27 @@ bool IsOf(const std::vector<std::string>& listed, const std::string& name,
   });
 }
 
-bool Remove(const fs::path& folder, Finished finished) {
-  const std::vector<std::string> listed = Listed(folder);
-  std::vector<fs::path> entries;
-  try {
-    entries = FolderEntries(folder);
-  } catch (const InputError&) {
-    return false;
+/// Names of the files that may be removed, the manifest's own left out.
+std::vector<std::string> Removable(const fs::path& folder, Finished finished) {
+  const std::optional<ResultManifest> manifest = ReadManifest(folder);
+  if (finished == Finished::kYes) {
+    return manifest ? manifest->files : std::vector<std::string>();
   }
-  std::error_code refused;
-  for (const fs::path& entry : entries) {
+  const std::vector<std::string> listed = Listed(folder);
+  std::vector<std::string> names;
+  for (const fs::path& entry : FolderEntries(folder)) {
     const std::string name = entry.filename().string();
-    if (name != kManifestName && IsRegular(entry) &&
-        IsOf(listed, name, finished)) {
-      fs::remove(entry, refused);
+    if (name != kManifestName && IsOf(listed, name, finished)) {
+      names.push_back(name);
     }
+  }
+  return names;
+}
+
+bool Remove(const fs::path& folder, Finished finished) {
+  std::error_code refused;
+  for (const std::string& name : Removable(folder, finished)) {
+    if (IsRegular(folder / name)) fs::remove(folder / name, refused);
   }
   // Last, so that a kill leaves a folder whose files are still listed.
   if (ReadManifest(folder)) fs::remove(folder / kManifestName, refused);

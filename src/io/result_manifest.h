@@ -43,6 +43,7 @@ std::string FindUnlisted(const std::filesystem::path& folder,
 bool RemoveListed(const std::filesystem::path& folder);
 
 /// The same of a folder that was being written, with its unfinished files.
+/// Throws InputError if the folder cannot be listed.
 bool RemoveUnfinished(const std::filesystem::path& folder);
 
 }  // namespace hindsight

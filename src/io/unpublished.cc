@@ -46,8 +46,9 @@ bool TakeLock(const Unpublished& entry) {
   }
   struct stat mine = {};
   struct stat named = {};
-  return fstat(entry.descriptor.get(), &mine) == 0 &&
-         lstat(entry.path.c_str(), &named) == 0 && mine.st_ino == named.st_ino;
+  if (fstat(entry.descriptor.get(), &mine) != 0) return true;
+  if (lstat(entry.path.c_str(), &named) != 0) return errno != ENOENT;
+  return mine.st_ino == named.st_ino;
 }
 
 template <typename Create>
@@ -63,6 +64,8 @@ Unpublished CreateLocked(const fs::path& target, const Create& create,
       return {};
     }
     if (TakeLock(entry)) return entry;
+    // Empty still, and of no use to whoever holds it.
+    std::remove(entry.path.c_str());
   }
   *error = SystemError(EEXIST);
   return {};

@@ -278,7 +278,7 @@ TEST_F(Interrupt, MonteCarloKeepsTheSettingsThatAreFinished) {
   EXPECT_EQ(Json(root() / "out" / "montecarlo.json")["complete"], false);
   const std::vector<std::string> names = Names(root() / "out");
   EXPECT_THAT(names, Contains("gps_jumps.csv"));
-  EXPECT_THAT(names, Contains("none_1m_1hz_ekf.csv"));
+  EXPECT_THAT(names, Contains("none_1m_1hz_rts.csv"));
   for (const std::string& name : names) {
     EXPECT_THAT(name, Not(HasSubstr("pulses")));
   }
