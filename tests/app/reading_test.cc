@@ -3,9 +3,12 @@
 #include <sys/stat.h>
 
 #include <chrono>
+#include <cmath>
+#include <cstdio>
 #include <thread>
 
 #include "app/recording.h"
+#include "io/binary_files.h"
 
 namespace hindsight {
 namespace {
@@ -98,6 +101,130 @@ TEST(Reading, AnswersASignalWithinASecond) {
     EXPECT_EQ(outcome.status, 130);
     EXPECT_THAT(outcome.err, HasSubstr("interrupted"));
     EXPECT_LT(outcome.peak_memory, 64.0);
+  }
+}
+
+constexpr std::size_t kLargeInput = 30'000'000;  // [bytes]
+
+/// About 30 MB of lines, of which the last is damaged: the program ends when
+/// everything is read.
+std::string LargeText(const std::string& titles, const char* values) {
+  std::string text = titles + "\n";
+  text.reserve(kLargeInput + 1000);
+  for (int i = 0; text.size() < kLargeInput; ++i) {
+    char line[200];
+    const int n =
+        std::snprintf(line, sizeof(line), "%.3f,%s\n", 0.005 * i, values);
+    text.append(line, static_cast<std::size_t>(n));
+  }
+  return text + "x\n";
+}
+
+constexpr int kLargeRows = 535000;
+
+/// Doubles of 7 columns whose last is no number.
+std::string LargeDoubles(bool column_major) {
+  std::string data;
+  data.reserve(std::size_t{8} * 7 * kLargeRows);
+  const auto value = [](int row, int column) {
+    return column == 0 ? 0.01 * row : 0.001 * column + 1e-7 * (row % 11);
+  };
+  for (int i = 0; i < 7 * kLargeRows - 1; ++i) {
+    data += BytesOf(column_major ? value(i % kLargeRows, i / kLargeRows)
+                                 : value(i / 7, i % 7));
+  }
+  return data + BytesOf(std::nan(""));
+}
+
+std::string LargeBag() {
+  TextCells rows;
+  for (int i = 0; i < 80000; ++i) {
+    const std::string t = std::to_string(1483228800.0 + 0.01 * i);
+    rows.push_back({t, ".001", ".002", ".003", ".1", ".2", "-9.8"});
+  }
+  rows.back().back() = "nan";
+  return BagBytes(rows);
+}
+
+struct LargeInput {
+  std::string file;
+  std::string keys;
+  std::string bytes;
+  std::size_t uncompressed = 0;  ///< 0: bytes are not compressed
+};
+
+constexpr const char* kImuTitles =
+    "t[s],gyro_x[rad/s],gyro_y[rad/s],gyro_z[rad/s],accel_x[m/s^2],accel_y[m/"
+    "s^2],accel_z[m/s^2]";
+constexpr const char* kImuValues =
+    ".00112345,.00212345,.00312345,.1123456,.2123456,-9.8123456";
+
+std::vector<LargeInput> LargeInputs() {
+  const std::string numbered =
+      "  columns: {t: 'D1 [s]', gyro_x: 'D2 [rad/s]', gyro_y: 'D3 [rad/s]', "
+      "gyro_z: 'D4 [rad/s]', accel_x: 'D5 [m/s^2]', accel_y: 'D6 [m/s^2]', "
+      "accel_z: 'D7 [m/s^2]'}\n";
+  const auto columns = [&](const std::string& array) {
+    std::string text = numbered;
+    for (std::size_t at; (at = text.find("'D")) != text.npos;) {
+      text.replace(at, 2, "'" + array);
+    }
+    return text;
+  };
+  const std::string imu = LargeText(kImuTitles, kImuValues);
+  const std::string matrix =
+      MatMatrix("data", 6, kLargeRows, 7, MatElement(9, LargeDoubles(true)));
+  return {
+      {"large.csv", "imu:\n  file: FILE\n", imu},
+      {"large.csv.gz", "imu:\n  file: FILE\n", Gzipped(imu), imu.size()},
+      {"large.npy", "imu:\n  file: FILE\n  format: npy\n" + columns(""),
+       NpyFile("<f8", std::to_string(kLargeRows) + ", 7", LargeDoubles(false))},
+      {"large.mat", "imu:\n  file: FILE\n  format: mat\n" + columns("data:"),
+       MatFile(matrix)},
+      {"packed.mat", "imu:\n  file: FILE\n  format: mat\n" + columns("data:"),
+       MatFile(MatCompressed(matrix)), matrix.size()},
+      {"large.bag", "imu:\n  file: FILE\n  format: rosbag\n", LargeBag()},
+      {"position.csv", "aiding:\n  s: {type: position, file: FILE}\n",
+       LargeText("t[s],lat[deg],lon[deg],h[m],sigma_n[m],sigma_e[m],sigma_d[m]",
+                 "48.000000012,11.000000012,500.012,0.1,0.1,0.2")},
+      {"velocity.csv", "aiding:\n  s: {type: velocity, file: FILE}\n",
+       LargeText("t[s],v_n[m/s],v_e[m/s],v_d[m/s],sigma_v_n[m/s],"
+                 "sigma_v_e[m/s],sigma_v_d[m/s]",
+                 "1.0000123,2.0000123,3.0000123,0.1,0.1,0.2")},
+      {"truth.csv", "truth: {file: FILE}\n",
+       LargeText("t[s],lat[deg],lon[deg],h[m],v_n[m/s],v_e[m/s],v_d[m/s],"
+                 "roll[deg],pitch[deg],heading[deg]",
+                 "48.000000012,11.000000012,500.012,1.0012,2.0012,3.0012,"
+                 "1.000012,2.000012,90.000012")}};
+}
+
+TEST(Reading, TakesAtMost64MbAndThreeTimesTheInput) {
+  TemporaryFolder folder;
+  WriteFile(folder.path() / "small.csv", std::string(kImuTitles) + "\n0," +
+                                             kImuValues + "\n9999," +
+                                             kImuValues + "\n");
+  const std::string noise =
+      "  max_gap: 10000 s\n"
+      "  noise: {gyro: 0.2 deg/sqrt(h), accel: 70 ug/sqrt(Hz)}\n";
+  for (LargeInput& input : LargeInputs()) {
+    WriteFile(folder.path() / input.file, input.bytes);
+    const bool is_imu = input.keys.starts_with("imu");
+    std::string text = is_imu
+                           ? input.keys + noise
+                           : "imu:\n  file: small.csv\n" + noise + input.keys;
+    text.replace(text.find("FILE"), 4, input.file);
+    WriteFile(folder.path() / "config.yaml",
+              "epoch: 2017-01-01 00:00:00 UTC\n" + text);
+    const Outcome outcome = Hindsight({"check", "config.yaml"}, folder.path());
+    EXPECT_EQ(outcome.status, 2) << input.file;
+    EXPECT_THAT(outcome.err, HasSubstr(input.file + ":"));
+    const std::size_t size =
+        input.uncompressed > 0 ? input.uncompressed : input.bytes.size();
+    const double most = 64.0 + 3.0 * static_cast<double>(size) / (1 << 20);
+    EXPECT_LT(outcome.peak_memory, most) << input.file;
+    std::printf("%s: %.0f MB of %.0f\n", input.file.c_str(),
+                outcome.peak_memory, most);
+    std::filesystem::remove(folder.path() / input.file);
   }
 }
 
