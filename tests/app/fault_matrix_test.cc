@@ -8,12 +8,12 @@
 namespace hindsight {
 namespace {
 
-TEST_F(FaultMatrix, FreshFolder) { RunAll(false, {}, Stride(5), 60); }
+TEST_F(FaultMatrix, FreshFolder) { RunAll(false, {}, Stride(7), 60); }
 
-TEST_F(FaultMatrix, ReplacedFolder) { RunAll(true, {}, Stride(5), 60); }
+TEST_F(FaultMatrix, ReplacedFolder) { RunAll(true, {}, Stride(13), 60); }
 
 TEST_F(FaultMatrix, ReplacedFolderWithoutExchange) {
-  RunAll(true, {{"_NO_EXCHANGE", "1"}}, Stride(9), 20);
+  RunAll(true, {{"_NO_EXCHANGE", "1"}}, Stride(29), 20);
 }
 
 TEST_F(FaultMatrix, RepeatedProcessIdsMixNothing) {
