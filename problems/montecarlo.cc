@@ -18,6 +18,7 @@ namespace {
 /// What one method made of one run.
 struct MethodRun {
   bool failed = false;
+  Grade grade = Grade::kUnusable;
   std::vector<Eigen::Vector3d> position;  ///< error, NED [m]
   std::vector<double> yaw;                ///< error [rad]
   std::vector<double> nees;
@@ -100,6 +101,7 @@ MethodRun JudgeRun(const Solution& solution,
                    const std::vector<std::size_t>& nodes,
                    const std::vector<State>& truth) {
   MethodRun run;
+  run.grade = solution.grade;
   run.seconds = solution.seconds;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const State& x = solution.states[nodes[i]];
@@ -291,6 +293,7 @@ MethodStatistics Summarize(const std::string& name, std::size_t index,
   double nis_rows = 0.0;
   for (const Run& run : runs) {
     const MethodRun& method = run.methods[index];
+    ++out.grades[static_cast<std::size_t>(method.grade)];
     if (method.failed) {
       ++out.failed;
       continue;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -58,7 +59,9 @@ struct ConstantStatistics {
 /// runs, about their mean; maxima are over time.
 struct MethodStatistics {
   std::string name;
-  int failed = 0;           ///< runs without an answer or convergence, left out
+  int failed = 0;  ///< runs without an answer or convergence, left out
+  /// Runs graded usable, doubtful, not usable; the failed are among the last.
+  std::array<int, 3> grades = {};
   Eigen::Vector3d max_std;  ///< of the position error, NED [m]
   struct Leg {
     Eigen::Vector3d max_std;  ///< NED [m]

@@ -13,6 +13,7 @@
 #include "filters/two_filter.h"
 #include "problems/batch.h"
 #include "problems/clock_choice.h"
+#include "problems/disagreement.h"
 #include "problems/error_tuning.h"
 #include "problems/forward_stage.h"
 #include "problems/linearisation.h"
@@ -66,10 +67,23 @@ struct Reconstruction::Impl {
                               : std::nullopt,
          .unsettled =
              own_unsettled.empty() ? forward.unsettled() : own_unsettled,
-         .recording = recording},
+         .recording = recording,
+         .disagreement = DisagreementOf(method, solution)},
         forward.unobserved(), &solution);
     own_unsettled.clear();
     return solution;
+  }
+
+  /// With a robust loss the two do not minimise the same cost.
+  std::optional<Evidence> DisagreementOf(Method method,
+                                         const Solution& solution) {
+    if (method != Method::kIterated && method != Method::kBatch) {
+      return std::nullopt;
+    }
+    for (const Sensor& sensor : forward.timeline().sensors()) {
+      if (sensor.loss.kind != RobustLoss::Kind::kNone) return std::nullopt;
+    }
+    return optima.Compare(MethodName(method), solution);
   }
 
   /// What a method solves on: nodes, the measurements used there, and a
@@ -319,6 +333,7 @@ struct Reconstruction::Impl {
   ClockChoice clocks;
   ForwardStage& forward;
   std::vector<Evidence> recording;  ///< what it shows by itself
+  OptimumComparison optima;
   /// Sensor whose time offset a method's own nodes did not settle; empty: none.
   std::string own_unsettled;
 };

@@ -131,10 +131,13 @@ std::string DescribeNoise(const Dataset& dataset) {
 /// The last line.
 std::string DescribeGrade(const CheckReport& report) {
   const std::size_t warnings = report.warnings.size() + report.evidence.size();
-  return std::string("the recording is ") + GradeName(report.grade()) +
-         (warnings == 0 ? ": nothing looks wrong\n"
-                        : Format(": %zu warning%s\n", warnings,
-                                 warnings == 1 ? "" : "s"));
+  std::string text =
+      std::string("the recording is ") + GradeName(report.grade()) +
+      (warnings == 0
+           ? ": nothing looks wrong"
+           : Format(": %zu warning%s", warnings, warnings == 1 ? "" : "s"));
+  if (!report.truth_warnings.empty()) text += "; see the warning of the truth";
+  return text + "\n";
 }
 
 /// What the estimate adds to the decisions of rest, if there is one.

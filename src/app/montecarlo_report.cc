@@ -1,5 +1,6 @@
 #include "app/montecarlo_report.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -43,6 +44,11 @@ std::vector<std::pair<std::string, const Agreement*>> Comparisons(
 
 }  // namespace
 
+std::string GradesCell(const MethodStatistics& method) {
+  return Format("%d, %d, %d", method.grades[0], method.grades[1],
+                method.grades[2]);
+}
+
 std::string MonteCarloTable(const MonteCarloResult& result) {
   std::vector<std::string> heading = {"method", "max std [m]\nN E D"};
   std::size_t legs = 0;
@@ -54,7 +60,7 @@ std::string MonteCarloTable(const MonteCarloResult& result) {
   }
   for (const char* title :
        {"end [m]\nN E D", "yaw\n[deg]", "ANEES\nall", "ANEES\nleg 1",
-        "outside\n[%]", "NIS\nper row", "failed", "s/run"}) {
+        "outside\n[%]", "NIS\nper row", "failed", kGradesTitle, "s/run"}) {
     heading.emplace_back(title);
   }
   ReportTable table(heading);
@@ -69,7 +75,7 @@ std::string MonteCarloTable(const MonteCarloResult& result) {
           Format("%.1f", m.anees), Format("%.1f", m.legs.front().anees),
           Format("%.1f", 100.0 * m.anees_outside), Format("%.3f", m.nis),
           m.failed > 0 ? std::to_string(m.failed) : std::string(),
-          Format("%.3f", m.seconds)}) {
+          GradesCell(m), Format("%.3f", m.seconds)}) {
       row.push_back(cell);
     }
     table.AddRow(row);
@@ -102,6 +108,9 @@ std::string MonteCarloJson(const MonteCarloTitle& title,
   for (const MethodStatistics& m : result.methods) {
     Json& method = json["methods"][m.name];
     method["failed"] = m.failed;
+    for (std::size_t i = 0; i < m.grades.size(); ++i) {
+      method["grades"][GradeName(static_cast<Grade>(i))] = m.grades[i];
+    }
     if (m.t.empty()) continue;
     method["max_std_m"] = Vector(m.max_std);
     for (const MethodStatistics::Leg& leg : m.legs) {

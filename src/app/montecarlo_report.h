@@ -23,7 +23,12 @@ struct MonteCarloTitle {
   bool complete = true;
 };
 
-/// One line a method: largest standard deviations, ANEES, NIS, seconds.
+/// Heading and cell of the counts of runs that are usable, doubtful, not
+/// usable.
+inline constexpr const char* kGradesTitle = "usable,\ndoubtful,\nnot";
+std::string GradesCell(const MethodStatistics& method);
+
+/// One line a method: largest standard deviations, ANEES, NIS, grades, seconds.
 std::string MonteCarloTable(const MonteCarloResult& result);
 
 /// The pairs of methods whose agreement is of interest, a line each.
@@ -35,7 +40,7 @@ std::string AgreementText(const MonteCarloResult& result);
 ///    "methods": {NAME: {"max_std_m": [N, E, D],
 ///        "legs": [{"max_std_m": [N, E, D], "anees"}], "final_std_m": [N, E,
 ///        D], "yaw_std_deg", "anees", "anees_outside", "nis", "failed",
-///        "seconds_per_run",
+///        "grades": {"usable", "doubtful", "not usable"}, "seconds_per_run",
 ///        "constants": {NAME: {"unit", "prior_sigma", "sigma", "rms", "anees",
 ///            "runs", "observed", "unobserved"}}}},
 ///    "agreement": {"A_vs_B_m", "A_vs_B_rad", "A_vs_B_after_first_leg_m"}}

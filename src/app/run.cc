@@ -220,7 +220,8 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
     if (has_trajectory) folder->Keep(kSummaryName, SummaryText(summary));
   }
   CheckAnyTrajectory(solutions);
-  KeepBetterMethods(&solutions);
+  ShareDisagreements(&solutions);
+  AdviseBetterMethods(&solutions);
   const Solution& best = Best(solutions);
   NameBest(best, solutions, &summary);
   WriteResidualCsv(folder->Path("residuals.csv"), solutions, dataset);
@@ -236,7 +237,7 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
             << DescribeEvidence(solutions) << DescribeContradictions(summary)
             << DescribeConstants(dataset, best) << "\nresults in "
             << request.out << "\n"
-            << DescribeVerdict(best, solutions);
+            << DescribeVerdict(best);
   return StatusOf(best.grade);
 }
 

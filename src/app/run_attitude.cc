@@ -146,7 +146,7 @@ int EstimateInto(const RunRequest& request, ResultFolder* folder) {
             << table.Render() << DescribeEvidence(verdicts)
             << DescribeContradictions(summary) << "\nresults in " << request.out
             << "\n"
-            << DescribeVerdict(best, verdicts);
+            << DescribeVerdict(best);
   return StatusOf(best.grade);
 }
 

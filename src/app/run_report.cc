@@ -217,14 +217,8 @@ void NameBest(const Solution& best, const std::vector<Solution>& solutions,
   }
 }
 
-std::string DescribeVerdict(const Solution& best,
-                            const std::vector<Solution>& solutions) {
-  std::string text = best.method + " is " + best.verdict;
-  for (const Solution& solution : solutions) {
-    if (solution.method == best.method || solution.usable()) continue;
-    text += "; " + solution.method + " is " + solution.verdict;
-  }
-  return text + "\n";
+std::string DescribeVerdict(const Solution& best) {
+  return best.method + " is " + best.verdict + "\n";
 }
 
 }  // namespace hindsight

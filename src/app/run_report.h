@@ -46,10 +46,8 @@ const Solution& Best(const std::vector<Solution>& solutions);
 void NameBest(const Solution& best, const std::vector<Solution>& solutions,
               RunSummary* summary);
 
-/// The last line: the grade of the best solution, and why, and which others
-/// are not usable.
-std::string DescribeVerdict(const Solution& best,
-                            const std::vector<Solution>& solutions);
+/// The last line: the grade of the best solution, and the weightiest reason.
+std::string DescribeVerdict(const Solution& best);
 
 /// The other explanations of the data that are more than 0.1 % likely, a line
 /// each; "" if there is none.

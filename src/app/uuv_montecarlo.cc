@@ -6,6 +6,7 @@
 
 #include "app/flags.h"
 #include "app/list_flags.h"
+#include "app/montecarlo_report.h"
 #include "app/montecarlo_scenarios.h"
 #include "base/error.h"
 #include "base/text.h"
@@ -95,7 +96,7 @@ void AddSurvey(const SurveyCase& c, const MonteCarloOptions& options,
          Format("%.3f", m.position_rms), Format("%.3f", m.final_horizontal),
          Format("%.3f", 100.0 * drift), Format("%.3f", m.heading_rms / kDegree),
          Format("%.2f", m.position_nees / 3.0),
-         m.failed > 0 ? std::to_string(m.failed) : "",
+         m.failed > 0 ? std::to_string(m.failed) : "", GradesCell(m),
          Format("%.2f", m.seconds)});
     (*json)[key][m.name] = {{"position_rms_m", m.position_rms},
                             {"end_horizontal_m", m.final_horizontal},
@@ -174,7 +175,7 @@ void RunUuvSurvey(MonteCarloOptions options, Progress* progress,
   ReportTable table({"dive", "method", "position\nrms [m]",
                      "end, horiz.\nrms [m]", "of distance\n[%]",
                      "heading\nrms [deg]", "NEES pos.\n/ 3", "failed",
-                     "s/run"});
+                     kGradesTitle, "s/run"});
   Json json;
   json["scenario"] = kUuvSurveyName;
   json["complete"] = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/text.h"
 #include "base/units.h"
@@ -18,6 +19,26 @@ constexpr double kMaxRestRate = 2.0 * kDegree;
 constexpr double kMaxForce = 200.0;
 constexpr double kMaxRate = 35.0;
 constexpr double kMaxJitter = 0.2;
+
+/// Scatter of the intervals about their median, without gaps; a row between
+/// two regular ones splits an interval, which late stamps do not.
+double DelayOf(const std::vector<double>& intervals, double median,
+               double longest) {
+  const double slack = kMaxJitter * median;
+  double squares = 0.0;
+  long count = 0;
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    if (intervals[i] > longest) continue;
+    double excess = intervals[i] - median;
+    if (excess < -slack && i + 1 < intervals.size() &&
+        std::abs(excess + intervals[i + 1]) <= slack) {
+      excess += intervals[++i];
+    }
+    squares += excess * excess;
+    ++count;
+  }
+  return count == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(count));
+}
 
 StreamReport ReportStamps(const std::string& name,
                           const std::vector<double>& stamps,
@@ -49,12 +70,14 @@ StreamReport ReportStamps(const std::string& name,
     if (intervals[i] > longest) {
       report.gaps.push_back({stamps[i], intervals[i]});
     } else {
-      squares += (intervals[i] - median) * (intervals[i] - median);
+      const double excess = intervals[i] - median;
+      squares += excess * excess;
       ++regular;
     }
   }
   if (regular > 0) {
     report.jitter = std::sqrt(squares / static_cast<double>(regular));
+    report.delay = DelayOf(intervals, median, longest);
   }
   return report;
 }
@@ -98,6 +121,40 @@ class SpanMean {
   double weight_ = 0.0;
 };
 
+/// The mean of the specific force over the second in which it varies least.
+class QuietestSecond {
+ public:
+  void Add(double dt, const Eigen::Vector3d& f) {
+    sum_ += dt * f;
+    squares_ += dt * f.squaredNorm();
+    duration_ += dt;
+    if (duration_ >= 1.0) End();
+  }
+
+  /// Of a shorter record, the mean over all of it.
+  Eigen::Vector3d mean() const {
+    return std::isfinite(least_) ? mean_ : Eigen::Vector3d(sum_ / duration_);
+  }
+
+ private:
+  void End() {
+    const Eigen::Vector3d mean = sum_ / duration_;
+    const double variance = squares_ / duration_ - mean.squaredNorm();
+    if (variance < least_) {
+      least_ = variance;
+      mean_ = mean;
+    }
+    sum_.setZero();
+    squares_ = duration_ = 0.0;
+  }
+
+  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
+  double squares_ = 0.0;
+  double duration_ = 0.0;
+  double least_ = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();
+};
+
 std::vector<TimeInterval> AllSpans(const Rest& rest) {
   std::vector<TimeInterval> all = rest.at_rest;
   all.insert(all.end(), rest.moving.begin(), rest.moving.end());
@@ -116,6 +173,7 @@ ImuReport ReportImu(const Dataset& dataset) {
   const std::vector<TimeInterval> all = AllSpans(report.rest);
   SpanMean rest(report.rest.at_rest);
   SpanMean still(all);
+  QuietestSecond quietest;
   double duration = 0.0;
   for (std::size_t k = 1; k < imu.samples.size(); ++k) {
     const ImuSample& sample = imu.samples[k];
@@ -128,10 +186,12 @@ ImuReport ReportImu(const Dataset& dataset) {
     duration += dt;
     report.max_force = std::max(report.max_force, f.norm());
     report.max_rate = std::max(report.max_rate, w.norm());
+    quietest.Add(dt, f);
     rest.Add(sample.t, dt, f, w);
     still.Add(sample.t, dt, f, w);
   }
   report.mean_force /= duration;
+  report.quietest_force = quietest.mean();
   report.rest_force = rest.force();
   report.rest_rate = rest.rate();
   report.still_force = still.force();
@@ -180,8 +240,9 @@ std::string SuggestAxes(const Eigen::Vector3d& force) {
 void WarnAboutImu(const CheckReport& report, const ImuStream& stream,
                   std::vector<std::string>* warnings) {
   const ImuReport& imu = report.imu;
-  const double force = imu.rest_force ? imu.rest_force->norm() : imu.mean_force;
-  const char* where = imu.rest_force ? "at rest" : "on average";
+  const double force =
+      imu.rest_force ? imu.rest_force->norm() : imu.quietest_force.norm();
+  const char* where = imu.rest_force ? "at rest" : "where it varies least";
   const double tolerance =
       imu.rest_force ? kForceTolerance : 4 * kForceTolerance;
   if (std::abs(force / kStandardGravity - 1.0) > tolerance) {
@@ -230,11 +291,11 @@ void WarnAboutRate(const Dataset& dataset, const ImuReport& imu,
 
 void WarnAboutStream(const StreamReport& stream,
                      std::vector<std::string>* warnings) {
-  if (stream.rate > 0.0 && stream.jitter * stream.rate > kMaxJitter) {
+  if (stream.rate > 0.0 && stream.delay * stream.rate > kMaxJitter) {
     warnings->push_back(Format(
         "%s: intervals vary by %.3g s about %.3g s: are the stamps those "
         "of reception?",
-        stream.name.c_str(), stream.jitter, 1.0 / stream.rate));
+        stream.name.c_str(), stream.delay, 1.0 / stream.rate));
   }
   const double span = stream.t_end - stream.t_begin;
   if (span > 0.0 && stream.overlap < 0.5 * span) {
@@ -271,7 +332,8 @@ CheckReport CheckDataset(const Dataset& dataset) {
         ReportStamps(stream.sensor.name, stamps, dataset.imu));
     if (stream.sensor.type == SensorType::kZeroVelocity ||
         stream.sensor.type == SensorType::kZeroAngularRate) {
-      report.streams.back().jitter = 0.0;  // they come when the vehicle rests
+      report.streams.back().jitter = report.streams.back().delay =
+          0.0;  // they come when the vehicle rests
     }
   }
   report.imu = ReportImu(dataset);

@@ -26,7 +26,10 @@ struct StreamReport {
   double t_end = 0.0;    ///< [s]
   double rate = 0.0;     ///< one over the median interval [Hz]
   double jitter = 0.0;   ///< standard deviation of intervals without gaps [s]
-  long duplicates = 0;   ///< rows with the stamp of the row before
+  /// The same where two intervals that make a median one count as that: rows
+  /// may stand between regular ones [s].
+  double delay = 0.0;
+  long duplicates = 0;  ///< rows with the stamp of the row before
   std::vector<StreamGap> gaps;
   double overlap = 0.0;  ///< with the IMU [s]
 };
@@ -39,6 +42,8 @@ struct ImuReport {
   std::optional<Eigen::Vector3d> rest_rate;   ///< [rad/s]
   /// Mean over all spans of `rest`; absent if there are none.
   std::optional<Eigen::Vector3d> still_force;  ///< [m/s^2]
+  /// Mean over the second in which the specific force varies least.
+  Eigen::Vector3d quietest_force = Eigen::Vector3d::Zero();  ///< [m/s^2]
   double mean_force = 0.0;  ///< mean |f| over the record [m/s^2]
   double max_force = 0.0;   ///< [m/s^2]
   double max_rate = 0.0;    ///< [rad/s]
@@ -63,11 +68,13 @@ struct CheckReport {
 };
 
 /// Examines a data set and changes nothing. Thresholds: |f| at rest within 5 %
-/// of 9.81 m/s^2, |w| at rest within 2 deg/s of the given bias, |f| below 200
-/// m/s^2, |w| below 35 rad/s, jitter below a fifth of the interval. Rest is
-/// what FindRest says; an IMU that is quiet, but only while it turns faster
-/// than its gyro bias may be, is warned of. Magnetometers: see
-/// CheckMagnetometers.
+/// of 9.81 m/s^2, without a rest within 20 % where it varies least, |w| at rest
+/// within 2 deg/s of the given bias, |f| below 200 m/s^2, |w| below 35 rad/s,
+/// delays of stamps below a fifth of the interval: those make one interval
+/// longer and the next shorter, where rows between the regular ones make them
+/// only shorter. Rest is what FindRest says; an IMU that is quiet, but only
+/// while it turns faster than its gyro bias may be, is warned of.
+/// Magnetometers: see CheckMagnetometers.
 CheckReport CheckDataset(const Dataset& dataset);
 
 }  // namespace hindsight

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
+#include <variant>
 
 #include "base/text.h"
 #include "earth/wgs84.h"
@@ -15,7 +18,7 @@ constexpr double kChance = 1e-6;
 /// Runs shorter than this share of the one in question tell what is usual.
 constexpr long kUsualShare = 2;
 constexpr double kStepsOfResolution = 4.0;
-constexpr double kRounding = 1e-6;       // of a coordinate [m or m/s]
+constexpr double kRounding = 1e-6;       // of a coordinate [m, m/s or uT]
 constexpr double kEarthRadius = 6.37e6;  // [m], for lengths of degrees
 constexpr double kDoubtfulShare = 1.0 / 2.0;
 constexpr double kUnusableShare = 8.0 / 9.0;
@@ -56,43 +59,110 @@ bool IsByChance(const std::vector<long>& rows, long length) {
   return expected > kChance;
 }
 
-using Vectors = std::vector<Eigen::Vector3d>;
-
-/// Positions as metres north, east and up, or velocities; empty for a stream of
-/// another kind.
-Vectors ReadingsOf(const AidingStream& stream) {
-  Vectors readings;
-  double cosine = 1.0;
-  for (const Measurement& z : stream.measurements) {
-    if (const auto* position = std::get_if<PositionFix>(&z.model)) {
-      const Geodetic place = GeodeticFromEcef(position->p_e);
-      if (readings.empty()) cosine = std::cos(place.latitude);
-      readings.emplace_back(kEarthRadius * place.latitude,
-                            kEarthRadius * cosine * place.longitude,
-                            place.height);
-    } else if (const auto* velocity = std::get_if<VelocityFix>(&z.model)) {
-      readings.push_back(velocity->v_n);
-    }
-  }
-  return readings;
-}
-
-struct HeldReading {
-  Eigen::Vector3d value;
-  long rows = 1;
-  std::size_t first = 0;  ///< row
+/// What a row reads.
+struct RowReading {
+  Eigen::Vector4d row = Eigen::Vector4d::Zero();  ///< all of it
+  /// The part of one unit, to tell how far two readings are apart: metres
+  /// north, east and up; metres a second; microtesla.
+  Eigen::Vector4d value = Eigen::Vector4d::Zero();
 };
 
-std::vector<HeldReading> HeldReadings(const Vectors& readings) {
+/// The readings of a stream in time order. At rest those of speed are zero and
+/// repeat by right.
+class StreamReader {
+ public:
+  static bool IsSpeed(const Measurement& z) {
+    return std::holds_alternative<VelocityFix>(z.model) ||
+           std::holds_alternative<Odometer>(z.model) ||
+           std::holds_alternative<SpeedCourse>(z.model) ||
+           std::holds_alternative<Dvl>(z.model);
+  }
+
+  /// Nothing of a measurement that is no reading.
+  std::optional<RowReading> Read(const Measurement& z) {
+    return std::visit([this](const auto& model) { return Of(model); }, z.model);
+  }
+
+ private:
+  static RowReading Plain(double a, double b = 0.0, double c = 0.0,
+                          double d = 0.0) {
+    const Eigen::Vector4d value(a, b, c, d);
+    return {value, value};
+  }
+  static RowReading Plain(const Eigen::Vector3d& v) {
+    return Plain(v.x(), v.y(), v.z());
+  }
+
+  std::optional<RowReading> Of(const PositionFix& z) {
+    const Geodetic place = GeodeticFromEcef(z.p_e);
+    if (!cosine_) cosine_ = std::cos(place.latitude);
+    return Plain(kEarthRadius * place.latitude,
+                 kEarthRadius * *cosine_ * place.longitude, place.height);
+  }
+  std::optional<RowReading> Of(const VelocityFix& z) { return Plain(z.v_n); }
+  std::optional<RowReading> Of(const HeightFix& z) { return Plain(z.height); }
+  std::optional<RowReading> Of(const MagneticField& z) {
+    return Plain(z.field_b);
+  }
+  std::optional<RowReading> Of(const Odometer& z) {
+    if (z.form == Odometer::Form::kNonHolonomic) return std::nullopt;
+    return z.form == Odometer::Form::kIncrements ? Plain(z.distance)
+                                                 : Plain(z.speed);
+  }
+  std::optional<RowReading> Of(const Dvl& z) {
+    RowReading reading;
+    for (int i = 0; i < z.components(); ++i) {
+      if (z.valid[static_cast<std::size_t>(i)]) reading.row(i) = z.speed(i);
+    }
+    reading.value = reading.row;
+    return reading;
+  }
+  std::optional<RowReading> Of(const SpeedCourse& z) {
+    RowReading reading = Plain(z.speed);
+    if (z.has_course) reading.row(1) = z.course;
+    return reading;
+  }
+  std::optional<RowReading> Of(const AcousticFix& z) {
+    if (!z.has_range) return std::nullopt;
+    RowReading reading = Plain(z.range);
+    reading.row.tail<2>() << z.azimuth, z.depression;
+    return reading;
+  }
+  template <typename Model>
+  std::optional<RowReading> Of(const Model&) {
+    return std::nullopt;
+  }
+
+  std::optional<double> cosine_;  ///< of the first latitude
+};
+
+struct HeldReading {
+  RowReading reading;
+  double t_begin = 0.0;
+  double t_end = 0.0;
+  long rows = 1;
+};
+
+std::vector<HeldReading> HeldReadings(const AidingStream& stream) {
   std::vector<HeldReading> held;
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    if (!held.empty() && held.back().value == readings[i]) {
+  StreamReader reader;
+  for (const Measurement& z : stream.measurements) {
+    const std::optional<RowReading> reading = reader.Read(z);
+    if (!reading) continue;
+    if (!held.empty() && held.back().reading.row == reading->row) {
       ++held.back().rows;
+      held.back().t_end = z.t;
     } else {
-      held.push_back({readings[i], 1, i});
+      held.push_back({*reading, z.t, z.t, 1});
     }
   }
   return held;
+}
+
+long Rows(const std::vector<HeldReading>& held) {
+  long rows = 0;
+  for (const HeldReading& reading : held) rows += reading.rows;
+  return rows;
 }
 
 /// The differences of neighbours in order of size, ascending.
@@ -110,13 +180,13 @@ std::vector<double> Gaps(std::vector<double> values) {
 /// Of each coordinate the step that all its differences are multiples of, or
 /// less: the least gap between values, or between the sizes of gaps, as values
 /// that only grow may all be far from each other.
-Eigen::Vector3d Resolution(const std::vector<HeldReading>& held) {
-  Eigen::Vector3d least =
-      Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+Eigen::Vector4d Resolution(const std::vector<HeldReading>& held) {
+  Eigen::Vector4d least =
+      Eigen::Vector4d::Constant(std::numeric_limits<double>::infinity());
   std::vector<double> values(held.size());
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int axis = 0; axis < 4; ++axis) {
     for (std::size_t i = 0; i < held.size(); ++i) {
-      values[i] = held[i].value(axis);
+      values[i] = held[i].reading.value(axis);
     }
     const std::vector<double> gaps = Gaps(values);
     for (const auto& candidates : {gaps, Gaps(gaps)}) {
@@ -127,36 +197,57 @@ Eigen::Vector3d Resolution(const std::vector<HeldReading>& held) {
   return least;
 }
 
-long MedianRows(std::vector<HeldReading> held) {
+template <typename Value>
+Value Median(std::vector<Value> values) {
   const auto middle =
-      held.begin() + static_cast<std::ptrdiff_t>(held.size() / 2);
-  std::nth_element(held.begin(), middle, held.end(),
-                   [](const HeldReading& a, const HeldReading& b) {
-                     return a.rows < b.rows;
-                   });
-  return middle->rows;
-}
-
-/// The median distance of two readings in a row that differ.
-double MedianStep(const std::vector<HeldReading>& held) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < held.size(); ++i) {
-    steps.push_back((held[i].value - held[i - 1].value).norm());
-  }
-  const auto middle =
-      steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
+      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-/// Spans over which a stream repeats one reading while the vehicle goes on, as
-/// the jump at the end shows: at least half of what as many usual steps make. A
-/// receiver that holds its position at rest does not jump.
-std::vector<RepeatedRun> FrozenSpans(const AidingStream& stream) {
-  const std::vector<HeldReading> held = HeldReadings(ReadingsOf(stream));
+long MedianRows(const std::vector<HeldReading>& held) {
+  std::vector<long> rows;
+  for (const HeldReading& reading : held) rows.push_back(reading.rows);
+  return Median(std::move(rows));
+}
+
+/// How far readings are apart that are `lag` rows apart and differ, as median
+/// over the stream.
+class UsualChange {
+ public:
+  explicit UsualChange(const std::vector<HeldReading>& held) {
+    for (const HeldReading& reading : held) {
+      values_.insert(values_.end(), static_cast<std::size_t>(reading.rows),
+                     &reading.reading.value);
+    }
+  }
+
+  double Over(long lag) const {
+    constexpr std::size_t kSamples = 1000;
+    const std::size_t n =
+        std::min(static_cast<std::size_t>(lag), values_.size() / 2);
+    const std::size_t stride = 1 + values_.size() / kSamples;
+    std::vector<double> changes;
+    for (std::size_t i = 0; i + n < values_.size(); i += stride) {
+      const double change = (*values_[i + n] - *values_[i]).norm();
+      if (change > 0.0) changes.push_back(change);
+    }
+    return changes.empty() ? 0.0 : Median(std::move(changes));
+  }
+
+ private:
+  std::vector<const Eigen::Vector4d*> values_;
+};
+
+/// Spans over which a stream repeats one reading while what it measures goes
+/// on, as the jump at the end shows: at least half of the usual change over as
+/// many rows. A receiver that holds its position at rest does not jump.
+std::vector<RepeatedRun> FrozenSpans(const AidingStream& stream,
+                                     const std::vector<HeldReading>& held) {
   if (held.size() < 3) return {};
-  const Eigen::Array3d resolution = Resolution(held).array();
-  const double usual = MedianStep(held);
+  const bool is_speed = StreamReader::IsSpeed(stream.measurements.front());
+  const Eigen::Array4d step = kStepsOfResolution * Resolution(held).array();
+  const UsualChange usual(held);
   std::vector<long> rows;
   for (const HeldReading& reading : held) {
     if (reading.rows > 1) rows.push_back(reading.rows);
@@ -164,16 +255,18 @@ std::vector<RepeatedRun> FrozenSpans(const AidingStream& stream) {
   std::sort(rows.begin(), rows.end());
   std::vector<RepeatedRun> spans;
   for (std::size_t i = 0; i + 1 < held.size(); ++i) {
-    const Eigen::Vector3d jump = held[i + 1].value - held[i].value;
-    const long count = held[i].rows;
-    if (count < 3 || jump.norm() < 0.5 * static_cast<double>(count) * usual ||
-        !(jump.array().abs() > kStepsOfResolution * resolution).any() ||
-        IsByChance(rows, count)) {
+    const HeldReading& run = held[i];
+    const Eigen::Array4d value = run.reading.value.array();
+    if (run.rows < 3 || (is_speed && !(value.abs() > step).any()) ||
+        IsByChance(rows, run.rows)) {
       continue;
     }
-    const auto last = held[i].first + static_cast<std::size_t>(count) - 1;
-    spans.push_back({stream.measurements[held[i].first].t,
-                     stream.measurements[last].t, count});
+    const Eigen::Array4d jump = held[i + 1].reading.value.array() - value;
+    if (!(jump.abs() > step).any() ||
+        jump.matrix().norm() < 0.5 * usual.Over(run.rows)) {
+      continue;
+    }
+    spans.push_back({run.t_begin, run.t_end, run.rows});
   }
   return spans;
 }
@@ -215,6 +308,24 @@ Evidence StaleEvidence(const std::string& name, double share) {
       .remedies = {"the rows of " + name + " at which it was measured, alone"}};
 }
 
+double ShareOf(const std::vector<HeldReading>& held) {
+  if (held.size() < 3) return 0.0;
+  const Eigen::Array4d step = kStepsOfResolution * Resolution(held).array();
+  const long usual = 2 * MedianRows(held);
+  long stale = 0;
+  for (std::size_t i = 1; i + 1 < held.size(); ++i) {
+    const auto far = [&](std::size_t j) {
+      return ((held[j].reading.value - held[i].reading.value).array().abs() >
+              step)
+          .any();
+    };
+    if (held[i].rows <= usual && far(i - 1) && far(i + 1)) {
+      stale += held[i].rows - 1;
+    }
+  }
+  return static_cast<double>(stale) / static_cast<double>(Rows(held));
+}
+
 }  // namespace
 
 std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu) {
@@ -229,21 +340,7 @@ std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu) {
 }
 
 double StaleShare(const AidingStream& stream) {
-  const Vectors readings = ReadingsOf(stream);
-  const std::vector<HeldReading> held = HeldReadings(readings);
-  if (held.size() < 3) return 0.0;
-  const Eigen::Array3d step = kStepsOfResolution * Resolution(held).array();
-  const long usual = 2 * MedianRows(held);
-  long stale = 0;
-  for (std::size_t i = 1; i + 1 < held.size(); ++i) {
-    const auto far = [&](std::size_t j) {
-      return ((held[j].value - held[i].value).array().abs() > step).any();
-    };
-    if (held[i].rows <= usual && far(i - 1) && far(i + 1)) {
-      stale += held[i].rows - 1;
-    }
-  }
-  return static_cast<double>(stale) / static_cast<double>(readings.size());
+  return ShareOf(HeldReadings(stream));
 }
 
 std::vector<Evidence> FindRepeatedReadings(const Dataset& dataset, double from,
@@ -260,8 +357,9 @@ std::vector<Evidence> FindRepeatedReadings(const Dataset& dataset, double from,
   };
   add("frozen_imu", "imu", FindFrozenImu(dataset.imu));
   for (const AidingStream& stream : dataset.streams) {
-    add("frozen_stream", stream.sensor.name, FrozenSpans(stream));
-    const double share = StaleShare(stream);
+    const std::vector<HeldReading> held = HeldReadings(stream);
+    add("frozen_stream", stream.sensor.name, FrozenSpans(stream, held));
+    const double share = ShareOf(held);
     if (share < kDoubtfulShare) continue;
     evidence.push_back(StaleEvidence(stream.sensor.name, share));
   }

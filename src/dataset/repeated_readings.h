@@ -23,16 +23,18 @@ struct RepeatedRun {
 /// long.
 std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu);
 
-/// Share of a stream's rows of position or velocity that repeat the row before
-/// in every digit although the vehicle moves: a coordinate of the readings on
+/// Share of a stream's rows that repeat the row before in every digit although
+/// the vehicle moves: a coordinate of the readings on
 /// both sides of the run is more than four steps of its resolution away, and
 /// runs of the kind are the stream's habit: no longer than twice their median.
-/// A receiver that holds its position at rest does not count. 0 for streams of
-/// other kinds.
+/// A receiver that holds its position at rest does not count. 0 for streams
+/// that read nothing: non-holonomic, zero velocity, bearings alone.
 double StaleShare(const AidingStream& stream);
 
 /// What the recording's own repetitions say about any solution of [from, to].
-///   Frozen IMU, or positions or velocities that then jump: doubtful.
+///   Frozen IMU, or a stream that repeats its row longer than its shorter
+///   repetitions let chance explain and then jumps by at least half of what it
+///   usually changes over as many rows: doubtful. A speed of zero is rest.
 ///   Stale rows, a share s of all: each reading is counted 1/(1 - s) times, so
 ///   that its sigma is too small by 1/sqrt(1 - s). Doubtful from s = 1/2 on, a
 ///   factor of 1.4; not usable from 8/9 on, a factor of three.

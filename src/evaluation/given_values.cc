@@ -95,9 +95,8 @@ std::string OwnSource(const StartValues& start, BlockKind kind) {
   }
 }
 
-Evidence Strain(const Judged& judged, const Block& block, int axis,
+Evidence Strain(const Judged& judged, const Origin& origin, const Block& block,
                 const std::string& component, double sigmas) {
-  const Origin origin = OriginOf(judged, block, axis);
   const bool constant = block.evolution.kind == Evolution::Kind::kConstant;
   Evidence e{.grade = Grade::kDoubtful,
              .what = component + (constant ? " is " : " at the start is "),
@@ -126,6 +125,19 @@ Evidence Strain(const Judged& judged, const Block& block, int axis,
   return e;
 }
 
+/// Of a gyro bias that was given with its sigma, which the start may have
+/// combined with what the data say: how far the solution is from what was
+/// given, in the given sigma. Zero of all else.
+double StrainOfGiven(const Judged& judged, const Block& block, int axis,
+                     const State& x) {
+  const InitialState& given = judged.start->given;
+  if (block.key.kind != BlockKind::kGyroBias || !given.gyro_bias_sigma) {
+    return 0.0;
+  }
+  return std::abs(x.b_g(axis) - given.gyro_bias(axis)) /
+         (*given.gyro_bias_sigma)(axis);
+}
+
 }  // namespace
 
 void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence) {
@@ -151,9 +163,16 @@ void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence) {
       if (!block.active[static_cast<std::size_t>(axis)]) continue;
       const double sigma0 = std::sqrt(start.P(i, i));
       const double sigmas = std::abs(constant ? last(i) : first(i)) / sigma0;
-      if (sigmas > kStrained) {
-        evidence->push_back(Strain(judged, block, axis,
-                                   solution.layout.ComponentName(i), sigmas));
+      const double of_given = StrainOfGiven(
+          judged, block, axis,
+          constant ? solution.states.back() : solution.states.front());
+      const std::string name = solution.layout.ComponentName(i);
+      if (of_given > kStrained) {
+        evidence->push_back(
+            Strain(judged, OfStart(true, "gyro_bias"), block, name, of_given));
+      } else if (sigmas > kStrained) {
+        evidence->push_back(
+            Strain(judged, OriginOf(judged, block, axis), block, name, sigmas));
       }
       ++i;
     }

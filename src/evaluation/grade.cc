@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <tuple>
+#include <utility>
 
+#include "base/text.h"
 #include "evaluation/given_values.h"
 #include "evaluation/grade_rules.h"
 #include "evaluation/observability.h"
@@ -12,16 +14,27 @@ namespace hindsight {
 namespace {
 
 void PassOnRecording(const Judged& judged, std::vector<Evidence>* evidence) {
-  evidence->insert(evidence->end(), judged.recording.begin(),
-                   judged.recording.end());
+  for (const Evidence& found : judged.recording) {
+    evidence->push_back(found);
+    evidence->back().is_cause = true;
+  }
 }
+
+void PassOnDisagreement(const Judged& judged, std::vector<Evidence>* evidence) {
+  if (judged.disagreement) evidence->push_back(*judged.disagreement);
+}
+
+constexpr const char* kLinearisationRule = "linearisation";
+/// Methods that end with a linearisation about their own result, best first.
+constexpr const char* kRelinearising[] = {"batch", "iterated", "robust_batch"};
 
 constexpr GradeRule kRules[] = {
     {"failure", FindFailure},
     {"clock", FindUnsettledClock},
     {"recording", PassOnRecording},
     {"rival", FindLikelyRival},
-    {"linearisation", FindLinearisedFarOff},
+    {kLinearisationRule, FindLinearisedFarOff},
+    {"disagreement", PassOnDisagreement},
     {"unobserved", FindUnobservedState},
     {"shut_out", FindShutOut},
     {"residuals", FindLargeResiduals},
@@ -30,25 +43,16 @@ constexpr GradeRule kRules[] = {
     {"accuracy", DescribeAccuracy},
 };
 
-/// "; 2 constants are kept at their priors: a, b", or nothing.
+/// "; 2 constants are kept at their priors", or nothing.
 std::string ConstantsAtPriors(const std::vector<ConstantEstimate>& constants) {
-  constexpr int kMostNames = 6;
-  std::string names;
-  int count = 0;
-  for (const ConstantEstimate& constant : constants) {
-    if (constant.verdict != ConstantEstimate::Verdict::kUnobserved) continue;
-    if (++count > kMostNames) continue;
-    names += (count == 1 ? "" : ", ") + constant.name;
-  }
+  const auto count = std::count_if(
+      constants.begin(), constants.end(), [](const ConstantEstimate& constant) {
+        return constant.verdict == ConstantEstimate::Verdict::kUnobserved;
+      });
   if (count == 0) return "";
-  const std::string more =
-      count > kMostNames
-          ? " and " + std::to_string(count - kMostNames) + " more"
-          : "";
-  return (count == 1 ? "; 1 constant is kept at its prior: "
-                     : "; " + std::to_string(count) +
-                           " constants are kept at their priors: ") +
-         names + more;
+  return count == 1 ? "; 1 constant is kept at its prior"
+                    : "; " + std::to_string(count) +
+                          " constants are kept at their priors";
 }
 
 /// What is true of a usable solution.
@@ -57,28 +61,39 @@ std::string Praise(const Solution& solution) {
   for (const Evidence& evidence : solution.evidence) {
     text += (text.empty() ? ": " : ", ") + evidence.what;
   }
-  if (!solution.unobserved.empty()) {
-    text += "; but not everywhere: see the unobserved spans";
-  }
+  if (!solution.unobserved.empty()) text += "; but not everywhere";
   return text + ConstantsAtPriors(solution.constants);
+}
+
+/// Whether `a` says more of why a solution has the grade than `b`: faults of
+/// the recording, which explain the rest, come first; then what makes the
+/// grade; of that the farthest beyond its limit, and of equal ones the first.
+bool WeighsMore(const Evidence& a, const Evidence& b) {
+  return std::tuple(a.is_cause, a.grade, a.Severity()) >
+         std::tuple(b.is_cause, b.grade, b.Severity());
+}
+
+/// As many words of a clause as a line has room for.
+std::string Shortened(const std::string& clause) {
+  constexpr std::size_t kMost = 104;
+  if (clause.size() <= kMost) return clause;
+  return clause.substr(0, clause.rfind(' ', kMost - 3)) + "...";
 }
 
 /// What speaks most against a solution that is not usable as it stands.
 std::string Objection(const Solution& solution) {
-  const Evidence* first = nullptr;
-  int others = 0;
+  const Evidence* worst = nullptr;
+  int others = -1;
   for (const Evidence& evidence : solution.evidence) {
     if (evidence.grade == Grade::kUsable) continue;
     ++others;
-    if (first == nullptr && evidence.grade == solution.grade) first = &evidence;
+    if (worst == nullptr || WeighsMore(evidence, *worst)) worst = &evidence;
   }
-  std::string text = ": " + first->what;
-  if (!first->better_methods.empty()) {
-    text += ": take " + AsAlternatives(first->better_methods);
-  } else if (!first->remedies.empty()) {
-    text += ": try " + first->remedies.front();
+  std::string text = ": " + Shortened(worst->what);
+  if (others > 0) {
+    text += Format(", and %d more reason%s (see summary.json)", others,
+                   others == 1 ? "" : "s");
   }
-  if (--others > 0) text += "; and " + std::to_string(others) + " more reasons";
   return text;
 }
 
@@ -144,20 +159,49 @@ Solution FailedSolution(const std::string& method, const std::string& reason) {
   return failed;
 }
 
-void KeepBetterMethods(std::vector<Solution>* solutions) {
+void AdviseBetterMethods(std::vector<Solution>* solutions) {
+  const auto find = [&](const std::string& name) {
+    return std::find_if(solutions->begin(), solutions->end(),
+                        [&](const Solution& s) { return s.method == name; });
+  };
   for (Solution& solution : *solutions) {
-    bool changed = false;
     for (Evidence& evidence : solution.evidence) {
-      changed |=
-          std::erase_if(evidence.better_methods, [&](const std::string& name) {
-            return std::any_of(solutions->begin(), solutions->end(),
-                               [&](const Solution& other) {
-                                 return other.method == name &&
-                                        other.grade >= solution.grade;
-                               });
-          }) > 0;
+      std::vector<std::string>& methods = evidence.better_methods;
+      std::erase_if(methods, [&](const std::string& name) {
+        const auto other = find(name);
+        return other != solutions->end() && other->grade >= solution.grade;
+      });
+      if (evidence.rule != kLinearisationRule) continue;
+      for (const char* name : kRelinearising) {
+        const auto other = find(name);
+        if (other != solutions->end() && other->grade < solution.grade &&
+            std::find(methods.begin(), methods.end(), name) == methods.end()) {
+          methods.emplace_back(name);
+        }
+      }
     }
-    if (changed) solution.verdict = VerdictOf(solution);
+  }
+}
+
+void ShareDisagreements(std::vector<Solution>* solutions) {
+  std::vector<std::pair<std::string, Evidence>> told;
+  for (const Solution& solution : *solutions) {
+    for (const Evidence& evidence : solution.evidence) {
+      if (evidence.against.empty()) continue;
+      told.emplace_back(evidence.against, evidence);
+      told.back().second.against = solution.method;
+    }
+  }
+  for (const auto& [method, evidence] : told) {
+    for (Solution& solution : *solutions) {
+      const bool knows = std::any_of(
+          solution.evidence.begin(), solution.evidence.end(),
+          [&](const Evidence& own) { return own.against == evidence.against; });
+      if (solution.method != method || knows) continue;
+      solution.evidence.push_back(evidence);
+      solution.grade = GradeOf(solution.evidence);
+      solution.verdict = VerdictOf(solution);
+    }
   }
 }
 

@@ -58,6 +58,8 @@ struct Judged {
   std::string unsettled = "";
   /// What the recording shows by itself, of the solution's interval.
   std::vector<Evidence> recording = {};
+  /// Where it ends elsewhere than another method that minimises the same cost.
+  std::optional<Evidence> disagreement = std::nullopt;
   /// Nothing says where north is: the heading counts from the start.
   bool relative_heading = false;
 };
@@ -80,9 +82,14 @@ void Conclude(const Judged& judged, const std::vector<UnobservedSpan>& known,
 /// Gives a method that failed its grade: no trajectory, for `reason`.
 Solution FailedSolution(const std::string& method, const std::string& reason);
 
-/// Takes out of every solution's evidence the advice to take a method that is
-/// itself among the solutions and has no better grade.
-void KeepBetterMethods(std::vector<Solution>* solutions);
+/// Has every solution's evidence advise only methods that are better: takes out
+/// those that are among the solutions with no better grade, and where the
+/// linearisation is at fault adds those that linearise anew and have one.
+void AdviseBetterMethods(std::vector<Solution>* solutions);
+
+/// Tells both methods of every disagreement, which is found when the later one
+/// is judged.
+void ShareDisagreements(std::vector<Solution>* solutions);
 
 /// Index of the best of several solutions of one recording: the best grade; of
 /// equal ones the least evidence against it; then the order of `preference`,

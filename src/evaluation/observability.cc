@@ -104,14 +104,15 @@ std::vector<UnobservedSpan> FindUnobserved(const Solution& solution) {
         int& span = open[static_cast<std::size_t>(component)];
         // With masked axes component i may be another axis; the limits of the
         // horizontal ones are the same.
-        if (sigma <= LimitOf(block.key.kind, block.dim == 3 ? i : 0)) {
+        const double limit = LimitOf(block.key.kind, block.dim == 3 ? i : 0);
+        if (sigma <= limit) {
           span = -1;
           continue;
         }
         if (span < 0) {
           span = static_cast<int>(spans.size());
           spans.push_back(
-              {solution.layout.ComponentName(component), t, t, sigma});
+              {solution.layout.ComponentName(component), t, t, sigma, limit});
         }
         UnobservedSpan& s = spans[static_cast<std::size_t>(span)];
         s.t_end = t;

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "linear/sparse_product.h"
 
 namespace hindsight {
 
@@ -49,9 +50,8 @@ void Update(const LinearizedMeasurement& z, const Innovation& innovation,
 
 void PredictCovariance(const ErrorMatrix& Phi, const ErrorMatrix& Q,
                        ErrorMatrix* P) {
-  const ErrorMatrix PhiP = Phi * *P;
-  *P = Q;
-  P->noalias() += PhiP * Phi.transpose();
+  const ErrorMatrix PhiP = TimesTransposed(*P, Phi).transpose();
+  *P = Q + TimesTransposed(PhiP, Phi);
   Symmetrize(P);
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "filters/transport.h"
+#include "linear/sparse_product.h"
 
 namespace hindsight {
 namespace {
@@ -50,19 +51,19 @@ class RtsPass {
           "predicted covariance is not positive definite at t = " +
           std::to_string(tape_.epoch(k + 1).t) + " s");
     }
-    const Matrix PhiP = Phi * P_plus;
+    const Matrix PhiP = TimesTransposed(P_plus, Phi).transpose();
     const Matrix C = llt.solve(PhiP).transpose();
     Matrix A = Matrix::Identity(tape_.dim(), tape_.dim());
-    A.noalias() -= C * Phi;
+    A -= Times(C, Phi);
     const Vector ahead = d_ - tape_.epoch(k + 1).dx_minus;
     d_ = C * ahead;
     if (!tape_.epoch(k).reset) d_ += tape_.epoch(k).dx_plus;
     P_ += tape_.Q(k + 1);
     const Matrix CP = C * P_;
-    P_.noalias() = CP * C.transpose();
+    P_.template triangularView<Eigen::Lower>() = CP * C.transpose();
     const Matrix AP = A * P_plus;
-    P_.noalias() += AP * A.transpose();
-    MakeSymmetric();
+    P_.template triangularView<Eigen::Lower>() += AP * A.transpose();
+    P_ = Matrix(P_.template selfadjointView<Eigen::Lower>());
   }
 
   /// Writes epoch k from the smoothed error about x_plus, and carries that
@@ -83,11 +84,6 @@ class RtsPass {
       d_ += epoch.dx_plus;
     }
     out_.d[k] = d_;
-  }
-
-  void MakeSymmetric() {
-    const Matrix symmetric = 0.5 * (P_ + P_.transpose());
-    P_ = symmetric;
   }
 
   const LinearTape& tape_;

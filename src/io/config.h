@@ -106,8 +106,8 @@ namespace hindsight {
 /// with estimate.disturbance_tau, 10 s. It has no lever arm.
 ///
 /// zero_velocity: the IMU stands where its column zero_velocity is 1 (0 elsewhere);
-/// sigma *needed*, of each axis [m/s]. It has no lever arm. Rows that are not thinned
-/// out by `every` are correlated: their sigma is that of one of them alone.
+/// sigma *needed*, of each axis [m/s]: how fast it may still move in a stance. Rows
+/// within a second share that error (dataset/standing_flags.h). It has no lever arm.
 ///
 /// height: estimate.offset, an additive constant. depth, besides: surface, the
 /// height of the water above the ellipsoid, 0 m.

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "dataset/standing_flags.h"
 #include "io/reader_rows.h"
 
 namespace hindsight {
@@ -112,6 +113,9 @@ class AidingReader {
     if (options_.type == SensorType::kOdometer &&
         options_.odometer_form == Odometer::Form::kIncrements) {
       TakeDifferences(&measurements);
+    }
+    if (options_.type == SensorType::kZeroVelocity) {
+      ShareErrorsOfStances(&measurements);
     }
     return measurements;
   }

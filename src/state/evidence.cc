@@ -1,8 +1,11 @@
 #include "state/evidence.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace hindsight {
+
 const char* GradeName(Grade grade) {
   switch (grade) {
     case Grade::kUsable:
@@ -13,6 +16,13 @@ const char* GradeName(Grade grade) {
       return "not usable";
   }
   return "";
+}
+
+double Evidence::Severity() const {
+  if (!value || !limit || *limit == 0.0 || !std::isfinite(*value)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return std::abs(*value / *limit);
 }
 
 Grade GradeOf(const std::vector<Evidence>& evidence) {

@@ -34,6 +34,14 @@ struct Evidence {
   std::vector<std::string> remedies = {};      ///< what to try
   /// Methods that do not suffer from it.
   std::vector<std::string> better_methods = {};
+  /// A fault that the recording shows by itself: what else is odd of a solution
+  /// may well be its consequence.
+  bool is_cause = false;
+  /// The other method that it says the same of; empty: none.
+  std::string against = "";
+
+  /// Value over limit; infinite of what has no limit to be within.
+  double Severity() const;
 };
 
 /// The worst grade among the evidence; usable if there is none.

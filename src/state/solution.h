@@ -45,6 +45,7 @@ struct UnobservedSpan {
   double t_begin = 0.0;
   double t_end = 0.0;
   double sigma = 0.0;  ///< the smallest reached in the span, SI
+  double limit = 0.0;  ///< above which it counts as not observed, SI
 };
 
 /// What a search within bounds found.

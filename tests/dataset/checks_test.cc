@@ -118,5 +118,42 @@ TEST(CheckDataset, WarnsOfForceInTheWrongUnit) {
   EXPECT_THAT(report.warnings[0], HasSubstr("check the unit"));
 }
 
+/// In the hand, shaken all the time but for two seconds, as the mean of |f|
+/// shows, which is no sign of a wrong unit.
+TEST(CheckDataset, GravityIsSoughtWhereTheForceVariesLeast) {
+  Dataset data = Recording({0, 0, -9.81});
+  for (ImuSample& sample : data.imu.samples) {
+    const bool quiet = sample.t > 40.0 && sample.t < 42.5;
+    const double shake = (quiet ? 0.3 : 15.0) * std::sin(40.0 * sample.t);
+    sample.accel = Eigen::Vector3d(shake, 0.7 * shake, -9.81);
+    sample.gyro.setConstant(0.1 * shake);
+  }
+  const CheckReport report = CheckDataset(data);
+  EXPECT_FALSE(report.imu.rest_force);
+  EXPECT_GT(report.imu.mean_force, 12.0);
+  EXPECT_NEAR(report.imu.quietest_force.norm(), 9.81, 0.1);
+  EXPECT_TRUE(report.warnings.empty());
+  for (ImuSample& sample : data.imu.samples) sample.accel /= 9.81;
+  EXPECT_THAT(CheckDataset(data).warnings,
+              ::testing::Contains(HasSubstr("where it varies least")));
+}
+
+/// Rows each 20 ms and further ones between them, each with its right stamp.
+TEST(CheckDataset, RowsBetweenRegularOnesAreNoSignOfReception) {
+  Dataset data = Recording({0, 0, -9.81});
+  for (int i = 0; i < 2900; ++i) {
+    data.truth.push_back({.t = 0.02 * i});
+    if (i % 6 == 0) data.truth.push_back({.t = 0.02 * i + 0.001 * (i % 18)});
+  }
+  const CheckReport extra = CheckDataset(data);
+  EXPECT_GT(extra.streams.back().jitter, 0.2 * 0.02);
+  EXPECT_TRUE(extra.truth_warnings.empty());
+  data.truth.clear();
+  for (int i = 0; i < 2900; ++i) {
+    data.truth.push_back({.t = 0.02 * i + 0.005 * (i % 3)});
+  }
+  EXPECT_EQ(CheckDataset(data).truth_warnings.size(), 1u);
+}
+
 }  // namespace
 }  // namespace hindsight

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/random.h"
 #include "base/units.h"
+#include "simulation/builtin_scenarios.h"
 
 namespace hindsight {
 namespace {
@@ -162,6 +164,101 @@ TEST(RepeatedReadings, FrozenPositionsAreDoubtfulUnlessTheVehicleRests) {
   };
   dataset.streams = {Positions(10.0, 10.0, 1e-3, stops)};
   EXPECT_TRUE(FindRepeatedReadings(dataset, 0.0, 600.0).empty());
+}
+
+/// Ten minutes at 10 Hz of speeds, heights and fields, each as Reading makes it
+/// of the time and rounded to its resolution.
+template <typename Reading>
+AidingStream Readings(Reading reading) {
+  AidingStream stream;
+  stream.sensor.name = "sensor";
+  for (int k = 0; k < 6000; ++k) {
+    stream.measurements.push_back({.t = 0.1 * k, .model = reading(0.1 * k)});
+  }
+  return stream;
+}
+
+double Rounded(double value, double resolution) {
+  return resolution * std::round(value / resolution);
+}
+
+double Speed(double t) {
+  return Rounded(12.0 + 6.0 * std::sin(0.05 * t) + 0.8 * std::sin(0.9 * t),
+                 0.01);
+}
+
+MeasurementModel OfOdometer(double t) { return Odometer{.speed = Speed(t)}; }
+MeasurementModel OfCourse(double t) {
+  return SpeedCourse{.speed = Speed(t),
+                     .course = Rounded(std::sin(0.03 * t), 1e-3)};
+}
+MeasurementModel OfDvl(double t) {
+  Dvl dvl;
+  dvl.speed << Speed(t), Rounded(0.3 * std::sin(0.7 * t), 0.01), 0.0, 0.0;
+  return dvl;
+}
+MeasurementModel OfDepth(double t) {
+  return HeightFix{Rounded(-30.0 + 10.0 * std::sin(0.02 * t), 0.01)};
+}
+MeasurementModel OfField(double t) {
+  const double heading = 0.4 * std::sin(0.11 * t) + 0.02 * t;
+  return MagneticField{.field_b = {Rounded(20.0 * std::cos(heading), 0.05),
+                                   Rounded(-20.0 * std::sin(heading), 0.05),
+                                   Rounded(40.0, 0.05)}};
+}
+
+TEST(RepeatedReadings, FrozenStreamsOfEveryKindAreFound) {
+  Dataset dataset;
+  dataset.imu = Imu(100.0);
+  for (const auto& of : {OfOdometer, OfCourse, OfDvl, OfDepth, OfField}) {
+    dataset.streams = {Readings(of)};
+    EXPECT_TRUE(FindRepeatedReadings(dataset, 0.0, 600.0).empty());
+    dataset.streams = {Readings(
+        [&of](double t) { return of(t > 203.0 && t < 223.0 ? 203.0 : t); })};
+    const auto evidence = FindRepeatedReadings(dataset, 0.0, 600.0);
+    ASSERT_EQ(evidence.size(), 1u);
+    EXPECT_EQ(evidence[0].rule, "frozen_stream");
+    EXPECT_NEAR(*evidence[0].t_begin, 203.0, 0.3);
+    EXPECT_NEAR(*evidence[0].t_end, 223.0, 0.3);
+    dataset.streams = {Readings([&of](double t) { return of(std::floor(t)); })};
+    EXPECT_EQ(FindRepeatedReadings(dataset, 0.0, 600.0).at(0).rule,
+              "stale_readings");
+  }
+}
+
+/// Stops of half a minute, left at 3 m/s^2: the first reading after one is of a
+/// speed of its own.
+TEST(RepeatedReadings, OdometerAtRestRepeatsZeroByRight) {
+  Dataset dataset;
+  dataset.imu = Imu(100.0);
+  dataset.streams = {Readings([](double t) -> MeasurementModel {
+    const double in_cycle = std::fmod(t, 90.0);
+    const double speed = std::min({3.0 * in_cycle, 10.0 + std::sin(t),
+                                   std::max(0.0, 180.0 - 3.0 * in_cycle)});
+    return Odometer{.speed = Rounded(speed, 0.1)};
+  })};
+  EXPECT_TRUE(FindRepeatedReadings(dataset, 0.0, 600.0).empty());
+}
+
+/// A level stretch of two minutes between hills, in steps of 0.1 m.
+TEST(RepeatedReadings, CoarseHeightsRepeatOnTheLevel) {
+  Dataset dataset;
+  dataset.imu = Imu(100.0);
+  dataset.streams = {Readings([](double t) -> MeasurementModel {
+    const double hill = t < 200.0 ? t : t < 320.0 ? 200.0 : t - 120.0;
+    return HeightFix{Rounded(5.0 * std::sin(0.05 * hill), 0.1)};
+  })};
+  EXPECT_TRUE(FindRepeatedReadings(dataset, 0.0, 600.0).empty());
+}
+
+TEST(RepeatedReadings, HealthySimulatedRecordingsHaveNone) {
+  for (const std::string& name : BuiltinScenarioNames()) {
+    const Dataset dataset = Simulate(BuiltinScenario(name), 3);
+    for (const Evidence& evidence :
+         FindRepeatedReadings(dataset, 0.0, dataset.imu.t_end())) {
+      ADD_FAILURE() << name << ": " << evidence.what;
+    }
+  }
 }
 
 }  // namespace

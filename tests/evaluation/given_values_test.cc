@@ -71,6 +71,22 @@ TEST_F(GivenValues, OwnStartIsNamedWithTheKeyToSet) {
   EXPECT_THAT(Find(7, 7.0).at(0).what, HasSubstr("the program's own start"));
 }
 
+/// The start has combined it with what a rest says.
+TEST_F(GivenValues, GivenGyroBiasIsHeldAgainstItsOwnSigma) {
+  const Eigen::Vector3d sigma(1e-4, 1e-4, 1e-4);
+  const int i = TypicalLayout().Find(BlockKind::kGyroBias)->offset;
+  start_.given.gyro_bias_sigma = sigma;
+  start_.given.gyro_bias =
+      TypicalState().b_g - 6.0 * sigma.x() * Eigen::Vector3d::UnitX();
+  const auto found = Find(i, 0.0);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].what, HasSubstr("6.0 sigma from its given value"));
+  EXPECT_THAT(found[0].causes.at(0), HasSubstr("initial.gyro_bias"));
+  // Within its own sigma, but the start had too small a one.
+  start_.given.gyro_bias_sigma = 1e3 * sigma;
+  EXPECT_THAT(Find(i, 7.0).at(0).what, HasSubstr("the program's own start"));
+}
+
 TEST_F(GivenValues, ConstantOfASensorIsNamedByItsKey) {
   Sensor sensor;
   sensor.name = "gnss";

@@ -143,6 +143,56 @@ TEST_F(GradeTest, LargeResidualsAreNotUsable) {
   EXPECT_FALSE(Against().remedies.empty());
 }
 
+TEST_F(GradeTest, VerdictIsOneSentenceOfTheWorstReason) {
+  sensors_.resize(3);
+  sensors_[1].name = "wheels";
+  sensors_[2].name = "depth";
+  for (int i = 1; i < 3; ++i) {
+    for (std::size_t k = 0; k <= 100; ++k) {
+      solution_.residuals.push_back(solution_.residuals[k]);
+      solution_.residuals.back().sensor = i;
+    }
+  }
+  for (ResidualRecord& r : solution_.residuals) {
+    const double rms = r.sensor == 1 ? 40.0 : 6.0;
+    r.nis = 3.0 * rms * rms;
+  }
+  ConcludePlain();
+  EXPECT_EQ(solution_.verdict,
+            "not usable: residuals of wheels are 40.0 times what their sigma "
+            "says (limit 5), and 2 more reasons (see summary.json)");
+  for (ResidualRecord& r : solution_.residuals) {
+    if (r.sensor == 0) r.nis = 3.0;
+  }
+  ConcludePlain();
+  EXPECT_THAT(solution_.verdict,
+              HasSubstr("and 1 more reason (see summary.json)"));
+  EXPECT_LE(("batch is " + solution_.verdict).size(), 160u);
+}
+
+TEST_F(GradeTest, FaultOfTheRecordingIsNamedBeforeWhatComesOfIt) {
+  for (ResidualRecord& r : solution_.residuals) r.nis = 3.0 * 50.0 * 50.0;
+  const Evidence frozen{.rule = "frozen_imu",
+                        .grade = Grade::kDoubtful,
+                        .what = "imu repeats one reading for 5 s from 20 s"};
+  ConcludeWith(
+      {.solution = solution_, .sensors = sensors_, .recording = {frozen}});
+  EXPECT_EQ(solution_.verdict,
+            "not usable: imu repeats one reading for 5 s from 20 s, and 1 more "
+            "reason (see summary.json)");
+}
+
+TEST_F(GradeTest, LongReasonIsCutAtAWord) {
+  RivalSolution rival;
+  rival.probability = 0.5;
+  rival.description = std::string(300, 'x');
+  for (std::size_t i = 9; i < 300; i += 10) rival.description[i] = ' ';
+  solution_.rivals = {rival};
+  ConcludePlain();
+  EXPECT_LE(("two_filter_conventional is " + solution_.verdict).size(), 160u);
+  EXPECT_THAT(solution_.verdict, ::testing::EndsWith("x..."));
+}
+
 TEST_F(GradeTest, ClockThatDoesNotSettleIsNotUsable) {
   ConcludeWith({.solution = solution_, .unsettled = "gnss"});
   EXPECT_EQ(Against().rule, "clock");
@@ -168,10 +218,10 @@ TEST_F(GradeTest, SmootherIsDoubtfulAtOneTimeAndNotUsableThroughout) {
   EXPECT_EQ(solution_.grade, Grade::kDoubtful);
   EXPECT_EQ(Against().t_begin, 12.0);
   EXPECT_EQ(Against().value, 40.0);
-  EXPECT_THAT(solution_.verdict, AllOf(StartsWith("doubtful: "),
-                                       HasSubstr("velocity[north] at "
-                                                 "12.0 s"),
-                                       HasSubstr("take iterated or batch")));
+  EXPECT_THAT(solution_.verdict,
+              AllOf(StartsWith("doubtful: "), HasSubstr("velocity[north] at "
+                                                        "12.0 s")));
+  EXPECT_THAT(Describe(Against()), HasSubstr("method iterated or batch"));
   error.rms = 3.1;
   conclude();
   EXPECT_EQ(solution_.grade, Grade::kDoubtful);
@@ -210,7 +260,7 @@ TEST_F(GradeTest, RivalNearlyAsLikelyIsToldWithItsProbability) {
     if (grade == Grade::kUsable) continue;
     EXPECT_EQ(Against().rule, "rival");
     EXPECT_NEAR(*Against().value, 100.0 * probability, 1e-9);
-    EXPECT_THAT(solution_.verdict, HasSubstr("heading turned by 178 deg"));
+    EXPECT_THAT(Against().what, HasSubstr("heading turned by 178 deg"));
   }
 }
 
@@ -285,15 +335,44 @@ TEST(Best, IsByGradeThenByEvidenceThenByPreference) {
 TEST(Best, AdviceNamesOnlyMethodsThatAreBetter) {
   std::vector<Solution> solutions = {Graded("rts", Grade::kUnusable),
                                      Graded("batch", Grade::kUnusable)};
-  solutions[0].evidence[0].better_methods = {"iterated", "batch"};
-  KeepBetterMethods(&solutions);
-  EXPECT_THAT(solutions[0].evidence[0].better_methods, ElementsAre("iterated"));
-  EXPECT_THAT(solutions[0].verdict, HasSubstr("take iterated"));
-  solutions[0].evidence[0].better_methods = {"iterated", "batch"};
+  std::vector<std::string>& advised = solutions[0].evidence[0].better_methods;
+  advised = {"iterated", "batch"};
+  AdviseBetterMethods(&solutions);
+  EXPECT_THAT(advised, ElementsAre("iterated"));
+  advised = {"iterated", "batch"};
   solutions[1].grade = Grade::kUsable;
-  KeepBetterMethods(&solutions);
-  EXPECT_THAT(solutions[0].evidence[0].better_methods,
-              ElementsAre("iterated", "batch"));
+  AdviseBetterMethods(&solutions);
+  EXPECT_THAT(advised, ElementsAre("iterated", "batch"));
+}
+
+/// Four new linearisations did not settle, but the batch did.
+TEST(Best, BetterMethodThatStandsBesideIsAdvisedFirst) {
+  std::vector<Solution> solutions = {Graded("rts", Grade::kUnusable),
+                                     Graded("batch", Grade::kUsable),
+                                     Graded("iterated", Grade::kUnusable)};
+  Evidence& evidence = solutions[0].evidence[0];
+  evidence.rule = "linearisation";
+  evidence.remedies = {"a better known start"};
+  AdviseBetterMethods(&solutions);
+  EXPECT_THAT(WhatToTry(evidence),
+              ElementsAre("method batch", "a better known start"));
+}
+
+/// Found when the second was judged; the first shares the doubt.
+TEST(ShareDisagreements, TellsBothMethods) {
+  std::vector<Solution> solutions = {Graded("iterated", Grade::kUsable),
+                                     Graded("batch", Grade::kDoubtful),
+                                     Graded("rts", Grade::kUsable)};
+  solutions[1].evidence[0].rule = "disagreement";
+  solutions[1].evidence[0].against = "iterated";
+  for (int twice = 0; twice < 2; ++twice) {
+    ShareDisagreements(&solutions);
+    EXPECT_EQ(solutions[0].grade, Grade::kDoubtful);
+    EXPECT_EQ(solutions[0].evidence.size(), 2u);
+    EXPECT_THAT(solutions[0].verdict, StartsWith("doubtful"));
+    EXPECT_EQ(solutions[1].evidence.size(), 2u);
+    EXPECT_EQ(solutions[2].grade, Grade::kUsable);
+  }
 }
 
 TEST(FailedSolution, IsNotUsableForItsReason) {

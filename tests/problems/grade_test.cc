@@ -36,7 +36,7 @@ bool HasRule(const Solution& solution, const std::string& rule) {
                      [&](const Evidence& e) { return e.rule == rule; });
 }
 
-TEST(Verdict, NamesTheConstantsThatStayAtTheirPriors) {
+TEST(Verdict, CountsTheConstantsThatStayAtTheirPriors) {
   const Dataset dataset = Simulate(InFlightAlignment({}), 1);
   ReconstructionOptions options;
   options.to = kFirstManoeuvre + 2.0;
@@ -46,11 +46,8 @@ TEST(Verdict, NamesTheConstantsThatStayAtTheirPriors) {
     const std::vector<std::string> names = KeptAtPriors(solution);
     ASSERT_GT(names.size(), 1u);
     ASSERT_LE(names.size(), 6u);
-    std::string expected = "; " + std::to_string(names.size()) +
-                           " constants are kept at their priors: ";
-    for (const std::string& name : names) {
-      expected += (name == names.front() ? "" : ", ") + name;
-    }
+    const std::string expected = "; " + std::to_string(names.size()) +
+                                 " constants are kept at their priors";
     EXPECT_THAT(solution.verdict, StartsWith("usable: position to "));
     EXPECT_THAT(solution.verdict, HasSubstr(expected));
   }

@@ -1,0 +1,39 @@
+#ifndef HINDSIGHT_LINEAR_SPARSE_PRODUCT_H_
+#define HINDSIGHT_LINEAR_SPARSE_PRODUCT_H_
+
+#include <Eigen/Core>
+
+namespace hindsight {
+
+/// A S', S of which most elements are zero, as of a transition: with m elements
+/// that are not, m columns of A are added up where a dense product adds n^2.
+template <typename Dense, typename Sparse>
+typename Dense::PlainObject TimesTransposed(
+    const Eigen::MatrixBase<Dense>& A, const Eigen::MatrixBase<Sparse>& S) {
+  typename Dense::PlainObject out(A.rows(), S.rows());
+  out.setZero();
+  for (Eigen::Index j = 0; j < S.cols(); ++j) {
+    for (Eigen::Index i = 0; i < S.rows(); ++i) {
+      if (S(i, j) != 0.0) out.col(i) += S(i, j) * A.col(j);
+    }
+  }
+  return out;
+}
+
+/// A S, likewise.
+template <typename Dense, typename Sparse>
+typename Dense::PlainObject Times(const Eigen::MatrixBase<Dense>& A,
+                                  const Eigen::MatrixBase<Sparse>& S) {
+  typename Dense::PlainObject out(A.rows(), S.cols());
+  out.setZero();
+  for (Eigen::Index j = 0; j < S.cols(); ++j) {
+    for (Eigen::Index i = 0; i < S.rows(); ++i) {
+      if (S(i, j) != 0.0) out.col(j) += S(i, j) * A.col(i);
+    }
+  }
+  return out;
+}
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_LINEAR_SPARSE_PRODUCT_H_

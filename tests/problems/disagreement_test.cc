@@ -1,0 +1,64 @@
+#include "problems/disagreement.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/test_motion.h"
+
+namespace hindsight {
+namespace {
+
+using testing::TypicalLayout;
+using testing::TypicalState;
+
+/// Three nodes; the second is `sigmas` of `component` elsewhere.
+Solution Ended(int component, double sigmas) {
+  Solution solution;
+  solution.layout = TypicalLayout();
+  const int dim = solution.layout.dim();
+  solution.covariances = CovarianceSeries(dim, 3);
+  for (int k = 0; k < 3; ++k) {
+    State x = TypicalState();
+    if (k == 1) {
+      ErrorVector d = ErrorVector::Zero(dim);
+      d(component) = 1e-3 * sigmas;
+      x = Retract(solution.layout, x, d);
+    }
+    x.t = k;
+    solution.states.push_back(x);
+    const ErrorMatrix P = 1e-6 * ErrorMatrix::Identity(dim, dim);
+    solution.covariances.Set(static_cast<std::size_t>(k), P);
+  }
+  return solution;
+}
+
+TEST(OptimumComparison, MethodsThatEndMoreThanASigmaApartAreDoubtful) {
+  for (const int component : {0, 2, 6, 8}) {
+    OptimumComparison comparison;
+    EXPECT_FALSE(comparison.Compare("iterated", Ended(component, 0.0)));
+    EXPECT_FALSE(comparison.Compare("batch", Ended(component, 0.9)));
+    const auto found = comparison.Compare("batch", Ended(component, -1.1));
+    ASSERT_TRUE(found) << component;
+    EXPECT_EQ(found->grade, Grade::kDoubtful);
+    EXPECT_EQ(found->against, "iterated");
+    EXPECT_EQ(found->t_begin, 1.0);
+    EXPECT_NEAR(*found->value, 1.1, 1e-3);
+    EXPECT_THAT(found->what,
+                ::testing::HasSubstr("iterated and batch end 1.1"));
+  }
+}
+
+TEST(OptimumComparison, OtherNodesAndFailuresAreNotCompared) {
+  OptimumComparison comparison;
+  Solution failed = Ended(0, 50.0);
+  failed.converged = false;
+  EXPECT_FALSE(comparison.Compare("iterated", failed));
+  EXPECT_FALSE(comparison.Compare("iterated", Ended(0, 0.0)));
+  EXPECT_FALSE(comparison.Compare("batch", failed));
+  Solution moved = Ended(0, 50.0);
+  moved.states[2].t += 0.1;
+  EXPECT_FALSE(comparison.Compare("batch", moved));
+}
+
+}  // namespace
+}  // namespace hindsight
