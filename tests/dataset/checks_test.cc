@@ -141,16 +141,17 @@ TEST(CheckDataset, GravityIsSoughtWhereTheForceVariesLeast) {
 /// Rows each 20 ms and further ones between them, each with its right stamp.
 TEST(CheckDataset, RowsBetweenRegularOnesAreNoSignOfReception) {
   Dataset data = Recording({0, 0, -9.81});
+  const auto add = [&data](double t) { data.truth.emplace_back().t = t; };
   for (int i = 0; i < 2900; ++i) {
-    data.truth.push_back({.t = 0.02 * i});
-    if (i % 6 == 0) data.truth.push_back({.t = 0.02 * i + 0.001 * (i % 18)});
+    add(0.02 * i);
+    if (i % 6 == 0) add(0.02 * i + 0.001 * (i % 18));
   }
   const CheckReport extra = CheckDataset(data);
   EXPECT_GT(extra.streams.back().jitter, 0.2 * 0.02);
   EXPECT_TRUE(extra.truth_warnings.empty());
   data.truth.clear();
   for (int i = 0; i < 2900; ++i) {
-    data.truth.push_back({.t = 0.02 * i + 0.005 * (i % 3)});
+    add(0.02 * i + 0.005 * (i % 3));
   }
   EXPECT_EQ(CheckDataset(data).truth_warnings.size(), 1u);
 }
