@@ -12,7 +12,7 @@ void ShareErrorsOfStances(std::vector<Measurement>* measurements) {
   std::size_t first = 0;
   std::size_t end = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    while (all[i].t - all[first].t >= kHalf) ++first;
+    while (all[i].t - all[first].t > kHalf) ++first;
     while (end < all.size() && all[end].t - all[i].t < kHalf) ++end;
     auto* zero = std::get_if<ZeroVelocity>(&all[i].model);
     if (zero != nullptr) {
