@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/units.h"
 #include "problems/montecarlo.h"
 #include "simulation/in_flight_alignment.h"
@@ -67,7 +69,7 @@ TEST(Linearisation, FromABadStartFalselySureSmoothersAreNotUsable) {
   EXPECT_GE(refused, 16);
 }
 
-TEST(Linearisation, TheVerdictNamesTheCure) {
+TEST(Linearisation, TheEvidenceNamesTheCure) {
   const PerfectRecording flight(InFlightAlignment({}));
   Dataset dataset = flight.Realize(1);
   GiveBadStart({10.0 * kDegree, 120.0 * kDegree}, 1, &dataset);
@@ -76,8 +78,11 @@ TEST(Linearisation, TheVerdictNamesTheCure) {
   options.method = Method::kRts;
   const Solution solution = Solve(dataset, options);
   EXPECT_FALSE(solution.usable());
-  EXPECT_NE(solution.verdict.find("take iterated or batch"), std::string::npos)
-      << solution.verdict;
+  const auto found =
+      std::find_if(solution.evidence.begin(), solution.evidence.end(),
+                   [](const Evidence& e) { return e.rule == "linearisation"; });
+  ASSERT_NE(found, solution.evidence.end()) << solution.verdict;
+  EXPECT_EQ(AsAlternatives(found->better_methods), "iterated or batch");
   options.method = Method::kEkf;
   EXPECT_TRUE(Solve(dataset, options).usable());
 }
