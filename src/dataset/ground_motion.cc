@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "dataset/timeline_builder.h"
+
 namespace hindsight {
 namespace {
 
@@ -13,7 +15,7 @@ double HorizontalSigma(const Eigen::Matrix3d& R_n) {
 }
 
 /// Calls use(t, model, stream number) for each measurement of one model that is
-/// not withheld and lies in [from, to].
+/// not withheld and lies in [from, to] but for kSameTime, at a time inside.
 template <typename Model, typename Use>
 void ForEach(const Dataset& dataset, double from, double to, const Use& use) {
   for (std::size_t i = 0; i < dataset.streams.size(); ++i) {
@@ -21,8 +23,11 @@ void ForEach(const Dataset& dataset, double from, double to, const Use& use) {
     for (const Measurement& z : stream.measurements) {
       const double t = z.t + stream.sensor.time_offset;
       const auto* model = std::get_if<Model>(&z.model);
-      if (model == nullptr || z.withheld || t < from || t > to) continue;
-      use(t, *model, static_cast<int>(i));
+      if (model == nullptr || z.withheld || t < from - kSameTime ||
+          t > to + kSameTime) {
+        continue;
+      }
+      use(std::clamp(t, from, to), *model, static_cast<int>(i));
     }
   }
 }

@@ -12,7 +12,6 @@
 namespace hindsight {
 namespace {
 
-constexpr double kSameTime = 1e-7;
 // Over so long a turn may begin and a distance is still good to a millimetre.
 constexpr double kIncrementSpacing = 0.2;
 

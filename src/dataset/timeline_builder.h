@@ -8,6 +8,9 @@
 
 namespace hindsight {
 
+/// Times so near are one instant, rounded [s].
+inline constexpr double kSameTime = 1e-7;
+
 struct TimelineOptions {
   double t_begin = 0.0;             ///< first node [s]
   double t_end = 0.0;               ///< last node [s]
@@ -20,8 +23,8 @@ struct TimelineOptions {
 
 /// Turns a data set into nodes and measurements. A node stands at every time an
 /// aiding sensor measured (stamp + time offset: nothing is rounded to a
-/// neighbour; times within 0.1 us are one node), at every extra time, at both
-/// ends, and between these so often that no interval is longer than
+/// neighbour; times within kSameTime are one node), at every extra time, at
+/// both ends, and between these so often that no interval is longer than
 /// Dataset::max_node_spacing; with distance increments than 0.2 s, and a node
 /// stands at the beginning of each. `dataset.imu` must outlive the timeline.
 Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options);

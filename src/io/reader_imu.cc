@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 
 #include "base/error.h"
@@ -49,9 +50,11 @@ void SetBegin(bool stamp_at_start, ImuStream* imu) {
   if (stamp_at_start) {
     StampAtEnd(imu);
   } else {
-    // Rounding must not put it behind a fix of the same instant.
-    constexpr double kRounding = 1e-6;
-    imu->samples[0].t -= (1.0 + kRounding) * imu->nominal_dt;
+    // On the whole nanosecond that a stamp of the same instant has; + 0.0 takes
+    // the sign from a negative zero.
+    constexpr double kPerSecond = 1e9;
+    const double begin = imu->samples[0].t - imu->nominal_dt;
+    imu->samples[0].t = std::round(begin * kPerSecond) / kPerSecond + 0.0;
   }
 }
 
