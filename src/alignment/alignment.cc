@@ -14,6 +14,7 @@
 #include "alignment/magnetic_heading.h"
 #include "alignment/velocity_alignment.h"
 #include "base/error.h"
+#include "dataset/bias_sigma.h"
 #include "geometry/so3.h"
 
 namespace hindsight {
@@ -136,6 +137,12 @@ AlignmentChoice AlignBest(const AlignmentInput& input) {
 }
 
 }  // namespace
+
+GyroBiasPrior GyroBiasBefore(const AlignmentInput& input) {
+  const InitialState& given = input.dataset.initial;
+  return input.b_g_before.value_or(
+      GyroBiasPrior{given.gyro_bias, GyroBiasSigma(given)});
+}
 
 bool TellsHeading(const AlignedAttitude& attitude) {
   return attitude.P(2, 2) < kUnknownHeadingSigma * kUnknownHeadingSigma;

@@ -19,6 +19,12 @@ namespace hindsight {
 /// circle, 360 deg/sqrt(12).
 inline constexpr double kUnknownHeadingSigma = 104.0 * kDegree;
 
+/// Gyro bias that is known beforehand, and its sigma [rad/s].
+struct GyroBiasPrior {
+  Eigen::Vector3d b_g;
+  Eigen::Vector3d sigma;
+};
+
 /// What every alignment method sees. Biases are the best values known before
 /// the attitude, with the sigma with which a gyro carries an attitude.
 struct AlignmentInput {
@@ -34,7 +40,14 @@ struct AlignmentInput {
   Eigen::Vector3d b_g = Eigen::Vector3d::Zero();  ///< [rad/s]
   Eigen::Vector3d b_a = Eigen::Vector3d::Zero();  ///< [m/s^2]
   double gyro_sigma = 0.0;  ///< of b_g, the worst axis [rad/s]
+  /// At t, by what is measured before it; absent: as the configuration says.
+  std::optional<GyroBiasPrior> b_g_before = std::nullopt;
+  /// The gyro biases walk at least so much [rad/s/sqrt(s)].
+  double least_gyro_walk = 0.0;
 };
+
+/// b_g_before, or what the configuration says.
+GyroBiasPrior GyroBiasBefore(const AlignmentInput& input);
 
 /// An attitude at the epoch asked for.
 struct AlignedAttitude {

@@ -111,8 +111,9 @@ std::optional<CoarseAlignment> AlignCoarsely(const AlignmentInput& input,
                                              const Eigen::Vector3d& b_a) {
   const InitialState& given = input.dataset.initial;
   Eigen::Matrix<double, 6, 1> mean, weight;
-  mean << given.gyro_bias, given.accel_bias;
-  weight << GyroBiasSigma(given).cwiseAbs2().cwiseInverse(),
+  const GyroBiasPrior gyro = GyroBiasBefore(input);
+  mean << gyro.b_g, given.accel_bias;
+  weight << gyro.sigma.cwiseAbs2().cwiseInverse(),
       AccelBiasSigma(given).cwiseAbs2().cwiseInverse();
   CoarseAlignment out;
   out.b_g = b_g;

@@ -93,38 +93,58 @@ AlignmentOutcome AlignAtRest(const AlignmentInput& input) {
 
 namespace {
 
-/// By what the mean rates of both halves differ, the worst axis, if that is
-/// more than three sigmas of their noise: what an even drift leaves between the
-/// mean and either end.
-double DriftAtRest(const ImuStream& imu, const TimeInterval& rest) {
-  constexpr double kThreeSigmas = 3.0;
-  const double T = rest.end - rest.begin;
-  const double middle = rest.begin + 0.5 * T;
-  const double drift = (MeanReading(imu, middle, rest.end).w_ib_b -
-                        MeanReading(imu, rest.begin, middle).w_ib_b)
-                           .cwiseAbs()
-                           .maxCoeff();
-  const double noise = 2.0 * imu.noise.gyro_noise_density / std::sqrt(T);
-  return drift > kThreeSigmas * noise ? drift : 0.0;
+double NoiseOfDrift(const ImuNoise& noise, double T) {
+  return std::hypot(2.0 * noise.gyro_noise_density / std::sqrt(T),
+                    noise.gyro_bias_walk * std::sqrt(T / 3.0));
 }
 
-}  // namespace
-
-RestingGyro GyroBiasAtRest(const Dataset& dataset, const TimeInterval& rest) {
-  const double T = rest.end - rest.begin;
-  const double reading =
-      std::hypot(dataset.imu.noise.gyro_noise_density / std::sqrt(T),
-                 kEarthRate, DriftAtRest(dataset.imu, rest));
+/// GyroBiasAtRest of a reading whose bias drifts by `drift` over half the rest.
+GyroBiasPrior CombineAtRest(const Dataset& dataset, const TimeInterval& rest,
+                            double drift) {
+  const double T = rest.length();
+  const double reading = std::hypot(
+      dataset.imu.noise.gyro_noise_density / std::sqrt(T), kEarthRate, drift);
   const Eigen::Array3d given =
       GyroBiasSigma(dataset.initial).array().square().inverse();
   const Eigen::Array3d information = given + 1.0 / (reading * reading);
   const Eigen::Vector3d& b_0 = dataset.initial.gyro_bias;
   const Eigen::Vector3d mean =
       MeanReading(dataset.imu, rest.begin, rest.end).w_ib_b;
-  RestingGyro out;
+  GyroBiasPrior out;
   out.b_g = mean + (given / information * (b_0 - mean).array()).matrix();
   out.sigma = information.rsqrt().matrix();
   return out;
+}
+
+}  // namespace
+
+double DriftAtRest(const ImuStream& imu, const TimeInterval& rest) {
+  constexpr double kThreeSigmas = 3.0;
+  const double T = rest.length();
+  const double middle = rest.begin + 0.5 * T;
+  const double drift = (MeanReading(imu, middle, rest.end).w_ib_b -
+                        MeanReading(imu, rest.begin, middle).w_ib_b)
+                           .cwiseAbs()
+                           .maxCoeff();
+  return drift > kThreeSigmas * NoiseOfDrift(imu.noise, T) ? drift : 0.0;
+}
+
+GyroBiasPrior GyroBiasAtRest(const Dataset& dataset, const TimeInterval& rest) {
+  return CombineAtRest(dataset, rest, DriftAtRest(dataset.imu, rest));
+}
+
+GyroBiasPrior GyroBiasAfterRest(const Dataset& dataset, TimeInterval rest) {
+  constexpr double kShortest = 2.0;  // [s]
+  double drift = DriftAtRest(dataset.imu, rest);
+  const bool drifts = drift > 0.0;
+  while (drift > 0.0 && rest.length() >= 2.0 * kShortest) {
+    rest.begin += 0.5 * rest.length();
+    drift = DriftAtRest(dataset.imu, rest);
+  }
+  if (drifts) {
+    drift = std::max(drift, NoiseOfDrift(dataset.imu.noise, rest.length()));
+  }
+  return CombineAtRest(dataset, rest, drift);
 }
 
 }  // namespace hindsight

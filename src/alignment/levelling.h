@@ -31,11 +31,18 @@ AlignmentOutcome AlignAtRest(const AlignmentInput& input);
 ///   s^2 = density^2 / T + w_ie^2 + drift^2,
 /// and the a priori value b_0 +- s_0, weighted by their information:
 ///   1/sigma^2 = 1/s_0^2 + 1/s^2,   b_g = sigma^2 (b_0/s_0^2 + mean/s^2).
-struct RestingGyro {
-  Eigen::Vector3d b_g;
-  Eigen::Vector3d sigma;  ///< [rad/s]
-};
-RestingGyro GyroBiasAtRest(const Dataset& dataset, const TimeInterval& rest);
+GyroBiasPrior GyroBiasAtRest(const Dataset& dataset, const TimeInterval& rest);
+
+/// The difference between the means of both halves of a rest, the worst axis,
+/// if it is more than three sigmas of what noise and stated walk q allow,
+///   s^2 = 4 density^2 / T + q^2 T / 3,
+/// and 0 otherwise [rad/s].
+double DriftAtRest(const ImuStream& imu, const TimeInterval& rest);
+
+/// Gyro bias at the end of a rest: GyroBiasAtRest over all of it, or where the
+/// bias drifts over the last half, quarter, ... of at least 2 s in which no
+/// drift stands out, with the uncertainty of the drift in it.
+GyroBiasPrior GyroBiasAfterRest(const Dataset& dataset, TimeInterval rest);
 
 }  // namespace hindsight
 

@@ -100,7 +100,7 @@ class StartFinder {
     b_g_sigma_ = GyroBiasSigma(given());
     gyro_sigma_ = b_g_sigma_.maxCoeff();
     if (!rest_) return;
-    const RestingGyro resting = GyroBiasAtRest(dataset_, *rest_);
+    const GyroBiasPrior resting = GyroBiasAtRest(dataset_, *rest_);
     b_g_ = resting.b_g;
     gyro_sigma_ = resting.sigma.maxCoeff();
     if (!dataset_.stationary.enabled) b_g_sigma_ = resting.sigma;

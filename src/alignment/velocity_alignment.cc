@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "alignment/levelling.h"
 #include "earth/wgs84.h"
 #include "geometry/so3.h"
 
@@ -172,26 +173,67 @@ std::optional<VelocityAlignment> AlignOverWindow(
   return out;
 }
 
-AlignmentOutcome AlignByVelocity(const AlignmentInput& input) {
-  const double first = FirstMotion(input);
+namespace {
+
+/// The same from the end of the rest at input.t on: while it does not turn, its
+/// attitude is that at input.t, and the gyro bias is what the gyros read.
+AlignmentInput AfterRest(const AlignmentInput& input) {
+  constexpr double kMargin = 1.0;  // [s]
+  AlignmentInput out = input;
+  if (!input.rest || input.rest->length() < 2.0 * kMargin) return out;
+  out.t = input.rest->end - kMargin;
+  const TimeInterval rest{input.t, out.t};
+  out.b_g_before = GyroBiasAfterRest(input.dataset, rest);
+  out.b_g = out.b_g_before->b_g;
+  if (DriftAtRest(input.dataset.imu, rest) > 0.0) {
+    out.least_gyro_walk = WarmUpWalk(input);
+  }
+  return out;
+}
+
+struct WindowSearch {
   std::optional<VelocityAlignment> best;
+  /// Gyro bias walk that the last window shows beyond the stated one; else 0.
+  double walk = 0.0;
+};
+
+/// Ends at the first sign of a drift that input.least_gyro_walk does not know.
+WindowSearch SearchWindows(const AlignmentInput& input) {
+  const double first = FirstMotion(input);
+  WindowSearch search;
+  std::optional<VelocityAlignment>& best = search.best;
+  bool done = false;
   for (double window = kFirstWindow; window <= kLongestWindow; window *= 2.0) {
     const double t_end = std::min(first + window, input.to);
     auto found = AlignOverWindow(input, t_end, best ? &*best : nullptr);
-    if (found && best && best->refined && found->refined &&
-        Contradict(found->attitude, best->attitude)) {
-      break;
-    }
+    const bool contradicts = found && best && best->refined && found->refined &&
+                             Contradict(found->attitude, best->attitude);
+    if (found && found->drifts) search.walk = found->refined->gyro_bias_walk;
+    if (contradicts) search.walk = std::max(search.walk, WarmUpWalk(input));
+    const bool explained = input.least_gyro_walk > 0.0 || search.walk == 0.0;
+    if (contradicts || !explained) break;
     if (found && (!best || (found->refined && found->attitude.P.trace() <
                                                   best->attitude.P.trace()))) {
       best = std::move(found);
     }
-    const bool done = best && best->attitude.P.diagonal().maxCoeff() <
-                                  kWellKnown * kWellKnown;
     if (done || t_end >= input.to) break;
+    done = best &&
+           best->attitude.P.diagonal().maxCoeff() < kWellKnown * kWellKnown;
   }
-  if (!best) return {std::nullopt, "too few velocities or positions"};
-  return {best->attitude, ""};
+  return search;
+}
+
+}  // namespace
+
+AlignmentOutcome AlignByVelocity(const AlignmentInput& input) {
+  AlignmentInput from = AfterRest(input);
+  WindowSearch search = SearchWindows(from);
+  if (from.least_gyro_walk == 0.0 && search.walk > 0.0) {
+    from.least_gyro_walk = search.walk;
+    search = SearchWindows(from);
+  }
+  if (!search.best) return {std::nullopt, "too few velocities or positions"};
+  return {search.best->attitude, ""};
 }
 
 }  // namespace hindsight

@@ -22,7 +22,7 @@ constexpr int kMaxIterations = 40;
 constexpr double kDriftingWalks[] = {0.003 * kDegree, 0.01 * kDegree,
                                      0.03 * kDegree, 0.1 * kDegree,
                                      0.3 * kDegree};
-constexpr double kNotably = 3.0;
+constexpr double kNotably = 5.0;  // odds of 150 to 1
 
 /// Measurements that need no calibration found elsewhere first.
 bool IsPlain(const MeasurementModel& model) {
@@ -35,7 +35,9 @@ bool IsPlain(const MeasurementModel& model) {
 }
 
 /// What the window holds of a recording, samples included.
-Dataset CutOut(const Dataset& whole, double t_begin, double t_end) {
+Dataset CutOut(const AlignmentInput& input, double t_end) {
+  const Dataset& whole = input.dataset;
+  const double t_begin = input.t;
   Dataset cut;
   cut.imu = ImuStream{whole.imu.kind,
                       {},
@@ -56,6 +58,9 @@ Dataset CutOut(const Dataset& whole, double t_begin, double t_end) {
   cut.accel_scale_sigma = whole.accel_scale_sigma;
   cut.max_node_spacing = whole.max_node_spacing;
   cut.initial = whole.initial;
+  const GyroBiasPrior gyro = GyroBiasBefore(input);
+  cut.initial.gyro_bias = gyro.b_g;
+  cut.initial.gyro_bias_sigma = gyro.sigma;
   for (const AidingStream& stream : whole.streams) {
     AidingStream& kept = cut.streams.emplace_back();
     kept.sensor = stream.sensor;
@@ -109,7 +114,7 @@ class WindowSmoother {
       : input_(input),
         start_(start),
         known_(known),
-        dataset_(WithWalk(CutOut(input.dataset, input.t, t_end), least_walk)),
+        dataset_(WithWalk(CutOut(input, t_end), least_walk)),
         layout_(BuildLayout(dataset_, BiasPrior())),
         timeline_(BuildTimeline(
             dataset_,
@@ -254,14 +259,23 @@ std::optional<WindowSolution> SmoothWithWalk(
 
 }  // namespace
 
+double WarmUpWalk(const AlignmentInput& input) {
+  constexpr double kMinute = 60.0;
+  return GyroBiasSigma(input.dataset.initial).maxCoeff() / std::sqrt(kMinute);
+}
+
 std::optional<WindowSolution> SmoothWindow(
     const AlignmentInput& input, double t_end, const WindowStart& start,
     const std::optional<AttitudePrior>& known) {
-  std::optional<WindowSolution> best =
-      SmoothWithWalk(input, t_end, start, known, 0.0);
+  const double usual =
+      std::max(input.dataset.imu.noise.gyro_bias_walk, input.least_gyro_walk);
+  const auto smooth = [&](double walk) {
+    return SmoothWithWalk(input, t_end, start, known, walk);
+  };
+  std::optional<WindowSolution> best = smooth(usual);
   for (const double walk : kDriftingWalks) {
-    if (walk < 2.0 * input.dataset.imu.noise.gyro_bias_walk) continue;
-    auto found = SmoothWithWalk(input, t_end, start, known, walk);
+    if (walk < 2.0 * usual) continue;
+    auto found = smooth(walk);
     if (!found) continue;
     if (best) {
       const double gain = found->log_likelihood - best->log_likelihood;
@@ -269,6 +283,10 @@ std::optional<WindowSolution> SmoothWindow(
       if (gain < kNotably * std::max(1.0, found->nis)) continue;
     }
     best = std::move(found);
+  }
+  if (best && best->gyro_bias_walk > usual &&
+      best->gyro_bias_walk < WarmUpWalk(input)) {
+    best = smooth(WarmUpWalk(input));
   }
   return best;
 }

@@ -36,16 +36,23 @@ struct AttitudePrior {
   Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
 };
 
+/// With which a gyro bias changes in a minute by its a priori sigma (the worst
+/// axis), for both come from temperature [rad/s/sqrt(s)].
+double WarmUpWalk(const AlignmentInput& input);
+
 /// Refines an attitude over [input.t, t_end] with the full models of IMU noise,
 /// lever arms and time offsets: forward filter and RTS pass from the start,
 /// then SmoothIterated about that from a prior which says of velocity and
 /// position nothing, of the attitude nothing but `known`, and of the biases
-/// what is known beforehand. P therefore holds what the window tells, and no
-/// more; it is scaled up by `nis` where that exceeds one. A gyro that warms up
-/// drifts faster than its data sheet says: besides with the stated walk the
-/// window is smoothed with walks of 0.003 to 0.3 deg/s/sqrt(s), and a larger
-/// one is taken where it raises the log-likelihood, over `nis`, by more than 3.
-/// Empty if no iteration settles.
+/// GyroBiasBefore and the configuration say. P therefore holds what the window
+/// tells, and no more; it is scaled up by `nis` where that exceeds one. A gyro
+/// that warms up drifts faster than its data sheet says: besides with the
+/// stated walk the window is smoothed with walks of 0.003 to 0.3 deg/s/sqrt(s),
+/// and a larger one is taken where it raises the log-likelihood, over `nis`, by
+/// more than 5, but none below WarmUpWalk: a steady drift looks like a small
+/// walk, whose independent steps carry it on far too surely to where it is not
+/// seen. The stated walk counts as AlignmentInput::least_gyro_walk if that is
+/// larger. Empty if no iteration settles.
 std::optional<WindowSolution> SmoothWindow(
     const AlignmentInput& input, double t_end, const WindowStart& start,
     const std::optional<AttitudePrior>& known = std::nullopt);

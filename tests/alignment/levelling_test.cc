@@ -8,6 +8,7 @@
 #include "alignment/gyrocompass.h"
 #include "alignment/start.h"
 #include "base/error.h"
+#include "base/random.h"
 #include "evaluation/chi_square.h"
 #include "simulation/builtin_scenarios.h"
 #include "support/seed_count.h"
@@ -91,6 +92,47 @@ TEST(MeanReading, IsTheMeanOfAllReadings) {
     if (sample.t > 10.0 + 1e-9 && sample.t < 60.0 + 1e-9) sum += sample.accel;
   }
   EXPECT_LT((mean.f_b - sum / 50.0).norm(), 1e-4);
+}
+
+/// Gyros at rest for 40 s whose biases drift evenly, by `drift` in all.
+Dataset DriftingAtRest(const Eigen::Vector3d& drift, std::uint64_t seed) {
+  constexpr double kDt = 0.01;
+  constexpr int kSamples = 4001;
+  Dataset dataset;
+  dataset.imu.noise.gyro_noise_density = 0.01 * kDegree;
+  dataset.imu.nominal_dt = kDt;
+  Random random(seed, 0);
+  for (int k = 0; k < kSamples; ++k) {
+    const Eigen::Vector3d noise = dataset.imu.noise.gyro_noise_density /
+                                  std::sqrt(kDt) * random.NormalVector3();
+    dataset.imu.samples.push_back({k * kDt,
+                                   k / (kSamples - 1.0) * drift + noise,
+                                   Eigen::Vector3d::Zero()});
+  }
+  dataset.initial.gyro_bias_sigma = Eigen::Vector3d::Constant(0.5 * kDegree);
+  return dataset;
+}
+
+TEST(GyroBias, AfterARestIsThatOfItsEnd) {
+  const TimeInterval rest{0.0, 40.0};
+  const Eigen::Vector3d drift = kDegree * Eigen::Vector3d(0.6, -0.3, 0.0);
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Dataset drifting = DriftingAtRest(drift, seed);
+    EXPECT_GT(DriftAtRest(drifting.imu, rest), 0.25 * kDegree);
+    const GyroBiasPrior end = GyroBiasAfterRest(drifting, rest);
+    EXPECT_LT((end.b_g - drift).cwiseQuotient(end.sigma).cwiseAbs().maxCoeff(),
+              4.0)
+        << seed;
+    EXPECT_LT(end.sigma.maxCoeff(), 0.1 * kDegree);
+    EXPECT_LT(end.sigma.maxCoeff(),
+              0.5 * GyroBiasAtRest(drifting, rest).sigma.maxCoeff());
+
+    const Dataset steady = DriftingAtRest(none, seed);
+    if (DriftAtRest(steady.imu, rest) > 0.0) continue;  // once in a hundred
+    EXPECT_EQ(GyroBiasAfterRest(steady, rest).b_g,
+              GyroBiasAtRest(steady, rest).b_g);
+  }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "geometry/so3.h"
 #include "simulation/builtin_scenarios.h"
 #include "simulation/in_flight_alignment.h"
+#include "support/seed_count.h"
 #include "support/truth_at.h"
 
 namespace hindsight {
@@ -162,13 +163,10 @@ TEST(WarmUp, RollAndPitchAreNoWorseThanLevelling) {
   }
 }
 
-/// By hand: --gtest_also_run_disabled_tests --gtest_filter=WarmUp.*
-TEST(WarmUp, DISABLED_ThreeHundredStarts) {
-  EXPECT_LE(BeyondFourSigmas(10001, 300, true), 2);
-}
-
-TEST(WarmUp, DISABLED_DevelopmentSeeds) {
-  EXPECT_LE(BeyondFourSigmas(1, 60, true), 0);
+TEST(WarmUp, StartsLieWithinFourStatedSigmas) {
+  constexpr std::uint64_t kFirst = 50001;
+  const int count = testing::SeedCount(kKinds, 300);
+  EXPECT_LE(BeyondFourSigmas(kFirst, count, false), count / 150);
 }
 
 }  // namespace
