@@ -39,15 +39,29 @@ struct ClockCombination {
   double misfit = 0.0;
 };
 
-std::optional<ClockQuestion> AskUnknown(const Dataset& dataset, std::size_t i) {
+/// Takes away what is not plausible.
+void DropImplausible(ClockSearch* found) {
+  const std::size_t before = found->candidates.size();
+  const ClockSearch& all = *found;
+  std::vector<ClockCandidate> plausible;
+  for (const ClockCandidate& candidate : all.candidates) {
+    if (IsPlausible(all, candidate.misfit)) plausible.push_back(candidate);
+  }
+  found->candidates = std::move(plausible);
+  // What was left out fits no better.
+  if (found->candidates.size() < before) found->left_out = 0;
+}
+
+ClockQuestion AskUnknown(const Dataset& dataset, std::size_t i) {
   const AidingStream& stream = dataset.streams[i];
-  const ClockSearch found = SearchClock(dataset.imu, dataset.initial, stream);
+  ClockSearch found = SearchClock(dataset.imu, dataset.initial, stream);
   if (found.candidates.empty()) {
     throw EstimationError("where the clock of " + stream.sensor.name +
                           " stands is not found: its readings and the IMU "
                           "have no motion in common that tells it");
   }
-  return ClockQuestion{i, found.candidates, found.left_out, found.resolution};
+  DropImplausible(&found);
+  return {i, found.candidates, found.left_out, found.resolution};
 }
 
 std::optional<ClockQuestion> AskEstimated(const Dataset& dataset,
@@ -58,14 +72,16 @@ std::optional<ClockQuestion> AskEstimated(const Dataset& dataset,
   ClockSearch found = SearchClock(dataset.imu, dataset.initial, stream,
                                   {given - reach, given + reach});
   if (found.candidates.empty()) return std::nullopt;
-  const auto near_given = [&](const ClockCandidate& candidate) {
-    return std::abs(candidate.offset - given) < 0.5 * found.resolution;
-  };
-  if (std::any_of(found.candidates.begin(), found.candidates.end(),
-                  near_given)) {
-    if (found.candidates.size() == 1) return std::nullopt;
-  } else {
-    found.candidates.push_back({given, 0.0, 1.0});
+  DropImplausible(&found);
+  const bool near_given = std::any_of(
+      found.candidates.begin(), found.candidates.end(),
+      [&](const ClockCandidate& candidate) {
+        return std::abs(candidate.offset - given) < 0.5 * found.resolution;
+      });
+  if (near_given && found.candidates.size() == 1) return std::nullopt;
+  const double misfit = found.misfit(given);
+  if (!near_given && IsPlausible(found, misfit)) {
+    found.candidates.push_back({given, 0.0, misfit});
   }
   return ClockQuestion{i, found.candidates, found.left_out, found.resolution};
 }
@@ -74,13 +90,12 @@ std::vector<ClockQuestion> AskClocks(const Dataset& dataset) {
   std::vector<ClockQuestion> questions;
   for (std::size_t i = 0; i < dataset.streams.size(); ++i) {
     const AidingStream& stream = dataset.streams[i];
-    std::optional<ClockQuestion> question;
     if (stream.clock_unknown) {
-      question = AskUnknown(dataset, i);
+      questions.push_back(AskUnknown(dataset, i));
     } else if (stream.sensor.time_offset_sigma.value_or(0.0) >= kWidePrior) {
-      question = AskEstimated(dataset, i);
+      auto question = AskEstimated(dataset, i);
+      if (question) questions.push_back(std::move(*question));
     }
-    if (question) questions.push_back(std::move(*question));
   }
   return questions;
 }
@@ -130,6 +145,38 @@ void PlaceClocks(const std::vector<ClockQuestion>& questions,
   }
 }
 
+std::vector<SolvedClocks> SolveAll(
+    const std::vector<ClockQuestion>& questions,
+    const std::vector<ClockCombination>& combinations,
+    const ReconstructionOptions& options, Dataset* dataset) {
+  std::vector<SolvedClocks> solved;
+  for (const ClockCombination& combination : combinations) {
+    PlaceClocks(questions, combination.offsets, dataset);
+    try {
+      solved.push_back(SolveCoarsely(combination.offsets, options, dataset));
+    } catch (const EstimationError&) {
+      // An offset at which the data cannot be explained is no explanation.
+    }
+  }
+  return solved;
+}
+
+/// The stage of what was chosen, from the start that FindStart finds, which is
+/// told; from the coarse one if that leads elsewhere.
+std::unique_ptr<ForwardStage> StageOf(const std::vector<std::size_t>& streams,
+                                      const ReconstructionOptions& options,
+                                      const Dataset& dataset,
+                                      SolvedClocks* chosen) {
+  if (!chosen->from_coarse) return std::move(chosen->stage);
+  try {
+    SolvedClocks told = SolveWithClocks(chosen->offsets, options, dataset);
+    if (SameEnd(streams, told, *chosen)) return std::move(told.stage);
+  } catch (const EstimationError&) {
+    // What was compared did come to an end.
+  }
+  return std::move(chosen->stage);
+}
+
 }  // namespace
 
 ClockChoice ChooseClocks(const Dataset& dataset,
@@ -143,27 +190,24 @@ ClockChoice ChooseClocks(const Dataset& dataset,
   choice.dataset = std::make_unique<Dataset>(dataset);
   const std::vector<ClockCombination> combinations = Combine(questions);
   std::vector<SolvedClocks> solved;
-  for (const ClockCombination& combination : combinations) {
-    PlaceClocks(questions, combination.offsets, choice.dataset.get());
-    try {
-      solved.push_back(
-          SolveWithClocks(combination.offsets, *choice.dataset, options));
-    } catch (const EstimationError&) {
-      // An offset at which the data cannot be explained is no explanation.
-    }
+  if (combinations.size() > 1) {
+    solved = SolveAll(questions, combinations, options, choice.dataset.get());
   }
   if (solved.empty()) {
     PlaceClocks(questions, combinations.front().offsets, choice.dataset.get());
     choice.stage = std::make_unique<ForwardStage>(*choice.dataset, options);
     return choice;
   }
-  const std::size_t best = Likeliest(dataset, solved);
-  choice.rivals = Rivals(dataset, StreamsOf(questions), solved, best);
+  const std::vector<std::size_t> streams = StreamsOf(questions);
+  RemoveSame(streams, &solved);
+  const ClockRanking ranking = Rank(dataset, &solved);
+  choice.rivals = Rivals(dataset, streams, solved, ranking);
   AddUnsolved(
       Combinations(questions) - static_cast<double>(combinations.size()),
       &choice.rivals);
-  PlaceClocks(questions, solved[best].offsets, choice.dataset.get());
-  choice.stage = std::move(solved[best].stage);
+  SolvedClocks& best = solved[ranking.best];
+  PlaceClocks(questions, best.offsets, choice.dataset.get());
+  choice.stage = StageOf(streams, options, *choice.dataset, &best);
   return choice;
 }
 

@@ -3,65 +3,29 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
-#include "base/error.h"
 #include "base/units.h"
-#include "problems/marginal_likelihood.h"
+#include "problems/clock_evidence.h"
 
 namespace hindsight {
 namespace {
-
-/// The measurements that another solution has as well.
-GateDecisions InCommon(const Timeline& timeline, const Timeline& other) {
-  std::set<std::pair<int, double>> there;
-  for (const Measurement& z : other.all_measurements()) {
-    there.insert({z.sensor, z.t});
-  }
-  GateDecisions used;
-  for (const Measurement& z : timeline.all_measurements()) {
-    used.push_back(there.contains({z.sensor, z.t}) ? 1 : 0);
-  }
-  return used;
-}
-
-MarginalLikelihood LikelihoodBeside(const Dataset& dataset,
-                                    const SolvedClocks& solved,
-                                    const SolvedClocks& other) {
-  ForwardStage& stage = *solved.stage;
-  const Prior prior =
-      PriorOfComparison(dataset, stage.start(), solved.batch.states.front());
-  return MarginalLikelihoodOf(
-      stage.start().layout, prior, solved.batch.states, stage.decisions(),
-      InCommon(stage.timeline(), other.stage->timeline()), &stage.timeline());
-}
-
-/// ln of the evidence of `rival` over that of `chosen`. Innovations of `chosen`
-/// whose mean square is above one say by how much the noise is larger than
-/// stated.
-double LogRatio(const Dataset& dataset, const SolvedClocks& rival,
-                const SolvedClocks& chosen) {
-  const MarginalLikelihood a = LikelihoodBeside(dataset, chosen, rival);
-  const MarginalLikelihood b = LikelihoodBeside(dataset, rival, chosen);
-  const double excess = a.rows > 0.0 ? std::max(1.0, a.squares / a.rows) : 1.0;
-  return (b.log - a.log) / excess;
-}
 
 double FinalOffset(const SolvedClocks& solved, std::size_t stream) {
   const ErrorLayout& layout = solved.stage->start().layout;
   const Block* block =
       layout.Find(BlockKind::kTimeOffset, static_cast<int>(stream));
-  return solved.batch.states.back().parameters(block->parameter_offset);
+  return solved.states.back().parameters(block->parameter_offset);
 }
 
 /// Mean of the heading of `rival` less that of `chosen` at the same times
 /// [rad].
 double HeadingBetween(const std::vector<State>& rival,
                       const std::vector<State>& chosen) {
-  constexpr double kSameTime = 0.2;
+  constexpr double kSameTime = 0.5;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   std::size_t k = 0;
   for (const State& x : chosen) {
@@ -76,37 +40,57 @@ double HeadingBetween(const std::vector<State>& rival,
   return std::atan2(sum.y(), sum.x());
 }
 
-/// What a rival differs in; nothing if it came to the same end.
-std::optional<RivalSolution> Differ(const Dataset& dataset,
-                                    const std::vector<std::size_t>& streams,
-                                    const SolvedClocks& rival,
-                                    const SolvedClocks& chosen) {
+/// What one solution differs in from another: clocks of the streams that were
+/// in question, and the heading, each 0 if it is the same.
+struct Differences {
+  std::vector<double> clocks;  ///< [s]
+  double heading = 0.0;        ///< [rad]
+  bool none() const {
+    return heading == 0.0 && std::all_of(clocks.begin(), clocks.end(),
+                                         [](double d) { return d == 0.0; });
+  }
+};
+
+Differences DifferencesOf(const std::vector<std::size_t>& streams,
+                          const SolvedClocks& one, const SolvedClocks& other) {
   constexpr double kSameClock = 0.02;  // [s]
   constexpr double kSameHeading = 5.0 * kDegree;
+  Differences out;
+  for (const std::size_t stream : streams) {
+    const double later = FinalOffset(one, stream) - FinalOffset(other, stream);
+    out.clocks.push_back(std::abs(later) < kSameClock ? 0.0 : later);
+  }
+  const double turn = HeadingBetween(one.states, other.states);
+  out.heading = std::abs(turn) > kSameHeading ? turn : 0.0;
+  return out;
+}
+
+/// A rival without its evidence.
+RivalSolution Tell(const Dataset& dataset,
+                   const std::vector<std::size_t>& streams,
+                   const SolvedClocks& rival, const SolvedClocks& chosen) {
+  const Differences differences = DifferencesOf(streams, rival, chosen);
   RivalSolution out;
   const auto add = [&out](const std::string& words) {
     out.description += (out.description.empty() ? "" : " and ") + words;
   };
   char words[120];
-  for (const std::size_t stream : streams) {
-    const std::string& name = dataset.streams[stream].sensor.name;
-    const double later =
-        FinalOffset(rival, stream) - FinalOffset(chosen, stream);
-    if (std::abs(later) < kSameClock) continue;
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    const double later = differences.clocks[i];
+    if (later == 0.0) continue;
+    const std::string& name = dataset.streams[streams[i]].sensor.name;
     out.differences.push_back({name + "_time_offset", later, "s"});
     std::snprintf(words, sizeof(words), "clock of %s %.2f s %s", name.c_str(),
                   std::abs(later), later > 0.0 ? "later" : "earlier");
     add(words);
   }
-  const double turn = HeadingBetween(rival.batch.states, chosen.batch.states);
-  if (std::abs(turn) > kSameHeading) {
-    out.differences.push_back({"heading", turn, "rad"});
+  if (differences.heading != 0.0) {
+    out.differences.push_back({"heading", differences.heading, "rad"});
     std::snprintf(words, sizeof(words), "heading turned by %.0f deg",
-                  turn / kDegree);
+                  differences.heading / kDegree);
     add(words);
   }
-  if (out.differences.empty()) return std::nullopt;
-  out.final_state = rival.batch.states.back();
+  out.final_state = rival.states.back();
   return out;
 }
 
@@ -125,55 +109,91 @@ void SetProbabilities(std::vector<RivalSolution>* rivals) {
                    });
 }
 
-}  // namespace
+/// LogEvidenceRatio of pairs, each computed once.
+class EvidenceTable {
+ public:
+  EvidenceTable(const Dataset& dataset, const std::vector<SolvedClocks>& solved)
+      : dataset_(dataset), solved_(solved) {}
 
-SolvedClocks SolveWithClocks(const std::vector<double>& offsets,
-                             const Dataset& dataset,
-                             const ReconstructionOptions& options) {
-  SolvedClocks solved;
-  solved.offsets = offsets;
-  solved.stage = std::make_unique<ForwardStage>(dataset, options);
-  ForwardStage& stage = *solved.stage;
-  stage.Run();
-  BatchOptions batch;
-  batch.max_iterations = options.max_iterations;
-  const EpochCallback progress = stage.Progress("clocks");
-  batch.callback = [&progress](int) { progress(0); };
-  solved.batch = SolveBatch(stage.start().layout, stage.start().prior,
-                            stage.smoothed().states, &stage.timeline(),
-                            stage.decisions(), batch);
-  if (!solved.batch.converged || !stage.unsettled().empty()) {
-    throw EstimationError("the clocks do not settle");
+  double Ratio(std::size_t rival, std::size_t chosen) {
+    const auto [at, is_new] = known_.try_emplace({rival, chosen}, 0.0);
+    if (is_new) {
+      at->second = LogEvidenceRatio(dataset_, solved_[rival], solved_[chosen]);
+    }
+    return at->second;
   }
-  return solved;
+  void Forget() { known_.clear(); }
+
+ private:
+  const Dataset& dataset_;
+  const std::vector<SolvedClocks>& solved_;
+  std::map<std::pair<std::size_t, std::size_t>, double> known_;
+};
+
+ClockRanking RankAsTheyAre(std::size_t count, EvidenceTable* table) {
+  ClockRanking ranking;
+  for (std::size_t i = 1; i < count; ++i) {
+    if (table->Ratio(i, ranking.best) > 0.0) ranking.best = i;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    ranking.log_evidence.push_back(
+        i == ranking.best ? 0.0 : std::min(0.0, table->Ratio(i, ranking.best)));
+  }
+  return ranking;
 }
 
-std::size_t Likeliest(const Dataset& dataset,
-                      const std::vector<SolvedClocks>& solved) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < solved.size(); ++i) {
-    if (LogRatio(dataset, solved[i], solved[best]) > 0.0) best = i;
+}  // namespace
+
+bool SameEnd(const std::vector<std::size_t>& streams, const SolvedClocks& one,
+             const SolvedClocks& other) {
+  return DifferencesOf(streams, one, other).none();
+}
+
+void RemoveSame(const std::vector<std::size_t>& streams,
+                std::vector<SolvedClocks>* solved) {
+  std::vector<SolvedClocks> kept;
+  for (SolvedClocks& one : *solved) {
+    const bool same =
+        std::any_of(kept.begin(), kept.end(), [&](const SolvedClocks& other) {
+          return SameEnd(streams, one, other);
+        });
+    if (!same) kept.push_back(std::move(one));
   }
-  return best;
+  *solved = std::move(kept);
+}
+
+ClockRanking Rank(const Dataset& dataset, std::vector<SolvedClocks>* solved) {
+  constexpr double kNear = 25.0;
+  EvidenceTable table(dataset, *solved);
+  for (;;) {
+    ClockRanking ranking = RankAsTheyAre(solved->size(), &table);
+    bool moved = false;
+    const auto carry = [&moved](SolvedClocks* one) {
+      if (one->converged) return;
+      Converge(one);
+      moved = true;
+    };
+    for (std::size_t i = 0; i < solved->size(); ++i) {
+      if (i == ranking.best || ranking.log_evidence[i] < -kNear) continue;
+      carry(&(*solved)[i]);
+      carry(&(*solved)[ranking.best]);
+    }
+    if (!moved) return ranking;
+    table.Forget();
+  }
 }
 
 std::vector<RivalSolution> Rivals(const Dataset& dataset,
                                   const std::vector<std::size_t>& streams,
                                   const std::vector<SolvedClocks>& solved,
-                                  std::size_t chosen) {
+                                  const ClockRanking& ranking) {
   std::vector<RivalSolution> rivals;
   for (std::size_t i = 0; i < solved.size(); ++i) {
-    if (i == chosen) continue;
-    auto rival = Differ(dataset, streams, solved[i], solved[chosen]);
-    const bool told =
-        rival && std::any_of(rivals.begin(), rivals.end(),
-                             [&](const RivalSolution& other) {
-                               return other.description == rival->description;
-                             });
-    if (!rival || told) continue;
-    rival->log_evidence =
-        std::min(0.0, LogRatio(dataset, solved[i], solved[chosen]));
-    rivals.push_back(std::move(*rival));
+    if (i == ranking.best) continue;
+    RivalSolution rival =
+        Tell(dataset, streams, solved[i], solved[ranking.best]);
+    rival.log_evidence = ranking.log_evidence[i];
+    rivals.push_back(std::move(rival));
   }
   SetProbabilities(&rivals);
   return rivals;

@@ -81,13 +81,13 @@ void ForwardStage::Run() {
     offsets.push_back(sensor.time_offset);
   }
   Settle(std::move(offsets));
-  JudgeObservability();
 }
 
 void ForwardStage::Settle(std::vector<double> offsets) {
   offsets_ = std::move(offsets);
   unsettled_.clear();
   relinearised_.reset();
+  unobserved_.reset();
   timeline_ = BuildTimeline(dataset_, MakeTimelineOptions());
   RunOnce();
   if (!EstimatesTimeOffsets(start_.layout)) return;
@@ -147,7 +147,13 @@ void ForwardStage::JudgeObservability() {
   unobserved_ = FindUnobserved(solution);
 }
 
+const std::vector<UnobservedSpan>& ForwardStage::unobserved() {
+  if (!unobserved_) JudgeObservability();
+  return *unobserved_;
+}
+
 const Relinearised& ForwardStage::relinearised() {
+  if (!unobserved_) JudgeObservability();  // which may have found it
   if (!relinearised_) Relinearise();
   return *relinearised_;
 }

@@ -27,8 +27,7 @@ class ForwardStage {
   ForwardStage(const Dataset& dataset, ReconstructionOptions options,
                Start start);
 
-  /// Settles from the sensors' time offsets and judges the linearisation. What
-  /// follows is valid after it.
+  /// Settles from the sensors' time offsets. What follows is valid after it.
   void Run();
 
   /// Filters and smooths on nodes placed by `offsets`, one a sensor [s]. Where
@@ -48,8 +47,8 @@ class ForwardStage {
   const GateDecisions& decisions() const { return decisions_; }
   const SmoothedTrajectory& smoothed() const { return *smoothed_; }
   double smoothing_seconds() const { return smoothing_seconds_; }
-  /// Spans that the data leave undetermined.
-  const std::vector<UnobservedSpan>& unobserved() const { return unobserved_; }
+  /// Spans that the data leave undetermined; found when first asked for.
+  const std::vector<UnobservedSpan>& unobserved();
   /// Found when first asked for.
   const Relinearised& relinearised();
   /// Time offsets that the nodes are placed by, one a sensor [s].
@@ -84,7 +83,7 @@ class ForwardStage {
   ReconstructionOptions options_;
   std::vector<double> offsets_;
   std::string unsettled_;
-  std::vector<UnobservedSpan> unobserved_;
+  std::optional<std::vector<UnobservedSpan>> unobserved_;
   std::optional<Relinearised> relinearised_;
   Start start_;
   Timeline timeline_;

@@ -1,9 +1,12 @@
 #include "problems/marginal_likelihood.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
 #include "alignment/alignment.h"
 #include "filters/measurement_rule.h"
+#include "filters/rts.h"
 
 namespace hindsight {
 namespace {
@@ -21,6 +24,52 @@ void WidenBlock(const ErrorLayout& layout, BlockKind kind,
     (*P)(row, row) = sigma(axis) * sigma(axis);
     ++row;
   }
+}
+
+bool IsOfImu(BlockKind kind) {
+  return kind == BlockKind::kPosition || kind == BlockKind::kVelocity ||
+         kind == BlockKind::kAttitude || kind == BlockKind::kGyroBias ||
+         kind == BlockKind::kAccelBias;
+}
+
+/// Q of an interval without what is not the IMU's.
+ErrorMatrix ImuNoise(const LinearTape& tape, std::size_t k) {
+  ErrorMatrix Q = tape.Q(k);
+  for (const Block& block : tape.layout().blocks()) {
+    if (IsOfImu(block.key.kind)) continue;
+    Q.middleRows(block.offset, block.dim).setZero();
+    Q.middleCols(block.offset, block.dim).setZero();
+  }
+  return Q;
+}
+
+/// Of one interval, cov(w | all) = Q - Q (P-)^-1 (P- - P) (P-)^-1 Q: with the
+/// smoothed P the trace of (P-)^-1 (P- - P) (P-)^-1 Q. Scaled to unit variances
+/// before, as a vague prior and well-known constants stand beside each other.
+double KnownNoise(const ErrorMatrix& P_minus, const ErrorMatrix& P,
+                  const ErrorMatrix& Q) {
+  const ErrorVector sigma = P_minus.diagonal().cwiseSqrt();
+  const auto scaled = [&sigma](const ErrorMatrix& M) {
+    const ErrorVector inverse = sigma.cwiseInverse();
+    return ErrorMatrix(inverse.asDiagonal() * M * inverse.asDiagonal());
+  };
+  const Eigen::LDLT<ErrorMatrix> correlation(scaled(P_minus));
+  const ErrorMatrix known = correlation.solve(scaled(ErrorMatrix(P_minus - P)));
+  const ErrorMatrix noise = correlation.solve(scaled(Q));
+  return (known * noise).trace();
+}
+
+double KnownImuNoise(const LinearTape& tape) {
+  const SmoothedTrajectory smoothed = SmoothRts(tape);
+  double sum = 0.0;
+  for (std::size_t k = 1; k < tape.size(); ++k) {
+    sum += KnownNoise(tape.P_minus(k), smoothed.P.Get(k), ImuNoise(tape, k));
+  }
+  return sum;
+}
+
+Eigen::VectorXd Whitened(const TapeMeasurement& z) {
+  return Eigen::LLT<Eigen::MatrixXd>(z.S).matrixL().solve(z.innovation);
 }
 
 }  // namespace
@@ -53,13 +102,26 @@ Prior PriorOfComparison(const Dataset& dataset, const Start& start,
   widen(BlockKind::kAccelBias, AccelBiasSigma(given));
   for (const Block& block : start.layout.blocks()) {
     if (block.key.kind != BlockKind::kTimeOffset) continue;
-    const AidingStream& stream =
-        dataset.streams[static_cast<std::size_t>(block.key.sensor)];
     prior.x.parameters(block.parameter_offset) =
-        stream.clock_unknown ? x.parameters(block.parameter_offset)
-                             : stream.sensor.time_offset;
+        x.parameters(block.parameter_offset);
   }
   return prior;
+}
+
+double LogClockPrior(const Dataset& dataset, const ErrorLayout& layout,
+                     const State& x) {
+  double log = 0.0;
+  for (const Block& block : layout.blocks()) {
+    if (block.key.kind != BlockKind::kTimeOffset) continue;
+    const AidingStream& stream =
+        dataset.streams[static_cast<std::size_t>(block.key.sensor)];
+    if (stream.clock_unknown || !stream.sensor.time_offset_sigma) continue;
+    const double off =
+        (x.parameters(block.parameter_offset) - stream.sensor.time_offset) /
+        *stream.sensor.time_offset_sigma;
+    log -= 0.5 * off * off;
+  }
+  return log;
 }
 
 MarginalLikelihood MarginalLikelihoodOf(const ErrorLayout& layout,
@@ -89,8 +151,13 @@ MarginalLikelihood MarginalLikelihoodOf(const ErrorLayout& layout,
       out.log += z.log_likelihood + 0.5 * (z.nis - nis);
       out.squares += nis;
       out.rows += rows;
+      if (!z.accepted) continue;
+      const Measurement& measurement =
+          timeline->measurements(k)[static_cast<std::size_t>(z.index)];
+      out.whitened[{measurement.sensor, measurement.t}] = Whitened(z);
     }
   }
+  out.imu_noise = KnownImuNoise(tape);
   return out;
 }
 

@@ -1,6 +1,9 @@
 #ifndef HINDSIGHT_PROBLEMS_MARGINAL_LIKELIHOOD_H_
 #define HINDSIGHT_PROBLEMS_MARGINAL_LIKELIHOOD_H_
 
+#include <Eigen/Core>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "alignment/start.h"
@@ -13,22 +16,35 @@ struct MarginalLikelihood {
   double log = 0.0;
   double squares = 0.0;  ///< sum of the normalised squared innovations
   double rows = 0.0;     ///< their components
+  /// Innovations of the accepted measurements, whitened by the Cholesky factor
+  /// of their covariances, by sensor and stamp.
+  std::map<std::pair<int, double>, Eigen::VectorXd> whitened;
+  /// How many combinations of the IMU's noise w the measurements know: the
+  /// trace of I - Q^-1 cov(w | measurements), over all intervals. In so many
+  /// of the whitened innovations stands the IMU's noise, not the measurements'.
+  double imu_noise = 0.0;
 };
 
 /// The prior by which explanations are compared, as all of them share it: what
 /// the data set states of biases and constants; what it gives of position,
 /// velocity and attitude, and 100 m, 100 m/s and nothing of what the start was
-/// taken from the data, about `x`, the first state of the explanation. So is
-/// the clock of a stream of which nothing is known.
+/// taken from the data, about `x`, the first state of the explanation. So are
+/// the clocks: what is stated of them is counted by LogClockPrior.
 Prior PriorOfComparison(const Dataset& dataset, const Start& start,
                         const State& x);
 
+/// ln of the a priori density of the time offsets that are estimated, less its
+/// maximum, at the state x; of an unknown clock 0.
+double LogClockPrior(const Dataset& dataset, const ErrorLayout& layout,
+                     const State& x);
+
 /// Marginal likelihood of the measurements that `used` names, in the system
-/// linearised about `nominal`, the converged trajectory: the likelihood of the
-/// forward filter's innovations there, which is Laplace's approximation
-///   -cost(MAP) + ln det(2 pi P)/2 with all priors in it.
-/// Of a measurement that is used but rejected by `decisions` its gate's limit
-/// counts in place of its innovation.
+/// linearised about `nominal`: the likelihood of the forward filter's
+/// innovations there, which is Laplace's approximation
+///   -cost(MAP) + ln det(2 pi P)/2 with all priors in it,
+/// the step from `nominal` to the MAP taken as linear. Of a measurement that is
+/// used but rejected by `decisions` its gate's limit counts in place of its
+/// innovation.
 MarginalLikelihood MarginalLikelihoodOf(const ErrorLayout& layout,
                                         const Prior& prior,
                                         const std::vector<State>& nominal,

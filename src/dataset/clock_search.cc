@@ -47,6 +47,8 @@ ClockSearch Search(const ClockComparison& comparison, const ImuStream& imu,
   ClockSearch out;
   out.compared = comparison.compared;
   out.resolution = comparison.resolution;
+  out.freedom = comparison.freedom;
+  out.misfit = comparison.misfit;
   const double step = comparison.resolution / kStepsPerWindow;
   const double count = std::ceil((range.to - range.from) / step);
   if (!(count >= 2.0)) return out;
@@ -121,6 +123,12 @@ ClockSearch SearchClock(const ImuStream& imu,
     return !(candidate.sigma < kKnownClock);
   });
   return found;
+}
+
+bool IsPlausible(const ClockSearch& found, double misfit) {
+  constexpr double kFiveSigmas = 5.0;
+  return std::log(misfit / found.candidates.front().misfit) <
+         kFiveSigmas * 2.0 / std::sqrt(found.freedom);
 }
 
 bool TakeClock(const ClockSearch& found, AidingStream* stream) {

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_DATASET_CLOCK_SEARCH_H_
 #define HINDSIGHT_DATASET_CLOCK_SEARCH_H_
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -26,6 +27,9 @@ struct ClockSearch {
   int left_out = 0;         ///< further ones, of which there were too many
   std::string compared;     ///< "accelerations", "turns": what was compared
   double resolution = 0.0;  ///< time over which motion was averaged [s]
+  double freedom = 0.0;     ///< independent components compared
+  /// As of the candidates, at any offset; infinite where too little overlaps.
+  std::function<double(double offset)> misfit;
 };
 
 /// Offsets to search [s].
@@ -68,6 +72,11 @@ ClockSearch SearchClock(const ImuStream& imu, const InitialState& initial,
 /// tells nothing.
 ClockSearch SearchClock(const ImuStream& imu,
                         const std::vector<TruthPoint>& truth);
+
+/// Whether a misfit may be as low as that of the best candidate but for chance:
+/// the logarithm of the ratio of two mean squares of n independent components
+/// has the variance 4/n at most; by five standard deviations.
+bool IsPlausible(const ClockSearch& found, double misfit);
 
 /// Gives a stream whose clock is unknown the best of `found` as its time offset
 /// and the resolution as the a priori sigma of its estimate; false if nothing

@@ -20,13 +20,11 @@ HeldMotion::HeldMotion(const ImuStream& imu, const Eigen::Vector3d& b_g)
   grid_.reserve(steps + 1);
   grid_.push_back({Eigen::Quaterniond::Identity(), Eigen::Vector3d::Zero(),
                    Eigen::Vector3d::Zero()});
-  for (std::size_t k = 0; k < steps; ++k) {
+  ImuSummary mean = EmptyMean(begin_, calibration);
+  for (std::size_t k = 1; k <= steps; ++k) {
     const double t = begin_ + static_cast<double>(k) * step_;
-    const ImuSummary s =
-        integrator.Summarize(t, std::min(t + step_, end_), calibration);
-    const Instant& x = grid_.back();
-    grid_.push_back({(x.q * s.dR).normalized(), x.v + x.q * s.dv,
-                     x.p + s.dt() * x.v + x.q * s.dp});
+    integrator.AppendMean(std::min(t, end_), &mean);
+    grid_.push_back({mean.dR, mean.dv, mean.dp});
   }
 }
 

@@ -1,0 +1,66 @@
+#include "problems/clock_evidence.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "problems/marginal_likelihood.h"
+
+namespace hindsight {
+namespace {
+
+/// The measurements that another solution has as well.
+GateDecisions InCommon(const Timeline& timeline, const Timeline& other) {
+  std::set<std::pair<int, double>> there;
+  for (const Measurement& z : other.all_measurements()) {
+    there.insert({z.sensor, z.t});
+  }
+  GateDecisions used;
+  for (const Measurement& z : timeline.all_measurements()) {
+    used.push_back(there.contains({z.sensor, z.t}) ? 1 : 0);
+  }
+  return used;
+}
+
+MarginalLikelihood LikelihoodBeside(const Dataset& dataset,
+                                    const SolvedClocks& solved,
+                                    const SolvedClocks& other) {
+  ForwardStage& stage = *solved.stage;
+  const Prior prior =
+      PriorOfComparison(dataset, stage.start(), solved.states.front());
+  return MarginalLikelihoodOf(
+      stage.start().layout, prior, solved.states, stage.decisions(),
+      InCommon(stage.timeline(), other.stage->timeline()), &stage.timeline());
+}
+
+double ClockPriorOf(const Dataset& dataset, const SolvedClocks& solved) {
+  return LogClockPrior(dataset, solved.stage->start().layout,
+                       solved.states.back());
+}
+
+/// |w|^2, of the measurements that both accepted.
+double Between(const MarginalLikelihood& a, const MarginalLikelihood& b) {
+  double sum = 0.0;
+  for (const auto& [measurement, innovation] : a.whitened) {
+    const auto other = b.whitened.find(measurement);
+    if (other == b.whitened.end()) continue;
+    sum += (other->second - innovation).squaredNorm();
+  }
+  return sum;
+}
+
+}  // namespace
+
+double LogEvidenceRatio(const Dataset& dataset, const SolvedClocks& rival,
+                        const SolvedClocks& chosen) {
+  const MarginalLikelihood a = LikelihoodBeside(dataset, chosen, rival);
+  const MarginalLikelihood b = LikelihoodBeside(dataset, rival, chosen);
+  const double excess = a.rows > 0.0 ? std::max(1.0, a.squares / a.rows) : 1.0;
+  const double between = Between(a, b);
+  const double of_noise = excess * (a.imu_noise + b.imu_noise);
+  const double of_motion = between > of_noise ? 1.0 - of_noise / between : 0.0;
+  return of_motion * (b.log - a.log) / excess + ClockPriorOf(dataset, rival) -
+         ClockPriorOf(dataset, chosen);
+}
+
+}  // namespace hindsight

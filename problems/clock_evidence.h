@@ -1,0 +1,27 @@
+#ifndef HINDSIGHT_PROBLEMS_CLOCK_EVIDENCE_H_
+#define HINDSIGHT_PROBLEMS_CLOCK_EVIDENCE_H_
+
+#include "problems/clock_solution.h"
+
+namespace hindsight {
+
+/// ln of the evidence of `rival` over that of `chosen`, with the a priori
+/// distributions of `dataset`, where the clocks are as they are given:
+///   r (L_rival - L_chosen)/c + difference of LogClockPrior,
+///   r = max(0, 1 - 2 c m/|w|^2).
+/// L: MarginalLikelihoodOf the measurements that both have inside the IMU's
+/// record. c: mean square of the innovations of `chosen`, at least 1, by which
+/// the noise is larger than stated. w: by what the two predictions of these
+/// measurements differ, as the difference of the whitened innovations; m: the
+/// mean of MarginalLikelihood::imu_noise. Under either clock the IMU predicts
+/// with noise of another time, of which |w|^2 has 2 c m. Where the motion
+/// repeats itself the predictions differ in nothing else, and which of them
+/// happens to fit better tells nothing. r is the part of |w|^2 that is motion:
+/// the slope, in errors in variables, by which the likelihoods overrate what
+/// the measurements tell.
+double LogEvidenceRatio(const Dataset& dataset, const SolvedClocks& rival,
+                        const SolvedClocks& chosen);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_CLOCK_EVIDENCE_H_

@@ -1,0 +1,122 @@
+#include "problems/clock_solution.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "alignment/coarse_alignment.h"
+#include "alignment/velocity_alignment.h"
+#include "base/error.h"
+#include "base/units.h"
+#include "problems/batch.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kAlignmentWindow = 40.0;  // [s]
+
+bool SaysNothingOfStart(const InitialState& given) {
+  return given.alignment == AlignmentKind::kAuto && !given.t && !given.euler &&
+         !given.heading;
+}
+
+/// An initial state with the attitude of the motion's first `kAlignmentWindow`.
+std::optional<InitialState> CoarseInitial(
+    const Dataset& dataset, const ReconstructionOptions& options) {
+  const InitialState& given = dataset.initial;
+  if (!SaysNothingOfStart(given)) return std::nullopt;
+  const double from = std::max(options.from, dataset.imu.t_begin());
+  const double to = std::min(options.to, dataset.imu.t_end());
+  AlignmentInput input{.dataset = dataset,
+                       .to = to,
+                       .fixes = PositionFixes(dataset, from, to),
+                       .velocities = GroundVelocities(dataset, from, to),
+                       .b_g = given.gyro_bias,
+                       .b_a = given.accel_bias,
+                       .gyro_sigma = GyroBiasSigma(given).maxCoeff()};
+  if (!given.position && input.fixes.empty()) return std::nullopt;
+  input.t = given.position ? from : input.fixes.front().t;
+  input.p_e = given.position ? EcefFromGeodetic(*given.position)
+                             : input.fixes.front().p_e;
+  const auto coarse =
+      AlignCoarsely(input, std::min(to, FirstMotion(input) + kAlignmentWindow),
+                    input.b_g, input.b_a);
+  if (!coarse) return std::nullopt;
+  InitialState initial = given;
+  initial.t = input.t;
+  initial.euler = EulerFromQuaternion(
+      Eigen::Quaterniond(NedAxes(input.p_e).transpose()) * coarse->q_eb);
+  // As white errors have it, which those of a wrong clock are not.
+  initial.attitude_sigma =
+      (3.0 * coarse->P.diagonal().cwiseSqrt().array() + kDegree)
+          .min(kUnknownHeadingSigma);
+  return initial;
+}
+
+std::optional<Start> CoarseStart(const ReconstructionOptions& options,
+                                 Dataset* dataset) {
+  std::optional<InitialState> initial = CoarseInitial(*dataset, options);
+  if (!initial) return std::nullopt;
+  std::swap(dataset->initial, *initial);
+  std::optional<Start> start;
+  try {
+    start = FindStart(*dataset, options.from, options.to);
+  } catch (const EstimationError&) {
+    // The data set's own start may lead to one.
+  }
+  std::swap(dataset->initial, *initial);
+  return start;
+}
+
+SolvedClocks Settled(const std::vector<double>& offsets,
+                     std::unique_ptr<ForwardStage> stage) {
+  stage->Run();
+  if (!stage->unsettled().empty()) {
+    throw EstimationError("the clocks do not settle");
+  }
+  SolvedClocks solved;
+  solved.offsets = offsets;
+  solved.states = stage->smoothed().states;
+  solved.stage = std::move(stage);
+  return solved;
+}
+
+}  // namespace
+
+SolvedClocks SolveWithClocks(const std::vector<double>& offsets,
+                             const ReconstructionOptions& options,
+                             const Dataset& dataset) {
+  return Settled(offsets, std::make_unique<ForwardStage>(dataset, options));
+}
+
+SolvedClocks SolveCoarsely(const std::vector<double>& offsets,
+                           const ReconstructionOptions& options,
+                           Dataset* dataset) {
+  if (std::optional<Start> start = CoarseStart(options, dataset)) {
+    try {
+      SolvedClocks solved = Settled(
+          offsets,
+          std::make_unique<ForwardStage>(*dataset, options, std::move(*start)));
+      solved.from_coarse = true;
+      return solved;
+    } catch (const EstimationError&) {
+      // From the attitude as FindStart has it, it may.
+    }
+  }
+  return SolveWithClocks(offsets, options, *dataset);
+}
+
+void Converge(SolvedClocks* solved) {
+  solved->converged = true;
+  ForwardStage& stage = *solved->stage;
+  BatchOptions batch;
+  batch.max_iterations = stage.options().max_iterations;
+  const EpochCallback progress = stage.Progress("clocks");
+  batch.callback = [&progress](int) { progress(0); };
+  BatchResult result =
+      SolveBatch(stage.start().layout, stage.start().prior, solved->states,
+                 &stage.timeline(), stage.decisions(), batch);
+  if (result.converged) solved->states = std::move(result.states);
+}
+
+}  // namespace hindsight
