@@ -18,16 +18,14 @@ struct ClockChoice {
 };
 
 /// Decides where the clock of every stream stands that is unknown or is to be
-/// estimated with an a priori sigma of 0.1 s or more: at each offset that
-/// SearchClock finds, of the latter within four sigmas, and at the given one if
-/// that is none of them, the data are aligned and solved to the end with nodes
-/// placed there; of several streams up to eight combinations. Chosen is the
-/// solution of the largest evidence (MarginalLikelihoodOf, the given time
-/// offset and its sigma in it), two at a time and on the measurements that both
-/// have inside the IMU's record. Methods then start at its offsets. The others
-/// are rivals; where noise is larger than stated, by the innovations of the
-/// chosen one, their evidence counts accordingly less. Nothing is solved where
-/// one offset alone comes into question and is where the configuration has it.
+/// estimated with an a priori sigma of 0.1 s or more. In question are the
+/// offsets that SearchClock finds, of the latter within four sigmas, and the
+/// given one if that is none of them, as far as they are plausible
+/// (IsPlausible); of several streams up to eight combinations. Where it is one
+/// alone, nothing is compared. Else the data are solved at each, with nodes
+/// placed there (SolveCoarsely), and chosen is the solution of the largest
+/// evidence (Rank). Methods then start at its offsets, from the start that
+/// FindStart finds there. The others are rivals.
 /// Throws EstimationError if an unknown clock is not found, and as
 /// ForwardStage.
 ClockChoice ChooseClocks(const Dataset& dataset,

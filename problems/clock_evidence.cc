@@ -39,7 +39,8 @@ double ClockPriorOf(const Dataset& dataset, const SolvedClocks& solved) {
 }
 
 /// |w|^2, of the measurements that both accepted.
-double Between(const MarginalLikelihood& a, const MarginalLikelihood& b) {
+double SquaredDifference(const MarginalLikelihood& a,
+                         const MarginalLikelihood& b) {
   double sum = 0.0;
   for (const auto& [measurement, innovation] : a.whitened) {
     const auto other = b.whitened.find(measurement);
@@ -56,7 +57,7 @@ double LogEvidenceRatio(const Dataset& dataset, const SolvedClocks& rival,
   const MarginalLikelihood a = LikelihoodBeside(dataset, chosen, rival);
   const MarginalLikelihood b = LikelihoodBeside(dataset, rival, chosen);
   const double excess = a.rows > 0.0 ? std::max(1.0, a.squares / a.rows) : 1.0;
-  const double between = Between(a, b);
+  const double between = SquaredDifference(a, b);
   const double of_noise = excess * (a.imu_noise + b.imu_noise);
   const double of_motion = between > of_noise ? 1.0 - of_noise / between : 0.0;
   return of_motion * (b.log - a.log) / excess + ClockPriorOf(dataset, rival) -

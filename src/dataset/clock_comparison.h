@@ -21,12 +21,14 @@ struct ClockComparison {
   std::string compared;     ///< in words
 };
 
+/// Length of the windows compared [s].
+inline constexpr double kShortestClockWindow = 0.5;
+inline constexpr double kLongestClockWindow = 5.0;
+
 /// Nothing for a type that is not compared, or too few measurements.
 std::optional<ClockComparison> CompareStream(const ImuStream& imu,
                                              const InitialState& initial,
                                              const AidingStream& stream);
-std::optional<ClockComparison> CompareTurns(
-    const ImuStream& imu, const std::vector<TruthPoint>& truth);
 
 }  // namespace hindsight
 

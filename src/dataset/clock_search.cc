@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "dataset/clock_comparison.h"
+#include "dataset/clock_turns.h"
 
 namespace hindsight {
 namespace {

@@ -128,6 +128,25 @@ TEST(ClockSearch, FindsNothingAtRest) {
   }
 }
 
+/// Noise alone is between the misfits of a flight half a period off.
+TEST(ClockSearch, WhatNoiseMayHaveMadeWorseIsPlausible) {
+  ShuttleOptions periodic;
+  periodic.irregularity = periodic.drift = periodic.turning = 0.0;
+  for (const std::uint64_t seed : {61u, 62u, 63u, 64u}) {
+    const Dataset regular = LateShuttle(periodic, seed, 0.3, 0.5);
+    const ClockSearch found = SearchClock(regular.imu, regular.initial,
+                                          regular.streams[0], {-2.0, 2.0});
+    ASSERT_GE(found.candidates.size(), 2u);
+    EXPECT_TRUE(IsPlausible(found, found.candidates.back().misfit)) << seed;
+  }
+  const Dataset drive = Drive(TellingSensors()[0], 13);
+  const ClockSearch found =
+      SearchClock(drive.imu, drive.initial, drive.streams[0]);
+  ASSERT_FALSE(found.candidates.empty());
+  EXPECT_TRUE(IsPlausible(found, found.candidates.front().misfit));
+  EXPECT_FALSE(IsPlausible(found, found.misfit(20.0)));
+}
+
 TEST(ClockSearch, HalfAPeriodOffIsACandidateOfAFlightToAndFro) {
   const Dataset dataset = LateShuttle({}, 5, 0.6, 0.5);
   const ClockSearch found = SearchClock(dataset.imu, dataset.initial,
