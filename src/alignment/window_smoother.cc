@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -19,10 +20,12 @@ constexpr double kVagueVelocity = 100.0;   // [m/s]
 constexpr double kVaguePosition = 1000.0;  // [m]
 constexpr int kMaxIterations = 40;
 /// Gyro bias walks of a warm-up: 0.1 are 0.8 deg/s in a minute [rad/s/sqrt(s)].
-constexpr double kDriftingWalks[] = {0.003 * kDegree, 0.01 * kDegree,
-                                     0.03 * kDegree, 0.1 * kDegree,
-                                     0.3 * kDegree};
+constexpr std::array<double, 5> kDriftingWalks = {
+    0.003 * kDegree, 0.01 * kDegree, 0.03 * kDegree, 0.1 * kDegree,
+    0.3 * kDegree};
 constexpr double kNotably = 5.0;  // odds of 150 to 1
+/// Of WarmUpWalk: beyond five a priori sigmas in a minute a misfit is no drift.
+constexpr double kFastestDrift = 5.0;
 
 /// Measurements that need no calibration found elsewhere first.
 bool IsPlain(const MeasurementModel& model) {
@@ -257,6 +260,30 @@ std::optional<WindowSolution> SmoothWithWalk(
   }
 }
 
+/// What is lost or gained in log-likelihood before one walk counts as better.
+double Notably(const WindowSolution& solution) {
+  return kNotably * std::max(1.0, solution.nis);
+}
+
+/// `likeliest` with the largest walk, up to `most`, that the window does not
+/// refute.
+template <typename Smooth>
+WindowSolution WithLargestWalk(WindowSolution likeliest, double most,
+                               const Smooth& smooth) {
+  std::vector<double> walks(kDriftingWalks.rbegin(), kDriftingWalks.rend());
+  std::erase_if(walks, [&](double walk) { return walk >= most; });
+  walks.insert(walks.begin(), most);
+  for (const double walk : walks) {
+    if (walk <= likeliest.gyro_bias_walk) break;
+    std::optional<WindowSolution> found = smooth(walk);
+    if (found &&
+        found->log_likelihood > likeliest.log_likelihood - Notably(likeliest)) {
+      return *std::move(found);
+    }
+  }
+  return likeliest;
+}
+
 }  // namespace
 
 double WarmUpWalk(const AlignmentInput& input) {
@@ -275,20 +302,18 @@ std::optional<WindowSolution> SmoothWindow(
   std::optional<WindowSolution> best = smooth(usual);
   for (const double walk : kDriftingWalks) {
     if (walk < 2.0 * usual) continue;
+    if (walk > kFastestDrift * WarmUpWalk(input)) break;
     auto found = smooth(walk);
     if (!found) continue;
     if (best) {
       const double gain = found->log_likelihood - best->log_likelihood;
       if (gain < 0.0) break;
-      if (gain < kNotably * std::max(1.0, found->nis)) continue;
+      if (gain < Notably(*found)) continue;
     }
     best = std::move(found);
   }
-  if (best && best->gyro_bias_walk > usual &&
-      best->gyro_bias_walk < WarmUpWalk(input)) {
-    best = smooth(WarmUpWalk(input));
-  }
-  return best;
+  if (!best || best->gyro_bias_walk <= usual) return best;
+  return WithLargestWalk(*std::move(best), WarmUpWalk(input), smooth);
 }
 
 }  // namespace hindsight

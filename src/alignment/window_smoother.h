@@ -48,11 +48,13 @@ double WarmUpWalk(const AlignmentInput& input);
 /// tells, and no more; it is scaled up by `nis` where that exceeds one. A gyro
 /// that warms up drifts faster than its data sheet says: besides with the
 /// stated walk the window is smoothed with walks of 0.003 to 0.3 deg/s/sqrt(s),
-/// and a larger one is taken where it raises the log-likelihood, over `nis`, by
-/// more than 5, but none below WarmUpWalk: a steady drift looks like a small
-/// walk, whose independent steps carry it on far too surely to where it is not
-/// seen. The stated walk counts as AlignmentInput::least_gyro_walk if that is
-/// larger. Empty if no iteration settles.
+/// at most five times WarmUpWalk, and a larger one is taken where it raises the
+/// log-likelihood, over `nis`, by more than 5. A steady drift looks like a
+/// small walk, whose independent steps carry it on far too surely to where it
+/// is not seen: of the walks up to WarmUpWalk the largest is taken that lowers
+/// the log-likelihood by less than that again. The stated walk counts as
+/// AlignmentInput::least_gyro_walk if that is larger. Empty if no iteration
+/// settles.
 std::optional<WindowSolution> SmoothWindow(
     const AlignmentInput& input, double t_end, const WindowStart& start,
     const std::optional<AttitudePrior>& known = std::nullopt);
