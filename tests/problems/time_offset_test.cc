@@ -97,6 +97,15 @@ const ConstantEstimate& Offset(const Solution& solution) {
       [](const ConstantEstimate& c) { return c.name == kOffset; });
 }
 
+/// Leaves no fix that comes or goes with the offset: one more at an end of the
+/// interval is one more piece of information, of some 0.1 sigma here, and with
+/// and without it the offset may settle on either side.
+void KeepInside(Dataset* dataset) {
+  std::erase_if(
+      dataset->streams.front().measurements,
+      [](const Measurement& z) { return z.t < 1.0 || z.t > kDuration - 1.0; });
+}
+
 constexpr Method kSmoothers[] = {Method::kRts, Method::kTwoFilter,
                                  Method::kIterated, Method::kBatch,
                                  Method::kImmSmoother};
@@ -116,9 +125,11 @@ TEST(TimeOffset, ErrorsAreWhatTheSigmaSaysFromAnyStart) {
   for (int i = 0; i < seeds; ++i) {
     const std::uint64_t seed = 77000 + static_cast<std::uint64_t>(i);
     const double delay = DelayOf(seed);
-    const Dataset dataset = Delayed(recording, seed, delay);
+    Dataset dataset = Delayed(recording, seed, delay);
+    KeepInside(&dataset);
     Reconstruction from_zero(dataset, {});
-    const Dataset other = Delayed(recording, seed, delay, 0.5 * delay);
+    Dataset other = Delayed(recording, seed, delay, 0.5 * delay);
+    KeepInside(&other);
     Reconstruction from_near(other, {});
     for (const Method method : kSmoothers) {
       const Solution solution = from_zero.Run(method);
@@ -171,11 +182,7 @@ TEST(TimeOffset, AgreesWithTheLikelihoodOverFixedOffsets) {
   const PerfectRecording recording(ShakenScenario());
   for (const std::uint64_t seed : {2001u, 2002u}) {
     Dataset dataset = Delayed(recording, seed, DelayOf(seed));
-    // Not a fix may come or go with the offset.
-    std::vector<Measurement>& fixes = dataset.streams.front().measurements;
-    std::erase_if(fixes, [](const Measurement& z) {
-      return z.t < 1.0 || z.t > kDuration - 1.0;
-    });
+    KeepInside(&dataset);
     const Solution batch = Solve(dataset, {});
     const ConstantEstimate& offset = Offset(batch);
     // A parabola through five points, two sigmas either way.
