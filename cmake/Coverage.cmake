@@ -9,7 +9,7 @@ get_property(everything DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
 list(FILTER everything INCLUDE REGEX "_test$")
 add_custom_target(coverage
   COMMAND ${CMAKE_CTEST_COMMAND} --test-dir ${CMAKE_BINARY_DIR} -j2
-          --output-on-failure
+          --timeout 900 --output-on-failure
   COMMAND ${GCOVR} --root ${CMAKE_SOURCE_DIR} --object-directory ${CMAKE_BINARY_DIR}
           --filter ${CMAKE_SOURCE_DIR}/src --filter ${CMAKE_SOURCE_DIR}/factors
           --filter ${CMAKE_SOURCE_DIR}/problems

@@ -157,7 +157,8 @@ int BeyondFourSigmas(std::uint64_t first, int count, bool print) {
 TEST(WarmUp, RollAndPitchAreNoWorseThanLevelling) {
   // Four sigmas of an accelerometer bias of 20 mg.
   constexpr double kLevelling = 4.0 * 0.02;
-  for (std::uint64_t seed = 7001; seed < 7001 + kKinds; ++seed) {
+  for (std::uint64_t seed = 7001; seed < 7001 + testing::SeedCount(kKinds);
+       ++seed) {
     const Eigen::Vector3d error = ErrorOfStart(seed, false).error;
     EXPECT_LT(error.head<2>().cwiseAbs().maxCoeff(), kLevelling) << seed;
   }
