@@ -53,9 +53,10 @@ std::string GeneralHelp(const std::vector<Command>& commands) {
          "'hindsight --version' prints the version.\n\n"
          "Exit status: 0 usable answer, 3 doubtful answer, 1 no usable "
          "answer,\n"
-         "2 wrong usage or bad input, 130 stopped by Ctrl-C. Errors are one "
-         "line\n"
-         "on stderr.\n";
+         "2 wrong usage or bad input, 4 results that could not be written or "
+         "put "
+         "in\n"
+         "place, 130 stopped by Ctrl-C. Errors are one line on stderr.\n";
   return out.str();
 }
 

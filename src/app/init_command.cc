@@ -1,10 +1,12 @@
 #include <filesystem>
 #include <iostream>
+#include <mutex>
 #include <system_error>
 
 #include "app/abandoned.h"
 #include "app/command.h"
 #include "app/flags.h"
+#include "app/interrupt.h"
 #include "base/error.h"
 #include "io/atomic_file.h"
 #include "io/init_config.h"
@@ -19,6 +21,24 @@ constexpr const char* kHelp =
     R"(Looks at the files in FOLDER and prints a commented configuration for what it
 recognises, to be completed and given to 'check' and 'run'.
 )";
+
+/// Writes the configuration to --out. A signal ends the process when that is
+/// done, so that no half of a file is left.
+void Write(const std::string& config) {
+  std::mutex writing;
+  bool written = false;
+  const StopWatch watch([&] {
+    // For good: who waits for it from now on waits for the end of the process.
+    writing.lock();
+    return "interrupted; " +
+           (written ? FLAGS_out + " is in place" : "nothing is left");
+  });
+  const std::lock_guard lock(writing);
+  AtomicFile file(FLAGS_out);
+  file.Write(config);
+  file.Commit(FLAGS_force);
+  written = true;
+}
 
 /// A recording in the folder looks like any other file to be replaced.
 void CheckMayReplace(const std::string& file) {
@@ -37,7 +57,8 @@ void CheckMayReplace(const std::string& file) {
   }
   if (!IsInitConfig(file)) {
     throw InputError("output file " + file +
-                     " was not written by 'init'; --force does not replace it");
+                     " was not written by 'init', or changed since; --force "
+                     "does not replace it");
   }
 }
 
@@ -47,7 +68,7 @@ std::string Disowned(const std::filesystem::path& path) {
   if (!IsFile(path)) return "is no file";
   return std::filesystem::file_size(path, refused) == 0 || IsInitConfig(path)
              ? ""
-             : "was not written by 'init'";
+             : "was not written by 'init', or changed since";
 }
 
 int Run(const std::vector<std::string>& arguments) {
@@ -58,9 +79,7 @@ int Run(const std::vector<std::string>& arguments) {
     return kUsable;
   }
   TreatAbandoned(FLAGS_out, FLAGS_clean, Disowned);
-  AtomicFile file(FLAGS_out);
-  file.Write(config);
-  file.Commit(FLAGS_force);
+  Write(config);
   if (const std::error_code error =
           SyncFolder(std::filesystem::absolute(FLAGS_out).parent_path())) {
     throw OutputError(

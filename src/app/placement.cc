@@ -1,5 +1,7 @@
 #include "app/placement.h"
 
+#include <fcntl.h>
+
 #include <system_error>
 
 #include "app/error_line.h"
@@ -43,8 +45,10 @@ bool LiesIn(const fs::path& inner, const fs::path& folder) {
 
 Placement::Placement(const OutputRequest& request,
                      const std::function<Paths()>& inputs)
-    : folder_(Resolved(request.folder)) {
-  replaced_ = CheckMayReplace(request.force, inputs);
+    : force_(request.force), folder_(Resolved(request.folder)) {
+  held_ = Descriptor(
+      open(folder_.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+  replaced_ = CheckMayReplace(inputs);
 }
 
 void Placement::CheckHolds(const std::function<Paths()>& inputs) const {
@@ -64,7 +68,7 @@ void Placement::CheckHolds(const std::function<Paths()>& inputs) const {
 }
 
 std::optional<struct stat> Placement::CheckMayReplace(
-    bool force, const std::function<Paths()>& inputs) const {
+    const std::function<Paths()>& inputs) const {
   const std::optional<struct stat> status = StatusOf(folder_);
   if (!status) return std::nullopt;
   const std::string name = "output folder " + folder_.string();
@@ -79,7 +83,7 @@ std::optional<struct stat> Placement::CheckMayReplace(
                      "step; choose a folder in it");
   }
   if (FolderEntries(folder_).empty()) return status;
-  if (!force) {
+  if (!force_) {
     throw InputError(name +
                      " exists; choose another or replace it with --force");
   }
@@ -153,6 +157,7 @@ std::string Placement::Objection(const fs::path& old, bool complete) const {
   }
   try {
     if (FolderEntries(old).empty()) return "";
+    if (!force_) return "is no longer empty";
     const std::optional<ResultManifest> manifest = ReadManifest(old);
     if (!manifest) {
       return std::string("holds no ") + kManifestName + " of earlier results";

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "io/unpublished.h"
+
 namespace hindsight {
 
 /// What --out, --force and --clean say.
@@ -20,11 +22,11 @@ struct OutputRequest {
 
 /// The name under which a folder of results appears, in one step. What is in
 /// the way then is never removed: the results stay beside it, as FOLDER.1,
-/// FOLDER.2 and so on. With `force` a folder is replaced that was there from
-/// the start and holds nothing but files that its manifest lists
-/// (io/result_manifest.h), by exchanging the two in one step; where the file
-/// system cannot, by two renames, and a kill between these leaves both folders
-/// beside the name.
+/// FOLDER.2 and so on. What was there from the start is replaced while it is an
+/// empty folder, and with `force` where it holds nothing but files that its
+/// manifest lists (io/result_manifest.h), by exchanging the two in one step;
+/// where the file system cannot, by two renames, and a kill between these
+/// leaves both folders beside the name.
 class Placement {
  public:
   using Paths = std::vector<std::filesystem::path>;
@@ -50,7 +52,7 @@ class Placement {
 
  private:
   std::optional<struct stat> CheckMayReplace(
-      bool force, const std::function<Paths()>& inputs) const;
+      const std::function<Paths()>& inputs) const;
   void CheckHolds(const std::function<Paths()>& inputs) const;
   std::string Objection(const std::filesystem::path& old, bool complete) const;
   void PlaceBeside(const std::string& reason);
@@ -58,9 +60,11 @@ class Placement {
   void ReplaceByTwoRenames();
   void TakenFrom(const std::filesystem::path& old);
 
+  bool force_;
   std::filesystem::path folder_;
   std::optional<struct stat> replaced_;  ///< what may be replaced
-  std::filesystem::path finished_;       ///< what is being placed
+  Descriptor held_;  ///< of it, so that no other folder gets its number
+  std::filesystem::path finished_;  ///< what is being placed
   bool complete_ = false;
   std::optional<std::filesystem::path> placed_;
 };

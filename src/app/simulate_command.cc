@@ -86,8 +86,9 @@ int Run(const std::vector<std::string>& arguments) {
     });
   }
   const auto inputs = [&] {
-    ResultFolder::Paths files = {arguments[0], FLAGS_profile};
-    std::erase_if(files, [](const auto& file) { return !IsFile(file); });
+    ResultFolder::Paths files;
+    if (IsFile(arguments[0])) files = ScenarioFiles(arguments[0]);
+    if (!FLAGS_profile.empty()) files.emplace_back(FLAGS_profile);
     return files;
   };
   return WithResultFolder(

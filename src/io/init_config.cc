@@ -1,6 +1,9 @@
 #include "io/init_config.h"
 
+#include <zlib.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <vector>
 
@@ -14,7 +17,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kFirstLine[] = "# Written from what was found in the folder.";
+/// Of the first line, which ends with the checksum of all others.
+constexpr char kFirstWords[] =
+    "# Written from what was found in the folder; unchanged if of checksum ";
+
+std::string FirstLine(const std::string& rest) {
+  const uLong sum = crc32(0, reinterpret_cast<const Bytef*>(rest.data()),
+                          static_cast<uInt>(rest.size()));
+  char digits[16];
+  std::snprintf(digits, sizeof(digits), "%08lx", sum);
+  return std::string(kFirstWords) + digits + "\n";
+}
 
 std::string FileLines(const Found& found, const std::string& indent) {
   return indent + "file: " + found.file + "\n" + indent +
@@ -103,7 +116,7 @@ std::string InitConfig(const std::string& folder) {
     return at == files.end() ? nullptr : &*at;
   };
   const fs::path absolute = fs::absolute(folder).lexically_normal();
-  std::string text = std::string(kFirstLine) + "\n";
+  std::string text;
   if (!unknown.empty()) text += "# Not recognised:\n" + unknown;
   text += "folder: \"" + absolute.string() + "\"\n\n";
   text += ImuText(first(Role::kImu)) + kImuRest;
@@ -136,13 +149,17 @@ std::string InitConfig(const std::string& folder) {
   if (const Found* truth = first(Role::kTruth)) {
     text += "\ntruth:\n" + FileLines(*truth, "  ") + truth->keys;
   }
-  return text;
+  return FirstLine(text) + text;
 }
 
 bool IsInitConfig(const std::string& path) {
   TextLines lines(path);
   std::string_view line;
-  return lines.Next(&line) && line == kFirstLine;
+  if (!lines.Next(&line) || !line.starts_with(kFirstWords)) return false;
+  const std::string first = std::string(line) + "\n";
+  std::string rest;
+  while (lines.Next(&line)) rest += std::string(line) + "\n";
+  return first == FirstLine(rest);
 }
 
 }  // namespace hindsight

@@ -15,8 +15,9 @@ namespace hindsight {
 /// InputError if the folder is missing or holds no files.
 std::string InitConfig(const std::string& folder);
 
-/// Whether the file begins as what InitConfig writes. Throws InputError if it
-/// cannot be read.
+/// Whether the file is what InitConfig wrote, and nobody has changed it since:
+/// its first line holds a checksum of the others. Throws InputError if it cannot
+/// be read.
 bool IsInitConfig(const std::string& path);
 
 }  // namespace hindsight

@@ -218,6 +218,13 @@ void ReadStartErrors(ConfigMap* top, Scenario* scenario) {
 
 }  // namespace
 
+std::vector<std::filesystem::path> ScenarioFiles(const std::string& path) {
+  ConfigMap top = ConfigMap::Load(path);
+  const std::filesystem::path file(path);
+  if (!top.Has("profile")) return {file};
+  return {file, file.parent_path() / top.Text("profile")};
+}
+
 Scenario LoadScenario(const std::string& path) {
   ConfigMap top = ConfigMap::Load(path);
   const std::filesystem::path file(path);

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_IO_SCENARIO_CONFIG_H_
 #define HINDSIGHT_IO_SCENARIO_CONFIG_H_
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,9 @@ namespace hindsight {
 
 /// Reads a scenario file. Throws InputError "file:line: ...".
 Scenario LoadScenario(const std::string& path);
+
+/// The files that LoadScenario reads: itself and its profile. Throws alike.
+std::vector<std::filesystem::path> ScenarioFiles(const std::string& path);
 
 /// A built-in scenario if `name_or_path` is the name of one, else the file.
 Scenario FindScenario(const std::string& name_or_path);

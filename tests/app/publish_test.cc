@@ -300,5 +300,59 @@ TEST_F(Publish, AClosedPipeDoesNotEndARun) {
   EXPECT_THAT(Names(root()), UnorderedElementsAre("data", "out"));
 }
 
+TEST_F(Publish, ResultsThatAppearInAnEmptyFolderMeanwhileStay) {
+  ASSERT_EQ(Simulate({"--out=other"}).status, 0);
+  fs::create_directory(root() / "out");
+  Child run({"run", "data/config.yaml", "--out=out", "--methods=ekf,batch",
+             "--progress=json"},
+            root());
+  ASSERT_TRUE(run.AwaitStage("ekf"));
+  fs::copy(root() / "other", root() / "out");
+  const Outcome outcome = run.Wait();
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_THAT(outcome.err, HasSubstr("no longer empty"));
+  EXPECT_EQ(Names(root() / "out"), Names(root() / "other"));
+  EXPECT_TRUE(fs::exists(root() / "out.1" / "summary.json"));
+}
+
+/// A file system gives the number of a folder that is gone to the next.
+TEST_F(Publish, AnotherFolderOfTheSameNameStays) {
+  ASSERT_EQ(Simulate({"--out=out"}).status, 0);
+  Child run({"run", "data/config.yaml", "--out=out", "--force",
+             "--methods=ekf,batch", "--progress=json"},
+            root());
+  ASSERT_TRUE(run.AwaitStage("ekf"));
+  fs::remove_all(root() / "out");
+  ASSERT_EQ(Simulate({"--out=out"}).status, 0);
+  const Outcome outcome = run.Wait();
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("is not the one that was there at the start"));
+  EXPECT_TRUE(fs::exists(root() / "out" / "truth.csv"));
+  EXPECT_TRUE(fs::exists(root() / "out.1" / "summary.json"));
+}
+
+TEST_F(Publish, AProfileThatAScenarioNamesIsAnInput) {
+  ASSERT_EQ(Simulate({"--out=own"}).status, 0);
+  WriteFile(root() / "moved.yaml",
+            "profile: own/truth.csv\n"
+            "imu:\n  rate: 100 Hz\n  noise: {gyro: 0.1 deg/sqrt(h), "
+            "accel: 0.05 m/s/sqrt(h)}\n");
+  ExpectRefused({"simulate", "moved.yaml", "--out=own", "--force"},
+                {"own/truth.csv", "which is read"});
+  EXPECT_EQ(Hindsight({"simulate", "moved.yaml", "--out=new"}, root()).status,
+            0);
+}
+
+TEST_F(Publish, ADraftThatWasCompletedIsNotReplaced) {
+  const std::vector<std::string> words = {"init", "data", "--out=c.yaml",
+                                          "--force"};
+  ASSERT_EQ(Hindsight(words, root()).status, 0);
+  EXPECT_EQ(Hindsight(words, root()).status, 0);
+  WriteFile(root() / "c.yaml",
+            ReadFile(root() / "c.yaml") + "# my own addition\n");
+  ExpectRefused(words, {"c.yaml", "changed since"});
+}
+
 }  // namespace
 }  // namespace hindsight
