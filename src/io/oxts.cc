@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <optional>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -55,40 +54,49 @@ constexpr std::array kSources = {
     Source{"speed", 8},
 };
 
-/// One a line; nothing for an empty line, which stands for an epoch that is
-/// missing.
-std::vector<std::optional<Stamp>> ReadStamps(const std::string& path) {
-  TextLines lines(path);
-  std::vector<std::optional<Stamp>> stamps;
-  std::size_t used = 0;
-  std::size_t shortest = std::string::npos;
-  std::string_view line;
-  while (lines.Next(&line)) {
-    stamps.emplace_back();
-    if (Trim(line).empty()) continue;
-    if (!lines.terminated() && line.size() < shortest && used > 0) {
-      throw InputError(path, lines.number(),
+using FileMap = std::map<long, fs::path>;
+
+/// The lines of timestamps.txt that are not empty.
+class StampLines {
+ public:
+  explicit StampLines(const std::string& path) : lines_(path) {}
+
+  /// Advances to the next stamp; false at the end.
+  bool Next(Stamp* stamp) {
+    std::string_view line;
+    do {
+      if (!lines_.Next(&line)) return false;
+    } while (Trim(line).empty());
+    if (!lines_.terminated() && line.size() < shortest_ &&
+        shortest_ != std::string::npos) {
+      throw InputError(lines_.path(), number(),
                        "the last line is truncated: it is shorter than all "
                        "before, and no line end follows");
     }
-    shortest = std::min(shortest, line.size());
-    stamps.back() = ParseDateTime(std::string(line) + " UTC");
-    if (!stamps.back()) {
-      throw InputError(path, lines.number(),
+    shortest_ = std::min(shortest_, line.size());
+    const auto parsed = ParseDateTime(std::string(line) + " UTC");
+    if (!parsed) {
+      throw InputError(lines_.path(), number(),
                        "'" + std::string(Trim(line)) +
                            "' is not a time; expected yyyy-mm-dd "
                            "hh:mm:ss.sssssssss");
     }
-    used = stamps.size();
+    *stamp = *parsed;
+    return true;
   }
-  stamps.resize(used);
-  return stamps;
-}
+
+  /// Of the line of the stamp last returned, from 1.
+  long number() const { return lines_.number(); }
+
+ private:
+  TextLines lines_;
+  std::size_t shortest_ = std::string::npos;
+};
 
 /// The files of data/ by the number that is their name.
-std::map<long, fs::path> EpochFiles(const fs::path& data) {
+FileMap EpochFiles(const fs::path& data) {
   constexpr long kLast = 999'999'999;
-  std::map<long, fs::path> files;
+  FileMap files;
   for (const fs::path& entry : FolderEntries(data)) {
     if (entry.extension() != ".txt") continue;
     const std::string name = entry.stem().string();
@@ -103,6 +111,23 @@ std::map<long, fs::path> EpochFiles(const fs::path& data) {
     }
   }
   return files;
+}
+
+/// The next of the files must be that of the next stamp.
+void CheckEpoch(const std::string& stamps_path, long number,
+                FileMap::const_iterator file, const FileMap& files) {
+  const bool exists = file != files.end();
+  if (exists && file->first < number) {
+    throw InputError(
+        stamps_path, file->first + 1,
+        "there is no stamp for data/" + file->second.filename().string());
+  }
+  if (exists && file->first == number) return;
+  char name[32];
+  std::snprintf(name, sizeof(name), "%010ld.txt", number);
+  throw InputError(
+      stamps_path, number + 1,
+      "there is no file data/" + std::string(name) + " for this stamp");
 }
 
 std::array<double, kValues> ReadEpoch(const std::string& path) {
@@ -143,39 +168,25 @@ RowBuffer ReadOxts(const std::string& folder,
     throw InputError(folder, 0,
                      "is no OXTS folder; expected timestamps.txt and data/");
   }
-  const std::map<long, fs::path> files = EpochFiles(data);
+  const FileMap files = EpochFiles(data);
   const std::string stamps_path =
       (fs::path(folder) / "timestamps.txt").string();
-  const std::vector<std::optional<Stamp>> stamps = ReadStamps(stamps_path);
+  StampLines lines(stamps_path);
   const bool position = FieldIndex(fields, "sigma_n").has_value();
   RowBuffer rows(folder, fields, false);
   rows.Declare("quality");
   for (const Source& source : kSources) rows.Declare(source.field);
-  const bool gaps =
-      std::find(stamps.begin(), stamps.end(), std::nullopt) != stamps.end();
-  // A part of a drive may be cut out, with its stamps.
-  long number = gaps || files.empty() ? 0 : files.begin()->first;
-  auto file = files.begin();
   long missing = 0;
-  for (std::size_t i = 0; i < stamps.size(); ++i, ++number) {
-    const auto line = static_cast<long>(i) + 1;
-    const bool exists = file != files.end() && file->first == number;
-    if (exists != stamps[i].has_value()) {
-      char name[32];
-      std::snprintf(name, sizeof(name), "%010ld.txt", number);
-      throw InputError(stamps_path, line,
-                       exists ? "there is no stamp for data/" +
-                                    file->second.filename().string()
-                              : "there is no file data/" + std::string(name) +
-                                    " for this stamp");
-    }
-    if (!exists) {
-      ++missing;
-      continue;
-    }
+  long epoch = 0;
+  auto file = files.begin();
+  for (Stamp stamp; lines.Next(&stamp); ++epoch) {
+    const long number = lines.number() - 1;
+    CheckEpoch(stamps_path, number, file, files);
+    missing += number - epoch;
+    epoch = number;
     const std::string path = (file++)->second.string();
     const std::array<double, kValues> values = ReadEpoch(path);
-    rows.Append(*stamps[i], 1, path);
+    rows.Append(stamp, 1, path);
     for (const Source& source : kSources) {
       rows.Set(source.field,
                source.offset + source.factor * values[source.column]);

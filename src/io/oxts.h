@@ -19,11 +19,11 @@ namespace hindsight {
 ///   velocity  vn, ve, -vu, vel_accuracy, velmode
 ///   truth     these and roll, -pitch, 90 deg - yaw (yaw is 0 east,
 ///             counter-clockwise; pitch is positive nose down)
-/// Stamps are GPS time. An epoch that is missing is an empty line and no file;
-/// how many, the rows say. Throws InputError, naming the epoch's file, for
-/// another number of values, text and further lines, and naming the stamp's
-/// line if it has no file or a file has no stamp: without empty lines the first
-/// stamp is that of the first file and numbers go on by one.
+/// Stamps are GPS time. The first line's file is data/0000000000.txt, and
+/// numbers go on by one a line. An epoch that is missing is an empty line and
+/// no file; how many, the rows say. Throws InputError, naming the epoch's file,
+/// for another number of values, text and further lines, and naming the stamp's
+/// line if it has no file or a file has no stamp.
 RowBuffer ReadOxts(const std::string& folder,
                    const std::vector<FieldName>& fields);
 

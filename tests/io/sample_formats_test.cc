@@ -1,3 +1,8 @@
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "base/units.h"
@@ -81,6 +86,64 @@ TEST_F(SampleFormats, OxtsErrorsNameTheEpochsFile) {
   EXPECT_EQ(LoadError(),
             "oxts/timestamps.txt:2: there is no file data/0000000001.txt for "
             "this stamp");
+}
+
+TEST_F(SampleFormats, OxtsFilesBeginWithZero) {
+  std::filesystem::copy(Sample("oxts"), Path("oxts"),
+                        std::filesystem::copy_options::recursive);
+  Write("config.yaml",
+        "imu:\n  file: oxts\n  format: oxts\n"
+        "  noise: {gyro: 0.2 deg/sqrt(h), accel: 70 ug/sqrt(Hz)}\n");
+  const std::string stamps = Read("oxts/timestamps.txt");
+  const std::string says =
+      "oxts/timestamps.txt:1: there is no file data/0000000000.txt for this "
+      "stamp";
+  std::filesystem::remove(Path("oxts/data/0000000000.txt"));
+  EXPECT_EQ(LoadError(), says);
+  Write("oxts/timestamps.txt",
+        stamps.substr(0, stamps.rfind('\n', stamps.size() - 2) + 1));
+  EXPECT_EQ(LoadError(), says);
+  Write("oxts/timestamps.txt",
+        "\n" + stamps.substr(stamps.find('\n') + 1) + "\n\n");
+  EXPECT_EQ(LoadError(), "");
+  const Dataset data = Load();
+  EXPECT_EQ(data.imu.samples.size(), 2u);
+  EXPECT_EQ(data.imu.samples[0].accel, Eigen::Vector3d(0.11, -0.12, -9.81));
+}
+
+/// The peak of what `work` takes in a process of its own [MB], up to 255.
+template <typename Work>
+int GrowthOf(const Work& work) {
+  const pid_t child = fork();
+  if (child == 0) {
+    struct rusage before = {};
+    struct rusage after = {};
+    getrusage(RUSAGE_SELF, &before);
+    work();
+    getrusage(RUSAGE_SELF, &after);
+    const long grown = (after.ru_maxrss - before.ru_maxrss) / 1024;
+    _exit(static_cast<int>(std::min(grown, 255L)));
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 255;
+}
+
+TEST_F(SampleFormats, EmptyLinesBetweenOxtsStampsTakeNoMemory) {
+  std::filesystem::copy(Sample("oxts"), Path("oxts"),
+                        std::filesystem::copy_options::recursive);
+  Write("config.yaml",
+        "imu:\n  file: oxts\n  format: oxts\n"
+        "  noise: {gyro: 0.2 deg/sqrt(h), accel: 70 ug/sqrt(Hz)}\n");
+  WriteGzip("oxts/timestamps.txt", "2011-09-26 13:02:25.000000000\n" +
+                                       std::string(8'000'000, '\n') +
+                                       "2011-09-26 13:02:26.000000000\n");
+  std::filesystem::remove(Path("oxts/data/0000000001.txt"));
+  std::filesystem::remove(Path("oxts/data/0000000002.txt"));
+  EXPECT_EQ(LoadError(),
+            "oxts/timestamps.txt:8000002: there is no file "
+            "data/0008000001.txt for this stamp");
+  EXPECT_LT(GrowthOf([&] { LoadError(); }), 64);
 }
 
 TEST_F(SampleFormats, NcltMicrosecondsAndRadians) {
