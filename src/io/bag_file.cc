@@ -16,7 +16,9 @@ constexpr std::string_view kBagMagic = "#ROSBAG V2.0\n";
 enum Op : std::uint8_t {
   kMessage = 0x02,
   kBagHeader = 0x03,
+  kIndexData = 0x04,
   kChunk = 0x05,
+  kChunkInfo = 0x06,
   kConnection = 0x07,
 };
 
@@ -112,12 +114,34 @@ BagFile::BagFile(const std::string& path) : file_(path) {
   if (connections_.size() != header.Number<std::uint32_t>("conn_count")) {
     Fail("it is cut off within its index");
   }
+  const std::size_t chunks = header.Number<std::uint32_t>("chunk_count");
+  if (chunks_ != chunks) {
+    Fail("its index tells of " + std::to_string(chunks_) +
+         " chunks, its header of " + std::to_string(chunks));
+  }
+}
+
+void BagFile::ReadChunkInfo(const Record& record) {
+  ++chunks_;
+  std::string_view data = record.data;
+  const std::uint64_t count = record.Number<std::uint32_t>("count");
+  if (data.size() != 8 * count) Fail("its index is damaged");
+  for (; !data.empty(); data.remove_prefix(8)) {
+    const std::uint64_t messages = BagWord(data.substr(4));
+    if (messages > 0) messages_[BagWord(data)] += messages;
+  }
 }
 
 void BagFile::ReadIndex() {
   for (std::size_t offset = index_; offset < file_.size();) {
     const Record record = ReadRecord(&offset, file_.size());
-    if (record.op() != kConnection) continue;
+    if (record.op() == kChunkInfo) {
+      ReadChunkInfo(record);
+      continue;
+    }
+    if (record.op() != kConnection) {
+      Fail("its index holds a record that is none of an index");
+    }
     BagFields fields;
     if (!ParseBagFields(record.data, &fields)) Fail("a connection is damaged");
     connections_.push_back({record.Number<std::uint32_t>("conn"),
@@ -177,19 +201,51 @@ std::string BagFile::Unpack(const Record& chunk) const {
 }
 
 void BagFile::Visit(const Take& take) const {
+  MessageCounts found;
+  std::size_t chunks = 0;
   for (std::size_t offset = first_; offset < index_;) {
     const Record chunk = ReadRecord(&offset, index_);
-    if (chunk.op() != kChunk) continue;
+    if (chunk.op() == kIndexData) continue;
+    if (chunk.op() != kChunk) {
+      Fail("it holds a record that is neither a chunk nor its index");
+    }
+    ++chunks;
     const std::string bytes = Unpack(chunk);
     for (std::string_view rest = bytes; !rest.empty();) {
       const Record record = ParseRecord(&rest);
-      if (record.op() != kMessage) continue;
+      if (record.op() == kConnection) continue;
+      if (record.op() != kMessage) {
+        Fail(
+            "a chunk holds a record that is neither a message nor a "
+            "connection");
+      }
       constexpr std::uint64_t kSecond = 1'000'000'000;
       const auto time = record.Number<std::uint64_t>("time");
-      take(record.Number<std::uint32_t>("conn"),
-           (time & 0xffffffff) * kSecond + (time >> 32), record.data);
+      const auto connection = record.Number<std::uint32_t>("conn");
+      ++found[connection];
+      take(connection, (time & 0xffffffff) * kSecond + (time >> 32),
+           record.data);
     }
   }
+  if (chunks != chunks_) {
+    Fail("it holds " + std::to_string(chunks) + " chunks, its index tells of " +
+         std::to_string(chunks_));
+  }
+  if (found != messages_) FailOfMessages(found);
+}
+
+void BagFile::FailOfMessages(const MessageCounts& found) const {
+  const auto of = [](const MessageCounts& counts, std::uint32_t connection) {
+    const auto at = counts.find(connection);
+    return std::to_string(at == counts.end() ? 0 : at->second);
+  };
+  for (const BagConnection& connection : connections_) {
+    const std::uint32_t id = connection.id;
+    if (of(found, id) == of(messages_, id)) continue;
+    Fail("it holds " + of(found, id) + " messages of " + connection.topic +
+         ", its index tells of " + of(messages_, id));
+  }
+  Fail("it holds messages of a connection that it has not");
 }
 
 }  // namespace hindsight

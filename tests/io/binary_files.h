@@ -112,6 +112,19 @@ inline std::string BagRecord(
   return Sized(header) + Sized(data);
 }
 
+/// What the index of a bag says of a chunk of connection 0.
+inline std::string BagChunkInfo(std::size_t messages) {
+  const std::string time(8, '\0');
+  return BagRecord({{"op", "\x06"},
+                    {"ver", BytesOf(std::uint32_t{1})},
+                    {"chunk_pos", time},
+                    {"start_time", time},
+                    {"end_time", time},
+                    {"count", BytesOf(std::uint32_t{1})}},
+                   BytesOf(std::uint32_t{0}) +
+                       BytesOf(static_cast<std::uint32_t>(messages)));
+}
+
 /// A bag of one topic of sensor_msgs/Imu: time [s since 1970], three rates,
 /// three forces.
 inline std::string BagBytes(const TextCells& rows) {
@@ -153,7 +166,8 @@ inline std::string BagBytes(const TextCells& rows) {
                       {"chunk_count", BytesOf(std::uint32_t{1})}},
                      std::string(64, ' '));
   };
-  return header(header(0).size() + body.size()) + body + connection;
+  return header(header(0).size() + body.size()) + body + connection +
+         BagChunkInfo(rows.size());
 }
 
 inline std::string Gzipped(const std::string& text) {

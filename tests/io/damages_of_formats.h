@@ -47,6 +47,17 @@ inline void DamageList::AddRows() {
         },
         kSampleRows + 1);
     OfCell("a stamp missing", 0, "");
+    const auto first = [](const Path& path) {
+      std::filesystem::remove(path.parent_path() / "data/0000000000.txt");
+    };
+    OfPath("the first epoch missing", first).line = 1;
+    OfPath("the first epoch and the last stamp missing", [=, stream = stream_](
+                                                             const Path& path) {
+      first(path);
+      TextRows table = stream.table;
+      table.rows.pop_back();
+      WriteAll(path, Encode(stream, table));
+    }).line = 1;
     OfCell("a day that is none", 0, "2017-02-30 00:00:01.000000000");
     OfCell("a minute that is none", 0, "2017-01-01 00:61:01.000000000");
     return;
@@ -310,6 +321,36 @@ inline void DamageList::AddBag() {
   OfBytes("an index beyond the end", [](std::string bytes) {
     bytes[bytes.find("index_pos=") + 13] = '\x7f';
     return bytes;
+  });
+  const auto of_message = [this](const std::string& name, const char* op) {
+    OfBytes(name, [=](std::string bytes) {
+      return bytes.replace(bytes.rfind("op=\x02"), 4, op);
+    });
+  };
+  of_message("a message of another kind of record", "op=\x22");
+  of_message("a message taken for a connection", "op=\x07");
+  of_message("a message taken for an index", "op=\x04");
+  replaced("a chunk of another kind of record", "op=\x05", "op=\x55");
+  replaced("a chunk too many", "chunk_count=\x01", "chunk_count=\x02");
+  const auto of_index = [this](
+                            const std::string& name,
+                            const std::function<void(std::string*)>& change) {
+    OfBytes(name, [=](std::string bytes) {
+      change(&bytes);
+      return bytes;
+    });
+  };
+  of_index("a message more in the index",
+           [](std::string* bytes) { ++(*bytes)[bytes->size() - 4]; });
+  of_index("another connection in the index",
+           [](std::string* bytes) { ++(*bytes)[bytes->size() - 8]; });
+  of_index("no chunk in the index", [](std::string* bytes) {
+    bytes->resize(bytes->size() - BagChunkInfo(kSampleRows).size());
+  });
+  of_index("a chunk twice in the index",
+           [](std::string* bytes) { *bytes += BagChunkInfo(kSampleRows); });
+  of_index("a foreign record behind the index", [](std::string* bytes) {
+    *bytes += BagRecord({{"op", "\x66"}}, "foreign");
   });
   OfBytes("a record of 4 GB", [](std::string bytes) {
     const std::size_t at = bytes.rfind("op=\x02");
