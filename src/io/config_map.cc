@@ -1,5 +1,7 @@
 #include "io/config_map.h"
 
+#include <yaml-cpp/depthguard.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -88,6 +90,8 @@ ConfigMap ConfigMap::Load(const std::string& path) {
   YAML::Node node;
   try {
     node = YAML::Load(ReadText(path));
+  } catch (const YAML::DeepRecursion& error) {
+    throw InputError(path, error.mark.line + 1L, "is nested too deep");
   } catch (const YAML::ParserException& error) {
     throw InputError(path, error.mark.line + 1L,
                      "is not valid YAML: " + error.msg);

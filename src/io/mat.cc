@@ -2,6 +2,7 @@
 #include <array>
 #include <cstring>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "base/error.h"
@@ -79,8 +80,12 @@ NumericArray ReadMat(const std::string& path, const std::string& variable) {
   }
   std::optional<NumericArray> found;
   std::string names;
+  std::set<std::string> known;
   const MatVisitor visit = [&](const MatVariable& here,
                                const std::function<NumericArray()>& values) {
+    if (!here.name.empty() && !known.insert(here.name).second) {
+      throw InputError(path, 0, "holds the variable '" + here.name + "' twice");
+    }
     names += (names.empty() ? "" : ", ") + here.name;
     if (here.name != variable) return;
     if (!here.unfit.empty()) {

@@ -73,6 +73,12 @@ std::string UnfitClass(std::uint32_t array_class) {
   }
 }
 
+/// int8 to uint64. Their values may be stored as smaller integers, those of
+/// floating-point classes as any numbers.
+bool IsIntegerClass(std::uint32_t array_class) {
+  return array_class >= 8 && array_class <= 15;
+}
+
 class MatrixReader {
  public:
   MatrixReader(MatElement* element, bool big_endian)
@@ -84,7 +90,8 @@ class MatrixReader {
     const std::uint32_t word = MatWord(flags.data(), big_endian_);
     constexpr std::uint32_t kComplex = 0x0800;
     MatVariable variable;
-    variable.unfit = UnfitClass(word & 0xff);
+    class_ = word & 0xff;
+    variable.unfit = UnfitClass(class_);
     if (variable.unfit.empty() && (word & kComplex) != 0) {
       variable.unfit = "a complex matrix";
     }
@@ -108,6 +115,12 @@ class MatrixReader {
     const MatTag tag = ReadTag();
     const std::optional<NumberType> type = NumbersOf(tag.type);
     if (!type) element_.Fail("it holds no numbers");
+    if (IsIntegerClass(class_) &&
+        (*type == NumberType::kF4 || *type == NumberType::kF8)) {
+      element_.Fail(
+          "its class is one of integers, its values are floating-point "
+          "numbers");
+    }
     const std::size_t count = tag.size / Width(*type);
     const std::size_t rows = variable.shape[0];
     const std::size_t columns = variable.shape[1];
@@ -158,6 +171,7 @@ class MatrixReader {
 
   MatElement& element_;
   bool big_endian_;
+  std::uint32_t class_ = 0;
 };
 
 void VisitElement(const InputFile& file, std::size_t offset, const MatTag& tag,
@@ -168,13 +182,14 @@ void VisitElement(const InputFile& file, std::size_t offset, const MatTag& tag,
     std::array<char, kTagSize> inner;
     element.Read(inner.data(), inner.size());
     const MatTag matrix = ParseTag(inner.data(), big_endian);
-    if (matrix.type != kMatrix) return;
+    if (matrix.type != kMatrix) element.Fail("it is no matrix");
     element.SetSize(matrix.size);
   }
   MatrixReader reader(&element, big_endian);
   const MatVariable variable = reader.ReadHeader();
   visit(variable, [&] {
     NumericArray array = reader.ReadValues(variable);
+    if (element.left() >= kTagSize) element.Fail("it holds more than it says");
     element.Skip(element.left());
     element.Finish();
     return array;
@@ -194,21 +209,23 @@ void VisitMat5(const InputFile& file, const MatVisitor& visit) {
       FailCutOff(file, "");
     const MatTag tag = ParseTag(bytes.data(), big_endian);
     offset += kTagSize;
-    const bool variable = tag.type == kMatrix || tag.type == kCompressed;
+    if (tag.type != kMatrix && tag.type != kCompressed) {
+      throw InputError(file.path(), 0,
+                       "is a damaged MATLAB file: it holds something that is "
+                       "no variable");
+    }
     if (tag.size > file.size() - offset) {
       std::string name;
-      if (variable) {
-        try {
-          VisitElement(
-              file, offset, tag, big_endian,
-              [&](const MatVariable& cut, const auto&) { name = cut.name; });
-        } catch (const InputError&) {
-          // So little of it is there that not even its name is.
-        }
+      try {
+        VisitElement(
+            file, offset, tag, big_endian,
+            [&](const MatVariable& cut, const auto&) { name = cut.name; });
+      } catch (const InputError&) {
+        // So little of it is there that not even its name is.
       }
       FailCutOff(file, name);
     }
-    if (variable) VisitElement(file, offset, tag, big_endian, visit);
+    VisitElement(file, offset, tag, big_endian, visit);
     offset += tag.small ? 0 : tag.size;
   }
 }

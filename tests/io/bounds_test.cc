@@ -108,6 +108,21 @@ TEST_F(Bounds, OfTheConfigurationItself) {
               "config.yaml: is longer than 4 MB");
 }
 
+TEST_F(Bounds, OfNestedConfigurations) {
+  const std::string open(3000, '[');
+  const std::string close(3000, ']');
+  EXPECT_EQ(ErrorWith("", "notes:\n  " + open + close + "\n"),
+            "config.yaml:5: is nested too deep");
+  Write("scenario.yaml", "start:\n  position: " + open + close + "\n");
+  try {
+    LoadScenario(Path("scenario.yaml"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_SAYS(std::string(error.what()),
+                "scenario.yaml:2: is nested too deep");
+  }
+}
+
 TEST_F(Bounds, OfNodes) {
   Dataset dataset;
   for (int i = 0; i < 1000; ++i) {

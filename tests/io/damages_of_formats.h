@@ -284,6 +284,21 @@ inline void DamageList::AddMat() {
   file("numbers that are none", matrix(6, MatElement(77, zeros)));
   file("values missing", matrix(6, MatElement(9, zeros.substr(800))));
   file("no values", matrix(6, ""));
+  file("integers stored as floating-point numbers",
+       matrix(12, MatElement(7, zeros.substr(zeros.size() / 2))));
+  file("values behind its values",
+       matrix(6, MatElement(9, zeros) + MatElement(9, zeros.substr(0, 8))));
+  const std::string data = MatDoubles("data", rows);
+  file("the variable twice", data + data);
+  file("another variable twice",
+       data + MatDoubles("other", rows) + MatDoubles("other", rows));
+  for (const std::size_t count : {1, 8, 64, 4096}) {
+    file(std::to_string(count) + " zeros behind it",
+         data + std::string(count, '\0'));
+  }
+  file("something that is no variable", MatElement(9, zeros) + data);
+  file("compressed numbers that are no variable",
+       data + MatCompressed(MatElement(9, zeros)));
   file("another variable", MatBytes({{"date", rows}}).substr(128));
   OfBytes("version 7.3", [](std::string bytes) {
     bytes.at(125) = '\x02';
