@@ -60,7 +60,9 @@ class EstimatedRest {
       // Without an estimate nothing more is decided.
     }
     dataset_.streams.resize(streams_);
-    return Conclude();
+    Rest rest = Conclude();
+    LeaveOutContradicted(dataset_, &rest);
+    return rest;
   }
 
  private:

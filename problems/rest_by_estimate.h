@@ -16,7 +16,9 @@ namespace hindsight {
 /// moves. What then is still open is asked of the smoothed estimate by the same
 /// rule, until nothing new is decided, three times at most. Where the heading
 /// at the start is not known to 20 deg the covariances are not trusted, and
-/// what is open stays open, as where there is no estimate at all.
+/// what is open stays open, as where there is no estimate at all. Of all that
+/// is decided so, what aiding contradicts over whole spans is left open
+/// (LeaveOutContradicted).
 Rest DecideRest(Dataset* dataset,
                 double from = -std::numeric_limits<double>::infinity(),
                 double to = std::numeric_limits<double>::infinity());

@@ -11,6 +11,7 @@
 #include "alignment/given.h"
 #include "alignment/levelling.h"
 #include "base/error.h"
+#include "dataset/excluded_motion.h"
 #include "dataset/rest.h"
 #include "geometry/so3.h"
 #include "state/euler_error.h"
@@ -145,7 +146,10 @@ class StartFinder {
       return;
     }
     if (rest_) {
-      v_sigma_.setConstant(0.05);
+      constexpr double kUsual = 0.05;
+      const double possible = ExcludedMotion(dataset_).PossibleSpeed(*rest_);
+      v_sigma_.setConstant(std::isfinite(possible) ? std::max(kUsual, possible)
+                                                   : kUsual);
     } else {
       v_sigma_.setConstant(kNoVelocity);
       if (!velocities_.empty()) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "dataset/excluded_motion.h"
 #include "dataset/imu_cells.h"
 #include "dataset/speed_evidence.h"
 
@@ -38,6 +39,7 @@ class Decision {
   explicit Decision(const Dataset& dataset)
       : noise_(dataset.imu.noise),
         options_(dataset.stationary),
+        aiding_(dataset),
         cells_(ExamineImu(dataset)),
         verdicts_(cells_.size(), Verdict::kNone),
         information_(cells_.size(), 0.0) {
@@ -48,6 +50,7 @@ class Decision {
     MarkRests();
     MarkContradictions();
     CarryRests();
+    CutDepartures();
     LeaveOutShortShaken();
     Rest rest;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -127,8 +130,11 @@ class Decision {
     }
   }
 
-  void CarryRests() {
-    std::vector<std::pair<std::size_t, std::size_t>> runs;
+  using Run = std::pair<std::size_t, std::size_t>;
+
+  /// First and last cell of each rest.
+  std::vector<Run> Runs() const {
+    std::vector<Run> runs;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       if (verdicts_[i] != Verdict::kAtRest) continue;
       if (i > 0 && verdicts_[i - 1] == Verdict::kAtRest &&
@@ -138,7 +144,11 @@ class Decision {
         runs.emplace_back(i, i);
       }
     }
-    for (const auto& [first, last] : runs) {
+    return runs;
+  }
+
+  void CarryRests() {
+    for (const auto& [first, last] : Runs()) {
       Carry(first, last, +1);
       Carry(first, last, -1);
     }
@@ -159,7 +169,6 @@ class Decision {
     f /= T;
     const double wide = std::max(T, options_.window);
     const double slope = std::sqrt(12.0 / information) / wide;
-    const double density = noise_.accel_noise_density;
     Eigen::Vector3d gathered = Eigen::Vector3d::Zero();
     double tau = 0.0;
     std::size_t i = step > 0 ? last : first;
@@ -173,15 +182,70 @@ class Decision {
       }
       gathered += cells_[i].length() * (cells_[i].f - f);
       tau += cells_[i].length();
-      const double sigma = std::sqrt(
-          slope * slope * tau * tau +
-          density * density * (tau + tau * tau / wide) +
-          std::pow(noise_.accel_bias_walk, 2) * tau * tau * tau / 3.0);
-      if (sigma > kKnownSpeed || gathered.norm() > kSigmas * kKnownSpeed) {
+      const double felt = GatheredSigma(tau, wide);
+      if (std::hypot(slope * tau, felt) > kKnownSpeed ||
+          gathered.norm() > kSigmas * felt + 2.0 * options_.velocity_sigma) {
         return;
       }
       verdicts_[i] = Verdict::kAtRest;
     }
+  }
+
+  /// Of the speed gathered in `tau` by readings of white noise and bias walk
+  /// less their mean over `T` before [m/s].
+  double GatheredSigma(double tau, double T) const {
+    return std::sqrt(
+        std::pow(noise_.accel_noise_density, 2) * (tau + tau * tau / T) +
+        std::pow(noise_.accel_bias_walk, 2) * tau * tau * (tau + T) / 3.0);
+  }
+
+  void CutDepartures() {
+    for (Run run : Runs()) {
+      while (CutEnd(&run, +1) || CutEnd(&run, -1)) {
+      }
+    }
+  }
+
+  /// Cuts the end of a rest, or its begin, which is the shorter part and where
+  /// the specific force differs most from the one of the longer; whether there
+  /// is such an end.
+  bool CutEnd(Run* run, int step) {
+    const auto [first, last] = *run;
+    Eigen::Vector3d all_v = Eigen::Vector3d::Zero();
+    double all_T = 0.0;
+    for (std::size_t i = first; i <= last; ++i) {
+      if (!cells_[i].quiet) return false;
+      all_v += cells_[i].length() * cells_[i].f;
+      all_T += cells_[i].length();
+    }
+    Eigen::Vector3d v = Eigen::Vector3d::Zero();
+    double tau = 0.0;
+    double most = 1.0;
+    std::size_t cut = 0;
+    for (std::size_t n = 1; n <= last - first; ++n) {
+      const std::size_t i = step > 0 ? last + 1 - n : first + n - 1;
+      v += cells_[i].length() * cells_[i].f;
+      tau += cells_[i].length();
+      const double T = all_T - tau;
+      if (T < tau) break;
+      const double gathered = (v - tau / T * (all_v - v)).norm();
+      const double ratio =
+          gathered / (kKnownSpeed + kSigmas * GatheredSigma(tau, T));
+      if (ratio <= most) continue;
+      const TimeInterval end =
+          step > 0 ? TimeInterval{cells_[i].begin, cells_[last].end}
+                   : TimeInterval{cells_[first].begin, cells_[i].end};
+      if (2.0 * aiding_.PossibleSpeed(end) < 0.5 * gathered) continue;
+      most = ratio;
+      cut = n;
+    }
+    if (cut == 0) return false;
+    for (std::size_t n = 1; n <= cut; ++n) {
+      verdicts_[step > 0 ? last + 1 - n : first + n - 1] =
+          Verdict::kContradicted;
+    }
+    (step > 0 ? run->second : run->first) = step > 0 ? last - cut : first + cut;
+    return true;
   }
 
   /// What idles may have begun to move where its speed is not yet seen.
@@ -225,6 +289,7 @@ class Decision {
 
   const ImuNoise& noise_;
   const StationaryOptions& options_;
+  ExcludedMotion aiding_;
   std::vector<ImuCell> cells_;
   std::vector<Verdict> verdicts_;
   /// A cell's part of that of the speed which shows its rest [s^2/m^2].
@@ -234,7 +299,24 @@ class Decision {
 
 }  // namespace
 
-Rest FindRest(const Dataset& dataset) { return Decision(dataset).Decide(); }
+Rest FindRest(const Dataset& dataset) {
+  Rest rest = Decision(dataset).Decide();
+  LeaveOutContradicted(dataset, &rest);
+  return rest;
+}
+
+void LeaveOutContradicted(const Dataset& dataset, Rest* rest) {
+  const ExcludedMotion aiding(dataset);
+  std::vector<TimeInterval> remaining;
+  for (const TimeInterval& span : rest->at_rest) {
+    aiding.Cut(span, &remaining, &rest->undecided);
+  }
+  rest->at_rest = std::move(remaining);
+  std::sort(rest->undecided.begin(), rest->undecided.end(),
+            [](const TimeInterval& a, const TimeInterval& b) {
+              return a.begin < b.begin;
+            });
+}
 
 double TotalLength(const std::vector<TimeInterval>& spans) {
   double total = 0.0;

@@ -22,22 +22,36 @@ struct Rest {
 /// Decides by IMU and aiding. Not turning: ExamineImu. Not moving: only where
 /// measurements exclude motion, horizontally to kKnownSpeed, one sigma, none of
 /// them against it by more than four sigmas and twice
-/// StationaryOptions::velocity_sigma on any axis; and, while nothing shakes the
-/// IMU, as long before and after as the speed that it has gathered since stays
-/// as small, with the uncertainty of carrying it (noise, bias walk, and how
-/// well the reading at rest is known). A horizontal or vertical speed above 0.3
-/// m/s and five sigmas is motion, a second before and after its middle as well.
-/// What idles shaken is at rest where aiding says so for 3 s, half a second at
-/// each end left out. Spans that are shaken or turn are in none of the lists.
+/// StationaryOptions::velocity_sigma on any axis, nor all of a span or part of
+/// it together (LeaveOutContradicted); and, while nothing shakes the IMU, as
+/// long before and after as the speed that it has gathered since stays within
+/// its noise, and the uncertainty of carrying it (noise, bias walk, and how
+/// well the reading at rest is known) within kKnownSpeed. Where the mean
+/// specific force of the end of a rest differs from the one before so that it
+/// brings more than kKnownSpeed and four sigmas, that end is none, unless
+/// aiding excludes the way it would make. A horizontal or vertical speed above
+/// 0.3 m/s and five sigmas is motion, a second before and after its middle as
+/// well. What idles shaken is at rest where aiding says so for 3 s, half a
+/// second at each end left out. Spans that are shaken or turn are in none of
+/// the lists.
 Rest FindRest(const Dataset& dataset);
+
+/// Moves to `undecided` those parts of the rests that aiding contradicts
+/// (ExcludedMotion::Cut).
+void LeaveOutContradicted(const Dataset& dataset, Rest* rest);
 
 /// Sum of the lengths [s].
 double TotalLength(const std::vector<TimeInterval>& spans);
 
 /// Adds the streams "zero_velocity" and "zero_angular_rate": over each span at
 /// rest a measurement of each in every window (of at most 1 s), with the sigmas
-/// of StationaryOptions. Over the other spans, in which it does not turn, zero
-/// angular rates where the bias is known to rate_sigma, from a rest or as
+/// of StationaryOptions; the velocities of a rest of n windows not less than
+/// sqrt(n) times the speed that aiding leaves possible over it
+/// (ExcludedMotion::PossibleSpeed), so that together they are no surer than it.
+/// What rests by estimate while aiding is silent is taken as known to
+/// kKnownSpeed; without any aiding the sigma is that of StationaryOptions. Over
+/// the other spans, in which it does not turn,
+/// zero angular rates where the bias is known to rate_sigma, from a rest or as
 /// given, and the mean reading agrees with it to three sigmas; a span of n
 /// windows counts as one reading (sigma times sqrt(n)), for a turn too slow to
 /// be told lasts as long as it does. Streams of these names must not be there.

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "dataset/bias_sigma.h"
+#include "dataset/excluded_motion.h"
 #include "dataset/rest.h"
 
 namespace hindsight {
@@ -41,11 +42,17 @@ class StreamBuilder {
       : rest_(rest), dataset_(*dataset), options_(dataset->stationary) {}
 
   void AppendRests() {
+    const ExcludedMotion aiding(dataset_);
     for (const TimeInterval& span : rest_.at_rest) {
-      for (const TimeInterval& window : WindowsOf(span, options_)) {
+      const std::vector<TimeInterval> windows = WindowsOf(span, options_);
+      const double sigma =
+          std::max(options_.velocity_sigma,
+                   std::sqrt(static_cast<double>(windows.size())) *
+                       MeanSpeedSigma(span, aiding));
+      for (const TimeInterval& window : windows) {
         const double t = 0.5 * (window.begin + window.end);
         velocity_.measurements.push_back(
-            {t, index(), false, ZeroVelocity{options_.velocity_sigma}});
+            {t, index(), false, ZeroVelocity{sigma}});
         AppendRate(window, options_.rate_sigma);
       }
     }
@@ -77,6 +84,13 @@ class StreamBuilder {
 
  private:
   int index() const { return static_cast<int>(dataset_.streams.size()); }
+
+  static double MeanSpeedSigma(const TimeInterval& span,
+                               const ExcludedMotion& aiding) {
+    if (aiding.empty()) return 0.0;
+    const double possible = aiding.PossibleSpeed(span);
+    return std::isfinite(possible) ? possible : kKnownSpeed;
+  }
 
   void AppendRate(const TimeInterval& window, double sigma) {
     rate_.measurements.push_back(

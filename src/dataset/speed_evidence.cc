@@ -13,20 +13,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// One measurement of a stream: a place, whose slope is wanted, or a speed.
-struct Reading {
-  double begin = 0.0;
-  double end = 0.0;  ///< of what has no extension: the same
-  Eigen::Vector3d value = Eigen::Vector3d::Zero();
-  Eigen::Vector3d sigma = Eigen::Vector3d::Constant(kInfinity);
-};
-
-/// The readings of one stream, in time order.
-struct Readings {
-  bool are_places = false;
-  NoiseModel noise;  ///< what lasts, beside each reading's own sigma
-  std::vector<Reading> all;
-};
+using Reading = SpeedRecord::Reading;
+using Readings = SpeedRecord::Readings;
 
 double LastingSigma(const NoiseModel& noise, double T) {
   if (noise.kind != NoiseModel::Kind::kGaussMarkov) return 0.0;
@@ -236,21 +224,48 @@ void AppendGiven(const Dataset& dataset, const std::vector<TimeInterval>& spans,
 
 }  // namespace
 
+SpeedRecord::SpeedRecord(const Dataset& dataset) {
+  for (const AidingStream& stream : dataset.streams) {
+    streams_.push_back(Reader(stream).readings());
+  }
+}
+
+std::vector<SpeedEvidence> SpeedRecord::Over(const TimeInterval& span) const {
+  constexpr std::size_t kFewestPlaces = 2;
+  constexpr double kShortest = 1.0;
+  std::vector<SpeedEvidence> out;
+  for (const Readings& stream : streams_) {
+    const auto first = std::lower_bound(
+        stream.all.begin(), stream.all.end(), span.begin,
+        [](const Reading& r, double t) { return r.begin < t; });
+    auto last = first;
+    while (last != stream.all.end() && last->end <= span.end) ++last;
+    if (first == last) continue;
+    const std::span<const Reading> part(first, last);
+    if (!stream.are_places) {
+      out.push_back(MeanOf(part, stream.noise));
+    } else if (part.size() >= kFewestPlaces &&
+               part.back().end - part.front().begin >= kShortest) {
+      out.push_back(SlopeOf(part, stream.noise));
+    }
+  }
+  return out;
+}
+
 std::vector<SpeedEvidence> MeasureSpeeds(
     const Dataset& dataset, const std::vector<TimeInterval>& spans) {
   std::vector<SpeedEvidence> out;
   AppendGiven(dataset, spans, &out);
-  for (const AidingStream& stream : dataset.streams) {
-    const Reader reader(stream);
-    const std::span<const Reading> all(reader.readings().all);
+  const SpeedRecord record(dataset);
+  for (const Readings& stream : record.streams()) {
+    const std::span<const Reading> all(stream.all);
     std::size_t first = 0;
     int number = 0;
     for (const TimeInterval& span : spans) {
       while (first < all.size() && all[first].begin < span.begin) ++first;
       std::size_t last = first;
       while (last < all.size() && all[last].end <= span.end) ++last;
-      Stretches(reader.readings(), all.subspan(first, last - first), number++,
-                &out)
+      Stretches(stream, all.subspan(first, last - first), number++, &out)
           .Append();
       first = last;
     }

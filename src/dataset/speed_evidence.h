@@ -37,6 +37,35 @@ inline constexpr double kKnownSpeed = 0.1;
 std::vector<SpeedEvidence> MeasureSpeeds(
     const Dataset& dataset, const std::vector<TimeInterval>& spans);
 
+/// The aiding of a data set, to be asked for what it says of any time.
+class SpeedRecord {
+ public:
+  /// One measurement of a stream: a place, whose slope is wanted, or a speed.
+  struct Reading {
+    double begin = 0.0;
+    double end = 0.0;  ///< of what has no extension: the same
+    Eigen::Vector3d value = Eigen::Vector3d::Zero();
+    Eigen::Vector3d sigma = Eigen::Vector3d::Zero();
+  };
+  /// The readings of one stream, in time order.
+  struct Readings {
+    bool are_places = false;
+    NoiseModel noise;  ///< what lasts, beside each reading's own sigma
+    std::vector<Reading> all;
+  };
+
+  explicit SpeedRecord(const Dataset& dataset);
+
+  const std::vector<Readings>& streams() const { return streams_; }
+  /// The mean velocity over `span` by each stream that measures in it: the
+  /// least-squares slope of places over a second at least, or the mean of
+  /// speeds.
+  std::vector<SpeedEvidence> Over(const TimeInterval& span) const;
+
+ private:
+  std::vector<Readings> streams_;
+};
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_DATASET_SPEED_EVIDENCE_H_

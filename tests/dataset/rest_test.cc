@@ -120,6 +120,69 @@ TEST(Rest, GoesOnWhileTheImuFeelsNoChangeAndNoLonger) {
   EXPECT_LT(Inside(part.at_rest, 25.0, kDuration), 2.5);
 }
 
+/// Standard deviation of the mean velocity that the zero velocities add.
+double MeanVelocitySigma(const Dataset& dataset) {
+  double information = 0.0;
+  for (const Measurement& z :
+       dataset.streams[dataset.streams.size() - 2].measurements) {
+    information += std::pow(std::get<ZeroVelocity>(z.model).sigma, -2);
+  }
+  return 1.0 / std::sqrt(information);
+}
+
+TEST(Rest, ASpeedThatNoStretchOfFixesTellsAddsUpToAWay) {
+  // 0.5 m/s sigma of neighbours; over 40 s the slope is known to 7 mm/s.
+  for (const double speed : {0.08, 0.15, 0.3}) {
+    Dataset dataset = Quiet();
+    AddFixes(Leaving(0.0, speed), 1.0, 0.5, &dataset);
+    EXPECT_TRUE(FindRest(dataset).at_rest.empty()) << speed;
+  }
+}
+
+TEST(Rest, VelocitiesThatAgreeAddUpToAWay) {
+  Dataset dataset = Quiet();
+  AidingStream stream;
+  Random random(11, 3);
+  for (int k = 0; k < 40; ++k) {
+    VelocityFix fix;
+    fix.v_n = Eigen::Vector3d(0.15, 0.0, 0.0) + 0.1 * random.NormalVector3();
+    fix.R_n = 0.01 * Eigen::Matrix3d::Identity();
+    stream.measurements.push_back({1.0 * k, 0, false, fix});
+  }
+  dataset.streams.push_back(stream);
+  EXPECT_TRUE(FindRest(dataset).at_rest.empty());
+}
+
+TEST(Rest, ADepartureThatFixesDoNotTellIsFeltByTheImu) {
+  // 0.05 m/s^2 from 20 s on, fixes of 0.5 m.
+  Dataset dataset = Quiet();
+  for (ImuSample& s : dataset.imu.samples) {
+    if (s.t > 20.0) s.accel.y() = 0.05;
+  }
+  AddFixes(
+      [](double t) {
+        return Eigen::Vector3d(
+            0.0, 0.025 * std::pow(std::max(0.0, t - 20.0), 2), 0.0);
+      },
+      1.0, 0.5, &dataset);
+  const Rest rest = FindRest(dataset);
+  EXPECT_GT(Inside(rest.at_rest, 0.0, 20.0), 17.0);
+  EXPECT_LT(Inside(rest.at_rest, 20.0, kDuration), 3.0);
+}
+
+TEST(RestStreams, AreNoSurerThanTheAidingThatShowsTheRest) {
+  for (const double sigma : {0.02, 0.5}) {
+    Dataset dataset = Quiet();
+    AddFixes(Standing(), 1.0, sigma, &dataset);
+    const Rest rest = FindRest(dataset);
+    ASSERT_GT(TotalLength(rest.at_rest), 38.0);
+    AddRestStreams(rest, &dataset);
+    const double slope = sigma * std::sqrt(12.0 / 40.0) / 40.0;
+    EXPECT_GE(MeanVelocitySigma(dataset), 0.95 * slope);
+    EXPECT_LE(MeanVelocitySigma(dataset), std::max(4.0 * slope, 0.0017));
+  }
+}
+
 TEST(Rest, VerticalMotionIsMotion) {
   // Lifted by 0.4 m in 5 s, so evenly that the IMU hardly feels it.
   Dataset dataset = Quiet();

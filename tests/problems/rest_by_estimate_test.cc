@@ -98,6 +98,24 @@ TEST(DecideRest, ADriveThatBeginsInMotionIsNotSaidToStand) {
   EXPECT_LT(nees / runs, 72.2 / 12.0);
 }
 
+TEST(DecideRest, SlowMotionIsNotSurelyTakenForRest) {
+  // Horizontal position errors beyond five of their sigmas are hardly any.
+  Scenario scenario = LoadCorners("corners_moving");
+  scenario.imu.gyro_bias_sigma.setConstant(300.0 * kDegree / 3600.0);
+  scenario.imu.accel_bias_sigma.setConstant(0.01 * kStandardGravity);
+  for (const double speed : {0.05, 0.3}) {
+    scenario.start_speed = speed;
+    const PerfectRecording recording(scenario);
+    for (const std::uint64_t seed : {101u, 102u}) {
+      Dataset dataset = recording.Realize(seed);
+      AddDecidedRest(dataset.imu.t_begin(), dataset.imu.t_end(), &dataset);
+      const TrajectoryStatistics errors = Errors(dataset);
+      EXPECT_LT(errors.position->horizontal.rms, 0.6) << speed << " " << seed;
+      EXPECT_LT(*errors.position_nees, 15.0) << speed << " " << seed;
+    }
+  }
+}
+
 TEST(DecideRest, WithheldFixesLeaveTheResultAsItIs) {
   Scenario scenario = LoadCorners("corners_moving");
   scenario.withholdings = {
