@@ -365,6 +365,22 @@ TEST(RestStreams, MeasureZeroInEveryWindow) {
   }
 }
 
+TEST(RestStreams, AnIncrementBeforeTheSpanIsNoneOfIt) {
+  Dataset dataset = Quiet();
+  dataset.imu.kind = ImuStream::Kind::kIncrements;
+  for (ImuSample& s : dataset.imu.samples) {
+    s.accel *= 0.01;
+    if (s.t < 10.005) s.gyro.z() = 0.01 * 45.0 * kDegree;
+  }
+  AddRestStreams({.at_rest = {{10.0, 14.0}}, .moving = {}, .undecided = {}},
+                 &dataset);
+  const auto& rates = dataset.streams[1].measurements;
+  ASSERT_EQ(rates.size(), 4u);
+  for (const Measurement& z : rates) {
+    EXPECT_NEAR(std::get<ZeroAngularRate>(z.model).w_ib_b.norm(), 0.0, 1e-9);
+  }
+}
+
 TEST(RestStreams, StraightMotionMeasuresTheRateWhereTheBiasIsKnown) {
   for (const double turn : {0.0, 0.3 * kDegree}) {
     Dataset dataset = Quiet();
