@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "alignment/gyro_drift.h"
 #include "base/error.h"
 #include "base/processor_time.h"
 #include "dataset/magnetic_check.h"
@@ -26,10 +27,13 @@
 namespace hindsight {
 namespace {
 
-/// What the recording shows by itself, over [from, to].
-std::vector<Evidence> ExamineRecording(const Dataset& dataset, double from,
-                                       double to) {
-  std::vector<Evidence> all = FindRepeatedReadings(dataset, from, to);
+/// What the recording shows by itself, from the start to `to`.
+std::vector<Evidence> ExamineRecording(const Dataset& dataset,
+                                       const StartReport& start, double to) {
+  std::vector<Evidence> all = FindRepeatedReadings(dataset, start.t, to);
+  if (auto drift = FindGyroDrift(start, dataset.imu.noise)) {
+    all.push_back(*std::move(drift));
+  }
   for (std::string& warning : CheckMagnetometers(dataset)) {
     all.push_back({.rule = "magnetic_field",
                    .grade = Grade::kDoubtful,
@@ -44,7 +48,7 @@ struct Reconstruction::Impl {
   Impl(const Dataset& dataset, const ReconstructionOptions& options)
       : clocks(ChooseClocks(dataset, options)),
         forward(*clocks.stage),
-        recording(ExamineRecording(dataset, forward.start().report.t,
+        recording(ExamineRecording(dataset, forward.start().report,
                                    forward.options().to)) {}
 
   Solution Finish(Solution solution, Method method, double seconds) {

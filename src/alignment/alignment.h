@@ -65,6 +65,9 @@ struct AlignedAttitude {
   /// Gyro bias where the method estimates it, with its sigma [rad/s].
   std::optional<Eigen::Vector3d> b_g;
   Eigen::Vector3d b_g_sigma = Eigen::Vector3d::Zero();
+  /// Gyro bias walk beyond the stated one that the data show; 0: they do not
+  /// [rad/s/sqrt(s)].
+  double gyro_bias_walk = 0.0;
   std::string attitude;  ///< how roll and pitch were found, in words
   std::string heading;   ///< how the heading was found, in words
 };

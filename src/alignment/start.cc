@@ -136,6 +136,7 @@ class StartFinder {
     report_.why = choice.why;
     report_.attitude = attitude_.attitude;
     report_.heading = attitude_.heading;
+    report_.gyro_bias_walk = attitude_.gyro_bias_walk;
   }
 
   void ChooseVelocity() {

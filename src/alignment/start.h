@@ -18,6 +18,8 @@ struct StartReport {
   std::string position;   ///< in words: "given", "first position fix"
   std::string attitude;   ///< "given", "levelled at rest for 12.3 s", ...
   std::string heading;    ///< "given", "course at t = 31.2 s", ...
+  /// As in AlignedAttitude [rad/s/sqrt(s)].
+  double gyro_bias_walk = 0.0;
   State state;
   Eigen::Vector3d position_sigma;  ///< NED [m]
   Eigen::Vector3d velocity_sigma;  ///< NED [m/s]

@@ -168,6 +168,7 @@ std::optional<VelocityAlignment> AlignOverWindow(
   }
   out.drifts = out.refined && out.refined->gyro_bias_walk >
                                   input.dataset.imu.noise.gyro_bias_walk;
+  if (out.drifts) out.attitude.gyro_bias_walk = out.refined->gyro_bias_walk;
   out.attitude.reuse = kReuse;
   Describe(&out);
   return out;

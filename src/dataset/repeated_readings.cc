@@ -13,51 +13,12 @@
 namespace hindsight {
 namespace {
 
-constexpr double kLeastFrozen = 0.1;  // [s]
 constexpr double kChance = 1e-6;
-/// Runs shorter than this share of the one in question tell what is usual.
-constexpr long kUsualShare = 2;
 constexpr double kStepsOfResolution = 4.0;
 constexpr double kRounding = 1e-6;       // of a coordinate [m, m/s or uT]
 constexpr double kEarthRadius = 6.37e6;  // [m], for lengths of degrees
 constexpr double kDoubtfulShare = 1.0 / 2.0;
 constexpr double kUnusableShare = 8.0 / 9.0;
-
-/// Runs of two and more equal samples.
-std::vector<RepeatedRun> RunsOf(const ImuStream& imu) {
-  std::vector<RepeatedRun> runs;
-  bool open = false;
-  for (std::size_t k = 1; k < imu.samples.size(); ++k) {
-    const ImuSample& a = imu.samples[k - 1];
-    const ImuSample& b = imu.samples[k];
-    if (a.gyro != b.gyro || a.accel != b.accel) {
-      open = false;
-      continue;
-    }
-    if (!open) runs.push_back({a.t, a.t, 1});
-    open = true;
-    runs.back().t_end = b.t;
-    ++runs.back().rows;
-  }
-  return runs;
-}
-
-/// Whether chance makes a run of so many rows, among runs of which those
-/// shorter than half of it tell how likely they go on, which they do if the
-/// noise is at least a fifth of a step of the resolution. `rows` ascends.
-bool IsByChance(const std::vector<long>& rows, long length) {
-  double repeats = 1.0;  // a repetition that ends, so that none is certain
-  double ends = 1.0;
-  for (const long r : rows) {
-    if (kUsualShare * r >= length) break;
-    repeats += static_cast<double>(r - 2);
-    ends += 1.0;
-  }
-  const double go_on = repeats / (repeats + ends);
-  const double expected = static_cast<double>(rows.size()) *
-                          std::pow(go_on, static_cast<double>(length - 2));
-  return expected > kChance;
-}
 
 /// What a row reads.
 struct RowReading {
@@ -65,6 +26,8 @@ struct RowReading {
   /// The part of one unit, to tell how far two readings are apart: metres
   /// north, east and up; metres a second; microtesla.
   Eigen::Vector4d value = Eigen::Vector4d::Zero();
+  /// Of a position, north, east and up [m].
+  std::optional<Eigen::Vector3d> position_sigma = std::nullopt;
 };
 
 /// The readings of a stream in time order. At rest those of speed are zero and
@@ -87,7 +50,7 @@ class StreamReader {
   static RowReading Plain(double a, double b = 0.0, double c = 0.0,
                           double d = 0.0) {
     const Eigen::Vector4d value(a, b, c, d);
-    return {value, value};
+    return {.row = value, .value = value};
   }
   static RowReading Plain(const Eigen::Vector3d& v) {
     return Plain(v.x(), v.y(), v.z());
@@ -96,8 +59,11 @@ class StreamReader {
   std::optional<RowReading> Of(const PositionFix& z) {
     const Geodetic place = GeodeticFromEcef(z.p_e);
     if (!cosine_) cosine_ = std::cos(place.latitude);
-    return Plain(kEarthRadius * place.latitude,
-                 kEarthRadius * *cosine_ * place.longitude, place.height);
+    RowReading reading =
+        Plain(kEarthRadius * place.latitude,
+              kEarthRadius * *cosine_ * place.longitude, place.height);
+    reading.position_sigma = z.R_n.diagonal().cwiseSqrt();
+    return reading;
   }
   std::optional<RowReading> Of(const VelocityFix& z) { return Plain(z.v_n); }
   std::optional<RowReading> Of(const HeightFix& z) { return Plain(z.height); }
@@ -239,34 +205,100 @@ class UsualChange {
   std::vector<const Eigen::Vector4d*> values_;
 };
 
-/// Spans over which a stream repeats one reading while what it measures goes
-/// on, as the jump at the end shows: at least half of the usual change over as
-/// many rows. A receiver that holds its position at rest does not jump.
-std::vector<RepeatedRun> FrozenSpans(const AidingStream& stream,
-                                     const std::vector<HeldReading>& held) {
-  if (held.size() < 3) return {};
-  const bool is_speed = StreamReader::IsSpeed(stream.measurements.front());
-  const Eigen::Array4d step = kStepsOfResolution * Resolution(held).array();
-  const UsualChange usual(held);
-  std::vector<long> rows;
-  for (const HeldReading& reading : held) {
-    if (reading.rows > 1) rows.push_back(reading.rows);
+/// Whether a vehicle that stood still at the end of a run of equal positions
+/// cannot have come to the next one.
+bool IsUnderWay(const HeldReading& run, const HeldReading& next) {
+  constexpr double kFastestStart = 10.0;           // [m/s^2]
+  constexpr double kSigmas = 5.0 * 1.41421356237;  // of a difference
+  if (!run.reading.position_sigma) return false;
+  const Eigen::Vector3d jump =
+      (next.reading.value - run.reading.value).head<3>();
+  const double dt = next.t_begin - run.t_end;
+  const double beyond = jump.norm() - 0.5 * kFastestStart * dt * dt;
+  if (beyond <= 0.0) return false;
+  const Eigen::Vector3d sigma = run.reading.position_sigma->cwiseMax(kRounding);
+  return jump.cwiseQuotient(sigma).norm() * beyond / jump.norm() > kSigmas;
+}
+
+/// What tells a frozen stream from one that repeats by right.
+class Repetitions {
+ public:
+  /// Runs of up to `habit` rows are told otherwise.
+  Repetitions(const std::vector<HeldReading>& held, bool is_speed, long habit)
+      : held_(held),
+        is_speed_(is_speed),
+        habit_(habit),
+        step_(kStepsOfResolution * Resolution(held).array()),
+        usual_(held),
+        total_(static_cast<double>(Rows(held))) {
+    for (const HeldReading& reading : held) {
+      if (reading.rows > 1) rows_.push_back(reading.rows);
+    }
+    std::sort(rows_.begin(), rows_.end());
+    const Eigen::Array4d finite = step_.isFinite().select(step_, 0.0);
+    is_noisy_ = usual_.Over(1) > finite.matrix().norm();
   }
-  std::sort(rows.begin(), rows.end());
+
+  /// Whether held[i], 0 < i + 1 < held.size(), repeats what goes on, as the
+  /// jump at the end shows: at least half of the usual change over as many
+  /// rows. A receiver that holds its position at rest does not jump.
+  bool IsFrozen(std::size_t i) const {
+    const HeldReading& run = held_[i];
+    if (run.rows < 2) return false;
+    const Eigen::Array4d value = run.reading.value.array();
+    if (is_speed_ && !(value.abs() > step_).any()) return false;
+    if (!IsFar(i, i + 1) || Jump(i) < 0.5 * usual_.Over(run.rows)) return false;
+    if (run.rows >= 3 && !IsByChance(rows_, run.rows)) return true;
+    if (run.rows <= habit_) return false;
+    return IsUnderWay(run, held_[i + 1]) || (i > 0 && IsTooLongForNoise(i));
+  }
+
+ private:
+  double Jump(std::size_t i) const {
+    return (held_[i + 1].reading.value - held_[i].reading.value).norm();
+  }
+
+  bool IsFar(std::size_t i, std::size_t j) const {
+    return ((held_[j].reading.value - held_[i].reading.value).array().abs() >
+            step_)
+        .any();
+  }
+
+  bool IsTooLongForNoise(std::size_t i) const {
+    const long length = held_[i].rows;
+    if (!is_noisy_ || length < 4 || !IsFar(i, i - 1)) return false;
+    double repeats = 1.0;
+    for (const long r : rows_) {
+      if (2 * r >= length) break;
+      repeats += static_cast<double>(r - 1);
+    }
+    const double share = std::min(1.0, repeats / total_);
+    return total_ * std::pow(share, static_cast<double>(length - 1)) < kChance;
+  }
+
+  const std::vector<HeldReading>& held_;
+  bool is_speed_;
+  long habit_;
+  Eigen::Array4d step_;
+  UsualChange usual_;
+  double total_;            ///< rows
+  std::vector<long> rows_;  ///< of runs of two and more, ascending
+  bool is_noisy_ = false;
+};
+
+/// Spans over which a stream repeats one reading while what it measures goes
+/// on.
+std::vector<RepeatedRun> FrozenSpans(const AidingStream& stream,
+                                     const std::vector<HeldReading>& held,
+                                     bool is_stale) {
+  if (held.size() < 3) return {};
+  const Repetitions repetitions(
+      held, StreamReader::IsSpeed(stream.measurements.front()),
+      is_stale ? 2 * MedianRows(held) : 0);
   std::vector<RepeatedRun> spans;
   for (std::size_t i = 0; i + 1 < held.size(); ++i) {
-    const HeldReading& run = held[i];
-    const Eigen::Array4d value = run.reading.value.array();
-    if (run.rows < 3 || (is_speed && !(value.abs() > step).any()) ||
-        IsByChance(rows, run.rows)) {
-      continue;
-    }
-    const Eigen::Array4d jump = held[i + 1].reading.value.array() - value;
-    if (!(jump.abs() > step).any() ||
-        jump.matrix().norm() < 0.5 * usual.Over(run.rows)) {
-      continue;
-    }
-    spans.push_back({run.t_begin, run.t_end, run.rows});
+    if (!repetitions.IsFrozen(i)) continue;
+    spans.push_back({held[i].t_begin, held[i].t_end, held[i].rows});
   }
   return spans;
 }
@@ -278,17 +310,21 @@ Evidence FrozenEvidence(const std::string& name,
         return a.t_end - a.t_begin < b.t_end - b.t_begin;
       });
   const double length = worst.t_end - worst.t_begin;
-  std::string what = Format("%s repeats one reading for %.3g s from %.3f s",
-                            name.c_str(), length, worst.t_begin);
+  const std::string channel = worst.channel;
+  std::string what =
+      Format("%s repeats one reading for %.3g s from %.3f s",
+             (channel.empty() ? name : channel + " of " + name).c_str(), length,
+             worst.t_begin);
   if (runs.size() > 1) what += Format(", and %zu more times", runs.size() - 1);
-  return {.grade = Grade::kDoubtful,
-          .what = what,
-          .value = length,
-          .unit = "s",
-          .t_begin = worst.t_begin,
-          .t_end = worst.t_end,
-          .causes = {"a logger or driver that repeats the last reading"},
-          .remedies = {"the recording without these rows"}};
+  return {
+      .grade = Grade::kDoubtful,
+      .what = what,
+      .value = length,
+      .unit = "s",
+      .t_begin = worst.t_begin,
+      .t_end = worst.t_end,
+      .causes = {"a sensor, driver or logger that repeats the last reading"},
+      .remedies = {"the recording without these rows"}};
 }
 
 Evidence StaleEvidence(const std::string& name, double share) {
@@ -323,21 +359,11 @@ double ShareOf(const std::vector<HeldReading>& held) {
       stale += held[i].rows - 1;
     }
   }
-  return static_cast<double>(stale) / static_cast<double>(Rows(held));
+  const long judged = Rows(held) - held.front().rows - held.back().rows;
+  return static_cast<double>(stale) / static_cast<double>(judged);
 }
 
 }  // namespace
-
-std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu) {
-  std::vector<RepeatedRun> runs = RunsOf(imu);
-  std::vector<long> rows;
-  for (const RepeatedRun& run : runs) rows.push_back(run.rows);
-  std::sort(rows.begin(), rows.end());
-  std::erase_if(runs, [&rows](const RepeatedRun& run) {
-    return run.t_end - run.t_begin < kLeastFrozen || IsByChance(rows, run.rows);
-  });
-  return runs;
-}
 
 double StaleShare(const AidingStream& stream) {
   return ShareOf(HeldReadings(stream));
@@ -358,10 +384,11 @@ std::vector<Evidence> FindRepeatedReadings(const Dataset& dataset, double from,
   add("frozen_imu", "imu", FindFrozenImu(dataset.imu));
   for (const AidingStream& stream : dataset.streams) {
     const std::vector<HeldReading> held = HeldReadings(stream);
-    add("frozen_stream", stream.sensor.name, FrozenSpans(stream, held));
     const double share = ShareOf(held);
-    if (share < kDoubtfulShare) continue;
-    evidence.push_back(StaleEvidence(stream.sensor.name, share));
+    const bool is_stale = share >= kDoubtfulShare;
+    add("frozen_stream", stream.sensor.name,
+        FrozenSpans(stream, held, is_stale));
+    if (is_stale) evidence.push_back(StaleEvidence(stream.sensor.name, share));
   }
   return evidence;
 }

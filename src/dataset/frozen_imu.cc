@@ -1,0 +1,185 @@
+#include "dataset/frozen_imu.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace hindsight {
+namespace {
+
+constexpr double kLeastFrozen = 0.1;  // [s]
+constexpr int kChannels = 6;          // three gyros, three accelerometers
+
+double ReadingOf(const ImuSample& sample, int channel) {
+  return channel < 3 ? sample.gyro(channel) : sample.accel(channel - 3);
+}
+
+/// Channels [begin, end) together.
+struct ChannelGroup {
+  const char* name;
+  int begin;
+  int end;
+};
+
+constexpr ChannelGroup kWhole = {"", 0, kChannels};
+constexpr ChannelGroup kParts[] = {
+    {"gyro triad", 0, 3},      {"accelerometer triad", 3, 6},
+    {"gyro x", 0, 1},          {"gyro y", 1, 2},
+    {"gyro z", 2, 3},          {"accelerometer x", 3, 4},
+    {"accelerometer y", 4, 5}, {"accelerometer z", 5, 6}};
+
+/// Samples [begin, end) that are equal.
+struct EqualSamples {
+  std::size_t begin;
+  std::size_t end;
+
+  long rows() const { return static_cast<long>(end - begin); }
+};
+
+/// Those of a group that chance does not explain.
+std::vector<EqualSamples> LongRuns(const std::vector<ImuSample>& samples,
+                                   const ChannelGroup& group) {
+  std::vector<EqualSamples> runs;
+  std::size_t begin = 0;
+  for (std::size_t k = 1; k <= samples.size(); ++k) {
+    bool same = k < samples.size();
+    for (int c = group.begin; same && c < group.end; ++c) {
+      same = ReadingOf(samples[k], c) == ReadingOf(samples[k - 1], c);
+    }
+    if (same) continue;
+    if (k - begin > 1) runs.push_back({begin, k});
+    begin = k;
+  }
+  std::vector<long> rows;
+  for (const EqualSamples& run : runs) rows.push_back(run.rows());
+  std::sort(rows.begin(), rows.end());
+  std::erase_if(runs, [&](const EqualSamples& run) {
+    return samples[run.end - 1].t - samples[run.begin].t < kLeastFrozen ||
+           IsByChance(rows, run.rows());
+  });
+  return runs;
+}
+
+double MedianOf(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle =
+      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Whether the readings of one channel tell a live sensor from a frozen one.
+class LiveChannel {
+ public:
+  LiveChannel(const std::vector<ImuSample>& samples, int channel)
+      : samples_(samples), channel_(channel) {
+    std::vector<double> values;
+    std::vector<double> changes;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      values.push_back(Value(k));
+      if (k == 0) continue;
+      const double change = std::abs(Value(k) - Value(k - 1));
+      if (change > 0.0) changes.push_back(change);
+    }
+    far_ = kStepsOfResolution * Resolution(std::move(values));
+    is_noisy_ = MedianOf(std::move(changes)) > far_;
+  }
+
+  /// Whether the channel is alive beside a run that is not the whole record.
+  bool LivesBeside(const EqualSamples& run) const {
+    constexpr std::size_t kBeside = 10;  // rows
+    const std::size_t first = run.begin - std::min(run.begin, kBeside);
+    const std::size_t last = std::min(run.end + kBeside, samples_.size());
+    return is_noisy_ && (run.begin > 0 || run.end < samples_.size()) &&
+           IsFar(first, run.begin, Value(run.begin)) &&
+           IsFar(run.end, last, Value(run.begin));
+  }
+
+ private:
+  static constexpr double kStepsOfResolution = 4.0;
+
+  /// The least difference of two values, beyond the rounding of their own.
+  static double Resolution(std::vector<double> values) {
+    constexpr double kRounding = 1e-12;  // of a value
+    std::sort(values.begin(), values.end());
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 1; k < values.size(); ++k) {
+      const double gap = values[k] - values[k - 1];
+      if (gap > kRounding * std::abs(values[k])) least = std::min(least, gap);
+    }
+    return least;
+  }
+
+  double Value(std::size_t k) const { return ReadingOf(samples_[k], channel_); }
+
+  bool IsFar(std::size_t begin, std::size_t end, double held) const {
+    if (begin == end) return true;
+    std::vector<double> distances;
+    for (std::size_t k = begin; k < end; ++k) {
+      distances.push_back(std::abs(Value(k) - held));
+    }
+    return MedianOf(std::move(distances)) > far_;
+  }
+
+  const std::vector<ImuSample>& samples_;
+  int channel_;
+  double far_ = 0.0;
+  bool is_noisy_ = false;
+};
+
+void KeepRunsOfLiveChannels(const std::vector<ImuSample>& samples,
+                            const ChannelGroup& group,
+                            std::vector<EqualSamples>* runs) {
+  for (int c = group.begin; c < group.end && !runs->empty(); ++c) {
+    const LiveChannel channel(samples, c);
+    std::erase_if(*runs, [&channel](const EqualSamples& run) {
+      return !channel.LivesBeside(run);
+    });
+  }
+}
+
+}  // namespace
+
+bool IsByChance(const std::vector<long>& rows, long length) {
+  constexpr double kChance = 1e-6;
+  constexpr long kUsualShare = 2;
+  double repeats = 1.0;  // a repetition that ends, so that none is certain
+  double ends = 1.0;
+  for (const long r : rows) {
+    if (kUsualShare * r >= length) break;
+    repeats += static_cast<double>(r - 2);
+    ends += 1.0;
+  }
+  const double go_on = repeats / (repeats + ends);
+  const double expected = static_cast<double>(rows.size()) *
+                          std::pow(go_on, static_cast<double>(length - 2));
+  return expected > kChance;
+}
+
+std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu) {
+  const std::vector<ImuSample>& samples = imu.samples;
+  std::vector<RepeatedRun> found;
+  const auto add = [&](const ChannelGroup& group,
+                       const std::vector<EqualSamples>& runs) {
+    for (const EqualSamples& run : runs) {
+      const double begin = samples[run.begin].t;
+      const double end = samples[run.end - 1].t;
+      const bool known = std::any_of(
+          found.begin(), found.end(), [&](const RepeatedRun& other) {
+            return other.t_begin <= end && begin <= other.t_end;
+          });
+      if (!known) found.push_back({begin, end, run.rows(), group.name});
+    }
+  };
+  add(kWhole, LongRuns(samples, kWhole));
+  for (const ChannelGroup& part : kParts) {
+    std::vector<EqualSamples> runs = LongRuns(samples, part);
+    KeepRunsOfLiveChannels(samples, part, &runs);
+    add(part, runs);
+  }
+  return found;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,39 @@
+#ifndef HINDSIGHT_DATASET_FROZEN_IMU_H_
+#define HINDSIGHT_DATASET_FROZEN_IMU_H_
+
+#include <vector>
+
+#include "imu/imu_stream.h"
+
+namespace hindsight {
+
+/// Readings in a row that are equal in every digit.
+struct RepeatedRun {
+  double t_begin = 0.0;
+  double t_end = 0.0;
+  long rows = 0;
+  const char* channel = "";  ///< of an IMU: "gyro z"; empty: all that is read
+};
+
+/// Whether chance makes a run of so many rows, among runs of which those
+/// shorter than half of it tell how likely they go on, which they do if the
+/// noise is at least a fifth of a step of the resolution. `rows`, of all runs
+/// of two and more, ascends.
+bool IsByChance(const std::vector<long>& rows, long length);
+
+/// Runs of an IMU's samples too long for its resolution. Coarse readings repeat
+/// as well; each repetition is then followed by another with a probability that
+/// the shorter runs of the stream tell, and a run that had a chance of less
+/// than one in a million of coming up anywhere is none of these. At least 0.1 s
+/// long.
+///   So are the three gyros, the three accelerometers and each axis by
+/// themselves judged, where their readings change by more than four steps of
+/// their resolution from row to row and lie as far from the repeated one just
+/// before and after the run: a coarse axis at rest is not frozen. An axis that
+/// never changes is not judged. A mounting other than by right angles mixes
+/// the axes, of which then none is seen to freeze alone.
+std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_DATASET_FROZEN_IMU_H_
