@@ -1,10 +1,10 @@
 #include "dataset/frozen_imu.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace hindsight {
 namespace {
@@ -129,6 +129,50 @@ class LiveChannel {
   bool is_noisy_ = false;
 };
 
+/// The median change of a channel from row to row over samples [begin, end).
+double UsualStep(const std::vector<ImuSample>& samples, int channel,
+                 std::size_t begin, std::size_t end) {
+  std::vector<double> changes;
+  for (std::size_t k = begin + 1; k < end; ++k) {
+    changes.push_back(std::abs(ReadingOf(samples[k], channel) -
+                               ReadingOf(samples[k - 1], channel)));
+  }
+  return MedianOf(std::move(changes));
+}
+
+/// Whether a channel changes during a run at least half as much as usual.
+class Liveliness {
+ public:
+  Liveliness(const std::vector<ImuSample>& samples, int channel)
+      : samples_(samples),
+        channel_(channel),
+        usual_(UsualStep(samples, channel, 0, samples.size())) {}
+
+  bool GoesOnDuring(const EqualSamples& run) const {
+    return usual_ > 0.0 &&
+           UsualStep(samples_, channel_, run.begin, run.end) >= 0.5 * usual_;
+  }
+
+ private:
+  const std::vector<ImuSample>& samples_;
+  int channel_;
+  double usual_;
+};
+
+/// With which a group is compared: the other axes of a triad, or the other
+/// triad.
+std::vector<Liveliness> BesidesOf(const std::vector<ImuSample>& samples,
+                                  const ChannelGroup& group) {
+  const bool is_axis = group.end - group.begin == 1;
+  std::vector<Liveliness> besides;
+  for (int c = 0; c < kChannels; ++c) {
+    const bool same_triad = c / 3 == group.begin / 3;
+    const bool inside = c >= group.begin && c < group.end;
+    if (!inside && same_triad == is_axis) besides.emplace_back(samples, c);
+  }
+  return besides;
+}
+
 void KeepRunsOfLiveChannels(const std::vector<ImuSample>& samples,
                             const ChannelGroup& group,
                             std::vector<EqualSamples>* runs) {
@@ -138,6 +182,13 @@ void KeepRunsOfLiveChannels(const std::vector<ImuSample>& samples,
       return !channel.LivesBeside(run);
     });
   }
+  if (runs->empty()) return;
+  const std::vector<Liveliness> besides = BesidesOf(samples, group);
+  std::erase_if(*runs, [&besides](const EqualSamples& run) {
+    return std::none_of(
+        besides.begin(), besides.end(),
+        [&run](const Liveliness& other) { return other.GoesOnDuring(run); });
+  });
 }
 
 }  // namespace

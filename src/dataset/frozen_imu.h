@@ -29,8 +29,10 @@ bool IsByChance(const std::vector<long>& rows, long length);
 ///   So are the three gyros, the three accelerometers and each axis by
 /// themselves judged, where their readings change by more than four steps of
 /// their resolution from row to row and lie as far from the repeated one just
-/// before and after the run: a coarse axis at rest is not frozen. An axis that
-/// never changes is not judged. A mounting other than by right angles mixes
+/// before and after the run, while another axis of the triad (of a whole triad:
+/// of the other) goes on changing from row to row by half of its usual or more:
+/// a coarse axis at rest is not frozen. An axis that never changes is not
+/// judged. A mounting other than by right angles mixes
 /// the axes, of which then none is seen to freeze alone.
 std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu);
 

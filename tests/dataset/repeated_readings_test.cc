@@ -72,6 +72,48 @@ TEST(FrozenImu, CoarseReadingsRepeatByThemselves) {
   EXPECT_TRUE(FindFrozenImu(imu).empty());
 }
 
+TEST(FrozenImu, GyrosAndSingleAxesAreFoundBesideLiveOnes) {
+  const auto freeze = [](int first, int last, ImuStream* imu) {
+    const ImuSample held = imu->samples[2000];
+    for (std::size_t k = 2000; k < 2600; ++k) {
+      for (int c = first; c < last; ++c) {
+        (c < 3 ? imu->samples[k].gyro(c) : imu->samples[k].accel(c - 3)) =
+            c < 3 ? held.gyro(c) : held.accel(c - 3);
+      }
+    }
+  };
+  const auto found = [&](int first, int last) {
+    ImuStream imu = Imu(100.0);
+    freeze(first, last, &imu);
+    const std::vector<RepeatedRun> runs = FindFrozenImu(imu);
+    EXPECT_EQ(runs.size(), 1u);
+    if (runs.size() != 1) return std::string("none");
+    EXPECT_NEAR(runs[0].t_begin, 20.0, 0.011);
+    EXPECT_NEAR(runs[0].t_end, 25.99, 0.011);
+    return std::string(runs[0].channel);
+  };
+  EXPECT_EQ(found(0, 3), "gyro triad");
+  EXPECT_EQ(found(3, 6), "accelerometer triad");
+  EXPECT_EQ(found(2, 3), "gyro z");
+  EXPECT_EQ(found(4, 5), "accelerometer y");
+}
+
+/// Gyros that read vibrations of 20 steps on the way, and at rest a tenth of
+/// one, as the accelerometers do.
+TEST(FrozenImu, CoarseGyrosAreStillAtRest) {
+  ImuStream imu = Imu(20.0);
+  for (ImuSample& sample : imu.samples) {
+    const bool rests = std::fmod(sample.t, 20.0) > 12.0;
+    if (!rests) continue;
+    sample.gyro = 1e-3 * (0.005 * sample.gyro / 1e-3).array().round();
+    sample.accel *= 0.01;
+  }
+  imu.samples[1500].gyro.z() += 1e-3;
+  for (const RepeatedRun& run : FindFrozenImu(imu)) {
+    ADD_FAILURE() << run.channel << " at " << run.t_begin;
+  }
+}
+
 constexpr double kStep = 1.0 / 6.37e6;  // a metre of latitude [rad]
 
 /// Ten minutes along the meridian at `rate`; `Hold` turns the time of a row
@@ -164,6 +206,57 @@ TEST(RepeatedReadings, FrozenPositionsAreDoubtfulUnlessTheVehicleRests) {
   };
   dataset.streams = {Positions(10.0, 10.0, 1e-3, stops)};
   EXPECT_TRUE(FindRepeatedReadings(dataset, 0.0, 600.0).empty());
+}
+
+/// Positions with sigmas of half a metre.
+AidingStream Fixes(double rate, double speed, double (*hold)(double)) {
+  AidingStream stream = Positions(rate, speed, 1e-3, hold);
+  for (Measurement& z : stream.measurements) {
+    std::get<PositionFix>(z.model).R_n = 0.25 * Eigen::Matrix3d::Identity();
+  }
+  return stream;
+}
+
+TEST(RepeatedReadings, FewFrozenFixesAtSpeedAreDoubtful) {
+  Dataset dataset;
+  dataset.imu = Imu(100.0);
+  dataset.streams = {Fixes(
+      1.0, 8.0, [](double t) { return t > 30.0 && t < 33.5 ? 30.0 : t; })};
+  const auto evidence = FindRepeatedReadings(dataset, 0.0, 600.0);
+  ASSERT_EQ(evidence.size(), 1u);
+  EXPECT_EQ(evidence[0].rule, "frozen_stream");
+  EXPECT_EQ(evidence[0].grade, Grade::kDoubtful);
+  EXPECT_DOUBLE_EQ(*evidence[0].t_begin, 30.0);
+  EXPECT_DOUBLE_EQ(*evidence[0].t_end, 33.0);
+}
+
+/// Stops of 5 s every 40 s, which are left at 2 m/s^2.
+TEST(RepeatedReadings, ShortStopsOfAReceiverThatHoldsItsPositionAreUsable) {
+  Dataset dataset;
+  dataset.imu = Imu(100.0);
+  for (const double rate : {1.0, 5.0}) {
+    dataset.streams = {Fixes(rate, 8.0, [](double t) {
+      const double cycle = std::floor(t / 40.0);
+      const double u = t - 40.0 * cycle;
+      const double along = u < 4.0    ? u * u / 8.0
+                           : u < 31.0 ? u - 2.0
+                           : u < 35.0 ? 31.0 - (35.0 - u) * (35.0 - u) / 8.0
+                                      : 31.0;
+      return 31.0 * cycle + along;
+    })};
+    EXPECT_TRUE(FindRepeatedReadings(dataset, 0.0, 600.0).empty()) << rate;
+  }
+}
+
+TEST(RepeatedReadings, EverySecondRowAtSpeedIsDoubtful) {
+  Dataset dataset;
+  dataset.imu = Imu(100.0);
+  dataset.streams = {
+      Fixes(1.0, 8.0, [](double t) { return 2.0 * std::floor(0.5 * t); })};
+  const auto evidence = FindRepeatedReadings(dataset, 0.0, 600.0);
+  ASSERT_EQ(evidence.size(), 1u);
+  EXPECT_EQ(evidence[0].rule, "stale_readings");
+  EXPECT_EQ(evidence[0].grade, Grade::kDoubtful);
 }
 
 /// Ten minutes at 10 Hz of speeds, heights and fields, each as Reading makes it
