@@ -90,8 +90,9 @@ ConfigMap ConfigMap::Load(const std::string& path) {
   YAML::Node node;
   try {
     node = YAML::Load(ReadText(path));
-  } catch (const YAML::DeepRecursion& error) {
-    throw InputError(path, error.mark.line + 1L, "is nested too deep");
+  } catch (const YAML::DeepRecursion&) {
+    // Its mark is where the parser has looked ahead to.
+    throw InputError(path, 0, "is nested too deep");
   } catch (const YAML::ParserException& error) {
     throw InputError(path, error.mark.line + 1L,
                      "is not valid YAML: " + error.msg);
