@@ -1,7 +1,5 @@
 #include "app/placement.h"
 
-#include <fcntl.h>
-
 #include <system_error>
 
 #include "app/error_line.h"
@@ -46,8 +44,7 @@ bool LiesIn(const fs::path& inner, const fs::path& folder) {
 Placement::Placement(const OutputRequest& request,
                      const std::function<Paths()>& inputs)
     : force_(request.force), folder_(Resolved(request.folder)) {
-  held_ = Descriptor(
-      open(folder_.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+  held_ = HoldFolder(folder_);
   replaced_ = CheckMayReplace(inputs);
 }
 

@@ -16,8 +16,8 @@ namespace hindsight {
 std::string InitConfig(const std::string& folder);
 
 /// Whether the file is what InitConfig wrote, and nobody has changed it since:
-/// its first line holds a checksum of the others. Throws InputError if it cannot
-/// be read.
+/// its first line holds a checksum of the others. Throws InputError if it
+/// cannot be read.
 bool IsInitConfig(const std::string& path);
 
 }  // namespace hindsight

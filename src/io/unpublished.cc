@@ -133,6 +133,11 @@ Unpublished CreateUnpublishedFolder(const fs::path& target,
       error);
 }
 
+Descriptor HoldFolder(const fs::path& folder) {
+  return Descriptor(
+      open(folder.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+}
+
 std::vector<fs::path> FindAbandoned(const fs::path& target) {
   std::vector<fs::path> found;
   std::error_code refused;

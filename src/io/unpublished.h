@@ -57,6 +57,10 @@ Unpublished CreateUnpublishedFolder(const std::filesystem::path& target,
 std::vector<std::filesystem::path> FindAbandoned(
     const std::filesystem::path& target);
 
+/// Holds a folder, so that no other gets its number (st_ino) even if it is
+/// removed. Not open where there is no folder.
+Descriptor HoldFolder(const std::filesystem::path& folder);
+
 /// Waits until the medium has a folder's entries.
 std::error_code SyncFolder(const std::filesystem::path& folder);
 
