@@ -165,7 +165,7 @@ TEST(WarmUp, RollAndPitchAreNoWorseThanLevelling) {
 }
 
 TEST(WarmUp, StartsLieWithinFourStatedSigmas) {
-  constexpr std::uint64_t kFirst = 50001;
+  constexpr std::uint64_t kFirst = 60001;
   const int count = testing::SeedCount(kKinds, 300);
   EXPECT_LE(BeyondFourSigmas(kFirst, count, count > kKinds), count / 150);
 }
