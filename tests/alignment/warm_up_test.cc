@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "alignment/gyro_drift.h"
 #include "alignment/start.h"
 #include "base/random.h"
 #include "base/units.h"
@@ -161,6 +162,15 @@ TEST(WarmUp, RollAndPitchAreNoWorseThanLevelling) {
        ++seed) {
     const Eigen::Vector3d error = ErrorOfStart(seed, false).error;
     EXPECT_LT(error.head<2>().cwiseAbs().maxCoeff(), kLevelling) << seed;
+  }
+}
+
+TEST(WarmUp, IsToldBesideTheStatedWalk) {
+  for (const std::uint64_t seed : {7004u, 7005u}) {
+    const Dataset dataset = Recording(seed);
+    const StartReport report =
+        FindStart(dataset, dataset.imu.t_begin(), dataset.imu.t_end()).report;
+    EXPECT_TRUE(FindGyroDrift(report, dataset.imu.noise)) << seed;
   }
 }
 
