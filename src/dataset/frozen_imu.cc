@@ -9,8 +9,8 @@
 namespace hindsight {
 namespace {
 
-constexpr double kLeastFrozen = 0.1;  // [s]
-constexpr int kChannels = 6;          // three gyros, three accelerometers
+constexpr double kLeastFrozenImu = 0.1;  // [s]
+constexpr int kChannels = 6;             // three gyros, three accelerometers
 
 double ReadingOf(const ImuSample& sample, int channel) {
   return channel < 3 ? sample.gyro(channel) : sample.accel(channel - 3);
@@ -56,7 +56,7 @@ std::vector<EqualSamples> LongRuns(const std::vector<ImuSample>& samples,
   for (const EqualSamples& run : runs) rows.push_back(run.rows());
   std::sort(rows.begin(), rows.end());
   std::erase_if(runs, [&](const EqualSamples& run) {
-    return samples[run.end - 1].t - samples[run.begin].t < kLeastFrozen ||
+    return samples[run.end - 1].t - samples[run.begin].t < kLeastFrozenImu ||
            IsByChance(rows, run.rows());
   });
   return runs;

@@ -13,6 +13,7 @@
 namespace hindsight {
 namespace {
 
+constexpr double kLeastFrozen = 0.1;  // [s]
 constexpr double kChance = 1e-6;
 constexpr double kStepsOfResolution = 4.0;
 constexpr double kRounding = 1e-6;       // of a coordinate [m, m/s or uT]
@@ -266,7 +267,10 @@ class Repetitions {
 
   bool IsTooLongForNoise(std::size_t i) const {
     const long length = held_[i].rows;
-    if (!is_noisy_ || length < 4 || !IsFar(i, i - 1)) return false;
+    if (!is_noisy_ || length < 4 || !IsFar(i, i - 1) ||
+        held_[i].t_end - held_[i].t_begin < kLeastFrozen) {
+      return false;
+    }
     double repeats = 1.0;
     for (const long r : rows_) {
       if (2 * r >= length) break;

@@ -28,8 +28,8 @@ double StaleShare(const AidingStream& stream);
 ///     next row is more than 5 sqrt(2) sigmas beyond 5 m/s^2 dt^2, the way of
 ///     a vehicle at rest that starts with 10 m/s^2: it was under way;
 ///     readings that else change by more than four steps of their resolution
-///     from row to row, four rows and more, if repeating row by row as often
-///     as elsewhere makes it once in a million recordings.
+///     from row to row, four rows and 0.1 s and more, if repeating row by row
+///     as often as elsewhere makes it once in a million recordings.
 ///   Where stale rows, below, are told, runs of their kind are not told again.
 ///   Stale rows, a share s of all: each reading is counted 1/(1 - s) times, so
 ///   that its sigma is too small by 1/sqrt(1 - s). Doubtful from s = 1/2 on, a
