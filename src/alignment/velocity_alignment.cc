@@ -196,6 +196,9 @@ struct WindowSearch {
   std::optional<VelocityAlignment> best;
   /// Gyro bias walk that the last window shows beyond the stated one; else 0.
   double walk = 0.0;
+  /// A window shows it by itself; else two that contradict each other do, and
+  /// what else may be wrong with either.
+  bool drifts = false;
 };
 
 /// Ends at the first sign of a drift that input.least_gyro_walk does not know.
@@ -209,7 +212,10 @@ WindowSearch SearchWindows(const AlignmentInput& input) {
     auto found = AlignOverWindow(input, t_end, best ? &*best : nullptr);
     const bool contradicts = found && best && best->refined && found->refined &&
                              Contradict(found->attitude, best->attitude);
-    if (found && found->drifts) search.walk = found->refined->gyro_bias_walk;
+    if (found && found->drifts) {
+      search.walk = found->refined->gyro_bias_walk;
+      search.drifts = true;
+    }
     if (contradicts) search.walk = std::max(search.walk, WarmUpWalk(input));
     const bool explained = input.least_gyro_walk > 0.0 || search.walk == 0.0;
     if (contradicts || !explained) break;
@@ -229,12 +235,15 @@ WindowSearch SearchWindows(const AlignmentInput& input) {
 AlignmentOutcome AlignByVelocity(const AlignmentInput& input) {
   AlignmentInput from = AfterRest(input);
   WindowSearch search = SearchWindows(from);
+  const bool drifts = from.least_gyro_walk > 0.0 || search.drifts;
   if (from.least_gyro_walk == 0.0 && search.walk > 0.0) {
     from.least_gyro_walk = search.walk;
     search = SearchWindows(from);
   }
   if (!search.best) return {std::nullopt, "too few velocities or positions"};
-  return {search.best->attitude, ""};
+  AlignedAttitude attitude = search.best->attitude;
+  if (!drifts) attitude.gyro_bias_walk = 0.0;
+  return {attitude, ""};
 }
 
 }  // namespace hindsight

@@ -192,7 +192,9 @@ void ShareDisagreements(std::vector<Solution>* solutions) {
       told.back().second.against = solution.method;
     }
   }
-  for (const auto& [method, evidence] : told) {
+  for (const auto& disagreement : told) {
+    const std::string& method = disagreement.first;
+    const Evidence& evidence = disagreement.second;
     for (Solution& solution : *solutions) {
       const bool knows = std::any_of(
           solution.evidence.begin(), solution.evidence.end(),
