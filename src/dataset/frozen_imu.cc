@@ -9,8 +9,7 @@
 namespace hindsight {
 namespace {
 
-constexpr double kLeastFrozenImu = 0.1;  // [s]
-constexpr int kChannels = 6;             // three gyros, three accelerometers
+constexpr int kChannels = 6;  // three gyros, three accelerometers
 
 double ReadingOf(const ImuSample& sample, int channel) {
   return channel < 3 ? sample.gyro(channel) : sample.accel(channel - 3);
@@ -56,7 +55,7 @@ std::vector<EqualSamples> LongRuns(const std::vector<ImuSample>& samples,
   for (const EqualSamples& run : runs) rows.push_back(run.rows());
   std::sort(rows.begin(), rows.end());
   std::erase_if(runs, [&](const EqualSamples& run) {
-    return samples[run.end - 1].t - samples[run.begin].t < kLeastFrozenImu ||
+    return samples[run.end - 1].t - samples[run.begin].t < kLeastFrozen ||
            IsByChance(rows, run.rows());
   });
   return runs;
@@ -98,8 +97,6 @@ class LiveChannel {
   }
 
  private:
-  static constexpr double kStepsOfResolution = 4.0;
-
   /// The least difference of two values, beyond the rounding of their own.
   static double Resolution(std::vector<double> values) {
     constexpr double kRounding = 1e-12;  // of a value

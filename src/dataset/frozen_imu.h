@@ -15,6 +15,12 @@ struct RepeatedRun {
   const char* channel = "";  ///< of an IMU: "gyro z"; empty: all that is read
 };
 
+/// Shorter runs are a rate below that of the rows, not a sensor that hangs [s].
+inline constexpr double kLeastFrozen = 0.1;
+
+/// Readings so many steps of their resolution apart are not equal by rounding.
+inline constexpr double kStepsOfResolution = 4.0;
+
 /// Whether chance makes a run of so many rows, among runs of which those
 /// shorter than half of it tell how likely they go on, which they do if the
 /// noise is at least a fifth of a step of the resolution. `rows`, of all runs
@@ -32,8 +38,8 @@ bool IsByChance(const std::vector<long>& rows, long length);
 /// before and after the run, while another axis of the triad (of a whole triad:
 /// of the other) goes on changing from row to row by half of its usual or more:
 /// a coarse axis at rest is not frozen. An axis that never changes is not
-/// judged. A mounting other than by right angles mixes
-/// the axes, of which then none is seen to freeze alone.
+/// judged. A mounting other than by right angles mixes the axes, of which then
+/// none is seen to freeze alone.
 std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu);
 
 }  // namespace hindsight

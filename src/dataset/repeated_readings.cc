@@ -13,9 +13,7 @@
 namespace hindsight {
 namespace {
 
-constexpr double kLeastFrozen = 0.1;  // [s]
 constexpr double kChance = 1e-6;
-constexpr double kStepsOfResolution = 4.0;
 constexpr double kRounding = 1e-6;       // of a coordinate [m, m/s or uT]
 constexpr double kEarthRadius = 6.37e6;  // [m], for lengths of degrees
 constexpr double kDoubtfulShare = 1.0 / 2.0;

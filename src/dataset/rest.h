@@ -50,11 +50,11 @@ double TotalLength(const std::vector<TimeInterval>& spans);
 /// (ExcludedMotion::PossibleSpeed), so that together they are no surer than it.
 /// What rests by estimate while aiding is silent is taken as known to
 /// kKnownSpeed; without any aiding the sigma is that of StationaryOptions. Over
-/// the other spans, in which it does not turn,
-/// zero angular rates where the bias is known to rate_sigma, from a rest or as
-/// given, and the mean reading agrees with it to three sigmas; a span of n
-/// windows counts as one reading (sigma times sqrt(n)), for a turn too slow to
-/// be told lasts as long as it does. Streams of these names must not be there.
+/// the other spans, in which it does not turn, zero angular rates where the
+/// bias is known to rate_sigma, from a rest or as given, and the mean reading
+/// agrees with it to three sigmas; a span of n windows counts as one reading
+/// (sigma times sqrt(n)), for a turn too slow to be told lasts as long as it
+/// does. Streams of these names must not be there.
 void AddRestStreams(const Rest& rest, Dataset* dataset);
 
 /// The windows of a span, each of which holds one measurement.
