@@ -25,6 +25,9 @@ function(hindsight_compile_options target)
     target_compile_options(${target} PRIVATE
       -fsanitize=${HINDSIGHT_SANITIZE} -fno-omit-frame-pointer
       -fno-sanitize-recover=all ${HINDSIGHT_SANITIZE_WITHOUT})
+    # Eigen aligns memory in a way of its own under a sanitizer, but Ceres, which
+    # was compiled without, frees what Eigen here has taken.
+    target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
     target_link_options(${target} PRIVATE -fsanitize=${HINDSIGHT_SANITIZE})
   endif()
 endfunction()

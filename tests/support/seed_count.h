@@ -11,7 +11,7 @@ namespace hindsight::testing {
 /// returns.
 constexpr int SeedCount(int usual) {
 #ifdef HINDSIGHT_FEW_SEEDS
-  return std::max(2, usual / 10);
+  return std::min(usual, std::max(2, usual / 10));
 #else
   return usual;
 #endif
