@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "app/command_line.h"
+#include "support/seed_count.h"
 
 namespace hindsight {
 namespace {
@@ -25,6 +26,9 @@ TEST_P(AlignmentOfRecordings, StartsFromTheVelocityByDefault) {
   const std::filesystem::path recordings = source / "../shared/data";
   if (!std::filesystem::exists(recordings / GetParam().recording)) {
     GTEST_SKIP() << "the recording " << GetParam().recording << " is not here";
+  }
+  if (testing::kSanitized && GetParam().config == "drone_quad.yaml") {
+    GTEST_SKIP() << "a quarter of an hour under a sanitizer";
   }
   const TemporaryFolder folder;
   const Outcome outcome = Hindsight(

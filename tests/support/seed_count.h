@@ -6,15 +6,17 @@
 
 namespace hindsight::testing {
 
-/// Runs of a statistical test: `usual`, but a tenth of them (at least 2) where
-/// a sanitizer makes each ten times slower. Bounds are computed from what this
-/// returns.
-constexpr int SeedCount(int usual) {
+/// Whether a sanitizer makes everything ten times slower and larger.
 #ifdef HINDSIGHT_FEW_SEEDS
-  return std::min(usual, std::max(2, usual / 10));
+inline constexpr bool kSanitized = true;
 #else
-  return usual;
+inline constexpr bool kSanitized = false;
 #endif
+
+/// Runs of a statistical test: `usual`, but a tenth of them (at least 2) under
+/// a sanitizer. Bounds are computed from what this returns.
+constexpr int SeedCount(int usual) {
+  return kSanitized ? std::min(usual, std::max(2, usual / 10)) : usual;
 }
 
 /// The same, but `all` of them if the environment sets HINDSIGHT_ALL_SEEDS.
