@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "base/text.h"
 #include "base/units.h"
@@ -89,20 +91,33 @@ void FindLinearisedFarOff(const Judged& judged,
 void FindLikelyRival(const Judged& judged, std::vector<Evidence>* evidence) {
   constexpr double kOutsideThreeSigmas = 0.0027;
   constexpr double kOutsideOneSigma = 0.3173;
-  for (const RivalSolution& rival : judged.solution.rivals) {
-    if (rival.probability < kOutsideThreeSigmas) continue;
-    const bool coin = rival.probability >= kOutsideOneSigma;
-    evidence->push_back(
-        {.grade = coin ? Grade::kUnusable : Grade::kDoubtful,
-         .what = Format("another solution is %.2g %% likely: %s",
-                        100.0 * rival.probability, rival.description.c_str()),
-         .value = 100.0 * rival.probability,
-         .limit = 100.0 * (coin ? kOutsideOneSigma : kOutsideThreeSigmas),
-         .unit = "%",
-         .causes = {"motion that looks the same both ways"},
-         .remedies = {"a given value of what differs, or a recording with "
-                      "more varied motion"}});
+  const std::vector<RivalSolution>& rivals = judged.solution.rivals;
+  const double all = std::accumulate(rivals.begin(), rivals.end(), 0.0,
+                                     [](double sum, const RivalSolution& one) {
+                                       return sum + one.probability;
+                                     });
+  if (all < kOutsideThreeSigmas) return;
+  const RivalSolution& likeliest =
+      *std::max_element(rivals.begin(), rivals.end(),
+                        [](const RivalSolution& a, const RivalSolution& b) {
+                          return a.probability < b.probability;
+                        });
+  const bool coin = all >= kOutsideOneSigma;
+  Evidence found{
+      .grade = coin ? Grade::kUnusable : Grade::kDoubtful,
+      .what =
+          Format("another solution is %.2g %% likely: %s",
+                 100.0 * likeliest.probability, likeliest.description.c_str()),
+      .value = 100.0 * all,
+      .limit = 100.0 * (coin ? kOutsideOneSigma : kOutsideThreeSigmas),
+      .unit = "%",
+      .causes = {"motion that looks the same both ways"},
+      .remedies = {"a given value of what differs, or a recording with more "
+                   "varied motion"}};
+  if (rivals.size() > 1) {
+    found.what += Format("; with all others %.2g %%", 100.0 * all);
   }
+  evidence->push_back(std::move(found));
 }
 
 void FindUnobservedState(const Judged& judged,

@@ -264,6 +264,21 @@ TEST_F(GradeTest, RivalNearlyAsLikelyIsToldWithItsProbability) {
   }
 }
 
+TEST_F(GradeTest, RivalsCountByTheirSum) {
+  RivalSolution rival;
+  rival.probability = 0.15;
+  rival.description = "clock 2 s later";
+  solution_.rivals = {rival, rival};
+  ConcludePlain();
+  EXPECT_EQ(solution_.grade, Grade::kDoubtful);
+  solution_.rivals = {rival, rival, rival};
+  ConcludePlain();
+  EXPECT_EQ(solution_.grade, Grade::kUnusable);
+  EXPECT_NEAR(*Against().value, 45.0, 1e-9);
+  EXPECT_THAT(Against().what,
+              HasSubstr("15 % likely: clock 2 s later; with all others 45 %"));
+}
+
 TEST_F(GradeTest, ValueAtABoundIsDoubtful) {
   solution_.bounded = {
       {"the factor on the stated sigma", "1", 99.0, 0.01, 100.0},
