@@ -9,6 +9,7 @@
 #include "base/processor_time.h"
 #include "base/units.h"
 #include "evaluation/observability.h"
+#include "filters/heading_profile.h"
 #include "filters/iterated_smoother.h"
 #include "filters/transport.h"
 #include "problems/solution_builder.h"
@@ -87,6 +88,7 @@ void ForwardStage::Settle(std::vector<double> offsets) {
   offsets_ = std::move(offsets);
   unsettled_.clear();
   relinearised_.reset();
+  heading_curvature_ = 1.0;
   unobserved_.reset();
   timeline_ = BuildTimeline(dataset_, MakeTimelineOptions());
   RunOnce();
@@ -139,10 +141,12 @@ void ForwardStage::JudgeObservability() {
   Solution solution;
   solution.layout = start_.layout;
   solution.states = smoothed_->states;
-  solution.covariances = smoothed_->P;
   if (start_.report.attitude_sigma.z() > kKnownHeading) {
-    CovarianceSeries P = Relinearise();
-    if (!P.empty()) solution.covariances = std::move(P);
+    solution.covariances = Relinearise();
+  }
+  if (solution.covariances.empty()) {
+    solution.covariances = smoothed_->P;
+    WidenHeading(start_.layout, heading_curvature(), &solution.covariances);
   }
   unobserved_ = FindUnobserved(solution);
 }
@@ -158,6 +162,14 @@ const Relinearised& ForwardStage::relinearised() {
   return *relinearised_;
 }
 
+double ForwardStage::heading_curvature() {
+  if (!relinearised_ && HeadingMayBeNoise(start_.layout, smoothed_->states,
+                                          smoothed_->P, timeline_)) {
+    Relinearise();
+  }
+  return heading_curvature_;
+}
+
 /// One more linearisation tells how far the smoothed trajectory is off; where
 /// that is much, further ones tell where it ends. Returns the covariances,
 /// none if no new linearisation held.
@@ -165,6 +177,7 @@ CovarianceSeries ForwardStage::Relinearise() {
   constexpr int kMost = 4;
   constexpr double kNegligible = 0.1;  // sigma
   relinearised_.emplace();
+  heading_curvature_ = 1.0;
   Relinearised& anew = *relinearised_;
   anew.smoother.largest = anew.smoother.rms =
       std::numeric_limits<double>::infinity();
@@ -186,6 +199,11 @@ CovarianceSeries ForwardStage::Relinearise() {
       last = std::move(next);
       if (step < kNegligible) break;
     }
+    heading_curvature_ =
+        HeadingCurvature(start_.layout, start_.prior, last.states, last.P,
+                         &timeline_, decisions_);
+    WidenHeading(start_.layout, heading_curvature_, &last.P);
+    anew.variances = VariancesOf(start_.layout, last.P);
     anew.states = std::move(last.states);
     anew.smoother =
         Compare(start_.layout, smoothed_->states, smoothed_->P, anew);

@@ -51,6 +51,9 @@ class ForwardStage {
   const std::vector<UnobservedSpan>& unobserved();
   /// Found when first asked for.
   const Relinearised& relinearised();
+  /// HeadingCurvature of the interval as linearised anew; found when first
+  /// asked for.
+  double heading_curvature();
   /// Time offsets that the nodes are placed by, one a sensor [s].
   const std::vector<double>& offsets() const { return offsets_; }
   /// Sensor whose estimated time offset went on moving; empty: none.
@@ -85,6 +88,7 @@ class ForwardStage {
   std::string unsettled_;
   std::optional<std::vector<UnobservedSpan>> unobserved_;
   std::optional<Relinearised> relinearised_;
+  double heading_curvature_ = 1.0;
   Start start_;
   Timeline timeline_;
   std::optional<Solution> filtered_;

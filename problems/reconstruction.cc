@@ -10,6 +10,7 @@
 #include "dataset/magnetic_check.h"
 #include "dataset/repeated_readings.h"
 #include "evaluation/grade.h"
+#include "filters/heading_profile.h"
 #include "filters/iterated_smoother.h"
 #include "filters/two_filter.h"
 #include "problems/batch.h"
@@ -57,6 +58,10 @@ struct Reconstruction::Impl {
     solution.seconds = seconds;
     solution.rivals = clocks.rivals;
     const Start& start = forward.start();
+    if (!solution.observer) {
+      WidenHeading(solution.layout, forward.heading_curvature(),
+                   &solution.covariances);
+    }
     Conclude(
         {.solution = solution,
          .sensors = forward.timeline().sensors(),

@@ -11,6 +11,7 @@
 #include "alignment/start_layout.h"
 #include "base/error.h"
 #include "dataset/timeline_builder.h"
+#include "filters/heading_profile.h"
 #include "filters/iterated_smoother.h"
 
 namespace hindsight {
@@ -149,6 +150,10 @@ class WindowSmoother {
       out.P.Set(k, ErrorMatrix(scale * result.trajectory.P.Get(k)));
     }
     out.states = std::move(result.trajectory.states);
+    WidenHeading(
+        layout_,
+        HeadingCurvature(layout_, prior, out.states, out.P, &timeline_, all),
+        &out.P);
     return out;
   }
 

@@ -45,7 +45,8 @@ double WarmUpWalk(const AlignmentInput& input);
 /// then SmoothIterated about that from a prior which says of velocity and
 /// position nothing, of the attitude nothing but `known`, and of the biases
 /// GyroBiasBefore and the configuration say. P therefore holds what the window
-/// tells, and no more; it is scaled up by `nis` where that exceeds one. A gyro
+/// tells, and no more; it is scaled up by `nis` where that exceeds one, and of
+/// the heading it claims what the likelihood has (WidenHeading). A gyro
 /// that warms up drifts faster than its data sheet says: besides with the
 /// stated walk the window is smoothed with walks of 0.003 to 0.3 deg/s/sqrt(s),
 /// at most five times WarmUpWalk, and a larger one is taken where it raises the

@@ -1,0 +1,153 @@
+#include "filters/heading_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "filters/iterated_smoother.h"
+#include "filters/transport.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kUnknown = 20.0 * kDegree;
+constexpr double kStrongMotion = 100.0;  // energy over that of the noise
+constexpr double kSpan = 1.0;            // [s]
+
+/// Component of the heading error, or -1.
+int HeadingOf(const ErrorLayout& layout) {
+  const Block* attitude = layout.Find(BlockKind::kAttitude);
+  const Block* velocity = layout.Find(BlockKind::kVelocity);
+  const bool complete = attitude != nullptr && attitude->dim == 3 &&
+                        velocity != nullptr && velocity->dim > 0;
+  return complete ? attitude->offset + 2 : -1;
+}
+
+/// Energy of the changes of velocity by horizontal force, over that of white
+/// noise.
+double ForceOverNoise(const ErrorLayout& layout,
+                      const std::vector<State>& states,
+                      const Timeline& timeline) {
+  double signal = 0.0;
+  double noise = 0.0;
+  Eigen::Vector2d dv = Eigen::Vector2d::Zero();
+  double begin = states.front().t;
+  for (std::size_t k = 0; k + 1 < states.size(); ++k) {
+    const ImuSummary& summary = timeline.Summary(k);
+    const CorrectedMean mean =
+        Correct(summary, CalibrationOf(layout, states[k]));
+    const Eigen::Matrix<double, 2, 3> horizontal =
+        (states[k].C_en().transpose() * states[k].q_eb.toRotationMatrix())
+            .topRows<2>();
+    dv += horizontal * mean.dv;
+    noise +=
+        (horizontal * summary.noise.block<3, 3>(3, 3) * horizontal.transpose())
+            .trace();
+    if (states[k + 1].t - begin < kSpan && k + 2 < states.size()) continue;
+    signal += dv.squaredNorm();
+    dv.setZero();
+    begin = states[k + 1].t;
+  }
+  return signal / noise;
+}
+
+/// A prior that knows the heading, and what it says of that.
+struct KnownHeading {
+  Prior prior;
+  double log_density = 0.0;
+};
+
+KnownHeading KnowHeading(const ErrorLayout& layout, const Prior& prior,
+                         const State& heading, double sigma) {
+  const int h = HeadingOf(layout);
+  const double innovation = Local(layout, prior.x, heading)(h);
+  const double S = prior.P(h, h) + sigma * sigma;
+  const ErrorVector K = prior.P.col(h) / S;
+  KnownHeading known;
+  known.log_density = -0.5 * (innovation * innovation / S + std::log(S));
+  known.prior.x = Retract(layout, prior.x, ErrorVector(K * innovation));
+  known.prior.P = prior.P - K * prior.P.row(h);
+  MoveCovariance(Transport(layout, prior.x, known.prior.x), &known.prior.P);
+  return known;
+}
+
+std::vector<State> Turned(const ErrorLayout& layout, double angle,
+                          std::vector<State> states) {
+  ErrorVector d = ErrorVector::Zero(layout.dim());
+  d(HeadingOf(layout)) = angle;
+  for (State& x : states) x = Retract(layout, x, d);
+  return states;
+}
+
+double LogLikelihood(const LinearTape& tape) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      if (z.accepted) sum += z.log_likelihood;
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+bool HeadingMayBeNoise(const ErrorLayout& layout,
+                       const std::vector<State>& states,
+                       const CovarianceSeries& P, const Timeline& timeline) {
+  const int h = HeadingOf(layout);
+  if (h < 0 || states.size() < 2 || P.empty()) return false;
+  return std::sqrt(P.Get(0)(h, h)) < kUnknown &&
+         ForceOverNoise(layout, states, timeline) < kStrongMotion;
+}
+
+double HeadingCurvature(const ErrorLayout& layout, const Prior& prior,
+                        const std::vector<State>& states,
+                        const CovarianceSeries& P, Timeline* timeline,
+                        const GateDecisions& decisions) {
+  if (!HeadingMayBeNoise(layout, states, P, *timeline)) return 1.0;
+  const int h = HeadingOf(layout);
+  const double sigma = std::sqrt(P.Get(0)(h, h));
+  constexpr double kSigmas = 2.0;
+  constexpr double kTight = 0.02;  // of sigma
+  IterationOptions options;
+  options.max_iterations = 3;
+  const auto profile = [&](double angle) {
+    std::vector<State> nominal = Turned(layout, angle, states);
+    const KnownHeading known =
+        KnowHeading(layout, prior, nominal.front(), kTight * sigma);
+    const IteratedResult solved = SmoothIterated(
+        layout, known.prior, std::move(nominal), timeline, decisions, options);
+    return known.log_density +
+           LogLikelihood(RunLinearizedFilter(layout, known.prior,
+                                             solved.trajectory.states, timeline,
+                                             decisions));
+  };
+  try {
+    const double turned =
+        0.5 * (profile(-kSigmas * sigma) + profile(kSigmas * sigma));
+    return (profile(0.0) - turned) / (0.5 * kSigmas * kSigmas);
+  } catch (const EstimationError&) {
+    return 0.0;
+  }
+}
+
+void WidenHeading(const ErrorLayout& layout, double curvature,
+                  CovarianceSeries* P) {
+  if (!(curvature < kCredibleHeading)) return;
+  const int h = HeadingOf(layout);
+  const double most = kPi * kPi / 3.0;  // variance of a uniform angle
+  for (std::size_t k = 0; k < P->size(); ++k) {
+    ErrorMatrix P_k = P->Get(k);
+    const double variance = P_k(h, h);
+    const double square = curvature > 0.0 ? curvature * curvature : 0.0;
+    const double wider = std::min(variance / square, most);
+    if (!(wider > variance)) continue;
+    const ErrorVector c = P_k.col(h) / variance;
+    P_k += (wider - variance) * c * c.transpose();
+    P->Set(k, P_k);
+  }
+}
+
+}  // namespace hindsight

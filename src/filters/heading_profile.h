@@ -1,0 +1,52 @@
+#ifndef HINDSIGHT_FILTERS_HEADING_PROFILE_H_
+#define HINDSIGHT_FILTERS_HEADING_PROFILE_H_
+
+#include <vector>
+
+#include "filters/forward_filter.h"
+#include "state/covariance_series.h"
+
+namespace hindsight {
+
+/// How much of the information about heading that covariances claim the
+/// likelihood has. A heading error turns the specific force, dv' = -[f_n x]
+/// psi, and f_n is known as measured: the energy of the accelerometer's white
+/// noise in it counts as information although it says nothing, about 1/rad^2 a
+/// second where aiding is as good as the IMU (errors in variables; Fuller,
+/// Measurement Error Models, 1987, section 1.2). Where a vehicle stands, hovers
+/// or rises, that is all.
+///
+/// The profile of the likelihood L over the heading psi at the first state, all
+/// else solved anew for each, tells:
+///   curvature = (L(0) - (L(-d) + L(d)) / 2) / (d^2 / (2 sigma^2)),  d = 2
+///   sigma
+/// with sigma as P has it; 1 where the problem is linear, 0 where the data fit
+/// any heading. Taken for 1 unless HeadingMayBeNoise; 0 if another heading
+/// cannot be solved for.
+double HeadingCurvature(const ErrorLayout& layout, const Prior& prior,
+                        const std::vector<State>& states,
+                        const CovarianceSeries& P, Timeline* timeline,
+                        const GateDecisions& decisions);
+
+/// Whether the horizontal force, over seconds, has less than a hundred times
+/// the energy of the noise, and the heading at the first state is claimed to 20
+/// deg, above which nobody takes it for known. Cheap.
+bool HeadingMayBeNoise(const ErrorLayout& layout,
+                       const std::vector<State>& states,
+                       const CovarianceSeries& P, const Timeline& timeline);
+
+/// From here on a heading is as sure as its covariance says, but for a quarter.
+inline constexpr double kCredibleHeading = 0.8;
+
+/// Covariances that claim of the heading what the likelihood has: its gradient
+/// has the variance 1/sigma^2 that the information claims, its curvature less,
+/// so that the variance of its maximum is sigma^2 / curvature^2 (the sandwich
+/// of Huber 1967), at most that of a uniform angle, (104 deg)^2. The rest
+/// follows by its correlation with the heading. Nothing is changed from
+/// kCredibleHeading on.
+void WidenHeading(const ErrorLayout& layout, double curvature,
+                  CovarianceSeries* P);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_FILTERS_HEADING_PROFILE_H_
