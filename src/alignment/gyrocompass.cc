@@ -7,6 +7,7 @@
 #include "alignment/start_layout.h"
 #include "earth/wgs84.h"
 #include "geometry/so3.h"
+#include "imu/mean_reading.h"
 
 namespace hindsight {
 namespace {

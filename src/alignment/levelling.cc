@@ -7,7 +7,7 @@
 #include "alignment/start_layout.h"
 #include "earth/wgs84.h"
 #include "geometry/so3.h"
-#include "imu/preintegration.h"
+#include "imu/mean_reading.h"
 
 namespace hindsight {
 namespace {
@@ -16,27 +16,6 @@ constexpr double kAssumedLevelSigma = 5.0 * kDegree;
 constexpr double kSway = 0.05 * kDegree;
 
 }  // namespace
-
-Kinematics MeanReading(const ImuStream& imu, double begin, double end) {
-  const ImuIntegrator integrator(imu);
-  Kinematics mean;
-  double total = 0.0;
-  auto it = std::upper_bound(
-      imu.samples.begin(), imu.samples.end(), begin,
-      [](double t, const ImuSample& sample) { return t < sample.t; });
-  if (it == imu.samples.begin()) ++it;
-  for (; it != imu.samples.end(); ++it) {
-    const LinearRates rates = integrator.RatesOfInterval(
-        static_cast<std::size_t>(it - imu.samples.begin()));
-    if (total > 0.0 && it->t > end) break;
-    mean.w_ib_b += 0.5 * rates.dt * (rates.w0 + rates.w1);
-    mean.f_b += 0.5 * rates.dt * (rates.f0 + rates.f1);
-    total += rates.dt;
-  }
-  mean.w_ib_b /= total;
-  mean.f_b /= total;
-  return mean;
-}
 
 AlignedAttitude LevelAttitude(const AlignmentInput& input) {
   const ImuStream& imu = input.dataset.imu;

@@ -3,12 +3,8 @@
 
 #include "alignment/alignment.h"
 #include "imu/imu_stream.h"
-#include "imu/kinematics.h"
 
 namespace hindsight {
-
-/// Means of all readings over [begin, end].
-Kinematics MeanReading(const ImuStream& imu, double begin, double end);
 
 /// Levels by the mean specific force over the rest at input.t:
 ///   roll = atan2(-f_y, -f_z),  pitch = atan2(f_x, |f_yz|),

@@ -4,6 +4,7 @@
 #include "dataset/bias_sigma.h"
 #include "dataset/excluded_motion.h"
 #include "dataset/rest.h"
+#include "imu/mean_reading.h"
 
 namespace hindsight {
 namespace {
@@ -15,27 +16,8 @@ AidingStream MakeStream(const char* name, SensorType type) {
   return stream;
 }
 
-/// Mean rate of the samples in [begin, end], of increments of those whose
-/// interval has its middle there.
 Eigen::Vector3d MeanRate(const ImuStream& imu, const TimeInterval& span) {
-  const auto first =
-      std::lower_bound(imu.samples.begin(), imu.samples.end(), span.begin,
-                       [](const ImuSample& s, double t) { return s.t < t; });
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double weight = 0.0;
-  for (auto it = first; it != imu.samples.end() && it->t <= span.end; ++it) {
-    if (imu.kind == ImuStream::Kind::kRates) {
-      sum += it->gyro;
-      weight += 1.0;
-    } else if (it != imu.samples.begin()) {  // or its interval is not known
-      const double dt = it->t - (it - 1)->t;
-      if (it->t - 0.5 * dt < span.begin) continue;
-      sum += it->gyro;
-      weight += dt;
-    }
-  }
-  return weight > 0.0 ? Eigen::Vector3d(sum / weight)
-                      : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  return MeanReading(imu, span.begin, span.end).w_ib_b;
 }
 
 class StreamBuilder {

@@ -83,17 +83,6 @@ TEST(Alignment, EveryMethodHasAName) {
   EXPECT_EQ(AlignmentName(AlignmentKind::kAhrs), "ahrs");
 }
 
-TEST(MeanReading, IsTheMeanOfAllReadings) {
-  const Dataset dataset =
-      Simulate(Standing(kNavigationGyro, kNavigationAccel), 2);
-  const Kinematics mean = MeanReading(dataset.imu, 10.0, 60.0);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const ImuSample& sample : dataset.imu.samples) {
-    if (sample.t > 10.0 + 1e-9 && sample.t < 60.0 + 1e-9) sum += sample.accel;
-  }
-  EXPECT_LT((mean.f_b - sum / 50.0).norm(), 1e-4);
-}
-
 /// Gyros at rest for 40 s whose biases drift evenly, by `drift` in all.
 Dataset DriftingAtRest(const Eigen::Vector3d& drift, std::uint64_t seed) {
   constexpr double kDt = 0.01;

@@ -1,0 +1,45 @@
+#include "imu/mean_reading.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "imu/preintegration.h"
+
+namespace hindsight {
+namespace {
+
+/// The first sample at or after t.
+std::size_t SampleAt(const ImuStream& imu, double t) {
+  return static_cast<std::size_t>(
+      std::lower_bound(imu.samples.begin(), imu.samples.end(), t,
+                       [](const ImuSample& s, double at) { return s.t < at; }) -
+      imu.samples.begin());
+}
+
+}  // namespace
+
+Kinematics MeanReading(const ImuStream& imu, double begin, double end) {
+  constexpr double kRounding = 1e-6;  // of stamps [s]
+  const std::size_t last = imu.samples.size() - 1;
+  std::size_t first = SampleAt(imu, begin - kRounding) + 1;
+  std::size_t to = SampleAt(imu, end + kRounding);
+  if (first >= to) {
+    first =
+        std::clamp<std::size_t>(SampleAt(imu, 0.5 * (begin + end)), 1, last);
+    to = first + 1;
+  }
+  const ImuIntegrator integrator(imu);
+  Kinematics mean;
+  double total = 0.0;
+  for (std::size_t k = first; k < to; ++k) {
+    const LinearRates rates = integrator.RatesOfInterval(k);
+    mean.w_ib_b += 0.5 * rates.dt * (rates.w0 + rates.w1);
+    mean.f_b += 0.5 * rates.dt * (rates.f0 + rates.f1);
+    total += rates.dt;
+  }
+  mean.w_ib_b /= total;
+  mean.f_b /= total;
+  return mean;
+}
+
+}  // namespace hindsight
