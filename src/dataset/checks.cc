@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/median.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "dataset/imu_cells.h"
@@ -56,11 +57,7 @@ StreamReport ReportStamps(const std::string& name,
   for (std::size_t i = 0; i < intervals.size(); ++i) {
     intervals[i] = stamps[i + 1] - stamps[i];
   }
-  std::vector<double> sorted = intervals;
-  const auto middle =
-      sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double median = *middle;
+  const double median = Median(intervals);
   if (median > 0.0) report.rate = 1.0 / median;
   const double longest = std::max(3.0 * median, 0.1);
   double squares = 0.0;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/median.h"
 #include "base/units.h"
 #include "dataset/clock_misfit.h"
 
@@ -36,7 +37,7 @@ double FieldWindowLength(const TimedRows& rows) {
   double norm = 0.0;
   for (const Eigen::Vector3d& field : rows.value) norm += field.norm();
   norm /= static_cast<double>(rows.value.size());
-  return std::clamp(std::sqrt(2.0) * rows.MedianSigma() / (kFineTurn * norm),
+  return std::clamp(std::sqrt(2.0) * Median(rows.sigma) / (kFineTurn * norm),
                     kShortestClockWindow, kLongestClockWindow);
 }
 
@@ -69,7 +70,7 @@ std::optional<ClockComparison> CompareStream(const ImuStream& imu,
   if (generated || rows.t.size() < kFewestRows) return std::nullopt;
   const bool twice = positions || heights;
   const double length = fields ? FieldWindowLength(rows)
-                               : WindowLength(rows.MedianSigma(), twice);
+                               : WindowLength(Median(rows.sigma), twice);
   ClockWindows windows =
       MakeWindows(rows.t, length, twice, PieceLength(initial));
   if (windows.windows.empty()) return std::nullopt;

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -41,14 +40,6 @@ void TimedRows::Add(double time, const Eigen::Vector3d& v, double s) {
   t.push_back(time);
   value.push_back(v);
   sigma.push_back(s);
-}
-
-double TimedRows::MedianSigma() const {
-  std::vector<double> sorted = sigma;
-  const auto middle =
-      sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
 }
 
 TimedRows RowsOf(const AidingStream& stream) {

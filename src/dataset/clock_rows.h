@@ -17,7 +17,6 @@ struct TimedRows {
 
   /// Passes over a row that is not later than the one before.
   void Add(double time, const Eigen::Vector3d& v, double s);
-  double MedianSigma() const;
 };
 
 /// The rows of a stream that say how it moves or turns, as one vector: of a

@@ -2,17 +2,16 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
+#include <utility>
+
+#include "base/median.h"
 
 namespace hindsight {
 
 double MedianStep(const std::vector<double>& t) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < t.size(); ++k) steps.push_back(t[k] - t[k - 1]);
-  if (steps.empty()) return 0.0;
-  const auto middle =
-      steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return Median(std::move(steps));
 }
 
 ClockWindows MakeWindows(const std::vector<double>& t, double length,

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
+
+#include "base/median.h"
+#include "dataset/resolution.h"
 
 namespace hindsight {
 namespace {
 
 constexpr int kChannels = 6;  // three gyros, three accelerometers
+constexpr ReadingRounding kUnitRounding = {.relative = 1e-12};
 
 double ReadingOf(const ImuSample& sample, int channel) {
   return channel < 3 ? sample.gyro(channel) : sample.accel(channel - 3);
@@ -61,14 +64,6 @@ std::vector<EqualSamples> LongRuns(const std::vector<ImuSample>& samples,
   return runs;
 }
 
-double MedianOf(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle =
-      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Whether the readings of one channel tell a live sensor from a frozen one.
 class LiveChannel {
  public:
@@ -82,8 +77,9 @@ class LiveChannel {
       const double change = std::abs(Value(k) - Value(k - 1));
       if (change > 0.0) changes.push_back(change);
     }
-    far_ = kStepsOfResolution * Resolution(std::move(values));
-    is_noisy_ = MedianOf(std::move(changes)) > far_;
+    far_ = kStepsOfResolution * Resolution(std::move(values), kUnitRounding,
+                                           ReadingCourse::kToAndFro);
+    is_noisy_ = Median(std::move(changes)) > far_;
   }
 
   /// Whether the channel is alive beside a run that is not the whole record.
@@ -97,18 +93,6 @@ class LiveChannel {
   }
 
  private:
-  /// The least difference of two values, beyond the rounding of their own.
-  static double Resolution(std::vector<double> values) {
-    constexpr double kRounding = 1e-12;  // of a value
-    std::sort(values.begin(), values.end());
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 1; k < values.size(); ++k) {
-      const double gap = values[k] - values[k - 1];
-      if (gap > kRounding * std::abs(values[k])) least = std::min(least, gap);
-    }
-    return least;
-  }
-
   double Value(std::size_t k) const { return ReadingOf(samples_[k], channel_); }
 
   bool IsFar(std::size_t begin, std::size_t end, double held) const {
@@ -117,7 +101,7 @@ class LiveChannel {
     for (std::size_t k = begin; k < end; ++k) {
       distances.push_back(std::abs(Value(k) - held));
     }
-    return MedianOf(std::move(distances)) > far_;
+    return Median(std::move(distances)) > far_;
   }
 
   const std::vector<ImuSample>& samples_;
@@ -134,7 +118,7 @@ double UsualStep(const std::vector<ImuSample>& samples, int channel,
     changes.push_back(std::abs(ReadingOf(samples[k], channel) -
                                ReadingOf(samples[k - 1], channel)));
   }
-  return MedianOf(std::move(changes));
+  return Median(std::move(changes));
 }
 
 /// Whether a channel changes during a run at least half as much as usual.

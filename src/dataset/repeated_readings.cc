@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <variant>
 
+#include "base/median.h"
 #include "base/text.h"
+#include "dataset/resolution.h"
 #include "earth/wgs84.h"
 
 namespace hindsight {
@@ -130,44 +131,18 @@ long Rows(const std::vector<HeldReading>& held) {
   return rows;
 }
 
-/// The differences of neighbours in order of size, ascending.
-std::vector<double> Gaps(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  std::vector<double> gaps;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    const double gap = values[i] - values[i - 1];
-    if (gap > kRounding) gaps.push_back(gap);
-  }
-  std::sort(gaps.begin(), gaps.end());
-  return gaps;
-}
-
-/// Of each coordinate the step that all its differences are multiples of, or
-/// less: the least gap between values, or between the sizes of gaps, as values
-/// that only grow may all be far from each other.
-Eigen::Vector4d Resolution(const std::vector<HeldReading>& held) {
-  Eigen::Vector4d least =
-      Eigen::Vector4d::Constant(std::numeric_limits<double>::infinity());
+/// Of each coordinate.
+Eigen::Vector4d ResolutionOf(const std::vector<HeldReading>& held) {
+  Eigen::Vector4d step;
   std::vector<double> values(held.size());
   for (int axis = 0; axis < 4; ++axis) {
     for (std::size_t i = 0; i < held.size(); ++i) {
       values[i] = held[i].reading.value(axis);
     }
-    const std::vector<double> gaps = Gaps(values);
-    for (const auto& candidates : {gaps, Gaps(gaps)}) {
-      if (candidates.empty()) continue;
-      least(axis) = std::min(least(axis), candidates.front());
-    }
+    step(axis) =
+        Resolution(values, {.absolute = kRounding}, ReadingCourse::kAnyhow);
   }
-  return least;
-}
-
-template <typename Value>
-Value Median(std::vector<Value> values) {
-  const auto middle =
-      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return step;
 }
 
 long MedianRows(const std::vector<HeldReading>& held) {
@@ -197,7 +172,7 @@ class UsualChange {
       const double change = (*values_[i + n] - *values_[i]).norm();
       if (change > 0.0) changes.push_back(change);
     }
-    return changes.empty() ? 0.0 : Median(std::move(changes));
+    return Median(std::move(changes));
   }
 
  private:
@@ -227,7 +202,7 @@ class Repetitions {
       : held_(held),
         is_speed_(is_speed),
         habit_(habit),
-        step_(kStepsOfResolution * Resolution(held).array()),
+        step_(kStepsOfResolution * ResolutionOf(held).array()),
         usual_(held),
         total_(static_cast<double>(Rows(held))) {
     for (const HeldReading& reading : held) {
@@ -348,7 +323,7 @@ Evidence StaleEvidence(const std::string& name, double share) {
 
 double ShareOf(const std::vector<HeldReading>& held) {
   if (held.size() < 3) return 0.0;
-  const Eigen::Array4d step = kStepsOfResolution * Resolution(held).array();
+  const Eigen::Array4d step = kStepsOfResolution * ResolutionOf(held).array();
   const long usual = 2 * MedianRows(held);
   long stale = 0;
   for (std::size_t i = 1; i + 1 < held.size(); ++i) {

@@ -1,6 +1,9 @@
 #include "imu/imu_stream.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "base/median.h"
 
 namespace hindsight {
 namespace {
@@ -33,10 +36,7 @@ double MedianInterval(const ImuStream& stream) {
   for (std::size_t k = 1; k <= count; k += stride) {
     intervals.push_back(stream.samples[k].t - stream.samples[k - 1].t);
   }
-  const auto middle =
-      intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  return *middle;
+  return Median(std::move(intervals));
 }
 
 std::vector<std::size_t> DropOuts(const ImuStream& stream) {
