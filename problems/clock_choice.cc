@@ -39,19 +39,6 @@ struct ClockCombination {
   double misfit = 0.0;
 };
 
-/// Takes away what is not plausible.
-void DropImplausible(ClockSearch* found) {
-  const std::size_t before = found->candidates.size();
-  const ClockSearch& all = *found;
-  std::vector<ClockCandidate> plausible;
-  for (const ClockCandidate& candidate : all.candidates) {
-    if (IsPlausible(all, candidate.misfit)) plausible.push_back(candidate);
-  }
-  found->candidates = std::move(plausible);
-  // What was left out fits no better.
-  if (found->candidates.size() < before) found->left_out = 0;
-}
-
 ClockQuestion AskUnknown(const Dataset& dataset, std::size_t i) {
   const AidingStream& stream = dataset.streams[i];
   ClockSearch found = SearchClock(dataset.imu, dataset.initial, stream);

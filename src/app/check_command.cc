@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "dataset/checks.h"
+#include "dataset/clock_search.h"
 #include "io/config.h"
 #include "io/number_format.h"
 #include "io/table.h"
@@ -24,7 +25,8 @@ constexpr const char* kHelp =
     R"(Loads the recording that CONFIG describes and reports rates, gaps, duplicates
 and overlap of its streams, whether specific force and angular rate are
 plausible, the axes of the IMU as gravity at rest shows them, and at which
-offsets a truth or an aiding stream with `time_offset: unknown` fits the IMU.
+offsets a truth or an aiding stream with `time_offset: unknown` fits the IMU:
+with a warning where an aiding stream fits about as well at several.
 Writes nothing. The last line says whether the recording is usable (exit status
 0), doubtful, as each warning makes it that is not of the truth (3), or not
 usable (1).
@@ -156,6 +158,9 @@ int Run(const std::vector<std::string>& arguments) {
                      .without = ReadWords("without", FLAGS_without)});
   RequireCapacity(dataset, arguments[0]);
   CheckReport report = CheckDataset(dataset);
+  for (std::string& warning : FindAmbiguousClocks(dataset)) {
+    report.warnings.push_back(std::move(warning));
+  }
   if (dataset.stationary.enabled) DecideAsRunDoes(&dataset, &report.imu.rest);
   std::cout << "recording '" << dataset.name << "'\n\n"
             << StreamTable(report.streams) << "\n"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/text.h"
 #include "dataset/clock_comparison.h"
 #include "dataset/clock_turns.h"
 
@@ -130,6 +131,39 @@ bool IsPlausible(const ClockSearch& found, double misfit) {
   constexpr double kFiveSigmas = 5.0;
   return std::log(misfit / found.candidates.front().misfit) <
          kFiveSigmas * 2.0 / std::sqrt(found.freedom);
+}
+
+void DropImplausible(ClockSearch* found) {
+  const std::size_t before = found->candidates.size();
+  const ClockSearch& all = *found;
+  std::vector<ClockCandidate> plausible;
+  for (const ClockCandidate& candidate : all.candidates) {
+    if (IsPlausible(all, candidate.misfit)) plausible.push_back(candidate);
+  }
+  found->candidates = std::move(plausible);
+  // What was left out fits no better.
+  if (found->candidates.size() < before) found->left_out = 0;
+}
+
+std::vector<std::string> FindAmbiguousClocks(const Dataset& dataset) {
+  std::vector<std::string> words;
+  for (const AidingStream& stream : dataset.streams) {
+    if (!stream.clock_unknown) continue;
+    ClockSearch found = SearchClock(dataset.imu, dataset.initial, stream);
+    DropImplausible(&found);
+    if (found.candidates.size() < 2) continue;
+    const auto [first, last] = std::minmax_element(
+        found.candidates.begin(), found.candidates.end(),
+        [](const ClockCandidate& a, const ClockCandidate& b) {
+          return a.offset < b.offset;
+        });
+    words.push_back(Format(
+        "%s: %zu time offsets from %.2f to %.2f s%s fit about as well: `run` "
+        "decides between them, a given time_offset does without",
+        stream.sensor.name.c_str(), found.candidates.size(), first->offset,
+        last->offset, found.left_out > 0 ? " and further ones" : ""));
+  }
+  return words;
 }
 
 bool TakeClock(const ClockSearch& found, AidingStream* stream) {

@@ -78,6 +78,13 @@ ClockSearch SearchClock(const ImuStream& imu,
 /// has the variance 4/n at most; by five standard deviations.
 bool IsPlausible(const ClockSearch& found, double misfit);
 
+/// Takes away the candidates that are not plausible.
+void DropImplausible(ClockSearch* found);
+
+/// One line for each stream whose clock is unknown and where more than one
+/// candidate is plausible, in words; see CheckReport::warnings.
+std::vector<std::string> FindAmbiguousClocks(const Dataset& dataset);
+
 /// Gives a stream whose clock is unknown the best of `found` as its time offset
 /// and the resolution as the a priori sigma of its estimate; false if nothing
 /// was found.

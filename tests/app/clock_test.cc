@@ -95,6 +95,45 @@ TEST_F(UnknownClock, OfAVehicleAtRestIsNotFound) {
   }
 }
 
+/// Laps round a square, one like the other.
+TEST(ClockOfLaps, IsDoubtfulToCheck) {
+  const TemporaryFolder folder;
+  std::string scenario =
+      "name: laps\n"
+      "start: {position: [48 deg, 11.5 deg, 500 m], heading: 65 deg}\n"
+      "segments:\n"
+      "  - {type: accelerate, speed: 8 m/s, rate: 2 m/s^2}\n";
+  for (int side = 0; side < 12; ++side) {
+    scenario +=
+        "  - {type: straight, duration: 5 s}\n"
+        "  - {type: turn, angle: 90 deg, rate: 20 deg/s}\n";
+  }
+  WriteFile(folder.path() / "laps.yaml",
+            scenario +
+                "imu:\n"
+                "  rate: 100 Hz\n"
+                "  noise: {gyro: 0.1 deg/sqrt(h), accel: 0.05 m/s/sqrt(h)}\n"
+                "aiding:\n"
+                "  gnss: {type: position, rate: 1 Hz, sigma: 0.2 m}\n");
+  ASSERT_EQ(
+      Hindsight({"simulate", "laps.yaml", "--out=laps"}, folder.path()).status,
+      0);
+  const auto check = [&] {
+    return Hindsight({"check", "laps/config.yaml"}, folder.path());
+  };
+  EXPECT_EQ(check().status, 0);
+  const auto config = folder.path() / "laps/config.yaml";
+  std::string text = ReadFile(config);
+  const std::string key = "  gnss:\n";
+  text.insert(text.find(key) + key.size(), "    time_offset: unknown\n");
+  WriteFile(config, text);
+  const Outcome outcome = check();
+  EXPECT_EQ(outcome.status, 3) << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("warning: gnss: "));
+  EXPECT_THAT(outcome.out, HasSubstr(" fit about as well: `run` decides"));
+  EXPECT_EQ(Lines(outcome.out).back(), "the recording is doubtful: 1 warning");
+}
+
 /// Half a period off and turned round fits these flights nearly as well.
 TEST(ClocksOfRecordings, DronesToAndFro) {
   if (!std::filesystem::exists(kClockRecordings / "drone_paths")) {

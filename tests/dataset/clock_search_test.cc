@@ -1,5 +1,6 @@
 #include "dataset/clock_search.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,6 +14,11 @@
 
 namespace hindsight {
 namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 /// Three minutes of driving, the truth once a second and by `late` seconds
 /// late.
@@ -160,6 +166,22 @@ TEST(ClockSearch, HalfAPeriodOffIsACandidateOfAFlightToAndFro) {
   };
   EXPECT_TRUE(finds(-0.6));
   EXPECT_TRUE(finds(-0.6 + 0.5 * 2.7));
+}
+
+TEST(ClockSearch, SeveralClocksOfARegularFlightAreTold) {
+  ShuttleOptions periodic;
+  periodic.irregularity = periodic.drift = periodic.turning = 0.0;
+  Dataset regular = LateShuttle(periodic, 65, 0.3, 0.5);
+  EXPECT_THAT(FindAmbiguousClocks(regular), IsEmpty()) << "it is given";
+  regular.streams[0].sensor.time_offset_sigma.reset();
+  regular.streams[0].clock_unknown = true;
+  EXPECT_THAT(FindAmbiguousClocks(regular),
+              ElementsAre(AllOf(HasSubstr("gnss: 8 time offsets from "),
+                                HasSubstr(" and further ones fit about as "
+                                          "well: `run` decides"))));
+  Dataset drive = Drive(TellingSensors()[0], 13);
+  drive.streams[0].clock_unknown = true;
+  EXPECT_THAT(FindAmbiguousClocks(drive), IsEmpty());
 }
 
 TEST(ClockSearch, WithheldMeasurementsTakeNoPart) {
