@@ -61,11 +61,8 @@ std::string DisownedFolder(const fs::path& path) {
     return "is no folder";
   }
   try {
-    const std::string unlisted = FindUnlisted(path, Finished::kNo);
-    return unlisted.empty()
-               ? ""
-               : "holds " + unlisted + ", which is not listed in its " +
-                     kManifestName;
+    const std::string foreign = FindForeign(path, Finished::kNo);
+    return foreign.empty() ? "" : "holds " + foreign;
   } catch (const InputError& error) {
     return error.what();
   }

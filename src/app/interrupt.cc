@@ -63,11 +63,11 @@ void CatchSignals() {
   action.sa_handler = OnSignal;
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  struct sigaction old = {};
-  sigaction(SIGHUP, nullptr, &old);
-  if (old.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction old = {};
+    sigaction(number, nullptr, &old);
+    if (old.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);
+  }
   std::signal(SIGXFSZ, SIG_IGN);
 }
 

@@ -7,9 +7,10 @@
 
 namespace hindsight {
 
-/// From now on SIGINT, SIGTERM and, unless it was ignored, SIGHUP end the
-/// process with kStopped, and a limit on the size of files makes writing fail
-/// instead of ending the process.
+/// From now on those of SIGINT, SIGTERM and SIGHUP that were not ignored (as of
+/// a job in the background of a script, or under nohup) end the process with
+/// kStopped, and a limit on the size of files makes writing fail instead of
+/// ending the process.
 void CatchSignals();
 
 /// While it lives, the first of those signals has `finish` called on a thread

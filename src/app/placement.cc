@@ -53,7 +53,7 @@ void Placement::CheckHolds(const std::function<Paths()>& inputs) const {
   for (const fs::path& input : inputs()) {
     if (!LiesIn(input, folder_)) continue;
     throw InputError(name + " holds " + input.string() +
-                     ", which is read; choose another");
+                     ", which is an input; choose another");
   }
   std::error_code refused;
   const fs::path working = fs::current_path(refused);
@@ -93,7 +93,7 @@ void Placement::Place(const fs::path& finished, bool complete) {
   finished_ = finished;
   complete_ = complete;
   if (const std::error_code error = SyncFolder(finished_)) {
-    throw OutputError("output folder " + finished_.string() +
+    throw OutputError("output folder " + folder_.string() +
                       " cannot be written: " + error.message());
   }
   if (replaced_ && StatusOf(folder_)) {
@@ -122,9 +122,15 @@ void Placement::TakenFrom(const fs::path& old) {
 }
 
 void Placement::PlaceBeside(const std::string& reason) {
+  if (!StatusOf(finished_)) {
+    throw OutputError("output folder " + folder_.string() +
+                      " cannot be put in place: " + reason);
+  }
   placed_ = finished_;
+  // The folder's name, where the results are now.
+  const fs::path name = finished_.parent_path() / folder_.filename();
   for (int i = 1; i < 10000; ++i) {
-    const fs::path beside = folder_.string() + "." + std::to_string(i);
+    const fs::path beside = name.string() + "." + std::to_string(i);
     std::error_code error;
     if (StatusOf(beside) || !fs::create_directory(beside, error)) {
       if (error && !StatusOf(beside)) break;
@@ -138,7 +144,7 @@ void Placement::PlaceBeside(const std::string& reason) {
     std::error_code ignored;
     fs::remove(beside, ignored);
   }
-  SyncFolder(folder_.parent_path());
+  SyncFolder(name.parent_path());
   if (!complete_) return;
   throw OutputError("output folder " + folder_.string() +
                     " cannot be put in place: " + reason +
@@ -159,11 +165,8 @@ std::string Placement::Objection(const fs::path& old, bool complete) const {
     if (!manifest) {
       return std::string("holds no ") + kManifestName + " of earlier results";
     }
-    const std::string unlisted = FindUnlisted(old);
-    if (!unlisted.empty()) {
-      return "holds " + unlisted + ", which is not listed in its " +
-             kManifestName;
-    }
+    const std::string foreign = FindForeign(old);
+    if (!foreign.empty()) return "holds " + foreign;
     if (!complete && manifest->complete) return "holds complete results";
   } catch (const InputError& error) {
     return error.what();

@@ -26,7 +26,8 @@ struct OutputRequest {
 /// empty folder, and with `force` where it holds nothing but files that its
 /// manifest lists (io/result_manifest.h), by exchanging the two in one step;
 /// where the file system cannot, by two renames, and a kill between these
-/// leaves both folders beside the name.
+/// leaves both folders beside the name. Results that lie elsewhere by then, as
+/// a folder above was renamed, get FOLDER.1 and so on there.
 class Placement {
  public:
   using Paths = std::vector<std::filesystem::path>;

@@ -44,7 +44,7 @@ ResultFolder::ResultFolder(const OutputRequest& request,
 ResultFolder::~ResultFolder() {
   const bool tells = !placement_.placed() && (kept_ || at_end_);
   const std::string words = Abandon();
-  if (tells) PrintNote(words);
+  if ((tells || is_left_) && !words.empty()) PrintNote(words);
 }
 
 void ResultFolder::MakeStaging() {
@@ -80,11 +80,15 @@ void ResultFolder::Write(const OutputFile& file) {
   WriteFileAtomically(Path(file.name), file.text);
 }
 
+/// Those of the files listed that are there, sorted.
 std::vector<std::string> ResultFolder::Written() const {
-  std::vector<std::string> files;
-  for (const fs::path& entry : FolderEntries(finished_)) {
-    if (entry.filename() != kManifestName) files.push_back(entry.filename());
-  }
+  std::vector<std::string> files = listed_;
+  std::erase_if(files, [this](const std::string& name) {
+    std::error_code refused;
+    return fs::symlink_status(finished_ / name, refused).type() ==
+           fs::file_type::not_found;
+  });
+  std::sort(files.begin(), files.end());
   return files;
 }
 
@@ -154,14 +158,19 @@ void ResultFolder::KeepFinished(const std::vector<OutputFile>& files) {
   }
 }
 
-std::string ResultFolder::AbandonLocked() {
-  if (placement_.placed() || finished_.empty()) return "";
-  // Nothing that is still being written reaches it there.
-  const fs::path aside = UnpublishedName(placement_.folder());
+/// So that nothing that is still being written reaches it. It may lie elsewhere
+/// than it was made.
+void ResultFolder::SetAside() {
+  if (const auto present = PresentPath(staging_)) finished_ = *present;
+  const fs::path aside =
+      finished_.parent_path() / UnpublishedName(placement_.folder()).filename();
   std::error_code refused;
   fs::rename(finished_, aside, refused);
   if (!refused) finished_ = aside;
-  std::string cause;
+}
+
+/// Whether something was finished; `cause` says why not all of it is kept.
+bool ResultFolder::KeepWhatIsFinished(std::string* cause) {
   bool has_finished = kept_.has_value();
   try {
     const std::vector<OutputFile> files =
@@ -169,7 +178,7 @@ std::string ResultFolder::AbandonLocked() {
     has_finished = has_finished || !files.empty();
     if (!files.empty()) KeepFinished(files);
   } catch (const std::exception& error) {
-    cause = std::string(": ") + error.what();
+    *cause = ": " + Explain(error);
   }
   try {
     if (kept_) {
@@ -177,20 +186,59 @@ std::string ResultFolder::AbandonLocked() {
       placement_.Place(finished_, false);
     }
   } catch (const std::exception& error) {
-    cause = std::string(": ") + error.what();
+    *cause = ": " + Explain(error);
   }
+  return has_finished;
+}
+
+/// Removes what was written. What stays, in words that follow "nothing is
+/// left".
+std::string ResultFolder::RemoveStaging() {
+  staging_.descriptor = Descriptor();  // listing the folder takes one
+  const fs::path folder = std::exchange(finished_, fs::path());
+  std::error_code refused;
+  if (fs::symlink_status(folder, refused).type() == fs::file_type::not_found) {
+    return " (others removed or moved " + folder.string() + ")";
+  }
+  std::string foreign;
+  try {
+    foreign = FindForeign(folder, Finished::kNo);
+  } catch (const InputError&) {
+    // It cannot be listed, or not now.
+  }
+  try {
+    if (RemoveUnfinished(folder)) return "";
+  } catch (const InputError&) {
+    // It stays as it is.
+  }
+  is_left_ = true;
+  return " but " + folder.string() +
+         (foreign.empty() ? ", which cannot be removed"
+                          : ", which holds " + foreign);
+}
+
+std::string ResultFolder::AbandonLocked() {
+  if (placement_.placed() || finished_.empty()) return "";
+  SetAside();
+  std::string cause;
+  const bool has_finished = KeepWhatIsFinished(&cause);
   if (placement_.placed()) {
     return "what was finished is in " + placement_.placed()->string() +
            ", whose " + kept_->file.name + " says complete: false" + cause;
   }
-  fs::remove_all(finished_, refused);
-  std::string words = has_finished ? "nothing is left"
-                                   : "nothing was finished, nothing is left";
-  if (PathExists(finished_)) {
-    words += " but " + finished_.string() + ", which cannot be removed";
-  }
-  finished_.clear();
-  return words + cause;
+  return (has_finished ? "nothing is left"
+                       : "nothing was finished, nothing is left") +
+         RemoveStaging() + cause;
+}
+
+std::string ResultFolder::Explain(const std::exception& error) const {
+  const auto* output = dynamic_cast<const OutputError*>(&error);
+  if (output == nullptr) return error.what();
+  const fs::path written_in = output->file().parent_path().filename();
+  const fs::path& folder = placement_.folder();
+  if (!IsUnpublishedName(written_in.string(), folder)) return error.what();
+  return OutputError(folder / output->file().filename(), output->cause())
+      .what();
 }
 
 std::string ResultFolder::Abandon() {
@@ -216,7 +264,8 @@ int WithResultFolder(const OutputRequest& request,
     return work(&folder);
   } catch (const OutputError& error) {
     const std::string words = folder.Abandon();
-    throw OutputError(error.what() + (words.empty() ? "" : "; " + words));
+    throw OutputError(folder.Explain(error) +
+                      (words.empty() ? "" : "; " + words));
   }
 }
 

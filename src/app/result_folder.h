@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_APP_RESULT_FOLDER_H_
 #define HINDSIGHT_APP_RESULT_FOLDER_H_
 
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <mutex>
@@ -27,7 +28,8 @@ struct OutputFile {
 /// What ends before Commit(), by a signal as by an exception, leaves what
 /// Keep() was last told to keep or KeepAtEnd() then gives, marked as
 /// incomplete, where that does not replace complete results, and else beside
-/// it; without either it leaves nothing.
+/// it; without either it leaves nothing. What others put into the temporary
+/// folder is never listed nor removed.
 class ResultFolder {
  public:
   using Paths = Placement::Paths;
@@ -65,6 +67,10 @@ class ResultFolder {
   /// Ends without Commit(); what stays, in words, "" after Commit().
   std::string Abandon();
 
+  /// What an error says; of a file of these results, under its place in the
+  /// folder asked for.
+  std::string Explain(const std::exception& error) const;
+
  private:
   /// What an early end leaves.
   struct Kept {
@@ -77,6 +83,9 @@ class ResultFolder {
   std::vector<std::string> Written() const;
   void CommitLocked();
   std::string AbandonLocked();
+  void SetAside();
+  bool KeepWhatIsFinished(std::string* cause);
+  std::string RemoveStaging();
   void RestoreKept();
   void KeepFinished(const std::vector<OutputFile>& files);
   std::string Stop();
@@ -86,6 +95,7 @@ class ResultFolder {
   std::filesystem::path finished_;   ///< where the files are
   std::vector<std::string> listed_;  ///< in the manifest on the medium
   std::optional<Kept> kept_;
+  bool is_left_ = false;    ///< what was to be removed is still there
   bool half_kept_ = false;  ///< the files on the medium are not those of kept_
   std::function<std::vector<OutputFile>()> at_end_;
   std::mutex mutex_;
@@ -93,7 +103,8 @@ class ResultFolder {
 };
 
 /// `work` with a folder of results, which it commits. An OutputError that comes
-/// out of it says besides what stays.
+/// out of it names the file by its place in the folder asked for, and says
+/// besides what stays.
 int WithResultFolder(const OutputRequest& request,
                      const std::function<ResultFolder::Paths()>& inputs,
                      const std::function<int(ResultFolder*)>& work);

@@ -159,7 +159,7 @@ std::vector<std::string> FindAmbiguousClocks(const Dataset& dataset) {
         });
     words.push_back(Format(
         "%s: %zu time offsets from %.2f to %.2f s%s fit about as well: `run` "
-        "decides between them, a given time_offset does without",
+        "decides between them, unless time_offset is given",
         stream.sensor.name.c_str(), found.candidates.size(), first->offset,
         last->offset, found.left_out > 0 ? " and further ones" : ""));
   }

@@ -28,8 +28,7 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::Fail(const std::error_code& cause) const {
-  throw OutputError("output file " + path_ +
-                    " cannot be written: " + cause.message());
+  throw OutputError(std::filesystem::path(path_), cause.message());
 }
 
 void AtomicFile::Flush() {

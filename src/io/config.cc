@@ -51,6 +51,7 @@ struct Declared {
   StreamSource imu;
   ImuReadOptions imu_options;
   std::vector<AidingConfig> aiding;
+  std::vector<fs::path> left_out;  ///< files of streams that are not read
   std::optional<StreamSource> truth;
   TruthReadOptions truth_options;
   bool truth_clock_unknown = false;
@@ -124,6 +125,9 @@ Declared ReadDeclarations(ConfigMap* top, const LoadOptions& options,
   std::vector<std::string> without = options.without;
   for (auto& [name, map] : aiding.NamedMaps()) {
     if (std::erase(without, name) > 0) {
+      if (const auto file = map.OptionalText("file")) {
+        declared.left_out.push_back(folder / *file);
+      }
       aiding.resolved().remove(name);
       continue;
     }
@@ -384,6 +388,8 @@ std::vector<fs::path> ConfigInputs(const std::string& config_path,
     if (!config.generated_rate) inputs.emplace_back(config.source.path);
   }
   if (declared.truth) inputs.emplace_back(declared.truth->path);
+  inputs.insert(inputs.end(), declared.left_out.begin(),
+                declared.left_out.end());
   return inputs;
 }
 

@@ -176,8 +176,9 @@ struct ResolvedConfig {
   std::string yaml;
 };
 
-/// The files and folders that loading the configuration reads, itself included.
-/// Throws InputError as LoadDataset does for what the configuration says.
+/// The files and folders that loading the configuration reads, itself and those
+/// of streams that are left out included. Throws InputError as LoadDataset does
+/// for what the configuration says.
 std::vector<std::filesystem::path> ConfigInputs(
     const std::string& config_path, const LoadOptions& options = {});
 

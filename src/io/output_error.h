@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_IO_OUTPUT_ERROR_H_
 #define HINDSIGHT_IO_OUTPUT_ERROR_H_
 
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -13,6 +14,20 @@ class OutputError : public std::runtime_error {
  public:
   explicit OutputError(const std::string& message)
       : std::runtime_error(message) {}
+  /// "output file FILE cannot be written: CAUSE".
+  OutputError(const std::filesystem::path& file, const std::string& cause)
+      : std::runtime_error("output file " + file.string() +
+                           " cannot be written: " + cause),
+        file_(file),
+        cause_(cause) {}
+
+  /// The file that could not be written, at its path then; empty: no file.
+  const std::filesystem::path& file() const { return file_; }
+  const std::string& cause() const { return cause_; }
+
+ private:
+  std::filesystem::path file_;
+  std::string cause_;
 };
 
 }  // namespace hindsight

@@ -104,11 +104,23 @@ std::optional<ResultManifest> ReadManifest(const fs::path& folder) {
   }
 }
 
-std::string FindUnlisted(const fs::path& folder, Finished finished) {
+std::string FindForeign(const fs::path& folder, Finished finished) {
   const std::vector<std::string> listed = Listed(folder);
   for (const fs::path& entry : FolderEntries(folder)) {
     const std::string name = entry.filename().string();
-    if (!IsRegular(entry) || !IsOf(listed, name, finished)) return name;
+    if (!IsOf(listed, name, finished)) {
+      return name + (name == kManifestName
+                         ? ", which this program did not write"
+                         : std::string(", which is not listed in its ") +
+                               kManifestName);
+    }
+    if (IsRegular(entry)) continue;
+    std::error_code refused;
+    return name +
+           (fs::is_symlink(fs::symlink_status(entry, refused))
+                ? ", which is a symbolic link"
+                : ", which is no regular file") +
+           " in place of the file that was written";
   }
   return "";
 }

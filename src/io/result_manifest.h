@@ -32,11 +32,12 @@ std::optional<ResultManifest> ReadManifest(const std::filesystem::path& folder);
 /// of io/unpublished.h.
 enum class Finished { kYes, kNo };
 
-/// The name of something in `folder` that is not a regular file listed in its
-/// manifest, nor the manifest; "" if all is. Throws InputError if the folder
-/// cannot be listed.
-std::string FindUnlisted(const std::filesystem::path& folder,
-                         Finished finished = Finished::kYes);
+/// Something in `folder` that is neither a regular file listed in its manifest
+/// nor the manifest, and why not: "thesis.txt, which is not listed in its
+/// manifest.json"; "" if there is no such thing. Throws InputError if the
+/// folder cannot be listed.
+std::string FindForeign(const std::filesystem::path& folder,
+                        Finished finished = Finished::kYes);
 
 /// Removes the files that the manifest lists, the manifest, and the folder if
 /// nothing is left in it; whether it is gone.

@@ -97,6 +97,22 @@ Descriptor::~Descriptor() {
   if (fd_ >= 0) close(fd_);
 }
 
+std::optional<fs::path> PresentPath(const Unpublished& entry) {
+  struct stat mine = {};
+  if (fstat(entry.descriptor.get(), &mine) != 0) return std::nullopt;
+  const auto names_it = [&mine](const fs::path& path) {
+    struct stat named = {};
+    return lstat(path.c_str(), &named) == 0 && named.st_ino == mine.st_ino &&
+           named.st_dev == mine.st_dev;
+  };
+  if (names_it(entry.path)) return entry.path;
+  std::error_code refused;
+  const fs::path moved = fs::read_symlink(
+      "/proc/self/fd/" + std::to_string(entry.descriptor.get()), refused);
+  if (refused || !names_it(moved)) return std::nullopt;
+  return moved;
+}
+
 fs::path UnpublishedName(const fs::path& target) {
   return target.parent_path() / (Prefix(target) + RandomDigits());
 }

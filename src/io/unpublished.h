@@ -2,6 +2,7 @@
 #define HINDSIGHT_IO_UNPUBLISHED_H_
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -36,6 +37,10 @@ struct Unpublished {
   std::filesystem::path path;
   Descriptor descriptor;
 };
+
+/// Where an entry lies now: a folder above it may have been renamed meanwhile.
+/// Nothing if it is gone, or the system does not tell.
+std::optional<std::filesystem::path> PresentPath(const Unpublished& entry);
 
 /// A name for something unpublished beside `target`. Nothing is created.
 std::filesystem::path UnpublishedName(const std::filesystem::path& target);

@@ -116,6 +116,10 @@ class Child {
           dup2(out, STDOUT_FILENO) < 0 || dup2(err, STDERR_FILENO) < 0) {
         _exit(125);
       }
+      // Of a background job of a shell they are ignored, and stay so.
+      for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+        std::signal(number, SIG_DFL);
+      }
       if (prepare) prepare();
       execv(argv[0], argv.data());
       _exit(126);

@@ -145,13 +145,16 @@ TEST_F(Interrupt, NeverReplacesCompleteResultsButIncompleteOnes) {
   EXPECT_EQ(Json(root() / "out" / "summary.json")["complete"], true);
 }
 
-TEST_F(Interrupt, HangUpIsIgnoredWhereItWas) {
-  Child run(Words({"--methods=ekf,rts"}), root(),
-            [] { std::signal(SIGHUP, SIG_IGN); });
-  ASSERT_TRUE(run.AwaitStage("ekf"));
-  run.Signal(SIGHUP);
-  EXPECT_TRUE(HasResults(run.Wait()));
-  EXPECT_EQ(Json(root() / "out" / "summary.json")["complete"], true);
+TEST_F(Interrupt, IsIgnoredWhereItWas) {
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
+    Child run(Words({"--methods=ekf,rts"}), root(),
+              [signal] { std::signal(signal, SIG_IGN); });
+    ASSERT_TRUE(run.AwaitStage("ekf"));
+    run.Signal(signal);
+    EXPECT_TRUE(HasResults(run.Wait())) << signal;
+    EXPECT_EQ(Json(root() / "out" / "summary.json")["complete"], true);
+    fs::remove_all(root() / "out");
+  }
 }
 
 TEST_F(Interrupt, IsAnsweredWithinASecondAtAnyMoment) {
@@ -363,6 +366,8 @@ TEST_F(MediumThatEnds, FullDiskLeavesNoHalfRecordingAndFinishedRuns) {
                 "write:" + std::to_string(at) + "+:" + full);
     EXPECT_EQ(outcome.status, 4) << at;
     EXPECT_THAT(outcome.err, HasSubstr("nothing is left"));
+    EXPECT_THAT(outcome.err, HasSubstr((root / "out/").string()));
+    EXPECT_THAT(outcome.err, Not(HasSubstr(".partial-")));
     EXPECT_THAT(outcome.err, HasSubstr("No space left"));
     EXPECT_THAT(Names(root), ElementsAre("data"));
   }
@@ -374,6 +379,7 @@ TEST_F(MediumThatEnds, FullDiskLeavesNoHalfRecordingAndFinishedRuns) {
     if (outcome.status == 0) break;
     EXPECT_EQ(outcome.status, 4) << outcome.err;
     EXPECT_THAT(Lines(outcome.err).back(), HasSubstr("complete: false"));
+    EXPECT_THAT(outcome.err, Not(HasSubstr(".partial-")));
     EXPECT_THAT(Names(root / "out"),
                 ElementsAre("cells.csv", "manifest.json", "montecarlo.json"));
     const nlohmann::json json =
@@ -403,6 +409,7 @@ TEST_F(MediumThatEnds, FullDiskKeepsTheMethodsThatWereDone) {
     if (HasResults(outcome)) break;
     EXPECT_EQ(outcome.status, 4) << fault;
     EXPECT_THAT(Lines(outcome.err).back(), HasSubstr("No space left"));
+    EXPECT_THAT(outcome.err, Not(HasSubstr(".partial-")));
     if (fs::exists(recording_.root() / "out")) {
       ++kept;
       EXPECT_THAT(Lines(outcome.err).back(), HasSubstr("complete: false"));

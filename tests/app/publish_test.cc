@@ -86,8 +86,9 @@ TEST_F(Publish, ForceNeverTakesAFolderThatHoldsAnInput) {
                                     "--methods=ekf", "--force"};
   };
   // The recording is nothing but files of its manifest.
-  ExpectRefused(words("data/config.yaml", "data"), {"data", "which is read"});
-  ExpectRefused(words("data/config.yaml", "."), {"which is read"});
+  ExpectRefused(words("data/config.yaml", "data"),
+                {"data", "which is an input"});
+  ExpectRefused(words("data/config.yaml", "."), {"which is an input"});
   // The configuration elsewhere, its files through a link.
   fs::create_directory_symlink("data", root() / "link");
   fs::create_directory(root() / "elsewhere");
@@ -99,18 +100,117 @@ TEST_F(Publish, ForceNeverTakesAFolderThatHoldsAnInput) {
   ExpectRefused(words("elsewhere/config.yaml", "elsewhere"), {"config.yaml"});
   // A link to its folder.
   fs::create_directory_symlink("data", root() / "links");
-  ExpectRefused(words("links/config.yaml", "data"), {"which is read"});
+  ExpectRefused(words("links/config.yaml", "data"), {"which is an input"});
   // The list of times.
   ASSERT_EQ(recording_.Run({"--out=out", "--methods=ekf"}).status, 0);
   WriteFile(root() / "out" / "times", "5\n");
   std::vector<std::string> at = words("data/config.yaml", "out");
   at.emplace_back("--at=out/times");
-  ExpectRefused(at, {"times", "which is read"});
+  ExpectRefused(at, {"times", "which is an input"});
   // A scenario and a profile.
   ASSERT_EQ(Simulate({"--out=made"}).status, 0);
   ExpectRefused({"simulate", "car_drive", "--profile=made/truth.csv",
                  "--out=made", "--force"},
-                {"truth.csv", "which is read"});
+                {"truth.csv", "which is an input"});
+}
+
+TEST_F(Publish, FilesOfStreamsThatAreLeftOutAreInputs) {
+  ASSERT_EQ(Simulate({"--out=made"}).status, 0);
+  fs::copy(root() / "made", root() / "elsewhere");
+  std::string config = ReadFile(root() / "elsewhere" / "config.yaml");
+  const std::string key = "file: gnss.csv";
+  ASSERT_NE(config.find(key), std::string::npos) << config;
+  config.replace(config.find(key), key.size(), "file: ../made/gnss.csv");
+  WriteFile(root() / "elsewhere" / "config.yaml", config);
+  ExpectRefused({"run", "elsewhere/config.yaml", "--out=made", "--force",
+                 "--without=gnss", "--methods=ekf"},
+                {"made/gnss.csv", "which is an input"});
+}
+
+/// The temporary folder of a run that goes on.
+fs::path PartialOf(const fs::path& folder) {
+  for (const std::string& name : Names(folder)) {
+    if (name.starts_with(".out.partial-")) return folder / name;
+  }
+  throw std::runtime_error("no temporary folder");
+}
+
+TEST_F(Publish, WhatOthersPutIntoTheTemporaryFolderStaysTheirs) {
+  const auto run = [&](const std::string& methods) {
+    return std::vector<std::string>{"run", "data/config.yaml", "--out=out",
+                                    "--methods=" + methods, "--progress=json"};
+  };
+  {
+    Child child(run("ekf,batch"), root());
+    ASSERT_TRUE(child.AwaitStage("batch"));
+    WriteFile(PartialOf(root()) / "thesis.txt", "mine");
+    const Outcome outcome = child.Wait();
+    EXPECT_TRUE(HasResults(outcome)) << outcome.err;
+  }
+  EXPECT_EQ(ReadFile(root() / "out" / "thesis.txt"), "mine");
+  EXPECT_THAT(
+      ReadFile(root() / "out" / "manifest.json"),
+      AllOf(HasSubstr("batch.csv"), ::testing::Not(HasSubstr("thesis.txt"))));
+  fs::remove_all(root() / "out");
+  // Of a run that ends with nothing finished.
+  Child child(run("batch"), root());
+  ASSERT_TRUE(child.AwaitStage("ekf"));
+  WriteFile(PartialOf(root()) / "thesis.txt", "mine");
+  child.Signal(SIGTERM);
+  const Outcome outcome = child.Wait();
+  EXPECT_EQ(outcome.status, 130);
+  const fs::path left = PartialOf(root());
+  EXPECT_THAT(Names(left), ElementsAre("thesis.txt"));
+  EXPECT_THAT(Lines(outcome.err).back(),
+              AllOf(HasSubstr("nothing is left but " + left.string()),
+                    HasSubstr("thesis.txt")));
+}
+
+TEST_F(Publish, AFolderAboveThatIsRenamedMeanwhileIsFollowed) {
+  const std::vector<std::string> words = {
+      "run", "data/config.yaml", "--out=above/out", "--methods=ekf,batch",
+      "--progress=json"};
+  for (const std::string stage : {"ekf", "batch"}) {
+    fs::create_directory(root() / "above");
+    Child run(words, root());
+    ASSERT_TRUE(run.AwaitStage(stage));
+    fs::rename(root() / "above", root() / "moved");
+    const Outcome outcome = run.Wait();
+    EXPECT_EQ(outcome.status, 4) << outcome.err;
+    const std::string said = Lines(outcome.err).back();
+    EXPECT_THAT(said, HasSubstr((root() / "above" / "out").string()));
+    if (stage == "batch") {
+      const fs::path left = root() / "moved" / "out.1";
+      EXPECT_THAT(said, HasSubstr("what was finished is in " + left.string()));
+      EXPECT_THAT(Names(left), ::testing::Contains("ekf.csv"));
+      EXPECT_THAT(Names(root() / "moved"), ElementsAre("out.1"));
+    } else {
+      EXPECT_THAT(said, HasSubstr("nothing is left"));
+      EXPECT_THAT(Names(root() / "moved"), ElementsAre());
+    }
+    EXPECT_FALSE(fs::exists(root() / "above"));
+    fs::remove_all(root() / "moved");
+  }
+}
+
+TEST_F(Publish, TooFewFileDescriptorsAreOneLineAndLeaveNothing) {
+  if (!CanInjectFaults()) GTEST_SKIP() << "a sanitizer takes some itself";
+  const std::vector<std::vector<std::string>> commands = {
+      {"run", "data/config.yaml", "--out=out", "--methods=ekf"},
+      {"simulate", "short_drive", "--duration=5", "--out=out"},
+      {"montecarlo", "tunnel_survey", "--runs=2", "--out=out"}};
+  for (const std::vector<std::string>& words : commands) {
+    const rlimit few = {4, 4};
+    const Outcome outcome = Hindsight(words, root(), [&few] {
+      for (int fd = STDERR_FILENO + 1; fd < 20; ++fd) close(fd);
+      setrlimit(RLIMIT_NOFILE, &few);
+    });
+    EXPECT_TRUE(outcome.status == 2 || outcome.status == 4)
+        << words[0] << outcome.status;
+    EXPECT_EQ(Lines(outcome.err).size(), 1u) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("Too many open files"));
+    EXPECT_THAT(Names(root()), ElementsAre("data")) << outcome.err;
+  }
 }
 
 TEST_F(Publish, ForceReplacesNothingButFilesOfTheManifest) {
@@ -133,7 +233,7 @@ TEST_F(Publish, ForceReplacesNothingButFilesOfTheManifest) {
     const std::string file = folder == "made" ? "imu.csv" : "ekf.csv";
     fs::rename(root() / folder / file, root() / file);
     fs::create_symlink(root() / file, root() / folder / file);
-    ExpectRefused(words, {folder, file});
+    ExpectRefused(words, {folder, file, "which is a symbolic link"});
     fs::remove(root() / folder / file);
     fs::rename(root() / file, root() / folder / file);
     EXPECT_EQ(Hindsight(words, root()).status, 0);
@@ -339,7 +439,7 @@ TEST_F(Publish, AProfileThatAScenarioNamesIsAnInput) {
             "imu:\n  rate: 100 Hz\n  noise: {gyro: 0.1 deg/sqrt(h), "
             "accel: 0.05 m/s/sqrt(h)}\n");
   ExpectRefused({"simulate", "moved.yaml", "--out=own", "--force"},
-                {"own/truth.csv", "which is read"});
+                {"own/truth.csv", "which is an input"});
   EXPECT_EQ(Hindsight({"simulate", "moved.yaml", "--out=new"}, root()).status,
             0);
 }

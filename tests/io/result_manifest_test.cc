@@ -19,12 +19,14 @@ TEST(ResultManifest, ListsWhatMayBeRemoved) {
   std::filesystem::create_directory(path);
   EXPECT_FALSE(ReadManifest(path));
   folder.Write("out/a.csv", "1");
-  EXPECT_EQ(FindUnlisted(path), "a.csv");
+  EXPECT_EQ(FindForeign(path),
+            "a.csv, which is not listed in its manifest.json");
   WriteManifest({.complete = true, .files = {"a.csv"}}, path);
-  EXPECT_EQ(FindUnlisted(path), "");
+  EXPECT_EQ(FindForeign(path), "");
   EXPECT_TRUE(ReadManifest(path)->complete);
   folder.Write("out/b.csv", "2");
-  EXPECT_EQ(FindUnlisted(path), "b.csv");
+  EXPECT_EQ(FindForeign(path),
+            "b.csv, which is not listed in its manifest.json");
   EXPECT_FALSE(RemoveListed(path));
   EXPECT_TRUE(std::filesystem::exists(path / "b.csv"));
   EXPECT_FALSE(std::filesystem::exists(path / "a.csv"));
