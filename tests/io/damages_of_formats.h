@@ -121,6 +121,17 @@ inline void DamageList::AddTable() {
         return bytes.replace(at, 4, "\xFF\xFE\xFD\xFC");
       },
       Line(kDamagedRow));
+  if (stream_.table.rows.back().back().size() > 1) {
+    OfBytes("cut within its last number, which another is as short as",
+            [stream = stream_](const std::string&) {
+              TextRows table = stream.table;
+              table.rows[kDamagedRow].back().pop_back();
+              table.rows.back().back().pop_back();
+              std::string bytes = Encode(stream, table);
+              bytes.pop_back();
+              return bytes;
+            });
+  }
   OfTable(
       "a row cut short before a comment",
       [](TextRows* table) {
