@@ -149,6 +149,15 @@ class Child {
     return true;
   }
 
+  /// Halts it there, so that what is done meanwhile comes before its end
+  /// however slow it is; false as AwaitStage.
+  bool PauseAt(const std::string& stage) const {
+    if (!AwaitStage(stage)) return false;
+    Signal(SIGSTOP);
+    return true;
+  }
+  void Resume() const { Signal(SIGCONT); }
+
   /// What it has written to stderr so far.
   std::string Err() const { return Stream("err"); }
 

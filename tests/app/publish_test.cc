@@ -49,9 +49,10 @@ TEST_F(Publish, AFolderThatAppearsMeanwhileStays) {
   Child run({"run", "data/config.yaml", "--out=out", "--methods=ekf,batch",
              "--progress=json"},
             root());
-  ASSERT_TRUE(run.AwaitStage("ekf"));
+  ASSERT_TRUE(run.PauseAt("ekf"));
   fs::create_directory(root() / "out");
   WriteFile(root() / "out" / "thesis.txt", "mine");
+  run.Resume();
   const Outcome outcome = run.Wait();
   EXPECT_EQ(outcome.status, 4);
   EXPECT_THAT(Lines(outcome.err).back(),
@@ -66,8 +67,9 @@ TEST_F(Publish, WithForceAFolderThatAppearsMeanwhileStaysToo) {
   Child run({"run", "data/config.yaml", "--out=out", "--methods=ekf,batch",
              "--progress=json", "--force"},
             root());
-  ASSERT_TRUE(run.AwaitStage("ekf"));
+  ASSERT_TRUE(run.PauseAt("ekf"));
   ASSERT_EQ(Simulate({"--out=out"}).status, 0);
+  run.Resume();
   const Outcome outcome = run.Wait();
   EXPECT_EQ(outcome.status, 4);
   EXPECT_THAT(Names(root() / "out"), ::testing::Contains("imu.csv"));
@@ -142,8 +144,9 @@ TEST_F(Publish, WhatOthersPutIntoTheTemporaryFolderStaysTheirs) {
   };
   {
     Child child(run("ekf,batch"), root());
-    ASSERT_TRUE(child.AwaitStage("batch"));
+    ASSERT_TRUE(child.PauseAt("batch"));
     WriteFile(PartialOf(root()) / "thesis.txt", "mine");
+    child.Resume();
     const Outcome outcome = child.Wait();
     EXPECT_TRUE(HasResults(outcome)) << outcome.err;
   }
@@ -154,9 +157,10 @@ TEST_F(Publish, WhatOthersPutIntoTheTemporaryFolderStaysTheirs) {
   fs::remove_all(root() / "out");
   // Of a run that ends with nothing finished.
   Child child(run("batch"), root());
-  ASSERT_TRUE(child.AwaitStage("ekf"));
+  ASSERT_TRUE(child.PauseAt("ekf"));
   WriteFile(PartialOf(root()) / "thesis.txt", "mine");
   child.Signal(SIGTERM);
+  child.Resume();
   const Outcome outcome = child.Wait();
   EXPECT_EQ(outcome.status, 130);
   const fs::path left = PartialOf(root());
@@ -173,8 +177,9 @@ TEST_F(Publish, AFolderAboveThatIsRenamedMeanwhileIsFollowed) {
   for (const std::string stage : {"ekf", "batch"}) {
     fs::create_directory(root() / "above");
     Child run(words, root());
-    ASSERT_TRUE(run.AwaitStage(stage));
+    ASSERT_TRUE(run.PauseAt(stage));
     fs::rename(root() / "above", root() / "moved");
+    run.Resume();
     const Outcome outcome = run.Wait();
     EXPECT_EQ(outcome.status, 4) << outcome.err;
     const std::string said = Lines(outcome.err).back();
@@ -406,8 +411,9 @@ TEST_F(Publish, ResultsThatAppearInAnEmptyFolderMeanwhileStay) {
   Child run({"run", "data/config.yaml", "--out=out", "--methods=ekf,batch",
              "--progress=json"},
             root());
-  ASSERT_TRUE(run.AwaitStage("ekf"));
+  ASSERT_TRUE(run.PauseAt("ekf"));
   fs::copy(root() / "other", root() / "out");
+  run.Resume();
   const Outcome outcome = run.Wait();
   EXPECT_EQ(outcome.status, 4);
   EXPECT_THAT(outcome.err, HasSubstr("no longer empty"));
@@ -421,9 +427,10 @@ TEST_F(Publish, AnotherFolderOfTheSameNameStays) {
   Child run({"run", "data/config.yaml", "--out=out", "--force",
              "--methods=ekf,batch", "--progress=json"},
             root());
-  ASSERT_TRUE(run.AwaitStage("ekf"));
+  ASSERT_TRUE(run.PauseAt("ekf"));
   fs::remove_all(root() / "out");
   ASSERT_EQ(Simulate({"--out=out"}).status, 0);
+  run.Resume();
   const Outcome outcome = run.Wait();
   EXPECT_EQ(outcome.status, 4);
   EXPECT_THAT(outcome.err,
