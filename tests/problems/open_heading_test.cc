@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "evaluation/consistency.h"
+#include "evaluation/chi_square.h"
 #include "problems/montecarlo.h"
 #include "problems/reconstruction.h"
 #include "problems/rest_by_estimate.h"
