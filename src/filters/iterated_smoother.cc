@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace hindsight {
@@ -20,6 +21,51 @@ double LargestMove(const ErrorLayout& layout, const std::vector<ErrorVector>& d,
   return largest;
 }
 
+bool IsBelowTolerances(const ErrorLayout& layout,
+                       const std::vector<ErrorVector>& d,
+                       const IterationOptions& options) {
+  return LargestMove(layout, d, BlockKind::kPosition) <
+             options.position_tolerance &&
+         LargestMove(layout, d, BlockKind::kAttitude) <
+             options.attitude_tolerance;
+}
+
+void SumInnovations(const LinearTape& tape, IteratedResult* result) {
+  double nis = 0.0;
+  double rows = 0.0;
+  result->log_likelihood = 0.0;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      if (!z.accepted) continue;
+      result->log_likelihood += z.log_likelihood;
+      nis += z.nis;
+      rows += static_cast<double>(z.residual.size());
+    }
+  }
+  result->nis = rows > 0.0 ? nis / rows : 1.0;
+}
+
+/// Largest step of each iteration in standard deviations.
+class Steps {
+ public:
+  void Add(double step) {
+    before_ = last_;
+    last_ = step;
+  }
+  double last() const { return last_; }
+  /// Sum of those to come if each shrinks as the last did; infinite as long as
+  /// that is not known or they grow.
+  double Rest() const {
+    if (!(last_ < before_) || std::isinf(before_)) return kUnknown;
+    return last_ * last_ / (before_ - last_);
+  }
+
+ private:
+  static constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  double before_ = kUnknown;
+  double last_ = kUnknown;
+};
+
 }  // namespace
 
 IteratedResult SmoothIterated(const ErrorLayout& layout, const Prior& prior,
@@ -27,24 +73,33 @@ IteratedResult SmoothIterated(const ErrorLayout& layout, const Prior& prior,
                               const GateDecisions& decisions,
                               const IterationOptions& options) {
   IteratedResult result;
-  result.trajectory.states = std::move(nominal);
+  SmoothedTrajectory& trajectory = result.trajectory;
+  trajectory.states = std::move(nominal);
+  const bool with_covariances = options.rough == nullptr;
   std::vector<State> about;
-  for (int i = 0; i < options.max_iterations && !result.converged; ++i) {
-    about = std::move(result.trajectory.states);
-    result.trajectory = SmoothRts(RunLinearizedFilter(
-        layout, prior, about, timeline, decisions, options.callback));
-    ++result.iterations;
-    result.converged =
-        LargestMove(layout, result.trajectory.d, BlockKind::kPosition) <
-            options.position_tolerance &&
-        LargestMove(layout, result.trajectory.d, BlockKind::kAttitude) <
-            options.attitude_tolerance;
+  Steps steps;
+  for (int i = 1; i <= options.max_iterations && !result.converged; ++i) {
+    about = std::move(trajectory.states);
+    LinearTape tape = RunLinearizedFilter(layout, prior, about, timeline,
+                                          decisions, options.callback);
+    result.iterations = i;
+    SumInnovations(tape, &result);
+    const bool last = i == options.max_iterations;
+    trajectory = last && with_covariances ? SmoothRts(std::move(tape))
+                                          : SmoothMeans(tape);
+    result.converged = IsBelowTolerances(layout, trajectory.d, options);
+    if (!with_covariances) {
+      steps.Add(LargestMoveInSigmas(layout, about, trajectory.states,
+                                    *options.rough));
+      result.converged = result.converged || steps.Rest() < kNegligibleRest;
+    } else if (last) {
+      steps.Add(
+          LargestMoveInSigmas(layout, about, trajectory.states, trajectory.P));
+    } else if (result.converged) {
+      trajectory = SmoothRts(std::move(tape));
+    }
   }
-  if (!result.converged && result.iterations > 0) {
-    result.converged =
-        LargestMoveInSigmas(layout, about, result.trajectory.states,
-                            result.trajectory.P) < kSettledStep;
-  }
+  result.converged = result.converged || steps.last() < kSettledStep;
   return result;
 }
 

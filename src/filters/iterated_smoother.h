@@ -11,6 +11,11 @@ struct IterationOptions {
   /// Stops when no node moves farther than this.
   double position_tolerance = 1e-5;  ///< [m]
   double attitude_tolerance = 1e-8;  ///< [rad]
+  /// Rough covariances of the result, an epoch each: if given, what changes no
+  /// conclusion is left undone, and the result has none of its own. It stops
+  /// when the steps, as they shrink, have less than kNegligibleRest of these
+  /// sigmas to go in any component of position or attitude.
+  const CovarianceSeries* rough = nullptr;
   EpochCallback callback;
 };
 
@@ -20,10 +25,18 @@ struct IteratedResult {
   /// Stopped by the tolerances, or out of iterations with a last step of less
   /// than a hundredth of a standard deviation everywhere.
   bool converged = false;
+  /// Of the accepted measurements, linearised about the trajectory before the
+  /// last step.
+  double log_likelihood = 0.0;
+  /// Mean normalised squared innovation of a row, likewise; right is 1.
+  double nis = 0.0;
 };
 
 /// A step this small, in standard deviations, changes no conclusion.
 inline constexpr double kSettledStep = 0.01;
+
+/// The sum of steps to come that is as good as none [standard deviations].
+inline constexpr double kNegligibleRest = 0.003;
 
 /// Largest difference of two trajectories in a component of position or
 /// attitude, in its standard deviations.

@@ -19,17 +19,21 @@ class RtsPass {
   using Vector = Eigen::Matrix<double, Dim, 1, 0, kMax, 1>;
   using Matrix = Eigen::Matrix<double, Dim, Dim, 0, kMax, kMax>;
 
-  explicit RtsPass(const LinearTape& tape)
-      : tape_(tape), count_(tape.size()), d_(Vector::Zero(tape.dim())) {
+  RtsPass(const LinearTape& tape, bool covariances)
+      : tape_(tape),
+        covariances_(covariances),
+        count_(tape.size()),
+        d_(Vector::Zero(tape.dim())),
+        P_(Matrix::Zero(tape.dim(), tape.dim())) {
     out_.states.resize(count_);
     out_.d.resize(count_);
-    out_.P = CovarianceSeries(tape.dim(), count_);
+    if (covariances) out_.P = CovarianceSeries(tape.dim(), count_);
   }
 
   SmoothedTrajectory Run(LinearTape* consumed) {
     if (count_ == 0) return std::move(out_);
     if (!tape_.back().reset) d_ = tape_.back().dx_plus;
-    P_ = tape_.P_plus(count_ - 1);
+    if (covariances_) P_ = tape_.P_plus(count_ - 1);
     WriteEpoch(count_ - 1);
     for (std::size_t k = count_ - 1; k-- > 0;) {
       StepBack(k);
@@ -51,13 +55,19 @@ class RtsPass {
           "predicted covariance is not positive definite at t = " +
           std::to_string(tape_.epoch(k + 1).t) + " s");
     }
+    const Vector ahead = llt.solve(d_ - tape_.epoch(k + 1).dx_minus);
+    d_ = P_plus * Vector(Phi.transpose() * ahead);
+    if (!tape_.epoch(k).reset) d_ += tape_.epoch(k).dx_plus;
+    if (covariances_) StepCovarianceBack(k, Phi, P_plus, llt);
+  }
+
+  /// The same of P; `llt` of P_minus of epoch k + 1.
+  void StepCovarianceBack(std::size_t k, const Matrix& Phi,
+                          const Matrix& P_plus, const Eigen::LLT<Matrix>& llt) {
     const Matrix PhiP = TimesTransposed(P_plus, Phi).transpose();
     const Matrix C = llt.solve(PhiP).transpose();
     Matrix A = Matrix::Identity(tape_.dim(), tape_.dim());
     A -= Times(C, Phi);
-    const Vector ahead = d_ - tape_.epoch(k + 1).dx_minus;
-    d_ = C * ahead;
-    if (!tape_.epoch(k).reset) d_ += tape_.epoch(k).dx_plus;
     P_ += tape_.Q(k + 1);
     const Matrix CP = C * P_;
     P_.template triangularView<Eigen::Lower>() = CP * C.transpose();
@@ -72,7 +82,7 @@ class RtsPass {
   void WriteEpoch(std::size_t k) {
     const TapeEpoch& epoch = tape_.epoch(k);
     out_.states[k] = tape_.StateAt(k, d_);
-    out_.P.Set(k, P_);
+    if (covariances_) out_.P.Set(k, P_);
     if (epoch.moves_nominal()) {
       if (tape_.transports()) {
         ErrorVector d = d_;
@@ -87,27 +97,35 @@ class RtsPass {
   }
 
   const LinearTape& tape_;
+  bool covariances_;
   std::size_t count_;
   Vector d_;
   Matrix P_;
   SmoothedTrajectory out_;
 };
 
-SmoothedTrajectory Smooth(const LinearTape& tape, LinearTape* consumed) {
+SmoothedTrajectory Smooth(const LinearTape& tape, bool covariances,
+                          LinearTape* consumed) {
   RequireSmoothable(tape);
   constexpr int kAttitudeDim = 6;
   if (tape.dim() == kAttitudeDim) {
-    return RtsPass<kAttitudeDim>(tape).Run(consumed);
+    return RtsPass<kAttitudeDim>(tape, covariances).Run(consumed);
   }
-  return RtsPass<Eigen::Dynamic>(tape).Run(consumed);
+  return RtsPass<Eigen::Dynamic>(tape, covariances).Run(consumed);
 }
 
 }  // namespace
 
 SmoothedTrajectory SmoothRts(const LinearTape& tape) {
-  return Smooth(tape, nullptr);
+  return Smooth(tape, /*covariances=*/true, nullptr);
 }
 
-SmoothedTrajectory SmoothRts(LinearTape&& tape) { return Smooth(tape, &tape); }
+SmoothedTrajectory SmoothRts(LinearTape&& tape) {
+  return Smooth(tape, /*covariances=*/true, &tape);
+}
+
+SmoothedTrajectory SmoothMeans(const LinearTape& tape) {
+  return Smooth(tape, /*covariances=*/false, nullptr);
+}
 
 }  // namespace hindsight

@@ -79,6 +79,33 @@ TEST(ForwardFilter, IteratedSmootherOfExactDataReturnsToTheTruth) {
                           problem.truth);
 }
 
+TEST(ForwardFilter, IterationStopsWhereTheRestIsNegligible) {
+  const TestProblem problem = MakeProblem(Options(true), 4);
+  Timeline timeline = problem.MakeTimeline();
+  const GateDecisions all(problem.measurements.size(), 1);
+  std::vector<State> nominal = problem.truth;
+  Random random(8);
+  for (State& x : nominal) {
+    x = Retract(problem.layout, x,
+                testing::Draw(problem.layout.InitialCovariance(), &random));
+  }
+  const auto smooth = [&](const CovarianceSeries* rough) {
+    IterationOptions options;
+    options.rough = rough;
+    return SmoothIterated(problem.layout, problem.prior, nominal, &timeline,
+                          all, options);
+  };
+  const IteratedResult whole = smooth(nullptr);
+  const IteratedResult soon = smooth(&whole.trajectory.P);
+  EXPECT_TRUE(whole.converged && soon.converged);
+  EXPECT_LT(soon.iterations, whole.iterations);
+  EXPECT_TRUE(soon.trajectory.P.empty());
+  EXPECT_LT(LargestMoveInSigmas(problem.layout, soon.trajectory.states,
+                                whole.trajectory.states, whole.trajectory.P),
+            kNegligibleRest);
+  EXPECT_NEAR(soon.log_likelihood, whole.log_likelihood, 1e-3);
+}
+
 TEST(ForwardFilter, TapeTransitionIsTheDerivativeOfPropagation) {
   const TestProblem problem = MakeProblem(Options(true, true));
   Timeline timeline = problem.MakeTimeline();

@@ -128,6 +128,27 @@ TEST(Rts, ConsumingTheTapeGivesTheSameBits) {
   }
 }
 
+TEST(Rts, MeansAloneAreThoseWithCovariances) {
+  const TestProblem problem = NoisyProblem(true);
+  Timeline timeline = problem.MakeTimeline();
+  for (const bool reset : {false, true}) {
+    const LinearTape tape =
+        reset
+            ? RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline)
+            : FixedNominalTape(problem, &timeline);
+    const SmoothedTrajectory smoothed = SmoothRts(tape);
+    const SmoothedTrajectory means = SmoothMeans(tape);
+    EXPECT_TRUE(means.P.empty());
+    ASSERT_EQ(means.states.size(), smoothed.states.size());
+    for (std::size_t k = 0; k < smoothed.states.size(); ++k) {
+      EXPECT_EQ(means.d[k], smoothed.d[k]);
+      EXPECT_EQ(means.states[k].p_e, smoothed.states[k].p_e);
+      EXPECT_EQ(means.states[k].q_eb.coeffs(),
+                smoothed.states[k].q_eb.coeffs());
+    }
+  }
+}
+
 TEST(LinearTape, PopBackLeavesTheRestAndTakesNewEpochs) {
   const TestProblem problem = NoisyProblem(true);
   Timeline timeline = problem.MakeTimeline();
