@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "alignment/velocity_alignment.h"
+#include "alignment/alignment_window.h"
 #include "base/error.h"
 #include "base/processor_time.h"
 
@@ -59,7 +59,8 @@ TrialRun TryEarly(const Dataset& dataset, const AlignmentTrialOptions& trial) {
   TrialRun run;
   const double t0 = ProcessorSeconds();
   const auto found =
-      AlignOverWindow(InputOf(dataset, trial.t_early), trial.t_early);
+      AlignmentWindow(InputOf(dataset, trial.t_early), trial.t_early)
+          .Align(0.0);
   run.seconds = ProcessorSeconds() - t0;
   if (!found || !found->refined) return run;
   JudgeTrial(dataset, found->refined->layout, found->refined->states,

@@ -49,7 +49,7 @@ struct AlignmentStatistics {
   double seconds = 0.0;  ///< processor time, mean
 };
 
-/// Tries both on every seed: AlignOverWindow up to t_early, and the batch over
+/// Tries both on every seed: AlignmentWindow up to t_early, and the batch over
 /// the whole interval from the start that `alignment: velocity` finds. Empty
 /// where no run is finished.
 std::vector<AlignmentStatistics> TryAlignment(

@@ -26,8 +26,8 @@ std::optional<WindowSolution> Explain(const AlignmentInput& input, double t_end,
   start.b_g = input.b_g;
   start.b_a = input.b_a;
   start.P = attitude.P;
-  return SmoothWindow(input, t_end, start,
-                      AttitudePrior{start.q_eb, attitude.P});
+  return WindowSmoother(input, t_end, AttitudePrior{start.q_eb, attitude.P})
+      .Smooth(start, input.least_gyro_walk);
 }
 
 }  // namespace

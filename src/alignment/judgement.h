@@ -8,7 +8,7 @@
 namespace hindsight {
 
 /// By how much the log-evidence of attitude `a` exceeds that of `b`: the
-/// log-likelihoods of all that SmoothWindow uses, each with its attitude and
+/// log-likelihoods of all that WindowSmoother uses, each with its attitude and
 /// covariance as prior, over `nis` where the better one's exceeds one. Windows
 /// of 10, 20, 40... 160 s from the first measurement are tried until one
 /// decides by more than kDecided; the last is returned. Absent without aiding

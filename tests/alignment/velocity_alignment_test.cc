@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "alignment/alignment_window.h"
 #include "alignment/start.h"
 #include "evaluation/chi_square.h"
 #include "geometry/so3.h"
@@ -79,7 +80,7 @@ TEST(VelocityAlignment, ARefinementThatStraysIsNotBelieved) {
     input.t = input.fixes.front().t;
     input.p_e = input.fixes.front().p_e;
     input.gyro_sigma = dataset.initial.gyro_bias_sigma->maxCoeff();
-    const auto found = AlignOverWindow(input, input.t + 40.0);
+    const auto found = AlignmentWindow(input, input.t + 40.0).Align(0.0);
     ASSERT_TRUE(found);
     const Eigen::Vector3d e = Log(*testing::TruthAt(dataset, input.t).q_nb *
                                   found->attitude.q_nb.conjugate());
@@ -107,7 +108,7 @@ TEST(VelocityAlignment, TheRefinementEstimatesALeverArm) {
     ASSERT_EQ(sensor.lever_arm_b, l_b);
     sensor.lever_arm_b.setZero();
     sensor.lever_arm_sigma = Eigen::Vector3d::Constant(kPrior);
-    const auto found = AlignOverWindow(InputOf(dataset, kEnd), kEnd);
+    const auto found = AlignmentWindow(InputOf(dataset, kEnd), kEnd).Align(0.0);
     ASSERT_TRUE(found && found->refined) << seed;
     const WindowSolution& refined = *found->refined;
     const Block* block = refined.layout.Find(BlockKind::kLeverArm, 0);
@@ -138,7 +139,7 @@ TEST_P(InFlight, AlignsFromAnyAttitudeWithAnHonestCovariance) {
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
     Dataset dataset = recording.Realize(seed);
     MountAnywhere(seed, &dataset);
-    const auto found = AlignOverWindow(InputOf(dataset, kEnd), kEnd);
+    const auto found = AlignmentWindow(InputOf(dataset, kEnd), kEnd).Align(0.0);
     ASSERT_TRUE(found && found->refined) << seed;
     const TruthPoint& first = dataset.truth.front();
     const Eigen::Vector3d e =
@@ -161,7 +162,7 @@ TEST_P(InFlight, StraightFlightLeavesTheHeadingOpenAndSaysSo) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Dataset dataset = recording.Realize(seed);
     MountAnywhere(seed, &dataset);
-    const auto found = AlignOverWindow(InputOf(dataset, 9.0), 9.0);
+    const auto found = AlignmentWindow(InputOf(dataset, 9.0), 9.0).Align(0.0);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->attitude.heading,
               "unknown: too little acceleration, every heading fits nearly as "
