@@ -27,7 +27,7 @@ SmoothedTrajectory SmoothRts(const LinearTape& tape);
 /// The same, releasing the tape's memory on the way back.
 SmoothedTrajectory SmoothRts(LinearTape&& tape);
 
-/// The same without covariances, P empty, at a fifth of the cost.
+/// The same without covariances, P empty, at a fraction of the cost.
 SmoothedTrajectory SmoothMeans(const LinearTape& tape);
 
 }  // namespace hindsight
