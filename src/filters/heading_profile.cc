@@ -81,16 +81,6 @@ std::vector<State> Turned(const ErrorLayout& layout, double angle,
   return states;
 }
 
-double LogLikelihood(const LinearTape& tape) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    for (const TapeMeasurement& z : tape.measurements(k)) {
-      if (z.accepted) sum += z.log_likelihood;
-    }
-  }
-  return sum;
-}
-
 }  // namespace
 
 bool HeadingMayBeNoise(const ErrorLayout& layout,
@@ -112,17 +102,15 @@ double HeadingCurvature(const ErrorLayout& layout, const Prior& prior,
   constexpr double kSigmas = 2.0;
   constexpr double kTight = 0.02;  // of sigma
   IterationOptions options;
-  options.max_iterations = 3;
+  options.max_iterations = 4;
   const auto profile = [&](double angle) {
     std::vector<State> nominal = Turned(layout, angle, states);
     const KnownHeading known =
         KnowHeading(layout, prior, nominal.front(), kTight * sigma);
-    const IteratedResult solved = SmoothIterated(
-        layout, known.prior, std::move(nominal), timeline, decisions, options);
-    return known.log_density +
-           LogLikelihood(RunLinearizedFilter(layout, known.prior,
-                                             solved.trajectory.states, timeline,
-                                             decisions));
+    return known.log_density + SmoothIterated(layout, known.prior,
+                                              std::move(nominal), timeline,
+                                              decisions, options)
+                                   .log_likelihood;
   };
   try {
     const double turned =
