@@ -125,12 +125,15 @@ void WidenHeading(const ErrorLayout& layout, double curvature,
                   CovarianceSeries* P) {
   if (!(curvature < kCredibleHeading)) return;
   const int h = HeadingOf(layout);
+  constexpr double kMostlyNoise = 0.5;
   const double most = kPi * kPi / 3.0;  // variance of a uniform angle
   for (std::size_t k = 0; k < P->size(); ++k) {
     ErrorMatrix P_k = P->Get(k);
     const double variance = P_k(h, h);
-    const double square = curvature > 0.0 ? curvature * curvature : 0.0;
-    const double wider = std::min(variance / square, most);
+    const double wider =
+        curvature < kMostlyNoise
+            ? most
+            : std::min(variance / (curvature * curvature), most);
     if (!(wider > variance)) continue;
     const ErrorVector c = P_k.col(h) / variance;
     P_k += (wider - variance) * c * c.transpose();

@@ -41,9 +41,10 @@ inline constexpr double kCredibleHeading = 0.8;
 /// Covariances that claim of the heading what the likelihood has: its gradient
 /// has the variance 1/sigma^2 that the information claims, its curvature less,
 /// so that the variance of its maximum is sigma^2 / curvature^2 (the sandwich
-/// of Huber 1967), at most that of a uniform angle, (104 deg)^2. The rest
-/// follows by its correlation with the heading. Nothing is changed from
-/// kCredibleHeading on.
+/// of Huber 1967), at most that of a uniform angle, (104 deg)^2; and that much
+/// where more than half of the information is noise, as then the curvature is
+/// chance as well. The rest follows by its correlation with the heading.
+/// Nothing is changed from kCredibleHeading on.
 void WidenHeading(const ErrorLayout& layout, double curvature,
                   CovarianceSeries* P);
 
