@@ -253,7 +253,8 @@ TEST(ForwardFilter, NisAveragesItsDegreesOfFreedom) {
   // chi-square.
   double sum = 0.0;
   double dof = 0.0;
-  for (std::uint64_t seed = 1; seed <= testing::SeedCount(60); ++seed) {
+  constexpr auto kSeeds = static_cast<std::uint64_t>(testing::SeedCount(60));
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const TestProblem problem = MakeProblem(Options(true), seed);
     Timeline timeline = problem.MakeTimeline();
     const LinearTape tape =
