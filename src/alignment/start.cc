@@ -246,6 +246,36 @@ class StartFinder {
     return P;
   }
 
+  /// The a priori covariance of the estimation, which levels by the same
+  /// readings again.
+  ErrorMatrix PriorCovariance(const ErrorLayout& layout) const {
+    if (LevelHoldsAtAnyHeading()) return Covariance(layout, attitude_.reuse);
+    constexpr double kAnew = 10.0;
+    ErrorMatrix P = layout.InitialCovariance();
+    const int a = layout.Find(BlockKind::kAttitude)->offset;
+    P.block<3, 3>(a, a).setZero();
+    P.diagonal().segment<2>(a) =
+        kAnew * kAnew * attitude_.P.diagonal().head<2>();
+    P(a + 2, a + 2) = attitude_.P(2, 2);
+    return P;
+  }
+
+  /// Levelling knows tilt and accelerometer bias together, in body axes. In
+  /// NED, where the prior says so, a heading that is off by psi turns the tilt
+  /// against the bias by psi/2: where that is more than levelling leaves open,
+  /// the prior would say that the bias is small or the heading right.
+  bool LevelHoldsAtAnyHeading() const {
+    const Eigen::Matrix3d& P = attitude_.P;
+    const Eigen::Vector3d weight =
+        AccelBiasSigma(given()).cwiseAbs2().cwiseInverse();
+    const Eigen::Matrix<double, 2, 3> C =
+        attitude_.P_bias.topRightCorner<2, 3>();
+    const Eigen::Vector2d tilt = P.diagonal().head<2>();
+    const Eigen::Vector2d open =
+        tilt - (C * weight.asDiagonal() * C.transpose()).diagonal();
+    return 0.25 * P(2, 2) * tilt.maxCoeff() < open.maxCoeff();
+  }
+
   Start Finish() {
     Start start;
     State x = MakeState(t_, GeodeticFromEcef(position_e_), v_n_, euler_);
@@ -255,7 +285,7 @@ class StartFinder {
     x.parameters =
         InitialParameters(dataset_, start.layout, attitude_.travel_b);
     Prior known{x, Covariance(start.layout, 1.0)};
-    start.prior = {x, Covariance(start.layout, attitude_.reuse)};
+    start.prior = {x, PriorCovariance(start.layout)};
     if (t_ > from_ && !given().t) {
       ExtendBackward(start.layout, dataset_.imu, from_, &start.prior);
       ExtendBackward(start.layout, dataset_.imu, start.prior.x.t, &known);
