@@ -89,6 +89,7 @@ void ForwardStage::Settle(std::vector<double> offsets) {
   unsettled_.clear();
   relinearised_.reset();
   heading_curvature_ = 1.0;
+  turned_round_.reset();
   unobserved_.reset();
   timeline_ = BuildTimeline(dataset_, MakeTimelineOptions());
   RunOnce();
@@ -162,6 +163,31 @@ const Relinearised& ForwardStage::relinearised() {
   return *relinearised_;
 }
 
+void ForwardStage::JudgeHeading(const SmoothedTrajectory& last) {
+  heading_curvature_ = HeadingCurvature(
+      start_.layout, start_.prior, last.states, last.P, &timeline_, decisions_);
+  const std::string& alignment = start_.report.alignment;
+  if (alignment != "velocity" && alignment != "static") return;
+  const double log_odds = LogOddsOfTurnedRound(
+      start_.layout, start_.prior, last.states, last.P, &timeline_, decisions_);
+  const double odds = std::exp(log_odds);
+  constexpr double kImpossible = 1e-6;
+  if (odds < kImpossible) return;
+  turned_round_ = RivalSolution{.description = "heading turned by 180 deg",
+                                .differences = {{"heading", kPi, "rad"}},
+                                .log_evidence = log_odds,
+                                .probability = odds / (1.0 + odds),
+                                .final_state = std::nullopt};
+}
+
+const std::optional<RivalSolution>& ForwardStage::turned_round() {
+  if (!relinearised_ &&
+      MayBeTurnedRound(start_.layout, smoothed_->states, timeline_)) {
+    Relinearise();
+  }
+  return turned_round_;
+}
+
 double ForwardStage::heading_curvature() {
   if (!relinearised_ && HeadingMayBeNoise(start_.layout, smoothed_->states,
                                           smoothed_->P, timeline_)) {
@@ -178,6 +204,7 @@ CovarianceSeries ForwardStage::Relinearise() {
   constexpr double kNegligible = 0.1;  // sigma
   relinearised_.emplace();
   heading_curvature_ = 1.0;
+  turned_round_.reset();
   Relinearised& anew = *relinearised_;
   anew.smoother.largest = anew.smoother.rms =
       std::numeric_limits<double>::infinity();
@@ -199,9 +226,7 @@ CovarianceSeries ForwardStage::Relinearise() {
       last = std::move(next);
       if (step < kNegligible) break;
     }
-    heading_curvature_ =
-        HeadingCurvature(start_.layout, start_.prior, last.states, last.P,
-                         &timeline_, decisions_);
+    JudgeHeading(last);
     WidenHeading(start_.layout, heading_curvature_, &last.P);
     anew.variances = VariancesOf(start_.layout, last.P);
     anew.states = std::move(last.states);

@@ -11,6 +11,7 @@
 #include "problems/linearisation.h"
 #include "problems/node_placement.h"
 #include "problems/reconstruction.h"
+#include "state/rival_solution.h"
 #include "state/solution.h"
 
 namespace hindsight {
@@ -54,6 +55,9 @@ class ForwardStage {
   /// HeadingCurvature of the interval as linearised anew; found when first
   /// asked for.
   double heading_curvature();
+  /// The interval turned round, where its heading comes from its own motion and
+  /// that is nearly as likely; found when first asked for.
+  const std::optional<RivalSolution>& turned_round();
   /// Time offsets that the nodes are placed by, one a sensor [s].
   const std::vector<double>& offsets() const { return offsets_; }
   /// Sensor whose estimated time offset went on moving; empty: none.
@@ -79,6 +83,7 @@ class ForwardStage {
   void RunOnce();
   void JudgeObservability();
   CovarianceSeries Relinearise();
+  void JudgeHeading(const SmoothedTrajectory& last);
   SmoothedTrajectory SmoothTape(LinearTape tape) const;
   void RepeatWithSmoothedGates();
 
@@ -89,6 +94,7 @@ class ForwardStage {
   std::optional<std::vector<UnobservedSpan>> unobserved_;
   std::optional<Relinearised> relinearised_;
   double heading_curvature_ = 1.0;
+  std::optional<RivalSolution> turned_round_;
   Start start_;
   Timeline timeline_;
   std::optional<Solution> filtered_;

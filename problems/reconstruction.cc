@@ -38,7 +38,8 @@ std::vector<Evidence> ExamineRecording(const Dataset& dataset,
   for (std::string& warning : CheckMagnetometers(dataset)) {
     all.push_back({.rule = "magnetic_field",
                    .grade = Grade::kDoubtful,
-                   .what = std::move(warning)});
+                   .what = std::move(warning),
+                   .is_cause = true});
   }
   return all;
 }
@@ -57,6 +58,9 @@ struct Reconstruction::Impl {
     solution.forward = IsForward(method);
     solution.seconds = seconds;
     solution.rivals = clocks.rivals;
+    if (forward.turned_round()) {
+      solution.rivals.push_back(*forward.turned_round());
+    }
     const Start& start = forward.start();
     if (!solution.observer) {
       WidenHeading(solution.layout, forward.heading_curvature(),

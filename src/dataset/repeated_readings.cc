@@ -367,6 +367,7 @@ std::vector<Evidence> FindRepeatedReadings(const Dataset& dataset, double from,
         FrozenSpans(stream, held, is_stale));
     if (is_stale) evidence.push_back(StaleEvidence(stream.sensor.name, share));
   }
+  for (Evidence& found : evidence) found.is_cause = true;
   return evidence;
 }
 

@@ -14,10 +14,8 @@ namespace hindsight {
 namespace {
 
 void PassOnRecording(const Judged& judged, std::vector<Evidence>* evidence) {
-  for (const Evidence& found : judged.recording) {
-    evidence->push_back(found);
-    evidence->back().is_cause = true;
-  }
+  evidence->insert(evidence->end(), judged.recording.begin(),
+                   judged.recording.end());
 }
 
 void PassOnDisagreement(const Judged& judged, std::vector<Evidence>* evidence) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/error.h"
@@ -92,32 +93,93 @@ bool HeadingMayBeNoise(const ErrorLayout& layout,
          ForceOverNoise(layout, states, timeline) < kStrongMotion;
 }
 
+namespace {
+
+/// The log-likelihood over the heading at the first state, up to a constant.
+class Profile {
+ public:
+  Profile(const ErrorLayout& layout, const Prior& prior,
+          const std::vector<State>& states, const CovarianceSeries& P,
+          Timeline* timeline, const GateDecisions& decisions)
+      : layout_(layout),
+        prior_(prior),
+        states_(states),
+        timeline_(timeline),
+        decisions_(decisions),
+        sigma_(std::sqrt(P.Get(0)(HeadingOf(layout), HeadingOf(layout)))) {}
+
+  double sigma() const { return sigma_; }
+
+  /// With the heading `angle` from that of the states. Throws EstimationError.
+  double At(double angle) const {
+    constexpr double kTight = 0.02;  // of sigma
+    IterationOptions options;
+    options.max_iterations = 4;
+    std::vector<State> nominal = Turned(layout_, angle, states_);
+    const KnownHeading known =
+        KnowHeading(layout_, prior_, nominal.front(), kTight * sigma_);
+    return known.log_density + SmoothIterated(layout_, known.prior,
+                                              std::move(nominal), timeline_,
+                                              decisions_, options)
+                                   .log_likelihood;
+  }
+
+ private:
+  const ErrorLayout& layout_;
+  const Prior& prior_;
+  const std::vector<State>& states_;
+  Timeline* timeline_;
+  const GateDecisions& decisions_;
+  double sigma_;
+};
+
+}  // namespace
+
 double HeadingCurvature(const ErrorLayout& layout, const Prior& prior,
                         const std::vector<State>& states,
                         const CovarianceSeries& P, Timeline* timeline,
                         const GateDecisions& decisions) {
   if (!HeadingMayBeNoise(layout, states, P, *timeline)) return 1.0;
-  const int h = HeadingOf(layout);
-  const double sigma = std::sqrt(P.Get(0)(h, h));
   constexpr double kSigmas = 2.0;
-  constexpr double kTight = 0.02;  // of sigma
-  IterationOptions options;
-  options.max_iterations = 4;
-  const auto profile = [&](double angle) {
-    std::vector<State> nominal = Turned(layout, angle, states);
-    const KnownHeading known =
-        KnowHeading(layout, prior, nominal.front(), kTight * sigma);
-    return known.log_density + SmoothIterated(layout, known.prior,
-                                              std::move(nominal), timeline,
-                                              decisions, options)
-                                   .log_likelihood;
-  };
+  const Profile profile(layout, prior, states, P, timeline, decisions);
+  const double step = kSigmas * profile.sigma();
   try {
-    const double turned =
-        0.5 * (profile(-kSigmas * sigma) + profile(kSigmas * sigma));
-    return (profile(0.0) - turned) / (0.5 * kSigmas * kSigmas);
+    const double turned = 0.5 * (profile.At(-step) + profile.At(step));
+    return (profile.At(0.0) - turned) / (0.5 * kSigmas * kSigmas);
   } catch (const EstimationError&) {
     return 0.0;
+  }
+}
+
+bool MayBeTurnedRound(const ErrorLayout& layout,
+                      const std::vector<State>& states,
+                      const Timeline& timeline) {
+  constexpr double kTelling = 1e4;  // energy over that of the noise
+  const bool sides_alone =
+      std::any_of(timeline.sensors().begin(), timeline.sensors().end(),
+                  [](const Sensor& sensor) {
+                    return sensor.type == SensorType::kNonHolonomic;
+                  });
+  return sides_alone && HeadingOf(layout) >= 0 && states.size() > 1 &&
+         ForceOverNoise(layout, states, timeline) < kTelling;
+}
+
+double LogOddsOfTurnedRound(const ErrorLayout& layout, Prior prior,
+                            const std::vector<State>& states,
+                            const CovarianceSeries& P, Timeline* timeline,
+                            const GateDecisions& decisions) {
+  constexpr double kRefuted = -std::numeric_limits<double>::infinity();
+  if (!MayBeTurnedRound(layout, states, *timeline)) return kRefuted;
+  const int h = HeadingOf(layout);
+  prior.P.row(h).setZero();
+  prior.P.col(h).setZero();
+  constexpr double kAnything = 100.0;  // [rad]
+  prior.P(h, h) = kAnything * kAnything;
+  const Profile profile(layout, prior, states, P, timeline, decisions);
+  try {
+    return std::min(0.0, profile.At(kPi) - profile.At(0.0));
+  } catch (const EstimationError&) {
+    return kRefuted;
   }
 }
 

@@ -28,6 +28,22 @@ double HeadingCurvature(const ErrorLayout& layout, const Prior& prior,
                         const CovarianceSeries& P, Timeline* timeline,
                         const GateDecisions& decisions);
 
+/// ln of the likelihood of the trajectory turned round, heading + 180 deg and
+/// all else solved anew, over that of the states; not above 0. The prior's
+/// heading does not count: it is to come from the same measurements. Minus
+/// infinity unless MayBeTurnedRound, or if that cannot be solved for.
+double LogOddsOfTurnedRound(const ErrorLayout& layout, Prior prior,
+                            const std::vector<State>& states,
+                            const CovarianceSeries& P, Timeline* timeline,
+                            const GateDecisions& decisions);
+
+/// Whether a non-holonomic constraint tells the sides but not forward from
+/// backward, and the horizontal force, with less than ten thousand times the
+/// energy of the noise, may not tell either. Cheap.
+bool MayBeTurnedRound(const ErrorLayout& layout,
+                      const std::vector<State>& states,
+                      const Timeline& timeline);
+
 /// Whether the horizontal force, over seconds, has less than a hundred times
 /// the energy of the noise, and the heading at the first state is claimed to 20
 /// deg, above which nobody takes it for known. Cheap.

@@ -174,7 +174,8 @@ TEST_F(GradeTest, FaultOfTheRecordingIsNamedBeforeWhatComesOfIt) {
   for (ResidualRecord& r : solution_.residuals) r.nis = 3.0 * 50.0 * 50.0;
   const Evidence frozen{.rule = "frozen_imu",
                         .grade = Grade::kDoubtful,
-                        .what = "imu repeats one reading for 5 s from 20 s"};
+                        .what = "imu repeats one reading for 5 s from 20 s",
+                        .is_cause = true};
   ConcludeWith(
       {.solution = solution_, .sensors = sensors_, .recording = {frozen}});
   EXPECT_EQ(solution_.verdict,

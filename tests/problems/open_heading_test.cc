@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "base/units.h"
 #include "evaluation/chi_square.h"
@@ -102,6 +103,38 @@ TEST_F(OpenHeading, StaysSoWhereAVehicleOnlyRises) {
   }
 }
 
+/// A constraint of side and down speed fits forward and backward alike.
+TEST_F(OpenHeading, MayBeTurnedRoundWhereNothingTellsForwardFromBackward) {
+  Scenario scenario = Watched(0.1 / 60.0, 1.0, 0.5);
+  scenario.start_speed = 2.5;
+  scenario.segments = {Segment::Straight(60.0)};
+  const PerfectRecording recording(scenario);
+  for (int seed = 0; seed < testing::SeedCount(2, 40); ++seed) {
+    Dataset dataset =
+        recording.Realize(static_cast<std::uint64_t>(74000 + seed));
+    dataset.initial.alignment = AlignmentKind::kVelocity;
+    AidingStream wheels;
+    wheels.sensor.name = "wheels";
+    wheels.sensor.type = SensorType::kNonHolonomic;
+    const int index = static_cast<int>(dataset.streams.size());
+    for (int i = 0; i < 600; ++i) {
+      Odometer straight{.form = Odometer::Form::kNonHolonomic};
+      straight.sigma.setConstant(0.05);
+      wheels.measurements.push_back({0.1 * i, index, false, straight});
+    }
+    dataset.streams.push_back(std::move(wheels));
+    const Solution solution = Solve(dataset, {});
+    SCOPED_TRACE(::testing::Message()
+                 << 74000 + seed << " " << solution.verdict);
+    EXPECT_NE(solution.grade, Grade::kUsable);
+    ASSERT_FALSE(solution.rivals.empty());
+    const RivalSolution& round = solution.rivals.back();
+    EXPECT_EQ(round.description, "heading turned by 180 deg");
+    EXPECT_GT(round.probability, 0.05);
+    EXPECT_LE(round.probability, 0.5);
+  }
+}
+
 /// Where motion tells it, noise is a small part of what is known of it.
 TEST_F(OpenHeading, IsAsSureAsItSaysWhereAVehicleMoves) {
   Scenario scenario = Watched(3.0 / 60.0, 1.0, 0.05);
@@ -126,6 +159,7 @@ TEST_F(OpenHeading, IsAsSureAsItSaysWhereAVehicleMoves) {
               TrueStates(dataset, solution.layout, solution.states)[k])(h);
     const double P = solution.covariances.Get(k)(h, h);
     EXPECT_LT(std::sqrt(P), 10.0 * kDegree) << 73000 + seed;
+    EXPECT_TRUE(solution.rivals.empty()) << 73000 + seed;
     nees += e * e / P;
   }
   const Interval bounds = AneesBounds(seeds, 1, 0.998);
