@@ -53,6 +53,10 @@ std::vector<ProfilePoint> Lift() {
   return points;
 }
 
+int Seeds(int usual) {
+  return testing::kSanitized ? 1 : testing::SeedCount(usual, 40);
+}
+
 class OpenHeading : public ::testing::Test {
  protected:
   /// No method is usable; those that end linearised about their own result say
@@ -83,7 +87,7 @@ TEST_F(OpenHeading, StaysSoWhereAVehicleOnlyStands) {
   Scenario scenario = Watched(0.2 / 60.0, 1.0, 0.02);
   scenario.segments = {Segment::Stop(600.0)};
   const PerfectRecording recording(scenario);
-  for (int seed = 0; seed < testing::SeedCount(2, 40); ++seed) {
+  for (int seed = 0; seed < Seeds(2); ++seed) {
     Dataset dataset =
         recording.Realize(static_cast<std::uint64_t>(71000 + seed));
     SCOPED_TRACE(::testing::Message() << "seed " << 71000 + seed);
@@ -97,7 +101,7 @@ TEST_F(OpenHeading, StaysSoWhereAVehicleOnlyRises) {
   Scenario scenario = Watched(0.05 / 60.0, 10.0, 0.005);
   scenario.profile = Lift();
   const PerfectRecording recording(scenario);
-  for (int seed = 0; seed < testing::SeedCount(1, 40); ++seed) {
+  for (int seed = 0; seed < Seeds(1); ++seed) {
     SCOPED_TRACE(::testing::Message() << "seed " << 72000 + seed);
     ExpectOpen(recording.Realize(static_cast<std::uint64_t>(72000 + seed)));
   }
@@ -109,7 +113,7 @@ TEST_F(OpenHeading, MayBeTurnedRoundWhereNothingTellsForwardFromBackward) {
   scenario.start_speed = 2.5;
   scenario.segments = {Segment::Straight(60.0)};
   const PerfectRecording recording(scenario);
-  for (int seed = 0; seed < testing::SeedCount(2, 40); ++seed) {
+  for (int seed = 0; seed < Seeds(2); ++seed) {
     Dataset dataset =
         recording.Realize(static_cast<std::uint64_t>(74000 + seed));
     dataset.initial.alignment = AlignmentKind::kVelocity;

@@ -9,6 +9,7 @@
 #include "evaluation/chi_square.h"
 #include "problems/reconstruction.h"
 #include "simulation/builtin_scenarios.h"
+#include "support/seed_count.h"
 
 namespace hindsight {
 namespace {
@@ -153,7 +154,7 @@ std::vector<double> AverageNees(const std::vector<double>& instants, int runs,
   return nees;
 }
 
-constexpr int kRuns = 25;
+constexpr int kRuns = testing::kSanitized ? 10 : 25;
 
 TEST(Streams, JitterOddRatesAndDifferentSpansStayConsistent) {
   // Before the first fix, while all sensors speak, after the last fix.
