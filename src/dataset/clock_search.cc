@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <cstdio>
 
 #include "base/text.h"
 #include "dataset/clock_comparison.h"
@@ -176,11 +175,12 @@ bool TakeClock(const ClockSearch& found, AidingStream* stream) {
 std::string Describe(const ClockSearch& search) {
   std::string words;
   for (const ClockCandidate& candidate : search.candidates) {
-    char text[120];
-    std::snprintf(text, sizeof(text), "%s%.4f s, sigma %.2g ms, misfit %.2g",
-                  words.empty() ? "" : "; or ", candidate.offset,
-                  1e3 * candidate.sigma, candidate.misfit);
-    words += text;
+    const std::string sigma =
+        std::isfinite(candidate.sigma)
+            ? Format("sigma %.2g ms", 1e3 * candidate.sigma)
+            : "sigma unknown";
+    words += Format("%s%.4f s, %s, misfit %.2g", words.empty() ? "" : "; or ",
+                    candidate.offset, sigma.c_str(), candidate.misfit);
   }
   if (search.left_out > 0) {
     words += "; and " + std::to_string(search.left_out) + " more";

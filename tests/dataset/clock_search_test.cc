@@ -192,6 +192,15 @@ TEST(ClockSearch, WithheldMeasurementsTakeNoPart) {
                   .candidates.empty());
 }
 
+TEST(ClockSearch, ASigmaThatIsNoNumberIsSaidToBeUnknown) {
+  ClockSearch search;
+  search.candidates = {{0.25, 0.003, 0.1}, {-1.5, std::nan(""), 0.2}};
+  search.compared = "positions";
+  EXPECT_EQ(Describe(search),
+            "0.2500 s, sigma 3 ms, misfit 0.1; or -1.5000 s, sigma unknown, "
+            "misfit 0.2; from positions");
+}
+
 TEST(ClockSearch, OffsetsLeaveHalfOfTheShorterRecord) {
   const OffsetRange range = OverlappingOffsets(100.0, 200.0, 0.0, 20.0);
   EXPECT_DOUBLE_EQ(range.from, 90.0);
