@@ -94,21 +94,6 @@ RivalSolution Tell(const Dataset& dataset,
   return out;
 }
 
-/// Probabilities from the evidence, the likeliest first.
-void SetProbabilities(std::vector<RivalSolution>* rivals) {
-  double sum = 1.0;
-  for (const RivalSolution& rival : *rivals) {
-    sum += std::exp(rival.log_evidence);
-  }
-  for (RivalSolution& rival : *rivals) {
-    rival.probability = std::exp(rival.log_evidence) / sum;
-  }
-  std::stable_sort(rivals->begin(), rivals->end(),
-                   [](const RivalSolution& a, const RivalSolution& b) {
-                     return a.log_evidence > b.log_evidence;
-                   });
-}
-
 /// LogEvidenceRatio of pairs, each computed once.
 class EvidenceTable {
  public:

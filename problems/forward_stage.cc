@@ -170,13 +170,11 @@ void ForwardStage::JudgeHeading(const SmoothedTrajectory& last) {
   if (alignment != "velocity" && alignment != "static") return;
   const double log_odds = LogOddsOfTurnedRound(
       start_.layout, start_.prior, last.states, last.P, &timeline_, decisions_);
-  const double odds = std::exp(log_odds);
-  constexpr double kImpossible = 1e-6;
-  if (odds < kImpossible) return;
+  constexpr double kImpossible = 1e-6;  // odds
+  if (std::exp(log_odds) < kImpossible) return;
   turned_round_ = RivalSolution{.description = "heading turned by 180 deg",
                                 .differences = {{"heading", kPi, "rad"}},
                                 .log_evidence = log_odds,
-                                .probability = odds / (1.0 + odds),
                                 .final_state = std::nullopt};
 }
 

@@ -56,7 +56,8 @@ class ForwardStage {
   /// asked for.
   double heading_curvature();
   /// The interval turned round, where its heading comes from its own motion and
-  /// that is nearly as likely; found when first asked for.
+  /// that is nearly as likely, without its probability among others; found when
+  /// first asked for.
   const std::optional<RivalSolution>& turned_round();
   /// Time offsets that the nodes are placed by, one a sensor [s].
   const std::vector<double>& offsets() const { return offsets_; }

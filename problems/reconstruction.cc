@@ -1,5 +1,6 @@
 #include "problems/reconstruction.h"
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -60,10 +61,12 @@ struct Reconstruction::Impl {
     solution.rivals = clocks.rivals;
     if (forward.turned_round()) {
       solution.rivals.push_back(*forward.turned_round());
+      SetProbabilities(&solution.rivals);
     }
     const Start& start = forward.start();
     if (!solution.observer) {
-      WidenHeading(solution.layout, forward.heading_curvature(),
+      WidenHeading(solution.layout,
+                   std::min(forward.heading_curvature(), own_curvature),
                    &solution.covariances);
     }
     Conclude(
@@ -84,6 +87,7 @@ struct Reconstruction::Impl {
          .disagreement = DisagreementOf(method, solution)},
         forward.unobserved(), &solution);
     own_unsettled.clear();
+    own_curvature = 1.0;
     return solution;
   }
 
@@ -145,6 +149,12 @@ struct Reconstruction::Impl {
   Solution FromSmoothed(std::vector<State> states, CovarianceSeries P) {
     return FromSmoothed(std::move(states), std::move(P),
                         {&forward.timeline(), &forward.decisions(), nullptr});
+  }
+
+  void JudgeHeading(const Solution& solution, const Stage& stage) {
+    own_curvature = HeadingCurvature(
+        forward.start().layout, forward.start().prior, solution.states,
+        solution.covariances, stage.timeline, *stage.decisions);
   }
 
   Solution RunEkf() {
@@ -212,6 +222,7 @@ struct Reconstruction::Impl {
                                   std::move(result.trajectory.P), stage);
       one.iterations = result.iterations;
       one.converged = result.converged;
+      JudgeHeading(one, stage);
       return one;
     });
     return Finish(std::move(solution), Method::kIterated,
@@ -241,6 +252,7 @@ struct Reconstruction::Impl {
           FromSmoothed(std::move(result.states), std::move(result.P), stage);
       one.iterations = result.iterations;
       one.converged = result.converged;
+      JudgeHeading(one, stage);
       return one;
     });
     return Finish(std::move(solution), Method::kBatch, ProcessorSeconds() - t0);
@@ -349,6 +361,9 @@ struct Reconstruction::Impl {
   OptimumComparison optima;
   /// Sensor whose time offset a method's own nodes did not settle; empty: none.
   std::string own_unsettled;
+  /// HeadingCurvature of a method's own result, which may lie elsewhere than
+  /// the forward stage's.
+  double own_curvature = 1.0;
 };
 
 Reconstruction::Reconstruction(const Dataset& dataset,

@@ -51,12 +51,10 @@ std::string GeneralHelp(const std::vector<Command>& commands) {
   }
   out << "\n'hindsight COMMAND --help' describes a command and its flags;\n"
          "'hindsight --version' prints the version.\n\n"
-         "Exit status: 0 usable answer, 3 doubtful answer, 1 no usable "
-         "answer,\n"
-         "2 wrong usage or bad input, 4 results that could not be written or "
-         "put "
-         "in\n"
-         "place, 130 stopped by Ctrl-C. Errors are one line on stderr.\n";
+         "Exit status: 0 usable answer, 3 doubtful, 1 no usable answer,\n"
+         "2 wrong usage or bad input, 4 results that could not be written or\n"
+         "put in place, 130 stopped by Ctrl-C. Errors are one line on "
+         "stderr.\n";
   return out.str();
 }
 

@@ -30,6 +30,9 @@ struct RivalSolution {
   std::optional<State> final_state;  ///< where it ends
 };
 
+/// Sets the probabilities by the evidence and puts the likeliest first.
+void SetProbabilities(std::vector<RivalSolution>* rivals);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_STATE_RIVAL_SOLUTION_H_
