@@ -148,19 +148,55 @@ std::vector<SolvedClocks> SolveAll(
   return solved;
 }
 
+/// Where nothing was known of a clock its prior is to be at its estimate, that
+/// it pulls nowhere.
+std::vector<double> OffsetsOf(const std::vector<std::size_t>& streams,
+                              const Dataset& dataset,
+                              const SolvedClocks& chosen) {
+  std::vector<double> offsets = chosen.offsets;
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    if (!dataset.streams[streams[i]].clock_unknown) continue;
+    offsets[i] = FinalOffset(chosen, streams[i]);
+  }
+  return offsets;
+}
+
+/// Whether the clocks stand within half the resolution of where they stood.
+bool Stayed(const std::vector<ClockQuestion>& questions,
+            const SolvedClocks& one, const SolvedClocks& other) {
+  return std::all_of(questions.begin(), questions.end(),
+                     [&](const ClockQuestion& question) {
+                       return std::abs(FinalOffset(one, question.stream) -
+                                       FinalOffset(other, question.stream)) <
+                              0.5 * question.resolution;
+                     });
+}
+
 /// The stage of what was chosen, from the start that FindStart finds, which is
-/// told; from the coarse one if that leads elsewhere.
-std::unique_ptr<ForwardStage> StageOf(const std::vector<std::size_t>& streams,
-                                      const ReconstructionOptions& options,
-                                      const Dataset& dataset,
-                                      SolvedClocks* chosen) {
-  if (!chosen->from_coarse) return std::move(chosen->stage);
+/// told; as it was compared if that leads elsewhere.
+std::unique_ptr<ForwardStage> StageOf(
+    const std::vector<ClockQuestion>& questions,
+    const ReconstructionOptions& options, SolvedClocks* chosen,
+    Dataset* dataset) {
+  constexpr int kMost = 3;
+  const std::vector<std::size_t> streams = StreamsOf(questions);
+  SolvedClocks last;
+  const SolvedClocks* before = chosen;
   try {
-    SolvedClocks told = SolveWithClocks(chosen->offsets, options, dataset);
-    if (SameEnd(streams, told, *chosen)) return std::move(told.stage);
+    for (int i = 0; i < kMost; ++i) {
+      PlaceClocks(questions, OffsetsOf(streams, *dataset, *before), dataset);
+      SolvedClocks told = SolveWithClocks(chosen->offsets, options, *dataset);
+      if (!Stayed(questions, told, *chosen)) break;
+      const bool same = SameEnd(streams, told, *before);
+      last = std::move(told);
+      before = &last;
+      if (same) break;
+    }
   } catch (const EstimationError&) {
     // What was compared did come to an end.
   }
+  if (last.stage) return std::move(last.stage);
+  PlaceClocks(questions, chosen->offsets, dataset);
   return std::move(chosen->stage);
 }
 
@@ -193,8 +229,7 @@ ClockChoice ChooseClocks(const Dataset& dataset,
       Combinations(questions) - static_cast<double>(combinations.size()),
       &choice.rivals);
   SolvedClocks& best = solved[ranking.best];
-  PlaceClocks(questions, best.offsets, choice.dataset.get());
-  choice.stage = StageOf(streams, options, *choice.dataset, &best);
+  choice.stage = StageOf(questions, options, &best, choice.dataset.get());
   return choice;
 }
 

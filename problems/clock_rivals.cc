@@ -14,13 +14,6 @@
 namespace hindsight {
 namespace {
 
-double FinalOffset(const SolvedClocks& solved, std::size_t stream) {
-  const ErrorLayout& layout = solved.stage->start().layout;
-  const Block* block =
-      layout.Find(BlockKind::kTimeOffset, static_cast<int>(stream));
-  return solved.states.back().parameters(block->parameter_offset);
-}
-
 /// Mean of the heading of `rival` less that of `chosen` at the same times
 /// [rad].
 double HeadingBetween(const std::vector<State>& rival,
@@ -129,6 +122,13 @@ ClockRanking RankAsTheyAre(std::size_t count, EvidenceTable* table) {
 
 }  // namespace
 
+double FinalOffset(const SolvedClocks& solved, std::size_t stream) {
+  const ErrorLayout& layout = solved.stage->start().layout;
+  const Block* block =
+      layout.Find(BlockKind::kTimeOffset, static_cast<int>(stream));
+  return solved.states.back().parameters(block->parameter_offset);
+}
+
 bool SameEnd(const std::vector<std::size_t>& streams, const SolvedClocks& one,
              const SolvedClocks& other) {
   return DifferencesOf(streams, one, other).none();
@@ -148,7 +148,7 @@ void RemoveSame(const std::vector<std::size_t>& streams,
 }
 
 ClockRanking Rank(const Dataset& dataset, std::vector<SolvedClocks>* solved) {
-  constexpr double kNear = 25.0;
+  constexpr double kNear = 200.0;
   EvidenceTable table(dataset, *solved);
   for (;;) {
     ClockRanking ranking = RankAsTheyAre(solved->size(), &table);

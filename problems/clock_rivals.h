@@ -9,6 +9,9 @@
 
 namespace hindsight {
 
+/// The time offset of a stream where it ends [s].
+double FinalOffset(const SolvedClocks& solved, std::size_t stream);
+
 /// Whether two came to the same end: clocks of `streams` within 20 ms, heading
 /// within 5 deg.
 bool SameEnd(const std::vector<std::size_t>& streams, const SolvedClocks& one,

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "alignment/clock_slack.h"
 #include "alignment/coarse_alignment.h"
 #include "alignment/velocity_alignment.h"
 #include "base/error.h"
@@ -44,12 +45,15 @@ std::optional<InitialState> CoarseInitial(
   if (!coarse) return std::nullopt;
   InitialState initial = given;
   initial.t = input.t;
-  initial.euler = EulerFromQuaternion(
-      Eigen::Quaterniond(NedAxes(input.p_e).transpose()) * coarse->q_eb);
+  const Eigen::Quaterniond q_nb =
+      Eigen::Quaterniond(NedAxes(input.p_e).transpose()) * coarse->q_eb;
+  initial.euler = EulerFromQuaternion(q_nb);
+  const Eigen::Vector3d turn_n =
+      TurnWithin(ClockSigma(dataset), dataset.imu, input.t, q_nb, input.b_g);
   // As white errors have it, which those of a wrong clock are not.
-  initial.attitude_sigma =
-      (3.0 * coarse->P.diagonal().cwiseSqrt().array() + kDegree)
-          .min(kUnknownHeadingSigma);
+  initial.attitude_sigma = (3.0 * coarse->P.diagonal().cwiseSqrt().array() +
+                            kDegree + turn_n.array().abs())
+                               .min(kUnknownHeadingSigma);
   return initial;
 }
 
@@ -71,9 +75,6 @@ std::optional<Start> CoarseStart(const ReconstructionOptions& options,
 SolvedClocks Settled(const std::vector<double>& offsets,
                      std::unique_ptr<ForwardStage> stage) {
   stage->Run();
-  if (!stage->unsettled().empty()) {
-    throw EstimationError("the clocks do not settle");
-  }
   SolvedClocks solved;
   solved.offsets = offsets;
   solved.states = stage->smoothed().states;
@@ -94,11 +95,8 @@ SolvedClocks SolveCoarsely(const std::vector<double>& offsets,
                            Dataset* dataset) {
   if (std::optional<Start> start = CoarseStart(options, dataset)) {
     try {
-      SolvedClocks solved = Settled(
-          offsets,
-          std::make_unique<ForwardStage>(*dataset, options, std::move(*start)));
-      solved.from_coarse = true;
-      return solved;
+      return Settled(offsets, std::make_unique<ForwardStage>(
+                                  *dataset, options, std::move(*start)));
     } catch (const EstimationError&) {
       // From the attitude as FindStart has it, it may.
     }

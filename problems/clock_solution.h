@@ -13,7 +13,6 @@ struct SolvedClocks {
   std::vector<double> offsets;  ///< from which it was solved [s]
   std::unique_ptr<ForwardStage> stage;
   std::vector<State> states;  ///< a node; smoothed, after Converge the batch's
-  bool from_coarse = false;   ///< began with the attitude of AlignCoarsely
   bool converged = false;     ///< Converge was called
 };
 

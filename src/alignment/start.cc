@@ -8,6 +8,7 @@
 
 #include "alignment/alignment.h"
 #include "alignment/backward_extension.h"
+#include "alignment/clock_slack.h"
 #include "alignment/given.h"
 #include "alignment/levelling.h"
 #include "base/error.h"
@@ -31,7 +32,8 @@ class StartFinder {
   StartFinder(const Dataset& dataset, double from, double to)
       : dataset_(dataset),
         from_(std::max(from, dataset.imu.t_begin())),
-        to_(std::min(to, dataset.imu.t_end())) {}
+        to_(std::min(to, dataset.imu.t_end())),
+        clock_sigma_(ClockSigma(dataset)) {}
 
   Start Find() {
     if (!(from_ < to_)) {
@@ -128,6 +130,11 @@ class StartFinder {
       attitude_.P_bias.setZero();
       attitude_.reuse = 1.0;
     }
+    if (choice.kind == AlignmentKind::kVelocity) {
+      const Eigen::Vector3d turn_n =
+          TurnWithin(clock_sigma_, dataset_.imu, t_, attitude_.q_nb, b_g_);
+      attitude_.P += turn_n * turn_n.transpose();
+    }
     if (attitude_.b_g) {
       b_g_ = *attitude_.b_g;
       b_g_sigma_ = b_g_sigma_.cwiseMin(attitude_.reuse * attitude_.b_g_sigma);
@@ -182,7 +189,8 @@ class StartFinder {
   /// Unless a better one is there.
   void TakeVelocity(const Eigen::Vector3d& v_n, double sigma, double t) {
     // It is used again as a measurement, or made of fixes that are.
-    const double loose = 3.0 * sigma + 3.0 * std::abs(t - t_) + 0.2;
+    const double loose =
+        3.0 * sigma + 3.0 * (std::abs(t - t_) + clock_sigma_) + 0.2;
     if (loose >= v_sigma_.x()) return;
     v_n_ = v_n;
     v_sigma_.setConstant(loose);
@@ -205,7 +213,8 @@ class StartFinder {
     position_e_ = fix.p_e - C_en * (lever_n + (fix.t - t_) * v_n_);
     const double lever = lever_arm_b.norm();
     const double swing = lever * std::min(std::sqrt(attitude_.P.trace()), 1.0) +
-                         std::abs(fix.t - t_) * v_sigma_.x();
+                         std::abs(fix.t - t_) * v_sigma_.x() +
+                         clock_sigma_ * (v_n_.norm() + v_sigma_.x());
     // The fix itself is used again as a measurement: its own sigma would count
     // it twice.
     p_sigma_ = 3.0 * fix.R_n.diagonal().cwiseSqrt();
@@ -318,6 +327,7 @@ class StartFinder {
   const Dataset& dataset_;
   double from_;
   double to_;
+  double clock_sigma_;
   std::vector<TimedFix> fixes_;
   std::vector<TimedVelocity> velocities_;
   std::vector<TimeInterval> rests_;

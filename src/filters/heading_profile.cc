@@ -13,7 +13,7 @@
 namespace hindsight {
 namespace {
 
-constexpr double kUnknown = 20.0 * kDegree;
+constexpr double kUnknown = 50.0 * kDegree;
 constexpr double kStrongMotion = 100.0;  // energy over that of the noise
 constexpr double kSpan = 1.0;            // [s]
 
@@ -140,12 +140,12 @@ double HeadingCurvature(const ErrorLayout& layout, const Prior& prior,
                         const CovarianceSeries& P, Timeline* timeline,
                         const GateDecisions& decisions) {
   if (!HeadingMayBeNoise(layout, states, P, *timeline)) return 1.0;
-  constexpr double kSigmas = 2.0;
   const Profile profile(layout, prior, states, P, timeline, decisions);
-  const double step = kSigmas * profile.sigma();
+  const double step = std::min(2.0 * profile.sigma(), 0.5 * kPi);
+  const double sigmas = step / profile.sigma();
   try {
     const double turned = 0.5 * (profile.At(-step) + profile.At(step));
-    return (profile.At(0.0) - turned) / (0.5 * kSigmas * kSigmas);
+    return (profile.At(0.0) - turned) / (0.5 * sigmas * sigmas);
   } catch (const EstimationError&) {
     return 0.0;
   }

@@ -18,11 +18,10 @@ namespace hindsight {
 ///
 /// The profile of the likelihood L over the heading psi at the first state, all
 /// else solved anew for each, tells:
-///   curvature = (L(0) - (L(-d) + L(d)) / 2) / (d^2 / (2 sigma^2)),  d = 2
-///   sigma
-/// with sigma as P has it; 1 where the problem is linear, 0 where the data fit
-/// any heading. Taken for 1 unless HeadingMayBeNoise; 0 if another heading
-/// cannot be solved for.
+///   curvature = (L(0) - (L(-d) + L(d)) / 2) / (d^2 / (2 sigma^2)),
+/// d = 2 sigma, at most a quarter turn, with sigma as P has it; 1 where the
+/// problem is linear, 0 where the data fit any heading. Taken for 1 unless
+/// HeadingMayBeNoise; 0 if another heading cannot be solved for.
 double HeadingCurvature(const ErrorLayout& layout, const Prior& prior,
                         const std::vector<State>& states,
                         const CovarianceSeries& P, Timeline* timeline,
@@ -45,8 +44,9 @@ bool MayBeTurnedRound(const ErrorLayout& layout,
                       const Timeline& timeline);
 
 /// Whether the horizontal force, over seconds, has less than a hundred times
-/// the energy of the noise, and the heading at the first state is claimed to 20
-/// deg, above which nobody takes it for known. Cheap.
+/// the energy of the noise, and the heading at the first state is claimed to 50
+/// deg, above which it is claimed hardly better than any angle (104 deg).
+/// Cheap.
 bool HeadingMayBeNoise(const ErrorLayout& layout,
                        const std::vector<State>& states,
                        const CovarianceSeries& P, const Timeline& timeline);

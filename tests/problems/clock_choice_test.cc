@@ -134,6 +134,68 @@ TEST(ClockChoice, AnUnknownClockOfARegularFlightIsRightOrTold) {
   RecordProperty("told", std::to_string(all.told));
 }
 
+/// Circles of 10 m at 5 m/s: every clock fits, with the heading that goes with
+/// it, but for what the Earth's rotation tells of north.
+Scenario SteadyCircle() {
+  constexpr double kSpeed = 5.0, kTurn = 0.5;
+  const double radius_of_earth = 6.38e6;
+  Scenario s;
+  s.start = {48.0 * kDegree, 11.5 * kDegree, 500.0};
+  for (int i = 0; i <= 3000; ++i) {
+    ProfilePoint point;
+    point.t = 0.02 * i;
+    const double heading = kTurn * point.t;
+    const double north = kSpeed / kTurn * std::sin(heading);
+    const double east = kSpeed / kTurn * (1.0 - std::cos(heading));
+    point.position = s.start;
+    point.position.lat += north / radius_of_earth;
+    point.position.lon += east / (radius_of_earth * std::cos(s.start.lat));
+    point.v_n = {kSpeed * std::cos(heading), kSpeed * std::sin(heading), 0.0};
+    point.euler.z() = heading;
+    s.profile.push_back(point);
+  }
+  s.imu_rate_hz = 100.0;
+  s.imu.noise.gyro_noise_density = 0.1 * kDegree / 60.0;
+  s.imu.noise.accel_noise_density = 0.05 / 60.0;
+  s.imu.gyro_bias_sigma.setConstant(30.0 * kDegree / 3600.0);
+  s.imu.accel_bias_sigma.setConstant(0.02);
+  AidingModel gnss;
+  gnss.sensor.name = "gnss";
+  gnss.sensor.type = SensorType::kPosition;
+  gnss.rate_hz = 5.0;
+  gnss.sigma = {0.02, 0.02, 0.03};
+  s.aiding = {gnss};
+  return s;
+}
+
+/// Share of the nodes at which the heading is more than five sigmas off.
+double WrongHeadings(const Solution& solution, const Dataset& dataset) {
+  double wrong = 0.0;
+  auto point = dataset.truth.begin();
+  for (std::size_t k = 0; k < solution.states.size(); ++k) {
+    const State& x = solution.states[k];
+    while (point + 1 != dataset.truth.end() && (point + 1)->t <= x.t) ++point;
+    const double e =
+        WrapAngle(x.euler().z() - EulerFromQuaternion(*point->q_nb).z());
+    const double variance = solution.covariances.Get(k)(8, 8);
+    if (e * e > 25.0 * variance) wrong += 1.0;
+  }
+  return wrong / static_cast<double>(solution.states.size());
+}
+
+TEST(ClockChoice, AnUnknownClockOfASteadyCircleIsNotTakenForKnown) {
+  const int seeds = testing::SeedCount(4, 40);
+  for (int seed = 0; seed < seeds; ++seed) {
+    const auto s = static_cast<std::uint64_t>(43000 + seed);
+    Dataset dataset = Simulate(SteadyCircle(), s);
+    dataset.streams[0].clock_unknown = true;
+    const Solution solution = Solve(dataset, {});
+    if (solution.grade != Grade::kUsable) continue;
+    EXPECT_LE(WrongHeadings(solution, dataset), 0.05)
+        << "seed " << s << ": " << solution.verdict;
+  }
+}
+
 /// Every swing like the one before: turned round and half a period later only
 /// the prior of the clock tells.
 TEST(ClockChoice, PerfectlyPeriodicFlightsHaveARival) {
