@@ -9,7 +9,6 @@
 #include "base/processor_time.h"
 #include "base/units.h"
 #include "evaluation/observability.h"
-#include "filters/heading_profile.h"
 #include "filters/iterated_smoother.h"
 #include "filters/transport.h"
 #include "problems/solution_builder.h"
@@ -88,7 +87,7 @@ void ForwardStage::Settle(std::vector<double> offsets) {
   offsets_ = std::move(offsets);
   unsettled_.clear();
   relinearised_.reset();
-  heading_curvature_ = 1.0;
+  heading_credit_ = {};
   turned_round_.reset();
   unobserved_.reset();
   timeline_ = BuildTimeline(dataset_, MakeTimelineOptions());
@@ -147,7 +146,7 @@ void ForwardStage::JudgeObservability() {
   }
   if (solution.covariances.empty()) {
     solution.covariances = smoothed_->P;
-    WidenHeading(start_.layout, heading_curvature(), &solution.covariances);
+    WidenHeading(start_.layout, heading_credit(), &solution.covariances);
   }
   unobserved_ = FindUnobserved(solution);
 }
@@ -164,8 +163,8 @@ const Relinearised& ForwardStage::relinearised() {
 }
 
 void ForwardStage::JudgeHeading(const SmoothedTrajectory& last) {
-  heading_curvature_ = HeadingCurvature(
-      start_.layout, start_.prior, last.states, last.P, &timeline_, decisions_);
+  heading_credit_ = CreditHeading(start_.layout, start_.prior, last.states,
+                                  last.P, &timeline_, decisions_);
   const std::string& alignment = start_.report.alignment;
   if (alignment != "velocity" && alignment != "static") return;
   const double log_odds = LogOddsOfTurnedRound(
@@ -186,12 +185,12 @@ const std::optional<RivalSolution>& ForwardStage::turned_round() {
   return turned_round_;
 }
 
-double ForwardStage::heading_curvature() {
+const HeadingCredit& ForwardStage::heading_credit() {
   if (!relinearised_ && HeadingMayBeNoise(start_.layout, smoothed_->states,
                                           smoothed_->P, timeline_)) {
     Relinearise();
   }
-  return heading_curvature_;
+  return heading_credit_;
 }
 
 /// One more linearisation tells how far the smoothed trajectory is off; where
@@ -201,7 +200,7 @@ CovarianceSeries ForwardStage::Relinearise() {
   constexpr int kMost = 4;
   constexpr double kNegligible = 0.1;  // sigma
   relinearised_.emplace();
-  heading_curvature_ = 1.0;
+  heading_credit_ = {};
   turned_round_.reset();
   Relinearised& anew = *relinearised_;
   anew.smoother.largest = anew.smoother.rms =
@@ -225,7 +224,7 @@ CovarianceSeries ForwardStage::Relinearise() {
       if (step < kNegligible) break;
     }
     JudgeHeading(last);
-    WidenHeading(start_.layout, heading_curvature_, &last.P);
+    WidenHeading(start_.layout, heading_credit_, &last.P);
     anew.variances = VariancesOf(start_.layout, last.P);
     anew.states = std::move(last.states);
     anew.smoother =

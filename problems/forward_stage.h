@@ -7,6 +7,7 @@
 
 #include "alignment/start.h"
 #include "dataset/timeline_builder.h"
+#include "filters/heading_profile.h"
 #include "filters/rts.h"
 #include "problems/linearisation.h"
 #include "problems/node_placement.h"
@@ -52,9 +53,9 @@ class ForwardStage {
   const std::vector<UnobservedSpan>& unobserved();
   /// Found when first asked for.
   const Relinearised& relinearised();
-  /// HeadingCurvature of the interval as linearised anew; found when first
+  /// CreditHeading of the interval as linearised anew; found when first
   /// asked for.
-  double heading_curvature();
+  const HeadingCredit& heading_credit();
   /// The interval turned round, where its heading comes from its own motion and
   /// that is nearly as likely, without its probability among others; found when
   /// first asked for.
@@ -94,7 +95,7 @@ class ForwardStage {
   std::string unsettled_;
   std::optional<std::vector<UnobservedSpan>> unobserved_;
   std::optional<Relinearised> relinearised_;
-  double heading_curvature_ = 1.0;
+  HeadingCredit heading_credit_;
   std::optional<RivalSolution> turned_round_;
   Start start_;
   Timeline timeline_;

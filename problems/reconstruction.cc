@@ -66,7 +66,10 @@ struct Reconstruction::Impl {
     const Start& start = forward.start();
     if (!solution.observer) {
       WidenHeading(solution.layout,
-                   std::min(forward.heading_curvature(), own_curvature),
+                   std::min(forward.heading_credit(), own_credit,
+                            [](const HeadingCredit& a, const HeadingCredit& b) {
+                              return a.curvature < b.curvature;
+                            }),
                    &solution.covariances);
     }
     Conclude(
@@ -87,7 +90,7 @@ struct Reconstruction::Impl {
          .disagreement = DisagreementOf(method, solution)},
         forward.unobserved(), &solution);
     own_unsettled.clear();
-    own_curvature = 1.0;
+    own_credit = {};
     return solution;
   }
 
@@ -152,9 +155,9 @@ struct Reconstruction::Impl {
   }
 
   void JudgeHeading(const Solution& solution, const Stage& stage) {
-    own_curvature = HeadingCurvature(
-        forward.start().layout, forward.start().prior, solution.states,
-        solution.covariances, stage.timeline, *stage.decisions);
+    own_credit = CreditHeading(forward.start().layout, forward.start().prior,
+                               solution.states, solution.covariances,
+                               stage.timeline, *stage.decisions);
   }
 
   Solution RunEkf() {
@@ -361,9 +364,9 @@ struct Reconstruction::Impl {
   OptimumComparison optima;
   /// Sensor whose time offset a method's own nodes did not settle; empty: none.
   std::string own_unsettled;
-  /// HeadingCurvature of a method's own result, which may lie elsewhere than
+  /// CreditHeading of a method's own result, which may lie elsewhere than
   /// the forward stage's.
-  double own_curvature = 1.0;
+  HeadingCredit own_credit;
 };
 
 Reconstruction::Reconstruction(const Dataset& dataset,

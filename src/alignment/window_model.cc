@@ -84,7 +84,7 @@ SmoothedTrajectory WindowModel::Smooth(const State& near,
   SmoothedTrajectory smoothed =
       SmoothRts(RunLinearizedFilter(layout_, prior, states, &timeline_, all_));
   WidenHeading(layout_,
-               HeadingCurvature(layout_, prior, smoothed.states, smoothed.P,
+               CreditHeading(layout_, prior, smoothed.states, smoothed.P,
                                 &timeline_, all_),
                &smoothed.P);
   return smoothed;

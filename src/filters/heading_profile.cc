@@ -135,20 +135,29 @@ class Profile {
 
 }  // namespace
 
-double HeadingCurvature(const ErrorLayout& layout, const Prior& prior,
-                        const std::vector<State>& states,
-                        const CovarianceSeries& P, Timeline* timeline,
-                        const GateDecisions& decisions) {
-  if (!HeadingMayBeNoise(layout, states, P, *timeline)) return 1.0;
+HeadingCredit CreditHeading(const ErrorLayout& layout, const Prior& prior,
+                            const std::vector<State>& states,
+                            const CovarianceSeries& P, Timeline* timeline,
+                            const GateDecisions& decisions) {
+  HeadingCredit credit;
+  if (!HeadingMayBeNoise(layout, states, P, *timeline)) return credit;
+  const int h = HeadingOf(layout);
+  credit.open = std::min(credit.open, prior.P(h, h));
   const Profile profile(layout, prior, states, P, timeline, decisions);
   const double step = std::min(2.0 * profile.sigma(), 0.5 * kPi);
-  const double sigmas = step / profile.sigma();
   try {
     const double turned = 0.5 * (profile.At(-step) + profile.At(step));
-    return (profile.At(0.0) - turned) / (0.5 * sigmas * sigmas);
+    const double information = 2.0 * (profile.At(0.0) - turned) / (step * step);
+    const double claimed = 1.0 / (profile.sigma() * profile.sigma());
+    const double given = std::min(1.0 / prior.P(h, h), claimed);
+    constexpr double kRare = 1e-4;
+    const double by_chance =
+        given + std::sqrt(-2.0 * std::log(kRare) * (claimed - given));
+    credit.curvature = information > by_chance ? information / claimed : 0.0;
   } catch (const EstimationError&) {
-    return 0.0;
+    credit.curvature = 0.0;
   }
+  return credit;
 }
 
 bool MayBeTurnedRound(const ErrorLayout& layout,
@@ -183,19 +192,15 @@ double LogOddsOfTurnedRound(const ErrorLayout& layout, Prior prior,
   }
 }
 
-void WidenHeading(const ErrorLayout& layout, double curvature,
+void WidenHeading(const ErrorLayout& layout, const HeadingCredit& credit,
                   CovarianceSeries* P) {
-  if (!(curvature < kCredibleHeading)) return;
+  if (!(credit.curvature < kCredibleHeading)) return;
   const int h = HeadingOf(layout);
-  constexpr double kMostlyNoise = 0.5;
-  const double most = kPi * kPi / 3.0;  // variance of a uniform angle
   for (std::size_t k = 0; k < P->size(); ++k) {
     ErrorMatrix P_k = P->Get(k);
     const double variance = P_k(h, h);
     const double wider =
-        curvature < kMostlyNoise
-            ? most
-            : std::min(variance / (curvature * curvature), most);
+        std::min(variance / (credit.curvature * credit.curvature), credit.open);
     if (!(wider > variance)) continue;
     const ErrorVector c = P_k.col(h) / variance;
     P_k += (wider - variance) * c * c.transpose();

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/units.h"
 #include "filters/forward_filter.h"
 #include "state/covariance_series.h"
 
@@ -20,12 +21,24 @@ namespace hindsight {
 /// else solved anew for each, tells:
 ///   curvature = (L(0) - (L(-d) + L(d)) / 2) / (d^2 / (2 sigma^2)),
 /// d = 2 sigma, at most a quarter turn, with sigma as P has it; 1 where the
-/// problem is linear, 0 where the data fit any heading. Taken for 1 unless
-/// HeadingMayBeNoise; 0 if another heading cannot be solved for.
-double HeadingCurvature(const ErrorLayout& layout, const Prior& prior,
-                        const std::vector<State>& states,
-                        const CovarianceSeries& P, Timeline* timeline,
-                        const GateDecisions& decisions);
+/// problem is linear, 0 where the data fit any heading. Information that is all
+/// noise makes a likelihood that is a random sum of sines of the heading: about
+/// its maximum the curvature exceeds c by chance with the probability
+/// exp(-(c I - I_0)^2 / (2 (I - I_0))), I = 1/sigma^2 and I_0 that of the prior
+/// (Rayleigh). If that is more than one in ten thousand, it is told as 0.
+/// Taken for 1 unless HeadingMayBeNoise; 0 if another heading cannot be solved
+/// for.
+struct HeadingCredit {
+  double curvature = 1.0;
+  /// Variance of the heading where but the prior tells it, at most that of a
+  /// uniform angle, (104 deg)^2 [rad^2].
+  double open = kPi * kPi / 3.0;
+};
+
+HeadingCredit CreditHeading(const ErrorLayout& layout, const Prior& prior,
+                            const std::vector<State>& states,
+                            const CovarianceSeries& P, Timeline* timeline,
+                            const GateDecisions& decisions);
 
 /// ln of the likelihood of the trajectory turned round, heading + 180 deg and
 /// all else solved anew, over that of the states; not above 0. The prior's
@@ -57,11 +70,9 @@ inline constexpr double kCredibleHeading = 0.8;
 /// Covariances that claim of the heading what the likelihood has: its gradient
 /// has the variance 1/sigma^2 that the information claims, its curvature less,
 /// so that the variance of its maximum is sigma^2 / curvature^2 (the sandwich
-/// of Huber 1967), at most that of a uniform angle, (104 deg)^2; and that much
-/// where more than half of the information is noise, as then the curvature is
-/// chance as well. The rest follows by its correlation with the heading.
-/// Nothing is changed from kCredibleHeading on.
-void WidenHeading(const ErrorLayout& layout, double curvature,
+/// of Huber 1967), at most credit.open. The rest follows by its correlation
+/// with the heading. Nothing is changed from kCredibleHeading on.
+void WidenHeading(const ErrorLayout& layout, const HeadingCredit& credit,
                   CovarianceSeries* P);
 
 }  // namespace hindsight

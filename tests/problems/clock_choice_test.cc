@@ -148,8 +148,9 @@ Scenario SteadyCircle() {
     const double north = kSpeed / kTurn * std::sin(heading);
     const double east = kSpeed / kTurn * (1.0 - std::cos(heading));
     point.position = s.start;
-    point.position.lat += north / radius_of_earth;
-    point.position.lon += east / (radius_of_earth * std::cos(s.start.lat));
+    point.position.latitude += north / radius_of_earth;
+    point.position.longitude +=
+        east / (radius_of_earth * std::cos(s.start.latitude));
     point.v_n = {kSpeed * std::cos(heading), kSpeed * std::sin(heading), 0.0};
     point.euler.z() = heading;
     s.profile.push_back(point);
