@@ -10,8 +10,8 @@
 
 namespace hindsight {
 
-/// Base of all factors. A factor works in the tangent of DESIGN's error state:
-/// it linearises its residual, whitened, with respect to the error components
+/// Base of all factors. A factor works in the tangent of the state (Retract of
+/// state/state.h): it linearises its residual, whitened, over the components
 /// of one or two nodes and of some global blocks. From that one Linearize come
 /// Ceres's Jacobians (through the manifold's MinusJacobian) and the information
 /// matrix of the marginal covariances.

@@ -23,7 +23,7 @@ namespace hindsight {
 /// In its eq. (2) the second row should read
 ///   dl' = rho_N / cos L (tan L - R_tt / (R_t + h)) dL
 ///         - rho_N / (cos L (R_t + h)) dh + dV_E / ((R_t + h) cos L);
-/// here the errors are those of DESIGN, in metres, and need neither.
+/// here the errors are in metres north and east, and need neither.
 struct PositionImmOptions {
   std::vector<double> amplitudes = {20.0, 1.0};  ///< A of each model [m]
   double beta = 10.0;                            ///< [1/s]
