@@ -55,7 +55,8 @@ function(hindsight_library name folder)
       list(APPEND dependencies ${dependency})
     endif()
   endforeach()
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cc)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS
+    ${CMAKE_SOURCE_DIR}/${folder}/*.cc)
   if(sources)
     add_library(hindsight_${name} STATIC ${sources})
     target_include_directories(hindsight_${name} PUBLIC

@@ -11,17 +11,11 @@
 #include "evaluation/grade.h"
 #include "filters/rts.h"
 #include "geometry/so3.h"
-#include "problems/attitude_batch.h"
+#include "problems/method.h"
 #include "problems/tilt_batch.h"
 
 namespace hindsight {
 namespace {
-
-constexpr std::pair<AhrsMethod, const char*> kAhrsMethods[] = {
-    {AhrsMethod::kFilter, "ahrs"},
-    {AhrsMethod::kSmoother, "ahrs_smoother"},
-    {AhrsMethod::kBatch, "ahrs_batch"},
-    {AhrsMethod::kTiltBatch, "ahrs_tilt_batch"}};
 
 /// The samples of [from, to], increments as mean rates.
 ImuStream RatesWithin(const ImuStream& imu, double from, double to) {
@@ -46,24 +40,6 @@ ImuStream RatesWithin(const ImuStream& imu, double from, double to) {
 }
 
 }  // namespace
-
-const char* AhrsMethodName(AhrsMethod method) {
-  return kAhrsMethods[static_cast<std::size_t>(method)].second;
-}
-
-bool IsAhrsMethod(const std::string& name) {
-  return std::any_of(std::begin(kAhrsMethods), std::end(kAhrsMethods),
-                     [&](const auto& entry) { return entry.second == name; });
-}
-
-AhrsMethod AhrsMethodFromName(const std::string& name) {
-  for (const auto& [method, text] : kAhrsMethods) {
-    if (name == text) return method;
-  }
-  throw InputError(
-      "unknown method '" + name +
-      "'; known are ahrs, ahrs_smoother, ahrs_batch, ahrs_tilt_batch");
-}
 
 AttitudeEstimation::AttitudeEstimation(const Dataset& dataset,
                                        AttitudeOptions options)
@@ -102,7 +78,7 @@ void FillVerdicts(const AttitudeRun& run, Solution* solution) {
 
 }  // namespace
 
-Solution AttitudeEstimation::RunFilter() {
+Solution AttitudeEstimation::Filter() {
   const AttitudeRun run = RunAttitudeFilter(
       imu_, magnetic_, filter_options_, start_, nullptr, [&](std::size_t k) {
         Poll("ahrs",
@@ -199,7 +175,7 @@ ImuStream AttitudeEstimation::WithAveragedForce() const {
   return averaged;
 }
 
-Solution AttitudeEstimation::RunSmoother() {
+Solution AttitudeEstimation::Smoother() {
   AttitudeFilterOptions options = filter_options_;
   ImuStream imu = imu_;
   if (!dataset_.ahrs.low_pass && options.low_pass_tau > 0.0) {
@@ -226,15 +202,25 @@ Solution AttitudeEstimation::RunSmoother() {
   return Smooth(imu, weighed, options, "ahrs_smoother");
 }
 
-Solution AttitudeEstimation::RunBatch(AhrsMethod method) {
+RoomProblem AttitudeEstimation::SurveyedProblem() {
   Survey();
-  const RoomProblem problem{dataset_, imu_,    readings_,
-                            survey_,  *level_, filter_options_.place};
-  const auto solve =
-      method == AhrsMethod::kBatch ? SolveRoomBatch : SolveTiltBatch;
-  Solution solution = solve(problem, [&](double fraction) {
-    Poll(AhrsMethodName(method), fraction);
-  });
+  return {dataset_, imu_, readings_, survey_, *level_, filter_options_.place};
+}
+
+Solution AttitudeEstimation::RoomBatch() {
+  return WithReadings(SolveRoomBatch(SurveyedProblem(), [&](double fraction) {
+    Poll("ahrs_batch", fraction);
+  }));
+}
+
+Solution AttitudeEstimation::TiltBatch() {
+  return WithReadings(SolveTiltBatch(SurveyedProblem(), [&](double fraction) {
+    Poll("ahrs_tilt_batch", fraction);
+  }));
+}
+
+/// Says of each state what became of the reading of the field there.
+Solution AttitudeEstimation::WithReadings(Solution solution) const {
   solution.magnetic.assign(solution.states.size(), 0);
   std::size_t i = 0;
   for (std::size_t k = 0; k < readings_.size(); ++k) {
@@ -248,12 +234,14 @@ Solution AttitudeEstimation::RunBatch(AhrsMethod method) {
   return solution;
 }
 
-Solution AttitudeEstimation::Run(AhrsMethod method) {
+Solution AttitudeEstimation::Run(const std::string& name) {
+  const Method& method = MethodOf(name);
+  if (!method.attitude_alone()) {
+    throw InputError("method '" + name + "' does not estimate attitude alone");
+  }
   const double t0 = ProcessorSeconds();
-  Solution solution = method == AhrsMethod::kFilter     ? RunFilter()
-                      : method == AhrsMethod::kSmoother ? RunSmoother()
-                                                        : RunBatch(method);
-  solution.method = AhrsMethodName(method);
+  Solution solution = method.estimate_attitude(this);
+  solution.method = method.name;
   solution.seconds = ProcessorSeconds() - t0;
   Conclude({.solution = solution,
             .recording =

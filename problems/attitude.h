@@ -12,25 +12,12 @@
 #include "alignment/attitude_start.h"
 #include "dataset/dataset.h"
 #include "filters/attitude_run.h"
+#include "problems/attitude_batch.h"
 #include "problems/attitude_samples.h"
 #include "problems/field_survey.h"
 #include "state/solution.h"
 
 namespace hindsight {
-
-/// Estimators of attitude alone, from an IMU and, if there is one, a
-/// magnetometer; no position is needed.
-enum class AhrsMethod {
-  kFilter,     ///< "ahrs": causal
-  kSmoother,   ///< "ahrs_smoother": its RTS smoother
-  kBatch,      ///< "ahrs_batch": least squares over the whole interval
-  kTiltBatch,  ///< "ahrs_tilt_batch": the same, of attitude alone
-};
-const char* AhrsMethodName(AhrsMethod method);
-/// Whether `name` is one of them.
-bool IsAhrsMethod(const std::string& name);
-/// Throws InputError for a name that is none.
-AhrsMethod AhrsMethodFromName(const std::string& name);
 
 struct AttitudeOptions {
   double from = -std::numeric_limits<double>::infinity();  ///< [s]
@@ -39,7 +26,8 @@ struct AttitudeOptions {
   const std::atomic<bool>* stop = nullptr;  ///< polled; throws Interrupted
 };
 
-/// One recording, estimated by any of the methods. Solutions have the layout
+/// One recording, its attitude alone estimated from an IMU and, if there is
+/// one, a magnetometer; no position is needed. Solutions have the layout
 /// {attitude, gyro bias}, one state an IMU sample, and are given at the stamps
 /// of the file (ImuStream::stamp_offset).
 ///   Smoother and batch know the field of the whole recording, and a magnet
@@ -60,18 +48,24 @@ class AttitudeEstimation {
   /// `dataset` must outlive the object.
   AttitudeEstimation(const Dataset& dataset, AttitudeOptions options);
 
-  /// Throws EstimationError, Interrupted.
-  Solution Run(AhrsMethod method);
+  /// By a method of Methods() for attitude alone; throws InputError for another
+  /// name, EstimationError, Interrupted.
+  Solution Run(const std::string& name);
+
+  /// The methods themselves, without verdict and name.
+  Solution Filter();
+  Solution Smoother();
+  Solution RoomBatch();
+  Solution TiltBatch();
 
  private:
-  Solution RunFilter();
-  Solution RunSmoother();
-  Solution RunBatch(AhrsMethod method);
   /// At every sample, from the nodes of the filter's updates.
   Solution Smooth(const ImuStream& imu,
                   std::span<const MagneticSample> magnetic,
                   const AttitudeFilterOptions& options,
                   const std::string& stage) const;
+  Solution WithReadings(Solution solution) const;
+  RoomProblem SurveyedProblem();
   void Level();
   void Survey();
   ImuStream WithAveragedForce() const;

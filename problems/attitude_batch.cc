@@ -142,7 +142,7 @@ Solution SolveRoomBatch(const RoomProblem& problem,
     };
   }
   Reconstruction reconstruction(room, options);
-  const Solution nodes = reconstruction.Run(Method::kBatch);
+  const Solution nodes = reconstruction.Run("batch");
   Solution out = NodesAtSamples(nodes, room.imu, problem.smoothed.layout);
   for (State& x : out.states) x.p_e = problem.place.p_e;
   out.constants = nodes.constants;

@@ -142,8 +142,8 @@ class OneRun {
     ReconstructionOptions reconstruction_options;
     reconstruction_options.stop = options_.stop;
     Reconstruction reconstruction(dataset_, reconstruction_options);
-    for (const Method method : {Method::kGatedEkf, Method::kRts, Method::kBatch,
-                                Method::kRobustBatch}) {
+    for (const std::string method :
+         {"gated_ekf", "rts", "batch", "robust_batch"}) {
       Sums sums;
       try {
         const Solution solution = reconstruction.Run(method);
@@ -157,7 +157,7 @@ class OneRun {
         // Counted as failed below.
       }
       if (sums.runs == 0) sums.failed = 1;
-      sums.name = MethodName(method);
+      sums.name = method;
       out_.push_back(std::move(sums));
     }
   }

@@ -76,17 +76,9 @@ LinearisationError Compare(const ErrorLayout& layout,
   return error;
 }
 
-bool LinearisesOnce(Method method) {
-  return method == Method::kEkf || method == Method::kRts ||
-         method == Method::kTwoFilter ||
-         method == Method::kTwoFilterConventional ||
-         method == Method::kTwoFilterEuler;
-}
-
 std::optional<LinearisationError> LinearisationErrorOf(
-    Method method, const Solution& solution, const Relinearised& anew) {
-  if (!LinearisesOnce(method)) return std::nullopt;
-  const bool causal = method == Method::kEkf;
+    const Solution& solution, const Relinearised& anew) {
+  const bool causal = solution.forward;
   if (causal && anew.smoother.rms < kDoubtfulError) return std::nullopt;
   LinearisationError error = anew.states.empty()
                                  ? anew.smoother

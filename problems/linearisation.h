@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "evaluation/grade.h"
-#include "problems/method.h"
 #include "state/covariance_series.h"
 #include "state/solution.h"
 
@@ -39,13 +38,9 @@ LinearisationError Compare(const ErrorLayout& layout,
                            const CovarianceSeries& P, const Relinearised& anew);
 
 /// Compare of a solution that is linearised about the forward filter's
-/// trajectory; nothing for other methods, nor for the filter where its smoother
-/// is usable.
+/// trajectory; nothing for a forward one where its smoother is usable.
 std::optional<LinearisationError> LinearisationErrorOf(
-    Method method, const Solution& solution, const Relinearised& anew);
-
-/// Whether a method linearises about the forward filter's trajectory.
-bool LinearisesOnce(Method method);
+    const Solution& solution, const Relinearised& anew);
 
 }  // namespace hindsight
 

@@ -1,75 +1,89 @@
 #include "problems/method.h"
 
-#include <utility>
-
 #include "base/error.h"
 
 namespace hindsight {
+
+extern const Method kBatchMethod;
+extern const Method kIteratedMethod;
+extern const Method kRobustBatchMethod;
+extern const Method kRtsMethod;
+extern const Method kTwoFilterMethod;
+extern const Method kTwoFilterConventionalMethod;
+extern const Method kTwoFilterEulerMethod;
+extern const Method kImmSmootherMethod;
+extern const Method kEkfMethod;
+extern const Method kGatedEkfMethod;
+extern const Method kImmMethod;
+extern const Method kHinfMethod;
+extern const Method kModifiedHinfMethod;
+extern const Method kAhrsBatchMethod;
+extern const Method kAhrsTiltBatchMethod;
+extern const Method kAhrsSmootherMethod;
+extern const Method kAhrsMethod;
+
 namespace {
 
-constexpr std::pair<Method, const char*> kMethods[] = {
-    {Method::kEkf, "ekf"},
-    {Method::kTwoFilter, "two_filter"},
-    {Method::kTwoFilterConventional, "two_filter_conventional"},
-    {Method::kTwoFilterEuler, "two_filter_euler"},
-    {Method::kHInfinity, "hinf"},
-    {Method::kModifiedHInfinity, "modified_hinf"},
-    {Method::kRts, "rts"},
-    {Method::kIterated, "iterated"},
-    {Method::kBatch, "batch"},
-    {Method::kGatedEkf, "gated_ekf"},
-    {Method::kImm, "imm"},
-    {Method::kImmSmoother, "imm_smoother"},
-    {Method::kRobustBatch, "robust_batch"}};
+constexpr const Method* kMethods[] = {
+    &kBatchMethod,
+    &kIteratedMethod,
+    &kRobustBatchMethod,
+    &kRtsMethod,
+    &kTwoFilterMethod,
+    &kTwoFilterConventionalMethod,
+    &kTwoFilterEulerMethod,
+    &kImmSmootherMethod,
+    &kEkfMethod,
+    &kGatedEkfMethod,
+    &kImmMethod,
+    &kHinfMethod,
+    &kModifiedHinfMethod,
+    &kAhrsBatchMethod,
+    &kAhrsTiltBatchMethod,
+    &kAhrsSmootherMethod,
+    &kAhrsMethod,
+};
 
 }  // namespace
 
-const char* MethodName(Method method) {
-  for (const auto& [value, name] : kMethods) {
-    if (value == method) return name;
+std::span<const Method* const> Methods() { return kMethods; }
+
+std::string MethodNames(bool attitude_alone) {
+  std::string names;
+  for (const Method* method : kMethods) {
+    if (method->attitude_alone() != attitude_alone) continue;
+    names += (names.empty() ? "" : ", ") + std::string(method->name);
   }
-  return "";
+  return names;
 }
 
-Method MethodFromName(const std::string& name) {
-  std::string known;
-  for (const auto& [value, text] : kMethods) {
-    if (name == text) return value;
-    known += (known.empty() ? "" : ", ") + std::string(text);
+std::string MethodHelp(bool attitude_alone) {
+  constexpr std::size_t kColumn = 17;
+  std::string text;
+  for (const Method* method : kMethods) {
+    if (method->attitude_alone() != attitude_alone) continue;
+    std::string line = "  " + std::string(method->name);
+    if (line.size() + 1 > kColumn) {
+      text += line + "\n";
+      line.clear();
+    }
+    line.resize(kColumn, ' ');
+    for (const char* c = method->help; *c != '\0'; ++c) {
+      line += *c;
+      if (*c == '\n') line.append(kColumn, ' ');
+    }
+    text += line + "\n";
   }
-  throw InputError("unknown method '" + name + "'; known are " + known);
+  return text;
 }
 
-std::span<const char* const> MethodPreference() {
-  static constexpr const char* kPreference[] = {"batch",
-                                                "iterated",
-                                                "robust_batch",
-                                                "rts",
-                                                "two_filter",
-                                                "two_filter_conventional",
-                                                "two_filter_euler",
-                                                "imm_smoother",
-                                                "ekf",
-                                                "gated_ekf",
-                                                "imm",
-                                                "hinf",
-                                                "modified_hinf",
-                                                "ahrs_batch",
-                                                "ahrs_tilt_batch",
-                                                "ahrs_smoother",
-                                                "ahrs"};
-  return kPreference;
-}
-
-bool IsForward(Method method) {
-  return method == Method::kEkf || method == Method::kGatedEkf ||
-         method == Method::kHInfinity || method == Method::kModifiedHInfinity ||
-         method == Method::kImm;
-}
-
-bool DependsOnError(Method method) {
-  return method != Method::kImm && method != Method::kImmSmoother &&
-         method != Method::kRobustBatch;
+const Method& MethodOf(const std::string& name) {
+  for (const Method* method : kMethods) {
+    if (name == method->name) return *method;
+  }
+  throw InputError("unknown method '" + name + "'; known are " +
+                   MethodNames(false) +
+                   "; attitude alone: " + MethodNames(true));
 }
 
 }  // namespace hindsight

@@ -1,47 +1,73 @@
 #ifndef HINDSIGHT_PROBLEMS_METHOD_H_
 #define HINDSIGHT_PROBLEMS_METHOD_H_
 
+#include <initializer_list>
 #include <span>
 #include <string>
 
+#include "state/solution.h"
+
 namespace hindsight {
 
-enum class Method {
-  kEkf,
-  kTwoFilter,              ///< error form
-  kTwoFilterConventional,  ///< full state in the additive chart
-  kTwoFilterEuler,         ///< full state in the Euler-angle chart
-  kHInfinity,              ///< forward observer
-  kModifiedHInfinity,      ///< forward observer
-  kRts,
-  kIterated,
-  kBatch,
-  kGatedEkf,     ///< kEkf, with a gate of 99.9 % where a sensor has none
-  kImm,          ///< good and poor positions, problems/sensor_imm.h
-  kImmSmoother,  ///< its smoother
-  kRobustBatch   ///< batch that finds the positions' error model itself
+class AttitudeEstimation;
+class MethodStage;
+
+/// What a method heeds or is, beyond what all of its kind do.
+enum class MethodTrait {
+  /// Knows nothing later at each node; see Solution::forward.
+  kForward,
+  /// Is linear about the forward filter's trajectory.
+  kLinearisesOnce,
+  /// Minimises the cost of the whole interval, so that its optimum compares
+  /// with that of others that do.
+  kFindsOptimum,
+  /// ReconstructionOptions::error changes its solution, be it through the
+  /// trajectory from which it starts to iterate.
+  kDependsOnError,
+  /// Heeds ReconstructionOptions::h_infinity, modified_h_infinity.
+  kHInfinity,
+  kModifiedHInfinity,
 };
 
-/// "ekf", "two_filter", "two_filter_conventional", "two_filter_euler", "hinf",
-/// "modified_hinf", "rts", "iterated", "batch", "gated_ekf", "imm",
-/// "imm_smoother", "robust_batch".
-const char* MethodName(Method method);
+constexpr unsigned TraitsOf(std::initializer_list<MethodTrait> traits) {
+  unsigned bits = 0;
+  for (const MethodTrait trait : traits) {
+    bits |= 1u << static_cast<unsigned>(trait);
+  }
+  return bits;
+}
+
+/// A method of `hindsight run`: a file of problems/methods/, which has all of
+/// this, and its place in the table of problems/method.cc.
+struct Method {
+  const char* name;  ///< as it is asked for and written
+  const char* help;  ///< one or more lines, without an indent
+  unsigned traits;   ///< MethodTraits, joined by TraitsOf
+  /// One of the two: position, velocity and attitude, or attitude alone.
+  Solution (*reconstruct)(MethodStage* stage);
+  Solution (*estimate_attitude)(AttitudeEstimation* estimation) = nullptr;
+
+  bool Has(MethodTrait trait) const {
+    return (traits & TraitsOf({trait})) != 0;
+  }
+  bool attitude_alone() const { return estimate_attitude != nullptr; }
+};
+
+/// Every method, in the order in which they are preferred where nothing else
+/// decides (BestOf): the whole interval before smoothers on one linearisation,
+/// these before filters, which know the past alone, and observers last, whose P
+/// is no covariance; of each kind the plain model before the richer; attitude
+/// alone after all others.
+std::span<const Method* const> Methods();
+
+/// Names of all methods of one kind, separated by ", ".
+std::string MethodNames(bool attitude_alone);
+
+/// Names and help of all methods of one kind, for the terminal.
+std::string MethodHelp(bool attitude_alone);
+
 /// Throws InputError for a name that is none, listing those that are.
-Method MethodFromName(const std::string& name);
-
-/// Names of all methods, of attitude alone too, in the order in which they are
-/// preferred where nothing else decides: the whole interval before smoothers on
-/// one linearisation, these before filters, which know the past alone, and
-/// observers last, whose P is no covariance; of each kind the plain model
-/// before the richer.
-std::span<const char* const> MethodPreference();
-
-/// Whether the method knows nothing later at each node; see Solution::forward.
-bool IsForward(Method method);
-
-/// Whether ReconstructionOptions::error changes the method's solution, be it
-/// through the trajectory from which it starts to iterate.
-bool DependsOnError(Method method);
+const Method& MethodOf(const std::string& name);
 
 }  // namespace hindsight
 

@@ -151,7 +151,7 @@ void RunCase(const MonteCarloCase& c, const MonteCarloOptions& options,
   Reconstruction reconstruction(dataset, reconstruction_options);
   std::vector<Solution> solutions;
   std::vector<State> truth;
-  for (const Method method : c.methods) {
+  for (const std::string& method : c.methods) {
     MethodRun& run = out->methods.emplace_back();
     try {
       Solution solution = reconstruction.Run(method);
@@ -337,9 +337,9 @@ MonteCarloResult ResultOf(const std::vector<MonteCarloCase>& cases,
   result.dim = dim;
   std::size_t index = 0;
   for (const MonteCarloCase& c : cases) {
-    for (const Method method : c.methods) {
-      result.methods.push_back(Summarize(MethodName(method) + c.suffix, index++,
-                                         runs, result.dim, options));
+    for (const std::string& method : c.methods) {
+      result.methods.push_back(
+          Summarize(method + c.suffix, index++, runs, result.dim, options));
     }
   }
   for (const Run& run : runs) {

@@ -22,7 +22,7 @@ namespace hindsight {
 struct MonteCarloCase {
   std::string suffix;  ///< of the methods' names in the results
   std::function<Dataset(std::uint64_t seed)> dataset;
-  std::vector<Method> methods;
+  std::vector<std::string> methods;
 };
 
 struct MonteCarloOptions {

@@ -11,13 +11,12 @@
 #include "alignment/start.h"
 #include "dataset/dataset.h"
 #include "filters/forward_filter.h"
-#include "problems/method.h"
 #include "state/solution.h"
 
 namespace hindsight {
 
 struct ReconstructionOptions {
-  Method method = Method::kBatch;
+  std::string method = "batch";
   /// The interval to reconstruct [s]; defaults to all that the IMU covers.
   double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();
@@ -49,7 +48,9 @@ class Reconstruction {
   Reconstruction(const Dataset& dataset, ReconstructionOptions options);
   ~Reconstruction();
 
-  Solution Run(Method method);
+  /// By a method of Methods() that reconstructs; throws InputError for another
+  /// name.
+  Solution Run(const std::string& method);
 
   const StartReport& start() const;
 

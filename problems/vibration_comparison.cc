@@ -110,8 +110,7 @@ std::vector<VibrationResult> CompareUnderVibration(
       dataset.ahrs.samples = rows[r].ahrs.samples;
       AttitudeEstimation estimation(dataset, {});
       AddRun(dataset,
-             estimation.Run(rows[r].smoothed ? AhrsMethod::kSmoother
-                                             : AhrsMethod::kFilter),
+             estimation.Run(rows[r].smoothed ? "ahrs_smoother" : "ahrs"),
              &sums[r]);
     }
     if (done) done(run + 1);

@@ -57,14 +57,13 @@ void RunConstants(const char* name, const Scenario& scenario,
   const MonteCarloResult result = RunMonteCarlo(
       {{"",
         [recording](std::uint64_t seed) { return recording->Realize(seed); },
-        {Method::kEkf, Method::kRts, Method::kIterated, Method::kBatch}}},
+        {"ekf", "rts", "iterated", "batch"}}},
       options, KeepFinishedRuns<MonteCarloResult>(folder, files));
   std::cout << name << ", " << options.runs << " runs, " << result.dim
             << " states\n\n"
             << MonteCarloTable(result);
   for (const MethodStatistics& method : result.methods) {
-    if (method.name != MethodName(Method::kEkf) &&
-        method.name != MethodName(Method::kBatch)) {
+    if (method.name != "ekf" && method.name != "batch") {
       continue;
     }
     std::cout << "\n" << method.name << ":\n" << ConstantTable(method);

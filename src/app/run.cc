@@ -160,11 +160,11 @@ std::vector<UnobservedSpan> DescribeBeforehand(const Dataset& dataset,
 
 /// A method that fails leaves the others their say: its solution is empty and
 /// its verdict is the reason.
-Solution RunMethod(Reconstruction* reconstruction, Method method) {
+Solution RunMethod(Reconstruction* reconstruction, const std::string& method) {
   try {
     return reconstruction->Run(method);
   } catch (const EstimationError& error) {
-    return FailedSolution(MethodName(method), error.what());
+    return FailedSolution(method, error.what());
   }
 }
 
@@ -206,7 +206,7 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
                         .best = "",
                         .methods = {}};
   std::vector<Solution> solutions;
-  for (const Method method : request.methods) {
+  for (const std::string& method : request.methods) {
     solutions.push_back(RunMethod(&reconstruction, method));
     LogDownWeighted(dataset, solutions.back());
     const double peak_rss_mb = PeakRssMb();

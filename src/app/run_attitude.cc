@@ -124,7 +124,7 @@ int EstimateInto(const RunRequest& request, ResultFolder* folder) {
                         .methods = {}};
   ReportTable table = EmptyTable(dataset);
   std::vector<Solution> verdicts;
-  for (const AhrsMethod method : request.ahrs_methods) {
+  for (const std::string& method : request.methods) {
     const Solution solution = estimation.Run(method);
     WriteFiles(request, dataset, solution, folder);
     summary.methods.push_back(SummaryOf(dataset, solution));

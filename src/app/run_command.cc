@@ -4,6 +4,7 @@
 #include "app/run.h"
 #include "app/run_attitude.h"
 #include "app/run_request.h"
+#include "problems/method.h"
 
 namespace hindsight {
 namespace {
@@ -43,46 +44,29 @@ folders so.
 Where the data allow several clocks (time_offset: unknown, or estimated with a
 sigma of 0.1 s or more) each is solved to its end; the likeliest is taken, and
 what the others differ in is told with their probability.
-
-Methods: ekf       forward error-state Kalman filter
-         two_filter  ekf, fused with a backward information filter in error
-                   form; two_filter_conventional and two_filter_euler do the
-                   same in the full state, in metres and small angles or in
-                   latitude, longitude and Euler angles. All give `separation`,
-                   the distance of forward and backward positions in sigmas
-         hinf, modified_hinf  forward observers with an H-infinity Riccati
-                   equation (--gamma) or one with a degree of stability
-                   (--alpha) and a free weight (--delta). Their P is no
-                   covariance: rts and two_filter smooth the ekf alone
-         rts       ekf, smoothed by Rauch, Tung and Striebel's backward pass
-         iterated  rts, linearised anew about its result until it rests
-         batch     nonlinear least squares over the whole interval
-         gated_ekf  ekf, with a gate of 99.9 % where a sensor has none
-         imm       two filters that mix: positions (without any, all
-                   measurements) are as good as stated, or twenty times worse,
-                   at least 20 m; imm_smoother, its smoother
-         robust_batch  batch that finds out from the data whether positions
-                   have outliers, correlated errors or jumps
 Every result is usable, doubtful or not usable, by one set of rules that looks
 at no truth; summary.json holds the evidence, and the report what to try. The
 last line and the exit status are those of the best method: the best grade; of
-equal ones the least evidence against it; then batch, iterated, robust_batch,
-rts, two_filter, two_filter_conventional, two_filter_euler, imm_smoother, ekf,
-gated_ekf, imm, hinf, modified_hinf; ahrs_batch, ahrs_tilt_batch, ahrs_smoother,
-ahrs. What a truth contradicts stands in a line of its own.
-Attitude alone, from IMU and magnetometer, without any position:
-         ahrs      causal filter of attitude and gyro bias at every sample
-         ahrs_smoother  its Rauch-Tung-Striebel smoother
-         ahrs_batch     least squares with the linear acceleration as unknown
-         ahrs_tilt_batch  least squares with it as noise
-These write attitude (angles and quaternion), gyro bias, the accelerometer's
+equal ones the least evidence against it; then the order of the lists below.
+What a truth contradicts stands in a line of its own.
+)";
+
+constexpr const char* kAttitudeHelp =
+    R"(These write attitude (angles and quaternion), gyro bias, the accelerometer's
 sigma in force and the verdict on the magnetometer, at the stamps of the IMU.
 )";
 
+std::string Help() {
+  return std::string(kHelp) + "\nMethods:\n" + MethodHelp(false) +
+         "Of attitude alone, from IMU and magnetometer, without any "
+         "position:\n" +
+         MethodHelp(true) + kAttitudeHelp;
+}
+
 int Run(const std::vector<std::string>& arguments) {
   const RunRequest request = ReadRunRequest(arguments[0]);
-  return request.ahrs_methods.empty() ? Reconstruct(request)
-                                      : EstimateAttitude(request);
+  return request.attitude_alone ? EstimateAttitude(request)
+                                : Reconstruct(request);
 }
 
 }  // namespace
@@ -92,7 +76,7 @@ Command RunCommand() {
       .name = "run",
       .summary = "reconstruct a trajectory by several methods",
       .arguments = "CONFIG",
-      .help = kHelp,
+      .help = Help(),
       .flags = WithObserverFlags(
           {{"out", "DIR", "folder for the results (required)"},
            {"force", "",
@@ -100,10 +84,7 @@ Command RunCommand() {
             "earlier run, by its manifest.json"},
            {"clean", "", "remove what killed runs left beside DIR"},
            {"methods", "LIST",
-            "some of ekf,two_filter,two_filter_conventional,\n"
-            "two_filter_euler,hinf,modified_hinf,rts,iterated,batch,\n"
-            "gated_ekf,imm,imm_smoother,robust_batch,\n"
-            "or some of ahrs,ahrs_smoother,ahrs_batch,ahrs_tilt_batch\n"
+            "some of those above, of one kind\n"
             "(ekf,rts,iterated,batch)"},
            {"ahrs_rule", "NAME",
             "how the accelerometer is trusted: fixed, gate,\n"

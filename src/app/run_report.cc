@@ -204,8 +204,9 @@ std::string DescribeRivals(const std::vector<Solution>& solutions) {
 }
 
 const Solution& Best(const std::vector<Solution>& solutions) {
-  return solutions.at(
-      static_cast<std::size_t>(BestOf(solutions, MethodPreference())));
+  std::vector<const char*> preference;
+  for (const Method* method : Methods()) preference.push_back(method->name);
+  return solutions.at(static_cast<std::size_t>(BestOf(solutions, preference)));
 }
 
 void NameBest(const Solution& best, const std::vector<Solution>& solutions,

@@ -13,6 +13,7 @@
 #include "dataset/injection.h"
 #include "io/time_list.h"
 #include "io/units.h"
+#include "problems/method.h"
 
 namespace hindsight {
 namespace {
@@ -184,44 +185,32 @@ std::vector<std::string> SplitRules(const std::string& flag,
   return rules;
 }
 
-std::vector<Method> ParseMethods(const std::string& text) {
-  std::vector<Method> methods;
+/// Sets `methods` and `attitude_alone`.
+void ParseMethods(const std::string& text, RunRequest* request) {
+  std::size_t attitude_alone = 0;
   for (const std::string& name : ReadWords("methods", text)) {
     try {
-      methods.push_back(MethodFromName(name));
-    } catch (const std::exception& error) {
+      attitude_alone += MethodOf(name).attitude_alone() ? 1 : 0;
+    } catch (const InputError& error) {
       throw UsageError("--methods=" + text + ": " + error.what());
     }
+    request->methods.push_back(name);
   }
-  if (methods.empty()) {
-    throw UsageError("--methods: expected some of ekf,rts,iterated,batch");
+  if (request->methods.empty()) {
+    throw UsageError("--methods: expected some of " + MethodNames(false));
   }
-  return methods;
-}
-
-/// Methods for attitude alone; nothing if the list names none.
-std::vector<AhrsMethod> ParseAhrsMethods(const std::string& text) {
-  std::vector<AhrsMethod> methods;
-  const std::vector<std::string> names = ReadWords("methods", text);
-  for (const std::string& name : names) {
-    if (IsAhrsMethod(name)) methods.push_back(AhrsMethodFromName(name));
-  }
-  if (!methods.empty() &&
-      !std::all_of(names.begin(), names.end(), IsAhrsMethod)) {
-    throw UsageError("--methods=" + text +
-                     ": ahrs, ahrs_smoother, ahrs_batch and ahrs_tilt_batch "
-                     "estimate attitude alone and do not go with the other "
+  request->attitude_alone = attitude_alone == request->methods.size();
+  if (attitude_alone > 0 && !request->attitude_alone) {
+    throw UsageError("--methods=" + text + ": " + MethodNames(true) +
+                     " estimate attitude alone and do not go with the other "
                      "methods");
   }
-  return methods;
 }
 
 std::string ReadRule(const RunRequest& request) {
   if (FLAGS_ahrs_rule.empty()) return "";
-  if (request.ahrs_methods.empty()) {
-    throw UsageError(
-        "--ahrs-rule goes with the methods ahrs, ahrs_smoother, ahrs_batch, "
-        "ahrs_tilt_batch");
+  if (!request.attitude_alone) {
+    throw UsageError("--ahrs-rule goes with the methods " + MethodNames(true));
   }
   AccelerometerRuleOptions options;
   options.name = FLAGS_ahrs_rule;
@@ -246,23 +235,20 @@ std::set<std::string> ParseExports(const std::string& text) {
   return exports;
 }
 
-bool Runs(const RunRequest& request, std::initializer_list<Method> some) {
-  return std::any_of(some.begin(), some.end(), [&](Method method) {
-    return std::find(request.methods.begin(), request.methods.end(), method) !=
-           request.methods.end();
-  });
+bool Runs(const RunRequest& request, MethodTrait trait) {
+  return std::any_of(
+      request.methods.begin(), request.methods.end(),
+      [&](const std::string& name) { return MethodOf(name).Has(trait); });
 }
 
 /// Throws UsageError for a flag that none of the methods asked for heeds.
 void CheckFlagsAreHeeded(const RunRequest& request) {
-  CheckObserverFlags(Runs(request, {Method::kHInfinity}),
-                     Runs(request, {Method::kModifiedHInfinity}));
-  if (IsGiven("error") &&
-      std::all_of(request.methods.begin(), request.methods.end(),
-                  [](Method method) { return !DependsOnError(method); })) {
+  CheckObserverFlags(Runs(request, MethodTrait::kHInfinity),
+                     Runs(request, MethodTrait::kModifiedHInfinity));
+  if (IsGiven("error") && !Runs(request, MethodTrait::kDependsOnError)) {
     throw UsageError("--error changes nothing in " + FLAGS_methods);
   }
-  if (request.ahrs_methods.empty()) {
+  if (!request.attitude_alone) {
     if (IsGiven("seed") && request.injections.empty()) {
       throw UsageError("--seed goes with --inject");
     }
@@ -317,10 +303,7 @@ RunRequest ReadRunRequest(const std::string& config) {
   request.out = FLAGS_out;
   request.force = FLAGS_force;
   request.clean = FLAGS_clean;
-  request.ahrs_methods = ParseAhrsMethods(FLAGS_methods);
-  if (request.ahrs_methods.empty()) {
-    request.methods = ParseMethods(FLAGS_methods);
-  }
+  ParseMethods(FLAGS_methods, &request);
   request.ahrs_rule = ReadRule(request);
   request.from = FLAGS_from;
   request.to = FLAGS_to;

@@ -22,11 +22,10 @@ struct RunRequest {
   std::vector<std::string> without;  ///< aiding streams that are left out
   std::string out;
   bool force = false;
-  bool clean = false;           ///< remove what killed runs left
-  std::string at_file;          ///< that `at` comes from, "" for none
-  std::vector<Method> methods;  ///< in the order given, each once
-  /// Methods for attitude alone; then `methods` is empty.
-  std::vector<AhrsMethod> ahrs_methods;
+  bool clean = false;                ///< remove what killed runs left
+  std::string at_file;               ///< that `at` comes from, "" for none
+  std::vector<std::string> methods;  ///< in the order given, each once
+  bool attitude_alone = false;       ///< all of `methods` estimate no more
   std::string ahrs_rule;       ///< in place of the configuration's if not empty
   double from = 0.0;           ///< [s]
   double to = 0.0;             ///< [s]

@@ -16,7 +16,7 @@ namespace hindsight {
 namespace {
 
 MonteCarloCase CaseOf(const TunnelSurveyOptions& options, std::string suffix,
-                      std::vector<Method> methods) {
+                      std::vector<std::string> methods) {
   const auto recording =
       std::make_shared<const PerfectRecording>(TunnelSurvey(options));
   return {std::move(suffix),
@@ -30,12 +30,10 @@ void Compare(const TunnelSurveyOptions& survey, MonteCarloOptions options,
   forward_only.odometer_form = Odometer::Form::kForward;
   const std::vector<MonteCarloCase> cases = {
       CaseOf(survey, "",
-             {Method::kEkf, Method::kTwoFilter, Method::kTwoFilterConventional,
-              Method::kTwoFilterEuler, Method::kRts, Method::kIterated,
-              Method::kBatch}),
+             {"ekf", "two_filter", "two_filter_conventional",
+              "two_filter_euler", "rts", "iterated", "batch"}),
       CaseOf(forward_only, "_forward_odometer",
-             {Method::kEkf, Method::kTwoFilter, Method::kIterated,
-              Method::kBatch})};
+             {"ekf", "two_filter", "iterated", "batch"})};
   options.leg_ends = ReferenceTimes(survey.reference_spacing);
   const auto files = [options](const MonteCarloResult& all, bool complete) {
     return MonteCarloFiles({kTunnelSurveyName, FLAGS_path, FLAGS_white_noise,
@@ -85,8 +83,8 @@ void Sweep(TunnelSurveyOptions survey, const MonteCarloOptions& options,
     for (const double spacing : kSpacings) {
       survey.odometer_sigma = sigma;
       survey.reference_spacing = spacing;
-      const MonteCarloResult result = RunMonteCarlo(
-          {CaseOf(survey, "", {Method::kTwoFilter, Method::kBatch})}, options);
+      const MonteCarloResult result =
+          RunMonteCarlo({CaseOf(survey, "", {"two_filter", "batch"})}, options);
       std::string cell;
       for (const MethodStatistics& m : result.methods) {
         cell +=

@@ -84,7 +84,7 @@ void AddSurvey(const SurveyCase& c, const MonteCarloOptions& options,
   const MonteCarloResult result = RunMonteCarlo(
       {{"",
         [recording](std::uint64_t seed) { return recording->Realize(seed); },
-        {Method::kEkf, Method::kTwoFilter, Method::kRts, Method::kBatch}}},
+        {"ekf", "two_filter", "rts", "batch"}}},
       options);
   const double length = LengthOf(MakeUuvPath(c.options.path));
   const std::string key = c.options.path + ", " + c.title;

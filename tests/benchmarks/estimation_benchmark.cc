@@ -65,9 +65,9 @@ void FilterSmootherAndBatch(benchmark::State& state) {
   const Dataset& dataset = Drive();
   for (auto _ : state) {
     Reconstruction reconstruction(dataset, {});
-    const Solution ekf = reconstruction.Run(Method::kEkf);
-    const Solution rts = reconstruction.Run(Method::kRts);
-    const Solution batch = reconstruction.Run(Method::kBatch);
+    const Solution ekf = reconstruction.Run("ekf");
+    const Solution rts = reconstruction.Run("rts");
+    const Solution batch = reconstruction.Run("batch");
     benchmark::DoNotOptimize(batch.states.data());
     state.counters["ekf_s"] = ekf.seconds;
     state.counters["rts_s"] = rts.seconds;

@@ -51,7 +51,7 @@ class AuvDive : public ::testing::TestWithParam<const char*> {
 
 TEST_P(AuvDive, DeadReckoningAndGeometry) {
   Reconstruction reconstruction(dataset_, {});
-  for (const Method method : {Method::kEkf, Method::kRts, Method::kBatch}) {
+  for (const std::string method : {"ekf", "rts", "batch"}) {
     const Solution solution = reconstruction.Run(method);
     const TrajectoryStatistics s = Evaluate(reconstruction, solution);
     // The truth is good for 0.2 to 0.3 % of the way.

@@ -29,7 +29,7 @@ TEST(Calibration, EveryConstantIsAsGoodAsItsSigma) {
   const MonteCarloResult result = RunMonteCarlo(
       {{"",
         [&recording](std::uint64_t seed) { return recording.Realize(seed); },
-        {Method::kBatch}}},
+        {"batch"}}},
       options);
   EXPECT_EQ(result.dim, 33);
   // 18 constants; one in ten thousand may be outside.

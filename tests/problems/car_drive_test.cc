@@ -49,9 +49,9 @@ TEST(CarDrive, WholeIntervalAccuracyAndConsistency) {
     const Dataset dataset = recording.Realize(static_cast<std::uint64_t>(seed));
     ASSERT_EQ(dataset.outages.size(), 3u);
     Reconstruction reconstruction(dataset, {});
-    filter.Add(reconstruction.Run(Method::kEkf), dataset, kSeeds);
-    smoother.Add(reconstruction.Run(Method::kRts), dataset, kSeeds);
-    batch.Add(reconstruction.Run(Method::kBatch), dataset, kSeeds);
+    filter.Add(reconstruction.Run("ekf"), dataset, kSeeds);
+    smoother.Add(reconstruction.Run("rts"), dataset, kSeeds);
+    batch.Add(reconstruction.Run("batch"), dataset, kSeeds);
   }
   RecordProperty("filter_largest_m", std::to_string(filter.largest_in_outages));
   for (const Accuracy* whole : {&smoother, &batch}) {

@@ -28,7 +28,7 @@ TEST_P(Foot, IsKnownToAMetreAndWhatIsUsableIsHonest) {
   std::vector<double> times;
   for (const TruthPoint& point : dataset.truth) times.push_back(point.t);
   Reconstruction reconstruction(dataset, {});
-  for (const Method method : {Method::kRts, Method::kBatch}) {
+  for (const std::string method : {"rts", "batch"}) {
     const Solution solution = reconstruction.Run(method);
     const TrajectoryStatistics s = EvaluateTrajectory(
         TableFromSolution(reconstruction.Sample(solution, times)),

@@ -41,7 +41,7 @@ TEST(Verdict, CountsTheConstantsThatStayAtTheirPriors) {
   ReconstructionOptions options;
   options.to = kFirstManoeuvre + 2.0;
   Reconstruction reconstruction(dataset, options);
-  for (const Method method : {Method::kEkf, Method::kBatch}) {
+  for (const std::string method : {"ekf", "batch"}) {
     const Solution solution = reconstruction.Run(method);
     const std::vector<std::string> names = KeptAtPriors(solution);
     ASSERT_GT(names.size(), 1u);
@@ -124,8 +124,7 @@ TEST(Grade, PositionsThatRepeatAreNotUsable) {
 /// below 21.1 in all but one of ten thousand runs.
 TEST(Grade, NoSurveyWithAForwardOdometerIsWrongAndUsable) {
   constexpr double kOnceInTenThousand = 21.1;  // chi-square of 3
-  constexpr Method kMethods[] = {Method::kEkf, Method::kRts, Method::kTwoFilter,
-                                 Method::kIterated};
+  constexpr const char* kMethods[] = {"ekf", "rts", "two_filter", "iterated"};
   int refused = 0;
   for (const char* path : {"winding", "straight"}) {
     for (const auto noise : {TunnelSurveyOptions::Noise::kSample,
@@ -141,14 +140,14 @@ TEST(Grade, NoSurveyWithAForwardOdometerIsWrongAndUsable) {
         return point.t != std::round(point.t);
       });
       Reconstruction reconstruction(dataset, {});
-      for (const Method method : kMethods) {
+      for (const std::string method : kMethods) {
         const Solution solution = reconstruction.Run(method);
         const TrajectoryStatistics errors =
             EvaluateTrajectory(TableFromSolution(solution), dataset.truth, {});
         SCOPED_TRACE(::testing::Message()
-                     << MethodName(method) << " on " << path << ", seed "
-                     << seed << ": " << solution.verdict);
-        EXPECT_TRUE(solution.usable() || method != Method::kIterated);
+                     << method << " on " << path << ", seed " << seed << ": "
+                     << solution.verdict);
+        EXPECT_TRUE(solution.usable() || method != "iterated");
         if (!solution.usable()) {
           ++refused;
           continue;

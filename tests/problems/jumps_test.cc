@@ -165,7 +165,7 @@ TEST(RobustBatch, DoesNotTakeTheFirstFixAtItsWord) {
     }
   }
   Reconstruction reconstruction(dataset, {});
-  const Solution solution = reconstruction.Run(Method::kRobustBatch);
+  const Solution solution = reconstruction.Run("robust_batch");
   const State& x = solution.states.back();
   const Eigen::Vector2d e =
       (x.C_en().transpose() *

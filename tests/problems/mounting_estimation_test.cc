@@ -50,7 +50,7 @@ TEST(MountingEstimation, UnknownMountingIsEstimated) {
       }
       ResolveMountings(&dataset);
       ReconstructionOptions options;
-      options.method = Method::kBatch;
+      options.method = "batch";
       const Solution solution = Solve(dataset, options);
       ASSERT_TRUE(solution.converged) << solution.verdict;
       const Eigen::Vector3d m =
@@ -89,7 +89,7 @@ TEST(MountingEstimation, PositionsAloneLeaveTheMountingUnobserved) {
   odometer.sensor.mounting_sigma = Eigen::Vector3d::Constant(5.0 * kDegree);
   dataset.streams.push_back(odometer);
   ReconstructionOptions options;
-  options.method = Method::kBatch;
+  options.method = "batch";
   const Solution solution = Solve(dataset, options);
   int mountings = 0;
   for (const ConstantEstimate& c : solution.constants) {

@@ -14,8 +14,8 @@
 namespace hindsight {
 namespace {
 
-constexpr Method kEvery[] = {Method::kEkf, Method::kRts, Method::kTwoFilter,
-                             Method::kIterated, Method::kBatch};
+constexpr const char* kEvery[] = {"ekf", "rts", "two_filter", "iterated",
+                                  "batch"};
 
 /// Positions that are better than the accelerometer carries them, no
 /// magnetometer, and gyros that do not find north.
@@ -63,12 +63,11 @@ class OpenHeading : public ::testing::Test {
   /// how unknown the heading is.
   static void ExpectOpen(const Dataset& dataset) {
     Reconstruction reconstruction(dataset, {});
-    for (const Method method : kEvery) {
+    for (const std::string method : kEvery) {
       const Solution solution = reconstruction.Run(method);
-      SCOPED_TRACE(::testing::Message()
-                   << MethodName(method) << ": " << solution.verdict);
+      SCOPED_TRACE(::testing::Message() << method << ": " << solution.verdict);
       EXPECT_FALSE(solution.usable());
-      if (method != Method::kBatch || !solution.converged) continue;
+      if (method != "batch" || !solution.converged) continue;
       const int a = solution.layout.Find(BlockKind::kAttitude)->offset;
       const std::vector<State> truth =
           TrueStates(dataset, solution.layout, solution.states);

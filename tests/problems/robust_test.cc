@@ -62,7 +62,7 @@ class RobustLossTest : public ::testing::TestWithParam<RobustLoss> {};
 TEST_P(RobustLossTest, OutliersOfTwentyMetresCostLittleAndSigmasStayHonest) {
   const Dataset clean = Simulate(BuiltinScenario("car_drive"), 3);
   ReconstructionOptions options;
-  options.method = Method::kBatch;
+  options.method = "batch";
   const Accuracy without = Judge(clean, Solve(clean, options));
 
   Dataset dirty = clean;

@@ -1,0 +1,26 @@
+#include "problems/method.h"
+#include "problems/method_stage.h"
+
+namespace hindsight {
+namespace {
+
+Solution RunRts(MethodStage* stage) {
+  const SmoothedTrajectory& smoothed = stage->forward().smoothed();
+  Solution solution =
+      stage->FromSmoothed(smoothed.states, smoothed.P, stage->SharedNodes());
+  solution.seconds = stage->forward().smoothing_seconds();
+  return solution;
+}
+
+}  // namespace
+
+extern const Method kRtsMethod;
+const Method kRtsMethod = {
+    .name = "rts",
+    .help = "ekf, smoothed by Rauch, Tung and Striebel's backward pass",
+    .traits =
+        TraitsOf({MethodTrait::kLinearisesOnce, MethodTrait::kDependsOnError}),
+    .reconstruct = RunRts,
+    .estimate_attitude = nullptr};
+
+}  // namespace hindsight
