@@ -109,8 +109,8 @@ class FieldReader {
     for (std::size_t k = begin; k < stream_.measurements.size() &&
                                 IsInside(k) && Time(k) < t_0 + kFieldWindow;
          ++k) {
-      const auto* field =
-          std::get_if<MagneticField>(&stream_.measurements[k].model);
+      const Measurement z = stream_.measurements[k];
+      const auto* field = std::get_if<MagneticField>(&z.model);
       if (field == nullptr) continue;
       if (Time(k) > t) {
         const ImuSummary s = integrator_.Summarize(t, Time(k), calibration);
