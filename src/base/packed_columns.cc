@@ -180,11 +180,19 @@ void PackedColumns::Open(std::size_t block) {
   }
 }
 
+void PackedColumns::AddColumns(std::span<const PackedWord> row) {
+  std::size_t count = row.size();
+  while (count > words_.size() && row[count - 1] == 0) --count;
+  if (count <= words_.size()) return;
+  const std::size_t rows = std::min(kRows, size_ - open_ * kRows);
+  words_.resize(count, std::vector<PackedWord>(rows, 0));
+}
+
 void PackedColumns::Append(std::span<const PackedWord> row) {
   const std::size_t block = size_ / kRows;
   if (block == blocks_.size()) blocks_.emplace_back();
   Open(block);
-  while (words_.size() < row.size()) words_.emplace_back(size_ % kRows, 0);
+  AddColumns(row);
   for (std::size_t c = 0; c < words_.size(); ++c) {
     words_[c].push_back(c < row.size() ? row[c] : 0);
   }
@@ -195,16 +203,17 @@ void PackedColumns::Read(std::size_t index, std::span<PackedWord> row) const {
   const std::size_t k = index % kRows;
   const Block& block = blocks_[index / kRows];
   const bool open = index / kRows == open_;
-  const std::size_t columns = open ? words_.size() : block.columns.size();
-  for (std::size_t c = 0; c < row.size(); ++c) {
-    row[c] = c >= columns ? 0
-             : open       ? words_[c][k]
-                          : At(block, block.columns[c], k);
+  const std::size_t columns =
+      std::min(row.size(), open ? words_.size() : block.columns.size());
+  for (std::size_t c = 0; c < columns; ++c) {
+    row[c] = open ? words_[c][k] : At(block, block.columns[c], k);
   }
+  std::fill(row.begin() + static_cast<std::ptrdiff_t>(columns), row.end(), 0);
 }
 
 void PackedColumns::Write(std::size_t index, std::span<const PackedWord> row) {
   Open(index / kRows);
+  AddColumns(row);
   for (std::size_t c = 0; c < words_.size(); ++c) {
     words_[c][index % kRows] = c < row.size() ? row[c] : 0;
   }

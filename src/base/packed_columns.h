@@ -54,6 +54,8 @@ class PackedColumns {
   static bool Lookup(std::span<const PackedWord> words, unsigned width,
                      Block* block);
   static void PackColumn(std::span<const PackedWord> words, Block* block);
+  /// Gives the open block the columns in which the row is not zero.
+  void AddColumns(std::span<const PackedWord> row);
   /// Packs the block that is open and unpacks this one.
   void Open(std::size_t block);
 

@@ -161,18 +161,19 @@ class PackedSeries {
 
    private:
     void Load() {
-      if (i_ < series_.size()) row_ = series_[i_];
+      if (i_ >= series_.size()) return;
+      series_.columns_.Read(i_, words_);
+      WordsOf<Row>::Take(words_.data(), &row_);
     }
     void Store() {
       if (i_ >= series_.size()) return;
-      Words before;
-      series_.columns_.Read(i_, before);
       const Words now = Pack(row_);
-      if (now != before) series_.columns_.Write(i_, now);
+      if (now != words_) series_.columns_.Write(i_, now);
     }
 
     PackedSeries& series_;
     std::size_t i_;
+    Words words_;  ///< before the change
     Row row_;
   };
 

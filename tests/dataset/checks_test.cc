@@ -142,7 +142,11 @@ TEST(CheckDataset, GravityIsSoughtWhereTheForceVariesLeast) {
 /// Rows each 20 ms and further ones between them, each with its right stamp.
 TEST(CheckDataset, RowsBetweenRegularOnesAreNoSignOfReception) {
   Dataset data = Recording({0, 0, -9.81});
-  const auto add = [&data](double t) { data.truth.push_back({.t = t}); };
+  const auto add = [&data](double t) {
+    TruthPoint point;
+    point.t = t;
+    data.truth.push_back(point);
+  };
   for (int i = 0; i < 2900; ++i) {
     add(0.02 * i);
     if (i % 6 == 0) add(0.02 * i + 0.001 * (i % 18));

@@ -400,7 +400,7 @@ TEST(RestStreams, StraightMotionMeasuresTheRateWhereTheBiasIsKnown) {
       continue;
     }
     ASSERT_EQ(rates.size(), 10u);
-    const auto& last = std::get<ZeroAngularRate>(rates.back().model);
+    const auto last = std::get<ZeroAngularRate>(rates.back().model);
     EXPECT_NEAR(last.sigma, 2.0 * dataset.stationary.rate_sigma, 1e-12);
     EXPECT_NEAR(last.w_ib_b.x(), 1e-3, 1e-12);
   }

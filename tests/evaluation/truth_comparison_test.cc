@@ -37,7 +37,11 @@ TEST(ThinTruth, KeepsTenPointsASecond) {
 
 TEST(ThinTruth, KeepsFewEnoughOfADay) {
   TruthSeries truth;
-  for (int k = 0; k < 864000; ++k) truth.push_back({.t = 0.1 * k});
+  for (int k = 0; k < 864000; ++k) {
+    TruthPoint point;
+    point.t = 0.1 * k;
+    truth.push_back(point);
+  }
   ThinTruth(&truth);
   EXPECT_LE(truth.size(), 50000u);
   EXPECT_GT(truth.size(), 40000u);
