@@ -66,6 +66,9 @@ class Numbering {
 
 PackedWord PackedColumns::At(const Block& block, const Column& column,
                              std::size_t k) {
+  if (column.width == 0 && column.slope == 0 && column.fraction == 0) {
+    return column.base;
+  }
   PackedWord code = 0;
   if (column.width > 0) {
     code = Load(&block.bytes[column.codes + k * column.width], column.width);

@@ -162,11 +162,9 @@ std::optional<Eigen::Vector3d> RoughPosition(const Dataset& dataset) {
   }
   if (dataset.place) return EcefFromGeodetic(*dataset.place);
   for (const AidingStream& stream : dataset.streams) {
-    for (const Measurement& z : stream.measurements) {
-      if (const auto* fix = std::get_if<PositionFix>(&z.model)) {
-        return fix->p_e;
-      }
-    }
+    if (stream.measurements.empty()) continue;
+    const Measurement z = stream.measurements.front();
+    if (const auto* fix = std::get_if<PositionFix>(&z.model)) return fix->p_e;
   }
   return std::nullopt;
 }
