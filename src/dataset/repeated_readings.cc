@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -182,6 +183,13 @@ class UsualChange {
   }
 
   double Over(long lag) const {
+    const auto [known, is_new] = over_.try_emplace(lag, 0.0);
+    if (is_new) known->second = MedianOver(lag);
+    return known->second;
+  }
+
+ private:
+  double MedianOver(long lag) const {
     constexpr std::size_t kSamples = 1000;
     const std::size_t n =
         std::min(static_cast<std::size_t>(lag), readings_.size() / 2);
@@ -194,13 +202,13 @@ class UsualChange {
     return Median(std::move(changes));
   }
 
- private:
   Eigen::Vector4d ValueOf(std::size_t row) const {
     return held_[readings_[row]].reading.value;
   }
 
   const HeldSeries& held_;
   std::vector<std::size_t> readings_;  ///< of each row
+  mutable std::map<long, double> over_;
 };
 
 /// Whether a vehicle that stood still at the end of a run of equal positions
