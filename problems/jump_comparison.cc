@@ -30,7 +30,7 @@ struct Sums {
   std::vector<Eigen::VectorXd> probabilities;
 };
 
-const TruthPoint& TruthAt(const Dataset& dataset, double t, std::size_t* hint) {
+TruthPoint TruthAt(const Dataset& dataset, double t, std::size_t* hint) {
   constexpr double kTimeTolerance = 1e-6;
   std::size_t& i = *hint;
   while (i < dataset.truth.size() && dataset.truth[i].t < t - kTimeTolerance) {
@@ -54,7 +54,7 @@ Sums JudgeJumps(const Dataset& dataset, const std::vector<State>& states,
   std::size_t hint = 0;
   for (std::size_t k = 0; k < states.size(); ++k) {
     const State& x = states[k];
-    const TruthPoint& truth = TruthAt(dataset, x.t, &hint);
+    const TruthPoint truth = TruthAt(dataset, x.t, &hint);
     const Eigen::Vector2d e =
         (x.C_en().transpose() * (truth.p_e.value() - x.p_e)).head<2>();
     const Eigen::Vector2d v = (truth.v_n.value() - x.v_n()).head<2>();

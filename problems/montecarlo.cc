@@ -365,7 +365,7 @@ std::vector<State> TrueStates(const Dataset& dataset, const ErrorLayout& layout,
       throw InputError("data set '" + dataset.name + "' has no truth at " +
                        std::to_string(x.t) + " s, where a node stands");
     }
-    const TruthPoint& point = dataset.truth[i];
+    const TruthPoint point = dataset.truth[i];
     State& y = truth.emplace_back(x);
     y.p_e = point.p_e.value();
     const Eigen::Matrix3d C_en = NedAxes(y.p_e);

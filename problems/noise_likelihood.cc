@@ -98,7 +98,7 @@ void NoiseLikelihood::AddStream(int index, AidingStream* stream) {
     return;
   }
   values_.push_back({sensor.name, [stream](double factor) {
-                       for (Measurement& z : stream->measurements) {
+                       for (Measurement& z : stream->measurements.Edited()) {
                          ScaleSigma(factor, &z);
                        }
                      }});

@@ -57,7 +57,7 @@ void AddRun(const Dataset& dataset, const Solution& solution,
   for (std::size_t k = 0; k < solution.states.size(); ++k) {
     const State& x = solution.states[k];
     const Eigen::Matrix3d C_ne = x.C_en().transpose();
-    const TruthPoint& truth = dataset.truth[k];
+    const TruthPoint truth = dataset.truth[k];
     const Eigen::Vector3d psi =
         Log(*truth.q_nb * (Eigen::Quaterniond(C_ne) * x.q_eb).conjugate());
     const Eigen::Vector3d bias = *truth.b_g - x.b_g;

@@ -43,7 +43,7 @@ AttitudeFilterOptions FilterOptionsOf(const Dataset& dataset) {
   options.rest_sigma = ahrs.rest_sigma;
   options.reference.enabled = ahrs.reject_disturbances;
   if (const AidingStream* stream = MagnetometerOf(dataset)) {
-    const auto& first =
+    const auto first =
         std::get<MagneticField>(stream->measurements.front().model);
     options.magnetic_sigma = first.sigma;
     options.magnetic_form = first.form;

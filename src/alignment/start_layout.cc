@@ -51,8 +51,8 @@ void AddMagneticBlocks(const Sensor& sensor, int index,
 
 bool CountsDistance(const AidingStream& stream) {
   if (stream.measurements.empty()) return false;
-  const auto* odometer =
-      std::get_if<Odometer>(&stream.measurements.front().model);
+  const Measurement first = stream.measurements.front();
+  const auto* odometer = std::get_if<Odometer>(&first.model);
   return odometer != nullptr && odometer->form == Odometer::Form::kIncrements;
 }
 

@@ -93,7 +93,7 @@ void PrintJson(const TrajectoryStatistics& all, const std::string& file) {
 }
 
 struct Reference {
-  std::vector<TruthPoint> points;
+  TruthSeries points;
   Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();
 };
 
@@ -114,7 +114,7 @@ std::string ComparedFile(const std::string& path, const Reference& reference) {
   const std::string sampled =
       path.substr(0, path.size() - kCsv.size()) + kTruthSuffix;
   if (!std::filesystem::exists(sampled)) return path;
-  std::vector<TruthPoint> thinned = reference.points;
+  TruthSeries thinned = reference.points;
   ThinTruth(&thinned);
   return HasRowsAtTruth(ReadSolutionCsv(sampled), thinned) ? sampled : path;
 }

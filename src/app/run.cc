@@ -29,7 +29,7 @@ namespace {
 void ReplaceWithholdings(const std::vector<Withholding>& withholdings,
                          Dataset* dataset) {
   for (AidingStream& stream : dataset->streams) {
-    for (Measurement& z : stream.measurements) z.withheld = false;
+    for (Measurement& z : stream.measurements.Edited()) z.withheld = false;
   }
   dataset->outages.clear();
   dataset->withholdings = withholdings;
@@ -44,9 +44,10 @@ void KeepCleanPositions(Dataset* dataset) {
     if (stream.sensor.type != SensorType::kPosition) continue;
     dataset->truth_lever_arm_b = stream.sensor.lever_arm_b;
     for (const Measurement& z : stream.measurements) {
-      TruthPoint& point = dataset->truth.emplace_back();
+      TruthPoint point;
       point.t = z.t + stream.sensor.time_offset;
       point.p_e = std::get<PositionFix>(z.model).p_e;
+      dataset->truth.push_back(point);
     }
     std::string action = "positions before injection taken as truth";
     if (stream.sensor.time_offset_sigma || stream.sensor.lever_arm_sigma) {

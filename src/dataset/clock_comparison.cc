@@ -59,7 +59,7 @@ std::optional<ClockComparison> CompareStream(const ImuStream& imu,
                                              const AidingStream& stream) {
   constexpr std::size_t kFewestRows = 10;
   if (imu.empty() || stream.measurements.empty()) return std::nullopt;
-  const MeasurementModel& model = stream.measurements.front().model;
+  const MeasurementModel model = stream.measurements.front().model;
   const bool positions = std::holds_alternative<PositionFix>(model);
   const bool heights = std::holds_alternative<HeightFix>(model);
   const bool fields = std::holds_alternative<MagneticField>(model);

@@ -110,8 +110,7 @@ ClockSearch SearchClock(const ImuStream& imu, const InitialState& initial,
                 {std::max(all.from, range.from), std::min(all.to, range.to)});
 }
 
-ClockSearch SearchClock(const ImuStream& imu,
-                        const std::vector<TruthPoint>& truth) {
+ClockSearch SearchClock(const ImuStream& imu, const TruthSeries& truth) {
   constexpr double kKnownClock =
       0.02;  // an offset known worse is not known [s]
   const auto comparison = CompareTurns(imu, truth);

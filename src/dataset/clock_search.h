@@ -70,8 +70,7 @@ ClockSearch SearchClock(const ImuStream& imu, const InitialState& initial,
 /// constant bias leaves; the Earth's rate is allowed for where the truth has
 /// positions. An attitude that turns too little to tell the clock to 20 ms
 /// tells nothing.
-ClockSearch SearchClock(const ImuStream& imu,
-                        const std::vector<TruthPoint>& truth);
+ClockSearch SearchClock(const ImuStream& imu, const TruthSeries& truth);
 
 /// Whether a misfit may be as low as that of the best candidate but for chance:
 /// the logarithm of the ratio of two mean squares of n independent components

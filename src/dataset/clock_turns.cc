@@ -20,13 +20,13 @@ struct TurnSeries {
 
 /// By the truth, in the body, one a window; less the Earth's where positions
 /// tell it.
-std::vector<Eigen::Vector3d> TurnsOf(
-    const std::vector<double>& t, const std::vector<const TruthPoint*>& points,
-    const ClockWindows& windows) {
+std::vector<Eigen::Vector3d> TurnsOf(const std::vector<double>& t,
+                                     const TruthSeries& points,
+                                     const ClockWindows& windows) {
   std::vector<Eigen::Vector3d> turned;
   for (const ClockWindows::Window& w : windows.windows) {
-    const TruthPoint& a = *points[w.begin];
-    Eigen::Quaterniond q = a.q_nb->conjugate() * *points[w.end]->q_nb;
+    const TruthPoint a = points[w.begin];
+    Eigen::Quaterniond q = a.q_nb->conjugate() * *points[w.end].q_nb;
     if (a.p_e) {
       const Eigen::Vector3d earth_n =
           NedAxes(*a.p_e).transpose() * EarthRate_e();
@@ -61,14 +61,14 @@ double TurnMisfit(const TurnSeries& c, double offset) {
 
 }  // namespace
 
-std::optional<ClockComparison> CompareTurns(
-    const ImuStream& imu, const std::vector<TruthPoint>& truth) {
+std::optional<ClockComparison> CompareTurns(const ImuStream& imu,
+                                            const TruthSeries& truth) {
   std::vector<double> t;
-  std::vector<const TruthPoint*> points;
+  TruthSeries points;
   for (const TruthPoint& point : truth) {
     if (!point.q_nb || (!t.empty() && point.t <= t.back())) continue;
     t.push_back(point.t);
-    points.push_back(&point);
+    points.push_back(point);
   }
   if (imu.empty() || t.size() < 2) return std::nullopt;
   constexpr double kOnePiece = std::numeric_limits<double>::infinity();

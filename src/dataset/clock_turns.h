@@ -10,8 +10,8 @@ namespace hindsight {
 
 /// Turns of a truth's attitude against those of the gyros; nothing of one
 /// without attitudes.
-std::optional<ClockComparison> CompareTurns(
-    const ImuStream& imu, const std::vector<TruthPoint>& truth);
+std::optional<ClockComparison> CompareTurns(const ImuStream& imu,
+                                            const TruthSeries& truth);
 
 }  // namespace hindsight
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "dataset/alignment_choice.h"
@@ -20,7 +21,7 @@ namespace hindsight {
 /// One aiding sensor and its measurements, in time order.
 struct AidingStream {
   Sensor sensor;
-  std::vector<Measurement> measurements;
+  MeasurementSeries measurements;
   /// Nothing is known of Sensor::time_offset: the data tell where its clock
   /// stands (dataset/clock_search.h).
   bool clock_unknown = false;
@@ -36,7 +37,15 @@ struct TruthPoint {
   std::optional<bool> moving;
   std::optional<Eigen::Vector3d> b_g;  ///< known of simulated data [rad/s]
   std::optional<Eigen::Vector3d> b_a;  ///< known of simulated data [m/s^2]
+
+  /// For base/packed_words.h.
+  template <class Self>
+  static auto Fields(Self& z) {
+    return std::tie(z.t, z.p_e, z.v_n, z.q_nb, z.moving, z.b_g, z.b_a);
+  }
 };
+
+using TruthSeries = PackedSeries<TruthPoint>;
 
 /// Initial values. What is absent is found by alignment.
 struct InitialState {
@@ -144,7 +153,7 @@ struct Dataset {
   std::optional<std::int64_t> epoch_gps_ns;
   ImuStream imu;
   std::vector<AidingStream> streams;
-  std::vector<TruthPoint> truth;
+  TruthSeries truth;
   /// Known of simulated data, by the name of the estimated constant, SI.
   std::map<std::string, double> true_constants;
   /// Point the truth speaks of, body axes from the IMU [m].

@@ -37,7 +37,12 @@ class FieldReader {
       : imu_(dataset.imu),
         stream_(stream),
         b_g_(dataset.initial.gyro_bias),
-        integrator_(dataset.imu) {}
+        integrator_(dataset.imu) {
+    times_.reserve(stream.measurements.size());
+    for (const Measurement& z : stream.measurements) {
+      times_.push_back(z.t + stream.sensor.time_offset);
+    }
+  }
 
   SignCosts Read() {
     const std::vector<std::size_t> begins = WindowBegins();
@@ -71,9 +76,7 @@ class FieldReader {
   }
 
  private:
-  double Time(std::size_t k) const {
-    return stream_.measurements[k].t + stream_.sensor.time_offset;
-  }
+  double Time(std::size_t k) const { return times_[k]; }
   bool IsInside(std::size_t k) const {
     return Time(k) >= imu_.t_begin() && Time(k) <= imu_.t_end();
   }
@@ -109,8 +112,8 @@ class FieldReader {
     for (std::size_t k = begin; k < stream_.measurements.size() &&
                                 IsInside(k) && Time(k) < t_0 + kFieldWindow;
          ++k) {
-      const auto* field =
-          std::get_if<MagneticField>(&stream_.measurements[k].model);
+      const Measurement z = stream_.measurements[k];
+      const auto* field = std::get_if<MagneticField>(&z.model);
       if (field == nullptr) continue;
       if (Time(k) > t) {
         const ImuSummary s = integrator_.Summarize(t, Time(k), calibration);
@@ -143,6 +146,7 @@ class FieldReader {
   const AidingStream& stream_;
   Eigen::Vector3d b_g_;
   ImuIntegrator integrator_;
+  std::vector<double> times_;  ///< of the measurements [s]
 };
 
 }  // namespace

@@ -20,6 +20,11 @@ template <typename Model, typename Use>
 void ForEach(const Dataset& dataset, double from, double to, const Use& use) {
   for (std::size_t i = 0; i < dataset.streams.size(); ++i) {
     const AidingStream& stream = dataset.streams[i];
+    // One sensor's measurements are of one model.
+    if (stream.measurements.empty() ||
+        !std::holds_alternative<Model>(stream.measurements.front().model)) {
+      continue;
+    }
     for (const Measurement& z : stream.measurements) {
       const double t = z.t + stream.sensor.time_offset;
       const auto* model = std::get_if<Model>(&z.model);

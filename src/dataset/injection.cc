@@ -170,7 +170,7 @@ void CheckReach(const Injection& injection, const Reach& reach) {
 
 void AddErrors(ErrorSource source, const Injection& injection,
                const TimeInterval& used, AidingStream* stream, Reach* reach) {
-  for (Measurement& z : stream->measurements) {
+  for (Measurement& z : stream->measurements.Edited()) {
     const double t = z.t + stream->sensor.time_offset;
     const bool is_used = t >= used.begin && t <= used.end;
     if (is_used) {

@@ -143,8 +143,8 @@ void CheckNorm(const std::string& name, double norm,
 
 void CheckDown(const AidingStream& stream, const Eigen::Vector3d& p_e,
                std::vector<std::string>* warnings) {
-  const auto* first =
-      std::get_if<MagneticField>(&stream.measurements.front().model);
+  const MeasurementModel model = stream.measurements.front().model;
+  const auto* first = std::get_if<MagneticField>(&model);
   if (first == nullptr || first->form != MagneticField::Form::kVector) return;
   const double sine = DipSine(DipoleField(p_e));
   const double down = stream.sensor.magnetic.down;
@@ -162,11 +162,9 @@ std::optional<Eigen::Vector3d> RoughPosition(const Dataset& dataset) {
   }
   if (dataset.place) return EcefFromGeodetic(*dataset.place);
   for (const AidingStream& stream : dataset.streams) {
-    for (const Measurement& z : stream.measurements) {
-      if (const auto* fix = std::get_if<PositionFix>(&z.model)) {
-        return fix->p_e;
-      }
-    }
+    if (stream.measurements.empty()) continue;
+    const Measurement z = stream.measurements.front();
+    if (const auto* fix = std::get_if<PositionFix>(&z.model)) return fix->p_e;
   }
   return std::nullopt;
 }

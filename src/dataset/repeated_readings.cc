@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -28,6 +30,11 @@ struct RowReading {
   Eigen::Vector4d value = Eigen::Vector4d::Zero();
   /// Of a position, north, east and up [m].
   std::optional<Eigen::Vector3d> position_sigma = std::nullopt;
+
+  template <class Self>
+  static auto Fields(Self& reading) {
+    return std::tie(reading.row, reading.value, reading.position_sigma);
+  }
 };
 
 /// The readings of a stream in time order. At rest those of speed are zero and
@@ -107,37 +114,49 @@ struct HeldReading {
   double t_begin = 0.0;
   double t_end = 0.0;
   long rows = 1;
+
+  template <class Self>
+  static auto Fields(Self& held) {
+    return std::tie(held.reading, held.t_begin, held.t_end, held.rows);
+  }
 };
 
-std::vector<HeldReading> HeldReadings(const AidingStream& stream) {
-  std::vector<HeldReading> held;
+using HeldSeries = PackedSeries<HeldReading>;
+
+HeldSeries HeldReadings(const AidingStream& stream) {
+  HeldSeries all;
+  std::optional<HeldReading> held;
   StreamReader reader;
   for (const Measurement& z : stream.measurements) {
     const std::optional<RowReading> reading = reader.Read(z);
     if (!reading) continue;
-    if (!held.empty() && held.back().reading.row == reading->row) {
-      ++held.back().rows;
-      held.back().t_end = z.t;
-    } else {
-      held.push_back({*reading, z.t, z.t, 1});
+    if (held && held->reading.row == reading->row) {
+      ++held->rows;
+      held->t_end = z.t;
+      continue;
     }
+    if (held) all.push_back(*held);
+    held = {*reading, z.t, z.t, 1};
   }
-  return held;
+  if (held) all.push_back(*held);
+  return all;
 }
 
-long Rows(const std::vector<HeldReading>& held) {
+long Rows(const HeldSeries& held) {
   long rows = 0;
   for (const HeldReading& reading : held) rows += reading.rows;
   return rows;
 }
 
 /// Of each coordinate.
-Eigen::Vector4d ResolutionOf(const std::vector<HeldReading>& held) {
+Eigen::Vector4d ResolutionOf(const HeldSeries& held) {
   Eigen::Vector4d step;
-  std::vector<double> values(held.size());
+  std::vector<double> values;
+  values.reserve(held.size());
   for (int axis = 0; axis < 4; ++axis) {
-    for (std::size_t i = 0; i < held.size(); ++i) {
-      values[i] = held[i].reading.value(axis);
+    values.clear();
+    for (const HeldReading& reading : held) {
+      values.push_back(reading.reading.value(axis));
     }
     step(axis) =
         Resolution(values, {.absolute = kRounding}, ReadingCourse::kAnyhow);
@@ -145,7 +164,7 @@ Eigen::Vector4d ResolutionOf(const std::vector<HeldReading>& held) {
   return step;
 }
 
-long MedianRows(const std::vector<HeldReading>& held) {
+long MedianRows(const HeldSeries& held) {
   std::vector<long> rows;
   for (const HeldReading& reading : held) rows.push_back(reading.rows);
   return Median(std::move(rows));
@@ -155,28 +174,41 @@ long MedianRows(const std::vector<HeldReading>& held) {
 /// over the stream.
 class UsualChange {
  public:
-  explicit UsualChange(const std::vector<HeldReading>& held) {
+  explicit UsualChange(const HeldSeries& held) : held_(held) {
+    std::size_t i = 0;
     for (const HeldReading& reading : held) {
-      values_.insert(values_.end(), static_cast<std::size_t>(reading.rows),
-                     &reading.reading.value);
+      readings_.insert(readings_.end(), static_cast<std::size_t>(reading.rows),
+                       i++);
     }
   }
 
   double Over(long lag) const {
+    const auto [known, is_new] = over_.try_emplace(lag, 0.0);
+    if (is_new) known->second = MedianOver(lag);
+    return known->second;
+  }
+
+ private:
+  double MedianOver(long lag) const {
     constexpr std::size_t kSamples = 1000;
     const std::size_t n =
-        std::min(static_cast<std::size_t>(lag), values_.size() / 2);
-    const std::size_t stride = 1 + values_.size() / kSamples;
+        std::min(static_cast<std::size_t>(lag), readings_.size() / 2);
+    const std::size_t stride = 1 + readings_.size() / kSamples;
     std::vector<double> changes;
-    for (std::size_t i = 0; i + n < values_.size(); i += stride) {
-      const double change = (*values_[i + n] - *values_[i]).norm();
+    for (std::size_t i = 0; i + n < readings_.size(); i += stride) {
+      const double change = (ValueOf(i + n) - ValueOf(i)).norm();
       if (change > 0.0) changes.push_back(change);
     }
     return Median(std::move(changes));
   }
 
- private:
-  std::vector<const Eigen::Vector4d*> values_;
+  Eigen::Vector4d ValueOf(std::size_t row) const {
+    return held_[readings_[row]].reading.value;
+  }
+
+  const HeldSeries& held_;
+  std::vector<std::size_t> readings_;  ///< of each row
+  mutable std::map<long, double> over_;
 };
 
 /// Whether a vehicle that stood still at the end of a run of equal positions
@@ -198,7 +230,7 @@ bool IsUnderWay(const HeldReading& run, const HeldReading& next) {
 class Repetitions {
  public:
   /// Runs of up to `habit` rows are told otherwise.
-  Repetitions(const std::vector<HeldReading>& held, bool is_speed, long habit)
+  Repetitions(const HeldSeries& held, bool is_speed, long habit)
       : held_(held),
         is_speed_(is_speed),
         habit_(habit),
@@ -217,7 +249,7 @@ class Repetitions {
   /// jump at the end shows: at least half of the usual change over as many
   /// rows. A receiver that holds its position at rest does not jump.
   bool IsFrozen(std::size_t i) const {
-    const HeldReading& run = held_[i];
+    const HeldReading run = held_[i];
     if (run.rows < 2) return false;
     const Eigen::Array4d value = run.reading.value.array();
     if (is_speed_ && !(value.abs() > step_).any()) return false;
@@ -253,7 +285,7 @@ class Repetitions {
     return total_ * std::pow(share, static_cast<double>(length - 1)) < kChance;
   }
 
-  const std::vector<HeldReading>& held_;
+  const HeldSeries& held_;
   bool is_speed_;
   long habit_;
   Eigen::Array4d step_;
@@ -266,8 +298,7 @@ class Repetitions {
 /// Spans over which a stream repeats one reading while what it measures goes
 /// on.
 std::vector<RepeatedRun> FrozenSpans(const AidingStream& stream,
-                                     const std::vector<HeldReading>& held,
-                                     bool is_stale) {
+                                     const HeldSeries& held, bool is_stale) {
   if (held.size() < 3) return {};
   const Repetitions repetitions(
       held, StreamReader::IsSpeed(stream.measurements.front()),
@@ -321,20 +352,22 @@ Evidence StaleEvidence(const std::string& name, double share) {
       .remedies = {"the rows of " + name + " at which it was measured, alone"}};
 }
 
-double ShareOf(const std::vector<HeldReading>& held) {
+double ShareOf(const HeldSeries& held) {
   if (held.size() < 3) return 0.0;
   const Eigen::Array4d step = kStepsOfResolution * ResolutionOf(held).array();
   const long usual = 2 * MedianRows(held);
+  const auto far = [&step](const HeldReading& a, const HeldReading& b) {
+    return ((a.reading.value - b.reading.value).array().abs() > step).any();
+  };
   long stale = 0;
+  HeldReading before = held[0];
+  HeldReading here = held[1];
   for (std::size_t i = 1; i + 1 < held.size(); ++i) {
-    const auto far = [&](std::size_t j) {
-      return ((held[j].reading.value - held[i].reading.value).array().abs() >
-              step)
-          .any();
-    };
-    if (held[i].rows <= usual && far(i - 1) && far(i + 1)) {
-      stale += held[i].rows - 1;
+    const HeldReading next = held[i + 1];
+    if (here.rows <= usual && far(before, here) && far(next, here)) {
+      stale += here.rows - 1;
     }
+    before = std::exchange(here, next);
   }
   const long judged = Rows(held) - held.front().rows - held.back().rows;
   return static_cast<double>(stale) / static_cast<double>(judged);
@@ -360,7 +393,7 @@ std::vector<Evidence> FindRepeatedReadings(const Dataset& dataset, double from,
   };
   add("frozen_imu", "imu", FindFrozenImu(dataset.imu));
   for (const AidingStream& stream : dataset.streams) {
-    const std::vector<HeldReading> held = HeldReadings(stream);
+    const HeldSeries held = HeldReadings(stream);
     const double share = ShareOf(held);
     const bool is_stale = share >= kDoubtfulShare;
     add("frozen_stream", stream.sensor.name,

@@ -58,10 +58,10 @@ class StreamBuilder {
   }
 
   void Finish() {
-    auto& rates = rate_.measurements;
     std::sort(
-        rates.begin(), rates.end(),
+        rates_.begin(), rates_.end(),
         [](const Measurement& a, const Measurement& b) { return a.t < b.t; });
+    rate_.measurements = MeasurementSeries(rates_);
     dataset_.streams.push_back(std::move(velocity_));
     dataset_.streams.push_back(std::move(rate_));
   }
@@ -77,9 +77,8 @@ class StreamBuilder {
   }
 
   void AppendRate(const TimeInterval& window, double sigma) {
-    rate_.measurements.push_back(
-        {0.5 * (window.begin + window.end), index() + 1, false,
-         ZeroAngularRate{MeanRate(dataset_.imu, window), sigma}});
+    rates_.push_back({0.5 * (window.begin + window.end), index() + 1, false,
+                      ZeroAngularRate{MeanRate(dataset_.imu, window), sigma}});
   }
 
   /// What the gyros read without a turn, if that is known well enough.
@@ -113,6 +112,7 @@ class StreamBuilder {
       MakeStream("zero_velocity", SensorType::kZeroVelocity);
   AidingStream rate_ =
       MakeStream("zero_angular_rate", SensorType::kZeroAngularRate);
+  std::vector<Measurement> rates_;
 };
 
 }  // namespace

@@ -1,8 +1,6 @@
 #ifndef HINDSIGHT_DATASET_STANDING_FLAGS_H_
 #define HINDSIGHT_DATASET_STANDING_FLAGS_H_
 
-#include <vector>
-
 #include "measurements/measurement.h"
 
 namespace hindsight {
@@ -19,7 +17,7 @@ inline constexpr double kStanceError = 1.0;
 /// A stance of up to half a second then counts as one measurement, a long one
 /// as one a second, whatever the rate of the rows; rows a second apart are left
 /// as they are. Other models are not touched.
-void ShareErrorsOfStances(std::vector<Measurement>* measurements);
+void ShareErrorsOfStances(MeasurementSeries* measurements);
 
 }  // namespace hindsight
 

@@ -17,7 +17,12 @@ constexpr double kIncrementSpacing = 0.2;
 
 struct TimedMeasurement {
   double t = 0.0;
-  const Measurement* z = nullptr;
+  const AidingStream* stream = nullptr;
+  std::size_t row = 0;
+  /// Of an increment: time of the node from which it counts.
+  std::optional<double> start;
+
+  Measurement z() const { return stream->measurements[row]; }
 };
 
 /// The count with which an increment begins, or nullptr for a measurement of
@@ -31,13 +36,8 @@ const Odometer* AsIncrement(const Measurement& z) {
 
 bool HasIncrements(const std::vector<TimedMeasurement>& timed) {
   return std::any_of(timed.begin(), timed.end(), [](const TimedMeasurement& m) {
-    return AsIncrement(*m.z) != nullptr;
+    return m.start.has_value();
   });
-}
-
-/// Time of the node from which an increment counts.
-double TimeOfStart(const TimedMeasurement& m) {
-  return m.t - (m.z->t - AsIncrement(*m.z)->t_from);
 }
 
 std::vector<TimedMeasurement> MeasurementsInside(
@@ -48,11 +48,14 @@ std::vector<TimedMeasurement> MeasurementsInside(
     const double offset = options.time_offsets.empty()
                               ? stream.sensor.time_offset
                               : options.time_offsets[i];
-    for (const Measurement& z : stream.measurements) {
+    for (std::size_t row = 0; row < stream.measurements.size(); ++row) {
+      const Measurement z = stream.measurements[row];
       const double t = z.t + offset;
-      const TimedMeasurement timed{t, &z};
-      const double begin = AsIncrement(z) != nullptr ? TimeOfStart(timed) : t;
-      if (begin >= options.t_begin - kSameTime &&
+      TimedMeasurement timed{t, &stream, row, std::nullopt};
+      if (const Odometer* increment = AsIncrement(z)) {
+        timed.start = t - (z.t - increment->t_from);
+      }
+      if (timed.start.value_or(t) >= options.t_begin - kSameTime &&
           t <= options.t_end + kSameTime) {
         out.push_back(timed);
       }
@@ -78,15 +81,13 @@ void ShareNodes(const Dataset& dataset, const std::vector<double>& required,
     return;
   }
   std::set<double> nodes(required.begin(), required.end());
-  const auto may_move = [&](const TimedMeasurement& m) {
-    return AsIncrement(*m.z) == nullptr &&
-           dataset.streams[static_cast<std::size_t>(m.z->sensor)]
-               .sensor.time_offset_sigma.has_value();
+  const auto may_move = [](const TimedMeasurement& m) {
+    return !m.start && m.stream->sensor.time_offset_sigma.has_value();
   };
   for (const TimedMeasurement& m : *timed) {
     if (may_move(m)) continue;
     nodes.insert(m.t);
-    if (AsIncrement(*m.z) != nullptr) nodes.insert(TimeOfStart(m));
+    if (m.start) nodes.insert(*m.start);
   }
   for (TimedMeasurement& m : *timed) {
     if (!may_move(m)) continue;
@@ -114,13 +115,13 @@ std::vector<IncrementStart> IncrementStarts(
     const std::vector<double>& node_times) {
   std::vector<IncrementStart> starts;
   for (const TimedMeasurement& m : timed) {
-    const Odometer* increment = AsIncrement(*m.z);
-    if (increment == nullptr) continue;
+    if (!m.start) continue;
     const auto node = std::lower_bound(node_times.begin(), node_times.end(),
-                                       TimeOfStart(m) - kSameTime) -
+                                       *m.start - kSameTime) -
                       node_times.begin();
-    starts.push_back(
-        {static_cast<int>(node), m.z->sensor, increment->t_from, std::nullopt});
+    const Measurement z = m.z();
+    starts.push_back({static_cast<int>(node), z.sensor, AsIncrement(z)->t_from,
+                      std::nullopt});
   }
   std::stable_sort(starts.begin(), starts.end(),
                    [](const IncrementStart& a, const IncrementStart& b) {
@@ -175,7 +176,7 @@ Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options) {
   ShareNodes(dataset, required, &timed);
   for (const TimedMeasurement& m : timed) {
     required.push_back(std::clamp(m.t, options.t_begin, options.t_end));
-    if (AsIncrement(*m.z) != nullptr) required.push_back(TimeOfStart(m));
+    if (m.start) required.push_back(*m.start);
   }
   const double spacing =
       HasIncrements(timed) ? std::min(dataset.max_node_spacing,
@@ -192,7 +193,7 @@ Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options) {
     nodes[k].first_measurement = static_cast<int>(measurements.size());
     while (next < timed.size() &&
            (timed[next].t <= times[k] + kSameTime || k + 1 == times.size())) {
-      measurements.push_back(*timed[next++].z);
+      measurements.push_back(timed[next++].z());
     }
     nodes[k].measurement_count =
         static_cast<int>(measurements.size()) - nodes[k].first_measurement;

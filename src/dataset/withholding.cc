@@ -41,20 +41,21 @@ const char* TypeName(SensorType type) {
 void Withhold(const Withholding& withholding, const Dataset& dataset, int index,
               AidingStream* stream, std::vector<Outage>* outages) {
   const double offset = stream->sensor.time_offset;
-  auto& measurements = stream->measurements;
+  MeasurementSeries& measurements = stream->measurements;
   // Fixes beyond the IMU's record are predicted by nobody.
   const auto usable = [&](const Measurement& z) {
     const double t = z.t + offset;
     return dataset.imu.empty() ||
            (t >= dataset.imu.t_begin() && t <= dataset.imu.t_end());
   };
-  const auto first =
-      std::find_if(measurements.begin(), measurements.end(), usable);
-  const auto last =
-      std::find_if(measurements.rbegin(), measurements.rend(), usable);
-  if (first == measurements.end()) return;
-  const double first_fix = first->t + offset;
-  const double last_fix = last->t + offset;
+  std::size_t next = 0;
+  while (next < measurements.size() && !usable(measurements[next])) ++next;
+  if (next == measurements.size()) return;
+  std::size_t last = measurements.size() - 1;
+  while (!usable(measurements[last])) --last;
+  const auto time = [&](std::size_t i) { return measurements[i].t + offset; };
+  const double first_fix = time(next);
+  const double last_fix = time(last);
   const double start = first_fix + withholding.from.value_or(withholding.every);
   constexpr double kMostOutages = 100000.0;
   const double count = (last_fix - start) / withholding.every;
@@ -67,14 +68,13 @@ void Withhold(const Withholding& withholding, const Dataset& dataset, int index,
                   kMostOutages);
     throw InputError(text);
   }
-  auto z = first;
   for (int k = 0;; ++k) {
     const Outage outage{index, start + k * withholding.every,
                         start + k * withholding.every + withholding.length};
     if (outage.t_end > last_fix) return;
-    while (z != measurements.end() && z->t + offset < outage.t_begin) ++z;
-    for (; z != measurements.end() && z->t + offset < outage.t_end; ++z) {
-      z->withheld = true;
+    while (next <= last && time(next) < outage.t_begin) ++next;
+    for (; next <= last && time(next) < outage.t_end; ++next) {
+      measurements.Edit(next, [](Measurement& z) { z.withheld = true; });
     }
     outages->push_back(outage);
   }
@@ -85,7 +85,7 @@ void Withhold(const Withholding& withholding, const Dataset& dataset, int index,
 void ApplyWithholding(Dataset* dataset) {
   dataset->outages.clear();
   for (AidingStream& stream : dataset->streams) {
-    for (Measurement& z : stream.measurements) z.withheld = false;
+    for (Measurement& z : stream.measurements.Edited()) z.withheld = false;
   }
   for (const Withholding& withholding : dataset->withholdings) {
     bool found = false;

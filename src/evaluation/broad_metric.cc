@@ -18,8 +18,8 @@ BroadError BroadErrorOf(const Eigen::Quaterniond& q_est,
 }
 
 BroadMetric EvaluateBroad(const SolutionTable& solution,
-                          const std::vector<TruthPoint>& truth) {
-  std::vector<TruthPoint> used;
+                          const TruthSeries& truth) {
+  TruthSeries used;
   for (const TruthPoint& point : truth) {
     if (!point.q_nb || !point.moving.value_or(true)) continue;
     TruthPoint attitude;

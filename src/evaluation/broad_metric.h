@@ -34,7 +34,7 @@ struct BroadMetric {
 };
 /// `solution` is interpolated to the reference's times.
 BroadMetric EvaluateBroad(const SolutionTable& solution,
-                          const std::vector<TruthPoint>& truth);
+                          const TruthSeries& truth);
 
 }  // namespace hindsight
 

@@ -77,17 +77,19 @@ SolutionTable TableFromSolution(const Solution& solution) {
   return table;
 }
 
-std::vector<TruthPoint> TruthFromTable(const SolutionTable& table) {
-  std::vector<TruthPoint> truth(table.size());
+TruthSeries TruthFromTable(const SolutionTable& table) {
+  TruthSeries truth;
   for (std::size_t k = 0; k < table.size(); ++k) {
-    truth[k].t = table.t[k];
-    if (!table.p_e.empty()) truth[k].p_e = table.p_e[k];
+    TruthPoint point;
+    point.t = table.t[k];
+    if (!table.p_e.empty()) point.p_e = table.p_e[k];
     if (!table.v_e.empty()) {
-      truth[k].v_n = table.C_en(k).transpose() * table.v_e[k];
+      point.v_n = table.C_en(k).transpose() * table.v_e[k];
     }
-    if (!table.q_eb.empty()) truth[k].q_nb = table.q_nb(k);
-    if (!table.b_g.empty()) truth[k].b_g = table.b_g[k];
-    if (!table.b_a.empty()) truth[k].b_a = table.b_a[k];
+    if (!table.q_eb.empty()) point.q_nb = table.q_nb(k);
+    if (!table.b_g.empty()) point.b_g = table.b_g[k];
+    if (!table.b_a.empty()) point.b_a = table.b_a[k];
+    truth.push_back(point);
   }
   return truth;
 }

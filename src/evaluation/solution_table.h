@@ -47,7 +47,7 @@ struct SolutionTable {
 SolutionTable TableFromSolution(const Solution& solution);
 
 /// A table as a reference trajectory.
-std::vector<TruthPoint> TruthFromTable(const SolutionTable& table);
+TruthSeries TruthFromTable(const SolutionTable& table);
 
 }  // namespace hindsight
 

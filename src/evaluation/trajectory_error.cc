@@ -119,7 +119,7 @@ std::optional<double> Mean(const std::vector<TrajectoryError>& errors,
 }  // namespace
 
 std::vector<TrajectoryError> ComputeTrajectoryErrors(
-    const SolutionTable& solution, const std::vector<TruthPoint>& truth,
+    const SolutionTable& solution, const TruthSeries& truth,
     const TrajectoryErrorOptions& options) {
   const TrajectoryInterpolator interpolator(solution, options.max_gap);
   std::vector<TrajectoryError> errors;
@@ -176,7 +176,7 @@ std::string Contradiction(const TrajectoryStatistics& statistics) {
 }
 
 TrajectoryStatistics EvaluateTrajectory(const SolutionTable& solution,
-                                        const std::vector<TruthPoint>& truth,
+                                        const TruthSeries& truth,
                                         const TrajectoryErrorOptions& options) {
   const std::vector<TrajectoryError> errors =
       ComputeTrajectoryErrors(solution, truth, options);

@@ -42,7 +42,7 @@ struct TrajectoryError {
 /// Errors at all truth points that can be matched. The solution is
 /// interpolated to the truth's times (see TrajectoryInterpolator).
 std::vector<TrajectoryError> ComputeTrajectoryErrors(
-    const SolutionTable& solution, const std::vector<TruthPoint>& truth,
+    const SolutionTable& solution, const TruthSeries& truth,
     const TrajectoryErrorOptions& options);
 
 struct VectorErrorStatistics {
@@ -84,7 +84,7 @@ TrajectoryStatistics SummarizeErrors(const std::vector<TrajectoryError>& errors,
 
 /// Both steps in one.
 TrajectoryStatistics EvaluateTrajectory(const SolutionTable& solution,
-                                        const std::vector<TruthPoint>& truth,
+                                        const TruthSeries& truth,
                                         const TrajectoryErrorOptions& options);
 
 /// What a truth says against the covariances of a solution, in words: mean

@@ -16,7 +16,7 @@ constexpr std::size_t kMostTruthPoints = 50000;
 constexpr double kSameStamp = 1e-6;
 
 /// Columns that every point has.
-SolutionTable TableFromTruth(const std::vector<TruthPoint>& truth) {
+SolutionTable TableFromTruth(const TruthSeries& truth) {
   const auto all = [&truth](const auto& part) {
     return std::all_of(
         truth.begin(), truth.end(),
@@ -40,16 +40,15 @@ SolutionTable TableFromTruth(const std::vector<TruthPoint>& truth) {
 
 /// The reference at given times, interpolated; those outside its span or in its
 /// gaps are left out.
-std::vector<TruthPoint> TruthAt(const std::vector<TruthPoint>& truth,
-                                const std::vector<double>& times,
-                                double max_gap) {
+TruthSeries TruthAt(const TruthSeries& truth, const std::vector<double>& times,
+                    double max_gap) {
   const SolutionTable table = TableFromTruth(truth);
   const TrajectoryInterpolator interpolator(table, max_gap);
-  std::vector<TruthPoint> points;
+  TruthSeries points;
   for (const double t : times) {
     const std::optional<InterpolatedState> x = interpolator.At(t);
     if (!x) continue;
-    TruthPoint& point = points.emplace_back();
+    TruthPoint point;
     point.t = t;
     point.p_e = x->p_e;
     const Eigen::Matrix3d C_ne =
@@ -57,12 +56,12 @@ std::vector<TruthPoint> TruthAt(const std::vector<TruthPoint>& truth,
                : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
     if (x->v_e) point.v_n = C_ne * *x->v_e;
     if (x->q_eb) point.q_nb = Eigen::Quaterniond(C_ne) * *x->q_eb;
+    points.push_back(point);
   }
   return points;
 }
 
-bool IsSparser(const SolutionTable& solution,
-               const std::vector<TruthPoint>& truth) {
+bool IsSparser(const SolutionTable& solution, const TruthSeries& truth) {
   if (solution.size() < 2 || truth.size() < 2) return false;
   const double rows = (solution.t.back() - solution.t.front()) /
                       static_cast<double>(solution.size() - 1);
@@ -73,9 +72,9 @@ bool IsSparser(const SolutionTable& solution,
 
 }  // namespace
 
-void ThinTruth(std::vector<TruthPoint>* truth) {
+void ThinTruth(TruthSeries* truth) {
   double last = -std::numeric_limits<double>::infinity();
-  std::erase_if(*truth, [&last](const TruthPoint& point) {
+  truth->EraseIf([&last](const TruthPoint& point) {
     // A truth at 10 Hz is kept whole, whatever its stamps' rounding.
     if (point.t < last + 0.999 * kLeastTruthSpacing) return true;
     last = point.t;
@@ -84,15 +83,11 @@ void ThinTruth(std::vector<TruthPoint>* truth) {
   const std::size_t every =
       (truth->size() + kMostTruthPoints - 1) / kMostTruthPoints;
   if (every < 2) return;
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < truth->size(); k += every) {
-    (*truth)[kept++] = (*truth)[k];
-  }
-  truth->resize(kept);
+  std::size_t k = 0;
+  truth->EraseIf([&](const TruthPoint&) { return k++ % every != 0; });
 }
 
-bool HasRowsAtTruth(const SolutionTable& solution,
-                    const std::vector<TruthPoint>& truth) {
+bool HasRowsAtTruth(const SolutionTable& solution, const TruthSeries& truth) {
   if (solution.size() == 0) return false;
   const std::vector<double>& t = solution.t;
   return std::all_of(truth.begin(), truth.end(), [&t](const TruthPoint& point) {
@@ -104,9 +99,9 @@ bool HasRowsAtTruth(const SolutionTable& solution,
 }
 
 TrajectoryStatistics CompareWithTruth(const SolutionTable& solution,
-                                      std::vector<TruthPoint> truth,
+                                      TruthSeries truth,
                                       const TrajectoryErrorOptions& options) {
-  std::vector<TruthPoint> thinned = truth;
+  TruthSeries thinned = truth;
   ThinTruth(&thinned);
   if (HasRowsAtTruth(solution, thinned) || !IsSparser(solution, truth)) {
     return EvaluateTrajectory(solution, thinned, options);

@@ -12,12 +12,11 @@ namespace hindsight {
 /// Leaves out truth points closer than 0.1 s to the one before, and of more
 /// than 50 000 so many that they are evenly fewer: a trajectory says nothing
 /// new in between, and samples with covariances are large.
-void ThinTruth(std::vector<TruthPoint>* truth);
+void ThinTruth(TruthSeries* truth);
 
 /// Whether `solution` has a row at every one of the truth's times between its
 /// first and its last.
-bool HasRowsAtTruth(const SolutionTable& solution,
-                    const std::vector<TruthPoint>& truth);
+bool HasRowsAtTruth(const SolutionTable& solution, const TruthSeries& truth);
 
 /// The errors of a solution against a reference, of whatever command asks:
 ///   where the solution has a row at every (thinned) truth point in its span,
@@ -28,7 +27,7 @@ bool HasRowsAtTruth(const SolutionTable& solution,
 ///   else at the (thinned) truth points, the solution interpolated.
 /// Interpolation as of TrajectoryInterpolator, with the gap of the options.
 TrajectoryStatistics CompareWithTruth(const SolutionTable& solution,
-                                      std::vector<TruthPoint> truth,
+                                      TruthSeries truth,
                                       const TrajectoryErrorOptions& options);
 
 }  // namespace hindsight

@@ -232,13 +232,12 @@ void RequireStartInside(ConfigMap* top, const Dataset& dataset) {
 }
 
 /// The constraint holds at all times: measurements of nobody's making.
-std::vector<Measurement> Generate(const AidingConfig& config,
-                                  const ImuStream& imu) {
+MeasurementSeries Generate(const AidingConfig& config, const ImuStream& imu) {
   Odometer odometer;
   odometer.form = config.options.odometer_form;
   odometer.sigma = *config.options.sigma;
   const double step = 1.0 / *config.generated_rate;
-  std::vector<Measurement> measurements;
+  MeasurementSeries measurements;
   const long count = CountGenerated(config, imu, step);
   for (long k = 0; k <= count; ++k) {
     measurements.push_back({imu.t_begin() + static_cast<double>(k) * step,
@@ -279,7 +278,7 @@ void LoadAiding(const AidingConfig& config, double truth_offset,
   stream.measurements =
       ReadAiding(config.source, config.options, &clock, &dataset->policies);
   const TimeLine line = MapClock(config.source, clock, dataset->epoch_gps_ns);
-  for (Measurement& z : stream.measurements) {
+  for (Measurement& z : stream.measurements.Edited()) {
     z.t = line(z.t);
     if (auto* odometer = std::get_if<Odometer>(&z.model)) {
       odometer->t_from = line(odometer->t_from);
@@ -324,7 +323,7 @@ double FitTruthClock(const StreamSource& source, Dataset* dataset) {
                      "a truth with attitudes that turn");
   }
   const double offset = found.candidates.front().offset;
-  for (TruthPoint& point : dataset->truth) point.t += offset;
+  for (TruthPoint& point : dataset->truth.Edited()) point.t += offset;
   dataset->notes.push_back("truth: time offset found: " + Describe(found));
   return offset;
 }
@@ -336,7 +335,7 @@ double LoadTruth(const Declared& declared, Dataset* dataset) {
   dataset->truth = ReadTruth(*declared.truth, declared.truth_options, &clock,
                              &dataset->policies);
   const TimeLine line = MapClock(*declared.truth, clock, dataset->epoch_gps_ns);
-  for (TruthPoint& point : dataset->truth) point.t = line(point.t);
+  for (TruthPoint& point : dataset->truth.Edited()) point.t = line(point.t);
   const double offset = declared.truth_clock_unknown
                             ? FitTruthClock(*declared.truth, dataset)
                             : declared.truth->clock.offset;

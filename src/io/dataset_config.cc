@@ -118,7 +118,7 @@ const char* TypeName(const Sensor& sensor) {
 void AppendOdometer(const AidingStream& stream, YamlText* yaml) {
   const Sensor& sensor = stream.sensor;
   if (sensor.type != SensorType::kOdometer) return;
-  const auto& first = std::get<Odometer>(stream.measurements.front().model);
+  const auto first = std::get<Odometer>(stream.measurements.front().model);
   if (first.form == Odometer::Form::kIncrements) {
     yaml->Text("form", "increments");
     yaml->Number("sigma", first.sigma.x(), kMetres);
@@ -138,8 +138,7 @@ void AppendOdometer(const AidingStream& stream, YamlText* yaml) {
 void AppendMagnetometer(const AidingStream& stream, YamlText* yaml) {
   if (stream.sensor.type != SensorType::kMagnetometer) return;
   const MagneticSurroundings& magnetic = stream.sensor.magnetic;
-  const auto& first =
-      std::get<MagneticField>(stream.measurements.front().model);
+  const auto first = std::get<MagneticField>(stream.measurements.front().model);
   const bool vector = first.form == MagneticField::Form::kVector;
   yaml->Text("form", vector ? "vector" : "heading");
   yaml->Number("sigma", first.sigma, kMicrotesla);
@@ -164,7 +163,7 @@ void AppendMagneticEstimates(const MagneticSurroundings& magnetic,
 void AppendDvl(const AidingStream& stream, YamlText* yaml) {
   const Sensor& sensor = stream.sensor;
   if (sensor.type != SensorType::kDvl) return;
-  const auto& first = std::get<Dvl>(stream.measurements.front().model);
+  const auto first = std::get<Dvl>(stream.measurements.front().model);
   if (first.form == Dvl::Form::kBeams) {
     yaml->Text("form", "beams");
     yaml->Number("beam_angle", first.beam_angle, kDegrees);
@@ -198,7 +197,7 @@ std::string PositionText(const Geodetic& position) {
 void AppendAcoustic(const AidingStream& stream, YamlText* yaml) {
   const Sensor& sensor = stream.sensor;
   if (sensor.type != SensorType::kAcousticFix) return;
-  const auto& first = std::get<AcousticFix>(stream.measurements.front().model);
+  const auto first = std::get<AcousticFix>(stream.measurements.front().model);
   yaml->Text("transponder", PositionText(GeodeticFromEcef(first.p_t_e)));
   if (first.has_range) yaml->Number("sigma", first.sigma_range, kMetres);
   if (first.has_bearing) {

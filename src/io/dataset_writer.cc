@@ -113,8 +113,8 @@ Eigen::Vector3d SigmaOf(const Eigen::Matrix3d& R_n, const std::string& name) {
 }
 
 bool CountsDistance(const AidingStream& stream) {
-  const auto* odometer =
-      std::get_if<Odometer>(&stream.measurements.front().model);
+  const Measurement first = stream.measurements.front();
+  const auto* odometer = std::get_if<Odometer>(&first.model);
   return odometer != nullptr && odometer->form == Odometer::Form::kIncrements;
 }
 
@@ -236,7 +236,7 @@ struct TruthColumns {
   bool biases = true;
 };
 
-TruthColumns CommonColumns(const std::vector<TruthPoint>& truth) {
+TruthColumns CommonColumns(const TruthSeries& truth) {
   TruthColumns has;
   for (const TruthPoint& point : truth) {
     has.position = has.position && point.p_e;
@@ -247,7 +247,7 @@ TruthColumns CommonColumns(const std::vector<TruthPoint>& truth) {
   return has;
 }
 
-void WriteTruth(const std::string& path, const std::vector<TruthPoint>& truth) {
+void WriteTruth(const std::string& path, const TruthSeries& truth) {
   const TruthColumns has = CommonColumns(truth);
   AtomicFile file(path);
   std::string heading = "t[s]";

@@ -126,10 +126,10 @@ struct AidingReadOptions {
 /// positive, a latitude beyond 90 deg and a covariance that is not positive
 /// definite. Velocities that are all zero with zero standard deviations are
 /// absent in .pos files and left out.
-std::vector<Measurement> ReadAiding(const StreamSource& source,
-                                    const AidingReadOptions& options,
-                                    StreamClock* clock,
-                                    std::vector<PolicyCount>* policies);
+MeasurementSeries ReadAiding(const StreamSource& source,
+                             const AidingReadOptions& options,
+                             StreamClock* clock,
+                             std::vector<PolicyCount>* policies);
 
 /// The axes of p_x ..., v_x ... and q_w ... in a reference trajectory.
 struct TruthFrame {
@@ -148,10 +148,9 @@ struct TruthReadOptions {
 };
 
 /// Reads a reference trajectory: any of position, velocity and attitude.
-std::vector<TruthPoint> ReadTruth(const StreamSource& source,
-                                  const TruthReadOptions& options,
-                                  StreamClock* clock,
-                                  std::vector<PolicyCount>* policies);
+TruthSeries ReadTruth(const StreamSource& source,
+                      const TruthReadOptions& options, StreamClock* clock,
+                      std::vector<PolicyCount>* policies);
 
 }  // namespace hindsight
 

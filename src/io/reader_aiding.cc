@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -55,9 +56,6 @@ FieldMap MapOf(const AidingReadOptions& options) {
 /// a part of it: stamps jitter.
 constexpr double kEarly = 0.05;
 
-/// Rows that space is taken for before they are there: 0.5 GB of addresses.
-constexpr std::size_t kMostReserved = std::size_t{1} << 22;
-
 class AidingReader {
  public:
   AidingReader(const StreamSource& source, const AidingReadOptions& options)
@@ -77,8 +75,8 @@ class AidingReader {
     }
   }
 
-  std::vector<Measurement> Read() {
-    std::vector<Measurement> measurements;
+  MeasurementSeries Read() {
+    MeasurementSeries measurements;
     bool last_kept = false;
     while (true) {
       const StreamRows::Step step = rows_.Next();
@@ -92,17 +90,14 @@ class AidingReader {
       last_kept =
           !IsRejected() && !IsAbsent() && !IsAbsentVelocity() && !IsUnflagged();
       if (!last_kept) continue;
-      Measurement z{rows_.t(), options_.sensor, false, Model()};
+      const Measurement z{rows_.t(), options_.sensor, false, Model()};
       last_kept = Rows(z) > 0;
       if (!last_kept) {
         ++lost_;
         continue;
       }
-      if (measurements.empty()) {
-        measurements.reserve(std::min(rows_.table().RowsHint(), kMostReserved));
-        due_ = rows_.t();
-      }
-      measurements.push_back(std::move(z));
+      if (measurements.empty()) due_ = rows_.t();
+      measurements.push_back(z);
       if (options_.every > 0.0) {
         const double late = rows_.t() + kEarly * options_.every - due_;
         if (late >= 0.0) {
@@ -332,14 +327,20 @@ class AidingReader {
   }
 
   /// From counts to what has come since the count before; the first has none.
-  static void TakeDifferences(std::vector<Measurement>* measurements) {
-    for (std::size_t i = measurements->size(); i-- > 1;) {
-      auto& here = std::get<Odometer>((*measurements)[i].model);
-      const Measurement& before = (*measurements)[i - 1];
-      here.distance -= std::get<Odometer>(before.model).distance;
-      here.t_from = before.t;
+  static void TakeDifferences(MeasurementSeries* measurements) {
+    Measurement before;
+    for (Measurement& z : measurements->Edited()) {
+      const Measurement count = z;
+      auto& here = std::get<Odometer>(z.model);
+      if (const auto* from = std::get_if<Odometer>(&before.model)) {
+        here.distance -= from->distance;
+        here.t_from = before.t;
+      }
+      before = count;
     }
-    if (!measurements->empty()) measurements->erase(measurements->begin());
+    bool first = true;
+    measurements->EraseIf(
+        [&](const Measurement&) { return std::exchange(first, false); });
   }
 
   SpeedCourse SpeedCourseModel() const {
@@ -372,12 +373,12 @@ class AidingReader {
 
 }  // namespace
 
-std::vector<Measurement> ReadAiding(const StreamSource& source,
-                                    const AidingReadOptions& options,
-                                    StreamClock* clock,
-                                    std::vector<PolicyCount>* policies) {
+MeasurementSeries ReadAiding(const StreamSource& source,
+                             const AidingReadOptions& options,
+                             StreamClock* clock,
+                             std::vector<PolicyCount>* policies) {
   AidingReader reader(source, options);
-  std::vector<Measurement> measurements = reader.Read();
+  MeasurementSeries measurements = reader.Read();
   if (measurements.empty()) {
     throw InputError(source.path, 0,
                      "holds no measurement that " + source.name + " accepts");

@@ -45,15 +45,15 @@ class TruthReader {
     }
   }
 
-  std::vector<TruthPoint> Read(long* absent) {
-    std::vector<TruthPoint> truth;
+  TruthSeries Read(long* absent) {
+    TruthSeries truth;
     while (true) {
       const StreamRows::Step step = rows_.Next();
       if (step == StreamRows::Step::kEnd) break;
-      if (truth.empty()) truth.reserve(rows_.table().RowsHint());
       if (step == StreamRows::Step::kReplace) truth.pop_back();
-      truth.push_back(Point());
-      if (IsIncomplete(truth.back())) ++*absent;
+      const TruthPoint point = Point();
+      truth.push_back(point);
+      if (IsIncomplete(point)) ++*absent;
     }
     return truth;
   }
@@ -177,13 +177,12 @@ class TruthReader {
 
 }  // namespace
 
-std::vector<TruthPoint> ReadTruth(const StreamSource& source,
-                                  const TruthReadOptions& options,
-                                  StreamClock* clock,
-                                  std::vector<PolicyCount>* policies) {
+TruthSeries ReadTruth(const StreamSource& source,
+                      const TruthReadOptions& options, StreamClock* clock,
+                      std::vector<PolicyCount>* policies) {
   TruthReader reader(source, options);
   long absent = 0;
-  std::vector<TruthPoint> truth = reader.Read(&absent);
+  TruthSeries truth = reader.Read(&absent);
   *clock = reader.rows().clock();
   reader.rows().CountPolicies(policies);
   AddPolicy(source.name, "row with absent values", absent, policies);

@@ -1,10 +1,12 @@
 #ifndef HINDSIGHT_IO_ROW_BUFFER_H_
 #define HINDSIGHT_IO_ROW_BUFFER_H_
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/packed_columns.h"
 #include "io/fields.h"
 #include "io/row_source.h"
 
@@ -24,45 +26,42 @@ class RowBuffer final : public RowSource {
   void Declare(std::size_t field) { has_[field] = true; }
   /// Adds a row of absent values. `path` is empty for the buffer's own.
   void Append(const Stamp& stamp, long line, const std::string& path = "");
-  void Restamp(std::size_t row, const Stamp& stamp) {
-    places_[row].stamp = stamp;
-  }
+  void Restamp(std::size_t row, const Stamp& stamp);
   /// Sets a value of the last row if the field was asked for.
   void Set(const std::string& field, double value);
-  void Set(std::size_t row, std::size_t field, double value) {
-    data_[row * has_.size() + field] = value;
-  }
+  void Set(std::size_t row, std::size_t field, double value);
   void LeaveOut(const std::string& action, long count);
   /// Into the order of the stamps, equal ones as they are. Returns the number
   /// of rows that stood behind a later one.
   long Sort();
 
-  std::size_t size() const { return places_.size(); }
-  const Stamp& stamp_of(std::size_t row) const { return places_[row].stamp; }
-  void Reserve(std::size_t rows);
+  std::size_t size() const { return rows_.size(); }
+  Stamp stamp_of(std::size_t row) const { return StampIn(Read(row)); }
 
   bool Next() override;
   bool Has(std::size_t field) const override { return has_[field]; }
-  std::size_t RowsHint() const override { return places_.size(); }
+  std::size_t RowsHint() const override { return size(); }
   const std::string& path() const override { return path_; }
   const std::string& row_path() const override;
   std::vector<LeftOut> left_out() const override { return left_out_; }
 
  private:
-  struct Place {
-    Stamp stamp;
-    long line = 0;
-    std::size_t file = 0;
-    std::size_t row = 0;
-  };
+  /// What stands in a row, the values behind it.
+  enum Place : std::size_t { kSeconds, kFraction, kLine, kFile, kValues };
+  using PackedRow = std::vector<PackedWord>;
+
+  static Stamp StampIn(const PackedRow& row);
+  static void SetStamp(const Stamp& stamp, PackedRow* row);
+  PackedRow Read(std::size_t row) const;
 
   std::string path_;
   const std::vector<FieldName>& fields_;
   bool allow_absent_;
   std::vector<bool> has_;
-  std::vector<Place> places_;
+  PackedColumns rows_;
+  std::vector<std::uint32_t> order_;  ///< of the rows; empty: as they are
+  std::size_t file_ = 0;              ///< of the current row
   std::vector<std::string> files_;
-  std::vector<double> data_;
   std::vector<LeftOut> left_out_;
   std::size_t next_ = 0;
 };

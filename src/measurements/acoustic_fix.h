@@ -1,6 +1,8 @@
 #ifndef HINDSIGHT_MEASUREMENTS_ACOUSTIC_FIX_H_
 #define HINDSIGHT_MEASUREMENTS_ACOUSTIC_FIX_H_
 
+#include <tuple>
+
 #include "measurements/model.h"
 
 namespace hindsight {
@@ -24,6 +26,13 @@ struct AcousticFix {
   double depression = 0.0;                          ///< measured [rad]
   double sigma_range = 1.0;                         ///< [m]
   double sigma_bearing = 0.01;                      ///< across, each [rad]
+
+  /// For base/packed_words.h.
+  template <class Self>
+  static auto Fields(Self& z) {
+    return std::tie(z.has_range, z.has_bearing, z.p_t_e, z.range, z.azimuth,
+                    z.depression, z.sigma_range, z.sigma_bearing);
+  }
 
   /// Multiplies the standard deviations.
   void ScaleSigma(double factor) {

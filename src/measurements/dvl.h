@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <tuple>
 
 #include "measurements/model.h"
 
@@ -32,6 +33,13 @@ struct Dvl {
       0.0;  ///< of the first beam, from forward to right [rad]
   Eigen::Vector4d speed = Eigen::Vector4d::Zero();  ///< measured [m/s]
   Eigen::Vector4d sigma = Eigen::Vector4d::Ones();  ///< [m/s]
+
+  /// For base/packed_words.h.
+  template <class Self>
+  static auto Fields(Self& z) {
+    return std::tie(z.form, z.water, z.valid, z.beam_angle, z.beam_azimuth,
+                    z.speed, z.sigma);
+  }
 
   /// Multiplies the standard deviations.
   void ScaleSigma(double factor) { sigma *= factor; }

@@ -1,6 +1,8 @@
 #ifndef HINDSIGHT_MEASUREMENTS_HEIGHT_FIX_H_
 #define HINDSIGHT_MEASUREMENTS_HEIGHT_FIX_H_
 
+#include <tuple>
+
 #include "measurements/model.h"
 
 namespace hindsight {
@@ -11,6 +13,12 @@ namespace hindsight {
 struct HeightFix {
   double height = 0.0;  ///< measured [m]
   double sigma = 1.0;   ///< [m]
+
+  /// For base/packed_words.h.
+  template <class Self>
+  static auto Fields(Self& z) {
+    return std::tie(z.height, z.sigma);
+  }
 
   /// Multiplies the standard deviations.
   void ScaleSigma(double factor) { sigma *= factor; }

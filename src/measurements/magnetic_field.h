@@ -1,6 +1,8 @@
 #ifndef HINDSIGHT_MEASUREMENTS_MAGNETIC_FIELD_H_
 #define HINDSIGHT_MEASUREMENTS_MAGNETIC_FIELD_H_
 
+#include <tuple>
+
 #include "measurements/model.h"
 
 namespace hindsight {
@@ -18,6 +20,12 @@ struct MagneticField {
   Eigen::Vector3d field_b = Eigen::Vector3d::Zero();  ///< body axes [uT]
   double sigma = 1.0;                                 ///< per axis [uT]
   Form form = Form::kHeading;
+
+  /// For base/packed_words.h.
+  template <class Self>
+  static auto Fields(Self& z) {
+    return std::tie(z.field_b, z.sigma, z.form);
+  }
 
   /// Multiplies the standard deviation.
   void ScaleSigma(double factor) { sigma *= factor; }

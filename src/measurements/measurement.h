@@ -2,8 +2,10 @@
 #define HINDSIGHT_MEASUREMENTS_MEASUREMENT_H_
 
 #include <string>
+#include <tuple>
 #include <variant>
 
+#include "base/packed_series.h"
 #include "measurements/acoustic_fix.h"
 #include "measurements/dvl.h"
 #include "measurements/height_fix.h"
@@ -30,7 +32,16 @@ struct Measurement {
   int sensor = 0;  ///< index into Dataset::streams
   bool withheld = false;  ///< predicted and reported, never used
   MeasurementModel model;
+
+  /// For base/packed_words.h.
+  template <class Self>
+  static auto Fields(Self& z) {
+    return std::tie(z.t, z.sensor, z.withheld, z.model);
+  }
 };
+
+/// The measurements of one sensor.
+using MeasurementSeries = PackedSeries<Measurement>;
 
 /// Rows of the measurement.
 int Rows(const Measurement& z);

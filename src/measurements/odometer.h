@@ -1,6 +1,8 @@
 #ifndef HINDSIGHT_MEASUREMENTS_ODOMETER_H_
 #define HINDSIGHT_MEASUREMENTS_ODOMETER_H_
 
+#include <tuple>
+
 #include "measurements/model.h"
 
 namespace hindsight {
@@ -36,6 +38,13 @@ struct Odometer {
   /// Side and down speed of the axle [m/s]; used by kThreeAxis and
   /// kNonHolonomic.
   Eigen::Vector2d side_down = Eigen::Vector2d::Zero();
+
+  /// For base/packed_words.h.
+  template <class Self>
+  static auto Fields(Self& z) {
+    return std::tie(z.form, z.speed, z.distance, z.t_from, z.sigma,
+                    z.side_down);
+  }
 
   /// Multiplies the standard deviations.
   void ScaleSigma(double factor) { sigma *= factor; }

@@ -1,6 +1,8 @@
 #ifndef HINDSIGHT_MEASUREMENTS_POSITION_FIX_H_
 #define HINDSIGHT_MEASUREMENTS_POSITION_FIX_H_
 
+#include <tuple>
+
 #include "measurements/model.h"
 
 namespace hindsight {
@@ -14,6 +16,12 @@ namespace hindsight {
 struct PositionFix {
   Eigen::Vector3d p_e = Eigen::Vector3d::Zero();      ///< measured, ECEF [m]
   Eigen::Matrix3d R_n = Eigen::Matrix3d::Identity();  ///< NED covariance [m^2]
+
+  /// For base/packed_words.h.
+  template <class Self>
+  static auto Fields(Self& z) {
+    return std::tie(z.p_e, z.R_n);
+  }
 
   /// Multiplies the standard deviations.
   void ScaleSigma(double factor) { R_n *= factor * factor; }

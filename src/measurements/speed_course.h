@@ -1,6 +1,8 @@
 #ifndef HINDSIGHT_MEASUREMENTS_SPEED_COURSE_H_
 #define HINDSIGHT_MEASUREMENTS_SPEED_COURSE_H_
 
+#include <tuple>
+
 #include "measurements/model.h"
 
 namespace hindsight {
@@ -20,6 +22,13 @@ struct SpeedCourse {
   double sigma_speed = 0.1;    ///< [m/s]
   double sigma_course = 0.02;  ///< [rad]
   bool has_course = true;
+
+  /// For base/packed_words.h.
+  template <class Self>
+  static auto Fields(Self& z) {
+    return std::tie(z.speed, z.course, z.sigma_speed, z.sigma_course,
+                    z.has_course);
+  }
 
   /// Multiplies the standard deviations.
   void ScaleSigma(double factor) {

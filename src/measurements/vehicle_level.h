@@ -1,6 +1,8 @@
 #ifndef HINDSIGHT_MEASUREMENTS_VEHICLE_LEVEL_H_
 #define HINDSIGHT_MEASUREMENTS_VEHICLE_LEVEL_H_
 
+#include <tuple>
+
 #include "measurements/model.h"
 
 namespace hindsight {
@@ -14,6 +16,12 @@ namespace hindsight {
 /// shows.
 struct VehicleLevel {
   double sigma = 1.0;  ///< of this one [rad]
+
+  /// For base/packed_words.h.
+  template <class Self>
+  static auto Fields(Self& z) {
+    return std::tie(z.sigma);
+  }
 
   /// Does nothing: a prior is not fitted to the data.
   void ScaleSigma(double) {}

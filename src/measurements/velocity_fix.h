@@ -1,6 +1,8 @@
 #ifndef HINDSIGHT_MEASUREMENTS_VELOCITY_FIX_H_
 #define HINDSIGHT_MEASUREMENTS_VELOCITY_FIX_H_
 
+#include <tuple>
+
 #include "measurements/model.h"
 
 namespace hindsight {
@@ -12,6 +14,12 @@ namespace hindsight {
 struct VelocityFix {
   Eigen::Vector3d v_n = Eigen::Vector3d::Zero();      ///< measured NED [m/s]
   Eigen::Matrix3d R_n = Eigen::Matrix3d::Identity();  ///< [m^2/s^2]
+
+  /// For base/packed_words.h.
+  template <class Self>
+  static auto Fields(Self& z) {
+    return std::tie(z.v_n, z.R_n);
+  }
 
   /// Multiplies the standard deviations.
   void ScaleSigma(double factor) { R_n *= factor * factor; }

@@ -110,13 +110,13 @@ void GiveBadStart(const BadStart& start, std::uint64_t seed, Dataset* dataset) {
   const Eigen::Vector3d tilt(start.tilt * std::cos(direction),
                              start.tilt * std::sin(direction), 0.0);
   const Eigen::Vector3d heading(0.0, 0.0, side * start.heading);
-  const TruthPoint& truth = dataset->truth.front();
+  const TruthPoint truth = dataset->truth.front();
   InitialState& initial = dataset->initial;
   initial.euler =
       EulerFromQuaternion(Exp(-tilt) * Exp(-heading) * truth.q_nb.value());
   initial.attitude_sigma =
       Eigen::Vector3d(start.tilt, start.tilt, start.heading);
-  const auto& first = std::get<VelocityFix>(
+  const auto first = std::get<VelocityFix>(
       dataset->streams.front().measurements.front().model);
   initial.v_n = first.v_n;
   initial.velocity_sigma = first.R_n.diagonal().cwiseSqrt();
@@ -131,7 +131,7 @@ void MountAnywhere(std::uint64_t seed, Dataset* dataset) {
     sample.gyro = q_bm * sample.gyro;
     sample.accel = q_bm * sample.accel;
   }
-  for (TruthPoint& truth : dataset->truth) {
+  for (TruthPoint& truth : dataset->truth.Edited()) {
     truth.q_nb = *truth.q_nb * q_bm.conjugate();
     truth.b_g = q_bm * *truth.b_g;
     truth.b_a = q_bm * *truth.b_a;

@@ -129,7 +129,8 @@ Dataset MakeDataset(const Scenario& scenario,
   for (std::size_t k = 0; k < scenario.aiding.size(); ++k) {
     AddMeasurementErrors(scenario.aiding[k], seed, &perfect[k]);
     DrawnSensor drawn = DrawSensor(scenario.aiding[k], seed);
-    dataset.streams.push_back({std::move(drawn.sensor), std::move(perfect[k])});
+    dataset.streams.push_back(
+        {std::move(drawn.sensor), MeasurementSeries(perfect[k])});
     dataset.true_constants.merge(drawn.true_constants);
   }
   dataset.initial = DrawInitialState(scenario, start, seed);
@@ -250,7 +251,6 @@ Dataset PerfectRecording::Realize(std::uint64_t seed) const {
                    seed);
   AddImuScales(scenario_.imu, errors, &dataset);
   dataset.imu.samples = samples_;
-  dataset.truth.reserve(truth_.size());
   for (std::size_t k = 0; k < samples_.size(); ++k) {
     errors.Apply(&dataset.imu.samples[k]);
     if (k % truth_every_ == 0) {

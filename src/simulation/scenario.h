@@ -85,7 +85,7 @@ class Simulation {
   ImuErrors errors_;
   std::size_t index_ = 0;
   std::size_t truth_every_;
-  std::vector<TruthPoint> truth_;
+  TruthSeries truth_;
 };
 
 /// One seed of a scenario as a data set in memory. Truth carries the biases.

@@ -60,14 +60,12 @@ Eigen::Vector3d Disturbance(const VibrationAttitudeOptions& options, double t,
   return q_nb.conjugate() * a_n;
 }
 
-AidingStream Magnetometer(const VibrationAttitudeOptions& options) {
+AidingStream Magnetometer() {
   AidingStream stream;
   stream.sensor.name = "magnetometer";
   stream.sensor.type = SensorType::kMagnetometer;
   stream.sensor.magnetic.horizontal = 30.0;
   stream.sensor.magnetic.down = 40.0;
-  stream.measurements.reserve(
-      static_cast<std::size_t>(options.duration * options.rate) + 1);
   return stream;
 }
 
@@ -88,7 +86,7 @@ Dataset SimulateVibrationAttitude(const VibrationAttitudeOptions& options,
   FreeBody body(options, QuaternionFromEuler(0.1, -0.2, 0.5));
   Dataset dataset;
   dataset.name = kVibrationAttitudeName;
-  AidingStream magnetometer = Magnetometer(options);
+  AidingStream magnetometer = Magnetometer();
   const Eigen::Vector3d m_n(magnetometer.sensor.magnetic.horizontal, 0.0,
                             magnetometer.sensor.magnetic.down);
   dataset.initial.euler = EulerFromQuaternion(

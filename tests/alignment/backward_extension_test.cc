@@ -25,7 +25,7 @@ class BackwardExtension : public ::testing::Test {
     prior.gyro_bias_sigma.setConstant(1e-5);
     prior.accel_bias_sigma.setConstant(1e-2);
     layout_ = BuildLayout(dataset_, prior);
-    const TruthPoint& truth = dataset_.truth[300];
+    const TruthPoint truth = dataset_.truth[300];
     x_.t = truth.t;
     x_.p_e = *truth.p_e;
     x_.v_e = x_.C_en() * *truth.v_n;

@@ -36,7 +36,7 @@ TEST(MountingSearch, FindsAnyAttitudeWithinDegrees) {
 TEST(MountingSearch, ToleratesAClockThatIsOff) {
   Dataset dataset = Simulate(BuiltinScenario("short_drive"), 3);
   for (AidingStream& stream : dataset.streams) {
-    for (Measurement& z : stream.measurements) z.t -= 0.45;
+    for (Measurement& z : stream.measurements.Edited()) z.t -= 0.45;
   }
   const auto found = FindMounting(dataset, -kInfinity, kInfinity);
   ASSERT_TRUE(found);

@@ -34,7 +34,7 @@ TEST(Start, LevelsAtRestAndTakesTheHeadingFromTheCourse) {
     EXPECT_NE(start.report.attitude.find("levelled at rest"), std::string::npos)
         << start.report.attitude;
     EXPECT_NE(start.report.heading.find("course"), std::string::npos);
-    const TruthPoint& truth = testing::TruthAt(dataset, start.report.t);
+    const TruthPoint truth = testing::TruthAt(dataset, start.report.t);
     const Eigen::Vector3d euler = EulerFromQuaternion(*truth.q_nb);
     const Eigen::Vector3d error = start.report.state.euler() - euler;
     // Three sigma as reported: accelerometer bias of 1 mg over g.
@@ -135,7 +135,7 @@ TEST(Start, WithoutPositionThereIsNoAnswer) {
   Dataset dataset = Simulate(FromRest(), 1);
   dataset.streams.erase(dataset.streams.begin());
   for (AidingStream& stream : dataset.streams) {
-    for (Measurement& z : stream.measurements) --z.sensor;
+    for (Measurement& z : stream.measurements.Edited()) --z.sensor;
   }
   EXPECT_THROW(FindWholeStart(dataset), EstimationError);
   dataset.initial.t = 1.0;
@@ -281,15 +281,15 @@ TEST(Start, ReachesBackToTheFirstSampleWhereTheFirstFixComesLater) {
   constexpr double kFirstFix = 40.0;
   Dataset dataset = Simulate(FromRest(), 1);
   for (AidingStream& stream : dataset.streams) {
-    std::erase_if(stream.measurements,
-                  [](const Measurement& z) { return z.t < kFirstFix; });
+    stream.measurements.EraseIf(
+        [](const Measurement& z) { return z.t < kFirstFix; });
   }
   const Start start = FindWholeStart(dataset);
   EXPECT_NEAR(start.report.t, 0.0, 1e-9);
   EXPECT_EQ(start.prior.x.t, start.report.t);
   EXPECT_NE(start.report.position.find("back to the start"), std::string::npos)
       << start.report.position;
-  const TruthPoint& truth = dataset.truth.front();
+  const TruthPoint truth = dataset.truth.front();
   const Eigen::Vector3d d = start.report.state.C_en().transpose() *
                             (*truth.p_e - start.report.state.p_e);
   const Eigen::Vector3d v = *truth.v_n - start.report.state.v_n();

@@ -24,7 +24,7 @@ AlignmentInput InputOf(const Dataset& dataset, double to) {
   return input;
 }
 
-const TruthPoint& FlightTruthAt(const Dataset& dataset, double t) {
+TruthPoint FlightTruthAt(const Dataset& dataset, double t) {
   return dataset.truth[static_cast<std::size_t>(std::lround(10.0 * t))];
 }
 
@@ -44,7 +44,7 @@ TEST(VelocityAlignment, ExactDataGiveTheExactAttitudeWhereverTheBodyPoints) {
         AlignCoarsely(InputOf(dataset, 40.0), 40.0, Eigen::Vector3d::Zero(),
                       Eigen::Vector3d::Zero());
     ASSERT_TRUE(coarse);
-    const TruthPoint& truth = dataset.truth.front();
+    const TruthPoint truth = dataset.truth.front();
     const Eigen::Quaterniond q_eb =
         Eigen::Quaterniond(NedAxes(*truth.p_e)) * *truth.q_nb;
     EXPECT_LT(coarse->q_eb.angularDistance(q_eb), 1e-5) << seed;
@@ -69,11 +69,10 @@ TEST(VelocityAlignment, ARefinementThatStraysIsNotBelieved) {
     MountAnywhere(seed, &dataset);
     dataset.initial.gyro_bias_sigma = scenario.imu.gyro_bias_sigma;
     dataset.initial.accel_bias_sigma = scenario.imu.accel_bias_sigma;
-    std::vector<Measurement>& fixes = dataset.streams.front().measurements;
-    for (Measurement& fix : fixes) fix.t += 0.2;
-    std::erase_if(fixes, [](const Measurement& fix) {
-      return fix.t > 40.0 && fix.t < 55.0;
-    });
+    MeasurementSeries& fixes = dataset.streams.front().measurements;
+    for (Measurement& fix : fixes.Edited()) fix.t += 0.2;
+    fixes.EraseIf(
+        [](const Measurement& fix) { return fix.t > 40.0 && fix.t < 55.0; });
     AlignmentInput input{.dataset = dataset, .t = 33.0, .to = 73.0};
     input.fixes = PositionFixes(dataset, input.t, input.to);
     input.velocities = GroundVelocities(dataset, input.t, input.to);
@@ -141,7 +140,7 @@ TEST_P(InFlight, AlignsFromAnyAttitudeWithAnHonestCovariance) {
     MountAnywhere(seed, &dataset);
     const auto found = AlignmentWindow(InputOf(dataset, kEnd), kEnd).Align(0.0);
     ASSERT_TRUE(found && found->refined) << seed;
-    const TruthPoint& first = dataset.truth.front();
+    const TruthPoint first = dataset.truth.front();
     const Eigen::Vector3d e =
         Log(*first.q_nb * found->attitude.q_nb.conjugate());
     nees += e.dot(found->attitude.P.llt().solve(e)) / kRuns;

@@ -222,34 +222,128 @@ std::vector<LargeInput> LargeInputs() {
            }}};
 }
 
-TEST(Reading, TakesAtMost64MbAndThreeTimesTheInput) {
-  TemporaryFolder folder;
-  WriteFile(folder.path() / "small.csv", std::string(kImuTitles) + "\n0," +
-                                             kImuValues + "\n9999," +
-                                             kImuValues + "\n");
-  const std::string noise =
-      "  max_gap: 10000 s\n"
-      "  noise: {gyro: 0.2 deg/sqrt(h), accel: 70 ug/sqrt(Hz)}\n";
-  for (const LargeInput& input : LargeInputs()) {
-    WriteFile(folder.path() / input.file, input.bytes());
-    std::string text = input.keys.starts_with("imu")
-                           ? input.keys + noise
-                           : "imu:\n  file: small.csv\n" + noise + input.keys;
-    text.replace(text.find("FILE"), 4, input.file);
-    WriteFile(folder.path() / "config.yaml",
+/// A stream that is read whole and then found to be of another time.
+struct NarrowInput {
+  std::string name;
+  std::string keys;
+  std::string titles;
+  std::function<std::string(int)> row;
+};
+
+std::string Decimal(double value, int digits) {
+  char text[40];
+  const int n = std::snprintf(text, sizeof(text), "%.*f", digits, value);
+  return {text, static_cast<std::size_t>(n)};
+}
+
+std::string Stamped(int i, const std::string& values) {
+  return Decimal(0.001 * i, 3) + "," + values;
+}
+
+/// Anything but a regular pattern, of so many digits.
+int Mixed(int i, unsigned most) {
+  return static_cast<int>(static_cast<unsigned>(i) * 2654435761u % most);
+}
+
+std::vector<NarrowInput> NarrowInputs() {
+  const auto speed = [](int i) {
+    return Stamped(i, Decimal(0.001 * Mixed(i, 40000), 3));
+  };
+  const auto digits = [](int i, int count) {
+    std::string text = std::to_string(Mixed(i, 10));
+    for (int k = 1; k < count; ++k) {
+      text += "," + std::to_string(Mixed(i + 1000 * k, 10));
+    }
+    return text;
+  };
+  const std::string odometer = "type: odometer, sigma: 0.1 m/s";
+  const std::string height = "type: height, sigma: 1 m";
+  return {
+      {"odometer", odometer, "t[s],speed[m/s]", speed},
+      {"odometer.gz", odometer, "t[s],speed[m/s]", speed},
+      {"unordered", odometer + ", on_unordered: sort", "t[s],speed[m/s]",
+       [speed](int i) { return speed(i ^ 1); }},
+      {"counts", "type: odometer, form: increments, sigma: 1 cm",
+       "t[s],distance[m]",
+       [](int i) { return Stamped(i, Decimal(0.01 * i, 2)); }},
+      {"height", height, "t[s],h[m]",
+       [](int i) { return Stamped(i, Decimal(0.1 * Mixed(i, 90000), 1)); }},
+      {"depth", "type: depth, surface: 50 m, sigma: 1 m", "t[s],depth[m]",
+       [](int i) { return Stamped(i, std::to_string(Mixed(i, 100))); }},
+      {"by_row", height, "h[m]", [digits](int i) { return digits(i, 1); }},
+      {"flags", "type: zero_velocity, sigma: 1 cm/s", "t[s],zero_velocity[1]",
+       [](int i) { return Stamped(i, "1"); }},
+      {"magnetometer",
+       "type: magnetometer, sigma: 1 uT, horizontal: 20 uT, declination: 0 deg",
+       "t[s],mag_x[uT],mag_y[uT],mag_z[uT]",
+       [digits](int i) { return Stamped(i, digits(i, 3)); }},
+      {"position", "type: position, sigma: 1 m", "t[s],lat[deg],lon[deg],h[m]",
+       [digits](int i) { return Stamped(i, digits(i, 3)); }},
+      {"truth", "", "t[s],lat[deg],lon[deg],h[m]",
+       [digits](int i) { return Stamped(i, digits(i, 3)); }},
+      {"truth.gz", "",
+       "t[s],lat[deg],lon[deg],h[m],v_n[m/s],v_e[m/s],v_d[m/s],roll[deg],"
+       "pitch[deg],heading[deg]",
+       [digits](int i) { return Stamped(i, digits(i, 9)); }},
+  };
+}
+
+class ReadingMemory : public ::testing::Test {
+ protected:
+  ReadingMemory() {
+    WriteFile(folder_.path() / "small.csv", std::string(kImuTitles) + "\n0," +
+                                                kImuValues + "\n999999," +
+                                                kImuValues + "\n");
+  }
+
+  /// The keys of the IMU, the aiding or the truth, with FILE for the file.
+  void ExpectBound(const std::string& file, const std::string& bytes,
+                   std::size_t size, const std::string& keys) {
+    WriteFile(folder_.path() / file, bytes);
+    const std::string noise =
+        "  max_gap: 1000000 s\n"
+        "  noise: {gyro: 0.2 deg/sqrt(h), accel: 70 ug/sqrt(Hz)}\n";
+    std::string text = keys.starts_with("imu")
+                           ? keys + noise
+                           : "imu:\n  file: small.csv\n" + noise + keys;
+    text.replace(text.find("FILE"), 4, file);
+    WriteFile(folder_.path() / "config.yaml",
               "epoch: 2017-01-01 00:00:00 UTC\n" + text);
     // A child begins with what its parent holds.
     malloc_trim(0);
-    const Outcome outcome = Hindsight({"check", "config.yaml"}, folder.path());
-    EXPECT_EQ(outcome.status, 2) << input.file;
-    EXPECT_THAT(outcome.err, HasSubstr(input.file + ":"));
-    const double most =
-        64.0 + 3.0 * static_cast<double>(input.size) / (1 << 20);
-    SCOPED_TRACE(input.file);
+    const Outcome outcome = Hindsight({"check", "config.yaml"}, folder_.path());
+    EXPECT_EQ(outcome.status, 2) << file;
+    EXPECT_THAT(outcome.err, HasSubstr(file));
+    const double most = 64.0 + 3.0 * static_cast<double>(size) / (1 << 20);
+    SCOPED_TRACE(file);
     ExpectMemory(outcome, most);
-    std::printf("%s: %.0f MB of %.0f: %s", input.file.c_str(),
-                outcome.peak_memory, most, outcome.err.c_str());
-    std::filesystem::remove(folder.path() / input.file);
+    std::printf("%s: %.0f MB of %.0f: %s", file.c_str(), outcome.peak_memory,
+                most, outcome.err.c_str());
+    std::filesystem::remove(folder_.path() / file);
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(ReadingMemory, IsAtMost64MbAndThreeTimesTheInput) {
+  for (const LargeInput& input : LargeInputs()) {
+    ExpectBound(input.file, input.bytes(), input.size, input.keys);
+  }
+}
+
+TEST_F(ReadingMemory, IsBoundedHoweverNarrowTheRowsAre) {
+  constexpr std::size_t kSize = 16'000'000;  // [bytes]
+  for (const NarrowInput& input : NarrowInputs()) {
+    std::string text = input.titles + "\n";
+    for (int i = 0; text.size() < kSize; ++i) text += input.row(i) + "\n";
+    const bool is_packed = input.name.ends_with(".gz");
+    ExpectBound(is_packed ? "narrow.csv.gz" : "narrow.csv",
+                is_packed ? Gzipped(text) : text, text.size(),
+                (input.keys.empty() ? "truth: {"
+                                    : "aiding:\n  s: {" + input.keys + ", ") +
+                    "file: FILE, time: {start: 5000000 s" +
+                    (input.name == "by_row" ? ", rate: 100 Hz" : "") + "}}\n");
   }
 }
 

@@ -55,8 +55,9 @@ TEST(CheckDataset, FlagsOfStandingComeWhenTheyCome) {
     if (flag) stream.sensor.type = SensorType::kZeroVelocity;
     for (int i = 0; i < 100; ++i) {
       const double t = 0.5 * i + (i % 3 == 0 ? 0.3 : 0.0);
-      stream.measurements.push_back({t, 1, false, PositionFix{}});
-      if (flag) stream.measurements.back().model = ZeroVelocity{0.05};
+      Measurement z{t, 1, false, PositionFix{}};
+      if (flag) z.model = ZeroVelocity{0.05};
+      stream.measurements.push_back(z);
     }
     data.streams.push_back(stream);
     const CheckReport report = CheckDataset(data);
@@ -141,7 +142,11 @@ TEST(CheckDataset, GravityIsSoughtWhereTheForceVariesLeast) {
 /// Rows each 20 ms and further ones between them, each with its right stamp.
 TEST(CheckDataset, RowsBetweenRegularOnesAreNoSignOfReception) {
   Dataset data = Recording({0, 0, -9.81});
-  const auto add = [&data](double t) { data.truth.emplace_back().t = t; };
+  const auto add = [&data](double t) {
+    TruthPoint point;
+    point.t = t;
+    data.truth.push_back(point);
+  };
   for (int i = 0; i < 2900; ++i) {
     add(0.02 * i);
     if (i % 6 == 0) add(0.02 * i + 0.001 * (i % 18));

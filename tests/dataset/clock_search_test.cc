@@ -26,7 +26,7 @@ Dataset LateTruth(double late) {
   Scenario scenario = BuiltinScenario("short_drive");
   scenario.truth_rate_hz = 1.0;
   Dataset dataset = Simulate(scenario, 1);
-  for (TruthPoint& point : dataset.truth) point.t += late;
+  for (TruthPoint& point : dataset.truth.Edited()) point.t += late;
   return dataset;
 }
 
@@ -43,7 +43,7 @@ TEST(ClockSearch, TruthsClockIsFoundFromTheGyros) {
 
 TEST(ClockSearch, TruthsClockIsNotFoundWhereNothingTellsIt) {
   Dataset straight = LateTruth(0.0);
-  for (TruthPoint& point : straight.truth) {
+  for (TruthPoint& point : straight.truth.Edited()) {
     point.q_nb = Eigen::Quaterniond::Identity();
   }
   for (ImuSample& sample : straight.imu.samples) {
@@ -51,7 +51,7 @@ TEST(ClockSearch, TruthsClockIsNotFoundWhereNothingTellsIt) {
   }
   EXPECT_TRUE(SearchClock(straight.imu, straight.truth).candidates.empty());
   Dataset positions = LateTruth(0.0);
-  for (TruthPoint& point : positions.truth) point.q_nb.reset();
+  for (TruthPoint& point : positions.truth.Edited()) point.q_nb.reset();
   EXPECT_TRUE(SearchClock(positions.imu, positions.truth).candidates.empty());
 }
 
@@ -187,7 +187,8 @@ TEST(ClockSearch, SeveralClocksOfARegularFlightAreTold) {
 TEST(ClockSearch, WithheldMeasurementsTakeNoPart) {
   Dataset dataset = Drive(
       Model(SensorType::kVelocity, Eigen::Vector3d::Constant(0.05), 5.0), 13);
-  for (Measurement& z : dataset.streams[0].measurements) z.withheld = true;
+  for (Measurement& z : dataset.streams[0].measurements.Edited())
+    z.withheld = true;
   EXPECT_TRUE(SearchClock(dataset.imu, dataset.initial, dataset.streams[0])
                   .candidates.empty());
 }

@@ -37,7 +37,7 @@ Eigen::Vector3d ErrorOf(const Dataset& dataset, std::size_t k,
                         std::size_t stream = 0) {
   const Eigen::Vector3d p_e =
       EcefFromGeodetic({48.0 * kDegree, 11.0 * kDegree, 500.0});
-  const auto& fix =
+  const auto fix =
       std::get<PositionFix>(dataset.streams[stream].measurements[k].model);
   return NedAxes(p_e).transpose() * (fix.p_e - p_e);
 }
@@ -152,7 +152,8 @@ TEST(Injection, LeavesWithheldMeasurementsAsTheyAre) {
   Dataset all = Fixes();
   Dataset some = Fixes();
   for (std::size_t k = 120; k < 150; ++k) {
-    some.streams[0].measurements[k].withheld = true;
+    some.streams[0].measurements.Edit(
+        k, [](Measurement& z) { z.withheld = true; });
   }
   ApplyInjections({injection}, 7, &all);
   ApplyInjections({injection}, 7, &some);
@@ -188,7 +189,8 @@ TEST(Injection, CountsAndNeedsWhatIsUsed) {
   EXPECT_THAT(
       Refusal(Make(Injection::Kind::kStep, 4.0, 300.0, 400.0), used, dataset),
       ::testing::HasSubstr("from 100 s to 199 s"));
-  for (Measurement& z : dataset.streams[0].measurements) z.withheld = true;
+  for (Measurement& z : dataset.streams[0].measurements.Edited())
+    z.withheld = true;
   EXPECT_THAT(Refusal(step, used, dataset),
               ::testing::HasSubstr("withheld, 100"));
 }

@@ -35,7 +35,7 @@ Dataset Drive(double latitude_deg, double dip_deg) {
 }
 
 Dataset Scaled(Dataset dataset, const Eigen::Vector3d& factors) {
-  for (Measurement& z : dataset.streams.back().measurements) {
+  for (Measurement& z : dataset.streams.back().measurements.Edited()) {
     auto& field = std::get<MagneticField>(z.model);
     field.field_b = field.field_b.cwiseProduct(factors);
   }

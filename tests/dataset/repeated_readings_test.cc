@@ -211,7 +211,7 @@ TEST(RepeatedReadings, FrozenPositionsAreDoubtfulUnlessTheVehicleRests) {
 /// Positions with sigmas of half a metre.
 AidingStream Fixes(double rate, double speed, double (*hold)(double)) {
   AidingStream stream = Positions(rate, speed, 1e-3, hold);
-  for (Measurement& z : stream.measurements) {
+  for (Measurement& z : stream.measurements.Edited()) {
     std::get<PositionFix>(z.model).R_n = 0.25 * Eigen::Matrix3d::Identity();
   }
   return stream;

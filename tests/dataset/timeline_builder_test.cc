@@ -61,7 +61,7 @@ TEST(TimelineBuilder, NodesStandAtTrueTimesAndFillTheRest) {
 TEST(TimelineBuilder, MeasurementsBelongToTheirNode) {
   Dataset dataset = Record({1.0, 2.0, 3.0});
   AidingStream second = dataset.streams[0];
-  for (Measurement& z : second.measurements) z.sensor = 1;
+  for (Measurement& z : second.measurements.Edited()) z.sensor = 1;
   dataset.streams.push_back(second);
   const Timeline timeline = Build(dataset, 0.5, 3.5, {});
   std::size_t total = 0;

@@ -34,7 +34,7 @@ TEST(BroadMetric, DoesNotDependOnTheSignOfTheQuaternion) {
 
 TEST(BroadMetric, CountsOnlyMotionWithAReference) {
   SolutionTable table;
-  std::vector<TruthPoint> truth;
+  TruthSeries truth;
   for (int k = 0; k < 10; ++k) {
     table.t.push_back(0.1 * k);
     table.q_eb.push_back(Exp(Eigen::Vector3d(0.0, 0.0, k < 5 ? 0.2 : 0.1)));

@@ -50,7 +50,8 @@ TEST(TrajectoryError, OfAPositionOnlyTruthMatchesHandComputedCase) {
   SolutionTable table = AtRest({0.0, 0.0, 0.0});
   table.P_position.assign(2, Eigen::Vector3d(9.0, 16.0, 4.0).asDiagonal());
   const TruthPoint truth = TruthPosition(10.5, Displaced({3.0, 4.0, -2.0}));
-  const TrajectoryStatistics s = EvaluateTrajectory(table, {truth}, {});
+  const TrajectoryStatistics s =
+      EvaluateTrajectory(table, TruthSeries({truth}), {});
   ASSERT_TRUE(s.position);
   EXPECT_NEAR(s.position->axis[0].mean, 3.0, 1e-8);
   EXPECT_NEAR(s.position->axis[1].mean, 4.0, 1e-8);
@@ -69,7 +70,7 @@ TEST(TrajectoryError, AppliesTheTruthLeverArm) {
   const SolutionTable table = AtRest({0.0, 0.0, 90.0 * kDegree});
   const TruthPoint truth = TruthPosition(10.0, Displaced({-1.0, 2.0, 0.5}));
   const auto errors = ComputeTrajectoryErrors(
-      table, {truth}, {.truth_lever_arm_b = {2.0, 1.0, 0.5}});
+      table, TruthSeries({truth}), {.truth_lever_arm_b = {2.0, 1.0, 0.5}});
   ASSERT_EQ(errors.size(), 1u);
   EXPECT_LT(errors[0].position->norm(), 1e-8);
 }
@@ -91,7 +92,7 @@ TEST(TrajectoryError, MovesTheVelocityToTheTruthPoint) {
   truth.v_n =
       Eigen::Vector3d(-0.2 * std::sin(heading), 0.2 * std::cos(heading), 0.0);
   const auto errors = ComputeTrajectoryErrors(
-      table, {truth}, {.truth_lever_arm_b = {2.0, 0.0, 0.0}});
+      table, TruthSeries({truth}), {.truth_lever_arm_b = {2.0, 0.0, 0.0}});
   ASSERT_EQ(errors.size(), 1u);
   EXPECT_LT(errors[0].velocity->norm(), 1e-9);
   EXPECT_FALSE(errors[0].position);
@@ -100,7 +101,7 @@ TEST(TrajectoryError, MovesTheVelocityToTheTruthPoint) {
 TEST(TrajectoryError, WrapsTheHeadingDifference) {
   const SolutionTable table = AtRest({0.0, 0.0, 179.0 * kDegree});
   const TruthPoint truth = TruthAttitude(10.3, {0.0, 0.0, -179.0 * kDegree});
-  const auto errors = ComputeTrajectoryErrors(table, {truth}, {});
+  const auto errors = ComputeTrajectoryErrors(table, TruthSeries({truth}), {});
   ASSERT_EQ(errors.size(), 1u);
   EXPECT_LT((*errors[0].euler - Eigen::Vector3d(0, 0, 2 * kDegree)).norm(),
             1e-10);
@@ -113,7 +114,8 @@ TEST(TrajectoryError, ComparesAttitudesWithoutAPlace) {
   table.t = {0.0, 1.0};
   table.q_eb.assign(2, QuaternionFromEuler(0.1, 0.2, 0.3));
   const TruthPoint truth = TruthAttitude(0.5, {0.11, 0.2, 0.3});
-  const TrajectoryStatistics s = EvaluateTrajectory(table, {truth}, {});
+  const TrajectoryStatistics s =
+      EvaluateTrajectory(table, TruthSeries({truth}), {});
   EXPECT_FALSE(s.position);
   ASSERT_TRUE(s.attitude);
   EXPECT_NEAR(s.attitude->axis[0].rms, 0.01, 1e-12);
@@ -122,15 +124,15 @@ TEST(TrajectoryError, ComparesAttitudesWithoutAPlace) {
 
 TEST(TrajectoryError, CountsTruthThatCannotBeMatched) {
   const SolutionTable table = AtRest({0.0, 0.0, 0.0});
-  std::vector<TruthPoint> truth;
+  TruthSeries truth;
   for (int k = 0; k < 8; ++k) {
     truth.push_back(TruthPosition(9.5 + 0.25 * k, table.p_e[0]));
   }
   const TrajectoryStatistics s = EvaluateTrajectory(table, truth, {});
   EXPECT_EQ(s.matched_count, 5u);
   EXPECT_DOUBLE_EQ(s.matched_percent(), 62.5);
-  const TrajectoryStatistics none =
-      EvaluateTrajectory(table, {TruthPosition(99.0, table.p_e[0])}, {});
+  const TrajectoryStatistics none = EvaluateTrajectory(
+      table, TruthSeries({TruthPosition(99.0, table.p_e[0])}), {});
   EXPECT_FALSE(none.position);
   EXPECT_DOUBLE_EQ(none.matched_percent(), 0.0);
 }
@@ -147,7 +149,7 @@ TEST(TrajectoryError, NormalisedErrorsOfAConsistentEstimateAverageThree) {
   table.P_velocity.assign(2, P);
   table.P_attitude.assign(2, kAngleScale * kAngleScale * P);
   Random random(7);
-  std::vector<TruthPoint> truth;
+  TruthSeries truth;
   const auto draw = [&]() -> Eigen::Vector3d {
     return L * random.NormalVector3();
   };
@@ -169,8 +171,8 @@ TEST(TrajectoryError, NormalisedErrorsOfAConsistentEstimateAverageThree) {
 TEST(TrajectoryError, HasNoNormalisedErrorForASingularCovariance) {
   SolutionTable table = AtRest({0.0, 0.0, 0.0});
   table.P_position.assign(2, Eigen::Vector3d(1.0, 0.0, 1.0).asDiagonal());
-  const TrajectoryStatistics s =
-      EvaluateTrajectory(table, {TruthPosition(10.0, table.p_e[0])}, {});
+  const TrajectoryStatistics s = EvaluateTrajectory(
+      table, TruthSeries({TruthPosition(10.0, table.p_e[0])}), {});
   EXPECT_TRUE(s.position);
   EXPECT_FALSE(s.position_nees);
 }

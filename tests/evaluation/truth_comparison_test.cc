@@ -26,7 +26,7 @@ SolutionTable Circle(double dt, double end, double offset = 0.0) {
 }
 
 TEST(ThinTruth, KeepsTenPointsASecond) {
-  std::vector<TruthPoint> truth = TruthFromTable(Circle(0.01, 10.0));
+  TruthSeries truth = TruthFromTable(Circle(0.01, 10.0));
   ThinTruth(&truth);
   ASSERT_EQ(truth.size(), 101u);
   EXPECT_NEAR(truth[1].t, 0.1, 1e-9);
@@ -36,9 +36,11 @@ TEST(ThinTruth, KeepsTenPointsASecond) {
 }
 
 TEST(ThinTruth, KeepsFewEnoughOfADay) {
-  std::vector<TruthPoint> truth(864000);
-  for (std::size_t k = 0; k < truth.size(); ++k) {
-    truth[k].t = 0.1 * static_cast<double>(k);
+  TruthSeries truth;
+  for (int k = 0; k < 864000; ++k) {
+    TruthPoint point;
+    point.t = 0.1 * k;
+    truth.push_back(point);
   }
   ThinTruth(&truth);
   EXPECT_LE(truth.size(), 50000u);
@@ -52,7 +54,7 @@ TEST(ThinTruth, KeepsFewEnoughOfADay) {
 TEST(CompareWithTruth, TakesRowsAtTheTruthAsTheyAre) {
   // Rows at the truth's times, too far apart to be interpolated.
   const SolutionTable solution = Circle(5.0, 20.0, 1.0);
-  const std::vector<TruthPoint> truth = TruthFromTable(Circle(5.0, 20.0));
+  const TruthSeries truth = TruthFromTable(Circle(5.0, 20.0));
   const TrajectoryStatistics s = CompareWithTruth(solution, truth, {});
   EXPECT_FALSE(s.at_solution_rows);
   EXPECT_EQ(s.truth_count, 5u);
@@ -62,7 +64,7 @@ TEST(CompareWithTruth, TakesRowsAtTheTruthAsTheyAre) {
 
 TEST(CompareWithTruth, ComparesASparseSolutionAtItsOwnRows) {
   const SolutionTable solution = Circle(1.0, 20.0, 1.0);
-  const std::vector<TruthPoint> truth = TruthFromTable(Circle(0.03, 20.0));
+  const TruthSeries truth = TruthFromTable(Circle(0.03, 20.0));
   const TrajectoryStatistics s = CompareWithTruth(solution, truth, {});
   EXPECT_TRUE(s.at_solution_rows);
   EXPECT_EQ(s.truth_count, 21u);
@@ -73,7 +75,7 @@ TEST(CompareWithTruth, ComparesASparseSolutionAtItsOwnRows) {
 
 TEST(CompareWithTruth, InterpolatesADenseSolution) {
   const SolutionTable solution = Circle(0.03, 20.0, 1.0);
-  const std::vector<TruthPoint> truth = TruthFromTable(Circle(1.0, 20.0));
+  const TruthSeries truth = TruthFromTable(Circle(1.0, 20.0));
   const TrajectoryStatistics s = CompareWithTruth(solution, truth, {});
   EXPECT_FALSE(s.at_solution_rows);
   EXPECT_EQ(s.truth_count, 21u);

@@ -62,7 +62,7 @@ TEST_F(AidingTypes, OdometerWithCalibration) {
   // Vehicle = Rz(90 deg) body: what is forward in the body is on the right.
   EXPECT_TRUE((sensor.q_sb * Eigen::Vector3d::UnitX())
                   .isApprox(Eigen::Vector3d::UnitY(), 1e-12));
-  const auto& z = std::get<Odometer>(data.streams[0].measurements[1].model);
+  const auto z = std::get<Odometer>(data.streams[0].measurements[1].model);
   EXPECT_DOUBLE_EQ(z.speed, -5.0);
   EXPECT_EQ(z.form, Odometer::Form::kThreeAxis);
   EXPECT_EQ(z.sigma, Eigen::Vector3d(0.1, 0.2, 0.3));
@@ -123,7 +123,7 @@ TEST_F(AidingTypes, ObGinsOdometerStandsInColumnEight) {
                         "format: kf_gins, form: forward, sigma: 0.1 m/s}\n"));
   const Dataset data = Load();
   ASSERT_EQ(data.imu.samples.size(), 1u + 3u);
-  const auto& z = std::get<Odometer>(data.streams[0].measurements[2].model);
+  const auto z = std::get<Odometer>(data.streams[0].measurements[2].model);
   EXPECT_EQ(z.speed, 3.0);
   EXPECT_EQ(z.form, Odometer::Form::kForward);
 }
@@ -135,7 +135,7 @@ TEST_F(AidingTypes, TheConstraintIsGeneratedOverTheImusRecord) {
   const Dataset data = Load();
   ASSERT_EQ(data.streams[0].measurements.size(), 5u);
   EXPECT_NEAR(data.streams[0].measurements[4].t, 0.04, 1e-12);
-  const auto& z = std::get<Odometer>(data.streams[0].measurements[4].model);
+  const auto z = std::get<Odometer>(data.streams[0].measurements[4].model);
   EXPECT_EQ(z.form, Odometer::Form::kNonHolonomic);
   EXPECT_EQ(z.sigma.tail<2>(), Eigen::Vector2d(0.1, 0.2));
   EXPECT_DOUBLE_EQ(data.streams[0].sensor.mounting_sigma->x(), 5 * kDegree);
@@ -185,13 +185,13 @@ TEST_F(AidingTypes, IncrementsAreDifferencesOfACount) {
   const auto& measurements = data.streams[0].measurements;
   // The first count only begins the first increment.
   ASSERT_EQ(measurements.size(), 2u);
-  const auto& first = std::get<Odometer>(measurements[0].model);
+  const auto first = std::get<Odometer>(measurements[0].model);
   EXPECT_EQ(first.form, Odometer::Form::kIncrements);
   EXPECT_DOUBLE_EQ(first.distance, 0.5);
   EXPECT_DOUBLE_EQ(first.sigma.x(), 0.005);
   EXPECT_NEAR(first.t_from, 0.01, 1e-12);
   EXPECT_NEAR(measurements[0].t, 0.02, 1e-12);
-  const auto& second = std::get<Odometer>(measurements[1].model);
+  const auto second = std::get<Odometer>(measurements[1].model);
   EXPECT_DOUBLE_EQ(second.distance, -0.25);
   EXPECT_EQ(second.t_from, measurements[0].t);
 }
@@ -217,7 +217,7 @@ TEST_F(AidingTypes, MountingMayBeUnknownAndTheVehicleLevelOnAverage) {
   EXPECT_EQ(level.sensor.name, "wheels_level");
   EXPECT_EQ(level.sensor.vehicle, 0);
   // So many of them that their mean has the sigma asked for.
-  const auto& z = std::get<VehicleLevel>(level.measurements[0].model);
+  const auto z = std::get<VehicleLevel>(level.measurements[0].model);
   EXPECT_NEAR(z.sigma / std::sqrt(level.measurements.size()), 0.5 * kDegree,
               1e-12);
   EXPECT_EQ(level.measurements[0].sensor, 1);

@@ -41,8 +41,7 @@ TEST_F(ArrayFormats, NumpyArraysOfEveryOrderAndType) {
               1e-12);
   ASSERT_EQ(data.streams[0].measurements.size(), 2u);
   EXPECT_NEAR(data.streams[0].measurements[1].t, 0.02, 1e-6);
-  const auto& fix =
-      std::get<PositionFix>(data.streams[0].measurements[1].model);
+  const auto fix = std::get<PositionFix>(data.streams[0].measurements[1].model);
   EXPECT_NEAR(GeodeticFromEcef(fix.p_e).latitude / kDegree, 48.1, 1e-10);
 }
 
@@ -175,7 +174,7 @@ TEST_F(ArrayFormats, MatlabFilesOfVersionFourInBothOrdersOfBytes) {
           "[deg]', lon: 'fix:3 [deg]', h: 'fix:4 [m]'}}\n");
     const Dataset data = Load();
     EXPECT_EQ(data.streams[0].measurements[1].t, 0.02);
-    const auto& fix =
+    const auto fix =
         std::get<PositionFix>(data.streams[0].measurements[1].model);
     EXPECT_NEAR(GeodeticFromEcef(fix.p_e).longitude / kDegree, 11.5, 1e-10);
   }
@@ -200,8 +199,7 @@ TEST_F(Rosbag, ImuAndNavSatFix) {
   EXPECT_EQ(*data.epoch_gps_ns / 1'000'000'000,
             ParseDateTime("2017-01-01 00:00:00 UTC")->seconds);
   ASSERT_EQ(data.streams[0].measurements.size(), 2u);
-  const auto& fix =
-      std::get<PositionFix>(data.streams[0].measurements[0].model);
+  const auto fix = std::get<PositionFix>(data.streams[0].measurements[0].model);
   EXPECT_NEAR(GeodeticFromEcef(fix.p_e).latitude / kDegree, 49.0, 1e-10);
   Eigen::Matrix3d R_n;
   R_n << 1, 0.25, 0, 0.25, 4, 0.16, 0, 0.16, 9;

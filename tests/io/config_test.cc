@@ -61,7 +61,7 @@ TEST_F(ConfigTest, LoadsWhatItSays) {
   EXPECT_EQ(gnss.sensor.lever_arm_b, Eigen::Vector3d(0, 0.5, -1.1));
   EXPECT_DOUBLE_EQ(gnss.sensor.gate_probability.value(), 0.999);
   ASSERT_EQ(gnss.measurements.size(), 2u);
-  const auto& fix = std::get<PositionFix>(gnss.measurements[1].model);
+  const auto fix = std::get<PositionFix>(gnss.measurements[1].model);
   const Geodetic g = GeodeticFromEcef(fix.p_e);
   EXPECT_NEAR(g.latitude / kDegree, 50.0, 1e-10);
   EXPECT_NEAR(g.height, 100.0, 1e-6);

@@ -190,8 +190,10 @@ TEST_F(DatasetWriter, EveryBuiltinScenarioLoads) {
 
 TEST_F(DatasetWriter, RefusesWhatTheFormatCannotHold) {
   Dataset dataset = Simulate(Rich(), 5);
-  auto& fix = std::get<PositionFix>(dataset.streams[0].measurements[3].model);
-  fix.R_n(0, 1) = fix.R_n(1, 0) = 1e-4;
+  dataset.streams[0].measurements.Edit(3, [](Measurement& z) {
+    auto& fix = std::get<PositionFix>(z.model);
+    fix.R_n(0, 1) = fix.R_n(1, 0) = 1e-4;
+  });
   EXPECT_THROW(WriteDataset(dataset, folder_.string()), InputError);
 }
 

@@ -14,7 +14,7 @@ class DvlReader : public SampleFolder {
   void Aiding(const std::string& text) const {
     Write("config.yaml", std::string(kDvlImuConfig) + "aiding:\n" + text);
   }
-  static const Dvl& At(const Dataset& data, std::size_t i) {
+  static Dvl At(const Dataset& data, std::size_t i) {
     return std::get<Dvl>(data.streams[0].measurements[i].model);
   }
 };
@@ -86,7 +86,7 @@ TEST_F(DvlReader, DepthIsHeightBelowTheSurface) {
       "  depth: {type: depth, file: depth.csv, surface: 30 m, "
       "estimate: {offset: 0.5 m}}\n");
   const Dataset data = Load();
-  const auto& z = std::get<HeightFix>(data.streams[0].measurements[0].model);
+  const auto z = std::get<HeightFix>(data.streams[0].measurements[0].model);
   EXPECT_DOUBLE_EQ(z.height, 17.5);
   EXPECT_DOUBLE_EQ(z.sigma, 0.1);
   EXPECT_DOUBLE_EQ(*data.streams[0].sensor.offset_sigma, 0.5);
@@ -100,13 +100,13 @@ TEST_F(DvlReader, RangeAndBearingToATransponder) {
       "-100 m], ";
   Aiding(lbl + "sigma: 0.5 m, estimate: {scale: 0.5 %}}\n");
   Dataset data = Load();
-  const auto& range =
+  const auto range =
       std::get<AcousticFix>(data.streams[0].measurements[0].model);
   EXPECT_EQ(range.rows(), 1);
   EXPECT_DOUBLE_EQ(range.range, 99.0);
   Aiding(lbl + "bearing_sigma: 1 deg}\n");
   data = Load();
-  const auto& bearing =
+  const auto bearing =
       std::get<AcousticFix>(data.streams[0].measurements[0].model);
   EXPECT_EQ(bearing.rows(), 2);
   EXPECT_DOUBLE_EQ(bearing.azimuth, 0.5 * kPi);

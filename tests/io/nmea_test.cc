@@ -34,7 +34,7 @@ class Nmea : public SampleFolder {
 TEST_F(Nmea, FixesAreAboveTheEllipsoidWithTheirStandardDeviations) {
   const Dataset data = Load();
   ASSERT_EQ(data.streams[0].measurements.size(), 2u);
-  const auto& first =
+  const auto first =
       std::get<PositionFix>(data.streams[0].measurements[0].model);
   Geodetic g = GeodeticFromEcef(first.p_e);
   EXPECT_NEAR(g.latitude / kDegree, 48.0 + 7.038 / 60.0, 1e-10);
@@ -43,7 +43,7 @@ TEST_F(Nmea, FixesAreAboveTheEllipsoidWithTheirStandardDeviations) {
   EXPECT_DOUBLE_EQ(first.R_n(0, 0), 0.03 * 0.03);
   EXPECT_DOUBLE_EQ(first.R_n(2, 2), 0.05 * 0.05);
   // Here GST stands before GGA.
-  const auto& second =
+  const auto second =
       std::get<PositionFix>(data.streams[0].measurements[1].model);
   g = GeodeticFromEcef(second.p_e);
   EXPECT_NEAR(g.latitude / kDegree, -(48.0 + 7.039 / 60.0), 1e-10);
@@ -60,7 +60,7 @@ TEST_F(Nmea, TimeRunsOverMidnightAndTheLeapSecond) {
 TEST_F(Nmea, SpeedIsInKnotsAndCourseMayBeAbsent) {
   const Dataset data = Load();
   ASSERT_EQ(data.streams[1].measurements.size(), 2u);
-  const auto& moving =
+  const auto moving =
       std::get<SpeedCourse>(data.streams[1].measurements[0].model);
   EXPECT_NEAR(moving.speed, 10.0 * 1852.0 / 3600.0, 1e-12);
   EXPECT_NEAR(moving.course, 0.5 * kPi, 1e-12);

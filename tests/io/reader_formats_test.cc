@@ -39,8 +39,7 @@ TEST_F(ReaderFormats, KfGinsFilesOfOneSet) {
   EXPECT_DOUBLE_EQ(data.imu.samples[3].t, 456300.015);
   EXPECT_EQ(data.imu.samples[3].gyro, Eigen::Vector3d(4e-6, 5e-6, 6e-6));
   EXPECT_EQ(data.imu.samples[3].accel, Eigen::Vector3d(0.001, 0.002, -0.049));
-  const auto& fix =
-      std::get<PositionFix>(data.streams[0].measurements[0].model);
+  const auto fix = std::get<PositionFix>(data.streams[0].measurements[0].model);
   EXPECT_NEAR(GeodeticFromEcef(fix.p_e).longitude / kDegree, 114.25, 1e-10);
   EXPECT_DOUBLE_EQ(fix.R_n(1, 1), 4e-4);
   ASSERT_EQ(data.truth.size(), 2u);
@@ -90,7 +89,7 @@ TEST_F(ReaderFormats, RtklibPosBecomesNorthEastDown) {
   EXPECT_DOUBLE_EQ(R(1, 2), -0.01 * 0.01);
   EXPECT_DOUBLE_EQ(R(0, 2), -0.015 * 0.015);
   ASSERT_EQ(data.streams[1].measurements.size(), 1u);
-  const auto& v = std::get<VelocityFix>(data.streams[1].measurements[0].model);
+  const auto v = std::get<VelocityFix>(data.streams[1].measurements[0].model);
   EXPECT_EQ(v.v_n, Eigen::Vector3d(1, 2, -3));
   EXPECT_DOUBLE_EQ(v.R_n(0, 1), 0.05 * 0.05);
   ASSERT_EQ(data.policies.size(), 2u);

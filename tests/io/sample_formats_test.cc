@@ -14,8 +14,7 @@ namespace {
 
 class SampleFormats : public SampleFolder {};
 
-const PositionFix& Fix(const Dataset& data, std::size_t stream,
-                       std::size_t row) {
+PositionFix Fix(const Dataset& data, std::size_t stream, std::size_t row) {
   return std::get<PositionFix>(data.streams[stream].measurements[row].model);
 }
 
@@ -64,7 +63,7 @@ TEST_F(SampleFormats, OxtsBecomesForwardRightDown) {
   EXPECT_NEAR(g.latitude / kDegree, 49.015002, 1e-10);
   EXPECT_NEAR(g.height, 116.4, 1e-6);
   EXPECT_DOUBLE_EQ(Fix(data, 0, 2).R_n(2, 2), 0.05 * 0.05);
-  const auto& v = std::get<VelocityFix>(data.streams[1].measurements[0].model);
+  const auto v = std::get<VelocityFix>(data.streams[1].measurements[0].model);
   EXPECT_EQ(v.v_n, Eigen::Vector3d(3, 4, -0.7));
   EXPECT_DOUBLE_EQ(v.R_n(0, 0), 0.02 * 0.02);
   const Eigen::Vector3d euler = EulerFromQuaternion(*data.truth[0].q_nb);
@@ -161,7 +160,7 @@ TEST_F(SampleFormats, NcltMicrosecondsAndRadians) {
   const Geodetic g = GeodeticFromEcef(Fix(data, 0, 0).p_e);
   EXPECT_NEAR(g.latitude, 0.738, 1e-12);
   EXPECT_NEAR(g.longitude, -1.46, 1e-12);
-  const auto& course =
+  const auto course =
       std::get<SpeedCourse>(data.streams[1].measurements[1].model);
   EXPECT_EQ(course.speed, 1.5);
   EXPECT_EQ(course.course, 0.6);

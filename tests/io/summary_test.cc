@@ -291,7 +291,9 @@ TEST(ErrorTable, ListsEveryComponentAndTheMatchedPart) {
 TEST(TruthTimes, AreThoseOfTheSpan) {
   Dataset dataset;
   for (const double t : {0.0, 1.0, 1.5, 2.0, 2.5}) {
-    dataset.truth.emplace_back().t = t;
+    TruthPoint point;
+    point.t = t;
+    dataset.truth.push_back(point);
   }
   EXPECT_EQ(TruthTimes(dataset, 0.5, 2.0),
             (std::vector<double>{1.0, 1.5, 2.0}));

@@ -162,7 +162,7 @@ TEST(AttitudeEstimation, SmootherAndBatchesSeeThroughMagnets) {
   const Eigen::Vector3d magnet(15.0, -20.0, 16.0);
   for (const bool attached : {true, false}) {
     Dataset dataset = Swing();
-    for (Measurement& z : dataset.streams.front().measurements) {
+    for (Measurement& z : dataset.streams.front().measurements.Edited()) {
       Eigen::Vector3d& field_b = std::get<MagneticField>(z.model).field_b;
       const auto k = static_cast<std::size_t>(std::lround(z.t / 0.01));
       if (attached) {

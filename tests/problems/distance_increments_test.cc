@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "alignment/start.h"
 #include "base/random.h"
@@ -81,9 +82,9 @@ TEST(DistanceIncrements, NoErrorsWithoutNoise) {
   const Scenario scenario = WithoutErrors(Drive(Odometer::Form::kIncrements));
   const auto trajectory = MakeTrajectory(scenario);
   for (std::size_t i = 0; i < 2; ++i) {
-    dataset.streams[i].measurements =
+    dataset.streams[i].measurements = MeasurementSeries(
         PerfectMeasurements(scenario.aiding[i], static_cast<int>(i),
-                            trajectory.get(), scenario.duration);
+                            trajectory.get(), scenario.duration));
   }
   dataset.initial.position_sigma = Eigen::Vector3d::Constant(0.1);
   dataset.initial.velocity_sigma = Eigen::Vector3d::Constant(0.1);
@@ -156,20 +157,20 @@ TEST(DistanceIncrements, ForgiveJoltsThatASpeedDoesNot) {
   const auto shaken = [](Odometer::Form form) {
     Dataset dataset = Simulate(Drive(form), 7);
     Random random(5);
-    std::vector<Measurement>& readings = OdometerOf(&dataset).measurements;
-    for (std::size_t i = 1; i < readings.size(); ++i) {
-      auto& odometer = std::get<Odometer>(readings[i].model);
-      if (i % 2 == 0 || std::abs(odometer.speed) + odometer.distance < 0.1) {
+    double fall = 0.0;
+    int i = 0;
+    for (Measurement& z : OdometerOf(&dataset).measurements.Edited()) {
+      auto& odometer = std::get<Odometer>(z.model);
+      odometer.distance -= std::exchange(fall, 0.0);
+      if (i++ % 2 == 0 || std::abs(odometer.speed) + odometer.distance < 0.1) {
         continue;
       }
       const double jolt = 0.5 * random.Uniform();
       // 4 ms of it, which a speed is read from and a count integrates; the
       // wheel falls back as far in the next interval.
       odometer.speed += jolt;
-      odometer.distance += 0.002 * jolt;
-      if (i + 1 < readings.size()) {
-        std::get<Odometer>(readings[i + 1].model).distance -= 0.002 * jolt;
-      }
+      fall = 0.002 * jolt;
+      odometer.distance += fall;
     }
     ReconstructionOptions options;
     options.method = "batch";
@@ -190,7 +191,7 @@ TEST(DistanceIncrements, SlipIsGatedAndForgotten) {
   const Dataset clean = Simulate(scenario, 9);
   Dataset slipped = clean;
   int slips = 0;
-  for (Measurement& z : OdometerOf(&slipped).measurements) {
+  for (Measurement& z : OdometerOf(&slipped).measurements.Edited()) {
     const bool slips_now =
         (z.t > 75.05 && z.t < 76.05) || (z.t > 110.05 && z.t < 110.25);
     if (!slips_now) continue;
@@ -225,7 +226,7 @@ TEST(DistanceIncrements, SlipOfASpeedIsGatedToo) {
   scenario.aiding[1].sensor.gate_probability = 0.9999;
   const Dataset clean = Simulate(scenario, 9);
   Dataset slipped = clean;
-  for (Measurement& z : OdometerOf(&slipped).measurements) {
+  for (Measurement& z : OdometerOf(&slipped).measurements.Edited()) {
     if (z.t > 75.05 && z.t < 76.05) std::get<Odometer>(z.model).speed += 1.5;
   }
   ReconstructionOptions options;

@@ -22,7 +22,7 @@ TEST_P(Foot, IsKnownToAMetreAndWhatIsUsableIsHonest) {
   }
   Dataset dataset = LoadDataset(source + "/data/foot_zupt.yaml", {root});
   constexpr double kStated = 0.05;
-  for (Measurement& z : dataset.streams.at(0).measurements) {
+  for (Measurement& z : dataset.streams.at(0).measurements.Edited()) {
     ScaleSigma(GetParam() / kStated, &z);
   }
   std::vector<double> times;

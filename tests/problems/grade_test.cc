@@ -103,11 +103,10 @@ TEST(Grade, PositionsThatRepeatAreNotUsable) {
   Dataset dataset = GradedDrive();
   for (AidingStream& stream : dataset.streams) {
     if (stream.sensor.type != SensorType::kPosition) continue;
-    std::vector<Measurement> written;
+    MeasurementSeries written;
     for (const Measurement& z : stream.measurements) {
       for (int i = 0; i < 25; ++i) {
-        written.push_back(z);
-        written.back().t += 0.04 * i;
+        written.push_back({z.t + 0.04 * i, z.sensor, z.withheld, z.model});
       }
     }
     stream.measurements = std::move(written);
@@ -136,7 +135,7 @@ TEST(Grade, NoSurveyWithAForwardOdometerIsWrongAndUsable) {
       constexpr std::uint64_t seed = 101;
       Dataset dataset = Simulate(TunnelSurvey(options), seed);
       // At the nodes, so that nothing is interpolated.
-      std::erase_if(dataset.truth, [](const TruthPoint& point) {
+      dataset.truth.EraseIf([](const TruthPoint& point) {
         return point.t != std::round(point.t);
       });
       Reconstruction reconstruction(dataset, {});

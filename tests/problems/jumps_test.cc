@@ -158,7 +158,7 @@ TEST(RobustBatch, DoesNotTakeTheFirstFixAtItsWord) {
   Dataset dataset = Simulate(BuiltinScenario("short_drive"), 1);
   for (auto& stream : dataset.streams) {
     if (stream.sensor.type != SensorType::kPosition) continue;
-    for (Measurement& z : stream.measurements) {
+    for (Measurement& z : stream.measurements.Edited()) {
       auto& fix = std::get<PositionFix>(z.model);
       if (z.t > 10.0) continue;
       fix.p_e += NedAxes(fix.p_e) * Eigen::Vector3d(15.0, 0.0, 0.0);

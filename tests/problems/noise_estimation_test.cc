@@ -38,7 +38,7 @@ TEST(NoiseEstimation, FindsWhatTheStatedNoiseIsOffBy) {
     Dataset dataset = NoisyDrive();
     ASSERT_FALSE(dataset.streams.empty());
     AidingStream& gnss = dataset.streams.front();
-    for (Measurement& z : gnss.measurements) ScaleSigma(factor, &z);
+    for (Measurement& z : gnss.measurements.Edited()) ScaleSigma(factor, &z);
     const NoiseEstimate estimate = EstimateNoise(dataset);
     EXPECT_TRUE(estimate.converged);
     EXPECT_GE(estimate.log_likelihood_after, estimate.log_likelihood_before);
@@ -58,7 +58,7 @@ TEST(NoiseEstimation, FindsAnErrorThatLasts) {
   Random random(7);
   const double phi = std::exp(-1.0 / kTau);  // fixes come at 1 Hz
   Eigen::Vector3d error = kSigma * random.NormalVector3();
-  for (Measurement& z : gnss.measurements) {
+  for (Measurement& z : gnss.measurements.Edited()) {
     std::get<PositionFix>(z.model).p_e += error;
     error = phi * error +
             kSigma * std::sqrt(1 - phi * phi) * random.NormalVector3();

@@ -129,7 +129,7 @@ Dataset Noiseless(double tilt_deg, double heading_deg) {
   scenario.imu.noise.accel_noise_density = 0.0;
   Dataset dataset = PerfectRecording(scenario).Realize(1);
   dataset.imu.noise = noise;
-  for (Measurement& z : dataset.streams[0].measurements) {
+  for (Measurement& z : dataset.streams[0].measurements.Edited()) {
     for (const TruthPoint& truth : dataset.truth) {
       if (std::abs(truth.t - z.t) < 1e-6) {
         std::get<VelocityFix>(z.model).v_n = truth.v_n.value();

@@ -44,7 +44,7 @@ int AddOutliers(Dataset* dataset) {
   Random random(77);
   int count = 0;
   for (AidingStream& stream : dataset->streams) {
-    for (Measurement& z : stream.measurements) {
+    for (Measurement& z : stream.measurements.Edited()) {
       auto* fix = std::get_if<PositionFix>(&z.model);
       if (fix == nullptr || random.Uniform() >= 0.05) continue;
       const double azimuth = 2.0 * kPi * random.Uniform();

@@ -30,7 +30,7 @@ Dataset DriveWithOutage() {
 /// Moves the fixes at and after t by 3 m to the north.
 void MoveFixesFrom(double t, Dataset* dataset) {
   for (AidingStream& stream : dataset->streams) {
-    for (Measurement& z : stream.measurements) {
+    for (Measurement& z : stream.measurements.Edited()) {
       auto* fix = std::get_if<PositionFix>(&z.model);
       if (fix == nullptr || z.t < t) continue;
       fix->p_e += NedAxes(fix->p_e) * Eigen::Vector3d(3.0, 0.0, 0.0);

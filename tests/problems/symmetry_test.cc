@@ -73,9 +73,9 @@ TEST(Symmetry, AnHourLaterIsTheSameTrajectory) {
   Dataset later = dataset;
   for (ImuSample& s : later.imu.samples) s.t += kHourLater;
   for (AidingStream& stream : later.streams) {
-    for (Measurement& z : stream.measurements) z.t += kHourLater;
+    for (Measurement& z : stream.measurements.Edited()) z.t += kHourLater;
   }
-  for (TruthPoint& point : later.truth) point.t += kHourLater;
+  for (TruthPoint& point : later.truth.Edited()) point.t += kHourLater;
   ExpectSameTrajectory(dataset, later, [](State x) {
     x.t -= kHourLater;
     return x;
@@ -87,13 +87,13 @@ TEST(Symmetry, AnotherLongitudeIsTheSameTrajectory) {
   const Eigen::AngleAxisd turn(2.9, Eigen::Vector3d::UnitZ());
   Dataset east = dataset;
   for (AidingStream& stream : east.streams) {
-    for (Measurement& z : stream.measurements) {
+    for (Measurement& z : stream.measurements.Edited()) {
       if (auto* fix = std::get_if<PositionFix>(&z.model)) {
         fix->p_e = turn * fix->p_e;
       }
     }
   }
-  for (TruthPoint& point : east.truth) point.p_e = turn * *point.p_e;
+  for (TruthPoint& point : east.truth.Edited()) point.p_e = turn * *point.p_e;
   ExpectSameTrajectory(dataset, east, [&](State x) {
     x.p_e = turn.inverse() * x.p_e;
     x.v_e = turn.inverse() * x.v_e;
@@ -116,7 +116,7 @@ TEST(Symmetry, OtherBodyAxesAreTheSameTrajectory) {
     stream.sensor.lever_arm_b = q.inverse() * stream.sensor.lever_arm_b;
   }
   turned.truth_lever_arm_b = q.inverse() * turned.truth_lever_arm_b;
-  for (TruthPoint& point : turned.truth) point.q_nb = *point.q_nb * q;
+  for (TruthPoint& point : turned.truth.Edited()) point.q_nb = *point.q_nb * q;
   ExpectSameTrajectory(dataset, turned, [&](State x) {
     x.q_eb = x.q_eb * q.inverse();
     return x;

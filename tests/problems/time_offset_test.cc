@@ -82,7 +82,7 @@ Dataset Delayed(const PerfectRecording& recording, std::uint64_t seed,
                 double delay, double start = 0.0) {
   Dataset dataset = recording.Realize(seed);
   AidingStream& gnss = dataset.streams.front();
-  for (Measurement& z : gnss.measurements) z.t -= delay;
+  for (Measurement& z : gnss.measurements.Edited()) z.t -= delay;
   gnss.sensor.time_offset = start;
   return dataset;
 }
@@ -101,8 +101,7 @@ const ConstantEstimate& Offset(const Solution& solution) {
 /// interval is one more piece of information, of some 0.1 sigma here, and with
 /// and without it the offset may settle on either side.
 void KeepInside(Dataset* dataset) {
-  std::erase_if(
-      dataset->streams.front().measurements,
+  dataset->streams.front().measurements.EraseIf(
       [](const Measurement& z) { return z.t < 1.0 || z.t > kDuration - 1.0; });
 }
 

@@ -28,10 +28,11 @@ Dataset Perfect(const Scenario& scenario) {
   const auto trajectory = MakeTrajectory(exact);
   for (std::size_t k = 0; k < exact.aiding.size(); ++k) {
     dataset.streams[k].sensor = exact.aiding[k].sensor;
-    dataset.streams[k].measurements = PerfectMeasurements(
-        exact.aiding[k], static_cast<int>(k), trajectory.get(), exact.duration);
+    dataset.streams[k].measurements = MeasurementSeries(
+        PerfectMeasurements(exact.aiding[k], static_cast<int>(k),
+                            trajectory.get(), exact.duration));
   }
-  const TruthPoint& start = dataset.truth.front();
+  const TruthPoint start = dataset.truth.front();
   dataset.initial.position = GeodeticFromEcef(*start.p_e);
   dataset.initial.v_n = start.v_n;
   dataset.initial.euler = EulerFromQuaternion(*start.q_nb);
@@ -73,7 +74,8 @@ TEST(UuvSurvey, ClockThatDoesNotSettleIsNotUsable) {
   Scenario scenario = ShortDive(60.0);
   Dataset dataset = Simulate(scenario, 1);
   dataset.streams[0].sensor.time_offset_sigma = 0.05;
-  std::get<Dvl>(dataset.streams[0].measurements[4].model).speed.x() = 1000.0;
+  dataset.streams[0].measurements.Edit(
+      4, [](Measurement& z) { std::get<Dvl>(z.model).speed.x() = 1000.0; });
   Reconstruction reconstruction(dataset, {});
   for (const std::string method : {"ekf", "rts"}) {
     const Solution solution = reconstruction.Run(method);

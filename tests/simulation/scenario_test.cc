@@ -89,7 +89,7 @@ TEST(Simulate, InitialErrorsHaveTheStatedSigma) {
   Eigen::Vector3d attitude = Eigen::Vector3d::Zero();
   for (int seed = 0; seed < n; ++seed) {
     const Dataset d = recording.Realize(static_cast<std::uint64_t>(seed));
-    const TruthPoint& truth = d.truth.front();
+    const TruthPoint truth = d.truth.front();
     position += (NedAxes(*truth.p_e).transpose() *
                  (EcefFromGeodetic(*d.initial.position) - *truth.p_e))
                     .cwiseQuotient(*d.initial.position_sigma)
@@ -119,7 +119,7 @@ TEST(Simulate, TellsWhatItDrewFrom) {
   EXPECT_EQ(*d.initial.gyro_bias_sigma, scenario.imu.gyro_bias_sigma);
   EXPECT_EQ(d.streams[0].sensor.lever_arm_b,
             scenario.aiding[0].sensor.lever_arm_b);
-  const auto& fix = std::get<PositionFix>(d.streams[0].measurements[0].model);
+  const auto fix = std::get<PositionFix>(d.streams[0].measurements[0].model);
   EXPECT_LT((fix.R_n.diagonal() - Eigen::Vector3d(25e-4, 25e-4, 1e-2)).norm(),
             1e-15);
 }

@@ -103,7 +103,7 @@ inline Scenario ShuttleFlight(const ShuttleOptions& options,
 
 /// The stamps of a stream are late by so much from here on [s].
 inline void Delay(double late, AidingStream* stream) {
-  for (Measurement& z : stream->measurements) {
+  for (Measurement& z : stream->measurements.Edited()) {
     z.t += late;
     if (auto* odometer = std::get_if<Odometer>(&z.model)) {
       odometer->t_from += late;

@@ -6,7 +6,7 @@
 namespace hindsight::testing {
 
 /// The first truth point at t or after it; there must be one.
-inline const TruthPoint& TruthAt(const Dataset& dataset, double t) {
+inline TruthPoint TruthAt(const Dataset& dataset, double t) {
   std::size_t k = 0;
   while (dataset.truth[k].t < t - 1e-6) ++k;
   return dataset.truth[k];

@@ -18,7 +18,7 @@ inline Dataset Turned(Dataset dataset, const Eigen::Quaterniond& q_ob) {
   for (AidingStream& stream : dataset.streams) {
     stream.sensor.lever_arm_b = q_bo * stream.sensor.lever_arm_b;
   }
-  for (TruthPoint& point : dataset.truth) {
+  for (TruthPoint& point : dataset.truth.Edited()) {
     point.q_nb = *point.q_nb * q_ob;
   }
   return dataset;
