@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kWidePrior = 0.1;  // below it one clock alone fits [s]
 constexpr double kReach = 4.0;
+constexpr double kBegunThere = 0.02;  // [s]
 
 /// A stream and the offsets at which its clock may stand.
 struct ClockQuestion {
@@ -65,7 +66,12 @@ std::optional<ClockQuestion> AskEstimated(const Dataset& dataset,
       [&](const ClockCandidate& candidate) {
         return std::abs(candidate.offset - given) < 0.5 * found.resolution;
       });
-  if (near_given && found.candidates.size() == 1) return std::nullopt;
+  const ClockCandidate& first = found.candidates.front();
+  // A clock that motion tells far better than the prior is to begin from there:
+  // of fast motion half a window is another minimum.
+  const bool tells = first.sigma < 0.1 * *stream.sensor.time_offset_sigma &&
+                     std::abs(first.offset - given) > kBegunThere;
+  if (near_given && found.candidates.size() == 1 && !tells) return std::nullopt;
   const double misfit = found.misfit(given);
   if (!near_given && IsPlausible(found, misfit)) {
     found.candidates.push_back({given, 0.0, misfit});

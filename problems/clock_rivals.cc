@@ -177,6 +177,8 @@ std::vector<RivalSolution> Rivals(const Dataset& dataset,
     if (i == ranking.best) continue;
     RivalSolution rival =
         Tell(dataset, streams, solved[i], solved[ranking.best]);
+    // Converged, it came to the same end: the same explanation twice.
+    if (rival.differences.empty()) continue;
     rival.log_evidence = ranking.log_evidence[i];
     rivals.push_back(std::move(rival));
   }

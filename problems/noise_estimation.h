@@ -34,7 +34,8 @@ struct NoiseEstimate {
 /// the forward filter's innovations (Schweppe 1965), by parabolas along each
 /// logarithm in turn and along the sum of a turn's moves. Gates and robust
 /// losses are off meanwhile: they would judge by the very sigmas that are
-/// sought. `progress` gets the fraction done.
+/// sought. Clocks begin where ChooseClocks has them. `progress` gets the
+/// fraction done.
 NoiseEstimate EstimateNoise(const Dataset& dataset,
                             const std::function<void(double)>& progress = {});
 

@@ -4,11 +4,23 @@
 #include <limits>
 
 #include "base/error.h"
+#include "problems/clock_choice.h"
 #include "problems/forward_stage.h"
 
 namespace hindsight {
 
-NoiseLikelihood::NoiseLikelihood(const Dataset& dataset) : dataset_(dataset) {
+namespace {
+
+/// With every clock where a reconstruction has it.
+Dataset WithClocks(const Dataset& dataset) {
+  const ClockChoice choice = ChooseClocks(dataset, {});
+  return choice.dataset ? *choice.dataset : dataset;
+}
+
+}  // namespace
+
+NoiseLikelihood::NoiseLikelihood(const Dataset& dataset)
+    : dataset_(WithClocks(dataset)) {
   for (std::size_t i = 0; i < dataset_.streams.size(); ++i) {
     AidingStream& stream = dataset_.streams[i];
     stream.sensor.gate_probability.reset();

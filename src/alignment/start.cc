@@ -69,7 +69,8 @@ class StartFinder {
     if (given().t) {
       RequireValuesInside(*given().t);
       t_ = std::max(*given().t, from_);
-    } else if (given().position) {
+    } else if (given().position || given().v_n || given().euler ||
+               given().heading) {
       t_ = from_;
     } else {
       t_ = fixes_.front().t;

@@ -90,6 +90,11 @@ std::string DescribeRest(const Rest& rest) {
     text +=
         DescribeSpans("not turning, moving or not undecided", rest.undecided);
   }
+  if (!rest.turning.empty()) {
+    text += DescribeSpans(
+        "at rest or turning steadily, as the rates contradict each other",
+        rest.turning);
+  }
   return text;
 }
 
@@ -113,8 +118,7 @@ std::string DescribeImu(const CheckReport& report) {
   return text + "axes: " + report.axes + "\n";
 }
 
-std::string DescribeNoise(const Dataset& dataset) {
-  const NoiseEstimate estimate = EstimateNoise(dataset);
+std::string DescribeNoise(const NoiseEstimate& estimate) {
   ReportTable table({"noise of", "factor", "from\n(2 sd)", "to\n(2 sd)"});
   for (const NoiseFactor& noise : estimate.factors) {
     const double spread = 2.0 * noise.log_sigma;
@@ -177,7 +181,14 @@ int Run(const std::vector<std::string>& arguments) {
   if (FLAGS_noise) {
     ResolveMountings(&dataset);
     if (dataset.stationary.enabled) AddRestStreams(report.imu.rest, &dataset);
-    std::cout << DescribeNoise(dataset);
+    const NoiseEstimate estimate = EstimateNoise(dataset);
+    std::cout << DescribeNoise(estimate);
+    if (!estimate.converged) {
+      report.warnings.emplace_back(
+          "the search for the noise came to no end: its factors are not to be "
+          "relied on");
+      std::cout << "warning: " << report.warnings.back() << "\n";
+    }
   }
   std::cout << DescribeGrade(report);
   return StatusOf(report.grade());

@@ -60,9 +60,11 @@ void ExcludedMotion::Cut(const TimeInterval& span,
 
 bool ExcludedMotion::Contradicts(const TimeInterval& span) const {
   constexpr double kSigmas = 4.0;
+  const double windows = std::max(1.0, span.length() / window_);
+  const double slack = slack_ / std::sqrt(windows);
   for (const SpeedEvidence& speed : record_.Over(span)) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (std::abs(speed.v(axis)) > kSigmas * speed.sigma(axis) + slack_) {
+      if (std::abs(speed.v(axis)) > kSigmas * speed.sigma(axis) + slack) {
         return true;
       }
     }

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_DATASET_EXCLUDED_MOTION_H_
 #define HINDSIGHT_DATASET_EXCLUDED_MOTION_H_
 
+#include <algorithm>
 #include <vector>
 
 #include "dataset/dataset.h"
@@ -15,7 +16,9 @@ class ExcludedMotion {
  public:
   /// Of all that is not withheld.
   explicit ExcludedMotion(const Dataset& dataset)
-      : record_(dataset), slack_(2.0 * dataset.stationary.velocity_sigma) {}
+      : record_(dataset),
+        slack_(2.0 * dataset.stationary.velocity_sigma),
+        window_(std::min(dataset.stationary.window, 1.0)) {}
 
   /// Nothing that could tell a speed or a place is measured at any time.
   bool empty() const;
@@ -28,7 +31,8 @@ class ExcludedMotion {
   /// Cuts from `span` what aiding contradicts: the span, or any half, quarter,
   /// ... of it down to two seconds, by steps of half its length, over which a
   /// stream's mean speed is, on any axis, more than four sigmas and twice
-  /// StationaryOptions::velocity_sigma; before and after it, what is shorter
+  /// StationaryOptions::velocity_sigma, as the mean over a part of n windows
+  /// has it (over sqrt(n)); before and after it, what is shorter
   /// than twice that length as well. What remains goes to `remaining`, the
   /// rest to `cut`.
   void Cut(const TimeInterval& span, std::vector<TimeInterval>* remaining,
@@ -38,7 +42,8 @@ class ExcludedMotion {
   bool Contradicts(const TimeInterval& span) const;
 
   SpeedRecord record_;
-  double slack_;
+  double slack_;   ///< of the mean speed over a window [m/s]
+  double window_;  ///< [s]
 };
 
 }  // namespace hindsight

@@ -55,9 +55,13 @@ class Examination {
  public:
   explicit Examination(const Dataset& dataset)
       : imu_(dataset.imu), options_(dataset.stationary) {
+    constexpr double kSigmas = 5.0;
     bias_ = dataset.initial.gyro_bias;
-    most_ = 5.0 * GyroBiasSigma(dataset.initial).array() + kEarthRate +
-            options_.gyro_threshold;
+    told_ = kSigmas * std::hypot(options_.rate_sigma,
+                                 dataset.imu.noise.gyro_noise_density /
+                                     std::sqrt(options_.window));
+    most_ =
+        kSigmas * GyroBiasSigma(dataset.initial).array() + kEarthRate + told_;
     if (!imu_.empty()) Cut();
   }
 
@@ -152,7 +156,7 @@ class Examination {
   /// Whether the window goes on as the span began.
   bool IsAsBefore(const Window& window) const {
     constexpr double kForceThresholds = 3.0;
-    return (window.w - span_w_ / span_time_).norm() < options_.gyro_threshold &&
+    return (window.w - span_w_ / span_time_).norm() < told_ &&
            (window.f - span_f_ / span_time_).norm() <
                kForceThresholds * options_.accel_threshold;
   }
@@ -185,7 +189,8 @@ class Examination {
   const ImuStream& imu_;
   const StationaryOptions& options_;
   Eigen::Vector3d bias_;
-  Eigen::Array3d most_;
+  double told_ = 0.0;    ///< least turn that a window tells [rad/s]
+  Eigen::Array3d most_;  ///< that the bias may have [rad/s]
   std::vector<ImuCell> cells_;
   std::vector<Sums> sums_;
   bool open_ = false;

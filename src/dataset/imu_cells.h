@@ -25,11 +25,12 @@ struct ImuCell {
 
 /// The IMU's record in cells, and where it does not turn, from the IMU alone.
 ///   not turning  over every window the mean rate is one that the bias may have
-///                (five sigmas of the a priori bias, the Earth's rate and
-///                gyro_threshold, each axis) and stays within gyro_threshold of
-///                the span's mean, the mean specific force within three times
-///                accel_threshold of the span's (its direction does not
-///                change), and the standard deviations within ten times the
+///                (five sigmas of the a priori bias, the Earth's rate and what
+///                a window tells, each axis) and stays within what it tells of
+///                the span's mean: five sigmas of its white noise and of
+///                StationaryOptions::rate_sigma; the mean specific force within
+///                three times accel_threshold of the span's (its direction does
+///                not change), and the standard deviations within ten times the
 ///                thresholds: an engine may idle, a hand may not move it.
 ///   quiet        the standard deviations (norm over the axes) within the
 ///                thresholds, the mean specific force within 3 % of gravity.

@@ -8,6 +8,7 @@
 #include "dataset/excluded_motion.h"
 #include "dataset/imu_cells.h"
 #include "dataset/speed_evidence.h"
+#include "dataset/turned_rest.h"
 
 namespace hindsight {
 namespace {
@@ -302,6 +303,7 @@ class Decision {
 Rest FindRest(const Dataset& dataset) {
   Rest rest = Decision(dataset).Decide();
   LeaveOutContradicted(dataset, &rest);
+  LeaveOutTurned(dataset, &rest);
   return rest;
 }
 

@@ -17,6 +17,9 @@ struct Rest {
   std::vector<TimeInterval> moving;
   /// It does not turn; whether it moves, nothing says.
   std::vector<TimeInterval> undecided;
+  /// Quiet, but its rate contradicts that of other rests: of them or of those
+  /// it turns, steadily (LeaveOutTurned).
+  std::vector<TimeInterval> turning;
 };
 
 /// Decides by IMU and aiding. Not turning: ExamineImu. Not moving: only where
@@ -32,7 +35,8 @@ struct Rest {
 /// aiding excludes the way it would make. A horizontal or vertical speed above
 /// 0.3 m/s and five sigmas is motion, a second before and after its middle as
 /// well. What idles shaken is at rest where aiding says so for 3 s, half a
-/// second at each end left out. Spans that are shaken or turn are in none of
+/// second at each end left out. Of rests whose rates contradict each other
+/// LeaveOutTurned decides. Spans that are shaken or turn are in none of
 /// the lists.
 Rest FindRest(const Dataset& dataset);
 

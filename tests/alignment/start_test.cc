@@ -299,6 +299,20 @@ TEST(Start, ReachesBackToTheFirstSampleWhereTheFirstFixComesLater) {
   }
 }
 
+TEST(Start, AGivenAttitudeIsThatOfTheFirstSampleHoweverLateTheFirstFix) {
+  Dataset dataset = Simulate(FromRest(), 2);
+  for (AidingStream& stream : dataset.streams) {
+    stream.measurements.EraseIf(
+        [](const Measurement& z) { return z.t < 30.0; });
+  }
+  const TruthPoint truth = testing::TruthAt(dataset, 0.0);
+  dataset.initial.euler = EulerFromQuaternion(*truth.q_nb);
+  const Start start = FindWholeStart(dataset);
+  EXPECT_NEAR(start.report.t, 0.0, 0.02);
+  EXPECT_NEAR(WrapAngle(start.prior.x.euler().z() - dataset.initial.euler->z()),
+              0.0, 1e-3);
+}
+
 TEST(Start, CalibrationWithASigmaEntersTheLayout) {
   Dataset dataset = Simulate(FromRest(), 1);
   Sensor& sensor = dataset.streams[0].sensor;

@@ -213,18 +213,49 @@ TEST(Rest, TurningOnTheSpotIsNone) {
   EXPECT_GT(Inside(rest.at_rest, 0.0, 10.0), 9.0);
 }
 
-TEST(Rest, ATurnWithinTheBiasIsToldByItsBeginning) {
+/// Stands for 20 s, then turns on the spot at `rate`, as steadily as a bias.
+Rest TurningAt(double rate, double bias_sigma) {
   Dataset dataset = Quiet();
   AddFixes(Standing(), 0.1, 0.005, &dataset);
-  dataset.initial.gyro_bias_sigma = Eigen::Vector3d::Constant(kDegree);
+  dataset.initial.gyro_bias_sigma = Eigen::Vector3d::Constant(bias_sigma);
   for (ImuSample& s : dataset.imu.samples) {
-    if (s.t > 20.0) s.gyro.z() = 2.0 * kDegree;
+    if (s.t > 20.0) s.gyro.z() = rate;
   }
-  const Rest rest = FindRest(dataset);
-  ASSERT_GE(rest.at_rest.size(), 2u);
-  for (const TimeInterval& span : rest.at_rest) {
+  return FindRest(dataset);
+}
+
+TEST(Rest, ATurnWithinTheBiasContradictsTheRestBefore) {
+  const Rest open = TurningAt(2.0 * kDegree, kDegree);
+  EXPECT_TRUE(open.at_rest.empty());
+  ASSERT_GE(open.turning.size(), 2u);
+  for (const TimeInterval& span : open.turning) {
     EXPECT_TRUE(span.end < 20.6 || span.begin > 19.4);
   }
+  const Rest told = TurningAt(0.8 * kDegree, 0.2 * kDegree);
+  EXPECT_GT(Inside(told.at_rest, 0.0, 20.0), 18.0);
+  EXPECT_EQ(Inside(told.at_rest, 20.5, kDuration), 0.0);
+  EXPECT_GT(Inside(told.turning, 20.0, kDuration), 17.0);
+}
+
+TEST(Rest, ATurnThatTheBiasCannotBeIsNoneHoweverSlow) {
+  Dataset dataset = Quiet();
+  AddFixes(Standing(), 0.1, 0.005, &dataset);
+  dataset.initial.gyro_bias_sigma =
+      Eigen::Vector3d::Constant(10.0 * kDegree / 3600.0);
+  for (ImuSample& s : dataset.imu.samples) s.gyro.z() = 0.4 * kDegree;
+  EXPECT_TRUE(FindRest(dataset).at_rest.empty());
+}
+
+TEST(Rest, AClimbTooSlowForAnyWindowAddsUpToAWay) {
+  // As fast as twice what a rest may sway, for 20 s.
+  Dataset dataset = Quiet();
+  AddFixes(
+      [](double t) {
+        return Eigen::Vector3d(0.0, 0.0,
+                               -0.02 * std::clamp(t - 10.0, 0.0, 20.0));
+      },
+      0.1, 0.005, &dataset);
+  EXPECT_LT(Inside(FindRest(dataset).at_rest, 12.0, 28.0), 1.0);
 }
 
 TEST(Rest, EngineThatIdlesIsSeenByAidingAloneForThreeSeconds) {

@@ -57,6 +57,9 @@ struct ChoiceCount {
     const bool right = std::abs(offset + late) < 0.2 &&
                        HeadingError(solution, dataset) < 20.0 * kDegree;
     const double share = RivalShare(solution);
+    for (const RivalSolution& rival : solution.rivals) {
+      EXPECT_NE(rival.description, "") << which;
+    }
     ++runs;
     wrong += right ? 0 : 1;
     told += share;
