@@ -1,5 +1,6 @@
 #include "problems/sample_solution.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -22,48 +23,88 @@ bool HasScale(const ErrorLayout& layout) {
          layout.Has(BlockKind::kAccelScale);
 }
 
-/// A forward method's P between its nodes.
-class ForwardCovariance {
+/// P between the nodes: at steps of at most kPropagationStep, linear in
+/// between.
+class CovarianceBetween {
  public:
-  ForwardCovariance(const Solution& solution, const ImuStream& imu,
+  CovarianceBetween(const Solution& solution, const ImuStream& imu,
                     const CovarianceOptions& covariance)
       : solution_(solution),
         integrator_(imu, HasScale(solution.layout)),
         policy_(covariance, solution.layout) {}
 
-  /// At t between node k and the next; within k times ascend.
+  /// At t between node k and the next.
   ErrorMatrix At(std::size_t k, double t) {
-    if (k != node_) StartAt(k);
-    while (end_.t < t) Advance();
-    const double a = (t - begin_t_) / (end_.t - begin_t_);
-    return (1.0 - a) * P_begin_ + a * P_end_;
+    if (k != node_) StepFrom(k);
+    std::size_t i = 1;
+    while (i + 1 < t_.size() && t_[i] < t) ++i;
+    const double a = (t - t_[i - 1]) / (t_[i] - t_[i - 1]);
+    return (1.0 - a) * P_[i - 1] + a * P_[i];
   }
 
  private:
-  void StartAt(std::size_t k) {
+  void StepFrom(std::size_t k) {
     node_ = k;
-    step_ = 0;
-    const double T = solution_.states[k + 1].t - solution_.states[k].t;
-    steps_ = std::max(1, static_cast<int>(std::ceil(T / kPropagationStep)));
-    end_ = solution_.states[k];
-    P_end_ = solution_.covariances.Get(k);
-    Advance();
+    const double begin = solution_.states[k].t;
+    const double T = solution_.states[k + 1].t - begin;
+    const int steps =
+        std::max(1, static_cast<int>(std::ceil(T / kPropagationStep)));
+    t_ = {begin};
+    for (int i = 1; i < steps; ++i) t_.push_back(begin + T * i / steps);
+    t_.push_back(solution_.states[k + 1].t);
+    P_.assign(1, solution_.covariances.Get(k));
+    if (solution_.forward) {
+      Predict(k);
+    } else if (steps == 1) {
+      P_.push_back(solution_.covariances.Get(k + 1));
+    } else {
+      Bridge(k);
+    }
   }
 
-  void Advance() {
-    const double t_node = solution_.states[node_].t;
-    const double t_next = solution_.states[node_ + 1].t;
-    const double t = ++step_ == steps_
-                         ? t_next
-                         : t_node + (t_next - t_node) * step_ / steps_;
-    const State begin = end_;
-    begin_t_ = begin.t;
-    P_begin_ = P_end_;
-    const ImuSummary summary = integrator_.Summarize(
-        begin.t, t, CalibrationOf(solution_.layout, begin));
-    end_ = Predict(solution_.layout, begin, summary);
-    LinearizeTransition(solution_.layout, summary, begin, end_, &transition_);
-    policy_.Predict(transition_, summary.dt(), &P_end_);
+  /// Calls `step` with the transition over each step and its length.
+  template <typename Step>
+  void ForEachStep(std::size_t k, const Step& step) {
+    State end = solution_.states[k];
+    for (std::size_t i = 1; i < t_.size(); ++i) {
+      const State begin = end;
+      const ImuSummary summary = integrator_.Summarize(
+          begin.t, t_[i], CalibrationOf(solution_.layout, begin));
+      end = hindsight::Predict(solution_.layout, begin, summary);
+      LinearizeTransition(solution_.layout, summary, begin, end, &transition_);
+      step(transition_, summary.dt());
+    }
+  }
+
+  void Predict(std::size_t k) {
+    ErrorMatrix P = P_.front();
+    ForEachStep(k, [&](const Transition& transition, double dt) {
+      policy_.Predict(transition, dt, &P);
+      P_.push_back(P);
+    });
+  }
+
+  void Bridge(std::size_t k) {
+    const ErrorMatrix before = P_.front();
+    const ErrorMatrix after = solution_.covariances.Get(k + 1);
+    std::vector<ErrorMatrix> Phi = {
+        ErrorMatrix::Identity(before.rows(), before.cols())};
+    std::vector<ErrorMatrix> Q = {
+        ErrorMatrix::Zero(before.rows(), before.cols())};
+    ForEachStep(k, [&](const Transition& transition, double) {
+      const ErrorMatrix& step = transition.Phi;
+      Q.emplace_back(step * Q.back() * step.transpose() + transition.Q);
+      Phi.emplace_back(step * Phi.back());
+    });
+    const ErrorMatrix back = Phi.back().inverse();
+    for (std::size_t i = 1; i + 1 < t_.size(); ++i) {
+      const double a = (t_[i] - t_.front()) / (t_.back() - t_.front());
+      const ErrorMatrix Psi = Phi[i] * back;
+      P_.emplace_back((1.0 - a) *
+                          (Phi[i] * before * Phi[i].transpose() + Q[i]) +
+                      a * (Psi * after * Psi.transpose()));
+    }
+    P_.push_back(after);
   }
 
   const Solution& solution_;
@@ -71,11 +112,8 @@ class ForwardCovariance {
   CovariancePolicy policy_;
   Transition transition_;
   std::size_t node_ = static_cast<std::size_t>(-1);
-  int step_ = 0;
-  int steps_ = 1;
-  double begin_t_ = 0.0;
-  State end_;
-  ErrorMatrix P_begin_, P_end_;
+  std::vector<double> t_;       ///< of the node, the steps, the next node
+  std::vector<ErrorMatrix> P_;  ///< there
 };
 
 /// One walk through the IMU, from node to node.
@@ -140,15 +178,12 @@ class Sampler {
                                 a * solution_.separation[k + 1]);
     }
     if (!HasCovariances()) return;
-    Append(solution_.forward
-               ? covariance_.At(k, t)
-               : ErrorMatrix((1.0 - a) * solution_.covariances.Get(k) +
-                             a * solution_.covariances.Get(k + 1)));
+    Append(covariance_.At(k, t));
   }
 
   const Solution& solution_;
   ImuIntegrator integrator_;
-  ForwardCovariance covariance_;
+  CovarianceBetween covariance_;
   Solution& out_;
   std::size_t count_ = 0;
 };

@@ -9,18 +9,23 @@
 
 namespace hindsight {
 
-/// Longest step in which a forward method's covariance is propagated between
-/// nodes [s]. It is linear within a step, which leaves P_pp too large by up to
-/// P_vv step^2 / 4: half a percent of sigma where velocity errors move the
-/// position by its own sigma in a second.
+/// Longest step in which a covariance is propagated between nodes [s]. It is
+/// linear within a step, which leaves P_pp too large by up to P_vv step^2 / 4:
+/// half a percent of sigma where velocity errors move the position by its own
+/// sigma in a second.
 inline constexpr double kPropagationStep = 0.2;
 
 /// A solution at other times (ascending, inside its span; at a node, the node):
 /// the state of the node before, integrated with the IMU (2002 paper, eq. 24)
 /// in one walk over the samples that needs neither Jacobians nor noise.
 ///   smoothers  what the prediction misses of the node after is spread over
-///              the interval in proportion to time; covariances are
-///              interpolated between the two nodes.
+///              the interval in proportion to time; with a the part of the
+///              interval before t, Phi and Q from the node before to t,
+///              Psi = Phi(t, node after),
+///                P = (1 - a) (Phi P_k Phi' + Q) + a Psi P_k+1 Psi':
+///              exact without noise of the IMU, and with it not less than what
+///              either node predicts in proportion to its closeness. Of nodes
+///              closer than kPropagationStep it is interpolated.
 ///   forward methods (Solution::forward)
 ///              the prediction as it is, P <- Phi P Phi' + Q from the node
 ///              before, of an observer with its prescribed stability

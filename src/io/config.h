@@ -137,7 +137,8 @@ namespace hindsight {
 /// initial: from, given or truth (given): time, position, velocity and attitude that are absent
 /// are the truth's at its first point inside the record; time, position [lat, lon, h], velocity (NED), attitude (roll,
 /// pitch, heading), heading, gyro_bias, accel_bias, and position_sigma,
-/// velocity_sigma, attitude_sigma, gyro_bias_sigma, accel_bias_sigma. What is
+/// velocity_sigma, attitude_sigma, gyro_bias_sigma, accel_bias_sigma. Without a
+/// time a given position, velocity or attitude is that of the first IMU sample. What is
 /// absent is found by alignment.
 ///
 /// ahrs (methods ahrs, ahrs_smoother, ahrs_batch, ahrs_tilt_batch): rule, of the accelerometer:

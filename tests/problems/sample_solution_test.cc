@@ -3,11 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <cmath>
 
 #include "base/error.h"
+#include "base/units.h"
+#include "evaluation/chi_square.h"
 #include "imu/imu_link.h"
+#include "problems/montecarlo.h"
 #include "problems/reconstruction.h"
 #include "simulation/builtin_scenarios.h"
+#include "support/seed_count.h"
 
 namespace hindsight {
 namespace {
@@ -185,6 +190,62 @@ TEST(SampleSolution, OfASmootherIsCloseToNodesAtEveryTime) {
         << times[i];
     EXPECT_LT(d.segment<3>(6).cwiseAbs().maxCoeff(), 1e-6) << times[i];
   }
+}
+
+/// To and fro once between two fixes, north, then east: with an open heading
+/// the velocity is known at the fixes, and not in between.
+Scenario HandOfUnknownHeading() {
+  Scenario s;
+  s.name = "hand";
+  for (int i = 0; i <= 1000; ++i) {
+    ProfilePoint point;
+    point.t = 0.02 * i;
+    point.position = {0.8, 0.2, 100.0};
+    const double v = std::sin(2.0 * kPi * point.t);
+    (point.t < 10.0 ? point.v_n.x() : point.v_n.y()) = v;
+    s.profile.push_back(point);
+  }
+  s.imu_rate_hz = 100.0;
+  s.truth_rate_hz = 100.0;
+  s.imu.noise.gyro_noise_density = 1e-5;
+  s.imu.noise.accel_noise_density = 1e-3;
+  AidingModel gnss;
+  gnss.sensor.name = "gnss";
+  gnss.sensor.type = SensorType::kPosition;
+  gnss.rate_hz = 1.0;
+  gnss.sigma.setConstant(0.02);
+  s.aiding = {gnss};
+  StartErrors errors;
+  errors.attitude = Eigen::Vector3d(0.1, 0.1, 12.0) * kDegree;
+  s.start_errors = errors;
+  return s;
+}
+
+/// Mean of the squared errors of the horizontal velocity over their variances,
+/// a tenth of a second after each node and so on.
+TEST(SampleSolution, OfASmootherClaimsNoMoreBetweenNodesThanItKnows) {
+  constexpr int kSeeds = testing::SeedCount(20);
+  const std::vector<double> times = TimesFrom(3.1, 18.0, 0.2);
+  double sum = 0.0;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const Dataset dataset = Simulate(HandOfUnknownHeading(),
+                                     static_cast<std::uint64_t>(500 + seed));
+    Reconstruction reconstruction(dataset, SamplingOptions());
+    const Solution sampled =
+        reconstruction.Sample(reconstruction.Run("iterated"), times);
+    const std::vector<State> truth =
+        TrueStates(dataset, sampled.layout, sampled.states);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const ErrorVector e = Local(sampled.layout, sampled.states[i], truth[i]);
+      const ErrorVector P = sampled.covariances.Get(i).diagonal();
+      for (int axis = 3; axis < 5; ++axis) sum += e(axis) * e(axis) / P(axis);
+    }
+  }
+  const double mean = sum / (2.0 * kSeeds * static_cast<double>(times.size()));
+  // One heading a seed makes most of them.
+  const Interval bounds = AneesBounds(kSeeds, 1, 0.999);
+  EXPECT_LT(mean, bounds.upper);
+  EXPECT_GT(mean, 0.2);
 }
 
 TEST(SampleSolution, HasPositiveDefiniteCovariancesEverywhere) {
