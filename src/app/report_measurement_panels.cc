@@ -1,0 +1,447 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/report_html.h"
+#include "app/report_panels.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "earth/wgs84.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Residuals over sigma of what was used.
+std::vector<double> NormalizedUsed(const ResidualSeries& series) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < series.t.size(); ++k) {
+    const double r = series.residual[k] / series.sigma[k];
+    if (series.status[k] == 'u' && std::isfinite(r)) values.push_back(r);
+  }
+  return values;
+}
+
+BarPicture Histogram(const std::vector<double>& values) {
+  constexpr int kBins = 32;
+  constexpr double kEnd = 4.0;
+  BarPicture picture;
+  picture.title = "Histogram against N(0, 1)";
+  picture.bars.assign(kBins, 0.0);
+  std::size_t beyond = 0;
+  double sum = 0.0;
+  double square = 0.0;
+  for (const double v : values) {
+    sum += v;
+    square += v * v;
+    if (std::abs(v) > 3.0) ++beyond;
+    const int bin = static_cast<int>(
+        std::floor((std::clamp(v, -kEnd, kEnd) + kEnd) / (2.0 * kEnd) * kBins));
+    picture.bars[static_cast<std::size_t>(std::min(bin, kBins - 1))] += 1.0;
+  }
+  const double n = static_cast<double>(values.size());
+  constexpr double kWidth = 2.0 * kEnd / kBins;
+  double most = 0.45;
+  for (double& bar : picture.bars) {
+    bar /= n * kWidth;
+    most = std::max(most, bar);
+  }
+  for (int i = 0; i <= 80; ++i) {
+    const double x = -kEnd + 0.1 * i;
+    picture.curve.push_back(std::exp(-0.5 * x * x) /
+                            std::sqrt(2.0 * std::numbers::pi));
+  }
+  picture.high = most;
+  picture.left = "-4 sigma";
+  picture.right = "4 sigma";
+  picture.summary = Format(
+      "%zu used: mean %.2f, rms %.2f, %.2f %% beyond 3 sigma (0.27 %% "
+      "expected).",
+      values.size(), sum / n, std::sqrt(square / n),
+      100.0 * static_cast<double>(beyond) / n);
+  return picture;
+}
+
+BarPicture Autocorrelation(const std::vector<double>& values) {
+  constexpr std::size_t kLags = 30;
+  const std::size_t lags = std::min(kLags, values.size() / 2);
+  const double n = static_cast<double>(values.size());
+  double mean = 0.0;
+  for (const double v : values) mean += v / n;
+  double power = 0.0;
+  for (const double v : values) power += (v - mean) * (v - mean);
+  BarPicture picture;
+  picture.title = "Autocorrelation";
+  for (std::size_t lag = 1; lag <= lags; ++lag) {
+    double sum = 0.0;
+    for (std::size_t k = lag; k < values.size(); ++k) {
+      sum += (values[k] - mean) * (values[k - lag] - mean);
+    }
+    picture.bars.push_back(power > 0.0 ? sum / power : 0.0);
+  }
+  const double bound = 1.96 / std::sqrt(n);
+  picture.levels = {bound, -bound};
+  picture.low = std::min(
+      -0.3, *std::min_element(picture.bars.begin(), picture.bars.end()));
+  picture.high = std::max(
+      0.5, *std::max_element(picture.bars.begin(), picture.bars.end()));
+  picture.left = "lag 1";
+  picture.right = Format("lag %zu", lags);
+  picture.summary = Format(
+      "At lag 1: %.2f; white noise stays within %.2f (dashed) in 95 %% of the "
+      "lags.",
+      picture.bars.front(), bound);
+  return picture;
+}
+
+/// residual, over sigma, and both by fate.
+ReportSeries SeriesOf(const ResidualSeries& r) {
+  ReportSeries series;
+  series.t = r.t;
+  const std::size_t n = r.t.size();
+  std::vector<double> over(n, kNone);
+  std::vector<double> used(n, kNone);
+  std::vector<double> rejected(n, kNone);
+  std::vector<double> withheld(n, kNone);
+  std::vector<double> used_over(n, kNone);
+  std::vector<double> rejected_over(n, kNone);
+  std::vector<double> withheld_over(n, kNone);
+  for (std::size_t k = 0; k < n; ++k) {
+    over[k] = r.residual[k] / r.sigma[k];
+    const bool is_used = r.status[k] == 'u';
+    const bool is_rejected = r.status[k] == 'r';
+    (is_used ? used : is_rejected ? rejected : withheld)[k] = r.residual[k];
+    (is_used       ? used_over
+     : is_rejected ? rejected_over
+                   : withheld_over)[k] = over[k];
+  }
+  series.columns = {{"used", std::move(used)},
+                    {"rejected", std::move(rejected)},
+                    {"withheld", std::move(withheld)},
+                    {"used_over", std::move(used_over)},
+                    {"rejected_over", std::move(rejected_over)},
+                    {"withheld_over", std::move(withheld_over)},
+                    {"sigma", r.sigma}};
+  const bool weighted = std::any_of(r.weight.begin(), r.weight.end(),
+                                    [](double w) { return w != 1.0; });
+  if (weighted) series.columns["weight"] = r.weight;
+  return series;
+}
+
+std::vector<ChartLine> FateLines(int table, const std::string& suffix) {
+  std::vector<ChartLine> lines;
+  int colour = 0;
+  for (const char* fate : {"used", "withheld", "rejected"}) {
+    lines.push_back({.table = table,
+                     .column = fate + suffix,
+                     .label = fate,
+                     .colour = colour++,
+                     .style = "points"});
+  }
+  return lines;
+}
+
+/// Components in the axes that the sensor measures in are not named in the
+/// file.
+std::string TitleOf(const ResidualSeries& series,
+                    const std::vector<ResidualSeries>& all) {
+  const bool alone =
+      std::count_if(all.begin(), all.end(), [&](const ResidualSeries& other) {
+        return other.sensor == series.sensor;
+      }) == 1;
+  return alone ? series.sensor
+               : Format("%s, component %d", series.sensor.c_str(),
+                        series.component + 1);
+}
+
+std::string LargestTable(const std::vector<ResidualSeries>& all) {
+  struct Entry {
+    double size;
+    const ResidualSeries* series;
+    std::size_t row;
+  };
+  std::vector<Entry> entries;
+  for (const ResidualSeries& series : all) {
+    for (std::size_t k = 0; k < series.t.size(); ++k) {
+      const double r = std::abs(series.residual[k] / series.sigma[k]);
+      if (std::isfinite(r)) entries.push_back({r, &series, k});
+    }
+  }
+  const std::size_t count = std::min<std::size_t>(15, entries.size());
+  std::partial_sort(
+      entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(count),
+      entries.end(),
+      [](const Entry& a, const Entry& b) { return a.size > b.size; });
+  HtmlTable table(
+      {"t [s]", "sensor", "residual", "sigma", "over sigma", "weight", "fate"});
+  for (std::size_t i = 0; i < count; ++i) {
+    const ResidualSeries& s = *entries[i].series;
+    const std::size_t k = entries[i].row;
+    const char* fate = s.status[k] == 'u'   ? "used"
+                       : s.status[k] == 'r' ? "rejected"
+                                            : "withheld";
+    constexpr double kAround = 15.0;
+    table.AddRow(
+        {Format("%.3f", s.t[k]), TitleOf(s, all), Format("%.4g", s.residual[k]),
+         Format("%.4g", s.sigma[k]), Format("%.2f", entries[i].size),
+         Format("%.3g", s.weight[k]), fate},
+        s.t[k] - kAround, s.t[k] + kAround);
+  }
+  return "<h3>The largest</h3>\n" + table.Render();
+}
+
+double LongestStep(const std::vector<double>& t) {
+  double longest = 0.0;
+  for (std::size_t k = 1; k < t.size(); ++k) {
+    longest = std::max(longest, t[k] - t[k - 1]);
+  }
+  return longest;
+}
+
+double MedianStep(const std::vector<double>& t) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < t.size(); ++k) steps.push_back(t[k] - t[k - 1]);
+  if (steps.empty()) return 0.0;
+  const auto middle =
+      steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+void AddSpan(const char* kind, const std::string& label, double from, double to,
+             nlohmann::ordered_json* spans) {
+  spans->push_back(
+      {{"kind", kind}, {"label", label}, {"from", from}, {"to", to}});
+}
+
+/// Spans of the time line: withheld, unobserved, at rest, gaps.
+nlohmann::ordered_json Spans(const ReportContext& context) {
+  nlohmann::ordered_json spans = nlohmann::ordered_json::array();
+  const auto& best = context.BestSummary();
+  if (best.contains("withheld")) {
+    for (const auto& outage : best["withheld"]["outages"]) {
+      AddSpan("withheld", outage.value("sensor", ""),
+              outage.value("t_begin_s", 0.0), outage.value("t_end_s", 0.0),
+              &spans);
+    }
+  }
+  if (best.contains("unobserved")) {
+    for (const auto& span : best["unobserved"]) {
+      AddSpan("unobserved", span.value("component", ""),
+              span.value("t_begin_s", 0.0), span.value("t_end_s", 0.0), &spans);
+    }
+  }
+  const auto& summary = context.reference().summary;
+  for (const char* kind : {"rests", "gaps"}) {
+    if (!summary.contains(kind)) continue;
+    for (const auto& span : summary[kind]) {
+      AddSpan(kind, span.value("stream", ""), span.value("t_begin_s", 0.0),
+              span.value("t_end_s", 0.0), &spans);
+    }
+  }
+  return spans;
+}
+
+}  // namespace
+
+std::string TimeLinePanel(ReportContext* context) {
+  HtmlTable table({"stream", "measurements", "rate [Hz]", "longest step [s]",
+                   "used", "rejected", "withheld", "down-weighted"});
+  nlohmann::ordered_json lanes = nlohmann::ordered_json::array();
+  for (const ResidualSeries& r : context->residuals) {
+    if (r.component != 0) continue;
+    const auto count = [&](char status) {
+      return std::count(r.status.begin(), r.status.end(), status);
+    };
+    long weak = 0;
+    for (std::size_t k = 0; k < r.t.size(); ++k) {
+      if (r.status[k] == 'u' && r.weight[k] < 0.5) ++weak;
+    }
+    const double step = MedianStep(r.t);
+    table.AddRow({r.sensor, std::to_string(r.t.size()),
+                  step > 0.0 ? Format("%.3g", 1.0 / step) : "",
+                  Format("%.3g", LongestStep(r.t)), std::to_string(count('u')),
+                  std::to_string(count('r')), std::to_string(count('w')),
+                  std::to_string(weak)});
+    const int number = context->data.Add(SeriesOf(r));
+    lanes.push_back({{"label", r.sensor}, {"table", number}});
+  }
+  context->time_line["lanes"] = lanes;
+  context->time_line["spans"] = Spans(*context);
+  if (lanes.empty()) {
+    return Absent(
+        "There is no residuals.csv of this run: attitude alone has no "
+        "measurements with residuals.");
+  }
+  return "<figure class=\"chart wide\"><figcaption><b>What was measured when, "
+         "and what became of it</b></figcaption><div class=\"legend\" "
+         "id=\"lane-legend\"></div><div id=\"lanes\" class=\"plot lanes\" "
+         "role=\"img\" tabindex=\"0\" aria-label=\"Time line of the "
+         "streams; the table below holds its figures\"></div></figure>\n" +
+         table.Render();
+}
+
+std::string MapPanel(ReportContext* context) {
+  if (!context->data.Has(context->best().table, "north")) {
+    return Absent("There are no positions: attitude alone was estimated.");
+  }
+  const auto& origin = context->map["origin"];
+  const Geodetic place = {origin[0].get<double>() * kDegree,
+                          origin[1].get<double>() * kDegree,
+                          origin[2].get<double>()};
+  const Eigen::Vector3d p0 = EcefFromGeodetic(place);
+  const Eigen::Matrix3d C_ne =
+      NedAxes(place.latitude, place.longitude).transpose();
+  ReportSeries fixes;
+  for (const FixRow& fix : context->fixes) {
+    const Eigen::Vector3d d =
+        C_ne * (EcefFromGeodetic({fix.latitude_deg * kDegree,
+                                  fix.longitude_deg * kDegree, fix.height}) -
+                p0);
+    fixes.t.push_back(fix.t);
+    fixes.columns["north"].push_back(d.x());
+    fixes.columns["east"].push_back(d.y());
+    fixes.columns["fate"].push_back(fix.status == "used"       ? 1.0
+                                    : fix.status == "rejected" ? 2.0
+                                    : fix.status == "withheld" ? 3.0
+                                                               : 4.0);
+  }
+  if (!fixes.t.empty()) {
+    fixes.detail = ReportDetail::kSome;
+    context->map["fixes"] = context->data.Add(std::move(fixes));
+  }
+  std::string html =
+      "<figure class=\"map\"><figcaption><b>Track and fixes</b> [m], north up"
+      "<span class=\"note\">Drag to move, wheel or two fingers to zoom, click "
+      "to place the cursor, double click to see all.</span></figcaption>"
+      "<div class=\"tools\" id=\"map-tools\"></div>"
+      "<div id=\"map-view\" role=\"img\" tabindex=\"0\" aria-label=\"Map of "
+      "the track in metres\"></div></figure>\n";
+  if (context->fixes.empty()) {
+    html += Absent(
+        "Without fixes: none was measured, or this run wrote no fixes.csv.");
+  }
+  return html;
+}
+
+std::string ResidualPanel(ReportContext* context) {
+  if (context->residuals.empty()) {
+    return Absent(
+        "There is no residuals.csv of this run: attitude alone has no "
+        "measurements with residuals.");
+  }
+  std::string html = Element(
+      "p", "Measured minus predicted, of " + context->best().label +
+               ", in the sensor's unit (m, m/s, rad/s). Dashed: 2 and 3 sigma "
+               "as predicted.");
+  html += LargestTable(context->residuals);
+  std::size_t lane = 0;
+  for (const ResidualSeries& r : context->residuals) {
+    const int table =
+        r.component == 0
+            ? context->time_line["lanes"][lane++]["table"].get<int>()
+            : context->data.Add(SeriesOf(r));
+    const std::string title = TitleOf(r, context->residuals);
+    Chart raw = {.title = title + ": residual",
+                 .unit = "SI",
+                 .lines = FateLines(table, "")};
+    for (const double factor : {3.0, 2.0, -2.0, -3.0}) {
+      raw.lines.push_back({.table = table,
+                           .column = "sigma",
+                           .label = Format("%g sigma", factor),
+                           .colour = -1,
+                           .factor = factor,
+                           .style = "dash"});
+    }
+    html += "<h3>" + Element("span", title) + "</h3><div class=\"grid\">" +
+            context->data.Figure(std::move(raw)) +
+            context->data.Figure({.title = title + ": over sigma",
+                                  .unit = "sigma",
+                                  .lines = FateLines(table, "_over"),
+                                  .levels = {-3.0, -2.0, 2.0, 3.0}});
+    html += context->data.Figure(
+        {.title = title + ": weight",
+         .unit = "1",
+         .lines = {{.table = table, .column = "weight", .label = "weight"}}});
+    const std::vector<double> values = NormalizedUsed(r);
+    constexpr std::size_t kFewest = 10;
+    if (values.size() >= kFewest) {
+      html += "<div class=\"pair\">" + Render(Histogram(values)) +
+              Render(Autocorrelation(values)) + "</div>";
+    }
+    html += "</div>\n";
+  }
+  return html;
+}
+
+std::string OutagePanel(ReportContext* context) {
+  const auto& best = context->BestSummary();
+  if (!best.contains("withheld")) {
+    return Absent(
+        "No measurement was withheld (--withhold, or `withhold` in "
+        "the configuration).");
+  }
+  HtmlTable table({"sensor", "from [s]", "to [s]", "length [s]", "distance [m]",
+                   "horizontal rms", "horizontal max", "total max", "unit",
+                   "drift [%]"});
+  for (const auto& outage : best["withheld"]["outages"]) {
+    const double from = outage.value("t_begin_s", 0.0);
+    const double to = outage.value("t_end_s", 0.0);
+    const bool speed = outage.contains("horizontal_rms_mps");
+    const std::string unit = speed ? "mps" : "m";
+    const auto figure = [&](const std::string& key, int decimals) {
+      return outage.contains(key)
+                 ? Format("%.*f", decimals, outage[key].get<double>())
+                 : std::string();
+    };
+    constexpr double kAround = 5.0;
+    table.AddRow(
+        {outage.value("sensor", ""), Format("%.1f", from), Format("%.1f", to),
+         Format("%.1f", to - from), figure("distance_m", 1),
+         figure("horizontal_rms_" + unit, 3),
+         figure("horizontal_max_" + unit, 3), figure("total_max_" + unit, 3),
+         speed ? "m/s" : "m", figure("drift_percent", 2)},
+        from - kAround, to + kAround);
+  }
+  return Element("p", "Of " + context->best().label +
+                          ", against the measurements that were kept back. A "
+                          "row zooms everything to its outage.") +
+         table.Render();
+}
+
+std::string ReceiverPanel(ReportContext* context) {
+  if (context->fixes.empty()) {
+    return Absent("There are no fixes, or this run wrote no fixes.csv.");
+  }
+  std::map<std::string, ReportSeries> sensors;
+  for (const FixRow& fix : context->fixes) {
+    ReportSeries& series = sensors[fix.sensor];
+    series.t.push_back(fix.t);
+    series.columns["sd_n"].push_back(fix.sd_n);
+    series.columns["sd_e"].push_back(fix.sd_e);
+    series.columns["sd_d"].push_back(fix.sd_d);
+  }
+  std::string figures;
+  for (auto& [sensor, series] : sensors) {
+    const int table = context->data.Add(std::move(series));
+    Chart chart = {.title = sensor + ": stated sigma", .unit = "m"};
+    int colour = 0;
+    for (const char* axis : {"n", "e", "d"}) {
+      chart.lines.push_back({.table = table,
+                             .column = std::string("sd_") + axis,
+                             .label = axis[0] == 'n'   ? "north"
+                                      : axis[0] == 'e' ? "east"
+                                                       : "down",
+                             .colour = colour++});
+    }
+    chart.logarithmic = true;
+    figures += context->data.Figure(std::move(chart));
+  }
+  return Element("p",
+                 "The receiver's quality and number of satellites are not in "
+                 "the results.") +
+         "<div class=\"grid\">" + figures + "</div>\n";
+}
+
+}  // namespace hindsight
