@@ -60,6 +60,7 @@ class Page:
 
     def __init__(self, path, **options):
         self.browser = open_browser(**options)
+        self.browser.set_page_load_timeout(30)
         if 'width' in options:
             self.browser.execute_cdp_cmd(
                 'Emulation.setDeviceMetricsOverride',
@@ -214,6 +215,7 @@ class ReportTest(unittest.TestCase):
         self.page.load_rows()
         rows = rows_of(self.out / 'batch.csv')
         self.page.browser.execute_script(
+            'for (const one of all) { one.onScreen = true; }'
             f"view.setCursor({rows[70]['t[s]']})")
         shown = self.page.js(
             "charts.find(c => c.spec.title.startsWith('Height above')).values"

@@ -422,7 +422,7 @@ function valueTicks(low, high, pixels, isLog) {
     ticks.length = 0;
   }
   const step = niceStep((high - low) / most);
-  if (!(step > 0)) return ticks;
+  if (!(step > 1e-12 * Math.abs(high)) || !isFinite(low)) return ticks;
   const decimals = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
   for (let k = Math.ceil(low / step); k * step <= high; k++) {
     const v = k * step;

@@ -42,7 +42,11 @@ view.on(['groups', 'theme'], () => {
 });
 
 let resizing = 0;
-new ResizeObserver(() => {
+let shownWidth = document.querySelector('main').clientWidth;
+new ResizeObserver(([entry]) => {
+  const width = entry.target.clientWidth;
+  if (width === shownWidth) return;
+  shownWidth = width;
   cancelAnimationFrame(resizing);
   resizing = requestAnimationFrame(() => {
     for (const one of all) one.resize();
