@@ -118,11 +118,11 @@ ReportSeries SomeRows(const ReportSeries& all) {
   return some;
 }
 
-/// Lines of all solutions, the recommended one on top.
+/// Lines of all solutions, the recommended one as a broad ground.
 std::vector<ChartLine> LinesOf(const ReportContext& context,
                                const std::string& column, double factor = 1.0) {
   std::vector<ChartLine> lines;
-  for (std::size_t i = context.solutions.size(); i-- > 0;) {
+  for (std::size_t i = 0; i < context.solutions.size(); ++i) {
     const ReportSolution& solution = context.solutions[i];
     const int number = static_cast<int>(i);
     lines.push_back({.table = solution.table,
@@ -272,9 +272,9 @@ std::string AccuracyPanel(ReportContext* context) {
                                      .logarithmic = true});
   }
   return Element("p",
-                 "One standard deviation of what each method says of itself, "
-                 "on a logarithmic scale; horizontal is the root of the sum "
-                 "of both squares.") +
+                 "One standard deviation, as each method states it; horizontal "
+                 "is the root of the sum of both squares. The scale is "
+                 "logarithmic where values span more than a factor of 20.") +
          Grid(figures, "The solutions hold no standard deviations.");
 }
 
@@ -294,7 +294,8 @@ std::string SeparationPanel(ReportContext* context) {
                  "Distance between the position of the forward filter and "
                  "that of the backward filter, over its standard deviation. "
                  "Both know nothing of each other's measurements: where they "
-                 "part, one of them is wrong.") +
+                 "part, one of them is wrong or surer of itself than it may "
+                 "be.") +
          Grid(figures, absent);
 }
 

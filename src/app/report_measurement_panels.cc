@@ -142,27 +142,40 @@ std::vector<ChartLine> FateLines(int table, const std::string& suffix) {
   return lines;
 }
 
-/// Components in the axes that the sensor measures in are not named in the
-/// file.
-std::string TitleOf(const ResidualSeries& series,
-                    const std::vector<ResidualSeries>& all) {
+/// What the summary says of a sensor's residuals.
+nlohmann::ordered_json FactsOf(const ReportContext& context,
+                               const std::string& sensor) {
+  const auto all = context.BestSummary().value(
+      "residuals", nlohmann::ordered_json::object());
+  return all.contains(sensor) ? all[sensor] : nlohmann::ordered_json::object();
+}
+
+std::string TitleOf(const ReportContext& context,
+                    const ResidualSeries& series) {
+  const auto names = FactsOf(context, series.sensor)
+                         .value("components", nlohmann::ordered_json::array());
+  const auto component = static_cast<std::size_t>(series.component);
+  if (component < names.size()) {
+    return series.sensor + ", " + names[component].get<std::string>();
+  }
   const bool alone =
-      std::count_if(all.begin(), all.end(), [&](const ResidualSeries& other) {
-        return other.sensor == series.sensor;
-      }) == 1;
+      std::count_if(context.residuals.begin(), context.residuals.end(),
+                    [&](const ResidualSeries& other) {
+                      return other.sensor == series.sensor;
+                    }) == 1;
   return alone ? series.sensor
                : Format("%s, component %d", series.sensor.c_str(),
                         series.component + 1);
 }
 
-std::string LargestTable(const std::vector<ResidualSeries>& all) {
+std::string LargestTable(const ReportContext& context) {
   struct Entry {
     double size;
     const ResidualSeries* series;
     std::size_t row;
   };
   std::vector<Entry> entries;
-  for (const ResidualSeries& series : all) {
+  for (const ResidualSeries& series : context.residuals) {
     for (std::size_t k = 0; k < series.t.size(); ++k) {
       const double r = std::abs(series.residual[k] / series.sigma[k]);
       if (std::isfinite(r)) entries.push_back({r, &series, k});
@@ -183,9 +196,9 @@ std::string LargestTable(const std::vector<ResidualSeries>& all) {
                                             : "withheld";
     constexpr double kAround = 15.0;
     table.AddRow(
-        {Format("%.3f", s.t[k]), TitleOf(s, all), Format("%.4g", s.residual[k]),
-         Format("%.4g", s.sigma[k]), Format("%.2f", entries[i].size),
-         Format("%.3g", s.weight[k]), fate},
+        {Format("%.3f", s.t[k]), TitleOf(context, s),
+         Format("%.4g", s.residual[k]), Format("%.4g", s.sigma[k]),
+         Format("%.2f", entries[i].size), Format("%.3g", s.weight[k]), fate},
         s.t[k] - kAround, s.t[k] + kAround);
   }
   return "<h3>The largest</h3>\n" + table.Render();
@@ -335,16 +348,16 @@ std::string ResidualPanel(ReportContext* context) {
       "p", "Measured minus predicted, of " + context->best().label +
                ", in the sensor's unit (m, m/s, rad/s). Dashed: 2 and 3 sigma "
                "as predicted.");
-  html += LargestTable(context->residuals);
+  html += LargestTable(*context);
   std::size_t lane = 0;
   for (const ResidualSeries& r : context->residuals) {
     const int table =
         r.component == 0
             ? context->time_line["lanes"][lane++]["table"].get<int>()
             : context->data.Add(SeriesOf(r));
-    const std::string title = TitleOf(r, context->residuals);
+    const std::string title = TitleOf(*context, r);
     Chart raw = {.title = title + ": residual",
-                 .unit = "SI",
+                 .unit = FactsOf(*context, r.sensor).value("unit", "SI"),
                  .lines = FateLines(table, "")};
     for (const double factor : {3.0, 2.0, -2.0, -3.0}) {
       raw.lines.push_back({.table = table,

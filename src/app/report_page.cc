@@ -75,9 +75,13 @@ nlohmann::ordered_json PageJson(const ReportContext& context) {
   return json;
 }
 
+/// The text of a script or style, without the reference to its sources.
 std::string Asset(std::string_view name) {
   for (const ReportAsset& asset : ReportAssets()) {
-    if (asset.name == name) return std::string(asset.text);
+    if (asset.name != name) continue;
+    const std::size_t mark = asset.text.find("# sourceMappingURL");
+    const bool marked = mark != asset.text.npos && mark >= 2;
+    return std::string(asset.text.substr(0, marked ? mark - 2 : mark));
   }
   return "";
 }

@@ -245,11 +245,11 @@ void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
   if (!dataset.truth.empty() && tables.truth.size() > 0) {
     WriteErrorCsv(folder->Path(method + ".errors.csv"),
                   ComputeTrajectoryErrors(tables.truth, dataset.truth, {}),
-                  tables.truth, dataset.epoch_gps_ns);
+                  tables.truth, ProgramLine(dataset), dataset.epoch_gps_ns);
   }
   if (HasConstantSeries(solution)) {
     WriteConstantCsv(folder->Path(method + ".constants.csv"), solution,
-                     dataset.epoch_gps_ns);
+                     ProgramLine(dataset), dataset.epoch_gps_ns);
   }
   WriteExports(request, dataset, method, tables.output, folder);
 }

@@ -41,13 +41,14 @@ bool HasConstantSeries(const Solution& solution) {
 }
 
 void WriteConstantCsv(const std::string& path, const Solution& solution,
+                      const std::string& program,
                       std::optional<std::int64_t> epoch_gps_ns) {
   constexpr std::size_t kMost = 5000;
   constexpr int kDigits = 9;
   const std::vector<ConstantComponent> components =
       ConstantComponents(solution.layout);
   AtomicFile file(path);
-  file.Write(EpochComment(epoch_gps_ns));
+  file.Write("# program: " + program + "\n" + EpochComment(epoch_gps_ns));
   std::string line = "t[s]";
   for (const ConstantComponent& c : components) {
     line += ',' + c.name + '[' + c.unit + "],sd_" + c.name + '[' + c.unit + ']';

@@ -38,10 +38,10 @@ std::optional<Eigen::Vector3d> Sigma(const std::vector<Eigen::Matrix3d>& P,
 
 void WriteErrorCsv(const std::string& path,
                    const std::vector<TrajectoryError>& errors,
-                   const SolutionTable& solution,
+                   const SolutionTable& solution, const std::string& program,
                    std::optional<std::int64_t> epoch_gps_ns) {
   AtomicFile file(path);
-  file.Write(EpochComment(epoch_gps_ns));
+  file.Write("# program: " + program + "\n" + EpochComment(epoch_gps_ns));
   file.Write(
       "# truth minus solution, sd_: as the solution says\n"
       "t[s],n[m],e[m],d[m],v_n[m/s],v_e[m/s],v_d[m/s],roll[deg],pitch[deg],"

@@ -19,11 +19,12 @@ namespace hindsight {
 ///   nees_position[1] nees_velocity[1] nees_attitude[1]
 ///                              normalised squared errors, 3 degrees of freedom
 /// A field is empty where truth or solution lacks the quantity. `solution` has
-/// a row at the time of every error. Throws OutputError if the file cannot be
+/// a row at the time of every error. `program` and what t = 0 is go into the
+/// comments. Throws OutputError if the file cannot be
 /// written.
 void WriteErrorCsv(const std::string& path,
                    const std::vector<TrajectoryError>& errors,
-                   const SolutionTable& solution,
+                   const SolutionTable& solution, const std::string& program,
                    std::optional<std::int64_t> epoch_gps_ns);
 
 }  // namespace hindsight

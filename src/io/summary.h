@@ -149,7 +149,9 @@ std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
 ///         in place of _m for a velocity sensor), distance_m, drift_percent
 ///     nees                      mean normalised squared errors, each of 3
 ///       position, velocity, attitude            degrees of freedom
-///     residuals.<sensor>        count, rejected, withheld, normalized_rms
+///     residuals.<sensor>        count, rejected, withheld, normalized_rms;
+///                               unit and components[], where they are the
+///                               same for every measurement
 ///     constants.<name>          value, sigma, unit, prior_sigma, verdict
 ///                               ("observed", "weak", "unobserved"), advice
 ///     unobserved[]              component, t_begin_s, t_end_s, sigma (SI)

@@ -114,6 +114,36 @@ Json NeesJson(const TrajectoryStatistics& s) {
   return json;
 }
 
+/// Names of a residual's components, where every measurement has all of them.
+std::vector<std::string> ComponentNames(SensorType type) {
+  switch (type) {
+    case SensorType::kPosition:
+    case SensorType::kVelocity:
+      return {"north", "east", "down"};
+    default:
+      return {};
+  }
+}
+
+/// SI unit of a residual; "" where the components differ.
+std::string ResidualUnit(SensorType type) {
+  switch (type) {
+    case SensorType::kPosition:
+    case SensorType::kHeight:
+      return "m";
+    case SensorType::kVelocity:
+    case SensorType::kZeroVelocity:
+    case SensorType::kOdometer:
+    case SensorType::kNonHolonomic:
+    case SensorType::kDvl:
+      return "m/s";
+    case SensorType::kZeroAngularRate:
+      return "rad/s";
+    default:
+      return "";
+  }
+}
+
 Json ResidualsJson(const std::vector<ResidualStatistics>& residuals) {
   Json json = Json::object();
   for (const ResidualStatistics& s : residuals) {
@@ -121,6 +151,8 @@ Json ResidualsJson(const std::vector<ResidualStatistics>& residuals) {
     entry["count"] = s.count;
     entry["rejected"] = s.rejected;
     if (s.withheld > 0) entry["withheld"] = s.withheld;
+    PutText(&entry, "unit", ResidualUnit(s.type));
+    PutWords(&entry, "components", ComponentNames(s.type));
     Put(&entry, "normalized_rms", s.normalized_rms);
   }
   return json;

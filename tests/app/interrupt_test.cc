@@ -73,15 +73,15 @@ class Interrupt : public ::testing::Test {
   /// That the folder holds what ekf made, and says so.
   static void ExpectEkfAlone(const fs::path& folder) {
     EXPECT_THAT(Names(folder),
-                ElementsAre("config.resolved.yaml", "ekf.csv", "ekf.truth.csv",
-                            "manifest.json", "summary.json"));
+                ElementsAre("config.resolved.yaml", "ekf.csv", "ekf.errors.csv",
+                            "ekf.truth.csv", "manifest.json", "summary.json"));
     const nlohmann::json summary = Json(folder / "summary.json");
     EXPECT_EQ(summary["complete"], false);
     EXPECT_EQ(summary["methods"].size(), 1u);
     EXPECT_TRUE(summary["methods"].contains("ekf"));
     const nlohmann::json manifest = Json(folder / "manifest.json");
     EXPECT_EQ(manifest["complete"], false);
-    EXPECT_EQ(manifest["files"].size(), 4u);
+    EXPECT_EQ(manifest["files"].size(), 5u);
   }
 
   static TemporaryFolder* drive_;

@@ -132,8 +132,9 @@ TEST(Summary, HasTheDocumentedKeys) {
   const Json& batch = json["methods"]["batch"];
   EXPECT_THAT(Keys(batch),
               ElementsAre("seconds", "peak_rss_mb", "converged", "iterations",
-                          "grade", "verdict", "evidence", "error", "withheld",
-                          "nees", "residuals", "constants", "unobserved"));
+                          "duration_s", "distance_m", "grade", "verdict",
+                          "evidence", "error", "withheld", "nees", "residuals",
+                          "constants", "unobserved"));
   EXPECT_THAT(
       Keys(batch["error"]),
       ElementsAre("position_rms_m", "position_max_m", "horizontal_rms_m",

@@ -249,7 +249,7 @@ class ChartView {
       const points = line.style === 'points';
       options['s' + i] = {
         strokeWidth: points ? 0 : line.style === 'dash' ? 1 :
-            line.group === 0 ? 1.8 : 1.3,
+            line.group === 0 ? 2.6 : 1.2,
         strokePattern: line.style === 'dash' ? [5, 4] : null,
         drawPoints: points,
         pointSize: 1.6,
@@ -348,7 +348,7 @@ class ChartView {
 
   makeLegend() {
     this.values = [];
-    this.lines.slice().reverse().forEach((line) => {
+    this.lines.forEach((line) => {
       if (line.bound || line.factor < 0 || line.label === '') return;
       const chip = document.createElement('span');
       chip.className = 'chip ' + line.style;
