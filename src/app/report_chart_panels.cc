@@ -353,13 +353,13 @@ std::string BiasPanel(ReportContext* context) {
     std::vector<ChartLine> lines = LinesOf(*context, column);
     const int best = context->best().table;
     if (!context->data.Has(best, column)) return;
-    // The band of the recommended one about zero, as a scale.
     for (const double factor : {1.0, -1.0}) {
       lines.push_back({.table = best,
                        .column = "sd_" + column,
-                       .label = factor > 0.0 ? "sigma" : "-sigma",
+                       .label = factor > 0.0 ? "plus and minus sigma" : "",
                        .colour = -1,
                        .factor = factor,
+                       .centre = column,
                        .style = "dash"});
     }
     figures += context->data.Figure(
@@ -376,9 +376,8 @@ std::string BiasPanel(ReportContext* context) {
       figures.empty()
           ? ""
           : Element("p",
-                    "Measured minus true, body axes. Dashed: plus and minus "
-                    "one sigma of the recommended solution about zero, as a "
-                    "scale.");
+                    "Measured minus true, body axes. Dashed: the recommended "
+                    "solution plus and minus one sigma.");
   return text + Grid(figures, "No bias is estimated.") +
          (constants.empty()
               ? Absent("No constants over time: none is estimated, or no "

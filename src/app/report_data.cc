@@ -175,6 +175,7 @@ OrderedJson ReportData::Json() const {
                                 {"group", line.group},
                                 {"colour", line.colour},
                                 {"factor", line.factor},
+                                {"centre", line.centre},
                                 {"style", line.style}});
     }
     json["charts"].push_back(std::move(entry));

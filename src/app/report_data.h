@@ -31,6 +31,8 @@ struct ChartLine {
   int group = -1;       ///< solution that switches it on and off; -1: none
   int colour = 0;       ///< of the page's palette; -1: grey
   double factor = 1.0;  ///< the column is multiplied by it
+  /// Column of the same table about which it stands; empty: zero.
+  std::string centre = {};
   std::string style = "line";  ///< "line", "points", "dash"
 };
 

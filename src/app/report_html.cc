@@ -22,6 +22,7 @@ void HtmlTable::AddRow(std::vector<std::string> cells, double from, double to) {
 }
 
 std::string HtmlTable::Render() const {
+  constexpr std::size_t kLongCell = 40;  // letters that want a line of width
   if (rows_.empty()) return "";
   std::vector<bool> used(heading_.size(), false);
   for (const Row& row : rows_) {
@@ -40,8 +41,10 @@ std::string HtmlTable::Render() const {
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
       if (!used[i]) continue;
       const std::string text = EscapeHtml(row.cells[i]);
-      html += i == 0 ? "<th scope=\"row\">" + text + "</th>"
-                     : "<td>" + text + "</td>";
+      const bool is_long = row.cells[i].size() > kLongCell;
+      html += i == 0    ? "<th scope=\"row\">" + text + "</th>"
+              : is_long ? "<td class=\"long\">" + text + "</td>"
+                        : "<td>" + text + "</td>";
     }
     html += "</tr>";
   }

@@ -79,8 +79,9 @@ ReportSource ReadReportSource(const ReportPlace& place) {
   }
   ReportSource source;
   source.folder = folder;
-  source.shown =
-      fs::weakly_canonical(place.shown.empty() ? folder : place.shown);
+  source.shown = fs::absolute(place.shown.empty() ? folder : place.shown)
+                     .lexically_normal();
+  if (!source.shown.has_filename()) source.shown = source.shown.parent_path();
   source.summary = place.summary
                        ? *place.summary
                        : nlohmann::ordered_json::parse(

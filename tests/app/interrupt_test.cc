@@ -402,7 +402,7 @@ TEST_F(MediumThatEnds, FullDiskKeepsTheMethodsThatWereDone) {
   const std::string full = std::to_string(ENOSPC);
   int kept = 0;
   int none = 0;
-  for (int at = 1; at <= 12; ++at) {
+  for (int at = 1; at <= 18; ++at) {
     const std::string fault = "write:" + std::to_string(at) + "+:" + full;
     const Outcome outcome =
         Run({"--methods=ekf,rts"}, WithFaults({{"", fault}}));

@@ -45,7 +45,7 @@ TEST_F(ReportCommandTest, RunAndCommandMakeTheSamePage) {
   const Outcome outcome = Report({"out"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "report in out/report.html\n");
-  EXPECT_EQ(ReadFile(Out("report.html")), page);
+  EXPECT_TRUE(ReadFile(Out("report.html")) == page);
   // Nothing hinders a new run in its place.
   RunInto("out", {"--force"});
   EXPECT_THAT(Names(recording_.root() / "out"), Not(Contains("report.html")));
@@ -124,13 +124,13 @@ TEST_F(ReportCommandTest, AFolderWithoutResultsIsOneLineAndStatusTwo) {
   WriteFile(Out("summary.json"), "{\"methods\": 3}");
   expect_refused({"out"}, "summary.json");
   WriteFile(Out("summary.json"),
-            R"({"methods": {"batch": {"evidence": [3], "grade": []}}})");
+            R"({"methods": {"batch": {"withheld": 3}}, "best": "batch"})");
   expect_refused({"out"}, "summary.json");
 }
 
 TEST_F(ReportCommandTest, AttitudeAloneHasAPage) {
   ASSERT_EQ(recording_.Run({"--out=out", "--methods=ahrs", "--report"}).status,
-            3);
+            0);
   const std::string page = ReadFile(Out("report.html"));
   EXPECT_THAT(page, HasSubstr("attitude alone was estimated"));
 }

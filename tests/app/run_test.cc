@@ -159,8 +159,9 @@ TEST_F(RunCommandTest, EveryResultSaysWhatItsTimesCountFrom) {
     }
     EXPECT_TRUE(said) << name;
   }
-  // Solution, --at and truth of two methods, the modes of one, residuals.
-  EXPECT_EQ(count, 8);
+  // Solution, --at, truth and errors of two methods, the modes of one,
+  // residuals, fixes.
+  EXPECT_EQ(count, 11);
   EXPECT_EQ(Summary()["epoch"]["gps_week"], 2374);
   EXPECT_EQ(Summary()["epoch"]["gps_second"], 243261.5);
 }

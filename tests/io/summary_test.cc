@@ -251,8 +251,8 @@ TEST(Summary, LeavesOutFiguresThatDoNotExist) {
   EXPECT_THAT(Keys(json),
               ElementsAre("program", "dataset", "complete", "methods"));
   EXPECT_THAT(Keys(json["methods"]["ekf"]),
-              ElementsAre("converged", "grade", "verdict", "evidence",
-                          "residuals", "constants"));
+              ElementsAre("converged", "duration_s", "distance_m", "grade",
+                          "verdict", "evidence", "residuals", "constants"));
   EXPECT_THAT(json.dump(), Not(HasSubstr("null")));
 }
 

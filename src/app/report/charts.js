@@ -18,14 +18,38 @@ class Line {
     if (this.cached && this.cached.full === source.full) return this.cached;
     let v = source.column(this.column);
     if (this.factor !== 1) v = v.map((x) => x * this.factor);
+    if (this.centre) {
+      const centre = source.column(this.centre);
+      v = v.map((x, i) => centre[i] + x);
+    }
     this.cached = {t: source.t, v, full: source.full};
+    if (['heading', 'roll'].includes(this.column)) {
+      Object.assign(this.cached, withoutWraps(source.t, v));
+    }
     return this.cached;
   }
 
   valueAt(time) {
     const {t, v} = this.series();
-    return t.length ? v[nearestRow(t, time)] : NaN;
+    if (t.length === 0) return NaN;
+    const i = nearestRow(t, time);
+    return isNaN(v[i]) && i > 0 && t[i - 1] >= time - 1e-3 ? v[i - 1] : v[i];
   }
+}
+
+/** An angle with a gap wherever it goes from 180 to -180 deg or back. */
+function withoutWraps(t, v) {
+  const times = [];
+  const values = [];
+  for (let i = 0; i < t.length; i++) {
+    if (i > 0 && Math.abs(v[i] - v[i - 1]) > 180) {
+      times.push((t[i] + t[i - 1]) / 2);
+      values.push(NaN);
+    }
+    times.push(t[i]);
+    values.push(v[i]);
+  }
+  return {t: times, v: values};
 }
 
 const kSigmaOf = {north: 'sd_n', east: 'sd_e', height: 'sd_d'};

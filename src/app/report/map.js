@@ -5,12 +5,17 @@
 const kRamp = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98],
                [253, 231, 37]];
 
+const darkScheme = matchMedia('(prefers-color-scheme: dark)');
+
+/** Without the end that the ground would swallow. */
 function rampColour(share) {
-  const x = Math.min(Math.max(share, 0), 1) * (kRamp.length - 1);
+  const part = Math.min(Math.max(share, 0), 1);
+  const x = (darkScheme.matches ? 0.3 + 0.7 * part : 0.93 * part) *
+      (kRamp.length - 1);
   const i = Math.min(Math.floor(x), kRamp.length - 2);
-  const part = kRamp[i].map(
+  const rgb = kRamp[i].map(
       (low, j) => Math.round(low + (x - i) * (kRamp[i + 1][j] - low)));
-  return `rgb(${part.join(',')})`;
+  return `rgb(${rgb.join(',')})`;
 }
 
 class MapView {

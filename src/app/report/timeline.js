@@ -107,18 +107,24 @@ class TimeLineView {
     const t = table.t;
     const begin = lowerBound(t, view.window[0]);
     const end = lowerBound(t, view.window[1] + 1e-9);
+    const step = medianStep(t);
     for (const [fate, colour] of fates) {
       if (!table.has(fate)) continue;
       const v = table.column(fate);
       context.fillStyle = styleValue(colour);
-      let last = -10;
+      const high = fate === 'rejected';
+      let drawn = -10;
       for (let i = begin; i < end; i++) {
         if (isNaN(v[i])) continue;
-        const x = Math.round(this.xOf(t[i]) * 2) / 2;
-        if (x - last < 0.5) continue;
-        last = x;
-        context.fillRect(x - 0.75, fate === 'rejected' ? y - 3 : y, 1.5,
-                         fate === 'rejected' ? 18 : 12);
+        const x = this.xOf(t[i]);
+        const next = i + 1 < t.length ? t[i + 1] : t[i] + step;
+        const right = high ? x + 1.5 :
+            Math.max(x + 1.5, this.xOf(Math.min(next, t[i] + 1.5 * step)) -
+                     (next - t[i] > 1.5 * step ? 0 : 0.25));
+        if (right - drawn < 0.5) continue;
+        context.fillRect(Math.max(x, drawn), high ? y - 3 : y,
+                         right - Math.max(x, drawn), high ? 18 : 12);
+        drawn = right;
       }
     }
   }
@@ -152,6 +158,15 @@ class TimeLineView {
   resize() {
     this.draw();
   }
+}
+
+/** The median of some steps: what is usual for a stream. */
+function medianStep(t) {
+  const steps = [];
+  const stride = Math.max(1, Math.floor(t.length / 500));
+  for (let i = 1; i < t.length; i += stride) steps.push(t[i] - t[i - 1]);
+  steps.sort((a, b) => a - b);
+  return steps.length ? steps[steps.length >> 1] : 0;
 }
 
 /** The context of a canvas of so many style pixels, sharp on any screen. */
