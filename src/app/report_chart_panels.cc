@@ -94,9 +94,23 @@ bool IsShownWhole(const ReportSolution& solution, std::size_t number) {
   return number == 0 || solution.t().size() <= kShort;
 }
 
+/// What is drawn of the recommended solution alone, as ellipses and bands, or
+/// of the others at some rows alone.
+void EraseWhatOnlyTheFirstShows(Columns* columns) {
+  for (const char* name : {"cov_ne", "sd_n", "sd_e", "sd_v_n", "sd_v_e",
+                           "sd_roll", "sd_pitch", "v_n", "v_e"}) {
+    columns->erase(name);
+  }
+  std::erase_if(*columns, [](const auto& column) {
+    const std::string& name = column.first;
+    return name.starts_with("sd_b") ||
+           (name.starts_with("sd_") && name.ends_with("]"));
+  });
+}
+
 /// Rows at equal steps, few enough to be drawn at once.
 ReportSeries SomeRows(const ReportSeries& all) {
-  constexpr std::size_t kMost = 1200;
+  constexpr std::size_t kMost = 800;
   const std::size_t step = (all.t.size() + kMost - 1) / kMost;
   const auto thin = [step](const std::vector<double>& values) {
     std::vector<double> some;
@@ -241,12 +255,12 @@ void AddSolutionSeries(ReportContext* context) {
     AddLength("sd_v_n", "sd_v_e", "sd_v_h", &series.columns);
     AddLength("sd_roll", "sd_pitch", "sd_tilt", &series.columns);
     AddLength("v_n", "v_e", "speed", &series.columns);
-    if (i > 0) series.columns.erase("cov_ne");
     series.detail = IsShownWhole(solution, i) ? ReportDetail::kFull
                                               : ReportDetail::kExtremes;
     if (context->solutions.size() > 1 || series.columns.contains("north")) {
       solution.samples = context->data.Add(SomeRows(series));
     }
+    if (i > 0) EraseWhatOnlyTheFirstShows(&series.columns);
     solution.table = context->data.Add(std::move(series));
   }
   if (origin) {
@@ -341,7 +355,7 @@ std::string DifferencePanel(ReportContext* context) {
   return "<p>Each solution minus <span id=\"base\">" + context->best().label +
          "</span>. Dashed, in the colour of the solution: the standard "
          "deviation that the difference may have, sqrt|P - P of the other|, "
-         "of two smoothers the other's own sigma. Drawn at up to 1200 "
+         "of two smoothers the other's own sigma. Drawn at up to 800 "
          "epochs.</p>\n" +
          Grid(figures, "The solutions have no quantity in common.");
 }
@@ -412,6 +426,7 @@ std::string TruthPanel(ReportContext* context) {
                                ? ReportDetail::kFull
                                : ReportDetail::kExtremes};
     series.columns.erase("t[s]");
+    if (!tables.empty()) EraseWhatOnlyTheFirstShows(&series.columns);
     tables.push_back(context->data.Add(std::move(series)));
   }
   std::string figures;

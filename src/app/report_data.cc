@@ -14,8 +14,9 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-/// Spans of the extremes that are drawn at first: a tablet's width in pixels.
-constexpr std::size_t kSpans = 600;
+/// Spans of the extremes that are drawn at first, with two points each: about
+/// the width of a chart in pixels.
+constexpr std::size_t kSpans = 300;
 /// Stamps are written to the microsecond.
 constexpr double kTimeQuantum = 1e-6;
 

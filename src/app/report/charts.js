@@ -173,12 +173,14 @@ function binnedRows(parts, from, to, width) {
       const next = bin === width ? Infinity : from + (bin + 1) * step;
       let least = -1;
       let most = -1;
-      for (; i < end && t[i] < next; i++) {
-        if (isNaN(v[i])) continue;
-        if (least < 0 || v[i] < v[least]) least = i;
-        if (most < 0 || v[i] > v[most]) most = i;
-      }
-      if (t[i - 1] >= next) i++;
+      // At least one row, whatever rounding says of its bin.
+      do {
+        if (!isNaN(v[i])) {
+          if (least < 0 || v[i] < v[least]) least = i;
+          if (most < 0 || v[i] > v[most]) most = i;
+        }
+        i++;
+      } while (i < end && t[i] < next);
       const place = 2 * (bin + 1);
       rows[place][column + 1] = least < 0 ? NaN : v[Math.min(least, most)];
       rows[place + 1][column + 1] = least < 0 ? NaN : v[Math.max(least, most)];
