@@ -48,7 +48,12 @@ double QuantumOf(const std::vector<double>& values) {
   std::nth_element(magnitudes.begin(), middle, magnitudes.end());
   double wanted = *middle / 500.0;
   if (most > least) wanted = std::min(wanted, (most - least) / 20000.0);
-  return std::pow(10.0, std::floor(std::log10(std::max(wanted, kFinest))));
+  wanted = std::max(wanted, kFinest);
+  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+  return (wanted >= 5.0 * power   ? 5.0
+          : wanted >= 2.0 * power ? 2.0
+                                  : 1.0) *
+         power;
 }
 
 std::string PackSeries(const std::vector<double>& values, double quantum) {

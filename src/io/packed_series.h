@@ -12,9 +12,10 @@ namespace hindsight {
 /// Series of numbers as a page carries them: integer multiples of a quantum,
 /// each as its difference from the one before.
 
-/// A power of ten fine enough to draw the series with: at most a 20 000th of
-/// its range and a 500th of its median magnitude, at least 1e-12. 1 for a
-/// series without finite values or of zeros alone.
+/// The largest of 1, 2 and 5 times a power of ten that is fine enough to draw
+/// the series with: at most a 20 000th of its range and a 500th of its median
+/// magnitude, but at least 1e-12. 1 for a series without finite values or of
+/// zeros alone.
 double QuantumOf(const std::vector<double>& values);
 
 /// The k_i = round(v_i / quantum), as variable-length integers of seven bits a
