@@ -106,8 +106,9 @@ std::string Frame(const ReportContext& context, const std::string& contents,
       panels + "</main>\n<footer>" + EscapeHtml(kProgram) + "</footer>\n";
   html += "<script type=\"application/json\" id=\"data\">" +
           ScriptJson(PageJson(context)) + "</script>\n" + context.data.Blobs();
-  for (const char* script : {"dygraph.min.js", "series.js", "view.js",
-                             "charts.js", "map.js", "timeline.js", "page.js"}) {
+  for (const char* script :
+       {"dygraph.min.js", "series.js", "view.js", "lines.js", "charts.js",
+        "map.js", "timeline.js", "page.js"}) {
     html += "<script>" + Asset(script) + "</script>\n";
   }
   return html + "</body>\n</html>\n";

@@ -8,16 +8,17 @@
 #include "io/paths.h"
 #include "io/result_manifest.h"
 #include "io/text_file.h"
+#include "problems/method.h"
 
 namespace hindsight {
 namespace fs = std::filesystem;
 namespace {
 
-bool IsForwardMethod(const std::string& method) {
-  constexpr const char* kForward[] = {"ekf", "gated_ekf",     "hinf",
-                                      "imm", "modified_hinf", "ahrs"};
-  return std::find(std::begin(kForward), std::end(kForward), method) !=
-         std::end(kForward);
+bool IsForwardMethod(const std::string& name) {
+  const auto methods = Methods();
+  return std::any_of(methods.begin(), methods.end(), [&](const Method* method) {
+    return method->name == name && method->Has(MethodTrait::kForward);
+  });
 }
 
 /// The columns that a page shows: the covariances' cross terms but one, and

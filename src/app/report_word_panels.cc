@@ -254,16 +254,17 @@ std::string ConstantPanel(ReportContext* context) {
                    "verdict", "what would help"});
   const Json constants =
       context->BestSummary().value("constants", Json::object());
-  for (const auto& [name, c] : constants.items()) {
+  for (const auto& item : constants.items()) {
+    const Json& c = item.value();
     const std::string unit = TextOf(c, "unit");
     const bool angle = unit.starts_with("rad");
     const double one = angle ? kDegree : 1.0;
     const auto figure = [&](const char* key, const char* format) {
       if (!c.contains(key)) return std::string();
-      const Json value = {{"x", c[key].template get<double>() / one}};
+      const Json value = {{"x", c[key].get<double>() / one}};
       return Number(value, "x", format);
     };
-    table.AddRow({name, figure("value", "%.5g"), figure("sigma", "%.3g"),
+    table.AddRow({item.key(), figure("value", "%.5g"), figure("sigma", "%.3g"),
                   angle ? "deg" + unit.substr(3) : unit,
                   figure("prior_sigma", "%.3g"), TextOf(c, "verdict"),
                   TextOf(c, "advice")});
