@@ -1,5 +1,6 @@
 #include "app/report_html.h"
 #include "app/report_lines.h"
+#include "io/html.h"
 
 namespace hindsight {
 
@@ -65,11 +66,12 @@ std::string DifferencePanel(ReportContext* context) {
     figures += context->data.Figure(
         {.title = q.title, .unit = q.unit, .lines = lines, .difference = true});
   }
-  return "<p>Each solution minus <span id=\"base\">" + context->best().label +
+  return "<p>Each solution minus <span id=\"base\">" +
+         EscapeHtml(context->best().label) +
          "</span>. Dashed, in the colour of the solution: the standard "
          "deviation that the difference may have, sqrt|P - P of the other|, "
-         "of two smoothers the other's own sigma. Drawn at up to 800 "
-         "epochs.</p>\n" +
+         "of two smoothers the other's own sigma. Taken at up to 800 "
+         "epochs that both have.</p>\n" +
          Grid(figures, "The solutions have no quantity in common.");
 }
 

@@ -90,8 +90,8 @@ std::string TimeLinePanel(ReportContext* context) {
   context->time_line["spans"] = Spans(*context);
   if (lanes.empty()) {
     return Absent(
-        "There is no residuals.csv of this run: attitude alone has no "
-        "measurements with residuals.");
+        "There is no residuals.csv of this run: attitude alone has none, an "
+        "interrupted run has not written it.");
   }
   return "<figure class=\"chart wide\"><figcaption><b>What was measured when, "
          "and what became of it</b></figcaption><div class=\"legend\" "

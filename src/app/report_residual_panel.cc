@@ -207,8 +207,8 @@ ReportSeries ResidualTable(const ResidualSeries& r) {
 std::string ResidualPanel(ReportContext* context) {
   if (context->residuals.empty()) {
     return Absent(
-        "There is no residuals.csv of this run: attitude alone has no "
-        "measurements with residuals.");
+        "There is no residuals.csv of this run: attitude alone has none, an "
+        "interrupted run has not written it.");
   }
   std::string html = Element(
       "p", "Measured minus predicted, of " + context->best().label +

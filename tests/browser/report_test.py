@@ -226,6 +226,28 @@ class ReportTest(unittest.TestCase):
             ".find(v => v.line.label === 'batch').value.textContent")
         self.assertAlmostEqual(float(shown), float(rows[70]['h[m]']), delta=0.06)
 
+    def test_differences_are_those_of_the_files(self):
+        self.page.load_rows()
+        rows = {name: {row['t[s]']: row for row in
+                       rows_of(self.out / (name + '.csv'))}
+                for name in ('ekf', 'batch')}
+        t, v = self.page.js(
+            "(() => { const c = charts.find(c => c.spec.difference &&"
+            " c.spec.title === 'Height'); const s = c.lines.find(l => !l.bound"
+            " && l.label === 'ekf').series();"
+            " return [[...s.t], [...s.v].map(x => isNaN(x) ? null : x)]; })()")
+        by_time = {float(time): time for time in rows['ekf']}
+        checked = 0
+        for time, value in zip(t, v):
+            key = min(by_time, key=lambda x: abs(x - time))
+            if value is None or by_time[key] not in rows['batch']:
+                continue
+            wanted = (float(rows['ekf'][by_time[key]]['h[m]']) -
+                      float(rows['batch'][by_time[key]]['h[m]']))
+            self.assertAlmostEqual(value, wanted, delta=0.0011)
+            checked += 1
+        self.assertGreater(checked, 50)
+
     def test_keys_zoom_and_move_the_cursor(self):
         body = self.page.browser.find_element(By.TAG_NAME, 'body')
         length = self.page.js('view.window[1] - view.window[0]')

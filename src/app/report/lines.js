@@ -29,7 +29,7 @@ class Line {
 
   valueAt(time) {
     const {t, v} = this.series();
-    if (t.length === 0) return NaN;
+    if (t.length === 0 || !this.source.isExact) return NaN;
     const i = nearestRow(t, time);
     return isNaN(v[i]) && i > 0 && t[i - 1] >= time - 1e-3 ? v[i - 1] : v[i];
   }
@@ -52,62 +52,53 @@ function withoutWraps(t, v) {
 
 const kSigmaOf = {north: 'sd_n', east: 'sd_e', height: 'sd_d'};
 
-/** Solution minus the solution that the reader chose. */
+/** Solution minus the solution that the reader chose, where both have a row. */
 class DifferenceLine extends Line {
+  get wanted() {
+    return this.column;
+  }
+
   series() {
-    if (this.cached && this.cached.base === view.base) return this.cached;
+    const base = page.groups[view.base];
+    const whole = page.tables[base.table];
+    const other = whole.isExact && whole.has(this.wanted) ? whole :
+        page.tables[base.samples];
+    if (this.cached && this.cached.other === other) return this.cached;
     const own = this.source;
-    const other = page.tables[page.groups[view.base].samples];
     const t = own.t;
     const v = new Float64Array(t.length).fill(NaN);
-    if (other.has(this.column) && this.group !== view.base) {
-      const mine = this.valuesOf(own);
-      const theirs = this.valuesOf(other);
+    if (other.has(this.wanted) && own.has(this.wanted) &&
+        this.group !== view.base) {
+      const mine = own.column(this.wanted);
+      const theirs = other.column(this.wanted);
       for (let k = 0; k < t.length; k++) {
-        v[k] = this.between(mine, theirs, other.t, t[k], k);
+        const j = nearestRow(other.t, t[k]);
+        if (Math.abs(other.t[j] - t[k]) > 1e-3) continue;
+        v[k] = this.combine(mine[k], theirs[j]);
       }
     }
-    this.cached = {t, v, base: view.base};
+    this.cached = {t, v, other};
     return this.cached;
   }
 
-  valuesOf(table) {
-    return table.column(this.column);
-  }
-
-  between(mine, theirs, times, time, k) {
-    const i = Math.min(Math.max(lowerBound(times, time), 1), times.length - 1);
-    if (time < times[0] || time > times[times.length - 1]) return NaN;
-    const share = times.length > 1 ?
-        (time - times[i - 1]) / (times[i] - times[i - 1]) : 0;
-    const step = this.wrap(theirs[i] - theirs[i - 1]);
-    return this.wrap(mine[k] - theirs[i - 1] - share * step);
-  }
-
-  wrap(angle) {
-    if (!['roll', 'pitch', 'heading'].includes(this.column)) return angle;
-    return angle - 360 * Math.round(angle / 360);
+  combine(mine, theirs) {
+    const difference = mine - theirs;
+    if (!['roll', 'pitch', 'heading'].includes(this.column)) return difference;
+    return difference - 360 * Math.round(difference / 360);
   }
 }
 
 /** The standard deviation that such a difference may have. */
 class DifferenceBound extends DifferenceLine {
-  get sigma() {
+  get wanted() {
     return kSigmaOf[this.column] || 'sd_' + this.column;
   }
 
-  valuesOf(table) {
-    return table.has(this.sigma) ? table.column(this.sigma) :
-        new Float64Array(table.t.length).fill(NaN);
-  }
-
-  between(mine, theirs, times, time, k) {
-    const other = theirs[nearestRow(times, time)];
+  combine(mine, theirs) {
     const alike = page.groups[this.group].forward ===
         page.groups[view.base].forward;
-    const sigma = alike ? other :
-        Math.sqrt(Math.abs(mine[k] * mine[k] - other * other));
-    return this.factor * sigma;
+    return this.factor * (alike ? theirs :
+        Math.sqrt(Math.abs(mine * mine - theirs * theirs)));
   }
 }
 

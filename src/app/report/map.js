@@ -67,13 +67,14 @@ class MapView {
   /** Rows of a solution that are exact in place: all, or some. */
   track(group) {
     const table = page.tables[page.groups[group].table];
-    if (table.full) return table;
-    return page.tables[page.groups[group].samples];
+    return table.isExact ? table : page.tables[page.groups[group].samples];
   }
 
+  /** Solutions shown; of others than the first those of which all rows are. */
   get groups() {
-    return page.groups.map((group, i) => i)
-        .filter((i) => view.shows(i) && this.track(i).has('north'));
+    return page.groups.map((group, i) => i).filter((i) => view.shows(i) &&
+        this.track(i).has('north') &&
+        (i === 0 || page.tables[page.groups[i].table].isExact));
   }
 
   /** Shows what the recommended solution does within the window. */
@@ -270,7 +271,10 @@ class MapView {
     }
   }
 
+  /** Those used only so close together that the track stays to be seen. */
   drawFixes(context, width, height) {
+    let lastX = -1e9;
+    let lastY = -1e9;
     if (page.map.fixes === undefined) return;
     const table = page.tables[page.map.fixes];
     const north = table.column('north');
@@ -286,7 +290,9 @@ class MapView {
       const colour = colours[fate[i]];
       if (fate[i] === 2) drawCross(null, '', context, x, y, colour);
       else if (fate[i] === 3) drawRing(null, '', context, x, y, colour);
-      else {
+      else if (Math.hypot(x - lastX, y - lastY) >= 9) {
+        lastX = x;
+        lastY = y;
         context.fillStyle = colour;
         context.fillRect(x - 1, y - 1, 2, 2);
       }

@@ -179,3 +179,5 @@ makeBar();
 makeBaseChoice();
 showBar();
 document.documentElement.dataset.ready = 'yes';
+// All rows, once the page is there to be seen.
+window.addEventListener('load', () => setTimeout(() => view.load(), 50));

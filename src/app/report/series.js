@@ -48,6 +48,11 @@ class Table {
     this.columns = {};
   }
 
+  /** Whether every row is there, and not extremes or some rows alone. */
+  get isExact() {
+    return this.t.length === this.json.rows;
+  }
+
   has(name) {
     return name in this.json.columns;
   }

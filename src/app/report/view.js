@@ -81,7 +81,7 @@ const view = {
     return group < 0 || !this.hidden.has(group);
   },
 
-  /** All rows, at the first zoom or cursor; draws anew when they are there. */
+  /** All rows; draws anew when they are there. */
   async load() {
     if (this.loading) return this.loading;
     this.loading = (async () => {
