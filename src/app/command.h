@@ -55,6 +55,7 @@ Command EvaluateCommand();
 Command SimulateCommand();
 Command InitCommand();
 Command MonteCarloCommand();
+Command ReportCommand();
 
 }  // namespace hindsight
 

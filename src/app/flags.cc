@@ -43,6 +43,7 @@ DEFINE_double(rate, 0.0, "");
 DEFINE_string(rates, "10,1", "");
 DEFINE_string(rules, "ekf,hinf,modified_hinf", "");
 DEFINE_string(reading, "", "");
+DEFINE_bool(report, false, "");
 DEFINE_uint64(runs, 100, "");
 DEFINE_uint64(seed, 1, "");
 DEFINE_bool(sweep, false, "");

@@ -43,6 +43,7 @@ DECLARE_double(rate);
 DECLARE_string(rates);
 DECLARE_string(rules);
 DECLARE_string(reading);
+DECLARE_bool(report);
 DECLARE_uint64(runs);
 DECLARE_uint64(seed);
 DECLARE_bool(sweep);

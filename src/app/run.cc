@@ -18,6 +18,7 @@
 #include "evaluation/truth_comparison.h"
 #include "io/comparison.h"
 #include "io/config.h"
+#include "io/fix_csv.h"
 #include "io/residual_csv.h"
 #include "io/summary.h"
 #include "problems/rest_by_estimate.h"
@@ -136,11 +137,30 @@ Reconstruction Prepare(const std::string& config, const Dataset& dataset,
   }
 }
 
+/// What the summary says of the recording.
+void NoteRecording(const Dataset& dataset, const CheckReport& check,
+                   RunSummary* summary) {
+  summary->warnings = check.warnings;
+  summary->warnings.insert(summary->warnings.end(),
+                           check.truth_warnings.begin(),
+                           check.truth_warnings.end());
+  summary->notes = dataset.notes;
+  for (const StreamReport& stream : check.streams) {
+    for (const StreamGap& gap : stream.gaps) {
+      summary->gaps.push_back({stream.name, gap.t, gap.t + gap.length});
+    }
+  }
+  for (const TimeInterval& rest : check.imu.rest.at_rest) {
+    summary->rests.push_back({"", rest.begin, rest.end});
+  }
+}
+
 /// What is known before anything is solved: notes, start, what the data cannot
 /// tell. Returns the latter.
 std::vector<UnobservedSpan> DescribeBeforehand(const Dataset& dataset,
                                                Reconstruction* reconstruction,
-                                               Progress* progress) {
+                                               Progress* progress,
+                                               RunSummary* summary) {
   std::vector<UnobservedSpan> unobserved;
   try {
     unobserved = reconstruction->Unobserved();
@@ -149,6 +169,7 @@ std::vector<UnobservedSpan> DescribeBeforehand(const Dataset& dataset,
   }
   progress->Clear();
   const CheckReport check = CheckDataset(dataset);
+  NoteRecording(dataset, check, summary);
   for (const auto* warnings : {&check.warnings, &check.truth_warnings}) {
     for (const std::string& warning : *warnings) {
       std::cout << "warning: " << warning << "\n";
@@ -197,8 +218,6 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
 
   Reconstruction reconstruction =
       Prepare(request.config, dataset, Options(request, &progress));
-  const std::vector<UnobservedSpan> unobserved =
-      DescribeBeforehand(dataset, &reconstruction, &progress);
   RunSummary summary = {.program = kProgram,
                         .dataset = dataset.name,
                         .epoch_gps_ns = dataset.epoch_gps_ns,
@@ -206,6 +225,8 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
                         .policies = dataset.policies,
                         .best = "",
                         .methods = {}};
+  const std::vector<UnobservedSpan> unobserved =
+      DescribeBeforehand(dataset, &reconstruction, &progress, &summary);
   std::vector<Solution> solutions;
   for (const std::string& method : request.methods) {
     solutions.push_back(RunMethod(&reconstruction, method));
@@ -226,8 +247,12 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   const Solution& best = Best(solutions);
   NameBest(best, solutions, &summary);
   WriteResidualCsv(folder->Path("residuals.csv"), solutions, dataset);
+  if (HasFixes(dataset)) {
+    WriteFixCsv(folder->Path("fixes.csv"), best, dataset);
+  }
   progress.Clear();
   summary.complete = true;
+  if (request.report) WriteReport(request, summary, folder);
   folder->Commit(kSummaryName, SummaryText(summary));
   progress.Finish();
 
@@ -238,7 +263,7 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
             << DescribeEvidence(solutions) << DescribeContradictions(summary)
             << DescribeConstants(dataset, best) << "\nresults in "
             << request.out << "\n"
-            << DescribeVerdict(best);
+            << DescribeReport(request) << DescribeVerdict(best);
   return StatusOf(best.grade);
 }
 

@@ -120,6 +120,7 @@ int EstimateInto(const RunRequest& request, ResultFolder* folder) {
                         .epoch_gps_ns = dataset.epoch_gps_ns,
                         .start = {},
                         .policies = dataset.policies,
+                        .notes = dataset.notes,
                         .best = "",
                         .methods = {}};
   ReportTable table = EmptyTable(dataset);
@@ -141,12 +142,13 @@ int EstimateInto(const RunRequest& request, ResultFolder* folder) {
   NameBest(best, verdicts, &summary);
   progress.Clear();
   summary.complete = true;
+  if (request.report) WriteReport(request, summary, folder);
   folder->Commit(kSummaryName, SummaryText(summary));
   std::cout << DescribeNotes(dataset) << "\n"
             << table.Render() << DescribeEvidence(verdicts)
             << DescribeContradictions(summary) << "\nresults in " << request.out
             << "\n"
-            << DescribeVerdict(best);
+            << DescribeReport(request) << DescribeVerdict(best);
   return StatusOf(best.grade);
 }
 

@@ -26,6 +26,7 @@ and writes into the folder of --out:
   residuals.csv         every measurement's residual, sigma, weight and fate
   summary.json          figures of every method, for programs
   config.resolved.yaml  the configuration as used, in SI units
+  report.html           with --report: one page that shows all of it
   manifest.json         the files of this folder
 Comments of every .csv, lines that begin with '#', say what t = 0 is: GPS week
 and second, and UTC. Between the nodes a solution is integrated through the IMU:
@@ -115,6 +116,9 @@ Command RunCommand() {
             "separate by ; or repeat"},
            {"seed", "N", "of --inject's spikes and multipath (1)"},
            {"export", "LIST", "some of tum,kml,nav"},
+           {"report", "",
+            "write report.html as well, one page that shows the results\n"
+            "(see 'hindsight report')"},
            {"progress", "MODE",
             "on stderr: auto (a line on a terminal), json (an object\n"
             "a line) or none (auto)"},

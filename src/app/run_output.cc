@@ -6,11 +6,14 @@
 #include <cmath>
 #include <optional>
 
+#include "app/report_page.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "dataset/injection.h"
 #include "io/atomic_file.h"
 #include "io/config.h"
+#include "io/constant_csv.h"
+#include "io/error_csv.h"
 #include "io/kml.h"
 #include "io/nav.h"
 #include "io/solution_csv.h"
@@ -239,7 +242,31 @@ void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
   if (!solution.mode_probabilities.empty()) {
     WriteModes(folder->Path(method + ".modes.csv"), solution, dataset);
   }
+  if (!dataset.truth.empty() && tables.truth.size() > 0) {
+    WriteErrorCsv(folder->Path(method + ".errors.csv"),
+                  ComputeTrajectoryErrors(tables.truth, dataset.truth, {}),
+                  tables.truth, ProgramLine(dataset), dataset.epoch_gps_ns);
+  }
+  if (HasConstantSeries(solution)) {
+    WriteConstantCsv(folder->Path(method + ".constants.csv"), solution,
+                     ProgramLine(dataset), dataset.epoch_gps_ns);
+  }
   WriteExports(request, dataset, method, tables.output, folder);
+}
+
+void WriteReport(const RunRequest& request, const RunSummary& summary,
+                 ResultFolder* folder) {
+  const std::filesystem::path path = folder->Path(kReportName);
+  WriteFileAtomically(path.string(),
+                      ReportPage({{.folder = path.parent_path(),
+                                   .shown = request.out,
+                                   .summary = SummaryJson(summary)}}));
+}
+
+std::string DescribeReport(const RunRequest& request) {
+  if (!request.report) return "";
+  return "report in " +
+         (std::filesystem::path(request.out) / kReportName).string() + "\n";
 }
 
 MethodSummary Summarize(const Dataset& dataset, const Solution& solution,

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_APP_RUN_OUTPUT_H_
 #define HINDSIGHT_APP_RUN_OUTPUT_H_
 
+#include <string>
 #include <vector>
 
 #include "app/result_folder.h"
@@ -39,11 +40,19 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
                           const Reconstruction& reconstruction,
                           const Solution& solution);
 
-/// Writes the tables that have rows, mode probabilities and exports; nothing
-/// for a solution without states.
+/// Writes the tables that have rows, mode probabilities, errors against the
+/// truth, constants over time and exports; nothing for a solution without
+/// states.
 void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
                       const Solution& solution, const MethodTables& tables,
                       ResultFolder* folder);
+
+/// Writes report.html, the page that shows what the folder holds so far.
+void WriteReport(const RunRequest& request, const RunSummary& summary,
+                 ResultFolder* folder);
+
+/// The line that says where the page is; "" without.
+std::string DescribeReport(const RunRequest& request);
 
 /// The figures of one solution; of one without states, only that it failed.
 MethodSummary Summarize(const Dataset& dataset, const Solution& solution,

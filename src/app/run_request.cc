@@ -332,6 +332,7 @@ RunRequest ReadRunRequest(const std::string& config) {
   request.error = errors.front();
   request.h_infinity = ReadCovariance(RiccatiRule::kHInfinity);
   request.modified_h_infinity = ReadCovariance(RiccatiRule::kModifiedHInfinity);
+  request.report = FLAGS_report;
   request.progress = Progress::ModeFromName(FLAGS_progress);
   if (IsGiven("at")) {
     request.at_file = FLAGS_at;

@@ -40,6 +40,7 @@ struct RunRequest {
   std::vector<Injection> injections;  ///< errors to add on purpose
   std::uint64_t seed = 1;             ///< of the injections
   std::set<std::string> exports;      ///< of "tum", "kml", "nav"
+  bool report = false;                ///< make the page report.html as well
   Progress::Mode progress = Progress::Mode::kNone;
 };
 

@@ -3,6 +3,21 @@
 #include "evaluation/truth_comparison.h"
 
 namespace hindsight {
+namespace {
+
+/// Integral of the speed; nothing without velocities.
+std::optional<double> DistanceOf(const Solution& solution) {
+  if (!solution.layout.Has(BlockKind::kVelocity)) return std::nullopt;
+  double distance = 0.0;
+  for (std::size_t k = 1; k < solution.states.size(); ++k) {
+    const State& a = solution.states[k - 1];
+    const State& b = solution.states[k];
+    distance += 0.5 * (a.v_e.norm() + b.v_e.norm()) * (b.t - a.t);
+  }
+  return distance;
+}
+
+}  // namespace
 
 MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
                               const SolutionTable& trajectory) {
@@ -29,6 +44,11 @@ MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
   m.unobserved = solution.unobserved;
   m.rivals = solution.rivals;
   m.observer = solution.observer;
+  m.found = solution.notes;
+  if (!solution.states.empty()) {
+    m.duration = solution.states.back().t - solution.states.front().t;
+    m.distance = DistanceOf(solution);
+  }
   return m;
 }
 

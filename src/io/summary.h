@@ -32,6 +32,13 @@ struct StartSummary {
   Eigen::Vector3d attitude_sigma = Eigen::Vector3d::Zero();
 };
 
+/// A span of the recording, of one stream or of none.
+struct StreamSpan {
+  std::string stream;
+  double t_begin = 0.0;  ///< [s]
+  double t_end = 0.0;    ///< [s]
+};
+
 /// The figures of one method.
 struct MethodSummary {
   std::string method;
@@ -53,6 +60,10 @@ struct MethodSummary {
   std::vector<UnobservedSpan> unobserved;
   std::vector<RivalSolution> rivals;
   std::optional<ObserverFigures> observer;
+  std::vector<std::string> found;  ///< Solution::notes
+  std::optional<double> duration;  ///< from the first to the last state [s]
+  std::optional<double>
+      distance;  ///< over the Earth, integral of the speed [m]
 };
 
 /// The figures of a run.
@@ -64,6 +75,10 @@ struct RunSummary {
   std::optional<std::int64_t> epoch_gps_ns;  ///< see Dataset
   std::optional<StartSummary> start;
   std::vector<PolicyCount> policies;
+  std::vector<std::string> warnings = {};  ///< of the recording, CheckReport
+  std::vector<std::string> notes = {};     ///< Dataset::notes
+  std::vector<StreamSpan> gaps = {};       ///< without rows, longer than usual
+  std::vector<StreamSpan> rests = {};      ///< in which the vehicle stands
   /// The best method, whose grade is that of the run; empty: none.
   std::string best;
   std::vector<MethodSummary> methods;
@@ -92,10 +107,16 @@ std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
 ///     position_sigma_m, velocity_sigma_mps, attitude_sigma_deg
 ///   policies[]                  what readers did as the configuration allows
 ///     stream, action, count
+///   warnings[], notes[]         of the recording, in words
+///   gaps[], rests[]             stream, t_begin_s, t_end_s: spans without
+///   rows,
+///                               and at rest (no stream)
 ///   best, grade                 the best method, and its grade
 ///   methods.<name>
 ///     seconds                   processor time of the method alone
 ///     peak_rss_mb               of the process when the method had ended
+///     duration_s, distance_m    of the solution, the way over the Earth
+///     found[]                   by a self-tuning method, in words
 ///     converged, iterations     iterations only of a method that iterates
 ///     grade                     "usable", "doubtful" or "not usable"
 ///     verdict                   the grade and why, in words
@@ -128,7 +149,9 @@ std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
 ///         in place of _m for a velocity sensor), distance_m, drift_percent
 ///     nees                      mean normalised squared errors, each of 3
 ///       position, velocity, attitude            degrees of freedom
-///     residuals.<sensor>        count, rejected, withheld, normalized_rms
+///     residuals.<sensor>        count, rejected, withheld, normalized_rms;
+///                               unit and components[], where they are the
+///                               same for every measurement
 ///     constants.<name>          value, sigma, unit, prior_sigma, verdict
 ///                               ("observed", "weak", "unobserved"), advice
 ///     unobserved[]              component, t_begin_s, t_end_s, sigma (SI)

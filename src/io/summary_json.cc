@@ -29,6 +29,11 @@ void PutText(Json* json, const std::string& key, const std::string& text) {
   if (!text.empty()) (*json)[key] = text;
 }
 
+void PutWords(Json* json, const std::string& key,
+              const std::vector<std::string>& words) {
+  if (!words.empty()) (*json)[key] = words;
+}
+
 Eigen::Vector3d Rms(const std::array<ErrorStatistics, 3>& axis) {
   return {axis[0].rms, axis[1].rms, axis[2].rms};
 }
@@ -109,6 +114,36 @@ Json NeesJson(const TrajectoryStatistics& s) {
   return json;
 }
 
+/// Names of a residual's components, where every measurement has all of them.
+std::vector<std::string> ComponentNames(SensorType type) {
+  switch (type) {
+    case SensorType::kPosition:
+    case SensorType::kVelocity:
+      return {"north", "east", "down"};
+    default:
+      return {};
+  }
+}
+
+/// SI unit of a residual; "" where the components differ.
+std::string ResidualUnit(SensorType type) {
+  switch (type) {
+    case SensorType::kPosition:
+    case SensorType::kHeight:
+      return "m";
+    case SensorType::kVelocity:
+    case SensorType::kZeroVelocity:
+    case SensorType::kOdometer:
+    case SensorType::kNonHolonomic:
+    case SensorType::kDvl:
+      return "m/s";
+    case SensorType::kZeroAngularRate:
+      return "rad/s";
+    default:
+      return "";
+  }
+}
+
 Json ResidualsJson(const std::vector<ResidualStatistics>& residuals) {
   Json json = Json::object();
   for (const ResidualStatistics& s : residuals) {
@@ -116,6 +151,8 @@ Json ResidualsJson(const std::vector<ResidualStatistics>& residuals) {
     entry["count"] = s.count;
     entry["rejected"] = s.rejected;
     if (s.withheld > 0) entry["withheld"] = s.withheld;
+    PutText(&entry, "unit", ResidualUnit(s.type));
+    PutWords(&entry, "components", ComponentNames(s.type));
     Put(&entry, "normalized_rms", s.normalized_rms);
   }
   return json;
@@ -207,6 +244,9 @@ Json MethodJson(const MethodSummary& m) {
   Put(&json, "peak_rss_mb", m.peak_rss_mb);
   json["converged"] = m.converged;
   if (m.iterations > 0) json["iterations"] = m.iterations;
+  Put(&json, "duration_s", m.duration);
+  Put(&json, "distance_m", m.distance);
+  PutWords(&json, "found", m.found);
   json["grade"] = GradeName(m.grade);
   PutText(&json, "verdict", m.verdict);
   json["evidence"] = Json::array();
@@ -236,6 +276,17 @@ Json MethodJson(const MethodSummary& m) {
   }
   if (m.observer) json["observer"] = ObserverJson(*m.observer);
   return json;
+}
+
+void PutSpans(Json* json, const std::string& key,
+              const std::vector<StreamSpan>& spans) {
+  for (const StreamSpan& span : spans) {
+    Json entry;
+    PutText(&entry, "stream", span.stream);
+    Put(&entry, "t_begin_s", span.t_begin);
+    Put(&entry, "t_end_s", span.t_end);
+    (*json)[key].push_back(std::move(entry));
+  }
 }
 
 Json EpochJson(std::int64_t gps_ns) {
@@ -274,6 +325,10 @@ nlohmann::ordered_json SummaryJson(const RunSummary& summary) {
                                 {"action", policy.action},
                                 {"count", policy.count}});
   }
+  PutWords(&json, "warnings", summary.warnings);
+  PutWords(&json, "notes", summary.notes);
+  PutSpans(&json, "gaps", summary.gaps);
+  PutSpans(&json, "rests", summary.rests);
   for (const MethodSummary& m : summary.methods) {
     if (m.method != summary.best) continue;
     json["best"] = m.method;

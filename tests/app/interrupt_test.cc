@@ -73,15 +73,15 @@ class Interrupt : public ::testing::Test {
   /// That the folder holds what ekf made, and says so.
   static void ExpectEkfAlone(const fs::path& folder) {
     EXPECT_THAT(Names(folder),
-                ElementsAre("config.resolved.yaml", "ekf.csv", "ekf.truth.csv",
-                            "manifest.json", "summary.json"));
+                ElementsAre("config.resolved.yaml", "ekf.csv", "ekf.errors.csv",
+                            "ekf.truth.csv", "manifest.json", "summary.json"));
     const nlohmann::json summary = Json(folder / "summary.json");
     EXPECT_EQ(summary["complete"], false);
     EXPECT_EQ(summary["methods"].size(), 1u);
     EXPECT_TRUE(summary["methods"].contains("ekf"));
     const nlohmann::json manifest = Json(folder / "manifest.json");
     EXPECT_EQ(manifest["complete"], false);
-    EXPECT_EQ(manifest["files"].size(), 4u);
+    EXPECT_EQ(manifest["files"].size(), 5u);
   }
 
   static TemporaryFolder* drive_;
@@ -402,7 +402,7 @@ TEST_F(MediumThatEnds, FullDiskKeepsTheMethodsThatWereDone) {
   const std::string full = std::to_string(ENOSPC);
   int kept = 0;
   int none = 0;
-  for (int at = 1; at <= 12; ++at) {
+  for (int at = 1; at <= 18; ++at) {
     const std::string fault = "write:" + std::to_string(at) + "+:" + full;
     const Outcome outcome =
         Run({"--methods=ekf,rts"}, WithFaults({{"", fault}}));

@@ -49,10 +49,12 @@ TEST_F(RunCommandTest, WritesTheFilesOfEveryMethodAndNothingElse) {
   const Outcome outcome = recording_.Run({"--out=out", "--export=tum,kml,nav"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.err, IsEmpty());
-  std::vector<std::string> expected = {"config.resolved.yaml", "manifest.json",
-                                       "residuals.csv", "summary.json"};
+  std::vector<std::string> expected = {"config.resolved.yaml", "fixes.csv",
+                                       "manifest.json", "residuals.csv",
+                                       "summary.json"};
   for (const std::string method : {"ekf", "rts", "iterated", "batch"}) {
-    for (const std::string ending : {"csv", "truth.csv", "tum", "kml", "nav"}) {
+    for (const std::string ending :
+         {"csv", "truth.csv", "errors.csv", "tum", "kml", "nav"}) {
       expected.push_back(method + "." + ending);
     }
   }
@@ -157,8 +159,9 @@ TEST_F(RunCommandTest, EveryResultSaysWhatItsTimesCountFrom) {
     }
     EXPECT_TRUE(said) << name;
   }
-  // Solution, --at and truth of two methods, the modes of one, residuals.
-  EXPECT_EQ(count, 8);
+  // Solution, --at, truth and errors of two methods, the modes of one,
+  // residuals, fixes.
+  EXPECT_EQ(count, 11);
   EXPECT_EQ(Summary()["epoch"]["gps_week"], 2374);
   EXPECT_EQ(Summary()["epoch"]["gps_second"], 243261.5);
 }

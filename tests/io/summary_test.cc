@@ -132,8 +132,9 @@ TEST(Summary, HasTheDocumentedKeys) {
   const Json& batch = json["methods"]["batch"];
   EXPECT_THAT(Keys(batch),
               ElementsAre("seconds", "peak_rss_mb", "converged", "iterations",
-                          "grade", "verdict", "evidence", "error", "withheld",
-                          "nees", "residuals", "constants", "unobserved"));
+                          "duration_s", "distance_m", "grade", "verdict",
+                          "evidence", "error", "withheld", "nees", "residuals",
+                          "constants", "unobserved"));
   EXPECT_THAT(
       Keys(batch["error"]),
       ElementsAre("position_rms_m", "position_max_m", "horizontal_rms_m",
@@ -250,8 +251,8 @@ TEST(Summary, LeavesOutFiguresThatDoNotExist) {
   EXPECT_THAT(Keys(json),
               ElementsAre("program", "dataset", "complete", "methods"));
   EXPECT_THAT(Keys(json["methods"]["ekf"]),
-              ElementsAre("converged", "grade", "verdict", "evidence",
-                          "residuals", "constants"));
+              ElementsAre("converged", "duration_s", "distance_m", "grade",
+                          "verdict", "evidence", "residuals", "constants"));
   EXPECT_THAT(json.dump(), Not(HasSubstr("null")));
 }
 

@@ -1,0 +1,61 @@
+#ifndef HINDSIGHT_APP_REPORT_SOURCE_H_
+#define HINDSIGHT_APP_REPORT_SOURCE_H_
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/result_columns.h"
+
+namespace hindsight {
+
+/// Where results are.
+struct ReportPlace {
+  std::filesystem::path folder;
+  /// What the page calls the folder; empty: its own name.
+  std::filesystem::path shown = {};
+  /// In place of summary.json, which is written last.
+  std::optional<nlohmann::ordered_json> summary = std::nullopt;
+};
+
+/// A folder of results that `hindsight run` wrote.
+struct ReportSource {
+  std::filesystem::path folder;
+  std::filesystem::path shown;     ///< its name on the page
+  nlohmann::ordered_json summary;  ///< summary.json
+  std::string config;              ///< config.resolved.yaml, "" if missing
+
+  std::string Name() const;  ///< of the data set
+  std::string Best() const;  ///< method, "" if none
+  std::vector<std::string> Methods() const;
+  const nlohmann::ordered_json& Method(const std::string& name) const;
+};
+
+/// Reads the folder's words. Throws InputError if it holds no results.
+ReportSource ReadReportSource(const ReportPlace& place);
+
+/// One solution on the page: a method of a run.
+struct ReportSolution {
+  std::size_t source = 0;
+  std::string method;
+  std::string label;      ///< the method; of further folders "FOLDER: method"
+  bool forward = false;   ///< knows at each time nothing later
+  NumberColumns columns;  ///< METHOD.csv
+  NumberColumns errors;   ///< METHOD.errors.csv, empty without
+  int table = -1;         ///< its series on the page
+  int samples = -1;       ///< the same at a few rows, exact
+
+  const std::vector<double>& t() const { return columns.at("t[s]"); }
+  bool Has(const std::string& title) const { return columns.contains(title); }
+};
+
+/// Reads what the methods' files hold, the best first. Of further sources than
+/// the first their best alone.
+std::vector<ReportSolution> ReadReportSolutions(
+    const std::vector<ReportSource>& sources);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_APP_REPORT_SOURCE_H_

@@ -1,0 +1,293 @@
+#include <algorithm>
+
+#include "app/report_html.h"
+#include "app/report_panels.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "io/html.h"
+#include "io/paths.h"
+
+namespace hindsight {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string TextOf(const Json& json, const std::string& key) {
+  return json.contains(key) && json[key].is_string()
+             ? json[key].get<std::string>()
+             : std::string();
+}
+
+/// "a; b" of an array of texts.
+std::string Joined(const Json& json, const std::string& key) {
+  std::string text;
+  if (!json.contains(key)) return text;
+  for (const Json& item : json[key]) {
+    if (!item.is_string()) continue;
+    text += (text.empty() ? "" : "; ") + item.get<std::string>();
+  }
+  return text;
+}
+
+std::string Number(const Json& json, const std::string& key,
+                   const char* format) {
+  if (!json.contains(key) || !json[key].is_number()) return "";
+  constexpr std::size_t kLongest = 40;
+  char text[kLongest];
+  std::snprintf(text, kLongest, format, json[key].get<double>());
+  return text;
+}
+
+std::string GradeMark(const std::string& grade) {
+  std::string css = grade;
+  std::replace(css.begin(), css.end(), ' ', '-');
+  return "<span class=\"grade " + EscapeHtml(css) + "\">" + EscapeHtml(grade) +
+         "</span>";
+}
+
+std::string Spread(const Json& json, const std::string& key) {
+  std::string text;
+  if (!json.contains(key)) return text;
+  for (const Json& item : json[key]) {
+    text += Format("%s%.3g", text.empty() ? "" : ", ", item.get<double>());
+  }
+  return text;
+}
+
+std::string StartTable(const Json& summary) {
+  if (!summary.contains("start")) return "";
+  const Json& start = summary["start"];
+  HtmlTable table({"start", "how", "sigma"});
+  table.AddRow({"time", Number(start, "t_s", "%.3f s"), ""});
+  table.AddRow({"position", TextOf(start, "position"),
+                Spread(start, "position_sigma_m") + " m (N, E, D)"});
+  table.AddRow(
+      {"velocity", "", Spread(start, "velocity_sigma_mps") + " m/s (N, E, D)"});
+  table.AddRow(
+      {"attitude", TextOf(start, "attitude"),
+       Spread(start, "attitude_sigma_deg") + " deg (roll, pitch, heading)"});
+  table.AddRow({"heading", TextOf(start, "heading"), ""});
+  table.AddRow({"alignment", TextOf(start, "alignment"), ""});
+  table.AddRow({"why", TextOf(start, "why"), ""});
+  return "<h3>Start</h3>\n" + table.Render();
+}
+
+std::string EvidenceTable(const ReportContext& context) {
+  HtmlTable table({"grade", "what", "limit", "likely causes", "what to try"});
+  for (const Json& e : context.BestSummary().value("evidence", Json::array())) {
+    const std::vector<std::string> cells = {
+        TextOf(e, "grade"), TextOf(e, "what"),
+        Number(e, "limit", "%.4g") + " " + TextOf(e, "unit"),
+        Joined(e, "likely_causes"), Joined(e, "what_to_try")};
+    if (e.contains("span_s")) {
+      table.AddRow(cells, e["span_s"][0].get<double>() - 5.0,
+                   e["span_s"][1].get<double>() + 5.0);
+    } else {
+      table.AddRow(cells);
+    }
+  }
+  return "<h3>Evidence</h3>\n" + table.Render();
+}
+
+std::string MethodTable(const ReportContext& context) {
+  HtmlTable table({"method", "grade", "verdict", "horizontal error rms [m]",
+                   "horizontal error max [m]", "outages: horizontal rms [m]",
+                   "outages: max [m]", "iterations", "time [s]"});
+  for (std::size_t i = 0; i < context.sources.size(); ++i) {
+    const ReportSource& source = context.sources[i];
+    for (const std::string& name : source.Methods()) {
+      const Json& m = source.Method(name);
+      const Json error = m.value("error", Json::object());
+      const Json withheld = m.value("withheld", Json::object());
+      table.AddRow(
+          {i == 0 ? name : source.shown.filename().string() + ": " + name,
+           TextOf(m, "grade"), TextOf(m, "verdict"),
+           Number(error, "horizontal_rms_m", "%.3f"),
+           Number(error, "horizontal_max_m", "%.3f"),
+           Number(withheld, "horizontal_rms_m", "%.3f"),
+           Number(withheld, "horizontal_max_m", "%.3f"),
+           Number(m, "iterations", "%.0f"), Number(m, "seconds", "%.3f")});
+    }
+  }
+  return "<h3>Methods</h3>\n" + table.Render();
+}
+
+std::string Words(const Json& summary) {
+  std::string items;
+  for (const Json& warning : summary.value("warnings", Json::array())) {
+    items += "<li class=\"warning\">" + EscapeHtml(warning.get<std::string>()) +
+             "</li>";
+  }
+  for (const Json& policy : summary.value("policies", Json::array())) {
+    items +=
+        "<li>" +
+        EscapeHtml(TextOf(policy, "stream") + ": " + TextOf(policy, "action") +
+                   ": " + Number(policy, "count", "%.0f")) +
+        "</li>";
+  }
+  for (const Json& note : summary.value("notes", Json::array())) {
+    items += "<li>" + EscapeHtml(note.get<std::string>()) + "</li>";
+  }
+  for (const auto& [name, m] : summary["methods"].items()) {
+    const std::string words = TextOf(m, "contradicts_truth");
+    if (words.empty()) continue;
+    items +=
+        "<li class=\"warning\">" + EscapeHtml(name + ": " + words) + "</li>";
+  }
+  return items.empty() ? "" : "<h3>Notes</h3>\n<ul>" + items + "</ul>\n";
+}
+
+/// Figures at the top: what, and how much.
+std::string Tiles(const ReportContext& context) {
+  const Json& summary = context.reference().summary;
+  const ReportSolution& best = context.best();
+  std::string html;
+  const auto tile = [&](const std::string& name, const std::string& value) {
+    if (value.empty()) return;
+    html += "<div><dt>" + EscapeHtml(name) + "</dt><dd>" + EscapeHtml(value) +
+            "</dd></div>";
+  };
+  const double length = best.t().back() - best.t().front();
+  tile("Duration",
+       length < 7200.0
+           ? Format("%.1f s", length)
+           : Format("%d h %02d min", static_cast<int>(length / 3600.0),
+                    static_cast<int>(length / 60.0) % 60));
+  if (context.BestSummary().contains("distance_m")) {
+    const double way = context.BestSummary()["distance_m"].get<double>();
+    tile("Distance",
+         way < 10000.0 ? Format("%.0f m", way) : Format("%.1f km", way / 1e3));
+  }
+  tile("Solution", best.method);
+  tile("Epochs", std::to_string(best.t().size()));
+  if (summary.contains("epoch")) {
+    tile("t = 0 (UTC)", TextOf(summary["epoch"], "utc"));
+    tile("GPS week, second",
+         Number(summary["epoch"], "gps_week", "%.0f") + ", " +
+             Number(summary["epoch"], "gps_second", "%.3f"));
+  }
+  return "<dl class=\"tiles\">" + html + "</dl>\n";
+}
+
+std::string Rivals(const Json& method) {
+  HtmlTable table({"another explanation", "probability [%]"});
+  for (const Json& rival : method.value("rivals", Json::array())) {
+    table.AddRow({TextOf(rival, "description"),
+                  Format("%.2g", 100.0 * rival.value("probability", 0.0))});
+  }
+  return table.Render();
+}
+
+}  // namespace
+
+std::string VerdictPanel(ReportContext* context) {
+  const Json& summary = context->reference().summary;
+  const Json& best = context->BestSummary();
+  std::string html = "<div class=\"card\"><p class=\"verdict\">" +
+                     GradeMark(TextOf(best, "grade")) + " <b>" +
+                     EscapeHtml(context->best().method) + "</b> is " +
+                     EscapeHtml(TextOf(best, "verdict")) + "</p>";
+  if (!summary.value("complete", true)) {
+    html +=
+        "<p class=\"warning\">The run was interrupted: these are the "
+        "methods that were done.</p>";
+  }
+  html += Tiles(*context) + "</div>\n";
+  if (context->sources.size() > 1) {
+    HtmlTable runs({"folder", "data set", "best", "grade"});
+    for (const ReportSource& source : context->sources) {
+      runs.AddRow({source.shown.filename().string(), source.Name(),
+                   source.Best(), TextOf(source.summary, "grade")});
+    }
+    html += "<h3>Side by side, the first as reference</h3>\n" + runs.Render();
+  }
+  return html + MethodTable(*context) + EvidenceTable(*context) + Rivals(best) +
+         Words(summary) + StartTable(summary);
+}
+
+std::string ModePanel(ReportContext* context) {
+  std::string html;
+  for (const ReportSolution& solution : context->solutions) {
+    if (solution.source != 0) continue;
+    const auto path =
+        context->reference().folder / (solution.method + ".modes.csv");
+    if (!PathExists(path)) continue;
+    NumberColumns modes = ReadNumberColumns(path.string());
+    ReportSeries series;
+    series.t = std::move(modes["t[s]"]);
+    modes.erase("t[s]");
+    series.columns = std::move(modes);
+    std::vector<ChartLine> lines;
+    std::vector<std::string> names;
+    for (const auto& [name, values] : series.columns) names.push_back(name);
+    const int table = context->data.Add(std::move(series));
+    for (const std::string& name : names) {
+      lines.push_back({.table = table,
+                       .column = name,
+                       .label = name,
+                       .colour = static_cast<int>(lines.size())});
+    }
+    html += context->data.Figure({.title = solution.method + ": modes",
+                                  .unit = "1",
+                                  .note = "Probability of each mode.",
+                                  .lines = std::move(lines)});
+  }
+  std::string found;
+  for (const std::string& name : context->reference().Methods()) {
+    const Json& method = context->reference().Method(name);
+    for (const Json& words : method.value("found", Json::array())) {
+      found += "<li>" +
+               EscapeHtml(name + " found " + words.get<std::string>()) +
+               "</li>";
+    }
+  }
+  if (html.empty() && found.empty()) {
+    return Absent(
+        "No method with modes ran (imm, imm_smoother, robust_batch).");
+  }
+  if (!found.empty()) found = "<ul>" + found + "</ul>\n";
+  return found + "<div class=\"grid\">" + html + "</div>\n";
+}
+
+std::string ConstantPanel(ReportContext* context) {
+  HtmlTable table({"constant", "value", "sigma", "unit", "prior sigma",
+                   "verdict", "what would help"});
+  const Json constants =
+      context->BestSummary().value("constants", Json::object());
+  for (const auto& item : constants.items()) {
+    const Json& c = item.value();
+    const std::string unit = TextOf(c, "unit");
+    const bool angle = unit.starts_with("rad");
+    const double one = angle ? kDegree : 1.0;
+    const auto figure = [&](const char* key, const char* format) {
+      if (!c.contains(key)) return std::string();
+      const Json value = {{"x", c[key].get<double>() / one}};
+      return Number(value, "x", format);
+    };
+    table.AddRow({item.key(), figure("value", "%.5g"), figure("sigma", "%.3g"),
+                  angle ? "deg" + unit.substr(3) : unit,
+                  figure("prior_sigma", "%.3g"), TextOf(c, "verdict"),
+                  TextOf(c, "advice")});
+  }
+  if (table.empty()) return Absent("No constant was estimated.");
+  return Element("p", "Of " + context->best().label + ".") + table.Render();
+}
+
+std::string ConfigPanel(ReportContext* context) {
+  std::string html;
+  for (const ReportSource& source : context->sources) {
+    html += Element("p", TextOf(source.summary, "program") + ", results in " +
+                             source.shown.string());
+    if (source.config.empty()) {
+      html += Absent("There is no config.resolved.yaml of this run.");
+      continue;
+    }
+    html += "<details" +
+            std::string(context->sources.size() == 1 ? " open" : "") +
+            "><summary>Configuration as used, in SI units</summary><pre>" +
+            EscapeHtml(source.config) + "</pre></details>\n";
+  }
+  return html;
+}
+
+}  // namespace hindsight
