@@ -85,7 +85,7 @@ SmoothedTrajectory WindowModel::Smooth(const State& near,
       SmoothRts(RunLinearizedFilter(layout_, prior, states, &timeline_, all_));
   WidenHeading(layout_,
                CreditHeading(layout_, prior, smoothed.states, smoothed.P,
-                                &timeline_, all_),
+                             &timeline_, all_),
                &smoothed.P);
   return smoothed;
 }
