@@ -57,9 +57,8 @@ const Command& FindCommand(const std::vector<Command>& commands,
 
 int Dispatch(const char* program, std::vector<std::string> words) {
   const std::vector<Command> commands = {
-      CheckCommand(),    RunCommand(),  EvaluateCommand(),
-      SimulateCommand(), InitCommand(), MonteCarloCommand(),
-      ReportCommand()};
+      CheckCommand(), RunCommand(),        EvaluateCommand(), SimulateCommand(),
+      InitCommand(),  MonteCarloCommand(), ReportCommand()};
   if (!words.empty() && words[0] == "help") {
     words.erase(words.begin());
     if (!words.empty()) words = {words[0], "--help"};
