@@ -240,16 +240,18 @@ class StartFinder {
     return prior;
   }
 
-  /// A priori covariance with the sigmas of the attitude times `factor`, but
-  /// not beyond those of an attitude of which nothing is known.
+  /// A priori covariance with the sigmas of the attitude times `factor`, each
+  /// not beyond that of an angle of which nothing is known.
   ErrorMatrix Covariance(const ErrorLayout& layout, double factor) const {
     ErrorMatrix P = layout.InitialCovariance();
     const int a = layout.Find(BlockKind::kAttitude)->offset;
     const int b = layout.Find(BlockKind::kGyroBias)->offset;
-    const double largest = std::sqrt(attitude_.P.diagonal().maxCoeff());
-    const double f = std::clamp(kUnknownHeadingSigma / largest, 1.0, factor);
-    P.block<3, 3>(a, a) = f * f * attitude_.P;
-    if (f == 1.0) {
+    const Eigen::Vector3d f =
+        (kUnknownHeadingSigma / attitude_.P.diagonal().array().sqrt())
+            .max(1.0)
+            .min(factor);
+    P.block<3, 3>(a, a) = f.asDiagonal() * attitude_.P * f.asDiagonal();
+    if ((f.array() == 1.0).all()) {
       P.block<3, 6>(a, b) = attitude_.P_bias;
       P.block<6, 3>(b, a) = attitude_.P_bias.transpose();
     }

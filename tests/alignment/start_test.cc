@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "alignment/alignment.h"
 #include "base/error.h"
 #include "base/units.h"
@@ -264,6 +266,12 @@ TEST(Start, StraightMotionTellsNoHeadingOfAnImuThatSitsAnyhow) {
         << start.report.why;
     EXPECT_GE(start.prior.P(8, 8), kUnknownHeadingSigma * kUnknownHeadingSigma);
     EXPECT_LT(ErrorInSigmas(turned, start), 4.0);
+    // What tells the tilt is measured again, whatever it says of the heading.
+    if (start.report.alignment == "velocity") {
+      const double wider =
+          std::sqrt(start.prior.P(6, 6)) / start.report.attitude_sigma.x();
+      EXPECT_GT(wider, 5.0);
+    }
     // A constraint that says where forward is makes the course a heading.
     Dataset constrained = turned;
     constrained.streams.push_back(testing::Constraint(turned));
