@@ -87,13 +87,14 @@ class CovarianceBetween {
   void Bridge(std::size_t k) {
     const ErrorMatrix before = P_.front();
     const ErrorMatrix after = solution_.covariances.Get(k + 1);
-    std::vector<ErrorMatrix> Phi = {
-        ErrorMatrix::Identity(before.rows(), before.cols())};
-    std::vector<ErrorMatrix> Q = {
-        ErrorMatrix::Zero(before.rows(), before.cols())};
+    const ErrorMatrix I = ErrorMatrix::Identity(before.rows(), before.cols());
+    std::vector<ErrorMatrix> Phi = {I};
+    std::vector<ErrorMatrix> Q = {I - I};
     ForEachStep(k, [&](const Transition& transition, double) {
-      const ErrorMatrix& step = transition.Phi;
-      Q.emplace_back(step * Q.back() * step.transpose() + transition.Q);
+      const ErrorMatrix step = OfMotion(transition.Phi, I);
+      Q.emplace_back(step * Q.back() * step.transpose() +
+                     OfMotion(OfMotion(transition.Q, I - I).transpose(), I - I)
+                         .transpose());
       Phi.emplace_back(step * Phi.back());
     });
     const ErrorMatrix back = Phi.back().inverse();
@@ -105,6 +106,20 @@ class CovarianceBetween {
                       a * (Psi * after * Psi.transpose()));
     }
     P_.push_back(after);
+  }
+
+  /// The rows of position, velocity and attitude of A, those of `other` else:
+  /// what forgets within the interval has no inverse.
+  ErrorMatrix OfMotion(const ErrorMatrix& A, const ErrorMatrix& other) const {
+    ErrorMatrix out = other;
+    for (const BlockKind kind :
+         {BlockKind::kPosition, BlockKind::kVelocity, BlockKind::kAttitude}) {
+      const Block* block = solution_.layout.Find(kind);
+      if (block == nullptr) continue;
+      out.middleRows(block->offset, block->dim) =
+          A.middleRows(block->offset, block->dim);
+    }
+    return out;
   }
 
   const Solution& solution_;

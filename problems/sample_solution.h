@@ -20,7 +20,8 @@ inline constexpr double kPropagationStep = 0.2;
 /// in one walk over the samples that needs neither Jacobians nor noise.
 ///   smoothers  what the prediction misses of the node after is spread over
 ///              the interval in proportion to time; with a the part of the
-///              interval before t, Phi and Q from the node before to t,
+///              interval before t, Phi and Q of position, velocity and attitude
+///              from the node before to t (all else constant),
 ///              Psi = Phi(t, node after),
 ///                P = (1 - a) (Phi P_k Phi' + Q) + a Psi P_k+1 Psi':
 ///              exact without noise of the IMU, and with it not less than what
