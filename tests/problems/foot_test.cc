@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "evaluation/grade.h"
 #include "evaluation/trajectory_error.h"
 #include "io/config.h"
 #include "problems/reconstruction.h"
+#include "problems/rest_by_estimate.h"
 
 namespace hindsight {
 namespace {
@@ -38,6 +40,28 @@ TEST_P(Foot, IsKnownToAMetreAndWhatIsUsableIsHonest) {
     EXPECT_LT(*s.position_nees, 3.0 * kDoubtfulError * kDoubtfulError)
         << solution.method;
   }
+}
+
+/// Of the stances that the IMU itself shows, with what a shoe may turn and
+/// yield in one (data/README.md) as thresholds.
+TEST(FootAtRest, IsKnownToAMetreWithoutFlags) {
+  const std::string source = HINDSIGHT_SOURCE_DIR;
+  const std::string root = source + "/../shared/data";
+  if (!std::filesystem::exists(root + "/foot_zupt")) {
+    GTEST_SKIP() << "the recording foot_zupt is not here";
+  }
+  Dataset dataset = LoadDataset(source + "/data/foot_rest.yaml", {root});
+  AddDecidedRest(dataset.imu.t_begin(), dataset.imu.t_end(), &dataset);
+  std::vector<double> times;
+  for (const TruthPoint& point : dataset.truth) times.push_back(point.t);
+  Reconstruction reconstruction(dataset, {});
+  const Solution solution = reconstruction.Run("batch");
+  const TrajectoryStatistics s = EvaluateTrajectory(
+      TableFromSolution(reconstruction.Sample(solution, times)), dataset.truth,
+      {.truth_lever_arm_b = dataset.truth_lever_arm_b});
+  EXPECT_LT(std::hypot(s.position->horizontal.rms, s.position->axis[2].rms),
+            1.0);
+  EXPECT_LT(*s.position_nees, 3.0 * kDoubtfulError * kDoubtfulError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Recorded, Foot, ::testing::Values(0.05, 0.2));
