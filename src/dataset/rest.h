@@ -12,14 +12,14 @@ namespace hindsight {
 /// first alone. Each list is in time order and none overlaps another.
 struct Rest {
   /// It does not turn and does not move.
-  std::vector<TimeInterval> at_rest;
+  std::vector<TimeInterval> at_rest = {};
   /// It does not turn, and moves smoothly and straight on.
-  std::vector<TimeInterval> moving;
+  std::vector<TimeInterval> moving = {};
   /// It does not turn; whether it moves, nothing says.
-  std::vector<TimeInterval> undecided;
+  std::vector<TimeInterval> undecided = {};
   /// Quiet, but its rate contradicts that of other rests: of them or of those
   /// it turns, steadily (LeaveOutTurned).
-  std::vector<TimeInterval> turning;
+  std::vector<TimeInterval> turning = {};
 };
 
 /// Decides by IMU and aiding. Not turning: ExamineImu. Not moving: only where
