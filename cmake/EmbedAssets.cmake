@@ -1,6 +1,7 @@
 # Writes the files ASSETS (separated by ,) as the C++ source OUTPUT, which
-# defines ReportAssets() of src/app/report_assets.h:
-#   cmake -DASSETS=a.js,b.css -DOUTPUT=assets.cc -P EmbedAssets.cmake
+# defines FUNCTION of HEADER, a list of TYPE {name, text}:
+#   cmake -DASSETS=a.js,b.css -DOUTPUT=assets.cc -DHEADER=app/report_assets.h
+#         -DTYPE=ReportAsset -DFUNCTION=ReportAssets -P EmbedAssets.cmake
 string(REPLACE "," ";" assets "${ASSETS}")
 set(arrays "")
 set(entries "")
@@ -14,7 +15,7 @@ foreach(asset ${assets})
   string(APPEND entries "      {\"${name}\", Text(kAsset${number})},\n")
   math(EXPR number "${number} + 1")
 endforeach()
-file(WRITE ${OUTPUT} "#include \"app/report_assets.h\"
+file(WRITE ${OUTPUT} "#include \"${HEADER}\"
 
 #include <cstddef>
 
@@ -29,8 +30,8 @@ std::string_view Text(const unsigned char (&bytes)[N]) {
 
 }  // namespace
 
-const std::vector<ReportAsset>& ReportAssets() {
-  static const std::vector<ReportAsset> assets = {
+const std::vector<${TYPE}>& ${FUNCTION}() {
+  static const std::vector<${TYPE}> assets = {
 ${entries}  };
   return assets;
 }

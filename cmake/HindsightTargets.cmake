@@ -30,6 +30,10 @@ function(hindsight_compile_options target)
     target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
     target_link_options(${target} PRIVATE -fsanitize=${HINDSIGHT_SANITIZE})
   endif()
+  # What a fuzzer is to find its way through.
+  if(HINDSIGHT_BUILD_FUZZERS AND ${target} MATCHES "_(io_read|io_config|fuzz)$")
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
+  endif()
 endfunction()
 
 # Compiles several sources as one: most of the time goes into the templates of

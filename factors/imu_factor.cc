@@ -1,7 +1,5 @@
 #include "factors/imu_factor.h"
 
-#include "imu/error_drift.h"
-
 namespace hindsight {
 namespace {
 
@@ -32,8 +30,8 @@ bool IsBias(BlockKind kind) {
 
 /// Covariance of all rows of the factor.
 Eigen::MatrixXd FactorNoise(const StateBlocks& blocks,
-                            const ImuSummary& summary, double distance) {
-  const ImuLink::Matrix15 S15 = LinkNoise(summary);
+                            const NodeInterval& interval, double distance) {
+  const ImuLink::Matrix15 S15 = LinkNoise(interval.summary);
   Eigen::MatrixXd S =
       Eigen::MatrixXd::Zero(blocks.node_dim(), blocks.node_dim());
   S.topLeftCorner<9, 9>() = S15.topLeftCorner<9, 9>();
@@ -49,7 +47,7 @@ Eigen::MatrixXd FactorNoise(const StateBlocks& blocks,
     } else if (entry.block.key.kind == BlockKind::kDistance) {
       diagonal.setConstant(kDistanceFloor * kDistanceFloor);
     } else {
-      diagonal.setConstant(VarianceOf(entry.block, summary, distance));
+      diagonal.setConstant(StepOf(interval, entry.block, distance).variance);
     }
   }
   return S;
@@ -63,9 +61,9 @@ ImuFactor::ImuFactor(const StateBlocks* blocks, const Timeline* timeline, int k,
                     LinkGlobals(*blocks)),
       timeline_(*timeline),
       k_(static_cast<std::size_t>(k)),
-      summary_(timeline->Summary(k_)),
+      summary_(timeline->SharedSummary(k_)),
       distance_(distance),
-      whitener_(Whitener(FactorNoise(*blocks, summary_, distance))) {}
+      whitener_(Whitener(FactorNoise(*blocks, interval(), distance))) {}
 
 void ImuFactor::LinearizeDistance(const StateBlocks::Entry& entry,
                                   const std::vector<State>& states,
@@ -93,19 +91,20 @@ void ImuFactor::LinearizeDistance(const StateBlocks::Entry& entry,
   (*J)(row, blocks().node_dim() + row) += 1.0;
 }
 
-void ImuFactor::LinearizeDrift(const StateBlocks::Entry& entry,
-                               const std::vector<State>& states,
-                               Eigen::Map<Eigen::VectorXd> residual,
-                               Jacobian* J) const {
-  const Block* rate = DriftRate(blocks().layout(), entry.block, summary_);
-  if (rate == nullptr) return;
-  const double dt = summary_.dt();
-  residual.segment<3>(entry.tangent) -=
-      dt * states[0].parameters.segment<3>(rate->parameter_offset);
-  if (J == nullptr) return;
+void ImuFactor::LinearizeRate(const StateBlocks::Entry& entry,
+                              const BlockStep& step,
+                              const std::vector<State>& states,
+                              Eigen::Map<Eigen::VectorXd> residual,
+                              Jacobian* J) const {
+  if (!step.rate) return;
+  const int dim = FullDimension(step.key.kind);
+  const double dt = summary_->dt();
   for (const StateBlocks::Entry& other : blocks().entries()) {
-    if (!(other.block.key == rate->key)) continue;
-    J->block<3, 3>(entry.tangent, ColumnOf(other, 0))
+    if (!(other.block.key == *step.rate)) continue;
+    residual.segment(entry.tangent, dim) -=
+        dt * states[0].parameters.segment(other.block.parameter_offset, dim);
+    if (J == nullptr) continue;
+    J->block(entry.tangent, ColumnOf(other, 0), dim, dim)
         .diagonal()
         .setConstant(-dt);
   }
@@ -116,7 +115,8 @@ void ImuFactor::LinearizeStates(const std::vector<State>& states,
                                 Jacobian* J) const {
   const StateBlocks& b = blocks();
   ImuLink link;
-  EvaluateLink(b.layout(), summary_, states[0], states[1], J != nullptr, &link);
+  EvaluateLink(b.layout(), *summary_, states[0], states[1], J != nullptr,
+               &link);
   residual.head<9>() = link.residual.head<9>();
   if (J != nullptr) {
     J->block<9, 9>(0, 0) = link.J_i.topLeftCorner<9, 9>();
@@ -140,7 +140,8 @@ void ImuFactor::LinearizeStates(const std::vector<State>& states,
       continue;
     }
     const int dim = FullDimension(kind);
-    const double phi = PhiOf(entry.block, summary_, distance_);
+    const BlockStep step = StepOf(interval(), entry.block, distance_);
+    const double phi = step.phi;
     if (IsBias(kind)) {
       residual.segment<3>(entry.tangent) =
           link.residual.segment<3>(LinkRow(kind));
@@ -150,7 +151,7 @@ void ImuFactor::LinearizeStates(const std::vector<State>& states,
           states[1].parameters.segment(offset, dim) -
           phi * states[0].parameters.segment(offset, dim);
     }
-    LinearizeDrift(entry, states, residual, J);
+    LinearizeRate(entry, step, states, residual, J);
     if (J == nullptr) continue;
     for (int i = 0; i < dim; ++i) {
       const int row = entry.tangent + i;

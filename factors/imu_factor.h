@@ -4,21 +4,22 @@
 #include <memory>
 
 #include "factors/tangent_factor.h"
-#include "measurements/distance_link.h"
+#include "timeline/distance_link.h"
+#include "timeline/time_update.h"
 
 namespace hindsight {
 
 /// The IMU link between nodes k and k + 1: residual of EvaluateLink (position,
 /// velocity, attitude; the biases' rows where they change with time), then one
 /// defect x_{k+1} - phi x_k for every other block that changes with time, of
-/// travelled distances that of their link (measurements/distance_link.h). All
+/// travelled distances that of their link (timeline/distance_link.h). All
 /// whitened with the noise of the summary and of the evolutions; for blocks
 /// that change with the distance travelled that distance is held fixed.
 class ImuFactor : public TangentFactor {
  public:
-  /// `timeline` must outlive the factor, have the summary of its interval k
-  /// and not integrate it anew meanwhile. `distance`: Travelled of the interval
-  /// [m], which only blocks that change with it need.
+  /// `timeline` must outlive the factor and have integrated its interval k; the
+  /// factor keeps that summary. `distance`: Travelled of the interval [m],
+  /// which only blocks that change with it need.
   ImuFactor(const StateBlocks* blocks, const Timeline* timeline, int k,
             double distance = 0.0);
 
@@ -27,7 +28,7 @@ class ImuFactor : public TangentFactor {
                        Eigen::Map<Eigen::VectorXd> residual,
                        Jacobian* J) const override;
   double NodeTime(int i) const override {
-    return i == 0 ? summary_.t_i : summary_.t_j;
+    return i == 0 ? summary_->t_i : summary_->t_j;
   }
 
  private:
@@ -35,14 +36,15 @@ class ImuFactor : public TangentFactor {
                          const std::vector<State>& states,
                          Eigen::Map<Eigen::VectorXd> residual,
                          Jacobian* J) const;
-  /// What a drifting error adds, see imu/error_drift.h.
-  void LinearizeDrift(const StateBlocks::Entry& entry,
-                      const std::vector<State>& states,
-                      Eigen::Map<Eigen::VectorXd> residual, Jacobian* J) const;
+  /// What the rate of a step adds.
+  void LinearizeRate(const StateBlocks::Entry& entry, const BlockStep& step,
+                     const std::vector<State>& states,
+                     Eigen::Map<Eigen::VectorXd> residual, Jacobian* J) const;
+  NodeInterval interval() const { return {timeline_, k_, *summary_}; }
 
   const Timeline& timeline_;
   std::size_t k_;
-  const ImuSummary& summary_;
+  std::shared_ptr<const ImuSummary> summary_;
   double distance_;
   Eigen::MatrixXd whitener_;  ///< lower triangular
 };

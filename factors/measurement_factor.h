@@ -2,7 +2,7 @@
 #define HINDSIGHT_FACTORS_MEASUREMENT_FACTOR_H_
 
 #include "factors/tangent_factor.h"
-#include "measurements/timeline.h"
+#include "timeline/timeline.h"
 
 namespace hindsight {
 

@@ -1,9 +1,9 @@
 #include "factors/tangent_factor.h"
 
 #include <Eigen/Cholesky>
-#include <stdexcept>
 #include <utility>
 
+#include "base/error.h"
 #include "geometry/so3.h"
 
 namespace hindsight {
@@ -94,7 +94,7 @@ bool TangentFactor::Evaluate(double const* const* parameters, double* residuals,
 Eigen::MatrixXd Whitener(const Eigen::Ref<const Eigen::MatrixXd>& S) {
   const Eigen::LLT<Eigen::MatrixXd> llt(S);
   if (llt.info() != Eigen::Success) {
-    throw std::logic_error("covariance is not positive definite");
+    throw EstimationError("covariance of a factor is not positive definite");
   }
   return llt.matrixL().solve(Eigen::MatrixXd::Identity(S.rows(), S.cols()));
 }

@@ -64,7 +64,7 @@ class TangentFactor : public ceres::CostFunction {
 
 /// W with W' W = S^-1, that is the inverse of the lower Cholesky factor of S:
 /// whitened residual W r has unit covariance. The one place where information
-/// is turned into a square root. Throws std::logic_error if S is not positive
+/// is turned into a square root. Throws EstimationError if S is not positive
 /// definite.
 Eigen::MatrixXd Whitener(const Eigen::Ref<const Eigen::MatrixXd>& S);
 

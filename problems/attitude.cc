@@ -6,13 +6,12 @@
 
 #include "base/error.h"
 #include "base/processor_time.h"
-#include "base/units.h"
 #include "dataset/repeated_readings.h"
+#include "dataset/rest.h"
 #include "evaluation/grade.h"
 #include "filters/rts.h"
 #include "geometry/so3.h"
-#include "problems/method.h"
-#include "problems/tilt_batch.h"
+#include "imu/mean_reading.h"
 
 namespace hindsight {
 namespace {
@@ -42,7 +41,7 @@ ImuStream RatesWithin(const ImuStream& imu, double from, double to) {
 }  // namespace
 
 AttitudeEstimation::AttitudeEstimation(const Dataset& dataset,
-                                       AttitudeOptions options)
+                                       ReconstructionOptions options)
     : dataset_(dataset),
       options_(std::move(options)),
       imu_(RatesWithin(dataset.imu, options_.from, options_.to)),
@@ -52,6 +51,15 @@ AttitudeEstimation::AttitudeEstimation(const Dataset& dataset,
     return sample.t < imu_.t_begin() || sample.t > imu_.t_end();
   });
   start_ = StartOfAttitude(dataset, imu_, magnetic_);
+}
+
+ErrorLayout AttitudeEstimation::SolutionLayout() const {
+  const ErrorLayout full = AttitudeLayout(imu_.noise, start_);
+  ErrorLayout layout;
+  for (const Block& block : full.blocks()) {
+    if (block.key.kind != BlockKind::kGyroScale) layout.Add(block);
+  }
+  return layout;
 }
 
 void AttitudeEstimation::Poll(const std::string& stage, double fraction) const {
@@ -65,15 +73,17 @@ Eigen::Quaterniond NedAttitude(const State& x) {
   return Eigen::Quaterniond(Eigen::Matrix3d(x.C_en().transpose())) * x.q_eb;
 }
 
-void FillVerdicts(const AttitudeRun& run, Solution* solution) {
-  solution->accel_sigma.reserve(run.epochs.size());
-  solution->magnetic.reserve(run.epochs.size());
+AttitudePart VerdictsOf(const AttitudeRun& run) {
+  AttitudePart part;
+  part.accel_sigma.reserve(run.epochs.size());
+  part.magnetic.reserve(run.epochs.size());
   for (const AttitudeEpoch& epoch : run.epochs) {
     const AttitudeVerdict& verdict = epoch.verdict;
-    solution->accel_sigma.push_back(std::sqrt(verdict.accel_variance));
-    solution->magnetic.push_back(static_cast<signed char>(
+    part.accel_sigma.push_back(std::sqrt(verdict.accel_variance));
+    part.magnetic.push_back(static_cast<signed char>(
         verdict.magnetic_used ? 1 : (verdict.magnetic_disturbed ? -1 : 0)));
   }
+  return part;
 }
 
 }  // namespace
@@ -85,7 +95,7 @@ Solution AttitudeEstimation::Filter() {
              static_cast<double>(k) / static_cast<double>(imu_.samples.size()));
       });
   Solution solution;
-  solution.layout = AttitudeLayout(imu_.noise, start_);
+  solution.layout = SolutionLayout();
   solution.covariances = CovarianceSeries(6, run.epochs.size());
   solution.states.reserve(run.epochs.size());
   const Eigen::Quaterniond q_en(NedAxes(filter_options_.place.p_e));
@@ -97,19 +107,47 @@ Solution AttitudeEstimation::Filter() {
     x.q_eb = (q_en * a.q_nb).normalized();
     x.b_g = a.b_g;
     solution.states.push_back(x);
-    solution.covariances.Set(k, a.P);
+    solution.covariances.Set(k, a.P.topLeftCorner<6, 6>());
   }
-  FillVerdicts(run, &solution);
+  solution.attitude = VerdictsOf(run);
+  if (dataset_.stationary.enabled) {
+    solution.notes.emplace_back(
+        "no use for 'stationary': what knows nothing later finds rest by "
+        "thresholds of its own");
+  }
   return solution;
 }
 
-Solution AttitudeEstimation::Smooth(const ImuStream& imu,
+namespace {
+
+std::vector<ConstantEstimate> GyroScales(const Solution& nodes) {
+  const Block& block = *nodes.layout.Find(BlockKind::kGyroScale);
+  const ErrorMatrix P = nodes.covariances.Get(0);
+  std::vector<ConstantEstimate> scales;
+  for (int axis = 0; axis < 3; ++axis) {
+    ConstantEstimate scale;
+    scale.name = std::string("gyro_scale[") + "xyz"[axis] + "]";
+    scale.unit = block.unit;
+    scale.value = nodes.states.front().parameters(axis);
+    scale.sigma = std::sqrt(P(block.offset + axis, block.offset + axis));
+    scale.prior_sigma = block.sigma0(axis);
+    constexpr double kTold = 0.9;
+    scale.verdict = scale.sigma < kTold * scale.prior_sigma
+                        ? ConstantEstimate::Verdict::kObserved
+                        : ConstantEstimate::Verdict::kUnobserved;
+    scales.push_back(scale);
+  }
+  return scales;
+}
+
+}  // namespace
+
+Solution AttitudeEstimation::Smooth(const AttitudeState& start,
+                                    const ImuStream& imu,
                                     std::span<const MagneticSample> magnetic,
                                     const AttitudeFilterOptions& options,
                                     const std::string& stage) const {
-  AttitudeState start = start_;
-  if (!readings_.empty()) start.q_nb = NedAttitude(level_->states.front());
-  LinearTape tape(AttitudeLayout(imu_.noise, start));
+  LinearTape tape(AttitudeLayout(imu_.noise, start_));
   const AttitudeRun run = RunAttitudeFilter(
       imu, magnetic, options, start, &tape, [&](std::size_t k) {
         Poll(stage,
@@ -120,127 +158,156 @@ Solution AttitudeEstimation::Smooth(const ImuStream& imu,
   SmoothedTrajectory smoothed = SmoothRts(std::move(tape));
   nodes.states = std::move(smoothed.states);
   nodes.covariances = std::move(smoothed.P);
-  Solution solution = NodesAtSamples(nodes, imu_, nodes.layout);
-  FillVerdicts(run, &solution);
+  Solution solution = NodesAtSamples(nodes, imu_, SolutionLayout());
+  solution.constants = GyroScales(nodes);
+  solution.attitude = VerdictsOf(run);
   return solution;
 }
 
-/// Runs once: gravity and the gyros alone.
-void AttitudeEstimation::Level() {
-  if (!level_) level_ = Smooth(imu_, {}, filter_options_, "survey");
+std::vector<bool> AttitudeEstimation::FindRests() const {
+  std::vector<bool> rests(imu_.samples.size(), false);
+  if (filter_options_.rest_sigma <= 0.0) return rests;
+  Dataset still;
+  still.imu = imu_;
+  still.stationary = dataset_.stationary;
+  still.initial = dataset_.initial;
+  const Rest rest = FindRest(still);
+  const Eigen::Vector3d sigma = start_.P.diagonal().segment<3>(3).cwiseSqrt();
+  constexpr double kSigmas = 3.0;
+  for (const auto* spans : {&rest.at_rest, &rest.moving, &rest.undecided}) {
+    for (const TimeInterval& span : *spans) {
+      const Eigen::Vector3d rate =
+          MeanReading(imu_, span.begin, span.end).w_ib_b - start_.b_g;
+      // FindRest looks for quiet readings, and those of a steady turn are as
+      // quiet as at rest: their mean must be a rate that the bias explains.
+      if ((rate.cwiseAbs().array() > kSigmas * sigma.array()).any()) continue;
+      // A motion that begins or ends slowly is quiet at first, too: the rest is
+      // taken to be shorter by a window on either side.
+      const double margin = dataset_.stationary.window;
+      for (std::size_t k = 0; k + 1 < rests.size(); ++k) {
+        const double from = imu_.samples[k].t;
+        const double to = imu_.samples[k + 1].t;
+        if ((from >= span.begin + margin || span.begin <= imu_.t_begin()) &&
+            from >= span.begin &&
+            (to <= span.end - margin || span.end >= imu_.t_end()) &&
+            to <= span.end) {
+          rests[k] = true;
+        }
+      }
+    }
+  }
+  return rests;
 }
 
-/// Runs once; turns the levelled solution to the field it finds.
-void AttitudeEstimation::Survey() {
-  if (!readings_.empty()) return;
-  Level();
-  std::vector<double> times;
-  std::vector<const MagneticSample*> chosen;
-  for (const MagneticSample& sample : magnetic_) {
-    if (!times.empty() && sample.t < times.back() + kRoomNodeSpacing) continue;
-    times.push_back(sample.t);
-    chosen.push_back(&sample);
-  }
-  if (times.empty()) return;
-  const Solution at = SampleAttitude(*level_, imu_, times);
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    SurveyedField reading{times[k], NedAttitude(at.states[k]),
-                          chosen[k]->field_b};
-    const std::size_t before = k > 0 ? k - 1 : 0;
-    const double angle =
-        at.states[before].q_eb.angularDistance(at.states[k].q_eb);
-    const double dt = k > 0 ? times[k] - times[before] : kRoomNodeSpacing;
-    reading.weight = IndependentPart(dt, angle);
-    readings_.push_back(reading);
-  }
-  survey_ = SurveyField(readings_);
-  const double turn = filter_options_.magnetic.declination -
-                      std::atan2(survey_.field_n.y(), survey_.field_n.x());
-  const Eigen::Matrix3d C_en = NedAxes(filter_options_.place.p_e);
-  const Eigen::Quaterniond q_turn = Exp(C_en * Eigen::Vector3d(0.0, 0.0, turn));
-  for (State& x : level_->states) x.q_eb = q_turn * x.q_eb;
-}
+namespace {
 
-/// What comes after a sample averages the acceleration too, in the axes that
-/// the levelled solution keeps still.
-ImuStream AttitudeEstimation::WithAveragedForce() const {
+/// Specific forces averaged over what comes before and after each sample
+/// (AveragedForce), in the NED axes by the attitudes of `level`: a smoother may
+/// use what comes later.
+ImuStream WithAveragedForce(const ImuStream& imu, const Solution& level,
+                            double tau) {
   std::vector<Eigen::Quaterniond> q_nb;
-  q_nb.reserve(level_->states.size());
-  for (const State& x : level_->states) q_nb.push_back(NedAttitude(x));
-  const std::vector<Eigen::Vector3d> f_n = AveragedForce(imu_, q_nb);
-  ImuStream averaged = imu_;
+  q_nb.reserve(level.states.size());
+  for (const State& x : level.states) q_nb.push_back(NedAttitude(x));
+  const std::vector<Eigen::Vector3d> f_n = AveragedForce(imu, q_nb, tau);
+  ImuStream averaged = imu;
   for (std::size_t k = 0; k < f_n.size(); ++k) {
     averaged.samples[k].accel = q_nb[k].conjugate() * f_n[k];
   }
   return averaged;
 }
 
+}  // namespace
+
 Solution AttitudeEstimation::Smoother() {
   AttitudeFilterOptions options = filter_options_;
+  if (rests_.empty()) rests_ = FindRests();
+  options.rests = rests_;
+  const bool average = !dataset_.ahrs.low_pass && options.low_pass_tau > 0.0;
+  const bool survey = dataset_.ahrs.survey && !magnetic_.empty();
+  if (!average && !survey) {
+    return Smooth(start_, imu_, magnetic_, options, "ahrs_smoother");
+  }
+  const Solution level = Smooth(start_, imu_, {}, options, "survey");
   ImuStream imu = imu_;
-  if (!dataset_.ahrs.low_pass && options.low_pass_tau > 0.0) {
-    Level();
-    imu = WithAveragedForce();
+  if (average) {
+    imu = WithAveragedForce(imu_, level, options.low_pass_tau);
     options.low_pass_tau = 0.0;
   }
-  if (magnetic_.empty() || !dataset_.ahrs.survey) {
-    return Smooth(imu, magnetic_, options, "ahrs_smoother");
+  return survey ? SmoothSurveyed(imu, level, options)
+                : Smooth(start_, imu, magnetic_, options, "ahrs_smoother");
+}
+
+std::vector<SurveyedField> AttitudeEstimation::FieldReadings(
+    const Solution& attitudes, const Eigen::Vector3d& hard_iron_b) const {
+  constexpr double kSpacing = 0.1;  // [s]
+  std::vector<double> times;
+  std::vector<SurveyedField> readings;
+  for (const MagneticSample& sample : magnetic_) {
+    const double dt = times.empty() ? kSpacing : sample.t - times.back();
+    if (dt < kSpacing) continue;
+    SurveyedField reading;
+    reading.t = sample.t;
+    reading.field_b = sample.field_b - hard_iron_b;
+    reading.dt = dt;
+    times.push_back(sample.t);
+    readings.push_back(reading);
   }
-  Survey();
-  options.reference.enabled = false;
-  options.magnetic.horizontal = survey_.field_n.head<2>().norm();
-  options.magnetic.down = survey_.field_n.z();
-  options.magnetic_sigma = kFieldScale;
-  options.magnetic_correlation_time = 0.0;
-  std::vector<MagneticSample> weighed;
-  for (std::size_t k = 0; k < readings_.size(); ++k) {
-    weighed.push_back(
-        {readings_[k].t, readings_[k].field_b - survey_.hard_iron_b,
-         survey_.IsDisturbed(k) ? 0.0
-                                : readings_[k].weight * survey_.trust[k]});
-  }
-  return Smooth(imu, weighed, options, "ahrs_smoother");
-}
-
-RoomProblem AttitudeEstimation::SurveyedProblem() {
-  Survey();
-  return {dataset_, imu_, readings_, survey_, *level_, filter_options_.place};
-}
-
-Solution AttitudeEstimation::RoomBatch() {
-  return WithReadings(SolveRoomBatch(SurveyedProblem(), [&](double fraction) {
-    Poll("ahrs_batch", fraction);
-  }));
-}
-
-Solution AttitudeEstimation::TiltBatch() {
-  return WithReadings(SolveTiltBatch(SurveyedProblem(), [&](double fraction) {
-    Poll("ahrs_tilt_batch", fraction);
-  }));
-}
-
-/// Says of each state what became of the reading of the field there.
-Solution AttitudeEstimation::WithReadings(Solution solution) const {
-  solution.magnetic.assign(solution.states.size(), 0);
-  std::size_t i = 0;
-  for (std::size_t k = 0; k < readings_.size(); ++k) {
-    while (i + 1 < solution.states.size() &&
-           solution.states[i].t < readings_[k].t) {
-      ++i;
+  const Solution at = SampleAttitude(attitudes, imu_, times);
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    while (k + 1 < imu_.samples.size() &&
+           imu_.samples[k + 1].t <= readings[i].t) {
+      ++k;
     }
-    solution.magnetic[i] =
-        static_cast<signed char>(survey_.IsDisturbed(k) ? -1 : 1);
+    readings[i].q_nb = NedAttitude(at.states[i]);
+    readings[i].at_rest = rests_[k];
   }
-  return solution;
+  return readings;
 }
 
-Solution AttitudeEstimation::Run(const std::string& name) {
-  const Method& method = MethodOf(name);
-  if (!method.attitude_alone()) {
-    throw InputError("method '" + name + "' does not estimate attitude alone");
-  }
+Solution AttitudeEstimation::SmoothSurveyed(
+    const ImuStream& imu, const Solution& level,
+    AttitudeFilterOptions options) const {
+  SurveyOptions survey_options = {
+      .sigma = options.magnetic_sigma,
+      .correlation_time = options.magnetic_correlation_time,
+      .reject = dataset_.ahrs.reject_disturbances};
+  options.reference.enabled = false;
+  options.magnetic_correlation_time = 0.0;
+  const auto smooth = [&](const Solution& attitudes,
+                          const Eigen::Vector3d& hard_iron_b) {
+    const std::vector<SurveyedField> readings =
+        FieldReadings(attitudes, hard_iron_b);
+    const FieldSurvey survey = SurveyField(readings, survey_options);
+    options.magnetic.horizontal = survey.horizontal;
+    options.magnetic.down = survey.down;
+    std::vector<MagneticSample> weighed;
+    for (std::size_t k = 0; k < readings.size(); ++k) {
+      weighed.push_back({readings[k].t, readings[k].field_b, survey.weight[k]});
+    }
+    AttitudeState start = start_;
+    const double turn = options.magnetic.declination - survey.azimuth;
+    start.q_nb = Exp(Eigen::Vector3d(0.0, 0.0, turn)) *
+                 NedAttitude(attitudes.states.front());
+    return Smooth(start, imu, weighed, options, "ahrs_smoother");
+  };
+  Solution solution = smooth(level, Eigen::Vector3d::Zero());
+  const Eigen::Vector3d hard_iron_b =
+      FindHardIron(FieldReadings(solution, Eigen::Vector3d::Zero()));
+  if (!hard_iron_b.isZero(0.0)) solution = smooth(level, hard_iron_b);
+  survey_options.heading_known = true;
+  return smooth(solution, hard_iron_b);
+}
+
+Solution AttitudeEstimation::Sample(const Solution& solution,
+                                    const std::vector<double>& times) const {
+  return SampleAttitude(solution, dataset_.imu, times);
+}
+
+Solution AttitudeEstimation::Run(const Method& method) {
   const double t0 = ProcessorSeconds();
-  Solution solution = method.estimate_attitude(this);
+  Solution solution = std::get<Method::OfAttitude>(method.run)(this);
   solution.method = method.name;
   solution.seconds = ProcessorSeconds() - t0;
   Conclude({.solution = solution,

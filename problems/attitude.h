@@ -1,86 +1,75 @@
 #ifndef HINDSIGHT_PROBLEMS_ATTITUDE_H_
 #define HINDSIGHT_PROBLEMS_ATTITUDE_H_
 
-#include <atomic>
-#include <functional>
-#include <limits>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "alignment/attitude_start.h"
+#include "attitude/attitude_run.h"
+#include "attitude/attitude_samples.h"
+#include "attitude/field_survey.h"
 #include "dataset/dataset.h"
-#include "filters/attitude_run.h"
-#include "problems/attitude_batch.h"
-#include "problems/attitude_samples.h"
-#include "problems/field_survey.h"
+#include "problems/estimation.h"
 #include "state/solution.h"
 
 namespace hindsight {
 
-struct AttitudeOptions {
-  double from = -std::numeric_limits<double>::infinity();  ///< [s]
-  double to = std::numeric_limits<double>::infinity();     ///< [s]
-  std::function<void(const std::string& stage, double fraction)> progress;
-  const std::atomic<bool>* stop = nullptr;  ///< polled; throws Interrupted
-};
-
 /// One recording, its attitude alone estimated from an IMU and, if there is
 /// one, a magnetometer; no position is needed. Solutions have the layout
 /// {attitude, gyro bias}, one state an IMU sample, and are given at the stamps
-/// of the file (ImuStream::stamp_offset).
-///   Smoother and batch know the field of the whole recording, and a magnet
-///   that
-/// travels along, from a survey about gyros and accelerometers alone
-/// (field_survey.h), and take the field as a vector, a reading with the weight
-/// that the survey gave it.
-///   Batch: the inertial navigation problem of the same samples
-///   (Reconstruction)
-/// with only the knowledge that the body stays in a room,
-///   p = 0 +- room, v = 0 +- room_speed once a correlation time,
-/// which makes the linear acceleration an unknown that must integrate to
-/// little, where a tilt filter has to call it noise.
-///   Tilt batch: attitude and gyro bias alone, as in the smoother
-/// (tilt_batch.h).
-class AttitudeEstimation {
+/// of the file (ImuStream::stamp_offset); the scale factors of the gyros, which
+/// both methods estimate, are constants of the smoother's.
+/// The smoother knows beforehand where the body rests (FindRest). Of the field
+/// it knows beforehand what surveys of the whole recording find
+/// (field_survey.h): a first one by the tilt of a solution without the field, a
+/// second one by the attitudes of the solution that this leads to. It takes the
+/// readings with the weights of the survey and without the hard iron that the
+/// survey found. Without `AhrsSettings::survey` it takes them as the filter
+/// does.
+class AttitudeEstimation final : public Estimation {
  public:
-  /// `dataset` must outlive the object.
-  AttitudeEstimation(const Dataset& dataset, AttitudeOptions options);
+  /// `dataset` must outlive the object. Throws InputError if there are no
+  /// samples in the asked interval.
+  AttitudeEstimation(const Dataset& dataset, ReconstructionOptions options);
 
-  /// By a method of Methods() for attitude alone; throws InputError for another
-  /// name, EstimationError, Interrupted.
-  Solution Run(const std::string& name);
+  /// Throws EstimationError, Interrupted.
+  Solution Run(const Method& method) override;
+  const StartReport* start() const override { return nullptr; }
+  std::vector<UnobservedSpan> Unobserved() override { return {}; }
+  Solution Sample(const Solution& solution,
+                  const std::vector<double>& times) const override;
 
   /// The methods themselves, without verdict and name.
   Solution Filter();
   Solution Smoother();
-  Solution RoomBatch();
-  Solution TiltBatch();
 
  private:
   /// At every sample, from the nodes of the filter's updates.
-  Solution Smooth(const ImuStream& imu,
+  Solution Smooth(const AttitudeState& start, const ImuStream& imu,
                   std::span<const MagneticSample> magnetic,
                   const AttitudeFilterOptions& options,
                   const std::string& stage) const;
-  Solution WithReadings(Solution solution) const;
-  RoomProblem SurveyedProblem();
-  void Level();
-  void Survey();
-  ImuStream WithAveragedForce() const;
+  /// Solves with a survey by the tilt of `level`; if that solution shows a hard
+  /// iron, once more without it; and at last with a survey by the attitudes so
+  /// found.
+  Solution SmoothSurveyed(const ImuStream& imu, const Solution& level,
+                          AttitudeFilterOptions options) const;
+  /// Readings 0.1 s apart, less `hard_iron_b`.
+  std::vector<SurveyedField> FieldReadings(
+      const Solution& attitudes, const Eigen::Vector3d& hard_iron_b) const;
+  std::vector<bool> FindRests() const;
+  ErrorLayout SolutionLayout() const;
   void Poll(const std::string& stage, double fraction) const;
 
   const Dataset& dataset_;
-  AttitudeOptions options_;
+  ReconstructionOptions options_;
   ImuStream imu_;  ///< of the asked interval, rates
   std::vector<MagneticSample> magnetic_;
   AttitudeFilterOptions filter_options_;
   AttitudeState start_;
-  /// Gyros and accelerometers alone, turned to the surveyed field.
-  std::optional<Solution> level_;
-  std::vector<SurveyedField> readings_;
-  FieldSurvey survey_;
+  /// Whether the body rests from each sample to the next; smoother alone.
+  std::vector<bool> rests_;
 };
 
 }  // namespace hindsight

@@ -16,17 +16,21 @@
 namespace hindsight {
 namespace {
 
-/// Steps so small, as root mean square a node [m and the rest], that the cost
-/// can no longer tell better from worse: with ECEF positions of 6.4e6 m each
-/// residual carries 1e-9 m of rounding. From there on FinishByNewton.
+/// Root mean square of a step, a node [m, m/s, rad...], below which the cost
+/// can no longer tell a better state from a worse one: with ECEF positions of
+/// 6.4e6 m every residual carries 1e-9 m of rounding. FinishByNewton goes on
+/// from there.
 constexpr double kRoughStep = 1e-3;
-/// The same with a robust loss, about which the last steps converge linearly.
+/// The same with a robust loss: the last steps then shrink by a constant factor
+/// only, and Ceres must come nearer.
 constexpr double kRoughRobustStep = 1e-6;
 constexpr double kFineStep = 1e-8;
-/// Without a loss a Newton step leaves an error of its own size squared.
+/// A step of this size is the last one without a loss: the error that it leaves
+/// goes with its square.
 constexpr double kLastNewtonStep = 1e-5;
 
-/// What a solve takes in Ceres, and by Newton after it: for the time left.
+/// Iterations that a solve usually takes in Ceres, and in FinishByNewton after
+/// it, by which the remaining time is told.
 constexpr int kUsualIterations = 3;
 constexpr double kLastSteps = 2.0;
 
@@ -201,11 +205,11 @@ Sweep SolveGraduated(const BatchOptions& options, bool first,
                    chain);
 }
 
-bool AnySummaryIsStale(const ErrorLayout& layout, const Timeline& timeline,
+bool AnySummaryIsStale(const Problem& problem,
                        const std::vector<State>& states) {
   for (std::size_t k = 0; k + 1 < states.size(); ++k) {
-    if (NeedsReintegration(timeline.Summary(k),
-                           CalibrationOf(layout, states[k]))) {
+    if (NeedsReintegration(problem.timeline.Summary(k),
+                           CalibrationOf(problem.layout, states[k]))) {
       return true;
     }
   }
@@ -216,8 +220,9 @@ bool IsWindowed(const BatchOptions& options, const ChainProblem& chain) {
   return chain.node_count() > options.whole_nodes;
 }
 
-/// Takes a Gauss-Newton step of a long chain that has no losses, if it is a
-/// rough one: from a start so near, windows would only find it in pieces.
+/// Of a long chain without losses: whether the start is within a rough step of
+/// the solution. If so, that Gauss-Newton step of the whole chain is taken, and
+/// solving in windows can be left out.
 bool StartsNear(const BatchOptions& options, ChainProblem* chain,
                 Sweep* sweep) {
   if (!IsWindowed(options, *chain) || chain->HasLoss()) return false;
@@ -236,10 +241,10 @@ CovarianceSeries Marginals(ChainProblem* chain) {
   return chain->Marginals(information);
 }
 
-/// Full Gauss-Newton steps of the chain's own solver, which need no cost to be
-/// accepted. They also tell a long chain's windows of each other and move the
-/// constants: after a large one the windows are solved anew. The covariances
-/// come with the last.
+/// Full Gauss-Newton steps by the chain's own solver, which are taken without
+/// asking the cost. In a long chain they are also what moves the constants and
+/// what couples the windows: after a large step the windows are solved anew.
+/// Returns the covariances from the last step's information matrix.
 CovarianceSeries FinishByNewton(const BatchOptions& options,
                                 IterationProgress* progress,
                                 ChainProblem* chain, Sweep* sweep) {
@@ -277,46 +282,44 @@ bool AllFinite(const std::vector<State>& states) {
 
 }  // namespace
 
-BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
-                       const std::vector<State>& initial, Timeline* timeline,
-                       const GateDecisions& decisions,
-                       const BatchOptions& options) {
+BatchResult SolveBatch(const std::vector<State>& initial,
+                       const BatchOptions& options, Problem* problem) {
   BatchResult result;
   result.states = initial;
   IterationProgress progress(options.callback);
   constexpr int kMaxReintegrations = 5;
   for (int outer = 0; outer < kMaxReintegrations; ++outer) {
-    ChainProblem chain(layout, prior, result.states, timeline, decisions);
+    ChainProblem chain(result.states, problem);
     Sweep sweep;
     if (!StartsNear(options, &chain, &sweep)) {
       sweep = SolveGraduated(options, options.graduated && outer == 0,
                              &progress, &chain);
     }
     result.states = chain.States();
-    if (!AnySummaryIsStale(layout, *timeline, result.states)) {
+    if (!AnySummaryIsStale(*problem, result.states)) {
       result.P = FinishByNewton(options, &progress, &chain, &sweep);
     }
     result.iterations += sweep.iterations;
     const std::vector<State> before = std::move(result.states);
     result.states = chain.States();
-    if (AnySummaryIsStale(layout, *timeline, result.states)) continue;
-    // Ceres may run out of iterations on the last micrometres.
+    if (AnySummaryIsStale(*problem, result.states)) continue;
+    // Ceres may run out of iterations when micrometres are left, which the
+    // Newton steps take.
     result.converged =
         AllFinite(result.states) &&
-        (sweep.converged || LargestMoveInSigmas(layout, before, result.states,
-                                                result.P) < kSettledStep);
+        (sweep.converged ||
+         LargestMoveInSigmas(problem->layout, before, result.states, result.P) <
+             kSettledStep);
     return result;
   }
   result.converged = false;
-  result.P = BatchMarginals(layout, prior, result.states, timeline, decisions);
+  result.P = BatchMarginals(result.states, problem);
   return result;
 }
 
-CovarianceSeries BatchMarginals(const ErrorLayout& layout, const Prior& prior,
-                                const std::vector<State>& states,
-                                Timeline* timeline,
-                                const GateDecisions& decisions) {
-  ChainProblem chain(layout, prior, states, timeline, decisions);
+CovarianceSeries BatchMarginals(const std::vector<State>& states,
+                                Problem* problem) {
+  ChainProblem chain(states, problem);
   return Marginals(&chain);
 }
 

@@ -43,16 +43,12 @@ struct BatchResult {
 /// losses that starts so near, all of them.
 /// Marginal covariances of every node come from that structure in time
 /// linear in the number of nodes.
-BatchResult SolveBatch(const ErrorLayout& layout, const Prior& prior,
-                       const std::vector<State>& initial, Timeline* timeline,
-                       const GateDecisions& decisions,
-                       const BatchOptions& options);
+BatchResult SolveBatch(const std::vector<State>& initial,
+                       const BatchOptions& options, Problem* problem);
 
 /// The marginal covariances alone, of the problem linearised at `states`.
-CovarianceSeries BatchMarginals(const ErrorLayout& layout, const Prior& prior,
-                                const std::vector<State>& states,
-                                Timeline* timeline,
-                                const GateDecisions& decisions);
+CovarianceSeries BatchMarginals(const std::vector<State>& states,
+                                Problem* problem);
 
 }  // namespace hindsight
 

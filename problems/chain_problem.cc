@@ -10,10 +10,10 @@
 
 namespace hindsight {
 
-ChainProblem::ChainProblem(const ErrorLayout& layout, const Prior& prior,
-                           const std::vector<State>& states, Timeline* timeline,
-                           const GateDecisions& decisions)
-    : blocks_(std::make_unique<StateBlocks>(layout)) {
+ChainProblem::ChainProblem(const std::vector<State>& states, Problem* problem)
+    : blocks_(std::make_unique<StateBlocks>(problem->layout)) {
+  Timeline* timeline = &problem->timeline;
+  const GateDecisions& decisions = problem->decisions;
   nodes_.resize(states.size() *
                 static_cast<std::size_t>(blocks_->node_ambient_dim()));
   for (std::size_t k = 0; k < states.size(); ++k) {
@@ -25,14 +25,14 @@ ChainProblem::ChainProblem(const ErrorLayout& layout, const Prior& prior,
         static_cast<std::size_t>(FullDimension(entry.block.key.kind)));
     blocks_->WriteGlobal(states.front(), entry.ambient, globals_.back().data());
   }
-  factors_.push_back(
-      std::make_unique<PriorFactor>(blocks_.get(), prior.x, prior.P));
+  factors_.push_back(std::make_unique<PriorFactor>(
+      blocks_.get(), problem->prior.x, problem->prior.P));
   std::size_t index = 0;
   for (std::size_t k = 0; k < states.size(); ++k) {
     const int node = static_cast<int>(k);
     if (k + 1 < states.size()) {
       const ImuSummary& summary =
-          timeline->Summary(k, CalibrationOf(layout, states[k]));
+          timeline->Integrate(k, CalibrationOf(problem->layout, states[k]));
       factors_.push_back(std::make_unique<ImuFactor>(
           blocks_.get(), timeline, node, Travelled(states[k], summary.dt())));
     }

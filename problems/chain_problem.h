@@ -7,9 +7,9 @@
 #include "factors/robust_loss_function.h"
 #include "factors/state_blocks.h"
 #include "factors/tangent_factor.h"
-#include "filters/forward_filter.h"
 #include "linear/arrow_system.h"
 #include "state/covariance_series.h"
+#include "timeline/problem.h"
 
 namespace hindsight {
 
@@ -17,10 +17,9 @@ namespace hindsight {
 class ChainProblem {
  public:
   /// Writes `states` into the parameter blocks; summaries are those of the
-  /// timeline, integrated at the states' calibration where needed.
-  ChainProblem(const ErrorLayout& layout, const Prior& prior,
-               const std::vector<State>& states, Timeline* timeline,
-               const GateDecisions& decisions);
+  /// problem's timeline, integrated at the states' calibration where needed.
+  /// The problem must outlive the object.
+  ChainProblem(const std::vector<State>& states, Problem* problem);
 
   const StateBlocks& blocks() const { return *blocks_; }
   const std::vector<std::unique_ptr<TangentFactor>>& factors() const {

@@ -13,9 +13,11 @@
 namespace hindsight {
 namespace {
 
-constexpr double kWidePrior = 0.1;  // below it one clock alone fits [s]
-constexpr double kReach = 4.0;
-constexpr double kBegunThere = 0.02;  // [s]
+// Clocks with a smaller a priori sigma are not in question [s].
+constexpr double kWidePrior = 0.1;
+constexpr double kReach = 4.0;  // of the search, in a priori sigmas
+// A solution that starts as near as this to an offset need not start there [s].
+constexpr double kBegunThere = 0.02;
 
 /// A stream and the offsets at which its clock may stand.
 struct ClockQuestion {
@@ -67,8 +69,9 @@ std::optional<ClockQuestion> AskEstimated(const Dataset& dataset,
         return std::abs(candidate.offset - given) < 0.5 * found.resolution;
       });
   const ClockCandidate& first = found.candidates.front();
-  // A clock that motion tells far better than the prior is to begin from there:
-  // of fast motion half a window is another minimum.
+  // Where motion tells the clock far better than the prior does, the solution
+  // has to start from there: if the motion is fast, an offset that is off by
+  // half of the search's resolution may lie at another minimum.
   const bool tells = first.sigma < 0.1 * *stream.sensor.time_offset_sigma &&
                      std::abs(first.offset - given) > kBegunThere;
   if (near_given && found.candidates.size() == 1 && !tells) return std::nullopt;
@@ -148,14 +151,15 @@ std::vector<SolvedClocks> SolveAll(
     try {
       solved.push_back(SolveCoarsely(combination.offsets, options, dataset));
     } catch (const EstimationError&) {
-      // An offset at which the data cannot be explained is no explanation.
+      // A combination from which the data cannot be solved is left out.
     }
   }
   return solved;
 }
 
-/// Where nothing was known of a clock its prior is to be at its estimate, that
-/// it pulls nowhere.
+/// Offsets at which the chosen solution's clocks are to be placed. Of a clock
+/// of which nothing was known it is the estimate: there its prior does not
+/// pull.
 std::vector<double> OffsetsOf(const std::vector<std::size_t>& streams,
                               const Dataset& dataset,
                               const SolvedClocks& chosen) {
@@ -167,7 +171,8 @@ std::vector<double> OffsetsOf(const std::vector<std::size_t>& streams,
   return offsets;
 }
 
-/// Whether the clocks stand within half the resolution of where they stood.
+/// Whether the clocks of two solutions are within half the search's resolution
+/// of each other.
 bool Stayed(const std::vector<ClockQuestion>& questions,
             const SolvedClocks& one, const SolvedClocks& other) {
   return std::all_of(questions.begin(), questions.end(),
@@ -178,8 +183,10 @@ bool Stayed(const std::vector<ClockQuestion>& questions,
                      });
 }
 
-/// The stage of what was chosen, from the start that FindStart finds, which is
-/// told; as it was compared if that leads elsewhere.
+/// The forward stage of the chosen solution. It is solved once more from the
+/// start that FindStart finds with the chosen clocks, since that start is what
+/// is reported; if this leads to other clocks or nowhere, the stage is the one
+/// that was compared.
 std::unique_ptr<ForwardStage> StageOf(
     const std::vector<ClockQuestion>& questions,
     const ReconstructionOptions& options, SolvedClocks* chosen,
@@ -199,7 +206,7 @@ std::unique_ptr<ForwardStage> StageOf(
       if (same) break;
     }
   } catch (const EstimationError&) {
-    // What was compared did come to an end.
+    // The stage that was compared has been solved and is taken instead.
   }
   if (last.stage) return std::move(last.stage);
   PlaceClocks(questions, chosen->offsets, dataset);

@@ -17,14 +17,14 @@ struct ClockChoice {
   std::vector<RivalSolution> rivals;
 };
 
-/// Decides where the clock of every stream stands that is unknown or is to be
-/// estimated with an a priori sigma of 0.1 s or more. In question are the
-/// offsets that SearchClock finds, of the latter within four sigmas, and the
-/// given one if that is none of them, as far as they are plausible
-/// (IsPlausible); of several streams up to eight combinations. Where it is one
-/// alone, nothing is compared. Else the data are solved at each, with nodes
-/// placed there (SolveCoarsely), and chosen is the solution of the largest
-/// evidence (Rank). Methods then start at its offsets, from the start that
+/// Decides the time offset of every stream whose clock is unknown or is to be
+/// estimated with an a priori sigma of 0.1 s or more. Candidates are the
+/// offsets that SearchClock finds (where there is an a priori sigma, within
+/// four of it) and the given one if that is none of them, as far as they are
+/// plausible (IsPlausible); of several streams up to eight combinations. If
+/// there is but one, it is taken. Else the data are solved at each, with nodes
+/// placed there (SolveCoarsely), and the solution of the largest evidence is
+/// chosen (Rank). Methods then start at its offsets, from the start that
 /// FindStart finds there. The others are rivals.
 /// Throws EstimationError if an unknown clock is not found, and as
 /// ForwardStage.

@@ -26,11 +26,12 @@ MarginalLikelihood LikelihoodBeside(const Dataset& dataset,
                                     const SolvedClocks& solved,
                                     const SolvedClocks& other) {
   ForwardStage& stage = *solved.stage;
-  const Prior prior =
+  Problem problem = stage.problem();
+  problem.prior =
       PriorOfComparison(dataset, stage.start(), solved.states.front());
-  return MarginalLikelihoodOf(
-      stage.start().layout, prior, solved.states, stage.decisions(),
-      InCommon(stage.timeline(), other.stage->timeline()), &stage.timeline());
+  const GateDecisions common =
+      InCommon(problem.timeline, other.stage->timeline());
+  return MarginalLikelihoodOf(std::move(problem), solved.states, common);
 }
 
 double ClockPriorOf(const Dataset& dataset, const SolvedClocks& solved) {

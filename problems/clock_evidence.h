@@ -13,12 +13,12 @@ namespace hindsight {
 /// record. c: mean square of the innovations of `chosen`, at least 1, by which
 /// the noise is larger than stated. w: by what the two predictions of these
 /// measurements differ, as the difference of the whitened innovations; m: the
-/// mean of MarginalLikelihood::imu_noise. Under either clock the IMU predicts
-/// with noise of another time, of which |w|^2 has 2 c m. Where the motion
-/// repeats itself the predictions differ in nothing else, and which of them
-/// happens to fit better tells nothing. r is the part of |w|^2 that is motion:
-/// the slope, in errors in variables, by which the likelihoods overrate what
-/// the measurements tell.
+/// mean of MarginalLikelihood::imu_noise. With two clocks the measurements meet
+/// the IMU's noise of two different times, which adds 2 c m to |w|^2. Where the
+/// motion repeats itself, the predictions differ in nothing but this noise, and
+/// which of them happens to fit better tells nothing. r is the part of |w|^2
+/// that comes from motion, by which the difference of the likelihoods has to be
+/// multiplied (the attenuation of errors in variables).
 double LogEvidenceRatio(const Dataset& dataset, const SolvedClocks& rival,
                         const SolvedClocks& chosen);
 

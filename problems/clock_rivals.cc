@@ -1,8 +1,9 @@
 #include "problems/clock_rivals.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <optional>
 #include <string>
@@ -67,21 +68,18 @@ RivalSolution Tell(const Dataset& dataset,
   const auto add = [&out](const std::string& words) {
     out.description += (out.description.empty() ? "" : " and ") + words;
   };
-  char words[120];
   for (std::size_t i = 0; i < streams.size(); ++i) {
     const double later = differences.clocks[i];
     if (later == 0.0) continue;
     const std::string& name = dataset.streams[streams[i]].sensor.name;
     out.differences.push_back({name + "_time_offset", later, "s"});
-    std::snprintf(words, sizeof(words), "clock of %s %.2f s %s", name.c_str(),
-                  std::abs(later), later > 0.0 ? "later" : "earlier");
-    add(words);
+    add(fmt::format("clock of {} {:.2f} s {}", name, std::abs(later),
+                    later > 0.0 ? "later" : "earlier"));
   }
   if (differences.heading != 0.0) {
     out.differences.push_back({"heading", differences.heading, "rad"});
-    std::snprintf(words, sizeof(words), "heading turned by %.0f deg",
-                  differences.heading / kDegree);
-    add(words);
+    add(fmt::format("heading turned by {:.0f} deg",
+                    differences.heading / kDegree));
   }
   out.final_state = rival.states.back();
   return out;
@@ -177,7 +175,7 @@ std::vector<RivalSolution> Rivals(const Dataset& dataset,
     if (i == ranking.best) continue;
     RivalSolution rival =
         Tell(dataset, streams, solved[i], solved[ranking.best]);
-    // Converged, it came to the same end: the same explanation twice.
+    // It converged to the chosen solution itself and is no other explanation.
     if (rival.differences.empty()) continue;
     rival.log_evidence = ranking.log_evidence[i];
     rivals.push_back(std::move(rival));
@@ -189,10 +187,8 @@ std::vector<RivalSolution> Rivals(const Dataset& dataset,
 void AddUnsolved(double count, std::vector<RivalSolution>* rivals) {
   if (count < 1.0 || rivals->empty()) return;
   RivalSolution further;
-  char words[80];
-  std::snprintf(words, sizeof(words),
-                "one of %.0f further clock settings, not solved", count);
-  further.description = words;
+  further.description =
+      fmt::format("one of {:.0f} further clock settings, not solved", count);
   further.log_evidence =
       std::min(0.0, rivals->back().log_evidence + std::log(count));
   rivals->push_back(std::move(further));

@@ -9,19 +9,19 @@
 
 namespace hindsight {
 
-/// The time offset of a stream where it ends [s].
+/// The time offset of a stream in the last state of a solution [s].
 double FinalOffset(const SolvedClocks& solved, std::size_t stream);
 
-/// Whether two came to the same end: clocks of `streams` within 20 ms, heading
-/// within 5 deg.
+/// Whether two solutions are the same: clocks of `streams` within 20 ms,
+/// heading within 5 deg.
 bool SameEnd(const std::vector<std::size_t>& streams, const SolvedClocks& one,
              const SolvedClocks& other);
 
-/// Takes away what came to the same end as one before it.
+/// Takes away every solution that is the same as one before it.
 void RemoveSame(const std::vector<std::size_t>& streams,
                 std::vector<SolvedClocks>* solved);
 
-/// The likeliest solution, and ln of the evidence of each over its.
+/// The likeliest solution, and ln of each one's evidence over that of it.
 struct ClockRanking {
   std::size_t best = 0;
   std::vector<double> log_evidence;

@@ -21,7 +21,9 @@ bool SaysNothingOfStart(const InitialState& given) {
          !given.heading;
 }
 
-/// An initial state with the attitude of the motion's first `kAlignmentWindow`.
+/// An initial state with the attitude that AlignCoarsely finds from the first
+/// kAlignmentWindow of motion; none if the data set says something of the
+/// start.
 std::optional<InitialState> CoarseInitial(
     const Dataset& dataset, const ReconstructionOptions& options) {
   const InitialState& given = dataset.initial;
@@ -50,7 +52,8 @@ std::optional<InitialState> CoarseInitial(
   initial.euler = EulerFromQuaternion(q_nb);
   const Eigen::Vector3d turn_n =
       TurnWithin(ClockSigma(dataset), dataset.imu, input.t, q_nb, input.b_g);
-  // As white errors have it, which those of a wrong clock are not.
+  // P is that of white errors. Those of a wrong clock are not white: hence a
+  // factor, a floor, and the turn within the clock's uncertainty.
   initial.attitude_sigma = (3.0 * coarse->P.diagonal().cwiseSqrt().array() +
                             kDegree + turn_n.array().abs())
                                .min(kUnknownHeadingSigma);
@@ -66,7 +69,7 @@ std::optional<Start> CoarseStart(const ReconstructionOptions& options,
   try {
     start = FindStart(*dataset, options.from, options.to);
   } catch (const EstimationError&) {
-    // The data set's own start may lead to one.
+    // SolveWithClocks tries the data set's own start.
   }
   std::swap(dataset->initial, *initial);
   return start;
@@ -98,7 +101,7 @@ SolvedClocks SolveCoarsely(const std::vector<double>& offsets,
       return Settled(offsets, std::make_unique<ForwardStage>(
                                   *dataset, options, std::move(*start)));
     } catch (const EstimationError&) {
-      // From the attitude as FindStart has it, it may.
+      // SolveWithClocks tries the attitude that FindStart finds.
     }
   }
   return SolveWithClocks(offsets, options, *dataset);
@@ -111,9 +114,7 @@ void Converge(SolvedClocks* solved) {
   batch.max_iterations = stage.options().max_iterations;
   const EpochCallback progress = stage.Progress("clocks");
   batch.callback = [&progress](int) { progress(0); };
-  BatchResult result =
-      SolveBatch(stage.start().layout, stage.start().prior, solved->states,
-                 &stage.timeline(), stage.decisions(), batch);
+  BatchResult result = SolveBatch(solved->states, batch, &stage.problem());
   if (result.converged) solved->states = std::move(result.states);
 }
 

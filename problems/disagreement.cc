@@ -1,8 +1,8 @@
 #include "problems/disagreement.h"
 
-#include <cmath>
+#include <fmt/core.h>
 
-#include "base/text.h"
+#include <cmath>
 
 namespace hindsight {
 
@@ -54,9 +54,9 @@ std::optional<Evidence> OptimumComparison::Compare(const std::string& method,
   return Evidence{
       .rule = "disagreement",
       .grade = Grade::kDoubtful,
-      .what = Format("%s and %s end %.2g sigma apart in %s at %.1f s (limit 1)",
-                     method_.c_str(), method.c_str(), largest,
-                     component.c_str(), t),
+      .what = fmt::format(
+          "{} and {} end {:.2g} sigma apart in {} at {:.1f} s (limit 1)",
+          method_, method, largest, component, t),
       .value = largest,
       .limit = kLimit,
       .unit = "sigma",

@@ -11,9 +11,9 @@
 
 namespace hindsight {
 
-/// Two methods that ended, by their own criteria, at the least of the same cost
-/// must have ended at the same place, to a fraction of a sigma: where they did
-/// not, the cost has several minima, or one of them stopped on its way.
+/// Compares methods that minimise the same cost. If two have converged by their
+/// own criteria, their solutions must agree to a fraction of a sigma; if they
+/// do not, the cost has several minima, or one of them stopped too early.
 class OptimumComparison {
  public:
   /// Evidence that makes `solution` doubtful: a component of position or

@@ -35,7 +35,7 @@ void MoveToSmoothed(const ErrorLayout& layout,
 }
 
 ForwardStage::ForwardStage(const Dataset& dataset,
-                           ReconstructionOptions options)
+                           const ReconstructionOptions& options)
     : ForwardStage(dataset, options,
                    FindStart(dataset, options.from, options.to)) {}
 
@@ -44,8 +44,9 @@ ForwardStage::ForwardStage(const Dataset& dataset,
     : dataset_(dataset),
       options_(std::move(options)),
       start_(std::move(start)),
-      timeline_(BuildTimeline(dataset_, MakeTimelineOptions())) {
-  start_.prior.x.t = timeline_.node(0).t;
+      problem_{start_.layout, start_.prior,
+               BuildTimeline(dataset_, MakeTimelineOptions())} {
+  start_.prior.x.t = problem_.prior.x.t = timeline().node(0).t;
 }
 
 TimelineOptions ForwardStage::MakeTimelineOptions() const {
@@ -67,9 +68,9 @@ TimelineOptions ForwardStage::MakeTimelineOptions() const {
 EpochCallback ForwardStage::Progress(const std::string& stage) const {
   return [this, stage](std::size_t done) {
     if (options_.stop != nullptr && *options_.stop) throw Interrupted();
-    if (options_.progress && (done % 64 == 0 || done == timeline_.size())) {
+    if (options_.progress && (done % 64 == 0 || done == timeline().size())) {
       options_.progress(stage, static_cast<double>(done) /
-                                   static_cast<double>(timeline_.size()));
+                                   static_cast<double>(timeline().size()));
     }
   };
 }
@@ -77,7 +78,7 @@ EpochCallback ForwardStage::Progress(const std::string& stage) const {
 void ForwardStage::Run() {
   if (smoothed_) return;
   std::vector<double> offsets;
-  for (const Sensor& sensor : timeline_.sensors()) {
+  for (const Sensor& sensor : timeline().sensors()) {
     offsets.push_back(sensor.time_offset);
   }
   Settle(std::move(offsets));
@@ -87,13 +88,14 @@ void ForwardStage::Settle(std::vector<double> offsets) {
   offsets_ = std::move(offsets);
   unsettled_.clear();
   relinearised_.reset();
+  fit_.reset();
   heading_credit_ = {};
   turned_round_.reset();
   unobserved_.reset();
-  timeline_ = BuildTimeline(dataset_, MakeTimelineOptions());
+  problem_.timeline = BuildTimeline(dataset_, MakeTimelineOptions());
   RunOnce();
   if (!EstimatesTimeOffsets(start_.layout)) return;
-  timeline_.LinearizeTimeOffsets(start_.layout, smoothed_->states);
+  problem_.timeline.LinearizeTimeOffsets(start_.layout, smoothed_->states);
   OffsetSearch search;
   bool near = false;
   for (int i = 1;; ++i) {
@@ -101,41 +103,41 @@ void ForwardStage::Settle(std::vector<double> offsets) {
     const int sensor =
         FarthestFromNodes(start_.layout, offsets_, smoothed_->states.back(),
                           smoothed_->P.Get(smoothed_->P.size() - 1));
-    // The first to be near may be so by chance, along a trajectory from nodes
-    // that were far off: what counts is to stay there along its own.
+    // The offsets were linearised along a trajectory from other nodes, so that
+    // they may be near by chance: they count as settled once they are near
+    // again when linearised along the trajectory of these nodes.
     if (sensor < 0 && near) return;
     near = sensor < 0;
     if (near) {
-      timeline_.LinearizeTimeOffsets(start_.layout, smoothed_->states);
+      problem_.timeline.LinearizeTimeOffsets(start_.layout, smoothed_->states);
       continue;
     }
     if (i >= kMaxPlacements) {
-      unsettled_ = timeline_.sensors()[static_cast<std::size_t>(sensor)].name;
+      unsettled_ = timeline().sensors()[static_cast<std::size_t>(sensor)].name;
       return;
     }
     PlacedNodes nodes =
-        PlaceAnew(search.Next(start_.layout, timeline_.sensors(),
+        PlaceAnew(search.Next(start_.layout, timeline().sensors(),
                               smoothed_->states.back(), offsets_),
-                  start_.layout, smoothed_->states, timeline_, decisions_);
+                  problem_, start_.layout, smoothed_->states);
     offsets_ = std::move(nodes.offsets);
-    timeline_ = std::move(nodes.timeline);
+    problem_ = std::move(nodes.problem);
   }
 }
 
 PlacedNodes ForwardStage::PlaceAnew(std::vector<double> offsets,
+                                    const Problem& problem,
                                     const ErrorLayout& layout,
-                                    const std::vector<State>& states,
-                                    const Timeline& timeline,
-                                    const GateDecisions& decisions) const {
+                                    const std::vector<State>& states) const {
   TimelineOptions options = MakeTimelineOptions();
   options.time_offsets = std::move(offsets);
-  return PlaceNodesAnew(dataset_, options, start_.layout, layout, states,
-                        timeline, decisions);
+  return PlaceNodesAnew(dataset_, options, problem, layout, states);
 }
 
-/// From an unknown heading the covariances of a filter that resets its nominal
-/// feign information: what is not observed is then seen in the interval as
-/// linearised anew.
+/// While the heading is unknown, a filter that resets its nominal linearises
+/// its measurements about headings far apart, and its covariances show
+/// information that is not in the data. What is not observed is then taken from
+/// the covariances about one smoothed trajectory (Relinearise).
 void ForwardStage::JudgeObservability() {
   constexpr double kKnownHeading = 20.0 * kDegree;
   Solution solution;
@@ -157,18 +159,21 @@ const std::vector<UnobservedSpan>& ForwardStage::unobserved() {
 }
 
 const Relinearised& ForwardStage::relinearised() {
-  if (!unobserved_) JudgeObservability();  // which may have found it
+  if (!unobserved_) JudgeObservability();  // may fill relinearised_
   if (!relinearised_) Relinearise();
   return *relinearised_;
 }
 
+const Fit& ForwardStage::fit() {
+  if (!fit_) fit_ = JudgeFit(dataset_, relinearised(), &problem_);
+  return *fit_;
+}
+
 void ForwardStage::JudgeHeading(const SmoothedTrajectory& last) {
-  heading_credit_ = CreditHeading(start_.layout, start_.prior, last.states,
-                                  last.P, &timeline_, decisions_);
+  heading_credit_ = CreditHeading(problem_, last.states, last.P);
   const std::string& alignment = start_.report.alignment;
   if (alignment != "velocity" && alignment != "static") return;
-  const double log_odds = LogOddsOfTurnedRound(
-      start_.layout, start_.prior, last.states, last.P, &timeline_, decisions_);
+  const double log_odds = LogOddsOfTurnedRound(problem_, last.states, last.P);
   constexpr double kImpossible = 1e-6;  // odds
   if (std::exp(log_odds) < kImpossible) return;
   turned_round_ = RivalSolution{.description = "heading turned by 180 deg",
@@ -178,24 +183,24 @@ void ForwardStage::JudgeHeading(const SmoothedTrajectory& last) {
 }
 
 const std::optional<RivalSolution>& ForwardStage::turned_round() {
-  if (!relinearised_ &&
-      MayBeTurnedRound(start_.layout, smoothed_->states, timeline_)) {
+  if (!relinearised_ && MayBeTurnedRound(problem_, smoothed_->states)) {
     Relinearise();
   }
   return turned_round_;
 }
 
 const HeadingCredit& ForwardStage::heading_credit() {
-  if (!relinearised_ && HeadingMayBeNoise(start_.layout, smoothed_->states,
-                                          smoothed_->P, timeline_)) {
+  if (!relinearised_ &&
+      HeadingMayBeNoise(problem_, smoothed_->states, smoothed_->P)) {
     Relinearise();
   }
   return heading_credit_;
 }
 
-/// One more linearisation tells how far the smoothed trajectory is off; where
-/// that is much, further ones tell where it ends. Returns the covariances,
-/// none if no new linearisation held.
+/// Linearises the interval about the smoothed trajectory and smooths again, up
+/// to four times until the step is negligible: how far this leads is the
+/// linearisation error of the smoothed trajectory. Returns the covariances,
+/// none if that fails.
 CovarianceSeries ForwardStage::Relinearise() {
   constexpr int kMost = 4;
   constexpr double kNegligible = 0.1;  // sigma
@@ -214,9 +219,7 @@ CovarianceSeries ForwardStage::Relinearise() {
     double step = 0.0;
     for (int i = 0; i < kMost; ++i) {
       SmoothedTrajectory next =
-          SmoothIterated(start_.layout, start_.prior, last.states, &timeline_,
-                         decisions_, iteration)
-              .trajectory;
+          SmoothIterated(last.states, iteration, &problem_).trajectory;
       anew.variances = VariancesOf(start_.layout, next.P);
       step = LargestDistance(start_.layout, last.states, next.states,
                              anew.variances);
@@ -236,16 +239,20 @@ CovarianceSeries ForwardStage::Relinearise() {
   }
 }
 
-LinearTape ForwardStage::Filter(const GateDecisions& gates,
-                                const std::string& stage) {
-  return RunForwardFilter({options_.error, {}}, start_.layout, start_.prior,
-                          &timeline_, gates, Progress(stage));
+Problem ForwardStage::CausalProblem() const {
+  return {problem_.layout, problem_.prior, problem_.timeline};
+}
+
+LinearTape ForwardStage::Filter(const std::string& stage,
+                                Problem* problem) const {
+  return RunForwardFilter({options_.error, {}}, problem, Progress(stage));
 }
 
 Solution ForwardStage::TakeFiltered() {
   if (!filtered_) {
     const double t0 = ProcessorSeconds();
-    filtered_ = FilterSolution(Filter({}, "ekf"));
+    Problem causal = CausalProblem();
+    filtered_ = FilterSolution(Filter("ekf", &causal));
     filtered_->seconds = ProcessorSeconds() - t0;
   }
   Solution solution = std::move(*filtered_);
@@ -255,12 +262,13 @@ Solution ForwardStage::TakeFiltered() {
 
 void ForwardStage::RunOnce() {
   const double t0 = ProcessorSeconds();
-  LinearTape tape = Filter({}, "ekf");
+  problem_.decisions.clear();
+  LinearTape tape = Filter("ekf", &problem_);
   filtered_ = FilterSolution(tape);
   filtered_->seconds = ProcessorSeconds() - t0;
-  decisions_ = DecisionsOnTape(tape);
+  problem_.decisions = DecisionsOnTape(tape);
   smoothed_ = SmoothTape(std::move(tape));
-  if (timeline_.HasGates()) RepeatWithSmoothedGates();
+  if (timeline().HasGates()) RepeatWithSmoothedGates();
   smoothing_seconds_ = ProcessorSeconds() - t0 - filtered_->seconds;
 }
 
@@ -272,14 +280,14 @@ SmoothedTrajectory ForwardStage::SmoothTape(LinearTape tape) const {
   return trajectory;
 }
 
-/// The innovation gate knows only the past; what the whole interval says of a
-/// measurement decides for all whole-interval methods.
+/// The innovation gate has judged each measurement by what came before it
+/// alone. For the whole-interval methods all gates are decided again by the
+/// smoothed trajectory, and the interval is smoothed with these decisions.
 void ForwardStage::RepeatWithSmoothedGates() {
-  const GateDecisions again =
-      DecideGates(start_.layout, timeline_, *smoothed_, decisions_);
-  if (again == decisions_) return;
-  decisions_ = again;
-  smoothed_ = SmoothTape(Filter(decisions_, "rts"));
+  GateDecisions again = DecideGates(problem_, *smoothed_);
+  if (again == problem_.decisions) return;
+  problem_.decisions = std::move(again);
+  smoothed_ = SmoothTape(Filter("rts", &problem_));
 }
 
 }  // namespace hindsight

@@ -9,6 +9,7 @@
 #include "dataset/timeline_builder.h"
 #include "filters/heading_profile.h"
 #include "filters/rts.h"
+#include "problems/fit.h"
 #include "problems/linearisation.h"
 #include "problems/node_placement.h"
 #include "problems/reconstruction.h"
@@ -24,7 +25,7 @@ class ForwardStage {
  public:
   /// Aligns, places the nodes, preintegrates. `dataset` must outlive the
   /// object. Errors as of Reconstruction.
-  ForwardStage(const Dataset& dataset, ReconstructionOptions options);
+  ForwardStage(const Dataset& dataset, const ReconstructionOptions& options);
   /// From a start that is known.
   ForwardStage(const Dataset& dataset, ReconstructionOptions options,
                Start start);
@@ -43,39 +44,45 @@ class ForwardStage {
   const Dataset& dataset() const { return dataset_; }
   const ReconstructionOptions& options() const { return options_; }
   const Start& start() const { return start_; }
-  Timeline& timeline() { return timeline_; }
-  const Timeline& timeline() const { return timeline_; }
-  /// Which measurements the whole-interval methods use.
-  const GateDecisions& decisions() const { return decisions_; }
+  /// The problem as whole-interval methods solve it, with the measurements that
+  /// they use.
+  Problem& problem() { return problem_; }
+  const Problem& problem() const { return problem_; }
+  /// The problem as a filter solves it that knows the past alone: gates decide
+  /// by the innovation.
+  Problem CausalProblem() const;
+  const Timeline& timeline() const { return problem_.timeline; }
   const SmoothedTrajectory& smoothed() const { return *smoothed_; }
   double smoothing_seconds() const { return smoothing_seconds_; }
   /// Spans that the data leave undetermined; found when first asked for.
   const std::vector<UnobservedSpan>& unobserved();
   /// Found when first asked for.
   const Relinearised& relinearised();
+  /// Of the interval as linearised anew; found when first asked for, empty where
+  /// no new linearisation held.
+  const Fit& fit();
   /// CreditHeading of the interval as linearised anew; found when first
   /// asked for.
   const HeadingCredit& heading_credit();
-  /// The interval turned round, where its heading comes from its own motion and
-  /// that is nearly as likely, without its probability among others; found when
-  /// first asked for.
+  /// The trajectory turned round, where its heading comes from its own motion
+  /// and may be the opposite one as well; its probability is not set yet. Found
+  /// when first asked for.
   const std::optional<RivalSolution>& turned_round();
   /// Time offsets that the nodes are placed by, one a sensor [s].
   const std::vector<double>& offsets() const { return offsets_; }
-  /// Sensor whose estimated time offset went on moving; empty: none.
+  /// Sensor whose estimated time offset did not settle; empty: none.
   const std::string& unsettled() const { return unsettled_; }
   /// Nodes placed by other time offsets, as PlaceNodesAnew.
-  PlacedNodes PlaceAnew(std::vector<double> offsets, const ErrorLayout& layout,
-                        const std::vector<State>& states,
-                        const Timeline& timeline,
-                        const GateDecisions& decisions) const;
+  PlacedNodes PlaceAnew(std::vector<double> offsets, const Problem& problem,
+                        const ErrorLayout& layout,
+                        const std::vector<State>& states) const;
 
   /// Hands out the forward filter's solution, which a day makes too large to
   /// keep twice; whoever asks again has it filtered again.
   Solution TakeFiltered();
 
   /// A pass of the Kalman filter with the error definition of the options.
-  LinearTape Filter(const GateDecisions& gates, const std::string& stage);
+  LinearTape Filter(const std::string& stage, Problem* problem) const;
 
   /// Reports progress under the name of a stage; throws Interrupted if asked.
   EpochCallback Progress(const std::string& stage) const;
@@ -95,14 +102,14 @@ class ForwardStage {
   std::string unsettled_;
   std::optional<std::vector<UnobservedSpan>> unobserved_;
   std::optional<Relinearised> relinearised_;
+  std::optional<Fit> fit_;
   HeadingCredit heading_credit_;
   std::optional<RivalSolution> turned_round_;
   Start start_;
-  Timeline timeline_;
+  Problem problem_;
   std::optional<Solution> filtered_;
   std::optional<SmoothedTrajectory> smoothed_;
   double smoothing_seconds_ = 0.0;
-  GateDecisions decisions_;
 };
 
 /// Moves the covariances of a trajectory smoothed on `tape`, which are in the

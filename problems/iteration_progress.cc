@@ -6,7 +6,8 @@
 namespace hindsight {
 namespace {
 
-/// Before two steps are known: Gauss-Newton from near the solution.
+/// Rate of the steps before two of them are known, as of Gauss-Newton near the
+/// solution.
 constexpr double kFirstRate = 0.01;
 constexpr double kSlowestRate = 0.95;
 

@@ -6,7 +6,9 @@
 namespace hindsight {
 namespace {
 
-/// Calls with the number among nine and the component of the layout.
+/// Calls `function` for each component of position, velocity and attitude that
+/// the layout has: with its number among these nine, and its number in the
+/// layout.
 template <typename Function>
 void ForEachNavigationComponent(const ErrorLayout& layout, Function function) {
   int i = 0;

@@ -38,7 +38,7 @@ LinearisationError Compare(const ErrorLayout& layout,
                            const CovarianceSeries& P, const Relinearised& anew);
 
 /// Compare of a solution that is linearised about the forward filter's
-/// trajectory; nothing for a forward one where its smoother is usable.
+/// trajectory; nothing for a forward method if its smoother is usable.
 std::optional<LinearisationError> LinearisationErrorOf(
     const Solution& solution, const Relinearised& anew);
 

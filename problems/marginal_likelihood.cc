@@ -32,8 +32,8 @@ bool IsOfImu(BlockKind kind) {
          kind == BlockKind::kAccelBias;
 }
 
-/// Q of an interval without what is not the IMU's.
-ErrorMatrix ImuNoise(const LinearTape& tape, std::size_t k) {
+/// Q of an interval with the IMU's noise alone.
+ErrorMatrix IntervalNoise(const LinearTape& tape, std::size_t k) {
   ErrorMatrix Q = tape.Q(k);
   for (const Block& block : tape.layout().blocks()) {
     if (IsOfImu(block.key.kind)) continue;
@@ -43,9 +43,9 @@ ErrorMatrix ImuNoise(const LinearTape& tape, std::size_t k) {
   return Q;
 }
 
-/// Of one interval, cov(w | all) = Q - Q (P-)^-1 (P- - P) (P-)^-1 Q: with the
-/// smoothed P the trace of (P-)^-1 (P- - P) (P-)^-1 Q. Scaled to unit variances
-/// before, as a vague prior and well-known constants stand beside each other.
+/// Of one interval, cov(w | all) = Q - Q (P-)^-1 (P- - P) (P-)^-1 Q, P being
+/// smoothed: the trace of (P-)^-1 (P- - P) (P-)^-1 Q. P- is scaled to unit
+/// variances, since it has vague priors beside well-known constants.
 double KnownNoise(const ErrorMatrix& P_minus, const ErrorMatrix& P,
                   const ErrorMatrix& Q) {
   const ErrorVector sigma = P_minus.diagonal().cwiseSqrt();
@@ -63,7 +63,8 @@ double KnownImuNoise(const LinearTape& tape) {
   const SmoothedTrajectory smoothed = SmoothRts(tape);
   double sum = 0.0;
   for (std::size_t k = 1; k < tape.size(); ++k) {
-    sum += KnownNoise(tape.P_minus(k), smoothed.P.Get(k), ImuNoise(tape, k));
+    sum +=
+        KnownNoise(tape.P_minus(k), smoothed.P.Get(k), IntervalNoise(tape, k));
   }
   return sum;
 }
@@ -124,18 +125,14 @@ double LogClockPrior(const Dataset& dataset, const ErrorLayout& layout,
   return log;
 }
 
-MarginalLikelihood MarginalLikelihoodOf(const ErrorLayout& layout,
-                                        const Prior& prior,
+MarginalLikelihood MarginalLikelihoodOf(Problem problem,
                                         const std::vector<State>& nominal,
-                                        const GateDecisions& decisions,
-                                        const GateDecisions& used,
-                                        Timeline* timeline) {
-  GateDecisions accepted = used;
-  for (std::size_t i = 0; i < accepted.size(); ++i) {
-    if (decisions[i] == 0) accepted[i] = 0;
+                                        const GateDecisions& used) {
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i] == 0) problem.decisions[i] = 0;
   }
-  const LinearTape tape =
-      RunLinearizedFilter(layout, prior, nominal, timeline, accepted);
+  const Timeline& timeline = problem.timeline;
+  const LinearTape tape = RunLinearizedFilter(nominal, &problem);
   MarginalLikelihood out;
   std::size_t i = 0;
   for (std::size_t k = 0; k < tape.size(); ++k) {
@@ -147,13 +144,13 @@ MarginalLikelihood MarginalLikelihoodOf(const ErrorLayout& layout,
       const double nis =
           z.accepted
               ? z.nis
-              : std::min(z.nis, GateLimit(timeline->sensors()[sensor], rows));
+              : std::min(z.nis, GateLimit(timeline.sensors()[sensor], rows));
       out.log += z.log_likelihood + 0.5 * (z.nis - nis);
       out.squares += nis;
       out.rows += rows;
       if (!z.accepted) continue;
       const Measurement& measurement =
-          timeline->measurements(k)[static_cast<std::size_t>(z.index)];
+          timeline.measurements(k)[static_cast<std::size_t>(z.index)];
       out.whitened[{measurement.sensor, measurement.t}] = Whitened(z);
     }
   }

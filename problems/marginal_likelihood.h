@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "alignment/start.h"
-#include "measurements/timeline.h"
+#include "timeline/problem.h"
 
 namespace hindsight {
 
@@ -25,11 +25,11 @@ struct MarginalLikelihood {
   double imu_noise = 0.0;
 };
 
-/// The prior by which explanations are compared, as all of them share it: what
-/// the data set states of biases and constants; what it gives of position,
-/// velocity and attitude, and 100 m, 100 m/s and nothing of what the start was
-/// taken from the data, about `x`, the first state of the explanation. So are
-/// the clocks: what is stated of them is counted by LogClockPrior.
+/// The prior by which explanations are compared, so that all share one. It has
+/// what the data set states of biases, constants, position, velocity and
+/// attitude. What is not stated is that of `x`, the first state of the
+/// explanation, with sigmas of 100 m and 100 m/s and any attitude; so are the
+/// clocks, as LogClockPrior counts what is stated of them.
 Prior PriorOfComparison(const Dataset& dataset, const Start& start,
                         const State& x);
 
@@ -38,19 +38,16 @@ Prior PriorOfComparison(const Dataset& dataset, const Start& start,
 double LogClockPrior(const Dataset& dataset, const ErrorLayout& layout,
                      const State& x);
 
-/// Marginal likelihood of the measurements that `used` names, in the system
+/// Marginal likelihood of the measurements that `used` names, in the problem
 /// linearised about `nominal`: the likelihood of the forward filter's
 /// innovations there, which is Laplace's approximation
 ///   -cost(MAP) + ln det(2 pi P)/2 with all priors in it,
 /// the step from `nominal` to the MAP taken as linear. Of a measurement that is
-/// used but rejected by `decisions` its gate's limit counts in place of its
+/// used but rejected by its decisions its gate's limit counts in place of its
 /// innovation.
-MarginalLikelihood MarginalLikelihoodOf(const ErrorLayout& layout,
-                                        const Prior& prior,
+MarginalLikelihood MarginalLikelihoodOf(Problem problem,
                                         const std::vector<State>& nominal,
-                                        const GateDecisions& decisions,
-                                        const GateDecisions& used,
-                                        Timeline* timeline);
+                                        const GateDecisions& used);
 
 }  // namespace hindsight
 

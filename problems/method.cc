@@ -17,8 +17,6 @@ extern const Method kGatedEkfMethod;
 extern const Method kImmMethod;
 extern const Method kHinfMethod;
 extern const Method kModifiedHinfMethod;
-extern const Method kAhrsBatchMethod;
-extern const Method kAhrsTiltBatchMethod;
 extern const Method kAhrsSmootherMethod;
 extern const Method kAhrsMethod;
 
@@ -38,8 +36,6 @@ constexpr const Method* kMethods[] = {
     &kImmMethod,
     &kHinfMethod,
     &kModifiedHinfMethod,
-    &kAhrsBatchMethod,
-    &kAhrsTiltBatchMethod,
     &kAhrsSmootherMethod,
     &kAhrsMethod,
 };

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <span>
 #include <string>
+#include <variant>
 
 #include "state/solution.h"
 
@@ -14,15 +15,15 @@ class MethodStage;
 
 /// What a method heeds or is, beyond what all of its kind do.
 enum class MethodTrait {
-  /// Knows nothing later at each node; see Solution::forward.
+  /// Uses nothing later than the node at each node; see Solution::forward.
   kForward,
   /// Is linear about the forward filter's trajectory.
   kLinearisesOnce,
   /// Minimises the cost of the whole interval, so that its optimum compares
   /// with that of others that do.
   kFindsOptimum,
-  /// ReconstructionOptions::error changes its solution, be it through the
-  /// trajectory from which it starts to iterate.
+  /// ReconstructionOptions::error changes its solution, if only through the
+  /// trajectory from which the method starts to iterate.
   kDependsOnError,
   /// Heeds ReconstructionOptions::h_infinity, modified_h_infinity.
   kHInfinity,
@@ -40,17 +41,24 @@ constexpr unsigned TraitsOf(std::initializer_list<MethodTrait> traits) {
 /// A method of `hindsight run`: a file of problems/methods/, which has all of
 /// this, and its place in the table of problems/method.cc.
 struct Method {
+  using OfTrajectory = Solution (*)(MethodStage*);
+  using OfAttitude = Solution (*)(AttitudeEstimation*);
+
   const char* name;  ///< as it is asked for and written
   const char* help;  ///< one or more lines, without an indent
   unsigned traits;   ///< MethodTraits, joined by TraitsOf
-  /// One of the two: position, velocity and attitude, or attitude alone.
-  Solution (*reconstruct)(MethodStage* stage);
-  Solution (*estimate_attitude)(AttitudeEstimation* estimation) = nullptr;
+  /// Of position, velocity and attitude, or of attitude alone.
+  std::variant<OfTrajectory, OfAttitude> run;
+  /// About how long it takes after the methods that it builds on, in passes of
+  /// the forward filter: for the time left that a progress bar tells.
+  double work = 1.0;
 
   bool Has(MethodTrait trait) const {
     return (traits & TraitsOf({trait})) != 0;
   }
-  bool attitude_alone() const { return estimate_attitude != nullptr; }
+  bool attitude_alone() const {
+    return std::holds_alternative<OfAttitude>(run);
+  }
 };
 
 /// Every method, in the order in which they are preferred where nothing else

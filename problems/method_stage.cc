@@ -10,8 +10,7 @@
 namespace hindsight {
 
 MethodStage::Nodes MethodStage::SharedNodes() const {
-  return {&forward_->timeline(), &forward_->decisions(),
-          &forward_->smoothed().states};
+  return {&forward_->problem(), &forward_->smoothed().states};
 }
 
 Solution MethodStage::AtOwnNodes(
@@ -22,41 +21,42 @@ Solution MethodStage::AtOwnNodes(
   for (int i = 1; forward_->unsettled().empty(); ++i) {
     const std::vector<double>& offsets =
         own ? own->offsets : forward_->offsets();
-    const Timeline& timeline = own ? own->timeline : forward_->timeline();
+    const Problem& problem = own ? own->problem : forward_->problem();
+    const std::vector<Sensor>& sensors = problem.timeline.sensors();
     const int sensor =
         FarthestFromNodes(solution.layout, offsets, solution.states.back(),
                           solution.covariances.Get(solution.states.size() - 1));
     if (sensor < 0) break;
     if (i == kMaxPlacements) {
-      own_unsettled_ =
-          timeline.sensors()[static_cast<std::size_t>(sensor)].name;
+      own_unsettled_ = sensors[static_cast<std::size_t>(sensor)].name;
       break;
     }
-    own = forward_->PlaceAnew(search.Next(solution.layout, timeline.sensors(),
-                                          solution.states.back(), offsets),
-                              solution.layout, solution.states, timeline,
-                              own ? own->decisions : forward_->decisions());
-    solution = solve({&own->timeline, &own->decisions, &own->states});
+    own = forward_->PlaceAnew(
+        search.Next(solution.layout, sensors, solution.states.back(), offsets),
+        problem, solution.layout, solution.states);
+    timeline_.reset();
+    solution = solve({&own->problem, &own->states});
   }
+  if (own && !timeline_) timeline_ = std::move(own->problem.timeline);
   return solution;
 }
 
 Solution MethodStage::FromSmoothed(std::vector<State> states,
                                    CovarianceSeries P,
                                    const Nodes& nodes) const {
-  return SmoothedSolution(layout(), *nodes.timeline, std::move(states),
-                          std::move(P), *nodes.decisions);
+  return SmoothedSolution(*nodes.problem, std::move(states), std::move(P));
 }
 
-Start MethodStage::StartOfQuestioned() const {
+Problem MethodStage::Questioned(const Nodes& nodes) const {
   const Start& start = forward_->start();
-  return WithoutTrustIn(start.position_sensor, start);
+  Problem problem = *nodes.problem;
+  problem.prior = WithoutTrustIn(start.position_sensor, start).prior;
+  return problem;
 }
 
 void MethodStage::JudgeHeading(const Solution& solution, const Nodes& nodes) {
   own_credit_ =
-      CreditHeading(layout(), prior(), solution.states, solution.covariances,
-                    nodes.timeline, *nodes.decisions);
+      CreditHeading(*nodes.problem, solution.states, solution.covariances);
 }
 
 BatchOptions MethodStage::MakeBatchOptions() const {

@@ -2,7 +2,9 @@
 #define HINDSIGHT_PROBLEMS_METHOD_STAGE_H_
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "problems/batch.h"
@@ -14,10 +16,9 @@ namespace hindsight {
 /// method finds out beside its solution.
 class MethodStage {
  public:
-  /// Nodes, the measurements used there, and a trajectory to begin from.
+  /// The problem on some nodes, and a trajectory to begin from.
   struct Nodes {
-    Timeline* timeline;
-    const GateDecisions* decisions;
+    Problem* problem;
     const std::vector<State>* states;
   };
 
@@ -25,8 +26,7 @@ class MethodStage {
   explicit MethodStage(ForwardStage* forward) : forward_(forward) {}
 
   ForwardStage& forward() const { return *forward_; }
-  const ErrorLayout& layout() const { return forward_->start().layout; }
-  const Prior& prior() const { return forward_->start().prior; }
+  const ErrorLayout& layout() const { return forward_->problem().layout; }
   Nodes SharedNodes() const;
 
   /// Solves on the shared nodes, and on nodes of its own as long as the
@@ -37,18 +37,30 @@ class MethodStage {
   Solution FromSmoothed(std::vector<State> states, CovarianceSeries P,
                         const Nodes& nodes) const;
 
-  /// The start without trust in the position sensor that it comes from.
-  Start StartOfQuestioned() const;
+  /// The problem of the nodes without trust in the position sensor that the
+  /// start comes from.
+  Problem Questioned(const Nodes& nodes) const;
 
-  /// Takes the credit of the heading about a method's own result, which may lie
-  /// elsewhere than that of the forward stage.
+  /// Computes the credit of the heading about the method's own result, which
+  /// may be another one than about the forward stage's.
   void JudgeHeading(const Solution& solution, const Nodes& nodes);
+
+  /// Names the timeline that the solution is found on, if it is none of the
+  /// nodes that AtOwnNodes hands out.
+  void SetTimeline(Timeline timeline) { timeline_ = std::move(timeline); }
+  /// The timeline of the solution where it is not the forward stage's.
+  std::optional<Timeline> TakeTimeline() { return std::move(timeline_); }
+
+  /// What the measurements say of a method's own model, where it is another than
+  /// the stated one.
+  void SetFit(Fit fit) { own_fit_ = std::move(fit); }
+  const Fit& fit() const { return own_fit_ ? *own_fit_ : forward_->fit(); }
 
   /// Of the reconstruction, with its progress under the name "batch".
   BatchOptions MakeBatchOptions() const;
 
-  /// Sensor whose time offset the method's nodes did not settle, or none of
-  /// those before it; empty: none.
+  /// Sensor whose time offset did not settle on the method's own nodes or on
+  /// those of the forward stage; empty: none.
   const std::string& unsettled() const;
   /// The lesser of the forward stage's and the method's own.
   HeadingCredit heading_credit() const;
@@ -57,6 +69,8 @@ class MethodStage {
   ForwardStage* forward_;
   std::string own_unsettled_;
   HeadingCredit own_credit_;
+  std::optional<Timeline> timeline_;
+  std::optional<Fit> own_fit_;
 };
 
 }  // namespace hindsight

@@ -1,398 +1,172 @@
 #include "problems/montecarlo.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
+#include <atomic>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <mutex>
+#include <set>
+#include <stdexcept>
 #include <thread>
-#include <utility>
 
-#include "alignment/start.h"
 #include "base/error.h"
 
 namespace hindsight {
 namespace {
 
-/// What one method made of one run.
-struct MethodRun {
-  bool failed = false;
-  Grade grade = Grade::kUnusable;
-  std::vector<Eigen::Vector3d> position;  ///< error, NED [m]
-  std::vector<double> yaw;                ///< error [rad]
-  std::vector<double> nees;
-  double position_nees_sum = 0.0;
-  double nis_sum = 0.0;
-  double nis_rows = 0.0;
-  double seconds = 0.0;
-  std::vector<ConstantStatistics> constants;  ///< of this run alone
-};
+/// Table of the recordings that were refused as a whole, until all seeds are in.
+constexpr std::size_t kRefused = std::numeric_limits<std::size_t>::max();
 
-struct Run {
-  std::vector<double> t;
-  std::vector<MethodRun> methods;
-  std::vector<Agreement> agreements;
-};
-
-constexpr double kTimeTolerance = 1e-6;
-
-/// The nodes of a solution at which it is judged.
-std::vector<std::size_t> JudgedNodes(const std::vector<double>& times,
-                                     const Solution& solution) {
-  std::vector<std::size_t> nodes;
-  std::size_t next = 0;
-  for (std::size_t k = 0; k < solution.states.size(); ++k) {
-    const double t = solution.states[k].t;
-    while (next < times.size() && times[next] < t - kTimeTolerance) ++next;
-    if (times.empty() ||
-        (next < times.size() && times[next] <= t + kTimeTolerance)) {
-      nodes.push_back(k);
-    }
-  }
-  return nodes;
+bool StartsWith(const std::vector<std::string>& labels,
+                const std::vector<std::string>& first) {
+  return labels.size() >= first.size() &&
+         std::equal(first.begin(), first.end(), labels.begin());
 }
 
-/// The known parameters of the state, constants of simulated data.
-void TakeTrueConstants(const Dataset& dataset, const ErrorLayout& layout,
-                       State* y) {
-  for (const Block& block : layout.blocks()) {
-    if (block.parameter_offset < 0) continue;
-    for (int i = 0; i < block.dim; ++i) {
-      const auto constant =
-          dataset.true_constants.find(layout.ComponentName(block.offset + i));
-      if (constant == dataset.true_constants.end()) continue;
-      y->parameters(block.parameter_offset + i) = constant->second;
+/// Puts a failed run of every method that other seeds of the case have in the
+/// place of each refused recording; "-" is the method where all were refused.
+void SpreadRefusals(std::size_t label_count, std::vector<RunRecord>* job) {
+  const auto middle = std::stable_partition(
+      job->begin(), job->end(),
+      [](const RunRecord& record) { return record.table != kRefused; });
+  const std::vector<RunRecord> refused(middle, job->end());
+  job->erase(middle, job->end());
+  std::set<std::vector<std::string>> cells;
+  for (const RunRecord& record : *job) {
+    if (record.table == 0) cells.insert(record.labels);
+  }
+  for (RunRecord record : refused) {
+    record.table = 0;
+    const std::vector<std::string> of_case = record.labels;
+    record.labels.resize(label_count, "-");
+    if (cells.empty()) job->push_back(record);
+    for (const std::vector<std::string>& labels : cells) {
+      if (!StartsWith(labels, of_case)) continue;
+      record.labels = labels;
+      job->push_back(record);
     }
   }
 }
 
-/// States of a solution at those nodes.
-std::vector<State> StatesAt(const Solution& solution,
-                            const std::vector<std::size_t>& nodes) {
-  std::vector<State> states;
-  states.reserve(nodes.size());
-  for (const std::size_t k : nodes) states.push_back(solution.states[k]);
-  return states;
+std::string RefusalOf(const RunRecord& record) {
+  std::string text;
+  for (const std::string& label : record.labels) {
+    if (!label.empty()) text += label + ", ";
+  }
+  return text + "seed " + std::to_string(record.seed) + ": " + record.refusal;
 }
 
-std::vector<ConstantStatistics> JudgeConstants(const Dataset& dataset,
-                                               const Solution& solution) {
-  std::vector<ConstantStatistics> out;
-  for (const ConstantEstimate& c : solution.constants) {
-    const auto truth = dataset.true_constants.find(c.name);
-    if (truth == dataset.true_constants.end()) continue;
-    ConstantStatistics s;
-    s.name = c.name;
-    s.unit = c.unit;
-    s.prior_sigma = c.prior_sigma;
-    s.sigma = c.sigma;
-    s.rms = std::abs(c.value - truth->second);
-    s.anees = (s.rms / s.sigma) * (s.rms / s.sigma);
-    s.runs = 1;
-    s.observed = c.verdict == ConstantEstimate::Verdict::kObserved ? 1 : 0;
-    s.unobserved = c.verdict == ConstantEstimate::Verdict::kUnobserved ? 1 : 0;
-    out.push_back(s);
-  }
-  return out;
-}
-
-MethodRun JudgeRun(const Solution& solution,
-                   const std::vector<std::size_t>& nodes,
-                   const std::vector<State>& truth) {
-  MethodRun run;
-  run.grade = solution.grade;
-  run.seconds = solution.seconds;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    const State& x = solution.states[nodes[i]];
-    const ErrorVector e = Local(solution.layout, x, truth[i]);
-    run.position.push_back(
-        e.segment<3>(solution.layout.Find(BlockKind::kPosition)->offset));
-    run.yaw.push_back(WrapAngle(truth[i].euler().z() - x.euler().z()));
-    const ErrorMatrix P = solution.covariances.Get(nodes[i]);
-    run.nees.push_back(e.dot(P.llt().solve(e)));
-    const int p = solution.layout.Find(BlockKind::kPosition)->offset;
-    const Eigen::Vector3d e_p = e.segment<3>(p);
-    run.position_nees_sum += e_p.dot(P.block<3, 3>(p, p).llt().solve(e_p));
-  }
-  for (const ResidualRecord& record : solution.residuals) {
-    if (!record.accepted || record.withheld) continue;
-    run.nis_sum += record.nis;
-    run.nis_rows += static_cast<double>(record.residual.size());
-  }
-  return run;
-}
-
-Agreement Compare(const Solution& a, const Solution& b, double first_leg_end) {
-  Agreement out;
-  out.first = a.method;
-  out.second = b.method;
-  for (std::size_t k = 0; k < a.states.size(); ++k) {
-    const double position = (a.states[k].p_e - b.states[k].p_e).norm();
-    out.position = std::max(out.position, position);
-    out.attitude = std::max(out.attitude,
-                            a.states[k].q_eb.angularDistance(b.states[k].q_eb));
-    if (a.states[k].t > first_leg_end) {
-      out.position_after_first_leg =
-          std::max(out.position_after_first_leg, position);
-    }
-  }
-  return out;
-}
-
-void RunCase(const MonteCarloCase& c, const MonteCarloOptions& options,
-             std::uint64_t seed, Run* out) {
-  const Dataset dataset = c.dataset(seed);
-  ReconstructionOptions reconstruction_options;
-  reconstruction_options.stop = options.stop;
-  reconstruction_options.node_times = options.node_times;
-  const double first_leg_end =
-      options.leg_ends.empty() ? 0.0 : options.leg_ends.front();
-  Reconstruction reconstruction(dataset, reconstruction_options);
-  std::vector<Solution> solutions;
-  std::vector<State> truth;
-  for (const std::string& method : c.methods) {
-    MethodRun& run = out->methods.emplace_back();
+/// Of all cases on one seed.
+std::vector<RunRecord> RunCases(const std::vector<Case>& cases,
+                                const std::vector<Recording>& recordings,
+                                std::uint64_t seed) {
+  std::vector<RunRecord> out;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    CaseRun run(cases[i].labels, seed, &out);
+    const std::size_t before = out.size();
     try {
-      Solution solution = reconstruction.Run(method);
-      const std::vector<std::size_t> nodes =
-          JudgedNodes(options.node_times, solution);
-      if (truth.empty()) {
-        truth = TrueStates(dataset, solution.layout, StatesAt(solution, nodes));
-      }
-      run = JudgeRun(solution, nodes, truth);
-      run.constants = JudgeConstants(dataset, solution);
-      run.failed = !solution.converged;
-      solution.method += c.suffix;
-      solution.covariances = {};
-      solutions.push_back(std::move(solution));
-    } catch (const EstimationError&) {
-      run.failed = true;
+      cases[i].trial(recordings[i](seed), &run);
+    } catch (const InputError& error) {
+      out.resize(before);
+      RunRecord* record = run.Add(kRefused, {});
+      record->failed = true;
+      record->answered = false;
+      record->refusal = error.what();
     }
   }
-  if (out->t.empty()) {
-    for (const State& x : truth) out->t.push_back(x.t);
-  }
-  for (std::size_t i = 0; i < solutions.size(); ++i) {
-    for (std::size_t j = i + 1; j < solutions.size(); ++j) {
-      out->agreements.push_back(
-          Compare(solutions[i], solutions[j], first_leg_end));
-    }
-  }
-}
-
-/// Standard deviation over the runs of the value that `get` takes from each.
-template <typename Value, typename Get>
-Value Deviation(const std::vector<const MethodRun*>& runs, const Value& zero,
-                Get get) {
-  const double n = static_cast<double>(runs.size());
-  Value mean = zero;
-  for (const MethodRun* run : runs) mean += get(*run) / n;
-  Value sum = zero;
-  for (const MethodRun* run : runs) {
-    const Value e = get(*run) - mean;
-    sum += e.cwiseProduct(e);
-  }
-  return (sum / std::max(1.0, n - 1.0)).cwiseSqrt();
-}
-
-/// Sums one run's constants into those of all; FinishConstants divides.
-void AddConstants(const std::vector<ConstantStatistics>& of_run,
-                  std::vector<ConstantStatistics>* all) {
-  if (all->empty()) *all = std::vector<ConstantStatistics>(of_run.size());
-  for (std::size_t i = 0; i < of_run.size(); ++i) {
-    ConstantStatistics& sum = (*all)[i];
-    const ConstantStatistics& one = of_run[i];
-    sum.name = one.name;
-    sum.unit = one.unit;
-    sum.prior_sigma = one.prior_sigma;
-    sum.sigma += one.sigma;
-    sum.rms += one.rms * one.rms;
-    sum.anees += one.anees;
-    sum.runs += 1;
-    sum.observed += one.observed;
-    sum.unobserved += one.unobserved;
-  }
-}
-
-void FinishConstants(std::vector<ConstantStatistics>* all) {
-  for (ConstantStatistics& c : *all) {
-    c.sigma /= c.runs;
-    c.rms = std::sqrt(c.rms / c.runs);
-    c.anees /= c.runs;
-  }
-}
-
-void AddSeries(const std::vector<const MethodRun*>& runs, std::size_t k,
-               MethodStatistics* out) {
-  using Scalar = Eigen::Matrix<double, 1, 1>;
-  out->std_series.push_back(
-      Deviation(runs, Eigen::Vector3d(Eigen::Vector3d::Zero()),
-                [k](const MethodRun& run) { return run.position[k]; }));
-  out->yaw_series.push_back(
-      Deviation(runs, Scalar(Scalar::Zero()),
-                [k](const MethodRun& run) { return Scalar(run.yaw[k]); })(0));
-  double nees = 0.0;
-  for (const MethodRun* run : runs) nees += run->nees[k];
-  out->anees_series.push_back(nees / static_cast<double>(runs.size()));
-}
-
-/// Maxima and means over time of the series.
-void SummarizeSeries(const std::vector<double>& leg_ends,
-                     std::pair<double, double> bounds, MethodStatistics* out) {
-  std::vector<double> counts(std::max<std::size_t>(1, leg_ends.size()), 0.0);
-  out->legs.assign(counts.size(), {Eigen::Vector3d::Zero(), 0.0});
-  double outside = 0.0;
-  std::size_t leg = 0;
-  for (std::size_t k = 0; k < out->t.size(); ++k) {
-    while (leg + 1 < leg_ends.size() && out->t[k] > leg_ends[leg]) ++leg;
-    const double anees = out->anees_series[k];
-    out->legs[leg].max_std =
-        out->legs[leg].max_std.cwiseMax(out->std_series[k]);
-    out->legs[leg].anees += anees;
-    counts[leg] += 1.0;
-    out->anees += anees / static_cast<double>(out->t.size());
-    outside += anees < bounds.first || anees > bounds.second ? 1.0 : 0.0;
-    out->yaw_std = std::max(out->yaw_std, out->yaw_series[k]);
-  }
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    out->legs[i].anees /= std::max(1.0, counts[i]);
-    out->max_std = out->max_std.cwiseMax(out->legs[i].max_std);
-  }
-  out->anees_outside = outside / static_cast<double>(out->t.size());
-  out->final_std = out->std_series.back();
-}
-
-void SummarizeErrors(const std::vector<const MethodRun*>& runs,
-                     MethodStatistics* out) {
-  const double n = static_cast<double>(runs.size() * out->t.size());
-  double position = 0.0;
-  double heading = 0.0;
-  double final_horizontal = 0.0;
-  for (const MethodRun* run : runs) {
-    for (const Eigen::Vector3d& e : run->position) position += e.squaredNorm();
-    for (const double yaw : run->yaw) heading += yaw * yaw;
-    final_horizontal += run->position.back().head<2>().squaredNorm();
-    out->position_nees += run->position_nees_sum / n;
-  }
-  out->position_rms = std::sqrt(position / n);
-  out->heading_rms = std::sqrt(heading / n);
-  out->final_horizontal =
-      std::sqrt(final_horizontal / static_cast<double>(runs.size()));
-}
-
-MethodStatistics Summarize(const std::string& name, std::size_t index,
-                           std::span<const Run> runs, int dim,
-                           const MonteCarloOptions& options) {
-  MethodStatistics out;
-  out.name = name;
-  out.max_std.setZero();
-  out.final_std.setZero();
-  std::vector<const MethodRun*> finished;
-  double nis_sum = 0.0;
-  double nis_rows = 0.0;
-  for (const Run& run : runs) {
-    const MethodRun& method = run.methods[index];
-    ++out.grades[static_cast<std::size_t>(method.grade)];
-    if (method.failed) {
-      ++out.failed;
-      continue;
-    }
-    finished.push_back(&method);
-    nis_sum += method.nis_sum;
-    nis_rows += method.nis_rows;
-    out.seconds += method.seconds;
-    AddConstants(method.constants, &out.constants);
-    if (out.t.empty()) out.t = run.t;
-  }
-  if (finished.empty()) return out;
-  out.seconds /= static_cast<double>(finished.size());
-  out.nis = nis_sum / nis_rows;
-  FinishConstants(&out.constants);
-  for (std::size_t k = 0; k < out.t.size(); ++k) AddSeries(finished, k, &out);
-  SummarizeErrors(finished, &out);
-  SummarizeSeries(options.leg_ends,
-                  options.anees_bounds(static_cast<int>(finished.size()), dim),
-                  &out);
   return out;
 }
 
-void Widen(const Agreement& one, std::vector<Agreement>* all) {
-  for (Agreement& a : *all) {
-    if (a.first != one.first || a.second != one.second) continue;
-    a.position = std::max(a.position, one.position);
-    a.attitude = std::max(a.attitude, one.attitude);
-    a.position_after_first_leg =
-        std::max(a.position_after_first_leg, one.position_after_first_leg);
-    return;
+/// The table as it grows, set by the threads that do the work and read by
+/// others meanwhile.
+class GrowingTable {
+ public:
+  GrowingTable(Study study, int runs) : study_(std::move(study)), runs_(runs) {
+    jobs_so_far_.tables = study_.tables;
+    jobs_so_far_.rows.resize(study_.tables.size());
+    BeginJob();
   }
-  all->push_back(one);
-}
 
-MonteCarloResult ResultOf(const std::vector<MonteCarloCase>& cases,
-                          const MonteCarloOptions& options, int dim,
-                          std::span<const Run> runs) {
-  MonteCarloResult result;
-  result.runs = static_cast<int>(runs.size());
-  result.dim = dim;
-  std::size_t index = 0;
-  for (const MonteCarloCase& c : cases) {
-    for (const std::string& method : c.methods) {
-      result.methods.push_back(
-          Summarize(method + c.suffix, index++, runs, result.dim, options));
+  void Set(std::size_t i, std::vector<RunRecord> records) {
+    const std::lock_guard lock(mutex_);
+    of_job_[i] = std::move(records);
+    is_finished_[i] = true;
+  }
+
+  /// All seeds of the job are in: their figures stay, their series go.
+  void EndJob() {
+    const std::lock_guard lock(mutex_);
+    Take(Finished(), &jobs_so_far_);
+    ++jobs_;
+    BeginJob();
+  }
+
+  StudyResult SoFar() const {
+    const std::lock_guard lock(mutex_);
+    StudyResult result = jobs_so_far_;
+    result.complete = jobs_ == study_.jobs.size();
+    result.runs = jobs_ > 0 ? runs_ : 0;
+    if (study_.jobs.size() == 1 && !result.complete) {
+      const auto gap = std::find(is_finished_.begin(), is_finished_.end(), 0);
+      result.runs = static_cast<int>(gap - is_finished_.begin());
+      Take(Finished(), &result);
+    }
+    return result;
+  }
+
+ private:
+  void BeginJob() {
+    of_job_.assign(static_cast<std::size_t>(runs_), {});
+    is_finished_.assign(static_cast<std::size_t>(runs_), 0);
+  }
+
+  /// Of the first seeds of the job, as many as are finished without a gap.
+  std::vector<RunRecord> Finished() const {
+    std::vector<RunRecord> all;
+    for (std::size_t i = 0; i < of_job_.size() && is_finished_[i]; ++i) {
+      all.insert(all.end(), of_job_[i].begin(), of_job_[i].end());
+    }
+    return all;
+  }
+
+  void Take(std::vector<RunRecord> job, StudyResult* to) const {
+    for (const RunRecord& record : job) {
+      if (!record.refusal.empty()) to->refusals.push_back(RefusalOf(record));
+    }
+    SpreadRefusals(study_.tables[0].labels.size(), &job);
+    for (std::size_t i = 0; i < study_.tables.size(); ++i) {
+      std::vector<FigureRow> of_job = Summarize(study_.tables[i], i, job);
+      std::move(of_job.begin(), of_job.end(), std::back_inserter(to->rows[i]));
+    }
+    for (RunRecord& record : job) {
+      record.t.clear();
+      record.series.clear();
+      to->records.push_back(std::move(record));
     }
   }
-  for (const Run& run : runs) {
-    for (const Agreement& a : run.agreements) Widen(a, &result.agreements);
-  }
-  return result;
-}
 
-}  // namespace
+  Study study_;
+  int runs_;
+  mutable std::mutex mutex_;
+  std::vector<std::vector<RunRecord>> of_job_;
+  std::vector<char> is_finished_;
+  std::size_t jobs_ = 0;
+  StudyResult jobs_so_far_;  ///< of those that are done
+};
 
-std::vector<State> TrueStates(const Dataset& dataset, const ErrorLayout& layout,
-                              const std::vector<State>& states) {
-  std::vector<State> truth;
-  truth.reserve(states.size());
-  std::size_t i = 0;
-  for (const State& x : states) {
-    while (i < dataset.truth.size() &&
-           dataset.truth[i].t < x.t - kTimeTolerance) {
-      ++i;
-    }
-    if (i == dataset.truth.size() ||
-        dataset.truth[i].t > x.t + kTimeTolerance) {
-      throw InputError("data set '" + dataset.name + "' has no truth at " +
-                       std::to_string(x.t) + " s, where a node stands");
-    }
-    const TruthPoint point = dataset.truth[i];
-    State& y = truth.emplace_back(x);
-    y.p_e = point.p_e.value();
-    const Eigen::Matrix3d C_en = NedAxes(y.p_e);
-    y.v_e = C_en * point.v_n.value();
-    y.q_eb = Eigen::Quaterniond(C_en) * point.q_nb.value();
-    y.b_g = point.b_g.value();
-    y.b_a = point.b_a.value();
-    TakeTrueConstants(dataset, layout, &y);
-  }
-  return truth;
-}
-
-void ForEachSeed(
-    const MonteCarloOptions& options,
-    const std::function<void(std::size_t i, std::uint64_t seed)>& work) {
-  const auto count = static_cast<std::size_t>(options.runs);
+/// Calls work(i) for every run on so many threads. The first exception stops
+/// the rest and is thrown.
+void ForEachRun(int runs, int thread_count,
+                const std::function<void(std::size_t i)>& work) {
+  const auto count = static_cast<std::size_t>(runs);
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
-  int done = 0;
   std::exception_ptr thrown;
   const auto run = [&] {
     for (std::size_t i = next++; i < count; i = next++) {
       try {
-        work(i, options.first_seed + i);
-        const std::lock_guard lock(mutex);
-        ++done;
-        if (options.progress) options.progress(done);
+        work(i);
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!thrown) thrown = std::current_exception();
@@ -401,30 +175,102 @@ void ForEachSeed(
     }
   };
   std::vector<std::thread> threads;
-  for (int i = 1; i < options.threads; ++i) threads.emplace_back(run);
+  for (int i = 1; i < thread_count; ++i) threads.emplace_back(run);
   run();
   for (std::thread& thread : threads) thread.join();
   if (thrown) std::rethrow_exception(thrown);
 }
 
-MonteCarloResult RunMonteCarlo(const std::vector<MonteCarloCase>& cases,
-                               const MonteCarloOptions& options,
-                               const Watch<MonteCarloResult>& watch) {
-  const auto runs = std::make_shared<FinishedRuns<Run>>(options.runs);
-  const Dataset first = cases.front().dataset(options.first_seed);
-  const int dim = BuildLayout(first, NavigationPrior{}).dim();
-  const auto so_far = [runs, cases, options, dim] {
-    return runs->OfFirst([&](std::span<const Run> finished) {
-      return ResultOf(cases, options, dim, finished);
-    });
+}  // namespace
+
+void CaseRun::Try(const std::vector<std::string>& method,
+                  const std::function<void(RunRecord*)>& work) {
+  RunRecord record;
+  const auto fail = [&](const std::string& refusal) {
+    record.failed = true;
+    record.answered = false;
+    record.refusal = refusal;
   };
-  if (watch) watch(so_far);
-  ForEachSeed(options, [&](std::size_t i, std::uint64_t seed) {
-    Run run;
-    for (const MonteCarloCase& c : cases) RunCase(c, options, seed, &run);
-    runs->Set(i, std::move(run));
-  });
-  return so_far();
+  try {
+    work(&record);
+  } catch (const EstimationError&) {
+    fail("");
+  } catch (const InputError& error) {
+    fail(error.what());
+  }
+  RunRecord* added = Add(0, method);
+  record.labels = std::move(added->labels);
+  record.seed = seed_;
+  *added = std::move(record);
+}
+
+RunRecord* CaseRun::Add(std::size_t table,
+                        const std::vector<std::string>& labels) {
+  RunRecord& record = out_.emplace_back();
+  record.table = table;
+  record.labels = labels_;
+  record.labels.insert(record.labels.end(), labels.begin(), labels.end());
+  record.seed = seed_;
+  return &record;
+}
+
+std::function<SeedRun()> JobOf(const std::vector<Case>& cases) {
+  return [cases]() -> SeedRun {
+    std::vector<Recording> recordings;
+    for (const Case& one : cases) {
+      try {
+        recordings.push_back(one.prepare());
+      } catch (const InputError& error) {
+        recordings.emplace_back(
+            [error](std::uint64_t) -> Dataset { throw error; });
+      }
+    }
+    return [cases, recordings](std::uint64_t seed) {
+      return RunCases(cases, recordings, seed);
+    };
+  };
+}
+
+bool StudyResult::answered() const {
+  return std::any_of(records.begin(), records.end(),
+                     [](const RunRecord& record) { return record.answered; });
+}
+
+double StudyResult::Value(const std::vector<std::string>& labels,
+                          const std::string& name, std::size_t table) const {
+  return FigureOf(tables.at(table), rows.at(table), labels, name);
+}
+
+const FigureRow& StudyResult::Row(const std::vector<std::string>& labels,
+                                  std::size_t table) const {
+  for (const FigureRow& row : rows.at(table)) {
+    if (row.labels == labels) return row;
+  }
+  throw std::out_of_range("no row of that case and method");
+}
+
+StudyResult RunStudy(const Study& study, const MonteCarloOptions& options,
+                     const Watch& watch) {
+  const auto table = std::make_shared<GrowingTable>(study, options.runs);
+  if (watch) watch([table] { return table->SoFar(); });
+  const double all = static_cast<double>(study.jobs.size()) * options.runs;
+  std::mutex mutex;
+  int done = 0;
+  for (const std::function<SeedRun()>& job : study.jobs) {
+    const SeedRun run = job();
+    ForEachRun(options.runs, options.threads, [&](std::size_t i) {
+      table->Set(i, run(options.first_seed + i));
+      const std::lock_guard lock(mutex);
+      ++done;
+      if (options.progress) options.progress(done / all);
+    });
+    table->EndJob();
+  }
+  StudyResult result = table->SoFar();
+  if (!result.answered() && !result.refusals.empty()) {
+    throw InputError(result.refusals.front());
+  }
+  return result;
 }
 
 }  // namespace hindsight

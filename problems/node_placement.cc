@@ -13,16 +13,16 @@ namespace {
 constexpr double kSettledOffset = 0.1;  // sigmas
 
 /// The trajectory at the nodes of another timeline, over the blocks of `base`.
-std::vector<State> StatesAt(const Timeline& timeline, const ErrorLayout& base,
+std::vector<State> StatesAt(const Timeline& to, const ErrorLayout& base,
                             const ErrorLayout& layout,
                             const std::vector<State>& states,
-                            const ImuStream& imu) {
+                            const Timeline& from, const ImuStream& imu) {
   std::vector<double> times;
-  for (const Node& node : timeline.nodes()) times.push_back(node.t);
+  for (const Node& node : to.nodes()) times.push_back(node.t);
   Solution solution;
   solution.layout = layout;
   solution.states = states;
-  std::vector<State> moved = SampleSolution(solution, imu, times).states;
+  std::vector<State> moved = SampleSolution(solution, from, imu, times).states;
   for (State& x : moved) {
     x.parameters.conservativeResize(base.parameter_count());
   }
@@ -111,15 +111,18 @@ std::vector<double> OffsetSearch::Next(const ErrorLayout& layout,
 
 PlacedNodes PlaceNodesAnew(const Dataset& dataset,
                            const TimelineOptions& options,
-                           const ErrorLayout& base, const ErrorLayout& layout,
-                           const std::vector<State>& states,
-                           const Timeline& timeline,
-                           const GateDecisions& decisions) {
+                           const Problem& problem, const ErrorLayout& layout,
+                           const std::vector<State>& states) {
   PlacedNodes nodes{
-      options.time_offsets, BuildTimeline(dataset, options), {}, {}};
-  nodes.states = StatesAt(nodes.timeline, base, layout, states, dataset.imu);
-  nodes.timeline.LinearizeTimeOffsets(base, nodes.states);
-  nodes.decisions = CarryDecisions(timeline, decisions, nodes.timeline);
+      options.time_offsets,
+      {problem.layout, problem.prior, BuildTimeline(dataset, options)},
+      {}};
+  Timeline& timeline = nodes.problem.timeline;
+  nodes.states = StatesAt(timeline, problem.layout, layout, states,
+                          problem.timeline, dataset.imu);
+  timeline.LinearizeTimeOffsets(problem.layout, nodes.states);
+  nodes.problem.decisions =
+      CarryDecisions(problem.timeline, problem.decisions, timeline);
   return nodes;
 }
 

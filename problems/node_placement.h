@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "dataset/timeline_builder.h"
-#include "filters/measurement_rule.h"
 #include "state/solution.h"
+#include "timeline/problem.h"
 
 namespace hindsight {
 
@@ -13,9 +13,8 @@ namespace hindsight {
 /// method needs to go on from a solution on other nodes.
 struct PlacedNodes {
   std::vector<double> offsets;  ///< by sensor: stamp + offset is a node [s]
-  Timeline timeline;            ///< its offsets linearised along `states`
+  Problem problem;              ///< its offsets linearised along `states`
   std::vector<State> states;    ///< the solution, a state a node
-  GateDecisions decisions;
 };
 
 /// So often nodes are placed anew before a time offset is said not to settle.
@@ -47,14 +46,12 @@ class OffsetSearch {
   std::vector<double> steps_;
 };
 
-/// Places nodes by `options` at a solution: `states` over `layout`, whose first
-/// blocks are those of `base`, on `timeline`, where the decisions were taken.
+/// Places nodes by `options` at a solution of `problem`: `states` over `layout`,
+/// whose first blocks are those of the problem.
 PlacedNodes PlaceNodesAnew(const Dataset& dataset,
                            const TimelineOptions& options,
-                           const ErrorLayout& base, const ErrorLayout& layout,
-                           const std::vector<State>& states,
-                           const Timeline& timeline,
-                           const GateDecisions& decisions);
+                           const Problem& problem, const ErrorLayout& layout,
+                           const std::vector<State>& states);
 
 }  // namespace hindsight
 

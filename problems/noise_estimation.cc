@@ -17,7 +17,7 @@ constexpr double kFirstStep = 0.7;      // a factor of two
 constexpr double kLeastStep = 0.1;
 constexpr double kLargestMove = 2.0;  // in steps
 constexpr double kFarthest = 7.0;     // a factor of a thousand
-/// What less a gain of the likelihood shows nothing.
+/// A smaller gain of the log-likelihood is none.
 constexpr double kLeastGain = 1e-3;
 
 struct Coordinate {
@@ -119,8 +119,9 @@ Eigen::MatrixXd Curvature(NoiseLikelihood* likelihood,
   return C.selfadjointView<Eigen::Lower>();
 }
 
-/// Standard deviations of the coordinates when none of them is known: from the
-/// inverse of the likelihood's curvature over all whose own curvature shows.
+/// Standard deviations of the coordinates, all being unknown together: from the
+/// inverse of the curvature over those along which the likelihood is curved at
+/// all; infinite for the others.
 std::vector<double> MarginalSigmas(NoiseLikelihood* likelihood,
                                    const std::vector<Coordinate>& coordinates,
                                    double value,
@@ -146,7 +147,7 @@ std::vector<double> MarginalSigmas(NoiseLikelihood* likelihood,
   return sigmas;
 }
 
-/// Where the climb from `logs` ended, which are moved there.
+/// The end of a climb.
 struct Maximum {
   double value = 0.0;
   std::vector<Coordinate> coordinates;
@@ -167,7 +168,8 @@ Maximum Maximise(NoiseLikelihood* likelihood, std::vector<double>* logs,
           (sweep + static_cast<double>(i + 1) / static_cast<double>(count)) /
           kSweeps);
     }
-    // The first parabolas are too wide to settle anything.
+    // The steps of the first sweep are too wide for its parabolas to tell that
+    // a coordinate has settled.
     maximum.converged =
         sweep > 0 &&
         std::all_of(maximum.coordinates.begin(), maximum.coordinates.end(),
@@ -194,7 +196,8 @@ NoiseEstimate EstimateNoise(const Dataset& dataset,
     maximum = Maximise(&likelihood, &logs, [&](double fraction) {
       if (progress) progress((i + fraction) / kMaxClimbs);
     });
-    // Time offsets that the noise as stated had misplaced.
+    // With the noise found, time offsets may be estimated elsewhere: then the
+    // likelihood is another one and is climbed again.
     estimate.converged = maximum.converged && !likelihood.PlaceNodes(logs);
     if (!maximum.converged) break;
   }

@@ -30,11 +30,11 @@ struct NoiseEstimate {
 
 /// Maximum-likelihood noise: the factors on every sensor's standard deviations,
 /// on sigma and correlation time of errors that last, and on the IMU's two
-/// white-noise densities that maximise the likelihood of
-/// the forward filter's innovations (Schweppe 1965), by parabolas along each
-/// logarithm in turn and along the sum of a turn's moves. Gates and robust
-/// losses are off meanwhile: they would judge by the very sigmas that are
-/// sought. Clocks begin where ChooseClocks has them. `progress` gets the
+/// white-noise densities that maximise the likelihood of the forward filter's
+/// innovations (Schweppe 1965). Sought by parabolas along the logarithm of each
+/// factor in turn, and along the sum of the moves of such a sweep. Gates and
+/// robust losses are off meanwhile: they would judge by the very sigmas that
+/// are sought. Clocks begin where ChooseClocks has them. `progress` gets the
 /// fraction done.
 NoiseEstimate EstimateNoise(const Dataset& dataset,
                             const std::function<void(double)>& progress = {});

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "measurements/sensor_kind.h"
 #include "problems/clock_choice.h"
 #include "problems/forward_stage.h"
 
@@ -25,8 +26,8 @@ NoiseLikelihood::NoiseLikelihood(const Dataset& dataset)
     AidingStream& stream = dataset_.streams[i];
     stream.sensor.gate_probability.reset();
     stream.sensor.loss = RobustLoss();
-    // A prior is no noise that the data could tell.
-    if (stream.sensor.type == SensorType::kVehicleLevel) continue;
+    // The sigma of what is said beforehand is not fitted to the data.
+    if (stream.sensor.kind->is_prior) continue;
     AddStream(static_cast<int>(i), &stream);
   }
   Add("imu.gyro", &dataset_.imu.noise.gyro_noise_density);
@@ -71,13 +72,14 @@ double NoiseLikelihood::operator()(const std::vector<double>& logs) {
   options.t_begin = start_.report.t;
   options.t_end = dataset_.imu.t_end();
   options.time_offsets = offsets_;
-  Timeline timeline = BuildTimeline(dataset_, options);
-  if (!rates_.measurements.empty()) timeline.SetTimeOffsetRates(rates_);
-  Prior prior = start_.prior;
-  prior.x.t = timeline.node(0).t;
-  const ErrorLayout layout = PresentLayout(&prior);
+  Problem problem = {{}, start_.prior, BuildTimeline(dataset_, options)};
+  if (!rates_.measurements.empty()) {
+    problem.timeline.SetTimeOffsetRates(rates_);
+  }
+  problem.prior.x.t = problem.timeline.node(0).t;
+  problem.layout = PresentLayout(&problem.prior);
   try {
-    const LinearTape tape = RunExtendedKalmanFilter(layout, prior, &timeline);
+    const LinearTape tape = RunExtendedKalmanFilter(&problem);
     double sum = 0.0;
     for (std::size_t k = 0; k < tape.size(); ++k) {
       for (const TapeMeasurement& z : tape.measurements(k)) {

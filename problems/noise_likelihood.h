@@ -12,11 +12,11 @@ namespace hindsight {
 
 /// ln of the likelihood of the forward filter's innovations as a function of
 /// the logarithms of the factors on a data set's noise values, which are named
-/// as in NoiseFactor. Gates and robust losses are off. Aligned once, with the
-/// noise as stated. Constants are estimated as the configuration asks; nodes
-/// stand where the estimated time offsets place them (ForwardStage::Settle),
-/// with the noise as stated or as last given to PlaceNodes. Errors as of
-/// FindStart and Settle.
+/// as in NoiseFactor. Gates and robust losses are off. The start is found once,
+/// with the noise as stated. Constants are estimated as the configuration asks;
+/// nodes stand where the estimated time offsets place them
+/// (ForwardStage::Settle), with the noise as stated or as last given to
+/// PlaceNodes. Errors as of FindStart and Settle.
 class NoiseLikelihood {
  public:
   explicit NoiseLikelihood(const Dataset& dataset);
@@ -29,7 +29,7 @@ class NoiseLikelihood {
   /// -infinity where the filter diverges.
   double operator()(const std::vector<double>& logs);
 
-  /// Places the nodes by the time offsets that the data have with these
+  /// Places the nodes by the time offsets that are estimated with these
   /// factors. Returns whether any moved by a tenth of its sigma or more.
   bool PlaceNodes(const std::vector<double>& logs);
 

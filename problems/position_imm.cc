@@ -1,13 +1,14 @@
 #include "problems/position_imm.h"
 
 #include "base/error.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
 
-int FindStream(const Dataset& dataset, SensorType type) {
+int FindStream(const Dataset& dataset, bool SensorKind::*is) {
   for (std::size_t i = 0; i < dataset.streams.size(); ++i) {
-    if (dataset.streams[i].sensor.type == type) return static_cast<int>(i);
+    if (dataset.streams[i].sensor.kind->*is) return static_cast<int>(i);
   }
   throw InputError("data set '" + dataset.name +
                    "' lacks a position or a height stream, which the "
@@ -58,8 +59,8 @@ Prior PriorOver(const ErrorLayout& layout, const Start& start) {
 std::vector<ImmModel> PositionImmModels(const Dataset& dataset,
                                         const Start& start,
                                         const PositionImmOptions& options) {
-  const int receiver = FindStream(dataset, SensorType::kPosition);
-  FindStream(dataset, SensorType::kHeight);
+  const int receiver = FindStream(dataset, &SensorKind::is_position);
+  FindStream(dataset, &SensorKind::is_height);
   std::vector<ImmModel> models;
   for (const double amplitude : options.amplitudes) {
     ImmModel& model = models.emplace_back();
@@ -77,7 +78,7 @@ ImmResult RunPositionImm(const Dataset& dataset, const Start& start,
   ImmOptions imm;
   imm.transition = StayingTransition(count, options.stay);
   imm.start = Eigen::VectorXd::Constant(count, 1.0 / count);
-  imm.sensors = {FindStream(dataset, SensorType::kPosition)};
+  imm.sensors = {FindStream(dataset, &SensorKind::is_position)};
   imm.feedback = false;
   // The coloured states stand in place of the white R, not beside it.
   const auto receiver = static_cast<std::size_t>(imm.sensors.front());

@@ -10,6 +10,7 @@
 
 #include "alignment/start.h"
 #include "dataset/dataset.h"
+#include "evaluation/innovation_test.h"
 #include "filters/forward_filter.h"
 #include "state/solution.h"
 
@@ -17,6 +18,8 @@ namespace hindsight {
 
 struct ReconstructionOptions {
   std::string method = "batch";
+  /// By methods for attitude alone, which need no position.
+  bool attitude_alone = false;
   /// The interval to reconstruct [s]; defaults to all that the IMU covers.
   double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();
@@ -38,8 +41,17 @@ struct ReconstructionOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
+/// Those for methods of attitude alone.
+inline ReconstructionOptions AttitudeAlone() {
+  ReconstructionOptions options;
+  options.attitude_alone = true;
+  return options;
+}
+
+class Estimation;
+
 /// One data set, reconstructed by any number of methods that share the start,
-/// the nodes and one preintegration.
+/// the nodes and one preintegration, or of attitude alone the samples.
 class Reconstruction {
  public:
   /// Aligns, places the nodes, preintegrates. Throws EstimationError if there
@@ -48,24 +60,30 @@ class Reconstruction {
   Reconstruction(const Dataset& dataset, ReconstructionOptions options);
   ~Reconstruction();
 
-  /// By a method of Methods() that reconstructs; throws InputError for another
-  /// name.
+  /// By a method of Methods() of the kind that the options say; throws
+  /// InputError for another name.
   Solution Run(const std::string& method);
 
-  const StartReport& start() const;
+  /// How the start was found; nullptr of attitude alone.
+  const StartReport* start() const;
 
   /// Navigation states that the data do not determine, over which time spans:
   /// known from the covariances of the forward filter and RTS pass, before
   /// anything is solved.
   std::vector<UnobservedSpan> Unobserved();
 
-  /// A solution of Run at other times, in order: see SampleSolution.
+  /// Of the sensors, as the whole interval has them; none where it could not be
+  /// linearised about its own solution, and of attitude alone.
+  std::vector<NormalisedInnovation> Innovations();
+
+  /// A solution of Run at other times, in order: see SampleSolution, or of
+  /// attitude alone SampleAttitude.
   Solution Sample(const Solution& solution,
                   const std::vector<double>& times) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  bool attitude_alone_;
+  std::unique_ptr<Estimation> estimation_;
 };
 
 /// The one-call form of the above.

@@ -10,12 +10,13 @@
 #include "dataset/timeline_builder.h"
 #include "filters/forward_filter.h"
 #include "filters/rts.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
 
-// A velocity of zero known to this is sixty times as likely at rest as under
-// horizontal speeds anywhere within 3 m/s [m/s].
+// A prediction of zero velocity with this sigma is sixty times as likely if the
+// vehicle stands as if it moves with any horizontal speed up to 3 m/s [m/s].
 constexpr double kKnownTo = 0.3;
 constexpr double kGate = 0.999;
 constexpr double kKnownHeading = 20.0 * kDegree;
@@ -48,7 +49,7 @@ class EstimatedRest {
       }
     }
     zero_.gate_probability = kGate;
-    zero_.type = SensorType::kZeroVelocity;
+    zero_.kind = &ZeroVelocityKind();
   }
 
   Rest Decide() {
@@ -57,7 +58,7 @@ class EstimatedRest {
         if (!DecideMore()) break;
       }
     } catch (const EstimationError&) {
-      // Without an estimate nothing more is decided.
+      // What is open stays open.
     }
     dataset_.streams.resize(streams_);
     Rest rest = Conclude();
@@ -72,11 +73,12 @@ class EstimatedRest {
         [](const Candidate& c) { return c.standing == Standing::kOpen; });
   }
 
-  /// One forward pass and one back; whether anything new is at rest.
+  /// One forward pass and one back; returns whether a window was newly found to
+  /// be at rest.
   bool DecideMore() {
     dataset_.streams.resize(streams_);
     AddRestStreams(Conclude(), &dataset_);
-    Start start = FindStart(dataset_, from_, to_);
+    const Start start = FindStart(dataset_, from_, to_);
     if (start.report.attitude_sigma.z() > kKnownHeading) return false;
     AddHypotheses();
     TimelineOptions options;
@@ -84,17 +86,17 @@ class EstimatedRest {
     options.t_end = std::min(to_, dataset_.imu.t_end());
     options.with_scale_jacobians = start.layout.Has(BlockKind::kGyroScale) ||
                                    start.layout.Has(BlockKind::kAccelScale);
-    Timeline timeline = BuildTimeline(dataset_, options);
-    start.prior.x.t = timeline.node(0).t;
+    Problem problem = {start.layout, start.prior,
+                       BuildTimeline(dataset_, options)};
+    problem.prior.x.t = problem.timeline.node(0).t;
     supposition_ = {static_cast<int>(dataset_.streams.size()) - 1, kKnownTo};
     LinearTape tape = RunForwardFilter({.error = ErrorDefinition::kNavigation,
                                         .covariance = {},
                                         .supposition = supposition_},
-                                       start.layout, start.prior, &timeline);
-    bool found = JudgePredictions(timeline, tape);
+                                       &problem);
+    bool found = JudgePredictions(problem.timeline, tape);
     if (HasOpen()) {
-      found |=
-          JudgeSmoothed(start.layout, timeline, SmoothRts(std::move(tape)));
+      found |= JudgeSmoothed(problem, SmoothRts(std::move(tape)));
     }
     return found;
   }
@@ -119,7 +121,8 @@ class EstimatedRest {
                               });
   }
 
-  /// By the innovation and its covariance; whether it is at rest.
+  /// Judges a window by the innovation of its zero velocity, whose covariance
+  /// is S; returns whether it is at rest.
   template <typename Matrix>
   bool Judge(const Matrix& S, double nis, const Measurement& z) {
     if (!supposition_.IsDecisive(S)) return false;
@@ -141,8 +144,10 @@ class EstimatedRest {
     return found;
   }
 
-  bool JudgeSmoothed(const ErrorLayout& layout, const Timeline& timeline,
+  bool JudgeSmoothed(const Problem& problem,
                      const SmoothedTrajectory& smoothed) {
+    const ErrorLayout& layout = problem.layout;
+    const Timeline& timeline = problem.timeline;
     bool found = false;
     LinearizedMeasurement linearized;
     const ErrorVector none = ErrorVector::Zero(layout.dim());
@@ -173,7 +178,8 @@ class EstimatedRest {
     }
   }
 
-  /// What is decided so far; windows of a span that say the same are one.
+  /// What is decided so far, neighbouring windows with the same decision
+  /// joined.
   Rest Conclude() const {
     Rest rest = rest_;
     rest.undecided.clear();

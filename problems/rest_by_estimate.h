@@ -7,17 +7,17 @@
 
 namespace hindsight {
 
-/// The decisions of FindRest, and where it leaves one open those of the
-/// estimate. Over each window of an undecided span the forward filter, which
-/// then knows nothing of that rest but all rests before it, predicts the
-/// velocity: where it knows it to 0.3 m/s, one sigma of each axis, and zero
-/// lies within the chi-square bound of 99.9 %, the vehicle stands and is
-/// updated by that at once; where it knows it as well and zero lies outside, it
-/// moves. What then is still open is asked of the smoothed estimate by the same
-/// rule, until nothing new is decided, three times at most. Where the heading
-/// at the start is not known to 20 deg the covariances are not trusted, and
-/// what is open stays open, as where there is no estimate at all. Of all that
-/// is decided so, what aiding contradicts over whole spans is left open
+/// The decisions of FindRest, and for the spans that it leaves undecided those
+/// of an estimate. In each window of such a span the forward filter predicts
+/// the velocity, with all rests before the window but without this one. If it
+/// predicts it to 0.3 m/s (one sigma of each axis) and zero lies within the
+/// chi-square bound of 99.9 %, the vehicle stands, and the filter is updated
+/// with that at once; if zero lies outside, it moves. Windows that are still
+/// open are judged by the smoothed estimate with the same rule. All of this is
+/// repeated until nothing new is decided, three times at most. If the heading
+/// at the start is not known to 20 deg, the covariances are not trusted, and
+/// what is open stays open; likewise if the data cannot be solved. At last,
+/// decisions that aiding contradicts over a whole span are left open again
 /// (LeaveOutContradicted).
 Rest DecideRest(Dataset* dataset,
                 double from = -std::numeric_limits<double>::infinity(),

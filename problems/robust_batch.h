@@ -5,47 +5,36 @@
 #include <vector>
 
 #include "problems/batch.h"
-#include "problems/error_regimes.h"
+#include "state/solution.h"
 
 namespace hindsight {
 
 struct RobustBatchResult {
-  ErrorLayout
-      layout;         ///< with the receiver's error and its rate, if it has one
+  /// As it was solved: with the receiver's error and its rate, if it has one,
+  /// sigmas, loss and error steps as found.
+  Problem problem;
   BatchResult batch;  ///< P widened by the other histories
-  /// The timeline as it was solved: sigmas, loss and error steps as found.
-  Timeline timeline;
-  GateDecisions decisions;
-  ErrorRegimes regimes;
-  /// Probabilities of the modes "good", "biased", "drifting", "slight", by
-  /// node.
-  std::vector<Eigen::VectorXd> probabilities;
+  ModePart modes;     ///< of the receiver
+  /// By node, the probability that a fix is taken at its word: not as biased.
+  std::vector<double> trust;
+  std::vector<BoundedValue> bounded;
   std::vector<std::string> notes;  ///< what was found, in words
-
-  /// Probability that a fix at node k is taken at its word: not as biased.
-  double Trust(std::size_t k) const;
 };
 
 /// Whole-interval least squares that finds out by itself what a position
 /// sensor's errors are like.
 ///
-/// ChooseRegimes fits white, Gauss-Markov and switching errors to the data,
-/// about the trajectory `initial`, and takes the kind that explains them best.
-/// The batch then has
+/// FindReceiverErrors looks for them about the trajectory `initial`. The batch
+/// then has
 ///   - the sensor's sigmas as found, with a two-component mixture as its loss;
 ///   - the receiver's error as three states a node, and if it drifts its rate
-///     as three more (imu/error_drift.h), which go from node to node as a
+///     as three more (state/block_step.h), which go from node to node as a
 ///     history says, with sigma and tau as found.
-/// Of the histories that the data do not rule out it is the most central one
-/// (problems/history_alternatives.h), from whose trajectory the batch starts;
-/// the distances of the others widen the covariances. `receiver` is the index
-/// of the sensor.
-RobustBatchResult SolveRobustBatch(const ErrorLayout& layout,
-                                   const Prior& prior,
+/// It starts from that history's trajectory; the distances of the others widen
+/// the covariances. `receiver` is the index of the sensor.
+RobustBatchResult SolveRobustBatch(Problem problem,
                                    const std::vector<State>& initial,
-                                   int receiver, Timeline timeline,
-                                   const GateDecisions& decisions,
-                                   const BatchOptions& options,
+                                   int receiver, const BatchOptions& options,
                                    const EpochCallback& callback = nullptr);
 
 }  // namespace hindsight

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
-#include "geometry/so3.h"
 #include "imu/imu_link.h"
-#include "problems/reconstruction.h"
+#include "timeline/time_update.h"
 
 namespace hindsight {
 namespace {
@@ -27,9 +27,10 @@ bool HasScale(const ErrorLayout& layout) {
 /// between.
 class CovarianceBetween {
  public:
-  CovarianceBetween(const Solution& solution, const ImuStream& imu,
-                    const CovarianceOptions& covariance)
+  CovarianceBetween(const Solution& solution, const Timeline& timeline,
+                    const ImuStream& imu, const CovarianceOptions& covariance)
       : solution_(solution),
+        timeline_(timeline),
         integrator_(imu, HasScale(solution.layout)),
         policy_(covariance, solution.layout) {}
 
@@ -70,8 +71,9 @@ class CovarianceBetween {
       const State begin = end;
       const ImuSummary summary = integrator_.Summarize(
           begin.t, t_[i], CalibrationOf(solution_.layout, begin));
-      end = hindsight::Predict(solution_.layout, begin, summary);
-      LinearizeTransition(solution_.layout, summary, begin, end, &transition_);
+      const NodeInterval interval = {timeline_, k, summary};
+      end = Advance(solution_.layout, interval, begin);
+      LinearizeAdvance(solution_.layout, interval, begin, end, &transition_);
       step(transition_, summary.dt());
     }
   }
@@ -89,12 +91,13 @@ class CovarianceBetween {
     const ErrorMatrix after = solution_.covariances.Get(k + 1);
     const ErrorMatrix I = ErrorMatrix::Identity(before.rows(), before.cols());
     std::vector<ErrorMatrix> Phi = {I};
-    std::vector<ErrorMatrix> Q = {I - I};
+    const ErrorMatrix zero = ErrorMatrix::Zero(before.rows(), before.cols());
+    std::vector<ErrorMatrix> Q = {zero};
     ForEachStep(k, [&](const Transition& transition, double) {
       const ErrorMatrix step = OfMotion(transition.Phi, I);
-      Q.emplace_back(step * Q.back() * step.transpose() +
-                     OfMotion(OfMotion(transition.Q, I - I).transpose(), I - I)
-                         .transpose());
+      Q.emplace_back(
+          step * Q.back() * step.transpose() +
+          OfMotion(OfMotion(transition.Q, zero).transpose(), zero).transpose());
       Phi.emplace_back(step * Phi.back());
     });
     const ErrorMatrix back = Phi.back().inverse();
@@ -108,8 +111,10 @@ class CovarianceBetween {
     P_.push_back(after);
   }
 
-  /// The rows of position, velocity and attitude of A, those of `other` else:
-  /// what forgets within the interval has no inverse.
+  /// A matrix with the rows of position, velocity and attitude of A and all
+  /// other rows of `other`. The transition of a Gauss-Markov block tends to
+  /// zero over its correlation time and has no useful inverse; the bridge keeps
+  /// all blocks but those of motion constant.
   ErrorMatrix OfMotion(const ErrorMatrix& A, const ErrorMatrix& other) const {
     ErrorMatrix out = other;
     for (const BlockKind kind :
@@ -123,30 +128,45 @@ class CovarianceBetween {
   }
 
   const Solution& solution_;
+  const Timeline& timeline_;
   ImuIntegrator integrator_;
   CovariancePolicy policy_;
   Transition transition_;
   std::size_t node_ = static_cast<std::size_t>(-1);
-  std::vector<double> t_;       ///< of the node, the steps, the next node
-  std::vector<ErrorMatrix> P_;  ///< there
+  std::vector<double> t_;       ///< times of node, steps and next node [s]
+  std::vector<ErrorMatrix> P_;  ///< at these times
 };
+
+/// Linear; NaN beside a NaN.
+FilterSeparation Blend(double a, const FilterSeparation& before,
+                       const FilterSeparation& after) {
+  return {(1.0 - a) * before.difference + a * after.difference,
+          (1.0 - a) * before.sigma + a * after.sigma};
+}
 
 /// One walk through the IMU, from node to node.
 class Sampler {
  public:
-  Sampler(const Solution& solution, const ImuStream& imu,
-          const CovarianceOptions& covariance, Solution* out)
+  Sampler(const Solution& solution, const Timeline& timeline,
+          const ImuStream& imu, const CovarianceOptions& covariance,
+          Solution* out)
       : solution_(solution),
+        timeline_(timeline),
         integrator_(imu, HasScale(solution.layout)),
-        covariance_(solution, imu, covariance),
-        out_(*out) {}
+        covariance_(solution, timeline, imu, covariance),
+        out_(*out) {
+    if (solution.two_filter) out_.two_filter.emplace();
+  }
 
   /// Node k, as it is at time t.
   void AtNode(std::size_t k, double t) {
     out_.states.push_back(solution_.states[k]);
     out_.states.back().t = t;
-    if (!solution_.separation.empty()) {
-      out_.separation.push_back(solution_.separation[k]);
+    if (const auto& part = solution_.two_filter) {
+      if (!part->separation.empty()) {
+        out_.two_filter->separation.push_back(part->separation[k]);
+      }
+      out_.two_filter->components.push_back(part->components[k]);
     }
     if (HasCovariances()) Append(solution_.covariances.Get(k));
   }
@@ -160,12 +180,14 @@ class Sampler {
     const std::size_t first = out_.states.size();
     for (const double t : times) {
       integrator_.AppendMean(t, &mean);
-      out_.states.push_back(Predict(solution_.layout, begin, mean));
+      out_.states.push_back(
+          Advance(solution_.layout, {timeline_, k, mean}, begin));
     }
     if (!solution_.forward) {
       integrator_.AppendMean(end.t, &mean);
       const ErrorVector jump =
-          Local(solution_.layout, Predict(solution_.layout, begin, mean), end);
+          Local(solution_.layout,
+                Advance(solution_.layout, {timeline_, k, mean}, begin), end);
       for (std::size_t i = 0; i < times.size(); ++i) {
         State& x = out_.states[first + i];
         x = Retract(solution_.layout, x, Part(k, times[i]) * jump);
@@ -185,18 +207,23 @@ class Sampler {
 
   void Append(const ErrorMatrix& P) { out_.covariances.Set(count_++, P); }
 
-  /// What says how sure the state at t is.
+  /// Covariance of the state at t, and what else is interpolated.
   void AppendSpread(std::size_t k, double t) {
     const double a = Part(k, t);
-    if (!solution_.separation.empty()) {
-      out_.separation.push_back((1.0 - a) * solution_.separation[k] +
-                                a * solution_.separation[k + 1]);
+    if (const auto& part = solution_.two_filter) {
+      if (!part->separation.empty()) {
+        out_.two_filter->separation.push_back((1.0 - a) * part->separation[k] +
+                                              a * part->separation[k + 1]);
+      }
+      out_.two_filter->components.push_back(
+          Blend(a, part->components[k], part->components[k + 1]));
     }
     if (!HasCovariances()) return;
     Append(covariance_.At(k, t));
   }
 
   const Solution& solution_;
+  const Timeline& timeline_;
   ImuIntegrator integrator_;
   CovarianceBetween covariance_;
   Solution& out_;
@@ -216,9 +243,12 @@ void CheckInside(const Solution& solution, const std::vector<double>& times) {
 
 }  // namespace
 
-Solution SampleSolution(const Solution& solution, const ImuStream& imu,
-                        const std::vector<double>& times,
+Solution SampleSolution(const Solution& solution, const Timeline& timeline,
+                        const ImuStream& imu, const std::vector<double>& times,
                         const CovarianceOptions& covariance) {
+  if (timeline.size() != solution.states.size()) {
+    throw std::logic_error("the timeline is not the solution's");
+  }
   Solution out = WithoutSeries(solution);
   if (times.empty()) return out;
   CheckInside(solution, times);
@@ -227,7 +257,7 @@ Solution SampleSolution(const Solution& solution, const ImuStream& imu,
         CovarianceSeries(solution.covariances.dim(), times.size());
   }
   out.states.reserve(times.size());
-  Sampler sampler(solution, imu, covariance, &out);
+  Sampler sampler(solution, timeline, imu, covariance, &out);
   const std::vector<State>& nodes = solution.states;
   std::size_t k = 0;
   for (std::size_t i = 0; i < times.size();) {
@@ -244,64 +274,6 @@ Solution SampleSolution(const Solution& solution, const ImuStream& imu,
     }
     sampler.Between(k, std::span(times).subspan(i, end - i));
     i = end;
-  }
-  return out;
-}
-
-namespace {
-
-/// Rate of the body over the Earth, body axes: the mean over 20 ms, since a
-/// single reading of a cheap gyro is mostly noise.
-Eigen::Vector3d BodyRate(const ErrorLayout& layout, const ImuStream& imu,
-                         const State& x, ImuIntegrator* integrator) {
-  constexpr double kHalf = 0.01;
-  const double begin = std::max(x.t - kHalf, imu.t_begin());
-  const double end = std::min(x.t + kHalf, imu.t_end());
-  const Eigen::Vector3d w_ib_b =
-      Log(integrator->Turn(begin, end, x.b_g)) / (end - begin);
-  const Eigen::Array3d scale = CalibrationOf(layout, x).s_g;
-  return (w_ib_b.array() / (1.0 + scale)).matrix() -
-         x.q_eb.conjugate() * EarthRate_e();
-}
-
-}  // namespace
-
-Solution MoveToPoint(const Solution& solution, const ImuStream& imu,
-                     const Eigen::Vector3d& l_b) {
-  Solution out = solution;
-  ImuIntegrator integrator(imu);
-  const ErrorLayout& layout = solution.layout;
-  for (std::size_t k = 0; k < solution.states.size(); ++k) {
-    const State& x = solution.states[k];
-    const Eigen::Matrix3d C_en = x.C_en();
-    const Eigen::Matrix3d C_eb = x.q_eb.toRotationMatrix();
-    const Eigen::Vector3d w_eb_b = BodyRate(layout, imu, x, &integrator);
-    const Eigen::Vector3d arm_e = C_eb * l_b;
-    const Eigen::Vector3d velocity_e = C_eb * w_eb_b.cross(l_b);
-    out.states[k].p_e += arm_e;
-    out.states[k].v_e += velocity_e;
-    if (solution.covariances.empty()) continue;
-    ErrorMatrix J = ErrorMatrix::Identity(layout.dim(), layout.dim());
-    const Block* position = layout.Find(BlockKind::kPosition);
-    const Block* velocity = layout.Find(BlockKind::kVelocity);
-    const Block* attitude = layout.Find(BlockKind::kAttitude);
-    const Block* gyro_bias = layout.Find(BlockKind::kGyroBias);
-    if (attitude != nullptr && attitude->dim == 3) {
-      if (position != nullptr && position->dim == 3) {
-        J.block<3, 3>(position->offset, attitude->offset) =
-            -C_en.transpose() * Skew(arm_e) * C_en;
-      }
-      if (velocity != nullptr && velocity->dim == 3) {
-        J.block<3, 3>(velocity->offset, attitude->offset) =
-            -C_en.transpose() * Skew(velocity_e) * C_en;
-      }
-    }
-    if (velocity != nullptr && velocity->dim == 3 && gyro_bias != nullptr) {
-      J.block<3, 3>(velocity->offset, gyro_bias->offset) =
-          C_en.transpose() * C_eb * Skew(l_b);
-    }
-    out.covariances.Set(
-        k, ErrorMatrix(J * solution.covariances.Get(k) * J.transpose()));
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include "filters/covariance_policy.h"
 #include "imu/imu_stream.h"
 #include "state/solution.h"
+#include "timeline/timeline.h"
 
 namespace hindsight {
 
@@ -16,8 +17,10 @@ namespace hindsight {
 inline constexpr double kPropagationStep = 0.2;
 
 /// A solution at other times (ascending, inside its span; at a node, the node):
-/// the state of the node before, integrated with the IMU (2002 paper, eq. 24)
-/// in one walk over the samples that needs neither Jacobians nor noise.
+/// the state of the node before, integrated with the IMU (Yu, Lee, Park and Han
+/// 2002, eq. (24)) in one walk over the samples that needs neither Jacobians nor
+/// noise; parameters and travelled distances go on as from node to node
+/// (Advance), `timeline` being that which the solution was found on.
 ///   smoothers  what the prediction misses of the node after is spread over
 ///              the interval in proportion to time; with a the part of the
 ///              interval before t, Phi and Q of position, velocity and attitude
@@ -32,8 +35,8 @@ inline constexpr double kPropagationStep = 0.2;
 ///              before, of an observer with its prescribed stability
 ///              (`covariance`): no later measurement shows.
 /// Throws InputError for a time outside the span.
-Solution SampleSolution(const Solution& solution, const ImuStream& imu,
-                        const std::vector<double>& times,
+Solution SampleSolution(const Solution& solution, const Timeline& timeline,
+                        const ImuStream& imu, const std::vector<double>& times,
                         const CovarianceOptions& covariance = {});
 
 }  // namespace hindsight

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "filters/iterated_smoother.h"
+#include "measurements/sensor_kind.h"
 #include "problems/solution_builder.h"
 
 namespace hindsight {
@@ -16,7 +17,7 @@ std::vector<int> QuestionedSensors(const Timeline& timeline) {
   std::vector<int> all;
   for (std::size_t i = 0; i < timeline.sensors().size(); ++i) {
     all.push_back(static_cast<int>(i));
-    if (timeline.sensors()[i].type == SensorType::kPosition) {
+    if (timeline.sensors()[i].kind->is_position) {
       positions.push_back(static_cast<int>(i));
     }
   }
@@ -30,13 +31,12 @@ bool Contains(const std::vector<int>& list, int value) {
   return false;
 }
 
-ImmModel Model(const Start& start, const Timeline& timeline,
-               const std::vector<int>& questioned, const char* name,
-               double factor) {
+ImmModel Model(const Problem& problem, const std::vector<int>& questioned,
+               const char* name, double factor) {
   ImmModel model;
   model.name = name;
-  model.prior = start.prior;
-  for (Block block : start.layout.blocks()) {
+  model.prior = problem.prior;
+  for (Block block : problem.layout.blocks()) {
     const bool coloured = (block.key.kind == BlockKind::kColouredNoise ||
                            block.key.kind == BlockKind::kOffset) &&
                           Contains(questioned, block.key.sensor);
@@ -50,7 +50,7 @@ ImmModel Model(const Start& start, const Timeline& timeline,
     model.prior.P.block(added.offset, added.offset, added.dim, added.dim) *=
         factor * factor;
   }
-  model.sigma_factors.assign(timeline.sensors().size(), 1.0);
+  model.sigma_factors.assign(problem.timeline.sensors().size(), 1.0);
   for (const int i : questioned) {
     model.sigma_factors[static_cast<std::size_t>(i)] = factor;
   }
@@ -85,10 +85,9 @@ double WeightOf(const SensorImm& imm, int sensor, const Eigen::VectorXd& p) {
 
 void AddModes(const SensorImm& imm, std::vector<Eigen::VectorXd> probabilities,
               Solution* solution) {
-  solution->mode_probabilities = std::move(probabilities);
-  for (const ImmModel& model : imm.models) {
-    solution->mode_names.push_back(model.name);
-  }
+  ModePart& modes = solution->modes.emplace();
+  modes.probabilities = std::move(probabilities);
+  for (const ImmModel& model : imm.models) modes.names.push_back(model.name);
   if (!imm.replaced.empty()) solution->notes.push_back(imm.replaced);
 }
 
@@ -115,8 +114,9 @@ void WeighByModes(const SensorImm& imm,
                   const std::vector<Eigen::VectorXd>& probabilities,
                   Solution* solution) {
   std::size_t i = 0;
-  for (std::size_t k = 0; k < imm.timeline.size(); ++k) {
-    for (std::size_t n = 0; n < imm.timeline.measurements(k).size(); ++n) {
+  for (std::size_t k = 0; k < imm.problem.timeline.size(); ++k) {
+    for (std::size_t n = 0; n < imm.problem.timeline.measurements(k).size();
+         ++n) {
       ResidualRecord& record = solution->residuals[i++];
       record.weight *= WeightOf(imm, record.sensor, probabilities[k]);
     }
@@ -125,43 +125,44 @@ void WeighByModes(const SensorImm& imm,
 
 }  // namespace
 
-SensorImm MakeSensorImm(const Start& start, const Timeline& timeline) {
+SensorImm MakeSensorImm(Problem problem) {
+  const Timeline& timeline = problem.timeline;
   const std::vector<int> questioned = QuestionedSensors(timeline);
   const double factor =
       std::max(kPoorFactor, kPoorSigma / StatedPositionSigma(timeline));
-  SensorImm imm{.models = {Model(start, timeline, questioned, "good", 1.0),
-                           Model(start, timeline, questioned, "poor", factor)},
+  std::vector<ImmModel> models = {Model(problem, questioned, "good", 1.0),
+                                  Model(problem, questioned, "poor", factor)};
+  SensorImm imm{.models = std::move(models),
                 .options = {},
-                .timeline = timeline,
+                .problem = std::move(problem),
                 .replaced = {}};
-  imm.replaced = LeaveToModes(questioned, &imm.timeline);
+  imm.problem.decisions.clear();
+  imm.replaced = LeaveToModes(questioned, &imm.problem.timeline);
   imm.options.transition = StayingTransition(2, 0.9);
   imm.options.start = Eigen::Vector2d(0.5, 0.5);
   imm.options.sensors = questioned;
   return imm;
 }
 
-SensorImmSmoothed SmoothSensorImm(SensorImm* imm,
-                                  const EpochCallback& callback) {
-  SensorImmSmoothed out;
+ImmSmoothed SmoothSensorImm(SensorImm* imm, const EpochCallback& callback) {
+  Problem& problem = imm->problem;
+  ImmSmoothed smoothed;
   {
     const ImmResult result =
-        RunImm(imm->models, imm->options, &imm->timeline, callback);
-    out.decisions = DecisionsOnTape(result.tape.tapes.front());
-    out.smoothed = SmoothImm(result.tape);
+        RunImm(imm->models, imm->options, &problem.timeline, callback);
+    problem.decisions = DecisionsOnTape(result.tape.tapes.front());
+    smoothed = SmoothImm(result.tape);
   }
-  if (!imm->timeline.HasGates()) return out;
+  if (!problem.timeline.HasGates()) return smoothed;
   SmoothedTrajectory about;
-  about.states = out.smoothed.trajectory.states;
-  about.P = out.smoothed.trajectory.P;
-  const GateDecisions again = DecideGates(imm->models.front().layout,
-                                          imm->timeline, about, out.decisions);
-  if (again == out.decisions) return out;
+  about.states = smoothed.trajectory.states;
+  about.P = smoothed.trajectory.P;
+  GateDecisions again = DecideGates(problem, about);
+  if (again == problem.decisions) return smoothed;
   imm->options.decisions = again;
-  out.decisions = again;
-  out.smoothed = SmoothImm(
-      RunImm(imm->models, imm->options, &imm->timeline, callback).tape);
-  return out;
+  problem.decisions = std::move(again);
+  return SmoothImm(
+      RunImm(imm->models, imm->options, &problem.timeline, callback).tape);
 }
 
 Solution ImmFilterSolution(const SensorImm& imm, const ImmResult& result) {
@@ -173,11 +174,10 @@ Solution ImmFilterSolution(const SensorImm& imm, const ImmResult& result) {
   return solution;
 }
 
-Solution ImmSmootherSolution(const SensorImm& imm, SensorImmSmoothed smoothed) {
-  ImmTrajectory& trajectory = smoothed.smoothed.trajectory;
+Solution ImmSmootherSolution(const SensorImm& imm, ImmSmoothed smoothed) {
+  ImmTrajectory& trajectory = smoothed.trajectory;
   Solution solution = SmoothedSolution(
-      imm.models.front().layout, imm.timeline, std::move(trajectory.states),
-      std::move(trajectory.P), smoothed.decisions);
+      imm.problem, std::move(trajectory.states), std::move(trajectory.P));
   WeighByModes(imm, trajectory.probabilities, &solution);
   AddModes(imm, std::move(trajectory.probabilities), &solution);
   return solution;

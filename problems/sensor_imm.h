@@ -20,30 +20,27 @@ namespace hindsight {
 struct SensorImm {
   std::vector<ImmModel> models;
   ImmOptions options;  ///< with feedback
-  Timeline timeline;   ///< with the sensors as the models take them
+  /// Of the first model, with the sensors as the models take them, and with the
+  /// decisions on the tapes that were last smoothed.
+  Problem problem;
   /// In words, whose loss or gate the modes replace; "" if none has any.
   std::string replaced;
 };
 inline constexpr double kPoorFactor = 20.0;
 inline constexpr double kPoorSigma = 20.0;  ///< an axis [m]
 
-SensorImm MakeSensorImm(const Start& start, const Timeline& timeline);
+SensorImm MakeSensorImm(Problem problem);
 
 /// The smoothed filter. Where gates are left, they are decided again about the
 /// smoothed trajectory, and the filter is run once more by `imm->options` with
 /// these decisions if they differ.
-struct SensorImmSmoothed {
-  ImmSmoothed smoothed;
-  GateDecisions decisions;  ///< on the tapes that were smoothed
-};
-SensorImmSmoothed SmoothSensorImm(SensorImm* imm,
-                                  const EpochCallback& callback);
+ImmSmoothed SmoothSensorImm(SensorImm* imm, const EpochCallback& callback);
 
 /// Solutions of the filter and of the smoother, the modes' probabilities with
 /// them. The weight of a measurement is that of its loss times the mean of
 /// 1/factor^2 over the modes.
 Solution ImmFilterSolution(const SensorImm& imm, const ImmResult& result);
-Solution ImmSmootherSolution(const SensorImm& imm, SensorImmSmoothed smoothed);
+Solution ImmSmootherSolution(const SensorImm& imm, ImmSmoothed smoothed);
 
 }  // namespace hindsight
 

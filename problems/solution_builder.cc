@@ -35,7 +35,8 @@ Solution FilterSolution(const LinearTape& tape) {
       record.withheld = z.withheld;
       record.residual = z.innovation;
       if (z.weight < 1.0) {
-        // As of the smoothers, by the covariance that the sensor states.
+        // As for smoothers, S has the stated R, not the one that the loss has
+        // divided by the weight.
         const RowMatrix S = z.S - (1.0 - z.weight) * z.R;
         record.sigma = S.diagonal().cwiseSqrt();
         record.nis = Eigen::LLT<RowMatrix>(S)
@@ -53,9 +54,10 @@ Solution FilterSolution(const LinearTape& tape) {
   return solution;
 }
 
-Solution SmoothedSolution(const ErrorLayout& layout, const Timeline& timeline,
-                          std::vector<State> states, CovarianceSeries P,
-                          const GateDecisions& decisions) {
+Solution SmoothedSolution(const Problem& problem, std::vector<State> states,
+                          CovarianceSeries P) {
+  const ErrorLayout& layout = problem.layout;
+  const Timeline& timeline = problem.timeline;
   Solution solution;
   solution.layout = layout;
   LinearizedMeasurement z;
@@ -65,7 +67,7 @@ Solution SmoothedSolution(const ErrorLayout& layout, const Timeline& timeline,
     if (measurements.empty()) continue;
     const ErrorMatrix P_k = P.Get(k);
     for (const Measurement& measurement : measurements) {
-      const bool used = decisions[index++] != 0;
+      const bool used = problem.decisions[index++] != 0;
       Evaluate(measurement, timeline.Context(k, measurement, layout, states[k]),
                &z);
       ResidualRecord record = MakeRecord(measurement, timeline.node(k).t, used);
@@ -78,8 +80,8 @@ Solution SmoothedSolution(const ErrorLayout& layout, const Timeline& timeline,
                                         .solve(z.residual)
                                         .squaredNorm());
       }
-      // A measurement that the loss has all but taken out tells nothing of the
-      // state: its residual scatters by both.
+      // A measurement to which the loss leaves next to no weight has no part in
+      // the state: the errors of both add up in its residual.
       const bool takes_part = used && record.weight > 0.1;
       const RowMatrix HPH = z.H * P_k * z.H.transpose();
       RowMatrix S = takes_part ? RowMatrix(z.R - HPH) : RowMatrix(z.R + HPH);

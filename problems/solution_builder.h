@@ -5,8 +5,8 @@
 
 #include "filters/iterated_smoother.h"
 #include "filters/linear_tape.h"
-#include "measurements/timeline.h"
 #include "state/solution.h"
+#include "timeline/problem.h"
 
 namespace hindsight {
 
@@ -18,9 +18,8 @@ Solution FilterSolution(const LinearTape& tape);
 /// tangent at the states). Residuals are taken about the states; the covariance
 /// of one is R - H P H' if the measurement took part and R + H P H' if not, so
 /// that the normalised residual of a right model is near one either way.
-Solution SmoothedSolution(const ErrorLayout& layout, const Timeline& timeline,
-                          std::vector<State> states, CovarianceSeries P,
-                          const GateDecisions& decisions);
+Solution SmoothedSolution(const Problem& problem, std::vector<State> states,
+                          CovarianceSeries P);
 
 }  // namespace hindsight
 

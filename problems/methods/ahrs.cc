@@ -12,46 +12,22 @@ Solution RunSmoother(AttitudeEstimation* estimation) {
   return estimation->Smoother();
 }
 
-Solution RunRoomBatch(AttitudeEstimation* estimation) {
-  return estimation->RoomBatch();
-}
-
-Solution RunTiltBatch(AttitudeEstimation* estimation) {
-  return estimation->TiltBatch();
-}
-
 }  // namespace
 
 extern const Method kAhrsMethod;
 const Method kAhrsMethod = {
     .name = "ahrs",
-    .help = "causal filter of attitude and gyro bias at every sample",
+    .help = "causal filter of attitude, gyro bias and gyro scale",
     .traits = 0,
-    .reconstruct = nullptr,
-    .estimate_attitude = RunFilter};
+    .run = RunFilter};
 
 extern const Method kAhrsSmootherMethod;
 const Method kAhrsSmootherMethod = {
     .name = "ahrs_smoother",
-    .help = "the Rauch-Tung-Striebel smoother of ahrs",
+    .help =
+        "its Rauch-Tung-Striebel smoother, which knows rest and field\n"
+        "of the whole recording",
     .traits = 0,
-    .reconstruct = nullptr,
-    .estimate_attitude = RunSmoother};
-
-extern const Method kAhrsBatchMethod;
-const Method kAhrsBatchMethod = {
-    .name = "ahrs_batch",
-    .help = "least squares with the linear acceleration as unknown",
-    .traits = 0,
-    .reconstruct = nullptr,
-    .estimate_attitude = RunRoomBatch};
-
-extern const Method kAhrsTiltBatchMethod;
-const Method kAhrsTiltBatchMethod = {
-    .name = "ahrs_tilt_batch",
-    .help = "least squares with the linear acceleration as noise",
-    .traits = 0,
-    .reconstruct = nullptr,
-    .estimate_attitude = RunTiltBatch};
+    .run = RunSmoother};
 
 }  // namespace hindsight

@@ -13,8 +13,7 @@ Solution RunBatch(MethodStage* stage) {
   const double t0 = ProcessorSeconds();
   Solution solution = stage->AtOwnNodes([&](const MethodStage::Nodes& nodes) {
     BatchResult result =
-        SolveBatch(stage->layout(), stage->prior(), *nodes.states,
-                   nodes.timeline, *nodes.decisions, stage->MakeBatchOptions());
+        SolveBatch(*nodes.states, stage->MakeBatchOptions(), nodes.problem);
     Solution one = stage->FromSmoothed(std::move(result.states),
                                        std::move(result.P), nodes);
     one.iterations = result.iterations;
@@ -34,7 +33,7 @@ const Method kBatchMethod = {
     .help = "nonlinear least squares over the whole interval",
     .traits =
         TraitsOf({MethodTrait::kFindsOptimum, MethodTrait::kDependsOnError}),
-    .reconstruct = RunBatch,
-    .estimate_attitude = nullptr};
+    .run = RunBatch,
+    .work = 12.0};
 
 }  // namespace hindsight

@@ -15,7 +15,6 @@ const Method kEkfMethod = {
     .help = "forward error-state Kalman filter",
     .traits = TraitsOf({MethodTrait::kForward, MethodTrait::kLinearisesOnce,
                         MethodTrait::kDependsOnError}),
-    .reconstruct = RunEkf,
-    .estimate_attitude = nullptr};
+    .run = RunEkf};
 
 }  // namespace hindsight

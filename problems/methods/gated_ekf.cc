@@ -13,15 +13,13 @@ Solution RunGatedEkf(MethodStage* stage) {
   constexpr double kGate = 0.999;
   const double t0 = ProcessorSeconds();
   ForwardStage& forward = stage->forward();
-  Timeline gated = forward.timeline();
-  for (std::size_t i = 0; i < gated.sensors().size(); ++i) {
-    Sensor sensor = gated.sensors()[i];
+  Problem gated = forward.CausalProblem();
+  for (std::size_t i = 0; i < gated.timeline.sensors().size(); ++i) {
+    Sensor sensor = gated.timeline.sensors()[i];
     if (!sensor.gate_probability) sensor.gate_probability = kGate;
-    gated.SetSensor(i, sensor);
+    gated.timeline.SetSensor(i, sensor);
   }
-  Solution solution = FilterSolution(RunForwardFilter(
-      {forward.options().error, {}}, stage->layout(), stage->prior(), &gated,
-      {}, forward.Progress("gated_ekf")));
+  Solution solution = FilterSolution(forward.Filter("gated_ekf", &gated));
   solution.seconds = ProcessorSeconds() - t0;
   return solution;
 }
@@ -33,7 +31,6 @@ const Method kGatedEkfMethod = {
     .name = "gated_ekf",
     .help = "ekf, with a gate of 99.9 % where a sensor has none",
     .traits = TraitsOf({MethodTrait::kForward, MethodTrait::kDependsOnError}),
-    .reconstruct = RunGatedEkf,
-    .estimate_attitude = nullptr};
+    .run = RunGatedEkf};
 
 }  // namespace hindsight

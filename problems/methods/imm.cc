@@ -13,7 +13,9 @@ Solution Mix(MethodStage* stage, const Solver& solve) {
   const double t0 = ProcessorSeconds();
   const EpochCallback progress = stage->forward().Progress("imm");
   Solution solution = stage->AtOwnNodes([&](const MethodStage::Nodes& nodes) {
-    SensorImm imm = MakeSensorImm(stage->StartOfQuestioned(), *nodes.timeline);
+    SensorImm imm = MakeSensorImm(stage->Questioned(nodes));
+    // Of a mixture innovations are not normal.
+    stage->SetFit({});
     return solve(&imm, progress);
   });
   solution.seconds = ProcessorSeconds() - t0;
@@ -22,8 +24,8 @@ Solution Mix(MethodStage* stage, const Solver& solve) {
 
 Solution RunImmFilter(MethodStage* stage) {
   return Mix(stage, [](SensorImm* imm, const EpochCallback& progress) {
-    return ImmFilterSolution(
-        *imm, RunImm(imm->models, imm->options, &imm->timeline, progress));
+    return ImmFilterSolution(*imm, RunImm(imm->models, imm->options,
+                                          &imm->problem.timeline, progress));
   });
 }
 
@@ -42,14 +44,14 @@ const Method kImmMethod = {
         "two filters that mix: positions (without any, all measurements)\n"
         "are as good as stated, or twenty times worse, at least 20 m",
     .traits = TraitsOf({MethodTrait::kForward}),
-    .reconstruct = RunImmFilter,
-    .estimate_attitude = nullptr};
+    .run = RunImmFilter,
+    .work = 4.0};
 
 extern const Method kImmSmootherMethod;
 const Method kImmSmootherMethod = {.name = "imm_smoother",
                                    .help = "the smoother of imm",
                                    .traits = 0,
-                                   .reconstruct = RunImmSmoother,
-                                   .estimate_attitude = nullptr};
+                                   .run = RunImmSmoother,
+                                   .work = 10.0};
 
 }  // namespace hindsight

@@ -16,8 +16,7 @@ Solution RunIterated(MethodStage* stage) {
   iteration.callback = forward.Progress("iterated");
   Solution solution = stage->AtOwnNodes([&](const MethodStage::Nodes& nodes) {
     IteratedResult result =
-        SmoothIterated(stage->layout(), stage->prior(), *nodes.states,
-                       nodes.timeline, *nodes.decisions, iteration);
+        SmoothIterated(*nodes.states, iteration, nodes.problem);
     Solution one = stage->FromSmoothed(std::move(result.trajectory.states),
                                        std::move(result.trajectory.P), nodes);
     one.iterations = result.iterations;
@@ -37,7 +36,7 @@ const Method kIteratedMethod = {
     .help = "rts, linearised anew about its result until it rests",
     .traits =
         TraitsOf({MethodTrait::kFindsOptimum, MethodTrait::kDependsOnError}),
-    .reconstruct = RunIterated,
-    .estimate_attitude = nullptr};
+    .run = RunIterated,
+    .work = 8.0};
 
 }  // namespace hindsight

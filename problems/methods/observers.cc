@@ -14,9 +14,9 @@ Solution Observe(const char* name, const CovarianceOptions& covariance,
                  MethodStage* stage) {
   ForwardStage& forward = stage->forward();
   const double t0 = ProcessorSeconds();
+  Problem problem = forward.CausalProblem();
   const LinearTape tape = RunForwardFilter(
-      {forward.options().error, covariance}, stage->layout(), stage->prior(),
-      &forward.timeline(), {}, forward.Progress(name));
+      {forward.options().error, covariance}, &problem, forward.Progress(name));
   Solution solution = FilterSolution(tape);
   const bool has_gamma = covariance.rule == RiccatiRule::kHInfinity;
   const ObserverFigures figures = {
@@ -56,8 +56,7 @@ const Method kHinfMethod = {
         "its P is no covariance: rts and two_filter smooth the ekf alone",
     .traits = TraitsOf({MethodTrait::kForward, MethodTrait::kDependsOnError,
                         MethodTrait::kHInfinity}),
-    .reconstruct = RunHInfinity,
-    .estimate_attitude = nullptr};
+    .run = RunHInfinity};
 
 extern const Method kModifiedHinfMethod;
 const Method kModifiedHinfMethod = {
@@ -67,7 +66,6 @@ const Method kModifiedHinfMethod = {
         "(--delta)",
     .traits = TraitsOf({MethodTrait::kForward, MethodTrait::kDependsOnError,
                         MethodTrait::kModifiedHInfinity}),
-    .reconstruct = RunModifiedHInfinity,
-    .estimate_attitude = nullptr};
+    .run = RunModifiedHInfinity};
 
 }  // namespace hindsight

@@ -20,7 +20,7 @@ const Method kRtsMethod = {
     .help = "ekf, smoothed by Rauch, Tung and Striebel's backward pass",
     .traits =
         TraitsOf({MethodTrait::kLinearisesOnce, MethodTrait::kDependsOnError}),
-    .reconstruct = RunRts,
-    .estimate_attitude = nullptr};
+    .run = RunRts,
+    .work = 2.0};
 
 }  // namespace hindsight

@@ -9,12 +9,12 @@
 namespace hindsight {
 namespace {
 
-/// The tape was released by the RTS pass; filtering again about the same
-/// decisions costs less than keeping it.
+/// The RTS pass has released the forward stage's tape. Filtering again with the
+/// same gate decisions costs less than keeping the tape would.
 template <typename Smoother>
 Solution Fuse(MethodStage* stage, const Smoother& smooth) {
   ForwardStage& forward = stage->forward();
-  const LinearTape tape = forward.Filter(forward.decisions(), "two_filter");
+  const LinearTape tape = forward.Filter("two_filter", &forward.problem());
   const double t0 = ProcessorSeconds();
   TwoFilterResult result = smooth(tape);
   SmoothedTrajectory& trajectory = result.trajectory;
@@ -23,7 +23,7 @@ Solution Fuse(MethodStage* stage, const Smoother& smooth) {
   Solution solution =
       stage->FromSmoothed(std::move(trajectory.states), std::move(trajectory.P),
                           stage->SharedNodes());
-  solution.separation = std::move(result.separation);
+  solution.two_filter = std::move(result.part);
   solution.seconds = seconds;
   return solution;
 }
@@ -53,23 +53,23 @@ const Method kTwoFilterMethod = {
         "`separation` is the distance of forward and backward positions\n"
         "in sigmas",
     .traits = kTraits,
-    .reconstruct = RunTwoFilter,
-    .estimate_attitude = nullptr};
+    .run = RunTwoFilter,
+    .work = 3.0};
 
 extern const Method kTwoFilterConventionalMethod;
 const Method kTwoFilterConventionalMethod = {
     .name = "two_filter_conventional",
     .help = "two_filter in the full state, in metres and small angles",
     .traits = kTraits,
-    .reconstruct = RunConventional<ChartKind::kAdditive>,
-    .estimate_attitude = nullptr};
+    .run = RunConventional<ChartKind::kAdditive>,
+    .work = 3.0};
 
 extern const Method kTwoFilterEulerMethod;
 const Method kTwoFilterEulerMethod = {
     .name = "two_filter_euler",
     .help = "two_filter in latitude, longitude and Euler angles",
     .traits = kTraits,
-    .reconstruct = RunConventional<ChartKind::kEuler>,
-    .estimate_attitude = nullptr};
+    .run = RunConventional<ChartKind::kEuler>,
+    .work = 3.0};
 
 }  // namespace hindsight

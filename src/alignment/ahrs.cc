@@ -1,13 +1,15 @@
 #include "alignment/ahrs.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
 
 #include "alignment/attitude_start.h"
 #include "alignment/magnetic_heading.h"
+#include "attitude/attitude_run.h"
 #include "earth/wgs84.h"
-#include "filters/attitude_run.h"
 #include "filters/rts.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 
@@ -44,16 +46,13 @@ AlignmentOutcome AlignByAhrs(const AlignmentInput& input) {
   out.q_nb = Eigen::Quaterniond(NedAxes(input.p_e)).conjugate() * x.q_eb;
   out.P = P.topLeftCorner<3, 3>();
   out.b_g = x.b_g;
-  out.b_g_sigma = P.diagonal().tail<3>().cwiseSqrt();
+  out.b_g_sigma = P.diagonal().segment<3>(3).cwiseSqrt();
   constexpr double kReuse = 10.0;
   out.reuse = kReuse;
-  char words[96];
-  std::snprintf(words, sizeof(words), "attitude filter over %.1f s",
-                end - input.t);
-  out.attitude = words;
+  out.attitude = fmt::format("attitude filter over {:.1f} s", end - input.t);
   out.heading = "magnetic field, by the attitude filter";
   for (const AidingStream& stream : input.dataset.streams) {
-    if (stream.sensor.type != SensorType::kMagnetometer) continue;
+    if (!stream.sensor.kind->magnetic) continue;
     const double shared = SharedHeadingSigma(stream.sensor.magnetic);
     out.P(2, 2) = std::min(out.P(2, 2) + shared * shared,
                            kUnknownHeadingSigma * kUnknownHeadingSigma);

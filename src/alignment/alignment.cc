@@ -1,8 +1,9 @@
 #include "alignment/alignment.h"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "alignment/ahrs.h"
@@ -12,6 +13,7 @@
 #include "alignment/judgement.h"
 #include "alignment/levelling.h"
 #include "alignment/magnetic_heading.h"
+#include "alignment/measured_heading.h"
 #include "alignment/velocity_alignment.h"
 #include "base/error.h"
 #include "dataset/bias_sigma.h"
@@ -20,10 +22,11 @@
 namespace hindsight {
 namespace {
 
-constexpr std::array<AlignmentMethod, 7> kMethods = {
+constexpr std::array<AlignmentMethod, 8> kMethods = {
     {{AlignmentKind::kGiven, AlignAsGiven, false},
      {AlignmentKind::kStatic, AlignAtRest},
      {AlignmentKind::kGyrocompass, AlignByGyrocompass},
+     {AlignmentKind::kHeading, AlignByHeading},
      {AlignmentKind::kMagnetometer, AlignByMagnetometer},
      {AlignmentKind::kCourse, AlignByCourse},
      {AlignmentKind::kVelocity, AlignByVelocity},
@@ -31,10 +34,8 @@ constexpr std::array<AlignmentMethod, 7> kMethods = {
 
 std::string HeadingWords(const AlignedAttitude& attitude) {
   if (!TellsHeading(attitude)) return "heading open";
-  char text[64];
-  std::snprintf(text, sizeof(text), "heading to %.2g deg",
-                std::sqrt(attitude.P(2, 2)) / kDegree);
-  return text;
+  return fmt::format("heading to {:.2g} deg",
+                     std::sqrt(attitude.P(2, 2)) / kDegree);
 }
 
 bool IsGiven(const InitialState& initial) {

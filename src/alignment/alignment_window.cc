@@ -1,9 +1,10 @@
 #include "alignment/alignment_window.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "earth/wgs84.h"
 #include "geometry/so3.h"
@@ -41,11 +42,9 @@ std::string WhyUnknown(const VelocityAlignment& alignment) {
     return "too little acceleration, every heading fits nearly as well";
   }
   if (heading > kKnownHeading) {
-    char words[96];
-    std::snprintf(words, sizeof(words),
-                  "too little acceleration, which tells it to %.0f deg alone",
-                  heading / kDegree);
-    return words;
+    return fmt::format(
+        "too little acceleration, which tells it to {:.0f} deg alone",
+        heading / kDegree);
   }
   if (turns) {
     return "turned by 180 deg about " +
@@ -67,17 +66,13 @@ WindowStart StartFrom(const WindowSolution& refined) {
 
 void Describe(VelocityAlignment* alignment) {
   AlignedAttitude& attitude = alignment->attitude;
-  char words[96];
-  std::snprintf(words, sizeof(words),
-                "specific force against %zu measured motions up to t = %.1f s",
-                alignment->coarse.count, alignment->t_end);
-  attitude.attitude = words;
+  attitude.attitude = fmt::format(
+      "specific force against {} measured motions up to t = {:.1f} s",
+      alignment->coarse.count, alignment->t_end);
   if (alignment->refined && alignment->drifts) {
-    std::snprintf(
-        words, sizeof(words),
-        ", while the gyros drifted by some %.2g deg/s a minute",
+    attitude.attitude += fmt::format(
+        ", while the gyros drifted by some {:.2g} deg/s a minute",
         alignment->refined->gyro_bias_walk * std::sqrt(60.0) / kDegree);
-    attitude.attitude += words;
   }
   const std::string why = WhyUnknown(*alignment);
   attitude.heading = why.empty() ? "the same" : "unknown: " + why;

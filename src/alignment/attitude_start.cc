@@ -4,14 +4,14 @@
 
 #include "base/units.h"
 #include "geometry/so3.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
 
 const AidingStream* MagnetometerOf(const Dataset& dataset) {
   for (const AidingStream& stream : dataset.streams) {
-    if (stream.sensor.type == SensorType::kMagnetometer &&
-        !stream.measurements.empty()) {
+    if (stream.sensor.kind->magnetic && !stream.measurements.empty()) {
       return &stream;
     }
   }
@@ -98,7 +98,14 @@ AttitudeState StartOfAttitude(const Dataset& dataset, const ImuStream& imu,
       Eigen::Vector3d(5.0, 5.0, 10.0) * kDegree);
   const Eigen::Vector3d bias_sigma = dataset.initial.gyro_bias_sigma.value_or(
       Eigen::Vector3d::Constant(0.5 * kDegree));
-  start.P.diagonal() << sigma.cwiseAbs2(), bias_sigma.cwiseAbs2();
+  // What is known exactly would leave the covariance singular.
+  constexpr double kKnown = 1e-6;
+  const Eigen::Vector3d scale_sigma =
+      dataset.gyro_scale_sigma
+          .value_or(Eigen::Vector3d::Constant(kGyroScaleSigma))
+          .cwiseMax(kKnown);
+  start.P.diagonal() << sigma.cwiseAbs2(), bias_sigma.cwiseAbs2(),
+      scale_sigma.cwiseAbs2();
   return start;
 }
 

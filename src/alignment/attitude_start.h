@@ -4,10 +4,14 @@
 #include <span>
 #include <vector>
 
+#include "attitude/attitude_filter.h"
 #include "dataset/dataset.h"
-#include "filters/attitude_filter.h"
 
 namespace hindsight {
+
+/// Scale factor of a calibrated MEMS gyro, where the data set says nothing: 0.3
+/// to 0.5 % over temperature by the data sheets of hand-held ones.
+inline constexpr double kGyroScaleSigma = 0.004;
 
 /// The filter's settings that a data set asks for. Its first magnetometer
 /// stream is used; without one the heading is that of the start.

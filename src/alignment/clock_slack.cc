@@ -3,15 +3,14 @@
 #include <algorithm>
 
 #include "imu/mean_reading.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 
 double ClockSigma(const Dataset& dataset) {
   double sigma = 0.0;
   for (const AidingStream& stream : dataset.streams) {
-    const SensorType type = stream.sensor.type;
-    if (type != SensorType::kPosition && type != SensorType::kVelocity &&
-        type != SensorType::kSpeedCourse) {
+    if (!stream.sensor.kind->moves) {
       continue;
     }
     sigma = std::max(sigma, stream.sensor.time_offset_sigma.value_or(0.0));

@@ -1,13 +1,15 @@
 #include "alignment/course.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "alignment/levelling.h"
 #include "geometry/so3.h"
 #include "imu/preintegration.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -31,8 +33,7 @@ double MountingYawSigma(const Dataset& dataset) {
 /// put in that way but a sensor or constraint of the vehicle.
 std::optional<Eigen::Vector3d> ForwardAxis(const Dataset& dataset) {
   for (const AidingStream& stream : dataset.streams) {
-    const SensorType type = stream.sensor.type;
-    if (type == SensorType::kOdometer || type == SensorType::kNonHolonomic) {
+    if (stream.sensor.kind->of_vehicle) {
       return stream.sensor.q_sb.conjugate() * Eigen::Vector3d::UnitX();
     }
   }
@@ -78,11 +79,9 @@ AlignmentOutcome AlignByCourse(const AlignmentInput& input) {
                           MountingYawSigma(input.dataset)),
                kUnknownHeadingSigma);
   TurnToHeading(WrapAngle(course - turned), sigma, &out);
-  char words[96];
-  std::snprintf(words, sizeof(words),
-                "course at t = %.2f s (%.1f m/s), carried back by the gyros",
-                first->t, speed);
-  out.heading = words;
+  out.heading = fmt::format(
+      "course at t = {:.2f} s ({:.1f} m/s), carried back by the gyros",
+      first->t, speed);
   return {out, ""};
 }
 

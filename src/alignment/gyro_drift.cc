@@ -1,8 +1,9 @@
 #include "alignment/gyro_drift.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 
-#include "base/text.h"
 #include "base/units.h"
 
 namespace hindsight {
@@ -18,16 +19,17 @@ std::optional<Evidence> FindGyroDrift(const StartReport& start,
   return Evidence{
       .rule = "gyro_drift",
       .grade = Grade::kDoubtful,
-      .what = Format("the gyros drift by some %.2g deg/s a minute, but by %.2g "
-                     "as stated",
-                     drift, stated_drift),
+      .what = fmt::format(
+          "the gyros drift by some {:.2g} deg/s a minute, but by {:.2g} "
+          "as stated",
+          drift, stated_drift),
       .value = drift,
       .limit = kTooLarge * stated_drift,
       .unit = "deg/s",
       .causes = {"a gyro that warms up"},
       .remedies = {
-          Format("'gyro_bias_walk: %.2g deg/s^2/sqrt(Hz)' in imu.noise",
-                 found / kDegree)}};
+          fmt::format("'gyro_bias_walk: {:.2g} deg/s^2/sqrt(Hz)' in imu.noise",
+                      found / kDegree)}};
 }
 
 }  // namespace hindsight

@@ -1,7 +1,8 @@
 #include "alignment/gyrocompass.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
-#include <cstdio>
 
 #include "alignment/levelling.h"
 #include "alignment/start_layout.h"
@@ -43,15 +44,12 @@ AlignmentOutcome AlignByGyrocompass(const AlignmentInput& input) {
   out.P_bias.block<1, 3>(2, 3) = by_tilt * out.P_bias.block<1, 3>(0, 3);
 
   const double sigma = std::sqrt(out.P(2, 2));
-  char words[96];
   if (!(sigma < kLargestSigma)) {
-    std::snprintf(words, sizeof(words),
-                  "the gyros would give the heading to %.3g deg only",
-                  sigma / kDegree);
-    return {std::nullopt, words};
+    return {std::nullopt,
+            fmt::format("the gyros would give the heading to {:.3g} deg only",
+                        sigma / kDegree)};
   }
-  std::snprintf(words, sizeof(words), "the Earth's rate over %.1f s", T);
-  out.heading = words;
+  out.heading = fmt::format("the Earth's rate over {:.1f} s", T);
   return {out, ""};
 }
 

@@ -1,8 +1,9 @@
 #include "alignment/levelling.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "alignment/start_layout.h"
 #include "earth/wgs84.h"
@@ -34,9 +35,7 @@ AlignedAttitude LevelAttitude(const AlignmentInput& input) {
     return out;
   }
   const double rest = end - input.t;
-  char words[64];
-  std::snprintf(words, sizeof(words), "levelled at rest for %.1f s", rest);
-  out.attitude = words;
+  out.attitude = fmt::format("levelled at rest for {:.1f} s", rest);
   const double sway = std::hypot(kSway, imu.noise.accel_noise_density /
                                             std::sqrt(rest) / kStandardGravity);
   const Eigen::Matrix3d C_nb = out.q_nb.toRotationMatrix();

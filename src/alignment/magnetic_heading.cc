@@ -1,13 +1,15 @@
 #include "alignment/magnetic_heading.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "alignment/levelling.h"
 #include "dataset/magnetic_check.h"
 #include "geometry/so3.h"
 #include "imu/preintegration.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -68,7 +70,7 @@ AlignmentOutcome AlignByMagnetometer(const AlignmentInput& input) {
   const double t_end =
       std::min(input.to, input.rest ? input.rest->end : input.t + kWithoutRest);
   for (const AidingStream& stream : input.dataset.streams) {
-    if (stream.sensor.type != SensorType::kMagnetometer) continue;
+    if (!stream.sensor.kind->magnetic) continue;
     const MeanField mean = MeanFieldOf(input, stream, t_end);
     if (mean.count == 0) continue;
     AlignedAttitude out = LevelAttitude(input);
@@ -82,10 +84,8 @@ AlignmentOutcome AlignByMagnetometer(const AlignmentInput& input) {
     const double tilt = std::sqrt(out.P(0, 0));
     TurnToHeading(WrapAngle(heading),
                   SigmaOf(stream.sensor.magnetic, mean.sigma, tilt), &out);
-    char words[96];
-    std::snprintf(words, sizeof(words), "magnetic field, %d readings of %s",
-                  mean.count, stream.sensor.name.c_str());
-    out.heading = words;
+    out.heading = fmt::format("magnetic field, {} readings of {}", mean.count,
+                              stream.sensor.name);
     return {out, ""};
   }
   return {std::nullopt, "no magnetometer readings at the start"};

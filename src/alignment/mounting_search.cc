@@ -1,10 +1,11 @@
 #include "alignment/mounting_search.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <utility>
@@ -175,12 +176,10 @@ bool NeedsSearch(const Sensor& sensor) {
 
 std::string Describe(const std::string& name, const FoundMounting& found) {
   const Eigen::Vector3d euler = EulerFromQuaternion(found.q_ob) / kDegree;
-  char text[200];
-  std::snprintf(text, sizeof(text),
-                "%s: mounting found from accelerations against changes of "
-                "velocity: roll %.1f, pitch %.1f, yaw %.1f deg",
-                name.c_str(), euler.x(), euler.y(), euler.z());
-  return text;
+  return fmt::format(
+      "{}: mounting found from accelerations against changes of "
+      "velocity: roll {:.1f}, pitch {:.1f}, yaw {:.1f} deg",
+      name, euler.x(), euler.y(), euler.z());
 }
 
 void TakeMounting(const FoundMounting& found, std::size_t vehicle,

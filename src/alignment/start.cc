@@ -1,8 +1,9 @@
 #include "alignment/start.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 
@@ -19,12 +20,6 @@
 
 namespace hindsight {
 namespace {
-
-std::string Words(const char* format, double a) {
-  char buffer[160];
-  std::snprintf(buffer, sizeof(buffer), format, a);
-  return buffer;
-}
 
 /// Works through the steps of FindStart; each fills its part of the report.
 class StartFinder {
@@ -225,7 +220,7 @@ class StartFinder {
     } else {
       position_sensor_ = fix.sensor;
     }
-    report_.position = Words("position fix at t = %.2f s", fix.t);
+    report_.position = fmt::format("position fix at t = {:.2f} s", fix.t);
   }
 
   NavigationPrior BuildPrior() const {
@@ -318,11 +313,11 @@ class StartFinder {
     report_.attitude_sigma = EulerSigma(layout, x, known.P);
     if (t_ - x.t > 1.0) {
       report_.position +=
-          Words("; %.1f s back to the start by the IMU", t_ - x.t);
+          fmt::format("; {:.1f} s back to the start by the IMU", t_ - x.t);
     }
     if (!given().t && x.t - from_ > 1.0) {
-      report_.position += Words(
-          "; the %.1f s before it are left out, as nothing gives a position",
+      report_.position += fmt::format(
+          "; the {:.1f} s before it are left out, as nothing gives a position",
           x.t - from_);
     }
   }

@@ -1,159 +1,79 @@
 #include "alignment/start_layout.h"
 
-#include <cmath>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/units.h"
 #include "geometry/so3.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
 
-void AddCalibration(BlockKind kind, int sensor, const std::string& name,
-                    const char* unit, const Eigen::Vector3d& sigma,
-                    std::vector<Block>* blocks) {
+void AddImuScale(BlockKind kind, const char* name, std::string_view advice,
+                 const std::optional<Eigen::Vector3d>& sigma,
+                 std::vector<Block>* blocks) {
+  if (!sigma) return;
   Block block;
-  block.key = {kind, sensor};
+  block.key.kind = kind;
   block.name = name;
-  block.unit = unit;
+  block.unit = "1";
   block.evolution = Evolution::Constant();
-  block.sigma0 = sigma;
+  block.sigma0 = *sigma;
+  block.advice = advice;
   blocks->push_back(block);
 }
 
-void AddMagneticBlocks(const Sensor& sensor, int index,
-                       std::vector<Block>* blocks) {
-  const MagneticSurroundings& magnetic = sensor.magnetic;
-  if (magnetic.hard_iron_sigma) {
-    AddCalibration(BlockKind::kHardIron, index, sensor.name + "_hard_iron",
-                   "uT", *magnetic.hard_iron_sigma, blocks);
-  }
-  if (magnetic.declination_sigma) {
-    AddCalibration(
-        BlockKind::kDeclination, index, sensor.name + "_declination", "rad",
-        Eigen::Vector3d::Constant(*magnetic.declination_sigma), blocks);
-  }
-  if (magnetic.disturbance_sigma) {
+/// What the kind of the stream's sensor declares.
+void AddSensorBlocks(const AidingStream& stream, int index,
+                     std::vector<Block>* blocks) {
+  std::optional<MeasurementModel> first;
+  if (!stream.measurements.empty()) first = stream.measurements.front().model;
+  const Sensor& sensor = stream.sensor;
+  for (const SensorBlock& declared : sensor.kind->blocks) {
+    const auto sigma = declared.sigma(sensor, first ? &*first : nullptr);
+    if (!sigma) continue;
     Block block;
-    block.key = {BlockKind::kDisturbance, index};
-    block.name = sensor.name + "_disturbance";
-    block.unit = "uT";
-    block.sigma0.setConstant(*magnetic.disturbance_sigma);
-    block.evolution = Evolution::GaussMarkov(*magnetic.disturbance_sigma,
-                                             magnetic.disturbance_tau);
+    block.key = {declared.kind, index};
+    block.name = sensor.name + "_" + std::string(declared.name);
+    block.unit = declared.unit;
+    block.evolution = declared.evolution == nullptr
+                          ? Evolution::Constant()
+                          : declared.evolution(sensor);
+    block.sigma0 = *sigma;
+    block.advice = declared.advice;
     blocks->push_back(block);
   }
-}
-
-bool CountsDistance(const AidingStream& stream) {
-  if (stream.measurements.empty()) return false;
-  const Measurement first = stream.measurements.front();
-  const auto* odometer = std::get_if<Odometer>(&first.model);
-  return odometer != nullptr && odometer->form == Odometer::Form::kIncrements;
-}
-
-/// The travelled distance, and the error of each count if it is an error of its
-/// own: white, which is a correlation time below any interval.
-void AddDistance(const Sensor& sensor, int index, std::vector<Block>* blocks) {
-  constexpr double kAnyDistance = 1.0;  // it is forgotten at the first count
-  constexpr double kNoTime = 1e-6;
-  Block block;
-  block.key = {BlockKind::kDistance, index};
-  block.name = sensor.name + "_distance";
-  block.unit = "m";
-  block.evolution = Evolution::Navigation();
-  block.sigma0.setConstant(kAnyDistance);
-  blocks->push_back(block);
-  if (sensor.count_sigma <= 0.0) return;
-  block.key.kind = BlockKind::kOffset;
-  block.name = sensor.name + "_count_error";
-  block.evolution = Evolution::GaussMarkov(sensor.count_sigma, kNoTime);
-  block.sigma0.setConstant(sensor.count_sigma);
-  blocks->push_back(block);
-}
-
-/// The errors that a sensor's noise model keeps as states.
-void AddColouredNoise(const Sensor& sensor, int index,
-                      std::vector<Block>* blocks) {
-  if (sensor.noise.kind != NoiseModel::Kind::kGaussMarkov) return;
-  Block block;
-  block.key = {sensor.type == SensorType::kHeight ? BlockKind::kOffset
-                                                  : BlockKind::kColouredNoise,
-               index};
-  block.name = sensor.name + "_noise";
-  block.unit = sensor.type == SensorType::kVelocity ? "m/s" : "m";
-  block.evolution =
-      Evolution::GaussMarkov(sensor.noise.sigma, sensor.noise.tau);
-  block.sigma0.setConstant(sensor.noise.sigma);
-  blocks->push_back(block);
-}
-
-void AddCurrent(const Sensor& sensor, int index, std::vector<Block>* blocks) {
-  Block block;
-  block.key = {BlockKind::kCurrent, index};
-  block.name = sensor.name + "_current";
-  block.unit = "m/s";
-  const double sigma = *sensor.current_sigma;
-  block.sigma0.setConstant(sigma);
-  if (std::isfinite(sensor.current_length)) {
-    block.evolution =
-        Evolution::SpatialGaussMarkov(sigma, sensor.current_length);
-  } else if (std::isfinite(sensor.current_tau)) {
-    block.evolution = Evolution::GaussMarkov(sigma, sensor.current_tau);
-  } else {
-    block.evolution = Evolution::Constant();
-  }
-  blocks->push_back(block);
 }
 
 /// Every block beyond the navigation state, in the order of the layout.
 std::vector<Block> CalibrationBlocks(const Dataset& dataset) {
   std::vector<Block> blocks;
-  const int none = BlockKey::kNoSensor;
-  if (dataset.gyro_scale_sigma) {
-    AddCalibration(BlockKind::kGyroScale, none, "gyro_scale", "1",
-                   *dataset.gyro_scale_sigma, &blocks);
-  }
-  if (dataset.accel_scale_sigma) {
-    AddCalibration(BlockKind::kAccelScale, none, "accel_scale", "1",
-                   *dataset.accel_scale_sigma, &blocks);
-  }
+  AddImuScale(BlockKind::kGyroScale, "gyro_scale",
+              "fast turns both ways about the axis", dataset.gyro_scale_sigma,
+              &blocks);
+  AddImuScale(BlockKind::kAccelScale, "accel_scale",
+              "strong accelerations along the axis both ways, or rest in "
+              "several attitudes",
+              dataset.accel_scale_sigma, &blocks);
   for (std::size_t i = 0; i < dataset.streams.size(); ++i) {
-    const Sensor& sensor = dataset.streams[i].sensor;
-    const int index = static_cast<int>(i);
-    if (sensor.scale_sigma) {
-      AddCalibration(BlockKind::kScale, index, sensor.name + "_scale", "1",
-                     Eigen::Vector3d::Constant(*sensor.scale_sigma), &blocks);
-    }
-    if (sensor.mounting_sigma) {
-      AddCalibration(BlockKind::kMounting, index, sensor.name + "_mounting",
-                     "rad", *sensor.mounting_sigma, &blocks);
-    }
-    if (sensor.lever_arm_sigma) {
-      AddCalibration(BlockKind::kLeverArm, index, sensor.name + "_lever_arm",
-                     "m", *sensor.lever_arm_sigma, &blocks);
-    }
-    if (CountsDistance(dataset.streams[i])) {
-      AddDistance(sensor, index, &blocks);
-    }
-    if (sensor.time_offset_sigma) {
-      AddCalibration(
-          BlockKind::kTimeOffset, index, sensor.name + "_time_offset", "s",
-          Eigen::Vector3d::Constant(*sensor.time_offset_sigma), &blocks);
-    }
-    AddMagneticBlocks(sensor, index, &blocks);
-    AddColouredNoise(sensor, index, &blocks);
-    if (sensor.offset_sigma) {
-      AddCalibration(BlockKind::kOffset, index, sensor.name + "_offset", "m",
-                     Eigen::Vector3d::Constant(*sensor.offset_sigma), &blocks);
-    }
-    if (sensor.current_sigma) AddCurrent(sensor, index, &blocks);
+    AddSensorBlocks(dataset.streams[i], static_cast<int>(i), &blocks);
   }
   return blocks;
+}
+
+/// What its kind says of the block beforehand; zero if it says nothing.
+Eigen::Vector3d ValueOf(const Sensor& sensor, BlockKind kind) {
+  for (const SensorBlock& declared : sensor.kind->blocks) {
+    if (declared.kind == kind && declared.value != nullptr) {
+      return declared.value(sensor);
+    }
+  }
+  return Eigen::Vector3d::Zero();
 }
 
 }  // namespace
@@ -199,18 +119,11 @@ ParameterVector InitialParameters(
     const Sensor& sensor =
         dataset.streams[static_cast<std::size_t>(block.key.sensor)].sensor;
     const int offset = block.parameter_offset;
-    if (block.key.kind == BlockKind::kLeverArm) {
-      parameters.segment<3>(offset) = sensor.lever_arm_b;
-    } else if (block.key.kind == BlockKind::kTimeOffset) {
-      parameters(offset) = sensor.time_offset;
-    } else if (block.key.kind == BlockKind::kScale) {
-      parameters(offset) = sensor.scale;
-    } else if (block.key.kind == BlockKind::kHardIron) {
-      parameters.segment<3>(offset) = sensor.magnetic.hard_iron_b;
-    } else if (block.key.kind == BlockKind::kDeclination) {
-      parameters(offset) = sensor.magnetic.declination;
-    } else if (block.key.kind == BlockKind::kMounting && travel_b &&
-               sensor.mounting_sigma->z() > kRoughlyKnown) {
+    const int count = FullDimension(block.key.kind);
+    parameters.segment(offset, count) =
+        ValueOf(sensor, block.key.kind).head(count);
+    if (block.key.kind == BlockKind::kMounting && travel_b &&
+        sensor.mounting_sigma->z() > kRoughlyKnown) {
       parameters.segment<3>(offset) = Log(Eigen::Quaterniond::FromTwoVectors(
           sensor.q_sb * *travel_b, Eigen::Vector3d::UnitX()));
     }

@@ -53,20 +53,27 @@ WindowModel::WindowModel(const AlignmentInput& input, double t_end,
     : input_(input),
       known_(known),
       dataset_(WithWalk(data, least_walk)),
-      layout_(BuildLayout(dataset_, BiasPrior())),
-      timeline_(BuildTimeline(
-          dataset_,
-          {.t_begin = input.t,
-           .t_end = t_end,
-           .extra_times = {},
-           .time_offsets = {},
-           .with_scale_jacobians = layout_.Has(BlockKind::kGyroScale) ||
-                                   layout_.Has(BlockKind::kAccelScale)})),
-      all_(timeline_.all_measurements().size(), 1) {}
+      problem_(MakeProblem(t_end)) {}
+
+Problem WindowModel::MakeProblem(double t_end) const {
+  const ErrorLayout layout = BuildLayout(dataset_, BiasPrior());
+  const bool with_scale =
+      layout.Has(BlockKind::kGyroScale) || layout.Has(BlockKind::kAccelScale);
+  Problem problem = {
+      layout,
+      {},
+      BuildTimeline(dataset_, {.t_begin = input_.t,
+                               .t_end = t_end,
+                               .extra_times = {},
+                               .time_offsets = {},
+                               .with_scale_jacobians = with_scale})};
+  problem.decisions.assign(problem.timeline.all_measurements().size(), 1);
+  return problem;
+}
 
 SmoothedTrajectory WindowModel::FilterFrom(const WindowStart& start) {
-  return SmoothRts(
-      RunExtendedKalmanFilter(layout_, NearPrior(start), &timeline_, all_));
+  problem_.prior = NearPrior(start);
+  return SmoothRts(RunExtendedKalmanFilter(&problem_));
 }
 
 IteratedResult WindowModel::Settle(const State& near, std::vector<State> states,
@@ -74,18 +81,17 @@ IteratedResult WindowModel::Settle(const State& near, std::vector<State> states,
   IterationOptions options;
   options.max_iterations = kMaxIterations;
   options.rough = &rough;
-  return SmoothIterated(layout_, VaguePrior(near), std::move(states),
-                        &timeline_, all_, options);
+  problem_.prior = VaguePrior(near);
+  return SmoothIterated(std::move(states), options, &problem_);
 }
 
 SmoothedTrajectory WindowModel::Smooth(const State& near,
                                        const std::vector<State>& states) {
-  const Prior prior = VaguePrior(near);
+  problem_.prior = VaguePrior(near);
   SmoothedTrajectory smoothed =
-      SmoothRts(RunLinearizedFilter(layout_, prior, states, &timeline_, all_));
-  WidenHeading(layout_,
-               CreditHeading(layout_, prior, smoothed.states, smoothed.P,
-                             &timeline_, all_),
+      SmoothRts(RunLinearizedFilter(states, &problem_));
+  WidenHeading(problem_.layout,
+               CreditHeading(problem_, smoothed.states, smoothed.P),
                &smoothed.P);
   return smoothed;
 }
@@ -100,10 +106,10 @@ NavigationPrior WindowModel::BiasPrior() const {
 }
 
 ErrorMatrix WindowModel::Covariance(double position, double velocity) const {
-  ErrorMatrix P = layout_.InitialCovariance();
-  SetSigmas(layout_, BlockKind::kPosition, position, &P);
-  SetSigmas(layout_, BlockKind::kVelocity, velocity, &P);
-  SetSigmas(layout_, BlockKind::kAttitude, kUnknownHeadingSigma, &P);
+  ErrorMatrix P = problem_.layout.InitialCovariance();
+  SetSigmas(problem_.layout, BlockKind::kPosition, position, &P);
+  SetSigmas(problem_.layout, BlockKind::kVelocity, velocity, &P);
+  SetSigmas(problem_.layout, BlockKind::kAttitude, kUnknownHeadingSigma, &P);
   return P;
 }
 
@@ -115,11 +121,11 @@ Prior WindowModel::NearPrior(const WindowStart& start) const {
   x.q_eb = start.q_eb;
   x.b_g = start.b_g;
   x.b_a = start.b_a;
-  x.parameters = InitialParameters(dataset_, layout_);
+  x.parameters = InitialParameters(dataset_, problem_.layout);
   constexpr double kNearPosition = 30.0;
   constexpr double kNearVelocity = 3.0;
   ErrorMatrix P = Covariance(kNearPosition, kNearVelocity);
-  const int a = layout_.Find(BlockKind::kAttitude)->offset;
+  const int a = problem_.layout.Find(BlockKind::kAttitude)->offset;
   P.block<3, 3>(a, a) =
       9.0 * start.P + Eigen::Matrix3d::Identity() * kDegree * kDegree;
   return {x, P};
@@ -130,7 +136,7 @@ Prior WindowModel::VaguePrior(const State& near) const {
   const InitialState& given = dataset_.initial;
   x.b_g = given.gyro_bias;
   x.b_a = given.accel_bias;
-  x.parameters = InitialParameters(dataset_, layout_);
+  x.parameters = InitialParameters(dataset_, problem_.layout);
   ErrorMatrix P = Covariance(kVaguePosition, kVagueVelocity);
   if (given.position) {
     x.p_e = EcefFromGeodetic(*given.position);
@@ -140,7 +146,7 @@ Prior WindowModel::VaguePrior(const State& near) const {
             .asDiagonal();
   }
   if (known_) {
-    const int a = layout_.Find(BlockKind::kAttitude)->offset;
+    const int a = problem_.layout.Find(BlockKind::kAttitude)->offset;
     x.q_eb = known_->q_eb;
     P.block<3, 3>(a, a) = known_->P;
   }
@@ -151,10 +157,12 @@ double WindowModel::Nis(const std::vector<State>& states) const {
   LinearizedMeasurement z;
   double sum = 0.0;
   double rows = 0.0;
-  for (std::size_t k = 0; k < timeline_.size(); ++k) {
-    for (const Measurement& measurement : timeline_.measurements(k)) {
-      Evaluate(measurement,
-               timeline_.Context(k, measurement, layout_, states[k]), &z);
+  for (std::size_t k = 0; k < problem_.timeline.size(); ++k) {
+    for (const Measurement& measurement : problem_.timeline.measurements(k)) {
+      Evaluate(
+          measurement,
+          problem_.timeline.Context(k, measurement, problem_.layout, states[k]),
+          &z);
       sum += z.residual.dot(Eigen::LLT<RowMatrix>(z.R).solve(z.residual));
       rows += static_cast<double>(z.residual.size());
     }

@@ -35,7 +35,7 @@ class WindowModel {
               const std::optional<AttitudePrior>& known, const Dataset& data,
               double least_walk);
 
-  const ErrorLayout& layout() const { return layout_; }
+  const ErrorLayout& layout() const { return problem_.layout; }
   double gyro_bias_walk() const { return dataset_.imu.noise.gyro_bias_walk; }
 
   /// Forward filter and RTS pass from a start. Throws EstimationError where the
@@ -52,6 +52,7 @@ class WindowModel {
   double Nis(const std::vector<State>& states) const;
 
  private:
+  Problem MakeProblem(double t_end) const;
   NavigationPrior BiasPrior() const;
   ErrorMatrix Covariance(double position, double velocity) const;
   /// Near enough to be filtered from: the attitude three times as uncertain as
@@ -62,9 +63,7 @@ class WindowModel {
   const AlignmentInput& input_;
   std::optional<AttitudePrior> known_;
   Dataset dataset_;
-  ErrorLayout layout_;
-  Timeline timeline_;
-  GateDecisions all_;
+  Problem problem_;  ///< its prior is that of the last estimation
 };
 
 }  // namespace hindsight

@@ -6,9 +6,9 @@
 
 #include "app/error_line.h"
 #include "base/error.h"
-#include "io/paths.h"
-#include "io/result_manifest.h"
-#include "io/unpublished.h"
+#include "io/read/paths.h"
+#include "io/write/result_manifest.h"
+#include "io/write/unpublished.h"
 
 namespace hindsight {
 namespace fs = std::filesystem;

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <cmath>
 #include <iostream>
 
@@ -7,14 +9,14 @@
 #include "app/flags.h"
 #include "app/list_flags.h"
 #include "app/run_report.h"
+#include "app/terminal.h"
 #include "base/error.h"
-#include "base/text.h"
 #include "base/units.h"
 #include "dataset/checks.h"
 #include "dataset/clock_search.h"
-#include "io/config.h"
-#include "io/number_format.h"
-#include "io/table.h"
+#include "io/config/config.h"
+#include "io/write/number_format.h"
+#include "io/write/table.h"
 #include "problems/noise_estimation.h"
 #include "problems/rest_by_estimate.h"
 
@@ -51,7 +53,7 @@ std::string StreamTable(const std::vector<StreamReport>& streams) {
          std::to_string(stream.gaps.size()), std::to_string(stream.duplicates),
          FormatFixed(stream.overlap, 3)});
   }
-  return table.Render();
+  return table.Render(StyleOfOutput());
 }
 
 std::string DescribeGaps(const std::vector<StreamReport>& streams) {
@@ -59,12 +61,12 @@ std::string DescribeGaps(const std::vector<StreamReport>& streams) {
   for (const StreamReport& stream : streams) {
     for (std::size_t i = 0; i < stream.gaps.size(); ++i) {
       if (i == kListedGaps) {
-        text += Format("gap: %s: %zu more\n", stream.name.c_str(),
-                       stream.gaps.size() - i);
+        text += fmt::format("gap: {}: {} more\n", stream.name,
+                            stream.gaps.size() - i);
         break;
       }
-      text += Format("gap: %s: %.3f s from t = %.3f s\n", stream.name.c_str(),
-                     stream.gaps[i].length, stream.gaps[i].t);
+      text += fmt::format("gap: {}: {:.3f} s from t = {:.3f} s\n", stream.name,
+                          stream.gaps[i].length, stream.gaps[i].t);
     }
   }
   return text;
@@ -72,11 +74,11 @@ std::string DescribeGaps(const std::vector<StreamReport>& streams) {
 
 std::string DescribeSpans(const char* what,
                           const std::vector<TimeInterval>& spans) {
-  std::string text =
-      Format("%s: %.1f s in %zu spans", what, TotalLength(spans), spans.size());
+  std::string text = fmt::format("{}: {:.1f} s in {} spans", what,
+                                 TotalLength(spans), spans.size());
   for (std::size_t i = 0; i < spans.size(); ++i) {
-    text += Format("%s%.2f to %.2f", i == 0 ? ": " : ", ", spans[i].begin,
-                   spans[i].end);
+    text += fmt::format("{}{:.2f} to {:.2f}", i == 0 ? ": " : ", ",
+                        spans[i].begin, spans[i].end);
   }
   return text + "\n";
 }
@@ -100,20 +102,21 @@ std::string DescribeRest(const Rest& rest) {
 
 std::string DescribeImu(const CheckReport& report) {
   const ImuReport& imu = report.imu;
-  std::string text = Format(
-      "specific force: mean %.3f, largest %.2f m/s^2; angular rate: largest "
-      "%.2f deg/s\n",
+  std::string text = fmt::format(
+      "specific force: mean {:.3f}, largest {:.2f} m/s^2; angular rate: "
+      "largest "
+      "{:.2f} deg/s\n",
       imu.mean_force, imu.max_force, imu.max_rate / kDegree);
   text += DescribeRest(imu.rest);
   if (imu.rest_force) {
-    text +=
-        Format("  mean specific force [%.4f, %.4f, %.4f] m/s^2\n",
-               imu.rest_force->x(), imu.rest_force->y(), imu.rest_force->z());
+    text += fmt::format(
+        "  mean specific force [{:.4f}, {:.4f}, {:.4f}] m/s^2\n",
+        imu.rest_force->x(), imu.rest_force->y(), imu.rest_force->z());
   }
   if (imu.rest_rate) {
     const Eigen::Vector3d rate = *imu.rest_rate / kDegree;
-    text += Format("  mean angular rate [%.5f, %.5f, %.5f] deg/s\n", rate.x(),
-                   rate.y(), rate.z());
+    text += fmt::format("  mean angular rate [{:.5f}, {:.5f}, {:.5f}] deg/s\n",
+                        rate.x(), rate.y(), rate.z());
   }
   return text + "axes: " + report.axes + "\n";
 }
@@ -128,20 +131,21 @@ std::string DescribeNoise(const NoiseEstimate& estimate) {
          known ? FormatFixed(noise.factor * std::exp(-spread), 3) : "?",
          known ? FormatFixed(noise.factor * std::exp(spread), 3) : "?"});
   }
-  return "\n" + table.Render() +
-         Format("log-likelihood %.1f -> %.1f%s\n",
-                estimate.log_likelihood_before, estimate.log_likelihood_after,
-                estimate.converged ? "" : " (not settled)");
+  return "\n" + table.Render(StyleOfOutput()) +
+         fmt::format("log-likelihood {:.1f} -> {:.1f}{}\n",
+                     estimate.log_likelihood_before,
+                     estimate.log_likelihood_after,
+                     estimate.converged ? "" : " (not settled)");
 }
 
 /// The last line.
 std::string DescribeGrade(const CheckReport& report) {
   const std::size_t warnings = report.warnings.size() + report.evidence.size();
-  std::string text =
-      std::string("the recording is ") + GradeName(report.grade()) +
-      (warnings == 0
-           ? ": nothing looks wrong"
-           : Format(": %zu warning%s", warnings, warnings == 1 ? "" : "s"));
+  std::string text = "the recording is " +
+                     PaintGrade(GradeName(report.grade()), StyleOfOutput()) +
+                     (warnings == 0 ? ": nothing looks wrong"
+                                    : fmt::format(": {} warning{}", warnings,
+                                                  warnings == 1 ? "" : "s"));
   if (!report.truth_warnings.empty()) text += "; see the warning of the truth";
   return text + "\n";
 }
@@ -203,8 +207,8 @@ Command CheckCommand() {
       .arguments = "CONFIG",
       .help = kHelp,
       .flags = {{"data_root", "DIR",
-                 "where a relative folder of CONFIG is looked for\n"
-                 "(../shared/data)"},
+                 "where a relative folder of CONFIG is looked for, if\n"
+                 "not beside it"},
                 {"without", "NAMES",
                  "leave out these aiding streams of CONFIG"},
                 {"noise", "", "also estimate by what the stated noise is off"}},

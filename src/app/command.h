@@ -44,8 +44,8 @@ struct Command {
   std::vector<FlagUse> flags;
   std::size_t min_arguments = 0;
   std::size_t max_arguments = 0;
-  /// Returns the exit status. Throws what base/error.h and io/output_error.h
-  /// declare.
+  /// Returns the exit status. Throws what base/error.h and
+  /// io/write/output_error.h declare.
   int (*run)(const std::vector<std::string>& arguments) = nullptr;
 };
 

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -5,16 +7,21 @@
 #include <utility>
 
 #include "app/command.h"
+#include "app/file_place.h"
 #include "app/flags.h"
+#include "app/report_page.h"
 #include "app/run_output.h"
+#include "app/terminal.h"
 #include "base/error.h"
-#include "base/text.h"
 #include "base/units.h"
 #include "evaluation/broad_metric.h"
 #include "evaluation/truth_comparison.h"
-#include "io/comparison.h"
-#include "io/config.h"
-#include "io/solution_csv.h"
+#include "io/config/config.h"
+#include "io/write/atomic_file.h"
+#include "io/write/comparison.h"
+#include "io/write/error_csv.h"
+#include "io/write/solution_csv.h"
+#include "io/write/summary.h"
 
 namespace hindsight {
 namespace {
@@ -30,6 +37,9 @@ to the one before are left out), just as 'run' prints them. For a METHOD.csv of
 if it fits TRUTH. Without it a solution sparser than the truth is compared at
 its own rows, to which the truth is interpolated, and any other is interpolated
 to the truth's times; the last lines say which.
+
+With --out=FILE it writes the page of 'report' as well, of this solution and
+these errors; of a METHOD.csv of 'run' with all that its folder tells of it.
 
 Normalised errors (mean of e' P^-1 e of three components, expected 3) where the
 solution holds covariances. --metric=broad gives the attitude errors of the
@@ -135,8 +145,9 @@ int PrintBroad(const std::string& solution_path,
         {"count", metric.count}};
     std::cout << json.dump(2) << "\n";
   } else {
-    std::cout << Format(
-        "RMSE [deg]: total %.3f, heading %.3f, inclination %.3f (%zu points "
+    std::cout << fmt::format(
+        "RMSE [deg]: total {:.3f}, heading {:.3f}, inclination {:.3f} ({} "
+        "points "
         "in motion)\n",
         metric.rms.total / kDegree, metric.rms.heading / kDegree,
         metric.rms.inclination / kDegree, metric.count);
@@ -144,7 +155,28 @@ int PrintBroad(const std::string& solution_path,
   return kUsable;
 }
 
+/// The page of `report` with the errors of this comparison.
+void WritePage(const std::string& path, const SolutionTable& compared,
+               const Reference& truth, const TrajectoryErrorOptions& options,
+               const TrajectoryStatistics& statistics) {
+  CheckFilePlace(FLAGS_out, {"'report' or 'evaluate'", IsReportPage});
+  EvaluatedSolution evaluated;
+  evaluated.file = path;
+  const ComparedTruth points = TruthToCompare(compared, truth.points, options);
+  for (ErrorColumn& column :
+       ColumnsOf(ComputeTrajectoryErrors(compared, points.points, options),
+                 compared)) {
+    evaluated.errors[column.title] = std::move(column.values);
+  }
+  evaluated.figures = nlohmann::ordered_json::object();
+  PutTruthFigures(statistics, Contradiction(statistics), &evaluated.figures);
+  WriteFileAtomically(FLAGS_out, ReportPage(std::move(evaluated)));
+}
+
 int Run(const std::vector<std::string>& arguments) {
+  if (FLAGS_metric == "broad" && !FLAGS_out.empty()) {
+    throw UsageError("--out goes with --metric=trajectory");
+  }
   if (FLAGS_metric == "broad") return PrintBroad(arguments[0], arguments[1]);
   if (FLAGS_metric != "trajectory") {
     throw UsageError("--metric=" + FLAGS_metric +
@@ -161,20 +193,25 @@ int Run(const std::vector<std::string>& arguments) {
   if (statistics.matched_count == 0) {
     throw InputError(
         arguments[0], 0,
-        Format("nothing to compare with %s: the solution covers %.3f s to "
-               "%.3f s, the truth %.3f s to %.3f s",
-               arguments[1].c_str(), solution.t.front(), solution.t.back(),
-               truth.points.front().t, truth.points.back().t));
+        fmt::format(
+            "nothing to compare with {}: the solution covers {:.3f} s to "
+            "{:.3f} s, the truth {:.3f} s to {:.3f} s",
+            arguments[1], solution.t.front(), solution.t.back(),
+            truth.points.front().t, truth.points.back().t));
+  }
+  if (!FLAGS_out.empty()) {
+    WritePage(arguments[0], solution, truth, options, statistics);
   }
   if (FLAGS_json) {
     PrintJson(statistics, file);
   } else {
-    std::cout << ErrorTable(statistics) << "compared: " << file << " with "
-              << arguments[1] << "\n";
+    std::cout << ErrorTable(statistics, StyleOfOutput()) << "compared: " << file
+              << " with " << arguments[1] << "\n";
     const std::string contradiction = Contradiction(statistics);
     if (!contradiction.empty()) {
       std::cout << arguments[0] << ": " << contradiction << "\n";
     }
+    if (!FLAGS_out.empty()) std::cout << "report in " << FLAGS_out << "\n";
   }
   return kUsable;
 }
@@ -187,11 +224,14 @@ Command EvaluateCommand() {
       .summary = "compare a trajectory with a reference",
       .arguments = "SOLUTION TRUTH",
       .help = kHelp,
-      .flags = {{"json", "", "print the figures as one JSON object"},
-                {"metric", "NAME", "trajectory or broad (trajectory)"},
-                {"data_root", "DIR",
-                 "where a relative folder of a configuration is looked for\n"
-                 "(../shared/data)"}},
+      .flags =
+          {{"json", "", "print the figures as one JSON object"},
+           {"metric", "NAME", "trajectory or broad (trajectory)"},
+           {"out", "FILE", "write the page of 'report' there"},
+           {"force", "", "replace FILE if it is such a page"},
+           {"data_root", "DIR",
+            "where a relative folder of a configuration is looked for, if\n"
+            "not beside it"}},
       .min_arguments = 2,
       .max_arguments = 2,
       .run = Run,

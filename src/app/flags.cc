@@ -6,7 +6,8 @@
 #include <limits>
 
 #include "app/list_flags.h"
-#include "io/config_map.h"
+#include "base/error.h"
+#include "io/config/config_map.h"
 
 DEFINE_double(alpha, 0.03, "");
 DEFINE_string(alpha_blocks, "velocity_attitude", "");
@@ -15,7 +16,7 @@ DEFINE_string(at, "", "");
 DEFINE_bool(back_off, false, "");
 DEFINE_string(bounded, "attitude=1rad", "");
 DEFINE_bool(clean, false, "");
-DEFINE_string(data_root, "../shared/data", "");
+DEFINE_string(data_root, "", "");
 DEFINE_double(duration, 0.0, "");
 DEFINE_double(delta, 0.0, "");
 DEFINE_string(error, "navigation", "");
@@ -23,10 +24,6 @@ DEFINE_string(export, "", "");
 DEFINE_bool(force, false, "");
 DEFINE_double(from, -std::numeric_limits<double>::infinity(), "");
 DEFINE_string(gamma, "20", "");
-DEFINE_string(heading, "30,60,120,175", "");
-DEFINE_string(errors, "", "");
-DEFINE_string(gps_rate, "1", "");
-DEFINE_string(gps_sigma, "1", "");
 DEFINE_string(inject, "", "");
 DEFINE_bool(json, false, "");
 DEFINE_bool(list, false, "");
@@ -35,22 +32,20 @@ DEFINE_string(methods, "ekf,rts,iterated,batch", "");
 DEFINE_string(metric, "trajectory", "");
 DEFINE_bool(noise, false, "");
 DEFINE_string(out, "", "");
-DEFINE_string(path, "winding", "");
 DEFINE_string(point, "", "");
 DEFINE_string(profile, "", "");
 DEFINE_string(progress, "auto", "");
+DEFINE_bool(quiet, false, "");
 DEFINE_double(rate, 0.0, "");
-DEFINE_string(rates, "10,1", "");
 DEFINE_string(rules, "ekf,hinf,modified_hinf", "");
 DEFINE_string(reading, "", "");
+DEFINE_string(faults, "", "");
 DEFINE_bool(report, false, "");
 DEFINE_uint64(runs, 100, "");
 DEFINE_uint64(seed, 1, "");
-DEFINE_bool(sweep, false, "");
+DEFINE_string(set, "", "");
 DEFINE_uint64(threads, 0, "");
-DEFINE_string(tilt, "10,30", "");
 DEFINE_double(to, std::numeric_limits<double>::infinity(), "");
-DEFINE_string(white_noise, "sample", "");
 DEFINE_string(withhold, "", "");
 DEFINE_string(without, "", "");
 
@@ -93,7 +88,9 @@ std::string Refusal(const std::string& type, const std::string& value) {
 void SetFlag(const FlagUse& flag, std::string value) {
   gflags::CommandLineFlagInfo info;
   gflags::GetCommandLineFlagInfo(flag.name.c_str(), &info);
-  if ((flag.name == "withhold" || flag.name == "inject") && !info.is_default) {
+  const bool is_list =
+      flag.name == "withhold" || flag.name == "inject" || flag.name == "set";
+  if (is_list && !info.is_default) {
     value = info.current_value + ";" + value;
   }
   // gflags reads an unsigned value with strtoul, to which "-1" is a number.
@@ -151,7 +148,9 @@ void CheckArgumentCount(const Command& command,
 
 const std::vector<FlagUse>& CommonFlags() {
   static const std::vector<FlagUse> flags = {
-      {"log", "LEVEL", "log to stderr: info, warning, error or none (none)"}};
+      {"log", "LEVEL", "log to stderr: info, warning, error or none (none)"},
+      {"quiet", "",
+       "nothing on stdout and no progress; the exit status tells"}};
   return flags;
 }
 

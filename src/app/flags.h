@@ -23,10 +23,6 @@ DECLARE_string(export);
 DECLARE_bool(force);
 DECLARE_double(from);
 DECLARE_string(gamma);
-DECLARE_string(heading);
-DECLARE_string(errors);
-DECLARE_string(gps_rate);
-DECLARE_string(gps_sigma);
 DECLARE_string(inject);
 DECLARE_bool(json);
 DECLARE_bool(list);
@@ -35,22 +31,20 @@ DECLARE_string(methods);
 DECLARE_string(metric);
 DECLARE_bool(noise);
 DECLARE_string(out);
-DECLARE_string(path);
+DECLARE_string(faults);
 DECLARE_string(point);
 DECLARE_string(profile);
 DECLARE_string(progress);
+DECLARE_bool(quiet);
 DECLARE_double(rate);
-DECLARE_string(rates);
 DECLARE_string(rules);
 DECLARE_string(reading);
 DECLARE_bool(report);
 DECLARE_uint64(runs);
 DECLARE_uint64(seed);
-DECLARE_bool(sweep);
+DECLARE_string(set);
 DECLARE_uint64(threads);
-DECLARE_string(tilt);
 DECLARE_double(to);
-DECLARE_string(white_noise);
 DECLARE_string(withhold);
 DECLARE_string(without);
 
@@ -64,7 +58,8 @@ struct ParsedArguments {
 
 /// Sets the gflags of `command` from `words`. A value follows "=" or is the
 /// next word; flags and positional arguments may be mixed; "--" ends the
-/// flags. Values of a repeated --withhold or --inject are joined with ";".
+/// flags. Values of a repeated --withhold, --inject or --set are joined with
+/// ";".
 /// Throws UsageError for a flag the command does not accept, a bad value, and a
 /// wrong number of positional arguments.
 ParsedArguments ParseArguments(const Command& command,

@@ -5,14 +5,14 @@
 
 #include "app/abandoned.h"
 #include "app/command.h"
+#include "app/file_place.h"
 #include "app/flags.h"
 #include "app/interrupt.h"
-#include "base/error.h"
-#include "io/atomic_file.h"
-#include "io/init_config.h"
-#include "io/output_error.h"
-#include "io/paths.h"
-#include "io/unpublished.h"
+#include "io/config/init_config.h"
+#include "io/read/paths.h"
+#include "io/write/atomic_file.h"
+#include "io/write/output_error.h"
+#include "io/write/unpublished.h"
 
 namespace hindsight {
 namespace {
@@ -40,28 +40,6 @@ void Write(const std::string& config) {
   written = true;
 }
 
-/// A recording in the folder looks like any other file to be replaced.
-void CheckMayReplace(const std::string& file) {
-  const std::filesystem::path folder =
-      std::filesystem::absolute(file).parent_path();
-  if (!IsFolder(folder)) {
-    throw InputError("output file " + file +
-                     " cannot be written: there is no "
-                     "folder " +
-                     folder.string());
-  }
-  if (!PathExists(file)) return;
-  if (!FLAGS_force) {
-    throw InputError("output file " + file +
-                     " exists; choose another or replace it with --force");
-  }
-  if (!IsInitConfig(file)) {
-    throw InputError("output file " + file +
-                     " was not written by 'init', or changed since; --force "
-                     "does not replace it");
-  }
-}
-
 /// A killed call leaves a whole configuration or an empty file.
 std::string Disowned(const std::filesystem::path& path) {
   std::error_code refused;
@@ -72,7 +50,7 @@ std::string Disowned(const std::filesystem::path& path) {
 }
 
 int Run(const std::vector<std::string>& arguments) {
-  if (!FLAGS_out.empty()) CheckMayReplace(FLAGS_out);
+  if (!FLAGS_out.empty()) CheckFilePlace(FLAGS_out, {"'init'", IsInitConfig});
   const std::string config = InitConfig(arguments[0]);
   if (FLAGS_out.empty()) {
     std::cout << config;

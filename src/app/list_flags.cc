@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "app/flags.h"
-#include "io/units.h"
+#include "io/read/units.h"
 
 namespace hindsight {
 namespace {

@@ -13,9 +13,11 @@
 #include "app/flags.h"
 #include "app/help.h"
 #include "app/interrupt.h"
+#include "app/terminal.h"
 #include "base/error.h"
-#include "io/output_error.h"
-#include "io/unpublished.h"
+#include "io/config/config_help.h"
+#include "io/write/output_error.h"
+#include "io/write/unpublished.h"
 
 namespace hindsight {
 namespace {
@@ -55,12 +57,33 @@ const Command& FindCommand(const std::vector<Command>& commands,
                    " ('hindsight --help' lists the commands)");
 }
 
+/// `hindsight help config [KEY | --markdown | --schema]`.
+int HelpOnConfig(const std::vector<std::string>& words) {
+  const std::string word = words.size() > 1 ? words[1] : "";
+  if (words.size() > 2 ||
+      (word.starts_with("-") && word != "--markdown" && word != "--schema")) {
+    throw UsageError(
+        "help config: expected nothing more, a key, a map, a kind of sensor, "
+        "--markdown or --schema");
+  }
+  const std::string text = word == "--markdown" ? ConfigMarkdown()
+                           : word == "--schema" ? ConfigSchema()
+                                                : ConfigHelp(word);
+  if (text.empty()) {
+    throw UsageError("help config: no key, map or kind of sensor is named '" +
+                     word + "' ('hindsight help config' lists them)");
+  }
+  std::cout << text;
+  return kUsable;
+}
+
 int Dispatch(const char* program, std::vector<std::string> words) {
   const std::vector<Command> commands = {
       CheckCommand(), RunCommand(),        EvaluateCommand(), SimulateCommand(),
       InitCommand(),  MonteCarloCommand(), ReportCommand()};
   if (!words.empty() && words[0] == "help") {
     words.erase(words.begin());
+    if (!words.empty() && words[0] == "config") return HelpOnConfig(words);
     if (!words.empty()) words = {words[0], "--help"};
   }
   if (words.empty() || words[0] == "--help" || words[0] == "-h") {
@@ -79,6 +102,7 @@ int Dispatch(const char* program, std::vector<std::string> words) {
     return kUsable;
   }
   StartLogging(program);
+  if (FLAGS_quiet) SilenceOutput();
   return command.run(arguments.positional);
 }
 

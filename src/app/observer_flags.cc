@@ -5,7 +5,7 @@
 
 #include "app/flags.h"
 #include "app/list_flags.h"
-#include "io/units.h"
+#include "io/read/units.h"
 
 namespace hindsight {
 namespace {

@@ -4,10 +4,10 @@
 
 #include "app/error_line.h"
 #include "base/error.h"
-#include "io/output_error.h"
-#include "io/paths.h"
-#include "io/result_manifest.h"
-#include "io/unpublished.h"
+#include "io/read/paths.h"
+#include "io/write/output_error.h"
+#include "io/write/result_manifest.h"
+#include "io/write/unpublished.h"
 
 namespace hindsight {
 namespace fs = std::filesystem;

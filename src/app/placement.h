@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/unpublished.h"
+#include "io/write/unpublished.h"
 
 namespace hindsight {
 
@@ -24,8 +24,8 @@ struct OutputRequest {
 /// the way then is never removed: the results stay beside it, as FOLDER.1,
 /// FOLDER.2 and so on. What was there from the start is replaced while it is an
 /// empty folder, and with `force` where it holds nothing but files that its
-/// manifest lists (io/result_manifest.h), by exchanging the two in one step;
-/// where the file system cannot, by two renames, and a kill between these
+/// manifest lists (io/write/result_manifest.h), by exchanging the two in one
+/// step; where the file system cannot, by two renames, and a kill between these
 /// leaves both folders beside the name. Results that lie elsewhere by then, as
 /// a folder above was renamed, get FOLDER.1 and so on there.
 class Placement {

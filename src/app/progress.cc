@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "app/command.h"
 
@@ -15,6 +16,10 @@ namespace {
 constexpr double kSecondsBetweenLines = 0.1;
 /// An estimate of the time left from less than this is noise.
 constexpr double kLeastFraction = 0.02;
+
+double SecondsLeft(double seconds, double done) {
+  return seconds * (1.0 - done) / done;
+}
 
 }  // namespace
 
@@ -38,41 +43,107 @@ void Progress::Clear() {
 
 void Progress::Finish() {
   Clear();
-  if (mode_ == Mode::kJson) Update("done", 1.0);
+  if (mode_ != Mode::kJson) return;
+  step_ = steps_.size();
+  Update("done", 1.0);
+}
+
+void Progress::Plan(std::vector<Step> steps) {
+  steps_ = std::move(steps);
+  step_ = 0;
+  step_fraction_ = 0.0;
+}
+
+void Progress::TakeFraction(double fraction) {
+  if (fraction < stage_fraction_) ++passes_;
+  stage_fraction_ = fraction;
+  const double share =
+      steps_.empty() ? fraction : 1.0 - std::exp2(-(passes_ + fraction));
+  step_fraction_ = std::max(step_fraction_, share);
+}
+
+void Progress::Begin(const std::string& step) {
+  const auto found =
+      std::find_if(steps_.begin(), steps_.end(),
+                   [&step](const Step& one) { return one.name == step; });
+  if (found == steps_.end()) return;
+  step_ = static_cast<std::size_t>(found - steps_.begin());
+  step_fraction_ = 0.0;
+  stage_fraction_ = 0.0;
+  passes_ = 0.0;
+}
+
+double Progress::RunFraction() const {
+  if (steps_.empty()) return step_fraction_;
+  double done = 0.0;
+  double all = 0.0;
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    all += steps_[i].work;
+    done += i < step_    ? steps_[i].work
+            : i == step_ ? step_fraction_ * steps_[i].work
+                         : 0.0;
+  }
+  return all > 0.0 ? done / all : 0.0;
+}
+
+double Progress::SecondsSince(Clock::time_point begin) const {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 void Progress::Update(const std::string& stage, double fraction) {
   if (mode_ == Mode::kNone) return;
   const Clock::time_point now = Clock::now();
+  fraction = std::clamp(fraction, 0.0, 1.0);
   const bool new_stage = stage != stage_;
   if (new_stage) {
     stage_ = stage;
     stage_begin_ = now;
+    if (steps_.empty()) {
+      run_begin_ = now;
+      step_fraction_ = 0.0;
+    }
   }
+  TakeFraction(fraction);
   const std::chrono::duration<double> since_print = now - last_print_;
   if (!new_stage && fraction < 1.0 &&
       since_print.count() < kSecondsBetweenLines) {
     return;
   }
   last_print_ = now;
-  const std::chrono::duration<double> elapsed = now - stage_begin_;
-  Print(std::clamp(fraction, 0.0, 1.0), elapsed.count());
+  Print(fraction);
 }
 
-void Progress::Print(double fraction, double seconds) {
-  const bool predictable = fraction >= kLeastFraction;
-  const double left = predictable ? seconds * (1.0 - fraction) / fraction : 0.0;
-  if (mode_ == Mode::kJson) {
-    nlohmann::ordered_json line = {{"stage", stage_}, {"fraction", fraction}};
-    if (predictable) line["seconds_left"] = std::round(left * 1e3) / 1e3;
-    std::fprintf(stderr, "%s\n", line.dump().c_str());
+void Progress::Print(double fraction) {
+  if (mode_ == Mode::kTerminal) {
+    PrintBar();
+    line_open_ = true;
     return;
   }
-  std::fprintf(stderr, "\r\033[K%s: %3.0f %%", stage_.c_str(),
-               100.0 * fraction);
-  if (predictable) std::fprintf(stderr, ", %.0f s left", left);
+  nlohmann::ordered_json line = {{"stage", stage_}, {"fraction", fraction}};
+  const auto put = [&line](const char* key, double seconds, double done) {
+    if (done < kLeastFraction) return;
+    line[key] = std::round(SecondsLeft(seconds, done) * 1e3) / 1e3;
+  };
+  put("seconds_left", SecondsSince(stage_begin_), fraction);
+  if (!steps_.empty()) {
+    line["run_fraction"] = std::round(RunFraction() * 1e4) / 1e4;
+    put("run_seconds_left", SecondsSince(run_begin_), RunFraction());
+  }
+  std::fprintf(stderr, "%s\n", line.dump().c_str());
+}
+
+void Progress::PrintBar() const {
+  constexpr int kLetters = 24;
+  const double done = RunFraction();
+  std::string bar(kLetters, '.');
+  std::fill_n(bar.begin(), std::lround(done * kLetters), '#');
+  std::fprintf(stderr, "\r\033[K[%s] %3.0f %%", bar.c_str(), 100.0 * done);
+  if (done >= kLeastFraction) {
+    std::fprintf(stderr, ", %.0f s left",
+                 SecondsLeft(SecondsSince(run_begin_), done));
+  }
+  std::fprintf(stderr, ": %s", stage_.c_str());
   std::fflush(stderr);
-  line_open_ = true;
 }
 
 }  // namespace hindsight

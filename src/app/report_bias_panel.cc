@@ -1,14 +1,17 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
 #include "app/report_html.h"
 #include "app/report_lines.h"
-#include "base/text.h"
 #include "base/units.h"
-#include "io/paths.h"
 
 namespace hindsight {
 namespace {
 
-/// Columns of METHOD.constants.csv: value, and value plus and minus sigma, by
-/// "NAME [UNIT]"; angles in degrees.
+/// Columns of METHOD.constants.csv: value by "NAME [UNIT]", sigma by "sd_NAME
+/// [UNIT]"; angles in degrees.
 ReportSeries ConstantSeries(NumberColumns columns) {
   ReportSeries series;
   series.t = std::move(columns["t[s]"]);
@@ -20,61 +23,77 @@ ReportSeries ConstantSeries(NumberColumns columns) {
     const std::string name =
         title.substr(0, bracket) + " " +
         (angle ? "[deg" + title.substr(bracket + 4) : title.substr(bracket));
-    std::vector<double> value = values;
-    std::vector<double> upper = values;
-    std::vector<double> lower = values;
-    for (std::size_t k = 0; k < value.size(); ++k) {
-      const double unit = angle ? kDegree : 1.0;
-      value[k] = values[k] / unit;
-      upper[k] = (values[k] + sigma->second[k]) / unit;
-      lower[k] = (values[k] - sigma->second[k]) / unit;
+    const double unit = angle ? kDegree : 1.0;
+    std::vector<double>& shown = series.columns[name];
+    std::vector<double>& shown_sigma = series.columns["sd_" + name];
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      shown.push_back(values[k] / unit);
+      shown_sigma.push_back(sigma->second[k] / unit);
     }
-    series.columns[name] = std::move(value);
-    series.columns["+" + name] = std::move(upper);
-    series.columns["-" + name] = std::move(lower);
   }
   return series;
 }
 
-/// Every constant of the first forward method that has some.
+/// The lines of one constant of one solution, in its colour.
+void AddConstantLines(const ReportSolution& solution, int number, int table,
+                      const std::string& name, Chart* chart) {
+  const std::string sigma = "sd_" + name;
+  // A backward filter begins with nothing.
+  const std::string spread = solution.forward ? "" : sigma;
+  for (const double factor : {1.0, -1.0}) {
+    chart->lines.push_back({.table = table,
+                            .column = sigma,
+                            .group = number,
+                            .colour = number,
+                            .factor = factor,
+                            .centre = name,
+                            .style = "dash",
+                            .spread = spread});
+  }
+  chart->lines.push_back(
+      {.table = table,
+       .column = name,
+       .label = solution.label + (solution.forward ? "" : ", backward"),
+       .group = number,
+       .colour = number,
+       .spread = spread});
+}
+
+/// Every constant, of all solutions that tell it over time.
 std::string ConstantFigures(ReportContext* context) {
+  std::vector<std::pair<std::string, Chart>> charts;
   for (std::size_t i = 0; i < context->solutions.size(); ++i) {
     const ReportSolution& solution = context->solutions[i];
-    const auto path = context->sources[solution.source].folder /
-                      (solution.method + ".constants.csv");
-    if (!PathExists(path)) continue;
-    ReportSeries series = ConstantSeries(ReadNumberColumns(path.string()));
+    const auto path = context->sources[solution.source].FileOf(
+        solution.method + ".constants.csv");
+    if (!path) continue;
+    ReportSeries series = ConstantSeries(ReadNumberColumns(path->string()));
     std::vector<std::string> names;
     for (const auto& [name, values] : series.columns) {
-      if (name[0] != '+' && name[0] != '-') names.push_back(name);
+      if (!name.starts_with("sd_")) names.push_back(name);
     }
     const int table = context->data.Add(std::move(series));
-    std::string figures;
     for (const std::string& name : names) {
-      const std::size_t bracket = name.rfind(" [");
-      Chart chart = {
-          .title = name.substr(0, bracket),
-          .unit = name.substr(bracket + 2, name.size() - bracket - 3)};
-      const int number = static_cast<int>(i);
-      for (const char* sign : {"+", "-"}) {
-        chart.lines.push_back(
-            {.table = table,
-             .column = sign + name,
-             .label = sign == std::string("+") ? "plus and minus sigma" : "",
-             .group = number,
-             .colour = -1,
-             .style = "dash"});
+      auto chart =
+          std::find_if(charts.begin(), charts.end(),
+                       [&name](const auto& one) { return one.first == name; });
+      if (chart == charts.end()) {
+        const std::size_t bracket = name.rfind(" [");
+        charts.push_back(
+            {name,
+             {.title = name.substr(0, bracket),
+              .unit = name.substr(bracket + 2, name.size() - bracket - 3)}});
+        chart = charts.end() - 1;
       }
-      chart.lines.push_back({.table = table,
-                             .column = name,
-                             .label = solution.label,
-                             .group = number,
-                             .colour = number});
-      figures += context->data.Figure(std::move(chart));
+      AddConstantLines(solution, static_cast<int>(i), table, name,
+                       &chart->second);
     }
-    return figures;
   }
-  return "";
+  std::string figures;
+  for (auto& [name, chart] : charts) {
+    figures += context->data.Figure(std::move(chart));
+  }
+  return figures;
 }
 
 }  // namespace
@@ -99,10 +118,11 @@ std::string BiasPanel(ReportContext* context) {
         {.title = title, .unit = unit, .lines = std::move(lines)});
   };
   for (const char axis : {'x', 'y', 'z'}) {
-    add(Format("bg_%c", axis), Format("Gyro bias %c", axis), "deg/h");
+    add(fmt::format("bg_{}", axis), fmt::format("Gyro bias {}", axis), "deg/h");
   }
   for (const char axis : {'x', 'y', 'z'}) {
-    add(Format("ba_%c", axis), Format("Accelerometer bias %c", axis), "m/s^2");
+    add(fmt::format("ba_{}", axis), fmt::format("Accelerometer bias {}", axis),
+        "m/s^2");
   }
   const std::string constants = ConstantFigures(context);
   std::string text =
@@ -113,9 +133,14 @@ std::string BiasPanel(ReportContext* context) {
                     "solution plus and minus one sigma.");
   return text + Grid(figures, "No bias is estimated.") +
          (constants.empty()
-              ? Absent("No constants over time: none is estimated, or no "
-                       "forward method (ekf) ran.")
-              : "<h3>Constants as time went on</h3>\n" + Grid(constants, ""));
+              ? Absent("No constants over time: none is estimated, or neither "
+                       "a forward method (ekf) nor two_filter ran.")
+              : "<h3>Constants over time</h3>\n" +
+                    Element("p",
+                            "Forward methods as they learned them from what "
+                            "came before, backward filters from what came "
+                            "later. Dashed: plus and minus one sigma.") +
+                    Grid(constants, ""));
 }
 
 }  // namespace hindsight

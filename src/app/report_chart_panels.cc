@@ -1,6 +1,9 @@
+#include <fmt/core.h>
+
 #include "app/report_html.h"
 #include "app/report_lines.h"
-#include "io/html.h"
+#include "io/read/result_columns.h"
+#include "io/write/html.h"
 
 namespace hindsight {
 
@@ -27,6 +30,48 @@ std::string AccuracyPanel(ReportContext* context) {
          Grid(figures, "The solutions hold no standard deviations.");
 }
 
+namespace {
+
+/// Body rates and specific force of the recommended solution.
+std::string BodyFigures(ReportContext* context) {
+  const ReportSolution& best = context->best();
+  const auto path = context->reference().FileOf(best.method + ".motion.csv");
+  if (!path) return "";
+  NumberColumns columns = ReadNumberColumns(path->string());
+  ReportSeries series;
+  series.t = std::move(columns["t[s]"]);
+  columns.erase("t[s]");
+  series.columns = std::move(columns);
+  const int table = context->data.Add(std::move(series));
+  struct Vector {
+    const char* title;
+    const char* stem;
+    const char* unit;
+  };
+  std::string figures;
+  for (const Vector& v : {Vector{"Body rate", "w", "deg/s"},
+                          Vector{"Specific force", "f", "m/s^2"}}) {
+    Chart chart = {.title = v.title,
+                   .unit = v.unit,
+                   .note =
+                       "Body axes forward, right, down; biases removed, "
+                       "means between the epochs."};
+    const char* const axes[] = {"x", "y", "z"};
+    const char* const names[] = {"forward", "right", "down"};
+    for (int axis = 0; axis < 3; ++axis) {
+      chart.lines.push_back(
+          {.table = table,
+           .column = fmt::format("{}_{}[{}]", v.stem, axes[axis], v.unit),
+           .label = names[axis],
+           .colour = axis});
+    }
+    figures += context->data.Figure(std::move(chart));
+  }
+  return figures;
+}
+
+}  // namespace
+
 std::string MotionPanel(ReportContext* context) {
   constexpr ShownQuantity kQuantities[] = {
       {"height", "Height above the ellipsoid", "m"},
@@ -42,7 +87,7 @@ std::string MotionPanel(ReportContext* context) {
                                      .unit = q.unit,
                                      .lines = LinesOf(*context, q.column)});
   }
-  return Grid(figures, "The solutions hold no motion.");
+  return Grid(figures + BodyFigures(context), "The solutions hold no motion.");
 }
 
 std::string DifferencePanel(ReportContext* context) {
@@ -133,7 +178,7 @@ std::string TruthPanel(ReportContext* context) {
   if (figures.empty()) {
     return Absent(
         "There is no truth to compare with, or the run wrote no "
-        "METHOD.errors.csv (of attitude alone none is written).");
+        "METHOD.errors.csv.");
   }
   return Element("p",
                  "Truth minus solution. Dashed: three sigma of the "

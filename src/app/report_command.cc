@@ -3,13 +3,14 @@
 #include <iostream>
 
 #include "app/command.h"
+#include "app/file_place.h"
 #include "app/flags.h"
 #include "app/report_page.h"
 #include "base/error.h"
-#include "io/atomic_file.h"
-#include "io/output_error.h"
-#include "io/paths.h"
-#include "io/result_manifest.h"
+#include "io/read/paths.h"
+#include "io/write/atomic_file.h"
+#include "io/write/output_error.h"
+#include "io/write/result_manifest.h"
 
 namespace hindsight {
 namespace {
@@ -35,10 +36,7 @@ manifest.json, so that 'run --force' may replace it; an older page is replaced.
 /// there, as its others are.
 std::string PreparePlace(const fs::path& folder) {
   if (!FLAGS_out.empty()) {
-    if (PathExists(FLAGS_out) && !FLAGS_force) {
-      throw InputError(FLAGS_out +
-                       " exists; --force replaces it, or name another --out");
-    }
+    CheckFilePlace(FLAGS_out, {"'report' or 'evaluate'", IsReportPage});
     return FLAGS_out;
   }
   std::optional<ResultManifest> manifest = ReadManifest(folder);
@@ -77,7 +75,7 @@ Command ReportCommand() {
       .arguments = "DIR [DIR2 ...]",
       .help = kHelp,
       .flags = {{"out", "FILE", "write the page there (DIR/report.html)"},
-                {"force", "", "replace FILE"}},
+                {"force", "", "replace FILE if it is such a page"}},
       .min_arguments = 1,
       .max_arguments = 16,
       .run = Run,

@@ -1,13 +1,14 @@
 #include "app/report_data.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "app/report_html.h"
-#include "base/text.h"
-#include "io/html.h"
-#include "io/packed_series.h"
+#include "io/write/html.h"
+#include "io/write/packed_series.h"
 
 namespace hindsight {
 namespace {
@@ -80,8 +81,8 @@ std::optional<LineFigures> FiguresOf(const ReportSeries& table,
 
 std::string FigureText(const LineFigures& f, const std::string& label,
                        const std::string& unit) {
-  return Format("%s: from %.4g to %.4g %s, median %.4g", label.c_str(), f.least,
-                f.most, unit == "1" ? "" : unit.c_str(), f.middle);
+  return fmt::format("{}: from {:.4g} to {:.4g} {}, median {:.4g}", label,
+                     f.least, f.most, unit == "1" ? "" : unit, f.middle);
 }
 
 }  // namespace
@@ -112,14 +113,15 @@ std::string ReportData::Figure(Chart chart) {
     const auto f = FiguresOf(table(line.table), line);
     if (!f || line.style == "dash") continue;
     if (summary.empty()) summary = FigureText(*f, line.label, chart.unit);
-    figures.AddRow({line.label, Format("%.5g", f->first),
-                    Format("%.5g", f->middle), Format("%.5g", f->least),
-                    Format("%.5g", f->most), Format("%.2f", f->t_most),
-                    Format("%.5g", f->last)});
+    figures.AddRow(
+        {line.label, fmt::format("{:.5g}", f->first),
+         fmt::format("{:.5g}", f->middle), fmt::format("{:.5g}", f->least),
+         fmt::format("{:.5g}", f->most), fmt::format("{:.2f}", f->t_most),
+         fmt::format("{:.5g}", f->last)});
   }
   const std::string unit = chart.unit == "1" ? "" : " [" + chart.unit + "]";
   std::string html =
-      Format("<figure class=\"chart\" data-chart=\"%zu\">", charts_.size());
+      fmt::format("<figure class=\"chart\" data-chart=\"{}\">", charts_.size());
   html +=
       "<figcaption><b>" + EscapeHtml(chart.title) + "</b>" + EscapeHtml(unit);
   if (!chart.note.empty()) {
@@ -177,7 +179,8 @@ OrderedJson ReportData::Json() const {
                                 {"colour", line.colour},
                                 {"factor", line.factor},
                                 {"centre", line.centre},
-                                {"style", line.style}});
+                                {"style", line.style},
+                                {"spread", line.spread}});
     }
     json["charts"].push_back(std::move(entry));
   }
@@ -193,7 +196,7 @@ std::string ReportData::Blobs() const {
     for (const auto& [name, values] : table.columns) {
       bytes += PackSeries(values, ColumnQuantum(name, values));
     }
-    html += Format("<script type=\"text/plain\" id=\"rows-%zu\">", i) +
+    html += fmt::format("<script type=\"text/plain\" id=\"rows-{}\">", i) +
             Base64(Deflate(bytes)) + "</script>\n";
   }
   return html;

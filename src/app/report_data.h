@@ -34,6 +34,9 @@ struct ChartLine {
   /// Column of the same table about which it stands; empty: zero.
   std::string centre = {};
   std::string style = "line";  ///< "line", "points", "dash"
+  /// Column with the standard deviation of the row: those far above the usual
+  /// one do not count for the chart's range. Empty: all rows count.
+  std::string spread = {};
 };
 
 /// One chart: what is drawn over time, in one unit.

@@ -1,9 +1,10 @@
 #include "app/report_html.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
-#include "base/text.h"
-#include "io/html.h"
+#include "io/write/html.h"
 
 namespace hindsight {
 
@@ -15,10 +16,11 @@ void HtmlTable::AddRow(std::vector<std::string> cells) {
 }
 
 void HtmlTable::AddRow(std::vector<std::string> cells, double from, double to) {
-  rows_.push_back({std::move(cells),
-                   Format(" class=\"zooms\" tabindex=\"0\" data-from=\"%.6f\" "
-                          "data-to=\"%.6f\"",
-                          from, to)});
+  rows_.push_back(
+      {std::move(cells),
+       fmt::format(" class=\"zooms\" tabindex=\"0\" data-from=\"{:.6f}\" "
+                   "data-to=\"{:.6f}\"",
+                   from, to)});
 }
 
 std::string HtmlTable::Render() const {
@@ -75,23 +77,24 @@ std::string Render(const BarPicture& p) {
   const double zero = y(std::max(p.low, 0.0));
   for (std::size_t i = 0; i < p.bars.size(); ++i) {
     const double top = std::min(y(p.bars[i]), zero);
-    html +=
-        Format("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>",
-               static_cast<double>(i) * step + 0.1 * step, top, 0.8 * step,
-               std::max(y(p.bars[i]), zero) - top);
+    html += fmt::format(
+        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>",
+        static_cast<double>(i) * step + 0.1 * step, top, 0.8 * step,
+        std::max(y(p.bars[i]), zero) - top);
   }
   for (const double level : p.levels) {
-    html += Format("<path class=\"level\" d=\"M0 %.1fH320\"/>", y(level));
+    html +=
+        fmt::format("<path class=\"level\" d=\"M0 {:.1f}H320\"/>", y(level));
   }
   std::string path;
   for (std::size_t i = 0; i < p.curve.size(); ++i) {
-    path += Format("%s%.1f %.1f", i == 0 ? "M" : "L",
-                   kWidth * static_cast<double>(i) /
-                       static_cast<double>(p.curve.size() - 1),
-                   y(p.curve[i]));
+    path += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L",
+                        kWidth * static_cast<double>(i) /
+                            static_cast<double>(p.curve.size() - 1),
+                        y(p.curve[i]));
   }
   if (!path.empty()) html += "<path class=\"curve\" d=\"" + path + "\"/>";
-  html += Format("<path class=\"axis\" d=\"M0 %.1fH320\"/>", zero);
+  html += fmt::format("<path class=\"axis\" d=\"M0 {:.1f}H320\"/>", zero);
   html += "<text x=\"0\" y=\"136\">" + EscapeHtml(p.left) +
           "</text><text x=\"320\" y=\"136\" text-anchor=\"end\">" +
           EscapeHtml(p.right) + "</text></svg>";

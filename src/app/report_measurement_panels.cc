@@ -1,9 +1,10 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "app/report_html.h"
 #include "app/report_lines.h"
-#include "base/text.h"
 #include "base/units.h"
 #include "earth/wgs84.h"
 
@@ -62,6 +63,27 @@ nlohmann::ordered_json Spans(const ReportContext& context) {
   return spans;
 }
 
+/// What the evidence lowers the grade of, and when: the worst holds.
+nlohmann::ordered_json GradeSpans(const ReportContext& context) {
+  nlohmann::ordered_json spans = nlohmann::ordered_json::array();
+  const std::vector<double>& t = context.best().t();
+  const auto evidence =
+      context.BestSummary().value("evidence", nlohmann::ordered_json::array());
+  for (const auto& e : evidence) {
+    const std::string grade = e.value("grade", "");
+    const int rank = grade == "doubtful" ? 1 : grade == "not usable" ? 2 : 0;
+    if (rank == 0) continue;
+    double from = t.front();
+    double to = t.back();
+    if (e.contains("span_s")) {
+      from = e["span_s"][0].get<double>();
+      to = e["span_s"][1].get<double>();
+    }
+    spans.push_back({{"from", from}, {"to", to}, {"grade", rank}});
+  }
+  return spans;
+}
+
 }  // namespace
 
 std::string TimeLinePanel(ReportContext* context) {
@@ -79,10 +101,10 @@ std::string TimeLinePanel(ReportContext* context) {
     }
     const double step = MedianStep(r.t);
     table.AddRow({r.sensor, std::to_string(r.t.size()),
-                  step > 0.0 ? Format("%.3g", 1.0 / step) : "",
-                  Format("%.3g", LongestStep(r.t)), std::to_string(count('u')),
-                  std::to_string(count('r')), std::to_string(count('w')),
-                  std::to_string(weak)});
+                  step > 0.0 ? fmt::format("{:.3g}", 1.0 / step) : "",
+                  fmt::format("{:.3g}", LongestStep(r.t)),
+                  std::to_string(count('u')), std::to_string(count('r')),
+                  std::to_string(count('w')), std::to_string(weak)});
     const int number = context->data.Add(ResidualTable(r));
     lanes.push_back({{"label", r.sensor}, {"table", number}});
   }
@@ -130,6 +152,7 @@ std::string MapPanel(ReportContext* context) {
     fixes.detail = ReportDetail::kSome;
     context->map["fixes"] = context->data.Add(std::move(fixes));
   }
+  context->map["grades"] = GradeSpans(*context);
   std::string html =
       "<figure class=\"map\"><figcaption><b>Track and fixes</b> [m], north up"
       "<span class=\"note\">Drag to move, wheel or two fingers to zoom, click "
@@ -161,14 +184,14 @@ std::string OutagePanel(ReportContext* context) {
     const std::string unit = speed ? "mps" : "m";
     const auto figure = [&](const std::string& key, int decimals) {
       return outage.contains(key)
-                 ? Format("%.*f", decimals, outage[key].get<double>())
+                 ? fmt::format("{:.{}f}", outage[key].get<double>(), decimals)
                  : std::string();
     };
     constexpr double kAround = 5.0;
     table.AddRow(
-        {outage.value("sensor", ""), Format("%.1f", from), Format("%.1f", to),
-         Format("%.1f", to - from), figure("distance_m", 1),
-         figure("horizontal_rms_" + unit, 3),
+        {outage.value("sensor", ""), fmt::format("{:.1f}", from),
+         fmt::format("{:.1f}", to), fmt::format("{:.1f}", to - from),
+         figure("distance_m", 1), figure("horizontal_rms_" + unit, 3),
          figure("horizontal_max_" + unit, 3), figure("total_max_" + unit, 3),
          speed ? "m/s" : "m", figure("drift_percent", 2)},
         from - kAround, to + kAround);
@@ -178,6 +201,39 @@ std::string OutagePanel(ReportContext* context) {
                           "row zooms everything to its outage.") +
          table.Render();
 }
+
+namespace {
+
+/// Shares of the fixes by what the receivers said of them.
+std::string QualityTable(const ReportContext& context) {
+  HtmlTable table({"stream", "quality", "share of the fixes [%]", "fixes",
+                   "satellites, mean"});
+  bool any = false;
+  const auto streams = context.reference().summary.value(
+      "fixes", nlohmann::ordered_json::object());
+  for (const auto& [stream, fixes] : streams.items()) {
+    const std::string count = std::to_string(fixes.value("count", 0L));
+    const std::string satellites =
+        fixes.contains("satellites_mean")
+            ? fmt::format("{:.1f}", fixes["satellites_mean"].get<double>())
+            : "";
+    const auto shares =
+        fixes.value("quality_percent", nlohmann::ordered_json::object());
+    for (const auto& [quality, share] : shares.items()) {
+      table.AddRow({stream, quality, fmt::format("{:.1f}", share.get<double>()),
+                    count, satellites});
+      any = true;
+    }
+    if (shares.empty()) table.AddRow({stream, "", "", count, satellites});
+  }
+  if (any) return table.Render();
+  return Element("p",
+                 "The files of the fixes say nothing of the receiver's "
+                 "quality.") +
+         table.Render();
+}
+
+}  // namespace
 
 std::string ReceiverPanel(ReportContext* context) {
   if (context->fixes.empty()) {
@@ -190,6 +246,8 @@ std::string ReceiverPanel(ReportContext* context) {
     series.columns["sd_n"].push_back(fix.sd_n);
     series.columns["sd_e"].push_back(fix.sd_e);
     series.columns["sd_d"].push_back(fix.sd_d);
+    series.columns["quality"].push_back(fix.quality);
+    series.columns["satellites"].push_back(fix.satellites);
   }
   std::string figures;
   for (auto& [sensor, series] : sensors) {
@@ -205,12 +263,21 @@ std::string ReceiverPanel(ReportContext* context) {
                              .colour = colour++});
     }
     chart.logarithmic = true;
+    figures += context->data.Figure({.title = sensor + ": quality",
+                                     .unit = "1",
+                                     .note = "In the receiver's own numbers.",
+                                     .lines = {{.table = table,
+                                                .column = "quality",
+                                                .label = "quality",
+                                                .style = "points"}}});
+    figures += context->data.Figure(
+        {.title = sensor + ": satellites",
+         .unit = "1",
+         .lines = {
+             {.table = table, .column = "satellites", .label = "satellites"}}});
     figures += context->data.Figure(std::move(chart));
   }
-  return Element("p",
-                 "The receiver's quality and number of satellites are not in "
-                 "the results.") +
-         "<div class=\"grid\">" + figures + "</div>\n";
+  return QualityTable(*context) + "<div class=\"grid\">" + figures + "</div>\n";
 }
 
 }  // namespace hindsight

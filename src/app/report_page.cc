@@ -1,17 +1,18 @@
 #include "app/report_page.h"
 
+#include <fmt/core.h>
+
 #include <string_view>
+#include <utility>
 
 #include "app/report_assets.h"
 #include "app/report_panels.h"
 #include "app/run_output.h"
 #include "base/error.h"
-#include "base/text.h"
-#include "io/html.h"
-#include "io/paths.h"
+#include "io/read/input_file.h"
+#include "io/write/html.h"
 
 namespace hindsight {
-namespace fs = std::filesystem;
 namespace {
 
 struct Panel {
@@ -38,23 +39,20 @@ constexpr Panel kPanels[] = {
     {"config", "Configuration and inputs", ConfigPanel},
 };
 
-ReportContext ReadContext(const std::vector<ReportPlace>& places) {
+ReportContext ReadContext(std::vector<ReportSource> sources) {
   ReportContext context;
-  for (const ReportPlace& place : places) {
-    context.sources.push_back(ReadReportSource(place));
-  }
+  context.sources = std::move(sources);
   context.solutions = ReadReportSolutions(context.sources);
   if (context.solutions.empty() || context.solutions.front().source != 0) {
     throw InputError(context.reference().shown.string() +
                      ": no method has a solution");
   }
-  const fs::path& folder = context.reference().folder;
-  if (PathExists(folder / "residuals.csv")) {
-    context.residuals = ReadResiduals((folder / "residuals.csv").string(),
-                                      context.best().method);
+  const ReportSource& reference = context.reference();
+  if (const auto path = reference.FileOf("residuals.csv")) {
+    context.residuals = ReadResiduals(path->string(), context.best().method);
   }
-  if (PathExists(folder / "fixes.csv")) {
-    context.fixes = ReadFixes((folder / "fixes.csv").string());
+  if (const auto path = reference.FileOf("fixes.csv")) {
+    context.fixes = ReadFixes(path->string());
   }
   return context;
 }
@@ -86,12 +84,17 @@ std::string Asset(std::string_view name) {
   return "";
 }
 
+/// What every page begins with.
+constexpr std::string_view kPageBegin =
+    "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+    "<meta name=\"generator\" content=\"Hindsight\">\n";
+
 /// The page around its panels.
 std::string Frame(const ReportContext& context, const std::string& contents,
                   const std::string& panels) {
   const std::string title = EscapeHtml(context.reference().Name());
   std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      std::string(kPageBegin) +
       "<meta name=\"viewport\" content=\"width=device-width, "
       "initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light "
       "dark\">\n<link rel=\"icon\" href=\"data:,\">\n<title>" +
@@ -114,10 +117,8 @@ std::string Frame(const ReportContext& context, const std::string& contents,
   return html + "</body>\n</html>\n";
 }
 
-}  // namespace
-
-std::string ReportPage(const std::vector<ReportPlace>& places) {
-  ReportContext context = ReadContext(places);
+std::string PageOf(std::vector<ReportSource> sources) {
+  ReportContext context = ReadContext(std::move(sources));
   try {
     AddSolutionSeries(&context);
     std::string contents;
@@ -125,9 +126,9 @@ std::string ReportPage(const std::vector<ReportPlace>& places) {
     int number = 0;
     for (const Panel& panel : kPanels) {
       ++number;
-      contents += Format("<a href=\"#%s\">%s</a> ", panel.id, panel.title);
-      panels += Format("<section id=\"%s\"><h2><span>%d</span> %s</h2>\n",
-                       panel.id, number, panel.title) +
+      contents += fmt::format("<a href=\"#{}\">{}</a> ", panel.id, panel.title);
+      panels += fmt::format("<section id=\"{}\"><h2><span>{}</span> {}</h2>\n",
+                            panel.id, number, panel.title) +
                 panel.body(&context) + "</section>\n";
     }
     return Frame(context, contents, panels);
@@ -135,6 +136,26 @@ std::string ReportPage(const std::vector<ReportPlace>& places) {
     throw InputError(context.reference().shown.string() + "/" + kSummaryName, 0,
                      error.what());
   }
+}
+
+}  // namespace
+
+std::string ReportPage(const std::vector<ReportPlace>& places) {
+  std::vector<ReportSource> sources;
+  for (const ReportPlace& place : places) {
+    sources.push_back(ReadReportSource(place));
+  }
+  return PageOf(std::move(sources));
+}
+
+std::string ReportPage(EvaluatedSolution evaluated) {
+  return PageOf({SourceOf(std::move(evaluated))});
+}
+
+bool IsReportPage(const std::string& path) {
+  std::string begin(kPageBegin.size(), '\0');
+  begin.resize(InputFile(path).ReadAt(0, begin.data(), begin.size()));
+  return begin == kPageBegin;
 }
 
 }  // namespace hindsight

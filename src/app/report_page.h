@@ -17,6 +17,13 @@ inline constexpr char kReportName[] = "report.html";
 /// results, or files that cannot be read.
 std::string ReportPage(const std::vector<ReportPlace>& places);
 
+/// The same of one solution that was compared with a truth.
+std::string ReportPage(EvaluatedSolution evaluated);
+
+/// Whether the file begins as these pages do. Throws InputError if it cannot be
+/// read.
+bool IsReportPage(const std::string& path);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_APP_REPORT_PAGE_H_

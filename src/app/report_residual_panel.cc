@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -5,7 +7,6 @@
 
 #include "app/report_html.h"
 #include "app/report_lines.h"
-#include "base/text.h"
 
 namespace hindsight {
 namespace {
@@ -22,7 +23,7 @@ std::vector<double> NormalizedUsed(const ResidualSeries& series) {
   return values;
 }
 
-BarPicture Histogram(const std::vector<double>& values) {
+BarPicture HistogramPicture(const std::vector<double>& values) {
   constexpr int kBins = 32;
   constexpr double kEnd = 4.0;
   BarPicture picture;
@@ -54,8 +55,8 @@ BarPicture Histogram(const std::vector<double>& values) {
   picture.high = most;
   picture.left = "-4 sigma";
   picture.right = "4 sigma";
-  picture.summary = Format(
-      "%zu used: mean %.2f, rms %.2f, %.2f %% beyond 3 sigma (0.27 %% "
+  picture.summary = fmt::format(
+      "{} used: mean {:.2f}, rms {:.2f}, {:.2f} % beyond 3 sigma (0.27 % "
       "expected).",
       values.size(), sum / n, std::sqrt(square / n),
       100.0 * static_cast<double>(beyond) / n);
@@ -86,9 +87,10 @@ BarPicture Autocorrelation(const std::vector<double>& values) {
   picture.high = std::max(
       0.5, *std::max_element(picture.bars.begin(), picture.bars.end()));
   picture.left = "lag 1";
-  picture.right = Format("lag %zu", lags);
-  picture.summary = Format(
-      "At lag 1: %.2f; white noise stays within %.2f (dashed) in 95 %% of the "
+  picture.right = fmt::format("lag {}", lags);
+  picture.summary = fmt::format(
+      "At lag 1: {:.2f}; white noise stays within {:.2f} (dashed) in 95 % of "
+      "the "
       "lags.",
       picture.bars.front(), bound);
   return picture;
@@ -129,8 +131,8 @@ std::string TitleOf(const ReportContext& context,
                       return other.sensor == series.sensor;
                     }) == 1;
   return alone ? series.sensor
-               : Format("%s, component %d", series.sensor.c_str(),
-                        series.component + 1);
+               : fmt::format("{}, component {}", series.sensor,
+                             series.component + 1);
 }
 
 std::string LargestTable(const ReportContext& context) {
@@ -160,11 +162,12 @@ std::string LargestTable(const ReportContext& context) {
                        : s.status[k] == 'r' ? "rejected"
                                             : "withheld";
     constexpr double kAround = 15.0;
-    table.AddRow(
-        {Format("%.3f", s.t[k]), TitleOf(context, s),
-         Format("%.4g", s.residual[k]), Format("%.4g", s.sigma[k]),
-         Format("%.2f", entries[i].size), Format("%.3g", s.weight[k]), fate},
-        s.t[k] - kAround, s.t[k] + kAround);
+    table.AddRow({fmt::format("{:.3f}", s.t[k]), TitleOf(context, s),
+                  fmt::format("{:.4g}", s.residual[k]),
+                  fmt::format("{:.4g}", s.sigma[k]),
+                  fmt::format("{:.2f}", entries[i].size),
+                  fmt::format("{:.3g}", s.weight[k]), fate},
+                 s.t[k] - kAround, s.t[k] + kAround);
   }
   return "<h3>The largest</h3>\n" + table.Render();
 }
@@ -228,7 +231,7 @@ std::string ResidualPanel(ReportContext* context) {
     for (const double factor : {3.0, 2.0, -2.0, -3.0}) {
       raw.lines.push_back({.table = table,
                            .column = "sigma",
-                           .label = Format("%g sigma", factor),
+                           .label = fmt::format("{:g} sigma", factor),
                            .colour = -1,
                            .factor = factor,
                            .style = "dash"});
@@ -246,7 +249,7 @@ std::string ResidualPanel(ReportContext* context) {
     const std::vector<double> values = NormalizedUsed(r);
     constexpr std::size_t kFewest = 10;
     if (values.size() >= kFewest) {
-      html += "<div class=\"pair\">" + Render(Histogram(values)) +
+      html += "<div class=\"pair\">" + Render(HistogramPicture(values)) +
               Render(Autocorrelation(values)) + "</div>";
     }
     html += "</div>\n";

@@ -5,9 +5,9 @@
 
 #include "app/run_output.h"
 #include "base/error.h"
-#include "io/paths.h"
-#include "io/result_manifest.h"
-#include "io/text_file.h"
+#include "io/read/paths.h"
+#include "io/read/text_file.h"
+#include "io/write/result_manifest.h"
 #include "problems/method.h"
 
 namespace hindsight {
@@ -36,15 +36,27 @@ ReportSolution ReadSolution(const ReportSource& source, std::size_t number,
   solution.label =
       number == 0 ? method : source.shown.filename().string() + ": " + method;
   solution.forward = IsForwardMethod(method);
+  if (source.evaluated) {
+    solution.columns = ReadShownColumns(source.evaluated->file);
+    solution.errors = source.evaluated->errors;
+    return solution;
+  }
   solution.columns = ReadShownColumns(source.folder / (method + ".csv"));
-  const fs::path errors = source.folder / (method + ".errors.csv");
-  if (PathExists(errors)) {
-    solution.errors = ReadNumberColumns(errors.string());
+  if (const auto errors = source.FileOf(method + ".errors.csv")) {
+    solution.errors = ReadNumberColumns(errors->string());
   }
   return solution;
 }
 
+/// The name under which `run` writes a file: of METHOD.csv, METHOD.
+std::string MethodOfFile(const fs::path& file) { return file.stem().string(); }
+
 }  // namespace
+
+std::optional<fs::path> ReportSource::FileOf(const std::string& name) const {
+  if (folder.empty() || !PathExists(folder / name)) return std::nullopt;
+  return folder / name;
+}
 
 std::string ReportSource::Name() const {
   return summary.value("dataset", std::string());
@@ -91,8 +103,34 @@ ReportSource ReadReportSource(const ReportPlace& place) {
       !source.summary["methods"].is_object()) {
     throw InputError(path.string(), 0, "no figures of a run");
   }
-  const fs::path config = folder / "config.resolved.yaml";
-  if (PathExists(config)) source.config = ReadTextFile(config.string());
+  if (const auto config = source.FileOf("config.resolved.yaml")) {
+    source.config = ReadTextFile(config->string());
+  }
+  return source;
+}
+
+ReportSource SourceOf(EvaluatedSolution evaluated) {
+  const std::string method = MethodOfFile(evaluated.file);
+  const fs::path folder = fs::absolute(evaluated.file).parent_path();
+  ReportSource source;
+  source.shown = evaluated.file;
+  if (ReadManifest(folder) && PathExists(folder / kSummaryName)) {
+    ReportSource known = ReadReportSource({.folder = folder});
+    if (known.summary["methods"].contains(method)) source = std::move(known);
+  }
+  nlohmann::ordered_json& summary = source.summary;
+  if (source.folder.empty()) {
+    summary = {{"program", kProgram}, {"dataset", method}};
+  }
+  nlohmann::ordered_json figures = nlohmann::ordered_json::object();
+  if (summary.contains("methods")) figures = summary["methods"][method];
+  for (const char* key : {"contradicts_truth", "error", "nees"}) {
+    figures.erase(key);
+  }
+  figures.update(evaluated.figures);
+  summary["best"] = method;
+  summary["methods"] = {{method, figures}};
+  source.evaluated = std::move(evaluated);
   return source;
 }
 
@@ -107,7 +145,7 @@ std::vector<ReportSolution> ReadReportSolutions(
         [&](const std::string& method) { return method == source.Best(); });
     if (i > 0 && !methods.empty()) methods.resize(1);
     for (const std::string& method : methods) {
-      if (!PathExists(source.folder / (method + ".csv"))) continue;
+      if (!source.evaluated && !source.FileOf(method + ".csv")) continue;
       reading.push_back(std::async(std::launch::async, ReadSolution,
                                    std::cref(source), i, method));
     }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/result_columns.h"
+#include "io/read/result_columns.h"
 
 namespace hindsight {
 
@@ -20,13 +20,25 @@ struct ReportPlace {
   std::optional<nlohmann::ordered_json> summary = std::nullopt;
 };
 
+/// A solution file compared with a truth, in place of what its folder says.
+struct EvaluatedSolution {
+  std::filesystem::path file;      ///< METHOD.csv
+  NumberColumns errors;            ///< as METHOD.errors.csv
+  nlohmann::ordered_json figures;  ///< of the method, PutTruthFigures
+};
+
 /// A folder of results that `hindsight run` wrote.
 struct ReportSource {
   std::filesystem::path folder;
   std::filesystem::path shown;     ///< its name on the page
   nlohmann::ordered_json summary;  ///< summary.json
   std::string config;              ///< config.resolved.yaml, "" if missing
+  /// The one solution that is shown; of a file that is no result of `run` the
+  /// folder is empty.
+  std::optional<EvaluatedSolution> evaluated = std::nullopt;
 
+  /// Where the folder's file is; nothing without folder or file.
+  std::optional<std::filesystem::path> FileOf(const std::string& name) const;
   std::string Name() const;  ///< of the data set
   std::string Best() const;  ///< method, "" if none
   std::vector<std::string> Methods() const;
@@ -35,6 +47,10 @@ struct ReportSource {
 
 /// Reads the folder's words. Throws InputError if it holds no results.
 ReportSource ReadReportSource(const ReportPlace& place);
+
+/// The same for one solution that a truth is known of; a file that is no result
+/// of `run` stands alone.
+ReportSource SourceOf(EvaluatedSolution evaluated);
 
 /// One solution on the page: a method of a run.
 struct ReportSolution {

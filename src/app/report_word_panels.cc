@@ -1,11 +1,12 @@
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <utility>
 
 #include "app/report_html.h"
 #include "app/report_panels.h"
-#include "base/text.h"
 #include "base/units.h"
-#include "io/html.h"
-#include "io/paths.h"
+#include "io/write/html.h"
 
 namespace hindsight {
 namespace {
@@ -32,10 +33,7 @@ std::string Joined(const Json& json, const std::string& key) {
 std::string Number(const Json& json, const std::string& key,
                    const char* format) {
   if (!json.contains(key) || !json[key].is_number()) return "";
-  constexpr std::size_t kLongest = 40;
-  char text[kLongest];
-  std::snprintf(text, kLongest, format, json[key].get<double>());
-  return text;
+  return fmt::format(fmt::runtime(format), json[key].get<double>());
 }
 
 std::string GradeMark(const std::string& grade) {
@@ -49,7 +47,8 @@ std::string Spread(const Json& json, const std::string& key) {
   std::string text;
   if (!json.contains(key)) return text;
   for (const Json& item : json[key]) {
-    text += Format("%s%.3g", text.empty() ? "" : ", ", item.get<double>());
+    text +=
+        fmt::format("{}{:.3g}", text.empty() ? "" : ", ", item.get<double>());
   }
   return text;
 }
@@ -58,7 +57,7 @@ std::string StartTable(const Json& summary) {
   if (!summary.contains("start")) return "";
   const Json& start = summary["start"];
   HtmlTable table({"start", "how", "sigma"});
-  table.AddRow({"time", Number(start, "t_s", "%.3f s"), ""});
+  table.AddRow({"time", Number(start, "t_s", "{:.3f} s"), ""});
   table.AddRow({"position", TextOf(start, "position"),
                 Spread(start, "position_sigma_m") + " m (N, E, D)"});
   table.AddRow(
@@ -77,7 +76,7 @@ std::string EvidenceTable(const ReportContext& context) {
   for (const Json& e : context.BestSummary().value("evidence", Json::array())) {
     const std::vector<std::string> cells = {
         TextOf(e, "grade"), TextOf(e, "what"),
-        Number(e, "limit", "%.4g") + " " + TextOf(e, "unit"),
+        Number(e, "limit", "{:.4g}") + " " + TextOf(e, "unit"),
         Joined(e, "likely_causes"), Joined(e, "what_to_try")};
     if (e.contains("span_s")) {
       table.AddRow(cells, e["span_s"][0].get<double>() - 5.0,
@@ -102,11 +101,11 @@ std::string MethodTable(const ReportContext& context) {
       table.AddRow(
           {i == 0 ? name : source.shown.filename().string() + ": " + name,
            TextOf(m, "grade"), TextOf(m, "verdict"),
-           Number(error, "horizontal_rms_m", "%.3f"),
-           Number(error, "horizontal_max_m", "%.3f"),
-           Number(withheld, "horizontal_rms_m", "%.3f"),
-           Number(withheld, "horizontal_max_m", "%.3f"),
-           Number(m, "iterations", "%.0f"), Number(m, "seconds", "%.3f")});
+           Number(error, "horizontal_rms_m", "{:.3f}"),
+           Number(error, "horizontal_max_m", "{:.3f}"),
+           Number(withheld, "horizontal_rms_m", "{:.3f}"),
+           Number(withheld, "horizontal_max_m", "{:.3f}"),
+           Number(m, "iterations", "{:.0f}"), Number(m, "seconds", "{:.3f}")});
     }
   }
   return "<h3>Methods</h3>\n" + table.Render();
@@ -114,6 +113,13 @@ std::string MethodTable(const ReportContext& context) {
 
 std::string Words(const Json& summary) {
   std::string items;
+  for (const Json& span : summary.value("unobserved", Json::array())) {
+    items += "<li class=\"warning\">" +
+             EscapeHtml(TextOf(span, "component") + " is not observed from " +
+                        Number(span, "t_begin_s", "{:.1f}") + " s to " +
+                        Number(span, "t_end_s", "{:.1f}") + " s") +
+             "</li>";
+  }
   for (const Json& warning : summary.value("warnings", Json::array())) {
     items += "<li class=\"warning\">" + EscapeHtml(warning.get<std::string>()) +
              "</li>";
@@ -122,7 +128,7 @@ std::string Words(const Json& summary) {
     items +=
         "<li>" +
         EscapeHtml(TextOf(policy, "stream") + ": " + TextOf(policy, "action") +
-                   ": " + Number(policy, "count", "%.0f")) +
+                   ": " + Number(policy, "count", "{:.0f}")) +
         "</li>";
   }
   for (const Json& note : summary.value("notes", Json::array())) {
@@ -150,30 +156,52 @@ std::string Tiles(const ReportContext& context) {
   const double length = best.t().back() - best.t().front();
   tile("Duration",
        length < 7200.0
-           ? Format("%.1f s", length)
-           : Format("%d h %02d min", static_cast<int>(length / 3600.0),
-                    static_cast<int>(length / 60.0) % 60));
+           ? fmt::format("{:.1f} s", length)
+           : fmt::format("{} h {:02} min", static_cast<int>(length / 3600.0),
+                         static_cast<int>(length / 60.0) % 60));
   if (context.BestSummary().contains("distance_m")) {
     const double way = context.BestSummary()["distance_m"].get<double>();
-    tile("Distance",
-         way < 10000.0 ? Format("%.0f m", way) : Format("%.1f km", way / 1e3));
+    tile("Distance", way < 10000.0 ? fmt::format("{:.0f} m", way)
+                                   : fmt::format("{:.1f} km", way / 1e3));
   }
   tile("Solution", best.method);
   tile("Epochs", std::to_string(best.t().size()));
   if (summary.contains("epoch")) {
     tile("t = 0 (UTC)", TextOf(summary["epoch"], "utc"));
     tile("GPS week, second",
-         Number(summary["epoch"], "gps_week", "%.0f") + ", " +
-             Number(summary["epoch"], "gps_second", "%.3f"));
+         Number(summary["epoch"], "gps_week", "{:.0f}") + ", " +
+             Number(summary["epoch"], "gps_second", "{:.3f}"));
   }
   return "<dl class=\"tiles\">" + html + "</dl>\n";
+}
+
+/// What the recommended solution estimates, by its columns and constants.
+std::string EstimatedText(const ReportContext& context) {
+  constexpr std::pair<const char*, const char*> kStates[] = {
+      {"h[m]", "position"},
+      {"v_n[m/s]", "velocity"},
+      {"roll[deg]", "attitude"},
+      {"bg_x[deg/h]", "gyro biases"},
+      {"ba_x[m/s^2]", "accelerometer biases"}};
+  std::string text;
+  const auto add = [&text](const std::string& name) {
+    text += (text.empty() ? "" : ", ") + name;
+  };
+  for (const auto& [column, name] : kStates) {
+    if (context.best().Has(column)) add(name);
+  }
+  const Json constants =
+      context.BestSummary().value("constants", Json::object());
+  for (const auto& item : constants.items()) add(item.key());
+  return "<h3>Estimated</h3>\n" + Element("p", text + ".");
 }
 
 std::string Rivals(const Json& method) {
   HtmlTable table({"another explanation", "probability [%]"});
   for (const Json& rival : method.value("rivals", Json::array())) {
-    table.AddRow({TextOf(rival, "description"),
-                  Format("%.2g", 100.0 * rival.value("probability", 0.0))});
+    table.AddRow(
+        {TextOf(rival, "description"),
+         fmt::format("{:.2g}", 100.0 * rival.value("probability", 0.0))});
   }
   return table.Render();
 }
@@ -183,10 +211,15 @@ std::string Rivals(const Json& method) {
 std::string VerdictPanel(ReportContext* context) {
   const Json& summary = context->reference().summary;
   const Json& best = context->BestSummary();
-  std::string html = "<div class=\"card\"><p class=\"verdict\">" +
-                     GradeMark(TextOf(best, "grade")) + " <b>" +
-                     EscapeHtml(context->best().method) + "</b> is " +
-                     EscapeHtml(TextOf(best, "verdict")) + "</p>";
+  const std::string grade = TextOf(best, "grade");
+  std::string html =
+      "<div class=\"card\"><p class=\"verdict\">" +
+      (grade.empty() ? "" : GradeMark(grade) + " ") + "<b>" +
+      EscapeHtml(context->best().method) + "</b> " +
+      EscapeHtml(grade.empty() ? "was compared with a truth; the file does not "
+                                 "say how it was graded"
+                               : "is " + TextOf(best, "verdict")) +
+      "</p>";
   if (!summary.value("complete", true)) {
     html +=
         "<p class=\"warning\">The run was interrupted: these are the "
@@ -202,7 +235,7 @@ std::string VerdictPanel(ReportContext* context) {
     html += "<h3>Side by side, the first as reference</h3>\n" + runs.Render();
   }
   return html + MethodTable(*context) + EvidenceTable(*context) + Rivals(best) +
-         Words(summary) + StartTable(summary);
+         Words(summary) + StartTable(summary) + EstimatedText(*context);
 }
 
 std::string ModePanel(ReportContext* context) {
@@ -210,9 +243,9 @@ std::string ModePanel(ReportContext* context) {
   for (const ReportSolution& solution : context->solutions) {
     if (solution.source != 0) continue;
     const auto path =
-        context->reference().folder / (solution.method + ".modes.csv");
-    if (!PathExists(path)) continue;
-    NumberColumns modes = ReadNumberColumns(path.string());
+        context->reference().FileOf(solution.method + ".modes.csv");
+    if (!path) continue;
+    NumberColumns modes = ReadNumberColumns(path->string());
     ReportSeries series;
     series.t = std::move(modes["t[s]"]);
     modes.erase("t[s]");
@@ -264,20 +297,36 @@ std::string ConstantPanel(ReportContext* context) {
       const Json value = {{"x", c[key].get<double>() / one}};
       return Number(value, "x", format);
     };
-    table.AddRow({item.key(), figure("value", "%.5g"), figure("sigma", "%.3g"),
-                  angle ? "deg" + unit.substr(3) : unit,
-                  figure("prior_sigma", "%.3g"), TextOf(c, "verdict"),
-                  TextOf(c, "advice")});
+    table.AddRow(
+        {item.key(), figure("value", "{:.5g}"), figure("sigma", "{:.3g}"),
+         angle ? "deg" + unit.substr(3) : unit, figure("prior_sigma", "{:.3g}"),
+         TextOf(c, "verdict"), TextOf(c, "advice")});
   }
   if (table.empty()) return Absent("No constant was estimated.");
   return Element("p", "Of " + context->best().label + ".") + table.Render();
 }
 
+namespace {
+
+std::string InputTable(const Json& summary) {
+  HtmlTable table({"input", "bytes", "files", "SHA-256"});
+  for (const Json& input : summary.value("inputs", Json::array())) {
+    table.AddRow({TextOf(input, "path"), Number(input, "bytes", "{:.0f}"),
+                  Number(input, "files", "{:.0f}"), TextOf(input, "sha256")});
+  }
+  return table.Render();
+}
+
+}  // namespace
+
 std::string ConfigPanel(ReportContext* context) {
   std::string html;
   for (const ReportSource& source : context->sources) {
+    const std::string datum = TextOf(source.summary, "datum");
     html += Element("p", TextOf(source.summary, "program") + ", results in " +
-                             source.shown.string());
+                             source.shown.string() +
+                             (datum.empty() ? "" : "; datum: " + datum));
+    html += InputTable(source.summary);
     if (source.config.empty()) {
       html += Absent("There is no config.resolved.yaml of this run.");
       continue;

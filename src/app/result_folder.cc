@@ -7,10 +7,10 @@
 #include "app/abandoned.h"
 #include "app/error_line.h"
 #include "base/error.h"
-#include "io/atomic_file.h"
-#include "io/output_error.h"
-#include "io/paths.h"
-#include "io/result_manifest.h"
+#include "io/read/paths.h"
+#include "io/write/atomic_file.h"
+#include "io/write/output_error.h"
+#include "io/write/result_manifest.h"
 
 namespace hindsight {
 namespace fs = std::filesystem;

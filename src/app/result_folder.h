@@ -11,7 +11,7 @@
 
 #include "app/interrupt.h"
 #include "app/placement.h"
-#include "io/unpublished.h"
+#include "io/write/unpublished.h"
 
 namespace hindsight {
 

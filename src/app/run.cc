@@ -1,26 +1,31 @@
 #include "app/run.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <iostream>
 
 #include "alignment/mounting_search.h"
 #include "alignment/start_layout.h"
 #include "app/command.h"
+#include "app/input_digests.h"
 #include "app/measurement_log.h"
 #include "app/result_folder.h"
 #include "app/run_output.h"
 #include "app/run_report.h"
+#include "app/terminal.h"
 #include "base/error.h"
-#include "base/text.h"
 #include "dataset/checks.h"
 #include "dataset/injection.h"
 #include "evaluation/grade.h"
 #include "evaluation/truth_comparison.h"
-#include "io/comparison.h"
-#include "io/config.h"
-#include "io/fix_csv.h"
-#include "io/residual_csv.h"
-#include "io/summary.h"
+#include "io/config/config.h"
+#include "io/write/comparison.h"
+#include "io/write/fix_csv.h"
+#include "io/write/residual_csv.h"
+#include "io/write/summary.h"
+#include "measurements/sensor_kind.h"
+#include "problems/method.h"
 #include "problems/rest_by_estimate.h"
 
 namespace hindsight {
@@ -42,7 +47,7 @@ void ReplaceWithholdings(const std::vector<Withholding>& withholdings,
 void KeepCleanPositions(Dataset* dataset) {
   if (!dataset->truth.empty()) return;
   for (const AidingStream& stream : dataset->streams) {
-    if (stream.sensor.type != SensorType::kPosition) continue;
+    if (!stream.sensor.kind->is_position) continue;
     dataset->truth_lever_arm_b = stream.sensor.lever_arm_b;
     for (const Measurement& z : stream.measurements) {
       TruthPoint point;
@@ -87,9 +92,17 @@ void CheckRate(const RunRequest& request, const ImuStream& imu) {
   const double imu_rate = static_cast<double>(imu.samples.size() - 1) /
                           (imu.t_end() - imu.t_begin());
   if (request.rate.value_or(0.0) > 2.0 * imu_rate) {
-    throw InputError(Format("--rate=%g Hz is more than twice the IMU's %g Hz",
-                            *request.rate, imu_rate));
+    throw InputError(
+        fmt::format("--rate={:g} Hz is more than twice the IMU's {:g} Hz",
+                    *request.rate, imu_rate));
   }
+}
+
+/// What a trajectory needs beyond what attitude alone does.
+void PrepareTrajectory(const RunRequest& request, Dataset* dataset) {
+  ResolveMountings(dataset);
+  AddDecidedRest(request.from, request.to, dataset);
+  ThinTruth(&dataset->truth);
 }
 
 /// The data set as it is reconstructed; its resolved configuration goes into
@@ -99,22 +112,22 @@ Dataset Load(const RunRequest& request, ResultFolder* folder) {
   Dataset dataset = LoadDataset(
       request.config,
       {.data_root = request.data_root, .without = request.without}, &resolved);
-  RequireCapacity(dataset, request.config);
+  if (!request.ahrs_rule.empty()) dataset.ahrs.rule = request.ahrs_rule;
+  if (!request.attitude_alone) RequireCapacity(dataset, request.config);
   if (!request.withholdings.empty()) {
     ReplaceWithholdings(request.withholdings, &dataset);
     SetWithholdings(request.withholdings, &resolved);
   }
   Inject(request, &dataset, &resolved);
   CheckRate(request, dataset.imu);
-  ResolveMountings(&dataset);
-  AddDecidedRest(request.from, request.to, &dataset);
-  ThinTruth(&dataset.truth);
+  if (!request.attitude_alone) PrepareTrajectory(request, &dataset);
   WriteResolvedConfig(resolved, folder->Path("config.resolved.yaml"));
   return dataset;
 }
 
 ReconstructionOptions Options(const RunRequest& request, Progress* progress) {
   ReconstructionOptions options;
+  options.attitude_alone = request.attitude_alone;
   options.from = request.from;
   options.to = request.to;
   options.node_times = request.at;
@@ -144,7 +157,10 @@ void NoteRecording(const Dataset& dataset, const CheckReport& check,
   summary->warnings.insert(summary->warnings.end(),
                            check.truth_warnings.begin(),
                            check.truth_warnings.end());
-  summary->notes = dataset.notes;
+  const std::string withholding = WithholdingWarning(dataset);
+  if (!withholding.empty()) summary->warnings.push_back(withholding);
+  summary->notes = NotesOf(dataset);
+  summary->fixes = SummarizeFixes(dataset);
   for (const StreamReport& stream : check.streams) {
     for (const StreamGap& gap : stream.gaps) {
       summary->gaps.push_back({stream.name, gap.t, gap.t + gap.length});
@@ -167,6 +183,7 @@ std::vector<UnobservedSpan> DescribeBeforehand(const Dataset& dataset,
   } catch (const EstimationError&) {
     // The filter diverged: every method says so of itself.
   }
+  summary->unobserved = unobserved;
   progress->Clear();
   const CheckReport check = CheckDataset(dataset);
   NoteRecording(dataset, check, summary);
@@ -175,8 +192,11 @@ std::vector<UnobservedSpan> DescribeBeforehand(const Dataset& dataset,
       std::cout << "warning: " << warning << "\n";
     }
   }
-  std::cout << DescribeNotes(dataset) << DescribeStart(reconstruction->start())
-            << DescribeUnobserved(unobserved) << std::flush;
+  std::cout << DescribeNotes(dataset);
+  if (const StartReport* start = reconstruction->start()) {
+    std::cout << DescribeStart(*start);
+  }
+  std::cout << DescribeUnobserved(unobserved) << std::flush;
   return unobserved;
 }
 
@@ -190,14 +210,16 @@ Solution RunMethod(Reconstruction* reconstruction, const std::string& method) {
   }
 }
 
-/// Frees all of a written trajectory but its last state: of a day, 120 MB a
-/// method.
+/// Frees all of a written solution's series but its last state: of a day, 120
+/// MB a method.
 void ForgetTrajectory(Solution* solution) {
   if (!solution->states.empty()) {
     solution->states = std::vector<State>(1, solution->states.back());
   }
   solution->covariances = {};
-  solution->separation = {};
+  solution->two_filter.reset();
+  solution->modes.reset();
+  solution->attitude.reset();
 }
 
 /// Throws the reason if no method gave as much as a trajectory.
@@ -211,16 +233,41 @@ void CheckAnyTrajectory(const std::vector<Solution>& solutions) {
   throw EstimationError(reasons);
 }
 
+/// What became of the measurements.
+void WriteMeasurements(const Dataset& dataset,
+                       const std::vector<Solution>& solutions,
+                       const Solution& best, ResultFolder* folder) {
+  WriteResidualCsv(folder->Path("residuals.csv"), solutions, dataset);
+  if (HasFixes(dataset)) {
+    WriteFixCsv(folder->Path("fixes.csv"), best, dataset);
+  }
+}
+
+/// Work in passes of the forward filter; reading, start and writing take about
+/// one each.
+std::vector<Progress::Step> PlanOf(const RunRequest& request) {
+  std::vector<Progress::Step> steps = {{"reading", 1.0}, {"start", 1.0}};
+  for (const std::string& method : request.methods) {
+    steps.push_back({method, MethodOf(method).work});
+  }
+  steps.push_back({"writing", request.report ? 2.0 : 1.0});
+  return steps;
+}
+
 int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   Progress progress(request.progress);
+  progress.Plan(PlanOf(request));
   progress.Update("reading", 0.0);
+  InputDigests digests(FilesReadBy(request));
   const Dataset dataset = Load(request, folder);
 
+  progress.Begin("start");
   Reconstruction reconstruction =
       Prepare(request.config, dataset, Options(request, &progress));
   RunSummary summary = {.program = kProgram,
                         .dataset = dataset.name,
                         .epoch_gps_ns = dataset.epoch_gps_ns,
+                        .inputs = digests.Take(),
                         .start = SummarizeStart(reconstruction.start()),
                         .policies = dataset.policies,
                         .best = "",
@@ -229,6 +276,7 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
       DescribeBeforehand(dataset, &reconstruction, &progress, &summary);
   std::vector<Solution> solutions;
   for (const std::string& method : request.methods) {
+    progress.Begin(method);
     solutions.push_back(RunMethod(&reconstruction, method));
     LogDownWeighted(dataset, solutions.back());
     const double peak_rss_mb = PeakRssMb();
@@ -242,13 +290,13 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
     if (has_trajectory) folder->Keep(kSummaryName, SummaryText(summary));
   }
   CheckAnyTrajectory(solutions);
+  progress.Begin("writing");
   ShareDisagreements(&solutions);
   AdviseBetterMethods(&solutions);
   const Solution& best = Best(solutions);
   NameBest(best, solutions, &summary);
-  WriteResidualCsv(folder->Path("residuals.csv"), solutions, dataset);
-  if (HasFixes(dataset)) {
-    WriteFixCsv(folder->Path("fixes.csv"), best, dataset);
+  if (!request.attitude_alone) {
+    WriteMeasurements(dataset, solutions, best, folder);
   }
   progress.Clear();
   summary.complete = true;
@@ -256,14 +304,18 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   folder->Commit(kSummaryName, SummaryText(summary));
   progress.Finish();
 
+  const TableStyle style = StyleOfOutput();
+  const std::string residuals = ResidualOverview(summary, style);
   std::cout << "\n"
-            << ComparisonTable(summary) << DescribeRivals(solutions)
-            << DescribeMethodNotes(solutions)
+            << ComparisonTable(summary, style)
+            << (residuals.empty() ? "" : "\n" + residuals)
+            << DescribeRivals(solutions) << DescribeMethodNotes(solutions)
             << DescribeOwnUnobserved(unobserved, solutions)
-            << DescribeEvidence(solutions) << DescribeContradictions(summary)
+            << DescribeEvidence(solutions, style)
+            << DescribeContradictions(summary)
             << DescribeConstants(dataset, best) << "\nresults in "
             << request.out << "\n"
-            << DescribeReport(request) << DescribeVerdict(best);
+            << DescribeReport(request) << DescribeVerdict(best, style);
   return StatusOf(best.grade);
 }
 

@@ -2,7 +2,6 @@
 #include "app/flags.h"
 #include "app/observer_flags.h"
 #include "app/run.h"
-#include "app/run_attitude.h"
 #include "app/run_request.h"
 #include "problems/method.h"
 
@@ -18,13 +17,20 @@ and writes into the folder of --out:
   METHOD.truth.csv      the same at the times of the truth and the point that it
                         speaks of: what the errors are taken of, here and by
                         'evaluate'
+  METHOD.motion.csv     body rates and specific force, biases removed
+  METHOD.constants.csv  constants against time: of ekf as it learned them, of
+                        two_filter as the backward filter did
+  METHOD.errors.csv     errors against a truth, with their standard deviations
   METHOD.tum, .kml, .nav  what --export asks for
   METHOD.nav.txt        with --inject: the errors injected, for .nav, which knows
                         no comments
   METHOD.modes.csv      probabilities of the modes of imm, imm_smoother and
                         robust_batch
   residuals.csv         every measurement's residual, sigma, weight and fate
-  summary.json          figures of every method, for programs
+  fixes.csv             every position measured: what the receiver said of it,
+                        and what became of it
+  summary.json          figures of every method, and of the inputs their sizes
+                        and SHA-256, for programs
   config.resolved.yaml  the configuration as used, in SI units
   report.html           with --report: one page that shows all of it
   manifest.json         the files of this folder
@@ -65,9 +71,7 @@ std::string Help() {
 }
 
 int Run(const std::vector<std::string>& arguments) {
-  const RunRequest request = ReadRunRequest(arguments[0]);
-  return request.attitude_alone ? EstimateAttitude(request)
-                                : Reconstruct(request);
+  return Reconstruct(ReadRunRequest(arguments[0]));
 }
 
 }  // namespace
@@ -123,8 +127,8 @@ Command RunCommand() {
             "on stderr: auto (a line on a terminal), json (an object\n"
             "a line) or none (auto)"},
            {"data_root", "DIR",
-            "where a relative folder of CONFIG is looked for\n"
-            "(../shared/data)"}}),
+            "where a relative folder of CONFIG is looked for, if\n"
+            "not beside it"}}),
       .min_arguments = 1,
       .max_arguments = 1,
       .run = Run,

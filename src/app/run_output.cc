@@ -1,5 +1,6 @@
 #include "app/run_output.h"
 
+#include <fmt/core.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -8,17 +9,22 @@
 
 #include "app/report_page.h"
 #include "base/error.h"
-#include "base/text.h"
 #include "dataset/injection.h"
-#include "io/atomic_file.h"
-#include "io/config.h"
-#include "io/constant_csv.h"
-#include "io/error_csv.h"
-#include "io/kml.h"
-#include "io/nav.h"
-#include "io/solution_csv.h"
-#include "io/time_scale.h"
-#include "io/tum.h"
+#include "evaluation/broad_metric.h"
+#include "evaluation/truth_comparison.h"
+#include "imu/imu_link.h"
+#include "imu/mean_reading.h"
+#include "io/config/config.h"
+#include "io/read/time_scale.h"
+#include "io/write/atomic_file.h"
+#include "io/write/constant_csv.h"
+#include "io/write/error_csv.h"
+#include "io/write/kml.h"
+#include "io/write/motion_csv.h"
+#include "io/write/nav.h"
+#include "io/write/solution_csv.h"
+#include "io/write/tum.h"
+#include "problems/method.h"
 
 namespace hindsight {
 namespace {
@@ -85,12 +91,12 @@ void WriteModes(const std::string& path, const Solution& solution,
                 const Dataset& dataset) {
   std::string text = "# program: " + ProgramLine(dataset) + "\n" +
                      EpochComment(dataset.epoch_gps_ns) + "t[s]";
-  for (const std::string& name : solution.mode_names) text += "," + name;
+  for (const std::string& name : solution.modes->names) text += "," + name;
   text += "\n";
-  for (std::size_t k = 0; k < solution.mode_probabilities.size(); ++k) {
-    text += Format("%.6f", solution.states[k].t);
-    for (const double p : solution.mode_probabilities[k]) {
-      text += Format(",%.6g", p);
+  for (std::size_t k = 0; k < solution.modes->probabilities.size(); ++k) {
+    text += fmt::format("{:.6f}", solution.states[k].t);
+    for (const double p : solution.modes->probabilities[k]) {
+      text += fmt::format(",{:.6g}", p);
     }
     text += "\n";
   }
@@ -113,6 +119,9 @@ void AppendRows(const SolutionTable& from, const std::vector<std::size_t>& rows,
   AppendRows(from.sigma_b_g, rows, &to->sigma_b_g);
   AppendRows(from.sigma_b_a, rows, &to->sigma_b_a);
   AppendRows(from.separation, rows, &to->separation);
+  AppendRows(from.accel_sigma, rows, &to->accel_sigma);
+  AppendRows(from.magnetic, rows, &to->magnetic);
+  AppendRows(from.separations, rows, &to->separations);
 }
 
 /// One who wants rows of a solution.
@@ -170,6 +179,20 @@ void SampleOnce(const Dataset& dataset, const Reconstruction& reconstruction,
   }
 }
 
+/// What the IMU read at ascending times within the solution, calibrated as the
+/// last node before each has it.
+std::vector<Kinematics> MotionAt(const std::vector<double>& times,
+                                 const Solution& solution,
+                                 const ImuStream& imu) {
+  std::vector<ImuCalibration> calibrations;
+  std::size_t k = 0;
+  for (const double t : times) {
+    while (k + 1 < solution.states.size() && solution.states[k + 1].t <= t) ++k;
+    calibrations.push_back(CalibrationOf(solution.layout, solution.states[k]));
+  }
+  return MeanMotion(imu, times, calibrations);
+}
+
 /// Throws InputError if a time of --at is outside the solution's span.
 void CheckTimesCovered(const RunRequest& request, const Solution& solution) {
   const double begin = solution.states.front().t;
@@ -177,9 +200,9 @@ void CheckTimesCovered(const RunRequest& request, const Solution& solution) {
   for (const double t : request.at) {
     if (t >= begin && t <= end) continue;
     throw InputError(
-        Format("--at: t = %.6f s is outside the reconstructed "
-               "interval from %.6f s to %.6f s",
-               t, begin, end));
+        fmt::format("--at: t = {:.6f} s is outside the reconstructed "
+                    "interval from {:.6f} s to {:.6f} s",
+                    t, begin, end));
   }
 }
 
@@ -199,6 +222,14 @@ ResultFolder::Paths InputsOf(const RunRequest& request) {
   return inputs;
 }
 
+ResultFolder::Paths FilesReadBy(const RunRequest& request) {
+  ResultFolder::Paths files = ConfigFilesRead(
+      request.config,
+      {.data_root = request.data_root, .without = request.without});
+  if (!request.at_file.empty()) files.emplace_back(request.at_file);
+  return files;
+}
+
 double PeakRssMb() {
   rusage usage = {};
   getrusage(RUSAGE_SELF, &usage);
@@ -211,10 +242,14 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
   MethodTables tables;
   if (solution.states.empty()) return tables;
   CheckTimesCovered(request, solution);
-  std::vector<Wish> wishes = {
-      {TruthTimes(dataset, solution.states.front().t, solution.states.back().t),
-       dataset.truth_lever_arm_b, &tables.truth},
-      {request.at, request.point_b, &tables.at}};
+  std::vector<Wish> wishes = {{request.at, request.point_b, &tables.at}};
+  if (request.attitude_alone) {
+    tables.truth = TableFromSolution(solution);
+  } else {
+    wishes.push_back({TruthTimes(dataset, solution.states.front().t,
+                                 solution.states.back().t),
+                      dataset.truth_lever_arm_b, &tables.truth});
+  }
   if (request.rate) {
     wishes.push_back({UniformTimes(solution, *request.rate), request.point_b,
                       &tables.output});
@@ -222,6 +257,7 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
     tables.output = TableAt(request.point_b, dataset.imu, solution);
   }
   SampleOnce(dataset, reconstruction, solution, wishes);
+  tables.motion = MotionAt(tables.output.t, solution, dataset.imu);
   return tables;
 }
 
@@ -238,15 +274,20 @@ void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
   };
   write(".csv", tables.output);
   write(".at.csv", tables.at);
-  write(kTruthSuffix, tables.truth);
-  if (!solution.mode_probabilities.empty()) {
+  if (!request.attitude_alone) write(kTruthSuffix, tables.truth);
+  if (solution.modes) {
     WriteModes(folder->Path(method + ".modes.csv"), solution, dataset);
   }
   if (!dataset.truth.empty() && tables.truth.size() > 0) {
+    TruthSeries truth = dataset.truth;
+    ThinTruth(&truth);
     WriteErrorCsv(folder->Path(method + ".errors.csv"),
-                  ComputeTrajectoryErrors(tables.truth, dataset.truth, {}),
-                  tables.truth, ProgramLine(dataset), dataset.epoch_gps_ns);
+                  ColumnsOf(ComputeTrajectoryErrors(tables.truth, truth, {}),
+                            tables.truth),
+                  ProgramLine(dataset), dataset.epoch_gps_ns);
   }
+  WriteMotionCsv(folder->Path(method + ".motion.csv"), tables.output.t,
+                 tables.motion, ProgramLine(dataset), dataset.epoch_gps_ns);
   if (HasConstantSeries(solution)) {
     WriteConstantCsv(folder->Path(method + ".constants.csv"), solution,
                      ProgramLine(dataset), dataset.epoch_gps_ns);
@@ -272,7 +313,12 @@ std::string DescribeReport(const RunRequest& request) {
 MethodSummary Summarize(const Dataset& dataset, const Solution& solution,
                         const MethodTables& tables) {
   if (!solution.states.empty()) {
-    return SummarizeMethod(dataset, solution, tables.truth);
+    MethodSummary summary = SummarizeMethod(dataset, solution, tables.truth);
+    if (MethodOf(solution.method).attitude_alone()) {
+      const BroadMetric broad = EvaluateBroad(tables.truth, dataset.truth);
+      if (broad.count > 0) summary.broad = broad;
+    }
+    return summary;
   }
   MethodSummary summary;
   summary.method = solution.method;
@@ -283,16 +329,17 @@ MethodSummary Summarize(const Dataset& dataset, const Solution& solution,
   return summary;
 }
 
-StartSummary SummarizeStart(const StartReport& start) {
-  return {.t = start.t,
-          .alignment = start.alignment,
-          .why = start.why,
-          .position = start.position,
-          .attitude = start.attitude,
-          .heading = start.heading,
-          .position_sigma = start.position_sigma,
-          .velocity_sigma = start.velocity_sigma,
-          .attitude_sigma = start.attitude_sigma};
+std::optional<StartSummary> SummarizeStart(const StartReport* start) {
+  if (start == nullptr) return std::nullopt;
+  return StartSummary{.t = start->t,
+                      .alignment = start->alignment,
+                      .why = start->why,
+                      .position = start->position,
+                      .attitude = start->attitude,
+                      .heading = start->heading,
+                      .position_sigma = start->position_sigma,
+                      .velocity_sigma = start->velocity_sigma,
+                      .attitude_sigma = start->attitude_sigma};
 }
 
 }  // namespace hindsight

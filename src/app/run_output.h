@@ -1,12 +1,14 @@
 #ifndef HINDSIGHT_APP_RUN_OUTPUT_H_
 #define HINDSIGHT_APP_RUN_OUTPUT_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/result_folder.h"
 #include "app/run_request.h"
-#include "io/summary.h"
+#include "imu/kinematics.h"
+#include "io/write/summary.h"
 #include "problems/reconstruction.h"
 
 namespace hindsight {
@@ -19,8 +21,11 @@ inline constexpr char kSummaryName[] = "summary.json";
 
 OutputRequest OutputOf(const RunRequest& request);
 
-/// All files that the run reads.
+/// All files that the run reads, and those of streams that it leaves out.
 ResultFolder::Paths InputsOf(const RunRequest& request);
+
+/// Those that it reads.
+ResultFolder::Paths FilesReadBy(const RunRequest& request);
 
 /// Of the file beside METHOD.csv that holds MethodTables::truth.
 inline constexpr const char* kTruthSuffix = ".truth.csv";
@@ -30,8 +35,11 @@ struct MethodTables {
   SolutionTable output;  ///< METHOD.csv: the nodes, or at --rate
   SolutionTable at;      ///< METHOD.at.csv, at the times of --at
   /// METHOD.truth.csv, at the truth's times and the point it speaks of: what is
-  /// compared with it, here and by `evaluate`.
+  /// compared with it, here and by `evaluate`. Of attitude alone it is not
+  /// written: it is the solution itself, which has each sample of the IMU.
   SolutionTable truth;
+  /// METHOD.motion.csv, at the times of `output`.
+  std::vector<Kinematics> motion;
 };
 
 /// Samples the solution through the IMU, once for all three. Throws InputError
@@ -40,8 +48,8 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
                           const Reconstruction& reconstruction,
                           const Solution& solution);
 
-/// Writes the tables that have rows, mode probabilities, errors against the
-/// truth, constants over time and exports; nothing for a solution without
+/// Writes the tables that have rows, body motion, mode probabilities, errors
+/// against the truth, constants over time and exports; nothing for a solution without
 /// states.
 void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
                       const Solution& solution, const MethodTables& tables,
@@ -61,7 +69,8 @@ MethodSummary Summarize(const Dataset& dataset, const Solution& solution,
 /// The most memory that the process has held [MB].
 double PeakRssMb();
 
-StartSummary SummarizeStart(const StartReport& start);
+/// Nothing of no report.
+std::optional<StartSummary> SummarizeStart(const StartReport* start);
 
 }  // namespace hindsight
 

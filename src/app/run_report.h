@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "dataset/dataset.h"
-#include "io/summary.h"
+#include "io/write/summary.h"
+#include "io/write/table.h"
 #include "problems/reconstruction.h"
 #include "state/solution.h"
 
@@ -32,7 +33,8 @@ std::string DescribeOwnUnobserved(const std::vector<UnobservedSpan>& known,
                                   const std::vector<Solution>& solutions);
 
 /// What speaks against each solution, a line each.
-std::string DescribeEvidence(const std::vector<Solution>& solutions);
+std::string DescribeEvidence(const std::vector<Solution>& solutions,
+                             const TableStyle& style);
 
 /// What the truth says against each method, a line each. The grades know
 /// nothing of it.
@@ -47,7 +49,7 @@ void NameBest(const Solution& best, const std::vector<Solution>& solutions,
               RunSummary* summary);
 
 /// The last line: the grade of the best solution, and the weightiest reason.
-std::string DescribeVerdict(const Solution& best);
+std::string DescribeVerdict(const Solution& best, const TableStyle& style);
 
 /// The other explanations of the data that are more than 0.1 % likely, a line
 /// each; "" if there is none.

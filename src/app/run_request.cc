@@ -9,10 +9,11 @@
 #include "app/flags.h"
 #include "app/list_flags.h"
 #include "app/observer_flags.h"
+#include "attitude/accelerometer_rule.h"
 #include "base/error.h"
-#include "dataset/injection.h"
-#include "io/time_list.h"
-#include "io/units.h"
+#include "io/config/injection_text.h"
+#include "io/read/time_list.h"
+#include "io/read/units.h"
 #include "problems/method.h"
 
 namespace hindsight {
@@ -51,128 +52,6 @@ Withholding ParseWithholding(const std::string& text) {
   }
   return withholding;
 }
-
-/// One injection, key by key.
-class InjectionParser {
- public:
-  explicit InjectionParser(const std::string& text) : text_(text) {}
-
-  Injection Parse() {
-    const std::size_t colon = text_.find(':');
-    if (colon == 0 || colon == std::string::npos) Fail("no sensor");
-    injection_.sensor = text_.substr(0, colon);
-    for (const std::string& part : Split(text_.substr(colon + 1), ',')) {
-      const std::size_t equals = std::min(part.find('='), part.size());
-      const std::string key = part.substr(0, equals);
-      if (!keys_.insert(key).second) Fail("'" + key + "' stands there twice");
-      Take(key, part.substr(std::min(equals + 1, part.size())));
-    }
-    CheckSize();
-    CheckKeys();
-    const std::string objection = SpanObjection(injection_);
-    if (!objection.empty()) Fail(objection);
-    return injection_;
-  }
-
- private:
-  [[noreturn]] void Fail(const std::string& what) const {
-    throw UsageError("--inject=" + text_ + ": " + what +
-                     "; expected SENSOR:KIND=SIZE[,from=140s][,to=150s]"
-                     "[,axes=ne], KIND step, pulse, ramp, spikes (with "
-                     "[,share=10%]) or multipath (with [,tau=20s])");
-  }
-
-  double Value(const std::string& text, Quantity quantity) const {
-    try {
-      return ParseQuantity(text, quantity);
-    } catch (const std::invalid_argument& error) {
-      Fail("'" + text + "': " + error.what());
-    }
-  }
-
-  void Take(const std::string& key, const std::string& value) {
-    static const std::vector<std::pair<std::string, Injection::Kind>> kinds = {
-        {"step", Injection::Kind::kStep},
-        {"pulse", Injection::Kind::kPulse},
-        {"ramp", Injection::Kind::kRamp},
-        {"spikes", Injection::Kind::kSpikes},
-        {"multipath", Injection::Kind::kMultipath}};
-    for (const auto& [name, kind] : kinds) {
-      if (key != name) continue;
-      if (!kind_.empty()) Fail("more than one kind of error");
-      kind_ = key;
-      injection_.kind = kind;
-      TakeSize(value);
-      return;
-    }
-    if (key == "from") {
-      injection_.from = Value(value, Quantity::kTime);
-    } else if (key == "to") {
-      injection_.to = Value(value, Quantity::kTime);
-    } else if (key == "tau") {
-      injection_.tau = Value(value, Quantity::kTime);
-      if (injection_.tau <= 0.0) Fail("tau must be positive");
-    } else if (key == "share") {
-      injection_.share = Value(value, Quantity::kRatio);
-      if (injection_.share <= 0.0 || injection_.share > 1.0) {
-        Fail("share must be above 0 and at most 100 %");
-      }
-    } else if (key == "axes") {
-      TakeAxes(value);
-    } else {
-      Fail("unknown key '" + key + "'");
-    }
-  }
-
-  /// The sensor, which says what unit it must be, is known only once the
-  /// recording is read.
-  void TakeSize(const std::string& value) {
-    for (const Quantity quantity : {Quantity::kLength, Quantity::kSpeed}) {
-      try {
-        injection_.size = ParseQuantity(value, quantity);
-        injection_.speed = quantity == Quantity::kSpeed;
-        return;
-      } catch (const std::invalid_argument&) {
-      }
-    }
-    Fail("'" + value + "' is neither a length, as 12m, nor a speed, as 0.5m/s");
-  }
-
-  void TakeAxes(const std::string& value) {
-    const std::string names = "ned";
-    std::array<bool, 3>& axes = injection_.axes.emplace();
-    for (const char c : value) {
-      const std::size_t axis = names.find(c);
-      if (axis == std::string::npos) Fail("axes are of n, e, d");
-      if (axes[axis]) Fail("axis " + names.substr(axis, 1) + " stands twice");
-      axes[axis] = true;
-    }
-    if (value.empty()) Fail("axes are of n, e, d");
-  }
-
-  void CheckSize() const {
-    if (kind_.empty()) Fail("no kind of error");
-    if (injection_.size == 0.0) Fail("an error of zero");
-    const bool is_signed = kind_ != "spikes" && kind_ != "multipath";
-    if (!is_signed && injection_.size < 0.0) {
-      Fail("the signs of " + kind_ + " are drawn; its size must be positive");
-    }
-  }
-
-  void CheckKeys() const {
-    for (const auto& [key, kind] :
-         {std::pair("share", "spikes"), std::pair("tau", "multipath")}) {
-      if (keys_.contains(key) && kind_ != kind) {
-        Fail(std::string(key) + " goes with " + kind + ", not with " + kind_);
-      }
-    }
-  }
-
-  const std::string& text_;
-  Injection injection_;
-  std::set<std::string> keys_;
-  std::string kind_;  ///< as it is written; empty: none yet
-};
 
 /// The rules of a flag that takes several.
 std::vector<std::string> SplitRules(const std::string& flag,
@@ -275,7 +154,11 @@ std::vector<Withholding> ParseWithholdings(const std::string& text) {
 std::vector<Injection> ParseInjections(const std::string& text) {
   std::vector<Injection> injections;
   for (const std::string& part : SplitRules("inject", text)) {
-    injections.push_back(InjectionParser(part).Parse());
+    try {
+      injections.push_back(ParseInjection(part));
+    } catch (const std::invalid_argument& error) {
+      throw UsageError("--inject=" + part + ": " + error.what());
+    }
   }
   return injections;
 }
@@ -333,7 +216,9 @@ RunRequest ReadRunRequest(const std::string& config) {
   request.h_infinity = ReadCovariance(RiccatiRule::kHInfinity);
   request.modified_h_infinity = ReadCovariance(RiccatiRule::kModifiedHInfinity);
   request.report = FLAGS_report;
-  request.progress = Progress::ModeFromName(FLAGS_progress);
+  request.progress = FLAGS_quiet && !IsGiven("progress")
+                         ? Progress::Mode::kNone
+                         : Progress::ModeFromName(FLAGS_progress);
   if (IsGiven("at")) {
     request.at_file = FLAGS_at;
     request.at = ReadTimeList(FLAGS_at);

@@ -10,7 +10,6 @@
 
 #include "app/progress.h"
 #include "dataset/dataset.h"
-#include "problems/attitude.h"
 #include "problems/reconstruction.h"
 
 namespace hindsight {

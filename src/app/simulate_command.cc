@@ -4,13 +4,11 @@
 
 #include "app/command.h"
 #include "app/flags.h"
-#include "app/gps_jumps_flags.h"
 #include "app/result_folder.h"
-#include "app/tunnel_flags.h"
-#include "io/dataset_writer.h"
-#include "io/paths.h"
-#include "io/scenario_config.h"
-#include "simulation/builtin_scenarios.h"
+#include "app/study_cases.h"
+#include "io/config/scenario_config.h"
+#include "io/read/paths.h"
+#include "io/write/dataset_writer.h"
 
 namespace hindsight {
 namespace {
@@ -26,8 +24,8 @@ is in the way by then stays, and the recording is beside it as DIR.1.
 )";
 
 int ListScenarios() {
-  for (const std::string& name : BuiltinScenarioNames()) {
-    std::cout << name << "\n    " << BuiltinScenario(name).description << "\n";
+  for (const std::string& name : ScenarioNames()) {
+    std::cout << name << "\n    " << FindScenario(name).description << "\n";
   }
   return kUsable;
 }
@@ -55,23 +53,7 @@ int Run(const std::vector<std::string>& arguments) {
     throw UsageError(
         "'simulate' needs --out=DIR, the folder for the recording");
   }
-  Scenario scenario = arguments[0] == kTunnelSurveyName
-                          ? TunnelSurvey(ReadTunnelFlags())
-                          : FindScenario(arguments[0]);
-  if (arguments[0] == kGpsJumpsName) {
-    if ((FLAGS_errors + FLAGS_gps_sigma + FLAGS_gps_rate).find(',') !=
-        std::string::npos) {
-      throw UsageError(
-          "'simulate' takes one value of --errors, --gps-sigma and --gps-rate");
-    }
-    scenario = GpsJumps(ReadGpsJumpsFlags().front());
-  } else if (IsGiven("errors") || IsGiven("gps_sigma") || IsGiven("gps_rate")) {
-    throw UsageError("--errors, --gps-sigma and --gps-rate go with gps_jumps");
-  }
-  if (arguments[0] != kTunnelSurveyName &&
-      (IsGiven("path") || IsGiven("white_noise"))) {
-    throw UsageError("--path and --white-noise go with tunnel_survey only");
-  }
+  Scenario scenario = FindScenario(arguments[0], ReadChanges());
   if (!FLAGS_profile.empty()) {
     scenario.profile = ReadMotionProfile(FLAGS_profile);
     scenario.name += "_profile";
@@ -115,18 +97,9 @@ Command SimulateCommand() {
                  "a truth.csv, or without header t, lat, lon, h, v north,\n"
                  "east, down, roll, pitch, heading in s, deg, m, m/s"},
                 {"duration", "T", "end after T seconds (that of the scenario)"},
-                {"path", "NAME",
-                 "of tunnel_survey: winding, serpentine or straight\n"
-                 "(winding)"},
-                {"white_noise", "READING",
-                 "of tunnel_survey's IMU: sample, the standard deviation\n"
-                 "of each sample, or density, per sqrt(Hz) (sample)"},
-                {"errors", "NAME",
-                 "of gps_jumps: none, pulses, spikes, steps, ramp or\n"
-                 "multipath (pulses)"},
-                {"gps_sigma", "M", "of gps_jumps, 0.001 to 1000 (1)"},
-                {"gps_rate", "HZ",
-                 "of gps_jumps, 100 or 1 over a whole number (1)"},
+                {"set", "KEY=VALUE",
+                 "change a key of the scenario, aiding.gnss.sigma='2 m',\n"
+                 "or choose, errors=spikes; several times"},
                 {"list", "", "list the built-in scenarios"}},
       .min_arguments = 0,
       .max_arguments = 1,

@@ -23,7 +23,7 @@ class PackedSeries {
     using value_type = Row;
     using difference_type = std::ptrdiff_t;
     using reference = const Row;
-    class pointer {
+    class pointer {  // NOLINT(readability-identifier-naming): as in std
      public:
       explicit pointer(const Row& row) : row_(row) {}
       const Row* operator->() const { return &row_; }
@@ -146,7 +146,7 @@ class PackedSeries {
     }
     Editor(const Editor&) = delete;
     Editor& operator=(const Editor&) = delete;
-    ~Editor() { Store(); }
+    ~Editor() { Store(); }  // NOLINT(bugprone-exception-escape): no memory
 
     Row& operator*() { return row_; }
     Editor& operator++() {

@@ -23,8 +23,8 @@ namespace hindsight {
 /// bit for bit. A struct lists its fields in one place,
 ///   template <class Self>
 ///   static auto Fields(Self& self) { return std::tie(self.t, ...); }
-/// which are numbers, flags, enumerations, Eigen's fixed sizes, and arrays,
-/// optional values, alternatives and structs of these.
+/// which are numbers, flags, enumerations, pointers, Eigen's fixed sizes, and
+/// arrays, optional values, alternatives and structs of these.
 template <class T>
 struct WordsOf {
   using Tuple = decltype(T::Fields(std::declval<T&>()));
@@ -69,6 +69,18 @@ struct WordsOf<T> {
   }
   static void Take(const PackedWord* words, T* value) {
     *value = static_cast<T>(*words);
+  }
+};
+
+/// Of an object that outlives the words.
+template <class T>
+struct WordsOf<const T*> {
+  static constexpr std::size_t kCount = 1;
+  static void Put(const T* value, PackedWord* words) {
+    *words = static_cast<PackedWord>(reinterpret_cast<std::uintptr_t>(value));
+  }
+  static void Take(const PackedWord* words, const T** value) {
+    *value = reinterpret_cast<const T*>(static_cast<std::uintptr_t>(*words));
   }
 };
 

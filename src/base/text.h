@@ -5,8 +5,8 @@
 
 namespace hindsight {
 
-/// printf into a string.
-[[gnu::format(printf, 1, 2)]] std::string Format(const char* format, ...);
+/// Shortest text that reads back as the same double.
+std::string FormatNumber(double value);
 
 }  // namespace hindsight
 

@@ -15,14 +15,15 @@ enum class AlignmentKind {
   kCourse,        ///< heading from the course of the first motion
   kVelocity,      ///< from specific force against velocity or position
   kMagnetometer,  ///< heading from the magnetic field
+  kHeading,       ///< heading of a baseline, of two antennas
   kAhrs,          ///< an attitude filter over the first seconds
 };
 
 /// "auto", "given", "static"... in the order of AlignmentKind, as in a
 /// configuration.
 inline std::vector<std::string> AlignmentNames() {
-  return {"auto",   "given",    "static",       "gyrocompass",
-          "course", "velocity", "magnetometer", "ahrs"};
+  return {"auto",     "given",        "static",  "gyrocompass", "course",
+          "velocity", "magnetometer", "heading", "ahrs"};
 }
 
 }  // namespace hindsight

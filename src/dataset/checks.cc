@@ -1,16 +1,18 @@
 #include "dataset/checks.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "base/median.h"
-#include "base/text.h"
 #include "base/units.h"
 #include "dataset/imu_cells.h"
 #include "dataset/magnetic_check.h"
 #include "dataset/repeated_readings.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -231,7 +233,7 @@ std::string SuggestAxes(const Eigen::Vector3d& force) {
             ", applied after those declared, makes z point down (gravity says "
             "nothing about which way is forward)";
   }
-  return text + Format("; tilt against that axis %.1f deg", tilt);
+  return text + fmt::format("; tilt against that axis {:.1f} deg", tilt);
 }
 
 void WarnAboutImu(const CheckReport& report, const ImuStream& stream,
@@ -243,21 +245,22 @@ void WarnAboutImu(const CheckReport& report, const ImuStream& stream,
   const double tolerance =
       imu.rest_force ? kForceTolerance : 4 * kForceTolerance;
   if (std::abs(force / kStandardGravity - 1.0) > tolerance) {
-    warnings->push_back(
-        Format("imu: |f| is %.4g m/s^2 %s, expected about 9.81: check the unit "
-               "of the accelerometer%s",
-               force, where,
-               stream.kind == ImuStream::Kind::kIncrements
-                   ? " and whether these are increments"
-                   : ", or whether these are increments"));
+    warnings->push_back(fmt::format(
+        "imu: |f| is {:.4g} m/s^2 {}, expected about 9.81: check the unit "
+        "of the accelerometer{}",
+        force, where,
+        stream.kind == ImuStream::Kind::kIncrements
+            ? " and whether these are increments"
+            : ", or whether these are increments"));
   }
   if (imu.max_force > kMaxForce) {
-    warnings->push_back(
-        Format("imu: |f| reaches %.4g m/s^2: check the unit", imu.max_force));
+    warnings->push_back(fmt::format(
+        "imu: |f| reaches {:.4g} m/s^2: check the unit", imu.max_force));
   }
   if (imu.max_rate > kMaxRate) {
-    warnings->push_back(Format("imu: |w| reaches %.4g deg/s: check the unit",
-                               imu.max_rate / kDegree));
+    warnings->push_back(
+        fmt::format("imu: |w| reaches {:.4g} deg/s: check the unit",
+                    imu.max_rate / kDegree));
   }
   if (imu.rest_force && imu.rest_force->normalized().z() > -0.7) {
     warnings->push_back("imu: z does not point down at rest: " + report.axes);
@@ -270,17 +273,18 @@ void WarnAboutRate(const Dataset& dataset, const ImuReport& imu,
   if (imu.rest_rate) {
     const double rate = (*imu.rest_rate - dataset.initial.gyro_bias).norm();
     if (rate <= kMaxRestRate) return;
-    warnings->push_back(
-        Format("imu: |w| is %.3g deg/s at rest: a large bias, or the wrong "
-               "unit of the gyro",
-               rate / kDegree));
+    warnings->push_back(fmt::format(
+        "imu: |w| is {:.3g} deg/s at rest: a large bias, or the wrong "
+        "unit of the gyro",
+        rate / kDegree));
     return;
   }
   constexpr double kLong = 5.0;
   const UnexplainedRate rate = FindUnexplainedRate(dataset);
   if (imu.still_force || rate.seconds < kLong) return;
-  warnings->push_back(Format(
-      "imu: for %.1f s nothing shakes it and the gyros read up to %.3g deg/s, "
+  warnings->push_back(fmt::format(
+      "imu: for {:.1f} s nothing shakes it and the gyros read up to {:.3g} "
+      "deg/s, "
       "more than initial.gyro_bias and its sigma allow: a steady turn; or, if "
       "it stands there, a bias to be given or the wrong unit of the gyro",
       rate.seconds, rate.rate / kDegree));
@@ -289,17 +293,17 @@ void WarnAboutRate(const Dataset& dataset, const ImuReport& imu,
 void WarnAboutStream(const StreamReport& stream,
                      std::vector<std::string>* warnings) {
   if (stream.rate > 0.0 && stream.delay * stream.rate > kMaxJitter) {
-    warnings->push_back(Format(
-        "%s: intervals vary by %.3g s about %.3g s: are the stamps those "
+    warnings->push_back(fmt::format(
+        "{}: intervals vary by {:.3g} s about {:.3g} s: are the stamps those "
         "of reception?",
-        stream.name.c_str(), stream.delay, 1.0 / stream.rate));
+        stream.name, stream.delay, 1.0 / stream.rate));
   }
   const double span = stream.t_end - stream.t_begin;
   if (span > 0.0 && stream.overlap < 0.5 * span) {
     warnings->push_back(
-        Format("%s: only %.1f s of %.1f s lie within the IMU's "
-               "record",
-               stream.name.c_str(), stream.overlap, span));
+        fmt::format("{}: only {:.1f} s of {:.1f} s lie within the IMU's "
+                    "record",
+                    stream.name, stream.overlap, span));
   }
 }
 
@@ -327,8 +331,7 @@ CheckReport CheckDataset(const Dataset& dataset) {
     }
     report.streams.push_back(
         ReportStamps(stream.sensor.name, stamps, dataset.imu));
-    if (stream.sensor.type == SensorType::kZeroVelocity ||
-        stream.sensor.type == SensorType::kZeroAngularRate) {
+    if (stream.sensor.kind->standing) {
       report.streams.back().jitter = report.streams.back().delay =
           0.0;  // they come when the vehicle rests
     }

@@ -26,8 +26,9 @@ struct StreamReport {
   double t_end = 0.0;    ///< [s]
   double rate = 0.0;     ///< one over the median interval [Hz]
   double jitter = 0.0;   ///< standard deviation of intervals without gaps [s]
-  /// The same where two intervals that make a median one count as that: rows
-  /// may stand between regular ones [s].
+  /// The same standard deviation [s], but two neighbouring intervals that add
+  /// up to the median one are counted as one interval: a file may hold extra
+  /// rows between its regular ones, which says nothing against the stamps.
   double delay = 0.0;
   long duplicates = 0;  ///< rows with the stamp of the row before
   std::vector<StreamGap> gaps;
@@ -56,7 +57,8 @@ struct CheckReport {
   std::vector<std::string> warnings;
   /// Likewise of the truth, which no grade depends on.
   std::vector<std::string> truth_warnings;
-  /// What the recording's repetitions say (dataset/repeated_readings.h).
+  /// What readings that are repeated in every digit say of the recording
+  /// (dataset/repeated_readings.h).
   std::vector<Evidence> evidence;
   /// In words, from the axis that feels gravity where the vehicle does not
   /// turn: "z points down, as it should", or the `axes` that would make it so.

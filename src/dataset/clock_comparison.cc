@@ -8,6 +8,7 @@
 #include "base/median.h"
 #include "base/units.h"
 #include "dataset/clock_misfit.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -65,7 +66,7 @@ std::optional<ClockComparison> CompareStream(const ImuStream& imu,
   const bool fields = std::holds_alternative<MagneticField>(model);
   const bool in_body = std::holds_alternative<Dvl>(model) ||
                        std::holds_alternative<Odometer>(model);
-  const bool generated = stream.sensor.type == SensorType::kNonHolonomic;
+  const bool generated = stream.sensor.kind->generated;
   TimedRows rows = RowsOf(stream);
   if (generated || rows.t.size() < kFewestRows) return std::nullopt;
   const bool twice = positions || heights;

@@ -10,7 +10,8 @@
 
 namespace hindsight {
 
-/// A record beside the IMU's, as a function of where its clock stands.
+/// How well the motion in another record agrees with the IMU's, as a function
+/// of the offset that is added to the stamps of that record.
 struct ClockComparison {
   /// As ClockCandidate::misfit; infinite where too little overlaps.
   std::function<double(double offset)> misfit;

@@ -22,8 +22,10 @@ struct ClockSeries {
   ClockWindows windows;
 };
 
-/// (x_end - x_middle) / dt_2 - (x_middle - x_begin) / dt_1, over the time
-/// between.
+/// The second derivative of x from the three rows of a window, whose intervals
+/// are dt_1 and dt_2:
+///   ((x_end - x_middle) / dt_2 - (x_middle - x_begin) / dt_1)
+///   / ((dt_1 + dt_2) / 2).
 template <typename Get>
 Eigen::Vector3d SecondDifference(const ClockWindows::Window& w,
                                  const std::vector<double>& t, const Get& get) {
@@ -35,25 +37,29 @@ Eigen::Vector3d SecondDifference(const ClockWindows::Window& w,
   return (after - before) / (0.5 * (dt_1 + dt_2));
 }
 
-/// Accelerations less gravity in n, one a window, of positions in e or
-/// velocities in n.
+/// The accelerations less gravity, in axes n, that the rows of each window
+/// show: rows are positions in e or velocities in n.
 std::vector<Eigen::Vector3d> Accelerations(const ClockSeries& c,
                                            bool of_positions);
-/// Vertical accelerations of heights, one a window.
+/// The vertical accelerations that the heights of each window show.
 std::vector<double> VerticalAccelerations(const ClockSeries& c);
 
-/// Misfits as of ClockCandidate, the stamps moved by `offset`; kNoMisfit with
-/// fewer than five independent windows inside the IMU's record. Of the
-/// accelerations `a` against the specific force, turned to fit piece by piece:
+/// The misfit that ClockCandidate defines, with the stamps moved by `offset`;
+/// kNoMisfit if fewer than five independent windows lie inside the IMU's
+/// record. This one compares the accelerations `a` with the specific force; in
+/// each piece the rotation between the axes of the two is the one that fits
+/// best.
 double ForceMisfit(const ClockSeries& c, const std::vector<Eigen::Vector3d>& a,
                    bool of_positions, double offset);
-/// Of velocities in the body, what is constant over a piece being gravity.
+/// Compares changes of a velocity in the body with the integral of the specific
+/// force. What is constant over a piece is taken for gravity.
 double BodyVelocityMisfit(const ClockSeries& c, double offset);
-/// Of fields in the body. With R the turn from begin to end,
-/// R m_end - m_begin = (R - 1) h, h the hard iron.
+/// Compares magnetic fields in the body with the turns of the gyros. With R the
+/// turn from the begin to the end of a window, R m_end - m_begin = (R - 1) h,
+/// where h is the hard iron.
 double FieldMisfit(const ClockSeries& c, double offset);
-/// Of vertical accelerations. The vertical u of each piece by least squares:
-/// acceleration + g = u . b.
+/// Compares the vertical accelerations `up` with the specific force b. The
+/// vertical u of each piece is found by least squares from up + g = u . b.
 double HeightMisfit(const ClockSeries& c, const std::vector<double>& up,
                     double offset);
 

@@ -1,10 +1,11 @@
 #include "dataset/clock_search.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 
-#include "base/text.h"
 #include "dataset/clock_comparison.h"
 #include "dataset/clock_turns.h"
 
@@ -155,10 +156,11 @@ std::vector<std::string> FindAmbiguousClocks(const Dataset& dataset) {
         [](const ClockCandidate& a, const ClockCandidate& b) {
           return a.offset < b.offset;
         });
-    words.push_back(Format(
-        "%s: %zu time offsets from %.2f to %.2f s%s fit about as well: `run` "
+    words.push_back(fmt::format(
+        "{}: {} time offsets from {:.2f} to {:.2f} s{} fit about as well: "
+        "`run` "
         "decides between them, unless time_offset is given",
-        stream.sensor.name.c_str(), found.candidates.size(), first->offset,
+        stream.sensor.name, found.candidates.size(), first->offset,
         last->offset, found.left_out > 0 ? " and further ones" : ""));
   }
   return words;
@@ -176,10 +178,11 @@ std::string Describe(const ClockSearch& search) {
   for (const ClockCandidate& candidate : search.candidates) {
     const std::string sigma =
         std::isfinite(candidate.sigma)
-            ? Format("sigma %.2g ms", 1e3 * candidate.sigma)
+            ? fmt::format("sigma {:.2g} ms", 1e3 * candidate.sigma)
             : "sigma unknown";
-    words += Format("%s%.4f s, %s, misfit %.2g", words.empty() ? "" : "; or ",
-                    candidate.offset, sigma.c_str(), candidate.misfit);
+    words += fmt::format("{}{:.4f} s, {}, misfit {:.2g}",
+                         words.empty() ? "" : "; or ", candidate.offset, sigma,
+                         candidate.misfit);
   }
   if (search.left_out > 0) {
     words += "; and " + std::to_string(search.left_out) + " more";

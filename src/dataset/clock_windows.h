@@ -7,18 +7,19 @@
 
 namespace hindsight {
 
-/// Pairs or triples of rows a window apart.
+/// Windows of a record: pairs of rows, at the begin and at the end, or triples
+/// with a row in the middle as well.
 struct ClockWindows {
   struct Window {
     std::size_t begin = 0;
     std::size_t middle = 0;  ///< equal to `end` of a pair
     std::size_t end = 0;
-    int piece = 0;  ///< over which free constants are the same
+    int piece = 0;  ///< windows of one piece share their free constants
   };
   double length = 0.0;  ///< [s]
   std::vector<Window> windows;
 
-  /// Independent windows: those that overlap count once.
+  /// The number of windows that do not overlap.
   double IndependentWindows(const std::vector<double>& t) const;
 };
 
@@ -44,11 +45,12 @@ class CommonMotion {
   }
   int count() const { return count_; }
 
-  /// Mean of what each moves about its own mean, summed.
+  /// How much there is to compare: sum |a - mean(a)|^2 and sum |b - mean(b)|^2,
+  /// the mean of the two sums.
   double Motion() const;
-  /// Smallest sum |a - C b|^2 over rotations C.
+  /// What the best rotation C leaves: min over C of sum |a - C b|^2.
   double LeftByRotation() const;
-  /// Smallest sum |a - b - c|^2 over constants c.
+  /// What the best constant c leaves: min over c of sum |a - b - c|^2.
   double LeftByConstant() const;
 
  private:

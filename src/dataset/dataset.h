@@ -33,7 +33,7 @@ struct TruthPoint {
   std::optional<Eigen::Vector3d> p_e;
   std::optional<Eigen::Vector3d> v_n;      ///< NED [m/s]
   std::optional<Eigen::Quaterniond> q_nb;  ///< body to NED
-  /// The reference says whether the body moves.
+  /// Whether the body moves, if the reference says so.
   std::optional<bool> moving;
   std::optional<Eigen::Vector3d> b_g;  ///< known of simulated data [rad/s]
   std::optional<Eigen::Vector3d> b_a;  ///< known of simulated data [m/s^2]
@@ -80,27 +80,25 @@ struct StationaryOptions {
 /// or worn.
 struct AhrsSettings {
   /// Accelerometer rule: fixed, gate, held_gate, adaptive, smnc (see
-  /// filters/accelerometer_rule.h, as for the following).
+  /// attitude/accelerometer_rule.h, as for the following).
   std::string rule = "fixed";
   double accel_sigma = 0.18;  ///< R0 [m/s^2]
   double gate = 0.88;         ///< [m/s^2]
   double lambda = 0.05;
   int samples = 4;                ///< N
   std::optional<double> seconds;  ///< N as a time [s]
-  /// Of the accelerometer in the quasi-inertial frame [s], 0: off; absent: 1.5
-  /// s for the fixed rule, off for those that judge the readings themselves.
+  /// Time constant of the low-pass that the specific force goes through in axes
+  /// that do not turn with the body [s]. 0: there is none. Absent: 1.5 s for
+  /// the fixed rule, none for the rules that judge each reading themselves.
   std::optional<double> low_pass;
-  /// The errors of accelerometer and magnetometer go on for this long [s].
+  /// Correlation time of the errors of accelerometer and magnetometer [s].
   double correlation_time = 1.0;
-  /// Reading of the gyro bias at rest [rad/s], 0: off.
+  /// Standard deviation of the gyro bias that one sample at rest shows [rad/s];
+  /// 0: rest is not used.
   double rest_sigma = 0.0175;
   bool reject_disturbances = true;  ///< by norm and dip of the field
-  /// Smoother and batch survey the field of the whole recording first.
+  /// The smoother surveys the field of the whole recording first.
   bool survey = true;
-  /// The body does not leave a room: about `room` of its mean place, not faster
-  /// than `room_speed`, one sigma (batch) [m], [m/s].
-  double room = 1.0;
-  double room_speed = 1.0;
 };
 
 /// Measurements of one sensor type or name kept from the estimators.

@@ -10,17 +10,18 @@
 
 namespace hindsight {
 
-/// What all aiding together says against motion over whole spans, however long:
-/// a speed that no short stretch can tell from rest adds up to a way.
+/// What all aiding together says against motion over whole spans, however long.
+/// Over a short stretch a slow motion cannot be told from rest; over a long one
+/// it adds up to a distance that the aiding measures.
 class ExcludedMotion {
  public:
-  /// Of all that is not withheld.
+  /// Uses every measurement that is not withheld.
   explicit ExcludedMotion(const Dataset& dataset)
       : record_(dataset),
         slack_(2.0 * dataset.stationary.velocity_sigma),
         window_(std::min(dataset.stationary.window, 1.0)) {}
 
-  /// Nothing that could tell a speed or a place is measured at any time.
+  /// True if no measurement of the whole recording tells a speed or a place.
   bool empty() const;
 
   /// The mean speed that aiding leaves possible over `span` [m/s]: of the

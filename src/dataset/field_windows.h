@@ -24,8 +24,8 @@ struct SignCosts {
   double norm = 0.0;  ///< root mean square [uT]
 };
 
-/// Of a stream of magnetic fields, hard iron taken off, inside the IMU's
-/// record; of at most 60 windows.
+/// The costs of a stream of magnetic fields, from which the hard iron is taken
+/// off, over at most 60 windows inside the IMU's record.
 SignCosts ReadFieldWindows(const Dataset& dataset, const AidingStream& stream);
 
 }  // namespace hindsight

@@ -21,10 +21,11 @@ inline constexpr double kLeastFrozen = 0.1;
 /// Readings so many steps of their resolution apart are not equal by rounding.
 inline constexpr double kStepsOfResolution = 4.0;
 
-/// Whether chance makes a run of so many rows, among runs of which those
-/// shorter than half of it tell how likely they go on, which they do if the
-/// noise is at least a fifth of a step of the resolution. `rows`, of all runs
-/// of two and more, ascends.
+/// Whether a run of `length` equal rows may have come up by chance. `rows` has
+/// the lengths of all runs of two rows and more, ascending. Those shorter than
+/// half of `length` tell the probability that a run goes on by another row, and
+/// from it follows that of a run of this length. This holds where the noise is
+/// at least a fifth of a step of the resolution.
 bool IsByChance(const std::vector<long>& rows, long length);
 
 /// Runs of an IMU's samples too long for its resolution. Coarse readings repeat
@@ -32,14 +33,14 @@ bool IsByChance(const std::vector<long>& rows, long length);
 /// the shorter runs of the stream tell, and a run that had a chance of less
 /// than one in a million of coming up anywhere is none of these. At least 0.1 s
 /// long.
-///   So are the three gyros, the three accelerometers and each axis by
-/// themselves judged, where their readings change by more than four steps of
-/// their resolution from row to row and lie as far from the repeated one just
-/// before and after the run, while another axis of the triad (of a whole triad:
-/// of the other) goes on changing from row to row by half of its usual or more:
-/// a coarse axis at rest is not frozen. An axis that never changes is not
-/// judged. A mounting other than by right angles mixes the axes, of which then
-/// none is seen to freeze alone.
+///   The three gyros, the three accelerometers and each axis are judged by
+/// themselves in the same way, where their readings change by more than four
+/// steps of their resolution from row to row and lie as far from the repeated
+/// one just before and after the run, while another axis of the triad (of a
+/// whole triad: of the other) goes on changing from row to row by half of its
+/// usual or more: a coarse axis at rest is not frozen. An axis that never
+/// changes is not judged. A mounting other than by right angles mixes the axes,
+/// of which then none is seen to freeze alone.
 std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu);
 
 }  // namespace hindsight

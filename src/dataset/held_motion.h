@@ -24,7 +24,7 @@ class HeldMotion {
   HeldMotion(const ImuStream& imu, const Eigen::Vector3d& b_g);
 
   bool Covers(double t) const { return t >= begin_ && t <= end_; }
-  /// Between the points of the grid as of constant rate and force.
+  /// Between the points of the grid rate and force are taken as constant.
   Instant At(double t) const;
 
  private:

@@ -14,7 +14,8 @@ struct ImuCell {
   double end = 0.0;                             ///< [s]
   Eigen::Vector3d w = Eigen::Vector3d::Zero();  ///< mean reading [rad/s]
   Eigen::Vector3d f = Eigen::Vector3d::Zero();  ///< mean reading [m/s^2]
-  /// Number of the span over which the IMU does not turn; -1: it may.
+  /// Number of the span, over which the IMU does not turn, that the cell is
+  /// part of; -1: of none, the IMU may turn.
   int span = -1;
   /// It does not turn, and nothing shakes it either.
   bool quiet = false;

@@ -1,12 +1,14 @@
 #include "dataset/injection.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "base/error.h"
 #include "base/random.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -19,25 +21,19 @@ constexpr std::uint64_t kNextStream = 1000000;
 
 constexpr std::array<bool, 3> kHorizontal = {true, true, false};
 
-/// Its name as a type, or nullptr if it takes no injections.
-const char* TypeOf(const Sensor& sensor) {
-  switch (sensor.type) {
-    case SensorType::kPosition:
-      return "position";
-    case SensorType::kVelocity:
-      return "velocity";
-    case SensorType::kHeight:
-      return "height";
-    default:
-      return nullptr;
-  }
+/// Takes injections: a vector in NED axes or a height.
+bool TakesErrors(const SensorKind& kind) {
+  return kind.is_position || kind.is_velocity || kind.is_height;
+}
+
+/// Its kind as a word of --inject.
+std::string_view WordOf(const SensorKind& kind) {
+  return kind.family.empty() ? kind.name : kind.family;
 }
 
 std::string Time(const char* word, double t) {
   if (!std::isfinite(t)) return "";
-  char text[64];
-  std::snprintf(text, sizeof(text), " %s %.10g s", word, t);
-  return text;
+  return fmt::format(" {} {:.10g} s", word, t);
 }
 
 /// The errors of one injection, asked for in time order.
@@ -108,16 +104,16 @@ std::vector<AidingStream*> FittingStreams(const Injection& injection,
   std::vector<AidingStream*> streams;
   std::string known;
   for (AidingStream& stream : dataset->streams) {
-    const char* type = TypeOf(stream.sensor);
+    const SensorKind& kind = *stream.sensor.kind;
     const bool named = injection.sensor == stream.sensor.name;
-    if (type == nullptr) {
+    if (!TakesErrors(kind)) {
       if (!named) continue;
       Fail(injection, "'" + injection.sensor +
                           "' is of another type; expected a sensor of type "
                           "position, velocity or height");
     }
     known += (known.empty() ? "" : ", ") + stream.sensor.name;
-    if (named || injection.sensor == type) streams.push_back(&stream);
+    if (named || injection.sensor == WordOf(kind)) streams.push_back(&stream);
   }
   if (streams.empty()) {
     if (known.empty()) known = "none at all";
@@ -130,12 +126,13 @@ std::vector<AidingStream*> FittingStreams(const Injection& injection,
 }
 
 void CheckFitsSensor(const Injection& injection, const Sensor& sensor) {
-  const bool velocity = sensor.type == SensorType::kVelocity;
+  const bool velocity = sensor.kind->is_velocity;
   if (injection.speed != velocity) {
-    Fail(injection, "'" + sensor.name + "' is of type " + TypeOf(sensor) +
+    Fail(injection, "'" + sensor.name + "' is of type " +
+                        std::string(WordOf(*sensor.kind)) +
                         "; expected a size in " + (velocity ? "m/s" : "m"));
   }
-  const bool height = sensor.type == SensorType::kHeight;
+  const bool height = sensor.kind->is_height;
   if (height && injection.axes) {
     Fail(injection, "'" + sensor.name + "' is a height; expected no axes");
   }
@@ -191,7 +188,7 @@ void Apply(Injection injection, std::uint64_t seed, std::uint64_t number,
   const std::string objection = SpanObjection(injection);
   if (!objection.empty()) Fail(injection, objection);
   const std::vector<AidingStream*> streams = FittingStreams(injection, dataset);
-  injection.up = streams.front()->sensor.type == SensorType::kHeight;
+  injection.up = streams.front()->sensor.kind->is_height;
   for (const AidingStream* stream : streams) {
     CheckFitsSensor(injection, stream->sensor);
   }
@@ -250,17 +247,15 @@ std::string Describe(const Injection& injection) {
   static const char* const kNames[] = {"step", "pulse", "ramp", "spikes",
                                        "multipath"};
   static const char* const kAxes[] = {"north", "east", "down"};
-  char text[96];
-  std::snprintf(text, sizeof(text), ": %s of %g %s",
-                kNames[static_cast<std::size_t>(injection.kind)],
-                injection.size, injection.speed ? "m/s" : "m");
-  std::string out = injection.sensor + text;
+  std::string out =
+      injection.sensor +
+      fmt::format(": {} of {:g} {}",
+                  kNames[static_cast<std::size_t>(injection.kind)],
+                  injection.size, injection.speed ? "m/s" : "m");
   if (injection.kind == Injection::Kind::kSpikes) {
-    std::snprintf(text, sizeof(text), " on %g %%", 100.0 * injection.share);
-    out += text;
+    out += fmt::format(" on {:g} %", 100.0 * injection.share);
   } else if (injection.kind == Injection::Kind::kMultipath) {
-    std::snprintf(text, sizeof(text), ", tau %g s,", injection.tau);
-    out += text;
+    out += fmt::format(", tau {:g} s,", injection.tau);
   }
   if (injection.up) out += " up";
   const char* separator = " ";

@@ -1,14 +1,16 @@
 #include "dataset/magnetic_check.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "base/units.h"
 #include "dataset/field_windows.h"
 #include "earth/geomagnetic_dipole.h"
 #include "earth/wgs84.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -20,24 +22,17 @@ constexpr double kClearlyBetter = 9.0;
 constexpr double kAsGood = 4.0;
 constexpr double kClearSine = 0.3;
 
-template <typename... Values>
-std::string Words(const char* format, Values... values) {
-  std::array<char, 320> text;
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
-
 double DipSine(const Eigen::Vector3d& field_n) {
   return field_n.z() / field_n.norm();
 }
 
 std::string DipWords(double sine) {
-  return Words("%s by %.0f deg", sine > 0.0 ? "down" : "up",
-               std::asin(std::min(std::abs(sine), 1.0)) / kDegree);
+  return fmt::format("{} by {:.0f} deg", sine > 0.0 ? "down" : "up",
+                     std::asin(std::min(std::abs(sine), 1.0)) / kDegree);
 }
 
 std::string LatitudeWords(const Eigen::Vector3d& p_e) {
-  return Words("%.0f deg", GeodeticFromEcef(p_e).latitude / kDegree);
+  return fmt::format("{:.0f} deg", GeodeticFromEcef(p_e).latitude / kDegree);
 }
 
 double ScatterOf(const SignCosts& costs, std::size_t i) {
@@ -98,9 +93,9 @@ void CheckSigns(const std::string& name, const SignCosts& costs,
   }
   if (costs.turned > 0 && ScatterOf(costs, best) < 0.25 * ScatterOf(costs, 0)) {
     why += std::string(why.empty() ? "" : "; ") +
-           Words(
+           fmt::format(
                "where the body turns the field does not turn back: it "
-               "scatters by %.0f %%, with that sign changed by %.0f %%",
+               "scatters by {:.0f} %, with that sign changed by {:.0f} %",
                100.0 * std::sqrt(costs.scatter[0]),
                100.0 * std::sqrt(std::max(costs.scatter[best], 0.0)));
   }
@@ -135,10 +130,9 @@ void CheckNorm(const std::string& name, double norm,
                std::vector<std::string>* warnings) {
   if (norm == 0.0) return;
   if (norm >= kLeastMagneticField && norm <= kLargestMagneticField) return;
-  warnings->push_back(
-      Words("%s: the field has %.4g uT, the Earth's has %.0f to %.0f uT%s",
-            name.c_str(), norm, kLeastMagneticField, kLargestMagneticField,
-            UnitWords(norm).c_str()));
+  warnings->push_back(fmt::format(
+      "{}: the field has {:.4g} uT, the Earth's has {:.0f} to {:.0f} uT{}",
+      name, norm, kLeastMagneticField, kLargestMagneticField, UnitWords(norm)));
 }
 
 void CheckDown(const AidingStream& stream, const Eigen::Vector3d& p_e,
@@ -149,9 +143,10 @@ void CheckDown(const AidingStream& stream, const Eigen::Vector3d& p_e,
   const double sine = DipSine(DipoleField(p_e));
   const double down = stream.sensor.magnetic.down;
   if (down * sine >= 0.0 || std::abs(sine) < kClearSine) return;
-  warnings->push_back(
-      stream.sensor.name + Words(": down is %.4g uT; at latitude ", down) +
-      LatitudeWords(p_e) + " the field points " + DipWords(sine));
+  warnings->push_back(stream.sensor.name +
+                      fmt::format(": down is {:.4g} uT; at latitude ", down) +
+                      LatitudeWords(p_e) + " the field points " +
+                      DipWords(sine));
 }
 
 }  // namespace
@@ -173,8 +168,9 @@ std::string FieldContradiction(const Eigen::Vector3d& field_level,
                                const Eigen::Vector3d& p_e) {
   const double norm = field_level.norm();
   if (norm < 0.5 * kLeastMagneticField || norm > 2.0 * kLargestMagneticField) {
-    return Words("the field has %.4g uT, the Earth's has %.0f to %.0f uT", norm,
-                 kLeastMagneticField, kLargestMagneticField);
+    return fmt::format(
+        "the field has {:.4g} uT, the Earth's has {:.0f} to {:.0f} uT", norm,
+        kLeastMagneticField, kLargestMagneticField);
   }
   const double sine = DipSine(DipoleField(p_e));
   const double found = DipSine(field_level);
@@ -192,8 +188,7 @@ std::vector<std::string> CheckMagnetometers(const Dataset& dataset) {
   if (dataset.imu.empty()) return warnings;
   const std::optional<Eigen::Vector3d> p_e = RoughPosition(dataset);
   for (const AidingStream& stream : dataset.streams) {
-    if (stream.sensor.type != SensorType::kMagnetometer ||
-        stream.measurements.empty()) {
+    if (!stream.sensor.kind->magnetic || stream.measurements.empty()) {
       continue;
     }
     const SignCosts costs = ReadFieldWindows(dataset, stream);

@@ -1,5 +1,7 @@
 #include "dataset/repeated_readings.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,7 +11,6 @@
 #include <variant>
 
 #include "base/median.h"
-#include "base/text.h"
 #include "dataset/resolution.h"
 #include "earth/wgs84.h"
 
@@ -320,10 +321,11 @@ Evidence FrozenEvidence(const std::string& name,
   const double length = worst.t_end - worst.t_begin;
   const std::string channel = worst.channel;
   std::string what =
-      Format("%s repeats one reading for %.3g s from %.3f s",
-             (channel.empty() ? name : channel + " of " + name).c_str(), length,
-             worst.t_begin);
-  if (runs.size() > 1) what += Format(", and %zu more times", runs.size() - 1);
+      fmt::format("{} repeats one reading for {:.3g} s from {:.3f} s",
+                  (channel.empty() ? name : channel + " of " + name), length,
+                  worst.t_begin);
+  if (runs.size() > 1)
+    what += fmt::format(", and {} more times", runs.size() - 1);
   return {
       .grade = Grade::kDoubtful,
       .what = what,
@@ -341,9 +343,9 @@ Evidence StaleEvidence(const std::string& name, double share) {
   return {
       .rule = "stale_readings",
       .grade = wrong ? Grade::kUnusable : Grade::kDoubtful,
-      .what = Format("%s repeats the row before in %.0f %% of its rows "
-                     "while it moves (limit %.0f)",
-                     name.c_str(), 100.0 * share, limit),
+      .what = fmt::format("{} repeats the row before in {:.0f} % of its rows "
+                          "while it moves (limit {:.0f})",
+                          name, 100.0 * share, limit),
       .value = 100.0 * share,
       .limit = limit,
       .unit = "%",

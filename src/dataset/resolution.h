@@ -12,16 +12,17 @@ struct ReadingRounding {
   double relative = 0.0;  ///< of a reading
 };
 
-/// How readings go on.
+/// What is known of the values that a series of readings takes.
 enum class ReadingCourse {
-  kToAndFro,  ///< some lie next to each other in order of size
-  kAnyhow,    ///< of what only grows all may be far from each other
+  kToAndFro,  ///< they come back: some values are a single step apart
+  kAnyhow,    ///< nothing: values that only grow may all be many steps apart
 };
 
-/// The step that all differences of the readings are multiples of, or less: the
-/// least difference of two of them beyond their rounding; of kAnyhow the least
-/// difference of two such differences, of neighbours in order of size, if that
-/// is less. Infinity if all are equal.
+/// The step of which all differences of the readings are multiples, from above:
+/// the least difference of two readings that is larger than their rounding. For
+/// kAnyhow the readings are sorted, and the least difference between two of the
+/// steps from one to the next is taken where it is smaller still. Infinity if
+/// all readings are equal.
 double Resolution(std::vector<double> readings, const ReadingRounding& rounding,
                   ReadingCourse course);
 

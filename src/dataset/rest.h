@@ -17,8 +17,8 @@ struct Rest {
   std::vector<TimeInterval> moving = {};
   /// It does not turn; whether it moves, nothing says.
   std::vector<TimeInterval> undecided = {};
-  /// Quiet, but its rate contradicts that of other rests: of them or of those
-  /// it turns, steadily (LeaveOutTurned).
+  /// Quiet, but the mean rate contradicts that of other rests: either here or
+  /// there the vehicle turns steadily (LeaveOutTurned).
   std::vector<TimeInterval> turning = {};
 };
 

@@ -5,14 +5,15 @@
 #include "dataset/excluded_motion.h"
 #include "dataset/rest.h"
 #include "imu/mean_reading.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
 
-AidingStream MakeStream(const char* name, SensorType type) {
+AidingStream MakeStream(const SensorKind& kind) {
   AidingStream stream;
-  stream.sensor.name = name;
-  stream.sensor.type = type;
+  stream.sensor.name = kind.name;
+  stream.sensor.kind = &kind;
   return stream;
 }
 
@@ -108,10 +109,8 @@ class StreamBuilder {
   const Rest& rest_;
   Dataset& dataset_;
   const StationaryOptions& options_;
-  AidingStream velocity_ =
-      MakeStream("zero_velocity", SensorType::kZeroVelocity);
-  AidingStream rate_ =
-      MakeStream("zero_angular_rate", SensorType::kZeroAngularRate);
+  AidingStream velocity_ = MakeStream(ZeroVelocityKind());
+  AidingStream rate_ = MakeStream(ZeroAngularRateKind());
   std::vector<Measurement> rates_;
 };
 

@@ -25,7 +25,8 @@ struct SpeedEvidence {
   double horizontal_sigma() const { return sigma.head<2>().maxCoeff(); }
 };
 
-/// A horizontal speed is known that is known to this, one sigma [m/s].
+/// A horizontal speed counts as known if its standard deviation is not larger
+/// than this [m/s].
 inline constexpr double kKnownSpeed = 0.1;
 
 /// Speeds in each of `spans`, which are in time order, of all that is not

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dataset/dataset.h"
-#include "measurements/timeline.h"
+#include "timeline/timeline.h"
 
 namespace hindsight {
 

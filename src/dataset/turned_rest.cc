@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "dataset/bias_sigma.h"
@@ -11,7 +10,10 @@
 namespace hindsight {
 namespace {
 
-struct MeanRate {
+/// In which gyros that warm up drift by an a priori sigma of their bias [s].
+constexpr double kWarmUp = 60.0;
+
+struct RateOfSpan {
   TimeInterval span;
   Eigen::Vector3d w;
   /// Of the a priori bias, in squared sigmas.
@@ -23,10 +25,10 @@ class Comparison {
   explicit Comparison(const Dataset& dataset)
       : dataset_(dataset), bias_sigma_(GyroBiasSigma(dataset.initial)) {}
 
-  MeanRate Of(const TimeInterval& span) const {
-    MeanRate rate;
+  RateOfSpan Of(const TimeInterval& span) const {
+    RateOfSpan rate;
     rate.span = span;
-    rate.w = MeanReading(dataset_.imu, span.begin, span.end).w_ib_b;
+    rate.w = Mean(span);
     const double sigma = Sigma(span.length());
     rate.misfit = ((rate.w - dataset_.initial.gyro_bias).array().square() /
                    (bias_sigma_.array().square() + sigma * sigma))
@@ -34,8 +36,22 @@ class Comparison {
     return rate;
   }
 
-  bool Contradict(const MeanRate& a, const MeanRate& b) const {
-    constexpr double kSigmas = 5.0;
+  /// By their means, and by what they read where they face each other, so that
+  /// a drift within or between them is none of a turn's making, nor is a motion
+  /// that begins or ends at one of them.
+  bool Contradict(const RateOfSpan& a, const RateOfSpan& b) const {
+    return MeansDiffer(a, b) && EdgesDiffer(a, b);
+  }
+
+  bool Drifts(const TimeInterval& span) const {
+    const double middle = 0.5 * (span.begin + span.end);
+    return MeansDiffer(Of({span.begin, middle}), Of({middle, span.end}));
+  }
+
+ private:
+  static constexpr double kSigmas = 5.0;
+
+  bool MeansDiffer(const RateOfSpan& a, const RateOfSpan& b) const {
     const double apart =
         std::abs(a.span.begin + a.span.end - b.span.begin - b.span.end) / 2.0;
     const double walk =
@@ -45,12 +61,28 @@ class Comparison {
     return (a.w - b.w).cwiseAbs().maxCoeff() > kSigmas * sigma;
   }
 
-  bool Drifts(const TimeInterval& span) const {
-    const double middle = 0.5 * (span.begin + span.end);
-    return Contradict(Of({span.begin, middle}), Of({middle, span.end}));
+  bool EdgesDiffer(const RateOfSpan& a, const RateOfSpan& b) const {
+    if (b.span.begin < a.span.begin) return EdgesDiffer(b, a);
+    constexpr double kEdge = 2.0;  // [s]
+    const TimeInterval last = {std::max(a.span.begin, a.span.end - kEdge),
+                               a.span.end};
+    const TimeInterval first = {b.span.begin,
+                                std::min(b.span.end, b.span.begin + kEdge)};
+    const double apart =
+        0.5 * (first.begin + first.end - last.begin - last.end);
+    const double sigma =
+        std::hypot(Sigma(last.length()), Sigma(first.length()));
+    const Eigen::Array3d walk = (bias_sigma_ / std::sqrt(kWarmUp))
+                                    .array()
+                                    .max(dataset_.imu.noise.gyro_bias_walk);
+    return ((Mean(last) - Mean(first)).array().square() >
+            kSigmas * kSigmas * (sigma * sigma + walk.square() * apart))
+        .any();
   }
 
- private:
+  Eigen::Vector3d Mean(const TimeInterval& span) const {
+    return MeanReading(dataset_.imu, span.begin, span.end).w_ib_b;
+  }
   double Sigma(double seconds) const {
     return std::hypot(
         dataset_.stationary.rate_sigma,
@@ -66,36 +98,39 @@ class Comparison {
 void LeaveOutTurned(const Dataset& dataset, Rest* rest) {
   constexpr double kDecided = 10.0;  // 2 ln(150)
   const Comparison comparison(dataset);
-  std::vector<MeanRate> rates;
+  std::vector<RateOfSpan> rates;
   for (const TimeInterval& span : rest->at_rest) {
     rates.push_back(comparison.Of(span));
   }
-  const auto nearest = std::min_element(
-      rates.begin(), rates.end(),
-      [](const MeanRate& a, const MeanRate& b) { return a.misfit < b.misfit; });
+  std::sort(rates.begin(), rates.end(),
+            [](const RateOfSpan& a, const RateOfSpan& b) {
+              return a.misfit < b.misfit;
+            });
   double rival = kDecided;
-  std::vector<TimeInterval> agreeing;
-  for (const MeanRate& rate : rates) {
-    if (comparison.Contradict(rate, *nearest)) {
-      rival = std::min(rival, rate.misfit - nearest->misfit);
+  std::vector<RateOfSpan> kept;
+  for (const RateOfSpan& rate : rates) {
+    if (std::any_of(kept.begin(), kept.end(), [&](const RateOfSpan& of) {
+          return comparison.Contradict(rate, of);
+        })) {
+      rival = std::min(rival, rate.misfit - rates.front().misfit);
     } else {
-      agreeing.push_back(rate.span);
+      kept.push_back(rate);
     }
   }
-  if (agreeing.size() == rates.size() ||
+  if (kept.size() == rates.size() ||
       std::any_of(
           rest->at_rest.begin(), rest->at_rest.end(),
           [&](const TimeInterval& span) { return comparison.Drifts(span); })) {
     return;
   }
-  if (rival < kDecided) agreeing.clear();
-  std::copy_if(
-      rest->at_rest.begin(), rest->at_rest.end(),
-      std::back_inserter(rest->turning), [&](const TimeInterval& span) {
-        return std::none_of(
-            agreeing.begin(), agreeing.end(),
-            [&](const TimeInterval& kept) { return kept.begin == span.begin; });
-      });
+  if (rival < kDecided) kept.clear();
+  std::vector<TimeInterval> agreeing;
+  for (const TimeInterval& span : rest->at_rest) {
+    const bool stays = std::any_of(
+        kept.begin(), kept.end(),
+        [&](const RateOfSpan& of) { return of.span.begin == span.begin; });
+    (stays ? agreeing : rest->turning).push_back(span);
+  }
   rest->at_rest = std::move(agreeing);
 }
 

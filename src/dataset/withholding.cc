@@ -1,42 +1,14 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/error.h"
 #include "dataset/dataset.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
-
-const char* TypeName(SensorType type) {
-  switch (type) {
-    case SensorType::kPosition:
-      return "position";
-    case SensorType::kVelocity:
-      return "velocity";
-    case SensorType::kHeight:
-      return "height";
-    case SensorType::kZeroVelocity:
-      return "zero_velocity";
-    case SensorType::kZeroAngularRate:
-      return "zero_angular_rate";
-    case SensorType::kOdometer:
-      return "odometer";
-    case SensorType::kNonHolonomic:
-      return "non_holonomic";
-    case SensorType::kSpeedCourse:
-      return "speed_course";
-    case SensorType::kVehicleLevel:
-      return "vehicle_level";
-    case SensorType::kDvl:
-      return "dvl";
-    case SensorType::kAcousticFix:
-      return "acoustic";
-    case SensorType::kMagnetometer:
-      return "magnetometer";
-  }
-  return "";
-}
 
 void Withhold(const Withholding& withholding, const Dataset& dataset, int index,
               AidingStream* stream, std::vector<Outage>* outages) {
@@ -60,13 +32,10 @@ void Withhold(const Withholding& withholding, const Dataset& dataset, int index,
   constexpr double kMostOutages = 100000.0;
   const double count = (last_fix - start) / withholding.every;
   if (count > kMostOutages) {
-    char text[160];
-    std::snprintf(text, sizeof(text),
-                  "every %.6g s makes %.3g outages of '%s'; expected at most "
-                  "%.0f",
-                  withholding.every, count, stream->sensor.name.c_str(),
-                  kMostOutages);
-    throw InputError(text);
+    throw InputError(fmt::format(
+        "every {:.6g} s makes {:.3g} outages of '{}'; expected at most "
+        "{:.0f}",
+        withholding.every, count, stream->sensor.name, kMostOutages));
   }
   for (int k = 0;; ++k) {
     const Outage outage{index, start + k * withholding.every,
@@ -91,8 +60,10 @@ void ApplyWithholding(Dataset* dataset) {
     bool found = false;
     for (std::size_t i = 0; i < dataset->streams.size(); ++i) {
       AidingStream& stream = dataset->streams[i];
+      const SensorKind& kind = *stream.sensor.kind;
       if (withholding.sensor != stream.sensor.name &&
-          withholding.sensor != TypeName(stream.sensor.type)) {
+          withholding.sensor != kind.name &&
+          withholding.sensor != kind.family) {
         continue;
       }
       found = true;

@@ -1,8 +1,8 @@
 #include "evaluation/given_values.h"
 
-#include <cmath>
+#include <fmt/core.h>
 
-#include "base/text.h"
+#include <cmath>
 
 namespace hindsight {
 namespace {
@@ -103,14 +103,16 @@ Evidence Strain(const Judged& judged, const Origin& origin, const Block& block,
              .value = sigmas,
              .limit = kStrained,
              .unit = "sigma"};
+  // What else does not fit may well come from a start that is not so.
+  e.is_cause = origin.given && !constant;
   if (origin.given) {
-    e.what += Format("%.1f sigma from its given value", sigmas);
+    e.what += fmt::format("{:.1f} sigma from its given value", sigmas);
     e.causes = {"a wrong value, sign, unit or clock of " + origin.key,
                 "too small a sigma of it",
                 "an error that is not modelled and ends up there"};
     e.remedies = {"another " + origin.key, "a larger " + origin.sigma_key};
   } else {
-    e.what += Format("%.1f sigma from the program's own start", sigmas) +
+    e.what += fmt::format("{:.1f} sigma from the program's own start", sigmas) +
               OwnSource(*judged.start, block.key.kind);
     e.causes = {"too small a sigma of that start",
                 "an error that is not modelled and ends up there"};

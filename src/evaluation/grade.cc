@@ -1,14 +1,19 @@
 #include "evaluation/grade.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <array>
 #include <tuple>
 #include <utility>
 
-#include "base/text.h"
+#include "evaluation/agreement.h"
+#include "evaluation/contradicted_sensor.h"
+#include "evaluation/explanation.h"
 #include "evaluation/given_values.h"
 #include "evaluation/grade_rules.h"
+#include "evaluation/innovation_rule.h"
 #include "evaluation/observability.h"
+#include "evaluation/withheld_rule.h"
 
 namespace hindsight {
 namespace {
@@ -35,8 +40,13 @@ constexpr GradeRule kRules[] = {
     {"disagreement", PassOnDisagreement},
     {"unobserved", FindUnobservedState},
     {"shut_out", FindShutOut},
-    {"residuals", FindLargeResiduals},
     {"given_values", FindStrainedValues},
+    {"residuals", FindLargeResiduals},
+    {"innovations", FindOddInnovations},
+    {"explanation", FindBetterExplanation},
+    {"agreement", FindDisagreeingSides},
+    {"contradiction", FindContradictedSensor},
+    {"withheld", FindOddPredictions},
     {"bounds", FindValuesAtBounds},
     {"accuracy", DescribeAccuracy},
 };
@@ -89,8 +99,8 @@ std::string Objection(const Solution& solution) {
   }
   std::string text = ": " + Shortened(worst->what);
   if (others > 0) {
-    text += Format(", and %d more reason%s (see summary.json)", others,
-                   others == 1 ? "" : "s");
+    text += fmt::format(", and {} more reason{} (see summary.json)", others,
+                        others == 1 ? "" : "s");
   }
   return text;
 }
@@ -113,7 +123,7 @@ std::span<const GradeRule> GradeRules() { return kRules; }
 
 void Conclude(const Judged& judged, const std::vector<UnobservedSpan>& known,
               Solution* solution) {
-  solution->constants = EstimateConstants(*solution);
+  solution->constants = EstimateConstants(*solution, judged.constants);
   solution->unobserved = FindUnobserved(*solution);
   if (judged.relative_heading) {
     std::erase_if(solution->unobserved, [](const UnobservedSpan& span) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dataset/dataset.h"
+#include "evaluation/innovation_test.h"
 #include "state/solution.h"
 
 namespace hindsight {
@@ -18,6 +19,9 @@ inline constexpr double kDoubtfulError = 1.4142135623730951;
 /// With a systematic error of three sigmas the truth is outside of the 3-sigma
 /// interval half of the time.
 inline constexpr double kUnusableBias = 3.0;
+
+/// Probability that the innovations of a right model lower its grade.
+inline constexpr double kFalseAlarms = 0.003;
 
 /// What an estimate started from, and how it came about.
 struct StartValues {
@@ -48,12 +52,29 @@ struct LinearisationError {
   bool settled = false;
 };
 
+struct AgreementFigure;  // evaluation/agreement.h
+struct LeftOutSensor;    // evaluation/contradicted_sensor.h
+struct Explanation;      // evaluation/explanation.h
+
+/// By what factor the errors of a constant exceed its sigma, as the innovations
+/// tell that it is read from; beyond chance, or 1.
+struct ConstantExcess {
+  std::string name;  ///< as of ConstantEstimate
+  double factor = 1.0;
+};
+
 /// What the rules look at.
 struct Judged {
   const Solution& solution;
   std::span<const Sensor> sensors = {};  ///< empty: residuals are not judged
   std::optional<StartValues> start = std::nullopt;
   std::optional<LinearisationError> linearisation = std::nullopt;
+  /// Of a solution that takes the sensors' noise as it is stated.
+  std::span<const InnovationFigure> innovations = {};
+  std::span<const Explanation> explanations = {};
+  std::span<const AgreementFigure> agreement = {};
+  const LeftOutSensor* contradiction = nullptr;
+  std::span<const ConstantExcess> constants = {};
   /// Sensor whose estimated time offset goes on moving; empty: none.
   std::string unsettled = "";
   /// What the recording shows by itself, of the solution's interval.

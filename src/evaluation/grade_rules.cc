@@ -1,12 +1,14 @@
 #include "evaluation/grade_rules.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "base/text.h"
 #include "base/units.h"
+#include "evaluation/contradicted_sensor.h"
 #include "evaluation/observability.h"
 #include "evaluation/refusals.h"
 
@@ -33,7 +35,8 @@ void FindFailure(const Judged& judged, std::vector<Evidence>* evidence) {
       continue;
     }
     const double t = solution.states[k].t;
-    fail(Format("states or covariances from %.1f s on are not finite", t))
+    fail(
+        fmt::format("states or covariances from {:.1f} s on are not finite", t))
         .t_begin = t;
     return;
   }
@@ -47,7 +50,8 @@ void FindUnsettledClock(const Judged& judged, std::vector<Evidence>* evidence) {
        .causes = {"a sigma of the offset that is too small",
                   "too little motion to tell the clocks apart"},
        .remedies = {"a larger estimate.time_offset, or a value nearer to the "
-                    "true one"}});
+                    "true one"},
+       .is_cause = true});
 }
 
 void FindLinearisedFarOff(const Judged& judged,
@@ -73,15 +77,15 @@ void FindLinearisedFarOff(const Judged& judged,
   if (!std::isfinite(value)) {
     found.what = "no linearisation about its own result holds";
   } else if (throughout || e.causal) {
-    found.what = Format(
-        "linearised anew, the interval shows errors of %.2g sigma in %s "
-        "throughout (limit %.2g)",
-        value, e.rms_component.c_str(), limit);
+    found.what = fmt::format(
+        "linearised anew, the interval shows errors of {:.2g} sigma in {} "
+        "throughout (limit {:.2g})",
+        value, e.rms_component, limit);
   } else {
-    found.what = Format(
-        "linearised anew, the interval shows an error of %.2g sigma in %s at "
-        "%.1f s (limit %.2g)",
-        value, e.component.c_str(), e.t, limit);
+    found.what = fmt::format(
+        "linearised anew, the interval shows an error of {:.2g} sigma in {} at "
+        "{:.1f} s (limit {:.2g})",
+        value, e.component, e.t, limit);
     found.t_begin = found.t_end = e.t;
   }
   if (e.settled) found.better_methods = {"iterated", "batch"};
@@ -105,9 +109,8 @@ void FindLikelyRival(const Judged& judged, std::vector<Evidence>* evidence) {
   const bool coin = all >= kOutsideOneSigma;
   Evidence found{
       .grade = coin ? Grade::kUnusable : Grade::kDoubtful,
-      .what =
-          Format("another solution is %.2g %% likely: %s",
-                 100.0 * likeliest.probability, likeliest.description.c_str()),
+      .what = fmt::format("another solution is {:.2g} % likely: {}",
+                          100.0 * likeliest.probability, likeliest.description),
       .value = 100.0 * all,
       .limit = 100.0 * (coin ? kOutsideOneSigma : kOutsideThreeSigmas),
       .unit = "%",
@@ -115,7 +118,7 @@ void FindLikelyRival(const Judged& judged, std::vector<Evidence>* evidence) {
       .remedies = {"a given value of what differs, or a recording with more "
                    "varied motion"}};
   if (rivals.size() > 1) {
-    found.what += Format("; with all others %.2g %%", 100.0 * all);
+    found.what += fmt::format("; with all others {:.2g} %", 100.0 * all);
   }
   evidence->push_back(std::move(found));
 }
@@ -128,8 +131,8 @@ void FindUnobservedState(const Judged& judged,
     if (span.t_end - span.t_begin < 0.5 * duration) continue;
     evidence->push_back(
         {.grade = Grade::kUnusable,
-         .what = Format("%s is not observed from %.1f s to %.1f s",
-                        span.component.c_str(), span.t_begin, span.t_end),
+         .what = fmt::format("{} is not observed from {:.1f} s to {:.1f} s",
+                             span.component, span.t_begin, span.t_end),
          .value = span.sigma,
          .limit = span.limit,
          .unit = "SI",
@@ -143,6 +146,8 @@ void FindUnobservedState(const Judged& judged,
 void FindShutOut(const Judged& judged, std::vector<Evidence>* evidence) {
   if (judged.sensors.empty()) return;
   if (auto refusal = FindRefusal(judged.sensors, judged.solution)) {
+    // What a solution without the sensor does not fit follows from it.
+    refusal->is_cause = true;
     evidence->push_back(std::move(*refusal));
   }
 }
@@ -163,10 +168,12 @@ void FindLargeResiduals(const Judged& judged, std::vector<Evidence>* evidence) {
     if (rms <= kWorst) continue;
     const std::string& name = judged.sensors[i].name;
     evidence->push_back(
-        {.grade = Grade::kUnusable,
-         .what = Format("residuals of %s are %.1f times what their sigma says "
-                        "(limit %.0f)",
-                        name.c_str(), rms, kWorst),
+        {.grade =
+             IsOutvoted(judged, name) ? Grade::kDoubtful : Grade::kUnusable,
+         .what = fmt::format(
+             "residuals of {} are {:.1f} times what their sigma says "
+             "(limit {:.0f})",
+             name, rms, kWorst),
          .value = rms,
          .limit = kWorst,
          .unit = "sigma",
@@ -187,8 +194,8 @@ void FindValuesAtBounds(const Judged& judged, std::vector<Evidence>* evidence) {
       }
       evidence->push_back(
           {.grade = Grade::kDoubtful,
-           .what = Format("%s ends at the bound of its search, %.4g %s",
-                          v.name.c_str(), bound, v.unit.c_str()),
+           .what = fmt::format("{} ends at the bound of its search, {:.4g} {}",
+                               v.name, bound, v.unit),
            .value = v.value,
            .limit = bound,
            .unit = v.unit,
@@ -216,11 +223,11 @@ void AddSpread(const char* name, const char* unit, double scale, double limit,
                std::vector<Evidence>* evidence) {
   const double rms = std::sqrt(spread.squares / count) / scale;
   const double worst = std::sqrt(spread.worst) / scale;
-  Evidence e{.what = Format("%s to %.2g %s", name, rms, unit),
+  Evidence e{.what = fmt::format("{} to {:.2g} {}", name, rms, unit),
              .value = rms,
              .limit = limit / scale,
              .unit = unit};
-  if (worst > 2.0 * rms) e.what += Format(" (%.2g at worst)", worst);
+  if (worst > 2.0 * rms) e.what += fmt::format(" ({:.2g} at worst)", worst);
   evidence->push_back(std::move(e));
 }
 

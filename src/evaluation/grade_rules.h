@@ -39,7 +39,7 @@ void FindShutOut(const Judged& judged, std::vector<Evidence>* evidence);
 
 /// Not usable: accepted residuals of a sensor that are in the root mean square
 /// more than five times their sigma. Then the model or its noise is wrong, and
-/// with them every sigma of the solution.
+/// with them every sigma of the solution. Doubtful of a sensor that IsOutvoted.
 void FindLargeResiduals(const Judged& judged, std::vector<Evidence>* evidence);
 
 /// Doubtful: an estimate that ends at a bound of its search, where it is no

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "base/units.h"
@@ -23,39 +24,31 @@ double LimitOf(BlockKind kind, int axis) {
   }
 }
 
-/// The motion that makes a constant observable.
-const char* AdviceFor(BlockKind kind) {
-  switch (kind) {
-    case BlockKind::kGyroBias:
-      return "rest, or position or velocity aiding over a longer time";
-    case BlockKind::kAccelBias:
-      return "rest in several attitudes, or turns and accelerations";
-    case BlockKind::kGyroScale:
-      return "fast turns both ways about the axis";
-    case BlockKind::kAccelScale:
-      return "strong accelerations along the axis both ways, or rest in "
-             "several attitudes";
-    case BlockKind::kScale:
-      return "travel between position fixes";
-    case BlockKind::kMounting:
-      return "travel at speed with heading and slope known from turns; roll "
-             "only from side slip in turns";
-    case BlockKind::kLeverArm:
-      return "turns (forward and right arm), and roll and pitch (down arm)";
-    case BlockKind::kTimeOffset:
-      return "changes of speed or direction";
-    case BlockKind::kOffset:
-      return "position fixes with height";
-    case BlockKind::kCurrent:
-      return "bottom track, position fixes, or turns both ways";
-    default:
-      return "more motion, or a second sensor of the same quantity";
+constexpr std::string_view kUsualAdvice =
+    "more motion, or a second sensor of the same quantity";
+
+/// By what the sigma of a constant is too small.
+double Widening(const ConstantEstimate& constant,
+                std::span<const ConstantExcess> excess) {
+  for (const ConstantExcess& one : excess) {
+    if (one.name != constant.name || !(one.factor > 1.0)) continue;
+    const double ratio = constant.sigma / constant.prior_sigma;
+    const double share = std::max(0.0, 1.0 - ratio * ratio);
+    return std::sqrt(1.0 + (one.factor * one.factor - 1.0) * share);
   }
+  return 1.0;
+}
+
+ConstantEstimate::Verdict VerdictOf(double ratio) {
+  return ratio < kObservedRatio     ? ConstantEstimate::Verdict::kObserved
+         : ratio < kUnobservedRatio ? ConstantEstimate::Verdict::kWeak
+                                    : ConstantEstimate::Verdict::kUnobserved;
 }
 
 }  // namespace
 
-std::vector<ConstantEstimate> EstimateConstants(const Solution& solution) {
+std::vector<ConstantEstimate> EstimateConstants(
+    const Solution& solution, std::span<const ConstantExcess> excess) {
   std::vector<ConstantEstimate> constants;
   if (solution.states.empty() || solution.covariances.empty()) return constants;
   const State& x = solution.states.back();
@@ -74,13 +67,11 @@ std::vector<ConstantEstimate> EstimateConstants(const Solution& solution) {
                            : x.parameters(block.parameter_offset + axis);
       constant.sigma = std::sqrt(P(component, component));
       constant.prior_sigma = block.sigma0(axis);
-      const double ratio = constant.sigma / constant.prior_sigma;
-      constant.verdict =
-          ratio < kObservedRatio     ? ConstantEstimate::Verdict::kObserved
-          : ratio < kUnobservedRatio ? ConstantEstimate::Verdict::kWeak
-                                     : ConstantEstimate::Verdict::kUnobserved;
+      constant.widened = Widening(constant, excess);
+      constant.sigma *= constant.widened;
+      constant.verdict = VerdictOf(constant.sigma / constant.prior_sigma);
       if (constant.verdict != ConstantEstimate::Verdict::kObserved) {
-        constant.advice = AdviceFor(block.key.kind);
+        constant.advice = block.advice.empty() ? kUsualAdvice : block.advice;
       }
       constants.push_back(std::move(constant));
       ++component;

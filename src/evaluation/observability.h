@@ -1,9 +1,11 @@
 #ifndef HINDSIGHT_EVALUATION_OBSERVABILITY_H_
 #define HINDSIGHT_EVALUATION_OBSERVABILITY_H_
 
+#include <span>
 #include <vector>
 
 #include "base/units.h"
+#include "evaluation/grade.h"
 #include "state/solution.h"
 
 namespace hindsight {
@@ -16,8 +18,12 @@ inline constexpr double kLargestHeadingSigma = 20.0 * kDegree;
 
 /// Values, sigmas and verdicts of the layout's constants, from the last epoch:
 /// observed if sigma has fallen below a third of the a priori one, unobserved
-/// if it is still above nine tenths, weak in between.
-std::vector<ConstantEstimate> EstimateConstants(const Solution& solution);
+/// if it is still above nine tenths, weak in between. Where `excess` says that
+/// the errors of the data that a constant is read from are `factor` times as
+/// large as stated, its sigma is widened by its share of them in the estimate,
+///   sigma'^2 = sigma^2 (1 + (factor^2 - 1) (1 - sigma^2 / prior_sigma^2)).
+std::vector<ConstantEstimate> EstimateConstants(
+    const Solution& solution, std::span<const ConstantExcess> excess = {});
 
 /// Navigation components whose standard deviation stays above its limit over a
 /// span.

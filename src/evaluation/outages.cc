@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "measurements/sensor_kind.h"
+
 namespace hindsight {
 namespace {
 
@@ -29,8 +31,8 @@ double DistanceTravelled(const std::vector<State>& states, double begin,
   return distance;
 }
 
-bool IsNedVector(SensorType type) {
-  return type == SensorType::kPosition || type == SensorType::kVelocity;
+bool IsNedVector(const SensorKind& kind) {
+  return kind.is_position || kind.is_velocity;
 }
 
 /// The outage that the withheld measurement belongs to, or nullptr.
@@ -75,8 +77,8 @@ std::vector<OutageError> ComputeOutageErrors(const Solution& solution,
   std::vector<OutageError> outages;
   for (const Outage& outage : dataset.outages) {
     const auto sensor = static_cast<std::size_t>(outage.sensor);
-    const SensorType type = dataset.streams.at(sensor).sensor.type;
-    if (!IsNedVector(type)) continue;
+    const SensorKind& kind = *dataset.streams.at(sensor).sensor.kind;
+    if (!IsNedVector(kind)) continue;
     // What the solution does not cover from end to end is no outage of it.
     if (solution.states.empty() || outage.t_begin < solution.states.front().t ||
         outage.t_end > solution.states.back().t + kEndTolerance) {
@@ -84,7 +86,7 @@ std::vector<OutageError> ComputeOutageErrors(const Solution& solution,
     }
     OutageError entry;
     entry.outage = outage;
-    entry.type = type;
+    entry.kind = &kind;
     entry.distance =
         DistanceTravelled(solution.states, outage.t_begin, outage.t_end);
     outages.push_back(entry);
@@ -101,8 +103,7 @@ std::vector<OutageError> ComputeOutageErrors(const Solution& solution,
     const auto n = static_cast<double>(outage.count);
     outage.error->horizontal_rms = std::sqrt(outage.error->horizontal_rms / n);
     outage.error->total_rms = std::sqrt(outage.error->total_rms / n);
-    if (outage.type == SensorType::kPosition &&
-        outage.distance >= kLeastDistance) {
+    if (outage.kind->is_position && outage.distance >= kLeastDistance) {
       outage.drift_percent =
           100.0 * outage.error->horizontal_max / outage.distance;
     }
@@ -111,11 +112,11 @@ std::vector<OutageError> ComputeOutageErrors(const Solution& solution,
 }
 
 std::optional<PredictionError> PoolOutageErrors(
-    const std::vector<OutageError>& outages, SensorType type) {
+    const std::vector<OutageError>& outages, const SensorKind& kind) {
   PredictionError pooled;
   double n = 0.0;
   for (const OutageError& outage : outages) {
-    if (outage.type != type || !outage.error) continue;
+    if (outage.kind != &kind || !outage.error) continue;
     const auto count = static_cast<double>(outage.count);
     const PredictionError& e = *outage.error;
     n += count;

@@ -22,7 +22,7 @@ struct PredictionError {
 /// A solution against the measurements withheld in one outage.
 struct OutageError {
   Outage outage;
-  SensorType type = SensorType::kPosition;
+  const SensorKind* kind = &PositionKind();
   std::size_t count = 0;  ///< withheld measurements compared
   /// Absent if none was compared.
   std::optional<PredictionError> error;
@@ -40,10 +40,10 @@ struct OutageError {
 std::vector<OutageError> ComputeOutageErrors(const Solution& solution,
                                              const Dataset& dataset);
 
-/// RMS and max over all withheld measurements of all outages of a type, each
+/// RMS and max over all withheld measurements of all outages of a kind, each
 /// measurement with equal weight; absent if there are none.
 std::optional<PredictionError> PoolOutageErrors(
-    const std::vector<OutageError>& outages, SensorType type);
+    const std::vector<OutageError>& outages, const SensorKind& kind);
 
 }  // namespace hindsight
 

@@ -1,10 +1,12 @@
 #include "evaluation/refusals.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
 
-#include "base/text.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -14,10 +16,7 @@ constexpr double kLongSpan = 10.0;    // [s]
 constexpr double kVanished = 0.25;
 constexpr double kLittleWeight = 0.1;
 
-bool GivesPosition(const Sensor& sensor) {
-  return sensor.type == SensorType::kPosition ||
-         sensor.type == SensorType::kAcousticFix;
-}
+bool GivesPosition(const Sensor& sensor) { return sensor.kind->places; }
 
 /// Refusals of one sensor in a row.
 struct Refused {
@@ -83,9 +82,10 @@ std::optional<Evidence> Refusal(const Sensor& sensor, const Tally& tally,
     return 100.0 * static_cast<double>(part) / static_cast<double>(tally.all);
   };
   if (2 * tally.rejected > tally.all) {
-    Evidence e = ShutOut(Format("the gate refused %d of %d measurements of %s",
-                                tally.rejected, tally.all, name),
-                         sensor.name);
+    Evidence e =
+        ShutOut(fmt::format("the gate refused {} of {} measurements of {}",
+                            tally.rejected, tally.all, name),
+                sensor.name);
     e.value = share(tally.rejected);
     e.limit = 50.0;
     e.unit = "%";
@@ -94,9 +94,10 @@ std::optional<Evidence> Refusal(const Sensor& sensor, const Tally& tally,
   if (!tally.worst.nis.empty()) {
     const Refused& run = tally.worst;
     Evidence e = ShutOut(
-        Format("the gate refused %zu measurements of %s in a row, from %.1f s "
-               "to %.1f s",
-               run.nis.size(), name, run.t_begin, run.t_end),
+        fmt::format(
+            "the gate refused {} measurements of {} in a row, from {:.1f} s "
+            "to {:.1f} s",
+            run.nis.size(), name, run.t_begin, run.t_end),
         sensor.name);
     e.value = run.t_end - run.t_begin;
     e.limit = kLongSpan;
@@ -107,9 +108,10 @@ std::optional<Evidence> Refusal(const Sensor& sensor, const Tally& tally,
   }
   if (!weighs_by_modes && 2 * tally.weightless > tally.all) {
     Evidence e = ShutOut(
-        Format("the loss left %d of %d measurements of %s less than a tenth of "
-               "their weight",
-               tally.weightless, tally.all, name),
+        fmt::format(
+            "the loss left {} of {} measurements of {} less than a tenth of "
+            "their weight",
+            tally.weightless, tally.all, name),
         sensor.name);
     e.value = share(tally.weightless);
     e.limit = 50.0;
@@ -137,7 +139,7 @@ std::optional<Evidence> FindRefusal(std::span<const Sensor> sensors,
   }
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     EndRun(&tallies[i]);
-    auto found = Refusal(sensors[i], tallies[i], !solution.mode_names.empty());
+    auto found = Refusal(sensors[i], tallies[i], solution.modes.has_value());
     if (found) return found;
   }
   return std::nullopt;

@@ -30,7 +30,7 @@ std::vector<ResidualStatistics> ComputeResidualStatistics(
     ResidualStatistics& s = all[i];
     if (s.count + s.withheld == 0) continue;
     s.sensor = dataset.streams[i].sensor.name;
-    s.type = dataset.streams[i].sensor.type;
+    s.kind = dataset.streams[i].sensor.kind;
     if (weights[i] > 0.0) {
       s.normalized_rms = std::sqrt(sums[i] / weights[i]);
     }

@@ -14,7 +14,7 @@ namespace hindsight {
 /// How one sensor's measurements agree with a solution.
 struct ResidualStatistics {
   std::string sensor;  ///< name of the stream
-  SensorType type = SensorType::kPosition;
+  const SensorKind* kind = &PositionKind();
   std::size_t count = 0;     ///< offered to the estimator, withheld ones not
   std::size_t rejected = 0;  ///< of these, by the gate
   std::size_t withheld = 0;  ///< predicted only

@@ -53,9 +53,14 @@ Eigen::Quaterniond SolutionTable::q_nb(std::size_t k) const {
 SolutionTable TableFromSolution(const Solution& solution) {
   SolutionTable table;
   table.method = solution.method;
-  table.separation = solution.separation;
-  table.accel_sigma = solution.accel_sigma;
-  table.magnetic = solution.magnetic;
+  if (solution.two_filter) {
+    table.separation = solution.two_filter->separation;
+    table.separations = solution.two_filter->components;
+  }
+  if (solution.attitude) {
+    table.accel_sigma = solution.attitude->accel_sigma;
+    table.magnetic = solution.attitude->magnetic;
+  }
   const ErrorLayout& layout = solution.layout;
   const bool has_position = layout.Has(BlockKind::kPosition);
   for (const State& x : solution.states) {
@@ -66,7 +71,7 @@ SolutionTable TableFromSolution(const Solution& solution) {
                                   ? Eigen::Matrix3d::Identity().eval()
                                   : Eigen::Matrix3d(x.C_en().transpose());
     if (has_position) table.p_e.push_back(x.p_e);
-    if (layout.Has(BlockKind::kVelocity)) table.v_e.push_back(C * x.v_e);
+    if (layout.Has(BlockKind::kVelocity)) table.v_e.emplace_back(C * x.v_e);
     if (layout.Has(BlockKind::kAttitude)) {
       table.q_eb.push_back(Eigen::Quaterniond(C) * x.q_eb);
     }

@@ -27,13 +27,14 @@ struct SolutionTable {
   std::vector<Eigen::Matrix3d> P_attitude;  ///< of psi, NED [rad^2]
   /// Of roll, pitch and heading, see EulerSigma [rad].
   std::vector<Eigen::Vector3d> sigma_euler;
-  std::vector<Eigen::Vector3d> b_g;        ///< [rad/s]
-  std::vector<Eigen::Vector3d> b_a;        ///< [m/s^2]
-  std::vector<Eigen::Vector3d> sigma_b_g;  ///< [rad/s]
-  std::vector<Eigen::Vector3d> sigma_b_a;  ///< [m/s^2]
-  std::vector<double> separation;     ///< see Solution, NaN where there is none
-  std::vector<double> accel_sigma;    ///< see Solution
-  std::vector<signed char> magnetic;  ///< see Solution
+  std::vector<Eigen::Vector3d> b_g;           ///< [rad/s]
+  std::vector<Eigen::Vector3d> b_a;           ///< [m/s^2]
+  std::vector<Eigen::Vector3d> sigma_b_g;     ///< [rad/s]
+  std::vector<Eigen::Vector3d> sigma_b_a;     ///< [m/s^2]
+  std::vector<double> separation;             ///< see TwoFilterPart
+  std::vector<FilterSeparation> separations;  ///< its components
+  std::vector<double> accel_sigma;            ///< see AttitudePart
+  std::vector<signed char> magnetic;          ///< see AttitudePart
 
   std::size_t size() const { return t.size(); }
   /// NED axes at row k; identity without positions.

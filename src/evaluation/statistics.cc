@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace hindsight {
 
@@ -11,6 +13,85 @@ double Percentile(const std::vector<double>& sorted, double fraction) {
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
   const double u = rank - static_cast<double>(below);
   return (1.0 - u) * sorted[below] + u * sorted[above];
+}
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// The largest of 1, 2 and 5 times a power of ten that is not above `width`.
+double RoundDown(double width) {
+  const double power = std::pow(10.0, std::floor(std::log10(width)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * power <= width) return digit * power;
+  }
+  return power;
+}
+
+}  // namespace
+
+double Sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+double Last(const std::vector<double>& values) {
+  return values.empty() ? kNone : values.back();
+}
+
+double Mean(const std::vector<double>& values) {
+  if (values.empty()) return kNone;
+  return Sum(values) / static_cast<double>(values.size());
+}
+
+double Rms(const std::vector<double>& values) {
+  if (values.empty()) return kNone;
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+double Deviation(const std::vector<double>& values) {
+  if (values.empty()) return kNone;
+  const double mean = Mean(values);
+  double sum = 0.0;
+  for (const double value : values) sum += (value - mean) * (value - mean);
+  return std::sqrt(sum /
+                   std::max(1.0, static_cast<double>(values.size()) - 1.0));
+}
+
+double Largest(const std::vector<double>& values) {
+  if (values.empty()) return kNone;
+  return *std::max_element(values.begin(), values.end());
+}
+
+double Least(const std::vector<double>& values) {
+  if (values.empty()) return kNone;
+  return *std::min_element(values.begin(), values.end());
+}
+
+double Rank(std::vector<double> values, double fraction) {
+  if (values.empty()) return kNone;
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(
+      std::ceil(fraction * static_cast<double>(values.size())));
+  return values[std::max<std::size_t>(rank, 1) - 1];
+}
+
+double Rank50(const std::vector<double>& values) { return Rank(values, 0.50); }
+double Rank95(const std::vector<double>& values) { return Rank(values, 0.95); }
+
+Histogram CountValues(const std::vector<double>& values) {
+  constexpr double kBinsPerDeviation = 4.0;
+  Histogram out;
+  const double deviation = values.empty() ? 0.0 : ComputeStatistics(values).std;
+  if (deviation == 0.0) return out;
+  out.bin = RoundDown(deviation / kBinsPerDeviation);
+  for (const double value : values) {
+    const auto i = static_cast<std::size_t>(value / out.bin);
+    if (out.counts.size() <= i) out.counts.resize(i + 1, 0.0);
+    out.counts[i] += 1.0;
+  }
+  return out;
 }
 
 ErrorStatistics ComputeStatistics(const std::vector<double>& errors) {

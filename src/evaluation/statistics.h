@@ -27,6 +27,30 @@ ErrorStatistics ComputeStatistics(const std::vector<double>& errors);
 /// statistics (rank = fraction (n - 1), from 0). `sorted` ascending, not empty.
 double Percentile(const std::vector<double>& sorted, double fraction);
 
+/// Statistics of values that may be infinite; NaN of no values.
+double Mean(const std::vector<double>& values);
+double Rms(const std::vector<double>& values);
+/// Standard deviation about the mean, divisor n - 1; zero of a single value.
+double Deviation(const std::vector<double>& values);
+double Largest(const std::vector<double>& values);
+double Least(const std::vector<double>& values);
+/// Value below which `fraction` of the values lie, by nearest rank, so that
+/// infinite ones stay infinite.
+double Rank(std::vector<double> values, double fraction);
+double Rank50(const std::vector<double>& values);
+double Rank95(const std::vector<double>& values);
+double Sum(const std::vector<double>& values);
+double Last(const std::vector<double>& values);
+
+/// Counts of values >= 0, from zero in steps of `bin`: 1, 2 or 5 times a power
+/// of ten, a quarter of the standard deviation or the next below it. Equal
+/// values have none.
+struct Histogram {
+  double bin = 0.0;
+  std::vector<double> counts;
+};
+Histogram CountValues(const std::vector<double>& values);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_EVALUATION_STATISTICS_H_

@@ -1,9 +1,10 @@
 #include "evaluation/trajectory_error.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/Cholesky>
 #include <functional>
 
-#include "base/text.h"
 #include "evaluation/interpolation.h"
 #include "geometry/so3.h"
 
@@ -165,7 +166,7 @@ std::string Contradiction(const TrajectoryStatistics& statistics) {
   std::string text;
   const auto add = [&text](const char* name, std::optional<double> nees) {
     if (!nees || *nees <= kBeyondDoubt) return;
-    text += Format("%s%s %.4g", text.empty() ? "" : ", ", name, *nees);
+    text += fmt::format("{}{} {:.4g}", text.empty() ? "" : ", ", name, *nees);
   };
   add("position", statistics.position_nees);
   add("velocity", statistics.velocity_nees);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "evaluation/interpolation.h"
 
@@ -30,7 +31,7 @@ SolutionTable TableFromTruth(const TruthSeries& truth) {
     table.t.push_back(point.t);
     if (position) table.p_e.push_back(*point.p_e);
     const Eigen::Matrix3d C_en = table.C_en(table.size() - 1);
-    if (velocity) table.v_e.push_back(C_en * *point.v_n);
+    if (velocity) table.v_e.emplace_back(C_en * *point.v_n);
     if (attitude) {
       table.q_eb.push_back(Eigen::Quaterniond(C_en) * *point.q_nb);
     }
@@ -98,18 +99,28 @@ bool HasRowsAtTruth(const SolutionTable& solution, const TruthSeries& truth) {
   });
 }
 
-TrajectoryStatistics CompareWithTruth(const SolutionTable& solution,
-                                      TruthSeries truth,
-                                      const TrajectoryErrorOptions& options) {
-  TruthSeries thinned = truth;
-  ThinTruth(&thinned);
-  if (HasRowsAtTruth(solution, thinned) || !IsSparser(solution, truth)) {
-    return EvaluateTrajectory(solution, thinned, options);
+ComparedTruth TruthToCompare(const SolutionTable& solution, TruthSeries truth,
+                             const TrajectoryErrorOptions& options) {
+  ComparedTruth compared = {truth};
+  ThinTruth(&compared.points);
+  if (HasRowsAtTruth(solution, compared.points) ||
+      !IsSparser(solution, truth)) {
+    return compared;
   }
-  TrajectoryStatistics statistics = EvaluateTrajectory(
-      solution, TruthAt(truth, solution.t, options.max_gap), options);
-  statistics.at_solution_rows = true;
-  statistics.truth_count = solution.size();
+  return {TruthAt(truth, solution.t, options.max_gap), true};
+}
+
+TrajectoryStatistics CompareWithTruth(const SolutionTable& solution,
+                                      const TruthSeries& truth,
+                                      const TrajectoryErrorOptions& options) {
+  const ComparedTruth compared =
+      TruthToCompare(solution, std::move(truth), options);
+  TrajectoryStatistics statistics =
+      EvaluateTrajectory(solution, compared.points, options);
+  if (compared.at_solution_rows) {
+    statistics.at_solution_rows = true;
+    statistics.truth_count = solution.size();
+  }
   return statistics;
 }
 

@@ -18,6 +18,16 @@ void ThinTruth(TruthSeries* truth);
 /// first and its last.
 bool HasRowsAtTruth(const SolutionTable& solution, const TruthSeries& truth);
 
+/// The points of a reference that a solution is compared with.
+struct ComparedTruth {
+  TruthSeries points;
+  bool at_solution_rows = false;  ///< interpolated to these
+};
+
+/// Those of CompareWithTruth below.
+ComparedTruth TruthToCompare(const SolutionTable& solution, TruthSeries truth,
+                             const TrajectoryErrorOptions& options);
+
 /// The errors of a solution against a reference, of whatever command asks:
 ///   where the solution has a row at every (thinned) truth point in its span,
 ///       there; `run` samples its solutions so, through the IMU
@@ -27,7 +37,7 @@ bool HasRowsAtTruth(const SolutionTable& solution, const TruthSeries& truth);
 ///   else at the (thinned) truth points, the solution interpolated.
 /// Interpolation as of TrajectoryInterpolator, with the gap of the options.
 TrajectoryStatistics CompareWithTruth(const SolutionTable& solution,
-                                      TruthSeries truth,
+                                      const TruthSeries& truth,
                                       const TrajectoryErrorOptions& options);
 
 }  // namespace hindsight

@@ -1,10 +1,11 @@
 #include "filters/covariance_policy.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "filters/kalman.h"
@@ -13,12 +14,10 @@ namespace hindsight {
 namespace {
 
 std::string EscapeMessage(double t, double weight) {
-  char text[160];
-  std::snprintf(text, sizeof(text),
-                "the Riccati equation escapes to infinity at t = %.3f s "
-                "(weight of L'L %.4g 1/s)",
-                t, weight);
-  return text;
+  return fmt::format(
+      "the Riccati equation escapes to infinity at t = {:.3f} s "
+      "(weight of L'L {:.4g} 1/s)",
+      t, weight);
 }
 
 double LargestEigenvalue(const Eigen::MatrixXd& M) {
@@ -28,15 +27,15 @@ double LargestEigenvalue(const Eigen::MatrixXd& M) {
       .maxCoeff();
 }
 
-/// After how long the weight has used up the information of L P L'; zero where
-/// numbers do not reach.
+/// Time after which I - weight t L P L' is singular; zero if L P L' is not
+/// finite.
 double TimeToEscape(double weight, const Eigen::MatrixXd& LPL) {
   if (!LPL.allFinite()) return 0.0;
   return 1.0 / (weight * LargestEigenvalue(LPL));
 }
 
 bool IsPositiveDefinite(const Eigen::MatrixXd& M) {
-  // The factorisation lets NaN pass.
+  // Eigen's factorisation reports success for a matrix of NaN.
   return M.allFinite() && M.llt().info() == Eigen::Success;
 }
 

@@ -19,12 +19,13 @@ enum class RiccatiRule {
                        ///<      - P (C' R^-1 C - delta L' L) P
 };
 
-/// The paper's modified equation is lost with its second page. The one taken
-/// here holds both readings that its first page leaves: a prescribed degree of
-/// stability alpha (Reif, Sonnemann and Unbehauen 1999) and a free weight delta
-/// in place of gamma^-2.
+/// Of that paper only the first page was at hand, which names the modified
+/// equation but does not print it. kModifiedHInfinity therefore has both
+/// features that the first page can mean: a prescribed degree of stability
+/// alpha (Reif, Sonnemann and Unbehauen 1999), and a weight delta that is
+/// chosen freely in place of gamma^-2.
 struct CovarianceOptions {
-  /// A block of z = L x: its error counts in this unit (SI).
+  /// A block of the error that is part of z = L x, divided by `unit` (SI).
   struct Bounded {
     BlockKind kind = BlockKind::kAttitude;
     double unit = 1.0;
@@ -39,8 +40,9 @@ struct CovarianceOptions {
   double alpha = 0.0;         ///< [1/s], on velocity and attitude
   bool alpha_on_all = false;  ///< on every block instead
   double delta = 0.0;         ///< [1/s]; negative: more cautious than Kalman
-  /// Backs gamma off to infinity (delta to zero) at the steps that would double
-  /// an eigenvalue of L P L', and so on the way to an escape.
+  /// Sets gamma to infinity (delta to zero) for the steps at which the weight
+  /// would double an eigenvalue of L P L': those that lead to a P that becomes
+  /// infinite within finite time (FiniteEscape).
   bool back_off = false;
 };
 
@@ -48,7 +50,7 @@ struct CovarianceOptions {
 struct BoundRecord {
   int back_offs = 0;  ///< steps at which gamma was backed off
   /// Smallest eigenvalue of I - theta L P L' over the other steps: the share of
-  /// the information on L x that the weight left; 0 is the escape.
+  /// the information on L x that the weight left. At 0 P becomes infinite.
   double least_information = 1.0;
 };
 
@@ -63,9 +65,9 @@ class FiniteEscape : public EstimationError {
 };
 
 /// The discrete form of a rule, over the steps of one pass:
-///   P-     = Phi_a P Phi_a' + Q,                Phi_a = exp(alpha S dt) Phi,
-///   P+^-1  = P-^-1 + H' R^-1 H - theta L' L,    theta = gamma^-2 dt (delta
-///   dt), dx     = P+ H' R^-1 residual,
+///   P-     = Phi_a P Phi_a' + Q,              Phi_a = exp(alpha S dt) Phi,
+///   P+^-1  = P-^-1 + H' R^-1 H - theta L' L,  theta = gamma^-2 dt or delta dt,
+///   dx     = P+ H' R^-1 residual,
 /// S selecting the blocks of alpha: Anderson and Moore 1979, sec. 6.2, for
 /// alpha on all blocks; Simon 2006, eqs. (11.89) - (11.91), for theta, which is
 /// applied at every step, measured or not. Exact in dt but for the order in

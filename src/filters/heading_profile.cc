@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "filters/iterated_smoother.h"
 #include "filters/transport.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -28,17 +29,16 @@ int HeadingOf(const ErrorLayout& layout) {
 
 /// Energy of the changes of velocity by horizontal force, over that of white
 /// noise.
-double ForceOverNoise(const ErrorLayout& layout,
-                      const std::vector<State>& states,
-                      const Timeline& timeline) {
+double ForceOverNoise(const Problem& problem,
+                      const std::vector<State>& states) {
   double signal = 0.0;
   double noise = 0.0;
   Eigen::Vector2d dv = Eigen::Vector2d::Zero();
   double begin = states.front().t;
   for (std::size_t k = 0; k + 1 < states.size(); ++k) {
-    const ImuSummary& summary = timeline.Summary(k);
+    const ImuSummary& summary = problem.timeline.Summary(k);
     const CorrectedMean mean =
-        Correct(summary, CalibrationOf(layout, states[k]));
+        Correct(summary, CalibrationOf(problem.layout, states[k]));
     const Eigen::Matrix<double, 2, 3> horizontal =
         (states[k].C_en().transpose() * states[k].q_eb.toRotationMatrix())
             .topRows<2>();
@@ -54,7 +54,8 @@ double ForceOverNoise(const ErrorLayout& layout,
   return signal / noise;
 }
 
-/// A prior that knows the heading, and what it says of that.
+/// A prior updated by a measured heading, and ln of that heading's density by
+/// the prior, up to a constant.
 struct KnownHeading {
   Prior prior;
   double log_density = 0.0;
@@ -84,13 +85,12 @@ std::vector<State> Turned(const ErrorLayout& layout, double angle,
 
 }  // namespace
 
-bool HeadingMayBeNoise(const ErrorLayout& layout,
-                       const std::vector<State>& states,
-                       const CovarianceSeries& P, const Timeline& timeline) {
-  const int h = HeadingOf(layout);
+bool HeadingMayBeNoise(const Problem& problem, const std::vector<State>& states,
+                       const CovarianceSeries& P) {
+  const int h = HeadingOf(problem.layout);
   if (h < 0 || states.size() < 2 || P.empty()) return false;
   return std::sqrt(P.Get(0)(h, h)) < kUnknown &&
-         ForceOverNoise(layout, states, timeline) < kStrongMotion;
+         ForceOverNoise(problem, states) < kStrongMotion;
 }
 
 namespace {
@@ -98,58 +98,55 @@ namespace {
 /// The log-likelihood over the heading at the first state, up to a constant.
 class Profile {
  public:
-  Profile(const ErrorLayout& layout, const Prior& prior,
-          const std::vector<State>& states, const CovarianceSeries& P,
-          Timeline* timeline, const GateDecisions& decisions)
-      : layout_(layout),
-        prior_(prior),
+  Profile(Problem problem, const std::vector<State>& states,
+          const CovarianceSeries& P)
+      : problem_(std::move(problem)),
+        prior_(problem_.prior),
         states_(states),
-        timeline_(timeline),
-        decisions_(decisions),
-        sigma_(std::sqrt(P.Get(0)(HeadingOf(layout), HeadingOf(layout)))) {}
+        sigma_(std::sqrt(P.Get(0)(HeadingOf(problem_.layout),
+                                  HeadingOf(problem_.layout)))) {}
 
   double sigma() const { return sigma_; }
 
-  /// With the heading `angle` from that of the states. Throws EstimationError.
-  double At(double angle) const {
-    constexpr double kTight = 0.02;  // of sigma
+  /// Log-likelihood with the first heading held at that of the states plus
+  /// `angle`. Throws EstimationError.
+  double At(double angle) {
+    constexpr double kTight = 0.02;  // to which the heading is held, in sigma_
     IterationOptions options;
     options.max_iterations = 4;
-    std::vector<State> nominal = Turned(layout_, angle, states_);
-    const KnownHeading known =
-        KnowHeading(layout_, prior_, nominal.front(), kTight * sigma_);
-    return known.log_density + SmoothIterated(layout_, known.prior,
-                                              std::move(nominal), timeline_,
-                                              decisions_, options)
-                                   .log_likelihood;
+    std::vector<State> nominal = Turned(problem_.layout, angle, states_);
+    KnownHeading known =
+        KnowHeading(problem_.layout, prior_, nominal.front(), kTight * sigma_);
+    problem_.prior = std::move(known.prior);
+    return known.log_density +
+           SmoothIterated(std::move(nominal), options, &problem_)
+               .log_likelihood;
   }
 
  private:
-  const ErrorLayout& layout_;
-  const Prior& prior_;
+  Problem problem_;
+  Prior prior_;
   const std::vector<State>& states_;
-  Timeline* timeline_;
-  const GateDecisions& decisions_;
   double sigma_;
 };
 
 }  // namespace
 
-HeadingCredit CreditHeading(const ErrorLayout& layout, const Prior& prior,
+HeadingCredit CreditHeading(const Problem& problem,
                             const std::vector<State>& states,
-                            const CovarianceSeries& P, Timeline* timeline,
-                            const GateDecisions& decisions) {
+                            const CovarianceSeries& P) {
   HeadingCredit credit;
-  if (!HeadingMayBeNoise(layout, states, P, *timeline)) return credit;
-  const int h = HeadingOf(layout);
-  credit.open = std::min(credit.open, prior.P(h, h));
-  const Profile profile(layout, prior, states, P, timeline, decisions);
+  if (!HeadingMayBeNoise(problem, states, P)) return credit;
+  const int h = HeadingOf(problem.layout);
+  const double given_variance = problem.prior.P(h, h);
+  credit.open = std::min(credit.open, given_variance);
+  Profile profile(problem, states, P);
   const double step = std::min(2.0 * profile.sigma(), 0.5 * kPi);
   try {
     const double turned = 0.5 * (profile.At(-step) + profile.At(step));
     const double information = 2.0 * (profile.At(0.0) - turned) / (step * step);
     const double claimed = 1.0 / (profile.sigma() * profile.sigma());
-    const double given = std::min(1.0 / prior.P(h, h), claimed);
+    const double given = std::min(1.0 / given_variance, claimed);
     constexpr double kRare = 1e-4;
     const double by_chance =
         given + std::sqrt(-2.0 * std::log(kRare) * (claimed - given));
@@ -160,31 +157,27 @@ HeadingCredit CreditHeading(const ErrorLayout& layout, const Prior& prior,
   return credit;
 }
 
-bool MayBeTurnedRound(const ErrorLayout& layout,
-                      const std::vector<State>& states,
-                      const Timeline& timeline) {
+bool MayBeTurnedRound(const Problem& problem,
+                      const std::vector<State>& states) {
   constexpr double kTelling = 1e4;  // energy over that of the noise
-  const bool sides_alone =
-      std::any_of(timeline.sensors().begin(), timeline.sensors().end(),
-                  [](const Sensor& sensor) {
-                    return sensor.type == SensorType::kNonHolonomic;
-                  });
-  return sides_alone && HeadingOf(layout) >= 0 && states.size() > 1 &&
-         ForceOverNoise(layout, states, timeline) < kTelling;
+  const bool sides_alone = std::any_of(
+      problem.timeline.sensors().begin(), problem.timeline.sensors().end(),
+      [](const Sensor& sensor) { return sensor.kind->generated; });
+  return sides_alone && HeadingOf(problem.layout) >= 0 && states.size() > 1 &&
+         ForceOverNoise(problem, states) < kTelling;
 }
 
-double LogOddsOfTurnedRound(const ErrorLayout& layout, Prior prior,
-                            const std::vector<State>& states,
-                            const CovarianceSeries& P, Timeline* timeline,
-                            const GateDecisions& decisions) {
+double LogOddsOfTurnedRound(Problem problem, const std::vector<State>& states,
+                            const CovarianceSeries& P) {
   constexpr double kRefuted = -std::numeric_limits<double>::infinity();
-  if (!MayBeTurnedRound(layout, states, *timeline)) return kRefuted;
-  const int h = HeadingOf(layout);
+  if (!MayBeTurnedRound(problem, states)) return kRefuted;
+  const int h = HeadingOf(problem.layout);
+  Prior& prior = problem.prior;
   prior.P.row(h).setZero();
   prior.P.col(h).setZero();
-  constexpr double kAnything = 100.0;  // [rad]
+  constexpr double kAnything = 100.0;  // sigma of a free heading [rad]
   prior.P(h, h) = kAnything * kAnything;
-  const Profile profile(layout, prior, states, P, timeline, decisions);
+  Profile profile(std::move(problem), states, P);
   try {
     return std::min(0.0, profile.At(kPi) - profile.At(0.0));
   } catch (const EstimationError&) {

@@ -30,41 +30,38 @@ namespace hindsight {
 /// for.
 struct HeadingCredit {
   double curvature = 1.0;
-  /// Variance of the heading where but the prior tells it, at most that of a
-  /// uniform angle, (104 deg)^2 [rad^2].
+  /// Variance of the heading by the prior alone, at most that of an angle of
+  /// which nothing is known, (104 deg)^2 [rad^2].
   double open = kPi * kPi / 3.0;
 };
 
-HeadingCredit CreditHeading(const ErrorLayout& layout, const Prior& prior,
+HeadingCredit CreditHeading(const Problem& problem,
                             const std::vector<State>& states,
-                            const CovarianceSeries& P, Timeline* timeline,
-                            const GateDecisions& decisions);
+                            const CovarianceSeries& P);
 
 /// ln of the likelihood of the trajectory turned round, heading + 180 deg and
 /// all else solved anew, over that of the states; not above 0. The prior's
 /// heading does not count: it is to come from the same measurements. Minus
 /// infinity unless MayBeTurnedRound, or if that cannot be solved for.
-double LogOddsOfTurnedRound(const ErrorLayout& layout, Prior prior,
-                            const std::vector<State>& states,
-                            const CovarianceSeries& P, Timeline* timeline,
-                            const GateDecisions& decisions);
+double LogOddsOfTurnedRound(Problem problem, const std::vector<State>& states,
+                            const CovarianceSeries& P);
 
-/// Whether a non-holonomic constraint tells the sides but not forward from
-/// backward, and the horizontal force, with less than ten thousand times the
-/// energy of the noise, may not tell either. Cheap.
-bool MayBeTurnedRound(const ErrorLayout& layout,
-                      const std::vector<State>& states,
-                      const Timeline& timeline);
+/// Whether the trajectory might fit the data as well with the heading turned by
+/// 180 deg: there is a non-holonomic constraint, which holds for a vehicle that
+/// drives backwards too, and the energy of the horizontal force is below ten
+/// thousand times that of the noise. Cheap.
+bool MayBeTurnedRound(const Problem& problem, const std::vector<State>& states);
 
-/// Whether the horizontal force, over seconds, has less than a hundred times
-/// the energy of the noise, and the heading at the first state is claimed to 50
-/// deg, above which it is claimed hardly better than any angle (104 deg).
+/// Whether CreditHeading has to look at the likelihood: the energy of the
+/// changes of velocity by the horizontal force, over a second each, is below a
+/// hundred times that of the noise, and P claims the heading at the first state
+/// to better than 50 deg (an angle of which nothing is known has 104 deg).
 /// Cheap.
-bool HeadingMayBeNoise(const ErrorLayout& layout,
-                       const std::vector<State>& states,
-                       const CovarianceSeries& P, const Timeline& timeline);
+bool HeadingMayBeNoise(const Problem& problem, const std::vector<State>& states,
+                       const CovarianceSeries& P);
 
-/// From here on a heading is as sure as its covariance says, but for a quarter.
+/// Curvature from which on the heading is taken to be as sure as its covariance
+/// says: its sigma is then too small by a quarter at most.
 inline constexpr double kCredibleHeading = 0.8;
 
 /// Covariances that claim of the heading what the likelihood has: its gradient

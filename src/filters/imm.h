@@ -22,11 +22,13 @@ struct ImmModel {
   std::vector<double> sigma_factors;
 };
 
+/// The defaults are those of one model.
 struct ImmOptions {
   /// pi_ij, probability of model j after model i, at each node where the mode
   /// may switch. Rows sum to one.
-  Eigen::MatrixXd transition;
-  Eigen::VectorXd start;  ///< probabilities at the first node, sum one
+  Eigen::MatrixXd transition = Eigen::MatrixXd::Ones(1, 1);
+  /// Probabilities at the first node, sum one.
+  Eigen::VectorXd start = Eigen::VectorXd::Ones(1);
   /// Sensors at whose measurements the mode may switch; empty: all of them.
   std::vector<int> sensors;
   /// True: the nominal is reset to the combined estimate at each node. False
@@ -79,7 +81,8 @@ struct ImmResult {
 /// likelihoods (10) are multiplied in the logarithm. Gates and robust losses of
 /// the sensors hold (MeasurementRule), but for all models alike, by what they
 /// expect together - the mean and covariance of their mixture: what one model
-/// rejects and another takes would leave nothing to compare.
+/// rejects and another takes would leave nothing to compare. Of one model it is
+/// the filter of filters/forward_filter.h: both are one walk.
 ///
 /// A layout that masks the down axis of its position takes height and vertical
 /// velocity of the nominal from the height measurements (filters/vertical.h).

@@ -38,8 +38,10 @@ class FutureLikelihood {
         eigen.eigenvectors().transpose() *
         llt.matrixL().solve(ErrorMatrix::Identity(M.rows(), M.rows()));
     const ErrorVector u = coordinates_ * (smoothed.mean - predicted.mean);
-    // What merging leaves of a mean that its covariance cannot explain is no
-    // information.
+    // Merging may shift a mean along a direction in which the smoothed
+    // covariance has gained nothing on the predicted one. Such a shift is no
+    // measurement: directions without gain are left out, and a shift counts up
+    // to kFarthest standard deviations of what the gain explains.
     constexpr double kLeastGain = 1e-9;
     constexpr double kLeastVariance = 1e-14;
     constexpr double kFarthest = 4.0;
@@ -222,7 +224,8 @@ class BackwardPass {
     for (std::size_t i = 0; i < count_; ++i) {
       Eigen::VectorXd weights = pairs.row(static_cast<Eigen::Index>(i));
       const double sum = weights.sum();
-      // A mode of no probability is carried along with its own future.
+      // A mode of probability zero has no weights: it takes the density that
+      // its own continuation gives.
       if (sum > 0.0) {
         weights /= sum;
       } else {

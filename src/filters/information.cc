@@ -2,8 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
-#include <cmath>
-#include <limits>
 
 #include "base/error.h"
 #include "filters/kalman.h"
@@ -85,32 +83,19 @@ Information::Estimate Information::Fuse(const ErrorVector& m,
   return out;
 }
 
-double Information::Separation(const ErrorVector& m, const ErrorMatrix& P_f,
-                               int first, int count) const {
-  // A prior of 1e7 scales keeps Y regular and weighs nothing where the
-  // measurements speak.
+Information::Estimate Information::AloneAbout(const ErrorVector& m) const {
   constexpr double kWeakPrior = 1e-14;
-  constexpr double kLargestSigma = 1e6;
-  const Eigen::Index n = m.size();
   const ErrorVector inverse = scale_.cwiseInverse();
   ErrorMatrix Y = U_.transpose() * U_;
   Y.diagonal().array() += kWeakPrior;
   const Eigen::LDLT<ErrorMatrix> ldlt(Y);
-  ErrorMatrix E = ErrorMatrix::Zero(n, count);
-  E.middleRows(first, count).setIdentity();
-  const ErrorMatrix X = ldlt.solve(E);
+  Estimate out;
+  out.P = ldlt.solve(ErrorMatrix::Identity(m.size(), m.size()));
   const ErrorVector u = U_.transpose() * (z_ - U_ * inverse.cwiseProduct(m));
-  ErrorMatrix P = X.middleRows(first, count);
-  const double largest = P.diagonal().maxCoeff();
-  const double smallest = P.diagonal().minCoeff();
-  if (!(smallest > 0.0) || !(largest < kLargestSigma * kLargestSigma)) {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  const ErrorVector e = X.transpose() * u;
-  const auto s = inverse.segment(first, count);
-  P += s.asDiagonal() * P_f.block(first, first, count, count) * s.asDiagonal();
-  Symmetrize(&P);
-  return std::sqrt(e.dot(P.ldlt().solve(e)));
+  out.mean = scale_.cwiseProduct(out.P.transpose() * u);
+  out.P = (scale_.asDiagonal() * out.P * scale_.asDiagonal()).eval();
+  Symmetrize(&out.P);
+  return out;
 }
 
 }  // namespace hindsight

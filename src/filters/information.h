@@ -19,8 +19,8 @@ class Information {
 
   /// Back over the interval x+ = Phi x + c + w, w ~ (0, Q):
   ///   Y <- Phi' (I + Y Q)^-1 Y Phi,   y <- Phi' (I + Y Q)^-1 (y - Y c),
-  /// the exact discrete form of eqs. (18), (19), (26) of the 2002 paper, which
-  /// are derivatives by tau. With L L' = I + U Q U':
+  /// the exact discrete form of the differential equations (18), (19), (26) of
+  /// Yu, Lee, Park and Han 2002. With L L' = I + U Q U':
   ///   U <- L^-1 U Phi,   z <- L^-1 (z - U c).
   void PropagateBack(const ErrorMatrix& Phi, const ErrorMatrix& Q,
                      const ErrorVector& c);
@@ -42,12 +42,12 @@ class Information {
   /// definite.
   Estimate Fuse(const ErrorVector& m, const ErrorMatrix& P_f) const;
 
-  /// Distance in sigmas between an independent estimate (m, P_f) and what this
-  /// information alone says, in components first ... first + count - 1:
-  /// sqrt(e' (P_f + Y^-1)^-1 e). NaN where the information alone leaves one of
-  /// them more than a million scales uncertain.
-  double Separation(const ErrorVector& m, const ErrorMatrix& P_f, int first,
-                    int count) const;
+  /// What this information says alone, its mean as the difference from m:
+  ///   P = Y^-1,   mean = P (y - Y m),
+  /// Y with a prior of ten million scales, which keeps it regular and weighs
+  /// nothing where measurements speak. A standard deviation beyond a million
+  /// scales says that nothing is known.
+  Estimate AloneAbout(const ErrorVector& m) const;
 
  private:
   ErrorVector scale_;

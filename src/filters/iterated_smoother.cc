@@ -53,8 +53,8 @@ class Steps {
     last_ = step;
   }
   double last() const { return last_; }
-  /// Sum of those to come if each shrinks as the last did; infinite as long as
-  /// that is not known or they grow.
+  /// Sum of the steps to come if each is to the one before as the last was (a
+  /// geometric series); infinite before the second step and while they grow.
   double Rest() const {
     if (!(last_ < before_) || std::isinf(before_)) return kUnknown;
     return last_ * last_ / (before_ - last_);
@@ -68,10 +68,10 @@ class Steps {
 
 }  // namespace
 
-IteratedResult SmoothIterated(const ErrorLayout& layout, const Prior& prior,
-                              std::vector<State> nominal, Timeline* timeline,
-                              const GateDecisions& decisions,
-                              const IterationOptions& options) {
+IteratedResult SmoothIterated(std::vector<State> nominal,
+                              const IterationOptions& options,
+                              Problem* problem) {
+  const ErrorLayout& layout = problem->layout;
   IteratedResult result;
   SmoothedTrajectory& trajectory = result.trajectory;
   trajectory.states = std::move(nominal);
@@ -80,21 +80,22 @@ IteratedResult SmoothIterated(const ErrorLayout& layout, const Prior& prior,
   Steps steps;
   for (int i = 1; i <= options.max_iterations && !result.converged; ++i) {
     about = std::move(trajectory.states);
-    LinearTape tape = RunLinearizedFilter(layout, prior, about, timeline,
-                                          decisions, options.callback);
+    LinearTape tape = RunLinearizedFilter(about, problem, options.callback);
     result.iterations = i;
     SumInnovations(tape, &result);
-    const bool last = i == options.max_iterations;
-    trajectory = last && with_covariances ? SmoothRts(std::move(tape))
-                                          : SmoothMeans(tape);
+    if (i == options.max_iterations && with_covariances) {
+      trajectory = SmoothRts(std::move(tape));
+      result.converged = IsBelowTolerances(layout, trajectory.d, options);
+      steps.Add(
+          LargestMoveInSigmas(layout, about, trajectory.states, trajectory.P));
+      break;
+    }
+    trajectory = SmoothMeans(tape);
     result.converged = IsBelowTolerances(layout, trajectory.d, options);
     if (!with_covariances) {
       steps.Add(LargestMoveInSigmas(layout, about, trajectory.states,
                                     *options.rough));
       result.converged = result.converged || steps.Rest() < kNegligibleRest;
-    } else if (last) {
-      steps.Add(
-          LargestMoveInSigmas(layout, about, trajectory.states, trajectory.P));
     } else if (result.converged) {
       trajectory = SmoothRts(std::move(tape));
     }
@@ -124,9 +125,9 @@ double LargestMoveInSigmas(const ErrorLayout& layout,
   return largest;
 }
 
-GateDecisions DecideGates(const ErrorLayout& layout, const Timeline& timeline,
-                          const SmoothedTrajectory& trajectory,
-                          const GateDecisions& used) {
+GateDecisions DecideGates(const Problem& problem,
+                          const SmoothedTrajectory& trajectory) {
+  const Timeline& timeline = problem.timeline;
   GateDecisions decisions(timeline.all_measurements().size(), 1);
   LinearizedMeasurement z;
   std::size_t i = 0;
@@ -141,13 +142,15 @@ GateDecisions DecideGates(const ErrorLayout& layout, const Timeline& timeline,
       }
       if (!sensor.gate_probability) continue;
       Evaluate(measurement,
-               timeline.Context(k, measurement, layout, trajectory.states[k]),
+               timeline.Context(k, measurement, problem.layout,
+                                trajectory.states[k]),
                &z);
       const RowMatrix HPH = z.H * trajectory.P.Get(k) * z.H.transpose();
-      const RowMatrix S =
-          used[index] != 0 ? RowMatrix(z.R - HPH) : RowMatrix(z.R + HPH);
+      const RowMatrix S = problem.decisions[index] != 0 ? RowMatrix(z.R - HPH)
+                                                        : RowMatrix(z.R + HPH);
       const Eigen::LLT<RowMatrix> llt(S);
-      // A measurement that decides its own state alone cannot be tested.
+      // Nothing but the measurement itself determines what it measures: its
+      // residual is zero by construction and cannot be tested.
       if (llt.info() != Eigen::Success) continue;
       const double nis = llt.matrixL().solve(z.residual).squaredNorm();
       decisions[index] =

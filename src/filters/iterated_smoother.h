@@ -11,10 +11,12 @@ struct IterationOptions {
   /// Stops when no node moves farther than this.
   double position_tolerance = 1e-5;  ///< [m]
   double attitude_tolerance = 1e-8;  ///< [rad]
-  /// Rough covariances of the result, an epoch each: if given, what changes no
-  /// conclusion is left undone, and the result has none of its own. It stops
-  /// when the steps, as they shrink, have less than kNegligibleRest of these
-  /// sigmas to go in any component of position or attitude.
+  /// Rough covariances of the result, an epoch each: if given, the iteration
+  /// ends as soon as what is left of it changes no conclusion, and the result
+  /// has no covariances of its own. It then stops when the steps still to come,
+  /// if they go on shrinking as the last ones did, add up to less than
+  /// kNegligibleRest of these sigmas in every component of position and
+  /// attitude.
   const CovarianceSeries* rough = nullptr;
   EpochCallback callback;
 };
@@ -28,7 +30,8 @@ struct IteratedResult {
   /// Of the accepted measurements, linearised about the trajectory before the
   /// last step.
   double log_likelihood = 0.0;
-  /// Mean normalised squared innovation of a row, likewise; right is 1.
+  /// Mean normalised squared innovation of a row, likewise; 1 if models and
+  /// noise are right.
   double nis = 0.0;
 };
 
@@ -48,18 +51,16 @@ double LargestMoveInSigmas(const ErrorLayout& layout,
 /// Iterated RTS smoother: Gauss-Newton on the whole interval. Each pass runs
 /// the linearised filter and the RTS smoother about the trajectory of the pass
 /// before (Bell 1994), starting from `nominal`.
-IteratedResult SmoothIterated(const ErrorLayout& layout, const Prior& prior,
-                              std::vector<State> nominal, Timeline* timeline,
-                              const GateDecisions& decisions,
-                              const IterationOptions& options);
+IteratedResult SmoothIterated(std::vector<State> nominal,
+                              const IterationOptions& options,
+                              Problem* problem);
 
 /// Gate decisions about a smoothed trajectory: each measurement is tested by
 /// its residual with the covariance it has when the measurement itself is left
-/// out, R - H P H' scaled back if `used` says that it took part in the
-/// smoothing and R + H P H' if not. Withheld ones are never used.
-GateDecisions DecideGates(const ErrorLayout& layout, const Timeline& timeline,
-                          const SmoothedTrajectory& trajectory,
-                          const GateDecisions& used);
+/// out, R - H P H' scaled back if the problem's decisions say that it took part
+/// in the smoothing and R + H P H' if not. Withheld ones are never used.
+GateDecisions DecideGates(const Problem& problem,
+                          const SmoothedTrajectory& trajectory);
 
 /// The decisions that a forward pass recorded on its tape.
 GateDecisions DecisionsOnTape(const LinearTape& tape);

@@ -63,7 +63,8 @@ void LinearTape::Append(TapeEpoch epoch, const Transition& transition,
   mark_used_ = chunks_.back().used;
 }
 
-void LinearTape::Record(TapeMeasurement header, const LinearizedMeasurement& z,
+void LinearTape::Record(const TapeMeasurement& header,
+                        const LinearizedMeasurement& z,
                         const Innovation& innovation) {
   const Eigen::Index rows = z.residual.size();
   const Eigen::Index n = dim();

@@ -50,8 +50,8 @@ struct TapeEpoch {
 };
 
 /// A linear-Gaussian system about a recorded nominal trajectory:
-///   d-(k+1) = Phi d+(k) + c + w,  w ~ (0, Q);   residual = H d + v, v ~ (0,
-///   R).
+///   d-(k+1)  = Phi d+(k) + c + w,  w ~ (0, Q),
+///   residual = H d + v,            v ~ (0, R).
 /// d+(k) is an error about x_plus(k), d-(k+1) one about x_minus(k+1); the
 /// transport T(k) leads from the tangent at x_minus(k) to that at x_plus(k).
 /// Forward filters write it; RTS, two-filter and IMM smoothing read it and know
@@ -85,7 +85,7 @@ class LinearTape {
 
   /// Records a measurement of the epoch that the next Append completes; its
   /// matrices are copied. `header` has the fields that are no matrices.
-  void Record(TapeMeasurement header, const LinearizedMeasurement& z,
+  void Record(const TapeMeasurement& header, const LinearizedMeasurement& z,
               const Innovation& innovation);
 
   /// Of a filter that does not carry its covariance over a reset, because it

@@ -2,8 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <limits>
+
+#include "base/chi_square.h"
 
 namespace hindsight {
 namespace {
@@ -16,8 +17,7 @@ double GateLimit(const Sensor& sensor, int rows) {
   if (!sensor.gate_probability) {
     return std::numeric_limits<double>::infinity();
   }
-  return boost::math::quantile(boost::math::chi_squared(rows),
-                               *sensor.gate_probability);
+  return ChiSquareQuantile(*sensor.gate_probability, rows);
 }
 
 MeasurementRule::MeasurementRule(const Timeline& timeline,
@@ -74,7 +74,7 @@ double MeasurementRule::RobustArgument(const LinearizedMeasurement& z,
   return Eigen::LLT<RowMatrix>(z.R).matrixL().solve(z.residual).squaredNorm();
 }
 
-/// The gate has no say where it is decided beforehand.
+/// Whether the gate lets a measurement pass; all do where decisions are given.
 bool MeasurementRule::Passes(int sensor, const Innovation& innovation) const {
   if (!decisions_.empty()) return true;
   if (sensor == supposition_.sensor && !supposition_.IsDecisive(innovation.S)) {

@@ -5,21 +5,18 @@
 #include <vector>
 
 #include "filters/kalman.h"
-#include "measurements/timeline.h"
+#include "timeline/problem.h"
 
 namespace hindsight {
-
-/// Which measurements a pass uses. Empty: the gate of each sensor decides by
-/// the innovation. Otherwise one flag a measurement of the timeline, in order.
-using GateDecisions = std::vector<char>;
 
 /// Upper limit of the normalised innovation squared that the sensor's gate lets
 /// pass for so many rows, infinity without a gate.
 double GateLimit(const Sensor& sensor, int rows);
 
-/// A sensor whose measurements hold under a hypothesis, that the vehicle
-/// stands: they are used only where what is predicted without them is known
-/// well enough to speak for it or against it, and its gate lets them pass.
+/// A sensor whose measurements hold under a hypothesis alone, that the vehicle
+/// stands. They are used where the prediction without them is accurate enough
+/// to decide for or against the hypothesis, and the sensor's gate lets them
+/// pass.
 struct Supposition {
   int sensor = -1;        ///< -1: none
   double known_to = 0.0;  ///< of every row, one sigma of the innovation
@@ -38,11 +35,11 @@ struct MeasurementVerdict {
 
 /// How a recursive filter takes the sensors' robust losses and gates. The loss
 /// divides R by its weight rho'(s), 1e-9 at least; s is the normalised
-/// innovation squared, for a filter that only knows the past must allow for its
-/// own uncertainty. About a fixed nominal s is that of the residual there,
+/// innovation squared, since a filter that only knows the past must allow for
+/// its own uncertainty. About a fixed nominal s is that of the residual there,
 /// which makes the pass a step of iteratively reweighted least squares. The
-/// gate then tests the innovation with that R. Withheld measurements keep
-/// theirs.
+/// gate then tests the innovation with that R. The R of a withheld measurement
+/// stays as it is.
 class MeasurementRule {
  public:
   /// Keeps references to both; the losses and gates are those of now.

@@ -107,7 +107,7 @@ class RtsPass {
 SmoothedTrajectory Smooth(const LinearTape& tape, bool covariances,
                           LinearTape* consumed) {
   RequireSmoothable(tape);
-  constexpr int kAttitudeDim = 6;
+  constexpr int kAttitudeDim = 9;
   if (tape.dim() == kAttitudeDim) {
     return RtsPass<kAttitudeDim>(tape, covariances).Run(consumed);
   }

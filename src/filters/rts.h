@@ -11,8 +11,8 @@ namespace hindsight {
 /// A smoothed tape, an entry an epoch.
 struct SmoothedTrajectory {
   std::vector<State> states;
-  /// Smoothed error about x_minus, by linear bookkeeping: where the nominal was
-  /// reset, d = dx_plus + T^-1 d_plus.
+  /// Smoothed error about x_minus; where the nominal was reset, to first order,
+  /// d = dx_plus + T^-1 d_plus.
   std::vector<ErrorVector> d;
   CovarianceSeries P;  ///< in the tangent at x_plus
 };

@@ -40,8 +40,8 @@ class CentralFusion : public SensorFusion {
   Track track_;
 };
 
-/// Two filters side by side; what they share before and after the step is the
-/// architecture.
+/// Two filters side by side. Architectures differ in what the two exchange
+/// before and after a step.
 class PairFusion : public SensorFusion {
  public:
   PairFusion(std::array<LinearSensor, 2> sensors, const Track& prior)
@@ -74,8 +74,9 @@ class EqualisedFusion : public PairFusion {
   using PairFusion::PairFusion;
 
  private:
-  /// Eq. (9): R weighs the states, of which it has no component each; a
-  /// sensor's mean variance does.
+  /// Lee and Yoon 2011, eq. (9), weighs the states by R^-1, although R is of
+  /// the measurements and has another dimension: here the mean variance of each
+  /// sensor takes the place of its R.
   void Before() override {
     const double y_first = 1.0 / sensors_[0].R.diagonal().mean();
     const double y_second = 1.0 / sensors_[1].R.diagonal().mean();
@@ -84,7 +85,8 @@ class EqualisedFusion : public PairFusion {
         (y_first + y_second);
     tracks_[0].x = tracks_[1].x = equalised;
   }
-  /// State and covariance, with no account of what the two have in common.
+  /// Feeds state and covariance back to the first filter. That the two tracks
+  /// are correlated from then on is not accounted for.
   void After(const Track& fused) override { tracks_[0] = fused; }
 };
 

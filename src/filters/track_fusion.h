@@ -15,8 +15,8 @@ Track FuseByInformation(const Track& a, const Track& b);
 
 /// Covariance intersection (Julier and Uhlmann 1997): never too sure, whatever
 /// the errors of a and b have in common:
-///   P^-1 = w P_a^-1 + (1 - w) P_b^-1,   x = P (w P_a^-1 x_a + (1 - w) P_b^-1
-///   x_b),
+///   P^-1 = w P_a^-1 + (1 - w) P_b^-1,
+///   x    = P (w P_a^-1 x_a + (1 - w) P_b^-1 x_b),
 /// w in [0, 1] with the least trace of P.
 Track FuseByCovarianceIntersection(const Track& a, const Track& b);
 

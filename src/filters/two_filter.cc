@@ -1,10 +1,12 @@
 #include "filters/two_filter.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <utility>
 
 #include "base/error.h"
 #include "filters/information.h"
+#include "filters/separation.h"
 
 namespace hindsight {
 namespace {
@@ -16,13 +18,14 @@ TwoFilterResult Allocate(const LinearTape& tape) {
   out.trajectory.d.resize(tape.size());
   out.trajectory.P = CovarianceSeries(tape.dim(), tape.size());
   if (tape.layout().Has(BlockKind::kPosition)) {
-    out.separation.resize(tape.size());
+    out.part.separation.resize(tape.size());
   }
+  out.part.components.resize(tape.size());
   return out;
 }
 
-/// The end of the interval is where most is known: its standard deviations make
-/// the information of order one.
+/// Standard deviations of the last epoch, where most is known, as the units of
+/// the backward information: its elements are then of order one.
 ErrorVector ScaleOf(const ErrorMatrix& P) {
   if (!(P.diagonal().minCoeff() > 0.0)) {
     throw EstimationError("forward covariance is not positive definite");
@@ -30,17 +33,16 @@ ErrorVector ScaleOf(const ErrorMatrix& P) {
   return P.diagonal().cwiseSqrt();
 }
 
-/// Fuses the information with the forward estimate and records the separation.
-Information::Estimate FuseAt(const LinearTape& tape, std::size_t k,
-                             const Information& information,
-                             const ErrorVector& m, const ErrorMatrix& P_f,
-                             TwoFilterResult* out) {
-  if (!out->separation.empty()) {
-    const Block& position = *tape.layout().Find(BlockKind::kPosition);
-    out->separation[k] =
-        information.Separation(m, P_f, position.offset, position.dim);
-  }
-  return information.Fuse(m, P_f);
+/// How far the backward filter alone is from the forward filter at epoch k.
+void RecordSeparation(const LinearTape& tape, std::size_t k,
+                      const Information::Estimate& alone,
+                      const ErrorVector& scale, TwoFilterResult* out) {
+  const BackwardSide side(tape, k, alone, scale);
+  if (!out->part.separation.empty()) out->part.separation[k] = side.Distance();
+  out->part.components[k] = side.Components();
+  constexpr std::size_t kMost = TwoFilterResult::kMostBackward;
+  const std::size_t step = (tape.size() + kMost - 1) / kMost;
+  if (k % step == 0) out->part.backward.push_back(side.Alone());
 }
 
 }  // namespace
@@ -49,12 +51,14 @@ TwoFilterResult SmoothTwoFilter(const LinearTape& tape) {
   TwoFilterResult out = Allocate(tape);
   if (tape.size() == 0) return out;
   const ErrorVector zero = ErrorVector::Zero(tape.dim());
-  Information information(ScaleOf(tape.P_plus(tape.size() - 1)));
+  const ErrorVector scale = ScaleOf(tape.P_plus(tape.size() - 1));
+  Information information(scale);
   for (std::size_t k = tape.size(); k-- > 0;) {
     const TapeEpoch& epoch = tape.epoch(k);
+    const ErrorVector& forward = epoch.reset ? zero : epoch.dx_plus;
+    RecordSeparation(tape, k, information.AloneAbout(forward), scale, &out);
     const Information::Estimate smoothed =
-        FuseAt(tape, k, information, epoch.reset ? zero : epoch.dx_plus,
-               tape.P_plus(k), &out);
+        information.Fuse(forward, tape.P_plus(k));
     SmoothedTrajectory& trajectory = out.trajectory;
     trajectory.states[k] = tape.StateAt(k, smoothed.mean);
     trajectory.P.Set(k, smoothed.P);
@@ -69,6 +73,7 @@ TwoFilterResult SmoothTwoFilter(const LinearTape& tape) {
     }
     if (k > 0) information.PropagateBack(tape.Phi(k), tape.Q(k), epoch.c);
   }
+  std::reverse(out.part.backward.begin(), out.part.backward.end());
   return out;
 }
 
@@ -118,12 +123,17 @@ TwoFilterResult SmoothTwoFilterConventional(const LinearTape& tape,
   TwoFilterResult out = Allocate(tape);
   if (tape.size() == 0) return out;
   const ErrorLayout& layout = tape.layout();
+  const ErrorVector scale = ScaleOf(tape.P_plus(tape.size() - 1));
   ChartedEpoch here(tape, tape.size() - 1, chart);
   Information information(ScaleOf(here.P_forward));
   for (std::size_t k = tape.size(); k-- > 0;) {
     const TapeEpoch& epoch = tape.epoch(k);
+    Information::Estimate alone = information.AloneAbout(here.xi_forward);
+    alone.mean = here.J_plus_inverse * alone.mean;
+    alone.P = here.J_plus_inverse * alone.P * here.J_plus_inverse.transpose();
+    RecordSeparation(tape, k, alone, scale, &out);
     const Information::Estimate smoothed =
-        FuseAt(tape, k, information, here.xi_forward, here.P_forward, &out);
+        information.Fuse(here.xi_forward, here.P_forward);
     SmoothedTrajectory& trajectory = out.trajectory;
     trajectory.states[k] = here.chart.ToState(smoothed.mean);
     trajectory.states[k].t = epoch.t;
@@ -142,6 +152,7 @@ TwoFilterResult SmoothTwoFilterConventional(const LinearTape& tape,
     information.PropagateBack(F, Q, a);
     here = std::move(before);
   }
+  std::reverse(out.part.backward.begin(), out.part.backward.end());
   return out;
 }
 

@@ -5,18 +5,16 @@
 
 #include "filters/rts.h"
 #include "state/chart.h"
+#include "state/method_parts.h"
 
 namespace hindsight {
 
 /// A tape smoothed by fusing a forward with a backward filter.
 struct TwoFilterResult {
   SmoothedTrajectory trajectory;
-  /// Distance of the forward position from that of the backward filter alone,
-  /// in sigmas of their difference: sqrt(e' (P_f + P_b)^-1 e), whose square is
-  /// chi-square with three degrees of freedom if models and noise are right.
-  /// NaN where the backward filter has no position yet; empty for a layout
-  /// without positions.
-  std::vector<double> separation;
+  /// `backward` at no more than kMostBackward epochs.
+  TwoFilterPart part;
+  static constexpr std::size_t kMostBackward = 5000;
 };
 
 /// Two-filter smoother in error form (Yu, Lee, Park, Han 2002, section III).

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "measurements/timeline.h"
+#include "timeline/timeline.h"
 
 namespace hindsight {
 

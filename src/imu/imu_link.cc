@@ -7,7 +7,6 @@
 
 #include "earth/wgs84.h"
 #include "geometry/so3.h"
-#include "imu/error_drift.h"
 
 namespace hindsight {
 namespace {
@@ -33,18 +32,6 @@ Eigen::Vector3d EarthRateCross(const Eigen::Vector3d& v) {
 }
 
 }  // namespace
-
-double PhiOf(const Block& block, const ImuSummary& summary, double distance) {
-  return HasOwnStep(block, summary)
-             ? OwnPhi(block, summary)
-             : block.evolution.Phi(summary.dt(), distance);
-}
-
-double VarianceOf(const Block& block, const ImuSummary& summary,
-                  double distance) {
-  return HasOwnStep(block, summary) ? OwnVariance(block, summary)
-                                    : block.evolution.Q(summary.dt(), distance);
-}
 
 ImuCalibration CalibrationOf(const ErrorLayout& layout, const State& x) {
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
@@ -86,17 +73,19 @@ State Predict(const ErrorLayout& layout, const State& x_i,
       (Eigen::Quaterniond(E.transpose()) * x_i.q_eb * mean.dR).normalized();
   x.b_g *= summary.gyro_bias_phi;
   x.b_a *= summary.accel_bias_phi;
+  PredictParameters(layout, x_i, dt, &x);
+  return x;
+}
+
+void PredictParameters(const ErrorLayout& layout, const State& x_i, double dt,
+                       State* x_j) {
   for (const Block& block : layout.blocks()) {
     if (block.parameter_offset < 0) continue;
-    x.parameters.segment(block.parameter_offset,
-                         FullDimension(block.key.kind)) *=
-        PhiOf(block, summary, Travelled(x_i, dt));
-    if (const Block* rate = DriftRate(layout, block, summary)) {
-      x.parameters.segment<3>(block.parameter_offset) +=
-          dt * x_i.parameters.segment<3>(rate->parameter_offset);
-    }
+    const int dim = FullDimension(block.key.kind);
+    x_j->parameters.segment(block.parameter_offset, dim) =
+        block.evolution.Phi(dt, Travelled(x_i, dt)) *
+        x_i.parameters.segment(block.parameter_offset, dim);
   }
-  return x;
 }
 
 void EvaluateLink(const ErrorLayout& layout, const ImuSummary& summary,
@@ -286,20 +275,15 @@ void LinearizeTransition(const ErrorLayout& layout, const ImuSummary& summary,
   const double distance = Travelled(x_i, dt);
   for (const Block& block : layout.blocks()) {
     if (block.parameter_offset < 0) continue;
-    const double phi = PhiOf(block, summary, distance);
-    const Block* rate = DriftRate(layout, block, summary);
+    const double phi = block.evolution.Phi(dt, distance);
     int component = block.offset;
     for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {
       if (!block.active[static_cast<std::size_t>(axis)]) continue;
       const int parameter = block.parameter_offset + axis;
       out->Phi(component, component) = phi;
-      out->Q(component, component) = VarianceOf(block, summary, distance);
+      out->Q(component, component) = block.evolution.Q(dt, distance);
       out->c(component) =
           phi * x_i.parameters(parameter) - x_j.parameters(parameter);
-      if (rate != nullptr) {
-        out->Phi(component, rate->offset + axis) = dt;
-        out->c(component) += dt * x_i.parameters(rate->parameter_offset + axis);
-      }
       ++component;
     }
   }

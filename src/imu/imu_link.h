@@ -10,13 +10,6 @@ namespace hindsight {
 /// layout estimates them.
 ImuCalibration CalibrationOf(const ErrorLayout& layout, const State& x);
 
-/// exp(-dt/tau) of a block beyond the navigation state over the interval of a
-/// summary, and the variance its evolution adds; `distance` travelled in it [m]
-/// for blocks that change with that.
-double PhiOf(const Block& block, const ImuSummary& summary, double distance);
-double VarianceOf(const Block& block, const ImuSummary& summary,
-                  double distance);
-
 /// Distance over the ground from x in dt [m], for blocks that change with it:
 /// |v| dt, at least 1 cm/s, since water and wind change of themselves too.
 double Travelled(const State& x, double dt);
@@ -30,10 +23,14 @@ double Travelled(const State& x, double dt);
 State Predict(const ErrorLayout& layout, const State& x_i,
               const ImuSummary& summary);
 
+/// The parameters alone, after dt from x_i, as their evolutions say.
+void PredictParameters(const ErrorLayout& layout, const State& x_i, double dt,
+                       State* x_j);
+
 /// The five navigation blocks (p, v, psi, b_g, b_a) of the link between two
 /// states, linearised at both:
-///   r(x_i [+] d_i, x_j [+] d_j) = residual + J_i d_i + J_j d_j + J_s d_s =
-///   noise
+///   r(x_i [+] d_i, x_j [+] d_j) = residual + J_i d_i + J_j d_j + J_s d_s
+///                               = noise.
 /// Rows: r_p [m] and r_v [m/s] in body axes at t_i, r_R [rad] in body axes at
 /// t_j, bias defects. d_s are the scale factors (gyro, accelerometer) at t_i.
 struct ImuLink {

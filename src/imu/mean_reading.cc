@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "imu/preintegration.h"
-
 namespace hindsight {
 namespace {
 
@@ -40,6 +38,25 @@ Kinematics MeanReading(const ImuStream& imu, double begin, double end) {
   mean.w_ib_b /= total;
   mean.f_b /= total;
   return mean;
+}
+
+std::vector<Kinematics> MeanMotion(
+    const ImuStream& imu, const std::vector<double>& times,
+    const std::vector<ImuCalibration>& calibrations) {
+  std::vector<Kinematics> motion;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const double before = times[k == 0 ? k : k - 1];
+    const double after = times[std::min(k + 1, times.size() - 1)];
+    Kinematics mean =
+        MeanReading(imu, 0.5 * (before + times[k]), 0.5 * (times[k] + after));
+    const ImuCalibration& c = calibrations[k];
+    mean.w_ib_b =
+        (mean.w_ib_b - c.b_g).cwiseQuotient(Eigen::Vector3d::Ones() + c.s_g);
+    mean.f_b =
+        (mean.f_b - c.b_a).cwiseQuotient(Eigen::Vector3d::Ones() + c.s_a);
+    motion.push_back(mean);
+  }
+  return motion;
 }
 
 }  // namespace hindsight

@@ -1,8 +1,11 @@
 #ifndef HINDSIGHT_IMU_MEAN_READING_H_
 #define HINDSIGHT_IMU_MEAN_READING_H_
 
+#include <vector>
+
 #include "imu/imu_stream.h"
 #include "imu/kinematics.h"
+#include "imu/preintegration.h"
 
 namespace hindsight {
 
@@ -15,6 +18,13 @@ namespace hindsight {
 /// beside the span stays outside. A span that holds no interval has the mean of
 /// the one at its middle. The stream has two samples at least.
 Kinematics MeanReading(const ImuStream& imu, double begin, double end);
+
+/// Mean readings about ascending times, each from half way to the time before
+/// to half way to the next, with the biases and scale factors of `calibrations`
+/// removed: (m - b) / (1 + s).
+std::vector<Kinematics> MeanMotion(
+    const ImuStream& imu, const std::vector<double>& times,
+    const std::vector<ImuCalibration>& calibrations);
 
 }  // namespace hindsight
 

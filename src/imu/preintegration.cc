@@ -204,8 +204,8 @@ ImuSummary Preintegrator::Finish() const {
   out.v_ba = -S_a_;
   out.p_ba = -P_a_;
   if (with_scale_) {
-    // A scale error is felt as a bias in proportion to the true rate: the
-    // divisor turns (1 + s) errors of the raw reading into those of the rate.
+    // An error ds of the scale factor acts as a bias error of ds times the
+    // true rate in the raw reading; calibration divides that by 1 + s.
     const Eigen::Array3d g = 1.0 / (1.0 + calibration_.s_g.array());
     const Eigen::Array3d a = 1.0 / (1.0 + calibration_.s_a.array());
     out.R_sg = -U_g_ * g.matrix().asDiagonal();

@@ -21,16 +21,6 @@ struct ImuCalibration {
   Eigen::Vector3d s_a = Eigen::Vector3d::Zero();  ///< [1]
 };
 
-/// How the coloured noise of one sensor goes through an interval, where that is
-/// known better than by its evolution: e_j = phi e_i + w, w ~ (0, variance).
-/// With `drifts` it also grows at a rate, see imu/error_drift.h.
-struct ColouredStep {
-  int sensor = -1;
-  double phi = 1.0;
-  double variance = 0.0;
-  bool drifts = false;
-};
-
 /// All that the samples of one interval [t_i, t_j] say about motion, in the
 /// inertial axes that coincide with the body axes at t_i:
 ///   dR = C(t_i <- t_j),  dv = int C f,  dp = int int C f.
@@ -60,13 +50,13 @@ struct ImuSummary {
   double accel_bias_variance = 0.0;
   double gyro_bias_phi = 1.0;  ///< exp(-dt/tau)
   double accel_bias_phi = 1.0;
-  ColouredStep coloured;  ///< not of the IMU: see Timeline::SetColouredSteps
 
   double dt() const { return t_j - t_i; }
 };
 
-/// A summary of no length at t, for ImuIntegrator::AppendMean to let grow: of
-/// its mean alone, Jacobians and noise stay zero.
+/// A summary of an interval of no length at t, to which
+/// ImuIntegrator::AppendMean adds. Its mean alone is kept up; Jacobians and
+/// noise stay zero.
 ImuSummary EmptyMean(double t, const ImuCalibration& calibration);
 
 /// Mean of a summary moved to another calibration, to first order.
@@ -182,8 +172,9 @@ class ImuIntegrator {
   LinearRates RatesOfInterval(std::size_t k) const;
 
  private:
-  /// Hands over the rates of [t_i, t_j], sample interval by sample interval,
-  /// and the whole interval of one that bridges a drop-out, else nullptr.
+  /// Calls `use` for every sample interval within [t_i, t_j] with its rates;
+  /// the second argument is the whole interval where it bridges a drop-out,
+  /// else nullptr.
   template <typename Use>
   void Walk(double t_i, double t_j, const Use& use);
   bool IsDropOut(std::size_t k) const;

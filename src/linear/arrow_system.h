@@ -7,8 +7,9 @@
 
 namespace hindsight {
 
-/// An unknown that the system does not determine: given all the unknowns after
-/// it, nothing is left of its diagonal element.
+/// An unknown that the system does not determine: after elimination of the
+/// unknowns before it, its pivot is zero but for rounding. It stays
+/// undetermined even if all unknowns after it are known.
 struct Deficiency {
   static constexpr int kBorder = -1;
   int node = kBorder;

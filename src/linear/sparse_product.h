@@ -5,8 +5,8 @@
 
 namespace hindsight {
 
-/// A S', S of which most elements are zero, as of a transition: with m elements
-/// that are not, m columns of A are added up where a dense product adds n^2.
+/// A S' for an S of mostly zeros, such as a transition: with m elements that are
+/// not zero, m columns of A are added up where a dense product adds n^2.
 template <typename Dense, typename Sparse>
 typename Dense::PlainObject TimesTransposed(
     const Eigen::MatrixBase<Dense>& A, const Eigen::MatrixBase<Sparse>& S) {
@@ -20,7 +20,7 @@ typename Dense::PlainObject TimesTransposed(
   return out;
 }
 
-/// A S, likewise.
+/// A S for such an S.
 template <typename Dense, typename Sparse>
 typename Dense::PlainObject Times(const Eigen::MatrixBase<Dense>& A,
                                   const Eigen::MatrixBase<Sparse>& S) {

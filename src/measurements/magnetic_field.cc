@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "earth/wgs84.h"
 #include "geometry/so3.h"
 #include "measurements/point_motion.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 
@@ -13,6 +15,11 @@ Eigen::Vector3d UndisturbedField(const MagneticSurroundings& magnetic,
                                  double declination) {
   return {magnetic.horizontal * std::cos(declination),
           magnetic.horizontal * std::sin(declination), magnetic.down};
+}
+
+double HorizontalSquare(const Eigen::Vector3d& u_n) {
+  constexpr double kFloor = 0.01;  // [uT^2]
+  return std::max(u_n.head<2>().squaredNorm(), kFloor);
 }
 
 namespace {
@@ -69,10 +76,9 @@ void EvaluateVector(const MagneticField& z, const ModelContext& context,
   out->R.diagonal().setConstant(z.sigma * z.sigma);
 }
 
-/// Derivative of the azimuth of v by v. A vertical vector has none: the floor
-/// of 0.1 uT only keeps the numbers finite.
+/// Derivative of the azimuth of v by v.
 Eigen::RowVector3d AzimuthGradient(const Eigen::Vector3d& v) {
-  const double h2 = std::max(v.head<2>().squaredNorm(), 0.01);
+  const double h2 = HorizontalSquare(v);
   return {-v.y() / h2, v.x() / h2, 0.0};
 }
 
@@ -88,7 +94,7 @@ void EvaluateHeading(const MagneticField& z, const ModelContext& context,
       2.0 * kPi);
   const Eigen::RowVector3d by_u = AzimuthGradient(u_n);
   const Eigen::RowVector3d by_m = AzimuthGradient(scene.m_n);
-  const Eigen::RowVector3d by_psi = -by_u * Skew(u_n);
+  const Eigen::RowVector3d by_psi = AzimuthByPsi(u_n);
   layout.AddColumns(BlockKind::kAttitude, BlockKey::kNoSensor, by_psi, &out->H);
   layout.AddColumns(BlockKind::kPosition, BlockKey::kNoSensor,
                     -by_psi * NedTurn(context.state.p_e), &out->H);
@@ -101,11 +107,14 @@ void EvaluateHeading(const MagneticField& z, const ModelContext& context,
                     &out->H);
   layout.AddColumns(BlockKind::kDeclination, context.sensor_index,
                     -by_m * scene.dm_n_dD, &out->H);
-  out->R(0, 0) =
-      z.sigma * z.sigma / std::max(scene.m_n.head<2>().squaredNorm(), 0.01);
+  out->R(0, 0) = z.sigma * z.sigma / HorizontalSquare(scene.m_n);
 }
 
 }  // namespace
+
+Eigen::RowVector3d AzimuthByPsi(const Eigen::Vector3d& u_n) {
+  return -AzimuthGradient(u_n) * Skew(u_n);
+}
 
 void MagneticField::Evaluate(const ModelContext& context,
                              LinearizedMeasurement* out) const {
@@ -114,6 +123,203 @@ void MagneticField::Evaluate(const ModelContext& context,
   } else {
     EvaluateHeading(*this, context, out);
   }
+}
+
+namespace {
+
+bool IsVector(const SensorSettings& settings) {
+  return PatternOf<MagneticField>(settings).form ==
+         MagneticField::Form::kVector;
+}
+
+bool HasDisturbance(const SensorSettings& settings) {
+  return settings.sensor.magnetic.disturbance_sigma.has_value();
+}
+
+std::optional<MeasurementModel> ReadField(const MeasuredRow& row,
+                                          const SensorSettings& settings) {
+  MagneticField z = PatternOf<MagneticField>(settings);
+  z.field_b =
+      settings.C_bs * Eigen::Vector3d(row.Value(0), row.Value(1), row.Value(2));
+  return z;
+}
+
+std::optional<MeasurementModel> PerfectField(const SensorSettings& settings,
+                                             const Motion& motion) {
+  const MagneticSurroundings& magnetic = settings.sensor.magnetic;
+  const Eigen::Vector3d m_n(
+      magnetic.horizontal * std::cos(magnetic.declination),
+      magnetic.horizontal * std::sin(magnetic.declination), magnetic.down);
+  MagneticField z = PatternOf<MagneticField>(settings);
+  z.field_b = motion.q_eb.conjugate() * (NedAxes(motion.p_e) * m_n) +
+              magnetic.hard_iron_b;
+  return z;
+}
+
+void DisturbFields(const SensorSettings&, Random* random,
+                   std::vector<Measurement>* measurements) {
+  for (Measurement& z : *measurements) {
+    auto& field = std::get<MagneticField>(z.model);
+    field.field_b += field.sigma * random->NormalVector3();
+  }
+}
+
+SensorKeys MagnetometerKeys() {
+  constexpr auto kMagnetic = Quantity::kMagneticField;
+  return {
+      {.name = "form",
+       .value = SensorKey::Word{{"vector", "heading"},
+                                [](const SensorSettings& s) {
+                                  return std::size_t{IsVector(s) ? 0U : 1U};
+                                },
+                                [](SensorSettings& s, std::size_t i) {
+                                  PatternOf<MagneticField>(s).form =
+                                      i == 0 ? MagneticField::Form::kVector
+                                             : MagneticField::Form::kHeading;
+                                }},
+       .help = "all of the field, or its azimuth alone"},
+      {.name = "axes",
+       .value = SensorKey::Axes{},
+       .help = "and mounting, as of the imu"},
+      NeededSigmaKey(kMagnetic, "of each axis"),
+      {.name = "declination",
+       .quantity = Quantity::kAngle,
+       .value = SensorKey::Number{[](SensorSettings& s) {
+         return &s.sensor.magnetic.declination;
+       }},
+       .help = "magnetic from true north, east positive"},
+      {.name = "hard_iron",
+       .quantity = kMagnetic,
+       .value = SensorKey::Vector{[](SensorSettings& s) {
+         return &s.sensor.magnetic.hard_iron_b;
+       }},
+       .help = "field of the vehicle itself, body axes"},
+      {.name = "horizontal",
+       .quantity = kMagnetic,
+       .value = SensorKey::Number{[](SensorSettings& s) {
+                                    return &s.sensor.magnetic.horizontal;
+                                  },
+                                  SensorKey::Range::kPositive},
+       .help = "horizontal part of the field",
+       .needed = IsVector},
+      {.name = "down",
+       .quantity = kMagnetic,
+       .value = SensorKey::Number{[](SensorSettings& s) {
+         return &s.sensor.magnetic.down;
+       }},
+       .help = "downward part of the field",
+       .applies = IsVector,
+       .when = "form: vector",
+       .needed = IsVector,
+       .missing = "is missing; expected the field's downward component"},
+      {.name = "estimate.hard_iron",
+       .quantity = kMagnetic,
+       .value = SensorKey::OptionalSigmas{[](SensorSettings& s) {
+         return &s.sensor.magnetic.hard_iron_sigma;
+       }},
+       .help = "a priori sigma of an estimated one"},
+      {.name = "estimate.declination",
+       .quantity = Quantity::kAngle,
+       .value = SensorKey::OptionalNumber{[](SensorSettings& s) {
+         return &s.sensor.magnetic.declination_sigma;
+       }},
+       .help = "a priori sigma of an estimated one"},
+      {.name = "estimate.disturbance",
+       .quantity = kMagnetic,
+       .value = SensorKey::OptionalNumber{[](SensorSettings& s) {
+         return &s.sensor.magnetic.disturbance_sigma;
+       }},
+       .help = "sigma of a Gauss-Markov field in NED axes"},
+      {.name = "estimate.disturbance_tau",
+       .quantity = Quantity::kTime,
+       .value = SensorKey::Number{[](SensorSettings& s) {
+                                    return &s.sensor.magnetic.disturbance_tau;
+                                  },
+                                  SensorKey::Range::kPositive},
+       .help = "its correlation time",
+       .applies = HasDisturbance,
+       .when = "estimate.disturbance"}};
+}
+
+std::vector<SensorBlock> MagnetometerBlocks() {
+  return {
+      TimeOffsetBlock(),
+      {.kind = BlockKind::kHardIron,
+       .name = "hard_iron",
+       .unit = "uT",
+       .sigma =
+           [](const Sensor& sensor, const MeasurementModel*) {
+             return sensor.magnetic.hard_iron_sigma;
+           },
+       .value =
+           [](const Sensor& sensor) { return sensor.magnetic.hard_iron_b; }},
+      {.kind = BlockKind::kDeclination,
+       .name = "declination",
+       .unit = "rad",
+       .sigma =
+           [](const Sensor& sensor, const MeasurementModel*) {
+             return OnAllAxes(sensor.magnetic.declination_sigma);
+           },
+       .value =
+           [](const Sensor& sensor) {
+             return Eigen::Vector3d(
+                 Eigen::Vector3d::Constant(sensor.magnetic.declination));
+           }},
+      {.kind = BlockKind::kDisturbance,
+       .name = "disturbance",
+       .unit = "uT",
+       .sigma =
+           [](const Sensor& sensor, const MeasurementModel*) {
+             return OnAllAxes(sensor.magnetic.disturbance_sigma);
+           },
+       .evolution =
+           [](const Sensor& sensor) {
+             return Evolution::GaussMarkov(*sensor.magnetic.disturbance_sigma,
+                                           sensor.magnetic.disturbance_tau);
+           }}};
+}
+
+}  // namespace
+
+const SensorKind& MagnetometerKind() {
+  static const SensorKind kKind = {
+      .name = "magnetometer",
+      .help = "the Earth's magnetic field",
+      .magnetic = true,
+      .columns = {{"mag_x", Quantity::kMagneticField},
+                  {"mag_y", Quantity::kMagneticField},
+                  {"mag_z", Quantity::kMagneticField},
+                  {"quality", Quantity::kRatio}},
+      .measured =
+          [](const SensorSettings&) {
+            return MeasuredColumns{0, 3, 0};
+          },
+      .keys = MagnetometerKeys(),
+      .blocks = MagnetometerBlocks(),
+      .prepare = [](SensorSettings* s) { s->pattern = MagneticField(); },
+      .complete = [](SensorSettings* s) -> std::optional<KeyObjection> {
+        PatternOf<MagneticField>(*s).sigma = s->sigma->x();
+        return std::nullopt;
+      },
+      .uncomplete =
+          [](SensorSettings* s) {
+            s->sigma.emplace().setConstant(PatternOf<MagneticField>(*s).sigma);
+          },
+      .read = ReadField,
+      .written =
+          [](const MeasurementModel&, const Sensor&) {
+            return std::vector<WrittenColumn>{
+                {"mag_x", "uT"}, {"mag_y", "uT"}, {"mag_z", "uT"}};
+          },
+      .write =
+          [](const MeasurementModel& z, const Sensor&) {
+            const auto& field = std::get<MagneticField>(z).field_b;
+            return std::vector<double>(field.begin(), field.end());
+          },
+      .perfect = PerfectField,
+      .disturb = DisturbFields,
+  };
+  return kKind;
 }
 
 }  // namespace hindsight

@@ -37,6 +37,13 @@ struct MagneticField {
 Eigen::Vector3d UndisturbedField(const MagneticSurroundings& magnetic,
                                  double declination);
 
+/// Derivative of the azimuth of u_n = C_nb m_b by psi. A vertical vector has no
+/// azimuth: a floor of 0.1 uT on its horizontal part only keeps the numbers
+/// finite.
+Eigen::RowVector3d AzimuthByPsi(const Eigen::Vector3d& u_n);
+/// Square of the horizontal part, with that floor [uT^2].
+double HorizontalSquare(const Eigen::Vector3d& u_n);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_MEASUREMENTS_MAGNETIC_FIELD_H_

@@ -8,6 +8,7 @@
 #include "base/packed_series.h"
 #include "measurements/acoustic_fix.h"
 #include "measurements/dvl.h"
+#include "measurements/generic_reading.h"
 #include "measurements/height_fix.h"
 #include "measurements/magnetic_field.h"
 #include "measurements/model.h"
@@ -15,6 +16,7 @@
 #include "measurements/position_fix.h"
 #include "measurements/speed_course.h"
 #include "measurements/stationary.h"
+#include "measurements/tilt.h"
 #include "measurements/vehicle_level.h"
 #include "measurements/velocity_fix.h"
 
@@ -25,7 +27,7 @@ namespace hindsight {
 using MeasurementModel =
     std::variant<PositionFix, VelocityFix, HeightFix, ZeroVelocity,
                  ZeroAngularRate, Odometer, SpeedCourse, MagneticField,
-                 VehicleLevel, Dvl, AcousticFix>;
+                 VehicleLevel, Dvl, AcousticFix, GenericReading, Tilt>;
 
 struct Measurement {
   double t = 0.0;  ///< stamp [s]; the sensor's time offset is not yet applied

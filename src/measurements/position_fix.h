@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_MEASUREMENTS_POSITION_FIX_H_
 #define HINDSIGHT_MEASUREMENTS_POSITION_FIX_H_
 
+#include <limits>
 #include <tuple>
 
 #include "measurements/model.h"
@@ -16,11 +17,15 @@ namespace hindsight {
 struct PositionFix {
   Eigen::Vector3d p_e = Eigen::Vector3d::Zero();      ///< measured, ECEF [m]
   Eigen::Matrix3d R_n = Eigen::Matrix3d::Identity();  ///< NED covariance [m^2]
+  /// What the receiver says of itself, in its own numbers; no model uses it.
+  /// NaN: nothing.
+  double quality = std::numeric_limits<double>::quiet_NaN();
+  double satellites = std::numeric_limits<double>::quiet_NaN();  ///< in use
 
   /// For base/packed_words.h.
   template <class Self>
   static auto Fields(Self& z) {
-    return std::tie(z.p_e, z.R_n);
+    return std::tie(z.p_e, z.R_n, z.quality, z.satellites);
   }
 
   /// Multiplies the standard deviations.

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -12,20 +13,10 @@
 
 namespace hindsight {
 
-enum class SensorType {
-  kPosition,
-  kVelocity,
-  kHeight,
-  kZeroVelocity,
-  kZeroAngularRate,
-  kOdometer,
-  kNonHolonomic,
-  kSpeedCourse,
-  kVehicleLevel,
-  kDvl,
-  kAcousticFix,
-  kMagnetometer,
-};
+struct SensorKind;
+
+/// The kind of a stream of positions (measurements/position_fix.h).
+const SensorKind& PositionKind();
 
 /// The Earth's field around a magnetometer and the vehicle's own.
 struct MagneticSurroundings {
@@ -61,7 +52,8 @@ struct NoiseModel {
 /// its measurements are to be trusted. Values in a layout take precedence.
 struct Sensor {
   std::string name;  ///< key of the stream in the configuration
-  SensorType type = SensorType::kPosition;
+  /// What the sensor measures (measurements/sensor_kind.h).
+  const SensorKind* kind = &PositionKind();
   Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();  ///< IMU to sensor [m]
   /// Sensor axes from body axes, v_s = q_sb * v_b.
   Eigen::Quaterniond q_sb = Eigen::Quaterniond::Identity();
@@ -95,6 +87,10 @@ struct Sensor {
   std::optional<double> current_sigma;
   double current_tau = std::numeric_limits<double>::infinity();
   double current_length = std::numeric_limits<double>::infinity();
+  /// Values of keys that its kind alone has, in SI units; the kind says which
+  /// is which.
+  std::array<double, 4> own = {};
+  Eigen::Vector3d own_vector = Eigen::Vector3d::Zero();
 };
 
 }  // namespace hindsight

@@ -7,8 +7,8 @@ namespace hindsight {
 
 /// The axes s of a sensor, and their sensitivities: what every model that
 /// measures in its own axes (odometer, DVL, acoustic bearing) shares.
-///   C_se = C_sb C_be,   C_sb = Exp(m) C_sb(nominal),   C_se' = -C_sb [w_eb x]
-///   C_be
+///   C_se  = C_sb C_be,   C_sb = Exp(m) C_sb(nominal),
+///   C_se' = -C_sb [w_eb x] C_be.
 struct SensorAxes {
   Eigen::Vector3d m;  ///< mounting (boresight) rotation vector [rad]
   Eigen::Matrix3d C_sb;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "earth/wgs84.h"
 #include "geometry/so3.h"
 #include "measurements/point_motion.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 
@@ -39,6 +41,112 @@ void SpeedCourse::Evaluate(const ModelContext& context,
   context.layout.AddColumns(BlockKind::kPosition, BlockKey::kNoSensor,
                             axes * Skew(v_n) * NedTurn(context.state.p_e),
                             &out->H);
+}
+
+namespace {
+
+/// Speed below which a course means nothing [m/s].
+double CourseAbove(const SensorSettings& settings) {
+  return settings.sensor.own[0];
+}
+
+std::optional<MeasurementModel> ReadSpeedCourse(
+    const MeasuredRow& row, const SensorSettings& settings) {
+  SpeedCourse measured = PatternOf<SpeedCourse>(settings);
+  measured.speed = row.Value(0);
+  measured.has_course = row.Has(1) && std::isfinite(row.Value(1)) &&
+                        measured.speed >= CourseAbove(settings);
+  if (measured.has_course) measured.course = row.Value(1);
+  return measured;
+}
+
+/// Of the horizontal velocity of the sensor's point.
+std::optional<MeasurementModel> PerfectSpeedCourse(
+    const SensorSettings& settings, const Motion& motion) {
+  SpeedCourse measured = PatternOf<SpeedCourse>(settings);
+  const Eigen::Vector3d v_e =
+      motion.v_e +
+      motion.q_eb * motion.w_eb_b.cross(settings.sensor.lever_arm_b);
+  const Eigen::Vector3d v_n = NedAxes(motion.p_e).transpose() * v_e;
+  measured.speed = std::hypot(v_n.x(), v_n.y());
+  measured.course = std::atan2(v_n.y(), v_n.x());
+  measured.has_course = measured.speed >= CourseAbove(settings);
+  return measured;
+}
+
+void DisturbSpeedCourses(const SensorSettings&, Random* random,
+                         std::vector<Measurement>* measurements) {
+  for (Measurement& z : *measurements) {
+    auto& measured = std::get<SpeedCourse>(z.model);
+    measured.speed =
+        std::abs(measured.speed + measured.sigma_speed * random->Normal());
+    measured.course += measured.sigma_course * random->Normal();
+  }
+}
+
+}  // namespace
+
+const SensorKind& SpeedCourseKind() {
+  static const SensorKind kKind = {
+      .name = "speed_course",
+      .help = "speed and course over the ground, as NMEA RMC has them",
+      .moves = true,
+      .columns = {{"speed", Quantity::kSpeed},
+                  {"course", Quantity::kAngle},
+                  {"quality", Quantity::kRatio}},
+      .measured =
+          [](const SensorSettings&) {
+            return MeasuredColumns{0, 1, 0};
+          },
+      .has_optional_columns = true,
+      .keys = {NeededSigmaKey(Quantity::kSpeed, "of the speed"),
+               {.name = "course_sigma",
+                .quantity = Quantity::kAngle,
+                .value = SensorKey::Number{[](SensorSettings& s) {
+                                             return &PatternOf<SpeedCourse>(s)
+                                                         .sigma_course;
+                                           },
+                                           SensorKey::Range::kPositive},
+                .help = "of the course",
+                .needed = Always},
+               {.name = "course_above",
+                .quantity = Quantity::kSpeed,
+                .value = SensorKey::Number{[](SensorSettings& s) {
+                  return &s.sensor.own[0];
+                }},
+                .help = "speed below which the course is not used"},
+               LeverArmKey(),
+               LeverArmSigmaKey()},
+      .blocks = {LeverArmBlock(), TimeOffsetBlock()},
+      .prepare =
+          [](SensorSettings* s) {
+            s->pattern = SpeedCourse();
+            s->sensor.own[0] = 1.0;
+          },
+      .complete = [](SensorSettings* s) -> std::optional<KeyObjection> {
+        PatternOf<SpeedCourse>(*s).sigma_speed = s->sigma->x();
+        return std::nullopt;
+      },
+      .uncomplete =
+          [](SensorSettings* s) {
+            s->sigma.emplace().setConstant(
+                PatternOf<SpeedCourse>(*s).sigma_speed);
+          },
+      .read = ReadSpeedCourse,
+      .written =
+          [](const MeasurementModel&, const Sensor&) {
+            return std::vector<WrittenColumn>{{"speed", "m/s"},
+                                              {"course", "rad"}};
+          },
+      .write =
+          [](const MeasurementModel& z, const Sensor&) {
+            const auto& measured = std::get<SpeedCourse>(z);
+            return std::vector<double>{measured.speed, measured.course};
+          },
+      .perfect = PerfectSpeedCourse,
+      .disturb = DisturbSpeedCourses,
+  };
+  return kKind;
 }
 
 }  // namespace hindsight

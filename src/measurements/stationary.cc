@@ -3,6 +3,8 @@
 #include "geometry/so3.h"
 #include "imu/imu_link.h"
 #include "measurements/point_motion.h"
+#include "measurements/sensor_kind.h"
+#include "measurements/standing_flags.h"
 
 namespace hindsight {
 
@@ -37,6 +39,70 @@ void ZeroAngularRate::Evaluate(const ModelContext& context,
   layout.AddColumns(BlockKind::kGyroScale, BlockKey::kNoSensor,
                     Eigen::Matrix3d(earth_b.asDiagonal()), &out->H);
   out->R.diagonal().setConstant(sigma * sigma);
+}
+
+const SensorKind& ZeroVelocityKind() {
+  static const SensorKind kKind = {
+      .name = "zero_velocity",
+      .help = "times at which the IMU stands",
+      .residual_unit = "m/s",
+      .standing = true,
+      .has_clock = false,
+      .columns = {{"zero_velocity", Quantity::kRatio},
+                  {"quality", Quantity::kRatio}},
+      .measured =
+          [](const SensorSettings&) {
+            return MeasuredColumns{0, 1, 0};
+          },
+      .keys = {NeededSigmaKey(
+          Quantity::kSpeed,
+          "of each axis: how fast it may still move in a stance")},
+      .prepare = [](SensorSettings* s) { s->pattern = ZeroVelocity(); },
+      .complete = [](SensorSettings* s) -> std::optional<KeyObjection> {
+        PatternOf<ZeroVelocity>(*s).sigma = s->sigma->x();
+        return std::nullopt;
+      },
+      .uncomplete =
+          [](SensorSettings* s) {
+            s->sigma.emplace().setConstant(PatternOf<ZeroVelocity>(*s).sigma);
+          },
+      .read = [](const MeasuredRow& row, const SensorSettings& settings)
+          -> std::optional<MeasurementModel> {
+        if (!row.Flag(0)) return std::nullopt;
+        return settings.pattern;
+      },
+      .unread = "row without the flag",
+      .join = [](const SensorSettings&,
+                 MeasurementSeries* all) { ShareErrorsOfStances(all); },
+      .written =
+          [](const MeasurementModel&, const Sensor&) {
+            return std::vector<WrittenColumn>{{"zero_velocity", "1", 1.0, -1}};
+          },
+      .write = [](const MeasurementModel&,
+                  const Sensor&) { return std::vector<double>{1.0}; },
+      .perfect = [](const SensorSettings& settings,
+                    const Motion& motion) -> std::optional<MeasurementModel> {
+        constexpr double kStands = 1e-6;
+        if (motion.v_e.norm() > kStands) return std::nullopt;
+        return settings.pattern;
+      },
+      .disturb = [](const SensorSettings&, Random*,
+                    std::vector<Measurement>*) {},
+  };
+  return kKind;
+}
+
+const SensorKind& ZeroAngularRateKind() {
+  static const SensorKind kKind = {
+      .name = "zero_angular_rate",
+      .help = "times at which the IMU does not turn",
+      .configured = false,
+      .residual_unit = "rad/s",
+      .standing = true,
+      .has_clock = false,
+      .prepare = [](SensorSettings* s) { s->pattern = ZeroAngularRate(); },
+  };
+  return kKind;
 }
 
 }  // namespace hindsight

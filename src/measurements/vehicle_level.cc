@@ -1,6 +1,7 @@
 #include "measurements/vehicle_level.h"
 
 #include "geometry/so3.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 
@@ -23,6 +24,18 @@ void VehicleLevel::Evaluate(const ModelContext& context,
   layout.AddColumns(BlockKind::kMounting, vehicle,
                     -Skew(down_o).row(1) * LeftJacobian(m), &out->H);
   out->R(0, 0) = sigma * sigma;
+}
+
+const SensorKind& VehicleLevelKind() {
+  static const SensorKind kKind = {
+      .name = "vehicle_level",
+      .help = "a vehicle that is level on average",
+      .configured = false,
+      .is_prior = true,
+      .has_clock = false,
+      .prepare = [](SensorSettings* s) { s->pattern = VehicleLevel(); },
+  };
+  return kKind;
 }
 
 }  // namespace hindsight

@@ -1,8 +1,9 @@
 #include "simulation/scenario.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -27,10 +28,9 @@ void RequirePositive(const Scenario& scenario, double value,
 void RequireModest(const Scenario& scenario, double span, double rate_hz,
                    double most, const char* rows) {
   if (span * rate_hz <= most) return;
-  char text[120];
-  std::snprintf(text, sizeof(text), "': makes %.3g %s; expected at most %.0f",
-                span * rate_hz, rows, most);
-  throw InputError("scenario '" + scenario.name + text);
+  throw InputError("scenario '" + scenario.name +
+                   fmt::format("': makes {:.3g} {}; expected at most {:.0f}",
+                               span * rate_hz, rows, most));
 }
 
 /// Checks that the scenario is not too long.
@@ -40,10 +40,9 @@ double EndOf(const Scenario& scenario, const Trajectory& trajectory) {
   const double span =
       std::min(trajectory.t_end() - trajectory.t_begin(), scenario.duration);
   if (span > kLongestScenario) {
-    char text[120];
-    std::snprintf(text, sizeof(text), "': lasts %.6g s; expected at most %.0f",
-                  span, kLongestScenario);
-    throw InputError("scenario '" + scenario.name + text);
+    throw InputError("scenario '" + scenario.name +
+                     fmt::format("': lasts {:.6g} s; expected at most {:.0f}",
+                                 span, kLongestScenario));
   }
   RequireModest(scenario, span, scenario.imu_rate_hz, kMostSamples,
                 "IMU samples");
@@ -145,9 +144,11 @@ Dataset MakeDataset(const Scenario& scenario,
   return dataset;
 }
 
-/// What the data set says of the IMU's scale factors, and what they are.
-void AddImuScales(const ImuErrorModel& model, const ImuErrors& errors,
-                  Dataset* dataset) {
+/// What follows from the truth: what the data set says of the IMU's scale
+/// factors and what they are, and the start.
+void AddFromTruth(const Scenario& scenario, const ImuErrors& errors,
+                  std::uint64_t seed, Dataset* dataset) {
+  const ImuErrorModel& model = scenario.imu;
   const auto add = [&](const char* name, const Eigen::Vector3d& sigma,
                        const Eigen::Vector3d& truth,
                        std::optional<Eigen::Vector3d>* prior) {
@@ -162,6 +163,9 @@ void AddImuScales(const ImuErrorModel& model, const ImuErrors& errors,
       &dataset->gyro_scale_sigma);
   add("accel_scale", model.accel_scale_sigma, errors.accel_scale(),
       &dataset->accel_scale_sigma);
+  if (scenario.start_errors && scenario.start_errors->bad_attitude) {
+    GiveBadStart(*scenario.start_errors->bad_attitude, seed, dataset);
+  }
 }
 
 std::vector<std::vector<Measurement>> AllPerfectMeasurements(
@@ -187,6 +191,11 @@ std::unique_ptr<Trajectory> MakeTrajectory(const Scenario& scenario) {
   RequirePositive(scenario, scenario.truth_rate_hz, "rate of the truth");
   if (!scenario.profile.empty()) {
     return std::make_unique<SampledTrajectory>(scenario.profile);
+  }
+  if (!scenario.way_points.points.empty()) {
+    constexpr double kStep = 0.5;  // [s]
+    return std::make_unique<SampledTrajectory>(
+        WayPointPath(scenario.way_points).Profile(scenario.start, kStep));
   }
   return std::make_unique<SegmentTrajectory>(
       scenario.start,
@@ -218,7 +227,7 @@ Dataset Simulation::Finish() {
       scenario_, AllPerfectMeasurements(scenario_, trajectory_.get(), t_end_),
       trajectory_->At(trajectory_->t_begin()), seed_);
   dataset.truth = std::move(truth_);
-  AddImuScales(scenario_.imu, errors_, &dataset);
+  AddFromTruth(scenario_, errors_, seed_, &dataset);
   return dataset;
 }
 
@@ -249,7 +258,6 @@ Dataset PerfectRecording::Realize(std::uint64_t seed) const {
   Dataset dataset = MakeDataset(scenario_, aiding_, truth_.front(), seed);
   ImuErrors errors(scenario_.imu, scenario_.imu_kind, scenario_.imu_rate_hz,
                    seed);
-  AddImuScales(scenario_.imu, errors, &dataset);
   dataset.imu.samples = samples_;
   for (std::size_t k = 0; k < samples_.size(); ++k) {
     errors.Apply(&dataset.imu.samples[k]);
@@ -257,6 +265,7 @@ Dataset PerfectRecording::Realize(std::uint64_t seed) const {
       dataset.truth.push_back(TruthAt(truth_[k / truth_every_], errors));
     }
   }
+  AddFromTruth(scenario_, errors, seed, &dataset);
   return dataset;
 }
 

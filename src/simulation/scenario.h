@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "dataset/dataset.h"
+#include "simulation/bad_start.h"
 #include "simulation/imu_simulator.h"
 #include "simulation/sampled_trajectory.h"
 #include "simulation/sensor_errors.h"
+#include "simulation/way_points.h"
 
 namespace hindsight {
 
@@ -22,6 +24,7 @@ struct StartErrors {
   Eigen::Vector3d attitude = Eigen::Vector3d::Ones();  ///< roll, pitch, heading
   /// Gives the initial position alone: velocity and attitude are for alignment.
   bool position_alone = false;
+  std::optional<BadStart> bad_attitude;  ///< given in place of the drawn one
 };
 
 /// A simulation lasts at most 31 days [s].
@@ -36,7 +39,9 @@ struct Scenario {
   double start_speed = 0.0;    ///< [m/s]
   double start_heading = 0.0;  ///< [rad]
   std::vector<Segment> segments;
-  /// If not empty, the motion instead of start and segments.
+  /// If there are any, the motion instead of segments.
+  WayPoints way_points;
+  /// If not empty, the motion instead of all these.
   std::vector<ProfilePoint> profile;
   /// Longest duration [s]; the motion may end before.
   double duration = std::numeric_limits<double>::infinity();

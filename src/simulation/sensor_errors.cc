@@ -97,16 +97,10 @@ void ImuErrors::Apply(ImuSample* sample) {
 
 namespace {
 
-/// Velocity of the sensor's point in the sensor's axes.
-Eigen::Vector3d SensorVelocity(const Sensor& sensor, const Motion& motion) {
-  return sensor.q_sb * (motion.q_eb.conjugate() * motion.v_e +
-                        motion.w_eb_b.cross(sensor.lever_arm_b));
-}
-
-/// Forward distance over [from, to], by Gauss's rule of three points in steps
-/// of at most 20 ms.
-double DistanceTravelled(const Sensor& sensor, double from, double to,
-                         Trajectory* trajectory) {
+/// Integral of the rate of a count over [from, to], by Gauss's rule of three
+/// points in steps of at most 20 ms.
+double Count(const SensorSettings& settings, double from, double to,
+             Trajectory* trajectory) {
   constexpr double kStep = 0.02;
   const double root = std::sqrt(0.6);
   const int steps =
@@ -115,85 +109,68 @@ double DistanceTravelled(const Sensor& sensor, double from, double to,
   double sum = 0.0;
   for (int i = 0; i < steps; ++i) {
     const double middle = from + (2 * i + 1) * half;
-    const auto speed = [&](double t) {
-      return SensorVelocity(sensor, trajectory->At(t)).x();
+    const auto rate = [&](double t) {
+      return settings.sensor.kind->count_rate(settings, trajectory->At(t));
     };
     sum += half / 9.0 *
-           (5.0 * speed(middle - root * half) + 8.0 * speed(middle) +
-            5.0 * speed(middle + root * half));
+           (5.0 * rate(middle - root * half) + 8.0 * rate(middle) +
+            5.0 * rate(middle + root * half));
   }
   return sum;
 }
 
-Dvl PerfectDvl(const AidingModel& model, const Motion& motion) {
-  Dvl dvl = model.dvl;
-  Eigen::Vector3d v_e = motion.v_e;
-  if (dvl.water) v_e -= NedAxes(motion.p_e) * model.current_n;
-  Motion through = motion;
-  through.v_e = v_e;
-  const Eigen::Vector3d v_d = SensorVelocity(model.sensor, through);
-  for (int i = 0; i < dvl.components(); ++i) {
-    dvl.speed(i) = dvl.Direction(i).dot(v_d);
+/// With what follows from the settings.
+SensorSettings Completed(const AidingModel& model) {
+  SensorSettings settings = model;
+  if (model.sensor.kind->perfect == nullptr) {
+    throw std::logic_error("sensor '" + model.sensor.name +
+                           "' is of a kind that is not simulated");
   }
-  return dvl;
-}
-
-AcousticFix PerfectAcoustic(const AidingModel& model, const Motion& motion) {
-  AcousticFix fix = model.acoustic;
-  const Eigen::Vector3d d_b =
-      motion.q_eb.conjugate() * (fix.p_t_e - motion.p_e) -
-      model.sensor.lever_arm_b;
-  const Eigen::Vector3d d_s = model.sensor.q_sb * d_b;
-  fix.range = d_s.norm();
-  fix.azimuth = std::atan2(d_s.y(), d_s.x());
-  fix.depression = std::atan2(d_s.z(), d_s.head<2>().norm());
-  return fix;
-}
-
-MeasurementModel PerfectMeasurement(const AidingModel& model,
-                                    const Motion& motion) {
-  const Eigen::Vector3d& l = model.sensor.lever_arm_b;
-  const Eigen::Vector3d p_e = motion.p_e + motion.q_eb * l;
-  const Eigen::Matrix3d R_n = model.sigma.cwiseAbs2().asDiagonal();
-  switch (model.sensor.type) {
-    case SensorType::kPosition:
-      return PositionFix{p_e, R_n};
-    case SensorType::kVelocity: {
-      const Eigen::Vector3d v_e =
-          motion.v_e + motion.q_eb * motion.w_eb_b.cross(l);
-      return VelocityFix{NedAxes(motion.p_e).transpose() * v_e, R_n};
-    }
-    case SensorType::kHeight:
-      return HeightFix{GeodeticFromEcef(p_e).height, model.sigma.z()};
-    case SensorType::kOdometer: {
-      Odometer odometer;
-      odometer.form = model.odometer_form;
-      odometer.sigma = model.sigma;
-      odometer.speed = SensorVelocity(model.sensor, motion).x();
-      return odometer;
-    }
-    case SensorType::kMagnetometer: {
-      const MagneticSurroundings& magnetic = model.sensor.magnetic;
-      const Eigen::Vector3d m_e =
-          NedAxes(motion.p_e) *
-          UndisturbedField(magnetic, magnetic.declination);
-      return MagneticField{motion.q_eb.conjugate() * m_e + magnetic.hard_iron_b,
-                           model.sigma.x(), model.magnetic_form};
-    }
-    case SensorType::kDvl:
-      return PerfectDvl(model, motion);
-    case SensorType::kAcousticFix:
-      return PerfectAcoustic(model, motion);
-    default:
-      throw std::logic_error("sensor '" + model.sensor.name +
-                             "' is of a type that is not simulated");
+  if (model.sensor.kind->complete != nullptr) {
+    model.sensor.kind->complete(&settings);
   }
+  return settings;
 }
 
-/// Stamps that the model asks for, whatever the span of the motion.
-std::vector<double> Stamps(const AidingModel& model, double first,
-                           double last) {
-  if (!model.times.empty()) return model.times;
+/// Times at which one spacing more of the path is behind; the end counts if it
+/// is short of the last by a micrometre or less.
+std::vector<double> StampsAlong(double spacing, double t_end,
+                                Trajectory* trajectory) {
+  constexpr double kStep = 0.01;  // [s]
+  constexpr double kShort = 1e-6;
+  const auto speed = [&](double t) { return trajectory->At(t).v_e.norm(); };
+  std::vector<double> stamps;
+  double behind = 0.0;
+  double from = trajectory->t_begin();
+  double v_from = speed(from);
+  for (long k = 1; from < t_end; ++k) {
+    const double to =
+        std::min(trajectory->t_begin() + static_cast<double>(k) * kStep, t_end);
+    const double v_to = speed(to);
+    const double length = 0.5 * (v_from + v_to) * (to - from);
+    for (double next = spacing * static_cast<double>(stamps.size() + 1);
+         next <= behind + length + (to < t_end ? 0.0 : kShort);
+         next += spacing) {
+      const double t = from + (to - from) * (next - behind) / length;
+      stamps.push_back(std::min(std::round(t * 1e6) / 1e6, t_end));
+    }
+    behind += length;
+    from = to;
+    v_from = v_to;
+  }
+  return stamps;
+}
+
+/// Stamps that the model asks for within a span.
+std::vector<double> Stamps(const AidingModel& model, double first, double last,
+                           Trajectory* trajectory) {
+  if (model.spacing) {
+    const double offset = model.sensor.time_offset;
+    std::vector<double> stamps =
+        StampsAlong(*model.spacing, last + offset, trajectory);
+    for (double& t : stamps) t -= offset;
+    return stamps;
+  }
   constexpr double kStampTolerance = 1e-6;
   std::vector<double> stamps;
   for (auto k = static_cast<long>(
@@ -204,15 +181,16 @@ std::vector<double> Stamps(const AidingModel& model, double first,
   return stamps;
 }
 
-/// Increments between neighbours; the first count begins the first of them.
-void CountDistance(const Sensor& sensor, Trajectory* trajectory,
-                   std::vector<Measurement>* measurements) {
+/// What has come between neighbours; the first count begins the first of them.
+void TakeCounts(const SensorSettings& settings, Trajectory* trajectory,
+                std::vector<Measurement>* measurements) {
+  const double offset = settings.sensor.time_offset;
   for (std::size_t i = 1; i < measurements->size(); ++i) {
-    auto& odometer = std::get<Odometer>((*measurements)[i].model);
-    odometer.t_from = (*measurements)[i - 1].t;
-    odometer.distance = DistanceTravelled(
-        sensor, odometer.t_from + sensor.time_offset,
-        (*measurements)[i].t + sensor.time_offset, trajectory);
+    const double t_from = (*measurements)[i - 1].t;
+    Measurement& z = (*measurements)[i];
+    settings.sensor.kind->set_count(
+        t_from, Count(settings, t_from + offset, z.t + offset, trajectory),
+        &z.model);
   }
   if (!measurements->empty()) measurements->erase(measurements->begin());
 }
@@ -223,10 +201,12 @@ std::vector<Measurement> PerfectMeasurements(const AidingModel& model,
                                              int sensor, Trajectory* trajectory,
                                              double t_end) {
   std::vector<Measurement> measurements;
+  const SensorSettings settings = Completed(model);
+  const SensorKind& kind = *model.sensor.kind;
   const double offset = model.sensor.time_offset;
   const double first = std::max(trajectory->t_begin() - offset, model.from);
   const double last = std::min(t_end - offset, model.to);
-  for (const double t : Stamps(model, first, last)) {
+  for (const double t : Stamps(model, first, last, trajectory)) {
     const bool missing = std::any_of(
         model.outages.begin(), model.outages.end(),
         [&](const TimeSpan& o) { return t >= o.begin && t < o.end; });
@@ -235,15 +215,11 @@ std::vector<Measurement> PerfectMeasurements(const AidingModel& model,
         t_true < trajectory->t_begin()) {
       continue;
     }
-    Measurement z;
-    z.t = t;
-    z.sensor = sensor;
-    z.model = PerfectMeasurement(model, trajectory->At(t_true));
-    measurements.push_back(z);
+    const auto perfect = kind.perfect(settings, trajectory->At(t_true));
+    if (perfect) measurements.push_back({t, sensor, false, *perfect});
   }
-  if (model.sensor.type == SensorType::kOdometer &&
-      model.odometer_form == Odometer::Form::kIncrements) {
-    CountDistance(model.sensor, trajectory, &measurements);
+  if (kind.counts != nullptr && kind.counts(settings)) {
+    TakeCounts(settings, trajectory, &measurements);
   }
   return measurements;
 }
@@ -264,16 +240,16 @@ DrawnSensor DrawSensor(const AidingModel& model, std::uint64_t seed) {
   DrawnSensor drawn{model.sensor, {}};
   Sensor& sensor = drawn.sensor;
   auto& truth = drawn.true_constants;
-  if (sensor.type == SensorType::kOdometer || sensor.scale_sigma) {
+  if (sensor.scale != 0.0 || sensor.scale_sigma) {
     truth[sensor.name + "_scale"] = DrawScale(model, seed);
   }
   if (sensor.offset_sigma) {
     truth[sensor.name + "_offset"] = DrawOffset(model, seed);
   }
   if (sensor.current_sigma) {
-    truth[sensor.name + "_current[north]"] = model.current_n.x();
-    truth[sensor.name + "_current[east]"] = model.current_n.y();
-    truth[sensor.name + "_current[down]"] = model.current_n.z();
+    truth[sensor.name + "_current[north]"] = model.truth.current_n.x();
+    truth[sensor.name + "_current[east]"] = model.truth.current_n.y();
+    truth[sensor.name + "_current[down]"] = model.truth.current_n.z();
   }
   if (!model.draw_calibration) return drawn;
   Random random(seed, StreamOf(sensor.name + "_calibration"));
@@ -301,69 +277,13 @@ DrawnSensor DrawSensor(const AidingModel& model, std::uint64_t seed) {
   return drawn;
 }
 
-namespace {
-
-void AddDvlErrors(const AidingModel& model, double scale, Random* random,
-                  Dvl* dvl) {
-  for (int i = 0; i < dvl->components(); ++i) {
-    dvl->speed(i) =
-        (1.0 + scale) * dvl->speed(i) + dvl->sigma(i) * random->Normal();
-    if (model.beam_dropout > 0.0) {
-      dvl->valid[static_cast<std::size_t>(i)] =
-          random->Uniform() >= model.beam_dropout;
-    }
-  }
-}
-
-void AddAcousticErrors(double scale, Random* random, AcousticFix* fix) {
-  fix->range = (1.0 + scale) * fix->range + fix->sigma_range * random->Normal();
-  // Across the line of sight, so that azimuths scatter more near the vertical.
-  fix->azimuth +=
-      fix->sigma_bearing * random->Normal() / std::cos(fix->depression);
-  fix->depression += fix->sigma_bearing * random->Normal();
-}
-
-}  // namespace
-
 void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
                           std::vector<Measurement>* measurements) {
   Random random(seed, StreamOf(model.sensor.name));
-  const double scale = DrawScale(model, seed);
-  double count_error = model.sensor.count_sigma > 0.0
-                           ? model.sensor.count_sigma * random.Normal()
-                           : 0.0;
-  const double offset = DrawOffset(model, seed);
-  for (Measurement& z : *measurements) {
-    if (auto* position = std::get_if<PositionFix>(&z.model)) {
-      const Eigen::Vector3d error_n =
-          model.sigma.cwiseProduct(random.NormalVector3());
-      position->p_e += NedAxes(position->p_e) * error_n;
-    } else if (auto* velocity = std::get_if<VelocityFix>(&z.model)) {
-      velocity->v_n += model.sigma.cwiseProduct(random.NormalVector3());
-    } else if (auto* height = std::get_if<HeightFix>(&z.model)) {
-      height->height += offset + model.sigma.z() * random.Normal();
-    } else if (auto* magnetic = std::get_if<MagneticField>(&z.model)) {
-      magnetic->field_b += model.sigma.x() * random.NormalVector3();
-    } else if (auto* odometer = std::get_if<Odometer>(&z.model)) {
-      const Eigen::Vector3d error =
-          model.sigma.cwiseProduct(random.NormalVector3());
-      if (odometer->form == Odometer::Form::kIncrements) {
-        odometer->distance =
-            (1.0 + scale) * odometer->distance + error.x() - count_error;
-        if (model.sensor.count_sigma > 0.0) {
-          count_error = model.sensor.count_sigma * random.Normal();
-          odometer->distance += count_error;
-        }
-        continue;
-      }
-      odometer->speed = (1.0 + scale) * odometer->speed + error.x();
-      odometer->side_down += error.tail<2>();
-    } else if (auto* dvl = std::get_if<Dvl>(&z.model)) {
-      AddDvlErrors(model, scale, &random, dvl);
-    } else if (auto* fix = std::get_if<AcousticFix>(&z.model)) {
-      AddAcousticErrors(scale, &random, fix);
-    }
-  }
+  SensorSettings settings = Completed(model);
+  settings.truth.scale = DrawScale(model, seed);
+  settings.truth.offset = DrawOffset(model, seed);
+  model.sensor.kind->disturb(settings, &random, measurements);
   std::erase_if(*measurements,
                 [](const Measurement& z) { return Rows(z) == 0; });
 }

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/random.h"
 #include "dataset/dataset.h"
+#include "measurements/sensor_kind.h"
 #include "simulation/trajectory.h"
 
 namespace hindsight {
@@ -75,36 +77,30 @@ struct TimeSpan {
   double end = 0.0;
 };
 
-/// An aiding sensor to simulate: position, velocity, height, odometer, DVL or
-/// acoustic fix. A priori sigmas of its scale and offset in `sensor` are also
-/// those from which the true ones are drawn.
-struct AidingModel {
-  /// Type, lever arm, time offset, gate: the truth and what the data set says.
-  Sensor sensor;
-  double rate_hz = 1.0;
-  /// Stamps [s], ascending, in place of those of the rate if not empty.
-  std::vector<double> times;
-  /// NED standard deviation [m] or [m/s]; height uses the third; odometer:
-  /// forward, side, down, all of which get noise, or that of an increment [m]
-  /// in the first, with Sensor::count_sigma beside it.
-  Eigen::Vector3d sigma = Eigen::Vector3d::Ones();
+/// An aiding sensor to simulate. `sensor` is what is true of it and what the
+/// data set says, `truth` what only the simulation knows; a priori sigmas of
+/// its scale and offset are also those from which the true ones are drawn.
+/// `sigma` is that of the noise, as SensorKind::complete takes it.
+struct AidingModel : SensorSettings {
+  explicit AidingModel(const SensorKind& kind = PositionKind())
+      : SensorSettings(SettingsOf(kind)) {
+    sigma = Eigen::Vector3d::Ones();
+  }
+
+  /// Measures each time that so much of the path is behind [m], in place of a
+  /// rate; the stamps are rounded to microseconds.
+  std::optional<double> spacing;
   double from = -std::numeric_limits<double>::infinity();  ///< first stamp [s]
   double to = std::numeric_limits<double>::infinity();     ///< last stamp [s]
   std::vector<TimeSpan> outages;  ///< stamps in them are missing
-  Odometer::Form odometer_form = Odometer::Form::kThreeAxis;
-  MagneticField::Form magnetic_form = MagneticField::Form::kHeading;
   /// The data set's lever arm, mounting and time offset are not the true ones:
   /// the true ones are off by normal deviates of their a priori sigmas.
   bool draw_calibration = false;
-  Dvl dvl;                    ///< all but the speeds; its sigma is used
-  double beam_dropout = 0.0;  ///< probability that a ping loses a beam
-  Eigen::Vector3d current_n = Eigen::Vector3d::Zero();  ///< true, NED [m/s]
-  AcousticFix acoustic;  ///< all but range and angles; its sigmas are used
 };
 
 /// Perfect measurements of `model` with their covariances: what the sensor's
-/// point (lever arm) does at stamp + time_offset, for stamps k/rate that lie in
-/// the span of the motion.
+/// point (lever arm) does at stamp + time_offset, for stamps k/rate, or at
+/// whole multiples of the spacing, that lie in the span of the motion.
 std::vector<Measurement> PerfectMeasurements(const AidingModel& model,
                                              int sensor, Trajectory* trajectory,
                                              double t_end);
@@ -122,7 +118,7 @@ struct DrawnSensor {
 };
 DrawnSensor DrawSensor(const AidingModel& model, std::uint64_t seed);
 
-/// Adds normal errors of the model's sigma, and the odometer its DrawScale. The
+/// Adds normal errors of the model's sigma, DrawScale and DrawOffset. The
 /// deviates come from a stream of the seed that belongs to the sensor's name,
 /// so that adding a sensor changes no other one's errors.
 void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,

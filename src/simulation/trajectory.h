@@ -9,19 +9,9 @@
 #include "earth/wgs84.h"
 #include "imu/kinematics.h"
 #include "simulation/motion_profile.h"
+#include "state/motion.h"
 
 namespace hindsight {
-
-/// True motion of the IMU at one instant. v_e is the derivative of p_e, a_e of
-/// v_e, and C_eb' = C_eb [w_eb_b x].
-struct Motion {
-  double t = 0.0;                                    ///< [s]
-  Eigen::Vector3d p_e = Eigen::Vector3d::Zero();     ///< [m]
-  Eigen::Vector3d v_e = Eigen::Vector3d::Zero();     ///< [m/s]
-  Eigen::Vector3d a_e = Eigen::Vector3d::Zero();     ///< [m/s^2]
-  Eigen::Vector3d w_eb_b = Eigen::Vector3d::Zero();  ///< [rad/s]
-  Eigen::Quaterniond q_eb = Eigen::Quaterniond::Identity();
-};
 
 /// What a perfect IMU reads at that instant:
 ///   w_ib_b = w_eb_b + C_be w_ie,   f_b = C_be (a_e + 2 w_ie x v_e - g(p_e)).

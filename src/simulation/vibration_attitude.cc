@@ -4,20 +4,27 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/units.h"
 #include "geometry/so3.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
 
 constexpr std::uint64_t kStream = 0x76696272;  // of random numbers
+constexpr double kDuration = 60.0;             // [s]
+constexpr double kStepTime = 0.1;              // [s]
+constexpr double kGyroSigma = 0.1 * kDegree;   // of a sample [rad/s]
+constexpr double kGyroBiasSigma = 10.0 * kDegree / kHour;  // [rad/s]
+constexpr double kAccelSigma = 0.03 * 9.80665;             // of a sample
+constexpr double kMagneticSigma = 0.3;                     // of a sample [uT]
+constexpr double kAttitudeSigma = 2.0 * kDegree;           // an axis [rad]
 
 /// Euler's equations of a free body and the attitude, by midpoint steps of
 /// 1 ms.
 class FreeBody {
  public:
-  FreeBody(const VibrationAttitudeOptions& options,
-           const Eigen::Quaterniond& q_nb)
-      : inertia_(options.inertia), w_(options.initial_rate), q_nb_(q_nb) {}
+  explicit FreeBody(const Eigen::Quaterniond& q_nb) : q_nb_(q_nb) {}
 
   void Advance(double dt) {
     const int steps = static_cast<int>(std::lround(dt / kStep));
@@ -35,8 +42,8 @@ class FreeBody {
   Eigen::Vector3d Derivative(const Eigen::Vector3d& w) const {
     return inertia_.cwiseProduct(w).cross(w).cwiseQuotient(inertia_);
   }
-  Eigen::Vector3d inertia_;
-  Eigen::Vector3d w_;
+  Eigen::Vector3d inertia_{1.0, 1.3, 1.6};  // principal moments, any unit
+  Eigen::Vector3d w_ = Eigen::Vector3d(20.0, 30.0, 40.0) * kDegree;
   Eigen::Quaterniond q_nb_;
 };
 
@@ -63,7 +70,7 @@ Eigen::Vector3d Disturbance(const VibrationAttitudeOptions& options, double t,
 AidingStream Magnetometer() {
   AidingStream stream;
   stream.sensor.name = "magnetometer";
-  stream.sensor.type = SensorType::kMagnetometer;
+  stream.sensor.kind = &MagnetometerKind();
   stream.sensor.magnetic.horizontal = 30.0;
   stream.sensor.magnetic.down = 40.0;
   return stream;
@@ -80,39 +87,37 @@ const std::vector<std::string>& VibrationAxes() {
 Dataset SimulateVibrationAttitude(const VibrationAttitudeOptions& options,
                                   std::uint64_t seed) {
   Random random(seed, kStream);
-  const double dt = 1.0 / options.rate;
+  constexpr double dt = kStepTime;
   const Eigen::Vector3d g_n(0.0, 0.0, kStandardGravity);
-  const Eigen::Vector3d b_g = options.gyro_bias_sigma * random.NormalVector3();
-  FreeBody body(options, QuaternionFromEuler(0.1, -0.2, 0.5));
+  const Eigen::Vector3d b_g = kGyroBiasSigma * random.NormalVector3();
+  FreeBody body(QuaternionFromEuler(0.1, -0.2, 0.5));
   Dataset dataset;
   dataset.name = kVibrationAttitudeName;
   AidingStream magnetometer = Magnetometer();
   const Eigen::Vector3d m_n(magnetometer.sensor.magnetic.horizontal, 0.0,
                             magnetometer.sensor.magnetic.down);
   dataset.initial.euler = EulerFromQuaternion(
-      Exp(options.attitude_sigma * random.NormalVector3()) * body.q_nb());
-  dataset.initial.attitude_sigma =
-      Eigen::Vector3d::Constant(options.attitude_sigma);
-  dataset.initial.gyro_bias_sigma =
-      Eigen::Vector3d::Constant(options.gyro_bias_sigma);
-  const int count = static_cast<int>(std::lround(options.duration / dt));
+      Exp(kAttitudeSigma * random.NormalVector3()) * body.q_nb());
+  dataset.initial.attitude_sigma = Eigen::Vector3d::Constant(kAttitudeSigma);
+  dataset.initial.gyro_bias_sigma = Eigen::Vector3d::Constant(kGyroBiasSigma);
+  const int count = static_cast<int>(std::lround(kDuration / dt));
   for (int k = 0; k <= count; ++k) {
     if (k > 0) body.Advance(dt);
     const double t = k * dt;
     const Eigen::Quaterniond q_bn = body.q_nb().conjugate();
     ImuSample sample;
     sample.t = t;
-    sample.gyro =
-        body.w_b() + b_g + options.gyro_sigma * random.NormalVector3();
-    sample.accel = Disturbance(options, t, body.q_nb(), &random) - q_bn * g_n +
-                   options.accel_sigma * random.NormalVector3();
+    sample.gyro = body.w_b() + b_g + kGyroSigma * random.NormalVector3();
+    // One draw a statement: compilers differ in the order within one.
+    const Eigen::Vector3d noise = kAccelSigma * random.NormalVector3();
+    sample.accel =
+        Disturbance(options, t, body.q_nb(), &random) - q_bn * g_n + noise;
     dataset.imu.samples.push_back(sample);
     const Eigen::Vector3d field_b =
-        q_bn * m_n + options.magnetic_sigma * random.NormalVector3();
+        q_bn * m_n + kMagneticSigma * random.NormalVector3();
     magnetometer.measurements.push_back(
         {t, 0, false,
-         MagneticField{field_b, options.magnetic_sigma,
-                       MagneticField::Form::kVector}});
+         MagneticField{field_b, kMagneticSigma, MagneticField::Form::kVector}});
     TruthPoint truth;
     truth.t = t;
     truth.q_nb = body.q_nb();
@@ -120,11 +125,12 @@ Dataset SimulateVibrationAttitude(const VibrationAttitudeOptions& options,
     dataset.truth.push_back(truth);
   }
   // White samples that the trapezoidal rule integrates: sigma^2 dt^2 a step.
-  dataset.imu.noise.gyro_noise_density = options.gyro_sigma * std::sqrt(dt);
-  dataset.imu.noise.accel_noise_density = options.accel_sigma * std::sqrt(dt);
+  dataset.imu.noise.gyro_noise_density = kGyroSigma * std::sqrt(dt);
+  dataset.imu.noise.accel_noise_density = kAccelSigma * std::sqrt(dt);
   dataset.imu.nominal_dt = dt;
+  dataset.gyro_scale_sigma = Eigen::Vector3d::Zero();
   dataset.streams.push_back(std::move(magnetometer));
-  dataset.ahrs.accel_sigma = options.accel_sigma;
+  dataset.ahrs.accel_sigma = kAccelSigma;
   dataset.ahrs.low_pass = 0.0;
   dataset.ahrs.correlation_time = 0.0;
   dataset.ahrs.rest_sigma = 0.0;

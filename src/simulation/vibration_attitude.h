@@ -1,13 +1,10 @@
 #ifndef HINDSIGHT_SIMULATION_VIBRATION_ATTITUDE_H_
 #define HINDSIGHT_SIMULATION_VIBRATION_ATTITUDE_H_
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "base/units.h"
 #include "dataset/dataset.h"
 
 namespace hindsight {
@@ -16,28 +13,20 @@ namespace hindsight {
 inline constexpr char kVibrationAttitudeName[] = "vibration_attitude";
 
 /// The scenario of Kim and Leeghim (2016), tables 2 and 3: a body that turns
-/// gently, accelerates from 5 s to 10 s and vibrates from 40 s to 45 s. What
-/// the paper leaves open is chosen here: a free body (Euler's equations, about
-/// 50 deg/s throughout), a vibration of all three axes, field of 30 uT
-/// horizontal and 40 uT down, attitude error at the start of 2 deg an axis.
+/// gently for 60 s at 10 Hz, accelerates from 5 s to 10 s and vibrates from 40 s
+/// to 45 s; samples with white errors of 0.1 deg/s, 0.03 g and 0.3 uT, gyro bias
+/// of 10 deg/h. What the paper leaves open is chosen here: a free body (Euler's
+/// equations, about 50 deg/s throughout), a vibration of all three axes, field
+/// of 30 uT horizontal and 40 uT down, attitude error at the start of 2 deg an
+/// axis.
 struct VibrationAttitudeOptions {
   /// Where the acceleration points: "north", "body_x", "body_xyz" (all three
   /// body axes, each with the full size) or "up".
   std::string axis = "north";
   /// The vibration points there too.
   bool vibration_along_axis = false;
-  Eigen::Vector3d inertia{1.0, 1.3, 1.6};  ///< principal moments, any unit
-  /// Rate at the start, body axes [rad/s].
-  Eigen::Vector3d initial_rate = Eigen::Vector3d(20.0, 30.0, 40.0) * kDegree;
-  double duration = 60.0;                           ///< [s]
-  double rate = 10.0;                               ///< [Hz]
-  double gyro_sigma = 0.1 * kDegree;                ///< of a sample [rad/s]
-  double gyro_bias_sigma = 10.0 * kDegree / kHour;  ///< [rad/s]
-  double accel_sigma = 0.03 * 9.80665;              ///< of a sample [m/s^2]
-  double magnetic_sigma = 0.3;                      ///< of a sample [uT], 3 mG
-  double acceleration = 3.0;                        ///< 5 s to 10 s [m/s^2]
-  double vibration_sigma = 3.0;                     ///< 40 s to 45 s [m/s^2]
-  double attitude_sigma = 2.0 * kDegree;  ///< at the start, an axis [rad]
+  double acceleration = 3.0;     ///< 5 s to 10 s [m/s^2]
+  double vibration_sigma = 3.0;  ///< 40 s to 45 s [m/s^2]
 };
 
 /// "north", "body_x", "body_xyz", "up".

@@ -145,13 +145,15 @@ ErrorLayout NavigationLayout(const NavigationPrior& prior) {
   ErrorLayout layout;
   const auto add = [&layout](BlockKind kind, const char* name, const char* unit,
                              const Evolution& evolution,
-                             const Eigen::Vector3d& sigma0) {
+                             const Eigen::Vector3d& sigma0,
+                             std::string_view advice = {}) {
     Block block;
     block.key.kind = kind;
     block.name = name;
     block.unit = unit;
     block.evolution = evolution;
     block.sigma0 = sigma0;
+    block.advice = advice;
     layout.Add(block);
   };
   add(BlockKind::kPosition, "position", "m", Evolution::Navigation(),
@@ -161,9 +163,11 @@ ErrorLayout NavigationLayout(const NavigationPrior& prior) {
   add(BlockKind::kAttitude, "attitude", "rad", Evolution::Navigation(),
       prior.attitude_sigma);
   add(BlockKind::kGyroBias, "gyro_bias", "rad/s", prior.gyro_bias,
-      prior.gyro_bias_sigma);
+      prior.gyro_bias_sigma,
+      "rest, or position or velocity aiding over a longer time");
   add(BlockKind::kAccelBias, "accel_bias", "m/s^2", prior.accel_bias,
-      prior.accel_bias_sigma);
+      prior.accel_bias_sigma,
+      "rest in several attitudes, or turns and accelerations");
   return layout;
 }
 

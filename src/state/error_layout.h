@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hindsight {
@@ -105,6 +106,8 @@ struct Block {
   std::string unit;  ///< SI unit of a component, "1" for a ratio
   Evolution evolution;
   Eigen::Vector3d sigma0 = Eigen::Vector3d::Zero();  ///< a priori, per axis
+  /// The motion that makes a weak constant visible, for people; may be empty.
+  std::string_view advice = {};
   /// Axes that are estimated; a masked axis has no error component.
   std::array<bool, 3> active = {true, true, true};
   int offset = 0;            ///< first component in the error vector

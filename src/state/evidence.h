@@ -34,8 +34,9 @@ struct Evidence {
   std::vector<std::string> remedies = {};      ///< what to try
   /// Methods that do not suffer from it.
   std::vector<std::string> better_methods = {};
-  /// A fault that the recording shows by itself: what else is odd of a solution
-  /// may well be its consequence.
+  /// What else is odd of a solution may well be its consequence: a fault that
+  /// the recording shows by itself, a given start that is not so, a sensor that
+  /// was shut out.
   bool is_cause = false;
   /// The other method that it says the same of; empty: none.
   std::string against = "";

@@ -8,6 +8,7 @@
 #include "state/covariance_series.h"
 #include "state/error_layout.h"
 #include "state/evidence.h"
+#include "state/method_parts.h"
 #include "state/rival_solution.h"
 #include "state/state.h"
 
@@ -35,6 +36,9 @@ struct ConstantEstimate {
   double value = 0.0;
   double sigma = 0.0;
   double prior_sigma = 0.0;
+  /// The factor in `sigma` by which it is larger than P says, for noise that is
+  /// larger than stated or correlated.
+  double widened = 1.0;
   Verdict verdict = Verdict::kObserved;
   std::string advice;  ///< for a weak one, the motion that would help
 };
@@ -57,18 +61,6 @@ struct BoundedValue {
   double most = 0.0;
 };
 
-/// The Riccati equation of a forward observer and how it fared.
-struct ObserverFigures {
-  double gamma = 0.0;  ///< of H-infinity [sqrt(s)]; 0: of another rule
-  double alpha = 0.0;  ///< [1/s]
-  double delta = 0.0;  ///< [1/s]
-  int steps = 0;
-  int back_offs = 0;  ///< steps without gamma or delta
-  /// Smallest share of the information on L x that the weight of L' L left at
-  /// any step it was in force; 0 is the escape.
-  double least_information = 1.0;
-};
-
 /// What one estimator made of a data set: the trajectory at the nodes with
 /// covariances over `layout` (NED-resolved, metres, m/s, radians).
 struct Solution {
@@ -79,24 +71,15 @@ struct Solution {
   std::vector<ResidualRecord> residuals;
   std::vector<ConstantEstimate> constants;
   std::vector<UnobservedSpan> unobserved;
-  /// Distance between forward and backward positions in sigmas, of two-filter
-  /// smoothers: empty or as long as states, NaN where there is none.
-  std::vector<double> separation;
-  /// Probability of each mode, of multiple-model methods: empty or as long as
-  /// states, with the modes' names.
-  std::vector<Eigen::VectorXd> mode_probabilities;
-  std::vector<std::string> mode_names;
   /// What a self-tuning method made of the sensors' noise, in words.
   std::vector<std::string> notes;
   /// Other explanations of the same data, the likeliest first.
   std::vector<RivalSolution> rivals;
-  /// Of attitude-only estimators: empty or as long as states. R in force of the
-  /// accelerometer as a standard deviation, infinity where it was not used
-  /// [m/s^2]; 1 where the field was used, 0 without a reading, -1 where it was
-  /// taken for disturbed.
-  std::vector<double> accel_sigma;
-  std::vector<signed char> magnetic;
-  std::optional<ObserverFigures> observer;  ///< of forward observers alone
+  // What only methods of one kind have.
+  std::optional<TwoFilterPart> two_filter;
+  std::optional<ModePart> modes;
+  std::optional<AttitudePart> attitude;
+  std::optional<ObserverFigures> observer;
   /// Of a method that at each node knows nothing later: between nodes its state
   /// is what the one before predicts.
   bool forward = false;

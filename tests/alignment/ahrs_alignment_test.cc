@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "alignment/ahrs.h"
-#include "evaluation/chi_square.h"
-#include "filters/attitude_filter.h"
+#include "attitude/attitude_filter.h"
+#include "base/chi_square.h"
 #include "geometry/so3.h"
 #include "simulation/vibration_attitude.h"
 #include "support/seed_count.h"

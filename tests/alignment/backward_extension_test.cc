@@ -7,7 +7,8 @@
 
 #include "alignment/start_layout.h"
 #include "imu/imu_link.h"
-#include "simulation/builtin_scenarios.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 class BackwardExtension : public ::testing::Test {
  protected:
   BackwardExtension() {
-    Scenario scenario = BuiltinScenario("flight");
+    Scenario scenario = FindScenario("flight");
     scenario.duration = 60.0;
     dataset_ = Simulate(scenario, 4);
     NavigationPrior prior;
@@ -171,7 +172,7 @@ TEST_F(ForgettingBlocks, KeepTheirStationaryCovariance) {
 TEST_F(BackwardExtension, ACountBeginsAtItsFirstReading) {
   AidingStream& odometer = dataset_.streams.emplace_back();
   odometer.sensor.name = "wheel";
-  odometer.sensor.type = SensorType::kOdometer;
+  odometer.sensor.kind = &OdometerKind();
   odometer.sensor.count_sigma = 0.01;
   Odometer increment;
   increment.form = Odometer::Form::kIncrements;

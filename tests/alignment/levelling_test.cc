@@ -7,10 +7,10 @@
 #include "alignment/alignment.h"
 #include "alignment/gyrocompass.h"
 #include "alignment/start.h"
+#include "base/chi_square.h"
 #include "base/error.h"
 #include "base/random.h"
-#include "evaluation/chi_square.h"
-#include "simulation/builtin_scenarios.h"
+#include "io/config/scenario_config.h"
 #include "support/seed_count.h"
 
 namespace hindsight {
@@ -18,7 +18,7 @@ namespace {
 
 /// A vehicle that stands for two minutes, with an IMU of the given grade.
 Scenario Standing(double gyro_bias, double accel_bias) {
-  Scenario s = BuiltinScenario("short_drive");
+  Scenario s = FindScenario("short_drive");
   s.start_heading = 200.0 * kDegree;
   s.segments = {Segment::Stop(120.0)};
   s.duration = 120.0;

@@ -6,21 +6,22 @@
 
 #include "alignment/start.h"
 #include "geometry/so3.h"
-#include "simulation/builtin_scenarios.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
 
 /// A vehicle that stands, with a compass beside its IMU.
 Dataset Standing(std::uint64_t seed) {
-  Scenario scenario = BuiltinScenario("short_drive");
+  Scenario scenario = FindScenario("short_drive");
   scenario.start_heading = 290.0 * kDegree;
   scenario.segments = {Segment::Stop(15.0)};
   scenario.duration = 15.0;
   Dataset dataset = Simulate(scenario, seed);
   AidingStream& stream = dataset.streams.emplace_back();
   stream.sensor.name = "compass";
-  stream.sensor.type = SensorType::kMagnetometer;
+  stream.sensor.kind = &MagnetometerKind();
   MagneticSurroundings& magnetic = stream.sensor.magnetic;
   magnetic.horizontal = 21.0;
   magnetic.down = 43.0;

@@ -6,7 +6,8 @@
 #include <limits>
 
 #include "base/error.h"
-#include "simulation/builtin_scenarios.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
 #include "support/turned_imu.h"
 
 namespace hindsight {
@@ -21,7 +22,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 double YawOf(const Eigen::Quaterniond& q) { return Log(q).z(); }
 
 TEST(MountingSearch, FindsAnyAttitudeWithinDegrees) {
-  const Dataset drive = Simulate(BuiltinScenario("short_drive"), 3);
+  const Dataset drive = Simulate(FindScenario("short_drive"), 3);
   for (const Eigen::Quaterniond& q_ob : kMountings) {
     const Dataset dataset = Turned(drive, q_ob);
     const auto found = FindMounting(dataset, -kInfinity, kInfinity);
@@ -34,7 +35,7 @@ TEST(MountingSearch, FindsAnyAttitudeWithinDegrees) {
 }
 
 TEST(MountingSearch, ToleratesAClockThatIsOff) {
-  Dataset dataset = Simulate(BuiltinScenario("short_drive"), 3);
+  Dataset dataset = Simulate(FindScenario("short_drive"), 3);
   for (AidingStream& stream : dataset.streams) {
     for (Measurement& z : stream.measurements.Edited()) z.t -= 0.45;
   }
@@ -46,7 +47,7 @@ TEST(MountingSearch, ToleratesAClockThatIsOff) {
 }
 
 TEST(MountingSearch, FindsNothingInAStraightLine) {
-  Scenario scenario = BuiltinScenario("short_drive");
+  Scenario scenario = FindScenario("short_drive");
   scenario.start_speed = 12.0;
   scenario.segments = {Segment::Straight(60.0)};
   const Dataset dataset = Simulate(scenario, 1);
@@ -54,7 +55,7 @@ TEST(MountingSearch, FindsNothingInAStraightLine) {
 }
 
 TEST(MountingSearch, UnknownWithoutMotionIsSaid) {
-  Scenario scenario = BuiltinScenario("short_drive");
+  Scenario scenario = FindScenario("short_drive");
   scenario.segments = {Segment::Stop(60.0)};
   Dataset dataset = Simulate(scenario, 1);
   dataset.streams.push_back(Constraint(dataset));
@@ -66,14 +67,14 @@ TEST(MountingSearch, UnknownWithoutMotionIsSaid) {
 /// is left alone.
 TEST(MountingSearch, FillsInWhatIsUnknown) {
   Dataset dataset =
-      Turned(Simulate(BuiltinScenario("short_drive"), 3), kMountings[2]);
+      Turned(Simulate(FindScenario("short_drive"), 3), kMountings[2]);
   for (int i = 0; i < 2; ++i) dataset.streams.push_back(Constraint(dataset));
   const std::size_t first = dataset.streams.size() - 2;
   dataset.streams[first].sensor.mounting_unknown = true;
   dataset.streams[first + 1].sensor.mounting_sigma =
       Eigen::Vector3d::Constant(2.0 * kDegree);
   AidingStream level;
-  level.sensor.type = SensorType::kVehicleLevel;
+  level.sensor.kind = &VehicleLevelKind();
   level.sensor.vehicle = static_cast<int>(first);
   dataset.streams.push_back(level);
   ResolveMountings(&dataset);

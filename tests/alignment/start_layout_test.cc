@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -22,8 +23,14 @@ Dataset Receivers(int count) {
 
 TEST(RequireCapacity, AcceptsWhatTheLayoutHolds) {
   Dataset dataset = Receivers(4);
-  dataset.streams.back().sensor.scale_sigma = 0.1;
-  dataset.streams.back().sensor.offset_sigma = 0.1;
+  AidingStream& course = dataset.streams.emplace_back();
+  course.sensor.name = "log";
+  course.sensor.kind = &SpeedCourseKind();
+  course.sensor.time_offset_sigma = 0.1;
+  AidingStream& depth = dataset.streams.emplace_back();
+  depth.sensor.name = "depth";
+  depth.sensor.kind = &DepthKind();
+  depth.sensor.offset_sigma = 0.1;
   dataset.gyro_scale_sigma = Eigen::Vector3d::Ones();
   EXPECT_EQ(BuildLayout(dataset, {}).parameter_count(), kMaxParameters);
   EXPECT_NO_THROW(RequireCapacity(dataset, "a.yaml"));

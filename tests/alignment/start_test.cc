@@ -8,8 +8,9 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "geometry/so3.h"
-#include "simulation/builtin_scenarios.h"
-#include "simulation/in_flight_alignment.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
+#include "support/in_flight.h"
 #include "support/truth_at.h"
 #include "support/turned_imu.h"
 
@@ -18,7 +19,7 @@ namespace {
 
 /// From rest, off after 20 s at heading 65 deg; no initial values.
 Scenario FromRest() {
-  Scenario scenario = BuiltinScenario("short_drive");
+  Scenario scenario = FindScenario("short_drive");
   scenario.duration = 60.0;
   return scenario;
 }
@@ -76,8 +77,8 @@ TEST(Start, PositionOfAFixIsWideForWhoDoesNotTrustItsSensor) {
   const Start start = FindWholeStart(dataset);
   const int gnss = start.position_sensor;
   ASSERT_GE(gnss, 0);
-  EXPECT_EQ(dataset.streams[static_cast<std::size_t>(gnss)].sensor.type,
-            SensorType::kPosition);
+  EXPECT_TRUE(
+      dataset.streams[static_cast<std::size_t>(gnss)].sensor.kind->is_position);
   const Start wide = WithoutTrustIn(gnss, start);
   const int p = start.layout.Find(BlockKind::kPosition)->offset;
   for (int i = 0; i < 3; ++i) {
@@ -166,7 +167,7 @@ TEST(Start, VelocityComesFromTheDopplerLog) {
   }
   AidingStream stream;
   stream.sensor.name = "log";
-  stream.sensor.type = SensorType::kDvl;
+  stream.sensor.kind = &DvlKind();
   stream.sensor.scale = 0.02;
   stream.sensor.q_sb = Exp(Eigen::Vector3d(0.0, 0.0, -90.0 * kDegree));
   for (int k = 0; k < 20; ++k) {
@@ -213,7 +214,7 @@ TEST(Start, TakesTheVelocityChangeWhereItTellsTheHeadingBest) {
 }
 
 TEST(Start, MotionRefutesTheCourseOfABodyThatPointsElsewhere) {
-  const PerfectRecording recording(InFlightAlignment({}));
+  const PerfectRecording recording(InFlightAlignment());
   // So early in the first turn the motion tells the heading to 10 deg alone,
   // the course would say 3.
   constexpr double kEnd = kFirstManoeuvre + 0.9;
@@ -251,7 +252,7 @@ double ErrorInSigmas(const Dataset& dataset, const Start& start) {
 }
 
 TEST(Start, StraightMotionTellsNoHeadingOfAnImuThatSitsAnyhow) {
-  const PerfectRecording recording(InFlightAlignment({}));
+  const PerfectRecording recording(InFlightAlignment());
   constexpr double kEnd = kFirstManoeuvre - 1.0;
   std::uint64_t seed = 1;
   for (const Eigen::Quaterniond& q_ob : testing::kMountings) {

@@ -6,10 +6,10 @@
 
 #include "alignment/alignment_window.h"
 #include "alignment/start.h"
-#include "evaluation/chi_square.h"
+#include "base/chi_square.h"
 #include "geometry/so3.h"
-#include "simulation/builtin_scenarios.h"
-#include "simulation/in_flight_alignment.h"
+#include "io/config/scenario_config.h"
+#include "support/in_flight.h"
 #include "support/seed_count.h"
 #include "support/truth_at.h"
 
@@ -29,12 +29,12 @@ TruthPoint FlightTruthAt(const Dataset& dataset, double t) {
 }
 
 TEST(VelocityAlignment, ExactDataGiveTheExactAttitudeWhereverTheBodyPoints) {
-  Scenario scenario = InFlightAlignment({});
+  Scenario scenario = InFlightAlignment();
   scenario.imu.noise.gyro_noise_density = 1e-12;
   scenario.imu.noise.accel_noise_density = 1e-12;
   scenario.imu.gyro_bias_sigma.setConstant(1e-12);
   scenario.imu.accel_bias_sigma.setConstant(1e-12);
-  scenario.aiding[0].sigma.setConstant(1e-6);
+  scenario.aiding[0].sigma.emplace().setConstant(1e-6);
   scenario.start_errors->position.setConstant(1e-6);
   const PerfectRecording recording(scenario);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
@@ -54,15 +54,15 @@ TEST(VelocityAlignment, ExactDataGiveTheExactAttitudeWhereverTheBodyPoints) {
 TEST(VelocityAlignment, ARefinementThatStraysIsNotBelieved) {
   // Fixes of 2 cm that are stamped 0.2 s late, a gap of 15 s and a consumer's
   // gyros lead the refinement of some windows to a wrong minimum.
-  Scenario scenario = BuiltinScenario("short_drive");
+  Scenario scenario = FindScenario("short_drive");
   scenario.imu.noise.gyro_noise_density *= 10.0;
   scenario.imu.gyro_bias_sigma.setConstant(0.5 * kDegree);
   scenario.imu.accel_bias_sigma.setConstant(0.3);
   AidingModel gnss = scenario.aiding.front();
-  ASSERT_EQ(gnss.sensor.type, SensorType::kPosition);
+  ASSERT_TRUE(gnss.sensor.kind->is_position);
   gnss.sensor.lever_arm_b.setZero();
   gnss.rate_hz = 4.0;
-  gnss.sigma.setConstant(0.02);
+  gnss.sigma.emplace().setConstant(0.02);
   scenario.aiding = {gnss};
   for (std::uint64_t seed = 9; seed <= 12; ++seed) {
     Dataset dataset = Simulate(scenario, seed);
@@ -96,7 +96,7 @@ TEST(VelocityAlignment, TheRefinementEstimatesALeverArm) {
   const Eigen::Vector3d l_b(6.0, -4.0, -3.0);
   constexpr double kPrior = 5.0;
   constexpr double kEnd = 60.0;
-  Scenario scenario = InFlightAlignment({});
+  Scenario scenario = InFlightAlignment();
   scenario.aiding[0].sensor.lever_arm_b = l_b;
   const PerfectRecording recording(scenario);
   double nees = 0.0;
@@ -129,8 +129,7 @@ TEST(VelocityAlignment, TheRefinementEstimatesALeverArm) {
 class InFlight : public ::testing::TestWithParam<double> {};
 
 TEST_P(InFlight, AlignsFromAnyAttitudeWithAnHonestCovariance) {
-  const PerfectRecording recording(
-      InFlightAlignment({.velocity_rate_hz = GetParam()}));
+  const PerfectRecording recording(InFlightAlignment(GetParam()));
   constexpr int kRuns = testing::SeedCount(30);
   constexpr double kEnd = kFirstManoeuvre + 10.0;
   double nees = 0.0;
@@ -156,8 +155,7 @@ TEST_P(InFlight, AlignsFromAnyAttitudeWithAnHonestCovariance) {
 }
 
 TEST_P(InFlight, StraightFlightLeavesTheHeadingOpenAndSaysSo) {
-  const PerfectRecording recording(
-      InFlightAlignment({.velocity_rate_hz = GetParam()}));
+  const PerfectRecording recording(InFlightAlignment(GetParam()));
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Dataset dataset = recording.Realize(seed);
     MountAnywhere(seed, &dataset);

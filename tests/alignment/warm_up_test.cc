@@ -8,8 +8,10 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "geometry/so3.h"
-#include "simulation/builtin_scenarios.h"
-#include "simulation/in_flight_alignment.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
+#include "simulation/wandering_drive.h"
+#include "support/in_flight.h"
 #include "support/seed_count.h"
 #include "support/truth_at.h"
 
@@ -31,10 +33,9 @@ void UseConsumerImu(Scenario* scenario) {
   scenario->start_errors.reset();
 }
 
-AidingModel Gnss(SensorType type, double sigma, double rate) {
-  AidingModel model;
-  model.sensor.name = type == SensorType::kPosition ? "gnss" : "velocity";
-  model.sensor.type = type;
+AidingModel Gnss(const SensorKind& kind, double sigma, double rate) {
+  AidingModel model(kind);
+  model.sensor.name = kind.is_position ? "gnss" : "velocity";
   model.sigma = Eigen::Vector3d(sigma, sigma, 2.0 * sigma);
   model.rate_hz = rate;
   return model;
@@ -42,7 +43,7 @@ AidingModel Gnss(SensorType type, double sigma, double rate) {
 
 /// A car that stands for `rest` seconds or moves from the beginning.
 Scenario Car(double rest, std::uint64_t route, bool with_velocity) {
-  Scenario s = BuiltinScenario("short_drive");
+  Scenario s = FindScenario("short_drive");
   s.duration = 150.0;
   s.segments = WanderingDrive(s.duration, route);
   if (rest > 0.0) {
@@ -51,16 +52,16 @@ Scenario Car(double rest, std::uint64_t route, bool with_velocity) {
     s.start_speed = 9.0;
     s.segments.erase(s.segments.begin());
   }
-  s.aiding = {Gnss(SensorType::kPosition, 0.5, with_velocity ? 1.0 : 4.0)};
+  s.aiding = {Gnss(PositionKind(), 0.5, with_velocity ? 1.0 : 4.0)};
   if (with_velocity) {
-    s.aiding.push_back(Gnss(SensorType::kVelocity, 0.1, 4.0));
+    s.aiding.push_back(Gnss(VelocityKind(), 0.1, 4.0));
   }
   return s;
 }
 
 Scenario Aircraft(double rate) {
-  Scenario s = InFlightAlignment({.velocity_rate_hz = rate});
-  s.aiding.push_back(Gnss(SensorType::kPosition, 1.0, 1.0));
+  Scenario s = InFlightAlignment(rate);
+  s.aiding.push_back(Gnss(PositionKind(), 1.0, 1.0));
   return s;
 }
 
@@ -148,7 +149,8 @@ StartError ErrorOfStart(std::uint64_t seed, bool print) {
 
 int BeyondFourSigmas(std::uint64_t first, int count, bool print) {
   int beyond = 0;
-  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+  for (std::uint64_t seed = first;
+       seed < first + static_cast<std::uint64_t>(count); ++seed) {
     const StartError e = ErrorOfStart(seed, print);
     if (e.error.cwiseQuotient(e.sigma).cwiseAbs().maxCoeff() > 4.0) ++beyond;
   }

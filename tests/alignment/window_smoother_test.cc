@@ -7,8 +7,7 @@
 #include "alignment/coarse_alignment.h"
 #include "dataset/ground_motion.h"
 #include "earth/wgs84.h"
-#include "simulation/builtin_scenarios.h"
-#include "simulation/in_flight_alignment.h"
+#include "support/in_flight.h"
 
 namespace hindsight {
 namespace {
@@ -29,7 +28,7 @@ WindowStart Coarse(const AlignmentInput& input) {
 }
 
 TEST(WindowSmoother, WhatOneWalkFoundLeadsTheNextToTheSame) {
-  const PerfectRecording recording(InFlightAlignment({}));
+  const PerfectRecording recording(InFlightAlignment());
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Dataset dataset = recording.Realize(seed);
     MountAnywhere(seed, &dataset);
@@ -56,7 +55,7 @@ TEST(WindowSmoother, WhatOneWalkFoundLeadsTheNextToTheSame) {
 }
 
 TEST(WindowSmoother, AskedAgainAnswersTheSame) {
-  const PerfectRecording recording(InFlightAlignment({}));
+  const PerfectRecording recording(InFlightAlignment());
   Dataset dataset = recording.Realize(5);
   MountAnywhere(5, &dataset);
   const AlignmentInput input = InputOf(dataset);

@@ -4,13 +4,14 @@
 #include <ostream>
 
 #include "app/command_line.h"
+#include "support/recordings.h"
 #include "support/seed_count.h"
 
 namespace hindsight {
 namespace {
 
 struct RealStart {
-  std::string recording;  ///< folder below shared/data
+  std::string recording;  ///< its folder
   std::string config;     ///< in data/
 };
 
@@ -23,7 +24,7 @@ class AlignmentOfRecordings : public ::testing::TestWithParam<RealStart> {};
 /// None of the configurations gives an attitude: velocity finds it.
 TEST_P(AlignmentOfRecordings, StartsFromTheVelocityByDefault) {
   const std::filesystem::path source = HINDSIGHT_SOURCE_DIR;
-  const std::filesystem::path recordings = source / "../shared/data";
+  const std::filesystem::path recordings = testing::RecordingsFolder();
   if (!std::filesystem::exists(recordings / GetParam().recording)) {
     GTEST_SKIP() << "the recording " << GetParam().recording << " is not here";
   }

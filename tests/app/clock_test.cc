@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/recording.h"
+#include "support/recordings.h"
 
 namespace hindsight {
 namespace {
@@ -13,8 +14,7 @@ using ::testing::HasSubstr;
 
 const std::filesystem::path kClockData =
     std::filesystem::path(HINDSIGHT_SOURCE_DIR) / "data";
-const std::filesystem::path kClockRecordings =
-    std::filesystem::path(HINDSIGHT_SOURCE_DIR) / "../shared/data";
+const std::filesystem::path kClockRecordings = testing::RecordingsFolder();
 
 /// The IMU's clock is put 500 s ahead, so that the records do not overlap.
 class UnknownClock : public ::testing::Test {

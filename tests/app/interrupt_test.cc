@@ -74,14 +74,15 @@ class Interrupt : public ::testing::Test {
   static void ExpectEkfAlone(const fs::path& folder) {
     EXPECT_THAT(Names(folder),
                 ElementsAre("config.resolved.yaml", "ekf.csv", "ekf.errors.csv",
-                            "ekf.truth.csv", "manifest.json", "summary.json"));
+                            "ekf.motion.csv", "ekf.truth.csv", "manifest.json",
+                            "summary.json"));
     const nlohmann::json summary = Json(folder / "summary.json");
     EXPECT_EQ(summary["complete"], false);
     EXPECT_EQ(summary["methods"].size(), 1u);
     EXPECT_TRUE(summary["methods"].contains("ekf"));
     const nlohmann::json manifest = Json(folder / "manifest.json");
     EXPECT_EQ(manifest["complete"], false);
-    EXPECT_EQ(manifest["files"].size(), 5u);
+    EXPECT_EQ(manifest["files"].size(), 6u);
   }
 
   static TemporaryFolder* drive_;
@@ -210,15 +211,20 @@ TEST_F(Interrupt, HalfARecordingIsNoRecording) {
 
 /// A comparison by seeds, of one cell, and one by settings.
 std::vector<std::string> BySeeds(const std::string& runs) {
-  return {"montecarlo",         "in_flight_alignment", "--rules=ekf",
-          "--error=quaternion", "--tilt=10",           "--heading=30",
-          "--rates=1",          "--runs=" + runs,      "--out=out",
+  return {"montecarlo",
+          "in_flight_alignment",
+          "--rules=ekf",
+          "--error=quaternion",
+          "--set=start_errors.tilt=10 deg",
+          "--set=start_errors.heading=30 deg",
+          "--set=aiding.velocity.rate=1 Hz",
+          "--runs=" + runs,
+          "--out=out",
           "--progress=json"};
 }
 std::vector<std::string> BySettings() {
-  return {"montecarlo",     "gps_jumps",    "--errors=none,pulses,steps",
-          "--runs=2",       "--gps-rate=1", "--out=out",
-          "--progress=json"};
+  return {"montecarlo", "gps_jumps", "--set=errors=none|pulses|steps",
+          "--runs=2",   "--out=out", "--progress=json"};
 }
 
 TEST_F(Interrupt, MonteCarloKeepsTheRunsThatAreFinished) {
@@ -235,7 +241,8 @@ TEST_F(Interrupt, MonteCarloKeepsTheRunsThatAreFinished) {
                 HasSubstr("montecarlo.json says complete: false"));
     EXPECT_THAT(Names(root()), UnorderedElementsAre("data", "out"));
     EXPECT_THAT(Names(root() / "out"),
-                ElementsAre("cells.csv", "manifest.json", "montecarlo.json"));
+                ElementsAre("cells.csv", "manifest.json", "montecarlo.json",
+                            "runs.csv"));
     EXPECT_EQ(Json(root() / "out" / "manifest.json")["complete"], false);
     nlohmann::json part = Json(root() / "out" / "montecarlo.json");
     EXPECT_EQ(part["complete"], false);
@@ -268,10 +275,12 @@ TEST_F(Interrupt, MonteCarloKeepsNothingOfASingleRun) {
 
 TEST_F(Interrupt, MonteCarloKeepsTheSettingsThatAreFinished) {
   Child run(BySettings(), root());
-  ASSERT_TRUE(run.AwaitStage("gps_jumps")) << run.Err();
-  const auto first_is_done = [] {
-    for (const std::string& name : Names(root())) {
-      if (fs::exists(root() / name / "montecarlo.json")) return true;
+  ASSERT_TRUE(run.AwaitStage("runs")) << run.Err();
+  // More than the first of three is done when its share is passed.
+  const auto first_is_done = [&run] {
+    for (const std::string& line : Lines(run.Err())) {
+      const auto json = nlohmann::json::parse(line, nullptr, false);
+      if (json.is_object() && json.value("fraction", 0.0) > 0.4) return true;
     }
     return false;
   };
@@ -279,15 +288,14 @@ TEST_F(Interrupt, MonteCarloKeepsTheSettingsThatAreFinished) {
   run.Signal(SIGTERM);
   EXPECT_EQ(run.Wait().status, 130);
   EXPECT_EQ(Json(root() / "out" / "montecarlo.json")["complete"], false);
-  const std::vector<std::string> names = Names(root() / "out");
-  EXPECT_THAT(names, Contains("gps_jumps.csv"));
-  EXPECT_THAT(names, Contains("none_1m_1hz_rts.csv"));
-  for (const std::string& name : names) {
-    EXPECT_THAT(name, Not(HasSubstr("pulses")));
+  EXPECT_THAT(Names(root() / "out"),
+              ElementsAre("cells.csv", "curves.csv", "manifest.json",
+                          "montecarlo.json", "runs.csv"));
+  for (const char* name : {"cells.csv", "curves.csv", "runs.csv"}) {
+    const std::string lines = ReadFile(root() / "out" / name);
+    EXPECT_THAT(lines, HasSubstr("none,1,1,rts,")) << name;
+    EXPECT_THAT(lines, Not(HasSubstr("steps,"))) << name;
   }
-  const std::string lines = ReadFile(root() / "out" / "gps_jumps.csv");
-  EXPECT_THAT(lines, HasSubstr("none,"));
-  EXPECT_THAT(lines, Not(HasSubstr("pulses,")));
 }
 
 TEST_F(Interrupt, TheSecondEndsAtOnce) {
@@ -381,7 +389,8 @@ TEST_F(MediumThatEnds, FullDiskLeavesNoHalfRecordingAndFinishedRuns) {
     EXPECT_THAT(Lines(outcome.err).back(), HasSubstr("complete: false"));
     EXPECT_THAT(outcome.err, Not(HasSubstr(".partial-")));
     EXPECT_THAT(Names(root / "out"),
-                ElementsAre("cells.csv", "manifest.json", "montecarlo.json"));
+                ElementsAre("cells.csv", "manifest.json", "montecarlo.json",
+                            "runs.csv"));
     const nlohmann::json json =
         nlohmann::json::parse(ReadFile(root / "out" / "montecarlo.json"));
     EXPECT_EQ(json["complete"], false);

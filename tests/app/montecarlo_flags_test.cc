@@ -22,13 +22,13 @@ struct Use {
 
 const std::map<std::string, Use>& Uses() {
   static const std::set<std::string> observers = {"in_flight_alignment"};
+  static const std::set<std::string> scenarios = {
+      "tunnel_survey",       "tunnel_sweep",       "calibration",
+      "in_flight_alignment", "velocity_alignment", "gps_jumps",
+      "uuv_survey",          "uuv_calibration",    "other scenarios"};
   static const std::map<std::string, Use> uses = {
-      {"path", {{"tunnel_survey", "uuv_survey"}, "=up"}},
-      {"white-noise", {{"tunnel_survey"}, "=pink"}},
-      {"sweep", {{"tunnel_survey"}, ""}},
-      {"rates", {{"in_flight_alignment", "velocity_alignment"}, "=fast"}},
-      {"tilt", {observers, "=much"}},
-      {"heading", {observers, "=west"}},
+      {"set", {scenarios, "=nothing"}},
+      {"methods", {{"other scenarios", "grades"}, "=none"}},
       {"rules", {observers, "=none"}},
       {"error", {observers, "=small"}},
       {"gamma", {observers, "=wide"}},
@@ -37,16 +37,14 @@ const std::map<std::string, Use>& Uses() {
       {"delta", {observers, "=1e300"}},
       {"bounded", {observers, "=height"}},
       {"back-off", {observers, ""}},
-      {"errors", {{"gps_jumps"}, "=many"}},
-      {"gps-sigma", {{"gps_jumps"}, "=0"}},
-      {"gps-rate", {{"gps_jumps"}, "=0"}},
-      {"reading", {{"uuv_search"}, "=aloud"}}};
+      {"reading", {{"uuv_search"}, "=aloud"}},
+      {"faults", {{"grades"}, "="}}};
   return uses;
 }
 
-const std::set<std::string> kOfAll = {"out",  "force", "clean",
-                                      "runs", "seed",  "threads",
-                                      "log",  "help",  "progress"};
+const std::set<std::string> kOfAll = {"out",      "force",   "clean", "runs",
+                                      "seed",     "threads", "log",   "help",
+                                      "progress", "quiet"};
 
 class MonteCarloFlags : public ::testing::Test {
  protected:
@@ -97,7 +95,7 @@ TEST_F(MonteCarloFlags, EveryFlagIsInTheTableOfThisTest) {
 TEST_F(MonteCarloFlags,
        ThatMeanNothingToAScenarioAreRefusedWhateverTheirValue) {
   const std::vector<std::string> scenarios = Scenarios();
-  ASSERT_THAT(scenarios, SizeIs(9));
+  ASSERT_THAT(scenarios, SizeIs(11));
   for (const std::string& scenario : scenarios) {
     for (const auto& [flag, use] : Uses()) {
       const bool heeded = use.scenarios.contains(scenario);
@@ -136,20 +134,21 @@ TEST_F(MonteCarloFlags, HelpNamesTheScenariosOfEveryFlag) {
 
 TEST_F(MonteCarloFlags, SillyValuesAreRefused) {
   const std::vector<std::vector<std::string>> cases = {
-      {"velocity_alignment", "--rates=1e-5", "1/150 Hz"},
-      {"velocity_alignment", "--rates=10,10", "'10' stands there twice"},
-      {"velocity_alignment", "--rates=1,1.0", "'1.0' stands there twice"},
-      {"velocity_alignment", "--rates=1e400", "'1e400' is out of range"},
-      {"velocity_alignment", "--rates=inf", "'inf' is not a positive number"},
-      {"velocity_alignment", "--rates=1,,10", "nothing beside a comma"},
-      {"velocity_alignment", "--rates=", "expected positive numbers"},
+      {"velocity_alignment", "--set=aiding.velocity.rate=1 Hz|1 Hz",
+       "stands there twice"},
+      {"velocity_alignment", "--set=aiding.velocity.rate=1e400 Hz", "1e400"},
+      {"velocity_alignment", "--set=aiding.velocity.rate=1 Hz||10 Hz",
+       "a value is missing"},
+      {"velocity_alignment",
+       "--set=aiding.velocity.rate=", "a value is missing"},
+      {"velocity_alignment", "--set=aiding.velocity.rat=1 Hz", "rat"},
       {"velocity_alignment", "--seed=18446744073709551615",
        "the last of 100 seeds"},
       {"velocity_alignment", "--seed=18446744073709551616", "out of range"},
       {"in_flight_alignment", "--seed=18446744073709551500",
        "the last of 300 seeds"},
-      {"in_flight_alignment", "--tilt=10,10", "twice"},
-      {"in_flight_alignment", "--heading=30,30", "twice"},
+      {"in_flight_alignment", "--set=start_errors.tilt=200 deg",
+       "at most 180 deg"},
       {"in_flight_alignment", "--rules=ekf,ekf", "twice"},
       {"in_flight_alignment", "--rules=", "expected some of ekf"},
       {"in_flight_alignment", "--error=quaternion,quaternion", "twice"},
@@ -161,16 +160,11 @@ TEST_F(MonteCarloFlags, SillyValuesAreRefused) {
       {"in_flight_alignment", "--alpha=1e6", "0 to 100 1/s"},
       {"in_flight_alignment", "--bounded=attitude=1e-300rad", "1e-09"},
       {"in_flight_alignment", "--bounded=attitude,attitude=2rad", "once"},
-      {"gps_jumps", "--errors=steps,steps", "twice"},
-      {"gps_jumps", "--gps-rate=1e-5", "1/250 Hz"},
-      {"gps_jumps", "--gps-rate=3", "100 Hz over a whole number"},
-      {"gps_jumps", "--gps-rate=1,30", "--gps-rate=1,30: 30 Hz"},
-      {"gps_jumps", "--gps-rate=200", "100 Hz over a whole number"},
-      {"gps_jumps", "--gps-rate=1e6", "100 Hz over a whole number"},
-      {"gps_jumps", "--gps-rate=0.4", "1 Hz over a whole number"},
-      {"gps_jumps", "--gps-sigma=1,1", "twice"},
-      {"gps_jumps", "--gps-sigma=1e-9", "expected 0.001 to 1000 m"},
-      {"gps_jumps", "--gps-sigma=1,1e30", "expected 0.001 to 1000 m"},
+      {"gps_jumps", "--set=errors=steps|steps", "twice"},
+      {"gps_jumps", "--set=errors=many",
+       "expected one of pulses, none, spikes, steps, ramp, multipath"},
+      {"gps_jumps", "--set=aiding.gnss.sigma=0 m", "must be greater than zero"},
+      {"gps_jumps", "--set=aiding.gnss.sigma=1 Hz", "expected a length"},
       {"uuv_search", "--reading=sum,sum", "twice"}};
   for (const std::vector<std::string>& row : cases) {
     EXPECT_THAT(Refusal({row[0], "--out=mc", row[1]}), HasSubstr(row[2]));

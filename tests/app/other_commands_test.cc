@@ -135,8 +135,9 @@ TEST_F(OtherCommands, InitWritesAConfigurationThatRuns) {
       Hindsight({"init", "data", "--out=data/config.yaml"}, recording_.root());
   EXPECT_EQ(again.status, 2);
   EXPECT_THAT(again.err, HasSubstr("--force"));
+  // A draft knows no lever arm, which the result may say.
   const Outcome outcome = recording_.Run({"--out=out", "--methods=rts"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.status, ::testing::AnyOf(0, 3)) << outcome.err;
 }
 
 TEST_F(OtherCommands, SimulateEndsEarlier) {

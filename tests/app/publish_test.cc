@@ -367,6 +367,35 @@ TEST_F(Publish, InitReplacesWhatItWroteAlone) {
       0);
 }
 
+TEST_F(Publish, AFileOfAnotherOrADeviceIsNotReplaced) {
+  ASSERT_EQ(recording_.Run({"--out=out", "--methods=ekf"}).status, 0);
+  ASSERT_EQ(mkfifo((root() / "pipe").c_str(), 0600), 0);
+  fs::create_symlink("/dev/null", root() / "null");
+  fs::create_directory(root() / "folder");
+  const std::vector<std::vector<std::string>> writers = {
+      {"report", "out"},
+      {"evaluate", "out/ekf.csv", "data/truth.csv"},
+      {"init", "data"}};
+  for (std::vector<std::string> words : writers) {
+    words.push_back("--force");
+    for (const char* taken : {"pipe", "null", "folder"}) {
+      words.push_back("--out=" + std::string(taken));
+      ExpectRefused(words, {taken, "no regular file"});
+      words.back() = "--out=data/imu.csv";
+      ExpectRefused(words, {"imu.csv", "--force does not replace it"});
+      words.back() = "--out=absent/page.html";
+      ExpectRefused(words, {"there is no folder"});
+      words.pop_back();
+    }
+    words.push_back("--out=new");
+    EXPECT_EQ(Hindsight(words, root()).status, 0);
+    EXPECT_EQ(Hindsight(words, root()).status, 0);
+    fs::remove(root() / "new");
+  }
+  EXPECT_TRUE(fs::is_fifo(root() / "pipe"));
+  EXPECT_TRUE(fs::is_symlink(root() / "null"));
+}
+
 TEST_F(Publish, ClosedStandardOutputLeavesCompleteResultsUsable) {
   const auto close_output = [] { close(STDOUT_FILENO); };
   const auto fill_output = [] {
@@ -458,7 +487,7 @@ TEST_F(Publish, ADraftThatWasCompletedIsNotReplaced) {
   EXPECT_EQ(Hindsight(words, root()).status, 0);
   WriteFile(root() / "c.yaml",
             ReadFile(root() / "c.yaml") + "# my own addition\n");
-  ExpectRefused(words, {"c.yaml", "changed since"});
+  ExpectRefused(words, {"c.yaml", "is not as 'init' wrote it"});
 }
 
 }  // namespace

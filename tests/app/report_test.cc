@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -166,6 +168,149 @@ TEST_F(ReportCommandTest, ErrorsAreThoseOfTheSummary) {
       nlohmann::json::parse(ReadFile(Out("summary.json")));
   EXPECT_NEAR(std::sqrt(sum / count),
               summary["methods"]["batch"]["error"]["horizontal_rms_m"], 1e-6);
+}
+
+TEST_F(ReportCommandTest, EvaluateWritesTheSamePage) {
+  RunInto("out");
+  const auto evaluate = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "evaluate");
+    return Hindsight(words, recording_.root());
+  };
+  const Outcome outcome =
+      evaluate({"out/batch.csv", "data/truth.csv", "--out=page.html"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("report in page.html\n"));
+  const std::string page = ReadFile(recording_.root() / "page.html");
+  EXPECT_THAT(page, HasSubstr("Normalised squared position error"));
+  EXPECT_THAT(page, HasSubstr("gnss, north"));
+  EXPECT_EQ(
+      evaluate({"out/batch.csv", "data/truth.csv", "--out=page.html"}).status,
+      2);
+  // A file that is no result of `run` stands alone.
+  fs::create_directory(recording_.root() / "else");
+  fs::copy(Out("batch.csv"), recording_.root() / "else" / "mine.csv");
+  ASSERT_EQ(evaluate({"else/mine.csv", "data/truth.csv", "--out=page.html",
+                      "--force"})
+                .status,
+            0);
+  const std::string alone = ReadFile(recording_.root() / "page.html");
+  EXPECT_THAT(alone, HasSubstr("Normalised squared position error"));
+  EXPECT_THAT(alone, HasSubstr("was compared with a truth"));
+  EXPECT_THAT(alone, Not(HasSubstr("gnss, north")));
+}
+
+/// A column of a CSV result, empty fields as NaN.
+std::vector<double> Column(const std::string& text, const std::string& title) {
+  std::vector<double> values;
+  std::size_t column = std::string::npos;
+  for (const std::string& line : Lines(text)) {
+    if (line.empty() || line[0] == '#') continue;
+    std::vector<std::string> fields(1);
+    for (const char letter : line) {
+      if (letter == ',') {
+        fields.emplace_back();
+      } else {
+        fields.back() += letter;
+      }
+    }
+    if (column == std::string::npos) {
+      column = static_cast<std::size_t>(
+          std::find(fields.begin(), fields.end(), title) - fields.begin());
+      if (column == fields.size()) return {};
+      continue;
+    }
+    values.push_back(fields[column].empty() ? std::nan("")
+                                            : std::stod(fields[column]));
+  }
+  return values;
+}
+
+TEST_F(ReportCommandTest, TwoFilterTellsItsSeparationByComponents) {
+  ASSERT_EQ(recording_.Run({"--out=out", "--methods=ekf,two_filter"}).status,
+            0);
+  const std::string csv = ReadFile(Out("two_filter.csv"));
+  for (const char* name :
+       {"n[m]", "e[m]", "d[m]", "v_n[m/s]", "v_e[m/s]", "v_d[m/s]", "roll[deg]",
+        "pitch[deg]", "heading[deg]"}) {
+    const auto difference = Column(csv, std::string("separation_") + name);
+    const auto sigma = Column(csv, std::string("sd_separation_") + name);
+    ASSERT_FALSE(difference.empty()) << name;
+    // Nothing is known after the end.
+    EXPECT_TRUE(std::isnan(difference.back())) << name;
+    std::size_t known = 0;
+    std::size_t beyond = 0;
+    for (std::size_t k = 0; k < difference.size(); ++k) {
+      ASSERT_EQ(std::isnan(difference[k]), std::isnan(sigma[k])) << name;
+      if (std::isnan(difference[k])) continue;
+      ++known;
+      if (std::abs(difference[k]) > 4.0 * sigma[k]) ++beyond;
+    }
+    EXPECT_GT(known, difference.size() / 2) << name;
+    EXPECT_EQ(beyond, 0u) << name;
+  }
+}
+
+TEST_F(ReportCommandTest, BodyMotionIsWithoutBiases) {
+  RunInto("out");
+  const std::string csv = ReadFile(Out("batch.motion.csv"));
+  const auto t = Column(csv, "t[s]");
+  const auto f = Column(csv, "f_z[m/s^2]");
+  const auto w = Column(csv, "w_z[deg/s]");
+  EXPECT_EQ(t, Column(ReadFile(Out("batch.csv")), "t[s]"));
+  // At rest, then around a curve of 20 deg/s.
+  EXPECT_NEAR(f[2], -9.807, 0.02);
+  EXPECT_NEAR(*std::max_element(w.begin(), w.end()), 20.0, 1.0);
+}
+
+TEST_F(ReportCommandTest, TheSummaryTellsOneInputFromAnother) {
+  RunInto("out");
+  const auto inputs = [&](const std::string& folder) {
+    return nlohmann::json::parse(
+        ReadFile(recording_.root() / folder / "summary.json"))["inputs"];
+  };
+  const auto first = inputs("out");
+  ASSERT_GE(first.size(), 4u);
+  for (const auto& input : first) {
+    EXPECT_EQ(input["sha256"].get<std::string>().size(), 64u);
+    EXPECT_EQ(
+        input["bytes"].get<std::uintmax_t>(),
+        fs::file_size(recording_.root() / input["path"].get<std::string>()));
+  }
+  recording_.Edit("gnss.csv", [](std::vector<std::string>* lines) {
+    lines->back() += " ";
+  });
+  RunInto("other", {"--without=speed"});
+  const auto second = inputs("other");
+  EXPECT_EQ(second.size(), first.size() - 1);
+  EXPECT_EQ(second[0], first[0]);
+  EXPECT_NE(second[2]["sha256"], first[2]["sha256"]);
+}
+
+TEST_F(ReportCommandTest, TheTerminalIsAsWideAsItIsSaidToBe) {
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"run", "data/config.yaml", "--out=out",
+                                      "--methods=ekf,batch", "--force"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Hindsight(words, recording_.root(),
+                     [] { setenv("COLUMNS", "60", 1); });
+  };
+  const Outcome outcome = run({});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  bool table = false;
+  for (const std::string& line : Lines(outcome.out)) {
+    if (line.starts_with("method ")) table = true;
+    if (table && line.find("  ") != std::string::npos) {
+      EXPECT_LE(line.size(), 60u) << line;
+    }
+    if (line.starts_with("residuals")) table = true;
+    if (line.empty()) table = false;
+  }
+  EXPECT_THAT(outcome.out, HasSubstr("\nover sigma, rms  "));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("\033[")));
+  const Outcome quiet = run({"--quiet"});
+  EXPECT_EQ(quiet.status, 0);
+  EXPECT_EQ(quiet.out, "");
+  EXPECT_EQ(quiet.err, "");
 }
 
 }  // namespace

@@ -53,8 +53,8 @@ TEST_F(RunCommandTest, WritesTheFilesOfEveryMethodAndNothingElse) {
                                        "manifest.json", "residuals.csv",
                                        "summary.json"};
   for (const std::string method : {"ekf", "rts", "iterated", "batch"}) {
-    for (const std::string ending :
-         {"csv", "truth.csv", "errors.csv", "tum", "kml", "nav"}) {
+    for (const std::string ending : {"csv", "truth.csv", "errors.csv",
+                                     "motion.csv", "tum", "kml", "nav"}) {
       expected.push_back(method + "." + ending);
     }
   }
@@ -159,9 +159,9 @@ TEST_F(RunCommandTest, EveryResultSaysWhatItsTimesCountFrom) {
     }
     EXPECT_TRUE(said) << name;
   }
-  // Solution, --at, truth and errors of two methods, the modes of one,
-  // residuals, fixes.
-  EXPECT_EQ(count, 11);
+  // Solution, --at, truth, errors and body motion of two methods, the modes of
+  // one, residuals, fixes.
+  EXPECT_EQ(count, 13);
   EXPECT_EQ(Summary()["epoch"]["gps_week"], 2374);
   EXPECT_EQ(Summary()["epoch"]["gps_second"], 243261.5);
 }
@@ -210,6 +210,14 @@ TEST_F(RunCommandTest, ProgressForProgramsIsJsonLines) {
   EXPECT_EQ(last["stage"], "done");
   EXPECT_EQ(last["fraction"], 1.0);
   EXPECT_EQ(last["seconds_left"], 0.0);
+  EXPECT_EQ(last["run_fraction"], 1.0);
+  EXPECT_EQ(last["run_seconds_left"], 0.0);
+  double before = 0.0;
+  for (const std::string& line : lines) {
+    const double fraction = nlohmann::json::parse(line)["run_fraction"];
+    EXPECT_GE(fraction, before);
+    before = fraction;
+  }
 }
 
 TEST_F(RunCommandTest, ExistingFolderIsReplacedOnlyByForce) {

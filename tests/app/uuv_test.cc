@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/command_line.h"
+#include "support/recordings.h"
 
 namespace hindsight {
 namespace {
@@ -11,6 +13,19 @@ using Json = nlohmann::json;
 
 Json ReadJson(const std::filesystem::path& path) {
   return Json::parse(ReadFile(path));
+}
+
+/// The row of a case and method, the values of its first two columns.
+Json Cell(const Json& json, const std::string& name,
+          const std::string& method) {
+  for (const Json& row : json["cells"]) {
+    const auto is = [&row](const std::string& text) {
+      return std::any_of(row.begin(), row.end(),
+                         [&](const Json& value) { return value == text; });
+    };
+    if (is(name) && is(method)) return row;
+  }
+  return Json();
 }
 
 /// Beams that drop out, water track after half of the way, a depth gauge.
@@ -91,12 +106,14 @@ TEST(Uuv, FusionsOfThePaperPrintTheReadingsAskedFor) {
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_NE(run.out.find("sum,diagonal,white,alike"), std::string::npos);
   const Json json = ReadJson(folder.path() / "search" / "montecarlo.json");
-  EXPECT_EQ(json["readings"].size(), 2u);
-  const Json& equal = json["readings"]["sum,diagonal,white,alike"];
-  EXPECT_GT(equal["central"]["spatial"]["mean_m"].get<double>(), 1.0);
-  EXPECT_LT(equal["equalised"]["spatial"]["mean_m"].get<double>(), 0.1);
-  EXPECT_FALSE(equal["central"]["horizontal"]["histogram"].empty());
-  EXPECT_GT(json["matched"]["two sensors of 9.8 m"]["equalised"]["nees"]
+  // Two readings and two matched truths by five architectures.
+  EXPECT_EQ(json["cells"].size(), 20u);
+  const std::string equal = "sum,diagonal,white,alike";
+  EXPECT_GT(Cell(json, equal, "central")["spatial_mean_m"].get<double>(), 1.0);
+  EXPECT_LT(Cell(json, equal, "equalised")["spatial_mean_m"].get<double>(),
+            0.1);
+  EXPECT_FALSE(Cell(json, equal, "central")["horizontal_histogram"].empty());
+  EXPECT_GT(Cell(json, "matched: two sensors of 9.8 m", "equalised")["nees"]
                 .get<double>(),
             2.0);
 
@@ -113,48 +130,53 @@ TEST(Uuv, CalibrationJudgesTheConstantsOfTheLog) {
       Hindsight({"montecarlo", "uuv_calibration", "--runs=4", "--out=out"},
                 folder.path());
   ASSERT_EQ(run.status, 0) << run.err;
-  const Json constants =
-      ReadJson(folder.path() / "out" /
-               "montecarlo.json")["methods"]["batch"]["constants"];
+  const Json json = ReadJson(folder.path() / "out" / "montecarlo.json");
+  const auto constant = [&](const char* name) {
+    for (const Json& row : json["constants"]) {
+      if (row["method"] == "batch" && row["constant"] == name) return row;
+    }
+    return Json();
+  };
   for (const char* name :
        {"dvl_scale", "dvl_mounting[z]", "dvl_lever_arm[x]"}) {
-    EXPECT_EQ(constants[name]["observed"], 4) << name;
-    EXPECT_LT(constants[name]["sigma"].get<double>(),
-              0.1 * constants[name]["prior_sigma"].get<double>())
+    EXPECT_EQ(constant(name)["observed"], 4) << name;
+    EXPECT_LT(constant(name)["sigma"].get<double>(),
+              0.1 * constant(name)["prior_sigma"].get<double>())
         << name;
   }
   // The eights are level: nothing tells how deep the transducer sits.
-  EXPECT_EQ(constants["dvl_lever_arm[z]"]["unobserved"], 4);
+  EXPECT_EQ(constant("dvl_lever_arm[z]")["unobserved"], 4);
 }
 
 TEST(Uuv, SurveySmoothsTheTrackFromOneFix) {
   const TemporaryFolder folder;
   const Outcome run = Hindsight({"montecarlo", "uuv_survey", "--runs=2",
-                                 "--path=lawnmower", "--out=survey"},
+                                 "--set=path=lawnmower", "--out=survey"},
                                 folder.path());
   ASSERT_EQ(run.status, 0) << run.err;
   const Json json = ReadJson(folder.path() / "survey" / "montecarlo.json");
-  ASSERT_EQ(json["dives"].size(), 3u);
-  for (const auto& [name, dive] : json["dives"].items()) {
-    EXPECT_EQ(dive.size(), 4u) << name;
-    EXPECT_EQ(dive["batch"]["failed"].get<int>(), 0) << name;
+  ASSERT_EQ(json["cells"].size(), 3u * 4u);
+  for (const Json& cell : json["cells"]) {
+    if (cell["method"] != "batch") continue;
+    EXPECT_EQ(cell["failed"], 0) << cell;
   }
-  const auto rms = [&](const char* dive, const char* method) {
-    return json["dives"][dive][method]["position_rms_m"].get<double>();
+  const auto rms = [&](const char* method) {
+    return Cell(json, "lawnmower, final fix", method)["position_rms_m"]
+        .get<double>();
   };
-  EXPECT_LT(rms("lawnmower, final fix", "batch"),
-            0.5 * rms("lawnmower, final fix", "ekf"));
+  EXPECT_LT(rms("batch"), 0.5 * rms("ekf"));
 
-  const Outcome unknown = Hindsight(
-      {"montecarlo", "uuv_survey", "--path=winding", "--out=x"}, folder.path());
+  const Outcome unknown =
+      Hindsight({"montecarlo", "uuv_survey", "--set=path=winding", "--out=x"},
+                folder.path());
   EXPECT_EQ(unknown.status, 2);
-  EXPECT_NE(unknown.err.find("--path=winding"), std::string::npos);
+  EXPECT_NE(unknown.err.find("path: 'winding'"), std::string::npos);
 }
 
 /// The DVL is kept back for two minutes of a real dive that ends with a fix.
 TEST(Uuv, SmootherBridgesAGapOfTheLogOnARealDive) {
   const std::filesystem::path source = HINDSIGHT_SOURCE_DIR;
-  const std::filesystem::path root = source / "../shared/data";
+  const std::filesystem::path root = testing::RecordingsFolder();
   if (!std::filesystem::exists(root / "auv_dvl")) {
     GTEST_SKIP() << "the recording auv_dvl is not here";
   }

@@ -3,9 +3,10 @@
 #include <cmath>
 
 #include "alignment/attitude_start.h"
-#include "filters/attitude_run.h"
+#include "attitude/attitude_run.h"
 #include "geometry/so3.h"
-#include "problems/attitude.h"
+#include "measurements/sensor_kind.h"
+#include "problems/reconstruction.h"
 
 namespace hindsight {
 namespace {
@@ -16,7 +17,7 @@ const Dataset& Waved() {
     Dataset waved;
     constexpr double kStep = 0.0035;
     AidingStream magnetometer;
-    magnetometer.sensor.type = SensorType::kMagnetometer;
+    magnetometer.sensor.kind = &MagnetometerKind();
     Eigen::Quaterniond q_nb = Eigen::Quaterniond::Identity();
     for (int k = 0; k < 54286; ++k) {
       const double t = k * kStep;
@@ -58,7 +59,7 @@ BENCHMARK(BM_AttitudeFilter)->Unit(benchmark::kMillisecond);
 
 void EstimateWaved(benchmark::State& state, const char* method) {
   for (auto _ : state) {
-    AttitudeEstimation estimation(Waved(), {});
+    Reconstruction estimation(Waved(), AttitudeAlone());
     benchmark::DoNotOptimize(estimation.Run(method));
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(
@@ -70,16 +71,6 @@ void BM_AttitudeSmoother(benchmark::State& state) {
   EstimateWaved(state, "ahrs_smoother");
 }
 BENCHMARK(BM_AttitudeSmoother)->Unit(benchmark::kMillisecond);
-
-void BM_AttitudeBatch(benchmark::State& state) {
-  EstimateWaved(state, "ahrs_batch");
-}
-BENCHMARK(BM_AttitudeBatch)->Unit(benchmark::kMillisecond);
-
-void BM_AttitudeTiltBatch(benchmark::State& state) {
-  EstimateWaved(state, "ahrs_tilt_batch");
-}
-BENCHMARK(BM_AttitudeTiltBatch)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace hindsight

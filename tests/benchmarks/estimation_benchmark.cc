@@ -6,10 +6,10 @@
 #include "alignment/start.h"
 #include "dataset/timeline_builder.h"
 #include "filters/iterated_smoother.h"
+#include "io/config/scenario_config.h"
 #include "problems/batch.h"
 #include "problems/chain_problem.h"
 #include "problems/reconstruction.h"
-#include "simulation/builtin_scenarios.h"
 
 namespace hindsight {
 namespace {
@@ -24,7 +24,7 @@ double PeakMegabytes() {
 /// unknowns.
 const Dataset& Drive() {
   static const Dataset dataset = [] {
-    Scenario scenario = BuiltinScenario("car_drive");
+    Scenario scenario = FindScenario("car_drive");
     scenario.imu.noise.gyro_bias_walk = 1e-7;
     scenario.imu.noise.accel_bias_walk = 1e-5;
     return Simulate(scenario, 1);
@@ -43,15 +43,14 @@ TimelineOptions WholeDrive(double begin) {
 struct Smoothed {
   Smoothed()
       : start(FindStart(Drive(), 0.0, Drive().imu.t_end())),
-        timeline(BuildTimeline(Drive(), WholeDrive(start.report.t))) {
-    const LinearTape tape =
-        RunExtendedKalmanFilter(start.layout, start.prior, &timeline);
-    decisions = DecisionsOnTape(tape);
+        problem{start.layout, start.prior,
+                BuildTimeline(Drive(), WholeDrive(start.report.t))} {
+    const LinearTape tape = RunExtendedKalmanFilter(&problem);
+    problem.decisions = DecisionsOnTape(tape);
     states = SmoothRts(tape).states;
   }
   Start start;
-  Timeline timeline;
-  GateDecisions decisions;
+  Problem problem;
   std::vector<State> states;
 };
 Smoothed& SmoothedDrive() {
@@ -81,8 +80,7 @@ BENCHMARK(FilterSmootherAndBatch)->Unit(benchmark::kMillisecond);
 void ForwardFilter(benchmark::State& state) {
   Smoothed& drive = SmoothedDrive();
   for (auto _ : state) {
-    const LinearTape tape = RunExtendedKalmanFilter(
-        drive.start.layout, drive.start.prior, &drive.timeline);
+    const LinearTape tape = RunExtendedKalmanFilter(&drive.problem);
     benchmark::DoNotOptimize(tape.back().x_plus.p_e.data());
   }
 }
@@ -90,8 +88,7 @@ BENCHMARK(ForwardFilter)->Unit(benchmark::kMillisecond);
 
 void RtsSmoother(benchmark::State& state) {
   Smoothed& drive = SmoothedDrive();
-  const LinearTape tape = RunExtendedKalmanFilter(
-      drive.start.layout, drive.start.prior, &drive.timeline);
+  const LinearTape tape = RunExtendedKalmanFilter(&drive.problem);
   for (auto _ : state) {
     const SmoothedTrajectory smoothed = SmoothRts(tape);
     benchmark::DoNotOptimize(smoothed.states.data());
@@ -103,17 +100,14 @@ BENCHMARK(RtsSmoother)->Unit(benchmark::kMillisecond);
 void BatchFromSmoother(benchmark::State& state) {
   Smoothed& drive = SmoothedDrive();
   for (auto _ : state) {
-    const BatchResult result =
-        SolveBatch(drive.start.layout, drive.start.prior, drive.states,
-                   &drive.timeline, drive.decisions, {});
+    const BatchResult result = SolveBatch(drive.states, {}, &drive.problem);
     state.counters["iterations"] = result.iterations;
   }
 }
 BENCHMARK(BatchFromSmoother)->Unit(benchmark::kMillisecond);
 
 ChainProblem MakeChain(Smoothed* drive) {
-  return ChainProblem(drive->start.layout, drive->start.prior, drive->states,
-                      &drive->timeline, drive->decisions);
+  return ChainProblem(drive->states, &drive->problem);
 }
 
 void BatchInformation(benchmark::State& state) {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "io/reader.h"
+#include "io/read/reader.h"
 
 namespace hindsight {
 namespace {

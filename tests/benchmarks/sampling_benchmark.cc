@@ -4,15 +4,15 @@
 #include <cstddef>
 #include <vector>
 
+#include "io/config/scenario_config.h"
 #include "problems/reconstruction.h"
-#include "simulation/builtin_scenarios.h"
 
 namespace hindsight {
 namespace {
 
 /// 30 min at 200 Hz with 1 Hz GNSS, sampled at `state.range(0)` Hz.
 void Sampling(benchmark::State& state, const std::string& method) {
-  static const Dataset dataset = Simulate(BuiltinScenario("car_drive"), 1);
+  static const Dataset dataset = Simulate(FindScenario("car_drive"), 1);
   static Reconstruction reconstruction(dataset, {});
   const Solution solution = reconstruction.Run(method);
   const auto rate = static_cast<double>(state.range(0));

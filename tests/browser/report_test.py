@@ -248,6 +248,127 @@ class ReportTest(unittest.TestCase):
             checked += 1
         self.assertGreater(checked, 50)
 
+    def column_of_chart(self, section, title, label):
+        """Times and values of a line, None where there is none."""
+        return self.page.js(
+            "(() => { const c = charts.find(c => c.element.closest('section')"
+            ".id === arguments[0] && c.spec.title === arguments[1]);"
+            " const l = c.lines.find(l => l.label === arguments[2]);"
+            " const s = l.series();"
+            " const table = page.tables[l.table];"
+            " return [[...s.t], [...s.v].map(x => isNaN(x) ? null : x),"
+            " table.json.columns[l.column].quantum]; })()",
+            section, title, label)
+
+    def expect_equal(self, shown, rows, title):
+        times, values, quantum = shown
+        self.assertEqual(len(times), len(rows))
+        random.seed(2)
+        known = 0
+        for k in random.sample(range(len(rows)), 40):
+            self.assertAlmostEqual(times[k], float(rows[k]['t[s]']), delta=2e-6)
+            if rows[k][title] == '':
+                self.assertIsNone(values[k])
+                continue
+            known += 1
+            self.assertAlmostEqual(values[k], float(rows[k][title]),
+                                   delta=0.5001 * quantum + 1e-12)
+        self.assertGreater(known, 20)
+
+    def test_separation_is_that_of_the_file_with_its_envelope(self):
+        self.page.load_rows()
+        rows = rows_of(self.out / 'two_filter.csv')
+        for title, name in (('North', 'n[m]'), ('Velocity east', 'v_e[m/s]'),
+                            ('Heading', 'heading[deg]')):
+            self.expect_equal(self.column_of_chart(
+                'separation', title, 'forward minus backward'), rows,
+                'separation_' + name)
+            times, bound, _ = self.column_of_chart('separation', title,
+                                                   '3 sigma')
+            for k in range(0, len(rows), 17):
+                sigma = rows[k]['sd_separation_' + name]
+                if sigma == '':
+                    self.assertIsNone(bound[k])
+                else:
+                    self.assertAlmostEqual(bound[k], 3 * float(sigma),
+                                           delta=0.01 * 3 * float(sigma))
+
+    def test_body_motion_is_that_of_the_file(self):
+        self.page.load_rows()
+        rows = rows_of(self.out / 'batch.motion.csv')
+        self.expect_equal(self.column_of_chart('motion', 'Body rate', 'down'),
+                          rows, 'w_z[deg/s]')
+        self.expect_equal(self.column_of_chart('motion', 'Specific force',
+                                               'forward'), rows, 'f_x[m/s^2]')
+
+    def test_the_receiver_shows_quality_and_satellites(self):
+        folder = self.folder / 'receiver'
+        subprocess.run(['cp', '-r', str(self.out), str(folder)], check=True)
+        path = folder / 'fixes.csv'
+        lines = path.read_text().splitlines()
+        at = next(i for i, line in enumerate(lines) if line[0] == 't')
+        for i in range(at + 1, len(lines)):
+            fields = lines[i].split(',')
+            fields[8:10] = [str(4 if i % 5 == 0 else 1), str(8 + i % 3)]
+            lines[i] = ','.join(fields)
+        path.write_text('\n'.join(lines) + '\n')
+        summary = json.loads((folder / 'summary.json').read_text())
+        summary['fixes']['gnss']['quality_percent'] = {'1': 80, '4': 20}
+        (folder / 'summary.json').write_text(json.dumps(summary))
+        subprocess.run([sys.argv[1], 'report', str(folder)], check=True,
+                       stdout=subprocess.DEVNULL)
+        with Page(folder / 'report.html', width=1280) as page:
+            page.load_rows()
+            self.assertEqual(page.errors(), [])
+            titles = page.js("charts.filter(c => c.element.closest('section')"
+                             ".id === 'receiver').map(c => c.spec.title)")
+            self.assertEqual(titles, ['gnss: quality', 'gnss: satellites',
+                                      'gnss: stated sigma'])
+            self.assertEqual(page.js(
+                "[...new Set([...charts.find(c => c.spec.title ==="
+                " 'gnss: quality').lines[0].series().v])].sort()"), [1, 4])
+            self.assertIn('80.0', page.js(
+                "document.querySelector('#receiver table').textContent"))
+
+    def test_the_map_is_coloured_by_every_quantity(self):
+        pictures = set()
+        for mode in self.page.js('map.modes.map(m => m[1])'):
+            self.page.browser.execute_script(
+                "const s = document.querySelector('#map-tools select');"
+                "s.selectedIndex = map.modes.findIndex("
+                "m => m[1] === arguments[0]);"
+                "s.dispatchEvent(new Event('change'))", mode)
+            pictures.add(self.page.js('map.canvas.toDataURL()'))
+        self.assertEqual(len(pictures), 4)
+
+    def test_the_map_colours_a_span_by_its_grade(self):
+        self.page.browser.execute_script(
+            'page.map.grades = [{from: 20, to: 30, grade: 1},'
+            ' {from: 25, to: 26, grade: 2}]')
+        self.assertEqual(self.page.js('[10, 22, 25.5, 28, 31].map(gradeAt)'),
+                         [0, 1, 2, 1, 0])
+
+    def test_inputs_are_listed_with_their_checksums(self):
+        summary = json.loads((self.out / 'summary.json').read_text())
+        text = self.page.js("document.querySelector('#config').textContent")
+        self.assertGreaterEqual(len(summary['inputs']), 3)
+        for one in summary['inputs']:
+            self.assertIn(one['sha256'], text)
+            self.assertEqual(len(one['sha256']), 64)
+
+    def test_evaluate_makes_the_same_page(self):
+        path = self.folder / 'evaluated.html'
+        subprocess.run([sys.argv[1], 'evaluate', str(self.out / 'batch.csv'),
+                        str(self.folder / 'recording' / 'truth.csv'),
+                        f'--out={path}'], check=True,
+                       stdout=subprocess.DEVNULL)
+        with Page(path, width=1280) as page:
+            self.assertEqual(page.errors(), [])
+            self.assertEqual(page.js('page.groups.map(g => g.label)'),
+                             ['batch'])
+            self.assertGreater(page.js(
+                "document.querySelectorAll('#truth .plot canvas').length"), 0)
+
     def test_keys_zoom_and_move_the_cursor(self):
         body = self.page.browser.find_element(By.TAG_NAME, 'body')
         length = self.page.js('view.window[1] - view.window[0]')
@@ -285,6 +406,18 @@ class ReportTest(unittest.TestCase):
             self.assertEqual(page.errors(), [])
             self.assertLessEqual(
                 page.js('document.documentElement.scrollWidth'), 360)
+
+    def test_every_width_holds_all_charts(self):
+        for width in (360, 1280, 2560):
+            with Page(self.path, width=width, height=1000) as page:
+                self.assertEqual(page.errors(), [])
+                self.assertLessEqual(
+                    page.js('document.documentElement.scrollWidth'), width)
+                narrow = page.js(
+                    "charts.filter(c => c.plot.clientWidth < 250 ||"
+                    " c.plot.getBoundingClientRect().right >"
+                    " window.innerWidth + 1).map(c => c.spec.title)")
+                self.assertEqual(narrow, [], width)
 
     def test_dark_mode_has_a_dark_ground(self):
         with Page(self.path, width=1280, dark=True) as page:

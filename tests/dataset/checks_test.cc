@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -52,7 +53,7 @@ TEST(CheckDataset, FlagsOfStandingComeWhenTheyCome) {
     Dataset data = Recording({0, 0, -9.81});
     AidingStream stream;
     stream.sensor.name = "stance";
-    if (flag) stream.sensor.type = SensorType::kZeroVelocity;
+    if (flag) stream.sensor.kind = &ZeroVelocityKind();
     for (int i = 0; i < 100; ++i) {
       const double t = 0.5 * i + (i % 3 == 0 ? 0.3 : 0.0);
       Measurement z{t, 1, false, PositionFix{}};

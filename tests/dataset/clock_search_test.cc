@@ -8,8 +8,10 @@
 
 #include "base/units.h"
 #include "geometry/so3.h"
-#include "simulation/builtin_scenarios.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
 #include "simulation/scenario.h"
+#include "simulation/wandering_drive.h"
 #include "support/shuttle_flight.h"
 
 namespace hindsight {
@@ -23,7 +25,7 @@ using ::testing::IsEmpty;
 /// Three minutes of driving, the truth once a second and by `late` seconds
 /// late.
 Dataset LateTruth(double late) {
-  Scenario scenario = BuiltinScenario("short_drive");
+  Scenario scenario = FindScenario("short_drive");
   scenario.truth_rate_hz = 1.0;
   Dataset dataset = Simulate(scenario, 1);
   for (TruthPoint& point : dataset.truth.Edited()) point.t += late;
@@ -55,11 +57,10 @@ TEST(ClockSearch, TruthsClockIsNotFoundWhereNothingTellsIt) {
   EXPECT_TRUE(SearchClock(positions.imu, positions.truth).candidates.empty());
 }
 
-AidingModel Model(SensorType type, const Eigen::Vector3d& sigma,
+AidingModel Model(const SensorKind& kind, const Eigen::Vector3d& sigma,
                   double rate_hz) {
-  AidingModel model;
+  AidingModel model(kind);
   model.sensor.name = "sensor";
-  model.sensor.type = type;
   model.sigma = sigma;
   model.rate_hz = rate_hz;
   return model;
@@ -68,20 +69,19 @@ AidingModel Model(SensorType type, const Eigen::Vector3d& sigma,
 /// Every kind of stream that can tell its clock, on a drive.
 std::vector<AidingModel> TellingSensors() {
   std::vector<AidingModel> models = {
-      Model(SensorType::kPosition, Eigen::Vector3d::Constant(0.5), 1.0),
-      Model(SensorType::kPosition, Eigen::Vector3d::Constant(0.05), 5.0),
-      Model(SensorType::kVelocity, Eigen::Vector3d::Constant(0.05), 5.0),
-      Model(SensorType::kOdometer, Eigen::Vector3d::Constant(0.05), 10.0),
-      Model(SensorType::kDvl, Eigen::Vector3d::Constant(0.02), 2.0),
-      Model(SensorType::kMagnetometer, Eigen::Vector3d::Constant(0.5), 20.0)};
-  models[3].odometer_form = Odometer::Form::kForward;
-  models[4].dvl.sigma.setConstant(0.02);
-  models[5].magnetic_form = MagneticField::Form::kVector;
+      Model(PositionKind(), Eigen::Vector3d::Constant(0.5), 1.0),
+      Model(PositionKind(), Eigen::Vector3d::Constant(0.05), 5.0),
+      Model(VelocityKind(), Eigen::Vector3d::Constant(0.05), 5.0),
+      Model(OdometerKind(), Eigen::Vector3d::Constant(0.05), 10.0),
+      Model(DvlKind(), Eigen::Vector3d::Constant(0.02), 2.0),
+      Model(MagnetometerKind(), Eigen::Vector3d::Constant(0.5), 20.0)};
+  PatternOf<Odometer>(models[3]).form = Odometer::Form::kForward;
+  PatternOf<MagneticField>(models[5]).form = MagneticField::Form::kVector;
   return models;
 }
 
 Dataset Drive(const AidingModel& model, std::uint64_t seed) {
-  Scenario scenario = BuiltinScenario("short_drive");
+  Scenario scenario = FindScenario("short_drive");
   scenario.segments = WanderingDrive(180.0, seed);
   scenario.aiding = {model};
   return Simulate(scenario, seed);
@@ -98,18 +98,18 @@ TEST(ClockSearch, FindsDelaysUpToHalfTheRecordingOfEveryKindOfStream) {
       const ClockSearch found =
           SearchClock(dataset.imu, dataset.initial, stream);
       ASSERT_FALSE(found.candidates.empty())
-          << static_cast<int>(model.sensor.type) << " " << late;
+          << model.sensor.kind->name << " " << late;
       // Windows hide what their length hides.
       EXPECT_NEAR(found.candidates.front().offset, -late,
                   0.25 * found.resolution)
-          << static_cast<int>(model.sensor.type) << " " << late;
+          << model.sensor.kind->name << " " << late;
     }
   }
 }
 
 TEST(ClockSearch, FindsTheClockOfARecordThatBeganEarlierAndEndedLater) {
   AidingModel model =
-      Model(SensorType::kVelocity, Eigen::Vector3d::Constant(0.05), 5.0);
+      Model(VelocityKind(), Eigen::Vector3d::Constant(0.05), 5.0);
   Dataset dataset = Drive(model, 12);
   auto& samples = dataset.imu.samples;
   std::erase_if(samples, [](const ImuSample& sample) {
@@ -124,13 +124,13 @@ TEST(ClockSearch, FindsTheClockOfARecordThatBeganEarlierAndEndedLater) {
 
 TEST(ClockSearch, FindsNothingAtRest) {
   for (const AidingModel& model : TellingSensors()) {
-    Scenario scenario = BuiltinScenario("short_drive");
+    Scenario scenario = FindScenario("short_drive");
     scenario.segments = {Segment::Stop(120.0)};
     scenario.aiding = {model};
     const Dataset dataset = Simulate(scenario, 3);
     EXPECT_TRUE(SearchClock(dataset.imu, dataset.initial, dataset.streams[0])
                     .candidates.empty())
-        << static_cast<int>(model.sensor.type);
+        << model.sensor.kind->name;
   }
 }
 
@@ -185,8 +185,8 @@ TEST(ClockSearch, SeveralClocksOfARegularFlightAreTold) {
 }
 
 TEST(ClockSearch, WithheldMeasurementsTakeNoPart) {
-  Dataset dataset = Drive(
-      Model(SensorType::kVelocity, Eigen::Vector3d::Constant(0.05), 5.0), 13);
+  Dataset dataset =
+      Drive(Model(VelocityKind(), Eigen::Vector3d::Constant(0.05), 5.0), 13);
   for (Measurement& z : dataset.streams[0].measurements.Edited())
     z.withheld = true;
   EXPECT_TRUE(SearchClock(dataset.imu, dataset.initial, dataset.streams[0])

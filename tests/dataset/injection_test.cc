@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "earth/wgs84.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -21,10 +22,10 @@ Dataset Fixes() {
   gnss.sensor.name = "gnss";
   AidingStream height;
   height.sensor.name = "baro";
-  height.sensor.type = SensorType::kHeight;
+  height.sensor.kind = &HeightKind();
   AidingStream odometer;
   odometer.sensor.name = "odo";
-  odometer.sensor.type = SensorType::kOdometer;
+  odometer.sensor.kind = &OdometerKind();
   for (int k = 0; k < 1000; ++k) {
     gnss.measurements.push_back({1.0 * k, 0, false, PositionFix{p_e}});
     height.measurements.push_back({1.0 * k, 1, false, HeightFix{500.0}});
@@ -199,7 +200,7 @@ TEST(Injection, TakesTheUnitAndTheAxesOfTheSensor) {
   Dataset dataset = Fixes();
   AidingStream doppler;
   doppler.sensor.name = "doppler";
-  doppler.sensor.type = SensorType::kVelocity;
+  doppler.sensor.kind = &VelocityKind();
   VelocityFix still;
   still.v_n.setZero();
   doppler.measurements.push_back({1.0, 3, false, still});

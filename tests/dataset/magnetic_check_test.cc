@@ -8,7 +8,8 @@
 #include "base/units.h"
 #include "dataset/checks.h"
 #include "earth/geomagnetic_dipole.h"
-#include "simulation/builtin_scenarios.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -20,16 +21,15 @@ using ::testing::IsEmpty;
 /// A field of the given dip and 48 uT, measured to 0.5 uT on a drive with turns
 /// and ramps at a latitude [deg].
 Dataset Drive(double latitude_deg, double dip_deg) {
-  Scenario scenario = BuiltinScenario("short_drive");
+  Scenario scenario = FindScenario("short_drive");
   scenario.start.latitude = latitude_deg * kDegree;
-  AidingModel compass;
+  AidingModel compass(MagnetometerKind());
   compass.sensor.name = "compass";
-  compass.sensor.type = SensorType::kMagnetometer;
   compass.sensor.magnetic.horizontal = 48.0 * std::cos(dip_deg * kDegree);
   compass.sensor.magnetic.down = 48.0 * std::sin(dip_deg * kDegree);
   compass.rate_hz = 10.0;
-  compass.sigma.setConstant(0.5);
-  compass.magnetic_form = MagneticField::Form::kVector;
+  compass.sigma.emplace().setConstant(0.5);
+  PatternOf<MagneticField>(compass).form = MagneticField::Form::kVector;
   scenario.aiding.push_back(compass);
   return Simulate(scenario, 3);
 }
@@ -78,14 +78,13 @@ TEST(CheckMagnetometers, NamesTheFlippedAxis) {
 }
 
 TEST(CheckMagnetometers, ATumblingBodyTellsEveryAxis) {
-  Scenario scenario = BuiltinScenario("flight");
+  Scenario scenario = FindScenario("flight");
   scenario.duration = 300.0;
   for (Segment& segment : scenario.segments) {
     if (segment.kind == Segment::Kind::kPitch) segment.angle *= 8.0;
   }
-  AidingModel compass;
+  AidingModel compass(MagnetometerKind());
   compass.sensor.name = "compass";
-  compass.sensor.type = SensorType::kMagnetometer;
   compass.sensor.magnetic.horizontal = 20.0;
   compass.sensor.magnetic.down = 43.0;
   compass.rate_hz = 10.0;

@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "base/units.h"
+#include "measurements/sensor_kind.h"
 #include "support/test_motion.h"
 
 namespace hindsight {
@@ -237,6 +238,21 @@ TEST(Rest, ATurnWithinTheBiasContradictsTheRestBefore) {
   EXPECT_GT(Inside(told.turning, 20.0, kDuration), 17.0);
 }
 
+TEST(Rest, GyrosThatWarmUpContradictNone) {
+  // A sigma of the bias in the first half minute; shaken from 15 to 25 s.
+  Dataset dataset = Quiet();
+  AddFixes(Standing(), 0.1, 0.005, &dataset);
+  dataset.initial.gyro_bias_sigma = Eigen::Vector3d::Constant(0.5 * kDegree);
+  for (ImuSample& s : dataset.imu.samples) {
+    s.gyro.z() = std::min(1.0, s.t / 30.0) * 0.5 * kDegree;
+    if (s.t > 15.0 && s.t < 25.0) s.gyro.x() += 0.5 * std::sin(20.0 * s.t);
+  }
+  const Rest rest = FindRest(dataset);
+  EXPECT_TRUE(rest.turning.empty());
+  EXPECT_GT(Inside(rest.at_rest, 0.0, 15.0), 13.0);
+  EXPECT_GT(Inside(rest.at_rest, 25.0, kDuration), kDuration - 28.0);
+}
+
 TEST(Rest, ATurnThatTheBiasCannotBeIsNoneHoweverSlow) {
   Dataset dataset = Quiet();
   AddFixes(Standing(), 0.1, 0.005, &dataset);
@@ -342,7 +358,7 @@ Dataset Flagged(const std::vector<double>& times, double sigma) {
   dataset.imu = testing::LivelyImu(kDuration, 100.0);
   AidingStream stream;
   stream.sensor.name = "flag";
-  stream.sensor.type = SensorType::kZeroVelocity;
+  stream.sensor.kind = &ZeroVelocityKind();
   for (const double t : times) {
     stream.measurements.push_back({t, 0, false, ZeroVelocity{sigma}});
     for (ImuSample& s : dataset.imu.samples) {

@@ -1,4 +1,4 @@
-#include "dataset/standing_flags.h"
+#include "measurements/standing_flags.h"
 
 #include <gtest/gtest.h>
 

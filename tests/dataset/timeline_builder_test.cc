@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "measurements/sensor_kind.h"
 #include "support/test_motion.h"
 
 namespace hindsight {
@@ -16,7 +17,7 @@ Dataset Record(const std::vector<double>& stamps, double time_offset = 0.0) {
   dataset.imu = testing::LivelyImu(10.0, 100.0);
   AidingStream stream;
   stream.sensor.name = "barometer";
-  stream.sensor.type = SensorType::kHeight;
+  stream.sensor.kind = &HeightKind();
   stream.sensor.time_offset = time_offset;
   for (const double t : stamps) {
     stream.measurements.push_back({t, 0, false, HeightFix{100.0 + t, 1.0}});
@@ -97,11 +98,28 @@ TEST(Timeline, SummariesAreIntegratedAnewOnlyWhenTheBiasHasMovedFar) {
   const Dataset dataset = Record({});
   Timeline timeline = Build(dataset, 0.0, 3.0, {});
   ImuCalibration calibration;
-  timeline.Summary(1, calibration);
+  timeline.Integrate(1, calibration);
   calibration.b_g.x() = 1e-4;  // 0.1 mrad over the second
-  EXPECT_EQ(timeline.Summary(1, calibration).calibration.b_g.x(), 0.0);
+  EXPECT_EQ(timeline.Integrate(1, calibration).calibration.b_g.x(), 0.0);
   calibration.b_g.x() = 2e-3;
-  EXPECT_EQ(timeline.Summary(1, calibration).calibration.b_g.x(), 2e-3);
+  EXPECT_EQ(timeline.Integrate(1, calibration).calibration.b_g.x(), 2e-3);
+}
+
+TEST(Timeline, WhatIsIntegratedAnewLeavesEarlierSummariesAndCopiesAlone) {
+  const Dataset dataset = Record({});
+  Timeline timeline = Build(dataset, 0.0, 3.0, {});
+  timeline.Integrate(1, {});
+  const std::shared_ptr<const ImuSummary> before = timeline.SharedSummary(1);
+  const Eigen::Quaterniond dR = before->dR;
+  Timeline copy = timeline;
+  EXPECT_EQ(&copy.Summary(1), before.get());
+  ImuCalibration far;
+  far.b_g.x() = 2e-3;
+  timeline.Integrate(1, far);
+  EXPECT_NE(&timeline.Summary(1), before.get());
+  EXPECT_EQ(&copy.Summary(1), before.get());
+  EXPECT_EQ(before->calibration.b_g.x(), 0.0);
+  EXPECT_EQ(before->dR.coeffs(), dR.coeffs());
 }
 
 }  // namespace

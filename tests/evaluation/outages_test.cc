@@ -4,14 +4,16 @@
 
 #include <cmath>
 
+#include "measurements/sensor_kind.h"
+
 namespace hindsight {
 namespace {
 
-AidingStream Stream(const std::string& name, SensorType type,
+AidingStream Stream(const std::string& name, const SensorKind& kind,
                     double time_offset = 0.0) {
   AidingStream stream;
   stream.sensor.name = name;
-  stream.sensor.type = type;
+  stream.sensor.kind = &kind;
   stream.sensor.time_offset = time_offset;
   return stream;
 }
@@ -39,7 +41,7 @@ Solution Accelerating(double until) {
 
 TEST(Outages, MatchHandComputedCase) {
   Dataset dataset;
-  dataset.streams = {Stream("gnss", SensorType::kPosition)};
+  dataset.streams = {Stream("gnss", PositionKind())};
   dataset.outages = {{0, 10.0, 20.0}, {0, 30.0, 40.0}};
   Solution solution = Accelerating(48.0);
   solution.residuals = {Withheld(10.0, 0, {3.0, 4.0, 0.0}),
@@ -62,20 +64,20 @@ TEST(Outages, MatchHandComputedCase) {
   EXPECT_DOUBLE_EQ(outages[1].error->total_max, 26.0);
   EXPECT_NEAR(outages[1].distance, 350.0, 1e-9);
 
-  const auto pooled = PoolOutageErrors(outages, SensorType::kPosition);
+  const auto pooled = PoolOutageErrors(outages, PositionKind());
   ASSERT_TRUE(pooled);
   EXPECT_NEAR(pooled->horizontal_rms, std::sqrt((25.0 + 1.0 + 100.0) / 3.0),
               1e-12);
   EXPECT_DOUBLE_EQ(pooled->horizontal_max, 10.0);
   EXPECT_NEAR(pooled->total_rms, std::sqrt((25.0 + 5.0 + 676.0) / 3.0), 1e-12);
-  EXPECT_FALSE(PoolOutageErrors(outages, SensorType::kVelocity));
+  EXPECT_FALSE(PoolOutageErrors(outages, VelocityKind()));
 }
 
 TEST(Outages, AreKeptApartBySensor) {
   Dataset dataset;
-  dataset.streams = {Stream("gnss", SensorType::kPosition),
-                     Stream("doppler", SensorType::kVelocity),
-                     Stream("barometer", SensorType::kHeight)};
+  dataset.streams = {Stream("gnss", PositionKind()),
+                     Stream("doppler", VelocityKind()),
+                     Stream("barometer", HeightKind())};
   dataset.outages = {{0, 0.0, 10.0}, {1, 0.0, 10.0}, {2, 0.0, 10.0}};
   Solution solution = Accelerating(12.0);
   solution.residuals = {Withheld(5.0, 1, {0.3, 0.4, 0.0})};
@@ -92,12 +94,12 @@ TEST(Outages, AreKeptApartBySensor) {
   EXPECT_FALSE(outages[0].drift_percent);
   EXPECT_DOUBLE_EQ(outages[1].error->horizontal_max, 0.5);
   EXPECT_FALSE(outages[1].drift_percent);
-  EXPECT_FALSE(PoolOutageErrors(outages, SensorType::kPosition));
+  EXPECT_FALSE(PoolOutageErrors(outages, PositionKind()));
 }
 
 TEST(Outages, AllowForTheTimeOffsetAtTheEdges) {
   Dataset dataset;
-  dataset.streams = {Stream("gnss", SensorType::kPosition, -0.2)};
+  dataset.streams = {Stream("gnss", PositionKind(), -0.2)};
   dataset.outages = {{0, 10.0, 20.0}};
   Solution solution = Accelerating(24.0);
   solution.residuals = {Withheld(9.8, 0, {1.0, 0.0, 0.0})};
@@ -106,7 +108,7 @@ TEST(Outages, AllowForTheTimeOffsetAtTheEdges) {
 
 TEST(Outages, BackToBackShareNoMeasurement) {
   Dataset dataset;
-  dataset.streams = {Stream("gnss", SensorType::kPosition)};
+  dataset.streams = {Stream("gnss", PositionKind())};
   dataset.outages = {{0, 0.0, 10.0}, {0, 10.0, 20.0}};
   Solution solution = Accelerating(24.0);
   solution.residuals = {Withheld(10.0, 0, {1.0, 0.0, 0.0})};
@@ -117,7 +119,7 @@ TEST(Outages, BackToBackShareNoMeasurement) {
 
 TEST(Outages, HaveNoDriftAtStandstill) {
   Dataset dataset;
-  dataset.streams = {Stream("gnss", SensorType::kPosition)};
+  dataset.streams = {Stream("gnss", PositionKind())};
   dataset.outages = {{0, 1.0, 2.0}};
   Solution solution;
   solution.states.resize(2);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "measurements/sensor_kind.h"
+
 namespace hindsight {
 namespace {
 
@@ -11,7 +13,7 @@ std::vector<Sensor> ThreeSensors() {
   sensors[0].name = "gnss";
   sensors[1].name = "other";
   sensors[2].name = "odometer";
-  sensors[2].type = SensorType::kOdometer;
+  sensors[2].kind = &OdometerKind();
   return sensors;
 }
 
@@ -109,7 +111,7 @@ TEST_F(Refusals, LossThatLeavesNothing) {
   EXPECT_EQ(Find(),
             "the loss left 51 of 100 measurements of other less than a tenth "
             "of their weight");
-  solution_.mode_names = {"good", "poor"};
+  solution_.modes = ModePart{{"good", "poor"}, {}};
   EXPECT_EQ(Find(), "");
 }
 

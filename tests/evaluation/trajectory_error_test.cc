@@ -5,9 +5,9 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "base/chi_square.h"
 #include "base/random.h"
 #include "base/units.h"
-#include "evaluation/chi_square.h"
 
 namespace hindsight {
 namespace {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "factors/imu_factor.h"
 #include "factors/measurement_factor.h"
 #include "factors/prior_factor.h"
@@ -142,7 +143,7 @@ void ExpectJacobian(const StateBlocks& blocks, const TangentFactor& factor,
   }
 }
 
-TestProblem Problem(bool rich, bool walk) {
+TestProblem ShortDrive(bool rich, bool walk) {
   TestProblemOptions options;
   options.noise = TacticalNoise(walk);
   options.layout =
@@ -167,10 +168,10 @@ std::vector<State> PairAt(const TestProblem& problem, std::size_t k) {
 TEST(ImuFactor, JacobianMatchesNumericDifference) {
   for (const bool rich : {false, true}) {
     for (const bool walk : {false, true}) {
-      const TestProblem problem = Problem(rich, walk);
+      const TestProblem problem = ShortDrive(rich, walk);
       Timeline timeline = problem.MakeTimeline();
       const StateBlocks blocks(problem.layout);
-      timeline.Summary(1, CalibrationOf(problem.layout, problem.truth[1]));
+      timeline.Integrate(1, CalibrationOf(problem.layout, problem.truth[1]));
       const ImuFactor factor(&blocks, &timeline, 1);
       EXPECT_EQ(factor.num_residuals(), blocks.node_dim());
       ExpectJacobian(blocks, factor, PairAt(problem, 1),
@@ -181,27 +182,27 @@ TEST(ImuFactor, JacobianMatchesNumericDifference) {
 }
 
 TEST(ImuFactor, ConstantBiasesAreGlobals) {
-  const TestProblem constant = Problem(true, false);
+  const TestProblem constant = ShortDrive(true, false);
   const StateBlocks blocks(constant.layout);
   Timeline timeline = constant.MakeTimeline();
-  timeline.Summary(0, {});
+  timeline.Integrate(0, {});
   const ImuFactor factor(&blocks, &timeline, 0);
   EXPECT_EQ(factor.nodes(), (std::vector<int>{0, 1}));
   EXPECT_EQ(factor.globals().size(), 4u);  // two biases, two scales
-  const TestProblem walking = Problem(false, true);
+  const TestProblem walking = ShortDrive(false, true);
   const StateBlocks walking_blocks(walking.layout);
   Timeline walking_timeline = walking.MakeTimeline();
-  walking_timeline.Summary(0, {});
+  walking_timeline.Integrate(0, {});
   const ImuFactor other(&walking_blocks, &walking_timeline, 0);
   EXPECT_TRUE(other.globals().empty());
 }
 
 TEST(ImuFactor, CostIsTheMahalanobisDistanceOfTheLink) {
-  const TestProblem problem = Problem(false, true);
+  const TestProblem problem = ShortDrive(false, true);
   Timeline timeline = problem.MakeTimeline();
   const StateBlocks blocks(problem.layout);
   const ImuSummary& summary =
-      timeline.Summary(1, CalibrationOf(problem.layout, problem.truth[1]));
+      timeline.Integrate(1, CalibrationOf(problem.layout, problem.truth[1]));
   const ImuFactor factor(&blocks, &timeline, 1);
   const std::vector<State> pair = PairAt(problem, 1);
   ImuLink link;
@@ -216,11 +217,11 @@ TEST(ImuFactor, CostIsTheMahalanobisDistanceOfTheLink) {
 
 TEST(ImuFactor, WhitenedJacobianIsTheFiltersTransition) {
   // -J_j^-1 J_i = Phi and (J_j' J_j)^-1 = Q, as the tape has them.
-  const TestProblem problem = Problem(false, true);
+  const TestProblem problem = ShortDrive(false, true);
   Timeline timeline = problem.MakeTimeline();
   const StateBlocks blocks(problem.layout);
   const ImuSummary& summary =
-      timeline.Summary(1, CalibrationOf(problem.layout, problem.truth[1]));
+      timeline.Integrate(1, CalibrationOf(problem.layout, problem.truth[1]));
   const ImuFactor factor(&blocks, &timeline, 1);
   const std::vector<State> pair = PairAt(problem, 1);
   const Eigen::MatrixXd J = Point(blocks, factor, pair).TangentJacobian();
@@ -249,14 +250,14 @@ Measurement Correlated(const TestProblem& problem, std::size_t index) {
 
 TEST(MeasurementFactor, IsTheFiltersModelWhitened) {
   for (const bool rich : {false, true}) {
-    TestProblem problem = Problem(rich, true);
-    for (const std::size_t i : {4, 5}) {
+    TestProblem problem = ShortDrive(rich, true);
+    for (const std::size_t i : {4u, 5u}) {
       problem.measurements[i] = Correlated(problem, i);
     }
     const Timeline timeline = problem.MakeTimeline();
     const StateBlocks blocks(problem.layout);
     const std::vector<State> pair = PairAt(problem, 2);
-    for (const std::size_t i : {4, 5}) {
+    for (const std::size_t i : {4u, 5u}) {
       const Measurement& z = timeline.all_measurements()[i];
       const MeasurementFactor factor(&blocks, &timeline, 2, &z);
       LinearizedMeasurement expected;
@@ -296,13 +297,13 @@ TEST(MeasurementFactor, IsTheFiltersModelWhitened) {
 
 TEST(MeasurementFactor, JacobianMatchesNumericDifference) {
   for (const bool rich : {false, true}) {
-    TestProblem problem = Problem(rich, true);
-    for (const std::size_t i : {4, 5}) {
+    TestProblem problem = ShortDrive(rich, true);
+    for (const std::size_t i : {4u, 5u}) {
       problem.measurements[i] = Correlated(problem, i);
     }
     const Timeline timeline = problem.MakeTimeline();
     const StateBlocks blocks(problem.layout);
-    for (const std::size_t i : {4, 5}) {
+    for (const std::size_t i : {4u, 5u}) {
       const Measurement& z = timeline.all_measurements()[i];
       const MeasurementFactor factor(&blocks, &timeline, 2, &z);
       ExpectJacobian(blocks, factor, {PairAt(problem, 2)[0]},
@@ -313,7 +314,7 @@ TEST(MeasurementFactor, JacobianMatchesNumericDifference) {
 
 TEST(PriorFactor, CostIsTheMahalanobisDistanceAndJacobianNumeric) {
   for (const bool walk : {false, true}) {
-    const TestProblem problem = Problem(true, walk);
+    const TestProblem problem = ShortDrive(true, walk);
     const StateBlocks blocks(problem.layout);
     Random random(5);
     Eigen::MatrixXd A(problem.layout.dim(), problem.layout.dim());
@@ -341,7 +342,7 @@ TEST(Whitener, TurnsItsCovarianceIntoIdentity) {
   // Its transpose in its place would fail here.
   EXPECT_FALSE((W.transpose() * S * W).isIdentity(1e-2));
   S(2, 2) = -1.0;
-  EXPECT_THROW(Whitener(S), std::logic_error);
+  EXPECT_THROW(Whitener(S), EstimationError);
 }
 
 }  // namespace

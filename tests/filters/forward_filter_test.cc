@@ -49,9 +49,8 @@ void ExpectEqualTrajectories(const ErrorLayout& layout,
 TEST(ForwardFilter, ExactDataGiveZeroError) {
   for (const bool rich : {false, true}) {
     const TestProblem problem = MakeProblem(Options(false, rich));
-    Timeline timeline = problem.MakeTimeline();
-    const LinearTape tape =
-        RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+    Problem posed = problem.Pose();
+    const LinearTape tape = RunExtendedKalmanFilter(&posed);
     ExpectEqualTrajectories(problem.layout, StatesAfter(tape), problem.truth);
     ExpectEqualTrajectories(problem.layout, SmoothRts(tape).states,
                             problem.truth);
@@ -60,7 +59,7 @@ TEST(ForwardFilter, ExactDataGiveZeroError) {
 
 TEST(ForwardFilter, IteratedSmootherOfExactDataReturnsToTheTruth) {
   const TestProblem problem = MakeProblem(Options(false));
-  Timeline timeline = problem.MakeTimeline();
+  Problem posed = problem.Pose(GateDecisions(problem.measurements.size(), 1));
   std::vector<State> nominal = problem.truth;
   Random random(7);
   for (State& x : nominal) {
@@ -70,9 +69,7 @@ TEST(ForwardFilter, IteratedSmootherOfExactDataReturnsToTheTruth) {
     d.tail<6>() *= 0.01;
     x = Retract(problem.layout, x, d);
   }
-  const GateDecisions all(problem.measurements.size(), 1);
-  const IteratedResult result = SmoothIterated(problem.layout, problem.prior,
-                                               nominal, &timeline, all, {});
+  const IteratedResult result = SmoothIterated(nominal, {}, &posed);
   EXPECT_TRUE(result.converged);
   EXPECT_LE(result.iterations, 6);
   ExpectEqualTrajectories(problem.layout, result.trajectory.states,
@@ -81,8 +78,7 @@ TEST(ForwardFilter, IteratedSmootherOfExactDataReturnsToTheTruth) {
 
 TEST(ForwardFilter, IterationStopsWhereTheRestIsNegligible) {
   const TestProblem problem = MakeProblem(Options(true), 4);
-  Timeline timeline = problem.MakeTimeline();
-  const GateDecisions all(problem.measurements.size(), 1);
+  Problem posed = problem.Pose(GateDecisions(problem.measurements.size(), 1));
   std::vector<State> nominal = problem.truth;
   Random random(8);
   for (State& x : nominal) {
@@ -92,8 +88,7 @@ TEST(ForwardFilter, IterationStopsWhereTheRestIsNegligible) {
   const auto smooth = [&](const CovarianceSeries* rough) {
     IterationOptions options;
     options.rough = rough;
-    return SmoothIterated(problem.layout, problem.prior, nominal, &timeline,
-                          all, options);
+    return SmoothIterated(nominal, options, &posed);
   };
   const IteratedResult whole = smooth(nullptr);
   const IteratedResult soon = smooth(&whole.trajectory.P);
@@ -108,16 +103,15 @@ TEST(ForwardFilter, IterationStopsWhereTheRestIsNegligible) {
 
 TEST(ForwardFilter, TapeTransitionIsTheDerivativeOfPropagation) {
   const TestProblem problem = MakeProblem(Options(true, true));
-  Timeline timeline = problem.MakeTimeline();
-  const LinearTape tape =
-      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+  Problem posed = problem.Pose();
+  const LinearTape tape = RunExtendedKalmanFilter(&posed);
   for (const std::size_t k : {std::size_t{1}, tape.size() - 1}) {
     const State& x = tape.epoch(k - 1).x_plus;
     const State& y = tape.epoch(k).x_minus;
     const auto propagate = [&](const ErrorVector& d) {
       return Local(problem.layout, y,
                    Predict(problem.layout, Retract(problem.layout, x, d),
-                           timeline.Summary(k - 1)));
+                           posed.timeline.Summary(k - 1)));
     };
     for (int c = 0; c < problem.layout.dim(); ++c) {
       // Rounding of positions, 2e-9 m over 2 h; curvature h^2/6 |dp| < 1e-7.
@@ -134,21 +128,19 @@ TEST(ForwardFilter, TapeTransitionIsTheDerivativeOfPropagation) {
 
 TEST(ForwardFilter, ContinuedRunEqualsTheWholeRun) {
   const TestProblem problem = MakeProblem(Options(true));
-  Timeline whole = problem.MakeTimeline();
-  const LinearTape all =
-      RunExtendedKalmanFilter(problem.layout, problem.prior, &whole);
+  Problem whole = problem.Pose();
+  const LinearTape all = RunExtendedKalmanFilter(&whole);
   constexpr std::size_t kCut = 8;
   TestProblem first = problem;
   first.nodes.resize(kCut + 1);
-  Timeline begin = first.MakeTimeline();
-  const LinearTape head =
-      RunExtendedKalmanFilter(problem.layout, problem.prior, &begin);
+  Problem begin = first.Pose();
+  const LinearTape head = RunExtendedKalmanFilter(&begin);
   TestProblem second = problem;
   second.nodes.erase(second.nodes.begin(), second.nodes.begin() + kCut);
   second.nodes.front().measurement_count = 0;  // used already
-  Timeline rest = second.MakeTimeline();
-  const Prior prior{head.back().x_plus, head.P_plus(head.size() - 1)};
-  const LinearTape tail = RunExtendedKalmanFilter(problem.layout, prior, &rest);
+  Problem rest = second.Pose();
+  rest.prior = {head.back().x_plus, head.P_plus(head.size() - 1)};
+  const LinearTape tail = RunExtendedKalmanFilter(&rest);
   ASSERT_EQ(tail.size(), all.size() - kCut);
   for (std::size_t k = 1; k < tail.size(); ++k) {
     // The same operations on the same numbers.
@@ -159,12 +151,10 @@ TEST(ForwardFilter, ContinuedRunEqualsTheWholeRun) {
 
 TEST(ForwardFilter, TwoRunsGiveIdenticalBits) {
   const TestProblem problem = MakeProblem(Options(true, true));
-  Timeline a = problem.MakeTimeline();
-  Timeline b = problem.MakeTimeline();
-  const LinearTape tape_a =
-      RunExtendedKalmanFilter(problem.layout, problem.prior, &a);
-  const LinearTape tape_b =
-      RunExtendedKalmanFilter(problem.layout, problem.prior, &b);
+  Problem a = problem.Pose();
+  Problem b = problem.Pose();
+  const LinearTape tape_a = RunExtendedKalmanFilter(&a);
+  const LinearTape tape_b = RunExtendedKalmanFilter(&b);
   for (std::size_t k = 0; k < tape_a.size(); ++k) {
     EXPECT_EQ(tape_a.epoch(k).x_plus.q_eb.coeffs(),
               tape_b.epoch(k).x_plus.q_eb.coeffs());
@@ -180,9 +170,8 @@ TEST(ForwardFilter, GateRejectsAnOutlierAndRecordsIt) {
       static_cast<std::size_t>(problem.nodes[kOutlier].first_measurement);
   auto& fix = std::get<PositionFix>(problem.measurements[index].model);
   fix.p_e += Eigen::Vector3d(3.0, 3.0, 3.0);
-  Timeline timeline = problem.MakeTimeline();
-  const LinearTape tape =
-      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+  Problem posed = problem.Pose();
+  const LinearTape tape = RunExtendedKalmanFilter(&posed);
   const TapeMeasurement& rejected = tape.measurements(kOutlier)[0];
   EXPECT_FALSE(rejected.accepted);
   EXPECT_GT(rejected.nis, GateLimit(problem.sensors[0], 3));
@@ -192,9 +181,8 @@ TEST(ForwardFilter, GateRejectsAnOutlierAndRecordsIt) {
   // Rejected is as good as never measured.
   TestProblem without = problem;
   without.measurements[index].withheld = true;
-  Timeline other = without.MakeTimeline();
-  const LinearTape expected =
-      RunExtendedKalmanFilter(problem.layout, problem.prior, &other);
+  Problem other = without.Pose();
+  const LinearTape expected = RunExtendedKalmanFilter(&other);
   EXPECT_TRUE(expected.measurements(kOutlier)[0].withheld);
   EXPECT_FALSE(expected.measurements(kOutlier)[0].accepted);
   EXPECT_EQ(tape.back().x_plus.p_e, expected.back().x_plus.p_e);
@@ -213,9 +201,8 @@ TEST(ForwardFilter, WeightOfALossIsOnTheTapeAndDividesR) {
   loss.kind = RobustLoss::Kind::kMixture;
   loss.scale = 1.0;
   loss.rows = 1;  // those of the measurement count
-  Timeline timeline = problem.MakeTimeline();
-  const LinearTape tape =
-      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+  Problem posed = problem.Pose();
+  const LinearTape tape = RunExtendedKalmanFilter(&posed);
   const TapeMeasurement& outlier = tape.measurements(kOutlier)[0];
   EXPECT_TRUE(outlier.accepted);
   EXPECT_NEAR(outlier.weight, 1.0 / 400.0, 1e-6);
@@ -242,9 +229,8 @@ TEST(ForwardFilter, GivenDecisionsReplaceTheGate) {
   problem.sensors[0].gate_probability = 1e-12;  // would reject everything
   GateDecisions decisions(problem.measurements.size(), 1);
   decisions[4] = 0;
-  Timeline timeline = problem.MakeTimeline();
-  const LinearTape tape = RunExtendedKalmanFilter(problem.layout, problem.prior,
-                                                  &timeline, decisions);
+  Problem posed = problem.Pose(decisions);
+  const LinearTape tape = RunExtendedKalmanFilter(&posed);
   EXPECT_EQ(DecisionsOnTape(tape), decisions);
 }
 
@@ -256,9 +242,8 @@ TEST(ForwardFilter, NisAveragesItsDegreesOfFreedom) {
   constexpr auto kSeeds = static_cast<std::uint64_t>(testing::SeedCount(60));
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const TestProblem problem = MakeProblem(Options(true), seed);
-    Timeline timeline = problem.MakeTimeline();
-    const LinearTape tape =
-        RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+    Problem posed = problem.Pose();
+    const LinearTape tape = RunExtendedKalmanFilter(&posed);
     for (std::size_t k = 1; k < tape.size(); ++k) {
       for (const TapeMeasurement& z : tape.measurements(k)) {
         sum += z.nis;
@@ -273,15 +258,14 @@ TEST(ForwardFilter, NisAveragesItsDegreesOfFreedom) {
 
 TEST(ForwardFilter, CallbackSeesEveryEpochAndMayStop) {
   const TestProblem problem = MakeProblem(Options(false));
-  Timeline timeline = problem.MakeTimeline();
+  Problem posed = problem.Pose();
   std::size_t last = 0;
-  EXPECT_THROW(
-      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline, {},
-                              [&last](std::size_t done) {
-                                last = done;
-                                if (done == 5) throw Interrupted();
-                              }),
-      Interrupted);
+  EXPECT_THROW(RunExtendedKalmanFilter(&posed,
+                                       [&last](std::size_t done) {
+                                         last = done;
+                                         if (done == 5) throw Interrupted();
+                                       }),
+               Interrupted);
   EXPECT_EQ(last, 5u);
 }
 

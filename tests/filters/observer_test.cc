@@ -25,7 +25,7 @@ constexpr ErrorDefinition kErrors[] = {ErrorDefinition::kNavigation,
                                        ErrorDefinition::kLeftInvariant};
 
 /// Errors of the start: `scale` times a degree and the like.
-TestProblem Problem(bool errors, double scale = 1.0) {
+TestProblem ShortDrive(bool errors, double scale = 1.0) {
   TestProblemOptions options;
   options.noise = TacticalNoise(true);
   NavigationPrior prior;
@@ -42,8 +42,8 @@ TestProblem Problem(bool errors, double scale = 1.0) {
 }
 
 LinearTape RunModel(const TestProblem& problem, const ForwardModel& model) {
-  Timeline timeline = problem.MakeTimeline();
-  return RunForwardFilter(model, problem.layout, problem.prior, &timeline);
+  Problem posed = problem.Pose();
+  return RunForwardFilter(model, &posed);
 }
 
 ForwardModel HInfinityModel(double gamma) {
@@ -54,7 +54,7 @@ ForwardModel HInfinityModel(double gamma) {
 }
 
 TEST(Observer, ExactDataGiveZeroErrorByEveryRuleAndError) {
-  const TestProblem problem = Problem(false);
+  const TestProblem problem = ShortDrive(false);
   ForwardModel modified;
   modified.covariance.rule = RiccatiRule::kModifiedHInfinity;
   modified.covariance.alpha = 0.03;
@@ -75,7 +75,7 @@ TEST(Observer, ExactDataGiveZeroErrorByEveryRuleAndError) {
 }
 
 TEST(Observer, GammaToInfinityIsTheKalmanFilter) {
-  const TestProblem problem = Problem(true);
+  const TestProblem problem = ShortDrive(true);
   const LinearTape kalman = RunModel(problem, {});
   const LinearTape infinite = RunModel(
       problem, HInfinityModel(std::numeric_limits<double>::infinity()));
@@ -91,7 +91,7 @@ TEST(Observer, GammaToInfinityIsTheKalmanFilter) {
 }
 
 TEST(Observer, HInfinityIsMoreCautiousThanKalman) {
-  const TestProblem problem = Problem(true);
+  const TestProblem problem = ShortDrive(true);
   const LinearTape kalman = RunModel(problem, {});
   const LinearTape bounded = RunModel(problem, HInfinityModel(0.1));
   for (std::size_t k = 1; k < kalman.size(); ++k) {
@@ -102,7 +102,7 @@ TEST(Observer, HInfinityIsMoreCautiousThanKalman) {
 }
 
 TEST(Observer, EscapesWithItsTimeAndNeverWithoutANumber) {
-  TestProblem problem = Problem(true);
+  TestProblem problem = ShortDrive(true);
   for (Measurement& z : problem.measurements) z.withheld = true;
   ForwardModel model = HInfinityModel(0.05);
   const double expected =
@@ -125,7 +125,7 @@ TEST(Observer, EscapesWithItsTimeAndNeverWithoutANumber) {
 TEST(Observer, ErrorDefinitionsAgreeToSecondOrderInTheErrors) {
   double previous = 0.0;
   for (const double scale : {1.0, 0.1}) {
-    const TestProblem problem = Problem(true, scale);
+    const TestProblem problem = ShortDrive(true, scale);
     const std::vector<State> navigation = StatesAfter(RunModel(problem, {}));
     double largest = 0.0;
     for (const ErrorDefinition error :
@@ -149,7 +149,7 @@ TEST(Observer, ErrorDefinitionsAgreeToSecondOrderInTheErrors) {
 }
 
 TEST(Observer, SmoothersFollowTheErrorDefinitionOfTheTape) {
-  const TestProblem problem = Problem(true);
+  const TestProblem problem = ShortDrive(true);
   for (const ErrorDefinition error : kErrors) {
     ForwardModel model;
     model.error = error;
@@ -165,7 +165,7 @@ TEST(Observer, SmoothersFollowTheErrorDefinitionOfTheTape) {
 }
 
 TEST(Observer, TapesOfOtherRulesAreNotSmoothed) {
-  const TestProblem problem = Problem(true);
+  const TestProblem problem = ShortDrive(true);
   const LinearTape tape = RunModel(problem, HInfinityModel(1.0));
   EXPECT_FALSE(tape.smoothable());
   EXPECT_THROW(SmoothRts(tape), std::logic_error);

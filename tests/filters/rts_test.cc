@@ -47,7 +47,7 @@ TestProblem NoisyProblem(bool rich) {
   return MakeProblem(options, 5);
 }
 
-LinearTape FixedNominalTape(const TestProblem& problem, Timeline* timeline) {
+LinearTape FixedNominalTape(const TestProblem& problem, Problem* posed) {
   // A nominal that is off: defects c do not vanish.
   std::vector<State> nominal = problem.truth;
   Random random(9);
@@ -56,14 +56,14 @@ LinearTape FixedNominalTape(const TestProblem& problem, Timeline* timeline) {
         problem.layout, x,
         0.1 * testing::Draw(problem.layout.InitialCovariance(), &random));
   }
-  return RunLinearizedFilter(problem.layout, problem.prior, nominal, timeline);
+  return RunLinearizedFilter(nominal, posed);
 }
 
 TEST(Rts, EqualsDenseLeastSquaresOnTheTape) {
   for (const bool rich : {false, true}) {
     const TestProblem problem = NoisyProblem(rich);
-    Timeline timeline = problem.MakeTimeline();
-    const LinearTape tape = FixedNominalTape(problem, &timeline);
+    Problem posed = problem.Pose();
+    const LinearTape tape = FixedNominalTape(problem, &posed);
     double largest_defect = 0.0;
     for (std::size_t k = 1; k < tape.size(); ++k) {
       largest_defect = std::max(largest_defect, tape.epoch(k).c.norm());
@@ -89,9 +89,8 @@ TEST(Rts, EqualsDenseLeastSquaresOnTheTape) {
 
 TEST(Rts, LastEpochIsTheFilters) {
   const TestProblem problem = NoisyProblem(false);
-  Timeline timeline = problem.MakeTimeline();
-  const LinearTape tape =
-      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+  Problem posed = problem.Pose();
+  const LinearTape tape = RunExtendedKalmanFilter(&posed);
   const SmoothedTrajectory smoothed = SmoothRts(tape);
   EXPECT_EQ(smoothed.states.back().p_e, tape.back().x_plus.p_e);
   EXPECT_EQ(smoothed.P.Get(tape.size() - 1), tape.P_plus(tape.size() - 1));
@@ -99,9 +98,8 @@ TEST(Rts, LastEpochIsTheFilters) {
 
 TEST(Rts, SmoothedIsNeverWorseThanFiltered) {
   const TestProblem problem = NoisyProblem(true);
-  Timeline timeline = problem.MakeTimeline();
-  const LinearTape tape =
-      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+  Problem posed = problem.Pose();
+  const LinearTape tape = RunExtendedKalmanFilter(&posed);
   const SmoothedTrajectory smoothed = SmoothRts(tape);
   for (std::size_t k = 0; k < tape.size(); ++k) {
     const ErrorMatrix P = tape.P_plus(k);
@@ -114,9 +112,8 @@ TEST(Rts, SmoothedIsNeverWorseThanFiltered) {
 
 TEST(Rts, ConsumingTheTapeGivesTheSameBits) {
   const TestProblem problem = NoisyProblem(true);
-  Timeline timeline = problem.MakeTimeline();
-  LinearTape tape =
-      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+  Problem posed = problem.Pose();
+  LinearTape tape = RunExtendedKalmanFilter(&posed);
   const SmoothedTrajectory kept = SmoothRts(tape);
   const SmoothedTrajectory consumed = SmoothRts(std::move(tape));
   ASSERT_EQ(consumed.states.size(), kept.states.size());
@@ -130,12 +127,10 @@ TEST(Rts, ConsumingTheTapeGivesTheSameBits) {
 
 TEST(Rts, MeansAloneAreThoseWithCovariances) {
   const TestProblem problem = NoisyProblem(true);
-  Timeline timeline = problem.MakeTimeline();
+  Problem posed = problem.Pose();
   for (const bool reset : {false, true}) {
-    const LinearTape tape =
-        reset
-            ? RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline)
-            : FixedNominalTape(problem, &timeline);
+    const LinearTape tape = reset ? RunExtendedKalmanFilter(&posed)
+                                  : FixedNominalTape(problem, &posed);
     const SmoothedTrajectory smoothed = SmoothRts(tape);
     const SmoothedTrajectory means = SmoothMeans(tape);
     EXPECT_TRUE(means.P.empty());
@@ -151,11 +146,9 @@ TEST(Rts, MeansAloneAreThoseWithCovariances) {
 
 TEST(LinearTape, PopBackLeavesTheRestAndTakesNewEpochs) {
   const TestProblem problem = NoisyProblem(true);
-  Timeline timeline = problem.MakeTimeline();
-  const LinearTape whole =
-      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
-  LinearTape tape =
-      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+  Problem posed = problem.Pose();
+  const LinearTape whole = RunExtendedKalmanFilter(&posed);
+  LinearTape tape = RunExtendedKalmanFilter(&posed);
   const std::size_t size = tape.size();
   const TapeEpoch last = tape.back();
   const Transition transition{tape.Phi(size - 1), tape.Q(size - 1), last.c};

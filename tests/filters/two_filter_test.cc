@@ -34,12 +34,8 @@ TestProblem NoisyProblem(bool rich, bool walk) {
   return MakeProblem(options, 5);
 }
 
-LinearTape ResetTape(const TestProblem& problem, Timeline* timeline) {
-  return RunExtendedKalmanFilter(problem.layout, problem.prior, timeline);
-}
-
 /// A nominal that is off, so that means and defects do not vanish.
-LinearTape FixedTape(const TestProblem& problem, Timeline* timeline) {
+LinearTape FixedTape(const TestProblem& problem, Problem* posed) {
   std::vector<State> nominal = problem.truth;
   Random random(9);
   for (State& x : nominal) {
@@ -47,7 +43,7 @@ LinearTape FixedTape(const TestProblem& problem, Timeline* timeline) {
         problem.layout, x,
         0.1 * testing::Draw(problem.layout.InitialCovariance(), &random));
   }
-  return RunLinearizedFilter(problem.layout, problem.prior, nominal, timeline);
+  return RunLinearizedFilter(nominal, posed);
 }
 
 void ExpectSame(const ErrorLayout& layout, const SmoothedTrajectory& a,
@@ -66,8 +62,8 @@ TEST(TwoFilter, EqualsRtsWhereTheNominalIsReset) {
   for (const bool rich : {false, true}) {
     for (const bool walk : {false, true}) {
       const TestProblem problem = NoisyProblem(rich, walk);
-      Timeline timeline = problem.MakeTimeline();
-      const LinearTape tape = ResetTape(problem, &timeline);
+      Problem posed = problem.Pose();
+      const LinearTape tape = RunExtendedKalmanFilter(&posed);
       ExpectSame(problem.layout, SmoothTwoFilter(tape).trajectory,
                  SmoothRts(tape), 1e-6, 1e-9);
     }
@@ -77,8 +73,8 @@ TEST(TwoFilter, EqualsRtsWhereTheNominalIsReset) {
 TEST(TwoFilter, EqualsRtsAboutAFixedNominal) {
   for (const bool rich : {false, true}) {
     const TestProblem problem = NoisyProblem(rich, true);
-    Timeline timeline = problem.MakeTimeline();
-    const LinearTape tape = FixedTape(problem, &timeline);
+    Problem posed = problem.Pose();
+    const LinearTape tape = FixedTape(problem, &posed);
     ExpectSame(problem.layout, SmoothTwoFilter(tape).trajectory,
                SmoothRts(tape), 1e-6, 1e-9);
   }
@@ -94,8 +90,8 @@ TEST(TwoFilter, EqualsDenseLeastSquares) {
   options.errors = true;
   options.duration = 10.0;
   const TestProblem problem = MakeProblem(options, 5);
-  Timeline timeline = problem.MakeTimeline();
-  const LinearTape tape = FixedTape(problem, &timeline);
+  Problem posed = problem.Pose();
+  const LinearTape tape = FixedTape(problem, &posed);
   const SmoothedTrajectory smoothed = SmoothTwoFilter(tape).trajectory;
   const DenseSolution dense = SolveDense(tape);
   const int n = tape.dim();
@@ -114,20 +110,19 @@ TEST(TwoFilter, EqualsDenseLeastSquares) {
 
 TEST(TwoFilter, RejectedMeasurementsTakeNoPart) {
   const TestProblem problem = NoisyProblem(false, true);
-  Timeline timeline = problem.MakeTimeline();
   GateDecisions decisions(problem.measurements.size(), 1);
   for (std::size_t i = 0; i < decisions.size(); i += 3) decisions[i] = 0;
-  const LinearTape tape = RunExtendedKalmanFilter(problem.layout, problem.prior,
-                                                  &timeline, decisions);
+  Problem posed = problem.Pose(decisions);
+  const LinearTape tape = RunExtendedKalmanFilter(&posed);
   ExpectSame(problem.layout, SmoothTwoFilter(tape).trajectory, SmoothRts(tape),
              1e-6, 1e-9);
 }
 
 TEST(TwoFilter, LastEpochIsTheFilters) {
   const TestProblem problem = NoisyProblem(true, true);
-  Timeline timeline = problem.MakeTimeline();
+  Problem posed = problem.Pose();
   for (const LinearTape& tape :
-       {ResetTape(problem, &timeline), FixedTape(problem, &timeline)}) {
+       {RunExtendedKalmanFilter(&posed), FixedTape(problem, &posed)}) {
     const State filtered =
         tape.back().reset
             ? tape.back().x_plus
@@ -142,8 +137,8 @@ TEST(TwoFilter, LastEpochIsTheFilters) {
 
 TEST(TwoFilter, SmoothedIsNeverWorseThanFiltered) {
   const TestProblem problem = NoisyProblem(true, true);
-  Timeline timeline = problem.MakeTimeline();
-  const LinearTape tape = ResetTape(problem, &timeline);
+  Problem posed = problem.Pose();
+  const LinearTape tape = RunExtendedKalmanFilter(&posed);
   const SmoothedTrajectory smoothed = SmoothTwoFilter(tape).trajectory;
   for (std::size_t k = 0; k < tape.size(); ++k) {
     const ErrorMatrix P = tape.P_plus(k);
@@ -157,9 +152,9 @@ TEST(TwoFilter, SmoothedIsNeverWorseThanFiltered) {
 TEST(TwoFilter, FullStateInTheAdditiveChartEqualsTheErrorForm) {
   for (const bool rich : {false, true}) {
     const TestProblem problem = NoisyProblem(rich, true);
-    Timeline timeline = problem.MakeTimeline();
+    Problem posed = problem.Pose();
     for (const LinearTape& tape :
-         {ResetTape(problem, &timeline), FixedTape(problem, &timeline)}) {
+         {RunExtendedKalmanFilter(&posed), FixedTape(problem, &posed)}) {
       const TwoFilterResult full =
           SmoothTwoFilterConventional(tape, ChartKind::kAdditive);
       const TwoFilterResult error = SmoothTwoFilter(tape);
@@ -167,7 +162,18 @@ TEST(TwoFilter, FullStateInTheAdditiveChartEqualsTheErrorForm) {
       // 1e-3 rad here.
       ExpectSame(problem.layout, full.trajectory, error.trajectory, 1e-4, 1e-6);
       for (std::size_t k = 0; k + 5 < tape.size(); ++k) {
-        EXPECT_NEAR(full.separation[k], error.separation[k], 1e-4) << k;
+        EXPECT_NEAR(full.part.separation[k], error.part.separation[k], 1e-4)
+            << k;
+        const FilterSeparation& a = full.part.components[k];
+        const FilterSeparation& b = error.part.components[k];
+        for (int i = 0; i < FilterSeparation::kComponents; ++i) {
+          ASSERT_EQ(std::isnan(a.sigma(i)), std::isnan(b.sigma(i))) << k;
+          if (std::isnan(a.sigma(i))) continue;
+          EXPECT_NEAR(a.difference(i) / a.sigma(i),
+                      b.difference(i) / b.sigma(i), 1e-3)
+              << k << ' ' << i;
+          EXPECT_NEAR(a.sigma(i) / b.sigma(i), 1.0, 1e-3) << k << ' ' << i;
+        }
       }
     }
   }
@@ -193,8 +199,8 @@ TEST(TwoFilter, EulerChartAgreesToSecondOrderInTheErrors) {
     options.layout = NavigationLayout(prior);
     options.errors = true;
     const TestProblem problem = MakeProblem(options, 3);
-    Timeline timeline = problem.MakeTimeline();
-    const LinearTape tape = ResetTape(problem, &timeline);
+    Problem posed = problem.Pose();
+    const LinearTape tape = RunExtendedKalmanFilter(&posed);
     difference[i] = LargestError(
         problem.layout, SmoothTwoFilter(tape).trajectory.states,
         SmoothTwoFilterConventional(tape, ChartKind::kEuler).trajectory.states,
@@ -205,10 +211,12 @@ TEST(TwoFilter, EulerChartAgreesToSecondOrderInTheErrors) {
 }
 
 TEST(TwoFilter, SeparationIsChiSquare) {
-  // Mean square of 3 over the runs at an epoch in the middle; the bounds are
-  // four standard deviations of a mean of so many chi-squares of 3.
+  // Mean square of 3 over the runs at an epoch in the middle, of 1 of each
+  // component; the bounds are four standard deviations of a mean of so many
+  // chi-squares of 3 and of 1.
   constexpr int kRuns = testing::SeedCount(60);
   double sum = 0.0;
+  FilterSeparation::Components sums = FilterSeparation::Components::Zero();
   for (int run = 0; run < kRuns; ++run) {
     TestProblemOptions options;
     options.noise = TacticalNoise(true);
@@ -216,21 +224,70 @@ TEST(TwoFilter, SeparationIsChiSquare) {
     options.errors = true;
     const TestProblem problem =
         MakeProblem(options, static_cast<std::uint64_t>(run) + 100);
-    Timeline timeline = problem.MakeTimeline();
-    const double s =
-        SmoothTwoFilter(ResetTape(problem, &timeline)).separation[10];
-    sum += s * s;
+    Problem posed = problem.Pose();
+    const TwoFilterResult result =
+        SmoothTwoFilter(RunExtendedKalmanFilter(&posed));
+    sum += result.part.separation[10] * result.part.separation[10];
+    const FilterSeparation& components = result.part.components[10];
+    sums += components.difference.cwiseQuotient(components.sigma).cwiseAbs2();
   }
   EXPECT_NEAR(sum / kRuns, 3.0, 4.0 * std::sqrt(6.0 / kRuns));
+  for (int i = 0; i < FilterSeparation::kComponents; ++i) {
+    EXPECT_NEAR(sums(i) / kRuns, 1.0, 4.0 * std::sqrt(2.0 / kRuns)) << i;
+  }
+}
+
+TEST(TwoFilter, AHeadingThatSplitsShowsInItsOwnComponent) {
+  // The filter starts half a radian off and is sure of it: what comes later
+  // says otherwise of the heading, and next to nothing of the position.
+  TestProblemOptions options;
+  options.noise = TacticalNoise(true);
+  options.layout = TypicalLayout(options.noise);
+  options.errors = true;
+  TestProblem problem = MakeProblem(options, 5);
+  const Block& attitude = *problem.layout.Find(BlockKind::kAttitude);
+  ErrorVector turn = ErrorVector::Zero(problem.layout.dim());
+  turn(attitude.offset + 2) = 0.5;
+  problem.prior.x = Retract(problem.layout, problem.prior.x, turn);
+  Problem posed = problem.Pose();
+  const TwoFilterResult result =
+      SmoothTwoFilter(RunExtendedKalmanFilter(&posed));
+  const FilterSeparation& first = result.part.components.front();
+  EXPECT_GT(std::abs(first.difference(8) / first.sigma(8)), 3.0);
+  EXPECT_NEAR(std::abs(first.difference(8)), 0.5, 0.2);
+}
+
+TEST(TwoFilter, TheBackwardSideAloneFusesToTheSmoothedConstants) {
+  // Information adds: 1 / P_s = 1 / P_f + 1 / P_b cannot hold of a component
+  // alone, but the backward side is never surer than both together.
+  const TestProblem problem = NoisyProblem(true, true);
+  Problem posed = problem.Pose();
+  const LinearTape tape = RunExtendedKalmanFilter(&posed);
+  const TwoFilterResult result = SmoothTwoFilter(tape);
+  ASSERT_EQ(result.part.backward.size(), tape.size());
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    const OneSidedState& alone = result.part.backward[k];
+    EXPECT_EQ(alone.state.t, tape.epoch(k).t);
+    for (int i = 0; i < static_cast<int>(alone.sigma.size()); ++i) {
+      if (std::isnan(alone.sigma(i))) continue;
+      EXPECT_GT(alone.sigma(i) * (1.0 + 1e-6),
+                std::sqrt(result.trajectory.P.Get(k)(i, i)))
+          << k << ' ' << i;
+    }
+  }
+  EXPECT_TRUE(result.part.backward.back().sigma.array().isNaN().all());
 }
 
 TEST(TwoFilter, NoSeparationWhereTheFutureKnowsNoPosition) {
   const TestProblem problem = NoisyProblem(false, true);
-  Timeline timeline = problem.MakeTimeline();
-  const TwoFilterResult result = SmoothTwoFilter(ResetTape(problem, &timeline));
-  ASSERT_EQ(result.separation.size(), problem.nodes.size());
-  EXPECT_TRUE(std::isnan(result.separation.back()));
-  EXPECT_TRUE(std::isfinite(result.separation.front()));
+  Problem posed = problem.Pose();
+  const TwoFilterResult result =
+      SmoothTwoFilter(RunExtendedKalmanFilter(&posed));
+  ASSERT_EQ(result.part.separation.size(), problem.nodes.size());
+  EXPECT_TRUE(std::isnan(result.part.separation.back()));
+  EXPECT_TRUE(std::isfinite(result.part.separation.front()));
+  EXPECT_TRUE(result.part.components.back().difference.array().isNaN().all());
+  EXPECT_TRUE(result.part.components.front().difference.allFinite());
 }
 
 }  // namespace

@@ -7,7 +7,8 @@
 
 #include "base/error.h"
 #include "fuzz/fuzz_input.h"
-#include "io/reader.h"
+#include "io/read/reader.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -37,7 +38,7 @@ void AddArrayColumns(const std::vector<FieldName>& fields, std::uint8_t clock,
 
 void ReadStream(StreamSource source, bool imu, std::uint8_t clock) {
   if (source.format.kind != TextFormat::Kind::kRosbag) {
-    AddArrayColumns(imu ? ImuFields() : PositionFields(), clock,
+    AddArrayColumns(imu ? ImuFields() : PositionKind().columns, clock,
                     &source.format);
     if (source.format.ignore_time) source.clock.rate = 100.0;
   }
@@ -46,9 +47,9 @@ void ReadStream(StreamSource source, bool imu, std::uint8_t clock) {
   if (imu) {
     ReadImu(source, {}, &stream_clock, &policies);
   } else {
-    AidingReadOptions options;
-    options.sigma = Eigen::Vector3d::Ones();
-    ReadAiding(source, options, &stream_clock, &policies);
+    SensorSettings settings = SettingsOf(PositionKind());
+    settings.sigma = Eigen::Vector3d::Ones();
+    ReadAiding(source, settings, 0, &stream_clock, &policies);
   }
 }
 

@@ -12,8 +12,8 @@
 #include "dataset/timeline_builder.h"
 #include "fuzz/config_keys.h"
 #include "fuzz/fuzz_input.h"
-#include "io/config.h"
-#include "io/scenario_config.h"
+#include "io/config/config.h"
+#include "io/config/scenario_config.h"
 
 namespace hindsight {
 namespace {

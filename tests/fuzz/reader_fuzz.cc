@@ -8,11 +8,12 @@
 
 #include "base/error.h"
 #include "fuzz/fuzz_input.h"
-#include "io/config.h"
-#include "io/reader.h"
-#include "io/scenario_config.h"
-#include "io/solution_csv.h"
-#include "io/time_list.h"
+#include "io/config/config.h"
+#include "io/config/scenario_config.h"
+#include "io/read/reader.h"
+#include "io/read/time_list.h"
+#include "io/write/solution_csv.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -38,33 +39,12 @@ constexpr TextFormat::Kind kFormats[] = {
     TextFormat::Kind::kControlPoints, TextFormat::Kind::kNmea,
     TextFormat::Kind::kNpy,
 };
-constexpr SensorType kTypes[] = {
-    SensorType::kPosition, SensorType::kVelocity,    SensorType::kHeight,
-    SensorType::kOdometer, SensorType::kSpeedCourse, SensorType::kMagnetometer};
-
 void AddColumns(const std::vector<FieldName>& fields, TextFormat* format) {
   format->columns.push_back({"t", 0, "", "ms", 1.0});
   for (const FieldName& field : fields) {
     format->columns.push_back({field.name,
                                static_cast<int>(format->columns.size()), "",
                                SiUnit(field.quantity), -2.0});
-  }
-}
-
-const std::vector<FieldName>& FieldsOf(SensorType type) {
-  switch (type) {
-    case SensorType::kVelocity:
-      return VelocityFields();
-    case SensorType::kHeight:
-      return HeightFields();
-    case SensorType::kOdometer:
-      return OdometerFields();
-    case SensorType::kSpeedCourse:
-      return SpeedCourseFields();
-    case SensorType::kMagnetometer:
-      return MagnetometerFields();
-    default:
-      return PositionFields();
   }
 }
 
@@ -79,13 +59,16 @@ void Read(StreamSource source, unsigned stream) {
     if (takes_columns) AddColumns(TruthFields(), &source.format);
     ReadTruth(source, {}, &clock, &policies);
   } else {
-    AidingReadOptions options;
-    options.type = kTypes[stream % std::size(kTypes)];
-    if (takes_columns) AddColumns(FieldsOf(options.type), &source.format);
-    options.sigma = Eigen::Vector3d::Ones();
-    options.course_sigma = 0.1;
-    if (stream % 2 == 0) options.accept_quality = {1, 4};
-    ReadAiding(source, options, &clock, &policies);
+    std::vector<const SensorKind*> kinds = SensorKinds();
+    std::erase_if(kinds,
+                  [](const SensorKind* kind) { return kind->read == nullptr; });
+    SensorSettings settings = SettingsOf(*kinds[stream % kinds.size()]);
+    const SensorKind& kind = *settings.sensor.kind;
+    if (takes_columns) AddColumns(kind.columns, &source.format);
+    settings.sigma = Eigen::Vector3d::Ones();
+    if (kind.complete != nullptr) kind.complete(&settings);
+    if (stream % 2 == 0) settings.accept_quality = {1, 4};
+    ReadAiding(source, settings, 0, &clock, &policies);
   }
   MapClock(source, clock, std::int64_t{1'000'000'000'000'000'000});
 }

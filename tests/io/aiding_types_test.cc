@@ -4,6 +4,7 @@
 
 #include "base/units.h"
 #include "io/sample_folder.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -52,7 +53,7 @@ TEST_F(AidingTypes, OdometerWithCalibration) {
       "    loss: {kind: tukey, scale: 4.6}\n");
   const Dataset data = Load();
   const Sensor& sensor = data.streams[0].sensor;
-  EXPECT_EQ(sensor.type, SensorType::kOdometer);
+  EXPECT_EQ(sensor.kind, &OdometerKind());
   EXPECT_DOUBLE_EQ(sensor.scale, -0.008);
   EXPECT_DOUBLE_EQ(*sensor.scale_sigma, 0.02);
   EXPECT_DOUBLE_EQ(sensor.mounting_sigma->z(), 3.0 * kDegree);
@@ -149,7 +150,7 @@ TEST_F(AidingTypes, RowsThatAreFlaggedMeasureZeroVelocity) {
       "    columns: {t: \"t [s]\", zero_velocity: \"stance [1]\"}\n"
       "    sigma: 20 cm/s\n");
   const Dataset data = Load();
-  EXPECT_EQ(data.streams[0].sensor.type, SensorType::kZeroVelocity);
+  EXPECT_EQ(data.streams[0].sensor.kind, &ZeroVelocityKind());
   const auto& measurements = data.streams[0].measurements;
   ASSERT_EQ(measurements.size(), 2u);
   EXPECT_DOUBLE_EQ(measurements[1].t, 0.015);
@@ -306,7 +307,7 @@ TEST_F(AidingTypes, MistakesNameLineAndKey) {
        "no such stream"},
       {"  odo: {type: odometer, file: odo.csv, sigma: 1 m/s, noise: {model: "
        "gauss_markov, sigma: 1 m, tau: 1 s}}\n",
-       "position, velocity and height"},
+       "position, velocity, height and depth"},
       {"  odo: {type: odometer, file: odo.csv, sigma: 1 m/s, noise: {model: "
        "mixture, ratio: 0.5}}\n",
        "above 1"},

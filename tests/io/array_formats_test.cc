@@ -3,8 +3,8 @@
 
 #include "base/units.h"
 #include "io/binary_files.h"
+#include "io/read/time_scale.h"
 #include "io/sample_folder.h"
-#include "io/time_scale.h"
 
 namespace hindsight {
 namespace {
@@ -76,6 +76,8 @@ TEST_F(ArrayFormats, WhatDoesNotFitIsNamed) {
        "has no unit"},
       {"npy", ReplacedOnce(kNpyImu, "'gyro:3", "'gyros:3"), "gyros"},
       {"npy", ReplacedOnce(kNpyImu, "'gyro:3", "'../gnss.npy:3"),
+       "2 rows and t 4"},
+      {"npy", ReplacedOnce(kNpyImu, "t: 't [ns]'", "t: '../gnss.npy:1 [s]'"),
        "4 rows and ../gnss.npy 2"},
       {"npy", ReplacedOnce(kNpyImu, "t: 't [ns]', ", ""), "no column t"},
       {"mat", ReplacedOnce(kMatImu, "imu_acc:3", "acc:3"),

@@ -2,9 +2,9 @@
 
 #include "base/error.h"
 #include "dataset/timeline_builder.h"
+#include "io/config/scenario_config.h"
 #include "io/recording_folder.h"
 #include "io/sample_stream_list.h"
-#include "io/scenario_config.h"
 #include "simulation/scenario.h"
 
 namespace hindsight {

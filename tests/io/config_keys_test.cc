@@ -6,9 +6,10 @@
 #include <map>
 #include <set>
 
+#include "io/config/config_help.h"
+#include "io/config/scenario_config.h"
 #include "io/recording_folder.h"
 #include "io/sample_stream_list.h"
-#include "io/scenario_config.h"
 
 namespace hindsight {
 namespace {
@@ -91,6 +92,7 @@ TEST_F(ConfigKeys, OfEveryTypeOfSensor) {
   const std::string place = "transponder: [48 deg, 11 deg, 0 m]";
   const std::vector<std::string> sensors = {
       "type: position",
+      "type: position\n    frame: ned\n    origin: [48 deg, 11 deg, 0 m]",
       "type: velocity",
       "type: height",
       "type: depth",
@@ -102,7 +104,8 @@ TEST_F(ConfigKeys, OfEveryTypeOfSensor) {
       "20 "
       "uT\n    down: 40 uT",
       "type: dvl\n    sigma: 1 m/s\n    form: beams",
-      "type: zero_velocity\n    sigma: 1 cm/s"};
+      "type: zero_velocity\n    sigma: 1 cm/s",
+      "type: heading\n    sigma: 1 deg"};
   // That has no file; its keys are asked for below.
   Keys types = {"non_holonomic"};
   for (const std::string& sensor : sensors) {
@@ -134,6 +137,32 @@ TEST_F(ConfigKeys, OfEveryTypeOfSensor) {
   asked.insert("topic");
   asked.insert("columns");
   EXPECT_EQ(asked, Known({"stream", "aiding"}));
+  EXPECT_EQ(estimated, Known({"estimate"}));
+}
+
+/// The documentation has the keys that are asked for, and no others.
+TEST_F(ConfigKeys, AreThoseOfTheDocumentation) {
+  Keys sensors;
+  Keys estimated = {"time_offset"};
+  for (const KeySection& section : ConfigSections()) {
+    Keys keys;
+    for (const KeyEntry& key : section.keys) {
+      if (key.name.starts_with("estimate.")) {
+        estimated.insert(key.name.substr(9));
+      } else {
+        keys.insert(key.name.substr(0, key.name.find('.')));
+      }
+    }
+    if (section.name.starts_with("aiding")) {
+      sensors.merge(keys);
+    } else {
+      EXPECT_EQ(keys, Known({section.name.empty() ? "top" : section.name}))
+          << section.name;
+    }
+  }
+  // Of the stream, which has them beside.
+  Keys known = Known({"aiding"});
+  EXPECT_EQ(sensors, known);
   EXPECT_EQ(estimated, Known({"estimate"}));
 }
 
@@ -169,13 +198,14 @@ TEST_F(ScenarioKeys, AreThoseOfTheFuzzer) {
   Keys top = AskedOf("zzzz", "1");
   // Each stands in the place of others.
   top.insert({"profile", "wander", "segments", "start", "aiding", "duration",
-              "withhold"});
+              "withhold", "way_points", "inject", "start_errors"});
   EXPECT_EQ(top, known("top"));
   Keys segment;
   for (const std::string keys :
        {"type: straight, duration: 1 s", "type: stop, duration: 1 s",
         "type: accelerate, speed: 1 m/s, rate: 1 m/s^2",
         "type: turn, angle: 1 deg, rate: 1 deg/s",
+        "type: repeat, segments: [{type: straight, duration: 1 s}]",
         "type: pitch, angle: 1 deg, rate: 1 deg/s"}) {
     segment.merge(AskedOf("segments", "[{" + keys + ", " + zzzz + "}]"));
   }
@@ -186,8 +216,15 @@ TEST_F(ScenarioKeys, AreThoseOfTheFuzzer) {
             known("scenario_imu"));
   Keys sensor;
   for (const std::string keys :
-       {"type: position, sigma: 1 m", "type: velocity, sigma: 1 m/s",
-        "type: height, sigma: 1 m", "type: dvl, sigma: 1 m/s, form: beams",
+       {"type: position, sigma: 1 m, frame: enu, origin: [48 deg, 11 deg, 0 "
+        "m]",
+        "type: velocity, sigma: 1 m/s", "type: height, sigma: 1 m",
+        "type: dvl, sigma: 1 m/s, form: beams", "type: odometer, sigma: 1 m/s",
+        "type: odometer, form: increments, sigma: 1 m",
+        "type: speed_course, sigma: 1 m/s, course_sigma: 1 deg",
+        "type: magnetometer, form: vector, sigma: 1 uT, horizontal: 20 uT, "
+        "down: 40 uT",
+        "type: heading, sigma: 1 deg", "type: zero_velocity, sigma: 1 cm/s",
         "type: acoustic, sigma: 1 m, bearing_sigma: 1 deg, transponder: [48 "
         "deg, 11 deg, 0 m]"}) {
     sensor.merge(AskedOf("aiding", "{s: {" + keys + ", " + zzzz + "}}"));

@@ -1,4 +1,4 @@
-#include "io/config.h"
+#include "io/config/config.h"
 
 #include <cmath>
 
@@ -66,6 +66,21 @@ TEST_F(ConfigTest, LoadsWhatItSays) {
   EXPECT_NEAR(g.latitude / kDegree, 50.0, 1e-10);
   EXPECT_NEAR(g.height, 100.0, 1e-6);
   EXPECT_DOUBLE_EQ(fix.R_n(2, 2), 0.2 * 0.2);
+}
+
+TEST_F(ConfigTest, FoldersAreSoughtBelowADataRootOnlyIfThereIsOne) {
+  std::filesystem::create_directories(Path("root/drive"));
+  for (const char* file : {"imu.csv", "gnss.csv"}) {
+    std::filesystem::rename(Path(file),
+                            Path("root/drive/" + std::string(file)));
+  }
+  Write("config.yaml", "folder: drive\n" + std::string(kConfig));
+  EXPECT_EQ(LoadError(),
+            "config.yaml:1: folder: there is no folder drive; "
+            "--data-root=DIR looks for it in DIR too");
+  EXPECT_EQ(LoadDataset(Path("config.yaml"), {.data_root = Path("root")})
+                .streams.size(),
+            1u);
 }
 
 TEST_F(ConfigTest, MountingTurnsAfterAxes) {

@@ -303,7 +303,7 @@ inline void DamageList::AddMat() {
   file("the variable twice", data + data);
   file("another variable twice",
        data + MatDoubles("other", rows) + MatDoubles("other", rows));
-  for (const std::size_t count : {1, 8, 64, 4096}) {
+  for (const std::size_t count : {1u, 8u, 64u, 4096u}) {
     file(std::to_string(count) + " zeros behind it",
          data + std::string(count, '\0'));
   }

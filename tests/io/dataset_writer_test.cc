@@ -1,4 +1,4 @@
-#include "io/dataset_writer.h"
+#include "io/write/dataset_writer.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,13 +8,14 @@
 
 #include "base/error.h"
 #include "base/units.h"
-#include "io/config.h"
-#include "simulation/builtin_scenarios.h"
+#include "io/config/config.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
 
-class DatasetWriter : public testing::Test {
+class DatasetWriter : public ::testing::Test {
  protected:
   DatasetWriter()
       : folder_(std::filesystem::temp_directory_path() /
@@ -29,7 +30,7 @@ class DatasetWriter : public testing::Test {
 };
 
 Scenario Rich() {
-  Scenario s = BuiltinScenario("car_drive");
+  Scenario s = FindScenario("car_drive");
   s.duration = 60.0;
   s.imu_rate_hz = 50.0;
   s.imu.noise.gyro_bias_walk = 1e-7;
@@ -37,15 +38,15 @@ Scenario Rich() {
   s.imu.noise.accel_bias_walk = 2e-5;
   AidingModel velocity = s.aiding.front();
   velocity.sensor.name = "doppler";
-  velocity.sensor.type = SensorType::kVelocity;
+  velocity.sensor.kind = &VelocityKind();
   velocity.sensor.time_offset = 0.05;
   velocity.sensor.gate_probability = 0.999;
   velocity.sensor.time_offset_sigma = 0.1;
+  velocity.draw_calibration = false;
   s.aiding.push_back(velocity);
-  AidingModel height;
+  AidingModel height(HeightKind());
   height.sensor.name = "barometer";
-  height.sensor.type = SensorType::kHeight;
-  height.sigma.setConstant(0.5);
+  height.sigma.emplace().setConstant(0.5);
   s.aiding.push_back(height);
   s.stationary.enabled = true;
   s.withholdings = {{"gnss", 20.0, 5.0, 10.0}};
@@ -54,7 +55,7 @@ Scenario Rich() {
 
 void ExpectSameSensor(const Sensor& a, const Sensor& b) {
   EXPECT_EQ(a.name, b.name);
-  EXPECT_EQ(a.type, b.type);
+  EXPECT_EQ(a.kind, b.kind);
   EXPECT_EQ(a.lever_arm_b, b.lever_arm_b);
   EXPECT_EQ(a.time_offset, b.time_offset);
   EXPECT_EQ(a.gate_probability, b.gate_probability);
@@ -155,6 +156,16 @@ TEST_F(DatasetWriter, LoadingGivesBackTruthAndInitialValues) {
   EXPECT_EQ(read.stationary.window, written.stationary.window);
 }
 
+TEST_F(DatasetWriter, NamesThatYamlWouldReadOtherwiseAreKept) {
+  Scenario scenario = Rich();
+  for (const char* name : {"drive: east", "drive #2", "[drive", "- drive"}) {
+    scenario.name = name;
+    WriteDataset(Simulate(scenario, 5), folder_.string());
+    EXPECT_EQ(Load().name, name);
+    std::filesystem::remove_all(folder_);
+  }
+}
+
 TEST_F(DatasetWriter, StreamedSimulationWritesTheSameFiles) {
   const std::string at_once = (folder_ / "at_once").string();
   const std::string streamed = (folder_ / "streamed").string();
@@ -177,9 +188,9 @@ TEST_F(DatasetWriter, StreamedSimulationWritesTheSameFiles) {
   EXPECT_EQ(files, 6);  // config, imu, truth and three aiding streams
 }
 
-TEST_F(DatasetWriter, EveryBuiltinScenarioLoads) {
-  for (const std::string& name : BuiltinScenarioNames()) {
-    Scenario scenario = BuiltinScenario(name);
+TEST_F(DatasetWriter, EveryNamedScenarioLoads) {
+  for (const std::string& name : ScenarioNames()) {
+    Scenario scenario = FindScenario(name);
     scenario.duration = std::min(scenario.duration, 90.0);
     scenario.withholdings.clear();
     scenario.injections.clear();

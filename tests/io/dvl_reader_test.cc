@@ -1,5 +1,6 @@
 #include "base/units.h"
 #include "io/sample_folder.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -29,7 +30,7 @@ TEST_F(DvlReader, ThreeAxesWithCalibration) {
       "time_offset: 20 ms}\n");
   const Dataset data = Load();
   const Sensor& sensor = data.streams[0].sensor;
-  EXPECT_EQ(sensor.type, SensorType::kDvl);
+  EXPECT_EQ(sensor.kind, &DvlKind());
   EXPECT_DOUBLE_EQ(sensor.scale, 0.01);
   EXPECT_DOUBLE_EQ(*sensor.scale_sigma, 0.003);
   EXPECT_DOUBLE_EQ(sensor.mounting_sigma->x(), 0.2 * kDegree);

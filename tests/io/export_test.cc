@@ -7,16 +7,16 @@
 
 #include "base/error.h"
 #include "base/units.h"
-#include "io/kml.h"
-#include "io/nav.h"
-#include "io/tum.h"
+#include "io/write/kml.h"
+#include "io/write/nav.h"
+#include "io/write/tum.h"
 #include "support/temporary_folder.h"
 
 namespace hindsight {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// From the equator at 90 deg east, heading east with 20 deg of pitch, to a
 /// point 100 m up.
@@ -90,7 +90,7 @@ TEST(Nav, MatchesHandComputedLine) {
 TEST(Nav, WithoutADateCountsFromTheDataSetsOwnEpoch) {
   const TemporaryFolder folder;
   WriteNav(folder.Path("a.nav"), TwoEpochs(), std::nullopt);
-  EXPECT_THAT(folder.Read("a.nav"), testing::StartsWith("0 0.500000000 "));
+  EXPECT_THAT(folder.Read("a.nav"), ::testing::StartsWith("0 0.500000000 "));
 }
 
 TEST(Kml, HoldsPathAndTimedTrack) {
@@ -163,8 +163,8 @@ TEST(Kml, ThinsLongPathsAndKeepsTheirEnds) {
   };
   EXPECT_EQ(std::count_if(lines.begin(), lines.end(), is_point),
             static_cast<std::ptrdiff_t>(kMaxKmlPoints));
-  EXPECT_THAT(lines, testing::Contains("0.000000000,0.000000000,0.000"));
-  EXPECT_THAT(lines, testing::Contains("0.000000000,0.000000000,20000.000"));
+  EXPECT_THAT(lines, ::testing::Contains("0.000000000,0.000000000,0.000"));
+  EXPECT_THAT(lines, ::testing::Contains("0.000000000,0.000000000,20000.000"));
 }
 
 TEST(Exports, SayWhatTheSolutionLacks) {

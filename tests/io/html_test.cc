@@ -1,4 +1,4 @@
-#include "io/html.h"
+#include "io/write/html.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,8 @@
-#include "io/init_config.h"
+#include "io/config/init_config.h"
 
+#include "io/read/units.h"
 #include "io/recording_folder.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -35,6 +37,15 @@ TEST_F(InitConfigTest, WhatItWritesLoads) {
   EXPECT_EQ(data.truth.size(), 2u);
 }
 
+TEST_F(InitConfigTest, NamesOfFilesThatYamlWouldReadOtherwiseAreQuoted) {
+  Write("imu #1: left.csv",
+        "t[s],gyro_x[rad/s],gyro_y[rad/s],gyro_z[rad/s],accel_x[m/s^2],"
+        "accel_y[m/s^2],accel_z[m/s^2]\n"
+        "0,0,0,0,0,0,-9.8\n0.01,0,0,0,0,0,-9.8\n0.02,0,0,0,0,0,-9.8\n");
+  Write("config.yaml", InitConfig(folder_.string()));
+  EXPECT_EQ(LoadError(), "");
+}
+
 TEST_F(InitConfigTest, FormatsOfOthersAreRecognised) {
   const std::string data = std::string(HINDSIGHT_SOURCE_DIR) + "/tests/data/";
   for (const char* folder : {"euroc", "nclt", "oxts"}) {
@@ -55,6 +66,43 @@ TEST_F(InitConfigTest, FormatsOfOthersAreRecognised) {
   EXPECT_NE(config.find("format: nmea"), std::string::npos) << config;
   EXPECT_NE(config.find("type: speed_course"), std::string::npos) << config;
   EXPECT_NE(config.find("format: control_points"), std::string::npos) << config;
+}
+
+/// A file of the kind's own columns, all of them 1, and the draft of it.
+TEST_F(InitConfigTest, EveryKindOfSensorIsKnownByItsColumns) {
+  std::string imu =
+      "t[s],gyro_x[rad/s],gyro_y[rad/s],gyro_z[rad/s],accel_x[m/s^2],accel_y[m/"
+      "s^2],accel_z[m/s^2]\n";
+  for (int i = 0; i < 300; ++i) {
+    imu += std::to_string(0.01 * i) + ",0.01,0,0,0,0,-9.8\n";
+  }
+  for (const SensorKind* kind : SensorKinds()) {
+    if (!kind->configured || kind->generated) continue;
+    SCOPED_TRACE(kind->name);
+    std::filesystem::remove_all(Path("in"));
+    std::filesystem::create_directories(Path("in"));
+    Write("in/imu.csv", imu);
+    std::string head = "t[s]";
+    std::string row;
+    const auto add = [&](const FieldName& column) {
+      head +=
+          std::string(",") + column.name + "[" + SiUnit(column.quantity) + "]";
+      row += ",1";
+    };
+    const MeasuredColumns measured = kind->measured(SettingsOf(*kind));
+    for (std::size_t i = 0; i < measured.count + measured.sigmas; ++i) {
+      add(kind->columns[measured.first + i]);
+    }
+    // What tells it from a log of speed and course.
+    if (kind == &OdometerKind()) add(kind->columns[1]), add(kind->columns[2]);
+    Write("in/sensor.csv", head + "\n0" + row + "\n1" + row + "\n");
+    const std::string config = InitConfig(Path("in"));
+    EXPECT_NE(config.find("type: " + std::string(kind->name) + "\n"),
+              std::string::npos)
+        << config;
+    Write("config.yaml", config);
+    EXPECT_EQ(LoadError(), "") << config;
+  }
 }
 
 TEST_F(InitConfigTest, MissingOrEmptyFolderIsAnError) {

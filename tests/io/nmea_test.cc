@@ -1,6 +1,6 @@
 #include "base/units.h"
+#include "io/read/time_scale.h"
 #include "io/sample_folder.h"
-#include "io/time_scale.h"
 
 namespace hindsight {
 namespace {
@@ -42,6 +42,8 @@ TEST_F(Nmea, FixesAreAboveTheEllipsoidWithTheirStandardDeviations) {
   EXPECT_NEAR(g.height, 545.4 + 46.9, 1e-6);
   EXPECT_DOUBLE_EQ(first.R_n(0, 0), 0.03 * 0.03);
   EXPECT_DOUBLE_EQ(first.R_n(2, 2), 0.05 * 0.05);
+  EXPECT_EQ(first.quality, 4.0);
+  EXPECT_EQ(first.satellites, 8.0);
   // Here GST stands before GGA.
   const auto second =
       std::get<PositionFix>(data.streams[0].measurements[1].model);

@@ -1,4 +1,4 @@
-#include "io/packed_series.h"
+#include "io/write/packed_series.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -85,6 +85,9 @@ TEST_F(ReaderFormats, RtklibPosBecomesNorthEastDown) {
   EXPECT_DOUBLE_EQ(data.streams[0].measurements[0].t, 0.5);
   const Eigen::Matrix3d R =
       std::get<PositionFix>(data.streams[0].measurements[0].model).R_n;
+  const auto fix = std::get<PositionFix>(data.streams[0].measurements[0].model);
+  EXPECT_EQ(fix.quality, 1.0);
+  EXPECT_EQ(fix.satellites, 9.0);
   EXPECT_DOUBLE_EQ(R(0, 1), -0.02 * 0.02);
   EXPECT_DOUBLE_EQ(R(1, 2), -0.01 * 0.01);
   EXPECT_DOUBLE_EQ(R(0, 2), -0.015 * 0.015);

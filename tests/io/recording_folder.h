@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "io/config.h"
+#include "io/config/config.h"
 
 namespace hindsight {
 

@@ -1,8 +1,10 @@
+#include "support/recordings.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "io/config.h"
+#include "io/config/config.h"
 
 namespace hindsight {
 namespace {
@@ -26,12 +28,12 @@ class Recordings : public ::testing::TestWithParam<Recording> {};
 TEST_P(Recordings, ConfigurationLoads) {
   const Recording& expected = GetParam();
   const std::string source = HINDSIGHT_SOURCE_DIR;
-  const std::string root = source + "/../shared/data";
-  if (!std::filesystem::exists(root + "/" + expected.folder)) {
+  const std::filesystem::path root = testing::RecordingsFolder();
+  if (!std::filesystem::exists(root / expected.folder)) {
     GTEST_SKIP() << "the recording " << expected.folder << " is not here";
   }
   const Dataset data =
-      LoadDataset(source + "/data/" + expected.name + ".yaml", {root});
+      LoadDataset(source + "/data/" + expected.name + ".yaml", {root.string()});
   EXPECT_EQ(data.imu.samples.size(), expected.samples);
   ASSERT_EQ(data.streams.size(), expected.streams);
   EXPECT_EQ(data.streams[0].measurements.size(), expected.fixes);

@@ -1,9 +1,9 @@
-#include "io/result_manifest.h"
+#include "io/write/result_manifest.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/unpublished.h"
+#include "io/write/unpublished.h"
 #include "support/temporary_folder.h"
 
 namespace hindsight {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "io/read/time_scale.h"
 #include "io/sample_folder.h"
-#include "io/time_scale.h"
 
 namespace hindsight {
 namespace {
@@ -63,6 +63,8 @@ TEST_F(SampleFormats, OxtsBecomesForwardRightDown) {
   EXPECT_NEAR(g.latitude / kDegree, 49.015002, 1e-10);
   EXPECT_NEAR(g.height, 116.4, 1e-6);
   EXPECT_DOUBLE_EQ(Fix(data, 0, 2).R_n(2, 2), 0.05 * 0.05);
+  EXPECT_EQ(Fix(data, 0, 2).quality, 4.0);
+  EXPECT_EQ(Fix(data, 0, 2).satellites, 10.0);
   const auto v = std::get<VelocityFix>(data.streams[1].measurements[0].model);
   EXPECT_EQ(v.v_n, Eigen::Vector3d(3, 4, -0.7));
   EXPECT_DOUBLE_EQ(v.R_n(0, 0), 0.02 * 0.02);

@@ -71,6 +71,11 @@ inline std::vector<SampleStream> SampleStreams() {
          {"t[s]", "lat[deg]", "lon[deg]", "h[m]", "sigma_n[m]", "sigma_e[m]",
           "sigma_d[m]"},
          {48.0, 11.0, 500.0, .1, .2, .3});
+  aiding("position_local",
+         "type: position, frame: enu, origin: [48 deg, 11 deg, 500 m]",
+         {"t[s]", "p_x[m]", "p_y[m]", "p_z[m]", "sigma_x[m]", "sigma_y[m]",
+          "sigma_z[m]"},
+         {10.0, 20.0, 30.0, .1, .2, .3});
   aiding("velocity", "type: velocity",
          {"t[s]", "v_n[m/s]", "v_e[m/s]", "v_d[m/s]", "sigma_v_n[m/s]",
           "sigma_v_e[m/s]", "sigma_v_d[m/s]"},
@@ -97,6 +102,10 @@ inline std::vector<SampleStream> SampleStreams() {
          {"t[s]", "distance[m]"}, {5.0});
   aiding("magnetometer", "type: magnetometer, sigma: 1 uT",
          {"t[s]", "mag_x[uT]", "mag_y[uT]", "mag_z[uT]"}, {20.0, 1.0, 40.0});
+  aiding("heading",
+         "type: heading, sigma: 1 deg, pitch_sigma: 1 deg, baseline: [0, 1, 0 "
+         "m]",
+         {"t[s]", "heading[deg]", "pitch[deg]"}, {20.0, 3.0});
   aiding("zero_velocity", "type: zero_velocity, sigma: 1 cm/s",
          {"t[s]", "zero_velocity[1]"}, {1.0});
   for (auto& row : streams.back().table.rows) row[1] = "1";

@@ -1,4 +1,4 @@
-#include "io/scenario_config.h"
+#include "io/config/scenario_config.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,11 +10,12 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "support/recordings.h"
 
 namespace hindsight {
 namespace {
 
-class ScenarioConfig : public testing::Test {
+class ScenarioConfig : public ::testing::Test {
  protected:
   ScenarioConfig()
       : path_(std::filesystem::temp_directory_path() /
@@ -86,7 +87,7 @@ TEST_F(ScenarioConfig, ReadsEveryPartInSi) {
   EXPECT_NEAR(s.imu.accel_scale.z(), -1e-4, 1e-16);
   ASSERT_EQ(s.aiding.size(), 1U);
   EXPECT_EQ(s.aiding[0].rate_hz, 4.0);
-  EXPECT_NEAR(s.aiding[0].sigma.z(), 0.1, 1e-15);
+  EXPECT_NEAR(s.aiding[0].sigma->z(), 0.1, 1e-15);
   EXPECT_EQ(s.aiding[0].sensor.lever_arm_b.z(), -1.2);
   ASSERT_EQ(s.aiding[0].outages.size(), 1U);
   EXPECT_EQ(s.aiding[0].outages[0].end, 30.0);
@@ -106,27 +107,93 @@ TEST_F(ScenarioConfig, WanderingRouteEndsWhenAsked) {
 TEST_F(ScenarioConfig, NamesFileLineAndWhatIsWrong) {
   const std::string head = kHead;
   const std::string imu = kScenarioImu;
-  EXPECT_THAT(ErrorOf(head + imu), testing::HasSubstr("segments: is missing"));
+  EXPECT_THAT(ErrorOf(head + imu),
+              ::testing::HasSubstr("segments: is missing"));
   EXPECT_THAT(
       ErrorOf(head + "segments:\n  - {type: turn, angle: 9 deg, rate: 9}\n" +
               imu),
-      testing::HasSubstr(path_.string() + ":3: "));
+      ::testing::HasSubstr(path_.string() + ":3: "));
   EXPECT_THAT(
       ErrorOf(head + "segments:\n  - {type: jump, duration: 1 s}\n" + imu),
-      testing::HasSubstr(path_.string() + ":3: "));
+      ::testing::HasSubstr(path_.string() + ":3: "));
   EXPECT_THAT(ErrorOf(head +
                       "segments:\n  - {type: straight, duration: 1 s}\n"
                       "  - {type: pitch, angle: 95 deg, rate: 5 deg/s}\n" +
                       imu),
-              testing::HasSubstr("segment 2: the pitch"));
+              ::testing::HasSubstr("segment 2: the pitch"));
   EXPECT_THAT(ErrorOf(head + kSegments + imu + "color: red\n"),
-              testing::HasSubstr("color"));
+              ::testing::HasSubstr("color"));
   EXPECT_THAT(
       ErrorOf(head + kSegments + imu + "aiding: {gnss: {type: position}}\n"),
-      testing::HasSubstr("sigma: is missing"));
-  EXPECT_THAT(ErrorOf(head + kSegments), testing::HasSubstr("noise"));
+      ::testing::HasSubstr("sigma: is missing"));
+  EXPECT_THAT(ErrorOf(head + kSegments), ::testing::HasSubstr("noise"));
   EXPECT_THAT(ErrorOf("profile: none.csv\n" + imu),
-              testing::HasSubstr("none.csv"));
+              ::testing::HasSubstr("none.csv"));
+}
+
+TEST_F(ScenarioConfig, ARateFollowsFromDurationOrBank) {
+  const Scenario s =
+      Load(std::string(kHead) + kScenarioImu +
+           "segments:\n"
+           "  - {type: accelerate, speed: 30 m/s, duration: 11 s}\n"
+           "  - type: repeat\n"
+           "    times: 2\n"
+           "    segments:\n"
+           "      - {type: turn, bank: -45 deg, duration: 13 s, blend: 3 s}\n"
+           "      - {type: pitch, angle: 9 deg, rate: 3 deg/s, blend: 0 s}\n");
+  ASSERT_EQ(s.segments.size(), 5U);
+  EXPECT_NEAR(s.segments[0].rate, 3.0, 1e-12);
+  EXPECT_TRUE(s.segments[3].banked);
+  EXPECT_NEAR(s.segments[3].rate, kStandardGravity / 30.0, 1e-12);
+  EXPECT_NEAR(s.segments[3].angle, -10.0 * kStandardGravity / 30.0, 1e-12);
+  EXPECT_EQ(s.segments[4].kind, Segment::Kind::kPitch);
+}
+
+TEST_F(ScenarioConfig, ChangesAndChoicesLayKeysOverTheFile) {
+  const std::string text = std::string(kHead) + kSegments + kScenarioImu +
+                           kRest +
+                           "choices:\n"
+                           "  fixes:\n"
+                           "    sparse: {aiding: {gnss: {rate: 0.1 Hz}}}\n"
+                           "    none: {aiding: {gnss: ~}, truth_rate: 1 Hz}\n";
+  EXPECT_EQ(Load(text).aiding[0].rate_hz, 0.1);
+  EXPECT_TRUE(Load(text + "fixes: none\n").aiding.empty());
+  const auto changed = [&](const ScenarioChanges& changes) {
+    return LoadScenario(path_.string(), changes);
+  };
+  EXPECT_EQ(changed({"fixes=none"}).truth_rate_hz, 1.0);
+  const Scenario s = changed({"fixes=sparse", "aiding.*.rate=2 Hz",
+                              "aiding.gnss.outages=~", "truth_rate=5 Hz"});
+  EXPECT_EQ(s.aiding[0].rate_hz, 2.0);
+  EXPECT_TRUE(s.aiding[0].outages.empty());
+  EXPECT_EQ(s.truth_rate_hz, 5.0);
+  for (const char* bad : {"fixes=many", "colour=red", "name.first=a", "=1",
+                          "aiding.gnss.rate", "aiding.gnss.rate=[1"}) {
+    EXPECT_THROW(changed({bad}), InputError) << bad;
+  }
+}
+
+TEST_F(ScenarioConfig, MeasuresAtASpacingOfThePath) {
+  const Scenario s = Load(
+      std::string("start: {position: [48 deg, 11 deg, 0 m], speed: 10 m/s}\n"
+                  "segments:\n"
+                  "  - {type: straight, duration: 10 s}\n"
+                  "  - {type: accelerate, speed: 20 m/s, rate: 1 m/s^2, blend: "
+                  "0 s}\n") +
+      kScenarioImu +
+      "aiding: {marks: {type: position, spacing: 50 m, sigma: 1 m}}\n");
+  const Dataset dataset = Simulate(s, 1);
+  std::vector<double> times;
+  for (const Measurement& z : dataset.streams[0].measurements) {
+    times.push_back(z.t);
+  }
+  // 100 m in 10 s, then 150 m in 10 s: 10 u + u^2 / 2 = 50, 100, 150.
+  ASSERT_EQ(times.size(), 5U);
+  EXPECT_EQ(times[0], 5.0);
+  EXPECT_EQ(times[1], 10.0);
+  EXPECT_NEAR(times[2], 10.0 + std::sqrt(200.0) - 10.0, 1e-5);
+  EXPECT_NEAR(times[3], 10.0 + std::sqrt(300.0) - 10.0, 1e-5);
+  EXPECT_EQ(times[4], 20.0);
 }
 
 TEST_F(ScenarioConfig, FindsBuiltinNamesAndFiles) {
@@ -134,6 +201,10 @@ TEST_F(ScenarioConfig, FindsBuiltinNamesAndFiles) {
   Load(std::string("name: mine\n") + kHead + kSegments + kScenarioImu);
   EXPECT_EQ(FindScenario(path_.string()).name, "mine");
   EXPECT_THROW(FindScenario("no_such_scenario"), InputError);
+  for (const std::string& name : ScenarioNames()) {
+    EXPECT_EQ(FindScenario(name).name, name);
+  }
+  EXPECT_THAT(ScenarioNames(), ::testing::IsSupersetOf({"flight", "corners"}));
 }
 
 TEST(ScenarioFiles, OfTheTreeCanBeSimulated) {
@@ -172,8 +243,7 @@ TEST_F(ScenarioConfig, ReadsMotionProfilesWithAndWithoutHeader) {
 /// The deviations are what integrating the profile's own velocities leaves.
 TEST(MotionProfiles, PublishedProfilesAreFollowed) {
   const std::filesystem::path folder =
-      std::filesystem::path(HINDSIGHT_SOURCE_DIR) /
-      "../shared/data/profiles_groves";
+      testing::RecordingsFolder() / "profiles_groves";
   if (!std::filesystem::exists(folder)) {
     GTEST_SKIP() << folder << " is absent";
   }

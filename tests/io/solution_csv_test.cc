@@ -1,4 +1,4 @@
-#include "io/solution_csv.h"
+#include "io/write/solution_csv.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,16 +6,16 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "base/units.h"
-#include "io/atomic_file.h"
-#include "io/output_error.h"
+#include "io/write/atomic_file.h"
+#include "io/write/output_error.h"
 #include "state/euler_error.h"
 #include "support/temporary_folder.h"
 
 namespace hindsight {
 namespace {
 
-using testing::HasSubstr;
-using testing::UnorderedElementsAre;
+using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
 
 Eigen::Matrix3d RandomCovariance(double scale, Random* random) {
   Eigen::Matrix3d A;

@@ -1,4 +1,4 @@
-#include "io/summary.h"
+#include "io/write/summary.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,16 +7,17 @@
 #include <nlohmann/json.hpp>
 
 #include "base/units.h"
-#include "io/comparison.h"
+#include "io/write/comparison.h"
+#include "measurements/sensor_kind.h"
 #include "support/temporary_folder.h"
 
 namespace hindsight {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::vector<std::string> Keys(const Json& json) {
   std::vector<std::string> keys;
@@ -127,8 +128,9 @@ RunSummary FullSummary() {
 
 TEST(Summary, HasTheDocumentedKeys) {
   const Json json = SummaryJson(FullSummary());
-  EXPECT_THAT(Keys(json), ElementsAre("program", "dataset", "complete", "start",
-                                      "policies", "best", "grade", "methods"));
+  EXPECT_THAT(Keys(json),
+              ElementsAre("program", "dataset", "complete", "datum", "start",
+                          "policies", "best", "grade", "methods"));
   const Json& batch = json["methods"]["batch"];
   EXPECT_THAT(Keys(batch),
               ElementsAre("seconds", "peak_rss_mb", "converged", "iterations",
@@ -275,6 +277,42 @@ TEST(ComparisonTable, HasARowForEachMethodAndNoEmptyColumns) {
   EXPECT_THAT(without, Not(HasSubstr("NEES")));
   EXPECT_THAT(without, Not(HasSubstr("truth")));
   EXPECT_THAT(without, Not(HasSubstr(" \n")));
+}
+
+TEST(ResidualOverview, HasARowForEachSensor) {
+  RunSummary summary = FullSummary();
+  summary.best = "batch";
+  const std::string text = ResidualOverview(summary);
+  EXPECT_THAT(text, HasSubstr("over sigma, rms  measured  rejected"));
+  EXPECT_THAT(text, HasSubstr("\ngnss "));
+  summary.methods[0].residuals.clear();
+  EXPECT_EQ(ResidualOverview(summary), "");
+}
+
+TEST(Summary, SaysWhatTheReceiverSaidAndWhatWasRead) {
+  RunSummary summary = FullSummary();
+  Dataset dataset;
+  dataset.streams.resize(1);
+  dataset.streams[0].sensor.name = "gnss";
+  dataset.streams[0].sensor.kind = &PositionKind();
+  for (const double quality : {1.0, 1.0, 1.0, 2.0}) {
+    PositionFix fix;
+    fix.quality = quality;
+    fix.satellites = 6.0 + quality;
+    dataset.streams[0].measurements.push_back({0.0, 0, false, fix});
+  }
+  summary.fixes = SummarizeFixes(dataset);
+  summary.inputs = {{"imu.csv", 12, "ab"}, {"oxts", 30, "cd", 3}};
+  const Json json = SummaryJson(summary);
+  EXPECT_EQ(json["fixes"]["gnss"]["count"], 4);
+  EXPECT_EQ(json["fixes"]["gnss"]["quality_percent"]["1"], 75.0);
+  EXPECT_EQ(json["fixes"]["gnss"]["quality_percent"]["2"], 25.0);
+  EXPECT_EQ(json["fixes"]["gnss"]["satellites_mean"], 7.25);
+  EXPECT_EQ(json["inputs"][0]["path"], "imu.csv");
+  EXPECT_EQ(json["inputs"][0]["bytes"], 12);
+  EXPECT_FALSE(json["inputs"][0].contains("files"));
+  EXPECT_EQ(json["inputs"][1]["files"], 3);
+  EXPECT_EQ(json["datum"], "WGS-84, heights above the ellipsoid");
 }
 
 TEST(ErrorTable, ListsEveryComponentAndTheMatchedPart) {

@@ -1,4 +1,4 @@
-#include "io/text_lines.h"
+#include "io/read/text_lines.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

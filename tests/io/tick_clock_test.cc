@@ -1,4 +1,4 @@
-#include "io/tick_clock.h"
+#include "io/read/tick_clock.h"
 
 #include <gtest/gtest.h>
 

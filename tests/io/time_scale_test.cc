@@ -1,6 +1,11 @@
-#include "io/time_scale.h"
+#include "io/read/time_scale.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
 
 namespace hindsight {
 namespace {
@@ -68,6 +73,36 @@ TEST(TimeScale, FormatReadsBack) {
   const auto again = ParseDateTime(FormatGpsTime(ns));
   ASSERT_TRUE(again);
   EXPECT_EQ(Nanoseconds(*again), ns);
+}
+
+TEST(TimeScale, InstantsBefore1980AreFormattedToo) {
+  EXPECT_EQ(FormatGpsTime(-500'000'000), "1980-01-05 23:59:59.500000000 GPST");
+  EXPECT_EQ(FormatUtcTime(-500'000'000), "1980-01-05T23:59:59.500Z");
+  EXPECT_EQ(GpsWeekOf(-500'000'000).week, -1);
+  EXPECT_EQ(GpsWeekOf(-500'000'000).seconds,
+            static_cast<double>(kWeekSeconds) - 0.5);
+}
+
+/// Of the International Earth Rotation Service, as the system has them: lines
+/// of seconds since 1900 and TAI - UTC from then on, which is 19 s at the
+/// beginning of GPS time.
+TEST(TimeScale, LeapSecondsAreThoseOfTheSystem) {
+  std::ifstream file("/usr/share/zoneinfo/leap-seconds.list");
+  if (!file) GTEST_SKIP() << "the system has no list of leap seconds";
+  const std::int64_t epoch =
+      std::int64_t{(70 * 365 + 17) * 24} * 3600;  // 1970 since 1900
+  int count = 0;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::int64_t since_1900 = 0;
+    int tai = 0;
+    if (!(words >> since_1900 >> tai) || tai < 19) continue;
+    const std::int64_t since_1970 = since_1900 - epoch;
+    EXPECT_EQ(LeapSeconds(since_1970), tai - 19) << line;
+    EXPECT_EQ(LeapSeconds(since_1970 - 1), std::max(0, tai - 20)) << line;
+    ++count;
+  }
+  EXPECT_GE(count, 19);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "measurements/numeric_jacobian.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -21,7 +22,7 @@ Scene MagnetometerHeadingEast() {
   Scene scene;
   scene.state = MakeState(0.0, {0.9, 0.2, 10.0}, {1.0, 2.0, 0.5},
                           {0.0, 0.0, 90.0 * kDegree});
-  scene.sensor.type = SensorType::kMagnetometer;
+  scene.sensor.kind = &MagnetometerKind();
   scene.sensor.magnetic.declination = kDeclination;
   return scene;
 }
@@ -45,7 +46,7 @@ Scene RichMagneticScene() {
   add(BlockKind::kHardIron, {3.0, -2.0, 5.0});
   add(BlockKind::kDeclination, {0.1, 0.0, 0.0});
   add(BlockKind::kDisturbance, {-4.0, 2.0, 6.0});
-  scene.sensor.type = SensorType::kMagnetometer;
+  scene.sensor.kind = &MagnetometerKind();
   return scene;
 }
 

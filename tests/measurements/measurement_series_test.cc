@@ -21,6 +21,12 @@ void Fill(Random* random, T* value) {
   *value = static_cast<T>(random->Uniform() < 0.5 ? 0 : 1);
 }
 
+/// Any of two objects.
+void Fill(Random* random, const GenericModel** model) {
+  static const GenericModel models[2];
+  *model = &models[random->Uniform() < 0.5 ? 0 : 1];
+}
+
 template <class T>
 requires requires(T value) { value.begin(); }
 void Fill(Random* random, T* values) {

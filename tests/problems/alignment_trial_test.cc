@@ -1,47 +1,43 @@
-#include "problems/alignment_trial.h"
+#include "problems/papers/alignment_trial.h"
 
 #include <gtest/gtest.h>
 
+#include "base/chi_square.h"
 #include "base/units.h"
-#include "evaluation/chi_square.h"
-#include "simulation/in_flight_alignment.h"
+#include "support/in_flight.h"
 
 namespace hindsight {
 namespace {
 
 TEST(AlignmentTrial, TheBatchAfterAlignmentIsConsistentOverTheWholeInterval) {
   constexpr int kRuns = 40;
-  const PerfectRecording flight(InFlightAlignment({.velocity_rate_hz = 1.0}));
-  MonteCarloOptions options;
-  options.runs = kRuns;
-  options.first_seed = 5001;
-  options.anees_bounds = [](int runs, int dim) {
-    const Interval bounds = AneesBounds(runs, dim, 0.999);
-    return std::pair(bounds.lower, bounds.upper);
+  const PerfectRecording flight(InFlightAlignment(1.0));
+  const Recording recording = [&](std::uint64_t seed) {
+    Dataset dataset = flight.Realize(seed);
+    MountAnywhere(seed, &dataset);
+    dataset.initial.alignment = AlignmentKind::kVelocity;
+    return dataset;
   };
-  const std::vector<AlignmentStatistics> all =
-      TryAlignment({{"1 Hz",
-                     [&](std::uint64_t seed) {
-                       Dataset dataset = flight.Realize(seed);
-                       MountAnywhere(seed, &dataset);
-                       dataset.initial.alignment = AlignmentKind::kVelocity;
-                       return dataset;
-                     }}},
-                   {.t_early = kFirstManoeuvre + 10.0,
-                    .diverged_tilt = 2.0 * kDegree,
-                    .diverged_heading = 10.0 * kDegree,
-                    .last = 20.0},
-                   options);
-  ASSERT_EQ(all.size(), 2u);
-  const AlignmentStatistics& batch = all.back();
-  EXPECT_EQ(batch.name, "velocity_alignment_batch");
-  EXPECT_EQ(batch.answered, kRuns);
-  EXPECT_EQ(batch.failed, 0);
+  const Trial trial = AlignmentTrial({.t_early = kFirstManoeuvre + 10.0,
+                                      .diverged_tilt = 2.0 * kDegree,
+                                      .diverged_heading = 10.0 * kDegree,
+                                      .last = 20.0});
+  const StudyResult all =
+      RunStudy({"",
+                {},
+                {AlignmentTable({"velocity"})},
+                {JobOf({{{"1 Hz"}, [&] { return recording; }, trial}})}},
+               {.runs = kRuns, .first_seed = 5001});
+  ASSERT_EQ(all.rows[0].size(), 2u);
+  const std::vector<std::string> batch = {"1 Hz", "velocity_alignment_batch"};
+  EXPECT_EQ(all.Value(batch, "failed"), 0);
   // A mean over epochs scatters no more than that of one epoch.
   const Interval bounds = AneesBounds(kRuns, 3, 0.999);
-  EXPECT_TRUE(bounds.Contains(batch.anees)) << batch.anees;
-  EXPECT_EQ(batch.anees_lower, bounds.lower);
-  EXPECT_LT(batch.anees_outside, 0.5);
+  const double anees = all.Value(batch, "anees");
+  EXPECT_TRUE(bounds.Contains(anees)) << anees;
+  EXPECT_EQ(all.Value(batch, "anees_bound_lower"),
+            AneesBounds(kRuns, 3, 0.95).lower);
+  EXPECT_LT(all.Value(batch, "anees_outside"), 0.5);
 }
 
 }  // namespace

@@ -3,11 +3,12 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "base/chi_square.h"
 #include "base/units.h"
-#include "evaluation/chi_square.h"
 #include "evaluation/trajectory_error.h"
-#include "io/config.h"
+#include "io/config/config.h"
 #include "problems/reconstruction.h"
+#include "support/recordings.h"
 
 namespace hindsight {
 namespace {
@@ -17,11 +18,12 @@ class AuvDive : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     const std::string source = HINDSIGHT_SOURCE_DIR;
-    const std::string root = source + "/../shared/data";
-    if (!std::filesystem::exists(root + "/auv_dvl")) {
+    const std::filesystem::path root = testing::RecordingsFolder();
+    if (!std::filesystem::exists(root / "auv_dvl")) {
       GTEST_SKIP() << "the recording auv_dvl is not here";
     }
-    dataset_ = LoadDataset(source + "/data/" + GetParam() + ".yaml", {root});
+    dataset_ =
+        LoadDataset(source + "/data/" + GetParam() + ".yaml", {root.string()});
   }
 
   TrajectoryStatistics Evaluate(const Reconstruction& reconstruction,

@@ -27,8 +27,8 @@ struct Kind {
 };
 constexpr Kind kKinds[] = {{false, true}, {false, false}, {true, true}};
 
-TestProblem Problem(const Kind& kind, double duration = 20.0,
-                    bool errors = true) {
+TestProblem ShortDrive(const Kind& kind, double duration = 20.0,
+                       bool errors = true) {
   TestProblemOptions options;
   options.noise = TacticalNoise(kind.walk);
   // One gate decision for all: nothing is rejected.
@@ -48,11 +48,8 @@ GateDecisions All(const TestProblem& problem) {
   return GateDecisions(problem.measurements.size(), 1);
 }
 
-std::vector<State> FilteredStates(const TestProblem& problem,
-                                  Timeline* timeline) {
-  return SmoothRts(RunExtendedKalmanFilter(problem.layout, problem.prior,
-                                           timeline, All(problem)))
-      .states;
+std::vector<State> FilteredStates(Problem* posed) {
+  return SmoothRts(RunExtendedKalmanFilter(posed)).states;
 }
 
 /// A trajectory whose constants are the same everywhere, as the batch's are.
@@ -84,14 +81,14 @@ std::vector<State> NominalOf(const TestProblem& problem, double size) {
 
 TEST(Batch, OneGaussNewtonStepEqualsOneRtsPass) {
   for (const Kind& kind : kKinds) {
-    const TestProblem problem = Problem(kind);
+    const TestProblem problem = ShortDrive(kind);
     const ErrorLayout& layout = problem.layout;
-    Timeline timeline = problem.MakeTimeline();
+    Problem posed = problem.Pose(All(problem));
     const std::vector<State> nominal = NominalOf(problem, 0.1);
-    const SmoothedTrajectory rts = SmoothRts(RunLinearizedFilter(
-        layout, problem.prior, nominal, &timeline, All(problem)));
+    const SmoothedTrajectory rts =
+        SmoothRts(RunLinearizedFilter(nominal, &posed));
 
-    ChainProblem chain(layout, problem.prior, nominal, &timeline, All(problem));
+    ChainProblem chain(nominal, &posed);
     const StateBlocks& blocks = chain.blocks();
     ArrowSystem arrow = chain.Information();
     EXPECT_TRUE(arrow.Factor().empty()) << Name(kind);
@@ -122,16 +119,14 @@ TEST(Batch, OneGaussNewtonStepEqualsOneRtsPass) {
 
 TEST(Batch, ConvergedEqualsTheIteratedSmoother) {
   for (const Kind& kind : kKinds) {
-    const TestProblem problem = Problem(kind);
-    Timeline timeline = problem.MakeTimeline();
-    const std::vector<State> start = FilteredStates(problem, &timeline);
-    const BatchResult batch = SolveBatch(problem.layout, problem.prior, start,
-                                         &timeline, All(problem), {});
+    const TestProblem problem = ShortDrive(kind);
+    Problem posed = problem.Pose(All(problem));
+    const std::vector<State> start = FilteredStates(&posed);
+    const BatchResult batch = SolveBatch(start, {}, &posed);
     IterationOptions options;
     options.position_tolerance = 1e-8;
     options.attitude_tolerance = 1e-11;
-    const IteratedResult iterated = SmoothIterated(
-        problem.layout, problem.prior, start, &timeline, All(problem), options);
+    const IteratedResult iterated = SmoothIterated(start, options, &posed);
     EXPECT_TRUE(batch.converged) << Name(kind);
     const std::vector<State>& a = batch.states;
     const std::vector<State>& b = iterated.trajectory.states;
@@ -151,15 +146,13 @@ TEST(Batch, ConvergedEqualsTheIteratedSmoother) {
 
 TEST(Batch, StartedOneMetreOffReachesAMicrometre) {
   for (const Kind& kind : kKinds) {
-    const TestProblem problem = Problem(kind);
-    Timeline timeline = problem.MakeTimeline();
-    const std::vector<State> near = FilteredStates(problem, &timeline);
+    const TestProblem problem = ShortDrive(kind);
+    Problem posed = problem.Pose(All(problem));
+    const std::vector<State> near = FilteredStates(&posed);
     std::vector<State> far = near;
     for (State& x : far) x.p_e += Eigen::Vector3d(0.6, -0.5, 0.6);
-    const BatchResult a = SolveBatch(problem.layout, problem.prior, near,
-                                     &timeline, All(problem), {});
-    const BatchResult b = SolveBatch(problem.layout, problem.prior, far,
-                                     &timeline, All(problem), {});
+    const BatchResult a = SolveBatch(near, {}, &posed);
+    const BatchResult b = SolveBatch(far, {}, &posed);
     EXPECT_TRUE(b.converged);
     EXPECT_LT(
         LargestError(problem.layout, a.states, b.states, BlockKind::kPosition),
@@ -170,17 +163,17 @@ TEST(Batch, StartedOneMetreOffReachesAMicrometre) {
 
 TEST(Batch, WindowsGiveTheSolutionOfTheWholeChain) {
   for (const Kind& kind : kKinds) {
-    const TestProblem problem = Problem(kind);
-    Timeline timeline = problem.MakeTimeline();
-    std::vector<State> start = FilteredStates(problem, &timeline);
+    const TestProblem problem = ShortDrive(kind);
+    Problem posed = problem.Pose(All(problem));
+    std::vector<State> start = FilteredStates(&posed);
     for (State& x : start) x.p_e += Eigen::Vector3d(0.6, -0.5, 0.6);
     ASSERT_GT(start.size(), 14u);
     const auto solve = [&](std::size_t window_nodes) {
-      return SolveBatch(problem.layout, problem.prior, start, &timeline,
-                        All(problem),
+      return SolveBatch(start,
                         {.whole_nodes = window_nodes,
                          .window_nodes = window_nodes,
-                         .callback = {}});
+                         .callback = {}},
+                        &posed);
     };
     const BatchResult whole = solve(start.size());
     const BatchResult parts = solve(7);
@@ -201,22 +194,22 @@ TEST(Batch, WindowsGiveTheSolutionOfTheWholeChain) {
 }
 
 TEST(Batch, AStartNearTheSolutionNeedsNoWindows) {
-  const TestProblem problem = Problem(kKinds[0]);
-  Timeline timeline = problem.MakeTimeline();
-  const std::vector<State> filtered = FilteredStates(problem, &timeline);
-  const BatchResult whole = SolveBatch(problem.layout, problem.prior, filtered,
-                                       &timeline, All(problem), {});
+  const TestProblem problem = ShortDrive(kKinds[0]);
+  Problem posed = problem.Pose(All(problem));
+  const std::vector<State> filtered = FilteredStates(&posed);
+  const BatchResult whole = SolveBatch(filtered, {}, &posed);
   for (const double distance : {1e-4, 1e-1}) {
     std::vector<State> start = whole.states;
     for (std::size_t k = 0; k < start.size(); k += 2) {
       start[k].p_e.x() += distance;
     }
     int iterations_in_windows = 0;
-    const BatchResult parts = SolveBatch(
-        problem.layout, problem.prior, start, &timeline, All(problem),
-        {.whole_nodes = 7, .window_nodes = 7, .callback = [&](double) {
-           ++iterations_in_windows;
-         }});
+    const BatchResult parts =
+        SolveBatch(start,
+                   {.whole_nodes = 7,
+                    .window_nodes = 7,
+                    .callback = [&](double) { ++iterations_in_windows; }},
+                   &posed);
     EXPECT_EQ(iterations_in_windows == 0, distance < 1e-3);
     EXPECT_TRUE(parts.converged);
     EXPECT_LT(LargestError(problem.layout, whole.states, parts.states,
@@ -227,12 +220,11 @@ TEST(Batch, AStartNearTheSolutionNeedsNoWindows) {
 
 TEST(Batch, ExactDataGiveZeroError) {
   for (const Kind& kind : kKinds) {
-    const TestProblem problem = Problem(kind, 20.0, false);
-    Timeline timeline = problem.MakeTimeline();
-    std::vector<State> start = FilteredStates(problem, &timeline);
+    const TestProblem problem = ShortDrive(kind, 20.0, false);
+    Problem posed = problem.Pose(All(problem));
+    std::vector<State> start = FilteredStates(&posed);
     for (State& x : start) x.p_e += Eigen::Vector3d(0.6, -0.5, 0.6);
-    const BatchResult batch = SolveBatch(problem.layout, problem.prior, start,
-                                         &timeline, All(problem), {});
+    const BatchResult batch = SolveBatch(start, {}, &posed);
     EXPECT_LT(LargestError(problem.layout, batch.states, problem.truth,
                            BlockKind::kPosition),
               1e-6)
@@ -246,14 +238,12 @@ TEST(Batch, ExactDataGiveZeroError) {
 
 TEST(Batch, MarginalsEqualCeresCovariance) {
   for (const Kind& kind : kKinds) {
-    const TestProblem problem = Problem(kind, 5.0);
-    Timeline timeline = problem.MakeTimeline();
-    const std::vector<State> states = FilteredStates(problem, &timeline);
-    const CovarianceSeries marginals = BatchMarginals(
-        problem.layout, problem.prior, states, &timeline, All(problem));
+    const TestProblem problem = ShortDrive(kind, 5.0);
+    Problem posed = problem.Pose(All(problem));
+    const std::vector<State> states = FilteredStates(&posed);
+    const CovarianceSeries marginals = BatchMarginals(states, &posed);
 
-    ChainProblem chain(problem.layout, problem.prior, states, &timeline,
-                       All(problem));
+    ChainProblem chain(states, &posed);
     const StateBlocks& blocks = chain.blocks();
     NodeManifold manifold(&blocks);
     ceres::Problem::Options ownership;
@@ -310,13 +300,12 @@ TEST(Batch, MarginalsEqualCeresCovariance) {
 }
 
 TEST(Batch, TwoRunsGiveIdenticalBits) {
-  const TestProblem problem = Problem({true, true});
+  const TestProblem problem = ShortDrive({true, true});
   std::vector<BatchResult> results;
   for (int run = 0; run < 2; ++run) {
-    Timeline timeline = problem.MakeTimeline();
-    const std::vector<State> start = FilteredStates(problem, &timeline);
-    results.push_back(SolveBatch(problem.layout, problem.prior, start,
-                                 &timeline, All(problem), {}));
+    Problem posed = problem.Pose(All(problem));
+    const std::vector<State> start = FilteredStates(&posed);
+    results.push_back(SolveBatch(start, {}, &posed));
   }
   for (std::size_t k = 0; k < results[0].states.size(); ++k) {
     EXPECT_EQ(results[0].states[k].p_e, results[1].states[k].p_e);
@@ -327,14 +316,12 @@ TEST(Batch, TwoRunsGiveIdenticalBits) {
 }
 
 TEST(Batch, WhatTheCallbackThrowsReachesTheCaller) {
-  const TestProblem problem = Problem({false, true});
-  Timeline timeline = problem.MakeTimeline();
-  const std::vector<State> start = FilteredStates(problem, &timeline);
+  const TestProblem problem = ShortDrive({false, true});
+  Problem posed = problem.Pose(All(problem));
+  const std::vector<State> start = FilteredStates(&posed);
   BatchOptions options;
   options.callback = [](double) { throw Interrupted(); };
-  EXPECT_THROW(SolveBatch(problem.layout, problem.prior, start, &timeline,
-                          All(problem), options),
-               Interrupted);
+  EXPECT_THROW(SolveBatch(start, options, &posed), Interrupted);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "evaluation/chi_square.h"
-#include "problems/montecarlo.h"
-#include "simulation/calibration_drive.h"
+#include "base/chi_square.h"
+#include "io/config/scenario_config.h"
+#include "support/navigation_study.h"
 
 namespace hindsight {
 namespace {
@@ -16,37 +16,33 @@ TEST(Calibration, EveryConstantIsAsGoodAsItsSigma) {
   constexpr int kRuns = 2;
 #endif
   constexpr double kDuration = 160.0;
-  const PerfectRecording recording(CalibrationDrive(kDuration));
-  MonteCarloOptions options;
-  options.runs = kRuns;
-  for (double t = 20.0; t < kDuration; t += 20.0) {
-    options.node_times.push_back(t);
-  }
-  options.anees_bounds = [](int runs, int dim) {
-    const Interval bounds = AneesBounds(runs, dim, 0.999);
-    return std::pair(bounds.lower, bounds.upper);
-  };
-  const MonteCarloResult result = RunMonteCarlo(
-      {{"",
-        [&recording](std::uint64_t seed) { return recording.Realize(seed); },
-        {"batch"}}},
-      options);
-  EXPECT_EQ(result.dim, 33);
+  Scenario scenario = FindScenario("calibration");
+  scenario.duration = kDuration;
+  const PerfectRecording recording(scenario);
+  const StudyResult result =
+      RunStudy(testing::NavigationStudy(
+                   recording, {.methods = {"batch"}, .judged_every = 20.0}),
+               {.runs = kRuns});
+  EXPECT_EQ(result.Value({"batch"}, "states"), 33);
+  EXPECT_EQ(result.Value({"batch"}, "failed"), 0);
   // 18 constants; one in ten thousand may be outside.
   const Interval bounds = AneesBounds(kRuns, 1, 0.9999);
-  const MethodStatistics& batch = result.methods[0];
-  ASSERT_EQ(batch.constants.size(), 18u);
-  EXPECT_EQ(batch.failed, 0);
-  for (const ConstantStatistics& c : batch.constants) {
-    EXPECT_TRUE(bounds.Contains(c.anees))
-        << c.name << ": " << c.anees << " against " << bounds.lower << " to "
-        << bounds.upper;
-    EXPECT_LE(c.sigma, c.prior_sigma * (1.0 + 1e-9)) << c.name;
+  ASSERT_EQ(result.rows[kConstants].size(), 18u);
+  for (const FigureRow& row : result.rows[kConstants]) {
+    const auto value = [&](const char* name) {
+      return result.Value(row.labels, name, kConstants);
+    };
+    EXPECT_TRUE(bounds.Contains(value("anees")))
+        << row.labels[1] << ": " << value("anees") << " against "
+        << bounds.lower << " to " << bounds.upper;
+    EXPECT_LE(value("sigma"), value("prior_sigma") * (1.0 + 1e-9))
+        << row.labels[1];
   }
-  const Interval whole = AneesBounds(kRuns, result.dim, 0.9999);
-  EXPECT_TRUE(whole.Contains(batch.anees_series.back()))
-      << batch.anees_series.back();
-  EXPECT_EQ(batch.t.size(), options.node_times.size());
+  const Interval whole = AneesBounds(kRuns, 33, 0.9999);
+  const FigureRow& batch = result.Row({"batch"});
+  const double at_end = batch.curves.back().back();
+  EXPECT_TRUE(whole.Contains(at_end)) << at_end;
+  EXPECT_EQ(batch.t.size(), 7u);
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 
 #include "base/units.h"
 #include "evaluation/trajectory_error.h"
+#include "io/config/scenario_config.h"
 #include "problems/reconstruction.h"
-#include "simulation/builtin_scenarios.h"
 #include "support/seed_count.h"
 
 namespace hindsight {
@@ -41,7 +41,7 @@ struct Accuracy {
 /// whole-interval estimator reaches on such a drive.
 TEST(CarDrive, WholeIntervalAccuracyAndConsistency) {
   constexpr int kSeeds = testing::SeedCount(50);
-  Scenario scenario = BuiltinScenario("car_drive");
+  Scenario scenario = FindScenario("car_drive");
   scenario.truth_rate_hz = 1.0;
   const PerfectRecording recording(scenario);
   Accuracy filter, smoother, batch;

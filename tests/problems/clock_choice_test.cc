@@ -7,10 +7,11 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "base/units.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
 #include "problems/forward_stage.h"
 #include "problems/marginal_likelihood.h"
 #include "problems/reconstruction.h"
-#include "simulation/builtin_scenarios.h"
 #include "support/seed_count.h"
 #include "support/shuttle_flight.h"
 
@@ -163,11 +164,10 @@ Scenario SteadyCircle() {
   s.imu.noise.accel_noise_density = 0.05 / 60.0;
   s.imu.gyro_bias_sigma.setConstant(30.0 * kDegree / 3600.0);
   s.imu.accel_bias_sigma.setConstant(0.02);
-  AidingModel gnss;
+  AidingModel gnss(PositionKind());
   gnss.sensor.name = "gnss";
-  gnss.sensor.type = SensorType::kPosition;
   gnss.rate_hz = 5.0;
-  gnss.sigma = {0.02, 0.02, 0.03};
+  gnss.sigma = Eigen::Vector3d{0.02, 0.02, 0.03};
   s.aiding = {gnss};
   return s;
 }
@@ -222,7 +222,7 @@ TEST(ClockChoice, PerfectlyPeriodicFlightsHaveARival) {
 }
 
 TEST(ClockChoice, AnUnknownClockIsFoundAMinuteOff) {
-  Scenario scenario = BuiltinScenario("short_drive");
+  Scenario scenario = FindScenario("short_drive");
   Dataset dataset = Simulate(scenario, 4);
   for (AidingStream& stream : dataset.streams) {
     Delay(60.0, &stream);
@@ -240,7 +240,7 @@ TEST(ClockChoice, AnUnknownClockIsFoundAMinuteOff) {
 }
 
 TEST(ClockChoice, AnUnknownClockAtRestIsRefusedByName) {
-  Scenario scenario = BuiltinScenario("short_drive");
+  Scenario scenario = FindScenario("short_drive");
   scenario.segments = {Segment::Stop(60.0)};
   Dataset dataset = Simulate(scenario, 4);
   dataset.streams[0].clock_unknown = true;
@@ -258,16 +258,15 @@ MarginalLikelihood LikelihoodOf(double position_sigma, double imu_factor) {
   Scenario scenario = ShuttleFlight({}, 5);
   scenario.imu.noise.gyro_noise_density *= imu_factor;
   scenario.imu.noise.accel_noise_density *= imu_factor;
-  scenario.aiding[0].sigma.setConstant(position_sigma);
+  scenario.aiding[0].sigma.emplace().setConstant(position_sigma);
   const Dataset dataset = Simulate(scenario, 5);
   ForwardStage stage(dataset, {});
   stage.Run();
   const std::vector<State>& nominal = stage.smoothed().states;
   const GateDecisions used(stage.timeline().all_measurements().size(), 1);
-  return MarginalLikelihoodOf(
-      stage.start().layout,
-      PriorOfComparison(dataset, stage.start(), nominal.front()), nominal,
-      stage.decisions(), used, &stage.timeline());
+  Problem problem = stage.problem();
+  problem.prior = PriorOfComparison(dataset, stage.start(), nominal.front());
+  return MarginalLikelihoodOf(std::move(problem), nominal, used);
 }
 
 /// What two predictions have of the IMU's noise: nothing of an exact one; all

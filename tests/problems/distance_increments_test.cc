@@ -8,9 +8,10 @@
 #include "base/units.h"
 #include "dataset/timeline_builder.h"
 #include "filters/two_filter.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
 #include "problems/batch.h"
 #include "problems/reconstruction.h"
-#include "simulation/builtin_scenarios.h"
 #include "support/test_problem.h"
 
 namespace hindsight {
@@ -19,19 +20,20 @@ namespace {
 /// A drive of three minutes whose position fixes are missing from 60 s to
 /// 150 s, and an odometer at 10 Hz.
 Scenario Drive(Odometer::Form form) {
-  Scenario s = BuiltinScenario("short_drive");
+  Scenario s = FindScenario("short_drive");
   s.truth_rate_hz = 10.0;
   s.stationary.enabled = false;
-  s.start_errors = StartErrors{Eigen::Vector3d::Constant(0.1),
-                               Eigen::Vector3d::Constant(0.05),
-                               Eigen::Vector3d::Constant(0.2 * kDegree)};
+  StartErrors errors;
+  errors.position.setConstant(0.1);
+  errors.velocity.setConstant(0.05);
+  errors.attitude.setConstant(0.2 * kDegree);
+  s.start_errors = errors;
   s.aiding.resize(1);
   s.aiding[0].outages.push_back({60.0, 150.0});
-  AidingModel odometer;
+  AidingModel odometer(OdometerKind());
   odometer.sensor.name = "odometer";
-  odometer.sensor.type = SensorType::kOdometer;
   odometer.sensor.lever_arm_b = {-0.8, 0.3, 0.4};
-  odometer.odometer_form = form;
+  PatternOf<Odometer>(odometer).form = form;
   odometer.rate_hz = 10.0;
   odometer.sigma = form == Odometer::Form::kIncrements
                        ? Eigen::Vector3d(0.002, 1.0, 1.0)
@@ -49,8 +51,11 @@ Scenario WithoutErrors(Scenario s) {
   s.imu.accel_bias_sigma.setZero();
   s.imu.noise.gyro_noise_density = 1e-12;
   s.imu.noise.accel_noise_density = 1e-12;
-  s.start_errors = StartErrors{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
-                               Eigen::Vector3d::Zero()};
+  StartErrors none;
+  none.position.setZero();
+  none.velocity.setZero();
+  none.attitude.setZero();
+  s.start_errors = none;
   return s;
 }
 
@@ -121,16 +126,14 @@ TEST(DistanceIncrements, SmootherIsTheBatch) {
   TimelineOptions options;
   options.t_begin = start.report.t;
   options.t_end = dataset.imu.t_end();
-  Timeline timeline = BuildTimeline(dataset, options);
-  const GateDecisions all(timeline.all_measurements().size(), 1);
-  const SmoothedTrajectory first = SmoothRts(
-      RunExtendedKalmanFilter(start.layout, start.prior, &timeline, all));
-  timeline.LinearizeTimeOffsets(start.layout, first.states);
-  const BatchResult batch =
-      SolveBatch(start.layout, start.prior, first.states, &timeline, all, {});
+  Problem problem = {start.layout, start.prior,
+                     BuildTimeline(dataset, options)};
+  problem.decisions.assign(problem.timeline.all_measurements().size(), 1);
+  const SmoothedTrajectory first = SmoothRts(RunExtendedKalmanFilter(&problem));
+  problem.timeline.LinearizeTimeOffsets(start.layout, first.states);
+  const BatchResult batch = SolveBatch(first.states, {}, &problem);
   ASSERT_TRUE(batch.converged);
-  const LinearTape tape = RunLinearizedFilter(start.layout, start.prior,
-                                              batch.states, &timeline, all);
+  const LinearTape tape = RunLinearizedFilter(batch.states, &problem);
   const SmoothedTrajectory rts = SmoothRts(tape);
   const SmoothedTrajectory two_filter = SmoothTwoFilter(tape).trajectory;
   for (std::size_t k = 0; k < batch.states.size(); k += 20) {

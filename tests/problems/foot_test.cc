@@ -4,9 +4,10 @@
 
 #include "evaluation/grade.h"
 #include "evaluation/trajectory_error.h"
-#include "io/config.h"
+#include "io/config/config.h"
 #include "problems/reconstruction.h"
 #include "problems/rest_by_estimate.h"
+#include "support/recordings.h"
 
 namespace hindsight {
 namespace {
@@ -17,11 +18,12 @@ class Foot : public ::testing::TestWithParam<double> {};
 
 TEST_P(Foot, IsKnownToAMetreAndWhatIsUsableIsHonest) {
   const std::string source = HINDSIGHT_SOURCE_DIR;
-  const std::string root = source + "/../shared/data";
-  if (!std::filesystem::exists(root + "/foot_zupt")) {
+  const std::filesystem::path root = testing::RecordingsFolder();
+  if (!std::filesystem::exists(root / "foot_zupt")) {
     GTEST_SKIP() << "the recording foot_zupt is not here";
   }
-  Dataset dataset = LoadDataset(source + "/data/foot_zupt.yaml", {root});
+  Dataset dataset =
+      LoadDataset(source + "/data/foot_zupt.yaml", {root.string()});
   constexpr double kStated = 0.05;
   for (Measurement& z : dataset.streams.at(0).measurements.Edited()) {
     ScaleSigma(GetParam() / kStated, &z);
@@ -45,11 +47,12 @@ TEST_P(Foot, IsKnownToAMetreAndWhatIsUsableIsHonest) {
 /// yield in one (data/README.md) as thresholds.
 TEST(FootAtRest, IsKnownToAMetreWithoutFlags) {
   const std::string source = HINDSIGHT_SOURCE_DIR;
-  const std::string root = source + "/../shared/data";
-  if (!std::filesystem::exists(root + "/foot_zupt")) {
+  const std::filesystem::path root = testing::RecordingsFolder();
+  if (!std::filesystem::exists(root / "foot_zupt")) {
     GTEST_SKIP() << "the recording foot_zupt is not here";
   }
-  Dataset dataset = LoadDataset(source + "/data/foot_rest.yaml", {root});
+  Dataset dataset =
+      LoadDataset(source + "/data/foot_rest.yaml", {root.string()});
   AddDecidedRest(dataset.imu.t_begin(), dataset.imu.t_end(), &dataset);
   std::vector<double> times;
   for (const TruthPoint& point : dataset.truth) times.push_back(point.t);

@@ -9,11 +9,10 @@
 #include "base/units.h"
 #include "evaluation/trajectory_error.h"
 #include "geometry/so3.h"
-#include "problems/montecarlo.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
 #include "problems/reconstruction.h"
-#include "simulation/builtin_scenarios.h"
-#include "simulation/in_flight_alignment.h"
-#include "simulation/tunnel_survey.h"
+#include "support/in_flight.h"
 
 namespace hindsight {
 namespace {
@@ -37,7 +36,7 @@ bool HasRule(const Solution& solution, const std::string& rule) {
 }
 
 TEST(Verdict, CountsTheConstantsThatStayAtTheirPriors) {
-  const Dataset dataset = Simulate(InFlightAlignment({}), 1);
+  const Dataset dataset = Simulate(InFlightAlignment(), 1);
   ReconstructionOptions options;
   options.to = kFirstManoeuvre + 2.0;
   Reconstruction reconstruction(dataset, options);
@@ -54,7 +53,7 @@ TEST(Verdict, CountsTheConstantsThatStayAtTheirPriors) {
 }
 
 TEST(Verdict, SaysNothingOfConstantsWhereAllAreObserved) {
-  const Dataset dataset = Simulate(InFlightAlignment({}), 1);
+  const Dataset dataset = Simulate(InFlightAlignment(), 1);
   const Solution solution = Solve(dataset, {});
   EXPECT_TRUE(KeptAtPriors(solution).empty());
   EXPECT_EQ(solution.grade, Grade::kUsable) << solution.verdict;
@@ -63,7 +62,7 @@ TEST(Verdict, SaysNothingOfConstantsWhereAllAreObserved) {
 
 /// One minute of the car drive.
 Dataset GradedDrive(std::uint64_t seed = 1) {
-  Scenario scenario = BuiltinScenario("car_drive");
+  Scenario scenario = FindScenario("car_drive");
   scenario.duration = 60.0;
   scenario.withholdings.clear();
   return Simulate(scenario, seed);
@@ -102,7 +101,7 @@ TEST(Grade, ImuThatFreezesIsDoubtful) {
 TEST(Grade, PositionsThatRepeatAreNotUsable) {
   Dataset dataset = GradedDrive();
   for (AidingStream& stream : dataset.streams) {
-    if (stream.sensor.type != SensorType::kPosition) continue;
+    if (!stream.sensor.kind->is_position) continue;
     MeasurementSeries written;
     for (const Measurement& z : stream.measurements) {
       for (int i = 0; i < 25; ++i) {
@@ -126,14 +125,13 @@ TEST(Grade, NoSurveyWithAForwardOdometerIsWrongAndUsable) {
   constexpr const char* kMethods[] = {"ekf", "rts", "two_filter", "iterated"};
   int refused = 0;
   for (const char* path : {"winding", "straight"}) {
-    for (const auto noise : {TunnelSurveyOptions::Noise::kSample,
-                             TunnelSurveyOptions::Noise::kDensity}) {
-      TunnelSurveyOptions options;
-      options.path = path;
-      options.noise = noise;
-      options.odometer_form = Odometer::Form::kForward;
+    for (const char* noise : {"sample", "density"}) {
+      const Scenario survey =
+          FindScenario("tunnel_survey", {std::string("path=") + path,
+                                         std::string("noise=") + noise,
+                                         "aiding.odometer.form=forward"});
       constexpr std::uint64_t seed = 101;
-      Dataset dataset = Simulate(TunnelSurvey(options), seed);
+      Dataset dataset = Simulate(survey, seed);
       // At the nodes, so that nothing is interpolated.
       dataset.truth.EraseIf([](const TruthPoint& point) {
         return point.t != std::round(point.t);

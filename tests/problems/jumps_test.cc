@@ -2,40 +2,52 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <memory>
 
+#include "base/chi_square.h"
 #include "dataset/timeline_builder.h"
-#include "evaluation/chi_square.h"
 #include "filters/imm_smoother.h"
-#include "problems/jump_comparison.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
+#include "problems/papers/jump_comparison.h"
 #include "problems/position_imm.h"
 #include "problems/reconstruction.h"
-#include "simulation/builtin_scenarios.h"
-#include "simulation/gps_jumps.h"
 #include "support/truth_at.h"
 
 namespace hindsight {
 namespace {
 
-const JumpStatistics& Find(const std::vector<JumpStatistics>& all,
-                           const std::string& name) {
-  for (const JumpStatistics& one : all) {
-    if (one.name == name) return one;
+StudyResult Compare(const std::string& profile, double sigma, int runs,
+                    std::uint64_t first_seed = 1) {
+  const PerfectRecording recording(FindScenario(
+      "gps_jumps", {"errors=" + profile,
+                    "aiding.gnss.sigma=" + std::to_string(sigma) + " m"}));
+  const Recording realize = [&](std::uint64_t seed) {
+    return recording.Realize(seed);
+  };
+  return RunStudy({"",
+                   {},
+                   {JumpTable({})},
+                   {JobOf({{{}, [realize] { return realize; }, JumpTrial()}})}},
+                  {.runs = runs, .first_seed = first_seed});
+}
+
+double PositionRms(const StudyResult& all, const char* method) {
+  return all.Value({method}, "position_rms");
+}
+
+/// A figure against time.
+std::vector<double> CurveOf(const StudyResult& all, const char* method,
+                            const std::string& name) {
+  const std::vector<FigureCurve>& curves = all.tables[0].curves;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    if (curves[i].name == name) return all.Row({method}).curves[i];
   }
   throw std::logic_error(name);
 }
 
-std::vector<JumpStatistics> Compare(const std::string& profile, double sigma,
-                                    int runs, std::uint64_t first_seed = 1) {
-  const PerfectRecording recording(GpsJumps({profile, sigma, 1.0}));
-  MonteCarloOptions options;
-  options.runs = runs;
-  options.first_seed = first_seed;
-  return CompareOnJumps(
-      [&](std::uint64_t seed) { return recording.Realize(seed); }, options);
-}
-
 TEST(PositionImm, HasThePapersEighteenStates) {
-  const Dataset dataset = Simulate(GpsJumps({}), 1);
+  const Dataset dataset = Simulate(FindScenario("gps_jumps"), 1);
   const double forever = std::numeric_limits<double>::infinity();
   const Start start = FindStart(dataset, -forever, forever);
   const std::vector<ImmModel> models =
@@ -60,13 +72,16 @@ struct North {
   double peak = 0.0;
 };
 
-North NorthOver(const JumpStatistics& m, double from, double to) {
+North NorthOver(const StudyResult& all, const char* method, double from,
+                double to) {
   North out;
   int count = 0;
-  for (std::size_t k = 0; k < m.t.size(); ++k) {
-    if (m.t[k] < from || m.t[k] > to) continue;
-    out.mean += m.position_rms[k].x();
-    out.peak = std::max(out.peak, m.position_rms[k].x());
+  const std::vector<double> rms = CurveOf(all, method, "position_rms_n");
+  const std::vector<double>& t = all.Row({method}).t;
+  for (std::size_t k = 0; k < t.size(); ++k) {
+    if (t[k] < from || t[k] > to) continue;
+    out.mean += rms[k];
+    out.peak = std::max(out.peak, rms[k]);
     ++count;
   }
   out.mean /= count;
@@ -74,31 +89,34 @@ North NorthOver(const JumpStatistics& m, double from, double to) {
 }
 
 TEST(PositionImm, KeepsThePapersBoundsOnPulses) {
-  const std::vector<JumpStatistics> all = Compare("pulses", 1.0, 4);
-  const JumpStatistics& imm = Find(all, "imm");
-  EXPECT_LT(NorthOver(imm, 140.0, 200.0).mean, 0.45);
-  EXPECT_LT(NorthOver(imm, 140.0, 160.0).peak, 0.7);
-  EXPECT_LT(NorthOver(imm, 120.0, 130.0).peak, 0.95);
-  EXPECT_GT(NorthOver(Find(all, "kf0"), 140.0, 200.0).mean, 1.5);
-  EXPECT_GT(NorthOver(Find(all, "kf1"), 140.0, 200.0).mean, 1.5);
+  const StudyResult all = Compare("pulses", 1.0, 4);
+  EXPECT_LT(NorthOver(all, "imm", 140.0, 200.0).mean, 0.45);
+  EXPECT_LT(NorthOver(all, "imm", 140.0, 160.0).peak, 0.7);
+  EXPECT_LT(NorthOver(all, "imm", 120.0, 130.0).peak, 0.95);
+  EXPECT_GT(NorthOver(all, "kf0", 140.0, 200.0).mean, 1.5);
+  EXPECT_GT(NorthOver(all, "kf1", 140.0, 200.0).mean, 1.5);
+  const std::vector<double> wide = CurveOf(all, "imm", "probability_0");
+  const std::vector<double> narrow = CurveOf(all, "imm", "probability_1");
+  const FigureRow& imm = all.Row({"imm"});
   double quiet = 0.0;
   int count = 0;
   for (std::size_t k = 0; k < imm.t.size(); ++k) {
     const double t = imm.t[k];
-    EXPECT_NEAR(imm.probabilities[k].sum(), 1.0, 1e-9);
+    EXPECT_NEAR(wide[k] + narrow[k], 1.0, 1e-9);
     if (t >= 140.0 && t < 150.0) {
-      EXPECT_GT(imm.probabilities[k](0), 0.99) << t;
+      EXPECT_GT(wide[k], 0.99) << t;
     }
     if (t < 10.0 || (t >= 120.0 && t < 126.0) || (t >= 140.0 && t < 151.0)) {
       continue;
     }
-    quiet += imm.probabilities[k](0);
+    quiet += wide[k];
     ++count;
   }
   EXPECT_LT(quiet / count, 0.01);
-  for (const JumpStatistics& one : all) {
-    EXPECT_EQ(one.failed, 0) << one.name;
-    EXPECT_EQ(one.t.size(), imm.t.size()) << one.name;
+  EXPECT_EQ(all.rows[0].size(), 8u);
+  for (const FigureRow& one : all.rows[0]) {
+    EXPECT_EQ(one.failed, 0) << one.labels[0];
+    EXPECT_EQ(one.t.size(), imm.t.size()) << one.labels[0];
   }
 }
 
@@ -106,18 +124,16 @@ class RobustBatchOn : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RobustBatchOn, IsNoWorseThanTheImmAndHonest) {
   constexpr int kRuns = 2;
-  const std::vector<JumpStatistics> all = Compare(GetParam(), 1.0, kRuns);
-  const JumpStatistics& robust = Find(all, "robust_batch");
-  EXPECT_EQ(robust.failed, 0);
-  EXPECT_LT(robust.PositionRms(10.0, 250.0),
-            1.05 * Find(all, "imm").PositionRms(10.0, 250.0));
+  const StudyResult all = Compare(GetParam(), 1.0, kRuns);
+  EXPECT_EQ(all.Value({"robust_batch"}, "failed"), 0);
+  EXPECT_LT(PositionRms(all, "robust_batch"), 1.05 * PositionRms(all, "imm"));
   // When an error began is one guess a run, which moves all positions under it:
   // at worst a run is one draw of two components.
-  EXPECT_LT(robust.Anees(10.0, 250.0), AneesBounds(kRuns, 2, 0.98).upper);
+  EXPECT_LT(all.Value({"robust_batch"}, "anees_horizontal"),
+            AneesBounds(kRuns, 2, 0.98).upper);
   const std::string profile = GetParam();
   if (profile == "steps" || profile == "ramp" || profile == "multipath") {
-    EXPECT_LT(robust.PositionRms(10.0, 250.0),
-              0.2 * Find(all, "imm").PositionRms(10.0, 250.0));
+    EXPECT_LT(PositionRms(all, "robust_batch"), 0.2 * PositionRms(all, "imm"));
   }
 }
 
@@ -131,10 +147,10 @@ INSTANTIATE_TEST_SUITE_P(Profiles, RobustBatchOn,
 /// One flight on which the robust batch is right and says so.
 void ExpectFound(const std::string& profile, double sigma, std::uint64_t seed,
                  double largest_rms) {
-  const std::vector<JumpStatistics> all = Compare(profile, sigma, 1, seed);
-  const JumpStatistics& robust = Find(all, "robust_batch");
-  EXPECT_LT(robust.PositionRms(10.0, 250.0), largest_rms);
-  EXPECT_LT(robust.Anees(10.0, 250.0), AneesBounds(1, 2, 0.98).upper);
+  const StudyResult all = Compare(profile, sigma, 1, seed);
+  EXPECT_LT(PositionRms(all, "robust_batch"), largest_rms);
+  EXPECT_LT(all.Value({"robust_batch"}, "anees_horizontal"),
+            AneesBounds(1, 2, 0.98).upper);
 }
 
 TEST(RobustBatch, RemembersForAHundredSecondsThatItMayBeARamp) {
@@ -155,9 +171,9 @@ TEST(RobustBatch, FindsABurstOfWhatSizeItMayBe) {
 
 TEST(RobustBatch, DoesNotTakeTheFirstFixAtItsWord) {
   // 15 m off for the first 10 s, and nothing else gives a position.
-  Dataset dataset = Simulate(BuiltinScenario("short_drive"), 1);
+  Dataset dataset = Simulate(FindScenario("short_drive"), 1);
   for (auto& stream : dataset.streams) {
-    if (stream.sensor.type != SensorType::kPosition) continue;
+    if (!stream.sensor.kind->is_position) continue;
     for (Measurement& z : stream.measurements.Edited()) {
       auto& fix = std::get<PositionFix>(z.model);
       if (z.t > 10.0) continue;
@@ -178,9 +194,9 @@ TEST(RobustBatch, DoesNotTakeTheFirstFixAtItsWord) {
 }
 
 TEST(RobustBatch, IsTheBatchWhereNothingIsWrong) {
-  const std::vector<JumpStatistics> none = Compare("none", 1.0, 3);
-  EXPECT_NEAR(Find(none, "robust_batch").PositionRms(10.0, 250.0),
-              Find(none, "batch").PositionRms(10.0, 250.0), 0.03);
+  const StudyResult none = Compare("none", 1.0, 3);
+  EXPECT_NEAR(PositionRms(none, "robust_batch"), PositionRms(none, "batch"),
+              0.03);
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "base/units.h"
-#include "problems/montecarlo.h"
-#include "simulation/in_flight_alignment.h"
+#include "evaluation/true_states.h"
+#include "support/in_flight.h"
 
 namespace hindsight {
 namespace {
@@ -34,7 +34,7 @@ double AttitudeSigmas(const Dataset& dataset, const Solution& solution) {
 /// What the verdict calls usable has right sigmas, and what is linearised from
 /// a bad start too far off is not usable.
 TEST(Linearisation, FromABadStartFalselySureSmoothersAreNotUsable) {
-  const PerfectRecording flight(InFlightAlignment({}));
+  const PerfectRecording flight(InFlightAlignment());
   int refused = 0;
   for (const std::uint64_t seed : {1u, 2u}) {
     for (const double heading : {120.0, 175.0}) {
@@ -70,7 +70,7 @@ TEST(Linearisation, FromABadStartFalselySureSmoothersAreNotUsable) {
 }
 
 TEST(Linearisation, TheEvidenceNamesTheCure) {
-  const PerfectRecording flight(InFlightAlignment({}));
+  const PerfectRecording flight(InFlightAlignment());
   Dataset dataset = flight.Realize(1);
   GiveBadStart({10.0 * kDegree, 120.0 * kDegree}, 1, &dataset);
   ReconstructionOptions options;
@@ -88,7 +88,7 @@ TEST(Linearisation, TheEvidenceNamesTheCure) {
 }
 
 TEST(Linearisation, FromAnAlignedStartEveryMethodIsUsable) {
-  const PerfectRecording flight(InFlightAlignment({}));
+  const PerfectRecording flight(InFlightAlignment());
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const Dataset dataset = flight.Realize(seed);
     Reconstruction reconstruction(dataset, {});

@@ -6,9 +6,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "problems/attitude.h"
+#include "io/config/scenario_config.h"
 #include "problems/reconstruction.h"
-#include "simulation/builtin_scenarios.h"
 #include "simulation/scenario.h"
 
 namespace hindsight {
@@ -21,8 +20,8 @@ TEST(Method, EachHasANameOfItsOwnHelpAndOneFunction) {
     EXPECT_TRUE(names.insert(method->name).second);
     EXPECT_EQ(&MethodOf(method->name), method);
     EXPECT_GT(std::string(method->help).size(), 5u);
-    EXPECT_NE(method->reconstruct == nullptr,
-              method->estimate_attitude == nullptr);
+    EXPECT_TRUE(
+        std::visit([](auto run) { return run != nullptr; }, method->run));
     EXPECT_NE(MethodNames(method->attitude_alone()).find(method->name),
               std::string::npos);
   }
@@ -42,9 +41,10 @@ TEST(Method, AnUnknownNameIsRefusedWithThoseThatAreKnown) {
 }
 
 TEST(Method, OfTheOtherKindIsRefused) {
-  const Dataset dataset = Simulate(BuiltinScenario("short_drive"), 1);
+  const Dataset dataset = Simulate(FindScenario("short_drive"), 1);
   EXPECT_THROW(Reconstruction(dataset, {}).Run("ahrs"), InputError);
-  EXPECT_THROW(AttitudeEstimation(dataset, {}).Run("batch"), InputError);
+  EXPECT_THROW(Reconstruction(dataset, AttitudeAlone()).Run("batch"),
+               InputError);
 }
 
 }  // namespace

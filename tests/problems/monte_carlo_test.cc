@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "evaluation/chi_square.h"
+#include "base/chi_square.h"
 #include "filters/iterated_smoother.h"
 #include "problems/batch.h"
 #include "support/seed_count.h"
@@ -73,13 +73,11 @@ void CheckConsistency(bool walk) {
   for (int run = 0; run < kRuns; ++run) {
     const TestProblem problem =
         MakeProblem(options, static_cast<std::uint64_t>(run) + 1);
-    Timeline timeline = problem.MakeTimeline();
-    const LinearTape tape =
-        RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+    Problem posed = problem.Pose();
+    const LinearTape tape = RunExtendedKalmanFilter(&posed);
     const SmoothedTrajectory smoothed = SmoothRts(tape);
-    const BatchResult solved =
-        SolveBatch(problem.layout, problem.prior, smoothed.states, &timeline,
-                   DecisionsOnTape(tape), {});
+    posed.decisions = DecisionsOnTape(tape);
+    const BatchResult solved = SolveBatch(smoothed.states, {}, &posed);
     for (std::size_t k = 0; k < tape.size(); ++k) {
       ekf.Add(problem.layout, k, problem.truth[k], tape.epoch(k).x_plus,
               tape.P_plus(k));

@@ -3,8 +3,9 @@
 #include <cmath>
 
 #include "alignment/mounting_search.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
 #include "problems/reconstruction.h"
-#include "simulation/builtin_scenarios.h"
 #include "support/turned_imu.h"
 
 namespace hindsight {
@@ -17,7 +18,7 @@ using testing::Turned;
 AidingStream Level(const Dataset& dataset, int vehicle, double sigma) {
   AidingStream stream;
   stream.sensor.name = "wheels_level";
-  stream.sensor.type = SensorType::kVehicleLevel;
+  stream.sensor.kind = &VehicleLevelKind();
   stream.sensor.vehicle = vehicle;
   stream.sensor.q_sb =
       dataset.streams[static_cast<std::size_t>(vehicle)].sensor.q_sb;
@@ -33,7 +34,7 @@ AidingStream Level(const Dataset& dataset, int vehicle, double sigma) {
 /// The whole way from `unknown`: start value, forward axis, estimate. Yaw and
 /// pitch come from the constraint, roll from the stated prior alone.
 TEST(MountingEstimation, UnknownMountingIsEstimated) {
-  Scenario scenario = BuiltinScenario("short_drive");
+  Scenario scenario = FindScenario("short_drive");
   scenario.imu_rate_hz = 50.0;
   scenario.truth_rate_hz = 1.0;
   const Dataset drive = Simulate(scenario, 5);
@@ -82,10 +83,10 @@ TEST(MountingEstimation, UnknownMountingIsEstimated) {
 
 /// Positions alone say nothing of a vehicle: the verdict says so.
 TEST(MountingEstimation, PositionsAloneLeaveTheMountingUnobserved) {
-  Dataset dataset = Simulate(BuiltinScenario("short_drive"), 5);
+  Dataset dataset = Simulate(FindScenario("short_drive"), 5);
   AidingStream odometer;
   odometer.sensor.name = "odometer";
-  odometer.sensor.type = SensorType::kOdometer;
+  odometer.sensor.kind = &OdometerKind();
   odometer.sensor.mounting_sigma = Eigen::Vector3d::Constant(5.0 * kDegree);
   dataset.streams.push_back(odometer);
   ReconstructionOptions options;

@@ -8,13 +8,13 @@
 #include <variant>
 
 #include "base/random.h"
-#include "simulation/builtin_scenarios.h"
+#include "io/config/scenario_config.h"
 
 namespace hindsight {
 namespace {
 
 Dataset NoisyDrive() {
-  Scenario scenario = BuiltinScenario("car_drive");
+  Scenario scenario = FindScenario("car_drive");
   scenario.duration = 300.0;
   scenario.withholdings.clear();
   return Simulate(scenario, 1);

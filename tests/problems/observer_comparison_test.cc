@@ -1,17 +1,22 @@
-#include "problems/observer_comparison.h"
+#include "problems/papers/observer_comparison.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
+#include "base/chi_square.h"
 #include "base/units.h"
 #include "dataset/timeline_builder.h"
-#include "evaluation/chi_square.h"
-#include "simulation/in_flight_alignment.h"
+#include "support/in_flight.h"
 #include "support/seed_count.h"
 
 namespace hindsight {
 namespace {
+
+using Values = std::map<std::string, double>;
+
+Values Named(const RunValues& values) { return {values.begin(), values.end()}; }
 
 constexpr ObserverLimits kLimits = {.settled_tilt = 0.5 * kDegree,
                                     .settled_heading = 2.0 * kDegree,
@@ -20,23 +25,21 @@ constexpr ObserverLimits kLimits = {.settled_tilt = 0.5 * kDegree,
                                     .last = 20.0};
 
 const PerfectRecording& Recording(double rate_hz) {
-  static const PerfectRecording fast(InFlightAlignment({}));
-  static const PerfectRecording slow(
-      InFlightAlignment({.velocity_rate_hz = 1.0}));
+  static const PerfectRecording fast(InFlightAlignment());
+  static const PerfectRecording slow(InFlightAlignment(1.0));
   return rate_hz > 5.0 ? fast : slow;
 }
 
-ObserverRecording At(double rate_hz) {
-  return {"", [rate_hz](std::uint64_t seed) {
-            return Recording(rate_hz).Realize(seed);
-          }};
-}
-
-ObserverStart Start(double tilt_deg, double heading_deg) {
-  return {"", [=](std::uint64_t seed, Dataset* dataset) {
-            GiveBadStart({tilt_deg * kDegree, heading_deg * kDegree}, seed,
-                         dataset);
-          }};
+Case StartAt(double rate_hz, double tilt_deg, double heading_deg,
+             const std::vector<ObserverModel>& models) {
+  const hindsight::Recording recording = [=](std::uint64_t seed) {
+    Dataset dataset = Recording(rate_hz).Realize(seed);
+    GiveBadStart({tilt_deg * kDegree, heading_deg * kDegree}, seed, &dataset);
+    return dataset;
+  };
+  return {{std::to_string(heading_deg)},
+          [recording] { return recording; },
+          ObserverTrial(models, kLimits)};
 }
 
 ObserverModel Kalman(ErrorDefinition error) { return {"ekf", {error, {}}}; }
@@ -55,56 +58,60 @@ Timeline TimelineOf(const Dataset& dataset) {
   return BuildTimeline(dataset, options);
 }
 
-MonteCarloOptions Runs(int runs, int threads = 1) {
-  MonteCarloOptions options;
-  options.runs = runs;
-  options.threads = threads;
-  return options;
+/// The rows are by case, then by model.
+StudyResult Observe(const std::vector<Case>& cases, int runs, int threads = 1) {
+  return RunStudy({"", {}, {ObserverTable({"start"})}, {JobOf(cases)}},
+                  {.runs = runs, .threads = threads});
+}
+
+double Of(const StudyResult& result, std::size_t row, const char* figure) {
+  return result.Value(result.rows[0][row].labels, figure);
 }
 
 TEST(ObserverComparison, TheErrorDefinitionDecidesFrom120DegreesOfHeading) {
-  const std::vector<ObserverCell> cells =
-      CompareObservers({At(10.0)}, {Start(10.0, 120.0)},
+  const StudyResult cells =
+      Observe({StartAt(10.0, 10.0, 120.0,
                        {Kalman(ErrorDefinition::kNavigation),
-                        Kalman(ErrorDefinition::kLeftInvariant)},
-                       kLimits, Runs(24));
+                        Kalman(ErrorDefinition::kLeftInvariant)})},
+              24);
   // 8 % of the runs of the one diverge, none of 300 of the other.
-  EXPECT_GT(cells[0].diverged, 0);
-  EXPECT_LT(cells[0].diverged, 8);
-  EXPECT_EQ(cells[1].diverged, 0);
-  EXPECT_EQ(cells[1].converged, 24);
-  EXPECT_LT(cells[1].t_settled_95, 13.0);
-  EXPECT_LT(cells[1].tilt_50, 0.03 * kDegree);
-  EXPECT_LT(cells[1].heading_50, 0.03 * kDegree);
+  EXPECT_GT(Of(cells, 0, "diverged"), 0.0);
+  EXPECT_LT(Of(cells, 0, "diverged"), 8.0 / 24.0);
+  EXPECT_EQ(Of(cells, 1, "diverged"), 0.0);
+  EXPECT_EQ(Of(cells, 1, "converged"), 1.0);
+  EXPECT_LT(Of(cells, 1, "t_settled_95"), 13.0);
+  EXPECT_LT(Of(cells, 1, "tilt_50"), 0.03 * kDegree);
+  EXPECT_LT(Of(cells, 1, "heading_50"), 0.03 * kDegree);
 }
 
 TEST(ObserverComparison, EscapesNotBeforeGammaSquaredOverTheCovariance) {
   // In straight flight only the tilt that goes with a heading error tells of
   // it: information delays the escape, but not to the first turn.
   constexpr double kGamma = 1.0;
-  const std::vector<ObserverCell> cells = CompareObservers(
-      {At(10.0)}, {Start(10.0, 120.0)}, {HInfinity(kGamma)}, kLimits, Runs(10));
+  const StudyResult cells =
+      Observe({StartAt(10.0, 10.0, 120.0, {HInfinity(kGamma)})}, 10);
   const double expected = std::pow(kGamma / (120.0 * kDegree), 2);
   ASSERT_LT(expected, kFirstManoeuvre);
-  EXPECT_EQ(cells[0].escaped, 10);
-  EXPECT_EQ(cells[0].diverged, 10);
-  EXPECT_EQ(cells[0].converged, 0);
-  EXPECT_TRUE(std::isinf(cells[0].t_settled_50));
-  EXPECT_GT(cells[0].t_escape, 0.95 * expected);
-  EXPECT_LT(cells[0].t_escape, kFirstManoeuvre);
+  EXPECT_EQ(Of(cells, 0, "escaped"), 1.0);
+  EXPECT_EQ(Of(cells, 0, "diverged"), 1.0);
+  EXPECT_EQ(Of(cells, 0, "converged"), 0.0);
+  EXPECT_TRUE(std::isinf(Of(cells, 0, "t_settled_50")));
+  EXPECT_GT(Of(cells, 0, "t_escape"), 0.95 * expected);
+  EXPECT_LT(Of(cells, 0, "t_escape"), kFirstManoeuvre);
 }
 
 TEST(ObserverComparison, ThreadsAndOtherCellsChangeNoBit) {
   const ObserverModel navigation = Kalman(ErrorDefinition::kNavigation);
   const ObserverModel group = Kalman(ErrorDefinition::kLeftInvariant);
-  const auto all = CompareObservers(
-      {At(1.0)}, {Start(30.0, 175.0), Start(10.0, 60.0)},
-      {navigation, HInfinity(20.0), group}, kLimits, Runs(6, 2));
-  const auto one = CompareObservers({At(1.0)}, {Start(10.0, 60.0)}, {group},
-                                    kLimits, Runs(6, 1));
-  EXPECT_EQ(all[5].tilt_95, one[0].tilt_95);
-  EXPECT_EQ(all[5].heading_50, one[0].heading_50);
-  EXPECT_EQ(all[5].lyapunov.v_last, one[0].lyapunov.v_last);
+  const std::vector<ObserverModel> models = {navigation, HInfinity(20.0),
+                                             group};
+  const StudyResult all = Observe(
+      {StartAt(1.0, 30.0, 175.0, models), StartAt(1.0, 10.0, 60.0, models)}, 6,
+      2);
+  const StudyResult one = Observe({StartAt(1.0, 10.0, 60.0, {group})}, 6, 1);
+  for (const char* figure : {"tilt_95", "heading_50", "v_last"}) {
+    EXPECT_EQ(Of(all, 5, figure), Of(one, 0, figure)) << figure;
+  }
 }
 
 TEST(ObserverComparison, ConsistentFromASmallStart) {
@@ -114,8 +121,8 @@ TEST(ObserverComparison, ConsistentFromASmallStart) {
     Dataset dataset = Recording(1.0).Realize(static_cast<std::uint64_t>(i) + 1);
     GiveBadStart({0.3 * kDegree, 0.5 * kDegree},
                  static_cast<std::uint64_t>(i) + 1, &dataset);
-    Timeline timeline = TimelineOf(dataset);
-    sum += RunObserver({}, dataset, kLimits, &timeline).lyapunov.v_last;
+    const Timeline timeline = TimelineOf(dataset);
+    sum += Named(RunObserver({}, dataset, kLimits, timeline)).at("v_last");
   }
   const Interval bounds = AneesBounds(kRuns, 12, 0.99);
   EXPECT_TRUE(bounds.Contains(sum / kRuns)) << sum / kRuns;
@@ -123,7 +130,7 @@ TEST(ObserverComparison, ConsistentFromASmallStart) {
 
 /// Without noise in the data; the filter's own noise stays.
 Dataset Noiseless(double tilt_deg, double heading_deg) {
-  Scenario scenario = InFlightAlignment({.velocity_rate_hz = 1.0});
+  Scenario scenario = InFlightAlignment(1.0);
   const ImuNoise noise = scenario.imu.noise;
   scenario.imu.noise.gyro_noise_density = 0.0;
   scenario.imu.noise.accel_noise_density = 0.0;
@@ -145,24 +152,23 @@ TEST(Lyapunov, FallsAtEveryStepOfANoiselessRunFromASmallStart) {
        {ErrorDefinition::kNavigation, ErrorDefinition::kQuaternion,
         ErrorDefinition::kLeftInvariant}) {
     const Dataset dataset = Noiseless(0.01, 0.02);
-    Timeline timeline = TimelineOf(dataset);
-    const LyapunovFigures figures =
-        RunObserver({error, {}}, dataset, kLimits, &timeline).lyapunov;
-    EXPECT_EQ(figures.share_falling, 1.0) << ErrorName(error);
-    EXPECT_LE(figures.v_last, figures.v_first);
-    EXPECT_EQ(figures.v_largest, figures.v_first);
+    const Timeline timeline = TimelineOf(dataset);
+    const Values figures =
+        Named(RunObserver({error, {}}, dataset, kLimits, timeline));
+    EXPECT_EQ(figures.at("share_falling"), 1.0) << ErrorName(error);
+    EXPECT_LE(figures.at("v_last"), figures.at("v_first"));
+    EXPECT_EQ(figures.at("v_largest"), figures.at("v_first"));
   }
 }
 
 TEST(Lyapunov, RisesOnTheWayFromABadStart) {
   const Dataset dataset = Noiseless(30.0, 175.0);
-  Timeline timeline = TimelineOf(dataset);
-  const LyapunovFigures figures =
-      RunObserver({}, dataset, kLimits, &timeline).lyapunov;
-  EXPECT_LT(figures.share_falling, 1.0);
-  EXPECT_GT(figures.v_largest, figures.v_first);
+  const Timeline timeline = TimelineOf(dataset);
+  const Values figures = Named(RunObserver({}, dataset, kLimits, timeline));
+  EXPECT_LT(figures.at("share_falling"), 1.0);
+  EXPECT_GT(figures.at("v_largest"), figures.at("v_first"));
   // Constant biases that nothing tells of yet: no decay is guaranteed.
-  EXPECT_EQ(figures.radius_first, 0.0);
+  EXPECT_EQ(figures.at("radius_first"), 0.0);
 }
 
 TEST(Lyapunov, ADegreeOfStabilityWidensTheGuaranteedRadius) {
@@ -171,16 +177,15 @@ TEST(Lyapunov, ADegreeOfStabilityWidensTheGuaranteedRadius) {
   modified.covariance.rule = RiccatiRule::kModifiedHInfinity;
   modified.covariance.alpha = 0.03;
   modified.covariance.alpha_on_all = true;
-  Timeline a = TimelineOf(dataset);
-  Timeline b = TimelineOf(dataset);
-  const LyapunovFigures kalman = RunObserver({}, dataset, kLimits, &a).lyapunov;
-  const LyapunovFigures stable =
-      RunObserver(modified, dataset, kLimits, &b).lyapunov;
-  EXPECT_EQ(kalman.radius_first, 0.0);
-  EXPECT_GT(stable.radius_first, 1e-6 * kDegree);
-  EXPECT_LT(stable.radius_first, 30.0 * kDegree);
-  EXPECT_GE(stable.p_largest, kalman.p_largest);
-  EXPECT_LE(kalman.p_least, 1.0);
+  const Timeline timeline = TimelineOf(dataset);
+  const Values kalman = Named(RunObserver({}, dataset, kLimits, timeline));
+  const Values stable =
+      Named(RunObserver(modified, dataset, kLimits, timeline));
+  EXPECT_EQ(kalman.at("radius_first"), 0.0);
+  EXPECT_GT(stable.at("radius_first"), 1e-6 * kDegree);
+  EXPECT_LT(stable.at("radius_first"), 30.0 * kDegree);
+  EXPECT_GE(stable.at("p_largest"), kalman.at("p_largest"));
+  EXPECT_LE(kalman.at("p_least"), 1.0);
 }
 
 }  // namespace

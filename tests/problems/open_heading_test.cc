@@ -3,9 +3,10 @@
 #include <cmath>
 #include <utility>
 
+#include "base/chi_square.h"
 #include "base/units.h"
-#include "evaluation/chi_square.h"
-#include "problems/montecarlo.h"
+#include "evaluation/true_states.h"
+#include "measurements/sensor_kind.h"
 #include "problems/reconstruction.h"
 #include "problems/rest_by_estimate.h"
 #include "simulation/scenario.h"
@@ -29,11 +30,10 @@ Scenario Watched(double accel_density, double rate_hz, double sigma) {
   s.imu.noise.accel_noise_density = accel_density;
   s.imu.gyro_bias_sigma.setConstant(500.0 * kDegree / 3600.0);
   s.imu.accel_bias_sigma.setConstant(0.02);
-  AidingModel gnss;
+  AidingModel gnss(PositionKind());
   gnss.sensor.name = "gnss";
-  gnss.sensor.type = SensorType::kPosition;
   gnss.rate_hz = rate_hz;
-  gnss.sigma.setConstant(sigma);
+  gnss.sigma.emplace().setConstant(sigma);
   s.aiding = {gnss};
   s.stationary.enabled = true;
   return s;
@@ -121,7 +121,7 @@ TEST_F(OpenHeading, MayBeTurnedRoundWhereNothingTellsForwardFromBackward) {
     dataset.initial.alignment = AlignmentKind::kVelocity;
     AidingStream wheels;
     wheels.sensor.name = "wheels";
-    wheels.sensor.type = SensorType::kNonHolonomic;
+    wheels.sensor.kind = &NonHolonomicKind();
     const int index = static_cast<int>(dataset.streams.size());
     for (int i = 0; i < 600; ++i) {
       Odometer straight{.form = Odometer::Form::kNonHolonomic};

@@ -57,17 +57,15 @@ struct Estimates {
 };
 
 Estimates Estimate(const TestProblem& problem) {
-  Timeline timeline = problem.MakeTimeline();
-  const LinearTape tape =
-      RunExtendedKalmanFilter(problem.layout, problem.prior, &timeline);
+  Problem posed = problem.Pose();
+  const LinearTape tape = RunExtendedKalmanFilter(&posed);
   Estimates out;
   for (std::size_t k = 0; k < tape.size(); ++k) {
     out.filter.push_back(tape.epoch(k).x_plus);
   }
   out.smoother = SmoothRts(tape).states;
-  const BatchResult batch =
-      SolveBatch(problem.layout, problem.prior, out.smoother, &timeline,
-                 DecisionsOnTape(tape), {});
+  posed.decisions = DecisionsOnTape(tape);
+  const BatchResult batch = SolveBatch(out.smoother, {}, &posed);
   EXPECT_TRUE(batch.converged);
   out.batch = batch.states;
   return out;

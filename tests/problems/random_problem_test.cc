@@ -110,10 +110,8 @@ struct Smoothers {
   testing::DenseSolution dense;
 };
 
-Smoothers SmoothAbout(const TestProblem& problem,
-                      const std::vector<State>& nominal, Timeline* timeline) {
-  const LinearTape tape =
-      RunLinearizedFilter(problem.layout, problem.prior, nominal, timeline);
+Smoothers SmoothAbout(const std::vector<State>& nominal, Problem* posed) {
+  const LinearTape tape = RunLinearizedFilter(nominal, posed);
   return {SmoothRts(tape), SmoothTwoFilter(tape).trajectory, SolveDense(tape)};
 }
 
@@ -137,7 +135,7 @@ TEST(RandomProblem, RtsTwoFilterAndDenseLeastSquaresAreOne) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
     const TestProblem problem =
         RandomProblem(static_cast<std::uint64_t>(seed), seed % 2 == 0);
-    Timeline timeline = problem.MakeTimeline();
+    Problem posed = problem.Pose();
     std::vector<State> nominal = problem.truth;
     Random random(static_cast<std::uint64_t>(seed));
     for (State& x : nominal) {
@@ -145,7 +143,7 @@ TEST(RandomProblem, RtsTwoFilterAndDenseLeastSquaresAreOne) {
           problem.layout, x,
           0.1 * testing::Draw(problem.layout.InitialCovariance(), &random));
     }
-    ExpectSame(SmoothAbout(problem, nominal, &timeline), problem.layout.dim());
+    ExpectSame(SmoothAbout(nominal, &posed), problem.layout.dim());
   }
 }
 
@@ -156,16 +154,12 @@ TEST(RandomProblem, AboutTheBatchTheSmoothersStandStill) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
     const TestProblem problem =
         RandomProblem(static_cast<std::uint64_t>(seed), false);
-    Timeline timeline = problem.MakeTimeline();
-    const GateDecisions all(problem.measurements.size(), 1);
+    Problem posed = problem.Pose(GateDecisions(problem.measurements.size(), 1));
     const std::vector<State> start =
-        SmoothRts(RunExtendedKalmanFilter(problem.layout, problem.prior,
-                                          &timeline, all))
-            .states;
-    const BatchResult batch =
-        SolveBatch(problem.layout, problem.prior, start, &timeline, all, {});
+        SmoothRts(RunExtendedKalmanFilter(&posed)).states;
+    const BatchResult batch = SolveBatch(start, {}, &posed);
     ASSERT_TRUE(batch.converged);
-    const Smoothers s = SmoothAbout(problem, batch.states, &timeline);
+    const Smoothers s = SmoothAbout(batch.states, &posed);
     for (std::size_t k = 0; k < batch.states.size(); ++k) {
       const Eigen::MatrixXd P = batch.P.Get(k);
       EXPECT_LT(ScaledDifference(s.rts.P.Get(k), P), 1e-5) << k;

@@ -8,14 +8,14 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "evaluation/trajectory_error.h"
-#include "simulation/builtin_scenarios.h"
+#include "io/config/scenario_config.h"
 
 namespace hindsight {
 namespace {
 
 /// One minute of the car drive; truth at every IMU sample.
 Dataset Drive(std::uint64_t seed = 1) {
-  Scenario scenario = BuiltinScenario("car_drive");
+  Scenario scenario = FindScenario("car_drive");
   scenario.duration = 60.0;
   scenario.truth_rate_hz = scenario.imu_rate_hz;
   scenario.withholdings.clear();
@@ -65,7 +65,7 @@ TEST(Reconstruction, StopInterrupts) {
 }
 
 TEST(Reconstruction, WithoutAidingTheUnobservedStatesAreNamed) {
-  Scenario scenario = BuiltinScenario("car_drive");
+  Scenario scenario = FindScenario("car_drive");
   scenario.duration = 600.0;
   scenario.withholdings.clear();
   Dataset dataset = Simulate(scenario, 1);

@@ -9,9 +9,9 @@
 #include "base/units.h"
 #include "earth/wgs84.h"
 #include "evaluation/trajectory_error.h"
-#include "io/scenario_config.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
 #include "problems/reconstruction.h"
-#include "simulation/builtin_scenarios.h"
 
 namespace hindsight {
 namespace {
@@ -173,7 +173,7 @@ TEST(DecideRest, StopsInAnOutageAreFoundByTheEstimate) {
 }
 
 TEST(DecideRest, TheTunnelSurveyNeverStands) {
-  Dataset dataset = Simulate(BuiltinScenario("tunnel_survey"), 1);
+  Dataset dataset = Simulate(FindScenario("tunnel_survey"), 1);
   EXPECT_TRUE(FindRest(dataset).at_rest.empty());
 }
 
@@ -217,10 +217,9 @@ Scenario HandHeld() {
   scenario.imu.noise.accel_noise_density = 1e-3;
   scenario.imu.gyro_bias_sigma.setConstant(0.2 * kDegree);
   scenario.imu.accel_bias_sigma.setConstant(0.02);
-  AidingModel positions;
+  AidingModel positions(PositionKind());
   positions.sensor.name = "positions";
-  positions.sensor.type = SensorType::kPosition;
-  positions.sigma.setConstant(0.005);
+  positions.sigma.emplace().setConstant(0.005);
   positions.rate_hz = 10.0;
   scenario.aiding = {positions};
   scenario.stationary.enabled = true;

@@ -5,8 +5,8 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "dataset/timeline_builder.h"
+#include "io/config/scenario_config.h"
 #include "problems/reconstruction.h"
-#include "simulation/builtin_scenarios.h"
 #include "simulation/scenario.h"
 
 namespace hindsight {
@@ -60,7 +60,7 @@ int AddOutliers(Dataset* dataset) {
 class RobustLossTest : public ::testing::TestWithParam<RobustLoss> {};
 
 TEST_P(RobustLossTest, OutliersOfTwentyMetresCostLittleAndSigmasStayHonest) {
-  const Dataset clean = Simulate(BuiltinScenario("car_drive"), 3);
+  const Dataset clean = Simulate(FindScenario("car_drive"), 3);
   ReconstructionOptions options;
   options.method = "batch";
   const Accuracy without = Judge(clean, Solve(clean, options));

@@ -5,13 +5,14 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "base/chi_square.h"
 #include "base/error.h"
 #include "base/units.h"
-#include "evaluation/chi_square.h"
+#include "evaluation/true_states.h"
 #include "imu/imu_link.h"
-#include "problems/montecarlo.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
 #include "problems/reconstruction.h"
-#include "simulation/builtin_scenarios.h"
 #include "support/seed_count.h"
 
 namespace hindsight {
@@ -25,7 +26,7 @@ constexpr const char* kForward[] = {"ekf", "gated_ekf", "hinf", "modified_hinf",
 /// One minute of the car drive with a fix a second, of which those from 31 s to
 /// 40 s are withheld.
 Dataset DriveWithOutage() {
-  Scenario scenario = BuiltinScenario("car_drive");
+  Scenario scenario = FindScenario("car_drive");
   scenario.duration = 60.0;
   scenario.withholdings = {
       {.sensor = "position", .every = 1000.0, .length = 10.0, .from = 30.5}};
@@ -209,11 +210,10 @@ Scenario HandOfUnknownHeading() {
   s.truth_rate_hz = 100.0;
   s.imu.noise.gyro_noise_density = 1e-5;
   s.imu.noise.accel_noise_density = 1e-3;
-  AidingModel gnss;
+  AidingModel gnss(PositionKind());
   gnss.sensor.name = "gnss";
-  gnss.sensor.type = SensorType::kPosition;
   gnss.rate_hz = 1.0;
-  gnss.sigma.setConstant(0.02);
+  gnss.sigma.emplace().setConstant(0.02);
   s.aiding = {gnss};
   StartErrors errors;
   errors.attitude = Eigen::Vector3d(0.1, 0.1, 12.0) * kDegree;
@@ -257,6 +257,44 @@ TEST(SampleSolution, HasPositiveDefiniteCovariancesEverywhere) {
     const Eigen::LLT<ErrorMatrix> llt(sampled.covariances.Get(i));
     EXPECT_EQ(llt.info(), Eigen::Success) << sampled.states[i].t;
   }
+}
+
+/// The distance that an odometer has counted, from count to count. Its rate is
+/// low, so that nodes stand between them.
+TEST(SampleSolution, TravelledDistancesGrowBetweenTheNodes) {
+  Scenario scenario = FindScenario("short_drive");
+  scenario.duration = 40.0;
+  scenario.aiding.resize(1);
+  AidingModel odometer(OdometerKind());
+  odometer.sensor.name = "odometer";
+  PatternOf<Odometer>(odometer).form = Odometer::Form::kIncrements;
+  odometer.rate_hz = 1.0;
+  odometer.sigma = Eigen::Vector3d(0.002, 1.0, 1.0);
+  scenario.aiding.push_back(odometer);
+  const Dataset dataset = Simulate(scenario, 1);
+  const std::vector<double> times = TimesFrom(25.013, 35.0, 0.21);
+  Reconstruction coarse(dataset, SamplingOptions());
+  Reconstruction fine(dataset, SamplingOptions(times));
+  const Solution sampled = coarse.Sample(coarse.Run("ekf"), times);
+  const Solution exact = fine.Sample(fine.Run("ekf"), times);
+  const Block& block = *exact.layout.Find(BlockKind::kDistance, 1);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double distance = exact.states[i].parameters(block.parameter_offset);
+    largest = std::max(largest, std::abs(distance));
+    EXPECT_NEAR(sampled.states[i].parameters(block.parameter_offset), distance,
+                1e-3)
+        << times[i];
+    // Within a step of a count, one a second, what it forgets goes linearly.
+    if (times[i] - std::floor(times[i]) < kPropagationStep) continue;
+    const double sigma =
+        std::sqrt(exact.covariances.Get(i)(block.offset, block.offset));
+    EXPECT_NEAR(
+        std::sqrt(sampled.covariances.Get(i)(block.offset, block.offset)),
+        sigma, 0.05 * sigma + 1e-4)
+        << times[i];
+  }
+  EXPECT_GT(largest, 1.0);
 }
 
 }  // namespace

@@ -5,18 +5,18 @@
 #include <variant>
 
 #include "base/units.h"
+#include "io/config/scenario_config.h"
 #include "problems/reconstruction.h"
-#include "simulation/builtin_scenarios.h"
 
 namespace hindsight {
 namespace {
 
-constexpr const char* kMethods[] = {"ekf", "rts", "two_filter", "iterated",
-                                    "batch"};
+constexpr const char* kSymmetricMethods[] = {"ekf", "rts", "two_filter",
+                                             "iterated", "batch"};
 
 /// A minute and a half of driving from standstill, everything to be aligned.
 Dataset ShortDrive() {
-  Scenario scenario = BuiltinScenario("short_drive");
+  Scenario scenario = FindScenario("short_drive");
   scenario.duration = 90.0;
   scenario.truth_rate_hz = 1.0;
   return Simulate(scenario, 17);
@@ -56,7 +56,7 @@ void ExpectSameTrajectory(const Dataset& dataset, const Dataset& moved,
                           const Undo& undo) {
   Reconstruction here(dataset, {});
   Reconstruction there(moved, {});
-  for (const std::string method : kMethods) {
+  for (const std::string method : kSymmetricMethods) {
     const Solution a = here.Run(method);
     const Solution b = there.Run(method);
     const Difference d = Compare(a, b, undo);

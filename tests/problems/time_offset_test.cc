@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "base/chi_square.h"
 #include "base/random.h"
 #include "base/units.h"
-#include "evaluation/chi_square.h"
+#include "measurements/sensor_kind.h"
 #include "problems/forward_stage.h"
 #include "problems/noise_estimation.h"
 #include "problems/reconstruction.h"
@@ -63,12 +64,11 @@ Scenario ShakenScenario() {
   s.imu_rate_hz = 100.0;
   s.imu.noise.gyro_noise_density = 1.5e-3;
   s.imu.noise.accel_noise_density = 0.12;
-  AidingModel gnss;
+  AidingModel gnss(PositionKind());
   gnss.sensor.name = "gnss";
-  gnss.sensor.type = SensorType::kPosition;
   gnss.sensor.time_offset_sigma = kPriorSigma;
   gnss.rate_hz = 20.0;
-  gnss.sigma.setConstant(0.003);
+  gnss.sigma.emplace().setConstant(0.003);
   s.aiding = {gnss};
   StartErrors errors;
   errors.position.setConstant(0.01);
@@ -187,7 +187,8 @@ double FixedOffsetLikelihood(const Dataset& dataset, double offset) {
   options.method = "ekf";
   // The same interval whatever the offset.
   ForwardStage stage(fixed, options);
-  const LinearTape tape = stage.Filter({}, "");
+  Problem causal = stage.CausalProblem();
+  const LinearTape tape = stage.Filter("", &causal);
   double sum = 0.0;
   for (std::size_t k = 0; k < tape.size(); ++k) {
     for (const TapeMeasurement& z : tape.measurements(k)) {
@@ -226,10 +227,10 @@ TEST(TimeOffset, OfVelocitiesIsAsGoodAsItsSigma) {
   const int seeds = testing::SeedCount(6, 100);
   Scenario scenario = ShakenScenario();
   AidingModel& gnss = scenario.aiding.front();
-  gnss.sensor.type = SensorType::kVelocity;
+  gnss.sensor.kind = &VelocityKind();
   gnss.sensor.lever_arm_b = {0.3, -0.2, 0.1};
   gnss.rate_hz = 5.0;
-  gnss.sigma.setConstant(0.05);
+  gnss.sigma.emplace().setConstant(0.05);
   const PerfectRecording recording(scenario);
   double sum = 0.0;
   for (int i = 0; i < seeds; ++i) {

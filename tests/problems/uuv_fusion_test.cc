@@ -1,18 +1,19 @@
-#include "problems/uuv_fusion.h"
+#include "problems/papers/uuv_fusion.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "base/chi_square.h"
 #include "base/error.h"
-#include "evaluation/chi_square.h"
-#include "simulation/uuv_path.h"
 
 namespace hindsight {
 namespace {
 
 UuvTruth SearchPath() {
-  const UuvPath path = MakeUuvPath("lawnmower");
+  const WayPointPath path(FindScenario("uuv_survey").way_points);
   UuvTruth truth;
   for (int k = 0; k <= 1000; ++k) {
     const PathPoint at = path.At(k);
@@ -23,13 +24,7 @@ UuvTruth SearchPath() {
   return truth;
 }
 
-double Spatial(const std::vector<UuvFusionResult>& results,
-               FusionArchitecture architecture) {
-  for (const UuvFusionResult& r : results) {
-    if (r.architecture == architecture) return r.spatial.mean;
-  }
-  return -1.0;
-}
+constexpr const char* kPrinted = "sum,diagonal,white,by_noise";
 
 TEST(UuvFusion, MatricesAreThePrintedOnes) {
   const std::array<LinearSensor, 2> sensors = UuvSensors({});
@@ -58,14 +53,16 @@ TEST(UuvFusion, SixteenReadingsAreSelectedByWords) {
 }
 
 TEST(UuvFusion, NoReadingGivesThePapersTable) {
-  UuvFusionOptions options;
-  options.runs = 2;
-  const UuvTruth truth = SearchPath();
+  const StudyResult result =
+      RunStudy(UuvFusionStudy(SearchPath(), UuvReadings("")), {.runs = 2});
   for (const UuvReading& reading : UuvReadings("")) {
-    const auto results = SolveUuvFusion(truth, reading, options);
-    const double central = Spatial(results, FusionArchitecture::kCentral);
-    const double tracks = Spatial(results, FusionArchitecture::kTrackToTrack);
-    const double equalised = Spatial(results, FusionArchitecture::kEqualised);
+    const auto mean = [&](FusionArchitecture architecture) {
+      return result.Value({reading.Name(), FusionName(architecture)},
+                          "spatial_mean");
+    };
+    const double central = mean(FusionArchitecture::kCentral);
+    const double tracks = mean(FusionArchitecture::kTrackToTrack);
+    const double equalised = mean(FusionArchitecture::kEqualised);
     EXPECT_FALSE(std::abs(central - 3.67) < 0.3 &&
                  std::abs(tracks - 1.83) < 0.3 &&
                  std::abs(equalised - 1.38) < 0.3)
@@ -78,50 +75,65 @@ TEST(UuvFusion, NoReadingGivesThePapersTable) {
 }
 
 TEST(UuvFusion, OnlyDoubleUseOfInformationIsInconsistent) {
-  UuvFusionOptions options;
-  options.runs = 10;
+  constexpr int kRuns = 10;
   constexpr int kEpochs = 500;
-  const auto results = SolveMatchedFusion(kEpochs, {9.8, 9.8}, options);
-  for (const UuvFusionResult& r : results) {
-    switch (r.architecture) {
+  Study study = UuvFusionStudy({}, {});
+  AddMatchedFusion("alike", kEpochs, {9.8, 9.8}, &study);
+  const StudyResult result = RunStudy(study, {.runs = kRuns});
+  for (const FusionArchitecture architecture : kFusionArchitectures) {
+    const std::vector<std::string> labels = {"alike", FusionName(architecture)};
+    const double nees = result.Value(labels, "nees");
+    switch (architecture) {
       case FusionArchitecture::kCentral:
       case FusionArchitecture::kFederated: {
         // Neighbouring epochs are correlated over some ten seconds.
-        const Interval bounds =
-            AneesBounds(options.runs * kEpochs / 10, 6, 0.999);
-        EXPECT_GT(6.0 * r.nees, bounds.lower) << FusionName(r.architecture);
-        EXPECT_LT(6.0 * r.nees, bounds.upper) << FusionName(r.architecture);
+        const Interval bounds = AneesBounds(kRuns * kEpochs / 10, 6, 0.999);
+        EXPECT_GT(6.0 * nees, bounds.lower) << labels[1];
+        EXPECT_LT(6.0 * nees, bounds.upper) << labels[1];
         break;
       }
       case FusionArchitecture::kCovarianceIntersection:
-        EXPECT_LT(r.nees, 1.1);
+        EXPECT_LT(nees, 1.1);
         break;
       case FusionArchitecture::kTrackToTrack:
-        EXPECT_GT(r.nees, 1.3);  // the process noise is common to both
+        EXPECT_GT(nees, 1.3);  // the process noise is common to both
         break;
       case FusionArchitecture::kEqualised:
-        EXPECT_GT(r.nees, 2.0);
-        EXPECT_GT(r.spatial.mean, 1.1 * results[0].spatial.mean);
+        EXPECT_GT(nees, 2.0);
+        EXPECT_GT(result.Value(labels, "spatial_mean"),
+                  1.1 * result.Value({"alike", "central"}, "spatial_mean"));
         break;
     }
   }
 }
 
 TEST(UuvFusion, HistogramCountsEveryEpochAndShowsTheShape) {
-  UuvFusionOptions options;
-  options.runs = 2;
-  for (const UuvFusionResult& r : SolveUuvFusion(SearchPath(), {}, options)) {
-    long count = 0;
+  const StudyResult result =
+      RunStudy(UuvFusionStudy(SearchPath(), {UuvReading{}}), {.runs = 2});
+  const std::vector<Figure>& figures = result.tables[0].figures;
+  const auto histogram = std::find_if(
+      figures.begin(), figures.end(),
+      [](const Figure& figure) { return figure.name == "spatial_histogram"; });
+  ASSERT_NE(histogram, figures.end());
+  for (const FusionArchitecture architecture : kFusionArchitectures) {
+    const std::vector<std::string> labels = {kPrinted,
+                                             FusionName(architecture)};
+    const double bin = result.Value(labels, "spatial_bin");
+    const double deviation = result.Value(labels, "spatial_std");
+    double count = 0.0;
     double sum = 0.0;
-    for (std::size_t i = 0; i < r.spatial.histogram.size(); ++i) {
-      count += r.spatial.histogram[i];
-      sum += static_cast<double>(r.spatial.histogram[i]) *
-             (static_cast<double>(i) + 0.5) * r.spatial.bin;
+    double middle = 0.5 * bin;
+    for (const double n :
+         result.Row(labels)
+             .values[static_cast<std::size_t>(histogram - figures.begin())]) {
+      sum += n * middle;
+      count += n;
+      middle += bin;
     }
     EXPECT_EQ(count, 2000);
-    EXPECT_NEAR(sum / 2000.0, r.spatial.mean, 0.5 * r.spatial.bin);
-    EXPECT_LE(r.spatial.bin, 0.25 * r.spatial.deviation);
-    EXPECT_GT(r.spatial.bin, 0.09 * r.spatial.deviation);
+    EXPECT_NEAR(sum / 2000.0, result.Value(labels, "spatial_mean"), 0.5 * bin);
+    EXPECT_LE(bin, 0.25 * deviation);
+    EXPECT_GT(bin, 0.09 * deviation);
   }
 }
 

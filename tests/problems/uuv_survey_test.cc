@@ -5,15 +5,18 @@
 
 #include "alignment/start.h"
 #include "base/units.h"
-#include "problems/montecarlo.h"
-#include "simulation/uuv_scenarios.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
+#include "problems/reconstruction.h"
+#include "support/navigation_study.h"
 
 namespace hindsight {
 namespace {
 
 /// The first `duration` seconds of the dive at 50 Hz, which is quick.
-Scenario ShortDive(double duration, Dvl::Form form = Dvl::Form::kThreeAxis) {
-  Scenario s = UuvSurvey({.form = form, .final_fix = false});
+Scenario ShortDive(double duration, const std::string& form = "three_axis") {
+  Scenario s =
+      FindScenario("uuv_survey", {"aiding.fix=~", "aiding.dvl.form=" + form});
   s.duration = duration;
   s.imu_rate_hz = 50.0;
   return s;
@@ -58,7 +61,7 @@ TEST(UuvSurvey, SmoothMotionIsNotTakenForRest) {
 }
 
 TEST(UuvSurvey, NoiselessDataGiveNoError) {
-  for (const Dvl::Form form : {Dvl::Form::kThreeAxis, Dvl::Form::kBeams}) {
+  for (const char* form : {"three_axis", "beams"}) {
     const Dataset dataset = Perfect(ShortDive(120.0, form));
     Reconstruction reconstruction(dataset, {});
     for (const std::string method : {"ekf", "rts", "batch"}) {
@@ -86,9 +89,9 @@ TEST(UuvSurvey, ClockThatDoesNotSettleIsNotUsable) {
 }
 
 TEST(UuvSurvey, SmoothersAndBatchAgree) {
-  Scenario scenario = UuvSurvey({.form = Dvl::Form::kBeams});
+  Scenario scenario = FindScenario("uuv_survey", {"aiding.dvl.form=beams"});
   scenario.imu_rate_hz = 50.0;
-  scenario.aiding[0].beam_dropout = 0.3;
+  scenario.aiding[0].truth.beam_dropout = 0.3;
   const Dataset dataset = Simulate(scenario, 3);
   Reconstruction reconstruction(dataset, {});
   const Solution rts = reconstruction.Run("rts");
@@ -107,42 +110,39 @@ TEST(UuvSurvey, SmoothersAndBatchAgree) {
 }
 
 TEST(UuvSurvey, PositionsAreAsGoodAsTheySay) {
-  MonteCarloOptions options;
-  options.runs = 12;
-  options.anees_bounds = [](int, int) { return std::pair(0.0, 1e9); };
   for (const std::string path : {"lawnmower", "straight"}) {
-    Scenario scenario = UuvSurvey({.path = path});
+    Scenario scenario = FindScenario("uuv_survey", {"path=" + path});
     scenario.imu_rate_hz = 50.0;
     const PerfectRecording recording(scenario);
-    const MonteCarloResult result = RunMonteCarlo(
-        {{"",
-          [&](std::uint64_t seed) { return recording.Realize(seed); },
-          {"ekf", "rts"}}},
-        options);
-    for (const MethodStatistics& m : result.methods) {
-      EXPECT_EQ(m.failed, 0);
+    const StudyResult result = RunStudy(
+        testing::NavigationStudy(recording, {.methods = {"ekf", "rts"}}),
+        {.runs = 12});
+    for (const char* method : {"ekf", "rts"}) {
+      EXPECT_EQ(result.Value({method}, "failed"), 0);
       // A dive is worth some five independent errors of the position: 99.9 %
       // of chi-square with 12 * 5 * 3 degrees of freedom is 0.68 to 1.38.
-      EXPECT_GT(m.position_nees / 3.0, 0.68) << path << " " << m.name;
-      EXPECT_LT(m.position_nees / 3.0, 1.38) << path << " " << m.name;
+      const double nees = result.Value({method}, "position_nees");
+      EXPECT_GT(nees / 3.0, 0.68) << path << " " << method;
+      EXPECT_LT(nees / 3.0, 1.38) << path << " " << method;
     }
     // A later fix improves what came before.
-    EXPECT_LT(result.methods[1].position_rms, result.methods[0].position_rms);
+    EXPECT_LT(result.Value({"rts"}, "position_rms"),
+              result.Value({"ekf"}, "position_rms"));
   }
 }
 
 /// Water track over the ground's GNSS: the current is what is left.
 Scenario WaterTrack(const Eigen::Vector3d& current) {
-  Scenario s = UuvCalibration();
+  Scenario s = FindScenario("uuv_calibration");
   s.duration = 120.0;
   s.imu_rate_hz = 50.0;
   AidingModel& dvl = s.aiding[0];
   dvl.sensor.scale_sigma.reset();
   dvl.sensor.mounting_sigma.reset();
   dvl.sensor.lever_arm_sigma.reset();
-  dvl.dvl.water = true;
+  PatternOf<Dvl>(dvl).water = true;
   dvl.sensor.current_sigma = 0.5;
-  dvl.current_n = current;
+  dvl.truth.current_n = current;
   return s;
 }
 
@@ -191,7 +191,7 @@ TEST(UuvSurvey, SpatialCurrentIsTheSameForSmootherAndBatch) {
 }
 
 TEST(UuvSurvey, CalibrationFindsScaleBoresightAndHorizontalLeverArm) {
-  Scenario scenario = UuvCalibration();
+  Scenario scenario = FindScenario("uuv_calibration");
   scenario.imu_rate_hz = 50.0;
   const Dataset dataset = Simulate(scenario, 2);
   const Solution solution = Reconstruction(dataset, {}).Run("batch");
@@ -215,19 +215,18 @@ TEST(UuvSurvey, CalibrationFindsScaleBoresightAndHorizontalLeverArm) {
 }
 
 TEST(UuvSurvey, RangesToATransponderBoundTheDrift) {
-  Scenario free = UuvSurvey({.final_fix = false});
+  Scenario free = FindScenario("uuv_survey", {"aids=no fix"});
   free.imu_rate_hz = 50.0;
   Scenario ranged = free;
   for (const double north : {-200.0, 800.0}) {
-    AidingModel beacon;
+    AidingModel beacon(AcousticKind());
     beacon.sensor.name = north < 0.0 ? "lbl_south" : "lbl_north";
-    beacon.sensor.type = SensorType::kAcousticFix;
     beacon.sensor.scale_sigma = 2e-3;
     beacon.rate_hz = 0.1;
     const Eigen::Vector3d p_e = EcefFromGeodetic(free.start);
-    beacon.acoustic.p_t_e =
+    PatternOf<AcousticFix>(beacon).p_t_e =
         p_e + NedAxes(p_e) * Eigen::Vector3d(north, 500.0, 120.0);
-    beacon.acoustic.sigma_range = 0.5;
+    beacon.sigma.emplace().setConstant(0.5);
     ranged.aiding.push_back(beacon);
   }
   const auto error = [](const Scenario& scenario) {

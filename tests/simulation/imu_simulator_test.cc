@@ -9,7 +9,7 @@
 #include "geometry/so3.h"
 #include "imu/imu_link.h"
 #include "imu/sample_integral.h"
-#include "simulation/builtin_scenarios.h"
+#include "simulation/wandering_drive.h"
 
 namespace hindsight {
 namespace {

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "geometry/so3.h"
-#include "simulation/builtin_scenarios.h"
+#include "simulation/wandering_drive.h"
 
 namespace hindsight {
 namespace {
@@ -120,20 +120,20 @@ TEST(MotionProfile, RefusesWhatCannotBeDrivenAndNamesTheSegment) {
   };
   const Segment good = Segment::Straight(1.0);
   EXPECT_EQ(message({good}), "accepted");
-  EXPECT_THAT(message({}), testing::HasSubstr("empty"));
+  EXPECT_THAT(message({}), ::testing::HasSubstr("empty"));
   EXPECT_THAT(message({good, Segment::Straight(0.0)}),
-              testing::HasSubstr("segment 2: the duration"));
+              ::testing::HasSubstr("segment 2: the duration"));
   EXPECT_THAT(message({Segment::Turn(1.0, -0.1)}),
-              testing::HasSubstr("segment 1: the rate"));
+              ::testing::HasSubstr("segment 1: the rate"));
   EXPECT_THAT(message({Segment::Turn(1.0, std::nan(""))}),
-              testing::HasSubstr("segment 1: the rate"));
+              ::testing::HasSubstr("segment 1: the rate"));
   EXPECT_THAT(message({Segment::Accelerate(-1.0, 1.0)}),
-              testing::HasSubstr("speed to reach"));
+              ::testing::HasSubstr("speed to reach"));
   EXPECT_THAT(message({Segment::Pitch(1.6, 0.1)}),
-              testing::HasSubstr("85 deg"));
+              ::testing::HasSubstr("85 deg"));
   Segment banked = Segment::BankedTurn(1.0, 0.1);
   banked.blend = 0.0;
-  EXPECT_THAT(message({banked}), testing::HasSubstr("banked"));
+  EXPECT_THAT(message({banked}), ::testing::HasSubstr("banked"));
 }
 
 TEST(WanderingDrive, StaysWithinItsLimits) {

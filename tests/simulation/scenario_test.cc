@@ -8,13 +8,15 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "geometry/so3.h"
-#include "simulation/builtin_scenarios.h"
+#include "io/config/scenario_config.h"
+#include "measurements/sensor_kind.h"
+#include "simulation/wandering_drive.h"
 
 namespace hindsight {
 namespace {
 
 Scenario Small() {
-  Scenario s = BuiltinScenario("car_drive");
+  Scenario s = FindScenario("car_drive");
   s.duration = 40.0;
   s.imu_rate_hz = 50.0;
   s.withholdings.clear();
@@ -67,9 +69,8 @@ TEST(Simulate, RealizingASeedEqualsSimulatingIt) {
 
 TEST(Simulate, AddingASensorLeavesTheOthersErrorsAlone) {
   Scenario more = Small();
-  AidingModel height;
+  AidingModel height(HeightKind());
   height.sensor.name = "barometer";
-  height.sensor.type = SensorType::kHeight;
   more.aiding.insert(more.aiding.begin(), height);
   const Dataset a = Simulate(Small(), 7);
   const Dataset b = Simulate(more, 7);
@@ -152,8 +153,8 @@ TEST(Simulate, ADayCostsTimeInProportionAndKeepsOnlyTheTruth) {
   EXPECT_EQ(d.streams[0].measurements.size(), 1441U);
 }
 
-TEST(BuiltinScenario, CarDriveIsWhatItsNameSays) {
-  const Dataset d = Simulate(BuiltinScenario("car_drive"), 1);
+TEST(FindScenario, CarDriveIsWhatItsNameSays) {
+  const Dataset d = Simulate(FindScenario("car_drive"), 1);
   EXPECT_EQ(d.imu.samples.size(), 360001U);
   EXPECT_EQ(d.imu.kind, ImuStream::Kind::kIncrements);
   ASSERT_EQ(d.outages.size(), 3U);
@@ -170,8 +171,8 @@ TEST(BuiltinScenario, CarDriveIsWhatItsNameSays) {
   }
 }
 
-TEST(BuiltinScenario, ShortDriveStandsThenMovesAndStopsTwice) {
-  const Dataset d = Simulate(BuiltinScenario("short_drive"), 1);
+TEST(FindScenario, ShortDriveStandsThenMovesAndStopsTwice) {
+  const Dataset d = Simulate(FindScenario("short_drive"), 1);
   EXPECT_EQ(d.imu.t_end(), 180.0);
   EXPECT_EQ(d.streams.size(), 2U);
   EXPECT_FALSE(d.initial.position.has_value());
@@ -186,15 +187,15 @@ TEST(BuiltinScenario, ShortDriveStandsThenMovesAndStopsTwice) {
   EXPECT_EQ(stops, 3);  // the start, one on the way, the end
 }
 
-TEST(BuiltinScenario, RefusesAnUnknownNameAndListsTheKnown) {
-  for (const std::string& name : BuiltinScenarioNames()) {
-    EXPECT_EQ(BuiltinScenario(name).name, name);
+TEST(FindScenario, RefusesAnUnknownNameAndListsTheKnown) {
+  for (const std::string& name : ScenarioNames()) {
+    EXPECT_EQ(FindScenario(name).name, name);
   }
   try {
-    BuiltinScenario("boat");
+    FindScenario("boat");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("car_drive"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("car_drive"));
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "geometry/so3.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -185,19 +186,18 @@ SegmentTrajectory EastOnTheEquator() {
       MotionProfile({Segment::Straight(10.0)}, 20.0, 90.0 * kDegree), 100.0);
 }
 
-AidingModel Model(SensorType type) {
-  AidingModel model;
+AidingModel Model(const SensorKind& kind) {
+  AidingModel model(kind);
   model.sensor.name = "sensor";
-  model.sensor.type = type;
   model.sensor.lever_arm_b = {2.0, 0.5, -1.5};
-  model.sigma = {0.1, 0.2, 0.3};
+  model.sigma = Eigen::Vector3d(0.1, 0.2, 0.3);
   return model;
 }
 
 TEST(PerfectMeasurements, SeeTheSensorsPoint) {
   SegmentTrajectory trajectory = EastOnTheEquator();
   const auto positions =
-      PerfectMeasurements(Model(SensorType::kPosition), 4, &trajectory, 10.0);
+      PerfectMeasurements(Model(PositionKind()), 4, &trajectory, 10.0);
   ASSERT_EQ(positions.size(), 11U);
   EXPECT_EQ(positions[3].t, 3.0);
   EXPECT_EQ(positions[3].sensor, 4);
@@ -208,7 +208,7 @@ TEST(PerfectMeasurements, SeeTheSensorsPoint) {
   EXPECT_LT((fix.R_n.diagonal() - Eigen::Vector3d(0.01, 0.04, 0.09)).norm(),
             1e-15);
   const auto heights =
-      PerfectMeasurements(Model(SensorType::kHeight), 0, &trajectory, 10.0);
+      PerfectMeasurements(Model(HeightKind()), 0, &trajectory, 10.0);
   const auto& height = std::get<HeightFix>(heights.front().model);
   // 2 m east of the foot point the ellipsoid has dropped by 0.3 um.
   EXPECT_NEAR(height.height, 1.5, 1e-6);
@@ -219,7 +219,7 @@ TEST(PerfectMeasurements, VelocityHasTheLeverArmsPart) {
   SegmentTrajectory turning(
       {0.8, 0.2, 0.0},
       MotionProfile({Segment::Turn(90.0 * kDegree, 0.2)}, 10.0, 0.0), 100.0);
-  AidingModel model = Model(SensorType::kVelocity);
+  AidingModel model = Model(VelocityKind());
   model.rate_hz = 0.25;
   const auto fixes = PerfectMeasurements(model, 0, &turning, 8.0);
   const Motion m = turning.At(4.0);
@@ -234,7 +234,7 @@ TEST(PerfectMeasurements, VelocityHasTheLeverArmsPart) {
 
 TEST(PerfectMeasurements, TimeOffsetMovesTheMotionNotTheStamp) {
   SegmentTrajectory trajectory = EastOnTheEquator();
-  AidingModel model = Model(SensorType::kPosition);
+  AidingModel model = Model(PositionKind());
   model.sensor.time_offset = 0.125;
   const auto late = PerfectMeasurements(model, 0, &trajectory, 10.0);
   ASSERT_EQ(late.size(), 10U);  // a stamp of 10 s would be true at 10.125 s
@@ -249,7 +249,7 @@ TEST(PerfectMeasurements, TimeOffsetMovesTheMotionNotTheStamp) {
 
 TEST(PerfectMeasurements, StopAtTheirSpanAndPauseInOutages) {
   SegmentTrajectory trajectory = EastOnTheEquator();
-  AidingModel model = Model(SensorType::kPosition);
+  AidingModel model = Model(PositionKind());
   model.rate_hz = 2.0;
   model.from = 1.9;
   model.to = 8.0;
@@ -266,7 +266,7 @@ TEST(MeasurementErrors, HaveTheStatedSigmaInNorthEastDown) {
   SegmentTrajectory trajectory(
       {0.8, 0.2, 0.0}, MotionProfile({Segment::Straight(3000.0)}, 5.0, 0.4),
       1.0);
-  const AidingModel model = Model(SensorType::kPosition);
+  const AidingModel model = Model(PositionKind());
   const auto perfect = PerfectMeasurements(model, 0, &trajectory, 3000.0);
   auto measured = perfect;
   AddMeasurementErrors(model, 3, &measured);
@@ -278,7 +278,7 @@ TEST(MeasurementErrors, HaveTheStatedSigmaInNorthEastDown) {
   }
   const double n = static_cast<double>(perfect.size());
   for (int axis = 0; axis < 3; ++axis) {
-    ExpectUnitVariance(sum(axis) / (n * std::pow(model.sigma(axis), 2)), n);
+    ExpectUnitVariance(sum(axis) / (n * std::pow((*model.sigma)(axis), 2)), n);
   }
 }
 

@@ -8,8 +8,9 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "geometry/so3.h"
-#include "simulation/builtin_scenarios.h"
+#include "io/config/scenario_config.h"
 #include "simulation/sampled_trajectory.h"
+#include "simulation/wandering_drive.h"
 #include "state/state.h"
 
 namespace hindsight {
@@ -34,7 +35,7 @@ void ExpectConsistent(Trajectory* trajectory, double t, double tolerance) {
 }
 
 TEST(SegmentTrajectory, VelocityAccelerationAndRateAreDerivatives) {
-  const Scenario flight = BuiltinScenario("flight");
+  const Scenario flight = FindScenario("flight");
   SegmentTrajectory trajectory(
       flight.start,
       MotionProfile(flight.segments, flight.start_speed, flight.start_heading),
@@ -149,7 +150,7 @@ std::vector<ProfilePoint> SampleProfile(Trajectory* truth, double rate_hz) {
 }
 
 TEST(SampledTrajectory, ReproducesASmoothMotionBetweenItsPoints) {
-  const Scenario flight = BuiltinScenario("flight");
+  const Scenario flight = FindScenario("flight");
   SegmentTrajectory truth(
       flight.start,
       MotionProfile(flight.segments, flight.start_speed, flight.start_heading),

@@ -14,7 +14,7 @@ inline constexpr bool kSanitized = false;
 #endif
 
 /// Runs of a statistical test: `usual`, but a tenth of them (at least 2) under
-/// a sanitizer. Bounds are computed from what this returns.
+/// a sanitizer and for coverage. Bounds are computed from what this returns.
 constexpr int SeedCount(int usual) {
   return kSanitized ? std::min(usual, std::max(2, usual / 10)) : usual;
 }

@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "earth/wgs84.h"
+#include "measurements/sensor_kind.h"
 #include "simulation/scenario.h"
 
 namespace hindsight {
@@ -92,9 +93,8 @@ inline Scenario ShuttleFlight(const ShuttleOptions& options,
     half = 0.5 * options.period * std::exp(irregular * random.Normal());
     swing = 2.0 * options.amplitude * std::exp(irregular * random.Normal());
   }
-  AidingModel gnss;
+  AidingModel gnss(PositionKind());
   gnss.sensor.name = "gnss";
-  gnss.sensor.type = SensorType::kPosition;
   gnss.rate_hz = 10.0;
   gnss.sigma = Eigen::Vector3d::Constant(0.1);
   s.aiding.push_back(gnss);

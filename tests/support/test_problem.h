@@ -6,8 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "filters/forward_filter.h"
+#include "measurements/sensor_kind.h"
 #include "support/test_motion.h"
+#include "timeline/problem.h"
 
 namespace hindsight::testing {
 
@@ -35,6 +36,11 @@ struct TestProblem {
   std::vector<Node> nodes;
   std::vector<Measurement> measurements;
   std::vector<Sensor> sensors;
+
+  /// What is to be solved; the IMU's record must outlive it.
+  Problem Pose(GateDecisions decisions = {}) const {
+    return {layout, prior, MakeTimeline(), std::move(decisions)};
+  }
 
   /// The problem must outlive the timeline.
   Timeline MakeTimeline() const {
@@ -127,7 +133,7 @@ inline TestProblem MakeProblem(const TestProblemOptions& options,
   for (int i = 0; i < 2; ++i) {
     Sensor sensor;
     sensor.name = i == 0 ? "gnss" : "gnss_velocity";
-    sensor.type = i == 0 ? SensorType::kPosition : SensorType::kVelocity;
+    sensor.kind = i == 0 ? &PositionKind() : &VelocityKind();
     sensor.lever_arm_b = AntennaLeverArm();
     problem.sensors.push_back(sensor);
   }

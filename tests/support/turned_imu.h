@@ -4,6 +4,7 @@
 #include "base/units.h"
 #include "dataset/dataset.h"
 #include "geometry/so3.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight::testing {
 
@@ -28,7 +29,7 @@ inline Dataset Turned(Dataset dataset, const Eigen::Quaterniond& q_ob) {
 inline AidingStream Constraint(const Dataset& dataset) {
   AidingStream stream;
   stream.sensor.name = "wheels";
-  stream.sensor.type = SensorType::kNonHolonomic;
+  stream.sensor.kind = &NonHolonomicKind();
   Odometer odometer;
   odometer.form = Odometer::Form::kNonHolonomic;
   odometer.sigma = {1.0, 0.05, 0.05};

@@ -140,6 +140,16 @@ class ChartView {
         !(this.spec.difference && line.group === view.base);
   }
 
+  /** Which rows count for the range: not those that say next to nothing. */
+  counter(line, begin, end) {
+    if (!line.spread) return () => true;
+    const kMuch = 10;
+    const spread = line.source.column(line.spread);
+    const usual = spread.slice(begin, end).filter((x) => x > 0).sort();
+    const limit = kMuch * usual[usual.length >> 1];
+    return (i) => spread[i] <= limit;
+  }
+
   /** A flat or empty chart gets a height of its own; else dygraphs decides. */
   range() {
     let least = Infinity;
@@ -148,10 +158,16 @@ class ChartView {
       if (!this.shows(line)) continue;
       const {t, v} = line.series();
       const end = Math.min(t.length, lowerBound(t, view.window[1]) + 1);
-      for (let i = lowerBound(t, view.window[0]); i < end; i++) {
+      const begin = lowerBound(t, view.window[0]);
+      const counts = this.counter(line, begin, end);
+      for (let i = begin; i < end; i++) {
+        if (!counts(i)) continue;
         if (v[i] < least) least = v[i];
         if (v[i] > most) most = v[i];
       }
+    }
+    if (this.lines.some((line) => line.spread) && most > least) {
+      return [least - 0.05 * (most - least), most + 0.05 * (most - least)];
     }
     if (this.isLog) {
       return least > 0 && most / least < 1.5 ? [least / 1.5, most * 1.5] : null;

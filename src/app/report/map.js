@@ -18,14 +18,24 @@ function rampColour(share) {
   return `rgb(${rgb.join(',')})`;
 }
 
+const kGrades = [['usable', '--usable'], ['doubtful', '--doubtful'],
+                 ['not usable', '--unusable']];
+
+/** The worst grade that the evidence leaves at a time: an index of kGrades. */
+function gradeAt(time) {
+  return Math.max(0, ...page.map.grades
+      .filter((span) => span.from <= time && time <= span.to)
+      .map((span) => span.grade));
+}
+
 class MapView {
   constructor(element) {
     this.element = element;
     this.canvas = document.createElement('canvas');
     element.append(this.canvas);
     this.modes = [['sd_h', 'horizontal sigma', 'm'], ['speed', 'speed', 'm/s'],
-                  ['', 'method', '']]
-        .filter(([column]) => column === '' ||
+                  ['grade', 'grade', ''], ['', 'method', '']]
+        .filter(([column]) => column === '' || column === 'grade' ||
             page.tables[page.groups[0].table].has(column));
     this.mode = this.modes[0];
     this.layers = {fixes: true, ellipses: true};
@@ -196,7 +206,13 @@ class MapView {
     context.lineJoin = 'round';
     context.lineWidth = 1;
     context.strokeStyle = styleValue('--faded');
-    if (!view.isAll && group === 0) this.path(context, table, 0, table.t.length);
+    if (!view.isAll && group === 0) {
+      this.path(context, table, 0, table.t.length);
+    }
+    if (group === 0 && this.mode[0] === 'grade') {
+      this.drawGraded(context, table, begin, end);
+      return;
+    }
     if (group === 0 && this.mode[0] !== '') {
       this.drawColoured(context, table, begin, end);
       return;
@@ -219,6 +235,18 @@ class MapView {
       first = i;
     }
     this.shown = [low, high];
+  }
+
+  /** What evidence speaks of in the colour of the grade that it leaves. */
+  drawGraded(context, table, begin, end) {
+    context.lineWidth = 3;
+    let first = begin;
+    for (let i = begin + 1; i <= end; i++) {
+      if (i < end && gradeAt(table.t[i]) === gradeAt(table.t[first])) continue;
+      context.strokeStyle = styleValue(kGrades[gradeAt(table.t[first])][1]);
+      this.path(context, table, first, Math.min(i + 1, end));
+      first = i;
+    }
   }
 
   bounds(values, begin, end) {
@@ -244,11 +272,19 @@ class MapView {
   }
 
   showKey() {
-    if (this.mode[0] === '' || !this.shown) {
-      this.key.hidden = true;
+    this.key.hidden = this.mode[0] === '' ||
+        (this.mode[0] !== 'grade' && !this.shown);
+    if (this.key.hidden) return;
+    if (this.mode[0] === 'grade') {
+      this.key.replaceChildren(...kGrades.map(([name, colour]) => {
+        const chip = document.createElement('span');
+        chip.className = 'chip';
+        chip.style.setProperty('--own', `var(${colour})`);
+        chip.textContent = name;
+        return chip;
+      }));
       return;
     }
-    this.key.hidden = false;
     const stops = [0, 0.25, 0.5, 0.75, 1].map(rampColour).join(',');
     this.key.innerHTML = '<span></span><i></i><span></span>';
     this.key.children[0].textContent = numberText(this.shown[0]);

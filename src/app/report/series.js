@@ -1,5 +1,6 @@
 'use strict';
-// The series of the page: packed integers (src/io/packed_series.h) to numbers.
+// The series of the page: packed integers (src/io/write/packed_series.h) to
+// numbers.
 
 function bytesOfBase64(text) {
   const characters = atob(text);

@@ -39,7 +39,7 @@ const view = {
   setWindow(from, to) {
     const [begin, end] = this.extent;
     const least = Math.max((end - begin) * 1e-6, 1e-3);
-    let length = Math.min(Math.max(to - from, least), end - begin);
+    const length = Math.min(Math.max(to - from, least), end - begin);
     const middle = (from + to) / 2;
     let first = Math.max(begin, middle - length / 2);
     first = Math.min(first, end - length);

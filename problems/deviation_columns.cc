@@ -1,0 +1,185 @@
+#include "problems/deviation_columns.h"
+
+#include <algorithm>
+#include <array>
+#include <variant>
+
+#include "earth/wgs84.h"
+#include "geometry/so3.h"
+#include "measurements/sensor_kind.h"
+
+namespace hindsight {
+namespace {
+
+/// Constants that a sensor may have without having been asked for.
+constexpr std::array kTried = {BlockKind::kScale,    BlockKind::kMounting,
+                               BlockKind::kLeverArm, BlockKind::kTimeOffset,
+                               BlockKind::kHardIron, BlockKind::kDeclination};
+
+bool IsTried(BlockKind kind) {
+  return std::find(kTried.begin(), kTried.end(), kind) != kTried.end();
+}
+
+/// What is measured in navigation axes, NED, positions from the first one.
+std::optional<Eigen::Vector3d> NavigationValue(
+    const MeasurementModel& model, const Eigen::Vector3d& origin_e) {
+  if (const auto* z = std::get_if<PositionFix>(&model)) {
+    return NedAxes(z->p_e).transpose() * (z->p_e - origin_e);
+  }
+  if (const auto* z = std::get_if<VelocityFix>(&model)) return z->v_n;
+  return std::nullopt;
+}
+
+bool Fits(const ErrorLayout& layout, BlockKind kind) {
+  const int dim = FullDimension(kind);
+  return layout.dim() + dim <= kMaxErrorDim &&
+         layout.parameter_count() + dim <= kMaxParameters;
+}
+
+}  // namespace
+
+DeviationColumns::DeviationColumns(const Problem& problem,
+                                   const std::vector<State>& states,
+                                   const LinearTape& tape)
+    : problem_(problem), states_(states), tape_(tape) {
+  const Timeline& timeline = problem.timeline;
+  const std::vector<Measurement>& all = timeline.all_measurements();
+  for (std::size_t i = 0; i < timeline.sensors().size(); ++i) {
+    const auto first = std::find_if(
+        all.begin(), all.end(),
+        [i](const Measurement& z) { return z.sensor == static_cast<int>(i); });
+    sensors_.push_back(first == all.end() ? OfSensor{}
+                                          : Plan(static_cast<int>(i), *first));
+  }
+}
+
+DeviationColumns::OfSensor DeviationColumns::Plan(
+    int sensor, const Measurement& first) const {
+  using Kind = Deviation::Kind;
+  OfSensor plan;
+  plan.layout = problem_.layout;
+  const auto* odometer = std::get_if<Odometer>(&first.model);
+  plan.has_clock =
+      odometer == nullptr || odometer->form != Odometer::Form::kIncrements;
+  const Sensor& rig =
+      problem_.timeline.sensors()[static_cast<std::size_t>(sensor)];
+  std::vector<double> values;
+  for (const SensorBlock& declared : rig.kind->blocks) {
+    if (!IsTried(declared.kind) || plan.layout.Has(declared.kind, sensor) ||
+        !Fits(plan.layout, declared.kind) ||
+        (declared.kind == BlockKind::kTimeOffset && !plan.has_clock)) {
+      continue;
+    }
+    Block block;
+    block.key = {declared.kind, sensor};
+    plan.layout.Add(block);
+    const Eigen::Vector3d value = declared.value == nullptr
+                                      ? Eigen::Vector3d::Zero()
+                                      : declared.value(rig);
+    for (int axis = 0; axis < FullDimension(declared.kind); ++axis) {
+      values.push_back(value(axis));
+      plan.deviations.push_back(
+          {.kind = Kind::kBlock,
+           .block = declared.kind,
+           .axis = axis,
+           .may_begin_late = declared.kind == BlockKind::kTimeOffset ||
+                             declared.kind == BlockKind::kScale});
+    }
+  }
+  plan.parameters.resize(static_cast<Eigen::Index>(values.size()));
+  std::copy(values.begin(), values.end(), plan.parameters.begin());
+  if (const auto* fix = std::get_if<PositionFix>(&first.model)) {
+    plan.origin_e = fix->p_e;
+  }
+  if (NavigationValue(first.model, plan.origin_e)) {
+    for (int axis = 0; axis < 3; ++axis) {
+      plan.deviations.push_back({.kind = Kind::kTurned, .axis = axis});
+    }
+    plan.deviations.push_back({.kind = Kind::kStretched});
+  }
+  plan.rows = Rows(first);
+  for (int axis = 0; axis < plan.rows; ++axis) {
+    plan.deviations.push_back(
+        {.kind = Kind::kAdditive, .axis = axis, .may_begin_late = true});
+  }
+  return plan;
+}
+
+std::vector<ShiftColumns::Columns> DeviationColumns::Measured(
+    std::size_t k, const TapeMeasurement& z) const {
+  const OfSensor& own = sensors_[static_cast<std::size_t>(z.sensor)];
+  const auto count = static_cast<Eigen::Index>(own.deviations.size());
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(z.H.rows(), count);
+  State x = states_[k];
+  x.parameters.conservativeResize(own.layout.parameter_count());
+  x.parameters.tail(own.parameters.size()) = own.parameters;
+  const Measurement& measured =
+      problem_.timeline.measurements(k)[static_cast<std::size_t>(z.index)];
+  ModelContext context = problem_.timeline.Context(k, measured, own.layout, x);
+  context.offset_rate = nullptr;
+  LinearizedMeasurement linear;
+  Evaluate(measured, context, &linear);
+  const RowVector rate = own.has_clock ? TimeOffsetRate(measured, context)
+                                       : RowVector::Zero(B.rows()).eval();
+  // As predicted: the noise of what is measured is in the innovation too.
+  std::optional<Eigen::Vector3d> v =
+      NavigationValue(measured.model, own.origin_e);
+  if (v) *v -= linear.residual;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Deviation& deviation = own.deviations[static_cast<std::size_t>(i)];
+    switch (deviation.kind) {
+      case Deviation::Kind::kAdditive:
+        if (B.rows() == own.rows) B(deviation.axis, i) = 1.0;
+        break;
+      case Deviation::Kind::kTurned:
+        B.col(i) = Eigen::Vector3d::Unit(deviation.axis).cross(*v);
+        break;
+      case Deviation::Kind::kStretched:
+        B.col(i) = *v;
+        break;
+      case Deviation::Kind::kBlock:
+        B.col(i) =
+            deviation.block == BlockKind::kTimeOffset
+                ? Eigen::VectorXd(rate)
+                : Eigen::VectorXd(linear.H.col(
+                      own.layout.Find(deviation.block, z.sensor)->offset +
+                      deviation.axis));
+        break;
+    }
+  }
+  return {{z.sensor, B}, {kAllClocks, rate}};
+}
+
+ShiftColumns::Columns DeviationColumns::Driven(std::size_t k) const {
+  const ErrorLayout& layout = problem_.layout;
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(layout.dim(), 6);
+  // Readings at both ends, where the interval is short against what moves. Not
+  // its mean: what the noise of the mean does is in the innovations too, and
+  // would look like a scale.
+  const Kinematics& from = problem_.timeline.node(k - 1).kinematics;
+  const Kinematics& to = problem_.timeline.node(k).kinematics;
+  const Eigen::Vector3d w = 0.5 * (from.w_ib_b + to.w_ib_b);
+  const Eigen::Vector3d f = 0.5 * (from.f_b + to.f_b);
+  const auto Phi = tape_.Phi(k);
+  int first = 0;
+  for (const auto& [bias, reading] :
+       {std::pair(BlockKind::kGyroBias, w), {BlockKind::kAccelBias, f}}) {
+    const Block* block = layout.Find(bias);
+    for (int axis = 0; axis < 3 && block->dim == 3; ++axis) {
+      const int component = block->offset + axis;
+      B.col(first + axis) = Phi.col(component) * reading(axis);
+      B(component, first + axis) = 0.0;
+    }
+    first += 3;
+  }
+  return {kImu, B};
+}
+
+ShiftColumns DeviationColumns::Columns() const {
+  return {[this](std::size_t k, const TapeMeasurement& z) {
+            return Measured(k, z);
+          },
+          [this](std::size_t k) { return Driven(k); }};
+}
+
+}  // namespace hindsight

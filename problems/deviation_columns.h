@@ -1,0 +1,70 @@
+#ifndef HINDSIGHT_PROBLEMS_DEVIATION_COLUMNS_H_
+#define HINDSIGHT_PROBLEMS_DEVIATION_COLUMNS_H_
+
+#include <string>
+#include <vector>
+
+#include "filters/mean_shift.h"
+#include "timeline/problem.h"
+
+namespace hindsight {
+
+/// One way in which a sensor may be other than it is said to be.
+struct Deviation {
+  enum class Kind {
+    kAdditive,   ///< error of a component
+    kTurned,     ///< what is measured in navigation axes, about one of them
+    kStretched,  ///< the same multiplied, positions from the first one on
+    kBlock,  ///< a state that the kind of sensor may have (SensorKind::blocks)
+  };
+  Kind kind = Kind::kAdditive;
+  BlockKind block = BlockKind::kScale;  ///< of kBlock
+  int axis = 0;  ///< of kAdditive the row, of measurements that have all rows
+  /// Whether it may begin, or begin to grow, in the middle.
+  bool may_begin_late = false;
+};
+
+/// Sensitivities to all that may be wrong with the sensors, along a trajectory,
+/// a state a node. The groups are the numbers of the sensors, kAllClocks and
+/// kImu.
+class DeviationColumns {
+ public:
+  /// One column: all sensors' clocks against the IMU's.
+  static constexpr int kAllClocks = -1;
+  /// Six columns: scales of the gyros, then of the accelerometers, as biases in
+  /// proportion to the mean reading of each interval.
+  static constexpr int kImu = -2;
+
+  /// The arguments must outlive the object.
+  DeviationColumns(const Problem& problem, const std::vector<State>& states,
+                   const LinearTape& tape);
+
+  /// Of the sensor, in the order of its columns.
+  const std::vector<Deviation>& Of(int sensor) const {
+    return sensors_[static_cast<std::size_t>(sensor)].deviations;
+  }
+  ShiftColumns Columns() const;
+
+ private:
+  struct OfSensor {
+    std::vector<Deviation> deviations;
+    ErrorLayout layout;          ///< the problem's and the blocks tried
+    ParameterVector parameters;  ///< values of the blocks tried
+    Eigen::Vector3d origin_e = Eigen::Vector3d::Zero();
+    int rows = 0;           ///< of the first measurement
+    bool has_clock = true;  ///< a shift of it is no shift of a distance's begin
+  };
+  OfSensor Plan(int sensor, const Measurement& first) const;
+  std::vector<ShiftColumns::Columns> Measured(std::size_t k,
+                                              const TapeMeasurement& z) const;
+  ShiftColumns::Columns Driven(std::size_t k) const;
+
+  const Problem& problem_;
+  const std::vector<State>& states_;
+  const LinearTape& tape_;
+  std::vector<OfSensor> sensors_;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_DEVIATION_COLUMNS_H_

@@ -1,0 +1,247 @@
+#include "problems/explanations.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "base/chi_square.h"
+#include "filters/shift_response.h"
+#include "problems/deviation_columns.h"
+#include "problems/explanation_words.h"
+
+namespace hindsight {
+namespace {
+
+/// Epochs about equally far apart in time, the first included.
+std::vector<std::size_t> Onsets(const LinearTape& tape) {
+  std::vector<std::size_t> onsets;
+  const double begin = tape.epoch(0).t;
+  const double step = (tape.back().t - begin) / kOnsets;
+  double next = begin;
+  for (std::size_t k = 0; k < tape.size() && onsets.size() < kOnsets; ++k) {
+    if (tape.epoch(k).t < next) continue;
+    onsets.push_back(k);
+    while (next <= tape.epoch(k).t && step > 0.0) next += step;
+  }
+  return onsets;
+}
+
+/// Whether a deviation is one of those tried, from that onset on.
+bool IsMeant(const MeanShift& shift, const DeviationColumns& columns,
+             std::size_t first, const ErrorLayout& layout) {
+  if (shift.of_state) {
+    // Nothing makes a vehicle jump: what looks so is the sensor's doing.
+    const Block* position = layout.Find(BlockKind::kPosition);
+    return shift.column < position->offset ||
+           shift.column >= position->offset + position->dim;
+  }
+  const bool throughout = shift.onset == first;
+  if (shift.group == DeviationColumns::kAllClocks) {
+    return throughout && shift.grows;
+  }
+  if (shift.group == DeviationColumns::kImu) return throughout && !shift.grows;
+  const Deviation& deviation =
+      columns.Of(shift.group)[static_cast<std::size_t>(shift.column)];
+  return deviation.may_begin_late || (throughout && !shift.grows);
+}
+
+/// By what a correction moves the solution, in its sigmas.
+void SetEffect(const std::vector<ErrorVector>& correction, double size,
+               const Relinearised& anew, const LinearTape& tape,
+               Explanation* out) {
+  const ErrorLayout& layout = tape.layout();
+  const ErrorMatrix P_end = tape.P_plus(tape.size() - 1);
+  for (int c = 0; c < layout.dim(); ++c) {
+    double effect = 0.0;
+    if (layout.has_canonical_head() && c < anew.variances.front().size()) {
+      for (std::size_t k = 0; k < correction.size(); ++k) {
+        const double variance = anew.variances[k](c);
+        if (variance > 0.0) {
+          effect += correction[k](c) * correction[k](c) / variance;
+        }
+      }
+      effect /= static_cast<double>(correction.size());
+    } else if (P_end(c, c) > 0.0) {
+      effect = correction.back()(c) * correction.back()(c) / P_end(c, c);
+    }
+    effect = std::abs(size) * std::sqrt(effect);
+    if (!(effect > out->effect)) continue;
+    out->effect = effect;
+    out->component = layout.ComponentName(c);
+  }
+}
+
+double LimitOf(double false_alarms, std::size_t tests) {
+  return std::sqrt(ChiSquareQuantile(
+      1.0 - false_alarms / static_cast<double>(std::max<std::size_t>(tests, 1)),
+      1.0));
+}
+
+/// The likeliest deviation of each source beyond its limit.
+class Candidates {
+ public:
+  void Offer(const MeanShift& shift, double z, double limit) {
+    if (!(std::abs(z) >= limit)) return;
+    const int source = shift.of_state ? kState : shift.group;
+    Candidate& best = best_[source];
+    if (best.limit == 0.0 ||
+        std::abs(z) / limit > std::abs(best.z) / best.limit) {
+      best = {shift, z, limit};
+    }
+  }
+
+  /// Instead of what the sensor has, if it is farther beyond its limit.
+  void OfferVarying(const MeanShift& largest, double z, double limit) {
+    if (!(z >= limit)) return;
+    Candidate& best = best_[largest.group];
+    if (best.limit > 0.0 && z / limit <= std::abs(best.z) / best.limit) return;
+    best = {largest, z, limit, true};
+  }
+  struct Candidate {
+    MeanShift shift;
+    double z = 0.0;
+    double limit = 0.0;
+    bool varies = false;
+  };
+  std::map<int, Candidate>& best() { return best_; }
+
+ private:
+  static constexpr int kState = -3;
+  std::map<int, Candidate> best_;
+};
+
+/// Additive errors that come and go.
+class Varying {
+ public:
+  Varying(const Problem& problem, const DeviationColumns& own) {
+    for (std::size_t i = 0; i < problem.timeline.sensors().size(); ++i) {
+      const auto& deviations = own.Of(static_cast<int>(i));
+      for (std::size_t c = 0; c < deviations.size(); ++c) {
+        if (deviations[c].kind != Deviation::Kind::kAdditive) continue;
+        columns_[static_cast<int>(i)].push_back(static_cast<int>(c));
+        ++count_;
+      }
+    }
+  }
+
+  void Offer(const ShiftColumns& columns, const LinearTape& tape,
+             std::span<const std::size_t> onsets,
+             const std::vector<MeanShift>& tried, double false_alarms,
+             Candidates* candidates) const {
+    for (const auto& [group, wanted] : columns_) {
+      const std::vector<ShiftEnergy> energies =
+          EnergiesOf(group, wanted, onsets, tape, columns);
+      for (std::size_t w = 0; w < wanted.size(); ++w) {
+        const MeanShift* largest = Largest(group, wanted[w], tried);
+        if (largest == nullptr || !(energies[w].sum > 0.0)) continue;
+        // In place of a normal variable and its limit.
+        const double tail = false_alarms / static_cast<double>(count_);
+        const double limit = std::sqrt(
+            energies[w].scale * ChiSquareQuantile(1.0 - tail, energies[w].dof));
+        candidates->OfferVarying(*largest, std::sqrt(energies[w].sum), limit);
+      }
+    }
+  }
+
+ private:
+  static const MeanShift* Largest(int group, int column,
+                                  const std::vector<MeanShift>& tried) {
+    const MeanShift* largest = nullptr;
+    for (const MeanShift& shift : tried) {
+      if (shift.of_state || shift.grows || shift.group != group ||
+          shift.column != column) {
+        continue;
+      }
+      if (largest == nullptr || std::abs(shift.z()) > std::abs(largest->z())) {
+        largest = &shift;
+      }
+    }
+    return largest;
+  }
+
+  std::map<int, std::vector<int>> columns_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+struct ExplanationSearch::Found {
+  DeviationColumns own;
+  std::vector<std::size_t> onsets;
+  Scores scores;
+  std::map<int, Candidates::Candidate> best;
+
+  Found(const Problem& problem, const std::vector<State>& states,
+        const LinearTape& tape)
+      : own(problem, states, tape), onsets(Onsets(tape)) {}
+};
+
+ExplanationSearch::ExplanationSearch(const Problem& problem,
+                                     const std::vector<State>& states,
+                                     const LinearTape& tape,
+                                     double false_alarms)
+    : problem_(problem),
+      tape_(tape),
+      found_(std::make_unique<Found>(problem, states, tape)) {
+  const DeviationColumns& own = found_->own;
+  const ShiftColumns columns = own.Columns();
+  const std::size_t first = found_->onsets.front();
+  found_->scores = ScoreShifts(tape, columns, found_->onsets);
+  std::vector<MeanShift>& tried = found_->scores.shifts;
+  std::erase_if(tried, [&](const MeanShift& shift) {
+    return !IsMeant(shift, own, first, problem.layout);
+  });
+  const auto throughout = static_cast<std::size_t>(std::count_if(
+      tried.begin(), tried.end(),
+      [first](const MeanShift& shift) { return shift.onset == first; }));
+  // A third of the false alarms for each: there are far more that begin late.
+  const double limits[] = {
+      LimitOf(false_alarms / 3.0, throughout),
+      LimitOf(false_alarms / 3.0, tried.size() - throughout)};
+  Candidates candidates;
+  for (const MeanShift& shift : tried) {
+    candidates.Offer(shift, shift.z(), limits[shift.onset == first ? 0 : 1]);
+  }
+  Varying(problem, own)
+      .Offer(columns, tape, found_->onsets, tried, false_alarms / 3.0,
+             &candidates);
+  found_->best = candidates.best();
+}
+
+ExplanationSearch::~ExplanationSearch() = default;
+
+std::span<const StateScore> ExplanationSearch::state_scores() const {
+  return found_->scores.states;
+}
+
+bool ExplanationSearch::found_any() const { return !found_->best.empty(); }
+
+std::vector<Explanation> ExplanationSearch::Tell(
+    const Relinearised& anew) const {
+  const DeviationColumns& own = found_->own;
+  const ShiftColumns columns = own.Columns();
+  std::vector<Explanation> all;
+  for (const auto& [source, best] : found_->best) {
+    const Words words = best.varies ? WordsOfVarying(best.shift, own, problem_)
+                                    : WordsOfShift(best.shift, own, problem_);
+    Explanation one;
+    one.what = words.what;
+    one.remedy = words.remedy;
+    one.z = std::abs(best.z);
+    one.limit = best.limit;
+    if (best.shift.onset != found_->onsets.front() && !best.varies) {
+      one.onset = tape_.epoch(best.shift.onset).t;
+      one.what += fmt::format(" from {:.1f} s on", *one.onset);
+    }
+    SetEffect(CorrectionFor(best.shift, tape_, columns), best.shift.size(),
+              anew, tape_, &one);
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+}  // namespace hindsight

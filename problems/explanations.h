@@ -1,0 +1,55 @@
+#ifndef HINDSIGHT_PROBLEMS_EXPLANATIONS_H_
+#define HINDSIGHT_PROBLEMS_EXPLANATIONS_H_
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "evaluation/explanation.h"
+#include "filters/linear_tape.h"
+#include "filters/mean_shift.h"
+#include "problems/linearisation.h"
+#include "timeline/problem.h"
+
+namespace hindsight {
+
+/// Deviations that explain the innovations of a tape better than chance, which
+/// is `problem` linearised about `states`. Tried are, of every sensor,
+///   throughout           what its kind may estimate and the problem does not:
+///                        scale, mounting, lever arm, time offset, hard iron,
+///                        declination; axes turned by an angle of what is
+///                        measured in navigation axes;
+///   throughout and from each of kOnsets times on, and growing from there on
+///                        an additive error of a component, and the clock;
+/// and from these times on another value of every component of the state but
+/// the position.
+class ExplanationSearch {
+ public:
+  /// `false_alarms` is the probability that a right model has any (Bonferroni).
+  /// The arguments must outlive the object.
+  ExplanationSearch(const Problem& problem, const std::vector<State>& states,
+                    const LinearTape& tape, double false_alarms);
+  ~ExplanationSearch();
+  ExplanationSearch(const ExplanationSearch&) = delete;
+  ExplanationSearch& operator=(const ExplanationSearch&) = delete;
+
+  bool found_any() const;
+  /// The likeliest of each sensor, of the IMU and of the state, with what
+  /// allowing for it does to the solution, whose variances are `anew`'s.
+  std::vector<Explanation> Tell(const Relinearised& anew) const;
+  std::span<const StateScore> state_scores() const;
+
+ private:
+  struct Found;
+
+  const Problem& problem_;
+  const LinearTape& tape_;
+  std::unique_ptr<Found> found_;
+};
+
+/// Equally far apart, the first being the beginning.
+inline constexpr int kOnsets = 32;
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_EXPLANATIONS_H_

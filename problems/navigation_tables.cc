@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/chi_square.h"
+#include "evaluation/statistics.h"
+#include "problems/navigation_trial.h"
+
+namespace hindsight {
+namespace {
+
+double LargestMagnitude(const std::vector<double>& values) {
+  return std::max(Largest(values), -Least(values));
+}
+
+/// Of each axis of the position.
+Figure PositionFigure(const std::string& name, const std::string& title,
+                      Reduce reduce, TimeRange range = {}) {
+  return {name,
+          kMetres,
+          title,
+          "{:.3f}",
+          {{"n", "position_n", reduce},
+           {"e", "position_e", reduce},
+           {"d", "position_d", reduce}},
+          range};
+}
+
+Figure AneesFigure(const std::string& name, const std::string& title,
+                   TimeRange range = {}) {
+  Figure figure =
+      Single(name, kPlain, title, "{:.1f}", "nees", OfCurve<Mean, Mean>);
+  figure.range = range;
+  return figure;
+}
+
+double RowNis(const RunCell& cell, const std::string&, const TimeRange&) {
+  return Mean(cell.Values("nis_sum")) / Mean(cell.Values("nis_rows"));
+}
+
+/// Legs are open at their beginnings, which belong to the legs before; the last
+/// has no end.
+std::vector<TimeRange> Legs(const std::vector<double>& ends) {
+  std::vector<TimeRange> legs(ends.size());
+  for (std::size_t i = 0; i + 1 < legs.size(); ++i) {
+    legs[i].to = ends[i];
+    legs[i + 1].from = std::nextafter(ends[i], ends[i + 1]);
+  }
+  return legs;
+}
+
+/// What the second part of the printed table holds.
+std::vector<Figure> ErrorFigures() {
+  std::vector<Figure> figures = {
+      PositionFigure("max_mean", "mean error [m]\nmax N E D",
+                     OfCurve<LargestMagnitude, Mean>),
+      Single("position_rms", kMetres, "position\nrms [m]", "{:.3f}",
+             OfRuns<Rms>),
+      Single("position_max", kMetres, "max\n[m]", "{:.3f}", OfRuns<Largest>),
+      Single("end_horizontal", kMetres, "end, horiz.\nrms [m]", "{:.3f}",
+             OfRuns<Rms>),
+      Single("heading_rms", kDegrees, "heading\nrms [deg]", "{:.3f}",
+             OfRuns<Rms>),
+      Single("attitude_rms", kDegrees, "attitude\nrms [deg]", "{:.3f}",
+             OfRuns<Rms>),
+      Single("position_nees", kPlain, "NEES (3)\nposition", "{:.2f}",
+             OfRuns<Mean>),
+      Single("attitude_nees", kPlain, "NEES (3)\nattitude", "{:.2f}",
+             OfRuns<Mean>),
+      Share("outside_5_sigma", "beyond\n5 sigma [%]", "outside_5_sigma",
+            OfRuns<Mean>)};
+  for (Figure& figure : figures) figure.part = 1;
+  return figures;
+}
+
+StudyTable Cells(const std::vector<double>& leg_ends) {
+  StudyTable table = {"cells", {}, {}, {}};
+  std::vector<Figure>& figures = table.figures;
+  std::vector<Figure> leg_anees;
+  figures.push_back(PositionFigure("max_std", "max std [m]\nN E D",
+                                   OfCurve<Largest, Deviation>));
+  for (const TimeRange& leg : Legs(leg_ends)) {
+    const std::string number = std::to_string(leg_anees.size() + 1);
+    figures.push_back(PositionFigure("leg" + number + "_max_std",
+                                     "leg " + number + " [m]\nN E D",
+                                     OfCurve<Largest, Deviation>, leg));
+    leg_anees.push_back(AneesFigure("leg" + number + "_anees",
+                                    leg_anees.empty() ? "ANEES\nleg 1" : "",
+                                    leg));
+  }
+  figures.insert(
+      figures.end(),
+      {PositionFigure("end_std", "end [m]\nN E D", OfCurve<Last, Deviation>),
+       Single("yaw_std", kDegrees, "yaw\n[deg]", "{:.4f}", "yaw",
+              OfCurve<Largest, Deviation>),
+       AneesFigure("anees", "ANEES\nall")});
+  figures.insert(figures.end(), leg_anees.begin(), leg_anees.end());
+  figures.insert(figures.end(),
+                 {{"anees_bound",
+                   kPlain,
+                   "95 %\nbounds",
+                   "{:.1f}",
+                   {{"lower", "", AneesLower}, {"upper", "", AneesUpper}}},
+                  Share("anees_outside", "outside\n[%]", "nees", AneesOutside),
+                  Single("nis", kPlain, "NIS\nper row", "{:.3f}", "", RowNis),
+                  Single("states", kPlain, "", "", OfRuns<Largest>),
+                  FailedFigure(),
+                  GradesFigure(),
+                  SecondsFigure()});
+  for (Figure& figure : ErrorFigures()) figures.push_back(std::move(figure));
+  table.curves = {{"std_n", kMetres, "position_n", Deviation},
+                  {"std_e", kMetres, "position_e", Deviation},
+                  {"std_d", kMetres, "position_d", Deviation},
+                  {"std_yaw", kDegrees, "yaw", Deviation},
+                  {"anees", kPlain, "nees", Mean}};
+  return table;
+}
+
+/// The bounds are those of one constant at a time.
+template <double Interval::*bound>
+double ConstantBound(const RunCell& cell, const std::string&,
+                     const TimeRange&) {
+  if (cell.answered() == 0) return std::nan("");
+  return AneesBounds(cell.answered(), 1, 0.999).*bound;
+}
+
+/// Each constant by its errors over its sigmas.
+StudyTable Constants() {
+  StudyTable table = {"constants", {}, {}, {}};
+  table.figures = {
+      Single("prior_sigma", kPlain, "prior\nsigma", "{:.3g}", OfRuns<Largest>),
+      Single("sigma", kPlain, "sigma\nmean", "{:.3g}", OfRuns<Mean>),
+      Single("rms", kPlain, "error\nrms", "{:.3g}", "error", OfRuns<Rms>),
+      Single("anees", kPlain, "(error/sigma)^2\nmean", "{:.2f}", "nees",
+             OfRuns<Mean>),
+      {"anees_bound",
+       kPlain,
+       "99.9 %\nbounds",
+       "{:.2f}",
+       {{"lower", "", ConstantBound<&Interval::lower>},
+        {"upper", "", ConstantBound<&Interval::upper>}}},
+      Single("observed", kPlain, "ob-\nserved", "{:.0f}", OfRuns<Sum>),
+      Single("unobserved", kPlain, "un-\nobserved", "{:.0f}", OfRuns<Sum>)};
+  return table;
+}
+
+StudyTable Agreement() {
+  StudyTable table = {"agreement", {}, {}, {}};
+  table.figures = {
+      Single("position", kMetres, "largest distance\n[m]", "{:.3g}",
+             OfRuns<Largest>),
+      Single("attitude", {"rad", 1.0}, "[rad]", "{:.3g}", OfRuns<Largest>),
+      Single("position_after_first_leg", kMetres, "after the first\nleg [m]",
+             "{:.3g}", OfRuns<Largest>)};
+  return table;
+}
+
+}  // namespace
+
+std::vector<StudyTable> NavigationTables(const std::vector<std::string>& labels,
+                                         const std::vector<double>& leg_ends) {
+  std::vector<StudyTable> tables = {Cells(leg_ends), Constants(), Agreement()};
+  const std::vector<std::string> own[] = {
+      {"method"}, {"method", "constant", "unit"}, {"method", "with"}};
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    tables[i].labels = labels;
+    tables[i].labels.insert(tables[i].labels.end(), own[i].begin(),
+                            own[i].end());
+  }
+  return tables;
+}
+
+}  // namespace hindsight

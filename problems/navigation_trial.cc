@@ -1,0 +1,247 @@
+#include "problems/navigation_trial.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "evaluation/statistics.h"
+#include "evaluation/true_states.h"
+#include "problems/reconstruction.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kTimeTolerance = 1e-6;
+
+/// The nodes of a solution at which it is judged.
+std::vector<std::size_t> JudgedNodes(const std::vector<double>& times,
+                                     const Solution& solution) {
+  std::vector<std::size_t> nodes;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < solution.states.size(); ++k) {
+    const double t = solution.states[k].t;
+    while (next < times.size() && times[next] < t - kTimeTolerance) ++next;
+    if (times.empty() ||
+        (next < times.size() && times[next] <= t + kTimeTolerance)) {
+      nodes.push_back(k);
+    }
+  }
+  return nodes;
+}
+
+/// Three components of an error against their covariance.
+struct PartError {
+  double length = 0.0;
+  double nees = 0.0;
+  bool beyond = false;  ///< 5 sigmas, in any component
+};
+
+PartError PartOf(const ErrorVector& e, const ErrorMatrix& P, int offset) {
+  constexpr double kWide = 5.0;
+  const Eigen::Vector3d part = e.segment<3>(offset);
+  const Eigen::Matrix3d P_part = P.block<3, 3>(offset, offset);
+  const Eigen::Vector3d sigma = P_part.diagonal().cwiseSqrt();
+  return {part.norm(), part.dot(P_part.llt().solve(part)),
+          (part.cwiseAbs() - kWide * sigma).maxCoeff() > 0.0};
+}
+
+/// Errors of the solution at those nodes into the record.
+void JudgeNodes(const Solution& solution, const std::vector<std::size_t>& nodes,
+                const std::vector<State>& truth, RunRecord* record) {
+  const int p = solution.layout.Find(BlockKind::kPosition)->offset;
+  const int a = solution.layout.Find(BlockKind::kAttitude)->offset;
+  std::vector<double> distance, angle, position_nees, attitude_nees, beyond;
+  double end_horizontal = 0.0;
+  auto& series = record->series;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const State& x = solution.states[nodes[i]];
+    const ErrorVector e = Local(solution.layout, x, truth[i]);
+    const ErrorMatrix P = solution.covariances.Get(nodes[i]);
+    record->t.push_back(truth[i].t);
+    series["position_n"].push_back(e(p));
+    series["position_e"].push_back(e(p + 1));
+    series["position_d"].push_back(e(p + 2));
+    series["yaw"].push_back(WrapAngle(truth[i].euler().z() - x.euler().z()));
+    series["nees"].push_back(e.dot(P.llt().solve(e)));
+    const PartError position = PartOf(e, P, p);
+    const PartError attitude = PartOf(e, P, a);
+    distance.push_back(position.length);
+    angle.push_back(attitude.length);
+    position_nees.push_back(position.nees);
+    attitude_nees.push_back(attitude.nees);
+    beyond.push_back(position.beyond || attitude.beyond ? 1.0 : 0.0);
+    end_horizontal = e.segment<2>(p).norm();
+  }
+  record->values.insert(record->values.end(),
+                        {{"position_rms", Rms(distance)},
+                         {"position_max", Largest(distance)},
+                         {"heading_rms", Rms(series["yaw"])},
+                         {"attitude_rms", Rms(angle)},
+                         {"position_nees", Mean(position_nees)},
+                         {"attitude_nees", Mean(attitude_nees)},
+                         {"outside_5_sigma", Mean(beyond)},
+                         {"end_horizontal", end_horizontal}});
+}
+
+void AddConstants(const Dataset& dataset, const Solution& solution,
+                  const std::string& method, CaseRun* run) {
+  using Verdict = ConstantEstimate::Verdict;
+  for (const ConstantEstimate& c : solution.constants) {
+    const auto truth = dataset.true_constants.find(c.name);
+    if (truth == dataset.true_constants.end()) continue;
+    RunRecord* record = run->Add(kConstants, {method, c.name, c.unit});
+    record->answered = solution.converged;
+    const double error = c.value - truth->second;
+    record->values = {
+        {"prior_sigma", c.prior_sigma},
+        {"sigma", c.sigma},
+        {"error", error},
+        {"nees", (error / c.sigma) * (error / c.sigma)},
+        {"observed", c.verdict == Verdict::kObserved ? 1.0 : 0.0},
+        {"unobserved", c.verdict == Verdict::kUnobserved ? 1.0 : 0.0}};
+  }
+}
+
+/// What of a solution is compared with those of other methods.
+struct MethodTrack {
+  std::string method;
+  std::vector<State> states;
+};
+
+/// The pairs whose agreement says something about the methods.
+constexpr std::pair<const char*, const char*> kCompared[] = {
+    {"two_filter", "rts"},
+    {"two_filter_conventional", "two_filter"},
+    {"two_filter_euler", "two_filter"},
+    {"iterated", "two_filter"},
+    {"batch", "iterated"}};
+
+const MethodTrack* Find(const std::vector<MethodTrack>& tracks,
+                        const std::string& method) {
+  for (const MethodTrack& track : tracks) {
+    if (track.method == method) return &track;
+  }
+  return nullptr;
+}
+
+void AddAgreement(const MethodTrack& a, const MethodTrack& b,
+                  const NavigationTrial& trial, CaseRun* run) {
+  const double first_leg_end =
+      trial.leg_ends.empty() ? 0.0 : trial.leg_ends.front();
+  double position = 0.0, attitude = 0.0, after_first_leg = 0.0;
+  for (std::size_t k = 0; k < std::min(a.states.size(), b.states.size()); ++k) {
+    const double distance = (a.states[k].p_e - b.states[k].p_e).norm();
+    position = std::max(position, distance);
+    attitude =
+        std::max(attitude, a.states[k].q_eb.angularDistance(b.states[k].q_eb));
+    if (a.states[k].t > first_leg_end) {
+      after_first_leg = std::max(after_first_leg, distance);
+    }
+  }
+  run->Add(kAgreement, {a.method, b.method})->values = {
+      {"position", position},
+      {"attitude", attitude},
+      {"position_after_first_leg", after_first_leg}};
+}
+
+/// The rules that lower the grade, and the constants that are wrong.
+void AddEvidence(const Dataset& dataset, const Solution& solution,
+                 RunRecord* record) {
+  constexpr double kWide = 5.0;
+  std::set<std::string> rules;
+  for (const Evidence& evidence : solution.evidence) {
+    if (evidence.grade != Grade::kUsable) rules.insert(evidence.rule);
+  }
+  for (const std::string& rule : rules) {
+    record->values.emplace_back("rule:" + rule, 1.0);
+  }
+  double beyond = 0.0;
+  for (const ConstantEstimate& c : solution.constants) {
+    const auto truth = dataset.true_constants.find(c.name);
+    if (truth == dataset.true_constants.end()) continue;
+    if (std::abs(c.value - truth->second) > kWide * c.sigma) beyond += 1.0;
+  }
+  record->values.emplace_back("constants_beyond_5_sigma", beyond);
+}
+
+/// Stamps of the truth at which a method is judged; empty: at all its nodes.
+std::vector<double> JudgedTimes(const NavigationTrial& trial,
+                                const Dataset& dataset) {
+  if (trial.judged_every == 0.0) return {};
+  const double apart = trial.judged_every - kTimeTolerance;
+  std::vector<double> times;
+  double next = dataset.truth.front().t + apart;
+  const double end = std::min(dataset.truth.back().t - apart, trial.judged_to);
+  for (const TruthPoint& truth : dataset.truth) {
+    if (truth.t < next || truth.t > end) continue;
+    times.push_back(truth.t);
+    next = truth.t + apart;
+  }
+  return times;
+}
+
+void Judge(const Dataset& dataset, const std::vector<double>& times,
+           const Solution& solution, RunRecord* record) {
+  const std::vector<std::size_t> nodes = JudgedNodes(times, solution);
+  std::vector<State> states;
+  states.reserve(nodes.size());
+  for (const std::size_t k : nodes) states.push_back(solution.states[k]);
+  double nis = 0.0, rows = 0.0;
+  for (const ResidualRecord& residual : solution.residuals) {
+    if (!residual.accepted || residual.withheld) continue;
+    nis += residual.nis;
+    rows += static_cast<double>(residual.residual.size());
+  }
+  record->values = {{kSeconds, solution.seconds},
+                    {"nis_sum", nis},
+                    {"nis_rows", rows},
+                    {"states", 1.0 * solution.layout.dim()}};
+  record->grade = solution.grade;
+  record->failed = !solution.converged;
+  record->answered = solution.converged;
+  AddEvidence(dataset, solution, record);
+  JudgeNodes(solution, nodes, TrueStates(dataset, solution.layout, states),
+             record);
+}
+
+}  // namespace
+
+Trial NavigationTrialOf(const NavigationTrial& trial) {
+  return [trial](const Dataset& dataset, CaseRun* run) {
+    ReconstructionOptions options;
+    options.node_times = JudgedTimes(trial, dataset);
+    std::unique_ptr<Reconstruction> reconstruction;
+    std::vector<MethodTrack> tracks;
+    for (const std::string& method : trial.methods) {
+      run->Try({method}, [&](RunRecord* record) {
+        record->grade = Grade::kUnusable;
+        if (!reconstruction) {
+          reconstruction = std::make_unique<Reconstruction>(dataset, options);
+        }
+        Solution solution = reconstruction->Run(method);
+        Judge(dataset, options.node_times, solution, record);
+        record->values.insert(record->values.end(), trial.values.begin(),
+                              trial.values.end());
+        AddConstants(dataset, solution, method, run);
+        tracks.push_back({method, std::move(solution.states)});
+      });
+    }
+    if (trial.innovations != nullptr && reconstruction) {
+      try {
+        *trial.innovations = reconstruction->Innovations();
+      } catch (const EstimationError&) {
+        trial.innovations->clear();
+      }
+    }
+    for (const auto& [first, second] : kCompared) {
+      const MethodTrack* a = Find(tracks, first);
+      const MethodTrack* b = Find(tracks, second);
+      if (a != nullptr && b != nullptr) AddAgreement(*a, *b, trial, run);
+    }
+  };
+}
+
+}  // namespace hindsight

@@ -1,0 +1,65 @@
+#ifndef HINDSIGHT_PROBLEMS_NAVIGATION_TRIAL_H_
+#define HINDSIGHT_PROBLEMS_NAVIGATION_TRIAL_H_
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "evaluation/innovation_test.h"
+#include "problems/montecarlo.h"
+#include "state/solution.h"
+
+namespace hindsight {
+
+/// How methods of Reconstruction are tried on a recording of one seed, and what
+/// its records hold. Tables of the study:
+///   0 cells      the method against truth
+///   1 constants  each estimated constant whose true value the data know
+///   2 agreement  the largest distance of two methods over all nodes and runs
+struct NavigationTrial {
+  std::vector<std::string> methods;
+  /// Nodes are also placed at stamps of the truth so far apart or more, and the
+  /// states judged at them alone, without the ends, which clocks may move; zero:
+  /// at every node, each of which then needs truth [s].
+  double judged_every = 0.0;
+  double judged_to = std::numeric_limits<double>::infinity();  ///< [s]
+  /// Further values of every cell.
+  std::vector<std::pair<std::string, double>> values = {};
+  /// Gets Reconstruction::Innovations, none where nothing held; nullptr: not
+  /// asked for.
+  std::vector<NormalisedInnovation>* innovations = nullptr;
+  /// Ends of the legs into which the interval is divided [s], ascending.
+  std::vector<double> leg_ends = {};
+};
+
+inline constexpr std::size_t kCells = 0;
+inline constexpr std::size_t kConstants = 1;
+inline constexpr std::size_t kAgreement = 2;
+
+/// Every method on a recording. A judged node without truth is an InputError.
+///
+/// Values of a cell: seconds, nis_sum and nis_rows (over the residuals used),
+/// position_rms and position_max [m], heading_rms and attitude_rms [rad], over
+/// time; position_nees and attitude_nees (3 is right), their means over time;
+/// outside_5_sigma, share of times at which position or attitude lies beyond
+/// 5 sigmas of a component; constants_beyond_5_sigma, how many constants do;
+/// rule:NAME, 1 for each rule of the grade (evaluation/grade.h) that lowers it;
+/// end_horizontal [m]; states, dimension of the error.
+/// Series: position_n, _e, _d, truth less estimate [m]; yaw [rad]; nees,
+/// e'P^-1e of the whole error state.
+Trial NavigationTrialOf(const NavigationTrial& trial);
+
+/// The tables of such a study whose cases have these label columns.
+///   max_std_n, _e, _d    standard deviation over the runs, largest over time
+///   legI_max_std_*       the same of leg I; legI_anees
+///   end_std_*, yaw_std   at the last time; largest over time
+///   anees                mean over time and runs; right is `states`
+///   anees_outside        share of times outside of the two-sided 95 % bounds
+///   nis                  a row's mean; right is 1
+/// and root mean squares, percentiles, grades, failures, seconds.
+std::vector<StudyTable> NavigationTables(const std::vector<std::string>& labels,
+                                         const std::vector<double>& leg_ends);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_NAVIGATION_TRIAL_H_

@@ -1,0 +1,230 @@
+#include "problems/papers/observer_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "alignment/given.h"
+#include "base/error.h"
+#include "dataset/timeline_builder.h"
+#include "evaluation/statistics.h"
+#include "evaluation/true_states.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Prior AlignmentPrior(const Dataset& dataset, const ErrorLayout& layout) {
+  const InitialState& initial = dataset.initial;
+  Prior prior;
+  prior.x = MakeState(dataset.imu.t_begin(), initial.position.value(),
+                      initial.v_n.value(), initial.euler.value());
+  prior.x.b_g = initial.gyro_bias;
+  prior.x.b_a = initial.accel_bias;
+  prior.x.parameters = ParameterVector::Zero(0);
+  prior.P = layout.InitialCovariance();
+  const int attitude = layout.Find(BlockKind::kAttitude)->offset;
+  prior.P.block<3, 3>(attitude, attitude) =
+      AttitudeCovariance(*initial.euler, initial.attitude_sigma.value());
+  return prior;
+}
+
+/// Of the attitude along a tape: whether the run diverged and how it settled.
+RunValues JudgeAttitude(const LinearTape& tape, const std::vector<State>& truth,
+                        const ObserverLimits& limits) {
+  bool settled = true, diverged = false;
+  double t_settled = tape.epoch(0).t, tilt = 0.0, heading = 0.0;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    const State& x = tape.epoch(k).x_plus;
+    const double t = tape.epoch(k).t;
+    const Eigen::Matrix3d C_true =
+        truth[k].C_en().transpose() * truth[k].q_eb.toRotationMatrix();
+    const Eigen::Matrix3d C = x.C_en().transpose() * x.q_eb.toRotationMatrix();
+    tilt = std::atan2(C_true.row(2).cross(C.row(2)).norm(),
+                      C_true.row(2).dot(C.row(2)));
+    heading = std::abs(WrapAngle(truth[k].euler().z() - x.euler().z()));
+    const bool inside =
+        tilt <= limits.settled_tilt && heading <= limits.settled_heading;
+    if (inside && !settled) t_settled = t;
+    settled = inside;
+    diverged =
+        diverged ||
+        (t >= tape.back().t - limits.last &&
+         (tilt > limits.diverged_tilt || heading > limits.diverged_heading));
+  }
+  return {{"diverged", diverged ? 1.0 : 0.0},
+          {"escaped", 0.0},
+          {"converged", settled ? 1.0 : 0.0},
+          {"t_settled", settled ? t_settled : kInfinity},
+          {"tilt", tilt},
+          {"heading", heading}};
+}
+
+RunValues ValuesOf(const LyapunovFigures& v) {
+  return {{"v_first", v.v_first},
+          {"v_last", v.v_last},
+          {"v_largest", v.v_largest},
+          {"share_falling", v.share_falling},
+          {"share_falling_early", v.share_falling_early},
+          {"p_least", v.p_least},
+          {"p_largest", v.p_largest},
+          {"radius_first", v.radius_first},
+          {"radius_largest", v.radius_largest}};
+}
+
+Timeline TimelineOf(const Dataset& dataset) {
+  TimelineOptions options;
+  options.t_begin = dataset.imu.t_begin();
+  options.t_end = dataset.imu.t_end();
+  Timeline timeline = BuildTimeline(dataset, options);
+  const ImuCalibration calibration{dataset.initial.gyro_bias,
+                                   dataset.initial.accel_bias};
+  for (std::size_t k = 0; k + 1 < timeline.size(); ++k) {
+    timeline.Integrate(k, calibration);
+  }
+  return timeline;
+}
+
+}  // namespace
+
+ErrorLayout AlignmentLayout(const Dataset& dataset) {
+  const InitialState& initial = dataset.initial;
+  NavigationPrior prior;
+  prior.velocity_sigma = initial.velocity_sigma.value();
+  prior.attitude_sigma = initial.attitude_sigma.value();
+  prior.gyro_bias_sigma = initial.gyro_bias_sigma.value();
+  prior.accel_bias_sigma = initial.accel_bias_sigma.value();
+  prior.gyro_bias = dataset.imu.noise.GyroBiasEvolution();
+  prior.accel_bias = dataset.imu.noise.AccelBiasEvolution();
+  const ErrorLayout all = NavigationLayout(prior);
+  ErrorLayout layout;
+  for (const Block& block : all.blocks()) {
+    if (block.key.kind != BlockKind::kPosition) layout.Add(block);
+  }
+  return layout;
+}
+
+RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
+                      const ObserverLimits& limits, Timeline timeline) {
+  const ErrorLayout layout = AlignmentLayout(dataset);
+  Problem problem = {layout, AlignmentPrior(dataset, layout),
+                     std::move(timeline)};
+  try {
+    const LinearTape tape = RunForwardFilter(model, &problem);
+    std::vector<State> states;
+    states.reserve(tape.size());
+    for (std::size_t k = 0; k < tape.size(); ++k) {
+      states.push_back(tape.epoch(k).x_plus);
+    }
+    const std::vector<State> truth = TrueStates(dataset, layout, states);
+    RunValues values = JudgeAttitude(tape, truth, limits);
+    values.emplace_back("backed_off",
+                        static_cast<double>(tape.bound().back_offs) /
+                            static_cast<double>(tape.size() - 1));
+    values.emplace_back("least_information", tape.bound().least_information);
+    for (auto& value :
+         ValuesOf(AnalyseRun(tape, model, problem.timeline, truth))) {
+      values.push_back(std::move(value));
+    }
+    return values;
+  } catch (const FiniteEscape& escape) {
+    return {{"diverged", 1.0},       {"escaped", 1.0},
+            {"converged", 0.0},      {"t_settled", kInfinity},
+            {"tilt", kInfinity},     {"heading", kInfinity},
+            {"t_escape", escape.t()}};
+  }
+}
+
+namespace {
+
+/// Percentiles over the runs that have the value.
+Figure RankFigure(const std::string& name, Unit unit, const std::string& title,
+                  const char* format) {
+  return {name,
+          unit,
+          title,
+          format,
+          {{"50", name, OfRuns<Rank50>}, {"95", name, OfRuns<Rank95>}}};
+}
+
+Figure MeanShare(const std::string& name, const std::string& title) {
+  return Share(name, title, name, OfRuns<Mean>);
+}
+
+std::vector<Figure> OutcomeFigures() {
+  constexpr Unit kInSeconds = {"s", 1.0};
+  return {
+      MeanShare("diverged", "diverged\n[%]"),
+      MeanShare("escaped", "escaped\n[%]"),
+      Single("t_escape", kInSeconds, "escape\nat [s]", "{:.2f}",
+             OfRuns<Rank50>),
+      MeanShare("converged", "converged\n[%]"),
+      RankFigure("t_settled", kInSeconds, "settled after [s]\n50 %  95 %",
+                 "{:.1f}"),
+      RankFigure("tilt", kDegrees, "final tilt [deg]\n50 %  95 %", "{:.3f}"),
+      RankFigure("heading", kDegrees, "final heading [deg]\n50 %  95 %",
+                 "{:.3f}"),
+      MeanShare("backed_off", "backed\noff [%]"),
+      Single("least_information", kPlain, "least\ninform.", "{:.2g}",
+             OfRuns<Rank50>)};
+}
+
+std::vector<Figure> LyapunovTable() {
+  constexpr Reduce kMedian = OfRuns<Rank50>;
+  std::vector<Figure> figures = {{"v",
+                                  kPlain,
+                                  "V = e' P^-1 e\nfirst  largest  last",
+                                  "{:.3g}",
+                                  {{"first", "v_first", kMedian},
+                                   {"largest", "v_largest", kMedian},
+                                   {"last", "v_last", kMedian}}},
+                                 {"share_falling",
+                                  kPlain,
+                                  "V fell [%]\nfirst 30 s  all",
+                                  "{:.0f}",
+                                  {{"early", "share_falling_early", kMedian},
+                                   {"", "share_falling", kMedian}}},
+                                 {"p",
+                                  kPlain,
+                                  "eigenvalues of P\nleast  largest",
+                                  "{:.1e}",
+                                  {{"least", "p_least", OfRuns<Least>},
+                                   {"largest", "p_largest", OfRuns<Largest>}}},
+                                 {"radius",
+                                  kDegrees,
+                                  "radius [deg]\nfirst  largest",
+                                  "{:.1e}",
+                                  {{"first", "radius_first", kMedian},
+                                   {"largest", "radius_largest", kMedian}}}};
+  figures[1].factor = 100.0;
+  for (Figure& figure : figures) figure.part = 1;
+  return figures;
+}
+
+}  // namespace
+
+StudyTable ObserverTable(std::vector<std::string> labels) {
+  labels.insert(labels.end(), {"rule", "error"});
+  StudyTable table = {"cells", std::move(labels), {}, {}};
+  table.figures = OutcomeFigures();
+  for (Figure& figure : LyapunovTable()) table.figures.push_back(figure);
+  return table;
+}
+
+Trial ObserverTrial(const std::vector<ObserverModel>& models,
+                    const ObserverLimits& limits) {
+  return [=](const Dataset& dataset, CaseRun* run) {
+    const Timeline timeline = TimelineOf(dataset);
+    for (const ObserverModel& model : models) {
+      run->Try({model.rule, ErrorName(model.model.error)},
+               [&](RunRecord* record) {
+                 record->values =
+                     RunObserver(model.model, dataset, limits, timeline);
+               });
+    }
+  };
+}
+
+}  // namespace hindsight

@@ -1,0 +1,61 @@
+#ifndef HINDSIGHT_PROBLEMS_PAPERS_OBSERVER_COMPARISON_H_
+#define HINDSIGHT_PROBLEMS_PAPERS_OBSERVER_COMPARISON_H_
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "problems/montecarlo.h"
+#include "problems/papers/lyapunov.h"
+
+namespace hindsight {
+
+/// A forward filter to compare.
+struct ObserverModel {
+  std::string rule;  ///< as printed, with its parameters
+  ForwardModel model;
+};
+
+struct ObserverLimits {
+  double settled_tilt = 0.0;      ///< [rad]
+  double settled_heading = 0.0;   ///< [rad]
+  double diverged_tilt = 0.0;     ///< exceeded in the last ... [rad]
+  double diverged_heading = 0.0;  ///< ... or [rad]
+  double last = 0.0;              ///< ... so many seconds
+};
+
+/// Velocity, attitude and both biases, the position being known; a priori
+/// covariances and evolutions as the data set's initial values and IMU say. It
+/// must give velocity, attitude and their sigmas.
+ErrorLayout AlignmentLayout(const Dataset& dataset);
+
+/// Of one run, by name, as RunRecord has them.
+using RunValues = std::vector<std::pair<std::string, double>>;
+
+/// One filter on one recording: diverged, escaped, converged (0 or 1); t_settled
+/// [s], the first time from which tilt, the angle between true and estimated
+/// vertical, and heading, the difference of the Euler angles, stay inside the
+/// settled limits, infinite if they do not at the end; tilt and heading at the
+/// end [rad]; then t_escape [s], or backed_off, the share of the steps, and
+/// least_information (BoundRecord) and LyapunovFigures by their names.
+RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
+                      const ObserverLimits& limits, Timeline timeline);
+
+/// Every filter on a recording, whose nodes and preintegration are made once. A
+/// node without truth is an InputError.
+///
+/// Figures of a cell, the columns velocity, start, rule and error: shares
+/// diverged (escaped ones included), escaped and converged (settled at the
+/// end); t_escape, median of those; of t_settled, tilt and heading at the end
+/// the percentiles _50 and _95 over all runs, escaped ones counting as
+/// infinite; of the runs that did not escape the mean share of backed_off
+/// steps, the median of least_information, medians of LyapunovFigures, and
+/// extremes of the eigenvalues of P.
+Trial ObserverTrial(const std::vector<ObserverModel>& models,
+                    const ObserverLimits& limits);
+/// Of cases with these label columns.
+StudyTable ObserverTable(std::vector<std::string> labels);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_PAPERS_OBSERVER_COMPARISON_H_

@@ -1,0 +1,152 @@
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "alignment/gyro_drift.h"
+#include "dataset/magnetic_check.h"
+#include "dataset/repeated_readings.h"
+#include "evaluation/grade.h"
+#include "filters/heading_profile.h"
+#include "problems/clock_choice.h"
+#include "problems/disagreement.h"
+#include "problems/estimation.h"
+#include "problems/forward_stage.h"
+#include "problems/linearisation.h"
+#include "problems/method_stage.h"
+#include "problems/sample_solution.h"
+
+namespace hindsight {
+namespace {
+
+/// What the recording shows by itself, from the start to `to`.
+std::vector<Evidence> ExamineRecording(const Dataset& dataset,
+                                       const StartReport& start, double to) {
+  std::vector<Evidence> all = FindRepeatedReadings(dataset, start.t, to);
+  if (auto drift = FindGyroDrift(start, dataset.imu.noise)) {
+    all.push_back(*std::move(drift));
+  }
+  for (std::string& warning : CheckMagnetometers(dataset)) {
+    all.push_back({.rule = "magnetic_field",
+                   .grade = Grade::kDoubtful,
+                   .what = std::move(warning),
+                   .is_cause = true});
+  }
+  return all;
+}
+
+class TrajectoryEstimation final : public Estimation {
+ public:
+  TrajectoryEstimation(const Dataset& dataset,
+                       const ReconstructionOptions& options)
+      : clocks_(ChooseClocks(dataset, options)),
+        forward_(*clocks_.stage),
+        recording_(ExamineRecording(dataset, forward_.start().report,
+                                    forward_.options().to)) {}
+
+  Solution Run(const Method& method) override {
+    forward_.Run();
+    MethodStage stage(&forward_);
+    Solution solution = std::get<Method::OfTrajectory>(method.run)(&stage);
+    timelines_.erase(method.name);
+    if (auto own = stage.TakeTimeline()) {
+      timelines_.emplace(method.name, *std::move(own));
+    }
+    return Finish(method, stage, std::move(solution));
+  }
+
+  const StartReport* start() const override { return &forward_.start().report; }
+
+  std::vector<UnobservedSpan> Unobserved() override {
+    forward_.Run();
+    return forward_.unobserved();
+  }
+
+  std::vector<NormalisedInnovation> Innovations() override {
+    forward_.Run();
+    return forward_.fit().innovations;
+  }
+
+  Solution Sample(const Solution& solution,
+                  const std::vector<double>& times) const override {
+    const ReconstructionOptions& options = forward_.options();
+    const Method& method = MethodOf(solution.method);
+    const auto own = timelines_.find(solution.method);
+    const Timeline& timeline =
+        own != timelines_.end() ? own->second : forward_.timeline();
+    return SampleSolution(solution, timeline, forward_.dataset().imu, times,
+                          method.Has(MethodTrait::kHInfinity)
+                              ? options.h_infinity
+                          : method.Has(MethodTrait::kModifiedHInfinity)
+                              ? options.modified_h_infinity
+                              : CovarianceOptions());
+  }
+
+ private:
+  Solution Finish(const Method& method, const MethodStage& stage,
+                  Solution solution) {
+    solution.method = method.name;
+    solution.forward = method.Has(MethodTrait::kForward);
+    solution.rivals = clocks_.rivals;
+    if (forward_.turned_round()) {
+      solution.rivals.push_back(*forward_.turned_round());
+      SetProbabilities(&solution.rivals);
+    }
+    const Start& start = forward_.start();
+    if (!solution.observer) {
+      WidenHeading(solution.layout, stage.heading_credit(),
+                   &solution.covariances);
+    }
+    Conclude(
+        {.solution = solution,
+         .sensors = forward_.timeline().sensors(),
+         .start = StartValues{.x = start.prior.x,
+                              .P = start.prior.P,
+                              .given = forward_.dataset().initial,
+                              .position = start.report.position,
+                              .alignment = start.report.alignment},
+         .linearisation =
+             method.Has(MethodTrait::kLinearisesOnce)
+                 ? LinearisationErrorOf(solution, forward_.relinearised())
+                 : std::nullopt,
+         .innovations = stage.fit().figures,
+         .explanations = stage.fit().explanations,
+         .agreement = stage.fit().agreement,
+         .contradiction =
+             stage.fit().contradiction ? &*stage.fit().contradiction : nullptr,
+         .constants = stage.fit().constants,
+         .unsettled = stage.unsettled(),
+         .recording = recording_,
+         .disagreement = DisagreementOf(method, solution)},
+        forward_.unobserved(), &solution);
+    return solution;
+  }
+
+  /// With a robust loss the two do not minimise the same cost.
+  std::optional<Evidence> DisagreementOf(const Method& method,
+                                         const Solution& solution) {
+    if (!method.Has(MethodTrait::kFindsOptimum)) return std::nullopt;
+    for (const Sensor& sensor : forward_.timeline().sensors()) {
+      if (sensor.loss.kind != RobustLoss::Kind::kNone) return std::nullopt;
+    }
+    return optima_.Compare(method.name, solution);
+  }
+
+  ClockChoice clocks_;
+  ForwardStage& forward_;
+  std::vector<Evidence> recording_;  ///< what it shows by itself
+  OptimumComparison optima_;
+  /// Of methods that did not stay on the forward stage's, by name.
+  std::map<std::string, Timeline> timelines_;
+};
+
+}  // namespace
+
+std::unique_ptr<Estimation> MakeTrajectoryEstimation(
+    const Dataset& dataset, const ReconstructionOptions& options) {
+  return std::make_unique<TrajectoryEstimation>(dataset, options);
+}
+
+}  // namespace hindsight

@@ -1,0 +1,44 @@
+#include "app/grades_study.h"
+
+#include <string>
+#include <vector>
+
+#include "app/flags.h"
+#include "app/study_cases.h"
+#include "io/config/fault_config.h"
+#include "problems/grade_trial.h"
+#include "problems/navigation_trial.h"
+
+namespace hindsight {
+
+Study GradesStudy() {
+  if (IsGiven("faults") && FLAGS_faults.empty()) {
+    throw UsageError("--faults: expected a file");
+  }
+  const FaultCases cases =
+      IsGiven("faults") ? LoadFaultCases(FLAGS_faults) : BuiltinFaultCases();
+  const std::vector<std::string> methods =
+      IsGiven("methods")
+          ? AskedMethods()
+          : std::vector<std::string>{"ekf", "two_filter", "rts", "batch"};
+  Study study = {"", {}, GradeTables(), {}};
+  for (const std::string& name : cases.scenarios) {
+    const Scenario scenario = FindScenario(name, {});
+    std::vector<FaultyTwin> twins;
+    const Dataset sample = RecordingOf(scenario)(0);
+    for (const SizedFault& sized : cases.faults) {
+      if (!HasPlaceFor(sized.fault, sample)) continue;
+      twins.push_back({sized.name, sized.size,
+                       [fault = sized.fault](std::uint64_t seed, Dataset* d) {
+                         ApplyFault(fault, seed, d);
+                       }});
+    }
+    study.jobs.push_back(JobOf(
+        {{{scenario.name},
+          [scenario] { return RecordingOf(scenario); },
+          GradeTrial({.methods = methods, .judged_every = 1.0}, twins)}}));
+  }
+  return study;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,28 @@
+#include "app/input_digests.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace hindsight {
+namespace {
+
+std::vector<FileDigest> DigestsOf(
+    const std::vector<std::filesystem::path>& inputs) {
+  std::vector<FileDigest> digests;
+  for (const std::filesystem::path& input : inputs) {
+    const bool known = std::any_of(
+        digests.begin(), digests.end(),
+        [&](const FileDigest& one) { return one.path == input.string(); });
+    if (!known) digests.push_back(DigestOf(input));
+  }
+  return digests;
+}
+
+}  // namespace
+
+InputDigests::InputDigests(std::vector<std::filesystem::path> inputs)
+    : digests_(std::async(std::launch::async, [inputs = std::move(inputs)] {
+        return DigestsOf(inputs);
+      })) {}
+
+}  // namespace hindsight

@@ -1,0 +1,40 @@
+#ifndef HINDSIGHT_APP_STUDIES_H_
+#define HINDSIGHT_APP_STUDIES_H_
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+#include "problems/montecarlo.h"
+#include "problems/papers/observer_comparison.h"
+
+namespace hindsight {
+
+/// A Monte Carlo comparison that comes with the program.
+struct NamedStudy {
+  std::string name;
+  std::string help;  ///< one or more lines
+  /// As the flags ask for. Throws UsageError for those that do not fit, before
+  /// it computes anything.
+  std::function<Study()> make;
+  /// The flags of its own, with underscores for dashes.
+  std::vector<std::string> flags = {};
+  std::uint64_t default_runs = 100;
+};
+
+/// All of them.
+const std::vector<NamedStudy>& NamedStudies();
+
+/// Any scenarios that `simulate` takes, by the methods of --methods; a job
+/// each. Two of one name are one case.
+Study ScenarioStudy(const std::vector<std::string>& names_or_paths);
+
+/// Of --rules with their parameters, each with every definition of --error.
+/// Throws UsageError.
+std::vector<ObserverModel> ReadObserverModels();
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_APP_STUDIES_H_

@@ -1,0 +1,38 @@
+#ifndef HINDSIGHT_APP_STUDY_REPORT_H_
+#define HINDSIGHT_APP_STUDY_REPORT_H_
+
+#include <string>
+#include <vector>
+
+#include "app/result_folder.h"
+#include "problems/montecarlo.h"
+
+namespace hindsight {
+
+/// Name of the file with the figures of a Monte Carlo comparison.
+inline constexpr char kMonteCarloJson[] = "montecarlo.json";
+
+/// The tables of a study for a terminal: a row a case and method. Tables of
+/// constants and the like that are long are left to their files.
+std::string StudyText(const Study& study, const StudyResult& result);
+
+/// The files of a result, complete or not, montecarlo.json first:
+///   {"scenario", settings, "complete", "runs", "runs_asked", "first_seed",
+///    "refused" (where data were: a line each), TABLE: [{labels, "runs", figures}]}
+/// with TABLE "cells" and what else the study has ("constants", "agreement"); a
+/// row a case and method, its labels by column, its figures by name, component
+/// and unit ("end_std_n_m"); one that is infinite or does not exist is absent.
+/// Figures are of the first `runs` seeds; complete is false if fewer than asked
+/// were finished or not all cases are there.
+///   TABLE.csv   the same figures but processor times, a row a case and method
+///   runs.csv    the long table: a row a case, method and seed with grade,
+///               failed and every value of the run, SI
+///   curves.csv  figures against time, of studies that have them
+/// The CSVs are the same to the last byte whatever the number of threads.
+std::vector<OutputFile> StudyFiles(const Study& study,
+                                   const StudyResult& result,
+                                   const MonteCarloOptions& options);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_APP_STUDY_REPORT_H_

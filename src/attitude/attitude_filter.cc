@@ -1,0 +1,281 @@
+#include "attitude/attitude_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "earth/wgs84.h"
+#include "geometry/so3.h"
+#include "imu/rotation_summary.h"
+#include "measurements/tilt.h"
+
+namespace hindsight {
+
+AttitudePlace PlaceOnEarth(const Eigen::Vector3d& p_e) {
+  return {p_e, Gravity(p_e).norm(), NedAxes(p_e).transpose() * EarthRate_e()};
+}
+
+ErrorLayout AttitudeLayout(const ImuNoise& noise, const AttitudeState& start) {
+  ErrorLayout layout;
+  Block attitude;
+  attitude.key = {BlockKind::kAttitude};
+  attitude.name = "attitude";
+  attitude.unit = "rad";
+  attitude.evolution = Evolution::Navigation();
+  attitude.sigma0 = start.P.diagonal().head<3>().cwiseSqrt();
+  layout.Add(attitude);
+  Block bias;
+  bias.key = {BlockKind::kGyroBias};
+  bias.name = "gyro_bias";
+  bias.unit = "rad/s";
+  bias.evolution = noise.GyroBiasEvolution();
+  bias.sigma0 = start.P.diagonal().segment<3>(3).cwiseSqrt();
+  layout.Add(bias);
+  Block scale;
+  scale.key = {BlockKind::kGyroScale};
+  scale.name = "gyro_scale";
+  scale.unit = "1";
+  scale.evolution = Evolution::Constant();
+  scale.sigma0 = start.P.diagonal().tail<3>().cwiseSqrt();
+  layout.Add(scale);
+  return layout;
+}
+
+namespace {
+
+/// Variance of the mean of `count` readings within dt, in that of one, if their
+/// errors go on for `time`.
+double Inflation(double time, double dt, int count) {
+  return std::max(1.0 / count, dt > 0.0 ? time / dt : 0.0);
+}
+
+}  // namespace
+
+AttitudeFilter::AttitudeFilter(const AttitudeFilterOptions& options,
+                               const ImuNoise& noise,
+                               const AttitudeState& start,
+                               double sample_interval)
+    : options_(options),
+      noise_(noise),
+      bias_evolution_(noise.GyroBiasEvolution()),
+      rule_(MakeAccelerometerRule(options.rule)),
+      reference_(options.reference),
+      q_ni_(start.q_nb),
+      q_ib_(Eigen::Quaterniond::Identity()),
+      C_ib_(Eigen::Matrix3d::Identity()),
+      t_(start.t),
+      b_g_(start.b_g),
+      s_g_(start.s_g),
+      P_(start.P),
+      dt_(std::max(sample_interval, options.update_interval)),
+      field_t_(start.t) {
+  if (options.low_pass_tau > 0.0) {
+    low_pass_.emplace(options.low_pass_tau, sample_interval);
+  }
+}
+
+void AttitudeFilter::Turn(double dt, const Eigen::Vector3d& w0,
+                          const Eigen::Vector3d& w1) {
+  const Eigen::Vector3d unscale = (1.0 + s_g_.array()).inverse().matrix();
+  const RotationSummary summary = SummarizeRotation(
+      noise_, dt, unscale.cwiseProduct(w0 - b_g_),
+      unscale.cwiseProduct(w1 - b_g_), Eigen::Vector3d::Zero());
+  const Eigen::Matrix3d C_before = C_ib_;
+  if (resting_) {
+    const Eigen::Vector3d earth_b =
+        C_ib_.transpose() * (q_ni_.conjugate() * options_.place.w_ie_n);
+    q_ib_ = q_ib_ * Exp(dt * earth_b);
+    turned_.rest_w += w1;
+    ++turned_.resting;
+  } else {
+    q_ib_ = q_ib_ * Exp(summary.phi);
+  }
+  q_ib_.coeffs() *= 1.5 - 0.5 * q_ib_.squaredNorm();
+  C_ib_ = q_ib_.toRotationMatrix();
+  if (!resting_) {
+    const Eigen::Matrix3d C = 0.5 * turned_.phi * (C_before + C_ib_);
+    turned_.A.noalias() -= dt * C;
+    turned_.S.noalias() -= C * summary.phi.asDiagonal();
+    turned_.angle += summary.phi.norm();
+  }
+  turned_.q_attitude += summary.variance;
+  turned_.dt += dt;
+  ++turned_.samples;
+  if (bias_evolution_.kind == Evolution::Kind::kGaussMarkov) {
+    const double phi = bias_evolution_.Phi(dt);
+    turned_.phi *= phi;
+    b_g_ *= phi;
+  }
+  t_ += dt;
+}
+
+void AttitudeFilter::Predict() {
+  predicted_ = turned_;
+  turned_ = Interval();
+  if (predicted_.samples == 0) return;
+  dt_ = predicted_.dt;
+  predicted_.q_bias = bias_evolution_.Q(dt_);
+  if (!options_.place.w_ie_n.isZero(0.0)) {
+    q_ni_ = Exp(-dt_ * options_.place.w_ie_n) * q_ni_;
+  }
+  const Eigen::Matrix3d C_ni = q_ni_.toRotationMatrix();
+  Eigen::Matrix<double, 3, 6> A;  // d psi / d (b_g, s_g)
+  A << C_ni * predicted_.A, C_ni * predicted_.S;
+  predicted_.A = A.leftCols<3>();
+  predicted_.S = A.rightCols<3>();
+
+  const double phi = predicted_.phi;
+  const Eigen::Matrix<double, 6, 6> P_cc = P_.bottomRightCorner<6, 6>();
+  const Eigen::Matrix<double, 3, 6> P_ac = P_.topRightCorner<3, 6>();
+  const Eigen::Matrix<double, 3, 6> AP_cc = A * P_cc;
+  const Eigen::Matrix3d AP_ca = A * P_ac.transpose();
+  P_.topLeftCorner<3, 3>() += AP_ca + AP_ca.transpose() + AP_cc * A.transpose();
+  P_.topRightCorner<3, 6>() = P_ac + AP_cc;
+  if (phi != 1.0) {
+    P_.middleCols<3>(3) *= phi;
+    P_.middleRows<3>(3) *= phi;
+  }
+  P_.bottomLeftCorner<6, 3>() = P_.topRightCorner<3, 6>().transpose();
+  P_.diagonal().head<3>().array() += predicted_.q_attitude;
+  P_.diagonal().segment<3>(3).array() += predicted_.q_bias;
+}
+
+void AttitudeFilter::FillTransition(Transition* out) const {
+  constexpr int n = AttitudeState::kDim;
+  out->Phi.setIdentity(n, n);
+  out->Phi.block<3, 3>(0, 3) = predicted_.A;
+  out->Phi.block<3, 3>(0, 6) = predicted_.S;
+  out->Phi.diagonal().segment<3>(3).setConstant(predicted_.phi);
+  out->Q.setZero(n, n);
+  out->Q.diagonal().head<3>().setConstant(predicted_.q_attitude);
+  out->Q.diagonal().segment<3>(3).setConstant(predicted_.q_bias);
+}
+
+void AttitudeFilter::ApplyGain(const Vector& PHt, double S, double innovation) {
+  const Vector K = PHt / S;
+  dx_ += innovation * K;
+  P_.noalias() -= K * PHt.transpose();
+}
+
+void AttitudeFilter::UpdateComponent(int i, double h, double residual,
+                                     double R) {
+  const Vector PHt = h * P_.col(i);
+  ApplyGain(PHt, h * PHt(i) + R, residual - h * dx_(i));
+}
+
+void AttitudeFilter::UpdateAttitude(const Eigen::Vector3d& h, double residual,
+                                    double R) {
+  const Vector PHt = P_.leftCols<3>() * h;
+  ApplyGain(PHt, h.dot(PHt.head<3>()) + R, residual - h.dot(dx_.head<3>()));
+}
+
+void AttitudeFilter::AddForce(const Eigen::Vector3d& f_b) {
+  f_i_ = C_ib_ * f_b;
+  if (low_pass_) f_i_ = low_pass_->Filter(f_i_);
+  const double s = std::abs(f_i_.norm() - options_.place.gravity);
+  force_variance_ =
+      std::visit([s](auto& rule) { return rule.Variance(s); }, rule_);
+}
+
+void AttitudeFilter::UseAccelerometer() {
+  const double R =
+      force_variance_ * Inflation(options_.accel_correlation_time, dt_, 1);
+  verdict_.accel_variance = R;
+  if (!std::isfinite(R)) return;
+  const double g = options_.place.gravity;
+  const Eigen::Vector3d residual = q_ni_ * f_i_ - ForceAtRest_n(g);
+  const Eigen::Matrix3d H = ForceAtRestByPsi_n(g);
+  for (int row = 0; row < 2; ++row) {
+    UpdateAttitude(H.row(row), residual(row), R);
+  }
+}
+
+void AttitudeFilter::AddField(const MagneticSample& reading) {
+  field_.sum_i += reading.weight * (C_ib_ * reading.field_b);
+  field_.weight += reading.weight;
+  ++field_.count;
+  field_.t = reading.t;
+}
+
+void AttitudeFilter::UseMagnetometer() {
+  verdict_.magnetic_used = false;
+  verdict_.magnetic_disturbed = false;
+  if (field_.count == 0) return;
+  const FieldMean field = field_;
+  field_ = FieldMean();
+  const double dt = field.t - field_t_;
+  field_t_ = field.t;
+  verdict_.magnetic_disturbed = field.weight <= 0.0;
+  if (verdict_.magnetic_disturbed) return;
+  const Eigen::Vector3d u_n = q_ni_ * (field.sum_i / field.weight);
+  const double norm = u_n.norm();
+  const double dip = std::atan2(u_n.z(), u_n.head<2>().norm());
+  const double rate = predicted_.dt > 0.0 ? predicted_.angle / dt_ : 0.0;
+  verdict_.magnetic_disturbed = !reference_.Accept(dt, norm, dip, rate);
+  if (verdict_.magnetic_disturbed) return;
+  verdict_.magnetic_used = true;
+  const double R =
+      options_.magnetic_sigma * options_.magnetic_sigma * field.count /
+      field.weight *
+      Inflation(options_.magnetic_correlation_time, dt, field.count);
+  MagneticSurroundings magnetic = options_.magnetic;
+  if (reference_.is_known()) {
+    magnetic.horizontal = reference_.norm() * std::cos(reference_.dip());
+    magnetic.down = reference_.norm() * std::sin(reference_.dip());
+  }
+  const Eigen::Vector3d m_n = UndisturbedField(magnetic, magnetic.declination);
+  if (options_.magnetic_form == MagneticField::Form::kVector) {
+    const Eigen::Matrix3d H = Skew(m_n);
+    const Eigen::Vector3d residual = u_n - m_n;
+    for (int row = 0; row < 3; ++row) {
+      UpdateAttitude(H.row(row), residual(row), R);
+    }
+    return;
+  }
+  const double R_azimuth = R / HorizontalSquare(u_n);
+  const double azimuth = std::atan2(u_n.y(), u_n.x());
+  const double residual =
+      std::remainder(magnetic.declination - azimuth, 2.0 * kPi);
+  if (options_.decouple_heading) {
+    UpdateComponent(2, 1.0, residual, R_azimuth);
+  } else {
+    UpdateAttitude(AzimuthByPsi(u_n), residual, R_azimuth);
+  }
+}
+
+bool AttitudeFilter::ExplainsAsBias(const Eigen::Vector3d& w) const {
+  constexpr double kSigmas = 3.0;
+  constexpr double kLeast = 2e-3;  // of a low-passed rate [rad/s]
+  const Eigen::Vector3d earth_b =
+      (q_ni_ * q_ib_).conjugate() * options_.place.w_ie_n;
+  const Eigen::Vector3d sigma =
+      (P_.diagonal().segment<3>(3).array() + kLeast * kLeast).sqrt();
+  return ((w - earth_b - b_g_).cwiseAbs().array() < kSigmas * sigma.array())
+      .all();
+}
+
+void AttitudeFilter::UseRest() {
+  if (predicted_.resting == 0) return;
+  const Eigen::Vector3d w = predicted_.rest_w / predicted_.resting;
+  const Eigen::Vector3d earth_b =
+      (q_ni_ * q_ib_).conjugate() * options_.place.w_ie_n;
+  const double R =
+      options_.rest_sigma * options_.rest_sigma / predicted_.resting;
+  for (int i = 0; i < 3; ++i) {
+    UpdateComponent(3 + i, 1.0, w(i) - earth_b(i) - b_g_(i), R);
+  }
+}
+
+void AttitudeFilter::Reset() {
+  q_ni_ = Exp(dx_.head<3>()) * q_ni_;
+  q_ni_.coeffs() *= 1.5 - 0.5 * q_ni_.squaredNorm();
+  b_g_ += dx_.segment<3>(3);
+  s_g_ += dx_.tail<3>();
+  dx_.setZero();
+}
+
+AttitudeState AttitudeFilter::state() const {
+  return {t_, q_ni_ * q_ib_, b_g_, s_g_, P_};
+}
+
+}  // namespace hindsight

@@ -1,0 +1,212 @@
+#ifndef HINDSIGHT_ATTITUDE_ATTITUDE_FILTER_H_
+#define HINDSIGHT_ATTITUDE_ATTITUDE_FILTER_H_
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "attitude/accelerometer_rule.h"
+#include "attitude/inertial_low_pass.h"
+#include "attitude/magnetic_reference.h"
+#include "imu/imu_link.h"
+#include "imu/imu_stream.h"
+#include "measurements/magnetic_field.h"
+
+namespace hindsight {
+
+/// Where an attitude is estimated. Without a place gravity is the standard one
+/// and the Earth does not turn.
+struct AttitudePlace {
+  /// Without a place it only gives the NED axes a meaning: 45 deg north, where
+  /// gravity is the standard one to 5e-5.
+  Eigen::Vector3d p_e{4517590.87885, 0.0, 4487348.40887};
+  double gravity = 9.80665;                          ///< [m/s^2]
+  Eigen::Vector3d w_ie_n = Eigen::Vector3d::Zero();  ///< [rad/s]
+};
+/// Gravity and Earth rate at p_e.
+AttitudePlace PlaceOnEarth(const Eigen::Vector3d& p_e);
+
+/// One reading of a magnetometer in body axes, its own hard iron removed.
+struct MagneticSample {
+  double t = 0.0;  ///< [s], clock offset applied
+  Eigen::Vector3d field_b = Eigen::Vector3d::Zero();  ///< [uT]
+  /// Divides the variance; 0 makes the reading a disturbed one.
+  double weight = 1.0;
+};
+
+struct AttitudeFilterOptions {
+  AttitudePlace place;
+  AccelerometerRuleOptions rule;
+  /// Time constant of the accelerometer's low-pass in the quasi-inertial frame
+  /// [s]; 0: the readings as they are. The rule then judges the filtered
+  /// reading, whose sigma is that of one sample all the same.
+  double low_pass_tau = 0.0;
+  /// Of the magnetometer, per axis [uT].
+  double magnetic_sigma = 1.0;
+  /// Times over which the errors of accelerometer and magnetometer go on [s]:
+  /// of samples dt apart each counts as dt / time of one, its variance is that
+  /// of the rule, or sigma^2, times max(1, time / dt). 0: white.
+  double accel_correlation_time = 0.0;
+  double magnetic_correlation_time = 0.0;
+  /// Between updates of the filter [s], 0: every sample. What lies closer
+  /// together than a small part of those times says the same twice.
+  double update_interval = 0.0;
+  MagneticField::Form magnetic_form = MagneticField::Form::kHeading;
+  /// The heading corrects heading (and what is correlated with it) alone: a
+  /// disturbed field cannot tilt the horizon.
+  bool decouple_heading = true;
+  /// Of the vector form until the reference is learned; always the declination.
+  MagneticSurroundings magnetic;
+  MagneticReferenceOptions reference;
+  /// Of one sample of the gyros at rest as a reading of their bias [rad/s]; 0:
+  /// rest is no knowledge.
+  double rest_sigma = 0.0;
+  /// Whether the body rests from each sample to the next; absent: where
+  /// RestDetector, which knows nothing later, finds it.
+  std::optional<std::vector<bool>> rests;
+};
+
+/// Mean and covariance of (attitude psi [rad, NED], gyro bias [rad/s], gyro
+/// scale factors [1]: measured = (1 + s) true + b, per body axis).
+struct AttitudeState {
+  static constexpr int kDim = 9;
+  using Matrix = Eigen::Matrix<double, kDim, kDim>;
+  double t = 0.0;
+  Eigen::Quaterniond q_nb = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d b_g = Eigen::Vector3d::Zero();
+  Eigen::Vector3d s_g = Eigen::Vector3d::Zero();
+  Matrix P = Matrix::Zero();
+};
+
+/// What became of the readings of one update.
+struct AttitudeVerdict {
+  double accel_variance = 0.0;  ///< R in force [m^2/s^4]; infinity: not used
+  bool magnetic_used = false;
+  bool magnetic_disturbed = false;
+};
+
+/// The layout {attitude, gyro bias, gyro scale}.
+ErrorLayout AttitudeLayout(const ImuNoise& noise, const AttitudeState& start);
+
+/// The forward filter of the layout {attitude, gyro bias, gyro scale}: the
+/// error-state extended Kalman filter of filters/forward_filter.h, in the same
+/// tangent (C_nb = Exp(psi) C^_nb), with every matrix of fixed size. The
+/// attitude follows every sample (Turn, and the readings with it); covariance
+/// and updates come once an interval (Predict, then the Use functions, then
+/// Reset), which may be of one sample. Time update, summed over the
+/// RotationSummaries of the interval:
+///   psi' = psi - C_nb dt (db_g + diag(w) ds_g) + noise,   db_g' = db_g + walk,
+///   ds_g' = ds_g.
+/// While the body is known to rest it does not turn over the Earth, whatever
+/// the gyros read, but for their white noise, and what they read is their bias:
+///   psi' = psi + noise,   w_ib = C_bn w_ie + b_g + noise.
+/// Measurements are those of measurements/tilt.h, magnetic_field.h and
+/// stationary.h; their noise is isotropic, so they are resolved in n and used
+/// row by row:
+///   C_nb f_b = -g e_D,   rows north and east of -g [e_D x] psi,
+///   C_nb m_b = m_n,      rows of [m_n x] psi, or the azimuth alone, whose
+///                        variance is by the horizontal part that is read.
+/// Neglected against the general filter: w_ie x psi over one sample, what a
+/// reading at rest tells of attitude and scale factor by the Earth's rate in
+/// it, and the transport of P over corrections (all below 1e-3 of P for
+/// corrections of 1 mrad).
+class AttitudeFilter {
+ public:
+  AttitudeFilter(const AttitudeFilterOptions& options, const ImuNoise& noise,
+                 const AttitudeState& start, double sample_interval);
+
+  /// Turns through `dt` with rates linear from w0 to w1 [rad/s].
+  void Turn(double dt, const Eigen::Vector3d& w0, const Eigen::Vector3d& w1);
+  /// Low-pass and rule see the specific force at the current time [m/s^2].
+  void AddForce(const Eigen::Vector3d& f_b);
+  /// A reading taken at time t [s], turned to the current one; those of an
+  /// interval are averaged in axes that do not turn.
+  void AddField(const MagneticSample& reading);
+  /// Whether the body rests from now on.
+  void SetResting(bool resting) { resting_ = resting; }
+  /// Whether the rate is one that the gyro bias explains, to three sigmas.
+  bool ExplainsAsBias(const Eigen::Vector3d& w) const;
+
+  /// Time update of the covariance over the turns since the last one.
+  void Predict();
+  /// Uses the force as last added.
+  void UseAccelerometer();
+  /// Uses the field of the interval, if there was a reading.
+  void UseMagnetometer();
+  /// Uses the rates that were read at rest since the last update.
+  void UseRest();
+  /// Moves the corrections into the state. To be called after the updates.
+  void Reset();
+
+  AttitudeState state() const;
+  const Eigen::Vector3d& gyro_bias() const { return b_g_; }
+  /// Verdict on the last update.
+  const AttitudeVerdict& verdict() const { return verdict_; }
+  /// Transition and noise of the last Predict.
+  void FillTransition(Transition* out) const;
+  const Eigen::Matrix<double, AttitudeState::kDim, 1>& dx() const {
+    return dx_;
+  }
+  const AttitudeState::Matrix& P() const { return P_; }
+
+ private:
+  using Vector = Eigen::Matrix<double, AttitudeState::kDim, 1>;
+  using Matrix = AttitudeState::Matrix;
+
+  /// Scalar update with H = h on component `i`, residual about the nominal.
+  void UpdateComponent(int i, double h, double residual, double R);
+  /// Scalar update with H = h' on the attitude.
+  void UpdateAttitude(const Eigen::Vector3d& h, double residual, double R);
+  void ApplyGain(const Vector& PHt, double S, double innovation);
+
+  /// Sums over the turns since the last Predict.
+  struct Interval {
+    double dt = 0.0;                              ///< [s]
+    double phi = 1.0;                             ///< of the gyro bias
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();  ///< d psi / d b_g
+    Eigen::Matrix3d S = Eigen::Matrix3d::Zero();  ///< d psi / d s_g
+    double q_attitude = 0.0;
+    double q_bias = 0.0;
+    int samples = 0;
+    double angle = 0.0;                                ///< [rad]
+    Eigen::Vector3d rest_w = Eigen::Vector3d::Zero();  ///< sum at rest [rad/s]
+    int resting = 0;                                   ///< samples at rest
+  };
+  /// Readings of the field since the last update.
+  struct FieldMean {
+    Eigen::Vector3d sum_i = Eigen::Vector3d::Zero();  ///< weighed [uT]
+    double weight = 0.0;                              ///< sum
+    int count = 0;
+    double t = 0.0;  ///< of the last [s]
+  };
+
+  const AttitudeFilterOptions& options_;
+  const ImuNoise& noise_;
+  Evolution bias_evolution_;
+  AccelerometerRule rule_;
+  MagneticReference reference_;
+  std::optional<InertialLowPass> low_pass_;
+  /// q_nb = q_ni q_ib: i turns with nothing but the gyros' integral, and the
+  /// corrections move n to it.
+  Eigen::Quaterniond q_ni_, q_ib_;
+  Eigen::Matrix3d C_ib_;
+  double t_;
+  Eigen::Vector3d b_g_;
+  Eigen::Vector3d s_g_;
+  Matrix P_;
+  Vector dx_ = Vector::Zero();
+  Interval turned_;     ///< since the last Predict
+  Interval predicted_;  ///< of the last Predict
+  double dt_;           ///< between updates [s]
+  Eigen::Vector3d f_i_ = Eigen::Vector3d::Zero();
+  double force_variance_ = 0.0;  ///< of f_i_, by the rule alone [m^2/s^4]
+  FieldMean field_;
+  double field_t_;  ///< of the last reading used [s]
+  bool resting_ = false;
+  AttitudeVerdict verdict_;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_ATTITUDE_ATTITUDE_FILTER_H_

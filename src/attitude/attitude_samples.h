@@ -1,0 +1,36 @@
+#ifndef HINDSIGHT_ATTITUDE_ATTITUDE_SAMPLES_H_
+#define HINDSIGHT_ATTITUDE_ATTITUDE_SAMPLES_H_
+
+#include <vector>
+
+#include "imu/imu_stream.h"
+#include "state/solution.h"
+
+namespace hindsight {
+
+/// Attitudes at every IMU sample from those of nodes, of which the first and
+/// the last enclose the samples: turned by the gyros from the node before, with
+/// what they miss of the node after spread evenly over the interval. Gyro bias
+/// of the node before, covariances of the nearer one, reduced to `layout`,
+/// which is {attitude, gyro bias}.
+Solution NodesAtSamples(const Solution& nodes, const ImuStream& imu,
+                        const ErrorLayout& layout);
+
+/// Attitudes at other times: the state at the sample before, turned by the rate
+/// of that sample. Nothing later enters, so a causal solution stays causal.
+Solution SampleAttitude(const Solution& solution, const ImuStream& imu,
+                        const std::vector<double>& times);
+
+/// Specific force in n of every sample, low-passed forwards and backwards with
+/// `tau` [s] in axes that do not turn (IFLP, Laidig and Seel 2023): what a hand
+/// accelerates falls out, gravity stays, and nothing lags. A swing whose period
+/// is not short against tau does not fall out: its acceleration goes with the
+/// angle, as the error of a scale factor does. `q_nb` is the attitude at every
+/// sample.
+std::vector<Eigen::Vector3d> AveragedForce(
+    const ImuStream& imu, const std::vector<Eigen::Quaterniond>& q_nb,
+    double tau);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_ATTITUDE_ATTITUDE_SAMPLES_H_

@@ -1,0 +1,234 @@
+#include "evaluation/run_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/chi_square.h"
+#include "evaluation/statistics.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kSameTime = 1e-6;  // [s]
+
+/// Indices of the times of `one` that are among `common`, which is cut down to
+/// those found.
+std::vector<std::size_t> MatchTimes(const std::vector<double>& one,
+                                    std::vector<double>* common) {
+  std::vector<std::size_t> index;
+  std::vector<double> found;
+  std::size_t i = 0;
+  for (const double t : *common) {
+    while (i < one.size() && one[i] < t - kSameTime) ++i;
+    if (i == one.size() || one[i] > t + kSameTime) continue;
+    index.push_back(i);
+    found.push_back(t);
+  }
+  *common = std::move(found);
+  return index;
+}
+
+Interval BoundsOf(const RunCell& cell) {
+  constexpr double kConfidence = 0.95;
+  const std::vector<double> states = cell.Values("states");
+  if (states.empty()) return {std::nan(""), std::nan("")};
+  return AneesBounds(cell.answered(),
+                     static_cast<int>(std::lround(states.front())),
+                     kConfidence);
+}
+
+template <std::size_t grade>
+double CountGrade(const RunCell& cell, const std::string&, const TimeRange&) {
+  return cell.grades()[grade];
+}
+
+}  // namespace
+
+RunCell::RunCell(std::vector<const RunRecord*> records)
+    : all_(std::move(records)) {
+  for (const RunRecord* record : all_) {
+    if (record->answered) answered_.push_back(record);
+  }
+  if (answered_.empty()) return;
+  t_ = answered_.front()->t;
+  for (const RunRecord* record : answered_) MatchTimes(record->t, &t_);
+  for (const RunRecord* record : answered_) {
+    std::vector<double> all = t_;
+    index_.push_back(MatchTimes(record->t, &all));
+  }
+}
+
+int RunCell::failed() const {
+  return static_cast<int>(
+      std::count_if(all_.begin(), all_.end(),
+                    [](const RunRecord* record) { return record->failed; }));
+}
+
+std::array<int, 3> RunCell::grades() const {
+  std::array<int, 3> counts = {};
+  for (const RunRecord* record : all_) {
+    if (record->grade) ++counts[static_cast<std::size_t>(*record->grade)];
+  }
+  return counts;
+}
+
+std::vector<double> RunCell::Values(const std::string& name) const {
+  std::vector<double> out;
+  for (const RunRecord* record : answered_) {
+    for (const auto& [key, value] : record->values) {
+      if (key == name) out.push_back(value);
+    }
+  }
+  return out;
+}
+
+std::vector<double> RunCell::Pooled(const std::string& name,
+                                    const TimeRange& range) const {
+  std::vector<double> out;
+  for (const RunRecord* record : answered_) {
+    const auto series = record->series.find(name);
+    if (series == record->series.end()) continue;
+    for (std::size_t k = 0; k < record->t.size(); ++k) {
+      if (record->t[k] < range.from || record->t[k] > range.to) continue;
+      out.push_back(series->second[k]);
+    }
+  }
+  return out;
+}
+
+std::vector<double> RunCell::Curve(const std::string& name,
+                                   Statistic over_runs) const {
+  std::vector<std::pair<const std::vector<double>*, std::size_t>> series;
+  for (std::size_t i = 0; i < answered_.size(); ++i) {
+    const auto found = answered_[i]->series.find(name);
+    if (found != answered_[i]->series.end()) {
+      series.emplace_back(&found->second, i);
+    }
+  }
+  std::vector<double> out;
+  if (series.empty()) return out;
+  std::vector<double> at(series.size());
+  for (std::size_t k = 0; k < t_.size(); ++k) {
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      at[i] = (*series[i].first)[index_[series[i].second][k]];
+    }
+    out.push_back(over_runs(at));
+  }
+  return out;
+}
+
+std::vector<double> RunCell::Within(const std::vector<double>& curve,
+                                    const TimeRange& range) const {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    if (t_[k] >= range.from && t_[k] <= range.to) out.push_back(curve[k]);
+  }
+  return out;
+}
+
+std::vector<FigureRow> Summarize(const StudyTable& table, std::size_t index,
+                                 std::span<const RunRecord> records) {
+  std::vector<const std::vector<std::string>*> order;
+  std::map<std::vector<std::string>, std::vector<const RunRecord*>> cells;
+  for (const RunRecord& record : records) {
+    if (record.table != index) continue;
+    std::vector<const RunRecord*>& cell = cells[record.labels];
+    if (cell.empty()) order.push_back(&record.labels);
+    cell.push_back(&record);
+  }
+  std::vector<FigureRow> rows;
+  for (const std::vector<std::string>* labels : order) {
+    const RunCell cell(cells[*labels]);
+    FigureRow& row = rows.emplace_back();
+    row.labels = *labels;
+    row.runs = cell.runs();
+    row.failed = cell.failed();
+    for (const Figure& figure : table.figures) {
+      std::vector<double>& values = row.values.emplace_back();
+      if (figure.list != nullptr) values = figure.list(cell);
+      for (const Term& term : figure.terms) {
+        values.push_back(term.reduce(cell, term.quantity, figure.range));
+      }
+    }
+    row.t = cell.t();
+    for (const FigureCurve& curve : table.curves) {
+      row.curves.push_back(cell.Curve(curve.quantity, curve.over_runs));
+    }
+  }
+  return rows;
+}
+
+double FigureOf(const StudyTable& table, std::span<const FigureRow> rows,
+                const std::vector<std::string>& labels,
+                const std::string& name) {
+  for (const FigureRow& row : rows) {
+    if (row.labels != labels) continue;
+    for (std::size_t i = 0; i < table.figures.size(); ++i) {
+      const Figure& figure = table.figures[i];
+      for (std::size_t k = 0; k < figure.terms.size(); ++k) {
+        if (figure.NameOf(figure.terms[k]) == name) return row.values[i][k];
+      }
+    }
+  }
+  throw std::out_of_range("no figure " + name + " of " +
+                          (labels.empty() ? "" : labels.back()));
+}
+
+double AneesLower(const RunCell& cell, const std::string&, const TimeRange&) {
+  return BoundsOf(cell).lower;
+}
+
+double AneesUpper(const RunCell& cell, const std::string&, const TimeRange&) {
+  return BoundsOf(cell).upper;
+}
+
+double AneesOutside(const RunCell& cell, const std::string& quantity,
+                    const TimeRange& range) {
+  const Interval bounds = BoundsOf(cell);
+  std::vector<double> outside;
+  for (const double value : cell.Within(cell.Curve(quantity, Mean), range)) {
+    outside.push_back(bounds.Contains(value) ? 0.0 : 1.0);
+  }
+  return Mean(outside);
+}
+
+Figure Single(const std::string& name, Unit unit, const std::string& title,
+              const char* format, const std::string& quantity, Reduce reduce) {
+  return {name, unit, title, format, {{"", quantity, reduce}}};
+}
+
+Figure Share(const std::string& name, const std::string& title,
+             const std::string& quantity, Reduce reduce, TimeRange range) {
+  Figure figure = Single(name, kPlain, title, "{:.1f}", quantity, reduce);
+  figure.range = range;
+  figure.factor = 100.0;
+  return figure;
+}
+
+Figure FailedFigure() {
+  Figure figure = Single("failed", kPlain, "failed", "{:.0f}", "",
+                         [](const RunCell& cell, const std::string&,
+                            const TimeRange&) { return 1.0 * cell.failed(); });
+  figure.hide_zero = true;
+  return figure;
+}
+
+Figure GradesFigure() {
+  return {"grades",
+          kPlain,
+          "usable,\ndoubtful,\nnot",
+          "{:.0f}",
+          {{"usable", "", CountGrade<0>},
+           {"doubtful", "", CountGrade<1>},
+           {"not_usable", "", CountGrade<2>}}};
+}
+
+Figure SecondsFigure() {
+  Figure figure = Single("seconds_per_run", kPlain, "s/run", "{:.3f}", kSeconds,
+                         OfRuns<Mean>);
+  figure.is_repeatable = false;
+  return figure;
+}
+
+}  // namespace hindsight

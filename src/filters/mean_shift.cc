@@ -1,0 +1,155 @@
+#include "filters/mean_shift.h"
+
+#include <Eigen/Cholesky>
+#include <map>
+#include <set>
+
+#include "filters/tape_gains.h"
+
+namespace hindsight {
+namespace {
+
+/// Columns beside the same times t.
+Eigen::MatrixXd WithGrowth(const Eigen::MatrixXd& B, double t) {
+  Eigen::MatrixXd both(B.rows(), 2 * B.cols());
+  both << B, t * B;
+  return both;
+}
+
+double TimeOf(const LinearTape& tape, std::size_t k) {
+  return tape.epoch(k).t - tape.epoch(0).t;
+}
+
+/// What belongs to the constants b of one group.
+struct GroupScore {
+  GroupScore(int dim, Eigen::Index count)
+      : lambda(Eigen::VectorXd::Zero(count)),
+        xb(Eigen::MatrixXd::Zero(dim, count)),
+        bb(Eigen::MatrixXd::Zero(count, count)) {}
+
+  Eigen::VectorXd lambda;
+  Eigen::MatrixXd xb, bb;  ///< blocks of Lambda
+};
+
+class AdjointPass {
+ public:
+  AdjointPass(const LinearTape& tape, const ShiftColumns& columns)
+      : tape_(tape),
+        columns_(columns),
+        lambda_(Eigen::VectorXd::Zero(tape.dim())),
+        Lambda_(Eigen::MatrixXd::Zero(tape.dim(), tape.dim())) {}
+
+  Scores Run(std::span<const std::size_t> onsets) {
+    Scores found;
+    std::size_t left = onsets.size();
+    for (std::size_t k = tape_.size(); k-- > 0 && left > 0;) {
+      if (k + 1 < tape_.size()) BackOver(k + 1);
+      const std::vector<Eigen::MatrixXd> gains = GainsAt(tape_, k);
+      const auto all = tape_.measurements(k);
+      for (std::size_t i = all.size(); i-- > 0;) {
+        if (all[i].accepted) BackBefore(k, all[i], gains[i]);
+      }
+      if (onsets[left - 1] != k) continue;
+      --left;
+      Collect(k, left == 0, &found.shifts);
+      if (left > 0) found.states.push_back({k, lambda_, Lambda_});
+    }
+    return found;
+  }
+
+ private:
+  GroupScore& Of(ShiftColumns::Group group, Eigen::Index count) {
+    return groups_.try_emplace(group, tape_.dim(), count).first->second;
+  }
+
+  /// Over the interval that ends at epoch k.
+  void BackOver(std::size_t k) {
+    const Eigen::MatrixXd Phi = tape_.Phi(k);
+    if (columns_.driven) {
+      const ShiftColumns::Columns driven = columns_.driven(k);
+      const Eigen::MatrixXd G = WithGrowth(driven.B, TimeOf(tape_, k));
+      GroupScore& own = Of(driven.group, G.cols());
+      const Eigen::MatrixXd LG = Lambda_ * G;
+      const Eigen::MatrixXd GX = G.transpose() * own.xb;
+      own.lambda += G.transpose() * lambda_;
+      own.bb += GX + GX.transpose() + G.transpose() * LG;
+      own.xb += LG;
+    }
+    lambda_ = Phi.transpose() * lambda_;
+    Lambda_ = Phi.transpose() * Lambda_ * Phi;
+    for (auto& [group, own] : groups_) own.xb = Phi.transpose() * own.xb;
+  }
+
+  void BackBefore(std::size_t k, const TapeMeasurement& z,
+                  const Eigen::MatrixXd& K) {
+    const Eigen::LLT<Eigen::MatrixXd> S(z.S);
+    const Eigen::VectorXd ahead =
+        S.solve(z.innovation) - K.transpose() * lambda_;
+    const Eigen::MatrixXd LK = Lambda_ * K;
+    std::set<ShiftColumns::Group> entered;
+    for (const ShiftColumns::Columns& columns : columns_.measured(k, z)) {
+      const Eigen::MatrixXd B = WithGrowth(columns.B, TimeOf(tape_, k));
+      GroupScore& own = Of(columns.group, B.cols());
+      const Eigen::MatrixXd direct =
+          S.solve(B) + K.transpose() * (LK * B) - K.transpose() * own.xb;
+      const Eigen::MatrixXd indirect = own.xb.transpose() * (K * B);
+      own.lambda += B.transpose() * ahead;
+      own.bb += B.transpose() * direct - indirect;
+      own.xb += z.H.transpose() * direct - LK * B;
+      entered.insert(columns.group);
+    }
+    for (auto& [group, own] : groups_) {
+      if (entered.contains(group)) continue;
+      own.xb -= z.H.transpose() * (K.transpose() * own.xb);
+    }
+    lambda_ += z.H.transpose() * ahead;
+    Lambda_ -= LK * z.H;
+    Lambda_ += z.H.transpose() * (S.solve(z.H) - K.transpose() * Lambda_);
+    // What is not symmetric would grow.
+    Lambda_ = 0.5 * (Lambda_ + Lambda_.transpose()).eval();
+  }
+
+  void Collect(std::size_t k, bool throughout,
+               std::vector<MeanShift>* found) const {
+    const auto add = [&](const MeanShift& shift) {
+      if (shift.information > 0.0 && std::isfinite(shift.score)) {
+        found->push_back(shift);
+      }
+    };
+    if (!throughout) {
+      for (int i = 0; i < tape_.dim(); ++i) {
+        add({true, 0, i, false, k, lambda_(i), Lambda_(i, i)});
+      }
+    }
+    const double t = TimeOf(tape_, k);
+    for (const auto& [group, own] : groups_) {
+      const auto count = static_cast<int>(own.lambda.size() / 2);
+      for (int i = 0; i < count; ++i) {
+        const int j = i + count;
+        add({false, group, i, false, k, own.lambda(i), own.bb(i, i)});
+        const double information =
+            own.bb(j, j) - 2.0 * t * own.bb(i, j) + t * t * own.bb(i, i);
+        // What is left of large terms may be their rounding.
+        if (information < 1e-9 * own.bb(j, j)) continue;
+        add({false, group, i, true, k, own.lambda(j) - t * own.lambda(i),
+             information});
+      }
+    }
+  }
+
+  const LinearTape& tape_;
+  const ShiftColumns& columns_;
+  Eigen::VectorXd lambda_;
+  Eigen::MatrixXd Lambda_;
+  std::map<ShiftColumns::Group, GroupScore> groups_;
+};
+
+}  // namespace
+
+Scores ScoreShifts(const LinearTape& tape, const ShiftColumns& columns,
+                   std::span<const std::size_t> onsets) {
+  RequireFixedNominal(tape);
+  return AdjointPass(tape, columns).Run(onsets);
+}
+
+}  // namespace hindsight

@@ -1,0 +1,282 @@
+#include <cmath>
+
+#include "base/units.h"
+#include "io/config/config_key.h"
+#include "io/config/config_streams.h"
+
+namespace hindsight {
+namespace {
+
+Eigen::RowVector3d ReadAxis(ConfigMap* imu, const std::string& text) {
+  const bool negative = text.starts_with('-');
+  const std::string letter =
+      text.substr(negative || text.starts_with('+') ? 1 : 0);
+  if (letter != "x" && letter != "y" && letter != "z") {
+    imu->Fail("axes", "'" + text +
+                          "' is no axis; expected x, y or z, with - "
+                          "where it points the other way");
+  }
+  Eigen::RowVector3d row = Eigen::RowVector3d::Zero();
+  row(letter[0] - 'x') = negative ? -1.0 : 1.0;
+  return row;
+}
+
+/// A walk, or a Gauss-Markov bias in its place.
+void ReadBias(ConfigMap* noise, const std::string& sensor, Quantity walk_unit,
+              Quantity bias_unit, double* walk, double* tau) {
+  const std::string walk_key = sensor + "_bias_walk";
+  const std::string sigma_key = sensor + "_bias_sigma";
+  const std::string tau_key = sensor + "_bias_tau";
+  if (!noise->Has(tau_key) && !noise->Has(sigma_key)) {
+    *walk = noise->Number(walk_key, walk_unit, 0.0);
+    if (*walk < 0.0) noise->Fail(walk_key, "must not be negative");
+    return;
+  }
+  if (noise->Has(walk_key)) {
+    noise->Fail(walk_key, "does not go with " + sigma_key + " and " + tau_key);
+  }
+  *tau = noise->Positive(tau_key, Quantity::kTime);
+  const double sigma = noise->Positive(sigma_key, bias_unit);
+  *walk = std::sqrt(2.0 / *tau) * sigma;
+}
+
+const ConfigTable<ImuNoise>& NoiseTable() {
+  using Key = ConfigKey<ImuNoise>;
+  static const ConfigTable<ImuNoise> kTable = {
+      "imu_noise",
+      "The map noise of the imu.",
+      {{.name = "gyro",
+        .quantity = Quantity::kGyroNoiseDensity,
+        .value =
+            Key::Number{&ImuNoise::gyro_noise_density, KeyRange::kPositive},
+        .help = "white noise density",
+        .needed = true},
+       {.name = "accel",
+        .quantity = Quantity::kAccelNoiseDensity,
+        .value =
+            Key::Number{&ImuNoise::accel_noise_density, KeyRange::kPositive},
+        .help = "white noise density",
+        .needed = true},
+       {.name = "gyro_bias_walk",
+        .value = Key::Special{[](ConfigMap* map, ImuNoise* noise) {
+          ReadBias(map, "gyro", Quantity::kGyroBiasWalk, Quantity::kAngularRate,
+                   &noise->gyro_bias_walk, &noise->gyro_bias_tau);
+        }},
+        .help = "density",
+        .fallback = "0"},
+       {.name = "gyro_bias_sigma",
+        .value = Key::Special{},
+        .help = "with gyro_bias_tau: a Gauss-Markov bias in place of a walk"},
+       {.name = "gyro_bias_tau",
+        .value = Key::Special{},
+        .help = "correlation time"},
+       {.name = "accel_bias_walk",
+        .value = Key::Special{[](ConfigMap* map, ImuNoise* noise) {
+          ReadBias(map, "accel", Quantity::kAccelBiasWalk,
+                   Quantity::kAcceleration, &noise->accel_bias_walk,
+                   &noise->accel_bias_tau);
+        }},
+        .help = "density",
+        .fallback = "0"},
+       {.name = "accel_bias_sigma",
+        .value = Key::Special{},
+        .help = "likewise"},
+       {.name = "accel_bias_tau", .value = Key::Special{}, .help = "likewise"},
+       {.name = "gyro_per_rate",
+        .quantity = Quantity::kNoisePerRate,
+        .value =
+            Key::Number{&ImuNoise::gyro_noise_per_rate, KeyRange::kNotNegative},
+        .help = "noise density per rad/s",
+        .fallback = "0"}}};
+  return kTable;
+}
+
+/// The sensor's own axes first.
+void ReadAxes(ConfigMap* map, Eigen::Matrix3d* C_bs) {
+  const std::vector<std::string> axes = map->List("axes");
+  if (axes.empty()) return;
+  if (axes.size() != 3) map->Fail("axes", "expected three axes");
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    C_bs->row(static_cast<Eigen::Index>(i)) = ReadAxis(map, axes[i]);
+  }
+  if (std::abs(C_bs->determinant() - 1.0) > 0.5) {
+    map->Fail("axes",
+              "are not a rotation; expected each axis once and right-handed "
+              "(a sensor with a mirrored axis needs a sign in `columns`)");
+  }
+}
+
+void ReadTurn(ConfigMap* map, Eigen::Matrix3d* C_bs) {
+  *C_bs = ReadSensorMounting(map).toRotationMatrix() * *C_bs;
+}
+
+/// Which the file says unless the key does.
+void ReadImuKind(ConfigMap* map, ImuConfig* imu) {
+  if (map->Has("kind")) {
+    imu->kind = map->Choice("kind", {"rates", "increments"}, 0) == 0
+                    ? ImuStream::Kind::kRates
+                    : ImuStream::Kind::kIncrements;
+  } else {
+    // Keeps the key's place until the file has said which it is.
+    map->Resolve("kind", "rates");
+  }
+}
+
+void ReadImuEstimate(ConfigMap* map, ImuConfig* imu) {
+  ConfigMap estimate = map->Map("estimate");
+  imu->gyro_scale_sigma =
+      estimate.OptionalSigma("gyro_scale", Quantity::kRatio);
+  imu->accel_scale_sigma =
+      estimate.OptionalSigma("accel_scale", Quantity::kRatio);
+  estimate.Finish();
+}
+
+const ConfigTable<ImuConfig>& ImuTable() {
+  using Key = ConfigKey<ImuConfig>;
+  static const ConfigTable<ImuConfig> kTable = {
+      "imu",
+      "Besides the keys of a stream; columns gyro_x ... accel_z, or dtheta_x "
+      "... dvel_z.",
+      {{.name = "kind",
+        .value = Key::Special{ReadImuKind},
+        .help = "rates, increments",
+        .fallback = "as the columns say"},
+       {.name = "axes",
+        .value = Key::Special{[](ConfigMap* map, ImuConfig* imu) {
+          ReadAxes(map, &imu->C_bs);
+        }},
+        .help = "body x, y, z in sensor axes, \"[-x, y, -z]\"",
+        .fallback = "[x, y, z]"},
+       {.name = "mounting",
+        .value = Key::Special{[](ConfigMap* map, ImuConfig* imu) {
+          ReadTurn(map, &imu->C_bs);
+        }},
+        .help = "roll, pitch, yaw of a rotation after axes: body = Rz(yaw) "
+                "Ry(pitch) Rx(roll) axes(sensor)",
+        .fallback = "[0, 0, 0 deg]"},
+       {.name = "stamp",
+        .value = Key::Word{{"end", "start"},
+                           [](const ImuConfig& imu) {
+                             return std::size_t{imu.stamp_at_start ? 1U : 0U};
+                           },
+                           [](ImuConfig& imu, std::size_t word) {
+                             imu.stamp_at_start = word == 1;
+                           }},
+        .help = "of an increment's interval; the first row's is taken as long "
+                "as the median one, with start the last row's too"},
+       {.name = "time_offset",
+        .quantity = Quantity::kTime,
+        .value = Key::Number{&ImuConfig::time_offset},
+        .help = "added to the stamps"},
+       {.name = "max_gap",
+        .quantity = Quantity::kTime,
+        .value = Key::Number{&ImuConfig::max_gap, KeyRange::kPositive},
+        .help = "longer intervals are errors; shorter drop-outs are bridged "
+                "with noise to match"},
+       {.name = "noise",
+        .value = Key::Special{[](ConfigMap* map, ImuConfig* imu) {
+          imu->noise = ReadImuNoise(map);
+        }},
+        .help = "densities",
+        .needed = true},
+       {.name = "estimate",
+        .value = Key::Special{ReadImuEstimate},
+        .help = "gyro_scale, accel_scale: a priori sigma of estimated scale "
+                "factors"}}};
+  return kTable;
+}
+
+const ConfigTable<TruthConfig>& TruthTable() {
+  using Key = ConfigKey<TruthConfig>;
+  static const ConfigTable<TruthConfig> kTable = {
+      "truth",
+      "Besides the keys of a stream; columns of position, velocity, attitude.",
+      {{.name = "time_offset",
+        .value = Key::Special{[](ConfigMap* map, TruthConfig* truth) {
+          truth->clock_unknown = map->Is("time_offset", "unknown");
+          if (truth->clock_unknown) return;
+          truth->time_offset = map->Number("time_offset", Quantity::kTime, 0.0);
+        }},
+        .help = "added to the stamps, or `unknown`: found from the gyros",
+        .fallback = "0 s"},
+       {.name = "lever_arm",
+        .quantity = Quantity::kLength,
+        .value = Key::Vector{&TruthConfig::lever_arm_b},
+        .help = "of the point it speaks of"},
+       {.name = "frame",
+        .value = Key::Word{{kFrameNames.begin(), kFrameNames.end()},
+                           [](const TruthConfig& truth) {
+                             return static_cast<std::size_t>(truth.frame.axes);
+                           },
+                           [](TruthConfig& truth, std::size_t word) {
+                             truth.frame.axes = static_cast<FrameAxes>(word);
+                           }},
+        .help = "of columns p_x, v_x, q_w ..."},
+       {.name = "origin",
+        .value = Key::Special{[](ConfigMap* map, TruthConfig* truth) {
+          truth->frame.origin = ReadGeodetic(map, "origin");
+          if (truth->frame.origin && truth->frame.axes == FrameAxes::kEcef) {
+            map->Fail("origin", "does not go with the frame ecef");
+          }
+        }},
+        .help = "[lat, lon, h] of local frames"},
+       {.name = "quaternion",
+        .value = Key::Word{{"body_to_frame", "frame_to_body"},
+                           [](const TruthConfig& truth) {
+                             return std::size_t{truth.frame.frame_to_body ? 1U
+                                                                          : 0U};
+                           },
+                           [](TruthConfig& truth, std::size_t word) {
+                             truth.frame.frame_to_body = word == 1;
+                           }}},
+       {.name = "axes",
+        .value = Key::Special{[](ConfigMap* map, TruthConfig* truth) {
+          ReadAxes(map, &truth->C_bs);
+        }},
+        .help = "as of the imu, of the axes that its attitude speaks of",
+        .fallback = "[x, y, z]"},
+       {.name = "mounting",
+        .value = Key::Special{[](ConfigMap* map, TruthConfig* truth) {
+          ReadTurn(map, &truth->C_bs);
+        }},
+        .help = "as of the imu",
+        .fallback = "[0, 0, 0 deg]"}}};
+  return kTable;
+}
+
+}  // namespace
+
+Eigen::Matrix3d ReadMounting(ConfigMap* map) {
+  Eigen::Matrix3d C_bs = Eigen::Matrix3d::Identity();
+  ReadAxes(map, &C_bs);
+  ReadTurn(map, &C_bs);
+  return C_bs;
+}
+
+ImuNoise ReadImuNoise(ConfigMap* imu) {
+  if (!imu->Has("noise")) imu->Fail("noise", "is missing");
+  ConfigMap map = imu->Map("noise");
+  ImuNoise noise;
+  ReadTable(NoiseTable(), &map, &noise);
+  map.Finish();
+  return noise;
+}
+
+ImuConfig ReadImuKeys(ConfigMap* map) {
+  ImuConfig imu;
+  ReadTable(ImuTable(), map, &imu);
+  return imu;
+}
+
+TruthConfig ReadTruthKeys(ConfigMap* map) {
+  TruthConfig truth;
+  ReadTable(TruthTable(), map, &truth);
+  return truth;
+}
+
+std::vector<KeySection> ImuSections() {
+  return {Documented(ImuTable()), Documented(NoiseTable()),
+          Documented(TruthTable())};
+}
+
+}  // namespace hindsight

@@ -1,0 +1,165 @@
+#include "io/read/text_layout.h"
+
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+
+namespace hindsight {
+namespace {
+
+std::int64_t TicksPerSecond(double seconds_per_tick) {
+  return std::llround(1.0 / seconds_per_tick);
+}
+
+class LayoutBuilder {
+ public:
+  LayoutBuilder(const std::string& path, const TextFormat& format,
+                const std::vector<FieldName>& fields, const TableHeader& header)
+      : path_(path), format_(format), fields_(fields), header_(header) {
+    layout_.clock = TableLayout::Clock::kNone;
+    for (const FieldName& field : fields) {
+      layout_.fields.push_back({field.name, -1, 1.0});
+    }
+  }
+
+  void Add(const ColumnMapping& mapping) {
+    int column = mapping.column;
+    std::string unit = mapping.unit;
+    if (column < 0) {
+      const auto [found, header_unit] = FindTitle(mapping);
+      column = found;
+      if (unit.empty()) unit = header_unit;
+    }
+    if (mapping.quantity == "t" || mapping.quantity == "week") {
+      if (mapping.scale != 1.0) {
+        Fail("column " + mapping.quantity + " takes no scale; expected a unit");
+      }
+      AddTime(mapping.quantity, column, unit);
+      return;
+    }
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      if (mapping.quantity != fields_[i].name) continue;
+      layout_.fields[i].column = column;
+      layout_.fields[i].factor =
+          mapping.scale * Factor(mapping, unit, fields_[i].quantity);
+    }
+  }
+
+  TableLayout Finish() {
+    if (format_.ignore_time) {
+      layout_.clock = TableLayout::Clock::kNone;
+    } else if (time_column_ < 0) {
+      Fail("no column t with the time");
+    } else if (week_column_ >= 0 && time_column_ != week_column_ + 1) {
+      Fail("the seconds of week must stand right of the week");
+    }
+    return layout_;
+  }
+
+  [[noreturn]] void Fail(const std::string& message) const {
+    if (header_.line > 0) throw InputError(path_, header_.line, message);
+    throw InputError(format_.config_path, format_.config_line, message);
+  }
+
+ private:
+  std::pair<int, std::string> FindTitle(const ColumnMapping& mapping) const {
+    std::optional<std::pair<int, std::string>> found;
+    for (std::size_t i = 0; i < header_.titles.size(); ++i) {
+      const auto [title, unit] = SplitTitle(header_.titles[i]);
+      if (title != mapping.title) continue;
+      if (found) Fail("column '" + title + "' stands twice in the header");
+      found.emplace(static_cast<int>(i), unit);
+    }
+    if (!found) Fail("no column '" + mapping.title + "' in the header");
+    return *found;
+  }
+
+  double Factor(const ColumnMapping& mapping, const std::string& unit,
+                Quantity quantity) const {
+    const auto factor = UnitFactor(unit, quantity);
+    if (!factor) {
+      Fail("column " + mapping.quantity +
+           (unit.empty() ? " has no unit" : " has the unit '" + unit + "'") +
+           "; expected one of " + UnitExamples(quantity));
+    }
+    return *factor;
+  }
+
+  void AddTime(const std::string& quantity, int column,
+               const std::string& unit) {
+    if (quantity == "week") {
+      week_column_ = column;
+      layout_.clock = TableLayout::Clock::kWeek;
+      layout_.time_column = column;
+      return;
+    }
+    ColumnMapping mapping;
+    mapping.quantity = "t";
+    time_column_ = column;
+    const double factor = Factor(mapping, unit, Quantity::kTime);
+    if (factor > 1.0 || (week_column_ >= 0 && factor < 1.0)) {
+      Fail("column t has the unit '" + unit + "'; expected " +
+           (week_column_ >= 0 ? "s" : "s, ms, us or ns"));
+    }
+    if (week_column_ >= 0) return;
+    layout_.clock = TableLayout::Clock::kSeconds;
+    layout_.time_column = column;
+    layout_.ticks_per_second = TicksPerSecond(factor);
+  }
+
+  const std::string& path_;
+  const TextFormat& format_;
+  const std::vector<FieldName>& fields_;
+  const TableHeader& header_;
+  TableLayout layout_;
+  int time_column_ = -1;
+  int week_column_ = -1;
+};
+
+}  // namespace
+
+std::pair<std::string, std::string> SplitTitle(std::string_view title) {
+  const std::string_view text = Trim(title);
+  const std::size_t open = text.find('[');
+  if (open == text.npos || !text.ends_with(']')) return {std::string(text), ""};
+  return {std::string(Trim(text.substr(0, open))),
+          std::string(text.substr(open + 1, text.size() - open - 2))};
+}
+
+/// The columns of an own CSV file whose titles name one of `fields`.
+std::vector<ColumnMapping> TitledColumns(const std::string& path,
+                                         const TableHeader& header,
+                                         const std::vector<FieldName>& fields) {
+  std::vector<ColumnMapping> columns;
+  for (std::size_t i = 0; i < header.titles.size(); ++i) {
+    const auto [title, unit] = SplitTitle(header.titles[i]);
+    const bool known =
+        title == "t" || title == "week" || FieldIndex(fields, title);
+    if (!known) continue;
+    for (const ColumnMapping& other : columns) {
+      if (other.quantity == title) {
+        throw InputError(path, header.line,
+                         "column " + title + " stands twice");
+      }
+    }
+    ColumnMapping mapping;
+    mapping.quantity = title;
+    mapping.column = static_cast<int>(i);
+    mapping.unit = title == "week" ? "1" : unit;
+    // The week must be known before its seconds.
+    columns.insert(title == "week" ? columns.begin() : columns.end(), mapping);
+  }
+  return columns;
+}
+
+TableLayout BuildLayout(const std::string& path, const TextFormat& format,
+                        const std::vector<FieldName>& fields,
+                        const std::vector<ColumnMapping>& columns,
+                        const TableHeader& header) {
+  LayoutBuilder builder(path, format, fields, header);
+  for (const ColumnMapping& mapping : columns) builder.Add(mapping);
+  return builder.Finish();
+}
+
+}  // namespace hindsight

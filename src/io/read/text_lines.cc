@@ -1,0 +1,95 @@
+#include "io/read/text_lines.h"
+
+#include <cstring>
+
+#include "base/error.h"
+
+namespace hindsight {
+namespace {
+
+constexpr std::size_t kLinePiece = std::size_t{1} << 20;
+
+bool Holds(std::string_view text, char c) {
+  return !text.empty() && std::memchr(text.data(), c, text.size()) != nullptr;
+}
+
+}  // namespace
+
+TextLines::TextLines(const std::string& path)
+    : file_(path), buffer_(new char[kLongestLine + kLinePiece]) {
+  size_hint_ = file_.size();
+  if (GzipReader::IsGzip(file_)) {
+    gzip_ = std::make_unique<GzipReader>(file_);
+    size_hint_ = gzip_->size_hint();
+  }
+  if (!Fill()) throw InputError(path, 0, "the file is empty");
+  if (window_.starts_with("\xFF\xFE") || window_.starts_with("\xFE\xFF")) {
+    throw InputError(path, 0, "is UTF-16 text; expected UTF-8 or ASCII");
+  }
+  if (gzip_ && window_.starts_with("\x1F\x8B")) {
+    throw InputError(path, 0, "is gzip within gzip; expected text in it");
+  }
+  if (window_.starts_with("\xEF\xBB\xBF")) window_.remove_prefix(3);
+}
+
+bool TextLines::Fill() {
+  if (!window_.empty()) {
+    std::memmove(buffer_.get(), window_.data(), window_.size());
+  }
+  char* end = buffer_.get() + window_.size();
+  const std::size_t count = gzip_ ? gzip_->Read(end, kLinePiece)
+                                  : file_.ReadAt(offset_, end, kLinePiece);
+  offset_ += count;
+  const std::string_view piece(end, count);
+  odd_ = Holds(piece, '\0') || Holds(piece, '\r') || (odd_ && !window_.empty());
+  window_ = {buffer_.get(), window_.size() + count};
+  return count > 0;
+}
+
+void TextLines::Check(std::string_view line) const {
+  if (line.size() > kLongestLine) {
+    throw InputError(path(), number_,
+                     "the line is longer than " + std::to_string(kLongestLine) +
+                         " bytes; expected lines of text");
+  }
+  if (!odd_) return;
+  if (Holds(line, '\0')) {
+    throw InputError(path(), number_, "holds a NUL byte; expected text");
+  }
+  if (Holds(line, '\r')) {
+    throw InputError(path(), number_,
+                     "holds a carriage return within the line; expected line "
+                     "feeds, with or without one before, as line ends");
+  }
+}
+
+bool TextLines::Next(std::string_view* line) {
+  std::size_t searched = 0;
+  while (true) {
+    const void* found = searched == window_.size()
+                            ? nullptr
+                            : std::memchr(window_.data() + searched, '\n',
+                                          window_.size() - searched);
+    if (found != nullptr) {
+      const auto length = static_cast<std::size_t>(
+          static_cast<const char*>(found) - window_.data());
+      *line = window_.substr(0, length);
+      window_.remove_prefix(length + 1);
+      terminated_ = true;
+      break;
+    }
+    searched = window_.size();
+    if (searched <= kLongestLine && Fill()) continue;
+    if (window_.empty()) return false;
+    *line = window_;
+    window_ = {};
+    terminated_ = false;
+    break;
+  }
+  ++number_;
+  if (line->ends_with('\r')) line->remove_suffix(1);
+  Check(*line);
+  return true;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,73 @@
+#include "io/write/atomic_file.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+
+#include "io/write/output_error.h"
+
+namespace hindsight {
+namespace {
+
+constexpr std::size_t kFileBuffer = 1 << 18;
+
+std::error_code LastError() { return {errno, std::system_category()}; }
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::string& path) : path_(path) {
+  std::error_code error;
+  file_ = CreateUnpublishedFile(path, &error);
+  if (error) Fail(error);
+  buffer_.reserve(kFileBuffer);
+}
+
+AtomicFile::~AtomicFile() {
+  if (!committed_) unlink(file_.path.c_str());
+}
+
+void AtomicFile::Fail(const std::error_code& cause) const {
+  throw OutputError(std::filesystem::path(path_), cause.message());
+}
+
+void AtomicFile::Flush() {
+  std::string_view rest = buffer_;
+  while (!rest.empty()) {
+    const ssize_t written =
+        write(file_.descriptor.get(), rest.data(), rest.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      Fail(LastError());
+    }
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+  buffer_.clear();
+}
+
+void AtomicFile::Write(std::string_view text) {
+  if (buffer_.size() + text.size() > kFileBuffer) Flush();
+  buffer_.append(text);
+}
+
+void AtomicFile::Commit(bool replace) {
+  Flush();
+  if (fsync(file_.descriptor.get()) != 0) Fail(LastError());
+  // Named before it is closed, with which its lock ends.
+  std::error_code error;
+  if (replace) {
+    std::filesystem::rename(file_.path, path_, error);
+  } else {
+    error = RenameToFree(file_.path, path_);
+  }
+  if (error) Fail(error);
+  committed_ = true;
+}
+
+void WriteFileAtomically(const std::string& path, std::string_view text) {
+  AtomicFile file(path);
+  file.Write(text);
+  file.Commit();
+}
+
+}  // namespace hindsight

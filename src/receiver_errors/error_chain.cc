@@ -1,0 +1,230 @@
+#include "receiver_errors/error_chain.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+
+namespace hindsight {
+namespace {
+
+double LogDensity(const Eigen::Vector3d& r, const Eigen::Matrix3d& S) {
+  const Eigen::LLT<Eigen::Matrix3d> llt(S);
+  const Eigen::Vector3d whitened = llt.matrixL().solve(r);
+  return -0.5 * whitened.squaredNorm() -
+         llt.matrixLLT().diagonal().array().log().sum() -
+         1.5 * std::log(2.0 * kPi);
+}
+
+}  // namespace
+
+ErrorChain::ErrorChain(const LinearTape& tape, int receiver,
+                       const ErrorParameters& parameters)
+    : tape_(tape),
+      receiver_(receiver),
+      parameters_(parameters),
+      navigation_dim_(tape.dim()) {
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    if (HasFix(tape, k, receiver)) ++fix_count_;
+  }
+  const Block* position = tape.layout().Find(BlockKind::kPosition);
+  const Block* velocity = tape.layout().Find(BlockKind::kVelocity);
+  if (position == nullptr || velocity == nullptr) return;
+  if (position->dim == 3 && velocity->dim == 3) {
+    position_ = position->offset;
+    velocity_ = velocity->offset;
+  }
+}
+
+Gaussian ErrorChain::Begin() const {
+  Gaussian x{ErrorVector::Zero(dim()), ErrorMatrix::Zero(dim(), dim())};
+  x.mean.head(navigation_dim_) = tape_.epoch(0).dx_minus;
+  x.P.topLeftCorner(navigation_dim_, navigation_dim_) = tape_.P_minus(0);
+  return x;
+}
+
+void ErrorChain::MoveTo(std::size_t k) {
+  k_ = k;
+  dt_ = k > 0 ? tape_.epoch(k).t - tape_.epoch(k - 1).t : 0.0;
+  if (k > 0) {
+    Phi_n_ = tape_.Phi(k);
+    Q_n_ = tape_.Q(k);
+  }
+  z_.clear();
+  fix_ = -1;
+  for (const TapeMeasurement& z : tape_.measurements(k)) {
+    if (!z.accepted || z.withheld) continue;
+    // The fix comes first: its likelihood is taken before any update.
+    const bool is_fix = z.sensor == receiver_ && fix_ < 0;
+    if (is_fix) fix_ = 0;
+    LinearizedMeasurement& wide = *z_.emplace(is_fix ? z_.begin() : z_.end());
+    wide.residual = z.residual;
+    wide.R = z.R;
+    wide.H = RowJacobian::Zero(z.H.rows(), dim());
+    wide.H.leftCols(navigation_dim_) = z.H;
+    if (z.sensor != receiver_) continue;
+    wide.H.middleCols(navigation_dim_, 3).setIdentity();
+    wide.R *= parameters_.scale * parameters_.scale;
+  }
+}
+
+Gaussian ErrorChain::PredictNavigation(const Gaussian& x) const {
+  if (k_ == 0) return x;
+  const int n = navigation_dim_;
+  Gaussian out = x;
+  out.mean.head(n) = Phi_n_ * x.mean.head(n) + tape_.epoch(k_).c;
+  ErrorMatrix P = x.P.topLeftCorner(n, n);
+  PredictCovariance(Phi_n_, Q_n_, &P);
+  out.P.topLeftCorner(n, n) = P;
+  out.P.topRightCorner(n, 6).noalias() = Phi_n_ * x.P.topRightCorner(n, 6);
+  return out;
+}
+
+void ErrorChain::PredictError(ErrorStep step, Gaussian* x) const {
+  const int n = navigation_dim_;
+  const ErrorDynamics d = DynamicsOf(parameters_, step, dt_);
+  auto e = x->mean.segment<3>(n);
+  auto r = x->mean.segment<3>(n + 3);
+  e = (d.ee * e + d.er * r).eval();
+  r *= d.rr;
+  auto P_ne = x->P.block(0, n, n, 3);
+  auto P_nr = x->P.block(0, n + 3, n, 3);
+  P_ne = (d.ee * P_ne + d.er * P_nr).eval();
+  P_nr *= d.rr;
+  x->P.bottomLeftCorner(6, n) = x->P.topRightCorner(n, 6).transpose();
+  Eigen::Matrix<double, 6, 6> F = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 6> P = x->P.bottomRightCorner<6, 6>();
+  F.topLeftCorner<3, 3>().diagonal().setConstant(d.ee);
+  F.topRightCorner<3, 3>().diagonal().setConstant(d.er);
+  F.bottomRightCorner<3, 3>().diagonal().setConstant(d.rr);
+  P = (F * P * F.transpose()).eval();
+  P.topLeftCorner<3, 3>().diagonal().array() += d.q_ee;
+  P.topRightCorner<3, 3>().diagonal().array() += d.q_er;
+  P.bottomLeftCorner<3, 3>().diagonal().array() += d.q_er;
+  P.bottomRightCorner<3, 3>().diagonal().array() += d.q_rr;
+  x->P.bottomRightCorner<6, 6>() = P;
+  if (velocity_ < 0) return;
+  for (int i = 0; i < 3; ++i) {
+    x->P(position_ + i, position_ + i) += d.q_vv * dt_ * dt_;
+    x->P(position_ + i, velocity_ + i) += d.q_vv * dt_;
+    x->P(velocity_ + i, position_ + i) += d.q_vv * dt_;
+    x->P(velocity_ + i, velocity_ + i) += d.q_vv;
+  }
+}
+
+ErrorMatrix ErrorChain::Phi(ErrorStep step) const {
+  const int n = navigation_dim_;
+  const ErrorDynamics d = DynamicsOf(parameters_, step, dt_);
+  ErrorMatrix Phi = ErrorMatrix::Zero(dim(), dim());
+  Phi.topLeftCorner(n, n) = Phi_n_;
+  Phi.block<3, 3>(n, n).diagonal().setConstant(d.ee);
+  Phi.block<3, 3>(n, n + 3).diagonal().setConstant(d.er);
+  Phi.block<3, 3>(n + 3, n + 3).diagonal().setConstant(d.rr);
+  return Phi;
+}
+
+ErrorMatrix ErrorChain::Q(ErrorStep step) const {
+  const int n = navigation_dim_;
+  const ErrorDynamics d = DynamicsOf(parameters_, step, dt_);
+  ErrorMatrix Q = ErrorMatrix::Zero(dim(), dim());
+  Q.topLeftCorner(n, n) = Q_n_;
+  for (int i = 0; i < 3; ++i) {
+    const int e = n + i;
+    const int r = n + 3 + i;
+    Q(e, e) = d.q_ee;
+    Q(e, r) = Q(r, e) = d.q_er;
+    Q(r, r) = d.q_rr;
+    if (velocity_ < 0) continue;
+    const int p = position_ + i;
+    const int v = velocity_ + i;
+    Q(p, p) += d.q_vv * dt_ * dt_;
+    Q(p, v) += d.q_vv * dt_;
+    Q(v, p) += d.q_vv * dt_;
+    Q(v, v) += d.q_vv;
+  }
+  return Q;
+}
+
+ErrorVector ErrorChain::Defect() const {
+  ErrorVector c = ErrorVector::Zero(dim());
+  c.head(navigation_dim_) = tape_.epoch(k_).c;
+  return c;
+}
+
+ErrorChain::FixLikelihood ErrorChain::LikelihoodOfFix(const Gaussian& x) const {
+  ErrorDynamics as_it_is;
+  as_it_is.ee = 1.0;
+  return Likelihood(as_it_is, ViewOf(x));
+}
+
+ErrorChain::FixView ErrorChain::ViewOf(const Gaussian& x) const {
+  const int n = navigation_dim_;
+  const LinearizedMeasurement& z = z_[static_cast<std::size_t>(fix_)];
+  const auto H = z.H.leftCols(n);
+  const RowJacobian HP = H * x.P.topRows(n);
+  FixView view;
+  view.innovation = z.residual - H * x.mean.head(n);
+  view.S = HP.leftCols(n) * H.transpose();
+  view.P_ze = HP.middleCols(n, 3);
+  view.P_zr = HP.middleCols(n + 3, 3);
+  view.e = x.mean.segment<3>(n);
+  view.r = x.mean.segment<3>(n + 3);
+  view.P_ee = x.P.block<3, 3>(n, n);
+  view.P_er = x.P.block<3, 3>(n, n + 3);
+  view.P_rr = x.P.block<3, 3>(n + 3, n + 3);
+  return view;
+}
+
+ErrorChain::FixLikelihood ErrorChain::LikelihoodAfter(
+    ErrorStep step, const FixView& view) const {
+  return Likelihood(DynamicsOf(parameters_, step, dt_), view);
+}
+
+ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
+                                                 const FixView& view) const {
+  const LinearizedMeasurement& z = z_[static_cast<std::size_t>(fix_)];
+  const Eigen::Vector3d innovation =
+      view.innovation - d.ee * view.e - d.er * view.r;
+  const Eigen::Matrix3d cross = d.ee * view.P_ze + d.er * view.P_zr;
+  Eigen::Matrix3d S = view.S + cross + cross.transpose() +
+                      d.ee * d.ee * view.P_ee + d.er * d.er * view.P_rr;
+  S += d.ee * d.er * (view.P_er + view.P_er.transpose());
+  S.diagonal().array() += d.q_ee;
+  if (velocity_ >= 0 && d.q_vv > 0.0) {
+    const Eigen::Matrix3d H_v =
+        dt_ * z.H.middleCols(position_, 3) + z.H.middleCols(velocity_, 3);
+    S += d.q_vv * H_v * H_v.transpose();
+  }
+  const double k = parameters_.outlier_ratio;
+  const double a = parameters_.outlier_share;
+  const double in = std::log1p(-a) + LogDensity(innovation, S + z.R);
+  const double out = std::log(a) + LogDensity(innovation, S + k * k * z.R);
+  const double largest = std::max(in, out);
+  return {largest + std::log1p(std::exp(-std::abs(in - out))), out > in};
+}
+
+LinearizedMeasurement ErrorChain::MeasurementAs(std::size_t i,
+                                                bool outlier) const {
+  LinearizedMeasurement z = z_[i];
+  if (outlier && static_cast<int>(i) == fix_) {
+    z.R *= parameters_.outlier_ratio * parameters_.outlier_ratio;
+  }
+  return z;
+}
+
+double ErrorChain::UpdateAll(bool outlier, Gaussian* x,
+                             std::vector<Used>* used) const {
+  double log_likelihood = 0.0;
+  for (std::size_t i = 0; i < z_.size(); ++i) {
+    const LinearizedMeasurement z = MeasurementAs(i, outlier);
+    const Innovation innovation = Innovate(z, x->mean, x->P);
+    const bool is_fix = static_cast<int>(i) == fix_;
+    if (!is_fix) log_likelihood += innovation.log_likelihood;
+    if (used != nullptr) used->push_back({z, innovation, z.H * x->P});
+    Update(z, innovation, &x->mean, &x->P);
+  }
+  return log_likelihood;
+}
+
+}  // namespace hindsight

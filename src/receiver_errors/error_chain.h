@@ -1,0 +1,103 @@
+#ifndef HINDSIGHT_RECEIVER_ERRORS_ERROR_CHAIN_H_
+#define HINDSIGHT_RECEIVER_ERRORS_ERROR_CHAIN_H_
+
+#include <vector>
+
+#include "filters/linear_tape.h"
+#include "filters/mixing.h"
+#include "receiver_errors/error_history.h"
+
+namespace hindsight {
+
+/// The linear system of a tape about one fixed nominal, extended by the error
+/// (e, r) of one position receiver, north, east, down each; its fixes see e.
+class ErrorChain {
+ public:
+  ErrorChain(const LinearTape& tape, int receiver,
+             const ErrorParameters& parameters);
+
+  std::size_t size() const { return tape_.size(); }
+  int fix_count() const { return fix_count_; }
+  int dim() const { return navigation_dim_ + 6; }
+
+  Gaussian Begin() const;
+
+  /// Makes node k and the interval before it the present ones.
+  void MoveTo(std::size_t k);
+  double t() const { return tape_.epoch(k_).t; }
+  bool has_fix() const { return fix_ >= 0; }
+  /// Measurements of the node over (navigation, e, r).
+  const std::vector<LinearizedMeasurement>& measurements() const { return z_; }
+
+  /// Predicts the navigation errors over the interval and leaves e and r as
+  /// they are before it.
+  Gaussian PredictNavigation(const Gaussian& x) const;
+  /// Predicts e and r over the interval as `step` says; PredictNavigation came
+  /// before.
+  void PredictError(ErrorStep step, Gaussian* x) const;
+  /// The transition of the whole system.
+  ErrorMatrix Phi(ErrorStep step) const;
+  /// Its process noise: the two predictions together are
+  ///   x <- Phi x + (c, 0, 0) + w,   w ~ (0, Q),
+  /// with the tape's defect c. Q is singular where a step adds no noise to e or
+  /// to r.
+  ErrorMatrix Q(ErrorStep step) const;
+  /// (c, 0, 0) of the interval. Like Phi and Q it means nothing at the first
+  /// node, which has no interval before it.
+  ErrorVector Defect() const;
+
+  /// ln of the likelihood of the fix, which may be an outlier, and whether it
+  /// rather is one.
+  struct FixLikelihood {
+    double log = 0.0;
+    bool outlier = false;
+  };
+  /// The likelihood of the node's fix, x being what PredictError gave.
+  FixLikelihood LikelihoodOfFix(const Gaussian& x) const;
+  /// What the fix sees of a state after PredictNavigation, whatever the step of
+  /// the error.
+  struct FixView {
+    Eigen::Vector3d innovation;  ///< residual - H_n mean_n
+    Eigen::Matrix3d S;           ///< H_n P_n H_n'
+    Eigen::Matrix3d P_ze, P_zr;  ///< H_n P_ne, H_n P_nr
+    Eigen::Vector3d e, r;
+    Eigen::Matrix3d P_ee, P_er, P_rr;
+  };
+  FixView ViewOf(const Gaussian& x) const;
+  /// What LikelihoodOfFix would give after PredictError of `step`.
+  FixLikelihood LikelihoodAfter(ErrorStep step, const FixView& view) const;
+
+  /// Measurement i of the node as UpdateAll uses it, the fix with the noise of
+  /// an outlier if it is taken for one.
+  LinearizedMeasurement MeasurementAs(std::size_t i, bool outlier) const;
+  /// Updates with all measurements of the node; returns ln of the likelihood of
+  /// those beside the fix. `used` gets what was used, if asked for.
+  struct Used {
+    LinearizedMeasurement z;
+    Innovation innovation;
+    RowJacobian HP;  ///< with P before the update
+  };
+  double UpdateAll(bool outlier, Gaussian* x,
+                   std::vector<Used>* used = nullptr) const;
+
+ private:
+  FixLikelihood Likelihood(const ErrorDynamics& d, const FixView& view) const;
+
+  const LinearTape& tape_;
+  int receiver_;
+  ErrorParameters parameters_;
+  int navigation_dim_;
+  int position_ = -1;  ///< offsets, or -1 if an axis is masked
+  int velocity_ = -1;
+  int fix_count_ = 0;
+  std::size_t k_ = 0;
+  ErrorMatrix Phi_n_;
+  ErrorMatrix Q_n_;
+  double dt_ = 0.0;
+  int fix_ = -1;  ///< index in z_
+  std::vector<LinearizedMeasurement> z_;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_RECEIVER_ERRORS_ERROR_CHAIN_H_

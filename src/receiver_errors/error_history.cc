@@ -1,0 +1,127 @@
+#include "receiver_errors/error_history.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hindsight {
+namespace {
+
+constexpr ErrorStep kStayGood = {ErrorMode::kGood};
+constexpr ErrorStep kGoOnBiased = {ErrorMode::kBiased};
+constexpr ErrorStep kJump = {ErrorMode::kBiased, true};
+constexpr ErrorStep kGoOnSlight = {ErrorMode::kSlight};
+constexpr ErrorStep kSlightJump = {ErrorMode::kSlight, true};
+constexpr ErrorStep kGoOnDrifting = {ErrorMode::kDrifting};
+constexpr ErrorStep kBeginDrift = {ErrorMode::kDrifting, true};
+
+}  // namespace
+
+std::vector<ErrorMode> StoryOf(const ErrorHistory& history) {
+  std::vector<ErrorMode> story;
+  ErrorMode mode = ErrorMode::kGood;
+  for (const ErrorStep& step : history) {
+    if (step.anew || step.mode != mode) story.push_back(step.mode);
+    mode = step.mode;
+  }
+  return story;
+}
+
+ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt) {
+  ErrorDynamics d;
+  d.q_vv = step.jolt ? p.rate_sigma * p.rate_sigma : 0.0;
+  switch (step.mode) {
+    case ErrorMode::kGood:
+      break;
+    case ErrorMode::kBiased:
+    case ErrorMode::kSlight: {
+      const bool slight = step.mode == ErrorMode::kSlight;
+      const double sigma = slight ? p.slight_sigma : p.sigma;
+      const double tau = slight ? p.slight_tau : p.tau;
+      d.ee = step.anew ? 0.0 : std::exp(-dt / tau);
+      d.q_ee = sigma * sigma * (1.0 - d.ee * d.ee);
+      break;
+    }
+    case ErrorMode::kDrifting: {
+      const double rate = p.rate_sigma * p.rate_sigma;
+      d.ee = 1.0;
+      d.er = step.anew ? 0.0 : dt;
+      d.rr = step.anew ? 0.0 : 1.0;
+      d.q_rr = step.anew ? rate : rate * kDriftWalk * kDriftWalk * dt;
+      d.q_er = step.anew ? rate * dt : 0.0;
+      d.q_ee = step.anew ? rate * dt * dt : 0.0;
+      break;
+    }
+  }
+  return d;
+}
+
+double LogTransition(ErrorMode before, ErrorStep step, int fixes) {
+  // Expected numbers of changes in a record that is all of one mode, the prior
+  // of a Markov chain. Orders of magnitude: errors are rare, and end; an IMU
+  // rather jolts than a receiver drifts. A factor of ten is 2.3 in the
+  // logarithm of a posterior, of which an error of three sigmas over ten fixes
+  // has 45.
+  constexpr double kEnd = 4.0;    // a bias or drift ends, the receiver is good
+  constexpr double kJumps = 1.0;  // a good receiver becomes biased
+  constexpr double kSlights = 1.0;  // a receiver becomes slightly biased
+  constexpr double kDrifts = 0.2;   // a good receiver begins to drift
+  constexpr double kStops = 0.2;    // a drift stops, its error stays
+  constexpr double kJolts = 2.0;    // the velocity of the IMU jumps
+  constexpr double kChanges = 3.0;  // a biased receiver jumps to another bias
+  constexpr double kBends = 0.001;  // a drifting one gets another rate
+  const double once = 1.0 / std::max(fixes, 20);
+  const bool good = before == ErrorMode::kGood;
+  const bool small = good || before == ErrorMode::kSlight;
+  const double jumps = small ? kJumps : kChanges;
+  const double drifts = small ? kDrifts : kBends;
+  const double stops = before == ErrorMode::kDrifting ? kStops : 0.0;
+  const double ends = good ? 0.0 : kEnd;
+  if (step == kJump) return std::log(jumps * once);
+  if (step == kSlightJump) return std::log(kSlights * once);
+  if (step == kBeginDrift) return std::log(drifts * once);
+  if (step.jolt) return std::log(kJolts * once);
+  if (step.mode == before) {
+    return std::log1p(-(jumps + kSlights + drifts + stops + ends + kJolts) *
+                      once);
+  }
+  if (step == kStayGood) return std::log(kEnd * once);
+  return std::log(kStops * once);
+}
+
+std::vector<ErrorStep> StepsAfter(ErrorMode before) {
+  const ErrorStep jolt = {before, false, true};
+  switch (before) {
+    case ErrorMode::kGood:
+      return {kStayGood, jolt, kJump, kSlightJump, kBeginDrift};
+    case ErrorMode::kBiased:
+      return {kGoOnBiased, jolt, kStayGood, kJump, kSlightJump, kBeginDrift};
+    case ErrorMode::kSlight:
+      return {kGoOnSlight, jolt, kStayGood, kJump, kSlightJump, kBeginDrift};
+    case ErrorMode::kDrifting:
+      return {kGoOnDrifting, jolt,        kStayGood,  kGoOnBiased,
+              kJump,         kSlightJump, kBeginDrift};
+  }
+  return {};
+}
+
+bool HasFix(const LinearTape& tape, std::size_t k, int receiver) {
+  for (const TapeMeasurement& z : tape.measurements(k)) {
+    if (z.sensor == receiver && z.accepted && !z.withheld) return true;
+  }
+  return false;
+}
+
+std::vector<ErrorStep> StepsByNode(const LinearTape& tape, int receiver,
+                                   const ErrorHistory& history) {
+  std::vector<ErrorStep> steps;
+  ErrorStep step;
+  auto next = history.begin();
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    step = {step.mode};
+    if (HasFix(tape, k, receiver)) step = *next++;
+    steps.push_back(step);
+  }
+  return steps;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,80 @@
+#ifndef HINDSIGHT_RECEIVER_ERRORS_ERROR_HISTORY_H_
+#define HINDSIGHT_RECEIVER_ERRORS_ERROR_HISTORY_H_
+
+#include <vector>
+
+#include "filters/linear_tape.h"
+
+namespace hindsight {
+
+/// What a position receiver's error is at a fix, beyond white noise.
+enum class ErrorMode : char {
+  kGood,      ///< none
+  kBiased,    ///< e, a Gauss-Markov process
+  kDrifting,  ///< e grows at a rate r that hardly changes
+  kSlight     ///< as kBiased, but for a smaller sigma
+};
+
+/// How the error came to a fix from the one before it. `anew`: of a bias, e is
+/// drawn anew (a jump); of a drift, r is. A bias that is not new goes on, or
+/// follows a drift that stops. `jolt`: what goes on does so over an interval in
+/// which the IMU has jolted: its velocity has a jump that no noise explains,
+/// which else would pass for a drift of the receiver.
+struct ErrorStep {
+  ErrorMode mode = ErrorMode::kGood;
+  bool anew = false;
+  bool jolt = false;
+  bool operator==(const ErrorStep&) const = default;
+};
+
+/// A step for each node that has a fix of the receiver, in order.
+using ErrorHistory = std::vector<ErrorStep>;
+
+/// The modes of a history in their order, whatever their times: the story that
+/// it tells.
+std::vector<ErrorMode> StoryOf(const ErrorHistory& history);
+
+struct ErrorParameters {
+  double scale = 1.0;           ///< on the stated sigma of a fix
+  double outlier_share = 0.02;  ///< of the fixes
+  double outlier_ratio = 10.0;  ///< sigma of an outlier, by that of others
+  double sigma = 10.0;          ///< of a bias, an axis [m]
+  double tau = 1000.0;          ///< its correlation time [s]
+  double slight_sigma = 2.0;    ///< of a slight bias: receivers have both
+  double slight_tau = 100.0;    ///< its correlation time [s]
+  double rate_sigma = 0.1;      ///< of a drift, and of a jolt, an axis [m/s]
+};
+
+/// With which the rate of a drift walks, in its sigma [1/sqrt(s)]. A drift that
+/// bends more is one of several pieces: what bends freely explains any
+/// correlated noise.
+inline constexpr double kDriftWalk = 1e-3;
+
+/// Over an interval, an axis:
+///   e' = ee e + er r + w_e,   r' = rr r + w_r,
+///   cov(w_e, w_r) = (q_ee, q_er; q_er, q_rr),
+/// and a jump of the velocity of variance q_vv where it begins.
+struct ErrorDynamics {
+  double ee = 0.0, er = 0.0, rr = 0.0;
+  double q_ee = 0.0, q_er = 0.0, q_rr = 0.0;
+  double q_vv = 0.0;
+};
+ErrorDynamics DynamicsOf(const ErrorParameters& parameters, ErrorStep step,
+                         double dt);
+
+/// ln probability of a step after a mode, where `fixes` fixes are expected to
+/// hold a few changes.
+double LogTransition(ErrorMode before, ErrorStep step, int fixes);
+/// The steps that may follow a mode.
+std::vector<ErrorStep> StepsAfter(ErrorMode before);
+
+/// The steps into every node: those of the history at fixes, between them what
+/// goes on.
+std::vector<ErrorStep> StepsByNode(const LinearTape& tape, int receiver,
+                                   const ErrorHistory& history);
+/// Whether the node has a fix of the receiver that is used.
+bool HasFix(const LinearTape& tape, std::size_t k, int receiver);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_RECEIVER_ERRORS_ERROR_HISTORY_H_

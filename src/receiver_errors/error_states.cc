@@ -1,0 +1,131 @@
+#include "receiver_errors/error_states.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace hindsight {
+namespace {
+
+/// What is left of an error where the receiver is good, in its sigma: exact
+/// steps would leave the problem singular.
+constexpr double kNoError = 1e-3;
+
+/// Sigma of e at the first node [m]; 0 where the receiver is good there.
+double FirstSigma(const HistoryAlternative& chosen) {
+  switch (chosen.steps.front().mode) {
+    case ErrorMode::kGood:
+      return 0.0;
+    case ErrorMode::kSlight:
+      return chosen.parameters.slight_sigma;
+    case ErrorMode::kBiased:
+    case ErrorMode::kDrifting:
+      break;
+  }
+  return chosen.parameters.sigma;
+}
+
+}  // namespace
+
+ErrorStates::ErrorStates(const LinearTape& tape, int receiver,
+                         double stated_sigma, ErrorRegimes::Kind kind,
+                         const HistoryAlternative& chosen)
+    : tape_(tape),
+      receiver_(receiver),
+      floor_(kNoError * stated_sigma),
+      kind_(kind),
+      chosen_(chosen) {}
+
+bool ErrorStates::HasRate() const {
+  return std::any_of(
+      chosen_.steps.begin(), chosen_.steps.end(),
+      [](const ErrorStep& s) { return s.mode == ErrorMode::kDrifting; });
+}
+
+void ErrorStates::Extend(Problem* problem) const {
+  const Sensor sensor =
+      problem->timeline.sensors()[static_cast<std::size_t>(receiver_)];
+  ApplyToSensor(&problem->timeline);
+  if (!HasError()) return;
+  ErrorLayout& layout = problem->layout;
+  AddBlock(BlockKind::kColouredNoise, sensor.name + "_error", "m",
+           std::max(floor_, FirstSigma(chosen_)), &layout);
+  if (HasRate()) {
+    AddBlock(BlockKind::kErrorRate, sensor.name + "_error_rate", "m/s",
+             chosen_.parameters.rate_sigma, &layout);
+  }
+  Prior& prior = problem->prior;
+  const int added = HasRate() ? 6 : 3;
+  prior.x.parameters.conservativeResize(layout.parameter_count());
+  prior.x.parameters.tail(added).setZero();
+  ErrorMatrix P = layout.InitialCovariance();
+  P.topLeftCorner(prior.P.rows(), prior.P.cols()) = prior.P;
+  prior.P = P;
+  std::vector<std::vector<BlockStep>> steps;
+  for (std::size_t k = 1; k < chosen_.steps.size(); ++k) {
+    steps.push_back(StepsTo(k));
+  }
+  problem->timeline.SetBlockSteps(std::move(steps));
+}
+
+std::vector<State> ErrorStates::States(const ErrorLayout& layout) const {
+  std::vector<State> states;
+  for (std::size_t k = 0; k < tape_.size(); ++k) {
+    State x = tape_.epoch(k).x_plus;
+    const Eigen::Index count = x.parameters.size();
+    x.parameters.conservativeResize(layout.parameter_count());
+    x.parameters.tail(layout.parameter_count() - count).setZero();
+    states.push_back(Retract(
+        layout, x, ErrorVector(chosen_.smoothed[k].head(layout.dim()))));
+  }
+  return states;
+}
+
+void ErrorStates::ApplyToSensor(Timeline* timeline) const {
+  const auto i = static_cast<std::size_t>(receiver_);
+  Sensor sensor = timeline->sensors()[i];
+  sensor.loss.kind = RobustLoss::Kind::kMixture;
+  sensor.loss.scale = 1.0;
+  sensor.loss.rows = 3;
+  sensor.loss.outlier_ratio = chosen_.parameters.outlier_ratio;
+  sensor.loss.outlier_share = chosen_.parameters.outlier_share;
+  timeline->SetSensor(i, sensor);
+  timeline->ScaleSensor(receiver_, chosen_.parameters.scale);
+}
+
+void ErrorStates::AddBlock(BlockKind kind, const std::string& name,
+                           const char* unit, double sigma0,
+                           ErrorLayout* layout) const {
+  Block block;
+  block.key = {kind, receiver_};
+  block.name = name;
+  block.unit = unit;
+  block.evolution =
+      Evolution::GaussMarkov(chosen_.parameters.sigma, chosen_.parameters.tau);
+  block.sigma0.setConstant(sigma0);
+  layout->Add(block);
+}
+
+std::vector<BlockStep> ErrorStates::StepsTo(std::size_t k) const {
+  const ErrorStep& before = chosen_.steps[k - 1];
+  const ErrorStep& step = chosen_.steps[k];
+  const double dt = tape_.epoch(k).t - tape_.epoch(k - 1).t;
+  const ErrorDynamics d = DynamicsOf(chosen_.parameters, step, dt);
+  const double rate =
+      chosen_.parameters.rate_sigma * chosen_.parameters.rate_sigma;
+  BlockStep e = {
+      {BlockKind::kColouredNoise, receiver_}, d.ee, d.q_ee + floor_ * floor_};
+  BlockStep r = {{BlockKind::kErrorRate, receiver_}, 0.0, rate};
+  // A rate is free before a drift that begins; one that follows another needs
+  // an interval in which it is drawn anew.
+  const bool drifts = step.mode == ErrorMode::kDrifting;
+  const bool follows = before.mode == ErrorMode::kDrifting;
+  if (drifts && !(step.anew && follows)) {
+    e.rate = r.key;
+    r.phi = 1.0;
+    r.variance = rate * kDriftWalk * kDriftWalk * dt;
+  }
+  if (drifts && step.anew && !follows) e.variance = floor_ * floor_;
+  return {e, r};
+}
+
+}  // namespace hindsight

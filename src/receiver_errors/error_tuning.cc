@@ -1,0 +1,141 @@
+#include "receiver_errors/error_tuning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "receiver_errors/history_smoother.h"
+
+namespace hindsight {
+namespace {
+
+/// A parameter that the likelihood decides, with its prior: normal in the
+/// logarithm.
+struct Tunable {
+  double ErrorParameters::*member;
+  double least;
+  double most;
+  double typical;
+  double spread;  ///< standard deviation of the logarithm
+  /// Of the quantity, where its bounds mean something.
+  const char* name = nullptr;
+  const char* unit = "";
+};
+
+std::vector<Tunable> TunablesOf(const ErrorHistory& history,
+                                const ErrorParameters& from) {
+  std::vector<Tunable> out = {
+      {&ErrorParameters::scale, 0.01, 100.0, 1.0, 1.0,
+       "the factor on the stated sigma", "1"},
+      {&ErrorParameters::outlier_share, 1e-3, 0.4, 0.02, 1.5,
+       "the share of outliers", "1"},
+      {&ErrorParameters::outlier_ratio, 3.0, 1000.0, 10.0, 1.5}};
+  bool biased = false;
+  bool slight = false;
+  bool drifting = false;
+  for (const ErrorStep& step : history) {
+    biased |= step.mode == ErrorMode::kBiased;
+    slight |= step.mode == ErrorMode::kSlight;
+    drifting |= step.mode == ErrorMode::kDrifting || step.jolt;
+  }
+  if (biased) {
+    out.push_back({&ErrorParameters::tau, 0.1, 1e9, from.tau, 2.3});
+    out.push_back({&ErrorParameters::sigma, 1e-4, 1e5, from.sigma, 2.3,
+                   "the sigma of the bias", "m"});
+  }
+  if (slight) {
+    out.push_back(
+        {&ErrorParameters::slight_tau, 0.1, 1e9, from.slight_tau, 2.3});
+    out.push_back(
+        {&ErrorParameters::slight_sigma, 1e-4, 1e5, from.slight_sigma, 1.0});
+  }
+  if (drifting) {
+    out.push_back(
+        {&ErrorParameters::rate_sigma, 1e-6, 1e3, from.rate_sigma, 2.3});
+  }
+  return out;
+}
+
+/// The likelihood of a history as a function of the parameters.
+class Tuning {
+ public:
+  Tuning(const LinearTape& tape, int receiver, const ErrorHistory& history,
+         const ErrorParameters& from)
+      : tape_(tape),
+        receiver_(receiver),
+        history_(history),
+        tunables_(TunablesOf(history, from)),
+        parameters_(from) {}
+
+  /// Multiplies each parameter by smaller and smaller steps while it gains.
+  ErrorParameters Climb() {
+    value_ = Value(parameters_);
+    for (const double step : {2.5, 1.3}) {
+      for (const Tunable& tunable : tunables_) {
+        if (!Walk(tunable, step)) Walk(tunable, 1.0 / step);
+      }
+    }
+    constexpr double kFine = 1.08;
+    const Tunable& scale = tunables_.front();
+    if (!Walk(scale, kFine)) Walk(scale, 1.0 / kFine);
+    return parameters_;
+  }
+
+ private:
+  double Value(const ErrorParameters& p) const {
+    double value = ScoreHistory(tape_, receiver_, p, history_).log_likelihood;
+    for (const Tunable& tunable : tunables_) {
+      const double z =
+          std::log(p.*tunable.member / tunable.typical) / tunable.spread;
+      value -= 0.5 * z * z;
+    }
+    return value;
+  }
+
+  bool Walk(const Tunable& tunable, double step) {
+    constexpr int kMost = 8;
+    for (int i = 0; i < kMost; ++i) {
+      ErrorParameters trial = parameters_;
+      trial.*tunable.member =
+          std::clamp(trial.*tunable.member * step, tunable.least, tunable.most);
+      const double value = Value(trial);
+      if (!(value > value_)) return i > 0;
+      parameters_ = trial;
+      value_ = value;
+    }
+    return true;
+  }
+
+  const LinearTape& tape_;
+  int receiver_;
+  const ErrorHistory& history_;
+  std::vector<Tunable> tunables_;
+  ErrorParameters parameters_;
+  double value_ = 0.0;
+};
+
+}  // namespace
+
+ErrorParameters TuneParameters(const LinearTape& tape, int receiver,
+                               const ErrorHistory& history,
+                               const ErrorParameters& from) {
+  return Tuning(tape, receiver, history, from).Climb();
+}
+
+std::vector<BoundedValue> BoundedParameters(const ErrorHistory& history,
+                                            const ErrorParameters& found) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::vector<BoundedValue> values;
+  for (const Tunable& t : TunablesOf(history, found)) {
+    if (t.name == nullptr) continue;
+    const bool share = t.member == &ErrorParameters::outlier_share;
+    values.push_back({.name = t.name,
+                      .unit = t.unit,
+                      .value = found.*t.member,
+                      .least = share ? -kNone : t.least,
+                      .most = t.most});
+  }
+  return values;
+}
+
+}  // namespace hindsight

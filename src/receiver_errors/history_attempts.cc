@@ -1,0 +1,106 @@
+#include "receiver_errors/history_attempts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "receiver_errors/error_tuning.h"
+#include "receiver_errors/history_smoother.h"
+
+namespace hindsight {
+namespace {
+
+bool IsAllGood(const ErrorHistory& history) {
+  return std::all_of(history.begin(), history.end(), [](const ErrorStep& s) {
+    return s.mode == ErrorMode::kGood;
+  });
+}
+
+/// Where the search for histories begins: errors of several sizes, short or
+/// lasting.
+std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
+                                    const ErrorParameters& white) {
+  constexpr double kRateTime = 100.0;
+  constexpr double kSlight = 3.0;
+  std::vector<ErrorParameters> starts;
+  for (const auto& [size, tau] : {std::pair{5.0, 1e8},
+                                  {5.0, 30.0},
+                                  {50.0, 1e8},
+                                  {50.0, 30.0},
+                                  {500.0, 1e8}}) {
+    ErrorParameters& p = starts.emplace_back(white);
+    p.sigma = size * problem.stated_sigma;
+    p.slight_sigma = kSlight * problem.stated_sigma;
+    p.tau = tau;
+    p.rate_sigma = p.sigma / kRateTime;
+  }
+  return starts;
+}
+
+double LogPosterior(const RegimeProblem& problem,
+                    const ErrorParameters& parameters,
+                    const ErrorHistory& history) {
+  const HistoryScore score =
+      ScoreHistory(problem.tape, problem.receiver, parameters, history);
+  return score.log_likelihood + score.log_prior;
+}
+
+}  // namespace
+
+std::vector<Attempt> MakeAttempts(const RegimeProblem& problem,
+                                  const ErrorParameters& white) {
+  constexpr std::size_t kNarrow = 1;
+  constexpr int kMostRounds = 3;
+  std::vector<Attempt> attempts;
+  const auto is_known = [&](const ErrorHistory& history) {
+    return std::any_of(attempts.begin(), attempts.end(),
+                       [&](const auto& a) { return a.history == history; });
+  };
+  for (ErrorParameters parameters : Starts(problem, white)) {
+    for (int round = 0; round < kMostRounds; ++round) {
+      if (problem.poll) problem.poll();
+      ErrorHistory found =
+          SearchHistories(problem.tape, problem.receiver, parameters, kNarrow)
+              .front()
+              .history;
+      if (IsAllGood(found) || is_known(found)) break;
+      parameters =
+          TuneParameters(problem.tape, problem.receiver, found, parameters);
+      const double log_posterior = LogPosterior(problem, parameters, found);
+      attempts.push_back({parameters, std::move(found), log_posterior});
+    }
+  }
+  std::sort(attempts.begin(), attempts.end(), [](const auto& a, const auto& b) {
+    return a.log_posterior > b.log_posterior;
+  });
+  return attempts;
+}
+
+std::vector<Attempt> BestAttempts(const RegimeProblem& problem,
+                                  const std::vector<Attempt>& attempts) {
+  constexpr std::size_t kMost = 3;
+  constexpr double kLeastLog = 60.0;
+  constexpr double kApart = 0.25;  // by the sigma of a fix
+  std::vector<Attempt> best;
+  std::vector<std::vector<ErrorVector>> trajectories;
+  for (const Attempt& attempt : attempts) {
+    if (best.size() == kMost) break;
+    if (attempt.log_posterior < attempts.front().log_posterior - kLeastLog) {
+      break;
+    }
+    std::vector<ErrorVector> trajectory = SmoothHistory(
+        problem.tape, problem.receiver, attempt.parameters, attempt.history);
+    const double apart =
+        kApart * attempt.parameters.scale * problem.stated_sigma;
+    const bool known = std::any_of(
+        trajectories.begin(), trajectories.end(), [&](const auto& t) {
+          return MeanSquareDistance(t, trajectory) < apart * apart;
+        });
+    if (known) continue;
+    best.push_back(attempt);
+    trajectories.push_back(std::move(trajectory));
+  }
+  return best;
+}
+
+}  // namespace hindsight

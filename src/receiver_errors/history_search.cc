@@ -1,0 +1,215 @@
+#include "receiver_errors/history_search.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "receiver_errors/error_chain.h"
+
+namespace hindsight {
+namespace {
+
+/// Histories less likely than the best by this are given up [ln].
+constexpr double kLeastLog = 30.0;
+/// Squared distance of means, in sigmas, below which two of a mode are one.
+constexpr double kNear = 0.05;
+
+struct Hypothesis {
+  Gaussian x;
+  ErrorMode mode = ErrorMode::kGood;
+  double log_weight = 0.0;
+  int record = -1;
+  int began = 0;  ///< fix at which what goes on began
+};
+
+/// A step of a history and the record before it.
+struct Record {
+  int before = -1;
+  ErrorStep step;
+};
+
+struct Candidate {
+  std::size_t parent = 0;
+  ErrorStep step;
+  double log_weight = 0.0;
+  bool outlier = false;
+  int began = 0;
+};
+
+/// Counts histories by mode and by how long ago what goes on began, in powers
+/// of two of fixes. Every fix gives birth to histories of an error that has
+/// just begun; were they counted with the older ones, they would in time drive
+/// out the one that is right, as nothing tells it yet from one that is not.
+class Quota {
+ public:
+  explicit Quota(std::size_t most) : most_(most) {}
+
+  bool Take(ErrorMode mode, int age) {
+    const int width =
+        static_cast<int>(std::bit_width(static_cast<unsigned>(age)));
+    std::size_t& count =
+        kept_[static_cast<std::size_t>(mode)][static_cast<std::size_t>(width)];
+    if (count == most_) return false;
+    ++count;
+    return true;
+  }
+
+ private:
+  std::size_t most_;
+  std::array<std::array<std::size_t, 33>, 4> kept_ = {};
+};
+
+double LogSum(double a, double b) {
+  return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b)));
+}
+
+class Search {
+ public:
+  Search(const LinearTape& tape, int receiver,
+         const ErrorParameters& parameters, std::size_t width)
+      : chain_(tape, receiver, parameters),
+        navigation_dim_(tape.dim()),
+        parameters_(parameters),
+        width_(width) {}
+
+  std::vector<ScoredHistory> Run() {
+    Hypothesis& first = hypotheses_.emplace_back();
+    first.x = chain_.Begin();
+    for (std::size_t k = 0; k < chain_.size(); ++k) {
+      chain_.MoveTo(k);
+      for (Hypothesis& h : hypotheses_) h.x = chain_.PredictNavigation(h.x);
+      if (chain_.has_fix()) {
+        Branch();
+        Merge();
+        ++fix_;
+      } else {
+        GoOn();
+      }
+    }
+    return Histories();
+  }
+
+ private:
+  void GoOn() {
+    for (Hypothesis& h : hypotheses_) {
+      chain_.PredictError({h.mode}, &h.x);
+      h.log_weight += chain_.UpdateAll(false, &h.x);
+    }
+  }
+
+  void Branch() {
+    const std::vector<Candidate> best = Best(AllCandidates());
+    std::vector<Hypothesis> next;
+    next.reserve(best.size());
+    for (const Candidate& c : best) {
+      Hypothesis& h = next.emplace_back();
+      h.x = hypotheses_[c.parent].x;
+      h.mode = c.step.mode;
+      h.began = c.began;
+      h.record = static_cast<int>(records_.size());
+      records_.push_back({hypotheses_[c.parent].record, c.step});
+      chain_.PredictError(c.step, &h.x);
+      h.log_weight = c.log_weight + chain_.UpdateAll(c.outlier, &h.x);
+    }
+    hypotheses_ = std::move(next);
+  }
+
+  std::vector<Candidate> AllCandidates() const {
+    std::vector<Candidate> all;
+    for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
+      const Hypothesis& h = hypotheses_[i];
+      const ErrorChain::FixView view = chain_.ViewOf(h.x);
+      for (const ErrorStep step : StepsAfter(h.mode)) {
+        const auto likelihood = chain_.LikelihoodAfter(step, view);
+        const bool goes_on = step == ErrorStep{h.mode};
+        all.push_back({i, step,
+                       h.log_weight + likelihood.log +
+                           LogTransition(h.mode, step, chain_.fix_count()),
+                       likelihood.outlier, goes_on ? h.began : fix_});
+      }
+    }
+    return all;
+  }
+
+  std::vector<Candidate> Best(std::vector<Candidate> all) const {
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+      return a.log_weight > b.log_weight;
+    });
+    Quota quota(2 * width_);
+    std::vector<Candidate> best;
+    for (const Candidate& c : all) {
+      if (c.log_weight < all.front().log_weight - kLeastLog) break;
+      if (quota.Take(c.step.mode, fix_ - c.began)) best.push_back(c);
+    }
+    return best;
+  }
+
+  /// Lets the likelier of two near hypotheses of a mode stand for both.
+  void Merge() {
+    std::vector<Hypothesis*> sorted;
+    for (Hypothesis& h : hypotheses_) sorted.push_back(&h);
+    std::sort(sorted.begin(), sorted.end(), [](const auto* a, const auto* b) {
+      return a->log_weight > b->log_weight;
+    });
+    std::vector<Hypothesis> merged;
+    merged.reserve(sorted.size());
+    Quota quota(width_);
+    for (Hypothesis* h : sorted) {
+      const auto near =
+          std::find_if(merged.begin(), merged.end(), [&](const auto& other) {
+            return other.mode == h->mode && IsNear(*h, other);
+          });
+      if (near != merged.end()) {
+        near->log_weight = LogSum(near->log_weight, h->log_weight);
+      } else if (quota.Take(h->mode, fix_ - h->began)) {
+        merged.push_back(std::move(*h));
+      }
+    }
+    hypotheses_ = std::move(merged);
+  }
+
+  /// Whether the mean of h is within the covariance of `other`.
+  bool IsNear(const Hypothesis& h, const Hypothesis& other) const {
+    const ErrorVector d = (h.x.mean - other.x.mean).head(navigation_dim_);
+    const auto P = other.x.P.topLeftCorner(navigation_dim_, navigation_dim_);
+    // No component can be farther off than all together.
+    if ((d.array().square() > kNear * P.diagonal().array()).any()) return false;
+    const Eigen::LLT<ErrorMatrix> llt(ErrorMatrix{P});
+    return llt.matrixL().solve(d).squaredNorm() <= kNear;
+  }
+
+  std::vector<ScoredHistory> Histories() const {
+    std::vector<ScoredHistory> out;
+    for (const Hypothesis& h : hypotheses_) {
+      ScoredHistory& one = out.emplace_back();
+      one.log_posterior = h.log_weight;
+      one.parameters = parameters_;
+      for (int i = h.record; i >= 0;
+           i = records_[static_cast<std::size_t>(i)].before) {
+        one.history.push_back(records_[static_cast<std::size_t>(i)].step);
+      }
+      std::reverse(one.history.begin(), one.history.end());
+    }
+    return out;
+  }
+
+  ErrorChain chain_;
+  int navigation_dim_;
+  ErrorParameters parameters_;
+  std::size_t width_;
+  int fix_ = 0;
+  std::vector<Hypothesis> hypotheses_;
+  std::vector<Record> records_;
+};
+
+}  // namespace
+
+std::vector<ScoredHistory> SearchHistories(const LinearTape& tape, int receiver,
+                                           const ErrorParameters& parameters,
+                                           std::size_t width) {
+  return Search(tape, receiver, parameters, width).Run();
+}
+
+}  // namespace hindsight

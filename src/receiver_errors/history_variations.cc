@@ -1,0 +1,168 @@
+#include "receiver_errors/history_variations.h"
+
+#include <cmath>
+
+namespace hindsight {
+namespace {
+
+/// Fixes of the shortest earlier error that is looked for, and the ratio of the
+/// lengths that are.
+constexpr std::size_t kShortest = 5;
+constexpr double kLengthRatio = 1.25;
+
+ErrorMode ModeBefore(const ErrorHistory& h, std::size_t i) {
+  return i == 0 ? ErrorMode::kGood : h[i - 1].mode;
+}
+
+/// Fixes at which something changes, and the end.
+std::vector<std::size_t> Changes(const ErrorHistory& h) {
+  std::vector<std::size_t> at;
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    if (h[i].anew || h[i].jolt || h[i].mode != ModeBefore(h, i))
+      at.push_back(i);
+  }
+  at.push_back(h.size());
+  return at;
+}
+
+/// Fills [begin, end) with what goes on in a mode.
+void GoOn(ErrorMode mode, std::size_t begin, std::size_t end, ErrorHistory* h) {
+  for (std::size_t i = begin; i < end; ++i) (*h)[i] = {mode};
+}
+
+/// The history with its change at `from`, between `first` and `end`, at `to`.
+ErrorHistory Moved(ErrorHistory h, std::size_t from, std::size_t to) {
+  const ErrorStep step = h[from];
+  GoOn(ModeBefore(h, from), from, to, &h);
+  GoOn(step.mode, to, from + 1, &h);
+  h[to] = step;
+  return h;
+}
+
+ErrorHistory WithSegment(ErrorHistory h, std::size_t begin, std::size_t end,
+                         ErrorStep step) {
+  GoOn(step.mode, begin, end, &h);
+  h[begin] = step;
+  return h;
+}
+
+/// From change c on the receiver is good and the IMU jolts instead.
+ErrorHistory WithJolts(ErrorHistory h, const std::vector<std::size_t>& at,
+                       std::size_t c) {
+  const bool returns = ModeBefore(h, at[c]) != ErrorMode::kGood;
+  GoOn(ErrorMode::kGood, at[c], h.size(), &h);
+  for (std::size_t i = returns ? c + 1 : c; i + 1 < at.size(); ++i) {
+    h[at[i]].jolt = true;
+  }
+  return h;
+}
+
+/// Fixes at which the receiver's error changes, whatever the IMU does, and the
+/// end.
+std::vector<std::size_t> Parts(const ErrorHistory& h) {
+  std::vector<std::size_t> at;
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    if (h[i].anew || h[i].mode != ModeBefore(h, i)) at.push_back(i);
+  }
+  at.push_back(h.size());
+  return at;
+}
+
+/// Gives [begin, end) another error, drawn anew unless good, and keeps jolts.
+void SetError(ErrorMode mode, std::size_t begin, std::size_t end,
+              ErrorHistory* h) {
+  const bool is_good = mode == ErrorMode::kGood;
+  for (std::size_t i = begin; i < end; ++i) {
+    const bool anew = i == begin && !is_good;
+    (*h)[i] = {mode, anew, (*h)[i].jolt && !anew};
+  }
+}
+
+/// The other way about at part c: where the receiver erred before and is good
+/// after, it was good before and errs after; and the reverse.
+ErrorHistory Swapped(ErrorHistory h, const std::vector<std::size_t>& at,
+                     std::size_t c, ErrorMode error) {
+  const std::size_t begin = c == 0 ? 0 : at[c - 1];
+  const bool erred = ModeBefore(h, at[c]) != ErrorMode::kGood;
+  SetError(erred ? ErrorMode::kGood : error, begin, at[c], &h);
+  SetError(erred ? error : ErrorMode::kGood, at[c], at[c + 1], &h);
+  return h;
+}
+
+void AddSwaps(const ErrorHistory& h, std::vector<ErrorHistory>* all) {
+  const std::vector<std::size_t> at = Parts(h);
+  for (std::size_t c = 0; c + 1 < at.size(); ++c) {
+    const ErrorMode before = ModeBefore(h, at[c]);
+    const ErrorMode error = before == ErrorMode::kGood ? h[at[c]].mode : before;
+    all->push_back(Swapped(h, at, c, error));
+    if (error != ErrorMode::kBiased) {
+      all->push_back(Swapped(h, at, c, ErrorMode::kBiased));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<ErrorHistory> Variations(const ErrorHistory& h) {
+  std::vector<ErrorHistory> all;
+  const std::vector<std::size_t> at = Changes(h);
+  for (std::size_t c = 0; c + 1 < at.size(); ++c) {
+    const std::size_t least = c == 0 ? 0 : at[c - 1] + 1;
+    for (const std::size_t shift : {1u, 2u, 4u, 8u}) {
+      if (at[c] >= least + shift) {
+        all.push_back(Moved(h, at[c], at[c] - shift));
+      }
+      if (at[c] + shift < at[c + 1]) {
+        all.push_back(Moved(h, at[c], at[c] + shift));
+      }
+    }
+    for (const ErrorStep step : StepsAfter(ModeBefore(h, at[c]))) {
+      all.push_back(WithSegment(h, at[c], at[c + 1], step));
+    }
+    all.push_back(WithJolts(h, at, c));
+    // An error too small to be found alone may have come before a larger one.
+    for (std::size_t length = kShortest; at[c] >= least + length; length *= 2) {
+      all.push_back(
+          WithSegment(h, at[c] - length, at[c], {ErrorMode::kBiased, true}));
+    }
+  }
+  AddSwaps(h, &all);
+  return all;
+}
+
+std::vector<ErrorHistory> WithOneJolt(const ErrorHistory& h) {
+  std::vector<ErrorHistory> all;
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    if (h[i].anew || h[i].jolt || h[i].mode != ModeBefore(h, i)) continue;
+    all.push_back(h);
+    all.back()[i].jolt = true;
+  }
+  return all;
+}
+
+std::vector<ScoredHistory> EarlierErrors(const ErrorHistory& h) {
+  std::vector<ScoredHistory> all;
+  const std::vector<std::size_t> at = Parts(h);
+  for (std::size_t c = 0; c + 1 < at.size(); ++c) {
+    const std::size_t least = c == 0 ? 0 : at[c - 1] + 1;
+    std::size_t next = 0;
+    for (std::size_t length = kShortest; at[c] >= least + length;
+         length = next) {
+      next = static_cast<std::size_t>(
+          std::ceil(kLengthRatio * static_cast<double>(length)));
+      const auto count = static_cast<double>(next - length);
+      for (const ErrorMode mode :
+           {ErrorMode::kBiased, ErrorMode::kSlight, ErrorMode::kDrifting}) {
+        ErrorHistory one = h;
+        SetError(mode, at[c] - length, at[c], &one);
+        all.push_back({one, 0.0, count});
+        if (mode != ErrorMode::kDrifting) continue;
+        SetError(ErrorMode::kGood, at[c], at[c + 1], &one);
+        all.push_back({one, 0.0, count});
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace hindsight

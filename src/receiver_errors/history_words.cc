@@ -1,0 +1,137 @@
+#include "receiver_errors/history_words.h"
+
+#include <fmt/core.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace hindsight {
+namespace {
+
+std::string SecondsText(double t) {
+  return fmt::format("{:.10g}", std::round(10.0 * t) / 10.0);
+}
+
+const char* AdjectiveOf(ErrorMode mode) {
+  switch (mode) {
+    case ErrorMode::kGood:
+      break;
+    case ErrorMode::kBiased:
+      return "biased";
+    case ErrorMode::kDrifting:
+      return "drifting";
+    case ErrorMode::kSlight:
+      return "slightly biased";
+  }
+  return "good";
+}
+
+void AddPart(const std::string& part, std::string* all) {
+  if (!all->empty()) *all += ", ";
+  *all += part;
+}
+
+/// Largest horizontal distance, and whether it is significant anywhere.
+struct Separation {
+  double distance = 0.0;
+  bool significant = false;
+};
+
+Separation Separate(const HistoryAlternative& one,
+                    const HistoryAlternative& chosen,
+                    const CovarianceSeries& P) {
+  constexpr double kSigmas = 3.0;
+  Separation out;
+  for (std::size_t k = 0; k < chosen.smoothed.size(); ++k) {
+    const Eigen::Vector2d d =
+        (one.smoothed[k] - chosen.smoothed[k]).template head<2>();
+    out.distance = std::max(out.distance, d.norm());
+    const Eigen::Matrix2d P_h = P.Get(k).topLeftCorner<2, 2>();
+    out.significant |= d.dot(P_h.llt().solve(d)) > kSigmas * kSigmas;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string DescribeHistory(const std::vector<ErrorStep>& steps,
+                            const std::vector<double>& times) {
+  std::string all;
+  ErrorMode before = ErrorMode::kGood;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const ErrorStep& step = steps[k];
+    if (step.jolt) {
+      AddPart("the IMU's velocity jumps at " + SecondsText(times[k]) + " s",
+              &all);
+    }
+    const bool begins = step.anew || step.mode != before;
+    before = step.mode;
+    if (!begins || step.mode == ErrorMode::kGood) continue;
+    std::size_t end = k + 1;
+    while (end < steps.size() && steps[end].mode == step.mode &&
+           !steps[end].anew) {
+      ++end;
+    }
+    AddPart(std::string(AdjectiveOf(step.mode)) + " from " +
+                SecondsText(times[k]) +
+                (end == steps.size() ? " s to the end"
+                                     : " to " + SecondsText(times[end]) + " s"),
+            &all);
+  }
+  return all.empty() ? "good throughout" : all;
+}
+
+RivalHistory FindRival(const std::vector<HistoryAlternative>& all,
+                       const HistoryAlternative& chosen,
+                       const CovarianceSeries& P) {
+  RivalHistory rival;
+  for (const HistoryAlternative& one : all) {
+    const Separation separation = Separate(one, chosen, P);
+    if (!separation.significant) continue;
+    rival.probability += one.weight;
+    if (rival.history != nullptr && one.weight <= rival.history->weight) {
+      continue;
+    }
+    rival.history = &one;
+    rival.distance = separation.distance;
+  }
+  return rival;
+}
+
+std::vector<std::string> DescribeParameters(ErrorRegimes::Kind kind,
+                                            const HistoryAlternative& chosen) {
+  const ErrorParameters& p = chosen.parameters;
+  const auto has = [&](ErrorMode mode) {
+    return std::any_of(chosen.steps.begin(), chosen.steps.end(),
+                       [&](const ErrorStep& s) { return s.mode == mode; });
+  };
+  std::vector<std::string> all = {fmt::format(
+      "{} errors, sigma {:.3g} times as stated, outliers {:.3g} % of {:.3g} "
+      "times that",
+      RegimeName(kind), p.scale, 100.0 * p.outlier_share, p.outlier_ratio)};
+  if (has(ErrorMode::kBiased)) {
+    all.push_back(
+        fmt::format("Gauss-Markov error of {:.3g} m, correlation time {:.3g} s",
+                    p.sigma, p.tau));
+  }
+  if (has(ErrorMode::kSlight)) {
+    all.push_back(fmt::format("slight errors of {:.3g} m", p.slight_sigma));
+  }
+  if (has(ErrorMode::kDrifting)) {
+    all.push_back(fmt::format("errors that grow by {:.3g} m/s", p.rate_sigma));
+  }
+  return all;
+}
+
+std::string DescribeRival(const RivalHistory& rival,
+                          const std::vector<double>& times) {
+  constexpr double kWorthTelling = 1e-3;
+  if (rival.probability < kWorthTelling) return "";
+  return fmt::format(
+             "or, with a probability of {:.2g} %, up to {:.3g} m away: ",
+             100.0 * rival.probability, rival.distance) +
+         DescribeHistory(rival.history->steps, times);
+}
+
+}  // namespace hindsight

@@ -1,0 +1,55 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/command_line.h"
+
+namespace hindsight {
+namespace {
+
+Outcome Help(const std::vector<std::string>& words) {
+  return Hindsight(words, std::filesystem::current_path());
+}
+
+TEST(ConfigHelp, ThePageOfTheDocumentationIsWhatTheProgramWrites) {
+  const std::string text = ReadFile(
+      std::filesystem::path(HINDSIGHT_SOURCE_DIR) / "docs/configuration.md");
+  const Outcome outcome = Help({"help", "config", "--markdown"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out, text);
+}
+
+TEST(ConfigHelp, FindsAKindAMapAndAKey) {
+  const Outcome kind = Help({"help", "config", "dvl"});
+  EXPECT_NE(kind.out.find("beam_angle  (30 deg; with form: beams)"),
+            std::string::npos);
+  const Outcome map = Help({"help", "config", "stationary"});
+  EXPECT_NE(map.out.find("gyro_threshold  (0.01 rad/s)"), std::string::npos);
+  const Outcome key = Help({"help", "config", "lever_arm"});
+  EXPECT_NE(key.out.find("aiding: odometer"), std::string::npos);
+  EXPECT_EQ(key.out.find("level_on_average"), std::string::npos);
+  const Outcome none = Help({"help", "config", "nonsense"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("nonsense"), std::string::npos);
+}
+
+TEST(ConfigHelp, TheSchemaKnowsEveryKind) {
+  const auto schema =
+      nlohmann::json::parse(Help({"help", "config", "--schema"}).out);
+  std::vector<std::string> kinds;
+  for (const auto& kind :
+       schema["properties"]["aiding"]["additionalProperties"]["oneOf"]) {
+    kinds.push_back(kind["properties"]["type"]["const"]);
+    EXPECT_TRUE(kind["properties"].contains("gate")) << kinds.back();
+  }
+  EXPECT_NE(std::find(kinds.begin(), kinds.end(), "heading"), kinds.end());
+  EXPECT_GE(kinds.size(), 12u);
+  const auto& imu = schema["properties"]["imu"];
+  EXPECT_EQ(imu["properties"]["noise"]["required"],
+            (std::vector<std::string>{"gyro", "accel"}));
+}
+
+}  // namespace
+}  // namespace hindsight

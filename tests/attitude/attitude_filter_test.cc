@@ -1,0 +1,459 @@
+#include "attitude/attitude_filter.h"
+
+#include <gtest/gtest.h>
+
+#include "attitude/attitude_run.h"
+#include "base/random.h"
+#include "base/units.h"
+#include "earth/wgs84.h"
+#include "filters/forward_filter.h"
+#include "filters/rts.h"
+#include "geometry/so3.h"
+#include "measurements/sensor_kind.h"
+#include "measurements/stationary.h"
+#include "measurements/tilt.h"
+
+namespace hindsight {
+namespace {
+
+const Eigen::Vector3d kFieldNed(20.0, 0.0, 40.0);
+
+/// A platform on the spot that turns at a constant rate, on an Earth that does
+/// not unless `place` says so; readings exact but for the gyro bias.
+struct Turntable {
+  AttitudePlace place;
+  Eigen::Vector3d b_g = Eigen::Vector3d::Zero();
+  ImuStream imu;
+  std::vector<MagneticSample> magnetic;
+  std::vector<Eigen::Quaterniond> q_nb;
+
+  void Turn(double duration, double rate) {
+    const Eigen::Vector3d w_b(0.3, -0.2, 0.4);
+    const int count = static_cast<int>(duration * rate);
+    for (int k = 0; k <= count; ++k) {
+      const double t = k / rate;
+      const Eigen::Quaterniond q = Exp(-t * place.w_ie_n) *
+                                   Exp(Eigen::Vector3d(0.2, -0.1, 0.7)) *
+                                   Exp(t * w_b);
+      q_nb.push_back(q);
+      imu.samples.push_back(
+          {t, w_b + b_g,
+           q.conjugate() * Eigen::Vector3d(0.0, 0.0, -place.gravity)});
+      magnetic.push_back({t, q.conjugate() * kFieldNed});
+    }
+  }
+  AttitudeState Start(double attitude_sigma, double bias_sigma) const {
+    AttitudeState start;
+    start.q_nb = q_nb.front();
+    start.P.diagonal() << Eigen::Vector3d::Constant(attitude_sigma *
+                                                    attitude_sigma),
+        Eigen::Vector3d::Constant(bias_sigma * bias_sigma),
+        Eigen::Vector3d::Constant(1e-12);
+    return start;
+  }
+};
+
+AttitudeFilterOptions VectorOptions() {
+  AttitudeFilterOptions options;
+  options.magnetic_form = MagneticField::Form::kVector;
+  options.magnetic.horizontal = kFieldNed.x();
+  options.magnetic.down = kFieldNed.z();
+  options.reference.enabled = false;
+  return options;
+}
+
+TEST(AttitudeFilter, NoiselessDataGiveNoError) {
+  for (const double low_pass : {0.0, 1.0}) {
+    for (const auto form :
+         {MagneticField::Form::kVector, MagneticField::Form::kHeading}) {
+      Turntable table;
+      table.Turn(20.0, 100.0);
+      AttitudeFilterOptions options = VectorOptions();
+      options.magnetic_form = form;
+      options.low_pass_tau = low_pass;
+      const AttitudeRun run = RunAttitudeFilter(
+          table.imu, table.magnetic, options, table.Start(0.1, 0.01));
+      EXPECT_LT(run.epochs.back().x.q_nb.angularDistance(table.q_nb.back()),
+                1e-7);
+      EXPECT_LT(run.epochs.back().x.b_g.norm(), 1e-8);
+    }
+  }
+}
+
+TEST(AttitudeFilter, FindsAttitudeAndGyroBias) {
+  Turntable table;
+  table.b_g = {0.01, -0.02, 0.015};
+  table.Turn(60.0, 50.0);
+  AttitudeState start = table.Start(0.2, 0.02);
+  start.q_nb = Exp(Eigen::Vector3d(0.1, -0.1, 0.15)) * start.q_nb;
+  const AttitudeRun run =
+      RunAttitudeFilter(table.imu, table.magnetic, VectorOptions(), start);
+  const AttitudeState& x = run.epochs.back().x;
+  EXPECT_LT(x.q_nb.angularDistance(table.q_nb.back()), 2e-4);
+  EXPECT_LT((x.b_g - table.b_g).norm(), 2e-5);
+}
+
+TEST(AttitudeFilter, KnowsTheEarthsRotationAtAPlace) {
+  Turntable table;
+  table.place =
+      PlaceOnEarth(EcefFromGeodetic({52.0 * kDegree, 13.0 * kDegree, 50.0}));
+  table.Turn(100.0, 50.0);
+  AttitudeFilterOptions options = VectorOptions();
+  options.place = table.place;
+  // Nothing but gyros: the rule passes every sample over.
+  options.rule.name = "gate";
+  options.rule.limit = -1.0;
+  // The table turns at w_b in n: the gyros feel the Earth's rate besides.
+  for (std::size_t k = 0; k < table.imu.samples.size(); ++k) {
+    const Eigen::Quaterniond q =
+        Exp(Eigen::Vector3d(0.2, -0.1, 0.7)) *
+        Exp(table.imu.samples[k].t * Eigen::Vector3d(0.3, -0.2, 0.4));
+    table.q_nb[k] = q;
+    table.imu.samples[k].gyro += q.conjugate() * table.place.w_ie_n;
+  }
+  const AttitudeRun run =
+      RunAttitudeFilter(table.imu, {}, options, table.Start(0.01, 1e-4));
+  EXPECT_LT(run.epochs.back().x.q_nb.angularDistance(table.q_nb.back()), 1e-5);
+}
+
+/// The general filter on the same layout, a node a sample, by field and tilt.
+void ExpectAgreementWithTheGeneralFilter(bool turns) {
+  Turntable table;
+  const Eigen::Vector3d p_e =
+      EcefFromGeodetic({52.0 * kDegree, 13.0 * kDegree, 50.0});
+  table.place = PlaceOnEarth(p_e);
+  table.b_g = {2e-4, -1e-4, 3e-4};
+  table.Turn(4.0, 50.0);
+  for (ImuSample& sample : table.imu.samples) {
+    if (turns) break;
+    // A body at rest over the Earth: w_ie is felt, q_nb constant.
+    sample.gyro =
+        table.q_nb.front().conjugate() * table.place.w_ie_n + table.b_g;
+    sample.accel = table.q_nb.front().conjugate() *
+                   Eigen::Vector3d(0.0, 0.0, -table.place.gravity);
+  }
+  for (MagneticSample& sample : table.magnetic) {
+    if (turns) break;
+    sample.field_b = table.q_nb.front().conjugate() * kFieldNed;
+  }
+  table.imu.noise.gyro_noise_density = 1e-3;
+  AttitudeFilterOptions options = VectorOptions();
+  options.place = table.place;
+  AttitudeState start = table.Start(0.002, 5e-4);
+  start.q_nb = Exp(Eigen::Vector3d(5e-4, -3e-4, 4e-4)) * start.q_nb;
+  const AttitudeRun light =
+      RunAttitudeFilter(table.imu, table.magnetic, options, start);
+
+  Sensor sensor;
+  sensor.kind = &MagnetometerKind();
+  sensor.magnetic = options.magnetic;
+  Sensor accelerometer;
+  accelerometer.kind = &TiltKind();
+  std::vector<Node> nodes;
+  std::vector<Measurement> measurements;
+  for (std::size_t k = 0; k < table.imu.samples.size(); ++k) {
+    const ImuSample& sample = table.imu.samples[k];
+    nodes.push_back(
+        {sample.t, {sample.gyro, sample.accel}, static_cast<int>(2 * k), 2});
+    measurements.push_back(
+        {sample.t, 1, false,
+         Tilt{sample.accel, table.place.gravity, options.rule.sigma}});
+    measurements.push_back(
+        {sample.t, 0, false,
+         MagneticField{table.magnetic[k].field_b, options.magnetic_sigma,
+                       MagneticField::Form::kVector}});
+  }
+  const ErrorLayout layout = AttitudeLayout(table.imu.noise, start);
+  Prior prior;
+  prior.x.p_e = p_e;
+  prior.x.q_eb = Eigen::Quaterniond(NedAxes(p_e)) * start.q_nb;
+  prior.x.parameters = start.s_g;
+  prior.P = layout.InitialCovariance();
+  Problem problem = {
+      layout, prior,
+      Timeline(nodes, measurements, {sensor, accelerometer}, table.imu, false)};
+  const LinearTape tape = RunExtendedKalmanFilter(&problem);
+
+  const State& general = tape.back().x_plus;
+  const AttitudeState& x = light.epochs.back().x;
+  const Eigen::Quaterniond q_nb =
+      Eigen::Quaterniond(general.C_en()).conjugate() * general.q_eb;
+  EXPECT_LT(q_nb.angularDistance(x.q_nb), 1e-6);
+  EXPECT_LT((general.b_g - x.b_g).norm(), 1e-6);
+  EXPECT_LT((general.parameters - x.s_g).norm(), 1e-6);
+  const ErrorMatrix P = tape.P_plus(tape.size() - 1);
+  EXPECT_LT((P - x.P).cwiseAbs().maxCoeff(), 2e-3 * P.cwiseAbs().maxCoeff());
+}
+
+TEST(AttitudeFilter, AgreesWithTheGeneralForwardFilterAtRest) {
+  ExpectAgreementWithTheGeneralFilter(false);
+}
+
+TEST(AttitudeFilter, AgreesWithTheGeneralForwardFilterWhileTurning) {
+  ExpectAgreementWithTheGeneralFilter(true);
+}
+
+TEST(AttitudeFilter, SmootherEndsWhereTheFilterEnds) {
+  Turntable table;
+  table.b_g = {0.01, -0.02, 0.015};
+  table.Turn(30.0, 20.0);
+  AttitudeState start = table.Start(0.2, 0.02);
+  start.q_nb = Exp(Eigen::Vector3d(0.1, -0.1, 0.15)) * start.q_nb;
+  LinearTape tape(AttitudeLayout(table.imu.noise, start));
+  const AttitudeRun run = RunAttitudeFilter(table.imu, table.magnetic,
+                                            VectorOptions(), start, &tape);
+  const SmoothedTrajectory smoothed = SmoothRts(std::move(tape));
+  ASSERT_EQ(smoothed.states.size(), run.epochs.size());
+  EXPECT_LT((smoothed.states.back().b_g - run.epochs.back().x.b_g).norm(),
+            1e-15);
+  // The error of the start, 0.2 rad, is gone already at the start.
+  const State& first = smoothed.states.front();
+  const Eigen::Quaterniond q_nb =
+      Eigen::Quaterniond(first.C_en()).conjugate() * first.q_eb;
+  EXPECT_LT(q_nb.angularDistance(table.q_nb.front()), 2e-3);
+  EXPECT_LT((first.b_g - table.b_g).norm(), 2e-3);
+}
+
+/// Six turns about the vertical and back with the field seen at all times: what
+/// the scale factor adds is told from the bias by the way back.
+TEST(AttitudeFilter, FindsTheScaleFactor) {
+  Turntable table;
+  const Eigen::Vector3d b_g(0.002, -0.001, 0.003);
+  const double scale = 0.004;
+  for (int k = 0; k <= 6000; ++k) {
+    const double t = 0.01 * k;
+    const double phase = kPi * t / 60.0;
+    const double rate = 2.0 * std::cos(phase);
+    const double angle = 120.0 / kPi * std::sin(phase);
+    const Eigen::Quaterniond q = Exp(Eigen::Vector3d(0.0, 0.0, angle));
+    table.q_nb.push_back(q);
+    table.imu.samples.push_back(
+        {t, b_g + Eigen::Vector3d(0.0, 0.0, (1.0 + scale) * rate),
+         Eigen::Vector3d(0.0, 0.0, -table.place.gravity)});
+    table.magnetic.push_back({t, q.conjugate() * kFieldNed});
+  }
+  AttitudeState start = table.Start(0.01, 0.01);
+  start.P.diagonal().tail<3>().setConstant(0.005 * 0.005);
+  const AttitudeRun run =
+      RunAttitudeFilter(table.imu, table.magnetic, VectorOptions(), start);
+  const AttitudeState& x = run.epochs.back().x;
+  EXPECT_NEAR(x.s_g.z(), scale, 2e-4);
+  EXPECT_LT(std::abs(x.b_g.z() - b_g.z()), 3.0 * std::sqrt(x.P(5, 5)));
+}
+
+/// At rest the gyros' noise and bias are no turn, whether the rest is known or
+/// found; their mean is the bias.
+TEST(AttitudeFilter, DoesNotTurnAtRest) {
+  for (const bool known : {true, false}) {
+    Random random(5);
+    const Eigen::Vector3d b_g(0.004, -0.003, 0.005);
+    Turntable table;
+    for (int k = 0; k <= 6000; ++k) {
+      table.q_nb.push_back(Eigen::Quaterniond::Identity());
+      table.imu.samples.push_back(
+          {0.01 * k, b_g + 0.002 * random.NormalVector3(),
+           Eigen::Vector3d(0.0, 0.0, -table.place.gravity)});
+    }
+    table.imu.noise.gyro_noise_density = 2e-4;
+    AttitudeFilterOptions options;
+    options.rest_sigma = 0.005;
+    if (known) options.rests.emplace(table.imu.samples.size(), true);
+    const AttitudeRun run =
+        RunAttitudeFilter(table.imu, {}, options, table.Start(0.01, 0.01));
+    const AttitudeState& x = run.epochs.back().x;
+    EXPECT_LT(x.q_nb.angularDistance(run.epochs[300].x.q_nb),
+              known ? 1e-9 : 0.02);
+    EXPECT_LT(x.q_nb.angularDistance(run.epochs[1000].x.q_nb), 1e-3);
+    EXPECT_LT((x.b_g - b_g).norm(), 2e-4);
+  }
+}
+
+/// A filter that has turned for a second, with a covariance that has
+/// correlations everywhere.
+struct TurnedFilter {
+  Eigen::Vector3d w = {1.0, -0.7, 0.4};  ///< [rad/s]
+  AttitudeFilterOptions options;
+  ImuNoise noise;
+  AttitudeState start;
+
+  TurnedFilter() {
+    options.place =
+        PlaceOnEarth(EcefFromGeodetic({52.0 * kDegree, 13.0 * kDegree, 50.0}));
+    options.rest_sigma = 0.01;
+    start.q_nb = Exp(Eigen::Vector3d(0.2, -0.1, 0.7));
+    start.b_g = {0.002, -0.001, 0.003};
+    start.P.diagonal() << Eigen::Vector3d::Constant(4e-4),
+        Eigen::Vector3d::Constant(1e-4), Eigen::Vector3d::Constant(1e-5);
+  }
+  AttitudeFilter Turn() const {
+    AttitudeFilter filter(options, noise, start, 0.01);
+    for (int k = 0; k < 100; ++k) filter.Turn(0.01, w, w);
+    filter.Predict();
+    return filter;
+  }
+};
+
+/// One reading, in the general form.
+AttitudeState::Matrix Updated(const AttitudeState& x, const Eigen::MatrixXd& H,
+                              const Eigen::VectorXd& residual, double R,
+                              Eigen::VectorXd* dx) {
+  const Eigen::MatrixXd S = H * x.P * H.transpose() +
+                            R * Eigen::MatrixXd::Identity(H.rows(), H.rows());
+  const Eigen::MatrixXd K = x.P * H.transpose() * S.inverse();
+  *dx = K * residual;
+  return x.P - K * H * x.P;
+}
+
+/// What a filter makes of one reading is what its model says in the general
+/// form, at the state before the update; the layout's own transition plays no
+/// part.
+class ReadingTie {
+ public:
+  explicit ReadingTie(const TurnedFilter& turned) : turned_(turned) {}
+
+  /// `x` is the state before the reading is used, `tolerance` relative.
+  template <class Model>
+  void Expect(const Model& model, const Sensor& sensor, const AttitudeState& x,
+              const AttitudeFilter& after, double tolerance) const {
+    State state;
+    state.p_e = turned_.options.place.p_e;
+    state.q_eb = Eigen::Quaterniond(NedAxes(state.p_e)) * x.q_nb;
+    state.b_g = x.b_g;
+    state.parameters = x.s_g;
+    const ErrorLayout layout = AttitudeLayout(turned_.noise, turned_.start);
+    const Kinematics turning = {turned_.w, Eigen::Vector3d::Zero()};
+    LinearizedMeasurement z;
+    model.Evaluate({layout, state, turning, sensor}, &z);
+    Eigen::VectorXd dx;
+    const AttitudeState::Matrix P = Updated(x, z.H, z.residual, z.R(0, 0), &dx);
+    EXPECT_GT(dx.norm(), 1e-5);
+    EXPECT_LT((after.dx() - dx).norm(), tolerance * dx.norm());
+    EXPECT_LT((after.P() - P).norm(), tolerance * P.norm());
+    EXPECT_GT((x.P - P).norm(), 100.0 * tolerance * P.norm())
+        << "the reading says too little to be told from none";
+  }
+
+ private:
+  const TurnedFilter& turned_;
+};
+
+TEST(AttitudeFilter, ReadsRestAsItsModelDoes) {
+  const TurnedFilter turned;
+  AttitudeFilter filter = turned.Turn();
+  filter.SetResting(true);
+  const Eigen::Vector3d w(0.004, 0.001, -0.002);
+  for (int k = 0; k < 4; ++k) filter.Turn(0.01, w, w);
+  filter.Predict();
+  const AttitudeState x = filter.state();
+  filter.UseRest();
+  ReadingTie(turned).Expect(ZeroAngularRate{w, 0.005}, {}, x, filter, 1e-3);
+}
+
+/// The body turns on after the reading, up to the update: the filter keeps it
+/// in axes that do not turn, the model has it turned by the gyros.
+Eigen::Vector3d TurnedOn(const Eigen::Vector3d& reading_b,
+                         const AttitudeState& at, const AttitudeState& x) {
+  return x.q_nb.conjugate() * (at.q_nb * reading_b);
+}
+
+TEST(AttitudeFilter, ReadsTheTiltAsItsModelDoesWhileTheBodyTurns) {
+  TurnedFilter turned;
+  turned.options.place.w_ie_n.setZero();
+  AttitudeFilter filter = turned.Turn();
+  const AttitudeState at = filter.state();
+  const double g = turned.options.place.gravity;
+  const Eigen::Vector3d f_b = Exp(Eigen::Vector3d(2e-2, -3e-2, 1e-2)) *
+                              (at.q_nb.conjugate() * ForceAtRest_n(g));
+  filter.AddForce(f_b);
+  for (int k = 0; k < 5; ++k) filter.Turn(0.01, turned.w, turned.w);
+  filter.Predict();
+  const AttitudeState x = filter.state();
+  ASSERT_GT(x.q_nb.angularDistance(at.q_nb), 0.05);
+  filter.UseAccelerometer();
+  ReadingTie(turned).Expect(
+      Tilt{TurnedOn(f_b, at, x), g, std::sqrt(filter.verdict().accel_variance)},
+      {}, x, filter, 1e-9);
+}
+
+TEST(AttitudeFilter, ReadsTheFieldAsItsModelDoesWhileTheBodyTurns) {
+  for (const auto form :
+       {MagneticField::Form::kVector, MagneticField::Form::kHeading}) {
+    TurnedFilter turned;
+    turned.options.place.w_ie_n.setZero();
+    turned.options.magnetic_form = form;
+    turned.options.decouple_heading = false;
+    turned.options.reference.enabled = false;
+    Sensor sensor;
+    sensor.magnetic.horizontal = kFieldNed.x();
+    sensor.magnetic.down = kFieldNed.z();
+    sensor.magnetic.declination = 0.06;
+    turned.options.magnetic = sensor.magnetic;
+    AttitudeFilter filter = turned.Turn();
+    const AttitudeState at = filter.state();
+    // Of the norm of the field, 1 deg beside it.
+    const Eigen::Vector3d field_b =
+        Exp(Eigen::Vector3d(1e-2, -5e-3, 2e-2)) *
+        (at.q_nb.conjugate() *
+         UndisturbedField(sensor.magnetic, sensor.magnetic.declination));
+    filter.AddField({at.t, field_b});
+    for (int k = 0; k < 5; ++k) filter.Turn(0.01, turned.w, turned.w);
+    filter.Predict();
+    const AttitudeState x = filter.state();
+    ASSERT_GT(x.q_nb.angularDistance(at.q_nb), 0.05);
+    filter.UseMagnetometer();
+    ASSERT_TRUE(filter.verdict().magnetic_used);
+    MagneticField z{TurnedOn(field_b, at, x), turned.options.magnetic_sigma,
+                    form};
+    if (form == MagneticField::Form::kHeading) {
+      // The filter weighs by the horizontal part that is read.
+      const Eigen::Vector3d u_n = x.q_nb * z.field_b;
+      z.sigma *= sensor.magnetic.horizontal / u_n.head<2>().norm();
+    }
+    ReadingTie(turned).Expect(z, sensor, x, filter, 1e-9);
+  }
+}
+
+/// Errors that go on for a second: an update each 20 ms is told as much as one
+/// each 5 ms. Between updates no more is neglected than what the attitude has
+/// to be corrected by within one of them.
+TEST(AttitudeFilter, FewerUpdatesTellAsMuchOfErrorsThatGoOn) {
+  Turntable table;
+  table.b_g = {0.01, -0.02, 0.015};
+  table.Turn(20.0, 200.0);
+  table.imu.noise.gyro_noise_density = 1e-3;
+  AttitudeFilterOptions options = VectorOptions();
+  options.accel_correlation_time = 1.0;
+  options.magnetic_correlation_time = 1.0;
+  options.rest_sigma = 0.02;
+  AttitudeState start = table.Start(0.1, 0.02);
+  start.q_nb = Exp(Eigen::Vector3d(0.1, -0.1, 0.05)) * start.q_nb;
+  const AttitudeRun every =
+      RunAttitudeFilter(table.imu, table.magnetic, options, start);
+  options.update_interval = 0.02;
+  const AttitudeRun fewer =
+      RunAttitudeFilter(table.imu, table.magnetic, options, start);
+  ASSERT_EQ(fewer.epochs.size(), every.epochs.size());
+  for (std::size_t k = 400; k < every.epochs.size(); k += 37) {
+    const AttitudeState& a = every.epochs[k].x;
+    const AttitudeState& b = fewer.epochs[k].x;
+    EXPECT_EQ(a.t, b.t);
+    const double sigma2 = options.rule.sigma * options.rule.sigma;
+    EXPECT_NEAR(every.epochs[k].verdict.accel_variance, sigma2 / 0.005, 1e-6);
+    EXPECT_NEAR(fewer.epochs[k].verdict.accel_variance, sigma2 / 0.02, 1e-6);
+    const Eigen::Matrix<double, 6, 1> sigma =
+        a.P.diagonal().head<6>().cwiseSqrt();
+    const Eigen::Vector3d psi = Log(b.q_nb * a.q_nb.conjugate());
+    EXPECT_LT((psi.array() / sigma.head<3>().array()).abs().maxCoeff(), 0.05);
+    EXPECT_LT(
+        ((b.b_g - a.b_g).array() / sigma.tail<3>().array()).abs().maxCoeff(),
+        0.05);
+    EXPECT_LT(
+        (b.P.diagonal().head<6>().cwiseSqrt().array() / sigma.array() - 1.0)
+            .abs()
+            .maxCoeff(),
+        0.03);
+  }
+}
+
+}  // namespace
+}  // namespace hindsight

@@ -1,0 +1,125 @@
+#include "attitude/field_survey.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "base/random.h"
+#include "geometry/so3.h"
+
+namespace hindsight {
+namespace {
+
+const Eigen::Vector3d kSurveyField_n(18.0, -3.0, 44.0);
+constexpr double kSpacing = 0.1;
+
+/// `count` readings in a field, `noise` [uT] an axis, in motion or at rest.
+void Append(const Eigen::Vector3d& field_n, int count, bool at_rest,
+            double noise, Random* random,
+            std::vector<SurveyedField>* readings) {
+  for (int k = 0; k < count; ++k) {
+    const Eigen::Quaterniond q = at_rest ? Eigen::Quaterniond::Identity()
+                                         : Exp(2.0 * random->NormalVector3());
+    readings->push_back(
+        {kSpacing * static_cast<double>(readings->size()), q,
+         q.conjugate() * field_n + noise * random->NormalVector3(), kSpacing,
+         at_rest});
+  }
+}
+
+std::vector<SurveyedField> InMotion(const Eigen::Vector3d& hard_iron_b,
+                                    int count) {
+  Random random(7);
+  std::vector<SurveyedField> readings;
+  Append(kSurveyField_n, count, false, 0.5, &random, &readings);
+  for (SurveyedField& reading : readings) reading.field_b += hard_iron_b;
+  return readings;
+}
+
+double Total(const FieldSurvey& survey) {
+  return std::accumulate(survey.weight.begin(), survey.weight.end(), 0.0);
+}
+
+TEST(FieldSurvey, AnEvenFieldIsKnownAsWellInMotionAsAtRest) {
+  Random random(3);
+  std::vector<SurveyedField> readings;
+  Append(kSurveyField_n, 300, true, 0.5, &random, &readings);
+  Append(kSurveyField_n, 900, false, 0.5, &random, &readings);
+  const FieldSurvey survey = SurveyField(readings, {});
+  EXPECT_NEAR(survey.horizontal, kSurveyField_n.head<2>().norm(), 0.2);
+  EXPECT_NEAR(survey.down, kSurveyField_n.z(), 0.2);
+  EXPECT_LT(survey.memory, 3.0);
+  // One in a second, of 120 s.
+  EXPECT_GT(Total(survey), 40.0);
+}
+
+/// Where the hand moves the field is another one than where it rests: a minute
+/// there is hardly more than one reading.
+TEST(FieldSurvey, OneFieldOfTheMotionIsOneReading) {
+  Random random(3);
+  std::vector<SurveyedField> readings;
+  Append(kSurveyField_n, 300, true, 0.5, &random, &readings);
+  Append(kSurveyField_n + Eigen::Vector3d(1.5, 2.0, 2.0), 600, false, 0.5,
+         &random, &readings);
+  const FieldSurvey survey = SurveyField(readings, {});
+  EXPECT_NEAR(survey.horizontal, kSurveyField_n.head<2>().norm(), 0.2);
+  EXPECT_NEAR(survey.down, kSurveyField_n.z(), 0.2);
+  EXPECT_GT(survey.memory, 30.0);
+  const double at_rest =
+      std::accumulate(survey.weight.begin(), survey.weight.begin() + 300, 0.0);
+  EXPECT_GT(at_rest, 25.0);
+  EXPECT_LT(Total(survey) - at_rest, 2.0);
+}
+
+TEST(FieldSurvey, NeedsNoRest) {
+  const FieldSurvey survey =
+      SurveyField(InMotion(Eigen::Vector3d::Zero(), 600), {});
+  EXPECT_NEAR(survey.horizontal, kSurveyField_n.head<2>().norm(), 0.2);
+  EXPECT_NEAR(survey.down, kSurveyField_n.z(), 0.2);
+  EXPECT_GT(Total(survey), 20.0);
+}
+
+TEST(FieldSurvey, PassesOverAMagnetThatComesNear) {
+  std::vector<SurveyedField> readings = InMotion(Eigen::Vector3d::Zero(), 600);
+  for (std::size_t k = 0; k < readings.size(); k += 3) {
+    readings[k].field_b +=
+        readings[k].q_nb.conjugate() * Eigen::Vector3d(30.0, 40.0, 10.0);
+  }
+  FieldSurvey survey = SurveyField(readings, {});
+  EXPECT_EQ(survey.weight[0], 0.0);
+  EXPECT_GT(survey.weight[1], 0.0);
+  survey = SurveyField(readings, {.reject = false});
+  EXPECT_EQ(survey.weight[0], survey.weight[1]);
+}
+
+TEST(HardIron, IsNotInvented) {
+  EXPECT_TRUE(FindHardIron(InMotion(Eigen::Vector3d::Zero(), 400)).isZero(0.0));
+}
+
+TEST(HardIron, IsFoundIfItTravelsAlong) {
+  const Eigen::Vector3d magnet(80.0, -120.0, 40.0);
+  EXPECT_LT((FindHardIron(InMotion(magnet, 400)) - magnet).norm(), 0.3);
+}
+
+/// Put on for a part of the time.
+TEST(HardIron, IsNoneIfItWasNotThereAllTheTime) {
+  for (const double part : {0.3, 0.6, 0.8}) {
+    std::vector<SurveyedField> readings =
+        InMotion(Eigen::Vector3d::Zero(), 600);
+    const auto end = static_cast<std::size_t>(part * 600.0);
+    for (std::size_t k = 0; k < end; ++k) {
+      readings[k].field_b += Eigen::Vector3d(-3.0, 2.0, -27.0);
+    }
+    EXPECT_TRUE(FindHardIron(readings).isZero(0.0)) << part;
+  }
+}
+
+TEST(HardIron, CountsManyReadingsAtRestAsOne) {
+  EXPECT_NEAR(IndependentPart(0.05, 0.0), 0.001, 1e-12);
+  EXPECT_NEAR(IndependentPart(0.05, 0.005), 0.011, 1e-12);
+  EXPECT_NEAR(IndependentPart(0.05, 3.0), 0.051, 1e-12);
+  EXPECT_EQ(IndependentPart(100.0, 3.0), 1.0);
+}
+
+}  // namespace
+}  // namespace hindsight

@@ -1,0 +1,200 @@
+#include "filters/mean_shift.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/chi_square.h"
+#include "filters/forward_filter.h"
+#include "filters/rts.h"
+#include "filters/shift_response.h"
+#include "support/test_problem.h"
+
+namespace hindsight {
+namespace {
+
+using testing::MakeProblem;
+using testing::TacticalNoise;
+using testing::TestProblem;
+using testing::TestProblemOptions;
+using testing::TypicalLayout;
+
+constexpr int kPositions = 0;
+
+TestProblem Drive(std::uint64_t seed) {
+  TestProblemOptions options;
+  options.noise = TacticalNoise(true);
+  options.layout = TypicalLayout(options.noise);
+  options.errors = true;
+  return MakeProblem(options, seed);
+}
+
+/// Errors of the components of what each sensor measures.
+ShiftColumns Additive() {
+  return {[](std::size_t, const TapeMeasurement& z) {
+    return std::vector<ShiftColumns::Columns>{
+        {z.sensor, Eigen::Matrix3d::Identity()}};
+  }};
+}
+
+LinearTape TapeOf(const TestProblem& problem) {
+  Problem posed = problem.Pose();
+  return RunLinearizedFilter(problem.truth, &posed);
+}
+
+/// The fixes too far north by a metre, or by a metre more each second, from
+/// epoch `onset` on.
+TestProblem Shifted(TestProblem problem, std::size_t onset, bool grows) {
+  const double t0 = problem.nodes[onset].t;
+  for (Measurement& z : problem.measurements) {
+    auto* fix = std::get_if<PositionFix>(&z.model);
+    if (fix == nullptr || z.t < t0 - 1e-9) continue;
+    const double size = grows ? z.t - t0 : 1.0;
+    fix->p_e += NedAxes(fix->p_e) * Eigen::Vector3d(size, 0.0, 0.0);
+  }
+  return problem;
+}
+
+MeanShift Find(const std::vector<MeanShift>& all, std::size_t onset,
+               bool grows) {
+  for (const MeanShift& shift : all) {
+    if (!shift.of_state && shift.group == kPositions && shift.column == 0 &&
+        shift.onset == onset && shift.grows == grows) {
+      return shift;
+    }
+  }
+  throw std::out_of_range("no such shift");
+}
+
+class MeanShiftOfFixes
+    : public ::testing::TestWithParam<std::pair<std::size_t, bool>> {};
+
+TEST_P(MeanShiftOfFixes, IsWhatChangesWithTheMeasurements) {
+  const auto [onset, grows] = GetParam();
+  const TestProblem problem = Drive(3);
+  const LinearTape before = TapeOf(problem);
+  const LinearTape after = TapeOf(Shifted(problem, onset, grows));
+  const std::vector<std::size_t> onsets = {0, 7, 12};
+  const MeanShift was =
+      Find(ScoreShifts(before, Additive(), onsets).shifts, onset, grows);
+  const MeanShift is =
+      Find(ScoreShifts(after, Additive(), onsets).shifts, onset, grows);
+  // Its own innovations are what it adds, so that its size grows by one.
+  EXPECT_NEAR(is.information, was.information, 1e-6 * was.information);
+  EXPECT_NEAR(is.size() - was.size(), 1.0, 1e-5);
+
+  const std::vector<ErrorVector> correction =
+      CorrectionFor(was, before, Additive());
+  const SmoothedTrajectory a = SmoothMeans(before);
+  const SmoothedTrajectory b = SmoothMeans(after);
+  for (std::size_t k = 0; k < a.d.size(); ++k) {
+    const ErrorVector moved = b.d[k] - a.d[k];
+    EXPECT_TRUE(moved.isApprox(-correction[k], 1e-5)) << k;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Onsets, MeanShiftOfFixes,
+                         ::testing::Values(std::pair(0, false),
+                                           std::pair(0, true),
+                                           std::pair(7, false),
+                                           std::pair(12, true)));
+
+/// The score and the information as they are defined: by the innovations that a
+/// jump of the state causes, carried forward.
+TEST(MeanShift, OfTheStateIsTheSumOverItsInnovations) {
+  const LinearTape tape = TapeOf(Drive(5));
+  constexpr std::size_t kOnset = 4;
+  const std::vector<std::size_t> onsets = {0, kOnset};
+  int compared = 0;
+  for (const MeanShift& shift : ScoreShifts(tape, Additive(), onsets).shifts) {
+    if (!shift.of_state) continue;
+    ErrorVector e = ErrorVector::Zero(tape.dim());
+    e(shift.column) = 1.0;
+    double score = 0.0, information = 0.0;
+    for (std::size_t k = kOnset; k < tape.size(); ++k) {
+      if (k > kOnset) e = tape.Phi(k) * e;
+      ErrorMatrix P = tape.P_minus(k);
+      for (const TapeMeasurement& z : tape.measurements(k)) {
+        const Eigen::MatrixXd S_inverse = z.S.inverse();
+        const Eigen::VectorXd g = z.H * e;
+        score += g.dot(S_inverse * z.innovation);
+        information += g.dot(S_inverse * g);
+        const Eigen::MatrixXd K = P * z.H.transpose() * S_inverse;
+        e -= K * g;
+        P -= K * z.H * P;
+      }
+    }
+    EXPECT_NEAR(shift.information, information, 1e-6 * information);
+    EXPECT_NEAR(shift.score, score, 1e-6 * std::sqrt(information));
+    ++compared;
+  }
+  EXPECT_EQ(compared, tape.dim());
+}
+
+TEST(MeanShift, OfARightSystemIsNormal) {
+  constexpr int kRuns = 60;
+  const std::vector<std::size_t> onsets = {0, 6, 14};
+  std::vector<double> squares;
+  double energies = 0.0, dofs = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    const LinearTape tape = TapeOf(Drive(100 + static_cast<unsigned>(run)));
+    const std::vector<MeanShift> all =
+        ScoreShifts(tape, Additive(), onsets).shifts;
+    squares.resize(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      squares[i] += all[i].z() * all[i].z();
+    }
+    const std::vector<int> wanted = {2, 0};
+    for (const ShiftEnergy& energy :
+         EnergiesOf(kPositions, wanted, onsets, tape, Additive())) {
+      energies += energy.sum / energy.scale;
+      dofs += energy.dof;
+    }
+  }
+  ASSERT_GT(squares.size(), 60u);
+  // Each is chi^2 of as many degrees of freedom as runs; one of all is outside
+  // once in a hundred.
+  const double tail = 0.005 / static_cast<double>(squares.size());
+  for (const double sum : squares) {
+    EXPECT_GT(sum, ChiSquareQuantile(tail, kRuns));
+    EXPECT_LT(sum, ChiSquareQuantile(1.0 - tail, kRuns));
+  }
+  EXPECT_GT(energies, ChiSquareQuantile(0.005, dofs));
+  EXPECT_LT(energies, ChiSquareQuantile(0.995, dofs));
+}
+
+/// The fixes end before the last onset: those that nothing shows are left out.
+TEST(MeanShift, VariesOverTheOnsetsThatSomethingFollows) {
+  TestProblem problem = Drive(7);
+  const double last = problem.nodes[12].t + 1e-9;
+  std::erase_if(problem.measurements, [last](const Measurement& z) {
+    return z.sensor == kPositions && z.t > last;
+  });
+  int first = 0;
+  for (Node& node : problem.nodes) {
+    node.first_measurement = first;
+    node.measurement_count = node.t > last ? 1 : 2;
+    first += node.measurement_count;
+  }
+  const LinearTape tape = TapeOf(problem);
+  const std::vector<int> wanted = {0};
+  const std::vector<std::size_t> all = {0, 6, 16}, those = {0, 6};
+  const ShiftEnergy a =
+      EnergiesOf(kPositions, wanted, all, tape, Additive()).front();
+  const ShiftEnergy b =
+      EnergiesOf(kPositions, wanted, those, tape, Additive()).front();
+  EXPECT_GT(b.sum, 0.0);
+  EXPECT_DOUBLE_EQ(a.sum, b.sum);
+  EXPECT_DOUBLE_EQ(a.dof, b.dof);
+}
+
+TEST(MeanShift, NeedsATapeAboutAFixedNominal) {
+  const TestProblem problem = Drive(3);
+  Problem posed = problem.Pose();
+  const LinearTape tape = RunExtendedKalmanFilter(&posed);
+  const std::vector<std::size_t> onsets = {0};
+  EXPECT_THROW(ScoreShifts(tape, Additive(), onsets), std::logic_error);
+}
+
+}  // namespace
+}  // namespace hindsight

@@ -1,0 +1,150 @@
+#include "problems/montecarlo.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <mutex>
+#include <set>
+#include <stdexcept>
+
+#include "base/error.h"
+#include "evaluation/statistics.h"
+
+namespace hindsight {
+namespace {
+
+using ::testing::ElementsAre;
+
+StudyTable SeedTable() {
+  return {"cells",
+          {"case"},
+          {Single("seed", kPlain, "", "", "seed", OfRuns<Mean>)},
+          {}};
+}
+
+std::function<SeedRun()> Job(const std::string& name,
+                             std::function<void(std::uint64_t)> before = {}) {
+  return [=]() -> SeedRun {
+    return [=](std::uint64_t seed) {
+      if (before) before(seed);
+      RunRecord record;
+      record.labels = {name};
+      record.seed = seed;
+      record.values = {{"seed", static_cast<double>(seed)}};
+      record.t = {0.0};
+      record.series["e"] = {1.0};
+      return std::vector{record};
+    };
+  };
+}
+
+TEST(RunStudy, MakesARowOfEveryCaseAndSeedInTheirOrder) {
+  const Study study = {"", {}, {SeedTable()}, {Job("a"), Job("b")}};
+  for (const int threads : {1, 3}) {
+    const StudyResult result =
+        RunStudy(study, {.runs = 5, .first_seed = 7, .threads = threads});
+    EXPECT_TRUE(result.complete);
+    EXPECT_EQ(result.runs, 5);
+    ASSERT_EQ(result.records.size(), 10u);
+    for (std::size_t i = 0; i < 10; ++i) {
+      EXPECT_EQ(result.records[i].labels[0], i < 5 ? "a" : "b");
+      EXPECT_EQ(result.records[i].seed, 7 + i % 5);
+      EXPECT_TRUE(result.records[i].series.empty());
+    }
+    EXPECT_EQ(result.Value({"b"}, "seed"), 9.0);
+  }
+}
+
+/// A case whose recordings of these seeds cannot be made, by two methods of
+/// which the second refuses seed 4.
+Case Refusing(const std::string& name, const std::set<std::uint64_t>& seeds) {
+  const Recording recording = [seeds](std::uint64_t seed) {
+    if (seeds.contains(seed)) throw InputError("no such recording");
+    Dataset dataset;
+    dataset.max_node_spacing = static_cast<double>(seed);
+    return dataset;
+  };
+  return {{name},
+          [recording] { return recording; },
+          [](const Dataset& dataset, CaseRun* run) {
+            for (const std::string method : {"first", "second"}) {
+              run->Try({method}, [&](RunRecord* record) {
+                if (method == "second" && dataset.max_node_spacing == 4.0) {
+                  throw InputError("not for me");
+                }
+                record->values = {{"seed", dataset.max_node_spacing}};
+              });
+            }
+          }};
+}
+
+TEST(RunStudy, ARefusedRecordingIsAFailedRunOfEveryMethodAndIsNamed) {
+  StudyTable table = SeedTable();
+  table.labels = {"case", "method"};
+  const StudyResult result = RunStudy(
+      {"", {}, {table}, {JobOf({Refusing("a", {1, 3}), Refusing("b", {})})}},
+      {.runs = 5});
+  EXPECT_TRUE(result.complete);
+  ASSERT_EQ(result.rows[0].size(), 4u);
+  EXPECT_EQ(result.Row({"a", "first"}).runs, 5);
+  EXPECT_EQ(result.Row({"a", "first"}).failed, 2);
+  EXPECT_EQ(result.Row({"a", "second"}).failed, 3);
+  EXPECT_EQ(result.Row({"b", "first"}).failed, 0);
+  EXPECT_EQ(result.Value({"a", "first"}, "seed"), 11.0 / 3.0);
+  EXPECT_THAT(result.refusals, ElementsAre("a, seed 1: no such recording",
+                                           "a, seed 3: no such recording",
+                                           "a, second, seed 4: not for me",
+                                           "b, second, seed 4: not for me"));
+}
+
+TEST(RunStudy, WhereAllIsRefusedThatIsTheError) {
+  StudyTable table = SeedTable();
+  table.labels = {"case", "method"};
+  EXPECT_THROW(RunStudy({"", {}, {table}, {JobOf({Refusing("a", {1, 2})})}},
+                        {.runs = 2}),
+               InputError);
+}
+
+TEST(RunStudy, OfOneJobTheFirstSeedsAreKnownMeanwhile) {
+  std::function<StudyResult()> so_far;
+  std::vector<int> known;
+  const Study study = {"", {}, {SeedTable()}, {Job("a", [&](std::uint64_t) {
+                         const StudyResult result = so_far();
+                         EXPECT_FALSE(result.complete);
+                         EXPECT_EQ(result.records.size(),
+                                   static_cast<std::size_t>(result.runs));
+                         known.push_back(result.runs);
+                       })}};
+  RunStudy(study, {.runs = 3},
+           [&](auto known_so_far) { so_far = known_so_far; });
+  EXPECT_THAT(known, ElementsAre(0, 1, 2));
+  EXPECT_TRUE(so_far().complete);
+}
+
+TEST(RunStudy, OfSeveralJobsTheFinishedAreKnownMeanwhile) {
+  std::function<StudyResult()> so_far;
+  std::vector<std::size_t> rows;
+  const auto look = [&](std::uint64_t) {
+    rows.push_back(so_far().rows[0].size());
+  };
+  const Study study = {"", {}, {SeedTable()}, {Job("a", look), Job("b", look)}};
+  RunStudy(study, {.runs = 2},
+           [&](auto known_so_far) { so_far = known_so_far; });
+  EXPECT_THAT(rows, ElementsAre(0, 0, 1, 1));
+}
+
+TEST(RunStudy, TheFirstExceptionStopsTheRest) {
+  std::mutex mutex;
+  int count = 0;
+  const Study study = {"", {}, {SeedTable()}, {Job("a", [&](std::uint64_t) {
+                         const std::lock_guard lock(mutex);
+                         ++count;
+                         throw std::runtime_error("no");
+                       })}};
+  EXPECT_THROW(RunStudy(study, {.runs = 1000, .threads = 2}),
+               std::runtime_error);
+  EXPECT_LE(count, 4);
+}
+
+}  // namespace
+}  // namespace hindsight

@@ -1,0 +1,94 @@
+#include "receiver_errors/error_tuning.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+#include "filters/forward_filter.h"
+#include "support/test_problem.h"
+
+namespace hindsight {
+namespace {
+
+using testing::MakeProblem;
+using testing::TacticalNoise;
+using testing::TestProblem;
+using testing::TestProblemOptions;
+using testing::TypicalLayout;
+
+constexpr double kStated = 2.0;  // [m]
+
+struct NoisyFixes {
+  TestProblem problem;
+  std::vector<Eigen::Vector3d> errors;  ///< of the fixes, whitened
+};
+
+/// Fixes of 1.4 times the stated sigma; a tenth of them of six times that.
+NoisyFixes MakeNoisyFixes() {
+  TestProblemOptions options;
+  options.noise = TacticalNoise(true);
+  options.layout = TypicalLayout(options.noise);
+  options.duration = 600.0;
+  options.position_sigma = kStated;
+  options.velocity_sigma = 0.0;
+  NoisyFixes out{MakeProblem(options, 5), {}};
+  Random random(17);
+  for (Measurement& z : out.problem.measurements) {
+    auto& fix = std::get<PositionFix>(z.model);
+    const double sigma = random.Uniform() < 0.1 ? 6.0 * 1.4 : 1.4;
+    out.errors.emplace_back(sigma * random.NormalVector3());
+    fix.p_e += NedAxes(fix.p_e) * (kStated * out.errors.back());
+  }
+  return out;
+}
+
+/// Expectation-maximisation for the mixture of two normal densities of three
+/// rows, from the errors themselves.
+ErrorParameters ExpectAndMaximise(const std::vector<Eigen::Vector3d>& errors) {
+  ErrorParameters p;
+  const auto count = static_cast<double>(errors.size());
+  for (int i = 0; i < 200; ++i) {
+    double inliers = 0.0;
+    double squares_in = 0.0;
+    double squares_out = 0.0;
+    for (const Eigen::Vector3d& e : errors) {
+      const double s = e.squaredNorm() / (p.scale * p.scale);
+      const double k = p.outlier_ratio;
+      const double in = (1.0 - p.outlier_share) * std::exp(-0.5 * s);
+      const double out =
+          p.outlier_share * std::exp(-0.5 * s / (k * k)) / (k * k * k);
+      const double responsibility = in / (in + out);
+      inliers += responsibility;
+      squares_in += responsibility * e.squaredNorm();
+      squares_out += (1.0 - responsibility) * e.squaredNorm();
+    }
+    p.outlier_share = 1.0 - inliers / count;
+    p.scale = std::sqrt(squares_in / (3.0 * inliers));
+    p.outlier_ratio =
+        std::sqrt(squares_out / (3.0 * (count - inliers))) / p.scale;
+  }
+  return p;
+}
+
+TEST(TuneParameters, AgreesWithExpectationMaximisationOnTheErrorsThemselves) {
+  const NoisyFixes noisy = MakeNoisyFixes();
+  Problem posed =
+      noisy.problem.Pose(GateDecisions(noisy.problem.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(noisy.problem.truth, &posed);
+  const ErrorHistory good(noisy.errors.size());
+  const ErrorParameters tuned = TuneParameters(tape, 0, good, {});
+  const ErrorParameters em = ExpectAndMaximise(noisy.errors);
+  EXPECT_NEAR(em.scale, 1.4, 0.1);
+  EXPECT_NEAR(em.outlier_share, 0.1, 0.04);
+  EXPECT_NEAR(em.outlier_ratio, 6.0, 1.0);
+  // As fine as the search goes.
+  EXPECT_NEAR(std::log(tuned.scale / em.scale), 0.0, std::log(1.08));
+  EXPECT_NEAR(std::log(tuned.outlier_share / em.outlier_share), 0.0,
+              std::log(1.3));
+  EXPECT_NEAR(std::log(tuned.outlier_ratio / em.outlier_ratio), 0.0,
+              std::log(1.3));
+}
+
+}  // namespace
+}  // namespace hindsight

@@ -1,0 +1,85 @@
+#include "receiver_errors/receiver_errors.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "filters/forward_filter.h"
+#include "support/test_problem.h"
+
+namespace hindsight {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::MakeProblem;
+using testing::TacticalNoise;
+using testing::TestProblem;
+using testing::TestProblemOptions;
+using testing::TypicalLayout;
+
+TestProblem FixesOfOneMinute() {
+  TestProblemOptions options;
+  options.noise = TacticalNoise(true);
+  options.layout = TypicalLayout(options.noise);
+  options.errors = true;
+  options.duration = 60.0;
+  options.position_sigma = 0.5;
+  options.velocity_sigma = 0.0;
+  return MakeProblem(options, 3);
+}
+
+/// What is found about the true trajectory, and the problem extended by it.
+struct Found {
+  explicit Found(const TestProblem& test)
+      : problem(test.Pose(GateDecisions(test.measurements.size(), 1))),
+        tape(RunLinearizedFilter(test.truth, &problem)),
+        errors(FindReceiverErrors(problem, tape, 0, nullptr)) {
+    errors.Extend(&problem);
+  }
+
+  Problem problem;
+  LinearTape tape;
+  ReceiverErrors errors;
+};
+
+TEST(ReceiverErrors, OfWhiteFixesBringNoStates) {
+  const TestProblem test = FixesOfOneMinute();
+  const Found found(test);
+  EXPECT_EQ(found.problem.layout.dim(), test.layout.dim());
+  EXPECT_EQ(found.problem.timeline.sensors()[0].loss.kind,
+            RobustLoss::Kind::kMixture);
+  EXPECT_EQ(found.errors.States(found.problem.layout).size(),
+            test.truth.size());
+  EXPECT_THAT(found.errors.Notes(
+                  CovarianceSeries(found.tape.dim(), found.tape.size()))[0],
+              HasSubstr("white errors"));
+  for (const double trust : found.errors.Trust()) EXPECT_EQ(trust, 1.0);
+}
+
+TEST(ReceiverErrors, OfABiasedStretchBecomeStates) {
+  TestProblem test = FixesOfOneMinute();
+  for (Measurement& z : test.measurements) {
+    if (z.t < 20.5 || z.t > 40.5) continue;
+    auto& fix = std::get<PositionFix>(z.model);
+    fix.p_e += NedAxes(fix.p_e) * Eigen::Vector3d(30.0, -20.0, 10.0);
+  }
+  const Found found(test);
+  const ErrorLayout& layout = found.problem.layout;
+  ASSERT_TRUE(layout.Has(BlockKind::kColouredNoise, 0));
+  EXPECT_GE(layout.dim(), test.layout.dim() + 3);
+  EXPECT_EQ(found.problem.prior.P.rows(), layout.dim());
+
+  const ModePart modes = found.errors.Modes();
+  const std::vector<double> trust = found.errors.Trust();
+  ASSERT_EQ(modes.probabilities.size(), test.truth.size());
+  EXPECT_LT(trust[30], 0.01);
+  EXPECT_GT(trust[10], 0.9);
+  EXPECT_NEAR(modes.probabilities[30].sum(), 1.0, 1e-9);
+
+  const std::vector<State> states = found.errors.States(layout);
+  EXPECT_LT((states[30].p_e - test.truth[30].p_e).norm(), 3.0);
+  const Block& e = *layout.Find(BlockKind::kColouredNoise, 0);
+  EXPECT_NEAR(states[30].parameters(e.parameter_offset), 30.0, 3.0);
+}
+
+}  // namespace
+}  // namespace hindsight

@@ -1,0 +1,130 @@
+#include "timeline/time_update.h"
+
+#include <gtest/gtest.h>
+
+#include "support/test_problem.h"
+
+namespace hindsight {
+namespace {
+
+using testing::MakeProblem;
+using testing::TacticalNoise;
+using testing::TestProblem;
+using testing::TestProblemOptions;
+using testing::TypicalLayout;
+
+TestProblem DriftingProblem() {
+  TestProblemOptions options;
+  options.noise = TacticalNoise(true);
+  options.layout = TypicalLayout(options.noise);
+  for (const auto kind : {BlockKind::kColouredNoise, BlockKind::kErrorRate}) {
+    Block block;
+    block.key = {kind, 0};
+    block.evolution = Evolution::GaussMarkov(1.0, 100.0);
+    block.sigma0.setConstant(0.5);
+    options.layout.Add(block);
+  }
+  options.duration = 3.0;
+  return MakeProblem(options, 1);
+}
+
+/// A drift over the first interval, another error over the second.
+std::vector<std::vector<BlockStep>> Steps() {
+  const BlockKey e = {BlockKind::kColouredNoise, 0};
+  const BlockKey r = {BlockKind::kErrorRate, 0};
+  return {{{e, 1.0, 1e-6, r}, {r, 1.0, 4e-7}},
+          {{e, 0.9, 0.19}, {r, 0.0, 0.25}},
+          {{e, 0.0, 1.0}, {r, 0.0, 0.25}}};
+}
+
+State WithError(const TestProblem& problem) {
+  State x = problem.truth[0];
+  const ErrorLayout& layout = problem.layout;
+  const Block& e = *layout.Find(BlockKind::kColouredNoise, 0);
+  const Block& r = *layout.Find(BlockKind::kErrorRate, 0);
+  x.parameters.segment<3>(e.parameter_offset) << 1.0, 2.0, 3.0;
+  x.parameters.segment<3>(r.parameter_offset) << 0.1, -0.2, 0.3;
+  return x;
+}
+
+TEST(TimeUpdate, TakesTheStepsOfTheTimelineInPlaceOfEvolutions) {
+  const TestProblem problem = DriftingProblem();
+  Timeline timeline = problem.MakeTimeline();
+  timeline.SetBlockSteps(Steps());
+  const ErrorLayout& layout = problem.layout;
+  const Block& e = *layout.Find(BlockKind::kColouredNoise, 0);
+  const Block& r = *layout.Find(BlockKind::kErrorRate, 0);
+  const State x = WithError(problem);
+  const NodeInterval drifting = IntervalAfter(0, layout, x, &timeline);
+  const State next = Advance(layout, drifting, x);
+  const Eigen::Vector3d moved = next.parameters.segment<3>(e.parameter_offset);
+  EXPECT_TRUE(moved.isApprox(Eigen::Vector3d(1.1, 1.8, 3.3), 1e-12));
+  Transition transition;
+  LinearizeAdvance(layout, drifting, x, next, &transition);
+  EXPECT_LT(transition.c.norm(), 1e-6);
+  EXPECT_DOUBLE_EQ(transition.Phi(e.offset + 1, r.offset + 1),
+                   drifting.summary.dt());
+  EXPECT_DOUBLE_EQ(transition.Phi(r.offset, r.offset), 1.0);
+  EXPECT_DOUBLE_EQ(transition.Q(r.offset, r.offset), 4e-7);
+  const NodeInterval biased = IntervalAfter(1, layout, x, &timeline);
+  LinearizeAdvance(layout, biased, next, Advance(layout, biased, next),
+                   &transition);
+  EXPECT_DOUBLE_EQ(transition.Phi(e.offset, e.offset), 0.9);
+  EXPECT_DOUBLE_EQ(transition.Phi(e.offset, r.offset), 0.0);
+  EXPECT_DOUBLE_EQ(transition.Phi(r.offset, r.offset), 0.0);
+  EXPECT_DOUBLE_EQ(transition.Q(r.offset, r.offset), 0.25);
+}
+
+/// So that what is sampled between nodes goes on to the next of them.
+TEST(TimeUpdate, OfTwoPartsIsThatOfTheWhole) {
+  const TestProblem problem = DriftingProblem();
+  Timeline timeline = problem.MakeTimeline();
+  timeline.SetBlockSteps(Steps());
+  const ErrorLayout& layout = problem.layout;
+  ImuIntegrator integrator(problem.imu);
+  for (std::size_t k = 0; k < 3; ++k) {
+    State x = WithError(problem);
+    x.t = timeline.node(k).t;
+    const auto part = [&](double from, double to) {
+      return integrator.Summarize(x.t + from, x.t + to,
+                                  CalibrationOf(layout, x));
+    };
+    const ImuSummary all = part(0.0, 1.0);
+    const ImuSummary first = part(0.0, 0.4);
+    const ImuSummary second = part(0.4, 1.0);
+    const State whole = Advance(layout, {timeline, k, all}, x);
+    const State middle = Advance(layout, {timeline, k, first}, x);
+    const State end = Advance(layout, {timeline, k, second}, middle);
+    EXPECT_TRUE(end.parameters.isApprox(whole.parameters, 1e-12)) << k;
+    Transition a, b, ab;
+    LinearizeAdvance(layout, {timeline, k, first}, x, middle, &a);
+    LinearizeAdvance(layout, {timeline, k, second}, middle, end, &b);
+    LinearizeAdvance(layout, {timeline, k, all}, x, whole, &ab);
+    for (const BlockKind kind :
+         {BlockKind::kColouredNoise, BlockKind::kErrorRate}) {
+      const int i = layout.Find(kind, 0)->offset;
+      const ErrorMatrix Phi = b.Phi * a.Phi;
+      EXPECT_TRUE(Phi.row(i).isApprox(ab.Phi.row(i), 1e-12)) << k;
+      const ErrorMatrix Q = b.Phi * a.Q * b.Phi.transpose() + b.Q;
+      // The walk of a rate moves what it drives by its own order.
+      EXPECT_NEAR(Q(i, i), ab.Q(i, i), 1e-6) << k;
+    }
+  }
+}
+
+/// Models about one nominal differ in what they believe of the parameters.
+TEST(TimeUpdate, BesideItsOwnNavigationStateIsTheUpdate) {
+  const TestProblem problem = DriftingProblem();
+  Timeline timeline = problem.MakeTimeline();
+  timeline.SetBlockSteps(Steps());
+  const State x = WithError(problem);
+  const NodeInterval interval = IntervalAfter(1, problem.layout, x, &timeline);
+  const State next = Advance(problem.layout, interval, x);
+  const State beside = AdvanceBeside(next, problem.layout, interval, x);
+  EXPECT_EQ(beside.parameters, next.parameters);
+  EXPECT_EQ(beside.p_e, next.p_e);
+  EXPECT_EQ(beside.t, next.t);
+}
+
+}  // namespace
+}  // namespace hindsight
