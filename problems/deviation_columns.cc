@@ -44,17 +44,24 @@ DeviationColumns::DeviationColumns(const Problem& problem,
     : problem_(problem), states_(states), tape_(tape) {
   const Timeline& timeline = problem.timeline;
   const std::vector<Measurement>& all = timeline.all_measurements();
-  for (std::size_t i = 0; i < timeline.sensors().size(); ++i) {
-    const auto first = std::find_if(
-        all.begin(), all.end(),
-        [i](const Measurement& z) { return z.sensor == static_cast<int>(i); });
-    sensors_.push_back(first == all.end() ? OfSensor{}
-                                          : Plan(static_cast<int>(i), *first));
+  std::vector<const Measurement*> first(timeline.sensors().size(), nullptr);
+  std::vector<int> components(first.size(), 0);
+  for (const Measurement& z : all) {
+    const auto sensor = static_cast<std::size_t>(z.sensor);
+    if (first[sensor] == nullptr) first[sensor] = &z;
+    components[sensor] =
+        std::max(components[sensor], ComponentOf(z, Rows(z) - 1) + 1);
+  }
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    sensors_.push_back(first[i] == nullptr ? OfSensor{}
+                                           : Plan(static_cast<int>(i),
+                                                  *first[i], components[i]));
   }
 }
 
-DeviationColumns::OfSensor DeviationColumns::Plan(
-    int sensor, const Measurement& first) const {
+DeviationColumns::OfSensor DeviationColumns::Plan(int sensor,
+                                                  const Measurement& first,
+                                                  int components) const {
   using Kind = Deviation::Kind;
   OfSensor plan;
   plan.layout = problem_.layout;
@@ -97,8 +104,7 @@ DeviationColumns::OfSensor DeviationColumns::Plan(
     }
     plan.deviations.push_back({.kind = Kind::kStretched});
   }
-  plan.rows = Rows(first);
-  for (int axis = 0; axis < plan.rows; ++axis) {
+  for (int axis = 0; axis < components; ++axis) {
     plan.deviations.push_back(
         {.kind = Kind::kAdditive, .axis = axis, .may_begin_late = true});
   }
@@ -129,7 +135,9 @@ std::vector<ShiftColumns::Columns> DeviationColumns::Measured(
     const Deviation& deviation = own.deviations[static_cast<std::size_t>(i)];
     switch (deviation.kind) {
       case Deviation::Kind::kAdditive:
-        if (B.rows() == own.rows) B(deviation.axis, i) = 1.0;
+        for (int row = 0; row < B.rows(); ++row) {
+          if (ComponentOf(measured, row) == deviation.axis) B(row, i) = 1.0;
+        }
         break;
       case Deviation::Kind::kTurned:
         B.col(i) = Eigen::Vector3d::Unit(deviation.axis).cross(*v);

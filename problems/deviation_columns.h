@@ -19,7 +19,7 @@ struct Deviation {
   };
   Kind kind = Kind::kAdditive;
   BlockKind block = BlockKind::kScale;  ///< of kBlock
-  int axis = 0;  ///< of kAdditive the row, of measurements that have all rows
+  int axis = 0;  ///< of kAdditive the component (ComponentOf)
   /// Whether it may begin, or begin to grow, in the middle.
   bool may_begin_late = false;
 };
@@ -51,10 +51,10 @@ class DeviationColumns {
     ErrorLayout layout;          ///< the problem's and the blocks tried
     ParameterVector parameters;  ///< values of the blocks tried
     Eigen::Vector3d origin_e = Eigen::Vector3d::Zero();
-    int rows = 0;           ///< of the first measurement
     bool has_clock = true;  ///< a shift of it is no shift of a distance's begin
   };
-  OfSensor Plan(int sensor, const Measurement& first) const;
+  /// `components` is how many a measurement has at most.
+  OfSensor Plan(int sensor, const Measurement& first, int components) const;
   std::vector<ShiftColumns::Columns> Measured(std::size_t k,
                                               const TapeMeasurement& z) const;
   ShiftColumns::Columns Driven(std::size_t k) const;

@@ -14,6 +14,17 @@
 #include "problems/explanation_words.h"
 
 namespace hindsight {
+
+/// A deviation beyond its limit.
+struct LikelyDeviation {
+  MeanShift shift;
+  double z = 0.0;
+  double limit = 0.0;
+  std::vector<double> steps = {};  ///< of one that comes and goes
+
+  double Excess() const { return std::abs(z) / limit; }
+};
+
 namespace {
 
 /// Epochs about equally far apart in time, the first included.
@@ -81,37 +92,41 @@ double LimitOf(double false_alarms, std::size_t tests) {
       1.0));
 }
 
-/// The likeliest deviation of each source beyond its limit.
-class Candidates {
+/// The likeliest deviations of each source beyond their limits, one a column
+/// and course.
+class LikelyDeviations {
  public:
-  void Offer(const MeanShift& shift, double z, double limit) {
+  void Offer(const MeanShift& shift, double z, double limit,
+             std::vector<double> steps = {}) {
     if (!(std::abs(z) >= limit)) return;
+    const Course course = !steps.empty() ? Course::kVaries
+                          : shift.grows  ? Course::kGrows
+                                         : Course::kStays;
     const int source = shift.of_state ? kState : shift.group;
-    Candidate& best = best_[source];
-    if (best.limit == 0.0 ||
-        std::abs(z) / limit > std::abs(best.z) / best.limit) {
-      best = {shift, z, limit};
+    LikelyDeviation one{shift, z, limit, std::move(steps)};
+    LikelyDeviation& best = best_[source][{shift.column, course}];
+    if (best.limit == 0.0 || one.Excess() > best.Excess()) {
+      best = std::move(one);
     }
   }
 
-  /// Instead of what the sensor has, if it is farther beyond its limit.
-  void OfferVarying(const MeanShift& largest, double z, double limit) {
-    if (!(z >= limit)) return;
-    Candidate& best = best_[largest.group];
-    if (best.limit > 0.0 && z / limit <= std::abs(best.z) / best.limit) return;
-    best = {largest, z, limit, true};
+  /// By source, those farthest beyond their limits first.
+  std::map<int, std::vector<LikelyDeviation>> Sorted() const {
+    std::map<int, std::vector<LikelyDeviation>> all;
+    for (const auto& [source, own] : best_) {
+      for (const auto& [column, one] : own) all[source].push_back(one);
+      std::stable_sort(all[source].begin(), all[source].end(),
+                       [](const LikelyDeviation& a, const LikelyDeviation& b) {
+                         return a.Excess() > b.Excess();
+                       });
+    }
+    return all;
   }
-  struct Candidate {
-    MeanShift shift;
-    double z = 0.0;
-    double limit = 0.0;
-    bool varies = false;
-  };
-  std::map<int, Candidate>& best() { return best_; }
 
  private:
   static constexpr int kState = -3;
-  std::map<int, Candidate> best_;
+  enum class Course { kStays, kGrows, kVaries };
+  std::map<int, std::map<std::pair<int, Course>, LikelyDeviation>> best_;
 };
 
 /// Additive errors that come and go.
@@ -131,18 +146,20 @@ class Varying {
   void Offer(const ShiftColumns& columns, const LinearTape& tape,
              std::span<const std::size_t> onsets,
              const std::vector<MeanShift>& tried, double false_alarms,
-             Candidates* candidates) const {
+             const EpochCallback& callback,
+             LikelyDeviations* candidates) const {
     for (const auto& [group, wanted] : columns_) {
       const std::vector<ShiftEnergy> energies =
-          EnergiesOf(group, wanted, onsets, tape, columns);
+          EnergiesOf(group, wanted, onsets, tape, columns, callback);
       for (std::size_t w = 0; w < wanted.size(); ++w) {
         const MeanShift* largest = Largest(group, wanted[w], tried);
-        if (largest == nullptr || !(energies[w].sum > 0.0)) continue;
+        if (largest == nullptr || energies[w].weights.empty()) continue;
         // In place of a normal variable and its limit.
         const double tail = false_alarms / static_cast<double>(count_);
-        const double limit = std::sqrt(
-            energies[w].scale * ChiSquareQuantile(1.0 - tail, energies[w].dof));
-        candidates->OfferVarying(*largest, std::sqrt(energies[w].sum), limit);
+        candidates->Offer(
+            *largest, std::sqrt(energies[w].sum),
+            std::sqrt(WeightedChiSquareQuantile(energies[w].weights, tail)),
+            energies[w].steps);
       }
     }
   }
@@ -173,7 +190,7 @@ struct ExplanationSearch::Found {
   DeviationColumns own;
   std::vector<std::size_t> onsets;
   Scores scores;
-  std::map<int, Candidates::Candidate> best;
+  std::map<int, std::vector<LikelyDeviation>> best;  ///< by source
 
   Found(const Problem& problem, const std::vector<State>& states,
         const LinearTape& tape)
@@ -183,14 +200,15 @@ struct ExplanationSearch::Found {
 ExplanationSearch::ExplanationSearch(const Problem& problem,
                                      const std::vector<State>& states,
                                      const LinearTape& tape,
-                                     double false_alarms)
+                                     double false_alarms,
+                                     const EpochCallback& callback)
     : problem_(problem),
       tape_(tape),
       found_(std::make_unique<Found>(problem, states, tape)) {
   const DeviationColumns& own = found_->own;
   const ShiftColumns columns = own.Columns();
   const std::size_t first = found_->onsets.front();
-  found_->scores = ScoreShifts(tape, columns, found_->onsets);
+  found_->scores = ScoreShifts(tape, columns, found_->onsets, callback);
   std::vector<MeanShift>& tried = found_->scores.shifts;
   std::erase_if(tried, [&](const MeanShift& shift) {
     return !IsMeant(shift, own, first, problem.layout);
@@ -202,14 +220,14 @@ ExplanationSearch::ExplanationSearch(const Problem& problem,
   const double limits[] = {
       LimitOf(false_alarms / 3.0, throughout),
       LimitOf(false_alarms / 3.0, tried.size() - throughout)};
-  Candidates candidates;
+  LikelyDeviations candidates;
   for (const MeanShift& shift : tried) {
     candidates.Offer(shift, shift.z(), limits[shift.onset == first ? 0 : 1]);
   }
   Varying(problem, own)
-      .Offer(columns, tape, found_->onsets, tried, false_alarms / 3.0,
+      .Offer(columns, tape, found_->onsets, tried, false_alarms / 3.0, callback,
              &candidates);
-  found_->best = candidates.best();
+  found_->best = candidates.Sorted();
 }
 
 ExplanationSearch::~ExplanationSearch() = default;
@@ -222,24 +240,45 @@ bool ExplanationSearch::found_any() const { return !found_->best.empty(); }
 
 std::vector<Explanation> ExplanationSearch::Tell(
     const Relinearised& anew) const {
-  const DeviationColumns& own = found_->own;
-  const ShiftColumns columns = own.Columns();
-  std::vector<Explanation> all;
-  for (const auto& [source, best] : found_->best) {
-    const Words words = best.varies ? WordsOfVarying(best.shift, own, problem_)
-                                    : WordsOfShift(best.shift, own, problem_);
-    Explanation one;
-    one.what = words.what;
-    one.remedy = words.remedy;
-    one.z = std::abs(best.z);
-    one.limit = best.limit;
-    if (best.shift.onset != found_->onsets.front() && !best.varies) {
-      one.onset = tape_.epoch(best.shift.onset).t;
-      one.what += fmt::format(" from {:.1f} s on", *one.onset);
+  const ShiftColumns columns = found_->own.Columns();
+  const auto explain = [&](const LikelyDeviation& one) {
+    const bool varies = !one.steps.empty();
+    const Words words = varies
+                            ? WordsOfVarying(one.shift, found_->own, problem_)
+                            : WordsOfShift(one.shift, found_->own, problem_);
+    Explanation out;
+    out.what = words.what;
+    out.remedy = words.remedy;
+    out.z = std::abs(one.z);
+    out.limit = one.limit;
+    if (!one.shift.of_state && one.shift.group >= 0) {
+      out.sensor =
+          problem_.timeline.sensors()[static_cast<std::size_t>(one.shift.group)]
+              .name;
     }
-    SetEffect(CorrectionFor(best.shift, tape_, columns), best.shift.size(),
-              anew, tape_, &one);
-    all.push_back(std::move(one));
+    if (one.shift.onset != found_->onsets.front() && !varies) {
+      out.onset = tape_.epoch(one.shift.onset).t;
+      out.what += fmt::format(" from {:.1f} s on", *out.onset);
+    }
+    if (varies) {
+      SetEffect(CorrectionForSteps(one.shift.group, one.shift.column,
+                                   found_->onsets, one.steps, tape_, columns),
+                1.0, anew, tape_, &out);
+    } else {
+      SetEffect(CorrectionFor(one.shift, tape_, columns), one.shift.size(),
+                anew, tape_, &out);
+    }
+    return out;
+  };
+  std::vector<Explanation> all;
+  for (const auto& [source, candidates] : found_->best) {
+    Explanation told = explain(candidates.front());
+    for (std::size_t i = 1;
+         i < candidates.size() && told.effect < kDoubtfulShift; ++i) {
+      Explanation next = explain(candidates[i]);
+      if (next.effect >= kDoubtfulShift) told = std::move(next);
+    }
+    all.push_back(std::move(told));
   }
   return all;
 }

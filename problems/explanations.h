@@ -26,15 +26,17 @@ namespace hindsight {
 class ExplanationSearch {
  public:
   /// `false_alarms` is the probability that a right model has any (Bonferroni).
-  /// The arguments must outlive the object.
+  /// The arguments must outlive the object, but `callback`, which hears of each
+  /// epoch of each pass.
   ExplanationSearch(const Problem& problem, const std::vector<State>& states,
-                    const LinearTape& tape, double false_alarms);
+                    const LinearTape& tape, double false_alarms,
+                    const EpochCallback& callback = nullptr);
   ~ExplanationSearch();
   ExplanationSearch(const ExplanationSearch&) = delete;
   ExplanationSearch& operator=(const ExplanationSearch&) = delete;
 
   bool found_any() const;
-  /// The likeliest of each sensor, of the IMU and of the state, with what
+  /// One of each sensor, of the IMU and of the state (Explanation), with what
   /// allowing for it does to the solution, whose variances are `anew`'s.
   std::vector<Explanation> Tell(const Relinearised& anew) const;
   std::span<const StateScore> state_scores() const;

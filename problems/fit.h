@@ -9,6 +9,7 @@
 #include "evaluation/contradicted_sensor.h"
 #include "evaluation/explanation.h"
 #include "evaluation/innovation_test.h"
+#include "filters/imm.h"
 #include "problems/linearisation.h"
 #include "timeline/problem.h"
 
@@ -16,20 +17,30 @@ namespace hindsight {
 
 /// What the measurements say of the model that a solution is of.
 struct Fit {
-  std::vector<NormalisedInnovation> innovations;  ///< of the accepted ones
+  /// Of the accepted ones, but of sensors with a robust loss: whose errors are
+  /// not said to be normal.
+  std::vector<NormalisedInnovation> innovations;
   std::vector<InnovationFigure> figures;
   std::vector<Explanation> explanations;
   std::vector<AgreementFigure> agreement;
   std::optional<LeftOutSensor> contradiction;  ///< sought where it does not fit
   std::vector<ConstantExcess> constants;
+  /// False where no filter holds about the states, or none of it is invertible:
+  /// then nothing speaks against the model, nor for it.
+  bool tested = false;
 };
 
 /// Linearises `problem` about the states of a solution and holds its innovations
-/// against it, each test with kFalseAlarms. Empty where there are no states or
-/// a covariance is not positive definite. `dataset` is what the timeline is
-/// built from.
+/// against it, each test with kFalseAlarms. `dataset` is what the timeline is
+/// built from; `callback` hears of each epoch of each pass.
 Fit JudgeFit(const Dataset& dataset, const Relinearised& solution,
-             Problem* problem);
+             Problem* problem, const EpochCallback& callback = nullptr);
+
+/// The innovations of an IMM against the mixture that predicted them, with
+/// kFalseAlarms. They are of the filter, about its own estimates: what would
+/// explain them, and what both sides say, is not sought.
+Fit JudgeFit(const Dataset& dataset, const Timeline& timeline,
+             const ImmTape& tape);
 
 }  // namespace hindsight
 

@@ -165,7 +165,8 @@ const Relinearised& ForwardStage::relinearised() {
 }
 
 const Fit& ForwardStage::fit() {
-  if (!fit_) fit_ = JudgeFit(dataset_, relinearised(), &problem_);
+  if (!fit_)
+    fit_ = JudgeFit(dataset_, relinearised(), &problem_, Progress("grading"));
   return *fit_;
 }
 

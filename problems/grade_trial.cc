@@ -15,6 +15,8 @@ constexpr std::size_t kSummary = 0;
 constexpr std::size_t kFaults = 1;
 constexpr std::size_t kEvidence = 2;
 constexpr char kRulePrefix[] = "rule:";
+/// It says which sensor, where another rule says that something does not fit.
+constexpr const char* kDerivedRule = "contradiction";
 
 double ValueOf(const RunRecord& record, const std::string& name) {
   for (const auto& [own, value] : record.values) {
@@ -77,9 +79,14 @@ class Sorter {
     Add(run, kFaults, run.labels, std::move(values));
     if (is_faulty && !(wrong && visible)) return;
     const std::vector<std::string> rules = RulesOf(run);
+    const auto independent = std::count_if(
+        rules.begin(), rules.end(),
+        [](const std::string& rule) { return rule != kDerivedRule; });
     for (const std::string& rule : rules) {
       values = {{is_faulty ? "caught" : "healthy", 1.0}};
-      if (is_faulty && rules.size() == 1) values.emplace_back("alone", 1.0);
+      if (is_faulty && independent == 1 && rule != kDerivedRule) {
+        values.emplace_back("alone", 1.0);
+      }
       Add(run, kEvidence, {vehicle, rule, method}, std::move(values));
     }
   }

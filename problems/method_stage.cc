@@ -16,13 +16,12 @@ MethodStage::Nodes MethodStage::SharedNodes() const {
 Solution MethodStage::AtOwnNodes(
     const std::function<Solution(const Nodes&)>& solve) {
   Solution solution = solve(SharedNodes());
-  std::optional<PlacedNodes> own;
+  own_.reset();
   OffsetSearch search;
   for (int i = 1; forward_->unsettled().empty(); ++i) {
     const std::vector<double>& offsets =
-        own ? own->offsets : forward_->offsets();
-    const Problem& problem = own ? own->problem : forward_->problem();
-    const std::vector<Sensor>& sensors = problem.timeline.sensors();
+        own_ ? own_->offsets : forward_->offsets();
+    const std::vector<Sensor>& sensors = problem().timeline.sensors();
     const int sensor =
         FarthestFromNodes(solution.layout, offsets, solution.states.back(),
                           solution.covariances.Get(solution.states.size() - 1));
@@ -31,14 +30,40 @@ Solution MethodStage::AtOwnNodes(
       own_unsettled_ = sensors[static_cast<std::size_t>(sensor)].name;
       break;
     }
-    own = forward_->PlaceAnew(
+    own_ = forward_->PlaceAnew(
         search.Next(solution.layout, sensors, solution.states.back(), offsets),
-        problem, solution.layout, solution.states);
+        problem(), solution.layout, solution.states);
     timeline_.reset();
-    solution = solve({&own->problem, &own->states});
+    solution = solve({&own_->problem, &own_->states});
   }
-  if (own && !timeline_) timeline_ = std::move(own->problem.timeline);
   return solution;
+}
+
+Problem& MethodStage::problem() {
+  return own_ ? own_->problem : forward_->problem();
+}
+
+std::optional<Timeline> MethodStage::TakeTimeline() {
+  if (!timeline_ && own_) return std::move(own_->problem.timeline);
+  return std::move(timeline_);
+}
+
+void MethodStage::JudgeOptimum(const Solution& solution) {
+  constexpr double kSame = 0.1;  // sigma, as ForwardStage::Relinearise
+  if (!own_) {
+    const Relinearised& shared = forward_->relinearised();
+    if (!shared.states.empty() &&
+        LargestDistance(solution.layout, shared.states, solution.states,
+                        shared.variances) < kSame) {
+      return;
+    }
+  }
+  SetFit(
+      JudgeFit(forward_->dataset(),
+               {.states = solution.states,
+                .variances = VariancesOf(solution.layout, solution.covariances),
+                .smoother = {}},
+               &problem(), forward_->Progress("grading")));
 }
 
 Solution MethodStage::FromSmoothed(std::vector<State> states,

@@ -9,6 +9,7 @@
 
 #include "problems/batch.h"
 #include "problems/forward_stage.h"
+#include "problems/node_placement.h"
 
 namespace hindsight {
 
@@ -41,6 +42,10 @@ class MethodStage {
   /// start comes from.
   Problem Questioned(const Nodes& nodes) const;
 
+  /// Holds the innovations about an optimum that AtOwnNodes found against its
+  /// model, unless the forward stage's, about the same trajectory, are.
+  void JudgeOptimum(const Solution& solution);
+
   /// Computes the credit of the heading about the method's own result, which
   /// may be another one than about the forward stage's.
   void JudgeHeading(const Solution& solution, const Nodes& nodes);
@@ -49,7 +54,7 @@ class MethodStage {
   /// nodes that AtOwnNodes hands out.
   void SetTimeline(Timeline timeline) { timeline_ = std::move(timeline); }
   /// The timeline of the solution where it is not the forward stage's.
-  std::optional<Timeline> TakeTimeline() { return std::move(timeline_); }
+  std::optional<Timeline> TakeTimeline();
 
   /// What the measurements say of a method's own model, where it is another than
   /// the stated one.
@@ -66,9 +71,13 @@ class MethodStage {
   HeadingCredit heading_credit() const;
 
  private:
+  /// On the nodes that AtOwnNodes ended with.
+  Problem& problem();
+
   ForwardStage* forward_;
   std::string own_unsettled_;
   HeadingCredit own_credit_;
+  std::optional<PlacedNodes> own_;  ///< where they are not the forward stage's
   std::optional<Timeline> timeline_;
   std::optional<Fit> own_fit_;
 };

@@ -21,7 +21,7 @@ std::unique_ptr<Estimation> MakeEstimation(
 }  // namespace
 
 Reconstruction::Reconstruction(const Dataset& dataset,
-                               ReconstructionOptions options)
+                               const ReconstructionOptions& options)
     : attitude_alone_(options.attitude_alone),
       estimation_(MakeEstimation(dataset, options)) {}
 

@@ -57,7 +57,7 @@ class Reconstruction {
   /// Aligns, places the nodes, preintegrates. Throws EstimationError if there
   /// is nothing to work with, InputError if the data contradict themselves.
   /// `dataset` must outlive the object.
-  Reconstruction(const Dataset& dataset, ReconstructionOptions options);
+  Reconstruction(const Dataset& dataset, const ReconstructionOptions& options);
   ~Reconstruction();
 
   /// By a method of Methods() of the kind that the options say; throws

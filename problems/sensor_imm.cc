@@ -144,25 +144,28 @@ SensorImm MakeSensorImm(Problem problem) {
   return imm;
 }
 
-ImmSmoothed SmoothSensorImm(SensorImm* imm, const EpochCallback& callback) {
+ImmSmoothed SmoothSensorImm(SensorImm* imm, const EpochCallback& callback,
+                            const std::function<void(const ImmTape&)>& judge) {
   Problem& problem = imm->problem;
-  ImmSmoothed smoothed;
-  {
-    const ImmResult result =
-        RunImm(imm->models, imm->options, &problem.timeline, callback);
-    problem.decisions = DecisionsOnTape(result.tape.tapes.front());
-    smoothed = SmoothImm(result.tape);
+  ImmResult result =
+      RunImm(imm->models, imm->options, &problem.timeline, callback);
+  problem.decisions = DecisionsOnTape(result.tape.tapes.front());
+  ImmSmoothed smoothed = SmoothImm(result.tape);
+  if (problem.timeline.HasGates()) {
+    SmoothedTrajectory about;
+    about.states = smoothed.trajectory.states;
+    about.P = smoothed.trajectory.P;
+    GateDecisions again = DecideGates(problem, about);
+    if (again != problem.decisions) {
+      imm->options.decisions = again;
+      problem.decisions = std::move(again);
+      result = {};
+      result = RunImm(imm->models, imm->options, &problem.timeline, callback);
+      smoothed = SmoothImm(result.tape);
+    }
   }
-  if (!problem.timeline.HasGates()) return smoothed;
-  SmoothedTrajectory about;
-  about.states = smoothed.trajectory.states;
-  about.P = smoothed.trajectory.P;
-  GateDecisions again = DecideGates(problem, about);
-  if (again == problem.decisions) return smoothed;
-  imm->options.decisions = again;
-  problem.decisions = std::move(again);
-  return SmoothImm(
-      RunImm(imm->models, imm->options, &problem.timeline, callback).tape);
+  if (judge) judge(result.tape);
+  return smoothed;
 }
 
 Solution ImmFilterSolution(const SensorImm& imm, const ImmResult& result) {

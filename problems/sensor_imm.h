@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_PROBLEMS_SENSOR_IMM_H_
 #define HINDSIGHT_PROBLEMS_SENSOR_IMM_H_
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,11 @@ SensorImm MakeSensorImm(Problem problem);
 
 /// The smoothed filter. Where gates are left, they are decided again about the
 /// smoothed trajectory, and the filter is run once more by `imm->options` with
-/// these decisions if they differ.
-ImmSmoothed SmoothSensorImm(SensorImm* imm, const EpochCallback& callback);
+/// these decisions if they differ. `judge` is shown the tape that is smoothed in
+/// the end.
+ImmSmoothed SmoothSensorImm(
+    SensorImm* imm, const EpochCallback& callback,
+    const std::function<void(const ImmTape&)>& judge = nullptr);
 
 /// Solutions of the filter and of the smoother, the modes' probabilities with
 /// them. The weight of a measurement is that of its loss times the mean of

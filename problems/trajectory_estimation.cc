@@ -73,18 +73,20 @@ class TrajectoryEstimation final : public Estimation {
                   const std::vector<double>& times) const override {
     const ReconstructionOptions& options = forward_.options();
     const Method& method = MethodOf(solution.method);
-    const auto own = timelines_.find(solution.method);
-    const Timeline& timeline =
-        own != timelines_.end() ? own->second : forward_.timeline();
-    return SampleSolution(solution, timeline, forward_.dataset().imu, times,
-                          method.Has(MethodTrait::kHInfinity)
-                              ? options.h_infinity
-                          : method.Has(MethodTrait::kModifiedHInfinity)
-                              ? options.modified_h_infinity
-                              : CovarianceOptions());
+    return SampleSolution(
+        solution, TimelineOf(solution.method), forward_.dataset().imu, times,
+        method.Has(MethodTrait::kHInfinity) ? options.h_infinity
+        : method.Has(MethodTrait::kModifiedHInfinity)
+            ? options.modified_h_infinity
+            : CovarianceOptions());
   }
 
  private:
+  const Timeline& TimelineOf(const std::string& method) const {
+    const auto own = timelines_.find(method);
+    return own != timelines_.end() ? own->second : forward_.timeline();
+  }
+
   Solution Finish(const Method& method, const MethodStage& stage,
                   Solution solution) {
     solution.method = method.name;
@@ -101,7 +103,7 @@ class TrajectoryEstimation final : public Estimation {
     }
     Conclude(
         {.solution = solution,
-         .sensors = forward_.timeline().sensors(),
+         .sensors = TimelineOf(method.name).sensors(),
          .start = StartValues{.x = start.prior.x,
                               .P = start.prior.P,
                               .given = forward_.dataset().initial,
@@ -111,6 +113,7 @@ class TrajectoryEstimation final : public Estimation {
              method.Has(MethodTrait::kLinearisesOnce)
                  ? LinearisationErrorOf(solution, forward_.relinearised())
                  : std::nullopt,
+         .untested = !stage.fit().tested,
          .innovations = stage.fit().figures,
          .explanations = stage.fit().explanations,
          .agreement = stage.fit().agreement,

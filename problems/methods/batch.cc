@@ -22,6 +22,7 @@ Solution RunBatch(MethodStage* stage) {
     return one;
   });
   solution.seconds = ProcessorSeconds() - t0;
+  stage->JudgeOptimum(solution);
   return solution;
 }
 

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "base/processor_time.h"
+#include "problems/fit.h"
 #include "problems/method.h"
 #include "problems/method_stage.h"
 #include "problems/sensor_imm.h"
@@ -14,24 +15,30 @@ Solution Mix(MethodStage* stage, const Solver& solve) {
   const EpochCallback progress = stage->forward().Progress("imm");
   Solution solution = stage->AtOwnNodes([&](const MethodStage::Nodes& nodes) {
     SensorImm imm = MakeSensorImm(stage->Questioned(nodes));
-    // Of a mixture innovations are not normal.
-    stage->SetFit({});
-    return solve(&imm, progress);
+    const auto judge = [stage, &imm](const ImmTape& tape) {
+      stage->SetFit(
+          JudgeFit(stage->forward().dataset(), imm.problem.timeline, tape));
+    };
+    return solve(&imm, progress, judge);
   });
   solution.seconds = ProcessorSeconds() - t0;
   return solution;
 }
 
 Solution RunImmFilter(MethodStage* stage) {
-  return Mix(stage, [](SensorImm* imm, const EpochCallback& progress) {
-    return ImmFilterSolution(*imm, RunImm(imm->models, imm->options,
-                                          &imm->problem.timeline, progress));
+  return Mix(stage, [](SensorImm* imm, const EpochCallback& progress,
+                       const auto& judge) {
+    const ImmResult result =
+        RunImm(imm->models, imm->options, &imm->problem.timeline, progress);
+    judge(result.tape);
+    return ImmFilterSolution(*imm, result);
   });
 }
 
 Solution RunImmSmoother(MethodStage* stage) {
-  return Mix(stage, [](SensorImm* imm, const EpochCallback& progress) {
-    return ImmSmootherSolution(*imm, SmoothSensorImm(imm, progress));
+  return Mix(stage, [](SensorImm* imm, const EpochCallback& progress,
+                       const auto& judge) {
+    return ImmSmootherSolution(*imm, SmoothSensorImm(imm, progress, judge));
   });
 }
 

@@ -25,6 +25,7 @@ Solution RunIterated(MethodStage* stage) {
     return one;
   });
   solution.seconds = ProcessorSeconds() - t0;
+  stage->JudgeOptimum(solution);
   return solution;
 }
 

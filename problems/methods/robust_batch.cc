@@ -69,7 +69,7 @@ Solution SolveRobustly(int receiver, MethodStage* stage,
                {.states = solution.states,
                 .variances = VariancesOf(solution.layout, solution.covariances),
                 .smoother = {}},
-               &result.problem));
+               &result.problem, stage->forward().Progress("grading")));
   std::size_t record = 0;
   for (std::size_t k = 0; k < timeline.size(); ++k) {
     for (const Measurement& z : timeline.measurements(k)) {

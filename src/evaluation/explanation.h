@@ -10,8 +10,10 @@
 namespace hindsight {
 
 /// A deviation from the stated model that explains the innovations better than
-/// chance does: the likeliest of those of one sensor, or of the IMU.
+/// chance does: of one sensor, or of the IMU, the likeliest of those that move
+/// the solution by kDoubtfulShift, or of all if none does.
 struct Explanation {
+  std::string sensor;  ///< "" if it is of the IMU or of a state
   std::string what;    ///< a clause: "gnss is 0.20 s late"
   std::string remedy;  ///< what to try
   double z = 0.0;      ///< its size in its own sigmas, not negative

@@ -69,7 +69,9 @@ struct Judged {
   std::span<const Sensor> sensors = {};  ///< empty: residuals are not judged
   std::optional<StartValues> start = std::nullopt;
   std::optional<LinearisationError> linearisation = std::nullopt;
-  /// Of a solution that takes the sensors' noise as it is stated.
+  /// The tests that the next five come from could not be made.
+  bool untested = false;
+  /// About the solution, of the model that it has of the sensors.
   std::span<const InnovationFigure> innovations = {};
   std::span<const Explanation> explanations = {};
   std::span<const AgreementFigure> agreement = {};

@@ -10,6 +10,13 @@
 namespace hindsight {
 
 void FindOddInnovations(const Judged& judged, std::vector<Evidence>* evidence) {
+  if (judged.untested) {
+    evidence->push_back(
+        {.grade = Grade::kDoubtful,
+         .what = "whether the model fits could not be tested: linearised about "
+                 "the solution no filter holds",
+         .remedies = {"a start or noise that is nearer to the truth"}});
+  }
   std::vector<const InnovationFigure*> worst(judged.sensors.size(), nullptr);
   for (const InnovationFigure& figure : judged.innovations) {
     const InnovationFigure*& own =

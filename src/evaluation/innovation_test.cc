@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/chi_square.h"
+#include "base/median.h"
 
 namespace hindsight {
 namespace {
@@ -15,13 +16,17 @@ struct Series {
   std::vector<double> x;
 };
 
-using SeriesByRow = std::map<std::pair<int, int>, Series>;
+using SeriesByComponent = std::map<std::pair<int, int>, Series>;
 
-SeriesByRow Sorted(std::span<const NormalisedInnovation> innovations) {
-  SeriesByRow all;
+SeriesByComponent Sorted(std::span<const NormalisedInnovation> innovations) {
+  SeriesByComponent all;
   for (const NormalisedInnovation& innovation : innovations) {
     for (int row = 0; row < innovation.rows.size(); ++row) {
-      Series& series = all[{innovation.sensor, row}];
+      const int component =
+          innovation.components.empty()
+              ? row
+              : innovation.components[static_cast<std::size_t>(row)];
+      Series& series = all[{innovation.sensor, component}];
       series.t.push_back(innovation.t);
       series.x.push_back(innovation.rows(row));
     }
@@ -67,6 +72,13 @@ std::pair<std::size_t, std::size_t> MostOf(const std::vector<double>& squares) {
   return best;
 }
 
+/// The usual time between two: over a gap nothing is measured.
+double StepOf(const std::vector<double>& t) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
+  return Median(std::move(steps));
+}
+
 InnovationFigure FigureOf(const Series& series, double tail) {
   InnovationFigure figure;
   figure.count = series.x.size();
@@ -80,7 +92,7 @@ InnovationFigure FigureOf(const Series& series, double tail) {
   figure.mean = sum / n;
   figure.rms = std::sqrt(squares / n);
   figure.beyond = beyond / n;
-  const double step = (series.t.back() - series.t.front()) / (n - 1.0);
+  const double step = StepOf(series.t);
   for (std::size_t m = 1; m <= figure.count; m *= 2) {
     const std::vector<double> blocks = BlockSquares(series.x, m);
     const auto count = static_cast<double>(blocks.size());
@@ -103,7 +115,7 @@ InnovationFigure FigureOf(const Series& series, double tail) {
 
 std::vector<InnovationFigure> TestInnovations(
     std::span<const NormalisedInnovation> innovations, double false_alarms) {
-  const SeriesByRow all = Sorted(innovations);
+  const SeriesByComponent all = Sorted(innovations);
   std::size_t tests = 0;
   for (const auto& [key, series] : all)
     tests += CountOfLengths(series.x.size());
@@ -112,7 +124,7 @@ std::vector<InnovationFigure> TestInnovations(
     InnovationFigure figure =
         FigureOf(series, false_alarms / static_cast<double>(tests));
     figure.sensor = key.first;
-    figure.row = key.second;
+    figure.component = key.second;
     figures.push_back(figure);
   }
   return figures;

@@ -20,12 +20,14 @@ struct NormalisedInnovation {
   std::size_t index = 0;
   RowVector rows;
   RowVector white;  ///< L^-1 nu, S = L L': also independent of each other
+  /// Of each row (ComponentOf); empty: the row.
+  std::vector<int> components = {};
 
   static constexpr std::size_t kOwn = static_cast<std::size_t>(-1);
 };
 
 /// By what the sigmas that a solution states fall short of its errors, as far
-/// as the innovations of one row of a sensor tell. The mean square of their
+/// as the innovations of one component of a sensor tell. The mean square of their
 /// sums over m in a row,
 ///   V(m) = mean over blocks of (sum of m innovations)^2 / m,
 /// is chi^2(n/m)/(n/m) of the right model, for each m. Errors that are larger
@@ -34,7 +36,7 @@ struct NormalisedInnovation {
 /// innovations has errors of sqrt(V(m)) of its sigmas.
 struct InnovationFigure {
   int sensor = 0;
-  int row = 0;
+  int component = 0;
   std::size_t count = 0;
   double mean = 0.0;  ///< [sigma]
   double rms = 0.0;   ///< sqrt V(1)
@@ -50,14 +52,14 @@ struct InnovationFigure {
   double t_end = 0.0;
 };
 
-/// Figures of every row of every sensor with kFewest innovations or more. m
+/// Figures of every component of every sensor with kFewest innovations or more. m
 /// runs over powers of two up to all. `false_alarms`: probability that any
-/// figure of a right model has an excess above 1 (Bonferroni over all m, rows
+/// figure of a right model has an excess above 1 (Bonferroni over all m, components
 /// and sensors).
 std::vector<InnovationFigure> TestInnovations(
     std::span<const NormalisedInnovation> innovations, double false_alarms);
 
-/// Fewer innovations of a row are not judged.
+/// Fewer innovations of a component are not judged.
 inline constexpr std::size_t kFewestInnovations = 4;
 
 }  // namespace hindsight

@@ -67,9 +67,15 @@ std::vector<ConstantEstimate> EstimateConstants(
                            : x.parameters(block.parameter_offset + axis);
       constant.sigma = std::sqrt(P(component, component));
       constant.prior_sigma = block.sigma0(axis);
+      const auto stated = VerdictOf(constant.sigma / constant.prior_sigma);
       constant.widened = Widening(constant, excess);
       constant.sigma *= constant.widened;
       constant.verdict = VerdictOf(constant.sigma / constant.prior_sigma);
+      // It did move from its prior, if only by errors of the data.
+      if (stated != constant.verdict &&
+          constant.verdict == ConstantEstimate::Verdict::kUnobserved) {
+        constant.verdict = ConstantEstimate::Verdict::kWeak;
+      }
       if (constant.verdict != ConstantEstimate::Verdict::kObserved) {
         constant.advice = block.advice.empty() ? kUsualAdvice : block.advice;
       }

@@ -21,7 +21,8 @@ inline constexpr double kLargestHeadingSigma = 20.0 * kDegree;
 /// if it is still above nine tenths, weak in between. Where `excess` says that
 /// the errors of the data that a constant is read from are `factor` times as
 /// large as stated, its sigma is widened by its share of them in the estimate,
-///   sigma'^2 = sigma^2 (1 + (factor^2 - 1) (1 - sigma^2 / prior_sigma^2)).
+///   sigma'^2 = sigma^2 (1 + (factor^2 - 1) (1 - sigma^2 / prior_sigma^2)),
+/// and it is weak where it would be unobserved.
 std::vector<ConstantEstimate> EstimateConstants(
     const Solution& solution, std::span<const ConstantExcess> excess = {});
 

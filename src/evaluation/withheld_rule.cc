@@ -2,8 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <map>
+#include <unsupported/Eigen/FFT>
 #include <utility>
 
 #include "base/chi_square.h"
@@ -11,18 +14,31 @@
 namespace hindsight {
 namespace {
 
-/// Independent ones among correlated N(0, 1), for their mean square.
-double IndependentOf(const std::vector<double>& x, double mean_square) {
+/// Sums x_i x_i-k over i for all lags k >= 0.
+std::vector<double> Autocorrelation(std::vector<double> x) {
   const std::size_t n = x.size();
+  std::size_t padded = 1;
+  while (padded < 2 * n) padded *= 2;
+  x.resize(padded);
+  Eigen::FFT<double> fft;
+  std::vector<std::complex<double>> spectrum;
+  fft.fwd(spectrum, x);
+  for (std::complex<double>& one : spectrum) one = std::norm(one);
+  fft.inv(x, spectrum);
+  x.resize(n);
+  return x;
+}
+
+/// Independent ones among correlated N(0, 1), for their mean square.
+double IndependentOf(const std::vector<double>& x) {
+  const std::vector<double> products = Autocorrelation(x);
   double sum = 0.0;
-  for (std::size_t lag = 1; lag < n; ++lag) {
-    double product = 0.0;
-    for (std::size_t i = lag; i < n; ++i) product += x[i] * x[i - lag];
-    const double rho = product / (static_cast<double>(n) * mean_square);
+  for (std::size_t lag = 1; lag < x.size(); ++lag) {
+    const double rho = products[lag] / products[0];
     if (!(rho > 0.0)) break;
     sum += rho * rho;
   }
-  return std::max(1.0, static_cast<double>(n) / (1.0 + 2.0 * sum));
+  return std::max(1.0, static_cast<double>(x.size()) / (1.0 + 2.0 * sum));
 }
 
 WithheldFigure FigureOf(const std::vector<double>& x, double tail) {
@@ -37,7 +53,7 @@ WithheldFigure FigureOf(const std::vector<double>& x, double tail) {
   }
   figure.rms = std::sqrt(squares);
   if (!(squares > 0.0)) return figure;
-  figure.independent = IndependentOf(x, squares);
+  figure.independent = IndependentOf(x);
   figure.excess = std::sqrt(squares * figure.independent /
                             ChiSquareQuantile(1.0 - tail, figure.independent));
   return figure;
@@ -65,6 +81,14 @@ std::vector<ResidualRecord> WithoutOutliers(const Judged& judged) {
     kept.insert(kept.end(), own.begin(), own.end());
   }
   return kept;
+}
+
+bool IsUsed(int sensor, const std::vector<ResidualRecord>& residuals) {
+  return std::any_of(residuals.begin(), residuals.end(),
+                     [sensor](const ResidualRecord& record) {
+                       return record.sensor == sensor && record.accepted &&
+                              !record.withheld;
+                     });
 }
 
 }  // namespace
@@ -105,7 +129,9 @@ void FindOddPredictions(const Judged& judged, std::vector<Evidence>* evidence) {
       if (worst == nullptr || figure.excess > worst->excess) worst = &figure;
     }
     if (worst == nullptr || worst->excess < kDoubtfulError) continue;
-    const bool unusable = worst->excess >= wrong;
+    const bool unusable =
+        worst->excess >= wrong &&
+        IsUsed(static_cast<int>(sensor), judged.solution.residuals);
     evidence->push_back(
         {.grade = unusable ? Grade::kUnusable : Grade::kDoubtful,
          .what = fmt::format(

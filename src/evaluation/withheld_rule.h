@@ -32,8 +32,9 @@ std::vector<WithheldFigure> TestWithheld(
     std::span<const ResidualRecord> residuals, double false_alarms);
 
 /// Withheld measurements that are kDoubtfulError times as far off as chance
-/// explains make a solution doubtful, and one of a systematic error of
-/// kUnusableBias not usable.
+/// explains make a solution doubtful; those of a systematic error of
+/// kUnusableBias not usable, if other measurements of the sensor are used, which
+/// vouch for it. What was withheld of a sensor with a robust loss is not judged.
 void FindOddPredictions(const Judged& judged, std::vector<Evidence>* evidence);
 
 }  // namespace hindsight

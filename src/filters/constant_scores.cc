@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 #include "base/chi_square.h"
 #include "filters/tape_gains.h"
@@ -55,14 +56,12 @@ std::vector<EpochScore> Scores(const LinearTape& tape,
 
 /// Sums over blocks of one duration, of one constant.
 struct BlockSums {
-  double squares = 0.0;   ///< of the scores' sums
-  double variance = 0.0;  ///< of all blocks
-  double variance_squares = 0.0;
+  double squares = 0.0;           ///< of the scores' sums
+  std::vector<double> variances;  ///< of each block
 
   void Add(double score, double v) {
     squares += score * score;
-    variance += v;
-    variance_squares += v * v;
+    variances.push_back(v);
   }
 };
 
@@ -121,12 +120,13 @@ std::vector<double> ExcessOfConstants(const LinearTape& tape,
     const std::vector<BlockSums> sums = SumBlocks(all, duration);
     for (std::size_t i = 0; i < sums.size(); ++i) {
       const BlockSums& own = sums[i];
-      if (!(own.variance_squares > 0.0)) continue;
-      const double dof = own.variance * own.variance / own.variance_squares;
-      const double limit = own.variance_squares / own.variance *
-                           ChiSquareQuantile(1.0 - tail, dof);
-      if (own.squares < limit) continue;
-      factors[i] = std::max(factors[i], std::sqrt(own.squares / own.variance));
+      const double variance =
+          std::accumulate(own.variances.begin(), own.variances.end(), 0.0);
+      if (!(variance > 0.0) ||
+          own.squares < WeightedChiSquareQuantile(own.variances, tail)) {
+        continue;
+      }
+      factors[i] = std::max(factors[i], std::sqrt(own.squares / variance));
     }
   }
   return factors;

@@ -39,10 +39,12 @@ class AdjointPass {
         lambda_(Eigen::VectorXd::Zero(tape.dim())),
         Lambda_(Eigen::MatrixXd::Zero(tape.dim(), tape.dim())) {}
 
-  Scores Run(std::span<const std::size_t> onsets) {
+  Scores Run(std::span<const std::size_t> onsets,
+             const EpochCallback& callback) {
     Scores found;
     std::size_t left = onsets.size();
     for (std::size_t k = tape_.size(); k-- > 0 && left > 0;) {
+      if (callback) callback(tape_.size() - 1 - k);
       if (k + 1 < tape_.size()) BackOver(k + 1);
       const std::vector<Eigen::MatrixXd> gains = GainsAt(tape_, k);
       const auto all = tape_.measurements(k);
@@ -147,9 +149,10 @@ class AdjointPass {
 }  // namespace
 
 Scores ScoreShifts(const LinearTape& tape, const ShiftColumns& columns,
-                   std::span<const std::size_t> onsets) {
+                   std::span<const std::size_t> onsets,
+                   const EpochCallback& callback) {
   RequireFixedNominal(tape);
-  return AdjointPass(tape, columns).Run(onsets);
+  return AdjointPass(tape, columns).Run(onsets, callback);
 }
 
 }  // namespace hindsight

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "filters/forward_filter.h"
 #include "filters/linear_tape.h"
 
 namespace hindsight {
@@ -71,9 +72,10 @@ struct Scores {
 ///   before the interval:  lambda <- Phi' lambda,  Lambda <- Phi' Lambda Phi,
 /// H and Phi of both, K of the states alone: at the onset, lambda is the score
 /// and Lambda the information. The cost does not depend on how many epochs are
-/// asked for. Requires a tape about a fixed nominal.
+/// asked for. Requires a tape about a fixed nominal. `callback` hears of each epoch.
 Scores ScoreShifts(const LinearTape& tape, const ShiftColumns& columns,
-                   std::span<const std::size_t> onsets);
+                   std::span<const std::size_t> onsets,
+                   const EpochCallback& callback = nullptr);
 
 }  // namespace hindsight
 

@@ -1,54 +1,57 @@
 #include "filters/shift_response.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include "filters/tape_gains.h"
 
 namespace hindsight {
 namespace {
 
-/// How large a deviation is at epoch k, of the size of one.
-double SizeAt(const MeanShift& shift, const LinearTape& tape, std::size_t k) {
-  if (k < shift.onset) return 0.0;
-  if (!shift.grows) return 1.0;
-  return tape.epoch(k).t - tape.epoch(shift.onset).t;
-}
+/// A deviation as large as `sizes` says at each epoch, or a jump of the state.
+struct Course {
+  bool of_state = false;
+  std::size_t onset = 0;  ///< of a jump
+  ShiftColumns::Group group = 0;
+  int column = 0;
+  std::vector<double> sizes = {};
+};
 
-/// What it adds to a measurement.
-Eigen::VectorXd AddedTo(const TapeMeasurement& z, const MeanShift& shift,
-                        const LinearTape& tape, std::size_t k,
-                        const ShiftColumns& columns) {
+/// What it adds to a measurement of epoch k.
+Eigen::VectorXd AddedTo(const TapeMeasurement& z, const Course& course,
+                        std::size_t k, const ShiftColumns& columns) {
   Eigen::VectorXd added = Eigen::VectorXd::Zero(z.H.rows());
-  const double size = SizeAt(shift, tape, k);
-  if (shift.of_state || size == 0.0) return added;
+  if (course.of_state || course.sizes[k] == 0.0) return added;
   for (const ShiftColumns::Columns& one : columns.measured(k, z)) {
-    if (one.group == shift.group) added = size * one.B.col(shift.column);
-  }
-  return added;
-}
-
-/// What it adds to the true state by epoch k.
-ErrorVector AddedTo(std::size_t k, const MeanShift& shift,
-                    const LinearTape& tape, const ShiftColumns& columns) {
-  ErrorVector added = ErrorVector::Zero(tape.dim());
-  if (shift.of_state) {
-    if (k == shift.onset) added(shift.column) = 1.0;
-  } else if (k > shift.onset && columns.driven) {
-    const ShiftColumns::Columns driven = columns.driven(k);
-    if (driven.group == shift.group) {
-      added = SizeAt(shift, tape, k) * driven.B.col(shift.column);
+    if (one.group == course.group) {
+      added = course.sizes[k] * one.B.col(course.column);
     }
   }
   return added;
 }
 
-/// What a deviation of the size of one does to the filter.
+/// What it adds to the true state by epoch k.
+ErrorVector AddedTo(std::size_t k, const Course& course, const LinearTape& tape,
+                    const ShiftColumns& columns) {
+  ErrorVector added = ErrorVector::Zero(tape.dim());
+  if (course.of_state) {
+    if (k == course.onset) added(course.column) = 1.0;
+  } else if (k > course.onset && columns.driven) {
+    const ShiftColumns::Columns driven = columns.driven(k);
+    if (driven.group == course.group) {
+      added = course.sizes[k] * driven.B.col(course.column);
+    }
+  }
+  return added;
+}
+
+/// What it does to the filter.
 struct Response {
   std::vector<ErrorVector> truth;        ///< by what the true states differ
   std::vector<ErrorVector> minus, plus;  ///< by what the estimates do
 };
 
-Response Filtered(const MeanShift& shift, const LinearTape& tape,
+Response Filtered(const Course& course, const LinearTape& tape,
                   const ShiftColumns& columns) {
   Response out;
   ErrorVector truth = ErrorVector::Zero(tape.dim());
@@ -58,14 +61,14 @@ Response Filtered(const MeanShift& shift, const LinearTape& tape,
       truth = tape.Phi(k) * truth;
       e = tape.Phi(k) * e;
     }
-    truth += AddedTo(k, shift, tape, columns);
+    truth += AddedTo(k, course, tape, columns);
     out.minus.push_back(e);
     const std::vector<Eigen::MatrixXd> gains = GainsAt(tape, k);
     const auto all = tape.measurements(k);
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (!all[i].accepted) continue;
       e += gains[i] *
-           (all[i].H * (truth - e) + AddedTo(all[i], shift, tape, k, columns));
+           (all[i].H * (truth - e) + AddedTo(all[i], course, k, columns));
     }
     out.plus.push_back(e);
     out.truth.push_back(truth);
@@ -73,13 +76,11 @@ Response Filtered(const MeanShift& shift, const LinearTape& tape,
   return out;
 }
 
-}  // namespace
-
-std::vector<ErrorVector> CorrectionFor(const MeanShift& shift,
-                                       const LinearTape& tape,
-                                       const ShiftColumns& columns) {
+std::vector<ErrorVector> CorrectionForCourse(const Course& course,
+                                             const LinearTape& tape,
+                                             const ShiftColumns& columns) {
   RequireFixedNominal(tape);
-  const Response response = Filtered(shift, tape, columns);
+  const Response response = Filtered(course, tape, columns);
   std::vector<ErrorVector> correction(tape.size());
   ErrorVector e = response.plus.back();
   for (std::size_t k = tape.size(); k-- > 0;) {
@@ -89,6 +90,41 @@ std::vector<ErrorVector> CorrectionFor(const MeanShift& shift,
     correction[k] = response.truth[k] - e;
   }
   return correction;
+}
+
+}  // namespace
+
+std::vector<ErrorVector> CorrectionFor(const MeanShift& shift,
+                                       const LinearTape& tape,
+                                       const ShiftColumns& columns) {
+  Course course{.of_state = shift.of_state,
+                .onset = shift.onset,
+                .group = shift.group,
+                .column = shift.column};
+  if (!shift.of_state) {
+    course.sizes.resize(tape.size());
+    for (std::size_t k = shift.onset; k < tape.size(); ++k) {
+      course.sizes[k] =
+          shift.grows ? tape.epoch(k).t - tape.epoch(shift.onset).t : 1.0;
+    }
+  }
+  return CorrectionForCourse(course, tape, columns);
+}
+
+std::vector<ErrorVector> CorrectionForSteps(ShiftColumns::Group group,
+                                            int column,
+                                            std::span<const std::size_t> onsets,
+                                            std::span<const double> steps,
+                                            const LinearTape& tape,
+                                            const ShiftColumns& columns) {
+  Course course{.onset = onsets.front(), .group = group, .column = column};
+  course.sizes.resize(tape.size());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    for (std::size_t k = onsets[i]; k < tape.size(); ++k) {
+      course.sizes[k] += steps[i];
+    }
+  }
+  return CorrectionForCourse(course, tape, columns);
 }
 
 namespace {
@@ -111,8 +147,9 @@ class OnsetPass {
         score_(Eigen::VectorXd::Zero(e_.cols())),
         information_(wanted.size(), Eigen::MatrixXd::Zero(count_, count_)) {}
 
-  std::vector<ShiftEnergy> Run() {
+  std::vector<ShiftEnergy> Run(const EpochCallback& callback) {
     for (std::size_t k = onsets_.front(); k < tape_.size(); ++k) {
+      if (callback) callback(k);
       while (begun_ < count_ &&
              onsets_[static_cast<std::size_t>(begun_)] <= k) {
         ++begun_;
@@ -165,12 +202,31 @@ class OnsetPass {
     const Eigen::MatrixXd correlation = sigma.cwiseInverse().asDiagonal() *
                                         all.topLeftCorner(last, last) *
                                         sigma.cwiseInverse().asDiagonal();
-    const double trace = correlation.trace();
-    const double squares = correlation.squaredNorm();
-    const auto own =
+    const Eigen::VectorXd own =
         score_.segment(static_cast<Eigen::Index>(w) * count_, last);
-    return {own.cwiseQuotient(sigma).squaredNorm(), squares / trace,
-            trace * trace / squares};
+    ShiftEnergy energy;
+    energy.sum = own.cwiseQuotient(sigma).squaredNorm();
+    const Eigen::VectorXd weights =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlation,
+                                                       Eigen::EigenvaluesOnly)
+            .eigenvalues();
+    energy.weights.assign(weights.begin(), weights.end());
+    const Eigen::VectorXd steps = Steps(all.topLeftCorner(last, last), own);
+    energy.steps.assign(steps.begin(), steps.end());
+    return energy;
+  }
+
+  static Eigen::VectorXd Steps(const Eigen::MatrixXd& G,
+                               const Eigen::VectorXd& score) {
+    const Eigen::VectorXd D = G.diagonal();
+    const double more = score.cwiseAbs2().cwiseQuotient(D).sum() -
+                        static_cast<double>(score.size());
+    if (!(more > 0.0)) return Eigen::VectorXd::Zero(score.size());
+    const double variance =
+        more / (G.cwiseAbs2().rowwise().sum().cwiseQuotient(D)).sum();
+    Eigen::MatrixXd posterior = G;
+    posterior.diagonal().array() += 1.0 / variance;
+    return posterior.llt().solve(score);
   }
 
   ShiftColumns::Group group_;
@@ -191,9 +247,10 @@ std::vector<ShiftEnergy> EnergiesOf(ShiftColumns::Group group,
                                     std::span<const int> wanted,
                                     std::span<const std::size_t> onsets,
                                     const LinearTape& tape,
-                                    const ShiftColumns& columns) {
+                                    const ShiftColumns& columns,
+                                    const EpochCallback& callback) {
   RequireFixedNominal(tape);
-  return OnsetPass(group, wanted, onsets, tape, columns).Run();
+  return OnsetPass(group, wanted, onsets, tape, columns).Run(callback);
 }
 
 }  // namespace hindsight

@@ -17,19 +17,33 @@ std::vector<ErrorVector> CorrectionFor(const MeanShift& shift,
 
 /// Whether a column of a group varies: the squares of z() of its onsets from
 /// several epochs, added up. Of a right system they are correlated N(0, 1),
-/// whose sum is close to scale chi^2(dof) (Satterthwaite 1946).
+/// whose sum is a weighted one of chi-square variables of one degree of freedom.
 struct ShiftEnergy {
   double sum = 0.0;
-  double scale = 1.0;
-  double dof = 1.0;
+  std::vector<double> weights;  ///< WeightedChiSquareQuantile
+  /// By how much it steps at each onset, as variables N(0, tau^2): with s and G
+  /// their scores and information and D the diagonal of G, the mean of their
+  /// distribution is (G + I / tau^2)^-1 s, with the tau that makes the sum what
+  /// it is, tau^2 = (s' D^-1 s - n) / tr(D^-1 G^2) (moments). Zero where the sum
+  /// is not above its mean.
+  std::vector<double> steps;
 };
 /// Of some columns of one group, in their order, over the onsets that cause an
-/// innovation; zero where none does.
+/// innovation; empty where none does.
 std::vector<ShiftEnergy> EnergiesOf(ShiftColumns::Group group,
                                     std::span<const int> wanted,
                                     std::span<const std::size_t> onsets,
                                     const LinearTape& tape,
-                                    const ShiftColumns& columns);
+                                    const ShiftColumns& columns,
+                                    const EpochCallback& callback = nullptr);
+
+/// The same of a deviation that steps at several onsets, by `steps`.
+std::vector<ErrorVector> CorrectionForSteps(ShiftColumns::Group group,
+                                            int column,
+                                            std::span<const std::size_t> onsets,
+                                            std::span<const double> steps,
+                                            const LinearTape& tape,
+                                            const ShiftColumns& columns);
 
 }  // namespace hindsight
 

@@ -40,6 +40,7 @@ struct AcousticFix {
     sigma_bearing *= factor;
   }
   int rows() const { return (has_range ? 1 : 0) + (has_bearing ? 2 : 0); }
+  int Component(int row) const { return has_range ? row : row + 1; }
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
 };
 

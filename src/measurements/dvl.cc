@@ -16,6 +16,14 @@ int Dvl::rows() const {
       std::count(valid.begin(), valid.begin() + components(), true));
 }
 
+int Dvl::Component(int row) const {
+  int component = 0;
+  for (int left = row; component < components(); ++component) {
+    if (valid[static_cast<std::size_t>(component)] && left-- == 0) break;
+  }
+  return component;
+}
+
 Eigen::Vector3d Dvl::Direction(int component) const {
   if (form == Form::kThreeAxis) return Eigen::Vector3d::Unit(component);
   const double azimuth = beam_azimuth + component * 0.5 * kPi;

@@ -45,6 +45,7 @@ struct Dvl {
   void ScaleSigma(double factor) { sigma *= factor; }
   int components() const { return form == Form::kThreeAxis ? 3 : 4; }
   int rows() const;
+  int Component(int row) const;
   /// b_i in d.
   Eigen::Vector3d Direction(int component) const;
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;

@@ -6,6 +6,18 @@ int Rows(const Measurement& z) {
   return std::visit([](const auto& model) { return model.rows(); }, z.model);
 }
 
+int ComponentOf(const Measurement& z, int row) {
+  return std::visit(
+      [row](const auto& model) {
+        if constexpr (requires { model.Component(row); }) {
+          return model.Component(row);
+        } else {
+          return row;
+        }
+      },
+      z.model);
+}
+
 void ScaleSigma(double factor, Measurement* z) {
   std::visit([factor](auto& model) { model.ScaleSigma(factor); }, z->model);
 }

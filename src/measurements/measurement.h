@@ -48,6 +48,10 @@ using MeasurementSeries = PackedSeries<Measurement>;
 /// Rows of the measurement.
 int Rows(const Measurement& z);
 
+/// Which component a row is of those that measurements of the sensor have when
+/// they have all: others than the row where components before it are missing.
+int ComponentOf(const Measurement& z, int row);
+
 /// Multiplies the measurement's standard deviations.
 void ScaleSigma(double factor, Measurement* z);
 

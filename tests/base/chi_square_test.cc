@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace hindsight {
 namespace {
@@ -23,6 +24,40 @@ TEST(ChiSquare, TwoDegreesOfFreedomAreExponential) {
     const double expected = -2.0 * std::log1p(-p);
     EXPECT_NEAR(ChiSquareQuantile(p, 2), expected, 1e-9 * expected);
   }
+}
+
+TEST(WeightedChiSquare, OfEqualWeightsIsChiSquare) {
+  for (const int count : {1, 2, 3, 10, 300}) {
+    const std::vector<double> weights(static_cast<std::size_t>(count), 2.5);
+    for (const double tail : {0.3, 0.05, 1e-3, 1e-6, 1e-9}) {
+      const double x = WeightedChiSquareQuantile(weights, tail) / 2.5;
+      const double least = ChiSquareQuantile(1.0 - 1.1 * tail, count);
+      const double most = ChiSquareQuantile(1.0 - 0.9 * tail, count);
+      EXPECT_GT(x, least) << count << " " << tail;
+      EXPECT_LT(x, most) << count << " " << tail;
+    }
+  }
+}
+
+/// Of weights that come in pairs, a sum of exponential variables: P(> x) =
+/// sum over i of exp(-x / 2 l_i) product over j of l_i / (l_i - l_j).
+TEST(WeightedChiSquare, OfPairsHasTheTailOfASumOfExponentials) {
+  const std::vector<double> pairs = {22.5, 4.3, 1.7, 0.1};
+  std::vector<double> weights = {0.0, -1.0};  // left out
+  for (const double weight : pairs) weights.insert(weights.end(), 2, weight);
+  for (const double tail : {0.3, 0.01, 3e-4, 1e-6}) {
+    const double x = WeightedChiSquareQuantile(weights, tail);
+    double sum = 0.0;
+    for (const double own : pairs) {
+      double factor = std::exp(-0.5 * x / own);
+      for (const double other : pairs) {
+        if (other != own) factor *= own / (own - other);
+      }
+      sum += factor;
+    }
+    EXPECT_NEAR(sum, tail, 0.1 * tail);
+  }
+  EXPECT_EQ(WeightedChiSquareQuantile({}, 0.01), 0.0);
 }
 
 TEST(ChiSquare, ManyDegreesOfFreedomAgreeWithThePoissonSum) {

@@ -61,7 +61,7 @@ TEST(InnovationTest, FindsSizeLengthAndTimeOfAnErrorThatLasts) {
   ASSERT_EQ(figures.size(), 4u);
   const InnovationFigure& figure = figures.front();
   EXPECT_EQ(figure.sensor, 0);
-  EXPECT_EQ(figure.row, 0);
+  EXPECT_EQ(figure.component, 0);
   EXPECT_EQ(figure.length, 128u);
   EXPECT_NEAR(figure.duration, 128.0, 1e-9);
   EXPECT_NEAR(figure.t_begin, 256.0, 1e-9);
@@ -74,6 +74,16 @@ TEST(InnovationTest, FindsSizeLengthAndTimeOfAnErrorThatLasts) {
   for (std::size_t i = 1; i < figures.size(); ++i) {
     EXPECT_LT(figures[i].excess, 1.0);
   }
+}
+
+TEST(InnovationTest, AGapIsNoPartOfADuration) {
+  auto lasting = Draw(512, 5, [](int k, double x) {
+    return x + (k >= 256 && k < 384 ? 2.0 : 0.0);
+  });
+  for (NormalisedInnovation& one : lasting) {
+    if (one.t > 400.0) one.t += 10000.0;
+  }
+  EXPECT_NEAR(TestInnovations(lasting, kAlarms).front().duration, 128.0, 1e-9);
 }
 
 TEST(InnovationTest, FindsSigmasThatAreTooSmallAtLengthOne) {

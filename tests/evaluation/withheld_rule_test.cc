@@ -64,20 +64,32 @@ TEST(Withheld, FewAreNotJudged) {
   EXPECT_TRUE(TestWithheld(Withheld(1, 3, 9.0, 0.0), kFalse).empty());
 }
 
-TEST(Withheld, FarOffLowerTheGrade) {
+Grade GradeOfWithheld(double size, bool sensor_is_used) {
   Solution solution;
+  solution.residuals = Withheld(5, 400, size, 0.0);
+  if (sensor_is_used) {
+    solution.residuals.push_back(solution.residuals.front());
+    solution.residuals.back().withheld = false;
+    solution.residuals.back().accepted = true;
+  }
   Sensor sensor;
   sensor.name = "gnss";
   const std::vector<Sensor> sensors = {sensor};
-  const auto grade = [&](double size) {
-    solution.residuals = Withheld(5, 400, size, 0.0);
-    std::vector<Evidence> evidence;
-    FindOddPredictions({.solution = solution, .sensors = sensors}, &evidence);
-    return GradeOf(evidence);
-  };
-  EXPECT_EQ(grade(1.0), Grade::kUsable);
-  EXPECT_EQ(grade(2.0), Grade::kDoubtful);
-  EXPECT_EQ(grade(5.0), Grade::kUnusable);
+  std::vector<Evidence> evidence;
+  FindOddPredictions({.solution = solution, .sensors = sensors}, &evidence);
+  return GradeOf(evidence);
+}
+
+TEST(Withheld, FarOffLowerTheGrade) {
+  EXPECT_EQ(GradeOfWithheld(1.0, true), Grade::kUsable);
+  EXPECT_EQ(GradeOfWithheld(2.0, true), Grade::kDoubtful);
+  EXPECT_EQ(GradeOfWithheld(5.0, true), Grade::kUnusable);
+}
+
+/// Nothing vouches for what is withheld as a whole.
+TEST(Withheld, OfASensorThatIsNotUsedMakeDoubtfulAtMost) {
+  EXPECT_EQ(GradeOfWithheld(1.0, false), Grade::kUsable);
+  EXPECT_EQ(GradeOfWithheld(5.0, false), Grade::kDoubtful);
 }
 
 }  // namespace

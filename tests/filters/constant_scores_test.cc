@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/chi_square.h"
@@ -85,14 +86,13 @@ TEST(ConstantScores, OfARightModelWidenNothing) {
   constexpr int kRuns = 60;
   int widened = 0;
   for (int run = 0; run < kRuns; ++run) {
-    for (const double factor :
-         EstimateArm(LeverArmDrive(20 + static_cast<unsigned>(run), 0.0))
-             .factor) {
-      if (factor > 1.0) ++widened;
-    }
+    const std::vector<double> factors =
+        EstimateArm(LeverArmDrive(20 + static_cast<unsigned>(run), 0.0)).factor;
+    if (*std::max_element(factors.begin(), factors.end()) > 1.0) ++widened;
   }
-  // One in a hundred runs at most; five are one in several hundred.
-  EXPECT_LE(widened, 5);
+  // One in a hundred runs at most; of sixty more than three are one in three
+  // hundred.
+  EXPECT_LE(widened, 3);
 }
 
 TEST(ConstantScores, CoverTheErrorsOfCorrelatedFixes) {

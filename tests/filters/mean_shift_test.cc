@@ -135,7 +135,8 @@ TEST(MeanShift, OfARightSystemIsNormal) {
   constexpr int kRuns = 60;
   const std::vector<std::size_t> onsets = {0, 6, 14};
   std::vector<double> squares;
-  double energies = 0.0, dofs = 0.0;
+  constexpr double kTail = 0.2;
+  int beyond = 0;
   for (int run = 0; run < kRuns; ++run) {
     const LinearTape tape = TapeOf(Drive(100 + static_cast<unsigned>(run)));
     const std::vector<MeanShift> all =
@@ -147,8 +148,9 @@ TEST(MeanShift, OfARightSystemIsNormal) {
     const std::vector<int> wanted = {2, 0};
     for (const ShiftEnergy& energy :
          EnergiesOf(kPositions, wanted, onsets, tape, Additive())) {
-      energies += energy.sum / energy.scale;
-      dofs += energy.dof;
+      if (energy.sum > WeightedChiSquareQuantile(energy.weights, kTail)) {
+        ++beyond;
+      }
     }
   }
   ASSERT_GT(squares.size(), 60u);
@@ -159,8 +161,49 @@ TEST(MeanShift, OfARightSystemIsNormal) {
     EXPECT_GT(sum, ChiSquareQuantile(tail, kRuns));
     EXPECT_LT(sum, ChiSquareQuantile(1.0 - tail, kRuns));
   }
-  EXPECT_GT(energies, ChiSquareQuantile(0.005, dofs));
-  EXPECT_LT(energies, ChiSquareQuantile(0.995, dofs));
+  // Binomial of 120, within three standard deviations.
+  EXPECT_NEAR(beyond, 2 * kRuns * kTail,
+              3.0 * std::sqrt(2 * kRuns * kTail * (1.0 - kTail)));
+}
+
+TEST(MeanShift, OfStepsIsTheSumOfItsSteps) {
+  const LinearTape tape = TapeOf(Drive(9));
+  const std::vector<std::size_t> onsets = {0, 7, 12};
+  const std::vector<MeanShift> all =
+      ScoreShifts(tape, Additive(), onsets).shifts;
+  const std::vector<ErrorVector> a =
+      CorrectionFor(Find(all, 7, false), tape, Additive());
+  const std::vector<ErrorVector> b =
+      CorrectionFor(Find(all, 12, false), tape, Additive());
+  const std::vector<double> steps = {0.0, 1.5, -2.0};
+  const std::vector<ErrorVector> both =
+      CorrectionForSteps(kPositions, 0, onsets, steps, tape, Additive());
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    const ErrorVector sum = 1.5 * a[k] - 2.0 * b[k];
+    EXPECT_LT((both[k] - sum).norm(), 1e-9 * (1.0 + sum.norm())) << k;
+  }
+}
+
+TEST(MeanShift, FindsTheStepsOfAnErrorThatGoesAgain) {
+  constexpr double kError = 1.0;  // twenty sigmas of a fix [m]
+  TestProblem problem = Drive(9);
+  for (Measurement& z : problem.measurements) {
+    auto* fix = std::get_if<PositionFix>(&z.model);
+    if (fix == nullptr || z.t < problem.nodes[7].t - 1e-9 ||
+        z.t > problem.nodes[12].t - 1e-9) {
+      continue;
+    }
+    fix->p_e += NedAxes(fix->p_e) * Eigen::Vector3d(kError, 0.0, 0.0);
+  }
+  const std::vector<std::size_t> onsets = {0, 7, 12};
+  const std::vector<int> wanted = {0};
+  const ShiftEnergy energy =
+      EnergiesOf(kPositions, wanted, onsets, TapeOf(problem), Additive())
+          .front();
+  EXPECT_GT(energy.sum, WeightedChiSquareQuantile(energy.weights, 1e-6));
+  ASSERT_EQ(energy.steps.size(), 3u);
+  EXPECT_NEAR(energy.steps[1], kError, 0.2 * kError);
+  EXPECT_NEAR(energy.steps[2], -kError, 0.2 * kError);
 }
 
 /// The fixes end before the last onset: those that nothing shows are left out.
@@ -185,7 +228,8 @@ TEST(MeanShift, VariesOverTheOnsetsThatSomethingFollows) {
       EnergiesOf(kPositions, wanted, those, tape, Additive()).front();
   EXPECT_GT(b.sum, 0.0);
   EXPECT_DOUBLE_EQ(a.sum, b.sum);
-  EXPECT_DOUBLE_EQ(a.dof, b.dof);
+  EXPECT_EQ(a.weights, b.weights);
+  EXPECT_EQ(a.steps, b.steps);
 }
 
 TEST(MeanShift, NeedsATapeAboutAFixedNominal) {
