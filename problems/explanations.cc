@@ -20,7 +20,9 @@ struct LikelyDeviation {
   MeanShift shift;
   double z = 0.0;
   double limit = 0.0;
-  std::vector<double> steps = {};  ///< of one that comes and goes
+  // Of one that comes and goes: of all additive columns of the group.
+  std::vector<int> columns = {};
+  Eigen::MatrixXd steps = {};
 
   double Excess() const { return std::abs(z) / limit; }
 };
@@ -60,6 +62,18 @@ bool IsMeant(const MeanShift& shift, const DeviationColumns& columns,
   return deviation.may_begin_late || (throughout && !shift.grows);
 }
 
+/// The sensor that a deviation is of; below 0: the IMU, or the vehicle.
+int SensorOf(const MeanShift& shift, const ErrorLayout& layout) {
+  if (!shift.of_state) return shift.group;
+  for (const Block& block : layout.blocks()) {
+    if (shift.column >= block.offset &&
+        shift.column < block.offset + block.dim) {
+      return block.key.sensor;
+    }
+  }
+  return BlockKey::kNoSensor;
+}
+
 /// By what a correction moves the solution, in its sigmas.
 void SetEffect(const std::vector<ErrorVector>& correction, double size,
                const Relinearised& anew, const LinearTape& tape,
@@ -96,15 +110,13 @@ double LimitOf(double false_alarms, std::size_t tests) {
 /// and course.
 class LikelyDeviations {
  public:
-  void Offer(const MeanShift& shift, double z, double limit,
-             std::vector<double> steps = {}) {
-    if (!(std::abs(z) >= limit)) return;
-    const Course course = !steps.empty() ? Course::kVaries
-                          : shift.grows  ? Course::kGrows
-                                         : Course::kStays;
-    const int source = shift.of_state ? kState : shift.group;
-    LikelyDeviation one{shift, z, limit, std::move(steps)};
-    LikelyDeviation& best = best_[source][{shift.column, course}];
+  void Offer(LikelyDeviation one) {
+    if (!(std::abs(one.z) >= one.limit)) return;
+    const Course course = !one.columns.empty() ? Course::kVaries
+                          : one.shift.grows    ? Course::kGrows
+                                               : Course::kStays;
+    const int source = one.shift.of_state ? kState : one.shift.group;
+    LikelyDeviation& best = best_[source][{one.shift.column, course}];
     if (best.limit == 0.0 || one.Excess() > best.Excess()) {
       best = std::move(one);
     }
@@ -148,19 +160,32 @@ class Varying {
              const std::vector<MeanShift>& tried, double false_alarms,
              const EpochCallback& callback,
              LikelyDeviations* candidates) const {
+    const double by_column = 0.5 * false_alarms / static_cast<double>(count_);
+    const double together =
+        0.5 * false_alarms / static_cast<double>(columns_.size());
     for (const auto& [group, wanted] : columns_) {
-      const std::vector<ShiftEnergy> energies =
+      const GroupEnergy energy =
           EnergiesOf(group, wanted, onsets, tape, columns, callback);
+      // In place of a normal variable and its limit.
+      LikelyDeviation likeliest;
       for (std::size_t w = 0; w < wanted.size(); ++w) {
         const MeanShift* largest = Largest(group, wanted[w], tried);
-        if (largest == nullptr || energies[w].weights.empty()) continue;
-        // In place of a normal variable and its limit.
-        const double tail = false_alarms / static_cast<double>(count_);
-        candidates->Offer(
-            *largest, std::sqrt(energies[w].sum),
-            std::sqrt(WeightedChiSquareQuantile(energies[w].weights, tail)),
-            energies[w].steps);
+        const ShiftEnergy& own = energy.columns[w];
+        if (largest == nullptr || own.weights.empty()) continue;
+        const LikelyDeviation one = {
+            *largest, std::sqrt(own.sum),
+            std::sqrt(WeightedChiSquareQuantile(own.weights, by_column)),
+            wanted, energy.steps};
+        candidates->Offer(one);
+        if (likeliest.limit == 0.0 || one.Excess() > likeliest.Excess()) {
+          likeliest = one;
+        }
       }
+      if (likeliest.limit == 0.0) continue;
+      likeliest.z = std::sqrt(energy.whitened);
+      likeliest.limit =
+          std::sqrt(ChiSquareQuantile(1.0 - together, energy.dof));
+      candidates->Offer(std::move(likeliest));
     }
   }
 
@@ -222,7 +247,7 @@ ExplanationSearch::ExplanationSearch(const Problem& problem,
       LimitOf(false_alarms / 3.0, tried.size() - throughout)};
   LikelyDeviations candidates;
   for (const MeanShift& shift : tried) {
-    candidates.Offer(shift, shift.z(), limits[shift.onset == first ? 0 : 1]);
+    candidates.Offer({shift, shift.z(), limits[shift.onset == first ? 0 : 1]});
   }
   Varying(problem, own)
       .Offer(columns, tape, found_->onsets, tried, false_alarms / 3.0, callback,
@@ -242,7 +267,7 @@ std::vector<Explanation> ExplanationSearch::Tell(
     const Relinearised& anew) const {
   const ShiftColumns columns = found_->own.Columns();
   const auto explain = [&](const LikelyDeviation& one) {
-    const bool varies = !one.steps.empty();
+    const bool varies = !one.columns.empty();
     const Words words = varies
                             ? WordsOfVarying(one.shift, found_->own, problem_)
                             : WordsOfShift(one.shift, found_->own, problem_);
@@ -251,18 +276,18 @@ std::vector<Explanation> ExplanationSearch::Tell(
     out.remedy = words.remedy;
     out.z = std::abs(one.z);
     out.limit = one.limit;
-    if (!one.shift.of_state && one.shift.group >= 0) {
+    const int sensor = SensorOf(one.shift, problem_.layout);
+    if (sensor >= 0) {
       out.sensor =
-          problem_.timeline.sensors()[static_cast<std::size_t>(one.shift.group)]
-              .name;
+          problem_.timeline.sensors()[static_cast<std::size_t>(sensor)].name;
     }
     if (one.shift.onset != found_->onsets.front() && !varies) {
       out.onset = tape_.epoch(one.shift.onset).t;
       out.what += fmt::format(" from {:.1f} s on", *out.onset);
     }
     if (varies) {
-      SetEffect(CorrectionForSteps(one.shift.group, one.shift.column,
-                                   found_->onsets, one.steps, tape_, columns),
+      SetEffect(CorrectionForSteps(one.shift.group, one.columns, found_->onsets,
+                                   one.steps, tape_, columns),
                 1.0, anew, tape_, &out);
     } else {
       SetEffect(CorrectionFor(one.shift, tape_, columns), one.shift.size(),

@@ -38,7 +38,7 @@ Fit JudgeFit(const Dataset& dataset, const Relinearised& solution,
 
 /// The innovations of an IMM against the mixture that predicted them, with
 /// kFalseAlarms. They are of the filter, about its own estimates: what would
-/// explain them, and what both sides say, is not sought.
+/// explain them, and what both sides say, is not sought here.
 Fit JudgeFit(const Dataset& dataset, const Timeline& timeline,
              const ImmTape& tape);
 

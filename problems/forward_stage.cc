@@ -9,7 +9,6 @@
 #include "base/processor_time.h"
 #include "base/units.h"
 #include "evaluation/observability.h"
-#include "filters/iterated_smoother.h"
 #include "filters/transport.h"
 #include "problems/solution_builder.h"
 
@@ -198,42 +197,26 @@ const HeadingCredit& ForwardStage::heading_credit() {
   return heading_credit_;
 }
 
-/// Linearises the interval about the smoothed trajectory and smooths again, up
-/// to four times until the step is negligible: how far this leads is the
-/// linearisation error of the smoothed trajectory. Returns the covariances,
-/// none if that fails.
+/// How far the smoothed trajectory goes until it rests is its linearisation
+/// error. Returns the covariances, none if that fails.
 CovarianceSeries ForwardStage::Relinearise() {
-  constexpr int kMost = 4;
-  constexpr double kNegligible = 0.1;  // sigma
   relinearised_.emplace();
   heading_credit_ = {};
   turned_round_.reset();
   Relinearised& anew = *relinearised_;
   anew.smoother.largest = anew.smoother.rms =
       std::numeric_limits<double>::infinity();
-  IterationOptions iteration;
-  iteration.max_iterations = 1;
-  iteration.callback = Progress("linearisation");
-  SmoothedTrajectory last;
-  last.states = smoothed_->states;
   try {
-    double step = 0.0;
-    for (int i = 0; i < kMost; ++i) {
-      SmoothedTrajectory next =
-          SmoothIterated(last.states, iteration, &problem_).trajectory;
-      anew.variances = VariancesOf(start_.layout, next.P);
-      step = LargestDistance(start_.layout, last.states, next.states,
-                             anew.variances);
-      last = std::move(next);
-      if (step < kNegligible) break;
-    }
+    Rested rested = SmoothUntilItRests(smoothed_->states, &problem_,
+                                       Progress("linearisation"));
+    SmoothedTrajectory& last = rested.trajectory;
     JudgeHeading(last);
     WidenHeading(start_.layout, heading_credit_, &last.P);
     anew.variances = VariancesOf(start_.layout, last.P);
     anew.states = std::move(last.states);
     anew.smoother =
         Compare(start_.layout, smoothed_->states, smoothed_->P, anew);
-    anew.smoother.settled = step < 1.0;
+    anew.smoother.settled = rested.step < 1.0;
     return std::move(last.P);
   } catch (const EstimationError&) {
     return {};

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "filters/iterated_smoother.h"
 
 namespace hindsight {
 namespace {
@@ -46,6 +49,27 @@ double LargestDistance(const ErrorLayout& layout,
     });
   }
   return largest;
+}
+
+Rested SmoothUntilItRests(std::vector<State> states, Problem* problem,
+                          const EpochCallback& callback) {
+  constexpr int kMost = 4;
+  constexpr double kNegligible = 0.1;  // sigma
+  IterationOptions iteration;
+  iteration.max_iterations = 1;
+  iteration.callback = callback;
+  Rested rested;
+  rested.trajectory.states = std::move(states);
+  for (int i = 0; i < kMost; ++i) {
+    SmoothedTrajectory next =
+        SmoothIterated(rested.trajectory.states, iteration, problem).trajectory;
+    rested.step =
+        LargestDistance(problem->layout, rested.trajectory.states, next.states,
+                        VariancesOf(problem->layout, next.P));
+    rested.trajectory = std::move(next);
+    if (rested.step < kNegligible) break;
+  }
+  return rested;
 }
 
 LinearisationError Compare(const ErrorLayout& layout,

@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "evaluation/grade.h"
+#include "filters/forward_filter.h"
+#include "filters/rts.h"
 #include "state/covariance_series.h"
 #include "state/solution.h"
+#include "timeline/problem.h"
 
 namespace hindsight {
 
@@ -31,6 +34,18 @@ double LargestDistance(const ErrorLayout& layout,
                        const std::vector<State>& from,
                        const std::vector<State>& to,
                        const std::vector<NavigationVariances>& variances);
+
+/// A trajectory that linearising anew and smoothing led to.
+struct Rested {
+  SmoothedTrajectory trajectory;
+  double step = 0.0;  ///< the last, LargestDistance [sigma]
+};
+
+/// Linearises the interval about a trajectory and smooths, again about the
+/// result, up to four times until the step is a tenth of a sigma. Throws
+/// EstimationError where it does not hold.
+Rested SmoothUntilItRests(std::vector<State> states, Problem* problem,
+                          const EpochCallback& callback);
 
 /// How a trajectory with covariances P compares with a new linearisation.
 LinearisationError Compare(const ErrorLayout& layout,

@@ -59,6 +59,14 @@ class MethodStage {
   /// What the measurements say of a method's own model, where it is another than
   /// the stated one.
   void SetFit(Fit fit) { own_fit_ = std::move(fit); }
+  /// How a method that linearises once compares with its own model, linearised
+  /// anew.
+  void SetLinearisation(const LinearisationError& error) {
+    own_linearisation_ = error;
+  }
+  const std::optional<LinearisationError>& linearisation() const {
+    return own_linearisation_;
+  }
   const Fit& fit() const { return own_fit_ ? *own_fit_ : forward_->fit(); }
 
   /// Of the reconstruction, with its progress under the name "batch".
@@ -80,6 +88,7 @@ class MethodStage {
   std::optional<PlacedNodes> own_;  ///< where they are not the forward stage's
   std::optional<Timeline> timeline_;
   std::optional<Fit> own_fit_;
+  std::optional<LinearisationError> own_linearisation_;
 };
 
 }  // namespace hindsight

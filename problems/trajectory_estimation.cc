@@ -112,7 +112,7 @@ class TrajectoryEstimation final : public Estimation {
          .linearisation =
              method.Has(MethodTrait::kLinearisesOnce)
                  ? LinearisationErrorOf(solution, forward_.relinearised())
-                 : std::nullopt,
+                 : stage.linearisation(),
          .untested = !stage.fit().tested,
          .innovations = stage.fit().figures,
          .explanations = stage.fit().explanations,

@@ -146,7 +146,9 @@ Reconstruction Prepare(const std::string& config, const Dataset& dataset,
   try {
     return Reconstruction(dataset, options);
   } catch (const NoInitialPosition& error) {
-    throw NoInitialPosition(config + ": " + error.what());
+    throw NoInitialPosition(config + ": " + error.what() +
+                            "; --methods=LIST of " + MethodNames(true) +
+                            ", which estimate attitude alone, need none");
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 
 #include "filters/tape_gains.h"
 
@@ -12,20 +14,25 @@ namespace {
 struct Course {
   bool of_state = false;
   std::size_t onset = 0;  ///< of a jump
+  int component = 0;      ///< of the state, that jumps
   ShiftColumns::Group group = 0;
-  int column = 0;
-  std::vector<double> sizes = {};
+  std::vector<int> columns = {};
+  Eigen::MatrixXd sizes = {};  ///< a row an epoch
+
+  /// What its columns add up to at an epoch.
+  Eigen::VectorXd Sum(std::size_t k, const Eigen::MatrixXd& B) const {
+    return B(Eigen::all, columns) *
+           sizes.row(static_cast<Eigen::Index>(k)).transpose();
+  }
 };
 
 /// What it adds to a measurement of epoch k.
 Eigen::VectorXd AddedTo(const TapeMeasurement& z, const Course& course,
                         std::size_t k, const ShiftColumns& columns) {
   Eigen::VectorXd added = Eigen::VectorXd::Zero(z.H.rows());
-  if (course.of_state || course.sizes[k] == 0.0) return added;
+  if (course.of_state) return added;
   for (const ShiftColumns::Columns& one : columns.measured(k, z)) {
-    if (one.group == course.group) {
-      added = course.sizes[k] * one.B.col(course.column);
-    }
+    if (one.group == course.group) added = course.Sum(k, one.B);
   }
   return added;
 }
@@ -35,12 +42,10 @@ ErrorVector AddedTo(std::size_t k, const Course& course, const LinearTape& tape,
                     const ShiftColumns& columns) {
   ErrorVector added = ErrorVector::Zero(tape.dim());
   if (course.of_state) {
-    if (k == course.onset) added(course.column) = 1.0;
+    if (k == course.onset) added(course.component) = 1.0;
   } else if (k > course.onset && columns.driven) {
     const ShiftColumns::Columns driven = columns.driven(k);
-    if (driven.group == course.group) {
-      added = course.sizes[k] * driven.B.col(course.column);
-    }
+    if (driven.group == course.group) added = course.Sum(k, driven.B);
   }
   return added;
 }
@@ -97,14 +102,15 @@ std::vector<ErrorVector> CorrectionForCourse(const Course& course,
 std::vector<ErrorVector> CorrectionFor(const MeanShift& shift,
                                        const LinearTape& tape,
                                        const ShiftColumns& columns) {
-  Course course{.of_state = shift.of_state,
-                .onset = shift.onset,
-                .group = shift.group,
-                .column = shift.column};
-  if (!shift.of_state) {
-    course.sizes.resize(tape.size());
+  Course course{.of_state = shift.of_state, .onset = shift.onset};
+  if (shift.of_state) {
+    course.component = shift.column;
+  } else {
+    course.group = shift.group;
+    course.columns = {shift.column};
+    course.sizes.setZero(static_cast<Eigen::Index>(tape.size()), 1);
     for (std::size_t k = shift.onset; k < tape.size(); ++k) {
-      course.sizes[k] =
+      course.sizes(static_cast<Eigen::Index>(k), 0) =
           shift.grows ? tape.epoch(k).t - tape.epoch(shift.onset).t : 1.0;
     }
   }
@@ -112,22 +118,27 @@ std::vector<ErrorVector> CorrectionFor(const MeanShift& shift,
 }
 
 std::vector<ErrorVector> CorrectionForSteps(ShiftColumns::Group group,
-                                            int column,
+                                            std::span<const int> wanted,
                                             std::span<const std::size_t> onsets,
-                                            std::span<const double> steps,
+                                            const Eigen::MatrixXd& steps,
                                             const LinearTape& tape,
                                             const ShiftColumns& columns) {
-  Course course{.onset = onsets.front(), .group = group, .column = column};
-  course.sizes.resize(tape.size());
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    for (std::size_t k = onsets[i]; k < tape.size(); ++k) {
-      course.sizes[k] += steps[i];
-    }
+  Course course{.onset = onsets.front(), .group = group};
+  course.columns.assign(wanted.begin(), wanted.end());
+  course.sizes.setZero(static_cast<Eigen::Index>(tape.size()), steps.cols());
+  for (Eigen::Index i = 0; i < steps.rows(); ++i) {
+    const auto onset =
+        static_cast<Eigen::Index>(onsets[static_cast<std::size_t>(i)]);
+    course.sizes.bottomRows(course.sizes.rows() - onset).rowwise() +=
+        steps.row(i);
   }
   return CorrectionForCourse(course, tape, columns);
 }
 
 namespace {
+
+/// Of a correlation, below which an eigenvalue is rounding.
+constexpr double kLeastWeight = 1e-6;
 
 /// Carries what constants of one group, each from several onsets on, do to the
 /// estimates: a block of columns a constant, a column of it an onset.
@@ -145,9 +156,9 @@ class OnsetPass {
         e_(Eigen::MatrixXd::Zero(
             tape.dim(), count_ * static_cast<Eigen::Index>(wanted.size()))),
         score_(Eigen::VectorXd::Zero(e_.cols())),
-        information_(wanted.size(), Eigen::MatrixXd::Zero(count_, count_)) {}
+        information_(Eigen::MatrixXd::Zero(e_.cols(), e_.cols())) {}
 
-  std::vector<ShiftEnergy> Run(const EpochCallback& callback) {
+  GroupEnergy Run(const EpochCallback& callback) {
     for (std::size_t k = onsets_.front(); k < tape_.size(); ++k) {
       if (callback) callback(k);
       while (begun_ < count_ &&
@@ -161,9 +172,7 @@ class OnsetPass {
         if (all[i].accepted) Take(k, all[i], gains[i]);
       }
     }
-    std::vector<ShiftEnergy> energies;
-    for (std::size_t w = 0; w < wanted_.size(); ++w) energies.push_back(Sum(w));
-    return energies;
+    return Energy();
   }
 
  private:
@@ -173,12 +182,7 @@ class OnsetPass {
     const Eigen::LLT<Eigen::MatrixXd> S(z.S);
     const Eigen::MatrixXd weighted = S.solve(g);
     score_ += weighted.transpose() * z.innovation;
-    for (std::size_t w = 0; w < wanted_.size(); ++w) {
-      const Eigen::Index at = static_cast<Eigen::Index>(w) * count_;
-      information_[w].topLeftCorner(begun_, begun_) +=
-          g.middleCols(at, begun_).transpose() *
-          weighted.middleCols(at, begun_);
-    }
+    information_ += g.transpose() * weighted;
     e_ += K * g;
   }
 
@@ -193,40 +197,79 @@ class OnsetPass {
   }
 
   /// Over the onsets after which anything is measured.
-  ShiftEnergy Sum(std::size_t w) const {
-    const Eigen::MatrixXd& all = information_[w];
-    Eigen::Index last = 0;
-    while (last < count_ && all(last, last) > 0.0) ++last;
-    if (last == 0) return {};
-    const Eigen::VectorXd sigma = all.diagonal().head(last).cwiseSqrt();
-    const Eigen::MatrixXd correlation = sigma.cwiseInverse().asDiagonal() *
-                                        all.topLeftCorner(last, last) *
-                                        sigma.cwiseInverse().asDiagonal();
-    const Eigen::VectorXd own =
-        score_.segment(static_cast<Eigen::Index>(w) * count_, last);
-    ShiftEnergy energy;
-    energy.sum = own.cwiseQuotient(sigma).squaredNorm();
-    const Eigen::VectorXd weights =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlation,
-                                                       Eigen::EigenvaluesOnly)
-            .eigenvalues();
-    energy.weights.assign(weights.begin(), weights.end());
-    const Eigen::VectorXd steps = Steps(all.topLeftCorner(last, last), own);
-    energy.steps.assign(steps.begin(), steps.end());
+  GroupEnergy Energy() const {
+    GroupEnergy energy;
+    energy.columns.resize(wanted_.size());
+    energy.steps.setZero(count_, static_cast<Eigen::Index>(wanted_.size()));
+    std::vector<Eigen::Index> shown;
+    for (Eigen::Index i = 0; i < e_.cols(); ++i) {
+      if (information_(i, i) > 0.0) shown.push_back(i);
+    }
+    if (shown.empty()) return energy;
+    const Eigen::MatrixXd G = information_(shown, shown);
+    const Eigen::VectorXd score = score_(shown);
+    const Eigen::VectorXd sigma = G.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::VectorXd z = score.cwiseProduct(sigma);
+    const Eigen::MatrixXd C = sigma.asDiagonal() * G * sigma.asDiagonal();
+    for (std::size_t w = 0; w < wanted_.size(); ++w) {
+      std::vector<Eigen::Index> own;
+      for (std::size_t i = 0; i < shown.size(); ++i) {
+        if (shown[i] / count_ == static_cast<Eigen::Index>(w)) {
+          own.push_back(static_cast<Eigen::Index>(i));
+        }
+      }
+      if (own.empty()) continue;
+      energy.columns[w].sum = z(own).squaredNorm();
+      const Eigen::VectorXd weights =
+          Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(C(own, own),
+                                                         Eigen::EigenvaluesOnly)
+              .eigenvalues();
+      energy.columns[w].weights.assign(weights.begin(), weights.end());
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(C);
+    const Eigen::VectorXd along = eigen.eigenvectors().transpose() * z;
+    const double largest = eigen.eigenvalues().maxCoeff();
+    for (Eigen::Index i = 0; i < along.size(); ++i) {
+      const double weight = eigen.eigenvalues()(i);
+      if (!(weight > kLeastWeight * largest)) continue;
+      energy.whitened += along(i) * along(i) / weight;
+      energy.dof += 1.0;
+    }
+    const Eigen::VectorXd steps = Steps(shown, G, score, energy);
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      energy.steps(shown[i] % count_, shown[i] / count_) =
+          steps(static_cast<Eigen::Index>(i));
+    }
     return energy;
   }
 
-  static Eigen::VectorXd Steps(const Eigen::MatrixXd& G,
-                               const Eigen::VectorXd& score) {
-    const Eigen::VectorXd D = G.diagonal();
-    const double more = score.cwiseAbs2().cwiseQuotient(D).sum() -
-                        static_cast<double>(score.size());
-    if (!(more > 0.0)) return Eigen::VectorXd::Zero(score.size());
+  Eigen::VectorXd Steps(const std::vector<Eigen::Index>& shown,
+                        const Eigen::MatrixXd& G, const Eigen::VectorXd& score,
+                        const GroupEnergy& energy) const {
+    Eigen::VectorXd unit(score.size());
+    for (Eigen::Index i = 0; i < unit.size(); ++i) {
+      const Eigen::Index first =
+          shown[static_cast<std::size_t>(i)] / count_ * count_;
+      unit(i) = information_(first, first) > 0.0
+                    ? 1.0 / std::sqrt(information_(first, first))
+                    : 0.0;
+    }
+    const Eigen::MatrixXd G_unit = unit.asDiagonal() * G * unit.asDiagonal();
+    const Eigen::VectorXd s_unit = unit.cwiseProduct(score);
+    double sum = 0.0;
+    for (const ShiftEnergy& one : energy.columns) sum += one.sum;
     const double variance =
-        more / (G.cwiseAbs2().rowwise().sum().cwiseQuotient(D)).sum();
-    Eigen::MatrixXd posterior = G;
+        std::max((sum - static_cast<double>(score.size())) /
+                     G_unit.cwiseAbs2()
+                         .rowwise()
+                         .sum()
+                         .cwiseQuotient(G_unit.diagonal())
+                         .sum(),
+                 (energy.whitened - energy.dof) / G_unit.trace());
+    if (!(variance > 0.0)) return Eigen::VectorXd::Zero(score.size());
+    Eigen::MatrixXd posterior = G_unit;
     posterior.diagonal().array() += 1.0 / variance;
-    return posterior.llt().solve(score);
+    return unit.cwiseProduct(posterior.llt().solve(s_unit));
   }
 
   ShiftColumns::Group group_;
@@ -238,17 +281,15 @@ class OnsetPass {
   Eigen::Index begun_ = 0;  ///< onsets that have come
   Eigen::MatrixXd e_;       ///< by what the estimates differ
   Eigen::VectorXd score_;
-  std::vector<Eigen::MatrixXd> information_;
+  Eigen::MatrixXd information_;
 };
 
 }  // namespace
 
-std::vector<ShiftEnergy> EnergiesOf(ShiftColumns::Group group,
-                                    std::span<const int> wanted,
-                                    std::span<const std::size_t> onsets,
-                                    const LinearTape& tape,
-                                    const ShiftColumns& columns,
-                                    const EpochCallback& callback) {
+GroupEnergy EnergiesOf(ShiftColumns::Group group, std::span<const int> wanted,
+                       std::span<const std::size_t> onsets,
+                       const LinearTape& tape, const ShiftColumns& columns,
+                       const EpochCallback& callback) {
   RequireFixedNominal(tape);
   return OnsetPass(group, wanted, onsets, tape, columns).Run(callback);
 }

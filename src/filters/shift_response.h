@@ -15,33 +15,42 @@ std::vector<ErrorVector> CorrectionFor(const MeanShift& shift,
                                        const LinearTape& tape,
                                        const ShiftColumns& columns);
 
-/// Whether a column of a group varies: the squares of z() of its onsets from
-/// several epochs, added up. Of a right system they are correlated N(0, 1),
-/// whose sum is a weighted one of chi-square variables of one degree of freedom.
+/// z() of the onsets of one column from several epochs, squared and added up: of
+/// a right system, where z ~ N(0, C), a weighted sum of chi-square variables of
+/// one degree of freedom. Shows errors that wander off.
 struct ShiftEnergy {
   double sum = 0.0;
-  std::vector<double> weights;  ///< WeightedChiSquareQuantile
-  /// By how much it steps at each onset, as variables N(0, tau^2): with s and G
-  /// their scores and information and D the diagonal of G, the mean of their
-  /// distribution is (G + I / tau^2)^-1 s, with the tau that makes the sum what
-  /// it is, tau^2 = (s' D^-1 s - n) / tr(D^-1 G^2) (moments). Zero where the sum
-  /// is not above its mean.
-  std::vector<double> steps;
+  std::vector<double> weights;  ///< eigenvalues of C, WeightedChiSquareQuantile
 };
-/// Of some columns of one group, in their order, over the onsets that cause an
-/// innovation; empty where none does.
-std::vector<ShiftEnergy> EnergiesOf(ShiftColumns::Group group,
-                                    std::span<const int> wanted,
-                                    std::span<const std::size_t> onsets,
-                                    const LinearTape& tape,
-                                    const ShiftColumns& columns,
-                                    const EpochCallback& callback = nullptr);
 
-/// The same of a deviation that steps at several onsets, by `steps`.
+/// Whether columns of a group vary.
+struct GroupEnergy {
+  std::vector<ShiftEnergy> columns;
+  /// z' C^-1 z of all columns together, chi^2(dof): shows errors of any course,
+  /// as those that last a while and come again.
+  double whitened = 0.0;
+  double dof = 0.0;
+  /// By how much each column steps at each onset, a row an onset. In units of
+  /// the sigma of a column that is there throughout they are taken for
+  /// N(0, tau^2): with s and G their scores and information and D the diagonal of
+  /// G, the mean of their distribution is (G + I / tau^2)^-1 s, with the larger
+  /// tau that makes one of the sums what it is (moments),
+  ///   tau^2 = (z' z - n) / tr(D^-1 G^2) or (z' C^-1 z - dof) / tr(G);
+  /// zero where neither is above its mean.
+  Eigen::MatrixXd steps;
+};
+
+/// Of some columns of one group, over the onsets that cause an innovation.
+GroupEnergy EnergiesOf(ShiftColumns::Group group, std::span<const int> wanted,
+                       std::span<const std::size_t> onsets,
+                       const LinearTape& tape, const ShiftColumns& columns,
+                       const EpochCallback& callback = nullptr);
+
+/// The same as CorrectionFor of columns that step by `steps`, a row an onset.
 std::vector<ErrorVector> CorrectionForSteps(ShiftColumns::Group group,
-                                            int column,
+                                            std::span<const int> wanted,
                                             std::span<const std::size_t> onsets,
-                                            std::span<const double> steps,
+                                            const Eigen::MatrixXd& steps,
                                             const LinearTape& tape,
                                             const ShiftColumns& columns);
 

@@ -137,6 +137,7 @@ TEST(MeanShift, OfARightSystemIsNormal) {
   std::vector<double> squares;
   constexpr double kTail = 0.2;
   int beyond = 0;
+  double whitened = 0.0, dofs = 0.0;
   for (int run = 0; run < kRuns; ++run) {
     const LinearTape tape = TapeOf(Drive(100 + static_cast<unsigned>(run)));
     const std::vector<MeanShift> all =
@@ -146,8 +147,11 @@ TEST(MeanShift, OfARightSystemIsNormal) {
       squares[i] += all[i].z() * all[i].z();
     }
     const std::vector<int> wanted = {2, 0};
-    for (const ShiftEnergy& energy :
-         EnergiesOf(kPositions, wanted, onsets, tape, Additive())) {
+    const GroupEnergy all_energy =
+        EnergiesOf(kPositions, wanted, onsets, tape, Additive());
+    whitened += all_energy.whitened;
+    dofs += all_energy.dof;
+    for (const ShiftEnergy& energy : all_energy.columns) {
       if (energy.sum > WeightedChiSquareQuantile(energy.weights, kTail)) {
         ++beyond;
       }
@@ -161,6 +165,9 @@ TEST(MeanShift, OfARightSystemIsNormal) {
     EXPECT_GT(sum, ChiSquareQuantile(tail, kRuns));
     EXPECT_LT(sum, ChiSquareQuantile(1.0 - tail, kRuns));
   }
+  EXPECT_DOUBLE_EQ(dofs, 2.0 * 3.0 * kRuns);
+  EXPECT_GT(whitened, ChiSquareQuantile(0.005, dofs));
+  EXPECT_LT(whitened, ChiSquareQuantile(0.995, dofs));
   // Binomial of 120, within three standard deviations.
   EXPECT_NEAR(beyond, 2 * kRuns * kTail,
               3.0 * std::sqrt(2 * kRuns * kTail * (1.0 - kTail)));
@@ -175,9 +182,10 @@ TEST(MeanShift, OfStepsIsTheSumOfItsSteps) {
       CorrectionFor(Find(all, 7, false), tape, Additive());
   const std::vector<ErrorVector> b =
       CorrectionFor(Find(all, 12, false), tape, Additive());
-  const std::vector<double> steps = {0.0, 1.5, -2.0};
+  const std::vector<int> wanted = {0};
+  const Eigen::MatrixXd steps = Eigen::Vector3d(0.0, 1.5, -2.0);
   const std::vector<ErrorVector> both =
-      CorrectionForSteps(kPositions, 0, onsets, steps, tape, Additive());
+      CorrectionForSteps(kPositions, wanted, onsets, steps, tape, Additive());
   for (std::size_t k = 0; k < tape.size(); ++k) {
     const ErrorVector sum = 1.5 * a[k] - 2.0 * b[k];
     EXPECT_LT((both[k] - sum).norm(), 1e-9 * (1.0 + sum.norm())) << k;
@@ -197,13 +205,14 @@ TEST(MeanShift, FindsTheStepsOfAnErrorThatGoesAgain) {
   }
   const std::vector<std::size_t> onsets = {0, 7, 12};
   const std::vector<int> wanted = {0};
-  const ShiftEnergy energy =
-      EnergiesOf(kPositions, wanted, onsets, TapeOf(problem), Additive())
-          .front();
-  EXPECT_GT(energy.sum, WeightedChiSquareQuantile(energy.weights, 1e-6));
-  ASSERT_EQ(energy.steps.size(), 3u);
-  EXPECT_NEAR(energy.steps[1], kError, 0.2 * kError);
-  EXPECT_NEAR(energy.steps[2], -kError, 0.2 * kError);
+  const GroupEnergy energy =
+      EnergiesOf(kPositions, wanted, onsets, TapeOf(problem), Additive());
+  EXPECT_GT(energy.columns[0].sum,
+            WeightedChiSquareQuantile(energy.columns[0].weights, 1e-6));
+  EXPECT_GT(energy.whitened, ChiSquareQuantile(1.0 - 1e-6, energy.dof));
+  ASSERT_EQ(energy.steps.rows(), 3);
+  EXPECT_NEAR(energy.steps(1, 0), kError, 0.2 * kError);
+  EXPECT_NEAR(energy.steps(2, 0), -kError, 0.2 * kError);
 }
 
 /// The fixes end before the last onset: those that nothing shows are left out.
@@ -222,14 +231,15 @@ TEST(MeanShift, VariesOverTheOnsetsThatSomethingFollows) {
   const LinearTape tape = TapeOf(problem);
   const std::vector<int> wanted = {0};
   const std::vector<std::size_t> all = {0, 6, 16}, those = {0, 6};
-  const ShiftEnergy a =
-      EnergiesOf(kPositions, wanted, all, tape, Additive()).front();
-  const ShiftEnergy b =
-      EnergiesOf(kPositions, wanted, those, tape, Additive()).front();
-  EXPECT_GT(b.sum, 0.0);
-  EXPECT_DOUBLE_EQ(a.sum, b.sum);
-  EXPECT_EQ(a.weights, b.weights);
-  EXPECT_EQ(a.steps, b.steps);
+  const GroupEnergy a = EnergiesOf(kPositions, wanted, all, tape, Additive());
+  const GroupEnergy b = EnergiesOf(kPositions, wanted, those, tape, Additive());
+  EXPECT_GT(b.columns[0].sum, 0.0);
+  EXPECT_DOUBLE_EQ(a.columns[0].sum, b.columns[0].sum);
+  EXPECT_EQ(a.columns[0].weights, b.columns[0].weights);
+  EXPECT_DOUBLE_EQ(a.whitened, b.whitened);
+  EXPECT_EQ(a.dof, b.dof);
+  EXPECT_TRUE(a.steps.topRows(2).isApprox(b.steps));
+  EXPECT_EQ(a.steps(2, 0), 0.0);
 }
 
 TEST(MeanShift, NeedsATapeAboutAFixedNominal) {
