@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,14 +23,14 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::SizeIs;
 
-struct Case {
+struct FaultOf {
   const char* vehicle;
   const char* fault;
   const char* sensor;
   double size;  ///< SI
 };
 
-std::vector<std::string> Contradictions(const Case& c) {
+std::vector<std::string> Contradictions(const FaultOf& c) {
   Dataset dataset = Simulate(FindScenario(c.vehicle, {}), 11);
   ApplyFault({FindFaultKind(c.fault), c.sensor, c.size}, 11, &dataset);
   std::vector<std::string> all;
@@ -71,7 +71,10 @@ struct JudgedSensors {
     sensors[1].name = "odometer";
     figures[0].sensor = 1;
     figures[0].excess = 10.0;
-    left_out = {.sensors = {"odometer"}, .misfit = 3.0, .effect = 0.5};
+    left_out = {.sensors = {"odometer"},
+                .misfit = 3.0,
+                .onset = std::nullopt,
+                .effect = 0.5};
   }
   Judged AsJudged() const {
     return {.solution = solution,
