@@ -166,12 +166,14 @@ void EvaluateLink(const ErrorLayout& layout, const ImuSummary& summary,
 }
 
 ImuLink::Matrix15 LinkNoise(const ImuSummary& summary) {
-  constexpr double kPositionFloor = 1e-8 * 1e-8;
+  constexpr double kLeastPosition = 1e-6 * 1e-6;
   constexpr double kVelocityFloor = 1e-9 * 1e-9;
   constexpr double kRotationFloor = 1e-12 * 1e-12;
   ImuLink::Matrix15 S;
   S.topLeftCorner<9, 9>() = summary.noise;
-  S.diagonal().segment<3>(kP).array() += kPositionFloor;
+  for (int row = kP; row < kP + 3; ++row) {
+    S(row, row) = std::max(S(row, row), kLeastPosition);
+  }
   S.diagonal().segment<3>(kV).array() += kVelocityFloor;
   S.diagonal().segment<3>(kR).array() += kRotationFloor;
   S.topRightCorner<9, 6>() = summary.bias_cross;

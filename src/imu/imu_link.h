@@ -47,7 +47,10 @@ void EvaluateLink(const ErrorLayout& layout, const ImuSummary& summary,
                   ImuLink* out);
 
 /// Covariance of the link's residual, the noise of the summary completed by the
-/// bias noise. Rounding of positions of 6.4e6 m sets its floor of (1e-8 m)^2.
+/// bias noise. Of a position at least (1e-6 m)^2, which is more than accelerometers
+/// leave in less than some 20 ms: in normal equations a position that is known to
+/// a metre is the difference of two numbers that are larger by the square of the
+/// ratio, and double precision has 16 digits.
 ImuLink::Matrix15 LinkNoise(const ImuSummary& summary);
 
 /// The link as a linear transition over a layout:
