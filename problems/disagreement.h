@@ -36,6 +36,27 @@ class OptimumComparison {
   std::vector<Pose> poses_;
 };
 
+/// Compares methods that see the whole interval. Two that both may be used must
+/// be within the errors that they state, as the same data have one truth.
+class MethodComparison {
+ public:
+  /// Evidence that makes `solution`, which is graded, doubtful: an earlier one
+  /// from which a component of position or attitude is kUnusableBias of the
+  /// larger standard deviation away, in the root mean square over the interval.
+  /// Solutions that are not usable, forward or on other nodes say nothing.
+  std::optional<Evidence> Compare(const Solution& solution);
+
+ private:
+  using Variances = Eigen::Matrix<double, 6, 1>;  ///< position, attitude
+  struct Course {
+    std::string method;
+    std::vector<State> states;  ///< without parameters
+    std::vector<Variances> variances;
+  };
+
+  std::vector<Course> courses_;
+};
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_PROBLEMS_DISAGREEMENT_H_

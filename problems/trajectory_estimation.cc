@@ -124,6 +124,9 @@ class TrajectoryEstimation final : public Estimation {
          .recording = recording_,
          .disagreement = DisagreementOf(method, solution)},
         forward_.unobserved(), &solution);
+    if (auto apart = methods_.Compare(solution)) {
+      AddEvidence(*std::move(apart), &solution);
+    }
     return solution;
   }
 
@@ -141,6 +144,7 @@ class TrajectoryEstimation final : public Estimation {
   ForwardStage& forward_;
   std::vector<Evidence> recording_;  ///< what it shows by itself
   OptimumComparison optima_;
+  MethodComparison methods_;
   /// Of methods that did not stay on the forward stage's, by name.
   std::map<std::string, Timeline> timelines_;
 };

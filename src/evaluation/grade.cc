@@ -191,6 +191,12 @@ void AdviseBetterMethods(std::vector<Solution>* solutions) {
   }
 }
 
+void AddEvidence(Evidence evidence, Solution* solution) {
+  solution->evidence.push_back(std::move(evidence));
+  solution->grade = GradeOf(solution->evidence);
+  solution->verdict = VerdictOf(*solution);
+}
+
 void ShareDisagreements(std::vector<Solution>* solutions) {
   std::vector<std::pair<std::string, Evidence>> told;
   for (const Solution& solution : *solutions) {
@@ -208,9 +214,7 @@ void ShareDisagreements(std::vector<Solution>* solutions) {
           solution.evidence.begin(), solution.evidence.end(),
           [&](const Evidence& own) { return own.against == evidence.against; });
       if (solution.method != method || knows) continue;
-      solution.evidence.push_back(evidence);
-      solution.grade = GradeOf(solution.evidence);
-      solution.verdict = VerdictOf(solution);
+      AddEvidence(evidence, &solution);
     }
   }
 }

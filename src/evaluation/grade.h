@@ -110,6 +110,9 @@ Solution FailedSolution(const std::string& method, const std::string& reason);
 /// linearisation is at fault adds those that linearise anew and have one.
 void AdviseBetterMethods(std::vector<Solution>* solutions);
 
+/// Adds to what speaks against a solution, with the grade and verdict that follow.
+void AddEvidence(Evidence evidence, Solution* solution);
+
 /// Tells both methods of every disagreement, which is found when the later one
 /// is judged.
 void ShareDisagreements(std::vector<Solution>* solutions);

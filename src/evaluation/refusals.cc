@@ -51,16 +51,20 @@ void EndRun(Tally* tally) {
   tally->run = {};
 }
 
-void Count(const ResidualRecord& record, Tally* tally) {
+bool IsWeightless(const ResidualRecord& record, bool weighs_by_modes) {
+  return !weighs_by_modes && record.weight < kLittleWeight;
+}
+
+void Count(const ResidualRecord& record, bool weightless, Tally* tally) {
   ++tally->all;
-  if (!record.accepted) {
-    ++tally->rejected;
+  if (!record.accepted) ++tally->rejected;
+  if (record.accepted && weightless) ++tally->weightless;
+  if (!record.accepted || weightless) {
     if (tally->run.nis.empty()) tally->run.t_begin = record.t;
     tally->run.t_end = record.t;
     tally->run.nis.push_back(record.nis);
     return;
   }
-  if (record.weight < kLittleWeight) ++tally->weightless;
   if (tally->run.nis.empty()) return;
   if (record.nis < kVanished * tally->run.MeanOfLast()) tally->run = {};
   EndRun(tally);
@@ -75,8 +79,7 @@ Evidence ShutOut(const std::string& what, const std::string& name) {
                        ", or its loss or gate taken off"}};
 }
 
-std::optional<Evidence> Refusal(const Sensor& sensor, const Tally& tally,
-                                bool weighs_by_modes) {
+std::optional<Evidence> Refusal(const Sensor& sensor, const Tally& tally) {
   const char* name = sensor.name.c_str();
   const auto share = [&tally](int part) {
     return 100.0 * static_cast<double>(part) / static_cast<double>(tally.all);
@@ -91,22 +94,7 @@ std::optional<Evidence> Refusal(const Sensor& sensor, const Tally& tally,
     e.unit = "%";
     return e;
   }
-  if (!tally.worst.nis.empty()) {
-    const Refused& run = tally.worst;
-    Evidence e = ShutOut(
-        fmt::format(
-            "the gate refused {} measurements of {} in a row, from {:.1f} s "
-            "to {:.1f} s",
-            run.nis.size(), name, run.t_begin, run.t_end),
-        sensor.name);
-    e.value = run.t_end - run.t_begin;
-    e.limit = kLongSpan;
-    e.unit = "s";
-    e.t_begin = run.t_begin;
-    e.t_end = run.t_end;
-    return e;
-  }
-  if (!weighs_by_modes && 2 * tally.weightless > tally.all) {
+  if (2 * tally.weightless > tally.all) {
     Evidence e = ShutOut(
         fmt::format(
             "the loss left {} of {} measurements of {} less than a tenth of "
@@ -116,6 +104,23 @@ std::optional<Evidence> Refusal(const Sensor& sensor, const Tally& tally,
     e.value = share(tally.weightless);
     e.limit = 50.0;
     e.unit = "%";
+    return e;
+  }
+  if (!tally.worst.nis.empty()) {
+    const Refused& run = tally.worst;
+    Evidence e = ShutOut(
+        fmt::format(
+            "{} {} measurements of {} in a row{}, from {:.1f} s to {:.1f} s",
+            tally.rejected > 0 ? "the gate refused" : "the loss left",
+            run.nis.size(), name,
+            tally.rejected > 0 ? "" : " less than a tenth of their weight",
+            run.t_begin, run.t_end),
+        sensor.name);
+    e.value = run.t_end - run.t_begin;
+    e.limit = kLongSpan;
+    e.unit = "s";
+    e.t_begin = run.t_begin;
+    e.t_end = run.t_end;
     return e;
   }
   return std::nullopt;
@@ -129,8 +134,9 @@ std::optional<Evidence> FindRefusal(std::span<const Sensor> sensors,
   for (const ResidualRecord& record : solution.residuals) {
     if (record.withheld) continue;
     const auto i = static_cast<std::size_t>(record.sensor);
-    Count(record, &tallies[i]);
-    if (!record.accepted || !GivesPosition(sensors[i])) continue;
+    const bool weightless = IsWeightless(record, solution.modes.has_value());
+    Count(record, weightless, &tallies[i]);
+    if (!record.accepted || weightless || !GivesPosition(sensors[i])) continue;
     for (std::size_t j = 0; j < sensors.size(); ++j) {
       if (j != i && !tallies[j].run.nis.empty()) {
         tallies[j].run.vouched = true;
@@ -139,7 +145,7 @@ std::optional<Evidence> FindRefusal(std::span<const Sensor> sensors,
   }
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     EndRun(&tallies[i]);
-    auto found = Refusal(sensors[i], tallies[i], solution.modes.has_value());
+    auto found = Refusal(sensors[i], tallies[i]);
     if (found) return found;
   }
   return std::nullopt;

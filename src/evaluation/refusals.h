@@ -12,7 +12,8 @@ namespace hindsight {
 /// What a solution left of a sensor's measurements, if that is too little to
 /// believe it: not usable. Withheld measurements do not count.
 ///   - More than half of a sensor's measurements refused by its gate.
-///   - More than ten in a row, over more than 10 s, refused by a gate. That a
+///   - More than ten in a row, over more than 10 s, refused by a gate or left
+///     less than a tenth of their weight by a robust loss. That a
 ///     gate that passes 99.9 % does so by chance has a probability of 1e-33;
 ///     either the sensor erred or the solution does. It is held for the sensor
 ///     if the contradiction vanished - the first measurement accepted again has

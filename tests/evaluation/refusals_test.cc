@@ -115,5 +115,21 @@ TEST_F(Refusals, LossThatLeavesNothing) {
   EXPECT_EQ(Find(), "");
 }
 
+TEST_F(Refusals, LossThatLeavesNothingToALongRun) {
+  const auto add = [this](double back) {
+    solution_.residuals.clear();
+    for (int t = 0; t < 100; ++t) {
+      const bool poor = t >= 40 && t < 70;
+      Add(t, 0, true, poor ? 900.0 : t == 70 ? back : 3.0, poor ? 0.01 : 1.0);
+    }
+  };
+  add(300.0);
+  EXPECT_EQ(Find(),
+            "the loss left 30 measurements of gnss in a row less than a tenth "
+            "of their weight, from 40.0 s to 69.0 s");
+  add(3.0);
+  EXPECT_EQ(Find(), "");
+}
+
 }  // namespace
 }  // namespace hindsight

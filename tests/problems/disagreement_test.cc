@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/test_motion.h"
 
 namespace hindsight {
@@ -58,6 +60,41 @@ TEST(OptimumComparison, OtherNodesAndFailuresAreNotCompared) {
   Solution moved = Ended(0, 50.0);
   moved.states[2].t += 0.1;
   EXPECT_FALSE(comparison.Compare("batch", moved));
+}
+
+Solution EndedBy(const char* method, int component, double sigmas) {
+  Solution solution = Ended(component, sigmas);
+  solution.method = method;
+  return solution;
+}
+
+TEST(MethodComparison, TwoThatMayBothBeUsedAreDoubtfulWhereTheyAreFarApart) {
+  // One node of three: in the root mean square 1/sqrt(3) of it.
+  for (const int component : {0, 2, 6, 8}) {
+    MethodComparison comparison;
+    EXPECT_FALSE(comparison.Compare(EndedBy("batch", component, 0.0)));
+    EXPECT_FALSE(comparison.Compare(EndedBy("rts", component, 5.0)));
+    const auto found =
+        comparison.Compare(EndedBy("imm_smoother", component, -5.4));
+    ASSERT_TRUE(found) << component;
+    EXPECT_EQ(found->grade, Grade::kDoubtful);
+    EXPECT_EQ(found->against, "rts");
+    EXPECT_NEAR(*found->value, 10.4 / std::sqrt(3.0), 0.01);
+  }
+}
+
+TEST(MethodComparison, WhatIsRefutedForwardOrElsewhereSaysNothing) {
+  MethodComparison comparison;
+  Solution refuted = EndedBy("batch", 0, 50.0);
+  refuted.grade = Grade::kUnusable;
+  EXPECT_FALSE(comparison.Compare(refuted));
+  Solution forward = EndedBy("ekf", 0, 50.0);
+  forward.forward = true;
+  EXPECT_FALSE(comparison.Compare(forward));
+  Solution moved = EndedBy("robust_batch", 0, 50.0);
+  moved.states[2].t += 0.1;
+  EXPECT_FALSE(comparison.Compare(moved));
+  EXPECT_FALSE(comparison.Compare(EndedBy("rts", 0, 0.0)));
 }
 
 }  // namespace
