@@ -50,8 +50,8 @@ class MethodComparison {
   using Variances = Eigen::Matrix<double, 6, 1>;  ///< position, attitude
   struct Course {
     std::string method;
-    std::vector<State> states;  ///< without parameters
-    std::vector<Variances> variances;
+    std::vector<State> states = {};  ///< without parameters
+    std::vector<Variances> variances = {};
   };
 
   std::vector<Course> courses_;

@@ -117,8 +117,9 @@ TEST(MixtureInnovations, OfRightModelsAreIndependentStandardNormal) {
   };
   std::vector<Mean> means;
   for (const int sensor : {0, 1}) {
-    for (const std::size_t length : {1, 4, 16})
+    for (const std::size_t length : {1U, 4U, 16U}) {
       means.push_back({sensor, length});
+    }
   }
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const ImmResult imm = Filtered(SwitchingProblem(seed), kPoor);

@@ -8,6 +8,8 @@
 
 #include "base/chi_square.h"
 #include "base/error.h"
+#include "io/config/scenario_config.h"
+#include "simulation/way_points.h"
 
 namespace hindsight {
 namespace {
