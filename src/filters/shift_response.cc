@@ -50,33 +50,29 @@ ErrorVector AddedTo(std::size_t k, const Course& course, const LinearTape& tape,
   return added;
 }
 
-/// What it does to the filter.
+/// By what it makes the estimates of the filter differ from the true states. Not
+/// each of them: both go with the free inertial navigation, whose heights grow
+/// by e every ten minutes.
 struct Response {
-  std::vector<ErrorVector> truth;        ///< by what the true states differ
-  std::vector<ErrorVector> minus, plus;  ///< by what the estimates do
+  std::vector<ErrorVector> minus, plus;
 };
 
 Response Filtered(const Course& course, const LinearTape& tape,
                   const ShiftColumns& columns) {
   Response out;
-  ErrorVector truth = ErrorVector::Zero(tape.dim());
-  ErrorVector e = truth;
+  ErrorVector error = ErrorVector::Zero(tape.dim());
   for (std::size_t k = 0; k < tape.size(); ++k) {
-    if (k > 0) {
-      truth = tape.Phi(k) * truth;
-      e = tape.Phi(k) * e;
-    }
-    truth += AddedTo(k, course, tape, columns);
-    out.minus.push_back(e);
+    if (k > 0) error = (tape.Phi(k) * error).eval();
+    error += AddedTo(k, course, tape, columns);
+    out.minus.push_back(error);
     const std::vector<Eigen::MatrixXd> gains = GainsAt(tape, k);
     const auto all = tape.measurements(k);
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (!all[i].accepted) continue;
-      e += gains[i] *
-           (all[i].H * (truth - e) + AddedTo(all[i], course, k, columns));
+      error -=
+          gains[i] * (all[i].H * error + AddedTo(all[i], course, k, columns));
     }
-    out.plus.push_back(e);
-    out.truth.push_back(truth);
+    out.plus.push_back(error);
   }
   return out;
 }
@@ -87,12 +83,11 @@ std::vector<ErrorVector> CorrectionForCourse(const Course& course,
   RequireFixedNominal(tape);
   const Response response = Filtered(course, tape, columns);
   std::vector<ErrorVector> correction(tape.size());
-  ErrorVector e = response.plus.back();
-  for (std::size_t k = tape.size(); k-- > 0;) {
-    if (k + 1 < tape.size()) {
-      e = response.plus[k] + Smoothed(tape, k, e - response.minus[k + 1]);
-    }
-    correction[k] = response.truth[k] - e;
+  correction.back() = response.plus.back();
+  for (std::size_t k = tape.size() - 1; k-- > 0;) {
+    correction[k] =
+        response.plus[k] +
+        Smoothed(tape, k, correction[k + 1] - response.minus[k + 1]);
   }
   return correction;
 }
