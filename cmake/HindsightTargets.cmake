@@ -14,6 +14,11 @@ function(hindsight_compile_options target)
     target_compile_options(${target} PRIVATE -Wno-restrict
                            -Wno-maybe-uninitialized)
   endif()
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # Collecting garbage while it expands Eigen's templates costs GCC a quarter of
+    # its time and saves a fifth of its 1.5 GB.
+    target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=3000000)
+  endif()
   if(HINDSIGHT_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
@@ -67,7 +72,7 @@ function(hindsight_library name folder)
       ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR})
     target_link_libraries(hindsight_${name} PUBLIC ${dependencies})
     hindsight_compile_options(hindsight_${name})
-    hindsight_unity(hindsight_${name} 8)
+    hindsight_unity(hindsight_${name} 16)
   else()
     add_library(hindsight_${name} INTERFACE)
     target_include_directories(hindsight_${name} INTERFACE

@@ -7,8 +7,8 @@
 namespace hindsight {
 namespace {
 
-constexpr double kStrained = 5.0;   // sigma
-constexpr double kSameTime = 1e-6;  // [s]
+constexpr double kStrained = 5.0;     // sigma
+constexpr double kAtTheStart = 1e-6;  // [s]
 
 /// Where a component of the start came from.
 struct Origin {
@@ -151,7 +151,7 @@ void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence) {
   }
   const StartValues& start = *judged.start;
   const bool from_start =
-      std::abs(solution.states.front().t - start.x.t) <= kSameTime;
+      std::abs(solution.states.front().t - start.x.t) <= kAtTheStart;
   const ErrorVector first =
       Local(solution.layout, start.x, solution.states.front());
   const ErrorVector last =

@@ -34,8 +34,8 @@ EpochScore ScoreOf(const LinearTape& tape, std::size_t k,
 }
 
 /// Of the epochs with measurements, in order of time.
-std::vector<EpochScore> Scores(const LinearTape& tape,
-                               std::span<const int> components) {
+std::vector<EpochScore> ScoreEpochs(const LinearTape& tape,
+                                    std::span<const int> components) {
   std::vector<EpochScore> all;
   const std::size_t last = tape.size() - 1;
   Eigen::MatrixXd covariance(tape.dim(),
@@ -111,7 +111,7 @@ std::vector<double> ExcessOfConstants(const LinearTape& tape,
   RequireFixedNominal(tape);
   std::vector<double> factors(components.size(), 1.0);
   if (components.empty()) return factors;
-  const std::vector<EpochScore> all = Scores(tape, components);
+  const std::vector<EpochScore> all = ScoreEpochs(tape, components);
   if (all.size() < 2) return factors;
   const std::vector<double> durations = Durations(all);
   const double tail =

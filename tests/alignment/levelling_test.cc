@@ -17,7 +17,7 @@ namespace hindsight {
 namespace {
 
 /// A vehicle that stands for two minutes, with an IMU of the given grade.
-Scenario Standing(double gyro_bias, double accel_bias) {
+Scenario LevelAndStill(double gyro_bias, double accel_bias) {
   Scenario s = FindScenario("short_drive");
   s.start_heading = 200.0 * kDegree;
   s.segments = {Segment::Stop(120.0)};
@@ -32,7 +32,8 @@ constexpr double kNavigationGyro = 0.01 * kDegree / kHour;
 constexpr double kNavigationAccel = 50e-6 * kStandardGravity;
 
 TEST(Gyrocompass, FindsTheHeadingWithItsOwnCovariance) {
-  const PerfectRecording recording(Standing(kNavigationGyro, kNavigationAccel));
+  const PerfectRecording recording(
+      LevelAndStill(kNavigationGyro, kNavigationAccel));
   constexpr int kRuns = testing::SeedCount(60);
   double nees = 0.0;
   double square = 0.0;
@@ -53,8 +54,8 @@ TEST(Gyrocompass, FindsTheHeadingWithItsOwnCovariance) {
 }
 
 TEST(Gyrocompass, SaysThatAWorseGyroDoesNotTellTheHeading) {
-  const Dataset dataset =
-      Simulate(Standing(20.0 * kDegree / kHour, 1e-3 * kStandardGravity), 1);
+  const Dataset dataset = Simulate(
+      LevelAndStill(20.0 * kDegree / kHour, 1e-3 * kStandardGravity), 1);
   const Start start = FindStart(dataset, 0.0, 120.0);
   EXPECT_EQ(start.report.alignment, "static");
   EXPECT_NE(start.report.why.find("gyrocompass: the gyros would give"),
@@ -64,7 +65,8 @@ TEST(Gyrocompass, SaysThatAWorseGyroDoesNotTellTheHeading) {
 }
 
 TEST(Alignment, TheMethodAskedForIsTakenOrSaysWhyNot) {
-  Dataset dataset = Simulate(Standing(kNavigationGyro, kNavigationAccel), 1);
+  Dataset dataset =
+      Simulate(LevelAndStill(kNavigationGyro, kNavigationAccel), 1);
   dataset.initial.alignment = AlignmentKind::kStatic;
   EXPECT_EQ(FindStart(dataset, 0.0, 120.0).report.alignment, "static");
   dataset.initial.alignment = AlignmentKind::kCourse;

@@ -20,7 +20,7 @@ using testing::TypicalLayout;
 
 constexpr double kPoor = 20.0;
 
-TestProblem NoisyProblem(std::uint64_t seed) {
+TestProblem SeededProblem(std::uint64_t seed) {
   TestProblemOptions options;
   options.noise = TacticalNoise(true);
   options.layout = TypicalLayout(options.noise);
@@ -33,7 +33,7 @@ TestProblem NoisyProblem(std::uint64_t seed) {
 /// Fixes whose noise is as stated or kPoor times as large, as a Markov chain
 /// says that stays with probability 0.9.
 TestProblem SwitchingProblem(std::uint64_t seed) {
-  TestProblem problem = NoisyProblem(seed);
+  TestProblem problem = SeededProblem(seed);
   Random random(seed + 100000);
   bool poor = random.Uniform() < 0.5;
   double t = -1.0;
@@ -78,7 +78,7 @@ std::vector<double> Sums(const ImmTape& tape, int sensor, int row,
 }
 
 TEST(MixtureInnovations, OfOneModelAreItsWhitenedInnovations) {
-  const TestProblem problem = NoisyProblem(3);
+  const TestProblem problem = SeededProblem(3);
   Problem posed = problem.Pose();
   const ImmResult imm =
       RunImm({{"", problem.layout, problem.prior, {}}}, {}, &posed.timeline);
@@ -94,7 +94,7 @@ TEST(MixtureInnovations, OfOneModelAreItsWhitenedInnovations) {
 }
 
 TEST(MixtureInnovations, OfEqualModelsAreThoseOfOne) {
-  const TestProblem problem = NoisyProblem(4);
+  const TestProblem problem = SeededProblem(4);
   const ImmResult imm = Filtered(problem, 1.0);
   for (const MixtureInnovation& one : MixtureInnovations(imm.tape)) {
     const TapeMeasurement& z =
@@ -144,7 +144,7 @@ TEST(MixtureInnovations, OfRightModelsAreIndependentStandardNormal) {
 
 /// An error that no model has: the sums grow with their length.
 TEST(MixtureInnovations, OfAnErrorThatLastsAddUp) {
-  TestProblem problem = NoisyProblem(5);
+  TestProblem problem = SeededProblem(5);
   for (Measurement& z : problem.measurements) {
     auto* fix = std::get_if<VelocityFix>(&z.model);
     if (fix != nullptr && z.t > 30.0 && z.t < 62.0) fix->v_n.x() += 0.2;

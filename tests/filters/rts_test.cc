@@ -34,7 +34,7 @@ ErrorLayout WalkingRichLayout(const ImuNoise& noise) {
   return layout;
 }
 
-TestProblem NoisyProblem(bool rich) {
+TestProblem RichProblem(bool rich) {
   TestProblemOptions options;
   // Walks strong enough to keep the dense normal equations well conditioned.
   options.noise = TacticalNoise(true);
@@ -61,7 +61,7 @@ LinearTape FixedNominalTape(const TestProblem& problem, Problem* posed) {
 
 TEST(Rts, EqualsDenseLeastSquaresOnTheTape) {
   for (const bool rich : {false, true}) {
-    const TestProblem problem = NoisyProblem(rich);
+    const TestProblem problem = RichProblem(rich);
     Problem posed = problem.Pose();
     const LinearTape tape = FixedNominalTape(problem, &posed);
     double largest_defect = 0.0;
@@ -88,7 +88,7 @@ TEST(Rts, EqualsDenseLeastSquaresOnTheTape) {
 }
 
 TEST(Rts, LastEpochIsTheFilters) {
-  const TestProblem problem = NoisyProblem(false);
+  const TestProblem problem = RichProblem(false);
   Problem posed = problem.Pose();
   const LinearTape tape = RunExtendedKalmanFilter(&posed);
   const SmoothedTrajectory smoothed = SmoothRts(tape);
@@ -97,7 +97,7 @@ TEST(Rts, LastEpochIsTheFilters) {
 }
 
 TEST(Rts, SmoothedIsNeverWorseThanFiltered) {
-  const TestProblem problem = NoisyProblem(true);
+  const TestProblem problem = RichProblem(true);
   Problem posed = problem.Pose();
   const LinearTape tape = RunExtendedKalmanFilter(&posed);
   const SmoothedTrajectory smoothed = SmoothRts(tape);
@@ -111,7 +111,7 @@ TEST(Rts, SmoothedIsNeverWorseThanFiltered) {
 }
 
 TEST(Rts, ConsumingTheTapeGivesTheSameBits) {
-  const TestProblem problem = NoisyProblem(true);
+  const TestProblem problem = RichProblem(true);
   Problem posed = problem.Pose();
   LinearTape tape = RunExtendedKalmanFilter(&posed);
   const SmoothedTrajectory kept = SmoothRts(tape);
@@ -126,7 +126,7 @@ TEST(Rts, ConsumingTheTapeGivesTheSameBits) {
 }
 
 TEST(Rts, MeansAloneAreThoseWithCovariances) {
-  const TestProblem problem = NoisyProblem(true);
+  const TestProblem problem = RichProblem(true);
   Problem posed = problem.Pose();
   for (const bool reset : {false, true}) {
     const LinearTape tape = reset ? RunExtendedKalmanFilter(&posed)
@@ -145,7 +145,7 @@ TEST(Rts, MeansAloneAreThoseWithCovariances) {
 }
 
 TEST(LinearTape, PopBackLeavesTheRestAndTakesNewEpochs) {
-  const TestProblem problem = NoisyProblem(true);
+  const TestProblem problem = RichProblem(true);
   Problem posed = problem.Pose();
   const LinearTape whole = RunExtendedKalmanFilter(&posed);
   LinearTape tape = RunExtendedKalmanFilter(&posed);
