@@ -7,7 +7,9 @@ namespace hindsight {
 bool IsOutvoted(const Judged& judged, const std::string& sensor) {
   const LeftOutSensor* found = judged.contradiction;
   return found != nullptr && found->sensors.size() == 1 &&
-         found->sensors.front() == sensor && found->effect < kUnusableBias;
+         (found->sensors.front() == sensor ||
+          found->sensors.front() == kStartValues) &&
+         found->effect < kUnusableBias;
 }
 
 void FindContradictedSensor(const Judged& judged,
@@ -24,7 +26,9 @@ void FindContradictedSensor(const Judged& judged,
     one.what =
         fmt::format("all else fits without {}, which it contradicts", names);
     one.causes = {"an error of " + names};
-    one.remedies = {"leaving " + names + " out"};
+    one.remedies = {names == kStartValues
+                        ? "other start values, or larger sigmas of them"
+                        : "leaving " + names + " out"};
   } else {
     one.what = fmt::format(
         "all else fits without {}: they contradict each "

@@ -10,10 +10,14 @@
 
 namespace hindsight {
 
+/// What the start values are called among sensors.
+inline constexpr const char* kStartValues = "the start values";
+
 /// What leaving out one sensor at a time says of data that do not fit.
 struct LeftOutSensor {
-  /// Sensors without any one of which the others fit each other. One: it is
-  /// what the others contradict. Several: they contradict each other.
+  /// Sensors without any one of which the others fit each other, kStartValues
+  /// among them. One: it is what the others contradict. Several: they contradict
+  /// each other.
   std::vector<std::string> sensors;
   /// Of all together, the largest figure of fit over its limit.
   double misfit = 0.0;
@@ -24,9 +28,9 @@ struct LeftOutSensor {
   double effect = std::numeric_limits<double>::infinity();
 };
 
-/// Whether a sensor is the one that all others contradict, and the solution is
-/// within kUnusableBias of what these alone say: what does not fit of it is then
-/// no reason not to use the solution.
+/// Whether a sensor, or the start, is the one that all others contradict, and the
+/// solution is within kUnusableBias of what these alone say: what does not fit of
+/// the sensor is then no reason not to use the solution.
 bool IsOutvoted(const Judged& judged, const std::string& sensor);
 
 /// Doubtful, beside the evidence of what does not fit: which sensor it is.

@@ -7,7 +7,6 @@
 namespace hindsight {
 namespace {
 
-constexpr double kStrained = 5.0;     // sigma
 constexpr double kAtTheStart = 1e-6;  // [s]
 
 /// Where a component of the start came from.

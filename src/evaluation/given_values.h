@@ -7,7 +7,10 @@
 
 namespace hindsight {
 
-/// Doubtful: a start value, or a constant, that ends more than five a priori
+/// Sigmas a priori beyond which a value contradicts what it started from.
+inline constexpr double kStrained = 5.0;
+
+/// Doubtful: a start value, or a constant, that ends more than kStrained a priori
 /// sigmas from what it started from, which chance does once in two million
 /// times. If the configuration gave it, that is a wrong value, sign, unit or
 /// clock, or too small a sigma; if the program chose it, its own sigma was

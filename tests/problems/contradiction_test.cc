@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/units.h"
 #include "evaluation/agreement.h"
 #include "evaluation/contradicted_sensor.h"
 #include "evaluation/innovation_rule.h"
@@ -18,6 +19,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -50,6 +52,18 @@ TEST(Contradiction, NamesTheSensorThatTheOthersContradict) {
 TEST(Contradiction, OfAnOdometerWithAnotherScaleNamesIt) {
   EXPECT_THAT(Contradictions({"test_car", "scale", "odometer", 1.05}),
               Contains(HasSubstr("all else fits without odometer, which it")));
+}
+
+/// What it costs at the beginning is no reason not to use what follows.
+TEST(Contradiction, AStartTurnedRoundIsNamedAndTheRestUsed) {
+  Dataset dataset = Simulate(FindScenario("test_aircraft", {}), 11);
+  ApplyFault({FindFaultKind("start_heading"), "", kPi}, 11, &dataset);
+  const Solution run = Reconstruction(dataset, {}).Run("batch");
+  EXPECT_EQ(GradeOf(run.evidence), Grade::kDoubtful);
+  EXPECT_THAT(
+      run.evidence,
+      Contains(Field(&Evidence::what,
+                     HasSubstr("all else fits without the start values"))));
 }
 
 /// Without the fixes nothing sees the heading, so that all would fit: it is not
@@ -98,6 +112,9 @@ TEST(Contradiction, OnlyASensorThatIsAloneAndHardlyCountsIsOutvoted) {
   EXPECT_FALSE(IsOutvoted(judged.AsJudged(), "odometer"));
   EXPECT_EQ(judged.OfInnovations(), Grade::kUnusable);
   judged.left_out.effect = 0.5;
+  judged.left_out.sensors = {kStartValues};
+  EXPECT_TRUE(IsOutvoted(judged.AsJudged(), "gnss"));
+  EXPECT_EQ(judged.OfInnovations(), Grade::kDoubtful);
   judged.left_out.sensors = {"gnss", "odometer"};
   EXPECT_FALSE(IsOutvoted(judged.AsJudged(), "odometer"));
   EXPECT_EQ(judged.OfInnovations(), Grade::kUnusable);
