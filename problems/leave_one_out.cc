@@ -16,7 +16,7 @@
 namespace hindsight {
 namespace {
 
-/// Of how far a start value is from what the data say, how uncertain it is taken
+/// Of how far an a priori value is from what the data say, how uncertain it is taken
 /// to be: its pull is left a hundredth.
 constexpr double kLoosened = 10.0;
 
@@ -34,8 +34,8 @@ class Leaving {
   LeftOutSensor Find(std::span<const int> sensors,
                      const std::vector<Explanation>& explanations) {
     LeftOutSensor out;
-    if (const std::optional<double> effect = EffectWithoutStart()) {
-      out.sensors.push_back(kStartValues);
+    if (const std::optional<double> effect = EffectWithoutPrior()) {
+      out.sensors.push_back(kPriorValues);
       out.effect = *effect;
     }
     // Without the only sensor there is nothing that could not fit.
@@ -89,7 +89,7 @@ class Leaving {
 
   /// Without what the prior says of the components that end far from it; none if
   /// none does.
-  std::optional<double> EffectWithoutStart() {
+  std::optional<double> EffectWithoutPrior() {
     const ErrorMatrix before = problem_->prior.P;
     const ErrorVector off =
         Local(problem_->layout, problem_->prior.x, solution_.states.front());

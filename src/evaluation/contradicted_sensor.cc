@@ -8,7 +8,7 @@ bool IsOutvoted(const Judged& judged, const std::string& sensor) {
   const LeftOutSensor* found = judged.contradiction;
   return found != nullptr && found->sensors.size() == 1 &&
          (found->sensors.front() == sensor ||
-          found->sensors.front() == kStartValues) &&
+          found->sensors.front() == kPriorValues) &&
          found->effect < kUnusableBias;
 }
 
@@ -26,9 +26,10 @@ void FindContradictedSensor(const Judged& judged,
     one.what =
         fmt::format("all else fits without {}, which it contradicts", names);
     one.causes = {"an error of " + names};
-    one.remedies = {names == kStartValues
-                        ? "other start values, or larger sigmas of them"
-                        : "leaving " + names + " out"};
+    one.remedies = {
+        names == kPriorValues
+            ? "other start values or constants, or larger sigmas of them"
+            : "leaving " + names + " out"};
   } else {
     one.what = fmt::format(
         "all else fits without {}: they contradict each "

@@ -10,12 +10,12 @@
 
 namespace hindsight {
 
-/// What the start values are called among sensors.
-inline constexpr const char* kStartValues = "the start values";
+/// What the a priori values of start and constants are called among sensors.
+inline constexpr const char* kPriorValues = "the a priori values";
 
 /// What leaving out one sensor at a time says of data that do not fit.
 struct LeftOutSensor {
-  /// Sensors without any one of which the others fit each other, kStartValues
+  /// Sensors without any one of which the others fit each other, kPriorValues
   /// among them. One: it is what the others contradict. Several: they contradict
   /// each other.
   std::vector<std::string> sensors;
@@ -28,7 +28,7 @@ struct LeftOutSensor {
   double effect = std::numeric_limits<double>::infinity();
 };
 
-/// Whether a sensor, or the start, is the one that all others contradict, and the
+/// Whether a sensor, or the prior, is the one that all others contradict, and the
 /// solution is within kUnusableBias of what these alone say: what does not fit of
 /// the sensor is then no reason not to use the solution.
 bool IsOutvoted(const Judged& judged, const std::string& sensor);

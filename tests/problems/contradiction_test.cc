@@ -63,7 +63,7 @@ TEST(Contradiction, AStartTurnedRoundIsNamedAndTheRestUsed) {
   EXPECT_THAT(
       run.evidence,
       Contains(Field(&Evidence::what,
-                     HasSubstr("all else fits without the start values"))));
+                     HasSubstr("all else fits without the a priori values"))));
 }
 
 /// Without the fixes nothing sees the heading, so that all would fit: it is not
@@ -112,7 +112,7 @@ TEST(Contradiction, OnlyASensorThatIsAloneAndHardlyCountsIsOutvoted) {
   EXPECT_FALSE(IsOutvoted(judged.AsJudged(), "odometer"));
   EXPECT_EQ(judged.OfInnovations(), Grade::kUnusable);
   judged.left_out.effect = 0.5;
-  judged.left_out.sensors = {kStartValues};
+  judged.left_out.sensors = {kPriorValues};
   EXPECT_TRUE(IsOutvoted(judged.AsJudged(), "gnss"));
   EXPECT_EQ(judged.OfInnovations(), Grade::kDoubtful);
   judged.left_out.sensors = {"gnss", "odometer"};
