@@ -23,19 +23,18 @@ GateDecisions InCommon(const Timeline& timeline, const Timeline& other) {
 }
 
 MarginalLikelihood LikelihoodBeside(const Dataset& dataset,
-                                    const SolvedClocks& solved,
-                                    const SolvedClocks& other) {
-  ForwardStage& stage = *solved.stage;
-  Problem problem = stage.problem();
+                                    const Explained& solved,
+                                    const Explained& other) {
+  Problem problem = solved.stage.problem();
   problem.prior =
-      PriorOfComparison(dataset, stage.start(), solved.states.front());
+      PriorOfComparison(dataset, solved.stage.start(), solved.states.front());
   const GateDecisions common =
-      InCommon(problem.timeline, other.stage->timeline());
+      InCommon(problem.timeline, other.stage.timeline());
   return MarginalLikelihoodOf(std::move(problem), solved.states, common);
 }
 
-double ClockPriorOf(const Dataset& dataset, const SolvedClocks& solved) {
-  return LogClockPrior(dataset, solved.stage->start().layout,
+double ClockPriorOf(const Dataset& dataset, const Explained& solved) {
+  return LogClockPrior(dataset, solved.stage.start().layout,
                        solved.states.back());
 }
 
@@ -53,8 +52,8 @@ double SquaredDifference(const MarginalLikelihood& a,
 
 }  // namespace
 
-double LogEvidenceRatio(const Dataset& dataset, const SolvedClocks& rival,
-                        const SolvedClocks& chosen) {
+double LogEvidenceRatio(const Dataset& dataset, const Explained& rival,
+                        const Explained& chosen) {
   const MarginalLikelihood a = LikelihoodBeside(dataset, chosen, rival);
   const MarginalLikelihood b = LikelihoodBeside(dataset, rival, chosen);
   const double excess = a.rows > 0.0 ? std::max(1.0, a.squares / a.rows) : 1.0;

@@ -1,9 +1,17 @@
 #ifndef HINDSIGHT_PROBLEMS_CLOCK_EVIDENCE_H_
 #define HINDSIGHT_PROBLEMS_CLOCK_EVIDENCE_H_
 
-#include "problems/clock_solution.h"
+#include <vector>
+
+#include "problems/forward_stage.h"
 
 namespace hindsight {
+
+/// An explanation of the data: a stage that has run, and the states it led to.
+struct Explained {
+  const ForwardStage& stage;
+  const std::vector<State>& states;
+};
 
 /// ln of the evidence of `rival` over that of `chosen`, with the a priori
 /// distributions of `dataset`, where the clocks are as they are given:
@@ -19,8 +27,8 @@ namespace hindsight {
 /// which of them happens to fit better tells nothing. r is the part of |w|^2
 /// that comes from motion, by which the difference of the likelihoods has to be
 /// multiplied (the attenuation of errors in variables).
-double LogEvidenceRatio(const Dataset& dataset, const SolvedClocks& rival,
-                        const SolvedClocks& chosen);
+double LogEvidenceRatio(const Dataset& dataset, const Explained& rival,
+                        const Explained& chosen);
 
 }  // namespace hindsight
 

@@ -94,13 +94,17 @@ class EvidenceTable {
   double Ratio(std::size_t rival, std::size_t chosen) {
     const auto [at, is_new] = known_.try_emplace({rival, chosen}, 0.0);
     if (is_new) {
-      at->second = LogEvidenceRatio(dataset_, solved_[rival], solved_[chosen]);
+      at->second = LogEvidenceRatio(dataset_, Of(rival), Of(chosen));
     }
     return at->second;
   }
   void Forget() { known_.clear(); }
 
  private:
+  Explained Of(std::size_t i) const {
+    return {*solved_[i].stage, solved_[i].states};
+  }
+
   const Dataset& dataset_;
   const std::vector<SolvedClocks>& solved_;
   std::map<std::pair<std::size_t, std::size_t>, double> known_;

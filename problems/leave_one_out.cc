@@ -35,7 +35,7 @@ class Leaving {
                      const std::vector<Explanation>& explanations) {
     LeftOutSensor out;
     if (const std::optional<double> effect = EffectWithoutPrior()) {
-      out.sensors.push_back(kPriorValues);
+      out.sensors.emplace_back(kPriorValues);
       out.effect = *effect;
     }
     // Without the only sensor there is nothing that could not fit.

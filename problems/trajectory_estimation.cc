@@ -14,6 +14,7 @@
 #include "problems/disagreement.h"
 #include "problems/estimation.h"
 #include "problems/forward_stage.h"
+#include "problems/imu_leaps.h"
 #include "problems/linearisation.h"
 #include "problems/method_stage.h"
 #include "problems/sample_solution.h"
@@ -87,15 +88,20 @@ class TrajectoryEstimation final : public Estimation {
     return own != timelines_.end() ? own->second : forward_.timeline();
   }
 
+  std::vector<RivalSolution> Rivals() {
+    std::vector<RivalSolution> rivals = clocks_.rivals;
+    if (!leaps_) leaps_ = ImuLeaps(&forward_);
+    rivals.insert(rivals.end(), leaps_->begin(), leaps_->end());
+    if (forward_.turned_round()) rivals.push_back(*forward_.turned_round());
+    SetProbabilities(&rivals);
+    return rivals;
+  }
+
   Solution Finish(const Method& method, const MethodStage& stage,
                   Solution solution) {
     solution.method = method.name;
     solution.forward = method.Has(MethodTrait::kForward);
-    solution.rivals = clocks_.rivals;
-    if (forward_.turned_round()) {
-      solution.rivals.push_back(*forward_.turned_round());
-      SetProbabilities(&solution.rivals);
-    }
+    solution.rivals = Rivals();
     const Start& start = forward_.start();
     if (!solution.observer) {
       WidenHeading(solution.layout, stage.heading_credit(),
@@ -142,6 +148,7 @@ class TrajectoryEstimation final : public Estimation {
 
   ClockChoice clocks_;
   ForwardStage& forward_;
+  std::optional<std::vector<RivalSolution>> leaps_;
   std::vector<Evidence> recording_;  ///< what it shows by itself
   OptimumComparison optima_;
   MethodComparison methods_;

@@ -208,7 +208,7 @@ Study UuvFusionStudy(const UuvTruth& truth,
       }
       return out;
     };
-    study.jobs.push_back([run] { return run; });
+    study.jobs.emplace_back([run] { return run; });
   }
   return study;
 }
@@ -229,7 +229,7 @@ void AddMatchedFusion(const std::string& name, int epochs,
     }
     return out;
   };
-  study->jobs.push_back([run] { return run; });
+  study->jobs.emplace_back([run] { return run; });
 }
 
 }  // namespace hindsight

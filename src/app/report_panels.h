@@ -11,6 +11,8 @@
 namespace hindsight {
 
 /// What a page is made from, and what its panels have put into it so far.
+// Moving a JSON value asserts what holds, so that it seems to throw.
+// NOLINTNEXTLINE(bugprone-exception-escape)
 struct ReportContext {
   std::vector<ReportSource> sources;
   std::vector<ReportSolution> solutions;  ///< the first is the recommended one

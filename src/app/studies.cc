@@ -37,7 +37,7 @@ Study TunnelStudy() {
   for (const bool forward : {false, true}) {
     CaseList of_form = list;
     for (CaseList::Entry& entry : of_form.cases) {
-      entry.labels.push_back(forward ? "forward" : "three axes");
+      entry.labels.emplace_back(forward ? "forward" : "three axes");
       if (forward) entry.changes.push_back("aiding.odometer.form=forward");
     }
     const std::vector<std::string> methods =

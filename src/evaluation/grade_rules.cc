@@ -60,14 +60,15 @@ void FindLinearisedFarOff(const Judged& judged,
   constexpr double kOnceInTwenty = 1.96;
   if (!judged.linearisation) return;
   const LinearisationError& e = *judged.linearisation;
-  const double wrong =
-      e.causal ? kOnceInAThousand : std::hypot(1.0, kUnusableBias);
+  const double biased = std::hypot(1.0, kUnusableBias);
+  const double wrong = e.causal ? kOnceInAThousand : biased;
   const double odd = e.causal ? kOnceInTwenty : kDoubtfulError;
-  const bool throughout = e.rms >= wrong;
-  if (!throughout && !((e.causal ? e.rms : e.largest) >= odd)) return;
-  const double value = throughout || e.causal ? e.rms : e.largest;
-  const double limit = throughout ? wrong : odd;
-  Evidence found{.grade = throughout ? Grade::kUnusable : Grade::kDoubtful,
+  const bool unusable = e.rms >= wrong;
+  const bool throughout = e.rms >= odd;
+  if (!throughout && (e.causal || !(e.largest >= biased))) return;
+  const double value = throughout ? e.rms : e.largest;
+  const double limit = unusable ? wrong : throughout ? odd : biased;
+  Evidence found{.grade = unusable ? Grade::kUnusable : Grade::kDoubtful,
                  .value = value,
                  .limit = limit,
                  .unit = "sigma",
@@ -76,7 +77,7 @@ void FindLinearisedFarOff(const Judged& judged,
                  .remedies = {"a better known start"}};
   if (!std::isfinite(value)) {
     found.what = "no linearisation about its own result holds";
-  } else if (throughout || e.causal) {
+  } else if (throughout) {
     found.what = fmt::format(
         "linearised anew, the interval shows errors of {:.2g} sigma in {} "
         "throughout (limit {:.2g})",
@@ -109,7 +110,7 @@ void FindLikelyRival(const Judged& judged, std::vector<Evidence>* evidence) {
   const bool coin = all >= kOutsideOneSigma;
   Evidence found{
       .grade = coin ? Grade::kUnusable : Grade::kDoubtful,
-      .what = fmt::format("another solution is {:.2g} % likely: {}",
+      .what = fmt::format("another solution is {:.3g} % likely: {}",
                           100.0 * likeliest.probability, likeliest.description),
       .value = 100.0 * all,
       .limit = 100.0 * (coin ? kOutsideOneSigma : kOutsideThreeSigmas),
@@ -117,8 +118,12 @@ void FindLikelyRival(const Judged& judged, std::vector<Evidence>* evidence) {
       .causes = {"motion that looks the same both ways"},
       .remedies = {"a given value of what differs, or a recording with more "
                    "varied motion"}};
+  if (!likeliest.remedy.empty()) {
+    found.causes.clear();
+    found.remedies = {likeliest.remedy};
+  }
   if (rivals.size() > 1) {
-    found.what += fmt::format("; with all others {:.2g} %", 100.0 * all);
+    found.what += fmt::format("; with all others {:.3g} %", 100.0 * all);
   }
   evidence->push_back(std::move(found));
 }

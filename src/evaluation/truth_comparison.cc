@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include "evaluation/interpolation.h"
 
@@ -99,7 +98,8 @@ bool HasRowsAtTruth(const SolutionTable& solution, const TruthSeries& truth) {
   });
 }
 
-ComparedTruth TruthToCompare(const SolutionTable& solution, TruthSeries truth,
+ComparedTruth TruthToCompare(const SolutionTable& solution,
+                             const TruthSeries& truth,
                              const TrajectoryErrorOptions& options) {
   ComparedTruth compared = {truth};
   ThinTruth(&compared.points);
@@ -113,8 +113,7 @@ ComparedTruth TruthToCompare(const SolutionTable& solution, TruthSeries truth,
 TrajectoryStatistics CompareWithTruth(const SolutionTable& solution,
                                       const TruthSeries& truth,
                                       const TrajectoryErrorOptions& options) {
-  const ComparedTruth compared =
-      TruthToCompare(solution, std::move(truth), options);
+  const ComparedTruth compared = TruthToCompare(solution, truth, options);
   TrajectoryStatistics statistics =
       EvaluateTrajectory(solution, compared.points, options);
   if (compared.at_solution_rows) {

@@ -53,6 +53,8 @@ void MultiplyImuNoise(double size, int sensor, std::uint64_t seed,
                       Dataset* dataset);
 void StretchImu(double size, int sensor, std::uint64_t seed, Dataset* dataset);
 void FreezeImu(double size, int sensor, std::uint64_t seed, Dataset* dataset);
+void LeapImu(double size, int sensor, std::uint64_t seed, Dataset* dataset);
+void LoseSamples(double size, int sensor, std::uint64_t seed, Dataset* dataset);
 void TurnStart(double size, int sensor, std::uint64_t seed, Dataset* dataset);
 void MoveStart(double size, int sensor, std::uint64_t seed, Dataset* dataset);
 

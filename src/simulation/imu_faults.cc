@@ -113,6 +113,24 @@ void FreezeImu(double size, int, std::uint64_t, Dataset* dataset) {
   });
 }
 
+// Of a recording the reader knows the usual interval: drop-outs are seen by it.
+
+void LeapImu(double size, int, std::uint64_t, Dataset* dataset) {
+  const double from = MiddleOf(*dataset);
+  dataset->imu.nominal_dt = MedianInterval(dataset->imu);
+  EditSamples(dataset, [&](ImuSample* sample) {
+    if (sample->t >= from) sample->t += size;
+  });
+}
+
+void LoseSamples(double size, int, std::uint64_t, Dataset* dataset) {
+  const double from = MiddleOf(*dataset);
+  dataset->imu.nominal_dt = MedianInterval(dataset->imu);
+  std::erase_if(dataset->imu.samples, [&](const ImuSample& sample) {
+    return sample.t >= from && sample.t < from + size;
+  });
+}
+
 void TurnStart(double size, int, std::uint64_t, Dataset* dataset) {
   if (dataset->initial.euler) dataset->initial.euler->z() += size;
 }

@@ -20,9 +20,13 @@ struct RivalSolution {
   };
   /// "clock of rtk 1.36 s later and heading turned by 178 deg".
   std::string description;
+  /// What to change in the data if it is the right one; empty: nothing that one
+  /// could know.
+  std::string remedy = {};
   std::vector<Difference> differences;
   /// ln of its evidence over that of the chosen solution, both of the same
-  /// measurements with all priors in them; not above 0.
+  /// measurements with all priors in them; above 0 only of one that is told and
+  /// never chosen.
   double log_evidence = 0.0;
   /// Posterior probability among the chosen solution and all its rivals, which
   /// are equally likely beforehand but for the priors in the evidence.

@@ -88,7 +88,7 @@ TEST_F(UnknownClock, OfAVehicleAtRestIsNotFound) {
   WriteFile(config, text);
   for (const char* command : {"check", "run"}) {
     std::vector<std::string> words = {command, "still/config.yaml"};
-    if (command == std::string("run")) words.push_back("--out=out");
+    if (command == std::string("run")) words.emplace_back("--out=out");
     const Outcome outcome = Hindsight(words, recording_.root());
     EXPECT_EQ(outcome.status, 2) << outcome.out;
     EXPECT_THAT(outcome.err, HasSubstr("gnss.time_offset: is not found"));

@@ -377,7 +377,7 @@ TEST_F(Publish, AFileOfAnotherOrADeviceIsNotReplaced) {
       {"evaluate", "out/ekf.csv", "data/truth.csv"},
       {"init", "data"}};
   for (std::vector<std::string> words : writers) {
-    words.push_back("--force");
+    words.emplace_back("--force");
     for (const char* taken : {"pipe", "null", "folder"}) {
       words.push_back("--out=" + std::string(taken));
       ExpectRefused(words, {taken, "no regular file"});
@@ -387,7 +387,7 @@ TEST_F(Publish, AFileOfAnotherOrADeviceIsNotReplaced) {
       ExpectRefused(words, {"there is no folder"});
       words.pop_back();
     }
-    words.push_back("--out=new");
+    words.emplace_back("--out=new");
     EXPECT_EQ(Hindsight(words, root()).status, 0);
     EXPECT_EQ(Hindsight(words, root()).status, 0);
     fs::remove(root() / "new");

@@ -43,7 +43,7 @@ TEST(Reading, RefusesWhatIsNoFileAtOnce) {
   const auto begin = Clock::now();
   for (const std::string command : {"check", "run"}) {
     std::vector<std::string> words = {command, "data/config.yaml"};
-    if (command == "run") words.push_back("--out=out");
+    if (command == "run") words.emplace_back("--out=out");
     const Outcome outcome = Hindsight(words, recording.root());
     EXPECT_EQ(outcome.status, 2);
     ASSERT_THAT(Lines(outcome.err), SizeIs(1));

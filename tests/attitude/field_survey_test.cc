@@ -10,7 +10,7 @@
 namespace hindsight {
 namespace {
 
-const Eigen::Vector3d kSurveyField_n(18.0, -3.0, 44.0);
+const Eigen::Vector3d kSurveyField(18.0, -3.0, 44.0);
 constexpr double kSpacing = 0.1;
 
 /// `count` readings in a field, `noise` [uT] an axis, in motion or at rest.
@@ -31,7 +31,7 @@ std::vector<SurveyedField> InMotion(const Eigen::Vector3d& hard_iron_b,
                                     int count) {
   Random random(7);
   std::vector<SurveyedField> readings;
-  Append(kSurveyField_n, count, false, 0.5, &random, &readings);
+  Append(kSurveyField, count, false, 0.5, &random, &readings);
   for (SurveyedField& reading : readings) reading.field_b += hard_iron_b;
   return readings;
 }
@@ -43,11 +43,11 @@ double Total(const FieldSurvey& survey) {
 TEST(FieldSurvey, AnEvenFieldIsKnownAsWellInMotionAsAtRest) {
   Random random(3);
   std::vector<SurveyedField> readings;
-  Append(kSurveyField_n, 300, true, 0.5, &random, &readings);
-  Append(kSurveyField_n, 900, false, 0.5, &random, &readings);
+  Append(kSurveyField, 300, true, 0.5, &random, &readings);
+  Append(kSurveyField, 900, false, 0.5, &random, &readings);
   const FieldSurvey survey = SurveyField(readings, {});
-  EXPECT_NEAR(survey.horizontal, kSurveyField_n.head<2>().norm(), 0.2);
-  EXPECT_NEAR(survey.down, kSurveyField_n.z(), 0.2);
+  EXPECT_NEAR(survey.horizontal, kSurveyField.head<2>().norm(), 0.2);
+  EXPECT_NEAR(survey.down, kSurveyField.z(), 0.2);
   EXPECT_LT(survey.memory, 3.0);
   // One in a second, of 120 s.
   EXPECT_GT(Total(survey), 40.0);
@@ -58,12 +58,12 @@ TEST(FieldSurvey, AnEvenFieldIsKnownAsWellInMotionAsAtRest) {
 TEST(FieldSurvey, OneFieldOfTheMotionIsOneReading) {
   Random random(3);
   std::vector<SurveyedField> readings;
-  Append(kSurveyField_n, 300, true, 0.5, &random, &readings);
-  Append(kSurveyField_n + Eigen::Vector3d(1.5, 2.0, 2.0), 600, false, 0.5,
+  Append(kSurveyField, 300, true, 0.5, &random, &readings);
+  Append(kSurveyField + Eigen::Vector3d(1.5, 2.0, 2.0), 600, false, 0.5,
          &random, &readings);
   const FieldSurvey survey = SurveyField(readings, {});
-  EXPECT_NEAR(survey.horizontal, kSurveyField_n.head<2>().norm(), 0.2);
-  EXPECT_NEAR(survey.down, kSurveyField_n.z(), 0.2);
+  EXPECT_NEAR(survey.horizontal, kSurveyField.head<2>().norm(), 0.2);
+  EXPECT_NEAR(survey.down, kSurveyField.z(), 0.2);
   EXPECT_GT(survey.memory, 30.0);
   const double at_rest =
       std::accumulate(survey.weight.begin(), survey.weight.begin() + 300, 0.0);
@@ -74,8 +74,8 @@ TEST(FieldSurvey, OneFieldOfTheMotionIsOneReading) {
 TEST(FieldSurvey, NeedsNoRest) {
   const FieldSurvey survey =
       SurveyField(InMotion(Eigen::Vector3d::Zero(), 600), {});
-  EXPECT_NEAR(survey.horizontal, kSurveyField_n.head<2>().norm(), 0.2);
-  EXPECT_NEAR(survey.down, kSurveyField_n.z(), 0.2);
+  EXPECT_NEAR(survey.horizontal, kSurveyField.head<2>().norm(), 0.2);
+  EXPECT_NEAR(survey.down, kSurveyField.z(), 0.2);
   EXPECT_GT(Total(survey), 20.0);
 }
 

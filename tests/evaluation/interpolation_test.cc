@@ -104,7 +104,7 @@ TEST(Interpolation, IsExactForConstantAccelerationsUpToTheEnds) {
   const auto angle = [](double t) { return 0.03 * t + 0.04 * t * t; };
   for (const double t : {0.0, 1.0, 1.5, 2.5, 4.0}) {
     table.t.push_back(t);
-    table.p_e.push_back({6378137.0, 2.0 * t, 3.0 - 0.5 * t * t});
+    table.p_e.emplace_back(6378137.0, 2.0 * t, 3.0 - 0.5 * t * t);
     table.q_eb.push_back(QuaternionFromEuler(0.0, 0.0, angle(t)));
   }
   const TrajectoryInterpolator interpolator(table, 2.0);
@@ -144,7 +144,7 @@ TEST(Interpolation, DoesNotTakeAJumpForMotion) {
   const double t[] = {0.0, 1.0, 1.001, 2.0};
   for (int k = 0; k < 4; ++k) {
     table.t.push_back(t[k]);
-    table.v_e.push_back({v[k], 0.0, 0.0});
+    table.v_e.emplace_back(v[k], 0.0, 0.0);
   }
   const TrajectoryInterpolator interpolator(table, 2.0);
   EXPECT_NEAR(interpolator.At(0.5)->v_e->x(), 10.0, 1e-12);

@@ -16,11 +16,11 @@ SolutionTable Circle(double dt, double end, double offset = 0.0) {
   for (int k = 0; k * dt <= end + 1e-9; ++k) {
     const double angle = 0.2 * k * dt;
     table.t.push_back(k * dt);
-    table.p_e.push_back(origin +
-                        C_en * Eigen::Vector3d(50.0 * std::cos(angle) + offset,
-                                               50.0 * std::sin(angle), 0.0));
-    table.v_e.push_back(C_en * Eigen::Vector3d(-10.0 * std::sin(angle),
-                                               10.0 * std::cos(angle), 0.0));
+    table.p_e.emplace_back(
+        origin + C_en * Eigen::Vector3d(50.0 * std::cos(angle) + offset,
+                                        50.0 * std::sin(angle), 0.0));
+    table.v_e.emplace_back(C_en * Eigen::Vector3d(-10.0 * std::sin(angle),
+                                                  10.0 * std::cos(angle), 0.0));
   }
   return table;
 }

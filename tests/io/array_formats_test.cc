@@ -164,7 +164,7 @@ TEST_F(ArrayFormats, MatlabFilesOfVersionFourInBothOrdersOfBytes) {
     for (const std::int32_t word : {big ? 1000 : 0, 2, 4, 0, 4}) {
       bytes += number(word);
     }
-    bytes += std::string("fix", 4);
+    bytes += std::string("fix\0", 4);
     for (const double v : {0.0, 0.02, 48.0, 48.5, 11.0, 11.5, 500.0, 501.0}) {
       bytes += number(v);
     }

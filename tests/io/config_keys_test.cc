@@ -90,6 +90,7 @@ TEST_F(ConfigKeys, OfTheRecordingAndItsStreams) {
 
 TEST_F(ConfigKeys, OfEveryTypeOfSensor) {
   const std::string place = "transponder: [48 deg, 11 deg, 0 m]";
+  const std::string field = "horizontal: 20 uT\n    down: 40 uT";
   const std::vector<std::string> sensors = {
       "type: position",
       "type: position\n    frame: ned\n    origin: [48 deg, 11 deg, 0 m]",
@@ -100,9 +101,7 @@ TEST_F(ConfigKeys, OfEveryTypeOfSensor) {
       "type: speed_course\n    sigma: 1 m/s\n    course_sigma: 1 deg",
       "type: odometer\n    sigma: 1 m/s",
       "type: odometer\n    sigma: 1 m\n    form: increments",
-      "type: magnetometer\n    sigma: 1 uT\n    form: vector\n    horizontal: "
-      "20 "
-      "uT\n    down: 40 uT",
+      "type: magnetometer\n    sigma: 1 uT\n    form: vector\n    " + field,
       "type: dvl\n    sigma: 1 m/s\n    form: beams",
       "type: zero_velocity\n    sigma: 1 cm/s",
       "type: heading\n    sigma: 1 deg"};

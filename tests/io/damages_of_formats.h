@@ -99,8 +99,8 @@ inline void DamageList::AddTable() {
   OfTable(stream_.encoding == Encoding::kCsv ? "unknown column"
                                              : "a further column everywhere",
           [](TextRows* table) {
-            table->titles.push_back("further[m]");
-            for (auto& row : table->rows) row.push_back("1.000000");
+            table->titles.emplace_back("further[m]");
+            for (auto& row : table->rows) row.emplace_back("1.000000");
           });
   const char delimiter = stream_.encoding == Encoding::kPlain
                              ? stream_.delimiter
@@ -202,7 +202,7 @@ inline void DamageList::AddNmea() {
   OfCell("a time of 25 h", 0, "250000.000");
   OfCell("a time of 61 min", 0, "006100.000");
   OfTable("a further field", [](TextRows* table) {
-    for (auto& row : table->rows) row.push_back("1");
+    for (auto& row : table->rows) row.emplace_back("1");
   });
 }
 

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_TESTS_IO_SAMPLE_STREAMS_H_
 #define HINDSIGHT_TESTS_IO_SAMPLE_STREAMS_H_
 
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <string>
@@ -67,7 +68,7 @@ inline std::string Seconds(double t) { return Printed(t, 3); }
 /// Of 2017-01-01 0 h UTC, in units of 1/`ticks` s since 1970.
 inline std::string UnixTicks(double t, long ticks) {
   return std::to_string(1483228800L * ticks +
-                        static_cast<long>(t * static_cast<double>(ticks) + .5));
+                        std::lround(t * static_cast<double>(ticks)));
 }
 
 inline std::string Joined(const std::vector<std::string>& words, char by) {

@@ -40,11 +40,11 @@ SolutionTable FullTable() {
     table.P_position.push_back(RandomCovariance(0.02, &random));
     table.P_velocity.push_back(RandomCovariance(1e-3, &random));
     table.P_attitude.push_back(RandomCovariance(1e-4, &random));
-    table.sigma_euler.push_back(1e-4 * random.NormalVector3().cwiseAbs());
-    table.b_g.push_back(1e-5 * random.NormalVector3());
-    table.b_a.push_back(1e-2 * random.NormalVector3());
-    table.sigma_b_g.push_back(1e-6 * random.NormalVector3().cwiseAbs());
-    table.sigma_b_a.push_back(1e-3 * random.NormalVector3().cwiseAbs());
+    table.sigma_euler.emplace_back(1e-4 * random.NormalVector3().cwiseAbs());
+    table.b_g.emplace_back(1e-5 * random.NormalVector3());
+    table.b_a.emplace_back(1e-2 * random.NormalVector3());
+    table.sigma_b_g.emplace_back(1e-6 * random.NormalVector3().cwiseAbs());
+    table.sigma_b_a.emplace_back(1e-3 * random.NormalVector3().cwiseAbs());
   }
   return table;
 }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <cstring>
+#include <type_traits>
 #include <vector>
 
 #include "base/random.h"
@@ -11,6 +12,14 @@
 
 namespace hindsight {
 namespace {
+
+template <class T>
+bool SameBytes(const T& a, const T& b) {
+  const auto bytes = [](const T& value) {
+    return reinterpret_cast<const std::byte*>(&value);
+  };
+  return std::equal(bytes(a), bytes(a) + sizeof(T), bytes(b));
+}
 
 void Fill(Random* random, double* value) { *value = random->Normal(); }
 void Fill(Random* random, bool* value) { *value = random->Uniform() < 0.5; }
@@ -71,7 +80,7 @@ TYPED_TEST(EveryModel, ComesBackBitForBit) {
         [&](const auto&... a) {
           std::apply(
               [&](const auto&... b) {
-                ((same = same && std::memcmp(&a, &b, sizeof(a)) == 0), ...);
+                ((same = same && SameBytes(a, b)), ...);
               },
               TypeParam::Fields(models[k]));
         },
@@ -92,7 +101,7 @@ TYPED_TEST(EveryModel, ListsAllItsFields) {
     constexpr std::size_t kAlign =
         alignof(std::remove_cvref_t<decltype(field)>);
     EXPECT_EQ((end + kAlign - 1) / kAlign * kAlign, address(field));
-    end = address(field) + sizeof(field);
+    end = address(field) + sizeof(std::remove_cvref_t<decltype(field)>);
   };
   std::apply([&](const auto&... field) { (follow(field), ...); },
              TypeParam::Fields(model));

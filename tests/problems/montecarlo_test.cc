@@ -22,8 +22,9 @@ StudyTable SeedTable() {
           {}};
 }
 
-std::function<SeedRun()> Job(const std::string& name,
-                             std::function<void(std::uint64_t)> before = {}) {
+std::function<SeedRun()> Job(
+    const std::string& name,
+    const std::function<void(std::uint64_t)>& before = {}) {
   return [=]() -> SeedRun {
     return [=](std::uint64_t seed) {
       if (before) before(seed);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "io/config/scenario_config.h"
 #include "support/navigation_study.h"
 
 namespace hindsight {

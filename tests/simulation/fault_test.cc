@@ -127,6 +127,24 @@ TEST(Fault, DelaysStampsFromTheMiddleOn) {
   }
 }
 
+TEST(Fault, LeapsTheImusClockAndLosesItsSamples) {
+  const Dataset well = Drive();
+  const double middle = 0.5 * (well.imu.t_begin() + well.imu.t_end());
+  const Dataset leapt = WithFault(Make("imu_leap", 0.25));
+  ASSERT_EQ(leapt.imu.samples.size(), well.imu.samples.size());
+  for (std::size_t i = 0; i < well.imu.samples.size(); ++i) {
+    const double t = well.imu.samples[i].t;
+    EXPECT_NEAR(leapt.imu.samples[i].t - t, t < middle ? 0.0 : 0.25, 1e-12);
+  }
+  EXPECT_EQ(DropOuts(leapt.imu).size(), 1u);
+  const Dataset lost = WithFault(Make("imu_gap", 0.25));
+  ASSERT_EQ(DropOuts(lost.imu).size(), 1u);
+  const std::size_t end = DropOuts(lost.imu).front();
+  EXPECT_NEAR(lost.imu.samples[end].t - lost.imu.samples[end - 1].t,
+              0.25 + MedianInterval(well.imu), 1.01 * MedianInterval(well.imu));
+  EXPECT_EQ(lost.imu.t_end(), well.imu.t_end());
+}
+
 TEST(Fault, SaysEachReadingAsOftenAsItsSize) {
   const Dataset faulty = WithFault(Make("stale", 5.0, "position"));
   const auto& z = StreamOf(faulty, "position").measurements;

@@ -110,7 +110,7 @@ TEST(MotionProfile, StopBrakesAndStands) {
 }
 
 TEST(MotionProfile, RefusesWhatCannotBeDrivenAndNamesTheSegment) {
-  const auto message = [](std::vector<Segment> segments) -> std::string {
+  const auto message = [](const std::vector<Segment>& segments) -> std::string {
     try {
       MotionProfile(segments, 10.0, 0.0);
     } catch (const InputError& error) {

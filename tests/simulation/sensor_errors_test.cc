@@ -48,7 +48,7 @@ TEST_P(ImuNoiseTest, WhiteNoiseHasTheStatedDensity) {
   // Variance of a rate: density^2 rate; of its integral over 1 s: density^2.
   ExpectUnitVariance(gyro / (3 * n * 3e-5 * 3e-5 * rate_hz), 3.0 * n);
   ExpectUnitVariance(accel / (3 * n * 8e-4 * 8e-4 * rate_hz), 3.0 * n);
-  const double seconds = n / per_second;
+  const double seconds = static_cast<double>(n) / per_second;
   ExpectUnitVariance(integral / (3 * seconds * 3e-5 * 3e-5), 3.0 * seconds);
 }
 

@@ -1,8 +1,7 @@
 #ifndef HINDSIGHT_TESTS_SUPPORT_TEMPORARY_FOLDER_H_
 #define HINDSIGHT_TESTS_SUPPORT_TEMPORARY_FOLDER_H_
 
-#include <stdlib.h>
-
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>

@@ -19,6 +19,8 @@ namespace hindsight {
 /// brought to SI, and written into a resolved copy, defaults included; keys
 /// nobody asked for are errors. All errors are InputError
 /// "file:line: key: ...".
+// What it holds of YAML is not declared noexcept.
+// NOLINTNEXTLINE(bugprone-exception-escape)
 class ConfigMap {
  public:
   /// What is done to the top level before it is read; throws InputError.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "io/read/units.h"
 
@@ -176,8 +177,8 @@ bool TextTable::IsLastValueWhole(std::string_view line, std::string* problem) {
   }
   // By hand: find_last_of looks each character up in the set by a call.
   std::size_t length = 0;
-  for (auto c = line.rbegin(); c != line.rend(); ++c) {
-    if (*c == layout_.delimiter || *c == ' ' || *c == '\t') break;
+  for (const char c : std::views::reverse(line)) {
+    if (c == layout_.delimiter || c == ' ' || c == '\t') break;
     ++length;
   }
   if (!lines_->terminated() && length < shortest_last_value_ &&

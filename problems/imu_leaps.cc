@@ -1,0 +1,111 @@
+#include "problems/imu_leaps.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "base/error.h"
+#include "evaluation/explanation.h"
+#include "imu/imu_stream.h"
+#include "problems/clock_evidence.h"
+#include "problems/linearisation.h"
+
+namespace hindsight {
+namespace {
+
+struct DropOut {
+  std::size_t end = 0;  ///< number of the sample behind it
+  double t = 0.0;       ///< stamp of the sample before it [s]
+  double lost = 0.0;    ///< beyond the usual interval [s]
+};
+
+std::vector<DropOut> Longest(const ImuStream& imu, double from, double to) {
+  std::vector<DropOut> all;
+  for (const std::size_t k : DropOuts(imu)) {
+    const double t = imu.samples[k - 1].t;
+    if (t < from || imu.samples[k].t > to) continue;
+    all.push_back({k, t, imu.samples[k].t - t - imu.nominal_dt});
+  }
+  std::stable_sort(
+      all.begin(), all.end(),
+      [](const DropOut& a, const DropOut& b) { return a.lost > b.lost; });
+  if (all.size() > kMostLeaps) all.resize(kMostLeaps);
+  return all;
+}
+
+/// The largest root mean square, over the nodes of both, of a component's
+/// difference in standard deviations of `chosen`.
+double DistanceBetween(const ErrorLayout& layout, const Relinearised& chosen,
+                       const std::vector<State>& rival) {
+  constexpr double kSameTime = 1e-6;
+  NavigationVariances sum = NavigationVariances::Zero();
+  int count = 0;
+  std::size_t j = 0;
+  for (std::size_t k = 0; k < chosen.states.size(); ++k) {
+    const State& x = chosen.states[k];
+    while (j < rival.size() && rival[j].t < x.t - kSameTime) ++j;
+    if (j == rival.size() || rival[j].t > x.t + kSameTime) continue;
+    const ErrorVector d = Local(layout, x, rival[j]);
+    sum += d.head<9>().cwiseAbs2().cwiseQuotient(chosen.variances[k]);
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum.maxCoeff() / count) : 0.0;
+}
+
+/// `dataset` without the leap.
+Dataset WithoutLeap(const Dataset& dataset, const DropOut& leap) {
+  Dataset out = dataset;
+  for (std::size_t k = leap.end; k < out.imu.samples.size(); ++k) {
+    out.imu.samples[k].t -= leap.lost;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<RivalSolution> ImuLeaps(ForwardStage* chosen) {
+  constexpr double kMostEvidence = 30.0;
+  constexpr double kLostForOneLeap = 20.0;
+  std::vector<RivalSolution> rivals;
+  if (!chosen->start().layout.has_canonical_head()) return rivals;
+  const Dataset& dataset = chosen->dataset();
+  const std::vector<DropOut> leaps =
+      Longest(dataset.imu, chosen->timeline().node(0).t,
+              std::min(chosen->options().to, dataset.imu.t_end()));
+  for (const DropOut& leap : leaps) {
+    const Relinearised& own = chosen->relinearised();
+    if (own.states.empty()) break;
+    try {
+      const Dataset anew = WithoutLeap(dataset, leap);
+      ForwardStage stage(anew, chosen->options(), chosen->start());
+      stage.Run();
+      const std::vector<State>& states = stage.smoothed().states;
+      if (DistanceBetween(chosen->start().layout, own, states) <
+          kDoubtfulShift) {
+        continue;
+      }
+      RivalSolution rival;
+      rival.description = fmt::format(
+          "the IMU's clock leaps by {:.3g} s at {:.2f} s, and no samples are "
+          "lost there",
+          leap.lost, leap.t);
+      rival.remedy = fmt::format(
+          "if so, {:.3g} s less in the stamps of the IMU's later rows",
+          leap.lost);
+      rival.differences.push_back({"imu_clock_leap", leap.lost, "s"});
+      rival.log_evidence = std::min(
+          kMostEvidence,
+          LogEvidenceRatio(dataset, {stage, states}, {*chosen, own.states}) -
+              std::log(kLostForOneLeap));
+      rival.final_state = states.back();
+      rivals.push_back(std::move(rival));
+    } catch (const EstimationError&) {
+      // What cannot be solved is no rival.
+    }
+  }
+  return rivals;
+}
+
+}  // namespace hindsight
