@@ -25,7 +25,8 @@ struct ComparedTruth {
 };
 
 /// Those of CompareWithTruth below.
-ComparedTruth TruthToCompare(const SolutionTable& solution, TruthSeries truth,
+ComparedTruth TruthToCompare(const SolutionTable& solution,
+                             const TruthSeries& truth,
                              const TrajectoryErrorOptions& options);
 
 /// The errors of a solution against a reference, of whatever command asks:
