@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "evaluation/explanation.h"
@@ -36,7 +39,8 @@ std::vector<DropOut> Longest(const ImuStream& imu, double from, double to) {
 }
 
 /// The largest root mean square, over the nodes of both, of a component's
-/// difference in standard deviations of `chosen`.
+/// difference in standard deviations of `chosen`; infinite where no node is of
+/// both, as then nothing says that they are the same.
 double DistanceBetween(const ErrorLayout& layout, const Relinearised& chosen,
                        const std::vector<State>& rival) {
   constexpr double kSameTime = 1e-6;
@@ -51,7 +55,8 @@ double DistanceBetween(const ErrorLayout& layout, const Relinearised& chosen,
     sum += d.head<9>().cwiseAbs2().cwiseQuotient(chosen.variances[k]);
     ++count;
   }
-  return count > 0 ? std::sqrt(sum.maxCoeff() / count) : 0.0;
+  return count > 0 ? std::sqrt(sum.maxCoeff() / count)
+                   : std::numeric_limits<double>::infinity();
 }
 
 /// `dataset` without the leap.
@@ -63,44 +68,53 @@ Dataset WithoutLeap(const Dataset& dataset, const DropOut& leap) {
   return out;
 }
 
+/// Nothing where the data cannot be solved without the leap, or `chosen` is hardly
+/// another solution.
+std::optional<RivalSolution> RivalWithout(const DropOut& leap,
+                                          ForwardStage* chosen) {
+  constexpr double kMostEvidence = 30.0;
+  // No data say how rare a leap is: it is taken to be as rare as what lies beyond
+  // two sigmas, so that it alone makes nothing worse than doubtful.
+  constexpr double kLostForOneLeap = 20.0;
+  const Dataset anew = WithoutLeap(chosen->dataset(), leap);
+  ForwardStage stage(anew, chosen->options(), chosen->start());
+  stage.Run();
+  const Relinearised& own = chosen->relinearised();
+  const Relinearised& other = stage.relinearised();
+  if (own.states.empty() || other.states.empty() ||
+      DistanceBetween(chosen->start().layout, own, other.states) <
+          kDoubtfulShift) {
+    return std::nullopt;
+  }
+  RivalSolution rival;
+  rival.description = fmt::format(
+      "the IMU's clock leaps by {:.3g} s at {:.2f} s, and no samples are lost "
+      "there",
+      leap.lost, leap.t);
+  rival.remedy = fmt::format(
+      "if so, {:.3g} s less in the stamps of the IMU's later rows", leap.lost);
+  rival.differences.push_back({"imu_clock_leap", leap.lost, "s"});
+  rival.log_evidence = std::min(
+      kMostEvidence, LogEvidenceRatio(chosen->dataset(), {stage, other.states},
+                                      {*chosen, own.states}) -
+                         std::log(kLostForOneLeap));
+  rival.final_state = other.states.back();
+  return rival;
+}
+
 }  // namespace
 
 std::vector<RivalSolution> ImuLeaps(ForwardStage* chosen) {
-  constexpr double kMostEvidence = 30.0;
-  constexpr double kLostForOneLeap = 20.0;
   std::vector<RivalSolution> rivals;
   if (!chosen->start().layout.has_canonical_head()) return rivals;
-  const Dataset& dataset = chosen->dataset();
-  const std::vector<DropOut> leaps =
-      Longest(dataset.imu, chosen->timeline().node(0).t,
-              std::min(chosen->options().to, dataset.imu.t_end()));
-  for (const DropOut& leap : leaps) {
-    const Relinearised& own = chosen->relinearised();
-    if (own.states.empty()) break;
+  const ImuStream& imu = chosen->dataset().imu;
+  for (const DropOut& leap :
+       Longest(imu, chosen->timeline().node(0).t,
+               std::min(chosen->options().to, imu.t_end()))) {
     try {
-      const Dataset anew = WithoutLeap(dataset, leap);
-      ForwardStage stage(anew, chosen->options(), chosen->start());
-      stage.Run();
-      const std::vector<State>& states = stage.smoothed().states;
-      if (DistanceBetween(chosen->start().layout, own, states) <
-          kDoubtfulShift) {
-        continue;
+      if (auto rival = RivalWithout(leap, chosen)) {
+        rivals.push_back(*std::move(rival));
       }
-      RivalSolution rival;
-      rival.description = fmt::format(
-          "the IMU's clock leaps by {:.3g} s at {:.2f} s, and no samples are "
-          "lost there",
-          leap.lost, leap.t);
-      rival.remedy = fmt::format(
-          "if so, {:.3g} s less in the stamps of the IMU's later rows",
-          leap.lost);
-      rival.differences.push_back({"imu_clock_leap", leap.lost, "s"});
-      rival.log_evidence = std::min(
-          kMostEvidence,
-          LogEvidenceRatio(dataset, {stage, states}, {*chosen, own.states}) -
-              std::log(kLostForOneLeap));
-      rival.final_state = states.back();
-      rivals.push_back(std::move(rival));
     } catch (const EstimationError&) {
       // What cannot be solved is no rival.
     }

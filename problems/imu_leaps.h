@@ -13,10 +13,10 @@ namespace hindsight {
 /// usual sample interval. The longest kMostLeaps drop-outs of the interval are
 /// tried, each solved to its end from the start of `chosen`, which has run, and
 /// compared by LogEvidenceRatio, a leap being taken as twenty times rarer
-/// beforehand. Told are those whose position, velocity or
-/// attitude is a standard deviation or more from that of `chosen`, in the root
-/// mean square over the common nodes. Their evidence is above 0 where they are
-/// likelier, at most by e^30; the probabilities are not set yet.
+/// beforehand. Told are those whose position, velocity or attitude is a standard
+/// deviation or more from that of `chosen`, in the root mean square over the
+/// nodes of both. Their evidence is above 0 where they are likelier, 30 at most;
+/// the probabilities are not set yet.
 std::vector<RivalSolution> ImuLeaps(ForwardStage* chosen);
 
 inline constexpr int kMostLeaps = 3;

@@ -14,8 +14,9 @@
 namespace hindsight {
 
 /// Leaves out each of some sensors in turn, and the a priori values, of start
-/// and constants together, that the solution ends kStrained sigmas from, about the states of a solution, of which `all` is
-/// the tape: without which one does all else fit, each test with kFalseAlarms? A
+/// and constants together, that the solution ends kStrained sigmas from, about
+/// the states of a solution, of which `all` is the tape: without which one does
+/// all else fit, each test with kFalseAlarms? A
 /// sensor is not named where a deviation of the IMU or of a state is among
 /// `explanations` that is likelier than any of its own. The effect is infinite
 /// where the layout has no navigation state. `problem` is as before afterwards;

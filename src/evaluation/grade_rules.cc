@@ -60,15 +60,14 @@ void FindLinearisedFarOff(const Judged& judged,
   constexpr double kOnceInTwenty = 1.96;
   if (!judged.linearisation) return;
   const LinearisationError& e = *judged.linearisation;
-  const double biased = std::hypot(1.0, kUnusableBias);
-  const double wrong = e.causal ? kOnceInAThousand : biased;
+  const double wrong =
+      e.causal ? kOnceInAThousand : std::hypot(1.0, kUnusableBias);
   const double odd = e.causal ? kOnceInTwenty : kDoubtfulError;
-  const bool unusable = e.rms >= wrong;
-  const bool throughout = e.rms >= odd;
-  if (!throughout && (e.causal || !(e.largest >= biased))) return;
-  const double value = throughout ? e.rms : e.largest;
-  const double limit = unusable ? wrong : throughout ? odd : biased;
-  Evidence found{.grade = unusable ? Grade::kUnusable : Grade::kDoubtful,
+  const bool throughout = e.rms >= wrong;
+  if (!throughout && !((e.causal ? e.rms : e.largest) >= odd)) return;
+  const double value = throughout || e.causal ? e.rms : e.largest;
+  const double limit = throughout ? wrong : odd;
+  Evidence found{.grade = throughout ? Grade::kUnusable : Grade::kDoubtful,
                  .value = value,
                  .limit = limit,
                  .unit = "sigma",
@@ -77,7 +76,7 @@ void FindLinearisedFarOff(const Judged& judged,
                  .remedies = {"a better known start"}};
   if (!std::isfinite(value)) {
     found.what = "no linearisation about its own result holds";
-  } else if (throughout) {
+  } else if (throughout || e.causal) {
     found.what = fmt::format(
         "linearised anew, the interval shows errors of {:.2g} sigma in {} "
         "throughout (limit {:.2g})",

@@ -15,10 +15,9 @@ void FindFailure(const Judged& judged, std::vector<Evidence>* evidence);
 void FindUnsettledClock(const Judged& judged, std::vector<Evidence>* evidence);
 
 /// A solution whose sigmas do not cover what a new linearisation about it
-/// changes. Errors of kDoubtfulError sigmas of any component, in the root mean
-/// square over the interval, make a smoother doubtful, as do those of a
-/// systematic error of kUnusableBias at any time; not usable are such in the
-/// root mean square. A filter,
+/// changes. A smoother is doubtful where any component at any time has errors
+/// of kDoubtfulError sigmas, and not usable if one has those of a systematic
+/// error of kUnusableBias in the root mean square over the interval. A filter,
 /// which is judged only if its smoother has kDoubtfulError in the root mean
 /// square, must be beyond chance: 3.29 sigmas in the root mean square over the
 /// interval are not usable, as errors that last as long as the interval reach

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "io/read/units.h"
 
@@ -177,7 +176,8 @@ bool TextTable::IsLastValueWhole(std::string_view line, std::string* problem) {
   }
   // By hand: find_last_of looks each character up in the set by a call.
   std::size_t length = 0;
-  for (const char c : std::views::reverse(line)) {
+  while (length < line.size()) {
+    const char c = line[line.size() - 1 - length];
     if (c == layout_.delimiter || c == ' ' || c == '\t') break;
     ++length;
   }
