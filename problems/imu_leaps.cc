@@ -73,6 +73,7 @@ Dataset WithoutLeap(const Dataset& dataset, const DropOut& leap) {
 std::optional<RivalSolution> RivalWithout(const DropOut& leap,
                                           ForwardStage* chosen) {
   constexpr double kMostEvidence = 30.0;
+  constexpr double kHopeless = 200.0;
   // No data say how rare a leap is: it is taken to be as rare as what lies beyond
   // two sigmas, so that it alone makes nothing worse than doubtful.
   constexpr double kLostForOneLeap = 20.0;
@@ -80,12 +81,21 @@ std::optional<RivalSolution> RivalWithout(const DropOut& leap,
   ForwardStage stage(anew, chosen->options(), chosen->start());
   stage.Run();
   const Relinearised& own = chosen->relinearised();
+  if (own.states.empty()) return std::nullopt;
+  const auto is_near = [&](const std::vector<State>& states) {
+    return DistanceBetween(chosen->start().layout, own, states) <
+           kDoubtfulShift;
+  };
+  const std::vector<State>& first = stage.smoothed().states;
+  const auto log_evidence = [&](const std::vector<State>& states) {
+    return LogEvidenceRatio(chosen->dataset(), {stage, states},
+                            {*chosen, own.states}) -
+           std::log(kLostForOneLeap);
+  };
+  // Linearising anew costs more than the stage and seldom moves so far.
+  if (is_near(first) || log_evidence(first) < -kHopeless) return std::nullopt;
   const Relinearised& other = stage.relinearised();
-  if (own.states.empty() || other.states.empty() ||
-      DistanceBetween(chosen->start().layout, own, other.states) <
-          kDoubtfulShift) {
-    return std::nullopt;
-  }
+  if (other.states.empty() || is_near(other.states)) return std::nullopt;
   RivalSolution rival;
   rival.description = fmt::format(
       "the IMU's clock leaps by {:.3g} s at {:.2f} s, and no samples are lost "
@@ -94,10 +104,7 @@ std::optional<RivalSolution> RivalWithout(const DropOut& leap,
   rival.remedy = fmt::format(
       "if so, {:.3g} s less in the stamps of the IMU's later rows", leap.lost);
   rival.differences.push_back({"imu_clock_leap", leap.lost, "s"});
-  rival.log_evidence = std::min(
-      kMostEvidence, LogEvidenceRatio(chosen->dataset(), {stage, other.states},
-                                      {*chosen, own.states}) -
-                         std::log(kLostForOneLeap));
+  rival.log_evidence = std::min(kMostEvidence, log_evidence(other.states));
   rival.final_state = other.states.back();
   return rival;
 }

@@ -1,3 +1,4 @@
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -158,6 +159,26 @@ TEST(ClocksOfRecordings, DronesToAndFro) {
       EXPECT_NEAR(offset, -0.63, 0.1) << path;
     }
   }
+}
+
+/// Through the file, as a logger leaves it that is set anew on the way.
+TEST(ImuClock, ThatLeapsIsToldWithItsSize) {
+  Recording recording;
+  recording.Edit("imu.csv", [](std::vector<std::string>* lines) {
+    const std::size_t middle = lines->size() / 2;
+    for (std::size_t i = middle; i < lines->size(); ++i) {
+      std::string& line = (*lines)[i];
+      const std::size_t comma = line.find(',');
+      if (comma == std::string::npos) continue;
+      line = fmt::format("{:.4f}", std::stod(line.substr(0, comma)) + 0.3) +
+             line.substr(comma);
+    }
+  });
+  const Outcome run = recording.Run({"--out=out", "--methods=batch"});
+  EXPECT_EQ(run.status, 1) << run.out << run.err;
+  EXPECT_THAT(run.out, HasSubstr("the IMU's clock leaps by 0.3 s at "));
+  EXPECT_THAT(run.out,
+              HasSubstr("0.3 s less in the stamps of the IMU's later"));
 }
 
 }  // namespace
