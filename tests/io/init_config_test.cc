@@ -22,7 +22,8 @@ TEST_F(InitConfigTest, WhatItWritesLoads) {
         "0,50,8,100,1,1,1\n1,50,8,100,1,1,1\n");
   Write("c.txt",
         "0.0 50 8 100 1 1 1\n0.5 50 8 100 1 1 1\n0.9 50 8 100 1 1 1\n");
-  Write("d.csv", "t[s],roll[deg],pitch[deg],heading[deg]\n0,1,2,3\n1,1,2,3\n");
+  Write("d_truth.csv",
+        "t[s],roll[deg],pitch[deg],heading[deg]\n0,1,2,3\n1,1,2,3\n");
   Write("notes.md", "Nothing to read here.\n");
   const std::string config = InitConfig(folder_.string());
   EXPECT_NE(config.find("#   notes.md"), std::string::npos) << config;
@@ -37,11 +38,56 @@ TEST_F(InitConfigTest, WhatItWritesLoads) {
   EXPECT_EQ(data.truth.size(), 2u);
 }
 
+constexpr const char* kFewImuRows =
+    "t[s],gyro_x[rad/s],gyro_y[rad/s],gyro_z[rad/s],accel_x[m/s^2],"
+    "accel_y[m/s^2],accel_z[m/s^2]\n"
+    "0,0,0,0,0,0,-9.8\n0.01,0,0,0,0,0,-9.8\n0.02,0,0,0,0,0,-9.8\n";
+
+TEST_F(InitConfigTest, PositionsWithoutSigmasAreAidingUnlessNamedTruth) {
+  Write("imu.csv", kFewImuRows);
+  const std::string fixes = "t[s],lat[deg],lon[deg],h[m]\n0,50,8,1\n1,50,8,1\n";
+  Write("a.csv", fixes);
+  Write("b.csv", fixes);
+  Write("refit.csv", fixes);  // no word of which is "ref"
+  Write("config.yaml", InitConfig(folder_.string()));
+  EXPECT_EQ(LoadError(), "");
+  EXPECT_EQ(Load().streams.size(), 3u);
+  EXPECT_TRUE(Load().truth.empty());
+  for (const char* name : {"a_gt.csv", "GroundTruth.csv", "reference-1.csv"}) {
+    SCOPED_TRACE(name);
+    Write(name, fixes);
+    const std::string config = InitConfig(folder_.string());
+    EXPECT_NE(config.find("truth:\n  file: " + std::string(name)),
+              std::string::npos)
+        << config;
+    std::filesystem::remove(Path(name));
+  }
+}
+
+TEST_F(InitConfigTest, AnAttitudeIsNoTruthUntilTheUserSaysSo) {
+  Write("imu.csv", kFewImuRows);
+  Write("ins.csv",
+        "t[s],roll[deg],pitch[deg],heading[deg]\n0,1,2,3\n1,1,2,3\n");
+  const std::string config = InitConfig(folder_.string());
+  EXPECT_NE(config.find("# truth:\n#   file: ins.csv"), std::string::npos)
+      << config;
+  Write("config.yaml", config);
+  EXPECT_EQ(LoadError(), "");
+  EXPECT_TRUE(Load().truth.empty());
+}
+
+TEST_F(InitConfigTest, PosesOfTheTumBenchmarkAreNoImu) {
+  Write("poses.txt",
+        "0.00 1 2 3 0 0 0.6 0.8\n0.01 1 2 3 0 0 0.6 0.8\n"
+        "0.02 1 2 3 0 0 0.6 0.8\n");
+  const std::string config = InitConfig(folder_.string());
+  EXPECT_NE(config.find("# Not recognised:\n#   poses.txt"), std::string::npos)
+      << config;
+  EXPECT_EQ(config.find("file: poses.txt"), std::string::npos) << config;
+}
+
 TEST_F(InitConfigTest, NamesOfFilesThatYamlWouldReadOtherwiseAreQuoted) {
-  Write("imu #1: left.csv",
-        "t[s],gyro_x[rad/s],gyro_y[rad/s],gyro_z[rad/s],accel_x[m/s^2],"
-        "accel_y[m/s^2],accel_z[m/s^2]\n"
-        "0,0,0,0,0,0,-9.8\n0.01,0,0,0,0,0,-9.8\n0.02,0,0,0,0,0,-9.8\n");
+  Write("imu #1: left.csv", kFewImuRows);
   Write("config.yaml", InitConfig(folder_.string()));
   EXPECT_EQ(LoadError(), "");
 }

@@ -117,7 +117,8 @@ std::string AidingText(const std::string& name, const SensorKind& kind,
   }
   text += found.keys;
   const SensorSettings settings = SettingsOf(kind);
-  const bool sigma_in_file = found.format != "nmea" && found.format != "nclt" &&
+  const bool sigma_in_file = found.sigmas && found.format != "nmea" &&
+                             found.format != "nclt" &&
                              kind.measured(settings).sigmas > 0;
   for (const SensorKey& key : kind.keys) {
     if (key.applies != nullptr && !key.applies(settings)) continue;
@@ -194,6 +195,13 @@ std::string InitConfig(const std::string& folder) {
       "#   - {sensor: position, every: 120 s, length: 30 s}\n";
   if (const Found* truth = first(&Found::truth)) {
     text += "\ntruth:\n" + FileLines(*truth, "  ") + truth->keys;
+  }
+  for (const Found& found : files) {
+    if (!found.pose) continue;
+    text +=
+        "\n# Holds an attitude that no estimate uses. If it is an independent\n"
+        "# reference, uncomment:\n# truth:\n" +
+        FileLines(found, "#   ");
   }
   return FirstLine(text) + text;
 }

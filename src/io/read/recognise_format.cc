@@ -1,6 +1,7 @@
 #include "io/read/recognise_format.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -88,7 +89,25 @@ std::vector<const SensorKind*> KindsOfTitles(const Titles& titles) {
   return kinds;
 }
 
-std::optional<Found> RecogniseCsv(const Probe& probe) {
+/// Whether a file is called truth or reference, or `gt` or `ref` by a word of
+/// its name.
+bool IsNamedTruth(const std::string& path) {
+  std::string words;
+  for (const char c : fs::path(path).filename().string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    words +=
+        std::isalpha(byte) != 0 ? static_cast<char>(std::tolower(byte)) : ' ';
+  }
+  if (words.find("truth") != std::string::npos ||
+      words.find("reference") != std::string::npos) {
+    return true;
+  }
+  words = ' ' + words + ' ';
+  return words.find(" gt ") != std::string::npos ||
+         words.find(" ref ") != std::string::npos;
+}
+
+std::optional<Found> RecogniseCsv(const std::string& path, const Probe& probe) {
   Titles titles;
   for (const std::string_view title : SplitLine(probe.lines[0], ',')) {
     titles.insert(SplitTitle(title).first);
@@ -100,19 +119,28 @@ std::optional<Found> RecogniseCsv(const Probe& probe) {
               HoldsAll(titles, {"dtheta_x", "dtheta_y", "dtheta_z", "dvel_x",
                                 "dvel_y", "dvel_z"});
   // Its columns are those of several sensors.
-  found.truth = HoldsAll(titles, {"roll", "pitch", "heading"});
-  if (found.truth) {
+  const bool attitude = HoldsAll(titles, {"roll", "pitch", "heading"});
+  found.truth = attitude && IsNamedTruth(path);
+  found.pose = attitude && !found.truth;
+  if (attitude) {
     Titles others = titles;
     for (const char* name : {"roll", "pitch", "heading"}) others.erase(name);
     found.kinds = KindsOfTitles(others);
   } else {
     found.kinds = KindsOfTitles(titles);
   }
-  if (!found.imu && found.kinds.empty()) {
-    found.truth = found.truth || HoldsAll(titles, {"lat", "lon", "h"});
+  if (!found.imu && !found.truth && found.kinds.empty() &&
+      HoldsAll(titles, {"lat", "lon", "h"})) {
+    if (IsNamedTruth(path)) {
+      found.truth = true;
+    } else {
+      found.kinds = {&PositionKind()};
+      found.sigmas = false;
+    }
   }
-  if (!found.imu && !found.truth && found.kinds.empty()) return std::nullopt;
-  return found;
+  const bool known =
+      found.imu || found.truth || found.pose || !found.kinds.empty();
+  return known ? std::optional(found) : std::nullopt;
 }
 
 Found AnImu(const char* format) {
@@ -160,6 +188,10 @@ std::optional<Found> RecogniseKfGins(const Probe& probe) {
                     first[0] == std::floor(first[0]) && first[0] >= 1000.0;
   if (week) return ATruth("kf_gins");
   if (first.size() < 7 || second[0] <= first[0]) return std::nullopt;
+  // A pose as the TUM benchmark writes it: t, place, unit quaternion.
+  const double length = std::hypot(std::hypot(first[4], first[5]),
+                                   std::hypot(first[6], first.back()));
+  if (first.size() == 8 && std::abs(length - 1.0) < 1e-3) return std::nullopt;
   // Increments come fast and are small; fixes hold degrees and metres.
   const bool sigmas = first[4] > 0.0 && first[5] > 0.0 && first[6] > 0.0;
   const bool place = std::abs(first[1]) <= 90.0 && std::abs(first[2]) <= 180.0;
@@ -260,7 +292,7 @@ std::optional<Found> RecogniseFormat(const std::string& path) {
   if (auto found = RecogniseEuroc(probe)) return found;
   if (auto found = RecogniseNmea(probe)) return found;
   if (auto found = RecogniseNclt(probe)) return found;
-  if (auto found = RecogniseCsv(probe)) return found;
+  if (auto found = RecogniseCsv(path, probe)) return found;
   if (auto found = RecogniseControlPoints(probe)) return found;
   return RecogniseKfGins(probe);
 }
