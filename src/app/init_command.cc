@@ -19,7 +19,8 @@ namespace {
 
 constexpr const char* kHelp =
     R"(Looks at the files in FOLDER and prints a commented configuration for what it
-recognises, to be completed and given to 'check' and 'run'.
+recognises, to be completed and given to 'check' and 'run'. Ends with 1 if it
+recognises no IMU.
 )";
 
 /// Writes the configuration to --out. A signal ends the process when that is
@@ -51,13 +52,19 @@ std::string Disowned(const std::filesystem::path& path) {
 
 int Run(const std::vector<std::string>& arguments) {
   if (!FLAGS_out.empty()) CheckFilePlace(FLAGS_out, {"'init'", IsInitConfig});
-  const std::string config = InitConfig(arguments[0]);
+  const InitDraft draft = InitConfig(arguments[0]);
+  const ExitStatus status = draft.has_imu ? kUsable : kUnusable;
+  if (!draft.has_imu) {
+    std::cerr << "hindsight: " << arguments[0]
+              << ": no IMU was recognised; name its file and columns under "
+                 "`imu` of the draft\n";
+  }
   if (FLAGS_out.empty()) {
-    std::cout << config;
-    return kUsable;
+    std::cout << draft.text;
+    return status;
   }
   TreatAbandoned(FLAGS_out, FLAGS_clean, Disowned);
-  Write(config);
+  Write(draft.text);
   if (const std::error_code error =
           SyncFolder(std::filesystem::absolute(FLAGS_out).parent_path())) {
     throw OutputError(
@@ -66,7 +73,7 @@ int Run(const std::vector<std::string>& arguments) {
   }
   std::cout << "wrote " << FLAGS_out << "\nlook at the recording with: "
             << "hindsight check " << FLAGS_out << "\n";
-  return kUsable;
+  return status;
 }
 
 }  // namespace

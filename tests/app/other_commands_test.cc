@@ -140,6 +140,15 @@ TEST_F(OtherCommands, InitWritesAConfigurationThatRuns) {
   EXPECT_THAT(outcome.status, ::testing::AnyOf(0, 3)) << outcome.err;
 }
 
+TEST_F(OtherCommands, InitWithoutAnImuDraftsTheRestAndSaysSo) {
+  std::filesystem::remove(recording_.file("imu.csv"));
+  const Outcome outcome = Hindsight({"init", "data"}, recording_.root());
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("data: no IMU was recognised"));
+  EXPECT_THAT(outcome.out, HasSubstr("type: position"));
+  EXPECT_THAT(outcome.out, ::testing::Not(HasSubstr("imu.csv")));
+}
+
 TEST_F(OtherCommands, SimulateEndsEarlier) {
   ASSERT_EQ(
       Hindsight({"simulate", "short_drive", "--out=whole"}, recording_.root())

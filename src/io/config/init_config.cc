@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -46,21 +47,6 @@ std::string FileLines(const Found& found, const std::string& indent) {
          "format: " + found.format + "\n";
 }
 
-std::string ImuText(const Found* imu) {
-  if (imu == nullptr) {
-    return "# No IMU was recognised. `format: columns` reads any delimited\n"
-           "# text; a column is its number from 1 or its title, and its unit.\n"
-           "imu:\n"
-           "  file: imu.csv\n"
-           "  format: columns\n"
-           "  columns: {t: \"1 [s]\",\n"
-           "            gyro_x: \"2 [rad/s]\", gyro_y: \"3 [rad/s]\",\n"
-           "            gyro_z: \"4 [rad/s]\", accel_x: \"5 [m/s^2]\",\n"
-           "            accel_y: \"6 [m/s^2]\", accel_z: \"7 [m/s^2]\"}\n";
-  }
-  return "imu:\n" + FileLines(*imu, "  ");
-}
-
 constexpr const char* kImuRest =
     "  axes: [x, y, z]          # body forward, right, down in sensor axes;\n"
     "                           # `hindsight check` suggests them\n"
@@ -72,6 +58,26 @@ constexpr const char* kImuRest =
     "    accel: 100 ug/sqrt(Hz)\n"
     "    gyro_bias_walk: 1 deg/h/sqrt(h)\n"
     "    accel_bias_walk: 100 ug/sqrt(h)\n";
+
+/// Names no file where none was recognised.
+std::string ImuText(const Found* imu) {
+  if (imu != nullptr) return "imu:\n" + FileLines(*imu, "  ") + kImuRest;
+  std::string text =
+      "# No IMU was recognised. `format: columns` reads any delimited text; a\n"
+      "# column is its number from 1 or its title, and its unit. Uncomment:\n"
+      "#imu:\n"
+      "#  file: REPLACE\n"
+      "#  format: columns\n"
+      "#  columns: {t: \"1 [s]\",\n"
+      "#            gyro_x: \"2 [rad/s]\", gyro_y: \"3 [rad/s]\",\n"
+      "#            gyro_z: \"4 [rad/s]\", accel_x: \"5 [m/s^2]\",\n"
+      "#            accel_y: \"6 [m/s^2]\", accel_z: \"7 [m/s^2]\"}\n";
+  std::istringstream lines(kImuRest);
+  for (std::string line; std::getline(lines, line);) {
+    text += "#" + line + "\n";
+  }
+  return text;
+}
 
 /// A value to be replaced.
 std::string Draft(const SensorKey& key) {
@@ -138,7 +144,7 @@ std::string AidingText(const std::string& name, const SensorKind& kind,
 
 }  // namespace
 
-std::string InitConfig(const std::string& folder) {
+InitDraft InitConfig(const std::string& folder) {
   if (!IsFolder(folder)) {
     throw InputError(folder, 0, "there is no such folder");
   }
@@ -170,7 +176,8 @@ std::string InitConfig(const std::string& folder) {
   if (!unknown.empty()) text += "# Not recognised:\n" + unknown;
   text +=
       "folder: " + YamlScalar(absolute.string(), YAML::DoubleQuoted) + "\n\n";
-  text += ImuText(first(&Found::imu)) + kImuRest;
+  const Found* imu = first(&Found::imu);
+  text += ImuText(imu);
   std::string aiding;
   for (const SensorKind* kind : SensorKinds()) {
     int count = 0;
@@ -199,11 +206,11 @@ std::string InitConfig(const std::string& folder) {
   for (const Found& found : files) {
     if (!found.pose) continue;
     text +=
-        "\n# Holds an attitude that no estimate uses. If it is an independent\n"
+        "\n# Holds attitudes, which no estimate uses. If it is an independent\n"
         "# reference, uncomment:\n# truth:\n" +
         FileLines(found, "#   ");
   }
-  return FirstLine(text) + text;
+  return {FirstLine(text) + text, imu != nullptr};
 }
 
 bool IsInitConfig(const std::string& path) {

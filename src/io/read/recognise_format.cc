@@ -129,7 +129,8 @@ std::optional<Found> RecogniseCsv(const std::string& path, const Probe& probe) {
   } else {
     found.kinds = KindsOfTitles(titles);
   }
-  if (!found.imu && !found.truth && found.kinds.empty() &&
+  // Places beside attitudes are another solution's, no sensor's.
+  if (!found.imu && !attitude && found.kinds.empty() &&
       HoldsAll(titles, {"lat", "lon", "h"})) {
     if (IsNamedTruth(path)) {
       found.truth = true;

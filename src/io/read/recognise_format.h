@@ -23,7 +23,8 @@ struct Found {
 };
 
 /// Tells the format of a file by its content, that of a bag or an OXTS folder
-/// by its name. A delimited file is a truth only by its name. Nothing if it is none that is known.
+/// by its name. An own CSV is a truth only by its name. Nothing if it is none
+/// that is known.
 std::optional<Found> RecogniseFormat(const std::string& path);
 
 }  // namespace hindsight
