@@ -159,10 +159,7 @@ void ImuFactor::LinearizeStates(const std::vector<State>& states,
       (*J)(row, b.node_dim() + row) = 1.0;
     }
   }
-  residual = (whitener_.triangularView<Eigen::Lower>() * residual).eval();
-  if (J != nullptr) {
-    *J = (whitener_.triangularView<Eigen::Lower>() * *J).eval();
-  }
+  Whiten(whitener_, residual, J);
 }
 
 }  // namespace hindsight

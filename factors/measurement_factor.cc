@@ -38,16 +38,14 @@ void MeasurementFactor::LinearizeStates(const std::vector<State>& states,
   const ErrorLayout& layout = blocks().layout();
   LinearizedMeasurement z;
   hindsight::Evaluate(z_, timeline_.Context(k_, z_, layout, states[0]), &z);
-  const Eigen::MatrixXd W = Whitener(z.R);
-  residual = -(W.triangularView<Eigen::Lower>() * z.residual);
-  if (J == nullptr) return;
-  const Eigen::MatrixXd WH = W.triangularView<Eigen::Lower>() * z.H;
+  residual = -z.residual;
   for (const StateBlocks::Entry& entry : blocks().entries()) {
     const int column = ColumnOf(entry, 0);
-    if (column < 0) continue;
+    if (J == nullptr || column < 0) continue;
     const int dim = entry.block.dim;
-    J->middleCols(column, dim) = WH.middleCols(entry.block.offset, dim);
+    J->middleCols(column, dim) = z.H.middleCols(entry.block.offset, dim);
   }
+  Whiten(Whitener(z.R), residual, J);
 }
 
 }  // namespace hindsight

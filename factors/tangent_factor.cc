@@ -99,4 +99,29 @@ Eigen::MatrixXd Whitener(const Eigen::Ref<const Eigen::MatrixXd>& S) {
   return llt.matrixL().solve(Eigen::MatrixXd::Identity(S.rows(), S.cols()));
 }
 
+namespace {
+
+/// From the last row to the first, so that each is made of rows still as they
+/// were. Most of W is zero where biases walk apart from each other.
+void MultiplyRows(const Eigen::MatrixXd& W, Eigen::Index columns, double* M) {
+  for (Eigen::Index r = W.rows() - 1; r >= 0; --r) {
+    double* row = M + r * columns;
+    for (Eigen::Index j = 0; j < columns; ++j) row[j] *= W(r, r);
+    for (Eigen::Index c = 0; c < r; ++c) {
+      const double factor = W(r, c);
+      if (factor == 0.0) continue;
+      const double* other = M + c * columns;
+      for (Eigen::Index j = 0; j < columns; ++j) row[j] += factor * other[j];
+    }
+  }
+}
+
+}  // namespace
+
+void Whiten(const Eigen::MatrixXd& W, Eigen::Map<Eigen::VectorXd> residual,
+            TangentFactor::Jacobian* J) {
+  MultiplyRows(W, 1, residual.data());
+  if (J != nullptr) MultiplyRows(W, J->cols(), J->data());
+}
+
 }  // namespace hindsight

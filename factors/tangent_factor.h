@@ -68,6 +68,10 @@ class TangentFactor : public ceres::CostFunction {
 /// definite.
 Eigen::MatrixXd Whitener(const Eigen::Ref<const Eigen::MatrixXd>& S);
 
+/// residual = W residual and, unless null, J = W J, for such a W.
+void Whiten(const Eigen::MatrixXd& W, Eigen::Map<Eigen::VectorXd> residual,
+            TangentFactor::Jacobian* J);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_FACTORS_TANGENT_FACTOR_H_

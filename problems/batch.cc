@@ -144,7 +144,8 @@ ceres::Problem::Options ProblemOptions() {
 }
 
 struct Sweep {
-  int iterations = 0;  ///< the most of any window
+  int iterations = 0;        ///< the most of any window
+  int ceres_iterations = 0;  ///< those among them that were Ceres's
   bool converged = true;
 };
 
@@ -176,6 +177,7 @@ Sweep SolveOnce(const BatchOptions& options, int max_iterations, double later,
     }
     sweep.iterations = std::max(
         sweep.iterations, static_cast<int>(summary.iterations.size()) - 1);
+    sweep.ceres_iterations = sweep.iterations;
     sweep.converged =
         sweep.converged && (summary.termination_type == ceres::CONVERGENCE ||
                             summary.termination_type == ceres::USER_SUCCESS);
@@ -220,16 +222,19 @@ bool IsWindowed(const BatchOptions& options, const ChainProblem& chain) {
   return chain.node_count() > options.whole_nodes;
 }
 
-/// Of a long chain without losses: whether the start is within a rough step of
-/// the solution. If so, that Gauss-Newton step of the whole chain is taken, and
-/// solving in windows can be left out.
-bool StartsNear(const BatchOptions& options, ChainProblem* chain,
+/// Without losses: whether the start is within a rough step of the solution,
+/// where the cost tells nothing. If so, that Gauss-Newton step of the whole chain
+/// is taken, and Ceres can be left out.
+bool StartsNear(IterationProgress* progress, ChainProblem* chain,
                 Sweep* sweep) {
-  if (!IsWindowed(options, *chain) || chain->HasLoss()) return false;
+  if (chain->HasLoss()) return false;
   ArrowSystem system = chain->Information();
   system.Factor();
   system.Solve();
-  if (!(chain->StepSize(system) < RoughStep(*chain))) return false;
+  const double ratio = chain->StepSize(system) / RoughStep(*chain);
+  if (!(ratio < 1.0)) return false;
+  progress->Begin(1, kLastSteps);
+  progress->After(1, ratio);
   chain->Apply(system);
   ++sweep->iterations;
   return true;
@@ -252,6 +257,7 @@ CovarianceSeries FinishByNewton(const BatchOptions& options,
   constexpr int kMaxSweeps = 10;
   const bool windowed = IsWindowed(options, *chain);
   const double last = chain->HasLoss() ? kFineStep : kLastNewtonStep;
+  progress->Begin(kMaxSteps, 0.0);
   for (int i = 1;; ++i) {
     ArrowSystem system = chain->Information();
     system.Factor();
@@ -259,16 +265,19 @@ CovarianceSeries FinishByNewton(const BatchOptions& options,
     ++sweep->iterations;
     const double step = chain->StepSize(system);
     chain->Apply(system);
+    progress->After(i, step / last);
     const bool rough = windowed && step > RoughStep(*chain);
     if (step < last || i == (rough ? kMaxSweeps : kMaxSteps)) {
       sweep->converged = sweep->converged && !rough;
       return chain->Marginals(system);
     }
     if (!rough) continue;
-    const int before = sweep->iterations;
+    const Sweep before = *sweep;
     *sweep =
         SolveOnce(options, options.max_iterations, kLastSteps, progress, chain);
-    sweep->iterations += before;
+    sweep->iterations += before.iterations;
+    sweep->ceres_iterations += before.ceres_iterations;
+    progress->Begin(kMaxSteps, 0.0);
   }
 }
 
@@ -291,7 +300,7 @@ BatchResult SolveBatch(const std::vector<State>& initial,
   for (int outer = 0; outer < kMaxReintegrations; ++outer) {
     ChainProblem chain(result.states, problem);
     Sweep sweep;
-    if (!StartsNear(options, &chain, &sweep)) {
+    if (!StartsNear(&progress, &chain, &sweep)) {
       sweep = SolveGraduated(options, options.graduated && outer == 0,
                              &progress, &chain);
     }
@@ -300,6 +309,7 @@ BatchResult SolveBatch(const std::vector<State>& initial,
       result.P = FinishByNewton(options, &progress, &chain, &sweep);
     }
     result.iterations += sweep.iterations;
+    result.ceres_iterations += sweep.ceres_iterations;
     const std::vector<State> before = std::move(result.states);
     result.states = chain.States();
     if (AnySummaryIsStale(*problem, result.states)) continue;

@@ -13,15 +13,14 @@ namespace hindsight {
 struct BatchOptions {
   int max_iterations = 50;
   /// Ceres takes 30 to 70 kB a node for its matrices. A chain longer than
-  /// `whole_nodes` that does not start within a step of 1 mm of the solution is
-  /// solved in windows of at most `window_nodes`, in which the neighbours and
+  /// `whole_nodes` is solved in windows of at most `window_nodes`, in which the neighbours and
   /// the constants are held fixed, in turn with steps of the whole chain.
   std::size_t whole_nodes = 25000;
   std::size_t window_nodes = 2500;
   /// Approaches losses that redescend by graduated non-convexity. False: the
   /// start is known to be near.
   bool graduated = true;
-  /// Called after each of Ceres's iterations with the fraction that is done, by
+  /// Called after each iteration with the fraction that is done, by
   /// how many are still expected (IterationProgress); may throw to stop.
   std::function<void(double)> callback;
 };
@@ -30,6 +29,7 @@ struct BatchResult {
   std::vector<State> states;
   CovarianceSeries P;  ///< marginals over the layout, in the tangent at states
   int iterations = 0;
+  int ceres_iterations = 0;  ///< those among them that were Ceres's
   bool converged = false;
 };
 
@@ -39,7 +39,7 @@ struct BatchResult {
 /// a node. Constants of the layout (IMU biases that do not walk, scale factors,
 /// lever arms...) are global unknowns; their start is that of the first state.
 /// The last steps, of a size that the rounding of the cost hides, are full
-/// Gauss-Newton steps solved by the chain's structure; of a long chain without
+/// Gauss-Newton steps solved by the chain's structure; of a problem without
 /// losses that starts so near, all of them.
 /// Marginal covariances of every node come from that structure in time
 /// linear in the number of nodes.

@@ -7,6 +7,7 @@
 #include "factors/imu_factor.h"
 #include "factors/measurement_factor.h"
 #include "factors/prior_factor.h"
+#include "linear/row_products.h"
 
 namespace hindsight {
 
@@ -127,40 +128,48 @@ void AddGradient(const StateBlocks& blocks, const TangentFactor& factor,
   }
 }
 
-/// Adds J'J of one factor to the blocks of the arrow it touches.
+/// Adds J'J of one factor to the blocks of the arrow it touches, of symmetric
+/// ones to the lower triangle.
 void AddInformation(const StateBlocks& blocks, const TangentFactor& factor,
                     const TangentFactor::Jacobian& J, ArrowSystem* arrow) {
-  const Eigen::Index n = blocks.node_dim();
+  const int n = blocks.node_dim();
+  const auto columns = [&](Eigen::Index first, int count) {
+    return RowSpan{J.data() + first, J.cols(), factor.num_residuals(), count};
+  };
   const auto& nodes = factor.nodes();
-  const Eigen::Index node_columns = n * static_cast<Eigen::Index>(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto J_i = J.middleCols(static_cast<Eigen::Index>(i) * n, n);
-    arrow->node(nodes[i]).noalias() += J_i.transpose().lazyProduct(J_i);
+    ArrowSystem::Block node = arrow->node(nodes[i]);
+    AddSquare(columns(static_cast<Eigen::Index>(i) * n, n), node.data(),
+              node.outerStride());
   }
   if (nodes.size() == 2) {
-    arrow->coupling(nodes[0]).noalias() +=
-        J.middleCols(n, n).transpose().lazyProduct(J.leftCols(n));
+    ArrowSystem::Block coupling = arrow->coupling(nodes[0]);
+    AddTransposedProduct(columns(n, n), columns(0, n), coupling.data(),
+                         coupling.outerStride());
   }
+  const Eigen::Index node_columns = n * static_cast<Eigen::Index>(nodes.size());
   Eigen::Index column = node_columns;
   for (const int g : factor.globals()) {
     const StateBlocks::Entry& entry =
         blocks.globals()[static_cast<std::size_t>(g)];
-    const Eigen::Index dim = entry.block.dim;
-    const auto J_g = J.middleCols(column, dim);
+    const RowSpan J_g = columns(column, entry.block.dim);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      arrow->border_coupling(nodes[i]).middleRows(entry.tangent, dim) +=
-          J_g.transpose() * J.middleCols(static_cast<Eigen::Index>(i) * n, n);
+      ArrowSystem::Block coupling = arrow->border_coupling(nodes[i]);
+      AddTransposedProduct(J_g, columns(static_cast<Eigen::Index>(i) * n, n),
+                           coupling.data() + entry.tangent,
+                           coupling.outerStride());
     }
+    ArrowSystem::Block border = arrow->border();
     Eigen::Index other_column = node_columns;
     for (const int h : factor.globals()) {
       const StateBlocks::Entry& other =
           blocks.globals()[static_cast<std::size_t>(h)];
-      arrow->border().block(entry.tangent, other.tangent, dim,
-                            other.block.dim) +=
-          J_g.transpose() * J.middleCols(other_column, other.block.dim);
+      AddTransposedProduct(J_g, columns(other_column, other.block.dim),
+                           &border(entry.tangent, other.tangent),
+                           border.outerStride());
       other_column += other.block.dim;
     }
-    column += dim;
+    column += entry.block.dim;
   }
 }
 

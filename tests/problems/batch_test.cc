@@ -193,28 +193,33 @@ TEST(Batch, WindowsGiveTheSolutionOfTheWholeChain) {
   }
 }
 
-TEST(Batch, AStartNearTheSolutionNeedsNoWindows) {
-  const TestProblem problem = ShortDrive(kKinds[0]);
-  Problem posed = problem.Pose(All(problem));
-  const std::vector<State> filtered = FilteredStates(&posed);
-  const BatchResult whole = SolveBatch(filtered, {}, &posed);
-  for (const double distance : {1e-4, 1e-1}) {
-    std::vector<State> start = whole.states;
-    for (std::size_t k = 0; k < start.size(); k += 2) {
-      start[k].p_e.x() += distance;
+TEST(Batch, AStartNearTheSolutionNeedsNoCeres) {
+  for (const Kind& kind : kKinds) {
+    const TestProblem problem = ShortDrive(kind);
+    Problem posed = problem.Pose(All(problem));
+    const BatchResult by_ceres = SolveBatch(FilteredStates(&posed), {}, &posed);
+    for (const double distance : {1e-4, 1e-1}) {
+      std::vector<State> start = by_ceres.states;
+      for (std::size_t k = 0; k < start.size(); k += 2) {
+        start[k].p_e.x() += distance;
+      }
+      for (const std::size_t window : {std::size_t{7}, start.size()}) {
+        const BatchResult result = SolveBatch(
+            start,
+            {.whole_nodes = window, .window_nodes = window, .callback = {}},
+            &posed);
+        EXPECT_EQ(result.ceres_iterations == 0, distance < 1e-3);
+        EXPECT_TRUE(result.converged);
+        EXPECT_LT(LargestError(problem.layout, by_ceres.states, result.states,
+                               BlockKind::kPosition),
+                  1e-6)
+            << Name(kind);
+        for (std::size_t k = 0; k < start.size(); ++k) {
+          EXPECT_LT(ScaledDifference(by_ceres.P.Get(k), result.P.Get(k)), 1e-5)
+              << Name(kind) << k;
+        }
+      }
     }
-    int iterations_in_windows = 0;
-    const BatchResult parts =
-        SolveBatch(start,
-                   {.whole_nodes = 7,
-                    .window_nodes = 7,
-                    .callback = [&](double) { ++iterations_in_windows; }},
-                   &posed);
-    EXPECT_EQ(iterations_in_windows == 0, distance < 1e-3);
-    EXPECT_TRUE(parts.converged);
-    EXPECT_LT(LargestError(problem.layout, whole.states, parts.states,
-                           BlockKind::kPosition),
-              1e-6);
   }
 }
 
