@@ -124,6 +124,7 @@ Tried Try(const Dataset& dataset, NavigationTrial trial,
           const std::vector<std::string>& labels, std::uint64_t seed) {
   Tried tried;
   trial.innovations = &tried.innovations;
+  trial.best_of_run = true;
   CaseRun run(labels, seed, &tried.cells);
   NavigationTrialOf(trial)(dataset, &run);
   tried.cells = Cells(std::move(tried.cells));
@@ -135,7 +136,9 @@ Tried Refused(const NavigationTrial& trial, std::vector<std::string> labels,
               std::uint64_t seed) {
   Tried tried;
   labels.emplace_back();
-  for (const std::string& method : trial.methods) {
+  std::vector<std::string> methods = trial.methods;
+  methods.emplace_back(kBestOfRun);
+  for (const std::string& method : methods) {
     RunRecord& record = tried.cells.emplace_back();
     labels.back() = method;
     record.labels = labels;

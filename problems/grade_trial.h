@@ -40,6 +40,8 @@ inline constexpr double kVisible = 5.62;
 ///   2 evidence  vehicle, rule, method: in how many wrong, visible runs the
 ///               rule lowered the grade, in how many alone, and in how many
 ///               healthy ones
+/// Beside the methods each has what `run` with all of them ends with, the row
+/// kBestOfRun.
 std::vector<StudyTable> GradeTables();
 
 /// Tries a healthy recording, and its twin with every fault: the last label of

@@ -1,6 +1,7 @@
 #include "problems/method.h"
 
 #include "base/error.h"
+#include "evaluation/grade.h"
 
 namespace hindsight {
 
@@ -43,6 +44,12 @@ constexpr const Method* kMethods[] = {
 }  // namespace
 
 std::span<const Method* const> Methods() { return kMethods; }
+
+const Solution& Best(const std::vector<Solution>& solutions) {
+  std::vector<const char*> preference;
+  for (const Method* method : kMethods) preference.push_back(method->name);
+  return solutions.at(static_cast<std::size_t>(BestOf(solutions, preference)));
+}
 
 std::string MethodNames(bool attitude_alone) {
   std::string names;

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "state/solution.h"
 
@@ -67,6 +68,10 @@ struct Method {
 /// is no covariance; of each kind the plain model before the richer; attitude
 /// alone after all others.
 std::span<const Method* const> Methods();
+
+/// The best of several solutions of one recording, of which there must be one
+/// (BestOf, with the methods' order of preference).
+const Solution& Best(const std::vector<Solution>& solutions);
 
 /// Names of all methods of one kind, separated by ", ".
 std::string MethodNames(bool attitude_alone);

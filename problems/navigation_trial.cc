@@ -7,8 +7,10 @@
 #include <set>
 #include <utility>
 
+#include "evaluation/grade.h"
 #include "evaluation/statistics.h"
 #include "evaluation/true_states.h"
+#include "problems/method.h"
 #include "problems/reconstruction.h"
 
 namespace hindsight {
@@ -105,12 +107,6 @@ void AddConstants(const Dataset& dataset, const Solution& solution,
   }
 }
 
-/// What of a solution is compared with those of other methods.
-struct MethodTrack {
-  std::string method;
-  std::vector<State> states;
-};
-
 /// The pairs whose agreement says something about the methods.
 constexpr std::pair<const char*, const char*> kCompared[] = {
     {"two_filter", "rts"},
@@ -119,15 +115,15 @@ constexpr std::pair<const char*, const char*> kCompared[] = {
     {"iterated", "two_filter"},
     {"batch", "iterated"}};
 
-const MethodTrack* Find(const std::vector<MethodTrack>& tracks,
-                        const std::string& method) {
-  for (const MethodTrack& track : tracks) {
-    if (track.method == method) return &track;
+const Solution* Find(const std::vector<Solution>& solutions,
+                     const std::string& method) {
+  for (const Solution& solution : solutions) {
+    if (solution.method == method) return &solution;
   }
   return nullptr;
 }
 
-void AddAgreement(const MethodTrack& a, const MethodTrack& b,
+void AddAgreement(const Solution& a, const Solution& b,
                   const NavigationTrial& trial, CaseRun* run) {
   const double first_leg_end =
       trial.leg_ends.empty() ? 0.0 : trial.leg_ends.front();
@@ -207,6 +203,21 @@ void Judge(const Dataset& dataset, const std::vector<double>& times,
              record);
 }
 
+/// The cell of the run as a whole: that of its best method, with the grade that
+/// `run` gives it beside the others.
+void AddBest(std::vector<Solution> solutions,
+             const std::vector<double>& judged_times, const Dataset& dataset,
+             CaseRun* run) {
+  RunRecord* record = run->Add(kCells, {kBestOfRun});
+  record->grade = Grade::kUnusable;
+  record->failed = true;
+  record->answered = false;
+  if (solutions.empty()) return;
+  ShareDisagreements(&solutions);
+  const Solution& best = Best(solutions);
+  Judge(dataset, judged_times, best, record);
+}
+
 }  // namespace
 
 Trial NavigationTrialOf(const NavigationTrial& trial) {
@@ -214,19 +225,19 @@ Trial NavigationTrialOf(const NavigationTrial& trial) {
     ReconstructionOptions options;
     options.node_times = JudgedTimes(trial, dataset);
     std::unique_ptr<Reconstruction> reconstruction;
-    std::vector<MethodTrack> tracks;
+    std::vector<Solution> solutions;
     for (const std::string& method : trial.methods) {
       run->Try({method}, [&](RunRecord* record) {
         record->grade = Grade::kUnusable;
         if (!reconstruction) {
           reconstruction = std::make_unique<Reconstruction>(dataset, options);
         }
-        Solution solution = reconstruction->Run(method);
+        const Solution& solution =
+            solutions.emplace_back(reconstruction->Run(method));
         Judge(dataset, options.node_times, solution, record);
         record->values.insert(record->values.end(), trial.values.begin(),
                               trial.values.end());
         AddConstants(dataset, solution, method, run);
-        tracks.push_back({method, std::move(solution.states)});
       });
     }
     if (trial.innovations != nullptr && reconstruction) {
@@ -237,9 +248,12 @@ Trial NavigationTrialOf(const NavigationTrial& trial) {
       }
     }
     for (const auto& [first, second] : kCompared) {
-      const MethodTrack* a = Find(tracks, first);
-      const MethodTrack* b = Find(tracks, second);
+      const Solution* a = Find(solutions, first);
+      const Solution* b = Find(solutions, second);
       if (a != nullptr && b != nullptr) AddAgreement(*a, *b, trial, run);
+    }
+    if (trial.best_of_run) {
+      AddBest(std::move(solutions), options.node_times, dataset, run);
     }
   };
 }

@@ -28,9 +28,14 @@ struct NavigationTrial {
   /// Gets Reconstruction::Innovations, none where nothing held; nullptr: not
   /// asked for.
   std::vector<NormalisedInnovation>* innovations = nullptr;
+  /// Adds the cell kBestOfRun: what `run` with these methods ends with.
+  bool best_of_run = false;
   /// Ends of the legs into which the interval is divided [s], ascending.
   std::vector<double> leg_ends = {};
 };
+
+/// In place of a method: the best of those that were run (Best).
+inline constexpr char kBestOfRun[] = "run";
 
 inline constexpr std::size_t kCells = 0;
 inline constexpr std::size_t kConstants = 1;

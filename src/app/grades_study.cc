@@ -17,10 +17,7 @@ Study GradesStudy() {
   }
   const FaultCases cases =
       IsGiven("faults") ? LoadFaultCases(FLAGS_faults) : BuiltinFaultCases();
-  const std::vector<std::string> methods =
-      IsGiven("methods")
-          ? AskedMethods()
-          : std::vector<std::string>{"ekf", "two_filter", "rts", "batch"};
+  const std::vector<std::string> methods = AskedMethods();
   Study study = {"", {}, GradeTables(), {}};
   for (const std::string& name : cases.scenarios) {
     const Scenario scenario = FindScenario(name, {});

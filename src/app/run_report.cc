@@ -7,7 +7,6 @@
 #include "base/units.h"
 #include "earth/wgs84.h"
 #include "evaluation/grade.h"
-#include "problems/method.h"
 
 namespace hindsight {
 namespace {
@@ -176,12 +175,6 @@ std::string DescribeRivals(const std::vector<Solution>& solutions) {
     }
   }
   return text;
-}
-
-const Solution& Best(const std::vector<Solution>& solutions) {
-  std::vector<const char*> preference;
-  for (const Method* method : Methods()) preference.push_back(method->name);
-  return solutions.at(static_cast<std::size_t>(BestOf(solutions, preference)));
 }
 
 void NameBest(const Solution& best, const std::vector<Solution>& solutions,

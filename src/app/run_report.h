@@ -40,9 +40,6 @@ std::string DescribeEvidence(const std::vector<Solution>& solutions,
 /// nothing of it.
 std::string DescribeContradictions(const RunSummary& summary);
 
-/// The best of several solutions, of which there must be one (BestOf).
-const Solution& Best(const std::vector<Solution>& solutions);
-
 /// Notes the best solution in the summary, and the evidence as it stands after
 /// all methods have run.
 void NameBest(const Solution& best, const std::vector<Solution>& solutions,

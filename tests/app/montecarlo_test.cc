@@ -138,6 +138,7 @@ TEST(MonteCarloGrades, CountsWhatIsWrongAndWhatIsSaidOfIt) {
                                        "evidence.csv", "montecarlo.json"}));
   const std::string faults = ReadFile(folder.path() / "mc" / "faults.csv");
   EXPECT_THAT(faults, HasSubstr("position negated,0,batch,2,0,0,2,2,2,0"));
+  EXPECT_THAT(faults, HasSubstr("position negated,0,run,2,0,0,2,2,2,0"));
   EXPECT_THAT(faults, ::testing::Not(HasSubstr("dvl")));
 }
 
