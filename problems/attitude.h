@@ -8,6 +8,7 @@
 #include "alignment/attitude_start.h"
 #include "attitude/attitude_run.h"
 #include "attitude/attitude_samples.h"
+#include "attitude/attitude_smoother.h"
 #include "attitude/field_survey.h"
 #include "dataset/dataset.h"
 #include "problems/estimation.h"
@@ -15,8 +16,9 @@
 
 namespace hindsight {
 
-/// One recording, its attitude alone estimated from an IMU and, if there is
-/// one, a magnetometer; no position is needed. Solutions have the layout
+/// One recording, its attitude alone estimated from an IMU and, as far as there
+/// are any, a magnetometer and sensors of directions (`heading`); no position is
+/// needed. Solutions have the layout
 /// {attitude, gyro bias}, one state an IMU sample, and are given at the stamps
 /// of the file (ImuStream::stamp_offset); the scale factors of the gyros, which
 /// both methods estimate, are constants of the smoother's.
@@ -45,29 +47,49 @@ class AttitudeEstimation final : public Estimation {
   Solution Smoother();
 
  private:
-  /// At every sample, from the nodes of the filter's updates.
-  Solution Smooth(const AttitudeState& start, const ImuStream& imu,
-                  std::span<const MagneticSample> magnetic,
-                  const AttitudeFilterOptions& options,
-                  const std::string& stage) const;
+  /// A run of the filter, smoothed.
+  struct Pass {
+    AttitudeRun run;
+    std::vector<SmoothedAttitude> smoothed;
+    FieldSurvey survey;  ///< that it was made with
+  };
+  Pass Smooth(const AttitudeState& start, const ImuStream& imu,
+              std::span<const MagneticSample> magnetic,
+              const AttitudeFilterOptions& options, const std::string& stage,
+              bool covariances) const;
+  Pass SmoothWithoutSurvey(const ImuStream& imu,
+                           const AttitudeFilterOptions& options) const;
   /// Solves with a survey by the tilt of `level`; if that solution shows a hard
   /// iron, once more without it; and at last with a survey by the attitudes so
   /// found.
-  Solution SmoothSurveyed(const ImuStream& imu, const Solution& level,
-                          AttitudeFilterOptions options) const;
-  /// Readings 0.1 s apart, less `hard_iron_b`.
+  Pass SmoothSurveyed(const ImuStream& imu,
+                      const std::vector<Eigen::Quaterniond>& level,
+                      AttitudeFilterOptions options) const;
+  /// Readings 0.1 s apart, less `hard_iron_b`; `q_nb` at every sample.
   std::vector<SurveyedField> FieldReadings(
-      const Solution& attitudes, const Eigen::Vector3d& hard_iron_b) const;
-  std::vector<bool> FindRests() const;
+      const std::vector<Eigen::Quaterniond>& q_nb,
+      const Eigen::Vector3d& hard_iron_b) const;
+  Solution SolutionOf(const Pass& pass) const;
+  /// What all headings share beside P: the magnetometer's stated a priori
+  /// sigmas, and which north the survey leaves open [rad].
+  double SharedSigma(const FieldSurvey& survey) const;
+  /// What the solutions make no use of, in words.
+  std::vector<std::string> Unused() const;
   ErrorLayout SolutionLayout() const;
+  State StateOfAttitude(double t, const Eigen::Quaterniond& q_nb,
+                        const Eigen::Vector3d& b_g) const;
   void Poll(const std::string& stage, double fraction) const;
 
   const Dataset& dataset_;
   ReconstructionOptions options_;
   ImuStream imu_;  ///< of the asked interval, rates
   std::vector<MagneticSample> magnetic_;
+  std::vector<HeadingSample> headings_;
   AttitudeFilterOptions filter_options_;
+  Eigen::Quaterniond q_en_;
   AttitudeState start_;
+  /// What speaks against the smoother's heading.
+  std::vector<Evidence> evidence_;
   /// Whether the body rests from each sample to the next; smoother alone.
   std::vector<bool> rests_;
 };

@@ -6,9 +6,7 @@
 
 #include "alignment/attitude_start.h"
 #include "alignment/magnetic_heading.h"
-#include "attitude/attitude_run.h"
-#include "earth/wgs84.h"
-#include "filters/rts.h"
+#include "attitude/attitude_smoother.h"
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {
@@ -36,17 +34,14 @@ AlignmentOutcome AlignByAhrs(const AlignmentInput& input) {
   options.place = PlaceOnEarth(input.p_e);
   AttitudeState start = StartOfAttitude(input.dataset, imu, magnetic);
   start.b_g = input.b_g;
-  LinearTape tape(AttitudeLayout(imu.noise, start));
-  RunAttitudeFilter(imu, magnetic, options, start, &tape);
-  const SmoothedTrajectory smoothed = SmoothRts(std::move(tape));
-
-  const State& x = smoothed.states.front();
-  const ErrorMatrix P = smoothed.P.Get(0);
+  const AttitudeRun run = RunAttitudeFilter(imu, {magnetic}, options, start,
+                                            /*to_be_smoothed=*/true);
+  const AttitudeState x = StateOf(run, SmoothAttitude(run), 0);
   AlignedAttitude out;
-  out.q_nb = Eigen::Quaterniond(NedAxes(input.p_e)).conjugate() * x.q_eb;
-  out.P = P.topLeftCorner<3, 3>();
+  out.q_nb = x.q_nb;
+  out.P = x.P.topLeftCorner<3, 3>();
   out.b_g = x.b_g;
-  out.b_g_sigma = P.diagonal().segment<3>(3).cwiseSqrt();
+  out.b_g_sigma = x.P.diagonal().segment<3>(3).cwiseSqrt();
   constexpr double kReuse = 10.0;
   out.reuse = kReuse;
   out.attitude = fmt::format("attitude filter over {:.1f} s", end - input.t);

@@ -1,7 +1,9 @@
 #include "alignment/attitude_start.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "alignment/alignment.h"
 #include "base/units.h"
 #include "geometry/so3.h"
 #include "measurements/sensor_kind.h"
@@ -22,7 +24,7 @@ const AidingStream* MagnetometerOf(const Dataset& dataset) {
 
 AttitudeFilterOptions FilterOptionsOf(const Dataset& dataset) {
   constexpr double kLowPass = 1.5;   // [s]
-  constexpr double kUpdates = 50.0;  // in one correlation time
+  constexpr double kUpdates = 10.0;  // in one correlation time
   const AhrsSettings& ahrs = dataset.ahrs;
   AttitudeFilterOptions options;
   if (dataset.place) {
@@ -58,6 +60,7 @@ std::vector<MagneticSample> MagneticSamples(const Dataset& dataset) {
   if (stream == nullptr) return samples;
   samples.reserve(stream->measurements.size());
   for (const Measurement& z : stream->measurements) {
+    if (z.withheld) continue;
     samples.push_back({z.t + stream->sensor.time_offset,
                        std::get<MagneticField>(z.model).field_b -
                            stream->sensor.magnetic.hard_iron_b});
@@ -65,9 +68,26 @@ std::vector<MagneticSample> MagneticSamples(const Dataset& dataset) {
   return samples;
 }
 
+std::vector<HeadingSample> HeadingSamples(const Dataset& dataset) {
+  std::vector<HeadingSample> samples;
+  for (const AidingStream& stream : dataset.streams) {
+    if (!stream.sensor.kind->is_heading) continue;
+    for (const Measurement& z : stream.measurements) {
+      if (z.withheld) continue;
+      samples.push_back({z.t + stream.sensor.time_offset,
+                         std::get<GenericReading>(z.model), &stream.sensor});
+    }
+  }
+  std::stable_sort(
+      samples.begin(), samples.end(),
+      [](const HeadingSample& a, const HeadingSample& b) { return a.t < b.t; });
+  return samples;
+}
+
 AttitudeState StartOfAttitude(const Dataset& dataset, const ImuStream& imu,
                               std::span<const MagneticSample> magnetic) {
-  constexpr double kSpan = 0.5;  // [s]
+  constexpr double kSpan = 0.5;    // [s]
+  constexpr double kExact = 1e-5;  // [rad]
   AttitudeState start;
   start.t = imu.t_begin();
   start.b_g = dataset.initial.gyro_bias;
@@ -94,8 +114,12 @@ AttitudeState StartOfAttitude(const Dataset& dataset, const ImuStream& imu,
   if (const auto& euler = dataset.initial.euler) {
     start.q_nb = QuaternionFromEuler(euler->x(), euler->y(), euler->z());
   }
-  const Eigen::Vector3d sigma = dataset.initial.attitude_sigma.value_or(
+  Eigen::Vector3d sigma = dataset.initial.attitude_sigma.value_or(
       Eigen::Vector3d(5.0, 5.0, 10.0) * kDegree);
+  if (m.isZero(0.0) && !dataset.initial.attitude_sigma) {
+    // Counted from the start it is exact there.
+    sigma.z() = HeadingSamples(dataset).empty() ? kExact : kUnknownHeadingSigma;
+  }
   const Eigen::Vector3d bias_sigma = dataset.initial.gyro_bias_sigma.value_or(
       Eigen::Vector3d::Constant(0.5 * kDegree));
   // What is known exactly would leave the covariance singular.

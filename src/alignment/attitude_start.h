@@ -21,10 +21,15 @@ AttitudeFilterOptions FilterOptionsOf(const Dataset& dataset);
 /// removed; none without one.
 std::vector<MagneticSample> MagneticSamples(const Dataset& dataset);
 
+/// The readings of all sensors of directions (`heading`) that are not withheld,
+/// in order of time.
+std::vector<HeadingSample> HeadingSamples(const Dataset& dataset);
+
 /// Attitude at the first sample: levelled by the mean specific force of the
 /// first half second and turned to the field's mean; 5 deg of tilt, 10 deg of
 /// heading unless the data set gives them. Without readings the heading is
-/// that of the configuration, or zero.
+/// that of the configuration, or zero: exact, as headings then count from there,
+/// or of any sigma if a sensor of directions is to tell it.
 AttitudeState StartOfAttitude(const Dataset& dataset, const ImuStream& imu,
                               std::span<const MagneticSample> magnetic);
 

@@ -97,6 +97,10 @@ void PrintJson(const TrajectoryStatistics& all, const std::string& file) {
   if (all.position_nees) json["nees"]["position"] = *all.position_nees;
   if (all.velocity_nees) json["nees"]["velocity"] = *all.velocity_nees;
   if (all.attitude_nees) json["nees"]["attitude"] = *all.attitude_nees;
+  if (all.attitude_inside) {
+    json["nees"]["attitude_inside_3_sigma_percent"] =
+        100.0 * *all.attitude_inside;
+  }
   const std::string contradiction = Contradiction(all);
   if (!contradiction.empty()) json["contradicts_truth"] = contradiction;
   std::cout << json.dump(2) << "\n";

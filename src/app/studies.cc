@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "evaluation/statistics.h"
+#include "problems/free_rotation_trial.h"
 #include "problems/navigation_trial.h"
 #include "problems/papers/alignment_trial.h"
 #include "problems/papers/jump_comparison.h"
@@ -227,6 +228,23 @@ Study VibrationAttitudeStudy() {
   return study;
 }
 
+/// With the field throughout, and with one that is of no use in motion.
+Study FreeRotationStudy() {
+  constexpr double kDisturbance = 60.0;  // [uT]
+  Study study = {"", {}, {FreeRotationTable()}, {}};
+  for (const bool disturbed : {false, true}) {
+    const Recording recording = [disturbed](std::uint64_t seed) {
+      FreeRotationOptions options = DrawFreeRotation(seed);
+      if (disturbed) options.motion_disturbance = kDisturbance;
+      return SimulateFreeRotation(options, seed);
+    };
+    study.jobs.push_back(JobOf({{{disturbed ? "at rest alone" : "throughout"},
+                                 [recording] { return recording; },
+                                 FreeRotationTrial()}}));
+  }
+  return study;
+}
+
 }  // namespace
 
 Study ScenarioStudy(const std::vector<std::string>& names_or_paths) {
@@ -293,6 +311,10 @@ const std::vector<NamedStudy>& NamedStudies() {
        "axes, and up: attitude by axis and interval, gyro bias,\n"
        "shares inside 3 sigma",
        VibrationAttitudeStudy},
+      {kFreeRotationName,
+       "attitude alone over 20 net turns with scale factors of\n"
+       "0.4 %, by a field that is seen throughout or at rest alone",
+       FreeRotationStudy},
       {"grades",
        "four vehicles, healthy and with faults of every kind in\n"
        "three sizes (data/faults/grades.yaml): whether what is wrong is\n"

@@ -4,42 +4,11 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "earth/wgs84.h"
 #include "geometry/so3.h"
 #include "imu/rotation_summary.h"
 #include "measurements/tilt.h"
 
 namespace hindsight {
-
-AttitudePlace PlaceOnEarth(const Eigen::Vector3d& p_e) {
-  return {p_e, Gravity(p_e).norm(), NedAxes(p_e).transpose() * EarthRate_e()};
-}
-
-ErrorLayout AttitudeLayout(const ImuNoise& noise, const AttitudeState& start) {
-  ErrorLayout layout;
-  Block attitude;
-  attitude.key = {BlockKind::kAttitude};
-  attitude.name = "attitude";
-  attitude.unit = "rad";
-  attitude.evolution = Evolution::Navigation();
-  attitude.sigma0 = start.P.diagonal().head<3>().cwiseSqrt();
-  layout.Add(attitude);
-  Block bias;
-  bias.key = {BlockKind::kGyroBias};
-  bias.name = "gyro_bias";
-  bias.unit = "rad/s";
-  bias.evolution = noise.GyroBiasEvolution();
-  bias.sigma0 = start.P.diagonal().segment<3>(3).cwiseSqrt();
-  layout.Add(bias);
-  Block scale;
-  scale.key = {BlockKind::kGyroScale};
-  scale.name = "gyro_scale";
-  scale.unit = "1";
-  scale.evolution = Evolution::Constant();
-  scale.sigma0 = start.P.diagonal().tail<3>().cwiseSqrt();
-  layout.Add(scale);
-  return layout;
-}
 
 namespace {
 
@@ -67,6 +36,7 @@ AttitudeFilter::AttitudeFilter(const AttitudeFilterOptions& options,
       b_g_(start.b_g),
       s_g_(start.s_g),
       P_(start.P),
+      unscale_((1.0 + start.s_g.array()).inverse().matrix()),
       dt_(std::max(sample_interval, options.update_interval)),
       field_t_(start.t) {
   if (options.low_pass_tau > 0.0) {
@@ -76,10 +46,9 @@ AttitudeFilter::AttitudeFilter(const AttitudeFilterOptions& options,
 
 void AttitudeFilter::Turn(double dt, const Eigen::Vector3d& w0,
                           const Eigen::Vector3d& w1) {
-  const Eigen::Vector3d unscale = (1.0 + s_g_.array()).inverse().matrix();
   const RotationSummary summary = SummarizeRotation(
-      noise_, dt, unscale.cwiseProduct(w0 - b_g_),
-      unscale.cwiseProduct(w1 - b_g_), Eigen::Vector3d::Zero());
+      noise_, dt, unscale_.cwiseProduct(w0 - b_g_),
+      unscale_.cwiseProduct(w1 - b_g_), Eigen::Vector3d::Zero());
   const Eigen::Matrix3d C_before = C_ib_;
   if (resting_) {
     const Eigen::Vector3d earth_b =
@@ -114,15 +83,15 @@ void AttitudeFilter::Predict() {
   turned_ = Interval();
   if (predicted_.samples == 0) return;
   dt_ = predicted_.dt;
-  predicted_.q_bias = bias_evolution_.Q(dt_);
+  transition_.phi = predicted_.phi;
+  transition_.q_attitude = predicted_.q_attitude;
+  transition_.q_bias = bias_evolution_.Q(dt_);
   if (!options_.place.w_ie_n.isZero(0.0)) {
     q_ni_ = Exp(-dt_ * options_.place.w_ie_n) * q_ni_;
   }
   const Eigen::Matrix3d C_ni = q_ni_.toRotationMatrix();
-  Eigen::Matrix<double, 3, 6> A;  // d psi / d (b_g, s_g)
+  Eigen::Matrix<double, 3, 6>& A = transition_.A;
   A << C_ni * predicted_.A, C_ni * predicted_.S;
-  predicted_.A = A.leftCols<3>();
-  predicted_.S = A.rightCols<3>();
 
   const double phi = predicted_.phi;
   const Eigen::Matrix<double, 6, 6> P_cc = P_.bottomRightCorner<6, 6>();
@@ -136,19 +105,13 @@ void AttitudeFilter::Predict() {
     P_.middleRows<3>(3) *= phi;
   }
   P_.bottomLeftCorner<6, 3>() = P_.topRightCorner<3, 6>().transpose();
-  P_.diagonal().head<3>().array() += predicted_.q_attitude;
-  P_.diagonal().segment<3>(3).array() += predicted_.q_bias;
+  P_.diagonal().head<3>().array() += transition_.q_attitude;
+  P_.diagonal().segment<3>(3).array() += transition_.q_bias;
 }
 
-void AttitudeFilter::FillTransition(Transition* out) const {
-  constexpr int n = AttitudeState::kDim;
-  out->Phi.setIdentity(n, n);
-  out->Phi.block<3, 3>(0, 3) = predicted_.A;
-  out->Phi.block<3, 3>(0, 6) = predicted_.S;
-  out->Phi.diagonal().segment<3>(3).setConstant(predicted_.phi);
-  out->Q.setZero(n, n);
-  out->Q.diagonal().head<3>().setConstant(predicted_.q_attitude);
-  out->Q.diagonal().segment<3>(3).setConstant(predicted_.q_bias);
+void AttitudeFilter::Record(const Vector& h, const Vector& PHt, double S,
+                            double innovation) {
+  if (record_ != nullptr) record_->push_back({h, PHt, S, innovation});
 }
 
 void AttitudeFilter::ApplyGain(const Vector& PHt, double S, double innovation) {
@@ -160,13 +123,21 @@ void AttitudeFilter::ApplyGain(const Vector& PHt, double S, double innovation) {
 void AttitudeFilter::UpdateComponent(int i, double h, double residual,
                                      double R) {
   const Vector PHt = h * P_.col(i);
-  ApplyGain(PHt, h * PHt(i) + R, residual - h * dx_(i));
+  const double S = h * PHt(i) + R;
+  const double innovation = residual - h * dx_(i);
+  Record(h * Vector::Unit(i), PHt, S, innovation);
+  ApplyGain(PHt, S, innovation);
 }
 
 void AttitudeFilter::UpdateAttitude(const Eigen::Vector3d& h, double residual,
                                     double R) {
   const Vector PHt = P_.leftCols<3>() * h;
-  ApplyGain(PHt, h.dot(PHt.head<3>()) + R, residual - h.dot(dx_.head<3>()));
+  const double S = h.dot(PHt.head<3>()) + R;
+  const double innovation = residual - h.dot(dx_.head<3>());
+  Vector full = Vector::Zero();
+  full.head<3>() = h;
+  Record(full, PHt, S, innovation);
+  ApplyGain(PHt, S, innovation);
 }
 
 void AttitudeFilter::AddForce(const Eigen::Vector3d& f_b) {
@@ -271,6 +242,7 @@ void AttitudeFilter::Reset() {
   q_ni_.coeffs() *= 1.5 - 0.5 * q_ni_.squaredNorm();
   b_g_ += dx_.segment<3>(3);
   s_g_ += dx_.tail<3>();
+  unscale_ = (1.0 + s_g_.array()).inverse().matrix();
   dx_.setZero();
 }
 

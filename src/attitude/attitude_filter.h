@@ -7,33 +7,13 @@
 #include <vector>
 
 #include "attitude/accelerometer_rule.h"
+#include "attitude/attitude_state.h"
 #include "attitude/inertial_low_pass.h"
 #include "attitude/magnetic_reference.h"
-#include "imu/imu_link.h"
 #include "imu/imu_stream.h"
 #include "measurements/magnetic_field.h"
 
 namespace hindsight {
-
-/// Where an attitude is estimated. Without a place gravity is the standard one
-/// and the Earth does not turn.
-struct AttitudePlace {
-  /// Without a place it only gives the NED axes a meaning: 45 deg north, where
-  /// gravity is the standard one to 5e-5.
-  Eigen::Vector3d p_e{4517590.87885, 0.0, 4487348.40887};
-  double gravity = 9.80665;                          ///< [m/s^2]
-  Eigen::Vector3d w_ie_n = Eigen::Vector3d::Zero();  ///< [rad/s]
-};
-/// Gravity and Earth rate at p_e.
-AttitudePlace PlaceOnEarth(const Eigen::Vector3d& p_e);
-
-/// One reading of a magnetometer in body axes, its own hard iron removed.
-struct MagneticSample {
-  double t = 0.0;  ///< [s], clock offset applied
-  Eigen::Vector3d field_b = Eigen::Vector3d::Zero();  ///< [uT]
-  /// Divides the variance; 0 makes the reading a disturbed one.
-  double weight = 1.0;
-};
 
 struct AttitudeFilterOptions {
   AttitudePlace place;
@@ -66,28 +46,6 @@ struct AttitudeFilterOptions {
   /// RestDetector, which knows nothing later, finds it.
   std::optional<std::vector<bool>> rests;
 };
-
-/// Mean and covariance of (attitude psi [rad, NED], gyro bias [rad/s], gyro
-/// scale factors [1]: measured = (1 + s) true + b, per body axis).
-struct AttitudeState {
-  static constexpr int kDim = 9;
-  using Matrix = Eigen::Matrix<double, kDim, kDim>;
-  double t = 0.0;
-  Eigen::Quaterniond q_nb = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d b_g = Eigen::Vector3d::Zero();
-  Eigen::Vector3d s_g = Eigen::Vector3d::Zero();
-  Matrix P = Matrix::Zero();
-};
-
-/// What became of the readings of one update.
-struct AttitudeVerdict {
-  double accel_variance = 0.0;  ///< R in force [m^2/s^4]; infinity: not used
-  bool magnetic_used = false;
-  bool magnetic_disturbed = false;
-};
-
-/// The layout {attitude, gyro bias, gyro scale}.
-ErrorLayout AttitudeLayout(const ImuNoise& noise, const AttitudeState& start);
 
 /// The forward filter of the layout {attitude, gyro bias, gyro scale}: the
 /// error-state extended Kalman filter of filters/forward_filter.h, in the same
@@ -134,24 +92,29 @@ class AttitudeFilter {
   void UseAccelerometer();
   /// Uses the field of the interval, if there was a reading.
   void UseMagnetometer();
+  /// Uses a reading whose rows depend on the attitude alone, by psi.
+  void UseRow(const Eigen::Vector3d& h, double residual, double R) {
+    UpdateAttitude(h, residual, R);
+  }
   /// Uses the rates that were read at rest since the last update.
   void UseRest();
   /// Moves the corrections into the state. To be called after the updates.
   void Reset();
 
   AttitudeState state() const;
+  Eigen::Quaterniond q_nb() const { return q_ni_ * q_ib_; }
   const Eigen::Vector3d& gyro_bias() const { return b_g_; }
   /// Verdict on the last update.
   const AttitudeVerdict& verdict() const { return verdict_; }
-  /// Transition and noise of the last Predict.
-  void FillTransition(Transition* out) const;
-  const Eigen::Matrix<double, AttitudeState::kDim, 1>& dx() const {
-    return dx_;
-  }
-  const AttitudeState::Matrix& P() const { return P_; }
+  /// Of the last Predict.
+  const AttitudeTransition& transition() const { return transition_; }
+  /// Mean of the error before Reset.
+  const AttitudeState::Vector& dx() const { return dx_; }
+  /// Every scalar update goes to `record`, too, if it is not null.
+  void RecordUpdates(std::vector<ScalarUpdate>* record) { record_ = record; }
 
  private:
-  using Vector = Eigen::Matrix<double, AttitudeState::kDim, 1>;
+  using Vector = AttitudeState::Vector;
   using Matrix = AttitudeState::Matrix;
 
   /// Scalar update with H = h on component `i`, residual about the nominal.
@@ -159,15 +122,15 @@ class AttitudeFilter {
   /// Scalar update with H = h' on the attitude.
   void UpdateAttitude(const Eigen::Vector3d& h, double residual, double R);
   void ApplyGain(const Vector& PHt, double S, double innovation);
+  void Record(const Vector& h, const Vector& PHt, double S, double innovation);
 
   /// Sums over the turns since the last Predict.
   struct Interval {
     double dt = 0.0;                              ///< [s]
     double phi = 1.0;                             ///< of the gyro bias
-    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();  ///< d psi / d b_g
-    Eigen::Matrix3d S = Eigen::Matrix3d::Zero();  ///< d psi / d s_g
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();  ///< d psi_i / d b_g
+    Eigen::Matrix3d S = Eigen::Matrix3d::Zero();  ///< d psi_i / d s_g
     double q_attitude = 0.0;
-    double q_bias = 0.0;
     int samples = 0;
     double angle = 0.0;                                ///< [rad]
     Eigen::Vector3d rest_w = Eigen::Vector3d::Zero();  ///< sum at rest [rad/s]
@@ -196,6 +159,9 @@ class AttitudeFilter {
   Eigen::Vector3d s_g_;
   Matrix P_;
   Vector dx_ = Vector::Zero();
+  Eigen::Vector3d unscale_;  ///< 1 / (1 + s_g)
+  AttitudeTransition transition_;
+  std::vector<ScalarUpdate>* record_ = nullptr;
   Interval turned_;     ///< since the last Predict
   Interval predicted_;  ///< of the last Predict
   double dt_;           ///< between updates [s]

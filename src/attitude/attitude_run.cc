@@ -16,45 +16,50 @@ namespace {
 /// Feeds the samples to a filter and records its updates.
 class AttitudeRunner {
  public:
-  AttitudeRunner(const ImuStream& imu, std::span<const MagneticSample> magnetic,
+  AttitudeRunner(const ImuStream& imu, const AttitudeReadings& readings,
                  const AttitudeFilterOptions& options,
-                 const AttitudeState& start, LinearTape* tape)
+                 const AttitudeState& start, bool to_be_smoothed)
       : imu_(imu),
-        magnetic_(magnetic),
+        magnetic_(readings.magnetic),
+        headings_(readings.headings),
         options_(options),
         sample_interval_(MedianInterval(imu)),
+        layout_(AttitudeLayout(imu.noise, start)),
         q_en_(NedAxes(options.place.p_e)),
-        filter_(options, imu.noise, start, sample_interval_),
-        tape_(tape) {
-    transition_.c = ErrorVector::Zero(AttitudeState::kDim);
-    if (tape_ == nullptr) return;
+        filter_(options, imu.noise, start, sample_interval_) {
+    constexpr std::size_t kUpdates = 8;  // scalar ones of a node
     const double spacing = std::max(options.update_interval, sample_interval_);
-    tape_->Reserve(
-        static_cast<std::size_t>((imu.t_end() - imu.t_begin()) / spacing) + 2);
-    tape_->NeglectTransport();
+    const auto nodes =
+        static_cast<std::size_t>((imu.t_end() - imu.t_begin()) / spacing) + 2;
+    run_.samples.reserve(imu.samples.size());
+    run_.nodes.reserve(nodes);
+    if (!to_be_smoothed) return;
+    run_.updates.reserve(kUpdates * nodes);
+    filter_.RecordUpdates(&run_.updates);
   }
 
   AttitudeRun Run(const std::function<void(std::size_t)>& poll) {
     constexpr std::size_t kPollEvery = 8192;
-    AttitudeRun run;
     const std::size_t count = imu_.samples.size();
-    run.epochs.resize(count);
     double updated = -std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < count; ++k) {
       const double t = imu_.samples[k].t;
       Feed(k);
-      if (k + 1 == count ||
+      const bool heading =
+          next_heading_ < headings_.size() && headings_[next_heading_].t <= t;
+      if (k + 1 == count || heading ||
           t - updated > options_.update_interval - 0.5 * sample_interval_) {
-        Update(t);
+        Update(k);
         updated = t;
       }
-      run.epochs[k] = {filter_.state(), filter_.verdict()};
+      run_.samples.push_back(
+          {filter_.q_nb(), filter_.gyro_bias(), run_.nodes.size() - 1});
       if (k % kPollEvery == 0) {
-        RequireFinite(run.epochs[k].x);
+        RequireFinite(run_.nodes.back().x);
         if (poll) poll(k + 1);
       }
     }
-    return run;
+    return std::move(run_);
   }
 
  private:
@@ -85,40 +90,40 @@ class AttitudeRunner {
     return detector_.rests() && filter_.ExplainsAsBias(detector_.rate());
   }
 
-  void Update(double t) {
+  void Update(std::size_t k) {
     filter_.Predict();
-    TapeEpoch epoch;
-    AttitudeState::Matrix P_minus;
-    if (tape_ != nullptr) {
-      epoch.t = t;
-      epoch.x_minus = StateOf(filter_.state());
-      P_minus = filter_.P();
-      filter_.FillTransition(&transition_);
-    }
     filter_.UseAccelerometer();
     filter_.UseMagnetometer();
+    UseHeadings(imu_.samples[k]);
     if (options_.rest_sigma > 0.0) filter_.UseRest();
-    if (tape_ != nullptr) {
-      epoch.dx_minus = ErrorVector::Zero(AttitudeState::kDim);
-      epoch.c = epoch.dx_minus;
-      epoch.dx_plus = filter_.dx();
-    }
+    AttitudeNode& node = run_.nodes.emplace_back();
+    node.transition = filter_.transition();
+    node.dx = filter_.dx();
     filter_.Reset();
-    if (tape_ != nullptr) {
-      epoch.reset = true;
-      epoch.x_plus = StateOf(filter_.state());
-      tape_->Append(std::move(epoch), transition_, P_minus, filter_.P());
-    }
+    node.x = filter_.state();
+    node.verdict = filter_.verdict();
+    node.updates_end = run_.updates.size();
   }
 
-  State StateOf(const AttitudeState& a) const {
-    State x;
-    x.t = a.t;
-    x.p_e = options_.place.p_e;
-    x.q_eb = (q_en_ * a.q_nb).normalized();
-    x.b_g = a.b_g;
-    x.parameters = a.s_g;
-    return x;
+  void UseHeadings(const ImuSample& sample) {
+    for (; next_heading_ < headings_.size() &&
+           headings_[next_heading_].t <= sample.t;
+         ++next_heading_) {
+      const HeadingSample& heading = headings_[next_heading_];
+      const Eigen::Vector3d turn =
+          (sample.t - heading.t) * (sample.gyro - filter_.gyro_bias());
+      State x;
+      x.t = heading.t;
+      x.p_e = options_.place.p_e;
+      x.q_eb = q_en_ * filter_.q_nb() * Exp(-turn);
+      x.parameters = Eigen::Vector3d::Zero();
+      const Kinematics kinematics = {sample.gyro, sample.accel};
+      LinearizedMeasurement z;
+      heading.reading.Evaluate({layout_, x, kinematics, *heading.sensor}, &z);
+      for (int row = 0; row < z.residual.size(); ++row) {
+        filter_.UseRow(z.H.row(row).head<3>(), z.residual(row), z.R(row, row));
+      }
+    }
   }
 
   static void RequireFinite(const AttitudeState& x) {
@@ -130,24 +135,27 @@ class AttitudeRunner {
 
   const ImuStream& imu_;
   std::span<const MagneticSample> magnetic_;
+  std::span<const HeadingSample> headings_;
   const AttitudeFilterOptions& options_;
   double sample_interval_;
+  ErrorLayout layout_;
   Eigen::Quaterniond q_en_;
   AttitudeFilter filter_;
-  LinearTape* tape_;
-  Transition transition_;
+  AttitudeRun run_;
   RestDetector detector_;
   std::size_t next_ = 0;
+  std::size_t next_heading_ = 0;
 };
 
 }  // namespace
 
 AttitudeRun RunAttitudeFilter(const ImuStream& imu,
-                              std::span<const MagneticSample> magnetic,
+                              const AttitudeReadings& readings,
                               const AttitudeFilterOptions& options,
-                              const AttitudeState& start, LinearTape* tape,
+                              const AttitudeState& start, bool to_be_smoothed,
                               const std::function<void(std::size_t)>& poll) {
-  return AttitudeRunner(imu, magnetic, options, start, tape).Run(poll);
+  return AttitudeRunner(imu, readings, options, start, to_be_smoothed)
+      .Run(poll);
 }
 
 }  // namespace hindsight

@@ -1,70 +1,9 @@
 #include "attitude/attitude_samples.h"
 
-#include <algorithm>
-
 #include "attitude/inertial_low_pass.h"
 #include "geometry/so3.h"
-#include "imu/preintegration.h"
 
 namespace hindsight {
-namespace {
-
-Eigen::Matrix<double, 6, 6> AttitudeAndBias(const Solution& nodes,
-                                            std::size_t k) {
-  const int a = nodes.layout.Find(BlockKind::kAttitude)->offset;
-  const int b = nodes.layout.Find(BlockKind::kGyroBias)->offset;
-  const ErrorMatrix full = nodes.covariances.Get(k);
-  Eigen::Matrix<double, 6, 6> P;
-  P << full.block<3, 3>(a, a), full.block<3, 3>(a, b), full.block<3, 3>(b, a),
-      full.block<3, 3>(b, b);
-  return P;
-}
-
-}  // namespace
-
-Solution NodesAtSamples(const Solution& nodes, const ImuStream& imu,
-                        const ErrorLayout& layout) {
-  Solution out = WithoutSeries(nodes);
-  out.layout = layout;
-  const std::size_t count = imu.samples.size();
-  out.states.reserve(count);
-  out.covariances = CovarianceSeries(6, count);
-  ImuIntegrator path(imu);
-  std::vector<Eigen::Quaterniond> turned;
-  std::size_t i = 0;
-  Eigen::Matrix<double, 6, 6> P_end = AttitudeAndBias(nodes, 0);
-  for (std::size_t k = 0; k + 1 < nodes.states.size(); ++k) {
-    const State& begin = nodes.states[k];
-    const State& end = nodes.states[k + 1];
-    const Eigen::Matrix<double, 6, 6> P_begin = P_end;
-    P_end = AttitudeAndBias(nodes, k + 1);
-    const bool last = k + 2 == nodes.states.size();
-    turned.clear();
-    Eigen::Quaterniond q = begin.q_eb;
-    double t = begin.t;
-    const auto advance = [&](double to) {
-      q = q * path.Turn(t, to, begin.b_g);
-      t = to;
-    };
-    const std::size_t first = i;
-    for (; i < count && (last || imu.samples[i].t < end.t); ++i) {
-      advance(std::clamp(imu.samples[i].t, t, end.t));
-      turned.push_back(q);
-    }
-    advance(end.t);
-    const Eigen::Vector3d miss = Log(q.conjugate() * end.q_eb);
-    for (std::size_t j = first; j < i; ++j) {
-      State x = begin;
-      x.t = imu.samples[j].t;
-      const double part = (x.t - begin.t) / (end.t - begin.t);
-      x.q_eb = (turned[j - first] * Exp(part * miss)).normalized();
-      out.states.push_back(x);
-      out.covariances.Set(j, part < 0.5 ? P_begin : P_end);
-    }
-  }
-  return out;
-}
-
 Solution SampleAttitude(const Solution& solution, const ImuStream& imu,
                         const std::vector<double>& times) {
   Solution out = WithoutSeries(solution);

@@ -8,14 +8,6 @@
 
 namespace hindsight {
 
-/// Attitudes at every IMU sample from those of nodes, of which the first and
-/// the last enclose the samples: turned by the gyros from the node before, with
-/// what they miss of the node after spread evenly over the interval. Gyro bias
-/// of the node before, covariances of the nearer one, reduced to `layout`,
-/// which is {attitude, gyro bias}.
-Solution NodesAtSamples(const Solution& nodes, const ImuStream& imu,
-                        const ErrorLayout& layout);
-
 /// Attitudes at other times: the state at the sample before, turned by the rate
 /// of that sample. Nothing later enters, so a causal solution stays causal.
 Solution SampleAttitude(const Solution& solution, const ImuStream& imu,

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
+
+#include "geometry/so3.h"
 
 namespace hindsight {
 namespace {
@@ -44,6 +47,27 @@ void FindReference(std::span<const SurveyedField> readings,
   survey->down = WeighedMedian(std::move(down));
 }
 
+/// Azimuth of the median of the undisturbed readings at rest or in motion; of
+/// less than kLeast there is none.
+std::optional<double> MedianAzimuth(std::span<const SurveyedField> readings,
+                                    const std::vector<double>& weight,
+                                    bool at_rest) {
+  constexpr double kLeast = 5.0;  // [s]
+  double time = 0.0;
+  std::vector<Weighed> north, east;
+  for (std::size_t k = 0; k < readings.size(); ++k) {
+    const SurveyedField& reading = readings[k];
+    if (reading.at_rest != at_rest || weight[k] <= 0.0) continue;
+    const Eigen::Vector3d field_n = reading.q_nb * reading.field_b;
+    north.push_back({field_n.x(), reading.dt});
+    east.push_back({field_n.y(), reading.dt});
+    time += reading.dt;
+  }
+  if (time < kLeast) return std::nullopt;
+  return std::atan2(WeighedMedian(std::move(east)),
+                    WeighedMedian(std::move(north)));
+}
+
 /// What a reading differs in from the reference, as far as it can be told
 /// [uT]: along and across it, and down.
 Eigen::Vector3d Difference(const SurveyedField& reading,
@@ -75,6 +99,11 @@ FieldSurvey SurveyField(std::span<const SurveyedField> readings,
     if (disturbed || reading.at_rest) continue;
     sum += reading.dt * d;
     squares += reading.dt * d.squaredNorm();
+  }
+  if (options.heading_known) {
+    const auto rest = MedianAzimuth(readings, survey.weight, true);
+    const auto motion = MedianAzimuth(readings, survey.weight, false);
+    if (rest && motion) survey.turn = WrapAngle(*motion - *rest);
   }
   // T |sum / T|^2 / (squares / T)
   survey.memory = options.correlation_time;

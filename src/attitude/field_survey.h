@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -28,21 +29,36 @@ struct SurveyOptions {
   bool heading_known = false;
 };
 
-/// The field that heading is counted from, and what each reading tells of it.
+/// The undisturbed field, and what each reading tells of it.
 struct FieldSurvey {
   double horizontal = 0.0;  ///< [uT]
   double down = 0.0;        ///< [uT]
   double azimuth = 0.0;     ///< by the attitudes' headings [rad]
+  /// Of the field in motion, counted from that at rest [rad]; 0 unless there
+  /// are both and the heading is known.
+  double turn = 0.0;
   /// How long the errors of the readings in motion go on [s].
   double memory = 0.0;
   /// Of each reading, in readings of SurveyOptions::sigma; 0: disturbed.
   std::vector<double> weight;
 };
 
+/// Which of two fields points north, the one at rest or the one in motion, a
+/// recording does not tell: heading is counted from between them, with this
+/// part of the one at rest, and its sigma holds both.
+inline constexpr double kRestPart = 0.75;
+/// Azimuth of the field at rest, counted from there [rad].
+inline double RestAzimuth(const FieldSurvey& survey) {
+  return -(1.0 - kRestPart) * survey.turn;
+}
+/// Standard deviation of a variable that is one of two, by these parts [rad].
+inline double NorthSigma(const FieldSurvey& survey) {
+  return std::sqrt(kRestPart * (1.0 - kRestPart)) * std::abs(survey.turn);
+}
+
 /// The reference is the median of the horizontal, of the vertical part and of
 /// the azimuth over the readings, those in motion with a fiftieth of the weight
-/// of those at rest: the field where the body rests, if it does, and heading is
-/// counted from magnetic north there. Of the difference d of a reading from it
+/// of those at rest: the field where the body rests, if it does. Of the difference d of a reading from it
 /// the horizontal and the vertical part can be seen whatever the heading, and
 /// all of it if that is known: above |d| = 3 sigma the reading is disturbed.
 /// The weight of the others is dt / T, T how long their error goes on:

@@ -273,8 +273,10 @@ void DescribeAccuracy(const Judged& judged, std::vector<Evidence>* evidence) {
   AddSpread("tilt", "deg", kDegree, kLargestTiltSigma, tilt, count, evidence);
   if (judged.relative_heading) {
     evidence->push_back(
-        {.what = "but the heading counts from the start: there is no "
-                 "magnetometer"});
+        {.what = fmt::format("but the heading counts from the start and is "
+                             "uncertain by {:.2g} deg at worst: nothing "
+                             "measures it",
+                             std::sqrt(heading.worst) / kDegree)});
   } else {
     AddSpread("heading", "deg", kDegree, kLargestHeadingSigma, heading, count,
               evidence);

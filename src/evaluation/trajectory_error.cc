@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <functional>
 
+#include "base/chi_square.h"
 #include "evaluation/interpolation.h"
 #include "geometry/so3.h"
 
@@ -141,6 +142,27 @@ double TrajectoryStatistics::matched_percent() const {
          static_cast<double>(truth_count);
 }
 
+namespace {
+
+/// Part of the normalised squared errors that lie within the ellipsoid.
+std::optional<double> PartInside(const std::vector<TrajectoryError>& errors,
+                                 std::optional<double> TrajectoryError::*nees) {
+  constexpr double kThreeSigmas = 0.9973;
+  const double limit = ChiSquareQuantile(kThreeSigmas, 3.0);
+  double count = 0.0;
+  double inside = 0.0;
+  for (const TrajectoryError& error : errors) {
+    const std::optional<double>& value = error.*nees;
+    if (!value) continue;
+    count += 1.0;
+    if (*value <= limit) inside += 1.0;
+  }
+  if (count == 0.0) return std::nullopt;
+  return inside / count;
+}
+
+}  // namespace
+
 TrajectoryStatistics SummarizeErrors(const std::vector<TrajectoryError>& errors,
                                      std::size_t truth_count) {
   TrajectoryStatistics s;
@@ -158,6 +180,7 @@ TrajectoryStatistics SummarizeErrors(const std::vector<TrajectoryError>& errors,
   s.position_nees = Mean(errors, &TrajectoryError::position_nees);
   s.velocity_nees = Mean(errors, &TrajectoryError::velocity_nees);
   s.attitude_nees = Mean(errors, &TrajectoryError::attitude_nees);
+  s.attitude_inside = PartInside(errors, &TrajectoryError::attitude_nees);
   return s;
 }
 

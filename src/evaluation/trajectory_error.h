@@ -77,6 +77,9 @@ struct TrajectoryStatistics {
   std::optional<double> position_nees;  ///< mean over the points
   std::optional<double> velocity_nees;
   std::optional<double> attitude_nees;
+  /// Part of the points whose normalised squared attitude error is below the
+  /// chi-square quantile of 99.73 %, the 3-sigma of one axis.
+  std::optional<double> attitude_inside;
 };
 
 TrajectoryStatistics SummarizeErrors(const std::vector<TrajectoryError>& errors,

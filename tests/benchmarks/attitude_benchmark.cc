@@ -50,7 +50,7 @@ void BM_AttitudeFilter(benchmark::State& state) {
   const AttitudeState start = StartOfAttitude(Waved(), Waved().imu, magnetic);
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        RunAttitudeFilter(Waved().imu, magnetic, options, start));
+        RunAttitudeFilter(Waved().imu, {magnetic}, options, start));
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(
                                                    Waved().imu.samples.size()));

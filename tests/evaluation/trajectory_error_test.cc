@@ -166,6 +166,10 @@ TEST(TrajectoryError, NormalisedErrorsOfAConsistentEstimateAverageThree) {
   EXPECT_TRUE(bounds.Contains(*s.position_nees)) << *s.position_nees;
   EXPECT_TRUE(bounds.Contains(*s.velocity_nees)) << *s.velocity_nees;
   EXPECT_TRUE(bounds.Contains(*s.attitude_nees)) << *s.attitude_nees;
+  // A part p of kRuns scatters by sqrt(p (1 - p) / kRuns).
+  constexpr double kInside = 0.9973;
+  EXPECT_NEAR(*s.attitude_inside, kInside,
+              3.0 * std::sqrt(kInside * (1.0 - kInside) / kRuns));
 }
 
 TEST(TrajectoryError, HasNoNormalisedErrorForASingularCovariance) {

@@ -199,7 +199,9 @@ void PutTruthFigures(const TrajectoryStatistics& statistics,
 ///         horizontal_rms_m, horizontal_max_m, total_rms_m, total_max_m (_mps
 ///         in place of _m for a velocity sensor), distance_m, drift_percent
 ///     nees                      mean normalised squared errors, each of 3
-///       position, velocity, attitude            degrees of freedom
+///       position, velocity, attitude            degrees of freedom;
+///       attitude_inside_3_sigma_percent  points within the ellipsoid that holds
+///                               99.73 %
 ///     residuals.<sensor>        count, rejected, withheld, normalized_rms;
 ///                               unit and components[], where they are the
 ///                               same for every measurement

@@ -112,6 +112,9 @@ Json NeesJson(const TrajectoryStatistics& s) {
   Put(&json, "position", s.position_nees);
   Put(&json, "velocity", s.velocity_nees);
   Put(&json, "attitude", s.attitude_nees);
+  if (s.attitude_inside) {
+    Put(&json, "attitude_inside_3_sigma_percent", 100.0 * *s.attitude_inside);
+  }
   return json;
 }
 

@@ -1,0 +1,179 @@
+#include <fmt/core.h>
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "alignment/attitude_rest.h"
+#include "base/units.h"
+#include "geometry/so3.h"
+#include "problems/attitude.h"
+
+namespace hindsight {
+
+AttitudeEstimation::Pass AttitudeEstimation::Smooth(
+    const AttitudeState& start, const ImuStream& imu,
+    std::span<const MagneticSample> magnetic,
+    const AttitudeFilterOptions& options, const std::string& stage,
+    bool covariances) const {
+  Pass pass;
+  pass.run = RunAttitudeFilter(
+      imu, {magnetic, headings_}, options, start, /*to_be_smoothed=*/true,
+      [&](std::size_t k) {
+        Poll(stage,
+             static_cast<double>(k) / static_cast<double>(imu_.samples.size()));
+      });
+  pass.smoothed = SmoothAttitude(pass.run, covariances);
+  return pass;
+}
+
+namespace {
+
+/// Specific forces averaged over what comes before and after each sample
+/// (AveragedForce), by the attitudes `q_nb`: a smoother may use what comes
+/// later.
+ImuStream WithAveragedForce(const ImuStream& imu,
+                            const std::vector<Eigen::Quaterniond>& q_nb,
+                            double tau) {
+  const std::vector<Eigen::Vector3d> f_n = AveragedForce(imu, q_nb, tau);
+  ImuStream averaged = imu;
+  for (std::size_t k = 0; k < f_n.size(); ++k) {
+    averaged.samples[k].accel = q_nb[k].conjugate() * f_n[k];
+  }
+  return averaged;
+}
+
+}  // namespace
+
+AttitudeEstimation::Pass AttitudeEstimation::SmoothWithoutSurvey(
+    const ImuStream& imu, const AttitudeFilterOptions& options) const {
+  return Smooth(start_, imu, magnetic_, options, "ahrs_smoother",
+                /*covariances=*/true);
+}
+
+namespace {
+
+/// Doubtful where it leaves more open than what surrounds a sensor does.
+std::optional<Evidence> TwoNorths(const FieldSurvey& survey) {
+  constexpr double kSurroundings = 2.0 * kDegree;
+  const double sigma = NorthSigma(survey);
+  if (sigma <= kSurroundings) return std::nullopt;
+  return Evidence{
+      .rule = "two_norths",
+      .grade = Grade::kDoubtful,
+      .what = fmt::format("the field in motion points {:.1f} deg elsewhere "
+                          "than at rest: which is north is not known",
+                          std::abs(survey.turn) / kDegree),
+      .value = sigma / kDegree,
+      .limit = kSurroundings / kDegree,
+      .unit = "deg",
+      .causes = {"a magnet or iron where the sensor rests or is moved"},
+      .remedies = {"another place, or headings of another sensor"}};
+}
+
+}  // namespace
+
+Solution AttitudeEstimation::Smoother() {
+  AttitudeFilterOptions options = filter_options_;
+  if (rests_.empty() && options.rest_sigma > 0.0) {
+    rests_ = RestsBetweenSamples(dataset_, imu_, start_);
+  }
+  rests_.resize(imu_.samples.size());
+  options.rests = rests_;
+  const bool average = !dataset_.ahrs.low_pass && options.low_pass_tau > 0.0;
+  const bool survey = dataset_.ahrs.survey && !magnetic_.empty();
+  if (!average && !survey) {
+    return SolutionOf(SmoothWithoutSurvey(imu_, options));
+  }
+  const Pass first =
+      Smooth(start_, imu_, {}, options, "survey", /*covariances=*/false);
+  const std::vector<Eigen::Quaterniond> level =
+      AttitudesAtSamples(first.run, first.smoothed, imu_);
+  ImuStream averaged;
+  if (average) {
+    averaged = WithAveragedForce(imu_, level, options.low_pass_tau);
+    options.low_pass_tau = 0.0;
+  }
+  const ImuStream& imu = average ? averaged : imu_;
+  const Pass pass = survey ? SmoothSurveyed(imu, level, options)
+                           : SmoothWithoutSurvey(imu, options);
+  if (const auto evidence = TwoNorths(pass.survey)) {
+    evidence_.push_back(*evidence);
+  }
+  return SolutionOf(pass);
+}
+
+std::vector<SurveyedField> AttitudeEstimation::FieldReadings(
+    const std::vector<Eigen::Quaterniond>& q_nb,
+    const Eigen::Vector3d& hard_iron_b) const {
+  constexpr double kSpacing = 0.1;  // [s]
+  std::vector<SurveyedField> readings;
+  std::size_t k = 0;
+  for (const MagneticSample& sample : magnetic_) {
+    const double dt =
+        readings.empty() ? kSpacing : sample.t - readings.back().t;
+    if (dt < kSpacing) continue;
+    while (k + 2 < imu_.samples.size() && imu_.samples[k + 1].t <= sample.t) {
+      ++k;
+    }
+    const double part = (sample.t - imu_.samples[k].t) /
+                        (imu_.samples[k + 1].t - imu_.samples[k].t);
+    SurveyedField reading;
+    reading.t = sample.t;
+    reading.q_nb = q_nb[k].slerp(part, q_nb[k + 1]);
+    reading.field_b = sample.field_b - hard_iron_b;
+    reading.dt = dt;
+    reading.at_rest = rests_[k];
+    readings.push_back(reading);
+  }
+  return readings;
+}
+
+AttitudeEstimation::Pass AttitudeEstimation::SmoothSurveyed(
+    const ImuStream& imu, const std::vector<Eigen::Quaterniond>& level,
+    AttitudeFilterOptions options) const {
+  SurveyOptions survey_options = {
+      .sigma = options.magnetic_sigma,
+      .correlation_time = options.magnetic_correlation_time,
+      .reject = dataset_.ahrs.reject_disturbances};
+  options.reference.enabled = false;
+  options.magnetic_correlation_time = 0.0;
+  const auto smooth = [&](const std::vector<Eigen::Quaterniond>& q_nb,
+                          const Eigen::Vector3d& hard_iron_b,
+                          bool covariances) {
+    const std::vector<SurveyedField> readings =
+        FieldReadings(q_nb, hard_iron_b);
+    FieldSurvey survey = SurveyField(readings, survey_options);
+    if (!headings_.empty()) survey.turn = 0.0;  // north is measured
+    options.magnetic.horizontal = survey.horizontal;
+    options.magnetic.down = survey.down;
+    std::vector<MagneticSample> weighed;
+    weighed.reserve(readings.size());
+    for (std::size_t k = 0; k < readings.size(); ++k) {
+      weighed.push_back({readings[k].t, readings[k].field_b, survey.weight[k]});
+    }
+    options.magnetic.declination =
+        filter_options_.magnetic.declination + RestAzimuth(survey);
+    AttitudeState start = start_;
+    const double turn = options.magnetic.declination - survey.azimuth;
+    start.q_nb = Exp(Eigen::Vector3d(0.0, 0.0, turn)) * q_nb.front();
+    Pass pass =
+        Smooth(start, imu, weighed, options, "ahrs_smoother", covariances);
+    pass.survey = std::move(survey);
+    return pass;
+  };
+  const auto attitudes = [this](const Pass& pass) {
+    return AttitudesAtSamples(pass.run, pass.smoothed, imu_);
+  };
+  std::vector<Eigen::Quaterniond> q_nb =
+      attitudes(smooth(level, Eigen::Vector3d::Zero(), false));
+  const Eigen::Vector3d hard_iron_b =
+      FindHardIron(FieldReadings(q_nb, Eigen::Vector3d::Zero()));
+  if (!hard_iron_b.isZero(0.0)) {
+    q_nb = attitudes(smooth(level, hard_iron_b, false));
+  }
+  survey_options.heading_known = true;
+  return smooth(q_nb, hard_iron_b, true);
+}
+
+}  // namespace hindsight

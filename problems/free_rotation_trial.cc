@@ -1,0 +1,76 @@
+#include "problems/free_rotation_trial.h"
+
+#include <Eigen/Cholesky>
+
+#include "base/chi_square.h"
+#include "base/units.h"
+#include "evaluation/statistics.h"
+#include "geometry/so3.h"
+#include "problems/reconstruction.h"
+
+namespace hindsight {
+namespace {
+
+Eigen::Vector3d RotationError(const Dataset& dataset, const State& x,
+                              std::size_t k) {
+  const Eigen::Quaterniond q_ne(Eigen::Matrix3d(x.C_en().transpose()));
+  return Log(*dataset.truth[k].q_nb * (q_ne * x.q_eb).conjugate());
+}
+
+void JudgeRotation(const Dataset& dataset, const Solution& solution,
+                   RunRecord* record) {
+  constexpr std::size_t kEvery = 10;
+  constexpr double kThreeSigmas = 0.9973;
+  static const double kLimit = ChiSquareQuantile(kThreeSigmas, 3.0);
+  auto& series = record->series;
+  for (std::size_t k = 0; k < solution.states.size(); k += kEvery) {
+    const State& x = solution.states[k];
+    const Eigen::Vector3d psi = RotationError(dataset, x, k);
+    const double nees = AttitudeNees(dataset, solution, k);
+    record->t.push_back(x.t);
+    series["heading"].push_back(psi.z());
+    series["tilt"].push_back(psi.head<2>().norm());
+    series["nees"].push_back(nees);
+    series["inside"].push_back(nees <= kLimit ? 1.0 : 0.0);
+  }
+}
+
+}  // namespace
+
+double AttitudeNees(const Dataset& dataset, const Solution& solution,
+                    std::size_t k) {
+  const Eigen::Vector3d psi = RotationError(dataset, solution.states[k], k);
+  const Eigen::Matrix3d P = solution.covariances.Get(k).topLeftCorner<3, 3>();
+  return psi.dot(P.llt().solve(psi));
+}
+
+StudyTable FreeRotationTable() {
+  constexpr double kMiddle = 0.5 * (kFreeRotationBegin + kFreeRotationEnd);
+  constexpr double kHalfStep = 0.05;
+  StudyTable table = {"cells", {"field", "method"}, {}, {}};
+  table.figures = {Single("heading_rms", kDegrees, "heading\nrms [deg]",
+                          "{:.3f}", "heading", OfAll<Rms>),
+                   Single("tilt_rms", kDegrees, "tilt\nrms [deg]", "{:.3f}",
+                          "tilt", OfAll<Rms>),
+                   Single("nees", kPlain, "NEES (3)\nattitude", "{:.2f}",
+                          "nees", OfAll<Mean>),
+                   Share("inside", "inside\n[%]", "inside", OfAll<Mean>)};
+  for (Figure& figure : table.figures) {
+    figure.range = {kFreeRotationBegin, kFreeRotationEnd};
+  }
+  table.figures[2].range = {kMiddle - kHalfStep, kMiddle + kHalfStep};
+  return table;
+}
+
+Trial FreeRotationTrial() {
+  return [](const Dataset& dataset, CaseRun* run) {
+    Reconstruction estimation(dataset, AttitudeAlone());
+    for (const char* method : {"ahrs", "ahrs_smoother"}) {
+      run->Try({method}, [&](RunRecord* record) {
+        JudgeRotation(dataset, estimation.Run(method), record);
+      });
+    }
+  };
+}
+
+}  // namespace hindsight

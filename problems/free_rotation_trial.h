@@ -1,0 +1,25 @@
+#ifndef HINDSIGHT_PROBLEMS_FREE_ROTATION_TRIAL_H_
+#define HINDSIGHT_PROBLEMS_FREE_ROTATION_TRIAL_H_
+
+#include "problems/montecarlo.h"
+#include "simulation/free_rotation.h"
+#include "state/solution.h"
+
+namespace hindsight {
+
+/// Both methods of attitude alone on a free rotation.
+///
+/// Figures, in columns field and method: heading_rms and
+/// heading_end [rad], tilt_rms [rad]; nees of the attitude in the middle of the
+/// motion, mean over the runs, where 3 is right; inside, the share of the
+/// motion's samples within the ellipsoid that holds 99.73 %.
+Trial FreeRotationTrial();
+StudyTable FreeRotationTable();
+
+/// e' P^-1 e of the attitude of state k, whose truth is truth[k].
+double AttitudeNees(const Dataset& dataset, const Solution& solution,
+                    std::size_t k);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_FREE_ROTATION_TRIAL_H_

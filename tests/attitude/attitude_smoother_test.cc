@@ -1,0 +1,165 @@
+#include "attitude/attitude_smoother.h"
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "earth/wgs84.h"
+#include "filters/rts.h"
+#include "geometry/so3.h"
+
+namespace hindsight {
+namespace {
+
+const Eigen::Vector3d kFieldNed(20.0, 0.0, 40.0);
+constexpr double kStep = 0.02;
+
+/// A body that turns for ten seconds and then rests for five, with noise in
+/// every reading.
+struct Turning {
+  ImuStream imu;
+  std::vector<MagneticSample> magnetic;
+  std::vector<Eigen::Quaterniond> q_nb;
+  Eigen::Vector3d b_g = {0.01, -0.02, 0.015};
+  AttitudeFilterOptions options;
+  AttitudeState start;
+
+  Turning() {
+    Random random(4);
+    Eigen::Quaterniond q = Exp(Eigen::Vector3d(0.2, -0.1, 0.7));
+    Eigen::Vector3d before = Eigen::Vector3d::Zero();
+    for (int k = 0; k <= 750; ++k) {
+      const double t = k * kStep;
+      const bool rests = t > 10.0;
+      const Eigen::Vector3d w =
+          rests ? Eigen::Vector3d::Zero() : Eigen::Vector3d(0.9, -0.6, 1.2);
+      // Rates are linear between samples.
+      if (k > 0) q = q * Exp(0.5 * kStep * (before + w));
+      before = w;
+      q_nb.push_back(q);
+      imu.samples.push_back(
+          {t, w + b_g + 1e-3 * random.NormalVector3(),
+           q.conjugate() * Eigen::Vector3d(0.0, 0.0, -options.place.gravity) +
+               0.1 * random.NormalVector3()});
+      magnetic.push_back(
+          {t, q.conjugate() * kFieldNed + random.NormalVector3()});
+    }
+    imu.noise.gyro_noise_density = 1e-3;
+    imu.noise.gyro_bias_walk = 1e-4;
+    imu.noise.gyro_bias_tau = 1000.0;
+    options.magnetic_form = MagneticField::Form::kVector;
+    options.magnetic.horizontal = kFieldNed.x();
+    options.magnetic.down = kFieldNed.z();
+    options.reference.enabled = false;
+    options.update_interval = 5.0 * kStep;
+    options.rest_sigma = 0.01;
+    start.q_nb = Exp(Eigen::Vector3d(0.05, -0.05, 0.1)) * q_nb.front();
+    start.P.diagonal() << Eigen::Vector3d::Constant(0.01),
+        Eigen::Vector3d::Constant(4e-4), Eigen::Vector3d::Constant(1.6e-5);
+  }
+  AttitudeRun Run() const {
+    return RunAttitudeFilter(imu, {magnetic}, options, start,
+                             /*to_be_smoothed=*/true);
+  }
+};
+
+/// The same system on a tape.
+LinearTape TapeOf(const Turning& turning, const AttitudeRun& run) {
+  LinearTape tape(AttitudeLayout(turning.imu.noise, turning.start));
+  const Eigen::Quaterniond q_en(NedAxes(turning.options.place.p_e));
+  AttitudeState::Matrix P = turning.start.P;
+  for (const AttitudeNode& node : run.nodes) {
+    Transition transition;
+    transition.Phi.setIdentity(9, 9);
+    transition.Phi.topRightCorner<3, 6>() = node.transition.A;
+    transition.Phi.diagonal().segment<3>(3).setConstant(node.transition.phi);
+    transition.Q.setZero(9, 9);
+    transition.Q.diagonal().head<3>().setConstant(node.transition.q_attitude);
+    transition.Q.diagonal().segment<3>(3).setConstant(node.transition.q_bias);
+    transition.c = ErrorVector::Zero(9);
+    P = transition.Phi * P * transition.Phi.transpose() + transition.Q;
+    TapeEpoch epoch;
+    epoch.t = node.x.t;
+    epoch.c = epoch.dx_minus = ErrorVector::Zero(9);
+    // About one nominal an update: the mean stays, nothing is reset.
+    epoch.dx_plus = ErrorVector::Zero(9);
+    epoch.x_plus.t = node.x.t;
+    epoch.x_plus.p_e = turning.options.place.p_e;
+    epoch.x_plus.q_eb = q_en * node.x.q_nb;
+    epoch.x_plus.b_g = node.x.b_g;
+    epoch.x_plus.parameters = node.x.s_g;
+    epoch.x_minus = epoch.x_plus;
+    epoch.reset = true;
+    tape.Append(epoch, transition, P, node.x.P);
+    P = node.x.P;
+  }
+  return tape;
+}
+
+TEST(AttitudeSmoother, HasTheCovarianceOfRauchTungAndStriebel) {
+  const Turning turning;
+  const AttitudeRun run = turning.Run();
+  const std::vector<SmoothedAttitude> smoothed = SmoothAttitude(run);
+  const SmoothedTrajectory rts = SmoothRts(TapeOf(turning, run));
+  ASSERT_EQ(smoothed.size(), rts.states.size());
+  for (std::size_t k = 0; k < smoothed.size(); ++k) {
+    const AttitudeState::Matrix P = rts.P.Get(k);
+    const AttitudeState::Vector sigma = P.diagonal().cwiseSqrt();
+    const AttitudeState::Matrix relative =
+        (smoothed[k].P - P).cwiseQuotient(sigma * sigma.transpose());
+    EXPECT_LT(relative.cwiseAbs().maxCoeff(), 1e-7) << k;
+  }
+}
+
+/// d(k) = P Phi' (P-)^-1 (d(k+1) + dx(k+1)) of the node after.
+TEST(AttitudeSmoother, HasTheMeanOfRauchTungAndStriebel) {
+  const Turning turning;
+  const AttitudeRun run = turning.Run();
+  const std::vector<SmoothedAttitude> smoothed =
+      SmoothAttitude(run, /*covariances=*/false);
+  const LinearTape tape = TapeOf(turning, run);
+  AttitudeState::Vector d = AttitudeState::Vector::Zero();
+  for (std::size_t k = run.nodes.size() - 1; k-- > 0;) {
+    const AttitudeState::Matrix P_minus = tape.P_minus(k + 1);
+    d = run.nodes[k].x.P * tape.Phi(k + 1).transpose() *
+        P_minus.llt().solve(d + run.nodes[k + 1].dx);
+    const AttitudeState::Vector sigma = run.nodes[k].x.P.diagonal().cwiseSqrt();
+    EXPECT_LT((smoothed[k].d - d).cwiseQuotient(sigma).norm(), 1e-7) << k;
+  }
+}
+
+TEST(AttitudeSmoother, UndoesTheErrorOfTheStart) {
+  const Turning turning;
+  const AttitudeRun run = turning.Run();
+  const std::vector<SmoothedAttitude> smoothed = SmoothAttitude(run);
+  const AttitudeState last = StateOf(run, smoothed, run.nodes.size() - 1);
+  EXPECT_EQ(last.b_g, run.nodes.back().x.b_g);
+  const AttitudeState first = StateOf(run, smoothed, 0);
+  EXPECT_GT(turning.start.q_nb.angularDistance(turning.q_nb.front()), 0.1);
+  EXPECT_LT(first.q_nb.angularDistance(turning.q_nb.front()), 0.01);
+  EXPECT_LT((first.b_g - turning.b_g).norm(), 2e-3);
+}
+
+TEST(AttitudeSmoother, FollowsTheGyrosFromNodeToNode) {
+  const Turning turning;
+  const AttitudeRun run = turning.Run();
+  const std::vector<SmoothedAttitude> smoothed = SmoothAttitude(run);
+  const std::vector<Eigen::Quaterniond> q_nb =
+      AttitudesAtSamples(run, smoothed, turning.imu);
+  ASSERT_EQ(q_nb.size(), turning.imu.samples.size());
+  for (std::size_t k = 0; k < q_nb.size(); ++k) {
+    const std::size_t node = run.samples[k].node;
+    if (k % 5 == 0) {
+      EXPECT_LT(q_nb[k].angularDistance(StateOf(run, smoothed, node).q_nb),
+                1e-9);
+    }
+    if (k == 0) continue;
+    // No step where a node begins, but for the gyros' noise and turn.
+    const Eigen::Quaterniond turn = q_nb[k - 1].conjugate() * q_nb[k];
+    const Eigen::Quaterniond truth =
+        turning.q_nb[k - 1].conjugate() * turning.q_nb[k];
+    EXPECT_LT(turn.angularDistance(truth), 1e-3) << k;
+  }
+}
+
+}  // namespace
+}  // namespace hindsight
