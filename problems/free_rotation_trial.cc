@@ -44,8 +44,8 @@ double AttitudeNees(const Dataset& dataset, const Solution& solution,
   return psi.dot(P.llt().solve(psi));
 }
 
-StudyTable FreeRotationTable() {
-  constexpr double kMiddle = 0.5 * (kFreeRotationBegin + kFreeRotationEnd);
+StudyTable FreeRotationTable(double begin, double end) {
+  const double middle = 0.5 * (begin + end);
   constexpr double kHalfStep = 0.05;
   StudyTable table = {"cells", {"field", "method"}, {}, {}};
   table.figures = {Single("heading_rms", kDegrees, "heading\nrms [deg]",
@@ -56,9 +56,9 @@ StudyTable FreeRotationTable() {
                           "nees", OfAll<Mean>),
                    Share("inside", "inside\n[%]", "inside", OfAll<Mean>)};
   for (Figure& figure : table.figures) {
-    figure.range = {kFreeRotationBegin, kFreeRotationEnd};
+    figure.range = {begin, end};
   }
-  table.figures[2].range = {kMiddle - kHalfStep, kMiddle + kHalfStep};
+  table.figures[2].range = {middle - kHalfStep, middle + kHalfStep};
   return table;
 }
 

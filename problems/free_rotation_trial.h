@@ -2,19 +2,19 @@
 #define HINDSIGHT_PROBLEMS_FREE_ROTATION_TRIAL_H_
 
 #include "problems/montecarlo.h"
-#include "simulation/free_rotation.h"
 #include "state/solution.h"
 
 namespace hindsight {
 
-/// Both methods of attitude alone on a free rotation.
+/// Both methods of attitude alone on a recording that moves from `begin` to
+/// `end` [s], with truth at every sample.
 ///
 /// Figures, in columns field and method: heading_rms and
 /// heading_end [rad], tilt_rms [rad]; nees of the attitude in the middle of the
 /// motion, mean over the runs, where 3 is right; inside, the share of the
 /// motion's samples within the ellipsoid that holds 99.73 %.
 Trial FreeRotationTrial();
-StudyTable FreeRotationTable();
+StudyTable FreeRotationTable(double begin, double end);
 
 /// e' P^-1 e of the attitude of state k, whose truth is truth[k].
 double AttitudeNees(const Dataset& dataset, const Solution& solution,

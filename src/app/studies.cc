@@ -16,6 +16,7 @@
 #include "problems/papers/jump_comparison.h"
 #include "problems/papers/uuv_fusion.h"
 #include "problems/papers/vibration_comparison.h"
+#include "simulation/free_rotation.h"
 #include "simulation/vibration_attitude.h"
 
 namespace hindsight {
@@ -231,7 +232,8 @@ Study VibrationAttitudeStudy() {
 /// With the field throughout, and with one that is of no use in motion.
 Study FreeRotationStudy() {
   constexpr double kDisturbance = 60.0;  // [uT]
-  Study study = {"", {}, {FreeRotationTable()}, {}};
+  Study study = {
+      "", {}, {FreeRotationTable(kFreeRotationBegin, kFreeRotationEnd)}, {}};
   for (const bool disturbed : {false, true}) {
     const Recording recording = [disturbed](std::uint64_t seed) {
       FreeRotationOptions options = DrawFreeRotation(seed);

@@ -14,6 +14,7 @@
 #include "measurements/sensor_kind.h"
 #include "problems/free_rotation_trial.h"
 #include "problems/papers/vibration_comparison.h"
+#include "simulation/free_rotation.h"
 #include "simulation/vibration_attitude.h"
 #include "support/seed_count.h"
 
@@ -193,7 +194,7 @@ TEST(AttitudeEstimation, TwentyTurnsWithAScaleErrorAreConsistent) {
     const StudyResult result = RunStudy(
         {"",
          {},
-         {FreeRotationTable()},
+         {FreeRotationTable(kFreeRotationBegin, kFreeRotationEnd)},
          {JobOf(
              {{{"turns"}, [&] { return recording; }, FreeRotationTrial()}})}},
         {.runs = runs, .first_seed = kFirstSeed});
