@@ -9,10 +9,10 @@ namespace hindsight {
 /// Both methods of attitude alone on a recording that moves from `begin` to
 /// `end` [s], with truth at every sample.
 ///
-/// Figures, in columns field and method: heading_rms and
-/// heading_end [rad], tilt_rms [rad]; nees of the attitude in the middle of the
-/// motion, mean over the runs, where 3 is right; inside, the share of the
-/// motion's samples within the ellipsoid that holds 99.73 %.
+/// Figures, in columns field and method: heading_rms and tilt_rms [rad] of the
+/// motion; nees of the attitude in its middle, mean over the runs, where 3 is
+/// right; inside, the share of the motion's samples within the ellipsoid that
+/// holds 99.73 %.
 Trial FreeRotationTrial();
 StudyTable FreeRotationTable(double begin, double end);
 
