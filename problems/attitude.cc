@@ -88,15 +88,14 @@ AttitudePart VerdictsOf(const AttitudeRun& run) {
 
 }  // namespace
 
-State AttitudeEstimation::StateOfAttitude(double t,
-                                          const Eigen::Quaterniond& q_nb,
-                                          const Eigen::Vector3d& b_g) const {
-  State x;
+void AttitudeEstimation::AppendState(double t, const Eigen::Quaterniond& q_nb,
+                                     const Eigen::Vector3d& b_g,
+                                     Solution* solution) const {
+  State& x = solution->states.emplace_back();
   x.t = t;
   x.p_e = filter_options_.place.p_e;
   x.q_eb = (q_en_ * q_nb).normalized();
   x.b_g = b_g;
-  return x;
 }
 
 double AttitudeEstimation::SharedSigma(const FieldSurvey& survey) const {
@@ -137,8 +136,7 @@ Solution AttitudeEstimation::Filter() {
   Eigen::Matrix<double, 6, 6> P;
   for (std::size_t k = 0; k < run.samples.size(); ++k) {
     const AttitudeSample& sample = run.samples[k];
-    solution.states.push_back(
-        StateOfAttitude(imu_.samples[k].t, sample.q_nb, sample.b_g));
+    AppendState(imu_.samples[k].t, sample.q_nb, sample.b_g, &solution);
     P = run.nodes[sample.node].x.P.topLeftCorner<6, 6>();
     P(2, 2) += shared * shared;
     solution.covariances.Set(k, P);
@@ -194,8 +192,9 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) const {
         nodes[nearest + 1].x.t - t < t - nodes[nearest].x.t) {
       ++nearest;
     }
-    solution.states.push_back(StateOfAttitude(
-        t, q_nb[k], sample.b_g + pass.smoothed[sample.node].d.segment<3>(3)));
+    AppendState(t, q_nb[k],
+                sample.b_g + pass.smoothed[sample.node].d.segment<3>(3),
+                &solution);
     P = pass.smoothed[nearest].P.topLeftCorner<6, 6>();
     P(2, 2) += shared * shared;
     solution.covariances.Set(k, P);

@@ -76,8 +76,8 @@ class AttitudeEstimation final : public Estimation {
   /// What the solutions make no use of, in words.
   std::vector<std::string> Unused() const;
   ErrorLayout SolutionLayout() const;
-  State StateOfAttitude(double t, const Eigen::Quaterniond& q_nb,
-                        const Eigen::Vector3d& b_g) const;
+  void AppendState(double t, const Eigen::Quaterniond& q_nb,
+                   const Eigen::Vector3d& b_g, Solution* solution) const;
   void Poll(const std::string& stage, double fraction) const;
 
   const Dataset& dataset_;
