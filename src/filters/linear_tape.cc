@@ -110,8 +110,7 @@ ErrorMatrix LinearTape::P_plus(std::size_t k) const {
 
 ErrorMatrix LinearTape::ResetTransport(std::size_t k) const {
   const TapeEpoch& epoch = epochs_[k];
-  if (!transports_ || !epoch.moves_nominal())
-    return ErrorMatrix::Identity(dim(), dim());
+  if (!epoch.moves_nominal()) return ErrorMatrix::Identity(dim(), dim());
   return Transport(error_, layout_, epoch.x_minus, epoch.dx_plus, epoch.x_plus);
 }
 

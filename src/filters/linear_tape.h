@@ -88,11 +88,6 @@ class LinearTape {
   void Record(const TapeMeasurement& header, const LinearizedMeasurement& z,
               const Innovation& innovation);
 
-  /// Of a filter that does not carry its covariance over a reset, because it
-  /// resets at every sample by next to nothing: T(k) is the identity.
-  void NeglectTransport() { transports_ = false; }
-  bool transports() const { return transports_; }
-
   /// Appends an epoch; `transition` is of the interval before it (ignored for
   /// the first). P_minus about x_minus, P_plus about x_plus.
   void Append(TapeEpoch epoch, const Transition& transition,
@@ -133,7 +128,6 @@ class LinearTape {
 
   ErrorLayout layout_;
   ErrorDefinition error_;
-  bool transports_ = true;
   bool smoothable_ = true;
   BoundRecord bound_;
   std::vector<TapeEpoch> epochs_;

@@ -9,22 +9,15 @@
 namespace hindsight {
 namespace {
 
-/// The pass over a tape of `Dim` components (Eigen::Dynamic: of any number).
-/// Attitude alone is smoothed at every IMU sample: matrices of fixed size make
-/// that several times as fast.
-template <int Dim>
+/// The pass over a tape.
 class RtsPass {
  public:
-  static constexpr int kMax = Dim == Eigen::Dynamic ? kMaxErrorDim : Dim;
-  using Vector = Eigen::Matrix<double, Dim, 1, 0, kMax, 1>;
-  using Matrix = Eigen::Matrix<double, Dim, Dim, 0, kMax, kMax>;
-
   RtsPass(const LinearTape& tape, bool covariances)
       : tape_(tape),
         covariances_(covariances),
         count_(tape.size()),
-        d_(Vector::Zero(tape.dim())),
-        P_(Matrix::Zero(tape.dim(), tape.dim())) {
+        d_(ErrorVector::Zero(tape.dim())),
+        P_(ErrorMatrix::Zero(tape.dim(), tape.dim())) {
     out_.states.resize(count_);
     out_.d.resize(count_);
     if (covariances) out_.P = CovarianceSeries(tape.dim(), count_);
@@ -46,34 +39,35 @@ class RtsPass {
  private:
   /// From the tangent at x_minus of epoch k + 1 to that at x_plus of k.
   void StepBack(std::size_t k) {
-    const Matrix Phi = tape_.Phi(k + 1);
-    const Matrix P_plus = tape_.P_plus(k);
-    const Matrix P_minus = tape_.P_minus(k + 1);
-    const Eigen::LLT<Matrix> llt(P_minus);
+    const ErrorMatrix Phi = tape_.Phi(k + 1);
+    const ErrorMatrix P_plus = tape_.P_plus(k);
+    const ErrorMatrix P_minus = tape_.P_minus(k + 1);
+    const Eigen::LLT<ErrorMatrix> llt(P_minus);
     if (llt.info() != Eigen::Success) {
       throw EstimationError(
           "predicted covariance is not positive definite at t = " +
           std::to_string(tape_.epoch(k + 1).t) + " s");
     }
-    const Vector ahead = llt.solve(d_ - tape_.epoch(k + 1).dx_minus);
-    d_ = P_plus * Vector(Phi.transpose() * ahead);
+    const ErrorVector ahead = llt.solve(d_ - tape_.epoch(k + 1).dx_minus);
+    d_ = P_plus * ErrorVector(Phi.transpose() * ahead);
     if (!tape_.epoch(k).reset) d_ += tape_.epoch(k).dx_plus;
     if (covariances_) StepCovarianceBack(k, Phi, P_plus, llt);
   }
 
   /// The same of P; `llt` of P_minus of epoch k + 1.
-  void StepCovarianceBack(std::size_t k, const Matrix& Phi,
-                          const Matrix& P_plus, const Eigen::LLT<Matrix>& llt) {
-    const Matrix PhiP = TimesTransposed(P_plus, Phi).transpose();
-    const Matrix C = llt.solve(PhiP).transpose();
-    Matrix A = Matrix::Identity(tape_.dim(), tape_.dim());
+  void StepCovarianceBack(std::size_t k, const ErrorMatrix& Phi,
+                          const ErrorMatrix& P_plus,
+                          const Eigen::LLT<ErrorMatrix>& llt) {
+    const ErrorMatrix PhiP = TimesTransposed(P_plus, Phi).transpose();
+    const ErrorMatrix C = llt.solve(PhiP).transpose();
+    ErrorMatrix A = ErrorMatrix::Identity(tape_.dim(), tape_.dim());
     A -= Times(C, Phi);
     P_ += tape_.Q(k + 1);
-    const Matrix CP = C * P_;
-    P_.template triangularView<Eigen::Lower>() = CP * C.transpose();
-    const Matrix AP = A * P_plus;
-    P_.template triangularView<Eigen::Lower>() += AP * A.transpose();
-    P_ = Matrix(P_.template selfadjointView<Eigen::Lower>());
+    const ErrorMatrix CP = C * P_;
+    P_.triangularView<Eigen::Lower>() = CP * C.transpose();
+    const ErrorMatrix AP = A * P_plus;
+    P_.triangularView<Eigen::Lower>() += AP * A.transpose();
+    P_ = ErrorMatrix(P_.selfadjointView<Eigen::Lower>());
   }
 
   /// Writes epoch k from the smoothed error about x_plus, and carries that
@@ -84,13 +78,7 @@ class RtsPass {
     out_.states[k] = tape_.StateAt(k, d_);
     if (covariances_) out_.P.Set(k, P_);
     if (epoch.moves_nominal()) {
-      if (tape_.transports()) {
-        ErrorVector d = d_;
-        ErrorMatrix P = P_;
-        MoveBack(tape_.ResetTransport(k), &d, &P);
-        d_ = d;
-        P_ = P;
-      }
+      MoveBack(tape_.ResetTransport(k), &d_, &P_);
       d_ += epoch.dx_plus;
     }
     out_.d[k] = d_;
@@ -99,19 +87,15 @@ class RtsPass {
   const LinearTape& tape_;
   bool covariances_;
   std::size_t count_;
-  Vector d_;
-  Matrix P_;
+  ErrorVector d_;
+  ErrorMatrix P_;
   SmoothedTrajectory out_;
 };
 
 SmoothedTrajectory Smooth(const LinearTape& tape, bool covariances,
                           LinearTape* consumed) {
   RequireSmoothable(tape);
-  constexpr int kAttitudeDim = 9;
-  if (tape.dim() == kAttitudeDim) {
-    return RtsPass<kAttitudeDim>(tape, covariances).Run(consumed);
-  }
-  return RtsPass<Eigen::Dynamic>(tape, covariances).Run(consumed);
+  return RtsPass(tape, covariances).Run(consumed);
 }
 
 }  // namespace
