@@ -1,4 +1,4 @@
-#include "receiver_errors/history_smoother.h"
+#include "receiver_errors/sequence_smoother.h"
 
 #include <Eigen/Cholesky>
 
@@ -8,13 +8,13 @@
 namespace hindsight {
 namespace {
 
-/// The history, node by node.
+/// The sequence, node by node.
 class Walk {
  public:
   Walk(const LinearTape& tape, int receiver, const ErrorParameters& parameters,
-       const ErrorHistory& history)
+       const ModeSequence& sequence)
       : chain_(tape, receiver, parameters),
-        steps_(StepsByNode(tape, receiver, history)),
+        steps_(StepsByNode(tape, receiver, sequence)),
         x_(chain_.Begin()) {}
 
   void PredictTo(std::size_t k) {
@@ -46,11 +46,11 @@ void BackOver(const ErrorChain::Used& used, ErrorVector* lambda) {
 
 }  // namespace
 
-HistoryScore ScoreHistory(const LinearTape& tape, int receiver,
-                          const ErrorParameters& parameters,
-                          const ErrorHistory& history) {
-  Walk walk(tape, receiver, parameters, history);
-  HistoryScore score;
+SequenceScore ScoreSequence(const LinearTape& tape, int receiver,
+                            const ErrorParameters& parameters,
+                            const ModeSequence& sequence) {
+  Walk walk(tape, receiver, parameters, sequence);
+  SequenceScore score;
   for (std::size_t k = 0; k < tape.size(); ++k) {
     walk.PredictTo(k);
     bool outlier = false;
@@ -64,13 +64,14 @@ HistoryScore ScoreHistory(const LinearTape& tape, int receiver,
     }
     score.log_likelihood += walk.chain().UpdateAll(outlier, walk.x());
   }
+  score.log_prior += LogOfVelocitySteps(CountVelocitySteps(sequence));
   return score;
 }
 
-std::vector<ErrorVector> SmoothHistory(const LinearTape& tape, int receiver,
-                                       const ErrorParameters& parameters,
-                                       const ErrorHistory& history) {
-  Walk walk(tape, receiver, parameters, history);
+std::vector<ErrorVector> SmoothSequence(const LinearTape& tape, int receiver,
+                                        const ErrorParameters& parameters,
+                                        const ModeSequence& sequence) {
+  Walk walk(tape, receiver, parameters, sequence);
   const int n = walk.chain().dim();
   std::vector<ErrorVector> mean;
   CovarianceSeries P(n, tape.size());
