@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "receiver_errors/receiver_errors.h"
@@ -162,6 +163,18 @@ void RestoreGates(const ErrorSearch& search, const GateDecisions& gates,
   }
 }
 
+std::string DescribeBlunders(const Problem& problem,
+                             const std::vector<std::size_t>& blunders) {
+  const Measurement& first =
+      problem.timeline.all_measurements()[blunders.front()];
+  return fmt::format(
+      "{} positions that no vehicle reaches are left out, the first of {} at "
+      "{:.1f} s",
+      blunders.size(),
+      problem.timeline.sensors()[static_cast<std::size_t>(first.sensor)].name,
+      first.t);
+}
+
 }  // namespace
 
 RobustBatchResult SolveRobustBatch(Problem problem,
@@ -169,9 +182,13 @@ RobustBatchResult SolveRobustBatch(Problem problem,
                                    const RobustBatchOptions& options) {
   RobustBatchResult result = {.problem = std::move(problem)};
   ErrorSearch search(&result.problem, options);
-  const auto states = search.Run(initial);
+  auto states = search.Run(initial);
+  if (!states && !options.blunders.empty()) states = initial;
   if (states) {
     RestoreGates(search, options.gates, &result.problem);
+    for (const std::size_t i : options.blunders) {
+      result.problem.decisions[i] = 0;
+    }
     BatchOptions batch = options.batch;
     batch.graduated = false;
     // About the edge of a mixture the last steps converge linearly.
@@ -180,6 +197,9 @@ RobustBatchResult SolveRobustBatch(Problem problem,
     result.stands = true;
   }
   search.Tell(&result);
+  if (!options.blunders.empty()) {
+    result.notes.push_back(DescribeBlunders(result.problem, options.blunders));
+  }
   return result;
 }
 

@@ -19,9 +19,9 @@ struct RobustBatchResult {
   /// By sensor and node, the probability that a measurement is taken at its word:
   /// not as biased. Empty of a sensor without errors.
   std::vector<std::vector<double>> trust = {};
-  /// Whether any errors were found that stand against the noise as stated. If
-  /// none were, only notes and doubts are filled in: the plain batch is the
-  /// result.
+  /// Whether any errors were found that stand against the noise as stated, or
+  /// blunders were left out. If not, only notes and doubts are filled in: the
+  /// plain batch is the result.
   bool stands = false;
   std::vector<BoundedValue> bounded = {};
   std::vector<std::string> notes = {};  ///< what was found, in words
@@ -33,6 +33,8 @@ struct RobustBatchOptions {
   /// What the gates of sensors without errors decided: used where others are
   /// found. Empty: as the problem says.
   GateDecisions gates = {};
+  /// Measurements that `problem` leaves out whatever is found (FindBlunders).
+  std::vector<std::size_t> blunders = {};
   /// Of each epoch of each pass; may throw to stop.
   EpochCallback callback = nullptr;
   /// Told the fraction of the search that is done; false ends it with the best

@@ -1,11 +1,13 @@
 #include "problems/robust_batch.h"
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
 #include "base/processor_time.h"
+#include "problems/blunders.h"
 #include "problems/method.h"
 #include "problems/method_stage.h"
 #include "problems/sensor_imm.h"
@@ -23,9 +25,10 @@ void RequirePosition(const Timeline& timeline) {
   throw EstimationError("robust_batch needs a position sensor");
 }
 
-/// The problem with every position used, whatever gates decided, and a prior that
-/// does not trust the fix from which the start comes.
-Problem WithAll(const MethodStage& stage, Problem problem) {
+/// The problem with every position used but blunders, whatever gates decided, and
+/// a prior that does not trust the fix from which the start comes.
+Problem WithAll(const MethodStage& stage,
+                const std::vector<std::size_t>& blunders, Problem problem) {
   const Timeline& timeline = problem.timeline;
   for (std::size_t i = 0; i < problem.decisions.size(); ++i) {
     const Measurement& z = timeline.all_measurements()[i];
@@ -34,6 +37,7 @@ Problem WithAll(const MethodStage& stage, Problem problem) {
       problem.decisions[i] = static_cast<char>(!z.withheld);
     }
   }
+  for (const std::size_t i : blunders) problem.decisions[i] = 0;
   const Start& start = stage.forward().start();
   problem.prior = WithoutTrustIn(start.position_sensor, start).prior;
   return problem;
@@ -95,7 +99,7 @@ Solution TakeRobust(RobustBatchResult result, MethodStage* stage) {
   }
   solution.iterations = result.batch.iterations;
   solution.converged = result.batch.converged;
-  solution.modes = std::move(result.modes);
+  if (!result.modes.names.empty()) solution.modes = std::move(result.modes);
   solution.bounded = std::move(result.bounded);
   stage->SetTimeline(std::move(timeline));
   return solution;
@@ -105,12 +109,17 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
                        bool* stands) {
   // The EKF's trajectory may be so far off after an outlier that a
   // linearisation about it is of no use.
+  const std::vector<std::size_t> blunders =
+      FindBlunders(nodes.problem->timeline);
+  Problem problem = WithAll(*stage, blunders, *nodes.problem);
   SensorImm imm = MakeSensorImm(stage->Questioned(nodes));
+  if (!blunders.empty()) imm.options.decisions = problem.decisions;
   const ImmSmoothed rough =
       SmoothSensorImm(&imm, stage->forward().Progress("robust_batch"));
+  RobustBatchOptions options = OptionsOf(*stage, nodes.problem->decisions);
+  options.blunders = blunders;
   RobustBatchResult result =
-      SolveRobustBatch(WithAll(*stage, *nodes.problem), rough.trajectory.states,
-                       OptionsOf(*stage, nodes.problem->decisions));
+      SolveRobustBatch(std::move(problem), rough.trajectory.states, options);
   *stands = result.stands;
   stage->SetDoubts(std::move(result.doubts));
   std::vector<std::string> notes = std::move(result.notes);
@@ -123,9 +132,16 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
 Solution RunRobustBatch(MethodStage* stage) {
   const double t0 = ProcessorSeconds();
   RequirePosition(stage->forward().timeline());
+  // Nodes that move by a part of their time offset's sigma give no errors to a
+  // sensor that had none.
+  std::optional<std::vector<std::string>> plain;
   bool stands = false;
   Solution solution = stage->AtOwnNodes([&](const MethodStage::Nodes& nodes) {
-    return SolveRobustly(stage, nodes, &stands);
+    Solution one = plain ? SolvePlainly(stage, nodes)
+                         : SolveRobustly(stage, nodes, &stands);
+    if (plain) one.notes = *plain;
+    if (!stands) plain = one.notes;
+    return one;
   });
   solution.seconds = ProcessorSeconds() - t0;
   if (!stands) stage->JudgeOptimum(solution);

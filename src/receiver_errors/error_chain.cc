@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "base/units.h"
 
 namespace hindsight {
@@ -29,6 +30,29 @@ bool IsOfImu(BlockKind kind) {
   return kind == BlockKind::kPosition || kind == BlockKind::kVelocity ||
          kind == BlockKind::kAttitude || kind == BlockKind::kGyroBias ||
          kind == BlockKind::kAccelBias;
+}
+
+/// Kalman update of x by z. P - K S K' in place of Joseph's form, at a third of
+/// the cost: the least sigma of a fix keeps it far from what rounding ruins.
+ErrorChain::Used UpdateWith(const LinearizedMeasurement& z, Gaussian* x) {
+  ErrorChain::Used used{z, {}, z.H.lazyProduct(x->P)};
+  Innovation& innovation = used.innovation;
+  innovation.residual = z.residual - z.H * x->mean;
+  innovation.S = z.R + used.HP.lazyProduct(z.H.transpose());
+  const Eigen::LLT<RowMatrix> llt(innovation.S);
+  if (llt.info() != Eigen::Success) {
+    throw EstimationError(
+        "innovation covariance of a measurement is not positive definite");
+  }
+  const RowVector whitened = llt.matrixL().solve(innovation.residual);
+  const RowJacobian W = llt.matrixL().solve(used.HP);
+  x->mean.noalias() += W.transpose() * whitened;
+  x->P -= W.transpose().lazyProduct(W);
+  innovation.nis = whitened.squaredNorm();
+  innovation.log_likelihood =
+      -0.5 * innovation.nis - llt.matrixLLT().diagonal().array().log().sum() -
+      0.5 * static_cast<double>(z.residual.size()) * std::log(2.0 * kPi);
+  return used;
 }
 
 }  // namespace
@@ -156,7 +180,7 @@ ErrorChain::FixView ErrorChain::ViewOf(const Gaussian& x) const {
   const int n = navigation_dim_;
   const LinearizedMeasurement& z = z_[static_cast<std::size_t>(fix_)];
   const auto H = z.H.leftCols(n);
-  const RowJacobian HP = H * x.P.topRows(n);
+  const RowJacobian HP = H.lazyProduct(x.P.topRows(n));
   FixView view;
   view.innovation.setZero();
   view.S.setZero();
@@ -220,19 +244,16 @@ double ErrorChain::UpdateAll(bool outlier, Gaussian* x,
   double log_likelihood = 0.0;
   for (std::size_t i = 0; i < z_.size(); ++i) {
     const LinearizedMeasurement z = MeasurementAs(i, outlier);
-    const Innovation innovation = Innovate(z, x->mean, x->P);
-    const bool is_fix = static_cast<int>(i) == fix_;
-    if (!is_fix) log_likelihood += innovation.log_likelihood;
-    if (used != nullptr) used->push_back({z, innovation, z.H * x->P});
-    Update(z, innovation, &x->mean, &x->P);
+    const Used one = UpdateWith(z, x);
+    if (!IsFix(i)) log_likelihood += one.innovation.log_likelihood;
+    if (used != nullptr) used->push_back(one);
   }
   return log_likelihood;
 }
 
 void ErrorChain::UpdateOthers(Gaussian* x) const {
   for (std::size_t i = 0; i < z_.size(); ++i) {
-    if (IsFix(i)) continue;
-    Update(z_[i], Innovate(z_[i], x->mean, x->P), &x->mean, &x->P);
+    if (!IsFix(i)) UpdateWith(z_[i], x);
   }
 }
 

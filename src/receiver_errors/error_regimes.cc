@@ -134,11 +134,25 @@ const Hypothesis* NextRival(const std::vector<ErrorRegimes>& fits) {
   return rival;
 }
 
+/// Attempts that a climb may yet make the likelier ones. At least two more
+/// parameters cost ln(fixes), and what does not win by kLeastGain does not stand;
+/// climbs gain some ten from where narrow searches end.
+std::vector<Attempt> Hopeful(std::vector<Attempt> attempts,
+                             double log_posterior_of_white) {
+  constexpr double kClimb = 10.0;
+  std::erase_if(attempts, [&](const Attempt& one) {
+    return one.log_posterior < log_posterior_of_white - kClimb;
+  });
+  return attempts;
+}
+
 /// Every order of modes by parameters of its own.
 std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
-                                    const ErrorParameters& start) {
+                                    const ErrorParameters& start,
+                                    const ErrorRegimes& white) {
   constexpr int kMostRivals = 2;
-  const std::vector<Attempt> attempts = MakeAttempts(problem, start);
+  const std::vector<Attempt> attempts = Hopeful(
+      MakeAttempts(problem, start), white.hypotheses.front().log_posterior);
   std::vector<ErrorRegimes> fits;
   for (const Attempt& attempt : BestAttempts(problem, attempts)) {
     if (!fits.empty() && problem.effort->IsSpent()) break;
@@ -187,7 +201,7 @@ std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem) {
   all.push_back(FitUniform(problem, ErrorRegimes::Kind::kGaussMarkov, start));
   start.scale = std::min(start.scale,
                          MeanScale(all.back().hypotheses.front().parameters));
-  std::vector<ErrorRegimes> fits = FitOrders(problem, start);
+  std::vector<ErrorRegimes> fits = FitOrders(problem, start, all[1]);
   std::move(fits.begin(), fits.end(), std::back_inserter(all));
   return all;
 }

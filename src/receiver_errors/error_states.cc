@@ -112,7 +112,9 @@ void ErrorStates::ApplyToSensor(Timeline* timeline) const {
   sensor.loss.outlier_ratio = chosen_.parameters.outlier_ratio;
   sensor.loss.outlier_share = chosen_.parameters.outlier_share;
   timeline->SetSensor(i, sensor);
-  timeline->ScaleSensor(receiver_, chosen_.parameters.scale);
+  // A stated sigma has slow errors in it that fixes close to each other do not
+  // show: a small scatter is no reason to believe them more than stated.
+  timeline->ScaleSensor(receiver_, std::max(1.0, chosen_.parameters.scale));
 }
 
 void ErrorStates::AddBlock(BlockKind kind, const std::string& name,

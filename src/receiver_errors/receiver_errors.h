@@ -47,7 +47,8 @@ class ReceiverErrors {
   double log_gain() const;
 
   /// Gives the problem that was asked about what was found: to the sensor's
-  /// fixes their sigma and a two-component mixture as loss; behind all other
+  /// fixes their sigma, but none smaller than stated, and a two-component mixture
+  /// as loss; behind all other
   /// blocks of the layout the sensor's error e [SI, along its rows] and, if it
   /// drifts, its rate, which go from node to node as the chosen hypothesis says
   /// (Timeline::SetBlockSteps). White errors bring no blocks.

@@ -149,7 +149,8 @@ class Refinement {
     // What cannot come back into the result is not kept: there is one for every
     // fix.
     if (!met_.empty() &&
-        log_posterior < met_[best_].log_posterior - kLeastPosterior) {
+        (log_posterior < met_[best_].log_posterior - kLeastPosterior ||
+         (log_posterior <= met_[best_].log_posterior && IsFull()))) {
       return;
     }
     kept_.emplace(hash, met_.size());
@@ -163,6 +164,13 @@ class Refinement {
     static_assert(sizeof(ErrorStep) == 3);
     return std::hash<std::string_view>()(
         {reinterpret_cast<const char*>(sequence.data()), 3 * sequence.size()});
+  }
+
+  /// Of a long recording nearly as many are alike as it has fixes: those kept
+  /// take at most 100 MB.
+  bool IsFull() const {
+    constexpr std::size_t kMostSteps = 30'000'000;
+    return met_.size() * met_.front().sequence.size() > kMostSteps;
   }
 
   bool IsSpent() const { return effort_ != nullptr && effort_->IsSpent(); }

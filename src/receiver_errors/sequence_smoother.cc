@@ -35,13 +35,27 @@ class Walk {
   Gaussian x_;
 };
 
+/// An update, in no more memory than it needs.
+struct PassedUpdate {
+  explicit PassedUpdate(const ErrorChain::Used& used)
+      : H(used.z.H),
+        HP(used.HP),
+        S(used.innovation.S),
+        innovation(used.innovation.residual) {}
+
+  Eigen::MatrixXd H;
+  Eigen::MatrixXd HP;
+  Eigen::MatrixXd S;
+  Eigen::VectorXd innovation;
+};
+
 /// Carries lambda of x_s = x + P lambda back over an update,
 /// lambda <- (I - K H)' lambda + H' S^-1 innovation.
-void BackOver(const ErrorChain::Used& used, ErrorVector* lambda) {
-  const Eigen::LLT<RowMatrix> llt(used.innovation.S);
-  const RowVector gain =
-      llt.solve(RowVector(used.innovation.residual - used.HP * *lambda));
-  *lambda += used.z.H.transpose() * gain;
+void BackOver(const PassedUpdate& passed, ErrorVector* lambda) {
+  const Eigen::LLT<Eigen::MatrixXd> llt(passed.S);
+  const Eigen::VectorXd gain =
+      llt.solve(passed.innovation - passed.HP * *lambda);
+  *lambda += passed.H.transpose() * gain;
 }
 
 }  // namespace
@@ -75,11 +89,14 @@ std::vector<ErrorVector> SmoothSequence(const LinearTape& tape, int receiver,
   const int n = walk.chain().dim();
   std::vector<ErrorVector> mean;
   CovarianceSeries P(n, tape.size());
-  std::vector<std::vector<ErrorChain::Used>> used(tape.size());
+  std::vector<std::vector<PassedUpdate>> passed(tape.size());
+  std::vector<ErrorChain::Used> used;
   for (std::size_t k = 0; k < tape.size(); ++k) {
     walk.PredictTo(k);
     const bool outlier = walk.chain().has_fix() && walk.Fix().outlier;
-    walk.chain().UpdateAll(outlier, walk.x(), &used[k]);
+    used.clear();
+    walk.chain().UpdateAll(outlier, walk.x(), &used);
+    for (const ErrorChain::Used& one : used) passed[k].emplace_back(one);
     mean.push_back(walk.x()->mean);
     P.Set(k, walk.x()->P);
   }
@@ -88,8 +105,8 @@ std::vector<ErrorVector> SmoothSequence(const LinearTape& tape, int receiver,
   for (std::size_t k = tape.size(); k-- > 0;) {
     mean[k] += P.Get(k) * lambda;
     if (k == 0) break;
-    for (std::size_t i = used[k].size(); i-- > 0;) {
-      BackOver(used[k][i], &lambda);
+    for (std::size_t i = passed[k].size(); i-- > 0;) {
+      BackOver(passed[k][i], &lambda);
     }
     chain.MoveTo(k);
     lambda = (chain.Phi(walk.steps()[k]).transpose() * lambda).eval();

@@ -62,9 +62,9 @@ TEST(ModeSequence, FindsWhenABiasBeginsAndEnds) {
 }
 
 TEST(ModeSequence, RemembersADriftThatNoSingleFixShows) {
-  TestProblem problem = PositionsOnly(60.0);
+  TestProblem problem = PositionsOnly(90.0);
   constexpr double kRate = 0.4;  // less than a sigma from fix to fix
-  for (std::size_t k = 20; k < 45; ++k) {
+  for (std::size_t k = 20; k < 60; ++k) {
     auto& fix = std::get<PositionFix>(problem.measurements[k].model);
     fix.p_e +=
         NedAxes(fix.p_e) *
@@ -73,11 +73,11 @@ TEST(ModeSequence, RemembersADriftThatNoSingleFixShows) {
   const LinearTape tape = TapeOf(problem);
   const std::vector<Hypothesis> found =
       SearchHypotheses(tape, 0, WithoutOutliers());
-  EXPECT_EQ(found.front().sequence[35].mode, ErrorMode::kDrifting);
+  EXPECT_EQ(found.front().sequence[40].mode, ErrorMode::kDrifting);
   const ModeSequence best = ClimbSequences(tape, 0, WithoutOutliers(), found);
   EXPECT_EQ(best[10].mode, ErrorMode::kGood);
-  EXPECT_EQ(best[35].mode, ErrorMode::kDrifting);
-  EXPECT_EQ(best[50].mode, ErrorMode::kGood);
+  EXPECT_EQ(best[40].mode, ErrorMode::kDrifting);
+  EXPECT_EQ(best[70].mode, ErrorMode::kGood);
 }
 
 }  // namespace

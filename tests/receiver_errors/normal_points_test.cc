@@ -53,13 +53,13 @@ TEST(NormalPoints, LeaveOutAnOutlierOfTheirInterval) {
 }
 
 TEST(NormalPoints, GiveTheirStepsToTheirFirstFixes) {
-  const auto points = FormNormalPoints(TapeOf(PositionsOnly(5.0, 0.25)), 0);
+  const auto points = FormNormalPoints(TapeOf(PositionsOnly(6.0, 0.25)), 0);
   ASSERT_TRUE(points.has_value());
   ModeSequence sequence = Good(points->tape);
   sequence[2] = {ErrorMode::kBiased, true};
   sequence[3] = {ErrorMode::kBiased};
   const ModeSequence at_fixes = AtFixes(*points, sequence);
-  ASSERT_EQ(at_fixes.size(), 21u);
+  ASSERT_EQ(at_fixes.size(), points->point_of_fix.size());
   EXPECT_EQ(at_fixes[7], ErrorStep{ErrorMode::kGood});
   EXPECT_EQ(at_fixes[8], (ErrorStep{ErrorMode::kBiased, true}));
   EXPECT_EQ(at_fixes[9], ErrorStep{ErrorMode::kBiased});
