@@ -33,6 +33,16 @@ const Block* TimeOffsetOf(const ModelContext& context) {
   return context.layout.Find(BlockKind::kTimeOffset, context.sensor_index);
 }
 
+/// Whether a measurement sees the error kColouredNoise of its sensor: those that
+/// tell a position, velocity, height, course or heading by themselves.
+bool SeesError(const Measurement& z) {
+  return std::holds_alternative<PositionFix>(z.model) ||
+         std::holds_alternative<VelocityFix>(z.model) ||
+         std::holds_alternative<HeightFix>(z.model) ||
+         std::holds_alternative<SpeedCourse>(z.model) ||
+         std::holds_alternative<GenericReading>(z.model);
+}
+
 /// Takes the sensor's own error out of the prediction, an axis a row.
 void TakeError(const ModelContext& context, LinearizedMeasurement* out) {
   const Block* error =
@@ -52,7 +62,7 @@ void TakeError(const ModelContext& context, LinearizedMeasurement* out) {
 void Evaluate(const Measurement& z, const ModelContext& context,
               LinearizedMeasurement* out) {
   EvaluateAtState(z, context, out);
-  TakeError(context, out);
+  if (SeesError(z)) TakeError(context, out);
   const Block* offset = TimeOffsetOf(context);
   if (offset == nullptr) return;
   auto column = out->H.col(offset->offset);

@@ -156,7 +156,7 @@ std::string ReceiverErrors::InWords() const {
 
 bool IsAbsolute(const SensorKind& kind) {
   return kind.is_position || (kind.moves && !kind.of_vehicle) ||
-         kind.is_height || kind.is_heading || kind.magnetic;
+         kind.is_height || kind.is_heading;
 }
 
 std::vector<int> AbsoluteSensors(const Timeline& timeline,

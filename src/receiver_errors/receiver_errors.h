@@ -104,7 +104,7 @@ class ReceiverErrors {
 };
 
 /// Whether a sensor tells a position, a velocity over the ground, a height, a
-/// heading or the Earth's field by itself.
+/// course or a heading by itself.
 bool IsAbsolute(const SensorKind& kind);
 
 /// Sensors whose errors can be looked for: absolute ones with a used measurement
