@@ -29,6 +29,8 @@ enum class MethodTrait {
   /// Heeds ReconstructionOptions::h_infinity, modified_h_infinity.
   kHInfinity,
   kModifiedHInfinity,
+  /// Heeds ReconstructionOptions::max_time.
+  kSearches,
 };
 
 constexpr unsigned TraitsOf(std::initializer_list<MethodTrait> traits) {

@@ -67,6 +67,10 @@ class MethodStage {
   const std::optional<LinearisationError>& linearisation() const {
     return own_linearisation_;
   }
+  /// What the method itself says against its result.
+  void SetDoubts(std::vector<Evidence> doubts) { doubts_ = std::move(doubts); }
+  const std::vector<Evidence>& doubts() const { return doubts_; }
+
   const Fit& fit() const { return own_fit_ ? *own_fit_ : forward_->fit(); }
 
   /// Of the reconstruction, with its progress under the name "batch".
@@ -89,6 +93,7 @@ class MethodStage {
   std::optional<Timeline> timeline_;
   std::optional<Fit> own_fit_;
   std::optional<LinearisationError> own_linearisation_;
+  std::vector<Evidence> doubts_;
 };
 
 }  // namespace hindsight

@@ -35,6 +35,9 @@ struct ReconstructionOptions {
   CovarianceOptions h_infinity;
   CovarianceOptions modified_h_infinity;
   int max_iterations = 50;  ///< of the iterated smoother and the batch
+  /// Longest time that a method may search, by the wall clock; it then ends with
+  /// the best so far, which is doubtful [s].
+  double max_time = std::numeric_limits<double>::infinity();
   /// Called with a stage in words and its fraction done, in [0, 1].
   std::function<void(const std::string& stage, double fraction)> progress;
   /// Polled; when it becomes true Interrupted is thrown.

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_PROBLEMS_ROBUST_BATCH_H_
 #define HINDSIGHT_PROBLEMS_ROBUST_BATCH_H_
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,32 +11,56 @@
 namespace hindsight {
 
 struct RobustBatchResult {
-  /// As it was solved: with the receiver's error and its rate, if it has one,
-  /// sigmas, loss and error steps as found.
+  /// As it was solved: with the errors of sensors that were found, and their
+  /// rates, sigmas, losses and error steps.
   Problem problem;
-  BatchResult batch;  ///< P widened by the other histories
-  ModePart modes;     ///< of the receiver
-  /// By node, the probability that a fix is taken at its word: not as biased.
-  std::vector<double> trust;
-  std::vector<BoundedValue> bounded;
-  std::vector<std::string> notes;  ///< what was found, in words
+  BatchResult batch = {};  ///< P widened by the other hypotheses
+  ModePart modes = {};  ///< of the sensor whose errors have the most evidence
+  /// By sensor and node, the probability that a measurement is taken at its word:
+  /// not as biased. Empty of a sensor without errors.
+  std::vector<std::vector<double>> trust = {};
+  /// Whether any errors were found that stand against the noise as stated, or
+  /// blunders were left out. If not, only notes and doubts are filled in: the
+  /// plain batch is the result.
+  bool stands = false;
+  std::vector<BoundedValue> bounded = {};
+  std::vector<std::string> notes = {};  ///< what was found, in words
+  std::vector<Evidence> doubts = {};    ///< what makes the result doubtful
 };
 
-/// Whole-interval least squares that finds out by itself what a position
-/// sensor's errors are like.
+struct RobustBatchOptions {
+  BatchOptions batch;
+  /// What the gates of sensors without errors decided: used where others are
+  /// found. Empty: as the problem says.
+  GateDecisions gates = {};
+  /// Measurements that `problem` leaves out whatever is found (FindBlunders).
+  std::vector<std::size_t> blunders = {};
+  /// Of each epoch of each pass; may throw to stop.
+  EpochCallback callback = nullptr;
+  /// Told the fraction of the search that is done; false ends it with the best
+  /// so far.
+  std::function<bool(double)> go_on = nullptr;
+};
+
+/// Whole-interval least squares that finds out by itself what the errors of the
+/// absolute sensors are like.
 ///
-/// FindReceiverErrors looks for them about the trajectory `initial`. The batch
-/// then has
-///   - the sensor's sigmas as found, with a two-component mixture as its loss;
-///   - the receiver's error as three states a node, and if it drifts its rate
-///     as three more (state/block_step.h), which go from node to node as a
-///     history says, with sigma and tau as found.
-/// It starts from that history's trajectory; the distances of the others widen
-/// the covariances. `receiver` is the index of the sensor.
+/// FindReceiverErrors looks for them about the trajectory `initial`, for each of
+/// AbsoluteSensors by itself, the others being taken at their word: which one
+/// errs is part of the hypothesis. The one whose errors gain the most evidence is
+/// given them, and the rest are searched again about the trajectory that follows,
+/// until none gains any more. The batch then has
+///   - those sensors' sigmas as found, with a two-component mixture as the loss;
+///   - the error of each as states of every node, and if it drifts its rate as
+///     well (state/block_step.h), which go from node to node as the chosen
+///     hypothesis says.
+/// It starts from that hypothesis's trajectory; the distances of the others widen
+/// the covariances. Where errors of another sensor explain the data as well, to
+/// odds of a thousand, and lead elsewhere, the result is doubtful, says both, and
+/// its covariances are widened by their distance.
 RobustBatchResult SolveRobustBatch(Problem problem,
                                    const std::vector<State>& initial,
-                                   int receiver, const BatchOptions& options,
-                                   const EpochCallback& callback = nullptr);
+                                   const RobustBatchOptions& options);
 
 }  // namespace hindsight
 

@@ -128,6 +128,7 @@ class TrajectoryEstimation final : public Estimation {
          .constants = stage.fit().constants,
          .unsettled = stage.unsettled(),
          .recording = recording_,
+         .doubts = stage.doubts(),
          .disagreement = DisagreementOf(method, solution)},
         forward_.unobserved(), &solution);
     if (auto apart = methods_.Compare(solution)) {

@@ -1,11 +1,13 @@
 #include "problems/robust_batch.h"
 
+#include <chrono>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
 #include "base/processor_time.h"
-#include "measurements/sensor_kind.h"
+#include "problems/blunders.h"
 #include "problems/method.h"
 #include "problems/method_stage.h"
 #include "problems/sensor_imm.h"
@@ -15,51 +17,67 @@
 namespace hindsight {
 namespace {
 
-/// The first position sensor. Throws EstimationError if there is none, or if
-/// the states of its error would be more than a state can hold.
-int Receiver(const MethodStage* stage) {
-  int receiver = -1;
-  for (std::size_t i = stage->forward().timeline().sensors().size(); i-- > 0;) {
-    if (stage->forward().timeline().sensors()[i].kind->is_position) {
-      receiver = static_cast<int>(i);
-    }
+/// Throws EstimationError if no sensor of position is there to be judged.
+void RequirePosition(const Timeline& timeline) {
+  for (const Sensor& sensor : timeline.sensors()) {
+    if (sensor.kind->is_position) return;
   }
-  if (receiver < 0) {
-    throw EstimationError("robust_batch needs a position sensor");
-  }
-  constexpr int kOwnStates = 6;
-  if (stage->layout().parameter_count() + kOwnStates > kMaxParameters) {
-    throw EstimationError(
-        "robust_batch adds 6 values to those estimated: expected at most " +
-        std::to_string(kMaxParameters - kOwnStates) + " of them");
-  }
-  return receiver;
+  throw EstimationError("robust_batch needs a position sensor");
 }
 
-/// The problem with every fix of the receiver used, whatever gates decided, and
+/// The problem with every position used but blunders, whatever gates decided, and
 /// a prior that does not trust the fix from which the start comes.
-Problem WithAllOf(int receiver, const MethodStage* stage, Problem problem) {
+Problem WithAll(const MethodStage& stage,
+                const std::vector<std::size_t>& blunders, Problem problem) {
+  const Timeline& timeline = problem.timeline;
   for (std::size_t i = 0; i < problem.decisions.size(); ++i) {
-    const Measurement& z = problem.timeline.all_measurements()[i];
-    if (z.sensor == receiver) {
+    const Measurement& z = timeline.all_measurements()[i];
+    const auto sensor = static_cast<std::size_t>(z.sensor);
+    if (timeline.sensors()[sensor].kind->is_position) {
       problem.decisions[i] = static_cast<char>(!z.withheld);
     }
   }
-  problem.prior = WithoutTrustIn(receiver, stage->forward().start()).prior;
+  for (const std::size_t i : blunders) problem.decisions[i] = 0;
+  const Start& start = stage.forward().start();
+  problem.prior = WithoutTrustIn(start.position_sensor, start).prior;
   return problem;
 }
 
-Solution SolveRobustly(int receiver, MethodStage* stage,
-                       const MethodStage::Nodes& nodes) {
-  // The EKF's trajectory may be so far off after an outlier that a
-  // linearisation about it is of no use.
-  SensorImm imm = MakeSensorImm(stage->Questioned(nodes));
-  const ImmSmoothed rough =
-      SmoothSensorImm(&imm, stage->forward().Progress("robust_batch"));
-  RobustBatchResult result = SolveRobustBatch(
-      WithAllOf(receiver, stage, *nodes.problem), rough.trajectory.states,
-      receiver, stage->MakeBatchOptions(),
-      stage->forward().Progress("robust_batch"));
+RobustBatchOptions OptionsOf(const MethodStage& stage,
+                             const GateDecisions& gates) {
+  const ReconstructionOptions& options = stage.forward().options();
+  using Clock = std::chrono::steady_clock;
+  const auto end =
+      options.max_time < 1e9
+          ? Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                               std::chrono::duration<double>(options.max_time))
+          : Clock::time_point::max();
+  return {.batch = stage.MakeBatchOptions(),
+          .gates = gates,
+          .callback = stage.forward().Progress("robust_batch"),
+          .go_on = [&options, end](double fraction) {
+            if (options.stop != nullptr && *options.stop) throw Interrupted();
+            if (options.progress) {
+              options.progress("errors of sensors", fraction);
+            }
+            return std::chrono::steady_clock::now() < end;
+          }};
+}
+
+/// The plain batch.
+Solution SolvePlainly(MethodStage* stage, const MethodStage::Nodes& nodes) {
+  BatchResult result =
+      SolveBatch(*nodes.states, stage->MakeBatchOptions(), nodes.problem);
+  Solution solution =
+      stage->FromSmoothed(std::move(result.states), std::move(result.P), nodes);
+  solution.iterations = result.iterations;
+  solution.converged = result.converged;
+  stage->JudgeHeading(solution, nodes);
+  return solution;
+}
+
+/// With the errors that were found.
+Solution TakeRobust(RobustBatchResult result, MethodStage* stage) {
   Solution solution =
       SmoothedSolution(result.problem, std::move(result.batch.states),
                        std::move(result.batch.P));
@@ -74,25 +92,59 @@ Solution SolveRobustly(int receiver, MethodStage* stage,
   for (std::size_t k = 0; k < timeline.size(); ++k) {
     for (const Measurement& z : timeline.measurements(k)) {
       ResidualRecord& r = solution.residuals[record++];
-      if (z.sensor == receiver && !z.withheld) r.weight *= result.trust[k];
+      const std::vector<double>& trust =
+          result.trust[static_cast<std::size_t>(z.sensor)];
+      if (!trust.empty() && !z.withheld) r.weight *= trust[k];
     }
   }
   solution.iterations = result.batch.iterations;
   solution.converged = result.batch.converged;
-  solution.modes = std::move(result.modes);
-  solution.notes = std::move(result.notes);
+  if (!result.modes.names.empty()) solution.modes = std::move(result.modes);
   solution.bounded = std::move(result.bounded);
   stage->SetTimeline(std::move(timeline));
   return solution;
 }
 
+Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
+                       bool* stands) {
+  // The EKF's trajectory may be so far off after an outlier that a
+  // linearisation about it is of no use.
+  const std::vector<std::size_t> blunders =
+      FindBlunders(nodes.problem->timeline);
+  Problem problem = WithAll(*stage, blunders, *nodes.problem);
+  SensorImm imm = MakeSensorImm(stage->Questioned(nodes));
+  if (!blunders.empty()) imm.options.decisions = problem.decisions;
+  const ImmSmoothed rough =
+      SmoothSensorImm(&imm, stage->forward().Progress("robust_batch"));
+  RobustBatchOptions options = OptionsOf(*stage, nodes.problem->decisions);
+  options.blunders = blunders;
+  RobustBatchResult result =
+      SolveRobustBatch(std::move(problem), rough.trajectory.states, options);
+  *stands = result.stands;
+  stage->SetDoubts(std::move(result.doubts));
+  std::vector<std::string> notes = std::move(result.notes);
+  Solution solution = result.stands ? TakeRobust(std::move(result), stage)
+                                    : SolvePlainly(stage, nodes);
+  solution.notes = std::move(notes);
+  return solution;
+}
+
 Solution RunRobustBatch(MethodStage* stage) {
   const double t0 = ProcessorSeconds();
-  const int receiver = Receiver(stage);
+  RequirePosition(stage->forward().timeline());
+  // Nodes that move by a part of their time offset's sigma give no errors to a
+  // sensor that had none.
+  std::optional<std::vector<std::string>> plain;
+  bool stands = false;
   Solution solution = stage->AtOwnNodes([&](const MethodStage::Nodes& nodes) {
-    return SolveRobustly(receiver, stage, nodes);
+    Solution one = plain ? SolvePlainly(stage, nodes)
+                         : SolveRobustly(stage, nodes, &stands);
+    if (plain) one.notes = *plain;
+    if (!stands) plain = one.notes;
+    return one;
   });
   solution.seconds = ProcessorSeconds() - t0;
+  if (!stands) stage->JudgeOptimum(solution);
   return solution;
 }
 
@@ -102,9 +154,9 @@ extern const Method kRobustBatchMethod;
 const Method kRobustBatchMethod = {
     .name = "robust_batch",
     .help =
-        "batch that finds out from the data whether positions have\n"
-        "outliers, correlated errors or jumps",
-    .traits = 0,
+        "batch that finds out from the data which sensor errs and how:\n"
+        "outliers, correlated errors, jumps, drifts; else the batch",
+    .traits = TraitsOf({MethodTrait::kSearches}),
     .run = RunRobustBatch,
     .work = 200.0};
 

@@ -28,6 +28,7 @@ DEFINE_string(inject, "", "");
 DEFINE_bool(json, false, "");
 DEFINE_bool(list, false, "");
 DEFINE_string(log, "none", "");
+DEFINE_double(max_time, std::numeric_limits<double>::infinity(), "");
 DEFINE_string(methods, "ekf,rts,iterated,batch", "");
 DEFINE_string(metric, "trajectory", "");
 DEFINE_bool(noise, false, "");

@@ -27,6 +27,7 @@ DECLARE_string(inject);
 DECLARE_bool(json);
 DECLARE_bool(list);
 DECLARE_string(log);
+DECLARE_double(max_time);
 DECLARE_string(methods);
 DECLARE_string(metric);
 DECLARE_bool(noise);

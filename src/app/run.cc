@@ -132,6 +132,7 @@ ReconstructionOptions Options(const RunRequest& request, Progress* progress) {
   options.to = request.to;
   options.node_times = request.at;
   options.error = request.error;
+  options.max_time = request.max_time;
   options.h_infinity = request.h_infinity;
   options.modified_h_infinity = request.modified_h_infinity;
   options.progress = [progress](const std::string& stage, double fraction) {

@@ -96,6 +96,10 @@ Command RunCommand() {
             "held_gate, adaptive or smnc (as the configuration says)"},
            {"from", "T", "begin at T seconds since the data set's epoch"},
            {"to", "T", "end at T seconds"},
+           {"max_time", "S",
+            "longest time that robust_batch may search for errors of\n"
+            "sensors, by the clock; it then ends with the best so far,\n"
+            "which is doubtful (as long as it takes)"},
            {"rate", "HZ", "rate of the output (at the estimator's nodes)"},
            {"at", "FILE",
             "also poses with covariance at the times in FILE,\n"

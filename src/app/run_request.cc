@@ -127,6 +127,9 @@ void CheckFlagsAreHeeded(const RunRequest& request) {
   if (IsGiven("error") && !Runs(request, MethodTrait::kDependsOnError)) {
     throw UsageError("--error changes nothing in " + FLAGS_methods);
   }
+  if (IsGiven("max_time") && !Runs(request, MethodTrait::kSearches)) {
+    throw UsageError("--max-time changes nothing in " + FLAGS_methods);
+  }
   if (!request.attitude_alone) {
     if (IsGiven("seed") && request.injections.empty()) {
       throw UsageError("--seed goes with --inject");
@@ -192,6 +195,12 @@ RunRequest ReadRunRequest(const std::string& config) {
   request.to = FLAGS_to;
   if (!(FLAGS_from < FLAGS_to)) {
     throw UsageError("--from must be before --to");
+  }
+  if (IsGiven("max_time")) {
+    if (!(FLAGS_max_time >= 0.0)) {
+      throw UsageError("--max-time must be a number of seconds, not negative");
+    }
+    request.max_time = FLAGS_max_time;
   }
   if (IsGiven("rate")) {
     if (!std::isfinite(FLAGS_rate) || FLAGS_rate <= 0.0) {

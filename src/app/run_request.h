@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -25,9 +26,11 @@ struct RunRequest {
   std::string at_file;               ///< that `at` comes from, "" for none
   std::vector<std::string> methods;  ///< in the order given, each once
   bool attitude_alone = false;       ///< all of `methods` estimate no more
-  std::string ahrs_rule;       ///< in place of the configuration's if not empty
-  double from = 0.0;           ///< [s]
-  double to = 0.0;             ///< [s]
+  std::string ahrs_rule;  ///< in place of the configuration's if not empty
+  double from = 0.0;      ///< [s]
+  double to = 0.0;        ///< [s]
+  /// Of the search for errors of sensors [s].
+  double max_time = std::numeric_limits<double>::infinity();
   std::optional<double> rate;  ///< of the output [Hz]; absent: at the nodes
   std::vector<double> at;      ///< times of poses asked for, in order [s]
   Eigen::Vector3d point_b = Eigen::Vector3d::Zero();  ///< from the IMU [m]

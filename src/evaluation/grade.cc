@@ -8,6 +8,7 @@
 
 #include "evaluation/agreement.h"
 #include "evaluation/contradicted_sensor.h"
+#include "evaluation/distrust.h"
 #include "evaluation/explanation.h"
 #include "evaluation/given_values.h"
 #include "evaluation/grade_rules.h"
@@ -23,6 +24,10 @@ void PassOnRecording(const Judged& judged, std::vector<Evidence>* evidence) {
                    judged.recording.end());
 }
 
+void PassOnDoubts(const Judged& judged, std::vector<Evidence>* evidence) {
+  evidence->insert(evidence->end(), judged.doubts.begin(), judged.doubts.end());
+}
+
 void PassOnDisagreement(const Judged& judged, std::vector<Evidence>* evidence) {
   if (judged.disagreement) evidence->push_back(*judged.disagreement);
 }
@@ -36,10 +41,12 @@ constexpr GradeRule kRules[] = {
     {"clock", FindUnsettledClock},
     {"recording", PassOnRecording},
     {"rival", FindLikelyRival},
+    {"search", PassOnDoubts},
     {kLinearisationRule, FindLinearisedFarOff},
     {"disagreement", PassOnDisagreement},
     {"unobserved", FindUnobservedState},
     {"shut_out", FindShutOut},
+    {"distrust", FindDistrusted},
     {"given_values", FindStrainedValues},
     {"residuals", FindLargeResiduals},
     {"innovations", FindOddInnovations},

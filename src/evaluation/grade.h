@@ -81,6 +81,8 @@ struct Judged {
   std::string unsettled = "";
   /// What the recording shows by itself, of the solution's interval.
   std::vector<Evidence> recording = {};
+  /// What the method itself says against its result.
+  std::vector<Evidence> doubts = {};
   /// Where it ends elsewhere than another method that minimises the same cost.
   std::optional<Evidence> disagreement = std::nullopt;
   /// Nothing says where north is: the heading counts from the start.

@@ -33,11 +33,36 @@ const Block* TimeOffsetOf(const ModelContext& context) {
   return context.layout.Find(BlockKind::kTimeOffset, context.sensor_index);
 }
 
+/// Whether a measurement sees the error kColouredNoise of its sensor: those that
+/// tell a position, velocity, height, course or heading by themselves.
+bool SeesError(const Measurement& z) {
+  return std::holds_alternative<PositionFix>(z.model) ||
+         std::holds_alternative<VelocityFix>(z.model) ||
+         std::holds_alternative<HeightFix>(z.model) ||
+         std::holds_alternative<SpeedCourse>(z.model) ||
+         std::holds_alternative<GenericReading>(z.model);
+}
+
+/// Takes the sensor's own error out of the prediction, an axis a row.
+void TakeError(const ModelContext& context, LinearizedMeasurement* out) {
+  const Block* error =
+      context.layout.Find(BlockKind::kColouredNoise, context.sensor_index);
+  if (error == nullptr) return;
+  int column = error->offset;
+  for (int axis = 0; axis < out->residual.size() && axis < 3; ++axis) {
+    if (!error->active[static_cast<std::size_t>(axis)]) continue;
+    out->residual(axis) -=
+        context.state.parameters(error->parameter_offset + axis);
+    out->H(axis, column++) += 1.0;
+  }
+}
+
 }  // namespace
 
 void Evaluate(const Measurement& z, const ModelContext& context,
               LinearizedMeasurement* out) {
   EvaluateAtState(z, context, out);
+  if (SeesError(z)) TakeError(context, out);
   const Block* offset = TimeOffsetOf(context);
   if (offset == nullptr) return;
   auto column = out->H.col(offset->offset);

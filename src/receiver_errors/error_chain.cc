@@ -4,17 +4,55 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "base/units.h"
 
 namespace hindsight {
 namespace {
 
+/// ln of the density under a covariance that rounding has made indefinite.
+constexpr double kIndefinite = -1e9;
+
 double LogDensity(const Eigen::Vector3d& r, const Eigen::Matrix3d& S) {
   const Eigen::LLT<Eigen::Matrix3d> llt(S);
+  if (llt.info() != Eigen::Success) return kIndefinite;
   const Eigen::Vector3d whitened = llt.matrixL().solve(r);
   return -0.5 * whitened.squaredNorm() -
          llt.matrixLLT().diagonal().array().log().sum() -
          1.5 * std::log(2.0 * kPi);
+}
+
+/// Smallest standard deviation of a fix, in its unit: less is beneath what
+/// double precision resolves beside an error of kilometres.
+constexpr double kLeastSigma = 1e-5;
+
+bool IsOfImu(BlockKind kind) {
+  return kind == BlockKind::kPosition || kind == BlockKind::kVelocity ||
+         kind == BlockKind::kAttitude || kind == BlockKind::kGyroBias ||
+         kind == BlockKind::kAccelBias;
+}
+
+/// Kalman update of x by z. P - K S K' in place of Joseph's form, at a third of
+/// the cost: the least sigma of a fix keeps it far from what rounding ruins.
+ErrorChain::Used UpdateWith(const LinearizedMeasurement& z, Gaussian* x) {
+  ErrorChain::Used used{z, {}, z.H.lazyProduct(x->P)};
+  Innovation& innovation = used.innovation;
+  innovation.residual = z.residual - z.H * x->mean;
+  innovation.S = z.R + used.HP.lazyProduct(z.H.transpose());
+  const Eigen::LLT<RowMatrix> llt(innovation.S);
+  if (llt.info() != Eigen::Success) {
+    throw EstimationError(
+        "innovation covariance of a measurement is not positive definite");
+  }
+  const RowVector whitened = llt.matrixL().solve(innovation.residual);
+  const RowJacobian W = llt.matrixL().solve(used.HP);
+  x->mean.noalias() += W.transpose() * whitened;
+  x->P -= W.transpose().lazyProduct(W);
+  innovation.nis = whitened.squaredNorm();
+  innovation.log_likelihood =
+      -0.5 * innovation.nis - llt.matrixLLT().diagonal().array().log().sum() -
+      0.5 * static_cast<double>(z.residual.size()) * std::log(2.0 * kPi);
+  return used;
 }
 
 }  // namespace
@@ -50,6 +88,7 @@ void ErrorChain::MoveTo(std::size_t k) {
   if (k > 0) {
     Phi_n_ = tape_.Phi(k);
     Q_n_ = tape_.Q(k);
+    if (parameters_.imu_scale != 1.0) ScaleImuNoise();
   }
   z_.clear();
   fix_ = -1;
@@ -65,8 +104,26 @@ void ErrorChain::MoveTo(std::size_t k) {
     wide.H.leftCols(navigation_dim_) = z.H;
     if (z.sensor != receiver_) continue;
     wide.H.middleCols(navigation_dim_, 3).setIdentity();
+    wide.R.diagonal().array() += kLeastSigma * kLeastSigma;
     wide.R *= parameters_.scale * parameters_.scale;
   }
+  if (fix_ < 0) return;
+  constexpr double kAddsNothing = 0.5 / kPi;
+  const RowMatrix& R = z_[static_cast<std::size_t>(fix_)].R;
+  rows_ = static_cast<int>(R.rows());
+  R_in_ = R_out_ = kAddsNothing * Eigen::Matrix3d::Identity();
+  const double ratio = parameters_.outlier_ratio;
+  R_in_.topLeftCorner(rows_, rows_) = R;
+  R_out_.topLeftCorner(rows_, rows_) = ratio * ratio * R;
+}
+
+void ErrorChain::ScaleImuNoise() {
+  ErrorVector scale = ErrorVector::Ones(navigation_dim_);
+  for (const Block& block : tape_.layout().blocks()) {
+    if (!IsOfImu(block.key.kind)) continue;
+    scale.segment(block.offset, block.dim).setConstant(parameters_.imu_scale);
+  }
+  Q_n_ = (scale.asDiagonal() * Q_n_ * scale.asDiagonal()).eval();
 }
 
 Gaussian ErrorChain::PredictNavigation(const Gaussian& x) const {
@@ -113,45 +170,6 @@ void ErrorChain::PredictError(ErrorStep step, Gaussian* x) const {
   }
 }
 
-ErrorMatrix ErrorChain::Phi(ErrorStep step) const {
-  const int n = navigation_dim_;
-  const ErrorDynamics d = DynamicsOf(parameters_, step, dt_);
-  ErrorMatrix Phi = ErrorMatrix::Zero(dim(), dim());
-  Phi.topLeftCorner(n, n) = Phi_n_;
-  Phi.block<3, 3>(n, n).diagonal().setConstant(d.ee);
-  Phi.block<3, 3>(n, n + 3).diagonal().setConstant(d.er);
-  Phi.block<3, 3>(n + 3, n + 3).diagonal().setConstant(d.rr);
-  return Phi;
-}
-
-ErrorMatrix ErrorChain::Q(ErrorStep step) const {
-  const int n = navigation_dim_;
-  const ErrorDynamics d = DynamicsOf(parameters_, step, dt_);
-  ErrorMatrix Q = ErrorMatrix::Zero(dim(), dim());
-  Q.topLeftCorner(n, n) = Q_n_;
-  for (int i = 0; i < 3; ++i) {
-    const int e = n + i;
-    const int r = n + 3 + i;
-    Q(e, e) = d.q_ee;
-    Q(e, r) = Q(r, e) = d.q_er;
-    Q(r, r) = d.q_rr;
-    if (velocity_ < 0) continue;
-    const int p = position_ + i;
-    const int v = velocity_ + i;
-    Q(p, p) += d.q_vv * dt_ * dt_;
-    Q(p, v) += d.q_vv * dt_;
-    Q(v, p) += d.q_vv * dt_;
-    Q(v, v) += d.q_vv;
-  }
-  return Q;
-}
-
-ErrorVector ErrorChain::Defect() const {
-  ErrorVector c = ErrorVector::Zero(dim());
-  c.head(navigation_dim_) = tape_.epoch(k_).c;
-  return c;
-}
-
 ErrorChain::FixLikelihood ErrorChain::LikelihoodOfFix(const Gaussian& x) const {
   ErrorDynamics as_it_is;
   as_it_is.ee = 1.0;
@@ -162,12 +180,16 @@ ErrorChain::FixView ErrorChain::ViewOf(const Gaussian& x) const {
   const int n = navigation_dim_;
   const LinearizedMeasurement& z = z_[static_cast<std::size_t>(fix_)];
   const auto H = z.H.leftCols(n);
-  const RowJacobian HP = H * x.P.topRows(n);
+  const RowJacobian HP = H.lazyProduct(x.P.topRows(n));
   FixView view;
-  view.innovation = z.residual - H * x.mean.head(n);
-  view.S = HP.leftCols(n) * H.transpose();
-  view.P_ze = HP.middleCols(n, 3);
-  view.P_zr = HP.middleCols(n + 3, 3);
+  view.innovation.setZero();
+  view.S.setZero();
+  view.P_ze.setZero();
+  view.P_zr.setZero();
+  view.innovation.head(rows_) = z.residual - H * x.mean.head(n);
+  view.S.topLeftCorner(rows_, rows_) = HP.leftCols(n) * H.transpose();
+  view.P_ze.topRows(rows_) = HP.middleCols(n, 3);
+  view.P_zr.topRows(rows_) = HP.middleCols(n + 3, 3);
   view.e = x.mean.segment<3>(n);
   view.r = x.mean.segment<3>(n + 3);
   view.P_ee = x.P.block<3, 3>(n, n);
@@ -184,22 +206,26 @@ ErrorChain::FixLikelihood ErrorChain::LikelihoodAfter(
 ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
                                                  const FixView& view) const {
   const LinearizedMeasurement& z = z_[static_cast<std::size_t>(fix_)];
-  const Eigen::Vector3d innovation =
-      view.innovation - d.ee * view.e - d.er * view.r;
+  Eigen::Vector3d innovation = view.innovation - d.ee * view.e - d.er * view.r;
   const Eigen::Matrix3d cross = d.ee * view.P_ze + d.er * view.P_zr;
   Eigen::Matrix3d S = view.S + cross + cross.transpose() +
                       d.ee * d.ee * view.P_ee + d.er * d.er * view.P_rr;
   S += d.ee * d.er * (view.P_er + view.P_er.transpose());
   S.diagonal().array() += d.q_ee;
-  if (velocity_ >= 0 && d.q_vv > 0.0) {
-    const Eigen::Matrix3d H_v =
-        dt_ * z.H.middleCols(position_, 3) + z.H.middleCols(velocity_, 3);
-    S += d.q_vv * H_v * H_v.transpose();
+  if (rows_ < 3) {
+    innovation.tail(3 - rows_).setZero();
+    S.rightCols(3 - rows_).setZero();
+    S.bottomRows(3 - rows_).setZero();
   }
-  const double k = parameters_.outlier_ratio;
+  if (velocity_ >= 0 && d.q_vv > 0.0) {
+    const RowJacobian H_v =
+        dt_ * z.H.middleCols(position_, 3) + z.H.middleCols(velocity_, 3);
+    S.topLeftCorner(rows_, rows_) += d.q_vv * H_v * H_v.transpose();
+  }
   const double a = parameters_.outlier_share;
-  const double in = std::log1p(-a) + LogDensity(innovation, S + z.R);
-  const double out = std::log(a) + LogDensity(innovation, S + k * k * z.R);
+  const double in = std::log1p(-a) + LogDensity(innovation, S + R_in_);
+  if (a == 0.0) return {in, false};
+  const double out = std::log(a) + LogDensity(innovation, S + R_out_);
   const double largest = std::max(in, out);
   return {largest + std::log1p(std::exp(-std::abs(in - out))), out > in};
 }
@@ -218,13 +244,17 @@ double ErrorChain::UpdateAll(bool outlier, Gaussian* x,
   double log_likelihood = 0.0;
   for (std::size_t i = 0; i < z_.size(); ++i) {
     const LinearizedMeasurement z = MeasurementAs(i, outlier);
-    const Innovation innovation = Innovate(z, x->mean, x->P);
-    const bool is_fix = static_cast<int>(i) == fix_;
-    if (!is_fix) log_likelihood += innovation.log_likelihood;
-    if (used != nullptr) used->push_back({z, innovation, z.H * x->P});
-    Update(z, innovation, &x->mean, &x->P);
+    const Used one = UpdateWith(z, x);
+    if (!IsFix(i)) log_likelihood += one.innovation.log_likelihood;
+    if (used != nullptr) used->push_back(one);
   }
   return log_likelihood;
+}
+
+void ErrorChain::UpdateOthers(Gaussian* x) const {
+  for (std::size_t i = 0; i < z_.size(); ++i) {
+    if (!IsFix(i)) UpdateWith(z_[i], x);
+  }
 }
 
 }  // namespace hindsight

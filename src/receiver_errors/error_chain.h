@@ -5,12 +5,14 @@
 
 #include "filters/linear_tape.h"
 #include "filters/mixing.h"
-#include "receiver_errors/error_history.h"
+#include "receiver_errors/mode_sequence.h"
 
 namespace hindsight {
 
 /// The linear system of a tape about one fixed nominal, extended by the error
-/// (e, r) of one position receiver, north, east, down each; its fixes see e.
+/// (e, r) of one sensor, three axes each, of which a fix sees as many of e as it
+/// has rows: north, east, down of a position or velocity, one of a height or a
+/// heading.
 class ErrorChain {
  public:
   ErrorChain(const LinearTape& tape, int receiver,
@@ -42,6 +44,9 @@ class ErrorChain {
   /// with the tape's defect c. Q is singular where a step adds no noise to e or
   /// to r.
   ErrorMatrix Q(ErrorStep step) const;
+  /// The same of a step of e and r in no time, with everything else at rest.
+  ErrorMatrix PhiAtOnce(ErrorStep step) const;
+  ErrorMatrix QAtOnce(ErrorStep step) const;
   /// (c, 0, 0) of the interval. Like Phi and Q it means nothing at the first
   /// node, which has no interval before it.
   ErrorVector Defect() const;
@@ -57,6 +62,8 @@ class ErrorChain {
   /// What the fix sees of a state after PredictNavigation, whatever the step of
   /// the error.
   struct FixView {
+    // Rows that the fix has not are zero, with a noise of 1 / (2 pi), so that
+    // they add nothing to any density.
     Eigen::Vector3d innovation;  ///< residual - H_n mean_n
     Eigen::Matrix3d S;           ///< H_n P_n H_n'
     Eigen::Matrix3d P_ze, P_zr;  ///< H_n P_ne, H_n P_nr
@@ -79,9 +86,14 @@ class ErrorChain {
   };
   double UpdateAll(bool outlier, Gaussian* x,
                    std::vector<Used>* used = nullptr) const;
+  /// Updates with all measurements of the node but the fix.
+  void UpdateOthers(Gaussian* x) const;
+  bool IsFix(std::size_t i) const { return static_cast<int>(i) == fix_; }
 
  private:
   FixLikelihood Likelihood(const ErrorDynamics& d, const FixView& view) const;
+
+  void ScaleImuNoise();
 
   const LinearTape& tape_;
   int receiver_;
@@ -94,7 +106,9 @@ class ErrorChain {
   ErrorMatrix Phi_n_;
   ErrorMatrix Q_n_;
   double dt_ = 0.0;
-  int fix_ = -1;  ///< index in z_
+  int fix_ = -1;                  ///< index in z_
+  int rows_ = 0;                  ///< of the fix
+  Eigen::Matrix3d R_in_, R_out_;  ///< of the fix, padded, as an outlier
   std::vector<LinearizedMeasurement> z_;
 };
 

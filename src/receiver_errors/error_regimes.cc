@@ -7,58 +7,69 @@
 #include <utility>
 
 #include "receiver_errors/error_tuning.h"
-#include "receiver_errors/history_attempts.h"
-#include "receiver_errors/history_refinement.h"
-#include "receiver_errors/history_smoother.h"
+#include "receiver_errors/search_attempts.h"
+#include "receiver_errors/sequence_refinement.h"
+#include "receiver_errors/sequence_smoother.h"
 
 namespace hindsight {
 namespace {
 
-int FixCount(const RegimeProblem& problem) {
-  int count = 0;
+std::size_t FixCount(const RegimeProblem& problem) {
+  std::size_t count = 0;
   for (std::size_t k = 0; k < problem.tape.size(); ++k) {
-    if (HasFix(problem.tape, k, problem.receiver)) ++count;
+    count += HasFix(problem.tape, k, problem.sensor);
   }
   return count;
 }
 
-ErrorHistory Uniform(const RegimeProblem& problem, ErrorMode mode) {
-  return ErrorHistory(static_cast<std::size_t>(FixCount(problem)),
-                      ErrorStep{mode, false});
+ModeSequence Uniform(const RegimeProblem& problem, ErrorMode mode) {
+  return ModeSequence(FixCount(problem), ErrorStep{mode, false});
 }
 
-ErrorParameters Tune(const RegimeProblem& problem, const ErrorHistory& history,
+ErrorParameters Tune(const RegimeProblem& problem, const ModeSequence& sequence,
                      const ErrorParameters& from) {
-  if (problem.poll) problem.poll();
-  return TuneParameters(problem.tape, problem.receiver, history, from);
+  return TuneParameters(problem.tape, problem.sensor, sequence, from,
+                        problem.effort);
 }
 
-double Criterion(const RegimeProblem& problem, ErrorRegimes::Kind kind,
-                 double log_posterior) {
-  const int parameters = kind == ErrorRegimes::Kind::kWhite         ? 3
-                         : kind == ErrorRegimes::Kind::kGaussMarkov ? 5
-                                                                    : 8;
-  return log_posterior -
-         0.5 * parameters * std::log(std::max(2, FixCount(problem)));
+double LogEvidence(const Hypothesis& best, const ErrorParameters& from) {
+  return best.log_posterior + LogPriorOf(best.sequence, best.parameters, from) -
+         0.5 * CountParameters(best.sequence) *
+             std::log(static_cast<double>(
+                 std::max<std::size_t>(2, best.sequence.size())));
 }
 
-/// White or Gauss-Markov throughout: there is but one history.
+/// The noise as stated: what the plain batch takes it for.
+ErrorRegimes AsStated(const RegimeProblem& problem) {
+  Hypothesis one;
+  one.sequence = Uniform(problem, ErrorMode::kGood);
+  one.parameters.outlier_share = 0.0;
+  one.log_posterior =
+      ScoreSequence(problem.tape, problem.sensor, one.parameters, one.sequence)
+          .log_likelihood;
+  ErrorRegimes out;
+  out.log_evidence = one.log_posterior;
+  out.hypotheses.push_back(std::move(one));
+  return out;
+}
+
+/// White or Gauss-Markov throughout: there is but one sequence.
 ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
                         const ErrorParameters& from) {
   const ErrorMode mode = kind == ErrorRegimes::Kind::kWhite
                              ? ErrorMode::kGood
                              : ErrorMode::kBiased;
-  ErrorHistory history = Uniform(problem, mode);
-  if (mode == ErrorMode::kBiased) history.front().anew = true;
-  const ErrorParameters parameters = Tune(problem, history, from);
-  const double log_likelihood =
-      ScoreHistory(problem.tape, problem.receiver, parameters, history)
+  Hypothesis one;
+  one.sequence = Uniform(problem, mode);
+  if (mode == ErrorMode::kBiased) one.sequence.front().anew = true;
+  one.parameters = Tune(problem, one.sequence, from);
+  one.log_posterior =
+      ScoreSequence(problem.tape, problem.sensor, one.parameters, one.sequence)
           .log_likelihood;
   ErrorRegimes out;
   out.kind = kind;
-  out.criterion = Criterion(problem, kind, log_likelihood);
-  out.histories.push_back(
-      {std::move(history), log_likelihood, 1.0, parameters});
+  out.log_evidence = LogEvidence(one, from);
+  out.hypotheses.push_back(std::move(one));
   return out;
 }
 
@@ -68,16 +79,16 @@ double MeanScale(const ErrorParameters& p) {
   return p.scale * std::sqrt(1.0 + p.outlier_share * (ratio - 1.0));
 }
 
-/// Fits the parameters to a history, and refines it by them.
+/// Fits the parameters to a sequence, and refines it by them.
 ErrorRegimes FitSwitching(const RegimeProblem& problem,
-                          const ErrorHistory& history,
+                          const ModeSequence& sequence,
                           const ErrorParameters& from) {
   ErrorRegimes out;
   out.kind = ErrorRegimes::Kind::kSwitching;
-  out.histories = RefineHistories(problem.tape, problem.receiver,
-                                  Tune(problem, history, from), {{history}});
-  out.criterion =
-      Criterion(problem, out.kind, out.histories.front().log_posterior);
+  out.hypotheses = RefineHypotheses(problem.tape, problem.sensor,
+                                    Tune(problem, sequence, from), {{sequence}},
+                                    problem.effort);
+  out.log_evidence = LogEvidence(out.hypotheses.front(), from);
   return out;
 }
 
@@ -85,32 +96,35 @@ ErrorRegimes FitSwitching(const RegimeProblem& problem,
 /// what a wider search finds.
 ErrorRegimes FitAttempt(const RegimeProblem& problem, const Attempt& attempt,
                         const std::vector<Attempt>& all) {
-  if (problem.poll) problem.poll();
-  std::vector<ScoredHistory> from =
-      SearchHistories(problem.tape, problem.receiver, attempt.parameters);
-  for (const Attempt& other : all) from.push_back({other.history});
-  return FitSwitching(
-      problem,
-      ClimbHistories(problem.tape, problem.receiver, attempt.parameters, from),
-      attempt.parameters);
+  constexpr std::size_t kWide = 3;
+  std::vector<Hypothesis> from = {{attempt.sequence}};
+  if (!problem.effort->IsSpent()) {
+    from = SearchHypotheses(problem.tape, problem.sensor, attempt.parameters,
+                            kWide, problem.effort);
+  }
+  for (const Attempt& other : all) from.push_back({other.sequence});
+  return FitSwitching(problem,
+                      ClimbSequences(problem.tape, problem.sensor,
+                                     attempt.parameters, from, problem.effort),
+                      attempt.parameters);
 }
 
-/// The best history that tells another story than the best of any of `fits`,
-/// or nullptr: where it was met the parameters are those of its rival.
-const ScoredHistory* NextRival(const std::vector<ErrorRegimes>& fits) {
+/// The best hypothesis with another order of modes than the best of any of
+/// `fits`, or nullptr: where it was met the parameters are those of its rival.
+const Hypothesis* NextRival(const std::vector<ErrorRegimes>& fits) {
   constexpr double kLeastLog = 8.0;
-  std::vector<std::vector<ErrorMode>> told;
+  std::vector<std::vector<ErrorMode>> known;
   double least = -std::numeric_limits<double>::infinity();
   for (const ErrorRegimes& fit : fits) {
-    told.push_back(StoryOf(fit.histories.front().history));
-    least = std::max(least, fit.histories.front().log_posterior - kLeastLog);
+    known.push_back(ModeOrder(fit.hypotheses.front().sequence));
+    least = std::max(least, fit.hypotheses.front().log_posterior - kLeastLog);
   }
-  const ScoredHistory* rival = nullptr;
+  const Hypothesis* rival = nullptr;
   for (const ErrorRegimes& fit : fits) {
-    for (const ScoredHistory& one : fit.histories) {
+    for (const Hypothesis& one : fit.hypotheses) {
       if (one.log_posterior <= least) break;
-      if (std::find(told.begin(), told.end(), StoryOf(one.history)) !=
-          told.end()) {
+      if (std::find(known.begin(), known.end(), ModeOrder(one.sequence)) !=
+          known.end()) {
         continue;
       }
       rival = &one;
@@ -120,77 +134,123 @@ const ScoredHistory* NextRival(const std::vector<ErrorRegimes>& fits) {
   return rival;
 }
 
-/// Every story by parameters of its own.
-std::vector<ErrorRegimes> FitStories(const RegimeProblem& problem,
-                                     const ErrorParameters& start) {
+/// Attempts that a climb may yet make the likelier ones. At least two more
+/// parameters cost ln(fixes), and what does not win by kLeastGain does not stand;
+/// climbs gain some ten from where narrow searches end.
+std::vector<Attempt> Hopeful(std::vector<Attempt> attempts,
+                             double log_posterior_of_white) {
+  constexpr double kClimb = 10.0;
+  std::erase_if(attempts, [&](const Attempt& one) {
+    return one.log_posterior < log_posterior_of_white - kClimb;
+  });
+  return attempts;
+}
+
+/// Every order of modes by parameters of its own.
+std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
+                                    const ErrorParameters& start,
+                                    const ErrorRegimes& white) {
   constexpr int kMostRivals = 2;
-  const std::vector<Attempt> attempts = MakeAttempts(problem, start);
+  const std::vector<Attempt> attempts = Hopeful(
+      MakeAttempts(problem, start), white.hypotheses.front().log_posterior);
   std::vector<ErrorRegimes> fits;
   for (const Attempt& attempt : BestAttempts(problem, attempts)) {
+    if (!fits.empty() && problem.effort->IsSpent()) break;
     fits.push_back(FitAttempt(problem, attempt, attempts));
   }
-  for (int i = 0; i < kMostRivals; ++i) {
-    const ScoredHistory* rival = NextRival(fits);
+  for (int i = 0; i < kMostRivals && !problem.effort->IsSpent(); ++i) {
+    const Hypothesis* rival = NextRival(fits);
     if (rival == nullptr) break;
-    fits.push_back(FitSwitching(problem, rival->history, rival->parameters));
+    fits.push_back(FitSwitching(problem, rival->sequence, rival->parameters));
   }
   return fits;
 }
 
-/// The kind of the largest criterion. Beside a switching one the histories of
-/// the others, but for Gauss-Markov errors, go on as alternatives.
-ErrorRegimes Best(std::vector<ErrorRegimes> all) {
-  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
-    return a.criterion > b.criterion;
-  });
-  ErrorRegimes best = std::move(all.front());
-  if (best.kind != ErrorRegimes::Kind::kSwitching) return best;
-  const double level = best.histories.front().log_posterior - best.criterion;
-  for (std::size_t i = 1; i < all.size(); ++i) {
-    if (all[i].kind == ErrorRegimes::Kind::kGaussMarkov) continue;
-    const double own =
-        all[i].histories.front().log_posterior - all[i].criterion;
-    for (ScoredHistory& h : all[i].histories) {
-      const double log_posterior = h.log_posterior - own + level;
-      const auto known =
-          std::find_if(best.histories.begin(), best.histories.end(),
-                       [&](const auto& b) { return b.history == h.history; });
-      h.log_posterior = log_posterior;
-      if (known == best.histories.end()) {
-        best.histories.push_back(std::move(h));
-      } else if (known->log_posterior < log_posterior) {
-        *known = std::move(h);
-      }
+/// Adds hypotheses, `shift` making their posteriors comparable, or lets them
+/// take the place of the same ones where they are likelier.
+void AddAlternatives(std::vector<Hypothesis> more, double shift,
+                     std::vector<Hypothesis>* all) {
+  for (Hypothesis& h : more) {
+    h.log_posterior += shift;
+    const auto known =
+        std::find_if(all->begin(), all->end(),
+                     [&](const auto& b) { return b.sequence == h.sequence; });
+    if (known == all->end()) {
+      all->push_back(std::move(h));
+    } else if (known->log_posterior < h.log_posterior) {
+      *known = std::move(h);
     }
   }
-  std::stable_sort(best.histories.begin(), best.histories.end(),
-                   [](const auto& a, const auto& b) {
-                     return a.log_posterior > b.log_posterior;
-                   });
-  return best;
 }
 
 }  // namespace
 
 const char* RegimeName(ErrorRegimes::Kind kind) {
-  static const char* const kNames[] = {"white", "gauss_markov", "switching"};
+  static const char* const kNames[] = {"stated", "white", "gauss_markov",
+                                       "switching"};
   return kNames[static_cast<int>(kind)];
 }
 
-ErrorRegimes ChooseRegimes(const RegimeProblem& problem) {
+std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem) {
   std::vector<ErrorRegimes> all = {
-      FitUniform(problem, ErrorRegimes::Kind::kWhite, {})};
-  if (!problem.only_white) {
-    ErrorParameters start = all[0].histories.front().parameters;
-    start.sigma = problem.stated_sigma;
-    start.tau = 100.0;
-    all.push_back(FitUniform(problem, ErrorRegimes::Kind::kGaussMarkov, start));
-    start.scale =
-        std::min(start.scale, MeanScale(all[1].histories.front().parameters));
-    std::vector<ErrorRegimes> fits = FitStories(problem, start);
-    std::move(fits.begin(), fits.end(), std::back_inserter(all));
+      AsStated(problem), FitUniform(problem, ErrorRegimes::Kind::kWhite, {})};
+  if (problem.only_white) return all;
+  ErrorParameters start = all.back().hypotheses.front().parameters;
+  start.sigma = problem.stated_sigma;
+  start.tau = 100.0;
+  all.push_back(FitUniform(problem, ErrorRegimes::Kind::kGaussMarkov, start));
+  start.scale = std::min(start.scale,
+                         MeanScale(all.back().hypotheses.front().parameters));
+  std::vector<ErrorRegimes> fits = FitOrders(problem, start, all[1]);
+  std::move(fits.begin(), fits.end(), std::back_inserter(all));
+  return all;
+}
+
+ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
+                           const NormalPoints& points,
+                           const ErrorRegimes& found) {
+  std::vector<Hypothesis> all = found.hypotheses;
+  for (Hypothesis& one : all) one.sequence = AtFixes(points, one.sequence);
+  const ErrorParameters parameters =
+      TuneNoise(problem.tape, problem.sensor, all.front().sequence,
+                all.front().parameters, problem.effort);
+  ErrorRegimes out;
+  out.kind = found.kind;
+  if (found.kind == ErrorRegimes::Kind::kSwitching) {
+    out.hypotheses = RefineHypotheses(problem.tape, problem.sensor, parameters,
+                                      all, problem.effort);
+  } else {
+    all.front().parameters = parameters;
+    all.front().log_posterior = ScoreSequence(problem.tape, problem.sensor,
+                                              parameters, all.front().sequence)
+                                    .log_likelihood;
+    out.hypotheses = std::move(all);
   }
-  return Best(std::move(all));
+  out.log_evidence = LogEvidence(out.hypotheses.front(), parameters);
+  return out;
+}
+
+ErrorRegimes WithAlternatives(std::vector<ErrorRegimes> all,
+                              std::size_t chosen) {
+  ErrorRegimes best = std::move(all[chosen]);
+  if (best.kind != ErrorRegimes::Kind::kSwitching) return best;
+  const double level =
+      best.hypotheses.front().log_posterior - best.log_evidence;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i == chosen || (all[i].kind != ErrorRegimes::Kind::kSwitching &&
+                        all[i].kind != ErrorRegimes::Kind::kWhite)) {
+      continue;
+    }
+    const double own =
+        all[i].hypotheses.front().log_posterior - all[i].log_evidence;
+    AddAlternatives(std::move(all[i].hypotheses), level - own,
+                    &best.hypotheses);
+  }
+  std::stable_sort(best.hypotheses.begin(), best.hypotheses.end(),
+                   [](const auto& a, const auto& b) {
+                     return a.log_posterior > b.log_posterior;
+                   });
+  return best;
 }
 
 }  // namespace hindsight

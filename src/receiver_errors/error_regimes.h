@@ -1,55 +1,69 @@
 #ifndef HINDSIGHT_RECEIVER_ERRORS_ERROR_REGIMES_H_
 #define HINDSIGHT_RECEIVER_ERRORS_ERROR_REGIMES_H_
 
-#include <functional>
 #include <vector>
 
-#include "receiver_errors/history_search.h"
+#include "receiver_errors/hypothesis_search.h"
+#include "receiver_errors/normal_points.h"
 
 namespace hindsight {
 
-/// What the errors of a receiver are like, as found in its own data. Fixes are
-/// white, with outliers; beyond that
-///   white         nothing
+/// What the errors of a sensor may be like. Beyond noise
+///   stated        none: the noise is as stated, without outliers
+///   white         none: the noise has another scale, and outliers
 ///   gauss_markov  all fixes share a Gauss-Markov error
-///   switching     the receiver is good, biased (by a Gauss-Markov error) or
-///                 drifting, as the history says
-///                 (receiver_errors/error_history.h)
+///   switching     the sensor is good, biased (by a Gauss-Markov error) or
+///                 drifting, as a mode sequence says
+///                 (receiver_errors/mode_sequence.h)
 struct ErrorRegimes {
-  enum class Kind { kWhite, kGaussMarkov, kSwitching };
-  Kind kind = Kind::kWhite;
-  /// The likeliest history first; with kSwitching, others that the data do not
-  /// rule out, each with the parameters of the fit that likes it best.
-  std::vector<ScoredHistory> histories;
-  /// ln of likelihood and prior of the first history, less (parameters / 2)
-  /// ln(fixes): Schwarz's criterion.
-  double criterion = 0.0;
+  enum class Kind { kStated, kWhite, kGaussMarkov, kSwitching };
+  Kind kind = Kind::kStated;
+  /// The likeliest first; with kSwitching, others that the data do not rule out,
+  /// each with the parameters of the fit that likes it best.
+  std::vector<Hypothesis> hypotheses;
+  /// ln of the evidence: of likelihood, prior of the sequence and priors of the
+  /// parameters of the first hypothesis, less (parameters / 2) ln(fixes), which
+  /// is Schwarz's approximation of the integral over them.
+  double log_evidence = 0.0;
 };
 
-/// "white", "gauss_markov", "switching".
+/// "stated", "white", "gauss_markov", "switching".
 const char* RegimeName(ErrorRegimes::Kind kind);
 
 /// The data about a fixed nominal trajectory.
 struct RegimeProblem {
   const LinearTape& tape;
-  int receiver = 0;           ///< index of the position sensor
-  double stated_sigma = 1.0;  ///< of its fixes, an axis [m]
-  /// The layout has a Gauss-Markov error of the receiver already: only outliers
+  int sensor = 0;
+  double stated_sigma = 1.0;  ///< of its fixes, an axis
+  /// The layout has a Gauss-Markov error of the sensor already: only outliers
   /// are looked for.
   bool only_white = false;
-  /// Called between the steps of the search; may throw to end it.
-  std::function<void()> poll;
+  SearchEffort* effort = nullptr;  ///< must not be
 };
 
-/// Fits every kind to the data and takes the one of the largest criterion; no
-/// truth takes part. Parameters - scale, share and size of outliers, sigma and
-/// tau of the Gauss-Markov error, sigma of the rate of drifts - maximise the
-/// likelihood of the fixes, a mixture of two normal densities each (as in
-/// Pfeifer and Protzel, ICRA 2019), under weak priors that keep what the data
-/// do not show near its start. Histories are sought from several sizes of
-/// errors, in turn with fits of the parameters to what was found; the best that
-/// tell different stories are refined, each with parameters of its own.
-ErrorRegimes ChooseRegimes(const RegimeProblem& problem);
+/// Every kind as fitted to the data, the simplest first; of kSwitching several,
+/// from different starts, or none where no error is found. Parameters - scale,
+/// share and size of outliers, the factor on the noise of the IMU, sigma and
+/// correlation time of the Gauss-Markov errors, sigma of the rate of drifts -
+/// maximise the likelihood of the fixes, a mixture of two normal densities each
+/// (as in Pfeifer and Protzel, ICRA 2019), times their priors
+/// (receiver_errors/error_tuning.h). Sequences are sought from several sizes of
+/// errors, in turn with fits of the parameters to what was found; the best with
+/// different orders of modes are refined, each with parameters of its own. Ends
+/// early, with what there is, once the effort is spent.
+std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem);
+
+/// Regimes found on normal points, refined on all fixes (`problem`): the noise is
+/// fitted again, change points move to fixes.
+ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
+                           const NormalPoints& points,
+                           const ErrorRegimes& found);
+
+/// The regimes at `chosen`, and beside switching ones the hypotheses of the
+/// other switching and the white ones, which go on as alternatives at their own
+/// evidence.
+ErrorRegimes WithAlternatives(std::vector<ErrorRegimes> all,
+                              std::size_t chosen);
 
 }  // namespace hindsight
 

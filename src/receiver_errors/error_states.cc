@@ -10,8 +10,19 @@ namespace {
 /// steps would leave the problem singular.
 constexpr double kNoError = 1e-3;
 
+int RowsOf(const LinearTape& tape, int sensor) {
+  int rows = 0;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      if (z.sensor != sensor) continue;
+      rows = std::max(rows, static_cast<int>(z.residual.size()));
+    }
+  }
+  return rows;
+}
+
 /// Sigma of e at the first node [m]; 0 where the receiver is good there.
-double FirstSigma(const HistoryAlternative& chosen) {
+double FirstSigma(const WeighedHypothesis& chosen) {
   switch (chosen.steps.front().mode) {
     case ErrorMode::kGood:
       return 0.0;
@@ -27,11 +38,14 @@ double FirstSigma(const HistoryAlternative& chosen) {
 }  // namespace
 
 ErrorStates::ErrorStates(const LinearTape& tape, int receiver,
-                         double stated_sigma, ErrorRegimes::Kind kind,
-                         const HistoryAlternative& chosen)
+                         double stated_sigma, const std::string& unit,
+                         ErrorRegimes::Kind kind,
+                         const WeighedHypothesis& chosen)
     : tape_(tape),
       receiver_(receiver),
+      rows_(RowsOf(tape, receiver)),
       floor_(kNoError * stated_sigma),
+      unit_(unit),
       kind_(kind),
       chosen_(chosen) {}
 
@@ -47,10 +61,10 @@ void ErrorStates::Extend(Problem* problem) const {
   ApplyToSensor(&problem->timeline);
   if (!HasError()) return;
   ErrorLayout& layout = problem->layout;
-  AddBlock(BlockKind::kColouredNoise, sensor.name + "_error", "m",
+  AddBlock(BlockKind::kColouredNoise, sensor.name + "_error", unit_,
            std::max(floor_, FirstSigma(chosen_)), &layout);
   if (HasRate()) {
-    AddBlock(BlockKind::kErrorRate, sensor.name + "_error_rate", "m/s",
+    AddBlock(BlockKind::kErrorRate, sensor.name + "_error_rate", unit_ + "/s",
              chosen_.parameters.rate_sigma, &layout);
   }
   Prior& prior = problem->prior;
@@ -62,7 +76,10 @@ void ErrorStates::Extend(Problem* problem) const {
   prior.P = P;
   std::vector<std::vector<BlockStep>> steps;
   for (std::size_t k = 1; k < chosen_.steps.size(); ++k) {
-    steps.push_back(StepsTo(k));
+    const auto before = problem->timeline.StepsAfter(k - 1);
+    steps.emplace_back(before.begin(), before.end());
+    const std::vector<BlockStep> own = StepsTo(k);
+    steps.back().insert(steps.back().end(), own.begin(), own.end());
   }
   problem->timeline.SetBlockSteps(std::move(steps));
 }
@@ -74,8 +91,14 @@ std::vector<State> ErrorStates::States(const ErrorLayout& layout) const {
     const Eigen::Index count = x.parameters.size();
     x.parameters.conservativeResize(layout.parameter_count());
     x.parameters.tail(layout.parameter_count() - count).setZero();
-    states.push_back(Retract(
-        layout, x, ErrorVector(chosen_.smoothed[k].head(layout.dim()))));
+    const ErrorVector& smoothed = chosen_.smoothed[k];
+    const int n = tape_.dim();
+    ErrorVector d = ErrorVector::Zero(layout.dim());
+    d.head(n) = smoothed.head(n);
+    for (int i = n; i < layout.dim(); i += rows_) {
+      d.segment(i, rows_) = smoothed.segment(i == n ? n : n + 3, rows_);
+    }
+    states.push_back(Retract(layout, x, d));
   }
   return states;
 }
@@ -85,15 +108,17 @@ void ErrorStates::ApplyToSensor(Timeline* timeline) const {
   Sensor sensor = timeline->sensors()[i];
   sensor.loss.kind = RobustLoss::Kind::kMixture;
   sensor.loss.scale = 1.0;
-  sensor.loss.rows = 3;
+  sensor.loss.rows = rows_;
   sensor.loss.outlier_ratio = chosen_.parameters.outlier_ratio;
   sensor.loss.outlier_share = chosen_.parameters.outlier_share;
   timeline->SetSensor(i, sensor);
-  timeline->ScaleSensor(receiver_, chosen_.parameters.scale);
+  // A stated sigma has slow errors in it that fixes close to each other do not
+  // show: a small scatter is no reason to believe them more than stated.
+  timeline->ScaleSensor(receiver_, std::max(1.0, chosen_.parameters.scale));
 }
 
 void ErrorStates::AddBlock(BlockKind kind, const std::string& name,
-                           const char* unit, double sigma0,
+                           const std::string& unit, double sigma0,
                            ErrorLayout* layout) const {
   Block block;
   block.key = {kind, receiver_};
@@ -102,6 +127,9 @@ void ErrorStates::AddBlock(BlockKind kind, const std::string& name,
   block.evolution =
       Evolution::GaussMarkov(chosen_.parameters.sigma, chosen_.parameters.tau);
   block.sigma0.setConstant(sigma0);
+  for (std::size_t i = 0; i < block.active.size(); ++i) {
+    block.active[i] = static_cast<int>(i) < rows_;
+  }
   layout->Add(block);
 }
 

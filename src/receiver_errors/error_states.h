@@ -5,42 +5,47 @@
 #include <vector>
 
 #include "receiver_errors/error_regimes.h"
-#include "receiver_errors/history_alternatives.h"
+#include "receiver_errors/weighed_hypotheses.h"
 #include "state/block_step.h"
 #include "timeline/problem.h"
 
 namespace hindsight {
 
-/// The error (e, r) of a receiver, as one history has it, as states of a
-/// problem: e is a block kColouredNoise, r a block kErrorRate.
+/// The error (e, r) of a sensor, as one hypothesis has it, as states of a
+/// problem: e is a block kColouredNoise, r a block kErrorRate, with as many axes
+/// as the sensor's measurements have rows.
 class ErrorStates {
  public:
   /// All arguments must outlive the object.
   ErrorStates(const LinearTape& tape, int receiver, double stated_sigma,
-              ErrorRegimes::Kind kind, const HistoryAlternative& chosen);
+              const std::string& unit, ErrorRegimes::Kind kind,
+              const WeighedHypothesis& chosen);
 
-  /// Puts e and r behind all other blocks, as far as the history has them, with
-  /// their steps, and gives the receiver's fixes the sigma and loss as found.
+  /// Puts e and r behind all other blocks, as far as the hypothesis has them, with
+  /// their steps, and gives the sensor's fixes the sigma and loss as found.
   void Extend(Problem* problem) const;
 
-  /// The smoothed trajectory of the history, over the extended layout.
+  /// The smoothed trajectory of the hypothesis, over the extended layout.
   std::vector<State> States(const ErrorLayout& layout) const;
 
  private:
-  bool HasError() const { return kind_ != ErrorRegimes::Kind::kWhite; }
+  bool HasError() const { return kind_ > ErrorRegimes::Kind::kWhite; }
   bool HasRate() const;
   void ApplyToSensor(Timeline* timeline) const;
-  void AddBlock(BlockKind kind, const std::string& name, const char* unit,
-                double sigma0, ErrorLayout* layout) const;
+  void AddBlock(BlockKind kind, const std::string& name,
+                const std::string& unit, double sigma0,
+                ErrorLayout* layout) const;
   /// Over the interval into node k. Where e does not drift r is drawn anew, so
   /// that it is free where a drift begins.
   std::vector<BlockStep> StepsTo(std::size_t k) const;
 
   const LinearTape& tape_;
   int receiver_;
-  double floor_;  ///< sigma of e where the receiver is good [m]
+  int rows_;      ///< of the sensor's measurements
+  double floor_;  ///< sigma of e where the sensor is good
+  std::string unit_;
   ErrorRegimes::Kind kind_;
-  const HistoryAlternative& chosen_;
+  const WeighedHypothesis& chosen_;
 };
 
 }  // namespace hindsight

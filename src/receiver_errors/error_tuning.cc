@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "receiver_errors/history_smoother.h"
+#include "receiver_errors/sequence_smoother.h"
 
 namespace hindsight {
 namespace {
@@ -22,21 +22,23 @@ struct Tunable {
   const char* unit = "";
 };
 
-std::vector<Tunable> TunablesOf(const ErrorHistory& history,
+std::vector<Tunable> TunablesOf(const ModeSequence& sequence,
                                 const ErrorParameters& from) {
   std::vector<Tunable> out = {
-      {&ErrorParameters::scale, 0.01, 100.0, 1.0, 1.0,
+      {&ErrorParameters::scale, 0.1, 100.0, 1.0, 0.7,
        "the factor on the stated sigma", "1"},
       {&ErrorParameters::outlier_share, 1e-3, 0.4, 0.02, 1.5,
        "the share of outliers", "1"},
-      {&ErrorParameters::outlier_ratio, 3.0, 1000.0, 10.0, 1.5}};
+      {&ErrorParameters::outlier_ratio, 3.0, 1000.0, 10.0, 1.5},
+      {&ErrorParameters::imu_scale, 1.0, 100.0, 1.0, 1.1,
+       "the factor on the noise of the IMU", "1"}};
   bool biased = false;
   bool slight = false;
   bool drifting = false;
-  for (const ErrorStep& step : history) {
+  for (const ErrorStep& step : sequence) {
     biased |= step.mode == ErrorMode::kBiased;
     slight |= step.mode == ErrorMode::kSlight;
-    drifting |= step.mode == ErrorMode::kDrifting || step.jolt;
+    drifting |= step.mode == ErrorMode::kDrifting || step.velocity_step;
   }
   if (biased) {
     out.push_back({&ErrorParameters::tau, 0.1, 1e9, from.tau, 2.3});
@@ -56,16 +58,28 @@ std::vector<Tunable> TunablesOf(const ErrorHistory& history,
   return out;
 }
 
-/// The likelihood of a history as a function of the parameters.
+double LogPriorOf(const std::vector<Tunable>& tunables,
+                  const ErrorParameters& p) {
+  double log_prior = 0.0;
+  for (const Tunable& tunable : tunables) {
+    const double z =
+        std::log(p.*tunable.member / tunable.typical) / tunable.spread;
+    log_prior -= 0.5 * z * z;
+  }
+  return log_prior;
+}
+
+/// The likelihood of a sequence as a function of the parameters.
 class Tuning {
  public:
-  Tuning(const LinearTape& tape, int receiver, const ErrorHistory& history,
-         const ErrorParameters& from)
+  Tuning(const LinearTape& tape, int receiver, const ModeSequence& sequence,
+         const ErrorParameters& from, SearchEffort* effort)
       : tape_(tape),
         receiver_(receiver),
-        history_(history),
-        tunables_(TunablesOf(history, from)),
-        parameters_(from) {}
+        sequence_(sequence),
+        tunables_(TunablesOf(sequence, from)),
+        parameters_(from),
+        effort_(effort) {}
 
   /// Multiplies each parameter by smaller and smaller steps while it gains.
   ErrorParameters Climb() {
@@ -75,29 +89,41 @@ class Tuning {
         if (!Walk(tunable, step)) Walk(tunable, 1.0 / step);
       }
     }
+    return ClimbFinely();
+  }
+
+  /// The first three, scale and outliers, alone.
+  ErrorParameters ClimbOfNoise() {
+    constexpr double kStep = 1.3;
+    value_ = Value(parameters_);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!Walk(tunables_[i], kStep)) Walk(tunables_[i], 1.0 / kStep);
+    }
+    return ClimbFinely();
+  }
+
+ private:
+  ErrorParameters ClimbFinely() {
     constexpr double kFine = 1.08;
     const Tunable& scale = tunables_.front();
     if (!Walk(scale, kFine)) Walk(scale, 1.0 / kFine);
     return parameters_;
   }
 
- private:
   double Value(const ErrorParameters& p) const {
-    double value = ScoreHistory(tape_, receiver_, p, history_).log_likelihood;
-    for (const Tunable& tunable : tunables_) {
-      const double z =
-          std::log(p.*tunable.member / tunable.typical) / tunable.spread;
-      value -= 0.5 * z * z;
-    }
-    return value;
+    if (effort_ != nullptr) effort_->Spend(tape_.size());
+    return ScoreSequence(tape_, receiver_, p, sequence_).log_likelihood +
+           LogPriorOf(tunables_, p);
   }
 
   bool Walk(const Tunable& tunable, double step) {
     constexpr int kMost = 8;
     for (int i = 0; i < kMost; ++i) {
+      if (effort_ != nullptr && effort_->IsSpent()) return i > 0;
       ErrorParameters trial = parameters_;
       trial.*tunable.member =
           std::clamp(trial.*tunable.member * step, tunable.least, tunable.most);
+      if (trial.*tunable.member == parameters_.*tunable.member) return i > 0;
       const double value = Value(trial);
       if (!(value > value_)) return i > 0;
       parameters_ = trial;
@@ -108,27 +134,45 @@ class Tuning {
 
   const LinearTape& tape_;
   int receiver_;
-  const ErrorHistory& history_;
+  const ModeSequence& sequence_;
   std::vector<Tunable> tunables_;
   ErrorParameters parameters_;
+  SearchEffort* effort_;
   double value_ = 0.0;
 };
 
 }  // namespace
 
 ErrorParameters TuneParameters(const LinearTape& tape, int receiver,
-                               const ErrorHistory& history,
-                               const ErrorParameters& from) {
-  return Tuning(tape, receiver, history, from).Climb();
+                               const ModeSequence& sequence,
+                               const ErrorParameters& from,
+                               SearchEffort* effort) {
+  return Tuning(tape, receiver, sequence, from, effort).Climb();
 }
 
-std::vector<BoundedValue> BoundedParameters(const ErrorHistory& history,
+ErrorParameters TuneNoise(const LinearTape& tape, int receiver,
+                          const ModeSequence& sequence,
+                          const ErrorParameters& from, SearchEffort* effort) {
+  return Tuning(tape, receiver, sequence, from, effort).ClimbOfNoise();
+}
+
+double LogPriorOf(const ModeSequence& sequence, const ErrorParameters& p,
+                  const ErrorParameters& typical) {
+  return LogPriorOf(TunablesOf(sequence, typical), p);
+}
+
+int CountParameters(const ModeSequence& sequence) {
+  return static_cast<int>(TunablesOf(sequence, {}).size());
+}
+
+std::vector<BoundedValue> BoundedParameters(const ModeSequence& sequence,
                                             const ErrorParameters& found) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   std::vector<BoundedValue> values;
-  for (const Tunable& t : TunablesOf(history, found)) {
+  for (const Tunable& t : TunablesOf(sequence, found)) {
     if (t.name == nullptr) continue;
-    const bool share = t.member == &ErrorParameters::outlier_share;
+    const bool share = t.member == &ErrorParameters::outlier_share ||
+                       t.member == &ErrorParameters::imu_scale;
     values.push_back({.name = t.name,
                       .unit = t.unit,
                       .value = found.*t.member,

@@ -3,16 +3,23 @@
 
 #include <vector>
 
-#include "receiver_errors/error_history.h"
+#include "receiver_errors/mode_sequence.h"
+#include "receiver_errors/search_effort.h"
 #include "state/solution.h"
 
 namespace hindsight {
 
-/// The parameters that maximise the likelihood of a history's fixes times their
-/// prior, from `from` on: scale, share and ratio of outliers, and, where the
-/// history has them, sigmas and taus of biases and the sigma of rates. The
-/// prior is normal in the logarithm of each, so weak that it only keeps what
-/// the data do not show.
+/// The parameters that maximise the likelihood of a sequence's fixes times their
+/// prior, from `from` on: scale, share and ratio of outliers, the factor on the
+/// IMU's noise and, where the sequence has them, sigmas and correlation times of
+/// biases and the sigma of rates. The prior is normal in the logarithm of each:
+///   scale        1, a factor of 2 (a sigma that a receiver states is right to
+///                about that); sought within 0.1 to 100
+///   IMU          1, a factor of 3, never below 1 (stated is the noise of an IMU
+///                at rest; vibration adds to it)
+///   outliers     2 % of 10 times the sigma, a factor of 4.5 each
+///   slight bias  as `from` says, a factor of 2.7
+///   the rest     as `from` says, a factor of 10
 ///
 /// A fix is a mixture of two normal densities about the innovation, inlier and
 /// outlier, whose covariances have the uncertainty of the trajectory in them:
@@ -20,13 +27,29 @@ namespace hindsight {
 /// maximum is found by a search, parameter by parameter in the logarithm, to a
 /// factor of 1.08 for the scale and of 1.3 for the rest.
 ErrorParameters TuneParameters(const LinearTape& tape, int receiver,
-                               const ErrorHistory& history,
-                               const ErrorParameters& from);
+                               const ModeSequence& sequence,
+                               const ErrorParameters& from,
+                               SearchEffort* effort = nullptr);
 
-/// The parameters of a history that TuneParameters seeks within bounds which
-/// mean something: a share of outliers may be as small as it likes, and a bias
-/// last for ever.
-std::vector<BoundedValue> BoundedParameters(const ErrorHistory& history,
+/// The same of scale, share and ratio of outliers alone, to a factor of 1.3: what
+/// differs between fixes and their normal points.
+ErrorParameters TuneNoise(const LinearTape& tape, int receiver,
+                          const ModeSequence& sequence,
+                          const ErrorParameters& from,
+                          SearchEffort* effort = nullptr);
+
+/// ln of that prior but for constants, `typical` being what the search began
+/// from.
+double LogPriorOf(const ModeSequence& sequence, const ErrorParameters& p,
+                  const ErrorParameters& typical);
+
+/// How many parameters TuneParameters seeks for the sequence.
+int CountParameters(const ModeSequence& sequence);
+
+/// The parameters of a sequence that TuneParameters seeks within bounds which
+/// mean something: a share of outliers may be as small as it likes, the IMU as
+/// good as stated, and a bias last for ever.
+std::vector<BoundedValue> BoundedParameters(const ModeSequence& sequence,
                                             const ErrorParameters& found);
 
 }  // namespace hindsight

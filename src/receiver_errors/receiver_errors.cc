@@ -1,72 +1,28 @@
 #include "receiver_errors/receiver_errors.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "receiver_errors/error_regimes.h"
-#include "receiver_errors/error_states.h"
 #include "receiver_errors/error_tuning.h"
-#include "receiver_errors/history_alternatives.h"
-#include "receiver_errors/history_words.h"
+#include "receiver_errors/hypothesis_words.h"
+#include "receiver_errors/sensor_findings.h"
+#include "receiver_errors/sequence_smoother.h"
 
 namespace hindsight {
 
-struct ReceiverErrors::Findings {
-  Findings(const Problem& problem, const LinearTape& linear, int index,
-           std::function<void()> poll);
-  bool switching() const {
-    return regimes.kind == ErrorRegimes::Kind::kSwitching;
-  }
-  ErrorStates states() const {
-    return {tape, receiver, stated_sigma, regimes.kind, chosen};
-  }
-
-  const LinearTape& tape;
-  int receiver;
-  std::string name;     ///< of the sensor
-  double stated_sigma;  ///< of its fixes, an axis [m]
-  ErrorRegimes regimes;
-  std::vector<HistoryAlternative> alternatives;
-  const HistoryAlternative& chosen;  ///< one of them
-};
-
-namespace {
-
-/// Root mean square of the stated sigmas of the receiver, north and east [m].
-double StatedSigma(const Timeline& timeline, int receiver) {
-  double sum = 0.0;
-  int count = 0;
-  for (const Measurement& z : timeline.all_measurements()) {
-    const auto* fix = std::get_if<PositionFix>(&z.model);
-    if (fix == nullptr || z.sensor != receiver) continue;
-    sum += 0.5 * (fix->R_n(0, 0) + fix->R_n(1, 1));
-    ++count;
-  }
-  return std::sqrt(sum / std::max(1, count));
-}
-
-}  // namespace
-
-ReceiverErrors::Findings::Findings(const Problem& problem,
-                                   const LinearTape& linear, int index,
-                                   std::function<void()> poll)
-    : tape(linear),
-      receiver(index),
-      name(problem.timeline.sensors()[static_cast<std::size_t>(index)].name),
-      stated_sigma(StatedSigma(problem.timeline, index)),
-      regimes(ChooseRegimes(
-          {tape, receiver, stated_sigma,
-           problem.layout.Has(BlockKind::kColouredNoise, receiver),
-           std::move(poll)})),
-      alternatives(WeighHistories(tape, receiver, regimes)),
-      chosen(MostCentral(alternatives)) {}
-
-ReceiverErrors::ReceiverErrors(std::unique_ptr<const Findings> found)
+ReceiverErrors::ReceiverErrors(std::unique_ptr<const SensorFindings> found)
     : found_(std::move(found)) {}
 ReceiverErrors::ReceiverErrors(ReceiverErrors&&) noexcept = default;
 ReceiverErrors& ReceiverErrors::operator=(ReceiverErrors&&) noexcept = default;
 ReceiverErrors::~ReceiverErrors() = default;
+
+bool ReceiverErrors::Stands() const { return found_->stands(); }
+
+int ReceiverErrors::sensor() const { return found_->sensor; }
+
+double ReceiverErrors::log_gain() const { return found_->choice.gain; }
 
 void ReceiverErrors::Extend(Problem* problem) const {
   found_->states().Extend(problem);
@@ -81,23 +37,31 @@ void ReceiverErrors::Widen(CovarianceSeries* P) const {
   for (std::size_t k = 0; k < found_->tape.size(); ++k) {
     ErrorMatrix P_k = P->Get(k);
     P_k.topLeftCorner(dim, dim) +=
-        Spread(found_->alternatives, found_->chosen, k, dim);
+        Spread(found_->alternatives, found_->chosen(), k, dim);
     P->Set(k, P_k);
   }
 }
 
 std::vector<std::string> ReceiverErrors::Notes(
     const CovarianceSeries& P) const {
-  std::vector<std::string> notes =
-      DescribeParameters(found_->regimes.kind, found_->chosen);
-  if (found_->switching()) {
-    std::vector<double> times;
-    for (std::size_t k = 0; k < found_->tape.size(); ++k) {
-      times.push_back(found_->tape.epoch(k).t);
-    }
-    notes.push_back(DescribeHistory(found_->chosen.steps, times));
-    const RivalHistory rival =
-        FindRival(found_->alternatives, found_->chosen, P);
+  std::vector<std::string> notes;
+  if (found_->stands()) {
+    notes = DescribeParameters(found_->regimes.kind, found_->unit,
+                               found_->chosen());
+    notes.push_back(fmt::format(
+        "against the noise as stated the evidence is exp({:.3g}) to 1",
+        found_->choice.gain));
+  } else {
+    notes.push_back("errors as stated");
+  }
+  for (const std::string& refused : found_->choice.refused) {
+    notes.push_back(refused);
+  }
+  if (found_->stands() && found_->switching()) {
+    const std::vector<double> times = found_->Times();
+    notes.push_back(DescribeSequence(found_->chosen().steps, times));
+    const RivalHypothesis rival =
+        FindRival(found_->alternatives, found_->chosen(), P);
     std::string other = DescribeRival(rival, times);
     if (!other.empty()) notes.push_back(std::move(other));
   }
@@ -105,12 +69,39 @@ std::vector<std::string> ReceiverErrors::Notes(
   return notes;
 }
 
+std::vector<Evidence> ReceiverErrors::Doubts() const {
+  std::vector<Evidence> doubts;
+  if (found_->stopped) {
+    doubts.push_back({.grade = Grade::kDoubtful,
+                      .what = "the search for errors of " + found_->name +
+                              " was ended before it was done (--max-time)",
+                      .causes = {"less time than the recording needs"},
+                      .remedies = {"a larger --max-time"}});
+  }
+  if (!found_->stands()) return doubts;
+  const double imu = found_->chosen().parameters.imu_scale;
+  if (imu > kMisstatedImu) {
+    doubts.push_back(
+        {.grade = Grade::kDoubtful,
+         .what =
+             fmt::format("beside errors of {}, the noise of the IMU is {:.2g} "
+                         "times as stated (limit {:.2g})",
+                         found_->name, imu, kMisstatedImu),
+         .value = imu,
+         .limit = kMisstatedImu,
+         .unit = "1",
+         .causes = {"vibration, or noise of the IMU that is stated too small"},
+         .remedies = {"'check --noise', and the noise that it finds"}});
+  }
+  return doubts;
+}
+
 ModePart ReceiverErrors::Modes() const {
   ModePart modes;
   modes.names = {"good", "biased", "drifting", "slight"};
   modes.probabilities.assign(found_->tape.size(), Eigen::VectorXd::Zero(4));
   for (std::size_t k = 0; k < modes.probabilities.size(); ++k) {
-    for (const HistoryAlternative& one : found_->alternatives) {
+    for (const WeighedHypothesis& one : found_->alternatives) {
       modes.probabilities[k](static_cast<int>(one.steps[k].mode)) += one.weight;
     }
   }
@@ -128,15 +119,76 @@ std::vector<double> ReceiverErrors::Trust() const {
 }
 
 std::vector<BoundedValue> ReceiverErrors::Bounded() const {
-  const ScoredHistory& likeliest = found_->regimes.histories.front();
-  return BoundedParameters(likeliest.history, likeliest.parameters);
+  const Hypothesis& likeliest = found_->regimes.hypotheses.front();
+  return BoundedParameters(likeliest.sequence, likeliest.parameters);
+}
+
+double ReceiverErrors::MeanSquareDistanceTo(const ReceiverErrors& other) const {
+  return MeanSquareDistance(found_->chosen().smoothed,
+                            other.found_->chosen().smoothed);
+}
+
+bool ReceiverErrors::IsApart(const ReceiverErrors& other,
+                             const CovarianceSeries& P) const {
+  return Separate(other.found_->chosen(), found_->chosen(), P).significant;
+}
+
+void ReceiverErrors::WidenTowards(const ReceiverErrors& other,
+                                  double probability,
+                                  CovarianceSeries* P) const {
+  const int dim = found_->tape.dim();
+  for (std::size_t k = 0; k < found_->tape.size(); ++k) {
+    const ErrorVector d = (other.found_->chosen().smoothed[k].head(dim) -
+                           found_->chosen().smoothed[k].head(dim));
+    ErrorMatrix P_k = P->Get(k);
+    P_k.topLeftCorner(dim, dim) += probability * d * d.transpose();
+    P->Set(k, P_k);
+  }
+}
+
+std::string ReceiverErrors::InWords() const {
+  const std::string what =
+      found_->switching()
+          ? DescribeSequence(found_->chosen().steps, found_->Times())
+          : std::string(RegimeName(found_->regimes.kind)) + " errors";
+  return found_->name + ": " + what;
+}
+
+bool IsAbsolute(const SensorKind& kind) {
+  return kind.is_position || (kind.moves && !kind.of_vehicle) ||
+         kind.is_height || kind.is_heading;
+}
+
+std::vector<int> AbsoluteSensors(const Timeline& timeline,
+                                 const LinearTape& tape) {
+  std::vector<int> rows(timeline.sensors().size(), 0);
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      if (!z.accepted || z.withheld) continue;
+      int& most = rows[static_cast<std::size_t>(z.sensor)];
+      most = std::max(most, static_cast<int>(z.residual.size()));
+    }
+  }
+  std::vector<int> positions;
+  std::vector<int> others;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] == 0 || rows[i] > 3) continue;
+    const SensorKind& kind = *timeline.sensors()[i].kind;
+    if (kind.is_position) {
+      positions.push_back(static_cast<int>(i));
+    } else if (IsAbsolute(kind)) {
+      others.push_back(static_cast<int>(i));
+    }
+  }
+  positions.insert(positions.end(), others.begin(), others.end());
+  return positions;
 }
 
 ReceiverErrors FindReceiverErrors(const Problem& problem,
-                                  const LinearTape& tape, int receiver,
-                                  std::function<void()> poll) {
-  return ReceiverErrors(std::make_unique<const ReceiverErrors::Findings>(
-      problem, tape, receiver, std::move(poll)));
+                                  const LinearTape& tape, int sensor,
+                                  const SearchLimits& limits) {
+  return ReceiverErrors(
+      std::make_unique<const SensorFindings>(problem, tape, sensor, limits));
 }
 
 }  // namespace hindsight

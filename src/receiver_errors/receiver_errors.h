@@ -8,71 +8,121 @@
 #include <vector>
 
 #include "filters/linear_tape.h"
+#include "measurements/sensor_kind.h"
+#include "state/evidence.h"
 #include "state/solution.h"
 #include "timeline/problem.h"
 
 namespace hindsight {
 
-/// What the errors of one position receiver are like, as FindReceiverErrors
-/// found them: the noise of its fixes, and beyond noise the histories of its
-/// error that the data do not rule out, of which one is chosen.
+struct SensorFindings;  // receiver_errors/sensor_findings.h
+
+/// How long a search may take.
+struct SearchLimits {
+  /// Of the effort that a search may cost: less where several sensors are
+  /// searched.
+  double share = 1.0;
+  /// Told the fraction done, between the steps of the search; false ends it with
+  /// the best so far; may throw to abandon it.
+  std::function<bool(double)> go_on = nullptr;
+};
+
+/// What the errors of one absolute sensor are like, as FindReceiverErrors found
+/// them: the noise of its fixes, and beyond noise the hypotheses of its error
+/// that the data do not rule out, of which one is chosen.
 class ReceiverErrors {
  public:
   ReceiverErrors(ReceiverErrors&&) noexcept;
   ReceiverErrors& operator=(ReceiverErrors&&) noexcept;
   ~ReceiverErrors();
 
-  /// Gives the problem that was asked about what was found: to the receiver's
-  /// fixes their sigma and a two-component mixture as loss; behind all other
-  /// blocks of the layout the receiver's error e [m, NED] and, if it drifts,
-  /// its rate [m/s], which go from node to node as the chosen history says
+  /// Whether what was found stands against the noise as stated: it wins by odds
+  /// of a thousand on evidence and does not lose on held-out stretches. If not,
+  /// the problem is best solved as it is, and only Notes and `doubts` say
+  /// anything.
+  bool Stands() const;
+
+  int sensor() const;
+  /// ln of its evidence over that of the noise as stated; 0 unless it stands.
+  double log_gain() const;
+
+  /// Gives the problem that was asked about what was found: to the sensor's
+  /// fixes their sigma, but none smaller than stated, and a two-component mixture
+  /// as loss; behind all other
+  /// blocks of the layout the sensor's error e [SI, along its rows] and, if it
+  /// drifts, its rate, which go from node to node as the chosen hypothesis says
   /// (Timeline::SetBlockSteps). White errors bring no blocks.
   void Extend(Problem* problem) const;
 
-  /// The smoothed trajectory of the chosen history, a state a node, over the
+  /// The smoothed trajectory of the chosen hypothesis, a state a node, over the
   /// layout of the extended problem.
   std::vector<State> States(const ErrorLayout& layout) const;
 
-  /// Adds to the covariances of the chosen history's solution, a node each, how
-  /// far the other histories take the trajectory elsewhere, weighed by their
+  /// Adds to the covariances of the chosen hypothesis's solution, a node each,
+  /// how far the other hypotheses take the trajectory elsewhere, weighed by their
   /// probabilities.
   void Widen(CovarianceSeries* P) const;
 
   /// What was found, in words; `P` as it was before Widen.
   std::vector<std::string> Notes(const CovarianceSeries& P) const;
 
-  /// By node, how probable it is that the receiver is good, biased, drifting or
+  /// What makes the result doubtful: a search that was ended early; an IMU whose
+  /// noise has to be taken for much more than stated.
+  std::vector<Evidence> Doubts() const;
+
+  /// How probable it is, by node, that the sensor is good, biased, drifting or
   /// slightly biased.
   ModePart Modes() const;
 
   /// By node, the probability that a fix is taken at its word: that it is good,
-  /// where the receiver is not so throughout; else 1.
+  /// where the sensor is not so throughout; else 1.
   std::vector<double> Trust() const;
 
-  /// Parameters of the likeliest history that were sought within bounds.
+  /// Parameters of the likeliest hypothesis that were sought within bounds. None
+  /// is at one before the noise is fitted to all fixes again.
   std::vector<BoundedValue> Bounded() const;
 
- private:
-  struct Findings;
-  explicit ReceiverErrors(std::unique_ptr<const Findings> found);
-  friend ReceiverErrors FindReceiverErrors(const Problem& problem,
-                                           const LinearTape& tape, int receiver,
-                                           std::function<void()> poll);
+  /// Mean square of the horizontal distance from the trajectory of another
+  /// sensor's errors, both of which stand [m^2].
+  double MeanSquareDistanceTo(const ReceiverErrors& other) const;
+  /// Whether that trajectory is more than three standard deviations of P (errors
+  /// of the horizontal position first) away at some node.
+  bool IsApart(const ReceiverErrors& other, const CovarianceSeries& P) const;
+  /// Adds to P what it is worth that the other is right with a probability.
+  void WidenTowards(const ReceiverErrors& other, double probability,
+                    CovarianceSeries* P) const;
+  /// The chosen hypothesis in words: "gnss: biased from 120 to 140 s".
+  std::string InWords() const;
 
-  std::unique_ptr<const Findings> found_;
+ private:
+  explicit ReceiverErrors(std::unique_ptr<const SensorFindings> found);
+  friend ReceiverErrors FindReceiverErrors(const Problem& problem,
+                                           const LinearTape& tape, int sensor,
+                                           const SearchLimits& limits);
+
+  std::unique_ptr<const SensorFindings> found_;
 };
 
-/// Finds out from the data alone what the errors of a position sensor are like:
-/// white, Gauss-Markov, or good at times and at others biased or drifting; each
-/// with outliers. `tape` is the problem linearised about one fixed trajectory
-/// and must outlive what is returned; `receiver` is the index of the sensor. If
-/// the layout has a Gauss-Markov error of the receiver already, only white
-/// errors are fitted. `poll` is called between the steps of the search and may
-/// throw to end it. Throws EstimationError if the noise of a measurement is not
-/// positive definite.
+/// Whether a sensor tells a position, a velocity over the ground, a height, a
+/// course or a heading by itself.
+bool IsAbsolute(const SensorKind& kind);
+
+/// Sensors whose errors can be looked for: absolute ones with a used measurement
+/// on the tape, of at most three rows. Those of position come first.
+std::vector<int> AbsoluteSensors(const Timeline& timeline,
+                                 const LinearTape& tape);
+
+/// Finds out from the data alone what the errors of a sensor are like: white,
+/// Gauss-Markov, or good at times and at others biased or drifting; each with
+/// outliers (docs/receiver_errors.md). `tape` is the problem linearised about
+/// one fixed trajectory and must outlive what is returned; `sensor` is the index
+/// of the sensor. If the layout has a Gauss-Markov error of the sensor already,
+/// only white errors are fitted. The time is linear in the number of nodes.
+/// Throws EstimationError if the noise of a measurement is not positive
+/// definite.
 ReceiverErrors FindReceiverErrors(const Problem& problem,
-                                  const LinearTape& tape, int receiver,
-                                  std::function<void()> poll);
+                                  const LinearTape& tape, int sensor,
+                                  const SearchLimits& limits = {});
 
 }  // namespace hindsight
 

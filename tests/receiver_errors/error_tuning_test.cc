@@ -76,7 +76,7 @@ TEST(TuneParameters, AgreesWithExpectationMaximisationOnTheErrorsThemselves) {
   Problem posed =
       noisy.problem.Pose(GateDecisions(noisy.problem.measurements.size(), 1));
   const LinearTape tape = RunLinearizedFilter(noisy.problem.truth, &posed);
-  const ErrorHistory good(noisy.errors.size());
+  const ModeSequence good(noisy.errors.size());
   const ErrorParameters tuned = TuneParameters(tape, 0, good, {});
   const ErrorParameters em = ExpectAndMaximise(noisy.errors);
   EXPECT_NEAR(em.scale, 1.4, 0.1);

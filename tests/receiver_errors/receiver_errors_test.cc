@@ -32,8 +32,8 @@ struct Found {
   explicit Found(const TestProblem& test)
       : problem(test.Pose(GateDecisions(test.measurements.size(), 1))),
         tape(RunLinearizedFilter(test.truth, &problem)),
-        errors(FindReceiverErrors(problem, tape, 0, nullptr)) {
-    errors.Extend(&problem);
+        errors(FindReceiverErrors(problem, tape, 0)) {
+    if (errors.Stands()) errors.Extend(&problem);
   }
 
   Problem problem;
@@ -41,18 +41,15 @@ struct Found {
   ReceiverErrors errors;
 };
 
-TEST(ReceiverErrors, OfWhiteFixesBringNoStates) {
+TEST(ReceiverErrors, OfFixesAsStatedDoNotStand) {
   const TestProblem test = FixesOfOneMinute();
   const Found found(test);
-  EXPECT_EQ(found.problem.layout.dim(), test.layout.dim());
-  EXPECT_EQ(found.problem.timeline.sensors()[0].loss.kind,
-            RobustLoss::Kind::kMixture);
-  EXPECT_EQ(found.errors.States(found.problem.layout).size(),
-            test.truth.size());
+  EXPECT_FALSE(found.errors.Stands());
+  EXPECT_EQ(found.errors.log_gain(), 0.0);
   EXPECT_THAT(found.errors.Notes(
                   CovarianceSeries(found.tape.dim(), found.tape.size()))[0],
-              HasSubstr("white errors"));
-  for (const double trust : found.errors.Trust()) EXPECT_EQ(trust, 1.0);
+              HasSubstr("errors as stated"));
+  EXPECT_TRUE(found.errors.Doubts().empty());
 }
 
 TEST(ReceiverErrors, OfABiasedStretchBecomeStates) {
@@ -63,6 +60,8 @@ TEST(ReceiverErrors, OfABiasedStretchBecomeStates) {
     fix.p_e += NedAxes(fix.p_e) * Eigen::Vector3d(30.0, -20.0, 10.0);
   }
   const Found found(test);
+  ASSERT_TRUE(found.errors.Stands());
+  EXPECT_GT(found.errors.log_gain(), 100.0);
   const ErrorLayout& layout = found.problem.layout;
   ASSERT_TRUE(layout.Has(BlockKind::kColouredNoise, 0));
   EXPECT_GE(layout.dim(), test.layout.dim() + 3);

@@ -1,4 +1,4 @@
-#include "receiver_errors/history_smoother.h"
+#include "receiver_errors/sequence_smoother.h"
 
 #include <Eigen/Cholesky>
 
@@ -8,13 +8,13 @@
 namespace hindsight {
 namespace {
 
-/// The history, node by node.
+/// The sequence, node by node.
 class Walk {
  public:
   Walk(const LinearTape& tape, int receiver, const ErrorParameters& parameters,
-       const ErrorHistory& history)
+       const ModeSequence& sequence)
       : chain_(tape, receiver, parameters),
-        steps_(StepsByNode(tape, receiver, history)),
+        steps_(StepsByNode(tape, receiver, sequence)),
         x_(chain_.Begin()) {}
 
   void PredictTo(std::size_t k) {
@@ -35,22 +35,36 @@ class Walk {
   Gaussian x_;
 };
 
+/// An update, in no more memory than it needs.
+struct PassedUpdate {
+  explicit PassedUpdate(const ErrorChain::Used& used)
+      : H(used.z.H),
+        HP(used.HP),
+        S(used.innovation.S),
+        innovation(used.innovation.residual) {}
+
+  Eigen::MatrixXd H;
+  Eigen::MatrixXd HP;
+  Eigen::MatrixXd S;
+  Eigen::VectorXd innovation;
+};
+
 /// Carries lambda of x_s = x + P lambda back over an update,
 /// lambda <- (I - K H)' lambda + H' S^-1 innovation.
-void BackOver(const ErrorChain::Used& used, ErrorVector* lambda) {
-  const Eigen::LLT<RowMatrix> llt(used.innovation.S);
-  const RowVector gain =
-      llt.solve(RowVector(used.innovation.residual - used.HP * *lambda));
-  *lambda += used.z.H.transpose() * gain;
+void BackOver(const PassedUpdate& passed, ErrorVector* lambda) {
+  const Eigen::LLT<Eigen::MatrixXd> llt(passed.S);
+  const Eigen::VectorXd gain =
+      llt.solve(passed.innovation - passed.HP * *lambda);
+  *lambda += passed.H.transpose() * gain;
 }
 
 }  // namespace
 
-HistoryScore ScoreHistory(const LinearTape& tape, int receiver,
-                          const ErrorParameters& parameters,
-                          const ErrorHistory& history) {
-  Walk walk(tape, receiver, parameters, history);
-  HistoryScore score;
+SequenceScore ScoreSequence(const LinearTape& tape, int receiver,
+                            const ErrorParameters& parameters,
+                            const ModeSequence& sequence) {
+  Walk walk(tape, receiver, parameters, sequence);
+  SequenceScore score;
   for (std::size_t k = 0; k < tape.size(); ++k) {
     walk.PredictTo(k);
     bool outlier = false;
@@ -64,21 +78,25 @@ HistoryScore ScoreHistory(const LinearTape& tape, int receiver,
     }
     score.log_likelihood += walk.chain().UpdateAll(outlier, walk.x());
   }
+  score.log_prior += LogOfVelocitySteps(CountVelocitySteps(sequence));
   return score;
 }
 
-std::vector<ErrorVector> SmoothHistory(const LinearTape& tape, int receiver,
-                                       const ErrorParameters& parameters,
-                                       const ErrorHistory& history) {
-  Walk walk(tape, receiver, parameters, history);
+std::vector<ErrorVector> SmoothSequence(const LinearTape& tape, int receiver,
+                                        const ErrorParameters& parameters,
+                                        const ModeSequence& sequence) {
+  Walk walk(tape, receiver, parameters, sequence);
   const int n = walk.chain().dim();
   std::vector<ErrorVector> mean;
   CovarianceSeries P(n, tape.size());
-  std::vector<std::vector<ErrorChain::Used>> used(tape.size());
+  std::vector<std::vector<PassedUpdate>> passed(tape.size());
+  std::vector<ErrorChain::Used> used;
   for (std::size_t k = 0; k < tape.size(); ++k) {
     walk.PredictTo(k);
     const bool outlier = walk.chain().has_fix() && walk.Fix().outlier;
-    walk.chain().UpdateAll(outlier, walk.x(), &used[k]);
+    used.clear();
+    walk.chain().UpdateAll(outlier, walk.x(), &used);
+    for (const ErrorChain::Used& one : used) passed[k].emplace_back(one);
     mean.push_back(walk.x()->mean);
     P.Set(k, walk.x()->P);
   }
@@ -87,8 +105,8 @@ std::vector<ErrorVector> SmoothHistory(const LinearTape& tape, int receiver,
   for (std::size_t k = tape.size(); k-- > 0;) {
     mean[k] += P.Get(k) * lambda;
     if (k == 0) break;
-    for (std::size_t i = used[k].size(); i-- > 0;) {
-      BackOver(used[k][i], &lambda);
+    for (std::size_t i = passed[k].size(); i-- > 0;) {
+      BackOver(passed[k][i], &lambda);
     }
     chain.MoveTo(k);
     lambda = (chain.Phi(walk.steps()[k]).transpose() * lambda).eval();

@@ -1,4 +1,4 @@
-#include "receiver_errors/history_splice.h"
+#include "receiver_errors/sequence_splice.h"
 
 #include <gtest/gtest.h>
 
@@ -62,7 +62,7 @@ std::size_t FixCount(const LinearTape& tape) {
 /// Steps that may follow each other; each changes something with probability
 /// `change`.
 void Redraw(std::size_t begin, std::size_t end, double change,
-            std::mt19937* random, ErrorHistory* h) {
+            std::mt19937* random, ModeSequence* h) {
   std::uniform_real_distribution<double> uniform;
   for (std::size_t i = begin; i < end; ++i) {
     const ErrorMode before = i == 0 ? ErrorMode::kGood : (*h)[i - 1].mode;
@@ -79,17 +79,17 @@ void Redraw(std::size_t begin, std::size_t end, double change,
   }
 }
 
-/// A bias, a jolt, a drift and another bias.
-ErrorHistory Base(std::size_t fixes) {
-  ErrorHistory h(fixes);
+/// A bias, a velocity_step, a drift and another bias.
+ModeSequence Base(std::size_t fixes) {
+  ModeSequence h(fixes);
   for (std::size_t i = 15; i < 25; ++i) h[i] = {ErrorMode::kBiased, i == 15};
-  h[30].jolt = true;
+  h[30].velocity_step = true;
   for (std::size_t i = 36; i < 44; ++i) h[i] = {ErrorMode::kDrifting, i == 36};
   for (std::size_t i = 44; i < 50; ++i) h[i] = {ErrorMode::kBiased};
   return h;
 }
 
-void ExpectSame(const HistoryScore& a, const HistoryScore& b,
+void ExpectSame(const SequenceScore& a, const SequenceScore& b,
                 double tolerance) {
   EXPECT_NEAR(a.log_likelihood, b.log_likelihood, tolerance);
   EXPECT_NEAR(a.log_prior, b.log_prior, 1e-9);
@@ -97,72 +97,72 @@ void ExpectSame(const HistoryScore& a, const HistoryScore& b,
 
 void ExpectScoresOfVariations(const LinearTape& tape, const ErrorParameters& p,
                               double tolerance, double base_tolerance = 1e-7) {
-  const ErrorHistory base = Base(FixCount(tape));
-  HistorySplice splice(tape, 0, p, base);
-  ExpectSame(splice.Score(base), ScoreHistory(tape, 0, p, base),
+  const ModeSequence base = Base(FixCount(tape));
+  SequenceSplice splice(tape, 0, p, base);
+  ExpectSame(splice.Score(base), ScoreSequence(tape, 0, p, base),
              base_tolerance);
   std::mt19937 random(2);
   for (int trial = 0; trial < 120; ++trial) {
-    ErrorHistory h = base;
+    ModeSequence h = base;
     const std::size_t begin = random() % h.size();
     const std::size_t end = std::min(begin + 1 + random() % 10, h.size());
     Redraw(begin, end, 0.3, &random, &h);
     SCOPED_TRACE(::testing::Message()
                  << "trial " << trial << ", from fix " << begin);
-    ExpectSame(splice.Score(h), ScoreHistory(tape, 0, p, h), tolerance);
+    ExpectSame(splice.Score(h), ScoreSequence(tape, 0, p, h), tolerance);
   }
 }
 
-TEST(HistorySplice, WithoutOutliersIsScoreHistory) {
+TEST(SequenceSplice, WithoutOutliersIsScoreSequence) {
   ExpectScoresOfVariations(MakeTape(70.0, 1, false), Parameters(1e-15), 1e-6);
 }
 
-TEST(HistorySplice, WithNodesBetweenFixesIsScoreHistory) {
+TEST(SequenceSplice, WithNodesBetweenFixesIsScoreSequence) {
   ExpectScoresOfVariations(MakeTape(240.0, 4, true), Parameters(1e-15), 1e-6);
 }
 
 // A fix is either an outlier or not: the excess depends on the decision alone.
-TEST(HistorySplice, WithCertainOutliersIsScoreHistory) {
+TEST(SequenceSplice, WithCertainOutliersIsScoreSequence) {
   ExpectScoresOfVariations(MakeTape(70.0, 1, false, {5, 33, 55}),
                            Parameters(1e-15), 1e-6);
 }
 
-TEST(HistorySplice, WithOutliersIsScoreHistoryButForLaterExcesses) {
+TEST(SequenceSplice, WithOutliersIsScoreSequenceButForLaterExcesses) {
   ExpectScoresOfVariations(MakeTape(70.0, 1, false, {5, 33, 55}),
                            Parameters(0.02), 1e-2);
   ExpectScoresOfVariations(MakeTape(240.0, 4, true, {5, 33, 55}),
                            Parameters(0.02), 1e-2);
 }
 
-TEST(HistorySplice, TakesChangesAtTheFirstAndTheLastFix) {
+TEST(SequenceSplice, TakesChangesAtTheFirstAndTheLastFix) {
   const LinearTape tape = MakeTape(243.0, 4, true);  // nodes after the last fix
   const ErrorParameters p = Parameters(1e-15);
-  const ErrorHistory base = Base(FixCount(tape));
-  HistorySplice splice(tape, 0, p, base);
+  const ModeSequence base = Base(FixCount(tape));
+  SequenceSplice splice(tape, 0, p, base);
   for (const ErrorStep step : StepsAfter(ErrorMode::kGood)) {
     for (const std::size_t i : {std::size_t{0}, base.size() - 1}) {
-      ErrorHistory h = base;
+      ModeSequence h = base;
       h[i] = step;
-      ExpectSame(splice.Score(h), ScoreHistory(tape, 0, p, h), 1e-6);
+      ExpectSame(splice.Score(h), ScoreSequence(tape, 0, p, h), 1e-6);
     }
-    ErrorHistory both = base;
+    ModeSequence both = base;
     both.front() = step;
     both.back() = step;
-    ExpectSame(splice.Score(both), ScoreHistory(tape, 0, p, both), 1e-6);
+    ExpectSame(splice.Score(both), ScoreSequence(tape, 0, p, both), 1e-6);
   }
 }
 
-TEST(HistorySplice, MovesAChange) {
+TEST(SequenceSplice, MovesAChange) {
   const LinearTape tape = MakeTape(240.0, 4, true);
   const ErrorParameters p = Parameters(1e-15);
-  const ErrorHistory base = Base(FixCount(tape));
-  HistorySplice splice(tape, 0, p, base);
+  const ModeSequence base = Base(FixCount(tape));
+  SequenceSplice splice(tape, 0, p, base);
   for (std::size_t begin = 7; begin < 24; ++begin) {
-    ErrorHistory h = base;
+    ModeSequence h = base;
     for (std::size_t i = 7; i < 25; ++i) {
       h[i] = {i < begin ? ErrorMode::kGood : ErrorMode::kBiased, i == begin};
     }
-    ExpectSame(splice.Score(h), ScoreHistory(tape, 0, p, h), 1e-6);
+    ExpectSame(splice.Score(h), ScoreSequence(tape, 0, p, h), 1e-6);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "receiver_errors/history_search.h"
+#include "receiver_errors/hypothesis_search.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -11,20 +11,21 @@
 namespace hindsight {
 namespace {
 
-/// Histories less likely than the best by this are given up [ln].
+/// Hypotheses less likely than the best by this are given up [ln].
 constexpr double kLeastLog = 30.0;
 /// Squared distance of means, in sigmas, below which two of a mode are one.
 constexpr double kNear = 0.05;
 
-struct Hypothesis {
+struct Track {
   Gaussian x;
   ErrorMode mode = ErrorMode::kGood;
   double log_weight = 0.0;
   int record = -1;
   int began = 0;  ///< fix at which what goes on began
+  int velocity_steps = 0;
 };
 
-/// A step of a history and the record before it.
+/// A step of a sequence and the record before it.
 struct Record {
   int before = -1;
   ErrorStep step;
@@ -38,8 +39,8 @@ struct Candidate {
   int began = 0;
 };
 
-/// Counts histories by mode and by how long ago what goes on began, in powers
-/// of two of fixes. Every fix gives birth to histories of an error that has
+/// Counts hypotheses by mode and by how long ago what goes on began, in powers
+/// of two of fixes. Every fix gives birth to hypotheses of an error that has
 /// just begun; were they counted with the older ones, they would in time drive
 /// out the one that is right, as nothing tells it yet from one that is not.
 class Quota {
@@ -65,21 +66,29 @@ double LogSum(double a, double b) {
   return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b)));
 }
 
+/// What a step costs beyond its transition, after so many velocity steps.
+double PriceOf(ErrorStep step, int before) {
+  if (!step.velocity_step) return 0.0;
+  return LogOfVelocitySteps(before + 1) - LogOfVelocitySteps(before);
+}
+
 class Search {
  public:
   Search(const LinearTape& tape, int receiver,
-         const ErrorParameters& parameters, std::size_t width)
+         const ErrorParameters& parameters, std::size_t width,
+         SearchEffort* effort)
       : chain_(tape, receiver, parameters),
         navigation_dim_(tape.dim()),
         parameters_(parameters),
-        width_(width) {}
+        width_(width),
+        effort_(effort) {}
 
-  std::vector<ScoredHistory> Run() {
-    Hypothesis& first = hypotheses_.emplace_back();
+  std::vector<Hypothesis> Run() {
+    Track& first = tracks_.emplace_back();
     first.x = chain_.Begin();
     for (std::size_t k = 0; k < chain_.size(); ++k) {
       chain_.MoveTo(k);
-      for (Hypothesis& h : hypotheses_) h.x = chain_.PredictNavigation(h.x);
+      for (Track& h : tracks_) h.x = chain_.PredictNavigation(h.x);
       if (chain_.has_fix()) {
         Branch();
         Merge();
@@ -87,13 +96,14 @@ class Search {
       } else {
         GoOn();
       }
+      if (effort_ != nullptr) effort_->Spend(tracks_.size());
     }
-    return Histories();
+    return Hypotheses();
   }
 
  private:
   void GoOn() {
-    for (Hypothesis& h : hypotheses_) {
+    for (Track& h : tracks_) {
       chain_.PredictError({h.mode}, &h.x);
       h.log_weight += chain_.UpdateAll(false, &h.x);
     }
@@ -101,32 +111,35 @@ class Search {
 
   void Branch() {
     const std::vector<Candidate> best = Best(AllCandidates());
-    std::vector<Hypothesis> next;
+    std::vector<Track> next;
     next.reserve(best.size());
     for (const Candidate& c : best) {
-      Hypothesis& h = next.emplace_back();
-      h.x = hypotheses_[c.parent].x;
+      Track& h = next.emplace_back();
+      h.x = tracks_[c.parent].x;
       h.mode = c.step.mode;
       h.began = c.began;
+      h.velocity_steps =
+          tracks_[c.parent].velocity_steps + c.step.velocity_step;
       h.record = static_cast<int>(records_.size());
-      records_.push_back({hypotheses_[c.parent].record, c.step});
+      records_.push_back({tracks_[c.parent].record, c.step});
       chain_.PredictError(c.step, &h.x);
       h.log_weight = c.log_weight + chain_.UpdateAll(c.outlier, &h.x);
     }
-    hypotheses_ = std::move(next);
+    tracks_ = std::move(next);
   }
 
   std::vector<Candidate> AllCandidates() const {
     std::vector<Candidate> all;
-    for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
-      const Hypothesis& h = hypotheses_[i];
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      const Track& h = tracks_[i];
       const ErrorChain::FixView view = chain_.ViewOf(h.x);
       for (const ErrorStep step : StepsAfter(h.mode)) {
         const auto likelihood = chain_.LikelihoodAfter(step, view);
         const bool goes_on = step == ErrorStep{h.mode};
         all.push_back({i, step,
                        h.log_weight + likelihood.log +
-                           LogTransition(h.mode, step, chain_.fix_count()),
+                           LogTransition(h.mode, step, chain_.fix_count()) +
+                           PriceOf(step, h.velocity_steps),
                        likelihood.outlier, goes_on ? h.began : fix_});
       }
     }
@@ -137,8 +150,10 @@ class Search {
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
       return a.log_weight > b.log_weight;
     });
+    const bool spent = effort_ != nullptr && effort_->IsSpent();
     Quota quota(2 * width_);
     std::vector<Candidate> best;
+    if (spent) return {all.front()};
     for (const Candidate& c : all) {
       if (c.log_weight < all.front().log_weight - kLeastLog) break;
       if (quota.Take(c.step.mode, fix_ - c.began)) best.push_back(c);
@@ -146,17 +161,17 @@ class Search {
     return best;
   }
 
-  /// Lets the likelier of two near hypotheses of a mode stand for both.
+  /// Lets the likelier of two near tracks of a mode stand for both.
   void Merge() {
-    std::vector<Hypothesis*> sorted;
-    for (Hypothesis& h : hypotheses_) sorted.push_back(&h);
+    std::vector<Track*> sorted;
+    for (Track& h : tracks_) sorted.push_back(&h);
     std::sort(sorted.begin(), sorted.end(), [](const auto* a, const auto* b) {
       return a->log_weight > b->log_weight;
     });
-    std::vector<Hypothesis> merged;
+    std::vector<Track> merged;
     merged.reserve(sorted.size());
     Quota quota(width_);
-    for (Hypothesis* h : sorted) {
+    for (Track* h : sorted) {
       const auto near =
           std::find_if(merged.begin(), merged.end(), [&](const auto& other) {
             return other.mode == h->mode && IsNear(*h, other);
@@ -167,11 +182,11 @@ class Search {
         merged.push_back(std::move(*h));
       }
     }
-    hypotheses_ = std::move(merged);
+    tracks_ = std::move(merged);
   }
 
   /// Whether the mean of h is within the covariance of `other`.
-  bool IsNear(const Hypothesis& h, const Hypothesis& other) const {
+  bool IsNear(const Track& h, const Track& other) const {
     const ErrorVector d = (h.x.mean - other.x.mean).head(navigation_dim_);
     const auto P = other.x.P.topLeftCorner(navigation_dim_, navigation_dim_);
     // No component can be farther off than all together.
@@ -180,17 +195,17 @@ class Search {
     return llt.matrixL().solve(d).squaredNorm() <= kNear;
   }
 
-  std::vector<ScoredHistory> Histories() const {
-    std::vector<ScoredHistory> out;
-    for (const Hypothesis& h : hypotheses_) {
-      ScoredHistory& one = out.emplace_back();
+  std::vector<Hypothesis> Hypotheses() const {
+    std::vector<Hypothesis> out;
+    for (const Track& h : tracks_) {
+      Hypothesis& one = out.emplace_back();
       one.log_posterior = h.log_weight;
       one.parameters = parameters_;
       for (int i = h.record; i >= 0;
            i = records_[static_cast<std::size_t>(i)].before) {
-        one.history.push_back(records_[static_cast<std::size_t>(i)].step);
+        one.sequence.push_back(records_[static_cast<std::size_t>(i)].step);
       }
-      std::reverse(one.history.begin(), one.history.end());
+      std::reverse(one.sequence.begin(), one.sequence.end());
     }
     return out;
   }
@@ -199,17 +214,19 @@ class Search {
   int navigation_dim_;
   ErrorParameters parameters_;
   std::size_t width_;
+  SearchEffort* effort_;
   int fix_ = 0;
-  std::vector<Hypothesis> hypotheses_;
+  std::vector<Track> tracks_;
   std::vector<Record> records_;
 };
 
 }  // namespace
 
-std::vector<ScoredHistory> SearchHistories(const LinearTape& tape, int receiver,
-                                           const ErrorParameters& parameters,
-                                           std::size_t width) {
-  return Search(tape, receiver, parameters, width).Run();
+std::vector<Hypothesis> SearchHypotheses(const LinearTape& tape, int receiver,
+                                         const ErrorParameters& parameters,
+                                         std::size_t width,
+                                         SearchEffort* effort) {
+  return Search(tape, receiver, parameters, width, effort).Run();
 }
 
 }  // namespace hindsight

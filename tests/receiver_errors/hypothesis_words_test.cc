@@ -1,4 +1,4 @@
-#include "receiver_errors/history_words.h"
+#include "receiver_errors/hypothesis_words.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ constexpr ErrorStep kGood = {ErrorMode::kGood};
 constexpr ErrorStep kBiased = {ErrorMode::kBiased};
 constexpr ErrorStep kDrifting = {ErrorMode::kDrifting};
 
-TEST(HistoryWords, NameBeginAndEndOfEveryPart) {
+TEST(HypothesisWords, NameBeginAndEndOfEveryPart) {
   const std::vector<ErrorStep> steps = {
       kGood,    {ErrorMode::kBiased, true},
       kBiased,  {ErrorMode::kBiased, true},
@@ -17,20 +17,20 @@ TEST(HistoryWords, NameBeginAndEndOfEveryPart) {
       kGood,    {ErrorMode::kDrifting, true},
       kDrifting};
   EXPECT_EQ(
-      DescribeHistory(steps, {0.0, 1.0, 2.0, 3.0, 4.5, 5.0, 6.0, 7.04, 8.0}),
+      DescribeSequence(steps, {0.0, 1.0, 2.0, 3.0, 4.5, 5.0, 6.0, 7.04, 8.0}),
       "biased from 1 to 3 s, biased from 3 to 4.5 s, the IMU's velocity "
-      "jumps at 5 s, drifting from 7 s to the end");
+      "steps at 5 s, drifting from 7 s to the end");
 }
 
-TEST(HistoryWords, TellAStopOfADriftFromItsEnd) {
-  EXPECT_EQ(DescribeHistory({{ErrorMode::kDrifting, true}, kBiased, kGood},
-                            {0.0, 10.0, 20.0}),
+TEST(HypothesisWords, TellAStopOfADriftFromItsEnd) {
+  EXPECT_EQ(DescribeSequence({{ErrorMode::kDrifting, true}, kBiased, kGood},
+                             {0.0, 10.0, 20.0}),
             "drifting from 0 to 10 s, biased from 10 to 20 s");
-  EXPECT_EQ(DescribeHistory({kGood, kGood}, {0.0, 1.0}), "good throughout");
+  EXPECT_EQ(DescribeSequence({kGood, kGood}, {0.0, 1.0}), "good throughout");
 }
 
-HistoryAlternative Alternative(double weight, double north_at_end) {
-  HistoryAlternative one;
+WeighedHypothesis Alternative(double weight, double north_at_end) {
+  WeighedHypothesis one;
   one.weight = weight;
   one.steps.assign(2, kGood);
   one.smoothed.assign(2, ErrorVector::Zero(3));
@@ -38,19 +38,19 @@ HistoryAlternative Alternative(double weight, double north_at_end) {
   return one;
 }
 
-TEST(HistoryWords, ARivalIsWhatMovesTheTrajectoryByThreeSigmas) {
-  const std::vector<HistoryAlternative> all = {
+TEST(HypothesisWords, ARivalIsWhatMovesTheTrajectoryByThreeSigmas) {
+  const std::vector<WeighedHypothesis> all = {
       Alternative(0.5, 0.0), Alternative(0.3, 0.29), Alternative(0.05, 0.31),
       Alternative(0.15, 4.0)};
   CovarianceSeries P(3, 2);
   for (std::size_t k = 0; k < 2; ++k) {
     P.Set(k, ErrorMatrix(0.01 * ErrorMatrix::Identity(3, 3)));
   }
-  const RivalHistory rival = FindRival(all, all[0], P);
-  EXPECT_EQ(rival.history, &all[3]);
+  const RivalHypothesis rival = FindRival(all, all[0], P);
+  EXPECT_EQ(rival.hypothesis, &all[3]);
   EXPECT_NEAR(rival.probability, 0.2, 1e-12);
   EXPECT_NEAR(rival.distance, 4.0, 1e-12);
-  EXPECT_EQ(FindRival({all[0], all[1]}, all[0], P).history, nullptr);
+  EXPECT_EQ(FindRival({all[0], all[1]}, all[0], P).hypothesis, nullptr);
 }
 
 }  // namespace

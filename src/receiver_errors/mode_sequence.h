@@ -1,5 +1,5 @@
-#ifndef HINDSIGHT_RECEIVER_ERRORS_ERROR_HISTORY_H_
-#define HINDSIGHT_RECEIVER_ERRORS_ERROR_HISTORY_H_
+#ifndef HINDSIGHT_RECEIVER_ERRORS_MODE_SEQUENCE_H_
+#define HINDSIGHT_RECEIVER_ERRORS_MODE_SEQUENCE_H_
 
 #include <vector>
 
@@ -17,22 +17,22 @@ enum class ErrorMode : char {
 
 /// How the error came to a fix from the one before it. `anew`: of a bias, e is
 /// drawn anew (a jump); of a drift, r is. A bias that is not new goes on, or
-/// follows a drift that stops. `jolt`: what goes on does so over an interval in
-/// which the IMU has jolted: its velocity has a jump that no noise explains,
-/// which else would pass for a drift of the receiver.
+/// follows a drift that stops. `velocity_step`: what goes on does so over an interval in
+/// which the velocity that the IMU integrates has a step that no noise explains
+/// (a shock beyond its range, lost samples), which else would pass for a drift of
+/// the receiver.
 struct ErrorStep {
   ErrorMode mode = ErrorMode::kGood;
   bool anew = false;
-  bool jolt = false;
+  bool velocity_step = false;
   bool operator==(const ErrorStep&) const = default;
 };
 
 /// A step for each node that has a fix of the receiver, in order.
-using ErrorHistory = std::vector<ErrorStep>;
+using ModeSequence = std::vector<ErrorStep>;
 
-/// The modes of a history in their order, whatever their times: the story that
-/// it tells.
-std::vector<ErrorMode> StoryOf(const ErrorHistory& history);
+/// The modes of a sequence in their order, whatever their change points.
+std::vector<ErrorMode> ModeOrder(const ModeSequence& sequence);
 
 struct ErrorParameters {
   double scale = 1.0;           ///< on the stated sigma of a fix
@@ -42,7 +42,9 @@ struct ErrorParameters {
   double tau = 1000.0;          ///< its correlation time [s]
   double slight_sigma = 2.0;    ///< of a slight bias: receivers have both
   double slight_tau = 100.0;    ///< its correlation time [s]
-  double rate_sigma = 0.1;      ///< of a drift, and of a jolt, an axis [m/s]
+  double rate_sigma =
+      0.1;  ///< of a drift, and of a velocity step, an axis [m/s]
+  double imu_scale = 1.0;  ///< on the stated noise of the IMU
 };
 
 /// With which the rate of a drift walks, in its sigma [1/sqrt(s)]. A drift that
@@ -65,16 +67,22 @@ ErrorDynamics DynamicsOf(const ErrorParameters& parameters, ErrorStep step,
 /// ln probability of a step after a mode, where `fixes` fixes are expected to
 /// hold a few changes.
 double LogTransition(ErrorMode before, ErrorStep step, int fixes);
+/// ln of what `count` velocity steps in a sequence cost beyond their transitions.
+/// Each is taken as a hundred times rarer than the one before it: an IMU may have
+/// had a shock; one that has them again and again is one with other noise than
+/// stated (ErrorParameters::imu_scale).
+double LogOfVelocitySteps(int count);
+int CountVelocitySteps(const ModeSequence& sequence);
 /// The steps that may follow a mode.
 std::vector<ErrorStep> StepsAfter(ErrorMode before);
 
-/// The steps into every node: those of the history at fixes, between them what
+/// The steps into every node: those of the sequence at fixes, between them what
 /// goes on.
 std::vector<ErrorStep> StepsByNode(const LinearTape& tape, int receiver,
-                                   const ErrorHistory& history);
+                                   const ModeSequence& sequence);
 /// Whether the node has a fix of the receiver that is used.
 bool HasFix(const LinearTape& tape, std::size_t k, int receiver);
 
 }  // namespace hindsight
 
-#endif  // HINDSIGHT_RECEIVER_ERRORS_ERROR_HISTORY_H_
+#endif  // HINDSIGHT_RECEIVER_ERRORS_MODE_SEQUENCE_H_

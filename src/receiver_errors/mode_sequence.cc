@@ -1,4 +1,4 @@
-#include "receiver_errors/error_history.h"
+#include "receiver_errors/mode_sequence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,19 +16,19 @@ constexpr ErrorStep kBeginDrift = {ErrorMode::kDrifting, true};
 
 }  // namespace
 
-std::vector<ErrorMode> StoryOf(const ErrorHistory& history) {
-  std::vector<ErrorMode> story;
+std::vector<ErrorMode> ModeOrder(const ModeSequence& sequence) {
+  std::vector<ErrorMode> order;
   ErrorMode mode = ErrorMode::kGood;
-  for (const ErrorStep& step : history) {
-    if (step.anew || step.mode != mode) story.push_back(step.mode);
+  for (const ErrorStep& step : sequence) {
+    if (step.anew || step.mode != mode) order.push_back(step.mode);
     mode = step.mode;
   }
-  return story;
+  return order;
 }
 
 ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt) {
   ErrorDynamics d;
-  d.q_vv = step.jolt ? p.rate_sigma * p.rate_sigma : 0.0;
+  d.q_vv = step.velocity_step ? p.rate_sigma * p.rate_sigma : 0.0;
   switch (step.mode) {
     case ErrorMode::kGood:
       break;
@@ -57,16 +57,15 @@ ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt) {
 
 double LogTransition(ErrorMode before, ErrorStep step, int fixes) {
   // Expected numbers of changes in a record that is all of one mode, the prior
-  // of a Markov chain. Orders of magnitude: errors are rare, and end; an IMU
-  // rather jolts than a receiver drifts. A factor of ten is 2.3 in the
-  // logarithm of a posterior, of which an error of three sigmas over ten fixes
-  // has 45.
+  // of a Markov chain. Orders of magnitude: errors are rare, and end; a velocity
+  // step is likelier than a drift. A factor of ten is 2.3 in the logarithm of a
+  // posterior, of which an error of three sigmas over ten fixes has 45.
   constexpr double kEnd = 4.0;    // a bias or drift ends, the receiver is good
   constexpr double kJumps = 1.0;  // a good receiver becomes biased
-  constexpr double kSlights = 1.0;  // a receiver becomes slightly biased
-  constexpr double kDrifts = 0.2;   // a good receiver begins to drift
-  constexpr double kStops = 0.2;    // a drift stops, its error stays
-  constexpr double kJolts = 2.0;    // the velocity of the IMU jumps
+  constexpr double kSlights = 1.0;        // a receiver becomes slightly biased
+  constexpr double kDrifts = 0.2;         // a good receiver begins to drift
+  constexpr double kStops = 0.2;          // a drift stops, its error stays
+  constexpr double kVelocitySteps = 2.0;  // the velocity of the IMU jumps
   constexpr double kChanges = 3.0;  // a biased receiver jumps to another bias
   constexpr double kBends = 0.001;  // a drifting one gets another rate
   const double once = 1.0 / std::max(fixes, 20);
@@ -79,26 +78,39 @@ double LogTransition(ErrorMode before, ErrorStep step, int fixes) {
   if (step == kJump) return std::log(jumps * once);
   if (step == kSlightJump) return std::log(kSlights * once);
   if (step == kBeginDrift) return std::log(drifts * once);
-  if (step.jolt) return std::log(kJolts * once);
+  if (step.velocity_step) return std::log(kVelocitySteps * once);
   if (step.mode == before) {
-    return std::log1p(-(jumps + kSlights + drifts + stops + ends + kJolts) *
-                      once);
+    return std::log1p(
+        -(jumps + kSlights + drifts + stops + ends + kVelocitySteps) * once);
   }
   if (step == kStayGood) return std::log(kEnd * once);
   return std::log(kStops * once);
 }
 
+double LogOfVelocitySteps(int count) {
+  constexpr double kRarer = 4.605170185988092;  // ln 100
+  return -0.5 * kRarer * count * (count - 1);
+}
+
+int CountVelocitySteps(const ModeSequence& sequence) {
+  return static_cast<int>(
+      std::count_if(sequence.begin(), sequence.end(),
+                    [](const ErrorStep& s) { return s.velocity_step; }));
+}
+
 std::vector<ErrorStep> StepsAfter(ErrorMode before) {
-  const ErrorStep jolt = {before, false, true};
+  const ErrorStep stepping = {before, false, true};
   switch (before) {
     case ErrorMode::kGood:
-      return {kStayGood, jolt, kJump, kSlightJump, kBeginDrift};
+      return {kStayGood, stepping, kJump, kSlightJump, kBeginDrift};
     case ErrorMode::kBiased:
-      return {kGoOnBiased, jolt, kStayGood, kJump, kSlightJump, kBeginDrift};
+      return {kGoOnBiased, stepping,    kStayGood,
+              kJump,       kSlightJump, kBeginDrift};
     case ErrorMode::kSlight:
-      return {kGoOnSlight, jolt, kStayGood, kJump, kSlightJump, kBeginDrift};
+      return {kGoOnSlight, stepping,    kStayGood,
+              kJump,       kSlightJump, kBeginDrift};
     case ErrorMode::kDrifting:
-      return {kGoOnDrifting, jolt,        kStayGood,  kGoOnBiased,
+      return {kGoOnDrifting, stepping,    kStayGood,  kGoOnBiased,
               kJump,         kSlightJump, kBeginDrift};
   }
   return {};
@@ -112,10 +124,10 @@ bool HasFix(const LinearTape& tape, std::size_t k, int receiver) {
 }
 
 std::vector<ErrorStep> StepsByNode(const LinearTape& tape, int receiver,
-                                   const ErrorHistory& history) {
+                                   const ModeSequence& sequence) {
   std::vector<ErrorStep> steps;
   ErrorStep step;
-  auto next = history.begin();
+  auto next = sequence.begin();
   for (std::size_t k = 0; k < tape.size(); ++k) {
     step = {step.mode};
     if (HasFix(tape, k, receiver)) step = *next++;

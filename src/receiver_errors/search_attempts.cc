@@ -1,22 +1,22 @@
-#include "receiver_errors/history_attempts.h"
+#include "receiver_errors/search_attempts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "receiver_errors/error_tuning.h"
-#include "receiver_errors/history_smoother.h"
+#include "receiver_errors/sequence_smoother.h"
 
 namespace hindsight {
 namespace {
 
-bool IsAllGood(const ErrorHistory& history) {
-  return std::all_of(history.begin(), history.end(), [](const ErrorStep& s) {
+bool IsAllGood(const ModeSequence& sequence) {
+  return std::all_of(sequence.begin(), sequence.end(), [](const ErrorStep& s) {
     return s.mode == ErrorMode::kGood;
   });
 }
 
-/// Where the search for histories begins: errors of several sizes, short or
+/// Where the search for hypotheses begins: errors of several sizes, short or
 /// lasting.
 std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
                                     const ErrorParameters& white) {
@@ -39,9 +39,9 @@ std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
 
 double LogPosterior(const RegimeProblem& problem,
                     const ErrorParameters& parameters,
-                    const ErrorHistory& history) {
-  const HistoryScore score =
-      ScoreHistory(problem.tape, problem.receiver, parameters, history);
+                    const ModeSequence& sequence) {
+  const SequenceScore score =
+      ScoreSequence(problem.tape, problem.sensor, parameters, sequence);
   return score.log_likelihood + score.log_prior;
 }
 
@@ -52,20 +52,20 @@ std::vector<Attempt> MakeAttempts(const RegimeProblem& problem,
   constexpr std::size_t kNarrow = 1;
   constexpr int kMostRounds = 3;
   std::vector<Attempt> attempts;
-  const auto is_known = [&](const ErrorHistory& history) {
+  const auto is_known = [&](const ModeSequence& sequence) {
     return std::any_of(attempts.begin(), attempts.end(),
-                       [&](const auto& a) { return a.history == history; });
+                       [&](const auto& a) { return a.sequence == sequence; });
   };
   for (ErrorParameters parameters : Starts(problem, white)) {
     for (int round = 0; round < kMostRounds; ++round) {
-      if (problem.poll) problem.poll();
-      ErrorHistory found =
-          SearchHistories(problem.tape, problem.receiver, parameters, kNarrow)
-              .front()
-              .history;
+      if (problem.effort->IsSpent() && !attempts.empty()) break;
+      ModeSequence found = SearchHypotheses(problem.tape, problem.sensor,
+                                            parameters, kNarrow, problem.effort)
+                               .front()
+                               .sequence;
       if (IsAllGood(found) || is_known(found)) break;
-      parameters =
-          TuneParameters(problem.tape, problem.receiver, found, parameters);
+      parameters = TuneParameters(problem.tape, problem.sensor, found,
+                                  parameters, problem.effort);
       const double log_posterior = LogPosterior(problem, parameters, found);
       attempts.push_back({parameters, std::move(found), log_posterior});
     }
@@ -88,8 +88,8 @@ std::vector<Attempt> BestAttempts(const RegimeProblem& problem,
     if (attempt.log_posterior < attempts.front().log_posterior - kLeastLog) {
       break;
     }
-    std::vector<ErrorVector> trajectory = SmoothHistory(
-        problem.tape, problem.receiver, attempt.parameters, attempt.history);
+    std::vector<ErrorVector> trajectory = SmoothSequence(
+        problem.tape, problem.sensor, attempt.parameters, attempt.sequence);
     const double apart =
         kApart * attempt.parameters.scale * problem.stated_sigma;
     const bool known = std::any_of(

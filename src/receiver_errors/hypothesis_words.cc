@@ -1,4 +1,4 @@
-#include "receiver_errors/history_words.h"
+#include "receiver_errors/hypothesis_words.h"
 
 #include <fmt/core.h>
 
@@ -32,14 +32,10 @@ void AddPart(const std::string& part, std::string* all) {
   *all += part;
 }
 
-/// Largest horizontal distance, and whether it is significant anywhere.
-struct Separation {
-  double distance = 0.0;
-  bool significant = false;
-};
+}  // namespace
 
-Separation Separate(const HistoryAlternative& one,
-                    const HistoryAlternative& chosen,
+Separation Separate(const WeighedHypothesis& one,
+                    const WeighedHypothesis& chosen,
                     const CovarianceSeries& P) {
   constexpr double kSigmas = 3.0;
   Separation out;
@@ -53,16 +49,14 @@ Separation Separate(const HistoryAlternative& one,
   return out;
 }
 
-}  // namespace
-
-std::string DescribeHistory(const std::vector<ErrorStep>& steps,
-                            const std::vector<double>& times) {
+std::string DescribeSequence(const std::vector<ErrorStep>& steps,
+                             const std::vector<double>& times) {
   std::string all;
   ErrorMode before = ErrorMode::kGood;
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const ErrorStep& step = steps[k];
-    if (step.jolt) {
-      AddPart("the IMU's velocity jumps at " + SecondsText(times[k]) + " s",
+    if (step.velocity_step) {
+      AddPart("the IMU's velocity steps at " + SecondsText(times[k]) + " s",
               &all);
     }
     const bool begins = step.anew || step.mode != before;
@@ -82,25 +76,26 @@ std::string DescribeHistory(const std::vector<ErrorStep>& steps,
   return all.empty() ? "good throughout" : all;
 }
 
-RivalHistory FindRival(const std::vector<HistoryAlternative>& all,
-                       const HistoryAlternative& chosen,
-                       const CovarianceSeries& P) {
-  RivalHistory rival;
-  for (const HistoryAlternative& one : all) {
+RivalHypothesis FindRival(const std::vector<WeighedHypothesis>& all,
+                          const WeighedHypothesis& chosen,
+                          const CovarianceSeries& P) {
+  RivalHypothesis rival;
+  for (const WeighedHypothesis& one : all) {
     const Separation separation = Separate(one, chosen, P);
     if (!separation.significant) continue;
     rival.probability += one.weight;
-    if (rival.history != nullptr && one.weight <= rival.history->weight) {
+    if (rival.hypothesis != nullptr && one.weight <= rival.hypothesis->weight) {
       continue;
     }
-    rival.history = &one;
+    rival.hypothesis = &one;
     rival.distance = separation.distance;
   }
   return rival;
 }
 
 std::vector<std::string> DescribeParameters(ErrorRegimes::Kind kind,
-                                            const HistoryAlternative& chosen) {
+                                            const std::string& unit,
+                                            const WeighedHypothesis& chosen) {
   const ErrorParameters& p = chosen.parameters;
   const auto has = [&](ErrorMode mode) {
     return std::any_of(chosen.steps.begin(), chosen.steps.end(),
@@ -111,27 +106,29 @@ std::vector<std::string> DescribeParameters(ErrorRegimes::Kind kind,
       "times that",
       RegimeName(kind), p.scale, 100.0 * p.outlier_share, p.outlier_ratio)};
   if (has(ErrorMode::kBiased)) {
-    all.push_back(
-        fmt::format("Gauss-Markov error of {:.3g} m, correlation time {:.3g} s",
-                    p.sigma, p.tau));
+    all.push_back(fmt::format(
+        "Gauss-Markov error of {:.3g} {}, correlation time {:.3g} s", p.sigma,
+        unit, p.tau));
   }
   if (has(ErrorMode::kSlight)) {
-    all.push_back(fmt::format("slight errors of {:.3g} m", p.slight_sigma));
+    all.push_back(
+        fmt::format("slight errors of {:.3g} {}", p.slight_sigma, unit));
   }
   if (has(ErrorMode::kDrifting)) {
-    all.push_back(fmt::format("errors that grow by {:.3g} m/s", p.rate_sigma));
+    all.push_back(
+        fmt::format("errors that grow by {:.3g} {}/s", p.rate_sigma, unit));
   }
   return all;
 }
 
-std::string DescribeRival(const RivalHistory& rival,
+std::string DescribeRival(const RivalHypothesis& rival,
                           const std::vector<double>& times) {
   constexpr double kWorthTelling = 1e-3;
   if (rival.probability < kWorthTelling) return "";
   return fmt::format(
              "or, with a probability of {:.2g} %, up to {:.3g} m away: ",
              100.0 * rival.probability, rival.distance) +
-         DescribeHistory(rival.history->steps, times);
+         DescribeSequence(rival.hypothesis->steps, times);
 }
 
 }  // namespace hindsight

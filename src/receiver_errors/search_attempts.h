@@ -1,5 +1,5 @@
-#ifndef HINDSIGHT_RECEIVER_ERRORS_HISTORY_ATTEMPTS_H_
-#define HINDSIGHT_RECEIVER_ERRORS_HISTORY_ATTEMPTS_H_
+#ifndef HINDSIGHT_RECEIVER_ERRORS_SEARCH_ATTEMPTS_H_
+#define HINDSIGHT_RECEIVER_ERRORS_SEARCH_ATTEMPTS_H_
 
 #include <vector>
 
@@ -7,27 +7,27 @@
 
 namespace hindsight {
 
-/// A history that may be near the likeliest, with parameters fitted to it.
+/// A sequence that may be near the likeliest, with parameters fitted to it.
 struct Attempt {
   ErrorParameters parameters;
-  ErrorHistory history;
+  ModeSequence sequence;
   double log_posterior = 0.0;
 };
 
 /// Narrow searches in turn with fits of the parameters, best first. Until the
-/// parameters have been fitted to a history, its posterior says little: to a
+/// parameters have been fitted to a sequence, its posterior says little: to a
 /// fit of white errors biases look like noise and outliers, and of a start the
 /// sizes are wrong.
 /// `white` is what a fit of white errors gave.
 std::vector<Attempt> MakeAttempts(const RegimeProblem& problem,
                                   const ErrorParameters& white);
 
-/// The best attempts whose trajectories differ: each story is told with the
-/// parameters that suit it.
+/// The best attempts whose trajectories differ: each goes on with the parameters
+/// that suit it.
 /// `attempts` are in the order of MakeAttempts.
 std::vector<Attempt> BestAttempts(const RegimeProblem& problem,
                                   const std::vector<Attempt>& attempts);
 
 }  // namespace hindsight
 
-#endif  // HINDSIGHT_RECEIVER_ERRORS_HISTORY_ATTEMPTS_H_
+#endif  // HINDSIGHT_RECEIVER_ERRORS_SEARCH_ATTEMPTS_H_

@@ -1,4 +1,4 @@
-#include "receiver_errors/history_variations.h"
+#include "receiver_errors/sequence_variations.h"
 
 #include <cmath>
 
@@ -10,15 +10,15 @@ namespace {
 constexpr std::size_t kShortest = 5;
 constexpr double kLengthRatio = 1.25;
 
-ErrorMode ModeBefore(const ErrorHistory& h, std::size_t i) {
+ErrorMode ModeBefore(const ModeSequence& h, std::size_t i) {
   return i == 0 ? ErrorMode::kGood : h[i - 1].mode;
 }
 
 /// Fixes at which something changes, and the end.
-std::vector<std::size_t> Changes(const ErrorHistory& h) {
+std::vector<std::size_t> Changes(const ModeSequence& h) {
   std::vector<std::size_t> at;
   for (std::size_t i = 0; i < h.size(); ++i) {
-    if (h[i].anew || h[i].jolt || h[i].mode != ModeBefore(h, i))
+    if (h[i].anew || h[i].velocity_step || h[i].mode != ModeBefore(h, i))
       at.push_back(i);
   }
   at.push_back(h.size());
@@ -26,12 +26,12 @@ std::vector<std::size_t> Changes(const ErrorHistory& h) {
 }
 
 /// Fills [begin, end) with what goes on in a mode.
-void GoOn(ErrorMode mode, std::size_t begin, std::size_t end, ErrorHistory* h) {
+void GoOn(ErrorMode mode, std::size_t begin, std::size_t end, ModeSequence* h) {
   for (std::size_t i = begin; i < end; ++i) (*h)[i] = {mode};
 }
 
-/// The history with its change at `from`, between `first` and `end`, at `to`.
-ErrorHistory Moved(ErrorHistory h, std::size_t from, std::size_t to) {
+/// The sequence with its change at `from`, between `first` and `end`, at `to`.
+ModeSequence Moved(ModeSequence h, std::size_t from, std::size_t to) {
   const ErrorStep step = h[from];
   GoOn(ModeBefore(h, from), from, to, &h);
   GoOn(step.mode, to, from + 1, &h);
@@ -39,27 +39,28 @@ ErrorHistory Moved(ErrorHistory h, std::size_t from, std::size_t to) {
   return h;
 }
 
-ErrorHistory WithSegment(ErrorHistory h, std::size_t begin, std::size_t end,
+ModeSequence WithSegment(ModeSequence h, std::size_t begin, std::size_t end,
                          ErrorStep step) {
   GoOn(step.mode, begin, end, &h);
   h[begin] = step;
   return h;
 }
 
-/// From change c on the receiver is good and the IMU jolts instead.
-ErrorHistory WithJolts(ErrorHistory h, const std::vector<std::size_t>& at,
-                       std::size_t c) {
+/// From change c on the receiver is good and the IMU velocity steps instead.
+ModeSequence WithVelocitySteps(ModeSequence h,
+                               const std::vector<std::size_t>& at,
+                               std::size_t c) {
   const bool returns = ModeBefore(h, at[c]) != ErrorMode::kGood;
   GoOn(ErrorMode::kGood, at[c], h.size(), &h);
   for (std::size_t i = returns ? c + 1 : c; i + 1 < at.size(); ++i) {
-    h[at[i]].jolt = true;
+    h[at[i]].velocity_step = true;
   }
   return h;
 }
 
 /// Fixes at which the receiver's error changes, whatever the IMU does, and the
 /// end.
-std::vector<std::size_t> Parts(const ErrorHistory& h) {
+std::vector<std::size_t> Parts(const ModeSequence& h) {
   std::vector<std::size_t> at;
   for (std::size_t i = 0; i < h.size(); ++i) {
     if (h[i].anew || h[i].mode != ModeBefore(h, i)) at.push_back(i);
@@ -68,19 +69,19 @@ std::vector<std::size_t> Parts(const ErrorHistory& h) {
   return at;
 }
 
-/// Gives [begin, end) another error, drawn anew unless good, and keeps jolts.
+/// Gives [begin, end) another error, drawn anew unless good, and keeps velocity steps.
 void SetError(ErrorMode mode, std::size_t begin, std::size_t end,
-              ErrorHistory* h) {
+              ModeSequence* h) {
   const bool is_good = mode == ErrorMode::kGood;
   for (std::size_t i = begin; i < end; ++i) {
     const bool anew = i == begin && !is_good;
-    (*h)[i] = {mode, anew, (*h)[i].jolt && !anew};
+    (*h)[i] = {mode, anew, (*h)[i].velocity_step && !anew};
   }
 }
 
 /// The other way about at part c: where the receiver erred before and is good
 /// after, it was good before and errs after; and the reverse.
-ErrorHistory Swapped(ErrorHistory h, const std::vector<std::size_t>& at,
+ModeSequence Swapped(ModeSequence h, const std::vector<std::size_t>& at,
                      std::size_t c, ErrorMode error) {
   const std::size_t begin = c == 0 ? 0 : at[c - 1];
   const bool erred = ModeBefore(h, at[c]) != ErrorMode::kGood;
@@ -89,7 +90,7 @@ ErrorHistory Swapped(ErrorHistory h, const std::vector<std::size_t>& at,
   return h;
 }
 
-void AddSwaps(const ErrorHistory& h, std::vector<ErrorHistory>* all) {
+void AddSwaps(const ModeSequence& h, std::vector<ModeSequence>* all) {
   const std::vector<std::size_t> at = Parts(h);
   for (std::size_t c = 0; c + 1 < at.size(); ++c) {
     const ErrorMode before = ModeBefore(h, at[c]);
@@ -103,8 +104,8 @@ void AddSwaps(const ErrorHistory& h, std::vector<ErrorHistory>* all) {
 
 }  // namespace
 
-std::vector<ErrorHistory> Variations(const ErrorHistory& h) {
-  std::vector<ErrorHistory> all;
+std::vector<ModeSequence> Variations(const ModeSequence& h) {
+  std::vector<ModeSequence> all;
   const std::vector<std::size_t> at = Changes(h);
   for (std::size_t c = 0; c + 1 < at.size(); ++c) {
     const std::size_t least = c == 0 ? 0 : at[c - 1] + 1;
@@ -119,7 +120,7 @@ std::vector<ErrorHistory> Variations(const ErrorHistory& h) {
     for (const ErrorStep step : StepsAfter(ModeBefore(h, at[c]))) {
       all.push_back(WithSegment(h, at[c], at[c + 1], step));
     }
-    all.push_back(WithJolts(h, at, c));
+    all.push_back(WithVelocitySteps(h, at, c));
     // An error too small to be found alone may have come before a larger one.
     for (std::size_t length = kShortest; at[c] >= least + length; length *= 2) {
       all.push_back(
@@ -130,18 +131,19 @@ std::vector<ErrorHistory> Variations(const ErrorHistory& h) {
   return all;
 }
 
-std::vector<ErrorHistory> WithOneJolt(const ErrorHistory& h) {
-  std::vector<ErrorHistory> all;
+std::vector<ModeSequence> WithOneVelocityStep(const ModeSequence& h) {
+  std::vector<ModeSequence> all;
   for (std::size_t i = 0; i < h.size(); ++i) {
-    if (h[i].anew || h[i].jolt || h[i].mode != ModeBefore(h, i)) continue;
+    if (h[i].anew || h[i].velocity_step || h[i].mode != ModeBefore(h, i))
+      continue;
     all.push_back(h);
-    all.back()[i].jolt = true;
+    all.back()[i].velocity_step = true;
   }
   return all;
 }
 
-std::vector<ScoredHistory> EarlierErrors(const ErrorHistory& h) {
-  std::vector<ScoredHistory> all;
+std::vector<Hypothesis> EarlierErrors(const ModeSequence& h) {
+  std::vector<Hypothesis> all;
   const std::vector<std::size_t> at = Parts(h);
   for (std::size_t c = 0; c + 1 < at.size(); ++c) {
     const std::size_t least = c == 0 ? 0 : at[c - 1] + 1;
@@ -153,7 +155,7 @@ std::vector<ScoredHistory> EarlierErrors(const ErrorHistory& h) {
       const auto count = static_cast<double>(next - length);
       for (const ErrorMode mode :
            {ErrorMode::kBiased, ErrorMode::kSlight, ErrorMode::kDrifting}) {
-        ErrorHistory one = h;
+        ModeSequence one = h;
         SetError(mode, at[c] - length, at[c], &one);
         all.push_back({one, 0.0, count});
         if (mode != ErrorMode::kDrifting) continue;

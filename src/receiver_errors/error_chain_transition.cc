@@ -1,0 +1,66 @@
+#include "receiver_errors/error_chain.h"
+
+namespace hindsight {
+namespace {
+
+void FillErrorPhi(const ErrorDynamics& d, int n, ErrorMatrix* Phi) {
+  Phi->block<3, 3>(n, n).diagonal().setConstant(d.ee);
+  Phi->block<3, 3>(n, n + 3).diagonal().setConstant(d.er);
+  Phi->block<3, 3>(n + 3, n + 3).diagonal().setConstant(d.rr);
+}
+
+void FillErrorQ(const ErrorDynamics& d, int n, ErrorMatrix* Q) {
+  for (int e = n; e < n + 3; ++e) {
+    const int r = e + 3;
+    (*Q)(e, e) = d.q_ee;
+    (*Q)(e, r) = (*Q)(r, e) = d.q_er;
+    (*Q)(r, r) = d.q_rr;
+  }
+}
+
+}  // namespace
+
+ErrorMatrix ErrorChain::Phi(ErrorStep step) const {
+  const int n = navigation_dim_;
+  ErrorMatrix Phi = ErrorMatrix::Zero(dim(), dim());
+  Phi.topLeftCorner(n, n) = Phi_n_;
+  FillErrorPhi(DynamicsOf(parameters_, step, dt_), n, &Phi);
+  return Phi;
+}
+
+ErrorMatrix ErrorChain::PhiAtOnce(ErrorStep step) const {
+  ErrorMatrix Phi = ErrorMatrix::Identity(dim(), dim());
+  FillErrorPhi(DynamicsOf(parameters_, step, 0.0), navigation_dim_, &Phi);
+  return Phi;
+}
+
+ErrorMatrix ErrorChain::QAtOnce(ErrorStep step) const {
+  ErrorMatrix Q = ErrorMatrix::Zero(dim(), dim());
+  FillErrorQ(DynamicsOf(parameters_, step, 0.0), navigation_dim_, &Q);
+  return Q;
+}
+
+ErrorMatrix ErrorChain::Q(ErrorStep step) const {
+  const int n = navigation_dim_;
+  const ErrorDynamics d = DynamicsOf(parameters_, step, dt_);
+  ErrorMatrix Q = ErrorMatrix::Zero(dim(), dim());
+  Q.topLeftCorner(n, n) = Q_n_;
+  FillErrorQ(d, n, &Q);
+  for (int i = 0; i < 3 && velocity_ >= 0; ++i) {
+    const int p = position_ + i;
+    const int v = velocity_ + i;
+    Q(p, p) += d.q_vv * dt_ * dt_;
+    Q(p, v) += d.q_vv * dt_;
+    Q(v, p) += d.q_vv * dt_;
+    Q(v, v) += d.q_vv;
+  }
+  return Q;
+}
+
+ErrorVector ErrorChain::Defect() const {
+  ErrorVector c = ErrorVector::Zero(dim());
+  c.head(navigation_dim_) = tape_.epoch(k_).c;
+  return c;
+}
+
+}  // namespace hindsight

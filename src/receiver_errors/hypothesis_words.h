@@ -1,0 +1,50 @@
+#ifndef HINDSIGHT_RECEIVER_ERRORS_HYPOTHESIS_WORDS_H_
+#define HINDSIGHT_RECEIVER_ERRORS_HYPOTHESIS_WORDS_H_
+
+#include <string>
+#include <vector>
+
+#include "receiver_errors/weighed_hypotheses.h"
+#include "state/covariance_series.h"
+
+namespace hindsight {
+
+/// A sequence in words, "biased from 120 to 140 s, drifting from 175 s to the
+/// end"; a bias or drift drawn anew begins a part of its own. `times` are those
+/// of the nodes. "good throughout" if there is nothing to tell.
+std::string DescribeSequence(const std::vector<ErrorStep>& steps,
+                             const std::vector<double>& times);
+
+/// The largest horizontal distance of two trajectories, and whether it is more
+/// than three standard deviations of P anywhere.
+struct Separation {
+  double distance = 0.0;
+  bool significant = false;
+};
+Separation Separate(const WeighedHypothesis& one,
+                    const WeighedHypothesis& chosen, const CovarianceSeries& P);
+
+/// The likeliest hypothesis that takes the trajectory elsewhere than `chosen`,
+/// more than three standard deviations of P (errors of the chosen one's
+/// horizontal position first) at some node.
+struct RivalHypothesis {
+  const WeighedHypothesis* hypothesis = nullptr;  ///< none: no such one
+  double probability = 0.0;                       ///< of all such together
+  double distance = 0.0;  ///< largest, horizontal [m], of the likeliest
+};
+RivalHypothesis FindRival(const std::vector<WeighedHypothesis>& all,
+                          const WeighedHypothesis& chosen,
+                          const CovarianceSeries& P);
+
+/// What the noise and the errors of a sensor are like, a sentence each; `unit` of
+/// its error.
+std::vector<std::string> DescribeParameters(ErrorRegimes::Kind kind,
+                                            const std::string& unit,
+                                            const WeighedHypothesis& chosen);
+/// What else may have happened; empty where it is too improbable to be told.
+std::string DescribeRival(const RivalHypothesis& rival,
+                          const std::vector<double>& times);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_RECEIVER_ERRORS_HYPOTHESIS_WORDS_H_

@@ -1,0 +1,207 @@
+#include "receiver_errors/normal_points.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "base/median.h"
+
+namespace hindsight {
+namespace {
+
+/// Nodes first to past the last.
+struct Interval {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  std::size_t middle() const { return begin + (end - begin) / 2; }
+};
+
+std::vector<Interval> IntervalsOf(const LinearTape& tape, double length) {
+  std::vector<Interval> all;
+  const double t0 = tape.epoch(0).t;
+  double present = -1.0;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    // A stamp that rounding leaves short of an interval's begin is in it.
+    const double number = std::floor((tape.epoch(k).t - t0) / length + 1e-6);
+    if (number != present) all.push_back({k, k});
+    present = number;
+    all.back().end = k + 1;
+  }
+  return all;
+}
+
+/// x_b = F x_a + d + w, w ~ (0, Q).
+Transition Identity(int n) {
+  return {ErrorMatrix::Identity(n, n), ErrorMatrix::Zero(n, n),
+          ErrorVector::Zero(n)};
+}
+
+/// What leads to node k - 1, and then to k.
+void Lengthen(const LinearTape& tape, std::size_t k, Transition* t) {
+  const ErrorMatrix Phi = tape.Phi(k);
+  t->Phi = (Phi * t->Phi).eval();
+  t->c = (Phi * t->c + tape.epoch(k).c).eval();
+  t->Q = (Phi * t->Q * Phi.transpose() + tape.Q(k)).eval();
+}
+
+/// What leads from node k to the end of `t`, which begins at node k + 1.
+void Precede(const LinearTape& tape, std::size_t k, Transition* t) {
+  t->c = (t->Phi * tape.epoch(k + 1).c + t->c).eval();
+  t->Q = (t->Phi * tape.Q(k + 1) * t->Phi.transpose() + t->Q).eval();
+  t->Phi = (t->Phi * tape.Phi(k + 1)).eval();
+}
+
+/// A measurement carried to another node.
+struct Carried {
+  const TapeMeasurement* from = nullptr;
+  LinearizedMeasurement z;
+};
+
+/// x at its node is F x + d + w of the middle node.
+Carried CarryBack(const TapeMeasurement& z, const Transition& t) {
+  Carried out{&z, {}};
+  out.z.H = z.H * t.Phi;
+  out.z.residual = z.residual - z.H * t.c;
+  out.z.R = z.R + z.H * t.Q * z.H.transpose();
+  return out;
+}
+
+/// The middle node's x is F x + d + w of its node.
+Carried CarryOn(const TapeMeasurement& z, const Transition& t) {
+  const ErrorMatrix inverse = t.Phi.inverse();
+  Carried out{&z, {}};
+  out.z.H = z.H * inverse;
+  out.z.residual = z.residual + out.z.H * t.c;
+  out.z.R = z.R + out.z.H * t.Q * out.z.H.transpose();
+  return out;
+}
+
+bool IsUsed(const TapeMeasurement& z) { return z.accepted && !z.withheld; }
+
+std::vector<Carried> CarryToMiddle(const LinearTape& tape,
+                                   const Interval& interval) {
+  std::vector<Carried> all;
+  const std::size_t middle = interval.middle();
+  Transition back = Identity(tape.dim());
+  for (std::size_t k = middle; k < interval.end; ++k) {
+    if (k > middle) Lengthen(tape, k, &back);
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      if (IsUsed(z)) all.push_back(CarryBack(z, back));
+    }
+  }
+  Transition on = Identity(tape.dim());
+  for (std::size_t k = middle; k-- > interval.begin;) {
+    Precede(tape, k, &on);
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      if (IsUsed(z)) all.push_back(CarryOn(z, on));
+    }
+  }
+  return all;
+}
+
+/// Without those far from the median of all on any axis, unless half are.
+std::vector<const Carried*> WithoutOutliers(
+    const std::vector<const Carried*>& all) {
+  constexpr double kFar = 5.0;  // sigma
+  const Eigen::Index rows = all.front()->z.residual.size();
+  RowVector median(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    std::vector<double> values;
+    for (const Carried* one : all) values.push_back(one->z.residual(i));
+    median(i) = Median(std::move(values));
+  }
+  std::vector<const Carried*> near;
+  for (const Carried* one : all) {
+    const RowVector off = one->z.residual - median;
+    if ((off.array().square() <= kFar * kFar * one->z.R.diagonal().array())
+            .all()) {
+      near.push_back(one);
+    }
+  }
+  return 2 * near.size() > all.size() ? near : all;
+}
+
+LinearizedMeasurement Average(const std::vector<const Carried*>& all) {
+  double sum = 0.0;
+  for (const Carried* one : all) sum += 1.0 / one->z.R.trace();
+  LinearizedMeasurement mean = all.front()->z;
+  mean.residual.setZero();
+  mean.H.setZero();
+  mean.R.setZero();
+  for (const Carried* one : all) {
+    const double weight = 1.0 / (one->z.R.trace() * sum);
+    mean.residual += weight * one->z.residual;
+    mean.H += weight * one->z.H;
+    mean.R += weight * weight * one->z.R;
+  }
+  return mean;
+}
+
+void RecordAverages(const std::vector<Carried>& all, int sensor,
+                    LinearTape* tape) {
+  std::map<std::pair<int, Eigen::Index>, std::vector<const Carried*>> groups;
+  for (const Carried& one : all) {
+    groups[{one.from->sensor, one.z.residual.size()}].push_back(&one);
+  }
+  for (const auto& [key, group] : groups) {
+    const LinearizedMeasurement z =
+        Average(key.first == sensor ? WithoutOutliers(group) : group);
+    TapeMeasurement header;
+    header.sensor = key.first;
+    tape->Record(header, z, {z.residual, z.R, 0.0, 0.0});
+  }
+}
+
+}  // namespace
+
+std::optional<NormalPoints> FormNormalPoints(const LinearTape& tape, int sensor,
+                                             double interval) {
+  const std::vector<Interval> intervals = IntervalsOf(tape, interval);
+  NormalPoints out{LinearTape(tape.layout(), tape.error()), {}};
+  std::size_t points = 0;
+  for (const Interval& one : intervals) {
+    std::size_t fixes = 0;
+    for (std::size_t k = one.begin; k < one.end; ++k) {
+      fixes += HasFix(tape, k, sensor);
+    }
+    out.point_of_fix.insert(out.point_of_fix.end(), fixes, points);
+    points += fixes > 0;
+  }
+  if (3 * points > 2 * out.point_of_fix.size()) return std::nullopt;
+  std::size_t last = 0;
+  ErrorVector mean = tape.epoch(0).dx_minus;
+  ErrorMatrix P = tape.P_minus(0);
+  for (const Interval& one : intervals) {
+    Transition t = Identity(tape.dim());
+    for (std::size_t k = last + 1; k <= one.middle(); ++k) {
+      Lengthen(tape, k, &t);
+    }
+    last = one.middle();
+    TapeEpoch epoch = tape.epoch(last);
+    epoch.c = t.c;
+    if (out.tape.size() == 0) {
+      mean = (t.Phi * mean + t.c).eval();
+      P = (t.Phi * P * t.Phi.transpose() + t.Q).eval();
+      epoch.dx_minus = mean;
+    } else {
+      P = tape.P_minus(last);
+    }
+    RecordAverages(CarryToMiddle(tape, one), sensor, &out.tape);
+    out.tape.Append(std::move(epoch), t, P, P);
+  }
+  return out;
+}
+
+ModeSequence AtFixes(const NormalPoints& points, const ModeSequence& sequence) {
+  ModeSequence out;
+  for (std::size_t i = 0; i < points.point_of_fix.size(); ++i) {
+    const std::size_t point = points.point_of_fix[i];
+    const bool first = i == 0 || points.point_of_fix[i - 1] != point;
+    out.push_back(first ? sequence[point] : ErrorStep{sequence[point].mode});
+  }
+  return out;
+}
+
+}  // namespace hindsight

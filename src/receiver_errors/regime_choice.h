@@ -1,0 +1,41 @@
+#ifndef HINDSIGHT_RECEIVER_ERRORS_REGIME_CHOICE_H_
+#define HINDSIGHT_RECEIVER_ERRORS_REGIME_CHOICE_H_
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "receiver_errors/error_regimes.h"
+
+namespace hindsight {
+
+/// ln of the evidence by which a richer model of a sensor's errors has to win:
+/// odds of a thousand, as it brings what a wrong one may ruin.
+inline constexpr double kLeastGain = 6.907755278982137;
+
+/// A factor on the noise of the IMU beyond which what the search took for errors
+/// of the sensor may be the IMU's: two sigmas of what is stated of it.
+inline constexpr double kMisstatedImu = 2.0;
+
+/// Which of FitRegimes stands.
+struct RegimeChoice {
+  std::size_t chosen = 0;  ///< 0: the noise as stated, nothing else
+  double gain = 0.0;       ///< ln of its evidence over that of the stated
+  /// What became of the likeliest of the others, a clause each, if it did not
+  /// stand: "switching errors, ... predict held-out ... worse".
+  std::vector<std::string> refused;
+};
+
+/// The one of the largest evidence that stands: it
+///   - wins by kLeastGain over every simpler one;
+///   - has no parameter at a bound of its search;
+///   - if it is white, does not take the IMU to be worse than stated by more
+///     than kMisstatedImu: that is no matter of this sensor;
+///   - does not lose to the stated noise, nor, if it is not white, to white
+///     errors on held-out stretches (CompareHeldOut, at any length).
+RegimeChoice ChooseRegime(const RegimeProblem& problem,
+                          const std::vector<ErrorRegimes>& all);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_RECEIVER_ERRORS_REGIME_CHOICE_H_

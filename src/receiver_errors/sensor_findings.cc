@@ -1,0 +1,108 @@
+#include "receiver_errors/sensor_findings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "measurements/sensor_kind.h"
+
+namespace hindsight {
+namespace {
+
+/// Root mean square of the stated sigmas of a sensor, of its first two rows.
+double StatedSigma(const LinearTape& tape, int sensor) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      if (z.sensor != sensor || !z.accepted || z.withheld) continue;
+      for (Eigen::Index i = 0; i < std::min<Eigen::Index>(2, z.R.rows()); ++i) {
+        sum += z.R(i, i);
+        ++count;
+      }
+    }
+  }
+  return std::sqrt(sum / std::max(1, count));
+}
+
+std::string UnitOf(const SensorKind& kind) {
+  return std::string(kind.residual_unit.empty() ? "SI" : kind.residual_unit);
+}
+
+/// Filter steps of a search; of long tapes so many a node.
+double MostEffort(const LinearTape& tape) {
+  constexpr double kAtLeast = 3e5;
+  constexpr double kPerNode = 200.0;
+  return std::max(kAtLeast, kPerNode * static_cast<double>(tape.size()));
+}
+
+}  // namespace
+
+SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
+                               int index, const SearchLimits& limits)
+    : tape(linear),
+      sensor(index),
+      name(problem.timeline.sensors()[static_cast<std::size_t>(index)].name),
+      unit(UnitOf(
+          *problem.timeline.sensors()[static_cast<std::size_t>(index)].kind)),
+      stated_sigma(StatedSigma(linear, index)) {
+  constexpr double kSearch = 0.8;  // of the time, the rest refines
+  const std::optional<NormalPoints> points = FormNormalPoints(tape, sensor);
+  const LinearTape& searched = points ? points->tape : tape;
+  SearchEffort effort(
+      limits.share * MostEffort(searched), [&limits](double fraction) {
+        return !limits.go_on || limits.go_on(kSearch * fraction);
+      });
+  const RegimeProblem regime{
+      searched, sensor, stated_sigma,
+      problem.layout.Has(BlockKind::kColouredNoise, sensor), &effort};
+  std::vector<ErrorRegimes> all = FitRegimes(regime);
+  choice = ChooseRegime(regime, all);
+  stopped = effort.stopped();
+  if (!stands()) return;
+  if (points) {
+    constexpr double kPerNode = 60.0;
+    SearchEffort rest(
+        kPerNode * static_cast<double>(tape.size()),
+        [&limits](double fraction) {
+          return !limits.go_on ||
+                 limits.go_on(kSearch + (1.0 - kSearch) * fraction);
+        });
+    Refine(*points, std::move(all), &rest);
+    stopped |= rest.stopped();
+  } else {
+    regimes = WithAlternatives(std::move(all), choice.chosen);
+  }
+  alternatives = WeighHypotheses(tape, sensor, regimes);
+  central = MostCentral(alternatives);
+}
+
+void SensorFindings::Refine(const NormalPoints& points,
+                            std::vector<ErrorRegimes> found,
+                            SearchEffort* effort) {
+  constexpr double kFarBehind = 12.0;  // ln
+  const RegimeProblem fixes{tape, sensor, stated_sigma, false, effort};
+  const ErrorRegimes& best = found[choice.chosen];
+  std::vector<ErrorRegimes> all = {RefineAtFixes(fixes, points, best)};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const bool rival = i != choice.chosen &&
+                       found[i].kind == ErrorRegimes::Kind::kSwitching &&
+                       found[i].log_evidence > best.log_evidence - kFarBehind;
+    if (rival && best.kind == ErrorRegimes::Kind::kSwitching &&
+        !effort->IsSpent()) {
+      all.push_back(RefineAtFixes(fixes, points, found[i]));
+    }
+  }
+  regimes = WithAlternatives(std::move(all), 0);
+}
+
+std::vector<double> SensorFindings::Times() const {
+  std::vector<double> times;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    times.push_back(tape.epoch(k).t);
+  }
+  return times;
+}
+
+}  // namespace hindsight

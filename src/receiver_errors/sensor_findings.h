@@ -1,0 +1,45 @@
+#ifndef HINDSIGHT_RECEIVER_ERRORS_SENSOR_FINDINGS_H_
+#define HINDSIGHT_RECEIVER_ERRORS_SENSOR_FINDINGS_H_
+
+#include <string>
+#include <vector>
+
+#include "receiver_errors/error_states.h"
+#include "receiver_errors/normal_points.h"
+#include "receiver_errors/receiver_errors.h"
+#include "receiver_errors/regime_choice.h"
+#include "receiver_errors/weighed_hypotheses.h"
+
+namespace hindsight {
+
+/// What is known of the errors of one sensor once they have been looked for.
+struct SensorFindings {
+  SensorFindings(const Problem& problem, const LinearTape& linear, int index,
+                 const SearchLimits& limits);
+  bool stands() const { return choice.chosen > 0; }
+  bool switching() const {
+    return regimes.kind == ErrorRegimes::Kind::kSwitching;
+  }
+  const WeighedHypothesis& chosen() const { return alternatives[central]; }
+  ErrorStates states() const {
+    return {tape, sensor, stated_sigma, unit, regimes.kind, chosen()};
+  }
+  std::vector<double> Times() const;
+  void Refine(const NormalPoints& points, std::vector<ErrorRegimes> found,
+              SearchEffort* effort);
+
+  const LinearTape& tape;
+  int sensor;
+  std::string name;
+  std::string unit;     ///< of its error
+  double stated_sigma;  ///< of its fixes, an axis [SI]
+  RegimeChoice choice;
+  ErrorRegimes regimes;  ///< if they stand
+  std::vector<WeighedHypothesis> alternatives;
+  std::size_t central = 0;  ///< of the alternatives, the chosen one
+  bool stopped = false;     ///< the search, by whoever asked
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_RECEIVER_ERRORS_SENSOR_FINDINGS_H_

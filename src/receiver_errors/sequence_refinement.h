@@ -1,0 +1,27 @@
+#ifndef HINDSIGHT_RECEIVER_ERRORS_SEQUENCE_REFINEMENT_H_
+#define HINDSIGHT_RECEIVER_ERRORS_SEQUENCE_REFINEMENT_H_
+
+#include "receiver_errors/hypothesis_search.h"
+
+namespace hindsight {
+
+/// Climbs from the best of `found` over Variations, and WithOneVelocityStep where those
+/// do no better, to the most likely sequence near it. Scores are those of
+/// SequenceSplice about the best of the round before. A spent effort ends it with
+/// the best so far.
+ModeSequence ClimbSequences(const LinearTape& tape, int receiver,
+                            const ErrorParameters& parameters,
+                            const std::vector<Hypothesis>& found,
+                            SearchEffort* effort = nullptr);
+
+/// Climbs, tries EarlierErrors of the best, and returns what was met on the way
+/// and is within 10 of its logarithm, best first: the posterior of when errors
+/// began and ended.
+std::vector<Hypothesis> RefineHypotheses(const LinearTape& tape, int receiver,
+                                         const ErrorParameters& parameters,
+                                         const std::vector<Hypothesis>& found,
+                                         SearchEffort* effort = nullptr);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_RECEIVER_ERRORS_SEQUENCE_REFINEMENT_H_

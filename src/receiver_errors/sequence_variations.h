@@ -1,0 +1,27 @@
+#ifndef HINDSIGHT_RECEIVER_ERRORS_SEQUENCE_VARIATIONS_H_
+#define HINDSIGHT_RECEIVER_ERRORS_SEQUENCE_VARIATIONS_H_
+
+#include <vector>
+
+#include "receiver_errors/hypothesis_search.h"
+
+namespace hindsight {
+
+/// Hypotheses that differ from `sequence` at one change: it comes up to eight
+/// fixes earlier or later, does not come, is of another kind, or follows a
+/// bias; or it and all changes after it are velocity steps of the IMU; or the stretches
+/// before and after it change roles, the good one being the erroneous one.
+std::vector<ModeSequence> Variations(const ModeSequence& sequence);
+/// Hypotheses with one velocity_step of the IMU more than `sequence`: one for each fix at
+/// which nothing changes and which has no velocity_step.
+std::vector<ModeSequence> WithOneVelocityStep(const ModeSequence& sequence);
+
+/// An error too small to be found alone may have begun at any time before a
+/// change: each time is unlikely, all together may not be. And a jump may be
+/// the end of a drift that began unseen. Lengths are a quarter apart, each
+/// stands (`count`) for those up to the next; the rest is not filled.
+std::vector<Hypothesis> EarlierErrors(const ModeSequence& sequence);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_RECEIVER_ERRORS_SEQUENCE_VARIATIONS_H_

@@ -1,0 +1,96 @@
+#include "receiver_errors/regime_choice.h"
+
+#include <gtest/gtest.h>
+
+#include "receiver_errors/receiver_tape.h"
+
+namespace hindsight {
+namespace {
+
+using testing::AddError;
+using testing::Good;
+using testing::PositionsOnly;
+using testing::TapeOf;
+using testing::TestProblem;
+using testing::WithoutOutliers;
+
+ErrorRegimes Regime(const LinearTape& tape, ErrorRegimes::Kind kind,
+                    double log_evidence) {
+  ErrorRegimes out;
+  out.kind = kind;
+  out.log_evidence = log_evidence;
+  Hypothesis one;
+  one.sequence = Good(tape);
+  one.parameters = WithoutOutliers();
+  out.hypotheses = {one};
+  return out;
+}
+
+using Kind = ErrorRegimes::Kind;
+
+TEST(RegimeChoice, NeedsOddsOfAThousand) {
+  const LinearTape tape = TapeOf(PositionsOnly(30.0));
+  SearchEffort effort(1e9, nullptr);
+  const RegimeProblem problem{tape, 0, 0.5, false, &effort};
+  for (const double gain : {6.8, 7.0}) {
+    const RegimeChoice choice = ChooseRegime(
+        problem,
+        {Regime(tape, Kind::kStated, 0.0), Regime(tape, Kind::kWhite, gain)});
+    EXPECT_EQ(choice.chosen, gain > kLeastGain ? 1u : 0u);
+  }
+}
+
+TEST(RegimeChoice, RefusesAValueAtItsBoundWhateverTheEvidence) {
+  const LinearTape tape = TapeOf(PositionsOnly(30.0));
+  SearchEffort effort(1e9, nullptr);
+  const RegimeProblem problem{tape, 0, 0.5, false, &effort};
+  ErrorRegimes white = Regime(tape, Kind::kWhite, 1000.0);
+  white.hypotheses[0].parameters.scale = 0.1;
+  const RegimeChoice choice =
+      ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0), white});
+  EXPECT_EQ(choice.chosen, 0u);
+  ASSERT_EQ(choice.refused.size(), 1u);
+  EXPECT_NE(choice.refused[0].find("at its bound"), std::string::npos);
+}
+
+TEST(RegimeChoice, RefusesWhatPredictsHeldOutStretchesWorse) {
+  const LinearTape tape = TapeOf(PositionsOnly(90.0));
+  SearchEffort effort(1e9, nullptr);
+  const RegimeProblem problem{tape, 0, 0.5, false, &effort};
+  ErrorRegimes absurd = Regime(tape, Kind::kSwitching, 1000.0);
+  absurd.hypotheses[0].parameters.scale = 0.12;
+  absurd.hypotheses[0].parameters.rate_sigma = 1.0;
+  for (ErrorStep& step : absurd.hypotheses[0].sequence) {
+    step.velocity_step = true;
+  }
+  const RegimeChoice choice =
+      ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0), absurd});
+  EXPECT_EQ(choice.chosen, 0u);
+  ASSERT_EQ(choice.refused.size(), 1u);
+  EXPECT_NE(choice.refused[0].find("held-out"), std::string::npos);
+}
+
+TEST(VelocitySteps, CostMoreTheMoreThereAre) {
+  EXPECT_EQ(LogOfVelocitySteps(0), 0.0);
+  EXPECT_EQ(LogOfVelocitySteps(1), 0.0);
+  EXPECT_NEAR(LogOfVelocitySteps(3), -3.0 * std::log(100.0), 1e-9);
+  // No evidence of a recording outweighs twenty.
+  EXPECT_LT(LogOfVelocitySteps(20), -800.0);
+}
+
+TEST(FindRegimes, OfAnEndedSearchAreWhatThereIsByThen) {
+  TestProblem test = PositionsOnly(60.0);
+  AddError(20, 30, {8.0, -8.0, 0.0}, &test);
+  const LinearTape tape = TapeOf(test);
+  int calls = 0;
+  SearchEffort effort(1e9, [&](double) { return ++calls < 5; });
+  const RegimeProblem problem{tape, 0, 0.5, false, &effort};
+  const std::vector<ErrorRegimes> all = FitRegimes(problem);
+  EXPECT_TRUE(effort.stopped());
+  EXPECT_EQ(calls, 5);
+  ASSERT_GE(all.size(), 3u);
+  EXPECT_EQ(all[0].kind, Kind::kStated);
+}
+
+}  // namespace
+}  // namespace hindsight
