@@ -238,7 +238,7 @@ class StartFinder {
   /// A priori covariance with the sigmas of the attitude times `factor`, each
   /// not beyond that of an angle of which nothing is known.
   ErrorMatrix Covariance(const ErrorLayout& layout, double factor) const {
-    ErrorMatrix P = layout.InitialCovariance();
+    ErrorMatrix P = InitialCovariance(dataset_, layout);
     const int a = layout.Find(BlockKind::kAttitude)->offset;
     const int b = layout.Find(BlockKind::kGyroBias)->offset;
     const Eigen::Vector3d f =
@@ -258,7 +258,7 @@ class StartFinder {
   ErrorMatrix PriorCovariance(const ErrorLayout& layout) const {
     if (LevelHoldsAtAnyHeading()) return Covariance(layout, attitude_.reuse);
     constexpr double kAnew = 10.0;
-    ErrorMatrix P = layout.InitialCovariance();
+    ErrorMatrix P = InitialCovariance(dataset_, layout);
     const int a = layout.Find(BlockKind::kAttitude)->offset;
     P.block<3, 3>(a, a).setZero();
     P.diagonal().segment<2>(a) =

@@ -1,5 +1,6 @@
 #include "alignment/start_layout.h"
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <string_view>
@@ -76,12 +77,55 @@ Eigen::Vector3d ValueOf(const Sensor& sensor, BlockKind kind) {
   return Eigen::Vector3d::Zero();
 }
 
+/// Which of the known constants each component is, or -1. One whose sigma is
+/// not that of the known one was not taken.
+std::vector<int> KnownOf(const KnownConstants& known,
+                         const ErrorLayout& layout) {
+  std::vector<int> indices(static_cast<std::size_t>(layout.dim()), -1);
+  const ErrorMatrix P = layout.InitialCovariance();
+  for (const Block& block : layout.blocks()) {
+    if (block.evolution.kind != Evolution::Kind::kConstant) continue;
+    for (int i = block.offset; i < block.offset + block.dim; ++i) {
+      const int at = known.Find(layout.ComponentName(i));
+      constexpr double kRounding = 1e-9;
+      if (at >= 0 && std::abs(P(i, i) / known.P(at, at) - 1.0) < kRounding) {
+        indices[static_cast<std::size_t>(i)] = at;
+      }
+    }
+  }
+  return indices;
+}
+
+/// Values of an IMU's scale factors that other recordings tell.
+void PutKnownValues(const KnownConstants& known, const ErrorLayout& layout,
+                    const Block& block, ParameterVector* parameters) {
+  for (int i = 0; i < block.dim; ++i) {
+    const int at = known.Find(layout.ComponentName(block.offset + i));
+    if (at >= 0) (*parameters)(block.parameter_offset + i) = known.value(at);
+  }
+}
+
 }  // namespace
 
 ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior) {
   ErrorLayout layout = NavigationLayout(prior);
   for (Block& block : CalibrationBlocks(dataset)) layout.Add(std::move(block));
   return layout;
+}
+
+ErrorMatrix InitialCovariance(const Dataset& dataset,
+                              const ErrorLayout& layout) {
+  ErrorMatrix P = layout.InitialCovariance();
+  if (!dataset.constants) return P;
+  const std::vector<int> known = KnownOf(*dataset.constants, layout);
+  for (int i = 0; i < layout.dim(); ++i) {
+    for (int j = 0; j < layout.dim(); ++j) {
+      const int a = known[static_cast<std::size_t>(i)];
+      const int b = known[static_cast<std::size_t>(j)];
+      if (i != j && a >= 0 && b >= 0) P(i, j) = dataset.constants->P(a, b);
+    }
+  }
+  return P;
 }
 
 void RequireCapacity(const Dataset& dataset, const std::string& config) {
@@ -115,7 +159,12 @@ ParameterVector InitialParameters(
   constexpr double kRoughlyKnown = 20.0 * kDegree;
   ParameterVector parameters = ParameterVector::Zero(layout.parameter_count());
   for (const Block& block : layout.blocks()) {
-    if (block.key.sensor == BlockKey::kNoSensor) continue;
+    if (block.key.sensor == BlockKey::kNoSensor) {
+      if (dataset.constants && block.parameter_offset >= 0) {
+        PutKnownValues(*dataset.constants, layout, block, &parameters);
+      }
+      continue;
+    }
     const Sensor& sensor =
         dataset.streams[static_cast<std::size_t>(block.key.sensor)].sensor;
     const int offset = block.parameter_offset;

@@ -14,6 +14,11 @@ namespace hindsight {
 /// calibration block with an a priori sigma in its sensor.
 ErrorLayout BuildLayout(const Dataset& dataset, const NavigationPrior& prior);
 
+/// The layout's a priori covariance: the blocks' sigmas and, of what earlier
+/// recordings say (Dataset::constants), the covariances of one with another.
+ErrorMatrix InitialCovariance(const Dataset& dataset,
+                              const ErrorLayout& layout);
+
 /// Throws InputError, naming `config` and what each sensor adds, if the data
 /// set asks for more than kMaxParameters values beyond the navigation state.
 void RequireCapacity(const Dataset& dataset, const std::string& config);

@@ -106,7 +106,7 @@ NavigationPrior WindowModel::BiasPrior() const {
 }
 
 ErrorMatrix WindowModel::Covariance(double position, double velocity) const {
-  ErrorMatrix P = problem_.layout.InitialCovariance();
+  ErrorMatrix P = InitialCovariance(dataset_, problem_.layout);
   SetSigmas(problem_.layout, BlockKind::kPosition, position, &P);
   SetSigmas(problem_.layout, BlockKind::kVelocity, velocity, &P);
   SetSigmas(problem_.layout, BlockKind::kAttitude, kUnknownHeadingSigma, &P);

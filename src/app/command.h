@@ -56,6 +56,7 @@ Command SimulateCommand();
 Command InitCommand();
 Command MonteCarloCommand();
 Command ReportCommand();
+Command CombineCommand();
 
 }  // namespace hindsight
 

@@ -109,6 +109,7 @@ void PrintJson(const TrajectoryStatistics& all, const std::string& file) {
 struct Reference {
   TruthSeries points;
   Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();
+  TruthSigma sigma = {};
 };
 
 Reference ReadReference(const std::string& path) {
@@ -117,7 +118,8 @@ Reference ReadReference(const std::string& path) {
   }
   Dataset dataset = LoadDataset(path, {.data_root = FLAGS_data_root});
   if (dataset.truth.empty()) throw InputError(path + ": there is no truth");
-  return {std::move(dataset.truth), dataset.truth_lever_arm_b};
+  return {std::move(dataset.truth), dataset.truth_lever_arm_b,
+          dataset.truth_sigma};
 }
 
 /// The file that is compared: METHOD.truth.csv in place of METHOD.csv if it has
@@ -190,6 +192,7 @@ int Run(const std::vector<std::string>& arguments) {
   const std::string file = ComparedFile(arguments[0], truth);
   const SolutionTable solution = ReadSolutionCsv(file);
   TrajectoryErrorOptions options;
+  options.truth_sigma = truth.sigma;
   // The rows at the truth's times are those of its point.
   if (file == arguments[0]) options.truth_lever_arm_b = truth.lever_arm_b;
   const TrajectoryStatistics statistics =

@@ -16,6 +16,7 @@ DEFINE_string(at, "", "");
 DEFINE_bool(back_off, false, "");
 DEFINE_string(bounded, "attitude=1rad", "");
 DEFINE_bool(clean, false, "");
+DEFINE_string(constants, "", "");
 DEFINE_string(data_root, "", "");
 DEFINE_double(duration, 0.0, "");
 DEFINE_double(delta, 0.0, "");

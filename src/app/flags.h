@@ -15,6 +15,7 @@ DECLARE_string(at);
 DECLARE_bool(back_off);
 DECLARE_string(bounded);
 DECLARE_bool(clean);
+DECLARE_string(constants);
 DECLARE_string(data_root);
 DECLARE_double(duration);
 DECLARE_double(delta);

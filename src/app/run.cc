@@ -109,9 +109,8 @@ void PrepareTrajectory(const RunRequest& request, Dataset* dataset) {
 /// the results.
 Dataset Load(const RunRequest& request, ResultFolder* folder) {
   ResolvedConfig resolved;
-  Dataset dataset = LoadDataset(
-      request.config,
-      {.data_root = request.data_root, .without = request.without}, &resolved);
+  Dataset dataset =
+      LoadDataset(request.config, LoadOptionsOf(request), &resolved);
   if (!request.ahrs_rule.empty()) dataset.ahrs.rule = request.ahrs_rule;
   if (!request.attitude_alone) RequireCapacity(dataset, request.config);
   if (!request.withholdings.empty()) {
@@ -270,6 +269,9 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   RunSummary summary = {.program = kProgram,
                         .dataset = dataset.name,
                         .epoch_gps_ns = dataset.epoch_gps_ns,
+                        .constants_from = dataset.constants
+                                              ? dataset.constants->source
+                                              : std::string(),
                         .inputs = digests.Take(),
                         .start = SummarizeStart(reconstruction.start()),
                         .policies = dataset.policies,

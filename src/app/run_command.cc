@@ -115,6 +115,9 @@ Command RunCommand() {
             "fix + every); sensor is a stream or a type of streams;\n"
             "several rules: separate by ; or repeat the flag"},
            {"without", "NAMES", "leave out these aiding streams of CONFIG"},
+           {"constants", "RESULT",
+            "start from the constants of an earlier result of 'run' or\n"
+            "'combine', in place of constants.from of CONFIG"},
            {"inject", "ERROR",
             "add an error on purpose, marked in every output:\n"
             "position:step=12m,from=140s,to=150s; or pulse, ramp,\n"

@@ -14,7 +14,6 @@
 #include "evaluation/truth_comparison.h"
 #include "imu/imu_link.h"
 #include "imu/mean_reading.h"
-#include "io/config/config.h"
 #include "io/read/time_scale.h"
 #include "io/write/atomic_file.h"
 #include "io/write/constant_csv.h"
@@ -214,18 +213,22 @@ OutputRequest OutputOf(const RunRequest& request) {
   return {request.out, request.force, request.clean};
 }
 
+LoadOptions LoadOptionsOf(const RunRequest& request) {
+  return {.data_root = request.data_root,
+          .without = request.without,
+          .constants = request.constants};
+}
+
 ResultFolder::Paths InputsOf(const RunRequest& request) {
-  ResultFolder::Paths inputs = ConfigInputs(
-      request.config,
-      {.data_root = request.data_root, .without = request.without});
+  ResultFolder::Paths inputs =
+      ConfigInputs(request.config, LoadOptionsOf(request));
   if (!request.at_file.empty()) inputs.emplace_back(request.at_file);
   return inputs;
 }
 
 ResultFolder::Paths FilesReadBy(const RunRequest& request) {
-  ResultFolder::Paths files = ConfigFilesRead(
-      request.config,
-      {.data_root = request.data_root, .without = request.without});
+  ResultFolder::Paths files =
+      ConfigFilesRead(request.config, LoadOptionsOf(request));
   if (!request.at_file.empty()) files.emplace_back(request.at_file);
   return files;
 }
@@ -281,10 +284,12 @@ void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
   if (!dataset.truth.empty() && tables.truth.size() > 0) {
     TruthSeries truth = dataset.truth;
     ThinTruth(&truth);
-    WriteErrorCsv(folder->Path(method + ".errors.csv"),
-                  ColumnsOf(ComputeTrajectoryErrors(tables.truth, truth, {}),
-                            tables.truth),
-                  ProgramLine(dataset), dataset.epoch_gps_ns);
+    WriteErrorCsv(
+        folder->Path(method + ".errors.csv"),
+        ColumnsOf(ComputeTrajectoryErrors(tables.truth, truth,
+                                          {.truth_sigma = dataset.truth_sigma}),
+                  tables.truth),
+        ProgramLine(dataset), dataset.epoch_gps_ns);
   }
   WriteMotionCsv(folder->Path(method + ".motion.csv"), tables.output.t,
                  tables.motion, ProgramLine(dataset), dataset.epoch_gps_ns);

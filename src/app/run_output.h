@@ -8,6 +8,7 @@
 #include "app/result_folder.h"
 #include "app/run_request.h"
 #include "imu/kinematics.h"
+#include "io/config/config.h"
 #include "io/write/summary.h"
 #include "problems/reconstruction.h"
 
@@ -20,6 +21,9 @@ extern const char* const kProgram;
 inline constexpr char kSummaryName[] = "summary.json";
 
 OutputRequest OutputOf(const RunRequest& request);
+
+/// How its configuration is read.
+LoadOptions LoadOptionsOf(const RunRequest& request);
 
 /// All files that the run reads, and those of streams that it leaves out.
 ResultFolder::Paths InputsOf(const RunRequest& request);

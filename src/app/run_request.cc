@@ -136,8 +136,8 @@ void CheckFlagsAreHeeded(const RunRequest& request) {
     }
     return;
   }
-  for (const char* flag :
-       {"without", "withhold", "inject", "seed", "point", "export"}) {
+  for (const char* flag : {"constants", "without", "withhold", "inject", "seed",
+                           "point", "export"}) {
     if (!IsGiven(flag)) continue;
     throw UsageError("--" + Dashed(flag) + " means nothing to " +
                      FLAGS_methods + ", which estimate attitude alone");
@@ -186,6 +186,7 @@ RunRequest ReadRunRequest(const std::string& config) {
   request.config = config;
   request.data_root = FLAGS_data_root;
   request.without = ReadWords("without", FLAGS_without);
+  request.constants = FLAGS_constants;
   request.out = FLAGS_out;
   request.force = FLAGS_force;
   request.clean = FLAGS_clean;

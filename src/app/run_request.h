@@ -20,6 +20,7 @@ struct RunRequest {
   std::string config;
   std::string data_root;
   std::vector<std::string> without;  ///< aiding streams that are left out
+  std::string constants;  ///< result whose constants are used, "" for none
   std::string out;
   bool force = false;
   bool clean = false;                ///< remove what killed runs left

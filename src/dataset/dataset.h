@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "dataset/alignment_choice.h"
+#include "dataset/known_constants.h"
 #include "imu/imu_stream.h"
 #include "measurements/measurement.h"
 #include "measurements/sensor.h"
@@ -46,6 +47,13 @@ struct TruthPoint {
 };
 
 using TruthSeries = PackedSeries<TruthPoint>;
+
+/// How good the reference is itself; absent: without errors.
+struct TruthSigma {
+  std::optional<Eigen::Vector3d> position;  ///< NED [m]
+  std::optional<Eigen::Vector3d> velocity;  ///< NED [m/s]
+  std::optional<Eigen::Vector3d> attitude;  ///< roll, pitch, heading [rad]
+};
 
 /// Initial values. What is absent is found by alignment.
 struct InitialState {
@@ -156,7 +164,11 @@ struct Dataset {
   std::map<std::string, double> true_constants;
   /// Point the truth speaks of, body axes from the IMU [m].
   Eigen::Vector3d truth_lever_arm_b = Eigen::Vector3d::Zero();
+  TruthSigma truth_sigma;
   InitialState initial;
+  /// What earlier recordings say of the constants, which UseConstants has put
+  /// into the sensors but for the covariances of one with another.
+  std::optional<KnownConstants> constants;
   /// Where attitude alone is estimated: gives gravity and the Earth's rate.
   std::optional<Geodetic> place;
   AhrsSettings ahrs;

@@ -48,6 +48,14 @@ Origin OfSensor(const Judged& judged, const Block& block) {
   const Sensor& sensor = judged.sensors[i];
   const std::string stream = "aiding." + sensor.name;
   const char* word = WordOf(block.key.kind);
+  if (block.key.kind == BlockKind::kBias ||
+      block.key.kind == BlockKind::kGroundBias) {
+    const std::string key =
+        stream +
+        (block.key.kind == BlockKind::kBias ? ".bias" : ".ground_bias") +
+        ".sigma";
+    return {true, key, key};
+  }
   if (word == nullptr) return {true, stream, stream};
   // A mounting that the direction of travel has turned is the program's own.
   const bool found =

@@ -130,7 +130,8 @@ std::span<const GradeRule> GradeRules() { return kRules; }
 
 void Conclude(const Judged& judged, const std::vector<UnobservedSpan>& known,
               Solution* solution) {
-  solution->constants = EstimateConstants(*solution, judged.constants);
+  solution->constants = EstimateConstants(
+      *solution, judged.constants, judged.start ? &judged.start->x : nullptr);
   solution->unobserved = FindUnobserved(*solution);
   if (judged.relative_heading) {
     std::erase_if(solution->unobserved, [](const UnobservedSpan& span) {

@@ -39,16 +39,29 @@ double Widening(const ConstantEstimate& constant,
   return 1.0;
 }
 
-ConstantEstimate::Verdict VerdictOf(double ratio) {
+double ValueOf(const Block& block, int axis, const State& x) {
+  switch (block.key.kind) {
+    case BlockKind::kGyroBias:
+      return x.b_g(axis);
+    case BlockKind::kAccelBias:
+      return x.b_a(axis);
+    default:
+      return x.parameters(block.parameter_offset + axis);
+  }
+}
+
+}  // namespace
+
+ConstantEstimate::Verdict VerdictOfSigma(double sigma, double prior_sigma) {
+  const double ratio = sigma / prior_sigma;
   return ratio < kObservedRatio     ? ConstantEstimate::Verdict::kObserved
          : ratio < kUnobservedRatio ? ConstantEstimate::Verdict::kWeak
                                     : ConstantEstimate::Verdict::kUnobserved;
 }
 
-}  // namespace
-
 std::vector<ConstantEstimate> EstimateConstants(
-    const Solution& solution, std::span<const ConstantExcess> excess) {
+    const Solution& solution, std::span<const ConstantExcess> excess,
+    const State* start) {
   std::vector<ConstantEstimate> constants;
   if (solution.states.empty() || solution.covariances.empty()) return constants;
   const State& x = solution.states.back();
@@ -61,16 +74,16 @@ std::vector<ConstantEstimate> EstimateConstants(
       ConstantEstimate constant;
       constant.name = solution.layout.ComponentName(component);
       constant.unit = block.unit;
-      constant.value = block.key.kind == BlockKind::kGyroBias ? x.b_g(axis)
-                       : block.key.kind == BlockKind::kAccelBias
-                           ? x.b_a(axis)
-                           : x.parameters(block.parameter_offset + axis);
+      constant.value = ValueOf(block, axis, x);
+      if (start != nullptr) {
+        constant.prior_value = ValueOf(block, axis, *start);
+      }
       constant.sigma = std::sqrt(P(component, component));
       constant.prior_sigma = block.sigma0(axis);
-      const auto stated = VerdictOf(constant.sigma / constant.prior_sigma);
+      const auto stated = VerdictOfSigma(constant.sigma, constant.prior_sigma);
       constant.widened = Widening(constant, excess);
       constant.sigma *= constant.widened;
-      constant.verdict = VerdictOf(constant.sigma / constant.prior_sigma);
+      constant.verdict = VerdictOfSigma(constant.sigma, constant.prior_sigma);
       // It did move from its prior, if only by errors of the data.
       if (stated != constant.verdict &&
           constant.verdict == ConstantEstimate::Verdict::kUnobserved) {
@@ -84,6 +97,25 @@ std::vector<ConstantEstimate> EstimateConstants(
     }
   }
   return constants;
+}
+
+Eigen::MatrixXd CovarianceOfConstants(const Solution& solution) {
+  if (solution.covariances.empty()) return {};
+  std::vector<int> components;
+  for (const Block& block : solution.layout.blocks()) {
+    if (block.evolution.kind != Evolution::Kind::kConstant) continue;
+    for (int i = 0; i < block.dim; ++i) components.push_back(block.offset + i);
+  }
+  if (components.size() != solution.constants.size()) return {};
+  const ErrorMatrix all =
+      solution.covariances.Get(solution.covariances.size() - 1);
+  Eigen::MatrixXd P = all(components, components);
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    P.row(k) *= solution.constants[i].widened;
+    P.col(k) *= solution.constants[i].widened;
+  }
+  return P;
 }
 
 std::vector<UnobservedSpan> FindUnobserved(const Solution& solution) {

@@ -3,11 +3,13 @@
 #include <fmt/core.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <functional>
 
 #include "base/chi_square.h"
 #include "evaluation/interpolation.h"
 #include "geometry/so3.h"
+#include "state/euler_error.h"
 
 namespace hindsight {
 namespace {
@@ -17,11 +19,27 @@ using OptionalVector = std::optional<Eigen::Vector3d>;
 /// Absent for a covariance that is not positive definite: no normalised error
 /// exists then.
 std::optional<double> Nees(const OptionalVector& error,
-                           const std::optional<Eigen::Matrix3d>& P) {
+                           const std::optional<Eigen::Matrix3d>& P,
+                           const Eigen::Matrix3d& R) {
   if (!error || !P) return std::nullopt;
-  const Eigen::LLT<Eigen::Matrix3d> llt(*P);
+  const Eigen::LLT<Eigen::Matrix3d> llt(*P + R);
   if (llt.info() != Eigen::Success) return std::nullopt;
   return error->dot(llt.solve(*error));
+}
+
+Eigen::Matrix3d Variances(const OptionalVector& sigma) {
+  if (!sigma) return Eigen::Matrix3d::Zero();
+  return sigma->cwiseAbs2().asDiagonal();
+}
+
+/// Of a rotation vector in NED axes, as the truth's sigmas of roll, pitch and
+/// heading say.
+Eigen::Matrix3d AttitudeVariance(const TruthPoint& truth,
+                                 const OptionalVector& sigma) {
+  if (!sigma || !truth.q_nb) return Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d M =
+      EulerErrorJacobian(EulerFromQuaternion(*truth.q_nb)).inverse();
+  return M * sigma->cwiseAbs2().asDiagonal() * M.transpose();
 }
 
 Eigen::Vector3d EulerDifference(const Eigen::Matrix3d& C_nb_truth,
@@ -33,7 +51,8 @@ Eigen::Vector3d EulerDifference(const Eigen::Matrix3d& C_nb_truth,
 }
 
 TrajectoryError Compare(const InterpolatedState& x, const TruthPoint& truth,
-                        const Eigen::Vector3d& l_b) {
+                        const TrajectoryErrorOptions& options) {
+  const Eigen::Vector3d& l_b = options.truth_lever_arm_b;
   TrajectoryError error;
   error.t = truth.t;
   const Eigen::Matrix3d C_en =
@@ -59,9 +78,13 @@ TrajectoryError Compare(const InterpolatedState& x, const TruthPoint& truth,
     error.rotation = Log(Eigen::Quaterniond(C_en.transpose() * C_en_truth *
                                             C_nb_truth * C_nb.transpose()));
   }
-  error.position_nees = Nees(error.position, x.P_position);
-  error.velocity_nees = Nees(error.velocity, x.P_velocity);
-  error.attitude_nees = Nees(error.rotation, x.P_attitude);
+  const TruthSigma& sigma = options.truth_sigma;
+  error.position_nees =
+      Nees(error.position, x.P_position, Variances(sigma.position));
+  error.velocity_nees =
+      Nees(error.velocity, x.P_velocity, Variances(sigma.velocity));
+  error.attitude_nees = Nees(error.rotation, x.P_attitude,
+                             AttitudeVariance(truth, sigma.attitude));
   return error;
 }
 
@@ -128,7 +151,7 @@ std::vector<TrajectoryError> ComputeTrajectoryErrors(
   for (const TruthPoint& point : truth) {
     const std::optional<InterpolatedState> x = interpolator.At(point.t);
     if (!x) continue;
-    const TrajectoryError error = Compare(*x, point, options.truth_lever_arm_b);
+    const TrajectoryError error = Compare(*x, point, options);
     if (error.position || error.velocity || error.rotation) {
       errors.push_back(error);
     }

@@ -20,6 +20,8 @@ struct TrajectoryErrorOptions {
   double max_gap = 2.0;
   /// Point the truth speaks of, body axes from the point of the solution [m].
   Eigen::Vector3d truth_lever_arm_b = Eigen::Vector3d::Zero();
+  /// Errors of the truth itself, which add to P.
+  TruthSigma truth_sigma = {};
 };
 
 /// Truth minus solution at the time of one truth point, NED axes at the
@@ -32,8 +34,9 @@ struct TrajectoryError {
   std::optional<Eigen::Vector3d> euler;
   /// Rotation vector psi, C_nb(truth) = Exp(psi) C_nb(solution) [rad].
   std::optional<Eigen::Vector3d> rotation;
-  /// Normalised squared errors e' P^-1 e, 3 degrees of freedom each. With a
-  /// lever arm P is still that of the solution's own point.
+  /// Normalised squared errors e' (P + R)^-1 e, 3 degrees of freedom each, R of
+  /// the truth's own error. With a lever arm P is still that of the solution's
+  /// own point.
   std::optional<double> position_nees;
   std::optional<double> velocity_nees;
   std::optional<double> attitude_nees;

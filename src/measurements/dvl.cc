@@ -31,21 +31,35 @@ Eigen::Vector3d Dvl::Direction(int component) const {
           std::sin(beam_angle) * std::sin(azimuth), std::cos(beam_angle)};
 }
 
+namespace {
+
+/// A Gauss-Markov state has one sigma, the largest of its axes: the error is
+/// this of it, axis by axis.
+Eigen::Vector3d ShareOf(const LastingError& error) {
+  if (!error.sigma || !std::isfinite(error.tau)) return Eigen::Vector3d::Ones();
+  return *error.sigma / error.sigma->maxCoeff();
+}
+
+}  // namespace
+
 void Dvl::Evaluate(const ModelContext& context,
                    LinearizedMeasurement* out) const {
   const ErrorLayout& layout = context.layout;
   const State& x = context.state;
   const int sensor = context.sensor_index;
-  // Through the water the point moves with v - v_c; every sensitivity but that
-  // to the current is then as over the ground.
-  const Eigen::Vector3d v_c = water
-                                  ? Parameter3(layout, x, BlockKind::kCurrent,
-                                               sensor, Eigen::Vector3d::Zero())
-                                  : Eigen::Vector3d::Zero();
+  // Every sensitivity but that to w is as without it.
+  const BlockKind kind = water ? BlockKind::kCurrent : BlockKind::kGroundBias;
+  const Eigen::Vector3d part =
+      water ? -Eigen::Vector3d::Ones() : ShareOf(context.sensor.ground_bias);
+  const Eigen::Vector3d bias_part = ShareOf(context.sensor.bias);
+  const Eigen::Vector3d w = part.cwiseProduct(
+      Parameter3(layout, x, kind, sensor, Eigen::Vector3d::Zero()));
+  const Eigen::Vector3d e = bias_part.cwiseProduct(Parameter3(
+      layout, x, BlockKind::kBias, sensor, context.sensor.bias.value));
   const PointMotion motion = MotionOfSensor(context);
   const SensorAxes axes = AxesOfSensor(context, motion);
-  const Eigen::Vector3d u_e = motion.v_e - motion.C_en * v_c;
-  const Eigen::Vector3d v_d = axes.C_se * u_e;
+  const Eigen::Vector3d u_e = motion.v_e + motion.C_en * w;
+  const Eigen::Vector3d v_d = axes.C_se * u_e + e;
   const double k =
       Parameter1(layout, x, BlockKind::kScale, sensor, context.sensor.scale);
 
@@ -62,11 +76,13 @@ void Dvl::Evaluate(const ModelContext& context,
   AddVelocityColumns(context, motion, A * axes.C_se, &out->H);
   AddAxesColumns(context, motion, axes, u_e, A, &out->H);
   layout.AddColumns(BlockKind::kScale, sensor, B * v_d, &out->H);
-  if (!water) return;
+  layout.AddColumns(BlockKind::kBias, sensor, A * bias_part.asDiagonal(),
+                    &out->H);
+  if (!layout.Has(kind, sensor)) return;
   const RowTimes3 A_n = A * axes.C_se * motion.C_en;
-  layout.AddColumns(BlockKind::kCurrent, sensor, -A_n, &out->H);
+  layout.AddColumns(kind, sensor, A_n * part.asDiagonal(), &out->H);
   layout.AddColumns(BlockKind::kPosition, BlockKey::kNoSensor,
-                    A_n * Skew(v_c) * NedTurn(x.p_e), &out->H);
+                    -A_n * Skew(w) * NedTurn(x.p_e), &out->H);
 }
 
 namespace {
@@ -253,6 +269,34 @@ SensorKeys DvlKeys() {
                                   },
                                   SensorKey::Range::kPositive},
        .help = "the same as a distance travelled"},
+      {.name = "bias.sigma",
+       .quantity = Quantity::kSpeed,
+       .value = SensorKey::OptionalSigmas{[](SensorSettings& s) {
+         return &s.sensor.bias.sigma;
+       }},
+       .help = "of a lasting error of each component, in its own axes: "
+               "forward, right, down, or one"},
+      {.name = "bias.time",
+       .quantity = Quantity::kTime,
+       .value = SensorKey::Number{[](SensorSettings& s) {
+                                    return &s.sensor.bias.tau;
+                                  },
+                                  SensorKey::Range::kPositive},
+       .help = "over which it is correlated, else it is constant"},
+      {.name = "ground_bias.sigma",
+       .quantity = Quantity::kSpeed,
+       .value = SensorKey::OptionalSigmas{[](SensorSettings& s) {
+         return &s.sensor.ground_bias.sigma;
+       }},
+       .help = "of a lasting error of bottom track over the ground: north, "
+               "east, down, or one"},
+      {.name = "ground_bias.time",
+       .quantity = Quantity::kTime,
+       .value = SensorKey::Number{[](SensorSettings& s) {
+                                    return &s.sensor.ground_bias.tau;
+                                  },
+                                  SensorKey::Range::kPositive},
+       .help = "over which it is correlated, else it is constant"},
       {.name = "beam_dropout",
        .value = SensorKey::Number{[](SensorSettings& s) {
          return &s.truth.beam_dropout;
@@ -295,6 +339,62 @@ SensorBlock CurrentBlock() {
           .advice = "bottom track, position fixes, or turns both ways"};
 }
 
+Evolution EvolutionOf(const LastingError& error) {
+  return std::isfinite(error.tau)
+             ? Evolution::GaussMarkov(error.sigma->maxCoeff(), error.tau)
+             : Evolution::Constant();
+}
+
+/// Of the state (ShareOf).
+std::optional<Eigen::Vector3d> StateSigma(const LastingError& error) {
+  if (!error.sigma || !std::isfinite(error.tau)) return error.sigma;
+  return Eigen::Vector3d(Eigen::Vector3d::Constant(error.sigma->maxCoeff()));
+}
+
+SensorBlock BiasBlock() {
+  return {
+      .kind = BlockKind::kBias,
+      .name = "bias",
+      .unit = "m/s",
+      .sigma = [](const Sensor& sensor,
+                  const MeasurementModel*) { return StateSigma(sensor.bias); },
+      .value = [](const Sensor& sensor) { return sensor.bias.value; },
+      .evolution =
+          [](const Sensor& sensor) { return EvolutionOf(sensor.bias); },
+      .advice =
+          "other speeds, as scale and mounting look the same at one, and "
+          "position fixes, or turns both ways",
+      .know =
+          [](const Eigen::Vector3d& value, const Eigen::Vector3d& sigma,
+             Sensor* sensor) {
+            sensor->bias.value = value;
+            sensor->bias.sigma = sigma;
+          }};
+}
+
+SensorBlock GroundBiasBlock() {
+  return {
+      .kind = BlockKind::kGroundBias,
+      .name = "ground_bias",
+      .unit = "m/s",
+      .sigma = [](const Sensor& sensor,
+                  const MeasurementModel*) { return sensor.ground_bias.sigma; },
+      .evolution =
+          [](const Sensor& sensor) { return EvolutionOf(sensor.ground_bias); },
+      .advice = "position fixes some way apart"};
+}
+
+void AddLastingErrors(const Eigen::Vector3d& bias_s,
+                      const Eigen::Vector3d& ground_bias_s,
+                      MeasurementModel* model) {
+  auto& dvl = std::get<Dvl>(*model);
+  const Eigen::Vector3d error =
+      dvl.water ? bias_s : (bias_s + ground_bias_s).eval();
+  for (int i = 0; i < dvl.components(); ++i) {
+    dvl.speed(i) += dvl.Direction(i).dot(error);
+  }
+}
+
 }  // namespace
 
 const SensorKind& DvlKind() {
@@ -331,7 +431,8 @@ const SensorKind& DvlKind() {
           },
       .keys = DvlKeys(),
       .blocks = {ScaleBlock(), MountingBlock(), LeverArmBlock(),
-                 TimeOffsetBlock(), CurrentBlock()},
+                 TimeOffsetBlock(), CurrentBlock(), BiasBlock(),
+                 GroundBiasBlock()},
       .prepare =
           [](SensorSettings* s) {
             Dvl dvl;
@@ -349,6 +450,7 @@ const SensorKind& DvlKind() {
       .written = DvlColumns,
       .write = WriteDvl,
       .perfect = PerfectDvl,
+      .add_lasting = AddLastingErrors,
       .disturb = DisturbDvls,
   };
   return kKind;

@@ -11,10 +11,12 @@ namespace hindsight {
 
 /// A Doppler velocity log: the velocity of its transducer over the bottom or
 /// through the water, in its own axes d (forward, right, down).
-///   v_d = C_db (C_be (v_e - C_en v_c) + w_eb x l),   C_db = Exp(m)
+///   v_d = C_db (C_be (v_e + C_en w) + w_eb x l) + e,   C_db = Exp(m)
 ///   C_db(nominal), z_i = (1 + k) b_i . v_d,
-/// v_c the current (NED; zero in bottom track), m the boresight, b_i the axes
-/// of d in the three-axis form and the directions of the beams in the other.
+/// w = -v_c in water track, v_c the current, and g in bottom track, a bottom
+/// that moves or an echo that the water drags along (both NED); e a lasting
+/// error of the instrument (d), m the boresight, b_i the axes of d in the
+/// three-axis form and the directions of the beams in the other.
 /// Rows are the components that are there: any beam may drop out. A Janus beam
 /// i = 0..3 looks down and out:
 ///   b_i = (sin a cos c_i, sin a sin c_i, cos a),   c_i = azimuth + i 90 deg,

@@ -66,14 +66,25 @@ void DisturbHeights(const SensorSettings& settings, Random* random,
 }
 
 SensorBlock OffsetBlock() {
-  return {.kind = BlockKind::kOffset,
-          .name = "offset",
-          .unit = "m",
-          .sigma =
-              [](const Sensor& sensor, const MeasurementModel*) {
-                return OnAllAxes(sensor.offset_sigma);
-              },
-          .advice = "position fixes with height"};
+  return {
+      .kind = BlockKind::kOffset,
+      .name = "offset",
+      .unit = "m",
+      .sigma =
+          [](const Sensor& sensor, const MeasurementModel*) {
+            return OnAllAxes(sensor.offset_sigma);
+          },
+      .value =
+          [](const Sensor& sensor) {
+            return Eigen::Vector3d(Eigen::Vector3d::Constant(sensor.offset));
+          },
+      .advice = "position fixes with height",
+      .know =
+          [](const Eigen::Vector3d& value, const Eigen::Vector3d& sigma,
+             Sensor* sensor) {
+            sensor->offset = value.x();
+            sensor->offset_sigma = sigma.x();
+          }};
 }
 
 SensorKind Vertical(std::string_view name, std::string_view help) {

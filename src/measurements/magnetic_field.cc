@@ -242,41 +242,47 @@ SensorKeys MagnetometerKeys() {
 }
 
 std::vector<SensorBlock> MagnetometerBlocks() {
-  return {
-      TimeOffsetBlock(),
-      {.kind = BlockKind::kHardIron,
-       .name = "hard_iron",
-       .unit = "uT",
-       .sigma =
-           [](const Sensor& sensor, const MeasurementModel*) {
-             return sensor.magnetic.hard_iron_sigma;
-           },
-       .value =
-           [](const Sensor& sensor) { return sensor.magnetic.hard_iron_b; }},
-      {.kind = BlockKind::kDeclination,
-       .name = "declination",
-       .unit = "rad",
-       .sigma =
-           [](const Sensor& sensor, const MeasurementModel*) {
-             return OnAllAxes(sensor.magnetic.declination_sigma);
-           },
-       .value =
-           [](const Sensor& sensor) {
-             return Eigen::Vector3d(
-                 Eigen::Vector3d::Constant(sensor.magnetic.declination));
-           }},
-      {.kind = BlockKind::kDisturbance,
-       .name = "disturbance",
-       .unit = "uT",
-       .sigma =
-           [](const Sensor& sensor, const MeasurementModel*) {
-             return OnAllAxes(sensor.magnetic.disturbance_sigma);
-           },
-       .evolution =
-           [](const Sensor& sensor) {
-             return Evolution::GaussMarkov(*sensor.magnetic.disturbance_sigma,
-                                           sensor.magnetic.disturbance_tau);
-           }}};
+  return {TimeOffsetBlock(),
+          {.kind = BlockKind::kHardIron,
+           .name = "hard_iron",
+           .unit = "uT",
+           .sigma =
+               [](const Sensor& sensor, const MeasurementModel*) {
+                 return sensor.magnetic.hard_iron_sigma;
+               },
+           .value =
+               [](const Sensor& sensor) { return sensor.magnetic.hard_iron_b; },
+           .know =
+               [](const Eigen::Vector3d& value, const Eigen::Vector3d& sigma,
+                  Sensor* sensor) {
+                 sensor->magnetic.hard_iron_b = value;
+                 sensor->magnetic.hard_iron_sigma = sigma;
+               }},
+          {.kind = BlockKind::kDeclination,
+           .name = "declination",
+           .unit = "rad",
+           .sigma =
+               [](const Sensor& sensor, const MeasurementModel*) {
+                 return OnAllAxes(sensor.magnetic.declination_sigma);
+               },
+           .value =
+               [](const Sensor& sensor) {
+                 return Eigen::Vector3d(
+                     Eigen::Vector3d::Constant(sensor.magnetic.declination));
+               }},
+          {.kind = BlockKind::kDisturbance,
+           .name = "disturbance",
+           .unit = "uT",
+           .sigma =
+               [](const Sensor& sensor, const MeasurementModel*) {
+                 return OnAllAxes(sensor.magnetic.disturbance_sigma);
+               },
+           .evolution =
+               [](const Sensor& sensor) {
+                 return Evolution::GaussMarkov(
+                     *sensor.magnetic.disturbance_sigma,
+                     sensor.magnetic.disturbance_tau);
+               }}};
 }
 
 }  // namespace

@@ -48,6 +48,15 @@ struct NoiseModel {
   double white_sigma = 0.1;  ///< an axis [m or m/s]
 };
 
+/// An error of a measured velocity that outlasts many measurements. It is a
+/// state of the layout if it has a sigma: constant, or Gauss-Markov,
+///   e_k = phi e_k-1 + w,  phi = exp(-dt/tau),  w ~ (0, sigma^2 (1 - phi^2)).
+struct LastingError {
+  std::optional<Eigen::Vector3d> sigma;  ///< a priori, of each axis [m/s]
+  double tau = std::numeric_limits<double>::infinity();  ///< [s]
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();       ///< a priori [m/s]
+};
+
 /// What is known of one aiding sensor beforehand: geometry, calibration and how
 /// its measurements are to be trusted. Values in a layout take precedence.
 struct Sensor {
@@ -81,6 +90,9 @@ struct Sensor {
   std::optional<double> scale_sigma;
   std::optional<double> time_offset_sigma;
   std::optional<double> offset_sigma;  ///< of a height or depth [m]
+  double offset = 0.0;                 ///< a priori value of that [m]
+  LastingError bias;                   ///< of a DVL's velocity, in its own axes
+  LastingError ground_bias;            ///< of a DVL's bottom track, NED
   /// Water current that a DVL's water track is relative to: stationary standard
   /// deviation of each component [m/s]; correlated over time [s] or, if finite,
   /// over the distance travelled [m].

@@ -1,5 +1,7 @@
 #include "measurements/sensor_block.h"
 
+#include "geometry/so3.h"
+
 namespace hindsight {
 
 std::optional<Eigen::Vector3d> OnAllAxes(const std::optional<double>& sigma) {
@@ -19,7 +21,13 @@ SensorBlock ScaleBlock() {
               [](const Sensor& sensor) {
                 return Eigen::Vector3d(Eigen::Vector3d::Constant(sensor.scale));
               },
-          .advice = "travel between position fixes"};
+          .advice = "travel between position fixes",
+          .know =
+              [](const Eigen::Vector3d& value, const Eigen::Vector3d& sigma,
+                 Sensor* sensor) {
+                sensor->scale = value.x();
+                sensor->scale_sigma = sigma.x();
+              }};
 }
 
 SensorBlock MountingBlock() {
@@ -31,7 +39,14 @@ SensorBlock MountingBlock() {
                   const MeasurementModel*) { return sensor.mounting_sigma; },
       .advice =
           "travel at speed with heading and slope known from turns; roll "
-          "only from side slip in turns"};
+          "only from side slip in turns",
+      .know =
+          [](const Eigen::Vector3d& value, const Eigen::Vector3d& sigma,
+             Sensor* sensor) {
+            sensor->q_sb = Exp(value) * sensor->q_sb;
+            sensor->mounting_sigma = sigma;
+            sensor->mounting_unknown = false;
+          }};
 }
 
 SensorBlock LeverArmBlock() {
@@ -42,7 +57,13 @@ SensorBlock LeverArmBlock() {
       .sigma = [](const Sensor& sensor,
                   const MeasurementModel*) { return sensor.lever_arm_sigma; },
       .value = [](const Sensor& sensor) { return sensor.lever_arm_b; },
-      .advice = "turns (forward and right arm), and roll and pitch (down arm)"};
+      .advice = "turns (forward and right arm), and roll and pitch (down arm)",
+      .know =
+          [](const Eigen::Vector3d& value, const Eigen::Vector3d& sigma,
+             Sensor* sensor) {
+            sensor->lever_arm_b = value;
+            sensor->lever_arm_sigma = sigma;
+          }};
 }
 
 SensorBlock TimeOffsetBlock() {
@@ -58,7 +79,13 @@ SensorBlock TimeOffsetBlock() {
                 return Eigen::Vector3d(
                     Eigen::Vector3d::Constant(sensor.time_offset));
               },
-          .advice = "changes of speed or direction"};
+          .advice = "changes of speed or direction",
+          .know =
+              [](const Eigen::Vector3d& value, const Eigen::Vector3d& sigma,
+                 Sensor* sensor) {
+                sensor->time_offset = value.x();
+                sensor->time_offset_sigma = sigma.x();
+              }};
 }
 
 SensorBlock NoiseBlock(BlockKind kind, std::string_view unit) {

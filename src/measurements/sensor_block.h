@@ -26,6 +26,10 @@ struct SensorBlock {
   Evolution (*evolution)(const Sensor&) = nullptr;
   /// The motion that makes a weak constant visible.
   std::string_view advice = {};
+  /// Makes what another recording says of it the a priori value and standard
+  /// deviations; nullptr: what holds in one recording does not in the next.
+  void (*know)(const Eigen::Vector3d& value, const Eigen::Vector3d& sigma,
+               Sensor*) = nullptr;
 };
 
 /// The same standard deviation on all axes, if there is one.

@@ -258,6 +258,11 @@ struct SensorKind {
   bool (*counts)(const SensorSettings&) = nullptr;
   void (*set_count)(double t_from, double count, MeasurementModel*) = nullptr;
   double (*count_rate)(const SensorSettings&, const Motion&) = nullptr;
+  /// Adds the lasting errors of a velocity to a perfect measurement: its own
+  /// and, of one over the ground, that of the ground, both in the sensor's axes.
+  void (*add_lasting)(const Eigen::Vector3d& bias_s,
+                      const Eigen::Vector3d& ground_bias_s,
+                      MeasurementModel*) = nullptr;
   /// Adds errors as the settings and their SimulatedTruth say, to measurements
   /// in time order.
   void (*disturb)(const SensorSettings&, Random*,

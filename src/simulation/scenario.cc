@@ -116,8 +116,7 @@ InitialState DrawInitialState(const Scenario& scenario, const Motion& start,
 }
 
 /// The data set but for IMU samples and truth.
-Dataset MakeDataset(const Scenario& scenario,
-                    std::vector<std::vector<Measurement>> perfect,
+Dataset MakeDataset(const Scenario& scenario, PerfectAiding perfect,
                     const Motion& start, std::uint64_t seed) {
   Dataset dataset;
   dataset.name = scenario.name;
@@ -126,10 +125,12 @@ Dataset MakeDataset(const Scenario& scenario,
   dataset.imu.max_gap =
       std::max(dataset.imu.max_gap, 1.5 / scenario.imu_rate_hz);
   for (std::size_t k = 0; k < scenario.aiding.size(); ++k) {
-    AddMeasurementErrors(scenario.aiding[k], seed, &perfect[k]);
+    std::vector<Measurement>& measurements = perfect.measurements[k];
+    AddMeasurementErrors(scenario.aiding[k], seed, perfect.q_nb[k],
+                         &measurements);
     DrawnSensor drawn = DrawSensor(scenario.aiding[k], seed);
     dataset.streams.push_back(
-        {std::move(drawn.sensor), MeasurementSeries(perfect[k])});
+        {std::move(drawn.sensor), MeasurementSeries(measurements)});
     dataset.true_constants.merge(drawn.true_constants);
   }
   dataset.initial = DrawInitialState(scenario, start, seed);
@@ -168,13 +169,14 @@ void AddFromTruth(const Scenario& scenario, const ImuErrors& errors,
   }
 }
 
-std::vector<std::vector<Measurement>> AllPerfectMeasurements(
-    const Scenario& scenario, Trajectory* trajectory, double t_end) {
-  std::vector<std::vector<Measurement>> all;
+PerfectAiding AllPerfectMeasurements(const Scenario& scenario,
+                                     Trajectory* trajectory, double t_end) {
+  PerfectAiding all;
   for (const AidingModel& model : scenario.aiding) {
     RequirePositive(scenario, model.rate_hz, "rate of an aiding sensor");
-    all.push_back(PerfectMeasurements(model, static_cast<int>(all.size()),
-                                      trajectory, t_end));
+    const auto sensor = static_cast<int>(all.measurements.size());
+    all.measurements.push_back(PerfectMeasurements(
+        model, sensor, trajectory, t_end, &all.q_nb.emplace_back()));
   }
   return all;
 }

@@ -96,6 +96,13 @@ class Simulation {
 /// One seed of a scenario as a data set in memory. Truth carries the biases.
 Dataset Simulate(const Scenario& scenario, std::uint64_t seed);
 
+/// What the perfect sensors of a scenario measure, and the attitudes that
+/// PerfectMeasurements gives with it.
+struct PerfectAiding {
+  std::vector<std::vector<Measurement>> measurements;
+  std::vector<std::vector<Eigen::Quaterniond>> q_nb;
+};
+
 /// Many seeds of one scenario: the motion and the perfect sensors are computed
 /// once, Realize(seed) adds errors and equals Simulate(scenario, seed).
 class PerfectRecording {
@@ -108,7 +115,7 @@ class PerfectRecording {
   std::size_t truth_every_;
   std::vector<ImuSample> samples_;
   std::vector<Motion> truth_;
-  std::vector<std::vector<Measurement>> aiding_;
+  PerfectAiding aiding_;
 };
 
 }  // namespace hindsight

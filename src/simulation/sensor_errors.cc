@@ -1,6 +1,7 @@
 #include "simulation/sensor_errors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -197,9 +198,9 @@ void TakeCounts(const SensorSettings& settings, Trajectory* trajectory,
 
 }  // namespace
 
-std::vector<Measurement> PerfectMeasurements(const AidingModel& model,
-                                             int sensor, Trajectory* trajectory,
-                                             double t_end) {
+std::vector<Measurement> PerfectMeasurements(
+    const AidingModel& model, int sensor, Trajectory* trajectory, double t_end,
+    std::vector<Eigen::Quaterniond>* q_nb) {
   std::vector<Measurement> measurements;
   const SensorSettings settings = Completed(model);
   const SensorKind& kind = *model.sensor.kind;
@@ -215,8 +216,14 @@ std::vector<Measurement> PerfectMeasurements(const AidingModel& model,
         t_true < trajectory->t_begin()) {
       continue;
     }
-    const auto perfect = kind.perfect(settings, trajectory->At(t_true));
-    if (perfect) measurements.push_back({t, sensor, false, *perfect});
+    const Motion motion = trajectory->At(t_true);
+    const auto perfect = kind.perfect(settings, motion);
+    if (!perfect) continue;
+    measurements.push_back({t, sensor, false, *perfect});
+    if (q_nb != nullptr && kind.add_lasting != nullptr) {
+      q_nb->push_back(Eigen::Quaterniond(NedAxes(motion.p_e).transpose()) *
+                      motion.q_eb);
+    }
   }
   if (kind.counts != nullptr && kind.counts(settings)) {
     TakeCounts(settings, trajectory, &measurements);
@@ -236,6 +243,80 @@ double DrawOffset(const AidingModel& model, std::uint64_t seed) {
          Random(seed, StreamOf(model.sensor.name + "_offset")).Normal();
 }
 
+namespace {
+
+/// One lasting error of one seed, from measurement to measurement.
+class LastingDraws {
+ public:
+  LastingDraws(const LastingError& error, const std::string& name,
+               std::uint64_t seed)
+      : error_(error), random_(seed, StreamOf(name)), value_(error.value) {
+    if (error.sigma) {
+      value_ += error.sigma->cwiseProduct(random_.NormalVector3());
+    }
+  }
+
+  const Eigen::Vector3d& value() const { return value_; }
+  /// Of a Gauss-Markov process; a constant stays.
+  void Advance(double dt) {
+    if (!error_.sigma || !std::isfinite(error_.tau)) return;
+    const double phi = std::exp(-dt / error_.tau);
+    value_ =
+        phi * value_ + std::sqrt(1.0 - phi * phi) *
+                           error_.sigma->cwiseProduct(random_.NormalVector3());
+  }
+
+ private:
+  LastingError error_;
+  Random random_;
+  Eigen::Vector3d value_;
+};
+
+LastingDraws DrawBias(const AidingModel& model, std::uint64_t seed) {
+  return {model.sensor.bias, model.sensor.name + "_bias", seed};
+}
+LastingDraws DrawGroundBias(const AidingModel& model, std::uint64_t seed) {
+  return {model.sensor.ground_bias, model.sensor.name + "_ground_bias", seed};
+}
+
+void AddLastingErrors(const AidingModel& model, std::uint64_t seed,
+                      const std::vector<Eigen::Quaterniond>& q_nb,
+                      std::vector<Measurement>* measurements) {
+  const Sensor& sensor = model.sensor;
+  if (sensor.kind->add_lasting == nullptr) return;
+  if (!sensor.bias.sigma && !sensor.ground_bias.sigma) return;
+  if (q_nb.size() != measurements->size()) {
+    throw std::logic_error("sensor '" + sensor.name +
+                           "' lacks the attitudes of its measurements");
+  }
+  LastingDraws bias = DrawBias(model, seed);
+  LastingDraws ground = DrawGroundBias(model, seed);
+  for (std::size_t k = 0; k < measurements->size(); ++k) {
+    Measurement& z = (*measurements)[k];
+    if (k > 0) {
+      const double dt = z.t - (*measurements)[k - 1].t;
+      bias.Advance(dt);
+      ground.Advance(dt);
+    }
+    sensor.kind->add_lasting(
+        bias.value(), sensor.q_sb * (q_nb[k].conjugate() * ground.value()),
+        &z.model);
+  }
+}
+
+/// Of one that is constant.
+void TellLasting(const LastingError& error, const Eigen::Vector3d& value,
+                 const std::string& name,
+                 const std::array<const char*, 3>& axes,
+                 std::map<std::string, double>* truth) {
+  if (!error.sigma || std::isfinite(error.tau)) return;
+  for (int i = 0; i < 3; ++i) {
+    (*truth)[name + axes[static_cast<std::size_t>(i)]] = value(i);
+  }
+}
+
+}  // namespace
+
 DrawnSensor DrawSensor(const AidingModel& model, std::uint64_t seed) {
   DrawnSensor drawn{model.sensor, {}};
   Sensor& sensor = drawn.sensor;
@@ -251,6 +332,11 @@ DrawnSensor DrawSensor(const AidingModel& model, std::uint64_t seed) {
     truth[sensor.name + "_current[east]"] = model.truth.current_n.y();
     truth[sensor.name + "_current[down]"] = model.truth.current_n.z();
   }
+  TellLasting(sensor.bias, DrawBias(model, seed).value(), sensor.name + "_bias",
+              {"[x]", "[y]", "[z]"}, &truth);
+  TellLasting(sensor.ground_bias, DrawGroundBias(model, seed).value(),
+              sensor.name + "_ground_bias", {"[north]", "[east]", "[down]"},
+              &truth);
   if (!model.draw_calibration) return drawn;
   Random random(seed, StreamOf(sensor.name + "_calibration"));
   const auto add = [&](const char* what, const Eigen::Vector3d& value) {
@@ -278,7 +364,9 @@ DrawnSensor DrawSensor(const AidingModel& model, std::uint64_t seed) {
 }
 
 void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
+                          const std::vector<Eigen::Quaterniond>& q_nb,
                           std::vector<Measurement>* measurements) {
+  AddLastingErrors(model, seed, q_nb, measurements);
   Random random(seed, StreamOf(model.sensor.name));
   SensorSettings settings = Completed(model);
   settings.truth.scale = DrawScale(model, seed);

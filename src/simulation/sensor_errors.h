@@ -100,10 +100,12 @@ struct AidingModel : SensorSettings {
 
 /// Perfect measurements of `model` with their covariances: what the sensor's
 /// point (lever arm) does at stamp + time_offset, for stamps k/rate, or at
-/// whole multiples of the spacing, that lie in the span of the motion.
-std::vector<Measurement> PerfectMeasurements(const AidingModel& model,
-                                             int sensor, Trajectory* trajectory,
-                                             double t_end);
+/// whole multiples of the spacing, that lie in the span of the motion. `q_nb`,
+/// if there is one, gets the attitude (body to NED) at each, of a kind with
+/// lasting errors.
+std::vector<Measurement> PerfectMeasurements(
+    const AidingModel& model, int sensor, Trajectory* trajectory, double t_end,
+    std::vector<Eigen::Quaterniond>* q_nb = nullptr);
 
 /// The scale error k of one seed: measured = (1 + k) true.
 double DrawScale(const AidingModel& model, std::uint64_t seed);
@@ -118,10 +120,13 @@ struct DrawnSensor {
 };
 DrawnSensor DrawSensor(const AidingModel& model, std::uint64_t seed);
 
-/// Adds normal errors of the model's sigma, DrawScale and DrawOffset. The
-/// deviates come from a stream of the seed that belongs to the sensor's name,
-/// so that adding a sensor changes no other one's errors.
+/// Adds normal errors of the model's sigma, DrawScale and DrawOffset, and
+/// before these the lasting errors of its velocities, drawn from their a priori
+/// sigmas. The deviates come from a stream of the seed that belongs to the
+/// sensor's name, so that adding a sensor changes no other one's errors. `q_nb`
+/// as of PerfectMeasurements.
 void AddMeasurementErrors(const AidingModel& model, std::uint64_t seed,
+                          const std::vector<Eigen::Quaterniond>& q_nb,
                           std::vector<Measurement>* measurements);
 
 }  // namespace hindsight

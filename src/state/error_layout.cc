@@ -15,7 +15,7 @@ bool IsNavigation(BlockKind kind) { return kind <= BlockKind::kAccelBias; }
 bool IsResolvedInNed(BlockKind kind) {
   return kind <= BlockKind::kAttitude || kind == BlockKind::kColouredNoise ||
          kind == BlockKind::kCurrent || kind == BlockKind::kDisturbance ||
-         kind == BlockKind::kErrorRate;
+         kind == BlockKind::kErrorRate || kind == BlockKind::kGroundBias;
 }
 
 }  // namespace

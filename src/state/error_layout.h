@@ -54,6 +54,8 @@ enum class BlockKind {
   kDisturbance,    ///< additive magnetic field, NED [uT]
   kDistance,       ///< travelled since the last count of an odometer [m]
   kErrorRate,      ///< at which kColouredNoise of a position drifts, NED [m/s]
+  kBias,           ///< lasting error of a velocity, sensor axes [m/s]
+  kGroundBias,     ///< lasting error of a velocity over the ground, NED [m/s]
 };
 
 /// Number of components of a block before any axis is masked.

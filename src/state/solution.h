@@ -35,6 +35,7 @@ struct ConstantEstimate {
   std::string unit;
   double value = 0.0;
   double sigma = 0.0;
+  double prior_value = 0.0;
   double prior_sigma = 0.0;
   /// The factor in `sigma` by which it is larger than P says, for noise that is
   /// larger than stated or correlated.

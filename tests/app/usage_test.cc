@@ -11,8 +11,8 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
-const std::vector<std::string> kCommands = {"check",    "run",  "evaluate",
-                                            "simulate", "init", "report"};
+const std::vector<std::string> kCommands = {
+    "check", "run", "evaluate", "simulate", "init", "report", "combine"};
 
 class Usage : public ::testing::Test {
  protected:
@@ -48,8 +48,8 @@ TEST_F(Usage, HelpNamesEveryFlagOfRun) {
   const std::string page = Run({"run", "--help"}).out;
   for (const std::string flag :
        {"methods", "out", "force", "from", "to", "rate", "at", "point",
-        "withhold", "without", "export", "report", "progress", "data-root",
-        "log", "help"}) {
+        "withhold", "without", "constants", "export", "report", "progress",
+        "data-root", "log", "help"}) {
     EXPECT_THAT(page, HasSubstr("\n  --" + flag)) << flag;
   }
 }

@@ -200,5 +200,40 @@ TEST(Uuv, SmootherBridgesAGapOfTheLogOnARealDive) {
   }
 }
 
+/// A straight dive tells neither scale nor mounting of its log; two others do.
+TEST(Uuv, ConstantsOfTwoDivesServeAStraightOne) {
+  const std::filesystem::path source = HINDSIGHT_SOURCE_DIR;
+  const std::filesystem::path root = testing::RecordingsFolder();
+  if (!std::filesystem::exists(root / "auv_dvl")) {
+    GTEST_SKIP() << "the recording auv_dvl is not here";
+  }
+  const TemporaryFolder folder;
+  const auto run = [&](const std::string& dive, const std::string& methods,
+                       std::vector<std::string> more) {
+    more.insert(more.begin(),
+                {"run", (source / "data" / dive).string() + ".yaml",
+                 "--data-root=" + root.string(), "--methods=" + methods,
+                 "--out=" + dive});
+    const Outcome outcome = Hindsight(more, folder.path());
+    EXPECT_TRUE(HasResults(outcome)) << outcome.err;
+    return ReadJson(folder.path() / dive / "summary.json")["methods"];
+  };
+  run("auv_dvl_2", "batch", {});
+  run("auv_dvl_5", "batch", {});
+  // The log's rows have another delay in each recording.
+  const Outcome combined = Hindsight(
+      {"combine", "auv_dvl_2", "auv_dvl_5", "--out=both"}, folder.path());
+  EXPECT_EQ(combined.status, 3) << combined.err;
+  EXPECT_NE(combined.out.find("dvl_time_offset differs between recordings"),
+            std::string::npos)
+      << combined.out;
+  const Json dive = run("auv_dvl_12", "rts,batch", {"--constants=both"});
+  for (const char* method : {"rts", "batch"}) {
+    EXPECT_LT(dive[method]["error"]["end_horizontal_m"].get<double>(), 1.6)
+        << method;
+    EXPECT_LT(dive[method]["nees"]["position"].get<double>(), 16.3) << method;
+  }
+}
+
 }  // namespace
 }  // namespace hindsight

@@ -98,6 +98,32 @@ TEST(TrajectoryError, MovesTheVelocityToTheTruthPoint) {
   EXPECT_FALSE(errors[0].position);
 }
 
+TEST(TrajectoryError, NormalisedErrorsCountTheTruthsOwn) {
+  SolutionTable table = AtRest({0.0, 0.0, 0.0});
+  const std::size_t n = table.t.size();
+  table.P_position.assign(n, 4.0 * Eigen::Matrix3d::Identity());
+  table.P_velocity.assign(n, 1e-4 * Eigen::Matrix3d::Identity());
+  table.P_attitude.assign(n, 1e-6 * Eigen::Matrix3d::Identity());
+  TruthPoint truth = TruthAttitude(10.3, {0.002, 0.0, 0.0});
+  truth.p_e = table.p_e[0] + NedAxes(table.p_e[0]) * Eigen::Vector3d(3, 0, 0);
+  truth.v_n = Eigen::Vector3d(0.0, 0.02, 0.0);
+  const auto nees = [&](const TruthSigma& sigma) {
+    return EvaluateTrajectory(table, TruthSeries({truth}),
+                              {.truth_sigma = sigma});
+  };
+  const TrajectoryStatistics exact = nees({});
+  EXPECT_NEAR(*exact.position_nees, 9.0 / 4.0, 1e-6);
+  EXPECT_NEAR(*exact.velocity_nees, 4.0, 1e-6);
+  EXPECT_NEAR(*exact.attitude_nees, 4.0, 1e-6);
+  const TrajectoryStatistics stated =
+      nees({.position = Eigen::Vector3d(std::sqrt(5.0), 1.0, 1.0),
+            .velocity = Eigen::Vector3d(1.0, std::sqrt(3e-4), 1.0),
+            .attitude = Eigen::Vector3d(std::sqrt(3e-6), 1.0, 1.0)});
+  EXPECT_NEAR(*stated.position_nees, 1.0, 1e-6);
+  EXPECT_NEAR(*stated.velocity_nees, 1.0, 1e-6);
+  EXPECT_NEAR(*stated.attitude_nees, 1.0, 1e-6);
+}
+
 TEST(TrajectoryError, WrapsTheHeadingDifference) {
   const SolutionTable table = AtRest({0.0, 0.0, 179.0 * kDegree});
   const TruthPoint truth = TruthAttitude(10.3, {0.0, 0.0, -179.0 * kDegree});

@@ -79,6 +79,9 @@ TEST_F(ConfigKeys, OfTheRecordingAndItsStreams) {
     asked.erase("samples"), asked.erase("seconds");
     EXPECT_EQ(asked, known) << map;
   }
+  EXPECT_EQ(
+      Asked("constants: {from: imu.csv, " + std::string(kUnknown) + "}\n"),
+      Known({"constants"}));
   EXPECT_EQ(Asked("withhold: [{sensor: s, every: 2 s, length: 1 s, " +
                   std::string(kUnknown) + "}]\n"),
             Known({"withhold"}));

@@ -49,9 +49,13 @@ INSTANTIATE_TEST_SUITE_P(
         Recording{"car_ublox_2", "car_ublox", 52994, 4, 1065, true},
         Recording{"drone_quad", "drone_quad", 40520, 4, 4235, false},
         Recording{"auv_dvl_2", "auv_dvl", 40000, 1, 400, true},
+        Recording{"auv_dvl_4", "auv_dvl", 40000, 1, 400, true},
         Recording{"auv_dvl_5", "auv_dvl", 40000, 1, 400, true},
+        Recording{"auv_dvl_12", "auv_dvl", 40000, 1, 400, true},
         Recording{"auv_dvl_2_fix", "auv_dvl", 40000, 2, 400, true},
-        Recording{"auv_dvl_5_fix", "auv_dvl", 40000, 2, 400, true}),
+        Recording{"auv_dvl_4_fix", "auv_dvl", 40000, 2, 400, true},
+        Recording{"auv_dvl_5_fix", "auv_dvl", 40000, 2, 400, true},
+        Recording{"auv_dvl_12_fix", "auv_dvl", 40000, 2, 400, true}),
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "measurements/numeric_jacobian.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -44,17 +45,17 @@ Scene DvlHeadingEast() {
 }
 const Eigen::Vector3d kTrueVelocity(2.7, -0.3, 0.2);
 
-Scene WithCurrent(Scene scene, const Eigen::Vector3d& v_c) {
+Scene With(BlockKind kind, const Eigen::Vector3d& v, Scene scene) {
   Block block;
-  block.key = {BlockKind::kCurrent, 0};
-  block.name = "current";
+  block.key = {kind, 0};
+  block.name = "velocity";
   block.unit = "m/s";
   block.sigma0.setConstant(0.5);
   scene.layout.Add(block);
   ParameterVector values =
       ParameterVector::Zero(scene.layout.parameter_count());
   values.head(scene.state.parameters.size()) = scene.state.parameters;
-  values.tail<3>() = v_c;
+  values.tail<3>() = v;
   scene.state.parameters = values;
   return scene;
 }
@@ -118,7 +119,7 @@ TEST(Dvl, WaterTrackIsRelativeToTheCurrent) {
   // Along with the water: 0.5 m/s to the north is to the left.
   Dvl dvl = ThreeAxis(kTrueVelocity + Eigen::Vector3d(0.0, 0.5, 0.0));
   dvl.water = true;
-  Scene scene = WithCurrent(DvlHeadingEast(), {0.5, 0.0, 0.0});
+  Scene scene = With(BlockKind::kCurrent, {0.5, 0.0, 0.0}, DvlHeadingEast());
   scene.sensor.scale = 0.0;
   LinearizedMeasurement z = scene.Evaluate({0.0, 0, false, dvl});
   EXPECT_LT(z.residual.norm(), 1e-12);
@@ -127,6 +128,61 @@ TEST(Dvl, WaterTrackIsRelativeToTheCurrent) {
   z = scene.Evaluate({0.0, 0, false, dvl});
   EXPECT_LT((z.residual - Eigen::Vector3d(0.0, 0.5, 0.0)).norm(), 1e-12);
   EXPECT_EQ(z.H.rightCols<3>().norm(), 0.0);
+}
+
+TEST(Dvl, LastingErrorsAddInTheirAxes) {
+  // The bottom seems to drift to the south by 0.5 m/s: the log, heading east,
+  // sees that to its right.
+  const Eigen::Vector3d bias(0.01, -0.02, 0.03);
+  Scene scene =
+      With(BlockKind::kGroundBias, {-0.5, 0.0, 0.0}, DvlHeadingEast());
+  scene = With(BlockKind::kBias, bias, scene);
+  const Dvl dvl =
+      ThreeAxis(1.02 * (kTrueVelocity + Eigen::Vector3d(0.0, 0.5, 0.0) + bias));
+  LinearizedMeasurement z = scene.Evaluate({0.0, 0, false, dvl});
+  EXPECT_LT(z.residual.norm(), 1e-12);
+  EXPECT_LT((z.H.rightCols<3>() - 1.02 * Eigen::Matrix3d::Identity()).norm(),
+            1e-12);
+  EXPECT_LT((z.H.middleCols<3>(z.H.cols() - 6) - z.H.middleCols<3>(3)).norm(),
+            1e-12);
+  // Through the water the bottom is not seen.
+  Dvl water = ThreeAxis(1.02 * (kTrueVelocity + bias));
+  water.water = true;
+  z = scene.Evaluate({0.0, 0, false, water});
+  EXPECT_LT(z.residual.norm(), 1e-12);
+  EXPECT_EQ(z.H.middleCols<3>(z.H.cols() - 6).norm(), 0.0);
+}
+
+TEST(Dvl, AGaussMarkovStateIsSharedOutToTheAxes) {
+  Scene scene = With(BlockKind::kBias, {0.3, 0.3, 0.3}, DvlHeadingEast());
+  scene.sensor.scale = 0.0;
+  scene.sensor.bias = {.sigma = Eigen::Vector3d(1e-3, 4e-3, 2e-3), .tau = 30.0};
+  const Eigen::Vector3d share(0.25, 1.0, 0.5);
+  const LinearizedMeasurement z =
+      scene.Evaluate({0.0, 0, false, ThreeAxis(kTrueVelocity + 0.3 * share)});
+  EXPECT_LT(z.residual.norm(), 1e-12);
+  EXPECT_EQ(Eigen::Matrix3d(z.H.rightCols<3>()),
+            Eigen::Matrix3d(share.asDiagonal()));
+}
+
+TEST(Dvl, LastingErrorsAreThoseOfTheSimulation) {
+  const Eigen::Vector3d bias(0.01, -0.02, 0.03);
+  const Eigen::Vector3d ground(0.04, 0.05, -0.06);
+  Scene scene = With(BlockKind::kGroundBias, ground, DvlHeadingEast());
+  scene = With(BlockKind::kBias, bias, scene);
+  const Eigen::Matrix3d C_bn = (scene.state.q_eb.conjugate() *
+                                Eigen::Quaterniond(NedAxes(scene.state.p_e)))
+                                   .toRotationMatrix();
+  for (const bool water : {false, true}) {
+    for (const Dvl& perfect :
+         {ThreeAxis(kTrueVelocity), Janus(kTrueVelocity)}) {
+      MeasurementModel model = perfect;
+      std::get<Dvl>(model).water = water;
+      DvlKind().add_lasting(bias, C_bn * ground, &model);
+      std::get<Dvl>(model).speed *= 1.02;
+      EXPECT_LT(scene.Evaluate({0.0, 0, false, model}).residual.norm(), 1e-12);
+    }
+  }
 }
 
 TEST(Dvl, BoresightTurnsTheTransducer) {
@@ -140,13 +196,21 @@ TEST(Dvl, BoresightTurnsTheTransducer) {
 }
 
 TEST(Dvl, JacobianMatchesNumericDifference) {
-  const Scene scene = WithCurrent(RichScene(), {0.4, -0.3, 0.1});
+  Scene scene = With(BlockKind::kCurrent, {0.4, -0.3, 0.1}, RichScene());
+  scene = With(BlockKind::kBias, {0.05, -0.04, 0.03}, scene);
+  scene = With(BlockKind::kGroundBias, {-0.3, 0.2, 0.1}, scene);
   Dvl three = ThreeAxis({9.0, 1.0, 2.0});
   Dvl beams = Janus({9.0, 1.0, 2.0});
   ExpectJacobian(scene, {0.0, 0, false, three}, "three axes");
   ExpectJacobian(scene, {0.0, 0, false, beams}, "beams");
   beams.valid = {false, true, true, false};
   ExpectJacobian(scene, {0.0, 0, false, beams}, "two beams");
+  Scene wandering = scene;
+  wandering.sensor.bias = {.sigma = Eigen::Vector3d(3e-3, 1e-3, 5e-4),
+                           .tau = 30.0};
+  wandering.sensor.ground_bias = {.sigma = Eigen::Vector3d(2e-3, 4e-3, 1e-3),
+                                  .tau = 600.0};
+  ExpectJacobian(wandering, {0.0, 0, false, three}, "Gauss-Markov");
   three.water = beams.water = true;
   ExpectJacobian(scene, {0.0, 0, false, three}, "three axes, water");
   ExpectJacobian(scene, {0.0, 0, false, beams}, "beams, water");

@@ -4,7 +4,9 @@
 #include <limits>
 
 #include "alignment/start.h"
+#include "base/chi_square.h"
 #include "base/units.h"
+#include "evaluation/trajectory_error.h"
 #include "io/config/scenario_config.h"
 #include "measurements/sensor_kind.h"
 #include "problems/reconstruction.h"
@@ -129,6 +131,60 @@ TEST(UuvSurvey, PositionsAreAsGoodAsTheySay) {
     EXPECT_LT(result.Value({"rts"}, "position_rms"),
               result.Value({"ekf"}, "position_rms"));
   }
+}
+
+/// The short dive with lasting errors of the log, constant in its axes and
+/// Gauss-Markov over the ground.
+Scenario LastingErrors(const std::string& form) {
+  Scenario scenario = ShortDive(300.0, form);
+  Sensor& log = scenario.aiding[0].sensor;
+  log.bias.sigma = Eigen::Vector3d(5e-3, 5e-3, 2e-3);
+  log.ground_bias.sigma = Eigen::Vector3d(2e-2, 2e-2, 5e-3);
+  log.ground_bias.tau = 200.0;
+  return scenario;
+}
+
+TEST(UuvSurvey, LastingErrorsThatAreNotThereGiveNone) {
+  const Dataset dataset = Perfect(LastingErrors("three_axis"));
+  Reconstruction reconstruction(dataset, {});
+  for (const std::string method : {"ekf", "rts", "batch"}) {
+    EXPECT_LT(LargestPositionError(dataset, reconstruction.Run(method)), 2e-3)
+        << method;
+  }
+}
+
+TEST(UuvSurvey, LastingErrorsOfTheLogAreInTheSigmas) {
+  constexpr int kRuns = 20;
+  // What lasts for the dive is one draw an axis.
+  const Interval bounds = AneesBounds(kRuns, 3, 0.999);
+  const auto nees = [](const Scenario& scenario) {
+    const PerfectRecording recording(scenario);
+    const StudyResult result = RunStudy(
+        testing::NavigationStudy(recording, {.methods = {"rts", "batch"}}),
+        {.runs = kRuns});
+    EXPECT_EQ(result.Value({"rts"}, "failed"), 0);
+    EXPECT_NEAR(result.Value({"rts"}, "position_nees"),
+                result.Value({"batch"}, "position_nees"), 0.2);
+    return result.Value({"rts"}, "position_nees");
+  };
+  EXPECT_PRED2([](const Interval& i, double x) { return i.Contains(x); },
+               bounds, nees(LastingErrors("beams")));
+}
+
+TEST(UuvSurvey, ALastingErrorThatIsNotModelledShows) {
+  Scenario scenario = LastingErrors("three_axis");
+  double nees = 0.0;
+  constexpr int kRuns = 8;
+  for (int seed = 1; seed <= kRuns; ++seed) {
+    Dataset dataset = Simulate(scenario, static_cast<std::uint64_t>(seed));
+    dataset.streams[0].sensor.bias.sigma.reset();
+    dataset.streams[0].sensor.ground_bias.sigma.reset();
+    const Solution solution = Reconstruction(dataset, {}).Run("rts");
+    nees += *EvaluateTrajectory(TableFromSolution(solution), dataset.truth, {})
+                 .position_nees /
+            kRuns;
+  }
+  EXPECT_GT(nees, AneesBounds(kRuns, 3, 0.999).upper);
 }
 
 /// Water track over the ground's GNSS: the current is what is left.

@@ -269,7 +269,7 @@ TEST(MeasurementErrors, HaveTheStatedSigmaInNorthEastDown) {
   const AidingModel model = Model(PositionKind());
   const auto perfect = PerfectMeasurements(model, 0, &trajectory, 3000.0);
   auto measured = perfect;
-  AddMeasurementErrors(model, 3, &measured);
+  AddMeasurementErrors(model, 3, {}, &measured);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < perfect.size(); ++k) {
     const auto& truth = std::get<PositionFix>(perfect[k].model).p_e;

@@ -12,6 +12,7 @@
 #include "dataset/truth_start.h"
 #include "io/config/config_key.h"
 #include "io/config/config_streams.h"
+#include "io/config/constants_reader.h"
 #include "io/read/paths.h"
 #include "io/write/atomic_file.h"
 #include "measurements/sensor_kind.h"
@@ -66,6 +67,7 @@ struct Declared {
   TruthReadOptions truth_options;
   bool truth_clock_unknown = false;
   bool start_from_truth = false;
+  ConstantsConfig constants;
 };
 
 /// What the top level is read by and into.
@@ -98,6 +100,7 @@ void ReadTruthConfig(ConfigMap* top, RecordingConfig* recording) {
   recording->truth_clock_unknown = truth.clock_unknown;
   recording->truth->clock.offset = truth.time_offset;
   recording->dataset->truth_lever_arm_b = truth.lever_arm_b;
+  recording->dataset->truth_sigma = truth.sigma;
   map.Finish();
 }
 
@@ -180,6 +183,12 @@ const ConfigTable<RecordingConfig>& RecordingTable() {
        {.name = "aiding",
         .value = Key::Special{ReadAidingStreams},
         .help = "NAME: a stream each; NAME of letters, digits, _ - ."},
+       {.name = "constants",
+        .value = Key::Special{[](ConfigMap* top, Recording* recording) {
+          recording->constants =
+              ReadConstantsConfig(top, recording->options->constants);
+        }},
+        .help = "what is taken from an earlier result"},
        {.name = "place",
         .value = Key::Special{[](ConfigMap* top, Recording* recording) {
           recording->dataset->place = ReadGeodetic(top, "place");
@@ -437,6 +446,27 @@ void ResolveTruthOffset(const Declared& declared, double offset,
   }
 }
 
+/// What the earlier result says, less what is not to be taken.
+void TakeConstants(const ConstantsConfig& config,
+                   const std::vector<std::string>& without, ConfigMap* top,
+                   Dataset* dataset) {
+  if (config.from.empty()) return;
+  RecordedConstants recorded = ReadConstants(config.from, config.method);
+  for (const std::string& name : config.without) {
+    if (recorded.Remove(name)) continue;
+    top->Map("constants")
+        .Fail("without",
+              config.from.string() + " has no constant '" + name + "'");
+  }
+  if (recorded.grade != Grade::kUsable) {
+    dataset->notes.push_back("constants are from " + recorded.source +
+                             ", which is " + GradeName(recorded.grade));
+  }
+  UseConstants(KnownFrom(recorded), without, dataset);
+  top->resolved()["constants"]["from"] =
+      fs::absolute(config.from).lexically_normal().string();
+}
+
 void TakeStart(ConfigMap* top, Dataset* dataset) {
   try {
     StartFromTruth(dataset);
@@ -465,6 +495,9 @@ std::vector<fs::path> FilesRead(const std::string& config_path,
       inputs.emplace_back(config.source.path);
   }
   if (declared.truth) inputs.emplace_back(declared.truth->path);
+  if (!declared.constants.from.empty()) {
+    inputs.push_back(SummaryOf(declared.constants.from));
+  }
   return inputs;
 }
 
@@ -503,6 +536,7 @@ Dataset LoadDataset(const std::string& config_path, const LoadOptions& options,
   for (std::size_t i = 0; i < declared.aiding.size(); ++i) {
     AddLevel(declared.aiding[i].settings, static_cast<int>(i), &dataset);
   }
+  TakeConstants(declared.constants, options.without, &top, &dataset);
   if (declared.start_from_truth) TakeStart(&top, &dataset);
   try {
     ApplyWithholding(&dataset);

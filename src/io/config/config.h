@@ -23,6 +23,9 @@ struct LoadOptions {
   std::string data_root = {};
   /// Aiding streams of the configuration that are left out, by name.
   std::vector<std::string> without = {};
+  /// Result whose constants are used, in place of constants.from; none if
+  /// empty.
+  std::string constants = {};
 };
 
 /// Everything a load used, in SI units, defaults included; itself a

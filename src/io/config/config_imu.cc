@@ -203,6 +203,28 @@ const ConfigTable<TruthConfig>& TruthTable() {
         .quantity = Quantity::kLength,
         .value = Key::Vector{&TruthConfig::lever_arm_b},
         .help = "of the point it speaks of"},
+       {.name = "position_sigma",
+        .quantity = Quantity::kLength,
+        .value = Key::Special{[](ConfigMap* map, TruthConfig* truth) {
+          truth->sigma.position =
+              map->OptionalSigma("position_sigma", Quantity::kLength);
+        }},
+        .help = "of its own error: north, east, down, or one; normalised "
+                "errors count it beside the solution's"},
+       {.name = "velocity_sigma",
+        .quantity = Quantity::kSpeed,
+        .value = Key::Special{[](ConfigMap* map, TruthConfig* truth) {
+          truth->sigma.velocity =
+              map->OptionalSigma("velocity_sigma", Quantity::kSpeed);
+        }},
+        .help = "likewise"},
+       {.name = "attitude_sigma",
+        .quantity = Quantity::kAngle,
+        .value = Key::Special{[](ConfigMap* map, TruthConfig* truth) {
+          truth->sigma.attitude =
+              map->OptionalSigma("attitude_sigma", Quantity::kAngle);
+        }},
+        .help = "likewise of roll, pitch, heading"},
        {.name = "frame",
         .value = Key::Word{{kFrameNames.begin(), kFrameNames.end()},
                            [](const TruthConfig& truth) {

@@ -83,6 +83,7 @@ std::vector<KeySection> ConfigSections() {
   for (const auto& more : {StreamSections(), ImuSections(), StartSections()}) {
     sections.insert(sections.end(), more.begin(), more.end());
   }
+  sections.push_back(ConstantsSection());
   sections.push_back(AhrsSection());
   sections.push_back(AidingSection());
   for (const SensorKind* kind : SensorKinds()) {

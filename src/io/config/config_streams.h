@@ -41,6 +41,7 @@ struct TruthConfig : TruthReadOptions {
   bool clock_unknown = false;  ///< the gyros tell its time offset
   double time_offset = 0.0;    ///< [s]
   Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();  ///< [m]
+  TruthSigma sigma;
 };
 TruthConfig ReadTruthKeys(ConfigMap* map);
 
@@ -54,6 +55,16 @@ KeySection AhrsSection();
 KeySection AidingSection();
 /// The top level (config.cc).
 KeySection RecordingSection();
+
+/// `constants`: what is taken from an earlier result.
+struct ConstantsConfig {
+  std::filesystem::path from;        ///< empty: nothing
+  std::string method;                ///< empty: the best
+  std::vector<std::string> without;  ///< names of constants
+};
+/// `from` in place of constants.from if it is not empty.
+ConstantsConfig ReadConstantsConfig(ConfigMap* top, const std::string& from);
+KeySection ConstantsSection();
 
 /// One aiding stream's sensor and how its file is read.
 struct AidingConfig {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "evaluation/observability.h"
 #include "evaluation/truth_comparison.h"
 #include "geometry/so3.h"
 #include "measurements/sensor_kind.h"
@@ -113,7 +114,8 @@ MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
   m.evidence = solution.evidence;
   m.verdict = solution.verdict;
   if (!dataset.truth.empty()) {
-    m.error = CompareWithTruth(trajectory, dataset.truth, {});
+    m.error = CompareWithTruth(trajectory, dataset.truth,
+                               {.truth_sigma = dataset.truth_sigma});
     // P of an observer is no covariance to begin with.
     if (!solution.observer) m.contradiction = Contradiction(*m.error);
   }
@@ -124,6 +126,7 @@ MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
   }
   m.residuals = ComputeResidualStatistics(solution, dataset);
   m.constants = solution.constants;
+  m.constant_covariance = CovarianceOfConstants(solution);
   m.mountings = MountingsOf(dataset, solution);
   m.unobserved = solution.unobserved;
   m.rivals = solution.rivals;

@@ -75,6 +75,7 @@ struct MethodSummary {
   std::vector<std::string> outage_sensors;  ///< stream of each outage
   std::vector<ResidualStatistics> residuals;
   std::vector<ConstantEstimate> constants;
+  Eigen::MatrixXd constant_covariance;  ///< of their errors; may be empty
   std::vector<MountingSummary> mountings;
   std::vector<UnobservedSpan> unobserved;
   std::vector<RivalSolution> rivals;
@@ -92,6 +93,7 @@ struct RunSummary {
   /// All methods asked for have ended and all files are written.
   bool complete = false;
   std::optional<std::int64_t> epoch_gps_ns;  ///< see Dataset
+  std::string constants_from = {};  ///< KnownConstants::source; empty: none
   std::vector<FileDigest> inputs = {};
   std::vector<FixSummary> fixes = {};
   std::optional<StartSummary> start;
@@ -145,6 +147,7 @@ void PutTruthFigures(const TrajectoryStatistics& statistics,
 ///                               the methods that were done, and no best is
 ///   epoch                       t = 0; absent if the clock has no date
 ///     gps_week, gps_second, utc       "yyyy-mm-ddThh:mm:ss.sssZ"
+///   constants_from              the result that `constants` took them from
 ///   datum                       of positions and heights, in words; absent
 ///                               of attitude alone
 ///   inputs[]                    path, bytes, sha256; files, of a folder: how
@@ -205,8 +208,10 @@ void PutTruthFigures(const TrajectoryStatistics& statistics,
 ///     residuals.<sensor>        count, rejected, withheld, normalized_rms;
 ///                               unit and components[], where they are the
 ///                               same for every measurement
-///     constants.<name>          value, sigma, unit, prior_sigma, verdict
-///                               ("observed", "weak", "unobserved"), advice
+///     constants.<name>          value, sigma, unit, prior_value, prior_sigma,
+///                               verdict ("observed", "weak", "unobserved"),
+///                               advice
+///     constant_correlations[]   of their errors, a row each in their order
 ///     mountings.<sensor>        roll_deg, pitch_deg, yaw_deg: whole mounting,
 ///                               vehicle from body
 ///     unobserved[]              component, t_begin_s, t_end_s, sigma (SI)

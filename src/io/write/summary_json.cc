@@ -152,12 +152,27 @@ Json ConstantsJson(const std::vector<ConstantEstimate>& constants) {
     Put(&entry, "value", c.value);
     Put(&entry, "sigma", c.sigma);
     entry["unit"] = c.unit;
+    Put(&entry, "prior_value", c.prior_value);
     Put(&entry, "prior_sigma", c.prior_sigma);
     if (c.widened > 1.0) Put(&entry, "sigma_widened_by", c.widened);
     entry["verdict"] = VerdictName(c.verdict);
     PutText(&entry, "advice", c.advice);
   }
   return json;
+}
+
+/// Of the errors of constants, a row each.
+Json CorrelationsJson(const Eigen::MatrixXd& P) {
+  const Eigen::VectorXd scale = P.diagonal().cwiseSqrt().cwiseInverse();
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < P.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < P.cols(); ++j) {
+      row.push_back(i == j ? 1.0 : scale(i) * P(i, j) * scale(j));
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
 }
 
 Json ObserverJson(const ObserverFigures& figures) {
@@ -270,6 +285,9 @@ Json MethodJson(const MethodSummary& m) {
   }
   json["residuals"] = ResidualsJson(m.residuals);
   json["constants"] = ConstantsJson(m.constants);
+  if (m.constant_covariance.size() > 0 && m.constant_covariance.allFinite()) {
+    json["constant_correlations"] = CorrelationsJson(m.constant_covariance);
+  }
   for (const MountingSummary& mounting : m.mountings) {
     Json& entry = json["mountings"][mounting.sensor];
     Put(&entry, "roll_deg", mounting.euler.x() / kDegree);
@@ -337,6 +355,7 @@ nlohmann::ordered_json SummaryJson(const RunSummary& summary) {
   json["dataset"] = summary.dataset;
   json["complete"] = summary.complete;
   if (summary.epoch_gps_ns) json["epoch"] = EpochJson(*summary.epoch_gps_ns);
+  PutText(&json, "constants_from", summary.constants_from);
   if (summary.start) json["datum"] = "WGS-84, heights above the ellipsoid";
   for (const FileDigest& input : summary.inputs) {
     json["inputs"].push_back(InputJson(input));
