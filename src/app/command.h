@@ -57,6 +57,8 @@ Command InitCommand();
 Command MonteCarloCommand();
 Command ReportCommand();
 Command CombineCommand();
+Command CampaignCommand();
+Command MergeCommand();
 
 }  // namespace hindsight
 

@@ -79,8 +79,11 @@ int HelpOnConfig(const std::vector<std::string>& words) {
 
 int Dispatch(const char* program, std::vector<std::string> words) {
   const std::vector<Command> commands = {
-      CheckCommand(), RunCommand(),        EvaluateCommand(), SimulateCommand(),
-      InitCommand(),  MonteCarloCommand(), ReportCommand(),   CombineCommand()};
+      CheckCommand(),    RunCommand(),      EvaluateCommand(),
+      SimulateCommand(), InitCommand(),     MonteCarloCommand(),
+      MergeCommand(),    CampaignCommand(), ReportCommand(),
+      CombineCommand(),
+  };
   if (!words.empty() && words[0] == "help") {
     words.erase(words.begin());
     if (!words.empty() && words[0] == "config") return HelpOnConfig(words);
