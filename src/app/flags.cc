@@ -11,6 +11,7 @@
 
 DEFINE_double(alpha, 0.03, "");
 DEFINE_string(alpha_blocks, "velocity_attitude", "");
+DEFINE_bool(allan, false, "");
 DEFINE_string(ahrs_rule, "", "");
 DEFINE_string(at, "", "");
 DEFINE_bool(back_off, false, "");
@@ -31,6 +32,7 @@ DEFINE_string(log, "none", "");
 DEFINE_string(methods, "ekf,rts,iterated,batch", "");
 DEFINE_string(metric, "trajectory", "");
 DEFINE_bool(noise, false, "");
+DEFINE_string(omit, "", "");
 DEFINE_string(out, "", "");
 DEFINE_string(point, "", "");
 DEFINE_string(profile, "", "");
@@ -48,6 +50,7 @@ DEFINE_uint64(threads, 0, "");
 DEFINE_double(to, std::numeric_limits<double>::infinity(), "");
 DEFINE_string(withhold, "", "");
 DEFINE_string(without, "", "");
+DEFINE_bool(yes, false, "");
 
 namespace hindsight {
 namespace {
@@ -88,8 +91,8 @@ std::string Refusal(const std::string& type, const std::string& value) {
 void SetFlag(const FlagUse& flag, std::string value) {
   gflags::CommandLineFlagInfo info;
   gflags::GetCommandLineFlagInfo(flag.name.c_str(), &info);
-  const bool is_list =
-      flag.name == "withhold" || flag.name == "inject" || flag.name == "set";
+  const bool is_list = flag.name == "withhold" || flag.name == "inject" ||
+                       flag.name == "omit" || flag.name == "set";
   if (is_list && !info.is_default) {
     value = info.current_value + ";" + value;
   }
