@@ -45,9 +45,14 @@ AlignmentOutcome AlignByGyrocompass(const AlignmentInput& input) {
 
   const double sigma = std::sqrt(out.P(2, 2));
   if (!(sigma < kLargestSigma)) {
-    return {std::nullopt,
-            fmt::format("the gyros would give the heading to {:.3g} deg only",
-                        sigma / kDegree)};
+    return {
+        std::nullopt,
+        sigma > kPi
+            ? fmt::format("the gyros are too noisy to find north within "
+                          "{:.1f} s of rest",
+                          T)
+            : fmt::format("the gyros would give the heading to {:.3g} deg only",
+                          sigma / kDegree)};
   }
   out.heading = fmt::format("the Earth's rate over {:.1f} s", T);
   return {out, ""};

@@ -5,6 +5,7 @@
 
 #include "alignment/mounting_search.h"
 #include "alignment/start_layout.h"
+#include "app/allan_report.h"
 #include "app/command.h"
 #include "app/flags.h"
 #include "app/list_flags.h"
@@ -37,6 +38,10 @@ With --noise it also finds, by maximum likelihood of the forward filter's
 innovations, the factor by which each sensor's sigma and the IMU's two noise
 densities must be multiplied to be honest. Gates and robust losses are off
 meanwhile.
+
+With --allan it gives the overlapping Allan deviation of each axis over the
+longest rest, white noise, bias instability and walk with their sigmas, and the
+`noise` that they make: of the sensor alone, without a vehicle's vibration.
 )";
 
 /// Gaps listed one by one; more are counted.
@@ -161,13 +166,20 @@ void DecideAsRunDoes(Dataset* dataset, Rest* rest) {
 }
 
 int Run(const std::vector<std::string>& arguments) {
-  Dataset dataset = LoadDataset(
-      arguments[0], {.data_root = FLAGS_data_root,
-                     .without = ReadWords("without", FLAGS_without)});
+  ResolvedConfig resolved;
+  Dataset dataset =
+      LoadDataset(arguments[0],
+                  {.data_root = FLAGS_data_root,
+                   .without = ReadWords("without", FLAGS_without)},
+                  &resolved);
   RequireCapacity(dataset, arguments[0]);
   CheckReport report = CheckDataset(dataset);
   for (std::string& warning : FindAmbiguousClocks(dataset)) {
     report.warnings.push_back(std::move(warning));
+  }
+  for (const std::string& assumption : resolved.unconfirmed) {
+    report.warnings.push_back("taken for granted and not confirmed: " +
+                              assumption);
   }
   if (dataset.stationary.enabled) DecideAsRunDoes(&dataset, &report.imu.rest);
   std::cout << "recording '" << dataset.name << "'\n\n"
@@ -182,6 +194,7 @@ int Run(const std::vector<std::string>& arguments) {
   for (const Evidence& evidence : report.evidence) {
     std::cout << "warning: " << Describe(evidence) << "\n";
   }
+  if (FLAGS_allan) std::cout << DescribeAllan(dataset, report.imu.rest);
   if (FLAGS_noise) {
     ResolveMountings(&dataset);
     if (dataset.stationary.enabled) AddRestStreams(report.imu.rest, &dataset);
@@ -211,6 +224,9 @@ Command CheckCommand() {
                  "not beside it"},
                 {"without", "NAMES",
                  "leave out these aiding streams of CONFIG"},
+                {"allan", "",
+                 "also the Allan deviations of the longest rest, and the\n"
+                 "noise that follows from them"},
                 {"noise", "", "also estimate by what the stated noise is off"}},
       .min_arguments = 1,
       .max_arguments = 1,

@@ -11,6 +11,7 @@
 
 DEFINE_double(alpha, 0.03, "");
 DEFINE_string(alpha_blocks, "velocity_attitude", "");
+DEFINE_bool(allan, false, "");
 DEFINE_string(ahrs_rule, "", "");
 DEFINE_string(at, "", "");
 DEFINE_bool(back_off, false, "");
@@ -37,6 +38,7 @@ DEFINE_double(memory_limit, std::numeric_limits<double>::infinity(), "");
 DEFINE_string(methods, "ekf,rts,iterated,batch", "");
 DEFINE_string(metric, "trajectory", "");
 DEFINE_bool(noise, false, "");
+DEFINE_string(omit, "", "");
 DEFINE_string(out, "", "");
 DEFINE_string(point, "", "");
 DEFINE_string(profile, "", "");
@@ -61,6 +63,7 @@ DEFINE_double(to, std::numeric_limits<double>::infinity(), "");
 DEFINE_string(withhold, "", "");
 DEFINE_string(without, "", "");
 DEFINE_uint64(workers, 0, "");
+DEFINE_bool(yes, false, "");
 
 namespace hindsight {
 namespace {
@@ -102,7 +105,7 @@ void SetFlag(const std::string& name, std::string value) {
   gflags::CommandLineFlagInfo info;
   gflags::GetCommandLineFlagInfo(name.c_str(), &info);
   const bool is_list = name == "withhold" || name == "inject" ||
-                       name == "set" || name == "sweep";
+                       name == "omit" || name == "set" || name == "sweep";
   if (is_list && !info.is_default) {
     value = info.current_value + ";" + value;
   }

@@ -10,6 +10,7 @@
 
 DECLARE_double(alpha);
 DECLARE_string(alpha_blocks);
+DECLARE_bool(allan);
 DECLARE_string(ahrs_rule);
 DECLARE_string(at);
 DECLARE_bool(back_off);
@@ -36,6 +37,7 @@ DECLARE_double(memory_limit);
 DECLARE_string(methods);
 DECLARE_string(metric);
 DECLARE_bool(noise);
+DECLARE_string(omit);
 DECLARE_string(out);
 DECLARE_string(faults);
 DECLARE_string(point);
@@ -60,6 +62,7 @@ DECLARE_double(to);
 DECLARE_string(withhold);
 DECLARE_string(without);
 DECLARE_uint64(workers);
+DECLARE_bool(yes);
 
 namespace hindsight {
 
@@ -71,8 +74,8 @@ struct ParsedArguments {
 
 /// Sets the gflags of `command` from `words`. A value follows "=" or is the
 /// next word; flags and positional arguments may be mixed; "--" ends the
-/// flags. Values of a repeated --withhold, --inject, --set or --sweep are joined
-/// with ";".
+/// flags. Values of a repeated --withhold, --inject, --omit, --set or --sweep
+/// are joined with ";".
 /// Throws UsageError for a flag the command does not accept, a bad value, and a
 /// wrong number of positional arguments.
 ParsedArguments ParseArguments(const Command& command,

@@ -1,45 +1,28 @@
 #include <filesystem>
 #include <iostream>
-#include <mutex>
-#include <system_error>
 
 #include "app/abandoned.h"
 #include "app/command.h"
+#include "app/draft_refinement.h"
 #include "app/file_place.h"
 #include "app/flags.h"
-#include "app/interrupt.h"
+#include "base/error.h"
 #include "io/config/init_config.h"
 #include "io/read/paths.h"
-#include "io/write/atomic_file.h"
-#include "io/write/output_error.h"
 #include "io/write/unpublished.h"
 
 namespace hindsight {
 namespace {
 
 constexpr const char* kHelp =
-    R"(Looks at the files in FOLDER and prints a commented configuration for what it
-recognises, to be completed and given to 'check' and 'run'. Ends with 1 if it
-recognises no IMU.
+    R"(Looks at the files in FOLDER and below it, and prints a commented configuration
+that 'check' and 'run' take as it stands. Streams are told by their formats, the
+titles of their columns and the numbers themselves; axes, noise, clocks, and the
+forward axis of a vehicle by how the readings go together. Every guess stands
+there with its reason, and what matters of them under `unconfirmed`. A folder of
+several recordings gives a configuration each, which --out=DIR takes. A file is a
+truth only by its name. Without an IMU it ends with 2.
 )";
-
-/// Writes the configuration to --out. A signal ends the process when that is
-/// done, so that no half of a file is left.
-void Write(const std::string& config) {
-  std::mutex writing;
-  bool written = false;
-  const StopWatch watch([&] {
-    // For good: who waits for it from now on waits for the end of the process.
-    writing.lock();
-    return "interrupted; " +
-           (written ? FLAGS_out + " is in place" : "nothing is left");
-  });
-  const std::lock_guard lock(writing);
-  AtomicFile file(FLAGS_out);
-  file.Write(config);
-  file.Commit(FLAGS_force);
-  written = true;
-}
 
 /// A killed call leaves a whole configuration or an empty file.
 std::string Disowned(const std::filesystem::path& path) {
@@ -50,30 +33,48 @@ std::string Disowned(const std::filesystem::path& path) {
              : "was not written by 'init', or changed since";
 }
 
+void WriteInto(const std::string& path, const RecordingDraft& draft) {
+  CheckFilePlace(path, {"'init'", IsInitConfig});
+  TreatAbandoned(path, FLAGS_clean, Disowned);
+  WriteDraft(path, DraftText(draft));
+  std::cout << "wrote " << path << "\n";
+}
+
+/// Files of a folder of --out, one a recording.
+void WriteAll(const std::vector<RecordingDraft>& drafts) {
+  if (!IsFolder(FLAGS_out)) {
+    std::string names;
+    for (const RecordingDraft& draft : drafts) names += " " + draft.name;
+    throw InputError(FLAGS_out + ": is no folder; the configurations of " +
+                     std::to_string(drafts.size()) +
+                     " recordings are written into one:" + names);
+  }
+  for (const RecordingDraft& draft : drafts) {
+    WriteInto(
+        (std::filesystem::path(FLAGS_out) / (draft.name + ".yaml")).string(),
+        draft);
+  }
+}
+
 int Run(const std::vector<std::string>& arguments) {
-  if (!FLAGS_out.empty()) CheckFilePlace(FLAGS_out, {"'init'", IsInitConfig});
-  const InitDraft draft = InitConfig(arguments[0]);
-  const ExitStatus status = draft.has_imu ? kUsable : kUnusable;
-  if (!draft.has_imu) {
-    std::cerr << "hindsight: " << arguments[0]
-              << ": no IMU was recognised; name its file and columns under "
-                 "`imu` of the draft\n";
+  if (!FLAGS_out.empty() && !IsFolder(FLAGS_out)) {
+    CheckFilePlace(FLAGS_out, {"'init'", IsInitConfig});
   }
+  const std::vector<RecordingDraft> drafts = DraftFolder(arguments[0]);
   if (FLAGS_out.empty()) {
-    std::cout << draft.text;
-    return status;
+    for (const RecordingDraft& draft : drafts) {
+      if (drafts.size() > 1) std::cout << "---\n";
+      std::cout << DraftText(draft);
+    }
+    return kUsable;
   }
-  TreatAbandoned(FLAGS_out, FLAGS_clean, Disowned);
-  Write(draft.text);
-  if (const std::error_code error =
-          SyncFolder(std::filesystem::absolute(FLAGS_out).parent_path())) {
-    throw OutputError(
-        "output file " + FLAGS_out +
-        " is in place, but may be lost with the power: " + error.message());
+  if (drafts.size() > 1 || IsFolder(FLAGS_out)) {
+    WriteAll(drafts);
+  } else {
+    WriteInto(FLAGS_out, drafts.front());
   }
-  std::cout << "wrote " << FLAGS_out << "\nlook at the recording with: "
-            << "hindsight check " << FLAGS_out << "\n";
-  return status;
+  std::cout << "look at the recording with: hindsight check CONFIG\n";
+  return kUsable;
 }
 
 }  // namespace
@@ -84,7 +85,8 @@ Command InitCommand() {
       .summary = "draft a configuration for a folder of recorded files",
       .arguments = "FOLDER",
       .help = kHelp,
-      .flags = {{"out", "FILE", "write the configuration there"},
+      .flags = {{"out", "FILE",
+                 "write the configuration there, or into a folder"},
                 {"force", "", "replace FILE if 'init' wrote it"},
                 {"clean", "", "remove what killed calls left beside FILE"}},
       .min_arguments = 1,

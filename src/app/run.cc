@@ -107,10 +107,12 @@ void PrepareTrajectory(const RunRequest& request, Dataset* dataset) {
 
 /// The data set as it is reconstructed; its resolved configuration goes into
 /// the results.
-Dataset Load(const RunRequest& request, ResultFolder* folder) {
+Dataset Load(const RunRequest& request, ResultFolder* folder,
+             std::vector<std::string>* unconfirmed) {
   ResolvedConfig resolved;
   Dataset dataset =
       LoadDataset(request.config, LoadOptionsOf(request), &resolved);
+  if (!request.confirmed) *unconfirmed = resolved.unconfirmed;
   if (!request.ahrs_rule.empty()) dataset.ahrs.rule = request.ahrs_rule;
   if (!request.attitude_alone) RequireCapacity(dataset, request.config);
   if (!request.withholdings.empty()) {
@@ -212,6 +214,22 @@ Solution RunMethod(Reconstruction* reconstruction, const std::string& method) {
   }
 }
 
+/// What a draft took for granted is doubtful until somebody says that it is so.
+void DoubtUnconfirmed(const std::vector<std::string>& unconfirmed,
+                      Solution* solution) {
+  if (unconfirmed.empty() || solution->states.empty()) return;
+  std::string what = "taken for granted and not confirmed: ";
+  for (std::size_t i = 0; i < unconfirmed.size(); ++i) {
+    what += (i == 0 ? "" : "; ") + unconfirmed[i];
+  }
+  AddEvidence({.rule = "unconfirmed",
+               .grade = Grade::kDoubtful,
+               .what = what,
+               .remedies = {"--yes, or the list `unconfirmed` of the "
+                            "configuration without what is so"}},
+              solution);
+}
+
 /// Frees all of a written solution's series but its last state: of a day, 120
 /// MB a method.
 void ForgetTrajectory(Solution* solution) {
@@ -261,7 +279,8 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   progress.Plan(PlanOf(request));
   progress.Update("reading", 0.0);
   InputDigests digests(FilesReadBy(request));
-  const Dataset dataset = Load(request, folder);
+  std::vector<std::string> unconfirmed;
+  const Dataset dataset = Load(request, folder, &unconfirmed);
 
   progress.Begin("start");
   Reconstruction reconstruction =
@@ -283,6 +302,7 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   for (const std::string& method : request.methods) {
     progress.Begin(method);
     solutions.push_back(RunMethod(&reconstruction, method));
+    DoubtUnconfirmed(unconfirmed, &solutions.back());
     LogDownWeighted(dataset, solutions.back());
     const double peak_rss_mb = PeakRssMb();
     const MethodTables tables =

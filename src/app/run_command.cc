@@ -1,8 +1,16 @@
+#include <filesystem>
+#include <iostream>
+
 #include "app/command.h"
+#include "app/draft_refinement.h"
+#include "app/file_place.h"
 #include "app/flags.h"
 #include "app/observer_flags.h"
 #include "app/run.h"
 #include "app/run_request.h"
+#include "base/error.h"
+#include "io/config/init_config.h"
+#include "io/read/paths.h"
 #include "problems/method.h"
 
 namespace hindsight {
@@ -56,6 +64,9 @@ at no truth; summary.json holds the evidence, and the report what to try. The
 last line and the exit status are those of the best method: the best grade; of
 equal ones the least evidence against it; then the order of the lists below.
 What a truth contradicts stands in a line of its own.
+A folder in place of CONFIG is looked at as 'init' does; its configuration is
+written to DIR.yaml beside the results. Of what it takes for granted it tells,
+and the results are at best doubtful until --yes says that it is so.
 )";
 
 constexpr const char* kAttitudeHelp =
@@ -70,8 +81,42 @@ std::string Help() {
          MethodHelp(true) + kAttitudeHelp;
 }
 
+/// The configuration of the only recording in a folder, beside the results.
+std::string DraftBeside(const std::string& folder) {
+  if (FLAGS_out.empty()) {
+    throw UsageError("'run' needs --out=DIR, the folder for the results");
+  }
+  const std::string config =
+      std::filesystem::path(FLAGS_out + "/").parent_path().string() + ".yaml";
+  CheckFilePlace(config, {"'init'", IsInitConfig});
+  const std::vector<RecordingDraft> drafts = DraftFolder(folder);
+  if (drafts.size() > 1) {
+    std::string names;
+    for (const RecordingDraft& draft : drafts) {
+      names += (names.empty() ? "" : ", ") + draft.name;
+    }
+    throw InputError(folder, 0,
+                     "holds " + std::to_string(drafts.size()) +
+                         " recordings (" + names +
+                         "); expected the folder of one, or a configuration "
+                         "that 'init' writes of each");
+  }
+  const RecordingDraft& draft = drafts.front();
+  WriteDraft(config, DraftText(draft));
+  if (IsAttitudeAlone(draft) && !IsGiven("methods")) {
+    FLAGS_methods = MethodNames(true);
+  }
+  std::cout << "wrote " << config << "\n";
+  for (const std::string& assumption : draft.assumptions) {
+    std::cout << "taken for granted: " << assumption << "\n";
+  }
+  return config;
+}
+
 int Run(const std::vector<std::string>& arguments) {
-  return Reconstruct(ReadRunRequest(arguments[0]));
+  const bool folder = IsFolder(arguments[0]);
+  return Reconstruct(
+      ReadRunRequest(folder ? DraftBeside(arguments[0]) : arguments[0]));
 }
 
 }  // namespace
@@ -80,7 +125,7 @@ Command RunCommand() {
   return {
       .name = "run",
       .summary = "reconstruct a trajectory by several methods",
-      .arguments = "CONFIG",
+      .arguments = "CONFIG|FOLDER",
       .help = Help(),
       .flags = WithObserverFlags(
           {{"out", "DIR", "folder for the results (required)"},
@@ -118,6 +163,11 @@ Command RunCommand() {
            {"constants", "RESULT",
             "start from the constants of an earlier result of 'run' or\n"
             "'combine', in place of constants.from of CONFIG"},
+           {"omit", "SPAN",
+            "leave out what a sensor says in a span, neither used nor\n"
+            "judged: gnss:100..130 in seconds since the data set's\n"
+            "epoch; several: separate by ; or repeat"},
+           {"yes", "", "what the configuration takes for granted is so"},
            {"inject", "ERROR",
             "add an error on purpose, marked in every output:\n"
             "position:step=12m,from=140s,to=150s; or pulse, ramp,\n"

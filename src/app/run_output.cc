@@ -216,7 +216,8 @@ OutputRequest OutputOf(const RunRequest& request) {
 LoadOptions LoadOptionsOf(const RunRequest& request) {
   return {.data_root = request.data_root,
           .without = request.without,
-          .constants = request.constants};
+          .constants = request.constants,
+          .omit = request.omit};
 }
 
 ResultFolder::Paths InputsOf(const RunRequest& request) {

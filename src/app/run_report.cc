@@ -53,9 +53,19 @@ std::string DescribeNotes(const Dataset& dataset) {
   return text;
 }
 
+namespace {
+
+/// Less than a figure of the report can tell.
+bool IsShort(const UnobservedSpan& span) {
+  return span.t_end - span.t_begin < 0.05;
+}
+
+}  // namespace
+
 std::string DescribeUnobserved(const std::vector<UnobservedSpan>& spans) {
   std::string text;
   for (const UnobservedSpan& span : spans) {
+    if (IsShort(span)) continue;
     text += fmt::format(
         "warning: {} is not observed from {:.1f} s to {:.1f} s "
         "(sigma stays above {:.3g})\n",
@@ -76,7 +86,7 @@ std::string DescribeOwnUnobserved(const std::vector<UnobservedSpan>& known,
             return other.component == span.component &&
                    other.t_begin == span.t_begin && other.t_end == span.t_end;
           });
-      if (told || ++count > kMost) continue;
+      if (told || IsShort(span) || ++count > kMost) continue;
       text += fmt::format(
           "{}: {} is not observed from {:.1f} s to {:.1f} s (sigma stays above "
           "{:.3g})\n",

@@ -136,8 +136,8 @@ void CheckFlagsAreHeeded(const RunRequest& request) {
     }
     return;
   }
-  for (const char* flag : {"constants", "without", "withhold", "inject", "seed",
-                           "point", "export"}) {
+  for (const char* flag : {"constants", "without", "omit", "withhold", "inject",
+                           "seed", "point", "export"}) {
     if (!IsGiven(flag)) continue;
     throw UsageError("--" + Dashed(flag) + " means nothing to " +
                      FLAGS_methods + ", which estimate attitude alone");
@@ -152,6 +152,18 @@ std::vector<Withholding> ParseWithholdings(const std::string& text) {
     withholdings.push_back(ParseWithholding(part));
   }
   return withholdings;
+}
+
+std::vector<Omission> ParseOmissions(const std::string& text) {
+  std::vector<Omission> omissions;
+  for (const std::string& part : SplitRules("omit", text)) {
+    try {
+      omissions.push_back(ParseOmission(part));
+    } catch (const std::invalid_argument& error) {
+      throw UsageError("--omit=" + part + ": " + error.what());
+    }
+  }
+  return omissions;
 }
 
 std::vector<Injection> ParseInjections(const std::string& text) {
@@ -187,6 +199,8 @@ RunRequest ReadRunRequest(const std::string& config) {
   request.data_root = FLAGS_data_root;
   request.without = ReadWords("without", FLAGS_without);
   request.constants = FLAGS_constants;
+  request.omit = ParseOmissions(FLAGS_omit);
+  request.confirmed = FLAGS_yes;
   request.out = FLAGS_out;
   request.force = FLAGS_force;
   request.clean = FLAGS_clean;

@@ -11,6 +11,7 @@
 
 #include "app/progress.h"
 #include "dataset/dataset.h"
+#include "io/config/config.h"
 #include "problems/reconstruction.h"
 
 namespace hindsight {
@@ -20,7 +21,9 @@ struct RunRequest {
   std::string config;
   std::string data_root;
   std::vector<std::string> without;  ///< aiding streams that are left out
-  std::string constants;  ///< result whose constants are used, "" for none
+  std::string constants;       ///< result whose constants are used, "" for none
+  std::vector<Omission> omit;  ///< spans that are left out
+  bool confirmed = false;  ///< what the configuration takes for granted is so
   std::string out;
   bool force = false;
   bool clean = false;                ///< remove what killed runs left
@@ -54,6 +57,9 @@ RunRequest ReadRunRequest(const std::string& config);
 /// "SENSOR:every=120s,length=30s[,from=90s]"; several separated by ";".
 /// Throws UsageError.
 std::vector<Withholding> ParseWithholdings(const std::string& text);
+
+/// "SENSOR:T1..T2"; several separated by ";". Throws UsageError.
+std::vector<Omission> ParseOmissions(const std::string& text);
 
 /// "SENSOR:step=12m,from=140s,to=150s"; step, pulse (which needs to), ramp
 /// (which needs both), spikes (with share=10%) or multipath (with tau=20s); all

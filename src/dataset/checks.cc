@@ -182,6 +182,7 @@ ImuReport ReportImu(const Dataset& dataset) {
     const Eigen::Vector3d f = scale * sample.accel;
     const Eigen::Vector3d w = scale * sample.gyro;
     report.mean_force += dt * f.norm();
+    report.mean_force_b += dt * f;
     duration += dt;
     report.max_force = std::max(report.max_force, f.norm());
     report.max_rate = std::max(report.max_rate, w.norm());
@@ -190,6 +191,7 @@ ImuReport ReportImu(const Dataset& dataset) {
     still.Add(sample.t, dt, f, w);
   }
   report.mean_force /= duration;
+  report.mean_force_b /= duration;
   report.quietest_force = quietest.mean();
   report.rest_force = rest.force();
   report.rest_rate = rest.rate();
@@ -199,7 +201,7 @@ ImuReport ReportImu(const Dataset& dataset) {
 
 /// Unaccelerated, the specific force is 1 g upwards: (0, 0, -g) in
 /// forward-right-down.
-std::string SuggestAxes(const Eigen::Vector3d& force) {
+std::string SuggestAxes(const Eigen::Vector3d& force, std::string* axes) {
   struct Case {
     Eigen::Vector3d up;
     const char* looks;
@@ -227,6 +229,7 @@ std::string SuggestAxes(const Eigen::Vector3d& force) {
   }
   const double tilt =
       std::acos(std::min(1.0, best->up.dot(direction))) / kDegree;
+  *axes = best->axes;
   std::string text = best->looks;
   if (*best->axes != '\0') {
     text += std::string("; axes: ") + best->axes +
@@ -234,6 +237,21 @@ std::string SuggestAxes(const Eigen::Vector3d& force) {
             "nothing about which way is forward)";
   }
   return text + fmt::format("; tilt against that axis {:.1f} deg", tilt);
+}
+
+void SetAxes(CheckReport* report) {
+  constexpr double kUpright = 0.7;
+  const ImuReport& imu = report->imu;
+  if (imu.still_force) {
+    report->axes = SuggestAxes(*imu.still_force, &report->suggested_axes);
+  } else if (imu.mean_force_b.norm() > kUpright * imu.mean_force) {
+    report->axes = SuggestAxes(imu.mean_force_b, &report->suggested_axes) +
+                   ", by the mean specific force, as it never stands";
+  } else {
+    report->axes =
+        "unknown: it never stands, and no axis feels gravity on average; "
+        "expected a second of rest, or `axes` as the sensor is mounted";
+  }
 }
 
 void WarnAboutImu(const CheckReport& report, const ImuStream& stream,
@@ -337,9 +355,7 @@ CheckReport CheckDataset(const Dataset& dataset) {
     }
   }
   report.imu = ReportImu(dataset);
-  report.axes = report.imu.still_force
-                    ? SuggestAxes(*report.imu.still_force)
-                    : "unknown: the vehicle always turns or is shaken";
+  SetAxes(&report);
   WarnAboutImu(report, dataset.imu, &report.warnings);
   WarnAboutRate(dataset, report.imu, &report.warnings);
   for (const StreamReport& stream : report.streams) {

@@ -45,6 +45,8 @@ struct ImuReport {
   std::optional<Eigen::Vector3d> still_force;  ///< [m/s^2]
   /// Mean over the second in which the specific force varies least.
   Eigen::Vector3d quietest_force = Eigen::Vector3d::Zero();  ///< [m/s^2]
+  /// Mean over the record, in body axes: up, of a vehicle that keeps upright.
+  Eigen::Vector3d mean_force_b = Eigen::Vector3d::Zero();  ///< [m/s^2]
   double mean_force = 0.0;  ///< mean |f| over the record [m/s^2]
   double max_force = 0.0;   ///< [m/s^2]
   double max_rate = 0.0;    ///< [rad/s]
@@ -61,8 +63,11 @@ struct CheckReport {
   /// (dataset/repeated_readings.h).
   std::vector<Evidence> evidence;
   /// In words, from the axis that feels gravity where the vehicle does not
-  /// turn: "z points down, as it should", or the `axes` that would make it so.
+  /// turn, or on average where that is most of what it feels: "z points down, as
+  /// it should", or the `axes` that would make it so.
   std::string axes;
+  /// Those `axes`, "[x, -y, -z]"; empty where z points down.
+  std::string suggested_axes;
 
   /// Not usable: no IMU. Otherwise the worst of the evidence; doubtful where
   /// there are warnings.

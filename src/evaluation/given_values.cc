@@ -14,10 +14,21 @@ struct Origin {
   bool given = true;      ///< by the configuration
   std::string key;        ///< that says the value, or would
   std::string sigma_key;  ///< that says how well it is known
+  /// What the component is away from, where that is no value that was given.
+  std::string instead;
 };
 
 Origin OfStart(bool given, const std::string& key) {
-  return {given, "initial." + key, "initial." + key + "_sigma"};
+  return {given, "initial." + key, "initial." + key + "_sigma", ""};
+}
+
+/// A bias whose sigma alone is given begins at zero.
+Origin OfBias(bool given, const std::string& key, const Eigen::Vector3d& bias) {
+  Origin origin = OfStart(given, key);
+  if (bias.isZero()) {
+    origin.instead = "zero, as no " + origin.key + " is given";
+  }
+  return origin;
 }
 
 /// The word of a configuration for a constant of a sensor.
@@ -44,7 +55,7 @@ const char* WordOf(BlockKind kind) {
 
 Origin OfSensor(const Judged& judged, const Block& block) {
   const auto i = static_cast<std::size_t>(block.key.sensor);
-  if (i >= judged.sensors.size()) return {true, block.name, block.name};
+  if (i >= judged.sensors.size()) return {true, block.name, block.name, ""};
   const Sensor& sensor = judged.sensors[i];
   const std::string stream = "aiding." + sensor.name;
   const char* word = WordOf(block.key.kind);
@@ -54,14 +65,14 @@ Origin OfSensor(const Judged& judged, const Block& block) {
         stream +
         (block.key.kind == BlockKind::kBias ? ".bias" : ".ground_bias") +
         ".sigma";
-    return {true, key, key};
+    return {true, key, key, ""};
   }
-  if (word == nullptr) return {true, stream, stream};
+  if (word == nullptr) return {true, stream, stream, ""};
   // A mounting that the direction of travel has turned is the program's own.
   const bool found =
       block.key.kind == BlockKind::kMounting &&
       !judged.start->x.parameters.segment<3>(block.parameter_offset).isZero();
-  return {!found, stream + "." + word, stream + ".estimate." + word};
+  return {!found, stream + "." + word, stream + ".estimate." + word, ""};
 }
 
 Origin OriginOf(const Judged& judged, const Block& block, int axis) {
@@ -73,18 +84,20 @@ Origin OriginOf(const Judged& judged, const Block& block, int axis) {
       return OfStart(given.v_n.has_value(), "velocity");
     case BlockKind::kAttitude:
       if (given.heading && axis == 2) {
-        return {true, "initial.heading", "initial.attitude_sigma"};
+        return {true, "initial.heading", "initial.attitude_sigma", ""};
       }
       return OfStart(given.euler.has_value(), "attitude");
     case BlockKind::kGyroBias:
-      return OfStart(given.gyro_bias_sigma.has_value() &&
-                         judged.start->x.b_g == given.gyro_bias,
-                     "gyro_bias");
+      return OfBias(given.gyro_bias_sigma.has_value() &&
+                        judged.start->x.b_g == given.gyro_bias,
+                    "gyro_bias", given.gyro_bias);
     case BlockKind::kAccelBias:
-      return OfStart(given.accel_bias_sigma.has_value(), "accel_bias");
+      return OfBias(given.accel_bias_sigma.has_value(), "accel_bias",
+                    given.accel_bias);
     case BlockKind::kGyroScale:
     case BlockKind::kAccelScale:
-      return {true, "imu.estimate." + block.name, "imu.estimate." + block.name};
+      return {true, "imu.estimate." + block.name, "imu.estimate." + block.name,
+              ""};
     default:
       return OfSensor(judged, block);
   }
@@ -113,7 +126,9 @@ Evidence Strain(const Judged& judged, const Origin& origin, const Block& block,
   // What else does not fit may well come from a start that is not so.
   e.is_cause = origin.given && !constant;
   if (origin.given) {
-    e.what += fmt::format("{:.1f} sigma from its given value", sigmas);
+    e.what += fmt::format(
+        "{:.1f} sigma from {}", sigmas,
+        origin.instead.empty() ? "its given value" : origin.instead);
     e.causes = {"a wrong value, sign, unit or clock of " + origin.key,
                 "too small a sigma of it",
                 "an error that is not modelled and ends up there"};
@@ -178,10 +193,17 @@ void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence) {
       const std::string name = solution.layout.ComponentName(i);
       if (of_given > kStrained) {
         evidence->push_back(
-            Strain(judged, OfStart(true, "gyro_bias"), block, name, of_given));
+            Strain(judged, OfBias(true, "gyro_bias", start.given.gyro_bias),
+                   block, name, of_given));
       } else if (sigmas > kStrained) {
         evidence->push_back(
             Strain(judged, OriginOf(judged, block, axis), block, name, sigmas));
+        // Measured = (1 + scale) true: below -1 it counts backwards.
+        if (block.key.kind == BlockKind::kScale && last(i) < -1.0) {
+          evidence->back().causes = {"a speed of the wrong sign"};
+          evidence->back().remedies = {
+              "a leading \"-\" before its column under `columns`"};
+        }
       }
       ++i;
     }

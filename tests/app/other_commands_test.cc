@@ -140,13 +140,51 @@ TEST_F(OtherCommands, InitWritesAConfigurationThatRuns) {
   EXPECT_THAT(outcome.status, ::testing::AnyOf(0, 3)) << outcome.err;
 }
 
-TEST_F(OtherCommands, InitWithoutAnImuDraftsTheRestAndSaysSo) {
+TEST_F(OtherCommands, InitWithoutAnImuIsBadInputThatNamesWhatThereIs) {
   std::filesystem::remove(recording_.file("imu.csv"));
   const Outcome outcome = Hindsight({"init", "data"}, recording_.root());
-  EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("data: no IMU was recognised"));
-  EXPECT_THAT(outcome.out, HasSubstr("type: position"));
-  EXPECT_THAT(outcome.out, ::testing::Not(HasSubstr("imu.csv")));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("data: no IMU was recognised among"));
+  EXPECT_THAT(outcome.err, HasSubstr("gnss.csv (position)"));
+  EXPECT_THAT(outcome.out, ::testing::IsEmpty());
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+}
+
+TEST_F(OtherCommands, RunOfAFolderIsDoubtfulUntilConfirmed) {
+  std::filesystem::remove(recording_.file("config.yaml"));
+  const std::vector<std::string> words = {"run", "data", "--out=out",
+                                          "--methods=batch"};
+  const Outcome first = Hindsight(words, recording_.root());
+  EXPECT_EQ(first.status, 3) << first.err;
+  EXPECT_THAT(first.out, HasSubstr("taken for granted: "));
+  EXPECT_THAT(first.out, HasSubstr("not confirmed"));
+  // What it drafted is a configuration of its own, which --yes confirms.
+  const Outcome again = Hindsight(
+      {"run", "out.yaml", "--out=confirmed", "--methods=batch", "--yes"},
+      recording_.root());
+  EXPECT_THAT(again.out, ::testing::Not(HasSubstr("not confirmed")));
+}
+
+TEST_F(OtherCommands, OmittedSpansAreNeitherUsedNorJudged) {
+  const Outcome outcome =
+      recording_.Run({"--out=out", "--methods=batch", "--omit=gnss:10..20",
+                      "--omit=gnss:25 s..30 s"});
+  ASSERT_THAT(outcome.status, ::testing::AnyOf(0, 3)) << outcome.err;
+  std::istringstream rows(ReadFile(recording_.root() / "out" / "fixes.csv"));
+  int inside = 0;
+  int rest = 0;
+  for (std::string row; std::getline(rows, row);) {
+    if (row.find_first_of("0123456789") != 0) continue;
+    const double t = std::stod(row);
+    const bool omitted = (t >= 10.0 && t < 20.0) || (t >= 25.0 && t < 30.0);
+    (omitted ? inside : rest) += 1;
+  }
+  EXPECT_EQ(inside, 0);
+  EXPECT_GT(rest, 30);
+  const Outcome none = recording_.Run({"--out=none", "--omit=gnss:900..950"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_THAT(none.err, HasSubstr("holds no measurement"));
+  EXPECT_EQ(recording_.Run({"--out=none", "--omit=gnss"}).status, 2);
 }
 
 TEST_F(OtherCommands, SimulateEndsEarlier) {

@@ -7,6 +7,12 @@
 namespace hindsight {
 namespace {
 
+std::string InitConfig(const std::string& folder) {
+  const auto drafts = DraftRecordings(folder);
+  EXPECT_EQ(drafts.size(), 1u);
+  return DraftText(drafts.front());
+}
+
 class InitConfigTest : public RecordingFolder {};
 
 TEST_F(InitConfigTest, WhatItWritesLoads) {
@@ -25,7 +31,7 @@ TEST_F(InitConfigTest, WhatItWritesLoads) {
   Write("d_truth.csv",
         "t[s],roll[deg],pitch[deg],heading[deg]\n0,1,2,3\n1,1,2,3\n");
   Write("notes.md", "Nothing to read here.\n");
-  const std::string config = InitConfig(folder_.string()).text;
+  const std::string config = InitConfig(folder_.string());
   EXPECT_NE(config.find("#   notes.md"), std::string::npos) << config;
   Write("config.yaml", config);
   EXPECT_EQ(LoadError(), "");
@@ -49,14 +55,14 @@ TEST_F(InitConfigTest, PositionsWithoutSigmasAreAidingUnlessNamedTruth) {
   Write("a.csv", fixes);
   Write("b.csv", fixes);
   Write("refit.csv", fixes);  // no word of which is "ref"
-  Write("config.yaml", InitConfig(folder_.string()).text);
+  Write("config.yaml", InitConfig(folder_.string()));
   EXPECT_EQ(LoadError(), "");
   EXPECT_EQ(Load().streams.size(), 3u);
   EXPECT_TRUE(Load().truth.empty());
   for (const char* name : {"a_gt.csv", "GroundTruth.csv", "reference-1.csv"}) {
     SCOPED_TRACE(name);
     Write(name, fixes);
-    const std::string config = InitConfig(folder_.string()).text;
+    const std::string config = InitConfig(folder_.string());
     EXPECT_NE(config.find("truth:\n  file: " + std::string(name)),
               std::string::npos)
         << config;
@@ -68,7 +74,7 @@ TEST_F(InitConfigTest, AnAttitudeIsNoTruthUntilTheUserSaysSo) {
   Write("imu.csv", kFewImuRows);
   Write("ins.csv",
         "t[s],roll[deg],pitch[deg],heading[deg]\n0,1,2,3\n1,1,2,3\n");
-  const std::string config = InitConfig(folder_.string()).text;
+  const std::string config = InitConfig(folder_.string());
   EXPECT_NE(config.find("# truth:\n#   file: ins.csv"), std::string::npos)
       << config;
   Write("config.yaml", config);
@@ -81,41 +87,33 @@ TEST_F(InitConfigTest, PlacesOfASolutionWithAttitudesAreNoAiding) {
   Write("ins.csv",
         "t[s],lat[deg],lon[deg],h[m],roll[deg],pitch[deg],heading[deg]\n"
         "0,50,8,1,1,2,3\n1,50,8,1,1,2,3\n");
-  const std::string config = InitConfig(folder_.string()).text;
+  const std::string config = InitConfig(folder_.string());
   EXPECT_NE(config.find("aiding: {}"), std::string::npos) << config;
   EXPECT_NE(config.find("# truth:\n#   file: ins.csv"), std::string::npos)
       << config;
 }
 
-TEST_F(InitConfigTest, WithoutAnImuNoFileIsNamedForIt) {
+TEST_F(InitConfigTest, WithoutAnImuItFailsAndNamesWhatThereIs) {
   Write("fixes.csv", "t[s],lat[deg],lon[deg],h[m]\n0,50,8,1\n1,50,8,1\n");
-  const InitDraft draft = InitConfig(folder_.string());
-  EXPECT_FALSE(draft.has_imu);
-  EXPECT_EQ(draft.text.find("\nimu:"), std::string::npos) << draft.text;
-  Write("config.yaml", draft.text);
-  EXPECT_NE(LoadError().find("imu"), std::string::npos) << LoadError();
-  // With its comment taken away it is whole but for the file.
-  std::string whole = draft.text;
-  for (auto at = whole.find("\n#imu:");
-       at != std::string::npos && whole[at + 1] == '#';
-       at = whole.find('\n', at + 1)) {
-    whole.erase(at + 1, 1);
+  Write("flight.ulg", "ULog\x01");
+  try {
+    DraftRecordings(folder_.string());
+    FAIL() << "expected an error";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("no IMU was recognised"), std::string::npos) << text;
+    EXPECT_NE(text.find("fixes.csv (position)"), std::string::npos) << text;
+    EXPECT_NE(text.find("flight.ulg"), std::string::npos) << text;
+    EXPECT_EQ(text.find("imu.csv"), std::string::npos) << text;
   }
-  whole.replace(whole.find("REPLACE"), 7, "imu.txt");
-  Write("config.yaml", whole);
-  std::string rows;
-  for (int i = 0; i < 300; ++i) {
-    rows += std::to_string(0.01 * i) + ",0,0,0,0,0,-9.8\n";
-  }
-  Write("imu.txt", rows);
-  EXPECT_EQ(LoadError(), "") << whole;
 }
 
 TEST_F(InitConfigTest, PosesOfTheTumBenchmarkAreNoImu) {
+  Write("imu.csv", kFewImuRows);
   Write("poses.txt",
         "0.00 1 2 3 0 0 0.6 0.8\n0.01 1 2 3 0 0 0.6 0.8\n"
         "0.02 1 2 3 0 0 0.6 0.8\n");
-  const std::string config = InitConfig(folder_.string()).text;
+  const std::string config = InitConfig(folder_.string());
   EXPECT_NE(config.find("# Not recognised:\n#   poses.txt"), std::string::npos)
       << config;
   EXPECT_EQ(config.find("file: poses.txt"), std::string::npos) << config;
@@ -123,7 +121,7 @@ TEST_F(InitConfigTest, PosesOfTheTumBenchmarkAreNoImu) {
 
 TEST_F(InitConfigTest, NamesOfFilesThatYamlWouldReadOtherwiseAreQuoted) {
   Write("imu #1: left.csv", kFewImuRows);
-  Write("config.yaml", InitConfig(folder_.string()).text);
+  Write("config.yaml", InitConfig(folder_.string()));
   EXPECT_EQ(LoadError(), "");
 }
 
@@ -136,14 +134,17 @@ TEST_F(InitConfigTest, FormatsOfOthersAreRecognised) {
     const bool whole = std::string(folder) == "oxts";
     std::filesystem::copy(data + folder, Path(whole ? "in/oxts" : "in"),
                           std::filesystem::copy_options::recursive);
-    const std::string config = InitConfig(Path("in")).text;
+    const std::string config = InitConfig(Path("in"));
     EXPECT_NE(config.find("format: " + std::string(folder)), std::string::npos);
     Write("config.yaml", config);
     EXPECT_EQ(LoadError(), "");
   }
+  std::filesystem::remove_all(Path("in"));
+  std::filesystem::create_directories(Path("in"));
+  Write("in/imu.csv", kFewImuRows);
   std::filesystem::copy(data + "nmea/drive.nmea", Path("in/drive.nmea"));
   Write("in/points.txt", "0.5 50 8 -100 0.3\n0.9 50 8 -100 0.3\n");
-  const std::string config = InitConfig(Path("in")).text;
+  const std::string config = InitConfig(Path("in"));
   EXPECT_NE(config.find("format: nmea"), std::string::npos) << config;
   EXPECT_NE(config.find("type: speed_course"), std::string::npos) << config;
   EXPECT_NE(config.find("format: control_points"), std::string::npos) << config;
@@ -174,10 +175,10 @@ TEST_F(InitConfigTest, EveryKindOfSensorIsKnownByItsColumns) {
     for (std::size_t i = 0; i < measured.count + measured.sigmas; ++i) {
       add(kind->columns[measured.first + i]);
     }
-    // What tells it from a log of speed and course.
-    if (kind == &OdometerKind()) add(kind->columns[1]), add(kind->columns[2]);
+    // What tells it from an odometer.
+    if (kind == &SpeedCourseKind()) add(kind->columns[1]);
     Write("in/sensor.csv", head + "\n0" + row + "\n1" + row + "\n");
-    const std::string config = InitConfig(Path("in")).text;
+    const std::string config = InitConfig(Path("in"));
     EXPECT_NE(config.find("type: " + std::string(kind->name) + "\n"),
               std::string::npos)
         << config;

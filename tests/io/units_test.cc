@@ -50,6 +50,36 @@ TEST(Units, ConvertToSi) {
   }
 }
 
+TEST(Units, DataSheetsAreReadAsTheyAreWritten) {
+  const double degree = kPi / 180.0;
+  const Case cases[] = {
+      {"2 dps", Quantity::kAngularRate, 2.0 * degree},
+      {"61 mdps", Quantity::kAngularRate, 0.061 * degree},
+      {"5 \u00b0/s", Quantity::kAngularRate, 5.0 * degree},
+      {"0.007 dps/\u221aHz", Quantity::kGyroNoiseDensity, 0.007 * degree},
+      {"3.8 mdps/\u221aHz", Quantity::kGyroNoiseDensity, 3.8e-3 * degree},
+      {"0.0028 \u00b0/s/rtHz", Quantity::kGyroNoiseDensity, 0.0028 * degree},
+      {"0.15 \u00b0/\u221ah", Quantity::kGyroNoiseDensity,
+       0.15 * degree / 60.0},
+      {"0.15 deg per sqrt(hr)", Quantity::kGyroNoiseDensity,
+       0.15 * degree / 60.0},
+      {"0.01 (deg/s)/sqrtHz", Quantity::kGyroNoiseDensity, 0.01 * degree},
+      {"60 \u00b5g/\u221aHz", Quantity::kAccelNoiseDensity, 60e-6 * 9.80665},
+      {"60 \u03bcg/Hz^0.5", Quantity::kAccelNoiseDensity, 60e-6 * 9.80665},
+      {"0.6 m/s/\u221ahr", Quantity::kAccelNoiseDensity, 0.01},
+      {"9.81 m/s2", Quantity::kAcceleration, 9.81},
+      {"9.81 m/s\u00b2", Quantity::kAcceleration, 9.81},
+      {"3 degrees", Quantity::kAngle, 3.0 * degree},
+      {"2 sec", Quantity::kTime, 2.0},
+      {"40 microtesla", Quantity::kMagneticField, 40.0},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.text);
+    EXPECT_NEAR(ParseQuantity(c.text, c.quantity), c.si,
+                1e-14 * std::abs(c.si));
+  }
+}
+
 TEST(Units, EverySiUnitIsAcceptedWithFactorOne) {
   for (int i = 0; i <= static_cast<int>(Quantity::kMagneticField); ++i) {
     const auto quantity = static_cast<Quantity>(i);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <stdexcept>
 
 #include "base/error.h"
 #include "dataset/clock_search.h"
@@ -68,6 +69,8 @@ struct Declared {
   bool truth_clock_unknown = false;
   bool start_from_truth = false;
   ConstantsConfig constants;
+  std::vector<Omission> omit;
+  std::vector<std::string> unconfirmed;
 };
 
 /// What the top level is read by and into.
@@ -224,6 +227,19 @@ const ConfigTable<RecordingConfig>& RecordingTable() {
           recording->dataset->withholdings = ReadWithholdings(top);
         }},
         .help = "list of {sensor, every, length, from}"},
+       {.name = "omit",
+        .value = Key::Special{[](ConfigMap* top, Recording* recording) {
+          recording->omit = ReadOmissions(top);
+        }},
+        .help =
+            "list of {sensor, from, to}: spans of its measurements that are "
+            "neither used nor judged"},
+       {.name = "unconfirmed",
+        .value = Key::Special{[](ConfigMap* top, Recording* recording) {
+          recording->unconfirmed = top->List("unconfirmed");
+        }},
+        .help = "list of what a drafted configuration takes for granted: while "
+                "there is any, a result is at best doubtful"},
        {.name = "nodes",
         .value = Key::Special{[](ConfigMap* top, Recording* recording) {
           ReadNodes(top, &recording->dataset->max_node_spacing);
@@ -250,11 +266,21 @@ std::string Span(double begin, double end) {
 void RequireOverlap(const StreamSource& source, const ImuStream& imu,
                     double begin, double end) {
   if (begin <= imu.t_end() && end >= imu.t_begin()) return;
-  throw InputError(source.config_path, source.config_line,
-                   source.name + " (" + source.path + ") covers " +
-                       Span(begin, end) + " and the IMU " +
-                       Span(imu.t_begin(), imu.t_end()) +
-                       ": expected streams that overlap");
+  const double ratio = (end - begin) / (imu.t_end() - imu.t_begin());
+  constexpr double kOffByUnits = 20.0;
+  const bool unit = ratio > kOffByUnits || ratio < 1.0 / kOffByUnits;
+  throw InputError(
+      source.config_path, source.config_line,
+      source.name + " (" + source.path + ") covers " + Span(begin, end) +
+          " and the IMU " + Span(imu.t_begin(), imu.t_end()) +
+          ": expected streams that overlap; " +
+          (unit ? fmt::format("its span is {:.3g} times the IMU's: "
+                              "is the unit of its t, or the rate, "
+                              "that of the file?",
+                              ratio)
+                : "where the clocks have nothing in common, give "
+                  "both `time: {start: 0 s}` and it `time_offset: "
+                  "unknown`"));
 }
 
 /// What is made for every second of the record is bounded by this.
@@ -374,6 +400,65 @@ void LoadAiding(const AidingConfig& config, double truth_offset,
                  stream.measurements.front().t + offset,
                  stream.measurements.back().t + offset);
   dataset->streams.push_back(std::move(stream));
+}
+
+bool Speaks(const Omission& omission, const Sensor& sensor) {
+  return omission.sensor == sensor.name ||
+         omission.sensor == sensor.kind->name ||
+         omission.sensor == sensor.kind->family;
+}
+
+/// Takes the measurements of a span out of every stream that it names.
+void Omit(const Omission& omission, const std::string& place,
+          Dataset* dataset) {
+  bool known = false;
+  long count = 0;
+  for (AidingStream& stream : dataset->streams) {
+    if (!Speaks(omission, stream.sensor)) continue;
+    known = true;
+    MeasurementSeries kept;
+    for (const Measurement& z : stream.measurements) {
+      const double t = z.t + stream.sensor.time_offset;
+      const bool omitted = t >= omission.from && t < omission.to;
+      if (!omitted) kept.push_back(z);
+      count += omitted ? 1 : 0;
+    }
+    if (kept.empty()) {
+      throw InputError(place + ": leaves no measurement of " +
+                       stream.sensor.name + "; --without leaves it out whole");
+    }
+    stream.measurements = std::move(kept);
+  }
+  const std::string span =
+      omission.sensor + " from " +
+      fmt::format("{:g} s to {:g} s", omission.from, omission.to);
+  if (!known) {
+    throw InputError(place + ": no aiding stream is named or of the type '" +
+                     omission.sensor + "'");
+  }
+  if (count == 0) {
+    throw InputError(place + ": " + span +
+                     " holds no measurement; expected times since the data "
+                     "set's epoch");
+  }
+  dataset->policies.push_back({omission.sensor, "omitted", count});
+}
+
+void ApplyOmissions(const Declared& declared, const LoadOptions& options,
+                    ConfigMap* top, Dataset* dataset) {
+  for (const Omission& omission : declared.omit) {
+    Omit(omission,
+         top->file() + ":" + std::to_string(top->Line("omit")) + ": omit",
+         dataset);
+  }
+  for (const Omission& omission : options.omit) {
+    Omit(omission, "--omit", dataset);
+    YAML::Node entry;
+    entry["sensor"] = omission.sensor;
+    entry["from"] = FormatNumber(omission.from) + " s";
+    entry["to"] = FormatNumber(omission.to) + " s";
+    top->resolved()["omit"].push_back(entry);
+  }
 }
 
 /// The prior "level on average", spread over the record: a second stream.
@@ -523,7 +608,8 @@ std::vector<fs::path> ConfigInputs(const std::string& config_path,
 
 Dataset LoadDataset(const std::string& config_path, const LoadOptions& options,
                     ResolvedConfig* resolved) {
-  ConfigMap top = ConfigMap::Load(config_path);
+  ConfigMap top = options.text ? ConfigMap::Parse(*options.text, config_path)
+                               : ConfigMap::Load(config_path);
   Dataset dataset;
   const Declared declared = ReadDeclarations(&top, options, &dataset);
   LoadImu(declared, &top, &dataset);
@@ -537,14 +623,39 @@ Dataset LoadDataset(const std::string& config_path, const LoadOptions& options,
     AddLevel(declared.aiding[i].settings, static_cast<int>(i), &dataset);
   }
   TakeConstants(declared.constants, options.without, &top, &dataset);
+  ApplyOmissions(declared, options, &top, &dataset);
   if (declared.start_from_truth) TakeStart(&top, &dataset);
   try {
     ApplyWithholding(&dataset);
   } catch (const InputError& error) {
     top.Fail("withhold", error.what());
   }
-  if (resolved != nullptr) resolved->yaml = Emit(top.resolved());
+  if (resolved != nullptr) {
+    resolved->yaml = Emit(top.resolved());
+    resolved->unconfirmed = declared.unconfirmed;
+  }
   return dataset;
+}
+
+Omission ParseOmission(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const std::size_t dots = text.find("..", std::min(colon, text.size()));
+  if (colon == 0 || colon == text.npos || dots == text.npos) {
+    throw std::invalid_argument(
+        "expected SENSOR:T1..T2, as gnss:100..130, in seconds since the data "
+        "set's epoch");
+  }
+  const auto seconds = [](const std::string& word) {
+    const auto number = ParseNumber(Trim(word));
+    return number ? *number : ParseQuantity(word, Quantity::kTime);
+  };
+  Omission omission{text.substr(0, colon),
+                    seconds(text.substr(colon + 1, dots - colon - 1)),
+                    seconds(text.substr(dots + 2))};
+  if (!(omission.to > omission.from)) {
+    throw std::invalid_argument("T2 must lie behind T1");
+  }
+  return omission;
 }
 
 void SetWithholdings(const std::vector<Withholding>& withholdings,

@@ -2,6 +2,7 @@
 #define HINDSIGHT_IO_CONFIG_CONFIG_H_
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,17 @@ namespace hindsight {
 /// 100000th, ten measurements without a file for each sample of the IMU, 1000000
 /// ahrs.samples or 3600 s, 10 million nodes, 4 MB of configuration.
 
+/// A span of a sensor's measurements that are neither used nor judged.
+struct Omission {
+  std::string sensor;  ///< stream name, or a type: "position", "velocity"...
+  double from = 0.0;   ///< [s]
+  double to = 0.0;     ///< exclusive [s]
+};
+
+/// "SENSOR:T1..T2" with times in seconds since the data set's epoch, as "gnss:100
+/// s..130 s"; seconds where there is no unit. Throws std::invalid_argument.
+Omission ParseOmission(const std::string& text);
+
 struct LoadOptions {
   /// Where folders are looked for that are not beside the configuration;
   /// nowhere else if empty.
@@ -26,12 +38,18 @@ struct LoadOptions {
   /// Result whose constants are used, in place of constants.from; none if
   /// empty.
   std::string constants = {};
+  /// Spans that are left out besides those of the configuration.
+  std::vector<Omission> omit = {};
+  /// The configuration itself, in place of the content of its file.
+  std::optional<std::string> text = {};
 };
 
 /// Everything a load used, in SI units, defaults included; itself a
 /// configuration that loads the same data set.
 struct ResolvedConfig {
   std::string yaml;
+  /// What the configuration takes for granted and nobody has confirmed.
+  std::vector<std::string> unconfirmed = {};
 };
 
 /// The files and folders that loading the configuration reads, itself and those

@@ -219,6 +219,16 @@ const ConfigTable<AidingDraft>& AidingTable() {
         }},
         .help = "use one measurement in this time",
         .fallback = "all"},
+       {.name = "on_repeat",
+        .value = Key::Special{[](ConfigMap* map, AidingDraft* aiding) {
+          if (!aiding->has_file()) return;
+          aiding->source.drop_repeats =
+              map->Choice("on_repeat", {"use", "drop"}, 0) == 1;
+        }},
+        .help =
+            "a row whose measured values are all those of the row before: a "
+            "receiver's last fix, written again",
+        .fallback = "use"},
        {.name = "time_offset",
         .value = Key::Special{[](ConfigMap* map, AidingDraft* aiding) {
           if (aiding->has_file()) ReadClock(map, aiding);

@@ -56,6 +56,12 @@ std::string ReadText(const std::string& path) {
   return text;
 }
 
+/// What usually is the matter with a map or list in one line.
+std::string FlowAdvice(const std::string& message) {
+  if (message.find("flow") == message.npos) return "";
+  return "; a value with [ ] inside of { } stands in quotes: {t: \"1 [s]\"}";
+}
+
 std::size_t EditDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -100,7 +106,7 @@ ConfigMap ConfigMap::Parse(const std::string& text, const std::string& path,
     throw InputError(path, 0, "is nested too deep");
   } catch (const YAML::ParserException& error) {
     throw InputError(path, error.mark.line + 1L,
-                     "is not valid YAML: " + error.msg);
+                     "is not valid YAML: " + error.msg + FlowAdvice(error.msg));
   }
   if (!node.IsMap()) {
     throw InputError(path, 1, "expected keys and values at the top level");

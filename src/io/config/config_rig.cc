@@ -148,6 +148,28 @@ const ConfigTable<StationaryOptions>& StationaryTable() {
   return kTable;
 }
 
+const ConfigTable<Omission>& OmitTable() {
+  using Key = ConfigKey<Omission>;
+  static const ConfigTable<Omission> kTable = {
+      "omit",
+      "A span of a sensor's measurements that are neither used nor judged.",
+      {{.name = "sensor",
+        .value = Key::Text{&Omission::sensor},
+        .help = "name of a stream or kind of sensor",
+        .needed = true},
+       {.name = "from",
+        .quantity = Quantity::kTime,
+        .value = Key::Number{&Omission::from},
+        .help = "since the data set's epoch",
+        .needed = true},
+       {.name = "to",
+        .quantity = Quantity::kTime,
+        .value = Key::Number{&Omission::to},
+        .help = "the same; not included",
+        .needed = true}}};
+  return kTable;
+}
+
 const ConfigTable<Withholding>& WithholdTable() {
   using Key = ConfigKey<Withholding>;
   static const ConfigTable<Withholding> kTable = {
@@ -221,6 +243,20 @@ StationaryOptions ReadStationary(ConfigMap* top) {
   return options;
 }
 
+std::vector<Omission> ReadOmissions(ConfigMap* top) {
+  std::vector<Omission> omissions;
+  for (ConfigMap& map : top->Maps("omit")) {
+    Omission omission;
+    ReadTable(OmitTable(), &map, &omission);
+    if (!(omission.to > omission.from)) {
+      map.Fail("to", "must lie behind from");
+    }
+    map.Finish();
+    omissions.push_back(omission);
+  }
+  return omissions;
+}
+
 std::vector<Withholding> ReadWithholdings(ConfigMap* top) {
   std::vector<Withholding> withholdings;
   for (ConfigMap& map : top->Maps("withhold")) {
@@ -246,7 +282,8 @@ void ReadNodes(ConfigMap* top, double* max_spacing) {
 
 std::vector<KeySection> StartSections() {
   return {Documented(InitialTable()), Documented(StationaryTable()),
-          Documented(WithholdTable()), Documented(NodesTable())};
+          Documented(WithholdTable()), Documented(OmitTable()),
+          Documented(NodesTable())};
 }
 
 Eigen::Quaterniond ReadSensorMounting(ConfigMap* map) {

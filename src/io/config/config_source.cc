@@ -19,12 +19,11 @@ Quantity QuantityOf(ConfigMap* columns, const std::string& name,
     names.emplace_back(field.name);
   }
   std::string expected;
+  for (const std::string& known : names) {
+    expected += (expected.empty() ? "one of " : ", ") + known;
+  }
   if (const std::string near = NearestWord(name, names); !near.empty()) {
-    expected = "perhaps '" + near + "'";
-  } else {
-    for (const std::string& known : names) {
-      expected += (expected.empty() ? "one of " : ", ") + known;
-    }
+    expected = "perhaps '" + near + "', or " + expected;
   }
   columns->Fail(name, "is not a quantity of this stream; expected " + expected);
 }
@@ -355,7 +354,17 @@ const ConfigTable<StreamConfig>& StreamTable() {
        {.name = "allow_truncated_tail",
         .value = Key::Flag{&StreamConfig::allow_truncated_tail},
         .help = "drop a last line that was cut off: without line end, and "
-                "incomplete or with a last value shorter than any before"}}};
+                "incomplete or with a last value shorter than any before"},
+       {.name = "on_text",
+        .value = Key::Word{{"error", "drop"},
+                           [](const StreamConfig& stream) {
+                             return std::size_t{stream.drop_text ? 1U : 0U};
+                           },
+                           [](StreamConfig& stream, std::size_t word) {
+                             stream.drop_text = word == 1;
+                           }},
+        .help = "rows of text, or of another number of columns, between those "
+                "of numbers: repeated titles, notes"}}};
   return kTable;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 
+#include "io/config/config.h"
 #include "io/config/config_help.h"
 #include "io/config/config_key.h"
 #include "io/config/config_map.h"
@@ -90,6 +91,7 @@ AhrsSettings ReadAhrs(ConfigMap* top);
 InitialState ReadInitialState(ConfigMap* top, bool* from_truth);
 StationaryOptions ReadStationary(ConfigMap* top);
 std::vector<Withholding> ReadWithholdings(ConfigMap* top);
+std::vector<Omission> ReadOmissions(ConfigMap* top);
 /// `nodes`, into Dataset::max_node_spacing.
 void ReadNodes(ConfigMap* top, double* max_spacing);
 

@@ -5,23 +5,14 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <sstream>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "base/error.h"
-#include "io/read/paths.h"
-#include "io/read/recognise_format.h"
 #include "io/read/text_lines.h"
-#include "io/read/units.h"
-#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Of the first line, which ends with the checksum of all others.
 constexpr char kFirstWords[] =
@@ -42,175 +33,136 @@ std::string YamlScalar(const std::string& text,
   return emitter.c_str();
 }
 
-std::string FileLines(const Found& found, const std::string& indent) {
-  return indent + "file: " + YamlScalar(found.file) + "\n" + indent +
-         "format: " + found.format + "\n";
+std::string Render(const KeyLine& line, const std::string& indent) {
+  constexpr std::size_t kComment = 40;
+  std::string text = indent + line.key + ":";
+  if (!line.value.empty()) text += " " + line.value;
+  if (line.comment.empty()) return text + "\n";
+  text.resize(std::max(text.size() + 2, kComment), ' ');
+  return text + "# " + line.comment + "\n";
 }
 
-constexpr const char* kImuRest =
-    "  axes: [x, y, z]          # body forward, right, down in sensor axes;\n"
-    "                           # `hindsight check` suggests them\n"
-    "  mounting: [0, 0, 0 deg]  # roll, pitch, yaw left after axes\n"
-    "  time_offset: 0 s         # added to the stamps\n"
-    "  max_gap: 0.5 s           # longer gaps are errors\n"
-    "  noise:                   # REPLACE by the data sheet's values\n"
-    "    gyro: 0.2 deg/sqrt(h)\n"
-    "    accel: 100 ug/sqrt(Hz)\n"
-    "    gyro_bias_walk: 1 deg/h/sqrt(h)\n"
-    "    accel_bias_walk: 100 ug/sqrt(h)\n";
+std::string Render(const std::vector<KeyLine>& lines,
+                   const std::string& indent) {
+  std::string text;
+  for (const KeyLine& line : lines) text += Render(line, indent);
+  return text;
+}
 
-/// Names no file where none was recognised.
-std::string ImuText(const Found* imu) {
-  if (imu != nullptr) return "imu:\n" + FileLines(*imu, "  ") + kImuRest;
-  std::string text =
-      "# No IMU was recognised. `format: columns` reads any delimited text; a\n"
-      "# column is its number from 1 or its title, and its unit. Uncomment:\n"
-      "#imu:\n"
-      "#  file: REPLACE\n"
-      "#  format: columns\n"
-      "#  columns: {t: \"1 [s]\",\n"
-      "#            gyro_x: \"2 [rad/s]\", gyro_y: \"3 [rad/s]\",\n"
-      "#            gyro_z: \"4 [rad/s]\", accel_x: \"5 [m/s^2]\",\n"
-      "#            accel_y: \"6 [m/s^2]\", accel_z: \"7 [m/s^2]\"}\n";
-  std::istringstream lines(kImuRest);
-  for (std::string line; std::getline(lines, line);) {
-    text += "#" + line + "\n";
+std::string StreamText(const Found& found, const std::string& indent) {
+  std::string text;
+  for (const std::string& remark : found.remarks) {
+    text += indent + "# " + remark + "\n";
+  }
+  return text + indent + "file: " + YamlScalar(found.file) + "\n" + indent +
+         "format: " + found.format + "\n" + Render(found.lines, indent);
+}
+
+/// Values of an IMU of which nothing is known but that it is one.
+std::vector<KeyLine> UsualImuLines(const Found& imu) {
+  std::vector<KeyLine> lines = imu.lines;
+  const auto add = [&](const KeyLine& line) {
+    if (FindLine(lines, line.key) == nullptr) lines.push_back(line);
+  };
+  add({"axes", "[x, y, z]", "body forward, right, down in sensor axes"});
+  if (FindLine(lines, "noise") == nullptr) {
+    lines.push_back({"noise", "", "usual of a consumer's (a guess)"});
+    lines.push_back({"  gyro", "0.05 deg/s/sqrt(Hz)"});
+    lines.push_back({"  accel", "2 mg/sqrt(Hz)"});
+    lines.push_back({"  gyro_bias_walk", "1e-4 deg/s^2/sqrt(Hz)"});
+    lines.push_back({"  accel_bias_walk", "10 ug/s/sqrt(Hz)"});
+  }
+  return lines;
+}
+
+std::string AidingText(const RecordingDraft& draft) {
+  if (draft.aiding.empty()) {
+    return "\n# No aiding was recognised.\naiding: {}\n";
+  }
+  std::string text = "\naiding:\n";
+  for (const StreamDraft& stream : draft.aiding) {
+    text += "  " + stream.name + ":\n";
+    if (stream.kind->generated) {
+      text += "    type: " + std::string(stream.kind->name) + "\n" +
+              Render(stream.found.lines, "    ");
+      continue;
+    }
+    text += "    type: " + std::string(stream.kind->name) + "\n" +
+            StreamText(stream.found, "    ");
   }
   return text;
 }
 
-/// A value to be replaced.
-std::string Draft(const SensorKey& key) {
-  if (std::holds_alternative<SensorKey::Place>(key.value)) {
-    return "[0 deg, 0 deg, 0 m]";
+std::string InComments(const std::string& text) {
+  std::string comments;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    comments += "# " + line + "\n";
   }
-  std::string value = "1";
-  switch (key.quantity) {
-    case Quantity::kLength:
-      value = "2 m";
-      break;
-    case Quantity::kSpeed:
-      value = "0.2 m/s";
-      break;
-    case Quantity::kAngle:
-      value = "2 deg";
-      break;
-    case Quantity::kRatio:
-      break;
-    default:
-      value += std::string(" ") + SiUnit(key.quantity);
-  }
-  const bool three = std::holds_alternative<SensorKey::Vector>(key.value);
-  return three ? "[" + value + ", " + value + ", " + value + "]" : value;
+  return comments;
 }
 
-std::string KeyLine(const std::string& key, const std::string& value,
-                    const std::string& comment) {
-  constexpr std::size_t kComment = 27;
-  std::string line = "    " + key + ": " + value;
-  line.resize(std::max(line.size(), kComment - 1), ' ');
-  return line + " # " + comment + "\n";
+std::string UnusedText(const StreamDraft& stream) {
+  std::string text = "\n# Not used: " + stream.found.file;
+  if (!stream.found.remarks.empty()) {
+    text += ": " + stream.found.remarks.back();
+  }
+  text += "\n";
+  Found plain = stream.found;
+  plain.remarks.clear();
+  if (stream.name == "truth") {
+    return text + InComments("truth:\n" + StreamText(plain, "  "));
+  }
+  std::string block = stream.name + ":\n";
+  if (stream.kind != nullptr) {
+    block += "  type: " + std::string(stream.kind->name) + "\n";
+  }
+  return text + InComments(block + StreamText(plain, "  "));
 }
 
-std::string AidingText(const std::string& name, const SensorKind& kind,
-                       const Found& found) {
-  std::string text = "  " + name + ":\n    type: " + std::string(kind.name) +
-                     "\n" + FileLines(found, "    ");
-  if (found.format == "rtklib_pos") {
-    text +=
-        "    # accept_quality: [1]  # 1 fix, 2 float, 4 differential, 5 "
-        "single\n";
+std::string Head(const RecordingDraft& draft) {
+  std::string text;
+  if (!draft.unknown.empty()) text += "# Not recognised:\n";
+  for (const std::string& name : draft.unknown) text += "#   " + name + "\n";
+  text += "name: " + YamlScalar(draft.name) + "\n";
+  text += "folder: " + YamlScalar(draft.folder, YAML::DoubleQuoted) + "\n";
+  if (draft.assumptions.empty()) return text;
+  text +=
+      "\n# What was taken for granted. While a line stands here every result "
+      "is\n"
+      "# at best doubtful: take away what you know to be so.\nunconfirmed:\n";
+  for (const std::string& assumption : draft.assumptions) {
+    text += "  - " + YamlScalar(assumption, YAML::DoubleQuoted) + "\n";
   }
-  text += found.keys;
-  const SensorSettings settings = SettingsOf(kind);
-  const bool sigma_in_file = found.sigmas && found.format != "nmea" &&
-                             found.format != "nclt" &&
-                             kind.measured(settings).sigmas > 0;
-  for (const SensorKey& key : kind.keys) {
-    if (key.applies != nullptr && !key.applies(settings)) continue;
-    const bool unstated = key.name == "sigma" && !sigma_in_file;
-    if (unstated || (key.needed != nullptr && key.needed(settings))) {
-      text += KeyLine(std::string(key.name), Draft(key), "REPLACE");
-    } else if (key.name == "lever_arm") {
-      text += KeyLine("lever_arm", "[0, 0, 0 m]",
-                      "REPLACE: from the IMU; forward, right, down");
-    }
-  }
-  if (kind.has_clock) {
-    text += KeyLine("time_offset", "0 s", "true time = stamp + offset");
-  }
-  return text + KeyLine("gate", "off", "or 99.9 %: reject what fits worse");
+  return text;
 }
 
 }  // namespace
 
-InitDraft InitConfig(const std::string& folder) {
-  if (!IsFolder(folder)) {
-    throw InputError(folder, 0, "there is no such folder");
+std::string DraftText(const RecordingDraft& draft) {
+  std::string text = Head(draft) + "\n";
+  Found imu = *draft.imu;
+  imu.lines = UsualImuLines(imu);
+  text += "imu:\n" + StreamText(imu, "  ") + AidingText(draft);
+  const bool starts = std::any_of(
+      draft.top.begin(), draft.top.end(),
+      [](const KeyLine& line) { return line.key.starts_with("  "); });
+  text += "\n";
+  for (const KeyLine& line : draft.top) {
+    if (line.key == "initial" && !starts) continue;
+    text += Render(line, "");
   }
-  std::vector<fs::path> paths;
-  for (const fs::path& entry : FolderEntries(folder)) {
-    if (IsFile(entry) || PathExists(entry / "timestamps.txt")) {
-      paths.push_back(entry);
-    }
-  }
-  if (paths.empty()) throw InputError(folder, 0, "the folder holds no files");
-  std::vector<Found> files;
-  std::string unknown;
-  for (const fs::path& path : paths) {
-    if (auto found = RecogniseFormat(path.string())) {
-      found->file = path.filename().string();
-      files.push_back(*found);
-    } else {
-      unknown += "#   " + path.filename().string() + "\n";
-    }
-  }
-  const auto first = [&](bool Found::*holds) -> const Found* {
-    const auto at =
-        std::find_if(files.begin(), files.end(),
-                     [&](const Found& found) { return found.*holds; });
-    return at == files.end() ? nullptr : &*at;
-  };
-  const fs::path absolute = fs::absolute(folder).lexically_normal();
-  std::string text;
-  if (!unknown.empty()) text += "# Not recognised:\n" + unknown;
-  text +=
-      "folder: " + YamlScalar(absolute.string(), YAML::DoubleQuoted) + "\n\n";
-  const Found* imu = first(&Found::imu);
-  text += ImuText(imu);
-  std::string aiding;
-  for (const SensorKind* kind : SensorKinds()) {
-    int count = 0;
-    for (const Found& found : files) {
-      if (std::find(found.kinds.begin(), found.kinds.end(), kind) ==
-          found.kinds.end()) {
-        continue;
-      }
-      ++count;
-      const std::string name =
-          std::string(kind->name) + (count == 1 ? "" : std::to_string(count));
-      aiding += AidingText(name, *kind, found);
-    }
-  }
-  text += aiding.empty() ? "\n# No aiding was recognised.\naiding: {}\n"
-                         : "\naiding:\n" + aiding;
-  text +=
-      "\n# Standstill: zero velocity and zero rate where the IMU is quiet.\n"
-      "stationary: off\n"
-      "\n# Measurements kept back, to see how well the gaps are bridged:\n"
-      "# withhold:\n"
-      "#   - {sensor: position, every: 120 s, length: 30 s}\n";
-  if (const Found* truth = first(&Found::truth)) {
-    text += "\ntruth:\n" + FileLines(*truth, "  ") + truth->keys;
-  }
-  for (const Found& found : files) {
-    if (!found.pose) continue;
+  if (FindLine(draft.top, "stationary") == nullptr) {
     text +=
-        "\n# Holds attitudes, which no estimate uses. If it is an independent\n"
-        "# reference, uncomment:\n# truth:\n" +
-        FileLines(found, "#   ");
+        "stationary: off                         "
+        "# on: zero velocity and zero rate where the IMU is quiet\n";
   }
-  return {FirstLine(text) + text, imu != nullptr};
+  text +=
+      "\n# Measurements kept back, to see how well the gaps are bridged:\n"
+      "# withhold:\n#   - {sensor: position, every: 120 s, length: 30 s}\n";
+  if (draft.truth) text += "\ntruth:\n" + StreamText(*draft.truth, "  ");
+  for (const StreamDraft& stream : draft.unused) text += UnusedText(stream);
+  return FirstLine(text) + text;
 }
 
 bool IsInitConfig(const std::string& path) {

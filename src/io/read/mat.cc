@@ -67,7 +67,7 @@ NumericArray ReadMatValues(const MatVariable& variable, NumberType type,
   return array;
 }
 
-NumericArray ReadMat(const std::string& path, const std::string& variable) {
+void VisitMat(const std::string& path, const MatVisitor& visit) {
   const InputFile file(path);
   const MatVersion version = VersionOf(file);
   if (version == MatVersion::kNone) {
@@ -78,11 +78,19 @@ NumericArray ReadMat(const std::string& path, const std::string& variable) {
                      "is a MATLAB file of version 7.3; expected one saved with "
                      "-v7, -v6 or -v4");
   }
+  if (version == MatVersion::k5) {
+    VisitMat5(file, visit);
+  } else {
+    VisitMat4(file, visit);
+  }
+}
+
+NumericArray ReadMat(const std::string& path, const std::string& variable) {
   std::optional<NumericArray> found;
   std::string names;
   std::set<std::string> known;
-  const MatVisitor visit = [&](const MatVariable& here,
-                               const std::function<NumericArray()>& values) {
+  VisitMat(path, [&](const MatVariable& here,
+                     const std::function<NumericArray()>& values) {
     if (!here.name.empty() && !known.insert(here.name).second) {
       throw InputError(path, 0, "holds the variable '" + here.name + "' twice");
     }
@@ -95,12 +103,7 @@ NumericArray ReadMat(const std::string& path, const std::string& variable) {
                            here.unfit);
     }
     found = values();
-  };
-  if (version == MatVersion::k5) {
-    VisitMat5(file, visit);
-  } else {
-    VisitMat4(file, visit);
-  }
+  });
   if (!found) {
     throw InputError(path, 0,
                      "has no variable '" + variable + "'; it holds " +

@@ -49,6 +49,9 @@ using MatVisitor = std::function<void(
 void VisitMat4(const InputFile& file, const MatVisitor& visit);
 void VisitMat5(const InputFile& file, const MatVisitor& visit);
 
+/// Of whichever version the file is. Throws InputError if it is none, or 7.3.
+void VisitMat(const std::string& path, const MatVisitor& visit);
+
 /// "ends within the variable 'x'"
 [[noreturn]] void FailCutOff(const InputFile& file, const std::string& name);
 

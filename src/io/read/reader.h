@@ -54,6 +54,10 @@ struct StreamSource {
   DuplicatePolicy on_duplicate = DuplicatePolicy::kError;
   bool sort = false;  ///< rows may stand in any order
   bool allow_truncated_tail = false;
+  bool drop_text = false;  ///< rows of text between those of numbers
+  /// Of an aiding sensor: a row whose measured values are those of the row
+  /// before is no measurement.
+  bool drop_repeats = false;
   bool absent_values = false;  ///< empty and NaN values are absent
   std::string config_path;
   long config_line = 0;

@@ -52,6 +52,10 @@ class AidingReader : public MeasuredRow {
     while (true) {
       const StreamRows::Step step = rows_.Next();
       if (step == StreamRows::Step::kEnd) break;
+      if (IsRepeat()) {
+        last_kept = false;
+        continue;
+      }
       if (step == StreamRows::Step::kReplace && last_kept) {
         measurements.pop_back();
       } else if (IsThinnedOut()) {
@@ -81,6 +85,7 @@ class AidingReader : public MeasuredRow {
     AddPolicy(source_.name, "velocity absent", zero_velocities_, policies);
     AddPolicy(source_.name, "row with absent values", absent_, policies);
     AddPolicy(source_.name, "thinned out", thinned_, policies);
+    AddPolicy(source_.name, "repeats the row before", repeats_, policies);
     AddPolicy(source_.name, std::string(kind_.unread), unread_, policies);
   }
 
@@ -189,6 +194,19 @@ class AidingReader : public MeasuredRow {
     due_ += settings_.every * (std::floor(late / settings_.every) + 1.0);
   }
 
+  bool IsRepeat() {
+    if (!source_.drop_repeats) return false;
+    bool repeats = last_values_.size() == measured_.count;
+    last_values_.resize(measured_.count);
+    for (std::size_t i = 0; i < measured_.count; ++i) {
+      const double value = Value(measured_.first + i);
+      repeats = repeats && value == last_values_[i];
+      last_values_[i] = value;
+    }
+    if (repeats) ++repeats_;
+    return repeats;
+  }
+
   bool IsAbsent() {
     if (JudgesAbsence(settings_)) return false;
     const std::size_t end = measured_.first + measured_.count;
@@ -227,6 +245,8 @@ class AidingReader : public MeasuredRow {
   long zero_velocities_ = 0;
   long absent_ = 0;
   long thinned_ = 0;
+  long repeats_ = 0;
+  std::vector<double> last_values_;
   long unread_ = 0;
   double due_ = -std::numeric_limits<double>::infinity();
 };

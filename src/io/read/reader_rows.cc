@@ -43,9 +43,10 @@ StreamRows::StreamRows(const StreamSource& source,
                        const std::vector<FieldName>& fields, bool allow_absent)
     : source_(source),
       fields_(fields),
-      opened_(OpenTable(source.path, WithClock(source), fields,
-                        {source.allow_truncated_tail,
-                         allow_absent || source.absent_values})) {
+      opened_(
+          OpenTable(source.path, WithClock(source), fields,
+                    {source.allow_truncated_tail,
+                     allow_absent || source.absent_values, source.drop_text})) {
   clock_.dated = opened_.dated || source.clock.week.has_value() ||
                  source.clock.scale != ClockMap::Scale::kDataset;
   for (std::size_t i = 0; i < fields.size(); ++i) {

@@ -1,7 +1,6 @@
 #include "io/read/recognise_format.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -10,7 +9,10 @@
 #include <vector>
 
 #include "base/error.h"
+#include "io/read/column_meaning.h"
+#include "io/read/file_columns.h"
 #include "io/read/paths.h"
+#include "io/read/recognise_columns.h"
 #include "io/read/text_layout.h"
 
 namespace hindsight {
@@ -89,22 +91,16 @@ std::vector<const SensorKind*> KindsOfTitles(const Titles& titles) {
   return kinds;
 }
 
-/// Whether a file is called truth or reference, or `gt` or `ref` by a word of
-/// its name.
-bool IsNamedTruth(const std::string& path) {
-  std::string words;
-  for (const char c : fs::path(path).filename().string()) {
-    const auto byte = static_cast<unsigned char>(c);
-    words +=
-        std::isalpha(byte) != 0 ? static_cast<char>(std::tolower(byte)) : ' ';
+/// The forms of a speed or a distance that is no log of speed and course.
+std::optional<Found> OdometerOf(const Titles& titles) {
+  Found found = {"", "csv"};
+  found.kinds = {&OdometerKind()};
+  if (titles.contains("distance") && !titles.contains("speed")) {
+    found.lines.push_back({"form", "increments"});
+  } else if (!titles.contains("speed") || titles.contains("course")) {
+    return std::nullopt;
   }
-  if (words.find("truth") != std::string::npos ||
-      words.find("reference") != std::string::npos) {
-    return true;
-  }
-  words = ' ' + words + ' ';
-  return words.find(" gt ") != std::string::npos ||
-         words.find(" ref ") != std::string::npos;
+  return found;
 }
 
 std::optional<Found> RecogniseCsv(const std::string& path, const Probe& probe) {
@@ -113,6 +109,7 @@ std::optional<Found> RecogniseCsv(const std::string& path, const Probe& probe) {
     titles.insert(SplitTitle(title).first);
   }
   if (!titles.contains("t")) return std::nullopt;
+  if (auto odometer = OdometerOf(titles)) return odometer;
   Found found{"", "csv"};
   found.imu = HoldsAll(titles, {"gyro_x", "gyro_y", "gyro_z", "accel_x",
                                 "accel_y", "accel_z"}) ||
@@ -211,9 +208,9 @@ std::optional<Found> RecogniseEuroc(const Probe& probe) {
     const bool truth = header.find("p_RS_R_x") != std::string::npos;
     if (!truth) return AnImu("euroc");
     Found found = ATruth("euroc");
-    found.keys =
-        "  frame: enu              # z up; x east is a guess\n"
-        "  origin: [0 deg, 0 deg, 0 m]  # REPLACE\n";
+    found.lines = {{"frame", "enu", "z up; x east is a guess"},
+                   {"origin", "[0 deg, 0 deg, 0 m]",
+                    "the file does not say where (a guess)"}};
     return found;
   }
   return std::nullopt;
@@ -228,7 +225,7 @@ std::optional<Found> RecogniseNclt(const Probe& probe) {
   if (tokens.size() == 10) return AnImu("nclt");
   if (tokens.size() == 8) {
     Found found = Aiding("nclt", {&PositionKind(), &SpeedCourseKind()});
-    found.keys = "    accept_quality: [3]    # with a fix in three axes\n";
+    found.lines = {{"accept_quality", "[3]", "with a fix in three axes"}};
     return found;
   }
   return std::nullopt;
@@ -278,10 +275,8 @@ std::optional<Found> RecogniseName(const fs::path& path) {
   return std::nullopt;
 }
 
-}  // namespace
-
-std::optional<Found> RecogniseFormat(const std::string& path) {
-  if (auto found = RecogniseName(path)) return found;
+/// A format that has one of its own.
+std::optional<Found> RecogniseOwn(const std::string& path) {
   Probe probe;
   try {
     probe = ReadProbe(path);
@@ -293,9 +288,76 @@ std::optional<Found> RecogniseFormat(const std::string& path) {
   if (auto found = RecogniseEuroc(probe)) return found;
   if (auto found = RecogniseNmea(probe)) return found;
   if (auto found = RecogniseNclt(probe)) return found;
-  if (auto found = RecogniseCsv(path, probe)) return found;
+  return RecogniseCsv(path, probe);
+}
+
+/// A format of bare numbers in a fixed order.
+std::optional<Found> RecogniseBare(const std::string& path) {
+  const Probe probe = ReadProbe(path);
   if (auto found = RecogniseControlPoints(probe)) return found;
   return RecogniseKfGins(probe);
+}
+
+/// Columns that no format declares.
+std::vector<Found> RecogniseNumbers(const std::string& path,
+                                    const RecogniseHints& hints) {
+  const std::string name = fs::path(path).filename().string();
+  if (fs::path(path).extension() == ".mat") {
+    return RecogniseColumns(ReadMatColumns(path), name, hints);
+  }
+  const auto columns = ReadTextColumns(path);
+  if (!columns) return {};
+  return RecogniseColumns(*columns, name, hints);
+}
+
+}  // namespace
+
+void SetLine(KeyLine line, std::vector<KeyLine>* lines) {
+  const auto at =
+      std::find_if(lines->begin(), lines->end(),
+                   [&](const KeyLine& known) { return known.key == line.key; });
+  if (at != lines->end()) {
+    *at = std::move(line);
+  } else {
+    lines->push_back(std::move(line));
+  }
+}
+
+const KeyLine* FindLine(const std::vector<KeyLine>& lines,
+                        const std::string& key) {
+  const auto at =
+      std::find_if(lines.begin(), lines.end(),
+                   [&](const KeyLine& line) { return line.key == key; });
+  return at == lines.end() ? nullptr : &*at;
+}
+
+bool IsNamedTruth(const std::string& path) {
+  const std::string name = fs::path(path).filename().string();
+  const std::vector<std::string> words = SplitWords(name);
+  return std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    return word == "truth" || word == "groundtruth" || word == "reference" ||
+           word == "gt" || word == "ref";
+  });
+}
+
+std::vector<Found> RecogniseFormat(const std::string& path,
+                                   const RecogniseHints& hints) {
+  if (auto found = RecogniseName(path)) return {*found};
+  if (IsFolder(path)) return {};
+  if (auto found = RecogniseOwn(path)) return {*found};
+  try {
+    std::vector<Found> found = RecogniseNumbers(path, hints);
+    const bool imu = std::any_of(found.begin(), found.end(),
+                                 [](const Found& f) { return f.imu; });
+    // Increments have no gravity to be known by, fixes of a fixed order none
+    // of its own columns.
+    if (!imu && fs::path(path).extension() != ".mat") {
+      if (auto bare = RecogniseBare(path)) return {*bare};
+    }
+    return found;
+  } catch (const InputError&) {
+    return {};
+  }
 }
 
 }  // namespace hindsight

@@ -5,11 +5,28 @@
 #include <string>
 #include <vector>
 
+#include "io/read/imu_guess.h"
+#include "io/read/stamp_guess.h"
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {
 
-/// A file or folder whose format was recognised.
+/// One line of a configuration: a key, which is indented by as much as its map
+/// is deep, its value, and why.
+struct KeyLine {
+  std::string key;
+  std::string value;
+  std::string comment = {};
+};
+
+/// Replaces the line of that key, or adds it.
+void SetLine(KeyLine line, std::vector<KeyLine>* lines);
+
+/// The line of that key; nullptr if there is none.
+const KeyLine* FindLine(const std::vector<KeyLine>& lines,
+                        const std::string& key);
+
+/// A stream that was found in a file or folder.
 struct Found {
   std::string file;
   std::string format;
@@ -19,13 +36,34 @@ struct Found {
   bool sigmas = true;  ///< states those of `kinds`, where the format can
   /// What it can serve as besides, in the order of SensorKinds.
   std::vector<const SensorKind*> kinds = {};
-  std::string keys = {};  ///< further lines of its configuration
+  std::vector<KeyLine> lines = {};  ///< of its configuration, behind `format`
+  /// Of columns that no configuration declared: how they become times.
+  std::optional<StampGuess> stamps = {};
+  std::optional<ImuGuess> imu_guess = {};
+  /// Of an IMU on a wheel: the axis about which it spins, 0 to 2.
+  std::optional<int> spin_axis = {};
+  std::vector<std::string> remarks = {};      ///< what was odd
+  std::vector<std::string> assumptions = {};  ///< what may be otherwise
+  double top_speed = 0.0;                     ///< of positions [m/s]
 };
 
-/// Tells the format of a file by its content, that of a bag or an OXTS folder
-/// by its name. An own CSV is a truth only by its name. Nothing if it is none
-/// that is known.
-std::optional<Found> RecogniseFormat(const std::string& path);
+/// What is known of a recording when the streams beside its IMU are looked at.
+struct RecogniseHints {
+  std::optional<double> imu_span = {};  ///< [s]
+  /// Of the IMU, where its rows are counted and not stamped [Hz].
+  std::optional<double> count_rate = {};
+};
+
+/// The streams of a file: by its content if it is in a format of its own, and
+/// else by its columns' titles and numbers; a bag or an OXTS folder by its name.
+/// A file of columns is a truth only by its name. Empty if it is none that is
+/// known.
+std::vector<Found> RecogniseFormat(const std::string& path,
+                                   const RecogniseHints& hints = {});
+
+/// Whether a file is called truth or reference, or `gt` or `ref` by a word of
+/// its name.
+bool IsNamedTruth(const std::string& path);
 
 }  // namespace hindsight
 

@@ -50,7 +50,11 @@ class LayoutBuilder {
     if (format_.ignore_time) {
       layout_.clock = TableLayout::Clock::kNone;
     } else if (time_column_ < 0) {
-      Fail("no column t with the time");
+      Fail(format_.kind == TextFormat::Kind::kCsv
+               ? "no column t with the time; `format: columns` reads titles of "
+                 "any name, and rows without a time by `time: {rate: ...}`"
+               : "no column t with the time; expected t under `columns`, or "
+                 "`time: {rate: ...}` for rows that are counted");
     } else if (week_column_ >= 0 && time_column_ != week_column_ + 1) {
       Fail("the seconds of week must stand right of the week");
     }

@@ -145,21 +145,31 @@ TextTable::TextTable(TextLines* lines, TableLayout layout, Options options,
   }
 }
 
-bool TextTable::Next() {
-  std::string_view line;
+bool TextTable::NextLine(std::string_view* line) {
   if (!first_row_.empty()) {
-    line = first_row_;
+    *line = first_row_;
   } else {
     do {
-      if (!lines_->Next(&line)) return false;
-    } while (IsComment(line));
+      if (!lines_->Next(line)) return false;
+    } while (IsComment(*line));
   }
   line_ = lines_->number();
-  if (first_length_ == 0) first_length_ = line.size() + 1;
+  if (first_length_ == 0) first_length_ = line->size() + 1;
+  return true;
+}
+
+bool TextTable::Next() {
+  std::string_view line;
   std::string problem;
-  const bool good = Parse(line, &problem) && IsLastValueWhole(line, &problem);
-  first_row_.clear();
-  if (good) return true;
+  while (true) {
+    if (!NextLine(&line)) return false;
+    const bool good = Parse(line, &problem) && IsLastValueWhole(line, &problem);
+    first_row_.clear();
+    if (good) return true;
+    const bool cut = !lines_->terminated() && options_.allow_truncated_tail;
+    if (!options_.drop_text || cut) break;
+    ++texts_;
+  }
   if (lines_->terminated()) Fail(problem);
   if (!options_.allow_truncated_tail) {
     Fail("the last line is truncated: " + problem +
@@ -281,8 +291,12 @@ std::string TextTable::ColumnName(int column) const {
 }
 
 std::vector<LeftOut> TextTable::left_out() const {
-  if (truncated_ == 0) return {};
-  return {{"truncated last line dropped", truncated_}};
+  std::vector<LeftOut> left_out;
+  if (truncated_ > 0) {
+    left_out.push_back({"truncated last line dropped", truncated_});
+  }
+  if (texts_ > 0) left_out.push_back({"row of text dropped", texts_});
+  return left_out;
 }
 
 std::size_t TextTable::RowsHint() const {

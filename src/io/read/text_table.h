@@ -55,6 +55,8 @@ class TextTable final : public RowSource {
   struct Options {
     bool allow_truncated_tail = false;  ///< drop a last line that was cut off
     bool allow_absent = false;          ///< empty and NaN values read as NaN
+    /// Rows of text, and of another number of columns, are left out.
+    bool drop_text = false;
   };
 
   /// `first_row` is the first line of data if it was read already, else empty.
@@ -73,11 +75,13 @@ class TextTable final : public RowSource {
     return layout_.fields[field].column >= 0;
   }
   const std::string& path() const override { return lines_->path(); }
-  /// Lines dropped under allow_truncated_tail.
+  /// Lines dropped under allow_truncated_tail and drop_text.
   std::vector<LeftOut> left_out() const override;
   std::size_t RowsHint() const override;
 
  private:
+  /// The next line that is no comment; false at the end.
+  bool NextLine(std::string_view* line);
   bool Parse(std::string_view line, std::string* problem);
   bool ParseTime(const std::vector<std::string_view>& time_tokens,
                  std::string* problem);
@@ -93,6 +97,7 @@ class TextTable final : public RowSource {
   std::vector<double> raw_;
   std::vector<std::string_view> time_tokens_;
   long truncated_ = 0;
+  long texts_ = 0;
   std::size_t first_length_ = 0;
   static constexpr std::size_t kNoLength = static_cast<std::size_t>(-1);
   std::size_t shortest_last_value_ = kNoLength;

@@ -62,6 +62,7 @@ constexpr std::array kUnits = {
     NamedUnit{"mrad", {1e-3, kAngle}},
     NamedUnit{"urad", {1e-6, kAngle}},
     NamedUnit{"deg", {kDegree, kAngle}},
+    NamedUnit{"mdeg", {1e-3 * kDegree, kAngle}},
     NamedUnit{"arcmin", {kArcMinute, kAngle}},
     NamedUnit{"arcsec", {kArcMinute / 60.0, kAngle}},
     NamedUnit{"g", {kStandardGravity, kAcceleration}},
@@ -124,12 +125,93 @@ Unit Scaled(const Unit& unit, double half_exponent) {
            times(unit.dimension.angle), times(unit.dimension.field)}};
 }
 
+struct Synonym {
+  std::string_view written;
+  std::string_view meant;
+};
+
+/// Whole words of data sheets and of the titles of columns.
+constexpr std::array kSynonyms = {
+    Synonym{"hr", "h"},          Synonym{"hour", "h"},
+    Synonym{"hours", "h"},       Synonym{"sec", "s"},
+    Synonym{"second", "s"},      Synonym{"seconds", "s"},
+    Synonym{"msec", "ms"},       Synonym{"usec", "us"},
+    Synonym{"degree", "deg"},    Synonym{"degrees", "deg"},
+    Synonym{"radian", "rad"},    Synonym{"radians", "rad"},
+    Synonym{"meter", "m"},       Synonym{"meters", "m"},
+    Synonym{"metre", "m"},       Synonym{"metres", "m"},
+    Synonym{"knot", "kn"},       Synonym{"knots", "kn"},
+    Synonym{"gauss", "G"},       Synonym{"Gauss", "G"},
+    Synonym{"mgauss", "mG"},     Synonym{"mGauss", "mG"},
+    Synonym{"microtesla", "uT"},
+};
+
 std::optional<Unit> FindUnit(std::string_view name) {
-  if (name == "hr") name = "h";
+  for (const Synonym& synonym : kSynonyms) {
+    if (name == synonym.written) name = synonym.meant;
+  }
   for (const NamedUnit& known : kUnits) {
     if (name == known.name) return known.unit;
   }
   return std::nullopt;
+}
+
+void ReplaceAll(std::string_view from, std::string_view to, std::string* text) {
+  for (std::size_t at = 0; (at = text->find(from, at)) != text->npos;
+       at += to.size()) {
+    text->replace(at, from.size(), to);
+  }
+}
+
+bool IsLetter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+/// "sqrtHz" as "sqrt(Hz)".
+void BracketRoots(std::string* text) {
+  constexpr std::string_view kRoot = "sqrt";
+  for (std::size_t at = 0; (at = text->find(kRoot, at)) != text->npos;) {
+    at += kRoot.size();
+    if (at == text->size() || !IsLetter((*text)[at])) continue;
+    std::size_t end = at;
+    while (end < text->size() && IsLetter((*text)[end])) ++end;
+    text->insert(end, ")").insert(at, "(");
+  }
+}
+
+/// "m/s2" as "m/s^2".
+void RaiseExponents(std::string* text) {
+  for (std::size_t i = 1; i < text->size(); ++i) {
+    const char digit = (*text)[i];
+    if ((digit == '2' || digit == '3') && IsLetter((*text)[i - 1])) {
+      text->insert(i++, "^");
+    }
+  }
+}
+
+/// In ASCII, without the brackets around a first factor, a root as sqrt().
+std::string PlainUnit(std::string_view unit) {
+  static constexpr std::array kWritten = {
+      Synonym{"\u00b5", "u"},        Synonym{"\u03bc", "u"},
+      Synonym{"\u00b0", "deg"},      Synonym{"\u00ba", "deg"},
+      Synonym{"\u00b2", "^2"},       Synonym{"\u00b3", "^3"},
+      Synonym{"\u221a", "sqrt"},     Synonym{"\u00b7", "*"},
+      Synonym{"/rtHz", "/sqrt(Hz)"}, Synonym{"Hz^(1/2)", "sqrt(Hz)"},
+      Synonym{"Hz^0.5", "sqrt(Hz)"}, Synonym{"h^0.5", "sqrt(h)"},
+      Synonym{"h^(1/2)", "sqrt(h)"}, Synonym{"mdps", "mdeg/s"},
+      Synonym{"dps", "deg/s"},       Synonym{" per ", "/"},
+  };
+  std::string text(Trim(unit));
+  for (const Synonym& synonym : kWritten) {
+    ReplaceAll(synonym.written, synonym.meant, &text);
+  }
+  BracketRoots(&text);
+  RaiseExponents(&text);
+  if (const std::size_t close = text.find(')');
+      text.starts_with('(') && close != text.npos) {
+    text = text.substr(1, close - 1) + text.substr(close + 1);
+  }
+  return text;
 }
 
 std::optional<Unit> ParseFactor(std::string_view text) {
@@ -217,7 +299,7 @@ const char* UnitExamples(Quantity quantity) {
 }
 
 std::optional<double> UnitFactor(std::string_view unit, Quantity quantity) {
-  const auto parsed = ParseUnit(Trim(unit));
+  const auto parsed = ParseUnit(PlainUnit(unit));
   if (!parsed || parsed->dimension != Describe(quantity).dimension) {
     return std::nullopt;
   }

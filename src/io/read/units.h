@@ -20,9 +20,11 @@ const char* UnitExamples(Quantity quantity);
 
 /// Factor from `unit` to the SI unit of `quantity`, or nothing if the unit is
 /// unknown or of another dimension. A unit is a product or quotient of
-///   s ms us ns min h, Hz kHz, m mm cm km ft, kn, rad mrad urad deg arcmin
-///   arcsec, g mg ug Gal mGal, uT nT mT G mG, 1 % ppm
-/// with ^n and sqrt(): "deg/sqrt(h)", "m/s^2", "ug/sqrt(Hz)". The second is
+///   s ms us ns min h, Hz kHz, m mm cm km ft, kn, rad mrad urad deg mdeg
+///   arcmin arcsec, g mg ug Gal mGal, uT nT mT G mG, 1 % ppm
+/// with ^n and sqrt(): "deg/sqrt(h)", "m/s^2", "ug/sqrt(Hz)"; also as data sheets
+/// write them: dps and mdps, a degree sign, a micro sign, a root sign or rtHz or
+/// Hz^0.5, m/s2, words as "degrees" and "sec", " per ". The second is
 /// s^-1 of Hz, so "deg/s/sqrt(Hz)" and "rad/sqrt(s)" are the same dimension;
 /// an angle is never mistaken for a ratio.
 std::optional<double> UnitFactor(std::string_view unit, Quantity quantity);

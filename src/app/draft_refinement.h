@@ -1,0 +1,35 @@
+#ifndef HINDSIGHT_APP_DRAFT_REFINEMENT_H_
+#define HINDSIGHT_APP_DRAFT_REFINEMENT_H_
+
+#include <string>
+#include <vector>
+
+#include "io/config/recording_draft.h"
+
+namespace hindsight {
+
+/// Loads the recording as drafted and puts into the draft what its readings
+/// tell, each with the reason: the axes that gravity shows; the white noise of
+/// the IMU's readings and bias sigmas to match; the offset of each stream's clock
+/// (SearchClock) and, over 200 s and more, how fast the IMU's clock runs against
+/// it; the vehicle's forward axis (FindMounting), and with it that it runs on
+/// wheels; radius and direction of a wheel against the speed of positions; which
+/// axis is mirrored; at last the noise as EstimateNoise finds it. What they do not
+/// tell becomes an assumption, as does an error of the load.
+void RefineDraft(RecordingDraft* draft);
+
+/// The drafts of all recordings below `folder`, refined. Throws InputError as
+/// DraftRecordings does.
+std::vector<RecordingDraft> DraftFolder(const std::string& folder);
+
+/// Whether nothing but the attitude can be estimated: no stream says where the
+/// IMU is or how it moves.
+bool IsAttitudeAlone(const RecordingDraft& draft);
+
+/// Writes a draft's text to a file, whole or not at all; --force replaces what
+/// 'init' wrote. Throws as AtomicFile does.
+void WriteDraft(const std::string& path, const std::string& text);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_APP_DRAFT_REFINEMENT_H_

@@ -1,0 +1,199 @@
+#include "io/config/recording_search.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/error.h"
+#include "io/read/column_meaning.h"
+#include "io/read/file_columns.h"
+#include "io/read/paths.h"
+#include "io/read/recognise_columns.h"
+
+namespace hindsight {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDeepest = 6;
+
+bool HoldsImu(const std::vector<Found>& found) {
+  return std::any_of(found.begin(), found.end(),
+                     [](const Found& f) { return f.imu; });
+}
+
+/// A file or folder that is a recording by itself.
+bool IsWhole(const Found& found) {
+  return found.format == "mat" || found.format == "rosbag" ||
+         found.format == "oxts";
+}
+
+/// Puts the names of files below `below`.
+void MoveBelow(const fs::path& below, RecordingFiles* files) {
+  for (auto* list : {&files->imus, &files->others}) {
+    for (Found& found : *list) found.file = (below / found.file).string();
+  }
+  for (std::string& name : files->unknown) name = (below / name).string();
+}
+
+void Append(RecordingFiles from, RecordingFiles* to) {
+  const auto move = [](auto& a, auto* b) {
+    b->insert(b->end(), std::make_move_iterator(a.begin()),
+              std::make_move_iterator(a.end()));
+  };
+  move(from.imus, &to->imus);
+  move(from.others, &to->others);
+  move(from.unknown, &to->unknown);
+}
+
+/// Files that are known to hold no stream of a recording.
+bool IsAside(const fs::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".tag" || extension == ".yaml" || extension == ".yml";
+}
+
+class Search {
+ public:
+  struct Result {
+    std::vector<RecordingFiles> recordings;
+    RecordingFiles rest;
+  };
+
+  Result Visit(const fs::path& folder, int depth) {
+    Result result;
+    result.rest.folder = folder;
+    std::vector<fs::path> leaves;
+    LookAtFiles(folder, depth, &result, &leaves);
+    ComposeImu(folder, leaves, &result.rest);
+    return Settle(folder, std::move(result));
+  }
+
+ private:
+  void LookAtFiles(const fs::path& folder, int depth, Result* result,
+                   std::vector<fs::path>* leaves) {
+    if (auto arrays = ReadNpyColumns(folder.string())) {
+      AddArrays(*arrays, folder, &result->rest);
+      return;
+    }
+    for (const fs::path& entry : FolderEntries(folder.string())) {
+      const std::string name = entry.filename().string();
+      if (name.starts_with('.')) continue;
+      std::vector<Found> found;
+      if (IsFile(entry) || PathExists(entry / "timestamps.txt")) {
+        if (IsAside(entry)) continue;
+        found = RecogniseFormat(entry.string());
+        Take(std::move(found), name, folder, result);
+      } else if (IsFolder(entry) && depth < kDeepest) {
+        Result below = Visit(entry, depth + 1);
+        if (below.recordings.empty()) leaves->push_back(entry);
+        MoveBelow(name, &below.rest);
+        Append(std::move(below.rest), &result->rest);
+        for (RecordingFiles& recording : below.recordings) {
+          result->recordings.push_back(std::move(recording));
+        }
+      }
+    }
+  }
+
+  static void Take(std::vector<Found> found, const std::string& name,
+                   const fs::path& folder, Result* result) {
+    if (found.empty()) {
+      result->rest.unknown.push_back(name);
+      return;
+    }
+    RecordingFiles whole;
+    const bool own = HoldsImu(found) && IsWhole(found.front());
+    RecordingFiles* to = own ? &whole : &result->rest;
+    for (Found& stream : found) {
+      stream.file = name;
+      (stream.imu ? to->imus : to->others).push_back(std::move(stream));
+    }
+    if (!own) return;
+    whole.folder = folder;
+    whole.name = fs::path(name).stem().string();
+    result->recordings.push_back(std::move(whole));
+  }
+
+  static void AddArrays(const FileColumns& arrays, const fs::path& folder,
+                        RecordingFiles* rest) {
+    const auto found = RecogniseColumns(arrays, folder.filename().string(), {});
+    for (Found stream : found) {
+      // Arrays are named by their folder.
+      stream.file = "..";
+      (stream.imu ? rest->imus : rest->others).push_back(std::move(stream));
+    }
+  }
+
+  /// Gyros and accelerometers in folders of arrays side by side.
+  static void ComposeImu(const fs::path& folder,
+                         const std::vector<fs::path>& leaves,
+                         RecordingFiles* rest) {
+    std::optional<FileColumns> gyro;
+    std::optional<FileColumns> accel;
+    for (const fs::path& leaf : leaves) {
+      auto arrays = ReadNpyColumns(leaf.string());
+      if (!arrays) continue;
+      const auto meanings = ReadMeanings(*arrays);
+      const auto holds = [&](const char* quantity) {
+        return std::any_of(
+            meanings.begin(), meanings.end(),
+            [&](const ColumnMeaning& m) { return m.quantity == quantity; });
+      };
+      if (!gyro && holds("gyro_x"))
+        gyro = std::move(arrays);
+      else if (!accel && holds("accel_x"))
+        accel = std::move(arrays);
+    }
+    if (!gyro || !accel || gyro->rows != accel->rows) return;
+    for (FileColumn& column : accel->columns) {
+      gyro->columns.push_back(std::move(column));
+    }
+    for (Found stream :
+         RecogniseColumns(*gyro, folder.filename().string(), {})) {
+      if (!stream.imu) continue;
+      stream.file = ".";
+      rest->imus.push_back(std::move(stream));
+    }
+  }
+
+  /// What belongs to whom.
+  static Result Settle(const fs::path& folder, Result found) {
+    if (!found.rest.imus.empty()) {
+      found.rest.folder = folder;
+      found.rest.name = folder.filename().string();
+      RecordingFiles recording = std::move(found.rest);
+      found.rest = {};
+      found.recordings.push_back(std::move(recording));
+    } else if (found.recordings.size() == 1 &&
+               !(found.rest.others.empty() && found.rest.unknown.empty()) &&
+               !IsWhole(found.recordings[0].imus[0])) {
+      RecordingFiles& only = found.recordings[0];
+      MoveBelow(only.folder.lexically_relative(folder), &only);
+      only.folder = folder;
+      only.name = folder.filename().string();
+      Append(std::move(found.rest), &only);
+      found.rest = {};
+    }
+    return found;
+  }
+};
+
+}  // namespace
+
+std::vector<RecordingFiles> FindRecordings(const fs::path& folder,
+                                           RecordingFiles* rest) {
+  Search::Result found = Search().Visit(folder, 0);
+  *rest = std::move(found.rest);
+  for (RecordingFiles& recording : found.recordings) {
+    for (auto* list : {&recording.imus, &recording.others}) {
+      for (Found& stream : *list) {
+        stream.file = fs::path(stream.file).lexically_normal().generic_string();
+        if (stream.file.size() > 1 && stream.file.ends_with('/')) {
+          stream.file.pop_back();
+        }
+      }
+    }
+  }
+  return std::move(found.recordings);
+}
+
+}  // namespace hindsight

@@ -1,0 +1,327 @@
+#include "io/read/column_meaning.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <set>
+#include <string_view>
+
+namespace hindsight {
+namespace {
+
+using Words = std::vector<std::string>;
+
+bool IsUpper(char c) {
+  return std::isupper(static_cast<unsigned char>(c)) != 0;
+}
+bool IsAlpha(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) != 0;
+}
+char Lower(char c) {
+  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
+
+bool HasAny(const Words& words, std::initializer_list<std::string_view> names) {
+  return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+    return std::find(names.begin(), names.end(), word) != names.end();
+  });
+}
+
+struct UnitWord {
+  std::string_view word;
+  std::string_view unit;
+};
+
+/// The end of a title, where a unit stands without brackets.
+std::string UnitOfWord(const std::string& word) {
+  static constexpr std::array kUnits = {
+      UnitWord{"radps", "rad/s"}, UnitWord{"rads", "rad/s"},
+      UnitWord{"dps", "deg/s"},   UnitWord{"degps", "deg/s"},
+      UnitWord{"mps", "m/s"},     UnitWord{"kmh", "km/h"},
+      UnitWord{"deg", "deg"},     UnitWord{"rad", "rad"},
+      UnitWord{"sec", "s"},       UnitWord{"s", "s"},
+      UnitWord{"ms", "ms"},       UnitWord{"us", "us"},
+      UnitWord{"ns", "ns"},       UnitWord{"m", "m"},
+      UnitWord{"ut", "uT"},       UnitWord{"mg", "mg"},
+      UnitWord{"degrees", "deg"}, UnitWord{"seconds", "s"}};
+  for (const UnitWord& known : kUnits) {
+    if (word == known.word) return std::string(known.unit);
+  }
+  return "";
+}
+
+/// Takes the unit off a title: "[deg/s]" or "(deg/s)".
+std::string TakeBracketedUnit(std::string* title) {
+  const std::size_t open = title->find_first_of("[(");
+  if (open == title->npos) return "";
+  const char close_mark = (*title)[open] == '[' ? ']' : ')';
+  const std::size_t close = title->rfind(close_mark);
+  if (close == title->npos || close < open) return "";
+  const std::string unit = title->substr(open + 1, close - open - 1);
+  title->erase(open);
+  return unit;
+}
+
+std::string TakeUnitWord(Words* words) {
+  if (words->size() < 2) return "";
+  if (words->size() > 2 && words->back() == "2" &&
+      (*words)[words->size() - 2] == "mps") {
+    words->resize(words->size() - 2);
+    return "m/s^2";
+  }
+  const std::string unit = UnitOfWord(words->back());
+  if (!unit.empty()) words->pop_back();
+  return unit;
+}
+
+/// The last letter of a word that is one of `names` without it: 'x' of "gyrox".
+char AxisWithin(const Words& words, std::string_view axes,
+                std::initializer_list<std::string_view> names) {
+  for (const std::string& word : words) {
+    if (word.size() < 2 || axes.find(word.back()) == axes.npos) continue;
+    const std::string_view head(word.data(), word.size() - 1);
+    if (std::find(names.begin(), names.end(), head) != names.end()) {
+      return word.back();
+    }
+  }
+  return '\0';
+}
+
+/// x, y or z as a word of its own, or as the end of one of `names`.
+char AxisOf(const Words& words, std::initializer_list<std::string_view> full,
+            std::initializer_list<std::string_view> letters) {
+  if (const char axis = AxisWithin(words, "xyz", full)) return axis;
+  if (const char axis = AxisWithin(words, "xyz", letters)) return axis;
+  const bool named = HasAny(words, full) || HasAny(words, letters);
+  if (!named) return '\0';
+  for (const std::string& word : words) {
+    if (word.size() == 1 && word >= "x" && word <= "z") return word[0];
+  }
+  return '\0';
+}
+
+/// North, east, down or up.
+char DirectionOf(const Words& words) {
+  if (HasAny(words, {"n", "north"})) return 'n';
+  if (HasAny(words, {"e", "east"})) return 'e';
+  if (HasAny(words, {"d", "down"})) return 'd';
+  if (HasAny(words, {"u", "up"})) return 'u';
+  return '\0';
+}
+
+ColumnMeaning Component(const std::string& family, char direction) {
+  const bool up = direction == 'u';
+  return {family + (up ? 'd' : direction), "", up};
+}
+
+ColumnMeaning Sigma(const Words& words) {
+  char direction = DirectionOf(words);
+  if (direction == '\0') direction = AxisWithin(words, "nedu", {"sd", "std"});
+  if (direction == '\0') return {};
+  if (direction == 'u') direction = 'd';
+  const bool speed = HasAny(words, {"v", "vel", "velocity"});
+  return {std::string(speed ? "sigma_v_" : "sigma_") + direction, ""};
+}
+
+ColumnMeaning Inertial(const Words& words) {
+  if (const char axis = AxisOf(
+          words,
+          {"acc", "accel", "accelerometer", "acceleration", "accelerations"},
+          {"a", "f"})) {
+    return {std::string("accel_") + axis, ""};
+  }
+  if (const char axis = AxisOf(
+          words, {"gyr", "gyro", "gyroscope", "omega", "angvel", "angular"},
+          {"g", "w"})) {
+    return {std::string("gyro_") + axis, ""};
+  }
+  if (const char axis =
+          AxisOf(words, {"mag", "magn", "magnetometer", "magnetic"}, {"m"})) {
+    return {std::string("mag_") + axis, ""};
+  }
+  return {};
+}
+
+ColumnMeaning Attitude(const Words& words) {
+  for (const char part : {'w', 'x', 'y', 'z'}) {
+    const std::string fused = std::string("q") + part;
+    const std::string alone(1, part);
+    const bool quaternion =
+        HasAny(words, {"q", "quat", "quaternion", "orientation"});
+    if (HasAny(words, {fused}) || (quaternion && HasAny(words, {alone}))) {
+      return {std::string("q_") + part, ""};
+    }
+  }
+  const bool euler = HasAny(words, {"euler"});
+  if (HasAny(words, {"roll"}) || (euler && HasAny(words, {"x"}))) {
+    return {"roll", ""};
+  }
+  if (HasAny(words, {"pitch"}) || (euler && HasAny(words, {"y"}))) {
+    return {"pitch", ""};
+  }
+  if (HasAny(words, {"yaw", "heading"}) || (euler && HasAny(words, {"z"}))) {
+    return {"heading", ""};
+  }
+  return {};
+}
+
+ColumnMeaning Velocity(const Words& words) {
+  if (const char direction = AxisWithin(words, "nedu", {"v", "vel"})) {
+    return Component("v_", direction);
+  }
+  const bool named = HasAny(words, {"v", "vel", "velocity"});
+  if (named && DirectionOf(words) != '\0') {
+    return Component("v_", DirectionOf(words));
+  }
+  if (HasAny(words, {"dvl"})) {
+    if (const char axis = AxisOf(words, {"dvl", "v", "vel"}, {})) {
+      return {std::string("v_") + axis, ""};
+    }
+  }
+  if (HasAny(words, {"speed", "spd", "sog", "velocity"})) return {"speed", ""};
+  if (HasAny(words, {"course", "cog", "track", "bearing"})) {
+    return {"course", ""};
+  }
+  return {};
+}
+
+ColumnMeaning Place(const Words& words) {
+  if (HasAny(words, {"lat", "latitude"})) return {"lat", ""};
+  if (HasAny(words, {"lon", "long", "lng", "longitude"})) return {"lon", ""};
+  if (HasAny(words, {"depth"})) return {"depth", ""};
+  if (HasAny(words, {"h", "height", "alt", "altitude", "elevation"})) {
+    return {"h", ""};
+  }
+  if (const char axis =
+          AxisOf(words, {"p", "pos", "position", "positions"}, {})) {
+    return {std::string("p_") + axis, ""};
+  }
+  const char direction = DirectionOf(words);
+  const bool alone = words.size() == 1 || HasAny(words, {"p", "pos"});
+  if (direction != '\0' && alone) {
+    const bool up = direction == 'u';
+    const char axis = direction == 'n' ? 'x' : direction == 'e' ? 'y' : 'z';
+    return {std::string("p_") + axis, "", up};
+  }
+  return {};
+}
+
+ColumnMeaning Other(const Words& words) {
+  if (HasAny(words, {"zupt", "stance"}) ||
+      (HasAny(words, {"zero"}) && HasAny(words, {"vel", "velocity"}))) {
+    return {"zero_velocity", ""};
+  }
+  if (HasAny(words, {"index", "counter", "packet", "row", "id"})) {
+    return {"index", ""};
+  }
+  if (HasAny(words, {"fix", "quality", "mode"})) return {"quality", ""};
+  if (HasAny(words, {"movement", "moving"})) return {"moving", ""};
+  if (HasAny(words, {"t", "time", "times", "timestamp", "stamp", "seconds",
+                     "sec", "tow", "utc", "sample"})) {
+    return {"t", ""};
+  }
+  return {};
+}
+
+ColumnMeaning MeaningOfWords(const Words& words) {
+  if (HasAny(words, {"bias", "accuracy", "temp", "temperature", "distance",
+                     "gdop", "pdop", "hdop"})) {
+    return {};
+  }
+  if (HasAny(words, {"std", "sd", "sigma", "stdev", "stddev", "sdn", "sde",
+                     "sdu", "sdd"})) {
+    return Sigma(words);
+  }
+  // Counters of time are told before times.
+  if (HasAny(words, {"index", "counter", "zero"})) return Other(words);
+  for (const auto reading : {Attitude, Inertial, Velocity, Place, Other}) {
+    if (ColumnMeaning meaning = reading(words); !meaning.quantity.empty()) {
+      return meaning;
+    }
+  }
+  return {};
+}
+
+/// The column of an array in its reference: 2 of "imu_gyr:2"; 0 of one alone.
+int ArrayColumn(const std::string& reference) {
+  const std::size_t colon = reference.rfind(':');
+  return colon == reference.npos ? 0 : std::stoi(reference.substr(colon + 1));
+}
+
+ColumnMeaning MeaningInArray(const FileColumn& column) {
+  const int number = ArrayColumn(column.reference);
+  const std::string array = column.title.substr(column.title.rfind('/') + 1);
+  if (Other(SplitWords(array)).quantity == "t") {
+    return number == 0 ? ColumnMeaning{"t", ""} : ColumnMeaning{};
+  }
+  Words words = SplitWords(column.title);
+  if (number >= 1 && number <= 4) {
+    static constexpr std::array kAxes = {"x", "y", "z"};
+    static constexpr std::array kParts = {"w", "x", "y", "z"};
+    const bool quaternion =
+        HasAny(words, {"quat", "quaternion", "orientation", "orientations"});
+    if (quaternion) {
+      return {std::string("q_") + kParts[static_cast<std::size_t>(number - 1)],
+              ""};
+    }
+    if (number <= 3) {
+      words.emplace_back(kAxes[static_cast<std::size_t>(number - 1)]);
+    }
+  }
+  return MeaningOfWords(words);
+}
+
+}  // namespace
+
+std::vector<std::string> SplitWords(const std::string& name) {
+  Words words;
+  std::string word;
+  const auto end = [&] {
+    if (!word.empty()) words.push_back(word);
+    word.clear();
+  };
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const char c = name[i];
+    const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
+    if (!IsAlpha(c) && !digit) {
+      end();
+      continue;
+    }
+    if (!word.empty()) {
+      const bool was_alpha = IsAlpha(word.back());
+      const bool hump =
+          i > 0 && IsUpper(c) && IsAlpha(name[i - 1]) && !IsUpper(name[i - 1]);
+      if (hump || was_alpha == digit) end();
+    }
+    word += Lower(c);
+  }
+  end();
+  return words;
+}
+
+ColumnMeaning MeaningOfTitle(const std::string& title) {
+  std::string text = title;
+  std::string unit = TakeBracketedUnit(&text);
+  Words words = SplitWords(text);
+  if (unit.empty()) unit = TakeUnitWord(&words);
+  ColumnMeaning meaning = MeaningOfWords(words);
+  meaning.unit = unit;
+  return meaning;
+}
+
+std::vector<ColumnMeaning> ReadMeanings(const FileColumns& file) {
+  std::vector<ColumnMeaning> meanings;
+  std::set<std::string> taken;
+  for (const FileColumn& column : file.columns) {
+    ColumnMeaning meaning = file.format == "columns"
+                                ? MeaningOfTitle(column.title)
+                                : MeaningInArray(column);
+    if (!meaning.quantity.empty() && !taken.insert(meaning.quantity).second) {
+      meaning = {};
+    }
+    meanings.push_back(std::move(meaning));
+  }
+  return meanings;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,34 @@
+#ifndef HINDSIGHT_IO_READ_COLUMN_MEANING_H_
+#define HINDSIGHT_IO_READ_COLUMN_MEANING_H_
+
+#include <string>
+#include <vector>
+
+#include "io/read/file_columns.h"
+
+namespace hindsight {
+
+/// What the title of a column says of it.
+struct ColumnMeaning {
+  /// As `columns` of a configuration names it: "t", "accel_x", "lat"; also
+  /// "index" for what counts rows; "" if the title says nothing.
+  std::string quantity;
+  std::string unit;      ///< as the title writes it; "" if it does not
+  bool upwards = false;  ///< of a component that a title calls "up"
+};
+
+/// By the words of a title, which stand in any usual spelling: "Acc_X",
+/// "gx_radps", "GYRO X [rad/s]", "V North [m/s]", "pos_std_n_m".
+ColumnMeaning MeaningOfTitle(const std::string& title);
+
+/// Of all columns of a file; arrays of three or four columns without titles of
+/// their own count them as axes. No quantity stands twice: of two the first.
+std::vector<ColumnMeaning> ReadMeanings(const FileColumns& file);
+
+/// The words of a name in lower case, parted where case, digits or signs
+/// change: "positionGt" as position, gt.
+std::vector<std::string> SplitWords(const std::string& name);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_READ_COLUMN_MEANING_H_

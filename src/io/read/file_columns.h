@@ -1,0 +1,54 @@
+#ifndef HINDSIGHT_IO_READ_FILE_COLUMNS_H_
+#define HINDSIGHT_IO_READ_FILE_COLUMNS_H_
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hindsight {
+
+/// One column of numbers as a file holds it.
+struct FileColumn {
+  std::string reference;  ///< as `columns` names it: "3", "imu_gyr:2"
+  std::string title;      ///< of the file, with its unit; "" if it has none
+  std::vector<double> values;  ///< NaN where nothing stands
+};
+
+/// The numbers of a file whose meaning nobody has declared.
+struct FileColumns {
+  std::string format;  ///< "columns", "npy" or "mat"
+  std::vector<FileColumn> columns;
+  std::size_t rows = 0;
+  int skip_lines = 0;     ///< before the first row of numbers
+  std::string delimiter;  ///< as the key `delimiter` has it; "": auto
+  bool cut_tail = false;  ///< the last line was cut off
+  long text_rows = 0;     ///< rows of text between or behind those of numbers
+  bool complete = true;   ///< false: a long file, of which this is the start
+  std::map<std::string, double> scalars;  ///< variables of one number
+  /// One clause each: what is odd about the file and what was done about it.
+  std::vector<std::string> remarks;
+};
+
+/// Numbers kept of one file.
+inline constexpr std::size_t kMostProbedNumbers = 20'000'000;
+
+/// Of a delimited text, plain or gzip, with or without titles. Passed over are
+/// lines before the numbers begin (`sep=,`, notes, a first line that was cut
+/// off), first rows that hold nothing but zeros beside a count, and rows of text
+/// further down. Nothing if fewer than three rows of numbers of equal length are
+/// found. Throws InputError as TextLines does.
+std::optional<FileColumns> ReadTextColumns(const std::string& path);
+
+/// Of the NumPy arrays in a folder, not below it: those with as many rows as
+/// the longest. References and titles name them by the folder, "gyro/value:1".
+/// Nothing if there are none.
+std::optional<FileColumns> ReadNpyColumns(const std::string& folder);
+
+/// Of a MATLAB file: the variables with as many rows as the longest, and those
+/// of one number. Throws InputError if it is none or damaged.
+FileColumns ReadMatColumns(const std::string& path);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_READ_FILE_COLUMNS_H_

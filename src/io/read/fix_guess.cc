@@ -1,0 +1,237 @@
+#include "io/read/fix_guess.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/median.h"
+#include "base/units.h"
+#include "io/read/units.h"
+
+namespace hindsight {
+namespace {
+
+using Values = std::vector<double>;
+
+const Values& Column(const FileColumns& file, int column) {
+  return file.columns[static_cast<std::size_t>(column)].values;
+}
+
+int Titled(const std::vector<ColumnMeaning>& meanings,
+           const std::string& quantity) {
+  for (std::size_t i = 0; i < meanings.size(); ++i) {
+    if (meanings[i].quantity == quantity) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+bool IsFree(const std::vector<ColumnMeaning>& meanings, int column) {
+  return meanings[static_cast<std::size_t>(column)].quantity.empty();
+}
+
+double LargestStep(const Values& v) {
+  Values steps;
+  for (std::size_t i = 1; i < v.size(); ++i) {
+    steps.push_back(std::abs(v[i] - v[i - 1]));
+  }
+  if (steps.empty()) return 0.0;
+  const auto at = static_cast<std::ptrdiff_t>(steps.size() * 99 / 100);
+  std::nth_element(steps.begin(), steps.begin() + at, steps.end());
+  return *(steps.begin() + at);
+}
+
+/// An angle on the Earth in degrees that changes as a vehicle moves.
+bool LooksLikeAngle(const Values& v, double most) {
+  constexpr double kFastest = 0.02;  // of a row to the next, 2 km
+  constexpr double kWidest = 10.0;
+  const auto [low, high] = std::minmax_element(v.begin(), v.end());
+  const bool fine = std::any_of(v.begin(), v.end(), [](double x) {
+    const double digits = x * 1e4;
+    return std::abs(digits - std::round(digits)) > 1e-5;
+  });
+  return fine && std::isfinite(*low) && std::isfinite(*high) && *low >= -most &&
+         *high <= most && std::abs(*low) > 0.01 && *high > *low &&
+         *high - *low < kWidest && LargestStep(v) < kFastest;
+}
+
+bool IsHeight(const Values& v) {
+  constexpr double kDeepest = -12000.0;
+  constexpr double kHighest = 20000.0;
+  constexpr double kFastest = 20.0;  // m from row to row
+  const auto [low, high] = std::minmax_element(v.begin(), v.end());
+  return *low > kDeepest && *high<kHighest&& * high> * low &&
+         LargestStep(v) < kFastest;
+}
+
+/// North and east displacements between rows whose place differs.
+struct FixMotion {
+  Values dt;
+  Values speed;
+  Values course;  // rad
+  std::vector<std::size_t> row;
+};
+
+FixMotion MotionOf(const Values& lat, const Values& lon, double radians,
+                   const Values& t, FixGuess* guess) {
+  constexpr double kRadius = 6.371e6;
+  FixMotion motion;
+  std::size_t last = 0;
+  std::size_t repeated = 0;
+  for (std::size_t i = 1; i < lat.size(); ++i) {
+    if (lat[i] == lat[i - 1] && lon[i] == lon[i - 1]) {
+      ++repeated;
+      continue;
+    }
+    const double dt = t[i] - t[last];
+    const double north = (lat[i] - lat[last]) * radians * kRadius;
+    const double east =
+        (lon[i] - lon[last]) * radians * kRadius * std::cos(lat[i] * radians);
+    last = i;
+    if (dt <= 0.0) continue;
+    motion.dt.push_back(dt);
+    motion.speed.push_back(std::hypot(north, east) / dt);
+    motion.course.push_back(std::atan2(east, north));
+    motion.row.push_back(i);
+  }
+  guess->repeated = static_cast<double>(repeated) /
+                    static_cast<double>(std::max<std::size_t>(1, lat.size()));
+  if (!motion.speed.empty()) {
+    Values speeds = motion.speed;
+    const auto at = static_cast<std::ptrdiff_t>(speeds.size() * 99 / 100);
+    std::nth_element(speeds.begin(), speeds.begin() + at, speeds.end());
+    guess->top_speed = *(speeds.begin() + at);
+  }
+  return motion;
+}
+
+bool IsSpeed(const Values& v, const FixMotion& motion) {
+  constexpr double kMoving = 1.0;
+  Values misfit;
+  for (std::size_t k = 0; k < motion.row.size(); ++k) {
+    const double value = v[motion.row[k]];
+    if (value < 0.0) return false;
+    if (motion.speed[k] > kMoving) {
+      misfit.push_back(std::abs(value / motion.speed[k] - 1.0));
+    }
+  }
+  return misfit.size() > 10 && Median(misfit) < 0.15;
+}
+
+bool IsCourse(const Values& v, const FixMotion& motion, double radians) {
+  constexpr double kMoving = 2.0;
+  Values misfit;
+  for (std::size_t k = 0; k < motion.row.size(); ++k) {
+    if (motion.speed[k] < kMoving) continue;
+    misfit.push_back(std::abs(std::remainder(
+        v[motion.row[k]] * radians - motion.course[k], 2.0 * kPi)));
+  }
+  return misfit.size() > 10 && Median(misfit) < 10.0 * kDegree;
+}
+
+/// Columns without a title that move as the positions do, and titled ones.
+void FindSpeedAndCourse(const FileColumns& file,
+                        const std::vector<ColumnMeaning>& meanings,
+                        const FixMotion& motion, FixGuess* guess) {
+  for (std::size_t i = 0; i < file.columns.size(); ++i) {
+    const int column = static_cast<int>(i);
+    const ColumnMeaning& meaning = meanings[i];
+    const Values& v = file.columns[i].values;
+    const bool free = meaning.quantity.empty() && column != guess->h.column &&
+                      column != guess->lat.column &&
+                      column != guess->lon.column;
+    if (!guess->speed && (meaning.quantity == "speed" || free) &&
+        IsSpeed(v, motion)) {
+      guess->speed = ColumnGuess{column, "m/s", 1.0, Certainty::kCertain,
+                                 "as fast as the positions move"};
+    } else if (!guess->course && (meaning.quantity == "course" || free)) {
+      for (const auto& [unit, radians] :
+           {std::pair("deg", kDegree), std::pair("rad", 1.0)}) {
+        if (guess->course || !IsCourse(v, motion, radians)) continue;
+        guess->course = ColumnGuess{column, unit, 1.0, Certainty::kCertain,
+                                    "the direction in which they move"};
+      }
+    }
+  }
+}
+
+bool FindPlaces(const FileColumns& file,
+                const std::vector<ColumnMeaning>& meanings, int stamp_column,
+                FixGuess* guess) {
+  guess->lat.column = Titled(meanings, "lat");
+  guess->lon.column = Titled(meanings, "lon");
+  guess->h.column = Titled(meanings, "h");
+  const auto reason = "by its title";
+  guess->lat.reason = guess->lon.reason = guess->h.reason = reason;
+  if (guess->lat.column >= 0 && guess->lon.column >= 0) return true;
+  const int count = static_cast<int>(file.columns.size());
+  for (int i = 0; i + 1 < count; ++i) {
+    if (i == stamp_column || i + 1 == stamp_column || !IsFree(meanings, i) ||
+        !IsFree(meanings, i + 1) || !LooksLikeAngle(Column(file, i), 90.0) ||
+        !LooksLikeAngle(Column(file, i + 1), 180.0)) {
+      continue;
+    }
+    guess->lat = {i, "deg", 1.0, Certainty::kLikely,
+                  "within +-90, changes as a place does"};
+    guess->lon = {i + 1, "deg", 1.0, Certainty::kLikely,
+                  "within +-180, changes as a place does"};
+    return true;
+  }
+  return false;
+}
+
+void FindHeight(const FileColumns& file,
+                const std::vector<ColumnMeaning>& meanings, int stamp_column,
+                FixGuess* guess) {
+  if (guess->h.column >= 0) return;
+  for (int i = guess->lon.column + 1; i < static_cast<int>(file.columns.size());
+       ++i) {
+    const bool taken = (guess->speed && guess->speed->column == i) ||
+                       (guess->course && guess->course->column == i);
+    if (i == stamp_column || taken || !IsFree(meanings, i) ||
+        !IsHeight(Column(file, i))) {
+      continue;
+    }
+    guess->h = {i, "m", 1.0, Certainty::kLikely,
+                "the next column that changes as a height does"};
+    return;
+  }
+}
+
+/// The unit that a title gives, else the usual one.
+void TakeUnit(const std::vector<ColumnMeaning>& meanings, Quantity quantity,
+              const char* usual, ColumnGuess* guess) {
+  if (guess->column < 0) return;
+  const ColumnMeaning& meaning =
+      meanings[static_cast<std::size_t>(guess->column)];
+  const bool known = UnitFactor(meaning.unit, quantity).has_value();
+  guess->unit = known ? meaning.unit : usual;
+}
+
+}  // namespace
+
+std::optional<FixGuess> GuessFixes(const FileColumns& file,
+                                   const std::vector<ColumnMeaning>& meanings,
+                                   const StampGuess& stamps) {
+  FixGuess guess;
+  if (!FindPlaces(file, meanings, stamps.column, &guess)) return std::nullopt;
+  TakeUnit(meanings, Quantity::kAngle, "deg", &guess.lat);
+  TakeUnit(meanings, Quantity::kAngle, "deg", &guess.lon);
+  Values t(file.rows);
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    t[i] = stamps.rate || stamps.column < 0
+               ? static_cast<double>(i) * stamps.step
+               : Column(file, stamps.column)[i] *
+                     *UnitFactor(stamps.unit, Quantity::kTime);
+  }
+  const double radians = *UnitFactor(guess.lat.unit, Quantity::kAngle);
+  const FixMotion motion =
+      MotionOf(Column(file, guess.lat.column), Column(file, guess.lon.column),
+               radians, t, &guess);
+  FindSpeedAndCourse(file, meanings, motion, &guess);
+  FindHeight(file, meanings, stamps.column, &guess);
+  TakeUnit(meanings, Quantity::kLength, "m", &guess.h);
+  return guess;
+}
+
+}  // namespace hindsight

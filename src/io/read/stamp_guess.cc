@@ -1,0 +1,212 @@
+#include "io/read/stamp_guess.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/median.h"
+#include "io/read/units.h"
+
+namespace hindsight {
+namespace {
+
+/// Shares of rows.
+constexpr double kMostlyGrowing = 0.99;
+constexpr double kEven = 1e-6;
+
+struct Steps {
+  double median = 0.0;  ///< of those above zero
+  double longest = 0.0;
+  double unevenness = 0.0;  ///< largest distance from it over it
+  double growing = 0.0;     ///< share of rows that do not fall behind
+  bool repeated = false;
+  bool unordered = false;
+};
+
+Steps StepsOf(const std::vector<double>& t) {
+  Steps steps;
+  std::vector<double> positive;
+  std::size_t kept = 0;
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    const double step = t[i] - t[i - 1];
+    if (step >= 0.0) ++kept;
+    if (step > 0.0) positive.push_back(step);
+    steps.repeated = steps.repeated || step == 0.0;
+    steps.unordered = steps.unordered || step < 0.0;
+  }
+  if (t.size() < 2 || positive.empty()) return steps;
+  steps.median = Median(positive);
+  for (const double step : positive) {
+    steps.longest = std::max(steps.longest, step);
+    steps.unevenness =
+        std::max(steps.unevenness, std::abs(step / steps.median - 1.0));
+  }
+  steps.growing = static_cast<double>(kept) / static_cast<double>(t.size() - 1);
+  return steps;
+}
+
+bool Grows(const std::vector<double>& t, const Steps& steps) {
+  return steps.growing >= kMostlyGrowing && t.back() > t.front() &&
+         std::all_of(t.begin(), t.end(),
+                     [](double x) { return std::isfinite(x); });
+}
+
+/// A column of times has steps about as long everywhere.
+bool IsSteady(const std::vector<double>& t, const Steps& steps) {
+  const double mean =
+      (t.back() - t.front()) / static_cast<double>(t.size() - 1);
+  return steps.median < 3.0 * mean && mean < 10.0 * steps.median;
+}
+
+/// The stamps' column: first what a title names, else the first that grows.
+int FindColumn(const FileColumns& file,
+               const std::vector<ColumnMeaning>& meanings) {
+  for (const bool titled : {true, false}) {
+    for (std::size_t i = 0; i < file.columns.size(); ++i) {
+      const bool fits =
+          titled ? meanings[i].quantity == "t" : meanings[i].quantity.empty();
+      const auto& t = file.columns[i].values;
+      if (!fits || t.size() < 3) continue;
+      const Steps steps = StepsOf(t);
+      if (Grows(t, steps) && (titled || IsSteady(t, steps))) {
+        return static_cast<int>(i);
+      }
+    }
+  }
+  return -1;
+}
+
+struct TimeUnit {
+  const char* name;
+  double seconds;
+};
+constexpr std::array kTimeUnits = {TimeUnit{"s", 1.0}, TimeUnit{"ms", 1e-3},
+                                   TimeUnit{"us", 1e-6}, TimeUnit{"ns", 1e-9}};
+
+/// Of the units in which rows come at a likely rate the one that brings the
+/// span nearest to the IMU's, else the first; nullptr if none does.
+const TimeUnit* UnitOfSteps(double step, double span, const StampHints& hints) {
+  const TimeUnit* best = nullptr;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const TimeUnit& unit : kTimeUnits) {
+    const double seconds = step * unit.seconds;
+    if (seconds * hints.fastest < 1.0 || seconds * hints.slowest > 1.0) {
+      continue;
+    }
+    const double distance =
+        hints.span ? std::abs(std::log(span * unit.seconds / *hints.span))
+                   : 0.0;
+    if (best != nullptr && distance >= nearest) continue;
+    best = &unit;
+    nearest = distance;
+  }
+  return best;
+}
+
+bool IsWhole(double value, double tolerance) {
+  return value > 0.5 && std::abs(value - std::round(value)) < tolerance * value;
+}
+
+/// An axis drawn from 0 to D in N points, where N rows of D/N were meant.
+void RecogniseDrawnAxis(std::size_t rows, const Steps& steps,
+                        StampGuess* guess) {
+  if (rows < 50 || steps.unevenness > kEven) return;
+  const double rate = static_cast<double>(rows) / guess->span;
+  if (!IsWhole(rate, 1e-9) || IsWhole(1.0 / guess->step, 1e-6)) return;
+  guess->rate = std::round(rate);
+  guess->certainty = Certainty::kLikely;
+  guess->reason = fmt::format(
+      "the stamps are {} points drawn evenly from 0 to {:g} s: rows are "
+      "counted "
+      "at {:g} Hz instead, a stretch of {:.3g} %",
+      rows, guess->span, *guess->rate, 100.0 / static_cast<double>(rows - 1));
+  guess->step = 1.0 / *guess->rate;
+  guess->span = static_cast<double>(rows - 1) * guess->step;
+}
+
+/// Stamps that tell ten times the time that the IMU recorded.
+void RecogniseWrongScale(std::size_t rows, const StampHints& hints,
+                         StampGuess* guess) {
+  if (!hints.span || guess->rate || guess->scale != StampGuess::Scale::kOwn) {
+    return;
+  }
+  const double ratio = guess->span / *hints.span;
+  const double power = std::round(std::log10(ratio));
+  if (power == 0.0 || std::abs(std::log10(ratio) - power) > 0.013) return;
+  const double seconds = guess->step / std::pow(10.0, power);
+  guess->rate = 1.0 / seconds;
+  guess->certainty = Certainty::kLikely;
+  guess->reason = fmt::format(
+      "the stamps span {:.4g} times the record of the IMU: rows are counted at "
+      "{:g} Hz instead",
+      ratio, *guess->rate);
+  guess->step = seconds;
+  guess->span = static_cast<double>(rows - 1) * seconds;
+  guess->first = 0.0;
+}
+
+std::optional<StampGuess> Counted(std::size_t rows, const StampHints& hints) {
+  if (!hints.count_rate || rows < 2) return std::nullopt;
+  StampGuess guess;
+  guess.rate = hints.count_rate;
+  guess.step = 1.0 / *guess.rate;
+  guess.span = static_cast<double>(rows - 1) * guess.step;
+  if (!hints.rate_stated) guess.certainty = Certainty::kLikely;
+  guess.reason = fmt::format(
+      "rows are counted at {:g} Hz, {}", *guess.rate,
+      hints.rate_stated ? "as the file says" : "as those of the IMU");
+  return guess;
+}
+
+}  // namespace
+
+const char* CertaintyName(Certainty certainty) {
+  constexpr std::array kNames = {"certain", "likely", "a guess"};
+  return kNames[static_cast<std::size_t>(certainty)];
+}
+
+std::optional<StampGuess> GuessStamps(
+    const FileColumns& file, const std::vector<ColumnMeaning>& meanings,
+    const StampHints& hints) {
+  StampGuess guess;
+  guess.column = FindColumn(file, meanings);
+  if (guess.column < 0) return Counted(file.rows, hints);
+  const auto index = static_cast<std::size_t>(guess.column);
+  const std::vector<double>& t = file.columns[index].values;
+  const Steps steps = StepsOf(t);
+  guess.repeated = steps.repeated;
+  guess.unordered = steps.unordered;
+  double factor = 1.0;
+  if (const auto known = UnitFactor(meanings[index].unit, Quantity::kTime);
+      known && *known <= 1.0) {
+    guess.unit = meanings[index].unit;
+    factor = *known;
+    guess.reason = "by its title";
+  } else {
+    const TimeUnit* unit =
+        UnitOfSteps(steps.median, t.back() - t.front(), hints);
+    if (unit == nullptr) return Counted(file.rows, hints);
+    guess.unit = unit->name;
+    factor = unit->seconds;
+    guess.certainty = Certainty::kLikely;
+    guess.reason = fmt::format("steps of {:g}, which are {:.4g} rows a second",
+                               steps.median, 1.0 / (steps.median * factor));
+  }
+  guess.first = t.front() * factor;
+  guess.step = steps.median * factor;
+  guess.gap = steps.longest * factor;
+  guess.span = (t.back() - t.front()) * factor;
+  constexpr double kYear2001 = 978307200.0;
+  constexpr double kYear2050 = 2524608000.0;
+  if (guess.first > kYear2001 && guess.first < kYear2050) {
+    guess.scale = StampGuess::Scale::kUnix;
+  }
+  RecogniseDrawnAxis(t.size(), steps, &guess);
+  RecogniseWrongScale(t.size(), hints, &guess);
+  return guess;
+}
+
+}  // namespace hindsight

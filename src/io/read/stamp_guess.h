@@ -1,0 +1,65 @@
+#ifndef HINDSIGHT_IO_READ_STAMP_GUESS_H_
+#define HINDSIGHT_IO_READ_STAMP_GUESS_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/read/column_meaning.h"
+#include "io/read/file_columns.h"
+
+namespace hindsight {
+
+/// How sure a guess is.
+enum class Certainty {
+  kCertain,  ///< the file says so, or nothing else is possible
+  kLikely,   ///< the data speak for it
+  kGuess     ///< usual, and not shown by the data
+};
+
+/// "certain", "likely", "a guess".
+const char* CertaintyName(Certainty certainty);
+
+/// How the rows of a file become times.
+struct StampGuess {
+  enum class Scale { kOwn, kUnix };
+  int column = -1;             ///< of the stamps; -1: there is none
+  std::string unit = "s";      ///< of the column
+  std::optional<double> rate;  ///< times are row numbers over this [Hz]
+  Scale scale = Scale::kOwn;
+  double first = 0.0;      ///< [s]
+  double step = 0.0;       ///< the median one [s]
+  double span = 0.0;       ///< last minus first [s]
+  double gap = 0.0;        ///< the longest step [s]
+  bool unordered = false;  ///< some stamps run backwards
+  bool repeated = false;   ///< some stand twice
+  Certainty certainty = Certainty::kCertain;
+  std::string reason;  ///< one clause
+};
+
+/// What is known beforehand.
+struct StampHints {
+  double slowest = 15.0;  ///< rows a second
+  double fastest = 4000.0;
+  /// Of the IMU's record [s]: of several units the one that brings the file
+  /// nearest to it is taken.
+  std::optional<double> span;
+  /// Rows are counted at this rate where they are counted, not stamped [Hz].
+  std::optional<double> count_rate;
+  bool rate_stated = false;  ///< by the file itself
+};
+
+/// Stamps are a column that grows: one whose title says so, else the first of
+/// those. Its unit is the title's, or the only one of s, ms, us, ns in which the
+/// rows come at a likely rate. Equal steps of D/(N - 1), where N/D is a whole
+/// number of rows a second, are an evenly drawn axis whose last stamp stands a
+/// row too late: rows are then counted at N/D. Stamps that span a power of ten
+/// times the IMU's record are counted likewise. Nothing if no column grows and
+/// no rate is known.
+std::optional<StampGuess> GuessStamps(
+    const FileColumns& file, const std::vector<ColumnMeaning>& meanings,
+    const StampHints& hints);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_READ_STAMP_GUESS_H_

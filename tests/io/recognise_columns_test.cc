@@ -1,0 +1,177 @@
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "base/units.h"
+#include "io/config/init_config.h"
+#include "io/recording_folder.h"
+
+namespace hindsight {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// How a file writes an IMU that stands with z up for five seconds and is then
+/// rocked about x by up to 0.6 rad, at 100 Hz.
+struct Spelling {
+  const char* name;
+  const char* before;  ///< what stands before the rows
+  double accel;        ///< one m/s^2 in the file
+  double gyro;         ///< one rad/s
+  double time;         ///< one s
+  const char* order;   ///< t, a, g
+  char delimiter = ',';
+  const char* behind = "";
+};
+
+void PrintTo(const Spelling& spelling, std::ostream* out) {
+  *out << spelling.name;
+}
+
+constexpr double kRate = 100.0;
+constexpr int kRows = 4000;
+
+std::string Rows(const Spelling& spelling, double mirror = 1.0) {
+  std::string text = spelling.before;
+  for (int k = 0; k < kRows; ++k) {
+    const double t = k / kRate;
+    const double phase = std::max(0.0, t - 5.0);
+    const double angle = 0.6 * std::sin(phase);
+    const double rate = phase > 0.0 ? 0.6 * std::cos(phase) : 0.0;
+    // Noise of a few least digits.
+    const double noise = 1e-3 * ((k * 7919) % 13 - 6);
+    const double f[3] = {noise, kStandardGravity * std::sin(angle) * mirror,
+                         kStandardGravity * std::cos(angle) - noise};
+    const double w[3] = {rate + 0.1 * noise, 0.1 * noise * mirror, 0.1 * noise};
+    std::string row;
+    const auto add = [&](const std::string& word) {
+      if (!row.empty()) row += spelling.delimiter;
+      row += word;
+    };
+    for (const char* c = spelling.order; *c != '\0'; ++c) {
+      if (*c == 't')
+        add(fmt::format("{:.3f}",
+                        261906e-3 * spelling.time + t * spelling.time));
+      for (int i = 0; i < 3 && *c == 'a'; ++i) {
+        add(fmt::format("{:.6f}", f[i] * spelling.accel));
+      }
+      for (int i = 0; i < 3 && *c == 'g'; ++i) {
+        add(fmt::format("{:.6f}", w[i] * spelling.gyro));
+      }
+    }
+    text += row + "\n";
+  }
+  return text + spelling.behind;
+}
+
+class Spellings : public RecordingFolder,
+                  public ::testing::WithParamInterface<Spelling> {};
+
+TEST_P(Spellings, OfOneImuReadTheSame) {
+  Write("log.txt", Rows(GetParam()));
+  const auto drafts = DraftRecordings(folder_.string());
+  ASSERT_EQ(drafts.size(), 1u);
+  Write("config.yaml", DraftText(drafts[0]));
+  ASSERT_EQ(LoadError(), "") << DraftText(drafts[0]);
+  const ImuStream imu = Load().imu;
+  ASSERT_NEAR(static_cast<double>(imu.samples.size()), kRows, 2.0);
+  EXPECT_NEAR(imu.samples[100].accel.norm(), kStandardGravity, 0.02);
+  EXPECT_NEAR(imu.nominal_dt, 1.0 / kRate, 1e-6);
+  double fastest = 0.0;
+  for (const ImuSample& sample : imu.samples) {
+    fastest = std::max(fastest, sample.gyro.x());
+  }
+  EXPECT_NEAR(fastest, 0.6, 0.01);
+}
+
+constexpr double kG = 1.0 / kStandardGravity;
+
+INSTANTIATE_TEST_SUITE_P(
+    All, Spellings,
+    ::testing::Values(
+        Spelling{"SiTitles", "time,ax,ay,az,gx,gy,gz\n", 1.0, 1.0, 1.0, "tag"},
+        Spelling{"Degrees", "time,ax,ay,az,gx,gy,gz\n", 1.0, 1.0 / kDegree, 1.0,
+                 "tag"},
+        Spelling{"UnitsInTitles",
+                 "Time [s],ACC X [g],ACC Y [g],ACC Z [g],GYRO X [dps],GYRO Y "
+                 "[dps],GYRO Z [dps]\n",
+                 kG, 1.0 / kDegree, 1.0, "tag"},
+        Spelling{"NoTitlesCutFirstLine", "0.007,1.01,0.03,3326\n", kG,
+                 1.0 / kDegree, 1e3, "agt"},
+        Spelling{"Excel", "sep=;\nPacket;Acc_X;Acc_Y;Acc_Z;Gyr_X;Gyr_Y;Gyr_Z\n",
+                 1.0, 1.0, 1e6, "tag", ';',
+                 "Average;9.81;;;;;\n\nmade by hand\n"},
+        Spelling{"Counts", "t_ms,ax,ay,az,gx,gy,gz\n", 16384.0 * kG,
+                 1.0 / kDegree, 1e3, "tag"},
+        Spelling{"Blanks", "", 1.0, 1.0, 1e3, "tga", ' '},
+        Spelling{"CutLastLine", "time,ax,ay,az,gx,gy,gz\n", 1.0, 1.0, 1.0,
+                 "tag", ',', "302.9,0.01,0.2"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+class RecogniseColumns : public RecordingFolder {};
+
+constexpr Spelling kPlain = {"",   "time,ax,ay,az,gx,gy,gz\n", 1.0, 1.0, 1.0,
+                             "tag"};
+
+TEST_F(RecogniseColumns, AMirroredAxisIsTold) {
+  Write("log.csv", Rows(kPlain, -1.0));
+  const auto drafts = DraftRecordings(folder_.string());
+  EXPECT_THAT(drafts.at(0).assumptions,
+              ElementsAre(HasSubstr("an axis is mirrored in both")));
+  Write("log.csv", Rows(kPlain));
+  EXPECT_THAT(DraftRecordings(folder_.string()).at(0).assumptions,
+              ::testing::IsEmpty());
+}
+
+TEST_F(RecogniseColumns, AFolderOfSeveralRecordingsGivesOneEach) {
+  for (const char* name : {"a", "b"}) {
+    std::filesystem::create_directories(folder_ / name);
+    Write(std::string(name) + "/imu.csv", Rows(kPlain));
+    Write(std::string(name) + "/notes.md", "nothing\n");
+  }
+  const auto drafts = DraftRecordings(folder_.string());
+  ASSERT_EQ(drafts.size(), 2u);
+  EXPECT_EQ(drafts[0].name, "a");
+  EXPECT_EQ(drafts[1].name, "b");
+  EXPECT_THAT(drafts[0].unknown, ElementsAre("notes.md"));
+}
+
+/// Fixes of a car that goes north at 10 m/s, each written 25 times, whose stamps
+/// count ten times too fast.
+TEST_F(RecogniseColumns,
+       FixesWrittenTooOftenAndStampedWronglyAreReadAtTheirRate) {
+  Write("imu.csv", Rows(kPlain));
+  std::string fixes = "Timestamp,Lat_GNSS,Long_GNSS,Height_GNSS\n";
+  for (int k = 0; k < kRows; ++k) {
+    const double t = (k / 25) * 25 / kRate;
+    fixes += fmt::format("{:.1f},{:.7f},35.1234567,{:.2f}\n", 0.1 * k,
+                         48.0 + 10.0 * t / 111200.0, 100.0 + 0.01 * t);
+  }
+  Write("GNSS.csv", fixes);
+  const auto drafts = DraftRecordings(folder_.string());
+  Write("config.yaml", DraftText(drafts.at(0)));
+  ASSERT_EQ(LoadError(), "") << DraftText(drafts[0]);
+  const Dataset data = Load();
+  ASSERT_EQ(data.streams.size(), 1u);
+  // One a second of the four that are new.
+  EXPECT_EQ(data.streams[0].measurements.size(), 40u);
+  EXPECT_NEAR(data.streams[0].measurements.back().t, 39.0, 0.1);
+}
+
+TEST_F(RecogniseColumns, StampsDrawnEvenlyAreCountedInstead) {
+  Write("imu.csv", Rows(kPlain));
+  std::string dvl = "Time [s],DVL X [m/s],DVL Y [m/s],DVL Z [m/s]\n";
+  for (int k = 0; k < 400; ++k) {
+    dvl += fmt::format("{:.15f},2,0.{},0\n", 400.0 / 399.0 * k, k % 10);
+  }
+  Write("dvl.csv", dvl);
+  const auto drafts = DraftRecordings(folder_.string());
+  const std::string text = DraftText(drafts.at(0));
+  EXPECT_THAT(text, HasSubstr("time: {rate: 1 Hz"));
+  EXPECT_THAT(text, HasSubstr("type: dvl"));
+}
+
+}  // namespace
+}  // namespace hindsight
