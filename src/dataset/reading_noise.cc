@@ -29,8 +29,9 @@ WindowSquares SquaresOf(const ImuStream& imu, double dt) {
       accel +=
           (s[i - 1].accel - 2.0 * s[i].accel + s[i + 1].accel).squaredNorm();
     }
-    const double each = scale * scale / (kSecondDifference * kAxes *
-                                         static_cast<double>(window));
+    const double each =
+        scale * scale /
+        (kSecondDifference * kAxes * static_cast<double>(window));
     squares.gyro.push_back(gyro * each);
     squares.accel.push_back(accel * each);
   }
