@@ -3,6 +3,7 @@
 #   ./setup.sh          what building and running the program needs
 #   ./setup.sh tests    that, and what the tests, fuzzers and benchmarks need
 #   ./setup.sh docs     that, and what makes the figures of the documentation
+#   ./setup.sh cluster  what tests campaigns by GNU parallel and a Slurm of one node
 #   ./setup.sh all      every set
 # Safe to run again: only what is missing is installed.
 set -eu
@@ -17,6 +18,7 @@ tests="libgtest-dev libgmock-dev libbenchmark-dev locales
   chromium chromium-driver python3-selenium
   nodejs eslint node-css-tree"
 docs="gcovr"
+cluster="parallel munge slurmctld slurmd slurm-client"
 
 fail() {
   echo "setup.sh: $*" >&2
@@ -29,9 +31,10 @@ for set in "$@"; do
     build) ;;
     tests) packages="$packages $tests" ;;
     docs) packages="$packages $tests $docs" ;;
-    all) packages="$build $tests $docs" ;;
+    cluster) packages="$packages $cluster" ;;
+    all) packages="$build $tests $docs $cluster" ;;
     *)
-      echo "setup.sh: '$set' is no set; expected build, tests, docs or all" >&2
+      echo "setup.sh: '$set' is no set; expected build, tests, docs, cluster or all" >&2
       exit 2
       ;;
   esac

@@ -78,28 +78,64 @@ std::vector<RunRecord> RunCases(const std::vector<Case>& cases,
   return out;
 }
 
+/// Adds what a job made of its runs 0 to runs - 1 to a result.
+void Take(const JobRuns& job, int runs, StudyResult* to) {
+  std::vector<RunRecord> records;
+  for (auto run = job.records.begin();
+       run != job.records.end() && run->first < runs; ++run) {
+    records.insert(records.end(), run->second.begin(), run->second.end());
+  }
+  for (const RunRecord& record : records) {
+    if (!record.refusal.empty()) to->refusals.push_back(RefusalOf(record));
+  }
+  SpreadRefusals(to->tables[0].labels.size(), &records);
+  const CellFolds folds = job.folds.First(runs);
+  for (std::size_t i = 0; i < to->tables.size(); ++i) {
+    std::vector<FigureRow> of_job = Summarize(to->tables[i], i, records, folds);
+    std::move(of_job.begin(), of_job.end(), std::back_inserter(to->rows[i]));
+  }
+  for (RunRecord& record : records) {
+    record.t.clear();
+    record.series.clear();
+    to->records.push_back(std::move(record));
+  }
+}
+
+StudyResult EmptyResult(const std::vector<StudyTable>& tables) {
+  StudyResult result;
+  result.tables = tables;
+  result.rows.resize(tables.size());
+  return result;
+}
+
+/// Throws the first refusal if nothing else is there.
+StudyResult RequireAnswer(StudyResult result) {
+  if (!result.answered() && !result.refusals.empty()) {
+    throw InputError(result.refusals.front());
+  }
+  return result;
+}
+
 /// The table as it grows, set by the threads that do the work and read by
 /// others meanwhile.
 class GrowingTable {
  public:
-  GrowingTable(Study study, int runs) : study_(std::move(study)), runs_(runs) {
-    jobs_so_far_.tables = study_.tables;
-    jobs_so_far_.rows.resize(study_.tables.size());
-    BeginJob();
-  }
+  GrowingTable(Study study, int runs)
+      : study_(std::move(study)),
+        runs_(runs),
+        jobs_so_far_(EmptyResult(study_.tables)) {}
 
-  void Set(std::size_t i, std::vector<RunRecord> records) {
+  void Set(int run, std::vector<RunRecord> records) {
     const std::lock_guard lock(mutex_);
-    of_job_[i] = std::move(records);
-    is_finished_[i] = true;
+    of_job_.Add(run, std::move(records), study_.tables);
   }
 
   /// All seeds of the job are in: their figures stay, their series go.
   void EndJob() {
     const std::lock_guard lock(mutex_);
-    Take(Finished(), &jobs_so_far_);
+    Take(of_job_, runs_, &jobs_so_far_);
     ++jobs_;
-    BeginJob();
+    of_job_ = {};
   }
 
   StudyResult SoFar() const {
@@ -108,69 +144,37 @@ class GrowingTable {
     result.complete = jobs_ == study_.jobs.size();
     result.runs = jobs_ > 0 ? runs_ : 0;
     if (study_.jobs.size() == 1 && !result.complete) {
-      const auto gap = std::find(is_finished_.begin(), is_finished_.end(), 0);
-      result.runs = static_cast<int>(gap - is_finished_.begin());
-      Take(Finished(), &result);
+      result.runs = 0;
+      while (of_job_.records.contains(result.runs)) ++result.runs;
+      Take(of_job_, result.runs, &result);
     }
     return result;
   }
 
  private:
-  void BeginJob() {
-    of_job_.assign(static_cast<std::size_t>(runs_), {});
-    is_finished_.assign(static_cast<std::size_t>(runs_), 0);
-  }
-
-  /// Of the first seeds of the job, as many as are finished without a gap.
-  std::vector<RunRecord> Finished() const {
-    std::vector<RunRecord> all;
-    for (std::size_t i = 0; i < of_job_.size() && is_finished_[i]; ++i) {
-      all.insert(all.end(), of_job_[i].begin(), of_job_[i].end());
-    }
-    return all;
-  }
-
-  void Take(std::vector<RunRecord> job, StudyResult* to) const {
-    for (const RunRecord& record : job) {
-      if (!record.refusal.empty()) to->refusals.push_back(RefusalOf(record));
-    }
-    SpreadRefusals(study_.tables[0].labels.size(), &job);
-    for (std::size_t i = 0; i < study_.tables.size(); ++i) {
-      std::vector<FigureRow> of_job = Summarize(study_.tables[i], i, job);
-      std::move(of_job.begin(), of_job.end(), std::back_inserter(to->rows[i]));
-    }
-    for (RunRecord& record : job) {
-      record.t.clear();
-      record.series.clear();
-      to->records.push_back(std::move(record));
-    }
-  }
-
   Study study_;
   int runs_;
   mutable std::mutex mutex_;
-  std::vector<std::vector<RunRecord>> of_job_;
-  std::vector<char> is_finished_;
+  JobRuns of_job_;
   std::size_t jobs_ = 0;
   StudyResult jobs_so_far_;  ///< of those that are done
 };
 
-/// Calls work(i) for every run on so many threads. The first exception stops
-/// the rest and is thrown.
-void ForEachRun(int runs, int thread_count,
-                const std::function<void(std::size_t i)>& work) {
-  const auto count = static_cast<std::size_t>(runs);
-  std::atomic<std::size_t> next = 0;
+/// Calls work(i) for every run from begin on to before end on so many threads.
+/// The first exception stops the rest and is thrown.
+void ForEachRun(int begin, int end, int thread_count,
+                const std::function<void(int i)>& work) {
+  std::atomic<int> next = begin;
   std::mutex mutex;
   std::exception_ptr thrown;
   const auto run = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
+    for (int i = next++; i < end; i = next++) {
       try {
         work(i);
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!thrown) thrown = std::current_exception();
-        next = count;
+        next = end;
       }
     }
   };
@@ -249,28 +253,102 @@ const FigureRow& StudyResult::Row(const std::vector<std::string>& labels,
   throw std::out_of_range("no row of that case and method");
 }
 
-StudyResult RunStudy(const Study& study, const MonteCarloOptions& options,
-                     const Watch& watch) {
-  const auto table = std::make_shared<GrowingTable>(study, options.runs);
-  if (watch) watch([table] { return table->SoFar(); });
-  const double all = static_cast<double>(study.jobs.size()) * options.runs;
+void JobRuns::Add(int run, std::vector<RunRecord> of_run,
+                  const std::vector<StudyTable>& tables) {
+  FoldTree::Node node = {.level = 0, .index = run, .cells = {}};
+  for (RunRecord& record : of_run) {
+    if (record.table == kRefused || !tables[record.table].folds_series)
+      continue;
+    if (record.answered && !record.t.empty()) {
+      node.cells[{record.table, record.labels}] =
+          FoldOfRun(std::move(record.t), std::move(record.series));
+    }
+    record.t = {};
+    record.series = {};
+  }
+  folds.Add(std::move(node));
+  records[run] = std::move(of_run);
+}
+
+namespace {
+
+/// Every job on the seeds of those runs; `take` gets each run's records, from
+/// any thread, and `end_job` is called after the last of a job.
+void RunJobs(const Study& study, const MonteCarloOptions& options, int begin,
+             int end,
+             const std::function<void(int, std::vector<RunRecord>)>& take,
+             const std::function<void()>& end_job) {
+  const double all = static_cast<double>(study.jobs.size()) * (end - begin);
   std::mutex mutex;
   int done = 0;
   for (const std::function<SeedRun()>& job : study.jobs) {
     const SeedRun run = job();
-    ForEachRun(options.runs, options.threads, [&](std::size_t i) {
-      table->Set(i, run(options.first_seed + i));
+    ForEachRun(begin, end, options.threads, [&](int i) {
+      take(i, run(options.first_seed + static_cast<std::uint64_t>(i)));
       const std::lock_guard lock(mutex);
       ++done;
       if (options.progress) options.progress(done / all);
     });
-    table->EndJob();
+    end_job();
   }
-  StudyResult result = table->SoFar();
-  if (!result.answered() && !result.refusals.empty()) {
-    throw InputError(result.refusals.front());
+}
+
+}  // namespace
+
+StudyResult RunStudy(const Study& study, const MonteCarloOptions& options,
+                     const Watch& watch) {
+  const auto table = std::make_shared<GrowingTable>(study, options.runs);
+  if (watch) watch([table] { return table->SoFar(); });
+  RunJobs(
+      study, options, 0, options.runs,
+      [&](int i, std::vector<RunRecord> records) {
+        table->Set(i, std::move(records));
+      },
+      [&] { table->EndJob(); });
+  return RequireAnswer(table->SoFar());
+}
+
+StudyShard RunShard(const Study& study, const MonteCarloOptions& options,
+                    int begin, int end) {
+  StudyShard shard = {begin, end, std::vector<JobRuns>(study.jobs.size())};
+  std::size_t job = 0;
+  std::mutex mutex;
+  RunJobs(
+      study, options, begin, end,
+      [&](int i, std::vector<RunRecord> records) {
+        const std::lock_guard lock(mutex);
+        shard.jobs[job].Add(i, std::move(records), study.tables);
+      },
+      [&] { ++job; });
+  return shard;
+}
+
+StudyResult MergeShards(const std::vector<StudyTable>& tables,
+                        std::vector<StudyShard> shards) {
+  std::sort(shards.begin(), shards.end(),
+            [](const StudyShard& a, const StudyShard& b) {
+              return a.begin < b.begin;
+            });
+  StudyResult result = EmptyResult(tables);
+  for (const StudyShard& shard : shards) {
+    if (shard.begin != result.runs ||
+        shard.jobs.size() != shards.front().jobs.size()) {
+      throw std::invalid_argument("the shards are not those of one study");
+    }
+    result.runs = shard.end;
   }
-  return result;
+  for (std::size_t i = 0; i < shards.front().jobs.size(); ++i) {
+    JobRuns all;
+    for (StudyShard& shard : shards) {
+      all.records.merge(shard.jobs[i].records);
+      for (const auto& [begin, node] : shard.jobs[i].folds.nodes()) {
+        all.folds.Add(node);
+      }
+      shard.jobs[i] = {};
+    }
+    Take(all, result.runs, &result);
+  }
+  return RequireAnswer(std::move(result));
 }
 
 }  // namespace hindsight

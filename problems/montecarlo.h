@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "dataset/dataset.h"
 #include "evaluation/run_table.h"
+#include "evaluation/series_fold.h"
 
 namespace hindsight {
 
@@ -100,6 +102,25 @@ struct StudyResult {
                        std::size_t table = 0) const;
 };
 
+/// What one job made of some runs.
+struct JobRuns {
+  /// By run; empty of those that are not there.
+  std::map<int, std::vector<RunRecord>> records;
+  FoldTree folds;  ///< of the series of tables that fold them
+
+  /// The records of a run that is not there yet; their series are folded as
+  /// the tables want it.
+  void Add(int run, std::vector<RunRecord> of_run,
+           const std::vector<StudyTable>& tables);
+};
+
+/// What all jobs of a study made of the runs begin to end - 1.
+struct StudyShard {
+  int begin = 0;
+  int end = 0;
+  std::vector<JobRuns> jobs;
+};
+
 /// Gets, before the first run, a function that gives at any time and to any
 /// thread the result as far as it is finished then.
 using Watch = std::function<void(std::function<StudyResult()> so_far)>;
@@ -110,6 +131,16 @@ using Watch = std::function<void(std::function<StudyResult()> so_far)>;
 /// refusal where data were refused and no run was answered.
 StudyResult RunStudy(const Study& study, const MonteCarloOptions& options,
                      const Watch& watch = {});
+
+/// Runs every job on the seeds of those runs alone. Throws what the jobs throw.
+StudyShard RunShard(const Study& study, const MonteCarloOptions& options,
+                    int begin, int end);
+
+/// The result of RunStudy with those tables, to the last bit, seconds excepted,
+/// of shards that are its runs from 0 on without a gap, in any order. Throws
+/// std::invalid_argument where they are not, InputError as RunStudy.
+StudyResult MergeShards(const std::vector<StudyTable>& tables,
+                        std::vector<StudyShard> shards);
 
 }  // namespace hindsight
 

@@ -112,6 +112,7 @@ StudyTable Cells(const std::vector<double>& leg_ends) {
                   {"std_d", kMetres, "position_d", Deviation},
                   {"std_yaw", kDegrees, "yaw", Deviation},
                   {"anees", kPlain, "nees", Mean}};
+  table.folds_series = true;
   return table;
 }
 
@@ -154,13 +155,38 @@ StudyTable Agreement() {
   return table;
 }
 
+/// Percentiles over the outages of all runs.
+Figure LargestErrorFigure(const std::string& name, const std::string& title) {
+  return {name,
+          kMetres,
+          title,
+          "{:.3f}",
+          {{"p50", name, OfRuns<Rank50>},
+           {"p68", name, OfRuns<Rank68>},
+           {"p95", name, OfRuns<Rank95>}}};
+}
+
+/// The largest error in each outage, by its length.
+StudyTable Outages() {
+  StudyTable table = {"outages", {}, {}, {}};
+  table.figures = {
+      LargestErrorFigure("horizontal",
+                         "largest horizontal error [m]\n50, 68, 95 %"),
+      LargestErrorFigure("vertical",
+                         "largest vertical error [m]\n50, 68, 95 %")};
+  return table;
+}
+
 }  // namespace
 
 std::vector<StudyTable> NavigationTables(const std::vector<std::string>& labels,
                                          const std::vector<double>& leg_ends) {
-  std::vector<StudyTable> tables = {Cells(leg_ends), Constants(), Agreement()};
-  const std::vector<std::string> own[] = {
-      {"method"}, {"method", "constant", "unit"}, {"method", "with"}};
+  std::vector<StudyTable> tables = {Cells(leg_ends), Constants(), Agreement(),
+                                    Outages()};
+  const std::vector<std::string> own[] = {{"method"},
+                                          {"method", "constant", "unit"},
+                                          {"method", "with"},
+                                          {"outage", "sensor", "method"}};
   for (std::size_t i = 0; i < tables.size(); ++i) {
     tables[i].labels = labels;
     tables[i].labels.insert(tables[i].labels.end(), own[i].begin(),

@@ -1,8 +1,11 @@
 #include "problems/navigation_trial.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
 #include <utility>
@@ -104,6 +107,40 @@ void AddConstants(const Dataset& dataset, const Solution& solution,
         {"nees", (error / c.sigma) * (error / c.sigma)},
         {"observed", c.verdict == Verdict::kObserved ? 1.0 : 0.0},
         {"unobserved", c.verdict == Verdict::kUnobserved ? 1.0 : 0.0}};
+  }
+}
+
+/// Spans in which the same time was withheld of one stream or several:
+/// "gnss+gnss_velocity".
+std::map<std::pair<double, double>, std::string> WithheldSpans(
+    const Dataset& dataset) {
+  std::map<std::pair<double, double>, std::string> spans;
+  for (const Outage& outage : dataset.outages) {
+    std::string& sensors = spans[{outage.t_begin, outage.t_end}];
+    const auto i = static_cast<std::size_t>(outage.sensor);
+    sensors += (sensors.empty() ? "" : "+") + dataset.streams[i].sensor.name;
+  }
+  return spans;
+}
+
+void AddOutages(const Dataset& dataset, const RunRecord& judged,
+                const std::string& method, CaseRun* run) {
+  for (const auto& [span, sensors] : WithheldSpans(dataset)) {
+    double horizontal = -1.0, vertical = 0.0;
+    for (std::size_t k = 0; k < judged.t.size(); ++k) {
+      if (judged.t[k] < span.first || judged.t[k] > span.second) continue;
+      horizontal =
+          std::max(horizontal, std::hypot(judged.series.at("position_n")[k],
+                                          judged.series.at("position_e")[k]));
+      vertical =
+          std::max(vertical, std::abs(judged.series.at("position_d")[k]));
+    }
+    if (horizontal < 0.0) continue;
+    const double length = std::round(10.0 * (span.second - span.first)) / 10.0;
+    RunRecord* record =
+        run->Add(kOutages, {fmt::format("{:g} s", length), sensors, method});
+    record->answered = judged.answered;
+    record->values = {{"horizontal", horizontal}, {"vertical", vertical}};
   }
 }
 
@@ -238,6 +275,7 @@ Trial NavigationTrialOf(const NavigationTrial& trial) {
         record->values.insert(record->values.end(), trial.values.begin(),
                               trial.values.end());
         AddConstants(dataset, solution, method, run);
+        AddOutages(dataset, *record, method, run);
       });
     }
     if (trial.innovations != nullptr && reconstruction) {

@@ -16,6 +16,8 @@ namespace hindsight {
 ///   0 cells      the method against truth
 ///   1 constants  each estimated constant whose true value the data know
 ///   2 agreement  the largest distance of two methods over all nodes and runs
+///   3 outages    each span in which streams were withheld, with the largest
+///                horizontal and vertical error of the states judged within it
 struct NavigationTrial {
   std::vector<std::string> methods;
   /// Nodes are also placed at stamps of the truth so far apart or more, and the
@@ -40,6 +42,7 @@ inline constexpr char kBestOfRun[] = "run";
 inline constexpr std::size_t kCells = 0;
 inline constexpr std::size_t kConstants = 1;
 inline constexpr std::size_t kAgreement = 2;
+inline constexpr std::size_t kOutages = 3;
 
 /// Every method on a recording. A judged node without truth is an InputError.
 ///

@@ -56,6 +56,8 @@ Command SimulateCommand();
 Command InitCommand();
 Command MonteCarloCommand();
 Command ReportCommand();
+Command CampaignCommand();
+Command MergeCommand();
 
 }  // namespace hindsight
 

@@ -16,9 +16,12 @@ DEFINE_string(at, "", "");
 DEFINE_bool(back_off, false, "");
 DEFINE_string(bounded, "attitude=1rad", "");
 DEFINE_bool(clean, false, "");
+DEFINE_bool(collect, false, "");
 DEFINE_string(data_root, "", "");
 DEFINE_double(duration, 0.0, "");
 DEFINE_double(delta, 0.0, "");
+DEFINE_bool(dry_run, false, "");
+DEFINE_string(engine, "local", "");
 DEFINE_string(error, "navigation", "");
 DEFINE_string(export, "", "");
 DEFINE_bool(force, false, "");
@@ -28,6 +31,7 @@ DEFINE_string(inject, "", "");
 DEFINE_bool(json, false, "");
 DEFINE_bool(list, false, "");
 DEFINE_string(log, "none", "");
+DEFINE_double(memory_limit, std::numeric_limits<double>::infinity(), "");
 DEFINE_string(methods, "ekf,rts,iterated,batch", "");
 DEFINE_string(metric, "trajectory", "");
 DEFINE_bool(noise, false, "");
@@ -41,13 +45,20 @@ DEFINE_string(rules, "ekf,hinf,modified_hinf", "");
 DEFINE_string(reading, "", "");
 DEFINE_string(faults, "", "");
 DEFINE_bool(report, false, "");
+DEFINE_bool(retry, false, "");
 DEFINE_uint64(runs, 100, "");
+DEFINE_string(sbatch, "", "");
 DEFINE_uint64(seed, 1, "");
 DEFINE_string(set, "", "");
+DEFINE_string(shard, "", "");
+DEFINE_string(sweep, "", "");
+DEFINE_double(stale_after, 60.0, "");
 DEFINE_uint64(threads, 0, "");
+DEFINE_double(time_limit, std::numeric_limits<double>::infinity(), "");
 DEFINE_double(to, std::numeric_limits<double>::infinity(), "");
 DEFINE_string(withhold, "", "");
 DEFINE_string(without, "", "");
+DEFINE_uint64(workers, 0, "");
 
 namespace hindsight {
 namespace {
@@ -85,19 +96,19 @@ std::string Refusal(const std::string& type, const std::string& value) {
              : "the value is not a whole number of 0 or more";
 }
 
-void SetFlag(const FlagUse& flag, std::string value) {
+void SetFlag(const std::string& name, std::string value) {
   gflags::CommandLineFlagInfo info;
-  gflags::GetCommandLineFlagInfo(flag.name.c_str(), &info);
-  const bool is_list =
-      flag.name == "withhold" || flag.name == "inject" || flag.name == "set";
+  gflags::GetCommandLineFlagInfo(name.c_str(), &info);
+  const bool is_list = name == "withhold" || name == "inject" ||
+                       name == "set" || name == "sweep";
   if (is_list && !info.is_default) {
     value = info.current_value + ";" + value;
   }
   // gflags reads an unsigned value with strtoul, to which "-1" is a number.
   const bool bad_sign = info.type == "uint64" && value.starts_with("-");
   if (bad_sign ||
-      gflags::SetCommandLineOption(flag.name.c_str(), value.c_str()).empty()) {
-    throw UsageError("--" + Dashed(flag.name) + "=" + value + ": " +
+      gflags::SetCommandLineOption(name.c_str(), value.c_str()).empty()) {
+    throw UsageError("--" + Dashed(name) + "=" + value + ": " +
                      Refusal(info.type, value));
   }
 }
@@ -118,11 +129,11 @@ void ParseFlag(const Command& command, const std::vector<std::string>& words,
   }
   if (flag == nullptr) ThrowUnknownFlag(command, name);
   if (equals != std::string::npos) {
-    SetFlag(*flag, word.substr(equals + 1));
+    SetFlag(flag->name, word.substr(equals + 1));
   } else if (flag->placeholder.empty()) {
-    SetFlag(*flag, negated ? "false" : "true");
+    SetFlag(flag->name, negated ? "false" : "true");
   } else if (*i + 1 < words.size() && !words[*i + 1].starts_with("--")) {
-    SetFlag(*flag, words[++*i]);
+    SetFlag(flag->name, words[++*i]);
   } else {
     throw UsageError("--" + name + " needs a value: --" + name + "=" +
                      flag->placeholder);
@@ -178,6 +189,10 @@ ParsedArguments ParseArguments(const Command& command,
 std::string Dashed(std::string name) {
   std::replace(name.begin(), name.end(), '_', '-');
   return name;
+}
+
+void GiveFlag(const std::string& name, const std::string& value) {
+  SetFlag(name, value);
 }
 
 bool IsGiven(const std::string& name) {

@@ -15,9 +15,12 @@ DECLARE_string(at);
 DECLARE_bool(back_off);
 DECLARE_string(bounded);
 DECLARE_bool(clean);
+DECLARE_bool(collect);
 DECLARE_string(data_root);
 DECLARE_double(duration);
 DECLARE_double(delta);
+DECLARE_bool(dry_run);
+DECLARE_string(engine);
 DECLARE_string(error);
 DECLARE_string(export);
 DECLARE_bool(force);
@@ -27,6 +30,7 @@ DECLARE_string(inject);
 DECLARE_bool(json);
 DECLARE_bool(list);
 DECLARE_string(log);
+DECLARE_double(memory_limit);
 DECLARE_string(methods);
 DECLARE_string(metric);
 DECLARE_bool(noise);
@@ -40,13 +44,20 @@ DECLARE_double(rate);
 DECLARE_string(rules);
 DECLARE_string(reading);
 DECLARE_bool(report);
+DECLARE_bool(retry);
 DECLARE_uint64(runs);
+DECLARE_string(sbatch);
 DECLARE_uint64(seed);
 DECLARE_string(set);
+DECLARE_string(shard);
+DECLARE_string(sweep);
+DECLARE_double(stale_after);
 DECLARE_uint64(threads);
+DECLARE_double(time_limit);
 DECLARE_double(to);
 DECLARE_string(withhold);
 DECLARE_string(without);
+DECLARE_uint64(workers);
 
 namespace hindsight {
 
@@ -58,8 +69,8 @@ struct ParsedArguments {
 
 /// Sets the gflags of `command` from `words`. A value follows "=" or is the
 /// next word; flags and positional arguments may be mixed; "--" ends the
-/// flags. Values of a repeated --withhold, --inject or --set are joined with
-/// ";".
+/// flags. Values of a repeated --withhold, --inject, --set or --sweep are joined
+/// with ";".
 /// Throws UsageError for a flag the command does not accept, a bad value, and a
 /// wrong number of positional arguments.
 ParsedArguments ParseArguments(const Command& command,
@@ -67,6 +78,9 @@ ParsedArguments ParseArguments(const Command& command,
 
 /// "alpha-blocks" of "alpha_blocks": a flag as it is written.
 std::string Dashed(std::string name);
+
+/// Gives a flag a value as the command line would. Throws UsageError.
+void GiveFlag(const std::string& name, const std::string& value);
 
 /// True if the flag `name` was on the command line.
 bool IsGiven(const std::string& name);

@@ -79,8 +79,10 @@ int HelpOnConfig(const std::vector<std::string>& words) {
 
 int Dispatch(const char* program, std::vector<std::string> words) {
   const std::vector<Command> commands = {
-      CheckCommand(), RunCommand(),        EvaluateCommand(), SimulateCommand(),
-      InitCommand(),  MonteCarloCommand(), ReportCommand()};
+      CheckCommand(),    RunCommand(),      EvaluateCommand(),
+      SimulateCommand(), InitCommand(),     MonteCarloCommand(),
+      MergeCommand(),    CampaignCommand(), ReportCommand(),
+  };
   if (!words.empty() && words[0] == "help") {
     words.erase(words.begin());
     if (!words.empty() && words[0] == "config") return HelpOnConfig(words);

@@ -2,6 +2,7 @@
 #include <functional>
 #include <iostream>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include "app/command.h"
@@ -11,6 +12,7 @@
 #include "app/result_folder.h"
 #include "app/studies.h"
 #include "app/study_report.h"
+#include "app/study_shard.h"
 #include "io/config/scenario_config.h"
 #include "io/read/paths.h"
 
@@ -33,6 +35,10 @@ constexpr const char* kHelpAfter = R"(Writes into the folder of --out:
   runs.csv         a row a case, method and seed: grade and values of the run
   curves.csv       figures against time
   manifest.json    the files of this folder
+  report.html      with --report: tables, figures against time with their bounds,
+                   and against the numbers of --sweep
+  shard.cbor       with --shard in place of all but the manifest: what 'merge'
+                   puts together
 The folder appears when all is done, as that of 'run' does. After Ctrl-C,
 SIGTERM, SIGHUP or on a full disk montecarlo.json says complete: false and holds
 the first runs as far as they are finished, as --runs of that number makes them
@@ -49,8 +55,9 @@ constexpr int kLeastRuns = 2;
 constexpr char kOtherScenarios[] = "other scenarios";
 
 /// Flags that every scenario takes.
-const std::vector<std::string> kFlagsOfAll = {
-    "out", "force", "clean", "runs", "seed", "threads", "progress"};
+const std::vector<std::string> kFlagsOfAll = {"out",      "force", "clean",
+                                              "runs",     "seed",  "threads",
+                                              "progress", "shard", "report"};
 
 bool Has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -71,7 +78,9 @@ std::string Help() {
 
 /// "gps_jumps", "tunnel_survey, uuv_survey".
 std::string ScenariosWith(const std::string& flag) {
-  std::string names = flag == "set" || flag == "methods" ? kOtherScenarios : "";
+  const bool is_of_others =
+      flag == "set" || flag == "methods" || flag == "sweep";
+  std::string names = is_of_others ? kOtherScenarios : "";
   for (const NamedStudy& study : NamedStudies()) {
     if (!Has(study.flags, flag)) continue;
     names += (names.empty() ? "" : ", ") + study.name;
@@ -95,6 +104,12 @@ std::vector<FlagUse> Flags() {
         "change a key of the scenario, aiding.gnss.sigma='2 m', or\n"
         "choose, errors=spikes; a case each of VALUE|VALUE; several\n"
         "times"},
+       {"sweep", "KEY=V1,V2,... UNIT",
+        "a case each of several numbers of a key, several times:\n"
+        "imu.noise.gyro='0.05,0.1,0.5 deg/sqrt(h)'"},
+       {"shard", "I/N",
+        "only the I-th of N parts of the runs, for 'hindsight merge'"},
+       {"report", "", "write the page report.html as well"},
        {"rules", "LIST",
         "some of ekf,hinf,modified_hinf (all); with them --error\n"
         "takes a list (all three), --gamma too (1,5), and\n"
@@ -167,13 +182,8 @@ void RunAndReport(const Study& study, MonteCarloOptions options,
   };
   const StudyResult result = RunStudy(study, options, keep);
   progress->Clear();
-  std::cout << options.runs << " runs, seeds " << options.first_seed << " to "
-            << options.first_seed + static_cast<std::uint64_t>(options.runs - 1)
-            << ", of " << StudyText(study, result);
-  for (const OutputFile& file : StudyFiles(study, result, options)) {
-    folder->Write(file);
-  }
-  folder->Commit();
+  std::cout << StudyHeading(options) << StudyText(study, result);
+  WriteStudy(study, result, options, folder);
 }
 
 /// One comparison by its name, or any scenarios that `simulate` knows.
@@ -196,7 +206,7 @@ NamedStudy Find(const std::vector<std::string>& arguments) {
   return {arguments.front(),
           "",
           [arguments] { return ScenarioStudy(arguments); },
-          {"methods", "set"}};
+          {"methods", "set", "sweep"}};
 }
 
 int Run(const std::vector<std::string>& arguments) {
@@ -210,6 +220,7 @@ int Run(const std::vector<std::string>& arguments) {
   Progress progress(Progress::ModeFromName(FLAGS_progress));
   Study study = choice.make();
   if (study.name.empty()) study.name = choice.name;
+  const std::optional<ShardNumber> shard = ReadShardNumber(options.runs);
   return WithResultFolder(
       {FLAGS_out, FLAGS_force, FLAGS_clean},
       [&]() -> ResultFolder::Paths {
@@ -221,7 +232,15 @@ int Run(const std::vector<std::string>& arguments) {
         return files;
       },
       [&](ResultFolder* folder) {
-        RunAndReport(study, options, &progress, folder);
+        if (shard) {
+          RunShardInto(
+              {SharedCall(arguments, choice, study, options, shard->of),
+               shard->number,
+               {shard->BeginOf(options.runs), shard->EndOf(options.runs), {}}},
+              study, options, &progress, folder);
+        } else {
+          RunAndReport(study, options, &progress, folder);
+        }
         progress.Finish();
         return kUsable;
       });

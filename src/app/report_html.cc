@@ -12,7 +12,12 @@ HtmlTable::HtmlTable(std::vector<std::string> heading)
     : heading_(std::move(heading)) {}
 
 void HtmlTable::AddRow(std::vector<std::string> cells) {
-  rows_.push_back({std::move(cells), ""});
+  rows_.push_back({std::move(cells)});
+}
+
+void HtmlTable::AddRow(std::vector<std::string> cells,
+                       const std::string& href) {
+  rows_.push_back({.cells = std::move(cells), .href = href});
 }
 
 void HtmlTable::AddRow(std::vector<std::string> cells, double from, double to) {
@@ -42,7 +47,10 @@ std::string HtmlTable::Render() const {
     html += "<tr" + row.attributes + ">";
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
       if (!used[i]) continue;
-      const std::string text = EscapeHtml(row.cells[i]);
+      std::string text = EscapeHtml(row.cells[i]);
+      if (i == 0 && !row.href.empty()) {
+        text = "<a href=\"" + EscapeHtml(row.href) + "\">" + text + "</a>";
+      }
       const bool is_long = row.cells[i].size() > kLongCell;
       html += i == 0    ? "<th scope=\"row\">" + text + "</th>"
               : is_long ? "<td class=\"long\">" + text + "</td>"

@@ -17,6 +17,9 @@ class HtmlTable {
   /// The same; clicking it zooms everything to [from, to] [s].
   void AddRow(std::vector<std::string> cells, double from, double to);
 
+  /// The same; its heading leads to the address `href`.
+  void AddRow(std::vector<std::string> cells, const std::string& href);
+
   bool empty() const { return rows_.empty(); }
   /// "" without rows.
   std::string Render() const;
@@ -24,7 +27,8 @@ class HtmlTable {
  private:
   struct Row {
     std::vector<std::string> cells;
-    std::string attributes;
+    std::string attributes = {};
+    std::string href = {};
   };
   std::vector<std::string> heading_;
   std::vector<Row> rows_;

@@ -89,24 +89,34 @@ constexpr std::string_view kPageBegin =
     "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
     "<meta name=\"generator\" content=\"Hindsight\">\n";
 
+/// All of a page before its own: head, title, what stands under it.
+std::string PageTop(const std::string& title, const std::string& under) {
+  const std::string shown = EscapeHtml(title);
+  return std::string(kPageBegin) +
+         "<meta name=\"viewport\" content=\"width=device-width, "
+         "initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light "
+         "dark\">\n<link rel=\"icon\" href=\"data:,\">\n<title>" +
+         shown + " \xE2\x80\x93 Hindsight</title>\n<style>" +
+         Asset("dygraph.min.css") + Asset("style.css") +
+         "</style>\n</head>\n<body>\n<header><p "
+         "class=\"brand\">Hindsight</p><h1>" +
+         shown + "</h1>" + under + "</header>\n";
+}
+
+std::string PageFoot() {
+  return "<footer>" + EscapeHtml(kProgram) + "</footer>\n";
+}
+
 /// The page around its panels.
 std::string Frame(const ReportContext& context, const std::string& contents,
                   const std::string& panels) {
-  const std::string title = EscapeHtml(context.reference().Name());
   std::string html =
-      std::string(kPageBegin) +
-      "<meta name=\"viewport\" content=\"width=device-width, "
-      "initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light "
-      "dark\">\n<link rel=\"icon\" href=\"data:,\">\n<title>" +
-      title + " \xE2\x80\x93 Hindsight</title>\n<style>" +
-      Asset("dygraph.min.css") + Asset("style.css") +
-      "</style>\n</head>\n<body>\n<header><p "
-      "class=\"brand\">Hindsight</p><h1>" +
-      title + "</h1><nav aria-label=\"Panels\">" + contents +
-      "</nav></header>\n<div id=\"bar\" hidden></div>\n<main>\n" +
+      PageTop(context.reference().Name(),
+              "<nav aria-label=\"Panels\">" + contents + "</nav>") +
+      "<div id=\"bar\" hidden></div>\n<main>\n"
       "<noscript><p class=\"absent\">The charts need JavaScript; the tables "
       "stand without it.</p></noscript>\n" +
-      panels + "</main>\n<footer>" + EscapeHtml(kProgram) + "</footer>\n";
+      panels + "</main>\n" + PageFoot();
   html += "<script type=\"application/json\" id=\"data\">" +
           ScriptJson(PageJson(context)) + "</script>\n" + context.data.Blobs();
   for (const char* script :
@@ -139,6 +149,11 @@ std::string PageOf(std::vector<ReportSource> sources) {
 }
 
 }  // namespace
+
+std::string StaticPage(const std::string& title, const std::string& body) {
+  return PageTop(title, "") + "<main>\n" + body + "</main>\n" + PageFoot() +
+         "</body>\n</html>\n";
+}
 
 std::string ReportPage(const std::vector<ReportPlace>& places) {
   std::vector<ReportSource> sources;

@@ -20,6 +20,9 @@ std::string ReportPage(const std::vector<ReportPlace>& places);
 /// The same of one solution that was compared with a truth.
 std::string ReportPage(EvaluatedSolution evaluated);
 
+/// A page of the same looks that holds `body`, which is HTML, and no charts.
+std::string StaticPage(const std::string& title, const std::string& body);
+
 /// Whether the file begins as these pages do. Throws InputError if it cannot be
 /// read.
 bool IsReportPage(const std::string& path);

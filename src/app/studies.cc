@@ -257,36 +257,36 @@ const std::vector<NamedStudy>& NamedStudies() {
        "an odometer survey of 8 km, by three axes and by the\n"
        "forward speed alone",
        TunnelStudy,
-       {"set"}},
+       {"set", "sweep"}},
       {"tunnel_sweep",
        "the same against the distance of the reference points,\n"
        "0.25 to 8 km, and the odometer noise, 5 to 100 mm/s",
        TunnelSweepStudy,
-       {"set"}},
+       {"set", "sweep"}},
       {"calibration",
        "ten minutes on which lever arms, time offsets, scale\n"
        "factors and the mounting are all unknown and estimated,\n"
        "each judged by its errors over its sigmas",
        [] { return ConstantsStudy("calibration"); },
-       {"set"}},
+       {"set", "sweep"}},
       {"in_flight_alignment",
        "forward observers from bad initial attitudes, Riccati\n"
        "rule x definition of the error x start: shares that\n"
        "diverge or escape, time to settle, final errors, Lyapunov\n"
        "figures",
        InFlightStudy,
-       {"set", "rules", "error", "gamma", "alpha", "alpha_blocks", "delta",
-        "bounded", "back_off"},
+       {"set", "sweep", "rules", "error", "gamma", "alpha", "alpha_blocks",
+        "delta", "bounded", "back_off"},
        300},
       {"velocity_alignment",
        "aligns the same flight from no start value, the IMU\n"
        "mounted at any attitude, and then solves it as a batch",
        VelocityAlignmentStudy,
-       {"set"}},
+       {"set", "sweep"}},
       {"gps_jumps",
        "filters and batches under errors of the positions",
        GpsJumpsStudy,
-       {"set"}},
+       {"set", "sweep"}},
       {kVibrationAttitudeName,
        "the accelerometer rules of attitude-only estimation under\n"
        "acceleration and vibration, along north, one and all body\n"
@@ -305,12 +305,12 @@ const std::vector<NamedStudy>& NamedStudies() {
        "and lawn-mower that ends near its start, each without\n"
        "and with a final fix and with a gap of the DVL",
        UuvSurveyStudy,
-       {"set"}},
+       {"set", "sweep"}},
       {"uuv_calibration",
        "figures of eight at the surface with GNSS: scale,\n"
        "boresight and lever arm of the DVL, judged as above",
        [] { return ConstantsStudy("uuv_calibration"); },
-       {"set"}},
+       {"set", "sweep"}},
       {"uuv_search",
        "the fusions of Lee and Yoon (2011) as printed, 16\n"
        "readings: 2-D and 3-D distance error with histograms",

@@ -7,6 +7,7 @@
 #include "app/flags.h"
 #include "app/list_flags.h"
 #include "base/error.h"
+#include "io/read/units.h"
 #include "problems/method.h"
 
 namespace hindsight {
@@ -21,6 +22,41 @@ std::vector<Axis> AskedAxes() {
       throw UsageError("--set=" + text + ": expected KEY=VALUE");
     }
     axes.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return axes;
+}
+
+/// "0.05 deg/h|0.1 deg/h" of "0.05, 0.1 deg/h".
+std::string SweptValues(const std::string& flag, const std::string& text) {
+  std::vector<std::string> values = Split(text, ',');
+  if (values.size() < 2) throw UsageError(flag + ": expected V1,V2,... UNIT");
+  const auto unit_of = [](const std::string& value) {
+    const std::size_t blank = value.find(' ');
+    return blank == value.npos ? "" : value.substr(blank);
+  };
+  std::string joined;
+  for (std::string& value : values) {
+    const std::string unit = unit_of(value);
+    if (!ParseNumber(value.substr(0, value.size() - unit.size()))) {
+      throw UsageError(flag + ": '" + value + "' is no number with its unit");
+    }
+    if (unit.empty()) value += unit_of(values.back());
+    joined += (joined.empty() ? "" : "|") + value;
+  }
+  return joined;
+}
+
+/// KEY and values of every --sweep.
+std::vector<Axis> SweptAxes() {
+  std::vector<Axis> axes;
+  for (const std::string& text : Split(FLAGS_sweep, ';')) {
+    const std::string flag = "--sweep=" + text;
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == text.npos) {
+      throw UsageError(flag + ": expected KEY=V1,V2,... UNIT");
+    }
+    axes.push_back(
+        {text.substr(0, equals), SweptValues(flag, text.substr(equals + 1))});
   }
   return axes;
 }
@@ -51,7 +87,9 @@ void Add(const Axis& axis, const std::string& value, CaseList::Entry* entry,
 }  // namespace
 
 CaseList MakeCases(std::vector<Axis> axes) {
-  for (const Axis& asked : AskedAxes()) {
+  std::vector<Axis> given = AskedAxes();
+  for (Axis& axis : SweptAxes()) given.push_back(std::move(axis));
+  for (const Axis& asked : given) {
     const auto same = [&](const Axis& axis) { return axis.key == asked.key; };
     const auto found = std::find_if(axes.begin(), axes.end(), same);
     if (found == axes.end()) {

@@ -34,7 +34,8 @@ struct CaseList {
   std::vector<std::pair<std::string, std::string>> settings;
 };
 
-/// With --set, which gives an axis other values or adds one. Throws UsageError.
+/// With --set and --sweep, which give an axis other values or add one. Throws
+/// UsageError.
 CaseList MakeCases(std::vector<Axis> axes);
 
 /// The changes of --set, each of one value. Throws UsageError.

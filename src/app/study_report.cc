@@ -5,6 +5,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "app/flags.h"
+#include "app/report_page.h"
+#include "app/study_page.h"
+#include "io/write/csv_line.h"
 #include "io/write/number_format.h"
 
 namespace hindsight {
@@ -22,17 +26,6 @@ std::string Suffix(const Unit& unit) {
 }
 
 using Fields = std::vector<std::string>;
-
-/// A line of a CSV; a field that holds a comma is quoted.
-std::string CsvLine(const Fields& fields) {
-  std::string text;
-  for (const std::string& field : fields) {
-    const bool plain = field.find(',') == field.npos;
-    text += (&field == &fields.front() ? "" : ",") +
-            (plain ? field : '"' + field + '"');
-  }
-  return text + '\n';
-}
 
 std::string NumberField(double value) {
   std::string text;
@@ -181,6 +174,25 @@ std::vector<OutputFile> StudyFiles(const Study& study,
     files.push_back({"curves.csv", CurveCsv(result.tables[0], result.rows[0])});
   }
   return files;
+}
+
+std::string StudyHeading(const MonteCarloOptions& options) {
+  const std::uint64_t last =
+      options.first_seed + static_cast<std::uint64_t>(options.runs - 1);
+  return std::to_string(options.runs) + " runs, seeds " +
+         std::to_string(options.first_seed) + " to " + std::to_string(last) +
+         ", of ";
+}
+
+void WriteStudy(const Study& study, const StudyResult& result,
+                const MonteCarloOptions& options, ResultFolder* folder) {
+  for (const OutputFile& file : StudyFiles(study, result, options)) {
+    folder->Write(file);
+  }
+  if (FLAGS_report) {
+    folder->Write({kReportName, StudyPage(study, result, options)});
+  }
+  folder->Commit();
 }
 
 }  // namespace hindsight

@@ -16,6 +16,19 @@ inline constexpr char kMonteCarloJson[] = "montecarlo.json";
 /// constants and the like that are long are left to their files.
 std::string StudyText(const Study& study, const StudyResult& result);
 
+/// A table as it is shown: case and method, and the figures of one part that
+/// have a title; a case that goes on is not named again. No rows where all
+/// figures are missing.
+struct StudyGrid {
+  std::vector<std::string> heading;
+  std::vector<std::vector<std::string>> rows;
+};
+StudyGrid GridOf(const StudyTable& table, const std::vector<FigureRow>& rows,
+                 int part);
+
+/// "100 runs, seeds 1 to 100, of ".
+std::string StudyHeading(const MonteCarloOptions& options);
+
 /// The files of a result, complete or not, montecarlo.json first:
 ///   {"scenario", settings, "complete", "runs", "runs_asked", "first_seed",
 ///    "refused" (where data were: a line each), TABLE: [{labels, "runs", figures}]}
@@ -32,6 +45,11 @@ std::string StudyText(const Study& study, const StudyResult& result);
 std::vector<OutputFile> StudyFiles(const Study& study,
                                    const StudyResult& result,
                                    const MonteCarloOptions& options);
+
+/// Writes them, with --report a page besides (StudyPage), and commits the
+/// folder. Throws OutputError.
+void WriteStudy(const Study& study, const StudyResult& result,
+                const MonteCarloOptions& options, ResultFolder* folder);
 
 }  // namespace hindsight
 

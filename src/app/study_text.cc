@@ -45,35 +45,45 @@ std::vector<std::string> LabelCells(const FigureRow& row,
 
 std::string TableText(const StudyTable& table,
                       const std::vector<FigureRow>& rows, int part) {
-  std::vector<std::string> heading(2);
+  const StudyGrid grid = GridOf(table, rows, part);
+  if (grid.rows.empty()) return "";
+  ReportTable text(grid.heading, 2);
+  for (const std::vector<std::string>& cells : grid.rows) text.AddRow(cells);
+  return text.Render(StyleOfOutput());
+}
+
+}  // namespace
+
+StudyGrid GridOf(const StudyTable& table, const std::vector<FigureRow>& rows,
+                 int part) {
+  StudyGrid grid;
+  grid.heading.resize(2);
   for (std::size_t i = 0; i < table.labels.size(); ++i) {
     const bool is_last = i > 0 && i + 1 == table.labels.size();
-    std::string& to = heading[is_last ? 1 : 0];
+    std::string& to = grid.heading[is_last ? 1 : 0];
     to += (to.empty() ? "" : ", ") + table.labels[i];
   }
-  std::vector<std::size_t> printed;
+  std::vector<std::size_t> shown;
   for (std::size_t f = 0; f < table.figures.size(); ++f) {
     const Figure& figure = table.figures[f];
     if (figure.title.empty() || figure.part != part) continue;
-    printed.push_back(f);
-    heading.push_back(figure.title);
+    shown.push_back(f);
+    grid.heading.push_back(figure.title);
   }
-  ReportTable text(heading, 2);
   bool is_empty = true;
   const FigureRow* before = nullptr;
   for (const FigureRow& row : rows) {
     std::vector<std::string> cells = LabelCells(row, before);
     before = &row;
-    for (const std::size_t f : printed) {
+    for (const std::size_t f : shown) {
       cells.push_back(Cell(table.figures[f], row.values[f]));
       is_empty = is_empty && cells.back().empty();
     }
-    text.AddRow(cells);
+    grid.rows.push_back(std::move(cells));
   }
-  return is_empty ? "" : text.Render(StyleOfOutput());
+  if (is_empty) grid.rows.clear();
+  return grid;
 }
-
-}  // namespace
 
 std::string StudyText(const Study& study, const StudyResult& result) {
   std::string text = study.name;

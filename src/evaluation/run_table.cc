@@ -10,25 +10,6 @@
 namespace hindsight {
 namespace {
 
-constexpr double kSameTime = 1e-6;  // [s]
-
-/// Indices of the times of `one` that are among `common`, which is cut down to
-/// those found.
-std::vector<std::size_t> MatchTimes(const std::vector<double>& one,
-                                    std::vector<double>* common) {
-  std::vector<std::size_t> index;
-  std::vector<double> found;
-  std::size_t i = 0;
-  for (const double t : *common) {
-    while (i < one.size() && one[i] < t - kSameTime) ++i;
-    if (i == one.size() || one[i] > t + kSameTime) continue;
-    index.push_back(i);
-    found.push_back(t);
-  }
-  *common = std::move(found);
-  return index;
-}
-
 Interval BoundsOf(const RunCell& cell) {
   constexpr double kConfidence = 0.95;
   const std::vector<double> states = cell.Values("states");
@@ -45,12 +26,13 @@ double CountGrade(const RunCell& cell, const std::string&, const TimeRange&) {
 
 }  // namespace
 
-RunCell::RunCell(std::vector<const RunRecord*> records)
-    : all_(std::move(records)) {
+RunCell::RunCell(std::vector<const RunRecord*> records, const SeriesFold* fold)
+    : all_(std::move(records)), fold_(fold) {
   for (const RunRecord* record : all_) {
     if (record->answered) answered_.push_back(record);
   }
-  if (answered_.empty()) return;
+  if (fold_ != nullptr) t_ = fold_->t;
+  if (answered_.empty() || fold_ != nullptr) return;
   t_ = answered_.front()->t;
   for (const RunRecord* record : answered_) MatchTimes(record->t, &t_);
   for (const RunRecord* record : answered_) {
@@ -99,6 +81,13 @@ std::vector<double> RunCell::Pooled(const std::string& name,
 
 std::vector<double> RunCell::Curve(const std::string& name,
                                    Statistic over_runs) const {
+  if (fold_ != nullptr) {
+    const auto found = fold_->series.find(name);
+    if (found == fold_->series.end()) return {};
+    if (over_runs == Mean) return found->second.mean;
+    if (over_runs == Deviation) return SeriesFold::Deviation(found->second);
+    throw std::logic_error("folded series know no such statistic");
+  }
   std::vector<std::pair<const std::vector<double>*, std::size_t>> series;
   for (std::size_t i = 0; i < answered_.size(); ++i) {
     const auto found = answered_[i]->series.find(name);
@@ -128,7 +117,8 @@ std::vector<double> RunCell::Within(const std::vector<double>& curve,
 }
 
 std::vector<FigureRow> Summarize(const StudyTable& table, std::size_t index,
-                                 std::span<const RunRecord> records) {
+                                 std::span<const RunRecord> records,
+                                 const CellFolds& folds) {
   std::vector<const std::vector<std::string>*> order;
   std::map<std::vector<std::string>, std::vector<const RunRecord*>> cells;
   for (const RunRecord& record : records) {
@@ -139,7 +129,9 @@ std::vector<FigureRow> Summarize(const StudyTable& table, std::size_t index,
   }
   std::vector<FigureRow> rows;
   for (const std::vector<std::string>* labels : order) {
-    const RunCell cell(cells[*labels]);
+    const auto fold = folds.find({index, *labels});
+    const RunCell cell(cells[*labels],
+                       fold == folds.end() ? nullptr : &fold->second);
     FigureRow& row = rows.emplace_back();
     row.labels = *labels;
     row.runs = cell.runs();

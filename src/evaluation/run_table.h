@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/units.h"
+#include "evaluation/series_fold.h"
 #include "state/evidence.h"
 
 namespace hindsight {
@@ -37,7 +38,8 @@ struct RunRecord {
   /// Of the run as a whole, by name.
   std::vector<std::pair<std::string, double>> values;
   std::vector<double> t;  ///< of the series [s]
-  /// By name, a value at every t.
+  /// By name, a value at every t. Of a table that folds them they are taken out
+  /// of the record.
   std::map<std::string, std::vector<double>> series;
 };
 
@@ -54,7 +56,9 @@ class RunCell {
   using Statistic = double (*)(const std::vector<double>&);
 
   /// At least one record; they share their labels and outlive the cell.
-  explicit RunCell(std::vector<const RunRecord*> records);
+  /// `fold`: their series, where the records have none any more, or null.
+  explicit RunCell(std::vector<const RunRecord*> records,
+                   const SeriesFold* fold = nullptr);
 
   const std::vector<std::string>& labels() const { return all_[0]->labels; }
   int runs() const { return static_cast<int>(all_.size()); }
@@ -70,7 +74,8 @@ class RunCell {
   /// A series of all runs within the span, run after run.
   std::vector<double> Pooled(const std::string& name,
                              const TimeRange& range = {}) const;
-  /// A statistic over the runs at every t().
+  /// A statistic over the runs at every t(): of folded series Mean or
+  /// Deviation.
   std::vector<double> Curve(const std::string& name, Statistic over_runs) const;
   /// The part of a curve that lies in the span.
   std::vector<double> Within(const std::vector<double>& curve,
@@ -79,6 +84,7 @@ class RunCell {
  private:
   std::vector<const RunRecord*> all_;
   std::vector<const RunRecord*> answered_;
+  const SeriesFold* fold_;
   std::vector<double> t_;
   /// Index into each answered run's series of every t_.
   std::vector<std::vector<std::size_t>> index_;
@@ -179,6 +185,9 @@ struct StudyTable {
   std::vector<std::string> labels;  ///< columns, the method last
   std::vector<Figure> figures;
   std::vector<FigureCurve> curves;
+  /// Figures and curves take no more of the series than mean and deviation over
+  /// the runs, so that these are kept in place of all runs' series.
+  bool folds_series = false;
 };
 
 /// A row of figures.
@@ -193,9 +202,11 @@ struct FigureRow {
 };
 
 /// The figures of the records that belong to the table of that index, a row a
-/// cell in the order of their first appearance.
+/// cell in the order of their first appearance; their series, of a table that
+/// folds them, are in `folds`.
 std::vector<FigureRow> Summarize(const StudyTable& table, std::size_t index,
-                                 std::span<const RunRecord> records);
+                                 std::span<const RunRecord> records,
+                                 const CellFolds& folds = {});
 
 /// A figure of the row with these labels; throws std::out_of_range for labels
 /// or a name ("max_std_n", component included) that are none. In SI.

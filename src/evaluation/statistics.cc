@@ -78,6 +78,7 @@ double Rank(std::vector<double> values, double fraction) {
 }
 
 double Rank50(const std::vector<double>& values) { return Rank(values, 0.50); }
+double Rank68(const std::vector<double>& values) { return Rank(values, 0.68); }
 double Rank95(const std::vector<double>& values) { return Rank(values, 0.95); }
 
 Histogram CountValues(const std::vector<double>& values) {

@@ -38,6 +38,7 @@ double Least(const std::vector<double>& values);
 /// infinite ones stay infinite.
 double Rank(std::vector<double> values, double fraction);
 double Rank50(const std::vector<double>& values);
+double Rank68(const std::vector<double>& values);
 double Rank95(const std::vector<double>& values);
 double Sum(const std::vector<double>& values);
 double Last(const std::vector<double>& values);

@@ -5,6 +5,7 @@
 //                                  after: SIGKILL there; hang: for 20 s
 //   HINDSIGHT_FAULT_LOG=FILE       gets a line for every call, and "fired"
 //   HINDSIGHT_FAULT_NO_EXCHANGE=1  the file system cannot exchange names
+//   HINDSIGHT_FAULT_ONLY=WORD      of processes whose first argument is WORD
 //   HINDSIGHT_FAULT_PID=N          what getpid says
 // CALL is one of kNames, which also stands for that function's 64-bit twin.
 #include <dirent.h>
@@ -79,9 +80,24 @@ void Log(std::string_view word) {
 
 void Kill() { syscall(SYS_kill, syscall(SYS_getpid), SIGKILL); }
 
+/// Whether this process is one that HINDSIGHT_FAULT_ONLY names.
+bool IsMeant() {
+  static const bool is_meant = [] {
+    const char* word = getenv("HINDSIGHT_FAULT_ONLY");
+    if (word == nullptr) return true;
+    std::array<char, 256> line = {};
+    const long fd = syscall(SYS_open, "/proc/self/cmdline", O_RDONLY, 0);
+    syscall(SYS_read, fd, line.data(), line.size() - 1);
+    syscall(SYS_close, fd);
+    return strcmp(line.data() + strlen(line.data()) + 1, word) == 0;
+  }();
+  return is_meant;
+}
+
 /// What is to happen at this call, "" for nothing.
 std::string_view Action(Call call) {
   const int cause = errno;
+  if (!IsMeant()) return "";
   const long count = ++counts[call];
   Log(kNames[call]);
   errno = cause;

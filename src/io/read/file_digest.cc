@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -76,6 +75,12 @@ void ListFiles(const fs::path& folder, const std::string& prefix,
 }
 
 }  // namespace
+
+std::string Sha256Of(std::string_view text) {
+  Sha256 sum;
+  sum.Add(text.data(), text.size());
+  return sum.Hexadecimal();
+}
 
 FileDigest DigestOf(const fs::path& path) {
   if (!IsFolder(path)) return DigestOfFile(path);

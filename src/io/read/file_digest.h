@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace hindsight {
 
@@ -20,6 +21,9 @@ struct FileDigest {
 /// files below it, NAME relative to the folder, in the order of the names' bytes. Throws
 /// InputError if something cannot be read.
 FileDigest DigestOf(const std::filesystem::path& path);
+
+/// SHA-256 of a text, hexadecimal.
+std::string Sha256Of(std::string_view text);
 
 }  // namespace hindsight
 
