@@ -10,8 +10,8 @@
 namespace hindsight {
 namespace {
 
-const Eigen::Vector3d kFieldNed(20.0, 0.0, 40.0);
-constexpr double kStep = 0.02;
+const Eigen::Vector3d kSmoothedFieldNed(20.0, 0.0, 40.0);
+constexpr double kSmoothedStep = 0.02;
 
 /// A body that turns for ten seconds and then rests for five, with noise in
 /// every reading.
@@ -28,12 +28,12 @@ struct Turning {
     Eigen::Quaterniond q = Exp(Eigen::Vector3d(0.2, -0.1, 0.7));
     Eigen::Vector3d before = Eigen::Vector3d::Zero();
     for (int k = 0; k <= 750; ++k) {
-      const double t = k * kStep;
+      const double t = k * kSmoothedStep;
       const bool rests = t > 10.0;
       const Eigen::Vector3d w =
           rests ? Eigen::Vector3d::Zero() : Eigen::Vector3d(0.9, -0.6, 1.2);
       // Rates are linear between samples.
-      if (k > 0) q = q * Exp(0.5 * kStep * (before + w));
+      if (k > 0) q = q * Exp(0.5 * kSmoothedStep * (before + w));
       before = w;
       q_nb.push_back(q);
       imu.samples.push_back(
@@ -41,16 +41,16 @@ struct Turning {
            q.conjugate() * Eigen::Vector3d(0.0, 0.0, -options.place.gravity) +
                0.1 * random.NormalVector3()});
       magnetic.push_back(
-          {t, q.conjugate() * kFieldNed + random.NormalVector3()});
+          {t, q.conjugate() * kSmoothedFieldNed + random.NormalVector3()});
     }
     imu.noise.gyro_noise_density = 1e-3;
     imu.noise.gyro_bias_walk = 1e-4;
     imu.noise.gyro_bias_tau = 1000.0;
     options.magnetic_form = MagneticField::Form::kVector;
-    options.magnetic.horizontal = kFieldNed.x();
-    options.magnetic.down = kFieldNed.z();
+    options.magnetic.horizontal = kSmoothedFieldNed.x();
+    options.magnetic.down = kSmoothedFieldNed.z();
     options.reference.enabled = false;
-    options.update_interval = 5.0 * kStep;
+    options.update_interval = 5.0 * kSmoothedStep;
     options.rest_sigma = 0.01;
     start.q_nb = Exp(Eigen::Vector3d(0.05, -0.05, 0.1)) * q_nb.front();
     start.P.diagonal() << Eigen::Vector3d::Constant(0.01),

@@ -12,8 +12,8 @@ namespace {
 constexpr double kDt = 0.02;
 
 /// Readings of white noise of density N about a bias that walks with density K.
-std::vector<double> Rest(double white, double walk, std::size_t count,
-                         Random* random) {
+std::vector<double> StillReadings(double white, double walk, std::size_t count,
+                                  Random* random) {
   std::vector<double> x(count);
   double bias = 0.0;
   for (double& value : x) {
@@ -46,8 +46,8 @@ TEST(Allan, DensitiesOfRestComeBackWithinTenPercentOverSeeds) {
   double squares = 0.0;
   for (int seed = 0; seed < kSeeds; ++seed) {
     Random random(7000 + static_cast<std::uint64_t>(seed));
-    const AllanFit fit =
-        FitAllan(AllanDeviation(Rest(kWhite, kWalk, kCount, &random), kDt));
+    const AllanFit fit = FitAllan(
+        AllanDeviation(StillReadings(kWhite, kWalk, kCount, &random), kDt));
     EXPECT_NEAR(fit.white.value, kWhite, 0.1 * kWhite) << seed;
     white += fit.white.value / kSeeds;
     walk += fit.walk.value / kSeeds;
@@ -64,7 +64,7 @@ TEST(Allan, DensitiesOfRestComeBackWithinTenPercentOverSeeds) {
 TEST(Allan, WhiteNoiseAloneHasNoWalkBeyondItsSigma) {
   Random random(7101);
   const AllanFit fit =
-      FitAllan(AllanDeviation(Rest(1e-3, 0.0, 50000, &random), kDt));
+      FitAllan(AllanDeviation(StillReadings(1e-3, 0.0, 50000, &random), kDt));
   EXPECT_LT(fit.walk.value, 4.0 * fit.walk.sigma);
   EXPECT_NEAR(fit.white.value, 1e-3, 5.0 * fit.white.sigma);
 }

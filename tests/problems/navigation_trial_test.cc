@@ -25,7 +25,7 @@ std::vector<RunRecord> Tried(const Dataset& dataset,
   return records;
 }
 
-Dataset Drive() {
+Dataset JudgedDrive() {
   Scenario scenario = FindScenario("car_drive");
   scenario.duration = 60.0;
   scenario.withholdings.clear();
@@ -34,7 +34,7 @@ Dataset Drive() {
 
 TEST(NavigationTrial, TheRunIsItsBestMethod) {
   const std::vector<RunRecord> records =
-      Tried(Drive(), {"ekf", "rts", "batch"});
+      Tried(JudgedDrive(), {"ekf", "rts", "batch"});
   const RunRecord& run = CellOf(records, kBestOfRun);
   const RunRecord& batch = CellOf(records, "batch");
   EXPECT_EQ(run.grade, batch.grade);
@@ -43,7 +43,7 @@ TEST(NavigationTrial, TheRunIsItsBestMethod) {
 }
 
 TEST(NavigationTrial, ARunWithoutAnAnswerHasFailed) {
-  const std::vector<RunRecord> records = Tried(Drive(), {});
+  const std::vector<RunRecord> records = Tried(JudgedDrive(), {});
   const RunRecord& run = CellOf(records, kBestOfRun);
   EXPECT_TRUE(run.failed);
   EXPECT_FALSE(run.answered);
