@@ -13,12 +13,12 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json Summary(const std::filesystem::path& folder) {
-  return Json::parse(ReadFile(folder / "summary.json"));
+OrderedJson Summary(const std::filesystem::path& folder) {
+  return OrderedJson::parse(ReadFile(folder / "summary.json"));
 }
-const Json& Best(const Json& summary) {
+const OrderedJson& Best(const OrderedJson& summary) {
   return summary["methods"][summary["best"].get<std::string>()];
 }
 
@@ -64,9 +64,9 @@ TEST_F(Constants, CombineAveragesAndTellsWhatVaries) {
   EXPECT_THAT(combined.out,
               HasSubstr("depth_offset differs between recordings"));
   EXPECT_THAT(combined.out, Not(HasSubstr("dvl_lever_arm[x] differs")));
-  const Json all = Summary(Path("all"));
+  const OrderedJson all = Summary(Path("all"));
   EXPECT_EQ(all["best"], "combined");
-  const Json& constants = Best(all)["constants"];
+  const OrderedJson& constants = Best(all)["constants"];
   // True are 1.2 and 0 m.
   for (const auto& [name, truth] :
        {std::pair{"dvl_lever_arm[x]", 1.2}, {"dvl_lever_arm[y]", 0.0}}) {
@@ -88,12 +88,12 @@ TEST_F(Constants, StartTheNextRecording) {
   const Outcome run = Run({"run", "dive3/config.yaml", "--methods=batch",
                            "--constants=two", "--out=next"});
   EXPECT_TRUE(HasResults(run)) << run.out << run.err;
-  const Json two = Summary(Path("two"));
-  const Json next = Summary(Path("next"));
+  const OrderedJson two = Summary(Path("two"));
+  const OrderedJson next = Summary(Path("next"));
   EXPECT_EQ(next["constants_from"], "two");
   for (const auto& [name, entry] : Best(two)["constants"].items()) {
     if (name == "depth_offset") continue;  // another one here
-    const Json& here = Best(next)["constants"][name];
+    const OrderedJson& here = Best(next)["constants"][name];
     EXPECT_NEAR(
         here["prior_sigma"].get<double>() / entry["sigma"].get<double>(), 1.0,
         name.find("mounting") == name.npos ? 1e-9 : 0.05)
@@ -102,7 +102,7 @@ TEST_F(Constants, StartTheNextRecording) {
         << name;
   }
   // The mounting is taken as a whole: little is left to correct.
-  const Json& yaw = Best(next)["constants"]["dvl_mounting[z]"];
+  const OrderedJson& yaw = Best(next)["constants"]["dvl_mounting[z]"];
   EXPECT_LT(std::abs(yaw["value"].get<double>()),
             4.0 * yaw["prior_sigma"].get<double>());
   // What started from a result would count again.
@@ -133,7 +133,7 @@ TEST_F(Constants, WhatDoesNotFitIsOneLine) {
               HasSubstr("no figures of a result"));
   const Outcome taken = with("{from: ../result1, without: [dvl_mounting]}");
   EXPECT_TRUE(HasResults(taken)) << taken.err;
-  const Json summary = Summary(Path("with"));
+  const OrderedJson summary = Summary(Path("with"));
   EXPECT_NEAR(Best(summary)["constants"]["dvl_mounting[z]"]["prior_sigma"]
                   .get<double>(),
               2.0 * std::acos(-1.0) / 180.0, 1e-9);

@@ -20,8 +20,8 @@ const std::string kHeld =
     "--set=withhold=[{sensor: position, every: 70 s, length: 5 s, from: 30 s}, "
     "{sensor: position, every: 70 s, length: 25 s, from: 50 s}]";
 
-std::vector<std::string> Words(const std::string& out,
-                               const std::vector<std::string>& more = {}) {
+std::vector<std::string> ShardWords(const std::string& out,
+                                    const std::vector<std::string>& more = {}) {
   std::vector<std::string> words = {"montecarlo",
                                     "short_drive",
                                     "--runs=7",
@@ -53,12 +53,12 @@ class MonteCarloShards : public ::testing::Test {
 };
 
 TEST_F(MonteCarloShards, MergeToTheBytesOfOneProcess) {
-  ASSERT_EQ(Call(Words("one", {"--threads=2"})).status, 0);
+  ASSERT_EQ(Call(ShardWords("one", {"--threads=2"})).status, 0);
   for (const auto& [number, threads] :
        {std::pair("2/3", "1"), std::pair("1/3", "2"), std::pair("3/3", "3")}) {
-    const Outcome outcome = Call(Words(std::string("s") + number[0],
-                                       {std::string("--shard=") + number,
-                                        std::string("--threads=") + threads}));
+    const Outcome outcome = Call(ShardWords(
+        std::string("s") + number[0], {std::string("--shard=") + number,
+                                       std::string("--threads=") + threads}));
     ASSERT_EQ(outcome.status, 0) << outcome.err;
   }
   EXPECT_THAT(Names(folder_.path() / "s2"),
@@ -84,7 +84,8 @@ TEST_F(MonteCarloShards, MergeToTheBytesOfOneProcess) {
                     HasSubstr("--runs=7 --seed=5 --shard=2/3")));
   EXPECT_THAT(Error({"merge", "s1", "s2", "s3", "s1", "--out=bad"}),
               HasSubstr("shard 1 is there twice: s1 and s1"));
-  ASSERT_EQ(Call(Words("other", {"--shard=2/3", "--methods=ekf"})).status, 0);
+  ASSERT_EQ(Call(ShardWords("other", {"--shard=2/3", "--methods=ekf"})).status,
+            0);
   EXPECT_THAT(Error({"merge", "s1", "other", "s3", "--out=bad"}),
               HasSubstr("are not of one comparison"));
   EXPECT_THAT(Error({"merge", "one", "--out=bad"}), HasSubstr("shard.cbor"));
@@ -106,13 +107,13 @@ TEST_F(MonteCarloShards, MergeToTheBytesOfOneProcess) {
 TEST_F(MonteCarloShards, AreAsTheFlagSays) {
   for (const char* shard :
        {"0/2", "3/2", "1", "1/2/3", "a/b", "1.5/2", "1/8"}) {
-    EXPECT_THAT(Error(Words("bad", {std::string("--shard=") + shard})),
+    EXPECT_THAT(Error(ShardWords("bad", {std::string("--shard=") + shard})),
                 HasSubstr("--shard=" + std::string(shard) + ": expected I/N"));
   }
 }
 
 TEST_F(MonteCarloShards, SweepsAndOutagesHaveTheirRows) {
-  const Outcome outcome = Call(Words("mc"));
+  const Outcome outcome = Call(ShardWords("mc"));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const nlohmann::json json = nlohmann::json::parse(File("mc/montecarlo.json"));
   ASSERT_THAT(json["cells"], SizeIs(4));

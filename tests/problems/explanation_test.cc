@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Case {
+struct FaultyCase {
   const char* vehicle;
   const char* fault;
   const char* sensor;
@@ -32,10 +32,10 @@ std::vector<std::string> WhatSpeaksAgainst(const Dataset& dataset) {
   return all;
 }
 
-class ExplanationOfFault : public ::testing::TestWithParam<Case> {};
+class ExplanationOfFault : public ::testing::TestWithParam<FaultyCase> {};
 
 TEST_P(ExplanationOfFault, NamesIt) {
-  const Case& c = GetParam();
+  const FaultyCase& c = GetParam();
   Dataset dataset = Simulate(FindScenario(c.vehicle, {}), 11);
   ApplyFault({FindFaultKind(c.fault), c.sensor, c.size}, 11, &dataset);
   EXPECT_THAT(WhatSpeaksAgainst(dataset),
@@ -45,17 +45,18 @@ TEST_P(ExplanationOfFault, NamesIt) {
 INSTANTIATE_TEST_SUITE_P(
     Faults, ExplanationOfFault,
     ::testing::Values(
-        Case{"test_car", "delay", "position", 0.2,
-             "gnss is stamped 0.21 s late"},
-        Case{"test_car", "lever_arm", "position", 1.0,
-             "gnss stands -1 m more forward than its lever arm says"},
-        Case{"test_car", "step", "position", 3.0, "gnss [north] is "},
-        Case{"test_car", "lasting", "position", 1.5,
-             "last longer than the time between its measurements"},
-        Case{"test_aircraft", "imu_rate", "", 2e-4,
-             "s/s faster than all others"},
-        Case{"test_aircraft", "gyro_step", "", 3.5e-4, "gyro_bias[z] jumps"},
-        Case{"test_dive", "lasting", "dvl", 0.03, "of dvl"}));
+        FaultyCase{"test_car", "delay", "position", 0.2,
+                   "gnss is stamped 0.21 s late"},
+        FaultyCase{"test_car", "lever_arm", "position", 1.0,
+                   "gnss stands -1 m more forward than its lever arm says"},
+        FaultyCase{"test_car", "step", "position", 3.0, "gnss [north] is "},
+        FaultyCase{"test_car", "lasting", "position", 1.5,
+                   "last longer than the time between its measurements"},
+        FaultyCase{"test_aircraft", "imu_rate", "", 2e-4,
+                   "s/s faster than all others"},
+        FaultyCase{"test_aircraft", "gyro_step", "", 3.5e-4,
+                   "gyro_bias[z] jumps"},
+        FaultyCase{"test_dive", "lasting", "dvl", 0.03, "of dvl"}));
 
 TEST(Explanation, AHealthyRecordingNeedsNone) {
   const int seeds = testing::SeedCount(25, 100);

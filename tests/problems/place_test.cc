@@ -96,15 +96,15 @@ TEST(Place, ExactDataGiveZeroErrorAnywhere) {
 }
 
 TEST(Place, TheSameProblemTurnedAboutTheAxisHasTheSameSolution) {
-  struct Case {
+  struct PlaceCase {
     Geodetic place;
     double turn;
   };
   // Over the pole, and from longitude zero to across 180 deg.
-  const Case cases[] = {{{89.9999 * kDegree, 0.0, 50.0}, 1.0},
-                        {{37.0 * kDegree, 0.0, 50.0}, kPi - 5e-6},
-                        {{-37.0 * kDegree, 0.0, 50.0}, kPi - 5e-6}};
-  for (const Case& c : cases) {
+  const PlaceCase cases[] = {{{89.9999 * kDegree, 0.0, 50.0}, 1.0},
+                             {{37.0 * kDegree, 0.0, 50.0}, kPi - 5e-6},
+                             {{-37.0 * kDegree, 0.0, 50.0}, kPi - 5e-6}};
+  for (const PlaceCase& c : cases) {
     const TestProblem problem = ProblemAt(c.place, {12.0, 7.0, 0.5}, true);
     const TestProblem turned = Turned(problem, c.turn);
     double low = kPi;
