@@ -28,6 +28,7 @@ const std::map<std::string, Use>& Uses() {
       "uuv_survey",          "uuv_calibration",    "other scenarios"};
   static const std::map<std::string, Use> uses = {
       {"set", {scenarios, "=nothing"}},
+      {"sweep", {scenarios, "=nothing"}},
       {"methods", {{"other scenarios", "grades"}, "=none"}},
       {"rules", {observers, "=none"}},
       {"error", {observers, "=small"}},
@@ -44,7 +45,7 @@ const std::map<std::string, Use>& Uses() {
 
 const std::set<std::string> kOfAll = {"out",      "force",   "clean", "runs",
                                       "seed",     "threads", "log",   "help",
-                                      "progress", "quiet"};
+                                      "progress", "quiet",   "shard", "report"};
 
 class MonteCarloFlags : public ::testing::Test {
  protected:
@@ -95,7 +96,7 @@ TEST_F(MonteCarloFlags, EveryFlagIsInTheTableOfThisTest) {
 TEST_F(MonteCarloFlags,
        ThatMeanNothingToAScenarioAreRefusedWhateverTheirValue) {
   const std::vector<std::string> scenarios = Scenarios();
-  ASSERT_THAT(scenarios, SizeIs(11));
+  ASSERT_THAT(scenarios, SizeIs(12));
   for (const std::string& scenario : scenarios) {
     for (const auto& [flag, use] : Uses()) {
       const bool heeded = use.scenarios.contains(scenario);
