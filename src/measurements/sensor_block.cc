@@ -1,5 +1,7 @@
 #include "measurements/sensor_block.h"
 
+#include "measurements/noise_kind.h"
+
 namespace hindsight {
 
 std::optional<Eigen::Vector3d> OnAllAxes(const std::optional<double>& sigma) {
@@ -67,15 +69,15 @@ SensorBlock NoiseBlock(BlockKind kind, std::string_view unit) {
           .unit = unit,
           .sigma =
               [](const Sensor& sensor, const MeasurementModel*) {
-                return sensor.noise.kind == NoiseModel::Kind::kGaussMarkov
-                           ? OnAllAxes(sensor.noise.sigma)
-                           : std::nullopt;
+                return sensor.noise.correlated() ? OnAllAxes(sensor.noise.sigma)
+                                                 : std::nullopt;
               },
           .evolution =
               [](const Sensor& sensor) {
-                return Evolution::GaussMarkov(sensor.noise.sigma,
-                                              sensor.noise.tau);
-              }};
+                return sensor.noise.kind->evolution(sensor.noise);
+              },
+          .searched =
+              [](const Sensor& sensor) { return sensor.noise.kind->searched; }};
 }
 
 }  // namespace hindsight

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "io/read/file_format.h"
 #include "io/read/paths.h"
-#include "io/read/recognise_format.h"
 #include "io/read/text_lines.h"
 #include "io/read/units.h"
 #include "measurements/sensor_kind.h"
@@ -42,7 +42,7 @@ std::string YamlScalar(const std::string& text,
   return emitter.c_str();
 }
 
-std::string FileLines(const Found& found, const std::string& indent) {
+std::string FileLines(const FoundStreams& found, const std::string& indent) {
   return indent + "file: " + YamlScalar(found.file) + "\n" + indent +
          "format: " + found.format + "\n";
 }
@@ -60,7 +60,7 @@ constexpr const char* kImuRest =
     "    accel_bias_walk: 100 ug/sqrt(h)\n";
 
 /// Names no file where none was recognised.
-std::string ImuText(const Found* imu) {
+std::string ImuText(const FoundStreams* imu) {
   if (imu != nullptr) return "imu:\n" + FileLines(*imu, "  ") + kImuRest;
   std::string text =
       "# No IMU was recognised. `format: columns` reads any delimited text; a\n"
@@ -113,19 +113,12 @@ std::string KeyLine(const std::string& key, const std::string& value,
 }
 
 std::string AidingText(const std::string& name, const SensorKind& kind,
-                       const Found& found) {
+                       const FoundStreams& found) {
   std::string text = "  " + name + ":\n    type: " + std::string(kind.name) +
                      "\n" + FileLines(found, "    ");
-  if (found.format == "rtklib_pos") {
-    text +=
-        "    # accept_quality: [1]  # 1 fix, 2 float, 4 differential, 5 "
-        "single\n";
-  }
   text += found.keys;
   const SensorSettings settings = SettingsOf(kind);
-  const bool sigma_in_file = found.sigmas && found.format != "nmea" &&
-                             found.format != "nclt" &&
-                             kind.measured(settings).sigmas > 0;
+  const bool sigma_in_file = found.sigmas && kind.measured(settings).sigmas > 0;
   for (const SensorKey& key : kind.keys) {
     if (key.applies != nullptr && !key.applies(settings)) continue;
     const bool unstated = key.name == "sigma" && !sigma_in_file;
@@ -155,7 +148,7 @@ InitDraft InitConfig(const std::string& folder) {
     }
   }
   if (paths.empty()) throw InputError(folder, 0, "the folder holds no files");
-  std::vector<Found> files;
+  std::vector<FoundStreams> files;
   std::string unknown;
   for (const fs::path& path : paths) {
     if (auto found = RecogniseFormat(path.string())) {
@@ -165,10 +158,10 @@ InitDraft InitConfig(const std::string& folder) {
       unknown += "#   " + path.filename().string() + "\n";
     }
   }
-  const auto first = [&](bool Found::*holds) -> const Found* {
+  const auto first = [&](bool FoundStreams::*holds) -> const FoundStreams* {
     const auto at =
         std::find_if(files.begin(), files.end(),
-                     [&](const Found& found) { return found.*holds; });
+                     [&](const FoundStreams& found) { return found.*holds; });
     return at == files.end() ? nullptr : &*at;
   };
   const fs::path absolute = fs::absolute(folder).lexically_normal();
@@ -176,12 +169,12 @@ InitDraft InitConfig(const std::string& folder) {
   if (!unknown.empty()) text += "# Not recognised:\n" + unknown;
   text +=
       "folder: " + YamlScalar(absolute.string(), YAML::DoubleQuoted) + "\n\n";
-  const Found* imu = first(&Found::imu);
+  const FoundStreams* imu = first(&FoundStreams::imu);
   text += ImuText(imu);
   std::string aiding;
   for (const SensorKind* kind : SensorKinds()) {
     int count = 0;
-    for (const Found& found : files) {
+    for (const FoundStreams& found : files) {
       if (std::find(found.kinds.begin(), found.kinds.end(), kind) ==
           found.kinds.end()) {
         continue;
@@ -200,10 +193,10 @@ InitDraft InitConfig(const std::string& folder) {
       "\n# Measurements kept back, to see how well the gaps are bridged:\n"
       "# withhold:\n"
       "#   - {sensor: position, every: 120 s, length: 30 s}\n";
-  if (const Found* truth = first(&Found::truth)) {
+  if (const FoundStreams* truth = first(&FoundStreams::truth)) {
     text += "\ntruth:\n" + FileLines(*truth, "  ") + truth->keys;
   }
-  for (const Found& found : files) {
+  for (const FoundStreams& found : files) {
     if (!found.pose) continue;
     text +=
         "\n# Holds attitudes, which no estimate uses. If it is an independent\n"

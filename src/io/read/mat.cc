@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "io/read/array_rows.h"
+#include "io/read/file_formats.h"
 #include "io/read/mat_file.h"
 
 namespace hindsight {
@@ -107,6 +109,18 @@ NumericArray ReadMat(const std::string& path, const std::string& variable) {
                          (names.empty() ? "none" : names));
   }
   return std::move(*found);
+}
+
+const FileFormat& MatFormat() {
+  static const FileFormat kFormat = {
+      .name = "mat",
+      .help = "full, real matrices of a MATLAB file of version 7, 6 or 4",
+      .streams = "all",
+      .takes_columns = true,
+      .open = [](const TableRequest& request) {
+        return OpenArrays(request, ReadMat);
+      }};
+  return kFormat;
 }
 
 }  // namespace hindsight
