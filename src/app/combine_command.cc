@@ -1,7 +1,9 @@
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <iostream>
+#include <set>
 #include <vector>
 
 #include "app/command.h"
@@ -32,7 +34,9 @@ sigma in the next recording, how the recordings agree (chi-square over degrees
 of freedom, of those that observe it, and its probability by chance), and how
 many sigmas each is from the mean of the others. A constant that differs by
 more than chance (0.3 %) varies from recording to recording: its sigma holds
-that, and the result is doubtful (exit status 3).
+that, and the result is doubtful (exit status 3). Not combined are the biases of
+the IMU, errors over the ground, and time offsets of streams whose clock is the
+recording's own (time_offset: unknown, rows that are counted, a given start).
 
 DIR gets summary.json, whose constants 'constants.from' reads.
 )";
@@ -97,6 +101,17 @@ MethodSummary Summarize(const CombinedConstants& combined) {
   return m;
 }
 
+/// The line that names what every recording has of its own, or "".
+std::string NotCombined(const std::vector<RecordedConstants>& all) {
+  std::set<std::string> names;
+  for (const RecordedConstants& one : all) {
+    names.insert(one.of_recording.begin(), one.of_recording.end());
+  }
+  if (names.empty()) return "";
+  return fmt::format("not combined, as every recording has its own: {}\n",
+                     fmt::join(names, ", "));
+}
+
 int Combine(const std::vector<std::string>& results, ResultFolder* folder) {
   std::vector<RecordedConstants> all;
   for (const std::string& result : results) {
@@ -115,7 +130,8 @@ int Combine(const std::vector<std::string>& results, ResultFolder* folder) {
   summary.best = method.method;
   summary.methods = {method};
   folder->Commit(kSummaryName, SummaryText(summary));
-  std::cout << AgreementTable(combined, results) << Together(combined);
+  std::cout << AgreementTable(combined, results) << Together(combined)
+            << NotCombined(all);
   for (const std::string& warning : summary.warnings) {
     std::cout << "warning: " << warning << "\n";
   }

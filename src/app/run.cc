@@ -17,6 +17,7 @@
 #include "base/error.h"
 #include "dataset/checks.h"
 #include "dataset/injection.h"
+#include "dataset/known_constants.h"
 #include "evaluation/grade.h"
 #include "evaluation/truth_comparison.h"
 #include "io/config/config.h"
@@ -285,17 +286,18 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   progress.Begin("start");
   Reconstruction reconstruction =
       Prepare(request.config, dataset, Options(request, &progress));
-  RunSummary summary = {.program = kProgram,
-                        .dataset = dataset.name,
-                        .epoch_gps_ns = dataset.epoch_gps_ns,
-                        .constants_from = dataset.constants
-                                              ? dataset.constants->source
-                                              : std::string(),
-                        .inputs = digests.Take(),
-                        .start = SummarizeStart(reconstruction.start()),
-                        .policies = dataset.policies,
-                        .best = "",
-                        .methods = {}};
+  RunSummary summary = {
+      .program = kProgram,
+      .dataset = dataset.name,
+      .epoch_gps_ns = dataset.epoch_gps_ns,
+      .constants_from =
+          dataset.constants ? dataset.constants->source : std::string(),
+      .constants_of_recording = ConstantsOfOneRecording(dataset),
+      .inputs = digests.Take(),
+      .start = SummarizeStart(reconstruction.start()),
+      .policies = dataset.policies,
+      .best = "",
+      .methods = {}};
   const std::vector<UnobservedSpan> unobserved =
       DescribeBeforehand(dataset, &reconstruction, &progress, &summary);
   std::vector<Solution> solutions;

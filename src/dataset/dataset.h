@@ -26,6 +26,10 @@ struct AidingStream {
   /// Nothing is known of Sensor::time_offset: the data tell where its clock
   /// stands (dataset/clock_search.h).
   bool clock_unknown = false;
+  /// Its stamps or the IMU's stand where the configuration places them (rows
+  /// that are counted, a given start), and not as one clock told them: the time
+  /// offset left is that of this recording alone.
+  bool clock_placed = false;
 };
 
 /// A reference trajectory. Absent quantities are absent, not zero.

@@ -16,6 +16,18 @@ namespace {
 
 constexpr std::array<const char*, 3> kAxes = {"[x]", "[y]", "[z]"};
 
+bool HasOwnClock(const AidingStream& stream) {
+  return stream.clock_unknown || stream.clock_placed;
+}
+
+/// Nothing: it is not estimated.
+std::optional<Eigen::Vector3d> PriorSigma(const SensorBlock& declared,
+                                          const AidingStream& stream) {
+  std::optional<MeasurementModel> first;
+  if (!stream.measurements.empty()) first = stream.measurements.front().model;
+  return declared.sigma(stream.sensor, first ? &*first : nullptr);
+}
+
 /// What is known of the components of one block.
 struct KnownBlock {
   std::array<int, 3> index = {-1, -1, -1};  ///< into KnownConstants
@@ -91,18 +103,16 @@ class Taker {
     const std::string name = sensor->name + "_" + std::string(declared.name);
     const KnownBlock block = Find(name, FullDimension(declared.kind));
     if (!block.any() || declared.know == nullptr) return;
-    if (declared.kind == BlockKind::kTimeOffset && stream->clock_unknown) {
-      dataset_.notes.push_back(name + " of " + known_.source +
-                               " is not used: the clock is this recording's "
-                               "own (time_offset: unknown)");
+    if (declared.kind == BlockKind::kTimeOffset && HasOwnClock(*stream)) {
+      dataset_.notes.push_back(
+          name + " of " + known_.source +
+          " is not used: the clock is this recording's own (" +
+          (stream->clock_unknown ? "time_offset: unknown"
+                                 : "stamps that the configuration places") +
+          ")");
       return;
     }
-    std::optional<MeasurementModel> first;
-    if (!stream->measurements.empty()) {
-      first = stream->measurements.front().model;
-    }
-    std::optional<Eigen::Vector3d> sigma =
-        declared.sigma(*sensor, first ? &*first : nullptr);
+    std::optional<Eigen::Vector3d> sigma = PriorSigma(declared, *stream);
     if (!sigma) {
       FailNotEstimated(name, "aiding." + sensor->name + ".estimate." +
                                  std::string(declared.name));
@@ -161,6 +171,21 @@ class Taker {
 int KnownConstants::Find(const std::string& name) const {
   const auto at = std::find(names.begin(), names.end(), name);
   return at == names.end() ? -1 : static_cast<int>(at - names.begin());
+}
+
+std::vector<std::string> ConstantsOfOneRecording(const Dataset& dataset) {
+  std::vector<std::string> names;
+  for (const AidingStream& stream : dataset.streams) {
+    for (const SensorBlock& block : stream.sensor.kind->blocks) {
+      const bool own =
+          block.know == nullptr ||
+          (block.kind == BlockKind::kTimeOffset && HasOwnClock(stream));
+      if (own && PriorSigma(block, stream)) {
+        names.push_back(stream.sensor.name + "_" + std::string(block.name));
+      }
+    }
+  }
+  return names;
 }
 
 void UseConstants(const KnownConstants& known,

@@ -27,12 +27,15 @@ struct KnownConstants {
   int Find(const std::string& name) const;
 };
 
+/// Names, without axes, of what is estimated that says nothing of another recording:
+/// errors in NED axes, and the time offset of a stream whose clock is the
+/// recording's own (AidingStream::clock_unknown, clock_placed).
+std::vector<std::string> ConstantsOfOneRecording(const Dataset& dataset);
+
 /// Makes them a priori values and sigmas of the sensors, and keeps them as
 /// Dataset::constants for the covariances of one with another
-/// (InitialCovariance in alignment/start_layout.h). Not used are what holds of
-/// one recording alone (SensorBlock::know), and the time offset of a stream
-/// whose clock is this recording's own (`time_offset: unknown`), which a note
-/// says. Names of streams in `without` are passed over. Throws InputError for
+/// (InitialCovariance in alignment/start_layout.h). Not used are
+/// ConstantsOfOneRecording; a note says which time offset is not. Names of streams in `without` are passed over. Throws InputError for
 /// one that no sensor here has, or does not estimate.
 void UseConstants(const KnownConstants& known,
                   const std::vector<std::string>& without, Dataset* dataset);

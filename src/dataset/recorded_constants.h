@@ -27,6 +27,9 @@ struct RecordedConstants {
   Eigen::MatrixXd P;
   Eigen::VectorXd prior_value;
   Eigen::VectorXd prior_sigma;
+  /// Those of its recording alone (ConstantsOfOneRecording), which are not
+  /// among the names.
+  std::vector<std::string> of_recording;
   /// Nominal mounting of every sensor whose mounting was estimated.
   std::map<std::string, Eigen::Quaterniond> q_sb_nominal;
 

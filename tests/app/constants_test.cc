@@ -1,12 +1,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/command_line.h"
+#include "geometry/so3.h"
 
 namespace hindsight {
 namespace {
@@ -20,6 +23,41 @@ OrderedJson Summary(const std::filesystem::path& folder) {
 }
 const OrderedJson& Best(const OrderedJson& summary) {
   return summary["methods"][summary["best"].get<std::string>()];
+}
+
+/// By name, of the constants of `method` as another recording starts from them:
+/// the components m of a mounting become a rotation after it, J P J' with
+/// J = LeftJacobian(m).
+std::map<std::string, double> SigmasOfTheNext(const OrderedJson& method) {
+  const OrderedJson& constants = method["constants"];
+  const OrderedJson& rho = method["constant_correlations"];
+  std::vector<std::string> names;
+  for (const auto& [name, entry] : constants.items()) names.push_back(name);
+  std::map<std::string, double> sigmas;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    sigmas[names[i]] = constants[names[i]]["sigma"];
+    if (names[i] != "dvl_mounting[x]") continue;
+    Eigen::Vector3d m;
+    Eigen::Matrix3d P;
+    for (int a = 0; a < 3; ++a) {
+      const auto row = i + static_cast<std::size_t>(a);
+      m(a) = constants[names[row]]["value"];
+      for (int b = 0; b < 3; ++b) {
+        const auto column = i + static_cast<std::size_t>(b);
+        P(a, b) = rho[row][column].get<double>() *
+                  constants[names[row]]["sigma"].get<double>() *
+                  constants[names[column]]["sigma"].get<double>();
+      }
+    }
+    const Eigen::Matrix3d J = LeftJacobian(m);
+    const Eigen::Matrix3d rotated = J * P * J.transpose();
+    for (int a = 0; a < 3; ++a) {
+      sigmas["dvl_mounting[" + std::string(1, "xyz"[a]) + "]"] =
+          std::sqrt(rotated(a, a));
+    }
+    i += 2;
+  }
+  return sigmas;
 }
 
 /// Four minutes of turns with a log whose lever arm and mounting are told
@@ -91,12 +129,11 @@ TEST_F(Constants, StartTheNextRecording) {
   const OrderedJson two = Summary(Path("two"));
   const OrderedJson next = Summary(Path("next"));
   EXPECT_EQ(next["constants_from"], "two");
+  const std::map<std::string, double> sigmas = SigmasOfTheNext(Best(two));
   for (const auto& [name, entry] : Best(two)["constants"].items()) {
     if (name == "depth_offset") continue;  // another one here
     const OrderedJson& here = Best(next)["constants"][name];
-    EXPECT_NEAR(
-        here["prior_sigma"].get<double>() / entry["sigma"].get<double>(), 1.0,
-        name.find("mounting") == name.npos ? 1e-9 : 0.05)
+    EXPECT_NEAR(here["prior_sigma"].get<double>() / sigmas.at(name), 1.0, 1e-6)
         << name;
     EXPECT_LE(here["sigma"], 1.0001 * here["prior_sigma"].get<double>())
         << name;

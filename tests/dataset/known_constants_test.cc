@@ -1,5 +1,6 @@
 #include "dataset/known_constants.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/error.h"
@@ -115,7 +116,17 @@ TEST(KnownConstants, TheClockOfThisRecordingIsItsOwn) {
   UseConstants(KnownFrom(recorded), {}, &dataset);
   EXPECT_EQ(dataset.streams[0].sensor.time_offset, 0.3);
   ASSERT_EQ(dataset.notes.size(), 1u);
+  const std::vector<std::string> own = {"log_time_offset"};
+  EXPECT_EQ(ConstantsOfOneRecording(dataset), own);
   dataset.streams[0].clock_unknown = false;
+  dataset.streams[0].clock_placed = true;
+  UseConstants(KnownFrom(recorded), {}, &dataset);
+  EXPECT_EQ(dataset.streams[0].sensor.time_offset, 0.3);
+  ASSERT_EQ(dataset.notes.size(), 2u);
+  EXPECT_THAT(dataset.notes[1], ::testing::HasSubstr("configuration places"));
+  EXPECT_EQ(ConstantsOfOneRecording(dataset), own);
+  dataset.streams[0].clock_placed = false;
+  EXPECT_TRUE(ConstantsOfOneRecording(dataset).empty());
   UseConstants(KnownFrom(recorded), {}, &dataset);
   EXPECT_EQ(dataset.streams[0].sensor.time_offset, 0.004);
 }

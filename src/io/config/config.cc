@@ -374,8 +374,9 @@ void FindClock(const AidingConfig& config, Dataset* dataset,
 }
 
 void LoadAiding(const AidingConfig& config, double truth_offset,
-                Dataset* dataset) {
+                const ClockMap& imu_clock, Dataset* dataset) {
   AidingStream stream;
+  stream.clock_placed = config.source.clock.placed() || imu_clock.placed();
   stream.sensor = config.settings.sensor;
   const int index = static_cast<int>(dataset->streams.size());
   if (config.clock_of_truth) stream.sensor.time_offset = truth_offset;
@@ -617,7 +618,7 @@ Dataset LoadDataset(const std::string& config_path, const LoadOptions& options,
   const double truth_offset = LoadTruth(declared, &dataset);
   ResolveTruthOffset(declared, truth_offset, &top);
   for (const AidingConfig& config : declared.aiding) {
-    LoadAiding(config, truth_offset, &dataset);
+    LoadAiding(config, truth_offset, declared.imu.clock, &dataset);
   }
   for (std::size_t i = 0; i < declared.aiding.size(); ++i) {
     AddLevel(declared.aiding[i].settings, static_cast<int>(i), &dataset);

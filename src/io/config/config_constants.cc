@@ -26,7 +26,9 @@ const ConfigTable<ConstantsConfig>& ConstantsTable() {
       "What earlier recordings say of scales, mountings, lever arms, time "
       "offsets and offsets becomes a priori value and covariance, in place of "
       "those under `estimate`, by the names in the result's summary.json. "
-      "Biases of the IMU and errors over the ground are not carried.",
+      "Biases of the IMU, errors over the ground and time offsets of streams "
+      "whose clock is the recording's own (time_offset: unknown; stamps that "
+      "`time: {rate}` or `{start}` places) are not carried.",
       {{.name = "from",
         .value = Key::Special{ReadFrom},
         .help = "folder or summary.json of a result of `run` or `combine`, "

@@ -141,6 +141,15 @@ class Figures {
   Json json_;
 };
 
+std::vector<std::string> NamesIn(const Json& summary, const char* key) {
+  std::vector<std::string> names;
+  if (!summary.contains(key)) return names;
+  for (const Json& name : summary[key]) {
+    if (name.is_string()) names.push_back(name.get<std::string>());
+  }
+  return names;
+}
+
 }  // namespace
 
 std::filesystem::path SummaryOf(const std::filesystem::path& path) {
@@ -173,6 +182,9 @@ RecordedConstants ReadConstants(const std::filesystem::path& path,
           .Read(summary.value("constants_from", std::string()));
   constants.source = path.string();
   for (const char* bias : {"gyro_bias", "accel_bias"}) constants.Remove(bias);
+  for (const std::string& own : NamesIn(summary, "constants_of_recording")) {
+    if (constants.Remove(own)) constants.of_recording.push_back(own);
+  }
   if (constants.names.empty()) {
     throw InputError(file, 0, name + ": has no constants of sensors");
   }

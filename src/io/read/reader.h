@@ -41,6 +41,9 @@ struct ClockMap {
   double from = -std::numeric_limits<double>::infinity();
   double until = std::numeric_limits<double>::infinity();
   double offset = 0.0;  ///< added at last [s]
+
+  /// Whether the configuration says where the rows stand in time, and no clock.
+  bool placed() const { return start_date || start || rate; }
 };
 
 enum class DuplicatePolicy { kError, kDropFirst, kDropLast };

@@ -94,6 +94,8 @@ struct RunSummary {
   bool complete = false;
   std::optional<std::int64_t> epoch_gps_ns;  ///< see Dataset
   std::string constants_from = {};  ///< KnownConstants::source; empty: none
+  /// See ConstantsOfOneRecording.
+  std::vector<std::string> constants_of_recording = {};
   std::vector<FileDigest> inputs = {};
   std::vector<FixSummary> fixes = {};
   std::optional<StartSummary> start;
@@ -148,6 +150,8 @@ void PutTruthFigures(const TrajectoryStatistics& statistics,
 ///   epoch                       t = 0; absent if the clock has no date
 ///     gps_week, gps_second, utc       "yyyy-mm-ddThh:mm:ss.sssZ"
 ///   constants_from              the result that `constants` took them from
+///   constants_of_recording[]    names, without axes, of what is estimated that
+///                               says nothing of another recording
 ///   datum                       of positions and heights, in words; absent
 ///                               of attitude alone
 ///   inputs[]                    path, bytes, sha256; files, of a folder: how

@@ -356,6 +356,7 @@ nlohmann::ordered_json SummaryJson(const RunSummary& summary) {
   json["complete"] = summary.complete;
   if (summary.epoch_gps_ns) json["epoch"] = EpochJson(*summary.epoch_gps_ns);
   PutText(&json, "constants_from", summary.constants_from);
+  PutWords(&json, "constants_of_recording", summary.constants_of_recording);
   if (summary.start) json["datum"] = "WGS-84, heights above the ellipsoid";
   for (const FileDigest& input : summary.inputs) {
     json["inputs"].push_back(InputJson(input));
