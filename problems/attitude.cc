@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "dataset/repeated_readings.h"
 #include "evaluation/grade.h"
+#include "evaluation/observability.h"
 #include "geometry/so3.h"
 #include "measurements/sensor_kind.h"
 
@@ -104,23 +105,6 @@ double AttitudeEstimation::SharedSigma(const FieldSurvey& survey) const {
                     NorthSigma(survey));
 }
 
-std::vector<std::string> AttitudeEstimation::Unused() const {
-  std::vector<std::string> unused;
-  bool magnetometer = false;
-  for (const AidingStream& stream : dataset_.streams) {
-    const Sensor& sensor = stream.sensor;
-    const bool first = sensor.kind->magnetic && !magnetometer;
-    magnetometer = magnetometer || sensor.kind->magnetic;
-    if (first || sensor.kind->is_heading || stream.measurements.empty()) {
-      continue;
-    }
-    unused.push_back("no use for '" + sensor.name + "' (" +
-                     std::string(sensor.kind->name) +
-                     "): attitude alone is of one magnetometer and headings");
-  }
-  return unused;
-}
-
 Solution AttitudeEstimation::Filter() {
   const AttitudeRun run = RunAttitudeFilter(
       imu_, {magnetic_, headings_}, filter_options_, start_,
@@ -142,15 +126,24 @@ Solution AttitudeEstimation::Filter() {
     solution.covariances.Set(k, P);
   }
   solution.attitude = VerdictsOf(run);
-  if (dataset_.stationary.enabled) {
-    solution.notes.emplace_back(
-        "no use for 'stationary': what knows nothing later finds rest by "
-        "thresholds of its own");
-  }
+  solution.notes = UnusedByFilter();
   return solution;
 }
 
 namespace {
+
+ConstantEstimate TimeOffsetOf(const Sensor& sensor,
+                              const MagnetometerErrors& found) {
+  ConstantEstimate offset;
+  offset.name = sensor.name + "_time_offset";
+  offset.unit = "s";
+  offset.prior_value = sensor.time_offset;
+  offset.value = sensor.time_offset + found.time_offset;
+  offset.sigma = found.time_offset_sigma;
+  offset.prior_sigma = *sensor.time_offset_sigma;
+  offset.verdict = VerdictOfSigma(offset.sigma, offset.prior_sigma);
+  return offset;
+}
 
 std::vector<ConstantEstimate> GyroScales(const Block& block,
                                          const AttitudeState& x) {
@@ -162,10 +155,7 @@ std::vector<ConstantEstimate> GyroScales(const Block& block,
     scale.value = x.s_g(axis);
     scale.sigma = std::sqrt(x.P(6 + axis, 6 + axis));
     scale.prior_sigma = block.sigma0(axis);
-    constexpr double kTold = 0.9;
-    scale.verdict = scale.sigma < kTold * scale.prior_sigma
-                        ? ConstantEstimate::Verdict::kObserved
-                        : ConstantEstimate::Verdict::kUnobserved;
+    scale.verdict = VerdictOfSigma(scale.sigma, scale.prior_sigma);
     scales.push_back(scale);
   }
   return scales;
@@ -202,6 +192,10 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) const {
   solution.constants = GyroScales(
       *AttitudeLayout(imu_.noise, start_).Find(BlockKind::kGyroScale),
       StateOf(pass.run, pass.smoothed, 0));
+  if (pass.magnetometer.time_offset_sigma > 0.0) {
+    solution.constants.push_back(
+        TimeOffsetOf(MagnetometerOf(dataset_)->sensor, pass.magnetometer));
+  }
   solution.attitude = VerdictsOf(pass.run);
   return solution;
 }
