@@ -13,6 +13,7 @@
 #include "evaluation/observability.h"
 #include "geometry/so3.h"
 #include "measurements/sensor_kind.h"
+#include "problems/shared_covariance.h"
 
 namespace hindsight {
 namespace {
@@ -55,6 +56,9 @@ AttitudeEstimation::AttitudeEstimation(const Dataset& dataset,
   };
   std::erase_if(magnetic_, outside);
   std::erase_if(headings_, outside);
+  for (ImuSample& sample : imu_.samples) {
+    sample.accel -= dataset.initial.accel_bias;
+  }
   start_ = StartOfAttitude(dataset, imu_, magnetic_);
 }
 
@@ -105,6 +109,13 @@ double AttitudeEstimation::SharedSigma(const FieldSurvey& survey) const {
                     NorthSigma(survey));
 }
 
+double AttitudeEstimation::SharedSlope(const FieldSurvey& survey) const {
+  if (magnetic_.empty() || !headings_.empty()) return 0.0;
+  if (survey.horizontal > 0.0) return survey.down / survey.horizontal;
+  const MagneticSurroundings& stated = filter_options_.magnetic;
+  return stated.horizontal > 0.0 ? stated.down / stated.horizontal : 0.0;
+}
+
 Solution AttitudeEstimation::Filter() {
   const AttitudeRun run = RunAttitudeFilter(
       imu_, {magnetic_, headings_}, filter_options_, start_,
@@ -116,13 +127,15 @@ Solution AttitudeEstimation::Filter() {
   solution.layout = SolutionLayout();
   solution.covariances = CovarianceSeries(6, run.samples.size());
   solution.states.reserve(run.samples.size());
-  const double shared = SharedSigma({});
+  const SharedCovariance shared(dataset_.initial.accel_bias_sigma,
+                                filter_options_, SharedSigma({}),
+                                SharedSlope({}));
   Eigen::Matrix<double, 6, 6> P;
   for (std::size_t k = 0; k < run.samples.size(); ++k) {
     const AttitudeSample& sample = run.samples[k];
     AppendState(imu_.samples[k].t, sample.q_nb, sample.b_g, &solution);
     P = run.nodes[sample.node].x.P.topLeftCorner<6, 6>();
-    P(2, 2) += shared * shared;
+    shared.AddTo(sample.q_nb, &P);
     solution.covariances.Set(k, P);
   }
   solution.attitude = VerdictsOf(run);
@@ -172,7 +185,9 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) const {
   solution.covariances = CovarianceSeries(6, count);
   solution.states.reserve(count);
   const auto& nodes = pass.run.nodes;
-  const double shared = SharedSigma(pass.survey);
+  const SharedCovariance shared(dataset_.initial.accel_bias_sigma,
+                                filter_options_, SharedSigma(pass.survey),
+                                SharedSlope(pass.survey));
   Eigen::Matrix<double, 6, 6> P;
   for (std::size_t k = 0; k < count; ++k) {
     const AttitudeSample& sample = pass.run.samples[k];
@@ -186,7 +201,7 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) const {
                 sample.b_g + pass.smoothed[sample.node].d.segment<3>(3),
                 &solution);
     P = pass.smoothed[nearest].P.topLeftCorner<6, 6>();
-    P(2, 2) += shared * shared;
+    shared.AddTo(q_nb[k], &P);
     solution.covariances.Set(k, P);
   }
   solution.constants = GyroScales(

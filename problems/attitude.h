@@ -75,6 +75,9 @@ class AttitudeEstimation final : public Estimation {
   /// What all headings share beside P: the magnetometer's stated a priori
   /// sigmas, and which north the survey leaves open [rad].
   double SharedSigma(const FieldSurvey& survey) const;
+  /// Down over horizontal part of the field that gives the heading; 0 if none
+  /// does.
+  double SharedSlope(const FieldSurvey& survey) const;
   /// What the solutions, or the filter's, make no use of, in words.
   std::vector<std::string> Unused() const;
   std::vector<std::string> UnusedByFilter() const;

@@ -389,6 +389,41 @@ TEST(AttitudeEstimation, StatedSigmasOfTheMagnetometerCount) {
   }
 }
 
+/// A bias of the accelerometer that is given is taken off; what is left open of
+/// it tilts all attitudes alike, and turns the heading by the dip.
+TEST(AttitudeEstimation, StatedBiasOfTheAccelerometerCounts) {
+  Dataset dataset = SimulateFreeRotation({}, 10);
+  for (const char* method : {"ahrs", "ahrs_smoother"}) {
+    const auto solve = [&dataset, method] {
+      Reconstruction estimation(dataset, AttitudeAlone());
+      return estimation.Run(method);
+    };
+    const Solution without = solve();
+    const Eigen::Vector3d bias(0.2, -0.1, 0.3);
+    const std::vector<ImuSample> samples = dataset.imu.samples;
+    for (ImuSample& sample : dataset.imu.samples) sample.accel += bias;
+    dataset.initial.accel_bias = bias;
+    constexpr double kSigma = 0.2;
+    dataset.initial.accel_bias_sigma = Eigen::Vector3d::Constant(kSigma);
+    const Solution with = solve();
+    EXPECT_LT(NedAttitude(with.states[4000])
+                  .angularDistance(NedAttitude(without.states[4000])),
+              1e-9);
+    const Eigen::Matrix3d added =
+        (with.covariances.Get(4000) - without.covariances.Get(4000))
+            .topLeftCorner<3, 3>();
+    const double tilt = kSigma / kStandardGravity;
+    EXPECT_NEAR(added(0, 0), tilt * tilt, 1e-9);
+    EXPECT_NEAR(added(1, 1), tilt * tilt, 1e-9);
+    EXPECT_NEAR(added(0, 1), 0.0, 1e-9);
+    // The field dips by 2 : 1, to the north.
+    EXPECT_NEAR(std::sqrt(added(2, 2)), 2.0 * tilt, 0.05 * tilt);
+    dataset.imu.samples = samples;
+    dataset.initial.accel_bias.setZero();
+    dataset.initial.accel_bias_sigma.reset();
+  }
+}
+
 TEST(AttitudeEstimation, WithheldFieldIsNotUsed) {
   Dataset dataset = SimulateFreeRotation({}, 6);
   for (Measurement& z : dataset.streams.front().measurements.Edited()) {
