@@ -10,8 +10,10 @@
 #include "base/units.h"
 #include "dataset/repeated_readings.h"
 #include "evaluation/grade.h"
+#include "evaluation/observability.h"
 #include "geometry/so3.h"
 #include "measurements/sensor_kind.h"
+#include "problems/shared_covariance.h"
 
 namespace hindsight {
 namespace {
@@ -54,6 +56,9 @@ AttitudeEstimation::AttitudeEstimation(const Dataset& dataset,
   };
   std::erase_if(magnetic_, outside);
   std::erase_if(headings_, outside);
+  for (ImuSample& sample : imu_.samples) {
+    sample.accel -= dataset.initial.accel_bias;
+  }
   start_ = StartOfAttitude(dataset, imu_, magnetic_);
 }
 
@@ -104,21 +109,11 @@ double AttitudeEstimation::SharedSigma(const FieldSurvey& survey) const {
                     NorthSigma(survey));
 }
 
-std::vector<std::string> AttitudeEstimation::Unused() const {
-  std::vector<std::string> unused;
-  bool magnetometer = false;
-  for (const AidingStream& stream : dataset_.streams) {
-    const Sensor& sensor = stream.sensor;
-    const bool first = sensor.kind->magnetic && !magnetometer;
-    magnetometer = magnetometer || sensor.kind->magnetic;
-    if (first || sensor.kind->is_heading || stream.measurements.empty()) {
-      continue;
-    }
-    unused.push_back("no use for '" + sensor.name + "' (" +
-                     std::string(sensor.kind->name) +
-                     "): attitude alone is of one magnetometer and headings");
-  }
-  return unused;
+double AttitudeEstimation::SharedSlope(const FieldSurvey& survey) const {
+  if (magnetic_.empty() || !headings_.empty()) return 0.0;
+  if (survey.horizontal > 0.0) return survey.down / survey.horizontal;
+  const MagneticSurroundings& stated = filter_options_.magnetic;
+  return stated.horizontal > 0.0 ? stated.down / stated.horizontal : 0.0;
 }
 
 Solution AttitudeEstimation::Filter() {
@@ -132,25 +127,36 @@ Solution AttitudeEstimation::Filter() {
   solution.layout = SolutionLayout();
   solution.covariances = CovarianceSeries(6, run.samples.size());
   solution.states.reserve(run.samples.size());
-  const double shared = SharedSigma({});
+  const SharedCovariance shared(dataset_.initial.accel_bias_sigma,
+                                filter_options_, SharedSigma({}),
+                                SharedSlope({}));
   Eigen::Matrix<double, 6, 6> P;
   for (std::size_t k = 0; k < run.samples.size(); ++k) {
     const AttitudeSample& sample = run.samples[k];
     AppendState(imu_.samples[k].t, sample.q_nb, sample.b_g, &solution);
     P = run.nodes[sample.node].x.P.topLeftCorner<6, 6>();
-    P(2, 2) += shared * shared;
+    shared.AddTo(sample.q_nb, &P);
     solution.covariances.Set(k, P);
   }
   solution.attitude = VerdictsOf(run);
-  if (dataset_.stationary.enabled) {
-    solution.notes.emplace_back(
-        "no use for 'stationary': what knows nothing later finds rest by "
-        "thresholds of its own");
-  }
+  solution.notes = UnusedByFilter();
   return solution;
 }
 
 namespace {
+
+ConstantEstimate TimeOffsetOf(const Sensor& sensor,
+                              const MagnetometerErrors& found) {
+  ConstantEstimate offset;
+  offset.name = sensor.name + "_time_offset";
+  offset.unit = "s";
+  offset.prior_value = sensor.time_offset;
+  offset.value = sensor.time_offset + found.time_offset;
+  offset.sigma = found.time_offset_sigma;
+  offset.prior_sigma = *sensor.time_offset_sigma;
+  offset.verdict = VerdictOfSigma(offset.sigma, offset.prior_sigma);
+  return offset;
+}
 
 std::vector<ConstantEstimate> GyroScales(const Block& block,
                                          const AttitudeState& x) {
@@ -162,10 +168,7 @@ std::vector<ConstantEstimate> GyroScales(const Block& block,
     scale.value = x.s_g(axis);
     scale.sigma = std::sqrt(x.P(6 + axis, 6 + axis));
     scale.prior_sigma = block.sigma0(axis);
-    constexpr double kTold = 0.9;
-    scale.verdict = scale.sigma < kTold * scale.prior_sigma
-                        ? ConstantEstimate::Verdict::kObserved
-                        : ConstantEstimate::Verdict::kUnobserved;
+    scale.verdict = VerdictOfSigma(scale.sigma, scale.prior_sigma);
     scales.push_back(scale);
   }
   return scales;
@@ -182,7 +185,9 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) const {
   solution.covariances = CovarianceSeries(6, count);
   solution.states.reserve(count);
   const auto& nodes = pass.run.nodes;
-  const double shared = SharedSigma(pass.survey);
+  const SharedCovariance shared(dataset_.initial.accel_bias_sigma,
+                                filter_options_, SharedSigma(pass.survey),
+                                SharedSlope(pass.survey));
   Eigen::Matrix<double, 6, 6> P;
   for (std::size_t k = 0; k < count; ++k) {
     const AttitudeSample& sample = pass.run.samples[k];
@@ -196,12 +201,16 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) const {
                 sample.b_g + pass.smoothed[sample.node].d.segment<3>(3),
                 &solution);
     P = pass.smoothed[nearest].P.topLeftCorner<6, 6>();
-    P(2, 2) += shared * shared;
+    shared.AddTo(q_nb[k], &P);
     solution.covariances.Set(k, P);
   }
   solution.constants = GyroScales(
       *AttitudeLayout(imu_.noise, start_).Find(BlockKind::kGyroScale),
       StateOf(pass.run, pass.smoothed, 0));
+  if (pass.magnetometer.time_offset_sigma > 0.0) {
+    solution.constants.push_back(
+        TimeOffsetOf(MagnetometerOf(dataset_)->sensor, pass.magnetometer));
+  }
   solution.attitude = VerdictsOf(pass.run);
   return solution;
 }

@@ -10,6 +10,7 @@
 #include "attitude/attitude_samples.h"
 #include "attitude/attitude_smoother.h"
 #include "attitude/field_survey.h"
+#include "attitude/magnetometer_errors.h"
 #include "dataset/dataset.h"
 #include "problems/estimation.h"
 #include "state/solution.h"
@@ -26,8 +27,8 @@ namespace hindsight {
 /// it knows beforehand what surveys of the whole recording find
 /// (field_survey.h): a first one by the tilt of a solution without the field, a
 /// second one by the attitudes of the solution that this leads to. It takes the
-/// readings with the weights of the survey and without the hard iron that the
-/// survey found. Without `AhrsSettings::survey` it takes them as the filter
+/// readings with the weights of the survey, without the hard iron and at the
+/// times that were found by the first solution (magnetometer_errors.h). Without `AhrsSettings::survey` it takes them as the filter
 /// does.
 class AttitudeEstimation final : public Estimation {
  public:
@@ -52,6 +53,7 @@ class AttitudeEstimation final : public Estimation {
     AttitudeRun run;
     std::vector<SmoothedAttitude> smoothed;
     FieldSurvey survey;  ///< that it was made with
+    MagnetometerErrors magnetometer;
   };
   Pass Smooth(const AttitudeState& start, const ImuStream& imu,
               std::span<const MagneticSample> magnetic,
@@ -59,22 +61,26 @@ class AttitudeEstimation final : public Estimation {
               bool covariances) const;
   Pass SmoothWithoutSurvey(const ImuStream& imu,
                            const AttitudeFilterOptions& options) const;
-  /// Solves with a survey by the tilt of `level`; if that solution shows a hard
-  /// iron, once more without it; and at last with a survey by the attitudes so
-  /// found.
+  /// Solves with a survey by the tilt of `level`; if that solution shows errors
+  /// of the magnetometer, once more without them; and at last with a survey by
+  /// the attitudes so found.
   Pass SmoothSurveyed(const ImuStream& imu,
                       const std::vector<Eigen::Quaterniond>& level,
                       AttitudeFilterOptions options) const;
-  /// Readings 0.1 s apart, less `hard_iron_b`; `q_nb` at every sample.
+  /// Readings 0.1 s apart, less `errors`; `q_nb` at every sample.
   std::vector<SurveyedField> FieldReadings(
       const std::vector<Eigen::Quaterniond>& q_nb,
-      const Eigen::Vector3d& hard_iron_b) const;
+      const MagnetometerErrors& errors) const;
   Solution SolutionOf(const Pass& pass) const;
   /// What all headings share beside P: the magnetometer's stated a priori
   /// sigmas, and which north the survey leaves open [rad].
   double SharedSigma(const FieldSurvey& survey) const;
-  /// What the solutions make no use of, in words.
+  /// Down over horizontal part of the field that gives the heading; 0 if none
+  /// does.
+  double SharedSlope(const FieldSurvey& survey) const;
+  /// What the solutions, or the filter's, make no use of, in words.
   std::vector<std::string> Unused() const;
+  std::vector<std::string> UnusedByFilter() const;
   ErrorLayout SolutionLayout() const;
   void AppendState(double t, const Eigen::Quaterniond& q_nb,
                    const Eigen::Vector3d& b_g, Solution* solution) const;

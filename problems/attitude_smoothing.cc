@@ -105,25 +105,25 @@ Solution AttitudeEstimation::Smoother() {
 
 std::vector<SurveyedField> AttitudeEstimation::FieldReadings(
     const std::vector<Eigen::Quaterniond>& q_nb,
-    const Eigen::Vector3d& hard_iron_b) const {
+    const MagnetometerErrors& errors) const {
   constexpr double kSpacing = 0.1;  // [s]
   std::vector<SurveyedField> readings;
   std::size_t k = 0;
   for (const MagneticSample& sample : magnetic_) {
-    const double dt =
-        readings.empty() ? kSpacing : sample.t - readings.back().t;
+    const double t = sample.t + errors.time_offset;
+    if (t < imu_.t_begin() || t > imu_.t_end()) continue;
+    const double dt = readings.empty() ? kSpacing : t - readings.back().t;
     if (dt < kSpacing) continue;
-    while (k + 2 < imu_.samples.size() && imu_.samples[k + 1].t <= sample.t) {
-      ++k;
-    }
-    const double part = (sample.t - imu_.samples[k].t) /
-                        (imu_.samples[k + 1].t - imu_.samples[k].t);
+    while (k + 2 < imu_.samples.size() && imu_.samples[k + 1].t <= t) ++k;
+    const double part =
+        (t - imu_.samples[k].t) / (imu_.samples[k + 1].t - imu_.samples[k].t);
     SurveyedField reading;
-    reading.t = sample.t;
+    reading.t = t;
     reading.q_nb = q_nb[k].slerp(part, q_nb[k + 1]);
-    reading.field_b = sample.field_b - hard_iron_b;
+    reading.field_b = sample.field_b - errors.hard_iron_b;
     reading.dt = dt;
     reading.at_rest = rests_[k];
+    reading.w_b = imu_.samples[k].gyro;
     readings.push_back(reading);
   }
   return readings;
@@ -139,10 +139,8 @@ AttitudeEstimation::Pass AttitudeEstimation::SmoothSurveyed(
   options.reference.enabled = false;
   options.magnetic_correlation_time = 0.0;
   const auto smooth = [&](const std::vector<Eigen::Quaterniond>& q_nb,
-                          const Eigen::Vector3d& hard_iron_b,
-                          bool covariances) {
-    const std::vector<SurveyedField> readings =
-        FieldReadings(q_nb, hard_iron_b);
+                          const MagnetometerErrors& errors, bool covariances) {
+    const std::vector<SurveyedField> readings = FieldReadings(q_nb, errors);
     FieldSurvey survey = SurveyField(readings, survey_options);
     if (!headings_.empty()) survey.turn = 0.0;  // north is measured
     options.magnetic.horizontal = survey.horizontal;
@@ -152,28 +150,28 @@ AttitudeEstimation::Pass AttitudeEstimation::SmoothSurveyed(
     for (std::size_t k = 0; k < readings.size(); ++k) {
       weighed.push_back({readings[k].t, readings[k].field_b, survey.weight[k]});
     }
-    options.magnetic.declination =
-        filter_options_.magnetic.declination + RestAzimuth(survey);
     AttitudeState start = start_;
     const double turn = options.magnetic.declination - survey.azimuth;
     start.q_nb = Exp(Eigen::Vector3d(0.0, 0.0, turn)) * q_nb.front();
     Pass pass =
         Smooth(start, imu, weighed, options, "ahrs_smoother", covariances);
     pass.survey = std::move(survey);
+    pass.magnetometer = errors;
     return pass;
   };
   const auto attitudes = [this](const Pass& pass) {
     return AttitudesAtSamples(pass.run, pass.smoothed, imu_);
   };
   std::vector<Eigen::Quaterniond> q_nb =
-      attitudes(smooth(level, Eigen::Vector3d::Zero(), false));
-  const Eigen::Vector3d hard_iron_b =
-      FindHardIron(FieldReadings(q_nb, Eigen::Vector3d::Zero()));
-  if (!hard_iron_b.isZero(0.0)) {
-    q_nb = attitudes(smooth(level, hard_iron_b, false));
+      attitudes(smooth(level, {}, /*covariances=*/false));
+  const MagnetometerErrors errors = FindMagnetometerErrors(
+      FieldReadings(q_nb, {}),
+      MagnetometerOf(dataset_)->sensor.time_offset_sigma.value_or(0.0));
+  if (!errors.hard_iron_b.isZero(0.0) || errors.time_offset != 0.0) {
+    q_nb = attitudes(smooth(level, errors, /*covariances=*/false));
   }
   survey_options.heading_known = true;
-  return smooth(q_nb, hard_iron_b, true);
+  return smooth(q_nb, errors, /*covariances=*/true);
 }
 
 }  // namespace hindsight

@@ -9,7 +9,6 @@
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {
-namespace {
 
 const AidingStream* MagnetometerOf(const Dataset& dataset) {
   for (const AidingStream& stream : dataset.streams) {
@@ -19,8 +18,6 @@ const AidingStream* MagnetometerOf(const Dataset& dataset) {
   }
   return nullptr;
 }
-
-}  // namespace
 
 AttitudeFilterOptions FilterOptionsOf(const Dataset& dataset) {
   constexpr double kLowPass = 1.5;   // [s]

@@ -13,6 +13,9 @@ namespace hindsight {
 /// to 0.5 % over temperature by the data sheets of hand-held ones.
 inline constexpr double kGyroScaleSigma = 0.004;
 
+/// The data set's first magnetometer with readings; null without one.
+const AidingStream* MagnetometerOf(const Dataset& dataset);
+
 /// The filter's settings that a data set asks for. Its first magnetometer
 /// stream is used; without one the heading is that of the start.
 AttitudeFilterOptions FilterOptionsOf(const Dataset& dataset);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "attitude/rest_detector.h"
 #include "base/units.h"
 #include "geometry/so3.h"
 #include "imu/rotation_summary.h"
@@ -37,6 +38,9 @@ AttitudeFilter::AttitudeFilter(const AttitudeFilterOptions& options,
       s_g_(start.s_g),
       P_(start.P),
       unscale_((1.0 + start.s_g.array()).inverse().matrix()),
+      // White noise through a low-pass of the first order.
+      rate_sigma_(options.rest_sigma *
+                  std::sqrt(0.5 * sample_interval / RestDetector::kSmoothing)),
       dt_(std::max(sample_interval, options.update_interval)),
       field_t_(start.t) {
   if (options.low_pass_tau > 0.0) {
@@ -140,6 +144,16 @@ void AttitudeFilter::UpdateAttitude(const Eigen::Vector3d& h, double residual,
   ApplyGain(PHt, S, innovation);
 }
 
+void AttitudeFilter::ConsiderTilt(const Eigen::Vector3d& h, double residual,
+                                  double R) {
+  const Vector PHt = P_.leftCols<3>() * h;
+  const double S = h.dot(PHt.head<3>()) + R;
+  Vector K = PHt / S;
+  K.head<2>().setZero();
+  dx_ += (residual - h.dot(dx_.head<3>())) * K;
+  P_ += S * K * K.transpose() - K * PHt.transpose() - PHt * K.transpose();
+}
+
 void AttitudeFilter::AddForce(const Eigen::Vector3d& f_b) {
   f_i_ = C_ib_ * f_b;
   if (low_pass_) f_i_ = low_pass_->Filter(f_i_);
@@ -207,8 +221,10 @@ void AttitudeFilter::UseMagnetometer() {
   const double azimuth = std::atan2(u_n.y(), u_n.x());
   const double residual =
       std::remainder(magnetic.declination - azimuth, 2.0 * kPi);
-  if (options_.decouple_heading) {
+  if (options_.decouple_heading && record_ != nullptr) {
     UpdateComponent(2, 1.0, residual, R_azimuth);
+  } else if (options_.decouple_heading) {
+    ConsiderTilt(AzimuthByPsi(u_n), residual, R_azimuth);
   } else {
     UpdateAttitude(AzimuthByPsi(u_n), residual, R_azimuth);
   }
@@ -216,11 +232,10 @@ void AttitudeFilter::UseMagnetometer() {
 
 bool AttitudeFilter::ExplainsAsBias(const Eigen::Vector3d& w) const {
   constexpr double kSigmas = 3.0;
-  constexpr double kLeast = 2e-3;  // of a low-passed rate [rad/s]
   const Eigen::Vector3d earth_b =
       (q_ni_ * q_ib_).conjugate() * options_.place.w_ie_n;
   const Eigen::Vector3d sigma =
-      (P_.diagonal().segment<3>(3).array() + kLeast * kLeast).sqrt();
+      (P_.diagonal().segment<3>(3).array() + rate_sigma_ * rate_sigma_).sqrt();
   return ((w - earth_b - b_g_).cwiseAbs().array() < kSigmas * sigma.array())
       .all();
 }

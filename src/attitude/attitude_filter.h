@@ -34,7 +34,9 @@ struct AttitudeFilterOptions {
   double update_interval = 0.0;
   MagneticField::Form magnetic_form = MagneticField::Form::kHeading;
   /// The heading corrects heading (and what is correlated with it) alone: a
-  /// disturbed field cannot tilt the horizon.
+  /// disturbed field cannot tilt the horizon. What the tilt's error does to it
+  /// is in the covariance, but where updates are recorded: a smoother's form
+  /// asks for optimal gains, and there the tilt counts as known.
   bool decouple_heading = true;
   /// Of the vector form until the reference is learned; always the declination.
   MagneticSurroundings magnetic;
@@ -121,6 +123,9 @@ class AttitudeFilter {
   void UpdateComponent(int i, double h, double residual, double R);
   /// Scalar update with H = h' on the attitude.
   void UpdateAttitude(const Eigen::Vector3d& h, double residual, double R);
+  /// Scalar update with H = h' on the attitude that leaves the tilt as it is
+  /// and counts its error (Schmidt 1966).
+  void ConsiderTilt(const Eigen::Vector3d& h, double residual, double R);
   void ApplyGain(const Vector& PHt, double S, double innovation);
   void Record(const Vector& h, const Vector& PHt, double S, double innovation);
 
@@ -164,6 +169,7 @@ class AttitudeFilter {
   std::vector<ScalarUpdate>* record_ = nullptr;
   Interval turned_;     ///< since the last Predict
   Interval predicted_;  ///< of the last Predict
+  double rate_sigma_;   ///< of RestDetector::rate() at rest [rad/s]
   double dt_;           ///< between updates [s]
   Eigen::Vector3d f_i_ = Eigen::Vector3d::Zero();
   double force_variance_ = 0.0;  ///< of f_i_, by the rule alone [m^2/s^4]

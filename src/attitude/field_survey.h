@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct SurveyedField {
   Eigen::Vector3d field_b;  ///< [uT]
   double dt = 0.0;          ///< since the reading before [s]
   bool at_rest = false;
+  Eigen::Vector3d w_b = Eigen::Vector3d::Zero();  ///< of the body [rad/s]
 };
 
 struct SurveyOptions {
@@ -43,17 +45,12 @@ struct FieldSurvey {
   std::vector<double> weight;
 };
 
-/// Which of two fields points north, the one at rest or the one in motion, a
-/// recording does not tell: heading is counted from between them, with this
-/// part of the one at rest, and its sigma holds both.
-inline constexpr double kRestPart = 0.75;
-/// Azimuth of the field at rest, counted from there [rad].
-inline double RestAzimuth(const FieldSurvey& survey) {
-  return -(1.0 - kRestPart) * survey.turn;
-}
-/// Standard deviation of a variable that is one of two, by these parts [rad].
+/// What a heading that counts from the field at rest leaves open of north
+/// [rad]. Two places disturb the field independently and alike, by azimuths of
+/// variance s^2: the one at rest is off by turn / 2 +- s / sqrt(2), and the turn
+/// says s^2 = turn^2 / 2.
 inline double NorthSigma(const FieldSurvey& survey) {
-  return std::sqrt(kRestPart * (1.0 - kRestPart)) * std::abs(survey.turn);
+  return std::abs(survey.turn) / std::numbers::sqrt2;
 }
 
 /// The reference is the median of the horizontal, of the vertical part and of
@@ -69,25 +66,6 @@ inline double NorthSigma(const FieldSurvey& survey) {
 /// them share an error.
 FieldSurvey SurveyField(std::span<const SurveyedField> readings,
                         const SurveyOptions& options);
-
-/// Hard iron of a magnet that travels along the whole time [uT, body axes],
-/// zero if there is none to be believed. It must be significant, h' P_h^-1 h
-/// above the chi-square of 99.99 %, above kLeastHardIron, and nine in ten
-/// readings, by weight and by time, must be nearer to the field with it than to
-/// the one without: a magnet put on for a part of the time is none. A field
-/// that differs from place to place passes for a weak one. The errors of the
-/// readings are taken as Student's t, scale and degrees of freedom by maximum
-/// likelihood (expectation maximisation; Lange, Little and Taylor 1989). The
-/// attitudes may count their heading from anywhere, but must not drift by more
-/// than some degrees.
-inline constexpr double kLeastHardIron = 5.0;  // [uT]
-Eigen::Vector3d FindHardIron(std::span<const SurveyedField> readings);
-
-/// Weight in that search of a reading that follows another by dt [s] after
-/// turning by `angle` [rad]: its error is a function of place and attitude, so
-/// many readings at rest are one,
-///   w = min(1, min(dt / 1 s, angle / 0.5 rad) + dt / 50 s).
-double IndependentPart(double dt, double angle);
 
 }  // namespace hindsight
 

@@ -6,9 +6,8 @@ namespace hindsight {
 
 void RestDetector::Add(double dt, const Eigen::Vector3d& w,
                        const Eigen::Vector3d& f) {
-  constexpr double kSmoothing = 0.5;  // [s]
-  constexpr double kRate = 0.035;     // [rad/s]
-  constexpr double kForce = 0.5;      // [m/s^2]
+  constexpr double kRate = 0.035;  // [rad/s]
+  constexpr double kForce = 0.5;   // [m/s^2]
   if (!started_) {
     w_ = w;
     f_ = f;

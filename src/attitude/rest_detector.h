@@ -6,11 +6,12 @@
 namespace hindsight {
 
 /// Tells rest from an IMU alone and from the past alone: rates stay within
-/// 0.035 rad/s and forces within 0.5 m/s^2 of their low-passed values (0.5 s),
+/// 0.035 rad/s and forces within 0.5 m/s^2 of their low-passed values,
 /// and these rates below 0.035 rad/s, for 1.5 s (thresholds of VQF, Laidig and
 /// Seel 2023, table 2). A turn so slow and steady passes for a gyro bias.
 class RestDetector {
  public:
+  static constexpr double kSmoothing = 0.5;  ///< [s]
   /// A sample, dt after the one before [s]; rate [rad/s], force [m/s^2].
   void Add(double dt, const Eigen::Vector3d& w, const Eigen::Vector3d& f);
   bool rests() const;

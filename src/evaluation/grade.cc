@@ -130,8 +130,16 @@ std::span<const GradeRule> GradeRules() { return kRules; }
 
 void Conclude(const Judged& judged, const std::vector<UnobservedSpan>& known,
               Solution* solution) {
-  solution->constants = EstimateConstants(
+  std::vector<ConstantEstimate> constants = EstimateConstants(
       *solution, judged.constants, judged.start ? &judged.start->x : nullptr);
+  // Of what its states do not have a method tells itself.
+  for (ConstantEstimate& own : solution->constants) {
+    const bool known = std::any_of(
+        constants.begin(), constants.end(),
+        [&own](const ConstantEstimate& c) { return c.name == own.name; });
+    if (!known) constants.push_back(std::move(own));
+  }
+  solution->constants = std::move(constants);
   solution->unobserved = FindUnobserved(*solution);
   if (judged.relative_heading) {
     std::erase_if(solution->unobserved, [](const UnobservedSpan& span) {

@@ -219,6 +219,36 @@ TEST(AttitudeFilter, FindsTheScaleFactor) {
   EXPECT_LT(std::abs(x.b_g.z() - b_g.z()), 3.0 * std::sqrt(x.P(5, 5)));
 }
 
+/// A turn that begins slowly is none of the bias, however long the body lay
+/// still before: the attitude follows it, within its sigma.
+TEST(AttitudeFilter, FollowsATurnThatBeginsSlowly) {
+  constexpr double kStep = 0.01;
+  constexpr double kBegin = 15.0;
+  constexpr double kJerk = 0.02;  // rate = kJerk (t - kBegin)^2 [rad/s^3]
+  constexpr double kSigma = 1e-3;
+  Random random(6);
+  Turntable table;
+  for (int k = 0; k <= 1800; ++k) {
+    const double s = std::max(kStep * k - kBegin, 0.0);
+    table.q_nb.push_back(
+        Exp(Eigen::Vector3d(0.0, 0.0, kJerk * s * s * s / 3.0)));
+    table.imu.samples.push_back(
+        {kStep * k,
+         Eigen::Vector3d(0.0, 0.0, kJerk * s * s) +
+             kSigma * random.NormalVector3(),
+         Eigen::Vector3d(0.0, 0.0, -table.place.gravity)});
+  }
+  table.imu.noise.gyro_noise_density = kSigma * std::sqrt(kStep);
+  AttitudeFilterOptions options;
+  options.rest_sigma = kSigma;
+  const AttitudeRun run =
+      RunAttitudeFilter(table.imu, {}, options, table.Start(1e-4, 0.01));
+  const AttitudeState& x = run.nodes.back().x;
+  EXPECT_LT(x.q_nb.angularDistance(table.q_nb.back()),
+            4.0 * std::sqrt(x.P(2, 2)));
+  EXPECT_LT(std::abs(x.b_g.z()), 4.0 * std::sqrt(x.P(5, 5)));
+}
+
 /// At rest the gyros' noise and bias are no turn, whether the rest is known or
 /// found; their mean is the bias.
 TEST(AttitudeFilter, DoesNotTurnAtRest) {

@@ -92,34 +92,5 @@ TEST(FieldSurvey, PassesOverAMagnetThatComesNear) {
   EXPECT_EQ(survey.weight[0], survey.weight[1]);
 }
 
-TEST(HardIron, IsNotInvented) {
-  EXPECT_TRUE(FindHardIron(InMotion(Eigen::Vector3d::Zero(), 400)).isZero(0.0));
-}
-
-TEST(HardIron, IsFoundIfItTravelsAlong) {
-  const Eigen::Vector3d magnet(80.0, -120.0, 40.0);
-  EXPECT_LT((FindHardIron(InMotion(magnet, 400)) - magnet).norm(), 0.3);
-}
-
-/// Put on for a part of the time.
-TEST(HardIron, IsNoneIfItWasNotThereAllTheTime) {
-  for (const double part : {0.3, 0.6, 0.8}) {
-    std::vector<SurveyedField> readings =
-        InMotion(Eigen::Vector3d::Zero(), 600);
-    const auto end = static_cast<std::size_t>(part * 600.0);
-    for (std::size_t k = 0; k < end; ++k) {
-      readings[k].field_b += Eigen::Vector3d(-3.0, 2.0, -27.0);
-    }
-    EXPECT_TRUE(FindHardIron(readings).isZero(0.0)) << part;
-  }
-}
-
-TEST(HardIron, CountsManyReadingsAtRestAsOne) {
-  EXPECT_NEAR(IndependentPart(0.05, 0.0), 0.001, 1e-12);
-  EXPECT_NEAR(IndependentPart(0.05, 0.005), 0.011, 1e-12);
-  EXPECT_NEAR(IndependentPart(0.05, 3.0), 0.051, 1e-12);
-  EXPECT_EQ(IndependentPart(100.0, 3.0), 1.0);
-}
-
 }  // namespace
 }  // namespace hindsight

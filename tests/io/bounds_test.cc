@@ -103,6 +103,23 @@ TEST_F(Bounds, OfTheRulesWindow) {
               "ahrs.seconds: expected at most 3600 s");
 }
 
+TEST_F(Bounds, OfWhatTheRuleHasNoUseFor) {
+  EXPECT_SAYS(ErrorWith("", "ahrs: {gate: 1 m/s^2}\n"),
+              "ahrs.gate: has no use with rule: fixed; expected it beside "
+              "rule: gate or held_gate");
+  for (const std::string key : {"lambda: 10 %", "samples: 3", "seconds: 1 s"}) {
+    EXPECT_SAYS(ErrorWith("", "ahrs: {rule: gate, " + key + "}\n"),
+                "ahrs." + key.substr(0, key.find(':')) +
+                    ": has no use with rule: gate");
+    EXPECT_EQ(ErrorWith("", "ahrs: {rule: smnc, " + key + "}\n"), "");
+  }
+  EXPECT_EQ(ErrorWith("", "ahrs: {rule: held_gate, gate: 1 m/s^2}\n"), "");
+  EXPECT_SAYS(ErrorWith("", "ahrs: {rule: gate, gate: 0 m/s^2}\n"),
+              "ahrs.gate: must be greater than zero");
+  EXPECT_SAYS(ErrorWith("", "ahrs: {rule: smnc, lambda: -10 %}\n"),
+              "ahrs.lambda: must not be negative");
+}
+
 TEST_F(Bounds, OfTheConfigurationItself) {
   EXPECT_SAYS(ErrorWith("", std::string(5u << 20, '\n')),
               "config.yaml: is longer than 4 MB");

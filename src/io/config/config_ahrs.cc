@@ -1,3 +1,6 @@
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "io/config/config_key.h"
@@ -16,8 +19,37 @@ const std::vector<std::string>& RuleNames() {
   return kNames;
 }
 
+/// Whether the rule has a use for `key`. Throws InputError where it is given
+/// and has none.
+bool IsUsed(const std::string& key, const std::vector<std::string>& rules,
+            const AhrsSettings& ahrs, ConfigMap* map) {
+  const bool used =
+      std::find(rules.begin(), rules.end(), ahrs.rule) != rules.end();
+  if (!used && map->Has(key)) {
+    map->Fail(key, fmt::format("has no use with rule: {}; expected it beside "
+                               "rule: {}",
+                               ahrs.rule, fmt::join(rules, " or ")));
+  }
+  return used;
+}
+
+void ReadGateLimit(ConfigMap* map, AhrsSettings* ahrs) {
+  if (!IsUsed("gate", {"gate", "held_gate"}, *ahrs, map)) return;
+  ahrs->gate = map->Positive("gate", Quantity::kAcceleration, ahrs->gate);
+}
+
+void ReadLambda(ConfigMap* map, AhrsSettings* ahrs) {
+  if (!IsUsed("lambda", {"adaptive", "smnc"}, *ahrs, map)) return;
+  ahrs->lambda = map->Number("lambda", Quantity::kRatio, ahrs->lambda);
+  if (!(ahrs->lambda >= 0.0)) map->Fail("lambda", "must not be negative");
+}
+
 /// As many as `seconds` say, where that is there.
 void ReadSamples(ConfigMap* map, AhrsSettings* ahrs) {
+  const std::vector<std::string> rules = {"held_gate", "adaptive", "smnc"};
+  const bool samples = IsUsed("samples", rules, *ahrs, map);
+  const bool seconds = IsUsed("seconds", rules, *ahrs, map);
+  if (!samples || !seconds) return;
   if (map->Has("samples") && map->Has("seconds")) {
     map->Fail("seconds", "does not go with samples");
   }
@@ -60,14 +92,16 @@ const ConfigTable<AhrsSettings>& AhrsTable() {
         .help = "of the accelerometer as a tilt sensor"},
        {.name = "gate",
         .quantity = Quantity::kAcceleration,
-        .value = Key::Number{&AhrsSettings::gate, KeyRange::kPositive},
-        .help = "beyond which gate and held_gate do not use a reading"},
+        .value = Key::Special{ReadGateLimit},
+        .help = "beyond which rule gate or held_gate does not use a reading",
+        .fallback = "0.88 m/s^2"},
        {.name = "lambda",
-        .value = Key::Number{&AhrsSettings::lambda, KeyRange::kNotNegative},
-        .help = "of the adaptive rule"},
+        .value = Key::Special{ReadLambda},
+        .help = "of rule smnc; adaptive takes it N + 1 times",
+        .fallback = "0.05"},
        {.name = "samples",
         .value = Key::Special{ReadSamples},
-        .help = "N of smnc and held_gate",
+        .help = "N of rule smnc, held_gate or adaptive",
         .fallback = "4"},
        {.name = "seconds",
         .value = Key::Special{},

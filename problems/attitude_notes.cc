@@ -1,0 +1,68 @@
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measurements/sensor_kind.h"
+#include "problems/attitude.h"
+
+namespace hindsight {
+namespace {
+
+/// Keys of a used sensor that attitude alone makes nothing of.
+std::string UnusedKeys(const Sensor& sensor) {
+  std::string keys;
+  const auto name = [&keys](bool given, std::string_view key) {
+    if (given) keys += (keys.empty() ? "'" : ", '") + std::string(key) + "'";
+  };
+  name(sensor.gate_probability.has_value(), "gate");
+  name(sensor.loss.kind == RobustLoss::Kind::kMixture, "noise");
+  name(sensor.loss.kind != RobustLoss::Kind::kNone &&
+           sensor.loss.kind != RobustLoss::Kind::kMixture,
+       "loss");
+  name(sensor.mounting_sigma.has_value(), "estimate.mounting");
+  name(sensor.kind->is_heading && sensor.time_offset_sigma.has_value(),
+       "estimate.time_offset");
+  return keys;
+}
+
+}  // namespace
+
+std::vector<std::string> AttitudeEstimation::Unused() const {
+  std::vector<std::string> unused;
+  bool magnetometer = false;
+  for (const AidingStream& stream : dataset_.streams) {
+    const Sensor& sensor = stream.sensor;
+    if (stream.measurements.empty()) continue;
+    const bool first = sensor.kind->magnetic && !magnetometer;
+    magnetometer = magnetometer || sensor.kind->magnetic;
+    if (first || sensor.kind->is_heading) {
+      if (const std::string keys = UnusedKeys(sensor); !keys.empty()) {
+        unused.push_back("no use for " + keys + " of '" + sensor.name +
+                         "' in attitude alone");
+      }
+      continue;
+    }
+    unused.push_back("no use for '" + sensor.name + "' (" +
+                     std::string(sensor.kind->name) +
+                     "): attitude alone is of one magnetometer and headings");
+  }
+  return unused;
+}
+
+std::vector<std::string> AttitudeEstimation::UnusedByFilter() const {
+  std::vector<std::string> unused;
+  if (const AidingStream* stream = MagnetometerOf(dataset_);
+      stream != nullptr && stream->sensor.time_offset_sigma) {
+    unused.push_back("no use for 'estimate.time_offset' of '" +
+                     stream->sensor.name +
+                     "': the smoother finds it, in what comes later");
+  }
+  if (dataset_.stationary.enabled) {
+    unused.emplace_back(
+        "no use for 'stationary': what knows nothing later finds rest by "
+        "thresholds of its own");
+  }
+  return unused;
+}
+
+}  // namespace hindsight

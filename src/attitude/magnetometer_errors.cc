@@ -1,0 +1,171 @@
+#include "attitude/magnetometer_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace hindsight {
+namespace {
+
+using Matrix7 = Eigen::Matrix<double, 7, 7>;
+using Vector7 = Eigen::Matrix<double, 7, 1>;
+
+constexpr double kFirstScale = 5.0;  // [uT]
+
+/// A reading of the search.
+struct ErrorReading {
+  Eigen::Matrix3d C_bn;
+  Eigen::Vector3d field_b;
+  Eigen::Vector3d w_b;
+  double weight = 1.0;
+  double dt = 0.0;     ///< that it stands for [s]
+  double trust = 1.0;  ///< 1 / (1 + r^2 / (freedom scale^2))
+};
+
+/// Even field and errors, and what speaks for them.
+struct ErrorFit {
+  Eigen::Vector3d field_n = Eigen::Vector3d::Zero();
+  MagnetometerErrors errors;
+  double log_likelihood = 0.0;
+  double significance = 0.0;  ///< h' P_h^-1 h
+
+  /// Derivative of what is read by the time offset [uT/s].
+  Eigen::Vector3d ByTimeOffset(const ErrorReading& reading) const {
+    return (reading.C_bn * field_n).cross(reading.w_b);
+  }
+  /// Reading less all but the hard iron [uT].
+  Eigen::Vector3d Rest(const ErrorReading& reading) const {
+    return reading.field_b - reading.C_bn * field_n -
+           errors.time_offset * ByTimeOffset(reading);
+  }
+};
+
+/// The most likely ones for the present trust; the time offset in `unit`, its a
+/// priori sigma, about the present field.
+void SolveErrors(std::span<const ErrorReading> readings, double scale,
+                 double unit, ErrorFit* fit) {
+  constexpr double kWidest = 100.0;  // of a hard iron [uT]
+  Matrix7 N = Matrix7::Zero();
+  Vector7 y = Vector7::Zero();
+  for (const ErrorReading& reading : readings) {
+    Eigen::Matrix<double, 3, 7> H;
+    H << reading.C_bn, Eigen::Matrix3d::Identity(),
+        unit * fit->ByTimeOffset(reading);
+    const double w = reading.weight * reading.trust / (scale * scale);
+    N.noalias() += w * H.transpose() * H;
+    y.noalias() += w * H.transpose() * reading.field_b;
+  }
+  N.diagonal().head<6>().array() += 1.0 / (kWidest * kWidest);
+  N(6, 6) += 1.0;
+  const Vector7 x = N.ldlt().solve(y);
+  const Matrix7 P = N.inverse();
+  fit->field_n = x.head<3>();
+  fit->errors.hard_iron_b = x.segment<3>(3);
+  fit->errors.time_offset = unit * x(6);
+  fit->errors.time_offset_sigma = unit * std::sqrt(P(6, 6));
+  fit->significance =
+      x.segment<3>(3).dot(P.block<3, 3>(3, 3).ldlt().solve(x.segment<3>(3)));
+}
+
+/// Trust and likelihood of every reading at `scale`; returns the scale that
+/// they make most likely.
+double JudgeReadings(std::span<ErrorReading> readings, double scale,
+                     double freedom, ErrorFit* fit) {
+  const double constant = std::lgamma(0.5 * (freedom + 3.0)) -
+                          std::lgamma(0.5 * freedom) -
+                          1.5 * std::log(freedom * scale * scale);
+  fit->log_likelihood = 0.0;
+  double sum = 0.0;
+  double count = 0.0;
+  for (ErrorReading& reading : readings) {
+    const double r2 =
+        (fit->Rest(reading) - fit->errors.hard_iron_b).squaredNorm();
+    const double d2 = r2 / (scale * scale);
+    reading.trust = 1.0 / (1.0 + d2 / freedom);
+    const double w = reading.weight;
+    fit->log_likelihood +=
+        w * (constant - 0.5 * (freedom + 3.0) * std::log1p(d2 / freedom));
+    sum += w * (freedom + 3.0) / (freedom + d2) * r2;
+    count += 3.0 * w;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : scale;
+}
+
+ErrorFit FitErrors(std::vector<ErrorReading> readings, double freedom,
+                   double unit) {
+  constexpr double kLeast = 1.0;  // [uT], of a MEMS magnetometer in a room
+  constexpr int kSteps = 16;
+  ErrorFit fit;
+  // From wide scales down, lest the first guess decide what is an outlier.
+  for (const double widening : {16.0, 8.0, 4.0, 2.0}) {
+    SolveErrors(readings, widening * kFirstScale, unit, &fit);
+    JudgeReadings(readings, widening * kFirstScale, freedom, &fit);
+  }
+  double scale = kFirstScale;
+  for (int step = 0; step < kSteps; ++step) {
+    SolveErrors(readings, scale, unit, &fit);
+    scale = std::max(JudgeReadings(readings, scale, freedom, &fit), kLeast);
+  }
+  return fit;
+}
+
+ErrorFit MostLikelyErrors(const std::vector<ErrorReading>& readings,
+                          double unit) {
+  ErrorFit best = FitErrors(readings, 1.0, unit);
+  for (const double freedom : {2.0, 4.0, 8.0}) {
+    const ErrorFit fit = FitErrors(readings, freedom, unit);
+    if (fit.log_likelihood > best.log_likelihood) best = fit;
+  }
+  return best;
+}
+
+/// Whether nine in ten readings, by weight and by time, are nearer to the field
+/// with the hard iron than to the one without.
+bool IsThereAllTheTime(std::span<const ErrorReading> readings,
+                       const ErrorFit& fit) {
+  constexpr double kShare = 0.9;
+  double weight = 0.0;
+  double time = 0.0;
+  for (const ErrorReading& reading : readings) {
+    const Eigen::Vector3d without = fit.Rest(reading);
+    const bool nearer = (without - fit.errors.hard_iron_b).squaredNorm() <
+                        without.squaredNorm();
+    const double count = (nearer ? 1.0 : 0.0) - kShare;
+    weight += count * reading.weight;
+    time += count * reading.dt;
+  }
+  return weight > 0.0 && time > 0.0;
+}
+
+}  // namespace
+
+MagnetometerErrors FindMagnetometerErrors(
+    std::span<const SurveyedField> readings, double time_offset_sigma) {
+  constexpr double kSignificant = 21.1;  // chi-square, 3 degrees, 99.99 %
+  std::vector<ErrorReading> all;
+  all.reserve(readings.size());
+  for (std::size_t k = 0; k < readings.size(); ++k) {
+    const SurveyedField& before = readings[k > 0 ? k - 1 : 0];
+    const SurveyedField& reading = readings[k];
+    const double angle = before.q_nb.angularDistance(reading.q_nb);
+    all.push_back({reading.q_nb.conjugate().toRotationMatrix(), reading.field_b,
+                   reading.w_b, IndependentPart(reading.dt, angle),
+                   reading.dt});
+  }
+  const ErrorFit fit = MostLikelyErrors(all, time_offset_sigma);
+  MagnetometerErrors errors = fit.errors;
+  const bool found = fit.significance > kSignificant &&
+                     errors.hard_iron_b.norm() > kLeastHardIron &&
+                     IsThereAllTheTime(all, fit);
+  if (!found) errors.hard_iron_b.setZero();
+  return errors;
+}
+
+double IndependentPart(double dt, double angle) {
+  constexpr double kFastest = 1.0;   // [s]
+  constexpr double kSlowest = 50.0;  // [s]
+  constexpr double kAngle = 0.5;     // [rad]
+  return std::min(1.0, std::min(dt / kFastest, angle / kAngle) + dt / kSlowest);
+}
+
+}  // namespace hindsight
