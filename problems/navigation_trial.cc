@@ -110,22 +110,34 @@ void AddConstants(const Dataset& dataset, const Solution& solution,
   }
 }
 
-/// Spans in which the same time was withheld of one stream or several:
+/// Streams that were withheld or silent over the same span:
 /// "gnss+gnss_velocity".
-std::map<std::pair<double, double>, std::string> WithheldSpans(
-    const Dataset& dataset) {
-  std::map<std::pair<double, double>, std::string> spans;
+using OutageSpans = std::map<std::pair<double, double>, std::string>;
+
+OutageSpans SpansOf(const Dataset& dataset,
+                    const std::vector<SilentSpan>& silent_spans) {
+  OutageSpans spans;
+  const auto add = [&](double begin, double end, const std::string& sensor) {
+    std::string& sensors = spans[{begin, end}];
+    sensors += (sensors.empty() ? "" : "+") + sensor;
+  };
   for (const Outage& outage : dataset.outages) {
-    std::string& sensors = spans[{outage.t_begin, outage.t_end}];
     const auto i = static_cast<std::size_t>(outage.sensor);
-    sensors += (sensors.empty() ? "" : "+") + dataset.streams[i].sensor.name;
+    add(outage.t_begin, outage.t_end, dataset.streams[i].sensor.name);
+  }
+  for (const SilentSpan& silent : silent_spans) {
+    if (silent.t_begin <= dataset.truth.front().t ||
+        silent.t_end >= dataset.truth.back().t) {
+      continue;
+    }
+    add(silent.t_begin, silent.t_end, silent.sensor);
   }
   return spans;
 }
 
-void AddOutages(const Dataset& dataset, const RunRecord& judged,
+void AddOutages(const OutageSpans& spans, const RunRecord& judged,
                 const std::string& method, CaseRun* run) {
-  for (const auto& [span, sensors] : WithheldSpans(dataset)) {
+  for (const auto& [span, sensors] : spans) {
     double horizontal = -1.0, vertical = 0.0;
     for (std::size_t k = 0; k < judged.t.size(); ++k) {
       if (judged.t[k] < span.first || judged.t[k] > span.second) continue;
@@ -275,7 +287,7 @@ Trial NavigationTrialOf(const NavigationTrial& trial) {
         record->values.insert(record->values.end(), trial.values.begin(),
                               trial.values.end());
         AddConstants(dataset, solution, method, run);
-        AddOutages(dataset, *record, method, run);
+        AddOutages(SpansOf(dataset, trial.silent_spans), *record, method, run);
       });
     }
     if (trial.innovations != nullptr && reconstruction) {

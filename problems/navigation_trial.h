@@ -11,13 +11,21 @@
 
 namespace hindsight {
 
+/// A span in which a sensor is simulated to measure nothing [s].
+struct SilentSpan {
+  std::string sensor;
+  double t_begin = 0.0;
+  double t_end = 0.0;
+};
+
 /// How methods of Reconstruction are tried on a recording of one seed, and what
 /// its records hold. Tables of the study:
 ///   0 cells      the method against truth
 ///   1 constants  each estimated constant whose true value the data know
 ///   2 agreement  the largest distance of two methods over all nodes and runs
-///   3 outages    each span in which streams were withheld, with the largest
-///                horizontal and vertical error of the states judged within it
+///   3 outages    each span in which streams were withheld or silent, with the
+///                largest horizontal and vertical error of the states judged
+///                within it
 struct NavigationTrial {
   std::vector<std::string> methods;
   /// Nodes are also placed at stamps of the truth so far apart or more, and the
@@ -32,6 +40,9 @@ struct NavigationTrial {
   std::vector<NormalisedInnovation>* innovations = nullptr;
   /// Adds the cell kBestOfRun: what `run` with these methods ends with.
   bool best_of_run = false;
+  /// Outages beside those withheld, as far as they begin and end within the
+  /// truth.
+  std::vector<SilentSpan> silent_spans = {};
   /// Ends of the legs into which the interval is divided [s], ascending.
   std::vector<double> leg_ends = {};
 };

@@ -11,7 +11,8 @@ daemons=()
 finish() {
   for pid in "${daemons[@]}"; do kill "$pid" 2>/dev/null || true; done
   wait
-  rm -rf "$work"
+  # What the daemons write last may come behind their end.
+  rm -rf "$work" || { sleep 2 && rm -rf "$work"; }
 }
 trap finish EXIT
 cd "$work"

@@ -49,7 +49,8 @@ AlignmentOutcome AlignByGyrocompass(const AlignmentInput& input) {
         std::nullopt,
         sigma > kPi
             ? fmt::format("the gyros are too noisy to find north within "
-                          "{:.1f} s of rest",
+                          "{:.1f} s of rest; give initial.attitude, or a "
+                          "stream of velocities or headings",
                           T)
             : fmt::format("the gyros would give the heading to {:.3g} deg only",
                           sigma / kDegree)};

@@ -25,10 +25,11 @@ namespace {
 
 constexpr const char* kHelp =
     R"(Reconstructs many recordings, each by a process 'hindsight run' of its own. A
-LIST is a configuration, a folder with config.yaml, a pattern of these in quotes
-('survey/*/config.yaml'), or a CSV: a line an item with columns config, name
-(not needed where the folders' names differ) and any flags of 'run'. Flags of
-'run' given here hold for all items.
+LIST is a configuration, a folder with config.yaml, a recording's folder without
+one (as of 'run FOLDER'), a pattern of these in quotes ('survey/*/config.yaml'),
+or a CSV: a line an item with columns config, name (not needed where the folders'
+names differ) and any flags of 'run'. Flags of 'run' given here hold for all
+items.
 
 Any number of such calls, on any machines that share the folder of --out, work
 together: each item is claimed by a file that its owner keeps touching. What is
@@ -151,12 +152,26 @@ void WriteIfOther(const fs::path& path, const std::string& text) {
   WriteFileAtomically(path.string(), text);
 }
 
+/// What a campaign writes must not become part of what it reads.
+void RequireOutside(const fs::path& folder,
+                    const std::vector<CampaignItem>& items) {
+  for (const CampaignItem& item : items) {
+    if (!IsFolder(item.config)) continue;
+    const fs::path from = fs::weakly_canonical(folder).lexically_relative(
+        fs::weakly_canonical(item.config));
+    if (from.empty() || *from.begin() == "..") continue;
+    throw InputError("--out=" + folder.string() + " lies in the recording " +
+                     item.config.string() + "; expected another folder");
+  }
+}
+
 /// Of the list, which becomes that of the folder; without one, of the folder.
 std::vector<CampaignItem> ItemsOf(const std::vector<std::string>& list,
                                   const fs::path& folder) {
   const std::string known = (folder / kListName).string();
   if (!list.empty()) {
     const auto items = ReadCampaignList(list, GivenFlags());
+    RequireOutside(folder, items);
     PrepareFolder(folder);
     WriteIfOther(known, CampaignListText(items));
     return items;
@@ -221,16 +236,16 @@ void WorkHere(const std::vector<CampaignItem>& items, const fs::path& folder,
 /// Until no item is open, or the job has ended.
 void WorkBySlurm(const std::vector<CampaignItem>& items, const SlurmJob& job,
                  Progress* progress) {
+  // Each look asks for those alone that had not ended at the last.
+  std::vector<const CampaignItem*> open;
+  for (const CampaignItem& item : items) open.push_back(&item);
   const auto is_done = [&] {
-    const auto ended = std::count_if(
-        items.begin(), items.end(), [&](const CampaignItem& item) {
-          return RecordOf(item, ItemPlace(job.folder, item)).has_value();
-        });
-    const auto count = static_cast<std::ptrdiff_t>(items.size());
-    progress->Update(
-        "items", static_cast<double>(ended) /
-                     static_cast<double>(std::max<std::ptrdiff_t>(count, 1)));
-    return ended == count;
+    std::erase_if(open, [&](const CampaignItem* item) {
+      return RecordOf(*item, ItemPlace(job.folder, *item)).has_value();
+    });
+    progress->Update("items", 1.0 - static_cast<double>(open.size()) /
+                                        static_cast<double>(items.size()));
+    return open.empty();
   };
   if (is_done()) return;
   const std::string number = SubmitSlurm(job);

@@ -19,9 +19,14 @@ namespace {
 
 constexpr char kConfigName[] = "config.yaml";
 
-/// Flags whose values are paths.
-bool IsPath(const std::string& flag) {
-  return flag == "at" || flag == "data-root";
+/// Whether the value of that flag of `run` is a path.
+bool IsPath(const std::string& name) {
+  const std::vector<FlagUse> flags = PassedFlags();
+  return std::any_of(flags.begin(), flags.end(), [&](const FlagUse& flag) {
+    const std::string& value = flag.placeholder;
+    return Dashed(flag.name) == name &&
+           (value == "FILE" || value == "DIR" || value == "RESULT");
+  });
 }
 
 fs::path Absolute(const fs::path& path, const fs::path& from) {
@@ -29,16 +34,19 @@ fs::path Absolute(const fs::path& path, const fs::path& from) {
   return (folder / path).lexically_normal();
 }
 
-/// Where the configuration is that a path stands for.
+/// The configuration that a path stands for: of a folder the one in it, or the
+/// folder itself, which `run` looks at as `init` does.
 fs::path ConfigOf(const fs::path& path) {
-  return IsFolder(path) ? path / kConfigName : path;
+  return IsFile(path / kConfigName) ? path / kConfigName : path;
 }
 
 /// Parts of a path that tell it from others, the last first: the folder's name
 /// where the configuration is just config.yaml.
 std::vector<std::string> NameParts(const fs::path& config) {
   std::vector<std::string> parts;
-  if (config.filename() != kConfigName) parts.push_back(config.stem());
+  if (config.filename() != kConfigName) {
+    parts.push_back(IsFolder(config) ? config.filename() : config.stem());
+  }
   for (fs::path folder = config.parent_path(); folder.has_filename();
        folder = folder.parent_path()) {
     parts.push_back(folder.filename());
@@ -80,7 +88,7 @@ void NameItems(std::vector<CampaignItem>* items) {
 
 void CheckNames(const std::vector<CampaignItem>& items) {
   constexpr std::size_t kLongest = 200;
-  std::set<std::string> names;
+  std::map<std::string, fs::path> names;
   for (const CampaignItem& item : items) {
     const bool is_name = !item.name.starts_with('.') &&
                          item.name.find('/') == item.name.npos &&
@@ -90,11 +98,15 @@ void CheckNames(const std::vector<CampaignItem>& items) {
                        "': expected a name for a folder, at most 200 letters "
                        "without '/', not beginning with '.'");
     }
-    if (!names.insert(item.name).second) {
-      throw InputError("two items of the name '" + item.name + "' (" +
-                       item.config.string() +
-                       "): a CSV with a column 'name' tells them apart");
+    const auto [other, is_new] = names.try_emplace(item.name, item.config);
+    if (is_new) continue;
+    const std::string advice = "; a CSV with a column 'name' tells them apart";
+    if (other->second == item.config) {
+      throw InputError(item.config.string() + " is listed twice" + advice);
     }
+    throw InputError("two items of the name '" + item.name + "' (" +
+                     other->second.string() + " and " + item.config.string() +
+                     ")" + advice);
   }
 }
 
@@ -118,6 +130,9 @@ std::string ColumnOf(const std::string& title, const std::string& path,
     known.push_back(Dashed(flag.name));
     if (known.back() == name) return name;
   }
+  if (title.find_first_of(";\t") != title.npos) {
+    throw InputError(path, line, "expected commas between the columns");
+  }
   throw InputError(path, line,
                    "column '" + title +
                        "' is no flag that a campaign passes "
@@ -127,7 +142,11 @@ std::string ColumnOf(const std::string& title, const std::string& path,
 
 std::vector<CampaignItem> ReadListCsv(const std::string& path) {
   const std::vector<CsvRecord> records = ReadCsvRecords(path);
-  if (records.empty()) throw InputError(path, 0, "no line");
+  if (records.size() < 2) {
+    throw InputError(path, 0,
+                     "expected a line with the names of its columns, 'config' "
+                     "and flags of 'run', and a line an item");
+  }
   std::vector<std::string> columns;
   for (const std::string& title : records[0].fields) {
     columns.push_back(ColumnOf(title, path, records[0].line));
@@ -168,8 +187,8 @@ std::vector<CampaignItem> ItemsOfWord(const std::string& word) {
       PathExists(word) ? std::vector<fs::path>{word} : GlobMatches(word);
   if (paths.empty()) {
     throw UsageError("'campaign' finds nothing that is or fits '" + word +
-                     "': expected a configuration, a folder with " +
-                     kConfigName + ", a pattern of these, or a CSV");
+                     "': expected a configuration, the folder of a "
+                     "recording, a pattern of these, or a CSV");
   }
   std::vector<CampaignItem> items;
   for (const fs::path& path : paths) {

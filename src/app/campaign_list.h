@@ -12,8 +12,9 @@ namespace hindsight {
 
 /// One recording of a campaign and how it is run.
 struct CampaignItem {
-  std::string name;              ///< of its folder of results; unique
-  std::filesystem::path config;  ///< absolute
+  std::string name;  ///< of its folder of results; unique
+  /// Absolute; or the folder of a recording without one.
+  std::filesystem::path config;
   /// Flags of `run` by name with dashes, and their values.
   std::map<std::string, std::string> flags;
 
@@ -25,8 +26,9 @@ struct CampaignItem {
 /// results go and what is printed.
 std::vector<FlagUse> PassedFlags();
 
-/// The items that words name: a configuration, a folder that holds config.yaml,
-/// a pattern of either with *, ? or [...], or a CSV (FILE.csv) with a line an
+/// The items that words name: a configuration, a folder (that of a recording, if
+/// it holds no config.yaml), a pattern of either with *, ? or [...], or a CSV
+/// (FILE.csv) with a line an
 /// item: column `config`, relative to the CSV, `name` where the folder's or the
 /// configuration's does not do, and columns of flags of `run`, of which an
 /// empty cell is one not given. `common` are flags of every item that has no

@@ -15,6 +15,7 @@
 #include "app/run_output.h"
 #include "base/error.h"
 #include "io/config/config.h"
+#include "io/config/constants_reader.h"
 #include "io/read/file_digest.h"
 #include "io/read/paths.h"
 #include "io/read/text_file.h"
@@ -36,7 +37,8 @@ std::int64_t SystemTime() {
       .count();
 }
 
-/// Size and time of change as they are; the rest is empty.
+/// Size and time of change as they are; the rest is empty. Those of a folder
+/// change with the names in it.
 HashedInput FileStatus(const std::string& path) {
   HashedInput input = {.path = path, .sha256 = ""};
   struct stat status = {};
@@ -45,8 +47,8 @@ HashedInput FileStatus(const std::string& path) {
   input.bytes = static_cast<std::uint64_t>(status.st_size);
   input.changed =
       kSecond * status.st_mtim.tv_sec + std::int64_t{status.st_mtim.tv_nsec};
-  input.settled =
-      S_ISREG(status.st_mode) && SystemTime() - input.changed > kSettling;
+  input.settled = (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) &&
+                  SystemTime() - input.changed > kSettling;
   return input;
 }
 
@@ -57,18 +59,52 @@ bool IsUnchanged(const HashedInput& known) {
          now.changed == known.changed;
 }
 
-std::vector<fs::path> InputsOfItem(const CampaignItem& item) {
-  std::vector<fs::path> files;
+/// A file, or a folder with all that is below it but behind links.
+void AddWithContent(const fs::path& path, std::vector<fs::path>* inputs) {
+  inputs->push_back(path);
+  if (!IsFolder(path)) return;
   try {
-    files = ConfigFilesRead(item.config.string(),
-                            {.data_root = item.Flag("data-root"),
-                             .without = Split(item.Flag("without"), ',')});
+    for (const fs::path& entry : FolderEntries(path)) {
+      std::error_code ignored;
+      if (IsFolder(entry) && fs::is_symlink(entry, ignored)) {
+        inputs->push_back(entry);
+      } else {
+        AddWithContent(entry, inputs);
+      }
+    }
   } catch (const InputError&) {
-    // `run` will say what is wrong with it.
-    files = {item.config};
+    // Its name stands for what cannot be listed.
   }
-  if (!item.Flag("at").empty()) files.emplace_back(item.Flag("at"));
-  return files;
+}
+
+std::vector<fs::path> InputsOfItem(const CampaignItem& item) {
+  const std::string constants = item.Flag("constants");
+  std::vector<fs::path> named = {item.config};
+  if (IsFolder(item.config)) {
+    if (!constants.empty()) named.push_back(SummaryOf(constants));
+  } else {
+    try {
+      named = ConfigFilesRead(item.config.string(),
+                              {.data_root = item.Flag("data-root"),
+                               .without = Split(item.Flag("without"), ','),
+                               .constants = constants});
+    } catch (const InputError&) {
+      // `run` will say what is wrong with it.
+    }
+  }
+  if (!item.Flag("at").empty()) named.emplace_back(item.Flag("at"));
+  std::vector<fs::path> inputs;
+  for (const fs::path& path : named) AddWithContent(path, &inputs);
+  return inputs;
+}
+
+std::string ContentDigest(const std::string& path) {
+  if (!IsFolder(path)) return DigestOf(path).sha256;
+  std::string names;
+  for (const fs::path& entry : FolderEntries(path)) {
+    names += entry.filename().string() + '\n';
+  }
+  return Sha256Of(names);
 }
 
 HashedInput HashedAs(const std::string& path, const ItemKey& known) {
@@ -77,7 +113,7 @@ HashedInput HashedAs(const std::string& path, const ItemKey& known) {
   }
   HashedInput input = FileStatus(path);
   try {
-    input.sha256 = DigestOf(path).sha256;
+    input.sha256 = ContentDigest(path);
   } catch (const InputError&) {
     input.settled = false;
   }
@@ -95,13 +131,13 @@ std::optional<double> NumberAt(const Json& json, const char* key) {
   return found->get<double>();
 }
 
-/// Mean over all measurements used; absent without.
+/// Mean over all measurements used, constraints apart; absent without.
 std::optional<double> NisOf(const Json& residuals) {
   double sum = 0.0;
   double count = 0.0;
   for (const Json& sensor : residuals) {
     const auto rms = NumberAt(sensor, "normalized_rms");
-    if (!rms) continue;
+    if (!rms || sensor.value("supposed", false)) continue;
     const double used =
         sensor.value("count", 0.0) - sensor.value("rejected", 0.0);
     sum += used * *rms * *rms;

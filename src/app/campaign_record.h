@@ -22,15 +22,16 @@ struct ItemPlace {
   std::filesystem::path record;   ///< items/NAME/item.json
 };
 
-/// An input as it was when it was hashed.
+/// An input, a file or a folder, as it was when it was hashed. The hash of a
+/// folder is that of the names in it, which are inputs themselves.
 struct HashedInput {
   std::string path;
   std::uint64_t bytes = 0;
   std::int64_t changed = 0;  ///< time of last change [ns since 1970]
   std::string sha256;        ///< "" of what could not be read
-  /// Size and time speak for the content: it is a file, and had not changed
-  /// within the two seconds before it was hashed, in which a further change
-  /// might have left the same time.
+  /// Size and time speak for the content: it had not changed within the two
+  /// seconds before it was hashed, in which a further change might have left
+  /// the same time.
   bool settled = false;
 };
 
@@ -55,8 +56,8 @@ struct ItemRecord {
   std::string grade;   ///< of `run`; "" if it failed
   std::string best;    ///< method
   /// Of the best method: horizontal RMS against withheld positions [m], mean
-  /// normalised squared residual a row over the measurements used (1 is right),
-  /// names of what is not observed.
+  /// normalised squared residual a row over the measurements used, rests and
+  /// other constraints apart (1 is right), names of what is not observed.
   std::optional<double> withheld_rms;
   std::optional<double> nis;
   std::string unobserved;

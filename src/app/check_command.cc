@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "alignment/mounting_search.h"
 #include "alignment/start_layout.h"
@@ -16,8 +19,12 @@
 #include "dataset/checks.h"
 #include "dataset/clock_search.h"
 #include "io/config/config.h"
+#include "io/config/config_edit.h"
+#include "io/read/text_file.h"
+#include "io/write/atomic_file.h"
 #include "io/write/number_format.h"
 #include "io/write/table.h"
+#include "measurements/sensor_kind.h"
 #include "problems/noise_estimation.h"
 #include "problems/rest_by_estimate.h"
 
@@ -30,14 +37,15 @@ and overlap of its streams, whether specific force and angular rate are
 plausible, the axes of the IMU as gravity at rest shows them, and at which
 offsets a truth or an aiding stream with `time_offset: unknown` fits the IMU:
 with a warning where an aiding stream fits about as well at several.
-Writes nothing. The last line says whether the recording is usable (exit status
+Writes nothing but by --write. The last line says whether the recording is usable (exit status
 0), doubtful, as each warning makes it that is not of the truth (3), or not
 usable (1).
 
 With --noise it also finds, by maximum likelihood of the forward filter's
 innovations, the factor by which each sensor's sigma and the IMU's two noise
 densities must be multiplied to be honest. Gates and robust losses are off
-meanwhile.
+meanwhile. With --write CONFIG gets what differs from it by more than two
+standard deviations; all else in it stays as it is.
 
 With --allan it gives the overlapping Allan deviation of each axis over the
 longest rest, white noise, bias instability and walk with their sigmas, and the
@@ -127,20 +135,101 @@ std::string DescribeImu(const CheckReport& report) {
 }
 
 std::string DescribeNoise(const NoiseEstimate& estimate) {
+  // Within a factor of a hundred: of what is not seen the figures are none.
+  constexpr double kSeen = 2.3;
   ReportTable table({"noise of", "factor", "from\n(2 sd)", "to\n(2 sd)"});
+  std::string unseen;
   for (const NoiseFactor& noise : estimate.factors) {
     const double spread = 2.0 * noise.log_sigma;
-    const bool known = std::isfinite(spread);
-    table.AddRow(
-        {noise.name, FormatFixed(noise.factor, 3),
-         known ? FormatFixed(noise.factor * std::exp(-spread), 3) : "?",
-         known ? FormatFixed(noise.factor * std::exp(spread), 3) : "?"});
+    if (!(spread < 2.0 * kSeen)) {
+      unseen += (unseen.empty() ? "" : ", ") + noise.name;
+      continue;
+    }
+    table.AddRow({noise.name, FormatFixed(noise.factor, 3),
+                  FormatFixed(noise.factor * std::exp(-spread), 3),
+                  FormatFixed(noise.factor * std::exp(spread), 3)});
   }
-  return "\n" + table.Render(StyleOfOutput()) +
+  if (!unseen.empty()) {
+    unseen = "not seen by the data, leave as stated: " + unseen + "\n";
+  }
+  return "\n" + table.Render(StyleOfOutput()) + unseen +
          fmt::format("log-likelihood {:.1f} -> {:.1f}{}\n",
                      estimate.log_likelihood_before,
                      estimate.log_likelihood_after,
                      estimate.converged ? "" : " (not settled)");
+}
+
+/// Where a configuration says what a factor scales: the first that it says, or
+/// the last, of value one, that it leaves out. Empty: nowhere.
+std::vector<ConfigEdit::Path> PathsOf(const std::string& name,
+                                      const Dataset& dataset) {
+  if (name == "imu.gyro" || name == "imu.accel") {
+    return {{"imu", "noise", name.substr(4)}};
+  }
+  for (const AidingStream& stream : dataset.streams) {
+    const ConfigEdit::Path path = {"aiding", stream.sensor.name};
+    const auto below = [&](const ConfigEdit::Path& more) {
+      ConfigEdit::Path whole = path;
+      whole.insert(whole.end(), more.begin(), more.end());
+      return whole;
+    };
+    if (name == stream.sensor.name) {
+      std::vector<ConfigEdit::Path> paths = {below({"sigma"})};
+      if (stream.sensor.kind->states_sigma) {
+        paths.push_back(below({"sigma_scale"}));
+      }
+      return paths;
+    }
+    for (const auto& [end, key] :
+         {std::pair(".white", "white"), std::pair(".gauss_markov", "sigma"),
+          std::pair(".gauss_markov_tau", "tau")}) {
+      if (name == stream.sensor.name + end) return {below({"noise", key})};
+    }
+  }
+  return {};
+}
+
+/// Whether the factor was written where the configuration says what it scales.
+bool WriteFactor(const NoiseFactor& noise, const Dataset& dataset,
+                 ConfigEdit* edit) {
+  const double spread = 2.0 * noise.log_sigma;
+  for (const ConfigEdit::Path& path : PathsOf(noise.name, dataset)) {
+    const auto stated = edit->Value(path);
+    const bool is_scale = path.back() == "sigma_scale";
+    if (!stated && !is_scale) continue;
+    const std::string before = stated.value_or("1");
+    const std::string after = ScaledNumbers(before, noise.factor);
+    const std::string why = fmt::format(
+        "was {}, {:.3g} times that by the likelihood of the innovations (2 sd "
+        "{:.3g} to {:.3g})",
+        before, noise.factor, noise.factor * std::exp(-spread),
+        noise.factor * std::exp(spread));
+    return edit->Set(path, after, "check --noise", why);
+  }
+  return false;
+}
+
+/// Puts into the configuration what the data tell to differ from what it says.
+std::string WriteNoise(const NoiseEstimate& estimate, const Dataset& dataset,
+                       const std::string& config) {
+  ConfigEdit edit(ReadTextFile(config), config);
+  std::string written;
+  std::string left;
+  for (const NoiseFactor& noise : estimate.factors) {
+    if (!(std::abs(std::log(noise.factor)) > 2.0 * noise.log_sigma)) continue;
+    const std::string stream = noise.name.substr(0, noise.name.find('.'));
+    // The program's own rests are in no configuration.
+    if (stream != "imu" && !edit.Value({"aiding", stream, "type"})) continue;
+    std::string& names = WriteFactor(noise, dataset, &edit) ? written : left;
+    names += (names.empty() ? "" : ", ") + noise.name;
+  }
+  if (!written.empty()) WriteFileAtomically(config, edit.text());
+  return (written.empty() ? "nothing to write: all is as stated, or not seen\n"
+                          : "wrote to " + config + ": " + written + "\n") +
+         (left.empty() ? ""
+                       : "to be written by hand, as the configuration has no "
+                         "key of it that can be exchanged: " +
+                             left + "\n");
 }
 
 /// The last line.
@@ -166,6 +255,9 @@ void DecideAsRunDoes(Dataset* dataset, Rest* rest) {
 }
 
 int Run(const std::vector<std::string>& arguments) {
+  if (FLAGS_write && !FLAGS_noise) {
+    throw UsageError("--write goes with --noise");
+  }
   ResolvedConfig resolved;
   Dataset dataset =
       LoadDataset(arguments[0],
@@ -205,6 +297,8 @@ int Run(const std::vector<std::string>& arguments) {
           "the search for the noise came to no end: its factors are not to be "
           "relied on");
       std::cout << "warning: " << report.warnings.back() << "\n";
+    } else if (FLAGS_write) {
+      std::cout << WriteNoise(estimate, dataset, arguments[0]);
     }
   }
   std::cout << DescribeGrade(report);
@@ -216,7 +310,7 @@ int Run(const std::vector<std::string>& arguments) {
 Command CheckCommand() {
   return {
       .name = "check",
-      .summary = "examine a recording, change nothing",
+      .summary = "examine a recording",
       .arguments = "CONFIG",
       .help = kHelp,
       .flags = {{"data_root", "DIR",
@@ -227,7 +321,10 @@ Command CheckCommand() {
                 {"allan", "",
                  "also the Allan deviations of the longest rest, and the\n"
                  "noise that follows from them"},
-                {"noise", "", "also estimate by what the stated noise is off"}},
+                {"noise", "", "also estimate by what the stated noise is off"},
+                {"write", "",
+                 "with --noise: put what was found into CONFIG, each with the\n"
+                 "reason as a comment on the line before"}},
       .min_arguments = 1,
       .max_arguments = 1,
       .run = Run,

@@ -22,7 +22,9 @@
 #include "dataset/clock_search.h"
 #include "dataset/reading_noise.h"
 #include "geometry/so3.h"
+#include "imu/known_imus.h"
 #include "io/config/config.h"
+#include "io/config/config_edit.h"
 #include "io/config/init_config.h"
 #include "io/write/atomic_file.h"
 #include "io/write/output_error.h"
@@ -132,9 +134,8 @@ class Refiner {
     }
   }
 
-  /// White noise as read, walks of a hundredth and a few thousandths of it a
-  /// second, biases that it leaves after some seconds; bounded by what MEMS and
-  /// fibre-optic units have.
+  /// White noise as read, walks that are usual beside it, biases that it leaves
+  /// after some seconds; bounded by what MEMS and fibre-optic units have.
   void SetNoise() {
     const ReadingNoise noise = NoiseOfReadings(dataset_.imu);
     if (noise.gyro <= 0.0 || noise.accel <= 0.0) return;
@@ -144,8 +145,6 @@ class Refiner {
     const double accel = std::max(noise.accel, kLeastAccel);
     const double gyro_quiet = std::max(noise.gyro_quiet, kLeastGyro);
     const double accel_quiet = std::max(noise.accel_quiet, kLeastAccel);
-    constexpr double kGyroWalk = 2e-3;  // of the quiet density, 1/s
-    constexpr double kAccelWalk = 4e-3;
     std::vector<KeyLine>& lines = draft_.imu->lines;
     SetLine({"noise", "",
              "white noise of the readings, vibration included; "
@@ -157,13 +156,14 @@ class Refiner {
     SetLine({"  accel", fmt::format("{:.3g} mg/sqrt(Hz)", accel / kMilliG),
              fmt::format("{:.2g} where quiet", accel_quiet / kMilliG)},
             &lines);
-    SetLine({"  gyro_bias_walk", fmt::format("{:.2g} deg/s^2/sqrt(Hz)",
-                                             kGyroWalk * gyro_quiet / kDegree)},
+    SetLine({"  gyro_bias_walk",
+             fmt::format("{:.2g} deg/s^2/sqrt(Hz)",
+                         UsualGyroBiasWalk(gyro_quiet) / kDegree)},
             &lines);
-    SetLine(
-        {"  accel_bias_walk", fmt::format("{:.2g} ug/s/sqrt(Hz)",
-                                          kAccelWalk * accel_quiet / kMicroG)},
-        &lines);
+    SetLine({"  accel_bias_walk",
+             fmt::format("{:.2g} ug/s/sqrt(Hz)",
+                         UsualAccelBiasWalk(accel_quiet) / kMicroG)},
+            &lines);
     const double gyro_bias =
         std::clamp(40.0 * gyro_quiet, 1e-5 * kDegree, 2.0 * kDegree);
     const double accel_bias =
@@ -285,27 +285,6 @@ class Refiner {
             &draft_.truth->lines);
   }
 
-  /// Multiplies every number of a value.
-  static std::string Scaled(const std::string& value, double factor) {
-    std::string text;
-    for (std::size_t i = 0; i < value.size();) {
-      const char c = value[i];
-      const bool digit = c >= '0' && c <= '9';
-      const bool starts =
-          digit && (i == 0 || value[i - 1] == ' ' || value[i - 1] == '[');
-      if (!starts) {
-        text += c;
-        ++i;
-        continue;
-      }
-      std::size_t length = 0;
-      const double number = std::stod(value.substr(i), &length);
-      text += fmt::format("{:.3g}", number * factor);
-      i += length;
-    }
-    return text;
-  }
-
   /// What the likelihood of the innovations says of the noise (EstimateNoise),
   /// where it says something: of the IMU, of stated sigmas and of constraints.
   /// Errors of a receiver on its own last too long for innovations to show.
@@ -323,7 +302,7 @@ class Refiner {
       if (noise.name == "imu.gyro" || noise.name == "imu.accel") {
         const std::string key = "  " + noise.name.substr(4);
         KeyLine line = *FindLine(draft_.imu->lines, key);
-        line.value = Scaled(line.value, noise.factor);
+        line.value = ScaledNumbers(line.value, noise.factor);
         line.comment = fmt::format(
             "by the likelihood of the innovations, {:.2g} "
             "of what the readings show",
@@ -342,7 +321,7 @@ class Refiner {
     if (FindLine(lines, "noise") != nullptr) return;
     const std::string why = "by the likelihood of the innovations";
     if (const KeyLine* sigma = FindLine(lines, "sigma")) {
-      SetLine({"sigma", Scaled(sigma->value, factor), why}, &lines);
+      SetLine({"sigma", ScaledNumbers(sigma->value, factor), why}, &lines);
     } else if (stream->kind->states_sigma) {
       SetLine({"sigma_scale", fmt::format("{:.2g}", factor), why}, &lines);
     }

@@ -63,6 +63,7 @@ DEFINE_double(to, std::numeric_limits<double>::infinity(), "");
 DEFINE_string(withhold, "", "");
 DEFINE_string(without, "", "");
 DEFINE_uint64(workers, 0, "");
+DEFINE_bool(write, false, "");
 DEFINE_bool(yes, false, "");
 
 namespace hindsight {

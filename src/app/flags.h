@@ -62,6 +62,7 @@ DECLARE_double(to);
 DECLARE_string(withhold);
 DECLARE_string(without);
 DECLARE_uint64(workers);
+DECLARE_bool(write);
 DECLARE_bool(yes);
 
 namespace hindsight {

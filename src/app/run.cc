@@ -106,24 +106,19 @@ void PrepareTrajectory(const RunRequest& request, Dataset* dataset) {
   ThinTruth(&dataset->truth);
 }
 
-/// The data set as it is reconstructed; its resolved configuration goes into
-/// the results.
-Dataset Load(const RunRequest& request, ResultFolder* folder,
-             std::vector<std::string>* unconfirmed) {
-  ResolvedConfig resolved;
+/// The data set as it is reconstructed, and its resolved configuration.
+Dataset Load(const RunRequest& request, ResolvedConfig* resolved) {
   Dataset dataset =
-      LoadDataset(request.config, LoadOptionsOf(request), &resolved);
-  if (!request.confirmed) *unconfirmed = resolved.unconfirmed;
+      LoadDataset(request.config, LoadOptionsOf(request), resolved);
   if (!request.ahrs_rule.empty()) dataset.ahrs.rule = request.ahrs_rule;
   if (!request.attitude_alone) RequireCapacity(dataset, request.config);
   if (!request.withholdings.empty()) {
     ReplaceWithholdings(request.withholdings, &dataset);
-    SetWithholdings(request.withholdings, &resolved);
+    SetWithholdings(request.withholdings, resolved);
   }
-  Inject(request, &dataset, &resolved);
+  Inject(request, &dataset, resolved);
   CheckRate(request, dataset.imu);
   if (!request.attitude_alone) PrepareTrajectory(request, &dataset);
-  WriteResolvedConfig(resolved, folder->Path("config.resolved.yaml"));
   return dataset;
 }
 
@@ -280,12 +275,18 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   progress.Plan(PlanOf(request));
   progress.Update("reading", 0.0);
   InputDigests digests(FilesReadBy(request));
-  std::vector<std::string> unconfirmed;
-  const Dataset dataset = Load(request, folder, &unconfirmed);
+  ResolvedConfig resolved;
+  const Dataset dataset = Load(request, &resolved);
 
   progress.Begin("start");
   Reconstruction reconstruction =
       Prepare(request.config, dataset, Options(request, &progress));
+  if (const StartReport* start = reconstruction.start()) {
+    resolved.yaml += CommentOnStart(*start, dataset.initial);
+  }
+  WriteResolvedConfig(resolved, folder->Path("config.resolved.yaml"));
+  const std::vector<std::string> unconfirmed =
+      request.confirmed ? std::vector<std::string>() : resolved.unconfirmed;
   RunSummary summary = {
       .program = kProgram,
       .dataset = dataset.name,

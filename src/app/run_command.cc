@@ -156,8 +156,9 @@ Command RunCommand() {
             "keep a sensor from the estimators now and then and report\n"
             "the errors over each outage, in place of the\n"
             "configuration's rules: position:every=120s,length=30s\n"
-            "with ,from=90s for the first outage's start (the first\n"
-            "fix + every); sensor is a stream or a type of streams;\n"
+            "with ,from=90s for the first outage's start, since the\n"
+            "stream's first fix (every after the first that the IMU\n"
+            "covers); sensor is a stream or a type of streams;\n"
             "several rules: separate by ; or repeat the flag"},
            {"without", "NAMES", "leave out these aiding streams of CONFIG"},
            {"constants", "RESULT",

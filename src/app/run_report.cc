@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "app/flags.h"
 #include "base/units.h"
+#include "dataset/bias_sigma.h"
 #include "earth/wgs84.h"
 #include "evaluation/grade.h"
 
@@ -39,6 +41,52 @@ std::string DescribeStart(const StartReport& start) {
   return text;
 }
 
+std::string CommentOnStart(const StartReport& start,
+                           const InitialState& given) {
+  const std::string text =
+      "The start as it was found; sigmas that `initial` does not give are the "
+      "program's own.\n" +
+      DescribeStart(start) +
+      fmt::format(
+          "  biases    sigma of gyros {} deg/s, of accelerometers {} "
+          "m/s^2\n",
+          Spread(GyroBiasSigma(given), 1.0 / kDegree),
+          Spread(AccelBiasSigma(given), 1.0));
+  std::string comment;
+  for (const std::string& line : Split(text, '\n')) {
+    if (!line.empty()) comment += "# " + line + "\n";
+  }
+  return comment;
+}
+
+namespace {
+
+/// "withheld: gnss: 3 outages, 60 measurements: 90 to 110 s, ...".
+std::string DescribeWithheld(const Dataset& dataset) {
+  constexpr int kMost = 5;
+  std::string text;
+  for (std::size_t i = 0; i < dataset.streams.size(); ++i) {
+    const AidingStream& stream = dataset.streams[i];
+    std::string spans;
+    int outages = 0;
+    for (const Outage& outage : dataset.outages) {
+      if (outage.sensor != static_cast<int>(i) || ++outages > kMost) continue;
+      spans += fmt::format("{}{:.1f} to {:.1f} s", spans.empty() ? "" : ", ",
+                           outage.t_begin, outage.t_end);
+    }
+    if (outages == 0) continue;
+    const auto withheld =
+        std::count_if(stream.measurements.begin(), stream.measurements.end(),
+                      [](const Measurement& z) { return z.withheld; });
+    text += fmt::format("withheld: {}: {} outage{}, {} measurements: {}{}\n",
+                        stream.sensor.name, outages, outages == 1 ? "" : "s",
+                        withheld, spans, outages > kMost ? ", ..." : "");
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string DescribeNotes(const Dataset& dataset) {
   std::string text;
   for (const PolicyCount& policy : dataset.policies) {
@@ -50,7 +98,7 @@ std::string DescribeNotes(const Dataset& dataset) {
   }
   const std::string warning = WithholdingWarning(dataset);
   if (!warning.empty()) text += "warning: " + warning + "\n";
-  return text;
+  return text + DescribeWithheld(dataset);
 }
 
 namespace {

@@ -15,8 +15,12 @@ namespace hindsight {
 /// How the initial state was found, with its standard deviations.
 std::string DescribeStart(const StartReport& start);
 
-/// What readers did under declared policies, and withholding rules that no
-/// outage came of, a line each.
+/// The same and the a priori sigmas of the biases, each line a comment of a
+/// configuration.
+std::string CommentOnStart(const StartReport& start, const InitialState& given);
+
+/// What readers did under declared policies, what is withheld when, and rules of
+/// withholding that no outage came of, a line each.
 std::string DescribeNotes(const Dataset& dataset);
 
 /// Warnings of states that the data do not determine, a line each.

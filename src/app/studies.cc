@@ -247,11 +247,23 @@ Study FreeRotationStudy() {
   return study;
 }
 
+/// That knows when the scenario's sensors are silent.
+Trial ScenarioTrial(const std::vector<std::string>& methods,
+                    const Scenario& scenario) {
+  NavigationTrial trial = {.methods = methods, .judged_every = 1.0};
+  for (const AidingModel& model : scenario.aiding) {
+    for (const TimeSpan& outage : model.outages) {
+      trial.silent_spans.push_back(
+          {model.sensor.name, outage.begin, outage.end});
+    }
+  }
+  return NavigationTrialOf(trial);
+}
+
 }  // namespace
 
 Study ScenarioStudy(const std::vector<std::string>& names_or_paths) {
-  const Trial trial =
-      NavigationTrialOf({.methods = AskedMethods(), .judged_every = 1.0});
+  const std::vector<std::string> methods = AskedMethods();
   const CaseList list = MakeCases({});
   std::vector<std::string> columns = {"scenario"};
   columns.insert(columns.end(), list.columns.begin(), list.columns.end());
@@ -264,8 +276,12 @@ Study ScenarioStudy(const std::vector<std::string>& names_or_paths) {
     }
     names.push_back(name);
     study.name += (study.name.empty() ? "" : ",") + name;
-    std::vector<Case> cases = CasesOf(file, list, trial);
-    for (Case& one : cases) one.labels.insert(one.labels.begin(), name);
+    std::vector<Case> cases = CasesOf(file, list, {});
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      cases[i].labels.insert(cases[i].labels.begin(), name);
+      cases[i].trial =
+          ScenarioTrial(methods, FindScenario(file, list.cases[i].changes));
+    }
     AddJobEach(cases, &study);
   }
   return study;

@@ -118,8 +118,8 @@ struct Withholding {
   std::string sensor;   ///< stream name, or a type: "position", "velocity"...
   double every = 0.0;   ///< start to start [s]
   double length = 0.0;  ///< [s]
-  /// First start, counted from the first fix the IMU covers [s]; default:
-  /// every.
+  /// First start, counted from the first fix of the stream [s]; default: every
+  /// after the first that the IMU covers.
   std::optional<double> from;
 };
 

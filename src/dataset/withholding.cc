@@ -28,7 +28,8 @@ void Withhold(const Withholding& withholding, const Dataset& dataset, int index,
   const auto time = [&](std::size_t i) { return measurements[i].t + offset; };
   const double first_fix = time(next);
   const double last_fix = time(last);
-  const double start = first_fix + withholding.from.value_or(withholding.every);
+  const double start = withholding.from ? time(0) + *withholding.from
+                                        : first_fix + withholding.every;
   constexpr double kMostOutages = 100000.0;
   const double count = (last_fix - start) / withholding.every;
   if (count > kMostOutages) {
@@ -41,6 +42,7 @@ void Withhold(const Withholding& withholding, const Dataset& dataset, int index,
     const Outage outage{index, start + k * withholding.every,
                         start + k * withholding.every + withholding.length};
     if (outage.t_end > last_fix) return;
+    if (outage.t_begin < first_fix) continue;
     while (next <= last && time(next) < outage.t_begin) ++next;
     for (; next <= last && time(next) < outage.t_end; ++next) {
       measurements.Edit(next, [](Measurement& z) { z.withheld = true; });

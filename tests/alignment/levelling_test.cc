@@ -64,6 +64,15 @@ TEST(Gyrocompass, SaysThatAWorseGyroDoesNotTellTheHeading) {
   EXPECT_GE(start.prior.P(8, 8), kUnknownHeadingSigma * kUnknownHeadingSigma);
 }
 
+TEST(Gyrocompass, SaysWhatToDoWhereTheGyrosAreTooNoisy) {
+  Scenario scenario = LevelAndStill(0.1 * kDegree, 1e-3 * kStandardGravity);
+  scenario.imu.noise.gyro_noise_density = 5.0 * kDegreePerSqrtHour;
+  const Start start = FindStart(Simulate(scenario, 1), 0.0, 120.0);
+  EXPECT_NE(start.report.why.find("too noisy to find north"), std::string::npos)
+      << start.report.why;
+  EXPECT_NE(start.report.why.find("give initial.attitude"), std::string::npos);
+}
+
 TEST(Alignment, TheMethodAskedForIsTakenOrSaysWhyNot) {
   Dataset dataset =
       Simulate(LevelAndStill(kNavigationGyro, kNavigationAccel), 1);

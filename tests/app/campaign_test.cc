@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -94,6 +95,13 @@ TEST_F(CampaignCommand, WorksThroughAListAndDoesNothingTwice) {
   ASSERT_EQ(CallAll("out").status, 0);
   ExpectClean("out");
   EXPECT_THAT(Table(), SizeIs(4));
+  // A minute of three positions and three velocities a second.
+  constexpr double kRows = 360.0;
+  for (const char* name : {"a", "b", "c"}) {
+    const nlohmann::json record =
+        nlohmann::json::parse(ReadFile(path("out/items") / name / "item.json"));
+    EXPECT_NEAR(record["nis"].get<double>(), 1.0, 4.0 * std::sqrt(2.0 / kRows));
+  }
   const auto log = [&](const std::string& name) {
     return fs::last_write_time(path("out/items") / name / "log.txt");
   };
@@ -212,6 +220,47 @@ TEST_F(CampaignCommand, LimitsHurtOneRow) {
       "cannot be written");
 }
 
+TEST_F(CampaignCommand, ARecordingWithoutConfigurationIsLookedAt) {
+  fs::remove(path("recordings/a/config.yaml"));
+  fs::remove(path("recordings/a/manifest.json"));
+  const std::vector<std::string> words = {"recordings/a", "--methods=ekf"};
+  ASSERT_EQ(Call(words).status, 0);
+  EXPECT_THAT(Table()[1],
+              AllOf(StartsWith("a,done,"),
+                    HasSubstr("," + path("recordings/a").string() + ",")));
+  EXPECT_EQ(Call({"--collect"}).status, 0);
+  // A file more in the folder is another recording.
+  WriteFile(path("recordings/a/notes.txt"), "fine weather\n");
+  EXPECT_THAT(Call({"--collect"}).out, HasSubstr("1 open"));
+  const Outcome inside = Call(words, "recordings/a/out");
+  EXPECT_EQ(inside.status, 2);
+  EXPECT_THAT(inside.err, HasSubstr("lies in the recording"));
+}
+
+TEST_F(CampaignCommand, ConstantsOfAnEarlierResultDecideTheKey) {
+  for (const char* name : {"first", "second"}) {
+    ASSERT_EQ(Hindsight({"simulate", "short_drive", "--duration=60",
+                         "--set=aiding.gnss.estimate={lever_arm: 1 m}",
+                         "--out=" + std::string(name), "--quiet"},
+                        folder_.path())
+                  .status,
+              0);
+  }
+  ASSERT_EQ(
+      Hindsight({"run", "first/config.yaml", "--methods=ekf", "--out=before"},
+                folder_.path())
+          .status,
+      0);
+  WriteFile(path("list.csv"), "config,methods,constants\nsecond,ekf,before\n");
+  ASSERT_EQ(Call({"list.csv"}).status, 0);
+  EXPECT_THAT(ReadFile(path("out/items/second/results/summary.json")),
+              HasSubstr("constants_from"));
+  EXPECT_EQ(Call({"--collect"}).status, 0);
+  WriteFile(path("before/summary.json"),
+            ReadFile(path("before/summary.json")) + "\n");
+  EXPECT_THAT(Call({"--collect"}).out, HasSubstr("1 open"));
+}
+
 TEST_F(CampaignCommand, InterruptedGoesOn) {
   Child child({"campaign", "recordings/*", "--methods=ekf,rts,batch",
                "--workers=1", "--out=out"},
@@ -237,11 +286,17 @@ TEST_F(CampaignCommand, WhatCannotBeAListIsRefused) {
       {{"recordings/a", "--dry-run"}, "goes with --engine=slurm"},
       {{"recordings/a", "--time-limit=0"}, "--time-limit"},
       {{"recordings/a", "--force"}, "unknown flag --force"},
-      {{"recordings/a", "recordings/a"}, "two items of the name"},
+      {{"recordings/a", "recordings/a"}, "config.yaml is listed twice"},
+      {{"names.csv"}, "two items of the name 'x' ("},
+      {{"semicolons.csv"}, "semicolons.csv:1: expected commas"},
+      {{"no_items.csv"}, "no_items.csv: expected a line with the names"},
       {{"columns.csv"}, "columns.csv:1: column 'methds' is no flag"},
       {{"empty.csv"}, "empty.csv:2: expected a configuration"}};
   WriteFile(path("columns.csv"), "config,methds\nrecordings/a,ekf\n");
   WriteFile(path("empty.csv"), "config,methods\n,ekf\n");
+  WriteFile(path("names.csv"), "config,name\nrecordings/a,x\nrecordings/b,x\n");
+  WriteFile(path("semicolons.csv"), "config;methods\nrecordings/a;ekf\n");
+  WriteFile(path("no_items.csv"), "config,methods\n");
   for (const auto& [words, expected] : cases) {
     const Outcome outcome = Call(words);
     EXPECT_EQ(outcome.status, 2) << expected;

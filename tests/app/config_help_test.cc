@@ -46,9 +46,8 @@ TEST(ConfigHelp, TheSchemaKnowsEveryKind) {
   }
   EXPECT_NE(std::find(kinds.begin(), kinds.end(), "heading"), kinds.end());
   EXPECT_GE(kinds.size(), 12u);
-  const auto& imu = schema["properties"]["imu"];
-  EXPECT_EQ(imu["properties"]["noise"]["required"],
-            (std::vector<std::string>{"gyro", "accel"}));
+  EXPECT_EQ(schema["properties"]["withhold"]["items"]["required"],
+            (std::vector<std::string>{"sensor", "every", "length"}));
 }
 
 }  // namespace

@@ -34,6 +34,31 @@ TEST_F(OtherCommands, CheckReportsAndChangesNothing) {
   EXPECT_THAT(Names(recording_.root()), ElementsAre("data"));
 }
 
+TEST_F(OtherCommands, CheckWritesTheNoiseThatItFinds) {
+  recording_.Replace("config.yaml", "  gnss:\n",
+                     "  gnss:\n    sigma_scale: 5  # as it may be\n");
+  const std::string before = ReadFile(recording_.file("config.yaml"));
+  EXPECT_EQ(
+      Hindsight({"check", "data/config.yaml", "--write"}, recording_.root())
+          .status,
+      2);
+  const std::vector<std::string> words = {"check", "data/config.yaml",
+                                          "--noise", "--write"};
+  const Outcome outcome = Hindsight(words, recording_.root());
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("wrote to data/config.yaml: "));
+  const std::string after = ReadFile(recording_.file("config.yaml"));
+  EXPECT_THAT(after, HasSubstr("    # check --noise: sigma_scale was 5, "));
+  EXPECT_THAT(after, HasSubstr("  # as it may be\n"));
+  const std::size_t at = after.find("    sigma_scale: ");
+  ASSERT_NE(at, after.npos);
+  // Fifty fixes of three components tell a sigma to 6 %.
+  EXPECT_NEAR(std::stod(after.substr(at + 17)), 1.0, 4.0 * 0.06);
+  EXPECT_EQ(Lines(after).size(), Lines(before).size() + 1);
+  const Outcome again = Hindsight(words, recording_.root());
+  EXPECT_THAT(again.out, HasSubstr("nothing to write"));
+}
+
 TEST_F(OtherCommands, CheckEndsWithThreeWhereTheImuFreezes) {
   const std::size_t first = recording_.FirstRow("imu.csv");
   recording_.Edit("imu.csv", [first](std::vector<std::string>* lines) {

@@ -481,5 +481,23 @@ TEST_F(RunCommandTest, SaysWhenTheTruthIsOnlyAsGoodAsTheConfiguration) {
   EXPECT_THAT(action(), HasSubstr("contain what they are off"));
 }
 
+TEST_F(RunCommandTest, TellsWhatIsWithheldAndTheStartWithItsSigmas) {
+  const Outcome outcome =
+      recording_.Run({"--out=out", "--methods=ekf",
+                      "--withhold=position:every=20s,length=5s,from=10s"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("withheld: gnss: 2 outages, 10 "
+                                     "measurements: 10.0 to 15.0 s, 30.0 to "
+                                     "35.0 s\n"));
+  const std::string resolved = ReadFile(Result("config.resolved.yaml"));
+  EXPECT_THAT(resolved, HasSubstr("\n# biases    sigma of gyros "));
+  EXPECT_THAT(resolved, HasSubstr("\n# velocity "));
+  EXPECT_EQ(Hindsight({"run", "out/config.resolved.yaml", "--out=again",
+                       "--methods=ekf"},
+                      recording_.root())
+                .status,
+            0);
+}
+
 }  // namespace
 }  // namespace hindsight

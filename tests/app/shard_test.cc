@@ -112,6 +112,32 @@ TEST_F(MonteCarloShards, AreAsTheFlagSays) {
   }
 }
 
+/// Against the same spans withheld: the same data reach the methods.
+TEST_F(MonteCarloShards, AScenariosOwnOutagesCountAsWithheldOnesDo) {
+  const auto outages = [&](const std::string& out,
+                           const std::vector<std::string>& sets) {
+    std::vector<std::string> words = {"montecarlo",    "short_drive",
+                                      "--runs=2",      "--seed=5",
+                                      "--methods=ekf", "--out=" + out};
+    for (const std::string& set : sets) words.push_back("--set=" + set);
+    const Outcome outcome = Call(words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return Lines(File(out + "/outages.csv"));
+  };
+  const auto silent = outages(
+      "silent", {"aiding.gnss.outages=[{from: 39.5 s, to: 59.5 s}, "
+                 "{from: 170 s, to: 190 s}]",
+                 "aiding.gnss_velocity.outages=[{from: 39.5 s, to: 59.5 s}]"});
+  const auto withheld = outages(
+      "withheld", {"withhold=[{sensor: position, every: 400 s, length: 20 s, "
+                   "from: 39.5 s}, {sensor: velocity, every: 400 s, "
+                   "length: 20 s, from: 39.5 s}]"});
+  // The one that the end of the recording cuts is none.
+  ASSERT_THAT(silent, SizeIs(2));
+  EXPECT_EQ(silent, withheld);
+  EXPECT_THAT(silent[1], HasSubstr("20 s,gnss+gnss_velocity,ekf"));
+}
+
 TEST_F(MonteCarloShards, SweepsAndOutagesHaveTheirRows) {
   const Outcome outcome = Call(ShardWords("mc"));
   ASSERT_EQ(outcome.status, 0) << outcome.err;

@@ -8,11 +8,13 @@
 
 #include "base/units.h"
 #include "measurements/sensor_kind.h"
+#include "support/walking_foot.h"
 
 namespace hindsight {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// 60 s at 100 Hz: at rest for the first 20 s, then shaken.
 Dataset Recording(const Eigen::Vector3d& rest_force) {
@@ -68,6 +70,30 @@ TEST(CheckDataset, FlagsOfStandingComeWhenTheyCome) {
                           }),
               !flag);
   }
+}
+
+TEST(CheckDataset, GravityTellsGyrosInAnotherUnit) {
+  const testing::Walk walk = {
+      .rate = 100.0, .force_noise = 0.005, .rate_noise = 0.02};
+  const testing::WalkRows rows = testing::Steps(walk, 1);
+  const auto warnings = [&](double factor) {
+    Dataset data = Recording({0, 0, -9.81});
+    data.imu.samples.clear();
+    for (std::size_t k = 0; k < rows.accel.size(); ++k) {
+      data.imu.samples.push_back({0.01 * static_cast<double>(k),
+                                  factor * rows.gyro[k],
+                                  kStandardGravity * rows.accel[k]});
+    }
+    std::string text;
+    for (const std::string& warning : CheckDataset(data).warnings) {
+      text += warning + "\n";
+    }
+    return text;
+  };
+  EXPECT_THAT(warnings(1.0), Not(HasSubstr("declared as")));
+  EXPECT_THAT(warnings(1.0 / kDegree),
+              HasSubstr("like deg/s, declared as rad/s; correct the unit"));
+  EXPECT_THAT(warnings(kDegree), HasSubstr("like rad/s, declared as deg/s"));
 }
 
 TEST(CheckDataset, MeasuresForceAtRest) {

@@ -72,6 +72,18 @@ TEST(Withholding, FixesBeforeTheImuDoNotCountAsFirst) {
   EXPECT_DOUBLE_EQ(data.outages[0].t_begin, 40.5);
 }
 
+TEST(Withholding, FromCountsFromTheStreamsFirstFix) {
+  Dataset data = Recording();
+  data.imu.samples.erase(data.imu.samples.begin(),
+                         data.imu.samples.begin() + 200);
+  data.withholdings.push_back({"gnss", 40.0, 10.0, 5.0});
+  ApplyWithholding(&data);
+  // That of 5.5 s lies before the IMU's record.
+  ASSERT_EQ(data.outages.size(), 2u);
+  EXPECT_DOUBLE_EQ(data.outages[0].t_begin, 45.5);
+  EXPECT_EQ(Withheld(data), 20);
+}
+
 TEST(Withholding, ApplyingAgainStartsAfresh) {
   Dataset data = Recording();
   data.withholdings.push_back({"gnss", 30.0, 10.0, {}});

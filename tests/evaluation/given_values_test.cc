@@ -9,6 +9,7 @@ namespace hindsight {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 using testing::TypicalLayout;
 using testing::TypicalState;
@@ -126,6 +127,36 @@ TEST_F(GivenValues, ConstantOfASensorIsNamedByItsKey) {
 TEST_F(GivenValues, OfAStartThatLiesElsewhereNothingIsKnown) {
   start_.x.t += 1.0;
   EXPECT_TRUE(Find(2, 30.0).empty());
+}
+
+/// Measured = (1 + scale) true: a scale below -1 counts backwards.
+TEST_F(GivenValues, ASpeedOfTheWrongSignIsSaidToBeOne) {
+  Solution solution;
+  solution.layout = TypicalLayout();
+  Block block;
+  block.key = {BlockKind::kScale, 0};
+  block.name = "wheel_scale";
+  block.unit = "1";
+  block.evolution = Evolution::Constant();
+  block.sigma0.setConstant(0.05);
+  solution.layout.Add(block);
+  start_.P = solution.layout.InitialCovariance();
+  start_.x.parameters =
+      ParameterVector::Zero(solution.layout.parameter_count());
+  const auto find = [&](double scale) {
+    State x = start_.x;
+    x.parameters.setConstant(scale);
+    solution.states = {x};
+    std::vector<Evidence> found;
+    FindStrainedValues({.solution = solution, .start = start_}, &found);
+    return found;
+  };
+  const auto backwards = find(-2.0);
+  ASSERT_EQ(backwards.size(), 1u);
+  EXPECT_THAT(backwards[0].what, StartsWith("wheel_scale is 40.0 sigma"));
+  EXPECT_THAT(backwards[0].causes.at(0), HasSubstr("wrong sign"));
+  EXPECT_THAT(backwards[0].remedies.at(0), HasSubstr("leading \"-\""));
+  EXPECT_THAT(find(-0.5).at(0).causes.at(0), Not(HasSubstr("wrong sign")));
 }
 
 }  // namespace

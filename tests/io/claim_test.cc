@@ -51,6 +51,14 @@ TEST(Claim, OfAnotherMachineIsDeadWhenItWasNotTouched) {
   EXPECT_TRUE(std::filesystem::exists(folder.Path("claim.5")));
 }
 
+TEST(Claim, OfATimeToComeIsThatOfAnOwnerBeforeTheClockWasSetBack) {
+  const TemporaryFolder folder;
+  Leave(folder.Path("claim.1"), "elsewhere\nkey\n", -(kStale - 30.0));
+  EXPECT_FALSE(Claim::Take(folder.Path(""), kStale));
+  Leave(folder.Path("claim.1"), "elsewhere\nkey\n", -(kStale + 30.0));
+  EXPECT_TRUE(Claim::Take(folder.Path(""), kStale));
+}
+
 TEST(Claim, OfAKilledProcessHereIsDeadAtOnce) {
   const TemporaryFolder folder;
   const pid_t owner = fork();

@@ -44,6 +44,20 @@ TEST_F(Clocks, SecondsOfWeekGoOverItsEnd) {
   EXPECT_NEAR(Time(data, 1), 1.5, 1e-9);
 }
 
+TEST_F(Clocks, DatesOfIso8601) {
+  const std::string epoch = "epoch: 2025-07-12 23:59:59 GPST\n";
+  const Dataset gps = LoadStamps({"2025-07-13T00:00:00.5"}, "GPST", "", epoch);
+  EXPECT_NEAR(Time(gps, 0), 1.5, 1e-9);
+  const Dataset utc =
+      LoadStamps({"2025-07-12T23:59:42.5Z", "2025-07-13T01:59:43.5+02:00"},
+                 "UTC", "", epoch);
+  EXPECT_NEAR(Time(utc, 0), 1.5, 1e-9);
+  EXPECT_NEAR(Time(utc, 1), 2.5, 1e-9);
+  EXPECT_THROW(LoadStamps({"2025-07-12"}, "UTC", "", epoch), InputError);
+  EXPECT_NE(LoadError().find("'2025-07-12' is not a time"), std::string::npos)
+      << LoadError();
+}
+
 TEST_F(Clocks, WeekNumbersThatStartedAgainFromZero) {
   const Dataset data =
       LoadStamps({"1.5"}, "s", ", time: {week: 327, week_rollovers: 2}",

@@ -83,6 +83,15 @@ TEST_F(ConfigTest, FoldersAreSoughtBelowADataRootOnlyIfThereIsOne) {
             1u);
 }
 
+TEST_F(ConfigTest, NoiseIsLikeThatOfAKnownDeviceWhereNothingElseIsSaid) {
+  Write("config.yaml", ReplacedOnce(kConfig, "    gyro: 0.2 deg/sqrt(h)\n",
+                                    "    like: MTi-300\n"));
+  const ImuNoise noise = Load().imu.noise;
+  EXPECT_NEAR(noise.gyro_noise_density, 0.01 * kDegree, 1e-12);
+  EXPECT_NEAR(noise.accel_noise_density, 70.0 * kMicroG, 1e-12);
+  EXPECT_NEAR(noise.gyro_bias_walk, 2e-5 * kDegree, 1e-12);
+}
+
 TEST_F(ConfigTest, MountingTurnsAfterAxes) {
   Write("config.yaml", ReplacedOnce(kConfig, "  noise:",
                                     "  mounting: [0, 0, 90 deg]\n  noise:"));
@@ -181,6 +190,10 @@ TEST_F(ConfigTest, BadConfigurationNamesLineAndReason) {
       {"gate:", "gat:", "config.yaml:12: ", "perhaps 'gate'"},
       {"    gate: 99.9 %", "    type: height", "config.yaml:12: ", "twice"},
       {"0.2 deg/sqrt(h)", "0.2", "config.yaml:5: imu.noise.gyro: ", "no unit"},
+      {"    gyro: 0.2 deg/sqrt(h)\n", "", "config.yaml:4: imu.noise.gyro: ",
+       "is missing; expected it, or `like` one of BMI270,"},
+      {"    gyro:", "    like: MTi\n    gyro:",
+       "config.yaml:5: imu.noise.like: ", "'MTi' is not known; expected"},
       {"0.2 deg/sqrt(h)", "0.2 deg/h", "config.yaml:5: ", "deg/sqrt(h)"},
       {"0.2 deg/sqrt(h)", "0 deg/sqrt(h)", "config.yaml:5: ", "greater"},
       {"0.2 deg/sqrt(h)", "-1 deg/sqrt(h)", "config.yaml:5: ", "greater"},

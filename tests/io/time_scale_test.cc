@@ -54,6 +54,29 @@ TEST(TimeScale, LeapSecondOfTheEndOf2016) {
   EXPECT_EQ(after->seconds - before->seconds, 2);
 }
 
+TEST(TimeScale, IsoTimesHaveZonesAndLeapSeconds) {
+  const auto noon = ParseDateTime("2025-07-08 12:00:00.25 UTC");
+  for (const char* text :
+       {"2025-07-08T12:00:00.25", "2025-07-08 12:00:00.25Z",
+        "2025-07-08T14:00:00.25+02:00", "2025-07-08T08:30:00.25-0330",
+        "2025-07-09T02:00:00.25+14"}) {
+    const auto stamp = ParseIsoTime(text, true);
+    ASSERT_TRUE(stamp) << text;
+    EXPECT_EQ(stamp->Since(*noon), 0.0) << text;
+  }
+  EXPECT_EQ(ParseIsoTime("2025-07-08T12:00:18.25", false)->Since(*noon), 0.0);
+  EXPECT_FALSE(ParseIsoTime("2025-07-08T12:00:18Z", false));
+  const auto inside = ParseIsoTime("2016-12-31T23:59:60Z", true);
+  const auto after = ParseIsoTime("2017-01-01T01:00:00+01:00", true);
+  ASSERT_TRUE(inside && after);
+  EXPECT_EQ(after->Since(*inside), 1.0);
+  for (const char* text : {"2025-07-08", "2025-07-08T", "2025-07-08T25:00:00",
+                           "2025-13-08T12:00:00", "2025-07-08T12:00:00+1:00",
+                           "2025-07-08T12:00:00+99:00", "12:00:00", "17"}) {
+    EXPECT_FALSE(ParseIsoTime(text, true)) << text;
+  }
+}
+
 TEST(TimeScale, UnixTimeGainsTheLeapSeconds) {
   const Stamp gps = GpsFromUnix({1483228800, 0.25});  // 2017-01-01 UTC
   const auto date = ParseDateTime("2017-01-01 00:00:00 UTC");

@@ -1,6 +1,9 @@
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "base/units.h"
+#include "imu/known_imus.h"
 #include "io/config/config_key.h"
 #include "io/config/config_streams.h"
 
@@ -28,7 +31,7 @@ void ReadBias(ConfigMap* noise, const std::string& sensor, Quantity walk_unit,
   const std::string sigma_key = sensor + "_bias_sigma";
   const std::string tau_key = sensor + "_bias_tau";
   if (!noise->Has(tau_key) && !noise->Has(sigma_key)) {
-    *walk = noise->Number(walk_key, walk_unit, 0.0);
+    *walk = noise->Number(walk_key, walk_unit, *walk);
     if (*walk < 0.0) noise->Fail(walk_key, "must not be negative");
     return;
   }
@@ -40,23 +43,47 @@ void ReadBias(ConfigMap* noise, const std::string& sensor, Quantity walk_unit,
   *walk = std::sqrt(2.0 / *tau) * sigma;
 }
 
+std::string NamesOfKnownImus() {
+  std::string names;
+  for (const KnownImu& imu : KnownImus()) {
+    names += (names.empty() ? "" : ", ") + std::string(imu.name);
+  }
+  return names;
+}
+
+/// Of a known device, which the other keys change.
+void ReadLike(ConfigMap* map, ImuNoise* noise) {
+  const auto name = map->OptionalText("like");
+  if (!name) return;
+  const KnownImu* imu = FindKnownImu(*name);
+  if (imu == nullptr) {
+    map->Fail("like",
+              "'" + *name + "' is not known; expected " + NamesOfKnownImus());
+  }
+  *noise = NoiseOf(*imu);
+}
+
 const ConfigTable<ImuNoise>& NoiseTable() {
   using Key = ConfigKey<ImuNoise>;
+  static const std::string kLike =
+      "white noise of its data sheet and usual walks; one of " +
+      NamesOfKnownImus();
   static const ConfigTable<ImuNoise> kTable = {
       "imu_noise",
-      "The map noise of the imu.",
-      {{.name = "gyro",
+      "The map noise of the imu. It needs gyro and accel, or like.",
+      {{.name = "like", .value = Key::Special{ReadLike}, .help = kLike},
+       {.name = "gyro",
         .quantity = Quantity::kGyroNoiseDensity,
         .value =
             Key::Number{&ImuNoise::gyro_noise_density, KeyRange::kPositive},
         .help = "white noise density",
-        .needed = true},
+        .fallback = "of like"},
        {.name = "accel",
         .quantity = Quantity::kAccelNoiseDensity,
         .value =
             Key::Number{&ImuNoise::accel_noise_density, KeyRange::kPositive},
         .help = "white noise density",
-        .needed = true},
+        .fallback = "of like"},
        {.name = "gyro_bias_walk",
         .value = Key::Special{[](ConfigMap* map, ImuNoise* noise) {
           ReadBias(map, "gyro", Quantity::kGyroBiasWalk, Quantity::kAngularRate,
@@ -280,6 +307,13 @@ ImuNoise ReadImuNoise(ConfigMap* imu) {
   ConfigMap map = imu->Map("noise");
   ImuNoise noise;
   ReadTable(NoiseTable(), &map, &noise);
+  for (const auto& [key, density] :
+       {std::pair("gyro", noise.gyro_noise_density),
+        std::pair("accel", noise.accel_noise_density)}) {
+    if (density > 0.0) continue;
+    map.Fail(key,
+             "is missing; expected it, or `like` one of " + NamesOfKnownImus());
+  }
   map.Finish();
   return noise;
 }

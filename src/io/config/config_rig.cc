@@ -174,8 +174,9 @@ const ConfigTable<Withholding>& WithholdTable() {
   using Key = ConfigKey<Withholding>;
   static const ConfigTable<Withholding> kTable = {
       "withhold",
-      "Outage k starts at first fix + from + k every and lasts length. The "
-      "first fix is the first that the IMU covers.",
+      "Outage k starts at first fix + from + k every and lasts length. Without "
+      "from it starts at first fix + (k + 1) every, of the first fix that the "
+      "IMU covers.",
       {{.name = "sensor",
         .value = Key::Text{&Withholding::sensor},
         .help = "name of a stream or kind of sensor",
@@ -193,8 +194,8 @@ const ConfigTable<Withholding>& WithholdTable() {
        {.name = "from",
         .quantity = Quantity::kTime,
         .value = Key::OptionalNumber{&Withholding::from},
-        .help = "of the first start behind the first fix",
-        .fallback = "every"}}};
+        .help = "of the first start behind the stream's first fix",
+        .fallback = "-"}}};
   return kTable;
 }
 

@@ -77,7 +77,10 @@ ColumnMapping ReadColumn(ConfigMap* columns, const std::string& name,
     if (!SetColumn(title, &mapping)) columns->Fail(name, TooManyColumns());
     mapping.unit = unit;
   }
-  if (name == "week") return mapping;
+  // Dates, whose unit is their scale.
+  const bool date =
+      name == "t" && (mapping.unit == "UTC" || mapping.unit == "GPST");
+  if (name == "week" || date) return mapping;
   if (mapping.unit.empty() && mapping.column >= 0) {
     columns->Fail(name, std::string("has no unit; expected COLUMN [UNIT] with "
                                     "one of ") +

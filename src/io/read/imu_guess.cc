@@ -271,15 +271,25 @@ void GuessGyroUnit(const Windows& forces, const Windows& windows,
       windows.peak, shaken);
 }
 
-/// Of counted rows: how long a row is, as gravity turns.
-std::optional<double> RateOf(const GravityTurn& turn,
-                             const std::string& gyro_unit) {
-  constexpr double kShown = 0.5;
-  const auto factor = UnitFactor(gyro_unit, Quantity::kAngularRate);
-  if (!factor || std::abs(turn.correlation) < kShown) return std::nullopt;
-  const double rate = *factor / std::abs(turn.slope);
-  if (rate < 10.0 || rate > 4000.0) return std::nullopt;
-  return rate;
+/// Of counted rows: their rate, and whether the gyros have the sign that it
+/// takes; who is thrown about shows no gravity, and its turn says nothing.
+void GuessRate(const Readings& accel, const Readings& gyro, double gravity,
+               ImuGuess* guess) {
+  const auto factor = UnitFactor(guess->gyro.unit, Quantity::kAngularRate);
+  if (!factor) return;
+  std::vector<Eigen::Vector3d> f;
+  std::vector<Eigen::Vector3d> w;
+  for (std::size_t k = 0; k < accel.rows(); ++k) {
+    f.emplace_back(accel.at(k) / gravity);
+    w.emplace_back(*factor * gyro.at(k));
+    if (!f.back().allFinite() || !w.back().allFinite()) return;
+  }
+  const auto as_read = FindRowRate(f, w);
+  for (Eigen::Vector3d& rate : w) rate = -rate;
+  const auto reversed = FindRowRate(f, w);
+  if (as_read && reversed) return;
+  guess->rate = as_read ? as_read : reversed;
+  if (as_read) guess->turn = {};
 }
 
 }  // namespace
@@ -313,7 +323,10 @@ std::optional<ImuGuess> GuessImu(const FileColumns& file,
   } else {
     GuessGyroUnit(forces, rates, guess.turn, row_seconds, &guess.gyro);
   }
-  if (row_seconds <= 0.0) guess.rate = RateOf(guess.turn, guess.gyro.unit);
+  if (row_seconds <= 0.0) {
+    GuessRate(Readings(file, guess.accel.columns),
+              Readings(file, guess.gyro.columns), forces.quiet_length, &guess);
+  }
   return guess;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dataset/row_rate.h"
 #include "io/read/column_meaning.h"
 #include "io/read/file_columns.h"
 #include "io/read/stamp_guess.h"
@@ -32,9 +33,7 @@ struct ImuGuess {
   TripleGuess accel;
   TripleGuess gyro;
   GravityTurn turn;
-  /// Rows a second at which gravity turns as the gyros say, of a file whose rows
-  /// are counted [Hz].
-  std::optional<double> rate;
+  std::optional<RowRate> rate;  ///< of a file whose rows are counted
 };
 
 /// Accelerometers are three columns whose length, where they are quiet, is that

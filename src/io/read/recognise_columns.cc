@@ -96,32 +96,35 @@ class Recogniser {
     all_.push_back(std::move(found));
   }
 
-  /// A rate that gravity tells, rounded to a usual one.
+  /// Of a rate that the motion tells the usual one, if it is as near as that is
+  /// certain.
   static StampGuess CountedImu(const ImuGuess& guess) {
     constexpr std::array kUsual = {20.0,  25.0,  30.0,  50.0,  60.0,  100.0,
                                    104.0, 120.0, 125.0, 200.0, 208.0, 250.0,
                                    256.0, 300.0, 400.0, 416.0, 500.0, 1000.0};
+    constexpr double kGyroScale = 0.03;  // of an uncalibrated gyro
     StampGuess stamps;
     stamps.certainty = Certainty::kGuess;
     if (!guess.rate) {
       stamps.rate = 100.0;
       stamps.reason =
-          "rows are counted, not stamped, and gravity turns too little to tell "
-          "their rate";
+          "rows are counted, not stamped, and the motion does not show their "
+          "rate";
     } else {
-      double nearest = kUsual[0];
-      for (const double rate : kUsual) {
-        if (std::abs(std::log(rate / *guess.rate)) <
-            std::abs(std::log(nearest / *guess.rate))) {
-          nearest = rate;
-        }
-      }
-      stamps.rate = nearest;
+      const double found = guess.rate->rate;
+      const auto distance = [&](double rate) {
+        return std::abs(std::log(rate / found));
+      };
+      const double nearest = *std::min_element(
+          kUsual.begin(), kUsual.end(),
+          [&](double a, double b) { return distance(a) < distance(b); });
+      const double sigma = std::hypot(guess.rate->log_sigma, kGyroScale);
+      stamps.rate = distance(nearest) < 2.0 * sigma ? nearest : found;
       stamps.certainty = Certainty::kLikely;
       stamps.reason = fmt::format(
-          "rows are counted, not stamped; gravity turns as the gyros say at "
-          "{:.3g} Hz",
-          *guess.rate);
+          "rows are counted, not stamped; between {} quiet spells gravity is "
+          "balanced at {:.1f} +- {:.1f} Hz",
+          guess.rate->spans, found, sigma * found);
     }
     stamps.step = 1.0 / *stamps.rate;
     return stamps;

@@ -87,7 +87,9 @@ OpenedTable OpenText(const std::string& path, const TextFormat& format,
   TableLayout layout = BuildLayout(path, format, fields, columns, header);
   layout.delimiter = delimiter;
   if (has_header) layout.column_count = static_cast<int>(header.titles.size());
-  opened.dated = layout.clock == TableLayout::Clock::kWeek;
+  opened.dated = layout.clock == TableLayout::Clock::kWeek ||
+                 layout.clock == TableLayout::Clock::kIso ||
+                 layout.clock == TableLayout::Clock::kIsoUtc;
   opened.table = std::make_unique<TextTable>(
       opened.lines.get(), std::move(layout), options, std::move(row));
   return opened;

@@ -98,13 +98,21 @@ class LayoutBuilder {
       layout_.time_column = column;
       return;
     }
+    time_column_ = column;
+    if (week_column_ < 0 && (unit == "UTC" || unit == "GPST")) {
+      layout_.clock = unit == "UTC" ? TableLayout::Clock::kIsoUtc
+                                    : TableLayout::Clock::kIso;
+      layout_.time_column = column;
+      return;
+    }
     ColumnMapping mapping;
     mapping.quantity = "t";
-    time_column_ = column;
     const double factor = Factor(mapping, unit, Quantity::kTime);
     if (factor > 1.0 || (week_column_ >= 0 && factor < 1.0)) {
       Fail("column t has the unit '" + unit + "'; expected " +
-           (week_column_ >= 0 ? "s" : "s, ms, us or ns"));
+           (week_column_ >= 0 ? "s"
+                              : "s, ms, us or ns, or UTC or GPST of dates as "
+                                "2025-07-08T19:34:21.854"));
     }
     if (week_column_ >= 0) return;
     layout_.clock = TableLayout::Clock::kSeconds;

@@ -92,6 +92,8 @@ int TimeColumns(TableLayout::Clock clock) {
     case TableLayout::Clock::kNone:
       return 0;
     case TableLayout::Clock::kSeconds:
+    case TableLayout::Clock::kIso:
+    case TableLayout::Clock::kIsoUtc:
       return 1;
     default:
       return 2;
@@ -265,6 +267,11 @@ bool TextTable::ParseTime(const std::vector<std::string_view>& time_tokens,
     case TableLayout::Clock::kDateUtc:
       stamp = ParseDate(time_tokens[0], time_tokens[1],
                         layout_.clock == TableLayout::Clock::kDateUtc);
+      break;
+    case TableLayout::Clock::kIso:
+    case TableLayout::Clock::kIsoUtc:
+      stamp = ParseIsoTime(time_tokens[0],
+                           layout_.clock == TableLayout::Clock::kIsoUtc);
       break;
   }
   if (!stamp) {

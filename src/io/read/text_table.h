@@ -29,6 +29,8 @@ struct TableLayout {
     kWeek,     ///< GPS week in time_column, seconds of week after it
     kDate,     ///< yyyy/mm/dd in time_column, hh:mm:ss.sss after it, GPST
     kDateUtc,  ///< the same in UTC
+    kIso,      ///< ISO 8601 in time_column, GPST
+    kIsoUtc,   ///< the same in UTC
   };
   Clock clock = Clock::kSeconds;
   int time_column = -1;

@@ -54,6 +54,23 @@ std::optional<std::int64_t> ParseDay(std::string_view date) {
   return UnixSeconds(*year, unsigned(*month), unsigned(*day));
 }
 
+/// East of Greenwich [s], of "Z", "+02:00", "-0330" or "+02".
+std::optional<std::int64_t> ParseZone(std::string_view zone) {
+  if (zone == "Z") return 0;
+  const bool is_colon = zone.size() == 6 && zone[3] == ':';
+  if (zone.size() != 3 && zone.size() != 5 && !is_colon) return std::nullopt;
+  const auto hours = ParseInteger(zone.substr(1, 2));
+  const auto minutes = zone.size() == 3
+                           ? std::optional<int>(0)
+                           : ParseInteger(zone.substr(zone.size() - 2));
+  if (!hours || !minutes || *hours < 0 || *hours > 14 || *minutes < 0 ||
+      *minutes > 59) {
+    return std::nullopt;
+  }
+  const std::int64_t seconds = *hours * 3600 + *minutes * 60;
+  return zone[0] == '-' ? -seconds : seconds;
+}
+
 std::optional<Stamp> ParseClock(std::string_view clock) {
   if (clock.size() < 8 || clock[2] != ':' || clock[5] != ':') {
     return std::nullopt;
@@ -145,6 +162,30 @@ std::optional<Stamp> ParseDate(std::string_view date, std::string_view clock,
   // At 23:59:60 the leap second itself is not counted yet.
   const int leap = utc ? LeapSeconds(*day) : 0;
   return Stamp{*day + time->seconds - kGpsEpochUnix + leap, time->fraction};
+}
+
+std::optional<Stamp> ParseIsoTime(std::string_view text, bool utc) {
+  constexpr std::size_t kDate = 10;
+  text = Trim(text);
+  if (text.size() <= kDate || (text[kDate] != 'T' && text[kDate] != ' ')) {
+    return std::nullopt;
+  }
+  const std::size_t zone_at = text.find_first_of("Z+-", kDate + 1);
+  std::int64_t offset = 0;
+  if (zone_at != text.npos) {
+    const auto zone = ParseZone(text.substr(zone_at));
+    if (!utc || !zone) return std::nullopt;
+    offset = *zone;
+  }
+  const auto day = ParseDay(text.substr(0, kDate));
+  const auto time = ParseClock(text.substr(
+      kDate + 1, zone_at == text.npos ? zone_at : zone_at - kDate - 1));
+  if (!day || !time) return std::nullopt;
+  const std::int64_t unix_time = *day + time->seconds - offset;
+  // At 23:59:60 the leap second itself is not counted yet.
+  const bool is_leap = text.substr(kDate + 7, 2) == "60";
+  const int leap = utc ? LeapSeconds(unix_time - (is_leap ? 1 : 0)) : 0;
+  return Stamp{unix_time - kGpsEpochUnix + leap, time->fraction};
 }
 
 std::optional<Stamp> ParseDateTime(std::string_view text) {

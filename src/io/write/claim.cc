@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 #include <utility>
@@ -87,7 +88,8 @@ bool IsDead(const fs::path& folder, long number, double stale_after,
   }
   struct stat status = {};
   if (fstat(file.get(), &status) != 0) return false;
-  return FileServerTime(folder) - SecondsOf(status) > stale_after;
+  // A time to come is that of an owner who died before the clock was set back.
+  return std::abs(FileServerTime(folder) - SecondsOf(status)) > stale_after;
 }
 
 }  // namespace

@@ -210,8 +210,8 @@ void PutTruthFigures(const TrajectoryStatistics& statistics,
 ///       attitude_inside_3_sigma_percent  points within the ellipsoid that holds
 ///                               99.73 %
 ///     residuals.<sensor>        count, rejected, withheld, normalized_rms;
-///                               unit and components[], where they are the
-///                               same for every measurement
+///                               unit and components[] where all have the same;
+///                               supposed: true of constraints and rests
 ///     constants.<name>          value, sigma, unit, prior_value, prior_sigma,
 ///                               verdict ("observed", "weak", "unobserved"),
 ///                               advice

@@ -129,6 +129,9 @@ Json ResidualsJson(const std::vector<ResidualStatistics>& residuals) {
     PutWords(&entry, "components",
              {s.kind->components.begin(), s.kind->components.end()});
     Put(&entry, "normalized_rms", s.normalized_rms);
+    if (s.kind->standing || s.kind->generated || !s.kind->configured) {
+      entry["supposed"] = true;
+    }
   }
   return json;
 }

@@ -1,0 +1,35 @@
+#include "imu/known_imus.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace hindsight {
+namespace {
+
+TEST(KnownImus, AreInSiUnits) {
+  const ImuNoise mti = NoiseOf(*FindKnownImu("MTi-300"));
+  EXPECT_NEAR(mti.gyro_noise_density, 1.7453e-4, 1e-8);
+  EXPECT_NEAR(mti.accel_noise_density, 5.884e-4, 1e-7);
+  EXPECT_NEAR(mti.gyro_bias_walk, 2e-3 * 1.7453e-4, 1e-10);
+  // 0.15 deg/sqrt(h) and 0.06 m/s/sqrt(h).
+  const ImuNoise stim = NoiseOf(*FindKnownImu("STIM300"));
+  EXPECT_NEAR(stim.gyro_noise_density, 4.3633e-5, 1e-9);
+  EXPECT_NEAR(stim.accel_noise_density, 1e-3, 1e-9);
+  EXPECT_EQ(FindKnownImu("mti-300"), nullptr);
+}
+
+TEST(KnownImus, NameTheirSources) {
+  std::set<std::string_view> names;
+  for (const KnownImu& imu : KnownImus()) {
+    EXPECT_TRUE(names.insert(imu.name).second) << imu.name;
+    EXPECT_NE(imu.source.find("https://"), std::string_view::npos) << imu.name;
+    EXPECT_GT(imu.gyro_noise_density, 1e-6) << imu.name;
+    EXPECT_LT(imu.gyro_noise_density, 1e-3) << imu.name;
+    EXPECT_GT(imu.accel_noise_density, 1e-5) << imu.name;
+    EXPECT_LT(imu.accel_noise_density, 1e-2) << imu.name;
+  }
+}
+
+}  // namespace
+}  // namespace hindsight
