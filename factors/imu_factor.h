@@ -36,7 +36,7 @@ class ImuFactor : public TangentFactor {
                          const std::vector<State>& states,
                          Eigen::Map<Eigen::VectorXd> residual,
                          Jacobian* J) const;
-  /// What the rate of a step adds.
+  /// Adds to the residual and its Jacobians what the rate of a step does.
   void LinearizeRate(const StateBlocks::Entry& entry, const BlockStep& step,
                      const std::vector<State>& states,
                      Eigen::Map<Eigen::VectorXd> residual, Jacobian* J) const;

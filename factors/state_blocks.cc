@@ -41,7 +41,7 @@ StateBlocks::StateBlocks(const ErrorLayout& layout) : layout_(layout) {
     }
     Entry entry;
     entry.block = block;
-    entry.global = block.evolution.kind == Evolution::Kind::kConstant;
+    entry.global = block.evolution.is_constant();
     if (entry.global) {
       entry.ambient = static_cast<int>(globals_.size());
       entry.tangent = global_dim_;

@@ -17,7 +17,7 @@ namespace hindsight {
 class Estimation {
  public:
   virtual ~Estimation() = default;
-  /// By a method of this kind.
+  /// Runs a method that takes this kind of estimation.
   virtual Solution Run(const Method& method) = 0;
   /// nullptr where there is nothing to tell.
   virtual const StartReport* start() const = 0;

@@ -144,7 +144,7 @@ Words WordsOfVarying(const MeanShift& shift, const DeviationColumns& own,
   return {fmt::format("errors of {} [{}] last longer than the time between "
                       "its measurements",
                       sensor.name, RowName(sensor, axis)),
-          "noise_model: gauss_markov of " + sensor.name};
+          "noise: {model: gauss_markov, ...} of " + sensor.name};
 }
 
 }  // namespace hindsight

@@ -19,7 +19,7 @@ struct Words {
 Words WordsOfShift(const MeanShift& shift, const DeviationColumns& own,
                    const Problem& problem);
 
-/// Of an additive error that comes and goes.
+/// Says which additive error comes and goes.
 Words WordsOfVarying(const MeanShift& shift, const DeviationColumns& own,
                      const Problem& problem);
 

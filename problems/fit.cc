@@ -51,7 +51,7 @@ std::vector<ConstantExcess> ConstantsOf(const LinearTape& tape) {
   const ErrorLayout& layout = tape.layout();
   std::vector<int> components;
   for (const Block& block : layout.blocks()) {
-    if (block.evolution.kind != Evolution::Kind::kConstant) continue;
+    if (!block.evolution.is_constant()) continue;
     for (int i = 0; i < block.dim; ++i) components.push_back(block.offset + i);
   }
   const std::vector<double> factors =

@@ -1,5 +1,8 @@
 #include "problems/method.h"
 
+#include <stdexcept>
+#include <string_view>
+
 #include "base/error.h"
 #include "evaluation/grade.h"
 
@@ -23,37 +26,49 @@ extern const Method kAhrsMethod;
 
 namespace {
 
-constexpr const Method* kMethods[] = {
-    &kBatchMethod,
-    &kIteratedMethod,
-    &kRobustBatchMethod,
-    &kRtsMethod,
-    &kTwoFilterMethod,
-    &kTwoFilterConventionalMethod,
-    &kTwoFilterEulerMethod,
-    &kImmSmootherMethod,
-    &kEkfMethod,
-    &kGatedEkfMethod,
-    &kImmMethod,
-    &kHinfMethod,
-    &kModifiedHinfMethod,
-    &kAhrsSmootherMethod,
-    &kAhrsMethod,
-};
+std::vector<const Method*>& TheTable() {
+  static std::vector<const Method*> table = {
+      &kBatchMethod,
+      &kIteratedMethod,
+      &kRobustBatchMethod,
+      &kRtsMethod,
+      &kTwoFilterMethod,
+      &kTwoFilterConventionalMethod,
+      &kTwoFilterEulerMethod,
+      &kImmSmootherMethod,
+      &kEkfMethod,
+      &kGatedEkfMethod,
+      &kImmMethod,
+      &kHinfMethod,
+      &kModifiedHinfMethod,
+      &kAhrsSmootherMethod,
+      &kAhrsMethod,
+  };
+  return table;
+}
 
 }  // namespace
 
-std::span<const Method* const> Methods() { return kMethods; }
+std::span<const Method* const> Methods() { return TheTable(); }
+
+void AddMethod(const Method& method) {
+  for (const Method* known : Methods()) {
+    if (std::string_view(known->name) != method.name) continue;
+    throw std::invalid_argument("there is a method named " +
+                                std::string(method.name));
+  }
+  TheTable().push_back(&method);
+}
 
 const Solution& Best(const std::vector<Solution>& solutions) {
   std::vector<const char*> preference;
-  for (const Method* method : kMethods) preference.push_back(method->name);
+  for (const Method* method : Methods()) preference.push_back(method->name);
   return solutions.at(static_cast<std::size_t>(BestOf(solutions, preference)));
 }
 
 std::string MethodNames(bool attitude_alone) {
   std::string names;
-  for (const Method* method : kMethods) {
+  for (const Method* method : Methods()) {
     if (method->attitude_alone() != attitude_alone) continue;
     names += (names.empty() ? "" : ", ") + std::string(method->name);
   }
@@ -63,7 +78,7 @@ std::string MethodNames(bool attitude_alone) {
 std::string MethodHelp(bool attitude_alone) {
   constexpr std::size_t kColumn = 17;
   std::string text;
-  for (const Method* method : kMethods) {
+  for (const Method* method : Methods()) {
     if (method->attitude_alone() != attitude_alone) continue;
     std::string line = "  " + std::string(method->name);
     if (line.size() + 1 > kColumn) {
@@ -81,7 +96,7 @@ std::string MethodHelp(bool attitude_alone) {
 }
 
 const Method& MethodOf(const std::string& name) {
-  for (const Method* method : kMethods) {
+  for (const Method* method : Methods()) {
     if (name == method->name) return *method;
   }
   throw InputError("unknown method '" + name + "'; known are " +

@@ -71,6 +71,10 @@ struct Method {
 /// alone after all others.
 std::span<const Method* const> Methods();
 
+/// Adds a method that a program brings, behind all others; it must outlive the
+/// use of the table. Throws std::invalid_argument if the name is taken.
+void AddMethod(const Method& method);
+
 /// The best of several solutions of one recording, of which there must be one
 /// (BestOf, with the methods' order of preference).
 const Solution& Best(const std::vector<Solution>& solutions);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "imu/imu_noise.h"
 #include "measurements/sensor_kind.h"
 #include "problems/clock_choice.h"
 #include "problems/forward_stage.h"
@@ -30,8 +31,10 @@ NoiseLikelihood::NoiseLikelihood(const Dataset& dataset)
     if (stream.sensor.kind->is_prior) continue;
     AddStream(static_cast<int>(i), &stream);
   }
-  Add("imu.gyro", &dataset_.imu.noise.gyro_noise_density);
-  Add("imu.accel", &dataset_.imu.noise.accel_noise_density);
+  for (const ImuNoiseValue& value : ImuNoiseValues()) {
+    if (!value.searched) continue;
+    Add("imu." + std::string(value.name), &(dataset_.imu.noise.*value.at));
+  }
   applied_.assign(values_.size(), 0.0);
   start_ = FindStart(dataset_, -std::numeric_limits<double>::infinity(),
                      std::numeric_limits<double>::infinity());
@@ -96,45 +99,36 @@ void NoiseLikelihood::Add(const std::string& name, double* value) {
   values_.push_back({name, [value](double factor) { *value *= factor; }});
 }
 
-void NoiseLikelihood::AddProcess(const std::string& name, int sensor,
-                                 double* sigma, double* tau) {
-  processes_.push_back({sensor, sigma, tau});
-  Add(name, sigma);
-  Add(name + "_tau", tau);
-}
-
 void NoiseLikelihood::AddStream(int index, AidingStream* stream) {
   Sensor& sensor = stream->sensor;
-  NoiseModel& noise = sensor.noise;
-  if (noise.kind == NoiseModel::Kind::kGaussMarkov) {
-    Add(sensor.name + ".white", &noise.white_sigma);
-    AddProcess(sensor.name + ".gauss_markov", index, &noise.sigma, &noise.tau);
-    return;
+  if (!sensor.noise.correlated()) {
+    values_.push_back({sensor.name, [stream](double factor) {
+                         for (Measurement& z : stream->measurements.Edited()) {
+                           ScaleSigma(factor, &z);
+                         }
+                       }});
   }
-  values_.push_back({sensor.name, [stream](double factor) {
-                       for (Measurement& z : stream->measurements.Edited()) {
-                         ScaleSigma(factor, &z);
-                       }
-                     }});
-  MagneticSurroundings& magnetic = sensor.magnetic;
-  if (!magnetic.disturbance_sigma) return;
-  AddProcess(sensor.name + ".disturbance", index, &*magnetic.disturbance_sigma,
-             &magnetic.disturbance_tau);
+  for (const SensorBlock& block : sensor.kind->blocks) {
+    if (block.searched == nullptr || !block.sigma(sensor, nullptr)) continue;
+    for (const NoiseValue& value : block.searched(sensor)) {
+      Add(sensor.name + "." + std::string(value.name), value.at(sensor));
+    }
+    errors_.push_back({index, &block});
+  }
 }
 
 ErrorLayout NoiseLikelihood::PresentLayout(Prior* prior) const {
   ErrorLayout layout;
   for (Block block : start_.layout.blocks()) {
-    for (const Process& process : processes_) {
-      if (block.key.sensor != process.sensor ||
-          block.evolution.kind != Evolution::Kind::kGaussMarkov) {
-        continue;
-      }
-      block.evolution = Evolution::GaussMarkov(*process.sigma, *process.tau);
-      block.sigma0.setConstant(*process.sigma);
+    for (const CorrelatedError& error : errors_) {
+      if (block.key != BlockKey{error.block->kind, error.sensor}) continue;
+      const Sensor& sensor =
+          dataset_.streams[static_cast<std::size_t>(error.sensor)].sensor;
+      block.evolution = error.block->evolution(sensor);
+      block.sigma0 = *error.block->sigma(sensor, nullptr);
       prior->P.diagonal()
           .segment(block.offset, block.dim)
-          .setConstant(*process.sigma * *process.sigma);
+          .setConstant(block.sigma0.x() * block.sigma0.x());
     }
     layout.Add(block);
   }

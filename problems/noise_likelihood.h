@@ -7,6 +7,7 @@
 
 #include "alignment/start.h"
 #include "dataset/dataset.h"
+#include "measurements/sensor_block.h"
 
 namespace hindsight {
 
@@ -39,25 +40,23 @@ class NoiseLikelihood {
     std::string name;
     std::function<void(double factor)> multiply;
   };
-  /// A Gauss-Markov error of a sensor: a block of the layout.
-  struct Process {
+  /// An error of a sensor that is correlated in time: a block of the layout.
+  struct CorrelatedError {
     int sensor;
-    const double* sigma;
-    const double* tau;
+    const SensorBlock* block;
   };
 
   void Apply(const std::vector<double>& logs);
   void Add(const std::string& name, double* value);
-  void AddProcess(const std::string& name, int sensor, double* sigma,
-                  double* tau);
   void AddStream(int index, AidingStream* stream);
-  /// The layout with the processes as they are now, and the prior to it.
+  /// The layout with the correlated errors as they are now, and the prior to
+  /// it.
   ErrorLayout PresentLayout(Prior* prior) const;
 
   Dataset dataset_;
   Start start_;
   std::vector<Value> values_;
-  std::vector<Process> processes_;
+  std::vector<CorrelatedError> errors_;
   std::vector<double> applied_;
   std::vector<double> offsets_;  // of the nodes, by sensor
   TimeOffsetRates rates_;        // empty: no time offset is estimated

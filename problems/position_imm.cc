@@ -1,6 +1,7 @@
 #include "problems/position_imm.h"
 
 #include "base/error.h"
+#include "measurements/noise_kind.h"
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {
@@ -83,7 +84,7 @@ ImmResult RunPositionImm(const Dataset& dataset, const Start& start,
   // The coloured states stand in place of the white R, not beside it.
   const auto receiver = static_cast<std::size_t>(imm.sensors.front());
   Sensor sensor = timeline->sensors()[receiver];
-  sensor.noise.kind = NoiseModel::Kind::kGaussMarkov;
+  sensor.noise.kind = &GaussMarkovNoise();
   sensor.noise.white_sigma = 0.0;
   timeline->SetSensor(receiver, sensor);
   return RunImm(PositionImmModels(dataset, start, options), imm, timeline);

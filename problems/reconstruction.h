@@ -44,7 +44,7 @@ struct ReconstructionOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Those for methods of attitude alone.
+/// The options of methods of attitude alone.
 inline ReconstructionOptions AttitudeAlone() {
   ReconstructionOptions options;
   options.attitude_alone = true;

@@ -29,7 +29,7 @@ struct AlignmentTrialOptions {
 /// the share of those epochs at which the average over the runs is outside of
 /// the bounds.
 Trial AlignmentTrial(const AlignmentTrialOptions& trial);
-/// Of cases with these label columns.
+/// The figures of cases that are told apart by these label columns.
 StudyTable AlignmentTable(std::vector<std::string> labels);
 
 }  // namespace hindsight

@@ -18,7 +18,7 @@ namespace hindsight {
 /// filters have forgotten the start. The same against time by axis, and the
 /// mean probabilities of the modes of the paper's filters.
 Trial JumpTrial();
-/// Of cases with these label columns.
+/// The figures of cases that are told apart by these label columns.
 StudyTable JumpTable(std::vector<std::string> labels);
 
 }  // namespace hindsight

@@ -53,7 +53,7 @@ RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
 /// extremes of the eigenvalues of P.
 Trial ObserverTrial(const std::vector<ObserverModel>& models,
                     const ObserverLimits& limits);
-/// Of cases with these label columns.
+/// The figures of cases that are told apart by these label columns.
 StudyTable ObserverTable(std::vector<std::string> labels);
 
 }  // namespace hindsight

@@ -29,15 +29,8 @@ namespace {
 /// measured: its stationary variance, or a larger a priori one. 0: the block
 /// does not forget.
 double StandingVariance(const Block& block) {
-  const Evolution& evolution = block.evolution;
-  double stationary = 0.0;
-  if (evolution.kind == Evolution::Kind::kGaussMarkov) {
-    stationary = 0.5 * evolution.density * evolution.density * evolution.tau;
-  } else if (evolution.kind == Evolution::Kind::kSpatialGaussMarkov) {
-    stationary = evolution.density * evolution.density;
-  } else {
-    return 0.0;
-  }
+  const double stationary = block.evolution.StationaryVariance();
+  if (stationary <= 0.0) return 0.0;
   return std::max(stationary, block.sigma0.cwiseAbs2().maxCoeff());
 }
 

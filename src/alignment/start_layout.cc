@@ -84,7 +84,7 @@ std::vector<int> KnownOf(const KnownConstants& known,
   std::vector<int> indices(static_cast<std::size_t>(layout.dim()), -1);
   const ErrorMatrix P = layout.InitialCovariance();
   for (const Block& block : layout.blocks()) {
-    if (block.evolution.kind != Evolution::Kind::kConstant) continue;
+    if (!block.evolution.is_constant()) continue;
     for (int i = block.offset; i < block.offset + block.dim; ++i) {
       const int at = known.Find(layout.ComponentName(i));
       constexpr double kRounding = 1e-9;

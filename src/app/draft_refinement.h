@@ -26,10 +26,6 @@ std::vector<RecordingDraft> DraftFolder(const std::string& folder);
 /// IMU is or how it moves.
 bool IsAttitudeAlone(const RecordingDraft& draft);
 
-/// Writes a draft's text to a file, whole or not at all; --force replaces what
-/// 'init' wrote. Throws as AtomicFile does.
-void WriteDraft(const std::string& path, const std::string& text);
-
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_APP_DRAFT_REFINEMENT_H_

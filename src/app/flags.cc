@@ -7,7 +7,7 @@
 
 #include "app/list_flags.h"
 #include "base/error.h"
-#include "io/config/config_map.h"
+#include "base/nearest_word.h"
 
 DEFINE_double(alpha, 0.03, "");
 DEFINE_string(alpha_blocks, "velocity_attitude", "");

@@ -3,6 +3,7 @@
 
 #include "app/abandoned.h"
 #include "app/command.h"
+#include "app/draft_file.h"
 #include "app/draft_refinement.h"
 #include "app/file_place.h"
 #include "app/flags.h"

@@ -77,6 +77,16 @@ int HelpOnConfig(const std::vector<std::string>& words) {
   return kUsable;
 }
 
+/// `hindsight help formats [--markdown]`.
+int HelpOnFormats(const std::vector<std::string>& words) {
+  const bool markdown = words.size() == 2 && words[1] == "--markdown";
+  if (words.size() > 1 && !markdown) {
+    throw UsageError("help formats: expected nothing more, or --markdown");
+  }
+  std::cout << (markdown ? FormatMarkdown() : FormatHelp());
+  return kUsable;
+}
+
 int Dispatch(const char* program, std::vector<std::string> words) {
   const std::vector<Command> commands = {
       CheckCommand(),    RunCommand(),      EvaluateCommand(),
@@ -87,6 +97,7 @@ int Dispatch(const char* program, std::vector<std::string> words) {
   if (!words.empty() && words[0] == "help") {
     words.erase(words.begin());
     if (!words.empty() && words[0] == "config") return HelpOnConfig(words);
+    if (!words.empty() && words[0] == "formats") return HelpOnFormats(words);
     if (!words.empty()) words = {words[0], "--help"};
   }
   if (words.empty() || words[0] == "--help" || words[0] == "-h") {

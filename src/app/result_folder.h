@@ -61,7 +61,7 @@ class ResultFolder {
   /// Writes `text` as the file `name` and puts the results in place. Throws
   /// OutputError telling where they are if that is not the folder asked for.
   void Commit(const std::string& name, const std::string& text);
-  /// The same without a further file.
+  /// Puts the results in place without a further file; throws as above.
   void Commit();
 
   /// Ends without Commit(); what stays, in words, "" after Commit().
@@ -72,7 +72,7 @@ class ResultFolder {
   std::string Explain(const std::exception& error) const;
 
  private:
-  /// What an early end leaves.
+  /// What stays in the folder if the run ends early.
   struct Kept {
     OutputFile file;  ///< says that it is not all
     std::vector<std::string> files;

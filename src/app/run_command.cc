@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "app/command.h"
+#include "app/draft_file.h"
 #include "app/draft_refinement.h"
 #include "app/file_place.h"
 #include "app/flags.h"

@@ -28,7 +28,7 @@ LoadOptions LoadOptionsOf(const RunRequest& request);
 /// All files that the run reads, and those of streams that it leaves out.
 ResultFolder::Paths InputsOf(const RunRequest& request);
 
-/// Those that it reads.
+/// The files that the run reads, without those of streams left out.
 ResultFolder::Paths FilesReadBy(const RunRequest& request);
 
 /// Of the file beside METHOD.csv that holds MethodTables::truth.

@@ -74,7 +74,7 @@ void AttitudeFilter::Turn(double dt, const Eigen::Vector3d& w0,
   turned_.q_attitude += summary.variance;
   turned_.dt += dt;
   ++turned_.samples;
-  if (bias_evolution_.kind == Evolution::Kind::kGaussMarkov) {
+  if (bias_evolution_.StationaryVariance() > 0.0) {
     const double phi = bias_evolution_.Phi(dt);
     turned_.phi *= phi;
     b_g_ *= phi;

@@ -72,7 +72,7 @@ struct WordsOf<T> {
   }
 };
 
-/// Of an object that outlives the words.
+/// The address of an object, which must outlive the words.
 template <class T>
 struct WordsOf<const T*> {
   static constexpr std::size_t kCount = 1;

@@ -6,142 +6,19 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <tuple>
 #include <utility>
-#include <variant>
 
 #include "base/median.h"
+#include "dataset/held_readings.h"
 #include "dataset/resolution.h"
-#include "earth/wgs84.h"
 
 namespace hindsight {
 namespace {
 
 constexpr double kChance = 1e-6;
-constexpr double kRounding = 1e-6;       // of a coordinate [m, m/s or uT]
-constexpr double kEarthRadius = 6.37e6;  // [m], for lengths of degrees
+constexpr double kRounding = 1e-6;  // of a coordinate [m, m/s or uT]
 constexpr double kDoubtfulShare = 1.0 / 2.0;
 constexpr double kUnusableShare = 8.0 / 9.0;
-
-/// What a row reads.
-struct RowReading {
-  Eigen::Vector4d row = Eigen::Vector4d::Zero();  ///< all of it
-  /// The part of one unit, to tell how far two readings are apart: metres
-  /// north, east and up; metres a second; microtesla.
-  Eigen::Vector4d value = Eigen::Vector4d::Zero();
-  /// Of a position, north, east and up [m].
-  std::optional<Eigen::Vector3d> position_sigma = std::nullopt;
-
-  template <class Self>
-  static auto Fields(Self& reading) {
-    return std::tie(reading.row, reading.value, reading.position_sigma);
-  }
-};
-
-/// The readings of a stream in time order. At rest those of speed are zero and
-/// repeat by right.
-class StreamReader {
- public:
-  static bool IsSpeed(const Measurement& z) {
-    return std::holds_alternative<VelocityFix>(z.model) ||
-           std::holds_alternative<Odometer>(z.model) ||
-           std::holds_alternative<SpeedCourse>(z.model) ||
-           std::holds_alternative<Dvl>(z.model);
-  }
-
-  /// Nothing of a measurement that is no reading.
-  std::optional<RowReading> Read(const Measurement& z) {
-    return std::visit([this](const auto& model) { return Of(model); }, z.model);
-  }
-
- private:
-  static RowReading Plain(double a, double b = 0.0, double c = 0.0,
-                          double d = 0.0) {
-    const Eigen::Vector4d value(a, b, c, d);
-    return {.row = value, .value = value};
-  }
-  static RowReading Plain(const Eigen::Vector3d& v) {
-    return Plain(v.x(), v.y(), v.z());
-  }
-
-  std::optional<RowReading> Of(const PositionFix& z) {
-    const Geodetic place = GeodeticFromEcef(z.p_e);
-    if (!cosine_) cosine_ = std::cos(place.latitude);
-    RowReading reading =
-        Plain(kEarthRadius * place.latitude,
-              kEarthRadius * *cosine_ * place.longitude, place.height);
-    reading.position_sigma = z.R_n.diagonal().cwiseSqrt();
-    return reading;
-  }
-  std::optional<RowReading> Of(const VelocityFix& z) { return Plain(z.v_n); }
-  std::optional<RowReading> Of(const HeightFix& z) { return Plain(z.height); }
-  std::optional<RowReading> Of(const MagneticField& z) {
-    return Plain(z.field_b);
-  }
-  std::optional<RowReading> Of(const Odometer& z) {
-    if (z.form == Odometer::Form::kNonHolonomic) return std::nullopt;
-    return z.form == Odometer::Form::kIncrements ? Plain(z.distance)
-                                                 : Plain(z.speed);
-  }
-  std::optional<RowReading> Of(const Dvl& z) {
-    RowReading reading;
-    for (int i = 0; i < z.components(); ++i) {
-      if (z.valid[static_cast<std::size_t>(i)]) reading.row(i) = z.speed(i);
-    }
-    reading.value = reading.row;
-    return reading;
-  }
-  std::optional<RowReading> Of(const SpeedCourse& z) {
-    RowReading reading = Plain(z.speed);
-    if (z.has_course) reading.row(1) = z.course;
-    return reading;
-  }
-  std::optional<RowReading> Of(const AcousticFix& z) {
-    if (!z.has_range) return std::nullopt;
-    RowReading reading = Plain(z.range);
-    reading.row.tail<2>() << z.azimuth, z.depression;
-    return reading;
-  }
-  template <typename Model>
-  std::optional<RowReading> Of(const Model&) {
-    return std::nullopt;
-  }
-
-  std::optional<double> cosine_;  ///< of the first latitude
-};
-
-struct HeldReading {
-  RowReading reading;
-  double t_begin = 0.0;
-  double t_end = 0.0;
-  long rows = 1;
-
-  template <class Self>
-  static auto Fields(Self& held) {
-    return std::tie(held.reading, held.t_begin, held.t_end, held.rows);
-  }
-};
-
-using HeldSeries = PackedSeries<HeldReading>;
-
-HeldSeries HeldReadings(const AidingStream& stream) {
-  HeldSeries all;
-  std::optional<HeldReading> held;
-  StreamReader reader;
-  for (const Measurement& z : stream.measurements) {
-    const std::optional<RowReading> reading = reader.Read(z);
-    if (!reading) continue;
-    if (held && held->reading.row == reading->row) {
-      ++held->rows;
-      held->t_end = z.t;
-      continue;
-    }
-    if (held) all.push_back(*held);
-    held = {*reading, z.t, z.t, 1};
-  }
-  if (held) all.push_back(*held);
-  return all;
-}
 
 long Rows(const HeldSeries& held) {
   long rows = 0;
@@ -301,9 +178,8 @@ class Repetitions {
 std::vector<RepeatedRun> FrozenSpans(const AidingStream& stream,
                                      const HeldSeries& held, bool is_stale) {
   if (held.size() < 3) return {};
-  const Repetitions repetitions(
-      held, StreamReader::IsSpeed(stream.measurements.front()),
-      is_stale ? 2 * MedianRows(held) : 0);
+  const Repetitions repetitions(held, ReadsSpeed(stream.measurements.front()),
+                                is_stale ? 2 * MedianRows(held) : 0);
   std::vector<RepeatedRun> spans;
   for (std::size_t i = 0; i + 1 < held.size(); ++i) {
     if (!repetitions.IsFrozen(i)) continue;

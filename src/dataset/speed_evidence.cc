@@ -7,6 +7,7 @@
 #include <span>
 
 #include "dataset/ground_motion.h"
+#include "measurements/noise_kind.h"
 
 namespace hindsight {
 namespace {
@@ -16,9 +17,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 using Reading = SpeedRecord::Reading;
 using Readings = SpeedRecord::Readings;
 
-double LastingSigma(const NoiseModel& noise, double T) {
-  if (noise.kind != NoiseModel::Kind::kGaussMarkov) return 0.0;
-  return noise.sigma * std::sqrt(-2.0 * std::expm1(-T / noise.tau));
+/// Of the difference of two errors that lie T and so much way apart.
+double LastingSigma(const NoiseModel& noise, double T, double distance) {
+  if (!noise.correlated()) return 0.0;
+  return std::sqrt(noise.kind->evolution(noise).ChangeVariance(T, distance));
 }
 
 /// The slope of places by least squares.
@@ -40,7 +42,7 @@ SpeedEvidence SlopeOf(std::span<const Reading> places,
   }
   out.v /= squares;
   const double T = out.end - out.begin;
-  const double lasting = LastingSigma(noise, T) / T;
+  const double lasting = LastingSigma(noise, T, T * out.v.norm()) / T;
   out.sigma = (variance.array() / squares + lasting * lasting).sqrt().matrix();
   return out;
 }
@@ -59,8 +61,7 @@ SpeedEvidence MeanOf(std::span<const Reading> speeds, const NoiseModel& noise) {
   }
   const double independent =
       std::clamp(std::floor((out.end - out.begin) / kAlike) + 1.0, 1.0, n);
-  const double lasting =
-      noise.kind == NoiseModel::Kind::kGaussMarkov ? noise.sigma : 0.0;
+  const double lasting = noise.correlated() ? noise.sigma : 0.0;
   out.sigma =
       (variance.array() / independent + lasting * lasting).sqrt().matrix();
   return out;

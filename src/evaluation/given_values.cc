@@ -117,7 +117,7 @@ std::string OwnSource(const StartValues& start, BlockKind kind) {
 
 Evidence Strain(const Judged& judged, const Origin& origin, const Block& block,
                 const std::string& component, double sigmas) {
-  const bool constant = block.evolution.kind == Evolution::Kind::kConstant;
+  const bool constant = block.evolution.is_constant();
   Evidence e{.grade = Grade::kDoubtful,
              .what = component + (constant ? " is " : " at the start is "),
              .value = sigmas,
@@ -179,7 +179,7 @@ void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence) {
   const ErrorVector last =
       Local(solution.layout, start.x, solution.states.back());
   for (const Block& block : solution.layout.blocks()) {
-    const bool constant = block.evolution.kind == Evolution::Kind::kConstant;
+    const bool constant = block.evolution.is_constant();
     const bool start_value = block.key.kind <= BlockKind::kAccelBias;
     if (!constant && !(start_value && from_start)) continue;
     int i = block.offset;

@@ -67,7 +67,7 @@ std::vector<ConstantEstimate> EstimateConstants(
   const State& x = solution.states.back();
   const ErrorMatrix P = solution.covariances.Get(solution.states.size() - 1);
   for (const Block& block : solution.layout.blocks()) {
-    if (block.evolution.kind != Evolution::Kind::kConstant) continue;
+    if (!block.evolution.is_constant()) continue;
     int component = block.offset;
     for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {
       if (!block.active[static_cast<std::size_t>(axis)]) continue;
@@ -103,7 +103,7 @@ Eigen::MatrixXd CovarianceOfConstants(const Solution& solution) {
   if (solution.covariances.empty()) return {};
   std::vector<int> components;
   for (const Block& block : solution.layout.blocks()) {
-    if (block.evolution.kind != Evolution::Kind::kConstant) continue;
+    if (!block.evolution.is_constant()) continue;
     for (int i = 0; i < block.dim; ++i) components.push_back(block.offset + i);
   }
   if (components.size() != solution.constants.size()) return {};

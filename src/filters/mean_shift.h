@@ -19,7 +19,7 @@ struct ShiftColumns {
     Group group = 0;
     Eigen::MatrixXd B;
   };
-  /// What a measurement of epoch k would have more.
+  /// What the deviation would add to a measurement of epoch k.
   std::function<std::vector<Columns>(std::size_t k, const TapeMeasurement& z)>
       measured;
   /// By what the state at x_minus of epoch k >= 1 would be another after the

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/so3.h"
+#include "imu/imu_noise.h"
 
 namespace hindsight {
 
@@ -124,20 +125,13 @@ void Preintegrator::Add(const LinearRates& raw, const IntervalNoise& extra) {
   // Gyro noise moments at the middle of the sample.
   const Eigen::Vector3d v_mid = 0.5 * (v_ + v_next);
   const Eigen::Vector3d u_mid = 0.5 * (p_ + p_next) - (T_ + 0.5 * dt) * v_mid;
-  double q_dt =
-      (noise_.gyro_noise_density * noise_.gyro_noise_density + extra.gyro) * dt;
-  const double a_dt =
-      (noise_.accel_noise_density * noise_.accel_noise_density + extra.accel) *
-      dt;
+  const double squared_rate = 0.25 * (r.w0 + r.w1).squaredNorm();
+  const double q_dt = (GyroWhiteNoise(noise_, squared_rate) + extra.gyro) * dt;
+  const double a_dt = (AccelWhiteNoise(noise_) + extra.accel) * dt;
   const double s_mid = T_ + 0.5 * dt;
   a_sum_ += a_dt;
   as_ += a_dt * s_mid;
   ass_ += a_dt * (s_mid * s_mid + dt * dt / 12.0);
-  if (noise_.gyro_noise_per_rate > 0.0) {
-    const double w = 0.5 * (r.w0 + r.w1).norm();
-    q_dt +=
-        noise_.gyro_noise_per_rate * noise_.gyro_noise_per_rate * w * w * dt;
-  }
   q_sum_ += q_dt;
   const Eigen::Vector3d qv = q_dt * v_mid;
   const Eigen::Vector3d qu = q_dt * u_mid;

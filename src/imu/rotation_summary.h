@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "geometry/so3.h"
-#include "imu/imu_stream.h"
+#include "imu/imu_noise.h"
 #include "imu/sample_integral.h"
 
 namespace hindsight {
@@ -30,10 +30,8 @@ inline RotationSummary SummarizeRotation(const ImuNoise& noise, double dt,
   const Eigen::Vector3d a = w0 - b_g;
   const Eigen::Vector3d b = w1 - b_g;
   const Eigen::Vector3d mean = 0.5 * (a + b);
-  const double per_rate = noise.gyro_noise_per_rate;
   return {dt, dt * mean + (dt * dt / 12.0) * a.cross(b),
-          dt * (noise.gyro_noise_density * noise.gyro_noise_density +
-                per_rate * per_rate * mean.squaredNorm())};
+          dt * GyroWhiteNoise(noise, mean.squaredNorm())};
 }
 
 }  // namespace hindsight

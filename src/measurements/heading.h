@@ -15,7 +15,7 @@ const GenericModel& BaselineDirection();
 
 struct SensorKind;
 
-/// Of two antennas or a gyrocompass.
+/// The kind of sensor: two antennas or a gyrocompass.
 const SensorKind& HeadingKind();
 
 /// heading and pitch of b, as above [rad].

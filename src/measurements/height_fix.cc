@@ -21,7 +21,7 @@ void HeightFix::Evaluate(const ModelContext& context,
                             Eigen::Matrix<double, 1, 1>::Identity(), &out->H);
   const NoiseModel& noise = context.sensor.noise;
   const bool coloured =
-      noise.kind == NoiseModel::Kind::kGaussMarkov &&
+      noise.correlated() &&
       context.layout.Has(BlockKind::kOffset, context.sensor_index);
   const double white = coloured ? noise.white_sigma : sigma;
   out->R(0, 0) = white * white;
@@ -43,8 +43,7 @@ SensorKey OffsetSigmaKey() {
 
 std::optional<KeyObjection> RefuseTwoOffsets(SensorSettings* settings) {
   const Sensor& sensor = settings->sensor;
-  if (sensor.offset_sigma &&
-      sensor.noise.kind == NoiseModel::Kind::kGaussMarkov) {
+  if (sensor.offset_sigma && sensor.noise.correlated()) {
     return KeyObjection{"estimate", "offset does not go with correlated noise"};
   }
   return std::nullopt;

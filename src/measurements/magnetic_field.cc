@@ -282,6 +282,14 @@ std::vector<SensorBlock> MagnetometerBlocks() {
                  return Evolution::GaussMarkov(
                      *sensor.magnetic.disturbance_sigma,
                      sensor.magnetic.disturbance_tau);
+               },
+           .searched =
+               [](const Sensor&) {
+                 return std::vector<NoiseValue>{
+                     {"disturbance",
+                      [](Sensor& s) { return &*s.magnetic.disturbance_sigma; }},
+                     {"disturbance_tau",
+                      [](Sensor& s) { return &s.magnetic.disturbance_tau; }}};
                }}};
 }
 

@@ -7,7 +7,7 @@ Eigen::Matrix3d WhiteCovariance(const ModelContext& context,
   const Block* block =
       context.layout.Find(BlockKind::kColouredNoise, context.sensor_index);
   const NoiseModel& noise = context.sensor.noise;
-  if (block == nullptr || noise.kind == NoiseModel::Kind::kWhite) return R;
+  if (block == nullptr || !noise.correlated()) return R;
   Eigen::Matrix3d white = R;
   for (int axis = 0; axis < 3; ++axis) {
     if (!block->active[static_cast<std::size_t>(axis)]) continue;

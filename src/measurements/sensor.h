@@ -14,9 +14,12 @@
 namespace hindsight {
 
 struct SensorKind;
+struct NoiseKind;
 
 /// The kind of a stream of positions (measurements/position_fix.h).
 const SensorKind& PositionKind();
+/// Errors of which each is independent of all others.
+const NoiseKind& WhiteNoise();
 
 /// The Earth's field around a magnetometer and the vehicle's own.
 struct MagneticSurroundings {
@@ -35,17 +38,20 @@ struct MagneticSurroundings {
   double disturbance_tau = 10.0;
 };
 
-/// How a sensor's errors are correlated in time. A Gauss-Markov error is a
-/// state of the layout, kColouredNoise or, of a height, kOffset,
-///   e_k = phi e_k-1 + w,  phi = exp(-dt/tau),  w ~ (0, sigma^2 (1 - phi^2)),
-/// in place of the covariance stated with the measurements; what is left white
-/// beside it has `white_sigma`.
+/// How a sensor's errors are correlated in time. A correlated error is a state
+/// of the layout, kColouredNoise or, of a height, kOffset, in place of the
+/// covariance stated with the measurements; what is left white beside it has
+/// `white_sigma`.
 struct NoiseModel {
-  enum class Kind { kWhite, kGaussMarkov };
-  Kind kind = Kind::kWhite;
+  /// What the errors are (measurements/noise_kind.h).
+  const NoiseKind* kind = &WhiteNoise();
   double sigma = 1.0;        ///< stationary, an axis [m or m/s]
   double tau = 10.0;         ///< correlation time [s]
   double white_sigma = 0.1;  ///< an axis [m or m/s]
+  /// Value of a key that its kind alone has, in SI units.
+  double own = 0.0;
+
+  bool correlated() const;
 };
 
 /// An error of a measured velocity that outlasts many measurements. It is a

@@ -1,6 +1,7 @@
 #include "measurements/sensor_block.h"
 
 #include "geometry/so3.h"
+#include "measurements/noise_kind.h"
 
 namespace hindsight {
 
@@ -94,15 +95,15 @@ SensorBlock NoiseBlock(BlockKind kind, std::string_view unit) {
           .unit = unit,
           .sigma =
               [](const Sensor& sensor, const MeasurementModel*) {
-                return sensor.noise.kind == NoiseModel::Kind::kGaussMarkov
-                           ? OnAllAxes(sensor.noise.sigma)
-                           : std::nullopt;
+                return sensor.noise.correlated() ? OnAllAxes(sensor.noise.sigma)
+                                                 : std::nullopt;
               },
           .evolution =
               [](const Sensor& sensor) {
-                return Evolution::GaussMarkov(sensor.noise.sigma,
-                                              sensor.noise.tau);
-              }};
+                return sensor.noise.kind->evolution(sensor.noise);
+              },
+          .searched =
+              [](const Sensor& sensor) { return sensor.noise.kind->searched; }};
 }
 
 }  // namespace hindsight

@@ -4,12 +4,20 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "measurements/measurement.h"
 #include "measurements/sensor.h"
 #include "state/error_layout.h"
 
 namespace hindsight {
+
+/// A noise value of a sensor that the data can tell, and its name behind the
+/// sensor's.
+struct NoiseValue {
+  std::string_view name;
+  double* (*at)(Sensor&);
+};
 
 /// A block of error states that a kind of sensor may bring into the layout.
 struct SensorBlock {
@@ -30,6 +38,9 @@ struct SensorBlock {
   /// deviations; nullptr: what holds in one recording does not in the next.
   void (*know)(const Eigen::Vector3d& value, const Eigen::Vector3d& sigma,
                Sensor*) = nullptr;
+  /// Values that `check --noise` looks for: those that `sigma` and `evolution`
+  /// follow from, and what is white beside the block; nullptr: none.
+  std::vector<NoiseValue> (*searched)(const Sensor&) = nullptr;
 };
 
 /// The same standard deviation on all axes, if there is one.
@@ -40,7 +51,7 @@ SensorBlock ScaleBlock();
 SensorBlock MountingBlock();
 SensorBlock LeverArmBlock();
 SensorBlock TimeOffsetBlock();
-/// The error of NoiseModel::Kind::kGaussMarkov, as kColouredNoise or kOffset.
+/// The error of a correlated NoiseModel, as kColouredNoise or kOffset.
 SensorBlock NoiseBlock(BlockKind kind, std::string_view unit);
 
 }  // namespace hindsight

@@ -39,20 +39,30 @@ Eigen::Vector3d StartBias(const Eigen::Vector3d& mean,
   return mean + sigma.cwiseProduct(Random(seed, stream).NormalVector3());
 }
 
+/// The oracle of GyroWhiteNoise, written apart from it.
+double GyroDensity(const ImuNoise& noise, double rate) {
+  if (noise.gyro_noise_per_rate == 0.0) return noise.gyro_noise_density;
+  return std::hypot(noise.gyro_noise_density, noise.gyro_noise_per_rate * rate);
+}
+
+double AccelDensity(const ImuNoise& noise, double) {
+  return noise.accel_noise_density;
+}
+
 }  // namespace
 
 ImuErrors::ImuErrors(const ImuErrorModel& model, ImuStream::Kind kind,
                      double rate_hz, std::uint64_t seed)
     : kind_(kind),
       dt_(1.0 / rate_hz),
+      noise_(model.noise),
       gyro_{StartBias(model.gyro_bias, model.gyro_bias_sigma, seed, kGyroBias),
             Eigen::Vector3d::Ones() + StartBias(model.gyro_scale,
                                                 model.gyro_scale_sigma, seed,
                                                 kGyroScale),
             model.noise.GyroBiasEvolution().Phi(dt_),
             std::sqrt(model.noise.GyroBiasEvolution().Q(dt_)),
-            model.noise.gyro_noise_density,
-            model.noise.gyro_noise_per_rate,
+            GyroDensity,
             Random(seed, kGyroNoise),
             Random(seed, kGyroWalk)},
       accel_{
@@ -62,8 +72,7 @@ ImuErrors::ImuErrors(const ImuErrorModel& model, ImuStream::Kind kind,
                                               kAccelScale),
           model.noise.AccelBiasEvolution().Phi(dt_),
           std::sqrt(model.noise.AccelBiasEvolution().Q(dt_)),
-          model.noise.accel_noise_density,
-          0.0,
+          AccelDensity,
           Random(seed, kAccelNoise),
           Random(seed, kAccelWalk)} {}
 
@@ -76,11 +85,8 @@ Eigen::Vector3d ImuErrors::Measure(const Eigen::Vector3d& truth,
                     channel->walk_sigma * channel->walk.NormalVector3();
   }
   const bool increments = kind_ == ImuStream::Kind::kIncrements;
-  double density = channel->noise_density;
-  if (channel->noise_per_rate > 0.0) {
-    const double rate = truth.norm() / (increments ? dt_ : 1.0);
-    density = std::hypot(density, channel->noise_per_rate * rate);
-  }
+  const double density =
+      channel->density(noise_, truth.norm() / (increments ? dt_ : 1.0));
   const Eigen::Vector3d noise = density * channel->noise.NormalVector3();
   const Eigen::Vector3d scaled = channel->scale_factor.cwiseProduct(truth);
   if (increments) {

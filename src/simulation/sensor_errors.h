@@ -57,8 +57,8 @@ class ImuErrors {
     Eigen::Vector3d scale_factor;  ///< 1 + s
     double phi = 1.0;              ///< of the bias over one sample
     double walk_sigma = 0.0;       ///< of the bias over one sample
-    double noise_density = 0.0;
-    double noise_per_rate = 0.0;
+    /// Of its white noise at this rate or specific force.
+    double (*density)(const ImuNoise& noise, double magnitude);
     Random noise;
     Random walk;
   };
@@ -66,6 +66,7 @@ class ImuErrors {
 
   ImuStream::Kind kind_;
   double dt_;
+  ImuNoise noise_;
   bool first_ = true;
   Channel gyro_;
   Channel accel_;

@@ -18,7 +18,37 @@ bool IsResolvedInNed(BlockKind kind) {
          kind == BlockKind::kErrorRate || kind == BlockKind::kGroundBias;
 }
 
+double One(const Evolution&, double, double) { return 1.0; }
+double Zero(const Evolution&, double, double) { return 0.0; }
+
+/// The time update of the navigation state does not ask it.
+constexpr Process kNavigationProcess = {One, Zero};
+
+constexpr Process kRandomWalkProcess = {
+    One, [](const Evolution& e, double dt, double) {
+      return e.density * e.density * dt;
+    }};
+
+constexpr Process kGaussMarkovProcess = {
+    [](const Evolution& e, double dt, double) { return std::exp(-dt / e.tau); },
+    [](const Evolution& e, double dt, double) {
+      return -0.5 * e.density * e.density * e.tau *
+             std::expm1(-2.0 * dt / e.tau);
+    },
+    [](const Evolution& e) { return 0.5 * e.density * e.density * e.tau; }};
+
+constexpr Process kSpatialGaussMarkovProcess = {
+    [](const Evolution& e, double, double distance) {
+      return std::exp(-distance / e.length);
+    },
+    [](const Evolution& e, double, double distance) {
+      return -e.density * e.density * std::expm1(-2.0 * distance / e.length);
+    },
+    [](const Evolution& e) { return e.density * e.density; }};
+
 }  // namespace
+
+constinit const Process kConstantProcess = {One, Zero};
 
 int FullDimension(BlockKind kind) {
   switch (kind) {
@@ -33,43 +63,49 @@ int FullDimension(BlockKind kind) {
   }
 }
 
+Evolution Evolution::Navigation() { return {&kNavigationProcess}; }
+
 Evolution Evolution::RandomWalk(double density) {
   if (density == 0.0) return Constant();
-  return {Kind::kRandomWalk, density};
+  return {&kRandomWalkProcess, density};
+}
+
+Evolution Evolution::RandomWalk(double density, double tau) {
+  Evolution evolution = RandomWalk(density);
+  if (evolution.is_constant() || std::isinf(tau)) return evolution;
+  return {&kGaussMarkovProcess, density, tau};
 }
 
 Evolution Evolution::GaussMarkov(double sigma, double tau) {
-  return {Kind::kGaussMarkov, sigma * std::sqrt(2.0 / tau), tau};
+  return {&kGaussMarkovProcess, sigma * std::sqrt(2.0 / tau), tau};
 }
 
 Evolution Evolution::SpatialGaussMarkov(double sigma, double length) {
-  Evolution evolution{Kind::kSpatialGaussMarkov, sigma};
+  Evolution evolution{&kSpatialGaussMarkovProcess, sigma};
   evolution.length = length;
   return evolution;
 }
 
 double Evolution::Phi(double dt, double distance) const {
-  switch (kind) {
-    case Kind::kGaussMarkov:
-      return std::exp(-dt / tau);
-    case Kind::kSpatialGaussMarkov:
-      return std::exp(-distance / length);
-    default:
-      return 1.0;
-  }
+  return process->Phi(*this, dt, distance);
 }
 
 double Evolution::Q(double dt, double distance) const {
-  switch (kind) {
-    case Kind::kRandomWalk:
-      return density * density * dt;
-    case Kind::kGaussMarkov:
-      return -0.5 * density * density * tau * std::expm1(-2.0 * dt / tau);
-    case Kind::kSpatialGaussMarkov:
-      return -density * density * std::expm1(-2.0 * distance / length);
-    default:
-      return 0.0;
-  }
+  return process->Q(*this, dt, distance);
+}
+
+double Evolution::StationaryVariance() const {
+  return process->stationary_variance == nullptr
+             ? 0.0
+             : process->stationary_variance(*this);
+}
+
+double Evolution::ChangeVariance(double dt, double distance) const {
+  // Q = (1 - Phi^2) of the stationary variance, without its cancellation.
+  const double Q = this->Q(dt, distance);
+  return process->stationary_variance == nullptr
+             ? Q
+             : 2.0 * Q / (1.0 + Phi(dt, distance));
 }
 
 void ErrorLayout::Add(Block block) {

@@ -70,24 +70,25 @@ struct BlockKey {
   bool operator==(const BlockKey&) const = default;
 };
 
+struct Process;
+extern const Process kConstantProcess;
+
 /// How a block changes with time, db = -b/tau dt + density dw, or with the
-/// distance travelled, correlated as exp(-distance/length).
+/// distance travelled, correlated as exp(-distance/length), or as another
+/// process says.
 struct Evolution {
-  enum class Kind {
-    kNavigation,
-    kConstant,
-    kRandomWalk,
-    kGaussMarkov,
-    kSpatialGaussMarkov
-  };
-  Kind kind = Kind::kConstant;
+  const Process* process = &kConstantProcess;
   double density = 0.0;  ///< [unit/sqrt(s)]; for Gauss-Markov sqrt(2/tau) sigma
   double tau = std::numeric_limits<double>::infinity();     ///< [s]
   double length = std::numeric_limits<double>::infinity();  ///< [m]
 
-  static Evolution Navigation() { return {Kind::kNavigation}; }
-  static Evolution Constant() { return {Kind::kConstant}; }
+  /// Of the navigation state, whose time update knows it.
+  static Evolution Navigation();
+  static Evolution Constant() { return {}; }
   static Evolution RandomWalk(double density);
+  /// A walk that falls back with the correlation time `tau`; a plain one if
+  /// that is infinite.
+  static Evolution RandomWalk(double density, double tau);
   /// Stationary standard deviation `sigma` and correlation time `tau`.
   static Evolution GaussMarkov(double sigma, double tau);
   /// Stationary standard deviation `sigma`, which is then the `density`, and
@@ -99,6 +100,23 @@ struct Evolution {
   double Phi(double dt, double distance = 0.0) const;
   /// Variance added over dt and distance.
   double Q(double dt, double distance = 0.0) const;
+  /// Whether the block has one value for the whole interval.
+  bool is_constant() const { return process == &kConstantProcess; }
+  /// Variance at any time before anything is measured, of a block that forgets
+  /// what it was; 0: it does not forget.
+  double StationaryVariance() const;
+  /// Variance of the change over dt and distance, of a block that forgets:
+  /// 2 (1 - Phi) StationaryVariance; of others Q.
+  double ChangeVariance(double dt, double distance = 0.0) const;
+};
+
+/// A Markov process: two steps must be one, Phi(a + b) = Phi(a) Phi(b) and
+/// Q(a + b) = Phi(b)^2 Q(a) + Q(b). A program may bring its own.
+struct Process {
+  double (*Phi)(const Evolution&, double dt, double distance);
+  double (*Q)(const Evolution&, double dt, double distance);
+  /// nullptr: the process does not forget.
+  double (*stationary_variance)(const Evolution&) = nullptr;
 };
 
 /// One block of the error state.

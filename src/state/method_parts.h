@@ -20,7 +20,7 @@ struct TwoFilterPart {
   /// NaN where the backward filter has no position yet; empty for a layout
   /// without positions.
   std::vector<double> separation;
-  /// The same by components.
+  /// The separation of each component at each epoch.
   std::vector<FilterSeparation> components;
   /// The backward filter alone, at some of the epochs, evenly.
   std::vector<OneSidedState> backward;

@@ -95,7 +95,7 @@ class Timeline {
   void SetBlockSteps(std::vector<std::vector<BlockStep>> steps) {
     block_steps_ = std::move(steps);
   }
-  /// Those of the interval after node k.
+  /// The block steps of the interval after node k.
   std::span<const BlockStep> StepsAfter(std::size_t k) const {
     if (block_steps_.empty()) return {};
     return block_steps_[k];

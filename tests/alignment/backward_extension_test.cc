@@ -8,6 +8,7 @@
 #include "alignment/start_layout.h"
 #include "imu/imu_link.h"
 #include "io/config/scenario_config.h"
+#include "measurements/noise_kind.h"
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {
@@ -107,7 +108,7 @@ class ForgettingBlocks : public BackwardExtension {
     dataset_.imu.noise.gyro_bias_walk = 1e-4;
     dataset_.imu.noise.gyro_bias_tau = 0.5;
     Sensor& receiver = dataset_.streams.front().sensor;
-    receiver.noise = {NoiseModel::Kind::kGaussMarkov, 2.0, 0.1, 0.1};
+    receiver.noise = {&GaussMarkovNoise(), 2.0, 0.1, 0.1};
     NavigationPrior prior;
     prior.position_sigma.setConstant(1.0);
     prior.velocity_sigma.setConstant(0.1);

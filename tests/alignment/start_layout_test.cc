@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "measurements/noise_kind.h"
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {
@@ -16,7 +17,7 @@ Dataset Receivers(int count) {
     stream.sensor.name = "gnss_" + std::to_string(i);
     stream.sensor.lever_arm_sigma = Eigen::Vector3d::Ones();
     stream.sensor.time_offset_sigma = 0.1;
-    stream.sensor.noise.kind = NoiseModel::Kind::kGaussMarkov;
+    stream.sensor.noise.kind = &GaussMarkovNoise();
   }
   return dataset;
 }

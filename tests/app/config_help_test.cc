@@ -21,6 +21,19 @@ TEST(ConfigHelp, ThePageOfTheDocumentationIsWhatTheProgramWrites) {
   EXPECT_EQ(outcome.out, text);
 }
 
+TEST(FormatHelp, TheTableOfTheDocumentationIsWhatTheProgramWrites) {
+  const std::string text =
+      ReadFile(std::filesystem::path(HINDSIGHT_SOURCE_DIR) / "docs/formats.md");
+  const Outcome outcome = Help({"help", "formats", "--markdown"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(text.find("\n\n" + outcome.out + "\n"), std::string::npos)
+      << outcome.out;
+  const Outcome plain = Help({"help", "formats"});
+  EXPECT_NE(plain.out.find("nclt *  (imu, position, height"),
+            std::string::npos);
+  EXPECT_EQ(Help({"help", "formats", "nonsense"}).status, 2);
+}
+
 TEST(ConfigHelp, FindsAKindAMapAndAKey) {
   const Outcome kind = Help({"help", "config", "dvl"});
   EXPECT_NE(kind.out.find("beam_angle  (30 deg; with form: beams)"),

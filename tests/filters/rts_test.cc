@@ -26,7 +26,7 @@ ErrorLayout WalkingRichLayout(const ImuNoise& noise) {
   const ErrorLayout rich = RichLayout(noise);
   ErrorLayout layout;
   for (Block block : rich.blocks()) {
-    if (block.evolution.kind == Evolution::Kind::kConstant) {
+    if (block.evolution.is_constant()) {
       block.evolution = Evolution::RandomWalk(0.01 * block.sigma0.x());
     }
     layout.Add(block);

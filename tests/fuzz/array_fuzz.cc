@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "fuzz/fuzz_input.h"
+#include "io/read/file_formats.h"
 #include "io/read/reader.h"
 #include "measurements/sensor_kind.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 void AddArrayColumns(const std::vector<FieldName>& fields, std::uint8_t clock,
                      TextFormat* format) {
-  const bool mat = format->kind == TextFormat::Kind::kMat;
+  const bool mat = format->kind == &MatFormat();
   const char* const units[] = {"s", "ms", "ns", "min"};
   ColumnMapping time{"t", mat ? -1 : 0, mat ? "time" : "", units[clock % 4],
                      clock % 8 < 4 ? 1.0 : 0.003};
@@ -37,7 +38,7 @@ void AddArrayColumns(const std::vector<FieldName>& fields, std::uint8_t clock,
 }
 
 void ReadStream(StreamSource source, bool imu, std::uint8_t clock) {
-  if (source.format.kind != TextFormat::Kind::kRosbag) {
+  if (source.format.kind != &RosbagFormat()) {
     AddArrayColumns(imu ? ImuFields() : PositionKind().columns, clock,
                     &source.format);
     if (source.format.ignore_time) source.clock.rate = 100.0;
@@ -58,13 +59,12 @@ void ReadStream(StreamSource source, bool imu, std::uint8_t clock) {
 void FuzzArrays(const std::uint8_t* data, std::size_t size) {
   if (size < 3) return;
   const MemoryFile file(data + 2, size - 2);
-  constexpr TextFormat::Kind kKinds[] = {TextFormat::Kind::kNpy,
-                                         TextFormat::Kind::kMat,
-                                         TextFormat::Kind::kRosbag};
+  const FileFormat* const kinds[] = {&NpyFormat(), &MatFormat(),
+                                     &RosbagFormat()};
   StreamSource source;
   source.name = "fuzz";
   source.path = file.path();
-  source.format.kind = kKinds[(data[0] & 0x0f) % 3];
+  source.format.kind = kinds[(data[0] & 0x0f) % 3];
   source.sort = (data[0] & 0x10) != 0;
   source.absent_values = (data[0] & 0x20) != 0;
   try {

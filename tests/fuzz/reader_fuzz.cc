@@ -1,6 +1,7 @@
-// Feeds bytes to everything that reads text. The first byte chooses the format
-// or the kind of file, the second the stream; the rest is the file. Whatever it
-// holds, a reader returns what it read or throws InputError.
+// Feeds bytes to everything that reads text. The first byte chooses the kind of
+// file, the second the stream and, of a recording's file, the format; the rest
+// is the file. Whatever it holds, a reader returns what it read or throws
+// InputError.
 
 #include <algorithm>
 #include <string>
@@ -10,6 +11,7 @@
 #include "fuzz/fuzz_input.h"
 #include "io/config/config.h"
 #include "io/config/scenario_config.h"
+#include "io/read/file_formats.h"
 #include "io/read/reader.h"
 #include "io/read/time_list.h"
 #include "io/write/solution_csv.h"
@@ -32,13 +34,9 @@ std::string_view Cut(std::string_view separator, std::string_view* text) {
   return head;
 }
 
-constexpr TextFormat::Kind kFormats[] = {
-    TextFormat::Kind::kCsv,           TextFormat::Kind::kColumns,
-    TextFormat::Kind::kKfGins,        TextFormat::Kind::kRtklibPos,
-    TextFormat::Kind::kEuroc,         TextFormat::Kind::kNclt,
-    TextFormat::Kind::kControlPoints, TextFormat::Kind::kNmea,
-    TextFormat::Kind::kNpy,
-};
+/// Further ones are a recording's files.
+constexpr unsigned kOtherKinds = 6;
+
 void AddColumns(const std::vector<FieldName>& fields, TextFormat* format) {
   format->columns.push_back({"t", 0, "", "ms", 1.0});
   for (const FieldName& field : fields) {
@@ -51,7 +49,7 @@ void AddColumns(const std::vector<FieldName>& fields, TextFormat* format) {
 void Read(StreamSource source, unsigned stream) {
   StreamClock clock;
   std::vector<PolicyCount> policies;
-  const bool takes_columns = TakesColumns(source.format.kind);
+  const bool takes_columns = source.format.kind->takes_columns;
   if (stream == 0) {
     if (takes_columns) AddColumns(ImuFields(), &source.format);
     ReadImu(source, {}, &clock, &policies);
@@ -87,7 +85,7 @@ void ReadOxtsFolder(std::string_view text, StreamSource source,
     folder.Write("oxts/data/" + std::to_string(i) + ".txt", Cut("\n", &text));
   }
   source.path = folder.Path("oxts");
-  source.format.kind = TextFormat::Kind::kOxts;
+  source.format.kind = &OxtsFormat();
   Read(std::move(source), stream);
 }
 
@@ -110,8 +108,7 @@ void ReadConfiguration(std::string_view text) {
   LoadDataset(folder.Write("config.yaml", text), {.data_root = "."}, &resolved);
 }
 
-/// `kind` counts on from the formats.
-void ReadOther(std::size_t kind, unsigned stream, std::string_view text,
+void ReadOther(unsigned kind, unsigned stream, std::string_view text,
                StreamSource source) {
   switch (kind) {
     case 0:
@@ -140,17 +137,18 @@ void FuzzReaders(const std::uint8_t* data, std::size_t size) {
   StreamSource source;
   source.name = "fuzz";
   source.path = file.path();
-  const std::size_t kind = data[0] & 0x0fu;
-  if (kind < std::size(kFormats)) source.format.kind = kFormats[kind];
+  const unsigned kind = data[0] & 0x0fu;
+  const std::size_t format = data[1] / 16u;
+  source.format.kind = FileFormats()[format % FileFormats().size()];
   source.sort = (data[0] & 0x10) != 0;
   source.absent_values = (data[0] & 0x20) != 0;
   source.allow_truncated_tail = (data[0] & 0x40) != 0;
   if ((data[0] & 0x80) != 0) source.clock.scale = ClockMap::Scale::kUnix;
   try {
-    if (kind < std::size(kFormats)) {
+    if (kind >= kOtherKinds) {
       Read(source, data[1] % 16u);
     } else {
-      ReadOther(kind - std::size(kFormats), data[1] % 16u,
+      ReadOther(kind, data[1] % 16u,
                 {reinterpret_cast<const char*>(data) + 2, size - 2}, source);
     }
   } catch (const InputError&) {

@@ -4,6 +4,7 @@
 
 #include "base/units.h"
 #include "io/sample_folder.h"
+#include "measurements/noise_kind.h"
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {
@@ -31,7 +32,7 @@ TEST_F(AidingTypes, NoiseModels) {
       "    sigma: 0.1 m/s\n    noise: {model: mixture, outliers: 10 %}\n");
   const Dataset data = Load();
   const Sensor& gnss = data.streams[0].sensor;
-  EXPECT_EQ(gnss.noise.kind, NoiseModel::Kind::kGaussMarkov);
+  EXPECT_EQ(gnss.noise.kind, &GaussMarkovNoise());
   EXPECT_DOUBLE_EQ(gnss.noise.sigma, 0.5);
   EXPECT_DOUBLE_EQ(gnss.noise.tau, 20.0);
   EXPECT_DOUBLE_EQ(gnss.noise.white_sigma, 0.05);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "measurements/noise_kind.h"
 #include "measurements/numeric_jacobian.h"
 
 namespace hindsight {
@@ -134,7 +135,7 @@ TEST(ColouredNoise, TakesThePlaceOfTheStatedCovariance) {
   const LinearizedMeasurement beside =
       scene.Evaluate(Position(scene.state.p_e));
   EXPECT_EQ(beside.R(1, 1), 4.0);
-  scene.sensor.noise.kind = NoiseModel::Kind::kGaussMarkov;
+  scene.sensor.noise.kind = &GaussMarkovNoise();
   scene.sensor.noise.white_sigma = 0.2;
   for (const Measurement& z :
        {Position(scene.state.p_e), Velocity(Eigen::Vector3d(1.0, 2.0, 3.0))}) {
@@ -153,7 +154,7 @@ TEST(ColouredNoise, LeavesAMaskedAxisItsCovariance) {
     masked.Add(block);
   }
   scene.layout = masked;
-  scene.sensor.noise.kind = NoiseModel::Kind::kGaussMarkov;
+  scene.sensor.noise.kind = &GaussMarkovNoise();
   scene.sensor.noise.white_sigma = 0.0;
   const LinearizedMeasurement z = scene.Evaluate(Position(scene.state.p_e));
   EXPECT_LT((z.R - Eigen::Matrix3d(Eigen::Vector3d(0.0, 0.0, 9.0).asDiagonal()))

@@ -62,7 +62,7 @@ std::vector<State> NominalOf(const TestProblem& problem, double size) {
         size * testing::Draw(problem.layout.InitialCovariance(), &random);
     if (first.size() == 0) first = d;
     for (const Block& block : problem.layout.blocks()) {
-      if (block.evolution.kind == Evolution::Kind::kConstant) {
+      if (block.evolution.is_constant()) {
         d.segment(block.offset, block.dim) =
             first.segment(block.offset, block.dim);
       }
@@ -70,8 +70,7 @@ std::vector<State> NominalOf(const TestProblem& problem, double size) {
     x = Retract(problem.layout, x, d);
   }
   for (State& x : nominal) {
-    if (problem.layout.Find(BlockKind::kGyroBias)->evolution.kind ==
-        Evolution::Kind::kConstant) {
+    if (problem.layout.Find(BlockKind::kGyroBias)->evolution.is_constant()) {
       x.b_g = nominal.front().b_g;
       x.b_a = nominal.front().b_a;
     }

@@ -238,7 +238,7 @@ TEST_F(MadeUpSensor, BringsItsOwnBlocksWithTheirEvolutionAndAdvice) {
   ASSERT_NE(drift, nullptr);
   EXPECT_EQ(drift->name, "climb_drift");
   EXPECT_EQ(drift->unit, "m/s");
-  EXPECT_EQ(drift->evolution.kind, Evolution::Kind::kGaussMarkov);
+  EXPECT_NEAR(drift->evolution.StationaryVariance(), 1e-4, 1e-16);
   EXPECT_EQ(drift->evolution.tau, 20.0);
   // Only constants are reported, and this one is known as well beforehand.
   const auto constant = std::find_if(

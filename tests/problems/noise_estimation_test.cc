@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "io/config/scenario_config.h"
+#include "measurements/noise_kind.h"
 
 namespace hindsight {
 namespace {
@@ -64,7 +65,7 @@ TEST(NoiseEstimation, FindsAnErrorThatLasts) {
             kSigma * std::sqrt(1 - phi * phi) * random.NormalVector3();
   }
   NoiseModel& noise = gnss.sensor.noise;
-  noise.kind = NoiseModel::Kind::kGaussMarkov;
+  noise.kind = &GaussMarkovNoise();
   noise.sigma = 3.0;
   noise.tau = 40.0;
   noise.white_sigma = 0.2;

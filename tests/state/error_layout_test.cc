@@ -134,7 +134,10 @@ TEST(Evolution, ConstantAndRandomWalk) {
   EXPECT_EQ(Evolution::RandomWalk(0.5).Phi(100.0), 1.0);
   EXPECT_DOUBLE_EQ(Evolution::RandomWalk(0.5).Q(100.0), 25.0);
   // A walk that does not walk is a constant: one global block in the batch.
-  EXPECT_EQ(Evolution::RandomWalk(0.0).kind, Evolution::Kind::kConstant);
+  EXPECT_TRUE(Evolution::RandomWalk(0.0).is_constant());
+  EXPECT_FALSE(Evolution::RandomWalk(0.1).is_constant());
+  EXPECT_EQ(Evolution::RandomWalk(0.1).StationaryVariance(), 0.0);
+  EXPECT_EQ(Evolution::RandomWalk(0.5).ChangeVariance(8.0), 2.0);
 }
 
 TEST(Evolution, GaussMarkovIsStationary) {
@@ -145,6 +148,9 @@ TEST(Evolution, GaussMarkovIsStationary) {
   }
   // Short intervals see the driving density alone.
   EXPECT_NEAR(e.Q(1e-6) / (e.density * e.density * 1e-6), 1.0, 1e-7);
+  EXPECT_NEAR(e.StationaryVariance(), 0.09, 1e-16);
+  EXPECT_NEAR(e.ChangeVariance(50.0), 0.18 * (1.0 - std::exp(-1.0)), 1e-16);
+  EXPECT_NEAR(e.ChangeVariance(1e-9) / (0.18 * 1e-9 / 50.0), 1.0, 1e-8);
   // Two steps are one.
   EXPECT_NEAR(e.Phi(2.0) * e.Phi(2.0) * e.Q(3.0) + e.Q(2.0), e.Q(5.0), 1e-16);
 }

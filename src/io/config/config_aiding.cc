@@ -4,6 +4,7 @@
 #include "base/units.h"
 #include "io/config/config_key.h"
 #include "io/config/config_streams.h"
+#include "io/config/noise_keys.h"
 #include "io/config/sensor_keys.h"
 
 namespace hindsight {
@@ -21,16 +22,6 @@ std::set<int> ReadQualities(ConfigMap* map) {
   return accepted;
 }
 
-double ReadFactor(ConfigMap* map, const std::string& key,
-                  const std::string& fallback) {
-  const std::string text = map->Text(key, fallback);
-  const auto number = ParseNumber(text);
-  if (!number || !(*number > 0.0)) {
-    map->Fail(key, "'" + text + "' is not a positive number");
-  }
-  return *number;
-}
-
 RobustLoss ReadLoss(ConfigMap* map) {
   RobustLoss loss;
   if (!map->Has("loss")) return loss;
@@ -42,80 +33,6 @@ RobustLoss ReadLoss(ConfigMap* map) {
   loss.scale = ReadFactor(&entry, "scale", FormatNumber(loss.scale));
   entry.Finish();
   return loss;
-}
-
-/// Their names, for messages.
-std::string ColouredKinds() {
-  std::vector<std::string_view> names;
-  for (const SensorKind* kind : SensorKinds()) {
-    if (kind->coloured) names.push_back(kind->name);
-  }
-  std::string list;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    list += i == 0 ? "" : i + 1 == names.size() ? " and " : ", ";
-    list += names[i];
-  }
-  return list;
-}
-
-/// Refuses a standard deviation of a Gauss-Markov error so small that rounding
-/// would leave nothing positive definite.
-void CheckNoiseSigma(ConfigMap* entry, const std::string& key,
-                     Quantity quantity, double sigma) {
-  constexpr double kLeast = 1e-6;
-  if (!entry->Has(key) || sigma >= kLeast) return;
-  entry->Fail(key, quantity == Quantity::kSpeed ? "expected at least 1e-6 m/s"
-                                                : "expected at least 1e-6 m");
-}
-
-/// White, a Gauss-Markov error as states, or a mixture of inliers and outliers,
-/// which is a loss.
-void ReadNoise(ConfigMap* map, SensorSettings* settings) {
-  if (!map->Has("noise")) return;
-  Sensor* sensor = &settings->sensor;
-  ConfigMap entry = map->Map("noise");
-  const std::size_t model =
-      entry.Choice("model", {"white", "gauss_markov", "mixture"}, std::nullopt);
-  if (model == 1) {
-    if (!sensor->kind->coloured) {
-      entry.Fail("model",
-                 "gauss_markov is for " + ColouredKinds() + " sensors");
-    }
-    for (const char* key : {"sigma", "sigma_scale", "correlations"}) {
-      if (!map->Has(key)) continue;
-      map->Fail(key,
-                "does not go with noise of model gauss_markov, whose sigma and "
-                "white take its place");
-    }
-    const Quantity quantity = *sensor->kind->coloured;
-    NoiseModel& noise = sensor->noise;
-    noise.kind = NoiseModel::Kind::kGaussMarkov;
-    noise.sigma = entry.Positive("sigma", quantity);
-    CheckNoiseSigma(&entry, "sigma", quantity, noise.sigma);
-    noise.tau = entry.Positive("tau", Quantity::kTime);
-    noise.white_sigma = entry.Positive("white", quantity, 0.1 * noise.sigma);
-    CheckNoiseSigma(&entry, "white", quantity, noise.white_sigma);
-    // The file need not state what is not used.
-    settings->sigma = Eigen::Vector3d::Constant(noise.white_sigma);
-  } else if (model == 2) {
-    if (sensor->loss.kind != RobustLoss::Kind::kNone) {
-      entry.Fail("model", "a mixture does not go with a loss");
-    }
-    RobustLoss& loss = sensor->loss;
-    loss.kind = RobustLoss::Kind::kMixture;
-    loss.scale = 1.0;
-    loss.outlier_share =
-        entry.Positive("outliers", Quantity::kRatio, loss.outlier_share);
-    if (loss.outlier_share >= 1.0) {
-      entry.Fail("outliers", "expected a share of less than 100 %");
-    }
-    loss.outlier_ratio =
-        ReadFactor(&entry, "ratio", FormatNumber(loss.outlier_ratio));
-    if (loss.outlier_ratio <= 1.0) {
-      entry.Fail("ratio", "expected a number above 1");
-    }
-  }
-  entry.Finish();
 }
 
 /// What is done with the standard deviations of the file.
@@ -261,12 +178,8 @@ const ConfigTable<AidingDraft>& AidingTable() {
         .value = Key::Special{[](ConfigMap* map, AidingDraft* aiding) {
           ReadNoise(map, &aiding->settings);
         }},
-        .help =
-            "{model: white}; {model: gauss_markov, sigma and tau needed, "
-            "white: a tenth of sigma}, for position, velocity and height, in "
-            "place of the file's sigma; {model: mixture, outliers: 5 %, ratio: "
-            "20}, a share of outliers of so many sigmas",
-        .fallback = "white"},
+        .help = "how its errors are distributed and correlated",
+        .fallback = "{model: white}"},
        {.name = "estimate",
         .value = Key::Special{[](ConfigMap* map, AidingDraft* aiding) {
           ReadCalibrationSigmas(map, &aiding->settings);

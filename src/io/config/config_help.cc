@@ -127,6 +127,26 @@ std::string ConfigHelp(const std::string& word) {
   return text;
 }
 
+std::string FormatHelp() {
+  std::string text =
+      "What the `format` of a stream may be; init recognises those with *.\n";
+  for (const FormatEntry& format : FormatEntries()) {
+    text += "\n  " + format.name + (format.recognised ? " *" : "") + "  (" +
+            format.streams + ")\n" + Fold(format.meaning, "      ", 72);
+  }
+  return text;
+}
+
+std::string FormatMarkdown() {
+  std::string text = "| format | what | streams |\n|---|---|---|\n";
+  for (const FormatEntry& format : FormatEntries()) {
+    text += "| `" + format.name + "`" + (format.recognised ? " *" : "") +
+            " | " + Cell(format.meaning) + " | " + Cell(format.streams) +
+            " |\n";
+  }
+  return text;
+}
+
 std::string ConfigMarkdown() {
   std::string text =
       "# Configuration\n\nWritten by `hindsight help config --markdown` from "
@@ -173,6 +193,7 @@ std::string ConfigSchema() {
     if (!section.name.starts_with("aiding: ")) continue;
     Json object = Object(all, {"stream", "aiding", section.name});
     object["properties"]["time"] = Object(all, {"time"});
+    object["properties"]["noise"] = Object(all, {"noise"});
     object["properties"]["type"]["const"] = section.name.substr(8);
     if (section.about.find("It has no file") != std::string::npos) {
       auto& required = object["required"];

@@ -24,6 +24,21 @@ struct KeySection {
   std::vector<KeyEntry> keys;
 };
 
+/// A format of files as it is documented.
+struct FormatEntry {
+  std::string name;
+  std::string meaning;
+  std::string streams;
+  bool recognised = false;  ///< by `hindsight init`
+};
+
+/// In the order of FileFormats.
+std::vector<FormatEntry> FormatEntries();
+
+/// The formats for the terminal, and the rows of the documentation's table.
+std::string FormatHelp();
+std::string FormatMarkdown();
+
 /// All of a recording's configuration; the sections of aiding sensors are those
 /// of SensorKinds.
 std::vector<KeySection> ConfigSections();

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/units.h"
+#include "imu/imu_noise.h"
 #include "imu/known_imus.h"
 #include "io/config/config_key.h"
 #include "io/config/config_streams.h"
@@ -63,58 +64,61 @@ void ReadLike(ConfigMap* map, ImuNoise* noise) {
   *noise = NoiseOf(*imu);
 }
 
+std::vector<ConfigKey<ImuNoise>> BiasNoiseKeys() {
+  using Key = ConfigKey<ImuNoise>;
+  return {
+      {.name = "gyro_bias_walk",
+       .value = Key::Special{[](ConfigMap* map, ImuNoise* noise) {
+         ReadBias(map, "gyro", Quantity::kGyroBiasWalk, Quantity::kAngularRate,
+                  &noise->gyro_bias_walk, &noise->gyro_bias_tau);
+       }},
+       .help = "density",
+       .fallback = "0"},
+      {.name = "gyro_bias_sigma",
+       .value = Key::Special{},
+       .help = "with gyro_bias_tau: a Gauss-Markov bias in place of a walk"},
+      {.name = "gyro_bias_tau",
+       .value = Key::Special{},
+       .help = "correlation time"},
+      {.name = "accel_bias_walk",
+       .value = Key::Special{[](ConfigMap* map, ImuNoise* noise) {
+         ReadBias(map, "accel", Quantity::kAccelBiasWalk,
+                  Quantity::kAcceleration, &noise->accel_bias_walk,
+                  &noise->accel_bias_tau);
+       }},
+       .help = "density",
+       .fallback = "0"},
+      {.name = "accel_bias_sigma", .value = Key::Special{}, .help = "likewise"},
+      {.name = "accel_bias_tau", .value = Key::Special{}, .help = "likewise"}};
+}
+
 const ConfigTable<ImuNoise>& NoiseTable() {
   using Key = ConfigKey<ImuNoise>;
   static const std::string kLike =
       "white noise of its data sheet and usual walks; one of " +
       NamesOfKnownImus();
-  static const ConfigTable<ImuNoise> kTable = {
-      "imu_noise",
-      "The map noise of the imu. It needs gyro and accel, or like.",
-      {{.name = "like", .value = Key::Special{ReadLike}, .help = kLike},
-       {.name = "gyro",
-        .quantity = Quantity::kGyroNoiseDensity,
-        .value =
-            Key::Number{&ImuNoise::gyro_noise_density, KeyRange::kPositive},
-        .help = "white noise density",
-        .fallback = "of like"},
-       {.name = "accel",
-        .quantity = Quantity::kAccelNoiseDensity,
-        .value =
-            Key::Number{&ImuNoise::accel_noise_density, KeyRange::kPositive},
-        .help = "white noise density",
-        .fallback = "of like"},
-       {.name = "gyro_bias_walk",
-        .value = Key::Special{[](ConfigMap* map, ImuNoise* noise) {
-          ReadBias(map, "gyro", Quantity::kGyroBiasWalk, Quantity::kAngularRate,
-                   &noise->gyro_bias_walk, &noise->gyro_bias_tau);
-        }},
-        .help = "density",
-        .fallback = "0"},
-       {.name = "gyro_bias_sigma",
-        .value = Key::Special{},
-        .help = "with gyro_bias_tau: a Gauss-Markov bias in place of a walk"},
-       {.name = "gyro_bias_tau",
-        .value = Key::Special{},
-        .help = "correlation time"},
-       {.name = "accel_bias_walk",
-        .value = Key::Special{[](ConfigMap* map, ImuNoise* noise) {
-          ReadBias(map, "accel", Quantity::kAccelBiasWalk,
-                   Quantity::kAcceleration, &noise->accel_bias_walk,
-                   &noise->accel_bias_tau);
-        }},
-        .help = "density",
-        .fallback = "0"},
-       {.name = "accel_bias_sigma",
-        .value = Key::Special{},
-        .help = "likewise"},
-       {.name = "accel_bias_tau", .value = Key::Special{}, .help = "likewise"},
-       {.name = "gyro_per_rate",
-        .quantity = Quantity::kNoisePerRate,
-        .value =
-            Key::Number{&ImuNoise::gyro_noise_per_rate, KeyRange::kNotNegative},
-        .help = "noise density per rad/s",
-        .fallback = "0"}}};
+  static const ConfigTable<ImuNoise> kTable = [] {
+    ConfigTable<ImuNoise> table = {
+        "imu_noise",
+        "The map noise of the imu. It needs gyro and accel, or like.",
+        BiasNoiseKeys()};
+    auto place = table.keys.insert(
+        table.keys.begin(),
+        {.name = "like", .value = Key::Special{ReadLike}, .help = kLike});
+    ++place;
+    for (const ImuNoiseValue& value : ImuNoiseValues()) {
+      ConfigKey<ImuNoise> key;
+      key.name = value.name;
+      key.quantity = value.quantity;
+      key.value = ConfigKey<ImuNoise>::Number{
+          value.at,
+          value.needed ? KeyRange::kPositive : KeyRange::kNotNegative};
+      key.help = value.help;
+      key.fallback = value.needed ? "of like" : "0";
+      place = table.keys.insert(place, std::move(key)) + 1;
+    }
+    return table;
+  }();
   return kTable;
 }
 

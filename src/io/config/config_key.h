@@ -194,7 +194,7 @@ std::string DefaultText(const ConfigKey<T>& key) {
 std::string MeaningOf(const std::vector<std::string>& words,
                       std::string_view help);
 
-/// As it is documented.
+/// The table as help and documentation show it.
 template <class T>
 KeySection Documented(const ConfigTable<T>& table) {
   KeySection section = {std::string(table.name), std::string(table.about), {}};

@@ -1,27 +1,18 @@
 #include "io/config/config_map.h"
 
+#include <fmt/format.h>
 #include <yaml-cpp/depthguard.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <numeric>
 #include <sstream>
-#include <stdexcept>
 
 #include "base/error.h"
+#include "base/nearest_word.h"
 #include "io/read/text_lines.h"
 
 namespace hindsight {
 namespace {
-
-std::string Join(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) {
-    text += (text.empty() ? "" : ", ") + word;
-  }
-  return text;
-}
 
 bool IsPlainName(const std::string& name) {
   return !name.empty() && name.find_first_not_of(
@@ -62,35 +53,7 @@ std::string FlowAdvice(const std::string& message) {
   return "; a value with [ ] inside of { } stands in quotes: {t: \"1 [s]\"}";
 }
 
-std::size_t EditDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (const char letter : a) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t substituted = diagonal + (letter == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
 }  // namespace
-
-std::string NearestWord(std::string_view word,
-                        const std::vector<std::string>& candidates) {
-  std::string nearest;
-  std::size_t distance = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (const std::string& candidate : candidates) {
-    const std::size_t d = EditDistance(word, candidate);
-    if (d < distance) {
-      distance = d;
-      nearest = candidate;
-    }
-  }
-  return nearest;
-}
 
 ConfigMap ConfigMap::Load(const std::string& path, const Edit& edit) {
   return Parse(ReadText(path), path, edit);
@@ -189,187 +152,6 @@ std::vector<std::string> ConfigMap::Keys() const {
   return keys;
 }
 
-std::string ConfigMap::ScalarText(const std::string& key,
-                                  const YAML::Node& node) const {
-  if (!node.IsScalar()) Fail(key, "expected one value");
-  return node.Scalar();
-}
-
-std::vector<double> ConfigMap::Values(const std::string& key,
-                                      const YAML::Node& node,
-                                      Quantity quantity) const {
-  std::string text;
-  if (node.IsSequence()) {
-    for (const auto& item : node) {
-      text += (text.empty() ? "" : ", ") + ScalarText(key, item);
-    }
-  } else {
-    text = ScalarText(key, node);
-  }
-  try {
-    return ParseQuantities(text, quantity);
-  } catch (const std::invalid_argument& error) {
-    Fail(key, error.what());
-  }
-}
-
-std::optional<double> ConfigMap::OptionalNumber(const std::string& key,
-                                                Quantity quantity) {
-  const auto node = Find(key);
-  if (!node) return std::nullopt;
-  const std::vector<double> values = Values(key, *node, quantity);
-  if (values.size() != 1) Fail(key, "expected one value");
-  Resolve(key, values[0], quantity);
-  return values[0];
-}
-
-double ConfigMap::Number(const std::string& key, Quantity quantity) {
-  const auto value = OptionalNumber(key, quantity);
-  if (!value) {
-    Fail(key, std::string("is missing; expected a value in one of ") +
-                  UnitExamples(quantity));
-  }
-  return *value;
-}
-
-double ConfigMap::Number(const std::string& key, Quantity quantity,
-                         double fallback) {
-  const auto value = OptionalNumber(key, quantity);
-  if (!value) Resolve(key, fallback, quantity);
-  return value.value_or(fallback);
-}
-
-double ConfigMap::Positive(const std::string& key, Quantity quantity) {
-  const double value = Number(key, quantity);
-  if (!(value > 0.0)) Fail(key, "must be greater than zero");
-  return value;
-}
-
-double ConfigMap::Positive(const std::string& key, Quantity quantity,
-                           double fallback) {
-  const double value = Number(key, quantity, fallback);
-  if (!(value > 0.0)) Fail(key, "must be greater than zero");
-  return value;
-}
-
-std::vector<double> ConfigMap::Numbers(const std::string& key,
-                                       Quantity quantity) {
-  const auto node = Find(key);
-  return node ? Values(key, *node, quantity) : std::vector<double>();
-}
-
-std::optional<Eigen::Vector3d> ConfigMap::OptionalVector(const std::string& key,
-                                                         Quantity quantity,
-                                                         bool isotropic) {
-  const auto node = Find(key);
-  if (!node) return std::nullopt;
-  std::vector<double> values = Values(key, *node, quantity);
-  if (isotropic && values.size() == 1) values.assign(3, values[0]);
-  if (values.size() != 3) {
-    Fail(key, "expected three values, found " + std::to_string(values.size()));
-  }
-  const Eigen::Vector3d vector(values[0], values[1], values[2]);
-  YAML::Node list(YAML::NodeType::Sequence);
-  list.SetStyle(YAML::EmitterStyle::Flow);
-  for (const double value : values) {
-    list.push_back(FormatNumber(value) + " " + SiUnit(quantity));
-  }
-  resolved_[key] = list;
-  return vector;
-}
-
-Eigen::Vector3d ConfigMap::Vector(const std::string& key, Quantity quantity,
-                                  const Eigen::Vector3d& fallback) {
-  const auto vector = OptionalVector(key, quantity);
-  if (vector) return *vector;
-  YAML::Node list(YAML::NodeType::Sequence);
-  list.SetStyle(YAML::EmitterStyle::Flow);
-  for (const double value : fallback) {
-    list.push_back(FormatNumber(value) + " " + SiUnit(quantity));
-  }
-  resolved_[key] = list;
-  return fallback;
-}
-
-std::optional<Eigen::Vector3d> ConfigMap::OptionalSigma(const std::string& key,
-                                                        Quantity quantity) {
-  const auto sigma = OptionalVector(key, quantity, true);
-  if (sigma && !(sigma->minCoeff() > 0.0)) {
-    Fail(key, "standard deviations must be greater than zero");
-  }
-  return sigma;
-}
-
-std::optional<std::string> ConfigMap::OptionalText(const std::string& key) {
-  const auto node = Find(key);
-  if (!node) return std::nullopt;
-  const std::string text = ScalarText(key, *node);
-  Resolve(key, text);
-  return text;
-}
-
-std::string ConfigMap::Text(const std::string& key) {
-  const auto text = OptionalText(key);
-  if (!text) Fail(key, "is missing");
-  return *text;
-}
-
-std::string ConfigMap::Text(const std::string& key,
-                            const std::string& fallback) {
-  const auto text = OptionalText(key);
-  if (!text) Resolve(key, fallback);
-  return text.value_or(fallback);
-}
-
-std::size_t ConfigMap::Choice(const std::string& key,
-                              const std::vector<std::string>& choices,
-                              std::optional<std::size_t> fallback) {
-  const auto text = OptionalText(key);
-  if (!text) {
-    if (!fallback) Fail(key, "is missing; expected one of " + Join(choices));
-    Resolve(key, choices[*fallback]);
-    return *fallback;
-  }
-  const auto found = std::find(choices.begin(), choices.end(), *text);
-  if (found == choices.end()) {
-    Fail(key, "'" + *text + "' is not known; expected one of " + Join(choices));
-  }
-  return static_cast<std::size_t>(found - choices.begin());
-}
-
-bool ConfigMap::Flag(const std::string& key, bool fallback) {
-  return Choice(key, {"false", "true"}, fallback ? 1 : 0) == 1;
-}
-
-int ConfigMap::Integer(const std::string& key, int fallback) {
-  const auto text = OptionalText(key);
-  if (!text) {
-    Resolve(key, std::to_string(fallback));
-    return fallback;
-  }
-  const auto number = ParseNumber(*text);
-  if (!number || *number != std::floor(*number) || *number < 0.0 ||
-      *number > 1e9) {
-    Fail(key, "'" + *text + "' is not a whole number");
-  }
-  return static_cast<int>(*number);
-}
-
-std::vector<std::string> ConfigMap::List(const std::string& key) {
-  const auto node = Find(key);
-  std::vector<std::string> items;
-  if (!node) return items;
-  if (!node->IsSequence()) Fail(key, "expected a list in [ ]");
-  YAML::Node list(YAML::NodeType::Sequence);
-  list.SetStyle(YAML::EmitterStyle::Flow);
-  for (const auto& item : *node) {
-    items.push_back(ScalarText(key, item));
-    list.push_back(items.back());
-  }
-  resolved_[key] = list;
-  return items;
-}
-
 ConfigMap ConfigMap::Map(const std::string& key) {
   const auto node = Find(key);
   if (node && !node->IsMap()) Fail(key, "expected keys and values below it");
@@ -424,10 +206,12 @@ void ConfigMap::Finish() const {
     const std::string& key = entries_[i].first;
     if (std::find(asked_.begin(), asked_.end(), key) != asked_.end()) continue;
     const std::string nearest = NearestWord(key, asked_);
-    throw InputError(file_, key_lines_[i],
-                     "unknown key '" + Path(key) + "'; expected " +
-                         (nearest.empty() ? "one of " + Join(asked_)
-                                          : "perhaps '" + nearest + "'"));
+    throw InputError(
+        file_, key_lines_[i],
+        "unknown key '" + Path(key) + "'; expected " +
+            (nearest.empty()
+                 ? "one of " + fmt::format("{}", fmt::join(asked_, ", "))
+                 : "perhaps '" + nearest + "'"));
   }
 }
 

@@ -123,9 +123,8 @@ class ConfigMap {
   YAML::Node resolved_;
 };
 
-/// The candidate nearest to `word` by edit distance, or "" if none is near.
-std::string NearestWord(std::string_view word,
-                        const std::vector<std::string>& candidates);
+/// The node as YAML text with a line end at its end.
+std::string EmitYaml(const YAML::Node& node);
 
 }  // namespace hindsight
 

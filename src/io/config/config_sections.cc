@@ -4,6 +4,7 @@
 #include "io/config/config_help.h"
 #include "io/config/config_key.h"
 #include "io/config/config_streams.h"
+#include "io/config/noise_keys.h"
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {
@@ -86,6 +87,7 @@ std::vector<KeySection> ConfigSections() {
   sections.push_back(ConstantsSection());
   sections.push_back(AhrsSection());
   sections.push_back(AidingSection());
+  sections.push_back(NoiseSection());
   for (const SensorKind* kind : SensorKinds()) {
     if (kind->configured) sections.push_back(SectionOf(*kind));
   }

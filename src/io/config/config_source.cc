@@ -1,135 +1,28 @@
+#include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "base/error.h"
+#include "io/config/config_columns.h"
 #include "io/config/config_key.h"
 #include "io/config/config_streams.h"
+#include "io/read/file_format.h"
 #include "io/read/paths.h"
 
 namespace hindsight {
 namespace {
 
-Quantity QuantityOf(ConfigMap* columns, const std::string& name,
-                    const std::vector<FieldName>& fields) {
-  if (name == "t") return Quantity::kTime;
-  if (name == "week") return Quantity::kRatio;
-  std::vector<std::string> names = {"t", "week"};
-  for (const FieldName& field : fields) {
-    if (name == field.name) return field.quantity;
-    names.emplace_back(field.name);
+/// Of those that are `wanted`.
+std::vector<std::string> FormatNames(bool (*wanted)(const FileFormat&)) {
+  std::vector<std::string> names;
+  for (const FileFormat* format : FileFormats()) {
+    if (wanted(*format)) names.emplace_back(format->name);
   }
-  std::string expected;
-  for (const std::string& known : names) {
-    expected += (expected.empty() ? "one of " : ", ") + known;
-  }
-  if (const std::string near = NearestWord(name, names); !near.empty()) {
-    expected = "perhaps '" + near + "', or " + expected;
-  }
-  columns->Fail(name, "is not a quantity of this stream; expected " + expected);
+  return names;
 }
 
-/// Of a file.
-constexpr int kMostColumns = 100000;
-
-/// A column is a number from 1, or else a title; false for a number beyond the
-/// last column that there can be.
-bool SetColumn(const std::string& text, ColumnMapping* mapping) {
-  int number = 0;
-  const auto result =
-      std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool whole = result.ptr == text.data() + text.size() && !text.empty();
-  if (whole && result.ec == std::errc::result_out_of_range) return false;
-  if (whole && result.ec == std::errc() && number >= 1) {
-    mapping->column = number - 1;
-  } else {
-    mapping->title = text;
-  }
-  return number <= kMostColumns;
-}
-
-std::string TooManyColumns() {
-  return "expected a column of 1 to " + std::to_string(kMostColumns);
-}
-
-ColumnMapping ReadColumn(ConfigMap* columns, const std::string& name,
-                         Quantity quantity) {
-  ColumnMapping mapping;
-  mapping.quantity = name;
-  if (columns->IsMap(name)) {
-    ConfigMap entry = columns->Map(name);
-    if (!SetColumn(entry.Text("column"), &mapping)) {
-      entry.Fail("column", TooManyColumns());
-    }
-    mapping.unit = entry.Text("unit", "");
-    const std::string scale = entry.Text("scale", "1");
-    const auto number = ParseNumber(scale);
-    if (!number || *number == 0.0) {
-      entry.Fail("scale", "'" + scale + "' is not a number other than zero");
-    }
-    mapping.scale = *number;
-    entry.Finish();
-  } else {
-    auto [title, unit] = SplitTitle(columns->Text(name));
-    if (title.starts_with('-')) {
-      mapping.scale = -1.0;
-      title.erase(0, 1);
-    }
-    if (!SetColumn(title, &mapping)) columns->Fail(name, TooManyColumns());
-    mapping.unit = unit;
-  }
-  // Dates, whose unit is their scale.
-  const bool date =
-      name == "t" && (mapping.unit == "UTC" || mapping.unit == "GPST");
-  if (name == "week" || date) return mapping;
-  if (mapping.unit.empty() && mapping.column >= 0) {
-    columns->Fail(name, std::string("has no unit; expected COLUMN [UNIT] with "
-                                    "one of ") +
-                            UnitExamples(quantity));
-  } else if (!mapping.unit.empty() && !UnitFactor(mapping.unit, quantity)) {
-    columns->Fail(name, "has the unit '" + mapping.unit +
-                            "'; expected one of " + UnitExamples(quantity));
-  }
-  return mapping;
-}
-
-/// `{constant: VALUE}` in place of a column; nothing if it is a column.
-std::optional<ConstantColumn> ReadConstant(
-    ConfigMap* columns, const std::string& name, Quantity quantity,
-    const std::vector<FieldName>& fields) {
-  if (!columns->IsMap(name)) return std::nullopt;
-  ConfigMap entry = columns->Map(name);
-  if (!entry.Has("constant")) return std::nullopt;
-  if (name == "t" || name == "week") {
-    entry.Fail("constant", "time does not stand still; expected a column");
-  }
-  if (&fields == &ImuFields()) {
-    entry.Fail("constant",
-               "what every row repeats is no inertial reading; expected a "
-               "column");
-  }
-  for (const char* key : {"column", "unit", "scale"}) {
-    if (entry.Has(key))
-      entry.Fail("constant", std::string("does not go with ") + key);
-  }
-  const ConstantColumn constant = {name, entry.Number("constant", quantity)};
-  entry.Finish();
-  return constant;
-}
-
-void ReadColumns(ConfigMap* map, const std::vector<FieldName>& fields,
-                 TextFormat* format) {
-  std::vector<ColumnMapping>& mappings = format->columns;
-  ConfigMap columns = map->Map("columns");
-  for (const std::string& name : columns.Keys()) {
-    const Quantity quantity = QuantityOf(&columns, name, fields);
-    if (const auto constant = ReadConstant(&columns, name, quantity, fields)) {
-      format->constants.push_back(*constant);
-      continue;
-    }
-    const ColumnMapping mapping = ReadColumn(&columns, name, quantity);
-    mappings.insert(name == "week" ? mappings.begin() : mappings.end(),
-                    mapping);
-  }
+KeyEntry* EntryOf(const std::string& name, KeySection* section) {
+  return &*std::find_if(section->keys.begin(), section->keys.end(),
+                        [&](const KeyEntry& key) { return key.name == name; });
 }
 
 void ReadStart(ConfigMap* time, ClockMap* clock) {
@@ -157,15 +50,9 @@ void ReadSpan(ConfigMap* time, ClockMap* clock) {
   }
 }
 
-/// These formats count from 1970 unless the configuration says otherwise.
-bool CountsFrom1970(TextFormat::Kind format) {
-  return format == TextFormat::Kind::kEuroc ||
-         format == TextFormat::Kind::kNclt;
-}
-
 /// With what decides its defaults.
 struct ClockConfig : ClockMap {
-  TextFormat::Kind format = TextFormat::Kind::kCsv;
+  bool counts_from_1970 = false;
 };
 
 void ReadStretch(ConfigMap* time, ClockConfig* clock) {
@@ -186,10 +73,9 @@ const ConfigTable<ClockConfig>& TimeTable() {
         .value = Key::Special{[](ConfigMap* time, ClockConfig* clock) {
           clock->scale = static_cast<ClockMap::Scale>(
               time->Choice("clock", {"dataset", "gps", "unix"},
-                           CountsFrom1970(clock->format) ? 2 : 0));
+                           clock->counts_from_1970 ? 2 : 0));
         }},
-        .help = "dataset, gps, unix: what stamps count from",
-        .fallback = "dataset; unix for euroc and nclt"},
+        .help = "dataset, gps, unix: what stamps count from"},
        {.name = "week",
         .value = Key::Special{[](ConfigMap* time, ClockConfig* clock) {
           if (!time->Has("week")) return;
@@ -234,9 +120,9 @@ const ConfigTable<ClockConfig>& TimeTable() {
   return kTable;
 }
 
-ClockMap ReadClock(ConfigMap* map, TextFormat::Kind format) {
+ClockMap ReadClock(ConfigMap* map, const FileFormat& format) {
   ClockConfig clock;
-  clock.format = format;
+  clock.counts_from_1970 = format.counts_from_1970;
   ConfigMap time = map->Map("time");
   ReadTable(TimeTable(), &time, &clock);
   if (clock.week && clock.scale != ClockMap::Scale::kDataset) {
@@ -268,12 +154,12 @@ void ReadFormat(ConfigMap* map, StreamConfig* stream) {
   TextFormat& format = stream->format;
   format.config_path = map->file();
   format.config_line = map->line();
-  format.kind =
-      static_cast<TextFormat::Kind>(map->Choice("format", FormatNames(), 0));
+  const auto all = [](const FileFormat&) { return true; };
+  format.kind = FileFormats()[map->Choice("format", FormatNames(all), 0)];
 }
 
 void ReadColumnsOf(ConfigMap* map, StreamConfig* stream) {
-  if (!TakesColumns(stream->format.kind)) return;
+  if (!stream->format.kind->takes_columns) return;
   if (!map->Has("columns")) map->Fail("columns", "is missing");
   stream->format.config_line = map->Line("columns");
   ReadColumns(map, *stream->fields, &stream->format);
@@ -285,9 +171,12 @@ void ReadDelimiter(ConfigMap* map, StreamConfig* stream) {
       "delimiter", {"auto", "comma", "semicolon", "blank"}, 0)];
 }
 
-const std::string& FormatHelp() {
-  static const std::string kHelp = MeaningOf(FormatNames(), "");
-  return kHelp;
+void ReadFormatKeys(ConfigMap* map, StreamConfig* stream) {
+  TextFormat& format = stream->format;
+  for (const FormatKey& key : format.kind->keys) {
+    const std::string name(key.name);
+    if (const auto text = map->OptionalText(name)) format.values[name] = *text;
+  }
 }
 
 const ConfigTable<StreamConfig>& StreamTable() {
@@ -299,17 +188,14 @@ const ConfigTable<StreamConfig>& StreamTable() {
         .value = Key::Special{ReadFile},
         .help = "plain or gzip; a folder for oxts and npy",
         .needed = true},
-       {.name = "format",
-        .value = Key::Special{ReadFormat},
-        .help = FormatHelp(),
-        .fallback = "csv"},
+       {.name = "format", .value = Key::Special{ReadFormat}, .fallback = "csv"},
        {.name = "columns",
         .value = Key::Special{ReadColumnsOf},
         .help =
-            "of columns, npy, mat: QUANTITY: COLUMN [UNIT]; COLUMN is a number "
-            "from 1 or a title, of npy and mat ARRAY or ARRAY:NUMBER; a "
-            "leading \"-\" turns the sign; or {column, unit, scale}; or "
-            "{constant: VALUE}, the same in every row"},
+            "QUANTITY: COLUMN [UNIT]; COLUMN is a number from 1 or a title, "
+            "of npy and mat ARRAY or ARRAY:NUMBER; a leading \"-\" turns "
+            "the sign; or {column, unit, scale}; or {constant: VALUE}, the "
+            "same in every row"},
        {.name = "delimiter",
         .value = Key::Special{ReadDelimiter},
         .help = "auto, comma, semicolon, blank",
@@ -317,19 +203,13 @@ const ConfigTable<StreamConfig>& StreamTable() {
        {.name = "skip_lines",
         .value = Key::Special{[](ConfigMap* map, StreamConfig* stream) {
           stream->format.skip_lines = map->Integer("skip_lines", 0);
+          ReadFormatKeys(map, stream);
         }},
         .help = "lines before the header or data",
         .fallback = "0"},
-       {.name = "topic",
-        .value = Key::Special{[](ConfigMap* map, StreamConfig* stream) {
-          if (stream->format.kind != TextFormat::Kind::kRosbag) return;
-          stream->format.topic = map->OptionalText("topic").value_or("");
-        }},
-        .help = "of a rosbag",
-        .fallback = "the only one that fits"},
        {.name = "time",
         .value = Key::Special{[](ConfigMap* map, StreamConfig* stream) {
-          stream->clock = ReadClock(map, stream->format.kind);
+          stream->clock = ReadClock(map, *stream->format.kind);
         }},
         .help = "how stamps become time"},
        {.name = "on_duplicate",
@@ -386,7 +266,38 @@ StreamSource ReadStreamSource(ConfigMap* map,
 }
 
 std::vector<KeySection> StreamSections() {
-  return {Documented(StreamTable()), Documented(TimeTable())};
+  KeySection stream = Documented(StreamTable());
+  KeySection time = Documented(TimeTable());
+  EntryOf("format", &stream)->meaning =
+      MeaningOf(FormatNames([](const FileFormat&) { return true; }), "");
+  KeyEntry* columns = EntryOf("columns", &stream);
+  columns->meaning =
+      "of " + MeaningOf(FormatNames([](const FileFormat& format) {
+                          return format.takes_columns;
+                        }),
+                        columns->meaning);
+  EntryOf("clock", &time)->fallback =
+      "dataset; of " + MeaningOf(FormatNames([](const FileFormat& format) {
+                                   return format.counts_from_1970;
+                                 }),
+                                 "unix");
+  for (const FileFormat* format : FileFormats()) {
+    for (const FormatKey& key : format->keys) {
+      stream.keys.push_back({std::string(key.name), std::string(key.help),
+                             std::string(key.fallback),
+                             "format: " + std::string(format->name)});
+    }
+  }
+  return {stream, time};
+}
+
+std::vector<FormatEntry> FormatEntries() {
+  std::vector<FormatEntry> entries;
+  for (const FileFormat* format : FileFormats()) {
+    entries.push_back({std::string(format->name), std::string(format->help),
+                       std::string(format->streams), format->recognised()});
+  }
+  return entries;
 }
 
 }  // namespace hindsight

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "io/read/file_format.h"
 #include "io/read/text_lines.h"
 
 namespace hindsight {
@@ -49,17 +50,18 @@ std::string Render(const std::vector<KeyLine>& lines,
   return text;
 }
 
-std::string StreamText(const Found& found, const std::string& indent) {
+std::string StreamText(const FoundStream& found, const std::string& indent) {
   std::string text;
   for (const std::string& remark : found.remarks) {
     text += indent + "# " + remark + "\n";
   }
   return text + indent + "file: " + YamlScalar(found.file) + "\n" + indent +
-         "format: " + found.format + "\n" + Render(found.lines, indent);
+         "format: " + std::string(found.format->name) + "\n" +
+         Render(found.lines, indent);
 }
 
 /// Values of an IMU of which nothing is known but that it is one.
-std::vector<KeyLine> UsualImuLines(const Found& imu) {
+std::vector<KeyLine> UsualImuLines(const FoundStream& imu) {
   std::vector<KeyLine> lines = imu.lines;
   const auto add = [&](const KeyLine& line) {
     if (FindLine(lines, line.key) == nullptr) lines.push_back(line);
@@ -108,7 +110,7 @@ std::string UnusedText(const StreamDraft& stream) {
     text += ": " + stream.found.remarks.back();
   }
   text += "\n";
-  Found plain = stream.found;
+  FoundStream plain = stream.found;
   plain.remarks.clear();
   if (stream.name == "truth") {
     return text + InComments("truth:\n" + StreamText(plain, "  "));
@@ -141,7 +143,7 @@ std::string Head(const RecordingDraft& draft) {
 
 std::string DraftText(const RecordingDraft& draft) {
   std::string text = Head(draft) + "\n";
-  Found imu = *draft.imu;
+  FoundStream imu = *draft.imu;
   imu.lines = UsualImuLines(imu);
   text += "imu:\n" + StreamText(imu, "  ") + AidingText(draft);
   const bool starts = std::any_of(

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "io/config/scenario_config.h"
+#include "io/read/file_formats.h"
 #include "io/read/reader.h"
 #include "io/read/text_lines.h"
 #include "io/read/text_table.h"
@@ -41,7 +42,7 @@ bool HasHeader(const std::string& path) {
 
 TextFormat HeaderlessFormat() {
   TextFormat format;
-  format.kind = TextFormat::Kind::kColumns;
+  format.kind = &ColumnsFormat();
   int column = 0;
   for (const ProfileColumn& entry : kHeaderless) {
     ColumnMapping mapping;

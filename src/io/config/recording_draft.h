@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/read/recognise_format.h"
+#include "io/read/found_stream.h"
 
 namespace hindsight {
 
@@ -13,21 +13,26 @@ namespace hindsight {
 struct StreamDraft {
   std::string name;
   const SensorKind* kind = nullptr;
-  Found found;
+  FoundStream found;
 };
 
 /// The configuration of one recording before it is text.
 struct RecordingDraft {
   std::string name;
   std::string folder;  ///< absolute
-  std::optional<Found> imu;
+  std::optional<FoundStream> imu;
   std::vector<StreamDraft> aiding;
-  std::optional<Found> truth;
+  std::optional<FoundStream> truth;
   std::vector<StreamDraft> unused;  ///< recognised, and why not used in remarks
   std::vector<std::string> unknown;  ///< files that were not recognised
   std::vector<KeyLine> top;          ///< further lines of the top level
   /// What was taken for granted and matters, one clause each.
   std::vector<std::string> assumptions;
+
+  /// Adds an assumption that is not there yet.
+  void Assume(const std::string& what);
+  /// The aiding stream of that name; nullptr if there is none.
+  StreamDraft* Find(const std::string& stream);
 };
 
 /// The recordings below `folder`, told by their IMUs. Files of a folder are of

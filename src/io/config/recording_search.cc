@@ -6,8 +6,9 @@
 #include "base/error.h"
 #include "io/read/column_meaning.h"
 #include "io/read/file_columns.h"
+#include "io/read/file_format.h"
 #include "io/read/paths.h"
-#include "io/read/recognise_columns.h"
+#include "io/read/recognise_format.h"
 
 namespace hindsight {
 namespace {
@@ -16,21 +17,20 @@ namespace fs = std::filesystem;
 
 constexpr int kDeepest = 6;
 
-bool HoldsImu(const std::vector<Found>& found) {
+bool HoldsImu(const std::vector<FoundStream>& found) {
   return std::any_of(found.begin(), found.end(),
-                     [](const Found& f) { return f.imu; });
+                     [](const FoundStream& f) { return f.imu; });
 }
 
 /// A file or folder that is a recording by itself.
-bool IsWhole(const Found& found) {
-  return found.format == "mat" || found.format == "rosbag" ||
-         found.format == "oxts";
+bool IsWhole(const FoundStream& found) {
+  return found.format->whole_recordings;
 }
 
 /// Puts the names of files below `below`.
 void MoveBelow(const fs::path& below, RecordingFiles* files) {
   for (auto* list : {&files->imus, &files->others}) {
-    for (Found& found : *list) found.file = (below / found.file).string();
+    for (FoundStream& found : *list) found.file = (below / found.file).string();
   }
   for (std::string& name : files->unknown) name = (below / name).string();
 }
@@ -77,7 +77,7 @@ class Search {
     for (const fs::path& entry : FolderEntries(folder.string())) {
       const std::string name = entry.filename().string();
       if (name.starts_with('.')) continue;
-      std::vector<Found> found;
+      std::vector<FoundStream> found;
       if (IsFile(entry) || PathExists(entry / "timestamps.txt")) {
         if (IsAside(entry)) continue;
         found = RecogniseFormat(entry.string());
@@ -94,7 +94,7 @@ class Search {
     }
   }
 
-  static void Take(std::vector<Found> found, const std::string& name,
+  static void Take(std::vector<FoundStream> found, const std::string& name,
                    const fs::path& folder, Result* result) {
     if (found.empty()) {
       result->rest.unknown.push_back(name);
@@ -103,7 +103,7 @@ class Search {
     RecordingFiles whole;
     const bool own = HoldsImu(found) && IsWhole(found.front());
     RecordingFiles* to = own ? &whole : &result->rest;
-    for (Found& stream : found) {
+    for (FoundStream& stream : found) {
       stream.file = name;
       (stream.imu ? to->imus : to->others).push_back(std::move(stream));
     }
@@ -116,7 +116,7 @@ class Search {
   static void AddArrays(const FileColumns& arrays, const fs::path& folder,
                         RecordingFiles* rest) {
     const auto found = RecogniseColumns(arrays, folder.filename().string(), {});
-    for (Found stream : found) {
+    for (FoundStream stream : found) {
       // Arrays are named by their folder.
       stream.file = "..";
       (stream.imu ? rest->imus : rest->others).push_back(std::move(stream));
@@ -147,7 +147,7 @@ class Search {
     for (FileColumn& column : accel->columns) {
       gyro->columns.push_back(std::move(column));
     }
-    for (Found stream :
+    for (FoundStream stream :
          RecogniseColumns(*gyro, folder.filename().string(), {})) {
       if (!stream.imu) continue;
       stream.file = ".";
@@ -185,7 +185,7 @@ std::vector<RecordingFiles> FindRecordings(const fs::path& folder,
   *rest = std::move(found.rest);
   for (RecordingFiles& recording : found.recordings) {
     for (auto* list : {&recording.imus, &recording.others}) {
-      for (Found& stream : *list) {
+      for (FoundStream& stream : *list) {
         stream.file = fs::path(stream.file).lexically_normal().generic_string();
         if (stream.file.size() > 1 && stream.file.ends_with('/')) {
           stream.file.pop_back();

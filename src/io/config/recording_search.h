@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/read/recognise_format.h"
+#include "io/read/found_stream.h"
 
 namespace hindsight {
 
@@ -14,8 +14,8 @@ namespace hindsight {
 struct RecordingFiles {
   std::string name;
   std::filesystem::path folder;
-  std::vector<Found> imus;
-  std::vector<Found> others;
+  std::vector<FoundStream> imus;
+  std::vector<FoundStream> others;
   std::vector<std::string> unknown;
 };
 

@@ -11,7 +11,7 @@ namespace hindsight {
 /// profile, or start and one of segments, wander and way_points.
 void ReadMotion(ConfigMap* top, Scenario* scenario);
 
-/// Of the keys that it reads.
+/// Documentation of the keys that ReadMotion reads.
 std::vector<KeySection> MotionSections();
 
 }  // namespace hindsight

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "io/read/file_columns.h"
+#include "io/read/file_formats.h"
 #include "io/read/input_file.h"
 #include "io/read/mat_file.h"
 #include "io/read/paths.h"
@@ -78,7 +79,7 @@ std::optional<FileColumns> ReadNpyColumns(const std::string& folder) {
   }
   if (arrays.empty()) return std::nullopt;
   FileColumns found;
-  found.format = "npy";
+  found.format = &NpyFormat();
   Gather(arrays, &found);
   return found;
 }
@@ -92,7 +93,7 @@ FileColumns ReadMatColumns(const std::string& path) {
     arrays.emplace_back(variable.name, values());
   });
   FileColumns found;
-  found.format = "mat";
+  found.format = &MatFormat();
   Gather(arrays, &found);
   return found;
 }

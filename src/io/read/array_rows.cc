@@ -2,13 +2,11 @@
 
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <map>
 #include <optional>
 
 #include "base/error.h"
-#include "io/read/numeric_array.h"
 #include "io/read/tick_clock.h"
 #include "io/read/units.h"
 
@@ -24,8 +22,9 @@ struct Column {
 
 class ArrayReader {
  public:
-  ArrayReader(const std::string& path, const TextFormat& format)
-      : path_(path), format_(format) {}
+  ArrayReader(const std::string& path, const TextFormat& format,
+              ArrayReading read)
+      : path_(path), format_(format), read_(read) {}
 
   Column Open(const ColumnMapping& mapping, Quantity quantity) {
     std::string name = mapping.title;
@@ -77,19 +76,12 @@ class ArrayReader {
   const NumericArray& Array(const std::string& name) {
     const auto known = arrays_.find(name);
     if (known != arrays_.end()) return known->second;
-    NumericArray array;
-    if (format_.kind == TextFormat::Kind::kMat) {
-      array = ReadMat(path_, name);
-    } else if (name.empty()) {
-      array = ReadNpy(path_);
-    } else {
-      array = ReadNpy((std::filesystem::path(path_) / name).string());
-    }
-    return arrays_.emplace(name, std::move(array)).first->second;
+    return arrays_.emplace(name, read_(path_, name)).first->second;
   }
 
   std::string path_;
   TextFormat format_;
+  ArrayReading read_;
   std::map<std::string, NumericArray> arrays_;
   Column first_;  ///< has the number of rows that all have
   std::string first_name_;
@@ -97,13 +89,14 @@ class ArrayReader {
 
 class ArrayRows final : public RowSource {
  public:
-  ArrayRows(const std::string& path, const TextFormat& format,
-            const std::vector<FieldName>& fields, bool allow_absent)
-      : reader_(path, format),
-        path_(path),
-        fields_(fields),
-        allow_absent_(allow_absent),
-        columns_(fields.size()) {
+  ArrayRows(const TableRequest& request, ArrayReading read)
+      : reader_(request.path, request.format, read),
+        path_(request.path),
+        fields_(request.fields),
+        allow_absent_(request.options.allow_absent),
+        columns_(request.fields.size()) {
+    const TextFormat& format = request.format;
+    const std::vector<FieldName>& fields = request.fields;
     values_.assign(fields.size(), std::numeric_limits<double>::quiet_NaN());
     for (const ColumnMapping& mapping : format.columns) {
       if (mapping.quantity == "t") {
@@ -120,7 +113,8 @@ class ArrayRows final : public RowSource {
       throw InputError(format.config_path, format.config_line,
                        "no column t with the time; expected it, or time.rate");
     }
-    if (reader_.rows() == 0) throw InputError(path, 0, "holds no rows of data");
+    if (reader_.rows() == 0)
+      throw InputError(path_, 0, "holds no rows of data");
   }
 
   bool dated() const { return week_.has_value(); }
@@ -194,13 +188,12 @@ class ArrayRows final : public RowSource {
 
 }  // namespace
 
-std::unique_ptr<RowSource> OpenArrays(const std::string& path,
-                                      const TextFormat& format,
-                                      const std::vector<FieldName>& fields,
-                                      bool allow_absent, bool* dated) {
-  auto rows = std::make_unique<ArrayRows>(path, format, fields, allow_absent);
-  *dated = rows->dated();
-  return rows;
+OpenedTable OpenArrays(const TableRequest& request, ArrayReading read) {
+  auto rows = std::make_unique<ArrayRows>(request, read);
+  OpenedTable opened;
+  opened.dated = rows->dated();
+  opened.table = std::move(rows);
+  return opened;
 }
 
 }  // namespace hindsight

@@ -6,6 +6,8 @@
 #include <set>
 #include <string_view>
 
+#include "io/read/file_formats.h"
+
 namespace hindsight {
 namespace {
 
@@ -313,7 +315,7 @@ std::vector<ColumnMeaning> ReadMeanings(const FileColumns& file) {
   std::vector<ColumnMeaning> meanings;
   std::set<std::string> taken;
   for (const FileColumn& column : file.columns) {
-    ColumnMeaning meaning = file.format == "columns"
+    ColumnMeaning meaning = file.format == &ColumnsFormat()
                                 ? MeaningOfTitle(column.title)
                                 : MeaningInArray(column);
     if (!meaning.quantity.empty() && !taken.insert(meaning.quantity).second) {

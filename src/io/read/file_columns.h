@@ -8,6 +8,8 @@
 
 namespace hindsight {
 
+struct FileFormat;
+
 /// One column of numbers as a file holds it.
 struct FileColumn {
   std::string reference;  ///< as `columns` names it: "3", "imu_gyr:2"
@@ -17,7 +19,7 @@ struct FileColumn {
 
 /// The numbers of a file whose meaning nobody has declared.
 struct FileColumns {
-  std::string format;  ///< "columns", "npy" or "mat"
+  const FileFormat* format = nullptr;  ///< columns, npy or mat
   std::vector<FileColumn> columns;
   std::size_t rows = 0;
   int skip_lines = 0;     ///< before the first row of numbers

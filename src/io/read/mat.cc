@@ -1,11 +1,15 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <string_view>
 
 #include "base/error.h"
+#include "io/read/array_rows.h"
+#include "io/read/file_columns.h"
+#include "io/read/file_formats.h"
 #include "io/read/mat_file.h"
 
 namespace hindsight {
@@ -110,6 +114,26 @@ NumericArray ReadMat(const std::string& path, const std::string& variable) {
                          (names.empty() ? "none" : names));
   }
   return std::move(*found);
+}
+
+const FileFormat& MatFormat() {
+  static const FileFormat kFormat = {
+      .name = "mat",
+      .help = "full, real matrices of a MATLAB file of version 7, 6 or 4",
+      .streams = "all",
+      .takes_columns = true,
+      .whole_recordings = true,
+      .open =
+          [](const TableRequest& request) {
+            return OpenArrays(request, ReadMat);
+          },
+      .read_columns =
+          [](const std::string& path) {
+            return std::filesystem::path(path).extension() == ".mat"
+                       ? std::optional(ReadMatColumns(path))
+                       : std::nullopt;
+          }};
+  return kFormat;
 }
 
 }  // namespace hindsight

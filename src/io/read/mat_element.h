@@ -26,7 +26,7 @@ class MatElement {
   void Skip(std::size_t count);
   /// The bytes that follow, as the element's tag says it.
   void SetSize(std::size_t size) { left_ = size; }
-  /// Those of them that were not read yet.
+  /// How many of those bytes were not read yet.
   std::size_t left() const { return left_; }
   /// The most bytes that the file can still hold of it.
   std::size_t Most() const;

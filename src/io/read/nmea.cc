@@ -1,111 +1,17 @@
-#include "io/read/nmea.h"
-
 #include <algorithm>
-#include <charconv>
-#include <chrono>
-#include <cmath>
 #include <optional>
 
 #include "base/error.h"
 #include "base/units.h"
+#include "io/read/file_formats.h"
+#include "io/read/nmea_sentence.h"
+#include "io/read/open_text.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
 
 constexpr double kHalfDay = 43200.0;
-
-/// What is wrong with a sentence; the reader adds file and line.
-struct Problem {
-  std::string text;
-};
-
-/// The fields between '$' and '*', the address first.
-std::vector<std::string_view> SplitSentence(std::string_view line) {
-  line = Trim(line);
-  if (!line.starts_with('$') && !line.starts_with('!')) {
-    throw Problem{"is no NMEA sentence; expected '$' at its start"};
-  }
-  const std::size_t star = line.rfind('*');
-  if (star == line.npos) {
-    throw Problem{"the sentence has no checksum; expected '*' and two digits"};
-  }
-  unsigned sum = 0;
-  for (const char c : line.substr(1, star - 1)) {
-    sum ^= static_cast<unsigned char>(c);
-  }
-  unsigned stated = 0;
-  const char* end = line.data() + line.size();
-  const auto result = std::from_chars(line.data() + star + 1, end, stated, 16);
-  if (result.ec != std::errc() || result.ptr != end ||
-      line.size() != star + 3) {
-    throw Problem{"the checksum is not two hexadecimal digits"};
-  }
-  if (stated != sum) throw Problem{"the checksum is wrong: a damaged sentence"};
-  return SplitLine(line.substr(1, star - 1), ',');
-}
-
-double Number(std::string_view text, const char* what) {
-  const auto number = ParseNumber(text);
-  if (!number) {
-    throw Problem{std::string(what) + ": '" + std::string(text) +
-                  "' is not a finite number"};
-  }
-  return *number;
-}
-
-/// "hhmmss.ss" in seconds of the day.
-double TimeOfDay(std::string_view text) {
-  const double value = Number(text, "the time");
-  const double hours = std::floor(value / 1e4);
-  const double minutes = std::floor((value - 1e4 * hours) / 1e2);
-  const double seconds = value - 1e4 * hours - 1e2 * minutes;
-  if (value < 0.0 || hours > 23.0 || minutes > 59.0 || seconds >= 61.0) {
-    throw Problem{"'" + std::string(text) + "' is not a time; expected hhmmss"};
-  }
-  return 3600.0 * hours + 60.0 * minutes + seconds;
-}
-
-/// "dddmm.mmmm" and a hemisphere in radians.
-double Angle(std::string_view text, std::string_view hemisphere, char positive,
-             char negative, double largest_deg) {
-  const double value = Number(text, "an angle");
-  const double degrees = std::floor(value / 100.0);
-  const double minutes = value - 100.0 * degrees;
-  const double angle = degrees + minutes / 60.0;
-  const bool known = hemisphere.size() == 1 &&
-                     (hemisphere[0] == positive || hemisphere[0] == negative);
-  if (value < 0.0 || minutes >= 60.0 || angle > largest_deg || !known) {
-    throw Problem{"'" + std::string(text) + "," + std::string(hemisphere) +
-                  "' is not an angle; expected degrees and minutes within " +
-                  std::to_string(static_cast<int>(largest_deg)) + " deg, " +
-                  positive + " or " + negative};
-  }
-  return (hemisphere[0] == negative ? -angle : angle) * kDegree;
-}
-
-/// Days since 1970 of a date.
-int Day(int year, int month, int day) {
-  const std::chrono::year_month_day date{
-      std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
-      std::chrono::day(static_cast<unsigned>(day))};
-  if (month < 1 || day < 1 || !date.ok()) {
-    throw Problem{"the date is none; expected day, month, year"};
-  }
-  return static_cast<int>(
-      std::chrono::sys_days(date).time_since_epoch().count());
-}
-
-/// "ddmmyy": the century is that of GPS.
-int DayOfRmc(std::string_view text) {
-  const int value =
-      static_cast<int>(std::clamp(Number(text, "the date"), -1.0, 1e6));
-  if (text.size() != 6 || value < 0) {
-    throw Problem{"'" + std::string(text) + "' is not a date; expected ddmmyy"};
-  }
-  const int year = value % 100;
-  return Day(year + (year < 80 ? 2000 : 1900), value / 100 % 100,
-             value / 10000);
-}
 
 /// Counts the days from the first sentence on.
 class DayCounter {
@@ -148,8 +54,8 @@ class NmeaReader {
     while (lines_.Next(&line)) {
       if (IsComment(line)) continue;
       try {
-        Take(SplitSentence(line));
-      } catch (const Problem& problem) {
+        Take(SplitNmea(line));
+      } catch (const NmeaProblem& problem) {
         if (!lines_.terminated() && options_.allow_truncated_tail) {
           rows_.LeaveOut("truncated last line dropped", 1);
           break;
@@ -179,8 +85,8 @@ class NmeaReader {
 
   static std::string_view At(const Sentence& sentence, std::size_t i) {
     if (i >= sentence.size()) {
-      throw Problem{"found " + std::to_string(sentence.size()) +
-                    " fields, expected more"};
+      throw NmeaProblem{"found " + std::to_string(sentence.size()) +
+                        " fields, expected more"};
     }
     return sentence[i];
   }
@@ -195,19 +101,20 @@ class NmeaReader {
       if (timed && type == (takes_rmc_ ? "RMC" : "GGA")) ++without_fix_;
       return;
     }
-    time_of_day_ = TimeOfDay(At(sentence, 1));
+    time_of_day_ = NmeaTimeOfDay(At(sentence, 1));
     days_.Observe(time_of_day_);
     if (type == "RMC") TakeRmc(sentence);
     if (type == "GGA" && !takes_rmc_) TakeGga(sentence);
     if (type == "GST" && !takes_rmc_) TakeGst(sentence);
     if (type == "ZDA" && !At(sentence, 4).empty()) {
-      days_.Date(Day(Integer(sentence[4]), Integer(sentence[3]),
-                     Integer(sentence[2])));
+      days_.Date(NmeaDay(Integer(sentence[4]), Integer(sentence[3]),
+                         Integer(sentence[2])));
     }
   }
 
   static int Integer(std::string_view text) {
-    return static_cast<int>(std::clamp(Number(text, "the date"), -1.0, 1e5));
+    return static_cast<int>(
+        std::clamp(NmeaNumber(text, "the date"), -1.0, 1e5));
   }
 
   void Append() {
@@ -216,16 +123,16 @@ class NmeaReader {
   }
 
   void TakeRmc(const Sentence& sentence) {
-    if (!At(sentence, 9).empty()) days_.Date(DayOfRmc(sentence[9]));
+    if (!At(sentence, 9).empty()) days_.Date(NmeaDayOfRmc(sentence[9]));
     if (!takes_rmc_) return;
     if (sentence[2] != "A" || sentence[7].empty()) {
       ++without_fix_;
       return;
     }
     Append();
-    rows_.Set("speed", Number(sentence[7], "the speed") * kKnot);
+    rows_.Set("speed", NmeaNumber(sentence[7], "the speed") * kKnot);
     if (!sentence[8].empty()) {
-      rows_.Set("course", Number(sentence[8], "the course") * kDegree);
+      rows_.Set("course", NmeaNumber(sentence[8], "the course") * kDegree);
     }
   }
 
@@ -236,18 +143,19 @@ class NmeaReader {
       return;
     }
     if (At(sentence, 11).empty()) {
-      throw Problem{
+      throw NmeaProblem{
           "GGA has no geoid separation; expected it, for the height "
           "above the ellipsoid"};
     }
     Append();
-    rows_.Set("lat", Angle(sentence[2], sentence[3], 'N', 'S', 90.0));
-    rows_.Set("lon", Angle(sentence[4], sentence[5], 'E', 'W', 180.0));
-    rows_.Set("h", Number(sentence[9], "the height") +
-                       Number(sentence[11], "the geoid separation"));
-    rows_.Set("quality", Number(quality, "the quality"));
+    rows_.Set("lat", NmeaAngle(sentence[2], sentence[3], 'N', 'S', 90.0));
+    rows_.Set("lon", NmeaAngle(sentence[4], sentence[5], 'E', 'W', 180.0));
+    rows_.Set("h", NmeaNumber(sentence[9], "the height") +
+                       NmeaNumber(sentence[11], "the geoid separation"));
+    rows_.Set("quality", NmeaNumber(quality, "the quality"));
     if (!sentence[7].empty()) {
-      rows_.Set("satellites", Number(sentence[7], "the number of satellites"));
+      rows_.Set("satellites",
+                NmeaNumber(sentence[7], "the number of satellites"));
       ++with_satellites_;
     }
     if (gst_ && gst_->time_of_day == time_of_day_) SetSigmas();
@@ -255,9 +163,9 @@ class NmeaReader {
 
   void TakeGst(const Sentence& sentence) {
     if (At(sentence, 8).empty()) return;
-    gst_ = Gst{time_of_day_, Number(sentence[6], "the standard deviation"),
-               Number(sentence[7], "the standard deviation"),
-               Number(sentence[8], "the standard deviation")};
+    gst_ = Gst{time_of_day_, NmeaNumber(sentence[6], "the standard deviation"),
+               NmeaNumber(sentence[7], "the standard deviation"),
+               NmeaNumber(sentence[8], "the standard deviation")};
     if (!stamps_.empty() && stamps_.back().second == time_of_day_) SetSigmas();
   }
 
@@ -297,11 +205,41 @@ class NmeaReader {
   long without_fix_ = 0;
 };
 
+std::optional<FoundStream> RecogniseNmea(const TextProbe& probe) {
+  bool gga = false;
+  bool rmc = false;
+  for (const std::string& line : probe.lines) {
+    if (!line.starts_with('$') || line.size() < 6) return std::nullopt;
+    gga = gga || line.substr(3, 3) == "GGA";
+    rmc = rmc || line.substr(3, 3) == "RMC";
+  }
+  FoundStream found;
+  found.sigmas = false;
+  if (gga) found.kinds.push_back(&PositionKind());
+  if (rmc) found.kinds.push_back(&SpeedCourseKind());
+  if (found.kinds.empty()) return std::nullopt;
+  return found;
+}
+
 }  // namespace
 
-RowBuffer ReadNmea(TextLines* lines, const std::vector<FieldName>& fields,
-                   const TextTable::Options& options, bool* dated) {
-  return NmeaReader(lines, fields, options).Read(dated);
+const FileFormat& NmeaFormat() {
+  static const FileFormat kFormat = {
+      .name = "nmea",
+      .help = "NMEA 0183: GGA with geoid separation, GST, RMC",
+      .streams = "position, height, speed and course",
+      .dated = true,
+      .open =
+          [](const TableRequest& request) {
+            const OpenedTable opened = OpenLines(request);
+            bool dated = false;
+            RowBuffer rows =
+                NmeaReader(opened.lines.get(), request.fields, request.options)
+                    .Read(&dated);
+            return OpenBuffer(std::move(rows), dated);
+          },
+      .recognise_text = RecogniseNmea};
+  return kFormat;
 }
 
 }  // namespace hindsight

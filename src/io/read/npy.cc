@@ -1,12 +1,17 @@
 #include <array>
 #include <charconv>
 #include <cstring>
+#include <filesystem>
 #include <string_view>
 #include <vector>
 
 #include "base/error.h"
+#include "io/read/array_rows.h"
+#include "io/read/file_columns.h"
+#include "io/read/file_formats.h"
 #include "io/read/input_file.h"
 #include "io/read/numeric_array.h"
+#include "io/read/paths.h"
 #include "io/read/units.h"
 
 namespace hindsight {
@@ -149,6 +154,33 @@ NumericArray ReadNpy(const std::string& path) {
   array.bytes.resize(bytes);
   file.ReadAt(data, array.bytes.data(), bytes);
   return array;
+}
+
+namespace {
+
+/// `name` is a file below a folder, or `path` is the file.
+NumericArray ReadNamedNpy(const std::string& path, const std::string& name) {
+  if (name.empty()) return ReadNpy(path);
+  return ReadNpy((std::filesystem::path(path) / name).string());
+}
+
+}  // namespace
+
+const FileFormat& NpyFormat() {
+  static const FileFormat kFormat = {
+      .name = "npy",
+      .help = "NumPy arrays, one file or a folder of them",
+      .streams = "all",
+      .takes_columns = true,
+      .open =
+          [](const TableRequest& request) {
+            return OpenArrays(request, ReadNamedNpy);
+          },
+      .read_columns =
+          [](const std::string& path) {
+            return IsFolder(path) ? ReadNpyColumns(path) : std::nullopt;
+          }};
+  return kFormat;
 }
 
 }  // namespace hindsight

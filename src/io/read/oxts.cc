@@ -1,5 +1,3 @@
-#include "io/read/oxts.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -10,9 +8,12 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "io/read/file_formats.h"
+#include "io/read/open_text.h"
 #include "io/read/paths.h"
 #include "io/read/text_lines.h"
 #include "io/read/text_table.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -158,10 +159,8 @@ std::array<double, kValues> ReadEpoch(const std::string& path) {
   return values;
 }
 
-}  // namespace
-
-RowBuffer ReadOxts(const std::string& folder,
-                   const std::vector<FieldName>& fields) {
+RowBuffer ReadOxtsFolder(const std::string& folder,
+                         const std::vector<FieldName>& fields) {
   const fs::path data = fs::path(folder) / "data";
   if (!IsFolder(data)) {
     throw InputError(folder, 0,
@@ -202,6 +201,33 @@ RowBuffer ReadOxts(const std::string& folder,
   if (rows.size() == 0) throw InputError(folder, 0, "holds no epochs");
   rows.LeaveOut("missing epoch", missing);
   return rows;
+}
+
+std::optional<FoundStream> RecogniseOxts(const fs::path& path) {
+  if (!IsFolder(path) || !PathExists(path / "timestamps.txt") ||
+      !PathExists(path / "data")) {
+    return std::nullopt;
+  }
+  FoundStream found = FoundAiding({&PositionKind(), &VelocityKind()});
+  found.imu = found.truth = true;
+  return found;
+}
+
+}  // namespace
+
+const FileFormat& OxtsFormat() {
+  static const FileFormat kFormat = {
+      .name = "oxts",
+      .help = "KITTI `oxts` folder",
+      .streams = "imu, position, velocity, odometer, truth",
+      .whole_recordings = true,
+      .open =
+          [](const TableRequest& request) {
+            return OpenBuffer(ReadOxtsFolder(request.path, request.fields),
+                              true);
+          },
+      .recognise_name = RecogniseOxts};
+  return kFormat;
 }
 
 }  // namespace hindsight

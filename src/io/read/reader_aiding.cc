@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "io/read/file_format.h"
 #include "io/read/reader_rows.h"
 
 namespace hindsight {
@@ -224,8 +225,7 @@ class AidingReader : public MeasuredRow {
   }
 
   bool IsAbsentVelocity() {
-    if (!kind_.is_velocity ||
-        source_.format.kind != TextFormat::Kind::kRtklibPos) {
+    if (!kind_.is_velocity || !source_.format.kind->zeros_are_absent) {
       return false;
     }
     for (std::size_t i = 0; i < 6; ++i) {

@@ -1,69 +1,21 @@
 #ifndef HINDSIGHT_IO_READ_RECOGNISE_FORMAT_H_
 #define HINDSIGHT_IO_READ_RECOGNISE_FORMAT_H_
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "io/read/imu_guess.h"
-#include "io/read/stamp_guess.h"
-#include "measurements/sensor_kind.h"
+#include "io/read/found_stream.h"
+#include "io/read/recognise_columns.h"
 
 namespace hindsight {
 
-/// One line of a configuration: a key, which is indented by as much as its map
-/// is deep, its value, and why.
-struct KeyLine {
-  std::string key;
-  std::string value;
-  std::string comment = {};
-};
-
-/// Replaces the line of that key, or adds it.
-void SetLine(KeyLine line, std::vector<KeyLine>* lines);
-
-/// The line of that key; nullptr if there is none.
-const KeyLine* FindLine(const std::vector<KeyLine>& lines,
-                        const std::string& key);
-
-/// A stream that was found in a file or folder.
-struct Found {
-  std::string file;
-  std::string format;
-  bool imu = false;    ///< holds one
-  bool truth = false;  ///< is or holds one, by its name or its format
-  bool pose = false;   ///< holds attitudes, and does not say that they are true
-  bool sigmas = true;  ///< states those of `kinds`, where the format can
-  /// What it can serve as besides, in the order of SensorKinds.
-  std::vector<const SensorKind*> kinds = {};
-  std::vector<KeyLine> lines = {};  ///< of its configuration, behind `format`
-  /// Of columns that no configuration declared: how they become times.
-  std::optional<StampGuess> stamps = {};
-  std::optional<ImuGuess> imu_guess = {};
-  /// Of an IMU on a wheel: the axis about which it spins, 0 to 2.
-  std::optional<int> spin_axis = {};
-  std::vector<std::string> remarks = {};      ///< what was odd
-  std::vector<std::string> assumptions = {};  ///< what may be otherwise
-  double top_speed = 0.0;                     ///< of positions [m/s]
-};
-
-/// What is known of a recording when the streams beside its IMU are looked at.
-struct RecogniseHints {
-  std::optional<double> imu_span = {};  ///< [s]
-  /// Of the IMU, where its rows are counted and not stamped [Hz].
-  std::optional<double> count_rate = {};
-};
-
-/// The streams of a file: by its content if it is in a format of its own, and
-/// else by its columns' titles and numbers; a bag or an OXTS folder by its name.
-/// A file of columns is a truth only by its name. Empty if it is none that is
-/// known.
-std::vector<Found> RecogniseFormat(const std::string& path,
-                                   const RecogniseHints& hints = {});
-
-/// Whether a file is called truth or reference, or `gt` or `ref` by a word of
-/// its name.
-bool IsNamedTruth(const std::string& path);
+/// The streams of a file, by the list of formats (FileFormats): a bag or an OXTS
+/// folder by its name; else by its content if it is in a format of its own; else
+/// by its columns' titles and numbers; and where those hold no IMU, as bare
+/// numbers in a fixed order. A file of columns is a truth only by its name.
+/// Empty if it is none that is known.
+std::vector<FoundStream> RecogniseFormat(const std::string& path,
+                                         const RecogniseHints& hints = {});
 
 }  // namespace hindsight
 

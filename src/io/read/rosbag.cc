@@ -1,5 +1,3 @@
-#include "io/read/rosbag.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,9 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "io/read/bag_file.h"
+#include "io/read/file_formats.h"
+#include "io/read/open_text.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -194,13 +195,13 @@ void AppendMessages(const std::vector<T>& messages, RowBuffer* rows) {
   }
 }
 
-}  // namespace
-
-RowBuffer ReadRosbag(const std::string& path, const std::string& topic,
-                     const std::vector<FieldName>& fields) {
-  RowBuffer rows(path, fields, false);
-  const BagFile bag(path);
-  if (&fields == &ImuFields()) {
+RowBuffer ReadTopic(const TableRequest& request) {
+  RowBuffer rows(request.path, request.fields, false);
+  const auto given = request.format.values.find("topic");
+  const std::string topic =
+      given == request.format.values.end() ? "" : given->second;
+  const BagFile bag(request.path);
+  if (request.IsImu()) {
     for (std::size_t i = 0; i < 6; ++i) rows.Declare(i);
     AppendMessages(ReadMessages<ImuMessage>(bag, topic), &rows);
   } else {
@@ -209,8 +210,36 @@ RowBuffer ReadRosbag(const std::string& path, const std::string& topic,
     }
     AppendMessages(ReadMessages<FixMessage>(bag, topic), &rows);
   }
-  if (rows.size() == 0) throw InputError(path, 0, "the topic holds no rows");
+  if (rows.size() == 0) {
+    throw InputError(request.path, 0, "the topic holds no rows");
+  }
   return rows;
+}
+
+std::optional<FoundStream> RecogniseBag(const std::filesystem::path& path) {
+  if (path.extension() != ".bag") return std::nullopt;
+  FoundStream found = FoundAiding({&PositionKind()});
+  found.imu = true;
+  return found;
+}
+
+}  // namespace
+
+const FileFormat& RosbagFormat() {
+  static const FileFormat kFormat = {
+      .name = "rosbag",
+      .help =
+          "ROS 1 bag 2.0, plain, bz2 or lz4: sensor_msgs/Imu, "
+          "sensor_msgs/NavSatFix",
+      .streams = "imu, position, height",
+      .whole_recordings = true,
+      .keys = {{"topic", "the topic to read", "the only one that fits"}},
+      .open =
+          [](const TableRequest& request) {
+            return OpenBuffer(ReadTopic(request), true);
+          },
+      .recognise_name = RecogniseBag};
+  return kFormat;
 }
 
 }  // namespace hindsight

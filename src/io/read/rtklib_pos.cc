@@ -1,10 +1,11 @@
-#include "io/read/rtklib_pos.h"
-
 #include <algorithm>
 #include <array>
 
 #include "base/error.h"
 #include "base/units.h"
+#include "io/read/file_formats.h"
+#include "io/read/open_text.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -43,11 +44,9 @@ std::string_view PosField(std::string_view field) {
   return field == "sigma_h" ? "sigma_d" : field;
 }
 
-}  // namespace
-
-TableLayout RtklibPosLayout(const std::string& path, long line,
-                            std::string_view header, std::string_view first_row,
-                            const std::vector<FieldName>& fields) {
+TableLayout PosLayout(const std::string& path, long line,
+                      std::string_view header, std::string_view first_row,
+                      const std::vector<FieldName>& fields) {
   const std::size_t text = header.find_first_not_of("% ");
   const std::vector<std::string_view> titles =
       text == header.npos ? std::vector<std::string_view>()
@@ -95,6 +94,74 @@ TableLayout RtklibPosLayout(const std::string& path, long line,
     layout.fields.push_back(field);
   }
   return layout;
+}
+
+OpenedTable OpenPos(const TableRequest& request) {
+  OpenedTable opened = OpenLines(request);
+  std::string header;
+  std::string row;
+  long header_line = 0;
+  std::string_view view;
+  while (row.empty() && opened.lines->Next(&view)) {
+    if (view.starts_with('%')) {
+      header = view;
+      header_line = opened.lines->number();
+    } else if (!IsComment(view)) {
+      row = view;
+    }
+  }
+  if (row.empty()) FailWithoutRows(request.path);
+  TableLayout layout =
+      PosLayout(request.path, header_line, header, row, request.fields);
+  opened.dated = true;
+  opened.table = std::make_unique<TextTable>(
+      opened.lines.get(), std::move(layout), request.options, std::move(row));
+  return opened;
+}
+
+/// The share of rows whose integer ambiguities are resolved.
+double FixedShare(const std::string& path) {
+  TextFormat format;
+  format.kind = &RtklibPosFormat();
+  const OpenedTable opened =
+      OpenTable(path, format, {{"quality", Quantity::kRatio}}, {});
+  long rows = 0;
+  long fixed = 0;
+  while (opened.table->Next()) {
+    ++rows;
+    if (opened.table->value(0) == 1.0) ++fixed;
+  }
+  return rows == 0 ? 0.0
+                   : static_cast<double>(fixed) / static_cast<double>(rows);
+}
+
+std::optional<FoundStream> RecognisePos(const TextProbe& probe) {
+  if (probe.comments.empty() ||
+      probe.comments.back().find("latitude(deg)") == std::string::npos) {
+    return std::nullopt;
+  }
+  FoundStream found = FoundAiding({&PositionKind()});
+  constexpr double kMostlyFixed = 0.5;
+  if (FixedShare(probe.path) > kMostlyFixed) {
+    found.lines.push_back(
+        {"accept_quality", "[1]", "integer ambiguities resolved"});
+  }
+  found.lines.push_back(
+      {"every", "1 s", "errors of neighbouring fixes are alike"});
+  return found;
+}
+
+}  // namespace
+
+const FileFormat& RtklibPosFormat() {
+  static const FileFormat kFormat = {.name = "rtklib_pos",
+                                     .help = "RTKLIB solution",
+                                     .streams = "position, velocity, height",
+                                     .dated = true,
+                                     .zeros_are_absent = true,
+                                     .open = OpenPos,
+                                     .recognise_text = RecognisePos};
+  return kFormat;
 }
 
 }  // namespace hindsight

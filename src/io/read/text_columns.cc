@@ -4,6 +4,7 @@
 #include <map>
 
 #include "io/read/file_columns.h"
+#include "io/read/file_formats.h"
 #include "io/read/text_layout.h"
 #include "io/read/units.h"
 
@@ -68,7 +69,7 @@ class TextColumns {
     const auto shape = FindShape(first);
     if (!shape) return std::nullopt;
     shape_ = *shape;
-    found_.format = "columns";
+    found_.format = &ColumnsFormat();
     found_.columns.resize(shape_.columns);
     for (const std::string& early : first) Take(early, true);
     while (found_.complete && lines_.Next(&line)) {

@@ -1,9 +1,12 @@
 #ifndef HINDSIGHT_IO_READ_TEXT_FORMAT_H_
 #define HINDSIGHT_IO_READ_TEXT_FORMAT_H_
 
+#include <functional>
+#include <map>
 #include <memory>
-#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/read/constant_columns.h"
@@ -12,6 +15,9 @@
 #include "io/read/text_table.h"
 
 namespace hindsight {
+
+struct FileFormat;
+const FileFormat& CsvFormat();
 
 /// One entry of `columns:` in a configuration.
 struct ColumnMapping {
@@ -24,40 +30,21 @@ struct ColumnMapping {
   double scale = 1.0;  ///< applied after the unit, sign included
 };
 
-/// How a file is laid out.
+/// What a configuration says of how a file is laid out.
 struct TextFormat {
-  enum class Kind {
-    kCsv,            ///< docs/formats.md
-    kColumns,        ///< `columns` says it
-    kKfGins,         ///< KF-GINS and OB_GINS text, io/read/preset_columns.h
-    kRtklibPos,      ///< RTKLIB .pos, latitude/longitude/height in degrees
-    kEuroc,          ///< io/read/preset_columns.h
-    kNclt,           ///< io/read/preset_columns.h
-    kControlPoints,  ///< io/read/preset_columns.h
-    kOxts,           ///< KITTI's folder, io/read/oxts.h
-    kNmea,           ///< io/read/nmea.h
-    kNpy,            ///< io/read/array_rows.h
-    kMat,            ///< io/read/array_rows.h
-    kRosbag,         ///< io/read/rosbag.h
-  };
-  Kind kind = Kind::kCsv;
+  const FileFormat* kind = &CsvFormat();
   char delimiter = '\0';  ///< '\0': guessed from the first line of data
   int skip_lines = 0;     ///< before everything else
-  std::vector<ColumnMapping> columns;
+  std::vector<ColumnMapping> columns;     ///< if FileFormat::takes_columns
   std::vector<ConstantColumn> constants;  ///< besides `columns`
-  std::string topic;  ///< of a bag; empty: the only one of a fitting type
+  /// Of FileFormat::keys, those that were given.
+  std::map<std::string, std::string, std::less<>> values;
   /// The file's stamps are not looked at.
   bool ignore_time = false;
   /// Where the format was declared, for messages.
   std::string config_path;
   long config_line = 0;
 };
-
-/// The names of the formats in configurations, in the order of Kind.
-const std::vector<std::string>& FormatNames();
-
-/// True if the configuration lists the columns of the format.
-bool TakesColumns(TextFormat::Kind kind);
 
 /// A table open for reading.
 struct OpenedTable {

@@ -50,7 +50,7 @@ class LayoutBuilder {
     if (format_.ignore_time) {
       layout_.clock = TableLayout::Clock::kNone;
     } else if (time_column_ < 0) {
-      Fail(format_.kind == TextFormat::Kind::kCsv
+      Fail(format_.kind == &CsvFormat()
                ? "no column t with the time; `format: columns` reads titles of "
                  "any name, and rows without a time by `time: {rate: ...}`"
                : "no column t with the time; expected t under `columns`, or "

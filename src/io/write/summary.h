@@ -118,10 +118,10 @@ std::vector<std::string> NotesOf(const Dataset& dataset);
 /// That no outage came of the withholding rules, or "".
 std::string WithholdingWarning(const Dataset& dataset);
 
-/// Of every stream that measures positions.
+/// A summary of each stream that measures positions.
 std::vector<FixSummary> SummarizeFixes(const Dataset& dataset);
 
-/// Of every sensor whose mounting the solution corrects.
+/// The mounting of each sensor for which the solution corrects it.
 std::vector<MountingSummary> MountingsOf(const Dataset& dataset,
                                          const Solution& solution);
 

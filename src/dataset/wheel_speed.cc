@@ -1,4 +1,4 @@
-#include "app/wheel_speed.h"
+#include "dataset/wheel_speed.h"
 
 #include <algorithm>
 #include <cmath>

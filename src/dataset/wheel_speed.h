@@ -1,5 +1,5 @@
-#ifndef HINDSIGHT_APP_WHEEL_SPEED_H_
-#define HINDSIGHT_APP_WHEEL_SPEED_H_
+#ifndef HINDSIGHT_DATASET_WHEEL_SPEED_H_
+#define HINDSIGHT_DATASET_WHEEL_SPEED_H_
 
 #include <optional>
 
@@ -22,4 +22,4 @@ std::optional<WheelComparison> FindWheel(const AidingStream& wheel,
 
 }  // namespace hindsight
 
-#endif  // HINDSIGHT_APP_WHEEL_SPEED_H_
+#endif  // HINDSIGHT_DATASET_WHEEL_SPEED_H_

@@ -1,0 +1,127 @@
+#include "app/draft_timing.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "dataset/clock_drift.h"
+#include "dataset/clock_search.h"
+#include "dataset/wheel_speed.h"
+#include "io/config/key_line_edit.h"
+
+namespace hindsight {
+namespace {
+
+void TakeClockInto(const ClockSearch& found, StreamDraft* stream,
+                   RecordingDraft* draft) {
+  std::vector<KeyLine>& lines = stream->found.lines;
+  if (found.candidates.empty()) {
+    draft->Assume(
+        stream->name +
+        ": the motion does not show where its clock stands against the "
+        "IMU's");
+    return;
+  }
+  if (found.candidates.size() > 1) {
+    DropClockSigma(&lines);
+    SetLine({"time_offset", "unknown",
+             "several fit, each is tried: " + Describe(found)},
+            &lines);
+    return;
+  }
+  const ClockCandidate& best = found.candidates.front();
+  SetLine({"time_offset", fmt::format("{:.3f} s", best.offset),
+           fmt::format("by {}, +- {:.2g} s; refined (likely)", found.compared,
+                       best.sigma)},
+          &lines);
+}
+
+/// Radius, direction and clock of a wheel by the speed of the positions.
+void TellWheel(const AidingStream& stream, const Dataset& dataset,
+               StreamDraft* drafted, RecordingDraft* draft) {
+  const auto found = FindWheel(stream, dataset);
+  if (!found) {
+    draft->Assume(drafted->name +
+                  ": no position shows the radius of the wheel");
+    return;
+  }
+  std::vector<KeyLine>& lines = drafted->found.lines;
+  const KeyLine* speed = FindLine(lines, "  speed");
+  const std::size_t at = speed->value.find("scale: ") + 7;
+  const double scale = std::stod(speed->value.substr(at)) * found->factor;
+  SetLine(
+      {"  speed", speed->value.substr(0, at) + fmt::format("{:.6g}}}", scale),
+       fmt::format("a wheel of {:.3f} m radius, by the speed of the "
+                   "positions, correlation {:.3f} (likely)",
+                   std::abs(0.3 * found->factor), found->correlation)},
+      &lines);
+  SetLine({"time_offset", fmt::format("{:.2f} s", found->offset),
+           "by the speed of the positions (likely)"},
+          &lines);
+}
+
+}  // namespace
+
+void TellClocks(const Dataset& dataset, RecordingDraft* draft) {
+  for (const AidingStream& stream : dataset.streams) {
+    StreamDraft* drafted = draft->Find(stream.sensor.name);
+    if (drafted == nullptr || !stream.sensor.kind->has_clock ||
+        stream.sensor.kind->magnetic || stream.sensor.kind->standing) {
+      continue;
+    }
+    if (drafted->found.spin_axis) {
+      TellWheel(stream, dataset, drafted, draft);
+      continue;
+    }
+    const ClockSearch found = SearchClock(dataset.imu, dataset.initial, stream);
+    TakeClockInto(found, drafted, draft);
+  }
+}
+
+void TellStretch(const Dataset& dataset, RecordingDraft* draft) {
+  constexpr double kLong = 200.0;  // s
+  constexpr double kMostDrift = 1e-3;
+  constexpr double kSure = 5.0;    // sigmas
+  constexpr double kShown = 0.03;  // s
+  const KeyLine* time = FindLine(draft->imu->lines, "time");
+  const bool fixed =
+      time != nullptr && time->value.find("duration") != std::string::npos;
+  if (fixed) return;
+  for (const AidingStream& stream : dataset.streams) {
+    const StreamDraft* drafted = draft->Find(stream.sensor.name);
+    const auto& z = stream.measurements;
+    if (drafted == nullptr || z.size() < 100 ||
+        z.back().t - z.front().t < kLong ||
+        !(stream.sensor.kind->is_position || stream.sensor.kind->is_velocity)) {
+      continue;
+    }
+    const auto drift = FindClockDrift(dataset, stream);
+    if (!drift) continue;
+    if (std::abs(drift->change) < kSure * drift->sigma + kShown ||
+        std::abs(drift->rate) > kMostDrift) {
+      return;
+    }
+    AddToMap("time", fmt::format("stretch: {:.7f}", 1.0 / (1.0 + drift->rate)),
+             fmt::format("its offset to {} changes by {:.3f} +- {:.3f} s "
+                         "(likely)",
+                         drafted->name, drift->change, drift->sigma),
+             &draft->imu->lines);
+    return;
+  }
+}
+
+void TellTruthClock(const Dataset& dataset, RecordingDraft* draft) {
+  constexpr double kShown = 0.02;  // s
+  if (!draft->truth || dataset.truth.empty() || !dataset.truth[0].q_nb) {
+    return;
+  }
+  const ClockSearch found = SearchClock(dataset.imu, dataset.truth);
+  if (found.candidates.empty() ||
+      std::abs(found.candidates.front().offset) < kShown) {
+    return;
+  }
+  SetLine({"time_offset", "unknown", "its turns show it: " + Describe(found)},
+          &draft->truth->lines);
+}
+
+}  // namespace hindsight

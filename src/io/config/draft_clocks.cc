@@ -1,0 +1,149 @@
+#include "io/config/draft_clocks.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "io/read/file_format.h"
+#include "io/read/paths.h"
+#include "io/read/reader.h"
+#include "io/read/rtklib_tag.h"
+#include "io/read/units.h"
+
+namespace hindsight {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path PathOf(const RecordingDraft& draft, const FoundStream& found) {
+  return fs::path(draft.folder) / found.file;
+}
+
+std::optional<Stamp> FirstDate(const fs::path& path, const FoundStream& found) {
+  if (found.stamps && found.stamps->scale == StampGuess::Scale::kUnix) {
+    const double whole = std::floor(found.stamps->first);
+    return GpsFromUnix(
+        {static_cast<std::int64_t>(whole), found.stamps->first - whole});
+  }
+  if (!found.format->dated) return std::nullopt;
+  TextFormat format;
+  format.kind = found.format;
+  const OpenedTable opened =
+      OpenTable(path.string(), format, PositionKind().columns, {});
+  if (!opened.dated || !opened.table->Next()) return std::nullopt;
+  return opened.table->stamp();
+}
+
+/// "{rate: 100 Hz, start: 0 s}"; nothing to say: "".
+void SetTime(const std::string& start, const std::string& duration,
+             const std::string& comment, FoundStream* found) {
+  std::vector<std::string> parts;
+  if (found->stamps && found->stamps->rate) {
+    parts.push_back(fmt::format("rate: {:.12g} Hz", *found->stamps->rate));
+  }
+  if (!start.empty()) parts.push_back("start: " + start);
+  if (!duration.empty()) parts.push_back("duration: " + duration);
+  const bool unix_scale =
+      found->stamps && found->stamps->scale == StampGuess::Scale::kUnix;
+  if (unix_scale && start.empty()) parts.emplace_back("clock: unix");
+  if (parts.empty()) return;
+  std::string value;
+  for (const std::string& part : parts) {
+    value += (value.empty() ? "{" : ", ") + part;
+  }
+  std::string why = comment;
+  if (found->stamps && found->stamps->rate) {
+    why += (why.empty() ? "" : "; ") + found->stamps->reason + " (" +
+           CertaintyName(found->stamps->certainty) + ")";
+  }
+  SetLine({"time", value + "}", why}, &found->lines);
+}
+
+/// Overlap of two records in their own stamps, as a share of the shorter.
+double Overlap(const StampGuess& a, const StampGuess& b) {
+  const double begin = std::max(a.first, b.first);
+  const double end = std::min(a.first + a.span, b.first + b.span);
+  const double shorter = std::min(a.span, b.span);
+  return shorter > 0.0 ? (end - begin) / shorter : 0.0;
+}
+
+/// The stamps of the fixes are dates, those of the IMU are not.
+void StartImuAt(const Stamp& first_fix, RecordingDraft* draft) {
+  FoundStream* imu = &*draft->imu;
+  fs::path beside = PathOf(*draft, *imu).string() + ".tag";
+  // "imu.csv.gz" was logged as "imu.csv".
+  if (!PathExists(beside) && PathOf(*draft, *imu).extension() == ".gz") {
+    beside = PathOf(*draft, *imu).replace_extension("").string() + ".tag";
+  }
+  if (const auto found =
+          PathExists(beside) ? ReadRtklibTag(beside.string()) : std::nullopt) {
+    SetTime(FormatGpsTime(Nanoseconds(found->opened)),
+            fmt::format("{:.3f} s", found->duration),
+            "by the time tag beside it", imu);
+    return;
+  }
+  SetTime(FormatGpsTime(Nanoseconds(first_fix)), "",
+          "as the first fix (a guess); the motion tells the rest", imu);
+  draft->assumptions.push_back(
+      "imu: its clock has no date; it begins with the first fix, and the "
+      "motion tells the offset");
+}
+
+/// Records whose stamps do not overlap begin together.
+void BeginTogether(RecordingDraft* draft) {
+  FoundStream* imu = &*draft->imu;
+  bool apart = imu->stamps->rate.has_value();
+  const auto look = [&](const FoundStream& found) {
+    apart =
+        apart || (found.stamps && (Overlap(*imu->stamps, *found.stamps) < 0.5 ||
+                                   found.stamps->rate));
+  };
+  for (const StreamDraft& stream : draft->aiding) look(stream.found);
+  if (draft->truth) look(*draft->truth);
+  if (!apart) {
+    SetTime("", "", "", imu);
+    return;
+  }
+  const std::string why = "clocks that do not overlap begin together";
+  SetTime("0 s", "", why, imu);
+  for (StreamDraft& stream : draft->aiding) {
+    if (stream.found.stamps) SetTime("0 s", "", "", &stream.found);
+  }
+  if (draft->truth && draft->truth->stamps) {
+    SetTime("0 s", "", "", &*draft->truth);
+  }
+  if (!imu->stamps->rate) draft->assumptions.push_back(why);
+}
+
+}  // namespace
+
+void SetDraftClocks(RecordingDraft* draft) {
+  FoundStream& imu = *draft->imu;
+  std::optional<Stamp> date;
+  for (const StreamDraft& stream : draft->aiding) {
+    if (!date) date = FirstDate(PathOf(*draft, stream.found), stream.found);
+  }
+  const bool imu_dated =
+      !imu.stamps || imu.stamps->scale == StampGuess::Scale::kUnix;
+  if (date && !imu_dated) {
+    StartImuAt(*date, draft);
+  } else if (imu.stamps) {
+    BeginTogether(draft);
+  }
+  for (StreamDraft& stream : draft->aiding) {
+    if (FindLine(stream.found.lines, "time") == nullptr) {
+      SetTime("", "", "", &stream.found);
+    }
+  }
+  if (draft->truth && FindLine(draft->truth->lines, "time") == nullptr) {
+    SetTime(draft->truth->stamps && draft->truth->stamps->rate ? "0 s" : "", "",
+            "", &*draft->truth);
+  }
+  for (StreamDraft& stream : draft->unused) {
+    SetTime("", "", "", &stream.found);
+  }
+}
+
+}  // namespace hindsight

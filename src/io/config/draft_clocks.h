@@ -1,0 +1,17 @@
+#ifndef HINDSIGHT_IO_CONFIG_DRAFT_CLOCKS_H_
+#define HINDSIGHT_IO_CONFIG_DRAFT_CLOCKS_H_
+
+#include "io/config/recording_draft.h"
+
+namespace hindsight {
+
+/// Sets the `time` of every stream of a draft: stamps that are counted get their
+/// rate, seconds since 1970 their clock. Where fixes are dated and the IMU is
+/// not, it begins when the time tag beside it says (io/read/rtklib_tag.h), or
+/// with the first fix; records that overlap by less than half of the shorter
+/// begin together. What is a guess becomes an assumption.
+void SetDraftClocks(RecordingDraft* draft);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_CONFIG_DRAFT_CLOCKS_H_

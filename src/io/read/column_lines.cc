@@ -1,0 +1,174 @@
+#include "io/read/column_lines.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/median.h"
+#include "io/read/file_formats.h"
+#include "io/read/units.h"
+#include "measurements/sensor_kind.h"
+
+namespace hindsight {
+
+FoundStream ColumnLines::Stream() const {
+  FoundStream found;
+  found.format = file_.format;
+  if (file_.skip_lines > 0) {
+    found.lines.push_back({"skip_lines", std::to_string(file_.skip_lines)});
+  }
+  if (file_.cut_tail) found.lines.push_back({"allow_truncated_tail", "true"});
+  if (file_.text_rows > 0) found.lines.push_back({"on_text", "drop"});
+  found.remarks = file_.remarks;
+  found.stamps = stamps_;
+  found.lines.push_back({"columns", ""});
+  if (stamps_->column >= 0 && !stamps_->rate) {
+    AddColumn("t",
+              {stamps_->column, stamps_->unit, 1.0, stamps_->certainty,
+               stamps_->reason},
+              &found);
+  }
+  if (stamps_->repeated && !stamps_->rate) {
+    SetLine({"on_duplicate", "drop_last", "stamps stand twice"}, &found.lines);
+  }
+  if (stamps_->unordered && !stamps_->rate) {
+    SetLine({"on_unordered", "sort", "stamps run backwards"}, &found.lines);
+  }
+  if (stamps_->certainty == Certainty::kGuess ||
+      (stamps_->rate && stamps_->certainty == Certainty::kLikely)) {
+    found.assumptions.push_back(stamps_->reason);
+  }
+  return found;
+}
+
+void ColumnLines::AddColumn(const std::string& quantity,
+                            const ColumnGuess& guess,
+                            FoundStream* found) const {
+  const FileColumn& column =
+      file_.columns[static_cast<std::size_t>(guess.column)];
+  std::string comment;
+  if (file_.format == &ColumnsFormat() && !column.title.empty()) {
+    comment = "'" + column.title + "'";
+  }
+  if (!guess.reason.empty()) {
+    comment += (comment.empty() ? "" : "; ") + guess.reason;
+  }
+  if (guess.certainty != Certainty::kCertain) {
+    comment += std::string(comment.empty() ? "(" : " (") +
+               CertaintyName(guess.certainty) + ")";
+  }
+  const std::string& reference = column.reference;
+  const std::string unit = guess.unit.empty() ? "1" : guess.unit;
+  std::string value;
+  if (std::abs(guess.sign) != 1.0) {
+    value = fmt::format("{{column: \"{}\", unit: \"{}\", scale: {:.9g}}}",
+                        reference, unit, guess.sign);
+  } else {
+    value = fmt::format("\"{}{} [{}]\"", guess.sign < 0.0 ? "-" : "", reference,
+                        unit);
+  }
+  std::size_t end = found->lines.size();
+  while (!found->lines[end - 1].key.starts_with(' ') &&
+         found->lines[end - 1].key != "columns") {
+    --end;
+  }
+  found->lines.insert(found->lines.begin() + static_cast<std::ptrdiff_t>(end),
+                      {"  " + quantity, value, comment});
+}
+
+void ColumnLines::AddTriple(const std::string& family,
+                            const TripleGuess& triple,
+                            FoundStream* found) const {
+  for (std::size_t i = 0; i < 3; ++i) {
+    AddColumn(
+        family + "xyz" [i],
+        {
+          triple.columns[i], triple.unit, triple.scale, triple.certainty,
+              i == 0 ? triple.reason : ""
+        },
+        found);
+  }
+}
+
+int ColumnLines::Titled(const std::string& quantity) const {
+  for (std::size_t i = 0; i < meanings_.size(); ++i) {
+    if (meanings_[i].quantity == quantity) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+bool ColumnLines::HasAll(const std::vector<std::string>& names) const {
+  return std::all_of(names.begin(), names.end(),
+                     [&](const auto& name) { return Titled(name) >= 0; });
+}
+
+void ColumnLines::AddTitledColumn(const std::string& quantity,
+                                  Quantity dimension,
+                                  FoundStream* found) const {
+  const int column = Titled(quantity);
+  const ColumnMeaning& meaning = meanings_[static_cast<std::size_t>(column)];
+  const bool known = UnitFactor(meaning.unit, dimension).has_value();
+  const bool sure = known || dimension == Quantity::kRatio;
+  ColumnGuess guess{column, known ? meaning.unit : SiUnit(dimension),
+                    meaning.upwards ? -1.0 : 1.0,
+                    sure ? Certainty::kCertain : Certainty::kGuess,
+                    sure ? "" : "unit not stated"};
+  if (!known && dimension == Quantity::kAngle) guess.unit = AngleUnit();
+  if (!known && dimension == Quantity::kMagneticField) {
+    guess.unit = FieldUnit();
+    guess.certainty = Certainty::kLikely;
+    guess.reason = "as strong as the Earth's";
+  }
+  AddColumn(quantity, guess, found);
+}
+
+/// By size: rolls, pitches and headings in radians stay below 2 pi.
+std::string ColumnLines::AngleUnit() const {
+  constexpr double kMostRadians = 6.3;
+  for (const char* name : {"roll", "pitch", "heading"}) {
+    const int column = Titled(name);
+    if (column < 0) continue;
+    const auto& v = file_.columns[static_cast<std::size_t>(column)].values;
+    if (std::any_of(v.begin(), v.end(),
+                    [](double x) { return std::abs(x) > kMostRadians; })) {
+      return "deg";
+    }
+  }
+  return "rad";
+}
+
+/// The unit in which the median field is nearest to the Earth's 48 uT.
+std::string ColumnLines::FieldUnit() const {
+  std::vector<double> lengths(file_.rows);
+  for (std::size_t k = 0; k < lengths.size(); ++k) {
+    for (const char* name : {"mag_x", "mag_y", "mag_z"}) {
+      const auto column = static_cast<std::size_t>(Titled(name));
+      lengths[k] = std::hypot(lengths[k], file_.columns[column].values[k]);
+    }
+  }
+  constexpr double kEarth = 48.0;  // uT
+  const double length = Median(std::move(lengths));
+  std::string nearest = "uT";
+  double distance = std::numeric_limits<double>::infinity();
+  for (const char* unit : {"uT", "nT", "mG", "G"}) {
+    const double field = length * *UnitFactor(unit, Quantity::kMagneticField);
+    const double here = std::abs(std::log(field / kEarth));
+    if (here < distance) nearest = unit;
+    distance = std::min(distance, here);
+  }
+  return nearest;
+}
+
+void ColumnLines::AddFieldsOf(const SensorKind& kind,
+                              const std::vector<std::string>& names,
+                              FoundStream* found) const {
+  for (const FieldName& field : kind.columns) {
+    const bool wanted =
+        std::find(names.begin(), names.end(), field.name) != names.end();
+    if (wanted) AddTitledColumn(field.name, field.quantity, found);
+  }
+}
+
+}  // namespace hindsight

@@ -1,0 +1,62 @@
+#ifndef HINDSIGHT_IO_READ_COLUMN_LINES_H_
+#define HINDSIGHT_IO_READ_COLUMN_LINES_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/quantity.h"
+#include "io/read/column_meaning.h"
+#include "io/read/file_columns.h"
+#include "io/read/fix_guess.h"
+#include "io/read/found_stream.h"
+
+namespace hindsight {
+
+/// Writes the lines by which a configuration reads streams out of columns of
+/// numbers, each with the title or the reason by which it was told.
+class ColumnLines {
+ public:
+  explicit ColumnLines(const FileColumns& file)
+      : file_(file), meanings_(ReadMeanings(file)) {}
+
+  const std::vector<ColumnMeaning>& meanings() const { return meanings_; }
+  /// The stamps of all streams; needed before the first.
+  const std::optional<StampGuess>& stamps() const { return stamps_; }
+  void set_stamps(std::optional<StampGuess> stamps) {
+    stamps_ = std::move(stamps);
+  }
+
+  /// What the configuration of every stream of the file says.
+  FoundStream Stream() const;
+  /// A line behind the others of `columns`.
+  void AddColumn(const std::string& quantity, const ColumnGuess& guess,
+                 FoundStream* found) const;
+  /// Columns family + "x", "y", "z".
+  void AddTriple(const std::string& family, const TripleGuess& triple,
+                 FoundStream* found) const;
+  /// A titled column of a kind's quantity, in the title's unit; where it states
+  /// none in SI, but angles and fields in the unit that their size shows.
+  void AddTitledColumn(const std::string& quantity, Quantity dimension,
+                       FoundStream* found) const;
+  /// Those of `names` that are columns of the kind.
+  void AddFieldsOf(const SensorKind& kind,
+                   const std::vector<std::string>& names,
+                   FoundStream* found) const;
+
+  /// The column that is titled as this quantity, or -1.
+  int Titled(const std::string& quantity) const;
+  bool HasAll(const std::vector<std::string>& names) const;
+
+ private:
+  std::string AngleUnit() const;
+  std::string FieldUnit() const;
+
+  const FileColumns& file_;
+  std::vector<ColumnMeaning> meanings_;
+  std::optional<StampGuess> stamps_;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_READ_COLUMN_LINES_H_

@@ -1,0 +1,63 @@
+#ifndef HINDSIGHT_IO_READ_FOUND_STREAM_H_
+#define HINDSIGHT_IO_READ_FOUND_STREAM_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/read/imu_guess.h"
+#include "io/read/stamp_guess.h"
+#include "measurements/sensor_kind.h"
+
+namespace hindsight {
+
+struct FileFormat;
+
+/// One line of a configuration: a key, which is indented by as much as its map
+/// is deep, its value, and why.
+struct KeyLine {
+  std::string key;
+  std::string value;
+  std::string comment = {};
+};
+
+/// Replaces the line of that key, or adds it.
+void SetLine(KeyLine line, std::vector<KeyLine>* lines);
+
+/// The line of that key; nullptr if there is none.
+const KeyLine* FindLine(const std::vector<KeyLine>& lines,
+                        const std::string& key);
+
+/// A stream that was found in a file or folder.
+struct FoundStream {
+  std::string file = {};  ///< its name, which is the caller's to set
+  const FileFormat* format = nullptr;  ///< set by RecogniseFormat
+  bool imu = false;                    ///< holds one
+  bool truth = false;  ///< is or holds one, by its name or its format
+  bool pose = false;   ///< holds attitudes, and does not say that they are true
+  bool sigmas = true;  ///< states those of `kinds`, where the format can
+  /// What it can serve as besides, in the order of SensorKinds.
+  std::vector<const SensorKind*> kinds = {};
+  std::vector<KeyLine> lines = {};  ///< of its configuration, behind `format`
+  /// Of columns that no configuration declared: how they become times.
+  std::optional<StampGuess> stamps = {};
+  std::optional<ImuGuess> imu_guess = {};
+  /// Of an IMU on a wheel: the axis about which it spins, 0 to 2.
+  std::optional<int> spin_axis = {};
+  std::vector<std::string> remarks = {};      ///< what was odd
+  std::vector<std::string> assumptions = {};  ///< what may be otherwise
+  double top_speed = 0.0;                     ///< of positions [m/s]
+};
+
+/// Streams of formats that hold nothing else.
+FoundStream FoundImu();
+FoundStream FoundTruth();
+FoundStream FoundAiding(std::vector<const SensorKind*> kinds);
+
+/// Whether a file is called truth or reference, or `gt` or `ref` by a word of
+/// its name.
+bool IsNamedTruth(const std::string& path);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_READ_FOUND_STREAM_H_

@@ -1,0 +1,117 @@
+#include "io/read/open_text.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "io/read/text_layout.h"
+
+namespace hindsight {
+namespace {
+
+bool NextData(TextLines* lines, std::string* line) {
+  std::string_view view;
+  while (lines->Next(&view)) {
+    if (IsComment(view)) continue;
+    *line = view;
+    return true;
+  }
+  return false;
+}
+
+/// `titled`: the columns are those of the header line that name a quantity.
+OpenedTable OpenDelimited(const TableRequest& request,
+                          std::vector<ColumnMapping> columns, bool titled) {
+  OpenedTable opened = OpenLines(request);
+  const bool has_header = titled || std::any_of(columns.begin(), columns.end(),
+                                                [](const ColumnMapping& c) {
+                                                  return c.column < 0;
+                                                });
+  std::string row;
+  if (!NextData(opened.lines.get(), &row)) FailWithoutRows(request.path);
+  char delimiter = titled ? ',' : request.format.delimiter;
+  if (delimiter == '\0') delimiter = GuessDelimiter(row);
+  TableHeader header;
+  std::string header_text;
+  if (has_header) {
+    header_text.swap(row);
+    header = {SplitLine(header_text, delimiter), opened.lines->number()};
+    if (titled) columns = TitledColumns(request.path, header, request.fields);
+    if (!NextData(opened.lines.get(), &row)) FailWithoutRows(request.path);
+  }
+  TableLayout layout = BuildLayout(request.path, request.format, request.fields,
+                                   columns, header);
+  layout.delimiter = delimiter;
+  if (has_header) layout.column_count = static_cast<int>(header.titles.size());
+  opened.dated = layout.clock == TableLayout::Clock::kWeek ||
+                 layout.clock == TableLayout::Clock::kIso ||
+                 layout.clock == TableLayout::Clock::kIsoUtc;
+  opened.table = std::make_unique<TextTable>(
+      opened.lines.get(), std::move(layout), request.options, std::move(row));
+  return opened;
+}
+
+}  // namespace
+
+ColumnMapping ColumnAt(int number, const std::string& quantity,
+                       const char* unit) {
+  ColumnMapping mapping;
+  mapping.quantity = quantity;
+  mapping.column = number - 1;
+  mapping.unit = unit;
+  return mapping;
+}
+
+void AppendVector(int number, const std::string& stem, const char* unit,
+                  std::vector<ColumnMapping>* columns) {
+  for (const char* axis : {"_x", "_y", "_z"}) {
+    columns->push_back(ColumnAt(number++, stem + axis, unit));
+  }
+}
+
+OpenedTable OpenLines(const TableRequest& request) {
+  OpenedTable opened;
+  opened.lines = std::make_unique<TextLines>(request.path);
+  std::string_view skipped;
+  for (int i = 0; i < request.format.skip_lines; ++i) {
+    if (!opened.lines->Next(&skipped)) FailWithoutRows(request.path);
+  }
+  return opened;
+}
+
+OpenedTable OpenColumns(const TableRequest& request,
+                        const std::vector<ColumnMapping>& columns) {
+  if (columns.empty()) {
+    throw InputError(request.format.config_path, request.format.config_line,
+                     "the format " + std::string(request.format.kind->name) +
+                         " holds no such stream");
+  }
+  return OpenDelimited(request, columns, false);
+}
+
+OpenedTable OpenTitled(const TableRequest& request) {
+  return OpenDelimited(request, {}, true);
+}
+
+OpenedTable OpenBuffer(RowBuffer rows, bool dated) {
+  OpenedTable opened;
+  opened.table = std::make_unique<RowBuffer>(std::move(rows));
+  opened.dated = dated;
+  return opened;
+}
+
+std::vector<double> NumbersOf(const std::string& line) {
+  std::vector<double> numbers;
+  for (const std::string_view token : SplitLine(line, ' ')) {
+    const auto number = ParseNumber(token);
+    if (!number) return {};
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+void FailWithoutRows(const std::string& path) {
+  throw InputError(path, 0, "the file holds no rows of data");
+}
+
+}  // namespace hindsight
