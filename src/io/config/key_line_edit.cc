@@ -1,7 +1,5 @@
 #include "io/config/key_line_edit.h"
 
-#include <fmt/core.h>
-
 namespace hindsight {
 
 void AddToMap(const std::string& key, const std::string& entry,
