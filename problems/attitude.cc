@@ -1,5 +1,7 @@
 #include "problems/attitude.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -210,6 +212,11 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) const {
   if (pass.magnetometer.time_offset_sigma > 0.0) {
     solution.constants.push_back(
         TimeOffsetOf(MagnetometerOf(dataset_)->sensor, pass.magnetometer));
+  }
+  for (const AttachedMagnet& magnet : pass.magnets) {
+    solution.notes.push_back(fmt::format(
+        "a magnet of {:.0f} uT that travels along from {:.1f} to {:.1f} s",
+        magnet.field_b.norm(), magnet.begin, magnet.end));
   }
   solution.attitude = VerdictsOf(pass.run);
   return solution;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "alignment/attitude_start.h"
+#include "attitude/attached_magnet.h"
 #include "attitude/attitude_run.h"
 #include "attitude/attitude_samples.h"
 #include "attitude/attitude_smoother.h"
@@ -28,8 +29,10 @@ namespace hindsight {
 /// (field_survey.h): a first one by the tilt of a solution without the field, a
 /// second one by the attitudes of the solution that this leads to. It takes the
 /// readings with the weights of the survey, without the hard iron and at the
-/// times that were found by the first solution (magnetometer_errors.h). Without `AhrsSettings::survey` it takes them as the filter
-/// does.
+/// times that were found by the first solution (magnetometer_errors.h), and
+/// without magnets that travel along for a part of the time
+/// (attached_magnet.h). Without `AhrsSettings::survey` it takes them as the
+/// filter does.
 class AttitudeEstimation final : public Estimation {
  public:
   /// `dataset` must outlive the object. Throws InputError if there are no
@@ -54,6 +57,7 @@ class AttitudeEstimation final : public Estimation {
     std::vector<SmoothedAttitude> smoothed;
     FieldSurvey survey;  ///< that it was made with
     MagnetometerErrors magnetometer;
+    std::vector<AttachedMagnet> magnets;  ///< for a part of the time
   };
   Pass Smooth(const AttitudeState& start, const ImuStream& imu,
               std::span<const MagneticSample> magnetic,

@@ -129,6 +129,20 @@ std::vector<SurveyedField> AttitudeEstimation::FieldReadings(
   return readings;
 }
 
+namespace {
+
+void TakeOff(std::span<const AttachedMagnet> magnets,
+             std::span<SurveyedField> readings) {
+  for (SurveyedField& reading : readings) {
+    for (const AttachedMagnet& magnet : magnets) {
+      if (reading.t < magnet.begin || reading.t > magnet.end) continue;
+      reading.field_b -= magnet.field_b;
+    }
+  }
+}
+
+}  // namespace
+
 AttitudeEstimation::Pass AttitudeEstimation::SmoothSurveyed(
     const ImuStream& imu, const std::vector<Eigen::Quaterniond>& level,
     AttitudeFilterOptions options) const {
@@ -140,8 +154,16 @@ AttitudeEstimation::Pass AttitudeEstimation::SmoothSurveyed(
   options.magnetic_correlation_time = 0.0;
   const auto smooth = [&](const std::vector<Eigen::Quaterniond>& q_nb,
                           const MagnetometerErrors& errors, bool covariances) {
-    const std::vector<SurveyedField> readings = FieldReadings(q_nb, errors);
+    std::vector<SurveyedField> readings = FieldReadings(q_nb, errors);
     FieldSurvey survey = SurveyField(readings, survey_options);
+    std::vector<AttachedMagnet> magnets;
+    if (survey_options.heading_known && survey_options.reject) {
+      magnets = FindAttachedMagnets(readings, survey, survey_options.sigma);
+      if (!magnets.empty()) {
+        TakeOff(magnets, readings);
+        survey = SurveyField(readings, survey_options);
+      }
+    }
     if (!headings_.empty()) survey.turn = 0.0;  // north is measured
     options.magnetic.horizontal = survey.horizontal;
     options.magnetic.down = survey.down;
@@ -157,6 +179,7 @@ AttitudeEstimation::Pass AttitudeEstimation::SmoothSurveyed(
         Smooth(start, imu, weighed, options, "ahrs_smoother", covariances);
     pass.survey = std::move(survey);
     pass.magnetometer = errors;
+    pass.magnets = std::move(magnets);
     return pass;
   };
   const auto attitudes = [this](const Pass& pass) {
