@@ -6,15 +6,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <vector>
 
 #include "base/median.h"
 #include "base/units.h"
+#include "dataset/gyro_unit.h"
 #include "dataset/imu_cells.h"
 #include "dataset/magnetic_check.h"
 #include "dataset/repeated_readings.h"
-#include "dataset/row_rate.h"
 #include "dataset/stamp_check.h"
 #include "measurements/sensor_kind.h"
 
@@ -244,38 +243,6 @@ void WarnAboutRate(const Dataset& dataset, const ImuReport& imu,
       rate.seconds, rate.rate / kDegree));
 }
 
-/// Gyros in deg/s declared as rad/s, or the other way round, turn gravity by 57
-/// times what they should.
-void WarnAboutGyroUnit(const ImuStream& stream,
-                       std::vector<std::string>* warnings) {
-  const bool rates = stream.kind == ImuStream::Kind::kRates;
-  const double span = stream.t_end() - stream.t_begin();
-  if (!rates || span <= 0.0) return;
-  std::vector<Eigen::Vector3d> f;
-  std::vector<Eigen::Vector3d> w;
-  constexpr std::size_t kMost = 20'000;
-  const std::size_t rows = std::min(stream.samples.size(), kMost);
-  for (std::size_t k = 0; k < rows; ++k) {
-    f.emplace_back(stream.samples[k].accel / kStandardGravity);
-    w.emplace_back(stream.samples[k].gyro);
-  }
-  const GravityBalance balance(f, w);
-  if (balance.spans().size() < kFewestBalanced) return;
-  const double rate = static_cast<double>(stream.samples.size() - 1) / span;
-  const double never = balance.Squares(std::numeric_limits<double>::infinity());
-  const double least = kMostUnbalanced * std::min(never, balance.Squares(rate));
-  for (const auto& [factor, said, meant] :
-       {std::tuple(kDegree, "rad/s", "deg/s"),
-        std::tuple(1.0 / kDegree, "deg/s", "rad/s")}) {
-    if (balance.Squares(rate / factor) > least) continue;
-    warnings->push_back(fmt::format(
-        "imu: gravity turns {:.3g} times as far as the gyros say: they look "
-        "like {}, declared as {}; correct the unit of gyro_x, gyro_y, gyro_z "
-        "under `columns`",
-        factor, meant, said));
-  }
-}
-
 void WarnAboutStream(const StreamReport& stream,
                      std::vector<std::string>* warnings) {
   if (stream.rate > 0.0 && stream.delay * stream.rate > kMaxJitter) {
@@ -326,7 +293,10 @@ CheckReport CheckDataset(const Dataset& dataset) {
   SetAxes(&report);
   WarnAboutImu(report, dataset.imu, &report.warnings);
   WarnAboutRate(dataset, report.imu, &report.warnings);
-  WarnAboutGyroUnit(dataset.imu, &report.warnings);
+  if (const std::string warning = WarnAboutGyroUnit(dataset.imu);
+      !warning.empty()) {
+    report.warnings.push_back(warning);
+  }
   for (const StreamReport& stream : report.streams) {
     WarnAboutStream(stream, &report.warnings);
   }
