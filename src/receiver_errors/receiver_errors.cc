@@ -11,6 +11,56 @@
 #include "receiver_errors/sequence_smoother.h"
 
 namespace hindsight {
+namespace {
+
+/// Fixes from `begin` to before `end`, in all of which the sensor errs.
+struct ErrantEnd {
+  double begin = 0.0;  ///< [s]
+  double end = 0.0;
+  double share = 0.0;  ///< of the recording
+};
+
+/// The longer one of the stretches with the first and the last fix, of biases
+/// and drifts that are no slight ones; nothing where both fixes are good.
+ErrantEnd LongestErrantEnd(const std::vector<ErrorStep>& steps,
+                           const std::vector<double>& times) {
+  const auto errs = [](const ErrorStep& step) {
+    return step.mode == ErrorMode::kBiased || step.mode == ErrorMode::kDrifting;
+  };
+  const auto first = std::find_if_not(steps.begin(), steps.end(), errs);
+  const auto last = std::find_if_not(steps.rbegin(), steps.rend(), errs);
+  if (first == steps.end()) return {times.front(), times.back(), 1.0};
+  const double t_first = times[static_cast<std::size_t>(first - steps.begin())];
+  const double t_last =
+      times[times.size() - 1 - static_cast<std::size_t>(last - steps.rbegin())];
+  const double whole = times.back() - times.front();
+  const ErrantEnd at_start = {times.front(), t_first,
+                              (t_first - times.front()) / whole};
+  const ErrantEnd at_end = {t_last, times.back(),
+                            (times.back() - t_last) / whole};
+  return at_end.share > at_start.share ? at_end : at_start;
+}
+
+/// With the good and the erroneous fixes exchanged the likelihood is the same,
+/// and the a priori odds are exp(4 (1 - 2 share)), since a bias ends four times in
+/// a recording (mode_sequence.cc): twenty for this share.
+constexpr double kLongestErrantEnd = 0.126;
+
+Evidence DoubtOf(const std::string& name, const ErrantEnd& errant) {
+  return {.grade = Grade::kDoubtful,
+          .what = fmt::format(
+              "{} errs from {:.0f} to {:.0f} s, or else all of its other fixes "
+              "do: no other sensor tells positions",
+              name, errant.begin, errant.end),
+          .value = errant.share,
+          .limit = kLongestErrantEnd,
+          .unit = "of the recording",
+          .causes = {"a receiver that errs from the first fix, or to the last"},
+          .remedies = {"a stream with a position that is known at the start or "
+                       "the end"}};
+}
+
+}  // namespace
 
 ReceiverErrors::ReceiverErrors(std::unique_ptr<const SensorFindings> found)
     : found_(std::move(found)) {}
@@ -79,6 +129,13 @@ std::vector<Evidence> ReceiverErrors::Doubts() const {
                       .remedies = {"a larger --max-time"}});
   }
   if (!found_->stands()) return doubts;
+  if (found_->alone && found_->switching()) {
+    const ErrantEnd errant =
+        LongestErrantEnd(found_->chosen().steps, found_->Times());
+    if (errant.share > kLongestErrantEnd) {
+      doubts.push_back(DoubtOf(found_->name, errant));
+    }
+  }
   const double imu = found_->chosen().parameters.imu_scale;
   if (imu > kMisstatedImu) {
     doubts.push_back(

@@ -66,8 +66,10 @@ class ReceiverErrors {
   /// What was found, in words; `P` as it was before Widen.
   std::vector<std::string> Notes(const CovarianceSeries& P) const;
 
-  /// What makes the result doubtful: a search that was ended early; an IMU whose
-  /// noise has to be taken for much more than stated.
+  /// What makes the result doubtful: a search that was ended early; the only
+  /// sensor of positions erring to its last fix, or from its first, for more than
+  /// an eighth of the recording; an IMU whose noise has to be taken for much more
+  /// than stated.
   std::vector<Evidence> Doubts() const;
 
   /// How probable it is, by node, that the sensor is good, biased, drifting or

@@ -37,6 +37,14 @@ double MostEffort(const LinearTape& tape) {
   return std::max(kAtLeast, kPerNode * static_cast<double>(tape.size()));
 }
 
+bool IsAlone(const Timeline& timeline, int sensor) {
+  const auto& sensors = timeline.sensors();
+  return sensors[static_cast<std::size_t>(sensor)].kind->is_position &&
+         std::count_if(sensors.begin(), sensors.end(), [](const Sensor& one) {
+           return one.kind->is_position;
+         }) == 1;
+}
+
 }  // namespace
 
 SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
@@ -44,6 +52,7 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
     : tape(linear),
       sensor(index),
       name(problem.timeline.sensors()[static_cast<std::size_t>(index)].name),
+      alone(IsAlone(problem.timeline, index)),
       unit(UnitOf(
           *problem.timeline.sensors()[static_cast<std::size_t>(index)].kind)),
       stated_sigma(StatedSigma(linear, index)) {

@@ -31,6 +31,7 @@ struct SensorFindings {
   const LinearTape& tape;
   int sensor;
   std::string name;
+  bool alone = false;   ///< no other sensor measures a position, but this does
   std::string unit;     ///< of its error
   double stated_sigma;  ///< of its fixes, an axis [SI]
   RegimeChoice choice;

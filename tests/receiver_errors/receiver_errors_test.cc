@@ -74,10 +74,29 @@ TEST(ReceiverErrors, OfABiasedStretchBecomeStates) {
   EXPECT_GT(trust[10], 0.9);
   EXPECT_NEAR(modes.probabilities[30].sum(), 1.0, 1e-9);
 
+  EXPECT_TRUE(found.errors.Doubts().empty());
+
   const std::vector<State> states = found.errors.States(layout);
   EXPECT_LT((states[30].p_e - test.truth[30].p_e).norm(), 3.0);
   const Block& e = *layout.Find(BlockKind::kColouredNoise, 0);
   EXPECT_NEAR(states[30].parameters(e.parameter_offset), 30.0, 3.0);
+}
+
+/// That it is the fixes behind the jump that are wrong, nothing tells.
+TEST(ReceiverErrors, OfALoneSensorToItsLastFixAreDoubtful) {
+  TestProblem test = FixesOfOneMinute();
+  for (Measurement& z : test.measurements) {
+    if (z.t < 40.5) continue;
+    auto& fix = std::get<PositionFix>(z.model);
+    fix.p_e += NedAxes(fix.p_e) * Eigen::Vector3d(30.0, -20.0, 10.0);
+  }
+  const Found found(test);
+  ASSERT_TRUE(found.errors.Stands());
+  const std::vector<Evidence> doubts = found.errors.Doubts();
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_EQ(doubts[0].grade, Grade::kDoubtful);
+  EXPECT_THAT(doubts[0].what, HasSubstr("errs from 41 to 60 s"));
+  EXPECT_NEAR(doubts[0].value, 19.0 / 60.0, 0.02);
 }
 
 }  // namespace
