@@ -13,7 +13,7 @@
 namespace hindsight {
 namespace {
 
-/// Fixes from `begin` to before `end`, in all of which the sensor errs.
+/// Fixes from `begin` to `end`, in all of which the sensor errs.
 struct ErrantEnd {
   double begin = 0.0;  ///< [s]
   double end = 0.0;
@@ -27,18 +27,19 @@ ErrantEnd LongestErrantEnd(const std::vector<ErrorStep>& steps,
   const auto errs = [](const ErrorStep& step) {
     return step.mode == ErrorMode::kBiased || step.mode == ErrorMode::kDrifting;
   };
-  const auto first = std::find_if_not(steps.begin(), steps.end(), errs);
-  const auto last = std::find_if_not(steps.rbegin(), steps.rend(), errs);
-  if (first == steps.end()) return {times.front(), times.back(), 1.0};
-  const double t_first = times[static_cast<std::size_t>(first - steps.begin())];
-  const double t_last =
-      times[times.size() - 1 - static_cast<std::size_t>(last - steps.rbegin())];
-  const double whole = times.back() - times.front();
-  const ErrantEnd at_start = {times.front(), t_first,
-                              (t_first - times.front()) / whole};
-  const ErrantEnd at_end = {t_last, times.back(),
-                            (times.back() - t_last) / whole};
-  return at_end.share > at_start.share ? at_end : at_start;
+  const auto at_start = static_cast<std::size_t>(
+      std::find_if_not(steps.begin(), steps.end(), errs) - steps.begin());
+  const auto at_end = static_cast<std::size_t>(
+      std::find_if_not(steps.rbegin(), steps.rend(), errs) - steps.rbegin());
+  const auto between = [&times](std::size_t from, std::size_t to) {
+    const double share =
+        (times[to] - times[from]) / (times.back() - times.front());
+    return ErrantEnd{times[from], times[to], share};
+  };
+  const ErrantEnd begin = between(0, at_start > 0 ? at_start - 1 : 0);
+  const ErrantEnd end = between(times.size() - std::max<std::size_t>(at_end, 1),
+                                times.size() - 1);
+  return end.share > begin.share ? end : begin;
 }
 
 /// With the good and the erroneous fixes exchanged the likelihood is the same,
