@@ -38,8 +38,9 @@ void CheckAlike(const PlacedShard& first, const PlacedShard& other) {
     throw InputError(both + " are of different content of the scenario");
   }
   if (a == b) return;
-  throw InputError(both + " are not of one comparison: " + a.WordsOf(1) +
-                   " against " + b.WordsOf(1));
+  throw InputError(
+      both + " are not of one comparison: " + a.WordsOf(first.shard.number) +
+      " against " + b.WordsOf(other.shard.number));
 }
 
 void CheckBuild(const PlacedShard& one) {
