@@ -228,28 +228,20 @@ bool IsWindowed(const BatchOptions& options, const ChainProblem& chain) {
 bool StartsNear(IterationProgress* progress, ChainProblem* chain,
                 Sweep* sweep) {
   if (chain->HasLoss()) return false;
-  ArrowSystem system = chain->Information();
-  system.Factor();
-  system.Solve();
-  const double ratio = chain->StepSize(system) / RoughStep(*chain);
+  const ArrowLeastSquares first = chain->GaussNewtonStep();
+  const double ratio = chain->StepSize(first) / RoughStep(*chain);
   if (!(ratio < 1.0)) return false;
   progress->Begin(1, kLastSteps);
   progress->After(1, ratio);
-  chain->Apply(system);
+  chain->Apply(first);
   ++sweep->iterations;
   return true;
-}
-
-CovarianceSeries Marginals(ChainProblem* chain) {
-  ArrowSystem information = chain->Information();
-  information.Factor();
-  return chain->Marginals(information);
 }
 
 /// Full Gauss-Newton steps by the chain's own solver, which are taken without
 /// asking the cost. In a long chain they are also what moves the constants and
 /// what couples the windows: after a large step the windows are solved anew.
-/// Returns the covariances from the last step's information matrix.
+/// Returns the covariances from the last step.
 CovarianceSeries FinishByNewton(const BatchOptions& options,
                                 IterationProgress* progress,
                                 ChainProblem* chain, Sweep* sweep) {
@@ -259,17 +251,15 @@ CovarianceSeries FinishByNewton(const BatchOptions& options,
   const double last = chain->HasLoss() ? kFineStep : kLastNewtonStep;
   progress->Begin(kMaxSteps, 0.0);
   for (int i = 1;; ++i) {
-    ArrowSystem system = chain->Information();
-    system.Factor();
-    system.Solve();
+    const ArrowLeastSquares step = chain->GaussNewtonStep();
     ++sweep->iterations;
-    const double step = chain->StepSize(system);
-    chain->Apply(system);
-    progress->After(i, step / last);
-    const bool rough = windowed && step > RoughStep(*chain);
-    if (step < last || i == (rough ? kMaxSweeps : kMaxSteps)) {
+    const double size = chain->StepSize(step);
+    chain->Apply(step);
+    progress->After(i, size / last);
+    const bool rough = windowed && size > RoughStep(*chain);
+    if (size < last || i == (rough ? kMaxSweeps : kMaxSteps)) {
       sweep->converged = sweep->converged && !rough;
-      return chain->Marginals(system);
+      return chain->Marginals(step);
     }
     if (!rough) continue;
     const Sweep before = *sweep;
@@ -330,7 +320,7 @@ BatchResult SolveBatch(const std::vector<State>& initial,
 CovarianceSeries BatchMarginals(const std::vector<State>& states,
                                 Problem* problem) {
   ChainProblem chain(states, problem);
-  return Marginals(&chain);
+  return chain.Marginals(chain.GaussNewtonStep());
 }
 
 }  // namespace hindsight

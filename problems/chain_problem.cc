@@ -7,7 +7,6 @@
 #include "factors/imu_factor.h"
 #include "factors/measurement_factor.h"
 #include "factors/prior_factor.h"
-#include "linear/row_products.h"
 
 namespace hindsight {
 
@@ -108,76 +107,46 @@ std::vector<State> ChainProblem::States() const {
 
 namespace {
 
-/// Subtracts J'r of one factor from the right side.
-void AddGradient(const StateBlocks& blocks, const TangentFactor& factor,
-                 const TangentFactor::Jacobian& J, const Eigen::VectorXd& r,
-                 ArrowSystem* arrow) {
-  const auto rows = r.head(factor.num_residuals());
-  Eigen::Index column = 0;
-  for (const int k : factor.nodes()) {
-    const auto J_k = J.middleCols(column, blocks.node_dim());
-    arrow->rhs(k).noalias() -= J_k.transpose() * rows;
-    column += blocks.node_dim();
-  }
+/// Rows of a factor that sees one node, or a node and the next.
+void AddRows(const StateBlocks& blocks, const TangentFactor& factor,
+             const TangentFactor::Jacobian& J, const Eigen::VectorXd& residual,
+             ArrowLeastSquares* arrow) {
+  const int n = blocks.node_dim();
+  const int count = factor.num_residuals();
+  const bool is_link = factor.nodes().size() == 2;
+  const int k = factor.nodes().front();
+  ArrowLeastSquares::Rows rows =
+      is_link ? arrow->AddToLink(k, count) : arrow->AddToNode(k, count);
+  rows.residual() = residual.head(count);
+  rows.node() = J.leftCols(n);
+  if (is_link) rows.next() = J.middleCols(n, n);
+  Eigen::Index column = is_link ? 2 * n : n;
   for (const int g : factor.globals()) {
     const StateBlocks::Entry& entry =
         blocks.globals()[static_cast<std::size_t>(g)];
-    arrow->rhs_border().segment(entry.tangent, entry.block.dim).noalias() -=
-        J.middleCols(column, entry.block.dim).transpose() * rows;
+    rows.border().middleCols(entry.tangent, entry.block.dim) =
+        J.middleCols(column, entry.block.dim);
     column += entry.block.dim;
   }
 }
 
-/// Adds J'J of one factor to the blocks of the arrow it touches, of symmetric
-/// ones to the lower triangle.
-void AddInformation(const StateBlocks& blocks, const TangentFactor& factor,
-                    const TangentFactor::Jacobian& J, ArrowSystem* arrow) {
-  const int n = blocks.node_dim();
-  const auto columns = [&](Eigen::Index first, int count) {
-    return RowSpan{J.data() + first, J.cols(), factor.num_residuals(), count};
-  };
-  const auto& nodes = factor.nodes();
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    ArrowSystem::Block node = arrow->node(nodes[i]);
-    AddSquare(columns(static_cast<Eigen::Index>(i) * n, n), node.data(),
-              node.outerStride());
-  }
-  if (nodes.size() == 2) {
-    ArrowSystem::Block coupling = arrow->coupling(nodes[0]);
-    AddTransposedProduct(columns(n, n), columns(0, n), coupling.data(),
-                         coupling.outerStride());
-  }
-  const Eigen::Index node_columns = n * static_cast<Eigen::Index>(nodes.size());
-  Eigen::Index column = node_columns;
-  for (const int g : factor.globals()) {
-    const StateBlocks::Entry& entry =
-        blocks.globals()[static_cast<std::size_t>(g)];
-    const RowSpan J_g = columns(column, entry.block.dim);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      ArrowSystem::Block coupling = arrow->border_coupling(nodes[i]);
-      AddTransposedProduct(J_g, columns(static_cast<Eigen::Index>(i) * n, n),
-                           coupling.data() + entry.tangent,
-                           coupling.outerStride());
+/// "dvl_bias[x]".
+std::string NameOf(const StateBlocks& blocks, const Deficiency& deficiency) {
+  const bool global = deficiency.node == Deficiency::kBorder;
+  for (const StateBlocks::Entry& entry : blocks.entries()) {
+    const int i = deficiency.component - entry.tangent;
+    if (entry.global == global && i >= 0 && i < entry.block.dim) {
+      return blocks.layout().ComponentName(entry.block.offset + i);
     }
-    ArrowSystem::Block border = arrow->border();
-    Eigen::Index other_column = node_columns;
-    for (const int h : factor.globals()) {
-      const StateBlocks::Entry& other =
-          blocks.globals()[static_cast<std::size_t>(h)];
-      AddTransposedProduct(J_g, columns(other_column, other.block.dim),
-                           &border(entry.tangent, other.tangent),
-                           border.outerStride());
-      other_column += other.block.dim;
-    }
-    column += entry.block.dim;
   }
+  return "an unknown";
 }
 
 }  // namespace
 
-ArrowSystem ChainProblem::Information() {
-  ArrowSystem arrow(static_cast<int>(times_.size()), blocks_->node_dim(),
-                    blocks_->global_dim());
+ArrowLeastSquares ChainProblem::GaussNewtonStep() {
+  ArrowLeastSquares arrow(static_cast<int>(times_.size()), blocks_->node_dim(),
+                          blocks_->global_dim());
   TangentFactor::Jacobian J;
   Eigen::VectorXd residual(kMaxErrorDim);
   for (std::size_t i = 0; i < factors_.size(); ++i) {
@@ -190,41 +159,45 @@ ArrowSystem ChainProblem::Information() {
       J *= root_weight;
       residual *= root_weight;
     }
-    AddInformation(*blocks_, factor, J, &arrow);
-    AddGradient(*blocks_, factor, J, residual, &arrow);
+    AddRows(*blocks_, factor, J, residual, &arrow);
+  }
+  const std::vector<Deficiency> deficient = arrow.Solve();
+  if (!deficient.empty()) {
+    throw EstimationError("batch: the data leave " +
+                          NameOf(*blocks_, deficient.front()) +
+                          " undetermined");
   }
   return arrow;
 }
 
-double ChainProblem::StepSize(const ArrowSystem& solved) const {
+double ChainProblem::StepSize(const ArrowLeastSquares& step) const {
   double sum = 0.0;
   for (std::size_t k = 0; k < times_.size(); ++k) {
-    sum += solved.rhs(static_cast<int>(k)).squaredNorm();
+    sum += step.x(static_cast<int>(k)).squaredNorm();
   }
   return std::sqrt(sum / static_cast<double>(times_.size()));
 }
 
-void ChainProblem::Apply(const ArrowSystem& solved) {
+void ChainProblem::Apply(const ArrowLeastSquares& step) {
   const NodeManifold manifold(blocks_.get());
   for (std::size_t k = 0; k < times_.size(); ++k) {
-    const auto step = solved.rhs(static_cast<int>(k));
-    manifold.Plus(node_values(k), step.data(), node_values(k));
+    manifold.Plus(node_values(k), step.x(static_cast<int>(k)).data(),
+                  node_values(k));
   }
   for (const StateBlocks::Entry& entry : blocks_->globals()) {
-    const auto step =
-        solved.rhs_border().segment(entry.tangent, entry.block.dim);
+    const auto move = step.x_border().segment(entry.tangent, entry.block.dim);
     auto& values = globals_[static_cast<std::size_t>(entry.ambient)];
     for (int i = 0; i < entry.block.dim; ++i) {
-      values[static_cast<std::size_t>(i)] += step(i);
+      values[static_cast<std::size_t>(i)] += move(i);
     }
   }
 }
 
-CovarianceSeries ChainProblem::Marginals(const ArrowSystem& factored) const {
+CovarianceSeries ChainProblem::Marginals(const ArrowLeastSquares& step) const {
   const int n = blocks_->layout().dim();
   CovarianceSeries series(n, times_.size());
-  const Eigen::MatrixXd border = factored.BorderCovariance();
-  factored.VisitMarginals([&](const ArrowSystem::NodeMarginal& marginal) {
+  const Eigen::MatrixXd border = step.BorderCovariance();
+  step.VisitMarginals([&](const ArrowLeastSquares::NodeMarginal& marginal) {
     ErrorMatrix P(n, n);
     for (const StateBlocks::Entry& a : blocks_->entries()) {
       for (const StateBlocks::Entry& b : blocks_->entries()) {

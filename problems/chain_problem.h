@@ -7,7 +7,7 @@
 #include "factors/robust_loss_function.h"
 #include "factors/state_blocks.h"
 #include "factors/tangent_factor.h"
-#include "linear/arrow_system.h"
+#include "linear/arrow_least_squares.h"
 #include "state/covariance_series.h"
 #include "timeline/problem.h"
 
@@ -45,17 +45,17 @@ class ChainProblem {
 
   std::vector<State> States() const;
 
-  /// Normal equations of all factors at the present values: the information
-  /// matrix, and on the right side the negative gradient of the cost. Solved,
-  /// they are one Gauss-Newton step.
-  ArrowSystem Information();
-  /// Root mean square a node of a solved step, over metres, m/s, radians and
-  /// the rest.
-  double StepSize(const ArrowSystem& solved) const;
-  /// Moves the values by a solved step.
-  void Apply(const ArrowSystem& solved);
-  /// Marginal covariances over the layout from a factored information matrix.
-  CovarianceSeries Marginals(const ArrowSystem& factored) const;
+  /// All factors linearised at the present values, of which the solution is one
+  /// Gauss-Newton step, solved. Throws EstimationError where they leave an
+  /// unknown undetermined.
+  ArrowLeastSquares GaussNewtonStep();
+  /// Root mean square a node of a step, over metres, m/s, radians and the rest.
+  double StepSize(const ArrowLeastSquares& step) const;
+  /// Moves the values by a step.
+  void Apply(const ArrowLeastSquares& step);
+  /// Marginal covariances over the layout, of the values that the step was
+  /// linearised at.
+  CovarianceSeries Marginals(const ArrowLeastSquares& step) const;
 
  private:
   std::unique_ptr<StateBlocks> blocks_;

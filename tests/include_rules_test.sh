@@ -133,7 +133,7 @@ self_test() {
   expect ok src/state/a.h '#include "state/state.h"'
   expect ok src/io/read/a.cc '#include <fstream>'
   expect ok src/app/a.cc '#include <gflags/gflags.h>'
-  expect ok src/filters/a.cc '#include "linear/arrow_system.h"'
+  expect ok src/filters/a.cc '#include "linear/arrow_least_squares.h"'
   expect ok problems/a.cc 'ceres::Problem problem;'
   expect ok problems/a.cc '#include "receiver_errors/receiver_errors.h"'
   expect ok src/receiver_errors/a.cc '#include "receiver_errors/error_tuning.h"'

@@ -1,9 +1,9 @@
-#include "linear/arrow_system.h"
+#include "linear/arrow_least_squares.h"
 #include "linear/panel.h"
 
-// With G = (W; V) L^-1 the rows of a panel below its pivot block, divided by
-// its factor, and S the covariance of the unknowns those rows belong to (next
-// node and border), the columns of node k of Lambda^-1 are
+// With L' the node's part of R, G = (W; V) L^-1 its rows for the next node and
+// the border divided by it, and S the covariance of those unknowns, the columns
+// of node k of (R'R)^-1 are
 //   below the diagonal  -S G,    on it  L^-T L^-1 + G' S G.
 
 namespace hindsight {
@@ -59,37 +59,19 @@ void Recursion::Step(const double* panel, int height,
 
 }  // namespace
 
-void ArrowSystem::VisitMarginals(const MarginalVisitor& visit) const {
-  Require(Phase::kFactored, "VisitMarginals");
+void ArrowLeastSquares::VisitMarginals(const MarginalVisitor& visit) const {
+  Require(Phase::kSolved, "VisitMarginals");
   Recursion recursion(n_, m_, node_rows_, border_rows_);
-  const auto s_border = scale_.tail(m_);
-  Eigen::MatrixXd covariance(n_, n_);
-  Eigen::MatrixXd next_node(n_, n_);
-  Eigen::MatrixXd border_node(m_, n_);
-  const Eigen::MatrixXd border_covariance =
-      s_border.cwiseInverse().asDiagonal() * BorderCovariance() *
-      s_border.cwiseInverse().asDiagonal();
-  recursion.S.block(node_rows_, node_rows_, m_, m_) = border_covariance;
+  recursion.S.block(node_rows_, node_rows_, m_, m_) = BorderCovariance();
+  const auto block = [](const Eigen::MatrixXd& M, int row, int rows, int cols) {
+    return ConstBlock(M.data() + row, rows, cols,
+                      Eigen::OuterStride<>(M.outerStride()));
+  };
   for (int k = nodes_ - 1; k >= 0; --k) {
     recursion.Step(Panel(k), height_, inverse_diagonal_.data() + k * n_);
-    const auto s = scale_.segment(k * n_, n_);
-    const int next_rows = k + 1 < nodes_ ? n_ : 0;
-    for (int j = 0; j < n_; ++j) {
-      covariance.col(j) = recursion.P.col(j).head(n_).cwiseProduct(s) * s(j);
-      border_node.col(j) =
-          recursion.R.col(j).segment(node_rows_, m_).cwiseProduct(s_border) *
-          s(j);
-      if (next_rows == 0) continue;
-      next_node.col(j) = recursion.R.col(j).head(n_).cwiseProduct(
-                             scale_.segment((k + 1) * n_, n_)) *
-                         s(j);
-    }
-    const auto map = [](const Eigen::MatrixXd& M, int rows, int cols) {
-      return ConstBlock(M.data(), rows, cols,
-                        Eigen::OuterStride<>(M.outerStride()));
-    };
-    visit({k, map(covariance, n_, n_), map(next_node, next_rows, n_),
-           map(border_node, m_, n_)});
+    visit({k, block(recursion.P, 0, n_, n_),
+           block(recursion.R, 0, k + 1 < nodes_ ? n_ : 0, n_),
+           block(recursion.R, node_rows_, m_, n_)});
   }
 }
 

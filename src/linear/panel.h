@@ -2,9 +2,6 @@
 #define HINDSIGHT_LINEAR_PANEL_H_
 
 #include <Eigen/Core>
-#include <vector>
-
-#include "linear/arrow_system.h"
 
 namespace hindsight {
 
@@ -54,22 +51,11 @@ inline void SubtractColumns(double* out, int rows, const Columns& c) {
 }
 
 /// A panel is a column of blocks, column-major, `height` rows by n columns; its
-/// top n x n block is the pivot block.
-
-/// Cholesky factor L of the pivot block in its place, and the rows below it
-/// times L^-T. Pivots at or below `tolerance` are appended to `deficient`;
-/// their columns and reciprocals become zero.
-void FactorPanel(double* panel, int height, int n, double tolerance, int node,
-                 double* inverse_diagonal, std::vector<Deficiency>* deficient);
+/// top n x n block is lower triangular, L.
 
 /// F = H L^-1 in place; H has `rows` rows, L is the top of the panel.
 void DivideByFactor(double* F, int rows, int n, const double* panel, int height,
                     const double* inverse_diagonal);
-
-/// `work` has the panel's rows. On top y = L^-1 r, below it the right side
-/// reduced by the panel's rows times y.
-void SolveForward(const double* panel, int height, int n,
-                  const double* inverse_diagonal, double* work);
 
 /// Top of `work`: L^-T (y - rows below' x_below), with x_below below it.
 void SolveBackward(const double* panel, int height, int n,

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "io/config/scenario_config.h"
 #include "problems/reconstruction.h"
@@ -10,11 +12,11 @@
 namespace hindsight {
 namespace {
 
-class CloseStamps : public ::testing::TestWithParam<double> {};
+class CloseStampsBy : public ::testing::TestWithParam<double> {};
 
 /// Two sensors with clocks of their own: nodes that are next to nothing apart,
 /// between which a good IMU leaves micrometres.
-TEST_P(CloseStamps, AreNoHarmToTheBatch) {
+TEST_P(CloseStampsBy, AreNoHarmToTheBatch) {
   Dataset dataset = Simulate(FindScenario("test_dive", {}), 300);
   for (AidingStream& stream : dataset.streams) {
     if (!stream.sensor.kind->is_position) continue;
@@ -40,8 +42,39 @@ TEST_P(CloseStamps, AreNoHarmToTheBatch) {
   EXPECT_LT(apart, 0.003);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seconds, CloseStamps,
+INSTANTIATE_TEST_SUITE_P(Seconds, CloseStampsBy,
                          ::testing::Values(0.0, 2e-6, 3e-5, 1e-4, 1e-3));
+
+/// The last two nodes are 42 and 31 ms apart, and positions known to 10 m: of a
+/// variance, what links them is 1e-15. Nothing is lost.
+TEST(CloseStamps, LeaveTheCovariancesOfADeadReckonedDive) {
+  for (const std::uint64_t seed : {4009, 4039}) {
+    const Dataset dataset = Simulate(FindScenario("straight_dive", {}), seed);
+    Reconstruction reconstruction(dataset, {});
+    const Solution iterated = reconstruction.Run("iterated");
+    const Solution batch = reconstruction.Run("batch");
+    ASSERT_TRUE(batch.converged);
+    ASSERT_EQ(batch.states.size(), iterated.states.size());
+    const std::size_t last = batch.states.size() - 1;
+    ASSERT_LT(batch.states[last].t - batch.states[last - 1].t, 0.05);
+    const auto scaled = [](const Solution& solution, std::size_t k,
+                           const Solution& by) -> Eigen::MatrixXd {
+      const Eigen::VectorXd sigma =
+          by.covariances.Get(k).diagonal().cwiseSqrt();
+      return sigma.cwiseInverse().asDiagonal() *
+             Eigen::MatrixXd(solution.covariances.Get(k)) *
+             sigma.cwiseInverse().asDiagonal();
+    };
+    for (std::size_t k = 0; k <= last; ++k) {
+      EXPECT_LT((scaled(batch, k, iterated) - scaled(iterated, k, iterated))
+                    .cwiseAbs()
+                    .maxCoeff(),
+                1e-3)
+          << "seed " << seed << ", node " << k;
+    }
+    EXPECT_GT(std::sqrt(batch.covariances.Get(last)(0, 0)), 5.0);
+  }
+}
 
 }  // namespace
 }  // namespace hindsight

@@ -1,0 +1,304 @@
+#include "linear/arrow_least_squares.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "linear/panel.h"
+
+namespace hindsight {
+namespace {
+
+using RowMatrix = ArrowLeastSquares::RowMatrix;
+
+int Even(int x) { return x + (x & 1); }
+
+/// Room for `rows`, what is there kept.
+void Reserve(Eigen::Index rows, RowMatrix* work) {
+  if (work->rows() >= rows) return;
+  work->conservativeResize(2 * rows, Eigen::NoChange);
+}
+
+/// `count` rows from `first`, `stride` apart.
+struct RowRange {
+  double* first = nullptr;
+  Eigen::Index stride = 0;
+  Eigen::Index count = 0;
+  double* row(Eigen::Index i) const { return first + i * stride; }
+};
+
+/// Norm of column `c` of a row and the rows below it.
+double ColumnNorm(const double* top, const RowRange& below, Eigen::Index c) {
+  double sum = top[c] * top[c];
+  for (Eigen::Index i = 0; i < below.count; ++i) {
+    sum += below.row(i)[c] * below.row(i)[c];
+  }
+  return std::sqrt(sum);
+}
+
+/// Rows of which a reflection changes `top`: addresses, and coefficients of its
+/// Householder vector, whose element of `top` is 1.
+struct Reflection {
+  double tau = 0.0;
+  std::vector<double*> rows;
+  std::vector<double> v;
+};
+
+/// top and the rows below minus tau (1; v) (1, v') times themselves, over a fixed
+/// number of columns, whose sum the compiler keeps in registers.
+template <int Columns>
+void ReflectColumns(double* top, const Reflection& reflection,
+                    Eigen::Index first) {
+  using Strip = Eigen::Array<double, Columns, 1>;
+  using Map = Eigen::Map<Strip>;
+  const std::size_t count = reflection.rows.size();
+  Strip w = Map(top + first);
+  for (std::size_t i = 0; i < count; ++i) {
+    w += reflection.v[i] * Map(reflection.rows[i] + first);
+  }
+  w *= reflection.tau;
+  Map(top + first) -= w;
+  for (std::size_t i = 0; i < count; ++i) {
+    Map(reflection.rows[i] + first) -= reflection.v[i] * w;
+  }
+}
+
+/// The Householder reflection of `top` and the rows below it that leaves, in
+/// column c of the given norm, nothing below `top`; over the columns [c, end).
+void Reflect(double* top, const RowRange& below, Eigen::Index c,
+             Eigen::Index end, double norm, Reflection* reflection) {
+  reflection->rows.clear();
+  reflection->v.clear();
+  for (Eigen::Index i = 0; i < below.count; ++i) {
+    if (below.row(i)[c] == 0.0) continue;
+    reflection->rows.push_back(below.row(i));
+    reflection->v.push_back(below.row(i)[c]);
+  }
+  if (reflection->rows.empty()) return;
+  const double beta = top[c] < 0.0 ? norm : -norm;
+  const double scale = 1.0 / (top[c] - beta);
+  reflection->tau = (beta - top[c]) / beta;
+  for (double& v : reflection->v) v *= scale;
+  for (double* row : reflection->rows) row[c] = 0.0;
+  top[c] = beta;
+  Eigen::Index first = c + 1;
+  for (; end - first >= 8; first += 8)
+    ReflectColumns<8>(top, *reflection, first);
+  if (end - first >= 4) {
+    ReflectColumns<4>(top, *reflection, first);
+    first += 4;
+  }
+  for (; first < end; ++first) ReflectColumns<1>(top, *reflection, first);
+}
+
+}  // namespace
+
+ArrowLeastSquares::ArrowLeastSquares(int nodes, int node_dim, int border_dim,
+                                     double tolerance)
+    : nodes_(nodes),
+      n_(node_dim),
+      m_(border_dim),
+      tolerance_(tolerance),
+      node_rows_(Even(node_dim)),
+      border_rows_(Even(border_dim)),
+      height_(2 * node_rows_ + border_rows_) {
+  if (nodes < 1 || node_dim < 1 || border_dim < 0) {
+    throw std::logic_error("arrow needs a node and an unknown");
+  }
+  const int width = 2 * n_ + m_ + 1;
+  node_work_.resize(2 * (n_ + m_), width);
+  link_work_.resize(2 * n_, width);
+  border_work_ = RowMatrix::Zero(m_, m_ + 1);
+  node_norm_ = Eigen::RowVectorXd::Zero(n_);
+  next_norm_ = Eigen::RowVectorXd::Zero(n_);
+  border_norm_ = Eigen::RowVectorXd::Zero(m_);
+  panels_ = Eigen::VectorXd::Zero(PanelOffset(nodes));
+  border_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(border_rows_) * m_);
+  const Eigen::Index unknowns = static_cast<Eigen::Index>(nodes) * n_ + m_;
+  solution_ = Eigen::VectorXd::Zero(unknowns);
+  inverse_diagonal_ = Eigen::VectorXd::Zero(unknowns);
+}
+
+void ArrowLeastSquares::Require(Phase phase, const char* call) const {
+  if (phase_ != phase) {
+    throw std::logic_error(std::string("arrow: ") + call +
+                           (phase == Phase::kSolved ? " before" : " after") +
+                           " Solve");
+  }
+}
+
+ArrowLeastSquares::Rows ArrowLeastSquares::Add(int k, int count,
+                                               RowMatrix* rows,
+                                               Eigen::Index* used) {
+  Require(Phase::kFilling, "rows");
+  if (k < filled_ || k >= nodes_ || count < 0) {
+    throw std::logic_error("arrow: rows of node " + std::to_string(k) +
+                           " after those of node " + std::to_string(filled_));
+  }
+  while (filled_ < k) EliminateNode();
+  const Eigen::Index first = *used;
+  *used += count;
+  Reserve(*used, rows);
+  rows->middleRows(first, count).setZero();
+  return {rows, first, count, n_, m_};
+}
+
+ArrowLeastSquares::Rows ArrowLeastSquares::AddToNode(int k, int count) {
+  return Add(k, count, &node_work_, &node_used_);
+}
+
+ArrowLeastSquares::Rows ArrowLeastSquares::AddToLink(int k, int count) {
+  if (k + 1 >= nodes_) throw std::logic_error("arrow: no node after the last");
+  return Add(k, count, &link_work_, &link_used_);
+}
+
+void ArrowLeastSquares::CountNorms() {
+  node_norm_ = next_norm_;
+  const auto here = node_work_.middleRows(carried_, node_used_ - carried_);
+  const auto link = link_work_.topRows(link_used_);
+  node_norm_ += here.leftCols(n_).colwise().squaredNorm() +
+                link.leftCols(n_).colwise().squaredNorm();
+  next_norm_ = link.rightCols(n_).colwise().squaredNorm();
+  border_norm_ += here.middleCols(n_, m_).colwise().squaredNorm() +
+                  link.middleCols(n_, m_).colwise().squaredNorm();
+}
+
+void ArrowLeastSquares::EliminateNode() {
+  CountNorms();
+  const bool last = filled_ + 1 == nodes_;
+  const Eigen::Index width = node_work_.cols();
+  const Eigen::Index alone = n_ + m_ + 1;
+  // Rows that an unknown which is held fixed has no use for go on below.
+  Reserve(std::max<Eigen::Index>(node_used_, n_) + n_, &node_work_);
+  Reserve(link_used_ + n_, &link_work_);
+  while (node_used_ < n_) node_work_.row(node_used_++).setZero();
+  node_work_.topRows(n_).rightCols(n_).setZero();
+  Reflection reflection;
+  const auto pass_on = [&](Eigen::Index j, RowMatrix* to, Eigen::Index* used) {
+    to->row((*used)++) = node_work_.row(j);
+    node_work_.row(j).setZero();
+  };
+  const auto fixed = [&](Eigen::Index j, double left) {
+    const double fraction = left / std::sqrt(node_norm_(j));
+    if (fraction > tolerance_) return false;
+    deficient_.push_back(
+        {filled_, static_cast<int>(j), node_norm_(j) > 0.0 ? fraction : 0.0});
+    return true;
+  };
+  for (Eigen::Index j = 0; j < n_; ++j) {
+    double* top = node_work_.row(j).data();
+    const RowRange below{top + width, width, node_used_ - j - 1};
+    const double left = ColumnNorm(top, below, j);
+    if (last && fixed(j, left)) {
+      node_work_.block(j, j, node_used_ - j, 1).setZero();
+      pass_on(j, &node_work_, &node_used_);
+      continue;
+    }
+    Reflect(top, below, j, alone, left, &reflection);
+  }
+  for (Eigen::Index j = 0; j < m_; ++j) {
+    double* top = border_work_.row(j).data();
+    const RowRange below{node_work_.row(n_).data() + n_, width,
+                         node_used_ - n_};
+    Reflect(top, below, j, m_ + 1, ColumnNorm(top, below, j), &reflection);
+  }
+  double* const inverse = inverse_diagonal_.data() + filled_ * n_;
+  for (Eigen::Index j = 0; j < n_; ++j) {
+    double* top = node_work_.row(j).data();
+    const RowRange below{link_work_.data(), width, last ? 0 : link_used_};
+    const double left = ColumnNorm(top, below, j);
+    if (!last && fixed(j, left)) {
+      top[j] = 0.0;
+      link_work_.col(j).head(link_used_).setZero();
+      pass_on(j, &link_work_, &link_used_);
+      continue;
+    }
+    if (left == 0.0) continue;
+    Reflect(top, below, j, width, left, &reflection);
+    inverse[j] = 1.0 / top[j];
+    solution_(filled_ * n_ + j) = -top[n_ + m_];
+    double* column = Panel(filled_) + j * height_;
+    std::copy(top + j, top + n_, column + j);
+    std::copy(top + alone, top + width, column + node_rows_);
+    std::copy(top + n_, top + n_ + m_, column + 2 * node_rows_);
+  }
+  Carry();
+}
+
+void ArrowLeastSquares::Carry() {
+  ++filled_;
+  carried_ = node_used_ = link_used_;
+  link_used_ = 0;
+  Reserve(carried_, &node_work_);
+  const auto from = link_work_.topRows(carried_);
+  auto to = node_work_.topRows(carried_);
+  to.leftCols(n_) = from.rightCols(n_);
+  to.middleCols(n_, m_ + 1) = from.middleCols(n_, m_ + 1);
+}
+
+void ArrowLeastSquares::EliminateBorder() {
+  // Rows of unknowns that are held fixed go on below.
+  Reserve(2 * m_, &border_work_);
+  Eigen::Index used = m_;
+  double* const inverse = inverse_diagonal_.data() + nodes_ * n_;
+  Reflection reflection;
+  for (Eigen::Index j = 0; j < m_; ++j) {
+    double* top = border_work_.row(j).data();
+    const RowRange below{border_work_.row(m_).data(), m_ + 1, used - m_};
+    const double left = ColumnNorm(top, below, j);
+    const double fraction = left / std::sqrt(border_norm_(j));
+    if (!(fraction > tolerance_)) {
+      deficient_.push_back({Deficiency::kBorder, static_cast<int>(j),
+                            border_norm_(j) > 0.0 ? fraction : 0.0});
+      border_work_.row(used) = border_work_.row(j);
+      border_work_.row(j).setZero();
+      ++used;
+      border_work_.block(m_, j, used - m_, 1).setZero();
+      continue;
+    }
+    Reflect(top, below, j, m_ + 1, left, &reflection);
+    inverse[j] = 1.0 / top[j];
+    solution_(nodes_ * n_ + j) = -top[m_];
+    std::copy(top + j, top + m_, border_.data() + j * border_rows_ + j);
+  }
+}
+
+std::vector<Deficiency> ArrowLeastSquares::Solve() {
+  Require(Phase::kFilling, "Solve");
+  while (filled_ < nodes_) EliminateNode();
+  EliminateBorder();
+  phase_ = Phase::kSolved;
+  // Rows of a panel: this node, the next, the border.
+  Eigen::VectorXd work = Eigen::VectorXd::Zero(height_);
+  auto here = work.head(n_);
+  auto next = work.segment(node_rows_, n_);
+  auto border = work.segment(2 * node_rows_, m_);
+  border = solution_.tail(m_);
+  if (m_ > 0) {
+    SolveBackward(border_.data(), border_rows_, m_,
+                  inverse_diagonal_.data() + nodes_ * n_,
+                  work.data() + 2 * node_rows_);
+  }
+  for (int k = nodes_ - 1; k >= 0; --k) {
+    here = solution_.segment(k * n_, n_);
+    SolveBackward(Panel(k), height_, n_, inverse_diagonal_.data() + k * n_,
+                  work.data());
+    solution_.segment(k * n_, n_) = here;
+    next = here;
+  }
+  solution_.tail(m_) = border;
+  return deficient_;
+}
+
+Eigen::MatrixXd ArrowLeastSquares::BorderCovariance() const {
+  Require(Phase::kSolved, "BorderCovariance");
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(border_rows_, m_);
+  if (m_ == 0) return Eigen::MatrixXd(0, 0);
+  DivideByFactor(inverse.data(), border_rows_, m_, border_.data(), border_rows_,
+                 inverse_diagonal_.data() + nodes_ * n_);
+  return inverse.topRows(m_).transpose() * inverse.topRows(m_);
+}
+
+}  // namespace hindsight
