@@ -55,7 +55,8 @@ PartError PartOf(const ErrorVector& e, const ErrorMatrix& P, int offset) {
 
 /// Errors of the solution at those nodes into the record.
 void JudgeNodes(const Solution& solution, const std::vector<std::size_t>& nodes,
-                const std::vector<State>& truth, RunRecord* record) {
+                const std::vector<State>& truth,
+                const std::vector<int>& components, RunRecord* record) {
   const int p = solution.layout.Find(BlockKind::kPosition)->offset;
   const int a = solution.layout.Find(BlockKind::kAttitude)->offset;
   std::vector<double> distance, angle, position_nees, attitude_nees, beyond;
@@ -70,7 +71,9 @@ void JudgeNodes(const Solution& solution, const std::vector<std::size_t>& nodes,
     series["position_e"].push_back(e(p + 1));
     series["position_d"].push_back(e(p + 2));
     series["yaw"].push_back(WrapAngle(truth[i].euler().z() - x.euler().z()));
-    series["nees"].push_back(e.dot(P.llt().solve(e)));
+    const Eigen::VectorXd known = e(components);
+    const Eigen::MatrixXd P_known = P(components, components);
+    series["nees"].push_back(known.dot(P_known.llt().solve(known)));
     const PartError position = PartOf(e, P, p);
     const PartError attitude = PartOf(e, P, a);
     distance.push_back(position.length);
@@ -234,6 +237,8 @@ void Judge(const Dataset& dataset, const std::vector<double>& times,
   std::vector<State> states;
   states.reserve(nodes.size());
   for (const std::size_t k : nodes) states.push_back(solution.states[k]);
+  const std::vector<int> components =
+      ComponentsWithTruth(dataset, solution.layout);
   double nis = 0.0, rows = 0.0;
   for (const ResidualRecord& residual : solution.residuals) {
     if (!residual.accepted || residual.withheld) continue;
@@ -243,13 +248,13 @@ void Judge(const Dataset& dataset, const std::vector<double>& times,
   record->values = {{kSeconds, solution.seconds},
                     {"nis_sum", nis},
                     {"nis_rows", rows},
-                    {"states", 1.0 * solution.layout.dim()}};
+                    {"states", static_cast<double>(components.size())}};
   record->grade = solution.grade;
   record->failed = !solution.converged;
   record->answered = solution.converged;
   AddEvidence(dataset, solution, record);
   JudgeNodes(solution, nodes, TrueStates(dataset, solution.layout, states),
-             record);
+             components, record);
 }
 
 /// The cell of the run as a whole: that of its best method, with the grade that

@@ -53,4 +53,18 @@ std::vector<State> TrueStates(const Dataset& dataset, const ErrorLayout& layout,
   return truth;
 }
 
+std::vector<int> ComponentsWithTruth(const Dataset& dataset,
+                                     const ErrorLayout& layout) {
+  std::vector<int> components;
+  for (const Block& block : layout.blocks()) {
+    for (int i = block.offset; i < block.offset + block.dim; ++i) {
+      if (block.parameter_offset < 0 ||
+          dataset.true_constants.contains(layout.ComponentName(i))) {
+        components.push_back(i);
+      }
+    }
+  }
+  return components;
+}
+
 }  // namespace hindsight
