@@ -209,7 +209,7 @@ TEST(AttitudeEstimation, TwentyTurnsWithAScaleErrorAreConsistent) {
       };
       EXPECT_TRUE(AneesBounds(runs, 3, 0.999).Contains(value("nees")))
           << method << value("nees");
-      EXPECT_GT(value("inside"), 0.97) << method;
+      EXPECT_GT(value("inside"), 0.98) << method;
     }
     EXPECT_LT(result.Value({"turns", "ahrs_smoother"}, "heading_rms"),
               1.0 * kDegree);
