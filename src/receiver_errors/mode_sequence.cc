@@ -60,8 +60,7 @@ double LogTransition(ErrorMode before, ErrorStep step, int fixes) {
   // of a Markov chain. Orders of magnitude: errors are rare, and end; a velocity
   // step is likelier than a drift. A factor of ten is 2.3 in the logarithm of a
   // posterior, of which an error of three sigmas over ten fixes has 45.
-  constexpr double kEnd = 4.0;    // a bias or drift ends, the receiver is good
-  constexpr double kJumps = 1.0;  // a good receiver becomes biased
+  constexpr double kJumps = 1.0;          // a good receiver becomes biased
   constexpr double kSlights = 1.0;        // a receiver becomes slightly biased
   constexpr double kDrifts = 0.2;         // a good receiver begins to drift
   constexpr double kStops = 0.2;          // a drift stops, its error stays
@@ -74,7 +73,7 @@ double LogTransition(ErrorMode before, ErrorStep step, int fixes) {
   const double jumps = small ? kJumps : kChanges;
   const double drifts = small ? kDrifts : kBends;
   const double stops = before == ErrorMode::kDrifting ? kStops : 0.0;
-  const double ends = good ? 0.0 : kEnd;
+  const double ends = good ? 0.0 : kEndsOfAnError;
   if (step == kJump) return std::log(jumps * once);
   if (step == kSlightJump) return std::log(kSlights * once);
   if (step == kBeginDrift) return std::log(drifts * once);
@@ -83,7 +82,7 @@ double LogTransition(ErrorMode before, ErrorStep step, int fixes) {
     return std::log1p(
         -(jumps + kSlights + drifts + stops + ends + kVelocitySteps) * once);
   }
-  if (step == kStayGood) return std::log(kEnd * once);
+  if (step == kStayGood) return std::log(kEndsOfAnError * once);
   return std::log(kStops * once);
 }
 

@@ -64,6 +64,10 @@ struct ErrorDynamics {
 ErrorDynamics DynamicsOf(const ErrorParameters& parameters, ErrorStep step,
                          double dt);
 
+/// How often a bias or drift ends, and the receiver is good again, in a recording
+/// that would be all bias or drift: the expectation a priori.
+inline constexpr double kEndsOfAnError = 4.0;
+
 /// ln probability of a step after a mode, where `fixes` fixes are expected to
 /// hold a few changes.
 double LogTransition(ErrorMode before, ErrorStep step, int fixes);

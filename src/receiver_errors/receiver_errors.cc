@@ -21,7 +21,8 @@ struct ErrantEnd {
 };
 
 /// The longer one of the stretches with the first and the last fix, of biases
-/// and drifts that are no slight ones; nothing where both fixes are good.
+/// and drifts that are no slight ones; nothing where both fixes are good, or none
+/// is.
 ErrantEnd LongestErrantEnd(const std::vector<ErrorStep>& steps,
                            const std::vector<double>& times) {
   const auto errs = [](const ErrorStep& step) {
@@ -29,6 +30,7 @@ ErrantEnd LongestErrantEnd(const std::vector<ErrorStep>& steps,
   };
   const auto at_start = static_cast<std::size_t>(
       std::find_if_not(steps.begin(), steps.end(), errs) - steps.begin());
+  if (at_start == steps.size()) return {};
   const auto at_end = static_cast<std::size_t>(
       std::find_if_not(steps.rbegin(), steps.rend(), errs) - steps.rbegin());
   const auto between = [&times](std::size_t from, std::size_t to) {
@@ -42,10 +44,14 @@ ErrantEnd LongestErrantEnd(const std::vector<ErrorStep>& steps,
   return end.share > begin.share ? end : begin;
 }
 
-/// With the good and the erroneous fixes exchanged the likelihood is the same,
-/// and the a priori odds are exp(4 (1 - 2 share)), since a bias ends four times in
-/// a recording (mode_sequence.cc): twenty for this share.
-constexpr double kLongestErrantEnd = 0.126;
+/// ln of the odds a priori against the hypothesis with the good and the erroneous
+/// fixes exchanged, of which the likelihood is the same: an erroneous stretch of
+/// the share s has not ended with the probability exp(-kEndsOfAnError s).
+double LogOddsOf(const ErrantEnd& errant) {
+  return kEndsOfAnError * (1.0 - 2.0 * errant.share);
+}
+/// Twenty to one.
+constexpr double kLeastLogOdds = 3.0;
 
 Evidence DoubtOf(const std::string& name, const ErrantEnd& errant) {
   return {.grade = Grade::kDoubtful,
@@ -53,9 +59,9 @@ Evidence DoubtOf(const std::string& name, const ErrantEnd& errant) {
               "{} errs from {:.0f} to {:.0f} s, or else all of its other fixes "
               "do: no other sensor tells positions",
               name, errant.begin, errant.end),
-          .value = errant.share,
-          .limit = kLongestErrantEnd,
-          .unit = "of the recording",
+          .value = LogOddsOf(errant),
+          .limit = kLeastLogOdds,
+          .unit = "logarithm of the odds",
           .causes = {"a receiver that errs from the first fix, or to the last"},
           .remedies = {"a stream with a position that is known at the start or "
                        "the end"}};
@@ -133,7 +139,7 @@ std::vector<Evidence> ReceiverErrors::Doubts() const {
   if (found_->alone && found_->switching()) {
     const ErrantEnd errant =
         LongestErrantEnd(found_->chosen().steps, found_->Times());
-    if (errant.share > kLongestErrantEnd) {
+    if (errant.share > 0.0 && LogOddsOf(errant) < kLeastLogOdds) {
       doubts.push_back(DoubtOf(found_->name, errant));
     }
   }

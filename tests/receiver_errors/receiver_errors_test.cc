@@ -96,7 +96,8 @@ TEST(ReceiverErrors, OfALoneSensorToItsLastFixAreDoubtful) {
   ASSERT_EQ(doubts.size(), 1u);
   EXPECT_EQ(doubts[0].grade, Grade::kDoubtful);
   EXPECT_THAT(doubts[0].what, HasSubstr("errs from 41 to 60 s"));
-  EXPECT_NEAR(doubts[0].value.value(), 19.0 / 60.0, 0.02);
+  EXPECT_NEAR(doubts[0].value.value(),
+              kEndsOfAnError * (1.0 - 2.0 * 19.0 / 60.0), 0.1);
 }
 
 }  // namespace
