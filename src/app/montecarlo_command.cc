@@ -52,7 +52,7 @@ is refused counts as a failed run and is named.
 constexpr int kLeastRuns = 2;
 
 /// What takes --methods and --set, in words.
-constexpr char kOtherScenarios[] = "other scenarios";
+constexpr char kOtherScenarios[] = "scenarios that are no comparison";
 
 /// Flags that every scenario takes.
 const std::vector<std::string> kFlagsOfAll = {"out",      "force", "clean",

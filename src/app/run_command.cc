@@ -135,7 +135,7 @@ Command RunCommand() {
             "earlier run, by its manifest.json"},
            {"clean", "", "remove what killed runs left beside DIR"},
            {"methods", "LIST",
-            "some of those above, of one kind\n"
+            "methods of one kind, as 'run --help' lists them\n"
             "(ekf,rts,iterated,batch)"},
            {"ahrs_rule", "NAME",
             "how the accelerometer is trusted: fixed, gate,\n"

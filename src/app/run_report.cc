@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <sstream>
 
-#include "app/flags.h"
 #include "base/units.h"
 #include "dataset/bias_sigma.h"
 #include "earth/wgs84.h"
@@ -53,7 +53,8 @@ std::string CommentOnStart(const StartReport& start,
           Spread(GyroBiasSigma(given), 1.0 / kDegree),
           Spread(AccelBiasSigma(given), 1.0));
   std::string comment;
-  for (const std::string& line : Split(text, '\n')) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
     if (!line.empty()) comment += "# " + line + "\n";
   }
   return comment;

@@ -35,8 +35,9 @@ std::vector<std::string> ConstantsOfOneRecording(const Dataset& dataset);
 /// Makes them a priori values and sigmas of the sensors, and keeps them as
 /// Dataset::constants for the covariances of one with another
 /// (InitialCovariance in alignment/start_layout.h). Not used are
-/// ConstantsOfOneRecording; a note says which time offset is not. Names of streams in `without` are passed over. Throws InputError for
-/// one that no sensor here has, or does not estimate.
+/// ConstantsOfOneRecording; a note says which time offset is not. Names of streams
+/// in `without` are passed over. Throws InputError for one that no sensor here has,
+/// or does not estimate.
 void UseConstants(const KnownConstants& known,
                   const std::vector<std::string>& without, Dataset* dataset);
 

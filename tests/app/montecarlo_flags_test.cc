@@ -23,13 +23,19 @@ struct Use {
 const std::map<std::string, Use>& Uses() {
   static const std::set<std::string> observers = {"in_flight_alignment"};
   static const std::set<std::string> scenarios = {
-      "tunnel_survey",       "tunnel_sweep",       "calibration",
-      "in_flight_alignment", "velocity_alignment", "gps_jumps",
-      "uuv_survey",          "uuv_calibration",    "other scenarios"};
+      "tunnel_survey",
+      "tunnel_sweep",
+      "calibration",
+      "in_flight_alignment",
+      "velocity_alignment",
+      "gps_jumps",
+      "uuv_survey",
+      "uuv_calibration",
+      "scenarios that are no comparison"};
   static const std::map<std::string, Use> uses = {
       {"set", {scenarios, "=nothing"}},
       {"sweep", {scenarios, "=nothing"}},
-      {"methods", {{"other scenarios", "grades"}, "=none"}},
+      {"methods", {{"scenarios that are no comparison", "grades"}, "=none"}},
       {"rules", {observers, "=none"}},
       {"error", {observers, "=small"}},
       {"gamma", {observers, "=wide"}},
