@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 
 #include "base/error.h"
 #include "filters/iterated_smoother.h"
@@ -28,6 +29,9 @@ constexpr double kFineStep = 1e-8;
 /// A step of this size is the last one without a loss: the error that it leaves
 /// goes with its square.
 constexpr double kLastNewtonStep = 1e-5;
+
+/// Rounding of the cost, as a fraction.
+constexpr double kCostRounding = 1e-9;
 
 /// Iterations that a solve usually takes in Ceres, and in FinishByNewton after
 /// it, by which the remaining time is told.
@@ -222,20 +226,37 @@ bool IsWindowed(const BatchOptions& options, const ChainProblem& chain) {
   return chain.node_count() > options.whole_nodes;
 }
 
-/// Without losses: whether the start is within a rough step of the solution,
-/// where the cost tells nothing. If so, that Gauss-Newton step of the whole chain
-/// is taken, and Ceres can be left out.
-bool StartsNear(IterationProgress* progress, ChainProblem* chain,
-                Sweep* sweep) {
-  if (chain->HasLoss()) return false;
-  const ArrowLeastSquares first = chain->GaussNewtonStep();
-  const double ratio = chain->StepSize(first) / RoughStep(*chain);
-  if (!(ratio < 1.0)) return false;
-  progress->Begin(1, kLastSteps);
-  progress->After(1, ratio);
-  chain->Apply(first);
-  ++sweep->iterations;
-  return true;
+/// Without losses: full Gauss-Newton steps of the whole chain for as long as each
+/// is less than half of the one before. Their cost may rise on the way: where a
+/// heading is uncertain the states lie along an arc, and the way that only
+/// descends follows it in steps of metres. True, and Ceres can be left out, if
+/// that ends within a rough step at a cost below the start's; else the values are
+/// those of the start again.
+bool ContractsByNewton(const BatchOptions& options,
+                       const std::vector<State>& start,
+                       IterationProgress* progress, ChainProblem* chain,
+                       Sweep* sweep) {
+  constexpr int kMaxSteps = 20;
+  constexpr double kContraction = 0.5;
+  if (chain->HasLoss() || !options.newton_first) return false;
+  const double cost = chain->Cost();
+  progress->Begin(kMaxSteps, kLastSteps);
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 1; i <= kMaxSteps; ++i) {
+    const ArrowLeastSquares step = chain->GaussNewtonStep();
+    const double size = chain->StepSize(step);
+    if (!(size < kContraction * before)) break;
+    chain->Apply(step);
+    const double ratio = size / RoughStep(*chain);
+    progress->After(i, ratio);
+    before = size;
+    if (ratio > 1.0) continue;
+    if (chain->Cost() > cost * (1.0 + kCostRounding)) break;
+    sweep->iterations += i;
+    return true;
+  }
+  chain->Set(start);
+  return false;
 }
 
 /// Full Gauss-Newton steps by the chain's own solver, which are taken without
@@ -290,7 +311,7 @@ BatchResult SolveBatch(const std::vector<State>& initial,
   for (int outer = 0; outer < kMaxReintegrations; ++outer) {
     ChainProblem chain(result.states, problem);
     Sweep sweep;
-    if (!StartsNear(&progress, &chain, &sweep)) {
+    if (!ContractsByNewton(options, result.states, &progress, &chain, &sweep)) {
       sweep = SolveGraduated(options, options.graduated && outer == 0,
                              &progress, &chain);
     }

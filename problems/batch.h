@@ -17,6 +17,8 @@ struct BatchOptions {
   /// the constants are held fixed, in turn with steps of the whole chain.
   std::size_t whole_nodes = 25000;
   std::size_t window_nodes = 2500;
+  /// Without losses: full Gauss-Newton steps are tried before Ceres is asked.
+  bool newton_first = true;
   /// Approaches losses that redescend by graduated non-convexity. False: the
   /// start is known to be near.
   bool graduated = true;
@@ -33,16 +35,18 @@ struct BatchResult {
   bool converged = false;
 };
 
-/// The whole interval as one nonlinear least-squares problem, solved by Ceres:
+/// The whole interval as one nonlinear least-squares problem:
 /// IMU factors between all neighbours, a factor for every accepted measurement,
 /// a prior on the first node and the constants. Starts from `initial`, a state
 /// a node. Constants of the layout (IMU biases that do not walk, scale factors,
 /// lever arms...) are global unknowns; their start is that of the first state.
-/// The last steps, of a size that the rounding of the cost hides, are full
-/// Gauss-Newton steps solved by the chain's structure; of a problem without
-/// losses that starts so near, all of them.
+/// Without losses full Gauss-Newton steps solve it, by the chain's structure, if
+/// each is less than half of the one before. Ceres solves the others: problems
+/// with losses, and starts from where those steps do not contract. Its last steps,
+/// of a size that the rounding of the cost hides, are Gauss-Newton steps again.
 /// Marginal covariances of every node come from that structure in time
-/// linear in the number of nodes.
+/// linear in the number of nodes. Throws EstimationError where an unknown is
+/// undetermined, or Ceres fails.
 BatchResult SolveBatch(const std::vector<State>& initial,
                        const BatchOptions& options, Problem* problem);
 

@@ -18,13 +18,12 @@ ChainProblem::ChainProblem(const std::vector<State>& states, Problem* problem)
                 static_cast<std::size_t>(blocks_->node_ambient_dim()));
   for (std::size_t k = 0; k < states.size(); ++k) {
     times_.push_back(timeline->node(k).t);
-    blocks_->WriteNode(states[k], node_values(k));
   }
   for (const StateBlocks::Entry& entry : blocks_->globals()) {
     globals_.emplace_back(
         static_cast<std::size_t>(FullDimension(entry.block.key.kind)));
-    blocks_->WriteGlobal(states.front(), entry.ambient, globals_.back().data());
   }
+  Set(states);
   factors_.push_back(std::make_unique<PriorFactor>(
       blocks_.get(), problem->prior.x, problem->prior.P));
   std::size_t index = 0;
@@ -52,6 +51,28 @@ ChainProblem::ChainProblem(const std::vector<State>& states, Problem* problem)
     }
   }
   losses_.resize(factors_.size());
+}
+
+void ChainProblem::Set(const std::vector<State>& states) {
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    blocks_->WriteNode(states[k], node_values(k));
+  }
+  for (const StateBlocks::Entry& entry : blocks_->globals()) {
+    blocks_->WriteGlobal(
+        states.front(), entry.ambient,
+        globals_[static_cast<std::size_t>(entry.ambient)].data());
+  }
+}
+
+double ChainProblem::Cost() {
+  double sum = 0.0;
+  Eigen::VectorXd residual(kMaxErrorDim);
+  for (const auto& factor : factors_) {
+    const std::vector<double*> parameters = ParametersOf(*factor);
+    factor->Linearize(parameters.data(), residual.data(), nullptr);
+    sum += residual.head(factor->num_residuals()).squaredNorm();
+  }
+  return 0.5 * sum;
 }
 
 bool ChainProblem::HasLoss() const {

@@ -44,6 +44,11 @@ class ChainProblem {
   std::vector<double*> ParametersOf(const TangentFactor& factor);
 
   std::vector<State> States() const;
+  /// Writes `states` into the parameter blocks.
+  void Set(const std::vector<State>& states);
+
+  /// Half the sum of the squared residuals, losses left out.
+  double Cost();
 
   /// All factors linearised at the present values, of which the solution is one
   /// Gauss-Newton step, solved. Throws EstimationError where they leave an
