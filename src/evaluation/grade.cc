@@ -8,6 +8,7 @@
 
 #include "evaluation/agreement.h"
 #include "evaluation/contradicted_sensor.h"
+#include "evaluation/curved_errors.h"
 #include "evaluation/distrust.h"
 #include "evaluation/explanation.h"
 #include "evaluation/given_values.h"
@@ -43,6 +44,7 @@ constexpr GradeRule kRules[] = {
     {"rival", FindLikelyRival},
     {"search", PassOnDoubts},
     {kLinearisationRule, FindLinearisedFarOff},
+    {"curvature", FindCurvedErrors},
     {"disagreement", PassOnDisagreement},
     {"unobserved", FindUnobservedState},
     {"shut_out", FindShutOut},
