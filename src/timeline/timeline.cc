@@ -1,6 +1,9 @@
 #include "timeline/timeline.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 #include <utility>
 
 namespace hindsight {
@@ -12,6 +15,7 @@ Timeline::Timeline(std::vector<Node> nodes,
     : nodes_(std::move(nodes)),
       measurements_(std::move(measurements)),
       sensors_(std::move(sensors)),
+      sample_interval_(imu.empty() ? 0.0 : MedianInterval(imu)),
       integrator_(imu, with_scale_jacobians),
       summaries_(nodes_.empty() ? 0 : nodes_.size() - 1) {
   for (Node& node : nodes_) node.kinematics = integrator_.ReadingAt(node.t);
@@ -41,19 +45,52 @@ const ImuSummary& Timeline::Integrate(std::size_t k,
 
 namespace {
 
-/// What the IMU reads on average within 25 ms of t. The rate of a prediction
-/// stands for the motion over the whole uncertainty of a time offset; the noise
-/// and vibration of a single reading are no part of that.
-Kinematics MeanReading(double t, ImuIntegrator* integrator) {
-  constexpr int kHalf = 5;
-  constexpr double kStep = 0.005;
-  Kinematics mean;
-  for (int i = -kHalf; i <= kHalf; ++i) {
-    const Kinematics k = integrator->ReadingAt(t + i * kStep);
-    mean.w_ib_b += k.w_ib_b / (2 * kHalf + 1);
-    mean.f_b += k.f_b / (2 * kHalf + 1);
+/// What the IMU reads on average in each third of a window about t, of 50 ms or of
+/// six samples where that is more. The rate of a prediction stands for the motion
+/// over the whole uncertainty of a time offset; the noise and vibration of a
+/// single reading are no part of that.
+std::array<Kinematics, 3> ReadAround(double t, double sample_interval,
+                                     ImuIntegrator* integrator) {
+  constexpr int kPoints = 4;  // a third
+  const double step = std::max(0.05, 6.0 * sample_interval) / (3.0 * kPoints);
+  std::array<Kinematics, 3> thirds;
+  for (int i = 0; i < 3 * kPoints; ++i) {
+    const Kinematics k =
+        integrator->ReadingAt(t + (i + 0.5 - 1.5 * kPoints) * step);
+    Kinematics& third = thirds[static_cast<std::size_t>(i / kPoints)];
+    third.w_ib_b += k.w_ib_b / kPoints;
+    third.f_b += k.f_b / kPoints;
   }
-  return mean;
+  return thirds;
+}
+
+/// Rates of one component of a sensor's predictions, by which its time offset is
+/// told.
+struct RatesOfComponent {
+  std::vector<double*> rates;
+  /// Of the thirds of each window, the first less twice the second and the third.
+  std::vector<double> differences;
+};
+
+/// Takes the rates of a component for zero if as a whole they are not twice as
+/// large as the IMU's noise and vibration make them. They would tell of an offset
+/// with the sigma of a motion that never was: on a steady way a DVL of 2 mm/s and
+/// the IMU of a phone 7 ms in place of nothing. Of three means of variance s^2 the
+/// mean has s^2 / 3 and the second difference, which no jerk enters, 6 s^2; its
+/// size is taken from the median.
+void DropRatesOfNoise(RatesOfComponent* of) {
+  constexpr double kNoise = 2.0;
+  constexpr double kMedianOfNormal = 0.6745;
+  double sum = 0.0;
+  for (const double* rate : of->rates) sum += *rate * *rate;
+  std::vector<double> sizes = of->differences;
+  for (double& size : sizes) size = std::abs(size);
+  const auto middle = sizes.begin() + static_cast<long>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const double noise = *middle / kMedianOfNormal / std::sqrt(18.0);
+  const double rms = std::sqrt(sum / static_cast<double>(of->rates.size()));
+  if (rms >= kNoise * noise) return;
+  for (double* rate : of->rates) *rate = 0.0;
 }
 
 }  // namespace
@@ -62,16 +99,31 @@ void Timeline::LinearizeTimeOffsets(const ErrorLayout& layout,
                                     std::span<const State> states) {
   TimeOffsetRates rates;
   rates.measurements.resize(measurements_.size());
+  std::map<std::pair<int, int>, RatesOfComponent> components;
   for (std::size_t k = 0; k < size(); ++k) {
     for (const Measurement& z : measurements(k)) {
       if (!layout.Has(BlockKind::kTimeOffset, z.sensor)) continue;
-      const Kinematics mean = MeanReading(nodes_[k].t, &integrator_);
-      rates.measurements[static_cast<std::size_t>(&z - measurements_.data())] =
-          TimeOffsetRate(
-              z, {layout, states[k], mean,
-                  sensors_[static_cast<std::size_t>(z.sensor)], z.sensor, z.t});
+      const std::array<Kinematics, 3> thirds =
+          ReadAround(nodes_[k].t, sample_interval_, &integrator_);
+      const auto rate = [&](const Kinematics& reading) {
+        return TimeOffsetRate(
+            z, {layout, states[k], reading,
+                sensors_[static_cast<std::size_t>(z.sensor)], z.sensor, z.t});
+      };
+      const RowVector first = rate(thirds[0]);
+      const RowVector second = rate(thirds[1]);
+      const RowVector third = rate(thirds[2]);
+      RowVector& kept = rates.measurements[static_cast<std::size_t>(
+          &z - measurements_.data())];
+      kept = (first + second + third) / 3.0;
+      for (int row = 0; row < kept.size(); ++row) {
+        RatesOfComponent& of = components[{z.sensor, ComponentOf(z, row)}];
+        of.rates.push_back(&kept(row));
+        of.differences.push_back(first(row) - 2.0 * second(row) + third(row));
+      }
     }
   }
+  for (auto& [component, of] : components) DropRatesOfNoise(&of);
   for (const IncrementStart& start : increment_starts_) {
     std::optional<double>& rate = rates.increment_starts.emplace_back();
     if (!layout.Has(BlockKind::kTimeOffset, start.sensor)) continue;

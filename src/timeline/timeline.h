@@ -133,6 +133,7 @@ class Timeline {
   std::vector<Sensor> sensors_;
   std::vector<IncrementStart> increment_starts_;
   TimeOffsetRates offset_rates_;
+  double sample_interval_;  // of the IMU [s]
   ImuIntegrator integrator_;
   std::vector<std::shared_ptr<const ImuSummary>> summaries_;
   std::vector<std::vector<BlockStep>> block_steps_;
