@@ -265,12 +265,15 @@ void TakeStart(ConfigMap* top, Dataset* dataset) {
 
 std::vector<fs::path> FilesRead(const std::string& config_path,
                                 const DeclaredRecording& declared) {
-  std::vector<fs::path> inputs = {config_path, declared.imu.path};
+  std::vector<fs::path> inputs = {config_path};
+  const auto add = [&](const StreamSource& source) {
+    for (const std::string& path : source.Paths()) inputs.emplace_back(path);
+  };
+  add(declared.imu);
   for (const AidingConfig& config : declared.aiding) {
-    if (!config.settings.sensor.kind->generated)
-      inputs.emplace_back(config.source.path);
+    if (!config.settings.sensor.kind->generated) add(config.source);
   }
-  if (declared.truth) inputs.emplace_back(declared.truth->path);
+  if (declared.truth) add(*declared.truth);
   if (!declared.constants.from.empty()) {
     inputs.push_back(SummaryOf(declared.constants.from));
   }

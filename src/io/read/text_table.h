@@ -77,6 +77,7 @@ class TextTable final : public RowSource {
     return layout_.fields[field].column >= 0;
   }
   const std::string& path() const override { return lines_->path(); }
+  int Columns() const override { return layout_.column_count; }
   /// Lines dropped under allow_truncated_tail and drop_text.
   std::vector<LeftOut> left_out() const override;
   std::size_t RowsHint() const override;
