@@ -12,6 +12,7 @@
 #include "io/config/config_omissions.h"
 #include "io/config/config_recording.h"
 #include "io/config/constants_reader.h"
+#include "io/config/vehicle.h"
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {
@@ -263,6 +264,14 @@ void TakeStart(ConfigMap* top, Dataset* dataset) {
   }
 }
 
+/// With what its vehicle sets, of which `note` tells.
+ConfigMap LoadTop(const std::string& path, const LoadOptions& options,
+                  std::string* note) {
+  const ConfigMap::Edit edit = SetVehicle(note);
+  return options.text ? ConfigMap::Parse(*options.text, path, edit)
+                      : ConfigMap::Load(path, edit);
+}
+
 std::vector<fs::path> FilesRead(const std::string& config_path,
                                 const DeclaredRecording& declared) {
   std::vector<fs::path> inputs = {config_path};
@@ -284,14 +293,16 @@ std::vector<fs::path> FilesRead(const std::string& config_path,
 
 std::vector<fs::path> ConfigFilesRead(const std::string& config_path,
                                       const LoadOptions& options) {
-  ConfigMap top = ConfigMap::Load(config_path);
+  std::string note;
+  ConfigMap top = LoadTop(config_path, options, &note);
   Dataset dataset;
   return FilesRead(config_path, ReadDeclarations(&top, options, &dataset));
 }
 
 std::vector<fs::path> ConfigInputs(const std::string& config_path,
                                    const LoadOptions& options) {
-  ConfigMap top = ConfigMap::Load(config_path);
+  std::string note;
+  ConfigMap top = LoadTop(config_path, options, &note);
   Dataset dataset;
   const DeclaredRecording declared = ReadDeclarations(&top, options, &dataset);
   std::vector<fs::path> inputs = FilesRead(config_path, declared);
@@ -302,9 +313,10 @@ std::vector<fs::path> ConfigInputs(const std::string& config_path,
 
 Dataset LoadDataset(const std::string& config_path, const LoadOptions& options,
                     ResolvedConfig* resolved) {
-  ConfigMap top = options.text ? ConfigMap::Parse(*options.text, config_path)
-                               : ConfigMap::Load(config_path);
+  std::string note;
+  ConfigMap top = LoadTop(config_path, options, &note);
   Dataset dataset;
+  if (!note.empty()) dataset.notes.push_back(note);
   const DeclaredRecording declared = ReadDeclarations(&top, options, &dataset);
   LoadImu(declared, &top, &dataset);
   RequireStartInside(&top, dataset);
