@@ -147,10 +147,12 @@ std::string Render(const LinePicture& picture) {
   for (std::size_t i = 0; i < picture.lines.size(); ++i) {
     const std::string style =
         fmt::format("var(--c{})", i % static_cast<std::size_t>(kColours));
+    const std::string path = LinePath(picture.lines[i], x, y);
+    if (path.empty()) continue;
     html += fmt::format(
         "<path style=\"stroke: {}; stroke-width: {}\" d=\"{}\"/>", style,
         picture.lines[i].dashed ? "1.5; stroke-dasharray: 5 4" : "2",
-        LinePath(picture.lines[i], x, y) + BarPath(picture.lines[i], x, y));
+        path + BarPath(picture.lines[i], x, y));
     legend += fmt::format("<b style=\"color: {}\">{}</b> ", style,
                           EscapeHtml(picture.lines[i].label));
   }

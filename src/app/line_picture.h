@@ -8,7 +8,7 @@ namespace hindsight {
 
 /// Lines over a common axis as a picture (SVG) of a page, with a legend. Points
 /// that are not finite, or on a logarithmic axis not positive, interrupt them.
-/// Bars do not widen the axes.
+/// Bars do not widen the axes; a line without a point is left out.
 struct LinePicture {
   struct Line {
     std::string label;

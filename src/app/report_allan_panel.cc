@@ -72,17 +72,12 @@ std::string PictureOf(const AllanAxis& axis) {
     measured.high.push_back(axis.deviation[k] * std::exp(axis.log_sigma[k]));
   }
   picture.lines.push_back(std::move(measured));
-  const auto add = [&](const char* label, double value, auto deviation) {
-    if (value > 0.0) {
-      picture.lines.push_back(TermOf(axis, label, deviation));
-    }
+  const auto add = [&](const char* label, auto deviation) {
+    picture.lines.push_back(TermOf(axis, label, deviation));
   };
-  add("white noise", axis.white,
-      [&](double tau) { return axis.white / std::sqrt(tau); });
-  add("bias instability", axis.instability,
-      [&](double) { return flat * axis.instability; });
-  add("walk", axis.walk,
-      [&](double tau) { return axis.walk * std::sqrt(tau / 3.0); });
+  add("white noise", [&](double tau) { return axis.white / std::sqrt(tau); });
+  add("bias instability", [&](double) { return flat * axis.instability; });
+  add("walk", [&](double tau) { return axis.walk * std::sqrt(tau / 3.0); });
   return Render(picture);
 }
 

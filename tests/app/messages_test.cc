@@ -195,7 +195,7 @@ TEST_F(Messages, OfConfigurationsSayWhatToWrite) {
 TEST_F(Messages, GyrosWhoseUnitIsAnotherOne) {
   const testing::WalkRows rows =
       testing::Steps({.rate = 100.0, .force_noise = 0.01}, 1);
-  std::string imu = "t[s],x,y,z,u,v,w\n";
+  std::string imu;
   for (std::size_t k = 0; k < rows.accel.size(); ++k) {
     constexpr double kDegrees = 57.29577951308232;
     imu +=
@@ -214,7 +214,8 @@ TEST_F(Messages, GyrosWhoseUnitIsAnotherOne) {
             "accel: 5 mg/sqrt(Hz)}\n");
   const Outcome check = Check();
   EXPECT_THAT(check.out, HasSubstr("they look like deg/s, declared as rad/s; "
-                                   "correct the unit of gyro_x"));
+                                   "correct the unit of gyro_x"))
+      << check.err;
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ segments:
   - {type: turn, angle: 180 deg, rate: 15 deg/s}
   - {type: accelerate, speed: 0 m/s, rate: 2 m/s^2}
   - {type: stop, duration: 10 s}
-imu: {rate: 100 Hz, noise: {gyro: 0.3 deg/sqrt(h), accel: 0.1 m/s/sqrt(h)}}
+imu: {rate: 100 Hz, kind: rates, noise: {gyro: 0.3 deg/sqrt(h), accel: 0.1 m/s/sqrt(h)}}
 aiding:
   gnss: {type: position, rate: 5 Hz, sigma: [0.05 m, 0.05 m, 0.1 m]}
 )";
@@ -116,25 +116,37 @@ TEST_F(Newcomer, RunOfTheFolderIsRightAndKnowsEveryPart) {
       {"evaluate", "out/batch.csv", "made/truth.csv", "--json"}, root());
   ASSERT_TRUE(HasResults(judged)) << judged.err;
   const auto figures = nlohmann::json::parse(judged.out);
-  EXPECT_LT(figures["error"]["position_rms_m"].get<double>(), 0.5)
+  EXPECT_LT(figures["errors"]["position_total"]["rms"].get<double>(), 0.5)
       << judged.out;
 }
 
-TEST_F(Newcomer, FilesThatOverlapAreNamed) {
-  WriteFile(root() / "drive/gps_2.csv", ReadFile(root() / "drive/gps_1.csv"));
-  const Outcome init = Hindsight({"init", "drive", "--out=c.yaml"}, root());
-  ASSERT_EQ(init.status, 0) << init.err;
-  std::string config = ReadFile(root() / "c.yaml");
-  const std::string one = "file: gps_1.csv";
-  const std::size_t at = config.find(one);
-  ASSERT_NE(at, std::string::npos) << config;
-  config.replace(at, one.size(), "file: [gps_1.csv, gps_2.csv]");
-  WriteFile(root() / "edited.yaml", config);
-  const Outcome run = Hindsight({"run", "edited.yaml", "--out=out"}, root());
-  EXPECT_EQ(run.status, 2);
-  EXPECT_NE(run.err.find("gps_2.csv:2: begins "), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("gps_1.csv ends"), std::string::npos) << run.err;
-  EXPECT_FALSE(std::filesystem::exists(root() / "out"));
+TEST_F(Newcomer, PartsGiveTheResultOfTheWhole) {
+  const std::string config = ReadFile(root() / "made/config.yaml");
+  const auto run = [&](const std::string& files, const std::string& out) {
+    std::string text = config;
+    const std::string one = "file: gnss.csv";
+    WriteFile(root() / "made/parts.yaml",
+              text.replace(text.find(one), one.size(), "file: " + files));
+    return Hindsight(
+        {"run", "made/parts.yaml", "--methods=rts", "--out=" + out}, root());
+  };
+  std::vector<std::string> rows = Lines(ReadFile(root() / "made/gnss.csv"));
+  const std::string titles = rows.front();
+  const auto middle = rows.begin() + 100;
+  WriteFile(root() / "made/a.csv", Join({rows.begin(), middle}));
+  std::vector<std::string> rest(middle, rows.end());
+  rest.insert(rest.begin(), titles);
+  WriteGzip(root() / "made/b.csv.gz", Join(rest));
+  ASSERT_TRUE(HasResults(run("gnss.csv", "whole")));
+  ASSERT_TRUE(HasResults(run("[a.csv, b.csv.gz]", "parts")));
+  EXPECT_EQ(ReadFile(root() / "whole/rts.csv"),
+            ReadFile(root() / "parts/rts.csv"));
+  const Outcome twice = run("[gnss.csv, b.csv.gz]", "twice");
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_NE(twice.err.find("b.csv.gz:2: begins "), std::string::npos)
+      << twice.err;
+  EXPECT_NE(twice.err.find("gnss.csv ends"), std::string::npos) << twice.err;
+  EXPECT_FALSE(std::filesystem::exists(root() / "twice"));
 }
 
 }  // namespace

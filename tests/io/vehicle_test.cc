@@ -31,8 +31,9 @@ TEST_F(VehicleTest, SetsWhatIsNotGiven) {
   EXPECT_EQ(none.initial.speed_spread, 10.0);
   const Dataset car = Of("vehicle: car\n");
   EXPECT_TRUE(car.stationary.enabled);
-  ASSERT_EQ(car.streams.size(), 1u);
+  ASSERT_EQ(car.streams.size(), 2u);
   EXPECT_EQ(car.streams[0].sensor.name, "wheels");
+  EXPECT_EQ(car.streams[1].sensor.name, "wheels_level");
   EXPECT_EQ(car.initial.speed_spread, 15.0);
   EXPECT_THAT(resolved_.yaml, HasSubstr("vehicle: car"));
   EXPECT_THAT(resolved_.yaml, HasSubstr("type: non_holonomic"));
@@ -41,13 +42,14 @@ TEST_F(VehicleTest, SetsWhatIsNotGiven) {
                                       "aiding.wheels: {type: non_holonomic"));
   // What was resolved is the same again.
   Write("config.yaml", resolved_.yaml);
-  EXPECT_EQ(Load().streams.size(), 1u);
+  EXPECT_EQ(Load().streams.size(), 2u);
 }
 
 TEST_F(VehicleTest, AGivenKeyGoesBefore) {
   const Dataset car =
       Of("vehicle: car\nstationary: off\ninitial: {speed_spread: 3 m/s}\n"
-         "aiding:\n  own: {type: non_holonomic, rate: 2 Hz, sigma: 0.1 m/s}\n");
+         "aiding:\n  own: {type: non_holonomic, rate: 2 Hz, sigma: [0.1, 0.1 "
+         "m/s]}\n");
   EXPECT_FALSE(car.stationary.enabled);
   EXPECT_EQ(car.initial.speed_spread, 3.0);
   ASSERT_EQ(car.streams.size(), 1u);
@@ -62,7 +64,7 @@ TEST_F(VehicleTest, EveryKindLoads) {
     const Dataset data = Of("vehicle: " + name + "\n");
     EXPECT_THAT(data.notes.at(0), HasSubstr("vehicle " + name + " sets "));
     const bool wheels = name == "car" || name == "rail";
-    EXPECT_EQ(data.streams.size(), wheels ? 1u : 0u) << name;
+    EXPECT_EQ(data.streams.size(), wheels ? 2u : 0u) << name;
     EXPECT_EQ(data.stationary.enabled, wheels || name == "foot") << name;
   }
   Write("config.yaml", std::string(kImuOfAVehicle) + "vehicle: bicycle\n");
