@@ -167,7 +167,9 @@ class StartFinder {
             std::min(std::sqrt(attitude_.P.trace()), 1.0) * v.v_b.norm();
         TakeVelocity(attitude_.q_nb * v.v_b, v.sigma + turned, v.t);
       }
-      if (v_sigma_.x() == kNoVelocity) v_sigma_.setConstant(10.0);
+      if (v_sigma_.x() == kNoVelocity) {
+        v_sigma_.setConstant(given().speed_spread);
+      }
     }
     if (given().velocity_sigma) v_sigma_ = *given().velocity_sigma;
   }

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <cmath>
 
 #include "app/terminal.h"
@@ -13,9 +12,6 @@
 
 namespace hindsight {
 namespace {
-
-constexpr std::array kAxes = {"gyro x",  "gyro y",  "gyro z",
-                              "accel x", "accel y", "accel z"};
 
 /// Densities are told in deg/s/sqrt(Hz) and mg/sqrt(Hz).
 double UnitOf(std::size_t axis) { return axis < 3 ? kDegree : kMilliG; }
@@ -37,7 +33,7 @@ std::string PointTable(const ImuAllan& allan) {
   for (std::size_t k = 0; k < allan.points[0].size(); ++k) {
     std::vector<std::string> row = {
         fmt::format("{:.4g}", allan.points[0][k].tau)};
-    for (std::size_t i = 0; i < kAxes.size(); ++i) {
+    for (std::size_t i = 0; i < kAllanAxes.size(); ++i) {
       row.push_back(
           fmt::format("{:.3g}", allan.points[i][k].deviation / UnitOf(i)));
     }
@@ -50,13 +46,13 @@ std::string PointTable(const ImuAllan& allan) {
 std::string FitTable(const ImuAllan& allan) {
   ReportTable table({"axis", "white noise\n[/sqrt(Hz)]", "bias\ninstability",
                      "walk\n[/s/sqrt(Hz)]", "unit"});
-  for (std::size_t i = 0; i < kAxes.size(); ++i) {
+  for (std::size_t i = 0; i < kAllanAxes.size(); ++i) {
     const auto cell = [&](const AllanCoefficient& c) {
       return fmt::format("{:.3g} +- {:.1g}", c.value / UnitOf(i),
                          c.sigma / UnitOf(i));
     };
     const AllanFit& fit = allan.fits[i];
-    table.AddRow({kAxes[i], cell(fit.white), cell(fit.instability),
+    table.AddRow({kAllanAxes[i], cell(fit.white), cell(fit.instability),
                   cell(fit.walk), i < 3 ? "deg/s" : "mg"});
   }
   return table.Render(StyleOfOutput());
@@ -97,6 +93,11 @@ std::string NoiseBlock(const ImuAllan& allan) {
 }
 
 }  // namespace
+
+std::optional<ImuAllan> AllanOfLongestRest(const Dataset& dataset,
+                                           const Rest& rest) {
+  return AllanOf(dataset.imu, LongestRest(rest));
+}
 
 std::string DescribeAllan(const Dataset& dataset, const Rest& rest) {
   const TimeInterval span = LongestRest(rest);

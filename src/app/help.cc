@@ -52,6 +52,7 @@ std::string GeneralHelp(const std::vector<Command>& commands) {
   out << "\n'hindsight COMMAND --help' describes a command and its flags;\n"
          "'hindsight help config [KEY]' describes a configuration's keys;\n"
          "'hindsight help formats' lists the formats of files that are read;\n"
+         "'hindsight help vehicles' lists what `vehicle: NAME` sets, and why;\n"
          "'hindsight --version' prints the version.\n\n"
          "Exit status: 0 usable answer, 3 doubtful, 1 no usable answer,\n"
          "2 wrong usage or bad input, 4 results that could not be written or\n"

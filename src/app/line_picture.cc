@@ -79,6 +79,24 @@ std::string LinePath(const LinePicture::Line& line, const PictureAxis& x,
   return path;
 }
 
+/// The bars of a line, kept to the height of the picture.
+std::string BarPath(const LinePicture::Line& line, const PictureAxis& x,
+                    const PictureAxis& y) {
+  std::string path;
+  for (std::size_t i = 0; i < line.low.size(); ++i) {
+    if (!x.Shows(line.x[i]) || !y.Shows(line.low[i]) ||
+        !y.Shows(line.high[i])) {
+      continue;
+    }
+    const auto inside = [&](double value) {
+      return std::clamp(y.At(value), kTop, kTop + kHeight);
+    };
+    path += fmt::format("M{:.1f} {:.1f}V{:.1f}", x.At(line.x[i]),
+                        inside(line.low[i]), inside(line.high[i]));
+  }
+  return path;
+}
+
 std::string TextAt(double x, double y, const char* anchor,
                    const std::string& text) {
   return fmt::format(
@@ -89,11 +107,11 @@ std::string TextAt(double x, double y, const char* anchor,
 }  // namespace
 
 std::string Render(const LinePicture& picture) {
-  PictureAxis x(kLeft, kWidth - 8.0, false);
+  PictureAxis x(kLeft, kWidth - 8.0, picture.logarithmic_x);
   PictureAxis y(kTop + kHeight, kTop, picture.logarithmic);
   for (const LinePicture::Line& line : picture.lines) {
     for (std::size_t i = 0; i < line.x.size(); ++i) {
-      if (!y.Shows(line.y[i])) continue;
+      if (!x.Shows(line.x[i]) || !y.Shows(line.y[i])) continue;
       x.Add(line.x[i]);
       y.Add(line.y[i]);
     }
@@ -129,9 +147,12 @@ std::string Render(const LinePicture& picture) {
   for (std::size_t i = 0; i < picture.lines.size(); ++i) {
     const std::string style =
         fmt::format("var(--c{})", i % static_cast<std::size_t>(kColours));
-    html +=
-        fmt::format("<path style=\"stroke: {}; stroke-width: 2\" d=\"{}\"/>",
-                    style, LinePath(picture.lines[i], x, y));
+    const std::string path = LinePath(picture.lines[i], x, y);
+    if (path.empty()) continue;
+    html += fmt::format(
+        "<path style=\"stroke: {}; stroke-width: {}\" d=\"{}\"/>", style,
+        picture.lines[i].dashed ? "1.5; stroke-dasharray: 5 4" : "2",
+        path + BarPath(picture.lines[i], x, y));
     legend += fmt::format("<b style=\"color: {}\">{}</b> ", style,
                           EscapeHtml(picture.lines[i].label));
   }

@@ -16,6 +16,7 @@
 #include "app/terminal.h"
 #include "base/error.h"
 #include "io/config/config_help.h"
+#include "io/config/vehicle.h"
 #include "io/write/output_error.h"
 #include "io/write/unpublished.h"
 
@@ -87,6 +88,16 @@ int HelpOnFormats(const std::vector<std::string>& words) {
   return kUsable;
 }
 
+/// `hindsight help vehicles [--markdown]`.
+int HelpOnVehicles(const std::vector<std::string>& words) {
+  const bool markdown = words.size() == 2 && words[1] == "--markdown";
+  if (words.size() > 1 && !markdown) {
+    throw UsageError("help vehicles: expected nothing more, or --markdown");
+  }
+  std::cout << (markdown ? VehicleMarkdown() : VehicleHelp());
+  return kUsable;
+}
+
 int Dispatch(const char* program, std::vector<std::string> words) {
   const std::vector<Command> commands = {
       CheckCommand(),    RunCommand(),      EvaluateCommand(),
@@ -98,6 +109,7 @@ int Dispatch(const char* program, std::vector<std::string> words) {
     words.erase(words.begin());
     if (!words.empty() && words[0] == "config") return HelpOnConfig(words);
     if (!words.empty() && words[0] == "formats") return HelpOnFormats(words);
+    if (!words.empty() && words[0] == "vehicles") return HelpOnVehicles(words);
     if (!words.empty()) words = {words[0], "--help"};
   }
   if (words.empty() || words[0] == "--help" || words[0] == "-h") {

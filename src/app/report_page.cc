@@ -31,6 +31,7 @@ constexpr Panel kPanels[] = {
     {"outages", "Outages", OutagePanel},
     {"receiver", "Receiver", ReceiverPanel},
     {"biases", "Biases and constants over time", BiasPanel},
+    {"allan", "Noise at rest", AllanPanel},
     {"motion", "Motion", MotionPanel},
     {"differences", "Method against method", DifferencePanel},
     {"truth", "Error against truth", TruthPanel},

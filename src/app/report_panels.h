@@ -45,6 +45,7 @@ std::string ResidualPanel(ReportContext* context);
 std::string OutagePanel(ReportContext* context);
 std::string ReceiverPanel(ReportContext* context);
 std::string BiasPanel(ReportContext* context);
+std::string AllanPanel(ReportContext* context);
 std::string MotionPanel(ReportContext* context);
 std::string DifferencePanel(ReportContext* context);
 std::string TruthPanel(ReportContext* context);

@@ -7,6 +7,7 @@
 
 #include "alignment/mounting_search.h"
 #include "alignment/start_layout.h"
+#include "app/allan_report.h"
 #include "app/command.h"
 #include "app/input_digests.h"
 #include "app/measurement_log.h"
@@ -169,6 +170,7 @@ void NoteRecording(const Dataset& dataset, const CheckReport& check,
   for (const TimeInterval& rest : check.imu.rest.at_rest) {
     summary->rests.push_back({"", rest.begin, rest.end});
   }
+  summary->allan = AllanOfLongestRest(dataset, check.imu.rest);
 }
 
 /// What is known before anything is solved: notes, start, what the data cannot

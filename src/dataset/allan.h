@@ -44,6 +44,10 @@ struct AllanFit {
 /// the fitted spectrum gives them.
 AllanFit FitAllan(const std::vector<AllanPoint>& points);
 
+/// Names of the axes, in the order of ImuAllan.
+inline constexpr std::array kAllanAxes = {"gyro x",  "gyro y",  "gyro z",
+                                          "accel x", "accel y", "accel z"};
+
 /// Of each axis over a span: gyros x, y, z, then accelerometers.
 struct ImuAllan {
   TimeInterval span;

@@ -71,6 +71,8 @@ struct InitialState {
   Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();
   std::optional<Eigen::Vector3d> position_sigma;  ///< NED [m]
   std::optional<Eigen::Vector3d> velocity_sigma;  ///< NED [m/s]
+  /// Sigma of each component of a velocity that nothing tells [m/s].
+  double speed_spread = 10.0;
   std::optional<Eigen::Vector3d>
       attitude_sigma;  ///< roll, pitch, heading [rad]
   std::optional<Eigen::Vector3d> gyro_bias_sigma;   ///< [rad/s]

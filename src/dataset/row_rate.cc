@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/median.h"
-#include "geometry/so3.h"
+#include "imu/preintegration.h"
 
 namespace hindsight {
 namespace {
@@ -148,22 +148,24 @@ GravityBalance::GravityBalance(Vectors accel, Vectors gyro) {
   const std::vector<bool> quiet = QuietRows(accel_, gyro_);
   bias_ = MedianOf(gyro_, quiet);
   spans_ = SpansOf(quiet, accel_);
+  rows_.samples.reserve(rows);
+  for (std::size_t k = 0; k < rows; ++k) {
+    rows_.samples.push_back({static_cast<double>(k), gyro_[k], accel_[k]});
+  }
 }
 
 std::vector<Eigen::Vector3d> GravityBalance::Residuals(double rate) const {
-  const double dt = 1.0 / rate;
+  // Rows are a unit of time apart, so that the rates count by 1/rate: as those
+  // of gyros with that scale do.
+  ImuCalibration calibration;
+  calibration.b_g = bias_;
+  calibration.s_g.setConstant(rate - 1.0);
+  ImuIntegrator integrator(rows_);
   std::vector<Eigen::Vector3d> residuals;
   for (const Span& span : spans_) {
-    Eigen::Quaterniond C = Eigen::Quaterniond::Identity();
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (std::size_t k = span.begin; k < span.end; ++k) {
-      const Eigen::Quaterniond half = Exp(0.5 * dt * (gyro_[k] - bias_));
-      C = C * half;
-      sum += C * accel_[k];
-      C = C * half;
-    }
-    residuals.emplace_back(sum / static_cast<double>(span.end - span.begin) -
-                           span.f_0);
+    ImuSummary mean = EmptyMean(static_cast<double>(span.begin), calibration);
+    integrator.AppendMean(static_cast<double>(span.end - 1), &mean);
+    residuals.emplace_back(mean.dv / mean.dt() - span.f_0);
   }
   return residuals;
 }

@@ -7,14 +7,16 @@
 #include <span>
 #include <vector>
 
+#include "imu/imu_stream.h"
+
 namespace hindsight {
 
 /// How well an IMU's rows balance gravity where they are written at some rate.
 /// Whoever has the same velocity in two quiet spells, as a foot that stands
 /// again, was held up by gravity alone between them: over the n rows of a span
-///   r(dt) = 1/n sum_k C_k f_k - f_0 = 0,  C_0 = I,  C_k+1 = C_k Exp((w_k - b) dt)
-/// with f_0 the mean of f in the first spell and b the median of w in spells. Of
-/// the first 60 000 rows.
+///   r(dt) = 1/((n - 1) dt) int C f - f_0 = 0,  C(0) = I,  C' = C [(w - b) x]
+/// over rows that are dt apart (ImuSummary::dv), with f_0 the mean of f in the
+/// first spell and b the median of w in spells. Of the first 60 000 rows.
 class GravityBalance {
  public:
   using Vectors = std::span<const Eigen::Vector3d>;
@@ -38,6 +40,7 @@ class GravityBalance {
   Vectors accel_;
   Vectors gyro_;
   Eigen::Vector3d bias_;
+  ImuStream rows_;  ///< a unit of time apart
   std::vector<Span> spans_;
 };
 

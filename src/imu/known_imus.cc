@@ -12,10 +12,20 @@ constexpr double kDegreePerRootHour = kDegree / 60.0;  // rad/s/sqrt(Hz)
 constexpr double kMetrePerRootHour = 1.0 / 60.0;       // m/s^2/sqrt(Hz)
 
 constexpr std::array kImus = {
+    KnownImu{"ADIS16448", 0.0135 * kDegree, 0.23 * kMilliG,
+             "https://www.analog.com/media/en/technical-documentation/"
+             "data-sheets/ADIS16448.pdf as quoted by "
+             "https://github.com/ethz-asl/kalibr/issues/63"},
     KnownImu{"BMI270", 0.007 * kDegree, 160.0 * kMicroG,
+             "https://www.bosch-sensortec.com/media/boschsensortec/downloads/"
+             "datasheets/bst-bmi270-ds000.pdf as quoted by "
              "https://docs.luxonis.com/hardware/platform/sensors/imu/bmi270/"},
+    KnownImu{"IMX-5", 0.16 * kDegreePerRootHour, 0.02 * kMetrePerRootHour,
+             "https://github.com/inertialsense/docs.inertialsense.com, "
+             "docs/user-manual/reference/imu_specifications.md"},
     KnownImu{
         "LSM6DSV", 0.0028 * kDegree, 60.0 * kMicroG,
+        "https://www.st.com/resource/en/datasheet/lsm6dsv.pdf as quoted by "
         "https://docs.luxonis.com/hardware/platform/sensors/imu/lsm6dsv.md"},
     KnownImu{"MPU-9250", 0.01 * kDegree, 300.0 * kMicroG,
              "PS-MPU-9250A-01 revision 1.0, "
@@ -24,11 +34,15 @@ constexpr std::array kImus = {
     KnownImu{"MTi-300", 0.01 * kDegree, 60.0 * kMicroG,
              "https://cdn.shopify.com/s/files/1/0716/3048/7831/files/"
              "MTi-300.pdf"},
-    KnownImu{
-        "STIM300", 0.15 * kDegreePerRootHour, 0.06 * kMetrePerRootHour,
-        "data sheet as quoted by https://is4s.github.io/NavToolkit/api-exhale/"
-        "function_namespacenavtk_1_1filtering_"
-        "1aba1bca27b920b3734a49c13cdc663e90.html"},
+    KnownImu{"OpenIMU300ZA", 0.3 * kDegreePerRootHour, 0.05 * kMetrePerRootHour,
+             "upper limits, https://github.com/Aceinna/docs_openrtk, "
+             "300ZA/imu-sensors.rst"},
+    KnownImu{"STIM300", 0.15 * kDegreePerRootHour, 0.06 * kMetrePerRootHour,
+             "https://safran-navigation-timing.com/portal/download/"
+             "stim300-datasheets/?version=r9 as quoted by "
+             "https://is4s.github.io/NavToolkit/api-exhale/"
+             "function_namespacenavtk_1_1filtering_"
+             "1aba1bca27b920b3734a49c13cdc663e90.html"},
 };
 
 constexpr double kGyroWalk = 2e-3;   // of the density, 1/s

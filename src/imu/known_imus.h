@@ -8,7 +8,8 @@
 
 namespace hindsight {
 
-/// What the maker says of an IMU's white noise, typical values.
+/// What the maker says of an IMU's white noise; typical values, unless the source
+/// says otherwise.
 struct KnownImu {
   std::string_view name;
   double gyro_noise_density = 0.0;   ///< [rad/s/sqrt(Hz)]

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "earth/wgs84.h"
 #include "geometry/so3.h"
 #include "measurements/point_motion.h"
@@ -54,6 +55,12 @@ std::optional<MeasurementModel> ReadSpeedCourse(
     const MeasuredRow& row, const SensorSettings& settings) {
   SpeedCourse measured = PatternOf<SpeedCourse>(settings);
   measured.speed = row.Value(0);
+  if (measured.speed < -CourseAbove(settings)) {
+    row.Fail(settings.sensor.name + ": the speed is " +
+             FormatNumber(measured.speed) +
+             " m/s; a speed over the ground is not negative: a leading \"-\" "
+             "before its column under `columns` turns the sign");
+  }
   measured.has_course = row.Has(1) && std::isfinite(row.Value(1)) &&
                         measured.speed >= CourseAbove(settings);
   if (measured.has_course) measured.course = row.Value(1);

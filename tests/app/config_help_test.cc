@@ -34,6 +34,18 @@ TEST(FormatHelp, TheTableOfTheDocumentationIsWhatTheProgramWrites) {
   EXPECT_EQ(Help({"help", "formats", "nonsense"}).status, 2);
 }
 
+TEST(VehicleHelp, TheTableOfTheDocumentationIsWhatTheProgramWrites) {
+  const std::string text =
+      ReadFile(std::filesystem::path(HINDSIGHT_SOURCE_DIR) / "docs/running.md");
+  const Outcome outcome = Help({"help", "vehicles", "--markdown"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(text.find("\n\n" + outcome.out + "\n"), std::string::npos)
+      << outcome.out;
+  EXPECT_NE(Help({"help", "vehicles"}).out.find("underwater"),
+            std::string::npos);
+  EXPECT_EQ(Help({"help", "vehicles", "nonsense"}).status, 2);
+}
+
 TEST(ConfigHelp, FindsAKindAMapAndAKey) {
   const Outcome kind = Help({"help", "config", "dvl"});
   EXPECT_NE(kind.out.find("beam_angle  (30 deg; with form: beams)"),

@@ -138,7 +138,7 @@ class ReportTest(unittest.TestCase):
             "[...document.querySelectorAll('section')].map(s => [s.id,"
             " s.querySelectorAll('table, figure, .absent, pre').length,"
             " s.querySelectorAll('.plot canvas, #map-view canvas').length])")
-        self.assertEqual(len(panels), 15)
+        self.assertEqual(len(panels), 16)
         for name, things, _ in panels:
             self.assertGreater(things, 0, name)
         drawn = {name for name, _, canvases in panels if canvases > 0}

@@ -16,6 +16,13 @@ TEST(KnownImus, AreInSiUnits) {
   const ImuNoise stim = NoiseOf(*FindKnownImu("STIM300"));
   EXPECT_NEAR(stim.gyro_noise_density, 4.3633e-5, 1e-9);
   EXPECT_NEAR(stim.accel_noise_density, 1e-3, 1e-9);
+  // 0.16 deg/sqrt(h), 0.02 m/s/sqrt(h); 0.0135 deg/s/sqrt(Hz), 0.23 mg/sqrt(Hz).
+  const ImuNoise imx = NoiseOf(*FindKnownImu("IMX-5"));
+  EXPECT_NEAR(imx.gyro_noise_density, 4.6542e-5, 1e-9);
+  EXPECT_NEAR(imx.accel_noise_density, 3.3333e-4, 1e-8);
+  const ImuNoise adis = NoiseOf(*FindKnownImu("ADIS16448"));
+  EXPECT_NEAR(adis.gyro_noise_density, 2.3562e-4, 1e-8);
+  EXPECT_NEAR(adis.accel_noise_density, 2.2555e-3, 1e-7);
   EXPECT_EQ(FindKnownImu("mti-300"), nullptr);
 }
 

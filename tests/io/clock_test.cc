@@ -44,6 +44,56 @@ TEST_F(Clocks, SecondsOfWeekGoOverItsEnd) {
   EXPECT_NEAR(Time(data, 1), 1.5, 1e-9);
 }
 
+TEST_F(Clocks, DateAndTimeOfDayInTwoColumns) {
+  const std::string epoch = "epoch: 2025-07-12 23:59:59 GPST\n";
+  const std::string head =
+      epoch +
+      "imu:\n  file: imu.csv\n  max_gap: 10 s\n"
+      "  noise: {gyro: 0.2 deg/sqrt(h), accel: 70 ug/sqrt(Hz)}\n"
+      "aiding:\n  h: {type: height, file: h.txt, format: columns, columns: ";
+  const auto times = [&](const std::string& rows, const std::string& columns) {
+    Write("h.txt", rows);
+    Write("config.yaml", head + columns + "}\n");
+    const Dataset data = Load();
+    EXPECT_EQ(data.streams[0].measurements.size(), 2u);
+    EXPECT_NEAR(Time(data, 0), 1.5, 1e-9) << rows;
+    EXPECT_NEAR(Time(data, 1), 2.5, 1e-9) << rows;
+  };
+  // Separated by blanks, as the numbers are: by number, without and with zones.
+  const std::string by_number = "{t: '1 [UTC]', h: '3 [m]', sigma_h: '4 [m]'}";
+  times("2025-07-12 23:59:42.5 1 1\n2025-07-12 23:59:43.5 1 1\n", by_number);
+  times("2025/07/13 01:59:42.5+02:00 1 1\n2025/07/12 23:59:43.5Z 1 1\n",
+        by_number);
+  // By title: one for both, or one each.
+  const std::string by_title =
+      "{t: 'time [GPST]', h: 'alt [m]', sigma_h: 'sd [m]'}";
+  const std::string rows =
+      "2025-07-13 00:00:00.5 1 1\n2025-07-13 00:00:01.5 1 1\n";
+  times("time alt sd\n" + rows, by_title);
+  times("time of_day alt sd\n" + rows, by_title);
+  // Declared, in any order.
+  const std::string declared =
+      "{date: 'Date [UTC]', t: Time, h: 'alt [m]', sigma_h: 'sd [m]'}";
+  times(
+      "Date,Time,alt,sd\n2025-07-12,23:59:42.5,1,1\n"
+      "2025-07-12,23:59:43.5,1,1\n",
+      declared);
+  times(
+      "Time,alt,Date,sd\n23:59:42.5,1,2025-07-12,1\n"
+      "23:59:43.5,1,2025-07-12,1\n",
+      declared);
+  Write("config.yaml", head + "{date: 1, t: 2, h: '3 [m]'}}\n");
+  EXPECT_NE(LoadError().find("date: expected COLUMN [UTC] or COLUMN [GPST]"),
+            std::string::npos)
+      << LoadError();
+  Write("h.txt", "2025-07-12,23:61:42.5,1,1\n");
+  Write("config.yaml",
+        head + "{date: '1 [UTC]', t: 2, h: '3 [m]', sigma_h: '4 [m]'}}\n");
+  EXPECT_NE(LoadError().find("'2025-07-12 23:61:42.5' is not a time"),
+            std::string::npos)
+      << LoadError();
+}
+
 TEST_F(Clocks, DatesOfIso8601) {
   const std::string epoch = "epoch: 2025-07-12 23:59:59 GPST\n";
   const Dataset gps = LoadStamps({"2025-07-13T00:00:00.5"}, "GPST", "", epoch);

@@ -191,7 +191,7 @@ TEST_F(ConfigTest, BadConfigurationNamesLineAndReason) {
       {"    gate: 99.9 %", "    type: height", "config.yaml:12: ", "twice"},
       {"0.2 deg/sqrt(h)", "0.2", "config.yaml:5: imu.noise.gyro: ", "no unit"},
       {"    gyro: 0.2 deg/sqrt(h)\n", "", "config.yaml:4: imu.noise.gyro: ",
-       "is missing; expected it, or `like` one of BMI270,"},
+       "is missing; expected it, or `like` one of ADIS16448,"},
       {"    gyro:", "    like: MTi\n    gyro:",
        "config.yaml:5: imu.noise.like: ", "'MTi' is not known; expected"},
       {"0.2 deg/sqrt(h)", "0.2 deg/h", "config.yaml:5: ", "deg/sqrt(h)"},

@@ -12,6 +12,7 @@
 #include "io/config/config_omissions.h"
 #include "io/config/config_recording.h"
 #include "io/config/constants_reader.h"
+#include "io/config/vehicle.h"
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {
@@ -263,14 +264,25 @@ void TakeStart(ConfigMap* top, Dataset* dataset) {
   }
 }
 
+/// With what its vehicle sets, of which `note` tells.
+ConfigMap LoadTop(const std::string& path, const LoadOptions& options,
+                  std::string* note) {
+  const ConfigMap::Edit edit = SetVehicle(note);
+  return options.text ? ConfigMap::Parse(*options.text, path, edit)
+                      : ConfigMap::Load(path, edit);
+}
+
 std::vector<fs::path> FilesRead(const std::string& config_path,
                                 const DeclaredRecording& declared) {
-  std::vector<fs::path> inputs = {config_path, declared.imu.path};
+  std::vector<fs::path> inputs = {config_path};
+  const auto add = [&](const StreamSource& source) {
+    for (const std::string& path : source.Paths()) inputs.emplace_back(path);
+  };
+  add(declared.imu);
   for (const AidingConfig& config : declared.aiding) {
-    if (!config.settings.sensor.kind->generated)
-      inputs.emplace_back(config.source.path);
+    if (!config.settings.sensor.kind->generated) add(config.source);
   }
-  if (declared.truth) inputs.emplace_back(declared.truth->path);
+  if (declared.truth) add(*declared.truth);
   if (!declared.constants.from.empty()) {
     inputs.push_back(SummaryOf(declared.constants.from));
   }
@@ -281,14 +293,16 @@ std::vector<fs::path> FilesRead(const std::string& config_path,
 
 std::vector<fs::path> ConfigFilesRead(const std::string& config_path,
                                       const LoadOptions& options) {
-  ConfigMap top = ConfigMap::Load(config_path);
+  std::string note;
+  ConfigMap top = LoadTop(config_path, options, &note);
   Dataset dataset;
   return FilesRead(config_path, ReadDeclarations(&top, options, &dataset));
 }
 
 std::vector<fs::path> ConfigInputs(const std::string& config_path,
                                    const LoadOptions& options) {
-  ConfigMap top = ConfigMap::Load(config_path);
+  std::string note;
+  ConfigMap top = LoadTop(config_path, options, &note);
   Dataset dataset;
   const DeclaredRecording declared = ReadDeclarations(&top, options, &dataset);
   std::vector<fs::path> inputs = FilesRead(config_path, declared);
@@ -299,9 +313,10 @@ std::vector<fs::path> ConfigInputs(const std::string& config_path,
 
 Dataset LoadDataset(const std::string& config_path, const LoadOptions& options,
                     ResolvedConfig* resolved) {
-  ConfigMap top = options.text ? ConfigMap::Parse(*options.text, config_path)
-                               : ConfigMap::Load(config_path);
+  std::string note;
+  ConfigMap top = LoadTop(config_path, options, &note);
   Dataset dataset;
+  if (!note.empty()) dataset.notes.push_back(note);
   const DeclaredRecording declared = ReadDeclarations(&top, options, &dataset);
   LoadImu(declared, &top, &dataset);
   RequireStartInside(&top, dataset);

@@ -13,8 +13,8 @@ namespace {
 Quantity QuantityOf(ConfigMap* columns, const std::string& name,
                     const std::vector<FieldName>& fields) {
   if (name == "t") return Quantity::kTime;
-  if (name == "week") return Quantity::kRatio;
-  std::vector<std::string> names = {"t", "week"};
+  if (name == "week" || name == "date") return Quantity::kRatio;
+  std::vector<std::string> names = {"t", "week", "date"};
   for (const FieldName& field : fields) {
     if (name == field.name) return field.quantity;
     names.emplace_back(field.name);
@@ -78,10 +78,15 @@ ColumnMapping ReadColumn(ConfigMap* columns, const std::string& name,
     if (!SetColumn(title, &mapping)) columns->Fail(name, TooManyColumns());
     mapping.unit = unit;
   }
-  // Dates, whose unit is their scale.
-  const bool date =
-      name == "t" && (mapping.unit == "UTC" || mapping.unit == "GPST");
-  if (name == "week" || date) return mapping;
+  // Dates, whose unit is their scale; a time of day beside one has none.
+  const bool date = (name == "t" || name == "date") &&
+                    (mapping.unit == "UTC" || mapping.unit == "GPST");
+  const bool of_day =
+      name == "t" && columns->Has("date") && mapping.unit.empty();
+  if (name == "week" || date || of_day) return mapping;
+  if (name == "date") {
+    columns->Fail(name, "expected COLUMN [UTC] or COLUMN [GPST]");
+  }
   if (mapping.unit.empty() && mapping.column >= 0) {
     columns->Fail(name, std::string("has no unit; expected COLUMN [UNIT] with "
                                     "one of ") +
@@ -100,7 +105,7 @@ std::optional<ConstantColumn> ReadConstant(
   if (!columns->IsMap(name)) return std::nullopt;
   ConfigMap entry = columns->Map(name);
   if (!entry.Has("constant")) return std::nullopt;
-  if (name == "t" || name == "week") {
+  if (name == "t" || name == "week" || name == "date") {
     entry.Fail("constant", "time does not stand still; expected a column");
   }
   if (&fields == &ImuFields()) {
@@ -130,8 +135,8 @@ void ReadColumns(ConfigMap* map, const std::vector<FieldName>& fields,
       continue;
     }
     const ColumnMapping mapping = ReadColumn(&columns, name, quantity);
-    mappings.insert(name == "week" ? mappings.begin() : mappings.end(),
-                    mapping);
+    const bool before_t = name == "week" || name == "date";
+    mappings.insert(before_t ? mappings.begin() : mappings.end(), mapping);
   }
 }
 

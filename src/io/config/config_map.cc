@@ -219,6 +219,14 @@ void ConfigMap::Resolve(const std::string& key, const std::string& value) {
   resolved_[key] = value;
 }
 
+void ConfigMap::Resolve(const std::string& key,
+                        const std::vector<std::string>& values) {
+  YAML::Node list(YAML::NodeType::Sequence);
+  list.SetStyle(YAML::EmitterStyle::Flow);
+  for (const std::string& value : values) list.push_back(value);
+  resolved_[key] = list;
+}
+
 void ConfigMap::Resolve(const std::string& key, double value,
                         Quantity quantity) {
   resolved_[key] = FormatNumber(value) + " " + SiUnit(quantity);

@@ -103,6 +103,7 @@ class ConfigMap {
   /// Writes a value into the resolved copy.
   void Resolve(const std::string& key, const std::string& value);
   void Resolve(const std::string& key, double value, Quantity quantity);
+  void Resolve(const std::string& key, const std::vector<std::string>& values);
 
  private:
   ConfigMap(const YAML::Node& node, std::string file, std::string name,

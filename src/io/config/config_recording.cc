@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "io/config/config_key.h"
+#include "io/config/vehicle.h"
 #include "io/read/paths.h"
 
 namespace hindsight {
@@ -98,8 +99,10 @@ void ReadAidingStreams(ConfigMap* top, RecordingConfig* recording) {
   std::vector<std::string> without = recording->options->without;
   for (auto& [name, map] : aiding.NamedMaps()) {
     if (std::erase(without, name) > 0) {
-      if (const auto file = map.OptionalText("file")) {
-        recording->left_out.push_back(recording->folder / *file);
+      if (map.Has("file")) {
+        for (const std::string& file : FileNames(&map)) {
+          recording->left_out.push_back(recording->folder / file);
+        }
       }
       aiding.resolved().remove(name);
       continue;
@@ -122,6 +125,14 @@ void ReadRest(ConfigMap* top, RecordingConfig* recording) {
 const std::string& AlignmentHelp() {
   static const std::string kHelp =
       MeaningOf(AlignmentNames(), "how the attitude at the start is found");
+  return kHelp;
+}
+
+const std::string& VehicleKeyHelp() {
+  static const std::string kHelp =
+      MeaningOf(VehicleNames(),
+                "sets what suits it and is not given: rest, wheels, spread of "
+                "the start (hindsight help vehicles)");
   return kHelp;
 }
 
@@ -154,6 +165,13 @@ const ConfigTable<RecordingConfig>& RecordingTable() {
                 "\"UTC\"",
         .fallback =
             "whole second before the first IMU sample, if that is dated"},
+       {.name = "vehicle",
+        .value = Key::Special{[](ConfigMap* top, Recording*) {
+          if (top->Has("vehicle")) {
+            top->Choice("vehicle", VehicleNames(), std::nullopt);
+          }
+        }},
+        .help = VehicleKeyHelp()},
        {.name = "imu",
         .value = Key::Special{ReadImuConfig},
         .help = "the inertial sensor",

@@ -110,6 +110,11 @@ const ConfigTable<StartConfig>& InitialTable() {
                &StartConfig::position_sigma),
        SigmaOf("velocity_sigma", Quantity::kSpeed,
                &StartConfig::velocity_sigma),
+       {.name = "speed_spread",
+        .quantity = Quantity::kSpeed,
+        .value = Key::Number{&StartConfig::speed_spread, KeyRange::kPositive},
+        .help = "a priori sigma of the velocity that nothing tells: neither "
+                "velocity, rest nor a sensor"},
        SigmaOf("attitude_sigma", Quantity::kAngle,
                &StartConfig::attitude_sigma),
        SigmaOf("gyro_bias_sigma", Quantity::kAngularRate,

@@ -139,15 +139,27 @@ struct StreamConfig : StreamSource {
 };
 
 void ReadFile(ConfigMap* map, StreamConfig* stream) {
-  const std::string file = map->Text("file");
-  stream->path = (stream->folder / file).lexically_normal().string();
   stream->config_line = map->Line("file");
-  if (!PathExists(stream->path)) {
-    map->Fail("file", "there is no file " + stream->path);
+  std::vector<std::string> paths;
+  std::vector<std::string> absolute;
+  for (const std::string& file : FileNames(map)) {
+    paths.push_back((stream->folder / file).lexically_normal().string());
+    if (!PathExists(paths.back())) {
+      map->Fail("file", "there is no file " + paths.back());
+    }
+    if (std::count(paths.begin(), paths.end(), paths.back()) > 1) {
+      map->Fail("file", paths.back() + " stands twice");
+    }
+    absolute.push_back(
+        std::filesystem::absolute(paths.back()).lexically_normal().string());
   }
-  map->Resolve(
-      "file",
-      std::filesystem::absolute(stream->path).lexically_normal().string());
+  stream->path = paths.front();
+  stream->more_paths.assign(paths.begin() + 1, paths.end());
+  if (stream->more_paths.empty()) {
+    map->Resolve("file", absolute.front());
+  } else {
+    map->Resolve("file", absolute);
+  }
 }
 
 void ReadFormat(ConfigMap* map, StreamConfig* stream) {
@@ -186,7 +198,8 @@ const ConfigTable<StreamConfig>& StreamTable() {
       "What imu, truth and aiding streams share.",
       {{.name = "file",
         .value = Key::Special{ReadFile},
-        .help = "plain or gzip; a folder for oxts and npy",
+        .help = "plain or gzip; a folder for oxts and npy; [FILE, FILE2, ...]: "
+                "parts of one stream in the order of time",
         .needed = true},
        {.name = "format", .value = Key::Special{ReadFormat}, .fallback = "csv"},
        {.name = "columns",
@@ -252,6 +265,13 @@ const ConfigTable<StreamConfig>& StreamTable() {
 }
 
 }  // namespace
+
+std::vector<std::string> FileNames(ConfigMap* map) {
+  if (!map->Has("file") || map->IsScalar("file")) return {map->Text("file")};
+  std::vector<std::string> names = map->List("file");
+  if (names.empty()) map->Fail("file", "expected a file, or a list of files");
+  return names;
+}
 
 StreamSource ReadStreamSource(ConfigMap* map,
                               const std::filesystem::path& folder,

@@ -18,6 +18,9 @@ StreamSource ReadStreamSource(ConfigMap* map,
                               const std::filesystem::path& folder,
                               const std::vector<FieldName>& fields);
 
+/// `file`: a name, or those of the parts of one stream in the order of time.
+std::vector<std::string> FileNames(ConfigMap* map);
+
 /// C_bs of `axes` and `mounting`, of the imu or the truth.
 Eigen::Matrix3d ReadMounting(ConfigMap* map);
 

@@ -180,13 +180,8 @@ std::vector<std::string> ConfigMap::List(const std::string& key) {
   std::vector<std::string> items;
   if (!node) return items;
   if (!node->IsSequence()) Fail(key, "expected a list in [ ]");
-  YAML::Node list(YAML::NodeType::Sequence);
-  list.SetStyle(YAML::EmitterStyle::Flow);
-  for (const auto& item : *node) {
-    items.push_back(ScalarText(key, item));
-    list.push_back(items.back());
-  }
-  resolved_[key] = list;
+  for (const auto& item : *node) items.push_back(ScalarText(key, item));
+  Resolve(key, items);
   return items;
 }
 

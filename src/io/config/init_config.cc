@@ -50,13 +50,23 @@ std::string Render(const std::vector<KeyLine>& lines,
   return text;
 }
 
+/// A name, or the list of all.
+std::string FileValue(const FoundStream& found) {
+  if (found.more_files.empty()) return YamlScalar(found.file);
+  std::string list = "[" + YamlScalar(found.file, YAML::DoubleQuoted);
+  for (const std::string& more : found.more_files) {
+    list += ", " + YamlScalar(more, YAML::DoubleQuoted);
+  }
+  return list + "]";
+}
+
 std::string StreamText(const FoundStream& found, const std::string& indent) {
   std::string text;
   for (const std::string& remark : found.remarks) {
     text += indent + "# " + remark + "\n";
   }
-  return text + indent + "file: " + YamlScalar(found.file) + "\n" + indent +
-         "format: " + std::string(found.format->name) + "\n" +
+  return text + Render({"file", FileValue(found), found.joined_by}, indent) +
+         indent + "format: " + std::string(found.format->name) + "\n" +
          Render(found.lines, indent);
 }
 

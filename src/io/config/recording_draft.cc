@@ -13,6 +13,7 @@
 #include "io/read/file_formats.h"
 #include "io/read/paths.h"
 #include "io/read/recognise_format.h"
+#include "io/read/split_files.h"
 #include "io/read/units.h"
 
 namespace hindsight {
@@ -99,9 +100,14 @@ class Drafter {
         continue;
       }
       done.push_back(found.file);
-      for (FoundStream stream :
-           RecogniseFormat(PathOf(found).string(), hints)) {
+      std::vector<std::string> paths = {PathOf(found).string()};
+      for (const std::string& more : found.more_files) {
+        paths.push_back((fs::path(draft_.folder) / more).string());
+      }
+      for (FoundStream stream : RecogniseParts(paths, hints)) {
         stream.file = found.file;
+        stream.more_files = found.more_files;
+        stream.joined_by = found.joined_by;
         if (!stream.imu) again.push_back(std::move(stream));
       }
     }

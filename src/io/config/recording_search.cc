@@ -9,6 +9,7 @@
 #include "io/read/file_format.h"
 #include "io/read/paths.h"
 #include "io/read/recognise_format.h"
+#include "io/read/split_files.h"
 
 namespace hindsight {
 namespace {
@@ -30,7 +31,12 @@ bool IsWhole(const FoundStream& found) {
 /// Puts the names of files below `below`.
 void MoveBelow(const fs::path& below, RecordingFiles* files) {
   for (auto* list : {&files->imus, &files->others}) {
-    for (FoundStream& found : *list) found.file = (below / found.file).string();
+    for (FoundStream& found : *list) {
+      found.file = (below / found.file).string();
+      for (std::string& more : found.more_files) {
+        more = (below / more).string();
+      }
+    }
   }
   for (std::string& name : files->unknown) name = (below / name).string();
 }
@@ -74,14 +80,13 @@ class Search {
       AddArrays(*arrays, folder, &result->rest);
       return;
     }
+    std::vector<RecognisedFile> files;
     for (const fs::path& entry : FolderEntries(folder.string())) {
       const std::string name = entry.filename().string();
       if (name.starts_with('.')) continue;
-      std::vector<FoundStream> found;
       if (IsFile(entry) || PathExists(entry / "timestamps.txt")) {
         if (IsAside(entry)) continue;
-        found = RecogniseFormat(entry.string());
-        Take(std::move(found), name, folder, result);
+        files.push_back({name, RecogniseFormat(entry.string())});
       } else if (IsFolder(entry) && depth < kDeepest) {
         Result below = Visit(entry, depth + 1);
         if (below.recordings.empty()) leaves->push_back(entry);
@@ -91,6 +96,10 @@ class Search {
           result->recordings.push_back(std::move(recording));
         }
       }
+    }
+    JoinSplitFiles(folder, &files);
+    for (RecognisedFile& file : files) {
+      Take(std::move(file.streams), file.name, folder, result);
     }
   }
 

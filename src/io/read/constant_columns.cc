@@ -40,6 +40,7 @@ class CompletedRows final : public RowSource {
   std::size_t RowsHint() const override { return source_->RowsHint(); }
   const std::string& path() const override { return source_->path(); }
   const std::string& row_path() const override { return source_->row_path(); }
+  int Columns() const override { return source_->Columns(); }
   std::vector<LeftOut> left_out() const override { return source_->left_out(); }
 
  private:

@@ -31,6 +31,9 @@ const KeyLine* FindLine(const std::vector<KeyLine>& lines,
 /// A stream that was found in a file or folder.
 struct FoundStream {
   std::string file = {};  ///< its name, which is the caller's to set
+  /// Further files of the stream, in the order of time, and how that is known.
+  std::vector<std::string> more_files = {};
+  std::string joined_by = {};
   const FileFormat* format = nullptr;  ///< set by RecogniseFormat
   bool imu = false;                    ///< holds one
   bool truth = false;  ///< is or holds one, by its name or its format

@@ -19,6 +19,36 @@ bool NextData(TextLines* lines, std::string* line) {
   return false;
 }
 
+/// Whether the stamp, a date and a time of day, stands in two columns of `row`:
+/// where blanks separate columns, and date and time as well.
+bool SplitsDate(const std::string& row, const TableLayout& layout) {
+  if (layout.clock != TableLayout::Clock::kIso &&
+      layout.clock != TableLayout::Clock::kIsoUtc) {
+    return false;
+  }
+  constexpr std::size_t kDate = 10;
+  const auto tokens = SplitLine(row, layout.delimiter);
+  const auto at = static_cast<std::size_t>(layout.time_column);
+  return at + 1 < tokens.size() && tokens[at].size() == kDate &&
+         tokens[at].find_first_of("-/") == 4 &&
+         tokens[at + 1].find(':') != std::string_view::npos;
+}
+
+/// A title that stands above both counts as one, and what stands right of it is
+/// a column further on.
+void SplitDate(const std::string& row, TableLayout* layout) {
+  layout->clock = layout->clock == TableLayout::Clock::kIsoUtc
+                      ? TableLayout::Clock::kDateUtc
+                      : TableLayout::Clock::kDate;
+  const auto columns =
+      static_cast<int>(SplitLine(row, layout->delimiter).size());
+  if (layout->column_count == 0 || columns != layout->column_count + 1) return;
+  layout->column_count = columns;
+  for (TableLayout::Field& field : layout->fields) {
+    if (field.column > layout->time_column) ++field.column;
+  }
+}
+
 /// `titled`: the columns are those of the header line that name a quantity.
 OpenedTable OpenDelimited(const TableRequest& request,
                           std::vector<ColumnMapping> columns, bool titled) {
@@ -42,10 +72,14 @@ OpenedTable OpenDelimited(const TableRequest& request,
   TableLayout layout = BuildLayout(request.path, request.format, request.fields,
                                    columns, header);
   layout.delimiter = delimiter;
+  const bool split = SplitsDate(row, layout);
   if (has_header) layout.column_count = static_cast<int>(header.titles.size());
+  if (split) SplitDate(row, &layout);
   opened.dated = layout.clock == TableLayout::Clock::kWeek ||
                  layout.clock == TableLayout::Clock::kIso ||
-                 layout.clock == TableLayout::Clock::kIsoUtc;
+                 layout.clock == TableLayout::Clock::kIsoUtc ||
+                 layout.clock == TableLayout::Clock::kDate ||
+                 layout.clock == TableLayout::Clock::kDateUtc;
   opened.table = std::make_unique<TextTable>(
       opened.lines.get(), std::move(layout), request.options, std::move(row));
   return opened;

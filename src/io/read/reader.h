@@ -52,6 +52,8 @@ enum class DuplicatePolicy { kError, kDropFirst, kDropLast };
 struct StreamSource {
   std::string name;  ///< key in the configuration, for messages and counts
   std::string path;
+  /// Further files, in the order of time, that go on where it ends.
+  std::vector<std::string> more_paths = {};
   TextFormat format;
   ClockMap clock;
   DuplicatePolicy on_duplicate = DuplicatePolicy::kError;
@@ -64,6 +66,9 @@ struct StreamSource {
   bool absent_values = false;  ///< empty and NaN values are absent
   std::string config_path;
   long config_line = 0;
+
+  /// All of them.
+  std::vector<std::string> Paths() const;
 };
 
 /// Stamps of a stream just read: rows carry the time since `first`.

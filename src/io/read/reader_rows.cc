@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "io/read/joined_rows.h"
 #include "io/read/row_buffer.h"
 #include "io/read/units.h"
 
@@ -39,14 +40,20 @@ std::string Seconds(double value) { return fmt::format("{:.6g} s", value); }
 
 }  // namespace
 
+std::vector<std::string> StreamSource::Paths() const {
+  std::vector<std::string> paths = {path};
+  paths.insert(paths.end(), more_paths.begin(), more_paths.end());
+  return paths;
+}
+
 StreamRows::StreamRows(const StreamSource& source,
                        const std::vector<FieldName>& fields, bool allow_absent)
     : source_(source),
       fields_(fields),
-      opened_(
-          OpenTable(source.path, WithClock(source), fields,
-                    {source.allow_truncated_tail,
-                     allow_absent || source.absent_values, source.drop_text})) {
+      opened_(OpenJoined(
+          source.Paths(), WithClock(source), fields,
+          {source.allow_truncated_tail, allow_absent || source.absent_values,
+           source.drop_text})) {
   clock_.dated = opened_.dated || source.clock.week.has_value() ||
                  source.clock.scale != ClockMap::Scale::kDataset;
   for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -110,6 +117,9 @@ StreamRows::Step StreamRows::Next() {
       return Step::kAppend;
     }
     dt_ = since_first - t_;
+    const std::size_t part = opened_.table->part();
+    if (part != part_ && dt_ < 0.0) FailOverlap(part);
+    part_ = part;
     if (dt_ < 0.0) {
       opened_.table->Fail("time runs backwards by " + Seconds(-dt_) +
                           "; expected stamps that increase (on_unordered: "
@@ -128,6 +138,14 @@ StreamRows::Step StreamRows::Next() {
     }
   }
   return Step::kEnd;
+}
+
+void StreamRows::FailOverlap(std::size_t part) const {
+  opened_.table->Fail(
+      "begins " + Seconds(-dt_) + " before " + source_.Paths()[part - 1] +
+      " ends; expected the files of `file` in the order of "
+      "time, none overlapping the next (on_unordered: sort puts "
+      "the rows in order)");
 }
 
 void StreamRows::CountPolicies(std::vector<PolicyCount>* policies) const {

@@ -39,6 +39,8 @@ class StreamRows {
   Stamp FileTime();
   /// Throws InputError for a value that no vehicle on Earth has.
   void CheckSizes() const;
+  /// Throws InputError: the file `part` begins before the one before ends.
+  [[noreturn]] void FailOverlap(std::size_t part) const;
   void Sort(const std::vector<FieldName>& fields, bool allow_absent);
 
   const StreamSource& source_;
@@ -49,6 +51,7 @@ class StreamRows {
   double t_ = 0.0;
   double dt_ = 0.0;
   long rows_ = 0;
+  std::size_t part_ = 0;  ///< of the last row that was used
   bool started_ = false;
   long duplicates_ = 0;
   long sorted_ = 0;

@@ -32,6 +32,10 @@ class RowSource {
   virtual const std::string& path() const = 0;
   /// The file that the current row stands in.
   virtual const std::string& row_path() const { return path(); }
+  /// Of several files of one stream, which the current row stands in, from 0.
+  virtual std::size_t part() const { return 0; }
+  /// Of delimited text, the columns of a row; 0 of other sources.
+  virtual int Columns() const { return 0; }
   virtual std::vector<LeftOut> left_out() const { return {}; }
 
   /// Of the current row, as the file gives it.

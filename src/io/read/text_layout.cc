@@ -31,6 +31,10 @@ class LayoutBuilder {
       column = found;
       if (unit.empty()) unit = header_unit;
     }
+    if (mapping.quantity == "date") {
+      AddDate(column, unit);
+      return;
+    }
     if (mapping.quantity == "t" || mapping.quantity == "week") {
       if (mapping.scale != 1.0) {
         Fail("column " + mapping.quantity + " takes no scale; expected a unit");
@@ -90,6 +94,16 @@ class LayoutBuilder {
     return *factor;
   }
 
+  void AddDate(int column, const std::string& unit) {
+    if (week_column_ >= 0) Fail("column date does not go with week");
+    if (unit != "UTC" && unit != "GPST") {
+      Fail("column date has the unit '" + unit + "'; expected UTC or GPST");
+    }
+    layout_.clock = unit == "UTC" ? TableLayout::Clock::kDateUtc
+                                  : TableLayout::Clock::kDate;
+    layout_.time_column = column;
+  }
+
   void AddTime(const std::string& quantity, int column,
                const std::string& unit) {
     if (quantity == "week") {
@@ -99,6 +113,11 @@ class LayoutBuilder {
       return;
     }
     time_column_ = column;
+    if (layout_.clock == TableLayout::Clock::kDate ||
+        layout_.clock == TableLayout::Clock::kDateUtc) {
+      layout_.clock_column = column;
+      return;
+    }
     if (week_column_ < 0 && (unit == "UTC" || unit == "GPST")) {
       layout_.clock = unit == "UTC" ? TableLayout::Clock::kIsoUtc
                                     : TableLayout::Clock::kIso;

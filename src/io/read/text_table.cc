@@ -100,6 +100,18 @@ int TimeColumns(TableLayout::Clock clock) {
   }
 }
 
+/// Of the two columns in the order in which they stand.
+std::optional<Stamp> DateOf(std::string_view first, std::string_view second,
+                            const TableLayout& layout) {
+  const bool utc = layout.clock == TableLayout::Clock::kDateUtc;
+  const bool clock_first =
+      layout.clock_column >= 0 && layout.clock_column < layout.time_column;
+  if (clock_first) std::swap(first, second);
+  if (const auto stamp = ParseDate(first, second, utc)) return stamp;
+  // With a zone behind.
+  return ParseIsoTime(std::string(first) + "T" + std::string(second), utc);
+}
+
 }  // namespace
 
 char GuessDelimiter(std::string_view line) {
@@ -134,17 +146,19 @@ TextTable::TextTable(TextLines* lines, TableLayout layout, Options options,
     last = std::max(last, field.column);
   }
   const int time_columns = TimeColumns(layout_.clock);
-  if (time_columns > 0) {
-    last = std::max(last, layout_.time_column + time_columns - 1);
-  }
+  const int second = layout_.clock_column >= 0 ? layout_.clock_column
+                                               : layout_.time_column + 1;
+  if (time_columns > 0) last = std::max(last, layout_.time_column);
+  if (time_columns > 1) last = std::max(last, second);
   wanted_.assign(static_cast<std::size_t>(last + 1), 0);
   raw_.assign(wanted_.size(), kAbsent);
   for (const TableLayout::Field& field : layout_.fields) {
     if (field.column >= 0) wanted_[static_cast<std::size_t>(field.column)] = 1;
   }
-  for (int i = 0; i < time_columns; ++i) {
-    wanted_[static_cast<std::size_t>(layout_.time_column + i)] = 2;
+  if (time_columns > 0) {
+    wanted_[static_cast<std::size_t>(layout_.time_column)] = 2;
   }
+  if (time_columns > 1) wanted_[static_cast<std::size_t>(second)] = 2;
 }
 
 bool TextTable::NextLine(std::string_view* line) {
@@ -265,8 +279,7 @@ bool TextTable::ParseTime(const std::vector<std::string_view>& time_tokens,
     }
     case TableLayout::Clock::kDate:
     case TableLayout::Clock::kDateUtc:
-      stamp = ParseDate(time_tokens[0], time_tokens[1],
-                        layout_.clock == TableLayout::Clock::kDateUtc);
+      stamp = DateOf(time_tokens[0], time_tokens[1], layout_);
       break;
     case TableLayout::Clock::kIso:
     case TableLayout::Clock::kIsoUtc:

@@ -27,13 +27,14 @@ struct TableLayout {
     kNone,     ///< there is no stamp: Stamp{}
     kSeconds,  ///< time_column, in 1/ticks_per_second
     kWeek,     ///< GPS week in time_column, seconds of week after it
-    kDate,     ///< yyyy/mm/dd in time_column, hh:mm:ss.sss after it, GPST
+    kDate,     ///< yyyy/mm/dd in time_column, hh:mm:ss.sss in another, GPST
     kDateUtc,  ///< the same in UTC
     kIso,      ///< ISO 8601 in time_column, GPST
     kIsoUtc,   ///< the same in UTC
   };
   Clock clock = Clock::kSeconds;
   int time_column = -1;
+  int clock_column = -1;  ///< of dates: hh:mm:ss.sss; -1: right of the date
   std::int64_t ticks_per_second = 1;
 
   char delimiter = ',';         ///< ' ': any run of blanks
@@ -77,6 +78,7 @@ class TextTable final : public RowSource {
     return layout_.fields[field].column >= 0;
   }
   const std::string& path() const override { return lines_->path(); }
+  int Columns() const override { return layout_.column_count; }
   /// Lines dropped under allow_truncated_tail and drop_text.
   std::vector<LeftOut> left_out() const override;
   std::size_t RowsHint() const override;

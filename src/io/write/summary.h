@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "dataset/allan.h"
 #include "dataset/dataset.h"
 #include "evaluation/broad_metric.h"
 #include "evaluation/outages.h"
@@ -106,6 +107,7 @@ struct RunSummary {
   std::vector<UnobservedSpan> unobserved = {};
   std::vector<StreamSpan> gaps = {};   ///< without rows, longer than usual
   std::vector<StreamSpan> rests = {};  ///< in which the vehicle stands
+  std::optional<ImuAllan> allan = {};  ///< of the longest rest
   /// The best method, whose grade is that of the run; empty: none.
   std::string best;
   std::vector<MethodSummary> methods;
@@ -165,6 +167,7 @@ void PutTruthFigures(const TrajectoryStatistics& statistics,
 ///     stream, action, count
 ///   warnings[], notes[]         of the recording, in words
 ///   unobserved[]                before any method ran, as of a method below
+///   allan                       of the longest rest: io/write/allan_json.h
 ///   gaps[], rests[]             stream, t_begin_s, t_end_s: spans without
 ///                               rows, and at rest (no stream)
 ///   best, grade                 the best method, and its grade

@@ -4,6 +4,7 @@
 
 #include "base/units.h"
 #include "io/read/time_scale.h"
+#include "io/write/allan_json.h"
 #include "io/write/summary.h"
 #include "measurements/sensor_kind.h"
 
@@ -378,6 +379,7 @@ nlohmann::ordered_json SummaryJson(const RunSummary& summary) {
   PutUnobserved(summary.unobserved, &json);
   PutSpans(&json, "gaps", summary.gaps);
   PutSpans(&json, "rests", summary.rests);
+  if (summary.allan) json["allan"] = AllanJson(*summary.allan);
   for (const MethodSummary& m : summary.methods) {
     if (m.method != summary.best) continue;
     json["best"] = m.method;
