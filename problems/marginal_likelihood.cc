@@ -6,7 +6,7 @@
 
 #include "alignment/alignment.h"
 #include "filters/measurement_rule.h"
-#include "filters/rts.h"
+#include "filters/tape_adjoint.h"
 
 namespace hindsight {
 namespace {
@@ -43,29 +43,13 @@ ErrorMatrix IntervalNoise(const LinearTape& tape, std::size_t k) {
   return Q;
 }
 
-/// Of one interval, cov(w | all) = Q - Q (P-)^-1 (P- - P) (P-)^-1 Q, P being
-/// smoothed: the trace of (P-)^-1 (P- - P) (P-)^-1 Q. P- is scaled to unit
-/// variances, since it has vague priors beside well-known constants.
-double KnownNoise(const ErrorMatrix& P_minus, const ErrorMatrix& P,
-                  const ErrorMatrix& Q) {
-  const ErrorVector sigma = P_minus.diagonal().cwiseSqrt();
-  const auto scaled = [&sigma](const ErrorMatrix& M) {
-    const ErrorVector inverse = sigma.cwiseInverse();
-    return ErrorMatrix(inverse.asDiagonal() * M * inverse.asDiagonal());
-  };
-  const Eigen::LDLT<ErrorMatrix> correlation(scaled(P_minus));
-  const ErrorMatrix known = correlation.solve(scaled(ErrorMatrix(P_minus - P)));
-  const ErrorMatrix noise = correlation.solve(scaled(Q));
-  return (known * noise).trace();
-}
-
+/// cov(w | all) = Q - Q Lambda Q of each interval, so that I - Q^-1 cov has the
+/// trace of Lambda Q.
 double KnownImuNoise(const LinearTape& tape) {
-  const SmoothedTrajectory smoothed = SmoothRts(tape);
   double sum = 0.0;
-  for (std::size_t k = 1; k < tape.size(); ++k) {
-    sum +=
-        KnownNoise(tape.P_minus(k), smoothed.P.Get(k), IntervalNoise(tape, k));
-  }
+  ForEachLambda(tape, [&](std::size_t k, const ErrorMatrix& Lambda) {
+    if (k > 0) sum += Lambda.cwiseProduct(IntervalNoise(tape, k)).sum();
+  });
   return sum;
 }
 

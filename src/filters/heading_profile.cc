@@ -114,6 +114,7 @@ class Profile {
     constexpr double kTight = 0.02;  // to which the heading is held, in sigma_
     IterationOptions options;
     options.max_iterations = 4;
+    options.covariances = false;
     std::vector<State> nominal = Turned(problem_.layout, angle, states_);
     KnownHeading known =
         KnowHeading(problem_.layout, prior_, nominal.front(), kTight * sigma_);

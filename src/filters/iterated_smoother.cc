@@ -75,7 +75,7 @@ IteratedResult SmoothIterated(std::vector<State> nominal,
   IteratedResult result;
   SmoothedTrajectory& trajectory = result.trajectory;
   trajectory.states = std::move(nominal);
-  const bool with_covariances = options.rough == nullptr;
+  const bool with_covariances = options.rough == nullptr && options.covariances;
   std::vector<State> about;
   Steps steps;
   for (int i = 1; i <= options.max_iterations && !result.converged; ++i) {
@@ -92,11 +92,11 @@ IteratedResult SmoothIterated(std::vector<State> nominal,
     }
     trajectory = SmoothMeans(tape);
     result.converged = IsBelowTolerances(layout, trajectory.d, options);
-    if (!with_covariances) {
+    if (options.rough != nullptr) {
       steps.Add(LargestMoveInSigmas(layout, about, trajectory.states,
                                     *options.rough));
       result.converged = result.converged || steps.Rest() < kNegligibleRest;
-    } else if (result.converged) {
+    } else if (result.converged && with_covariances) {
       trajectory = SmoothRts(std::move(tape));
     }
   }

@@ -18,6 +18,9 @@ struct IterationOptions {
   /// kNegligibleRest of these sigmas in every component of position and
   /// attitude.
   const CovarianceSeries* rough = nullptr;
+  /// Whether the result has covariances where none are given. Without, the
+  /// tolerances alone tell whether it converged.
+  bool covariances = true;
   EpochCallback callback;
 };
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "filters/tape_adjoint.h"
 #include "filters/tape_gains.h"
 
 namespace hindsight {
@@ -34,10 +35,7 @@ struct GroupScore {
 class AdjointPass {
  public:
   AdjointPass(const LinearTape& tape, const ShiftColumns& columns)
-      : tape_(tape),
-        columns_(columns),
-        lambda_(Eigen::VectorXd::Zero(tape.dim())),
-        Lambda_(Eigen::MatrixXd::Zero(tape.dim(), tape.dim())) {}
+      : tape_(tape), columns_(columns), state_(tape) {}
 
   Scores Run(std::span<const std::size_t> onsets,
              const EpochCallback& callback) {
@@ -54,7 +52,9 @@ class AdjointPass {
       if (onsets[left - 1] != k) continue;
       --left;
       Collect(k, left == 0, &found.shifts);
-      if (left > 0) found.states.push_back({k, lambda_, Lambda_});
+      if (left > 0) {
+        found.states.push_back({k, state_.lambda(), state_.Lambda()});
+      }
     }
     return found;
   }
@@ -71,14 +71,13 @@ class AdjointPass {
       const ShiftColumns::Columns driven = columns_.driven(k);
       const Eigen::MatrixXd G = WithGrowth(driven.B, TimeOf(tape_, k));
       GroupScore& own = Of(driven.group, G.cols());
-      const Eigen::MatrixXd LG = Lambda_ * G;
+      const Eigen::MatrixXd LG = state_.Lambda() * G;
       const Eigen::MatrixXd GX = G.transpose() * own.xb;
-      own.lambda += G.transpose() * lambda_;
+      own.lambda += G.transpose() * state_.lambda();
       own.bb += GX + GX.transpose() + G.transpose() * LG;
       own.xb += LG;
     }
-    lambda_ = Phi.transpose() * lambda_;
-    Lambda_ = Phi.transpose() * Lambda_ * Phi;
+    state_.BackOver(k);
     for (auto& [group, own] : groups_) own.xb = Phi.transpose() * own.xb;
   }
 
@@ -86,8 +85,8 @@ class AdjointPass {
                   const Eigen::MatrixXd& K) {
     const Eigen::LLT<Eigen::MatrixXd> S(z.S);
     const Eigen::VectorXd ahead =
-        S.solve(z.innovation) - K.transpose() * lambda_;
-    const Eigen::MatrixXd LK = Lambda_ * K;
+        S.solve(z.innovation) - K.transpose() * state_.lambda();
+    const Eigen::MatrixXd LK = state_.Lambda() * K;
     std::set<ShiftColumns::Group> entered;
     for (const ShiftColumns::Columns& columns : columns_.measured(k, z)) {
       const Eigen::MatrixXd B = WithGrowth(columns.B, TimeOf(tape_, k));
@@ -104,11 +103,7 @@ class AdjointPass {
       if (entered.contains(group)) continue;
       own.xb -= z.H.transpose() * (K.transpose() * own.xb);
     }
-    lambda_ += z.H.transpose() * ahead;
-    Lambda_ -= LK * z.H;
-    Lambda_ += z.H.transpose() * (S.solve(z.H) - K.transpose() * Lambda_);
-    // What is not symmetric would grow.
-    Lambda_ = 0.5 * (Lambda_ + Lambda_.transpose()).eval();
+    state_.BackBefore(z, K);
   }
 
   void Collect(std::size_t k, bool throughout,
@@ -120,7 +115,7 @@ class AdjointPass {
     };
     if (!throughout) {
       for (int i = 0; i < tape_.dim(); ++i) {
-        add({true, 0, i, false, k, lambda_(i), Lambda_(i, i)});
+        add({true, 0, i, false, k, state_.lambda()(i), state_.Lambda()(i, i)});
       }
     }
     const double t = TimeOf(tape_, k);
@@ -141,8 +136,7 @@ class AdjointPass {
 
   const LinearTape& tape_;
   const ShiftColumns& columns_;
-  Eigen::VectorXd lambda_;
-  Eigen::MatrixXd Lambda_;
+  TapeAdjoint state_;
   std::map<ShiftColumns::Group, GroupScore> groups_;
 };
 

@@ -65,12 +65,8 @@ struct Scores {
 
 /// Every such deviation that the innovations of a tape could show, from each of
 /// some epochs on (ascending); constants from the first on are there throughout.
-/// One backward pass of the adjoint of the filter with the constants beside its
-/// states,
-///   before z:  lambda <- H' S^-1 nu + (I - K H)' lambda,
-///              Lambda <- H' S^-1 H + (I - K H)' Lambda (I - K H),
-///   before the interval:  lambda <- Phi' lambda,  Lambda <- Phi' Lambda Phi,
-/// H and Phi of both, K of the states alone: at the onset, lambda is the score
+/// One backward pass of the adjoint of the filter (TapeAdjoint) with the constants
+/// beside its states, H and Phi of both, K of the states alone: at the onset, lambda is the score
 /// and Lambda the information. The cost does not depend on how many epochs are
 /// asked for. Requires a tape about a fixed nominal. `callback` hears of each epoch.
 Scores ScoreShifts(const LinearTape& tape, const ShiftColumns& columns,

@@ -4,7 +4,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "filters/tape_adjoint.h"
 #include "filters/tape_gains.h"
 
 namespace hindsight {
@@ -54,7 +56,8 @@ ErrorVector AddedTo(std::size_t k, const Course& course, const LinearTape& tape,
 /// each of them: both go with the free inertial navigation, whose heights grow
 /// by e every ten minutes.
 struct Response {
-  std::vector<ErrorVector> minus, plus;
+  std::vector<ErrorVector> minus;
+  std::vector<RowVector> innovations;  ///< that it causes, of all measurements
 };
 
 Response Filtered(const Course& course, const LinearTape& tape,
@@ -68,11 +71,11 @@ Response Filtered(const Course& course, const LinearTape& tape,
     const std::vector<Eigen::MatrixXd> gains = GainsAt(tape, k);
     const auto all = tape.measurements(k);
     for (std::size_t i = 0; i < all.size(); ++i) {
+      RowVector& innovation = out.innovations.emplace_back();
       if (!all[i].accepted) continue;
-      error -=
-          gains[i] * (all[i].H * error + AddedTo(all[i], course, k, columns));
+      innovation = all[i].H * error + AddedTo(all[i], course, k, columns);
+      error -= gains[i] * innovation;
     }
-    out.plus.push_back(error);
   }
   return out;
 }
@@ -81,13 +84,23 @@ std::vector<ErrorVector> CorrectionForCourse(const Course& course,
                                              const LinearTape& tape,
                                              const ShiftColumns& columns) {
   RequireFixedNominal(tape);
-  const Response response = Filtered(course, tape, columns);
-  std::vector<ErrorVector> correction(tape.size());
-  correction.back() = response.plus.back();
-  for (std::size_t k = tape.size() - 1; k-- > 0;) {
-    correction[k] =
-        response.plus[k] +
-        Smoothed(tape, k, correction[k + 1] - response.minus[k + 1]);
+  Response response = Filtered(course, tape, columns);
+  std::vector<ErrorVector> correction = std::move(response.minus);
+  ErrorVector lambda = ErrorVector::Zero(tape.dim());
+  for (std::size_t k = tape.size(); k-- > 0;) {
+    if (k + 1 < tape.size()) {
+      lambda = (tape.Phi(k + 1).transpose() * lambda).eval();
+    }
+    const std::vector<Eigen::MatrixXd> gains = GainsAt(tape, k);
+    const auto all = tape.measurements(k);
+    for (std::size_t i = all.size(); i-- > 0;) {
+      if (all[i].accepted) {
+        lambda =
+            LambdaBefore(all[i], response.innovations.back(), gains[i], lambda);
+      }
+      response.innovations.pop_back();
+    }
+    correction[k] -= tape.P_minus(k) * lambda;
   }
   return correction;
 }
@@ -136,7 +149,8 @@ namespace {
 constexpr double kLeastWeight = 1e-6;
 
 /// Carries what constants of one group, each from several onsets on, do to the
-/// estimates: a block of columns a constant, a column of it an onset.
+/// estimates: a block of columns an onset, a column of it a constant, so that those
+/// of the onsets that have come are the first.
 class OnsetPass {
  public:
   OnsetPass(ShiftColumns::Group group, std::span<const int> wanted,
@@ -148,8 +162,8 @@ class OnsetPass {
         tape_(tape),
         columns_(columns),
         count_(static_cast<Eigen::Index>(onsets.size())),
-        e_(Eigen::MatrixXd::Zero(
-            tape.dim(), count_ * static_cast<Eigen::Index>(wanted.size()))),
+        width_(static_cast<Eigen::Index>(wanted.size())),
+        e_(Eigen::MatrixXd::Zero(tape.dim(), count_ * width_)),
         score_(Eigen::VectorXd::Zero(e_.cols())),
         information_(Eigen::MatrixXd::Zero(e_.cols(), e_.cols())) {}
 
@@ -160,7 +174,7 @@ class OnsetPass {
              onsets_[static_cast<std::size_t>(begun_)] <= k) {
         ++begun_;
       }
-      if (k > onsets_.front()) e_ = tape_.Phi(k) * e_;
+      if (k > onsets_.front()) begun() = tape_.Phi(k) * begun();
       const std::vector<Eigen::MatrixXd> gains = GainsAt(tape_, k);
       const auto all = tape_.measurements(k);
       for (std::size_t i = 0; i < all.size(); ++i) {
@@ -171,22 +185,25 @@ class OnsetPass {
   }
 
  private:
+  /// The columns of the onsets that have come; of the others all is zero.
+  Eigen::MatrixXd::ColsBlockXpr begun() { return e_.leftCols(begun_ * width_); }
+
   void Take(std::size_t k, const TapeMeasurement& z, const Eigen::MatrixXd& K) {
-    Eigen::MatrixXd g = -(z.H * e_);
+    Eigen::MatrixXd g = -(z.H * begun());
     if (z.sensor == group_) Enter(k, z, &g);
     const Eigen::LLT<Eigen::MatrixXd> S(z.S);
     const Eigen::MatrixXd weighted = S.solve(g);
-    score_ += weighted.transpose() * z.innovation;
-    information_ += g.transpose() * weighted;
-    e_ += K * g;
+    score_.head(g.cols()) += weighted.transpose() * z.innovation;
+    information_.topLeftCorner(g.cols(), g.cols())
+        .triangularView<Eigen::Lower>() += g.transpose() * weighted;
+    begun() += K * g;
   }
 
   void Enter(std::size_t k, const TapeMeasurement& z, Eigen::MatrixXd* g) {
     for (const ShiftColumns::Columns& one : columns_.measured(k, z)) {
       if (one.group != group_) continue;
-      for (std::size_t w = 0; w < wanted_.size(); ++w) {
-        g->middleCols(static_cast<Eigen::Index>(w) * count_, begun_)
-            .colwise() += one.B.col(wanted_[w]);
+      for (Eigen::Index c = 0; c < g->cols(); ++c) {
+        g->col(c) += one.B.col(wanted_[static_cast<std::size_t>(c % width_)]);
       }
     }
   }
@@ -195,13 +212,14 @@ class OnsetPass {
   GroupEnergy Energy() const {
     GroupEnergy energy;
     energy.columns.resize(wanted_.size());
-    energy.steps.setZero(count_, static_cast<Eigen::Index>(wanted_.size()));
+    energy.steps.setZero(count_, width_);
     std::vector<Eigen::Index> shown;
     for (Eigen::Index i = 0; i < e_.cols(); ++i) {
       if (information_(i, i) > 0.0) shown.push_back(i);
     }
     if (shown.empty()) return energy;
-    const Eigen::MatrixXd G = information_(shown, shown);
+    const Eigen::MatrixXd all = information_.selfadjointView<Eigen::Lower>();
+    const Eigen::MatrixXd G = all(shown, shown);
     const Eigen::VectorXd score = score_(shown);
     const Eigen::VectorXd sigma = G.diagonal().cwiseSqrt().cwiseInverse();
     const Eigen::VectorXd z = score.cwiseProduct(sigma);
@@ -209,7 +227,7 @@ class OnsetPass {
     for (std::size_t w = 0; w < wanted_.size(); ++w) {
       std::vector<Eigen::Index> own;
       for (std::size_t i = 0; i < shown.size(); ++i) {
-        if (shown[i] / count_ == static_cast<Eigen::Index>(w)) {
+        if (shown[i] % width_ == static_cast<Eigen::Index>(w)) {
           own.push_back(static_cast<Eigen::Index>(i));
         }
       }
@@ -232,7 +250,7 @@ class OnsetPass {
     }
     const Eigen::VectorXd steps = Steps(shown, G, score, energy);
     for (std::size_t i = 0; i < shown.size(); ++i) {
-      energy.steps(shown[i] % count_, shown[i] / count_) =
+      energy.steps(shown[i] / width_, shown[i] % width_) =
           steps(static_cast<Eigen::Index>(i));
     }
     return energy;
@@ -243,8 +261,7 @@ class OnsetPass {
                         const GroupEnergy& energy) const {
     Eigen::VectorXd unit(score.size());
     for (Eigen::Index i = 0; i < unit.size(); ++i) {
-      const Eigen::Index first =
-          shown[static_cast<std::size_t>(i)] / count_ * count_;
+      const Eigen::Index first = shown[static_cast<std::size_t>(i)] % width_;
       unit(i) = information_(first, first) > 0.0
                     ? 1.0 / std::sqrt(information_(first, first))
                     : 0.0;
@@ -273,6 +290,7 @@ class OnsetPass {
   const LinearTape& tape_;
   const ShiftColumns& columns_;
   Eigen::Index count_;
+  Eigen::Index width_;      ///< constants
   Eigen::Index begun_ = 0;  ///< onsets that have come
   Eigen::MatrixXd e_;       ///< by what the estimates differ
   Eigen::VectorXd score_;
