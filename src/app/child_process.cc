@@ -123,7 +123,6 @@ ChildEnd Children::Run(std::vector<std::string> words,
   while (waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOWAIT) !=
              0 &&
          errno == EINTR) {
-    continue;
   }
   // Until it is waited for, its number is nobody else's.
   const std::lock_guard lock(mutex_);

@@ -40,7 +40,7 @@ void Combine(const Moments& b, Moments* a) {
   a->runs += b.runs;
 }
 
-void Combine(CellFolds from, CellFolds* to) {
+void Combine(CellFolds&& from, CellFolds* to) {
   for (auto& [cell, fold] : from) {
     const auto [at, is_new] = to->try_emplace(cell);
     at->second = is_new ? std::move(fold) : Combine(at->second, fold);
@@ -75,7 +75,7 @@ std::vector<std::size_t> MatchTimes(const std::vector<double>& one,
 }
 
 SeriesFold FoldOfRun(std::vector<double> t,
-                     std::map<std::string, std::vector<double>> series) {
+                     std::map<std::string, std::vector<double>>&& series) {
   SeriesFold fold;
   fold.t = std::move(t);
   for (auto& [name, values] : series) {
@@ -136,7 +136,7 @@ CellFolds FoldTree::First(std::int64_t runs) const {
         node->second.end() > runs) {
       throw std::invalid_argument("run " + std::to_string(at) + " is missing");
     }
-    Combine(node->second.cells, &sum);
+    Combine(CellFolds(node->second.cells), &sum);
     at = node->second.end();
   }
   return sum;

@@ -31,7 +31,7 @@ std::vector<std::size_t> MatchTimes(const std::vector<double>& one,
 
 /// A series of one run.
 SeriesFold FoldOfRun(std::vector<double> t,
-                     std::map<std::string, std::vector<double>> series);
+                     std::map<std::string, std::vector<double>>&& series);
 
 /// Of both sets of runs, by the pairwise formula of Chan, Golub and LeVeque
 /// (1979): with d = mean_b - mean_a and n = n_a + n_b

@@ -53,7 +53,7 @@ std::optional<Place> PlaceOf(const YAML::Node& node, const std::string& text) {
   if (text[begin] == '"' || text[begin] == '\'') {
     return closed(text[begin], begin + 1, 0);
   }
-  const std::string scalar = node.Scalar();
+  const std::string& scalar = node.Scalar();
   if (text.compare(begin, scalar.size(), scalar) != 0) return std::nullopt;
   return Place{begin, begin + scalar.size()};
 }

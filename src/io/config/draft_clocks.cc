@@ -86,7 +86,7 @@ void StartImuAt(const Stamp& first_fix, RecordingDraft* draft) {
   }
   SetTime(FormatGpsTime(Nanoseconds(first_fix)), "",
           "as the first fix (a guess); the motion tells the rest", imu);
-  draft->assumptions.push_back(
+  draft->assumptions.emplace_back(
       "imu: its clock has no date; it begins with the first fix, and the "
       "motion tells the offset");
 }
