@@ -153,7 +153,7 @@ std::string Render(const LinePicture& picture) {
         "<path style=\"stroke: {}; stroke-width: {}\" d=\"{}\"/>", style,
         picture.lines[i].dashed ? "1.5; stroke-dasharray: 5 4" : "2",
         path + BarPath(picture.lines[i], x, y));
-    legend += fmt::format("<b style=\"color: {}\">{}</b> ", style,
+    legend += fmt::format("<strong style=\"color: {}\">{}</strong> ", style,
                           EscapeHtml(picture.lines[i].label));
   }
   return html + "</svg><p>" + legend + "</p></figure>\n";

@@ -46,7 +46,8 @@ ReportContext ReadContext(std::vector<ReportSource> sources) {
   context.solutions = ReadReportSolutions(context.sources);
   if (context.solutions.empty() || context.solutions.front().source != 0) {
     throw InputError(context.reference().shown.string() +
-                     ": no method has a solution");
+                     ": no method has a trajectory; expected a result of "
+                     "'run' in which one has");
   }
   const ReportSource& reference = context.reference();
   if (const auto path = reference.FileOf("residuals.csv")) {

@@ -55,7 +55,7 @@ TEST(AllanInTheReport, IsOfTheLongestRestAndDrawn) {
     const std::string html = ReadFile(folder.path() / page);
     for (const char* text :
          {"<section id=\"allan\">", "gyro x [deg/s]", "accel z [mg]",
-          "cluster time [s]", "white noise</b>"}) {
+          "cluster time [s]", "white noise</strong>"}) {
       EXPECT_NE(html.find(text), std::string::npos) << page << ": " << text;
     }
   }

@@ -490,8 +490,8 @@ TEST_F(RunCommandTest, TellsWhatIsWithheldAndTheStartWithItsSigmas) {
                                      "measurements: 10.0 to 15.0 s, 30.0 to "
                                      "35.0 s\n"));
   const std::string resolved = ReadFile(Result("config.resolved.yaml"));
-  EXPECT_THAT(resolved, HasSubstr("\n# biases    sigma of gyros "));
-  EXPECT_THAT(resolved, HasSubstr("\n# velocity "));
+  EXPECT_THAT(resolved, HasSubstr("\n#   biases    sigma of gyros "));
+  EXPECT_THAT(resolved, HasSubstr("\n#   velocity "));
   EXPECT_EQ(Hindsight({"run", "out/config.resolved.yaml", "--out=again",
                        "--methods=ekf"},
                       recording_.root())

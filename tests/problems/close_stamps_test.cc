@@ -45,18 +45,21 @@ TEST_P(CloseStampsBy, AreNoHarmToTheBatch) {
 INSTANTIATE_TEST_SUITE_P(Seconds, CloseStampsBy,
                          ::testing::Values(0.0, 2e-6, 3e-5, 1e-4, 1e-3));
 
-/// The last two nodes are 42 and 31 ms apart, and positions known to 10 m: of a
-/// variance, what links them is 1e-15. Nothing is lost.
+/// The DVL's clock ends some recordings milliseconds after its last reading, and
+/// positions are known to 10 m: of their variance, what links the last two nodes
+/// is 1e-15. Nothing is lost.
 TEST(CloseStamps, LeaveTheCovariancesOfADeadReckonedDive) {
-  for (const std::uint64_t seed : {4009, 4039}) {
+  int count = 0;
+  for (std::uint64_t seed = 4001; count < 2 && seed < 4100; ++seed) {
     const Dataset dataset = Simulate(FindScenario("straight_dive", {}), seed);
     Reconstruction reconstruction(dataset, {});
     const Solution iterated = reconstruction.Run("iterated");
+    const std::size_t last = iterated.states.size() - 1;
+    if (iterated.states[last].t - iterated.states[last - 1].t > 0.05) continue;
+    ++count;
     const Solution batch = reconstruction.Run("batch");
     ASSERT_TRUE(batch.converged);
     ASSERT_EQ(batch.states.size(), iterated.states.size());
-    const std::size_t last = batch.states.size() - 1;
-    ASSERT_LT(batch.states[last].t - batch.states[last - 1].t, 0.05);
     const auto scaled = [](const Solution& solution, std::size_t k,
                            const Solution& by) -> Eigen::MatrixXd {
       const Eigen::VectorXd sigma =
@@ -74,6 +77,7 @@ TEST(CloseStamps, LeaveTheCovariancesOfADeadReckonedDive) {
     }
     EXPECT_GT(std::sqrt(batch.covariances.Get(last)(0, 0)), 5.0);
   }
+  EXPECT_EQ(count, 2);
 }
 
 }  // namespace
