@@ -109,8 +109,9 @@ std::string AllanPanel(ReportContext* context) {
   return Element("p", fmt::format(
                           "Overlapping Allan deviation over the longest rest, "
                           "{:.1f} to {:.1f} s, with its standard deviation as "
-                          "bars, and what was fitted to it: of the sensor "
-                          "alone, without a vehicle's vibration.",
+                          "bars, and what was fitted to it. Vibration on "
+                          "the way is not in it, that of an idling engine "
+                          "is.",
                           allan.at("span_s").at(0).get<double>(),
                           allan.at("span_s").at(1).get<double>())) +
          Grid(pictures, "") + table.Render();
