@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -112,11 +113,28 @@ std::string NotCombined(const std::vector<RecordedConstants>& all) {
                      fmt::join(names, ", "));
 }
 
+/// A recording counts once: its errors are the same in every result of it.
+void RefuseTheSameRecording(const std::vector<RecordedConstants>& all) {
+  std::map<std::string, const RecordedConstants*> seen;  // by SHA-256
+  for (const RecordedConstants& one : all) {
+    for (const RecordedFile& file : one.files) {
+      const auto [at, is_new] = seen.emplace(file.sha256, &one);
+      if (is_new || at->second == &one) continue;
+      throw InputError(
+          SummaryOf(one.source).string(), 0,
+          fmt::format("is of the same recording as {}: both read {}; expected "
+                      "results of different recordings",
+                      at->second->source, file.path));
+    }
+  }
+}
+
 int Combine(const std::vector<std::string>& results, ResultFolder* folder) {
   std::vector<RecordedConstants> all;
   for (const std::string& result : results) {
     all.push_back(ReadConstants(result, ""));
   }
+  RefuseTheSameRecording(all);
   const CombinedConstants combined = CombineConstants(all);
   const MethodSummary method = Summarize(combined);
   RunSummary summary;
@@ -124,6 +142,9 @@ int Combine(const std::vector<std::string>& results, ResultFolder* folder) {
   summary.dataset = fmt::format("constants of {} results", results.size());
   summary.complete = true;
   for (const RecordedConstants& one : all) {
+    for (const RecordedFile& file : one.files) {
+      summary.inputs.push_back({file.path, file.bytes, file.sha256});
+    }
     if (one.grade == Grade::kUsable) continue;
     summary.warnings.push_back(one.source + " is " + GradeName(one.grade));
   }

@@ -30,6 +30,12 @@ void TakeClockInto(const ClockSearch& found, StreamDraft* stream,
     return;
   }
   const ClockCandidate& best = found.candidates.front();
+  if (!std::isfinite(best.sigma)) {
+    draft->Assume(stream->name +
+                  ": the motion hardly shows where its clock stands against "
+                  "the IMU's");
+    return;
+  }
   SetLine({"time_offset", fmt::format("{:.3f} s", best.offset),
            fmt::format("by {}, +- {:.2g} s; refined (likely)", found.compared,
                        best.sigma)},

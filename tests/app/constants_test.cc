@@ -118,6 +118,13 @@ TEST_F(Constants, CombineAveragesAndTellsWhatVaries) {
   }
   EXPECT_EQ(Best(all)["constant_correlations"].size(), constants.size());
   EXPECT_EQ(Run({"combine", "result1", "--out=one"}).status, 2);
+  // A recording counts once, also by way of another mean.
+  for (const char* same : {"./result1", "all"}) {
+    const Outcome twice = Run({"combine", "result1", same, "--out=twice"});
+    EXPECT_EQ(twice.status, 2) << twice.out;
+    EXPECT_THAT(twice.err, HasSubstr("of the same recording as result1"));
+    EXPECT_THAT(twice.err, HasSubstr("imu.csv"));
+  }
 }
 
 TEST_F(Constants, StartTheNextRecording) {

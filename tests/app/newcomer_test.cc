@@ -71,6 +71,9 @@ class Newcomer : public ::testing::Test {
       WriteFile(root() / fmt::format("drive/gps_{}.csv", part + 1), text);
     }
     WriteFile(root() / "drive/notes.txt", "Sunny, dry road.\n");
+    std::string mystery = "a,b\n";
+    for (int i = 0; i < 20; ++i) mystery += fmt::format("{0},{0}\n", i % 3);
+    WriteFile(root() / "drive/mystery.csv", mystery);
   }
 
   const std::filesystem::path& root() const { return folder_.path(); }
@@ -86,11 +89,13 @@ TEST_F(Newcomer, InitJoinsTheFixesAndNamesTheNotes) {
        {"file: [\"gps_1.csv\", \"gps_2.csv\", \"gps_3.csv\"]  # parts of one "
         "stream: the same columns, names that differ by a number",
         "# gps_3.csv: 2 rows further down are no rows of numbers",
-        "on_text: drop", "#   notes.txt", "accel_x: \"2 [m/s^2]\"",
-        "gyro_z: \"7 [rad/s]\""}) {
+        "on_text: drop", "#   notes.txt",
+        "mystery.csv: its numbers were not recognised, and are left out",
+        "accel_x: \"2 [m/s^2]\"", "gyro_z: \"7 [rad/s]\""}) {
     EXPECT_NE(config.find(text), std::string::npos) << text << "\n" << config;
   }
   EXPECT_EQ(config.find("position2"), std::string::npos) << config;
+  EXPECT_EQ(config.find("notes.txt: its numbers"), std::string::npos);
   // The draft itself can be checked.
   const Outcome check = Hindsight({"check", "c.yaml"}, root());
   EXPECT_NE(check.status, 2) << check.err;

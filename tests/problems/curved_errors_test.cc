@@ -3,31 +3,15 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
-#include <vector>
 
-#include "evaluation/true_states.h"
 #include "io/config/scenario_config.h"
 #include "problems/reconstruction.h"
 #include "simulation/scenario.h"
+#include "support/mean_nees.h"
 #include "support/temporary_folder.h"
 
 namespace hindsight {
 namespace {
-
-/// Mean over the nodes of e' P^-1 e of the position, where 3 is right.
-double PositionNees(const Dataset& dataset, const Solution& solution) {
-  const std::vector<State> truth =
-      TrueStates(dataset, solution.layout, solution.states);
-  const int p = solution.layout.Find(BlockKind::kPosition)->offset;
-  double sum = 0.0;
-  for (std::size_t k = 0; k < truth.size(); ++k) {
-    const Eigen::Vector3d e =
-        Local(solution.layout, solution.states[k], truth[k]).segment<3>(p);
-    const Eigen::Matrix3d P = solution.covariances.Get(k).block<3, 3>(p, p);
-    sum += e.dot(P.llt().solve(e));
-  }
-  return sum / static_cast<double>(truth.size());
-}
 
 /// A car by its odometer alone, whose heading at the start is known to 10 deg:
 /// what no covariance describes is not usable without a word.
@@ -54,7 +38,7 @@ start_errors: {position: 0.5 m, velocity: 0.1 m/s, attitude: [0.3 deg, 0.3 deg, 
     Reconstruction reconstruction(dataset, {});
     const Solution batch = reconstruction.Run("batch");
     EXPECT_TRUE(batch.converged);
-    const double nees = PositionNees(dataset, batch);
+    const double nees = MeanNees(dataset, batch, BlockKind::kPosition);
     worst = std::max(worst, nees);
     EXPECT_TRUE(nees < 25.0 || batch.grade != Grade::kUsable)
         << seed << ": " << nees << ", " << batch.verdict;

@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/units.h"
-#include "evaluation/true_states.h"
 #include "support/in_flight.h"
+#include "support/mean_nees.h"
 
 namespace hindsight {
 namespace {
@@ -17,18 +18,7 @@ constexpr const char* kMethods[] = {"ekf", "rts", "two_filter", "iterated",
 /// Root of a third of the attitude's mean normalised squared error; one is
 /// right.
 double AttitudeSigmas(const Dataset& dataset, const Solution& solution) {
-  const std::vector<State> truth =
-      TrueStates(dataset, solution.layout, solution.states);
-  const int a = solution.layout.Find(BlockKind::kAttitude)->offset;
-  double sum = 0.0;
-  for (std::size_t k = 0; k < truth.size(); ++k) {
-    const Eigen::Vector3d e =
-        Local(solution.layout, solution.states[k], truth[k]).segment<3>(a);
-    const Eigen::Matrix3d P =
-        solution.covariances.Get(k).block<3, 3>(a, a).inverse();
-    sum += e.dot(P * e) / 3.0;
-  }
-  return std::sqrt(sum / static_cast<double>(truth.size()));
+  return std::sqrt(MeanNees(dataset, solution, BlockKind::kAttitude) / 3.0);
 }
 
 /// What the verdict calls usable has right sigmas, and what is linearised from

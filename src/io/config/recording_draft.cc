@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <string>
 #include <tuple>
 
 #include "base/error.h"
@@ -20,6 +22,23 @@ namespace hindsight {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Whether a text file has some lines that begin with a number and go on.
+bool HoldsRowsOfNumbers(const fs::path& path) {
+  constexpr int kLinesLookedAt = 200;
+  constexpr int kRows = 5;
+  std::ifstream file(path);
+  std::string line;
+  int rows = 0;
+  for (int i = 0; i < kLinesLookedAt && std::getline(file, line); ++i) {
+    const std::size_t number = line.find_first_not_of("\" \t+-.");
+    const bool is_row = number != line.npos && line[number] >= '0' &&
+                        line[number] <= '9' &&
+                        line.find_first_of(",; \t", number) != line.npos;
+    if (is_row && ++rows == kRows) return true;
+  }
+  return false;
+}
 
 class Drafter {
  public:
@@ -39,6 +58,11 @@ class Drafter {
     const bool axes_known = FindLine(draft_.imu->lines, "axes") != nullptr;
     for (StreamDraft& stream : draft_.aiding) {
       CompleteStream(axes_known, &stream);
+    }
+    for (const std::string& name : draft_.unknown) {
+      if (!HoldsRowsOfNumbers(fs::path(draft_.folder) / name)) continue;
+      draft_.Assume(name +
+                    ": its numbers were not recognised, and are left out");
     }
     return std::move(draft_);
   }
