@@ -33,8 +33,8 @@ class Differences {
                                   survey.horizontal * std::sin(survey.azimuth),
                                   survey.down);
     for (const SurveyedField& reading : readings) {
-      in_b.push_back(reading.field_b - reading.q_nb.conjugate() * field_n);
-      in_n.push_back(reading.q_nb * reading.field_b - field_n);
+      in_b.emplace_back(reading.field_b - reading.q_nb.conjugate() * field_n);
+      in_n.emplace_back(reading.q_nb * reading.field_b - field_n);
     }
   }
   /// Of an error of reading k [1].

@@ -71,6 +71,8 @@ class Newcomer : public ::testing::Test {
       WriteFile(root() / fmt::format("drive/gps_{}.csv", part + 1), text);
     }
     WriteFile(root() / "drive/notes.txt", "Sunny, dry road.\n");
+    WriteGzip(root() / "drive/gps_2.csv.gz",
+              ReadFile(root() / "drive/gps_2.csv"));
     std::string mystery = "a,b\n";
     for (int i = 0; i < 20; ++i) mystery += fmt::format("{0},{0}\n", i % 3);
     WriteFile(root() / "drive/mystery.csv", mystery);
@@ -90,6 +92,7 @@ TEST_F(Newcomer, InitJoinsTheFixesAndNamesTheNotes) {
         "stream: the same columns, names that differ by a number",
         "# gps_3.csv: 2 rows further down are no rows of numbers",
         "on_text: drop", "#   notes.txt",
+        "# Not used: gps_2.csv.gz, which begins with the rows of gps_2.csv\n",
         "mystery.csv: its numbers were not recognised, and are left out",
         "accel_x: \"2 [m/s^2]\"", "gyro_z: \"7 [rad/s]\""}) {
     EXPECT_NE(config.find(text), std::string::npos) << text << "\n" << config;

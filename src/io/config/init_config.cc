@@ -136,6 +136,9 @@ std::string Head(const RecordingDraft& draft) {
   std::string text;
   if (!draft.unknown.empty()) text += "# Not recognised:\n";
   for (const std::string& name : draft.unknown) text += "#   " + name + "\n";
+  for (const std::string& copy : draft.copies) {
+    text += "# Not used: " + copy + "\n";
+  }
   text += "name: " + YamlScalar(draft.name) + "\n";
   text += "folder: " + YamlScalar(draft.folder, YAML::DoubleQuoted) + "\n";
   if (draft.assumptions.empty()) return text;

@@ -46,6 +46,7 @@ class Drafter {
     draft_.name = files_.name;
     draft_.folder = fs::absolute(files_.folder).lexically_normal().string();
     draft_.unknown = files_.unknown;
+    draft_.copies = files_.copies;
   }
 
   RecordingDraft Draft() {

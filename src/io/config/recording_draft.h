@@ -25,6 +25,7 @@ struct RecordingDraft {
   std::optional<FoundStream> truth;
   std::vector<StreamDraft> unused;  ///< recognised, and why not used in remarks
   std::vector<std::string> unknown;  ///< files that were not recognised
+  std::vector<std::string> copies;   ///< as RecordingFiles::copies
   std::vector<KeyLine> top;          ///< further lines of the top level
   /// What was taken for granted and matters, one clause each.
   std::vector<std::string> assumptions;

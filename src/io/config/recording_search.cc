@@ -1,7 +1,10 @@
 #include "io/config/recording_search.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "io/read/column_meaning.h"
@@ -10,6 +13,7 @@
 #include "io/read/paths.h"
 #include "io/read/recognise_format.h"
 #include "io/read/split_files.h"
+#include "io/read/text_lines.h"
 
 namespace hindsight {
 namespace {
@@ -39,6 +43,7 @@ void MoveBelow(const fs::path& below, RecordingFiles* files) {
     }
   }
   for (std::string& name : files->unknown) name = (below / name).string();
+  for (std::string& copy : files->copies) copy = (below / copy).string();
 }
 
 void Append(RecordingFiles from, RecordingFiles* to) {
@@ -49,6 +54,57 @@ void Append(RecordingFiles from, RecordingFiles* to) {
   move(from.imus, &to->imus);
   move(from.others, &to->others);
   move(from.unknown, &to->unknown);
+  move(from.copies, &to->copies);
+}
+
+/// What tells the text of one sensor from another's; two do not read the same in
+/// two thousand rows.
+struct Beginning {
+  std::string text;  ///< "" of what is no text
+  std::size_t size = 0;
+};
+
+Beginning BeginningOf(const std::string& path) {
+  constexpr int kLines = 2000;
+  try {
+    TextLines lines(path);
+    Beginning beginning = {"", lines.size_hint()};
+    std::string_view line;
+    for (int i = 0; i < kLines && lines.Next(&line); ++i) {
+      beginning.text.append(line).append("\n");
+    }
+    return beginning;
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+/// Of files that begin with the same lines the largest is kept, of equal ones the
+/// first.
+void DropCopies(const fs::path& folder, std::vector<RecognisedFile>* files,
+                std::vector<std::string>* copies) {
+  std::map<std::string, std::pair<std::string, std::size_t>> kept;  // by text
+  std::map<std::string, Beginning> beginnings;                      // by name
+  for (const RecognisedFile& file : *files) {
+    const fs::path path = folder / file.name;
+    if (file.streams.empty() || !IsFile(path)) continue;
+    Beginning beginning = BeginningOf(path.string());
+    if (beginning.text.empty()) continue;
+    const auto [at, is_new] =
+        kept.emplace(beginning.text, std::pair(file.name, beginning.size));
+    if (!is_new && beginning.size > at->second.second) {
+      at->second = {file.name, beginning.size};
+    }
+    beginnings.emplace(file.name, std::move(beginning));
+  }
+  std::erase_if(*files, [&](const RecognisedFile& file) {
+    const auto at = beginnings.find(file.name);
+    if (at == beginnings.end()) return false;
+    const std::string& other = kept.at(at->second.text).first;
+    if (other == file.name) return false;
+    copies->push_back(file.name + ", which begins with the rows of " + other);
+    return true;
+  });
 }
 
 /// Files that are known to hold no stream of a recording.
@@ -97,6 +153,7 @@ class Search {
         }
       }
     }
+    DropCopies(folder, &files, &result->rest.copies);
     JoinSplitFiles(folder, &files);
     for (RecognisedFile& file : files) {
       Take(std::move(file.streams), file.name, folder, result);

@@ -17,6 +17,9 @@ struct RecordingFiles {
   std::vector<FoundStream> imus;
   std::vector<FoundStream> others;
   std::vector<std::string> unknown;
+  /// "b.csv.gz, which begins with the rows of a.csv": not used, as fixes must not
+  /// count twice.
+  std::vector<std::string> copies;
 };
 
 /// The recordings below `folder`, as DraftRecordings says; `rest` takes the
