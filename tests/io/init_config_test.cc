@@ -1,5 +1,7 @@
 #include "io/config/init_config.h"
 
+#include <fmt/core.h>
+
 #include "io/read/units.h"
 #include "io/recording_folder.h"
 #include "measurements/sensor_kind.h"
@@ -51,17 +53,20 @@ constexpr const char* kFewImuRows =
 
 TEST_F(InitConfigTest, PositionsWithoutSigmasAreAidingUnlessNamedTruth) {
   Write("imu.csv", kFewImuRows);
-  const std::string fixes = "t[s],lat[deg],lon[deg],h[m]\n0,50,8,1\n1,50,8,1\n";
-  Write("a.csv", fixes);
-  Write("b.csv", fixes);
-  Write("refit.csv", fixes);  // no word of which is "ref"
+  const auto fixes = [](int height) {
+    return fmt::format("t[s],lat[deg],lon[deg],h[m]\n0,50,8,{0}\n1,50,8,{0}\n",
+                       height);
+  };
+  Write("a.csv", fixes(1));
+  Write("b.csv", fixes(2));
+  Write("refit.csv", fixes(3));  // no word of which is "ref"
   Write("config.yaml", InitConfig(folder_.string()));
   EXPECT_EQ(LoadError(), "");
   EXPECT_EQ(Load().streams.size(), 3u);
   EXPECT_TRUE(Load().truth.empty());
   for (const char* name : {"a_gt.csv", "GroundTruth.csv", "reference-1.csv"}) {
     SCOPED_TRACE(name);
-    Write(name, fixes);
+    Write(name, fixes(4));
     const std::string config = InitConfig(folder_.string());
     EXPECT_NE(config.find("truth:\n  file: " + std::string(name)),
               std::string::npos)

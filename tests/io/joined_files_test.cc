@@ -134,7 +134,9 @@ TEST_F(JoinedFilesTest, InitJoinsWhatGoesOn) {
       "t[s],lat[deg],lon[deg],h[m],sigma_n[m],sigma_e[m],sigma_d[m]\n";
   // Two receivers at a time are two streams.
   Write("gnss1.csv", titles + "0,50,8,100,1,1,1\n0.5,50,8,100,1,1,1\n");
-  Write("gnss2.csv", titles + "0,50,8,100,1,1,1\n0.5,50,8,100,1,1,1\n");
+  Write("gnss2.csv", titles + "0,50,8,102,1,1,1\n0.5,50,8,102,1,1,1\n");
+  // A copy of one is none.
+  WriteGzip("gnss3.csv.gz", titles + "0,50,8,102,1,1,1\n0.5,50,8,102,1,1,1\n");
   const auto drafts = DraftRecordings(folder_.string());
   ASSERT_EQ(drafts.size(), 1u);
   const std::string config = DraftText(drafts.front());
@@ -142,6 +144,10 @@ TEST_F(JoinedFilesTest, InitJoinsWhatGoesOn) {
                         "\"imu_10.csv.gz\"]  # parts of one stream: the same "
                         "columns, names that differ by a number, and stamps "
                         "that go on within 0.01 s"),
+            std::string::npos)
+      << config;
+  EXPECT_NE(config.find("# Not used: gnss3.csv.gz, which begins with the rows "
+                        "of gnss2.csv\n"),
             std::string::npos)
       << config;
   Write("config.yaml", config);
