@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "linear/panel.h"
 
@@ -19,78 +18,6 @@ int Even(int x) { return x + (x & 1); }
 void Reserve(Eigen::Index rows, RowMatrix* work) {
   if (work->rows() >= rows) return;
   work->conservativeResize(2 * rows, Eigen::NoChange);
-}
-
-/// `count` rows from `first`, `stride` apart.
-struct RowRange {
-  double* first = nullptr;
-  Eigen::Index stride = 0;
-  Eigen::Index count = 0;
-  double* row(Eigen::Index i) const { return first + i * stride; }
-};
-
-/// Norm of column `c` of a row and the rows below it.
-double ColumnNorm(const double* top, const RowRange& below, Eigen::Index c) {
-  double sum = top[c] * top[c];
-  for (Eigen::Index i = 0; i < below.count; ++i) {
-    sum += below.row(i)[c] * below.row(i)[c];
-  }
-  return std::sqrt(sum);
-}
-
-/// Rows of which a reflection changes `top`: addresses, and coefficients of its
-/// Householder vector, whose element of `top` is 1.
-struct Reflection {
-  double tau = 0.0;
-  std::vector<double*> rows;
-  std::vector<double> v;
-};
-
-/// top and the rows below minus tau (1; v) (1, v') times themselves, over a fixed
-/// number of columns, whose sum the compiler keeps in registers.
-template <int Columns>
-void ReflectColumns(double* top, const Reflection& reflection,
-                    Eigen::Index first) {
-  using Strip = Eigen::Array<double, Columns, 1>;
-  using Map = Eigen::Map<Strip>;
-  const std::size_t count = reflection.rows.size();
-  Strip w = Map(top + first);
-  for (std::size_t i = 0; i < count; ++i) {
-    w += reflection.v[i] * Map(reflection.rows[i] + first);
-  }
-  w *= reflection.tau;
-  Map(top + first) -= w;
-  for (std::size_t i = 0; i < count; ++i) {
-    Map(reflection.rows[i] + first) -= reflection.v[i] * w;
-  }
-}
-
-/// The Householder reflection of `top` and the rows below it that leaves, in
-/// column c of the given norm, nothing below `top`; over the columns [c, end).
-void Reflect(double* top, const RowRange& below, Eigen::Index c,
-             Eigen::Index end, double norm, Reflection* reflection) {
-  reflection->rows.clear();
-  reflection->v.clear();
-  for (Eigen::Index i = 0; i < below.count; ++i) {
-    if (below.row(i)[c] == 0.0) continue;
-    reflection->rows.push_back(below.row(i));
-    reflection->v.push_back(below.row(i)[c]);
-  }
-  if (reflection->rows.empty()) return;
-  const double beta = top[c] < 0.0 ? norm : -norm;
-  const double scale = 1.0 / (top[c] - beta);
-  reflection->tau = (beta - top[c]) / beta;
-  for (double& v : reflection->v) v *= scale;
-  for (double* row : reflection->rows) row[c] = 0.0;
-  top[c] = beta;
-  Eigen::Index first = c + 1;
-  for (; end - first >= 8; first += 8)
-    ReflectColumns<8>(top, *reflection, first);
-  if (end - first >= 4) {
-    ReflectColumns<4>(top, *reflection, first);
-    first += 4;
-  }
-  for (; first < end; ++first) ReflectColumns<1>(top, *reflection, first);
 }
 
 }  // namespace
@@ -165,58 +92,75 @@ void ArrowLeastSquares::CountNorms() {
                   link.middleCols(n_, m_).colwise().squaredNorm();
 }
 
+bool ArrowLeastSquares::IsFixed(Eigen::Index j, double left) {
+  const double fraction = left / std::sqrt(node_norm_(j));
+  if (fraction > tolerance_) return false;
+  deficient_.push_back(
+      {filled_, static_cast<int>(j), node_norm_(j) > 0.0 ? fraction : 0.0});
+  return true;
+}
+
+void ArrowLeastSquares::PassOn(Eigen::Index j, RowMatrix* to,
+                               Eigen::Index* used) {
+  to->row((*used)++) = node_work_.row(j);
+  node_work_.row(j).setZero();
+}
+
 void ArrowLeastSquares::EliminateNode() {
   CountNorms();
-  const bool last = filled_ + 1 == nodes_;
-  const Eigen::Index width = node_work_.cols();
-  const Eigen::Index alone = n_ + m_ + 1;
-  // Rows that an unknown which is held fixed has no use for go on below.
+  // Room for the rows of unknowns that are held fixed.
   Reserve(std::max<Eigen::Index>(node_used_, n_) + n_, &node_work_);
   Reserve(link_used_ + n_, &link_work_);
   while (node_used_ < n_) node_work_.row(node_used_++).setZero();
   node_work_.topRows(n_).rightCols(n_).setZero();
-  Reflection reflection;
-  const auto pass_on = [&](Eigen::Index j, RowMatrix* to, Eigen::Index* used) {
-    to->row((*used)++) = node_work_.row(j);
-    node_work_.row(j).setZero();
-  };
-  const auto fixed = [&](Eigen::Index j, double left) {
-    const double fraction = left / std::sqrt(node_norm_(j));
-    if (fraction > tolerance_) return false;
-    deficient_.push_back(
-        {filled_, static_cast<int>(j), node_norm_(j) > 0.0 ? fraction : 0.0});
-    return true;
-  };
+  TriangulariseNode();
+  GiveToBorder();
+  TakeLink();
+  Carry();
+}
+
+void ArrowLeastSquares::TriangulariseNode() {
+  const bool last = filled_ + 1 == nodes_;
+  const Eigen::Index width = node_work_.cols();
   for (Eigen::Index j = 0; j < n_; ++j) {
     double* top = node_work_.row(j).data();
     const RowRange below{top + width, width, node_used_ - j - 1};
     const double left = ColumnNorm(top, below, j);
-    if (last && fixed(j, left)) {
+    if (last && IsFixed(j, left)) {
       node_work_.block(j, j, node_used_ - j, 1).setZero();
-      pass_on(j, &node_work_, &node_used_);
+      PassOn(j, &node_work_, &node_used_);
       continue;
     }
-    Reflect(top, below, j, alone, left, &reflection);
+    householder_.Reflect(top, below, j, n_ + m_ + 1, left);
   }
+}
+
+void ArrowLeastSquares::GiveToBorder() {
   for (Eigen::Index j = 0; j < m_; ++j) {
     double* top = border_work_.row(j).data();
-    const RowRange below{node_work_.row(n_).data() + n_, width,
+    const RowRange below{node_work_.row(n_).data() + n_, node_work_.cols(),
                          node_used_ - n_};
-    Reflect(top, below, j, m_ + 1, ColumnNorm(top, below, j), &reflection);
+    householder_.Reflect(top, below, j, m_ + 1, ColumnNorm(top, below, j));
   }
+}
+
+void ArrowLeastSquares::TakeLink() {
+  const bool last = filled_ + 1 == nodes_;
+  const Eigen::Index width = node_work_.cols();
+  const Eigen::Index alone = n_ + m_ + 1;
   double* const inverse = inverse_diagonal_.data() + filled_ * n_;
   for (Eigen::Index j = 0; j < n_; ++j) {
     double* top = node_work_.row(j).data();
     const RowRange below{link_work_.data(), width, last ? 0 : link_used_};
     const double left = ColumnNorm(top, below, j);
-    if (!last && fixed(j, left)) {
+    if (!last && IsFixed(j, left)) {
       top[j] = 0.0;
       link_work_.col(j).head(link_used_).setZero();
-      pass_on(j, &link_work_, &link_used_);
+      PassOn(j, &link_work_, &link_used_);
       continue;
     }
     if (left == 0.0) continue;
-    Reflect(top, below, j, width, left, &reflection);
+    householder_.Reflect(top, below, j, width, left);
     inverse[j] = 1.0 / top[j];
     solution_(filled_ * n_ + j) = -top[n_ + m_];
     double* column = Panel(filled_) + j * height_;
@@ -224,7 +168,6 @@ void ArrowLeastSquares::EliminateNode() {
     std::copy(top + alone, top + width, column + node_rows_);
     std::copy(top + n_, top + n_ + m_, column + 2 * node_rows_);
   }
-  Carry();
 }
 
 void ArrowLeastSquares::Carry() {
@@ -243,7 +186,6 @@ void ArrowLeastSquares::EliminateBorder() {
   Reserve(2 * m_, &border_work_);
   Eigen::Index used = m_;
   double* const inverse = inverse_diagonal_.data() + nodes_ * n_;
-  Reflection reflection;
   for (Eigen::Index j = 0; j < m_; ++j) {
     double* top = border_work_.row(j).data();
     const RowRange below{border_work_.row(m_).data(), m_ + 1, used - m_};
@@ -258,7 +200,7 @@ void ArrowLeastSquares::EliminateBorder() {
       border_work_.block(m_, j, used - m_, 1).setZero();
       continue;
     }
-    Reflect(top, below, j, m_ + 1, left, &reflection);
+    householder_.Reflect(top, below, j, m_ + 1, left);
     inverse[j] = 1.0 / top[j];
     solution_(nodes_ * n_ + j) = -top[m_];
     std::copy(top + j, top + m_, border_.data() + j * border_rows_ + j);

@@ -5,6 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "linear/householder.h"
+
 namespace hindsight {
 
 /// An unknown that the rows do not determine: after elimination of the unknowns
@@ -119,7 +121,16 @@ class ArrowLeastSquares {
   void Require(Phase phase, const char* call) const;
   Rows Add(int k, int count, RowMatrix* rows, Eigen::Index* used);
   void CountNorms();
+  /// Whether unknown j of the node, of which that norm is left, is held fixed.
+  bool IsFixed(Eigen::Index j, double left);
+  /// Row j of such an unknown may still tell others: puts it behind `to`.
+  void PassOn(Eigen::Index j, RowMatrix* to, Eigen::Index* used);
   void EliminateNode();
+  // Its steps: the rows that see the node alone, what is left of them, which
+  // sees the border alone, and the rows that see the next node too.
+  void TriangulariseNode();
+  void GiveToBorder();
+  void TakeLink();
   void EliminateBorder();
   void Carry();
 
@@ -155,6 +166,7 @@ class ArrowLeastSquares {
   // Reciprocals of R's diagonal, 0 for an unknown held fixed.
   Eigen::VectorXd inverse_diagonal_;
   std::vector<Deficiency> deficient_;
+  Householder householder_;
 };
 
 }  // namespace hindsight
