@@ -7,6 +7,16 @@
 #include <utility>
 
 namespace hindsight {
+namespace {
+
+/// The usual sample interval, of simulated streams their mean one [s].
+double SampleInterval(const ImuStream& imu) {
+  if (imu.nominal_dt > 0.0 || imu.empty()) return imu.nominal_dt;
+  return (imu.t_end() - imu.t_begin()) /
+         static_cast<double>(imu.samples.size() - 1);
+}
+
+}  // namespace
 
 Timeline::Timeline(std::vector<Node> nodes,
                    std::vector<Measurement> measurements,
@@ -15,7 +25,7 @@ Timeline::Timeline(std::vector<Node> nodes,
     : nodes_(std::move(nodes)),
       measurements_(std::move(measurements)),
       sensors_(std::move(sensors)),
-      sample_interval_(imu.empty() ? 0.0 : MedianInterval(imu)),
+      sample_interval_(SampleInterval(imu)),
       integrator_(imu, with_scale_jacobians),
       summaries_(nodes_.empty() ? 0 : nodes_.size() - 1) {
   for (Node& node : nodes_) node.kinematics = integrator_.ReadingAt(node.t);
