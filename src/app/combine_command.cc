@@ -5,6 +5,7 @@
 #include <iostream>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "app/command.h"
@@ -113,20 +114,26 @@ std::string NotCombined(const std::vector<RecordedConstants>& all) {
                      fmt::join(names, ", "));
 }
 
-/// A recording counts once: its errors are the same in every result of it.
-void RefuseTheSameRecording(const std::vector<RecordedConstants>& all) {
-  std::map<std::string, const RecordedConstants*> seen;  // by SHA-256
-  for (const RecordedConstants& one : all) {
-    for (const RecordedFile& file : one.files) {
-      const auto [at, is_new] = seen.emplace(file.sha256, &one);
-      if (is_new || at->second == &one) continue;
-      throw InputError(
-          SummaryOf(one.source).string(), 0,
-          fmt::format("is of the same recording as {}: both read {}; expected "
-                      "results of different recordings",
-                      at->second->source, file.path));
+/// The files of all results. A recording counts once, as its errors are the same
+/// in every result of it. Throws InputError.
+std::vector<FileDigest> FilesOfDifferentRecordings(
+    const std::vector<std::string>& results) {
+  std::vector<FileDigest> all;
+  std::map<std::string, std::string> seen;  // results by SHA-256
+  for (const std::string& result : results) {
+    for (FileDigest& file : RecordedFiles(result)) {
+      const auto [at, is_new] = seen.emplace(file.sha256, result);
+      if (!is_new && at->second != result) {
+        throw InputError(
+            SummaryOf(result).string(), 0,
+            fmt::format("is of the same recording as {}: both read {}; "
+                        "expected results of different recordings",
+                        at->second, file.path));
+      }
+      all.push_back(std::move(file));
     }
   }
+  return all;
 }
 
 int Combine(const std::vector<std::string>& results, ResultFolder* folder) {
@@ -134,17 +141,15 @@ int Combine(const std::vector<std::string>& results, ResultFolder* folder) {
   for (const std::string& result : results) {
     all.push_back(ReadConstants(result, ""));
   }
-  RefuseTheSameRecording(all);
+  std::vector<FileDigest> files = FilesOfDifferentRecordings(results);
   const CombinedConstants combined = CombineConstants(all);
   const MethodSummary method = Summarize(combined);
   RunSummary summary;
   summary.program = kProgram;
   summary.dataset = fmt::format("constants of {} results", results.size());
   summary.complete = true;
+  summary.inputs = std::move(files);
   for (const RecordedConstants& one : all) {
-    for (const RecordedFile& file : one.files) {
-      summary.inputs.push_back({file.path, file.bytes, file.sha256});
-    }
     if (one.grade == Grade::kUsable) continue;
     summary.warnings.push_back(one.source + " is " + GradeName(one.grade));
   }

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,13 +11,6 @@
 #include "state/evidence.h"
 
 namespace hindsight {
-
-/// A file that a result was made of.
-struct RecordedFile {
-  std::string path;
-  std::uint64_t bytes = 0;
-  std::string sha256;
-};
 
 /// The constants of one result, as an estimator gave them, and what it started
 /// from. SI units; the components of a mounting are the rotation vector m of
@@ -40,8 +32,6 @@ struct RecordedConstants {
   std::vector<std::string> of_recording;
   /// Nominal mounting of every sensor whose mounting was estimated.
   std::map<std::string, Eigen::Quaterniond> q_sb_nominal;
-  /// Of the recording, configurations left out.
-  std::vector<RecordedFile> files;
 
   /// Leaves out one of them, or all components of one. Returns false if there
   /// is none of the name.

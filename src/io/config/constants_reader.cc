@@ -150,22 +150,6 @@ std::vector<std::string> NamesIn(const Json& summary, const char* key) {
   return names;
 }
 
-/// What the result was made of but for its configurations, which recordings may
-/// share.
-std::vector<RecordedFile> FilesIn(const Json& summary) {
-  std::vector<RecordedFile> files;
-  if (!summary.contains("inputs")) return files;
-  for (const Json& input : summary["inputs"]) {
-    if (!input.is_object()) continue;
-    RecordedFile file = {input.value("path", std::string()),
-                         input.value("bytes", std::uint64_t{0}),
-                         input.value("sha256", std::string())};
-    if (file.path.ends_with(".yaml") || file.sha256.empty()) continue;
-    files.push_back(std::move(file));
-  }
-  return files;
-}
-
 }  // namespace
 
 std::filesystem::path SummaryOf(const std::filesystem::path& path) {
@@ -197,7 +181,6 @@ RecordedConstants ReadConstants(const std::filesystem::path& path,
       Figures(file, name, methods[name])
           .Read(summary.value("constants_from", std::string()));
   constants.source = path.string();
-  constants.files = FilesIn(summary);
   for (const char* bias : {"gyro_bias", "accel_bias"}) constants.Remove(bias);
   for (const std::string& own : NamesIn(summary, "constants_of_recording")) {
     if (constants.Remove(own)) constants.of_recording.push_back(own);
@@ -206,6 +189,22 @@ RecordedConstants ReadConstants(const std::filesystem::path& path,
     throw InputError(file, 0, name + ": has no constants of sensors");
   }
   return constants;
+}
+
+std::vector<FileDigest> RecordedFiles(const std::filesystem::path& path) {
+  const Json summary =
+      Json::parse(ReadTextFile(SummaryOf(path).string()), nullptr, false);
+  std::vector<FileDigest> files;
+  if (!summary.is_object() || !summary.contains("inputs")) return files;
+  for (const Json& input : summary["inputs"]) {
+    if (!input.is_object()) continue;
+    FileDigest file = {input.value("path", std::string()),
+                       input.value("bytes", std::uint64_t{0}),
+                       input.value("sha256", std::string())};
+    if (file.path.ends_with(".yaml") || file.sha256.empty()) continue;
+    files.push_back(std::move(file));
+  }
+  return files;
 }
 
 }  // namespace hindsight

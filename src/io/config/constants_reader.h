@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "dataset/recorded_constants.h"
+#include "io/read/file_digest.h"
 
 namespace hindsight {
 
@@ -18,6 +20,11 @@ std::filesystem::path SummaryOf(const std::filesystem::path& path);
 /// figures, or they are of a result that is not usable.
 RecordedConstants ReadConstants(const std::filesystem::path& path,
                                 const std::string& method);
+
+/// What a result was made of, as its summary.json says: the files of its
+/// recording, or recordings. Configurations, which recordings may share, are left
+/// out. Throws InputError if it cannot be read.
+std::vector<FileDigest> RecordedFiles(const std::filesystem::path& path);
 
 }  // namespace hindsight
 
