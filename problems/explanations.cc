@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/chi_square.h"
+#include "base/parallel.h"
 #include "filters/shift_response.h"
 #include "problems/deviation_columns.h"
 #include "problems/explanation_words.h"
@@ -155,17 +156,26 @@ class Varying {
     }
   }
 
-  void Offer(const ShiftColumns& columns, const LinearTape& tape,
-             std::span<const std::size_t> onsets,
-             const std::vector<MeanShift>& tried, double false_alarms,
-             const EpochCallback& callback,
-             LikelyDeviations* candidates) const {
+  /// Of each sensor that has any.
+  using Energies = std::map<int, GroupEnergy>;
+
+  Energies EnergiesOn(const LinearTape& tape, const ShiftColumns& columns,
+                      std::span<const std::size_t> onsets) const {
+    Energies energies;
+    for (const auto& [group, wanted] : columns_) {
+      energies.emplace(
+          group, EnergiesOf(group, wanted, onsets, tape, columns, nullptr));
+    }
+    return energies;
+  }
+
+  void Offer(const Energies& energies, const std::vector<MeanShift>& tried,
+             double false_alarms, LikelyDeviations* candidates) const {
     const double by_column = 0.5 * false_alarms / static_cast<double>(count_);
     const double together =
         0.5 * false_alarms / static_cast<double>(columns_.size());
     for (const auto& [group, wanted] : columns_) {
-      const GroupEnergy energy =
-          EnergiesOf(group, wanted, onsets, tape, columns, callback);
+      const GroupEnergy& energy = energies.at(group);
       // In place of a normal variable and its limit.
       LikelyDeviation likeliest;
       for (std::size_t w = 0; w < wanted.size(); ++w) {
@@ -233,6 +243,9 @@ ExplanationSearch::ExplanationSearch(const Problem& problem,
   const DeviationColumns& own = found_->own;
   const ShiftColumns columns = own.Columns();
   const std::size_t first = found_->onsets.front();
+  const Varying varying(problem, own);
+  auto energies = InBackground(
+      [&] { return varying.EnergiesOn(tape, columns, found_->onsets); });
   found_->scores = ScoreShifts(tape, columns, found_->onsets, callback);
   std::vector<MeanShift>& tried = found_->scores.shifts;
   std::erase_if(tried, [&](const MeanShift& shift) {
@@ -249,9 +262,7 @@ ExplanationSearch::ExplanationSearch(const Problem& problem,
   for (const MeanShift& shift : tried) {
     candidates.Offer({shift, shift.z(), limits[shift.onset == first ? 0 : 1]});
   }
-  Varying(problem, own)
-      .Offer(columns, tape, found_->onsets, tried, false_alarms / 3.0, callback,
-             &candidates);
+  varying.Offer(energies.get(), tried, false_alarms / 3.0, &candidates);
   found_->best = candidates.Sorted();
 }
 

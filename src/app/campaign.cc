@@ -7,6 +7,7 @@
 
 #include "app/build_id.h"
 #include "app/error_line.h"
+#include "base/parallel.h"
 #include "io/write/output_error.h"
 #include "io/write/result_manifest.h"
 #include "io/write/unpublished.h"
@@ -18,13 +19,14 @@ namespace {
 constexpr std::chrono::seconds kLookAgain(1);  // at what others work on
 
 std::vector<std::string> RunWords(const CampaignItem& item,
-                                  const ItemPlace& place) {
+                                  const ItemPlace& place, int threads) {
   std::vector<std::string> words = {"run",
                                     item.config.string(),
                                     "--out=" + place.results.string(),
                                     "--force",
                                     "--clean",
-                                    "--progress=none"};
+                                    "--progress=none",
+                                    "--threads=" + std::to_string(threads)};
   for (const auto& [name, value] : item.flags) {
     words.push_back("--" + name + "=" + value);
   }
@@ -188,8 +190,9 @@ void Campaign::Do(std::size_t i, const ItemPlace& place, Claim* claim) {
 /// Whether the item has ended; false if it was stopped, or is another's by now.
 bool Campaign::Run(std::size_t i, const ItemPlace& place, const Claim& claim,
                    ItemRecord* record) {
-  const ChildEnd end =
-      children_.Run(RunWords(items_[i], place), place.log, options_.limits);
+  const int threads = std::max(1, ThreadCount() / options_.workers);
+  const ChildEnd end = children_.Run(RunWords(items_[i], place, threads),
+                                     place.log, options_.limits);
   if (children_.stopped() || !claim.Beat()) return false;
   record->seconds = end.seconds;
   record->megabytes = end.megabytes;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <thread>
 
 #include "app/campaign.h"
 #include "app/campaign_slurm.h"
@@ -13,6 +12,7 @@
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "base/error.h"
+#include "base/parallel.h"
 #include "io/read/paths.h"
 #include "io/read/text_file.h"
 #include "io/write/atomic_file.h"
@@ -214,17 +214,15 @@ int Report(const std::vector<CampaignItem>& items, const fs::path& folder) {
 
 void WorkHere(const std::vector<CampaignItem>& items, const fs::path& folder,
               Progress* progress) {
-  const int cores =
-      static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   Campaign campaign(
-      items,
-      {.folder = folder,
-       .workers = FLAGS_workers > 0 ? static_cast<int>(FLAGS_workers) : cores,
-       .limits = {FLAGS_time_limit, FLAGS_memory_limit},
-       .stale_after = FLAGS_stale_after,
-       .progress = [progress](double done) {
-         progress->Update("items", done);
-       }});
+      items, {.folder = folder,
+              .workers = FLAGS_workers > 0 ? static_cast<int>(FLAGS_workers)
+                                           : ThreadCount(),
+              .limits = {FLAGS_time_limit, FLAGS_memory_limit},
+              .stale_after = FLAGS_stale_after,
+              .progress = [progress](double done) {
+                progress->Update("items", done);
+              }});
   const StopWatch watch([&campaign]() -> std::string {
     campaign.Stop();
     return "interrupted; what was under way is left open, the same call goes "

@@ -8,6 +8,7 @@
 #include "app/list_flags.h"
 #include "base/error.h"
 #include "base/nearest_word.h"
+#include "base/parallel.h"
 
 DEFINE_double(alpha, 0.03, "");
 DEFINE_string(alpha_blocks, "velocity_attitude", "");
@@ -203,6 +204,15 @@ void GiveFlag(const std::string& name, const std::string& value) {
 
 bool IsGiven(const std::string& name) {
   return !gflags::GetCommandLineFlagInfoOrDie(name.c_str()).is_default;
+}
+
+int ReadThreads() {
+  constexpr std::uint64_t kMostThreads = 1024;
+  if (FLAGS_threads > kMostThreads) {
+    throw UsageError("--threads=" + std::to_string(FLAGS_threads) +
+                     ": expected 0 to " + std::to_string(kMostThreads));
+  }
+  return FLAGS_threads > 0 ? static_cast<int>(FLAGS_threads) : ThreadCount();
 }
 
 std::vector<std::string> Split(const std::string& text, char separator) {

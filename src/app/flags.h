@@ -91,6 +91,10 @@ void GiveFlag(const std::string& name, const std::string& value);
 /// True if the flag `name` was on the command line.
 bool IsGiven(const std::string& name);
 
+/// What --threads asks for; 0 as many as the process has cores. Throws
+/// UsageError for more than 1024.
+int ReadThreads();
+
 /// Flags that every sub-command accepts.
 const std::vector<FlagUse>& CommonFlags();
 

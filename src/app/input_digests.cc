@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/parallel.h"
+
 namespace hindsight {
 namespace {
 
@@ -21,8 +23,7 @@ std::vector<FileDigest> DigestsOf(
 }  // namespace
 
 InputDigests::InputDigests(std::vector<std::filesystem::path> inputs)
-    : digests_(std::async(std::launch::async, [inputs = std::move(inputs)] {
-        return DigestsOf(inputs);
-      })) {}
+    : digests_(InBackground(
+          [inputs = std::move(inputs)] { return DigestsOf(inputs); })) {}
 
 }  // namespace hindsight

@@ -3,7 +3,6 @@
 #include <iostream>
 #include <limits>
 #include <optional>
-#include <thread>
 
 #include "app/command.h"
 #include "app/flags.h"
@@ -13,6 +12,7 @@
 #include "app/studies.h"
 #include "app/study_report.h"
 #include "app/study_shard.h"
+#include "base/parallel.h"
 #include "io/config/scenario_config.h"
 #include "io/read/paths.h"
 
@@ -147,11 +147,6 @@ MonteCarloOptions ReadOptions(std::uint64_t default_runs) {
     throw UsageError("--runs=" + std::to_string(runs) +
                      ": expected 2 to 1000000");
   }
-  constexpr std::uint64_t kMostThreads = 1024;
-  if (FLAGS_threads > kMostThreads) {
-    throw UsageError("--threads=" + std::to_string(FLAGS_threads) +
-                     ": expected 0 to 1024");
-  }
   constexpr std::uint64_t kLastSeed = std::numeric_limits<std::uint64_t>::max();
   if (FLAGS_seed > kLastSeed - (runs - 1)) {
     throw UsageError("--seed=" + std::to_string(FLAGS_seed) + ": the last of " +
@@ -161,10 +156,9 @@ MonteCarloOptions ReadOptions(std::uint64_t default_runs) {
   MonteCarloOptions options;
   options.runs = static_cast<int>(runs);
   options.first_seed = FLAGS_seed;
-  options.threads =
-      FLAGS_threads > 0
-          ? static_cast<int>(FLAGS_threads)
-          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  // Runs go on side by side, so that there is nothing to share within one.
+  options.threads = ReadThreads();
+  SetThreadCount(1);
   return options;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <future>
 #include <iostream>
 
 #include "alignment/mounting_search.h"
@@ -16,6 +17,7 @@
 #include "app/run_report.h"
 #include "app/terminal.h"
 #include "base/error.h"
+#include "base/parallel.h"
 #include "dataset/checks.h"
 #include "dataset/injection.h"
 #include "dataset/known_constants.h"
@@ -151,9 +153,16 @@ Reconstruction Prepare(const std::string& config, const Dataset& dataset,
   }
 }
 
+/// What the recording shows by itself.
+struct Findings {
+  CheckReport check;
+  std::optional<ImuAllan> allan;  ///< of the longest rest
+};
+
 /// What the summary says of the recording.
-void NoteRecording(const Dataset& dataset, const CheckReport& check,
+void NoteRecording(const Dataset& dataset, Findings findings,
                    RunSummary* summary) {
+  const CheckReport& check = findings.check;
   summary->warnings = check.warnings;
   summary->warnings.insert(summary->warnings.end(),
                            check.truth_warnings.begin(),
@@ -170,12 +179,13 @@ void NoteRecording(const Dataset& dataset, const CheckReport& check,
   for (const TimeInterval& rest : check.imu.rest.at_rest) {
     summary->rests.push_back({"", rest.begin, rest.end});
   }
-  summary->allan = AllanOfLongestRest(dataset, check.imu.rest);
+  summary->allan = std::move(findings.allan);
 }
 
 /// What is known before anything is solved: notes, start, what the data cannot
 /// tell. Returns the latter.
 std::vector<UnobservedSpan> DescribeBeforehand(const Dataset& dataset,
+                                               std::future<Findings> findings,
                                                Reconstruction* reconstruction,
                                                Progress* progress,
                                                RunSummary* summary) {
@@ -187,13 +197,14 @@ std::vector<UnobservedSpan> DescribeBeforehand(const Dataset& dataset,
   }
   summary->unobserved = unobserved;
   progress->Clear();
-  const CheckReport check = CheckDataset(dataset);
-  NoteRecording(dataset, check, summary);
-  for (const auto* warnings : {&check.warnings, &check.truth_warnings}) {
+  Findings found = findings.get();
+  for (const auto* warnings :
+       {&found.check.warnings, &found.check.truth_warnings}) {
     for (const std::string& warning : *warnings) {
       std::cout << "warning: " << warning << "\n";
     }
   }
+  NoteRecording(dataset, std::move(found), summary);
   std::cout << DescribeNotes(dataset);
   if (const StartReport* start = reconstruction->start()) {
     std::cout << DescribeStart(*start);
@@ -273,6 +284,7 @@ std::vector<Progress::Step> PlanOf(const RunRequest& request) {
 }
 
 int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
+  SetThreadCount(request.threads);
   Progress progress(request.progress);
   progress.Plan(PlanOf(request));
   progress.Update("reading", 0.0);
@@ -281,6 +293,11 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   const Dataset dataset = Load(request, &resolved);
 
   progress.Begin("start");
+  auto findings = InBackground([&dataset] {
+    CheckReport check = CheckDataset(dataset);
+    auto allan = AllanOfLongestRest(dataset, check.imu.rest);
+    return Findings{std::move(check), std::move(allan)};
+  });
   Reconstruction reconstruction =
       Prepare(request.config, dataset, Options(request, &progress));
   if (const StartReport* start = reconstruction.start()) {
@@ -301,24 +318,34 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
       .policies = dataset.policies,
       .best = "",
       .methods = {}};
-  const std::vector<UnobservedSpan> unobserved =
-      DescribeBeforehand(dataset, &reconstruction, &progress, &summary);
+  const std::vector<UnobservedSpan> unobserved = DescribeBeforehand(
+      dataset, std::move(findings), &reconstruction, &progress, &summary);
   std::vector<Solution> solutions;
+  solutions.reserve(request.methods.size());
+  // The files of a method are written while the next one is solved; only the
+  // writer touches the summary and its solution meanwhile.
+  std::future<void> writing;
   for (const std::string& method : request.methods) {
     progress.Begin(method);
     solutions.push_back(RunMethod(&reconstruction, method));
-    DoubtUnconfirmed(unconfirmed, &solutions.back());
-    LogDownWeighted(dataset, solutions.back());
+    Solution* solution = &solutions.back();
+    DoubtUnconfirmed(unconfirmed, solution);
+    LogDownWeighted(dataset, *solution);
     const double peak_rss_mb = PeakRssMb();
-    const MethodTables tables =
-        SampleMethod(request, dataset, reconstruction, solutions.back());
-    summary.methods.push_back(Summarize(dataset, solutions.back(), tables));
-    summary.methods.back().peak_rss_mb = peak_rss_mb;
-    WriteMethodFiles(request, dataset, solutions.back(), tables, folder);
-    const bool has_trajectory = !solutions.back().states.empty();
-    ForgetTrajectory(&solutions.back());
-    if (has_trajectory) folder->Keep(kSummaryName, SummaryText(summary));
+    MethodTables tables =
+        SampleMethod(request, dataset, reconstruction, *solution);
+    if (writing.valid()) writing.get();
+    writing =
+        InBackground([&, solution, peak_rss_mb, tables = std::move(tables)] {
+          summary.methods.push_back(Summarize(dataset, *solution, tables));
+          summary.methods.back().peak_rss_mb = peak_rss_mb;
+          WriteMethodFiles(request, dataset, *solution, tables, folder);
+          const bool has_trajectory = !solution->states.empty();
+          ForgetTrajectory(solution);
+          if (has_trajectory) folder->Keep(kSummaryName, SummaryText(summary));
+        });
   }
+  writing.get();
   CheckAnyTrajectory(solutions);
   progress.Begin("writing");
   ShareDisagreements(&solutions);

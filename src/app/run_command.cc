@@ -182,6 +182,9 @@ Command RunCommand() {
            {"report", "",
             "write report.html as well, one page that shows the results\n"
             "(see 'hindsight report')"},
+           {"threads", "N",
+            "that work at once, 0: as many as there are cores; the\n"
+            "results do not depend on it (0)"},
            {"progress", "MODE",
             "on stderr: auto (a line on a terminal), json (an object\n"
             "a line) or none (auto)"},

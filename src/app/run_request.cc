@@ -239,6 +239,7 @@ RunRequest ReadRunRequest(const std::string& config) {
   request.error = errors.front();
   request.h_infinity = ReadCovariance(RiccatiRule::kHInfinity);
   request.modified_h_infinity = ReadCovariance(RiccatiRule::kModifiedHInfinity);
+  request.threads = ReadThreads();
   request.report = FLAGS_report;
   request.progress = FLAGS_quiet && !IsGiven("progress")
                          ? Progress::Mode::kNone

@@ -47,6 +47,7 @@ struct RunRequest {
   std::uint64_t seed = 1;             ///< of the injections
   std::set<std::string> exports;      ///< of "tum", "kml", "nav"
   bool report = false;                ///< make the page report.html as well
+  int threads = 1;                    ///< that work at once
   Progress::Mode progress = Progress::Mode::kNone;
 };
 

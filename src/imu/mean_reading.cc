@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "base/parallel.h"
+
 namespace hindsight {
 namespace {
 
@@ -43,8 +45,9 @@ Kinematics MeanReading(const ImuStream& imu, double begin, double end) {
 std::vector<Kinematics> MeanMotion(
     const ImuStream& imu, const std::vector<double>& times,
     const std::vector<ImuCalibration>& calibrations) {
-  std::vector<Kinematics> motion;
-  for (std::size_t k = 0; k < times.size(); ++k) {
+  constexpr std::size_t kTimesOfThread = 256;
+  std::vector<Kinematics> motion(times.size());
+  const auto read = [&](std::size_t k) {
     const double before = times[k == 0 ? k : k - 1];
     const double after = times[std::min(k + 1, times.size() - 1)];
     Kinematics mean =
@@ -54,8 +57,12 @@ std::vector<Kinematics> MeanMotion(
         (mean.w_ib_b - c.b_g).cwiseQuotient(Eigen::Vector3d::Ones() + c.s_g);
     mean.f_b =
         (mean.f_b - c.b_a).cwiseQuotient(Eigen::Vector3d::Ones() + c.s_a);
-    motion.push_back(mean);
-  }
+    return mean;
+  };
+  ForRanges(times.size(), kTimesOfThread,
+            [&](std::size_t begin, std::size_t end) {
+              for (std::size_t k = begin; k < end; ++k) motion[k] = read(k);
+            });
   return motion;
 }
 

@@ -6,6 +6,7 @@
 #include "io/read/file_formats.h"
 #include "io/read/nmea_sentence.h"
 #include "io/read/open_text.h"
+#include "io/read/text_tokens.h"
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "io/read/text_table.h"
+#include "io/read/text_tokens.h"
 #include "io/read/units.h"
 
 namespace hindsight {

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "io/read/text_layout.h"
+#include "io/read/text_tokens.h"
 
 namespace hindsight {
 namespace {

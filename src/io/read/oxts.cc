@@ -12,7 +12,7 @@
 #include "io/read/open_text.h"
 #include "io/read/paths.h"
 #include "io/read/text_lines.h"
-#include "io/read/text_table.h"
+#include "io/read/text_tokens.h"
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {

@@ -8,6 +8,7 @@
 #include "io/read/file_formats.h"
 #include "io/read/paths.h"
 #include "io/read/text_lines.h"
+#include "io/read/text_tokens.h"
 
 namespace hindsight {
 namespace {

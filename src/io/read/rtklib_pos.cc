@@ -5,6 +5,7 @@
 #include "base/units.h"
 #include "io/read/file_formats.h"
 #include "io/read/open_text.h"
+#include "io/read/text_tokens.h"
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {

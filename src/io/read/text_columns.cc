@@ -6,6 +6,7 @@
 #include "io/read/file_columns.h"
 #include "io/read/file_formats.h"
 #include "io/read/text_layout.h"
+#include "io/read/text_tokens.h"
 #include "io/read/units.h"
 
 namespace hindsight {

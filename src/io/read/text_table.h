@@ -1,58 +1,22 @@
 #ifndef HINDSIGHT_IO_READ_TEXT_TABLE_H_
 #define HINDSIGHT_IO_READ_TEXT_TABLE_H_
 
-#include <cstdint>
-#include <limits>
+#include <cstddef>
+#include <exception>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "io/read/row_source.h"
+#include "io/read/table_layout.h"
 #include "io/read/text_lines.h"
-#include "io/read/time_scale.h"
+#include "io/read/text_row_parser.h"
 
 namespace hindsight {
 
-/// Which column of a table holds what. Columns count from 0; -1 is none.
-struct TableLayout {
-  struct Field {
-    std::string name;     ///< of the quantity, for messages
-    int column = -1;      ///< -1: the table does not have it
-    double factor = 1.0;  ///< to SI, sign included
-  };
-  std::vector<Field> fields;
-
-  /// How the stamp is written.
-  enum class Clock {
-    kNone,     ///< there is no stamp: Stamp{}
-    kSeconds,  ///< time_column, in 1/ticks_per_second
-    kWeek,     ///< GPS week in time_column, seconds of week after it
-    kDate,     ///< yyyy/mm/dd in time_column, hh:mm:ss.sss in another, GPST
-    kDateUtc,  ///< the same in UTC
-    kIso,      ///< ISO 8601 in time_column, GPST
-    kIsoUtc,   ///< the same in UTC
-  };
-  Clock clock = Clock::kSeconds;
-  int time_column = -1;
-  int clock_column = -1;  ///< of dates: hh:mm:ss.sss; -1: right of the date
-  std::int64_t ticks_per_second = 1;
-
-  char delimiter = ',';         ///< ' ': any run of blanks
-  bool comma_is_blank = false;  ///< with ' ': commas separate too
-  /// Columns each row must have; 0: as many as the first row.
-  int column_count = 0;
-};
-
-/// Columns of the line, and the delimiter that would split it: ',' ';' or
-/// blanks.
-char GuessDelimiter(std::string_view line);
-std::vector<std::string_view> SplitLine(std::string_view line, char delimiter,
-                                        bool comma_is_blank = false);
-
-/// True for a line that is empty or starts with '#' or '%'.
-bool IsComment(std::string_view line);
-
-/// Rows of numbers out of a text file, checked as they are read.
+/// Rows of numbers out of a text file, checked as they are read. Lines are read
+/// ahead, some thousands at once, and parsed by several threads; rows, and what
+/// is wrong with them, come in the order of the file nevertheless.
 class TextTable final : public RowSource {
  public:
   struct Options {
@@ -75,33 +39,50 @@ class TextTable final : public RowSource {
   /// all lines before.
   bool Next() override;
   bool Has(std::size_t field) const override {
-    return layout_.fields[field].column >= 0;
+    return parser_.layout().fields[field].column >= 0;
   }
   const std::string& path() const override { return lines_->path(); }
-  int Columns() const override { return layout_.column_count; }
+  int Columns() const override { return parser_.layout().column_count; }
   /// Lines dropped under allow_truncated_tail and drop_text.
   std::vector<LeftOut> left_out() const override;
   std::size_t RowsHint() const override;
 
  private:
-  /// The next line that is no comment; false at the end.
-  bool NextLine(std::string_view* line);
-  bool Parse(std::string_view line, std::string* problem);
-  bool ParseTime(const std::vector<std::string_view>& time_tokens,
-                 std::string* problem);
+  /// A row that was read ahead, as the parser left it.
+  struct Ahead {
+    std::size_t begin = 0;  ///< of the line, in texts_
+    std::size_t length = 0;
+    long number = 0;
+    bool terminated = true;
+    Stamp stamp;
+    int columns = 0;
+    std::string problem;  ///< empty: the row is good
+  };
+
+  /// Reads lines and parses them at once; false at the end of the file.
+  bool ReadAhead();
+  /// Takes the row that was read ahead into the current one.
+  void Take(const Ahead& row, std::size_t index);
+  std::string_view LineOf(const Ahead& row) const {
+    return std::string_view(texts_).substr(row.begin, row.length);
+  }
   /// False if the line may have been cut off inside its last number.
-  bool IsLastValueWhole(std::string_view line, std::string* problem);
-  std::string ColumnName(int column) const;
+  bool IsLastValueWhole(const Ahead& row, std::string* problem);
 
   TextLines* lines_;
-  TableLayout layout_;
+  TextRowParser parser_;
   Options options_;
   std::string first_row_;
-  std::vector<char> wanted_;  ///< per column: 0 skip, 1 number, 2 part of time
-  std::vector<double> raw_;
-  std::vector<std::string_view> time_tokens_;
+  std::string texts_;  ///< lines that were read ahead
+  std::vector<Ahead> ahead_;
+  std::vector<double> ahead_values_;  ///< as many as fields, a row
+  std::size_t taken_ = 0;             ///< of ahead_
+  std::size_t batch_ = 1;             ///< lines to read ahead next time
+  /// What reading ahead ran into after the lines of ahead_.
+  std::exception_ptr trouble_;
+  bool terminated_ = true;  ///< the line of the current row
   long truncated_ = 0;
-  long texts_ = 0;
+  long texts_dropped_ = 0;
   std::size_t first_length_ = 0;
   static constexpr std::size_t kNoLength = static_cast<std::size_t>(-1);
   std::size_t shortest_last_value_ = kNoLength;

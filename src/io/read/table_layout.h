@@ -1,0 +1,42 @@
+#ifndef HINDSIGHT_IO_READ_TABLE_LAYOUT_H_
+#define HINDSIGHT_IO_READ_TABLE_LAYOUT_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hindsight {
+
+/// Which column of a table holds what. Columns count from 0; -1 is none.
+struct TableLayout {
+  struct Field {
+    std::string name;     ///< of the quantity, for messages
+    int column = -1;      ///< -1: the table does not have it
+    double factor = 1.0;  ///< to SI, sign included
+  };
+  std::vector<Field> fields;
+
+  /// How the stamp is written.
+  enum class Clock {
+    kNone,     ///< there is no stamp: Stamp{}
+    kSeconds,  ///< time_column, in 1/ticks_per_second
+    kWeek,     ///< GPS week in time_column, seconds of week after it
+    kDate,     ///< yyyy/mm/dd in time_column, hh:mm:ss.sss in another, GPST
+    kDateUtc,  ///< the same in UTC
+    kIso,      ///< ISO 8601 in time_column, GPST
+    kIsoUtc,   ///< the same in UTC
+  };
+  Clock clock = Clock::kSeconds;
+  int time_column = -1;
+  int clock_column = -1;  ///< of dates: hh:mm:ss.sss; -1: right of the date
+  std::int64_t ticks_per_second = 1;
+
+  char delimiter = ',';         ///< ' ': any run of blanks
+  bool comma_is_blank = false;  ///< with ' ': commas separate too
+  /// Columns each row must have; 0: as many as the first row.
+  int column_count = 0;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_READ_TABLE_LAYOUT_H_

@@ -1,0 +1,166 @@
+#include "io/read/text_row_parser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "io/read/text_tokens.h"
+#include "io/read/units.h"
+
+namespace hindsight {
+namespace {
+
+constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
+
+bool IsAbsent(std::string_view token) {
+  return token.empty() || token == "nan" || token == "NaN" || token == "NAN" ||
+         token == "-nan";
+}
+
+std::string Plural(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " column" : " columns");
+}
+
+int TimeColumns(TableLayout::Clock clock) {
+  switch (clock) {
+    case TableLayout::Clock::kNone:
+      return 0;
+    case TableLayout::Clock::kSeconds:
+    case TableLayout::Clock::kIso:
+    case TableLayout::Clock::kIsoUtc:
+      return 1;
+    default:
+      return 2;
+  }
+}
+
+/// Of the two columns in the order in which they stand.
+std::optional<Stamp> DateOf(std::string_view first, std::string_view second,
+                            const TableLayout& layout) {
+  const bool utc = layout.clock == TableLayout::Clock::kDateUtc;
+  const bool clock_first =
+      layout.clock_column >= 0 && layout.clock_column < layout.time_column;
+  if (clock_first) std::swap(first, second);
+  if (const auto stamp = ParseDate(first, second, utc)) return stamp;
+  // With a zone behind.
+  return ParseIsoTime(std::string(first) + "T" + std::string(second), utc);
+}
+
+}  // namespace
+
+TextRowParser::TextRowParser(TableLayout layout, bool allow_absent)
+    : layout_(std::move(layout)), allow_absent_(allow_absent) {
+  int last = -1;
+  for (const TableLayout::Field& field : layout_.fields) {
+    last = std::max(last, field.column);
+  }
+  const int time_columns = TimeColumns(layout_.clock);
+  const int second = layout_.clock_column >= 0 ? layout_.clock_column
+                                               : layout_.time_column + 1;
+  if (time_columns > 0) last = std::max(last, layout_.time_column);
+  if (time_columns > 1) last = std::max(last, second);
+  wanted_.assign(static_cast<std::size_t>(last + 1), 0);
+  for (const TableLayout::Field& field : layout_.fields) {
+    if (field.column >= 0) wanted_[static_cast<std::size_t>(field.column)] = 1;
+  }
+  if (time_columns > 0) {
+    wanted_[static_cast<std::size_t>(layout_.time_column)] = 2;
+  }
+  if (time_columns > 1) wanted_[static_cast<std::size_t>(second)] = 2;
+}
+
+std::string TextRowParser::Parse(std::string_view line, Scratch* scratch,
+                                 std::span<double> values, Stamp* stamp,
+                                 int* columns) const {
+  TextTokens tokens(line, layout_.delimiter, layout_.comma_is_blank);
+  scratch->raw.resize(wanted_.size());
+  scratch->time_tokens.clear();
+  std::size_t column = 0;
+  for (; !tokens.AtEnd(); ++column) {
+    const char wanted = column < wanted_.size() ? wanted_[column] : char{0};
+    if (wanted == 0) {
+      tokens.Next();
+    } else if (wanted == 2) {
+      scratch->time_tokens.push_back(tokens.Next());
+    } else if (!tokens.NextNumber(&scratch->raw[column])) {
+      const std::string_view token = tokens.Next();
+      const auto number = ParseNumber(token);
+      if (!number && !(allow_absent_ && IsAbsent(token))) {
+        return ColumnName(static_cast<int>(column)) + ": '" +
+               std::string(token) + "' is not a finite number";
+      }
+      scratch->raw[column] = number.value_or(kAbsent);
+    }
+  }
+  *columns = static_cast<int>(column);
+  const auto expected = static_cast<std::size_t>(layout_.column_count);
+  if (expected == 0 ? column < wanted_.size() : column != expected) {
+    return "found " + Plural(column) + ", expected " +
+           (expected == 0 ? "at least " + std::to_string(wanted_.size())
+                          : std::to_string(expected));
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const TableLayout::Field& field = layout_.fields[i];
+    values[i] = field.column < 0
+                    ? kAbsent
+                    : field.factor *
+                          scratch->raw[static_cast<std::size_t>(field.column)];
+  }
+  return ParseTime(scratch->time_tokens, stamp);
+}
+
+std::string TextRowParser::ParseTime(
+    const std::vector<std::string_view>& time_tokens, Stamp* out) const {
+  std::optional<Stamp> stamp;
+  switch (layout_.clock) {
+    case TableLayout::Clock::kNone:
+      return "";
+    case TableLayout::Clock::kSeconds:
+      stamp = ParseStamp(time_tokens[0], layout_.ticks_per_second);
+      break;
+    case TableLayout::Clock::kWeek: {
+      const auto week = ParseNumber(time_tokens[0]);
+      stamp = ParseStamp(time_tokens[1], 1);
+      if (!week || *week < 0.0 || *week > kLastWeek ||
+          *week != std::floor(*week)) {
+        stamp.reset();
+      }
+      if (stamp) {
+        stamp->seconds += static_cast<std::int64_t>(*week) * kWeekSeconds;
+      }
+      break;
+    }
+    case TableLayout::Clock::kDate:
+    case TableLayout::Clock::kDateUtc:
+      stamp = DateOf(time_tokens[0], time_tokens[1], layout_);
+      break;
+    case TableLayout::Clock::kIso:
+    case TableLayout::Clock::kIsoUtc:
+      stamp = ParseIsoTime(time_tokens[0],
+                           layout_.clock == TableLayout::Clock::kIsoUtc);
+      break;
+  }
+  if (!stamp) {
+    std::string text(time_tokens[0]);
+    if (time_tokens.size() > 1) text += " " + std::string(time_tokens[1]);
+    return ColumnName(layout_.time_column) + ": '" + text + "' is not a time";
+  }
+  *out = *stamp;
+  return "";
+}
+
+std::string TextRowParser::ColumnName(int column) const {
+  std::string name = "column " + std::to_string(column + 1);
+  if (layout_.clock != TableLayout::Clock::kNone &&
+      column == layout_.time_column) {
+    return name + " (time)";
+  }
+  for (const TableLayout::Field& field : layout_.fields) {
+    if (field.column == column) return name + " (" + field.name + ")";
+  }
+  return name;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,73 @@
+#include "io/read/text_tokens.h"
+
+#include <fast_float/fast_float.h>
+
+#include <cmath>
+
+#include "io/read/units.h"
+
+namespace hindsight {
+
+TextTokens::TextTokens(std::string_view line, char delimiter,
+                       bool comma_is_blank)
+    : p_(line.data()),
+      end_(line.data() + line.size()),
+      delimiter_(delimiter),
+      comma_is_blank_(comma_is_blank) {
+  if (delimiter_ == ' ') SkipSeparators();
+}
+
+void TextTokens::Advance() {
+  if (delimiter_ == ' ') {
+    SkipSeparators();
+  } else if (p_ == end_) {
+    finished_ = true;
+  } else {
+    ++p_;
+  }
+}
+
+std::string_view TextTokens::Next() {
+  const char* begin = p_;
+  while (p_ != end_ && !IsSeparator(*p_)) ++p_;
+  const std::string_view token(begin, static_cast<std::size_t>(p_ - begin));
+  Advance();
+  return delimiter_ == ' ' ? token : Trim(token);
+}
+
+bool TextTokens::NextNumber(double* value) {
+  const char* p = p_;
+  while (p != end_ && IsBlank(*p)) ++p;
+  const auto result = fast_float::from_chars(p, end_, *value);
+  if (result.ec != std::errc() || !std::isfinite(*value)) return false;
+  p = result.ptr;
+  if (delimiter_ != ' ') {
+    while (p != end_ && IsBlank(*p) && *p != delimiter_) ++p;
+  }
+  if (p != end_ && !IsSeparator(*p)) return false;
+  p_ = p;
+  Advance();
+  return true;
+}
+
+char GuessDelimiter(std::string_view line) {
+  for (const char candidate : {',', ';'}) {
+    if (line.find(candidate) != line.npos) return candidate;
+  }
+  return ' ';
+}
+
+std::vector<std::string_view> SplitLine(std::string_view line, char delimiter,
+                                        bool comma_is_blank) {
+  std::vector<std::string_view> tokens;
+  TextTokens walk(line, delimiter, comma_is_blank);
+  while (!walk.AtEnd()) tokens.push_back(walk.Next());
+  return tokens;
+}
+
+bool IsComment(std::string_view line) {
+  const std::string_view text = Trim(line);
+  return text.empty() || text.front() == '#' || text.front() == '%';
+}
+
+}  // namespace hindsight
