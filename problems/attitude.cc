@@ -51,6 +51,7 @@ AttitudeEstimation::AttitudeEstimation(const Dataset& dataset,
       imu_(RatesWithin(dataset.imu, options_.from, options_.to)),
       magnetic_(MagneticSamples(dataset)),
       headings_(HeadingSamples(dataset)),
+      velocities_(VelocitySamples(dataset)),
       filter_options_(FilterOptionsOf(dataset)),
       q_en_(NedAxes(filter_options_.place.p_e)) {
   const auto outside = [this](const auto& sample) {
@@ -58,10 +59,17 @@ AttitudeEstimation::AttitudeEstimation(const Dataset& dataset,
   };
   std::erase_if(magnetic_, outside);
   std::erase_if(headings_, outside);
+  std::erase_if(velocities_, outside);
   for (ImuSample& sample : imu_.samples) {
     sample.accel -= dataset.initial.accel_bias;
   }
-  start_ = StartOfAttitude(dataset, imu_, magnetic_);
+  std::optional<AlignedAttitude> found;
+  if (magnetic_.empty()) {
+    found = AttitudeByVelocity(dataset, imu_, options_.to);
+  }
+  const AlignedAttitude* start = found ? &*found : nullptr;
+  if (!HeadingIsTold(dataset, start)) velocities_.clear();
+  start_ = StartOfAttitude(dataset, imu_, magnetic_, start);
 }
 
 ErrorLayout AttitudeEstimation::SolutionLayout() const {
@@ -120,7 +128,7 @@ double AttitudeEstimation::SharedSlope(const FieldSurvey& survey) const {
 
 Solution AttitudeEstimation::Filter() {
   const AttitudeRun run = RunAttitudeFilter(
-      imu_, {magnetic_, headings_}, filter_options_, start_,
+      imu_, {magnetic_, headings_, velocities_}, filter_options_, start_,
       /*to_be_smoothed=*/false, [&](std::size_t k) {
         Poll("ahrs",
              static_cast<double>(k) / static_cast<double>(imu_.samples.size()));
@@ -239,7 +247,8 @@ Solution AttitudeEstimation::Run(const Method& method) {
   recording.insert(recording.end(), evidence_.begin(), evidence_.end());
   Conclude({.solution = solution,
             .recording = std::move(recording),
-            .relative_heading = magnetic_.empty() && headings_.empty()},
+            .relative_heading =
+                magnetic_.empty() && headings_.empty() && velocities_.empty()},
            {}, &solution);
   if (imu_.stamp_offset != 0.0) {
     std::vector<double> stamps;

@@ -19,8 +19,8 @@
 namespace hindsight {
 
 /// One recording, its attitude alone estimated from an IMU and, as far as there
-/// are any, a magnetometer and sensors of directions (`heading`); no position is
-/// needed. Solutions have the layout
+/// are any, a magnetometer, sensors of directions (`heading`) and velocities over
+/// the Earth (`velocity`); no position is needed. Solutions have the layout
 /// {attitude, gyro bias}, one state an IMU sample, and are given at the stamps
 /// of the file (ImuStream::stamp_offset); the scale factors of the gyros, which
 /// both methods estimate, are constants of the smoother's.
@@ -95,6 +95,7 @@ class AttitudeEstimation final : public Estimation {
   ImuStream imu_;  ///< of the asked interval, rates
   std::vector<MagneticSample> magnetic_;
   std::vector<HeadingSample> headings_;
+  std::vector<VelocitySample> velocities_;  ///< none if no heading is told
   AttitudeFilterOptions filter_options_;
   Eigen::Quaterniond q_en_;
   AttitudeState start_;

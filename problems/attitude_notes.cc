@@ -20,8 +20,9 @@ std::string UnusedKeys(const Sensor& sensor) {
            sensor.loss.kind != RobustLoss::Kind::kMixture,
        "loss");
   name(sensor.mounting_sigma.has_value(), "estimate.mounting");
-  name(sensor.kind->is_heading && sensor.time_offset_sigma.has_value(),
+  name(!sensor.kind->magnetic && sensor.time_offset_sigma.has_value(),
        "estimate.time_offset");
+  name(sensor.lever_arm_sigma.has_value(), "estimate.lever_arm");
   return keys;
 }
 
@@ -35,16 +36,22 @@ std::vector<std::string> AttitudeEstimation::Unused() const {
     if (stream.measurements.empty()) continue;
     const bool first = sensor.kind->magnetic && !magnetometer;
     magnetometer = magnetometer || sensor.kind->magnetic;
-    if (first || sensor.kind->is_heading) {
+    const bool velocity = std::holds_alternative<VelocityFix>(
+        Measurement(stream.measurements.front()).model);
+    if (first || sensor.kind->is_heading ||
+        (velocity && !velocities_.empty())) {
       if (const std::string keys = UnusedKeys(sensor); !keys.empty()) {
         unused.push_back("no use for " + keys + " of '" + sensor.name +
                          "' in attitude alone");
       }
       continue;
     }
-    unused.push_back("no use for '" + sensor.name + "' (" +
-                     std::string(sensor.kind->name) +
-                     "): attitude alone is of one magnetometer and headings");
+    unused.push_back(
+        "no use for '" + sensor.name + "' (" + std::string(sensor.kind->name) +
+        (velocity ? "): nothing tells the heading, nor do the velocities "
+                    "themselves"
+                  : "): attitude alone is of one magnetometer, headings and "
+                    "velocities over the Earth"));
   }
   return unused;
 }

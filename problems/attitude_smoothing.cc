@@ -18,8 +18,8 @@ AttitudeEstimation::Pass AttitudeEstimation::Smooth(
     bool covariances) const {
   Pass pass;
   pass.run = RunAttitudeFilter(
-      imu, {magnetic, headings_}, options, start, /*to_be_smoothed=*/true,
-      [&](std::size_t k) {
+      imu, {magnetic, headings_, velocities_}, options, start,
+      /*to_be_smoothed=*/true, [&](std::size_t k) {
         Poll(stage,
              static_cast<double>(k) / static_cast<double>(imu_.samples.size()));
       });
@@ -80,7 +80,9 @@ Solution AttitudeEstimation::Smoother() {
   }
   rests_.resize(imu_.samples.size());
   options.rests = rests_;
-  const bool average = !dataset_.ahrs.low_pass && options.low_pass_tau > 0.0;
+  // Velocities are of the forces as they were read.
+  const bool average = !dataset_.ahrs.low_pass && options.low_pass_tau > 0.0 &&
+                       velocities_.empty();
   const bool survey = dataset_.ahrs.survey && !magnetic_.empty();
   if (!average && !survey) {
     return SolutionOf(SmoothWithoutSurvey(imu_, options));

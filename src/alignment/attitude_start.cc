@@ -4,7 +4,12 @@
 #include <cmath>
 
 #include "alignment/alignment.h"
+#include "alignment/levelling.h"
+#include "alignment/velocity_alignment.h"
 #include "base/units.h"
+#include "dataset/bias_sigma.h"
+#include "dataset/ground_motion.h"
+#include "dataset/rest.h"
 #include "geometry/so3.h"
 #include "measurements/sensor_kind.h"
 
@@ -40,6 +45,7 @@ AttitudeFilterOptions FilterOptionsOf(const Dataset& dataset) {
   options.magnetic_correlation_time = ahrs.correlation_time;
   options.update_interval = ahrs.correlation_time / kUpdates;
   options.rest_sigma = ahrs.rest_sigma;
+  options.accel_bias_sigma = AccelBiasSigma(dataset.initial).maxCoeff();
   options.reference.enabled = ahrs.reject_disturbances;
   if (const AidingStream* stream = MagnetometerOf(dataset)) {
     const auto first =
@@ -81,8 +87,59 @@ std::vector<HeadingSample> HeadingSamples(const Dataset& dataset) {
   return samples;
 }
 
+std::vector<VelocitySample> VelocitySamples(const Dataset& dataset) {
+  std::vector<VelocitySample> samples;
+  for (const AidingStream& stream : dataset.streams) {
+    for (const Measurement& z : stream.measurements) {
+      const auto* velocity = std::get_if<VelocityFix>(&z.model);
+      if (velocity == nullptr || z.withheld) continue;
+      samples.push_back({z.t + stream.sensor.time_offset, velocity->v_n,
+                         velocity->R_n, stream.sensor.lever_arm_b});
+    }
+  }
+  std::stable_sort(samples.begin(), samples.end(),
+                   [](const VelocitySample& a, const VelocitySample& b) {
+                     return a.t < b.t;
+                   });
+  return samples;
+}
+
+bool HeadingIsTold(const Dataset& dataset, const AlignedAttitude* found) {
+  return found != nullptr || MagnetometerOf(dataset) != nullptr ||
+         !HeadingSamples(dataset).empty() || dataset.initial.euler ||
+         dataset.initial.heading;
+}
+
+std::optional<AlignedAttitude> AttitudeByVelocity(const Dataset& dataset,
+                                                  const ImuStream& imu,
+                                                  double to) {
+  constexpr double kKnown = 20.0 * kDegree;
+  if (VelocitySamples(dataset).empty()) return std::nullopt;
+  AlignmentInput input{.dataset = dataset,
+                       .t = std::max(imu.t_begin(), dataset.imu.t_begin()),
+                       .to = std::min(to, imu.t_end()),
+                       .p_e = FilterOptionsOf(dataset).place.p_e};
+  input.velocities = GroundVelocities(dataset, input.t, input.to);
+  input.b_g = dataset.initial.gyro_bias;
+  input.b_a = dataset.initial.accel_bias;
+  input.gyro_sigma = GyroBiasSigma(dataset.initial).maxCoeff();
+  for (const TimeInterval& rest : FindRest(dataset).at_rest) {
+    if (rest.begin > input.t + 1.0 || rest.end <= input.t + 1.0) continue;
+    input.rest = TimeInterval{std::max(input.t, rest.begin), rest.end};
+    const GyroBiasPrior resting = GyroBiasAtRest(dataset, *input.rest);
+    input.b_g = resting.b_g;
+    input.gyro_sigma = resting.sigma.maxCoeff();
+  }
+  const AlignmentOutcome outcome = AlignByVelocity(input);
+  if (!outcome.found || !(outcome.found->P(2, 2) < kKnown * kKnown)) {
+    return std::nullopt;
+  }
+  return outcome.found;
+}
+
 AttitudeState StartOfAttitude(const Dataset& dataset, const ImuStream& imu,
-                              std::span<const MagneticSample> magnetic) {
+                              std::span<const MagneticSample> magnetic,
+                              const AlignedAttitude* found) {
   constexpr double kSpan = 0.5;    // [s]
   constexpr double kExact = 1e-5;  // [rad]
   AttitudeState start;
@@ -127,6 +184,11 @@ AttitudeState StartOfAttitude(const Dataset& dataset, const ImuStream& imu,
           .cwiseMax(kKnown);
   start.P.diagonal() << sigma.cwiseAbs2(), bias_sigma.cwiseAbs2(),
       scale_sigma.cwiseAbs2();
+  const bool given = dataset.initial.euler || dataset.initial.attitude_sigma;
+  if (found != nullptr && !given) {
+    start.q_nb = found->q_nb;
+    start.P.topLeftCorner<3, 3>() = found->reuse * found->reuse * found->P;
+  }
   return start;
 }
 

@@ -1,9 +1,11 @@
 #ifndef HINDSIGHT_ALIGNMENT_ATTITUDE_START_H_
 #define HINDSIGHT_ALIGNMENT_ATTITUDE_START_H_
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "alignment/alignment.h"
 #include "attitude/attitude_filter.h"
 #include "dataset/dataset.h"
 
@@ -28,13 +30,30 @@ std::vector<MagneticSample> MagneticSamples(const Dataset& dataset);
 /// in order of time.
 std::vector<HeadingSample> HeadingSamples(const Dataset& dataset);
 
+/// The readings of all velocities over the Earth (`velocity`) that are not
+/// withheld, in order of time.
+std::vector<VelocitySample> VelocitySamples(const Dataset& dataset);
+
+/// Whether something tells the heading, so that velocities over the Earth can
+/// be used: a magnetometer, a sensor of directions, the configuration, or
+/// velocities that have done so themselves (`found`).
+bool HeadingIsTold(const Dataset& dataset, const AlignedAttitude* found);
+
+/// The attitude at the first sample of `imu` by velocities up to `to`
+/// (AlignByVelocity), if they tell the heading to 20 deg.
+std::optional<AlignedAttitude> AttitudeByVelocity(const Dataset& dataset,
+                                                  const ImuStream& imu,
+                                                  double to);
+
 /// Attitude at the first sample: levelled by the mean specific force of the
 /// first half second and turned to the field's mean; 5 deg of tilt, 10 deg of
 /// heading unless the data set gives them. Without readings the heading is
 /// that of the configuration, or zero: exact, as headings then count from there,
-/// or of any sigma if a sensor of directions is to tell it.
+/// or of any sigma if a sensor of directions is to tell it. `found` takes the
+/// place of all that but what the configuration gives.
 AttitudeState StartOfAttitude(const Dataset& dataset, const ImuStream& imu,
-                              std::span<const MagneticSample> magnetic);
+                              std::span<const MagneticSample> magnetic,
+                              const AlignedAttitude* found = nullptr);
 
 }  // namespace hindsight
 

@@ -22,6 +22,7 @@ class AttitudeRunner {
       : imu_(imu),
         magnetic_(readings.magnetic),
         headings_(readings.headings),
+        velocities_(readings.velocities),
         options_(options),
         sample_interval_(MedianInterval(imu)),
         layout_(AttitudeLayout(imu.noise, start)),
@@ -47,7 +48,8 @@ class AttitudeRunner {
       Feed(k);
       const bool heading =
           next_heading_ < headings_.size() && headings_[next_heading_].t <= t;
-      if (k + 1 == count || heading ||
+      const bool velocity = TakeVelocities(imu_.samples[k]);
+      if (k + 1 == count || heading || velocity ||
           t - updated > options_.update_interval - 0.5 * sample_interval_) {
         Update(k);
         updated = t;
@@ -90,9 +92,40 @@ class AttitudeRunner {
     return detector_.rests() && filter_.ExplainsAsBias(detector_.rate());
   }
 
+  /// Whether there is a velocity to use at this sample, far enough from the one
+  /// before.
+  bool TakeVelocities(const ImuSample& sample) {
+    velocity_ = nullptr;
+    for (; next_velocity_ < velocities_.size() &&
+           velocities_[next_velocity_].t <= sample.t;
+         ++next_velocity_) {
+      const VelocitySample& reading = velocities_[next_velocity_];
+      const double dt = reading.t - velocity_t_;
+      if (dt > kLongestVelocityInterval) {
+        filter_.BeginVelocity(reading, sample.gyro);
+        velocity_t_ = reading.t;
+      } else if (dt > kLeastVelocityInterval - 0.5 * sample_interval_) {
+        velocity_ = &reading;
+      }
+    }
+    return velocity_ != nullptr;
+  }
+
+  void UseVelocity(const ImuSample& sample) {
+    if (velocity_ == nullptr) return;
+    filter_.UseVelocity(*velocity_, sample.gyro);
+    velocity_t_ = velocity_->t;
+    velocity_ = nullptr;
+  }
+
   void Update(std::size_t k) {
     filter_.Predict();
-    filter_.UseAccelerometer();
+    if (velocities_.empty()) {
+      filter_.UseAccelerometer();
+    } else {
+      filter_.LeaveAccelerometer();
+    }
+    UseVelocity(imu_.samples[k]);
     filter_.UseMagnetometer();
     UseHeadings(imu_.samples[k]);
     if (options_.rest_sigma > 0.0) filter_.UseRest();
@@ -133,9 +166,15 @@ class AttitudeRunner {
     }
   }
 
+  /// Between velocities that are used [s]: closer ones say, less their noise,
+  /// hardly more.
+  static constexpr double kLeastVelocityInterval = 1.0;
+  static constexpr double kLongestVelocityInterval = 60.0;
+
   const ImuStream& imu_;
   std::span<const MagneticSample> magnetic_;
   std::span<const HeadingSample> headings_;
+  std::span<const VelocitySample> velocities_;
   const AttitudeFilterOptions& options_;
   double sample_interval_;
   ErrorLayout layout_;
@@ -145,6 +184,10 @@ class AttitudeRunner {
   RestDetector detector_;
   std::size_t next_ = 0;
   std::size_t next_heading_ = 0;
+  std::size_t next_velocity_ = 0;
+  const VelocitySample* velocity_ = nullptr;  ///< to be used at this sample
+  /// Of the velocity used last [s].
+  double velocity_t_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace

@@ -27,7 +27,10 @@ struct AttitudeRun {
 /// Runs the filter over a record of rates, with an update at the first and the
 /// last sample and every update_interval in between; each magnetic sample is
 /// used at the first IMU sample that is not earlier, turned there by the gyros;
-/// so is each heading, with an update there.
+/// so is each heading, with an update there. Of the velocities those a second
+/// and more apart are used, at their own times, with an update at the IMU's
+/// sample, and the accelerometer is used by them alone: a vehicle whose
+/// velocity is told is not one whose accelerations fall out.
 /// The updates are recorded if the run is to be smoothed. `poll` is called now
 /// and then with the samples done, and may throw. Throws EstimationError if the
 /// filter diverges.

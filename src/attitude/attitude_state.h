@@ -39,10 +39,19 @@ struct HeadingSample {
   const Sensor* sensor = nullptr;
 };
 
+/// One velocity over the Earth of a point of the body.
+struct VelocitySample {
+  double t = 0.0;                                 ///< [s], clock offset applied
+  Eigen::Vector3d v_n = Eigen::Vector3d::Zero();  ///< [m/s]
+  Eigen::Matrix3d R_n = Eigen::Matrix3d::Identity();      ///< [m^2/s^2]
+  Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();  ///< from the IMU [m]
+};
+
 /// What is read beside the IMU, each in order of time.
 struct AttitudeReadings {
   std::span<const MagneticSample> magnetic = {};
   std::span<const HeadingSample> headings = {};
+  std::span<const VelocitySample> velocities = {};
 };
 
 /// Mean and covariance of (attitude psi [rad, NED], gyro bias [rad/s], gyro

@@ -6,6 +6,7 @@
 #include <optional>
 #include <regex>
 #include <string>
+#include <vector>
 
 #include "app/recording.h"
 
@@ -48,12 +49,14 @@ std::string WithoutCosts(std::string text, const std::filesystem::path& root) {
 }
 
 /// All files of a result, by name.
-std::map<std::string, std::string> RunIn(const std::filesystem::path& root,
-                                         const std::string& out) {
-  const Outcome outcome = Hindsight(
-      {"run", "data/config.yaml", "--out=" + out, "--export=tum,kml,nav",
-       "--methods=ekf,rts,two_filter,iterated,batch"},
-      root);
+std::map<std::string, std::string> RunIn(
+    const std::filesystem::path& root, const std::string& out,
+    const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words = {
+      "run", "data/config.yaml", "--out=" + out, "--export=tum,kml,nav",
+      "--methods=ekf,rts,two_filter,iterated,batch"};
+  words.insert(words.end(), more.begin(), more.end());
+  const Outcome outcome = Hindsight(words, root);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   std::map<std::string, std::string> files;
   for (const std::string& name : Names(root / out)) {
@@ -75,6 +78,17 @@ void ExpectSameFiles(const std::map<std::string, std::string>& a,
 TEST(SameBytes, RunAfterRun) {
   const Recording recording;
   ExpectSameFiles(RunIn(recording.root(), "a"), RunIn(recording.root(), "b"));
+}
+
+/// Long enough that each loop which may be cut is cut.
+TEST(SameBytes, ForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  const Outcome made = Hindsight(
+      {"simulate", "test_car", "--seed=7", "--out=data"}, folder.path());
+  ASSERT_EQ(made.status, 0) << made.err;
+  const auto alone = RunIn(folder.path(), "a", {"--threads=1"});
+  ExpectSameFiles(alone, RunIn(folder.path(), "b", {"--threads=2"}));
+  ExpectSameFiles(alone, RunIn(folder.path(), "c", {"--threads=7"}));
 }
 
 TEST(SameBytes, InAnotherFolderAndTimeZone) {

@@ -1,0 +1,109 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/command_line.h"
+
+namespace hindsight {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A flight that banks into its turns, with velocities and without positions.
+std::string BankedFlight(const std::string& segments) {
+  return "start: {position: [48 deg, 11.5 deg, 1500 m], heading: 70 deg, "
+         "speed: 60 m/s}\nsegments:\n" +
+         segments +
+         "imu:\n  rate: 100 Hz\n  noise: {gyro: 0.1 deg/sqrt(h), accel: "
+         "0.05 m/s/sqrt(h)}\n  gyro_bias_sigma: 5 deg/h\n"
+         "  accel_bias_sigma: 1 mg\n"
+         "aiding:\n"
+         "  doppler: {type: velocity, rate: 2 Hz, sigma: 0.1 m/s, lever_arm: "
+         "[1.5 m, 0 m, -1 m]}\n"
+         "truth_rate: 1 Hz\n";
+}
+
+const char* const kTurns =
+    "  - {type: straight, duration: 20 s}\n"
+    "  - {type: turn, angle: 180 deg, rate: 4 deg/s, banked: true}\n"
+    "  - {type: straight, duration: 20 s}\n"
+    "  - {type: turn, angle: -180 deg, rate: 4 deg/s, banked: true}\n"
+    "  - {type: accelerate, speed: 75 m/s, rate: 1 m/s^2}\n"
+    "  - {type: turn, angle: 120 deg, rate: 4 deg/s, banked: true}\n"
+    "  - {type: straight, duration: 20 s}\n";
+
+/// The configuration without what it knows of the start.
+void ForgetStart(const std::filesystem::path& config) {
+  const std::string text = ReadFile(config);
+  std::string kept;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t end = text.find('\n', at) + 1;
+    const std::string line = text.substr(at, end - at);
+    const bool start = line.starts_with("  attitude") ||
+                       line.starts_with("  velocity") ||
+                       line.starts_with("  position");
+    if (!start) kept += line;
+    at = end;
+  }
+  WriteFile(config, kept);
+}
+
+struct Flown {
+  Outcome outcome;
+  nlohmann::json methods;
+};
+
+Flown Fly(const TemporaryFolder& folder, const std::string& segments,
+          const std::string& seed) {
+  WriteFile(folder.path() / "scenario.yaml", BankedFlight(segments));
+  const Outcome made = Hindsight(
+      {"simulate", "scenario.yaml", "--seed=" + seed, "--out=data", "--force"},
+      folder.path());
+  EXPECT_EQ(made.status, 0) << made.err;
+  ForgetStart(folder.path() / "data/config.yaml");
+  Flown flown;
+  flown.outcome =
+      Hindsight({"run", "data/config.yaml", "--methods=ahrs,ahrs_smoother",
+                 "--out=out", "--force"},
+                folder.path());
+  flown.methods = nlohmann::json::parse(
+      ReadFile(folder.path() / "out/summary.json"))["methods"];
+  return flown;
+}
+
+/// Banked turns, in which a plumb line hangs askew, and a heading that nothing
+/// but the accelerations tells.
+TEST(AttitudeByVelocity, FindsTiltAndHeadingInBankedTurns) {
+  const TemporaryFolder folder;
+  double nees = 0.0;
+  constexpr int kFlights = 4;
+  for (int seed = 1; seed <= kFlights; ++seed) {
+    const Flown flown = Fly(folder, kTurns, std::to_string(seed));
+    EXPECT_EQ(flown.outcome.status, 0)
+        << flown.outcome.out << flown.outcome.err;
+    for (const char* method : {"ahrs", "ahrs_smoother"}) {
+      const auto rms = flown.methods[method]["error"]["attitude_rms_deg"];
+      EXPECT_LT(rms[0].get<double>(), 0.4) << method;
+      EXPECT_LT(rms[1].get<double>(), 0.4) << method;
+      EXPECT_LT(rms[2].get<double>(), 1.5) << method;
+    }
+    nees += flown.methods["ahrs_smoother"]["nees"]["attitude"].get<double>();
+  }
+  EXPECT_LT(nees / kFlights, 6.0);
+}
+
+/// Straight ahead at one speed nothing tells the heading: then the velocities
+/// are not used, which is said, and headings count from the start.
+TEST(AttitudeByVelocity, IsOfNoUseWithoutAccelerations) {
+  const TemporaryFolder folder;
+  const Flown flown =
+      Fly(folder, "  - {type: straight, duration: 120 s}\n", "3");
+  EXPECT_THAT(flown.outcome.out,
+              HasSubstr("'doppler' (velocity): nothing tells the heading"));
+}
+
+}  // namespace
+}  // namespace hindsight

@@ -1,0 +1,92 @@
+#include "base/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace hindsight {
+namespace {
+
+/// Threads for a test, and what there was afterwards.
+class Threads {
+ public:
+  explicit Threads(int count) : before_(ThreadCount()) {
+    SetThreadCount(count);
+  }
+  ~Threads() { SetThreadCount(before_); }
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+
+ private:
+  int before_;
+};
+
+TEST(ForRanges, CoversEachIndexOnce) {
+  for (const int threads : {1, 2, 5}) {
+    const Threads limit(threads);
+    for (const std::size_t count : {0, 1, 7, 64, 12345}) {
+      std::vector<std::atomic<int>> seen(count);
+      ForRanges(count, 8, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) ++seen[i];
+      });
+      for (std::size_t i = 0; i < count; ++i) {
+        ASSERT_EQ(seen[i], 1) << i << " of " << count;
+      }
+    }
+  }
+}
+
+TEST(ForRanges, MayStandInOneAnother) {
+  const Threads limit(4);
+  std::atomic<int> sum = 0;
+  ForRanges(20, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      ForRanges(10, 1, [&](std::size_t from, std::size_t to) {
+        sum += static_cast<int>(to - from);
+      });
+    }
+  });
+  EXPECT_EQ(sum, 200);
+}
+
+TEST(ForRanges, ThrowsWhatABodyThrows) {
+  for (const int threads : {1, 4}) {
+    const Threads limit(threads);
+    EXPECT_THROW(ForRanges(100, 1,
+                           [](std::size_t begin, std::size_t) {
+                             if (begin >= 40 || begin == 0) {
+                               throw std::runtime_error("here");
+                             }
+                           }),
+                 std::runtime_error);
+  }
+}
+
+TEST(InBackground, IsAThreadOfItsOwnUnlessThereIsOnlyOne) {
+  const std::thread::id here = std::this_thread::get_id();
+  {
+    const Threads limit(2);
+    EXPECT_NE(InBackground([] { return std::this_thread::get_id(); }).get(),
+              here);
+  }
+  const Threads limit(1);
+  EXPECT_EQ(InBackground([] { return std::this_thread::get_id(); }).get(),
+            here);
+}
+
+TEST(InBackground, ThrowsWhereItIsAskedFor) {
+  auto work = InBackground([]() -> int { throw std::runtime_error("late"); });
+  EXPECT_THROW(work.get(), std::runtime_error);
+}
+
+TEST(ThreadCount, IsAtLeastOne) {
+  EXPECT_GE(ThreadCount(), 1);
+  const Threads limit(0);
+  EXPECT_EQ(ThreadCount(), 1);
+}
+
+}  // namespace
+}  // namespace hindsight
