@@ -310,8 +310,8 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
     DoubtUnconfirmed(unconfirmed, &solutions.back());
     LogDownWeighted(dataset, solutions.back());
     const double peak_rss_mb = PeakRssMb();
-    const MethodTables tables =
-        SampleMethod(request, dataset, reconstruction, solutions.back());
+    const MethodTables tables = SampleMethod(request, dataset, reconstruction,
+                                             solutions.back(), folder);
     summary.methods.push_back(Summarize(dataset, solutions.back(), tables));
     summary.methods.back().peak_rss_mb = peak_rss_mb;
     WriteMethodFiles(request, dataset, solutions.back(), tables, folder);

@@ -45,8 +45,9 @@ struct RunRequest {
   CovarianceOptions modified_h_infinity;
   std::vector<Injection> injections;  ///< errors to add on purpose
   std::uint64_t seed = 1;             ///< of the injections
-  std::set<std::string> exports;      ///< of "tum", "kml", "nav"
-  bool report = false;                ///< make the page report.html as well
+  /// Of "csv", "npz", "tum", "kml", "nav"; one of the first two is there.
+  std::set<std::string> exports;
+  bool report = false;  ///< make the page report.html as well
   Progress::Mode progress = Progress::Mode::kNone;
 };
 

@@ -50,10 +50,11 @@ std::string WithoutCosts(std::string text, const std::filesystem::path& root) {
 /// All files of a result, by name.
 std::map<std::string, std::string> RunIn(const std::filesystem::path& root,
                                          const std::string& out) {
-  const Outcome outcome = Hindsight(
-      {"run", "data/config.yaml", "--out=" + out, "--export=tum,kml,nav",
-       "--methods=ekf,rts,two_filter,iterated,batch"},
-      root);
+  const Outcome outcome =
+      Hindsight({"run", "data/config.yaml", "--out=" + out,
+                 "--export=csv,npz,tum,kml,nav",
+                 "--methods=ekf,rts,two_filter,iterated,batch"},
+                root);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   std::map<std::string, std::string> files;
   for (const std::string& name : Names(root / out)) {
