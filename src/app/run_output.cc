@@ -3,13 +3,12 @@
 #include <fmt/core.h>
 #include <sys/resource.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <optional>
+#include <utility>
 
 #include "app/method_output.h"
 #include "app/report_page.h"
+#include "app/wished_rows.h"
 #include "base/error.h"
 #include "dataset/injection.h"
 #include "evaluation/broad_metric.h"
@@ -23,21 +22,6 @@
 
 namespace hindsight {
 namespace {
-
-/// Multiples of 1/rate within the solution's span.
-std::vector<double> UniformTimes(const Solution& solution, double rate) {
-  const double begin = std::ceil(solution.states.front().t * rate);
-  const double end = std::floor(solution.states.back().t * rate);
-  std::vector<double> times;
-  for (double k = begin; k <= end; ++k) times.push_back(k / rate);
-  return times;
-}
-
-SolutionTable TableAt(const Eigen::Vector3d& point_b, const ImuStream& imu,
-                      const Solution& solution) {
-  if (point_b.isZero(0.0)) return TableFromSolution(solution);
-  return TableFromSolution(MoveToPoint(solution, imu, point_b));
-}
 
 /// t[s] and the probability of each mode.
 void WriteModes(const std::string& path, const Solution& solution,
@@ -54,66 +38,6 @@ void WriteModes(const std::string& path, const Solution& solution,
     text += "\n";
   }
   WriteFileAtomically(path, text);
-}
-
-/// One who wants rows of a solution.
-struct Wish {
-  std::vector<double> times;  ///< ascending
-  Eigen::Vector3d point_b;    ///< of which point, from the IMU [m]
-  std::function<void(const SolutionTable&)> take;  ///< some at a time, in order
-};
-
-/// Collects what a wish is given.
-std::function<void(const SolutionTable&)> Into(SolutionTable* table) {
-  return [table](const SolutionTable& piece) { AppendTable(piece, table); };
-}
-
-/// Times that anyone wishes, once.
-std::vector<double> AllTimes(const std::vector<Wish>& wishes) {
-  std::vector<double> all;
-  for (const Wish& wish : wishes) {
-    all.insert(all.end(), wish.times.begin(), wish.times.end());
-  }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
-}
-
-/// The rows of `sampled` at those of `times` that are among its own.
-std::vector<std::size_t> RowsAt(const std::vector<double>& times,
-                                const Solution& sampled) {
-  std::vector<std::size_t> rows;
-  auto t =
-      std::lower_bound(times.begin(), times.end(), sampled.states.front().t);
-  for (std::size_t k = 0; k < sampled.states.size(); ++k) {
-    while (t != times.end() && *t < sampled.states[k].t) ++t;
-    if (t != times.end() && *t == sampled.states[k].t) rows.push_back(k);
-  }
-  return rows;
-}
-
-/// Fulfils all wishes in one walk, piece by piece, since a row of a solution,
-/// with its whole covariance, is several times as large as that of a table.
-void SampleOnce(const Dataset& dataset, const Reconstruction& reconstruction,
-                const Solution& solution, const std::vector<Wish>& wishes) {
-  constexpr std::ptrdiff_t kPiece = 10000;
-  const std::vector<double> times = AllTimes(wishes);
-  for (auto begin = times.begin(); begin != times.end();) {
-    const auto end = begin + std::min(kPiece, times.end() - begin);
-    const Solution piece = reconstruction.Sample(solution, {begin, end});
-    std::optional<Eigen::Vector3d> point_b;
-    SolutionTable table;
-    for (const Wish& wish : wishes) {
-      const std::vector<std::size_t> rows = RowsAt(wish.times, piece);
-      if (rows.empty()) continue;
-      if (point_b != wish.point_b) {
-        point_b = wish.point_b;
-        table = TableAt(wish.point_b, dataset.imu, piece);
-      }
-      wish.take(rows.size() == table.size() ? table : RowsOf(table, rows));
-    }
-    begin = end;
-  }
 }
 
 /// Throws InputError if a time of --at is outside the solution's span.
@@ -185,22 +109,23 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
   if (solution.states.empty()) return tables;
   CheckTimesCovered(request, solution);
   MethodOutput output(request, dataset, solution, folder);
-  std::vector<Wish> wishes = {{request.at, request.point_b, Into(&tables.at)}};
+  std::vector<Wish> wishes = {
+      {Times(request.at), request.point_b, Into(&tables.at)}};
   if (request.attitude_alone) {
     tables.truth = TableFromSolution(solution);
   } else {
-    wishes.push_back({TruthTimes(dataset, solution.states.front().t,
-                                 solution.states.back().t),
+    wishes.push_back({Times(TruthTimes(dataset, solution.states.front().t,
+                                       solution.states.back().t)),
                       dataset.truth_lever_arm_b, Into(&tables.truth)});
   }
   if (request.rate) {
     wishes.push_back(
-        {UniformTimes(solution, *request.rate), request.point_b,
+        {Times(solution, *request.rate), request.point_b,
          [&output](const SolutionTable& piece) { output.Append(piece); }});
   } else {
     output.Append(TableAt(request.point_b, dataset.imu, solution));
   }
-  SampleOnce(dataset, reconstruction, solution, wishes);
+  SampleRows(dataset.imu, reconstruction, solution, std::move(wishes));
   output.Commit();
   return tables;
 }
