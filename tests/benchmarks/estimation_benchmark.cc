@@ -79,6 +79,21 @@ ChainProblem MakeChain(SmoothedDrive* drive) {
   return ChainProblem(drive->states, &drive->problem);
 }
 
+/// What of a step is residuals and Jacobians.
+void BatchLinearisation(benchmark::State& state) {
+  ChainProblem chain = MakeChain(&Smoothed());
+  TangentFactor::Jacobian J;
+  Eigen::VectorXd residual(kMaxErrorDim);
+  for (auto _ : state) {
+    for (const auto& factor : chain.factors()) {
+      factor->Linearize(chain.ParametersOf(*factor).data(), residual.data(),
+                        &J);
+      benchmark::DoNotOptimize(J.data());
+    }
+  }
+}
+BENCHMARK(BatchLinearisation)->Unit(benchmark::kMillisecond);
+
 /// Linearisation, factorisation and solution of one step.
 void BatchStep(benchmark::State& state) {
   ChainProblem chain = MakeChain(&Smoothed());

@@ -33,7 +33,7 @@ double Milliseconds(const std::function<void()>& work) {
 /// Ours in full (forward filter, RTS, batch, the covariances of all three)
 /// against baselines that are given the filter's trajectory and take no time for
 /// it; then the batch alone against them, all from the smoother's trajectory. All
-/// with marginal covariances of all nodes but Ceres, whose own would take hours.
+/// with marginal covariances of all nodes but Ceres (CeresWithCovariances).
 /// The counters *_to_* are ratios of times measured in turn in one process.
 void Ratios(benchmark::State& state) {
   SmoothedDrive& drive = DriveOf(static_cast<int>(state.range(0)));
@@ -83,6 +83,16 @@ BENCHMARK(Ratios)
     ->Arg(1)
     ->Arg(10)
     ->Unit(benchmark::kMillisecond);
+
+/// What Ceres takes for the marginal covariances of all nodes besides.
+void CeresWithCovariances(benchmark::State& state) {
+  SmoothedDrive& drive = DriveOf(1);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        SolveByCeres(drive.filtered, true, &drive.problem));
+  }
+}
+BENCHMARK(CeresWithCovariances)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace hindsight
