@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <string_view>
 #include <utility>
 
 #include "app/command.h"
@@ -17,6 +16,7 @@
 #include "evaluation/broad_metric.h"
 #include "evaluation/truth_comparison.h"
 #include "io/config/config.h"
+#include "io/read/npz.h"
 #include "io/write/atomic_file.h"
 #include "io/write/comparison.h"
 #include "io/write/error_csv.h"
@@ -28,18 +28,20 @@ namespace {
 
 constexpr const char* kHelp =
     R"(Compares the trajectory SOLUTION with the reference TRUTH: SOLUTION a file in
-hindsight's CSV format, a result of 'run' above all; TRUTH such a file, a data
-set's truth.csv or a configuration (.yaml) whose truth is meant.
+hindsight's CSV format or its arrays (.npz), a result of 'run' above all; TRUTH
+such a file, a data set's truth.csv or a configuration (.yaml) whose truth is
+meant.
 
 Errors are truth minus solution, at the truth's times (points closer than 0.1 s
-to the one before are left out), just as 'run' prints them. For a METHOD.csv of
-'run' the rows at these times stand in METHOD.truth.csv beside it, which is used
-if it fits TRUTH. Without it a solution sparser than the truth is compared at
-its own rows, to which the truth is interpolated, and any other is interpolated
-to the truth's times; the last lines say which.
+to the one before are left out), just as 'run' prints them. For a METHOD.csv or
+METHOD.npz of 'run' the rows at these times stand in METHOD.truth.csv beside it,
+which is used if it fits TRUTH. Without it a solution sparser than the truth is
+compared at its own rows, to which the truth is interpolated, and any other is
+interpolated to the truth's times; the last lines say which.
 
 With --out=FILE it writes the page of 'report' as well, of this solution and
-these errors; of a METHOD.csv of 'run' with all that its folder tells of it.
+these errors; of a METHOD.csv or METHOD.npz of 'run' with all that its folder
+tells of it.
 
 Normalised errors (mean of e' P^-1 e of three components, expected 3) where the
 solution holds covariances. --metric=broad gives the attitude errors of the
@@ -114,7 +116,7 @@ struct Reference {
 
 Reference ReadReference(const std::string& path) {
   if (!path.ends_with(".yaml")) {
-    return {.points = TruthFromTable(ReadSolutionCsv(path))};
+    return {.points = TruthFromTable(ReadSolutionTable(path))};
   }
   Dataset dataset = LoadDataset(path, {.data_root = FLAGS_data_root});
   if (dataset.truth.empty()) throw InputError(path + ": there is no truth");
@@ -122,22 +124,23 @@ Reference ReadReference(const std::string& path) {
           dataset.truth_sigma};
 }
 
-/// The file that is compared: METHOD.truth.csv in place of METHOD.csv if it has
-/// the truth's times.
+/// The file that is compared: METHOD.truth.csv in place of METHOD.csv or .npz if
+/// it has the truth's times.
 std::string ComparedFile(const std::string& path, const Reference& reference) {
-  constexpr std::string_view kCsv = ".csv";
-  if (!path.ends_with(kCsv) || path.ends_with(kTruthSuffix)) return path;
+  const std::filesystem::path file = path;
+  const bool is_table = file.extension() == ".csv" || IsNpz(path);
+  if (!is_table || path.ends_with(kTruthSuffix)) return path;
   const std::string sampled =
-      path.substr(0, path.size() - kCsv.size()) + kTruthSuffix;
+      (file.parent_path() / file.stem()).string() + kTruthSuffix;
   if (!std::filesystem::exists(sampled)) return path;
   TruthSeries thinned = reference.points;
   ThinTruth(&thinned);
-  return HasRowsAtTruth(ReadSolutionCsv(sampled), thinned) ? sampled : path;
+  return HasRowsAtTruth(ReadSolutionTable(sampled), thinned) ? sampled : path;
 }
 
 int PrintBroad(const std::string& solution_path,
                const std::string& truth_path) {
-  const BroadMetric metric = EvaluateBroad(ReadSolutionCsv(solution_path),
+  const BroadMetric metric = EvaluateBroad(ReadSolutionTable(solution_path),
                                            ReadReference(truth_path).points);
   if (metric.count == 0) {
     throw InputError(solution_path, 0,
@@ -190,7 +193,7 @@ int Run(const std::vector<std::string>& arguments) {
   }
   const Reference truth = ReadReference(arguments[1]);
   const std::string file = ComparedFile(arguments[0], truth);
-  const SolutionTable solution = ReadSolutionCsv(file);
+  const SolutionTable solution = ReadSolutionTable(file);
   TrajectoryErrorOptions options;
   options.truth_sigma = truth.sigma;
   // The rows at the truth's times are those of its point.

@@ -35,7 +35,7 @@ namespace {
 /// Body rates and specific force of the recommended solution.
 std::string BodyFigures(ReportContext* context) {
   const ReportSolution& best = context->best();
-  const auto path = context->reference().FileOf(best.method + ".motion.csv");
+  const auto path = context->reference().ColumnsOf(best.method + ".motion");
   if (!path) return "";
   NumberColumns columns = ReadNumberColumns(path->string());
   ReportSeries series;

@@ -41,7 +41,7 @@ ReportSolution ReadSolution(const ReportSource& source, std::size_t number,
     solution.errors = source.evaluated->errors;
     return solution;
   }
-  solution.columns = ReadShownColumns(source.folder / (method + ".csv"));
+  solution.columns = ReadShownColumns(*source.ColumnsOf(method));
   if (const auto errors = source.FileOf(method + ".errors.csv")) {
     solution.errors = ReadNumberColumns(errors->string());
   }
@@ -56,6 +56,11 @@ std::string MethodOfFile(const fs::path& file) { return file.stem().string(); }
 std::optional<fs::path> ReportSource::FileOf(const std::string& name) const {
   if (folder.empty() || !PathExists(folder / name)) return std::nullopt;
   return folder / name;
+}
+
+std::optional<fs::path> ReportSource::ColumnsOf(const std::string& stem) const {
+  const auto text = FileOf(stem + ".csv");
+  return text ? text : FileOf(stem + ".npz");
 }
 
 std::string ReportSource::Name() const {
@@ -145,7 +150,7 @@ std::vector<ReportSolution> ReadReportSolutions(
         [&](const std::string& method) { return method == source.Best(); });
     if (i > 0 && !methods.empty()) methods.resize(1);
     for (const std::string& method : methods) {
-      if (!source.evaluated && !source.FileOf(method + ".csv")) continue;
+      if (!source.evaluated && !source.ColumnsOf(method)) continue;
       reading.push_back(std::async(std::launch::async, ReadSolution,
                                    std::cref(source), i, method));
     }

@@ -24,7 +24,7 @@ struct ReportPlace {
 // Moving a JSON value asserts what holds, so that it seems to throw.
 // NOLINTNEXTLINE(bugprone-exception-escape)
 struct EvaluatedSolution {
-  std::filesystem::path file;      ///< METHOD.csv
+  std::filesystem::path file;      ///< METHOD.csv or METHOD.npz
   NumberColumns errors;            ///< as METHOD.errors.csv
   nlohmann::ordered_json figures;  ///< of the method, PutTruthFigures
 };
@@ -43,6 +43,8 @@ struct ReportSource {
 
   /// Where the folder's file is; nothing without folder or file.
   std::optional<std::filesystem::path> FileOf(const std::string& name) const;
+  /// The same of columns of numbers: `stem`.csv, or else `stem`.npz.
+  std::optional<std::filesystem::path> ColumnsOf(const std::string& stem) const;
   std::string Name() const;  ///< of the data set
   std::string Best() const;  ///< method, "" if none
   std::vector<std::string> Methods() const;
@@ -62,7 +64,7 @@ struct ReportSolution {
   std::string method;
   std::string label;      ///< the method; of further folders "FOLDER: method"
   bool forward = false;   ///< knows at each time nothing later
-  NumberColumns columns;  ///< METHOD.csv
+  NumberColumns columns;  ///< METHOD.csv or METHOD.npz
   NumberColumns errors;   ///< METHOD.errors.csv, empty without
   int table = -1;         ///< its series on the page
   int samples = -1;       ///< the same at a few rows, exact

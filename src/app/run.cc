@@ -332,9 +332,9 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
     DoubtUnconfirmed(unconfirmed, solution);
     LogDownWeighted(dataset, *solution);
     const double peak_rss_mb = PeakRssMb();
-    MethodTables tables =
-        SampleMethod(request, dataset, reconstruction, *solution);
     if (writing.valid()) writing.get();
+    MethodTables tables =
+        SampleMethod(request, dataset, reconstruction, *solution, folder);
     writing =
         InBackground([&, solution, peak_rss_mb, tables = std::move(tables)] {
           summary.methods.push_back(Summarize(dataset, *solution, tables));

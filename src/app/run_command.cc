@@ -30,6 +30,8 @@ and writes into the folder of --out:
   METHOD.constants.csv  constants against time: of ekf as it learned them, of
                         two_filter as the backward filter did
   METHOD.errors.csv     errors against a truth, with their standard deviations
+  METHOD.npz, .motion.npz  with --export=npz, in place of METHOD.csv and
+                        METHOD.motion.csv: their columns as NumPy arrays
   METHOD.tum, .kml, .nav  what --export asks for
   METHOD.nav.txt        with --inject: the errors injected, for .nav, which knows
                         no comments
@@ -178,7 +180,9 @@ Command RunCommand() {
             "withheld measurements stay as they are; several:\n"
             "separate by ; or repeat"},
            {"seed", "N", "of --inject's spikes and multipath (1)"},
-           {"export", "LIST", "some of tum,kml,nav"},
+           {"export", "LIST",
+            "some of csv,npz,tum,kml,nav (csv); npz: arrays of all columns,\n"
+            "exact, written in place of METHOD.csv, which csv,npz keeps"},
            {"report", "",
             "write report.html as well, one page that shows the results\n"
             "(see 'hindsight report')"},

@@ -3,87 +3,25 @@
 #include <fmt/core.h>
 #include <sys/resource.h>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
+#include <utility>
 
+#include "app/method_output.h"
 #include "app/report_page.h"
+#include "app/wished_rows.h"
 #include "base/error.h"
 #include "dataset/injection.h"
 #include "evaluation/broad_metric.h"
 #include "evaluation/truth_comparison.h"
-#include "imu/imu_link.h"
-#include "imu/mean_reading.h"
 #include "io/read/time_scale.h"
 #include "io/write/atomic_file.h"
 #include "io/write/constant_csv.h"
 #include "io/write/error_csv.h"
-#include "io/write/kml.h"
-#include "io/write/motion_csv.h"
-#include "io/write/nav.h"
 #include "io/write/solution_csv.h"
-#include "io/write/tum.h"
 #include "problems/method.h"
 
 namespace hindsight {
 namespace {
-
-/// Multiples of 1/rate within the solution's span.
-std::vector<double> UniformTimes(const Solution& solution, double rate) {
-  const double begin = std::ceil(solution.states.front().t * rate);
-  const double end = std::floor(solution.states.back().t * rate);
-  std::vector<double> times;
-  for (double k = begin; k <= end; ++k) times.push_back(k / rate);
-  return times;
-}
-
-SolutionTable TableAt(const Eigen::Vector3d& point_b, const ImuStream& imu,
-                      const Solution& solution) {
-  if (point_b.isZero(0.0)) return TableFromSolution(solution);
-  return TableFromSolution(MoveToPoint(solution, imu, point_b));
-}
-
-/// Some rows of a column that may be empty.
-template <typename T>
-void AppendRows(const std::vector<T>& from,
-                const std::vector<std::size_t>& rows, std::vector<T>* to) {
-  if (from.empty()) return;
-  for (const std::size_t row : rows) to->push_back(from[row]);
-}
-
-/// That the data are not as recorded; empty if they are.
-std::string InjectionRemark(const Dataset& dataset) {
-  std::string remark;
-  for (const Injection& injection : dataset.injections) {
-    remark += std::string(remark.empty() ? "" : "; ") +
-              "error injected on purpose: " + Describe(injection);
-  }
-  return remark;
-}
-
-/// The program and the remark.
-std::string ProgramLine(const Dataset& dataset) {
-  const std::string remark = InjectionRemark(dataset);
-  return kProgram + (remark.empty() ? "" : "; " + remark);
-}
-
-void WriteExports(const RunRequest& request, const Dataset& dataset,
-                  const std::string& method, const SolutionTable& table,
-                  ResultFolder* folder) {
-  const std::string remark = InjectionRemark(dataset);
-  if (request.exports.contains("tum")) {
-    WriteTum(folder->Path(method + ".tum"), table, remark);
-  }
-  if (request.exports.contains("kml")) {
-    WriteKml(folder->Path(method + ".kml"), table, dataset.epoch_gps_ns,
-             dataset.name + " " + method, remark);
-  }
-  if (!request.exports.contains("nav")) return;
-  WriteNav(folder->Path(method + ".nav"), table, dataset.epoch_gps_ns);
-  // The format knows no comments.
-  if (remark.empty()) return;
-  WriteFileAtomically(folder->Path(method + ".nav.txt"), remark + "\n");
-}
 
 /// t[s] and the probability of each mode.
 void WriteModes(const std::string& path, const Solution& solution,
@@ -102,96 +40,6 @@ void WriteModes(const std::string& path, const Solution& solution,
   WriteFileAtomically(path, text);
 }
 
-void AppendRows(const SolutionTable& from, const std::vector<std::size_t>& rows,
-                SolutionTable* to) {
-  to->method = from.method;
-  AppendRows(from.t, rows, &to->t);
-  AppendRows(from.p_e, rows, &to->p_e);
-  AppendRows(from.v_e, rows, &to->v_e);
-  AppendRows(from.q_eb, rows, &to->q_eb);
-  AppendRows(from.P_position, rows, &to->P_position);
-  AppendRows(from.P_velocity, rows, &to->P_velocity);
-  AppendRows(from.P_attitude, rows, &to->P_attitude);
-  AppendRows(from.sigma_euler, rows, &to->sigma_euler);
-  AppendRows(from.b_g, rows, &to->b_g);
-  AppendRows(from.b_a, rows, &to->b_a);
-  AppendRows(from.sigma_b_g, rows, &to->sigma_b_g);
-  AppendRows(from.sigma_b_a, rows, &to->sigma_b_a);
-  AppendRows(from.separation, rows, &to->separation);
-  AppendRows(from.accel_sigma, rows, &to->accel_sigma);
-  AppendRows(from.magnetic, rows, &to->magnetic);
-  AppendRows(from.separations, rows, &to->separations);
-}
-
-/// One who wants rows of a solution.
-struct Wish {
-  std::vector<double> times;  ///< ascending
-  Eigen::Vector3d point_b;    ///< of which point, from the IMU [m]
-  SolutionTable* table;
-};
-
-/// Times that anyone wishes, once.
-std::vector<double> AllTimes(const std::vector<Wish>& wishes) {
-  std::vector<double> all;
-  for (const Wish& wish : wishes) {
-    all.insert(all.end(), wish.times.begin(), wish.times.end());
-  }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
-}
-
-/// The rows of `sampled` at those of `times` that are among its own.
-std::vector<std::size_t> RowsAt(const std::vector<double>& times,
-                                const Solution& sampled) {
-  std::vector<std::size_t> rows;
-  auto t =
-      std::lower_bound(times.begin(), times.end(), sampled.states.front().t);
-  for (std::size_t k = 0; k < sampled.states.size(); ++k) {
-    while (t != times.end() && *t < sampled.states[k].t) ++t;
-    if (t != times.end() && *t == sampled.states[k].t) rows.push_back(k);
-  }
-  return rows;
-}
-
-/// Fulfils all wishes in one walk, piece by piece, since a row of a solution,
-/// with its whole covariance, is several times as large as that of a table.
-void SampleOnce(const Dataset& dataset, const Reconstruction& reconstruction,
-                const Solution& solution, const std::vector<Wish>& wishes) {
-  constexpr std::ptrdiff_t kPiece = 10000;
-  const std::vector<double> times = AllTimes(wishes);
-  for (auto begin = times.begin(); begin != times.end();) {
-    const auto end = begin + std::min(kPiece, times.end() - begin);
-    const Solution piece = reconstruction.Sample(solution, {begin, end});
-    std::optional<Eigen::Vector3d> point_b;
-    SolutionTable table;
-    for (const Wish& wish : wishes) {
-      const std::vector<std::size_t> rows = RowsAt(wish.times, piece);
-      if (rows.empty()) continue;
-      if (point_b != wish.point_b) {
-        point_b = wish.point_b;
-        table = TableAt(wish.point_b, dataset.imu, piece);
-      }
-      AppendRows(table, rows, wish.table);
-    }
-    begin = end;
-  }
-}
-
-/// What the IMU read at ascending times within the solution, calibrated as the
-/// last node before each has it.
-std::vector<Kinematics> MotionAt(const std::vector<double>& times,
-                                 const Solution& solution,
-                                 const ImuStream& imu) {
-  std::vector<ImuCalibration> calibrations;
-  std::size_t k = 0;
-  for (const double t : times) {
-    while (k + 1 < solution.states.size() && solution.states[k + 1].t <= t) ++k;
-    calibrations.push_back(CalibrationOf(solution.layout, solution.states[k]));
-  }
-  return MeanMotion(imu, times, calibrations);
-}
-
 /// Throws InputError if a time of --at is outside the solution's span.
 void CheckTimesCovered(const RunRequest& request, const Solution& solution) {
   const double begin = solution.states.front().t;
@@ -208,6 +56,20 @@ void CheckTimesCovered(const RunRequest& request, const Solution& solution) {
 }  // namespace
 
 const char* const kProgram = "hindsight " HINDSIGHT_VERSION;
+
+std::string InjectionRemark(const Dataset& dataset) {
+  std::string remark;
+  for (const Injection& injection : dataset.injections) {
+    remark += std::string(remark.empty() ? "" : "; ") +
+              "error injected on purpose: " + Describe(injection);
+  }
+  return remark;
+}
+
+std::string ProgramLine(const Dataset& dataset) {
+  const std::string remark = InjectionRemark(dataset);
+  return kProgram + (remark.empty() ? "" : "; " + remark);
+}
 
 OutputRequest OutputOf(const RunRequest& request) {
   return {request.out, request.force, request.clean};
@@ -242,26 +104,29 @@ double PeakRssMb() {
 
 MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
                           const Reconstruction& reconstruction,
-                          const Solution& solution) {
+                          const Solution& solution, ResultFolder* folder) {
   MethodTables tables;
   if (solution.states.empty()) return tables;
   CheckTimesCovered(request, solution);
-  std::vector<Wish> wishes = {{request.at, request.point_b, &tables.at}};
+  MethodOutput output(request, dataset, solution, folder);
+  std::vector<Wish> wishes = {
+      {Times(request.at), request.point_b, Into(&tables.at)}};
   if (request.attitude_alone) {
     tables.truth = TableFromSolution(solution);
   } else {
-    wishes.push_back({TruthTimes(dataset, solution.states.front().t,
-                                 solution.states.back().t),
-                      dataset.truth_lever_arm_b, &tables.truth});
+    wishes.push_back({Times(TruthTimes(dataset, solution.states.front().t,
+                                       solution.states.back().t)),
+                      dataset.truth_lever_arm_b, Into(&tables.truth)});
   }
   if (request.rate) {
-    wishes.push_back({UniformTimes(solution, *request.rate), request.point_b,
-                      &tables.output});
+    wishes.push_back(
+        {Times(solution, *request.rate), request.point_b,
+         [&output](const SolutionTable& piece) { output.Append(piece); }});
   } else {
-    tables.output = TableAt(request.point_b, dataset.imu, solution);
+    output.Append(TableAt(request.point_b, dataset.imu, solution));
   }
-  SampleOnce(dataset, reconstruction, solution, wishes);
-  tables.motion = MotionAt(tables.output.t, solution, dataset.imu);
+  SampleRows(dataset.imu, reconstruction, solution, std::move(wishes));
+  output.Commit();
   return tables;
 }
 
@@ -276,7 +141,6 @@ void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
     WriteSolutionCsv(folder->Path(method + suffix), table, ProgramLine(dataset),
                      dataset.epoch_gps_ns);
   };
-  write(".csv", tables.output);
   write(".at.csv", tables.at);
   if (!request.attitude_alone) write(kTruthSuffix, tables.truth);
   if (solution.modes) {
@@ -292,13 +156,10 @@ void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
                   tables.truth),
         ProgramLine(dataset), dataset.epoch_gps_ns);
   }
-  WriteMotionCsv(folder->Path(method + ".motion.csv"), tables.output.t,
-                 tables.motion, ProgramLine(dataset), dataset.epoch_gps_ns);
   if (HasConstantSeries(solution)) {
     WriteConstantCsv(folder->Path(method + ".constants.csv"), solution,
                      ProgramLine(dataset), dataset.epoch_gps_ns);
   }
-  WriteExports(request, dataset, method, tables.output, folder);
 }
 
 void WriteReport(const RunRequest& request, const RunSummary& summary,

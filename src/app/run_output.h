@@ -7,7 +7,6 @@
 
 #include "app/result_folder.h"
 #include "app/run_request.h"
-#include "imu/kinematics.h"
 #include "io/config/config.h"
 #include "io/write/summary.h"
 #include "problems/reconstruction.h"
@@ -16,6 +15,12 @@ namespace hindsight {
 
 /// "hindsight 0.1.0", as results name the program.
 extern const char* const kProgram;
+
+/// That the data are not as recorded; empty if they are.
+std::string InjectionRemark(const Dataset& dataset);
+
+/// The program and the remark, as comments of files have them.
+std::string ProgramLine(const Dataset& dataset);
 
 /// Name of the file with the figures of a run.
 inline constexpr char kSummaryName[] = "summary.json";
@@ -34,27 +39,25 @@ ResultFolder::Paths FilesReadBy(const RunRequest& request);
 /// Of the file beside METHOD.csv that holds MethodTables::truth.
 inline constexpr const char* kTruthSuffix = ".truth.csv";
 
-/// The solution of a method as its files hold it.
+/// Tables of a method's solution beside its output (MethodOutput).
 struct MethodTables {
-  SolutionTable output;  ///< METHOD.csv: the nodes, or at --rate
-  SolutionTable at;      ///< METHOD.at.csv, at the times of --at
+  SolutionTable at;  ///< METHOD.at.csv, at the times of --at
   /// METHOD.truth.csv, at the truth's times and the point it speaks of: what is
   /// compared with it, here and by `evaluate`. Of attitude alone it is not
   /// written: it is the solution itself, which has each sample of the IMU.
   SolutionTable truth;
-  /// METHOD.motion.csv, at the times of `output`.
-  std::vector<Kinematics> motion;
 };
 
-/// Samples the solution through the IMU, once for all three. Throws InputError
-/// if a time of --at is outside its span.
+/// Samples the solution through the IMU, once for the tables and for the
+/// output, which is written meanwhile: the nodes, or at --rate. Nothing for a
+/// solution without states. Throws InputError if a time of --at is outside its
+/// span.
 MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
                           const Reconstruction& reconstruction,
-                          const Solution& solution);
+                          const Solution& solution, ResultFolder* folder);
 
-/// Writes the tables that have rows, body motion, mode probabilities, errors
-/// against the truth, constants over time and exports; nothing for a solution without
-/// states.
+/// Writes the tables that have rows, mode probabilities, errors against the
+/// truth and constants over time; nothing for a solution without states.
 void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
                       const Solution& solution, const MethodTables& tables,
                       ResultFolder* folder);

@@ -102,15 +102,16 @@ std::string ReadRule(const RunRequest& request) {
 }
 
 std::set<std::string> ParseExports(const std::string& text) {
-  const std::vector<std::string> known = {"tum", "kml", "nav"};
+  const std::vector<std::string> known = {"csv", "npz", "tum", "kml", "nav"};
   std::set<std::string> exports;
   for (const std::string& name : ReadWords("export", text)) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       throw UsageError("--export=" + text + ": unknown format '" + name +
-                       "', expected some of tum,kml,nav");
+                       "', expected some of csv,npz,tum,kml,nav");
     }
     exports.insert(name);
   }
+  if (!exports.contains("npz")) exports.insert("csv");
   return exports;
 }
 

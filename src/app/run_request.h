@@ -45,9 +45,10 @@ struct RunRequest {
   CovarianceOptions modified_h_infinity;
   std::vector<Injection> injections;  ///< errors to add on purpose
   std::uint64_t seed = 1;             ///< of the injections
-  std::set<std::string> exports;      ///< of "tum", "kml", "nav"
-  bool report = false;                ///< make the page report.html as well
-  int threads = 1;                    ///< that work at once
+  /// Of "csv", "npz", "tum", "kml", "nav"; one of the first two is there.
+  std::set<std::string> exports;
+  bool report = false;  ///< make the page report.html as well
+  int threads = 1;      ///< that work at once
   Progress::Mode progress = Progress::Mode::kNone;
 };
 

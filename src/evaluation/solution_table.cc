@@ -82,6 +82,49 @@ SolutionTable TableFromSolution(const Solution& solution) {
   return table;
 }
 
+namespace {
+
+/// Calls `visit` with each column of two tables.
+template <typename From, typename To, typename Visitor>
+void VisitColumns(From& from, To& to, const Visitor& visit) {
+  visit(from.t, to.t);
+  visit(from.p_e, to.p_e);
+  visit(from.v_e, to.v_e);
+  visit(from.q_eb, to.q_eb);
+  visit(from.P_position, to.P_position);
+  visit(from.P_velocity, to.P_velocity);
+  visit(from.P_attitude, to.P_attitude);
+  visit(from.sigma_euler, to.sigma_euler);
+  visit(from.b_g, to.b_g);
+  visit(from.b_a, to.b_a);
+  visit(from.sigma_b_g, to.sigma_b_g);
+  visit(from.sigma_b_a, to.sigma_b_a);
+  visit(from.separation, to.separation);
+  visit(from.separations, to.separations);
+  visit(from.accel_sigma, to.accel_sigma);
+  visit(from.magnetic, to.magnetic);
+}
+
+}  // namespace
+
+SolutionTable RowsOf(const SolutionTable& table,
+                     const std::vector<std::size_t>& rows) {
+  SolutionTable some;
+  some.method = table.method;
+  VisitColumns(table, some, [&rows](const auto& from, auto& to) {
+    if (from.empty()) return;
+    for (const std::size_t row : rows) to.push_back(from[row]);
+  });
+  return some;
+}
+
+void AppendTable(const SolutionTable& piece, SolutionTable* table) {
+  table->method = piece.method;
+  VisitColumns(piece, *table, [](const auto& from, auto& to) {
+    to.insert(to.end(), from.begin(), from.end());
+  });
+}
+
 TruthSeries TruthFromTable(const SolutionTable& table) {
   TruthSeries truth;
   for (std::size_t k = 0; k < table.size(); ++k) {

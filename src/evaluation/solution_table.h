@@ -47,6 +47,13 @@ struct SolutionTable {
 /// their covariances where no axis of the block is masked.
 SolutionTable TableFromSolution(const Solution& solution);
 
+/// Some rows of a table, by their numbers.
+SolutionTable RowsOf(const SolutionTable& table,
+                     const std::vector<std::size_t>& rows);
+
+/// Adds the rows of `piece`, which has the columns of `table` and is later.
+void AppendTable(const SolutionTable& piece, SolutionTable* table);
+
 /// A table as a reference trajectory.
 TruthSeries TruthFromTable(const SolutionTable& table);
 

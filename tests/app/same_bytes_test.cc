@@ -53,7 +53,7 @@ std::map<std::string, std::string> RunIn(
     const std::filesystem::path& root, const std::string& out,
     const std::vector<std::string>& more = {}) {
   std::vector<std::string> words = {
-      "run", "data/config.yaml", "--out=" + out, "--export=tum,kml,nav",
+      "run", "data/config.yaml", "--out=" + out, "--export=csv,npz,tum,kml,nav",
       "--methods=ekf,rts,two_filter,iterated,batch"};
   words.insert(words.end(), more.begin(), more.end());
   const Outcome outcome = Hindsight(words, root);

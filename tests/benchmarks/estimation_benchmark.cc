@@ -3,10 +3,7 @@
 
 #include <memory>
 
-#include "alignment/start.h"
-#include "dataset/timeline_builder.h"
-#include "filters/iterated_smoother.h"
-#include "io/config/scenario_config.h"
+#include "benchmarks/smoothed_drive.h"
 #include "problems/batch.h"
 #include "problems/chain_problem.h"
 #include "problems/reconstruction.h"
@@ -20,41 +17,13 @@ double PeakMegabytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-/// 30 min at 200 Hz with 1 Hz GNSS; the biases walk, so that a node has 15
-/// unknowns.
 const Dataset& Drive() {
-  static const Dataset dataset = [] {
-    Scenario scenario = FindScenario("car_drive");
-    scenario.imu.noise.gyro_bias_walk = 1e-7;
-    scenario.imu.noise.accel_bias_walk = 1e-5;
-    return Simulate(scenario, 1);
-  }();
+  static const Dataset dataset = WalkingDrive("1 Hz");
   return dataset;
 }
 
-TimelineOptions WholeDrive(double begin) {
-  TimelineOptions options;
-  options.t_begin = begin;
-  options.t_end = Drive().imu.t_end();
-  return options;
-}
-
-/// What the batch starts from, made once.
-struct Smoothed {
-  Smoothed()
-      : start(FindStart(Drive(), 0.0, Drive().imu.t_end())),
-        problem{start.layout, start.prior,
-                BuildTimeline(Drive(), WholeDrive(start.report.t))} {
-    const LinearTape tape = RunExtendedKalmanFilter(&problem);
-    problem.decisions = DecisionsOnTape(tape);
-    states = SmoothRts(tape).states;
-  }
-  Start start;
-  Problem problem;
-  std::vector<State> states;
-};
-Smoothed& SmoothedDrive() {
-  static Smoothed smoothed;
+SmoothedDrive& Smoothed() {
+  static SmoothedDrive smoothed(Drive());
   return smoothed;
 }
 
@@ -78,7 +47,7 @@ void FilterSmootherAndBatch(benchmark::State& state) {
 BENCHMARK(FilterSmootherAndBatch)->Unit(benchmark::kMillisecond);
 
 void ForwardFilter(benchmark::State& state) {
-  Smoothed& drive = SmoothedDrive();
+  SmoothedDrive& drive = Smoothed();
   for (auto _ : state) {
     const LinearTape tape = RunExtendedKalmanFilter(&drive.problem);
     benchmark::DoNotOptimize(tape.back().x_plus.p_e.data());
@@ -87,7 +56,7 @@ void ForwardFilter(benchmark::State& state) {
 BENCHMARK(ForwardFilter)->Unit(benchmark::kMillisecond);
 
 void RtsSmoother(benchmark::State& state) {
-  Smoothed& drive = SmoothedDrive();
+  SmoothedDrive& drive = Smoothed();
   const LinearTape tape = RunExtendedKalmanFilter(&drive.problem);
   for (auto _ : state) {
     const SmoothedTrajectory smoothed = SmoothRts(tape);
@@ -98,7 +67,7 @@ BENCHMARK(RtsSmoother)->Unit(benchmark::kMillisecond);
 
 /// The batch from the smoother's trajectory, its marginal covariances included.
 void BatchFromSmoother(benchmark::State& state) {
-  Smoothed& drive = SmoothedDrive();
+  SmoothedDrive& drive = Smoothed();
   for (auto _ : state) {
     const BatchResult result = SolveBatch(drive.states, {}, &drive.problem);
     state.counters["iterations"] = result.iterations;
@@ -106,13 +75,28 @@ void BatchFromSmoother(benchmark::State& state) {
 }
 BENCHMARK(BatchFromSmoother)->Unit(benchmark::kMillisecond);
 
-ChainProblem MakeChain(Smoothed* drive) {
+ChainProblem MakeChain(SmoothedDrive* drive) {
   return ChainProblem(drive->states, &drive->problem);
 }
 
+/// What of a step is residuals and Jacobians.
+void BatchLinearisation(benchmark::State& state) {
+  ChainProblem chain = MakeChain(&Smoothed());
+  TangentFactor::Jacobian J;
+  Eigen::VectorXd residual(kMaxErrorDim);
+  for (auto _ : state) {
+    for (const auto& factor : chain.factors()) {
+      factor->Linearize(chain.ParametersOf(*factor).data(), residual.data(),
+                        &J);
+      benchmark::DoNotOptimize(J.data());
+    }
+  }
+}
+BENCHMARK(BatchLinearisation)->Unit(benchmark::kMillisecond);
+
 /// Linearisation, factorisation and solution of one step.
 void BatchStep(benchmark::State& state) {
-  ChainProblem chain = MakeChain(&SmoothedDrive());
+  ChainProblem chain = MakeChain(&Smoothed());
   for (auto _ : state) {
     const ArrowLeastSquares step = chain.GaussNewtonStep();
     benchmark::DoNotOptimize(step.x(0).data());
@@ -122,7 +106,7 @@ BENCHMARK(BatchStep)->Unit(benchmark::kMillisecond);
 
 /// All marginals from a step at hand.
 void AllMarginals(benchmark::State& state) {
-  ChainProblem chain = MakeChain(&SmoothedDrive());
+  ChainProblem chain = MakeChain(&Smoothed());
   const ArrowLeastSquares step = chain.GaussNewtonStep();
   for (auto _ : state) {
     const CovarianceSeries marginals = chain.Marginals(step);

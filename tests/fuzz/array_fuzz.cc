@@ -1,13 +1,14 @@
-// Feeds bytes to the readers of binary files: NumPy, MATLAB, ROS bags. The
-// first byte chooses the format and the stream, the second how stamps are
-// counted; the rest is the file. Of MATLAB, the arrays "data" and "time" are
-// asked for.
+// Feeds bytes to the readers of binary files: NumPy, MATLAB, ROS bags, archives
+// of arrays. The first byte chooses the format and the stream, the second how
+// stamps are counted; the rest is the file. Of MATLAB, the arrays "data" and
+// "time" are asked for.
 
 #include <string>
 
 #include "base/error.h"
 #include "fuzz/fuzz_input.h"
 #include "io/read/file_formats.h"
+#include "io/read/npz.h"
 #include "io/read/reader.h"
 #include "measurements/sensor_kind.h"
 
@@ -68,6 +69,10 @@ void FuzzArrays(const std::uint8_t* data, std::size_t size) {
   source.sort = (data[0] & 0x10) != 0;
   source.absent_values = (data[0] & 0x20) != 0;
   try {
+    if ((data[0] & 0x40) != 0) {
+      ReadNpz(source.path);
+      return;
+    }
     ReadStream(source, (data[0] & 0x80) == 0, data[1]);
   } catch (const InputError&) {
   }

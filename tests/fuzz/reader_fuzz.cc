@@ -119,7 +119,7 @@ void ReadOther(unsigned kind, unsigned stream, std::string_view text,
       LoadScenario(source.path);
       return;
     case 3:
-      ReadSolutionCsv(source.path);
+      ReadSolutionTable(source.path);
       return;
     case 4:
       ReadTimeList(source.path);

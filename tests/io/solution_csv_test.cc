@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "base/random.h"
 #include "base/units.h"
+#include "io/full_table.h"
 #include "io/write/atomic_file.h"
 #include "io/write/output_error.h"
 #include "state/euler_error.h"
@@ -17,43 +17,11 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::UnorderedElementsAre;
 
-Eigen::Matrix3d RandomCovariance(double scale, Random* random) {
-  Eigen::Matrix3d A;
-  for (int i = 0; i < 3; ++i) A.col(i) = random->NormalVector3();
-  return scale * scale * (A * A.transpose() + Eigen::Matrix3d::Identity());
-}
-
-/// Epochs that start west of the date line and end east of it.
-SolutionTable FullTable() {
-  Random random(3);
-  SolutionTable table;
-  table.method = "batch";
-  for (int k = 0; k < 20; ++k) {
-    const State x = MakeState(
-        456300.125 + k / 3.0,
-        {-0.7 + 1e-3 * k, WrapAngle(kPi - 0.01 + 1e-3 * k), 10.0 * k - 30.0},
-        10.0 * random.NormalVector3(), random.NormalVector3());
-    table.t.push_back(x.t);
-    table.p_e.push_back(x.p_e);
-    table.v_e.push_back(x.v_e);
-    table.q_eb.push_back(x.q_eb);
-    table.P_position.push_back(RandomCovariance(0.02, &random));
-    table.P_velocity.push_back(RandomCovariance(1e-3, &random));
-    table.P_attitude.push_back(RandomCovariance(1e-4, &random));
-    table.sigma_euler.emplace_back(1e-4 * random.NormalVector3().cwiseAbs());
-    table.b_g.emplace_back(1e-5 * random.NormalVector3());
-    table.b_a.emplace_back(1e-2 * random.NormalVector3());
-    table.sigma_b_g.emplace_back(1e-6 * random.NormalVector3().cwiseAbs());
-    table.sigma_b_a.emplace_back(1e-3 * random.NormalVector3().cwiseAbs());
-  }
-  return table;
-}
-
 TEST(SolutionCsv, ComesBackAsWritten) {
   const TemporaryFolder folder;
   const SolutionTable table = FullTable();
   WriteSolutionCsv(folder.Path("a.csv"), table, "hindsight 0", {});
-  const SolutionTable back = ReadSolutionCsv(folder.Path("a.csv"));
+  const SolutionTable back = ReadSolutionTable(folder.Path("a.csv"));
   EXPECT_EQ(back.method, "batch");
   ASSERT_EQ(back.t, table.t);
   for (std::size_t k = 0; k < table.size(); ++k) {
@@ -83,7 +51,7 @@ TEST(SolutionCsv, SaysInACommentWhatItsTimesCountFrom) {
   EXPECT_THAT(folder.Read("a.csv"),
               HasSubstr("\n# epoch: t = 0 is GPS week 2374 second "
                         "243261.500000000, 2025-07-08T19:34:03.500Z\n"));
-  EXPECT_EQ(ReadSolutionCsv(folder.Path("a.csv")).t, FullTable().t);
+  EXPECT_EQ(ReadSolutionTable(folder.Path("a.csv")).t, FullTable().t);
   WriteSolutionCsv(folder.Path("b.csv"), FullTable(), "hindsight 0", {});
   EXPECT_THAT(folder.Read("b.csv"),
               HasSubstr("\n# epoch: the recording's clock has no date\n"));
@@ -134,7 +102,7 @@ TEST(SolutionCsv, ReadsSigmasWithoutCrossTermsAndOtherUnits) {
       "sd_pitch[deg],sd_heading[deg]\r\n"
       "7,1.5,0.25,-0.5,2500,1,2,3\r\n"
       "7,1.5,0.25,-0.5,3500,1,2,3\r\n");
-  const SolutionTable table = ReadSolutionCsv(path);
+  const SolutionTable table = ReadSolutionTable(path);
   ASSERT_EQ(table.size(), 2u);
   EXPECT_DOUBLE_EQ(table.t[0], 2.5);
   EXPECT_LT(
@@ -171,14 +139,14 @@ TEST(SolutionCsv, NamesFileLineAndFault) {
   for (const auto& c : cases) {
     const std::string path = folder.Write("a.csv", c.text);
     try {
-      ReadSolutionCsv(path);
+      ReadSolutionTable(path);
       ADD_FAILURE() << "no error for: " << c.text;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), HasSubstr(c.expected));
       EXPECT_THAT(error.what(), HasSubstr(path));
     }
   }
-  EXPECT_THROW(ReadSolutionCsv(folder.Path("absent.csv")), InputError);
+  EXPECT_THROW(ReadSolutionTable(folder.Path("absent.csv")), InputError);
 }
 
 TEST(AtomicFile, LeavesNothingUnlessCommitted) {

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -99,39 +100,45 @@ NumberType NpyTypeOf(const NpyHeader& header, const std::string& path) {
       "holds numbers of type '" + header.type + "'; expected one of " + known);
 }
 
+/// Where the bytes of an array are: a file, or memory.
+struct NpyBytes {
+  std::string path;
+  std::size_t size = 0;
+  /// As InputFile::ReadAt.
+  std::function<std::size_t(std::size_t, char*, std::size_t)> read_at;
+};
+
 /// The header's text; `data` becomes where it ends.
-std::string ReadNpyHeader(const InputFile& file, std::size_t* data) {
+std::string ReadNpyHeader(const NpyBytes& file, std::size_t* data) {
   constexpr std::size_t kShort = 10;
   constexpr std::size_t kLong = 12;
   // NumPy itself refuses longer ones.
   constexpr std::size_t kLongestHeader = 10000;
   std::array<char, kLong> start = {};
-  const std::size_t count = file.ReadAt(0, start.data(), start.size());
-  if (count == 0) throw InputError(file.path(), 0, "the file is empty");
+  const std::size_t count = file.read_at(0, start.data(), start.size());
+  if (count == 0) throw InputError(file.path, 0, "the file is empty");
   if (!std::string_view(start.data(), count).starts_with(kNpyMagic) ||
       count < kLong) {
-    throw InputError(file.path(), 0, "is no NumPy file");
+    throw InputError(file.path, 0, "is no NumPy file");
   }
   const auto version = static_cast<unsigned char>(start[6]);
   if (version < 1 || version > 3) {
-    throw InputError(file.path(), 0, "is a NumPy file of an unknown version");
+    throw InputError(file.path, 0, "is a NumPy file of an unknown version");
   }
   const std::size_t begin = version == 1 ? kShort : kLong;
   std::uint32_t length = 0;
   std::memcpy(&length, start.data() + 8, begin - 8);
-  if (length > kLongestHeader || length > file.size() - begin) {
-    throw InputError(file.path(), 0, "ends within its NumPy header");
+  if (length > kLongestHeader || length > file.size - begin) {
+    throw InputError(file.path, 0, "ends within its NumPy header");
   }
   std::string header(length, '\0');
-  file.ReadAt(begin, header.data(), length);
+  file.read_at(begin, header.data(), length);
   *data = begin + length;
   return header;
 }
 
-}  // namespace
-
-NumericArray ReadNpy(const std::string& path) {
-  const InputFile file(path);
+NumericArray ReadArray(const NpyBytes& file) {
+  const std::string& path = file.path;
   std::size_t data = 0;
   const std::string text = ReadNpyHeader(file, &data);
   const NpyHeader header = ParseNpyHeader(text, path);
@@ -140,7 +147,7 @@ NumericArray ReadNpy(const std::string& path) {
   array.column_major = header.fortran_order;
   array.rows = header.shape[0];
   array.columns = header.shape.size() > 1 ? header.shape[1] : 1;
-  const std::size_t bytes = file.size() - data;
+  const std::size_t bytes = file.size - data;
   const std::size_t count = bytes / Width(array.type);
   const bool fits = array.columns == 0 ? bytes == 0
                                        : count / array.columns == array.rows &&
@@ -152,8 +159,26 @@ NumericArray ReadNpy(const std::string& path) {
                          " bytes of data, which do not fit its shape");
   }
   array.bytes.resize(bytes);
-  file.ReadAt(data, array.bytes.data(), bytes);
+  file.read_at(data, array.bytes.data(), bytes);
   return array;
+}
+
+}  // namespace
+
+NumericArray ReadNpy(const std::string& path) {
+  const InputFile file(path);
+  return ReadArray({path, file.size(),
+                    [&file](std::size_t offset, char* data, std::size_t count) {
+                      return file.ReadAt(offset, data, count);
+                    }});
+}
+
+NumericArray ReadNpy(const std::string& path, const std::string& bytes) {
+  return ReadArray(
+      {path, bytes.size(),
+       [&bytes](std::size_t offset, char* data, std::size_t count) {
+         return offset > bytes.size() ? 0 : bytes.copy(data, count, offset);
+       }});
 }
 
 namespace {

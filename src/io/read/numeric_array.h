@@ -38,6 +38,8 @@ struct NumericArray {
 /// or 8. Throws InputError for anything else and for a file that is too short
 /// or too long.
 NumericArray ReadNpy(const std::string& path);
+/// The same of the bytes of such a file; messages call it `path`.
+NumericArray ReadNpy(const std::string& path, const std::string& bytes);
 
 /// Reads a real numeric variable of a MATLAB file (version 5, plain or
 /// compressed, and version 4) of two dimensions; a single row reads as a

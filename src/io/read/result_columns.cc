@@ -6,8 +6,11 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "base/error.h"
+#include "io/read/npz.h"
+#include "io/read/solution_columns.h"
 #include "io/read/text_lines.h"
 
 namespace hindsight {
@@ -104,8 +107,15 @@ ResidualSeries* SeriesOf(std::string_view sensor, int component,
 
 NumberColumns ReadNumberColumns(const std::string& path,
                                 const std::vector<std::string>& without) {
-  ResultRows rows(path);
   NumberColumns columns;
+  if (IsNpz(path)) {
+    for (auto& [name, values] : ReadNpz(path)) {
+      if (StartsWithAny(name, without)) continue;
+      columns[HeadingOf(name)] = std::move(values);
+    }
+    return columns;
+  }
+  ResultRows rows(path);
   std::vector<std::vector<double>*> wanted;
   for (const std::string& title : rows.titles()) {
     wanted.push_back(StartsWithAny(title, without) ? nullptr : &columns[title]);

@@ -8,13 +8,14 @@
 namespace hindsight {
 
 /// The columns of a result file by their titles, "t[s]": comment lines, a line
-/// of titles, a line a row. A field that is empty or no number is NaN. All are
-/// of the same length.
+/// of titles, a line a row; or a .npz, whose arrays have the titles of their
+/// names (HeadingOf). A field that is empty or no number is NaN. All are of the
+/// same length.
 using NumberColumns = std::map<std::string, std::vector<double>>;
 
 /// All columns but those whose titles begin with one of `without`. Throws
 /// InputError for a file that cannot be read, has no titles, or a row with
-/// fewer fields than these.
+/// fewer fields than these, and as ReadNpz.
 NumberColumns ReadNumberColumns(const std::string& path,
                                 const std::vector<std::string>& without = {});
 

@@ -1,5 +1,7 @@
 #include "io/read/solution_columns.h"
 
+#include <map>
+
 #include "base/units.h"
 
 namespace hindsight {
@@ -62,6 +64,85 @@ Columns13 AllColumns() {
 const std::vector<SolutionColumn>& Columns(ColumnGroup group) {
   static const Columns13 all = AllColumns();
   return all[static_cast<std::size_t>(group)];
+}
+
+const SolutionColumn& TimeColumn() {
+  static const SolutionColumn kColumn = {"t", "s", 1.0, 0, Quantity::kTime};
+  return kColumn;
+}
+
+const SolutionColumn& SeparationColumn() {
+  static const SolutionColumn kColumn = {"separation", "1", 1.0, -6, {}};
+  return kColumn;
+}
+
+const std::vector<SolutionColumn>& SeparationColumns() {
+  static const std::vector<SolutionColumn> kColumns = [] {
+    std::vector<SolutionColumn> columns;
+    for (const char* prefix : {"", "sd_"}) {
+      const std::string stem = std::string(prefix) + "separation_";
+      for (const char* axis : {"n", "e", "d"}) {
+        columns.push_back({stem + axis, "m", 1.0, -9, {}});
+      }
+      for (const char* axis : {"n", "e", "d"}) {
+        columns.push_back({stem + "v_" + axis, "m/s", 1.0, -9, {}});
+      }
+      for (const char* angle : {"roll", "pitch", "heading"}) {
+        columns.push_back({stem + angle, "deg", kDegree, -9, {}});
+      }
+    }
+    return columns;
+  }();
+  return kColumns;
+}
+
+const std::vector<SolutionColumn>& QuaternionColumns() {
+  static const std::vector<SolutionColumn> kColumns = {
+      {"q_w", "1", 1.0, 12, {}},
+      {"q_x", "1", 1.0, 12, {}},
+      {"q_y", "1", 1.0, 12, {}},
+      {"q_z", "1", 1.0, 12, {}}};
+  return kColumns;
+}
+
+const SolutionColumn& AccelSigmaColumn() {
+  static const SolutionColumn kColumn = {"accel_sigma", "m/s^2", 1.0, -6, {}};
+  return kColumn;
+}
+
+const SolutionColumn& MagneticColumn() {
+  static const SolutionColumn kColumn = {"magnetic", "1", 1.0, 0, {}};
+  return kColumn;
+}
+
+const std::vector<SolutionColumn>& MotionColumns() {
+  static const std::vector<SolutionColumn> kColumns = {
+      {"w_x", "deg/s", kDegree, 6, {}}, {"w_y", "deg/s", kDegree, 6, {}},
+      {"w_z", "deg/s", kDegree, 6, {}}, {"f_x", "m/s^2", 1.0, 6, {}},
+      {"f_y", "m/s^2", 1.0, 6, {}},     {"f_z", "m/s^2", 1.0, 6, {}}};
+  return kColumns;
+}
+
+std::string HeadingOf(const std::string& name) {
+  static const std::map<std::string, std::string> kHeadings = [] {
+    std::map<std::string, std::string> headings;
+    const auto add = [&headings](const std::vector<SolutionColumn>& columns) {
+      for (const SolutionColumn& column : columns) {
+        headings[column.name] = column.Heading();
+      }
+    };
+    for (int i = 0; i < kColumnGroups; ++i) {
+      add(Columns(static_cast<ColumnGroup>(i)));
+    }
+    add({TimeColumn(), SeparationColumn(), AccelSigmaColumn(),
+         MagneticColumn()});
+    add(SeparationColumns());
+    add(QuaternionColumns());
+    add(MotionColumns());
+    return headings;
+  }();
+  const auto found = kHeadings.find(name);
+  return found == kHeadings.end() ? name : found->second;
 }
 
 }  // namespace hindsight

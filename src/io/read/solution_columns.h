@@ -34,19 +34,39 @@ inline constexpr int kColumnGroups = 13;
 using GroupValues = Eigen::Matrix<double, 6, 1>;
 
 struct SolutionColumn {
-  const char* name;
-  const char* unit;  ///< as written
+  std::string name;
+  std::string unit;  ///< as written
   double si;         ///< one such unit in SI
-  /// Decimals in the file if not negative, significant digits if negative.
+  /// Decimals in a text file if positive, significant digits if negative; 0:
+  /// as many as give back the value.
   int digits;
   /// What a reader may convert another unit to; absent: no other is accepted.
   std::optional<Quantity> quantity;
 
-  std::string Heading() const { return std::string(name) + "[" + unit + "]"; }
+  std::string Heading() const { return name + "[" + unit + "]"; }
 };
 
 /// The columns of a group, in the order of GroupValues.
 const std::vector<SolutionColumn>& Columns(ColumnGroup group);
+
+/// t, of every file of rows in time.
+const SolutionColumn& TimeColumn();
+/// Distance of forward and backward positions, of two-filter smoothers.
+const SolutionColumn& SeparationColumn();
+/// Its components (FilterSeparation): differences, then standard deviations.
+const std::vector<SolutionColumn>& SeparationColumns();
+/// q_nb: w, x, y, z; of attitude alone.
+const std::vector<SolutionColumn>& QuaternionColumns();
+/// R of the accelerometer in force as a standard deviation, of attitude alone.
+const SolutionColumn& AccelSigmaColumn();
+/// Whether the magnetometer was used, of attitude alone.
+const SolutionColumn& MagneticColumn();
+/// w_ib_b and f_b (io/write/motion_csv.h).
+const std::vector<SolutionColumn>& MotionColumns();
+
+/// "lat[deg]" of "lat": the title of the column of that name, of all above;
+/// the name itself of any other.
+std::string HeadingOf(const std::string& name);
 
 }  // namespace hindsight
 

@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "io/read/solution_columns.h"
 #include "io/write/atomic_file.h"
+#include "io/write/column_file.h"
 #include "io/write/dataset_config.h"
 #include "io/write/number_format.h"
 #include "io/write/output_error.h"
@@ -42,13 +43,7 @@ class Row {
  public:
   void Add(const SolutionColumn& column, double value) {
     Separate();
-    if (column.digits == 0) {
-      AppendShortest(value / column.si, &text_);
-    } else if (column.digits < 0) {
-      AppendGeneral(value / column.si, -column.digits, &text_);
-    } else {
-      AppendFixed(value / column.si, column.digits, &text_);
-    }
+    AppendValue(column, value / column.si, &text_);
   }
   void AddGeneral(double value, int digits) {
     Separate();

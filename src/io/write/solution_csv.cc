@@ -1,14 +1,14 @@
 #include "io/write/solution_csv.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
-#include "base/units.h"
 #include "earth/wgs84.h"
 #include "geometry/so3.h"
-#include "io/read/solution_columns.h"
 #include "io/read/time_scale.h"
-#include "io/write/atomic_file.h"
-#include "io/write/number_format.h"
+#include "io/write/column_csv.h"
 
 namespace hindsight {
 namespace {
@@ -43,97 +43,87 @@ bool HasGroup(const SolutionTable& table, ColumnGroup group) {
   return false;
 }
 
-GroupValues Values(const Eigen::Vector3d& v) {
-  GroupValues values = GroupValues::Zero();
-  values.head<3>() = v;
-  return values;
+void Put(const Eigen::Vector3d& v, GroupValues* to) { to->head<3>() = v; }
+
+void PutSigmas(const Eigen::Matrix3d& P, GroupValues* to) {
+  Put(P.diagonal().cwiseMax(0.0).cwiseSqrt(), to);
 }
 
-GroupValues Sigmas(const Eigen::Matrix3d& P) {
-  return Values(P.diagonal().cwiseMax(0.0).cwiseSqrt());
+void PutCrossTerms(const Eigen::Matrix3d& P, GroupValues* to) {
+  Put({P(0, 1), P(0, 2), P(1, 2)}, to);
 }
 
-GroupValues CrossTerms(const Eigen::Matrix3d& P) {
-  return Values({P(0, 1), P(0, 2), P(1, 2)});
-}
-
+/// The values of a group at row k, SI. C_en is that of the row.
 GroupValues RowValues(const SolutionTable& table, std::size_t k,
-                      ColumnGroup group) {
+                      const Eigen::Matrix3d& C_en, ColumnGroup group) {
+  GroupValues values;
+  GroupValues* to = &values;
   switch (group) {
     case ColumnGroup::kPosition: {
       const Geodetic g = GeodeticFromEcef(table.p_e[k]);
-      return Values({g.latitude, g.longitude, g.height});
+      Put({g.latitude, g.longitude, g.height}, to);
+      break;
     }
     case ColumnGroup::kVelocity:
-      return Values(table.C_en(k).transpose() * table.v_e[k]);
+      Put(C_en.transpose() * table.v_e[k], to);
+      break;
     case ColumnGroup::kAttitude:
-      return Values(EulerFromQuaternion(table.q_nb(k)));
+      Put(EulerFromQuaternion(Eigen::Quaterniond(C_en).conjugate() *
+                              table.q_eb[k]),
+          to);
+      break;
     case ColumnGroup::kSdPosition:
-      return Sigmas(table.P_position[k]);
+      PutSigmas(table.P_position[k], to);
+      break;
     case ColumnGroup::kSdVelocity:
-      return Sigmas(table.P_velocity[k]);
+      PutSigmas(table.P_velocity[k], to);
+      break;
     case ColumnGroup::kSdAttitude:
-      return Values(table.sigma_euler[k]);
+      Put(table.sigma_euler[k], to);
+      break;
     case ColumnGroup::kGyroBias:
-      return Values(table.b_g[k]);
+      Put(table.b_g[k], to);
+      break;
     case ColumnGroup::kAccelBias:
-      return Values(table.b_a[k]);
+      Put(table.b_a[k], to);
+      break;
     case ColumnGroup::kSdGyroBias:
-      return Values(table.sigma_b_g[k]);
+      Put(table.sigma_b_g[k], to);
+      break;
     case ColumnGroup::kSdAccelBias:
-      return Values(table.sigma_b_a[k]);
+      Put(table.sigma_b_a[k], to);
+      break;
     case ColumnGroup::kCovPosition:
-      return CrossTerms(table.P_position[k]);
+      PutCrossTerms(table.P_position[k], to);
+      break;
     case ColumnGroup::kCovVelocity:
-      return CrossTerms(table.P_velocity[k]);
+      PutCrossTerms(table.P_velocity[k], to);
+      break;
     case ColumnGroup::kCovAttitude: {
       const Eigen::Matrix3d& P = table.P_attitude[k];
-      GroupValues values;
       values << P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2);
-      return values;
+      break;
     }
   }
-  return GroupValues::Zero();
+  return values;
 }
 
-/// The columns of FilterSeparation: differences, then standard deviations.
-const std::vector<SolutionColumn>& SeparationColumns() {
-  static const std::vector<SolutionColumn> kColumns = {
-      {"separation_n", "m", 1.0, -9, {}},
-      {"separation_e", "m", 1.0, -9, {}},
-      {"separation_d", "m", 1.0, -9, {}},
-      {"separation_v_n", "m/s", 1.0, -9, {}},
-      {"separation_v_e", "m/s", 1.0, -9, {}},
-      {"separation_v_d", "m/s", 1.0, -9, {}},
-      {"separation_roll", "deg", kDegree, -9, {}},
-      {"separation_pitch", "deg", kDegree, -9, {}},
-      {"separation_heading", "deg", kDegree, -9, {}}};
-  return kColumns;
+/// Of attitude alone, whose axes are no more than Euler angles tell.
+bool HasQuaternion(const SolutionTable& table) {
+  return table.p_e.empty() && !table.q_eb.empty();
 }
 
-std::string SeparationHeadings() {
-  std::string text;
-  for (const char* prefix : {"", "sd_"}) {
-    for (const SolutionColumn& column : SeparationColumns()) {
-      text += "," + (prefix + column.Heading());
-    }
-  }
-  return text;
+/// A quantity that may not exist at a row.
+double FiniteOrNan(double value) {
+  return std::isfinite(value) ? value
+                              : std::numeric_limits<double>::quiet_NaN();
 }
 
-void AppendSeparation(const FilterSeparation& separation, std::string* line) {
-  for (const auto* values : {&separation.difference, &separation.sigma}) {
-    Eigen::Index i = 0;
-    for (const SolutionColumn& column : SeparationColumns()) {
-      *line += ',';
-      const double value = (*values)(i++) / column.si;
-      if (std::isfinite(value)) AppendGeneral(value, -column.digits, line);
-    }
-  }
-}
+}  // namespace
 
-std::string Comments(const SolutionTable& table, const std::string& program,
-                     std::optional<std::int64_t> epoch_gps_ns) {
+std::string SolutionComments(const SolutionTable& table,
+                             const std::string& program,
+                             std::optional<std::int64_t> epoch_gps_ns) {
   return "# program: " + program + "\n# method: " + table.method + "\n" +
          EpochComment(epoch_gps_ns) +
          "# position: WGS-84, height above the ellipsoid; velocity over the "
@@ -159,82 +149,77 @@ std::string Comments(const SolutionTable& table, const std::string& program,
                 "used; magnetic: 1 used, 0 no reading, -1 disturbed\n");
 }
 
-void AppendQuaternion(const Eigen::Quaterniond& q_nb, std::string* line) {
-  constexpr int kDigits = 12;
-  for (const double value : {q_nb.w(), q_nb.x(), q_nb.y(), q_nb.z()}) {
-    *line += ',';
-    AppendFixed(value, kDigits, line);
+std::vector<SolutionColumn> ColumnsOf(const SolutionTable& table) {
+  std::vector<SolutionColumn> columns = {TimeColumn()};
+  const auto add = [&columns](const std::vector<SolutionColumn>& more) {
+    columns.insert(columns.end(), more.begin(), more.end());
+  };
+  for (int i = 0; i < kColumnGroups; ++i) {
+    const auto group = static_cast<ColumnGroup>(i);
+    if (HasGroup(table, group)) add(Columns(group));
   }
+  if (!table.separation.empty()) columns.push_back(SeparationColumn());
+  if (!table.separations.empty()) add(SeparationColumns());
+  if (HasQuaternion(table)) add(QuaternionColumns());
+  if (!table.accel_sigma.empty()) columns.push_back(AccelSigmaColumn());
+  if (!table.magnetic.empty()) columns.push_back(MagneticColumn());
+  return columns;
 }
 
-/// An accelerometer that was not used has no R: its field stays empty.
-void AppendAttitudeVerdicts(const SolutionTable& table, std::size_t k,
-                            std::string* line) {
-  constexpr int kDigits = 6;
-  if (!table.accel_sigma.empty()) {
-    *line += ',';
-    if (std::isfinite(table.accel_sigma[k])) {
-      AppendGeneral(table.accel_sigma[k], kDigits, line);
+Eigen::MatrixXd RowsOf(const SolutionTable& table,
+                       const std::vector<SolutionColumn>& columns,
+                       std::size_t begin, std::size_t end) {
+  std::vector<std::pair<ColumnGroup, Eigen::Index>> groups;
+  for (int i = 0; i < kColumnGroups; ++i) {
+    const auto group = static_cast<ColumnGroup>(i);
+    if (!HasGroup(table, group)) continue;
+    groups.emplace_back(group,
+                        static_cast<Eigen::Index>(Columns(group).size()));
+  }
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(end - begin),
+                       static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = begin; k < end; ++k) {
+    auto row = rows.row(static_cast<Eigen::Index>(k - begin));
+    const Eigen::Matrix3d C_en = table.C_en(k);
+    Eigen::Index at = 0;
+    row(at++) = table.t[k];
+    for (const auto& [group, size] : groups) {
+      const GroupValues values = RowValues(table, k, C_en, group);
+      row.segment(at, size) = values.head(size).transpose();
+      at += size;
     }
+    if (!table.separation.empty()) {
+      row(at++) = FiniteOrNan(table.separation[k]);
+    }
+    if (!table.separations.empty()) {
+      const FilterSeparation& both = table.separations[k];
+      for (const auto* values : {&both.difference, &both.sigma}) {
+        for (const double value : *values) row(at++) = FiniteOrNan(value);
+      }
+    }
+    if (HasQuaternion(table)) {
+      const Eigen::Quaterniond q_nb = table.q_nb(k);
+      row.segment<4>(at) << q_nb.w(), q_nb.x(), q_nb.y(), q_nb.z();
+      at += 4;
+    }
+    if (!table.accel_sigma.empty()) {
+      row(at++) = FiniteOrNan(table.accel_sigma[k]);
+    }
+    if (!table.magnetic.empty()) row(at++) = table.magnetic[k];
   }
-  if (!table.magnetic.empty()) {
-    *line += ',' + std::to_string(table.magnetic[k]);
-  }
+  Eigen::Index i = 0;
+  for (const SolutionColumn& column : columns) rows.col(i++) /= column.si;
+  return rows;
 }
-
-}  // namespace
 
 void WriteSolutionCsv(const std::string& path, const SolutionTable& table,
                       const std::string& program,
                       std::optional<std::int64_t> epoch_gps_ns) {
-  AtomicFile file(path);
-  std::vector<ColumnGroup> groups;
-  std::string line = Comments(table, program, epoch_gps_ns) + "t[s]";
-  for (int i = 0; i < kColumnGroups; ++i) {
-    const auto group = static_cast<ColumnGroup>(i);
-    if (!HasGroup(table, group)) continue;
-    groups.push_back(group);
-    for (const SolutionColumn& column : Columns(group)) {
-      line += "," + column.Heading();
-    }
-  }
-  if (!table.separation.empty()) line += ",separation[1]";
-  if (!table.separations.empty()) line += SeparationHeadings();
-  const bool quaternion = table.p_e.empty() && !table.q_eb.empty();
-  if (quaternion) line += ",q_w[1],q_x[1],q_y[1],q_z[1]";
-  if (!table.accel_sigma.empty()) line += ",accel_sigma[m/s^2]";
-  if (!table.magnetic.empty()) line += ",magnetic[1]";
-  file.Write(line + "\n");
-  for (std::size_t k = 0; k < table.size(); ++k) {
-    line.clear();
-    AppendShortest(table.t[k], &line);
-    for (const ColumnGroup group : groups) {
-      const GroupValues values = RowValues(table, k, group);
-      Eigen::Index i = 0;
-      for (const SolutionColumn& column : Columns(group)) {
-        line += ',';
-        const double value = values(i++) / column.si;
-        if (column.digits < 0) {
-          AppendGeneral(value, -column.digits, &line);
-        } else {
-          AppendFixed(value, column.digits, &line);
-        }
-      }
-    }
-    if (!table.separation.empty()) {
-      line += ',';
-      constexpr int kSeparationDigits = 6;
-      if (std::isfinite(table.separation[k])) {
-        AppendGeneral(table.separation[k], kSeparationDigits, &line);
-      }
-    }
-    if (!table.separations.empty()) {
-      AppendSeparation(table.separations[k], &line);
-    }
-    if (quaternion) AppendQuaternion(table.q_nb(k), &line);
-    AppendAttitudeVerdicts(table, k, &line);
-    line += '\n';
-    file.Write(line);
+  const std::vector<SolutionColumn> columns = ColumnsOf(table);
+  ColumnCsv file(path, SolutionComments(table, program, epoch_gps_ns), columns);
+  for (std::size_t k = 0; k < table.size(); k += kRowsOfPiece) {
+    file.Append(
+        RowsOf(table, columns, k, std::min(k + kRowsOfPiece, table.size())));
   }
   file.Commit();
 }

@@ -1,11 +1,15 @@
 #ifndef HINDSIGHT_IO_WRITE_SOLUTION_CSV_H_
 #define HINDSIGHT_IO_WRITE_SOLUTION_CSV_H_
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "evaluation/solution_table.h"
+#include "io/read/solution_columns.h"
 
 namespace hindsight {
 
@@ -45,6 +49,18 @@ namespace hindsight {
 ///                                without; empty where backward knows nothing
 ///   sd_separation_n[m] ...       sqrt(P_f + P_b) of each
 ///
+/// Below are its parts, for files of other kinds and for rows that come piece by
+/// piece: the columns, the same for all pieces of one solution; the rows from
+/// `begin` to before `end`, in the columns' units, NaN where a field is empty;
+/// the comment lines.
+std::vector<SolutionColumn> ColumnsOf(const SolutionTable& table);
+Eigen::MatrixXd RowsOf(const SolutionTable& table,
+                       const std::vector<SolutionColumn>& columns,
+                       std::size_t begin, std::size_t end);
+std::string SolutionComments(const SolutionTable& table,
+                             const std::string& program,
+                             std::optional<std::int64_t> epoch_gps_ns);
+
 /// Written to a temporary name and renamed. `program` ("hindsight 0.1.0") and
 /// what t = 0 is (EpochComment; `epoch_gps_ns` as in Dataset) go into the
 /// comments. Throws OutputError if the file cannot be written.
@@ -52,17 +68,17 @@ void WriteSolutionCsv(const std::string& path, const SolutionTable& table,
                       const std::string& program,
                       std::optional<std::int64_t> epoch_gps_ns);
 
-/// Reads a file of the columns above, plain or gzip, in any order, other
-/// columns skipped; units are converted except those of covariances. Only t is
+/// Reads a file of the columns above, text, plain or gzip, or arrays (.npz,
+/// io/write/npz.h) in their units, in any order, other columns skipped; units are converted except those of covariances. Only t is
 /// required, but of a group (position, velocity, attitude, a bias, a set of
 /// standard deviations or covariances) all columns or none must be there.
 /// Standard deviations without cross terms make a diagonal covariance; without
 /// cov_psi the attitude's is built from sd_roll, sd_pitch and sd_heading, as
 /// if the position were exact.
-/// Throws InputError "file:line: ..." for a file that is missing, empty or cut
-/// off, a wrong unit, a wrong number of fields, a field that is no finite
+/// Throws InputError "file:line: ..." (of arrays "file: row N: ...") for a file
+/// that is missing, empty or cut off, a wrong unit, a wrong number of fields, a field that is no finite
 /// number, a latitude beyond 90 deg, and a time that does not increase.
-SolutionTable ReadSolutionCsv(const std::string& path);
+SolutionTable ReadSolutionTable(const std::string& path);
 
 }  // namespace hindsight
 

@@ -1,5 +1,6 @@
 #include <Eigen/LU>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -8,9 +9,11 @@
 #include "base/units.h"
 #include "earth/wgs84.h"
 #include "geometry/so3.h"
+#include "io/read/npz.h"
 #include "io/read/solution_columns.h"
 #include "io/read/text_lines.h"
 #include "io/read/units.h"
+#include "io/write/number_format.h"
 #include "io/write/solution_csv.h"
 #include "state/euler_error.h"
 
@@ -30,13 +33,14 @@ struct Header {
   std::map<ColumnGroup, std::vector<Field>> groups;
 };
 
-/// A line of the file being read, for messages.
+/// A line or row of the file being read, for messages.
 struct Place {
   const std::string& path;
   long line;
+  std::string row = {};  ///< "row 3: " where there are no lines
 
   [[noreturn]] void Fail(const std::string& message) const {
-    throw InputError(path, line, message);
+    throw InputError(path, line, row + message);
   }
 };
 
@@ -55,7 +59,7 @@ void SplitFields(std::string_view line, std::vector<std::string_view>* fields) {
 std::optional<Field> FindColumn(const std::vector<std::string_view>& cells,
                                 const SolutionColumn& column,
                                 const Place& place) {
-  const std::string start = std::string(column.name) + "[";
+  const std::string start = column.name + "[";
   std::optional<Field> found;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::string_view cell = cells[i];
@@ -82,8 +86,7 @@ Header ParseHeader(const std::vector<std::string_view>& cells,
                    const Place& place) {
   Header header;
   header.width = cells.size();
-  const std::optional<Field> time =
-      FindColumn(cells, {"t", "s", 1.0, 0, Quantity::kTime}, place);
+  const std::optional<Field> time = FindColumn(cells, TimeColumn(), place);
   if (!time) {
     place.Fail(
         "no column t[s]; expected a header line such as "
@@ -187,27 +190,24 @@ void AppendRow(double t, const EpochRow& row, SolutionTable* table) {
   AppendAttitudeCovariance(row, table);
 }
 
-void ParseRow(const Header& header, const std::vector<std::string_view>& cells,
-              const Place& place, SolutionTable* table) {
-  if (cells.size() != header.width) {
-    place.Fail(std::to_string(cells.size()) + " fields, expected " +
-               std::to_string(header.width) + " as in the header");
-  }
-  const std::string_view time = cells[header.time.index];
-  const double t = ParseField(time, place) * header.time.si;
+/// One row; `text` and `number` give those of its field `index`.
+template <typename Text, typename Number>
+void ParseRow(const Header& header, const Place& place, const Text& text,
+              const Number& number, SolutionTable* table) {
+  const double t = number(header.time.index) * header.time.si;
   if (!table->t.empty() && t <= table->t.back()) {
-    place.Fail("time " + std::string(time) +
-               " is not after that of the line before");
+    place.Fail("time " + text(header.time.index) +
+               " is not after the one before");
   }
   EpochRow row;
   for (const auto& [group, fields] : header.groups) {
     GroupValues values = GroupValues::Zero();
     Eigen::Index i = 0;
     for (const Field& field : fields) {
-      values(i++) = ParseField(cells[field.index], place) * field.si;
+      values(i++) = number(field.index) * field.si;
     }
     if (group == ColumnGroup::kPosition && std::abs(values(0)) > 0.5 * kPi) {
-      place.Fail("latitude " + std::string(cells[fields.front().index]) +
+      place.Fail("latitude " + text(fields.front().index) +
                  " is beyond 90 deg");
     }
     row.emplace(group, values);
@@ -215,9 +215,18 @@ void ParseRow(const Header& header, const std::vector<std::string_view>& cells,
   AppendRow(t, row, table);
 }
 
-}  // namespace
+void ParseLine(const Header& header, const std::vector<std::string_view>& cells,
+               const Place& place, SolutionTable* table) {
+  if (cells.size() != header.width) {
+    place.Fail(std::to_string(cells.size()) + " fields, expected " +
+               std::to_string(header.width) + " as in the header");
+  }
+  ParseRow(
+      header, place, [&](std::size_t i) { return std::string(cells[i]); },
+      [&](std::size_t i) { return ParseField(cells[i], place); }, table);
+}
 
-SolutionTable ReadSolutionCsv(const std::string& path) {
+SolutionTable ReadText(const std::string& path) {
   constexpr std::string_view kMethod = "# method: ";
   TextLines lines(path);
   SolutionTable table;
@@ -234,7 +243,7 @@ SolutionTable ReadSolutionCsv(const std::string& path) {
     if (header.width == 0) {
       header = ParseHeader(cells, place);
     } else {
-      ParseRow(header, cells, place, &table);
+      ParseLine(header, cells, place, &table);
     }
   }
   if (table.t.empty()) {
@@ -243,6 +252,43 @@ SolutionTable ReadSolutionCsv(const std::string& path) {
                      "t[s],lat[deg],lon[deg],h[m],... and one line an epoch");
   }
   return table;
+}
+
+/// Its rows count from 1.
+SolutionTable ReadArrays(const std::string& path) {
+  const NamedColumns named = ReadNpz(path);
+  std::vector<std::string> titles;
+  std::vector<const std::vector<double>*> columns;
+  for (const auto& [name, values] : named) {
+    titles.push_back(HeadingOf(name));
+    columns.push_back(&values);
+  }
+  const Header header =
+      ParseHeader({titles.begin(), titles.end()}, Place{path, 0});
+  SolutionTable table;
+  table.method = std::filesystem::path(path).stem().string();
+  for (std::size_t k = 0; k < columns.front()->size(); ++k) {
+    const auto text = [&](std::size_t i) {
+      return FormatGeneral((*columns[i])[k], 17);
+    };
+    const Place place{path, 0, "row " + std::to_string(k + 1) + ": "};
+    const auto number = [&](std::size_t i) {
+      const double value = (*columns[i])[k];
+      if (!std::isfinite(value)) {
+        place.Fail(titles[i] + " is not a finite number");
+      }
+      return value;
+    };
+    ParseRow(header, place, text, number, &table);
+  }
+  if (table.t.empty()) throw InputError(path, 0, "no epoch in the arrays");
+  return table;
+}
+
+}  // namespace
+
+SolutionTable ReadSolutionTable(const std::string& path) {
+  return IsNpz(path) ? ReadArrays(path) : ReadText(path);
 }
 
 }  // namespace hindsight

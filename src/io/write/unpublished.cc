@@ -129,7 +129,7 @@ Unpublished CreateUnpublishedFile(const fs::path& target,
   return CreateLocked(
       target,
       [](const char* path) {
-        return open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        return open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       },
       error);
 }

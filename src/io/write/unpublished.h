@@ -50,8 +50,8 @@ std::filesystem::path UnpublishedName(const std::filesystem::path& target);
 bool IsUnpublishedName(const std::string& name,
                        const std::filesystem::path& target);
 
-/// A new empty file, open for writing, or a new empty folder beside `target`.
-/// Either is created by this call or the call fails with `error` set.
+/// A new empty file, open for reading and writing, or a new empty folder beside
+/// `target`. Either is created by this call or the call fails with `error` set.
 Unpublished CreateUnpublishedFile(const std::filesystem::path& target,
                                   std::error_code* error);
 Unpublished CreateUnpublishedFolder(const std::filesystem::path& target,

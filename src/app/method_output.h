@@ -1,0 +1,57 @@
+#ifndef HINDSIGHT_APP_METHOD_OUTPUT_H_
+#define HINDSIGHT_APP_METHOD_OUTPUT_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/result_folder.h"
+#include "app/run_request.h"
+#include "evaluation/solution_table.h"
+#include "io/write/column_file.h"
+#include "state/solution.h"
+
+namespace hindsight {
+
+/// The rows of one method's output, written as they come: METHOD.csv and
+/// METHOD.motion.csv, or the same as .npz, of which none is held in memory, and
+/// the other formats of --export, for which the table is.
+class MethodOutput {
+ public:
+  /// References stay valid up to the end. Throws OutputError, as all here.
+  MethodOutput(const RunRequest& request, const Dataset& dataset,
+               const Solution& solution, ResultFolder* folder);
+
+  /// Adds rows of the solution, later than all before.
+  void Append(const SolutionTable& piece);
+  /// Finishes the files.
+  void Commit();
+
+ private:
+  using Files = std::vector<std::unique_ptr<ColumnFile>>;
+
+  /// `stem`.csv, `stem`.npz or both, as asked for.
+  Files Open(const std::string& stem, const std::string& comments,
+             const std::vector<SolutionColumn>& columns) const;
+  /// Of the waiting rows before `end`.
+  void WriteMotion(std::size_t end);
+  void WriteExports() const;
+
+  const RunRequest& request_;
+  const Dataset& dataset_;
+  const Solution& solution_;
+  ResultFolder* folder_;
+  std::vector<SolutionColumn> columns_;  ///< from the first row on, as files
+  Files files_;
+  Files motion_files_;
+  /// Times of rows whose motion waits, as it needs the time after; behind that
+  /// of the last row written, if there is one.
+  std::vector<double> waiting_;
+  bool motion_begun_ = false;
+  std::size_t node_ = 0;  ///< the last of the solution before these
+  SolutionTable table_;   ///< all rows, if an export needs them
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_APP_METHOD_OUTPUT_H_

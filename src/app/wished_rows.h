@@ -1,0 +1,55 @@
+#ifndef HINDSIGHT_APP_WISHED_ROWS_H_
+#define HINDSIGHT_APP_WISHED_ROWS_H_
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "evaluation/solution_table.h"
+#include "problems/reconstruction.h"
+
+namespace hindsight {
+
+/// Ascending times: a list, or multiples of an interval, of which none is held.
+class Times {
+ public:
+  explicit Times(std::vector<double> list);
+  /// The multiples of 1/rate within the solution's span.
+  Times(const Solution& solution, double rate);
+
+  bool IsAtEnd() const { return at_ == count_; }
+  double Next() const;
+  /// Whether `t`, not after Next(), is among them; goes on behind it.
+  bool Take(double t);
+
+ private:
+  double first_ = 0.0;
+  double rate_ = 0.0;
+  std::size_t count_ = 0;
+  std::size_t at_ = 0;
+  std::vector<double> list_;
+};
+
+/// One who wants rows of a solution.
+struct Wish {
+  Times times;
+  Eigen::Vector3d point_b;  ///< of which point, from the IMU [m]
+  std::function<void(const SolutionTable&)> take;  ///< some at a time, in order
+};
+
+/// Collects what a wish is given.
+std::function<void(const SolutionTable&)> Into(SolutionTable* table);
+
+/// The rows of a solution as they are, of a point that many metres from the IMU.
+SolutionTable TableAt(const Eigen::Vector3d& point_b, const ImuStream& imu,
+                      const Solution& solution);
+
+/// Fulfils all wishes in one walk, piece by piece, since a row of a solution,
+/// with its whole covariance, is several times as large as that of a table.
+void SampleRows(const ImuStream& imu, const Reconstruction& reconstruction,
+                const Solution& solution, std::vector<Wish> wishes);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_APP_WISHED_ROWS_H_

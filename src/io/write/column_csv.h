@@ -1,0 +1,30 @@
+#ifndef HINDSIGHT_IO_WRITE_COLUMN_CSV_H_
+#define HINDSIGHT_IO_WRITE_COLUMN_CSV_H_
+
+#include <string>
+#include <vector>
+
+#include "io/write/atomic_file.h"
+#include "io/write/column_file.h"
+
+namespace hindsight {
+
+/// As text: the comments, a line of titles, a line a row, separated by commas;
+/// a field of NaN is empty.
+class ColumnCsv : public ColumnFile {
+ public:
+  /// `comments` are whole lines. Throws OutputError.
+  ColumnCsv(const std::string& path, const std::string& comments,
+            std::vector<SolutionColumn> columns);
+
+  void Append(const Eigen::MatrixXd& rows) override;
+  void Commit() override;
+
+ private:
+  AtomicFile file_;
+  std::vector<SolutionColumn> columns_;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_WRITE_COLUMN_CSV_H_
