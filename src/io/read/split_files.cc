@@ -107,7 +107,8 @@ bool HasSameColumns(const FileColumns& a, const FileColumns& b) {
                     b.columns.end(),
                     [](const FileColumn& one, const FileColumn& other) {
                       return one.reference == other.reference &&
-                             one.title == other.title;
+                             one.title == other.title &&
+                             one.holds == other.holds;
                     });
 }
 
