@@ -56,12 +56,11 @@ class Refiner {
     try {
       dataset_ =
           LoadDataset(draft_.name + ".yaml", {.text = DraftText(draft_)});
-      return true;
-    } catch (const InputError& error) {
-      draft_.assumptions.push_back(std::string("does not load as it stands: ") +
-                                   error.what());
-      return false;
+      draft_.loads = true;
+    } catch (const InputError&) {
+      draft_.loads = false;
     }
+    return draft_.loads;
   }
 
   void SetAxes() {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/error.h"
 #include "io/read/file_format.h"
 #include "io/read/paths.h"
 #include "io/read/reader.h"
@@ -34,13 +35,27 @@ std::optional<Stamp> FirstDate(const fs::path& path, const FoundStream& found) {
     if (found.stamps->unit != "GPST") return GpsFromUnix(since_1970);
     return Stamp{since_1970.seconds - kGpsEpochUnix, since_1970.fraction};
   }
-  if (!found.format->dated) return std::nullopt;
+  const FileFormat& kind = *found.format;
+  if (found.stamps || kind.takes_columns || kind.whole_recordings) {
+    return std::nullopt;
+  }
   TextFormat format;
   format.kind = found.format;
-  const OpenedTable opened =
-      OpenTable(path.string(), format, PositionKind().columns, {});
-  if (!opened.dated || !opened.table->Next()) return std::nullopt;
-  return opened.table->stamp();
+  try {
+    const OpenedTable opened =
+        OpenTable(path.string(), format, FieldsOf(found), {});
+    if (!opened.dated || !opened.table->Next()) return std::nullopt;
+    return opened.table->stamp();
+  } catch (const InputError&) {
+    return std::nullopt;  // which whoever loads it is told
+  }
+}
+
+/// Whether its stamps count from an instant that nothing tells.
+bool IsUndated(const RecordingDraft& draft, const FoundStream& found) {
+  if (found.stamps) return !IsDated(found);
+  return !found.format->counts_from_1970 && !found.format->whole_recordings &&
+         !FirstDate(PathOf(draft, found), found);
 }
 
 /// "{rate: 100 Hz, start: 0 s}"; nothing to say: "".
@@ -157,7 +172,7 @@ void SetDraftClocks(RecordingDraft* draft) {
   for (const StreamDraft& stream : draft->aiding) {
     if (!date) date = FirstDate(PathOf(*draft, stream.found), stream.found);
   }
-  if (date && imu.stamps && !IsDated(imu)) {
+  if (date && IsUndated(*draft, imu)) {
     StartImuAt(*date, draft);
   } else if (imu.stamps) {
     BeginTogether(draft);

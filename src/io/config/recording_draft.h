@@ -27,6 +27,7 @@ struct RecordingDraft {
   std::vector<std::string> unknown;  ///< files that were not recognised
   std::vector<std::string> copies;   ///< as RecordingFiles::copies
   std::vector<KeyLine> top;          ///< further lines of the top level
+  bool loads = true;  ///< false: 'run' would refuse it as it stands
   /// What was taken for granted and matters, one clause each.
   std::vector<std::string> assumptions;
 

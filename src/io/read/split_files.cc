@@ -43,11 +43,6 @@ std::string NamePattern(std::string name) {
   return pattern;
 }
 
-const std::vector<FieldName>& FieldsOf(const FoundStream& found) {
-  if (found.imu) return ImuFields();
-  return found.kinds.empty() ? TruthFields() : found.kinds.front()->columns;
-}
-
 /// By reading a file of a format that needs no columns.
 std::optional<StampSpan> ReadSpan(const std::string& path,
                                   const FoundStream& found) {
