@@ -14,6 +14,7 @@
 #include "dataset/checks.h"
 #include "dataset/median_field.h"
 #include "dataset/mirrored_axis.h"
+#include "dataset/truth_lever_arm.h"
 #include "dataset/usual_noise.h"
 #include "geometry/so3.h"
 #include "io/config/config.h"
@@ -47,7 +48,9 @@ class Refiner {
     TellStretch(dataset_, &draft_);
     SetForward();
     TellTruthClock(dataset_, &draft_);
-    if (Load()) SetLikelyNoise();
+    if (!Load()) return;
+    TellTruthPoint();
+    SetLikelyNoise();
     Load();
   }
 
@@ -205,6 +208,34 @@ class Refiner {
       SetLine({"sigma", ScaledNumbers(sigma->value, factor), why}, &lines);
     } else if (stream->kind->states_sigma) {
       SetLine({"sigma_scale", fmt::format("{:.2g}", factor), why}, &lines);
+    }
+  }
+
+  /// Of which point a truth speaks, where its velocities in turns tell.
+  void TellTruthPoint() {
+    constexpr double kSure = 5.0;   // sigmas
+    constexpr double kFar = 0.1;    // m
+    constexpr double kKnown = 0.3;  // m
+    if (!draft_.truth) return;
+    const auto found = FindTruthLeverArm(dataset_);
+    const bool apart =
+        found && ((found->l_b.array().abs() > kSure * found->sigma.array()) &&
+                  (found->l_b.array().abs() > kFar))
+                     .any();
+    if (apart) {
+      SetLine(
+          {"lever_arm",
+           fmt::format("[{:.2f}, {:.2f}, {:.2f} m]", found->l_b.x(),
+                       found->l_b.y(), found->l_b.z()),
+           fmt::format("of the point it speaks of: its velocities in turns "
+                       "say so, +- {:.2g}, {:.2g}, {:.2g} m (likely)",
+                       found->sigma.x(), found->sigma.y(), found->sigma.z())},
+          &draft_.truth->lines);
+      return;
+    }
+    const bool known = found && found->sigma.maxCoeff() < kKnown;
+    if (FindLine(draft_.top, "  from") != nullptr && !known) {
+      draft_.Assume("truth: taken to speak of the point where the IMU is");
     }
   }
 
