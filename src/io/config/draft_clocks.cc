@@ -36,9 +36,7 @@ std::optional<Stamp> FirstDate(const fs::path& path, const FoundStream& found) {
     return Stamp{since_1970.seconds - kGpsEpochUnix, since_1970.fraction};
   }
   const FileFormat& kind = *found.format;
-  if (found.stamps || kind.takes_columns || kind.whole_recordings) {
-    return std::nullopt;
-  }
+  if (!kind.dated && &kind != &CsvFormat()) return std::nullopt;
   TextFormat format;
   format.kind = found.format;
   try {
