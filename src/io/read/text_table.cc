@@ -87,6 +87,14 @@ std::string Plural(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " column" : " columns");
 }
 
+/// As a line of titles.
+bool HoldsNoNumber(std::string_view line, char delimiter) {
+  const std::vector<std::string_view> words = SplitLine(line, delimiter);
+  return std::none_of(words.begin(), words.end(), [](std::string_view word) {
+    return ParseNumber(word).has_value();
+  });
+}
+
 int TimeColumns(TableLayout::Clock clock) {
   switch (clock) {
     case TableLayout::Clock::kNone:
@@ -185,6 +193,13 @@ bool TextTable::Next() {
     const bool cut = !lines_->terminated() && options_.allow_truncated_tail;
     if (!options_.drop_text || cut) break;
     ++texts_;
+  }
+  const bool first = layout_.column_count == 0;
+  if (first && HoldsNoNumber(line, layout_.delimiter)) {
+    problem +=
+        "; a line of titles above columns that are counted is passed "
+        "over by skip_lines: " +
+        std::to_string(line_);
   }
   if (lines_->terminated()) Fail(problem);
   if (!options_.allow_truncated_tail) {
