@@ -70,6 +70,44 @@ TEST(AllanInTheReport, SaysWhyThereIsNone) {
             std::string::npos);
 }
 
+TEST(AllanProposal, SaysWhatIsSeenAndWhichAxisIsTheNoisiest) {
+  const TemporaryFolder folder;
+  RunAtRest("400", folder.path());
+  const auto check = [&] {
+    const Outcome outcome =
+        Hindsight({"check", "data/config.yaml", "--allan"}, folder.path());
+    const std::size_t at = outcome.out.find("  noise:\n");
+    EXPECT_NE(at, std::string::npos) << outcome.out << outcome.err;
+    return at == std::string::npos ? "" : outcome.out.substr(at);
+  };
+  const std::string alike = check();
+  // Nothing walks in this scenario.
+  for (const char* text :
+       {"    # gyro_bias_walk: not seen in this rest, below ",
+        "    # accel_bias_walk: not seen in this rest"}) {
+    EXPECT_NE(alike.find(text), std::string::npos) << alike;
+  }
+  EXPECT_EQ(alike.find("largest"), std::string::npos) << alike;
+  const auto imu = folder.path() / "data/imu.csv";
+  std::vector<std::string> lines = Lines(ReadFile(imu));
+  for (std::string& line : lines) {
+    if (line.front() < '0' || line.front() > '9') continue;
+    const std::size_t begin = line.find(',', line.find(',') + 1) + 1;
+    const double y = std::stod(line.substr(begin));
+    SetColumn(&line, 2, std::to_string(1e6 * 20.0 * y) + "e-6");
+  }
+  WriteFile(imu, Join(lines));
+  const std::string apart = check();
+  const std::string key = "    gyro: ";
+  const std::size_t at = apart.find(key);
+  ASSERT_NE(at, std::string::npos) << apart;
+  EXPECT_NEAR(std::stod(apart.substr(at + key.size())) / (20.0 * 0.3 / 60.0),
+              1.0, 0.15)
+      << apart;
+  EXPECT_NE(apart.find("# gyro y, the largest: "), std::string::npos) << apart;
+  EXPECT_NE(apart.find(" times gyro "), std::string::npos) << apart;
+}
+
 TEST(VehicleByName, IsToldByTheRun) {
   const TemporaryFolder folder;
   RunAtRest("20", folder.path());
