@@ -74,8 +74,11 @@ void WriteAll(const std::vector<RecordingDraft>& drafts) {
 }
 
 int Run(const std::vector<std::string>& arguments) {
-  if (!FLAGS_out.empty() && !IsFolder(FLAGS_out)) {
+  if (IsFolder(FLAGS_out)) {
+    RequireRoomFor((std::filesystem::path(FLAGS_out) / "NAME.yaml").string());
+  } else if (!FLAGS_out.empty()) {
     CheckFilePlace(FLAGS_out, {"'init'", IsInitConfig});
+    RequireRoomFor(FLAGS_out);
   }
   const std::vector<RecordingDraft> drafts = DraftFolder(arguments[0]);
   const bool all_load =

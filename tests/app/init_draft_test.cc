@@ -72,5 +72,25 @@ TEST_F(DraftOf, DatedFixesBesideAnUndatedImuLoads) {
               HasSubstr("imu: its clock has no date"));
 }
 
+TEST_F(DraftOf, RefusesAnOutputThatCannotBeWrittenBeforeItLooks) {
+  // A folder that takes no files from anybody; what is to be looked at is not
+  // there, which would be said otherwise.
+  const Outcome init =
+      Hindsight({"init", "nowhere", "--out=/proc/self"}, root());
+  EXPECT_EQ(init.status, 4) << init.err;
+  EXPECT_THAT(init.err, HasSubstr("/proc/self/NAME.yaml"));
+}
+
+TEST_F(DraftOf, GzipDataThatAreCutOffAreSaidToBe) {
+  const std::string text = ReadFile(recording_.file("imu.csv"));
+  WriteGzip(recording_.file("imu.csv.gz"), text);
+  std::filesystem::remove(recording_.file("imu.csv"));
+  const auto path = recording_.file("imu.csv.gz");
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  const Outcome init = Init("c.yaml");
+  EXPECT_EQ(init.status, 2) << init.out;
+  EXPECT_THAT(init.err, HasSubstr("imu.csv.gz: is cut off"));
+}
+
 }  // namespace
 }  // namespace hindsight
