@@ -239,7 +239,8 @@ Solution AttitudeEstimation::Run(const Method& method) {
   recording.insert(recording.end(), evidence_.begin(), evidence_.end());
   Conclude({.solution = solution,
             .recording = std::move(recording),
-            .relative_heading = magnetic_.empty() && headings_.empty()},
+            .relative_heading = magnetic_.empty() && headings_.empty(),
+            .mounting_sigma = dataset_.mounting_sigma},
            {}, &solution);
   if (imu_.stamp_offset != 0.0) {
     std::vector<double> stamps;

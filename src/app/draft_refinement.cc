@@ -255,6 +255,7 @@ class Refiner {
 
   /// The axis along which it is accelerated as it runs.
   void SetForward() {
+    constexpr double kLevel = 1.0;  // deg
     const auto found = FindMounting(dataset_, -kInfinity, kInfinity);
     const bool odometer = std::any_of(
         draft_.aiding.begin(), draft_.aiding.end(),
@@ -273,6 +274,13 @@ class Refiner {
          fmt::format("forward is where starts, stops and turns say, +- {:.1f}"
                      " deg (likely)",
                      found->yaw_sigma / kDegree)},
+        &draft_.imu->lines);
+    SetLine(
+        {"mounting_sigma",
+         fmt::format("[{0:.1f}, {0:.1f}, {1:.1f} deg]", kLevel,
+                     std::max(found->yaw_sigma / kDegree, 0.1)),
+         "level on average (a guess), and as above: attitudes are no better "
+         "known"},
         &draft_.imu->lines);
     if (odometer) return;
     StreamDraft wheels{"wheels", &NonHolonomicKind(), {}};

@@ -37,10 +37,15 @@ std::vector<double> UniformTimes(const Solution& solution, double rate) {
   return times;
 }
 
-SolutionTable TableAt(const Eigen::Vector3d& point_b, const ImuStream& imu,
+SolutionTable TableAt(const Eigen::Vector3d& point_b, const Dataset& dataset,
                       const Solution& solution) {
-  if (point_b.isZero(0.0)) return TableFromSolution(solution);
-  return TableFromSolution(MoveToPoint(solution, imu, point_b));
+  const bool moved = !point_b.isZero(0.0);
+  if (!moved && dataset.mounting_sigma.isZero(0.0)) {
+    return TableFromSolution(solution);
+  }
+  const Solution known = WithMountingSigma(solution, dataset.mounting_sigma);
+  return TableFromSolution(moved ? MoveToPoint(known, dataset.imu, point_b)
+                                 : known);
 }
 
 /// Some rows of a column that may be empty.
@@ -170,7 +175,7 @@ void SampleOnce(const Dataset& dataset, const Reconstruction& reconstruction,
       if (rows.empty()) continue;
       if (point_b != wish.point_b) {
         point_b = wish.point_b;
-        table = TableAt(wish.point_b, dataset.imu, piece);
+        table = TableAt(wish.point_b, dataset, piece);
       }
       AppendRows(table, rows, wish.table);
     }
@@ -248,7 +253,7 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
   CheckTimesCovered(request, solution);
   std::vector<Wish> wishes = {{request.at, request.point_b, &tables.at}};
   if (request.attitude_alone) {
-    tables.truth = TableFromSolution(solution);
+    tables.truth = TableAt(Eigen::Vector3d::Zero(), dataset, solution);
   } else {
     wishes.push_back({TruthTimes(dataset, solution.states.front().t,
                                  solution.states.back().t),
@@ -258,7 +263,7 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
     wishes.push_back({UniformTimes(solution, *request.rate), request.point_b,
                       &tables.output});
   } else {
-    tables.output = TableAt(request.point_b, dataset.imu, solution);
+    tables.output = TableAt(request.point_b, dataset, solution);
   }
   SampleOnce(dataset, reconstruction, solution, wishes);
   tables.motion = MotionAt(tables.output.t, solution, dataset.imu);
