@@ -54,7 +54,9 @@ std::vector<double> TurnsAboutVertical(const ImuStream& stream) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const ImuSample& sample : stream.samples) mean += sample.accel;
   const Eigen::Vector3d down = -mean.normalized();
-  std::vector<double> turns = {0.0};
+  std::vector<double> turns;
+  turns.reserve(stream.samples.size());
+  turns.push_back(0.0);
   for (std::size_t k = 1; k < stream.samples.size(); ++k) {
     const ImuSample sample = stream.samples[k];
     const double dt = sample.t - stream.samples[k - 1].t;

@@ -125,15 +125,9 @@ class Grouper {
         }
       }
     }
-    const auto dated = [](const FoundStream* f) { return IsDated(*f); };
-    if (std::all_of(mains_.begin(), mains_.end(), dated) &&
-        std::all_of(others_.begin(), others_.end(), dated)) {
-      return true;
-    }
-    return !others_.empty() && std::all_of(others_.begin(), others_.end(),
-                                           [&](const FoundStream* f) {
-                                             return !ByTime(*f).empty();
-                                           });
+    // Clocks of their own differ between the devices of one recording as well.
+    return std::all_of(mains_.begin(), mains_.end(),
+                       [](const FoundStream* f) { return IsDated(*f); });
   }
 
   bool NamesTell() const {
@@ -159,7 +153,8 @@ class Grouper {
       groups.push_back(std::move(group));
     }
     for (const FoundStream* other : others_) {
-      const Places places = by_time ? ByTime(*other) : ByName(other->file);
+      const bool timed = by_time && IsDated(*other);
+      const Places places = timed ? ByTime(*other) : ByName(other->file);
       for (const std::size_t place : places) {
         (other->imu ? groups[place].imus : groups[place].others)
             .push_back(*other);

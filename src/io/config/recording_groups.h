@@ -8,12 +8,12 @@
 namespace hindsight {
 
 /// The recordings of which the files lie in one folder, told by IMUs that are on
-/// no wheel: two whose records have no instant in common are of two recordings if
-/// every other stream overlaps one by at least half of the shorter, or all have
-/// dates; else two are if their names differ by words (a day, a number), of which
-/// the names of other streams hold those of one each, in two recordings at least.
-/// A stream that fits several by its times is in each. What fits none stands among
-/// the `copies` of all, with the reason. One recording if neither tells.
+/// no wheel: by their times, if these are dates and no two of them have an instant
+/// in common; then a dated stream is of each that it overlaps by at least half of
+/// the shorter, and another of that whose name it shares a word with that no other
+/// IMU's has. Else by such words alone (a day, a number), if they place streams in
+/// two recordings at least, and none in two. What fits none stands among the
+/// `copies` of all, with the reason. One recording if neither tells.
 std::vector<RecordingFiles> GroupRecordings(RecordingFiles files);
 
 }  // namespace hindsight
