@@ -92,6 +92,22 @@ TEST_F(FlatFolder, ClocksThatBeginAnewAreToldByNames) {
   EXPECT_THAT(drafts[1].unknown, ElementsAre("notes_1934.md"));
 }
 
+/// Beside an accelerometer and gyros, a magnetometer in each.
+TEST_F(FlatFolder, OtherColumnsOfAnImuTellNothing) {
+  const auto with_field = [](std::string text) {
+    for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; ++at) {
+      const std::string field = at < 40 ? ",mx,my,mz" : ",20,1,-44";
+      text.insert(at, field);
+      at += field.size();
+    }
+    return text;
+  };
+  Write("front.csv", with_field(RockedImu(0.0)));
+  Write("rear.csv", with_field(RockedImu(0.0, 0.01)));
+  Write("gnss.csv", NorthboundFixes(0.0, 48.0));
+  ASSERT_EQ(Drafts().size(), 1u);
+}
+
 TEST_F(FlatFolder, TwoImusOfOneRecordingStayTogether) {
   Write("imu_left.csv", RockedImu(0.0));
   Write("imu_right.csv", RockedImu(0.0, 0.01));

@@ -95,6 +95,14 @@ class Grouper {
     return places;
   }
 
+  /// Where it stands in the file of an IMU.
+  Places OwnFile(const FoundStream& found) const {
+    for (std::size_t i = 0; i < mains_.size(); ++i) {
+      if (mains_[i]->file == found.file) return {i};
+    }
+    return {};
+  }
+
   Places ByTime(const FoundStream& found) const {
     const auto span = SpanOfStream(found);
     Places places;
@@ -135,6 +143,7 @@ class Grouper {
     for (const FoundStream* other : others_) {
       const Places places = ByName(other->file);
       if (places.size() > 1) return false;
+      if (!OwnFile(*other).empty()) continue;
       hit.insert(places.begin(), places.end());
     }
     return hit.size() > 1;
@@ -154,7 +163,10 @@ class Grouper {
     }
     for (const FoundStream* other : others_) {
       const bool timed = by_time && IsDated(*other);
-      const Places places = timed ? ByTime(*other) : ByName(other->file);
+      Places places = OwnFile(*other);
+      if (places.empty()) {
+        places = timed ? ByTime(*other) : ByName(other->file);
+      }
       for (const std::size_t place : places) {
         (other->imu ? groups[place].imus : groups[place].others)
             .push_back(*other);
