@@ -248,7 +248,8 @@ Solution AttitudeEstimation::Run(const Method& method) {
   Conclude({.solution = solution,
             .recording = std::move(recording),
             .relative_heading =
-                magnetic_.empty() && headings_.empty() && velocities_.empty()},
+                magnetic_.empty() && headings_.empty() && velocities_.empty(),
+            .mounting_sigma = dataset_.mounting_sigma},
            {}, &solution);
   if (imu_.stamp_offset != 0.0) {
     std::vector<double> stamps;

@@ -63,4 +63,21 @@ Solution MoveToPoint(const Solution& solution, const ImuStream& imu,
   return out;
 }
 
+Solution WithMountingSigma(Solution solution, const Eigen::Vector3d& sigma_b) {
+  const Block* attitude = solution.layout.Find(BlockKind::kAttitude);
+  if (sigma_b.isZero(0.0) || attitude == nullptr || attitude->dim != 3) {
+    return solution;
+  }
+  for (std::size_t k = 0; k < solution.covariances.size(); ++k) {
+    const State& x = solution.states[k];
+    const Eigen::Matrix3d C_nb =
+        x.C_en().transpose() * x.q_eb.toRotationMatrix();
+    ErrorMatrix P = solution.covariances.Get(k);
+    P.block<3, 3>(attitude->offset, attitude->offset) +=
+        C_nb * sigma_b.cwiseAbs2().asDiagonal() * C_nb.transpose();
+    solution.covariances.Set(k, P);
+  }
+  return solution;
+}
+
 }  // namespace hindsight

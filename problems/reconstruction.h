@@ -98,6 +98,13 @@ Solution Solve(const Dataset& dataset, const ReconstructionOptions& options);
 Solution MoveToPoint(const Solution& solution, const ImuStream& imu,
                      const Eigen::Vector3d& l_b);
 
+/// With Dataset::mounting_sigma in the covariance of the attitude:
+///   P_psi + C_nb diag(sigma^2) C_nb',
+/// as the axes that are spoken of are turned against the IMU's by a constant that
+/// is known so well. Positions and velocities of the IMU do not depend on it. A
+/// masked attitude stays as it is.
+Solution WithMountingSigma(Solution solution, const Eigen::Vector3d& sigma_b);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_PROBLEMS_RECONSTRUCTION_H_

@@ -129,7 +129,8 @@ class TrajectoryEstimation final : public Estimation {
          .unsettled = stage.unsettled(),
          .recording = recording_,
          .doubts = stage.doubts(),
-         .disagreement = DisagreementOf(method, solution)},
+         .disagreement = DisagreementOf(method, solution),
+         .mounting_sigma = forward_.dataset().mounting_sigma},
         forward_.unobserved(), &solution);
     if (auto apart = methods_.Compare(solution)) {
       AddEvidence(*std::move(apart), &solution);

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/terminal.h"
@@ -58,38 +59,64 @@ std::string FitTable(const ImuAllan& allan) {
   return table.Render(StyleOfOutput());
 }
 
-/// The root mean square of three axes.
-template <class Pick>
-AllanCoefficient OfAxes(const ImuAllan& allan, std::size_t first, Pick pick) {
-  AllanCoefficient all;
-  for (std::size_t i = first; i < first + 3; ++i) {
-    const AllanCoefficient& c = pick(allan.fits[i]);
-    all.value += c.value * c.value / 3.0;
-    all.sigma += c.sigma * c.sigma / 3.0;
-  }
-  return {std::sqrt(all.value), std::sqrt(all.sigma)};
+bool IsSeen(const AllanCoefficient& c) {
+  constexpr double kSeen = 3.0;
+  return c.value > kSeen * c.sigma;
 }
 
-std::string WalkLine(const char* key, const char* unit, double si,
-                     const AllanCoefficient& walk) {
-  constexpr double kSeen = 3.0;
-  const bool seen = walk.value > kSeen * walk.sigma;
-  return fmt::format("    {}: {:.3g} {}{}\n", key,
-                     (seen ? walk.value : walk.sigma) / si, unit,
-                     seen ? "" : "   # not seen: its sigma");
+/// A line of `noise` for three axes, of which it takes one value: their root mean
+/// square, or the largest where they differ by more than twofold, since too little
+/// noise misleads more than too much. What no axis shows is a comment.
+template <class Pick>
+std::string NoiseLine(const ImuAllan& allan, std::size_t first, const char* key,
+                      const char* unit, double si, Pick pick) {
+  constexpr double kAlike = 2.0;
+  double squares = 0.0;
+  double bound = 0.0;
+  std::size_t largest = first;
+  std::size_t least = first;
+  int seen = 0;
+  for (std::size_t i = first; i < first + 3; ++i) {
+    const AllanCoefficient& c = pick(allan.fits[i]);
+    bound = std::max(bound, c.value + c.sigma);
+    if (!IsSeen(c)) continue;
+    if (seen == 0 || c.value > pick(allan.fits[largest]).value) largest = i;
+    if (seen == 0 || c.value < pick(allan.fits[least]).value) least = i;
+    squares += c.value * c.value;
+    ++seen;
+  }
+  if (seen == 0) {
+    return fmt::format("    # {}: not seen in this rest, below {:.2g} {}\n",
+                       key, bound / si, unit);
+  }
+  const double most = pick(allan.fits[largest]).value;
+  const double ratio = most / pick(allan.fits[least]).value;
+  const bool alike = seen == 3 && ratio < kAlike;
+  std::string line =
+      fmt::format("    {}: {:.3g} {}", key,
+                  (alike ? std::sqrt(squares / 3.0) : most) / si, unit);
+  if (seen < 3) {
+    line += fmt::format("   # {}; {} not seen", kAllanAxes[largest],
+                        seen == 1 ? "the other two are" : "another is");
+  } else if (!alike) {
+    line += fmt::format("   # {}, the largest: {:.2g} times {}",
+                        kAllanAxes[largest], ratio, kAllanAxes[least]);
+  }
+  return line + "\n";
 }
 
 std::string NoiseBlock(const ImuAllan& allan) {
-  const auto white = [](const AllanFit& fit) { return fit.white; };
-  const auto walk = [](const AllanFit& fit) { return fit.walk; };
-  return fmt::format(
-             "    gyro: {:.3g} deg/s/sqrt(Hz)\n    accel: {:.3g} mg/sqrt(Hz)\n",
-             OfAxes(allan, 0, white).value / kDegree,
-             OfAxes(allan, 3, white).value / kMilliG) +
-         WalkLine("gyro_bias_walk", "deg/s^2/sqrt(Hz)", kDegree,
-                  OfAxes(allan, 0, walk)) +
-         WalkLine("accel_bias_walk", "mg/s/sqrt(Hz)", kMilliG,
-                  OfAxes(allan, 3, walk));
+  const auto white = [](const AllanFit& fit) -> const AllanCoefficient& {
+    return fit.white;
+  };
+  const auto walk = [](const AllanFit& fit) -> const AllanCoefficient& {
+    return fit.walk;
+  };
+  return NoiseLine(allan, 0, "gyro", "deg/s/sqrt(Hz)", kDegree, white) +
+         NoiseLine(allan, 3, "accel", "mg/sqrt(Hz)", kMilliG, white) +
+         NoiseLine(allan, 0, "gyro_bias_walk", "deg/s^2/sqrt(Hz)", kDegree,
+                   walk) +
+         NoiseLine(allan, 3, "accel_bias_walk", "mg/s/sqrt(Hz)", kMilliG, walk);
 }
 
 }  // namespace

@@ -35,4 +35,9 @@ void WriteDraft(const std::string& path, const std::string& text) {
   }
 }
 
+void RequireRoomFor(const std::string& path) {
+  // Its temporary file goes with it.
+  const AtomicFile probe(path);
+}
+
 }  // namespace hindsight

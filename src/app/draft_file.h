@@ -9,6 +9,9 @@ namespace hindsight {
 /// 'init' wrote. Throws as AtomicFile does.
 void WriteDraft(const std::string& path, const std::string& text);
 
+/// Throws OutputError where a draft of that name could not be written.
+void RequireRoomFor(const std::string& path);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_APP_DRAFT_FILE_H_

@@ -14,6 +14,7 @@
 #include "dataset/checks.h"
 #include "dataset/median_field.h"
 #include "dataset/mirrored_axis.h"
+#include "dataset/truth_lever_arm.h"
 #include "dataset/usual_noise.h"
 #include "geometry/so3.h"
 #include "io/config/config.h"
@@ -47,7 +48,9 @@ class Refiner {
     TellStretch(dataset_, &draft_);
     SetForward();
     TellTruthClock(dataset_, &draft_);
-    if (Load()) SetLikelyNoise();
+    if (!Load()) return;
+    TellTruthPoint();
+    SetLikelyNoise();
     Load();
   }
 
@@ -56,12 +59,11 @@ class Refiner {
     try {
       dataset_ =
           LoadDataset(draft_.name + ".yaml", {.text = DraftText(draft_)});
-      return true;
-    } catch (const InputError& error) {
-      draft_.assumptions.push_back(std::string("does not load as it stands: ") +
-                                   error.what());
-      return false;
+      draft_.loads = true;
+    } catch (const InputError&) {
+      draft_.loads = false;
     }
+    return draft_.loads;
   }
 
   void SetAxes() {
@@ -209,6 +211,34 @@ class Refiner {
     }
   }
 
+  /// Of which point a truth speaks, where its velocities in turns tell.
+  void TellTruthPoint() {
+    constexpr double kSure = 5.0;   // sigmas
+    constexpr double kFar = 0.1;    // m
+    constexpr double kKnown = 0.3;  // m
+    if (!draft_.truth) return;
+    const auto found = FindTruthLeverArm(dataset_);
+    const bool apart =
+        found && ((found->l_b.array().abs() > kSure * found->sigma.array()) &&
+                  (found->l_b.array().abs() > kFar))
+                     .any();
+    if (apart) {
+      SetLine(
+          {"lever_arm",
+           fmt::format("[{:.2f}, {:.2f}, {:.2f} m]", found->l_b.x(),
+                       found->l_b.y(), found->l_b.z()),
+           fmt::format("of the point it speaks of: its velocities in turns "
+                       "say so, +- {:.2g}, {:.2g}, {:.2g} m (likely)",
+                       found->sigma.x(), found->sigma.y(), found->sigma.z())},
+          &draft_.truth->lines);
+      return;
+    }
+    const bool known = found && found->sigma.maxCoeff() < kKnown;
+    if (FindLine(draft_.top, "  from") != nullptr && !known) {
+      draft_.Assume("truth: taken to speak of the point where the IMU is");
+    }
+  }
+
   void SetField() {
     for (const AidingStream& stream : dataset_.streams) {
       StreamDraft* draft = draft_.Find(stream.sensor.name);
@@ -225,6 +255,7 @@ class Refiner {
 
   /// The axis along which it is accelerated as it runs.
   void SetForward() {
+    constexpr double kLevel = 1.0;  // deg
     const auto found = FindMounting(dataset_, -kInfinity, kInfinity);
     const bool odometer = std::any_of(
         draft_.aiding.begin(), draft_.aiding.end(),
@@ -243,6 +274,13 @@ class Refiner {
          fmt::format("forward is where starts, stops and turns say, +- {:.1f}"
                      " deg (likely)",
                      found->yaw_sigma / kDegree)},
+        &draft_.imu->lines);
+    SetLine(
+        {"mounting_sigma",
+         fmt::format("[{0:.1f}, {0:.1f}, {1:.1f} deg]", kLevel,
+                     std::max(found->yaw_sigma / kDegree, 0.1)),
+         "level on average (a guess), and as above: attitudes are no better "
+         "known"},
         &draft_.imu->lines);
     if (odometer) return;
     StreamDraft wheels{"wheels", &NonHolonomicKind(), {}};

@@ -15,7 +15,8 @@ namespace hindsight {
 /// it; the vehicle's forward axis (FindMounting), and with it that it runs on
 /// wheels; radius and direction of a wheel against the speed of positions; which
 /// axis is mirrored; at last the noise as EstimateNoise finds it. What they do not
-/// tell becomes an assumption, as does an error of the load.
+/// tell becomes an assumption. A draft that does not load says so
+/// (RecordingDraft::loads).
 void RefineDraft(RecordingDraft* draft);
 
 /// The drafts of all recordings below `folder`, refined. Throws InputError as

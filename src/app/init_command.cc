@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -5,9 +6,11 @@
 #include "app/command.h"
 #include "app/draft_file.h"
 #include "app/draft_refinement.h"
+#include "app/error_line.h"
 #include "app/file_place.h"
 #include "app/flags.h"
 #include "base/error.h"
+#include "io/config/config.h"
 #include "io/config/init_config.h"
 #include "io/read/paths.h"
 #include "io/write/unpublished.h"
@@ -22,7 +25,9 @@ titles of their columns and the numbers themselves; axes, noise, clocks, and the
 forward axis of a vehicle by how the readings go together. Every guess stands
 there with its reason, and what matters of them under `unconfirmed`. A folder of
 several recordings gives a configuration each, which --out=DIR takes. A file is a
-truth only by its name. Without an IMU it ends with 2.
+truth only by its name. Without an IMU it ends with 2, as with a configuration
+that does not load: it is written, and what to mend in it or in the recording is
+said.
 )";
 
 /// A killed call leaves a whole configuration or an empty file.
@@ -34,11 +39,22 @@ std::string Disowned(const std::filesystem::path& path) {
              : "was not written by 'init', or changed since";
 }
 
+/// Says why a draft that was written as `path` does not load, if so.
+void TellProblem(const RecordingDraft& draft, const std::string& path) {
+  if (draft.loads) return;
+  try {
+    LoadDataset(path, {.text = DraftText(draft)});
+  } catch (const InputError& error) {
+    PrintError(error.what());
+  }
+}
+
 void WriteInto(const std::string& path, const RecordingDraft& draft) {
   CheckFilePlace(path, {"'init'", IsInitConfig});
   TreatAbandoned(path, FLAGS_clean, Disowned);
   WriteDraft(path, DraftText(draft));
   std::cout << "wrote " << path << "\n";
+  TellProblem(draft, path);
 }
 
 /// Files of a folder of --out, one a recording.
@@ -58,16 +74,24 @@ void WriteAll(const std::vector<RecordingDraft>& drafts) {
 }
 
 int Run(const std::vector<std::string>& arguments) {
-  if (!FLAGS_out.empty() && !IsFolder(FLAGS_out)) {
+  if (IsFolder(FLAGS_out)) {
+    RequireRoomFor((std::filesystem::path(FLAGS_out) / "NAME.yaml").string());
+  } else if (!FLAGS_out.empty()) {
     CheckFilePlace(FLAGS_out, {"'init'", IsInitConfig});
+    RequireRoomFor(FLAGS_out);
   }
   const std::vector<RecordingDraft> drafts = DraftFolder(arguments[0]);
+  const bool all_load =
+      std::all_of(drafts.begin(), drafts.end(),
+                  [](const RecordingDraft& draft) { return draft.loads; });
+  const int status = all_load ? kUsable : kBadInput;
   if (FLAGS_out.empty()) {
     for (const RecordingDraft& draft : drafts) {
       if (drafts.size() > 1) std::cout << "---\n";
       std::cout << DraftText(draft);
+      TellProblem(draft, "standard output");
     }
-    return kUsable;
+    return status;
   }
   if (drafts.size() > 1 || IsFolder(FLAGS_out)) {
     WriteAll(drafts);
@@ -75,7 +99,7 @@ int Run(const std::vector<std::string>& arguments) {
     WriteInto(FLAGS_out, drafts.front());
   }
   std::cout << "look at the recording with: hindsight check CONFIG\n";
-  return kUsable;
+  return status;
 }
 
 }  // namespace

@@ -24,6 +24,7 @@
 #include "evaluation/grade.h"
 #include "evaluation/truth_comparison.h"
 #include "io/config/config.h"
+#include "io/config/constants_reader.h"
 #include "io/write/comparison.h"
 #include "io/write/fix_csv.h"
 #include "io/write/residual_csv.h"
@@ -283,6 +284,24 @@ std::vector<Progress::Step> PlanOf(const RunRequest& request) {
   return steps;
 }
 
+/// Throws InputError if the constants come from this recording: what it says of
+/// them would count twice.
+void RequireOtherRecording(const Dataset& dataset,
+                           const std::vector<FileDigest>& inputs) {
+  if (!dataset.constants) return;
+  const std::string& source = dataset.constants->source;
+  for (const FileDigest& there : RecordedFiles(source)) {
+    for (const FileDigest& here : inputs) {
+      if (here.sha256 != there.sha256) continue;
+      throw InputError(
+          SummaryOf(source).string(), 0,
+          fmt::format("is of this recording: it read {} as well, which would "
+                      "count twice; expected constants of other recordings",
+                      here.path));
+    }
+  }
+}
+
 int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   SetThreadCount(request.threads);
   Progress progress(request.progress);
@@ -306,6 +325,8 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   WriteResolvedConfig(resolved, folder->Path("config.resolved.yaml"));
   const std::vector<std::string> unconfirmed =
       request.confirmed ? std::vector<std::string>() : resolved.unconfirmed;
+  std::vector<FileDigest> inputs = digests.Take();
+  RequireOtherRecording(dataset, inputs);
   RunSummary summary = {
       .program = kProgram,
       .dataset = dataset.name,
@@ -313,7 +334,7 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
       .constants_from =
           dataset.constants ? dataset.constants->source : std::string(),
       .constants_of_recording = ConstantsOfOneRecording(dataset),
-      .inputs = digests.Take(),
+      .inputs = std::move(inputs),
       .start = SummarizeStart(reconstruction.start()),
       .policies = dataset.policies,
       .best = "",

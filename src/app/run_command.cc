@@ -92,6 +92,7 @@ std::string DraftBeside(const std::string& folder) {
   const std::string config =
       std::filesystem::path(FLAGS_out + "/").parent_path().string() + ".yaml";
   CheckFilePlace(config, {"'init'", IsInitConfig});
+  RequireRoomFor(config);
   const std::vector<RecordingDraft> drafts = DraftFolder(folder);
   if (drafts.size() > 1) {
     std::string names;

@@ -112,7 +112,7 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
   std::vector<Wish> wishes = {
       {Times(request.at), request.point_b, Into(&tables.at)}};
   if (request.attitude_alone) {
-    tables.truth = TableFromSolution(solution);
+    tables.truth = TableAt(Eigen::Vector3d::Zero(), dataset, solution);
   } else {
     wishes.push_back({Times(TruthTimes(dataset, solution.states.front().t,
                                        solution.states.back().t)),
@@ -123,9 +123,9 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
         {Times(solution, *request.rate), request.point_b,
          [&output](const SolutionTable& piece) { output.Append(piece); }});
   } else {
-    output.Append(TableAt(request.point_b, dataset.imu, solution));
+    output.Append(TableAt(request.point_b, dataset, solution));
   }
-  SampleRows(dataset.imu, reconstruction, solution, std::move(wishes));
+  SampleRows(dataset, reconstruction, solution, std::move(wishes));
   output.Commit();
   return tables;
 }

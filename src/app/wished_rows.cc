@@ -32,10 +32,15 @@ std::function<void(const SolutionTable&)> Into(SolutionTable* table) {
   return [table](const SolutionTable& piece) { AppendTable(piece, table); };
 }
 
-SolutionTable TableAt(const Eigen::Vector3d& point_b, const ImuStream& imu,
+SolutionTable TableAt(const Eigen::Vector3d& point_b, const Dataset& dataset,
                       const Solution& solution) {
-  if (point_b.isZero(0.0)) return TableFromSolution(solution);
-  return TableFromSolution(MoveToPoint(solution, imu, point_b));
+  const bool moved = !point_b.isZero(0.0);
+  if (!moved && dataset.mounting_sigma.isZero(0.0)) {
+    return TableFromSolution(solution);
+  }
+  const Solution known = WithMountingSigma(solution, dataset.mounting_sigma);
+  return TableFromSolution(moved ? MoveToPoint(known, dataset.imu, point_b)
+                                 : known);
 }
 
 namespace {
@@ -68,7 +73,7 @@ WishedRows NextRows(std::size_t most, std::vector<Wish>* wishes) {
 
 }  // namespace
 
-void SampleRows(const ImuStream& imu, const Reconstruction& reconstruction,
+void SampleRows(const Dataset& dataset, const Reconstruction& reconstruction,
                 const Solution& solution, std::vector<Wish> wishes) {
   constexpr std::size_t kPiece = 10000;
   while (true) {
@@ -83,7 +88,7 @@ void SampleRows(const ImuStream& imu, const Reconstruction& reconstruction,
       if (rows.empty()) continue;
       if (point_b != wish.point_b) {
         point_b = wish.point_b;
-        table = TableAt(wish.point_b, imu, piece);
+        table = TableAt(wish.point_b, dataset, piece);
       }
       wish.take(rows.size() == table.size() ? table : RowsOf(table, rows));
     }

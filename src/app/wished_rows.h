@@ -42,12 +42,12 @@ struct Wish {
 std::function<void(const SolutionTable&)> Into(SolutionTable* table);
 
 /// The rows of a solution as they are, of a point that many metres from the IMU.
-SolutionTable TableAt(const Eigen::Vector3d& point_b, const ImuStream& imu,
+SolutionTable TableAt(const Eigen::Vector3d& point_b, const Dataset& dataset,
                       const Solution& solution);
 
 /// Fulfils all wishes in one walk, piece by piece, since a row of a solution,
 /// with its whole covariance, is several times as large as that of a table.
-void SampleRows(const ImuStream& imu, const Reconstruction& reconstruction,
+void SampleRows(const Dataset& dataset, const Reconstruction& reconstruction,
                 const Solution& solution, std::vector<Wish> wishes);
 
 }  // namespace hindsight

@@ -293,7 +293,7 @@ CheckReport CheckDataset(const Dataset& dataset) {
   SetAxes(&report);
   WarnAboutImu(report, dataset.imu, &report.warnings);
   WarnAboutRate(dataset, report.imu, &report.warnings);
-  if (const std::string warning = WarnAboutGyroUnit(dataset.imu);
+  if (const std::string warning = WarnAboutGyroUnit(dataset);
       !warning.empty()) {
     report.warnings.push_back(warning);
   }

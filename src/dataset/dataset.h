@@ -171,6 +171,10 @@ struct Dataset {
   /// Point the truth speaks of, body axes from the IMU [m].
   Eigen::Vector3d truth_lever_arm_b = Eigen::Vector3d::Zero();
   TruthSigma truth_sigma;
+  /// How well the vehicle's axes are known against the IMU's: standard deviations
+  /// of a constant rotation about the body axes [rad]. It is not estimated; what
+  /// is said of the vehicle's attitude counts it.
+  Eigen::Vector3d mounting_sigma = Eigen::Vector3d::Zero();
   InitialState initial;
   /// What earlier recordings say of the constants, which UseConstants has put
   /// into the sensors but for the covariances of one with another.

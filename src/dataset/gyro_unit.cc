@@ -3,19 +3,31 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <tuple>
+#include <optional>
 #include <vector>
 
 #include "base/units.h"
+#include "dataset/ground_motion.h"
 #include "dataset/row_rate.h"
 
 namespace hindsight {
 
-std::string WarnAboutGyroUnit(const ImuStream& stream) {
-  const bool rates = stream.kind == ImuStream::Kind::kRates;
+namespace {
+
+std::string UnitWarning(const std::string& turns, double factor) {
+  const bool degrees = factor < 1.0;
+  return fmt::format(
+      "imu: {} {:.3g} times as far as the gyros say: they look like {}, "
+      "declared as {}; correct the unit of gyro_x, gyro_y, gyro_z under "
+      "`columns`",
+      turns, factor, degrees ? "deg/s" : "rad/s", degrees ? "rad/s" : "deg/s");
+}
+
+/// By gravity between quiet spells.
+std::string ByGravity(const ImuStream& stream) {
   const double span = stream.t_end() - stream.t_begin();
-  if (!rates || span <= 0.0) return "";
   std::vector<Eigen::Vector3d> f;
   std::vector<Eigen::Vector3d> w;
   constexpr std::size_t kMost = 20'000;
@@ -29,17 +41,102 @@ std::string WarnAboutGyroUnit(const ImuStream& stream) {
   const double rate = static_cast<double>(stream.samples.size() - 1) / span;
   const double never = balance.Squares(std::numeric_limits<double>::infinity());
   const double least = kMostUnbalanced * std::min(never, balance.Squares(rate));
-  for (const auto& [factor, said, meant] :
-       {std::tuple(kDegree, "rad/s", "deg/s"),
-        std::tuple(1.0 / kDegree, "deg/s", "rad/s")}) {
+  for (const double factor : {kDegree, 1.0 / kDegree}) {
     if (balance.Squares(rate / factor) > least) continue;
-    return fmt::format(
-        "imu: gravity turns {:.3g} times as far as the gyros say: they look "
-        "like {}, declared as {}; correct the unit of gyro_x, gyro_y, gyro_z "
-        "under `columns`",
-        factor, meant, said);
+    return UnitWarning("gravity turns", factor);
   }
   return "";
+}
+
+/// How far the gyros turn about the mean specific force from the first sample to
+/// each [rad].
+std::vector<double> TurnsAboutVertical(const ImuStream& stream) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const ImuSample& sample : stream.samples) mean += sample.accel;
+  const Eigen::Vector3d down = -mean.normalized();
+  std::vector<double> turns;
+  turns.reserve(stream.samples.size());
+  turns.push_back(0.0);
+  for (std::size_t k = 1; k < stream.samples.size(); ++k) {
+    const ImuSample sample = stream.samples[k];
+    const double dt = sample.t - stream.samples[k - 1].t;
+    turns.push_back(turns.back() + dt * down.dot(sample.gyro));
+  }
+  return turns;
+}
+
+/// By the course over the ground of a vehicle that is level on average.
+std::string ByCourse(const Dataset& dataset) {
+  constexpr double kShortest = 2.0;  // s, above the offsets of clocks
+  constexpr double kLongest = 6.0;   // s
+  constexpr double kMoving = 3.0;    // m/s
+  constexpr double kFarthest = 2.0;  // rad, below half a turn
+  constexpr double kTurned = 0.1;    // rad, root mean square
+  constexpr double kAlike = 0.8;     // correlation
+  constexpr double kNear = 1.25;     // of the factor
+  const ImuStream& imu = dataset.imu;
+  const std::vector<double> turns = TurnsAboutVertical(imu);
+  const auto turned_at = [&](double t) {
+    std::size_t low = 0;
+    std::size_t high = turns.size() - 1;
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      if (imu.samples[middle].t < t) {
+        low = middle + 1;
+      } else {
+        high = middle;
+      }
+    }
+    return turns[low];
+  };
+  double courses = 0.0;
+  double gyros = 0.0;
+  double both = 0.0;
+  int count = 0;
+  std::optional<TimedVelocity> last;
+  for (const TimedVelocity& v :
+       GroundVelocities(dataset, imu.t_begin(), imu.t_end())) {
+    const bool moves =
+        v.v_n.head<2>().norm() > std::max(kMoving, 5.0 * v.sigma);
+    if (!moves || (last && v.t - last->t > kLongest)) last.reset();
+    if (!moves || (last && v.t - last->t < kShortest)) continue;
+    if (last) {
+      const Eigen::Vector3d turn = last->v_n.cross(v.v_n);
+      const double course =
+          std::atan2(turn.z(), last->v_n.head<2>().dot(v.v_n.head<2>()));
+      const double gyro = turned_at(v.t) - turned_at(last->t);
+      if (std::abs(course) < kFarthest) {
+        courses += course * course;
+        gyros += gyro * gyro;
+        both += course * gyro;
+        ++count;
+      }
+    }
+    last = v;
+  }
+  if (count == 0 || courses < count * kTurned * kTurned || gyros <= 0.0 ||
+      both < kAlike * std::sqrt(courses * gyros)) {
+    return "";
+  }
+  const double ratio = std::sqrt(courses / gyros);
+  for (const double factor : {kDegree, 1.0 / kDegree}) {
+    if (std::abs(std::log(ratio / factor)) < std::log(kNear)) {
+      return UnitWarning("the course turns", factor);
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string WarnAboutGyroUnit(const Dataset& dataset) {
+  const ImuStream& imu = dataset.imu;
+  if (imu.kind != ImuStream::Kind::kRates || imu.samples.size() < 2 ||
+      imu.t_end() <= imu.t_begin()) {
+    return "";
+  }
+  const std::string by_gravity = ByGravity(imu);
+  return by_gravity.empty() ? ByCourse(dataset) : by_gravity;
 }
 
 }  // namespace hindsight

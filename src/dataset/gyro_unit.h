@@ -3,15 +3,16 @@
 
 #include <string>
 
-#include "imu/imu_stream.h"
+#include "dataset/dataset.h"
 
 namespace hindsight {
 
 /// Gyros in deg/s that are declared as rad/s, or the other way round, turn
-/// gravity by 57 times what they should between quiet spells (GravityBalance):
-/// what looks wrong, and the keys to correct; "" where nothing does or the motion
-/// does not show it. Of rates, not of increments.
-std::string WarnAboutGyroUnit(const ImuStream& stream);
+/// gravity by 57 times what they should between quiet spells (GravityBalance), or
+/// a vehicle that is level on average against its course over the ground: what
+/// looks wrong, and the keys to correct; "" where nothing does or the motion does
+/// not show it. Of rates, not of increments.
+std::string WarnAboutGyroUnit(const Dataset& dataset);
 
 }  // namespace hindsight
 

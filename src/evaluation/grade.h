@@ -87,6 +87,8 @@ struct Judged {
   std::optional<Evidence> disagreement = std::nullopt;
   /// Nothing says where north is: the heading counts from the start.
   bool relative_heading = false;
+  /// Dataset::mounting_sigma, which no covariance of the solution holds [rad].
+  Eigen::Vector3d mounting_sigma = Eigen::Vector3d::Zero();
 };
 
 /// One rule: adds what it finds. It sees no truth.

@@ -247,6 +247,8 @@ void DescribeAccuracy(const Judged& judged, std::vector<Evidence>* evidence) {
   const Block* position = solution.layout.Find(BlockKind::kPosition);
   const Block* velocity = solution.layout.Find(BlockKind::kVelocity);
   const Block* attitude = solution.layout.Find(BlockKind::kAttitude);
+  // About axes that are level, as those of vehicles are on average.
+  const Eigen::Vector3d mounting = judged.mounting_sigma.cwiseAbs2();
   Spread p, v, tilt, heading;
   for (std::size_t k = 0; k < solution.covariances.size(); ++k) {
     const ErrorVector P = solution.covariances.Get(k).diagonal();
@@ -257,8 +259,8 @@ void DescribeAccuracy(const Judged& judged, std::vector<Evidence>* evidence) {
       v.Add(P.segment(velocity->offset, velocity->dim).sum());
     }
     if (attitude != nullptr && attitude->dim == 3) {
-      tilt.Add(P.segment(attitude->offset, 2).sum());
-      heading.Add(P(attitude->offset + 2));
+      tilt.Add(P.segment(attitude->offset, 2).sum() + mounting.head<2>().sum());
+      heading.Add(P(attitude->offset + 2) + mounting.z());
     }
   }
   const auto count = static_cast<double>(solution.covariances.size());

@@ -20,6 +20,13 @@ constexpr std::array kImus = {
              "https://www.bosch-sensortec.com/media/boschsensortec/downloads/"
              "datasheets/bst-bmi270-ds000.pdf as quoted by "
              "https://docs.luxonis.com/hardware/platform/sensors/imu/bmi270/"},
+    KnownImu{"ICM-42605", 0.0038 * kDegree, 70.0 * kMicroG,
+             "DS-000292 revision 1.5 as quoted by "
+             "https://vdocument.in/icm-42605-datasheet-2020-9-16-icm-42605-"
+             "datasheet-premium-performance-6-axis.html"},
+    KnownImu{"ICM-42688-P", 0.0028 * kDegree, 70.0 * kMicroG,
+             "the highlights of its data sheet as quoted by "
+             "https://pdf.elecfans.com/TDK/EV_ICM-42688-P.html"},
     KnownImu{"IMX-5", 0.16 * kDegreePerRootHour, 0.02 * kMetrePerRootHour,
              "https://github.com/inertialsense/docs.inertialsense.com, "
              "docs/user-manual/reference/imu_specifications.md"},
@@ -27,6 +34,11 @@ constexpr std::array kImus = {
         "LSM6DSV", 0.0028 * kDegree, 60.0 * kMicroG,
         "https://www.st.com/resource/en/datasheet/lsm6dsv.pdf as quoted by "
         "https://docs.luxonis.com/hardware/platform/sensors/imu/lsm6dsv.md"},
+    KnownImu{"MPU-6050", 0.005 * kDegree, 400.0 * kMicroG,
+             "PS-MPU-6000A-00 revision 3.4, "
+             "https://www.manualshelf.com/manual/unbranded/6dof-mpu-6050-"
+             "gyroscope-and-accelerometer-module/data-sheet-english/"
+             "page-12.html and page-13.html"},
     KnownImu{"MPU-9250", 0.01 * kDegree, 300.0 * kMicroG,
              "PS-MPU-9250A-01 revision 1.0, "
              "https://www.manualshelf.com/manual/sparkfun-electronics/"

@@ -70,6 +70,56 @@ TEST(AllanInTheReport, SaysWhyThereIsNone) {
             std::string::npos);
 }
 
+/// A recording of rest alone, with the readings of one gyro `factor` times as
+/// large; the lines that --allan proposes.
+std::string ProposedAtRest(const std::filesystem::path& root, double factor) {
+  WriteFile(root / "scenario.yaml",
+            "start: {position: [48 deg, 11.5 deg, 500 m], heading: 65 deg}\n"
+            "segments: [{type: stop, duration: 400 s}]\n"
+            "imu: {rate: 50 Hz, kind: rates, noise: {gyro: 0.3 deg/sqrt(h), "
+            "accel: 0.1 m/s/sqrt(h)}}\n"
+            "aiding: {gnss: {type: position, rate: 1 Hz, sigma: 1 m}}\n"
+            "stationary: on\n");
+  const Outcome made = Hindsight(
+      {"simulate", "scenario.yaml", "--out=data", "--force", "--seed=11"},
+      root);
+  EXPECT_EQ(made.status, 0) << made.err;
+  std::vector<std::string> lines = Lines(ReadFile(root / "data/imu.csv"));
+  for (std::string& line : lines) {
+    if (line.front() < '0' || line.front() > '9') continue;
+    const std::size_t begin = line.find(',', line.find(',') + 1) + 1;
+    const double y = std::stod(line.substr(begin));
+    SetColumn(&line, 2, std::to_string(1e6 * factor * y) + "e-6");
+  }
+  WriteFile(root / "data/imu.csv", Join(lines));
+  const Outcome check =
+      Hindsight({"check", "data/config.yaml", "--allan"}, root);
+  const std::size_t at = check.out.find("  noise:\n");
+  EXPECT_NE(at, std::string::npos) << check.out << check.err;
+  return at == std::string::npos ? "" : check.out.substr(at);
+}
+
+TEST(AllanProposal, SaysWhatIsSeenAndWhichAxisIsTheNoisiest) {
+  const TemporaryFolder folder;
+  const std::string alike = ProposedAtRest(folder.path(), 1.0);
+  // Nothing walks in this scenario.
+  for (const char* text :
+       {"    # gyro_bias_walk: not seen in this rest, below ",
+        "    # accel_bias_walk: not seen in this rest"}) {
+    EXPECT_NE(alike.find(text), std::string::npos) << alike;
+  }
+  EXPECT_EQ(alike.find("largest"), std::string::npos) << alike;
+  const std::string apart = ProposedAtRest(folder.path(), 4.0);
+  const std::string key = "    gyro: ";
+  const std::size_t at = apart.find(key);
+  ASSERT_NE(at, std::string::npos) << apart;
+  EXPECT_NEAR(std::stod(apart.substr(at + key.size())) / (4.0 * 0.3 / 60.0),
+              1.0, 0.15)
+      << apart;
+  EXPECT_NE(apart.find("# gyro y, the largest: "), std::string::npos) << apart;
+  EXPECT_NE(apart.find(" times gyro "), std::string::npos) << apart;
+}
+
 TEST(VehicleByName, IsToldByTheRun) {
   const TemporaryFolder folder;
   RunAtRest("20", folder.path());

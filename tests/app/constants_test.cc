@@ -153,6 +153,15 @@ TEST_F(Constants, StartTheNextRecording) {
   const Outcome again = Run({"combine", "result1", "next", "--out=again"});
   EXPECT_EQ(again.status, 2);
   EXPECT_THAT(again.err, HasSubstr("started from two"));
+  // A recording tells its constants once, also by way of a mean.
+  for (const char* own : {"result1", "two"}) {
+    const Outcome twice =
+        Run({"run", "dive1/config.yaml", "--methods=rts",
+             std::string("--constants=") + own, "--out=twice"});
+    EXPECT_EQ(twice.status, 2) << twice.out;
+    EXPECT_THAT(twice.err, HasSubstr("is of this recording: it read "));
+    EXPECT_FALSE(std::filesystem::exists(Path("twice")));
+  }
   // The resolved configuration loads the same.
   const Outcome resolved = Run({"run", "next/config.resolved.yaml",
                                 "--methods=batch", "--out=resolved"});

@@ -95,6 +95,11 @@ TEST_P(FromFolder, IsAsGoodAsByHandOrSaysSo) {
   std::cout << fmt::format("{}: by hand {:.3g}, from the folder {:.3g}: {}\n",
                            GetParam().configuration, hand, own,
                            LastLine(confirmed));
+  if (confirmed.status == 0) {
+    EXPECT_EQ(confirmed.out.find("not credible against the truth"),
+              std::string::npos)
+        << confirmed.out;
+  }
   constexpr double kAsGood = 1.5;
   if (own >= 0.0 && own <= kAsGood * hand) return;
   EXPECT_NE(confirmed.status, 0) << LastLine(confirmed);

@@ -218,5 +218,42 @@ TEST_F(Messages, GyrosWhoseUnitIsAnotherOne) {
       << check.err;
 }
 
+TEST_F(Messages, GyrosOfACarWhoseUnitIsAnotherOne) {
+  std::string scenario = kDriveWithWheels;
+  const std::string imu = "imu: {rate: 100 Hz, ";
+  Simulate(
+      scenario.replace(scenario.find(imu), imu.size(), imu + "kind: rates, "));
+  EXPECT_THAT(Check().out, Not(HasSubstr("they look like")));
+  Change("imu.csv", [](std::vector<double>* row) {
+    for (std::size_t i = 1; i < 4; ++i) (*row)[i] *= 180.0 / 3.14159265358979;
+  });
+  EXPECT_THAT(Check().out,
+              HasSubstr("the course turns 0.0175 times as far as the gyros "
+                        "say: they look like deg/s, declared as rad/s"));
+}
+
+TEST_F(Messages, OfFilesThatAreNoNames) {
+  Simulate(kDriveWithWheels);
+  const std::string good = ReadFile(root() / "data/config.yaml");
+  for (const auto& [value, said] :
+       {std::pair{"[gnss.csv, '']", "is empty; expected a file, or a list"},
+        {"{gnss.csv: 1}", "is a map; expected a file, or a list of files"},
+        {"''", "is empty; expected a file"}}) {
+    WriteFile(root() / "data/config.yaml", good);
+    Replace("file: gnss.csv", std::string("file: ") + value);
+    EXPECT_THAT(ErrorOf(Check()),
+                HasSubstr(std::string("aiding.gnss.file: ") + said));
+  }
+}
+
+TEST_F(Messages, TitlesAboveColumnsThatAreCounted) {
+  Simulate(kDriveWithWheels);
+  Replace("file: gnss.csv\n",
+          "file: gnss.csv\n    format: columns\n    columns: {t: \"1 [s]\", "
+          "lat: \"2 [deg]\", lon: \"3 [deg]\", h: \"4 [m]\", sigma_n: \"5 "
+          "[m]\", sigma_e: \"6 [m]\", sigma_d: \"7 [m]\"}\n");
+  EXPECT_THAT(ErrorOf(Check()), HasSubstr("is passed over by skip_lines: 1"));
+}
+
 }  // namespace
 }  // namespace hindsight

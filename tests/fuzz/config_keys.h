@@ -83,6 +83,7 @@ inline const std::vector<FuzzMap>& RecordingMaps() {
        {{"kind", "rates"},
         {"axes", "[-x, y, -z]"},
         {"mounting", "[1 deg, 2 deg, 3 deg]"},
+        {"mounting_sigma", "[1 deg, 1 deg, 2 deg]"},
         {"stamp", "start"},
         {"time_offset", "1 ms"},
         {"max_gap", "1 s"},

@@ -1,3 +1,6 @@
+#include <fmt/core.h>
+
+#include <cmath>
 #include <string>
 
 #include "io/config/init_config.h"
@@ -27,6 +30,17 @@ std::string JoinedConfig(const std::string& files,
 }
 
 class JoinedFilesTest : public RecordingFolder {};
+
+TEST_F(JoinedFilesTest, SortedRowsAreNamedByTheirFile) {
+  // A stamp that the other file has as well, in the second row of each.
+  Write("a.csv", JoinedImu(0, 30, kJoinedTitles));
+  Write("b.csv", std::string(kJoinedTitles) + "0.305,0,0,0,0,0,-9.8\n" +
+                     "0.01,0,0,0,0,0,-9.8\n0.31,0,0,0,0,0,-9.8\n");
+  Write("config.yaml", JoinedConfig("[a.csv, b.csv]", "on_unordered: sort, "));
+  EXPECT_NE(LoadError().find("b.csv:3: the stamp is the same"),
+            std::string::npos)
+      << LoadError();
+}
 
 TEST_F(JoinedFilesTest, AreReadAsOne) {
   Write("whole.csv", JoinedImu(0, 90, kJoinedTitles));
@@ -155,6 +169,60 @@ TEST_F(JoinedFilesTest, InitJoinsWhatGoesOn) {
   const Dataset data = Load();
   EXPECT_EQ(data.imu.samples.size(), 90u);
   EXPECT_EQ(data.streams.size(), 2u);
+}
+
+/// Rows of a logger that writes titles once.
+std::string RockedRows(int from, int to, const std::string& titles) {
+  std::string text = titles;
+  for (int k = from; k < to; ++k) {
+    const double t = 0.01 * k;
+    const double angle = 0.6 * std::sin(t);
+    text += fmt::format("{:.2f},{:.4f},{:.6f},{:.6f},{:.6f},0.001,0.002\n", t,
+                        1e-3 * (k % 7), 9.8 * std::sin(angle),
+                        9.8 * std::cos(angle), 0.6 * std::cos(t));
+  }
+  return text;
+}
+
+std::string RowsOfFixes(int from, int to, const std::string& titles) {
+  std::string text = titles;
+  for (int k = from; k < to; ++k) {
+    text += fmt::format("{}.0,{:.7f},11.5000000,{:.2f}\n", k, 48.0 + 1e-5 * k,
+                        500.0 + 0.1 * (k % 3));
+  }
+  return text;
+}
+
+constexpr const char* kLoggerTitles = "time,ax,ay,az,gx,gy,gz\n";
+constexpr const char* kFixTitles = "time,latitude,longitude,altitude\n";
+
+TEST_F(JoinedFilesTest, PartsWithoutTitlesGoOn) {
+  Write("imu_1.csv", RockedRows(0, 1500, kLoggerTitles));
+  Write("imu_2.csv", RockedRows(1500, 3000, ""));
+  Write("gps_1.csv", RowsOfFixes(0, 15, kFixTitles));
+  Write("gps_2.csv", RowsOfFixes(15, 30, ""));
+  const auto drafts = DraftRecordings(folder_.string());
+  ASSERT_EQ(drafts.size(), 1u);
+  EXPECT_TRUE(drafts[0].unused.empty());
+  Write("config.yaml", DraftText(drafts[0]));
+  ASSERT_EQ(LoadError(), "") << Read("config.yaml");
+  const Dataset data = Load();
+  EXPECT_EQ(data.imu.samples.size(), 3000u);
+  ASSERT_EQ(data.streams.size(), 1u) << Read("config.yaml");
+  EXPECT_EQ(data.streams[0].measurements.size(), 30u);
+}
+
+TEST_F(JoinedFilesTest, APartWithoutTitlesThatDoesNotGoOnIsNamed) {
+  Write("imu.csv", RockedRows(0, 3000, kLoggerTitles));
+  Write("gps_1.csv", RowsOfFixes(0, 15, kFixTitles));
+  Write("gps_2.csv", RowsOfFixes(10, 30, ""));
+  const auto drafts = DraftRecordings(folder_.string());
+  ASSERT_EQ(drafts.size(), 1u);
+  EXPECT_EQ(drafts[0].aiding.size(), 1u);
+  const std::string text = DraftText(drafts[0]);
+  EXPECT_NE(text.find("gps_2.csv: its numbers were not recognised"),
+            std::string::npos)
+      << text;
 }
 
 }  // namespace

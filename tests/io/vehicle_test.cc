@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "io/sample_folder.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -57,6 +58,22 @@ TEST_F(VehicleTest, AGivenKeyGoesBefore) {
   EXPECT_THAT(car.notes[0],
               HasSubstr("sets nothing; the configuration has its own of "
                         "stationary; aiding.wheels; initial.speed_spread"));
+}
+
+TEST_F(VehicleTest, AStreamThatIsCalledWheelsIsNoConstraint) {
+  Write("speed.csv", "t[s],v_n[m/s],v_e[m/s],v_d[m/s]\n0,0,0,0\n1,0,0,0\n");
+  const Dataset car =
+      Of("vehicle: car\naiding:\n"
+         "  wheels: {type: velocity, file: speed.csv, sigma: 0.1 m/s}\n");
+  ASSERT_EQ(car.streams.size(), 3u);
+  EXPECT_EQ(car.streams[0].sensor.name, "wheels");
+  EXPECT_EQ(car.streams[1].sensor.name, "wheels_2");
+  EXPECT_EQ(car.streams[1].sensor.kind, &NonHolonomicKind());
+  EXPECT_THAT(car.notes.at(0),
+              HasSubstr("; aiding.wheels_2: {type: non_holon"));
+  // What was resolved is the same again.
+  Write("config.yaml", resolved_.yaml);
+  EXPECT_EQ(Load().streams.size(), 3u);
 }
 
 TEST_F(VehicleTest, EveryKindLoads) {

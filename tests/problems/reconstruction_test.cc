@@ -128,6 +128,29 @@ TEST(Sample, TimesOutsideTheSolutionAreAnInputError) {
   EXPECT_TRUE(reconstruction.Sample(solution, {}).states.empty());
 }
 
+TEST(MountingSigma, TurnsWithTheBodyAndLeavesTheRest) {
+  const Dataset dataset = Drive();
+  Solution solution = Reconstruction(dataset, {}).Run("rts");
+  const Eigen::Vector3d sigma_b(0.01, 0.02, 0.03);
+  const Solution widened = WithMountingSigma(solution, sigma_b);
+  const int at = solution.layout.Find(BlockKind::kAttitude)->offset;
+  for (std::size_t k = 0; k < solution.states.size(); k += 7) {
+    ErrorMatrix added = widened.covariances.Get(k);
+    added -= solution.covariances.Get(k);
+    const State& x = solution.states[k];
+    const Eigen::Matrix3d C_bn =
+        x.q_eb.toRotationMatrix().transpose() * x.C_en();
+    const Eigen::Matrix3d in_body =
+        C_bn * added.block<3, 3>(at, at) * C_bn.transpose();
+    EXPECT_LT((in_body - Eigen::Matrix3d(sigma_b.cwiseAbs2().asDiagonal()))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-12);
+    added.block<3, 3>(at, at).setZero();
+    EXPECT_EQ(added.cwiseAbs().maxCoeff(), 0.0);
+  }
+}
+
 TEST(MoveToPoint, CovarianceMatchesNumericDifference) {
   const Dataset dataset = Drive();
   Reconstruction reconstruction(dataset, {});

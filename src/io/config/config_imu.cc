@@ -185,6 +185,15 @@ const ConfigTable<ImuConfig>& ImuTable() {
         .help = "roll, pitch, yaw of a rotation after axes: body = Rz(yaw) "
                 "Ry(pitch) Rx(roll) axes(sensor)",
         .fallback = "[0, 0, 0 deg]"},
+       {.name = "mounting_sigma",
+        .quantity = Quantity::kAngle,
+        .value = Key::Special{[](ConfigMap* map, ImuConfig* imu) {
+          imu->mounting_sigma =
+              map->OptionalSigma("mounting_sigma", Quantity::kAngle);
+        }},
+        .help = "how well the vehicle's axes are known against the IMU's: of "
+                "roll, pitch, yaw, or one; not estimated, but the attitudes' "
+                "uncertainty counts it"},
        {.name = "stamp",
         .value = Key::Word{{"end", "start"},
                            [](const ImuConfig& imu) {

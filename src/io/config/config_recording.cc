@@ -63,6 +63,8 @@ void ReadImuConfig(ConfigMap* top, RecordingConfig* recording) {
   const ImuConfig imu = ReadImuKeys(&map);
   recording->imu_options = imu;
   recording->imu.clock.offset = imu.time_offset;
+  recording->dataset->mounting_sigma =
+      imu.mounting_sigma.value_or(Eigen::Vector3d::Zero());
   recording->dataset->imu.noise = imu.noise;
   recording->dataset->gyro_scale_sigma = imu.gyro_scale_sigma;
   recording->dataset->accel_scale_sigma = imu.accel_scale_sigma;

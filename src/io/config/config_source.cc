@@ -267,9 +267,17 @@ const ConfigTable<StreamConfig>& StreamTable() {
 }  // namespace
 
 std::vector<std::string> FileNames(ConfigMap* map) {
-  if (!map->Has("file") || map->IsScalar("file")) return {map->Text("file")};
-  std::vector<std::string> names = map->List("file");
-  if (names.empty()) map->Fail("file", "expected a file, or a list of files");
+  constexpr const char* kExpected = "expected a file, or a list of files";
+  if (map->IsMap("file")) {
+    map->Fail("file", std::string("is a map; ") + kExpected);
+  }
+  const bool one = !map->Has("file") || map->IsScalar("file");
+  std::vector<std::string> names =
+      one ? std::vector{map->Text("file")} : map->List("file");
+  if (names.empty()) map->Fail("file", kExpected);
+  for (const std::string& name : names) {
+    if (name.empty()) map->Fail("file", std::string("is empty; ") + kExpected);
+  }
   return names;
 }
 

@@ -34,6 +34,8 @@ ImuNoise ReadImuNoise(ConfigMap* imu);
 /// What is said of the imu but for its file.
 struct ImuConfig : ImuReadOptions {
   double time_offset = 0.0;  ///< [s]
+  /// Of roll, pitch and yaw of `mounting` [rad].
+  std::optional<Eigen::Vector3d> mounting_sigma;
   ImuNoise noise;
   std::optional<Eigen::Vector3d> gyro_scale_sigma;
   std::optional<Eigen::Vector3d> accel_scale_sigma;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/error.h"
 #include "io/read/file_format.h"
 #include "io/read/paths.h"
 #include "io/read/reader.h"
@@ -21,19 +22,38 @@ fs::path PathOf(const RecordingDraft& draft, const FoundStream& found) {
   return fs::path(draft.folder) / found.file;
 }
 
+/// Whether its stamps are dates, or seconds since 1970.
+bool IsDated(const FoundStream& found) {
+  return found.stamps && found.stamps->scale != StampGuess::Scale::kOwn;
+}
+
 std::optional<Stamp> FirstDate(const fs::path& path, const FoundStream& found) {
-  if (found.stamps && found.stamps->scale == StampGuess::Scale::kUnix) {
+  if (IsDated(found)) {
     const double whole = std::floor(found.stamps->first);
-    return GpsFromUnix(
-        {static_cast<std::int64_t>(whole), found.stamps->first - whole});
+    const Stamp since_1970 = {static_cast<std::int64_t>(whole),
+                              found.stamps->first - whole};
+    if (found.stamps->unit != "GPST") return GpsFromUnix(since_1970);
+    return Stamp{since_1970.seconds - kGpsEpochUnix, since_1970.fraction};
   }
-  if (!found.format->dated) return std::nullopt;
+  const FileFormat& kind = *found.format;
+  if (!kind.dated && &kind != &CsvFormat()) return std::nullopt;
   TextFormat format;
   format.kind = found.format;
-  const OpenedTable opened =
-      OpenTable(path.string(), format, PositionKind().columns, {});
-  if (!opened.dated || !opened.table->Next()) return std::nullopt;
-  return opened.table->stamp();
+  try {
+    const OpenedTable opened =
+        OpenTable(path.string(), format, FieldsOf(found), {});
+    if (!opened.dated || !opened.table->Next()) return std::nullopt;
+    return opened.table->stamp();
+  } catch (const InputError&) {
+    return std::nullopt;  // which whoever loads it is told
+  }
+}
+
+/// Whether its stamps count from an instant that nothing tells.
+bool IsUndated(const RecordingDraft& draft, const FoundStream& found) {
+  if (found.stamps) return !IsDated(found);
+  return !found.format->counts_from_1970 && !found.format->whole_recordings &&
+         !FirstDate(PathOf(draft, found), found);
 }
 
 /// "{rate: 100 Hz, start: 0 s}"; nothing to say: "".
@@ -91,9 +111,34 @@ void StartImuAt(const Stamp& first_fix, RecordingDraft* draft) {
       "motion tells the offset");
 }
 
+/// The IMU has dates: a stream that has none, or others, begins with it.
+void StartWithImu(const Stamp& first, const std::string& name,
+                  RecordingDraft* draft, FoundStream* found) {
+  if (!found->stamps) return;
+  const bool apart =
+      IsDated(*found) && Overlap(*draft->imu->stamps, *found->stamps) < 0.5;
+  if (IsDated(*found) && !apart) return;
+  const std::string why =
+      apart ? "its dates lie apart from the IMU's" : "its clock has no date";
+  SetTime(FormatGpsTime(Nanoseconds(first)), "",
+          why + ": it begins with the IMU (a guess)", found);
+  draft->assumptions.push_back(name + ": " + why +
+                               "; it begins with the IMU, and the motion tells "
+                               "the offset");
+}
+
 /// Records whose stamps do not overlap begin together.
 void BeginTogether(RecordingDraft* draft) {
   FoundStream* imu = &*draft->imu;
+  if (IsDated(*imu)) {
+    const Stamp first = *FirstDate(PathOf(*draft, *imu), *imu);
+    for (StreamDraft& stream : draft->aiding) {
+      StartWithImu(first, stream.name, draft, &stream.found);
+    }
+    if (draft->truth) StartWithImu(first, "truth", draft, &*draft->truth);
+    SetTime("", "", "", imu);
+    return;
+  }
   bool apart = imu->stamps->rate.has_value();
   const auto look = [&](const FoundStream& found) {
     apart =
@@ -125,9 +170,7 @@ void SetDraftClocks(RecordingDraft* draft) {
   for (const StreamDraft& stream : draft->aiding) {
     if (!date) date = FirstDate(PathOf(*draft, stream.found), stream.found);
   }
-  const bool imu_dated =
-      !imu.stamps || imu.stamps->scale == StampGuess::Scale::kUnix;
-  if (date && !imu_dated) {
+  if (date && IsUndated(*draft, imu)) {
     StartImuAt(*date, draft);
   } else if (imu.stamps) {
     BeginTogether(draft);

@@ -13,6 +13,8 @@
 #include "io/config/draft_values.h"
 #include "io/config/recording_search.h"
 #include "io/read/file_formats.h"
+#include "io/read/gzip_reader.h"
+#include "io/read/input_file.h"
 #include "io/read/paths.h"
 #include "io/read/recognise_format.h"
 #include "io/read/split_files.h"
@@ -291,6 +293,16 @@ class Drafter {
   RecordingDraft draft_;
 };
 
+/// Throws InputError for gzip data that are damaged or cut off.
+void RequireReadable(const std::string& path) {
+  if (!path.ends_with(".gz") || !IsFile(path)) return;
+  const InputFile file(path);
+  if (!GzipReader::IsGzip(file)) return;
+  GzipReader reader(file);
+  std::vector<char> piece(std::size_t{1} << 20);
+  while (reader.Read(piece.data(), piece.size()) > 0) continue;
+}
+
 [[noreturn]] void FailWithoutImu(const std::string& folder,
                                  const RecordingFiles& rest) {
   std::string found;
@@ -306,7 +318,10 @@ class Drafter {
                                  : std::string(other.kinds.front()->name);
     name(other.file + " (" + kind + ")");
   }
-  for (const std::string& file : rest.unknown) name(file);
+  for (const std::string& file : rest.unknown) {
+    RequireReadable((rest.folder / file).string());
+    name(file);
+  }
   throw InputError(folder, 0,
                    found.empty() ? "holds no files; expected an IMU's"
                                  : "no IMU was recognised among " + found +

@@ -27,6 +27,7 @@ struct RecordingDraft {
   std::vector<std::string> unknown;  ///< files that were not recognised
   std::vector<std::string> copies;   ///< as RecordingFiles::copies
   std::vector<KeyLine> top;          ///< further lines of the top level
+  bool loads = true;  ///< false: 'run' would refuse it as it stands
   /// What was taken for granted and matters, one clause each.
   std::vector<std::string> assumptions;
 
@@ -39,6 +40,7 @@ struct RecordingDraft {
 /// The recordings below `folder`, told by their IMUs. Files of a folder are of
 /// one recording, with those of folders below it that hold no IMU; a folder
 /// without an IMU belongs to the only recording below it, if it is the only one.
+/// A folder of several is told apart by times or names (GroupRecordings).
 /// A MATLAB file, a bag or an OXTS folder is a recording of its own. Of several
 /// IMUs the one that does not spin, has stamps and comes fastest is taken; one
 /// that spins is an odometer. Clocks that do not overlap begin together. Throws

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/config/recording_groups.h"
 #include "io/read/column_meaning.h"
 #include "io/read/file_columns.h"
 #include "io/read/file_format.h"
@@ -226,9 +227,10 @@ class Search {
     if (!found.rest.imus.empty()) {
       found.rest.folder = folder;
       found.rest.name = folder.filename().string();
-      RecordingFiles recording = std::move(found.rest);
+      for (RecordingFiles& one : GroupRecordings(std::move(found.rest))) {
+        found.recordings.push_back(std::move(one));
+      }
       found.rest = {};
-      found.recordings.push_back(std::move(recording));
     } else if (found.recordings.size() == 1 &&
                !(found.rest.others.empty() && found.rest.unknown.empty()) &&
                !IsWhole(found.recordings[0].imus[0])) {

@@ -29,24 +29,30 @@ bool ConstrainsWheels(const YAML::Node& aiding) {
   });
 }
 
-/// False if the configuration says it itself, or cannot take it.
-bool Set(const VehicleChoice& choice, YAML::Node* top) {
-  const auto [map, key] = SplitKey(choice.key);
+/// Sets it, and gives the key that it has; "" if the configuration says it
+/// itself, or cannot take it. A stream of that name which is something else
+/// leaves the constraint another name.
+std::string Set(const VehicleChoice& choice, YAML::Node* top) {
+  auto [map, key] = SplitKey(choice.key);
   const YAML::Node value = YAML::Load(std::string(choice.value));
   YAML::Node at = (*top)[map];
   if (key.empty()) {
-    if (at) return false;
+    if (at) return "";
     (*top)[map] = value;
-    return true;
+    return map;
   }
   if (!at || at.IsNull()) {
     (*top)[map] = YAML::Node(YAML::NodeType::Map);
     at = (*top)[map];
   }
-  if (!at.IsMap() || at[key]) return false;
-  if (map == "aiding" && ConstrainsWheels(at)) return false;
+  if (!at.IsMap()) return "";
+  if (map == "aiding") {
+    if (ConstrainsWheels(at)) return "";
+    while (at[key]) key += "_2";
+  }
+  if (at[key]) return "";
   at[key] = value;
-  return true;
+  return map + "." + key;
 }
 
 }  // namespace
@@ -111,10 +117,11 @@ ConfigMap::Edit SetVehicle(std::string* note) {
     std::string set;
     std::string kept;
     for (const VehicleChoice& choice : kind->choices) {
-      const bool done = Set(choice, top);
-      std::string* list = done ? &set : &kept;
-      *list += (list->empty() ? "" : "; ") + std::string(choice.key);
-      if (done) *list += ": " + std::string(choice.value);
+      const std::string key = Set(choice, top);
+      std::string* list = key.empty() ? &kept : &set;
+      *list += (list->empty() ? "" : "; ") +
+               (key.empty() ? std::string(choice.key)
+                            : key + ": " + std::string(choice.value));
     }
     *note = "vehicle " + std::string(kind->name) + " sets " +
             (set.empty() ? "nothing" : set) +

@@ -24,7 +24,14 @@ FoundStream ColumnLines::Stream() const {
   found.remarks = file_.remarks;
   found.stamps = stamps_;
   found.lines.push_back({"columns", ""});
-  if (stamps_->column >= 0 && !stamps_->rate) {
+  if (stamps_->date_column >= 0) {
+    AddColumn("date",
+              {stamps_->date_column, stamps_->unit, 1.0, stamps_->certainty,
+               stamps_->reason},
+              &found);
+    const auto clock = static_cast<std::size_t>(stamps_->column);
+    found.lines.push_back({"  t", '"' + file_.columns[clock].reference + '"'});
+  } else if (stamps_->column >= 0 && !stamps_->rate) {
     AddColumn("t",
               {stamps_->column, stamps_->unit, 1.0, stamps_->certainty,
                stamps_->reason},

@@ -10,11 +10,18 @@ namespace hindsight {
 
 struct FileFormat;
 
-/// One column of numbers as a file holds it.
+/// One column as a file holds it.
 struct FileColumn {
+  /// What stands in it: numbers, or a time as ISO 8601 writes it: date and time
+  /// of day in one word, or one of the two.
+  enum class Holds { kNumbers, kDates, kDays, kTimesOfDay };
   std::string reference;  ///< as `columns` names it: "3", "imu_gyr:2"
   std::string title;      ///< of the file, with its unit; "" if it has none
-  std::vector<double> values;  ///< NaN where nothing stands
+  Holds holds = Holds::kNumbers;
+  bool zoned = false;  ///< of times: each says its zone
+  /// NaN where nothing stands. Dates and days are seconds since 1970, times of
+  /// day seconds, as written if they say no zone, else UTC.
+  std::vector<double> values;
 };
 
 /// The numbers of a file whose meaning nobody has declared.
@@ -38,8 +45,8 @@ inline constexpr std::size_t kMostProbedNumbers = 20'000'000;
 /// Of a delimited text, plain or gzip, with or without titles. Passed over are
 /// lines before the numbers begin (`sep=,`, notes, a first line that was cut
 /// off), first rows that hold nothing but zeros beside a count, and rows of text
-/// further down. Nothing if fewer than three rows of numbers of equal length are
-/// found. Throws InputError as TextLines does.
+/// further down. Dates and times of day count as numbers. Nothing if fewer than
+/// three rows of numbers of equal length are found. Throws InputError as TextLines does.
 std::optional<FileColumns> ReadTextColumns(const std::string& path);
 
 /// Of the NumPy arrays in a folder, not below it: those with as many rows as

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/read/column_meaning.h"
+#include "io/read/fields.h"
 
 namespace hindsight {
 
@@ -25,6 +26,11 @@ const KeyLine* FindLine(const std::vector<KeyLine>& lines,
       std::find_if(lines.begin(), lines.end(),
                    [&](const KeyLine& line) { return line.key == key; });
   return at == lines.end() ? nullptr : &*at;
+}
+
+const std::vector<FieldName>& FieldsOf(const FoundStream& found) {
+  if (found.imu) return ImuFields();
+  return found.kinds.empty() ? TruthFields() : found.kinds.front()->columns;
 }
 
 FoundStream FoundImu() {

@@ -52,6 +52,9 @@ struct FoundStream {
   double top_speed = 0.0;                     ///< of positions [m/s]
 };
 
+/// The columns of what it is: an IMU, the first of its kinds, or a truth.
+const std::vector<FieldName>& FieldsOf(const FoundStream& found);
+
 /// Streams of formats that hold nothing else.
 FoundStream FoundImu();
 FoundStream FoundTruth();

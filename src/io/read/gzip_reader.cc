@@ -66,7 +66,11 @@ std::size_t GzipReader::Read(char* data, std::size_t count) {
     const int code = inflate(&stream_, Z_NO_FLUSH);
     if (code == Z_STREAM_END) {
       finished_ = !NextStream();
-    } else if (code != Z_OK || !more) {
+    } else if (!more) {
+      throw InputError(file_.path(), 0,
+                       "is cut off: it ends within its gzip data; expected a "
+                       "complete .gz file (`gzip -dc` saves the rows before)");
+    } else if (code != Z_OK) {
       throw InputError(file_.path(), 0,
                        "damaged gzip data; expected a complete .gz file");
     }

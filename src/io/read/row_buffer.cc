@@ -133,7 +133,7 @@ RowBuffer Buffered(RowSource* rows, const std::vector<FieldName>& fields,
     if (rows->Has(i)) buffer.Declare(i);
   }
   while (rows->Next()) {
-    buffer.Append(rows->stamp(), rows->line());
+    buffer.Append(rows->stamp(), rows->line(), rows->row_path());
     for (std::size_t i = 0; i < fields.size(); ++i) {
       buffer.Set(buffer.size() - 1, i, rows->value(i));
     }

@@ -10,20 +10,13 @@
 
 #include "base/error.h"
 #include "io/read/file_formats.h"
+#include "io/read/paths.h"
 #include "io/read/text_format.h"
 
 namespace hindsight {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The stamps of a file [s], on whatever clock.
-struct StampSpan {
-  double first = 0.0;
-  double last = 0.0;
-  double step = 0.0;  ///< a usual one
-  double gap = 0.0;   ///< the longest
-};
 
 /// The name without numbers, what separates them, and `.gz`.
 std::string NamePattern(std::string name) {
@@ -41,11 +34,6 @@ std::string NamePattern(std::string name) {
     if (i + 1 < name.size() && name[i + 1] == ')') ++i;
   }
   return pattern;
-}
-
-const std::vector<FieldName>& FieldsOf(const FoundStream& found) {
-  if (found.imu) return ImuFields();
-  return found.kinds.empty() ? TruthFields() : found.kinds.front()->columns;
 }
 
 /// By reading a file of a format that needs no columns.
@@ -81,15 +69,6 @@ std::optional<StampSpan> ReadSpan(const std::string& path,
   }
 }
 
-std::optional<StampSpan> SpanOf(const fs::path& path,
-                                const FoundStream& found) {
-  if (!found.stamps) return ReadSpan(path.string(), found);
-  const StampGuess& stamps = *found.stamps;
-  if (stamps.column < 0 || stamps.rate) return std::nullopt;
-  return StampSpan{stamps.first, stamps.first + stamps.span, stamps.step,
-                   stamps.gap};
-}
-
 /// Whether they may be parts of one stream, but for their times.
 bool IsAlike(const FoundStream& a, const FoundStream& b) {
   const auto column = [](const FoundStream& found) {
@@ -100,20 +79,41 @@ bool IsAlike(const FoundStream& a, const FoundStream& b) {
          a.kinds == b.kinds && column(a) == column(b);
 }
 
-bool HasSameColumns(const FileColumns& a, const FileColumns& b) {
-  return a.format == b.format && a.skip_lines == b.skip_lines &&
-         a.delimiter == b.delimiter &&
+bool IsTitled(const FileColumns& file) {
+  return std::any_of(file.columns.begin(), file.columns.end(),
+                     [](const FileColumn& c) { return !c.title.empty(); });
+}
+
+/// But for what stands above the numbers.
+bool HasSameNumbers(const FileColumns& a, const FileColumns& b) {
+  return a.format == b.format && a.delimiter == b.delimiter &&
          std::equal(a.columns.begin(), a.columns.end(), b.columns.begin(),
                     b.columns.end(),
                     [](const FileColumn& one, const FileColumn& other) {
                       return one.reference == other.reference &&
-                             one.title == other.title;
+                             one.holds == other.holds;
                     });
+}
+
+bool HasSameColumns(const FileColumns& a, const FileColumns& b) {
+  return a.skip_lines == b.skip_lines && HasSameNumbers(a, b) &&
+         std::equal(a.columns.begin(), a.columns.end(), b.columns.begin(),
+                    [](const FileColumn& one, const FileColumn& other) {
+                      return one.title == other.title;
+                    });
+}
+
+/// Whether `part` is what follows a file of these columns where a logger writes
+/// its titles once.
+bool LacksTitles(const FileColumns& part, const FileColumns& titled) {
+  return HasSameNumbers(part, titled) && part.skip_lines == 0 &&
+         titled.skip_lines == 1 && IsTitled(titled) && !IsTitled(part);
 }
 
 /// The tables of all files as one; nothing if their columns differ.
 std::optional<FileColumns> ReadJoined(const std::vector<std::string>& paths) {
   std::optional<FileColumns> joined;
+  bool untitled = false;
   for (const std::string& path : paths) {
     auto part = ReadTextColumns(path);
     if (!part) return std::nullopt;
@@ -121,7 +121,15 @@ std::optional<FileColumns> ReadJoined(const std::vector<std::string>& paths) {
       joined = std::move(part);
       continue;
     }
-    if (!HasSameColumns(*joined, *part)) return std::nullopt;
+    if (LacksTitles(*part, *joined)) {
+      // Skipped in each file, a line of numbers would go here.
+      joined->skip_lines = 0;
+      joined->text_rows += 1;
+      untitled = true;
+    } else if (!(untitled ? HasSameNumbers(*joined, *part)
+                          : HasSameColumns(*joined, *part))) {
+      return std::nullopt;
+    }
     joined->cut_tail = joined->cut_tail || part->cut_tail;
     joined->text_rows += part->text_rows;
     for (const std::string& remark : part->remarks) {
@@ -219,7 +227,62 @@ class Joiner {
   const fs::path folder_;
 };
 
+/// Files as delimited text, of those that are.
+std::vector<std::pair<RecognisedFile*, FileColumns>> Tables(
+    const fs::path& folder, const std::vector<RecognisedFile*>& files) {
+  std::vector<std::pair<RecognisedFile*, FileColumns>> tables;
+  for (RecognisedFile* file : files) {
+    const fs::path path = folder / file->name;
+    if (!IsFile(path)) continue;
+    try {
+      auto table = ReadTextColumns(path.string());
+      if (table) tables.emplace_back(file, std::move(*table));
+    } catch (const InputError&) {
+      continue;  // which is none of numbers
+    }
+  }
+  return tables;
+}
+
+bool IsOfColumns(const RecognisedFile& file) {
+  return !file.streams.empty() &&
+         file.streams.front().format == &ColumnsFormat();
+}
+
+/// Has files without titles be what those of a file of the same columns say, or
+/// nothing if its format needs titles; returns these files.
+std::vector<RecognisedFile*> BorrowTitles(
+    const fs::path& folder, const std::vector<RecognisedFile*>& files) {
+  auto tables = Tables(folder, files);
+  std::vector<RecognisedFile*> borrowed;
+  for (auto& [file, table] : tables) {
+    if (!file->streams.empty() && !IsOfColumns(*file)) continue;
+    const auto titled = std::find_if(tables.begin(), tables.end(),
+                                     [&table = table](const auto& other) {
+                                       return LacksTitles(table, other.second);
+                                     });
+    if (titled == tables.end()) continue;
+    file->streams.clear();
+    borrowed.push_back(file);
+    if (!IsOfColumns(*titled->first)) continue;
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      table.columns[i].title = titled->second.columns[i].title;
+    }
+    file->streams = RecogniseColumns(table, titled->first->name, {});
+  }
+  return borrowed;
+}
+
 }  // namespace
+
+std::optional<StampSpan> SpanOf(const fs::path& path,
+                                const FoundStream& found) {
+  if (!found.stamps) return ReadSpan(path.string(), found);
+  const StampGuess& stamps = *found.stamps;
+  if (stamps.column < 0 || stamps.rate) return std::nullopt;
+  return StampSpan{stamps.first, stamps.first + stamps.span, stamps.step,
+                   stamps.gap};
+}
 
 void JoinSplitFiles(const fs::path& folder,
                     std::vector<RecognisedFile>* files) {
@@ -229,7 +292,13 @@ void JoinSplitFiles(const fs::path& folder,
   }
   const Joiner joiner(folder);
   for (const auto& [pattern, group] : alike) {
-    if (group.size() > 1) joiner.Join(group);
+    if (group.size() < 2) continue;
+    const std::vector<RecognisedFile*> untitled = BorrowTitles(folder, group);
+    joiner.Join(group);
+    // By themselves their numbers could be anything.
+    for (RecognisedFile* file : untitled) {
+      if (!file->name.empty()) file->streams.clear();
+    }
   }
   std::erase_if(*files,
                 [](const RecognisedFile& file) { return file.name.empty(); });

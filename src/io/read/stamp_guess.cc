@@ -61,13 +61,90 @@ bool IsSteady(const std::vector<double>& t, const Steps& steps) {
   return steps.median < 3.0 * mean && mean < 10.0 * steps.median;
 }
 
+/// Times that are written as dates.
+struct Dates {
+  int column = -1;
+  int day_column = -1;
+  std::vector<double> t;
+};
+
+/// Those that grow from row to row; nothing if most stand still, as those in
+/// whole seconds do.
+std::optional<Dates> FindDates(const FileColumns& file) {
+  using enum FileColumn::Holds;
+  const auto find = [&](FileColumn::Holds holds) {
+    const auto at = std::find_if(
+        file.columns.begin(), file.columns.end(),
+        [&](const FileColumn& column) { return column.holds == holds; });
+    return at == file.columns.end()
+               ? -1
+               : static_cast<int>(at - file.columns.begin());
+  };
+  const auto values = [&](int column) -> const std::vector<double>& {
+    return file.columns[static_cast<std::size_t>(column)].values;
+  };
+  Dates dates{find(kDates), -1, {}};
+  if (dates.column >= 0) {
+    dates.t = values(dates.column);
+  } else {
+    dates.column = find(kTimesOfDay);
+    dates.day_column = find(kDays);
+    if (dates.column < 0 || dates.day_column < 0) return std::nullopt;
+    dates.t = values(dates.column);
+    for (std::size_t k = 0; k < dates.t.size(); ++k) {
+      dates.t[k] += values(dates.day_column)[k];
+    }
+  }
+  if (dates.t.size() < 3) return std::nullopt;
+  std::size_t moving = 0;
+  for (std::size_t k = 1; k < dates.t.size(); ++k) {
+    if (dates.t[k] != dates.t[k - 1]) ++moving;
+  }
+  if (2 * moving < dates.t.size() || !Grows(dates.t, StepsOf(dates.t))) {
+    return std::nullopt;
+  }
+  return dates;
+}
+
+/// Says what the columns of dates are.
+void Tell(const Dates& dates, const FileColumns& file, StampGuess* guess) {
+  const auto column = [&](int number) -> const FileColumn& {
+    return file.columns[static_cast<std::size_t>(number)];
+  };
+  guess->column = dates.column;
+  guess->date_column = dates.day_column;
+  guess->scale = StampGuess::Scale::kDate;
+  guess->unit = "UTC";
+  std::vector<std::string> words = SplitWords(column(dates.column).title);
+  if (dates.day_column >= 0) {
+    for (std::string& word : SplitWords(column(dates.day_column).title)) {
+      words.push_back(std::move(word));
+    }
+  }
+  const auto says = [&](const char* word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
+  if (column(dates.column).zoned) {
+    guess->reason = "dates with their zone";
+  } else if (says("gpst") || says("gps")) {
+    guess->unit = "GPST";
+    guess->reason = "dates, whose title says so";
+  } else if (says("utc")) {
+    guess->reason = "dates, whose title says so";
+  } else {
+    guess->certainty = Certainty::kLikely;
+    guess->reason = "dates, which do not say their zone";
+  }
+}
+
 /// The stamps' column: first what a title names, else the first that grows.
 int FindColumn(const FileColumns& file,
                const std::vector<ColumnMeaning>& meanings) {
   for (const bool titled : {true, false}) {
     for (std::size_t i = 0; i < file.columns.size(); ++i) {
-      const bool fits =
-          titled ? meanings[i].quantity == "t" : meanings[i].quantity.empty();
+      const bool fits = (titled ? meanings[i].quantity == "t"
+                                : meanings[i].quantity.empty()) &&
+                        file.columns[i].holds == FileColumn::Holds::kNumbers;
       const auto& t = file.columns[i].values;
       if (!fits || t.size() < 3) continue;
       const Steps steps = StepsOf(t);
@@ -172,20 +249,25 @@ std::optional<StampGuess> GuessStamps(
     const FileColumns& file, const std::vector<ColumnMeaning>& meanings,
     const StampHints& hints) {
   StampGuess guess;
-  guess.column = FindColumn(file, meanings);
+  const auto dates = FindDates(file);
+  if (dates) {
+    Tell(*dates, file, &guess);
+  } else {
+    guess.column = FindColumn(file, meanings);
+  }
   if (guess.column < 0) return Counted(file.rows, hints);
   const auto index = static_cast<std::size_t>(guess.column);
-  const std::vector<double>& t = file.columns[index].values;
+  const std::vector<double>& t = dates ? dates->t : file.columns[index].values;
   const Steps steps = StepsOf(t);
   guess.repeated = steps.repeated;
   guess.unordered = steps.unordered;
   double factor = 1.0;
-  if (const auto known = UnitFactor(meanings[index].unit, Quantity::kTime);
-      known && *known <= 1.0) {
+  const auto known = UnitFactor(meanings[index].unit, Quantity::kTime);
+  if (!dates && known && *known <= 1.0) {
     guess.unit = meanings[index].unit;
     factor = *known;
     guess.reason = "by its title";
-  } else {
+  } else if (!dates) {
     const TimeUnit* unit =
         UnitOfSteps(steps.median, t.back() - t.front(), hints);
     if (unit == nullptr) return Counted(file.rows, hints);
@@ -199,6 +281,7 @@ std::optional<StampGuess> GuessStamps(
   guess.step = steps.median * factor;
   guess.gap = steps.longest * factor;
   guess.span = (t.back() - t.front()) * factor;
+  if (dates) return guess;
   constexpr double kYear2001 = 978307200.0;
   constexpr double kYear2050 = 2524608000.0;
   if (guess.first > kYear2001 && guess.first < kYear2050) {

@@ -22,12 +22,14 @@ const char* CertaintyName(Certainty certainty);
 
 /// How the rows of a file become times.
 struct StampGuess {
-  enum class Scale { kOwn, kUnix };
+  /// What they count from; dates are in the scale that `unit` says.
+  enum class Scale { kOwn, kUnix, kDate };
   int column = -1;             ///< of the stamps; -1: there is none
-  std::string unit = "s";      ///< of the column
+  int date_column = -1;        ///< where `column` holds times of day
+  std::string unit = "s";      ///< of the column; of dates UTC or GPST
   std::optional<double> rate;  ///< times are row numbers over this [Hz]
   Scale scale = Scale::kOwn;
-  double first = 0.0;      ///< [s]
+  double first = 0.0;      ///< [s]; of dates since 1970
   double step = 0.0;       ///< the median one [s]
   double span = 0.0;       ///< last minus first [s]
   double gap = 0.0;        ///< the longest step [s]
@@ -49,8 +51,9 @@ struct StampHints {
   bool rate_stated = false;  ///< by the file itself
 };
 
-/// Stamps are a column that grows: one whose title says so, else the first of
-/// those. Its unit is the title's, or the only one of s, ms, us, ns in which the
+/// Stamps are a column that grows: dates (of days and times of day their sum),
+/// UTC where they say neither zone nor GPST, unless most repeat the one before;
+/// else one whose title says so, else the first of those. Its unit is the title's, or the only one of s, ms, us, ns in which the
 /// rows come at a likely rate. Equal steps of D/(N - 1), where N/D is a whole
 /// number of rows a second, are an evenly drawn axis whose last stamp stands a
 /// row too late: rows are then counted at N/D. Stamps that span a power of ten

@@ -2,11 +2,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "io/read/file_columns.h"
 #include "io/read/file_formats.h"
 #include "io/read/text_layout.h"
 #include "io/read/text_tokens.h"
+#include "io/read/time_scale.h"
 #include "io/read/units.h"
 
 namespace hindsight {
@@ -17,18 +19,66 @@ constexpr std::size_t kFewestRows = 3;
 /// Lines by which the shape of the table is told.
 constexpr std::size_t kShapeLines = 60;
 
-/// The numbers of a line; nothing if a word of it is none. A word that is
-/// missing is NaN.
-bool ParseRow(std::string_view line, char delimiter,
-              std::vector<double>* values) {
-  values->clear();
+struct Word {
+  FileColumn::Holds holds = FileColumn::Holds::kNumbers;
+  double value = kMissing;
+  bool zoned = false;
+};
+
+/// UTC seconds since 1970.
+double UnixFromGps(const Stamp& gps) {
+  const double seconds = gps.Since({}) + static_cast<double>(kGpsEpochUnix);
+  const auto whole = static_cast<std::int64_t>(std::floor(seconds));
+  return seconds - LeapSeconds(whole - LeapSeconds(whole));
+}
+
+/// A date with its time of day, or one of the two.
+std::optional<Word> ParseTimeWord(std::string_view token) {
+  using enum FileColumn::Holds;
+  constexpr std::size_t kShortest = 8;
+  const std::size_t sign = token.find_first_of("-/:");
+  if (token.size() < kShortest || sign == token.npos || sign == 0) {
+    return std::nullopt;
+  }
+  const auto seconds = [](const Stamp& as_written) {
+    return as_written.Since({}) + static_cast<double>(kGpsEpochUnix);
+  };
+  if (const auto stamp = ParseIsoTime(token, false)) {
+    return Word{kDates, seconds(*stamp), false};
+  }
+  if (const auto stamp = ParseIsoTime(token, true)) {
+    return Word{kDates, UnixFromGps(*stamp), true};
+  }
+  if (const auto stamp = ParseDate(token, "00:00:00", false)) {
+    return Word{kDays, seconds(*stamp), false};
+  }
+  const std::string on_first_day = "1970-01-01T" + std::string(token);
+  if (const auto stamp = ParseIsoTime(on_first_day, false)) {
+    return Word{kTimesOfDay, seconds(*stamp), false};
+  }
+  if (const auto stamp = ParseIsoTime(on_first_day, true)) {
+    return Word{kTimesOfDay, UnixFromGps(*stamp), true};
+  }
+  return std::nullopt;
+}
+
+/// The numbers and times of a line; nothing if a word of it is none. A word that
+/// is missing is NaN.
+bool ParseRow(std::string_view line, char delimiter, std::vector<Word>* words) {
+  words->clear();
   bool any = false;
   for (const std::string_view token : SplitLine(line, delimiter)) {
-    const auto number = ParseNumber(token);
     const bool absent = token.empty() || token == "nan" || token == "NaN";
-    if (!number && !absent) return false;
-    any = any || number;
-    values->push_back(number.value_or(kMissing));
+    if (const auto number = ParseNumber(token)) {
+      words->push_back({.value = *number});
+    } else if (const auto time = ParseTimeWord(token)) {
+      words->push_back(*time);
+    } else if (absent) {
+      words->push_back({});
+    } else {
+      return false;
+    }
+    any = any || !absent;
   }
   return any;
 }
@@ -41,11 +91,11 @@ struct Shape {
 /// What most of the first lines that are numbers look like.
 std::optional<Shape> FindShape(const std::vector<std::string>& lines) {
   std::map<std::pair<char, std::size_t>, std::size_t> count;
-  std::vector<double> values;
+  std::vector<Word> words;
   for (const std::string& line : lines) {
     if (IsComment(line)) continue;
     const char delimiter = GuessDelimiter(line);
-    if (ParseRow(line, delimiter, &values)) ++count[{delimiter, values.size()}];
+    if (ParseRow(line, delimiter, &words)) ++count[{delimiter, words.size()}];
   }
   std::optional<Shape> shape;
   std::size_t most = kFewestRows - 1;
@@ -90,8 +140,8 @@ class TextColumns {
       }
       return;
     }
-    const bool numbers = ParseRow(line, shape_.delimiter, &values_);
-    if (!numbers || values_.size() != shape_.columns) {
+    const bool numbers = ParseRow(line, shape_.delimiter, &words_);
+    if (!numbers || words_.size() != shape_.columns || !HoldsTheSame()) {
       if (found_.rows == 0) {
         title_ = line;
         ++early_;
@@ -102,12 +152,30 @@ class TextColumns {
       }
       return;
     }
-    if (found_.rows == 0) found_.skip_lines = number_ - 1;
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-      found_.columns[i].values.push_back(values_[i]);
+    if (found_.rows == 0) {
+      found_.skip_lines = number_ - 1;
+      for (std::size_t i = 0; i < words_.size(); ++i) {
+        found_.columns[i].holds = words_[i].holds;
+        found_.columns[i].zoned = words_[i].zoned;
+      }
+    }
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      found_.columns[i].values.push_back(words_[i].value);
     }
     ++found_.rows;
     found_.complete = found_.rows * shape_.columns < kMostProbedNumbers;
+  }
+
+  /// Numbers where the rows before have numbers, times where they have times.
+  bool HoldsTheSame() const {
+    if (found_.rows == 0) return true;
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      const FileColumn& column = found_.columns[i];
+      if (words_[i].holds != column.holds || words_[i].zoned != column.zoned) {
+        return false;
+      }
+    }
+    return true;
   }
 
   void Finish() {
@@ -136,19 +204,35 @@ class TextColumns {
     }
     for (const std::string& text : {title_, comment_}) {
       const auto titles = SplitLine(text, shape_.delimiter);
-      std::vector<double> none;
+      std::vector<Word> none;
       if (titles.size() + 1 < shape_.columns ||
           titles.size() > shape_.columns + 1 ||
           ParseRow(text, shape_.delimiter, &none)) {
         continue;
       }
       titled_ = true;
-      for (std::size_t i = 0; i < std::min(titles.size(), shape_.columns);
-           ++i) {
-        found_.columns[i].title = Trim(titles[i]);
+      // One title may stand for a date and the time of day behind it.
+      const bool shared = titles.size() + 1 == shape_.columns && SharesTitle();
+      for (std::size_t i = 0, at = 0; i < shape_.columns && at < titles.size();
+           ++i, ++at) {
+        found_.columns[i].title = Trim(titles[at]);
+        if (shared && found_.columns[i].holds == FileColumn::Holds::kDays) {
+          found_.columns[++i].title = Trim(titles[at]);
+        }
       }
       return;
     }
+  }
+
+  /// Whether a date and a time of day are one word to whoever reads blanks.
+  bool SharesTitle() const {
+    for (std::size_t i = 0; i + 1 < shape_.columns; ++i) {
+      if (found_.columns[i].holds == FileColumn::Holds::kDays) {
+        return shape_.delimiter == ' ' &&
+               found_.columns[i + 1].holds == FileColumn::Holds::kTimesOfDay;
+      }
+    }
+    return false;
   }
 
   /// Rows at the start in which every column that is not zero later is zero,
@@ -188,7 +272,7 @@ class TextColumns {
   TextLines lines_;
   Shape shape_;
   FileColumns found_;
-  std::vector<double> values_;
+  std::vector<Word> words_;
   std::string title_;
   std::string comment_;
   bool titled_ = false;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "io/read/text_tokens.h"
+#include "io/read/units.h"
 
 namespace hindsight {
 namespace {
@@ -18,6 +19,14 @@ constexpr std::size_t kMostAhead = 8192;
 constexpr std::size_t kMostBytesAhead = std::size_t{1} << 22;
 /// Lines that are worth a thread.
 constexpr std::size_t kLinesOfThread = 512;
+
+/// As a line of titles.
+bool HoldsNoNumber(std::string_view line, char delimiter) {
+  const std::vector<std::string_view> words = SplitLine(line, delimiter);
+  return std::none_of(words.begin(), words.end(), [](std::string_view word) {
+    return ParseNumber(word).has_value();
+  });
+}
 
 }  // namespace
 
@@ -101,7 +110,17 @@ bool TextTable::Next() {
       return true;
     }
     const bool cut = !terminated_ && options_.allow_truncated_tail;
-    if (!options_.drop_text || cut) break;
+    if (!options_.drop_text || cut) {
+      const TableLayout& layout = parser_.layout();
+      if (layout.column_count == 0 &&
+          HoldsNoNumber(LineOf(row), layout.delimiter)) {
+        problem +=
+            "; a line of titles above columns that are counted is passed "
+            "over by skip_lines: " +
+            std::to_string(line_);
+      }
+      break;
+    }
     ++texts_dropped_;
   }
   if (terminated_) Fail(problem);

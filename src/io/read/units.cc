@@ -167,11 +167,14 @@ bool IsLetter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-/// "sqrtHz" as "sqrt(Hz)".
+/// "sqrtHz", "sqrt Hz" and "sqrt-Hz" as "sqrt(Hz)".
 void BracketRoots(std::string* text) {
   constexpr std::string_view kRoot = "sqrt";
   for (std::size_t at = 0; (at = text->find(kRoot, at)) != text->npos;) {
     at += kRoot.size();
+    while (at < text->size() && ((*text)[at] == ' ' || (*text)[at] == '-')) {
+      text->erase(at, 1);
+    }
     if (at == text->size() || !IsLetter((*text)[at])) continue;
     std::size_t end = at;
     while (end < text->size() && IsLetter((*text)[end])) ++end;
@@ -192,14 +195,15 @@ void RaiseExponents(std::string* text) {
 /// In ASCII, without the brackets around a first factor, a root as sqrt().
 std::string PlainUnit(std::string_view unit) {
   static constexpr std::array kWritten = {
-      Synonym{"\u00b5", "u"},        Synonym{"\u03bc", "u"},
-      Synonym{"\u00b0", "deg"},      Synonym{"\u00ba", "deg"},
-      Synonym{"\u00b2", "^2"},       Synonym{"\u00b3", "^3"},
-      Synonym{"\u221a", "sqrt"},     Synonym{"\u00b7", "*"},
-      Synonym{"/rtHz", "/sqrt(Hz)"}, Synonym{"Hz^(1/2)", "sqrt(Hz)"},
-      Synonym{"Hz^0.5", "sqrt(Hz)"}, Synonym{"h^0.5", "sqrt(h)"},
-      Synonym{"h^(1/2)", "sqrt(h)"}, Synonym{"mdps", "mdeg/s"},
-      Synonym{"dps", "deg/s"},       Synonym{" per ", "/"},
+      Synonym{"\u00b5", "u"},          Synonym{"\u03bc", "u"},
+      Synonym{"\u00b0", "deg"},        Synonym{"\u00ba", "deg"},
+      Synonym{"\u00b2", "^2"},         Synonym{"\u00b3", "^3"},
+      Synonym{"\u221a", "sqrt"},       Synonym{"\u00b7", "*"},
+      Synonym{"/root", "/sqrt"},       Synonym{"/rt", "/sqrt"},
+      Synonym{"Hz^(1/2)", "sqrt(Hz)"}, Synonym{"Hz^0.5", "sqrt(Hz)"},
+      Synonym{"h^0.5", "sqrt(h)"},     Synonym{"h^(1/2)", "sqrt(h)"},
+      Synonym{"mdps", "mdeg/s"},       Synonym{"dps", "deg/s"},
+      Synonym{" per ", "/"},
   };
   std::string text(Trim(unit));
   for (const Synonym& synonym : kWritten) {
