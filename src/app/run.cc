@@ -2,15 +2,13 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <future>
 #include <iostream>
 
-#include "alignment/mounting_search.h"
-#include "alignment/start_layout.h"
 #include "app/allan_report.h"
 #include "app/command.h"
 #include "app/input_digests.h"
+#include "app/load_recording.h"
 #include "app/measurement_log.h"
 #include "app/result_folder.h"
 #include "app/run_output.h"
@@ -19,112 +17,18 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "dataset/checks.h"
-#include "dataset/injection.h"
 #include "dataset/known_constants.h"
 #include "evaluation/grade.h"
-#include "evaluation/truth_comparison.h"
 #include "io/config/config.h"
 #include "io/config/constants_reader.h"
 #include "io/write/comparison.h"
 #include "io/write/fix_csv.h"
 #include "io/write/residual_csv.h"
 #include "io/write/summary.h"
-#include "measurements/sensor_kind.h"
 #include "problems/method.h"
-#include "problems/rest_by_estimate.h"
 
 namespace hindsight {
 namespace {
-
-/// The rules of the command line in place of the configuration's.
-void ReplaceWithholdings(const std::vector<Withholding>& withholdings,
-                         Dataset* dataset) {
-  for (AidingStream& stream : dataset->streams) {
-    for (Measurement& z : stream.measurements.Edited()) z.withheld = false;
-  }
-  dataset->outages.clear();
-  dataset->withholdings = withholdings;
-  ApplyWithholding(dataset);
-}
-
-/// What the clean positions say, to judge by when errors are injected into data
-/// without a truth of their own.
-void KeepCleanPositions(Dataset* dataset) {
-  if (!dataset->truth.empty()) return;
-  for (const AidingStream& stream : dataset->streams) {
-    if (!stream.sensor.kind->is_position) continue;
-    dataset->truth_lever_arm_b = stream.sensor.lever_arm_b;
-    for (const Measurement& z : stream.measurements) {
-      TruthPoint point;
-      point.t = z.t + stream.sensor.time_offset;
-      point.p_e = std::get<PositionFix>(z.model).p_e;
-      dataset->truth.push_back(point);
-    }
-    std::string action = "positions before injection taken as truth";
-    if (stream.sensor.time_offset_sigma || stream.sensor.lever_arm_sigma) {
-      action +=
-          " at the configured time offset and lever arm; these are estimated, "
-          "and errors against the truth contain what they are off";
-    }
-    dataset->policies.push_back(
-        {stream.sensor.name, action, static_cast<long>(dataset->truth.size())});
-    return;
-  }
-}
-
-/// Adds the errors asked for, and says so in the data set's name and in the
-/// resolved configuration.
-void Inject(const RunRequest& request, Dataset* dataset,
-            ResolvedConfig* resolved) {
-  if (request.injections.empty()) return;
-  KeepCleanPositions(dataset);
-  try {
-    ApplyInjections(request.injections, request.seed,
-                    {request.from, request.to}, dataset);
-  } catch (const InputError& error) {
-    throw InputError(std::string("--inject: ") + error.what());
-  }
-  std::string lines;
-  for (const Injection& injection : dataset->injections) {
-    lines += "# Error injected on purpose: " + Describe(injection) + "\n";
-  }
-  resolved->yaml = lines + resolved->yaml;
-  dataset->name += " (with injected errors)";
-}
-
-/// Samples closer than the IMU's own say nothing new and fill the disk.
-void CheckRate(const RunRequest& request, const ImuStream& imu) {
-  const double imu_rate = static_cast<double>(imu.samples.size() - 1) /
-                          (imu.t_end() - imu.t_begin());
-  if (request.rate.value_or(0.0) > 2.0 * imu_rate) {
-    throw InputError(
-        fmt::format("--rate={:g} Hz is more than twice the IMU's {:g} Hz",
-                    *request.rate, imu_rate));
-  }
-}
-
-/// What a trajectory needs beyond what attitude alone does.
-void PrepareTrajectory(const RunRequest& request, Dataset* dataset) {
-  ResolveMountings(dataset);
-  AddDecidedRest(request.from, request.to, dataset);
-  ThinTruth(&dataset->truth);
-}
-
-/// The data set as it is reconstructed, and its resolved configuration.
-Dataset Load(const RunRequest& request, ResolvedConfig* resolved) {
-  Dataset dataset =
-      LoadDataset(request.config, LoadOptionsOf(request), resolved);
-  if (!request.ahrs_rule.empty()) dataset.ahrs.rule = request.ahrs_rule;
-  if (!request.attitude_alone) RequireCapacity(dataset, request.config);
-  if (!request.withholdings.empty()) {
-    ReplaceWithholdings(request.withholdings, &dataset);
-    SetWithholdings(request.withholdings, resolved);
-  }
-  Inject(request, &dataset, resolved);
-  CheckRate(request, dataset.imu);
-  if (!request.attitude_alone) PrepareTrajectory(request, &dataset);
-  return dataset;
-}
 
 ReconstructionOptions Options(const RunRequest& request, Progress* progress) {
   ReconstructionOptions options;
@@ -309,7 +213,7 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   progress.Update("reading", 0.0);
   InputDigests digests(FilesReadBy(request));
   ResolvedConfig resolved;
-  const Dataset dataset = Load(request, &resolved);
+  const Dataset dataset = LoadRecording(request, &resolved);
 
   progress.Begin("start");
   auto findings = InBackground([&dataset] {
