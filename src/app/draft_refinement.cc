@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "alignment/mounting_search.h"
+#include "app/draft_places.h"
 #include "app/draft_timing.h"
 #include "base/error.h"
 #include "base/units.h"
@@ -42,6 +43,7 @@ class Refiner {
       Load();
       return;
     }
+    TellPlaces([this] { return Load() ? &dataset_ : nullptr; }, &draft_);
     if (!Load()) return;
     TellClocks(dataset_, &draft_);
     if (!Load()) return;

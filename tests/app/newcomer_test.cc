@@ -128,6 +128,36 @@ TEST_F(Newcomer, RunOfTheFolderIsRightAndKnowsEveryPart) {
       << judged.out;
 }
 
+TEST_F(Newcomer, TheMotionTellsWhichIsTheLatitudeAndItsUnit) {
+  for (const char* name :
+       {"gps_1.csv", "gps_2.csv", "gps_3.csv", "gps_2.csv.gz", "mystery.csv"}) {
+    std::filesystem::remove(root() / "drive" / name);
+  }
+  const auto fixes = CellsOf(root() / "made/gnss.csv");
+  const auto init = [&](const std::string& text) {
+    WriteFile(root() / "drive/places.csv", text);
+    const Outcome outcome =
+        Hindsight({"init", "drive", "--out=c.yaml", "--force"}, root());
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return ReadFile(root() / "c.yaml");
+  };
+  std::string east_first;
+  std::string radians = "time,latitude,longitude,altitude\n";
+  for (const auto& row : fixes) {
+    east_first += fmt::format("{},{},{},{}\n", row[0], row[2], row[1], row[3]);
+    constexpr double kDegrees = 57.29577951308232;
+    radians += fmt::format("{},{:.11f},{:.11f},{}\n", row[0],
+                           std::stod(row[1]) / kDegrees,
+                           std::stod(row[2]) / kDegrees, row[3]);
+  }
+  const std::string swapped = init(east_first);
+  EXPECT_NE(swapped.find("lat: \"3 [deg]\""), std::string::npos) << swapped;
+  EXPECT_NE(swapped.find("lon: \"2 [deg]\""), std::string::npos) << swapped;
+  const std::string scaled = init(radians);
+  EXPECT_NE(scaled.find("lat: \"2 [rad]\""), std::string::npos) << scaled;
+  EXPECT_NE(scaled.find("lon: \"3 [rad]\""), std::string::npos) << scaled;
+}
+
 TEST_F(Newcomer, PartsGiveTheResultOfTheWhole) {
   const std::string config = ReadFile(root() / "made/config.yaml");
   const auto run = [&](const std::string& files, const std::string& out) {

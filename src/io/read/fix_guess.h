@@ -28,6 +28,8 @@ struct FixGuess {
   ColumnGuess h;
   std::optional<ColumnGuess> speed;
   std::optional<ColumnGuess> course;
+  /// Titles tell which is which, and the unit.
+  bool place_is_told = false;
   /// Share of rows whose place is that of the row before.
   double repeated = 0.0;
   double top_speed = 0.0;  ///< of one fix to another, 99 % are slower [m/s]

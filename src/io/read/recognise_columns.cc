@@ -135,6 +135,7 @@ class Recogniser {
     FoundStream found = lines_.Stream();
     found.kinds = {&PositionKind()};
     found.top_speed = fixes.top_speed;
+    found.place_is_told = fixes.place_is_told;
     lines_.AddColumn("lat", fixes.lat, &found);
     lines_.AddColumn("lon", fixes.lon, &found);
     lines_.AddColumn("h", fixes.h, &found);
