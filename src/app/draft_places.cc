@@ -45,15 +45,27 @@ void TellPlaces(const std::function<const Dataset*()>& load,
                 RecordingDraft* draft) {
   for (StreamDraft& stream : draft->aiding) {
     const std::vector<KeyLine> lines = stream.found.lines;
-    if (stream.found.place_is_told || FindLine(lines, "  lat") == nullptr ||
+    const bool told =
+        stream.found.place_unit_told && stream.found.place_order_told;
+    if (told || FindLine(lines, "  lat") == nullptr ||
         Fits(load(), stream.name)) {
       continue;
     }
     bool found = false;
     for (const auto& [swapped, radians] :
          {std::pair(false, true), {true, false}, {true, true}}) {
+      if ((swapped && stream.found.place_order_told) ||
+          (radians && stream.found.place_unit_told)) {
+        continue;
+      }
       stream.found.lines = Otherwise(lines, swapped, radians);
       found = Fits(load(), stream.name);
+      if (found && swapped) {
+        draft->Assume(stream.name +
+                      ": the longitude is taken to stand before the latitude, "
+                      "as it fits the gyros; with the other sign of these the "
+                      "other order would");
+      }
       if (found) break;
     }
     if (!found) stream.found.lines = lines;

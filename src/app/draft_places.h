@@ -8,10 +8,12 @@
 
 namespace hindsight {
 
-/// Where unit or order of latitude and longitude is a guess
-/// (FoundStream::place_is_told) and the positions fit the IMU's motion at no
-/// offset of their clock, takes what fits of radians, the other order, and both.
-/// `load` gives the recording as the draft has it, nullptr if it does not load.
+/// Where the unit of positions, or which column is the latitude, is a guess
+/// (FoundStream::place_unit_told, place_order_told) and they fit the IMU's motion
+/// at no offset of their clock, takes what fits of radians, the other order, and
+/// both. The other order is an assumption: gyros of the other sign would turn the
+/// same way. `load` gives the recording as the draft has it, nullptr if it does
+/// not load.
 void TellPlaces(const std::function<const Dataset*()>& load,
                 RecordingDraft* draft);
 

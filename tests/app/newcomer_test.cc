@@ -153,6 +153,9 @@ TEST_F(Newcomer, TheMotionTellsWhichIsTheLatitudeAndItsUnit) {
   const std::string swapped = init(east_first);
   EXPECT_NE(swapped.find("lat: \"3 [deg]\""), std::string::npos) << swapped;
   EXPECT_NE(swapped.find("lon: \"2 [deg]\""), std::string::npos) << swapped;
+  EXPECT_NE(swapped.find("the longitude is taken to stand before"),
+            std::string::npos)
+      << swapped;
   const std::string scaled = init(radians);
   EXPECT_NE(scaled.find("lat: \"2 [rad]\""), std::string::npos) << scaled;
   EXPECT_NE(scaled.find("lon: \"3 [rad]\""), std::string::npos) << scaled;

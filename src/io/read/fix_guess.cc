@@ -225,8 +225,8 @@ std::optional<FixGuess> GuessFixes(const FileColumns& file,
   TakeUnit(meanings, Quantity::kAngle, "deg", &guess.lon);
   const std::string& unit =
       meanings[static_cast<std::size_t>(guess.lat.column)].unit;
-  guess.place_is_told = guess.lat.certainty == Certainty::kCertain &&
-                        UnitFactor(unit, Quantity::kAngle).has_value();
+  guess.place_order_told = guess.lat.certainty == Certainty::kCertain;
+  guess.place_unit_told = UnitFactor(unit, Quantity::kAngle).has_value();
   const Values t = TimesOf(file, stamps);
   const double radians = *UnitFactor(guess.lat.unit, Quantity::kAngle);
   const FixMotion motion =
