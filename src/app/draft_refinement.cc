@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "dataset/checks.h"
+#include "dataset/gyro_unit.h"
 #include "dataset/median_field.h"
 #include "dataset/mirrored_axis.h"
 #include "dataset/truth_lever_arm.h"
@@ -48,6 +49,9 @@ class Refiner {
     TellClocks(dataset_, &draft_);
     if (!Load()) return;
     TellStretch(dataset_, &draft_);
+    if (const std::string odd = WarnAboutGyroUnit(dataset_); !odd.empty()) {
+      draft_.Assume(odd);
+    }
     SetForward();
     TellTruthClock(dataset_, &draft_);
     if (!Load()) return;

@@ -140,8 +140,8 @@ std::string WarnAboutGyroUnit(const Dataset& dataset) {
       imu.t_end() <= imu.t_begin()) {
     return "";
   }
-  const std::string by_gravity = ByGravity(imu);
-  return by_gravity.empty() ? ByCourse(dataset) : by_gravity;
+  const std::string by_course = ByCourse(dataset);
+  return by_course.empty() ? ByGravity(imu) : by_course;
 }
 
 }  // namespace hindsight

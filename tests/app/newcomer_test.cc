@@ -126,6 +126,8 @@ TEST_F(Newcomer, RunOfTheFolderIsRightAndKnowsEveryPart) {
   const auto figures = nlohmann::json::parse(judged.out);
   EXPECT_LT(figures["errors"]["position_total"]["rms"].get<double>(), 0.5)
       << judged.out;
+  // How the IMU sits in the vehicle is guessed, and known no better than so.
+  EXPECT_LT(figures["nees"]["attitude"].get<double>(), 10.0) << judged.out;
 }
 
 TEST_F(Newcomer, TheMotionTellsWhichIsTheLatitudeAndItsUnit) {
@@ -159,6 +161,23 @@ TEST_F(Newcomer, TheMotionTellsWhichIsTheLatitudeAndItsUnit) {
   const std::string scaled = init(radians);
   EXPECT_NE(scaled.find("lat: \"2 [rad]\""), std::string::npos) << scaled;
   EXPECT_NE(scaled.find("lon: \"3 [rad]\""), std::string::npos) << scaled;
+}
+
+TEST_F(Newcomer, GyrosOfTheOtherSignAreSaidToBeAndNothingIsUsable) {
+  std::string imu = "time,ax,ay,az,gx,gy,gz\n";
+  for (const auto& row : CellsOf(root() / "made/imu.csv")) {
+    imu +=
+        fmt::format("{},{},{},{},{},{},{}\n", row[0], row[4], row[5], row[6],
+                    -std::stod(row[1]), -std::stod(row[2]), -std::stod(row[3]));
+  }
+  WriteFile(root() / "drive/imu.csv", imu);
+  const Outcome run = Hindsight(
+      {"run", "drive", "--yes", "--methods=rts,batch", "--out=out"}, root());
+  EXPECT_NE(run.status, 0) << run.out;
+  EXPECT_NE(run.out.find("taken for granted: imu: the course turns against the "
+                         "gyros"),
+            std::string::npos)
+      << run.out;
 }
 
 TEST_F(Newcomer, PartsGiveTheResultOfTheWhole) {
