@@ -8,10 +8,12 @@
 #include <optional>
 
 #include "alignment/mounting_search.h"
+#include "app/draft_places.h"
 #include "app/draft_timing.h"
 #include "base/error.h"
 #include "base/units.h"
 #include "dataset/checks.h"
+#include "dataset/gyro_unit.h"
 #include "dataset/median_field.h"
 #include "dataset/mirrored_axis.h"
 #include "dataset/truth_lever_arm.h"
@@ -42,10 +44,14 @@ class Refiner {
       Load();
       return;
     }
+    TellPlaces([this] { return Load() ? &dataset_ : nullptr; }, &draft_);
     if (!Load()) return;
     TellClocks(dataset_, &draft_);
     if (!Load()) return;
     TellStretch(dataset_, &draft_);
+    if (const std::string odd = WarnAboutGyroUnit(dataset_); !odd.empty()) {
+      draft_.Assume(odd);
+    }
     SetForward();
     TellTruthClock(dataset_, &draft_);
     if (!Load()) return;

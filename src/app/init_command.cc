@@ -9,11 +9,13 @@
 #include "app/error_line.h"
 #include "app/file_place.h"
 #include "app/flags.h"
+#include "app/shell_word.h"
 #include "base/error.h"
 #include "io/config/config.h"
 #include "io/config/init_config.h"
 #include "io/read/paths.h"
 #include "io/write/unpublished.h"
+#include "problems/method.h"
 
 namespace hindsight {
 namespace {
@@ -54,6 +56,13 @@ void WriteInto(const std::string& path, const RecordingDraft& draft) {
   TreatAbandoned(path, FLAGS_clean, Disowned);
   WriteDraft(path, DraftText(draft));
   std::cout << "wrote " << path << "\n";
+  if (IsAttitudeAlone(draft)) {
+    std::string methods = MethodNames(true);
+    std::erase(methods, ' ');
+    std::cout << "no stream tells where the IMU is: attitude alone, by "
+                 "hindsight run "
+              << ShellWord(path) << " --methods=" << methods << " --out=DIR\n";
+  }
   TellProblem(draft, path);
 }
 

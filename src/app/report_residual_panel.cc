@@ -194,16 +194,17 @@ ReportSeries ResidualTable(const ResidualSeries& r) {
      : is_rejected ? rejected_over
                    : withheld_over)[k] = over[k];
   }
-  series.columns = {{"used", std::move(used)},
-                    {"rejected", std::move(rejected)},
-                    {"withheld", std::move(withheld)},
-                    {"used_over", std::move(used_over)},
-                    {"rejected_over", std::move(rejected_over)},
-                    {"withheld_over", std::move(withheld_over)},
-                    {"sigma", r.sigma}};
+  auto& columns = series.columns;
+  columns["used"] = std::move(used);
+  columns["rejected"] = std::move(rejected);
+  columns["withheld"] = std::move(withheld);
+  columns["used_over"] = std::move(used_over);
+  columns["rejected_over"] = std::move(rejected_over);
+  columns["withheld_over"] = std::move(withheld_over);
+  columns["sigma"] = r.sigma;
   const bool weighted = std::any_of(r.weight.begin(), r.weight.end(),
                                     [](double w) { return w != 1.0; });
-  if (weighted) series.columns["weight"] = r.weight;
+  if (weighted) columns["weight"] = r.weight;
   return series;
 }
 

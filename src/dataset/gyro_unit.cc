@@ -115,8 +115,13 @@ std::string ByCourse(const Dataset& dataset) {
     last = v;
   }
   if (count == 0 || courses < count * kTurned * kTurned || gyros <= 0.0 ||
-      both < kAlike * std::sqrt(courses * gyros)) {
+      std::abs(both) < kAlike * std::sqrt(courses * gyros)) {
     return "";
+  }
+  if (both < 0.0) {
+    return "imu: the course turns against the gyros: they have the other sign, "
+           "or an axis is mirrored; put a \"-\" before its column under "
+           "`columns`";
   }
   const double ratio = std::sqrt(courses / gyros);
   for (const double factor : {kDegree, 1.0 / kDegree}) {
@@ -135,8 +140,8 @@ std::string WarnAboutGyroUnit(const Dataset& dataset) {
       imu.t_end() <= imu.t_begin()) {
     return "";
   }
-  const std::string by_gravity = ByGravity(imu);
-  return by_gravity.empty() ? ByCourse(dataset) : by_gravity;
+  const std::string by_course = ByCourse(dataset);
+  return by_course.empty() ? ByGravity(imu) : by_course;
 }
 
 }  // namespace hindsight

@@ -81,6 +81,16 @@ TEST_F(DraftOf, RefusesAnOutputThatCannotBeWrittenBeforeItLooks) {
   EXPECT_THAT(init.err, HasSubstr("/proc/self/NAME.yaml"));
 }
 
+TEST_F(DraftOf, AnImuAloneSaysByWhichMethods) {
+  for (const char* name : {"gnss.csv", "speed.csv"}) {
+    std::filesystem::remove(recording_.file(name));
+  }
+  const Outcome init = Init("c.yaml");
+  EXPECT_EQ(init.status, 0) << init.err;
+  EXPECT_THAT(init.out, HasSubstr("attitude alone, by hindsight run c.yaml "
+                                  "--methods=ahrs_smoother,ahrs --out=DIR"));
+}
+
 TEST_F(DraftOf, GzipDataThatAreCutOffAreSaidToBe) {
   const std::string text = ReadFile(recording_.file("imu.csv"));
   WriteGzip(recording_.file("imu.csv.gz"), text);

@@ -230,6 +230,10 @@ TEST_F(Messages, GyrosOfACarWhoseUnitIsAnotherOne) {
   EXPECT_THAT(Check().out,
               HasSubstr("the course turns 0.0175 times as far as the gyros "
                         "say: they look like deg/s, declared as rad/s"));
+  Change("imu.csv", [](std::vector<double>* row) { (*row)[3] *= -1.0; });
+  EXPECT_THAT(Check().out,
+              HasSubstr("the course turns against the gyros: they have the "
+                        "other sign"));
 }
 
 TEST_F(Messages, OfFilesThatAreNoNames) {

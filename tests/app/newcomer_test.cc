@@ -126,6 +126,58 @@ TEST_F(Newcomer, RunOfTheFolderIsRightAndKnowsEveryPart) {
   const auto figures = nlohmann::json::parse(judged.out);
   EXPECT_LT(figures["errors"]["position_total"]["rms"].get<double>(), 0.5)
       << judged.out;
+  // How the IMU sits in the vehicle is guessed, and known no better than so.
+  EXPECT_LT(figures["nees"]["attitude"].get<double>(), 10.0) << judged.out;
+}
+
+TEST_F(Newcomer, TheMotionTellsWhichIsTheLatitudeAndItsUnit) {
+  for (const char* name :
+       {"gps_1.csv", "gps_2.csv", "gps_3.csv", "gps_2.csv.gz", "mystery.csv"}) {
+    std::filesystem::remove(root() / "drive" / name);
+  }
+  const auto fixes = CellsOf(root() / "made/gnss.csv");
+  const auto init = [&](const std::string& text) {
+    WriteFile(root() / "drive/places.csv", text);
+    const Outcome outcome =
+        Hindsight({"init", "drive", "--out=c.yaml", "--force"}, root());
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return ReadFile(root() / "c.yaml");
+  };
+  std::string east_first;
+  std::string radians = "time,latitude,longitude,altitude\n";
+  for (const auto& row : fixes) {
+    east_first += fmt::format("{},{},{},{}\n", row[0], row[2], row[1], row[3]);
+    constexpr double kDegrees = 57.29577951308232;
+    radians += fmt::format("{},{:.11f},{:.11f},{}\n", row[0],
+                           std::stod(row[1]) / kDegrees,
+                           std::stod(row[2]) / kDegrees, row[3]);
+  }
+  const std::string swapped = init(east_first);
+  EXPECT_NE(swapped.find("lat: \"3 [deg]\""), std::string::npos) << swapped;
+  EXPECT_NE(swapped.find("lon: \"2 [deg]\""), std::string::npos) << swapped;
+  EXPECT_NE(swapped.find("the longitude is taken to stand before"),
+            std::string::npos)
+      << swapped;
+  const std::string scaled = init(radians);
+  EXPECT_NE(scaled.find("lat: \"2 [rad]\""), std::string::npos) << scaled;
+  EXPECT_NE(scaled.find("lon: \"3 [rad]\""), std::string::npos) << scaled;
+}
+
+TEST_F(Newcomer, GyrosOfTheOtherSignAreSaidToBeAndNothingIsUsable) {
+  std::string imu = "time,ax,ay,az,gx,gy,gz\n";
+  for (const auto& row : CellsOf(root() / "made/imu.csv")) {
+    imu +=
+        fmt::format("{},{},{},{},{},{},{}\n", row[0], row[4], row[5], row[6],
+                    -std::stod(row[1]), -std::stod(row[2]), -std::stod(row[3]));
+  }
+  WriteFile(root() / "drive/imu.csv", imu);
+  const Outcome run = Hindsight(
+      {"run", "drive", "--yes", "--methods=rts,batch", "--out=out"}, root());
+  EXPECT_NE(run.status, 0) << run.out;
+  EXPECT_NE(run.out.find("taken for granted: imu: the course turns against the "
+                         "gyros"),
+            std::string::npos)
+      << run.out;
 }
 
 TEST_F(Newcomer, PartsGiveTheResultOfTheWhole) {

@@ -155,6 +155,11 @@ void FindSpeedAndCourse(const FileColumns& file,
   }
 }
 
+bool HoldsNumbers(const FileColumns& file, int column) {
+  return file.columns[static_cast<std::size_t>(column)].holds ==
+         FileColumn::Holds::kNumbers;
+}
+
 bool FindPlaces(const FileColumns& file,
                 const std::vector<ColumnMeaning>& meanings, int stamp_column,
                 FixGuess* guess) {
@@ -166,7 +171,8 @@ bool FindPlaces(const FileColumns& file,
   if (guess->lat.column >= 0 && guess->lon.column >= 0) return true;
   const int count = static_cast<int>(file.columns.size());
   for (int i = 0; i + 1 < count; ++i) {
-    if (i == stamp_column || i + 1 == stamp_column || !IsFree(meanings, i) ||
+    if (i == stamp_column || i + 1 == stamp_column || !HoldsNumbers(file, i) ||
+        !HoldsNumbers(file, i + 1) || !IsFree(meanings, i) ||
         !IsFree(meanings, i + 1) || !LooksLikeAngle(Column(file, i), 90.0) ||
         !LooksLikeAngle(Column(file, i + 1), 180.0)) {
       continue;
@@ -188,8 +194,8 @@ void FindHeight(const FileColumns& file,
        ++i) {
     const bool taken = (guess->speed && guess->speed->column == i) ||
                        (guess->course && guess->course->column == i);
-    if (i == stamp_column || taken || !IsFree(meanings, i) ||
-        !IsHeight(Column(file, i))) {
+    if (i == stamp_column || taken || !HoldsNumbers(file, i) ||
+        !IsFree(meanings, i) || !IsHeight(Column(file, i))) {
       continue;
     }
     guess->h = {i, "m", 1.0, Certainty::kLikely,
@@ -217,13 +223,11 @@ std::optional<FixGuess> GuessFixes(const FileColumns& file,
   if (!FindPlaces(file, meanings, stamps.column, &guess)) return std::nullopt;
   TakeUnit(meanings, Quantity::kAngle, "deg", &guess.lat);
   TakeUnit(meanings, Quantity::kAngle, "deg", &guess.lon);
-  Values t(file.rows);
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    t[i] = stamps.rate || stamps.column < 0
-               ? static_cast<double>(i) * stamps.step
-               : Column(file, stamps.column)[i] *
-                     *UnitFactor(stamps.unit, Quantity::kTime);
-  }
+  const std::string& unit =
+      meanings[static_cast<std::size_t>(guess.lat.column)].unit;
+  guess.place_order_told = guess.lat.certainty == Certainty::kCertain;
+  guess.place_unit_told = UnitFactor(unit, Quantity::kAngle).has_value();
+  const Values t = TimesOf(file, stamps);
   const double radians = *UnitFactor(guess.lat.unit, Quantity::kAngle);
   const FixMotion motion =
       MotionOf(Column(file, guess.lat.column), Column(file, guess.lon.column),

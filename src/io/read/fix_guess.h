@@ -28,6 +28,9 @@ struct FixGuess {
   ColumnGuess h;
   std::optional<ColumnGuess> speed;
   std::optional<ColumnGuess> course;
+  /// A title tells it.
+  bool place_unit_told = false;
+  bool place_order_told = false;
   /// Share of rows whose place is that of the row before.
   double repeated = 0.0;
   double top_speed = 0.0;  ///< of one fix to another, 99 % are slower [m/s]

@@ -50,6 +50,10 @@ struct FoundStream {
   std::vector<std::string> remarks = {};      ///< what was odd
   std::vector<std::string> assumptions = {};  ///< what may be otherwise
   double top_speed = 0.0;                     ///< of positions [m/s]
+  /// Of positions: false where the unit, or which column is the latitude, is a
+  /// guess, which the motion may contradict.
+  bool place_unit_told = true;
+  bool place_order_told = true;
 };
 
 /// The columns of what it is: an IMU, the first of its kinds, or a truth.

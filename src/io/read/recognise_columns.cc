@@ -135,6 +135,8 @@ class Recogniser {
     FoundStream found = lines_.Stream();
     found.kinds = {&PositionKind()};
     found.top_speed = fixes.top_speed;
+    found.place_unit_told = fixes.place_unit_told;
+    found.place_order_told = fixes.place_order_told;
     lines_.AddColumn("lat", fixes.lat, &found);
     lines_.AddColumn("lon", fixes.lon, &found);
     lines_.AddColumn("h", fixes.h, &found);

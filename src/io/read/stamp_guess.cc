@@ -292,4 +292,21 @@ std::optional<StampGuess> GuessStamps(
   return guess;
 }
 
+std::vector<double> TimesOf(const FileColumns& file, const StampGuess& stamps) {
+  std::vector<double> t(file.rows);
+  const bool counted = stamps.rate || stamps.column < 0;
+  const bool dated = stamps.scale == StampGuess::Scale::kDate;
+  const double factor =
+      counted || dated ? 1.0 : *UnitFactor(stamps.unit, Quantity::kTime);
+  const auto value = [&](int column, std::size_t row) {
+    return file.columns[static_cast<std::size_t>(column)].values[row];
+  };
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    t[i] = counted ? static_cast<double>(i) * stamps.step
+                   : factor * value(stamps.column, i);
+    if (stamps.date_column >= 0) t[i] += value(stamps.date_column, i);
+  }
+  return t;
+}
+
 }  // namespace hindsight

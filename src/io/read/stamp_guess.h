@@ -63,6 +63,9 @@ std::optional<StampGuess> GuessStamps(
     const FileColumns& file, const std::vector<ColumnMeaning>& meanings,
     const StampHints& hints);
 
+/// The times of all rows by that guess [s].
+std::vector<double> TimesOf(const FileColumns& file, const StampGuess& stamps);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_IO_READ_STAMP_GUESS_H_
