@@ -8,6 +8,14 @@
 
 namespace hindsight {
 
+// Debian compiles Ceres for every x86-64, where Eigen aligns to 16 bytes and
+// leaves that to malloc: what is taken here may be freed there. An -march with
+// AVX alone would change both.
+static_assert(EIGEN_MAX_STATIC_ALIGN_BYTES <= 16 &&
+                  EIGEN_MALLOC_ALREADY_ALIGNED,
+              "Eigen must align memory as Ceres does: see the preset "
+              "release-v3");
+
 TangentFactor::TangentFactor(const StateBlocks* blocks, int rows,
                              std::vector<int> nodes, std::vector<int> globals)
     : blocks_(*blocks),
