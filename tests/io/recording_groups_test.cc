@@ -108,6 +108,22 @@ TEST_F(FlatFolder, OtherColumnsOfAnImuTellNothing) {
   ASSERT_EQ(Drafts().size(), 1u);
 }
 
+TEST_F(FlatFolder, WhatNothingTellsApartIsRefused) {
+  const std::string whole = RockedImu(0.0, 0.01);
+  Write("a.csv", RockedImu(0.0));
+  Write("b.csv", NorthboundFixes(0.0, 48.0));
+  Write("c.csv", whole.substr(0, whole.find('\n', whole.size() / 2) + 1));
+  Write("d.csv", NorthboundFixes(0.0, 49.0));
+  try {
+    Drafts();
+    FAIL() << "expected an error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("different times (a.csv, c.csv)"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("expected a folder for each recording"));
+  }
+}
+
 TEST_F(FlatFolder, TwoImusOfOneRecordingStayTogether) {
   Write("imu_left.csv", RockedImu(0.0));
   Write("imu_right.csv", RockedImu(0.0, 0.01));

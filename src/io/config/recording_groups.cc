@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "base/error.h"
 #include "io/read/column_meaning.h"
 #include "io/read/file_format.h"
 #include "io/read/split_files.h"
@@ -42,6 +44,7 @@ class Grouper {
     for (const bool by_time : {true, false}) {
       if (by_time ? TimesTell() : NamesTell()) return Groups(by_time);
     }
+    RequireOne();
     return Whole();
   }
 
@@ -147,6 +150,36 @@ class Grouper {
       hit.insert(places.begin(), places.end());
     }
     return hit.size() > 1;
+  }
+
+  /// Throws InputError where IMUs recorded for different times, and there are
+  /// positions in as many files: each is likely to be of another.
+  void RequireOne() const {
+    constexpr double kSame = 0.95;
+    double shortest = std::numeric_limits<double>::infinity();
+    double longest = 0.0;
+    std::string imus;
+    for (std::size_t i = 0; i < mains_.size(); ++i) {
+      if (!spans_[i]) return;
+      const double length = spans_[i]->last - spans_[i]->first;
+      shortest = std::min(shortest, length);
+      longest = std::max(longest, length);
+      imus += (i == 0 ? "" : ", ") + mains_[i]->file;
+    }
+    std::set<std::string> fixes;
+    for (const FoundStream* other : others_) {
+      const bool places =
+          std::any_of(other->kinds.begin(), other->kinds.end(),
+                      [](const SensorKind* kind) { return kind->is_position; });
+      if (places) fixes.insert(other->file);
+    }
+    if (shortest >= kSame * longest || fixes.size() < mains_.size()) return;
+    throw InputError(
+        files_.folder.string(), 0,
+        "holds IMUs that recorded for different times (" + imus +
+            ") and positions in " + std::to_string(fixes.size()) +
+            " files; neither dates nor names tell which belong together: "
+            "expected a folder for each recording");
   }
 
   std::vector<RecordingFiles> Groups(bool by_time) const {

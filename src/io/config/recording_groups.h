@@ -13,7 +13,9 @@ namespace hindsight {
 /// the shorter, and another of that whose name it shares a word with that no other
 /// IMU's has. Else by such words alone (a day, a number), if they place streams in
 /// two recordings at least, and none in two. What fits none stands among the
-/// `copies` of all, with the reason. One recording if neither tells.
+/// `copies` of all, with the reason. One recording if neither tells; throws
+/// InputError if it is none: IMUs that recorded for different times (by 5 % and
+/// more), with positions in as many files.
 std::vector<RecordingFiles> GroupRecordings(RecordingFiles files);
 
 }  // namespace hindsight
