@@ -101,6 +101,11 @@ void ResultFolder::Keep(const std::string& name, const std::string& text) {
   half_kept_ = false;
 }
 
+void ResultFolder::WaitFor(std::shared_future<void> writing) {
+  const std::lock_guard lock(mutex_);
+  writing_ = std::move(writing);
+}
+
 void ResultFolder::KeepAtEnd(
     std::function<std::vector<OutputFile>()> finished) {
   const std::lock_guard lock(mutex_);
@@ -247,6 +252,12 @@ std::string ResultFolder::Abandon() {
 }
 
 std::string ResultFolder::Stop() {
+  std::shared_future<void> writing;
+  {
+    const std::lock_guard lock(mutex_);
+    writing = writing_;
+  }
+  if (writing.valid()) writing.wait();
   // For good: who waits for it from now on waits for the end of the process.
   mutex_.lock();
   if (placement_.placed()) {

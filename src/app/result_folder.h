@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -52,6 +53,10 @@ class ResultFolder {
   /// `name`. From now on an early end leaves what has been written so far.
   void Keep(const std::string& name, const std::string& text);
 
+  /// From now on a signal lets `writing` come to its end first: files of what is
+  /// done, that are written while the next is worked on.
+  void WaitFor(std::shared_future<void> writing);
+
   /// From now on an early end leaves, of all files, those that `finished` gives
   /// then, from a thread of its own; the first says that the results are not
   /// complete. What does not fit on the medium is left out from the end of the
@@ -98,6 +103,7 @@ class ResultFolder {
   bool is_left_ = false;    ///< what was to be removed is still there
   bool half_kept_ = false;  ///< the files on the medium are not those of kept_
   std::function<std::vector<OutputFile>()> at_end_;
+  std::shared_future<void> writing_;
   std::mutex mutex_;
   StopWatch stop_watch_;  ///< the last: it uses the others
 };

@@ -206,6 +206,21 @@ void RequireOtherRecording(const Dataset& dataset,
   }
 }
 
+/// Lets what goes on beside come to its end before what it uses goes out of
+/// scope.
+class WaitAtEnd {
+ public:
+  explicit WaitAtEnd(const std::shared_future<void>& work) : work_(work) {}
+  ~WaitAtEnd() {
+    if (work_.valid()) work_.wait();
+  }
+  WaitAtEnd(const WaitAtEnd&) = delete;
+  WaitAtEnd& operator=(const WaitAtEnd&) = delete;
+
+ private:
+  const std::shared_future<void>& work_;
+};
+
 int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   SetThreadCount(request.threads);
   Progress progress(request.progress);
@@ -249,7 +264,8 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   solutions.reserve(request.methods.size());
   // The files of a method are written while the next one is solved; only the
   // writer touches the summary and its solution meanwhile.
-  std::future<void> writing;
+  std::shared_future<void> writing;
+  const WaitAtEnd wait(writing);
   for (const std::string& method : request.methods) {
     progress.Begin(method);
     solutions.push_back(RunMethod(&reconstruction, method));
@@ -267,8 +283,12 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
           WriteMethodFiles(request, dataset, *solution, tables, folder);
           const bool has_trajectory = !solution->states.empty();
           ForgetTrajectory(solution);
-          if (has_trajectory) folder->Keep(kSummaryName, SummaryText(summary));
-        });
+          if (has_trajectory) {
+            folder->Keep(kSummaryName, SummaryText(summary));
+          }
+        }).share();
+    if (ThreadCount() == 1) writing.get();
+    folder->WaitFor(writing);
   }
   writing.get();
   CheckAnyTrajectory(solutions);

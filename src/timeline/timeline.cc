@@ -6,8 +6,6 @@
 #include <map>
 #include <utility>
 
-#include "base/parallel.h"
-
 namespace hindsight {
 namespace {
 
@@ -48,29 +46,11 @@ const IncrementStart* Timeline::IncrementStartAt(std::size_t k,
 const ImuSummary& Timeline::Integrate(std::size_t k,
                                       const ImuCalibration& calibration) {
   std::shared_ptr<const ImuSummary>& present = summaries_[k];
-  if (present == nullptr) IntegrateAhead(k, calibration);
-  if (NeedsReintegration(*present, calibration)) {
+  if (present == nullptr || NeedsReintegration(*present, calibration)) {
     present = std::make_shared<const ImuSummary>(
         integrator_.Summarize(nodes_[k].t, nodes_[k + 1].t, calibration));
   }
   return *present;
-}
-
-/// What is estimated next is near what it is now, so that a few intervals can be
-/// integrated at once by several threads.
-void Timeline::IntegrateAhead(std::size_t k,
-                              const ImuCalibration& calibration) {
-  constexpr std::size_t kIntervals = 64;
-  constexpr std::size_t kIntervalsOfThread = 16;
-  const std::size_t count = std::min(kIntervals, summaries_.size() - k);
-  ForRanges(count, kIntervalsOfThread, [&](std::size_t from, std::size_t to) {
-    ImuIntegrator integrator = integrator_;
-    for (std::size_t i = k + from; i < k + to; ++i) {
-      if (summaries_[i] != nullptr) continue;
-      summaries_[i] = std::make_shared<const ImuSummary>(
-          integrator.Summarize(nodes_[i].t, nodes_[i + 1].t, calibration));
-    }
-  });
 }
 
 namespace {

@@ -71,9 +71,7 @@ class Timeline {
 
   /// Summary of the interval from node k to k + 1, integrated at `calibration`
   /// or near enough for its first-order correction (NeedsReintegration). Where
-  /// the present one is not, a new one takes its place. Where there is none,
-  /// some of the intervals after it are integrated at the same calibration, by
-  /// several threads.
+  /// the present one is not, a new one takes its place.
   const ImuSummary& Integrate(std::size_t k, const ImuCalibration& calibration);
 
   /// The present summary; it must have been integrated before.
@@ -129,8 +127,6 @@ class Timeline {
     return &offset_rates_.measurements[static_cast<std::size_t>(
         &z - measurements_.data())];
   }
-
-  void IntegrateAhead(std::size_t k, const ImuCalibration& calibration);
 
   std::vector<Node> nodes_;
   std::vector<Measurement> measurements_;

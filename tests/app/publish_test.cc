@@ -172,7 +172,7 @@ TEST_F(Publish, WhatOthersPutIntoTheTemporaryFolderStaysTheirs) {
 
 TEST_F(Publish, AFolderAboveThatIsRenamedMeanwhileIsFollowed) {
   const std::vector<std::string> words = {
-      "run", "data/config.yaml", "--out=above/out", "--methods=ekf,batch",
+      "run", "data/config.yaml", "--out=above/out", "--methods=ekf,rts,batch",
       "--progress=json"};
   for (const std::string stage : {"ekf", "batch"}) {
     fs::create_directory(root() / "above");
