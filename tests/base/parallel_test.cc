@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <stdexcept>
 #include <thread>
@@ -27,7 +28,8 @@ class Threads {
 TEST(ForRanges, CoversEachIndexOnce) {
   for (const int threads : {1, 2, 5}) {
     const Threads limit(threads);
-    for (const std::size_t count : {0, 1, 7, 64, 12345}) {
+    for (const std::size_t count :
+         std::array<std::size_t, 5>{0, 1, 7, 64, 12345}) {
       std::vector<std::atomic<int>> seen(count);
       ForRanges(count, 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) ++seen[i];

@@ -73,7 +73,9 @@ TEST(TruthLeverArm, NeedsTwentyPairs) {
   Dataset dataset = TurnedToAndFro({1.0, 0.0, 0.0}, 0.01);
   Dataset few = dataset;
   few.truth = {};
-  for (int k = 0; k < 20; ++k) few.truth.push_back(dataset.truth[k]);
+  for (std::size_t k = 0; k < 20; ++k) {
+    few.truth.push_back(dataset.truth[k]);
+  }
   EXPECT_FALSE(FindTruthLeverArm(few));
 }
 
