@@ -10,7 +10,10 @@
 #include "base/error.h"
 #include "base/processor_time.h"
 #include "base/units.h"
+#include "dataset/bias_sigma.h"
+#include "dataset/magnetic_check.h"
 #include "dataset/repeated_readings.h"
+#include "earth/wgs84.h"
 #include "evaluation/grade.h"
 #include "evaluation/observability.h"
 #include "geometry/so3.h"
@@ -245,6 +248,24 @@ Solution AttitudeEstimation::Run(const Method& method) {
   std::vector<Evidence> recording =
       FindRepeatedReadings(dataset_, imu_.t_begin(), imu_.t_end());
   recording.insert(recording.end(), evidence_.begin(), evidence_.end());
+  if (!RoughPosition(dataset_) &&
+      GyroBiasSigma(dataset_.initial).maxCoeff() < kEarthRate) {
+    recording.push_back(
+        {.rule = "unknown_place",
+         .grade = Grade::kDoubtful,
+         .what =
+             "nothing says where on the Earth this is, and it turns by more "
+             "than gyro_bias_sigma leaves open: 15 deg/h",
+         .remedies = {"place: [lat, lon, h]"}});
+  }
+  if (velocities_.empty() && !VelocitySamples(dataset_).empty()) {
+    recording.push_back(
+        {.rule = "unused_velocities",
+         .grade = Grade::kDoubtful,
+         .what = "velocities that nothing tells the heading of are not used: "
+                 "the tilt is wrong by whatever the body accelerates",
+         .remedies = {"initial.heading, a magnetometer or headings"}});
+  }
   Conclude({.solution = solution,
             .recording = std::move(recording),
             .relative_heading =

@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "dataset/bias_sigma.h"
 #include "dataset/ground_motion.h"
+#include "dataset/magnetic_check.h"
 #include "dataset/rest.h"
 #include "geometry/so3.h"
 #include "measurements/sensor_kind.h"
@@ -29,9 +30,8 @@ AttitudeFilterOptions FilterOptionsOf(const Dataset& dataset) {
   constexpr double kUpdates = 10.0;  // in one correlation time
   const AhrsSettings& ahrs = dataset.ahrs;
   AttitudeFilterOptions options;
-  if (dataset.place) {
-    options.place = PlaceOnEarth(EcefFromGeodetic(*dataset.place));
-  }
+  if (const auto p_e = RoughPosition(dataset))
+    options.place = PlaceOnEarth(*p_e);
   options.rule.name = ahrs.rule;
   options.rule.sigma = ahrs.accel_sigma;
   options.rule.limit = ahrs.gate;

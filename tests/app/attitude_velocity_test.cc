@@ -22,7 +22,9 @@ std::string BankedFlight(const std::string& segments) {
          "aiding:\n"
          "  doppler: {type: velocity, rate: 2 Hz, sigma: 0.1 m/s, lever_arm: "
          "[1.5 m, 0 m, -1 m]}\n"
-         "truth_rate: 1 Hz\n";
+         "truth_rate: 1 Hz\n"
+         "start_errors: {position: 1 m, velocity: 0.2 m/s, "
+         "attitude: [0.5 deg, 0.5 deg, 2 deg]}\n";
 }
 
 const char* const kTurns =
@@ -34,8 +36,9 @@ const char* const kTurns =
     "  - {type: turn, angle: 120 deg, rate: 4 deg/s, banked: true}\n"
     "  - {type: straight, duration: 20 s}\n";
 
-/// The configuration without what it knows of the start.
-void ForgetStart(const std::filesystem::path& config) {
+/// The configuration without what it knows of the start, but for the position
+/// if that is to be kept.
+void ForgetStart(const std::filesystem::path& config, bool with_position) {
   const std::string text = ReadFile(config);
   std::string kept;
   std::size_t at = 0;
@@ -44,7 +47,7 @@ void ForgetStart(const std::filesystem::path& config) {
     const std::string line = text.substr(at, end - at);
     const bool start = line.starts_with("  attitude") ||
                        line.starts_with("  velocity") ||
-                       line.starts_with("  position");
+                       (line.starts_with("  position") && !with_position);
     if (!start) kept += line;
     at = end;
   }
@@ -57,13 +60,13 @@ struct Flown {
 };
 
 Flown Fly(const TemporaryFolder& folder, const std::string& segments,
-          const std::string& seed) {
+          const std::string& seed, bool with_position = true) {
   WriteFile(folder.path() / "scenario.yaml", BankedFlight(segments));
   const Outcome made = Hindsight(
       {"simulate", "scenario.yaml", "--seed=" + seed, "--out=data", "--force"},
       folder.path());
   EXPECT_EQ(made.status, 0) << made.err;
-  ForgetStart(folder.path() / "data/config.yaml");
+  ForgetStart(folder.path() / "data/config.yaml", with_position);
   Flown flown;
   flown.outcome =
       Hindsight({"run", "data/config.yaml", "--methods=ahrs,ahrs_smoother",
@@ -95,14 +98,27 @@ TEST(AttitudeByVelocity, FindsTiltAndHeadingInBankedTurns) {
   EXPECT_LT(nees / kFlights, 6.0);
 }
 
+/// Without any position nothing says how the Earth turns under the gyros, which
+/// then have 15 deg/h that are not theirs, more than their bias is said to be.
+TEST(AttitudeByVelocity, IsDoubtfulWhereNothingSaysHowTheEarthTurns) {
+  const TemporaryFolder folder;
+  const Flown flown = Fly(folder, kTurns, "9", /*with_position=*/false);
+  EXPECT_EQ(flown.outcome.status, 3);
+  EXPECT_THAT(flown.outcome.out, HasSubstr("where on the Earth"));
+}
+
 /// Straight ahead at one speed nothing tells the heading: then the velocities
-/// are not used, which is said, and headings count from the start.
+/// are not used, which makes the result doubtful.
 TEST(AttitudeByVelocity, IsOfNoUseWithoutAccelerations) {
   const TemporaryFolder folder;
   const Flown flown =
       Fly(folder, "  - {type: straight, duration: 120 s}\n", "3");
+  EXPECT_EQ(flown.outcome.status, 3);
   EXPECT_THAT(flown.outcome.out,
               HasSubstr("'doppler' (velocity): nothing tells the heading"));
+  for (const char* method : {"ahrs", "ahrs_smoother"}) {
+    EXPECT_EQ(flown.methods[method]["grade"], "doubtful") << method;
+  }
 }
 
 }  // namespace

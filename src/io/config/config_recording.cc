@@ -192,9 +192,9 @@ const ConfigTable<RecordingConfig>& RecordingTable() {
           recording->dataset->place = ReadGeodetic(top, "place");
         }},
         .help =
-            "[lat, lon, h] where attitude alone is estimated: gives gravity "
-            "and the Earth's rate, which are 9.80665 m/s^2 and nothing "
-            "without it"},
+            "[lat, lon, h] where attitude alone is estimated and no position "
+            "is given or measured: gives gravity and the Earth's rate, which "
+            "are 9.80665 m/s^2 and nothing without"},
        {.name = "ahrs",
         .value = Key::Special{[](ConfigMap* top, Recording* recording) {
           recording->dataset->ahrs = ReadAhrs(top);
