@@ -1,5 +1,6 @@
 #include "attitude/attitude_filter.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -72,7 +73,6 @@ void AttitudeFilter::Turn(double dt, const Eigen::Vector3d& w0,
     turned_.S.noalias() -= C * summary.phi.asDiagonal();
     turned_.angle += summary.phi.norm();
   }
-  turned_dt_ = dt;
   turned_.q_attitude += summary.variance;
   turned_.dt += dt;
   ++turned_.samples;
@@ -166,11 +166,6 @@ void AttitudeFilter::ConsiderTilt(const Eigen::Vector3d& h, double residual,
 
 void AttitudeFilter::AddForce(const Eigen::Vector3d& f_b) {
   f_i_ = C_ib_ * f_b;
-  if (turned_dt_ > 0.0) {
-    force_.Add(turned_dt_, 0.5 * (raw_f_i_ + f_i_),
-               resting_ ? Eigen::Matrix3d::Zero().eval() : C_ib_);
-  }
-  raw_f_i_ = f_i_;
   if (low_pass_) f_i_ = low_pass_->Filter(f_i_);
   const double s = std::abs(f_i_.norm() - options_.place.gravity);
   force_variance_ =
@@ -192,6 +187,20 @@ void AttitudeFilter::UseAccelerometer() {
 
 void AttitudeFilter::LeaveAccelerometer() {
   verdict_.accel_variance = std::numeric_limits<double>::infinity();
+}
+
+void AttitudeFilter::UseVelocityChange(const VelocityChange& change,
+                                       const Eigen::Matrix3d& C_nb) {
+  const Eigen::Vector3d u_n = C_nb * change.u_b;
+  const Eigen::LLT<Eigen::Matrix3d> llt(change.R_n + C_nb * change.noise_b *
+                                                         C_nb.transpose());
+  Eigen::Matrix<double, 3, AttitudeState::kDim> H;
+  H << -Skew(u_n), C_nb * change.by_gyro;
+  const Eigen::Vector3d residual = llt.matrixL().solve(change.m_n - u_n);
+  H = llt.matrixL().solve(H).eval();
+  for (int row = 0; row < 3; ++row) {
+    UpdateState(H.row(row).transpose(), residual(row), 1.0);
+  }
 }
 
 void AttitudeFilter::AddField(const MagneticSample& reading) {

@@ -8,9 +8,9 @@
 
 #include "attitude/accelerometer_rule.h"
 #include "attitude/attitude_state.h"
-#include "attitude/force_integral.h"
 #include "attitude/inertial_low_pass.h"
 #include "attitude/magnetic_reference.h"
+#include "attitude/velocity_change.h"
 #include "imu/imu_stream.h"
 #include "measurements/magnetic_field.h"
 
@@ -25,9 +25,7 @@ struct AttitudeFilterOptions {
   double low_pass_tau = 0.0;
   /// Of the magnetometer, per axis [uT].
   double magnetic_sigma = 1.0;
-  /// A priori, an axis: what is not known of the bias is noise of the forces
-  /// between velocities that goes on for as long as a manoeuvre, half a minute
-  /// [m/s^2].
+  /// A priori, an axis, where velocities are used [m/s^2].
   double accel_bias_sigma = 0.0;
   /// Times over which the errors of accelerometer and magnetometer go on [s]:
   /// of samples dt apart each counts as dt / time of one, its variance is that
@@ -72,15 +70,12 @@ struct AttitudeFilterOptions {
 ///   C_nb f_b = -g e_D,   rows north and east of -g [e_D x] psi,
 ///   C_nb m_b = m_n,      rows of [m_n x] psi, or the azimuth alone, whose
 ///                        variance is by the horizontal part that is read.
-/// A velocity and the one used before it say what the force between them is,
-///   C_ni (int f_i dt + [C_ib (w x l)]) = [v_n] + (2 w_ie + w_en) x v_n dt
-///                                        - g e_D dt,
-/// with [] a difference over the interval: rows of the left side crossed with
-/// psi, and of what the gyro bias has done to it (ForceIntegral). How fast the
-/// body accelerates is known then, so that the tilt needs no rule, and whoever
-/// accelerates knows the heading. Its noise is that of both velocities, of the
-/// accelerometer and its bias, and of the gyros within the interval, g^2 N_g^2 dt^3 / 3. An error that two intervals share counts in
-/// each of them as if it were another one: sigmas are a little too large.
+/// Two velocities say what the force between them is (VelocityChange), in rows of
+///   [C_nb u_b x] psi  and of the gyro's errors.
+/// How fast the body accelerates is known then, so that the tilt needs no rule,
+/// and whoever accelerates knows the heading. An error that two intervals share
+/// counts in each of them as if it were another one: sigmas are a little too
+/// large.
 /// Neglected against the general filter: w_ie x psi over one sample, what a
 /// reading at rest tells of attitude and scale factor by the Earth's rate in
 /// it, and the transport of P over corrections (all below 1e-3 of P for
@@ -114,11 +109,10 @@ class AttitudeFilter {
   }
   /// Goes without the accelerometer, as velocities say what it reads.
   void LeaveAccelerometer();
-  /// A velocity that was read at or shortly before the current time, from which
-  /// the next one is told; `w_b` is what the gyros read [rad/s].
-  void BeginVelocity(const VelocitySample& reading, const Eigen::Vector3d& w_b);
-  /// Uses its difference to the one before, and begins at it.
-  void UseVelocity(const VelocitySample& reading, const Eigen::Vector3d& w_b);
+  /// Uses what two velocities say of the attitude at the later one, which is
+  /// C_nb to now.
+  void UseVelocityChange(const VelocityChange& change,
+                         const Eigen::Matrix3d& C_nb);
   /// Uses the rates that were read at rest since the last update.
   void UseRest();
   /// Moves the corrections into the state. To be called after the updates.
@@ -127,6 +121,7 @@ class AttitudeFilter {
   AttitudeState state() const;
   Eigen::Quaterniond q_nb() const { return q_ni_ * q_ib_; }
   const Eigen::Vector3d& gyro_bias() const { return b_g_; }
+  const Eigen::Vector3d& gyro_scale() const { return s_g_; }
   /// Verdict on the last update.
   const AttitudeVerdict& verdict() const { return verdict_; }
   /// Of the last Predict.
@@ -149,15 +144,6 @@ class AttitudeFilter {
   /// Scalar update with H = h' on the attitude that leaves the tilt as it is
   /// and counts its error (Schmidt 1966).
   void ConsiderTilt(const Eigen::Vector3d& h, double residual, double R);
-  /// What was integrated by the time of a reading.
-  struct VelocityStart {
-    VelocitySample reading;
-    ForceIntegral force;
-    Eigen::Vector3d lever_i = Eigen::Vector3d::Zero();  ///< C_ib (w x l) [m/s]
-    Eigen::Matrix3d lever_by_bias = Eigen::Matrix3d::Zero();  ///< C_ib [l x]
-  };
-  VelocityStart StartAt(const VelocitySample& reading,
-                        const Eigen::Vector3d& w_b) const;
   void ApplyGain(const Vector& PHt, double S, double innovation);
   void Record(const Vector& h, const Vector& PHt, double S, double innovation);
 
@@ -204,10 +190,6 @@ class AttitudeFilter {
   double rate_sigma_;   ///< of RestDetector::rate() at rest [rad/s]
   double dt_;           ///< between updates [s]
   Eigen::Vector3d f_i_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d raw_f_i_ = Eigen::Vector3d::Zero();  ///< without low-pass
-  double turned_dt_ = 0.0;                             ///< of the last Turn [s]
-  ForceIntegral force_;
-  VelocityStart velocity_;
   double force_variance_ = 0.0;  ///< of f_i_, by the rule alone [m^2/s^4]
   FieldMean field_;
   double field_t_;  ///< of the last reading used [s]

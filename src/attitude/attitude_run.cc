@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -34,6 +35,7 @@ class AttitudeRunner {
         static_cast<std::size_t>((imu.t_end() - imu.t_begin()) / spacing) + 2;
     run_.samples.reserve(imu.samples.size());
     run_.nodes.reserve(nodes);
+    if (!velocities_.empty()) integrator_.emplace(imu, true);
     if (!to_be_smoothed) return;
     run_.updates.reserve(kUpdates * nodes);
     filter_.RecordUpdates(&run_.updates);
@@ -100,10 +102,11 @@ class AttitudeRunner {
            velocities_[next_velocity_].t <= sample.t;
          ++next_velocity_) {
       const VelocitySample& reading = velocities_[next_velocity_];
-      const double dt = reading.t - velocity_t_;
+      const double dt = last_velocity_ == nullptr
+                            ? std::numeric_limits<double>::infinity()
+                            : reading.t - last_velocity_->t;
       if (dt > kLongestVelocityInterval) {
-        filter_.BeginVelocity(reading, sample.gyro);
-        velocity_t_ = reading.t;
+        last_velocity_ = &reading;
       } else if (dt > kLeastVelocityInterval - 0.5 * sample_interval_) {
         velocity_ = &reading;
       }
@@ -113,9 +116,21 @@ class AttitudeRunner {
 
   void UseVelocity(const ImuSample& sample) {
     if (velocity_ == nullptr) return;
-    filter_.UseVelocity(*velocity_, sample.gyro);
-    velocity_t_ = velocity_->t;
+    const ImuCalibration calibration = {.b_g = filter_.gyro_bias(),
+                                        .s_g = filter_.gyro_scale()};
+    filter_.UseVelocityChange(
+        ChangeBetween(*last_velocity_, *velocity_, options_.place, calibration,
+                      options_.accel_bias_sigma, &*integrator_),
+        AttitudeAt(velocity_->t, sample).toRotationMatrix());
+    last_velocity_ = velocity_;
     velocity_ = nullptr;
+  }
+
+  /// Shortly before a sample, the last one fed.
+  Eigen::Quaterniond AttitudeAt(double t, const ImuSample& sample) const {
+    const Eigen::Vector3d turn =
+        (sample.t - t) * (sample.gyro - filter_.gyro_bias());
+    return filter_.q_nb() * Exp(-turn);
   }
 
   void Update(std::size_t k) {
@@ -143,12 +158,10 @@ class AttitudeRunner {
            headings_[next_heading_].t <= sample.t;
          ++next_heading_) {
       const HeadingSample& heading = headings_[next_heading_];
-      const Eigen::Vector3d turn =
-          (sample.t - heading.t) * (sample.gyro - filter_.gyro_bias());
       State x;
       x.t = heading.t;
       x.p_e = options_.place.p_e;
-      x.q_eb = q_en_ * filter_.q_nb() * Exp(-turn);
+      x.q_eb = q_en_ * AttitudeAt(heading.t, sample);
       x.parameters = Eigen::Vector3d::Zero();
       const Kinematics kinematics = {sample.gyro, sample.accel};
       LinearizedMeasurement z;
@@ -186,8 +199,8 @@ class AttitudeRunner {
   std::size_t next_heading_ = 0;
   std::size_t next_velocity_ = 0;
   const VelocitySample* velocity_ = nullptr;  ///< to be used at this sample
-  /// Of the velocity used last [s].
-  double velocity_t_ = -std::numeric_limits<double>::infinity();
+  const VelocitySample* last_velocity_ = nullptr;  ///< used last
+  std::optional<ImuIntegrator> integrator_;        ///< for velocities
 };
 
 }  // namespace

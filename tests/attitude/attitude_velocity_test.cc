@@ -19,8 +19,8 @@ struct Thrown {
   std::vector<Eigen::Quaterniond> q_nb;
 
   Thrown() {
-    constexpr double kStep = 1e-3;
-    constexpr int kSteps = 4000;
+    constexpr double kStep = 2.5e-4;
+    constexpr int kSteps = 16000;
     const Eigen::Vector3d lever_arm(0.4, -0.3, 0.2);
     const Eigen::Vector3d g_n(0.0, 0.0, options.place.gravity);
     Eigen::Quaterniond q = Exp(Eigen::Vector3d(0.3, -0.2, 2.0));
@@ -35,7 +35,7 @@ struct Thrown {
                                 -1.5 * std::sin(1.5 * t));
       imu.samples.push_back({t, w, q.conjugate() * (a_n - g_n)});
       q_nb.push_back(q);
-      if (k % 500 != 0) continue;
+      if (k % 2000 != 0) continue;
       velocities.push_back({t, v_n + q * w.cross(lever_arm),
                             Eigen::Vector3d(0.001, 0.002, 0.003).asDiagonal(),
                             lever_arm});
