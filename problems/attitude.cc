@@ -238,13 +238,7 @@ Solution AttitudeEstimation::Sample(const Solution& solution,
   return SampleAttitude(solution, dataset_.imu, times);
 }
 
-Solution AttitudeEstimation::Run(const Method& method) {
-  const double t0 = ProcessorSeconds();
-  evidence_.clear();
-  Solution solution = std::get<Method::OfAttitude>(method.run)(this);
-  solution.method = method.name;
-  solution.seconds = ProcessorSeconds() - t0;
-  for (std::string& note : Unused()) solution.notes.push_back(std::move(note));
+std::vector<Evidence> AttitudeEstimation::ExamineRecording() const {
   std::vector<Evidence> recording =
       FindRepeatedReadings(dataset_, imu_.t_begin(), imu_.t_end());
   recording.insert(recording.end(), evidence_.begin(), evidence_.end());
@@ -266,8 +260,18 @@ Solution AttitudeEstimation::Run(const Method& method) {
                  "the tilt is wrong by whatever the body accelerates",
          .remedies = {"initial.heading, a magnetometer or headings"}});
   }
+  return recording;
+}
+
+Solution AttitudeEstimation::Run(const Method& method) {
+  const double t0 = ProcessorSeconds();
+  evidence_.clear();
+  Solution solution = std::get<Method::OfAttitude>(method.run)(this);
+  solution.method = method.name;
+  solution.seconds = ProcessorSeconds() - t0;
+  for (std::string& note : Unused()) solution.notes.push_back(std::move(note));
   Conclude({.solution = solution,
-            .recording = std::move(recording),
+            .recording = ExamineRecording(),
             .relative_heading =
                 magnetic_.empty() && headings_.empty() && velocities_.empty(),
             .mounting_sigma = dataset_.mounting_sigma},

@@ -85,6 +85,8 @@ class AttitudeEstimation final : public Estimation {
   /// What the solutions, or the filter's, make no use of, in words.
   std::vector<std::string> Unused() const;
   std::vector<std::string> UnusedByFilter() const;
+  /// What the recording shows by itself, and what speaks against the heading.
+  std::vector<Evidence> ExamineRecording() const;
   ErrorLayout SolutionLayout() const;
   void AppendState(double t, const Eigen::Quaterniond& q_nb,
                    const Eigen::Vector3d& b_g, Solution* solution) const;

@@ -163,8 +163,7 @@ class Varying {
                       std::span<const std::size_t> onsets) const {
     Energies energies;
     for (const auto& [group, wanted] : columns_) {
-      energies.emplace(
-          group, EnergiesOf(group, wanted, onsets, tape, columns, nullptr));
+      energies.emplace(group, EnergiesOf(group, wanted, onsets, tape, columns));
     }
     return energies;
   }

@@ -123,9 +123,8 @@ std::optional<AlignedAttitude> AttitudeByVelocity(const Dataset& dataset,
   input.b_g = dataset.initial.gyro_bias;
   input.b_a = dataset.initial.accel_bias;
   input.gyro_sigma = GyroBiasSigma(dataset.initial).maxCoeff();
-  for (const TimeInterval& rest : FindRest(dataset).at_rest) {
-    if (rest.begin > input.t + 1.0 || rest.end <= input.t + 1.0) continue;
-    input.rest = TimeInterval{std::max(input.t, rest.begin), rest.end};
+  input.rest = RestFrom(input.t, FindRest(dataset).at_rest);
+  if (input.rest) {
     const GyroBiasPrior resting = GyroBiasAtRest(dataset, *input.rest);
     input.b_g = resting.b_g;
     input.gyro_sigma = resting.sigma.maxCoeff();

@@ -73,11 +73,7 @@ class StartFinder {
         if (rest.begin <= from_ + 1.0 && rest.end >= t_) t_ = from_;
       }
     }
-    for (const TimeInterval& rest : rests_) {
-      if (rest.begin <= t_ + 1.0 && rest.end > t_ + 1.0) {
-        rest_ = TimeInterval{std::max(t_, rest.begin), rest.end};
-      }
-    }
+    rest_ = RestFrom(t_, rests_);
   }
 
   /// Where the vehicle was and how it moved at t says nothing of another time.

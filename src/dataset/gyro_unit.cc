@@ -49,50 +49,49 @@ std::string ByGravity(const ImuStream& stream) {
 }
 
 /// How far the gyros turn about the mean specific force from the first sample to
-/// each [rad].
-std::vector<double> TurnsAboutVertical(const ImuStream& stream) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const ImuSample& sample : stream.samples) mean += sample.accel;
-  const Eigen::Vector3d down = -mean.normalized();
-  std::vector<double> turns;
-  turns.reserve(stream.samples.size());
-  turns.push_back(0.0);
-  for (std::size_t k = 1; k < stream.samples.size(); ++k) {
-    const ImuSample sample = stream.samples[k];
-    const double dt = sample.t - stream.samples[k - 1].t;
-    turns.push_back(turns.back() + dt * down.dot(sample.gyro));
+/// ascending times [rad].
+class TurnAboutVertical {
+ public:
+  explicit TurnAboutVertical(const ImuStream& stream)
+      : samples_(stream.samples) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const ImuSample& sample : samples_) mean += sample.accel;
+    down_ = -mean.normalized();
   }
-  return turns;
-}
 
-/// By the course over the ground of a vehicle that is level on average.
-std::string ByCourse(const Dataset& dataset) {
+  double At(double t) {
+    for (; k_ + 1 < samples_.size() && samples_[k_].t < t; ++k_) {
+      turn_ += (samples_[k_ + 1].t - samples_[k_].t) *
+               down_.dot(samples_[k_ + 1].gyro);
+    }
+    return turn_;
+  }
+
+ private:
+  const std::vector<ImuSample>& samples_;
+  Eigen::Vector3d down_;
+  std::size_t k_ = 0;
+  double turn_ = 0.0;
+};
+
+/// Sums over pairs of moments of a vehicle that is level on average, of how far it
+/// turned between them by its course over the ground and by the gyros [rad^2].
+struct Turns {
+  double by_course = 0.0;
+  double by_gyros = 0.0;
+  double both = 0.0;
+  int count = 0;
+};
+
+Turns TurnsOf(const Dataset& dataset) {
   constexpr double kShortest = 2.0;  // s, above the offsets of clocks
   constexpr double kLongest = 6.0;   // s
   constexpr double kMoving = 3.0;    // m/s
   constexpr double kFarthest = 2.0;  // rad, below half a turn
-  constexpr double kTurned = 0.1;    // rad, root mean square
-  constexpr double kAlike = 0.8;     // correlation
-  constexpr double kNear = 1.25;     // of the factor
   const ImuStream& imu = dataset.imu;
-  const std::vector<double> turns = TurnsAboutVertical(imu);
-  const auto turned_at = [&](double t) {
-    std::size_t low = 0;
-    std::size_t high = turns.size() - 1;
-    while (low < high) {
-      const std::size_t middle = (low + high) / 2;
-      if (imu.samples[middle].t < t) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
-    }
-    return turns[low];
-  };
-  double courses = 0.0;
-  double gyros = 0.0;
-  double both = 0.0;
-  int count = 0;
+  TurnAboutVertical gyros(imu);
+  Turns turns;
+  double last_turn = 0.0;
   std::optional<TimedVelocity> last;
   for (const TimedVelocity& v :
        GroundVelocities(dataset, imu.t_begin(), imu.t_end())) {
@@ -100,20 +99,29 @@ std::string ByCourse(const Dataset& dataset) {
         v.v_n.head<2>().norm() > std::max(kMoving, 5.0 * v.sigma);
     if (!moves || (last && v.t - last->t > kLongest)) last.reset();
     if (!moves || (last && v.t - last->t < kShortest)) continue;
+    const double turn = gyros.At(v.t);
     if (last) {
-      const Eigen::Vector3d turn = last->v_n.cross(v.v_n);
-      const double course =
-          std::atan2(turn.z(), last->v_n.head<2>().dot(v.v_n.head<2>()));
-      const double gyro = turned_at(v.t) - turned_at(last->t);
+      const double course = std::atan2(
+          last->v_n.cross(v.v_n).z(), last->v_n.head<2>().dot(v.v_n.head<2>()));
+      const double gyro = turn - last_turn;
       if (std::abs(course) < kFarthest) {
-        courses += course * course;
-        gyros += gyro * gyro;
-        both += course * gyro;
-        ++count;
+        turns.by_course += course * course;
+        turns.by_gyros += gyro * gyro;
+        turns.both += course * gyro;
+        ++turns.count;
       }
     }
     last = v;
+    last_turn = turn;
   }
+  return turns;
+}
+
+std::string ByCourse(const Dataset& dataset) {
+  constexpr double kTurned = 0.1;  // rad, root mean square
+  constexpr double kAlike = 0.8;   // correlation
+  constexpr double kNear = 1.25;   // of the factor
+  const auto [courses, gyros, both, count] = TurnsOf(dataset);
   if (count == 0 || courses < count * kTurned * kTurned || gyros <= 0.0 ||
       std::abs(both) < kAlike * std::sqrt(courses * gyros)) {
     return "";

@@ -340,4 +340,16 @@ std::vector<TimeInterval> WindowsOf(const TimeInterval& span,
   return windows;
 }
 
+std::optional<TimeInterval> RestFrom(double t,
+                                     const std::vector<TimeInterval>& rests) {
+  constexpr double kSlack = 1.0;  // [s]
+  std::optional<TimeInterval> found;
+  for (const TimeInterval& rest : rests) {
+    if (rest.begin <= t + kSlack && rest.end > t + kSlack) {
+      found = TimeInterval{std::max(t, rest.begin), rest.end};
+    }
+  }
+  return found;
+}
+
 }  // namespace hindsight

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_DATASET_REST_H_
 #define HINDSIGHT_DATASET_REST_H_
 
+#include <optional>
 #include <vector>
 
 #include "dataset/dataset.h"
@@ -39,6 +40,11 @@ struct Rest {
 /// LeaveOutTurned decides. Spans that are shaken or turn are in none of
 /// the lists.
 Rest FindRest(const Dataset& dataset);
+
+/// The rest that begins at t, or within a second after, from t on; the last if
+/// there are several.
+std::optional<TimeInterval> RestFrom(double t,
+                                     const std::vector<TimeInterval>& rests);
 
 /// Moves to `undecided` those parts of the rests that aiding contradicts
 /// (ExcludedMotion::Cut).

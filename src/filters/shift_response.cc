@@ -167,9 +167,8 @@ class OnsetPass {
         score_(Eigen::VectorXd::Zero(e_.cols())),
         information_(Eigen::MatrixXd::Zero(e_.cols(), e_.cols())) {}
 
-  GroupEnergy Run(const EpochCallback& callback) {
+  GroupEnergy Run() {
     for (std::size_t k = onsets_.front(); k < tape_.size(); ++k) {
-      if (callback) callback(k);
       while (begun_ < count_ &&
              onsets_[static_cast<std::size_t>(begun_)] <= k) {
         ++begun_;
@@ -301,10 +300,9 @@ class OnsetPass {
 
 GroupEnergy EnergiesOf(ShiftColumns::Group group, std::span<const int> wanted,
                        std::span<const std::size_t> onsets,
-                       const LinearTape& tape, const ShiftColumns& columns,
-                       const EpochCallback& callback) {
+                       const LinearTape& tape, const ShiftColumns& columns) {
   RequireFixedNominal(tape);
-  return OnsetPass(group, wanted, onsets, tape, columns).Run(callback);
+  return OnsetPass(group, wanted, onsets, tape, columns).Run();
 }
 
 }  // namespace hindsight

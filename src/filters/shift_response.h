@@ -43,8 +43,7 @@ struct GroupEnergy {
 /// Of some columns of one group, over the onsets that cause an innovation.
 GroupEnergy EnergiesOf(ShiftColumns::Group group, std::span<const int> wanted,
                        std::span<const std::size_t> onsets,
-                       const LinearTape& tape, const ShiftColumns& columns,
-                       const EpochCallback& callback = nullptr);
+                       const LinearTape& tape, const ShiftColumns& columns);
 
 /// The same as CorrectionFor of columns that step by `steps`, a row an onset.
 std::vector<ErrorVector> CorrectionForSteps(ShiftColumns::Group group,
