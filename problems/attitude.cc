@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "alignment/given.h"
 #include "alignment/magnetic_heading.h"
 #include "base/error.h"
 #include "base/processor_time.h"
@@ -51,7 +52,12 @@ AttitudeEstimation::AttitudeEstimation(const Dataset& dataset,
                                        ReconstructionOptions options)
     : dataset_(dataset),
       options_(std::move(options)),
-      imu_(RatesWithin(dataset.imu, options_.from, options_.to)),
+      imu_(RatesWithin(
+          dataset.imu,
+          GivenStartTime(dataset,
+                         std::max(options_.from, dataset.imu.t_begin()),
+                         std::min(options_.to, dataset.imu.t_end())),
+          options_.to)),
       magnetic_(MagneticSamples(dataset)),
       headings_(HeadingSamples(dataset)),
       velocities_(VelocitySamples(dataset)),
@@ -104,6 +110,21 @@ AttitudePart VerdictsOf(const AttitudeRun& run) {
   return part;
 }
 
+/// Of the accelerometer as sensor 0.
+std::vector<NormalisedInnovation> ForceInnovations(const AttitudeRun& run) {
+  std::vector<NormalisedInnovation> innovations;
+  innovations.reserve(run.nodes.size());
+  for (const AttitudeNode& node : run.nodes) {
+    if (!std::isfinite(node.verdict.accel_variance)) continue;
+    NormalisedInnovation& one = innovations.emplace_back();
+    one.t = node.x.t;
+    one.index = innovations.size() - 1;
+    one.rows = node.verdict.force_innovation;
+    one.white = one.rows;
+  }
+  return innovations;
+}
+
 }  // namespace
 
 void AttitudeEstimation::AppendState(double t, const Eigen::Quaterniond& q_nb,
@@ -152,6 +173,7 @@ Solution AttitudeEstimation::Filter() {
     solution.covariances.Set(k, P);
   }
   solution.attitude = VerdictsOf(run);
+  innovations_ = ForceInnovations(run);
   solution.notes = UnusedByFilter();
   return solution;
 }
@@ -189,7 +211,7 @@ std::vector<ConstantEstimate> GyroScales(const Block& block,
 
 }  // namespace
 
-Solution AttitudeEstimation::SolutionOf(const Pass& pass) const {
+Solution AttitudeEstimation::SolutionOf(const Pass& pass) {
   Solution solution;
   solution.layout = SolutionLayout();
   const std::size_t count = pass.run.samples.size();
@@ -230,6 +252,7 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) const {
         magnet.field_b.norm(), magnet.begin, magnet.end));
   }
   solution.attitude = VerdictsOf(pass.run);
+  innovations_ = ForceInnovations(pass.run);
   return solution;
 }
 
@@ -266,11 +289,19 @@ std::vector<Evidence> AttitudeEstimation::ExamineRecording() const {
 Solution AttitudeEstimation::Run(const Method& method) {
   const double t0 = ProcessorSeconds();
   evidence_.clear();
+  innovations_.clear();
   Solution solution = std::get<Method::OfAttitude>(method.run)(this);
   solution.method = method.name;
   solution.seconds = ProcessorSeconds() - t0;
   for (std::string& note : Unused()) solution.notes.push_back(std::move(note));
+  // That what the body accelerates averages out is the model of this sensor.
+  Sensor accelerometer;
+  accelerometer.name = "the accelerometer";
+  const std::vector<InnovationFigure> figures =
+      TestInnovations(innovations_, kFalseAlarms);
   Conclude({.solution = solution,
+            .sensors = {&accelerometer, 1},
+            .innovations = figures,
             .recording = ExamineRecording(),
             .relative_heading =
                 magnetic_.empty() && headings_.empty() && velocities_.empty(),

@@ -13,6 +13,7 @@
 #include "attitude/field_survey.h"
 #include "attitude/magnetometer_errors.h"
 #include "dataset/dataset.h"
+#include "evaluation/innovation_test.h"
 #include "problems/estimation.h"
 #include "state/solution.h"
 
@@ -75,7 +76,7 @@ class AttitudeEstimation final : public Estimation {
   std::vector<SurveyedField> FieldReadings(
       const std::vector<Eigen::Quaterniond>& q_nb,
       const MagnetometerErrors& errors) const;
-  Solution SolutionOf(const Pass& pass) const;
+  Solution SolutionOf(const Pass& pass);
   /// What all headings share beside P: the magnetometer's stated a priori
   /// sigmas, and which north the survey leaves open [rad].
   double SharedSigma(const FieldSurvey& survey) const;
@@ -103,6 +104,8 @@ class AttitudeEstimation final : public Estimation {
   AttitudeState start_;
   /// What speaks against the smoother's heading.
   std::vector<Evidence> evidence_;
+  /// Of the accelerometer, in the method run last.
+  std::vector<NormalisedInnovation> innovations_;
   /// Whether the body rests from each sample to the next; smoother alone.
   std::vector<bool> rests_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "alignment/alignment.h"
+#include "alignment/given.h"
 #include "alignment/levelling.h"
 #include "alignment/velocity_alignment.h"
 #include "base/units.h"
@@ -164,8 +165,11 @@ AttitudeState StartOfAttitude(const Dataset& dataset, const ImuStream& imu,
   double heading = std::atan2(-level.y(), level.x()) + declination;
   if (m.isZero(0.0)) heading = dataset.initial.heading.value_or(0.0);
   start.q_nb = QuaternionFromEuler(roll, pitch, heading);
-  if (const auto& euler = dataset.initial.euler) {
-    start.q_nb = QuaternionFromEuler(euler->x(), euler->y(), euler->z());
+  const auto& euler = dataset.initial.euler;
+  if (euler) {
+    const double since = start.t - dataset.initial.t.value_or(start.t);
+    start.q_nb = QuaternionFromEuler(euler->x(), euler->y(), euler->z()) *
+                 Exp(since * (imu.samples.front().gyro - start.b_g));
   }
   Eigen::Vector3d sigma = dataset.initial.attitude_sigma.value_or(
       Eigen::Vector3d(5.0, 5.0, 10.0) * kDegree);
@@ -183,6 +187,9 @@ AttitudeState StartOfAttitude(const Dataset& dataset, const ImuStream& imu,
           .cwiseMax(kKnown);
   start.P.diagonal() << sigma.cwiseAbs2(), bias_sigma.cwiseAbs2(),
       scale_sigma.cwiseAbs2();
+  if (euler) {
+    start.P.topLeftCorner<3, 3>() = AttitudeCovariance(*euler, sigma);
+  }
   const bool given = dataset.initial.euler || dataset.initial.attitude_sigma;
   if (found != nullptr && !given) {
     start.q_nb = found->q_nb;

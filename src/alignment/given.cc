@@ -1,11 +1,28 @@
 #include "alignment/given.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "alignment/levelling.h"
+#include "base/error.h"
 #include "geometry/so3.h"
 
 namespace hindsight {
+
+double GivenStartTime(const Dataset& dataset, double from, double to) {
+  const InitialState& given = dataset.initial;
+  if (!given.t) return from;
+  const double slack = 2.0 * dataset.imu.nominal_dt;
+  const bool moves = given.position || given.v_n || given.euler;
+  if (*given.t >= to || (moves && *given.t < from - slack)) {
+    throw InputError("initial.time is " + std::to_string(*given.t) +
+                     " s; expected a time inside the interval, " +
+                     std::to_string(from) + " to " + std::to_string(to) + " s");
+  }
+  return std::max(*given.t, from);
+}
+
 namespace {
 
 constexpr double kGivenTiltSigma = 1.0 * kDegree;

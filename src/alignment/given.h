@@ -5,6 +5,12 @@
 
 namespace hindsight {
 
+/// When what is given of the start holds: InitialState::t, but not before
+/// `from`; `from` without one. Where the body was and how it moved then says
+/// nothing of another time: throws InputError if that is given and its time lies
+/// outside of [from, to), by more than two samples before it.
+double GivenStartTime(const Dataset& dataset, double from, double to);
+
 /// Method `given`: initial.attitude with initial.attitude_sigma (default 1, 1,
 /// 2 deg); or LevelAttitude with initial.heading (default 2 deg).
 AlignmentOutcome AlignAsGiven(const AlignmentInput& input);

@@ -61,12 +61,9 @@ class StartFinder {
           "or a stream under aiding of type position, with fixes inside the "
           "interval of --from and --to that are not withheld");
     }
-    if (given().t) {
-      RequireValuesInside(*given().t);
-      t_ = std::max(*given().t, from_);
-    } else if (given().position || given().v_n || given().euler ||
-               given().heading) {
-      t_ = from_;
+    if (given().t || given().position || given().v_n || given().euler ||
+        given().heading) {
+      t_ = GivenStartTime(dataset_, from_, to_);
     } else {
       t_ = fixes_.front().t;
       for (const TimeInterval& rest : rests_) {
@@ -74,17 +71,6 @@ class StartFinder {
       }
     }
     rest_ = RestFrom(t_, rests_);
-  }
-
-  /// Where the vehicle was and how it moved at t says nothing of another time.
-  void RequireValuesInside(double t) const {
-    const double slack = 2.0 * dataset_.imu.nominal_dt;
-    const bool moves = given().position || given().v_n || given().euler;
-    if (t < to_ && (!moves || t >= from_ - slack)) return;
-    throw InputError("initial.time is " + std::to_string(t) +
-                     " s; expected a time inside the interval, " +
-                     std::to_string(from_) + " to " + std::to_string(to_) +
-                     " s");
   }
 
   /// The rest makes the start value and the sigma with which the gyros carry

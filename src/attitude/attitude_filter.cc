@@ -8,6 +8,7 @@
 #include "attitude/rest_detector.h"
 #include "base/units.h"
 #include "geometry/so3.h"
+#include "imu/imu_noise.h"
 #include "imu/rotation_summary.h"
 #include "measurements/tilt.h"
 
@@ -41,8 +42,8 @@ AttitudeFilter::AttitudeFilter(const AttitudeFilterOptions& options,
       P_(start.P),
       unscale_((1.0 + start.s_g.array()).inverse().matrix()),
       // White noise through a low-pass of the first order.
-      rate_sigma_(options.rest_sigma *
-                  std::sqrt(0.5 * sample_interval / RestDetector::kSmoothing)),
+      rate_sigma_(std::sqrt(0.5 * GyroWhiteNoise(noise, 0.0) /
+                            RestDetector::kSmoothing)),
       dt_(std::max(sample_interval, options.update_interval)),
       field_t_(start.t) {
   if (options.low_pass_tau > 0.0) {
@@ -143,8 +144,8 @@ void AttitudeFilter::UpdateState(const Vector& h, double residual, double R) {
   ApplyGain(PHt, S, innovation);
 }
 
-void AttitudeFilter::UpdateAttitude(const Eigen::Vector3d& h, double residual,
-                                    double R) {
+double AttitudeFilter::UpdateAttitude(const Eigen::Vector3d& h,
+                                      double residual, double R) {
   const Vector PHt = P_.leftCols<3>() * h;
   const double S = h.dot(PHt.head<3>()) + R;
   const double innovation = residual - h.dot(dx_.head<3>());
@@ -152,6 +153,7 @@ void AttitudeFilter::UpdateAttitude(const Eigen::Vector3d& h, double residual,
   full.head<3>() = h;
   Record(full, PHt, S, innovation);
   ApplyGain(PHt, S, innovation);
+  return innovation / std::sqrt(S);
 }
 
 void AttitudeFilter::ConsiderTilt(const Eigen::Vector3d& h, double residual,
@@ -176,12 +178,14 @@ void AttitudeFilter::UseAccelerometer() {
   const double R =
       force_variance_ * Inflation(options_.accel_correlation_time, dt_, 1);
   verdict_.accel_variance = R;
+  verdict_.force_innovation.setZero();
   if (!std::isfinite(R)) return;
   const double g = options_.place.gravity;
   const Eigen::Vector3d residual = q_ni_ * f_i_ - ForceAtRest_n(g);
   const Eigen::Matrix3d H = ForceAtRestByPsi_n(g);
   for (int row = 0; row < 2; ++row) {
-    UpdateAttitude(H.row(row), residual(row), R);
+    verdict_.force_innovation(row) =
+        UpdateAttitude(H.row(row), residual(row), R);
   }
 }
 

@@ -139,8 +139,9 @@ class AttitudeFilter {
   void UpdateComponent(int i, double h, double residual, double R);
   /// Scalar update with H = h'.
   void UpdateState(const Vector& h, double residual, double R);
-  /// Scalar update with H = h' on the attitude.
-  void UpdateAttitude(const Eigen::Vector3d& h, double residual, double R);
+  /// Scalar update with H = h' on the attitude. Returns the innovation over its
+  /// predicted standard deviation.
+  double UpdateAttitude(const Eigen::Vector3d& h, double residual, double R);
   /// Scalar update with H = h' on the attitude that leaves the tilt as it is
   /// and counts its error (Schmidt 1966).
   void ConsiderTilt(const Eigen::Vector3d& h, double residual, double R);

@@ -73,6 +73,9 @@ ErrorLayout AttitudeLayout(const ImuNoise& noise, const AttitudeState& start);
 /// What became of the readings of one update.
 struct AttitudeVerdict {
   double accel_variance = 0.0;  ///< R in force [m^2/s^4]; infinity: not used
+  /// Of the specific force north and east, each over its predicted standard
+  /// deviation; zero where it is not used.
+  Eigen::Vector2d force_innovation = Eigen::Vector2d::Zero();
   bool magnetic_used = false;
   bool magnetic_disturbed = false;
 };

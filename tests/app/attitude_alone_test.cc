@@ -1,0 +1,119 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/command_line.h"
+
+namespace hindsight {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// An IMU alone on a body that goes where `segments` say.
+std::string BodyAlone(const std::string& segments, const std::string& imu) {
+  return "start: {position: [48 deg, 11.5 deg, 0 m], heading: 70 deg, "
+         "speed: 1.5 m/s}\nsegments:\n" +
+         segments + "imu:\n  rate: 100 Hz\n" + imu +
+         "aiding: {}\ntruth_rate: 10 Hz\n"
+         "start_errors: {position: 1 m, velocity: 0.2 m/s, "
+         "attitude: [0.05 deg, 0.05 deg, 0.1 deg]}\n";
+}
+
+const char* const kFibreOptic =
+    "  noise: {gyro: 0.01 deg/sqrt(h), accel: 20 ug/sqrt(Hz)}\n"
+    "  gyro_bias_sigma: 0.05 deg/h\n  accel_bias_sigma: 0.1 mg\n";
+const char* const kMems =
+    "  noise: {gyro: 0.15 deg/sqrt(h), accel: 0.05 m/s/sqrt(h)}\n"
+    "  gyro_bias_sigma: 10 deg/h\n  accel_bias_sigma: 2 mg\n";
+
+class AttitudeAlone : public ::testing::Test {
+ protected:
+  void Simulate(const std::string& scenario) {
+    WriteFile(folder_.path() / "scenario.yaml", scenario);
+    const Outcome made =
+        Hindsight({"simulate", "scenario.yaml", "--seed=5", "--out=data"},
+                  folder_.path());
+    ASSERT_EQ(made.status, 0) << made.err;
+  }
+
+  std::filesystem::path config() const {
+    return folder_.path() / "data/config.yaml";
+  }
+
+  /// Of `ahrs` and `ahrs_smoother`.
+  nlohmann::json Run() {
+    const Outcome run =
+        Hindsight({"run", "data/config.yaml", "--methods=ahrs,ahrs_smoother",
+                   "--out=out", "--force"},
+                  folder_.path());
+    said_ = run.out + run.err;
+    return nlohmann::json::parse(
+        ReadFile(folder_.path() / "out/summary.json"))["methods"];
+  }
+
+  void ReplaceStart(const std::string& lines) {
+    const std::string text = ReadFile(config());
+    const std::size_t begin = text.find("initial:");
+    const std::size_t end = text.find("truth:");
+    ASSERT_NE(end, std::string::npos);
+    WriteFile(config(), text.substr(0, begin) + lines + text.substr(end));
+  }
+
+  TemporaryFolder folder_;
+  std::string said_;
+};
+
+TEST_F(AttitudeAlone, IsNotUsableWhereTheBodyAccelerates) {
+  std::string drive;
+  for (int i = 0; i < 5; ++i) {
+    drive +=
+        "  - {type: accelerate, speed: 20 m/s, rate: 1.5 m/s^2}\n"
+        "  - {type: straight, duration: 10 s}\n"
+        "  - {type: turn, angle: 90 deg, rate: 15 deg/s}\n"
+        "  - {type: accelerate, speed: 1.5 m/s, rate: 2 m/s^2}\n";
+  }
+  Simulate(BodyAlone(drive, kMems));
+  const nlohmann::json methods = Run();
+  for (const auto& [name, method] : methods.items()) {
+    EXPECT_EQ(method["grade"], "not usable") << name << said_;
+    EXPECT_THAT(method["verdict"].get<std::string>(),
+                HasSubstr("innovations of the accelerometer"));
+  }
+}
+
+/// A turn that rest by a hand's thresholds would hide.
+TEST_F(AttitudeAlone, FollowsASlowSteadyTurn) {
+  Simulate(
+      BodyAlone("  - {type: straight, duration: 20 s}\n"
+                "  - {type: turn, angle: 60 deg, rate: 0.2 deg/s}\n"
+                "  - {type: straight, duration: 20 s}\n",
+                kFibreOptic));
+  const nlohmann::json methods = Run();
+  for (const auto& [name, method] : methods.items()) {
+    EXPECT_EQ(method["grade"], "usable") << name << said_;
+    EXPECT_LT(method["nees"]["attitude"].get<double>(), 8.0) << name << said_;
+  }
+}
+
+/// While it turns by 10 deg/s, an attitude of 3.005 s is none of the beginning.
+TEST_F(AttitudeAlone, StartsAtTheTimeOfTheAttitudeThatIsGiven) {
+  Simulate(
+      BodyAlone("  - {type: turn, angle: 360 deg, rate: 10 deg/s}\n"
+                "  - {type: straight, duration: 30 s}\n",
+                kFibreOptic));
+  ReplaceStart(
+      "initial:\n  from: truth\n  time: 3.005 s\n"
+      "  attitude_sigma: [0.05 deg, 0.05 deg, 0.1 deg]\n"
+      "  gyro_bias_sigma: 0.05 deg/h\n");
+  const nlohmann::json methods = Run();
+  for (const auto& [name, method] : methods.items()) {
+    EXPECT_LT(method["nees"]["attitude"].get<double>(), 8.0) << name << said_;
+    EXPECT_LT(method["error"]["attitude_rms_deg"][2].get<double>(), 0.5)
+        << name << said_;
+  }
+}
+
+}  // namespace
+}  // namespace hindsight
