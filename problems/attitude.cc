@@ -265,6 +265,12 @@ std::vector<Evidence> AttitudeEstimation::ExamineRecording() const {
   std::vector<Evidence> recording =
       FindRepeatedReadings(dataset_, imu_.t_begin(), imu_.t_end());
   recording.insert(recording.end(), evidence_.begin(), evidence_.end());
+  for (std::string& warning : CheckMagnetometers(dataset_)) {
+    recording.push_back({.rule = "magnetic_field",
+                         .grade = Grade::kDoubtful,
+                         .what = std::move(warning),
+                         .is_cause = true});
+  }
   if (!RoughPosition(dataset_) &&
       GyroBiasSigma(dataset_.initial).maxCoeff() < kEarthRate) {
     recording.push_back(

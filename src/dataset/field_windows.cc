@@ -16,20 +16,42 @@ constexpr double kFieldWindow = 10.0;  // [s]
 constexpr int kMostFieldWindows = 60;
 constexpr double kFieldTurn = 20.0 * kDegree;
 
-Eigen::Vector3d Flip(const AxisSigns& flipped, const Eigen::Vector3d& m) {
-  return {flipped[0] ? -m.x() : m.x(), flipped[1] ? -m.y() : m.y(),
-          flipped[2] ? -m.z() : m.z()};
-}
-
-/// Readings of one window in the body axes of its begin, for each choice of
-/// signs.
+/// Readings of one window in the body axes of its begin, for any arrangement.
 struct FieldWindow {
-  std::array<Eigen::Vector3d, 8> mean;
-  std::array<double, 8> squares;  ///< mean squared norm about the mean
+  /// Means of C e_i m_j: body axis i turned back, times axis j of the reading.
+  std::array<std::array<Eigen::Vector3d, 3>, 3> parts;
   double squared_norm = 0.0;
   double turn = 0.0;     ///< largest from the begin [rad]
   Eigen::Vector3d down;  ///< against the mean specific force
+
+  Eigen::Vector3d Mean(const Eigen::Matrix3d& arrangement) const {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        mean +=
+            arrangement(static_cast<int>(i), static_cast<int>(j)) * parts[i][j];
+      }
+    }
+    return mean;
+  }
 };
+
+std::array<Eigen::Matrix3d, kAxisArrangements> MakeArrangements() {
+  std::array<Eigen::Matrix3d, kAxisArrangements> all;
+  std::array<int, 3> from = {0, 1, 2};
+  std::size_t count = 0;
+  do {
+    for (int signs = 0; signs < 8; ++signs) {
+      all[count].setZero();
+      for (int i = 0; i < 3; ++i) {
+        all[count](i, from[static_cast<std::size_t>(i)]) =
+            (signs >> i & 1) != 0 ? -1.0 : 1.0;
+      }
+      ++count;
+    }
+  } while (std::next_permutation(from.begin(), from.end()));
+  return all;
+}
 
 class FieldReader {
  public:
@@ -44,9 +66,9 @@ class FieldReader {
     }
   }
 
-  SignCosts Read() {
+  ArrangementCosts Read() {
     const std::vector<std::size_t> begins = WindowBegins();
-    SignCosts costs;
+    ArrangementCosts costs;
     double squared_norm = 0.0;
     double turned = 0.0;  // squared norms
     int windows = 0;
@@ -60,15 +82,18 @@ class FieldReader {
         turned += window->squared_norm;
         ++costs.turned;
       }
-      for (std::size_t i = 0; i < 8; ++i) {
+      for (std::size_t i = 0; i < kAxisArrangements; ++i) {
+        const Eigen::Vector3d mean = window->Mean(AxisArrangements()[i]);
         costs.dip_sine[i] +=
-            window->mean[i].dot(window->down) / std::sqrt(window->squared_norm);
-        if (turns) costs.scatter[i] += window->squares[i];
+            mean.dot(window->down) / std::sqrt(window->squared_norm);
+        if (turns) {
+          costs.scatter[i] += window->squared_norm - mean.squaredNorm();
+        }
       }
     }
     if (windows == 0) return costs;
     costs.norm = std::sqrt(squared_norm / windows);
-    for (std::size_t i = 0; i < 8; ++i) {
+    for (std::size_t i = 0; i < kAxisArrangements; ++i) {
       costs.dip_sine[i] /= windows;
       if (costs.turned > 0) costs.scatter[i] /= turned;
     }
@@ -100,8 +125,7 @@ class FieldReader {
 
   std::optional<FieldWindow> ReadWindow(std::size_t begin) {
     FieldWindow out;
-    out.mean.fill(Eigen::Vector3d::Zero());
-    out.squares.fill(0.0);
+    for (auto& row : out.parts) row.fill(Eigen::Vector3d::Zero());
     ImuCalibration calibration;
     calibration.b_g = b_g_;
     const double t_0 = Time(begin);
@@ -125,8 +149,12 @@ class FieldReader {
       const Eigen::Vector3d m_b =
           field->field_b - stream_.sensor.magnetic.hard_iron_b;
       out.squared_norm += m_b.squaredNorm();
-      for (std::size_t i = 0; i < 8; ++i) {
-        out.mean[i] += dR * Flip(AxisSignsOf(static_cast<int>(i)), m_b);
+      const Eigen::Matrix3d C = dR.toRotationMatrix();
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+          out.parts[i][j] +=
+              m_b(static_cast<int>(j)) * C.col(static_cast<int>(i));
+        }
       }
       ++count;
     }
@@ -134,9 +162,8 @@ class FieldReader {
       return std::nullopt;
     }
     out.squared_norm /= count;
-    for (std::size_t i = 0; i < 8; ++i) {
-      out.mean[i] /= count;
-      out.squares[i] = out.squared_norm - out.mean[i].squaredNorm();
+    for (auto& row : out.parts) {
+      for (Eigen::Vector3d& part : row) part /= count;
     }
     out.down = -dv.normalized();
     return out;
@@ -151,11 +178,13 @@ class FieldReader {
 
 }  // namespace
 
-AxisSigns AxisSignsOf(int number) {
-  return {(number & 1) != 0, (number & 2) != 0, (number & 4) != 0};
+const std::array<Eigen::Matrix3d, kAxisArrangements>& AxisArrangements() {
+  static const auto kAll = MakeArrangements();
+  return kAll;
 }
 
-SignCosts ReadFieldWindows(const Dataset& dataset, const AidingStream& stream) {
+ArrangementCosts ReadFieldWindows(const Dataset& dataset,
+                                  const AidingStream& stream) {
   return FieldReader(dataset, stream).Read();
 }
 

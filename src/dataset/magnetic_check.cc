@@ -35,18 +35,23 @@ std::string LatitudeWords(const Eigen::Vector3d& p_e) {
   return fmt::format("{:.0f} deg", GeodeticFromEcef(p_e).latitude / kDegree);
 }
 
-double ScatterOf(const SignCosts& costs, std::size_t i) {
+double ScatterOf(const ArrangementCosts& costs, std::size_t i) {
   return costs.scatter[i] + kLeastScatter * kLeastScatter;
 }
 
-/// chi2 of each choice of signs; see CheckMagnetometers.
-std::array<double, 8> Compare(const SignCosts& costs,
-                              const std::optional<double>& sine) {
-  std::array<double, 8> chi2 = {};
-  for (std::size_t i = 0; i < 8; ++i) {
-    const AxisSigns flipped = AxisSignsOf(static_cast<int>(i));
+/// Axes that read something else than themselves.
+int CountChanged(std::size_t number) {
+  const Eigen::Vector3d kept = AxisArrangements()[number].diagonal();
+  return static_cast<int>((kept.array() != 1.0).count());
+}
+
+/// chi2 of each arrangement; see CheckMagnetometers.
+std::array<double, kAxisArrangements> Compare(
+    const ArrangementCosts& costs, const std::optional<double>& sine) {
+  std::array<double, kAxisArrangements> chi2 = {};
+  for (std::size_t i = 0; i < kAxisArrangements; ++i) {
     chi2[i] =
-        static_cast<double>(std::count(flipped.begin(), flipped.end(), true)) +
+        static_cast<double>(CountChanged(i)) +
         std::min(costs.turned, kMostCounted) * std::log(ScatterOf(costs, i));
     if (!sine) continue;
     const double off = (costs.dip_sine[i] - *sine) / kDipSigma;
@@ -55,34 +60,48 @@ std::array<double, 8> Compare(const SignCosts& costs,
   return chi2;
 }
 
+/// Whether only signs change.
+bool IsOfSigns(std::size_t number) {
+  return AxisArrangements()[number].isDiagonal(0.0);
+}
+
+/// Flipped axes, "y and z"; or what the axes are to read, "[y, -x, z]".
 std::string AxesWords(std::size_t number) {
-  const AxisSigns flipped = AxisSignsOf(static_cast<int>(number));
+  const Eigen::Matrix3d& arrangement = AxisArrangements()[number];
   std::string words;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!flipped[axis]) continue;
-    words += (words.empty() ? "" : " and ");
-    words += "xyz"[axis];
+  if (IsOfSigns(number)) {
+    for (int i = 0; i < 3; ++i) {
+      if (arrangement(i, i) > 0.0) continue;
+      words += (words.empty() ? "" : " and ");
+      words += "xyz"[i];
+    }
+    return words;
   }
-  return words;
+  for (int i = 0; i < 3; ++i) {
+    Eigen::Index from = 0;
+    arrangement.row(i).cwiseAbs().maxCoeff(&from);
+    words += (words.empty() ? "[" : ", ");
+    if (arrangement(i, from) < 0.0) words += "-";
+    words += "xyz"[from];
+  }
+  return words + "]";
 }
 
-int CountOf(std::size_t number) {
-  const AxisSigns flipped = AxisSignsOf(static_cast<int>(number));
-  return static_cast<int>(std::count(flipped.begin(), flipped.end(), true));
-}
-
-void CheckSigns(const std::string& name, const SignCosts& costs,
-                const std::optional<Eigen::Vector3d>& p_e,
-                std::vector<std::string>* warnings) {
+void CheckAxes(const std::string& name, const ArrangementCosts& costs,
+               const std::optional<Eigen::Vector3d>& p_e,
+               std::vector<std::string>* warnings) {
   std::optional<double> sine;
   if (p_e) sine = DipSine(DipoleField(*p_e));
-  const std::array<double, 8> chi2 = Compare(costs, sine);
+  const auto chi2 = Compare(costs, sine);
   const auto best = static_cast<std::size_t>(
       std::min_element(chi2.begin(), chi2.end()) - chi2.begin());
   if (best == 0 || chi2[0] - chi2[best] < kClearlyBetter) return;
   std::string axes = AxesWords(best);
-  for (std::size_t i = 1; i < 8; ++i) {
-    if (i == best || CountOf(i) != CountOf(best)) continue;
+  for (std::size_t i = 1; i < kAxisArrangements; ++i) {
+    if (i == best || CountChanged(i) != CountChanged(best) ||
+        IsOfSigns(i) != IsOfSigns(best)) {
+      continue;
+    }
     if (chi2[i] < chi2[best] + kAsGood) axes += ", or " + AxesWords(i) + ",";
   }
   if (axes.ends_with(',')) axes.pop_back();
@@ -95,12 +114,16 @@ void CheckSigns(const std::string& name, const SignCosts& costs,
     why += std::string(why.empty() ? "" : "; ") +
            fmt::format(
                "where the body turns the field does not turn back: it "
-               "scatters by {:.0f} %, with that sign changed by {:.0f} %",
+               "scatters by {:.0f} %, with that changed by {:.0f} %",
                100.0 * std::sqrt(costs.scatter[0]),
                100.0 * std::sqrt(std::max(costs.scatter[best], 0.0)));
   }
   if (why.empty()) return;
-  warnings->push_back(name + ": axis " + axes + " looks flipped: " + why);
+  warnings->push_back(name +
+                      (IsOfSigns(best) ? ": axis " + axes + " looks flipped: "
+                                       : ": its axes look like " + axes +
+                                             " of those they are taken for: ") +
+                      why);
 }
 
 /// What a unit mistaken for another does to the norm, by its power of ten.
@@ -191,9 +214,9 @@ std::vector<std::string> CheckMagnetometers(const Dataset& dataset) {
     if (!stream.sensor.kind->magnetic || stream.measurements.empty()) {
       continue;
     }
-    const SignCosts costs = ReadFieldWindows(dataset, stream);
+    const ArrangementCosts costs = ReadFieldWindows(dataset, stream);
     CheckNorm(stream.sensor.name, costs.norm, &warnings);
-    CheckSigns(stream.sensor.name, costs, p_e, &warnings);
+    CheckAxes(stream.sensor.name, costs, p_e, &warnings);
     if (p_e) CheckDown(stream, *p_e, &warnings);
   }
   return warnings;

@@ -34,12 +34,16 @@ Dataset Drive(double latitude_deg, double dip_deg) {
   return Simulate(scenario, 3);
 }
 
-Dataset Scaled(Dataset dataset, const Eigen::Vector3d& factors) {
+Dataset Arranged(Dataset dataset, const Eigen::Matrix3d& read_from) {
   for (Measurement& z : dataset.streams.back().measurements.Edited()) {
     auto& field = std::get<MagneticField>(z.model);
-    field.field_b = field.field_b.cwiseProduct(factors);
+    field.field_b = (read_from * field.field_b).eval();
   }
   return dataset;
+}
+
+Dataset Scaled(const Dataset& dataset, const Eigen::Vector3d& factors) {
+  return Arranged(dataset, factors.asDiagonal());
 }
 
 TEST(CheckMagnetometers, HasNothingAgainstARightOneOnEitherHemisphere) {
@@ -99,6 +103,22 @@ TEST(CheckMagnetometers, ATumblingBodyTellsEveryAxis) {
     const auto warnings = CheckMagnetometers(Scaled(dataset, signs));
     ASSERT_EQ(warnings.size(), 1u) << axis;
     EXPECT_THAT(warnings[0], HasSubstr(kNames[axis]));
+  }
+  struct Case {
+    Eigen::Matrix3d read_from;
+    const char* words;
+  };
+  for (const Case& wrong :
+       {Case{(Eigen::Matrix3d() << 0, 1, 0, 1, 0, 0, 0, 0, 1).finished(),
+             "axes look like [y, x, z]"},
+        Case{(Eigen::Matrix3d() << 0, 1, 0, -1, 0, 0, 0, 0, 1).finished(),
+             "axes look like [-y, x, z]"},
+        Case{(Eigen::Matrix3d() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished(),
+             "axes look like [y, z, x]"}}) {
+    const auto warnings =
+        CheckMagnetometers(Arranged(dataset, wrong.read_from));
+    ASSERT_EQ(warnings.size(), 1u) << wrong.words;
+    EXPECT_THAT(warnings[0], HasSubstr(wrong.words));
   }
 }
 
