@@ -32,6 +32,14 @@ ErrorParameters Tune(const RegimeProblem& problem, const ModeSequence& sequence,
                         problem.effort);
 }
 
+/// Scale and outliers alone.
+ErrorParameters TuneWithImuAsStated(const RegimeProblem& problem,
+                                    const ModeSequence& sequence,
+                                    const ErrorParameters& from) {
+  return TuneNoise(problem.tape, problem.sensor, sequence, from,
+                   problem.effort);
+}
+
 double LogEvidence(const Hypothesis& best, const ErrorParameters& from) {
   return best.log_posterior + LogPriorOf(best.sequence, best.parameters, from) -
          0.5 * CountParameters(best.sequence) *
@@ -55,14 +63,17 @@ ErrorRegimes AsStated(const RegimeProblem& problem) {
 
 /// White or Gauss-Markov throughout: there is but one sequence.
 ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
-                        const ErrorParameters& from) {
+                        const ErrorParameters& from,
+                        ErrorParameters (*tune)(const RegimeProblem&,
+                                                const ModeSequence&,
+                                                const ErrorParameters&)) {
   const ErrorMode mode = kind == ErrorRegimes::Kind::kWhite
                              ? ErrorMode::kGood
                              : ErrorMode::kBiased;
   Hypothesis one;
   one.sequence = Uniform(problem, mode);
   if (mode == ErrorMode::kBiased) one.sequence.front().anew = true;
-  one.parameters = Tune(problem, one.sequence, from);
+  one.parameters = tune(problem, one.sequence, from);
   one.log_posterior =
       ScoreSequence(problem.tape, problem.sensor, one.parameters, one.sequence)
           .log_likelihood;
@@ -191,14 +202,25 @@ const char* RegimeName(ErrorRegimes::Kind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
-std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem) {
+std::vector<ErrorRegimes> FitNoise(const RegimeProblem& problem) {
   std::vector<ErrorRegimes> all = {
-      AsStated(problem), FitUniform(problem, ErrorRegimes::Kind::kWhite, {})};
+      AsStated(problem),
+      FitUniform(problem, ErrorRegimes::Kind::kWhite, {}, Tune)};
+  if (all[1].hypotheses.front().parameters.imu_scale > kMisstatedImu) {
+    all.push_back(FitUniform(problem, ErrorRegimes::Kind::kWhite, {},
+                             TuneWithImuAsStated));
+  }
+  return all;
+}
+
+std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem) {
+  std::vector<ErrorRegimes> all = FitNoise(problem);
   if (problem.only_white) return all;
-  ErrorParameters start = all.back().hypotheses.front().parameters;
+  ErrorParameters start = all[1].hypotheses.front().parameters;
   start.sigma = problem.stated_sigma;
   start.tau = 100.0;
-  all.push_back(FitUniform(problem, ErrorRegimes::Kind::kGaussMarkov, start));
+  all.push_back(
+      FitUniform(problem, ErrorRegimes::Kind::kGaussMarkov, start, Tune));
   start.scale = std::min(start.scale,
                          MeanScale(all.back().hypotheses.front().parameters));
   std::vector<ErrorRegimes> fits = FitOrders(problem, start, all[1]);

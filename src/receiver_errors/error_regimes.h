@@ -41,6 +41,10 @@ struct RegimeProblem {
   SearchEffort* effort = nullptr;  ///< must not be
 };
 
+/// A factor on the noise of the IMU beyond which what the search took for errors
+/// of the sensor may be the IMU's: two sigmas of what is stated of it.
+inline constexpr double kMisstatedImu = 2.0;
+
 /// Every kind as fitted to the data, the simplest first; of kSwitching several,
 /// from different starts, or none where no error is found. Parameters - scale,
 /// share and size of outliers, the factor on the noise of the IMU, sigma and
@@ -52,6 +56,12 @@ struct RegimeProblem {
 /// different orders of modes are refined, each with parameters of its own. Ends
 /// early, with what there is, once the effort is spent.
 std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem);
+
+/// Stated and white, the first of FitRegimes: of all fixes behind normal points,
+/// which do not hold the outliers among them. Where the noise of the IMU would be
+/// more than kMisstatedImu, which no white errors stand with, they are there a
+/// second time, with the IMU as stated.
+std::vector<ErrorRegimes> FitNoise(const RegimeProblem& problem);
 
 /// Regimes found on normal points, refined on all fixes (`problem`): the noise is
 /// fitted again, change points move to fixes.

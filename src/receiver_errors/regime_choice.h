@@ -13,10 +13,6 @@ namespace hindsight {
 /// odds of a thousand, as it brings what a wrong one may ruin.
 inline constexpr double kLeastGain = 6.907755278982137;
 
-/// A factor on the noise of the IMU beyond which what the search took for errors
-/// of the sensor may be the IMU's: two sigmas of what is stated of it.
-inline constexpr double kMisstatedImu = 2.0;
-
 /// Which of FitRegimes stands.
 struct RegimeChoice {
   std::size_t chosen = 0;  ///< 0: the noise as stated, nothing else

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -69,22 +70,34 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
   std::vector<ErrorRegimes> all = FitRegimes(regime);
   choice = ChooseRegime(regime, all);
   stopped = effort.stopped();
-  if (!stands()) return;
-  if (points) {
-    constexpr double kPerNode = 60.0;
-    SearchEffort rest(
-        kPerNode * static_cast<double>(tape.size()),
-        [&limits](double fraction) {
-          return !limits.go_on ||
-                 limits.go_on(kSearch + (1.0 - kSearch) * fraction);
-        });
+  constexpr double kPerNode = 60.0;
+  SearchEffort rest(kPerNode * static_cast<double>(tape.size()),
+                    [&limits](double fraction) {
+                      return !limits.go_on ||
+                             limits.go_on(kSearch + (1.0 - kSearch) * fraction);
+                    });
+  if (points && stands()) {
     Refine(*points, std::move(all), &rest);
-    stopped |= rest.stopped();
-  } else {
+  } else if (points) {
+    ChooseNoise(&rest);
+  } else if (stands()) {
     regimes = WithAlternatives(std::move(all), choice.chosen);
   }
+  stopped |= rest.stopped();
+  if (!stands()) return;
   alternatives = WeighHypotheses(tape, sensor, regimes);
   central = MostCentral(alternatives);
+}
+
+void SensorFindings::ChooseNoise(SearchEffort* effort) {
+  const RegimeProblem fixes{tape, sensor, stated_sigma, true, effort};
+  std::vector<ErrorRegimes> all = FitNoise(fixes);
+  RegimeChoice of_noise = ChooseRegime(fixes, all);
+  choice.chosen = of_noise.chosen;
+  choice.gain = of_noise.gain;
+  std::move(of_noise.refused.begin(), of_noise.refused.end(),
+            std::back_inserter(choice.refused));
+  if (stands()) regimes = WithAlternatives(std::move(all), choice.chosen);
 }
 
 void SensorFindings::Refine(const NormalPoints& points,

@@ -25,8 +25,12 @@ struct SensorFindings {
     return {tape, sensor, stated_sigma, unit, regimes.kind, chosen()};
   }
   std::vector<double> Times() const;
+  /// What was found on normal points, at all fixes.
   void Refine(const NormalPoints& points, std::vector<ErrorRegimes> found,
               SearchEffort* effort);
+  /// The noise of all fixes, where normal points show no errors: outliers among
+  /// fixes are not in them.
+  void ChooseNoise(SearchEffort* effort);
 
   const LinearTape& tape;
   int sensor;

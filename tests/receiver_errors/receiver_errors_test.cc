@@ -82,6 +82,34 @@ TEST(ReceiverErrors, OfABiasedStretchBecomeStates) {
   EXPECT_NEAR(states[30].parameters(e.parameter_offset), 30.0, 3.0);
 }
 
+/// Two bad ones of a second's five are in no average of a second, but they are in
+/// the problem that is solved.
+TEST(ReceiverErrors, OfFastFixesMayBeOutliersAlone) {
+  TestProblemOptions options;
+  options.noise = TacticalNoise(true);
+  options.layout = TypicalLayout(options.noise);
+  options.errors = true;
+  options.duration = 60.0;
+  options.spacing = 0.2;
+  options.position_sigma = 0.5;
+  options.velocity_sigma = 0.0;
+  TestProblem test = MakeProblem(options, 3);
+  EXPECT_FALSE(Found(test).errors.Stands());
+  for (const std::size_t k : {61u, 62u, 123u, 124u, 200u}) {
+    auto& fix = std::get<PositionFix>(test.measurements[k].model);
+    fix.p_e += NedAxes(fix.p_e) * Eigen::Vector3d(15.0, -10.0, 0.0);
+  }
+  const Found found(test);
+  ASSERT_TRUE(found.errors.Stands());
+  EXPECT_GT(found.errors.log_gain(), 100.0);
+  EXPECT_THAT(found.errors.Notes(
+                  CovarianceSeries(found.tape.dim(), found.tape.size()))[0],
+              HasSubstr("white errors"));
+  EXPECT_EQ(found.problem.layout.dim(), test.layout.dim());
+  EXPECT_EQ(found.problem.timeline.sensors()[0].loss.kind,
+            RobustLoss::Kind::kMixture);
+}
+
 /// That it is the fixes behind the jump that are wrong, nothing tells.
 TEST(ReceiverErrors, OfALoneSensorToItsLastFixAreDoubtful) {
   TestProblem test = FixesOfOneMinute();
