@@ -18,14 +18,15 @@ Solution MethodStage::AtOwnNodes(
   Solution solution = solve(SharedNodes());
   own_.reset();
   OffsetSearch search;
-  for (int i = 1; forward_->unsettled().empty(); ++i) {
+  for (int i = 1; forward_->unsettled().empty() || own_fit_; ++i) {
     const std::vector<double>& offsets =
         own_ ? own_->offsets : forward_->offsets();
     const std::vector<Sensor>& sensors = problem().timeline.sensors();
     const int sensor =
         FarthestFromNodes(solution.layout, offsets, solution.states.back(),
                           solution.covariances.Get(solution.states.size() - 1));
-    if (sensor < 0) break;
+    settled_ = sensor < 0;
+    if (settled_) break;
     if (i == kMaxPlacements) {
       own_unsettled_ = sensors[static_cast<std::size_t>(sensor)].name;
       break;
@@ -96,7 +97,8 @@ BatchOptions MethodStage::MakeBatchOptions() const {
 }
 
 const std::string& MethodStage::unsettled() const {
-  return own_unsettled_.empty() ? forward_->unsettled() : own_unsettled_;
+  return own_unsettled_.empty() && !settled_ ? forward_->unsettled()
+                                             : own_unsettled_;
 }
 
 HeadingCredit MethodStage::heading_credit() const {

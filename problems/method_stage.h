@@ -31,7 +31,9 @@ class MethodStage {
   Nodes SharedNodes() const;
 
   /// Solves on the shared nodes, and on nodes of its own as long as the
-  /// method's time offsets are elsewhere.
+  /// method's time offsets are elsewhere. Where those of the forward stage did not
+  /// settle only a method with a model of its own (SetFit in `solve`) goes on:
+  /// what it knows of the sensors may be why.
   Solution AtOwnNodes(const std::function<Solution(const Nodes&)>& solve);
 
   /// As SmoothedSolution, on these nodes.
@@ -76,8 +78,8 @@ class MethodStage {
   /// Of the reconstruction, with its progress under the name "batch".
   BatchOptions MakeBatchOptions() const;
 
-  /// Sensor whose time offset did not settle on the method's own nodes or on
-  /// those of the forward stage; empty: none.
+  /// Sensor whose time offset did not settle on the method's own nodes, or on
+  /// those of the forward stage if the method's did not either; empty: none.
   const std::string& unsettled() const;
   /// The lesser of the forward stage's and the method's own.
   HeadingCredit heading_credit() const;
@@ -88,6 +90,7 @@ class MethodStage {
 
   ForwardStage* forward_;
   std::string own_unsettled_;
+  bool settled_ = false;  ///< on the nodes that AtOwnNodes ended with
   HeadingCredit own_credit_;
   std::optional<PlacedNodes> own_;  ///< where they are not the forward stage's
   std::optional<Timeline> timeline_;
