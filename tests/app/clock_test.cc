@@ -161,6 +161,30 @@ TEST(ClocksOfRecordings, DronesToAndFro) {
   }
 }
 
+/// Where spikes among the fixes keep the filter's clock from settling, the batch
+/// that knows them for outliers settles it.
+TEST(ClocksOfRecordings, SettleBesideOutliers) {
+  if (!std::filesystem::exists(kClockRecordings / "drone_paths")) {
+    GTEST_SKIP() << "the recording drone_paths is not here";
+  }
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      Hindsight({"run", (kClockData / "drone_path_5.yaml").string(),
+                 "--data-root=" + kClockRecordings.string(),
+                 "--methods=batch,robust_batch",
+                 "--inject=rtk:spikes=10m,share=20%,from=9.7s,to=16.1s",
+                 "--seed=101", "--out=out"},
+                folder.path());
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  const nlohmann::json methods = nlohmann::json::parse(
+      ReadFile(folder.path() / "out/summary.json"))["methods"];
+  EXPECT_EQ(methods["batch"]["grade"], "not usable");
+  EXPECT_EQ(methods["robust_batch"]["grade"], "usable");
+  EXPECT_LT(
+      methods["robust_batch"]["withheld"]["horizontal_rms_m"].get<double>(),
+      0.08);
+}
+
 /// Through the file, as a logger leaves it that is set anew on the way.
 TEST(ImuClock, ThatLeapsIsToldWithItsSize) {
   Recording recording;
