@@ -110,17 +110,26 @@ AttitudePart VerdictsOf(const AttitudeRun& run) {
   return part;
 }
 
-/// Of the accelerometer as sensor 0.
-std::vector<NormalisedInnovation> ForceInnovations(const AttitudeRun& run) {
+/// What the innovations are of, by their source.
+std::vector<Sensor> JudgedSources() {
+  std::vector<Sensor> sources(3);
+  // That what the body accelerates averages out is the model of this one.
+  sources[0].name = "the accelerometer";
+  sources[1].name = "the velocities";
+  sources[2].name = "the headings";
+  return sources;
+}
+
+std::vector<NormalisedInnovation> InnovationsOf(const AttitudeRun& run) {
   std::vector<NormalisedInnovation> innovations;
-  innovations.reserve(run.nodes.size());
-  for (const AttitudeNode& node : run.nodes) {
-    if (!std::isfinite(node.verdict.accel_variance)) continue;
+  innovations.reserve(run.innovations.size());
+  for (const AttitudeInnovation& innovation : run.innovations) {
     NormalisedInnovation& one = innovations.emplace_back();
-    one.t = node.x.t;
+    one.t = innovation.t;
+    one.sensor = static_cast<int>(innovation.source);
     one.index = innovations.size() - 1;
-    one.rows = node.verdict.force_innovation;
-    one.white = one.rows;
+    one.rows = innovation.rows;
+    one.white = innovation.rows;
   }
   return innovations;
 }
@@ -173,7 +182,7 @@ Solution AttitudeEstimation::Filter() {
     solution.covariances.Set(k, P);
   }
   solution.attitude = VerdictsOf(run);
-  innovations_ = ForceInnovations(run);
+  innovations_ = InnovationsOf(run);
   solution.notes = UnusedByFilter();
   return solution;
 }
@@ -252,7 +261,7 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) {
         magnet.field_b.norm(), magnet.begin, magnet.end));
   }
   solution.attitude = VerdictsOf(pass.run);
-  innovations_ = ForceInnovations(pass.run);
+  innovations_ = InnovationsOf(pass.run);
   return solution;
 }
 
@@ -300,13 +309,11 @@ Solution AttitudeEstimation::Run(const Method& method) {
   solution.method = method.name;
   solution.seconds = ProcessorSeconds() - t0;
   for (std::string& note : Unused()) solution.notes.push_back(std::move(note));
-  // That what the body accelerates averages out is the model of this sensor.
-  Sensor accelerometer;
-  accelerometer.name = "the accelerometer";
+  const std::vector<Sensor> sources = JudgedSources();
   const std::vector<InnovationFigure> figures =
       TestInnovations(innovations_, kFalseAlarms);
   Conclude({.solution = solution,
-            .sensors = {&accelerometer, 1},
+            .sensors = sources,
             .innovations = figures,
             .recording = ExamineRecording(),
             .relative_heading =

@@ -104,7 +104,7 @@ class AttitudeEstimation final : public Estimation {
   AttitudeState start_;
   /// What speaks against the smoother's heading.
   std::vector<Evidence> evidence_;
-  /// Of the accelerometer, in the method run last.
+  /// Of the method run last, by AttitudeInnovation::Source.
   std::vector<NormalisedInnovation> innovations_;
   /// Whether the body rests from each sample to the next; smoother alone.
   std::vector<bool> rests_;

@@ -136,16 +136,17 @@ void AttitudeFilter::UpdateComponent(int i, double h, double residual,
   ApplyGain(PHt, S, innovation);
 }
 
-void AttitudeFilter::UpdateState(const Vector& h, double residual, double R) {
+double AttitudeFilter::UpdateState(const Vector& h, double residual, double R) {
   const Vector PHt = P_ * h;
   const double S = h.dot(PHt) + R;
   const double innovation = residual - h.dot(dx_);
   Record(h, PHt, S, innovation);
   ApplyGain(PHt, S, innovation);
+  return innovation / std::sqrt(S);
 }
 
-double AttitudeFilter::UpdateAttitude(const Eigen::Vector3d& h,
-                                      double residual, double R) {
+double AttitudeFilter::UpdateAttitude(const Eigen::Vector3d& h, double residual,
+                                      double R) {
   const Vector PHt = P_.leftCols<3>() * h;
   const double S = h.dot(PHt.head<3>()) + R;
   const double innovation = residual - h.dot(dx_.head<3>());
@@ -174,27 +175,27 @@ void AttitudeFilter::AddForce(const Eigen::Vector3d& f_b) {
       std::visit([s](auto& rule) { return rule.Variance(s); }, rule_);
 }
 
-void AttitudeFilter::UseAccelerometer() {
+RowVector AttitudeFilter::UseAccelerometer() {
   const double R =
       force_variance_ * Inflation(options_.accel_correlation_time, dt_, 1);
   verdict_.accel_variance = R;
-  verdict_.force_innovation.setZero();
-  if (!std::isfinite(R)) return;
+  if (!std::isfinite(R)) return {};
   const double g = options_.place.gravity;
   const Eigen::Vector3d residual = q_ni_ * f_i_ - ForceAtRest_n(g);
   const Eigen::Matrix3d H = ForceAtRestByPsi_n(g);
+  RowVector innovation(2);
   for (int row = 0; row < 2; ++row) {
-    verdict_.force_innovation(row) =
-        UpdateAttitude(H.row(row), residual(row), R);
+    innovation(row) = UpdateAttitude(H.row(row), residual(row), R);
   }
+  return innovation;
 }
 
 void AttitudeFilter::LeaveAccelerometer() {
   verdict_.accel_variance = std::numeric_limits<double>::infinity();
 }
 
-void AttitudeFilter::UseVelocityChange(const VelocityChange& change,
-                                       const Eigen::Matrix3d& C_nb) {
+RowVector AttitudeFilter::UseVelocityChange(const VelocityChange& change,
+                                            const Eigen::Matrix3d& C_nb) {
   const Eigen::Vector3d u_n = C_nb * change.u_b;
   const Eigen::LLT<Eigen::Matrix3d> llt(change.R_n + C_nb * change.noise_b *
                                                          C_nb.transpose());
@@ -202,9 +203,11 @@ void AttitudeFilter::UseVelocityChange(const VelocityChange& change,
   H << -Skew(u_n), C_nb * change.by_gyro;
   const Eigen::Vector3d residual = llt.matrixL().solve(change.m_n - u_n);
   H = llt.matrixL().solve(H).eval();
+  RowVector innovation(3);
   for (int row = 0; row < 3; ++row) {
-    UpdateState(H.row(row).transpose(), residual(row), 1.0);
+    innovation(row) = UpdateState(H.row(row).transpose(), residual(row), 1.0);
   }
+  return innovation;
 }
 
 void AttitudeFilter::AddField(const MagneticSample& reading) {

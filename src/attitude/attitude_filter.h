@@ -99,20 +99,23 @@ class AttitudeFilter {
 
   /// Time update of the covariance over the turns since the last one.
   void Predict();
-  /// Uses the force as last added.
-  void UseAccelerometer();
+  /// Uses the force as last added, unless the rule passes it over. This and
+  /// UseVelocityChange return the innovation, each row over its predicted standard
+  /// deviation; empty: nothing was used.
+  RowVector UseAccelerometer();
   /// Uses the field of the interval, if there was a reading.
   void UseMagnetometer();
-  /// Uses a reading whose rows depend on the attitude alone, by psi.
-  void UseRow(const Eigen::Vector3d& h, double residual, double R) {
-    UpdateAttitude(h, residual, R);
+  /// Uses a reading whose rows depend on the attitude alone, by psi, and returns
+  /// its innovation over the predicted standard deviation.
+  double UseRow(const Eigen::Vector3d& h, double residual, double R) {
+    return UpdateAttitude(h, residual, R);
   }
   /// Goes without the accelerometer, as velocities say what it reads.
   void LeaveAccelerometer();
   /// Uses what two velocities say of the attitude at the later one, which is
   /// C_nb to now.
-  void UseVelocityChange(const VelocityChange& change,
-                         const Eigen::Matrix3d& C_nb);
+  RowVector UseVelocityChange(const VelocityChange& change,
+                              const Eigen::Matrix3d& C_nb);
   /// Uses the rates that were read at rest since the last update.
   void UseRest();
   /// Moves the corrections into the state. To be called after the updates.
@@ -138,7 +141,7 @@ class AttitudeFilter {
   /// Scalar update with H = h on component `i`, residual about the nominal.
   void UpdateComponent(int i, double h, double residual, double R);
   /// Scalar update with H = h'.
-  void UpdateState(const Vector& h, double residual, double R);
+  double UpdateState(const Vector& h, double residual, double R);
   /// Scalar update with H = h' on the attitude. Returns the innovation over its
   /// predicted standard deviation.
   double UpdateAttitude(const Eigen::Vector3d& h, double residual, double R);

@@ -14,6 +14,8 @@
 namespace hindsight {
 namespace {
 
+using Source = AttitudeInnovation::Source;
+
 /// Feeds the samples to a filter and records its updates.
 class AttitudeRunner {
  public:
@@ -118,10 +120,12 @@ class AttitudeRunner {
     if (velocity_ == nullptr) return;
     const ImuCalibration calibration = {.b_g = filter_.gyro_bias(),
                                         .s_g = filter_.gyro_scale()};
-    filter_.UseVelocityChange(
-        ChangeBetween(*last_velocity_, *velocity_, options_.place, calibration,
-                      options_.accel_bias_sigma, &*integrator_),
-        AttitudeAt(velocity_->t, sample).toRotationMatrix());
+    Note(Source::kVelocity,
+         filter_.UseVelocityChange(
+             ChangeBetween(*last_velocity_, *velocity_, options_.place,
+                           calibration, options_.accel_bias_sigma,
+                           &*integrator_),
+             AttitudeAt(velocity_->t, sample).toRotationMatrix()));
     last_velocity_ = velocity_;
     velocity_ = nullptr;
   }
@@ -136,7 +140,7 @@ class AttitudeRunner {
   void Update(std::size_t k) {
     filter_.Predict();
     if (velocities_.empty()) {
-      filter_.UseAccelerometer();
+      Note(Source::kForce, filter_.UseAccelerometer());
     } else {
       filter_.LeaveAccelerometer();
     }
@@ -166,9 +170,18 @@ class AttitudeRunner {
       const Kinematics kinematics = {sample.gyro, sample.accel};
       LinearizedMeasurement z;
       heading.reading.Evaluate({layout_, x, kinematics, *heading.sensor}, &z);
+      RowVector innovation(z.residual.size());
       for (int row = 0; row < z.residual.size(); ++row) {
-        filter_.UseRow(z.H.row(row).head<3>(), z.residual(row), z.R(row, row));
+        innovation(row) = filter_.UseRow(z.H.row(row).head<3>(),
+                                         z.residual(row), z.R(row, row));
       }
+      Note(Source::kHeading, innovation);
+    }
+  }
+
+  void Note(Source source, const RowVector& rows) {
+    if (rows.size() > 0) {
+      run_.innovations.push_back({filter_.state().t, source, rows});
     }
   }
 

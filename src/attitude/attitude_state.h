@@ -9,6 +9,7 @@
 #include "measurements/heading.h"
 #include "measurements/sensor.h"
 #include "state/error_layout.h"
+#include "state/state.h"
 
 namespace hindsight {
 
@@ -73,9 +74,6 @@ ErrorLayout AttitudeLayout(const ImuNoise& noise, const AttitudeState& start);
 /// What became of the readings of one update.
 struct AttitudeVerdict {
   double accel_variance = 0.0;  ///< R in force [m^2/s^4]; infinity: not used
-  /// Of the specific force north and east, each over its predicted standard
-  /// deviation; zero where it is not used.
-  Eigen::Vector2d force_innovation = Eigen::Vector2d::Zero();
   bool magnetic_used = false;
   bool magnetic_disturbed = false;
 };
@@ -87,6 +85,20 @@ struct AttitudeTransition {
   double phi = 1.0;
   double q_attitude = 0.0;  ///< variance of an axis of the noise [rad^2]
   double q_bias = 0.0;      ///< the same of the bias [rad^2/s^2]
+};
+
+/// What was read, less what was predicted, by rows of the one after the other,
+/// each over its predicted standard deviation: of a right model independent
+/// N(0, 1).
+struct AttitudeInnovation {
+  enum class Source {
+    kForce,     ///< the accelerometer's tilt, north and east
+    kVelocity,  ///< what two velocities say
+    kHeading,   ///< sensors of directions
+  };
+  double t = 0.0;  ///< of the update [s]
+  Source source = Source::kForce;
+  RowVector rows;
 };
 
 /// One scalar reading as it was used: residual = h' d + noise.

@@ -1,8 +1,13 @@
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/command_line.h"
 
@@ -105,6 +110,61 @@ TEST(AttitudeByVelocity, IsDoubtfulWhereNothingSaysHowTheEarthTurns) {
   const Flown flown = Fly(folder, kTurns, "9", /*with_position=*/false);
   EXPECT_EQ(flown.outcome.status, 3);
   EXPECT_THAT(flown.outcome.out, HasSubstr("where on the Earth"));
+}
+
+/// A row of numbers changed, in every line of a file behind its titles.
+void ChangeRows(const std::filesystem::path& file,
+                const std::function<void(std::vector<double>*)>& change) {
+  std::istringstream in(ReadFile(file));
+  std::string line;
+  std::getline(in, line);
+  std::string text = line + "\n";
+  while (std::getline(in, line)) {
+    std::vector<double> row;
+    std::istringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');) {
+      row.push_back(std::stod(field));
+    }
+    change(&row);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      text += fmt::format("{}{:.12g}", i > 0 ? "," : "", row[i]);
+    }
+    text += "\n";
+  }
+  WriteFile(file, text);
+}
+
+/// What two velocities say of the attitude does not fit what they said before, or
+/// tells no heading, and then what the body accelerates does not average out.
+TEST(AttitudeByVelocity, WrongReadingsAreNotUsable) {
+  struct Case {
+    const char* what;
+    const char* file;
+    std::function<void(std::vector<double>*)> change;
+  };
+  const TemporaryFolder folder;
+  for (const Case& wrong : {
+           Case{"north and east exchanged", "doppler.csv",
+                [](auto* row) { std::swap((*row)[1], (*row)[2]); }},
+           Case{"km/h for m/s", "doppler.csv",
+                [](auto* row) {
+                  for (std::size_t i = 1; i < 4; ++i) (*row)[i] *= 3.6;
+                }},
+           Case{"3 s late", "doppler.csv", [](auto* row) { (*row)[0] += 3.0; }},
+           Case{"a gyro that counts backwards", "imu.csv",
+                [](auto* row) { (*row)[3] = -(*row)[3]; }},
+           Case{"an accelerometer that counts backwards", "imu.csv",
+                [](auto* row) { (*row)[4] = -(*row)[4]; }},
+       }) {
+    Fly(folder, kTurns, "31");
+    ChangeRows(folder.path() / "data" / wrong.file, wrong.change);
+    const Outcome run =
+        Hindsight({"run", "data/config.yaml", "--methods=ahrs,ahrs_smoother",
+                   "--out=out", "--force"},
+                  folder.path());
+    EXPECT_EQ(run.status, 1) << wrong.what << run.out << run.err;
+    EXPECT_THAT(run.out, HasSubstr("innovations of the ")) << wrong.what;
+  }
 }
 
 /// Straight ahead at one speed nothing tells the heading: then the velocities
