@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/median.h"
+#include "base/parallel.h"
 #include "dataset/clock_comparison.h"
 #include "dataset/clock_turns.h"
 
@@ -45,16 +46,27 @@ bool IsSignificant(const ClockComparison& comparison, const ImuStream& imu,
              kFiveSigmas;
 }
 
+/// At `count` offsets, `step` apart.
+std::vector<double> MisfitsFrom(const ClockComparison& comparison, double from,
+                                double step, std::size_t count) {
+  constexpr std::size_t kGrain = 16;
+  std::vector<double> misfit(count);
+  ForRanges(count, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      misfit[i] = comparison.misfit(from + static_cast<double>(i) * step);
+    }
+  });
+  return misfit;
+}
+
 /// The median of the misfit over all offsets; infinite where there is none.
 double MisfitOfOthers(const ClockComparison& comparison,
                       const OffsetRange& all) {
-  constexpr int kSteps = 200;
-  std::vector<double> misfit;
-  for (int i = 0; i <= kSteps; ++i) {
-    const double m =
-        comparison.misfit(all.from + (all.to - all.from) * i / kSteps);
-    if (std::isfinite(m)) misfit.push_back(m);
-  }
+  constexpr std::size_t kSteps = 200;
+  std::vector<double> misfit = MisfitsFrom(
+      comparison, all.from, (all.to - all.from) / static_cast<double>(kSteps),
+      kSteps + 1);
+  std::erase_if(misfit, [](double m) { return !std::isfinite(m); });
   return misfit.empty() ? std::numeric_limits<double>::infinity()
                         : Median(std::move(misfit));
 }
@@ -70,10 +82,8 @@ ClockSearch Search(const ClockComparison& comparison, const ImuStream& imu,
   const double step = comparison.resolution / kStepsPerWindow;
   const double count = std::ceil((range.to - range.from) / step);
   if (!(count >= 2.0)) return out;
-  std::vector<double> misfit;
-  for (double i = 0.0; i <= count; ++i) {
-    misfit.push_back(comparison.misfit(range.from + i * step));
-  }
+  const std::vector<double> misfit = MisfitsFrom(
+      comparison, range.from, step, static_cast<std::size_t>(count) + 1);
   std::vector<ClockCandidate> found;
   const double same =
       kSameMotion * std::min(1.0, MisfitOfOthers(comparison, all));

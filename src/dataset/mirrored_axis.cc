@@ -31,8 +31,8 @@ ImuStream Mirrored(ImuStream imu, int axis) {
 }
 
 double LeastMisfit(const ImuStream& imu, const Dataset& dataset,
-                   const AidingStream& stream) {
-  const ClockSearch found = SearchClock(imu, dataset.initial, stream);
+                   const AidingStream& stream, const OffsetRange& range = {}) {
+  const ClockSearch found = SearchClock(imu, dataset.initial, stream, range);
   return found.candidates.empty() ? kNoFit : found.candidates.front().misfit;
 }
 
@@ -66,6 +66,7 @@ std::optional<MirroredAxis> FindMirroredAxis(const Dataset& dataset) {
 
 std::optional<OtherHand> FindOtherHand(const Dataset& dataset) {
   constexpr double kFits = 0.1;
+  constexpr double kNear = 10.0;  // s
   constexpr int kAnyAxis = 1;
   for (const AidingStream& stream : dataset.streams) {
     const SensorKind* kind = stream.sensor.kind;
@@ -75,15 +76,18 @@ std::optional<OtherHand> FindOtherHand(const Dataset& dataset) {
       continue;
     }
     OtherHand found = {stream.sensor.name};
-    found.as_read = LeastMisfit(dataset.imu, dataset, stream);
+    const double given = stream.sensor.time_offset;
+    const OffsetRange near = {given - kNear, given + kNear};
+    found.as_read = LeastMisfit(dataset.imu, dataset, stream, near);
     if (found.as_read < kFits) return std::nullopt;
     const ImuStream mirrored = Mirrored(dataset.imu, kAnyAxis);
-    const ClockSearch search = SearchClock(mirrored, dataset.initial, stream);
+    const ClockSearch search =
+        SearchClock(mirrored, dataset.initial, stream, near);
     if (!search.candidates.empty()) {
       found.mirrored = search.candidates.front().misfit;
     }
     found.reversed =
-        LeastMisfit(Mirrored(dataset.imu, kAllGyros), dataset, stream);
+        LeastMisfit(Mirrored(dataset.imu, kAllGyros), dataset, stream, near);
     const double best = std::min(found.mirrored, found.reversed);
     const bool chance = std::log(found.as_read / best) <
                         kFiveSigmas * 2.0 / std::sqrt(search.freedom);

@@ -34,7 +34,8 @@ struct OtherHand {
 
 /// By the first of the positions and velocities that fit an IMU so turned round
 /// clearly better than as it is read: by three sevenths, and five standard
-/// deviations of what chance makes of misfits (IsPlausible). Nothing once one fits
+/// deviations of what chance makes of misfits (IsPlausible), at offsets within 10 s
+/// of the clock's. Nothing once one fits
 /// as it is read. Which axis is mirrored those in axes of the Earth do not tell:
 /// with one of the others the attitude is half a turn apart.
 std::optional<OtherHand> FindOtherHand(const Dataset& dataset);
