@@ -189,6 +189,31 @@ TEST_F(RecogniseColumns, NorthAndEastOfAVelocityAreToldByItsNameOrUnit) {
   }
 }
 
+TEST_F(RecogniseColumns, HeightsAloneAreABarometers) {
+  Write("log.csv", Rows(kPlain));
+  std::string text = "time,baro_altitude\n";
+  for (int k = 0; k < 40; ++k) text += fmt::format("{}.5,{}\n", 262 + k, 500.2);
+  Write("baro.csv", text);
+  const auto drafts = DraftRecordings(folder_.string());
+  EXPECT_THAT(drafts.at(0).unknown, ::testing::IsEmpty());
+  EXPECT_THAT(DraftText(drafts.at(0)), HasSubstr("type: height"));
+}
+
+TEST_F(RecogniseColumns, ColumnsOfAnUntitledImuAreNoPlaces) {
+  // Slow turns: accelerometers in g change as little from row to row as a place.
+  std::string text;
+  for (int k = 0; k < 4000; ++k) {
+    const double t = 0.01 * k;
+    const double angle = 0.3 * std::sin(0.5 * t);
+    text += fmt::format("{:.3f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f}\n", t,
+                        0.05 + 0.001 * std::sin(3.0 * t), std::sin(angle),
+                        std::cos(angle), 0.15 * std::cos(0.5 * t), 1e-4, 1e-4);
+  }
+  Write("imu", text);
+  const auto drafts = DraftRecordings(folder_.string());
+  EXPECT_THAT(drafts.at(0).aiding, ::testing::IsEmpty());
+}
+
 TEST_F(RecogniseColumns, LatitudeAndLongitudeOfATruthAreDegreesByTheirSize) {
   Write("log.csv", Rows(kPlain));
   Write("truth.csv", Fixes("time,lat,lon,alt\n", ""));

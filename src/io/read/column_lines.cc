@@ -72,6 +72,13 @@ FoundStream ColumnLines::ImuStreamOf(const ImuGuess& guess) const {
   return found;
 }
 
+void ColumnLines::Take(const std::string& family, const TripleGuess& triple) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    meanings_[static_cast<std::size_t>(triple.columns[i])].quantity =
+        family + "xyz"[i];
+  }
+}
+
 void ColumnLines::TakeAxesFor(const std::string& family) {
   for (std::size_t i = 0; i < meanings_.size(); ++i) {
     ColumnMeaning meaning = AxisMeaning(file_.columns[i].title, family);

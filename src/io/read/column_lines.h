@@ -28,6 +28,8 @@ class ColumnLines {
     }
   }
 
+  /// Takes the columns of a triple for the family's, so that they are nothing else.
+  void Take(const std::string& family, const TripleGuess& triple);
   /// Takes columns that are titled by an axis alone for a family's (AxisMeaning).
   void TakeAxesFor(const std::string& family);
 

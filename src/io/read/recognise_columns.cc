@@ -46,6 +46,7 @@ class Recogniser {
     AddTitled(DvlKind(), {"v_x", "v_y", "v_z"}, {});
     AddTitled(ZeroVelocityKind(), {"zero_velocity"}, {});
     AddTitled(DepthKind(), {"depth"}, {});
+    AddHeights();
     AddTitled(MagnetometerKind(), {"mag_x", "mag_y", "mag_z"}, {});
     AddOdometer();
     AddTruth(false);
@@ -89,6 +90,8 @@ class Recogniser {
     found.spin_axis = SpinAxis(file_, *guess);
     lines_.AddTriple("accel_", guess->accel, &found);
     lines_.AddTriple("gyro_", guess->gyro, &found);
+    lines_.Take("accel_", guess->accel);
+    lines_.Take("gyro_", guess->gyro);
     found.imu_guess = std::move(guess);
     all_.push_back(std::move(found));
   }
@@ -224,6 +227,14 @@ class Recogniser {
                          "the file's median sigma; errors of a receiver on "
                          "its own last (a guess)"),
             &found->lines);
+  }
+
+  /// A barometer's: heights that no place stands beside.
+  void AddHeights() {
+    const bool placed = lines_.Titled("lat") >= 0 ||
+                        lines_.HasAll({"p_x", "p_y"}) ||
+                        lines_.HasAll({"roll", "pitch", "heading"});
+    if (!placed && !ImuHere()) AddTitled(HeightKind(), {"h"}, {});
   }
 
   void AddOdometer() {
