@@ -47,10 +47,13 @@ std::vector<NoiseFactor> Known(const NoiseEstimate& estimate) {
   return known;
 }
 
-/// Of no device: whatever asks for it is no noise.
+/// Of no device: whatever asks for it is no noise. What lasts was a guess, and
+/// may be off by more.
 bool IsAbsurd(const NoiseFactor& noise) {
-  return noise.factor > kMostFactor ||
-         (noise.name.starts_with("imu.") && noise.factor < 1.0 / kMostFactor);
+  const bool lasts = noise.name.find(".gauss_markov") != std::string::npos ||
+                     noise.name.find(".disturbance") != std::string::npos;
+  return !lasts &&
+         (noise.factor > kMostFactor || noise.factor < 1.0 / kMostFactor);
 }
 
 void ScaleImu(const NoiseFactor& noise, RecordingDraft* draft) {
