@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "alignment/mounting_search.h"
+#include "app/draft_noise.h"
 #include "app/draft_places.h"
 #include "app/draft_timing.h"
 #include "base/error.h"
@@ -17,13 +18,11 @@
 #include "dataset/median_field.h"
 #include "dataset/mirrored_axis.h"
 #include "dataset/truth_lever_arm.h"
-#include "dataset/usual_noise.h"
+#include "earth/wgs84.h"
 #include "geometry/so3.h"
 #include "io/config/config.h"
-#include "io/config/config_edit.h"
 #include "io/config/init_config.h"
 #include "io/config/key_line_edit.h"
-#include "problems/noise_estimation.h"
 
 namespace hindsight {
 namespace {
@@ -37,7 +36,7 @@ class Refiner {
   void Refine() {
     if (!Load()) return;
     SetAxes();
-    SetNoise();
+    TellReadingNoise(dataset_, &draft_);
     ResolveMirror();
     if (IsAttitudeAlone(draft_)) {
       if (Load()) SetField();
@@ -46,17 +45,25 @@ class Refiner {
     }
     TellPlaces([this] { return Load() ? &dataset_ : nullptr; }, &draft_);
     if (!Load()) return;
+    TakePlaceOfTruth();
+    // How fine they are decides over which time their motion is compared.
+    TellFixNoise(dataset_, &draft_);
+    if (!Load()) return;
     TellClocks(dataset_, &draft_);
     if (!Load()) return;
     TellStretch(dataset_, &draft_);
     if (const std::string odd = WarnAboutGyroUnit(dataset_); !odd.empty()) {
       draft_.Assume(odd);
+    } else if (TellOtherHand()) {
+      return;
     }
     SetForward();
     TellTruthClock(dataset_, &draft_);
     if (!Load()) return;
     TellTruthPoint();
-    SetLikelyNoise();
+    TellFixNoise(dataset_, &draft_);
+    if (!Load()) return;
+    TellLikelyNoise(dataset_, &draft_);
     Load();
   }
 
@@ -91,43 +98,6 @@ class Refiner {
     }
   }
 
-  void SetNoise() {
-    const ReadingNoise read = NoiseOfReadings(dataset_.imu);
-    if (read.gyro <= 0.0 || read.accel <= 0.0) return;
-    const UsualNoise noise = UsualNoiseBeside(read);
-    std::vector<KeyLine>& lines = draft_.imu->lines;
-    SetLine({"noise", "",
-             "white noise of the readings, vibration included; "
-             "walks usual beside it (a guess)"},
-            &lines);
-    SetLine(
-        {"  gyro", fmt::format("{:.3g} deg/s/sqrt(Hz)", noise.gyro / kDegree),
-         fmt::format("{:.2g} where quiet", noise.gyro_quiet / kDegree)},
-        &lines);
-    SetLine(
-        {"  accel", fmt::format("{:.3g} mg/sqrt(Hz)", noise.accel / kMilliG),
-         fmt::format("{:.2g} where quiet", noise.accel_quiet / kMilliG)},
-        &lines);
-    SetLine({"  gyro_bias_walk", fmt::format("{:.2g} deg/s^2/sqrt(Hz)",
-                                             noise.gyro_bias_walk / kDegree)},
-            &lines);
-    SetLine({"  accel_bias_walk", fmt::format("{:.2g} ug/s/sqrt(Hz)",
-                                              noise.accel_bias_walk / kMicroG)},
-            &lines);
-    SetLine({"  gyro_bias_sigma",
-             fmt::format("{:.2g} deg/s", noise.gyro_bias_sigma / kDegree),
-             "usual beside that noise (a guess)"},
-            &draft_.top);
-    SetLine({"  accel_bias_sigma",
-             fmt::format("{:.2g} mg", noise.accel_bias_sigma / kMilliG)},
-            &draft_.top);
-    if (noise.consumer && !IsAttitudeAlone(draft_)) {
-      SetLine({"estimate", "{gyro_scale: 1 %, accel_scale: 1 %}",
-               "what data sheets of this class allow"},
-              &lines);
-    }
-  }
-
   /// Which axis is mirrored, where gravity turns against the gyros.
   void ResolveMirror() {
     constexpr double kShown = 0.5;
@@ -148,6 +118,61 @@ class Refiner {
         fmt::format("imu: {}: gravity turns against the gyros, and the "
                     "velocities fit so (misfit {:.2g} against {:.2g})",
                     what, found->misfit, found->next_misfit));
+  }
+
+  /// Whether the axes are left-handed: then all else that the motion seems to
+  /// say is wrong.
+  bool TellOtherHand() {
+    const auto found = FindOtherHand(dataset_);
+    if (!found) return false;
+    draft_.Assume("imu: " + Describe(*found));
+    return true;
+  }
+
+  /// Where no stream tells the place, and a truth lies elsewhere than the one
+  /// that was put in its stead.
+  void TakePlaceOfTruth() {
+    constexpr double kElsewhere = 1e4;  // m
+    const KeyLine* place = FindLine(draft_.top, "  position");
+    if (place == nullptr) return;
+    const Eigen::Vector3d nowhere = EcefFromGeodetic({});
+    for (const TruthPoint& point : dataset_.truth) {
+      if (point.t < dataset_.imu.t_begin() || !point.p_e) continue;
+      if ((*point.p_e - nowhere).norm() < kElsewhere) return;
+      std::erase_if(draft_.top, [](const KeyLine& line) {
+        return line.key.starts_with("  position");
+      });
+      std::erase_if(draft_.assumptions, [](const std::string& assumption) {
+        return assumption.starts_with("no stream tells the position");
+      });
+      StartFrom(point);
+      return;
+    }
+  }
+
+  void StartFrom(const TruthPoint& point) {
+    constexpr char kWhy[] = "no stream tells where it begins";
+    const bool whole = point.v_n && point.q_nb;
+    const Geodetic place = GeodeticFromEcef(*point.p_e);
+    const auto at =
+        std::find_if(draft_.top.begin(), draft_.top.end(),
+                     [](const KeyLine& line) { return line.key == "initial"; });
+    std::vector<KeyLine> lines = {{"  position_sigma", "1 m", "(a guess)"}};
+    if (whole) {
+      lines.insert(lines.begin(), {"  from", "truth", kWhy});
+    } else {
+      lines.insert(lines.begin(),
+                   {{"  time", fmt::format("{:.6f} s", point.t), "of that"},
+                    {"  position",
+                     fmt::format("[{:.9f} deg, {:.9f} deg, {:.3f} m]",
+                                 place.latitude / kDegree,
+                                 place.longitude / kDegree, place.height),
+                     std::string(kWhy) + ": the truth's first"}});
+    }
+    draft_.top.insert(at + 1, lines.begin(), lines.end());
+    draft_.Assume(
+        "no stream tells the position: the truth's first is the start "
+        "(initial.position)");
   }
 
   /// In the file's columns, which body axis `axis` comes from.
@@ -172,48 +197,6 @@ class Refiner {
       line.value.insert(1, "-");
       line.comment +=
           (line.comment.empty() ? "" : "; ") + std::string("mirrored (likely)");
-    }
-  }
-
-  /// What the likelihood of the innovations says of the noise (EstimateNoise),
-  /// where it says something: of the IMU, of stated sigmas and of constraints.
-  /// Errors of a receiver on its own last too long for innovations to show.
-  void SetLikelyNoise() {
-    constexpr double kKnown = 0.35;  // standard deviation of ln(factor)
-    NoiseEstimate estimate;
-    try {
-      estimate = EstimateNoise(dataset_);
-    } catch (const EstimationError&) {
-      return;
-    }
-    if (!estimate.converged) return;
-    for (const NoiseFactor& noise : estimate.factors) {
-      if (!(noise.log_sigma < kKnown)) continue;
-      if (noise.name == "imu.gyro" || noise.name == "imu.accel") {
-        const std::string key = "  " + noise.name.substr(4);
-        KeyLine line = *FindLine(draft_.imu->lines, key);
-        line.value = ScaledNumbers(line.value, noise.factor);
-        line.comment = fmt::format(
-            "by the likelihood of the innovations, {:.2g} "
-            "of what the readings show",
-            noise.factor);
-        SetLine(std::move(line), &draft_.imu->lines);
-        continue;
-      }
-      for (StreamDraft& stream : draft_.aiding) {
-        if (stream.name == noise.name) ScaleSigma(noise.factor, &stream);
-      }
-    }
-  }
-
-  static void ScaleSigma(double factor, StreamDraft* stream) {
-    std::vector<KeyLine>& lines = stream->found.lines;
-    if (FindLine(lines, "noise") != nullptr) return;
-    const std::string why = "by the likelihood of the innovations";
-    if (const KeyLine* sigma = FindLine(lines, "sigma")) {
-      SetLine({"sigma", ScaledNumbers(sigma->value, factor), why}, &lines);
-    } else if (stream->kind->states_sigma) {
-      SetLine({"sigma_scale", fmt::format("{:.2g}", factor), why}, &lines);
     }
   }
 

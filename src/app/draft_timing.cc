@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "dataset/clock_drift.h"
@@ -12,10 +13,29 @@
 namespace hindsight {
 namespace {
 
+/// Whether its stamps are taken as they are, and not to begin somewhere.
+bool KeepsItsStamps(const std::vector<KeyLine>& lines) {
+  const KeyLine* time = FindLine(lines, "time");
+  return time == nullptr || time->value.find("start") == std::string::npos;
+}
+
+/// Stamps that are taken as they are agree with the IMU's unless the motion
+/// speaks against it: where no offset fits as well but for chance, and none is
+/// near.
+bool MayAgree(const ClockSearch& found) {
+  return IsPlausible(found, found.misfit(0.0)) &&
+         std::none_of(found.candidates.begin(), found.candidates.end(),
+                      [&](const ClockCandidate& candidate) {
+                        return std::abs(candidate.offset) < found.resolution;
+                      });
+}
+
 void TakeClockInto(const ClockSearch& found, StreamDraft* stream,
                    RecordingDraft* draft) {
   std::vector<KeyLine>& lines = stream->found.lines;
-  if (found.candidates.empty()) {
+  const bool as_they_are =
+      KeepsItsStamps(lines) && KeepsItsStamps(draft->imu->lines);
+  if (found.candidates.empty() || (as_they_are && MayAgree(found))) {
     draft->Assume(
         stream->name +
         ": the motion does not show where its clock stands against the "

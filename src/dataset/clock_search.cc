@@ -6,6 +6,8 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 
+#include "base/median.h"
+#include "base/parallel.h"
 #include "dataset/clock_comparison.h"
 #include "dataset/clock_turns.h"
 
@@ -44,8 +46,34 @@ bool IsSignificant(const ClockComparison& comparison, const ImuStream& imu,
              kFiveSigmas;
 }
 
+/// At `count` offsets, `step` apart.
+std::vector<double> MisfitsFrom(const ClockComparison& comparison, double from,
+                                double step, std::size_t count) {
+  constexpr std::size_t kGrain = 16;
+  std::vector<double> misfit(count);
+  ForRanges(count, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      misfit[i] = comparison.misfit(from + static_cast<double>(i) * step);
+    }
+  });
+  return misfit;
+}
+
+/// The median of the misfit over all offsets; infinite where there is none.
+double MisfitOfOthers(const ClockComparison& comparison,
+                      const OffsetRange& all) {
+  constexpr std::size_t kSteps = 200;
+  std::vector<double> misfit = MisfitsFrom(
+      comparison, all.from, (all.to - all.from) / static_cast<double>(kSteps),
+      kSteps + 1);
+  std::erase_if(misfit, [](double m) { return !std::isfinite(m); });
+  return misfit.empty() ? std::numeric_limits<double>::infinity()
+                        : Median(std::move(misfit));
+}
+
+/// Within `range`, of `all` offsets at which the records overlap.
 ClockSearch Search(const ClockComparison& comparison, const ImuStream& imu,
-                   const OffsetRange& range) {
+                   const OffsetRange& all, const OffsetRange& range) {
   ClockSearch out;
   out.compared = comparison.compared;
   out.resolution = comparison.resolution;
@@ -54,19 +82,19 @@ ClockSearch Search(const ClockComparison& comparison, const ImuStream& imu,
   const double step = comparison.resolution / kStepsPerWindow;
   const double count = std::ceil((range.to - range.from) / step);
   if (!(count >= 2.0)) return out;
-  std::vector<double> misfit;
-  for (double i = 0.0; i <= count; ++i) {
-    misfit.push_back(comparison.misfit(range.from + i * step));
-  }
+  const std::vector<double> misfit = MisfitsFrom(
+      comparison, range.from, step, static_cast<std::size_t>(count) + 1);
   std::vector<ClockCandidate> found;
+  const double same =
+      kSameMotion * std::min(1.0, MisfitOfOthers(comparison, all));
   for (std::size_t i = 1; i + 1 < misfit.size(); ++i) {
     const bool minimum = misfit[i] <= misfit[i - 1] &&
                          misfit[i] < misfit[i + 1] &&
                          std::isfinite(misfit[i - 1] + misfit[i + 1]);
-    if (!minimum || misfit[i] > 2.0 * kSameMotion) continue;
+    if (!minimum || misfit[i] > 2.0 * same) continue;
     const double at = range.from + static_cast<double>(i) * step;
     const ClockCandidate refined = Refine(comparison, at - step, at + step);
-    if (refined.misfit < kSameMotion) found.push_back(refined);
+    if (refined.misfit < same) found.push_back(refined);
   }
   const bool tells = std::any_of(
       found.begin(), found.end(), [&](const ClockCandidate& candidate) {
@@ -107,7 +135,7 @@ ClockSearch SearchClock(const ImuStream& imu, const InitialState& initial,
   if (!comparison) return {};
   const OffsetRange all = OverlappingOffsets(
       imu.t_begin(), imu.t_end(), comparison->first, comparison->last);
-  return Search(*comparison, imu,
+  return Search(*comparison, imu, all,
                 {std::max(all.from, range.from), std::min(all.to, range.to)});
 }
 
@@ -116,10 +144,9 @@ ClockSearch SearchClock(const ImuStream& imu, const TruthSeries& truth) {
       0.02;  // an offset known worse is not known [s]
   const auto comparison = CompareTurns(imu, truth);
   if (!comparison) return {};
-  ClockSearch found =
-      Search(*comparison, imu,
-             OverlappingOffsets(imu.t_begin(), imu.t_end(), comparison->first,
-                                comparison->last));
+  const OffsetRange all = OverlappingOffsets(
+      imu.t_begin(), imu.t_end(), comparison->first, comparison->last);
+  ClockSearch found = Search(*comparison, imu, all, all);
   std::erase_if(found.candidates, [](const ClockCandidate& candidate) {
     return !(candidate.sigma < kKnownClock);
   });

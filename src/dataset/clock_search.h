@@ -58,9 +58,11 @@ OffsetRange OverlappingOffsets(double a_begin, double a_end, double b_begin,
 ///                        the hard iron is free
 ///   height               its acceleration against the specific force, the
 ///                        vertical free in each piece
-/// A candidate is a minimum of the misfit below a half (and the quarter of what
-/// no common motion leaves), the lowest of those closer than the resolution; at
-/// most eight, and none if chance would give the best within five sigmas.
+/// A candidate is a minimum of the misfit below a half (the quarter of what no
+/// common motion leaves) and below half of the median over OverlappingOffsets
+/// (what is free in each piece may fit any smooth motion), the lowest of those
+/// closer than the resolution; at most eight, and none if chance would give the
+/// best within five sigmas.
 /// Nothing is compared for other types.
 ClockSearch SearchClock(const ImuStream& imu, const InitialState& initial,
                         const AidingStream& stream, OffsetRange range = {});

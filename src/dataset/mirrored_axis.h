@@ -1,7 +1,9 @@
 #ifndef HINDSIGHT_DATASET_MIRRORED_AXIS_H_
 #define HINDSIGHT_DATASET_MIRRORED_AXIS_H_
 
+#include <limits>
 #include <optional>
+#include <string>
 
 #include "dataset/dataset.h"
 
@@ -19,6 +21,27 @@ struct MirroredAxis {
 /// SearchClock. Nothing if another is not clearly worse, by three sevenths of
 /// its misfit.
 std::optional<MirroredAxis> FindMirroredAxis(const Dataset& dataset);
+
+/// An IMU whose axes are left-handed, or whose gyros have the other sign; misfits
+/// as ClockCandidate::misfit, infinite where it fits at no offset.
+struct OtherHand {
+  std::string stream;    ///< whose motion says so
+  double as_read = 0.0;  ///< misfit as the IMU is read
+  double mirrored = std::numeric_limits<double>::infinity();  ///< one axis of
+                                                              ///< both triads
+  double reversed = 0.0;  ///< all gyros turned round
+};
+
+/// By the first of the positions and velocities that fit an IMU so turned round
+/// clearly better than as it is read: by three sevenths, and five standard
+/// deviations of what chance makes of misfits (IsPlausible), at offsets within 10 s
+/// of the clock's. Nothing once one fits
+/// as it is read. Which axis is mirrored those in axes of the Earth do not tell:
+/// with one of the others the attitude is half a turn apart.
+std::optional<OtherHand> FindOtherHand(const Dataset& dataset);
+
+/// What was found and which keys to correct, in words.
+std::string Describe(const OtherHand& found);
 
 }  // namespace hindsight
 

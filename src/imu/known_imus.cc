@@ -20,6 +20,10 @@ constexpr std::array kImus = {
              "https://www.bosch-sensortec.com/media/boschsensortec/downloads/"
              "datasheets/bst-bmi270-ds000.pdf as quoted by "
              "https://docs.luxonis.com/hardware/platform/sensors/imu/bmi270/"},
+    KnownImu{"ICM-20602", 0.004 * kDegree, 100.0 * kMicroG,
+             "DS-000176 revision 1.0 as quoted by "
+             "https://fdocuments.in/document/sdasdi-3-icm-20602-11-icm-20602-"
+             "tdk-icm-20602-high-performance-6-axis-mems-motiontrackinga.html"},
     KnownImu{"ICM-42605", 0.0038 * kDegree, 70.0 * kMicroG,
              "DS-000292 revision 1.5 as quoted by "
              "https://vdocument.in/icm-42605-datasheet-2020-9-16-icm-42605-"

@@ -134,6 +134,21 @@ TEST(ClockSearch, FindsNothingAtRest) {
   }
 }
 
+/// What is free in each piece fits any smooth motion, and a velocity that is
+/// constant in the body fits any turn: neither tells a clock.
+TEST(ClockSearch, MotionThatFitsAnywhereTellsNothing) {
+  for (const auto& [scenario, stream] :
+       {std::pair("test_aircraft", "barometer"), {"test_dive", "dvl"}}) {
+    const Dataset dataset = Simulate(FindScenario(scenario), 3);
+    for (const AidingStream& one : dataset.streams) {
+      if (one.sensor.name != stream) continue;
+      EXPECT_TRUE(
+          SearchClock(dataset.imu, dataset.initial, one).candidates.empty())
+          << stream;
+    }
+  }
+}
+
 /// Noise alone is between the misfits of a flight half a period off.
 TEST(ClockSearch, WhatNoiseMayHaveMadeWorseIsPlausible) {
   ShuttleOptions periodic;

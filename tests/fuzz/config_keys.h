@@ -81,6 +81,7 @@ inline const std::vector<FuzzMap>& RecordingMaps() {
         {"until", "10 s"}}},
       {"imu",
        {{"kind", "rates"},
+        {"accelerometer", "{file: imu.csv}"},
         {"axes", "[-x, y, -z]"},
         {"mounting", "[1 deg, 2 deg, 3 deg]"},
         {"mounting_sigma", "[1 deg, 1 deg, 2 deg]"},

@@ -12,6 +12,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// How a file writes an IMU that stands with z up for five seconds and is then
 /// rocked about x by up to 0.6 rad, at 100 Hz.
@@ -123,6 +124,101 @@ TEST_F(RecogniseColumns, AMirroredAxisIsTold) {
   Write("log.csv", Rows(kPlain));
   EXPECT_THAT(DraftRecordings(folder_.string()).at(0).assumptions,
               ::testing::IsEmpty());
+}
+
+/// Fixes that go north and east, beside the IMU.
+std::string Fixes(const std::string& titles, const std::string& behind) {
+  std::string text = titles;
+  for (int k = 0; k < 40; ++k) {
+    text +=
+        fmt::format("{}.5,{:.7f},{:.7f},{:.2f}{}\n", 262 + k, 48.0 + 1e-5 * k,
+                    11.0 + 2e-5 * k, 500.0 + 0.1 * (k % 3), behind);
+  }
+  return text;
+}
+
+TEST_F(RecogniseColumns, AccuraciesBecomeTheSigmasOfAnAxis) {
+  struct Case {
+    const char* titles;
+    const char* sigma_n;
+    const char* sigma_d;
+  };
+  for (const Case& one :
+       {Case{"time,lat,lon,alt,hAcc,vAcc\n",
+             "sigma_n: {column: \"5\", unit: \"m\", scale: 0.66}",
+             "sigma_d: \"6 [m]\""},
+        Case{"time,lat,lon,alt,Horizontal Accuracy (m),Vertical Accuracy (m)\n",
+             "sigma_e: {column: \"5\", unit: \"m\", scale: 0.66}",
+             "sigma_d: \"6 [m]\""},
+        Case{"time,lat,lon,alt,accuracy,satellites\n",
+             "sigma_n: {column: \"5\", unit: \"m\", scale: 0.66}",
+             "sigma_d: \"5 [m]\""},
+        Case{"time,lat,lon,alt,sigma,satellites\n", "sigma_n: \"5 [m]\"",
+             "sigma_d: \"5 [m]\""}}) {
+    Write("log.csv", Rows(kPlain));
+    Write("gps.csv", Fixes(one.titles, ",1.5,3"));
+    const std::string text = DraftText(DraftRecordings(folder_.string()).at(0));
+    EXPECT_THAT(text, HasSubstr(one.sigma_n));
+    EXPECT_THAT(text, HasSubstr(one.sigma_d));
+  }
+  // A receiver that does not know writes zero: no sigma to be used.
+  Write("gps.csv", Fixes("time,lat,lon,alt,accuracy,satellites\n", ",0,3"));
+  EXPECT_THAT(DraftText(DraftRecordings(folder_.string()).at(0)),
+              Not(HasSubstr("sigma_n")));
+}
+
+TEST_F(RecogniseColumns, NorthAndEastOfAVelocityAreToldByItsNameOrUnit) {
+  const std::string rows = [] {
+    std::string text;
+    for (int k = 0; k < 40; ++k) {
+      text += fmt::format("{}.5;{};{};{}\n", 262 + k, 0.1 * (k % 2), 3 + k % 3,
+                          4.0);
+    }
+    return text;
+  }();
+  Write("log.csv", Rows(kPlain));
+  for (const auto& [name, titles] :
+       {std::pair("v.csv.gz", "when;down;east;north\n"),
+        {"gnss.csv.gz", "when;down[km/h];east[km/h];north[km/h]\n"}}) {
+    WriteGzip(name, titles + rows);
+    const std::string text = DraftText(DraftRecordings(folder_.string()).at(0));
+    EXPECT_THAT(text, HasSubstr("type: velocity"));
+    EXPECT_THAT(text, HasSubstr("v_n: \"4 ["));
+    EXPECT_THAT(text, HasSubstr("v_d: \"2 ["));
+    std::filesystem::remove(Path(name));
+  }
+}
+
+TEST_F(RecogniseColumns, HeightsAloneAreABarometers) {
+  Write("log.csv", Rows(kPlain));
+  std::string text = "time,baro_altitude\n";
+  for (int k = 0; k < 40; ++k) text += fmt::format("{}.5,{}\n", 262 + k, 500.2);
+  Write("baro.csv", text);
+  const auto drafts = DraftRecordings(folder_.string());
+  EXPECT_THAT(drafts.at(0).unknown, ::testing::IsEmpty());
+  EXPECT_THAT(DraftText(drafts.at(0)), HasSubstr("type: height"));
+}
+
+TEST_F(RecogniseColumns, ColumnsOfAnUntitledImuAreNoPlaces) {
+  // Slow turns: accelerometers in g change as little from row to row as a place.
+  std::string text;
+  for (int k = 0; k < 4000; ++k) {
+    const double t = 0.01 * k;
+    const double angle = 0.3 * std::sin(0.5 * t);
+    text += fmt::format("{:.3f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f}\n", t,
+                        0.05 + 0.001 * std::sin(3.0 * t), std::sin(angle),
+                        std::cos(angle), 0.15 * std::cos(0.5 * t), 1e-4, 1e-4);
+  }
+  Write("imu", text);
+  const auto drafts = DraftRecordings(folder_.string());
+  EXPECT_THAT(drafts.at(0).aiding, ::testing::IsEmpty());
+}
+
+TEST_F(RecogniseColumns, LatitudeAndLongitudeOfATruthAreDegreesByTheirSize) {
+  Write("log.csv", Rows(kPlain));
+  Write("truth.csv", Fixes("time,lat,lon,alt\n", ""));
+  EXPECT_THAT(DraftText(DraftRecordings(folder_.string()).at(0)),
+              HasSubstr("lat: \"2 [deg]\""));
 }
 
 TEST_F(RecogniseColumns, AFolderOfSeveralRecordingsGivesOneEach) {

@@ -279,6 +279,9 @@ std::vector<fs::path> FilesRead(const std::string& config_path,
     for (const std::string& path : source.Paths()) inputs.emplace_back(path);
   };
   add(declared.imu);
+  if (declared.imu_options.accelerometer) {
+    add(*declared.imu_options.accelerometer);
+  }
   for (const AidingConfig& config : declared.aiding) {
     if (!config.settings.sensor.kind->generated) add(config.source);
   }

@@ -172,6 +172,10 @@ const ConfigTable<ImuConfig>& ImuTable() {
         .value = Key::Special{ReadImuKind},
         .help = "rates, increments",
         .fallback = "as the columns say"},
+       {.name = "accelerometer",
+        .value = Key::Special{},
+        .help = "a map of the keys of a stream, where the accelerometers have "
+                "a file and stamps of their own: interpolated at the gyros'"},
        {.name = "axes",
         .value = Key::Special{[](ConfigMap* map, ImuConfig* imu) {
           ReadAxes(map, &imu->C_bs);

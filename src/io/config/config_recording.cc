@@ -56,12 +56,35 @@ struct RecordingConfig : DeclaredRecording {
   std::optional<ConfigMap> aiding_map;  ///< for messages
 };
 
+/// Of accelerometers with a file of their own, which is on the gyros' clock.
+std::optional<StreamSource> ReadAccelerometer(ConfigMap* imu,
+                                              const StreamSource& gyros,
+                                              const fs::path& folder) {
+  if (!imu->Has("accelerometer")) return std::nullopt;
+  ConfigMap map = imu->Map("accelerometer");
+  if (map.Has("time") || gyros.clock.rate) {
+    imu->Fail(
+        "accelerometer",
+        "is read on the clock of the gyros, by stamps; expected no `time` "
+        "of its own, and no rate under `time` of imu");
+  }
+  StreamSource source = ReadStreamSource(&map, folder, ImuFields());
+  map.resolved().remove("time");
+  source.clock.scale = gyros.clock.scale;
+  source.clock.week = gyros.clock.week;
+  source.clock.week_rollovers = gyros.clock.week_rollovers;
+  map.Finish();
+  return source;
+}
+
 void ReadImuConfig(ConfigMap* top, RecordingConfig* recording) {
   if (!top->Has("imu")) top->Fail("imu", "is missing");
   ConfigMap map = top->Map("imu");
   recording->imu = ReadStreamSource(&map, recording->folder, ImuFields());
   const ImuConfig imu = ReadImuKeys(&map);
   recording->imu_options = imu;
+  recording->imu_options.accelerometer =
+      ReadAccelerometer(&map, recording->imu, recording->folder);
   recording->imu.clock.offset = imu.time_offset;
   recording->dataset->mounting_sigma =
       imu.mounting_sigma.value_or(Eigen::Vector3d::Zero());

@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "io/read/column_lines.h"
 #include "io/read/units.h"
 #include "measurements/sensor_kind.h"
 
@@ -40,16 +41,15 @@ std::vector<KeyLine> UsualLines(const SensorKind& kind, bool sigmas) {
   std::vector<KeyLine> lines;
   if (kind.is_position) {
     if (!sigmas) {
-      lines.push_back(
-          {"noise",
-           "{model: gauss_markov, sigma: 2 m, tau: 60 s, white: 0.1 m}",
-           "usual of a single receiver (a guess)"});
+      lines.push_back(SlowFixNoise(2.0, 0.1,
+                                   "the file states none; usual of a single "
+                                   "receiver (a guess)"));
     }
     lines.push_back({"estimate", "{lever_arm: 1 m, time_offset: 0.5 s}",
                      "lever_arm is from the IMU: forward, right, down"});
   } else if (kind.is_velocity) {
     if (!sigmas) lines.push_back({"sigma", "0.2 m/s", "usual (a guess)"});
-    lines.push_back({"estimate", "{time_offset: 0.5 s}"});
+    lines.push_back({"estimate", "{lever_arm: 1 m, time_offset: 0.5 s}"});
   } else if (&kind == &SpeedCourseKind()) {
     lines.push_back({"sigma", "0.2 m/s", "usual (a guess)"});
     lines.push_back({"course_sigma", "2 deg", "usual (a guess)"});
@@ -58,13 +58,17 @@ std::vector<KeyLine> UsualLines(const SensorKind& kind, bool sigmas) {
   } else if (&kind == &OdometerKind()) {
     lines.push_back({"sigma", "[0.1, 0.2, 0.3 m/s]",
                      "with no slip to the side or up (a guess)"});
-    lines.push_back(
-        {"estimate", "{scale: 5 %, mounting: 10 deg, time_offset: 0.1 s}"});
+    lines.push_back({"estimate",
+                     "{scale: 5 %, mounting: 10 deg, lever_arm: 1 m, "
+                     "time_offset: 0.1 s}"});
   } else if (&kind == &DvlKind()) {
     lines.push_back({"sigma", "1 cm/s", "usual (a guess)"});
     lines.push_back(
         {"estimate",
          "{scale: 1 %, mounting: 3 deg, lever_arm: 1 m, time_offset: 0.5 s}"});
+  } else if (&kind == &HeightKind()) {
+    lines.push_back({"estimate", "{offset: 50 m}",
+                     "of geoid and weather: what a barometer starts from"});
   } else if (kind.standing) {
     lines.push_back({"sigma", "5 cm/s", "of a foot that rolls (a guess)"});
   } else if (kind.magnetic) {

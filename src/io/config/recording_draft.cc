@@ -285,7 +285,8 @@ class Drafter {
       draft_.top.push_back({"  position_sigma", "1 m", "of a local frame"});
       draft_.assumptions.emplace_back(
           "no stream tells the position or the heading: the place is one of "
-          "your own, at latitude and longitude zero, and north as it may be");
+          "your own, at latitude and longitude zero, and north as it may be "
+          "(initial.position, initial.attitude)");
     }
   }
 

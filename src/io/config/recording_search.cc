@@ -11,6 +11,7 @@
 #include "io/read/column_meaning.h"
 #include "io/read/file_columns.h"
 #include "io/read/file_format.h"
+#include "io/read/imu_pair_guess.h"
 #include "io/read/paths.h"
 #include "io/read/recognise_format.h"
 #include "io/read/split_files.h"
@@ -40,6 +41,10 @@ void MoveBelow(const fs::path& below, RecordingFiles* files) {
       found.file = (below / found.file).string();
       for (std::string& more : found.more_files) {
         more = (below / more).string();
+      }
+      for (KeyLine& line : found.lines) {
+        // Of the accelerometers of a pair; it is in quotes.
+        if (line.key == "  file") line.value.insert(1, below.string() + "/");
       }
     }
   }
@@ -156,8 +161,27 @@ class Search {
     }
     DropCopies(folder, &files, &result->rest.copies);
     JoinSplitFiles(folder, &files);
+    TakePair(folder, &files);
     for (RecognisedFile& file : files) {
       Take(std::move(file.streams), file.name, folder, result);
+    }
+  }
+
+  /// Gyros and accelerometers in files side by side, where no file holds both.
+  static void TakePair(const fs::path& folder,
+                       std::vector<RecognisedFile>* files) {
+    std::vector<std::string> names;
+    for (const RecognisedFile& file : *files) {
+      if (HoldsImu(file.streams)) return;
+      if (IsFile(folder / file.name)) names.push_back(file.name);
+    }
+    auto pair = FindImuPair(folder, names);
+    if (!pair) return;
+    std::erase_if(*files, [&](const RecognisedFile& file) {
+      return file.name == pair->accelerometer;
+    });
+    for (RecognisedFile& file : *files) {
+      if (file.name == pair->imu.file) file.streams = {pair->imu};
     }
   }
 

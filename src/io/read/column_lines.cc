@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/median.h"
+#include "base/units.h"
 #include "io/read/file_formats.h"
 #include "io/read/units.h"
 #include "measurements/sensor_kind.h"
@@ -48,6 +50,40 @@ FoundStream ColumnLines::Stream() const {
     found.assumptions.push_back(stamps_->reason);
   }
   return found;
+}
+
+FoundStream ColumnLines::ImuStreamOf(const ImuGuess& guess) const {
+  constexpr double kUsualGap = 0.5;  // s, the default of max_gap
+  constexpr double kShown = 0.5;
+  FoundStream found = Stream();
+  found.imu = true;
+  if (!stamps_->rate && stamps_->gap > kUsualGap) {
+    SetLine(
+        {"max_gap", fmt::format("{:.2g} s", 1.1 * stamps_->gap),
+         fmt::format("drop-outs of up to {:.3g} s are bridged", stamps_->gap)},
+        &found.lines);
+  }
+  if (guess.turn.slope < 0.0 && guess.turn.correlation < -kShown) {
+    found.assumptions.push_back(fmt::format(
+        "gravity turns against the gyros (correlation {:.2f}): an axis is "
+        "mirrored in both, or the gyros have the other sign",
+        guess.turn.correlation));
+  }
+  return found;
+}
+
+void ColumnLines::Take(const std::string& family, const TripleGuess& triple) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    meanings_[static_cast<std::size_t>(triple.columns[i])].quantity =
+        family + "xyz"[i];
+  }
+}
+
+void ColumnLines::TakeAxesFor(const std::string& family) {
+  for (std::size_t i = 0; i < meanings_.size(); ++i) {
+    ColumnMeaning meaning = AxisMeaning(file_.columns[i].title, family);
+    if (!meaning.quantity.empty()) meanings_[i] = std::move(meaning);
+  }
 }
 
 void ColumnLines::AddColumn(const std::string& quantity,
@@ -122,7 +158,10 @@ void ColumnLines::AddTitledColumn(const std::string& quantity,
                     meaning.upwards ? -1.0 : 1.0,
                     sure ? Certainty::kCertain : Certainty::kGuess,
                     sure ? "" : "unit not stated"};
-  if (!known && dimension == Quantity::kAngle) guess.unit = AngleUnit();
+  const bool place = quantity == "lat" || quantity == "lon";
+  if (!known && dimension == Quantity::kAngle) {
+    guess.unit = place ? PlaceUnit() : AngleUnit();
+  }
   if (!known && dimension == Quantity::kMagneticField) {
     guess.unit = FieldUnit();
     guess.certainty = Certainty::kLikely;
@@ -144,6 +183,19 @@ std::string ColumnLines::AngleUnit() const {
     }
   }
   return "rad";
+}
+
+/// By size: who is neither in the Gulf of Guinea nor at its antipodes has a
+/// longitude beyond pi or a latitude beyond pi/2 degrees.
+std::string ColumnLines::PlaceUnit() const {
+  const auto within = [&](const char* name, double most) {
+    const int column = Titled(name);
+    if (column < 0) return true;
+    const auto& v = file_.columns[static_cast<std::size_t>(column)].values;
+    return std::all_of(v.begin(), v.end(),
+                       [&](double x) { return std::abs(x) <= most; });
+  };
+  return within("lat", 0.5 * kPi) && within("lon", kPi) ? "rad" : "deg";
 }
 
 /// The unit in which the median field is nearest to the Earth's 48 uT.
@@ -176,6 +228,14 @@ void ColumnLines::AddFieldsOf(const SensorKind& kind,
         std::find(names.begin(), names.end(), field.name) != names.end();
     if (wanted) AddTitledColumn(field.name, field.quantity, found);
   }
+}
+
+KeyLine SlowFixNoise(double slow, double white, const std::string& comment) {
+  return {"noise",
+          fmt::format("{{model: gauss_markov, sigma: {:.2g} m, tau: 60 s, "
+                      "white: {:.2g} m}}",
+                      slow, white),
+          comment};
 }
 
 }  // namespace hindsight

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/quantity.h"
@@ -20,6 +21,18 @@ class ColumnLines {
   explicit ColumnLines(const FileColumns& file)
       : file_(file), meanings_(ReadMeanings(file)) {}
 
+  /// Takes places along axes for velocities (AsVelocity).
+  void TakeForVelocities() {
+    for (ColumnMeaning& meaning : meanings_) {
+      meaning = AsVelocity(std::move(meaning));
+    }
+  }
+
+  /// Takes the columns of a triple for the family's, so that they are nothing else.
+  void Take(const std::string& family, const TripleGuess& triple);
+  /// Takes columns that are titled by an axis alone for a family's (AxisMeaning).
+  void TakeAxesFor(const std::string& family);
+
   const std::vector<ColumnMeaning>& meanings() const { return meanings_; }
   /// The stamps of all streams; needed before the first.
   const std::optional<StampGuess>& stamps() const { return stamps_; }
@@ -29,6 +42,8 @@ class ColumnLines {
 
   /// What the configuration of every stream of the file says.
   FoundStream Stream() const;
+  /// The same of an IMU, with the drop-outs that it bridges.
+  FoundStream ImuStreamOf(const ImuGuess& guess) const;
   /// A line behind the others of `columns`.
   void AddColumn(const std::string& quantity, const ColumnGuess& guess,
                  FoundStream* found) const;
@@ -50,12 +65,17 @@ class ColumnLines {
 
  private:
   std::string AngleUnit() const;
+  std::string PlaceUnit() const;
   std::string FieldUnit() const;
 
   const FileColumns& file_;
   std::vector<ColumnMeaning> meanings_;
   std::optional<StampGuess> stamps_;
 };
+
+/// The line `noise` of positions with slow errors of sigma `slow`, correlated over
+/// a minute as those of a receiver on its own usually are, and white ones [m].
+KeyLine SlowFixNoise(double slow, double white, const std::string& comment);
 
 }  // namespace hindsight
 

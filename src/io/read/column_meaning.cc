@@ -5,8 +5,10 @@
 #include <cctype>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "io/read/file_formats.h"
+#include "io/read/units.h"
 
 namespace hindsight {
 namespace {
@@ -116,13 +118,45 @@ ColumnMeaning Component(const std::string& family, char direction) {
   return {family + (up ? 'd' : direction), "", up};
 }
 
+bool IsOfHeight(const Words& words) {
+  return HasAny(words, {"h", "height", "alt", "altitude", "elevation"});
+}
+
 ColumnMeaning Sigma(const Words& words) {
   char direction = DirectionOf(words);
   if (direction == '\0') direction = AxisWithin(words, "nedu", {"sd", "std"});
-  if (direction == '\0') return {};
+  if (direction == '\0' && HasAny(words, {"lat", "latitude"})) direction = 'n';
+  if (direction == '\0' && HasAny(words, {"lon", "longitude"})) direction = 'e';
+  if (direction == '\0' && IsOfHeight(words)) direction = 'd';
+  if (direction == '\0') {
+    const bool of_place =
+        words.size() == 1 || HasAny(words, {"pos", "position", "gps", "gnss"});
+    return of_place ? ColumnMeaning{"sigma", ""} : ColumnMeaning{};
+  }
   if (direction == 'u') direction = 'd';
   const bool speed = HasAny(words, {"v", "vel", "velocity"});
   return {std::string(speed ? "sigma_v_" : "sigma_") + direction, ""};
+}
+
+/// What a receiver thinks of its own fix: "hAcc", "vertical accuracy", "eph".
+ColumnMeaning Accuracy(const Words& words) {
+  const bool named = HasAny(words, {"accuracy", "uncertainty"});
+  const bool of = named || HasAny(words, {"acc"});
+  const auto is = [&](std::initializer_list<std::string_view> fused,
+                      std::initializer_list<std::string_view> beside) {
+    return HasAny(words, fused) || (of && HasAny(words, beside));
+  };
+  if (is({"hacc", "eph"}, {"h", "hor", "horizontal"})) {
+    return {"accuracy_h", ""};
+  }
+  if (is({"vacc", "epv"}, {"v", "vert", "vertical"})) {
+    return {"accuracy_v", ""};
+  }
+  if (is({"sacc"}, {"s", "speed", "velocity"})) return {"accuracy_speed", ""};
+  const bool plain =
+      words.size() == 1 ||
+      HasAny(words, {"gps", "gnss", "pos", "position", "location"});
+  return named && plain ? ColumnMeaning{"accuracy_h", ""} : ColumnMeaning{};
 }
 
 ColumnMeaning Inertial(const Words& words) {
@@ -191,7 +225,7 @@ ColumnMeaning Place(const Words& words) {
   if (HasAny(words, {"lat", "latitude"})) return {"lat", ""};
   if (HasAny(words, {"lon", "long", "lng", "longitude"})) return {"lon", ""};
   if (HasAny(words, {"depth"})) return {"depth", ""};
-  if (HasAny(words, {"h", "height", "alt", "altitude", "elevation"})) {
+  if (IsOfHeight(words)) {
     return {"h", ""};
   }
   if (const char axis =
@@ -219,13 +253,16 @@ ColumnMeaning Other(const Words& words) {
   if (HasAny(words, {"fix", "quality", "mode"})) return {"quality", ""};
   if (HasAny(words, {"movement", "moving"})) return {"moving", ""};
   if (HasAny(words, {"t", "time", "times", "timestamp", "stamp", "seconds",
-                     "sec", "tow", "utc", "sample"})) {
+                     "sec", "tow", "utc", "sample", "when"})) {
     return {"t", ""};
   }
   return {};
 }
 
 ColumnMeaning MeaningOfWords(const Words& words) {
+  if (ColumnMeaning meaning = Accuracy(words); !meaning.quantity.empty()) {
+    return meaning;
+  }
   if (HasAny(words, {"bias", "accuracy", "temp", "temperature", "distance",
                      "gdop", "pdop", "hdop"})) {
     return {};
@@ -308,7 +345,28 @@ ColumnMeaning MeaningOfTitle(const std::string& title) {
   if (unit.empty()) unit = TakeUnitWord(&words);
   ColumnMeaning meaning = MeaningOfWords(words);
   meaning.unit = unit;
+  return UnitFactor(unit, Quantity::kSpeed) ? AsVelocity(std::move(meaning))
+                                            : meaning;
+}
+
+ColumnMeaning AsVelocity(ColumnMeaning meaning) {
+  for (const auto& [place, velocity] :
+       {std::pair("p_x", "v_n"), {"p_y", "v_e"}, {"p_z", "v_d"}}) {
+    if (meaning.quantity == place) {
+      meaning.quantity = velocity;
+      break;
+    }
+  }
   return meaning;
+}
+
+ColumnMeaning AxisMeaning(const std::string& title, const std::string& family) {
+  std::string text = title;
+  const std::string unit = TakeBracketedUnit(&text);
+  const Words words = SplitWords(text);
+  const bool axis = words.size() == 1 && words[0].size() == 1 &&
+                    words[0] >= "x" && words[0] <= "z";
+  return axis ? ColumnMeaning{family + words[0], unit} : ColumnMeaning{};
 }
 
 std::vector<ColumnMeaning> ReadMeanings(const FileColumns& file) {

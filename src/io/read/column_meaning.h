@@ -11,7 +11,9 @@ namespace hindsight {
 /// What the title of a column says of it.
 struct ColumnMeaning {
   /// As `columns` of a configuration names it: "t", "accel_x", "lat"; also
-  /// "index" for what counts rows; "" if the title says nothing.
+  /// "index" for what counts rows, "sigma" of every axis, and "accuracy_h",
+  /// "accuracy_v" and "accuracy_speed" as receivers state them; "" if the title
+  /// says nothing.
   std::string quantity;
   std::string unit;      ///< as the title writes it; "" if it does not
   bool upwards = false;  ///< of a component that a title calls "up"
@@ -20,6 +22,13 @@ struct ColumnMeaning {
 /// By the words of a title, which stand in any usual spelling: "Acc_X",
 /// "gx_radps", "GYRO X [rad/s]", "V North [m/s]", "pos_std_n_m".
 ColumnMeaning MeaningOfTitle(const std::string& title);
+
+/// The velocity along the axis of a place: "north" says either.
+ColumnMeaning AsVelocity(ColumnMeaning meaning);
+
+/// Of a title that names an axis alone, "X (m/s^2)", the quantity family + "x";
+/// nothing of another.
+ColumnMeaning AxisMeaning(const std::string& title, const std::string& family);
 
 /// Of all columns of a file; arrays of three or four columns without titles of
 /// their own count them as axes. No quantity stands twice: of two the first.

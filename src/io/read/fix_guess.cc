@@ -105,17 +105,25 @@ FixMotion MotionOf(const Values& lat, const Values& lon, double radians,
   return motion;
 }
 
-bool IsSpeed(const Values& v, const FixMotion& motion) {
+bool IsSpeed(const Values& v, const FixMotion& motion, double unit) {
   constexpr double kMoving = 1.0;
   Values misfit;
   for (std::size_t k = 0; k < motion.row.size(); ++k) {
     const double value = v[motion.row[k]];
     if (value < 0.0) return false;
     if (motion.speed[k] > kMoving) {
-      misfit.push_back(std::abs(value / motion.speed[k] - 1.0));
+      misfit.push_back(std::abs(value * unit / motion.speed[k] - 1.0));
     }
   }
   return misfit.size() > 10 && Median(misfit) < 0.15;
+}
+
+/// The unit in which a column is the speed of the positions; "" if in none.
+std::string SpeedUnit(const Values& v, const FixMotion& motion) {
+  for (const char* unit : {"m/s", "km/h", "kn"}) {
+    if (IsSpeed(v, motion, *UnitFactor(unit, Quantity::kSpeed))) return unit;
+  }
+  return "";
 }
 
 bool IsCourse(const Values& v, const FixMotion& motion, double radians) {
@@ -140,9 +148,9 @@ void FindSpeedAndCourse(const FileColumns& file,
     const bool free = meaning.quantity.empty() && column != guess->h.column &&
                       column != guess->lat.column &&
                       column != guess->lon.column;
-    if (!guess->speed && (meaning.quantity == "speed" || free) &&
-        IsSpeed(v, motion)) {
-      guess->speed = ColumnGuess{column, "m/s", 1.0, Certainty::kCertain,
+    const std::string unit = guess->speed ? "" : SpeedUnit(v, motion);
+    if (!unit.empty() && (meaning.quantity == "speed" || free)) {
+      guess->speed = ColumnGuess{column, unit, 1.0, Certainty::kCertain,
                                  "as fast as the positions move"};
     } else if (!guess->course && (meaning.quantity == "course" || free)) {
       for (const auto& [unit, radians] :

@@ -317,6 +317,8 @@ std::optional<ImuGuess> GuessImu(const FileColumns& file,
   const Windows rates = WindowsOf(Readings(file, guess.gyro.columns));
   if (forces.length.empty() || forces.quiet_length <= 0.0) return std::nullopt;
   GuessAccelUnit(forces, titled(guess.accel), &guess.accel);
+  guess.quiet = forces.quiet_length * guess.accel.scale *
+                UnitFactor(guess.accel.unit, Quantity::kAcceleration).value();
   if (UnitFactor(titled(guess.gyro), Quantity::kAngularRate)) {
     guess.gyro.unit = titled(guess.gyro);
     guess.gyro.reason = "unit by its title";
@@ -328,6 +330,11 @@ std::optional<ImuGuess> GuessImu(const FileColumns& file,
               Readings(file, guess.gyro.columns), forces.quiet_length, &guess);
   }
   return guess;
+}
+
+bool FeelsGravity(const ImuGuess& guess) {
+  constexpr double kTolerance = 0.2;
+  return std::abs(guess.quiet / kStandardGravity - 1.0) < kTolerance;
 }
 
 }  // namespace hindsight

@@ -33,6 +33,7 @@ struct ImuGuess {
   TripleGuess accel;
   TripleGuess gyro;
   GravityTurn turn;
+  double quiet = 0.0;  ///< what the accelerometers read where quiet [m/s^2]
   std::optional<RowRate> rate;  ///< of a file whose rows are counted
 };
 
@@ -48,6 +49,9 @@ struct ImuGuess {
 std::optional<ImuGuess> GuessImu(const FileColumns& file,
                                  const std::vector<ColumnMeaning>& meanings,
                                  int stamp_column, double row_seconds);
+
+/// Whether the accelerometers read gravity where quiet, within a fifth of it.
+bool FeelsGravity(const ImuGuess& guess);
 
 }  // namespace hindsight
 

@@ -96,15 +96,20 @@ std::optional<Stamp> FirstGpsTime(const StreamSource& source,
                                   const StreamClock& clock);
 
 struct ImuReadOptions {
+  /// Of rates, the accelerometers' own file, on the gyros' clock.
+  std::optional<StreamSource> accelerometer = {};
   Eigen::Matrix3d C_bs = Eigen::Matrix3d::Identity();  ///< sensor to body
   std::optional<ImuStream::Kind> kind;  ///< absent: as the columns say
   bool stamp_at_start = false;          ///< of increments
   double max_gap = 0.5;                 ///< [s]
 };
 
-/// Reads an IMU file; the samples' times are since the first row. Throws
-/// InputError for everything that makes a record unusable: see TextTable, and
-/// stamps that run backwards or repeat, and gaps longer than max_gap.
+/// Reads an IMU file; the samples' times are since the first row. Accelerometers of
+/// their own file are interpolated linearly at the gyros' stamps; a row of the
+/// gyros before their first reading, behind their last, or in a gap of more than
+/// 3.5 of their median intervals is dropped, and counted. Throws InputError for
+/// everything that makes a record unusable: see TextTable, and stamps that run
+/// backwards or repeat, and gaps longer than max_gap.
 ImuStream ReadImu(const StreamSource& source, const ImuReadOptions& options,
                   StreamClock* clock, std::vector<PolicyCount>* policies);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "io/read/imu_pair.h"
 #include "io/read/reader_rows.h"
 
 namespace hindsight {
@@ -26,7 +27,13 @@ ImuStream::Kind FindKind(const StreamSource& source,
                                                : ImuStream::Kind::kRates);
   const std::size_t first =
       kind == ImuStream::Kind::kRates ? kRates : kIncrements;
-  RequireFields(opened, source.format, ImuFields(), first, first + 5);
+  const bool whole = !options.accelerometer;
+  if (!whole && kind != ImuStream::Kind::kRates) {
+    throw InputError(source.config_path, source.config_line,
+                     "imu.accelerometer goes with rates; these are increments");
+  }
+  RequireFields(opened, source.format, ImuFields(), first,
+                first + (whole ? 5 : 2));
   return kind;
 }
 
@@ -59,11 +66,11 @@ void SetBegin(bool stamp_at_start, ImuStream* imu) {
   }
 }
 
-[[noreturn]] void FailGap(const StreamRows& rows, double max_gap) {
+[[noreturn]] void FailGap(const StreamRows& rows, double gap, double max_gap) {
   rows.table().Fail(fmt::format(
       "gap of {:.3f} s in the IMU before this row, longer than max_gap "
       "({:.3g} s); a larger max_gap bridges it",
-      rows.dt(), max_gap));
+      gap, max_gap));
 }
 
 }  // namespace
@@ -82,17 +89,33 @@ ImuStream ReadImu(const StreamSource& source, const ImuReadOptions& options,
     return Eigen::Vector3d(table.value(i), table.value(i + 1),
                            table.value(i + 2));
   };
+  std::optional<AccelerometerFile> accelerometer;
+  if (options.accelerometer) {
+    accelerometer.emplace(*options.accelerometer, policies);
+  }
+  long alone = 0;
+  double last = 0.0;
   while (true) {
     const StreamRows::Step step = rows.Next();
     if (step == StreamRows::Step::kEnd) break;
+    const auto force = accelerometer ? accelerometer->At(rows.t(), rows.clock())
+                                     : std::optional(vector(first + 3));
+    if (!force) {
+      ++alone;
+      continue;
+    }
     if (imu.samples.empty()) {
       imu.samples.reserve(table.RowsHint() + begin);
       imu.samples.resize(begin, {rows.t()});
     }
-    if (rows.dt() > options.max_gap) FailGap(rows, options.max_gap);
-    if (step == StreamRows::Step::kReplace) imu.samples.pop_back();
-    imu.samples.push_back({rows.t(), options.C_bs * vector(first),
-                           options.C_bs * vector(first + 3)});
+    const double gap = imu.samples.size() > begin ? rows.t() - last : 0.0;
+    if (gap > options.max_gap) FailGap(rows, gap, options.max_gap);
+    if (step == StreamRows::Step::kReplace && imu.samples.size() > begin) {
+      imu.samples.pop_back();
+    }
+    last = rows.t();
+    imu.samples.push_back(
+        {last, options.C_bs * vector(first), options.C_bs * *force});
   }
   if (imu.samples.size() < begin + 2) {
     const std::size_t count = imu.samples.empty() ? 0 : 1;
@@ -110,6 +133,8 @@ ImuStream ReadImu(const StreamSource& source, const ImuReadOptions& options,
   }
   *clock = rows.clock();
   rows.CountPolicies(policies);
+  AddPolicy(source.name, "row without readings of accelerometers dropped",
+            alone, policies);
   AddPolicy(source.name, "gap bridged", static_cast<long>(DropOuts(imu).size()),
             policies);
   return imu;

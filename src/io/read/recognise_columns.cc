@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <string_view>
 
 #include "base/median.h"
 #include "io/read/column_lines.h"
@@ -25,7 +27,11 @@ class Recogniser {
         hints_(hints),
         lines_(file),
         words_(SplitWords(name)),
-        named_truth_(IsNamedTruth(name)) {}
+        named_truth_(IsNamedTruth(name)) {
+    if (IsNamed({"v", "vel", "velocity", "velocities"}) && !named_truth_) {
+      lines_.TakeForVelocities();
+    }
+  }
 
   std::vector<FoundStream> Recognise() {
     if (named_truth_) {
@@ -40,6 +46,7 @@ class Recogniser {
     AddTitled(DvlKind(), {"v_x", "v_y", "v_z"}, {});
     AddTitled(ZeroVelocityKind(), {"zero_velocity"}, {});
     AddTitled(DepthKind(), {"depth"}, {});
+    AddHeights();
     AddTitled(MagnetometerKind(), {"mag_x", "mag_y", "mag_z"}, {});
     AddOdometer();
     AddTruth(false);
@@ -47,6 +54,12 @@ class Recogniser {
   }
 
  private:
+  bool IsNamed(std::initializer_list<std::string_view> names) const {
+    return std::any_of(words_.begin(), words_.end(), [&](const auto& word) {
+      return std::find(names.begin(), names.end(), word) != names.end();
+    });
+  }
+
   const std::optional<StampGuess>& stamps() const { return lines_.stamps(); }
 
   void FindStamps(double slowest, double fastest) {
@@ -67,31 +80,18 @@ class Recogniser {
   void FindImu() {
     constexpr double kSlowest = 4.0;
     constexpr double kFastest = 4000.0;
-    constexpr double kUsualGap = 0.5;  // s, the default of max_gap
     FindStamps(kSlowest, kFastest);
     const double step = stamps() ? stamps()->step : 0.0;
     auto guess = GuessImu(file_, lines_.meanings(),
                           stamps() ? stamps()->column : -1, step);
     if (!guess) return;
     if (!stamps()) lines_.set_stamps(CountedImu(*guess));
-    FoundStream found = lines_.Stream();
-    found.imu = true;
+    FoundStream found = lines_.ImuStreamOf(*guess);
     found.spin_axis = SpinAxis(file_, *guess);
-    if (!stamps()->rate && stamps()->gap > kUsualGap) {
-      SetLine({"max_gap", fmt::format("{:.2g} s", 1.1 * stamps()->gap),
-               fmt::format("drop-outs of up to {:.3g} s are bridged",
-                           stamps()->gap)},
-              &found.lines);
-    }
     lines_.AddTriple("accel_", guess->accel, &found);
     lines_.AddTriple("gyro_", guess->gyro, &found);
-    constexpr double kShown = 0.5;
-    if (guess->turn.slope < 0.0 && guess->turn.correlation < -kShown) {
-      found.assumptions.push_back(fmt::format(
-          "gravity turns against the gyros (correlation {:.2f}): an axis is "
-          "mirrored in both, or the gyros have the other sign",
-          guess->turn.correlation));
-    }
+    lines_.Take("accel_", guess->accel);
+    lines_.Take("gyro_", guess->gyro);
     found.imu_guess = std::move(guess);
     all_.push_back(std::move(found));
   }
@@ -117,6 +117,7 @@ class Recogniser {
     if (lines_.HasAll(velocity) && !solution) {
       AddTitled(VelocityKind(), velocity,
                 {"sigma_v_n", "sigma_v_e", "sigma_v_d"});
+      AddSpeedAccuracy(&all_.back());
     } else if (fixes && fixes->speed && fixes->course && !solution) {
       FoundStream found = lines_.Stream();
       found.kinds = {&SpeedCourseKind()};
@@ -144,7 +145,9 @@ class Recogniser {
     found.sigmas = lines_.HasAll(sigmas);
     if (found.sigmas) {
       lines_.AddFieldsOf(PositionKind(), sigmas, &found);
-      SetGrossNoise(&found);
+      SetGrossNoise(MedianOf(lines_.Titled("sigma_n")), &found);
+    } else {
+      AddAccuracies(&found);
     }
     constexpr double kStale = 0.5;
     if (fixes.repeated > kStale) {
@@ -156,29 +159,87 @@ class Recogniser {
     all_.push_back(std::move(found));
   }
 
+  const std::vector<double>& Values(int column) const {
+    return file_.columns[static_cast<std::size_t>(column)].values;
+  }
+  double MedianOf(int column) const { return Median(Values(column)); }
+
+  /// A column of standard deviations, or -1 where it is none: receivers write
+  /// zero or less for what they do not know.
+  int StatedSigma(const std::string& quantity) const {
+    const int column = lines_.Titled(quantity);
+    if (column < 0) return -1;
+    const std::vector<double>& v = Values(column);
+    return std::all_of(v.begin(), v.end(), [](double x) { return x > 0.0; })
+               ? column
+               : -1;
+  }
+
+  ColumnGuess SigmaGuess(int column, Quantity dimension, double factor,
+                         const std::string& reason) const {
+    const std::string& unit =
+        lines_.meanings()[static_cast<std::size_t>(column)].unit;
+    const bool known = UnitFactor(unit, dimension).has_value();
+    return {column, known ? unit : SiUnit(dimension), factor,
+            Certainty::kLikely, reason};
+  }
+
+  /// One sigma of all axes, or the accuracies that receivers and phones state.
+  void AddAccuracies(FoundStream* found) const {
+    constexpr double kAxis = 0.66;  // of a radius of 68 %, circular normal
+    const int sigma = StatedSigma("sigma");
+    const int radius = sigma >= 0 ? sigma : StatedSigma("accuracy_h");
+    if (radius < 0) return;
+    const bool is_radius = sigma < 0;
+    const double factor = is_radius ? kAxis : 1.0;
+    const std::string why =
+        is_radius ? "of an axis, where 68 % are within the radius" : "";
+    for (const char* name : {"sigma_n", "sigma_e"}) {
+      lines_.AddColumn(name, SigmaGuess(radius, Quantity::kLength, factor, why),
+                       found);
+    }
+    const int up = is_radius ? StatedSigma("accuracy_v") : sigma;
+    lines_.AddColumn("sigma_d",
+                     SigmaGuess(up >= 0 ? up : radius, Quantity::kLength, 1.0,
+                                up >= 0 ? "" : "half as much again upwards"),
+                     found);
+    found->sigmas = true;
+    const auto unit = UnitFactor(
+        SigmaGuess(radius, Quantity::kLength, 1.0, "").unit, Quantity::kLength);
+    SetGrossNoise(*unit * factor * MedianOf(radius), found);
+  }
+
+  void AddSpeedAccuracy(FoundStream* found) const {
+    const int column = StatedSigma("accuracy_speed");
+    if (found->sigmas || column < 0) return;
+    for (const char* name : {"sigma_v_n", "sigma_v_e", "sigma_v_d"}) {
+      lines_.AddColumn(name, SigmaGuess(column, Quantity::kSpeed, 1.0, ""),
+                       found);
+    }
+    found->sigmas = true;
+  }
+
   /// Errors of a receiver on its own last for many seconds.
-  void SetGrossNoise(FoundStream* found) const {
+  static void SetGrossNoise(double sigma, FoundStream* found) {
     constexpr double kFine = 0.3;  // m
-    std::vector<double> sigmas =
-        file_.columns[static_cast<std::size_t>(lines_.Titled("sigma_n"))]
-            .values;
-    const double sigma = Median(std::move(sigmas));
     if (!(sigma > kFine)) return;
-    SetLine({"noise",
-             fmt::format("{{model: gauss_markov, sigma: {:.2g} m, tau: 60 s, "
-                         "white: {:.2g} m}}",
-                         sigma, 0.1 * sigma),
-             "the file's median sigma; errors of a receiver on its own last "
-             "(a guess)"},
+    SetLine(SlowFixNoise(sigma, 0.1 * sigma,
+                         "the file's median sigma; errors of a receiver on "
+                         "its own last (a guess)"),
             &found->lines);
+  }
+
+  /// A barometer's: heights that no place stands beside.
+  void AddHeights() {
+    const bool placed = lines_.Titled("lat") >= 0 ||
+                        lines_.HasAll({"p_x", "p_y"}) ||
+                        lines_.HasAll({"roll", "pitch", "heading"});
+    if (!placed && !ImuHere()) AddTitled(HeightKind(), {"h"}, {});
   }
 
   void AddOdometer() {
     const bool vehicle =
-        std::any_of(words_.begin(), words_.end(), [](const std::string& word) {
-          return word == "can" || word == "odometer" || word == "odo" ||
-                 word == "speed" || word == "wheel" || word == "vehicle";
-        });
+        IsNamed({"can", "odometer", "odo", "speed", "wheel", "vehicle"});
     const bool of_fixes =
         lines_.Titled("lat") >= 0 || lines_.Titled("course") >= 0;
     if (!vehicle || of_fixes || lines_.Titled("speed") < 0 || named_truth_)

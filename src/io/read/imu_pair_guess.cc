@@ -1,0 +1,187 @@
+#include "io/read/imu_pair_guess.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "base/error.h"
+#include "io/read/column_lines.h"
+#include "io/read/column_meaning.h"
+#include "io/read/file_columns.h"
+#include "io/read/file_format.h"
+
+namespace hindsight {
+namespace {
+
+using HalfNames = std::vector<std::string>;
+
+/// One file of the two.
+struct HalfImu {
+  HalfImu(std::string file, FileColumns numbers)
+      : name(std::move(file)), columns(std::move(numbers)), lines(columns) {}
+  // `lines` speaks of `columns` where they are.
+  HalfImu(const HalfImu&) = delete;
+  HalfImu& operator=(const HalfImu&) = delete;
+
+  std::string name;
+  FileColumns columns;
+  ColumnLines lines;
+  std::string family = {};  ///< "gyro_" or "accel_"
+  std::vector<double> t = {};
+};
+
+/// "gyro_", "accel_" or "", by the file's name.
+std::string FamilyOf(const std::string& name) {
+  const HalfNames words = SplitWords(name);
+  const auto any = [&](const HalfNames& known) {
+    return std::any_of(words.begin(), words.end(), [&](const auto& word) {
+      return std::find(known.begin(), known.end(), word) != known.end();
+    });
+  };
+  if (any({"gyro", "gyros", "gyr", "gyroscope"})) return "gyro_";
+  if (any({"acc", "accel", "accelerometer", "acceleration"})) return "accel_";
+  return "";
+}
+
+HalfNames AxesOf(const std::string& family) {
+  return {family + "x", family + "y", family + "z"};
+}
+
+/// Its stamps and which half it is; false if it is none.
+bool TellHalf(HalfImu* half) {
+  ColumnLines& lines = half->lines;
+  const bool gyros = lines.HasAll(AxesOf("gyro_"));
+  const bool accels = lines.HasAll(AxesOf("accel_"));
+  if (gyros && accels) return false;
+  half->family = gyros ? "gyro_" : accels ? "accel_" : FamilyOf(half->name);
+  if (half->family.empty()) return false;
+  if (!gyros && !accels) lines.TakeAxesFor(half->family);
+  if (!lines.HasAll(AxesOf(half->family))) return false;
+  StampHints hints;
+  hints.slowest = 4.0;
+  lines.set_stamps(GuessStamps(half->columns, lines.meanings(), hints));
+  const auto& stamps = lines.stamps();
+  if (!stamps || stamps->column < 0 || stamps->rate) return false;
+  half->t = TimesOf(half->columns, *stamps);
+  return std::is_sorted(half->t.begin(), half->t.end());
+}
+
+/// Where in `t` its interval begins; nothing outside.
+std::optional<std::size_t> IntervalOf(const std::vector<double>& t, double at) {
+  const auto behind = std::upper_bound(t.begin(), t.end(), at);
+  if (behind == t.begin() || behind == t.end()) return std::nullopt;
+  return static_cast<std::size_t>(behind - t.begin()) - 1;
+}
+
+/// The rows of the gyros, with the accelerometers' readings at their stamps as
+/// further columns.
+FileColumns MergedColumns(const HalfImu& gyro, const HalfImu& accel) {
+  FileColumns merged;
+  merged.format = gyro.columns.format;
+  merged.columns.resize(6);
+  for (std::size_t row = 0; row < gyro.t.size(); ++row) {
+    const auto before = IntervalOf(accel.t, gyro.t[row]);
+    if (!before) continue;
+    const double interval = accel.t[*before + 1] - accel.t[*before];
+    const double share =
+        interval > 0.0 ? (gyro.t[row] - accel.t[*before]) / interval : 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto column = [&](const HalfImu& half) -> const auto& {
+        const int at = half.lines.Titled(half.family + "xyz"[i]);
+        return half.columns.columns[static_cast<std::size_t>(at)].values;
+      };
+      const auto& f = column(accel);
+      merged.columns[i].values.push_back(column(gyro)[row]);
+      merged.columns[3 + i].values.push_back(
+          f[*before] + share * (f[*before + 1] - f[*before]));
+    }
+    ++merged.rows;
+  }
+  return merged;
+}
+
+/// Of MergedColumns.
+std::vector<ColumnMeaning> MergedMeanings(const HalfImu& gyro,
+                                          const HalfImu& accel) {
+  std::vector<ColumnMeaning> meanings;
+  for (const HalfImu* half : {&gyro, &accel}) {
+    for (const std::string& axis : AxesOf(half->family)) {
+      meanings.push_back(
+          half->lines
+              .meanings()[static_cast<std::size_t>(half->lines.Titled(axis))]);
+    }
+  }
+  return meanings;
+}
+
+/// With the columns as the half's own file counts them.
+TripleGuess InFile(TripleGuess guess, const HalfImu& half) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    guess.columns[i] = half.lines.Titled(half.family + "xyz"[i]);
+  }
+  return guess;
+}
+
+std::optional<ImuPair> Paired(const HalfImu& gyro, const HalfImu& accel) {
+  constexpr double kHalf = 0.5;
+  if (gyro.lines.stamps()->scale != accel.lines.stamps()->scale) {
+    return std::nullopt;
+  }
+  const double overlap = std::min(gyro.t.back(), accel.t.back()) -
+                         std::max(gyro.t.front(), accel.t.front());
+  const double shorter = std::min(gyro.t.back() - gyro.t.front(),
+                                  accel.t.back() - accel.t.front());
+  if (!(overlap > kHalf * shorter)) return std::nullopt;
+  auto guess = GuessImu(MergedColumns(gyro, accel), MergedMeanings(gyro, accel),
+                        -1, gyro.lines.stamps()->step);
+  // Phones write accelerations without gravity as well.
+  if (!guess || guess->accel.scale != 1.0 || !FeelsGravity(*guess)) {
+    return std::nullopt;
+  }
+  guess->gyro = InFile(guess->gyro, gyro);
+  guess->accel = InFile(guess->accel, accel);
+  ImuPair pair = {gyro.lines.ImuStreamOf(*guess), accel.name};
+  gyro.lines.AddTriple("gyro_", guess->gyro, &pair.imu);
+  FoundStream other = accel.lines.Stream();
+  accel.lines.AddTriple("accel_", guess->accel, &other);
+  std::vector<KeyLine>& lines = pair.imu.lines;
+  lines.push_back({"accelerometer", "",
+                   "a file of its own, interpolated at the gyros' stamps"});
+  lines.push_back({"  file", '"' + accel.name + '"'});
+  lines.push_back({"  format", std::string(other.format->name)});
+  for (KeyLine& line : other.lines) {
+    line.key.insert(0, "  ");
+    lines.push_back(std::move(line));
+  }
+  pair.imu.imu_guess = std::move(guess);
+  pair.imu.file = gyro.name;
+  return pair;
+}
+
+}  // namespace
+
+std::optional<ImuPair> FindImuPair(const std::filesystem::path& folder,
+                                   const std::vector<std::string>& names) {
+  std::vector<std::unique_ptr<HalfImu>> gyros;
+  std::vector<std::unique_ptr<HalfImu>> accels;
+  for (const std::string& name : names) {
+    std::optional<FileColumns> columns;
+    try {
+      columns = ReadTextColumns((folder / name).string());
+    } catch (const InputError&) {
+      continue;  // which whoever loads it is told
+    }
+    if (!columns) continue;
+    auto half = std::make_unique<HalfImu>(name, std::move(*columns));
+    if (!TellHalf(half.get())) continue;
+    (half->family == "gyro_" ? gyros : accels).push_back(std::move(half));
+  }
+  for (const auto& gyro : gyros) {
+    for (const auto& accel : accels) {
+      if (auto pair = Paired(*gyro, *accel)) return pair;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace hindsight

@@ -1,0 +1,29 @@
+#ifndef HINDSIGHT_IO_READ_IMU_PAIR_GUESS_H_
+#define HINDSIGHT_IO_READ_IMU_PAIR_GUESS_H_
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/read/found_stream.h"
+
+namespace hindsight {
+
+/// An IMU of which gyros and accelerometers have a file each.
+struct ImuPair {
+  FoundStream imu;            ///< of the gyros' file, with the other's lines
+  std::string accelerometer;  ///< name of the other file
+};
+
+/// The first two delimited texts of `names` in `folder` of which one holds three
+/// gyros and the other three accelerometers that feel gravity, on one clock and
+/// overlapping by half of the shorter: by titles, or by the file's name where the
+/// titles are x, y and z alone. Told and scaled as GuessImu does, of the
+/// accelerometers interpolated at the gyros' stamps.
+std::optional<ImuPair> FindImuPair(const std::filesystem::path& folder,
+                                   const std::vector<std::string>& names);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_READ_IMU_PAIR_GUESS_H_
