@@ -60,11 +60,11 @@ Written WrittenAs(const ErrorLayout& layout, std::size_t k) {
   out.epoch.x_minus = RandomState(layout);
   out.epoch.x_plus = k % 2 == 0 ? out.epoch.x_minus : RandomState(layout);
   out.epoch.reset = k % 2 == 1;
-  out.epoch.c = k % 3 == 0 ? ErrorVector::Zero(n) : ErrorVector::Random(n);
-  out.epoch.dx_minus =
-      k % 5 == 0 ? ErrorVector::Random(n) : ErrorVector::Zero(n);
-  out.epoch.dx_plus =
-      k % 4 == 0 ? ErrorVector::Zero(n) : ErrorVector::Random(n);
+  const ErrorVector zero = ErrorVector::Zero(n);
+  const ErrorVector some = ErrorVector::Random(n);
+  out.epoch.c = k % 3 == 0 ? zero : some;
+  out.epoch.dx_minus = k % 5 == 0 ? some : zero;
+  out.epoch.dx_plus = k % 4 == 0 ? zero : some;
   out.transition.Phi = ErrorMatrix::Random(n, n);
   if (k % 2 == 0) {
     out.transition.Phi.bottomRows(n - 9).setZero();
