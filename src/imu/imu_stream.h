@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/paged_vector.h"
-#include "base/paged_vector.h"
 #include "state/error_layout.h"
 
 namespace hindsight {
