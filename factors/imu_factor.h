@@ -46,7 +46,7 @@ class ImuFactor : public TangentFactor {
   std::size_t k_;
   std::shared_ptr<const ImuSummary> summary_;
   double distance_;
-  Eigen::MatrixXd whitener_;  ///< lower triangular
+  PackedTriangle whitener_;
 };
 
 }  // namespace hindsight

@@ -111,7 +111,8 @@ namespace {
 
 /// From the last row to the first, so that each is made of rows still as they
 /// were. Most of W is zero where biases walk apart from each other.
-void MultiplyRows(const Eigen::MatrixXd& W, Eigen::Index columns, double* M) {
+template <typename Triangle>
+void MultiplyRows(const Triangle& W, Eigen::Index columns, double* M) {
   for (Eigen::Index r = W.rows() - 1; r >= 0; --r) {
     double* row = M + r * columns;
     for (Eigen::Index j = 0; j < columns; ++j) row[j] *= W(r, r);
@@ -127,6 +128,12 @@ void MultiplyRows(const Eigen::MatrixXd& W, Eigen::Index columns, double* M) {
 }  // namespace
 
 void Whiten(const Eigen::MatrixXd& W, Eigen::Map<Eigen::VectorXd> residual,
+            TangentFactor::Jacobian* J) {
+  MultiplyRows(W, 1, residual.data());
+  if (J != nullptr) MultiplyRows(W, J->cols(), J->data());
+}
+
+void Whiten(const PackedTriangle& W, Eigen::Map<Eigen::VectorXd> residual,
             TangentFactor::Jacobian* J) {
   MultiplyRows(W, 1, residual.data());
   if (J != nullptr) MultiplyRows(W, J->cols(), J->data());

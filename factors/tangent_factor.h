@@ -68,8 +68,29 @@ class TangentFactor : public ceres::CostFunction {
 /// definite.
 Eigen::MatrixXd Whitener(const Eigen::Ref<const Eigen::MatrixXd>& S);
 
+/// A lower triangle, row by row: half of the memory of its matrix.
+class PackedTriangle {
+ public:
+  explicit PackedTriangle(const Eigen::MatrixXd& L) : rows_(L.rows()) {
+    values_.reserve(static_cast<std::size_t>(rows_ * (rows_ + 1) / 2));
+    for (Eigen::Index r = 0; r < rows_; ++r) {
+      for (Eigen::Index c = 0; c <= r; ++c) values_.push_back(L(r, c));
+    }
+  }
+  Eigen::Index rows() const { return rows_; }
+  double operator()(Eigen::Index r, Eigen::Index c) const {
+    return values_[static_cast<std::size_t>(r * (r + 1) / 2 + c)];
+  }
+
+ private:
+  Eigen::Index rows_;
+  std::vector<double> values_;
+};
+
 /// residual = W residual and, unless null, J = W J, for such a W.
 void Whiten(const Eigen::MatrixXd& W, Eigen::Map<Eigen::VectorXd> residual,
+            TangentFactor::Jacobian* J);
+void Whiten(const PackedTriangle& W, Eigen::Map<Eigen::VectorXd> residual,
             TangentFactor::Jacobian* J);
 
 }  // namespace hindsight

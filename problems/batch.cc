@@ -58,9 +58,10 @@ bool AnySummaryIsStale(const Problem& problem,
 }
 
 /// Without losses: full Gauss-Newton steps of the whole chain for as long as each
-/// is less than half of the one before. Their cost may rise on the way: where a
-/// heading is uncertain the states lie along an arc, and the way that only
-/// descends follows it in steps of metres. True, and Ceres can be left out, if
+/// is less than half of one of the two before. A step that moves what is weakly
+/// determined may be larger than the one before it, which took off what is not.
+/// Their cost may rise on the way: where a heading is uncertain the states lie along
+/// an arc, and the way that only descends follows it in steps of metres. True, and Ceres can be left out, if
 /// that ends within a rough step at a cost below the start's; else the values are
 /// those of the start again.
 bool ContractsByNewton(const BatchOptions& options,
@@ -73,13 +74,15 @@ bool ContractsByNewton(const BatchOptions& options,
   const double cost = chain->Cost();
   progress->Begin(kMaxSteps, kLastSteps);
   double before = std::numeric_limits<double>::infinity();
+  double earlier = 0.0;
   for (int i = 1; i <= kMaxSteps; ++i) {
     const ArrowLeastSquares step = chain->GaussNewtonStep();
     const double size = chain->StepSize(step);
-    if (!(size < kContraction * before)) break;
+    if (!(size < kContraction * std::max(before, earlier))) break;
     chain->Apply(step);
     const double ratio = size / RoughStep(*chain);
     progress->After(i, ratio);
+    earlier = i > 1 ? before : 0.0;
     before = size;
     if (ratio > 1.0) continue;
     if (chain->Cost() > cost * (1.0 + kCostRounding)) break;

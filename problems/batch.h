@@ -41,7 +41,7 @@ struct BatchResult {
 /// a node. Constants of the layout (IMU biases that do not walk, scale factors,
 /// lever arms...) are global unknowns; their start is that of the first state.
 /// Without losses full Gauss-Newton steps solve it, by the chain's structure, if
-/// each is less than half of the one before. Ceres solves the others: problems
+/// each is less than half of one of the two before. Ceres solves the others: problems
 /// with losses, and starts from where those steps do not contract. Its last steps,
 /// of a size that the rounding of the cost hides, are Gauss-Newton steps again.
 /// Marginal covariances of every node come from that structure in time

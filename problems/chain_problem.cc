@@ -2,13 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "factors/imu_factor.h"
 #include "factors/measurement_factor.h"
 #include "factors/prior_factor.h"
 
 namespace hindsight {
+namespace {
+
+/// Factors that are worth a thread.
+constexpr std::size_t kFactorsOfThread = 32;
+
+}  // namespace
 
 ChainProblem::ChainProblem(const std::vector<State>& states, Problem* problem)
     : blocks_(std::make_unique<StateBlocks>(problem->layout)) {
@@ -65,14 +73,19 @@ void ChainProblem::Set(const std::vector<State>& states) {
 }
 
 double ChainProblem::Cost() {
-  double sum = 0.0;
-  Eigen::VectorXd residual(kMaxErrorDim);
-  for (const auto& factor : factors_) {
-    const std::vector<double*> parameters = ParametersOf(*factor);
-    factor->Linearize(parameters.data(), residual.data(), nullptr);
-    sum += residual.head(factor->num_residuals()).squaredNorm();
-  }
-  return 0.5 * sum;
+  std::vector<double> squares(factors_.size());
+  ForRanges(factors_.size(), kFactorsOfThread,
+            [&](std::size_t begin, std::size_t end) {
+              Eigen::VectorXd residual(kMaxErrorDim);
+              for (std::size_t i = begin; i < end; ++i) {
+                const TangentFactor& factor = *factors_[i];
+                factor.Linearize(ParametersOf(factor).data(), residual.data(),
+                                 nullptr);
+                squares[i] =
+                    residual.head(factor.num_residuals()).squaredNorm();
+              }
+            });
+  return 0.5 * std::accumulate(squares.begin(), squares.end(), 0.0);
 }
 
 bool ChainProblem::HasLoss() const {
@@ -165,22 +178,36 @@ std::string NameOf(const StateBlocks& blocks, const Deficiency& deficiency) {
 
 }  // namespace
 
+void ChainProblem::Linearize(std::size_t i, TangentFactor::Jacobian* J,
+                             Eigen::VectorXd* residual) {
+  const TangentFactor& factor = *factors_[i];
+  residual->resize(factor.num_residuals());
+  factor.Linearize(ParametersOf(factor).data(), residual->data(), J);
+  if (losses_[i] == nullptr) return;
+  const double root_weight =
+      std::sqrt(losses_[i]->loss().Weight(residual->squaredNorm()));
+  *J *= root_weight;
+  *residual *= root_weight;
+}
+
 ArrowLeastSquares ChainProblem::GaussNewtonStep() {
   ArrowLeastSquares arrow(static_cast<int>(times_.size()), blocks_->node_dim(),
                           blocks_->global_dim());
-  TangentFactor::Jacobian J;
-  Eigen::VectorXd residual(kMaxErrorDim);
-  for (std::size_t i = 0; i < factors_.size(); ++i) {
-    const TangentFactor& factor = *factors_[i];
-    const std::vector<double*> parameters = ParametersOf(factor);
-    factor.Linearize(parameters.data(), residual.data(), &J);
-    if (losses_[i] != nullptr) {
-      const double s = residual.head(factor.num_residuals()).squaredNorm();
-      const double root_weight = std::sqrt(losses_[i]->loss().Weight(s));
-      J *= root_weight;
-      residual *= root_weight;
+  // As many as a cache holds of their Jacobians.
+  constexpr std::size_t kFactorsAtOnce = 256;
+  std::vector<TangentFactor::Jacobian> J(kFactorsAtOnce);
+  std::vector<Eigen::VectorXd> residuals(kFactorsAtOnce);
+  for (std::size_t first = 0; first < factors_.size();
+       first += kFactorsAtOnce) {
+    const std::size_t count = std::min(kFactorsAtOnce, factors_.size() - first);
+    ForRanges(count, kFactorsOfThread, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        Linearize(first + i, &J[i], &residuals[i]);
+      }
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      AddRows(*blocks_, *factors_[first + i], J[i], residuals[i], &arrow);
     }
-    AddRows(*blocks_, factor, J, residual, &arrow);
   }
   const std::vector<Deficiency> deficient = arrow.Solve();
   if (!deficient.empty()) {

@@ -63,6 +63,10 @@ class ChainProblem {
   CovarianceSeries Marginals(const ArrowLeastSquares& step) const;
 
  private:
+  /// Factor i at the present values, by its loss.
+  void Linearize(std::size_t i, TangentFactor::Jacobian* J,
+                 Eigen::VectorXd* residual);
+
   std::unique_ptr<StateBlocks> blocks_;
   std::vector<double> times_;
   std::vector<double> nodes_;

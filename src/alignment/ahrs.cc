@@ -23,9 +23,11 @@ AlignmentOutcome AlignByAhrs(const AlignmentInput& input) {
     return {std::nullopt, "the IMU gives increments, no rates"};
   }
   ImuStream imu = all;
-  std::erase_if(imu.samples, [&](const ImuSample& sample) {
-    return sample.t < input.t || sample.t > end;
-  });
+  EraseIf(
+      [&](const ImuSample& sample) {
+        return sample.t < input.t || sample.t > end;
+      },
+      &imu.samples);
   std::vector<MagneticSample> magnetic = MagneticSamples(input.dataset);
   std::erase_if(magnetic, [&](const MagneticSample& sample) {
     return sample.t < imu.t_begin() || sample.t > end;

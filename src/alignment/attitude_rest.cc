@@ -4,6 +4,7 @@
 
 #include "dataset/rest.h"
 #include "imu/mean_reading.h"
+#include "imu/sample_search.h"
 
 namespace hindsight {
 
@@ -21,13 +22,7 @@ std::vector<bool> RestsBetweenSamples(const Dataset& dataset,
   // A motion that begins or ends slowly is quiet at first, too: the rest is
   // taken to be shorter by a window on either side.
   const double margin = dataset.stationary.window;
-  const auto at = [&imu](double t) {
-    return static_cast<std::size_t>(
-        std::lower_bound(
-            imu.samples.begin(), imu.samples.end(), t,
-            [](const ImuSample& sample, double to) { return sample.t < to; }) -
-        imu.samples.begin());
-  };
+  const auto at = [&imu](double t) { return FirstSampleAt(imu, t); };
   for (const auto* spans : {&rest.at_rest, &rest.moving, &rest.undecided}) {
     for (const TimeInterval& span : *spans) {
       const Eigen::Vector3d rate =

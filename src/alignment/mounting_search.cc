@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "dataset/ground_motion.h"
+#include "imu/sample_search.h"
 
 namespace hindsight {
 namespace {
@@ -87,10 +88,8 @@ class ForceIntegral {
  private:
   Eigen::Vector3d At(double t) const {
     const auto& samples = imu_.samples;
-    const auto it =
-        std::upper_bound(samples.begin() + 1, samples.end() - 1, t,
-                         [](double s, const ImuSample& x) { return s < x.t; });
-    const auto k = static_cast<std::size_t>(it - samples.begin());
+    const std::size_t k = std::clamp<std::size_t>(FirstSampleAfter(imu_, t), 1,
+                                                  samples.size() - 1);
     const double part =
         (t - samples[k - 1].t) / (samples[k].t - samples[k - 1].t);
     return sums_[k - 1] + part * (sums_[k] - sums_[k - 1]);

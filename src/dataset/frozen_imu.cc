@@ -40,34 +40,53 @@ struct EqualSamples {
   long rows() const { return static_cast<long>(end - begin); }
 };
 
-/// Those of a group that chance does not explain.
-std::vector<EqualSamples> LongRuns(const std::vector<ImuSample>& samples,
-                                   const ChannelGroup& group) {
-  std::vector<EqualSamples> runs;
-  std::size_t begin = 0;
-  for (std::size_t k = 1; k <= samples.size(); ++k) {
-    bool same = k < samples.size();
-    for (int c = group.begin; same && c < group.end; ++c) {
-      same = ReadingOf(samples[k], c) == ReadingOf(samples[k - 1], c);
+/// Channels whose reading is that of the sample before, a bit each.
+unsigned Repeated(const PagedVector<ImuSample>& samples, std::size_t k) {
+  unsigned repeated = 0;
+  for (int c = 0; c < kChannels; ++c) {
+    if (ReadingOf(samples[k], c) == ReadingOf(samples[k - 1], c)) {
+      repeated |= 1U << c;
     }
-    if (same) continue;
-    if (k - begin > 1) runs.push_back({begin, k});
-    begin = k;
   }
-  std::vector<long> rows;
-  for (const EqualSamples& run : runs) rows.push_back(run.rows());
-  std::sort(rows.begin(), rows.end());
-  std::erase_if(runs, [&](const EqualSamples& run) {
-    return samples[run.end - 1].t - samples[run.begin].t < kLeastFrozen ||
-           IsByChance(rows, run.rows());
-  });
-  return runs;
+  return repeated;
+}
+
+unsigned ChannelsOf(const ChannelGroup& group) {
+  return (1U << group.end) - (1U << group.begin);
+}
+
+/// Of each group those that chance does not explain, by one walk over a recording
+/// of a day.
+std::vector<std::vector<EqualSamples>> LongRuns(
+    const PagedVector<ImuSample>& samples,
+    const std::vector<ChannelGroup>& groups) {
+  std::vector<std::vector<EqualSamples>> found(groups.size());
+  std::vector<std::size_t> begin(groups.size(), 0);
+  for (std::size_t k = 1; k <= samples.size(); ++k) {
+    const unsigned repeated = k < samples.size() ? Repeated(samples, k) : 0U;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      const unsigned channels = ChannelsOf(groups[i]);
+      if ((repeated & channels) == channels) continue;
+      if (k - begin[i] > 1) found[i].push_back({begin[i], k});
+      begin[i] = k;
+    }
+  }
+  for (std::vector<EqualSamples>& runs : found) {
+    std::vector<long> rows;
+    for (const EqualSamples& run : runs) rows.push_back(run.rows());
+    std::sort(rows.begin(), rows.end());
+    std::erase_if(runs, [&](const EqualSamples& run) {
+      return samples[run.end - 1].t - samples[run.begin].t < kLeastFrozen ||
+             IsByChance(rows, run.rows());
+    });
+  }
+  return found;
 }
 
 /// Whether the readings of one channel tell a live sensor from a frozen one.
 class LiveChannel {
  public:
-  LiveChannel(const std::vector<ImuSample>& samples, int channel)
+  LiveChannel(const PagedVector<ImuSample>& samples, int channel)
       : samples_(samples), channel_(channel) {
     std::vector<double> values;
     std::vector<double> changes;
@@ -104,14 +123,14 @@ class LiveChannel {
     return Median(std::move(distances)) > far_;
   }
 
-  const std::vector<ImuSample>& samples_;
+  const PagedVector<ImuSample>& samples_;
   int channel_;
   double far_ = 0.0;
   bool is_noisy_ = false;
 };
 
 /// The median change of a channel from row to row over samples [begin, end).
-double UsualStep(const std::vector<ImuSample>& samples, int channel,
+double UsualStep(const PagedVector<ImuSample>& samples, int channel,
                  std::size_t begin, std::size_t end) {
   std::vector<double> changes;
   for (std::size_t k = begin + 1; k < end; ++k) {
@@ -124,7 +143,7 @@ double UsualStep(const std::vector<ImuSample>& samples, int channel,
 /// Whether a channel changes during a run at least half as much as usual.
 class Liveliness {
  public:
-  Liveliness(const std::vector<ImuSample>& samples, int channel)
+  Liveliness(const PagedVector<ImuSample>& samples, int channel)
       : samples_(samples),
         channel_(channel),
         usual_(UsualStep(samples, channel, 0, samples.size())) {}
@@ -135,14 +154,14 @@ class Liveliness {
   }
 
  private:
-  const std::vector<ImuSample>& samples_;
+  const PagedVector<ImuSample>& samples_;
   int channel_;
   double usual_;
 };
 
 /// With which a group is compared: the other axes of a triad, or the other
 /// triad.
-std::vector<Liveliness> BesidesOf(const std::vector<ImuSample>& samples,
+std::vector<Liveliness> BesidesOf(const PagedVector<ImuSample>& samples,
                                   const ChannelGroup& group) {
   const bool is_axis = group.end - group.begin == 1;
   std::vector<Liveliness> besides;
@@ -154,7 +173,7 @@ std::vector<Liveliness> BesidesOf(const std::vector<ImuSample>& samples,
   return besides;
 }
 
-void KeepRunsOfLiveChannels(const std::vector<ImuSample>& samples,
+void KeepRunsOfLiveChannels(const PagedVector<ImuSample>& samples,
                             const ChannelGroup& group,
                             std::vector<EqualSamples>* runs) {
   for (int c = group.begin; c < group.end && !runs->empty(); ++c) {
@@ -191,7 +210,7 @@ bool IsByChance(const std::vector<long>& rows, long length) {
 }
 
 std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu) {
-  const std::vector<ImuSample>& samples = imu.samples;
+  const PagedVector<ImuSample>& samples = imu.samples;
   std::vector<RepeatedRun> found;
   const auto add = [&](const ChannelGroup& group,
                        const std::vector<EqualSamples>& runs) {
@@ -205,11 +224,12 @@ std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu) {
       if (!known) found.push_back({begin, end, run.rows(), group.name});
     }
   };
-  add(kWhole, LongRuns(samples, kWhole));
-  for (const ChannelGroup& part : kParts) {
-    std::vector<EqualSamples> runs = LongRuns(samples, part);
-    KeepRunsOfLiveChannels(samples, part, &runs);
-    add(part, runs);
+  std::vector<ChannelGroup> groups = {kWhole};
+  groups.insert(groups.end(), std::begin(kParts), std::end(kParts));
+  std::vector<std::vector<EqualSamples>> runs = LongRuns(samples, groups);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (i > 0) KeepRunsOfLiveChannels(samples, groups[i], &runs[i]);
+    add(groups[i], runs[i]);
   }
   return found;
 }

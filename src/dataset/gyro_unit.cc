@@ -68,7 +68,7 @@ class TurnAboutVertical {
   }
 
  private:
-  const std::vector<ImuSample>& samples_;
+  const PagedVector<ImuSample>& samples_;
   Eigen::Vector3d down_;
   std::size_t k_ = 0;
   double turn_ = 0.0;

@@ -11,7 +11,7 @@ namespace hindsight {
 
 std::optional<MedianField> FindMedianField(const ImuStream& imu,
                                            const AidingStream& stream) {
-  const std::vector<ImuSample>& samples = imu.samples;
+  const PagedVector<ImuSample>& samples = imu.samples;
   std::vector<double> down;
   std::vector<double> horizontal;
   std::size_t next = 0;

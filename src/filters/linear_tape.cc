@@ -1,34 +1,79 @@
 #include "filters/linear_tape.h"
 
+#include <algorithm>
+#include <bit>
 #include <stdexcept>
 #include <utility>
 
 namespace hindsight {
 namespace {
 
-constexpr std::size_t kChunkDoubles = std::size_t{1} << 17;
+constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
+constexpr std::size_t kBlock = kBlockBytes / sizeof(double);
+constexpr std::size_t kLargestChunk = ScratchMemory::kSmallest / sizeof(double);
 
 }  // namespace
 
 double* LinearTape::Allocate(std::size_t count) {
-  if (chunks_.empty() || chunks_.back().used + count > kChunkDoubles) {
+  const auto place = [count](std::size_t used) {
+    const bool fits = used % kBlock + count <= kBlock;
+    return fits ? used : (used + kBlock - 1) / kBlock * kBlock;
+  };
+  if (chunks_.empty() ||
+      place(chunks_.back().used) + count > chunks_.back().size) {
+    // As large as all before together, so that few chunks hold a long tape and
+    // a short one takes little.
+    std::size_t size = 0;
+    for (const Chunk& chunk : chunks_) size += chunk.size;
+    size = std::clamp(size, kBlock, kLargestChunk);
     chunks_.push_back(
-        {std::make_unique_for_overwrite<double[]>(kChunkDoubles), 0});
+        {ScratchMemory(size * sizeof(double), kBlockBytes), size, 0});
   }
   Chunk& chunk = chunks_.back();
-  double* out = chunk.data.get() + chunk.used;
-  chunk.used += count;
-  return out;
+  const std::size_t begin = place(chunk.used);
+  chunk.used = begin + count;
+  chunk.memory.BeforeWriting(begin / kBlock);
+  return reinterpret_cast<double*>(chunk.memory.data()) + begin;
 }
 
-double* LinearTape::Pack(const ErrorMatrix& P) {
+const LinearTape::PackedEpoch& LinearTape::Held(std::size_t k) const {
+  const PackedEpoch& epoch = epochs_[k];
+  const ScratchMemory& memory = chunks_[epoch.chunk].memory;
+  const auto offset = static_cast<std::size_t>(
+      epoch.data - reinterpret_cast<const double*>(memory.data()));
+  memory.BeforeReading(offset / kBlock);
+  return epoch;
+}
+
+std::size_t LinearTape::TriangleSize() const {
   const auto n = static_cast<std::size_t>(dim());
-  double* packed = Allocate(n * (n + 1) / 2);
-  double* out = packed;
+  return n * (n + 1) / 2;
+}
+
+std::size_t LinearTape::StateSize() const {
+  constexpr std::size_t kNavigation = 17;
+  return kNavigation + static_cast<std::size_t>(layout_.parameter_count());
+}
+
+double* LinearTape::Pack(const ErrorMatrix& P, double* to) const {
   for (int j = 0; j < dim(); ++j) {
-    for (int i = j; i < dim(); ++i) *out++ = P(i, j);
+    for (int i = j; i < dim(); ++i) *to++ = P(i, j);
   }
-  return packed;
+  return to;
+}
+
+double* LinearTape::Pack(const State& x, double* to) const {
+  const auto put = [&to](const auto& values) {
+    to = std::copy(values.data(), values.data() + values.size(), to);
+  };
+  *to++ = x.t;
+  put(x.p_e);
+  put(x.v_e);
+  put(x.q_eb.coeffs());
+  put(x.b_g);
+  put(x.b_a);
+  put(x.parameters);
+  return to;
 }
 
 ErrorMatrix LinearTape::Unpack(const double* packed) const {
@@ -39,28 +84,112 @@ ErrorMatrix LinearTape::Unpack(const double* packed) const {
   return P;
 }
 
-void LinearTape::Append(TapeEpoch epoch, const Transition& transition,
-                        const ErrorMatrix& P_minus, const ErrorMatrix& P_plus) {
-  Matrices m;
-  m.chunk = mark_chunk_;
-  m.used = mark_used_;
-  if (!epochs_.empty()) {
-    const auto n = static_cast<std::size_t>(dim());
-    m.Phi = Allocate(n * n);
-    Eigen::Map<Eigen::MatrixXd>(m.Phi, dim(), dim()) = transition.Phi;
-    m.Q = Pack(transition.Q);
+const double* LinearTape::Unpack(const double* packed, State* x) const {
+  const auto take = [&packed](auto* values) {
+    std::copy(packed, packed + values->size(), values->data());
+    packed += values->size();
+  };
+  x->t = *packed++;
+  take(&x->p_e);
+  take(&x->v_e);
+  take(&x->q_eb.coeffs());
+  take(&x->b_g);
+  take(&x->b_a);
+  x->parameters.resize(layout_.parameter_count());
+  take(&x->parameters);
+  return packed;
+}
+
+const double* LinearTape::Unpack(const double* packed, bool present,
+                                 ErrorVector* v) const {
+  v->setZero(dim());
+  if (!present) return packed;
+  std::copy(packed, packed + dim(), v->data());
+  return packed + dim();
+}
+
+namespace {
+
+/// Rows with anything beside the diagonal, a bit each.
+std::uint64_t FullRows(const ErrorMatrix& Phi) {
+  std::uint64_t rows = 0;
+  for (int j = 0; j < Phi.cols(); ++j) {
+    for (int i = 0; i < Phi.rows(); ++i) {
+      if (i != j && Phi(i, j) != 0.0) rows |= std::uint64_t{1} << i;
+    }
   }
-  epoch.first_measurement =
-      epochs_.empty()
-          ? 0
-          : epochs_.back().first_measurement + epochs_.back().measurement_count;
-  epoch.measurement_count = measurements_.size() - epoch.first_measurement;
-  m.P_minus = Pack(P_minus);
-  m.P_plus = Pack(P_plus);
-  epochs_.push_back(std::move(epoch));
-  matrices_.push_back(m);
-  mark_chunk_ = chunks_.size() - 1;
-  mark_used_ = chunks_.back().used;
+  return rows;
+}
+
+bool IsSame(const State& a, const State& b) {
+  return a.t == b.t && a.p_e == b.p_e && a.v_e == b.v_e &&
+         a.q_eb.coeffs() == b.q_eb.coeffs() && a.b_g == b.b_g &&
+         a.b_a == b.b_a && a.parameters == b.parameters;
+}
+
+}  // namespace
+
+void LinearTape::Append(const TapeEpoch& epoch, const Transition& transition,
+                        const ErrorMatrix& P_minus, const ErrorMatrix& P_plus) {
+  const bool first = epochs_.empty();
+  const auto n = static_cast<std::size_t>(dim());
+  PackedEpoch& out = epochs_.emplace_back();
+  out.t = epoch.t;
+  out.reset = epoch.reset;
+  out.has_x_plus = !IsSame(epoch.x_minus, epoch.x_plus);
+  out.has_c = !epoch.c.isZero(0.0);
+  out.has_dx_minus = !epoch.dx_minus.isZero(0.0);
+  out.has_dx_plus = !epoch.dx_plus.isZero(0.0);
+  begins_.push_back(end_);
+  out.first_measurement = measurements_end_;
+  measurements_end_ = measurements_.size();
+  if (!first) out.full_rows = FullRows(transition.Phi);
+  const auto full = static_cast<std::size_t>(std::popcount(out.full_rows));
+  const std::size_t vectors = static_cast<std::size_t>(out.has_c) +
+                              static_cast<std::size_t>(out.has_dx_minus) +
+                              static_cast<std::size_t>(out.has_dx_plus);
+  double* to = Allocate((first ? 2 : 3) * TriangleSize() +
+                        (out.has_x_plus ? 2 : 1) * StateSize() + vectors * n +
+                        (first ? 0 : full * n + (n - full)));
+  out.data = to;
+  out.chunk = static_cast<std::uint32_t>(chunks_.size() - 1);
+  to = Pack(P_plus, Pack(P_minus, to));
+  if (!first) to = Pack(transition.Q, to);
+  to = Pack(epoch.x_minus, to);
+  if (out.has_x_plus) to = Pack(epoch.x_plus, to);
+  const auto put = [&to](bool present, const ErrorVector& v) {
+    if (present) to = std::copy(v.data(), v.data() + v.size(), to);
+  };
+  put(out.has_c, epoch.c);
+  put(out.has_dx_minus, epoch.dx_minus);
+  put(out.has_dx_plus, epoch.dx_plus);
+  out.phi = static_cast<std::uint32_t>(to - out.data);
+  for (int i = 0; !first && i < dim(); ++i) {
+    if ((out.full_rows >> i & 1) == 0) {
+      *to++ = transition.Phi(i, i);
+    } else {
+      for (int j = 0; j < dim(); ++j) *to++ = transition.Phi(i, j);
+    }
+  }
+  end_ = {chunks_.size() - 1, chunks_.back().used};
+}
+
+TapeEpoch LinearTape::epoch(std::size_t k) const {
+  const PackedEpoch& in = Held(k);
+  TapeEpoch out;
+  out.t = in.t;
+  out.reset = in.reset;
+  const double* from =
+      Unpack(in.data + (k == 0 ? 2 : 3) * TriangleSize(), &out.x_minus);
+  if (in.has_x_plus) {
+    from = Unpack(from, &out.x_plus);
+  } else {
+    out.x_plus = out.x_minus;
+  }
+  from = Unpack(from, in.has_c, &out.c);
+  from = Unpack(from, in.has_dx_minus, &out.dx_minus);
+  Unpack(from, in.has_dx_plus, &out.dx_plus);
+  return out;
 }
 
 void LinearTape::Record(const TapeMeasurement& header,
@@ -92,42 +221,59 @@ void LinearTape::Record(const TapeMeasurement& header,
   new (&out.S) Matrix(take_matrix(innovation.S), rows, rows);
 }
 
-Eigen::Map<const Eigen::MatrixXd> LinearTape::Phi(std::size_t k) const {
-  return {matrices_[k].Phi, dim(), dim()};
+ErrorMatrix LinearTape::Phi(std::size_t k) const {
+  ErrorMatrix Phi = ErrorMatrix::Zero(dim(), dim());
+  const PackedEpoch& in = Held(k);
+  const double* from = in.data + in.phi;
+  for (int i = 0; i < dim(); ++i) {
+    if ((in.full_rows >> i & 1) == 0) {
+      Phi(i, i) = *from++;
+    } else {
+      for (int j = 0; j < dim(); ++j) Phi(i, j) = *from++;
+    }
+  }
+  return Phi;
 }
 
 ErrorMatrix LinearTape::Q(std::size_t k) const {
-  return Unpack(matrices_[k].Q);
+  return Unpack(Held(k).data + 2 * TriangleSize());
 }
 
 ErrorMatrix LinearTape::P_minus(std::size_t k) const {
-  return Unpack(matrices_[k].P_minus);
+  return Unpack(Held(k).data);
 }
 
 ErrorMatrix LinearTape::P_plus(std::size_t k) const {
-  return Unpack(matrices_[k].P_plus);
+  return Unpack(Held(k).data + TriangleSize());
 }
 
 ErrorMatrix LinearTape::ResetTransport(std::size_t k) const {
-  const TapeEpoch& epoch = epochs_[k];
+  const TapeEpoch epoch = this->epoch(k);
   if (!epoch.moves_nominal()) return ErrorMatrix::Identity(dim(), dim());
   return Transport(error_, layout_, epoch.x_minus, epoch.dx_plus, epoch.x_plus);
 }
 
 State LinearTape::StateAt(std::size_t k, const ErrorVector& d) const {
-  State x = Retract(error_, layout_, epochs_[k].x_plus, d);
+  State x = Retract(error_, layout_, epoch(k).x_plus, d);
   x.t = epochs_[k].t;
   return x;
 }
 
 void LinearTape::PopBack() {
-  mark_chunk_ = matrices_.back().chunk;
-  mark_used_ = matrices_.back().used;
-  measurements_.resize(epochs_.back().first_measurement);
+  end_ = begins_.back();
+  measurements_end_ = epochs_.back().first_measurement;
+  measurements_.resize(measurements_end_);
   epochs_.pop_back();
-  matrices_.pop_back();
-  chunks_.resize(mark_chunk_ + (epochs_.empty() ? 0 : 1));
-  if (!chunks_.empty()) chunks_.back().used = mark_used_;
+  begins_.pop_back();
+  chunks_.resize(end_.chunk + (epochs_.empty() ? 0 : 1));
+  if (!chunks_.empty()) chunks_.back().used = end_.used;
+}
+
+std::size_t LinearTape::bytes() const {
+  std::size_t bytes = epochs_.size() * (sizeof(PackedEpoch) + sizeof(Mark)) +
+                      measurements_.size() * sizeof(TapeMeasurement);
+  for (const Chunk& chunk : chunks_) bytes += chunk.used * sizeof(double);
+  return bytes;
 }
 
 void RequireSmoothable(const LinearTape& tape) {

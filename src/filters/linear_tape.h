@@ -2,10 +2,11 @@
 #define HINDSIGHT_FILTERS_LINEAR_TAPE_H_
 
 #include <Eigen/Core>
-#include <memory>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "base/scratch_memory.h"
 #include "filters/covariance_policy.h"
 #include "filters/kalman.h"
 #include "imu/imu_link.h"
@@ -45,8 +46,6 @@ struct TapeEpoch {
   ErrorVector dx_minus;  ///< mean before the update
   ErrorVector dx_plus;   ///< mean after the update; the reset moves it into
                          ///< x_plus, where the mean is then zero
-  std::size_t first_measurement = 0;  ///< range, see LinearTape::measurements
-  std::size_t measurement_count = 0;
 };
 
 /// A linear-Gaussian system about a recorded nominal trajectory:
@@ -55,7 +54,8 @@ struct TapeEpoch {
 /// d+(k) is an error about x_plus(k), d-(k+1) one about x_minus(k+1); the
 /// transport T(k) leads from the tangent at x_minus(k) to that at x_plus(k).
 /// Forward filters write it; RTS, two-filter and IMM smoothing read it and know
-/// no sensor. Its matrices lie in chunks that are released as it is shortened.
+/// no sensor. An epoch takes what its layout has and is not zero, in chunks of
+/// ScratchMemory that are released as the tape is shortened.
 /// All are in canonical axes, whatever the definition of the error; that
 /// decides where a reset leads and how it carries errors, ResetTransport.
 class LinearTape {
@@ -75,13 +75,19 @@ class LinearTape {
   void SetBound(const BoundRecord& bound) { bound_ = bound; }
   int dim() const { return layout_.dim(); }
   std::size_t size() const { return epochs_.size(); }
-  const TapeEpoch& epoch(std::size_t k) const { return epochs_[k]; }
-  const TapeEpoch& back() const { return epochs_.back(); }
+  TapeEpoch epoch(std::size_t k) const;
+  TapeEpoch back() const { return epoch(size() - 1); }
+  double t(std::size_t k) const { return epochs_[k].t; }
 
   std::span<const TapeMeasurement> measurements(std::size_t k) const {
+    const std::size_t first = Held(k).first_measurement;
+    const std::size_t end =
+        k + 1 < size() ? epochs_[k + 1].first_measurement : measurements_end_;
     return std::span<const TapeMeasurement>(measurements_)
-        .subspan(epochs_[k].first_measurement, epochs_[k].measurement_count);
+        .subspan(first, end - first);
   }
+  /// Memory of the epochs and of what was recorded of measurements [bytes].
+  std::size_t bytes() const;
 
   /// Records a measurement of the epoch that the next Append completes; its
   /// matrices are copied. `header` has the fields that are no matrices.
@@ -90,11 +96,11 @@ class LinearTape {
 
   /// Appends an epoch; `transition` is of the interval before it (ignored for
   /// the first). P_minus about x_minus, P_plus about x_plus.
-  void Append(TapeEpoch epoch, const Transition& transition,
+  void Append(const TapeEpoch& epoch, const Transition& transition,
               const ErrorMatrix& P_minus, const ErrorMatrix& P_plus);
 
   /// Transition and noise of the interval that ends at epoch k >= 1.
-  Eigen::Map<const Eigen::MatrixXd> Phi(std::size_t k) const;
+  ErrorMatrix Phi(std::size_t k) const;
   ErrorMatrix Q(std::size_t k) const;
   ErrorMatrix P_minus(std::size_t k) const;
   ErrorMatrix P_plus(std::size_t k) const;
@@ -110,32 +116,57 @@ class LinearTape {
   void Reserve(std::size_t count) { epochs_.reserve(count); }
 
  private:
-  struct Matrices {
-    double* Phi = nullptr;
-    double* Q = nullptr;  ///< packed, as P_minus and P_plus
-    double* P_minus = nullptr;
-    double* P_plus = nullptr;
-    std::size_t chunk = 0;  ///< where the epoch's memory begins
-    std::size_t used = 0;
+  /// An epoch in the pool: P_minus, P_plus and, but for the first, Q, packed as
+  /// lower triangles; then x_minus, those of x_plus, c, dx_minus and dx_plus that
+  /// are neither x_minus nor zero, and, but for the first epoch, Phi.
+  struct PackedEpoch {
+    double t = 0.0;
+    const double* data = nullptr;
+    std::size_t first_measurement = 0;
+    /// Rows of Phi that are more than their diagonal, a bit each.
+    std::uint64_t full_rows = 0;
+    std::uint32_t phi = 0;    ///< where Phi lies behind data
+    std::uint32_t chunk = 0;  ///< of data
+    bool reset = false;
+    bool has_x_plus = false;
+    bool has_c = false;
+    bool has_dx_minus = false;
+    bool has_dx_plus = false;
   };
+  static_assert(kMaxErrorDim <= 64);
   struct Chunk {
-    std::unique_ptr<double[]> data;
+    ScratchMemory memory;
+    std::size_t size = 0;  ///< [doubles]
     std::size_t used = 0;
   };
+  /// A place in the pool.
+  struct Mark {
+    std::size_t chunk = 0;
+    std::size_t used = 0;
+  };
+  /// Within one block of the last chunk's memory.
   double* Allocate(std::size_t count);
-  double* Pack(const ErrorMatrix& P);
+  /// The epoch, before its memory is read.
+  const PackedEpoch& Held(std::size_t k) const;
+  std::size_t TriangleSize() const;
+  std::size_t StateSize() const;
+  double* Pack(const ErrorMatrix& P, double* to) const;
+  double* Pack(const State& x, double* to) const;
   ErrorMatrix Unpack(const double* packed) const;
+  const double* Unpack(const double* packed, State* x) const;
+  const double* Unpack(const double* packed, bool present,
+                       ErrorVector* v) const;
 
   ErrorLayout layout_;
   ErrorDefinition error_;
   bool smoothable_ = true;
   BoundRecord bound_;
-  std::vector<TapeEpoch> epochs_;
+  std::vector<PackedEpoch> epochs_;
   std::vector<TapeMeasurement> measurements_;
-  std::vector<Matrices> matrices_;
+  std::size_t measurements_end_ = 0;  ///< of the last epoch
   std::vector<Chunk> chunks_;
-  std::size_t mark_chunk_ = 0;  ///< pool position after the last epoch
-  std::size_t mark_used_ = 0;
+  std::vector<Mark> begins_;  ///< of the epochs in the pool
+  Mark end_;                  ///< of the last epoch
 };
 
 /// Throws std::logic_error for a tape that is not smoothable.

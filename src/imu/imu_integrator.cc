@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "imu/preintegration.h"
 #include "imu/rotation_summary.h"
+#include "imu/sample_search.h"
 
 namespace hindsight {
 
@@ -15,10 +16,7 @@ std::size_t ImuIntegrator::FindInterval(double t) {
     const bool near =
         samples[k - 1].t <= t && samples[std::min(k + 64, last)].t > t;
     if (!near) {
-      const auto it = std::upper_bound(
-          samples.begin() + 1, samples.end(), t,
-          [](double value, const ImuSample& s) { return value < s.t; });
-      k = std::min(static_cast<std::size_t>(it - samples.begin()), last);
+      k = std::clamp<std::size_t>(FirstSampleAfter(*stream_, t), 1, last);
     }
   }
   while (k < last && samples[k].t <= t) ++k;

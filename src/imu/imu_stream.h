@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/paged_vector.h"
 #include "state/error_layout.h"
 
 namespace hindsight {
@@ -41,7 +42,7 @@ struct ImuNoise {
 struct ImuStream {
   enum class Kind { kRates, kIncrements };
   Kind kind = Kind::kRates;
-  std::vector<ImuSample> samples;  ///< strictly increasing stamps
+  PagedVector<ImuSample> samples;  ///< strictly increasing stamps
   ImuNoise noise;
   /// Sample intervals longer than this are refused on reading [s].
   double max_gap = 0.5;

@@ -4,28 +4,18 @@
 #include <cstddef>
 
 #include "base/parallel.h"
+#include "imu/sample_search.h"
 
 namespace hindsight {
-namespace {
-
-/// The first sample at or after t.
-std::size_t SampleAt(const ImuStream& imu, double t) {
-  return static_cast<std::size_t>(
-      std::lower_bound(imu.samples.begin(), imu.samples.end(), t,
-                       [](const ImuSample& s, double at) { return s.t < at; }) -
-      imu.samples.begin());
-}
-
-}  // namespace
 
 Kinematics MeanReading(const ImuStream& imu, double begin, double end) {
   constexpr double kRounding = 1e-6;  // of stamps [s]
   const std::size_t last = imu.samples.size() - 1;
-  std::size_t first = SampleAt(imu, begin - kRounding) + 1;
-  std::size_t to = SampleAt(imu, end + kRounding);
+  std::size_t first = FirstSampleAt(imu, begin - kRounding) + 1;
+  std::size_t to = FirstSampleAt(imu, end + kRounding);
   if (first >= to) {
-    first =
-        std::clamp<std::size_t>(SampleAt(imu, 0.5 * (begin + end)), 1, last);
+    first = std::clamp<std::size_t>(FirstSampleAt(imu, 0.5 * (begin + end)), 1,
+                                    last);
     to = first + 1;
   }
   const ImuIntegrator integrator(imu);

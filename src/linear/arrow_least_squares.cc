@@ -41,7 +41,8 @@ ArrowLeastSquares::ArrowLeastSquares(int nodes, int node_dim, int border_dim,
   node_norm_ = Eigen::RowVectorXd::Zero(n_);
   next_norm_ = Eigen::RowVectorXd::Zero(n_);
   border_norm_ = Eigen::RowVectorXd::Zero(m_);
-  panels_ = Eigen::VectorXd::Zero(PanelOffset(nodes));
+  panels_ = PagedRows(static_cast<std::size_t>(nodes),
+                      static_cast<std::size_t>(height_ * n_));
   border_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(border_rows_) * m_);
   const Eigen::Index unknowns = static_cast<Eigen::Index>(nodes) * n_ + m_;
   solution_ = Eigen::VectorXd::Zero(unknowns);

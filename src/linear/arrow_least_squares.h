@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/paged_rows.h"
 #include "linear/householder.h"
 
 namespace hindsight {
@@ -37,7 +38,8 @@ struct Deficiency {
 ///
 /// Use: add all rows, the nodes in ascending order, then Solve, then read the
 /// rest any number of times. Calls out of this order throw std::logic_error.
-/// Memory: K (2 n + m + 1) (n + 1) doubles.
+/// Memory: K (2 n + m + 1) (n + 1) doubles, of which long chains hold little
+/// (PagedRows).
 class ArrowLeastSquares {
  public:
   using RowMatrix =
@@ -113,10 +115,9 @@ class ArrowLeastSquares {
  private:
   enum class Phase { kFilling, kSolved };
 
-  double* Panel(int k) { return panels_.data() + PanelOffset(k); }
-  const double* Panel(int k) const { return panels_.data() + PanelOffset(k); }
-  Eigen::Index PanelOffset(int k) const {
-    return static_cast<Eigen::Index>(k) * height_ * n_;
+  double* Panel(int k) { return panels_.Row(static_cast<std::size_t>(k)); }
+  const double* Panel(int k) const {
+    return panels_.Row(static_cast<std::size_t>(k));
   }
   void Require(Phase phase, const char* call) const;
   Rows Add(int k, int count, RowMatrix* rows, Eigen::Index* used);
@@ -160,7 +161,7 @@ class ArrowLeastSquares {
   Eigen::RowVectorXd border_norm_;
   // Column j of panel k is row j of R: its columns of node k, node k + 1 and
   // border. Column-major, contiguous.
-  Eigen::VectorXd panels_;
+  PagedRows panels_;
   Eigen::VectorXd border_;
   Eigen::VectorXd solution_;
   // Reciprocals of R's diagonal, 0 for an unknown held fixed.

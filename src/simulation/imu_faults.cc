@@ -126,9 +126,11 @@ void LeapImu(double size, int, std::uint64_t, Dataset* dataset) {
 void LoseSamples(double size, int, std::uint64_t, Dataset* dataset) {
   const double from = MiddleOf(*dataset);
   dataset->imu.nominal_dt = MedianInterval(dataset->imu);
-  std::erase_if(dataset->imu.samples, [&](const ImuSample& sample) {
-    return sample.t >= from && sample.t < from + size;
-  });
+  EraseIf(
+      [&](const ImuSample& sample) {
+        return sample.t >= from && sample.t < from + size;
+      },
+      &dataset->imu.samples);
 }
 
 void TurnStart(double size, int, std::uint64_t, Dataset* dataset) {

@@ -235,7 +235,7 @@ Dataset Simulation::Finish() {
 
 Dataset Simulate(const Scenario& scenario, std::uint64_t seed) {
   Simulation simulation(scenario, seed);
-  std::vector<ImuSample> samples(simulation.sample_count());
+  PagedVector<ImuSample> samples(simulation.sample_count());
   for (ImuSample& sample : samples) simulation.Next(&sample);
   Dataset dataset = simulation.Finish();
   dataset.imu.samples = std::move(samples);

@@ -113,7 +113,7 @@ class PerfectRecording {
  private:
   Scenario scenario_;
   std::size_t truth_every_;
-  std::vector<ImuSample> samples_;
+  PagedVector<ImuSample> samples_;
   std::vector<Motion> truth_;
   PerfectAiding aiding_;
 };

@@ -112,9 +112,11 @@ TEST(ClockSearch, FindsTheClockOfARecordThatBeganEarlierAndEndedLater) {
       Model(VelocityKind(), Eigen::Vector3d::Constant(0.05), 5.0);
   Dataset dataset = Drive(model, 12);
   auto& samples = dataset.imu.samples;
-  std::erase_if(samples, [](const ImuSample& sample) {
-    return sample.t < 70.0 || sample.t > 130.0;
-  });
+  EraseIf(
+      [](const ImuSample& sample) {
+        return sample.t < 70.0 || sample.t > 130.0;
+      },
+      &samples);
   Delay(-40.0, &dataset.streams[0]);
   const ClockSearch found =
       SearchClock(dataset.imu, dataset.initial, dataset.streams[0]);

@@ -80,7 +80,7 @@ TEST(AttitudeEstimation, SmncWithstandsVibration) {
 
 TEST(AttitudeEstimation, SolutionsAreGivenAtTheStampsOfTheFile) {
   Dataset dataset = SimulateVibrationAttitude(Calm(), 3);
-  const std::vector<ImuSample> samples = dataset.imu.samples;
+  const PagedVector<ImuSample> samples = dataset.imu.samples;
   dataset.imu.stamp_offset = -0.02;
   for (ImuSample& sample : dataset.imu.samples) sample.t -= 0.02;
   Reconstruction estimation(dataset, AttitudeAlone());
@@ -405,7 +405,7 @@ TEST(AttitudeEstimation, StatedBiasOfTheAccelerometerCounts) {
     };
     const Solution without = solve();
     const Eigen::Vector3d bias(0.2, -0.1, 0.3);
-    const std::vector<ImuSample> samples = dataset.imu.samples;
+    const PagedVector<ImuSample> samples = dataset.imu.samples;
     for (ImuSample& sample : dataset.imu.samples) sample.accel += bias;
     dataset.initial.accel_bias = bias;
     constexpr double kSigma = 0.2;

@@ -175,11 +175,12 @@ TEST(Streams, BridgedDropOutsAreNoFalseConfidence) {
   const Interval bounds = AneesBounds(kRuns, 15, 0.999);
   const auto cut = [&](Dataset* dataset) {
     dataset->imu.max_gap = 1.0;
-    std::erase_if(dataset->imu.samples, [&](const ImuSample& sample) {
+    const auto is_lost = [&](const ImuSample& sample) {
       return std::any_of(gaps.begin(), gaps.end(), [&](double t) {
         return sample.t > t && sample.t < t + 0.5;
       });
-    });
+    };
+    EraseIf(is_lost, &dataset->imu.samples);
     EXPECT_EQ(DropOuts(dataset->imu).size(), gaps.size());
   };
   const std::vector<double> nees = AverageNees(instants, kRuns, cut);

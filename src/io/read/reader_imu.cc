@@ -40,7 +40,7 @@ ImuStream::Kind FindKind(const StreamSource& source,
 /// Moves each row from the start of its interval to its end: the next row's
 /// stamp, or one usual interval later before a drop-out and at the last row.
 void StampAtEnd(ImuStream* imu) {
-  std::vector<ImuSample>& samples = imu->samples;
+  PagedVector<ImuSample>& samples = imu->samples;
   const double usual = imu->nominal_dt;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const double start = samples[i].t;

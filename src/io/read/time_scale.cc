@@ -98,17 +98,20 @@ bool IsTime(double seconds) { return std::abs(seconds) <= kLongestTime; }
 
 std::optional<Stamp> ParseStamp(std::string_view text,
                                 std::int64_t ticks_per_second) {
-  const std::size_t whole = text.find_first_not_of("0123456789");
-  const std::size_t digits = std::min(whole, text.size());
+  // By hand: find_first_not_of looks each character up in the set by a call.
+  std::size_t digits = 0;
+  while (digits < text.size() && text[digits] >= '0' && text[digits] <= '9') {
+    ++digits;
+  }
   const auto value = ParseNumber(text);
   if (!value) return std::nullopt;
   const double ticks = static_cast<double>(ticks_per_second);
   if (!IsTime(*value / ticks)) return std::nullopt;
   // Below this size a double holds the stamp to better than 1e-8 of a tick.
   constexpr std::size_t kShort = 9;
-  const bool plain = whole == text.npos || text[whole] == '.';
-  const bool has_exponent = text.find_first_of("eE") != text.npos;
-  if (digits <= kShort || !plain || has_exponent) {
+  const bool is_whole = digits == text.size();
+  if (digits <= kShort || !(is_whole || text[digits] == '.') ||
+      text.find_first_of("eE") != text.npos) {
     return Stamp{0, *value / ticks};
   }
   std::int64_t count = 0;
@@ -117,8 +120,8 @@ std::optional<Stamp> ParseStamp(std::string_view text,
     return std::nullopt;
   }
   double part = 0.0;
-  if (whole != text.npos && whole + 1 < text.size()) {
-    part = ParseNumber(text.substr(whole)).value_or(0.0);
+  if (digits + 1 < text.size()) {
+    part = ParseNumber(text.substr(digits)).value_or(0.0);
   }
   return Stamp{count / ticks_per_second,
                (static_cast<double>(count % ticks_per_second) + part) / ticks};
