@@ -1,0 +1,20 @@
+#ifndef HINDSIGHT_PROBLEMS_ATTITUDE_EVIDENCE_H_
+#define HINDSIGHT_PROBLEMS_ATTITUDE_EVIDENCE_H_
+
+#include <vector>
+
+#include "attitude/attitude_run.h"
+#include "evaluation/innovation_test.h"
+#include "measurements/sensor.h"
+
+namespace hindsight {
+
+/// What the innovations of attitude alone are of, by AttitudeInnovation::Source.
+std::vector<Sensor> JudgedSources();
+
+/// Those of a run, in order of time.
+std::vector<NormalisedInnovation> InnovationsOf(const AttitudeRun& run);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_ATTITUDE_EVIDENCE_H_
