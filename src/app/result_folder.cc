@@ -174,6 +174,21 @@ void ResultFolder::SetAside() {
   if (!refused) finished_ = aside;
 }
 
+/// Removes what a file of the folder is being written to, which will not get its
+/// name any more.
+void ResultFolder::RemoveUnpublished() {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(finished_)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_one = std::any_of(
+        listed_.begin(), listed_.end(), [&name](const std::string& target) {
+          return IsUnpublishedName(name, target);
+        });
+    if (is_one) found.push_back(entry.path());
+  }
+  for (const fs::path& path : found) fs::remove(path);
+}
+
 /// Whether something was finished; `cause` says why not all of it is kept.
 bool ResultFolder::KeepWhatIsFinished(std::string* cause) {
   bool has_finished = kept_.has_value();
@@ -188,6 +203,7 @@ bool ResultFolder::KeepWhatIsFinished(std::string* cause) {
   try {
     if (kept_) {
       RestoreKept();
+      RemoveUnpublished();
       placement_.Place(finished_, false);
     }
   } catch (const std::exception& error) {

@@ -89,6 +89,7 @@ class ResultFolder {
   void CommitLocked();
   std::string AbandonLocked();
   void SetAside();
+  void RemoveUnpublished();
   bool KeepWhatIsFinished(std::string* cause);
   std::string RemoveStaging();
   void RestoreKept();
