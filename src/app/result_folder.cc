@@ -180,10 +180,10 @@ void ResultFolder::RemoveUnpublished() {
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(finished_)) {
     const std::string name = entry.path().filename().string();
-    const bool is_one = std::any_of(
-        listed_.begin(), listed_.end(), [&name](const std::string& target) {
-          return IsUnpublishedName(name, target);
-        });
+    const bool is_one = std::any_of(listed_.begin(), listed_.end(),
+                                    [&name](const std::string& target) {
+                                      return IsUnpublishedName(name, target);
+                                    });
     if (is_one) found.push_back(entry.path());
   }
   for (const fs::path& path : found) fs::remove(path);

@@ -16,8 +16,9 @@ using testing::TestProblem;
 using testing::TestProblemOptions;
 using testing::TypicalLayout;
 
-TestProblem FixesOfOneMinute() {
+TestProblem FixesOfOneMinute(double spacing = 1.0) {
   TestProblemOptions options;
+  options.spacing = spacing;
   options.noise = TacticalNoise(true);
   options.layout = TypicalLayout(options.noise);
   options.errors = true;
@@ -85,15 +86,7 @@ TEST(ReceiverErrors, OfABiasedStretchBecomeStates) {
 /// Two bad ones of a second's five are in no average of a second, but they are in
 /// the problem that is solved.
 TEST(ReceiverErrors, OfFastFixesMayBeOutliersAlone) {
-  TestProblemOptions options;
-  options.noise = TacticalNoise(true);
-  options.layout = TypicalLayout(options.noise);
-  options.errors = true;
-  options.duration = 60.0;
-  options.spacing = 0.2;
-  options.position_sigma = 0.5;
-  options.velocity_sigma = 0.0;
-  TestProblem test = MakeProblem(options, 3);
+  TestProblem test = FixesOfOneMinute(0.2);
   EXPECT_FALSE(Found(test).errors.Stands());
   for (const std::size_t k : {61u, 62u, 123u, 124u, 200u}) {
     auto& fix = std::get<PositionFix>(test.measurements[k].model);
