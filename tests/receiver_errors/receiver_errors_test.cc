@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "filters/forward_filter.h"
+#include "receiver_errors/mode_sequence.h"
 #include "support/test_problem.h"
 
 namespace hindsight {
