@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "dataset/clock_comparison.h"
 #include "dataset/clock_turns.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 namespace {
@@ -71,9 +72,9 @@ double MisfitOfOthers(const ClockComparison& comparison,
                         : Median(std::move(misfit));
 }
 
-/// Within `range`, of `all` offsets at which the records overlap.
+/// Within `range`; candidates have misfits below `same`.
 ClockSearch Search(const ClockComparison& comparison, const ImuStream& imu,
-                   const OffsetRange& all, const OffsetRange& range) {
+                   double same, const OffsetRange& range) {
   ClockSearch out;
   out.compared = comparison.compared;
   out.resolution = comparison.resolution;
@@ -85,8 +86,6 @@ ClockSearch Search(const ClockComparison& comparison, const ImuStream& imu,
   const std::vector<double> misfit = MisfitsFrom(
       comparison, range.from, step, static_cast<std::size_t>(count) + 1);
   std::vector<ClockCandidate> found;
-  const double same =
-      kSameMotion * std::min(1.0, MisfitOfOthers(comparison, all));
   for (std::size_t i = 1; i + 1 < misfit.size(); ++i) {
     const bool minimum = misfit[i] <= misfit[i - 1] &&
                          misfit[i] < misfit[i + 1] &&
@@ -135,7 +134,13 @@ ClockSearch SearchClock(const ImuStream& imu, const InitialState& initial,
   if (!comparison) return {};
   const OffsetRange all = OverlappingOffsets(
       imu.t_begin(), imu.t_end(), comparison->first, comparison->last);
-  return Search(*comparison, imu, all,
+  // What is free in each piece of these may fit any smooth motion.
+  const SensorKind& kind = *stream.sensor.kind;
+  const double same =
+      kind.is_height || kind.of_vehicle
+          ? kSameMotion * std::min(1.0, MisfitOfOthers(*comparison, all))
+          : kSameMotion;
+  return Search(*comparison, imu, same,
                 {std::max(all.from, range.from), std::min(all.to, range.to)});
 }
 
@@ -146,7 +151,7 @@ ClockSearch SearchClock(const ImuStream& imu, const TruthSeries& truth) {
   if (!comparison) return {};
   const OffsetRange all = OverlappingOffsets(
       imu.t_begin(), imu.t_end(), comparison->first, comparison->last);
-  ClockSearch found = Search(*comparison, imu, all, all);
+  ClockSearch found = Search(*comparison, imu, kSameMotion, all);
   std::erase_if(found.candidates, [](const ClockCandidate& candidate) {
     return !(candidate.sigma < kKnownClock);
   });

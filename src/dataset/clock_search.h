@@ -59,10 +59,11 @@ OffsetRange OverlappingOffsets(double a_begin, double a_end, double b_begin,
 ///   height               its acceleration against the specific force, the
 ///                        vertical free in each piece
 /// A candidate is a minimum of the misfit below a half (the quarter of what no
-/// common motion leaves) and below half of the median over OverlappingOffsets
-/// (what is free in each piece may fit any smooth motion), the lowest of those
-/// closer than the resolution; at most eight, and none if chance would give the
-/// best within five sigmas.
+/// common motion leaves), of heights and of velocities in the vehicle's axes also
+/// below half of the median over OverlappingOffsets (what is free in each piece of
+/// these may fit any smooth motion), the lowest of those closer than the
+/// resolution; at most eight, and none if chance would give the best within five
+/// sigmas.
 /// Nothing is compared for other types.
 ClockSearch SearchClock(const ImuStream& imu, const InitialState& initial,
                         const AidingStream& stream, OffsetRange range = {});
