@@ -134,12 +134,12 @@ ClockSearch SearchClock(const ImuStream& imu, const InitialState& initial,
   if (!comparison) return {};
   const OffsetRange all = OverlappingOffsets(
       imu.t_begin(), imu.t_end(), comparison->first, comparison->last);
-  // What is free in each piece of these may fit any smooth motion.
+  // What is free in each piece of the others may fit any smooth motion.
   const SensorKind& kind = *stream.sensor.kind;
   const double same =
-      kind.is_height || kind.of_vehicle
-          ? kSameMotion * std::min(1.0, MisfitOfOthers(*comparison, all))
-          : kSameMotion;
+      kind.is_position || kind.is_velocity
+          ? kSameMotion
+          : kSameMotion * std::min(1.0, MisfitOfOthers(*comparison, all));
   return Search(*comparison, imu, same,
                 {std::max(all.from, range.from), std::min(all.to, range.to)});
 }
