@@ -15,7 +15,6 @@
 #include "evaluation/observability.h"
 #include "geometry/so3.h"
 #include "measurements/sensor_kind.h"
-#include "problems/attitude_evidence.h"
 #include "problems/shared_covariance.h"
 
 namespace hindsight {
@@ -254,14 +253,26 @@ Solution AttitudeEstimation::Run(const Method& method) {
   const std::vector<Sensor> sources = JudgedSources();
   const std::vector<InnovationFigure> figures =
       TestInnovations(innovations_, kFalseAlarms);
+  std::optional<StartValues> start;
+  // With a field the smoother turns its start to the north that it surveys.
+  if (magnetic_.empty() && !solution.states.empty()) {
+    Solution at_start;
+    AppendState(start_.t, start_.q_nb, start_.b_g, &at_start);
+    start = StartOf(solution.layout, start_, at_start.states.front(),
+                    dataset_.initial);
+  }
   Conclude({.solution = solution,
             .sensors = sources,
+            .start = start,
             .innovations = figures,
             .recording = ExamineRecording(),
             .relative_heading =
                 magnetic_.empty() && headings_.empty() && velocities_.empty(),
             .mounting_sigma = dataset_.mounting_sigma},
            {}, &solution);
+  if (auto apart = methods_.Compare(solution, q_en_)) {
+    AddEvidence(*std::move(apart), &solution);
+  }
   if (imu_.stamp_offset != 0.0) {
     std::vector<double> stamps;
     for (const ImuSample& sample : imu_.samples) {

@@ -127,13 +127,14 @@ void AttitudeFilter::ApplyGain(const Vector& PHt, double S, double innovation) {
   P_.noalias() -= K * PHt.transpose();
 }
 
-void AttitudeFilter::UpdateComponent(int i, double h, double residual,
-                                     double R) {
+double AttitudeFilter::UpdateComponent(int i, double h, double residual,
+                                       double R) {
   const Vector PHt = h * P_.col(i);
   const double S = h * PHt(i) + R;
   const double innovation = residual - h * dx_(i);
   Record(h * Vector::Unit(i), PHt, S, innovation);
   ApplyGain(PHt, S, innovation);
+  return innovation / std::sqrt(S);
 }
 
 double AttitudeFilter::UpdateState(const Vector& h, double residual, double R) {
@@ -157,14 +158,16 @@ double AttitudeFilter::UpdateAttitude(const Eigen::Vector3d& h, double residual,
   return innovation / std::sqrt(S);
 }
 
-void AttitudeFilter::ConsiderTilt(const Eigen::Vector3d& h, double residual,
-                                  double R) {
+double AttitudeFilter::ConsiderTilt(const Eigen::Vector3d& h, double residual,
+                                    double R) {
   const Vector PHt = P_.leftCols<3>() * h;
   const double S = h.dot(PHt.head<3>()) + R;
   Vector K = PHt / S;
   K.head<2>().setZero();
-  dx_ += (residual - h.dot(dx_.head<3>())) * K;
+  const double innovation = residual - h.dot(dx_.head<3>());
+  dx_ += innovation * K;
   P_ += S * K * K.transpose() - K * PHt.transpose() - PHt * K.transpose();
+  return innovation / std::sqrt(S);
 }
 
 void AttitudeFilter::AddForce(const Eigen::Vector3d& f_b) {
@@ -217,22 +220,22 @@ void AttitudeFilter::AddField(const MagneticSample& reading) {
   field_.t = reading.t;
 }
 
-void AttitudeFilter::UseMagnetometer() {
+RowVector AttitudeFilter::UseMagnetometer() {
   verdict_.magnetic_used = false;
   verdict_.magnetic_disturbed = false;
-  if (field_.count == 0) return;
+  if (field_.count == 0) return {};
   const FieldMean field = field_;
   field_ = FieldMean();
   const double dt = field.t - field_t_;
   field_t_ = field.t;
   verdict_.magnetic_disturbed = field.weight <= 0.0;
-  if (verdict_.magnetic_disturbed) return;
+  if (verdict_.magnetic_disturbed) return {};
   const Eigen::Vector3d u_n = q_ni_ * (field.sum_i / field.weight);
   const double norm = u_n.norm();
   const double dip = std::atan2(u_n.z(), u_n.head<2>().norm());
   const double rate = predicted_.dt > 0.0 ? predicted_.angle / dt_ : 0.0;
   verdict_.magnetic_disturbed = !reference_.Accept(dt, norm, dip, rate);
-  if (verdict_.magnetic_disturbed) return;
+  if (verdict_.magnetic_disturbed) return {};
   verdict_.magnetic_used = true;
   const double R =
       options_.magnetic_sigma * options_.magnetic_sigma * field.count /
@@ -247,22 +250,25 @@ void AttitudeFilter::UseMagnetometer() {
   if (options_.magnetic_form == MagneticField::Form::kVector) {
     const Eigen::Matrix3d H = Skew(m_n);
     const Eigen::Vector3d residual = u_n - m_n;
+    RowVector innovation(3);
     for (int row = 0; row < 3; ++row) {
-      UpdateAttitude(H.row(row), residual(row), R);
+      innovation(row) = UpdateAttitude(H.row(row), residual(row), R);
     }
-    return;
+    return innovation;
   }
   const double R_azimuth = R / HorizontalSquare(u_n);
   const double azimuth = std::atan2(u_n.y(), u_n.x());
   const double residual =
       std::remainder(magnetic.declination - azimuth, 2.0 * kPi);
+  RowVector innovation(1);
   if (options_.decouple_heading && record_ != nullptr) {
-    UpdateComponent(2, 1.0, residual, R_azimuth);
+    innovation(0) = UpdateComponent(2, 1.0, residual, R_azimuth);
   } else if (options_.decouple_heading) {
-    ConsiderTilt(AzimuthByPsi(u_n), residual, R_azimuth);
+    innovation(0) = ConsiderTilt(AzimuthByPsi(u_n), residual, R_azimuth);
   } else {
-    UpdateAttitude(AzimuthByPsi(u_n), residual, R_azimuth);
+    innovation(0) = UpdateAttitude(AzimuthByPsi(u_n), residual, R_azimuth);
   }
+  return innovation;
 }
 
 bool AttitudeFilter::ExplainsAsBias(const Eigen::Vector3d& w) const {

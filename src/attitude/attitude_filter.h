@@ -103,8 +103,9 @@ class AttitudeFilter {
   /// UseVelocityChange return the innovation, each row over its predicted standard
   /// deviation; empty: nothing was used.
   RowVector UseAccelerometer();
-  /// Uses the field of the interval, if there was a reading.
-  void UseMagnetometer();
+  /// Uses the field of the interval, if there was a reading. Returns as
+  /// UseAccelerometer.
+  RowVector UseMagnetometer();
   /// Uses a reading whose rows depend on the attitude alone, by psi, and returns
   /// its innovation over the predicted standard deviation.
   double UseRow(const Eigen::Vector3d& h, double residual, double R) {
@@ -139,7 +140,7 @@ class AttitudeFilter {
   using Matrix = AttitudeState::Matrix;
 
   /// Scalar update with H = h on component `i`, residual about the nominal.
-  void UpdateComponent(int i, double h, double residual, double R);
+  double UpdateComponent(int i, double h, double residual, double R);
   /// Scalar update with H = h'.
   double UpdateState(const Vector& h, double residual, double R);
   /// Scalar update with H = h' on the attitude. Returns the innovation over its
@@ -147,7 +148,7 @@ class AttitudeFilter {
   double UpdateAttitude(const Eigen::Vector3d& h, double residual, double R);
   /// Scalar update with H = h' on the attitude that leaves the tilt as it is
   /// and counts its error (Schmidt 1966).
-  void ConsiderTilt(const Eigen::Vector3d& h, double residual, double R);
+  double ConsiderTilt(const Eigen::Vector3d& h, double residual, double R);
   void ApplyGain(const Vector& PHt, double S, double innovation);
   void Record(const Vector& h, const Vector& PHt, double S, double innovation);
 

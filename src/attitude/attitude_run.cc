@@ -145,7 +145,7 @@ class AttitudeRunner {
       filter_.LeaveAccelerometer();
     }
     UseVelocity(imu_.samples[k]);
-    filter_.UseMagnetometer();
+    Note(Source::kField, filter_.UseMagnetometer());
     UseHeadings(imu_.samples[k]);
     if (options_.rest_sigma > 0.0) filter_.UseRest();
     AttitudeNode& node = run_.nodes.emplace_back();

@@ -95,6 +95,7 @@ struct AttitudeInnovation {
     kForce,     ///< the accelerometer's tilt, north and east
     kVelocity,  ///< what two velocities say
     kHeading,   ///< sensors of directions
+    kField,     ///< the magnetometer
   };
   double t = 0.0;  ///< of the update [s]
   Source source = Source::kForce;

@@ -59,13 +59,32 @@ WithheldFigure FigureOf(const std::vector<double>& x, double tail) {
   return figure;
 }
 
+/// Takes out as many of those farthest off as a mixture of noise has outliers, to
+/// three sigmas of their number.
+void DropOutliers(double share, std::vector<ResidualRecord>* records) {
+  const auto count = static_cast<double>(records->size());
+  const double most = std::min(
+      count, share * count + 3.0 * std::sqrt(share * (1.0 - share) * count));
+  std::stable_sort(records->begin(), records->end(),
+                   [](const ResidualRecord& a, const ResidualRecord& b) {
+                     return a.nis < b.nis;
+                   });
+  records->resize(records->size() - static_cast<std::size_t>(most));
+  std::stable_sort(records->begin(), records->end(),
+                   [](const ResidualRecord& a, const ResidualRecord& b) {
+                     return a.t < b.t;
+                   });
+}
+
 /// Withheld measurements whose errors are said to be normal: none of a sensor
-/// with a robust loss; of one with a gate those that pass it, if they are most.
+/// with a robust loss, but of a mixture all without its outliers; of one with a
+/// gate those that pass it, if they are most.
 std::vector<ResidualRecord> WithoutOutliers(const Judged& judged) {
   std::vector<ResidualRecord> kept;
   for (std::size_t i = 0; i < judged.sensors.size(); ++i) {
     const Sensor& sensor = judged.sensors[i];
-    if (sensor.loss.kind != RobustLoss::Kind::kNone) continue;
+    const bool mixture = sensor.loss.kind == RobustLoss::Kind::kMixture;
+    if (sensor.loss.kind != RobustLoss::Kind::kNone && !mixture) continue;
     std::vector<ResidualRecord> all, passed;
     for (const ResidualRecord& record : judged.solution.residuals) {
       if (!record.withheld || record.sensor != static_cast<int>(i)) continue;
@@ -77,7 +96,8 @@ std::vector<ResidualRecord> WithoutOutliers(const Judged& judged) {
         passed.push_back(record);
       }
     }
-    const auto& own = 2 * passed.size() > all.size() ? passed : all;
+    if (mixture) DropOutliers(sensor.loss.outlier_share, &all);
+    const auto& own = !mixture && 2 * passed.size() > all.size() ? passed : all;
     kept.insert(kept.end(), own.begin(), own.end());
   }
   return kept;

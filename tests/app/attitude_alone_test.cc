@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "app/command_line.h"
@@ -11,12 +12,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// An IMU alone on a body that goes where `segments` say.
-std::string BodyAlone(const std::string& segments, const std::string& imu) {
+/// An IMU, alone unless something is `aiding`, on a body that goes where `segments`
+/// say.
+std::string BodyAlone(const std::string& segments, const std::string& imu,
+                      const std::string& aiding = "") {
   return "start: {position: [48 deg, 11.5 deg, 0 m], heading: 70 deg, "
          "speed: 1.5 m/s}\nsegments:\n" +
-         segments + "imu:\n  rate: 100 Hz\n" + imu +
-         "aiding: {}\ntruth_rate: 10 Hz\n"
+         segments + "imu:\n  rate: 100 Hz\n" + imu + "aiding: {" + aiding +
+         "}\ntruth_rate: 10 Hz\n"
          "start_errors: {position: 1 m, velocity: 0.2 m/s, "
          "attitude: [0.05 deg, 0.05 deg, 0.1 deg]}\n";
 }
@@ -113,6 +116,45 @@ TEST_F(AttitudeAlone, StartsAtTheTimeOfTheAttitudeThatIsGiven) {
     EXPECT_LT(method["error"]["attitude_rms_deg"][2].get<double>(), 0.5)
         << name << said_;
   }
+}
+
+/// Attitude alone needs the direction of gravity, not its size: a unit that is a
+/// thousand times off would not show otherwise.
+TEST_F(AttitudeAlone, HearsOfAccelerationsThatAreNotGravity) {
+  Simulate(BodyAlone("  - {type: straight, duration: 60 s}\n", kFibreOptic));
+  std::istringstream in(ReadFile(folder_.path() / "data/imu.csv"));
+  std::string text;
+  std::string line;
+  std::getline(in, text);
+  text += "\n";
+  while (std::getline(in, line)) {
+    std::size_t at = 0;
+    for (int column = 0; column < 4; ++column) at = line.find(',', at) + 1;
+    text += line.substr(0, at) + "0,0,-0.0001\n";
+  }
+  WriteFile(folder_.path() / "data/imu.csv", text);
+  const nlohmann::json methods = Run();
+  for (const auto& [name, method] : methods.items()) {
+    EXPECT_NE(method["grade"], "usable") << name;
+  }
+  EXPECT_THAT(said_, HasSubstr("times gravity in the median"));
+}
+
+/// A heading that the velocities of turns contradict.
+TEST_F(AttitudeAlone, HearsOfAStartThatIsContradicted) {
+  Simulate(BodyAlone(
+      "  - {type: accelerate, speed: 20 m/s, rate: 1 m/s^2}\n"
+      "  - {type: turn, angle: 180 deg, rate: 10 deg/s}\n"
+      "  - {type: accelerate, speed: 5 m/s, rate: 1 m/s^2}\n"
+      "  - {type: turn, angle: -90 deg, rate: 10 deg/s}\n",
+      kMems, "doppler: {type: velocity, rate: 2 Hz, sigma: 0.1 m/s}"));
+  ReplaceStart(
+      "initial:\n  time: 0 s\n  position: [48 deg, 11.5 deg, 0 m]\n"
+      "  attitude: [0 deg, 0 deg, 130 deg]\n"
+      "  attitude_sigma: [0.5, 0.5, 2 deg]\n  gyro_bias_sigma: 10 deg/h\n"
+      "  accel_bias_sigma: 2 mg\n");
+  const nlohmann::json methods = Run();
+  EXPECT_NE(methods["ahrs_smoother"]["grade"], "usable") << said_;
 }
 
 }  // namespace
