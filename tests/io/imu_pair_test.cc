@@ -113,6 +113,11 @@ TEST_F(ImuPair, WhatDoesNotGoTogetherIsRefused) {
   EXPECT_THAT(LoadError(), HasSubstr("accel.csv: no column accel_x"));
   Write("accel.csv", HalfRows(kAccelTitles, false, 105.0));
   EXPECT_THAT(LoadError(), HasSubstr("holds 0 IMU samples"));
+  Write("gyro.csv",
+        "t[s],gyro_x[rad/s],gyro_y[rad/s],gyro_z[rad/s],accel_x[m/s^2]\n"
+        "0,0,0,0,0\n");
+  EXPECT_THAT(LoadError(), HasSubstr("accelerations stand in imu.file and in "
+                                     "imu.accelerometer"));
 }
 
 TEST_F(ImuPair, TheResolvedConfigurationReadsTheSame) {

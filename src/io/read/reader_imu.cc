@@ -32,6 +32,12 @@ ImuStream::Kind FindKind(const StreamSource& source,
     throw InputError(source.config_path, source.config_line,
                      "imu.accelerometer goes with rates; these are increments");
   }
+  for (std::size_t i = first + 3; !whole && i < first + 6; ++i) {
+    if (!opened.table->Has(i)) continue;
+    throw InputError(source.config_path, source.config_line,
+                     "accelerations stand in imu.file and in "
+                     "imu.accelerometer; expected one of them");
+  }
   RequireFields(opened, source.format, ImuFields(), first,
                 first + (whole ? 5 : 2));
   return kind;
