@@ -64,9 +64,14 @@ TEST(Withheld, FewAreNotJudged) {
   EXPECT_TRUE(TestWithheld(Withheld(1, 3, 9.0, 0.0), kFalse).empty());
 }
 
-Grade GradeOfWithheld(double size, bool sensor_is_used) {
+Grade GradeOfWithheld(double size, bool sensor_is_used,
+                      const RobustLoss& loss = {}, std::size_t outliers = 0) {
   Solution solution;
   solution.residuals = Withheld(5, 400, size, 0.0);
+  for (std::size_t i = 0; i < outliers; ++i) {
+    solution.residuals[10 * i].residual *= 40.0;
+    solution.residuals[10 * i].nis = 1600.0;
+  }
   if (sensor_is_used) {
     solution.residuals.push_back(solution.residuals.front());
     solution.residuals.back().withheld = false;
@@ -74,6 +79,7 @@ Grade GradeOfWithheld(double size, bool sensor_is_used) {
   }
   Sensor sensor;
   sensor.name = "gnss";
+  sensor.loss = loss;
   const std::vector<Sensor> sensors = {sensor};
   std::vector<Evidence> evidence;
   FindOddPredictions({.solution = solution, .sensors = sensors}, &evidence);
@@ -90,6 +96,20 @@ TEST(Withheld, FarOffLowerTheGrade) {
 TEST(Withheld, OfASensorThatIsNotUsedMakeDoubtfulAtMost) {
   EXPECT_EQ(GradeOfWithheld(1.0, false), Grade::kUsable);
   EXPECT_EQ(GradeOfWithheld(5.0, false), Grade::kDoubtful);
+}
+
+/// A mixture has outliers, but no more than it says; of a loss nothing is said.
+TEST(Withheld, OfAMixtureAreJudgedWithoutItsOutliers) {
+  RobustLoss mixture;
+  mixture.kind = RobustLoss::Kind::kMixture;
+  mixture.outlier_share = 0.02;
+  EXPECT_EQ(GradeOfWithheld(1.0, true, mixture), Grade::kUsable);
+  EXPECT_EQ(GradeOfWithheld(1.0, true, mixture, 8), Grade::kUsable);
+  EXPECT_NE(GradeOfWithheld(1.0, true, mixture, 40), Grade::kUsable);
+  EXPECT_EQ(GradeOfWithheld(5.0, true, mixture), Grade::kUnusable);
+  RobustLoss huber;
+  huber.kind = RobustLoss::Kind::kHuber;
+  EXPECT_EQ(GradeOfWithheld(5.0, true, huber), Grade::kUsable);
 }
 
 }  // namespace
