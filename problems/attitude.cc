@@ -108,14 +108,14 @@ AttitudePart VerdictsOf(const AttitudeRun& run) {
 
 }  // namespace
 
-void AttitudeEstimation::AppendState(double t, const Eigen::Quaterniond& q_nb,
-                                     const Eigen::Vector3d& b_g,
-                                     Solution* solution) const {
-  State& x = solution->states.emplace_back();
+State AttitudeEstimation::StateAt(double t, const Eigen::Quaterniond& q_nb,
+                                  const Eigen::Vector3d& b_g) const {
+  State x;
   x.t = t;
   x.p_e = filter_options_.place.p_e;
   x.q_eb = (q_en_ * q_nb).normalized();
   x.b_g = b_g;
+  return x;
 }
 
 double AttitudeEstimation::SharedSigma(const FieldSurvey& survey) const {
@@ -148,7 +148,8 @@ Solution AttitudeEstimation::Filter() {
   Eigen::Matrix<double, 6, 6> P;
   for (std::size_t k = 0; k < run.samples.size(); ++k) {
     const AttitudeSample& sample = run.samples[k];
-    AppendState(imu_.samples[k].t, sample.q_nb, sample.b_g, &solution);
+    solution.states.push_back(
+        StateAt(imu_.samples[k].t, sample.q_nb, sample.b_g));
     P = run.nodes[sample.node].x.P.topLeftCorner<6, 6>();
     shared.AddTo(sample.q_nb, &P);
     solution.covariances.Set(k, P);
@@ -213,9 +214,8 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) {
         nodes[nearest + 1].x.t - t < t - nodes[nearest].x.t) {
       ++nearest;
     }
-    AppendState(t, q_nb[k],
-                sample.b_g + pass.smoothed[sample.node].d.segment<3>(3),
-                &solution);
+    solution.states.push_back(StateAt(
+        t, q_nb[k], sample.b_g + pass.smoothed[sample.node].d.segment<3>(3)));
     P = pass.smoothed[nearest].P.topLeftCorner<6, 6>();
     shared.AddTo(q_nb[k], &P);
     solution.covariances.Set(k, P);
@@ -255,11 +255,10 @@ Solution AttitudeEstimation::Run(const Method& method) {
       TestInnovations(innovations_, kFalseAlarms);
   std::optional<StartValues> start;
   // With a field the smoother turns its start to the north that it surveys.
-  if (magnetic_.empty() && !solution.states.empty()) {
-    Solution at_start;
-    AppendState(start_.t, start_.q_nb, start_.b_g, &at_start);
-    start = StartOf(solution.layout, start_, at_start.states.front(),
-                    dataset_.initial);
+  if (magnetic_.empty()) {
+    start =
+        StartOf(solution.layout, start_.P,
+                StateAt(start_.t, start_.q_nb, start_.b_g), dataset_.initial);
   }
   Conclude({.solution = solution,
             .sensors = sources,

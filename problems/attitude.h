@@ -90,8 +90,8 @@ class AttitudeEstimation final : public Estimation {
   /// What the recording shows by itself, and what speaks against the heading.
   std::vector<Evidence> ExamineRecording() const;
   ErrorLayout SolutionLayout() const;
-  void AppendState(double t, const Eigen::Quaterniond& q_nb,
-                   const Eigen::Vector3d& b_g, Solution* solution) const;
+  State StateAt(double t, const Eigen::Quaterniond& q_nb,
+                const Eigen::Vector3d& b_g) const;
   void Poll(const std::string& stage, double fraction) const;
 
   const Dataset& dataset_;

@@ -73,12 +73,11 @@ void ExamineGravity(const ImuStream& imu, double gravity,
 
 }  // namespace
 
-StartValues StartOf(const ErrorLayout& layout, const AttitudeState& start,
+StartValues StartOf(const ErrorLayout& layout, const AttitudeState::Matrix& P,
                     const State& x, const InitialState& given) {
   StartValues values;
   values.x = x;
-  values.x.t = start.t;
-  values.P = start.P.topLeftCorner(layout.dim(), layout.dim());
+  values.P = P.topLeftCorner(layout.dim(), layout.dim());
   // That headings count from there is no knowledge that could be wrong.
   constexpr double kExact = 1e-4;
   if (values.P(2, 2) < kExact * kExact) values.P(2, 2) = kPi * kPi;

@@ -19,9 +19,9 @@ std::vector<Sensor> JudgedSources();
 /// Those of a run, in order of time.
 std::vector<NormalisedInnovation> InnovationsOf(const AttitudeRun& run);
 
-/// What a solution started from, over its layout; `x` is its state there. A heading
-/// that is zero by definition counts as not known.
-StartValues StartOf(const ErrorLayout& layout, const AttitudeState& start,
+/// What a solution started from: x with P, whose first components are those of
+/// the layout. A heading that is zero by definition counts as not known.
+StartValues StartOf(const ErrorLayout& layout, const AttitudeState::Matrix& P,
                     const State& x, const InitialState& given);
 
 /// Compares the methods: the same readings have one truth, which the errors that

@@ -61,9 +61,9 @@ bool AnySummaryIsStale(const Problem& problem,
 /// is less than half of one of the two before. A step that moves what is weakly
 /// determined may be larger than the one before it, which took off what is not.
 /// Their cost may rise on the way: where a heading is uncertain the states lie along
-/// an arc, and the way that only descends follows it in steps of metres. True, and Ceres can be left out, if
-/// that ends within a rough step at a cost below the start's; else the values are
-/// those of the start again.
+/// an arc, and the way that only descends follows it in steps of metres. True, and
+/// Ceres can be left out, if that ends within a rough step at a cost below the
+/// start's; else the values are those of the start again.
 bool ContractsByNewton(const BatchOptions& options,
                        const std::vector<State>& start,
                        IterationProgress* progress, ChainProblem* chain,

@@ -120,7 +120,7 @@ class AttitudeRunner {
     if (velocity_ == nullptr) return;
     const ImuCalibration calibration = {.b_g = filter_.gyro_bias(),
                                         .s_g = filter_.gyro_scale()};
-    Note(Source::kVelocity,
+    Note(sample.t, Source::kVelocity,
          filter_.UseVelocityChange(
              ChangeBetween(*last_velocity_, *velocity_, options_.place,
                            calibration, options_.accel_bias_sigma,
@@ -140,12 +140,12 @@ class AttitudeRunner {
   void Update(std::size_t k) {
     filter_.Predict();
     if (velocities_.empty()) {
-      Note(Source::kForce, filter_.UseAccelerometer());
+      Note(imu_.samples[k].t, Source::kForce, filter_.UseAccelerometer());
     } else {
       filter_.LeaveAccelerometer();
     }
     UseVelocity(imu_.samples[k]);
-    Note(Source::kField, filter_.UseMagnetometer());
+    Note(imu_.samples[k].t, Source::kField, filter_.UseMagnetometer());
     UseHeadings(imu_.samples[k]);
     if (options_.rest_sigma > 0.0) filter_.UseRest();
     AttitudeNode& node = run_.nodes.emplace_back();
@@ -175,13 +175,13 @@ class AttitudeRunner {
         innovation(row) = filter_.UseRow(z.H.row(row).head<3>(),
                                          z.residual(row), z.R(row, row));
       }
-      Note(Source::kHeading, innovation);
+      Note(sample.t, Source::kHeading, innovation);
     }
   }
 
-  void Note(Source source, const RowVector& rows) {
+  void Note(double t, Source source, const RowVector& rows) {
     if (rows.size() > 0) {
-      run_.innovations.push_back({filter_.state().t, source, rows});
+      run_.innovations.push_back({t, source, rows});
     }
   }
 

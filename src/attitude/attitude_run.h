@@ -22,7 +22,7 @@ struct AttitudeRun {
   std::vector<AttitudeSample> samples;  ///< one a sample of the IMU
   std::vector<AttitudeNode> nodes;      ///< one an update
   std::vector<ScalarUpdate> updates;    ///< what a smoother needs of them
-  std::vector<AttitudeInnovation> innovations;  ///< of force, velocity, heading
+  std::vector<AttitudeInnovation> innovations;  ///< in order of time
 };
 
 /// Runs the filter over a record of rates, with an update at the first and the

@@ -87,8 +87,8 @@ struct AttitudeTransition {
   double q_bias = 0.0;      ///< the same of the bias [rad^2/s^2]
 };
 
-/// What was read, less what was predicted, by rows of the one after the other,
-/// each over its predicted standard deviation: of a right model independent
+/// What was read less what was predicted, each row over its predicted standard
+/// deviation and after the rows before it were used: of a right model independent
 /// N(0, 1).
 struct AttitudeInnovation {
   enum class Source {
