@@ -41,6 +41,53 @@ LinearRates ImuIntegrator::RatesOfInterval(std::size_t k) const {
                              samples[k].accel);
 }
 
+Kinematics ImuIntegrator::BendOfInterval(std::size_t k) const {
+  constexpr double kShortest = 0.5;
+  Kinematics bend = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  if (stream_->kind != ImuStream::Kind::kRates || IsDropOut(k)) return bend;
+  const auto& samples = stream_->samples;
+  const double dt = samples[k].t - samples[k - 1].t;
+  int count = 0;
+  // About the sample in the middle of three.
+  const auto add = [&](std::size_t middle) {
+    const ImuSample& a = samples[middle - 1];
+    const ImuSample& b = samples[middle];
+    const ImuSample& c = samples[middle + 1];
+    const double before = b.t - a.t;
+    const double after = c.t - b.t;
+    if (std::min(before, after) < kShortest * dt) return;
+    const double scale = 2.0 / (before + after);
+    bend.w_ib_b +=
+        scale * ((c.gyro - b.gyro) / after - (b.gyro - a.gyro) / before);
+    bend.f_b +=
+        scale * ((c.accel - b.accel) / after - (b.accel - a.accel) / before);
+    ++count;
+  };
+  if (k >= 2 && !IsDropOut(k - 1)) add(k - 1);
+  if (k + 1 < samples.size() && !IsDropOut(k + 1)) add(k);
+  if (count == 0) return bend;
+  const double factor = -dt * dt / 12.0 / count;
+  bend.w_ib_b *= factor;
+  bend.f_b *= factor;
+  return bend;
+}
+
+namespace {
+
+/// The part of an interval from fraction a to b of it, along the parabola that
+/// adds `bend` in the mean: 6 s (1 - s) times it.
+LinearRates PartOf(const LinearRates& whole, const Kinematics& bend, double a,
+                   double b) {
+  const Eigen::Vector3d dw = whole.w1 - whole.w0;
+  const Eigen::Vector3d df = whole.f1 - whole.f0;
+  const double share = 3.0 * (a + b) - 2.0 * (a * a + a * b + b * b);
+  const Eigen::Vector3d w = whole.w0 + share * bend.w_ib_b;
+  const Eigen::Vector3d f = whole.f0 + share * bend.f_b;
+  return {(b - a) * whole.dt, w + a * dw, w + b * dw, f + a * df, f + b * df};
+}
+
+}  // namespace
+
 bool ImuIntegrator::IsDropOut(std::size_t k) const {
   return stream_->nominal_dt > 0.0 &&
          stream_->samples[k].t - stream_->samples[k - 1].t >
@@ -82,15 +129,11 @@ void ImuIntegrator::Walk(double t_i, double t_j, const Use& use) {
     const double t_end = samples[k].t;
     const double to = k + 1 == samples.size() ? t_j : std::min(t_end, t_j);
     const LinearRates whole = RatesOfInterval(k);
-    LinearRates rates = whole;
-    if (t > t_begin || to < t_end) {
-      const double a = (t - t_begin) / whole.dt;
-      const double b = (to - t_begin) / whole.dt;
-      const Eigen::Vector3d dw = whole.w1 - whole.w0;
-      const Eigen::Vector3d df = whole.f1 - whole.f0;
-      rates = {to - t, whole.w0 + a * dw, whole.w0 + b * dw, whole.f0 + a * df,
-               whole.f0 + b * df};
-    }
+    const bool part = t > t_begin || to < t_end;
+    LinearRates rates =
+        PartOf(whole, BendOfInterval(k), part ? (t - t_begin) / whole.dt : 0.0,
+               part ? (to - t_begin) / whole.dt : 1.0);
+    rates.dt = part ? to - t : whole.dt;
     if (rates.dt > 0.0) use(rates, IsDropOut(k) ? &whole : nullptr);
     t = to;
     if (k + 1 < samples.size()) ++k;

@@ -171,6 +171,17 @@ class ImuIntegrator {
   /// Rates over the sample interval that ends at sample k >= 1.
   LinearRates RatesOfInterval(std::size_t k) const;
 
+  /// What a smooth course through readings of rates has in the mean over that
+  /// interval more than the line between its ends. With the second differences
+  /// D of the readings about both ends
+  ///   -dt^2 / 12 (D_{k-1} + D_k) / 2,
+  /// of evenly spaced ones (w_{k-1} + w_k - w_{k-2} - w_{k+1}) / 24: integrals
+  /// are then right to fourth order, where the line's miss (omega dt)^2 / 12 of a
+  /// swing. At an end of the recording, and beside a drop-out or an interval less
+  /// than half as long, the other D stands for both. Zero for increments, which
+  /// are integrals, and across a drop-out.
+  Kinematics BendOfInterval(std::size_t k) const;
+
  private:
   /// Calls `use` for every sample interval within [t_i, t_j] with its rates;
   /// the second argument is the whole interval where it bridges a drop-out,

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/units.h"
 #include "geometry/so3.h"
 #include "support/seed_count.h"
 #include "support/test_motion.h"
@@ -17,7 +19,8 @@ namespace {
 using testing::LivelyImu;
 
 /// Independent reference: Euler steps of dC = C [w x], dv = C f, dp = v at a
-/// tenth of a millisecond on the linear interpolation of the samples.
+/// tenth of a millisecond on the linear interpolation of the samples, which is to
+/// be a fine one.
 struct Reference {
   Eigen::Matrix3d C = Eigen::Matrix3d::Identity();
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
@@ -46,17 +49,83 @@ Reference IntegrateFinely(const ImuStream& stream, double t_i, double t_j,
 }
 
 TEST(Preintegration, EqualsFineStepwiseIntegration) {
-  const ImuStream stream = LivelyImu(3.0, 100.0);
   ImuCalibration calibration;
   calibration.b_g = {0.01, -0.02, 0.015};
   calibration.b_a = {0.1, 0.05, -0.08};
+  const ImuStream stream = LivelyImu(3.0, 100.0);
   const ImuSummary s = ImuIntegrator(stream).Summarize(0.3, 2.3, calibration);
-  const Reference r = IntegrateFinely(stream, 0.3, 2.3, calibration);
+  const Reference r =
+      IntegrateFinely(LivelyImu(3.0, 10000.0), 0.3, 2.3, calibration);
   EXPECT_LT(Log(s.dR.conjugate() * Eigen::Quaterniond(r.C)).norm(), 1e-8);
   // Rotation beyond second order within a sample, (|w| dt)^3/24 |f| dt each
   // with 0.7 rad/s, 10 m/s^2 and 200 samples of 10 ms, is left out.
   EXPECT_LT((s.dv - r.v).norm(), 3e-7);
   EXPECT_LT((s.dp - r.p).norm(), 3e-7);
+}
+
+/// Readings of w = cos(omega t) about x at these stamps.
+ImuStream Swing(const std::vector<double>& stamps, double omega) {
+  ImuStream stream;
+  stream.nominal_dt = 0.01;
+  for (const double t : stamps) {
+    ImuSample sample;
+    sample.t = t;
+    sample.gyro = {std::cos(omega * t), 0.0, 0.0};
+    sample.accel = {0.0, 0.0, std::sin(omega * t)};
+    stream.samples.push_back(sample);
+  }
+  return stream;
+}
+
+/// Largest errors of the angle and the velocity over [0.2, t].
+double SwingError(const ImuStream& stream, double omega) {
+  double error = 0.0;
+  for (double t = 0.3; t < 1.8; t += 0.037) {
+    const ImuSummary s = ImuIntegrator(stream).Summarize(0.2, t, {});
+    const double angle = (std::sin(omega * t) - std::sin(omega * 0.2)) / omega;
+    error = std::max(error, std::abs(Log(s.dR).x() - angle));
+  }
+  return error;
+}
+
+/// A line from reading to reading would miss (omega dt)^2 / 12 of it: 3e-4 at
+/// 100 Hz, a quarter of it at 200 Hz.
+TEST(Preintegration, RatesOfASwingAreIntegratedToFourthOrder) {
+  const double omega = 2.0 * kPi;
+  const auto even = [](double rate) {
+    std::vector<double> stamps;
+    for (int k = 0; k <= 2.0 * rate; ++k) stamps.push_back(k / rate);
+    return stamps;
+  };
+  const double coarse = SwingError(Swing(even(100.0), omega), omega);
+  EXPECT_LT(coarse, 4e-7);
+  EXPECT_LT(SwingError(Swing(even(200.0), omega), omega), coarse / 12.0);
+  std::vector<double> uneven = even(100.0);
+  for (std::size_t k = 1; k < uneven.size(); k += 2) uneven[k] += 0.002;
+  EXPECT_LT(SwingError(Swing(uneven, omega), omega), 3e-6);
+}
+
+TEST(Preintegration, NothingIsBentAcrossADropOutOrOfIncrements) {
+  std::vector<double> stamps;
+  for (int k = 0; k < 100; ++k)
+    stamps.push_back(0.01 * k + (k < 50 ? 0.0 : 0.3));
+  ImuStream stream = Swing(stamps, 6.0);
+  const auto bend = [&](std::size_t k) {
+    return ImuIntegrator(stream).BendOfInterval(k).w_ib_b.x();
+  };
+  EXPECT_EQ(bend(50), 0.0);
+  // -dt^2 / 12 w'' of the side that is there.
+  const double dt = 0.01;
+  const auto expected = [&](double t) {
+    return dt * dt / 12.0 * 36.0 * std::cos(6.0 * t);
+  };
+  EXPECT_NEAR(bend(49), expected(stamps[48]), 1e-6);
+  EXPECT_NEAR(bend(51), expected(stamps[51]), 1e-6);
+  EXPECT_NEAR(bend(1), expected(stamps[1]), 1e-6);
+  EXPECT_NEAR(bend(99), expected(stamps[98]), 1e-6);
+  EXPECT_NEAR(bend(20), expected(0.5 * (stamps[19] + stamps[20])), 1e-6);
+  stream.kind = ImuStream::Kind::kIncrements;
+  EXPECT_EQ(bend(20), 0.0);
 }
 
 TEST(Preintegration, SplitIntervalsComposeToTheWhole) {

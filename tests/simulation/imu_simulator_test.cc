@@ -206,7 +206,7 @@ TEST(ImuSimulator, IncrementsAreTheIntegralsOfTheRates) {
   EXPECT_LT(accel, 2.0 * quartic * 11.0 * 36.0);
 }
 
-TEST(ImuSimulator, RatesReproduceTheMotionToSecondOrder) {
+TEST(ImuSimulator, RatesReproduceTheMotion) {
   SegmentTrajectory trajectory = Drive(120.0, 6);
   const ErrorLayout layout = NavigationLayout({});
   const auto drift = [&](double rate_hz) {
