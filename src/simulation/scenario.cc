@@ -194,6 +194,10 @@ std::unique_ptr<Trajectory> MakeTrajectory(const Scenario& scenario) {
   if (!scenario.profile.empty()) {
     return std::make_unique<SampledTrajectory>(scenario.profile);
   }
+  if (scenario.hand.duration > 0.0) {
+    return std::make_unique<HandTrajectory>(
+        scenario.start, scenario.start_heading, scenario.hand);
+  }
   if (!scenario.way_points.points.empty()) {
     constexpr double kStep = 0.5;  // [s]
     return std::make_unique<SampledTrajectory>(

@@ -10,6 +10,7 @@
 
 #include "dataset/dataset.h"
 #include "simulation/bad_start.h"
+#include "simulation/hand_motion.h"
 #include "simulation/imu_simulator.h"
 #include "simulation/sampled_trajectory.h"
 #include "simulation/sensor_errors.h"
@@ -41,6 +42,8 @@ struct Scenario {
   std::vector<Segment> segments;
   /// If there are any, the motion instead of segments.
   WayPoints way_points;
+  /// If it lasts, the motion instead of these.
+  HandMotion hand;
   /// If not empty, the motion instead of all these.
   std::vector<ProfilePoint> profile;
   /// Longest duration [s]; the motion may end before.

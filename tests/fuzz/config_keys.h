@@ -231,6 +231,7 @@ inline const std::vector<FuzzMap>& ScenarioMaps() {
         {"way_points",
          "{duration: 50 s, north: [0, 9, 19, 28, 40 m], east: [0, 0, 1, 5, 9 "
          "m], down: [0, 0, 0, 0, 0 m]}"},
+        {"hand", "{duration: 60 s, seed: 2}"},
         {"profile", "truth.csv"},
         {"duration", "10 s"},
         {"imu", "<scenario_imu>"},

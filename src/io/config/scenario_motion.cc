@@ -93,8 +93,9 @@ void AppendSegments(ConfigMap* parent, double* speed,
 
 void ReadSegments(ConfigMap* top, Scenario* scenario) {
   if (!top->Has("segments")) {
-    top->Fail("segments",
-              "is missing; expected segments, wander, way_points or profile");
+    top->Fail(
+        "segments",
+        "is missing; expected segments, wander, way_points, hand or profile");
   }
   double speed = scenario->start_speed;
   AppendSegments(top, &speed, &scenario->segments);
@@ -106,27 +107,50 @@ void ReadSegments(ConfigMap* top, Scenario* scenario) {
   }
 }
 
-void ReadWander(ConfigMap* top, Scenario* scenario) {
-  ConfigMap wander = top->Map("wander");
-  const int seed = wander.Integer("seed", 1);
-  if (seed < 0) wander.Fail("seed", "must not be negative");
-  const double duration = wander.Positive("duration", Quantity::kTime);
+double ReadDuration(ConfigMap* map) {
+  const double duration = map->Positive("duration", Quantity::kTime);
   if (duration > kLongestScenario) {
-    wander.Fail("duration", "expected at most 31 days");
+    map->Fail("duration", "expected at most 31 days");
   }
-  wander.Finish();
-  scenario->segments =
-      WanderingDrive(duration, static_cast<std::uint64_t>(seed));
-  scenario->duration = duration;
+  return duration;
+}
+
+/// A motion that is drawn: how long it lasts, and from what.
+struct DrawnMotion {
+  double duration = 0.0;  ///< [s]
+  std::uint64_t seed = 1;
+};
+
+DrawnMotion ReadDrawnMotion(ConfigMap* map) {
+  const int seed = map->Integer("seed", 1);
+  if (seed < 0) map->Fail("seed", "must not be negative");
+  const double duration = ReadDuration(map);
+  map->Finish();
+  return {duration, static_cast<std::uint64_t>(seed)};
+}
+
+void ReadWander(ConfigMap* top, Scenario* scenario) {
+  ConfigMap map = top->Map("wander");
+  const DrawnMotion drawn = ReadDrawnMotion(&map);
+  scenario->segments = WanderingDrive(drawn.duration, drawn.seed);
+  scenario->duration = drawn.duration;
+}
+
+void ReadHand(ConfigMap* top, Scenario* scenario) {
+  ConfigMap map = top->Map("hand");
+  const DrawnMotion drawn = ReadDrawnMotion(&map);
+  if (drawn.duration < kShortestHandMotion) {
+    map.Fail("duration",
+             "expected at least 30 s, of which the first and the "
+             "last 10 s are at rest");
+  }
+  scenario->hand = {drawn.duration, drawn.seed};
 }
 
 void ReadWayPoints(ConfigMap* top, Scenario* scenario) {
   ConfigMap map = top->Map("way_points");
   WayPoints& way = scenario->way_points;
-  way.duration = map.Positive("duration", Quantity::kTime);
-  if (way.duration > kLongestScenario) {
-    map.Fail("duration", "expected at most 31 days");
-  }
+  way.duration = ReadDuration(&map);
   const std::vector<double> north = map.Numbers("north", Quantity::kLength);
   const std::vector<double> east = map.Numbers("east", Quantity::kLength);
   const std::vector<double> down = map.Numbers("down", Quantity::kLength);
@@ -167,7 +191,8 @@ const ConfigTable<Scenario>& StartTable() {
 
 void ReadMotion(ConfigMap* top, Scenario* scenario) {
   std::string given;
-  for (const char* key : {"profile", "wander", "way_points", "segments"}) {
+  for (const char* key :
+       {"profile", "wander", "way_points", "hand", "segments"}) {
     if (!top->Has(key)) continue;
     if (!given.empty())
       top->Fail(given, "does not go with " + std::string(key));
@@ -181,12 +206,17 @@ void ReadMotion(ConfigMap* top, Scenario* scenario) {
     return;
   }
   ConfigMap start = top->Map("start");
+  if (given == "hand" && start.Has("speed")) {
+    start.Fail("speed", "does not go with hand, which begins at rest");
+  }
   ReadTable(StartTable(), &start, scenario);
   start.Finish();
   if (given == "wander") {
     ReadWander(top, scenario);
   } else if (given == "way_points") {
     ReadWayPoints(top, scenario);
+  } else if (given == "hand") {
+    ReadHand(top, scenario);
   } else {
     ReadSegments(top, scenario);
   }
@@ -225,7 +255,13 @@ std::vector<KeySection> MotionSections() {
        {{"duration", "from the first to the last", "needed"},
         {"north", "list, from the start", "needed"},
         {"east", "list, from the start", "needed"},
-        {"down", "list, from the start", "needed"}}}};
+        {"down", "list, from the start", "needed"}}},
+      {"scenario: hand",
+       "A drawn motion of a sensor held in a hand, from rest to rest: turning "
+       "and moved to and fro, as the hands of the BROAD recordings.",
+       {{"duration", "at least 30 s; the first and the last 10 s are at rest",
+         "needed"},
+        {"seed", "of the motion", "1"}}}};
 }
 
 }  // namespace hindsight
