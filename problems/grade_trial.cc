@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -18,24 +19,32 @@ constexpr char kRulePrefix[] = "rule:";
 /// It says which sensor, where another rule says that something does not fit.
 constexpr const char* kDerivedRule = "contradiction";
 
-double ValueOf(const RunRecord& record, const std::string& name) {
+/// None of what the method does not estimate.
+std::optional<double> ValueOf(const RunRecord& record,
+                              const std::string& name) {
   for (const auto& [own, value] : record.values) {
     if (own == name) return value;
   }
-  return std::nan("");
+  return std::nullopt;
+}
+
+/// NaN is beyond every limit.
+bool Exceeds(const RunRecord& record, const std::string& name, double limit) {
+  const std::optional<double> value = ValueOf(record, name);
+  return value && !(*value <= limit);
 }
 
 /// Whether an answer is wrong, beside the one of the healthy twin.
 bool IsWrong(const RunRecord& run, const RunRecord* healthy) {
   if (!run.answered) return false;
-  if (!(ValueOf(run, "position_nees") <= kWrongNees) ||
-      !(ValueOf(run, "attitude_nees") <= kWrongNees) ||
-      ValueOf(run, "constants_beyond_5_sigma") > 0.0) {
+  if (Exceeds(run, "position_nees", kWrongNees) ||
+      Exceeds(run, "attitude_nees", kWrongNees) ||
+      Exceeds(run, "constants_beyond_5_sigma", 0.0)) {
     return true;
   }
-  const bool outside = ValueOf(run, "outside_5_sigma") > kWrongShare;
-  return outside && (healthy == nullptr || !healthy->answered ||
-                     ValueOf(*healthy, "outside_5_sigma") <= kWrongShare);
+  return Exceeds(run, "outside_5_sigma", kWrongShare) &&
+         (healthy == nullptr || !healthy->answered ||
+          !Exceeds(*healthy, "outside_5_sigma", kWrongShare));
 }
 
 std::vector<std::string> RulesOf(const RunRecord& run) {
@@ -74,7 +83,8 @@ class Sorter {
         {"wrong_and_usable", wrong && run.grade == Grade::kUsable ? 1.0 : 0.0}};
     for (const char* name : {"position_rms", "position_nees", "attitude_rms",
                              "attitude_nees", "outside_5_sigma"}) {
-      values.emplace_back(name, ValueOf(run, name));
+      const std::optional<double> value = ValueOf(run, name);
+      if (value) values.emplace_back(name, *value);
     }
     Add(run, kFaults, run.labels, std::move(values));
     if (is_faulty && !(wrong && visible)) return;

@@ -57,7 +57,7 @@ PartError PartOf(const ErrorVector& e, const ErrorMatrix& P, int offset) {
 void JudgeNodes(const Solution& solution, const std::vector<std::size_t>& nodes,
                 const std::vector<State>& truth,
                 const std::vector<int>& components, RunRecord* record) {
-  const int p = solution.layout.Find(BlockKind::kPosition)->offset;
+  const Block* p = solution.layout.Find(BlockKind::kPosition);
   const int a = solution.layout.Find(BlockKind::kAttitude)->offset;
   std::vector<double> distance, angle, position_nees, attitude_nees, beyond;
   double end_horizontal = 0.0;
@@ -67,30 +67,34 @@ void JudgeNodes(const Solution& solution, const std::vector<std::size_t>& nodes,
     const ErrorVector e = Local(solution.layout, x, truth[i]);
     const ErrorMatrix P = solution.covariances.Get(nodes[i]);
     record->t.push_back(truth[i].t);
-    series["position_n"].push_back(e(p));
-    series["position_e"].push_back(e(p + 1));
-    series["position_d"].push_back(e(p + 2));
     series["yaw"].push_back(WrapAngle(truth[i].euler().z() - x.euler().z()));
     const Eigen::VectorXd known = e(components);
     const Eigen::MatrixXd P_known = P(components, components);
     series["nees"].push_back(known.dot(P_known.llt().solve(known)));
-    const PartError position = PartOf(e, P, p);
     const PartError attitude = PartOf(e, P, a);
-    distance.push_back(position.length);
     angle.push_back(attitude.length);
-    position_nees.push_back(position.nees);
     attitude_nees.push_back(attitude.nees);
-    beyond.push_back(position.beyond || attitude.beyond ? 1.0 : 0.0);
-    end_horizontal = e.segment<2>(p).norm();
+    beyond.push_back(attitude.beyond ? 1.0 : 0.0);
+    if (p == nullptr) continue;
+    series["position_n"].push_back(e(p->offset));
+    series["position_e"].push_back(e(p->offset + 1));
+    series["position_d"].push_back(e(p->offset + 2));
+    const PartError position = PartOf(e, P, p->offset);
+    distance.push_back(position.length);
+    position_nees.push_back(position.nees);
+    if (position.beyond) beyond.back() = 1.0;
+    end_horizontal = e.segment<2>(p->offset).norm();
   }
+  record->values.insert(record->values.end(),
+                        {{"heading_rms", Rms(series["yaw"])},
+                         {"attitude_rms", Rms(angle)},
+                         {"attitude_nees", Mean(attitude_nees)},
+                         {"outside_5_sigma", Mean(beyond)}});
+  if (p == nullptr) return;
   record->values.insert(record->values.end(),
                         {{"position_rms", Rms(distance)},
                          {"position_max", Largest(distance)},
-                         {"heading_rms", Rms(series["yaw"])},
-                         {"attitude_rms", Rms(angle)},
                          {"position_nees", Mean(position_nees)},
-                         {"attitude_nees", Mean(attitude_nees)},
-                         {"outside_5_sigma", Mean(beyond)},
                          {"end_horizontal", end_horizontal}});
 }
 
@@ -140,6 +144,7 @@ OutageSpans SpansOf(const Dataset& dataset,
 
 void AddOutages(const OutageSpans& spans, const RunRecord& judged,
                 const std::string& method, CaseRun* run) {
+  if (!judged.series.contains("position_n")) return;
   for (const auto& [span, sensors] : spans) {
     double horizontal = -1.0, vertical = 0.0;
     for (std::size_t k = 0; k < judged.t.size(); ++k) {
@@ -278,6 +283,9 @@ Trial NavigationTrialOf(const NavigationTrial& trial) {
   return [trial](const Dataset& dataset, CaseRun* run) {
     ReconstructionOptions options;
     options.node_times = JudgedTimes(trial, dataset);
+    options.attitude_alone = std::all_of(
+        trial.methods.begin(), trial.methods.end(),
+        [](const auto& name) { return MethodOf(name).attitude_alone(); });
     std::unique_ptr<Reconstruction> reconstruction;
     std::vector<Solution> solutions;
     for (const std::string& method : trial.methods) {
@@ -286,8 +294,11 @@ Trial NavigationTrialOf(const NavigationTrial& trial) {
         if (!reconstruction) {
           reconstruction = std::make_unique<Reconstruction>(dataset, options);
         }
-        const Solution& solution =
+        Solution& solution =
             solutions.emplace_back(reconstruction->Run(method));
+        if (options.attitude_alone && !options.node_times.empty()) {
+          solution = reconstruction->Sample(solution, options.node_times);
+        }
         Judge(dataset, options.node_times, solution, record);
         record->values.insert(record->values.end(), trial.values.begin(),
                               trial.values.end());

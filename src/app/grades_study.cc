@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "app/asked_methods.h"
 #include "app/flags.h"
 #include "app/study_cases.h"
 #include "io/config/fault_config.h"
@@ -15,9 +16,12 @@ Study GradesStudy() {
   if (IsGiven("faults") && FLAGS_faults.empty()) {
     throw UsageError("--faults: expected a file");
   }
+  const AskedMethods asked = ReadMethods(FLAGS_methods);
   const FaultCases cases =
-      IsGiven("faults") ? LoadFaultCases(FLAGS_faults) : BuiltinFaultCases();
-  const std::vector<std::string> methods = AskedMethods();
+      IsGiven("faults")
+          ? LoadFaultCases(FLAGS_faults)
+          : BuiltinFaultCases(asked.attitude_alone ? "attitude.yaml"
+                                                   : "grades.yaml");
   Study study = {"", {}, GradeTables(), {}};
   for (const std::string& name : cases.scenarios) {
     const Scenario scenario = FindScenario(name, {});
@@ -33,7 +37,7 @@ Study GradesStudy() {
     study.jobs.push_back(JobOf(
         {{{scenario.name},
           [scenario] { return RecordingOf(scenario); },
-          GradeTrial({.methods = methods, .judged_every = 1.0}, twins)}}));
+          GradeTrial({.methods = asked.names, .judged_every = 1.0}, twins)}}));
   }
   return study;
 }

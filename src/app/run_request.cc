@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/asked_methods.h"
 #include "app/flags.h"
 #include "app/list_flags.h"
 #include "app/observer_flags.h"
@@ -62,28 +63,6 @@ std::vector<std::string> SplitRules(const std::string& flag,
     throw UsageError("--" + flag + "=" + text + ": nothing beside a semicolon");
   }
   return rules;
-}
-
-/// Sets `methods` and `attitude_alone`.
-void ParseMethods(const std::string& text, RunRequest* request) {
-  std::size_t attitude_alone = 0;
-  for (const std::string& name : ReadWords("methods", text)) {
-    try {
-      attitude_alone += MethodOf(name).attitude_alone() ? 1 : 0;
-    } catch (const InputError& error) {
-      throw UsageError("--methods=" + text + ": " + error.what());
-    }
-    request->methods.push_back(name);
-  }
-  if (request->methods.empty()) {
-    throw UsageError("--methods: expected some of " + MethodNames(false));
-  }
-  request->attitude_alone = attitude_alone == request->methods.size();
-  if (attitude_alone > 0 && !request->attitude_alone) {
-    throw UsageError("--methods=" + text + ": " + MethodNames(true) +
-                     " estimate attitude alone and do not go with the other "
-                     "methods");
-  }
 }
 
 std::string ReadRule(const RunRequest& request) {
@@ -205,7 +184,9 @@ RunRequest ReadRunRequest(const std::string& config) {
   request.out = FLAGS_out;
   request.force = FLAGS_force;
   request.clean = FLAGS_clean;
-  ParseMethods(FLAGS_methods, &request);
+  AskedMethods asked = ReadMethods(FLAGS_methods);
+  request.methods = std::move(asked.names);
+  request.attitude_alone = asked.attitude_alone;
   request.ahrs_rule = ReadRule(request);
   request.from = FLAGS_from;
   request.to = FLAGS_to;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "app/asked_methods.h"
 #include "app/flags.h"
 #include "app/grades_study.h"
 #include "app/list_flags.h"
@@ -263,7 +264,7 @@ Trial ScenarioTrial(const std::vector<std::string>& methods,
 }  // namespace
 
 Study ScenarioStudy(const std::vector<std::string>& names_or_paths) {
-  const std::vector<std::string> methods = AskedMethods();
+  const std::vector<std::string> methods = ReadTrajectoryMethods(FLAGS_methods);
   const CaseList list = MakeCases({});
   std::vector<std::string> columns = {"scenario"};
   columns.insert(columns.end(), list.columns.begin(), list.columns.end());

@@ -5,10 +5,8 @@
 #include <set>
 
 #include "app/flags.h"
-#include "app/list_flags.h"
 #include "base/error.h"
 #include "io/read/units.h"
-#include "problems/method.h"
 
 namespace hindsight {
 namespace {
@@ -147,23 +145,6 @@ std::vector<Case> CasesOf(const std::string& scenario, const CaseList& list,
         {entry.labels, [changed] { return RecordingOf(changed); }, trial});
   }
   return cases;
-}
-
-std::vector<std::string> AskedMethods() {
-  const std::vector<std::string> methods = ReadWords("methods", FLAGS_methods);
-  for (const std::string& method : methods) {
-    try {
-      if (!MethodOf(method).attitude_alone()) continue;
-    } catch (const InputError& error) {
-      throw UsageError("--methods=" + FLAGS_methods + ": " + error.what());
-    }
-    throw UsageError("--methods=" + FLAGS_methods + ": '" + method +
-                     "' is for attitude alone");
-  }
-  if (methods.empty()) {
-    throw UsageError("--methods: expected some of " + MethodNames(false));
-  }
-  return methods;
 }
 
 }  // namespace hindsight

@@ -41,9 +41,6 @@ CaseList MakeCases(std::vector<Axis> axes);
 /// The changes of --set, each of one value. Throws UsageError.
 ScenarioChanges ReadChanges();
 
-/// --methods, of trajectories. Throws UsageError.
-std::vector<std::string> AskedMethods();
-
 /// The scenario's motion is made once, for all seeds.
 Recording RecordingOf(const Scenario& scenario);
 

@@ -142,6 +142,37 @@ TEST(MonteCarloGrades, CountsWhatIsWrongAndWhatIsSaidOfIt) {
   EXPECT_THAT(faults, ::testing::Not(HasSubstr("dvl")));
 }
 
+TEST(MonteCarloGrades, CountsAttitudeAloneByItsAttitudes) {
+  const TemporaryFolder folder;
+  WriteFile(folder.path() / "faults.yaml",
+            "scenarios: [test_worn]\nfaults:\n"
+            "  - {fault: gyro_unit, sizes: [57.29578]}\n"
+            "  - {fault: imu_gap, sizes: [0.1 s]}\n"
+            "  - {fault: delay, sensor: velocity, sizes: [1 s]}\n");
+  const Outcome outcome =
+      Hindsight({"montecarlo", "grades", "--faults=faults.yaml", "--runs=2",
+                 "--methods=ahrs,ahrs_smoother", "--out=mc"},
+                folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string faults = ReadFile(folder.path() / "mc" / "faults.csv");
+  for (const char* method : {"ahrs", "ahrs_smoother", "run"}) {
+    EXPECT_THAT(faults, HasSubstr(std::string("gyro_unit,57.29578,") + method +
+                                  ",2,0,0,2,2,2,0"));
+    EXPECT_THAT(faults, HasSubstr(std::string("imu_gap,0.1 s,") + method +
+                                  ",2,2,0,0,0,0,0"));
+  }
+  EXPECT_THAT(faults, ::testing::Not(HasSubstr("velocity")));
+}
+
+TEST(MonteCarloGrades, RefusesMethodsOfBothKinds) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      Hindsight({"montecarlo", "grades", "--methods=ahrs,batch", "--out=mc"},
+                folder.path());
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--methods=ahrs,batch"));
+}
+
 TEST(MonteCarloGrades, BadCasesAreOneLine) {
   const TemporaryFolder folder;
   const auto error = [&](const std::string& faults) {

@@ -101,10 +101,13 @@ FaultCases LoadFaultCases(const std::string& path) {
                         std::filesystem::path(path).parent_path());
 }
 
-FaultCases BuiltinFaultCases() {
-  const ScenarioText& text = FaultCaseTexts().front();
-  return ReadFaultCases(
-      ConfigMap::Parse(std::string(text.text), std::string(text.name)), {});
+FaultCases BuiltinFaultCases(std::string_view file) {
+  for (const ScenarioText& text : FaultCaseTexts()) {
+    if (text.name != file) continue;
+    return ReadFaultCases(
+        ConfigMap::Parse(std::string(text.text), std::string(text.name)), {});
+  }
+  throw InputError("'" + std::string(file) + "' is no built-in list of faults");
 }
 
 }  // namespace hindsight

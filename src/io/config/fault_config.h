@@ -2,6 +2,7 @@
 #define HINDSIGHT_IO_CONFIG_FAULT_CONFIG_H_
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "simulation/fault.h"
@@ -31,8 +32,9 @@ struct FaultCases {
 /// Reads a file of cases. Throws InputError "file:line: ...".
 FaultCases LoadFaultCases(const std::string& path);
 
-/// Those that come along, data/faults/grades.yaml.
-FaultCases BuiltinFaultCases();
+/// Those of a file of data/faults, which come along. Throws InputError if there
+/// is none of that name.
+FaultCases BuiltinFaultCases(std::string_view file);
 
 }  // namespace hindsight
 
