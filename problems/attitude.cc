@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/processor_time.h"
 #include "earth/wgs84.h"
+#include "evaluation/given_values.h"
 #include "evaluation/grade.h"
 #include "evaluation/observability.h"
 #include "geometry/so3.h"
@@ -239,7 +240,22 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) {
 
 Solution AttitudeEstimation::Sample(const Solution& solution,
                                     const std::vector<double>& times) const {
-  return SampleAttitude(solution, dataset_.imu, times);
+  return SampleAttitude(solution, imu_, times);
+}
+
+void AttitudeEstimation::JudgeFilterByAll(
+    const std::optional<StartValues>& start, std::span<const Sensor> sensors) {
+  std::vector<NormalisedInnovation> own = std::move(innovations_);
+  const Solution whole = Smoother();
+  JudgeLeaps(innovations_);
+  innovations_ = std::move(own);
+  if (!start) return;
+  const std::size_t before = evidence_.size();
+  FindStrainedValues({.solution = whole, .sensors = sensors, .start = start},
+                     &evidence_);
+  for (std::size_t i = before; i < evidence_.size(); ++i) {
+    evidence_[i].rule = "given_values";
+  }
 }
 
 Solution AttitudeEstimation::Run(const Method& method) {
@@ -259,6 +275,11 @@ Solution AttitudeEstimation::Run(const Method& method) {
     start =
         StartOf(solution.layout, start_.P,
                 StateAt(start_.t, start_.q_nb, start_.b_g), dataset_.initial);
+  }
+  if (method.Has(MethodTrait::kForward)) {
+    JudgeFilterByAll(start, sources);
+  } else {
+    JudgeLeaps(innovations_);
   }
   Conclude({.solution = solution,
             .sensors = sources,

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_PROBLEMS_ATTITUDE_H_
 #define HINDSIGHT_PROBLEMS_ATTITUDE_H_
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,6 +46,10 @@ class AttitudeEstimation final : public Estimation {
   Solution Run(const Method& method) override;
   const StartReport* start() const override { return nullptr; }
   std::vector<UnobservedSpan> Unobserved() override { return {}; }
+  /// Of the method run last.
+  std::vector<NormalisedInnovation> Innovations() override {
+    return innovations_;
+  }
   Solution Sample(const Solution& solution,
                   const std::vector<double>& times) const override;
 
@@ -84,6 +89,13 @@ class AttitudeEstimation final : public Estimation {
   /// Down over horizontal part of the field that gives the heading; 0 if none
   /// does.
   double SharedSlope(const FieldSurvey& survey) const;
+  /// Adds to evidence_ what the smoother finds, of a magnetometer and of the
+  /// start too: a filter sees neither while it runs, and is as wrong by them.
+  void JudgeFilterByAll(const std::optional<StartValues>& start,
+                        std::span<const Sensor> sensors);
+  /// Adds to evidence_ a drop-out of the IMU that fits better as a leap of its
+  /// clock (imu_leaps.h); `own` are the smoother's innovations.
+  void JudgeLeaps(const std::vector<NormalisedInnovation>& own);
   /// What the solutions, or the filter's, make no use of, in words.
   std::vector<std::string> Unused() const;
   std::vector<std::string> UnusedByFilter() const;
@@ -103,7 +115,7 @@ class AttitudeEstimation final : public Estimation {
   AttitudeFilterOptions filter_options_;
   Eigen::Quaterniond q_en_;
   AttitudeState start_;
-  /// What speaks against the smoother's heading.
+  /// What speaks against the magnetometer, its field or the start.
   std::vector<Evidence> evidence_;
   /// Of the method run last, by AttitudeInnovation::Source.
   std::vector<NormalisedInnovation> innovations_;

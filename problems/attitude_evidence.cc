@@ -28,13 +28,15 @@ std::vector<Sensor> JudgedSources() {
 }
 
 std::vector<NormalisedInnovation> InnovationsOf(const AttitudeRun& run) {
+  constexpr double kTicks = 1e6;  // a second
   std::vector<NormalisedInnovation> innovations;
   innovations.reserve(run.innovations.size());
   for (const AttitudeInnovation& innovation : run.innovations) {
     NormalisedInnovation& one = innovations.emplace_back();
     one.t = innovation.t;
     one.sensor = static_cast<int>(innovation.source);
-    one.index = innovations.size() - 1;
+    one.index = static_cast<std::size_t>(
+        std::llround(kTicks * (innovation.t - run.innovations.front().t)));
     one.rows = innovation.rows;
     one.white = innovation.rows;
   }

@@ -16,7 +16,8 @@ namespace hindsight {
 /// What the innovations of attitude alone are of, by AttitudeInnovation::Source.
 std::vector<Sensor> JudgedSources();
 
-/// Those of a run, in order of time.
+/// Those of a run, in order of time; their index is the time since the first
+/// [us].
 std::vector<NormalisedInnovation> InnovationsOf(const AttitudeRun& run);
 
 /// What a solution started from: x with P, whose first components are those of

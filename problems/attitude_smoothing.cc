@@ -71,6 +71,45 @@ std::optional<Evidence> TwoNorths(const FieldSurvey& survey) {
       .remedies = {"another place, or headings of another sensor"}};
 }
 
+/// Doubtful where its axes are turned, or its readings scatter by more than their
+/// stated sigma explains.
+void JudgeMagnetometer(const MagnetometerErrors& found, const Sensor& sensor,
+                       double sigma, std::vector<Evidence>* evidence) {
+  // As of the innovations.
+  constexpr double kExcess = 1.4;
+  if (!found.turn_b.isZero(0.0)) {
+    const Eigen::Vector3d turn = found.turn_b / kDegree;
+    evidence->push_back(
+        {.rule = "magnetometer",
+         .grade = Grade::kDoubtful,
+         .what = fmt::format("the readings of '{}' fit the gyros if they are "
+                             "turned by {:.1f}, {:.1f}, {:.1f} deg about the "
+                             "body's axes",
+                             sensor.name, turn.x(), turn.y(), turn.z()),
+         .value = turn.norm(),
+         .limit = kLeastTurn / kDegree,
+         .unit = "deg",
+         .causes = {"a magnetometer that is mounted askew"},
+         .remedies = {"its mounting, turned back by as much"},
+         .is_cause = true});
+  }
+  if (found.scatter && *found.scatter > kExcess * sigma) {
+    evidence->push_back(
+        {.rule = "magnetometer",
+         .grade = Grade::kDoubtful,
+         .what =
+             fmt::format("the field that '{}' reads scatters by {:.2g} uT "
+                         "an axis as the body moves, {:.2g} times what its "
+                         "sigma says",
+                         sensor.name, *found.scatter, *found.scatter / sigma),
+         .value = *found.scatter / sigma,
+         .limit = kExcess,
+         .unit = "1",
+         .causes = {"iron or magnets around", "too small a sigma"},
+         .remedies = {"sigma: " + fmt::format("{:.2g} uT", *found.scatter)}});
+  }
+}
+
 }  // namespace
 
 Solution AttitudeEstimation::Smoother() {
@@ -101,6 +140,10 @@ Solution AttitudeEstimation::Smoother() {
                            : SmoothWithoutSurvey(imu, options);
   if (const auto evidence = TwoNorths(pass.survey)) {
     evidence_.push_back(*evidence);
+  }
+  if (survey) {
+    JudgeMagnetometer(pass.magnetometer, MagnetometerOf(dataset_)->sensor,
+                      options.magnetic_sigma, &evidence_);
   }
   return SolutionOf(pass);
 }
@@ -169,6 +212,8 @@ AttitudeEstimation::Pass AttitudeEstimation::SmoothSurveyed(
     if (!headings_.empty()) survey.turn = 0.0;  // north is measured
     options.magnetic.horizontal = survey.horizontal;
     options.magnetic.down = survey.down;
+    options.magnetic.declination =
+        filter_options_.magnetic.declination + RestAzimuth(survey);
     std::vector<MagneticSample> weighed;
     weighed.reserve(readings.size());
     for (std::size_t k = 0; k < readings.size(); ++k) {

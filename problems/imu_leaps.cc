@@ -16,16 +16,10 @@
 #include "problems/linearisation.h"
 
 namespace hindsight {
-namespace {
 
-struct DropOut {
-  std::size_t end = 0;  ///< number of the sample behind it
-  double t = 0.0;       ///< stamp of the sample before it [s]
-  double lost = 0.0;    ///< beyond the usual interval [s]
-};
-
-std::vector<DropOut> Longest(const ImuStream& imu, double from, double to) {
-  std::vector<DropOut> all;
+std::vector<ImuDropOut> LongestDropOuts(const ImuStream& imu, double from,
+                                        double to) {
+  std::vector<ImuDropOut> all;
   for (const std::size_t k : DropOuts(imu)) {
     const double t = imu.samples[k - 1].t;
     if (t < from || imu.samples[k].t > to) continue;
@@ -33,10 +27,20 @@ std::vector<DropOut> Longest(const ImuStream& imu, double from, double to) {
   }
   std::stable_sort(
       all.begin(), all.end(),
-      [](const DropOut& a, const DropOut& b) { return a.lost > b.lost; });
+      [](const ImuDropOut& a, const ImuDropOut& b) { return a.lost > b.lost; });
   if (all.size() > kMostLeaps) all.resize(kMostLeaps);
   return all;
 }
+
+Dataset WithoutLeap(const Dataset& dataset, const ImuDropOut& leap) {
+  Dataset out = dataset;
+  for (std::size_t k = leap.end; k < out.imu.samples.size(); ++k) {
+    out.imu.samples[k].t -= leap.lost;
+  }
+  return out;
+}
+
+namespace {
 
 /// The largest root mean square, over the nodes of both, of a component's
 /// difference in standard deviations of `chosen`; infinite where no node is of
@@ -59,24 +63,12 @@ double DistanceBetween(const ErrorLayout& layout, const Relinearised& chosen,
                    : std::numeric_limits<double>::infinity();
 }
 
-/// `dataset` without the leap.
-Dataset WithoutLeap(const Dataset& dataset, const DropOut& leap) {
-  Dataset out = dataset;
-  for (std::size_t k = leap.end; k < out.imu.samples.size(); ++k) {
-    out.imu.samples[k].t -= leap.lost;
-  }
-  return out;
-}
-
 /// Nothing where the data cannot be solved without the leap, or `chosen` is hardly
 /// another solution.
-std::optional<RivalSolution> RivalWithout(const DropOut& leap,
+std::optional<RivalSolution> RivalWithout(const ImuDropOut& leap,
                                           ForwardStage* chosen) {
   constexpr double kMostEvidence = 30.0;
   constexpr double kHopeless = 200.0;
-  // No data say how rare a leap is: it is taken to be as rare as what lies beyond
-  // two sigmas, so that it alone makes nothing worse than doubtful.
-  constexpr double kLostForOneLeap = 20.0;
   const Dataset anew = WithoutLeap(chosen->dataset(), leap);
   ForwardStage stage(anew, chosen->options(), chosen->start());
   stage.Run();
@@ -115,9 +107,9 @@ std::vector<RivalSolution> ImuLeaps(ForwardStage* chosen) {
   std::vector<RivalSolution> rivals;
   if (!chosen->start().layout.has_canonical_head()) return rivals;
   const ImuStream& imu = chosen->dataset().imu;
-  for (const DropOut& leap :
-       Longest(imu, chosen->timeline().node(0).t,
-               std::min(chosen->options().to, imu.t_end()))) {
+  for (const ImuDropOut& leap :
+       LongestDropOuts(imu, chosen->timeline().node(0).t,
+                       std::min(chosen->options().to, imu.t_end()))) {
     try {
       if (auto rival = RivalWithout(leap, chosen)) {
         rivals.push_back(*std::move(rival));

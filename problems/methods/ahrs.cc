@@ -18,7 +18,7 @@ extern const Method kAhrsMethod;
 const Method kAhrsMethod = {
     .name = "ahrs",
     .help = "causal filter of attitude, gyro bias and gyro scale",
-    .traits = 0,
+    .traits = TraitsOf({MethodTrait::kForward}),
     .run = RunFilter};
 
 extern const Method kAhrsSmootherMethod;

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <vector>
 
@@ -45,12 +44,16 @@ struct FieldSurvey {
   std::vector<double> weight;
 };
 
-/// What a heading that counts from the field at rest leaves open of north
-/// [rad]. Two places disturb the field independently and alike, by azimuths of
-/// variance s^2: the one at rest is off by turn / 2 +- s / sqrt(2), and the turn
-/// says s^2 = turn^2 / 2.
+/// Of the field at rest, counted from magnetic north [rad]. Two places disturb
+/// the field independently and alike, by azimuths of variance s^2: north is in
+/// the middle between them, +- s / sqrt(2).
+inline double RestAzimuth(const FieldSurvey& survey) {
+  return -0.5 * survey.turn;
+}
+/// What that leaves open of north [rad]: the turn, of variance 2 s^2, says
+/// s^2 = turn^2 / 2.
 inline double NorthSigma(const FieldSurvey& survey) {
-  return std::abs(survey.turn) / std::numbers::sqrt2;
+  return 0.5 * std::abs(survey.turn);
 }
 
 /// The reference is the median of the horizontal, of the vertical part and of

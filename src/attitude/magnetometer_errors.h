@@ -2,9 +2,11 @@
 #define HINDSIGHT_ATTITUDE_MAGNETOMETER_ERRORS_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 
 #include "attitude/field_survey.h"
+#include "base/units.h"
 
 namespace hindsight {
 
@@ -15,6 +17,13 @@ struct MagnetometerErrors {
   Eigen::Vector3d hard_iron_b = Eigen::Vector3d::Zero();
   double time_offset = 0.0;        ///< true time less the stamps' [s]
   double time_offset_sigma = 0.0;  ///< [s]
+  /// By which the sensor's axes are turned against those of the gyros, a rotation
+  /// vector in body axes: it reads Exp(turn_b) m_b. Zero if there is none to be
+  /// believed. For a verdict: readings stay as they are [rad].
+  Eigen::Vector3d turn_b = Eigen::Vector3d::Zero();
+  /// Of an axis, by the median distance of the readings from the even field as the
+  /// body moves; absent if it hardly does [uT].
+  std::optional<double> scatter;
 };
 
 /// Finds them, with one even field m_n, in
@@ -25,12 +34,15 @@ struct MagnetometerErrors {
 /// kLeastHardIron, and nine in ten readings, by weight and by time, must be
 /// nearer to the field with it than to the one without: a magnet put on for a
 /// part of the time is none. A field that differs from place to place passes
-/// for a weak one. `time_offset_sigma` is the a priori one; 0: the stamps are
+/// for a weak one. A turn t, of which m_b then has t x C_bn m_n more, must be as
+/// significant, and above kLeastTurn. `time_offset_sigma` is the a priori one; 0: the stamps are
 /// right. The attitudes may count their heading from anywhere, but must not
 /// drift by more than some degrees.
 MagnetometerErrors FindMagnetometerErrors(
     std::span<const SurveyedField> readings, double time_offset_sigma = 0.0);
 inline constexpr double kLeastHardIron = 5.0;  // [uT]
+/// What a field that differs from place to place by some uT passes for.
+inline constexpr double kLeastTurn = 4.0 * kDegree;
 
 /// Weight in that search of a reading that follows another by dt [s] after
 /// turning by `angle` [rad]: its error is a function of place and attitude, so

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "app/command_line.h"
 
@@ -154,6 +155,64 @@ TEST_F(AttitudeAlone, HearsOfAStartThatIsContradicted) {
       "  accel_bias_sigma: 2 mg\n");
   const nlohmann::json methods = Run();
   EXPECT_NE(methods["ahrs_smoother"]["grade"], "usable") << said_;
+}
+
+/// A sensor in the hand with a magnetometer, a minute and a half.
+class WornSensor : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const Outcome made = Hindsight({"simulate", "test_worn", "--seed=3",
+                                    "--set=hand.duration=90 s", "--out=data"},
+                                   folder_.path());
+    ASSERT_EQ(made.status, 0) << made.err;
+  }
+
+  /// Verdicts of `ahrs` and `ahrs_smoother`, each run alone.
+  std::vector<nlohmann::json> Run() {
+    std::vector<nlohmann::json> methods;
+    for (const std::string method : {"ahrs", "ahrs_smoother"}) {
+      Hindsight({"run", "data/config.yaml", "--methods=" + method, "--out=out",
+                 "--force"},
+                folder_.path());
+      methods.push_back(nlohmann::json::parse(
+          ReadFile(folder_.path() / "out/summary.json"))["methods"][method]);
+    }
+    return methods;
+  }
+
+  void Replace(const std::string& from, const std::string& to) {
+    std::string text = ReadFile(folder_.path() / "data/config.yaml");
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << text;
+    WriteFile(folder_.path() / "data/config.yaml",
+              text.replace(at, from.size(), to));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(WornSensor, IsUsableAsItIs) {
+  for (const nlohmann::json& method : Run()) {
+    EXPECT_EQ(method["grade"], "usable") << method["verdict"];
+    EXPECT_LT(method["nees"]["attitude"], 4.0);
+  }
+}
+
+TEST_F(WornSensor, HearsOfAMagnetometerThatIsMountedAskew) {
+  Replace("type: magnetometer",
+          "type: magnetometer\n    mounting: [0 deg, 0 deg, 8 deg]");
+  for (const nlohmann::json& method : Run()) {
+    EXPECT_NE(method["grade"], "usable");
+    EXPECT_THAT(method["evidence"].dump(), HasSubstr("8.0 deg about"));
+  }
+}
+
+TEST_F(WornSensor, HearsOfAFieldThatScattersBeyondItsSigma) {
+  Replace("sigma: 1 uT", "sigma: 0.3 uT");
+  for (const nlohmann::json& method : Run()) {
+    EXPECT_EQ(method["grade"], "doubtful");
+    EXPECT_THAT(method["evidence"].dump(), HasSubstr("times what its sigma"));
+  }
 }
 
 }  // namespace

@@ -92,5 +92,14 @@ TEST(FieldSurvey, PassesOverAMagnetThatComesNear) {
   EXPECT_EQ(survey.weight[0], survey.weight[1]);
 }
 
+TEST(FieldSurvey, PutsNorthInTheMiddleOfTwoPlaces) {
+  FieldSurvey survey;
+  survey.turn = 0.06;
+  // Field at rest and in motion lie alike on both sides of it.
+  EXPECT_DOUBLE_EQ(RestAzimuth(survey), -0.03);
+  EXPECT_DOUBLE_EQ(RestAzimuth(survey) + survey.turn, 0.03);
+  EXPECT_DOUBLE_EQ(NorthSigma(survey), 0.03);
+}
+
 }  // namespace
 }  // namespace hindsight

@@ -70,6 +70,45 @@ TEST(HardIron, CountsManyReadingsAtRestAsOne) {
 }
 
 /// True time less that of the stamps: negative where the sensor is late.
+TEST(MagnetometerTurn, IsFoundWithItsSign) {
+  const Eigen::Vector3d turn(0.03, -0.05, 0.12);
+  std::vector<SurveyedField> readings =
+      TurningFreely(Eigen::Vector3d::Zero(), 400);
+  EXPECT_TRUE(FindMagnetometerErrors(readings).turn_b.isZero(0.0));
+  for (SurveyedField& reading : readings) {
+    reading.field_b = Exp(turn) * reading.field_b;
+  }
+  // The fit is linear in the turn.
+  EXPECT_LT((FindMagnetometerErrors(readings).turn_b - turn).norm(),
+            turn.squaredNorm());
+}
+
+TEST(MagnetometerTurn, IsNoneBelowWhatSurroundingsImitate) {
+  std::vector<SurveyedField> readings =
+      TurningFreely(Eigen::Vector3d::Zero(), 400);
+  for (SurveyedField& reading : readings) {
+    reading.field_b =
+        Exp(Eigen::Vector3d(0.9 * kLeastTurn, 0.0, 0.0)) * reading.field_b;
+  }
+  EXPECT_TRUE(FindMagnetometerErrors(readings).turn_b.isZero(0.0));
+}
+
+TEST(MagnetometerScatter, IsThatOfAnAxis) {
+  const auto scatter =
+      FindMagnetometerErrors(TurningFreely({80.0, -120.0, 40.0}, 1000)).scatter;
+  ASSERT_TRUE(scatter);
+  EXPECT_NEAR(*scatter, 0.5, 0.05);
+}
+
+TEST(MagnetometerScatter, IsUnknownWhereTheBodyRests) {
+  std::vector<SurveyedField> readings =
+      TurningFreely(Eigen::Vector3d::Zero(), 1000);
+  for (SurveyedField& reading : readings) {
+    reading.q_nb = readings.front().q_nb;
+  }
+  EXPECT_FALSE(FindMagnetometerErrors(readings).scatter);
+}
+
 TEST(MagneticTimeOffset, IsFoundWithinItsSigma) {
   constexpr double kDelay = 0.012;
   const Eigen::Vector3d magnet(8.0, -12.0, 4.0);

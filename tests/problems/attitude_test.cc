@@ -217,7 +217,8 @@ TEST(AttitudeEstimation, TwentyTurnsWithAScaleErrorAreConsistent) {
 }
 
 /// The field where the hand moves is turned by 9 deg against the one where it
-/// rests, which points north.
+/// rests, which points north: what cannot be told from the other way round, so
+/// that half of it is left.
 TEST(AttitudeEstimation, ASurveyIsNoWorseThanNone) {
   FreeRotationOptions options;
   options.motion_field_n = {19.0, 3.0, 42.0};
@@ -240,7 +241,7 @@ TEST(AttitudeEstimation, ASurveyIsNoWorseThanNone) {
       }
     }
     EXPECT_LT(error[1], std::max(error[0], 0.5 * kDegree));
-    EXPECT_LT(error[1], (even ? 1.0 : 2.0) * kDegree);
+    EXPECT_LT(error[1], (even ? 1.0 : 5.5) * kDegree);
   }
 }
 
