@@ -10,6 +10,7 @@
 #include "app/progress.h"
 #include "app/result_folder.h"
 #include "app/studies.h"
+#include "app/study_cases.h"
 #include "app/study_report.h"
 #include "app/study_shard.h"
 #include "base/parallel.h"
@@ -80,12 +81,12 @@ std::string Help() {
 std::string ScenariosWith(const std::string& flag) {
   const bool is_of_others =
       flag == "set" || flag == "methods" || flag == "sweep";
-  std::string names = is_of_others ? kOtherScenarios : "";
+  std::vector<std::string> names;
+  if (is_of_others) names.emplace_back(kOtherScenarios);
   for (const NamedStudy& study : NamedStudies()) {
-    if (!Has(study.flags, flag)) continue;
-    names += (names.empty() ? "" : ", ") + study.name;
+    if (Has(study.flags, flag)) names.push_back(study.name);
   }
-  return names;
+  return Joined(names, ", ");
 }
 
 std::vector<FlagUse> Flags() {
@@ -189,13 +190,9 @@ NamedStudy Find(const std::vector<std::string>& arguments) {
   }
   for (const std::string& name : arguments) {
     if (Has(ScenarioNames(), name) || PathExists(name)) continue;
-    std::string known;
-    for (const std::string& one : names) {
-      known += (known.empty() ? "" : ", ") + one;
-    }
     throw UsageError("'montecarlo' knows no scenario and finds no file '" +
                      name + "'" + Suggestion(name, names) + "; there is " +
-                     known);
+                     Joined(names, ", "));
   }
   return {arguments.front(),
           "",
@@ -216,15 +213,7 @@ int Run(const std::vector<std::string>& arguments) {
   if (study.name.empty()) study.name = choice.name;
   const std::optional<ShardNumber> shard = ReadShardNumber(options.runs);
   return WithResultFolder(
-      {FLAGS_out, FLAGS_force, FLAGS_clean},
-      [&]() -> ResultFolder::Paths {
-        ResultFolder::Paths files;
-        for (const std::string& name : arguments) {
-          if (!IsFile(name)) continue;
-          for (auto& file : ScenarioFiles(name)) files.push_back(file);
-        }
-        return files;
-      },
+      {FLAGS_out, FLAGS_force, FLAGS_clean}, [&] { return FilesOf(arguments); },
       [&](ResultFolder* folder) {
         if (shard) {
           RunShardInto(

@@ -7,7 +7,6 @@
 
 #include "app/flags.h"
 #include "app/report_page.h"
-#include "app/study_page.h"
 #include "io/write/csv_line.h"
 #include "io/write/number_format.h"
 

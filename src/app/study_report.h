@@ -26,6 +26,13 @@ struct StudyGrid {
 StudyGrid GridOf(const StudyTable& table, const std::vector<FigureRow>& rows,
                  int part);
 
+/// A page that shows a comparison: the tables; of each case the figures against
+/// time, a line a method, among them ANEES with its 95 % bounds; and of every
+/// label that has several numbers ("0.1 deg/sqrt(h)") the errors against them.
+/// It needs no script and no network.
+std::string StudyPage(const Study& study, const StudyResult& result,
+                      const MonteCarloOptions& options);
+
 /// "100 runs, seeds 1 to 100, of ".
 std::string StudyHeading(const MonteCarloOptions& options);
 
