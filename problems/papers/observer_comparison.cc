@@ -76,8 +76,9 @@ Timeline TimelineOf(const Dataset& dataset) {
   return timeline;
 }
 
-}  // namespace
-
+/// Velocity, attitude and both biases, the position being known; a priori
+/// covariances and evolutions as the data set's initial values and IMU say. It
+/// must give velocity, attitude and their sigmas.
 ErrorLayout AlignmentLayout(const Dataset& dataset) {
   const InitialState& initial = dataset.initial;
   NavigationPrior prior;
@@ -94,6 +95,8 @@ ErrorLayout AlignmentLayout(const Dataset& dataset) {
   }
   return layout;
 }
+
+}  // namespace
 
 RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
                       const ObserverLimits& limits, Timeline timeline) {

@@ -23,17 +23,13 @@ struct ObserverLimits {
   double last = 0.0;              ///< ... so many seconds
 };
 
-/// Velocity, attitude and both biases, the position being known; a priori
-/// covariances and evolutions as the data set's initial values and IMU say. It
-/// must give velocity, attitude and their sigmas.
-ErrorLayout AlignmentLayout(const Dataset& dataset);
-
-/// One filter on one recording: diverged, escaped, converged (0 or 1); t_settled
-/// [s], the first time from which tilt, the angle between true and estimated
-/// vertical, and heading, the difference of the Euler angles, stay inside the
-/// settled limits, infinite if they do not at the end; tilt and heading at the
-/// end [rad]; then t_escape [s], or backed_off, the share of the steps, and
-/// least_information (BoundRecord) and those of AnalyseRun.
+/// One filter of velocity, attitude and both biases, the position being known, on
+/// a recording that gives velocity, attitude and their sigmas: diverged, escaped,
+/// converged (0 or 1); t_settled [s], the first time from which tilt, the angle
+/// between true and estimated vertical, and heading, the difference of the Euler
+/// angles, stay inside the settled limits, infinite if they do not at the end;
+/// tilt and heading at the end [rad]; then t_escape [s], or backed_off, the share
+/// of the steps, and least_information (BoundRecord) and those of AnalyseRun.
 RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
                       const ObserverLimits& limits, Timeline timeline);
 
