@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <functional>
-#include <iostream>
 #include <limits>
 #include <optional>
 
@@ -55,11 +54,6 @@ constexpr int kLeastRuns = 2;
 /// What takes --methods and --set, in words.
 constexpr char kOtherScenarios[] = "scenarios that are no comparison";
 
-/// Flags that every scenario takes.
-const std::vector<std::string> kFlagsOfAll = {"out",      "force", "clean",
-                                              "runs",     "seed",  "threads",
-                                              "progress", "shard", "report"};
-
 bool Has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -77,7 +71,7 @@ std::string Help() {
   return text + kHelpAfter;
 }
 
-/// "gps_jumps", "tunnel_survey, uuv_survey".
+/// "gps_jumps", "tunnel_survey, uuv_survey"; "" of a flag that all take.
 std::string ScenariosWith(const std::string& flag) {
   const bool is_of_others =
       flag == "set" || flag == "methods" || flag == "sweep";
@@ -133,12 +127,10 @@ std::vector<FlagUse> Flags() {
 void CheckFlags(const std::string& scenario,
                 const std::vector<std::string>& own) {
   for (const FlagUse& flag : Flags()) {
-    if (!IsGiven(flag.name) || Has(kFlagsOfAll, flag.name) ||
-        Has(own, flag.name)) {
-      continue;
-    }
+    const std::string names = ScenariosWith(flag.name);
+    if (!IsGiven(flag.name) || names.empty() || Has(own, flag.name)) continue;
     throw UsageError("--" + Dashed(flag.name) + " means nothing to " +
-                     scenario + "; it goes with " + ScenariosWith(flag.name));
+                     scenario + "; it goes with " + names);
   }
 }
 
@@ -177,8 +169,7 @@ void RunAndReport(const Study& study, MonteCarloOptions options,
   };
   const StudyResult result = RunStudy(study, options, keep);
   progress->Clear();
-  std::cout << StudyHeading(options) << StudyText(study, result);
-  WriteStudy(study, result, options, folder);
+  ReportStudy(study, result, options, folder);
 }
 
 /// One comparison by its name, or any scenarios that `simulate` knows.

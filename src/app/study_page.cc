@@ -169,12 +169,9 @@ std::string TablePanel(const StudyTable& table,
 
 std::string StudyPage(const Study& study, const StudyResult& result,
                       const MonteCarloOptions& options) {
-  std::string under = StudyHeading(options) + study.name;
-  for (const auto& [key, value] : study.settings) {
-    under += ", " + key + " " + value;
-  }
   std::string body =
-      Element("p", under + (result.complete ? "." : "; interrupted."));
+      Element("p", StudyHeading(study, options) +
+                       (result.complete ? "." : "; interrupted."));
   for (std::size_t i = 0; i < result.tables.size(); ++i) {
     body += TablePanel(result.tables[i], result.rows[i]);
     body += SweepPanel(result.tables[i], result.rows[i]);

@@ -79,12 +79,8 @@ StudyGrid GridOf(const StudyTable& table, const std::vector<FigureRow>& rows,
   return grid;
 }
 
-std::string StudyText(const Study& study, const StudyResult& result) {
-  std::string text = study.name;
-  for (const auto& [key, value] : study.settings) {
-    text += ", " + key + " " + value;
-  }
-  text += "\n";
+std::string StudyText(const StudyResult& result) {
+  std::string text;
   for (std::size_t i = 0; i < result.tables.size(); ++i) {
     if (i > 0 && result.rows[i].size() > kMostRows) continue;
     for (const int part : {0, 1}) {
