@@ -16,6 +16,7 @@
 #include "evaluation/observability.h"
 #include "geometry/so3.h"
 #include "measurements/sensor_kind.h"
+#include "problems/attitude_evidence.h"
 #include "problems/shared_covariance.h"
 
 namespace hindsight {
@@ -290,7 +291,7 @@ Solution AttitudeEstimation::Run(const Method& method) {
                 magnetic_.empty() && headings_.empty() && velocities_.empty(),
             .mounting_sigma = dataset_.mounting_sigma},
            {}, &solution);
-  if (auto apart = methods_.Compare(solution, q_en_)) {
+  if (auto apart = methods_.Compare(solution)) {
     AddEvidence(*std::move(apart), &solution);
   }
   if (imu_.stamp_offset != 0.0) {

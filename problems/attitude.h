@@ -15,7 +15,7 @@
 #include "attitude/magnetometer_errors.h"
 #include "dataset/dataset.h"
 #include "evaluation/innovation_test.h"
-#include "problems/attitude_evidence.h"
+#include "problems/disagreement.h"
 #include "problems/estimation.h"
 #include "state/solution.h"
 
@@ -119,7 +119,7 @@ class AttitudeEstimation final : public Estimation {
   std::vector<Evidence> evidence_;
   /// Of the method run last, by AttitudeInnovation::Source.
   std::vector<NormalisedInnovation> innovations_;
-  AttitudeComparison methods_;
+  MethodComparison methods_{AttitudeTerms()};
   /// Whether the body rests from each sample to the next; smoother alone.
   std::vector<bool> rests_;
 };

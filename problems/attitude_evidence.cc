@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -12,7 +11,6 @@
 #include "dataset/magnetic_check.h"
 #include "dataset/repeated_readings.h"
 #include "earth/wgs84.h"
-#include "geometry/so3.h"
 #include "problems/attitude.h"
 
 namespace hindsight {
@@ -86,48 +84,6 @@ StartValues StartOf(const ErrorLayout& layout, const AttitudeState::Matrix& P,
   values.given = given;
   values.alignment = "of attitude alone";
   return values;
-}
-
-std::optional<Evidence> AttitudeComparison::Compare(
-    const Solution& solution, const Eigen::Quaterniond& q_en) {
-  constexpr std::size_t kMost = 20000;
-  if (solution.covariances.empty()) return std::nullopt;
-  Course own{.method = solution.method};
-  const std::size_t stride = solution.states.size() / kMost + 1;
-  for (std::size_t k = 0; k < solution.states.size(); k += stride) {
-    own.q_nb.push_back(q_en.conjugate() * solution.states[k].q_eb);
-    own.variances.emplace_back(
-        solution.covariances.Get(k).diagonal().head<3>());
-  }
-  std::optional<Evidence> found;
-  for (const Course& other : courses_) {
-    if (other.q_nb.size() != own.q_nb.size()) continue;
-    Eigen::Vector3d squares = Eigen::Vector3d::Zero();
-    for (std::size_t k = 0; k < own.q_nb.size(); ++k) {
-      const Eigen::Vector3d psi = Log(other.q_nb[k] * own.q_nb[k].conjugate());
-      squares += psi.cwiseAbs2().cwiseQuotient(
-          own.variances[k].cwiseMax(other.variances[k]));
-    }
-    const double sigmas =
-        std::sqrt(squares.maxCoeff() / static_cast<double>(own.q_nb.size()));
-    if (!(sigmas > kUnusableBias)) continue;
-    found = Evidence{
-        .rule = "disagreement",
-        .grade = Grade::kDoubtful,
-        .what =
-            fmt::format("{} and {} are {:.2g} sigma of the less certain one "
-                        "apart in attitude",
-                        other.method, own.method, sigmas),
-        .value = sigmas,
-        .limit = kUnusableBias,
-        .unit = "sigma",
-        .causes =
-            {"readings that contradict each other, or sigmas that are too "
-             "small"},
-        .against = other.method};
-  }
-  courses_.push_back(std::move(own));
-  return found;
 }
 
 std::vector<Evidence> AttitudeEstimation::ExamineRecording() const {

@@ -2,55 +2,85 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "evaluation/grade.h"
 
 namespace hindsight {
+namespace {
 
-bool OptimumComparison::HasNodesOf(const Solution& solution) const {
-  constexpr double kSameTime = 1e-9;
-  if (poses_.size() != solution.states.size()) return false;
-  for (std::size_t k = 0; k < poses_.size(); ++k) {
-    if (std::abs(poses_[k].t - solution.states[k].t) > kSameTime) return false;
-  }
-  return true;
+bool IsPose(const Block& block) {
+  return block.key.kind == BlockKind::kPosition ||
+         block.key.kind == BlockKind::kAttitude;
 }
+
+/// The blocks of position and attitude alone.
+ErrorLayout PoseLayout(const ErrorLayout& layout) {
+  ErrorLayout poses;
+  for (const Block& block : layout.blocks()) {
+    if (IsPose(block)) poses.Add(block);
+  }
+  return poses;
+}
+
+/// Its components among those of `layout`.
+std::vector<int> PoseComponents(const ErrorLayout& layout) {
+  std::vector<int> components;
+  for (const Block& block : layout.blocks()) {
+    for (int i = 0; IsPose(block) && i < block.dim; ++i) {
+      components.push_back(block.offset + i);
+    }
+  }
+  return components;
+}
+
+Pose PoseOf(const State& x) { return {x.t, x.p_e, x.q_eb}; }
+
+State StateAt(const Pose& pose) {
+  State x;
+  x.t = pose.t;
+  x.p_e = pose.p_e;
+  x.q_eb = pose.q_eb;
+  return x;
+}
+
+bool AreAtTheSameTimes(const std::vector<Pose>& a, const std::vector<Pose>& b) {
+  constexpr double kSameTime = 1e-9;
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Pose& one, const Pose& other) {
+                      return std::abs(one.t - other.t) <= kSameTime;
+                    });
+}
+
+}  // namespace
 
 std::optional<Evidence> OptimumComparison::Compare(const std::string& method,
                                                    const Solution& solution) {
   constexpr double kLimit = 1.0;  // sigma
   if (!solution.converged || solution.covariances.empty()) return std::nullopt;
-  if (!HasNodesOf(solution)) {
+  std::vector<Pose> own;
+  for (const State& x : solution.states) own.push_back(PoseOf(x));
+  if (!AreAtTheSameTimes(own, poses_)) {
     method_ = method;
-    poses_.clear();
-    for (const State& x : solution.states) {
-      poses_.push_back({x.t, x.p_e, x.q_eb});
-    }
+    poses_ = std::move(own);
     return std::nullopt;
   }
+  const ErrorLayout layout = PoseLayout(solution.layout);
+  const std::vector<int> components = PoseComponents(solution.layout);
   double largest = 0.0;
   double t = 0.0;
   std::string component;
-  for (std::size_t k = 0; k < poses_.size(); ++k) {
-    State other = solution.states[k];
-    other.p_e = poses_[k].p_e;
-    other.q_eb = poses_[k].q_eb;
-    const ErrorVector d = Local(solution.layout, solution.states[k], other);
-    const ErrorMatrix P = solution.covariances.Get(k);
-    for (const Block& block : solution.layout.blocks()) {
-      if (block.key.kind != BlockKind::kPosition &&
-          block.key.kind != BlockKind::kAttitude) {
-        continue;
-      }
-      for (int i = block.offset; i < block.offset + block.dim; ++i) {
-        const double sigmas = std::abs(d(i)) / std::sqrt(P(i, i));
-        if (!(sigmas > largest)) continue;
-        largest = sigmas;
-        t = other.t;
-        component = solution.layout.ComponentName(i);
-      }
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const ErrorVector d = Local(layout, StateAt(own[k]), StateAt(poses_[k]));
+    const ErrorVector variances =
+        solution.covariances.Get(k).diagonal()(components);
+    for (int i = 0; i < layout.dim(); ++i) {
+      const double sigmas = std::abs(d(i)) / std::sqrt(variances(i));
+      if (!(sigmas > largest)) continue;
+      largest = sigmas;
+      t = own[k].t;
+      component = layout.ComponentName(i);
     }
   }
   if (!(largest > kLimit)) return std::nullopt;
@@ -71,69 +101,68 @@ std::optional<Evidence> OptimumComparison::Compare(const std::string& method,
       .against = method_};
 }
 
+ComparisonTerms TrajectoryTerms() {
+  return {.what = "{} and {} are {:.2g} sigma apart in {} (limit {:.0f})",
+          .causes = {"data that contradict each other, of which each method "
+                     "believes others"},
+          .remedies = {"what the other methods are told"}};
+}
+
+ComparisonTerms AttitudeTerms() {
+  return {.of_all = true,
+          .most_nodes = 20000,
+          .what =
+              "{} and {} are {:.2g} sigma of the less certain one apart in "
+              "attitude",
+          .causes = {"readings that contradict each other, or sigmas that are "
+                     "too small"}};
+}
+
+MethodComparison::Course MethodComparison::CourseOf(
+    const Solution& solution) const {
+  const std::vector<int> components = PoseComponents(solution.layout);
+  const std::size_t stride = solution.states.size() / terms_.most_nodes + 1;
+  Course course = {solution.method};
+  for (std::size_t k = 0; k < solution.states.size(); k += stride) {
+    course.poses.push_back(PoseOf(solution.states[k]));
+    course.variances.emplace_back(
+        solution.covariances.Get(k).diagonal()(components));
+  }
+  return course;
+}
+
 std::optional<Evidence> MethodComparison::Compare(const Solution& solution) {
-  constexpr BlockKind kPose[] = {BlockKind::kPosition, BlockKind::kAttitude};
-  if (solution.forward || solution.grade == Grade::kUnusable ||
-      solution.covariances.empty() || !solution.layout.has_canonical_head()) {
-    return std::nullopt;
-  }
-  Course own{.method = solution.method};
-  for (std::size_t k = 0; k < solution.states.size(); ++k) {
-    State pose = solution.states[k];
-    pose.parameters.resize(0);
-    own.states.push_back(pose);
-    const ErrorMatrix P = solution.covariances.Get(k);
-    own.variances.emplace_back();
-    own.variances.back() << P.diagonal().segment<3>(0),
-        P.diagonal().segment<3>(6);
-  }
-  ErrorLayout pose_layout;
-  for (const BlockKind kind :
-       {BlockKind::kPosition, BlockKind::kVelocity, BlockKind::kAttitude}) {
-    Block block;
-    block.key.kind = kind;
-    pose_layout.Add(block);
-  }
+  const bool is_asked = terms_.of_all || (!solution.forward &&
+                                          solution.grade != Grade::kUnusable);
+  if (!is_asked || solution.covariances.empty()) return std::nullopt;
+  const ErrorLayout layout = PoseLayout(solution.layout);
+  Course own = CourseOf(solution);
   std::optional<Evidence> found;
   for (const Course& other : courses_) {
-    if (other.states.size() != own.states.size()) continue;
-    Variances squares = Variances::Zero();
-    bool same_nodes = true;
-    for (std::size_t k = 0; same_nodes && k < own.states.size(); ++k) {
-      const State& a = own.states[k];
-      State b = a;
-      b.p_e = other.states[k].p_e;
-      b.q_eb = other.states[k].q_eb;
-      same_nodes = std::abs(a.t - other.states[k].t) < 1e-9;
-      const ErrorVector d = Local(pose_layout, a, b);
-      Variances apart;
-      apart << d.segment<3>(0), d.segment<3>(6);
+    if (!AreAtTheSameTimes(own.poses, other.poses)) continue;
+    Variances squares = Variances::Zero(layout.dim());
+    for (std::size_t k = 0; k < own.poses.size(); ++k) {
+      const Variances apart =
+          Local(layout, StateAt(own.poses[k]), StateAt(other.poses[k]));
       squares += apart.cwiseAbs2().cwiseQuotient(
           own.variances[k].cwiseMax(other.variances[k]));
     }
-    Eigen::Index worst = 0;
+    int worst = 0;
     const double sigmas = std::sqrt(squares.maxCoeff(&worst) /
-                                    static_cast<double>(own.states.size()));
-    if (!same_nodes || !(sigmas > kUnusableBias) ||
-        (found && *found->value >= sigmas)) {
+                                    static_cast<double>(own.poses.size()));
+    if (!(sigmas > kUnusableBias) || (found && *found->value >= sigmas)) {
       continue;
     }
-    const Block* block = solution.layout.Find(kPose[worst / 3]);
     found = Evidence{
         .rule = "disagreement",
         .grade = Grade::kDoubtful,
-        .what =
-            fmt::format("{} and {} are {:.2g} sigma apart in {} (limit {:.0f})",
-                        other.method, own.method, sigmas,
-                        solution.layout.ComponentName(
-                            block->offset + static_cast<int>(worst % 3)),
-                        kUnusableBias),
+        .what = fmt::format(fmt::runtime(terms_.what), other.method, own.method,
+                            sigmas, layout.ComponentName(worst), kUnusableBias),
         .value = sigmas,
         .limit = kUnusableBias,
         .unit = "sigma",
-        .causes = {"data that contradict each other, of which each method "
-                   "believes others"},
-        .remedies = {"what the other methods are told"},
+        .causes = terms_.causes,
+        .remedies = terms_.remedies,
         .against = other.method};
   }
   courses_.push_back(std::move(own));

@@ -3,13 +3,23 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "state/solution.h"
 
 namespace hindsight {
+
+/// Where a method had the vehicle.
+struct Pose {
+  double t;
+  Eigen::Vector3d p_e;
+  Eigen::Quaterniond q_eb;
+};
 
 /// Compares methods that minimise the same cost. If two have converged by their
 /// own criteria, their solutions must agree to a fraction of a sigma; if they
@@ -24,36 +34,53 @@ class OptimumComparison {
                                   const Solution& solution);
 
  private:
-  struct Pose {
-    double t;
-    Eigen::Vector3d p_e;
-    Eigen::Quaterniond q_eb;
-  };
-
-  bool HasNodesOf(const Solution& solution) const;
-
   std::string method_;
   std::vector<Pose> poses_;
 };
 
-/// Compares methods that see the whole interval. Two that both may be used must
-/// be within the errors that they state, as the same data have one truth.
+/// Which solutions a MethodComparison asks, and what it says of two that are
+/// apart.
+struct ComparisonTerms {
+  /// Also those of forward methods and those that are not usable.
+  bool of_all = false;
+  /// Of about so many nodes at most, evenly chosen.
+  std::size_t most_nodes = std::numeric_limits<std::size_t>::max();
+  /// The arguments are the earlier method, the later one, how many sigmas they
+  /// are apart, in which component, and the limit.
+  const char* what;
+  std::vector<std::string> causes;
+  std::vector<std::string> remedies = {};
+};
+
+/// Of methods that see the whole interval, and have positions.
+ComparisonTerms TrajectoryTerms();
+/// Of attitude alone, causal or not.
+ComparisonTerms AttitudeTerms();
+
+/// Compares methods on the same data, which have one truth: two must be within
+/// the errors that they state.
 class MethodComparison {
  public:
+  explicit MethodComparison(ComparisonTerms terms) : terms_(std::move(terms)) {}
+
   /// Evidence that makes `solution`, which is graded, doubtful: an earlier one
-  /// from which a component of position or attitude is kUnusableBias of the
-  /// larger standard deviation away, in the root mean square over the interval.
-  /// Solutions that are not usable, forward or on other nodes say nothing.
+  /// from which a component of position or attitude, as far as its layout has
+  /// them, is kUnusableBias of the larger standard deviation away, in the root
+  /// mean square over the interval. Solutions on other nodes say nothing.
   std::optional<Evidence> Compare(const Solution& solution);
 
  private:
-  using Variances = Eigen::Matrix<double, 6, 1>;  ///< position, attitude
+  /// Of position and attitude [m^2, rad^2].
+  using Variances = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
   struct Course {
     std::string method;
-    std::vector<State> states = {};  ///< without parameters
+    std::vector<Pose> poses = {};
     std::vector<Variances> variances = {};
   };
 
+  Course CourseOf(const Solution& solution) const;
+
+  ComparisonTerms terms_;
   std::vector<Course> courses_;
 };
 

@@ -11,12 +11,6 @@
 namespace hindsight {
 namespace {
 
-Eigen::Vector3d RotationError(const Dataset& dataset, const State& x,
-                              std::size_t k) {
-  const Eigen::Quaterniond q_ne(Eigen::Matrix3d(x.C_en().transpose()));
-  return Log(*dataset.truth[k].q_nb * (q_ne * x.q_eb).conjugate());
-}
-
 void JudgeRotation(const Dataset& dataset, const Solution& solution,
                    RunRecord* record) {
   constexpr std::size_t kEvery = 10;
@@ -25,8 +19,9 @@ void JudgeRotation(const Dataset& dataset, const Solution& solution,
   auto& series = record->series;
   for (std::size_t k = 0; k < solution.states.size(); k += kEvery) {
     const State& x = solution.states[k];
-    const Eigen::Vector3d psi = RotationError(dataset, x, k);
-    const double nees = AttitudeNees(dataset, solution, k);
+    const Eigen::Vector3d psi = RotationError(dataset.truth[k], x);
+    const Eigen::Matrix3d P = solution.covariances.Get(k).topLeftCorner<3, 3>();
+    const double nees = psi.dot(P.llt().solve(psi));
     record->t.push_back(x.t);
     series["heading"].push_back(psi.z());
     series["tilt"].push_back(psi.head<2>().norm());
@@ -37,11 +32,9 @@ void JudgeRotation(const Dataset& dataset, const Solution& solution,
 
 }  // namespace
 
-double AttitudeNees(const Dataset& dataset, const Solution& solution,
-                    std::size_t k) {
-  const Eigen::Vector3d psi = RotationError(dataset, solution.states[k], k);
-  const Eigen::Matrix3d P = solution.covariances.Get(k).topLeftCorner<3, 3>();
-  return psi.dot(P.llt().solve(psi));
+Eigen::Vector3d RotationError(const TruthPoint& truth, const State& x) {
+  const Eigen::Quaterniond q_ne(Eigen::Matrix3d(x.C_en().transpose()));
+  return Log(*truth.q_nb * (q_ne * x.q_eb).conjugate());
 }
 
 StudyTable FreeRotationTable(double begin, double end) {

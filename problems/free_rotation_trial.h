@@ -16,9 +16,8 @@ namespace hindsight {
 Trial FreeRotationTrial();
 StudyTable FreeRotationTable(double begin, double end);
 
-/// e' P^-1 e of the attitude of state k, whose truth is truth[k].
-double AttitudeNees(const Dataset& dataset, const Solution& solution,
-                    std::size_t k);
+/// Truth from an estimate of the attitude alone, in NED [rad].
+Eigen::Vector3d RotationError(const TruthPoint& truth, const State& x);
 
 }  // namespace hindsight
 

@@ -119,12 +119,6 @@ class Sorter {
   CaseRun* run_;
 };
 
-/// Of the methods alone, in their order.
-std::vector<RunRecord> Cells(std::vector<RunRecord> records) {
-  std::erase_if(records, [](const RunRecord& r) { return r.table != kCells; });
-  return records;
-}
-
 struct Tried {
   std::vector<RunRecord> cells;  ///< of the methods, in their order
   std::vector<NormalisedInnovation> innovations;
@@ -137,25 +131,22 @@ Tried Try(const Dataset& dataset, NavigationTrial trial,
   trial.best_of_run = true;
   CaseRun run(labels, seed, &tried.cells);
   NavigationTrialOf(trial)(dataset, &run);
-  tried.cells = Cells(std::move(tried.cells));
+  std::erase_if(tried.cells,
+                [](const RunRecord& r) { return r.table != kCells; });
   return tried;
 }
 
 /// A recording that is refused before anything is estimated.
-Tried Refused(const NavigationTrial& trial, std::vector<std::string> labels,
-              std::uint64_t seed) {
+Tried Refused(const NavigationTrial& trial,
+              const std::vector<std::string>& labels, std::uint64_t seed) {
   Tried tried;
-  labels.emplace_back();
+  CaseRun run(labels, seed, &tried.cells);
   std::vector<std::string> methods = trial.methods;
   methods.emplace_back(kBestOfRun);
   for (const std::string& method : methods) {
-    RunRecord& record = tried.cells.emplace_back();
-    labels.back() = method;
-    record.labels = labels;
-    record.seed = seed;
-    record.grade = Grade::kUnusable;
-    record.answered = false;
-    record.failed = true;
+    RunRecord* record = run.Add(kCells, {method});
+    record->grade = Grade::kUnusable;
+    record->Fail();
   }
   return tried;
 }
@@ -206,9 +197,12 @@ std::vector<StudyTable> GradeTables() {
   const auto count = [](const char* name, const char* title) {
     return Single(name, kPlain, title, "{:.0f}", name, Count);
   };
-  StudyTable summary = {
-      "summary", {"vehicle", "class"}, {GradesFigure(), FailedFigure()}, {}};
-  StudyTable faults = {"faults", {"vehicle", "fault", "size"}, {}, {}};
+  StudyTable summary = {"summary",
+                        {"vehicle", "class", "method"},
+                        {GradesFigure(), FailedFigure()},
+                        {}};
+  StudyTable faults = {
+      "faults", {"vehicle", "fault", "size", "method"}, {}, {}};
   faults.figures = {GradesFigure(),
                     count("wrong", "wrong"),
                     count("visible", "visible"),
@@ -222,13 +216,10 @@ std::vector<StudyTable> GradeTables() {
                     Single("attitude_nees", kPlain, "NEES (3)\nattitude",
                            "{:.3g}", "attitude_nees", OfRuns<Mean>),
                     FailedFigure()};
-  StudyTable evidence = {"evidence", {"vehicle", "rule"}, {}, {}};
+  StudyTable evidence = {"evidence", {"vehicle", "rule", "method"}, {}, {}};
   evidence.figures = {count("caught", "wrong runs\ncaught"),
                       count("alone", "alone"),
                       count("healthy", "healthy\nruns")};
-  for (StudyTable* table : {&summary, &faults, &evidence}) {
-    table->labels.emplace_back("method");
-  }
   return {summary, faults, evidence};
 }
 

@@ -3,14 +3,12 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "dataset/dataset.h"
-#include "evaluation/run_table.h"
-#include "evaluation/series_fold.h"
+#include "problems/study_result.h"
 
 namespace hindsight {
 
@@ -41,6 +39,9 @@ class CaseRun {
   RunRecord* Add(std::size_t table, const std::vector<std::string>& labels);
 
  private:
+  RunRecord Empty(std::size_t table,
+                  const std::vector<std::string>& labels) const;
+
   std::vector<std::string> labels_;
   std::uint64_t seed_;
   std::vector<RunRecord>& out_;
@@ -60,16 +61,18 @@ struct Case {
 /// refuses with an InputError, counts as a failed run of every method.
 std::function<SeedRun()> JobOf(const std::vector<Case>& cases);
 
+/// Cases that share what is made of a seed are one job; jobs are run one after
+/// the other, each made (which may simulate a motion) when its turn comes and
+/// dropped when all its seeds are done.
+using Jobs = std::vector<std::function<SeedRun()>>;
+
 /// A Monte Carlo comparison: cases x methods x seeds to one long table.
 struct Study {
-  std::string name;
+  std::string name = {};
   /// What was chosen besides the cases, for the reports: key and value.
-  std::vector<std::pair<std::string, std::string>> settings;
+  std::vector<std::pair<std::string, std::string>> settings = {};
   std::vector<StudyTable> tables;  ///< of RunRecord::table
-  /// Cases that share what is made of a seed are one job; jobs are run one
-  /// after the other, each made (which may simulate a motion) when its turn
-  /// comes and dropped when all its seeds are done.
-  std::vector<std::function<SeedRun()>> jobs;
+  Jobs jobs = {};
 };
 
 struct MonteCarloOptions {
@@ -78,47 +81,6 @@ struct MonteCarloOptions {
   int threads = 1;
   /// Called with the share of all runs done, in (0, 1], one call at a time.
   std::function<void(double)> progress = {};
-};
-
-/// What is known of a study: of all its jobs the seeds of all, or of those that
-/// are finished; of a study of one job the first seeds without a gap.
-struct StudyResult {
-  int runs = 0;  ///< behind every row
-  bool complete = true;
-  std::vector<StudyTable> tables;
-  std::vector<std::vector<FigureRow>> rows;  ///< by table
-  /// Without their series.
-  std::vector<RunRecord> records;
-  /// A line each run whose data were refused: case, method, seed, what is wrong.
-  std::vector<std::string> refusals;
-
-  /// Whether any run was.
-  bool answered() const;
-  /// A figure, in SI, of a row of table 0 or another; see FigureOf.
-  double Value(const std::vector<std::string>& labels, const std::string& name,
-               std::size_t table = 0) const;
-  /// The row itself; throws std::out_of_range.
-  const FigureRow& Row(const std::vector<std::string>& labels,
-                       std::size_t table = 0) const;
-};
-
-/// What one job made of some runs.
-struct JobRuns {
-  /// By run; empty of those that are not there.
-  std::map<int, std::vector<RunRecord>> records;
-  FoldTree folds;  ///< of the series of tables that fold them
-
-  /// The records of a run that is not there yet; their series are folded as
-  /// the tables want it.
-  void Add(int run, std::vector<RunRecord> of_run,
-           const std::vector<StudyTable>& tables);
-};
-
-/// What all jobs of a study made of the runs begin to end - 1.
-struct StudyShard {
-  int begin = 0;
-  int end = 0;
-  std::vector<JobRuns> jobs;
 };
 
 /// Gets, before the first run, a function that gives at any time and to any
@@ -135,12 +97,6 @@ StudyResult RunStudy(const Study& study, const MonteCarloOptions& options,
 /// Runs every job on the seeds of those runs alone. Throws what the jobs throw.
 StudyShard RunShard(const Study& study, const MonteCarloOptions& options,
                     int begin, int end);
-
-/// The result of RunStudy with those tables, to the last bit, seconds excepted,
-/// of shards that are its runs from 0 on without a gap, in any order. Throws
-/// std::invalid_argument where they are not, InputError as RunStudy.
-StudyResult MergeShards(const std::vector<StudyTable>& tables,
-                        std::vector<StudyShard> shards);
 
 }  // namespace hindsight
 

@@ -15,22 +15,17 @@ double LargestMagnitude(const std::vector<double>& values) {
 /// Of each axis of the position.
 Figure PositionFigure(const std::string& name, const std::string& title,
                       Reduce reduce, TimeRange range = {}) {
-  return {name,
-          kMetres,
-          title,
-          "{:.3f}",
-          {{"n", "position_n", reduce},
-           {"e", "position_e", reduce},
-           {"d", "position_d", reduce}},
-          range};
+  return Several(name, kMetres, title, "{:.3f}",
+                 {{"n", "position_n", reduce},
+                  {"e", "position_e", reduce},
+                  {"d", "position_d", reduce}},
+                 range);
 }
 
 Figure AneesFigure(const std::string& name, const std::string& title,
                    TimeRange range = {}) {
-  Figure figure =
-      Single(name, kPlain, title, "{:.1f}", "nees", OfCurve<Mean, Mean>);
-  figure.range = range;
-  return figure;
+  return Several(name, kPlain, title, "{:.1f}",
+                 {{"", "nees", OfCurve<Mean, Mean>}}, range);
 }
 
 double RowNis(const RunCell& cell, const std::string&, const TimeRange&) {
@@ -95,17 +90,11 @@ StudyTable Cells(const std::vector<double>& leg_ends) {
        AneesFigure("anees", "ANEES\nall")});
   figures.insert(figures.end(), leg_anees.begin(), leg_anees.end());
   figures.insert(figures.end(),
-                 {{"anees_bound",
-                   kPlain,
-                   "95 %\nbounds",
-                   "{:.1f}",
-                   {{"lower", "", AneesLower}, {"upper", "", AneesUpper}}},
+                 {AneesBoundFigure("95 %\nbounds", "{:.1f}"),
                   Share("anees_outside", "outside\n[%]", "nees", AneesOutside),
                   Single("nis", kPlain, "NIS\nper row", "{:.3f}", "", RowNis),
                   Single("states", kPlain, "", "", OfRuns<Largest>),
-                  FailedFigure(),
-                  GradesFigure(),
-                  SecondsFigure()});
+                  FailedFigure(), GradesFigure(), SecondsFigure()});
   for (Figure& figure : ErrorFigures()) figures.push_back(std::move(figure));
   table.curves = {{"std_n", kMetres, "position_n", Deviation},
                   {"std_e", kMetres, "position_e", Deviation},
@@ -133,12 +122,9 @@ StudyTable Constants() {
       Single("rms", kPlain, "error\nrms", "{:.3g}", "error", OfRuns<Rms>),
       Single("anees", kPlain, "(error/sigma)^2\nmean", "{:.2f}", "nees",
              OfRuns<Mean>),
-      {"anees_bound",
-       kPlain,
-       "99.9 %\nbounds",
-       "{:.2f}",
-       {{"lower", "", ConstantBound<&Interval::lower>},
-        {"upper", "", ConstantBound<&Interval::upper>}}},
+      Several("anees_bound", kPlain, "99.9 %\nbounds", "{:.2f}",
+              {{"lower", "", ConstantBound<&Interval::lower>},
+               {"upper", "", ConstantBound<&Interval::upper>}}),
       Single("observed", kPlain, "ob-\nserved", "{:.0f}", OfRuns<Sum>),
       Single("unobserved", kPlain, "un-\nobserved", "{:.0f}", OfRuns<Sum>)};
   return table;
@@ -155,25 +141,16 @@ StudyTable Agreement() {
   return table;
 }
 
-/// Percentiles over the outages of all runs.
-Figure LargestErrorFigure(const std::string& name, const std::string& title) {
-  return {name,
-          kMetres,
-          title,
-          "{:.3f}",
-          {{"p50", name, OfRuns<Rank50>},
-           {"p68", name, OfRuns<Rank68>},
-           {"p95", name, OfRuns<Rank95>}}};
-}
-
-/// The largest error in each outage, by its length.
+/// Percentiles over the outages of all runs of the largest error in each.
 StudyTable Outages() {
   StudyTable table = {"outages", {}, {}, {}};
-  table.figures = {
-      LargestErrorFigure("horizontal",
-                         "largest horizontal error [m]\n50, 68, 95 %"),
-      LargestErrorFigure("vertical",
-                         "largest vertical error [m]\n50, 68, 95 %")};
+  for (const std::string name : {"horizontal", "vertical"}) {
+    table.figures.push_back(Several(
+        name, kMetres, "largest " + name + " error [m]\n50, 68, 95 %", "{:.3f}",
+        {{"p50", name, OfRuns<Rank50>},
+         {"p68", name, OfRuns<Rank68>},
+         {"p95", name, OfRuns<Rank95>}}));
+  }
   return table;
 }
 

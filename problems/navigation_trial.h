@@ -58,16 +58,7 @@ inline constexpr std::size_t kOutages = 3;
 /// Every method on a recording: all of trajectories or all of attitude alone. A
 /// judged node without truth is an InputError.
 ///
-/// Values of a cell: seconds, nis_sum and nis_rows (over the residuals used),
-/// position_rms and position_max [m], heading_rms and attitude_rms [rad], over
-/// time; position_nees and attitude_nees (3 is right), their means over time;
-/// outside_5_sigma, share of times at which position or attitude lies beyond
-/// 5 sigmas of a component (of attitude alone those of positions are absent, and
-/// the solution is sampled at such stamps); constants_beyond_5_sigma, how many constants do;
-/// rule:NAME, 1 for each rule of the grade (evaluation/grade.h) that lowers it;
-/// end_horizontal [m]; states, dimension of the error.
-/// Series: position_n, _e, _d, truth less estimate [m]; yaw [rad]; nees,
-/// e'P^-1e of the whole error state.
+/// A cell holds what JudgeSolution puts into it (problems/navigation_judge.h).
 Trial NavigationTrialOf(const NavigationTrial& trial);
 
 /// The tables of such a study whose cases have these label columns.

@@ -153,7 +153,7 @@ class TrajectoryEstimation final : public Estimation {
   std::optional<std::vector<RivalSolution>> leaps_;
   std::vector<Evidence> recording_;  ///< what it shows by itself
   OptimumComparison optima_;
-  MethodComparison methods_;
+  MethodComparison methods_{TrajectoryTerms()};
   /// Of methods that did not stay on the forward stage's, by name.
   std::map<std::string, Timeline> timelines_;
 };

@@ -96,14 +96,12 @@ constexpr Way kWays[] = {{"velocity_alignment", TryEarly},
                          {"velocity_alignment_batch", TryBatch}};
 
 Figure AngleFigure(const std::string& angle) {
-  return {angle,
-          kDegrees,
-          angle + " [deg]\nrms  worst  sigma  max",
-          "{:.4f}",
-          {{"rms", angle, OfAll<Rms>},
-           {"worst", angle, OfCurve<Largest, Rms>},
-           {"sigma", angle + "_sigma", OfAll<Rms>},
-           {"max", angle, OfAll<Largest>}}};
+  return Several(angle, kDegrees, angle + " [deg]\nrms  worst  sigma  max",
+                 "{:.4f}",
+                 {{"rms", angle, OfAll<Rms>},
+                  {"worst", angle, OfCurve<Largest, Rms>},
+                  {"sigma", angle + "_sigma", OfAll<Rms>},
+                  {"max", angle, OfAll<Largest>}});
 }
 
 }  // namespace
@@ -112,16 +110,10 @@ StudyTable AlignmentTable(std::vector<std::string> labels) {
   labels.emplace_back("method");
   return {"cells",
           std::move(labels),
-          {FailedFigure(),
-           AngleFigure("tilt"),
-           AngleFigure("heading"),
+          {FailedFigure(), AngleFigure("tilt"), AngleFigure("heading"),
            Single("anees", kPlain, "ANEES\n(3)", "{:.2f}", "nees",
                   OfCurve<Mean, Mean>),
-           {"anees_bound",
-            kPlain,
-            "bounds",
-            "{:.2f}",
-            {{"lower", "", AneesLower}, {"upper", "", AneesUpper}}},
+           AneesBoundFigure("bounds", "{:.2f}"),
            Share("anees_outside", "outside\n[%]", "nees", AneesOutside),
            SecondsFigure()},
           {}};
@@ -131,8 +123,7 @@ Trial AlignmentTrial(const AlignmentTrialOptions& trial) {
   return [trial](const Dataset& dataset, CaseRun* run) {
     for (const Way& way : kWays) {
       run->Try({way.name}, [&](RunRecord* record) {
-        record->failed = true;
-        record->answered = false;
+        record->Fail();
         way.attempt(dataset, trial, record);
       });
     }

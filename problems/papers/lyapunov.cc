@@ -4,6 +4,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <span>
+
+#include "evaluation/statistics.h"
 
 namespace hindsight {
 namespace {
@@ -29,6 +33,15 @@ double LargestOf(const ErrorLayout& layout, const ErrorMatrix& M,
       .maxCoeff();
 }
 
+/// Share of the steps from one value to the next that fall.
+double ShareFalling(std::span<const double> values) {
+  double falling = 0.0;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    if (values[k] < values[k - 1]) falling += 1.0;
+  }
+  return falling / std::max(1.0, static_cast<double>(values.size()) - 1.0);
+}
+
 class Analysis {
  public:
   Analysis(const LinearTape& tape, const ForwardModel& model,
@@ -41,50 +54,37 @@ class Analysis {
         truth_(truth),
         scale_(layout_.InitialCovariance().diagonal().cwiseSqrt()) {}
 
-  LyapunovFigures Run() {
-    LyapunovFigures out;
-    int falling = 0, falling_early = 0, early = 0;
-    double before = 0.0;
+  RunValues Run() const {
+    std::vector<double> V, values, radii;
+    std::size_t early = 0;
     double next = 0.0;
     for (std::size_t k = 0; k < tape_.size(); ++k) {
       const TapeEpoch& epoch = tape_.epoch(k);
       const ErrorMatrix P = tape_.P_plus(k);
       const ErrorVector e = Local(error_, layout_, epoch.x_plus, truth_[k]);
-      const double V = e.dot(P.llt().solve(e));
-      out.v_largest = std::max(out.v_largest, V);
-      if (k > 0) {
-        const bool in_early = epoch.t - tape_.epoch(0).t <= kEarly;
-        falling += V < before ? 1 : 0;
-        early += in_early ? 1 : 0;
-        falling_early += in_early && V < before ? 1 : 0;
-      } else {
-        out.v_first = V;
-      }
-      before = V;
+      V.push_back(e.dot(P.llt().solve(e)));
+      if (epoch.t - tape_.epoch(0).t <= kEarly) ++early;
       if (k == 0 || epoch.t < next) continue;
       next = epoch.t + kEvery - 1e-6;
-      Bounds(P, &out);
-      const double radius = Radius(k, P);
-      if (out.radius_first == 0.0) out.radius_first = radius;
-      out.radius_largest = std::max(out.radius_largest, radius);
+      const ErrorVector s = scale_.cwiseInverse();
+      std::ranges::copy(Eigenvalues(s.asDiagonal() * P * s.asDiagonal()),
+                        std::back_inserter(values));
+      radii.push_back(Radius(k, P));
     }
-    out.v_last = before;
-    out.share_falling =
-        falling / std::max(1.0, static_cast<double>(tape_.size()) - 1.0);
-    out.share_falling_early = falling_early / std::max(1.0, 1.0 * early);
-    return out;
+    const auto guaranteed = std::ranges::find_if(
+        radii, [](double radius) { return radius != 0.0; });
+    return {{"v_first", V.front()},
+            {"v_last", V.back()},
+            {"v_largest", Largest(V)},
+            {"share_falling", ShareFalling(V)},
+            {"share_falling_early", ShareFalling(std::span(V).first(early))},
+            {"p_least", Least(values)},
+            {"p_largest", Largest(values)},
+            {"radius_first", guaranteed == radii.end() ? 0.0 : *guaranteed},
+            {"radius_largest", Largest(radii)}};
   }
 
  private:
-  void Bounds(const ErrorMatrix& P, LyapunovFigures* out) const {
-    const ErrorVector s = scale_.cwiseInverse();
-    const Eigen::VectorXd values =
-        Eigenvalues(s.asDiagonal() * P * s.asDiagonal());
-    const double least = values.minCoeff();
-    out->p_least = out->p_least == 0.0 ? least : std::min(out->p_least, least);
-    out->p_largest = std::max(out->p_largest, values.maxCoeff());
-  }
-
   /// mu: P^1/2 M P^1/2 with the Cholesky factor of P for its root.
   double DecayRate(std::size_t k, const ErrorMatrix& P, double dt) const {
     const ErrorMatrix root = P.llt().matrixL();
@@ -140,9 +140,9 @@ class Analysis {
 
 }  // namespace
 
-LyapunovFigures AnalyseRun(const LinearTape& tape, const ForwardModel& model,
-                           const Timeline& timeline,
-                           const std::vector<State>& truth) {
+RunValues AnalyseRun(const LinearTape& tape, const ForwardModel& model,
+                     const Timeline& timeline,
+                     const std::vector<State>& truth) {
   return Analysis(tape, model, timeline, truth).Run();
 }
 

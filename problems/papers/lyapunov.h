@@ -1,11 +1,16 @@
 #ifndef HINDSIGHT_PROBLEMS_PAPERS_LYAPUNOV_H_
 #define HINDSIGHT_PROBLEMS_PAPERS_LYAPUNOV_H_
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "filters/forward_filter.h"
 
 namespace hindsight {
+
+/// Of one run, by name, as RunRecord has them.
+using RunValues = std::vector<std::pair<std::string, double>>;
 
 /// The paper's analysis of an observer by V = e' P^-1 e, as figures along a
 /// simulated run. e is the error as the filter defines it, P that after the
@@ -20,33 +25,24 @@ namespace hindsight {
 /// for known biases) but |nu| |db_g| in its place. So V' <= -mu V + 2 c V^1.5,
 /// mu the least eigenvalue of P^1/2 M P^1/2, and noise apart V falls wherever
 /// sqrt(V) < mu / (2 c).
-struct LyapunovFigures {
-  double v_first = 0.0;  ///< V after the first update
-  double v_last = 0.0;
-  double v_largest = 0.0;
-  /// Share of steps over which V fell. Noise keeps V of a right filter
-  /// fluctuating about the dimension, where half of the steps fall.
-  double share_falling = 0.0;
-  /// Share of falling steps in the first 30 s, where the error of the start is
-  /// to decay.
-  double share_falling_early = 0.0;
-  /// Least and largest eigenvalue of P over the run, each component counted in
-  /// its a priori standard deviation.
-  double p_least = 0.0;
-  double p_largest = 0.0;
-  /// Attitude error [rad], the other errors zero, inside of which V is
-  /// guaranteed to fall: after the first step, and the largest over the run.
-  /// Zero where some direction has neither noise nor information (mu = 0), as
-  /// a constant bias before manoeuvres.
-  double radius_first = 0.0;
-  double radius_largest = 0.0;
-};
-
-/// Figures of a run. `truth` at the tape's epochs; `timeline` as filtered;
-/// eigenvalues and radii are taken once a second.
-LyapunovFigures AnalyseRun(const LinearTape& tape, const ForwardModel& model,
-                           const Timeline& timeline,
-                           const std::vector<State>& truth);
+///
+/// Values of a run, `truth` being at the tape's epochs and `timeline` as
+/// filtered; eigenvalues and radii are taken once a second:
+///   v_first, v_last, v_largest   V after the first update, at the end, at most
+///   share_falling         of the steps over which V fell. Noise keeps V of a
+///                         right filter fluctuating about the dimension, where
+///                         half of the steps fall
+///   share_falling_early   the same of the first 30 s, where the error of the
+///                         start is to decay
+///   p_least, p_largest    eigenvalues of P over the run, each component counted
+///                         in its a priori standard deviation
+///   radius_first, radius_largest   attitude error [rad], the other errors zero,
+///                         inside of which V is guaranteed to fall: where the
+///                         first is guaranteed, and the largest. Zero where some
+///                         direction has neither noise nor information (mu = 0),
+///                         as a constant bias before manoeuvres
+RunValues AnalyseRun(const LinearTape& tape, const ForwardModel& model,
+                     const Timeline& timeline, const std::vector<State>& truth);
 
 }  // namespace hindsight
 

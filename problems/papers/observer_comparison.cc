@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -62,18 +63,6 @@ RunValues JudgeAttitude(const LinearTape& tape, const std::vector<State>& truth,
           {"heading", heading}};
 }
 
-RunValues ValuesOf(const LyapunovFigures& v) {
-  return {{"v_first", v.v_first},
-          {"v_last", v.v_last},
-          {"v_largest", v.v_largest},
-          {"share_falling", v.share_falling},
-          {"share_falling_early", v.share_falling_early},
-          {"p_least", v.p_least},
-          {"p_largest", v.p_largest},
-          {"radius_first", v.radius_first},
-          {"radius_largest", v.radius_largest}};
-}
-
 Timeline TimelineOf(const Dataset& dataset) {
   TimelineOptions options;
   options.t_begin = dataset.imu.t_begin();
@@ -87,8 +76,9 @@ Timeline TimelineOf(const Dataset& dataset) {
   return timeline;
 }
 
-}  // namespace
-
+/// Velocity, attitude and both biases, the position being known; a priori
+/// covariances and evolutions as the data set's initial values and IMU say. It
+/// must give velocity, attitude and their sigmas.
 ErrorLayout AlignmentLayout(const Dataset& dataset) {
   const InitialState& initial = dataset.initial;
   NavigationPrior prior;
@@ -105,6 +95,8 @@ ErrorLayout AlignmentLayout(const Dataset& dataset) {
   }
   return layout;
 }
+
+}  // namespace
 
 RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
                       const ObserverLimits& limits, Timeline timeline) {
@@ -124,10 +116,8 @@ RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
                         static_cast<double>(tape.bound().back_offs) /
                             static_cast<double>(tape.size() - 1));
     values.emplace_back("least_information", tape.bound().least_information);
-    for (auto& value :
-         ValuesOf(AnalyseRun(tape, model, problem.timeline, truth))) {
-      values.push_back(std::move(value));
-    }
+    std::ranges::move(AnalyseRun(tape, model, problem.timeline, truth),
+                      std::back_inserter(values));
     return values;
   } catch (const FiniteEscape& escape) {
     return {{"diverged", 1.0},       {"escaped", 1.0},
@@ -142,11 +132,8 @@ namespace {
 /// Percentiles over the runs that have the value.
 Figure RankFigure(const std::string& name, Unit unit, const std::string& title,
                   const char* format) {
-  return {name,
-          unit,
-          title,
-          format,
-          {{"50", name, OfRuns<Rank50>}, {"95", name, OfRuns<Rank95>}}};
+  return Several(name, unit, title, format,
+                 {{"50", name, OfRuns<Rank50>}, {"95", name, OfRuns<Rank95>}});
 }
 
 Figure MeanShare(const std::string& name, const std::string& title) {
@@ -173,31 +160,20 @@ std::vector<Figure> OutcomeFigures() {
 
 std::vector<Figure> LyapunovTable() {
   constexpr Reduce kMedian = OfRuns<Rank50>;
-  std::vector<Figure> figures = {{"v",
-                                  kPlain,
-                                  "V = e' P^-1 e\nfirst  largest  last",
-                                  "{:.3g}",
-                                  {{"first", "v_first", kMedian},
-                                   {"largest", "v_largest", kMedian},
-                                   {"last", "v_last", kMedian}}},
-                                 {"share_falling",
-                                  kPlain,
-                                  "V fell [%]\nfirst 30 s  all",
-                                  "{:.0f}",
-                                  {{"early", "share_falling_early", kMedian},
-                                   {"", "share_falling", kMedian}}},
-                                 {"p",
-                                  kPlain,
-                                  "eigenvalues of P\nleast  largest",
-                                  "{:.1e}",
-                                  {{"least", "p_least", OfRuns<Least>},
-                                   {"largest", "p_largest", OfRuns<Largest>}}},
-                                 {"radius",
-                                  kDegrees,
-                                  "radius [deg]\nfirst  largest",
-                                  "{:.1e}",
-                                  {{"first", "radius_first", kMedian},
-                                   {"largest", "radius_largest", kMedian}}}};
+  std::vector<Figure> figures = {
+      Several("v", kPlain, "V = e' P^-1 e\nfirst  largest  last", "{:.3g}",
+              {{"first", "v_first", kMedian},
+               {"largest", "v_largest", kMedian},
+               {"last", "v_last", kMedian}}),
+      Several("share_falling", kPlain, "V fell [%]\nfirst 30 s  all", "{:.0f}",
+              {{"early", "share_falling_early", kMedian},
+               {"", "share_falling", kMedian}}),
+      Several("p", kPlain, "eigenvalues of P\nleast  largest", "{:.1e}",
+              {{"least", "p_least", OfRuns<Least>},
+               {"largest", "p_largest", OfRuns<Largest>}}),
+      Several("radius", kDegrees, "radius [deg]\nfirst  largest", "{:.1e}",
+              {{"first", "radius_first", kMedian},
+               {"largest", "radius_largest", kMedian}})};
   figures[1].factor = 100.0;
   for (Figure& figure : figures) figure.part = 1;
   return figures;

@@ -2,7 +2,6 @@
 #define HINDSIGHT_PROBLEMS_PAPERS_OBSERVER_COMPARISON_H_
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "problems/montecarlo.h"
@@ -24,20 +23,13 @@ struct ObserverLimits {
   double last = 0.0;              ///< ... so many seconds
 };
 
-/// Velocity, attitude and both biases, the position being known; a priori
-/// covariances and evolutions as the data set's initial values and IMU say. It
-/// must give velocity, attitude and their sigmas.
-ErrorLayout AlignmentLayout(const Dataset& dataset);
-
-/// Of one run, by name, as RunRecord has them.
-using RunValues = std::vector<std::pair<std::string, double>>;
-
-/// One filter on one recording: diverged, escaped, converged (0 or 1); t_settled
-/// [s], the first time from which tilt, the angle between true and estimated
-/// vertical, and heading, the difference of the Euler angles, stay inside the
-/// settled limits, infinite if they do not at the end; tilt and heading at the
-/// end [rad]; then t_escape [s], or backed_off, the share of the steps, and
-/// least_information (BoundRecord) and LyapunovFigures by their names.
+/// One filter of velocity, attitude and both biases, the position being known, on
+/// a recording that gives velocity, attitude and their sigmas: diverged, escaped,
+/// converged (0 or 1); t_settled [s], the first time from which tilt, the angle
+/// between true and estimated vertical, and heading, the difference of the Euler
+/// angles, stay inside the settled limits, infinite if they do not at the end;
+/// tilt and heading at the end [rad]; then t_escape [s], or backed_off, the share
+/// of the steps, and least_information (BoundRecord) and those of AnalyseRun.
 RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
                       const ObserverLimits& limits, Timeline timeline);
 
@@ -49,7 +41,7 @@ RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
 /// end); t_escape, median of those; of t_settled, tilt and heading at the end
 /// the percentiles _50 and _95 over all runs, escaped ones counting as
 /// infinite; of the runs that did not escape the mean share of backed_off
-/// steps, the median of least_information, medians of LyapunovFigures, and
+/// steps, the median of least_information, medians of what AnalyseRun gives, and
 /// extremes of the eigenvalues of P.
 Trial ObserverTrial(const std::vector<ObserverModel>& models,
                     const ObserverLimits& limits);

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -60,19 +61,18 @@ struct Errors {
   bool white = true;
 };
 
+using Sensors = std::array<LinearSensor, 2>;
+
 /// One run under one architecture.
-RunRecord Follow(FusionArchitecture architecture,
-                 const std::array<LinearSensor, 2>& sensors,
-                 const UuvTruth& truth, const Errors& errors,
-                 std::uint64_t seed) {
+void Follow(FusionArchitecture architecture, const Sensors& sensors,
+            const UuvTruth& truth, const Errors& errors, std::uint64_t seed,
+            RunRecord* record) {
   std::array<Random, 2> noise = {Random(seed, 1), Random(seed, 2)};
   std::array<Eigen::Vector3d, 2> error = {Eigen::Vector3d::Zero(),
                                           Eigen::Vector3d::Zero()};
   const Track prior = {truth.front(), ErrorMatrix::Identity(kStates, kStates)};
   const auto fusion = MakeFusion(architecture, sensors, prior);
-  RunRecord record;
-  record.seed = seed;
-  auto& series = record.series;
+  auto& series = record->series;
   for (std::size_t k = 1; k < truth.size(); ++k) {
     std::array<RowVector, 2> z;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -82,7 +82,7 @@ RunRecord Follow(FusionArchitecture architecture,
     }
     const Track fused = fusion->Step(z[0], z[1]);
     const ErrorVector e = truth[k] - fused.x;
-    record.t.push_back(kStep * static_cast<double>(k));
+    record->t.push_back(kStep * static_cast<double>(k));
     series["horizontal"].push_back(std::hypot(e(0), e(2)));
     series["spatial"].push_back(std::hypot(e(0), e(2), e(4)));
     series["nees"].push_back(e.dot(fused.P.llt().solve(e)) / kStates);
@@ -90,7 +90,6 @@ RunRecord Follow(FusionArchitecture architecture,
       error[0] = sensors[0].H * (fused.x - truth[k]);
     }
   }
-  return record;
 }
 
 /// Truth that moves as the sensor's A and Q say.
@@ -106,6 +105,25 @@ UuvTruth DrawTruth(const LinearSensor& sensor, int epochs, std::uint64_t seed) {
   return truth;
 }
 
+/// Every architecture on one truth, the central one with sensors of its own.
+std::function<SeedRun()> FusionJob(
+    const std::string& name, const Sensors& sensors, const Sensors& central,
+    const Errors& errors,
+    const std::function<UuvTruth(std::uint64_t)>& truth_of) {
+  const SeedRun run_seed = [=](std::uint64_t seed) {
+    std::vector<RunRecord> out;
+    CaseRun run({name}, seed, &out);
+    const UuvTruth truth = truth_of(seed);
+    for (const FusionArchitecture architecture : kFusionArchitectures) {
+      const bool is_central = architecture == FusionArchitecture::kCentral;
+      Follow(architecture, is_central ? central : sensors, truth, errors, seed,
+             run.Add(0, {FusionName(architecture)}));
+    }
+    return out;
+  };
+  return [run_seed] { return run_seed; };
+}
+
 /// About the mean, divisor the number of values.
 double Scatter(const std::vector<double>& values) {
   return ComputeStatistics(values).std;
@@ -116,30 +134,26 @@ double BinOf(const std::vector<double>& values) {
 }
 
 StudyTable FusionTable() {
-  const auto distance = [](const std::string& name, const std::string& title) {
-    return Figure{name,
-                  kMetres,
-                  title + "\nmean  std [m]",
-                  "{:.3f}",
-                  {{"mean", name, OfAll<Mean>}, {"std", name, OfAll<Scatter>}}};
-  };
-  StudyTable table = {
-      "cells",
-      {"reading", "architecture"},
-      {distance("spatial", "3-D"),
-       distance("horizontal", "2-D"),
-       Single("nees", kPlain, "NEES\n/ 6", "{:.3g}", OfAll<Mean>),
-       Single("spatial_bin", kMetres, "", "", "spatial", OfAll<BinOf>),
-       Single("horizontal_bin", kMetres, "", "", "horizontal", OfAll<BinOf>),
-       {"spatial_histogram", kPlain, "", "", {}},
-       {"horizontal_histogram", kPlain, "", "", {}}},
-      {}};
-  table.figures[5].list = [](const RunCell& cell) {
-    return CountValues(cell.Pooled("spatial")).counts;
-  };
-  table.figures[6].list = [](const RunCell& cell) {
-    return CountValues(cell.Pooled("horizontal")).counts;
-  };
+  const std::pair<std::string, const char*> kDistances[] = {
+      {"spatial", "3-D\nmean  std [m]"}, {"horizontal", "2-D\nmean  std [m]"}};
+  StudyTable table = {"cells", {"reading", "architecture"}, {}, {}};
+  std::vector<Figure>& figures = table.figures;
+  for (const auto& [name, title] : kDistances) {
+    figures.push_back(
+        Several(name, kMetres, title, "{:.3f}",
+                {{"mean", name, OfAll<Mean>}, {"std", name, OfAll<Scatter>}}));
+  }
+  figures.push_back(Single("nees", kPlain, "NEES\n/ 6", "{:.3g}", OfAll<Mean>));
+  for (const auto& [name, title] : kDistances) {
+    figures.push_back(
+        Single(name + "_bin", kMetres, "", "", name, OfAll<BinOf>));
+  }
+  for (const auto& [name, title] : kDistances) {
+    figures.push_back(Several(name + "_histogram", kPlain, "", "", {}));
+    figures.back().list = [name = name](const RunCell& cell) {
+      return CountValues(cell.Pooled(name)).counts;
+    };
+  }
   return table;
 }
 
@@ -192,23 +206,17 @@ std::array<LinearSensor, 2> UuvSensors(const UuvReading& reading) {
 
 Study UuvFusionStudy(const UuvTruth& truth,
                      const std::vector<UuvReading>& readings) {
-  Study study = {"", {}, {FusionTable()}, {}};
+  Study study = {.tables = {FusionTable()}, .jobs = {}};
   for (const UuvReading& reading : readings) {
-    const SeedRun run = [truth, reading](std::uint64_t seed) {
-      const Errors errors = {{kInsSigma, kDvlSigma}, reading.white_errors};
-      std::vector<RunRecord> out;
-      for (const FusionArchitecture architecture : kFusionArchitectures) {
-        std::array<LinearSensor, 2> sensors = UuvSensors(reading);
-        if (architecture == FusionArchitecture::kCentral &&
-            !reading.weighs_by_noise) {
-          sensors[0].R = sensors[1].R = 0.5 * (sensors[0].R + sensors[1].R);
-        }
-        out.push_back(Follow(architecture, sensors, truth, errors, seed));
-        out.back().labels = {reading.Name(), FusionName(architecture)};
-      }
-      return out;
-    };
-    study.jobs.emplace_back([run] { return run; });
+    const Sensors sensors = UuvSensors(reading);
+    Sensors central = sensors;
+    if (!reading.weighs_by_noise) {
+      central[0].R = central[1].R = 0.5 * (sensors[0].R + sensors[1].R);
+    }
+    study.jobs.push_back(
+        FusionJob(reading.Name(), sensors, central,
+                  {{kInsSigma, kDvlSigma}, reading.white_errors},
+                  [truth](std::uint64_t) { return truth; }));
   }
   return study;
 }
@@ -217,19 +225,13 @@ void AddMatchedFusion(const std::string& name, int epochs,
                       const std::array<double, 2>& sigma, Study* study) {
   UuvReading reading;
   reading.adds_velocity = false;
-  const std::array<LinearSensor, 2> sensors = {
-      MakeSensor(reading, kDvlProcess, sigma[0]),
-      MakeSensor(reading, kDvlProcess, sigma[1])};
-  const SeedRun run = [=](std::uint64_t seed) {
-    std::vector<RunRecord> out;
-    const UuvTruth truth = DrawTruth(sensors[1], epochs, seed);
-    for (const FusionArchitecture architecture : kFusionArchitectures) {
-      out.push_back(Follow(architecture, sensors, truth, {sigma, true}, seed));
-      out.back().labels = {name, FusionName(architecture)};
-    }
-    return out;
-  };
-  study->jobs.emplace_back([run] { return run; });
+  const Sensors sensors = {MakeSensor(reading, kDvlProcess, sigma[0]),
+                           MakeSensor(reading, kDvlProcess, sigma[1])};
+  study->jobs.push_back(
+      FusionJob(name, sensors, sensors, {sigma, true},
+                [sensor = sensors[1], epochs](std::uint64_t seed) {
+                  return DrawTruth(sensor, epochs, seed);
+                }));
 }
 
 }  // namespace hindsight

@@ -8,7 +8,7 @@
 
 #include "base/units.h"
 #include "evaluation/statistics.h"
-#include "geometry/so3.h"
+#include "problems/free_rotation_trial.h"
 #include "problems/reconstruction.h"
 
 namespace hindsight {
@@ -52,11 +52,8 @@ void Judge(const Dataset& dataset, const Solution& solution,
   auto& series = record->series;
   for (std::size_t k = 0; k < solution.states.size(); ++k) {
     const State& x = solution.states[k];
-    const Eigen::Matrix3d C_ne = x.C_en().transpose();
-    const TruthPoint truth = dataset.truth[k];
-    const Eigen::Vector3d psi =
-        Log(*truth.q_nb * (Eigen::Quaterniond(C_ne) * x.q_eb).conjugate());
-    const Eigen::Vector3d bias = *truth.b_g - x.b_g;
+    const Eigen::Vector3d psi = RotationError(dataset.truth[k], x);
+    const Eigen::Vector3d bias = *dataset.truth[k].b_g - x.b_g;
     const ErrorMatrix P = solution.covariances.Get(k);
     const Eigen::Matrix<double, 6, 1> sigma = P.diagonal().cwiseSqrt();
     double inside = 0.0, bias_inside = 0.0;
@@ -94,8 +91,8 @@ std::vector<Figure> IntervalFigures(std::pair<double, double> interval) {
       Single("max_any" + suffix, kDegrees, "max\n[deg]", "{:.2f}", "psi_any",
              OfAll<Largest>),
       Share("inside" + suffix, "inside\n[%]", "inside", OfAll<Mean>),
-      {"rms" + suffix, kDegrees, "", "", axes(OfAll<Rms>)},
-      {"max" + suffix, kDegrees, "", "", axes(OfAll<Largest>)},
+      Several("rms" + suffix, kDegrees, "", "", axes(OfAll<Rms>)),
+      Several("max" + suffix, kDegrees, "", "", axes(OfAll<Largest>)),
       Single("bias_rms" + suffix, {"deg/h", kDegree / kHour},
              is_last ? "gyro bias\nrms [deg/h]" : "", "{:.2f}", "bias",
              OfAll<Rms>),

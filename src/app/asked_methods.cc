@@ -16,7 +16,7 @@ AskedMethods ReadMethods(const std::string& text) {
     try {
       attitude_alone += MethodOf(name).attitude_alone() ? 1 : 0;
     } catch (const InputError& error) {
-      throw UsageError("--methods=" + text + ": " + error.what());
+      throw BadFlag("methods", text, error.what());
     }
     asked.names.push_back(name);
   }
@@ -25,9 +25,10 @@ AskedMethods ReadMethods(const std::string& text) {
   }
   asked.attitude_alone = attitude_alone == asked.names.size();
   if (attitude_alone > 0 && !asked.attitude_alone) {
-    throw UsageError("--methods=" + text + ": " + MethodNames(true) +
-                     " estimate attitude alone and do not go with the other "
-                     "methods");
+    throw BadFlag("methods", text,
+                  MethodNames(true) +
+                      " estimate attitude alone and do not go with the other "
+                      "methods");
   }
   return asked;
 }
@@ -35,8 +36,8 @@ AskedMethods ReadMethods(const std::string& text) {
 std::vector<std::string> ReadTrajectoryMethods(const std::string& text) {
   AskedMethods asked = ReadMethods(text);
   if (!asked.attitude_alone) return asked.names;
-  throw UsageError("--methods=" + text + ": '" + asked.names.front() +
-                   "' is for attitude alone");
+  throw BadFlag("methods", text,
+                "'" + asked.names.front() + "' is for attitude alone");
 }
 
 }  // namespace hindsight

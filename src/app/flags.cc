@@ -230,6 +230,14 @@ std::vector<std::string> Split(const std::string& text, char separator) {
   return parts;
 }
 
+std::string Joined(std::span<const std::string> parts, const char* separator) {
+  std::string text;
+  for (const std::string& part : parts) {
+    if (!part.empty()) text += (text.empty() ? "" : separator) + part;
+  }
+  return text;
+}
+
 std::string Suggestion(const std::string& word,
                        const std::vector<std::string>& candidates) {
   const std::string nearest = NearestWord(word, candidates);

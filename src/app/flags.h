@@ -3,6 +3,7 @@
 
 #include <gflags/gflags_declare.h>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -101,6 +102,9 @@ const std::vector<FlagUse>& CommonFlags();
 /// The parts of `text` between `separator`s, blanks trimmed, empty parts kept;
 /// nothing for an empty text.
 std::vector<std::string> Split(const std::string& text, char separator);
+
+/// The parts that are not empty with `separator` between them.
+std::string Joined(std::span<const std::string> parts, const char* separator);
 
 /// ", did you mean NAME?" for the candidate nearest to `word`, or "" if none
 /// is near.

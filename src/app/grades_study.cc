@@ -1,10 +1,9 @@
-#include "app/grades_study.h"
-
 #include <string>
 #include <vector>
 
 #include "app/asked_methods.h"
 #include "app/flags.h"
+#include "app/studies.h"
 #include "app/study_cases.h"
 #include "io/config/fault_config.h"
 #include "problems/grade_trial.h"

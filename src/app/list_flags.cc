@@ -9,17 +9,17 @@
 namespace hindsight {
 namespace {
 
-UsageError BadList(const std::string& flag, const std::string& value,
-                   const std::string& what) {
-  return UsageError("--" + flag + "=" + value + ": " + what);
-}
-
 template <typename T>
 bool Contains(const std::vector<T>& list, const T& value) {
   return std::find(list.begin(), list.end(), value) != list.end();
 }
 
 }  // namespace
+
+UsageError BadFlag(const std::string& flag, const std::string& value,
+                   const std::string& what) {
+  return UsageError("--" + flag + "=" + value + ": " + what);
+}
 
 bool IsOutOfRange(const std::string& text) {
   try {
@@ -35,9 +35,9 @@ std::vector<std::string> ReadWords(const std::string& flag,
                                    const std::string& value) {
   std::vector<std::string> words;
   for (const std::string& word : Split(value, ',')) {
-    if (word.empty()) throw BadList(flag, value, "nothing beside a comma");
+    if (word.empty()) throw BadFlag(flag, value, "nothing beside a comma");
     if (Contains(words, word)) {
-      throw BadList(flag, value, "'" + word + "' stands there twice");
+      throw BadFlag(flag, value, "'" + word + "' stands there twice");
     }
     words.push_back(word);
   }
@@ -49,18 +49,18 @@ std::vector<double> ReadPositiveNumbers(const std::string& flag,
   std::vector<double> numbers;
   for (const std::string& word : ReadWords(flag, value)) {
     if (IsOutOfRange(word)) {
-      throw BadList(flag, value, "'" + word + "' is out of range");
+      throw BadFlag(flag, value, "'" + word + "' is out of range");
     }
     const auto number = ParseNumber(word);
     if (!number || !(*number > 0.0)) {
-      throw BadList(flag, value, "'" + word + "' is not a positive number");
+      throw BadFlag(flag, value, "'" + word + "' is not a positive number");
     }
     if (Contains(numbers, *number)) {
-      throw BadList(flag, value, "'" + word + "' stands there twice");
+      throw BadFlag(flag, value, "'" + word + "' stands there twice");
     }
     numbers.push_back(*number);
   }
-  if (numbers.empty()) throw BadList(flag, value, "expected positive numbers");
+  if (numbers.empty()) throw BadFlag(flag, value, "expected positive numbers");
   return numbers;
 }
 

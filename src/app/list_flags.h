@@ -4,7 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "app/command.h"
+
 namespace hindsight {
+
+/// "--FLAG=VALUE: what".
+UsageError BadFlag(const std::string& flag, const std::string& value,
+                   const std::string& what);
 
 /// Whether `text` is a number that no double holds, such as 1e400.
 bool IsOutOfRange(const std::string& text);

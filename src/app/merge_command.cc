@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <iostream>
 #include <map>
 
 #include "app/build_id.h"
@@ -114,8 +113,7 @@ int Run(const std::vector<std::string>& folders) {
       },
       [&](ResultFolder* folder) {
         const StudyResult result = MergeShards(study.tables, std::move(shards));
-        std::cout << StudyHeading(options) << StudyText(study, result);
-        WriteStudy(study, result, options, folder);
+        ReportStudy(study, result, options, folder);
         return kUsable;
       });
 }

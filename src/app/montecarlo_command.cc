@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <functional>
-#include <iostream>
 #include <limits>
 #include <optional>
 
@@ -10,6 +9,7 @@
 #include "app/progress.h"
 #include "app/result_folder.h"
 #include "app/studies.h"
+#include "app/study_cases.h"
 #include "app/study_report.h"
 #include "app/study_shard.h"
 #include "base/parallel.h"
@@ -54,11 +54,6 @@ constexpr int kLeastRuns = 2;
 /// What takes --methods and --set, in words.
 constexpr char kOtherScenarios[] = "scenarios that are no comparison";
 
-/// Flags that every scenario takes.
-const std::vector<std::string> kFlagsOfAll = {"out",      "force", "clean",
-                                              "runs",     "seed",  "threads",
-                                              "progress", "shard", "report"};
-
 bool Has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -76,16 +71,16 @@ std::string Help() {
   return text + kHelpAfter;
 }
 
-/// "gps_jumps", "tunnel_survey, uuv_survey".
+/// "gps_jumps", "tunnel_survey, uuv_survey"; "" of a flag that all take.
 std::string ScenariosWith(const std::string& flag) {
   const bool is_of_others =
       flag == "set" || flag == "methods" || flag == "sweep";
-  std::string names = is_of_others ? kOtherScenarios : "";
+  std::vector<std::string> names;
+  if (is_of_others) names.emplace_back(kOtherScenarios);
   for (const NamedStudy& study : NamedStudies()) {
-    if (!Has(study.flags, flag)) continue;
-    names += (names.empty() ? "" : ", ") + study.name;
+    if (Has(study.flags, flag)) names.push_back(study.name);
   }
-  return names;
+  return Joined(names, ", ");
 }
 
 std::vector<FlagUse> Flags() {
@@ -132,12 +127,10 @@ std::vector<FlagUse> Flags() {
 void CheckFlags(const std::string& scenario,
                 const std::vector<std::string>& own) {
   for (const FlagUse& flag : Flags()) {
-    if (!IsGiven(flag.name) || Has(kFlagsOfAll, flag.name) ||
-        Has(own, flag.name)) {
-      continue;
-    }
+    const std::string names = ScenariosWith(flag.name);
+    if (!IsGiven(flag.name) || names.empty() || Has(own, flag.name)) continue;
     throw UsageError("--" + Dashed(flag.name) + " means nothing to " +
-                     scenario + "; it goes with " + ScenariosWith(flag.name));
+                     scenario + "; it goes with " + names);
   }
 }
 
@@ -176,8 +169,7 @@ void RunAndReport(const Study& study, MonteCarloOptions options,
   };
   const StudyResult result = RunStudy(study, options, keep);
   progress->Clear();
-  std::cout << StudyHeading(options) << StudyText(study, result);
-  WriteStudy(study, result, options, folder);
+  ReportStudy(study, result, options, folder);
 }
 
 /// One comparison by its name, or any scenarios that `simulate` knows.
@@ -189,13 +181,9 @@ NamedStudy Find(const std::vector<std::string>& arguments) {
   }
   for (const std::string& name : arguments) {
     if (Has(ScenarioNames(), name) || PathExists(name)) continue;
-    std::string known;
-    for (const std::string& one : names) {
-      known += (known.empty() ? "" : ", ") + one;
-    }
     throw UsageError("'montecarlo' knows no scenario and finds no file '" +
                      name + "'" + Suggestion(name, names) + "; there is " +
-                     known);
+                     Joined(names, ", "));
   }
   return {arguments.front(),
           "",
@@ -216,15 +204,7 @@ int Run(const std::vector<std::string>& arguments) {
   if (study.name.empty()) study.name = choice.name;
   const std::optional<ShardNumber> shard = ReadShardNumber(options.runs);
   return WithResultFolder(
-      {FLAGS_out, FLAGS_force, FLAGS_clean},
-      [&]() -> ResultFolder::Paths {
-        ResultFolder::Paths files;
-        for (const std::string& name : arguments) {
-          if (!IsFile(name)) continue;
-          for (auto& file : ScenarioFiles(name)) files.push_back(file);
-        }
-        return files;
-      },
+      {FLAGS_out, FLAGS_force, FLAGS_clean}, [&] { return FilesOf(arguments); },
       [&](ResultFolder* folder) {
         if (shard) {
           RunShardInto(

@@ -10,24 +10,13 @@
 namespace hindsight {
 namespace {
 
-UsageError BadFlag(const std::string& flag, const std::string& value,
-                   const std::string& expected) {
-  return UsageError("--" + flag + "=" + value + ": expected " + expected);
-}
-
-/// Limits of what still is a number after squaring, in SI units.
-constexpr double kLeastGamma = 1e-6;
-constexpr double kLargestGamma = 1e9;
-constexpr double kLargestAlpha = 100.0;
-constexpr double kLargestDelta = 1e12;
-constexpr double kLeastUnit = 1e-9;
-constexpr double kLargestUnit = 1e9;
-
+/// Throws UsageError for what is no number any more after squaring; SI units.
 void CheckWithin(const char* flag, double value, double least, double largest,
                  const char* unit) {
   if (value >= least && value <= largest) return;
   throw BadFlag(flag, FormatNumber(value),
-                FormatNumber(least) + " to " + FormatNumber(largest) + unit);
+                "expected " + FormatNumber(least) + " to " +
+                    FormatNumber(largest) + unit);
 }
 
 /// "attitude=1rad" or "velocity=0.5m/s".
@@ -40,7 +29,7 @@ CovarianceOptions::Bounded ParseBounded(const std::string& text) {
     bounded.kind = BlockKind::kVelocity;
     quantity = Quantity::kSpeed;
   } else if (name != "attitude") {
-    throw BadFlag("bounded", text, "attitude or velocity");
+    throw BadFlag("bounded", text, "expected attitude or velocity");
   }
   if (equals == text.size()) return bounded;
   try {
@@ -48,9 +37,11 @@ CovarianceOptions::Bounded ParseBounded(const std::string& text) {
   } catch (const std::invalid_argument& error) {
     throw UsageError("--bounded=" + text + ": " + error.what());
   }
+  constexpr double kLeastUnit = 1e-9;
+  constexpr double kLargestUnit = 1e9;
   if (!(bounded.unit >= kLeastUnit && bounded.unit <= kLargestUnit)) {
     throw BadFlag("bounded", text,
-                  "a unit of " + FormatNumber(kLeastUnit) + " to " +
+                  "expected a unit of " + FormatNumber(kLeastUnit) + " to " +
                       FormatNumber(kLargestUnit) + " rad or m/s");
   }
   return bounded;
@@ -91,14 +82,15 @@ std::vector<ErrorDefinition> ReadErrors() {
       throw UsageError("--error=" + FLAGS_error + ": " + error.what());
     }
   }
-  if (errors.empty()) throw BadFlag("error", "", "an error definition");
+  if (errors.empty())
+    throw BadFlag("error", "", "expected an error definition");
   return errors;
 }
 
 std::vector<double> ReadGammas() {
   const std::vector<double> gammas = ReadPositiveNumbers("gamma", FLAGS_gamma);
   for (const double gamma : gammas) {
-    CheckWithin("gamma", gamma, kLeastGamma, kLargestGamma, " sqrt(s)");
+    CheckWithin("gamma", gamma, 1e-6, 1e9, " sqrt(s)");
   }
   return gammas;
 }
@@ -125,14 +117,14 @@ CovarianceOptions ReadCovariance(RiccatiRule rule) {
   CovarianceOptions options;
   options.rule = rule;
   options.gamma = ReadGammas().front();
-  CheckWithin("alpha", FLAGS_alpha, 0.0, kLargestAlpha, " 1/s");
+  CheckWithin("alpha", FLAGS_alpha, 0.0, 100.0, " 1/s");
   options.alpha = FLAGS_alpha;
-  CheckWithin("delta", FLAGS_delta, -kLargestDelta, kLargestDelta, " 1/s");
+  CheckWithin("delta", FLAGS_delta, -1e12, 1e12, " 1/s");
   options.delta = FLAGS_delta;
   if (FLAGS_alpha_blocks != "all" &&
       FLAGS_alpha_blocks != "velocity_attitude") {
     throw BadFlag("alpha-blocks", FLAGS_alpha_blocks,
-                  "velocity_attitude or all");
+                  "expected velocity_attitude or all");
   }
   options.alpha_on_all = FLAGS_alpha_blocks == "all";
   options.back_off = FLAGS_back_off;
@@ -141,11 +133,12 @@ CovarianceOptions ReadCovariance(RiccatiRule rule) {
     const CovarianceOptions::Bounded bounded = ParseBounded(part);
     for (const CovarianceOptions::Bounded& before : options.L) {
       if (before.kind != bounded.kind) continue;
-      throw BadFlag("bounded", FLAGS_bounded, "each block once");
+      throw BadFlag("bounded", FLAGS_bounded, "expected each block once");
     }
     options.L.push_back(bounded);
   }
-  if (options.L.empty()) throw BadFlag("bounded", "", "attitude or velocity");
+  if (options.L.empty())
+    throw BadFlag("bounded", "", "expected attitude or velocity");
   return options;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/command.h"
-#include "filters/forward_filter.h"
+#include "problems/papers/observer_comparison.h"
 
 namespace hindsight {
 
@@ -19,6 +19,10 @@ std::vector<double> ReadGammas();
 /// The rule with the parameters of the flags, gamma being the first of its
 /// list.
 CovarianceOptions ReadCovariance(RiccatiRule rule);
+
+/// Of --rules with their parameters, each with every definition of --error.
+/// Throws UsageError.
+std::vector<ObserverModel> ReadObserverModels();
 
 /// Throws UsageError if a parameter is given of a rule that does not run.
 void CheckObserverFlags(bool hinf, bool modified);

@@ -29,6 +29,12 @@ struct ReportContext {
   }
 };
 
+/// A text or a number of a summary, the number as `format` of fmt says; "" where
+/// there is none.
+std::string TextOf(const nlohmann::ordered_json& json, const std::string& key);
+std::string NumberOf(const nlohmann::ordered_json& json, const std::string& key,
+                     const char* format);
+
 /// Puts the solutions' series into the page: place in metres north and east of
 /// the recommended one's first position, horizontal and tilt sigma, speed.
 void AddSolutionSeries(ReportContext* context);

@@ -5,18 +5,17 @@
 #include <future>
 #include <iostream>
 
-#include "app/allan_report.h"
 #include "app/command.h"
 #include "app/input_digests.h"
 #include "app/load_recording.h"
 #include "app/measurement_log.h"
 #include "app/result_folder.h"
+#include "app/run_findings.h"
 #include "app/run_output.h"
 #include "app/run_report.h"
 #include "app/terminal.h"
 #include "base/error.h"
 #include "base/parallel.h"
-#include "dataset/checks.h"
 #include "dataset/known_constants.h"
 #include "evaluation/grade.h"
 #include "io/config/config.h"
@@ -56,66 +55,6 @@ Reconstruction Prepare(const std::string& config, const Dataset& dataset,
                             "; --methods=LIST of " + MethodNames(true) +
                             ", which estimate attitude alone, need none");
   }
-}
-
-/// What the recording shows by itself.
-struct Findings {
-  CheckReport check;
-  std::optional<ImuAllan> allan;  ///< of the longest rest
-};
-
-/// What the summary says of the recording.
-void NoteRecording(const Dataset& dataset, Findings findings,
-                   RunSummary* summary) {
-  const CheckReport& check = findings.check;
-  summary->warnings = check.warnings;
-  summary->warnings.insert(summary->warnings.end(),
-                           check.truth_warnings.begin(),
-                           check.truth_warnings.end());
-  const std::string withholding = WithholdingWarning(dataset);
-  if (!withholding.empty()) summary->warnings.push_back(withholding);
-  summary->notes = NotesOf(dataset);
-  summary->fixes = SummarizeFixes(dataset);
-  for (const StreamReport& stream : check.streams) {
-    for (const StreamGap& gap : stream.gaps) {
-      summary->gaps.push_back({stream.name, gap.t, gap.t + gap.length});
-    }
-  }
-  for (const TimeInterval& rest : check.imu.rest.at_rest) {
-    summary->rests.push_back({"", rest.begin, rest.end});
-  }
-  summary->allan = std::move(findings.allan);
-}
-
-/// What is known before anything is solved: notes, start, what the data cannot
-/// tell. Returns the latter.
-std::vector<UnobservedSpan> DescribeBeforehand(const Dataset& dataset,
-                                               std::future<Findings> findings,
-                                               Reconstruction* reconstruction,
-                                               Progress* progress,
-                                               RunSummary* summary) {
-  std::vector<UnobservedSpan> unobserved;
-  try {
-    unobserved = reconstruction->Unobserved();
-  } catch (const EstimationError&) {
-    // The filter diverged: every method says so of itself.
-  }
-  summary->unobserved = unobserved;
-  progress->Clear();
-  Findings found = findings.get();
-  for (const auto* warnings :
-       {&found.check.warnings, &found.check.truth_warnings}) {
-    for (const std::string& warning : *warnings) {
-      std::cout << "warning: " << warning << "\n";
-    }
-  }
-  NoteRecording(dataset, std::move(found), summary);
-  std::cout << DescribeNotes(dataset);
-  if (const StartReport* start = reconstruction->start()) {
-    std::cout << DescribeStart(*start);
-  }
-  std::cout << DescribeUnobserved(unobserved) << std::flush;
-  return unobserved;
 }
 
 /// A method that fails leaves the others their say: its solution is empty and
@@ -231,11 +170,7 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   const Dataset dataset = LoadRecording(request, &resolved);
 
   progress.Begin("start");
-  auto findings = InBackground([&dataset] {
-    CheckReport check = CheckDataset(dataset);
-    auto allan = AllanOfLongestRest(dataset, check.imu.rest);
-    return Findings{std::move(check), std::move(allan)};
-  });
+  auto findings = InBackground([&dataset] { return FindingsOf(dataset); });
   Reconstruction reconstruction =
       Prepare(request.config, dataset, Options(request, &progress));
   if (const StartReport* start = reconstruction.start()) {

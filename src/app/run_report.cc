@@ -9,6 +9,7 @@
 #include "dataset/bias_sigma.h"
 #include "earth/wgs84.h"
 #include "evaluation/grade.h"
+#include "io/write/method_json.h"
 
 namespace hindsight {
 namespace {
@@ -173,22 +174,6 @@ std::string DescribeContradictions(const RunSummary& summary) {
   return text;
 }
 
-namespace {
-
-const char* VerdictName(ConstantEstimate::Verdict verdict) {
-  switch (verdict) {
-    case ConstantEstimate::Verdict::kObserved:
-      return "observed";
-    case ConstantEstimate::Verdict::kWeak:
-      return "weak";
-    case ConstantEstimate::Verdict::kUnobserved:
-      return "unobserved, kept at its prior";
-  }
-  return "";
-}
-
-}  // namespace
-
 std::string DescribeConstants(const Dataset& dataset,
                               const Solution& solution) {
   if (solution.constants.empty()) return "";
@@ -197,10 +182,12 @@ std::string DescribeConstants(const Dataset& dataset,
     const bool angle = c.unit.starts_with("rad");
     const double unit = angle ? kDegree : 1.0;
     const std::string name = angle ? "deg" + c.unit.substr(3) : c.unit;
-    text += fmt::format("  {:<24} {:>10.5g}  sigma {:>9.3g} {:<6} {}{}{}\n",
-                        c.name, c.value / unit, c.sigma / unit, name,
-                        VerdictName(c.verdict),
-                        c.advice.empty() ? "" : "; helps: ", c.advice);
+    const bool kept = c.verdict == ConstantEstimate::Verdict::kUnobserved;
+    text +=
+        fmt::format("  {:<24} {:>10.5g}  sigma {:>9.3g} {:<6} {}{}{}{}\n",
+                    c.name, c.value / unit, c.sigma / unit, name,
+                    VerdictName(c.verdict), kept ? ", kept at its prior" : "",
+                    c.advice.empty() ? "" : "; helps: ", c.advice);
   }
   for (const MountingSummary& mounting : MountingsOf(dataset, solution)) {
     const Eigen::Vector3d euler = mounting.euler / kDegree;

@@ -9,6 +9,14 @@
 #include "io/write/result_manifest.h"
 
 namespace hindsight {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShardedCall, build, arguments, flags, inputs,
+                                   study, name, settings, labels, runs,
+                                   first_seed, shards)
+/// The rest of a record is packed.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, table, labels, seed, failed,
+                                   answered, refusal)
+
 namespace {
 
 using Cbor = nlohmann::json;
@@ -50,14 +58,9 @@ Cbor RecordJson(const RunRecord& record, NameLists* lists) {
     names.push_back(name);
     values.push_back(value);
   }
-  Cbor json = {{"table", record.table},
-               {"labels", record.labels},
-               {"seed", record.seed},
-               {"failed", record.failed},
-               {"answered", record.answered},
-               {"refusal", record.refusal},
-               {"names", lists->NumberOf(names)},
-               {"values", Packed(values)}};
+  Cbor json = record;
+  json["names"] = lists->NumberOf(names);
+  json["values"] = Packed(values);
   if (record.grade) json["grade"] = static_cast<int>(*record.grade);
   if (!record.t.empty()) json["t"] = Packed(record.t);
   for (const auto& [name, series] : record.series) {
@@ -68,13 +71,7 @@ Cbor RecordJson(const RunRecord& record, NameLists* lists) {
 
 RunRecord UnpackRecord(const Cbor& json,
                        const std::vector<std::vector<std::string>>& lists) {
-  RunRecord record;
-  json.at("table").get_to(record.table);
-  json.at("labels").get_to(record.labels);
-  json.at("seed").get_to(record.seed);
-  json.at("failed").get_to(record.failed);
-  json.at("answered").get_to(record.answered);
-  json.at("refusal").get_to(record.refusal);
+  auto record = json.get<RunRecord>();
   const std::vector<std::string>& names =
       lists.at(json.at("names").get<std::size_t>());
   const std::vector<double> values = Unpacked(json.at("values"));
@@ -152,31 +149,6 @@ JobRuns UnpackJob(const Cbor& json,
   return job;
 }
 
-Cbor CallJson(const ShardedCall& call) {
-  return {{"build", call.build},   {"arguments", call.arguments},
-          {"flags", call.flags},   {"inputs", call.inputs},
-          {"study", call.study},   {"name", call.name},
-          {"labels", call.labels}, {"settings", call.settings},
-          {"runs", call.runs},     {"first_seed", call.first_seed},
-          {"shards", call.shards}};
-}
-
-ShardedCall UnpackCall(const Cbor& json) {
-  ShardedCall call;
-  json.at("build").get_to(call.build);
-  json.at("arguments").get_to(call.arguments);
-  json.at("flags").get_to(call.flags);
-  json.at("inputs").get_to(call.inputs);
-  json.at("study").get_to(call.study);
-  json.at("name").get_to(call.name);
-  json.at("labels").get_to(call.labels);
-  json.at("settings").get_to(call.settings);
-  json.at("runs").get_to(call.runs);
-  json.at("first_seed").get_to(call.first_seed);
-  json.at("shards").get_to(call.shards);
-  return call;
-}
-
 }  // namespace
 
 std::string ShardedCall::WordsOf(int shard) const {
@@ -192,7 +164,7 @@ std::string ShardedCall::WordsOf(int shard) const {
 
 OutputFile ShardOutput(const Shard& shard) {
   NameLists lists;
-  Cbor json = {{"call", CallJson(shard.call)},
+  Cbor json = {{"call", shard.call},
                {"number", shard.number},
                {"begin", shard.result.begin},
                {"end", shard.result.end},
@@ -218,7 +190,7 @@ Shard ReadShard(const std::filesystem::path& folder) {
     const Cbor json = Cbor::from_cbor(text);
     const auto lists =
         json.at("names").get<std::vector<std::vector<std::string>>>();
-    Shard shard = {UnpackCall(json.at("call")),
+    Shard shard = {json.at("call"),
                    json.at("number"),
                    {json.at("begin"), json.at("end"), {}}};
     for (const Cbor& job : json.at("jobs")) {

@@ -2,66 +2,46 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "app/asked_methods.h"
 #include "app/flags.h"
-#include "app/grades_study.h"
-#include "app/list_flags.h"
+#include "app/paper_studies.h"
 #include "app/study_cases.h"
-#include "base/error.h"
-#include "base/units.h"
 #include "evaluation/statistics.h"
-#include "problems/free_rotation_trial.h"
 #include "problems/navigation_trial.h"
-#include "problems/papers/alignment_trial.h"
-#include "problems/papers/jump_comparison.h"
-#include "problems/papers/uuv_fusion.h"
-#include "problems/papers/vibration_comparison.h"
 #include "simulation/free_rotation.h"
 #include "simulation/vibration_attitude.h"
 
 namespace hindsight {
 namespace {
 
-constexpr double kDivergedTilt = 2.0 * kDegree;
-constexpr double kDivergedHeading = 10.0 * kDegree;
-constexpr double kLast = 20.0;  // [s]
-
-void AddJobEach(const std::vector<Case>& cases, Study* study) {
-  for (const Case& one : cases) study->jobs.push_back(JobOf({one}));
-}
-
 /// Both forms of the odometer on one seed, so that the first seeds are those of
 /// both; of the forward speed alone the methods that differ.
 Study TunnelStudy() {
   const std::vector<double> kLegEnds = {502.5, 1002.5, 1502.5, 2005.0};
-  const CaseList list = MakeCases({{"path", "winding"}, {"noise", "sample"}});
+  CaseList list = MakeCases({{"path", "winding"}, {"noise", "sample"}});
   std::vector<Case> cases;
-  for (const bool forward : {false, true}) {
+  const auto add = [&](const char* form, const ScenarioChanges& changes,
+                       const std::vector<std::string>& methods) {
     CaseList of_form = list;
     for (CaseList::Entry& entry : of_form.cases) {
-      entry.labels.emplace_back(forward ? "forward" : "three axes");
-      if (forward) entry.changes.push_back("aiding.odometer.form=forward");
+      entry.labels.emplace_back(form);
+      std::ranges::copy(changes, std::back_inserter(entry.changes));
     }
-    const std::vector<std::string> methods =
-        forward
-            ? std::vector<std::string>{"ekf", "two_filter", "iterated", "batch"}
-            : std::vector<std::string>{"ekf",
-                                       "two_filter",
-                                       "two_filter_conventional",
-                                       "two_filter_euler",
-                                       "rts",
-                                       "iterated",
-                                       "batch"};
     const Trial trial =
         NavigationTrialOf({.methods = methods, .leg_ends = kLegEnds});
     std::ranges::move(CasesOf("tunnel_survey", of_form, trial),
                       std::back_inserter(cases));
-  }
-  std::vector<std::string> columns = list.columns;
-  columns.emplace_back("odometer");
-  return {
-      "", list.settings, NavigationTables(columns, kLegEnds), {JobOf(cases)}};
+  };
+  add("three axes", {},
+      {"ekf", "two_filter", "two_filter_conventional", "two_filter_euler",
+       "rts", "iterated", "batch"});
+  add("forward", {"aiding.odometer.form=forward"},
+      {"ekf", "two_filter", "iterated", "batch"});
+  list.columns.emplace_back("odometer");
+  return StudyOf(list, NavigationTables(list.columns, kLegEnds),
+                 {JobOf(cases)});
 }
 
 /// Largest standard deviations by distance of the reference points and noise of
@@ -74,11 +54,10 @@ Study TunnelSweepStudy() {
         "reference_spacing[m]", "", true},
        {"aiding.odometer.sigma", "0.005 m/s|0.01 m/s|0.02 m/s|0.05 m/s|0.1 m/s",
         "odometer_sigma[m/s]", "", true}});
-  Study study = {"", list.settings, NavigationTables(list.columns, {}), {}};
-  AddJobEach(CasesOf("tunnel_survey", list,
-                     NavigationTrialOf({.methods = {"two_filter", "batch"}})),
-             &study);
-  return study;
+  return StudyOf(list, NavigationTables(list.columns, {}),
+                 JobEach(CasesOf(
+                     "tunnel_survey", list,
+                     NavigationTrialOf({.methods = {"two_filter", "batch"}}))));
 }
 
 /// Judged away from the ends, at times that have truth whatever the clocks.
@@ -88,10 +67,8 @@ Study ConstantsStudy(const std::string& scenario) {
       NavigationTrialOf({.methods = {"ekf", "rts", "iterated", "batch"},
                          .judged_every = 10.0,
                          .judged_to = 599.0});
-  return {"",
-          list.settings,
-          NavigationTables(list.columns, {}),
-          {JobOf(CasesOf(scenario, list, trial))}};
+  return StudyOf(list, NavigationTables(list.columns, {}),
+                 {JobOf(CasesOf(scenario, list, trial))});
 }
 
 double LengthOf(const Scenario& scenario) {
@@ -114,138 +91,17 @@ Study UuvSurveyStudy() {
       MakeCases({{"path", "lawnmower|straight|returning", "dive"},
                  {"aids", "no fix|final fix|final fix, 120 s without DVL",
                   "dive", ", "}});
-  Study study = {"", list.settings, NavigationTables(list.columns, {}), {}};
+  std::vector<StudyTable> tables = NavigationTables(list.columns, {});
   Figure drift =
       Share("end_drift", "end, of\ndistance [%]", "end_horizontal", DriftOf);
   drift.format = "{:.3f}";
   drift.part = 1;
-  study.tables[kCells].figures.push_back(drift);
-  for (const CaseList::Entry& entry : list.cases) {
-    const Scenario scenario = FindScenario("uuv_survey", entry.changes);
-    study.jobs.push_back(JobOf(
-        {{entry.labels, [scenario] { return RecordingOf(scenario); },
-          NavigationTrialOf({.methods = {"ekf", "two_filter", "rts", "batch"},
-                             .values = {{"length", LengthOf(scenario)}}})}}));
-  }
-  return study;
-}
-
-const Axis kVelocityRates = {"aiding.velocity.rate", "10 Hz|1 Hz", "velocity"};
-
-Study InFlightStudy() {
-  const std::vector<ObserverModel> models = ReadObserverModels();
-  const CaseList list =
-      MakeCases({kVelocityRates,
-                 {"start_errors.tilt", "10 deg|30 deg", "start", "tilt ", true},
-                 {"start_errors.heading", "30 deg|60 deg|120 deg|175 deg",
-                  "start", " heading ", true}});
-  const Trial trial =
-      ObserverTrial(models, {.settled_tilt = 0.5 * kDegree,
-                             .settled_heading = 2.0 * kDegree,
-                             .diverged_tilt = kDivergedTilt,
-                             .diverged_heading = kDivergedHeading,
-                             .last = kLast});
-  return {"",
-          list.settings,
-          {ObserverTable(list.columns)},
-          {JobOf(CasesOf("in_flight_alignment", list, trial))}};
-}
-
-/// The same flight from no start value at all, the IMU mounted at any attitude.
-Study VelocityAlignmentStudy() {
-  const CaseList list = MakeCases({kVelocityRates});
-  const Trial trial = AlignmentTrial({.t_early = 20.0,
-                                      .diverged_tilt = kDivergedTilt,
-                                      .diverged_heading = kDivergedHeading,
-                                      .last = kLast});
-  std::vector<Case> cases = CasesOf("in_flight_alignment", list, trial);
-  for (Case& one : cases) {
-    one.prepare = [prepare = one.prepare]() -> Recording {
-      return [flight = prepare()](std::uint64_t seed) {
-        Dataset dataset = flight(seed);
-        MountAnywhere(seed, &dataset);
-        dataset.initial.alignment = AlignmentKind::kVelocity;
-        return dataset;
-      };
-    };
-  }
-  return {"", list.settings, {AlignmentTable(list.columns)}, {JobOf(cases)}};
-}
-
-Study GpsJumpsStudy() {
-  const CaseList list = MakeCases(
-      {{"errors", "pulses|spikes|steps|ramp|multipath|none", "profile"},
-       {"aiding.gnss.sigma", "1 m", "gps_sigma[m]", "", true},
-       {"aiding.*.rate", "1 Hz", "gps_rate[Hz]", "", true}});
-  Study study = {"", list.settings, {JumpTable(list.columns)}, {}};
-  AddJobEach(CasesOf("gps_jumps", list, JumpTrial()), &study);
-  return study;
-}
-
-UuvTruth SearchTruth() {
-  const WayPointPath path(FindScenario("uuv_survey").way_points);
-  UuvTruth truth;
-  for (double t = 0.0; t <= path.duration(); t += 1.0) {
-    const PathPoint at = path.At(t);
-    ErrorVector x(6);
-    x << at.p_n.x(), at.v_n.x(), at.p_n.y(), at.v_n.y(), at.p_n.z(), at.v_n.z();
-    truth.push_back(x);
-  }
-  return truth;
-}
-
-/// The fusions of Lee and Yoon (2011) as printed, under --reading.
-Study UuvSearchStudy() {
-  constexpr int kEpochs = 1000;
-  ReadWords("reading", FLAGS_reading);
-  std::vector<UuvReading> readings;
-  try {
-    readings = UuvReadings(FLAGS_reading);
-  } catch (const InputError& error) {
-    throw UsageError("--reading: " + std::string(error.what()));
-  }
-  Study study = UuvFusionStudy(SearchTruth(), readings);
-  AddMatchedFusion("matched: sensors of 9.8 m and 0.02 m", kEpochs, {9.8, 0.02},
-                   &study);
-  AddMatchedFusion("matched: two sensors of 9.8 m", kEpochs, {9.8, 9.8},
-                   &study);
-  return study;
-}
-
-Study VibrationAttitudeStudy() {
-  std::vector<std::pair<std::string, VibrationAttitudeOptions>> disturbances;
-  for (const std::string& axis : VibrationAxes()) {
-    disturbances.push_back({"acceleration along " + axis, {.axis = axis}});
-  }
-  disturbances.push_back({"acceleration and vibration along north",
-                          {.vibration_along_axis = true}});
-  Study study = {"", {}, {VibrationTable()}, {}};
-  for (const auto& [name, options] : disturbances) {
-    const Recording recording = [options = options](std::uint64_t seed) {
-      return SimulateVibrationAttitude(options, seed);
-    };
-    study.jobs.push_back(
-        JobOf({{{name}, [recording] { return recording; }, VibrationTrial()}}));
-  }
-  return study;
-}
-
-/// With the field throughout, and with one that is of no use in motion.
-Study FreeRotationStudy() {
-  constexpr double kDisturbance = 60.0;  // [uT]
-  Study study = {
-      "", {}, {FreeRotationTable(kFreeRotationBegin, kFreeRotationEnd)}, {}};
-  for (const bool disturbed : {false, true}) {
-    const Recording recording = [disturbed](std::uint64_t seed) {
-      FreeRotationOptions options = DrawFreeRotation(seed);
-      if (disturbed) options.motion_disturbance = kDisturbance;
-      return SimulateFreeRotation(options, seed);
-    };
-    study.jobs.push_back(JobOf({{{disturbed ? "at rest alone" : "throughout"},
-                                 [recording] { return recording; },
-                                 FreeRotationTrial()}}));
-  }
-  return study;
+  tables[kCells].figures.push_back(drift);
+  const auto trial_of = [](const Scenario& scenario) {
+    return NavigationTrialOf({.methods = {"ekf", "two_filter", "rts", "batch"},
+                              .values = {{"length", LengthOf(scenario)}}});
+  };
+  return StudyOf(list, tables, JobEach(CasesOf("uuv_survey", list, trial_of)));
 }
 
 /// That knows when the scenario's sensors are silent.
@@ -268,24 +124,22 @@ Study ScenarioStudy(const std::vector<std::string>& names_or_paths) {
   const CaseList list = MakeCases({});
   std::vector<std::string> columns = {"scenario"};
   columns.insert(columns.end(), list.columns.begin(), list.columns.end());
-  Study study = {"", list.settings, NavigationTables(columns, {}), {}};
+  std::vector<Case> all;
   std::vector<std::string> names;
   for (const std::string& file : names_or_paths) {
-    const std::string name = FindScenario(file, list.cases[0].changes).name;
-    if (std::find(names.begin(), names.end(), name) != names.end()) {
-      throw UsageError("two scenarios of the name '" + name + "'");
+    names.push_back(FindScenario(file, list.cases[0].changes).name);
+    if (std::ranges::count(names, names.back()) > 1) {
+      throw UsageError("two scenarios of the name '" + names.back() + "'");
     }
-    names.push_back(name);
-    study.name += (study.name.empty() ? "" : ",") + name;
-    std::vector<Case> cases = CasesOf(file, list, {});
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-      cases[i].labels.insert(cases[i].labels.begin(), name);
-      cases[i].trial =
-          ScenarioTrial(methods, FindScenario(file, list.cases[i].changes));
+    for (Case& one : CasesOf(file, list, [&](const Scenario& scenario) {
+           return ScenarioTrial(methods, scenario);
+         })) {
+      one.labels.insert(one.labels.begin(), names.back());
+      all.push_back(std::move(one));
     }
-    AddJobEach(cases, &study);
   }
-  return study;
+  return {Joined(names, ","), list.settings, NavigationTables(columns, {}),
+          JobEach(all)};
 }
 
 const std::vector<NamedStudy>& NamedStudies() {

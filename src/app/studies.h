@@ -8,7 +8,6 @@
 
 #include "app/command.h"
 #include "problems/montecarlo.h"
-#include "problems/papers/observer_comparison.h"
 
 namespace hindsight {
 
@@ -31,9 +30,9 @@ const std::vector<NamedStudy>& NamedStudies();
 /// each. Two of one name are one case.
 Study ScenarioStudy(const std::vector<std::string>& names_or_paths);
 
-/// Of --rules with their parameters, each with every definition of --error.
-/// Throws UsageError.
-std::vector<ObserverModel> ReadObserverModels();
+/// Every vehicle of --faults, healthy and with every fault that it has a place
+/// for. Throws UsageError, and InputError for a file that is no list of faults.
+Study GradesStudy();
 
 }  // namespace hindsight
 

@@ -1,32 +1,22 @@
 #include "app/study_cases.h"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <set>
 
 #include "app/flags.h"
 #include "base/error.h"
+#include "io/read/paths.h"
 #include "io/read/units.h"
 
 namespace hindsight {
 namespace {
 
-/// KEY and VALUES of every --set.
-std::vector<Axis> AskedAxes() {
-  std::vector<Axis> axes;
-  for (const std::string& text : Split(FLAGS_set, ';')) {
-    const std::size_t equals = text.find('=');
-    if (equals == 0 || equals == text.npos) {
-      throw UsageError("--set=" + text + ": expected KEY=VALUE");
-    }
-    axes.push_back({text.substr(0, equals), text.substr(equals + 1)});
-  }
-  return axes;
-}
-
 /// "0.05 deg/h|0.1 deg/h" of "0.05, 0.1 deg/h".
-std::string SweptValues(const std::string& flag, const std::string& text) {
-  std::vector<std::string> values = Split(text, ',');
+std::string SweptValues(const Axis& axis) {
+  const std::string flag = "--sweep=" + axis.key + "=" + axis.values;
+  std::vector<std::string> values = Split(axis.values, ',');
   if (values.size() < 2) throw UsageError(flag + ": expected V1,V2,... UNIT");
   const auto unit_of = [](const std::string& value) {
     const std::size_t blank = value.find(' ');
@@ -44,18 +34,29 @@ std::string SweptValues(const std::string& flag, const std::string& text) {
   return joined;
 }
 
-/// KEY and values of every --sweep.
-std::vector<Axis> SweptAxes() {
+/// KEY and what follows its "=" of every part of a flag.
+std::vector<Axis> KeysAndValues(const std::string& flag,
+                                const std::string& text,
+                                const std::string& expected) {
   std::vector<Axis> axes;
-  for (const std::string& text : Split(FLAGS_sweep, ';')) {
-    const std::string flag = "--sweep=" + text;
-    const std::size_t equals = text.find('=');
-    if (equals == 0 || equals == text.npos) {
-      throw UsageError(flag + ": expected KEY=V1,V2,... UNIT");
+  for (const std::string& part : Split(text, ';')) {
+    const std::size_t equals = part.find('=');
+    if (equals == 0 || equals == part.npos) {
+      throw UsageError(flag + part + ": expected KEY=" + expected);
     }
-    axes.push_back(
-        {text.substr(0, equals), SweptValues(flag, text.substr(equals + 1))});
+    axes.push_back({part.substr(0, equals), part.substr(equals + 1)});
   }
+  return axes;
+}
+
+std::vector<Axis> AskedAxes() {
+  return KeysAndValues("--set=", FLAGS_set, "VALUE");
+}
+
+std::vector<Axis> SweptAxes() {
+  std::vector<Axis> axes =
+      KeysAndValues("--sweep=", FLAGS_sweep, "V1,V2,... UNIT");
+  for (Axis& axis : axes) axis.values = SweptValues(axis);
   return axes;
 }
 
@@ -131,20 +132,45 @@ ScenarioChanges ReadChanges() {
   return changes;
 }
 
+std::vector<std::filesystem::path> FilesOf(
+    const std::vector<std::string>& names_or_paths) {
+  std::vector<std::filesystem::path> files;
+  for (const std::string& name : names_or_paths) {
+    if (IsFile(name))
+      std::ranges::move(ScenarioFiles(name), std::back_inserter(files));
+  }
+  return files;
+}
+
 Recording RecordingOf(const Scenario& scenario) {
   const auto perfect = std::make_shared<const PerfectRecording>(scenario);
   return [perfect](std::uint64_t seed) { return perfect->Realize(seed); };
 }
 
 std::vector<Case> CasesOf(const std::string& scenario, const CaseList& list,
-                          const Trial& trial) {
+                          const TrialOf& trial_of) {
   std::vector<Case> cases;
   for (const CaseList::Entry& entry : list.cases) {
     const Scenario changed = FindScenario(scenario, entry.changes);
-    cases.push_back(
-        {entry.labels, [changed] { return RecordingOf(changed); }, trial});
+    cases.push_back({entry.labels, [changed] { return RecordingOf(changed); },
+                     trial_of(changed)});
   }
   return cases;
+}
+
+std::vector<Case> CasesOf(const std::string& scenario, const CaseList& list,
+                          const Trial& trial) {
+  return CasesOf(scenario, list, [&](const Scenario&) { return trial; });
+}
+
+Jobs JobEach(const std::vector<Case>& cases) {
+  Jobs jobs;
+  for (const Case& one : cases) jobs.push_back(JobOf({one}));
+  return jobs;
+}
+
+Study StudyOf(const CaseList& list, std::vector<StudyTable> tables, Jobs jobs) {
+  return {"", list.settings, std::move(tables), std::move(jobs)};
 }
 
 }  // namespace hindsight

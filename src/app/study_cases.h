@@ -1,6 +1,8 @@
 #ifndef HINDSIGHT_APP_STUDY_CASES_H_
 #define HINDSIGHT_APP_STUDY_CASES_H_
 
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,12 +43,27 @@ CaseList MakeCases(std::vector<Axis> axes);
 /// The changes of --set, each of one value. Throws UsageError.
 ScenarioChanges ReadChanges();
 
+/// The files that are read for arguments that name some.
+std::vector<std::filesystem::path> FilesOf(
+    const std::vector<std::string>& names_or_paths);
+
 /// The scenario's motion is made once, for all seeds.
 Recording RecordingOf(const Scenario& scenario);
 
+/// What is tried on the recordings of a scenario.
+using TrialOf = std::function<Trial(const Scenario& scenario)>;
+
 /// The scenario under the changes of each entry. Throws InputError.
 std::vector<Case> CasesOf(const std::string& scenario, const CaseList& list,
+                          const TrialOf& trial_of);
+std::vector<Case> CasesOf(const std::string& scenario, const CaseList& list,
                           const Trial& trial);
+
+/// A job of each case.
+Jobs JobEach(const std::vector<Case>& cases);
+
+/// The comparison of the listed cases, which has no name yet.
+Study StudyOf(const CaseList& list, std::vector<StudyTable> tables, Jobs jobs);
 
 }  // namespace hindsight
 

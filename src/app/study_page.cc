@@ -1,10 +1,8 @@
-#include "app/study_page.h"
-
 #include <algorithm>
 #include <map>
 #include <set>
-#include <stdexcept>
 
+#include "app/flags.h"
 #include "app/line_picture.h"
 #include "app/report_html.h"
 #include "app/report_page.h"
@@ -20,44 +18,18 @@ using Labels = std::vector<std::string>;
 /// Cases beyond these have their figures in the tables alone.
 constexpr std::size_t kMostCases = 12;
 
-std::string JoinedLabels(const Labels& labels) {
-  std::string text;
-  for (const std::string& label : labels) {
-    if (!label.empty()) text += (text.empty() ? "" : ", ") + label;
-  }
-  return text;
-}
+/// A case and its rows.
+using CaseRows = std::pair<Labels, std::vector<const FigureRow*>>;
 
-Labels CaseOf(const FigureRow& row) {
-  return {row.labels.begin(), row.labels.end() - 1};
-}
-
-/// Rows of each case, in their order.
-std::vector<std::pair<Labels, std::vector<const FigureRow*>>> ByCase(
-    const std::vector<FigureRow>& rows) {
-  std::vector<std::pair<Labels, std::vector<const FigureRow*>>> cases;
+std::vector<CaseRows> ByCase(const std::vector<FigureRow>& rows) {
+  std::vector<CaseRows> cases;
   for (const FigureRow& row : rows) {
-    const Labels labels = CaseOf(row);
-    const auto found =
-        std::find_if(cases.begin(), cases.end(),
-                     [&](const auto& one) { return one.first == labels; });
-    if (found == cases.end()) {
-      cases.push_back({labels, {&row}});
-    } else {
-      found->second.push_back(&row);
-    }
+    const Labels labels = {row.labels.begin(), row.labels.end() - 1};
+    auto found = std::ranges::find(cases, labels, &CaseRows::first);
+    if (found == cases.end()) found = cases.insert(found, {labels, {}});
+    found->second.push_back(&row);
   }
   return cases;
-}
-
-/// In SI; absent where the table or the row has none.
-std::optional<double> FigureIn(const StudyTable& table, const FigureRow& row,
-                               const std::string& name) {
-  try {
-    return FigureOf(table, {&row, 1}, row.labels, name);
-  } catch (const std::out_of_range&) {
-    return std::nullopt;
-  }
 }
 
 std::string CurvePicture(const StudyTable& table, std::size_t curve,
@@ -68,15 +40,15 @@ std::string CurvePicture(const StudyTable& table, std::size_t curve,
                          .lines = {},
                          .logarithmic = true};
   for (const FigureRow* row : rows) {
-    LinePicture::Line line = {row->labels.back(), {}, {}};
-    for (std::size_t k = 0; k < row->curves[curve].size(); ++k) {
-      line.x.push_back(row->t[k]);
-      line.y.push_back(row->curves[curve][k] / of.unit.scale);
-    }
-    picture.lines.push_back(std::move(line));
+    std::vector<double> values = row->curves[curve];
+    for (double& value : values) value /= of.unit.scale;
+    picture.lines.push_back(
+        {row->labels.back(),
+         {row->t.begin(), row->t.begin() + std::ssize(values)},
+         std::move(values)});
     if (of.name != "anees") continue;
     for (const char* bound : {"anees_bound_lower", "anees_bound_upper"}) {
-      if (const auto level = FigureIn(table, *row, bound)) {
+      if (const auto level = FigureOf(table, *row, bound)) {
         picture.levels.push_back(*level);
       }
     }
@@ -94,7 +66,7 @@ std::string TimePanel(const StudyTable& table,
       html += "<p>The cases after these are in curves.csv.</p>\n";
       break;
     }
-    html += Element("h3", JoinedLabels(labels)) + "<div class=\"pictures\">";
+    html += Element("h3", Joined(labels, ", ")) + "<div class=\"pictures\">";
     for (std::size_t i = 0; i < table.curves.size(); ++i) {
       html += CurvePicture(table, i, of_case);
     }
@@ -135,13 +107,13 @@ std::string SweepPicture(const StudyTable& table,
     Labels others = row.labels;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(column));
     const auto value =
-        FigureIn(table, row, figure.NameOf(figure.terms.front()));
+        FigureOf(table, row, figure.NameOf(figure.terms.front()));
     if (value) {
       lines[others][*NumberIn(row.labels[column])] = *value / figure.unit.scale;
     }
   }
   for (const auto& [others, points] : lines) {
-    LinePicture::Line line = {JoinedLabels(others), {}, {}};
+    LinePicture::Line line = {Joined(others, ", "), {}, {}};
     for (const auto& [x, y] : points) {
       line.x.push_back(x);
       line.y.push_back(y);
@@ -197,12 +169,9 @@ std::string TablePanel(const StudyTable& table,
 
 std::string StudyPage(const Study& study, const StudyResult& result,
                       const MonteCarloOptions& options) {
-  std::string under = StudyHeading(options) + study.name;
-  for (const auto& [key, value] : study.settings) {
-    under += ", " + key + " " + value;
-  }
   std::string body =
-      Element("p", under + (result.complete ? "." : "; interrupted."));
+      Element("p", StudyHeading(study, options) +
+                       (result.complete ? "." : "; interrupted."));
   for (std::size_t i = 0; i < result.tables.size(); ++i) {
     body += TablePanel(result.tables[i], result.rows[i]);
     body += SweepPanel(result.tables[i], result.rows[i]);

@@ -1,13 +1,15 @@
 #include "app/study_report.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/flags.h"
 #include "app/report_page.h"
-#include "app/study_page.h"
 #include "io/write/csv_line.h"
 #include "io/write/number_format.h"
 
@@ -176,16 +178,20 @@ std::vector<OutputFile> StudyFiles(const Study& study,
   return files;
 }
 
-std::string StudyHeading(const MonteCarloOptions& options) {
+std::string StudyHeading(const Study& study, const MonteCarloOptions& options) {
   const std::uint64_t last =
       options.first_seed + static_cast<std::uint64_t>(options.runs - 1);
-  return std::to_string(options.runs) + " runs, seeds " +
-         std::to_string(options.first_seed) + " to " + std::to_string(last) +
-         ", of ";
+  std::string text = fmt::format("{} runs, seeds {} to {}, of {}", options.runs,
+                                 options.first_seed, last, study.name);
+  for (const auto& [key, value] : study.settings) {
+    text += ", " + key + " " + value;
+  }
+  return text;
 }
 
-void WriteStudy(const Study& study, const StudyResult& result,
-                const MonteCarloOptions& options, ResultFolder* folder) {
+void ReportStudy(const Study& study, const StudyResult& result,
+                 const MonteCarloOptions& options, ResultFolder* folder) {
+  std::cout << StudyHeading(study, options) << "\n" << StudyText(result);
   for (const OutputFile& file : StudyFiles(study, result, options)) {
     folder->Write(file);
   }

@@ -14,7 +14,7 @@ inline constexpr char kMonteCarloJson[] = "montecarlo.json";
 
 /// The tables of a study for a terminal: a row a case and method. Tables of
 /// constants and the like that are long are left to their files.
-std::string StudyText(const Study& study, const StudyResult& result);
+std::string StudyText(const StudyResult& result);
 
 /// A table as it is shown: case and method, and the figures of one part that
 /// have a title; a case that goes on is not named again. No rows where all
@@ -26,8 +26,15 @@ struct StudyGrid {
 StudyGrid GridOf(const StudyTable& table, const std::vector<FigureRow>& rows,
                  int part);
 
-/// "100 runs, seeds 1 to 100, of ".
-std::string StudyHeading(const MonteCarloOptions& options);
+/// A page that shows a comparison: the tables; of each case the figures against
+/// time, a line a method, among them ANEES with its 95 % bounds; and of every
+/// label that has several numbers ("0.1 deg/sqrt(h)") the errors against them.
+/// It needs no script and no network.
+std::string StudyPage(const Study& study, const StudyResult& result,
+                      const MonteCarloOptions& options);
+
+/// "100 runs, seeds 1 to 100, of NAME, KEY VALUE".
+std::string StudyHeading(const Study& study, const MonteCarloOptions& options);
 
 /// The files of a result, complete or not, montecarlo.json first:
 ///   {"scenario", settings, "complete", "runs", "runs_asked", "first_seed",
@@ -46,10 +53,10 @@ std::vector<OutputFile> StudyFiles(const Study& study,
                                    const StudyResult& result,
                                    const MonteCarloOptions& options);
 
-/// Writes them, with --report a page besides (StudyPage), and commits the
-/// folder. Throws OutputError.
-void WriteStudy(const Study& study, const StudyResult& result,
-                const MonteCarloOptions& options, ResultFolder* folder);
+/// Prints heading and text, writes the files, with --report a page besides
+/// (StudyPage), and commits the folder. Throws OutputError.
+void ReportStudy(const Study& study, const StudyResult& result,
+                 const MonteCarloOptions& options, ResultFolder* folder);
 
 }  // namespace hindsight
 

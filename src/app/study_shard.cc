@@ -8,9 +8,8 @@
 
 #include "app/build_id.h"
 #include "app/flags.h"
-#include "io/config/scenario_config.h"
+#include "app/study_cases.h"
 #include "io/read/file_digest.h"
-#include "io/read/paths.h"
 #include "io/read/units.h"
 
 namespace hindsight {
@@ -50,11 +49,8 @@ ShardedCall SharedCall(const std::vector<std::string>& arguments,
     call.flags[Dashed(flag)] =
         gflags::GetCommandLineFlagInfoOrDie(flag.c_str()).current_value;
   }
-  for (const std::string& name : arguments) {
-    if (!IsFile(name)) continue;
-    for (const auto& file : ScenarioFiles(name)) {
-      call.inputs.push_back(DigestOf(file).sha256);
-    }
+  for (const auto& file : FilesOf(arguments)) {
+    call.inputs.push_back(DigestOf(file).sha256);
   }
   return call;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "app/flags.h"
 #include "app/study_report.h"
 #include "app/terminal.h"
 #include "io/write/table.h"
@@ -30,12 +31,7 @@ std::string Cell(const Figure& figure, const std::vector<double>& values) {
 std::vector<std::string> LabelCells(const FigureRow& row,
                                     const FigureRow* before) {
   const auto case_of = [](const FigureRow& one) {
-    std::string text;
-    for (std::size_t i = 0; i + 1 < one.labels.size(); ++i) {
-      text +=
-          (text.empty() || one.labels[i].empty() ? "" : ", ") + one.labels[i];
-    }
-    return text;
+    return Joined({one.labels.begin(), one.labels.end() - 1}, ", ");
   };
   const std::string name = case_of(row);
   if (row.labels.size() == 1) return {row.labels[0], ""};
@@ -56,13 +52,11 @@ std::string TableText(const StudyTable& table,
 
 StudyGrid GridOf(const StudyTable& table, const std::vector<FigureRow>& rows,
                  int part) {
+  const bool has_method = table.labels.size() > 1;
+  const std::vector<std::string> of_case(table.labels.begin(),
+                                         table.labels.end() - has_method);
   StudyGrid grid;
-  grid.heading.resize(2);
-  for (std::size_t i = 0; i < table.labels.size(); ++i) {
-    const bool is_last = i > 0 && i + 1 == table.labels.size();
-    std::string& to = grid.heading[is_last ? 1 : 0];
-    to += (to.empty() ? "" : ", ") + table.labels[i];
-  }
+  grid.heading = {Joined(of_case, ", "), has_method ? table.labels.back() : ""};
   std::vector<std::size_t> shown;
   for (std::size_t f = 0; f < table.figures.size(); ++f) {
     const Figure& figure = table.figures[f];
@@ -85,12 +79,8 @@ StudyGrid GridOf(const StudyTable& table, const std::vector<FigureRow>& rows,
   return grid;
 }
 
-std::string StudyText(const Study& study, const StudyResult& result) {
-  std::string text = study.name;
-  for (const auto& [key, value] : study.settings) {
-    text += ", " + key + " " + value;
-  }
-  text += "\n";
+std::string StudyText(const StudyResult& result) {
+  std::string text;
   for (std::size_t i = 0; i < result.tables.size(); ++i) {
     if (i > 0 && result.rows[i].size() > kMostRows) continue;
     for (const int part : {0, 1}) {

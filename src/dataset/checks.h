@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dataset/dataset.h"
-#include "dataset/rest.h"
+#include "dataset/imu_report.h"
 #include "state/evidence.h"
 
 namespace hindsight {
@@ -33,23 +33,6 @@ struct StreamReport {
   long duplicates = 0;  ///< rows with the stamp of the row before
   std::vector<StreamGap> gaps;
   double overlap = 0.0;  ///< with the IMU [s]
-};
-
-/// What the IMU reads, in body axes forward-right-down.
-struct ImuReport {
-  Rest rest;
-  /// Mean over rest.at_rest; absent if the vehicle never stands.
-  std::optional<Eigen::Vector3d> rest_force;  ///< [m/s^2]
-  std::optional<Eigen::Vector3d> rest_rate;   ///< [rad/s]
-  /// Mean over all spans of `rest`; absent if there are none.
-  std::optional<Eigen::Vector3d> still_force;  ///< [m/s^2]
-  /// Mean over the second in which the specific force varies least.
-  Eigen::Vector3d quietest_force = Eigen::Vector3d::Zero();  ///< [m/s^2]
-  /// Mean over the record, in body axes: up, of a vehicle that keeps upright.
-  Eigen::Vector3d mean_force_b = Eigen::Vector3d::Zero();  ///< [m/s^2]
-  double mean_force = 0.0;  ///< mean |f| over the record [m/s^2]
-  double max_force = 0.0;   ///< [m/s^2]
-  double max_rate = 0.0;    ///< [rad/s]
 };
 
 struct CheckReport {

@@ -72,8 +72,7 @@ std::vector<double> RunCell::Pooled(const std::string& name,
     const auto series = record->series.find(name);
     if (series == record->series.end()) continue;
     for (std::size_t k = 0; k < record->t.size(); ++k) {
-      if (record->t[k] < range.from || record->t[k] > range.to) continue;
-      out.push_back(series->second[k]);
+      if (range.Contains(record->t[k])) out.push_back(series->second[k]);
     }
   }
   return out;
@@ -111,7 +110,7 @@ std::vector<double> RunCell::Within(const std::vector<double>& curve,
                                     const TimeRange& range) const {
   std::vector<double> out;
   for (std::size_t k = 0; k < curve.size(); ++k) {
-    if (t_[k] >= range.from && t_[k] <= range.to) out.push_back(curve[k]);
+    if (range.Contains(t_[k])) out.push_back(curve[k]);
   }
   return out;
 }
@@ -151,20 +150,15 @@ std::vector<FigureRow> Summarize(const StudyTable& table, std::size_t index,
   return rows;
 }
 
-double FigureOf(const StudyTable& table, std::span<const FigureRow> rows,
-                const std::vector<std::string>& labels,
-                const std::string& name) {
-  for (const FigureRow& row : rows) {
-    if (row.labels != labels) continue;
-    for (std::size_t i = 0; i < table.figures.size(); ++i) {
-      const Figure& figure = table.figures[i];
-      for (std::size_t k = 0; k < figure.terms.size(); ++k) {
-        if (figure.NameOf(figure.terms[k]) == name) return row.values[i][k];
-      }
+std::optional<double> FigureOf(const StudyTable& table, const FigureRow& row,
+                               const std::string& name) {
+  for (std::size_t i = 0; i < table.figures.size(); ++i) {
+    const Figure& figure = table.figures[i];
+    for (std::size_t k = 0; k < figure.terms.size(); ++k) {
+      if (figure.NameOf(figure.terms[k]) == name) return row.values[i][k];
     }
   }
-  throw std::out_of_range("no figure " + name + " of " +
-                          (labels.empty() ? "" : labels.back()));
+  return std::nullopt;
 }
 
 double AneesLower(const RunCell& cell, const std::string&, const TimeRange&) {
@@ -185,17 +179,26 @@ double AneesOutside(const RunCell& cell, const std::string& quantity,
   return Mean(outside);
 }
 
+Figure Several(const std::string& name, Unit unit, const std::string& title,
+               const char* format, Terms terms, TimeRange range) {
+  return {name, unit, title, format, std::move(terms), range};
+}
+
 Figure Single(const std::string& name, Unit unit, const std::string& title,
               const char* format, const std::string& quantity, Reduce reduce) {
-  return {name, unit, title, format, {{"", quantity, reduce}}};
+  return Several(name, unit, title, format, {{"", quantity, reduce}});
 }
 
 Figure Share(const std::string& name, const std::string& title,
-             const std::string& quantity, Reduce reduce, TimeRange range) {
+             const std::string& quantity, Reduce reduce) {
   Figure figure = Single(name, kPlain, title, "{:.1f}", quantity, reduce);
-  figure.range = range;
   figure.factor = 100.0;
   return figure;
+}
+
+Figure AneesBoundFigure(const char* title, const char* format) {
+  return Several("anees_bound", kPlain, title, format,
+                 {{"lower", "", AneesLower}, {"upper", "", AneesUpper}});
 }
 
 Figure FailedFigure() {
@@ -207,13 +210,10 @@ Figure FailedFigure() {
 }
 
 Figure GradesFigure() {
-  return {"grades",
-          kPlain,
-          "usable,\ndoubtful,\nnot",
-          "{:.0f}",
-          {{"usable", "", CountGrade<0>},
-           {"doubtful", "", CountGrade<1>},
-           {"not_usable", "", CountGrade<2>}}};
+  return Several("grades", kPlain, "usable,\ndoubtful,\nnot", "{:.0f}",
+                 {{"usable", "", CountGrade<0>},
+                  {"doubtful", "", CountGrade<1>},
+                  {"not_usable", "", CountGrade<2>}});
 }
 
 Figure SecondsFigure() {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -41,12 +42,21 @@ struct RunRecord {
   /// By name, a value at every t. Of a table that folds them they are taken out
   /// of the record.
   std::map<std::string, std::vector<double>> series;
+
+  /// Makes it a failed run without an answer; `what` was wrong with the data.
+  void Fail(std::string what = "") {
+    failed = true;
+    answered = false;
+    refusal = std::move(what);
+  }
 };
 
 /// Closed span of time [s].
 struct TimeRange {
   double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();
+
+  bool Contains(double t) const { return t >= from && t <= to; }
 };
 
 /// All runs of one case and method. What is asked for and was never recorded is
@@ -151,13 +161,16 @@ struct Figure {
   int part = 0;            ///< of the printed table that it stands in
   bool is_repeatable = true;  ///< false: not the same in an equal call
   /// Any number of values in place of the terms, for JSON alone.
-  std::vector<double> (*list)(const RunCell& cell) = nullptr;
+  std::function<std::vector<double>(const RunCell& cell)> list = {};
 
   std::string NameOf(const Term& term) const {
     return term.component.empty() ? name : name + "_" + term.component;
   }
 };
 
+/// A figure of several terms.
+Figure Several(const std::string& name, Unit unit, const std::string& title,
+               const char* format, Terms terms, TimeRange range = {});
 /// A figure of one term without a component.
 Figure Single(const std::string& name, Unit unit, const std::string& title,
               const char* format, const std::string& quantity, Reduce reduce);
@@ -169,7 +182,9 @@ inline Figure Single(const std::string& name, Unit unit,
 }
 /// A share, printed in percent.
 Figure Share(const std::string& name, const std::string& title,
-             const std::string& quantity, Reduce reduce, TimeRange range = {});
+             const std::string& quantity, Reduce reduce);
+/// Lower and upper 95 % bounds of AneesLower and AneesUpper.
+Figure AneesBoundFigure(const char* title, const char* format);
 
 /// A figure against time.
 struct FigureCurve {
@@ -208,11 +223,10 @@ std::vector<FigureRow> Summarize(const StudyTable& table, std::size_t index,
                                  std::span<const RunRecord> records,
                                  const CellFolds& folds = {});
 
-/// A figure of the row with these labels; throws std::out_of_range for labels
-/// or a name ("max_std_n", component included) that are none. In SI.
-double FigureOf(const StudyTable& table, std::span<const FigureRow> rows,
-                const std::vector<std::string>& labels,
-                const std::string& name);
+/// A figure of a row of the table by its name ("max_std_n", component
+/// included), in SI; absent if the table has none of that name.
+std::optional<double> FigureOf(const StudyTable& table, const FigureRow& row,
+                               const std::string& name);
 
 /// Figures that many tables have: how many runs failed, their grades, the mean
 /// of kSeconds.

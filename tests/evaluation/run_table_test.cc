@@ -80,13 +80,10 @@ TEST(RunStatistics, ShareOutsideCountsBothSides) {
 
 TEST(StudyTable, FiguresAreByCellInOrderOfAppearance) {
   StudyTable table = {"cells", {"case", "method"}, {}, {}};
-  table.figures = {
-      {"x",
-       kPlain,
-       "",
-       "",
-       {{"least", "x", OfRuns<Least>}, {"largest", "x", OfRuns<Largest>}}},
-      FailedFigure()};
+  table.figures = {Several("x", kPlain, "", "",
+                           {{"least", "x", OfRuns<Least>},
+                            {"largest", "x", OfRuns<Largest>}}),
+                   FailedFigure()};
   table.curves = {{"mean", kPlain, "e", Mean}};
   std::vector<RunRecord> records = {Record("b", 1, 1.0, {0.0}, {4.0}),
                                     Record("a", 1, 2.0, {0.0}, {5.0}),
@@ -98,11 +95,9 @@ TEST(StudyTable, FiguresAreByCellInOrderOfAppearance) {
   EXPECT_EQ(rows[0].labels.back(), "b");
   EXPECT_EQ(rows[0].runs, 2);
   EXPECT_THAT(rows[0].curves[0], ElementsAre(5.0));
-  EXPECT_EQ(FigureOf(table, rows, {"case", "b"}, "x_largest"), 3.0);
-  EXPECT_EQ(FigureOf(table, rows, {"case", "a"}, "failed"), 0.0);
-  EXPECT_THROW(FigureOf(table, rows, {"case", "c"}, "failed"),
-               std::out_of_range);
-  EXPECT_THROW(FigureOf(table, rows, {"case", "a"}, "x"), std::out_of_range);
+  EXPECT_EQ(FigureOf(table, rows[0], "x_largest"), 3.0);
+  EXPECT_EQ(FigureOf(table, rows[1], "failed"), 0.0);
+  EXPECT_EQ(FigureOf(table, rows[1], "x"), std::nullopt);
 }
 
 }  // namespace

@@ -14,9 +14,10 @@ using testing::TypicalLayout;
 using testing::TypicalState;
 
 /// Three nodes; the second is `sigmas` of `component` elsewhere.
-Solution Ended(int component, double sigmas) {
+Solution Ended(int component, double sigmas,
+               const ErrorLayout& layout = TypicalLayout()) {
   Solution solution;
-  solution.layout = TypicalLayout();
+  solution.layout = layout;
   const int dim = solution.layout.dim();
   solution.covariances = CovarianceSeries(dim, 3);
   for (int k = 0; k < 3; ++k) {
@@ -71,7 +72,7 @@ Solution EndedBy(const char* method, int component, double sigmas) {
 TEST(MethodComparison, TwoThatMayBothBeUsedAreDoubtfulWhereTheyAreFarApart) {
   // One node of three: in the root mean square 1/sqrt(3) of it.
   for (const int component : {0, 2, 6, 8}) {
-    MethodComparison comparison;
+    MethodComparison comparison(TrajectoryTerms());
     EXPECT_FALSE(comparison.Compare(EndedBy("batch", component, 0.0)));
     EXPECT_FALSE(comparison.Compare(EndedBy("rts", component, 5.0)));
     const auto found =
@@ -84,7 +85,7 @@ TEST(MethodComparison, TwoThatMayBothBeUsedAreDoubtfulWhereTheyAreFarApart) {
 }
 
 TEST(MethodComparison, WhatIsRefutedForwardOrElsewhereSaysNothing) {
-  MethodComparison comparison;
+  MethodComparison comparison(TrajectoryTerms());
   Solution refuted = EndedBy("batch", 0, 50.0);
   refuted.grade = Grade::kUnusable;
   EXPECT_FALSE(comparison.Compare(refuted));
@@ -95,6 +96,30 @@ TEST(MethodComparison, WhatIsRefutedForwardOrElsewhereSaysNothing) {
   moved.states[2].t += 0.1;
   EXPECT_FALSE(comparison.Compare(moved));
   EXPECT_FALSE(comparison.Compare(EndedBy("rts", 0, 0.0)));
+}
+
+TEST(MethodComparison, OfAttitudeAloneTheForwardMethodIsAskedToo) {
+  ErrorLayout layout;
+  for (const BlockKind kind : {BlockKind::kGyroBias, BlockKind::kAttitude}) {
+    layout.Add(*TypicalLayout().Find(kind));
+  }
+  // A bias elsewhere is none of its concern.
+  for (const int component : {0, 3, 5}) {
+    MethodComparison comparison(AttitudeTerms());
+    Solution filter = Ended(component, 0.0, layout);
+    filter.method = "ahrs";
+    filter.forward = true;
+    EXPECT_FALSE(comparison.Compare(filter));
+    Solution smoother = Ended(component, 6.0, layout);
+    smoother.method = "ahrs_smoother";
+    const auto found = comparison.Compare(smoother);
+    ASSERT_EQ(found.has_value(), component >= 3);
+    if (!found) continue;
+    EXPECT_EQ(found->what,
+              "ahrs and ahrs_smoother are 3.5 sigma of the less certain one "
+              "apart in attitude");
+    EXPECT_EQ(found->against, "ahrs");
+  }
 }
 
 }  // namespace

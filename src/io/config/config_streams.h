@@ -18,11 +18,18 @@ StreamSource ReadStreamSource(ConfigMap* map,
                               const std::filesystem::path& folder,
                               const std::vector<FieldName>& fields);
 
+/// `time` of a stream whose file is of that format, and its documentation.
+ClockMap ReadClock(ConfigMap* map, const FileFormat& format);
+KeySection TimeSection();
+
 /// `file`: a name, or those of the parts of one stream in the order of time.
 std::vector<std::string> FileNames(ConfigMap* map);
 
-/// C_bs of `axes` and `mounting`, of the imu or the truth.
+/// C_bs of `axes` and `mounting`, of the imu or the truth; of either, turned by
+/// what it says.
 Eigen::Matrix3d ReadMounting(ConfigMap* map);
+void ReadAxes(ConfigMap* map, Eigen::Matrix3d* C_bs);
+void ReadTurn(ConfigMap* map, Eigen::Matrix3d* C_bs);
 
 /// Fails for a turn by more than 360 deg: it is another unit's.
 void RequireTurns(ConfigMap* map, const std::string& key,
@@ -55,6 +62,7 @@ TruthConfig ReadTruthKeys(ConfigMap* map);
 /// stream and its time; the start, rest, withholding and nodes; ahrs; what
 /// every aiding stream has.
 std::vector<KeySection> ImuSections();
+KeySection TruthSection();
 std::vector<KeySection> StreamSections();
 std::vector<KeySection> StartSections();
 KeySection AhrsSection();

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "base/error.h"
-#include "io/read/column_meaning.h"
 #include "io/read/file_format.h"
 #include "io/read/split_files.h"
 #include "io/read/time_scale.h"
+#include "io/read/title_words.h"
 
 namespace hindsight {
 namespace {

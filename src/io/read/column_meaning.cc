@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include "io/read/file_formats.h"
+#include "io/read/title_words.h"
 #include "io/read/units.h"
 
 namespace hindsight {
@@ -15,67 +15,10 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-bool IsUpper(char c) {
-  return std::isupper(static_cast<unsigned char>(c)) != 0;
-}
-bool IsAlpha(char c) {
-  return std::isalpha(static_cast<unsigned char>(c)) != 0;
-}
-char Lower(char c) {
-  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-}
-
 bool HasAny(const Words& words, std::initializer_list<std::string_view> names) {
   return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
     return std::find(names.begin(), names.end(), word) != names.end();
   });
-}
-
-struct UnitWord {
-  std::string_view word;
-  std::string_view unit;
-};
-
-/// The end of a title, where a unit stands without brackets.
-std::string UnitOfWord(const std::string& word) {
-  static constexpr std::array kUnits = {
-      UnitWord{"radps", "rad/s"}, UnitWord{"rads", "rad/s"},
-      UnitWord{"dps", "deg/s"},   UnitWord{"degps", "deg/s"},
-      UnitWord{"mps", "m/s"},     UnitWord{"kmh", "km/h"},
-      UnitWord{"deg", "deg"},     UnitWord{"rad", "rad"},
-      UnitWord{"sec", "s"},       UnitWord{"s", "s"},
-      UnitWord{"ms", "ms"},       UnitWord{"us", "us"},
-      UnitWord{"ns", "ns"},       UnitWord{"m", "m"},
-      UnitWord{"ut", "uT"},       UnitWord{"mg", "mg"},
-      UnitWord{"degrees", "deg"}, UnitWord{"seconds", "s"}};
-  for (const UnitWord& known : kUnits) {
-    if (word == known.word) return std::string(known.unit);
-  }
-  return "";
-}
-
-/// Takes the unit off a title: "[deg/s]" or "(deg/s)".
-std::string TakeBracketedUnit(std::string* title) {
-  const std::size_t open = title->find_first_of("[(");
-  if (open == title->npos) return "";
-  const char close_mark = (*title)[open] == '[' ? ']' : ')';
-  const std::size_t close = title->rfind(close_mark);
-  if (close == title->npos || close < open) return "";
-  const std::string unit = title->substr(open + 1, close - open - 1);
-  title->erase(open);
-  return unit;
-}
-
-std::string TakeUnitWord(Words* words) {
-  if (words->size() < 2) return "";
-  if (words->size() > 2 && words->back() == "2" &&
-      (*words)[words->size() - 2] == "mps") {
-    words->resize(words->size() - 2);
-    return "m/s^2";
-  }
-  const std::string unit = UnitOfWord(words->back());
-  if (!unit.empty()) words->pop_back();
-  return unit;
 }
 
 /// The last letter of a word that is one of `names` without it: 'x' of "gyrox".
@@ -311,32 +254,6 @@ ColumnMeaning MeaningInArray(const FileColumn& column) {
 }
 
 }  // namespace
-
-std::vector<std::string> SplitWords(const std::string& name) {
-  Words words;
-  std::string word;
-  const auto end = [&] {
-    if (!word.empty()) words.push_back(word);
-    word.clear();
-  };
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const char c = name[i];
-    const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
-    if (!IsAlpha(c) && !digit) {
-      end();
-      continue;
-    }
-    if (!word.empty()) {
-      const bool was_alpha = IsAlpha(word.back());
-      const bool hump =
-          i > 0 && IsUpper(c) && IsAlpha(name[i - 1]) && !IsUpper(name[i - 1]);
-      if (hump || was_alpha == digit) end();
-    }
-    word += Lower(c);
-  }
-  end();
-  return words;
-}
 
 ColumnMeaning MeaningOfTitle(const std::string& title) {
   std::string text = title;

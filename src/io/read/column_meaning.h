@@ -34,10 +34,6 @@ ColumnMeaning AxisMeaning(const std::string& title, const std::string& family);
 /// their own count them as axes. No quantity stands twice: of two the first.
 std::vector<ColumnMeaning> ReadMeanings(const FileColumns& file);
 
-/// The words of a name in lower case, parted where case, digits or signs
-/// change: "positionGt" as position, gt.
-std::vector<std::string> SplitWords(const std::string& name);
-
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_IO_READ_COLUMN_MEANING_H_

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "io/read/column_meaning.h"
 #include "io/read/fields.h"
+#include "io/read/title_words.h"
 
 namespace hindsight {
 

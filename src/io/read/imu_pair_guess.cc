@@ -9,6 +9,7 @@
 #include "io/read/column_meaning.h"
 #include "io/read/file_columns.h"
 #include "io/read/file_format.h"
+#include "io/read/title_words.h"
 
 namespace hindsight {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "base/median.h"
 #include "io/read/column_lines.h"
-#include "io/read/column_meaning.h"
 #include "io/read/fix_guess.h"
 #include "io/read/imu_columns.h"
+#include "io/read/title_words.h"
 #include "io/read/units.h"
 
 namespace hindsight {

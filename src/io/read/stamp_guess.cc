@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/median.h"
+#include "io/read/title_words.h"
 #include "io/read/units.h"
 
 namespace hindsight {

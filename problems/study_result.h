@@ -1,0 +1,80 @@
+#ifndef HINDSIGHT_PROBLEMS_STUDY_RESULT_H_
+#define HINDSIGHT_PROBLEMS_STUDY_RESULT_H_
+
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "evaluation/run_table.h"
+#include "evaluation/series_fold.h"
+
+namespace hindsight {
+
+/// \file
+/// From the records of runs to the figures of a study.
+
+/// RunRecord::table of a recording that was refused as a whole, its labels those
+/// of the case: a failed run of every method that the case has of other seeds.
+inline constexpr std::size_t kRefused = std::numeric_limits<std::size_t>::max();
+
+/// What one job made of some runs.
+struct JobRuns {
+  /// By run; empty of those that are not there.
+  std::map<int, std::vector<RunRecord>> records;
+  FoldTree folds;  ///< of the series of tables that fold them
+
+  /// The records of a run that is not there yet; their series are folded as
+  /// the tables want it.
+  void Add(int run, std::vector<RunRecord> of_run,
+           const std::vector<StudyTable>& tables);
+};
+
+/// What is known of a study: of all its jobs the seeds of all, or of those that
+/// are finished; of a study of one job the first seeds without a gap.
+struct StudyResult {
+  int runs = 0;  ///< behind every row
+  bool complete = true;
+  std::vector<StudyTable> tables;
+  std::vector<std::vector<FigureRow>> rows;  ///< by table
+  /// Without their series.
+  std::vector<RunRecord> records;
+  /// A line each run whose data were refused: case, method, seed, what is wrong.
+  std::vector<std::string> refusals;
+
+  /// Of no runs.
+  explicit StudyResult(const std::vector<StudyTable>& of);
+
+  /// Whether any run was.
+  bool answered() const;
+  /// A figure, in SI, of a row of table 0 or another; see FigureOf. Throws
+  /// std::bad_optional_access for one that there is not, and as Row.
+  double Value(const std::vector<std::string>& labels, const std::string& name,
+               std::size_t table = 0) const;
+  /// The row itself; throws std::out_of_range.
+  const FigureRow& Row(const std::vector<std::string>& labels,
+                       std::size_t table = 0) const;
+  /// Adds what a job made of its runs 0 to first_runs - 1.
+  void Add(const JobRuns& job, int first_runs);
+  /// Throws InputError with the first refusal where data were refused and no
+  /// run was answered.
+  void RequireAnswer() const;
+};
+
+/// What all jobs of a study made of the runs begin to end - 1.
+struct StudyShard {
+  int begin = 0;
+  int end = 0;
+  std::vector<JobRuns> jobs;
+};
+
+/// The result of RunStudy with those tables, to the last bit, seconds excepted,
+/// of shards that are its runs from 0 on without a gap, in any order. Throws
+/// std::invalid_argument where they are not, InputError as RunStudy.
+StudyResult MergeShards(const std::vector<StudyTable>& tables,
+                        std::vector<StudyShard> shards);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_STUDY_RESULT_H_

@@ -1,0 +1,23 @@
+#ifndef HINDSIGHT_IO_READ_TITLE_WORDS_H_
+#define HINDSIGHT_IO_READ_TITLE_WORDS_H_
+
+#include <string>
+#include <vector>
+
+namespace hindsight {
+
+/// The words of a name in lower case, parted where case, digits or signs
+/// change: "positionGt" as position, gt.
+std::vector<std::string> SplitWords(const std::string& name);
+
+/// Takes the unit off a title, "[deg/s]" or "(deg/s)", and gives what stands
+/// between the brackets; "" without.
+std::string TakeBracketedUnit(std::string* title);
+
+/// Takes a unit that stands without brackets off the end of the words of a
+/// title, "deg/s" of "gyro, x, dps"; "" if there is none.
+std::string TakeUnitWord(std::vector<std::string>* words);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_IO_READ_TITLE_WORDS_H_
