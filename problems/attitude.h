@@ -14,6 +14,7 @@
 #include "attitude/field_survey.h"
 #include "attitude/magnetometer_errors.h"
 #include "dataset/dataset.h"
+#include "evaluation/grade.h"
 #include "evaluation/innovation_test.h"
 #include "problems/disagreement.h"
 #include "problems/estimation.h"

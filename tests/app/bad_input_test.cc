@@ -78,6 +78,13 @@ std::vector<BadInput> BadInputs() {
          std::filesystem::remove(r->file("config.yaml"));
          return {"data/config.yaml"};
        }},
+      {"ColumnsWithoutTheirFormat",
+       [](Recording* r) -> Text {
+         r->Replace("config.yaml", "  file: imu.csv\n",
+                    "  file: imu.csv\n  columns: {t: 1}\n");
+         return {"config.yaml:", "imu.columns", "format: csv",
+                 "expected beside it `format:` columns"};
+       }},
       {"MissingFile",
        [](Recording* r) -> Text {
          std::filesystem::remove(r->file("imu.csv"));

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "base/error.h"
 #include "base/units.h"
 #include "io/config/init_config.h"
 #include "io/recording_folder.h"
@@ -160,6 +161,22 @@ TEST_F(ImuPair, OfAPhonesLoggerIsRecognised) {
   const Dataset dataset = Load();
   EXPECT_EQ(dataset.imu.samples.size(), kPairRows - 1);
   EXPECT_NEAR(dataset.imu.samples[100].accel.norm(), kStandardGravity, 0.01);
+}
+
+TEST_F(ImuPair, WhoseClocksHaveNothingInCommonIsNamed) {
+  std::filesystem::create_directories(folder_ / "walk");
+  Write("walk/Gyroscope.csv", HalfRows(kGyroTitles, true, 5.0));
+  Write("walk/Accelerometer.csv", HalfRows(kAccelTitles, false, 5000.0));
+  try {
+    DraftRecordings((folder_ / "walk").string());
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(
+        error.what(),
+        HasSubstr("Gyroscope.csv and Accelerometer.csv look like its "
+                  "gyros and its accelerometers, but their times hardly "
+                  "overlap: 5 to 34.99 s and 5000 to 5029.99 s"));
+  }
 }
 
 }  // namespace

@@ -1,3 +1,6 @@
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 
@@ -64,7 +67,19 @@ void ReadFormat(ConfigMap* map, StreamConfig* stream) {
 }
 
 void ReadColumnsOf(ConfigMap* map, StreamConfig* stream) {
-  if (!stream->format.kind->takes_columns) return;
+  const FileFormat& kind = *stream->format.kind;
+  if (!kind.takes_columns) {
+    if (!map->Has("columns")) return;
+    const auto takes = [](const FileFormat& format) {
+      return format.takes_columns;
+    };
+    map->Fail("columns",
+              fmt::format("has no use with `format: {}`{}; expected beside it "
+                          "`format:` {}",
+                          kind.name,
+                          map->Has("format") ? "" : ", which is the default",
+                          fmt::join(FormatNames(takes), " or ")));
+  }
   if (!map->Has("columns")) map->Fail("columns", "is missing");
   stream->format.config_line = map->Line("columns");
   ReadColumns(map, *stream->fields, &stream->format);

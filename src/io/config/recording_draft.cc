@@ -324,11 +324,13 @@ void RequireReadable(const std::string& path) {
     name(file);
   }
   throw InputError(folder, 0,
-                   found.empty() ? "holds no files; expected an IMU's"
-                                 : "no IMU was recognised among " + found +
-                                       "; expected columns of three gyros and "
-                                       "three accelerometers: name them under "
-                                       "`imu` with `format: columns`");
+                   found.empty()
+                       ? "holds no files; expected an IMU's"
+                       : "no IMU was recognised among " + found +
+                             "; expected columns of three gyros and "
+                             "three accelerometers: name them under "
+                             "`imu` with `format: columns`" +
+                             (rest.apart.empty() ? "" : "; ") + rest.apart);
 }
 
 }  // namespace

@@ -61,6 +61,7 @@ void Append(RecordingFiles from, RecordingFiles* to) {
   move(from.others, &to->others);
   move(from.unknown, &to->unknown);
   move(from.copies, &to->copies);
+  if (to->apart.empty()) to->apart = std::move(from.apart);
 }
 
 /// What tells the text of one sensor from another's; two do not read the same in
@@ -161,28 +162,31 @@ class Search {
     }
     DropCopies(folder, &files, &result->rest.copies);
     JoinSplitFiles(folder, &files);
-    TakePair(folder, &files);
+    result->rest.apart = TakePair(folder, &files);
     for (RecognisedFile& file : files) {
       Take(std::move(file.streams), file.name, folder, result);
     }
   }
 
-  /// Gyros and accelerometers in files side by side, where no file holds both.
-  static void TakePair(const fs::path& folder,
-                       std::vector<RecognisedFile>* files) {
+  /// Gyros and accelerometers in files side by side, where no file holds both;
+  /// ImuPairSearch::apart if there are none.
+  static std::string TakePair(const fs::path& folder,
+                              std::vector<RecognisedFile>* files) {
     std::vector<std::string> names;
     for (const RecognisedFile& file : *files) {
-      if (HoldsImu(file.streams)) return;
+      if (HoldsImu(file.streams)) return "";
       if (IsFile(folder / file.name)) names.push_back(file.name);
     }
-    auto pair = FindImuPair(folder, names);
-    if (!pair) return;
+    ImuPairSearch search = FindImuPair(folder, names);
+    const std::optional<ImuPair>& pair = search.pair;
+    if (!pair) return std::move(search.apart);
     std::erase_if(*files, [&](const RecognisedFile& file) {
       return file.name == pair->accelerometer;
     });
     for (RecognisedFile& file : *files) {
       if (file.name == pair->imu.file) file.streams = {pair->imu};
     }
+    return "";
   }
 
   static void Take(std::vector<FoundStream> found, const std::string& name,

@@ -20,6 +20,7 @@ struct RecordingFiles {
   /// "b.csv.gz, which begins with the rows of a.csv": not used, as fixes must not
   /// count twice.
   std::vector<std::string> copies;
+  std::string apart;  ///< as of ImuPairSearch
 };
 
 /// The recordings below `folder`, as DraftRecordings says; `rest` takes the

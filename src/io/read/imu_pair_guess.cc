@@ -1,5 +1,7 @@
 #include "io/read/imu_pair_guess.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -123,16 +125,29 @@ TripleGuess InFile(TripleGuess guess, const HalfImu& half) {
   return guess;
 }
 
-std::optional<ImuPair> Paired(const HalfImu& gyro, const HalfImu& accel) {
+/// Empty if their stamps are of one scale and overlap by half of the shorter.
+std::string WhyApart(const HalfImu& gyro, const HalfImu& accel) {
   constexpr double kHalf = 0.5;
+  const std::string files =
+      fmt::format("{} and {} look like its gyros and its accelerometers, but ",
+                  gyro.name, accel.name);
   if (gyro.lines.stamps()->scale != accel.lines.stamps()->scale) {
-    return std::nullopt;
+    return files + "their times are of different scales";
   }
   const double overlap = std::min(gyro.t.back(), accel.t.back()) -
                          std::max(gyro.t.front(), accel.t.front());
   const double shorter = std::min(gyro.t.back() - gyro.t.front(),
                                   accel.t.back() - accel.t.front());
-  if (!(overlap > kHalf * shorter)) return std::nullopt;
+  if (overlap > kHalf * shorter) return "";
+  return files + fmt::format(
+                     "their times hardly overlap: {:.10g} to {:.10g} s "
+                     "and {:.10g} to {:.10g} s",
+                     gyro.t.front(), gyro.t.back(), accel.t.front(),
+                     accel.t.back());
+}
+
+/// Of files that are not apart.
+std::optional<ImuPair> Paired(const HalfImu& gyro, const HalfImu& accel) {
   auto guess = GuessImu(MergedColumns(gyro, accel), MergedMeanings(gyro, accel),
                         -1, gyro.lines.stamps()->step);
   // Phones write accelerations without gravity as well.
@@ -161,8 +176,8 @@ std::optional<ImuPair> Paired(const HalfImu& gyro, const HalfImu& accel) {
 
 }  // namespace
 
-std::optional<ImuPair> FindImuPair(const std::filesystem::path& folder,
-                                   const std::vector<std::string>& names) {
+ImuPairSearch FindImuPair(const std::filesystem::path& folder,
+                          const std::vector<std::string>& names) {
   std::vector<std::unique_ptr<HalfImu>> gyros;
   std::vector<std::unique_ptr<HalfImu>> accels;
   for (const std::string& name : names) {
@@ -177,12 +192,18 @@ std::optional<ImuPair> FindImuPair(const std::filesystem::path& folder,
     if (!TellHalf(half.get())) continue;
     (half->family == "gyro_" ? gyros : accels).push_back(std::move(half));
   }
+  ImuPairSearch search;
   for (const auto& gyro : gyros) {
     for (const auto& accel : accels) {
-      if (auto pair = Paired(*gyro, *accel)) return pair;
+      std::string apart = WhyApart(*gyro, *accel);
+      if (!apart.empty()) {
+        search.apart = std::move(apart);
+      } else if ((search.pair = Paired(*gyro, *accel))) {
+        return search;
+      }
     }
   }
-  return std::nullopt;
+  return search;
 }
 
 }  // namespace hindsight

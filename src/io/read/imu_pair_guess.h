@@ -16,13 +16,20 @@ struct ImuPair {
   std::string accelerometer;  ///< name of the other file
 };
 
+/// The pair that was found, or why two files that look like one are none, a clause
+/// of a sentence; empty if there are no such files.
+struct ImuPairSearch {
+  std::optional<ImuPair> pair;
+  std::string apart;
+};
+
 /// The first two delimited texts of `names` in `folder` of which one holds three
 /// gyros and the other three accelerometers that feel gravity, on one clock and
 /// overlapping by half of the shorter: by titles, or by the file's name where the
 /// titles are x, y and z alone. Told and scaled as GuessImu does, of the
 /// accelerometers interpolated at the gyros' stamps.
-std::optional<ImuPair> FindImuPair(const std::filesystem::path& folder,
-                                   const std::vector<std::string>& names);
+ImuPairSearch FindImuPair(const std::filesystem::path& folder,
+                          const std::vector<std::string>& names);
 
 }  // namespace hindsight
 
