@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "attitude/attitude_run.h"
+#include "evaluation/grade.h"
 #include "evaluation/innovation_test.h"
 #include "measurements/sensor.h"
 #include "state/solution.h"

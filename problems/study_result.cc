@@ -56,8 +56,8 @@ void JobRuns::Add(int run, std::vector<RunRecord> of_run,
                   const std::vector<StudyTable>& tables) {
   FoldTree::Node node = {.level = 0, .index = run, .cells = {}};
   for (RunRecord& record : of_run) {
-    if (record.table == kRefused || !tables[record.table].folds_series)
-      continue;
+    if (record.table == kRefused) continue;
+    if (!tables[record.table].folds_series) continue;
     if (record.answered && !record.t.empty()) {
       node.cells[{record.table, record.labels}] =
           FoldOfRun(std::move(record.t), std::move(record.series));

@@ -42,31 +42,28 @@ double ShareFalling(std::span<const double> values) {
   return falling / std::max(1.0, static_cast<double>(values.size()) - 1.0);
 }
 
-class Analysis {
- public:
-  Analysis(const LinearTape& tape, const ForwardModel& model,
-           const Timeline& timeline, const std::vector<State>& truth)
-      : tape_(tape),
-        layout_(tape.layout()),
-        error_(model.error),
-        policy_(model.covariance, tape.layout()),
-        timeline_(timeline),
-        truth_(truth),
-        scale_(layout_.InitialCovariance().diagonal().cwiseSqrt()) {}
+struct Analysis {
+  const LinearTape& tape;
+  const ErrorLayout& layout;
+  ErrorDefinition error;
+  CovariancePolicy policy;
+  const Timeline& timeline;
+  const std::vector<State>& truth;
+  ErrorVector scale;  ///< a priori standard deviations
 
   RunValues Run() const {
     std::vector<double> V, values, radii;
     std::size_t early = 0;
     double next = 0.0;
-    for (std::size_t k = 0; k < tape_.size(); ++k) {
-      const TapeEpoch& epoch = tape_.epoch(k);
-      const ErrorMatrix P = tape_.P_plus(k);
-      const ErrorVector e = Local(error_, layout_, epoch.x_plus, truth_[k]);
+    for (std::size_t k = 0; k < tape.size(); ++k) {
+      const TapeEpoch& epoch = tape.epoch(k);
+      const ErrorMatrix P = tape.P_plus(k);
+      const ErrorVector e = Local(error, layout, epoch.x_plus, truth[k]);
       V.push_back(e.dot(P.llt().solve(e)));
-      if (epoch.t - tape_.epoch(0).t <= kEarly) ++early;
+      if (epoch.t - tape.epoch(0).t <= kEarly) ++early;
       if (k == 0 || epoch.t < next) continue;
       next = epoch.t + kEvery - 1e-6;
-      const ErrorVector s = scale_.cwiseInverse();
+      const ErrorVector s = scale.cwiseInverse();
       std::ranges::copy(Eigenvalues(s.asDiagonal() * P * s.asDiagonal()),
                         std::back_inserter(values));
       radii.push_back(Radius(k, P));
@@ -84,23 +81,22 @@ class Analysis {
             {"radius_largest", Largest(radii)}};
   }
 
- private:
   /// mu: P^1/2 M P^1/2 with the Cholesky factor of P for its root.
   double DecayRate(std::size_t k, const ErrorMatrix& P, double dt) const {
     const ErrorMatrix root = P.llt().matrixL();
     const ErrorMatrix inverse = root.triangularView<Eigen::Lower>().solve(
         ErrorMatrix::Identity(P.rows(), P.rows()));
-    ErrorMatrix M = inverse * (tape_.Q(k) / dt) * inverse.transpose();
-    ErrorMatrix information = policy_.WeightMatrix();
-    for (const TapeMeasurement& z : tape_.measurements(k)) {
+    ErrorMatrix M = inverse * (tape.Q(k) / dt) * inverse.transpose();
+    ErrorMatrix information = policy.WeightMatrix();
+    for (const TapeMeasurement& z : tape.measurements(k)) {
       if (!z.accepted) continue;
       const Eigen::MatrixXd R = z.R;
       information += z.H.transpose() * R.llt().solve(z.H) / dt;
     }
     M += root.transpose() * information * root;
-    if (policy_.alpha().size() > 0) {
+    if (policy.alpha().size() > 0) {
       const ErrorMatrix S =
-          root.transpose() * policy_.alpha().asDiagonal() * inverse.transpose();
+          root.transpose() * policy.alpha().asDiagonal() * inverse.transpose();
       M += S + S.transpose();
     }
     const double mu = Eigenvalues(M).minCoeff();
@@ -108,34 +104,26 @@ class Analysis {
   }
 
   double Radius(std::size_t k, const ErrorMatrix& P) const {
-    const double dt = tape_.epoch(k).t - tape_.epoch(k - 1).t;
+    const double dt = tape.epoch(k).t - tape.epoch(k - 1).t;
     const ErrorMatrix information =
         P.llt().solve(ErrorMatrix::Identity(P.rows(), P.rows()));
     const auto largest = [&](const ErrorMatrix& M, BlockKind kind) {
-      return LargestOf(layout_, M, kind);
+      return LargestOf(layout, M, kind);
     };
     const double psi = largest(P, BlockKind::kAttitude);
     const double gyro = largest(P, BlockKind::kGyroBias);
     const double accel = largest(P, BlockKind::kAccelBias);
     const double on_v = std::sqrt(largest(information, BlockKind::kVelocity));
     const double on_psi = std::sqrt(largest(information, BlockKind::kAttitude));
-    const double f = timeline_.node(k).kinematics.f_b.norm();
+    const double f = timeline.node(k).kinematics.f_b.norm();
     double c = on_v * std::sqrt(psi * accel) + on_psi * std::sqrt(psi * gyro);
-    if (error_ == ErrorDefinition::kLeftInvariant) {
+    if (error == ErrorDefinition::kLeftInvariant) {
       c += on_v * std::sqrt(largest(P, BlockKind::kVelocity) * gyro);
     } else {
       c += on_v * 0.5 * f * psi;
     }
     return DecayRate(k, P, dt) / (2.0 * c) / on_psi;
   }
-
-  const LinearTape& tape_;
-  const ErrorLayout& layout_;
-  ErrorDefinition error_;
-  CovariancePolicy policy_;
-  const Timeline& timeline_;
-  const std::vector<State>& truth_;
-  ErrorVector scale_;
 };
 
 }  // namespace
@@ -143,7 +131,15 @@ class Analysis {
 RunValues AnalyseRun(const LinearTape& tape, const ForwardModel& model,
                      const Timeline& timeline,
                      const std::vector<State>& truth) {
-  return Analysis(tape, model, timeline, truth).Run();
+  const ErrorLayout& layout = tape.layout();
+  return Analysis{tape,
+                  layout,
+                  model.error,
+                  {model.covariance, layout},
+                  timeline,
+                  truth,
+                  layout.InitialCovariance().diagonal().cwiseSqrt()}
+      .Run();
 }
 
 }  // namespace hindsight

@@ -136,8 +136,8 @@ std::vector<std::filesystem::path> FilesOf(
     const std::vector<std::string>& names_or_paths) {
   std::vector<std::filesystem::path> files;
   for (const std::string& name : names_or_paths) {
-    if (IsFile(name))
-      std::ranges::move(ScenarioFiles(name), std::back_inserter(files));
+    if (!IsFile(name)) continue;
+    std::ranges::move(ScenarioFiles(name), std::back_inserter(files));
   }
   return files;
 }
