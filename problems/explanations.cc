@@ -33,13 +33,13 @@ namespace {
 /// Epochs about equally far apart in time, the first included.
 std::vector<std::size_t> Onsets(const LinearTape& tape) {
   std::vector<std::size_t> onsets;
-  const double begin = tape.epoch(0).t;
+  const double begin = tape.t(0);
   const double step = (tape.back().t - begin) / kOnsets;
   double next = begin;
   for (std::size_t k = 0; k < tape.size() && onsets.size() < kOnsets; ++k) {
-    if (tape.epoch(k).t < next) continue;
+    if (tape.t(k) < next) continue;
     onsets.push_back(k);
-    while (next <= tape.epoch(k).t && step > 0.0) next += step;
+    while (next <= tape.t(k) && step > 0.0) next += step;
   }
   return onsets;
 }
@@ -292,7 +292,7 @@ std::vector<Explanation> ExplanationSearch::Tell(
           problem_.timeline.sensors()[static_cast<std::size_t>(sensor)].name;
     }
     if (one.shift.onset != found_->onsets.front() && !varies) {
-      out.onset = tape_.epoch(one.shift.onset).t;
+      out.onset = tape_.t(one.shift.onset);
       out.what += fmt::format(" from {:.1f} s on", *out.onset);
     }
     if (varies) {

@@ -35,7 +35,7 @@ std::vector<AgreementFigure> FiguresOf(const std::vector<SideAgreement>& all,
             : "{} of the filter differs from that of the smoother";
     figures.push_back(
         {.what = fmt::format(fmt::runtime(words), block),
-         .t = tape.epoch(one.epoch).t,
+         .t = tape.t(one.epoch),
          .distance = one.distance,
          .limit = std::sqrt(ChiSquareQuantile(
              1.0 - kFalseAlarms / static_cast<double>(all.size()), one.dof))});

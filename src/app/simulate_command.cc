@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -30,8 +32,22 @@ int ListScenarios() {
   return kUsable;
 }
 
+/// Says that --duration goes beyond the end of the scenario, which lasts a sample's
+/// interval less than its samples.
+void NoteEnd(const Scenario& scenario, const Simulation& simulation) {
+  const auto samples = static_cast<double>(simulation.sample_count());
+  if (!IsGiven("duration") ||
+      FLAGS_duration * scenario.imu_rate_hz <= samples) {
+    return;
+  }
+  std::cout << fmt::format(
+      "the scenario ends after {:.6g} s, before the {:.6g} s of --duration\n",
+      (samples - 1.0) / scenario.imu_rate_hz, FLAGS_duration);
+}
+
 int Write(const Scenario& scenario, ResultFolder* folder) {
   Simulation simulation(scenario, FLAGS_seed);
+  NoteEnd(scenario, simulation);
   WriteDataset(&simulation,
                [&](const std::string& name) { return folder->Path(name); });
   folder->Commit();

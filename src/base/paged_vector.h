@@ -117,7 +117,8 @@ class PagedVector {
   void reserve(std::size_t count) {
     if (count <= capacity_) return;
     PagedVector larger;
-    larger.memory_ = ScratchMemory(count * sizeof(T), sizeof(T) << kLogBlock);
+    larger.memory_ = ScratchMemory(count * sizeof(T), sizeof(T) << kLogBlock,
+                                   ScratchMemory::AtFirst::kAnything);
     larger.capacity_ = count;
     for (const T& value : std::as_const(*this)) larger.push_back(value);
     swap(larger);

@@ -4,28 +4,33 @@
 #include <atomic>
 #include <cstddef>
 #include <memory>
-#include <mutex>
 
 namespace hindsight {
 
 /// Memory for what is too large to be held and read seldom. If it is large, it is
-/// mapped from a temporary file, which no folder lists and which ends with the
-/// object, and of its blocks the process holds the few that were touched last; the
-/// others are the system's, which keeps them in its cache of files for as long as
-/// nobody needs that memory, and on disk otherwise. The file is in $TMPDIR, or in
-/// /var/tmp. What is small is plain memory, and so is all where no file can be had.
-/// All bytes are zero at first.
+/// mapped from a temporary file, which no folder lists, and of its blocks the process
+/// holds the few that were touched last; the others are the system's, which keeps
+/// them in its cache of files for as long as nobody needs that memory, and on disk
+/// otherwise. The file is in $TMPDIR, or in /var/tmp; all large ones share it, the
+/// place of one that has ended goes to the next, and it ends with the last of them.
+/// What is small is plain memory, and so is all where no file can be had.
 class ScratchMemory {
  public:
   /// Below this it is plain memory [bytes].
-  static constexpr std::size_t kSmallest = std::size_t{1} << 26;
-  /// Blocks of a file that are held at once, by all threads together.
-  static constexpr std::size_t kMostHeld = 8;
+  static constexpr std::size_t kSmallest = std::size_t{1} << 25;
+  /// Bytes that the process holds of files at most, a block more or less: where
+  /// another is to be held, all of the memory go that was asked for a block longest
+  /// ago.
+  static constexpr std::size_t kMostHeld = std::size_t{24} << 20;
 
-  ScratchMemory() = default;
+  /// What the bytes are before they are written.
+  enum class AtFirst { kZero, kAnything };
+
+  ScratchMemory();
   /// `block` [bytes] must be a multiple of 4096. Throws std::bad_alloc.
-  ScratchMemory(std::size_t bytes, std::size_t block);
-  ScratchMemory(ScratchMemory&& other) noexcept { swap(other); }
+  ScratchMemory(std::size_t bytes, std::size_t block,
+                AtFirst at_first = AtFirst::kZero);
+  ScratchMemory(ScratchMemory&& other) noexcept;
   ScratchMemory& operator=(ScratchMemory&& other) noexcept {
     ScratchMemory(std::move(other)).swap(*this);
     return *this;
@@ -35,7 +40,7 @@ class ScratchMemory {
 
   std::byte* data() const { return data_; }
   /// Whether a file is behind it.
-  bool is_file() const { return lock_ != nullptr; }
+  bool is_file() const { return mapping_ != nullptr; }
 
   /// To be called before bytes of a block are read or written, by any thread.
   /// Without it they are the same, but held for longer.
@@ -47,12 +52,15 @@ class ScratchMemory {
       Hold(block, kWritten);
     }
   }
-  /// Blocks that the process holds of a file.
-  std::size_t held() const { return is_file() ? held_count_ : 0; }
+  /// Bytes that the process holds of files, of all memories together.
+  static std::size_t held();
 
  private:
   static constexpr char kRead = 1;
   static constexpr char kWritten = 2;
+
+  struct Mapping;
+  class HeldMappings;
 
   void Hold(std::size_t block, char how) const;
 
@@ -60,8 +68,7 @@ class ScratchMemory {
   std::size_t bytes_ = 0;
   std::size_t block_ = 1;
   std::unique_ptr<std::atomic<char>[]> held_;  ///< how, one a block
-  mutable std::size_t held_count_ = 0;
-  std::unique_ptr<std::mutex> lock_;  ///< null: plain memory
+  std::unique_ptr<Mapping> mapping_;           ///< null: plain memory
 };
 
 }  // namespace hindsight

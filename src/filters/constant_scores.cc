@@ -21,7 +21,7 @@ struct EpochScore {
 
 EpochScore ScoreOf(const LinearTape& tape, std::size_t k,
                    const Eigen::MatrixXd& covariance) {
-  EpochScore out{tape.epoch(k).t, Eigen::VectorXd::Zero(covariance.cols()),
+  EpochScore out{tape.t(k), Eigen::VectorXd::Zero(covariance.cols()),
                  Eigen::VectorXd::Zero(covariance.cols())};
   for (const TapeMeasurement& z : tape.measurements(k)) {
     if (!z.accepted) continue;

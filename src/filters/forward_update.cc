@@ -129,13 +129,16 @@ void ForwardPass::Use(std::size_t k, int i) {
   }
 }
 
-/// Records the linearised measurement on a model's tape and updates with it.
+/// Updates a model with the linearised measurement and records both on its
+/// tape.
 void ForwardPass::Take(std::size_t j, const TapeMeasurement& header,
                        const Innovation& innovation) {
-  filters_[j].tape.Record(header, linearized_, innovation);
-  if (!header.accepted) return;
-  modes_.Weigh(j, innovation.log_likelihood);
-  Update(linearized_, innovation, &errors_[j].mean, &errors_[j].P);
+  GainMatrix K;
+  if (header.accepted) {
+    modes_.Weigh(j, innovation.log_likelihood);
+    K = Update(linearized_, innovation, &errors_[j].mean, &errors_[j].P);
+  }
+  filters_[j].tape.Record(header, linearized_, innovation, K);
 }
 
 void ForwardPass::RecordUpdate(std::size_t k, const Gaussian& combined) {

@@ -176,7 +176,7 @@ class BackwardPass {
     const ErrorMatrix Phi = tape.Phi(k + 1);
     const ErrorMatrix PhiP = Phi * from.P;
     const ErrorMatrix C =
-        Factor(predicted.P, tape.epoch(k + 1).t).solve(PhiP).transpose();
+        Factor(predicted.P, tape.t(k + 1)).solve(PhiP).transpose();
     ErrorMatrix A = ErrorMatrix::Identity(C.rows(), C.rows());
     A.noalias() -= C * Phi;
     Gaussian out;

@@ -35,7 +35,7 @@ void SumInnovations(const LinearTape& tape, IteratedResult* result) {
   double rows = 0.0;
   result->log_likelihood = 0.0;
   for (std::size_t k = 0; k < tape.size(); ++k) {
-    for (const TapeMeasurement& z : tape.measurements(k)) {
+    for (const TapeMeasurement& z : tape.headers(k)) {
       if (!z.accepted) continue;
       result->log_likelihood += z.log_likelihood;
       nis += z.nis;
@@ -163,7 +163,7 @@ GateDecisions DecideGates(const Problem& problem,
 GateDecisions DecisionsOnTape(const LinearTape& tape) {
   GateDecisions decisions;
   for (std::size_t k = 0; k < tape.size(); ++k) {
-    for (const TapeMeasurement& z : tape.measurements(k)) {
+    for (const TapeMeasurement& z : tape.headers(k)) {
       decisions.push_back(z.accepted ? 1 : 0);
     }
   }

@@ -9,16 +9,13 @@
 
 namespace hindsight {
 
-using GainMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
-                                 kMaxErrorDim, kMaxRows>;
-
 Innovation Innovate(const LinearizedMeasurement& z, const ErrorVector& dx,
                     const ErrorMatrix& P) {
   Innovation out;
   out.residual = z.residual - z.H * dx;
-  const RowJacobian HP = z.H * P;
+  const GainMatrix PHt = TimesTransposed(P, z.H);
   out.S = z.R;
-  out.S.noalias() += HP * z.H.transpose();
+  out.S.noalias() += z.H.lazyProduct(PHt);
   const Eigen::LLT<RowMatrix> llt(out.S);
   if (llt.info() != Eigen::Success) {
     throw EstimationError(
@@ -34,18 +31,20 @@ Innovation Innovate(const LinearizedMeasurement& z, const ErrorVector& dx,
   return out;
 }
 
-void Update(const LinearizedMeasurement& z, const Innovation& innovation,
-            ErrorVector* dx, ErrorMatrix* P) {
-  const GainMatrix PHt = *P * z.H.transpose();
+// Few columns times few rows: the blocks of a general product do not pay.
+GainMatrix Update(const LinearizedMeasurement& z, const Innovation& innovation,
+                  ErrorVector* dx, ErrorMatrix* P) {
+  const GainMatrix PHt = TimesTransposed(*P, z.H);
   const Eigen::LLT<RowMatrix> llt(innovation.S);
   const GainMatrix K = llt.solve(PHt.transpose()).transpose();
   *dx += K * innovation.residual;
-  P->noalias() -= K * PHt.transpose();  // (I - K H) P
-  const GainMatrix APHt = *P * z.H.transpose();
-  P->noalias() -= APHt * K.transpose();
-  const GainMatrix KR = K * z.R;
-  P->noalias() += KR * K.transpose();
+  P->noalias() -= K.lazyProduct(PHt.transpose());  // (I - K H) P
+  const GainMatrix APHt = TimesTransposed(*P, z.H);
+  P->noalias() -= APHt.lazyProduct(K.transpose());
+  const GainMatrix KR = K.lazyProduct(z.R);
+  P->noalias() += KR.lazyProduct(K.transpose());
   Symmetrize(P);
+  return K;
 }
 
 void PredictCovariance(const ErrorMatrix& Phi, const ErrorMatrix& Q,

@@ -18,10 +18,14 @@ struct Innovation {
 Innovation Innovate(const LinearizedMeasurement& z, const ErrorVector& dx,
                     const ErrorMatrix& P);
 
+using GainMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
+                                 kMaxErrorDim, kMaxRows>;
+
 /// Kalman update of (dx, P) in place, covariance in Joseph form
 /// (I - K H) P (I - K H)' + K R K', expanded so that it costs O(n^2 rows).
-void Update(const LinearizedMeasurement& z, const Innovation& innovation,
-            ErrorVector* dx, ErrorMatrix* P);
+/// Returns the gain K.
+GainMatrix Update(const LinearizedMeasurement& z, const Innovation& innovation,
+                  ErrorVector* dx, ErrorMatrix* P);
 
 /// P <- Phi P Phi' + Q, symmetric to the last bit.
 void PredictCovariance(const ErrorMatrix& Phi, const ErrorMatrix& Q,

@@ -26,8 +26,9 @@ double* LinearTape::Allocate(std::size_t count) {
     std::size_t size = 0;
     for (const Chunk& chunk : chunks_) size += chunk.size;
     size = std::clamp(size, kBlock, kLargestChunk);
-    chunks_.push_back(
-        {ScratchMemory(size * sizeof(double), kBlockBytes), size, 0});
+    chunks_.push_back({ScratchMemory(size * sizeof(double), kBlockBytes,
+                                     ScratchMemory::AtFirst::kAnything),
+                       size, 0});
   }
   Chunk& chunk = chunks_.back();
   const std::size_t begin = place(chunk.used);
@@ -136,6 +137,7 @@ void LinearTape::Append(const TapeEpoch& epoch, const Transition& transition,
   PackedEpoch& out = epochs_.emplace_back();
   out.t = epoch.t;
   out.reset = epoch.reset;
+  moves_nominal_ = moves_nominal_ || epoch.moves_nominal();
   out.has_x_plus = !IsSame(epoch.x_minus, epoch.x_plus);
   out.has_c = !epoch.c.isZero(0.0);
   out.has_dx_minus = !epoch.dx_minus.isZero(0.0);
@@ -194,10 +196,11 @@ TapeEpoch LinearTape::epoch(std::size_t k) const {
 
 void LinearTape::Record(const TapeMeasurement& header,
                         const LinearizedMeasurement& z,
-                        const Innovation& innovation) {
+                        const Innovation& innovation, const GainMatrix& K) {
   const Eigen::Index rows = z.residual.size();
   const Eigen::Index n = dim();
-  const auto count = static_cast<std::size_t>(rows * (2 + n + 2 * rows));
+  const auto count =
+      static_cast<std::size_t>(rows * (2 + n + 2 * rows) + K.size());
   double* data = Allocate(count);
   TapeMeasurement& out = measurements_.emplace_back(header);
   out.nis = innovation.nis;
@@ -219,6 +222,7 @@ void LinearTape::Record(const TapeMeasurement& header,
   new (&out.H) Matrix(take_matrix(z.H), rows, n);
   new (&out.R) Matrix(take_matrix(z.R), rows, rows);
   new (&out.S) Matrix(take_matrix(innovation.S), rows, rows);
+  new (&out.K) Matrix(take_matrix(K), K.rows(), K.cols());
 }
 
 ErrorMatrix LinearTape::Phi(std::size_t k) const {
@@ -247,15 +251,14 @@ ErrorMatrix LinearTape::P_plus(std::size_t k) const {
   return Unpack(Held(k).data + TriangleSize());
 }
 
-ErrorMatrix LinearTape::ResetTransport(std::size_t k) const {
-  const TapeEpoch epoch = this->epoch(k);
+ErrorMatrix LinearTape::ResetTransport(const TapeEpoch& epoch) const {
   if (!epoch.moves_nominal()) return ErrorMatrix::Identity(dim(), dim());
   return Transport(error_, layout_, epoch.x_minus, epoch.dx_plus, epoch.x_plus);
 }
 
-State LinearTape::StateAt(std::size_t k, const ErrorVector& d) const {
-  State x = Retract(error_, layout_, epoch(k).x_plus, d);
-  x.t = epochs_[k].t;
+State LinearTape::StateAt(const TapeEpoch& epoch, const ErrorVector& d) const {
+  State x = Retract(error_, layout_, epoch.x_plus, d);
+  x.t = epoch.t;
   return x;
 }
 

@@ -30,6 +30,8 @@ struct TapeMeasurement {
   /// covariance.
   Eigen::Map<const Eigen::VectorXd> innovation{nullptr, 0};
   Eigen::Map<const Eigen::MatrixXd> S{nullptr, 0, 0};
+  /// The gain with which a filter took it; empty of one that was not accepted.
+  Eigen::Map<const Eigen::MatrixXd> K{nullptr, 0, 0};
 };
 
 /// One epoch: the interval that ends at t and the update at t. Errors about
@@ -80,7 +82,12 @@ class LinearTape {
   double t(std::size_t k) const { return epochs_[k].t; }
 
   std::span<const TapeMeasurement> measurements(std::size_t k) const {
-    const std::size_t first = Held(k).first_measurement;
+    Held(k);
+    return headers(k);
+  }
+  /// The same, of which no matrix may be read.
+  std::span<const TapeMeasurement> headers(std::size_t k) const {
+    const std::size_t first = epochs_[k].first_measurement;
     const std::size_t end =
         k + 1 < size() ? epochs_[k + 1].first_measurement : measurements_end_;
     return std::span<const TapeMeasurement>(measurements_)
@@ -90,9 +97,10 @@ class LinearTape {
   std::size_t bytes() const;
 
   /// Records a measurement of the epoch that the next Append completes; its
-  /// matrices are copied. `header` has the fields that are no matrices.
+  /// matrices are copied. `header` has the fields that are no matrices; K is
+  /// empty where it was not accepted.
   void Record(const TapeMeasurement& header, const LinearizedMeasurement& z,
-              const Innovation& innovation);
+              const Innovation& innovation, const GainMatrix& K = {});
 
   /// Appends an epoch; `transition` is of the interval before it (ignored for
   /// the first). P_minus about x_minus, P_plus about x_plus.
@@ -105,11 +113,13 @@ class LinearTape {
   ErrorMatrix P_minus(std::size_t k) const;
   ErrorMatrix P_plus(std::size_t k) const;
 
-  /// T(k), from the tangent at x_minus to that at x_plus; identity but for
-  /// epochs that moved their nominal.
-  ErrorMatrix ResetTransport(std::size_t k) const;
-  /// The state that the error d about x_plus of epoch k leads to.
-  State StateAt(std::size_t k, const ErrorVector& d) const;
+  /// T(k) of an epoch, from the tangent at x_minus to that at x_plus; identity but
+  /// for epochs that moved their nominal.
+  ErrorMatrix ResetTransport(const TapeEpoch& epoch) const;
+  /// The state that the error d about x_plus of an epoch leads to.
+  State StateAt(const TapeEpoch& epoch, const ErrorVector& d) const;
+  /// Whether any update moved the nominal.
+  bool moves_nominal() const { return moves_nominal_; }
 
   /// Drops the last epoch and the memory it alone used.
   void PopBack();
@@ -160,6 +170,7 @@ class LinearTape {
   ErrorLayout layout_;
   ErrorDefinition error_;
   bool smoothable_ = true;
+  bool moves_nominal_ = false;
   BoundRecord bound_;
   std::vector<PackedEpoch> epochs_;
   std::vector<TapeMeasurement> measurements_;

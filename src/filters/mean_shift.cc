@@ -6,6 +6,7 @@
 
 #include "filters/tape_adjoint.h"
 #include "filters/tape_gains.h"
+#include "linear/sparse_product.h"
 
 namespace hindsight {
 namespace {
@@ -18,18 +19,18 @@ Eigen::MatrixXd WithGrowth(const Eigen::MatrixXd& B, double t) {
 }
 
 double TimeOf(const LinearTape& tape, std::size_t k) {
-  return tape.epoch(k).t - tape.epoch(0).t;
+  return tape.t(k) - tape.t(0);
 }
 
 /// What belongs to the constants b of one group.
 struct GroupScore {
   GroupScore(int dim, Eigen::Index count)
       : lambda(Eigen::VectorXd::Zero(count)),
-        xb(Eigen::MatrixXd::Zero(dim, count)),
+        bx(Eigen::MatrixXd::Zero(count, dim)),
         bb(Eigen::MatrixXd::Zero(count, count)) {}
 
   Eigen::VectorXd lambda;
-  Eigen::MatrixXd xb, bb;  ///< blocks of Lambda
+  Eigen::MatrixXd bx, bb;  ///< blocks of Lambda, rows of b
 };
 
 class AdjointPass {
@@ -44,10 +45,9 @@ class AdjointPass {
     for (std::size_t k = tape_.size(); k-- > 0 && left > 0;) {
       if (callback) callback(tape_.size() - 1 - k);
       if (k + 1 < tape_.size()) BackOver(k + 1);
-      const std::vector<Eigen::MatrixXd> gains = GainsAt(tape_, k);
       const auto all = tape_.measurements(k);
       for (std::size_t i = all.size(); i-- > 0;) {
-        if (all[i].accepted) BackBefore(k, all[i], gains[i]);
+        if (all[i].accepted) BackBefore(k, all[i]);
       }
       if (onsets[left - 1] != k) continue;
       --left;
@@ -64,46 +64,52 @@ class AdjointPass {
     return groups_.try_emplace(group, tape_.dim(), count).first->second;
   }
 
+  // All factors here are small or sparse, for which a general product is slow.
+
   /// Over the interval that ends at epoch k.
   void BackOver(std::size_t k) {
-    const Eigen::MatrixXd Phi = tape_.Phi(k);
     if (columns_.driven) {
       const ShiftColumns::Columns driven = columns_.driven(k);
       const Eigen::MatrixXd G = WithGrowth(driven.B, TimeOf(tape_, k));
       GroupScore& own = Of(driven.group, G.cols());
-      const Eigen::MatrixXd LG = state_.Lambda() * G;
-      const Eigen::MatrixXd GX = G.transpose() * own.xb;
+      const Eigen::MatrixXd LG = state_.Lambda().lazyProduct(G);
+      const Eigen::MatrixXd XG = own.bx.lazyProduct(G);
       own.lambda += G.transpose() * state_.lambda();
-      own.bb += GX + GX.transpose() + G.transpose() * LG;
-      own.xb += LG;
+      own.bb += XG + XG.transpose();
+      own.bb += G.transpose().lazyProduct(LG);
+      own.bx += LG.transpose();
     }
-    state_.BackOver(k);
-    for (auto& [group, own] : groups_) own.xb = Phi.transpose() * own.xb;
+    const ErrorMatrix Phi = tape_.Phi(k);
+    state_.BackOver(Phi);
+    for (auto& [group, own] : groups_) own.bx = Times(own.bx, Phi);
   }
 
-  void BackBefore(std::size_t k, const TapeMeasurement& z,
-                  const Eigen::MatrixXd& K) {
-    const Eigen::LLT<Eigen::MatrixXd> S(z.S);
-    const Eigen::VectorXd ahead =
-        S.solve(z.innovation) - K.transpose() * state_.lambda();
-    const Eigen::MatrixXd LK = state_.Lambda() * K;
+  void BackBefore(std::size_t k, const TapeMeasurement& z) {
+    const Eigen::LLT<RowMatrix> S(z.S);
+    const RowVector ahead =
+        S.solve(z.innovation) - z.K.transpose() * state_.lambda();
+    const GainMatrix LK = state_.Lambda().lazyProduct(z.K);
+    const RowMatrix KLK = z.K.transpose().lazyProduct(LK);
     std::set<ShiftColumns::Group> entered;
     for (const ShiftColumns::Columns& columns : columns_.measured(k, z)) {
       const Eigen::MatrixXd B = WithGrowth(columns.B, TimeOf(tape_, k));
       GroupScore& own = Of(columns.group, B.cols());
-      const Eigen::MatrixXd direct =
-          S.solve(B) + K.transpose() * (LK * B) - K.transpose() * own.xb;
-      const Eigen::MatrixXd indirect = own.xb.transpose() * (K * B);
+      const Eigen::MatrixXd XK = own.bx.lazyProduct(z.K);
+      Eigen::MatrixXd direct = S.solve(B) - XK.transpose();
+      direct += KLK.lazyProduct(B);
       own.lambda += B.transpose() * ahead;
-      own.bb += B.transpose() * direct - indirect;
-      own.xb += z.H.transpose() * direct - LK * B;
+      own.bb += B.transpose().lazyProduct(direct);
+      own.bb -= XK.lazyProduct(B);
+      own.bx += direct.transpose().lazyProduct(z.H);
+      own.bx -= B.transpose().lazyProduct(LK.transpose());
       entered.insert(columns.group);
     }
     for (auto& [group, own] : groups_) {
       if (entered.contains(group)) continue;
-      own.xb -= z.H.transpose() * (K.transpose() * own.xb);
+      const Eigen::MatrixXd XK = own.bx.lazyProduct(z.K);
+      own.bx -= XK.lazyProduct(z.H);
     }
-    state_.BackBefore(z, K);
+    state_.BackBefore(z);
   }
 
   void Collect(std::size_t k, bool throughout,

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "filters/transport.h"
+#include "linear/small_product.h"
 #include "linear/sparse_product.h"
 
 namespace hindsight {
@@ -25,7 +26,8 @@ class RtsPass {
 
   SmoothedTrajectory Run(LinearTape* consumed) {
     if (count_ == 0) return std::move(out_);
-    if (!tape_.back().reset) d_ = tape_.back().dx_plus;
+    epoch_ = tape_.back();
+    if (!epoch_.reset) d_ = epoch_.dx_plus;
     if (covariances_) P_ = tape_.P_plus(count_ - 1);
     WriteEpoch(count_ - 1);
     for (std::size_t k = count_ - 1; k-- > 0;) {
@@ -41,16 +43,16 @@ class RtsPass {
   void StepBack(std::size_t k) {
     const ErrorMatrix Phi = tape_.Phi(k + 1);
     const ErrorMatrix P_plus = tape_.P_plus(k);
-    const ErrorMatrix P_minus = tape_.P_minus(k + 1);
-    const Eigen::LLT<ErrorMatrix> llt(P_minus);
+    const Eigen::LLT<ErrorMatrix> llt(tape_.P_minus(k + 1));
     if (llt.info() != Eigen::Success) {
       throw EstimationError(
           "predicted covariance is not positive definite at t = " +
-          std::to_string(tape_.epoch(k + 1).t) + " s");
+          std::to_string(epoch_.t) + " s");
     }
-    const ErrorVector ahead = llt.solve(d_ - tape_.epoch(k + 1).dx_minus);
+    const ErrorVector ahead = llt.solve(d_ - epoch_.dx_minus);
     d_ = P_plus * ErrorVector(Phi.transpose() * ahead);
-    if (!tape_.epoch(k).reset) d_ += tape_.epoch(k).dx_plus;
+    epoch_ = tape_.epoch(k);
+    if (!epoch_.reset) d_ += epoch_.dx_plus;
     if (covariances_) StepCovarianceBack(k, Phi, P_plus, llt);
   }
 
@@ -58,28 +60,32 @@ class RtsPass {
   void StepCovarianceBack(std::size_t k, const ErrorMatrix& Phi,
                           const ErrorMatrix& P_plus,
                           const Eigen::LLT<ErrorMatrix>& llt) {
-    const ErrorMatrix PhiP = TimesTransposed(P_plus, Phi).transpose();
-    const ErrorMatrix C = llt.solve(PhiP).transpose();
+    ErrorMatrix C = TimesTransposed(P_plus, Phi);
+    DivideByCholesky(llt.matrixLLT(), &C);
     ErrorMatrix A = ErrorMatrix::Identity(tape_.dim(), tape_.dim());
     A -= Times(C, Phi);
     P_ += tape_.Q(k + 1);
-    const ErrorMatrix CP = C * P_;
-    P_.triangularView<Eigen::Lower>() = CP * C.transpose();
-    const ErrorMatrix AP = A * P_plus;
-    P_.triangularView<Eigen::Lower>() += AP * A.transpose();
+    P_ = Sandwiched(C, P_) + Sandwiched(A, P_plus);
     P_ = ErrorMatrix(P_.selfadjointView<Eigen::Lower>());
+  }
+
+  /// A P A', of which what lies above the diagonal is not said.
+  static ErrorMatrix Sandwiched(const ErrorMatrix& A, const ErrorMatrix& P) {
+    ErrorMatrix AP, APA;
+    Multiply(A, P, /*lower=*/false, &AP);
+    Multiply(AP, A.transpose(), /*lower=*/true, &APA);
+    return APA;
   }
 
   /// Writes epoch k from the smoothed error about x_plus, and carries that
   /// error and covariance into the tangent at x_minus, where the interval
   /// before ends.
   void WriteEpoch(std::size_t k) {
-    const TapeEpoch& epoch = tape_.epoch(k);
-    out_.states[k] = tape_.StateAt(k, d_);
+    out_.states[k] = tape_.StateAt(epoch_, d_);
     if (covariances_) out_.P.Set(k, P_);
-    if (epoch.moves_nominal()) {
-      MoveBack(tape_.ResetTransport(k), &d_, &P_);
-      d_ += epoch.dx_plus;
+    if (epoch_.moves_nominal()) {
+      MoveBack(tape_.ResetTransport(epoch_), &d_, &P_);
+      d_ += epoch_.dx_plus;
     }
     out_.d[k] = d_;
   }
@@ -87,6 +93,7 @@ class RtsPass {
   const LinearTape& tape_;
   bool covariances_;
   std::size_t count_;
+  TapeEpoch epoch_;  ///< that is being smoothed
   ErrorVector d_;
   ErrorMatrix P_;
   SmoothedTrajectory out_;

@@ -96,7 +96,7 @@ OneSidedState BackwardSide::Alone() const {
   const TapeEpoch& epoch = tape_.epoch(k_);
   ErrorVector d = difference_;
   if (!epoch.reset) d += epoch.dx_plus;
-  OneSidedState out = {tape_.StateAt(k_, d), P_b_.diagonal()};
+  OneSidedState out = {tape_.StateAt(epoch, d), P_b_.diagonal()};
   for (int i = 0; i < static_cast<int>(out.sigma.size()); ++i) {
     out.sigma(i) = Knows(i) ? std::sqrt(out.sigma(i)) : kNothing;
   }

@@ -8,6 +8,7 @@
 
 #include "filters/tape_adjoint.h"
 #include "filters/tape_gains.h"
+#include "linear/sparse_product.h"
 
 namespace hindsight {
 namespace {
@@ -63,18 +64,18 @@ struct Response {
 Response Filtered(const Course& course, const LinearTape& tape,
                   const ShiftColumns& columns) {
   Response out;
+  out.minus.reserve(tape.size());
   ErrorVector error = ErrorVector::Zero(tape.dim());
   for (std::size_t k = 0; k < tape.size(); ++k) {
     if (k > 0) error = (tape.Phi(k) * error).eval();
     error += AddedTo(k, course, tape, columns);
     out.minus.push_back(error);
-    const std::vector<Eigen::MatrixXd> gains = GainsAt(tape, k);
     const auto all = tape.measurements(k);
     for (std::size_t i = 0; i < all.size(); ++i) {
       RowVector& innovation = out.innovations.emplace_back();
       if (!all[i].accepted) continue;
       innovation = all[i].H * error + AddedTo(all[i], course, k, columns);
-      error -= gains[i] * innovation;
+      error -= all[i].K * innovation;
     }
   }
   return out;
@@ -91,12 +92,10 @@ std::vector<ErrorVector> CorrectionForCourse(const Course& course,
     if (k + 1 < tape.size()) {
       lambda = (tape.Phi(k + 1).transpose() * lambda).eval();
     }
-    const std::vector<Eigen::MatrixXd> gains = GainsAt(tape, k);
     const auto all = tape.measurements(k);
     for (std::size_t i = all.size(); i-- > 0;) {
       if (all[i].accepted) {
-        lambda =
-            LambdaBefore(all[i], response.innovations.back(), gains[i], lambda);
+        lambda = LambdaBefore(all[i], response.innovations.back(), lambda);
       }
       response.innovations.pop_back();
     }
@@ -119,7 +118,7 @@ std::vector<ErrorVector> CorrectionFor(const MeanShift& shift,
     course.sizes.setZero(static_cast<Eigen::Index>(tape.size()), 1);
     for (std::size_t k = shift.onset; k < tape.size(); ++k) {
       course.sizes(static_cast<Eigen::Index>(k), 0) =
-          shift.grows ? tape.epoch(k).t - tape.epoch(shift.onset).t : 1.0;
+          shift.grows ? tape.t(k) - tape.t(shift.onset) : 1.0;
     }
   }
   return CorrectionForCourse(course, tape, columns);
@@ -149,7 +148,7 @@ namespace {
 constexpr double kLeastWeight = 1e-6;
 
 /// Carries what constants of one group, each from several onsets on, do to the
-/// estimates: a block of columns an onset, a column of it a constant, so that those
+/// estimates: a block of rows an onset, a row of it a constant, so that those
 /// of the onsets that have come are the first.
 class OnsetPass {
  public:
@@ -163,9 +162,9 @@ class OnsetPass {
         columns_(columns),
         count_(static_cast<Eigen::Index>(onsets.size())),
         width_(static_cast<Eigen::Index>(wanted.size())),
-        e_(Eigen::MatrixXd::Zero(tape.dim(), count_ * width_)),
-        score_(Eigen::VectorXd::Zero(e_.cols())),
-        information_(Eigen::MatrixXd::Zero(e_.cols(), e_.cols())) {}
+        e_(Eigen::MatrixXd::Zero(count_ * width_, tape.dim())),
+        score_(Eigen::VectorXd::Zero(e_.rows())),
+        information_(Eigen::MatrixXd::Zero(e_.rows(), e_.rows())) {}
 
   GroupEnergy Run() {
     for (std::size_t k = onsets_.front(); k < tape_.size(); ++k) {
@@ -173,36 +172,41 @@ class OnsetPass {
              onsets_[static_cast<std::size_t>(begun_)] <= k) {
         ++begun_;
       }
-      if (k > onsets_.front()) begun() = tape_.Phi(k) * begun();
-      const std::vector<Eigen::MatrixXd> gains = GainsAt(tape_, k);
-      const auto all = tape_.measurements(k);
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        if (all[i].accepted) Take(k, all[i], gains[i]);
+      if (k > onsets_.front()) begun() = TimesTransposed(begun(), tape_.Phi(k));
+      for (const TapeMeasurement& z : tape_.measurements(k)) {
+        if (z.accepted) Take(k, z);
       }
     }
     return Energy();
   }
 
  private:
-  /// The columns of the onsets that have come; of the others all is zero.
-  Eigen::MatrixXd::ColsBlockXpr begun() { return e_.leftCols(begun_ * width_); }
+  /// The rows of the onsets that have come; of the others all is zero.
+  Eigen::MatrixXd::RowsBlockXpr begun() { return e_.topRows(begun_ * width_); }
 
-  void Take(std::size_t k, const TapeMeasurement& z, const Eigen::MatrixXd& K) {
-    Eigen::MatrixXd g = -(z.H * begun());
+  void Take(std::size_t k, const TapeMeasurement& z) {
+    Eigen::MatrixXd g = -TimesTransposed(begun(), z.H);
     if (z.sensor == group_) Enter(k, z, &g);
-    const Eigen::LLT<Eigen::MatrixXd> S(z.S);
-    const Eigen::MatrixXd weighted = S.solve(g);
-    score_.head(g.cols()) += weighted.transpose() * z.innovation;
-    information_.topLeftCorner(g.cols(), g.cols())
-        .triangularView<Eigen::Lower>() += g.transpose() * weighted;
-    begun() += K * g;
+    const RowMatrix weight = Eigen::LLT<RowMatrix>(z.S).solve(
+        RowMatrix::Identity(g.cols(), g.cols()));
+    const Eigen::MatrixXd weighted = g.lazyProduct(weight);
+    score_.head(g.rows()) += weighted * z.innovation;
+    // Column by column: for a product with so few columns in between the blocks
+    // of a general one do not pay.
+    for (Eigen::Index c = 0; c < g.rows(); ++c) {
+      const Eigen::Index below = g.rows() - c;
+      information_.col(c).segment(c, below) +=
+          g.bottomRows(below).lazyProduct(weighted.row(c).transpose());
+    }
+    begun() += g.lazyProduct(z.K.transpose());
   }
 
   void Enter(std::size_t k, const TapeMeasurement& z, Eigen::MatrixXd* g) {
     for (const ShiftColumns::Columns& one : columns_.measured(k, z)) {
       if (one.group != group_) continue;
-      for (Eigen::Index c = 0; c < g->cols(); ++c) {
-        g->col(c) += one.B.col(wanted_[static_cast<std::size_t>(c % width_)]);
+      for (Eigen::Index c = 0; c < g->rows(); ++c) {
+        g->row(c) += one.B.col(wanted_[static_cast<std::size_t>(c % width_)])
+                         .transpose();
       }
     }
   }
@@ -213,7 +217,7 @@ class OnsetPass {
     energy.columns.resize(wanted_.size());
     energy.steps.setZero(count_, width_);
     std::vector<Eigen::Index> shown;
-    for (Eigen::Index i = 0; i < e_.cols(); ++i) {
+    for (Eigen::Index i = 0; i < e_.rows(); ++i) {
       if (information_(i, i) > 0.0) shown.push_back(i);
     }
     if (shown.empty()) return energy;

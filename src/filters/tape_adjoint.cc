@@ -9,28 +9,26 @@
 
 namespace hindsight {
 
-void TapeAdjoint::BackOver(std::size_t k) {
-  const auto Phi = tape_.Phi(k);
+void TapeAdjoint::BackOver(const ErrorMatrix& Phi) {
   lambda_ = (Phi.transpose() * lambda_).eval();
   const ErrorMatrix PhiLambda = Times(Lambda_, Phi).transpose();
   Lambda_ = Times(PhiLambda, Phi);
 }
 
-void TapeAdjoint::BackBefore(const TapeMeasurement& z,
-                             const Eigen::MatrixXd& K) {
-  const Eigen::LLT<RowMatrix> S(z.S);
-  lambda_ = LambdaBefore(z, z.innovation, K, lambda_);
-  const Eigen::MatrixXd LK = Lambda_ * K;
-  Lambda_ -= LK * z.H;
-  const Eigen::MatrixXd direct = S.solve(z.H) - K.transpose() * Lambda_;
-  Lambda_ += z.H.transpose() * direct;
+void TapeAdjoint::BackBefore(const TapeMeasurement& z) {
+  lambda_ = LambdaBefore(z, z.innovation, lambda_);
+  const GainMatrix LK = Lambda_.lazyProduct(z.K);
+  Lambda_.noalias() -= LK.lazyProduct(z.H);
+  RowJacobian direct = Eigen::LLT<RowMatrix>(z.S).solve(z.H);
+  direct.noalias() -= z.K.transpose().lazyProduct(Lambda_);
+  Lambda_.noalias() += z.H.transpose().lazyProduct(direct);
   Symmetrize(&Lambda_);  // what is not symmetric would grow
 }
 
 ErrorVector LambdaBefore(const TapeMeasurement& z, const RowVector& nu,
-                         const Eigen::MatrixXd& K, const ErrorVector& lambda) {
+                         const ErrorVector& lambda) {
   const RowVector ahead =
-      Eigen::LLT<RowMatrix>(z.S).solve(nu) - K.transpose() * lambda;
+      Eigen::LLT<RowMatrix>(z.S).solve(nu) - z.K.transpose() * lambda;
   return lambda + z.H.transpose() * ahead;
 }
 
@@ -41,11 +39,10 @@ void ForEachLambda(
   RequireFixedNominal(tape);
   TapeAdjoint adjoint(tape);
   for (std::size_t k = tape.size(); k-- > 0;) {
-    if (k + 1 < tape.size()) adjoint.BackOver(k + 1);
-    const std::vector<Eigen::MatrixXd> gains = GainsAt(tape, k);
+    if (k + 1 < tape.size()) adjoint.BackOver(tape.Phi(k + 1));
     const auto all = tape.measurements(k);
     for (std::size_t i = all.size(); i-- > 0;) {
-      if (all[i].accepted) adjoint.BackBefore(all[i], gains[i]);
+      if (all[i].accepted) adjoint.BackBefore(all[i]);
     }
     visit(k, adjoint.Lambda());
   }

@@ -19,27 +19,25 @@ namespace hindsight {
 class TapeAdjoint {
  public:
   explicit TapeAdjoint(const LinearTape& tape)
-      : tape_(tape),
-        lambda_(ErrorVector::Zero(tape.dim())),
+      : lambda_(ErrorVector::Zero(tape.dim())),
         Lambda_(ErrorMatrix::Zero(tape.dim(), tape.dim())) {}
 
   const ErrorVector& lambda() const { return lambda_; }
   const ErrorMatrix& Lambda() const { return Lambda_; }
 
-  /// Over the interval that ends at epoch k.
-  void BackOver(std::size_t k);
-  /// Before a measurement that was taken with the gain K.
-  void BackBefore(const TapeMeasurement& z, const Eigen::MatrixXd& K);
+  /// Over an interval with that transition.
+  void BackOver(const ErrorMatrix& Phi);
+  /// Before an accepted measurement.
+  void BackBefore(const TapeMeasurement& z);
 
  private:
-  const LinearTape& tape_;
   ErrorVector lambda_;
   ErrorMatrix Lambda_;
 };
 
-/// lambda before a measurement with innovation nu that was taken with the gain K.
+/// lambda before an accepted measurement, were its innovation nu.
 ErrorVector LambdaBefore(const TapeMeasurement& z, const RowVector& nu,
-                         const Eigen::MatrixXd& K, const ErrorVector& lambda);
+                         const ErrorVector& lambda);
 
 /// Calls `visit` with Lambda of each epoch from the last to the first, its own
 /// measurements included. Requires a tape about a fixed nominal.

@@ -8,22 +8,8 @@
 
 namespace hindsight {
 
-std::vector<Eigen::MatrixXd> GainsAt(const LinearTape& tape, std::size_t k) {
-  std::vector<Eigen::MatrixXd> gains;
-  ErrorMatrix P = tape.P_minus(k);
-  for (const TapeMeasurement& z : tape.measurements(k)) {
-    gains.emplace_back();
-    if (!z.accepted) continue;
-    const Eigen::MatrixXd HP = z.H * P;
-    gains.back() = Eigen::LLT<Eigen::MatrixXd>(z.S).solve(HP).transpose();
-    P -= gains.back() * HP;
-  }
-  return gains;
-}
-
 void RequireFixedNominal(const LinearTape& tape) {
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    if (!tape.epoch(k).moves_nominal()) continue;
+  if (tape.moves_nominal()) {
     throw std::logic_error("a deviation from a tape whose nominal moves");
   }
 }
@@ -34,7 +20,7 @@ Eigen::MatrixXd Smoothed(const LinearTape& tape, std::size_t k,
   if (P.info() != Eigen::Success) {
     throw EstimationError(
         "predicted covariance is not positive definite at t = " +
-        std::to_string(tape.epoch(k + 1).t) + " s");
+        std::to_string(tape.t(k + 1)) + " s");
   }
   return tape.P_plus(k) * (tape.Phi(k + 1).transpose() * P.solve(ahead));
 }

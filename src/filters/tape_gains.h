@@ -8,10 +8,6 @@
 
 namespace hindsight {
 
-/// Gains of the measurements of an epoch, in order; of those not accepted an
-/// empty matrix.
-std::vector<Eigen::MatrixXd> GainsAt(const LinearTape& tape, std::size_t k);
-
 /// Throws std::logic_error for a tape whose nominal an update moved.
 void RequireFixedNominal(const LinearTape& tape);
 

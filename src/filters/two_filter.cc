@@ -60,11 +60,11 @@ TwoFilterResult SmoothTwoFilter(const LinearTape& tape) {
     const Information::Estimate smoothed =
         information.Fuse(forward, tape.P_plus(k));
     SmoothedTrajectory& trajectory = out.trajectory;
-    trajectory.states[k] = tape.StateAt(k, smoothed.mean);
+    trajectory.states[k] = tape.StateAt(epoch, smoothed.mean);
     trajectory.P.Set(k, smoothed.P);
     trajectory.d[k] = smoothed.mean;
     if (epoch.moves_nominal()) {
-      const ErrorMatrix T = tape.ResetTransport(k);
+      const ErrorMatrix T = tape.ResetTransport(epoch);
       trajectory.d[k] = epoch.dx_plus + T.partialPivLu().solve(smoothed.mean);
       information.Substitute(T, epoch.dx_plus);
     }

@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "base/parallel.h"
+
 namespace hindsight {
 namespace {
 
@@ -43,9 +45,59 @@ const IncrementStart* Timeline::IncrementStartAt(std::size_t k,
   return nullptr;
 }
 
+namespace {
+
+/// Intervals that are integrated at once beside.
+constexpr std::size_t kIntervalsAhead = 64;
+/// While the first intervals tell the biases they move too far for that.
+constexpr std::size_t kNotAhead = 1024;
+
+}  // namespace
+
+/// What is ready of the intervals about k takes its place.
+void Timeline::TakeAhead(std::size_t k) {
+  if (!ahead_.summaries.valid() ||
+      k / kIntervalsAhead != ahead_.first / kIntervalsAhead) {
+    return;
+  }
+  const Summaries& ready = ahead_.summaries.get();
+  for (std::size_t i = 0; i < ready.size(); ++i) {
+    std::shared_ptr<const ImuSummary>& present = summaries_[ahead_.first + i];
+    if (present == nullptr) present = ready[i];
+  }
+  ahead_.summaries = {};
+}
+
+/// Begins with the intervals behind those about k.
+void Timeline::GoAhead(std::size_t k, const ImuCalibration& calibration) {
+  const std::size_t first = (k / kIntervalsAhead + 1) * kIntervalsAhead;
+  const std::size_t end = std::min(first + kIntervalsAhead, summaries_.size());
+  if (k < kNotAhead || first >= end || summaries_[first] != nullptr ||
+      (ahead_.summaries.valid() && ahead_.first == first)) {
+    return;
+  }
+  std::vector<double> times;
+  for (std::size_t i = first; i <= end; ++i) times.push_back(nodes_[i].t);
+  ahead_.first = first;
+  ahead_.summaries =
+      InBackground([integrator = integrator_, times = std::move(times),
+                    calibration]() mutable {
+        Summaries summaries;
+        for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+          summaries.push_back(std::make_shared<const ImuSummary>(
+              integrator.Summarize(times[i], times[i + 1], calibration)));
+        }
+        return summaries;
+      }).share();
+}
+
 const ImuSummary& Timeline::Integrate(std::size_t k,
                                       const ImuCalibration& calibration) {
   std::shared_ptr<const ImuSummary>& present = summaries_[k];
+  if (present == nullptr) {
+    TakeAhead(k);
+    GoAhead(k, calibration);
+  }
   if (present == nullptr || NeedsReintegration(*present, calibration)) {
     present = std::make_shared<const ImuSummary>(
         integrator_.Summarize(nodes_[k].t, nodes_[k + 1].t, calibration));

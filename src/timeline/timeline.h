@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_TIMELINE_TIMELINE_H_
 #define HINDSIGHT_TIMELINE_TIMELINE_H_
 
+#include <future>
 #include <memory>
 #include <optional>
 #include <span>
@@ -71,7 +72,9 @@ class Timeline {
 
   /// Summary of the interval from node k to k + 1, integrated at `calibration`
   /// or near enough for its first-order correction (NeedsReintegration). Where
-  /// the present one is not, a new one takes its place.
+  /// the present one is not, a new one takes its place. Where there is none yet,
+  /// some of those behind it are integrated beside at the same calibration; which,
+  /// and at which, does not depend on the number of threads.
   const ImuSummary& Integrate(std::size_t k, const ImuCalibration& calibration);
 
   /// The present summary; it must have been integrated before.
@@ -122,6 +125,15 @@ class Timeline {
   }
 
  private:
+  using Summaries = std::vector<std::shared_ptr<const ImuSummary>>;
+  /// Summaries that are being integrated, of the intervals from `first` on.
+  struct Ahead {
+    std::size_t first = 0;
+    std::shared_future<Summaries> summaries;
+  };
+
+  void TakeAhead(std::size_t k);
+  void GoAhead(std::size_t k, const ImuCalibration& calibration);
   const RowVector* OffsetRate(const Measurement& z) const {
     if (offset_rates_.measurements.empty()) return nullptr;
     return &offset_rates_.measurements[static_cast<std::size_t>(
@@ -135,7 +147,8 @@ class Timeline {
   TimeOffsetRates offset_rates_;
   double sample_interval_;  // of the IMU [s]
   ImuIntegrator integrator_;
-  std::vector<std::shared_ptr<const ImuSummary>> summaries_;
+  Summaries summaries_;
+  Ahead ahead_;
   std::vector<std::vector<BlockStep>> block_steps_;
 };
 

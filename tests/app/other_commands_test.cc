@@ -230,6 +230,12 @@ TEST_F(OtherCommands, SimulateEndsEarlier) {
                       recording_.root())
                 .status,
             0);
+  const Outcome beyond =
+      Hindsight({"simulate", "short_drive", "--out=all", "--duration=9999"},
+                recording_.root());
+  EXPECT_THAT(beyond.out, HasSubstr("the scenario ends after 180 s, before "
+                                    "the 9999 s of --duration"));
+  EXPECT_EQ(ReadFile(recording_.root() / "all" / "imu.csv"), whole);
   const Outcome never =
       Hindsight({"simulate", "short_drive", "--out=no", "--duration=0"},
                 recording_.root());

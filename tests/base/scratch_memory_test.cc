@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -53,16 +54,56 @@ bool IsNumbered(const ScratchMemory& memory, std::size_t b) {
 }
 
 TEST(ScratchMemory, KeepsALargeOnesBytesAndHoldsFewOfItsBlocks) {
-  const std::size_t blocks = ScratchMemory::kSmallest / kBlock + 3;
+  const std::size_t blocks = 3 * ScratchMemory::kMostHeld / kBlock + 3;
   ScratchMemory memory(blocks * kBlock - 5, kBlock);
   ASSERT_TRUE(memory.is_file()) << "no file in $TMPDIR or /var/tmp";
   Number(&memory, blocks);
-  EXPECT_LE(memory.held(), ScratchMemory::kMostHeld);
+  EXPECT_LE(ScratchMemory::held(), ScratchMemory::kMostHeld);
   for (std::size_t b = blocks; b-- > 0;) EXPECT_TRUE(IsNumbered(memory, b));
-  EXPECT_LE(memory.held(), ScratchMemory::kMostHeld);
+  EXPECT_LE(ScratchMemory::held(), ScratchMemory::kMostHeld);
   EXPECT_EQ(memory.data()[blocks * kBlock - 6], std::byte{0});
   const ScratchMemory moved = std::move(memory);
   EXPECT_TRUE(IsNumbered(moved, 5));
+}
+
+/// Bytes on the disk of the files without a name in a folder that are open.
+std::uintmax_t BytesOfOpenFilesIn(const std::string& folder) {
+  std::uintmax_t bytes = 0;
+  for (const auto& one : std::filesystem::directory_iterator("/proc/self/fd")) {
+    std::error_code gone;
+    const std::filesystem::path target =
+        std::filesystem::read_symlink(one.path(), gone);
+    if (!target.string().starts_with(folder)) continue;
+    bytes += std::filesystem::file_size(one.path(), gone);
+  }
+  return bytes;
+}
+
+TEST(ScratchMemory, GivesItsPlaceToTheNextWhichIsZeroAsAtFirst) {
+  const std::filesystem::path folder =
+      std::filesystem::path(::testing::TempDir()) / "scratch_memory_again";
+  std::filesystem::create_directories(folder);
+  const TemporaryFolder set(folder);
+  const std::size_t blocks = ScratchMemory::kSmallest / kBlock + 1;
+  ScratchMemory stays(blocks * kBlock, kBlock);
+  ASSERT_TRUE(stays.is_file());
+  Number(&stays, blocks);
+  std::uintmax_t bytes = 0;
+  for (int i = 0; i < 3; ++i) {
+    ScratchMemory comes(blocks * kBlock, kBlock);
+    for (std::size_t b = 0; b < blocks; ++b) {
+      comes.BeforeReading(b);
+      ASSERT_EQ(comes.data()[b * kBlock + 7], std::byte{0}) << b;
+    }
+    Number(&comes, blocks);
+    for (std::size_t b = 0; b < blocks; ++b) EXPECT_TRUE(IsNumbered(comes, b));
+    const std::uintmax_t now = BytesOfOpenFilesIn(folder.string());
+    EXPECT_EQ(i == 0 ? now : bytes, now);
+    EXPECT_GT(now, 2 * ScratchMemory::kSmallest);
+    bytes = now;
+  }
+  for (std::size_t b = 0; b < blocks; ++b) EXPECT_TRUE(IsNumbered(stays, b));
+  std::filesystem::remove_all(folder);
 }
 
 TEST(ScratchMemory, LeavesNoFileBehind) {
@@ -85,8 +126,9 @@ TEST(ScratchMemory, IsPlainMemoryWhereItIsSmallOrThereIsNoFile) {
   ScratchMemory large(ScratchMemory::kSmallest, kBlock);
   EXPECT_FALSE(large.is_file());
   EXPECT_EQ(large.data()[ScratchMemory::kSmallest - 1], std::byte{0});
-  Number(&large, 60);
-  for (std::size_t b = 0; b < 60; ++b) EXPECT_TRUE(IsNumbered(large, b));
+  const std::size_t blocks = ScratchMemory::kSmallest / kBlock;
+  Number(&large, blocks);
+  for (std::size_t b = 0; b < blocks; ++b) EXPECT_TRUE(IsNumbered(large, b));
 }
 
 TEST(ScratchMemory, IsReadByManyThreadsAtOnce) {

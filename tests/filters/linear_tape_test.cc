@@ -157,7 +157,7 @@ TEST(LinearTape, TakesWhatItsLayoutHas) {
   for (std::size_t k = 0; k < tape.size(); ++k) {
     for (const TapeMeasurement& z : tape.measurements(k)) {
       const auto m = static_cast<std::size_t>(z.residual.size());
-      rows += m * (2 + n + 2 * m);
+      rows += m * (2 + n + 2 * m + n);
       ++measurements;
     }
   }

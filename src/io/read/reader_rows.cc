@@ -57,14 +57,14 @@ StreamRows::StreamRows(const StreamSource& source,
   clock_.dated = opened_.dated || source.clock.week.has_value() ||
                  source.clock.scale != ClockMap::Scale::kDataset;
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (opened_.table->Has(i)) present_.push_back(i);
+    if (opened_.table->Has(i))
+      most_.push_back({i, Largest(fields[i].quantity)});
   }
   if (source.sort) Sort(fields, allow_absent || source.absent_values);
 }
 
 void StreamRows::CheckSizes() const {
-  for (const std::size_t i : present_) {
-    const double most = Largest(fields_[i].quantity);
+  for (const auto& [i, most] : most_) {
     if (!(std::abs(opened_.table->value(i)) > most)) continue;
     opened_.table->Fail(std::string(fields_[i].name) + " is " +
                         FormatNumber(opened_.table->value(i)) + " " +

@@ -2,6 +2,7 @@
 #define HINDSIGHT_IO_READ_READER_ROWS_H_
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/read/reader.h"
@@ -45,7 +46,8 @@ class StreamRows {
 
   const StreamSource& source_;
   const std::vector<FieldName>& fields_;
-  std::vector<std::size_t> present_;  ///< the fields that the file holds
+  /// The largest size of each field that the file holds.
+  std::vector<std::pair<std::size_t, double>> most_;
   OpenedTable opened_;
   StreamClock clock_;
   double t_ = 0.0;

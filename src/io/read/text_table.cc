@@ -40,18 +40,18 @@ TextTable::TextTable(TextLines* lines, TableLayout layout, Options options,
                  std::numeric_limits<double>::quiet_NaN());
 }
 
-bool TextTable::ReadAhead() {
-  if (trouble_) std::rethrow_exception(trouble_);
-  texts_.clear();
-  ahead_.clear();
-  taken_ = 0;
-  const auto add = [this](std::string_view line) {
-    Ahead& row = ahead_.emplace_back();
-    row.begin = texts_.size();
+TextTable::Batch TextTable::Fetch(std::size_t most, Batch memory) {
+  Batch batch = std::move(memory);
+  batch.texts.clear();
+  batch.rows.clear();
+  batch.trouble = nullptr;
+  const auto add = [&](std::string_view line) {
+    Ahead& row = batch.rows.emplace_back();
+    row.begin = batch.texts.size();
     row.length = line.size();
     row.number = lines_->number();
     row.terminated = lines_->terminated();
-    texts_ += line;
+    batch.texts += line;
   };
   if (!first_row_.empty()) {
     add(first_row_);
@@ -59,48 +59,61 @@ bool TextTable::ReadAhead() {
   }
   try {
     std::string_view line;
-    while (ahead_.size() < batch_ && texts_.size() < kMostBytesAhead &&
+    while (batch.rows.size() < most && batch.texts.size() < kMostBytesAhead &&
            lines_->Next(&line)) {
       if (!IsComment(line)) add(line);
     }
   } catch (const InputError&) {
-    if (ahead_.empty()) throw;
-    trouble_ = std::current_exception();
-  }
-  // The first good row tells how many columns the others must have.
-  if (parser_.layout().column_count > 0) {
-    batch_ = std::min(2 * batch_, kMostAhead);
+    if (batch.rows.empty()) throw;
+    batch.trouble = std::current_exception();
   }
   const std::size_t width = values_.size();
-  ahead_values_.resize(ahead_.size() * width);
-  ForRanges(
-      ahead_.size(), kLinesOfThread, [&](std::size_t begin, std::size_t end) {
-        TextRowParser::Scratch scratch;
-        for (std::size_t i = begin; i < end; ++i) {
-          Ahead& row = ahead_[i];
-          row.problem =
-              parser_.Parse(LineOf(row), &scratch,
-                            std::span(ahead_values_).subspan(i * width, width),
-                            &row.stamp, &row.columns);
-        }
+  batch.values.resize(batch.rows.size() * width);
+  ForRanges(batch.rows.size(), kLinesOfThread,
+            [&](std::size_t begin, std::size_t end) {
+              TextRowParser::Scratch scratch;
+              for (std::size_t i = begin; i < end; ++i) {
+                Ahead& row = batch.rows[i];
+                row.problem = parser_.Parse(
+                    std::string_view(batch.texts).substr(row.begin, row.length),
+                    &scratch, std::span(batch.values).subspan(i * width, width),
+                    &row.stamp, &row.columns);
+              }
+            });
+  return batch;
+}
+
+bool TextTable::ReadAhead() {
+  if (batch_.trouble) std::rethrow_exception(batch_.trouble);
+  spare_ = std::exchange(
+      batch_, next_.valid() ? next_.get() : Fetch(most_, std::move(spare_)));
+  taken_ = 0;
+  // The first good row tells how many columns the others must have.
+  if (parser_.layout().column_count > 0) {
+    most_ = std::min(2 * most_, kMostAhead);
+    if (most_ >= kLinesOfThread && !batch_.rows.empty() && !batch_.trouble) {
+      next_ = InBackground([this, memory = std::move(spare_)]() mutable {
+        return Fetch(most_, std::move(memory));
       });
-  return !ahead_.empty();
+    }
+  }
+  return !batch_.rows.empty();
 }
 
 void TextTable::Take(const Ahead& row, std::size_t index) {
   if (parser_.layout().column_count == 0) parser_.FixColumnCount(row.columns);
   stamp_ = row.stamp;
   const auto begin =
-      ahead_values_.begin() + static_cast<long>(index * values_.size());
+      batch_.values.begin() + static_cast<long>(index * values_.size());
   std::copy(begin, begin + static_cast<long>(values_.size()), values_.begin());
 }
 
 bool TextTable::Next() {
   std::string problem;
   while (true) {
-    if (taken_ == ahead_.size() && !ReadAhead()) return false;
+    if (taken_ == batch_.rows.size() && !ReadAhead()) return false;
     const std::size_t index = taken_++;
-    const Ahead& row = ahead_[index];
+    const Ahead& row = batch_.rows[index];
     line_ = row.number;
     terminated_ = row.terminated;
     if (first_length_ == 0) first_length_ = row.length + 1;

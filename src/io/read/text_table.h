@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <exception>
+#include <future>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +16,9 @@
 namespace hindsight {
 
 /// Rows of numbers out of a text file, checked as they are read. Lines are read
-/// ahead, some thousands at once, and parsed by several threads; rows, and what
-/// is wrong with them, come in the order of the file nevertheless.
+/// ahead, some thousands at once, and parsed by several threads, while the rows
+/// before them are used; rows, and what is wrong with them, come in the order of the
+/// file nevertheless.
 class TextTable final : public RowSource {
  public:
   struct Options {
@@ -50,7 +52,7 @@ class TextTable final : public RowSource {
  private:
   /// A row that was read ahead, as the parser left it.
   struct Ahead {
-    std::size_t begin = 0;  ///< of the line, in texts_
+    std::size_t begin = 0;  ///< of the line, in Batch::texts
     std::size_t length = 0;
     long number = 0;
     bool terminated = true;
@@ -59,12 +61,23 @@ class TextTable final : public RowSource {
     std::string problem;  ///< empty: the row is good
   };
 
-  /// Reads lines and parses them at once; false at the end of the file.
+  /// Lines that were read ahead.
+  struct Batch {
+    std::string texts;
+    std::vector<Ahead> rows;
+    std::vector<double> values;  ///< as many as fields, a row
+    /// What reading ahead ran into after these lines.
+    std::exception_ptr trouble;
+  };
+
+  /// Takes the next lines; false at the end of the file.
   bool ReadAhead();
+  /// Reads lines and parses them at once, in the memory of another batch.
+  Batch Fetch(std::size_t most, Batch memory);
   /// Takes the row that was read ahead into the current one.
   void Take(const Ahead& row, std::size_t index);
   std::string_view LineOf(const Ahead& row) const {
-    return std::string_view(texts_).substr(row.begin, row.length);
+    return std::string_view(batch_.texts).substr(row.begin, row.length);
   }
   /// False if the line may have been cut off inside its last number.
   bool IsLastValueWhole(const Ahead& row, std::string* problem);
@@ -73,19 +86,17 @@ class TextTable final : public RowSource {
   TextRowParser parser_;
   Options options_;
   std::string first_row_;
-  std::string texts_;  ///< lines that were read ahead
-  std::vector<Ahead> ahead_;
-  std::vector<double> ahead_values_;  ///< as many as fields, a row
-  std::size_t taken_ = 0;             ///< of ahead_
-  std::size_t batch_ = 1;             ///< lines to read ahead next time
-  /// What reading ahead ran into after the lines of ahead_.
-  std::exception_ptr trouble_;
+  Batch batch_;
+  std::size_t taken_ = 0;   ///< of its rows
+  std::size_t most_ = 1;    ///< lines to read ahead next time
   bool terminated_ = true;  ///< the line of the current row
   long truncated_ = 0;
   long texts_dropped_ = 0;
   std::size_t first_length_ = 0;
   static constexpr std::size_t kNoLength = static_cast<std::size_t>(-1);
   std::size_t shortest_last_value_ = kNoLength;
+  Batch spare_;  ///< used up, its memory is not
+  std::future<Batch> next_;
 };
 
 }  // namespace hindsight

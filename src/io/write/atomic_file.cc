@@ -2,9 +2,12 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <vector>
 
+#include "base/parallel.h"
 #include "io/write/output_error.h"
 
 namespace hindsight {
@@ -62,6 +65,30 @@ void AtomicFile::Commit(bool replace) {
   }
   if (error) Fail(error);
   committed_ = true;
+}
+
+void WriteLines(
+    std::size_t count,
+    const std::function<void(std::size_t i, std::string* out)>& append,
+    AtomicFile* file) {
+  constexpr std::size_t kLinesOfThread = 256;
+  constexpr std::size_t kPiecesAtOnce = 16;
+  std::vector<std::string> pieces(kPiecesAtOnce);
+  for (std::size_t done = 0; done < count;) {
+    const std::size_t left = count - done;
+    const std::size_t now =
+        std::min(kPiecesAtOnce, (left + kLinesOfThread - 1) / kLinesOfThread);
+    ForRanges(now, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t p = begin; p < end; ++p) {
+        pieces[p].clear();
+        const std::size_t first = done + p * kLinesOfThread;
+        const std::size_t last = std::min(first + kLinesOfThread, count);
+        for (std::size_t i = first; i < last; ++i) append(i, &pieces[p]);
+      }
+    });
+    for (std::size_t p = 0; p < now; ++p) file->Write(pieces[p]);
+    done += now * kLinesOfThread;
+  }
 }
 
 void WriteFileAtomically(const std::string& path, std::string_view text) {

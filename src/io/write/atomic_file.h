@@ -1,6 +1,8 @@
 #ifndef HINDSIGHT_IO_WRITE_ATOMIC_FILE_H_
 #define HINDSIGHT_IO_WRITE_ATOMIC_FILE_H_
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -37,6 +39,13 @@ class AtomicFile {
   std::string buffer_;
   bool committed_ = false;
 };
+
+/// Writes the lines that `append` makes of 0 to count, in that order; several threads
+/// make them.
+void WriteLines(
+    std::size_t count,
+    const std::function<void(std::size_t i, std::string* out)>& append,
+    AtomicFile* file);
 
 /// Writes `text` as the whole of the file.
 void WriteFileAtomically(const std::string& path, std::string_view text);

@@ -29,17 +29,22 @@ ColumnCsv::ColumnCsv(const std::string& path, const std::string& comments,
 }
 
 void ColumnCsv::Append(const Eigen::MatrixXd& rows) {
-  std::string line;
-  for (Eigen::Index k = 0; k < rows.rows(); ++k) {
-    line.clear();
-    Eigen::Index i = 0;
-    for (const SolutionColumn& column : columns_) {
-      if (i > 0) line += ',';
-      AppendValue(column, rows(k, i++), &line);
-    }
-    line += '\n';
-    file_.Write(line);
+  WriteLines(
+      static_cast<std::size_t>(rows.rows()),
+      [&](std::size_t k, std::string* line) {
+        AppendLine(rows, static_cast<Eigen::Index>(k), line);
+      },
+      &file_);
+}
+
+void ColumnCsv::AppendLine(const Eigen::MatrixXd& rows, Eigen::Index k,
+                           std::string* out) const {
+  Eigen::Index i = 0;
+  for (const SolutionColumn& column : columns_) {
+    if (i > 0) *out += ',';
+    AppendValue(column, rows(k, i++), out);
   }
+  *out += '\n';
 }
 
 void ColumnCsv::Commit() { file_.Commit(); }

@@ -21,6 +21,9 @@ class ColumnCsv : public ColumnFile {
   void Commit() override;
 
  private:
+  void AppendLine(const Eigen::MatrixXd& rows, Eigen::Index k,
+                  std::string* out) const;
+
   AtomicFile file_;
   std::vector<SolutionColumn> columns_;
 };

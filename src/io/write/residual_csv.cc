@@ -46,15 +46,16 @@ void WriteResidualCsv(const std::string& path,
       "# residual = measured - predicted and sigma in SI units, a line for "
       "each component\n"
       "method,t[s],sensor,component,residual,sigma,nis,weight,status\n");
-  std::string lines;
   for (const Solution& solution : solutions) {
-    for (const ResidualRecord& record : solution.residuals) {
-      lines.clear();
-      const auto sensor = static_cast<std::size_t>(record.sensor);
-      AppendRecord(solution.method, dataset.streams.at(sensor).sensor.name,
-                   record, &lines);
-      file.Write(lines);
-    }
+    WriteLines(
+        solution.residuals.size(),
+        [&](std::size_t i, std::string* lines) {
+          const ResidualRecord& record = solution.residuals[i];
+          const auto sensor = static_cast<std::size_t>(record.sensor);
+          AppendRecord(solution.method, dataset.streams.at(sensor).sensor.name,
+                       record, lines);
+        },
+        &file);
   }
   file.Commit();
 }

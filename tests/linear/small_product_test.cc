@@ -1,0 +1,51 @@
+#include "linear/small_product.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+namespace hindsight {
+namespace {
+
+class SmallProduct : public ::testing::TestWithParam<int> {};
+
+TEST_P(SmallProduct, IsTheGeneralOne) {
+  const int n = GetParam();
+  for (const int columns : {1, 2, n}) {
+    const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n + 1);
+    const Eigen::MatrixXd B = Eigen::MatrixXd::Random(n + 1, columns);
+    Eigen::MatrixXd out;
+    Multiply(A, B, /*lower=*/false, &out);
+    EXPECT_LT((out - A * B).norm(), 1e-13 * n) << columns;
+    const Eigen::MatrixXd B_transposed = B.transpose();
+    Multiply(A, B_transposed.transpose(), /*lower=*/false, &out);
+    EXPECT_LT((out - A * B).norm(), 1e-13 * n) << columns;
+  }
+}
+
+TEST_P(SmallProduct, OfASymmetricOneHasTheLowerHalf) {
+  const int n = GetParam();
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n);
+  Eigen::MatrixXd out;
+  Multiply(A, A.transpose(), /*lower=*/true, &out);
+  const Eigen::MatrixXd difference = out - A * A.transpose();
+  EXPECT_LT(Eigen::MatrixXd(difference.triangularView<Eigen::Lower>()).norm(),
+            1e-13 * n);
+}
+
+TEST_P(SmallProduct, IsDividedByACholeskyFactor) {
+  const int n = GetParam();
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n);
+  const Eigen::MatrixXd S = A * A.transpose() + Eigen::MatrixXd::Identity(n, n);
+  const Eigen::LLT<Eigen::MatrixXd> llt(S);
+  const Eigen::MatrixXd X = Eigen::MatrixXd::Random(n, n);
+  Eigen::MatrixXd divided = X;
+  DivideByCholesky(llt.matrixLLT(), &divided);
+  EXPECT_LT((divided * S - X).norm(), 1e-11 * n);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, SmallProduct,
+                         ::testing::Values(1, 2, 3, 7, 8, 9, 15, 16, 31, 48));
+
+}  // namespace
+}  // namespace hindsight
