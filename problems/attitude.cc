@@ -11,7 +11,6 @@
 #include "base/error.h"
 #include "base/processor_time.h"
 #include "earth/wgs84.h"
-#include "evaluation/given_values.h"
 #include "evaluation/grade.h"
 #include "evaluation/observability.h"
 #include "geometry/so3.h"
@@ -244,21 +243,6 @@ Solution AttitudeEstimation::Sample(const Solution& solution,
   return SampleAttitude(solution, imu_, times);
 }
 
-void AttitudeEstimation::JudgeFilterByAll(
-    const std::optional<StartValues>& start, std::span<const Sensor> sensors) {
-  std::vector<NormalisedInnovation> own = std::move(innovations_);
-  const Solution whole = Smoother();
-  JudgeLeaps(innovations_);
-  innovations_ = std::move(own);
-  if (!start) return;
-  const std::size_t before = evidence_.size();
-  FindStrainedValues({.solution = whole, .sensors = sensors, .start = start},
-                     &evidence_);
-  for (std::size_t i = before; i < evidence_.size(); ++i) {
-    evidence_[i].rule = "given_values";
-  }
-}
-
 Solution AttitudeEstimation::Run(const Method& method) {
   const double t0 = ProcessorSeconds();
   evidence_.clear();
@@ -280,7 +264,7 @@ Solution AttitudeEstimation::Run(const Method& method) {
   if (method.Has(MethodTrait::kForward)) {
     JudgeFilterByAll(start, sources);
   } else {
-    JudgeLeaps(innovations_);
+    JudgeWhole(solution);
   }
   Conclude({.solution = solution,
             .sensors = sources,

@@ -94,9 +94,14 @@ class AttitudeEstimation final : public Estimation {
   /// start too: a filter sees neither while it runs, and is as wrong by them.
   void JudgeFilterByAll(const std::optional<StartValues>& start,
                         std::span<const Sensor> sensors);
-  /// Adds to evidence_ a drop-out of the IMU that fits better as a leap of its
-  /// clock (imu_leaps.h); `own` are the smoother's innovations.
-  void JudgeLeaps(const std::vector<NormalisedInnovation>& own);
+  /// Adds to evidence_ what the smoother's solution and innovations_, its own,
+  /// show: a drop-out of the IMU that fits better as a leap of its clock
+  /// (imu_leaps.h); scale factors of gyros far from their a priori value; a bias
+  /// of the accelerometers (accel_bias_fit.h) that tilts by kUnusableBias stated
+  /// sigmas.
+  void JudgeWhole(const Solution& whole);
+  void JudgeLeaps();
+  void JudgeAccelerometers(const Solution& whole);
   /// What the solutions, or the filter's, make no use of, in words.
   std::vector<std::string> Unused() const;
   std::vector<std::string> UnusedByFilter() const;

@@ -30,6 +30,11 @@ std::string UnusedKeys(const Sensor& sensor) {
 
 std::vector<std::string> AttitudeEstimation::Unused() const {
   std::vector<std::string> unused;
+  if (!dataset_.initial.accel_bias_sigma) {
+    unused.emplace_back(
+        "no 'initial.accel_bias_sigma': the tilt's sigma is that of "
+        "accelerometers without bias");
+  }
   bool magnetometer = false;
   for (const AidingStream& stream : dataset_.streams) {
     const Sensor& sensor = stream.sensor;

@@ -227,6 +227,7 @@ void NameBest(const Solution& best, const std::vector<Solution>& solutions,
               RunSummary* summary) {
   summary->best = best.method;
   for (std::size_t i = 0; i < solutions.size(); ++i) {
+    summary->methods[i].grade = solutions[i].grade;
     summary->methods[i].evidence = solutions[i].evidence;
     summary->methods[i].verdict = solutions[i].verdict;
   }

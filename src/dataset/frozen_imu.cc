@@ -234,4 +234,48 @@ std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu) {
   return found;
 }
 
+double StaleImuShare(const ImuStream& imu) {
+  constexpr unsigned kAll = (1U << kChannels) - 1U;
+  const auto& samples = imu.samples;
+  std::vector<EqualSamples> runs;
+  std::vector<long> lengths;
+  for (std::size_t begin = 0, k = 1; k <= samples.size(); ++k) {
+    if (k < samples.size() && Repeated(samples, k) == kAll) continue;
+    runs.push_back({begin, k});
+    lengths.push_back(runs.back().rows());
+    begin = k;
+  }
+  // Where few repeat, none needs a resolution of all that is read.
+  if (runs.size() < 3 || 2 * runs.size() > samples.size() + 2) return 0.0;
+  double far[kChannels];
+  for (int c = 0; c < kChannels; ++c) {
+    std::vector<double> values;
+    for (const EqualSamples& run : runs) {
+      values.push_back(ReadingOf(samples[run.begin], c));
+    }
+    far[c] = kStepsOfResolution * Resolution(std::move(values), kUnitRounding,
+                                             ReadingCourse::kToAndFro);
+  }
+  const auto is_far = [&](const EqualSamples& a, const EqualSamples& b) {
+    for (int c = 0; c < kChannels; ++c) {
+      if (std::abs(ReadingOf(samples[a.begin], c) -
+                   ReadingOf(samples[b.begin], c)) > far[c]) {
+        return true;
+      }
+    }
+    return false;
+  };
+  const long usual = 2 * Median(lengths);
+  long stale = 0;
+  for (std::size_t i = 1; i + 1 < runs.size(); ++i) {
+    if (runs[i].rows() <= usual && is_far(runs[i - 1], runs[i]) &&
+        is_far(runs[i], runs[i + 1])) {
+      stale += runs[i].rows() - 1;
+    }
+  }
+  const long judged = static_cast<long>(samples.size()) - runs.front().rows() -
+                      runs.back().rows();
+  return static_cast<double>(stale) / static_cast<double>(judged);
+}
+
 }  // namespace hindsight

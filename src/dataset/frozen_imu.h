@@ -43,6 +43,9 @@ bool IsByChance(const std::vector<long>& rows, long length);
 /// of which then none is seen to freeze alone.
 std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu);
 
+/// As StaleShare (dataset/repeated_readings.h), of an IMU's samples as a whole.
+double StaleImuShare(const ImuStream& imu);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_DATASET_FROZEN_IMU_H_

@@ -270,6 +270,10 @@ std::vector<Evidence> FindRepeatedReadings(const Dataset& dataset, double from,
     evidence.back().rule = rule;
   };
   add("frozen_imu", "imu", FindFrozenImu(dataset.imu));
+  if (const double share = StaleImuShare(dataset.imu);
+      share >= kDoubtfulShare) {
+    evidence.push_back(StaleEvidence("imu", share));
+  }
   for (const AidingStream& stream : dataset.streams) {
     const HeldSeries held = HeldReadings(stream);
     const double share = ShareOf(held);

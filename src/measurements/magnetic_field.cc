@@ -313,6 +313,9 @@ const SensorKind& MagnetometerKind() {
       .prepare = [](SensorSettings* s) { s->pattern = MagneticField(); },
       .complete = [](SensorSettings* s) -> std::optional<KeyObjection> {
         PatternOf<MagneticField>(*s).sigma = s->sigma->x();
+        if (std::abs(s->sensor.magnetic.declination) > kPi) {
+          return KeyObjection{"declination", "expected -180 to 180 deg"};
+        }
         return std::nullopt;
       },
       .uncomplete =

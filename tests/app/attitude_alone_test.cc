@@ -188,6 +188,29 @@ class WornSensor : public ::testing::Test {
               text.replace(at, from.size(), to));
   }
 
+  /// Changes the numbers of columns first to last, counted from 0.
+  void Edit(const std::string& file, int first, int last,
+            double (*change)(double)) {
+    const auto path = folder_.path() / "data" / file;
+    std::istringstream lines(ReadFile(path));
+    std::string text;
+    for (std::string line; std::getline(lines, line); text += "\n") {
+      if (line.find('[') != std::string::npos) {
+        text += line;
+        continue;
+      }
+      std::istringstream fields(line);
+      int column = 0;
+      for (std::string field; std::getline(fields, field, ','); ++column) {
+        text += column > 0 ? "," : "";
+        text += column < first || column > last
+                    ? field
+                    : std::to_string(change(std::stod(field)));
+      }
+    }
+    WriteFile(path, text);
+  }
+
   TemporaryFolder folder_;
 };
 
@@ -204,6 +227,36 @@ TEST_F(WornSensor, HearsOfAMagnetometerThatIsMountedAskew) {
   for (const nlohmann::json& method : Run()) {
     EXPECT_NE(method["grade"], "usable");
     EXPECT_THAT(method["evidence"].dump(), HasSubstr("8.0 deg about"));
+  }
+}
+
+/// A hard iron that the smoother takes off and the filter cannot: the two are
+/// apart, which is known once both have run.
+TEST_F(WornSensor, TheTableHasTheGradesThatTheEvidenceGives) {
+  Edit("compass.csv", 1, 1, [](double x) { return x + 15.0; });
+  Hindsight({"run", "data/config.yaml", "--methods=ahrs,ahrs_smoother",
+             "--out=out", "--force"},
+            folder_.path());
+  const auto methods = nlohmann::json::parse(
+      ReadFile(folder_.path() / "out/summary.json"))["methods"];
+  for (const auto& [name, method] : methods.items()) {
+    std::string worst = "usable";
+    for (const auto& evidence : method["evidence"]) {
+      if (evidence["grade"] == "not usable" ||
+          (evidence["grade"] == "doubtful" && worst == "usable")) {
+        worst = evidence["grade"];
+      }
+    }
+    EXPECT_NE(worst, "usable") << name;
+    EXPECT_EQ(method["grade"], worst) << name;
+  }
+}
+
+TEST_F(WornSensor, HearsOfGyrosOfAnotherScale) {
+  Edit("imu.csv", 1, 3, [](double w) { return 0.95 * w; });
+  for (const nlohmann::json& method : Run()) {
+    EXPECT_NE(method["grade"], "usable");
+    EXPECT_THAT(method["evidence"].dump(), HasSubstr("gyro_scale"));
   }
 }
 

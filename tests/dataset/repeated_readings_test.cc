@@ -145,6 +145,30 @@ TEST(StaleShare, OfPositionsWrittenFasterThanMeasured) {
   EXPECT_EQ(StaleShare(Positions(1.0, 10.0, 1e-3, each_second)), 0.0);
 }
 
+/// Each sample said so often as it is polled faster than it is measured.
+ImuStream Polled(ImuStream imu, std::size_t times) {
+  for (std::size_t k = 0; k < imu.samples.size(); ++k) {
+    const ImuSample held = imu.samples[k - k % times];
+    imu.samples[k].gyro = held.gyro;
+    imu.samples[k].accel = held.accel;
+  }
+  return imu;
+}
+
+TEST(StaleShare, OfAnImuThatIsPolledFasterThanItMeasures) {
+  EXPECT_EQ(StaleImuShare(Imu(100.0)), 0.0);
+  EXPECT_NEAR(StaleImuShare(Polled(Imu(100.0), 2)), 0.5, 0.001);
+  EXPECT_NEAR(StaleImuShare(Polled(Imu(100.0), 4)), 0.75, 0.001);
+  // At rest coarse samples repeat by right.
+  EXPECT_EQ(StaleImuShare(Imu(0.2)), 0.0);
+  Dataset dataset;
+  dataset.imu = Polled(Imu(100.0), 4);
+  const std::vector<Evidence> found = FindRepeatedReadings(dataset, 0.0, 60.0);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].rule, "stale_readings");
+  EXPECT_EQ(found[0].grade, Grade::kDoubtful);
+}
+
 TEST(StaleShare, NotOfACoarseReceiverOnASlowVehicle) {
   const auto now = [](double t) { return t; };
   EXPECT_EQ(StaleShare(Positions(10.0, 0.5, 0.18, now)), 0.0);

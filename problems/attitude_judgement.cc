@@ -1,0 +1,160 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "attitude/accel_bias_fit.h"
+#include "base/error.h"
+#include "base/median.h"
+#include "evaluation/given_values.h"
+#include "problems/attitude.h"
+#include "problems/imu_leaps.h"
+
+namespace hindsight {
+namespace {
+
+/// Logarithm of the ratio of the likelihoods of what two runs have in common:
+/// above 0 the second fits better.
+double LogRatio(const std::vector<NormalisedInnovation>& first,
+                const std::vector<NormalisedInnovation>& second) {
+  std::map<std::pair<int, std::size_t>, double> known;
+  for (const NormalisedInnovation& innovation : first) {
+    known[{innovation.sensor, innovation.index}] =
+        innovation.rows.squaredNorm();
+  }
+  double ratio = 0.0;
+  for (const NormalisedInnovation& innovation : second) {
+    const auto own = known.find({innovation.sensor, innovation.index});
+    if (own == known.end()) continue;
+    ratio += 0.5 * (own->second - innovation.rows.squaredNorm());
+  }
+  return ratio;
+}
+
+}  // namespace
+
+void AttitudeEstimation::JudgeLeaps() {
+  for (const ImuDropOut& leap :
+       LongestDropOuts(dataset_.imu, imu_.t_begin(), imu_.t_end())) {
+    const Dataset anew = WithoutLeap(dataset_, leap);
+    std::vector<NormalisedInnovation> other;
+    try {
+      AttitudeEstimation estimation(anew, options_);
+      estimation.Smoother();
+      other = std::move(estimation.innovations_);
+    } catch (const EstimationError&) {
+      continue;
+    } catch (const InputError&) {
+      continue;
+    }
+    const double log_evidence =
+        LogRatio(innovations_, other) - std::log(kLostForOneLeap);
+    if (!(log_evidence > 0.0)) continue;
+    evidence_.push_back(
+        {.rule = "rival",
+         .grade = Grade::kDoubtful,
+         .what = fmt::format("the readings fit better if the IMU's clock leaps "
+                             "by {:.3g} s at {:.2f} s, and no samples are lost "
+                             "there",
+                             leap.lost, leap.t),
+         .value = log_evidence,
+         .limit = 0.0,
+         .unit = "1",
+         .remedies = {fmt::format(
+             "if so, {:.3g} s less in the stamps of the IMU's later rows",
+             leap.lost)}});
+  }
+}
+
+namespace {
+
+/// Doubtful: scale factors of the gyros that end far from what is known of them.
+void JudgeScales(const Solution& whole, std::vector<Evidence>* evidence) {
+  for (const ConstantEstimate& scale : whole.constants) {
+    if (!scale.name.starts_with("gyro_scale")) continue;
+    const double sigmas =
+        std::abs(scale.value - scale.prior_value) / scale.prior_sigma;
+    if (!(sigmas > kStrained)) continue;
+    evidence->push_back(
+        {.rule = "given_values",
+         .grade = Grade::kDoubtful,
+         .what = fmt::format("{} is {:.1f} sigma from its given value",
+                             scale.name, sigmas),
+         .value = sigmas,
+         .limit = kStrained,
+         .unit = "sigma",
+         .causes = {"a wrong unit, scale or clock of the gyros",
+                    "an error that is not modelled and ends up there"},
+         .remedies = {"the gyros' unit", "a larger imu.estimate.gyro_scale"}});
+  }
+}
+
+/// Of the less certain of roll and pitch, the median over the solution [rad].
+double UsualTiltSigma(const Solution& solution) {
+  constexpr std::size_t kMost = 10000;
+  const std::size_t stride = solution.states.size() / kMost + 1;
+  std::vector<double> variances;
+  for (std::size_t k = 0; k < solution.states.size(); k += stride) {
+    const ErrorMatrix P = solution.covariances.Get(k);
+    variances.push_back(std::max(P(0, 0), P(1, 1)));
+  }
+  return std::sqrt(Median(std::move(variances)));
+}
+
+}  // namespace
+
+void AttitudeEstimation::JudgeAccelerometers(const Solution& whole) {
+  constexpr double kSignificant = 21.1;  // chi-square, 3 degrees, 99.99 %
+  if (whole.covariances.empty()) return;
+  std::vector<Eigen::Quaterniond> q_nb;
+  q_nb.reserve(whole.states.size());
+  for (const State& x : whole.states) {
+    q_nb.push_back(q_en_.conjugate() * x.q_eb);
+  }
+  const double gravity = filter_options_.place.gravity;
+  const AccelBiasFit fit = FitAccelBias(imu_, q_nb, gravity);
+  const double sigmas = fit.b_a.norm() / gravity / UsualTiltSigma(whole);
+  if (!(fit.significance > kSignificant) || !(sigmas > kUnusableBias)) return;
+  const Eigen::Vector3d b = fit.b_a + dataset_.initial.accel_bias;
+  evidence_.push_back(
+      {.rule = "accelerometer",
+       .grade = Grade::kDoubtful,
+       .what = fmt::format("the size of the specific force in many attitudes "
+                           "shows a bias of the accelerometers that tilts by "
+                           "{:.1f} sigma",
+                           sigmas),
+       .value = sigmas,
+       .limit = kUnusableBias,
+       .unit = "sigma",
+       .causes = {"accelerometers that are not calibrated"},
+       .remedies = {fmt::format("initial.accel_bias: [{:.2g} m/s^2, {:.2g} "
+                                "m/s^2, {:.2g} m/s^2]",
+                                b.x(), b.y(), b.z()),
+                    "initial.accel_bias_sigma, as far as it is not known"}});
+}
+
+void AttitudeEstimation::JudgeWhole(const Solution& whole) {
+  JudgeLeaps();
+  JudgeScales(whole, &evidence_);
+  JudgeAccelerometers(whole);
+}
+
+void AttitudeEstimation::JudgeFilterByAll(
+    const std::optional<StartValues>& start, std::span<const Sensor> sensors) {
+  std::vector<NormalisedInnovation> own = std::move(innovations_);
+  const Solution whole = Smoother();
+  JudgeWhole(whole);
+  innovations_ = std::move(own);
+  if (!start) return;
+  const std::size_t before = evidence_.size();
+  FindStrainedValues({.solution = whole, .sensors = sensors, .start = start},
+                     &evidence_);
+  for (std::size_t i = before; i < evidence_.size(); ++i) {
+    evidence_[i].rule = "given_values";
+  }
+}
+
+}  // namespace hindsight
