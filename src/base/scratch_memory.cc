@@ -155,7 +155,7 @@ struct ScratchMemory::Mapping {
 
 /// The blocks that are held, in the order in which they were asked for. For use under
 /// the mutex.
-class ScratchMemory::HeldMappings {
+class ScratchMemory::HeldBlocks {
  public:
   static std::mutex& Mutex() {
     static std::mutex mutex;
@@ -195,8 +195,8 @@ class ScratchMemory::HeldMappings {
 
 ScratchMemory::Mapping::~Mapping() {
   if (data != nullptr) {
-    const std::lock_guard<std::mutex> guard(HeldMappings::Mutex());
-    HeldMappings::Forget(this);
+    const std::lock_guard<std::mutex> guard(HeldBlocks::Mutex());
+    HeldBlocks::Forget(this);
     munmap(data, Size());
   }
   if (file != nullptr) file->GiveBack(extents);
@@ -239,11 +239,11 @@ void ScratchMemory::swap(ScratchMemory& other) noexcept {
 }
 
 void ScratchMemory::Hold(std::size_t block, char how) const {
-  const std::lock_guard<std::mutex> guard(HeldMappings::Mutex());
+  const std::lock_guard<std::mutex> guard(HeldBlocks::Mutex());
   if (held_[block] >= how) return;
   std::byte* begin = data_ + block * block_;
   const std::size_t size = std::min(block_, bytes_ - block * block_);
-  if (held_[block] == 0) HeldMappings::Add(mapping_.get(), block, size);
+  if (held_[block] == 0) HeldBlocks::Add(mapping_.get(), block, size);
   const bool clear = !mapping_->to_clear.empty() && mapping_->to_clear[block];
   // In one call, many times as fast as page by page when they are touched. Where
   // the system does not know the advice, they come when they are touched.
@@ -257,8 +257,8 @@ void ScratchMemory::Hold(std::size_t block, char how) const {
 }
 
 std::size_t ScratchMemory::held() {
-  const std::lock_guard<std::mutex> guard(HeldMappings::Mutex());
-  return HeldMappings::Bytes();
+  const std::lock_guard<std::mutex> guard(HeldBlocks::Mutex());
+  return HeldBlocks::Bytes();
 }
 
 }  // namespace hindsight
