@@ -139,13 +139,13 @@ bool AllFinite(const std::vector<State>& states) {
 BatchResult SolveBatch(const std::vector<State>& initial,
                        const BatchOptions& options, Problem* problem) {
   BatchResult result;
-  result.states = initial;
   IterationProgress progress(options.callback);
   constexpr int kMaxReintegrations = 5;
   for (int outer = 0; outer < kMaxReintegrations; ++outer) {
-    ChainProblem chain(result.states, problem);
+    const std::vector<State>& start = outer == 0 ? initial : result.states;
+    ChainProblem chain(start, problem);
     Sweep sweep;
-    if (!ContractsByNewton(options, result.states, &progress, &chain, &sweep)) {
+    if (!ContractsByNewton(options, start, &progress, &chain, &sweep)) {
       sweep = SolveGraduated(options, options.graduated && outer == 0,
                              &progress, &chain);
     }

@@ -38,10 +38,23 @@ ForwardStage::ForwardStage(const Dataset& dataset,
     : ForwardStage(dataset, options,
                    FindStart(dataset, options.from, options.to)) {}
 
+namespace {
+
+std::vector<double> GivenOffsets(const Dataset& dataset) {
+  std::vector<double> offsets;
+  for (const AidingStream& stream : dataset.streams) {
+    offsets.push_back(stream.sensor.time_offset);
+  }
+  return offsets;
+}
+
+}  // namespace
+
 ForwardStage::ForwardStage(const Dataset& dataset,
                            ReconstructionOptions options, Start start)
     : dataset_(dataset),
       options_(std::move(options)),
+      offsets_(GivenOffsets(dataset)),
       start_(std::move(start)),
       problem_{start_.layout, start_.prior,
                BuildTimeline(dataset_, MakeTimelineOptions())} {
@@ -75,23 +88,20 @@ EpochCallback ForwardStage::Progress(const std::string& stage) const {
 }
 
 void ForwardStage::Run() {
-  if (smoothed_) return;
-  std::vector<double> offsets;
-  for (const Sensor& sensor : timeline().sensors()) {
-    offsets.push_back(sensor.time_offset);
-  }
-  Settle(std::move(offsets));
+  if (!smoothed_) Settle(GivenOffsets(dataset_));
 }
 
 void ForwardStage::Settle(std::vector<double> offsets) {
-  offsets_ = std::move(offsets);
+  if (smoothed_ || offsets != offsets_) {
+    offsets_ = std::move(offsets);
+    problem_.timeline = BuildTimeline(dataset_, MakeTimelineOptions());
+  }
   unsettled_.clear();
   relinearised_.reset();
   fit_.reset();
   heading_credit_ = {};
   turned_round_.reset();
   unobserved_.reset();
-  problem_.timeline = BuildTimeline(dataset_, MakeTimelineOptions());
   RunOnce();
   if (!EstimatesTimeOffsets(start_.layout)) return;
   problem_.timeline.LinearizeTimeOffsets(start_.layout, smoothed_->states);
@@ -251,13 +261,13 @@ void ForwardStage::RunOnce() {
   filtered_ = FilterSolution(tape);
   filtered_->seconds = ProcessorSeconds() - t0;
   problem_.decisions = DecisionsOnTape(tape);
-  smoothed_ = SmoothTape(std::move(tape));
+  smoothed_ = SmoothTape(std::move(tape), filtered_->states);
   if (timeline().HasGates()) RepeatWithSmoothedGates();
   smoothing_seconds_ = ProcessorSeconds() - t0 - filtered_->seconds;
 }
 
-SmoothedTrajectory ForwardStage::SmoothTape(LinearTape tape) const {
-  const std::vector<State> nominal = NominalOf(tape);
+SmoothedTrajectory ForwardStage::SmoothTape(
+    LinearTape tape, const std::vector<State>& nominal) const {
   SmoothedTrajectory trajectory = SmoothRts(std::move(tape));
   MoveToSmoothed(start_.layout, nominal, &trajectory);
   trajectory.d = {};
@@ -271,7 +281,9 @@ void ForwardStage::RepeatWithSmoothedGates() {
   GateDecisions again = DecideGates(problem_, *smoothed_);
   if (again == problem_.decisions) return;
   problem_.decisions = std::move(again);
-  smoothed_ = SmoothTape(Filter("rts", &problem_));
+  LinearTape tape = Filter("rts", &problem_);
+  const std::vector<State> nominal = NominalOf(tape);
+  smoothed_ = SmoothTape(std::move(tape), nominal);
 }
 
 }  // namespace hindsight

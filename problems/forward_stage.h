@@ -93,7 +93,9 @@ class ForwardStage {
   void JudgeObservability();
   CovarianceSeries Relinearise();
   void JudgeHeading(const SmoothedTrajectory& last);
-  SmoothedTrajectory SmoothTape(LinearTape tape) const;
+  /// `nominal` is the tape's, NominalOf.
+  SmoothedTrajectory SmoothTape(LinearTape tape,
+                                const std::vector<State>& nominal) const;
   void RepeatWithSmoothedGates();
 
   const Dataset& dataset_;

@@ -48,6 +48,7 @@ std::vector<NormalisedInnovation> InnovationsOf(const LinearTape& tape,
                                                 const Dataset& dataset) {
   const Judgeable judgeable(timeline, dataset);
   std::vector<NormalisedInnovation> all;
+  all.reserve(timeline.all_measurements().size());
   for (std::size_t k = 0; k < tape.size(); ++k) {
     for (const TapeMeasurement& z : tape.measurements(k)) {
       if (!judgeable.Judges(z)) continue;

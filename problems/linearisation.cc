@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "filters/iterated_smoother.h"
+#include "filters/forward_filter.h"
 
 namespace hindsight {
 namespace {
@@ -51,21 +51,19 @@ double LargestDistance(const ErrorLayout& layout,
   return largest;
 }
 
-Rested SmoothUntilItRests(std::vector<State> states, Problem* problem,
+Rested SmoothUntilItRests(const std::vector<State>& states, Problem* problem,
                           const EpochCallback& callback) {
   constexpr int kMost = 4;
   constexpr double kNegligible = 0.1;  // sigma
-  IterationOptions iteration;
-  iteration.max_iterations = 1;
-  iteration.callback = callback;
   Rested rested;
-  rested.trajectory.states = std::move(states);
   for (int i = 0; i < kMost; ++i) {
+    const std::vector<State>& about =
+        i == 0 ? states : rested.trajectory.states;
     SmoothedTrajectory next =
-        SmoothIterated(rested.trajectory.states, iteration, problem).trajectory;
-    rested.step =
-        LargestDistance(problem->layout, rested.trajectory.states, next.states,
-                        VariancesOf(problem->layout, next.P));
+        SmoothRts(RunLinearizedFilter(about, problem, callback));
+    next.d = {};
+    rested.step = LargestDistance(problem->layout, about, next.states,
+                                  VariancesOf(problem->layout, next.P));
     rested.trajectory = std::move(next);
     if (rested.step < kNegligible) break;
   }

@@ -44,7 +44,7 @@ struct Rested {
 /// Linearises the interval about a trajectory and smooths, again about the
 /// result, up to four times until the step is a tenth of a sigma. Throws
 /// EstimationError where it does not hold.
-Rested SmoothUntilItRests(std::vector<State> states, Problem* problem,
+Rested SmoothUntilItRests(const std::vector<State>& states, Problem* problem,
                           const EpochCallback& callback);
 
 /// How a trajectory with covariances P compares with a new linearisation.

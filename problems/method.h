@@ -31,6 +31,8 @@ enum class MethodTrait {
   kModifiedHInfinity,
   /// Heeds ReconstructionOptions::max_time.
   kSearches,
+  /// Takes MethodStage::SolveBatch of the shared nodes.
+  kSolvesBatch,
 };
 
 constexpr unsigned TraitsOf(std::initializer_list<MethodTrait> traits) {

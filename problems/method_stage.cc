@@ -96,6 +96,17 @@ BatchOptions MethodStage::MakeBatchOptions() const {
   return batch;
 }
 
+BatchResult MethodStage::SolveBatch(const Nodes& nodes, double* seconds) {
+  if (ahead_ == nullptr || nodes.problem != &forward_->problem()) {
+    return hindsight::SolveBatch(*nodes.states, MakeBatchOptions(),
+                                 nodes.problem);
+  }
+  double beside = 0.0;
+  BatchResult result = std::exchange(ahead_, nullptr)->Take(&beside);
+  *seconds += beside;
+  return result;
+}
+
 const std::string& MethodStage::unsettled() const {
   return own_unsettled_.empty() && !settled_ ? forward_->unsettled()
                                              : own_unsettled_;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "problems/batch.h"
+#include "problems/batch_ahead.h"
 #include "problems/forward_stage.h"
 #include "problems/node_placement.h"
 
@@ -23,8 +23,10 @@ class MethodStage {
     const std::vector<State>* states;
   };
 
-  /// `forward` has run and outlives the object.
-  explicit MethodStage(ForwardStage* forward) : forward_(forward) {}
+  /// `forward` has run; it and `ahead`, its batch if that is solved already,
+  /// outlive the object.
+  explicit MethodStage(ForwardStage* forward, BatchAhead* ahead = nullptr)
+      : forward_(forward), ahead_(ahead) {}
 
   ForwardStage& forward() const { return *forward_; }
   const ErrorLayout& layout() const { return forward_->problem().layout; }
@@ -77,6 +79,9 @@ class MethodStage {
 
   /// Of the reconstruction, with its progress under the name "batch".
   BatchOptions MakeBatchOptions() const;
+  /// The batch from the states of the nodes; on the shared ones what BatchAhead
+  /// found, if there is one. Adds to `seconds` what that took on other threads.
+  BatchResult SolveBatch(const Nodes& nodes, double* seconds);
 
   /// Sensor whose time offset did not settle on the method's own nodes, or on
   /// those of the forward stage if the method's did not either; empty: none.
@@ -89,6 +94,7 @@ class MethodStage {
   Problem& problem();
 
   ForwardStage* forward_;
+  BatchAhead* ahead_;
   std::string own_unsettled_;
   bool settled_ = false;  ///< on the nodes that AtOwnNodes ended with
   HeadingCredit own_credit_;

@@ -18,6 +18,9 @@ namespace hindsight {
 
 struct ReconstructionOptions {
   std::string method = "batch";
+  /// What Run will be asked for, as far as that is known: what one of them finds by
+  /// itself is found beside the others.
+  std::vector<std::string> methods = {};
   /// By methods for attitude alone, which need no position.
   bool attitude_alone = false;
   /// The interval to reconstruct [s]; defaults to all that the IMU covers.

@@ -23,6 +23,11 @@ Solution FilterSolution(const LinearTape& tape) {
   solution.layout = tape.layout();
   solution.covariances = CovarianceSeries(tape.dim(), tape.size());
   solution.states.reserve(tape.size());
+  std::size_t measurements = 0;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    measurements += tape.headers(k).size();
+  }
+  solution.residuals.reserve(measurements);
   for (std::size_t k = 0; k < tape.size(); ++k) {
     const TapeEpoch& epoch = tape.epoch(k);
     solution.states.push_back(epoch.x_plus);
@@ -60,6 +65,7 @@ Solution SmoothedSolution(const Problem& problem, std::vector<State> states,
   const Timeline& timeline = problem.timeline;
   Solution solution;
   solution.layout = layout;
+  solution.residuals.reserve(timeline.all_measurements().size());
   LinearizedMeasurement z;
   std::size_t index = 0;
   for (std::size_t k = 0; k < timeline.size(); ++k) {

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <future>
 #include <map>
 #include <memory>
 #include <optional>
@@ -6,6 +8,8 @@
 #include <vector>
 
 #include "alignment/gyro_drift.h"
+#include "base/freed_memory.h"
+#include "base/parallel.h"
 #include "dataset/magnetic_check.h"
 #include "dataset/repeated_readings.h"
 #include "evaluation/grade.h"
@@ -44,12 +48,16 @@ class TrajectoryEstimation final : public Estimation {
                        const ReconstructionOptions& options)
       : clocks_(ChooseClocks(dataset, options)),
         forward_(*clocks_.stage),
-        recording_(ExamineRecording(dataset, forward_.start().report,
-                                    forward_.options().to)) {}
+        recording_(InBackground([&dataset, this] {
+                     return ExamineRecording(dataset, forward_.start().report,
+                                             forward_.options().to);
+                   }).share()) {}
 
   Solution Run(const Method& method) override {
     forward_.Run();
-    MethodStage stage(&forward_);
+    MethodStage stage(&forward_, method.Has(MethodTrait::kSolvesBatch)
+                                     ? ahead_.get()
+                                     : nullptr);
     Solution solution = std::get<Method::OfTrajectory>(method.run)(&stage);
     timelines_.erase(method.name);
     if (auto own = stage.TakeTimeline()) {
@@ -83,6 +91,25 @@ class TrajectoryEstimation final : public Estimation {
   }
 
  private:
+  /// Begins with the batch beside what the first method's result is judged by, if it
+  /// will be asked for later. Not before the interval is linearised anew, which needs
+  /// the most memory.
+  void SolveAhead(const Method& judged) {
+    if (begun_) return;
+    begun_ = true;
+    const std::vector<std::string>& methods = forward_.options().methods;
+    const bool asked = std::any_of(
+        methods.begin(), methods.end(), [](const std::string& name) {
+          return MethodOf(name).Has(MethodTrait::kSolvesBatch);
+        });
+    if (!asked || judged.Has(MethodTrait::kSolvesBatch)) return;
+    forward_.relinearised();
+    ReleaseFreedMemory();
+    ahead_ = std::make_unique<BatchAhead>(
+        forward_.smoothed().states, MethodStage(&forward_).MakeBatchOptions(),
+        forward_.problem());
+  }
+
   const Timeline& TimelineOf(const std::string& method) const {
     const auto own = timelines_.find(method);
     return own != timelines_.end() ? own->second : forward_.timeline();
@@ -107,6 +134,7 @@ class TrajectoryEstimation final : public Estimation {
       WidenHeading(solution.layout, stage.heading_credit(),
                    &solution.covariances);
     }
+    SolveAhead(method);
     Conclude(
         {.solution = solution,
          .sensors = TimelineOf(method.name).sensors(),
@@ -127,7 +155,7 @@ class TrajectoryEstimation final : public Estimation {
              stage.fit().contradiction ? &*stage.fit().contradiction : nullptr,
          .constants = stage.fit().constants,
          .unsettled = stage.unsettled(),
-         .recording = recording_,
+         .recording = recording_.get(),
          .doubts = stage.doubts(),
          .disagreement = DisagreementOf(method, solution),
          .mounting_sigma = forward_.dataset().mounting_sigma},
@@ -151,7 +179,10 @@ class TrajectoryEstimation final : public Estimation {
   ClockChoice clocks_;
   ForwardStage& forward_;
   std::optional<std::vector<RivalSolution>> leaps_;
-  std::vector<Evidence> recording_;  ///< what it shows by itself
+  /// What the recording shows by itself.
+  std::shared_future<std::vector<Evidence>> recording_;
+  bool begun_ = false;
+  std::unique_ptr<BatchAhead> ahead_;  ///< null: not asked for
   OptimumComparison optima_;
   MethodComparison methods_{TrajectoryTerms()};
   /// Of methods that did not stay on the forward stage's, by name.

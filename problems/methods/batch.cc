@@ -11,9 +11,9 @@ namespace {
 
 Solution RunBatch(MethodStage* stage) {
   const double t0 = ProcessorSeconds();
+  double beside = 0.0;
   Solution solution = stage->AtOwnNodes([&](const MethodStage::Nodes& nodes) {
-    BatchResult result =
-        SolveBatch(*nodes.states, stage->MakeBatchOptions(), nodes.problem);
+    BatchResult result = stage->SolveBatch(nodes, &beside);
     Solution one = stage->FromSmoothed(std::move(result.states),
                                        std::move(result.P), nodes);
     one.iterations = result.iterations;
@@ -21,7 +21,7 @@ Solution RunBatch(MethodStage* stage) {
     stage->JudgeHeading(one, nodes);
     return one;
   });
-  solution.seconds = ProcessorSeconds() - t0;
+  solution.seconds = ProcessorSeconds() - t0 + beside;
   stage->JudgeOptimum(solution);
   return solution;
 }
@@ -33,7 +33,8 @@ const Method kBatchMethod = {
     .name = "batch",
     .help = "nonlinear least squares over the whole interval",
     .traits =
-        TraitsOf({MethodTrait::kFindsOptimum, MethodTrait::kDependsOnError}),
+        TraitsOf({MethodTrait::kFindsOptimum, MethodTrait::kDependsOnError,
+                  MethodTrait::kSolvesBatch}),
     .run = RunBatch,
     .work = 12.0};
 

@@ -31,6 +31,7 @@ namespace {
 
 ReconstructionOptions Options(const RunRequest& request, Progress* progress) {
   ReconstructionOptions options;
+  options.methods = request.methods;
   options.attitude_alone = request.attitude_alone;
   options.from = request.from;
   options.to = request.to;

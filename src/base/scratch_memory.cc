@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <mutex>
 #include <new>
 #include <string>
@@ -105,14 +106,16 @@ std::shared_ptr<ScratchFile> ScratchFile::Shared() {
 /// Extents of the file, one behind the other in memory.
 struct ScratchMemory::Mapping {
   /// `data` is nullptr where that cannot be.
-  Mapping(std::size_t bytes, std::size_t block_count, AtFirst at_first)
-      : blocks(block_count), file(ScratchFile::Shared()) {
+  Mapping(std::size_t bytes, std::size_t block_bytes, AtFirst at_first)
+      : block(block_bytes), file(ScratchFile::Shared()) {
     constexpr std::size_t kExtent = ScratchFile::kExtent;
     if (file == nullptr) return;
     bool all_zero = false;
     extents = file->Take((bytes + kExtent - 1) / kExtent, &all_zero);
     if (extents.empty()) return;
-    if (!all_zero && at_first == AtFirst::kZero) to_clear.assign(blocks, true);
+    if (!all_zero && at_first == AtFirst::kZero) {
+      to_clear.assign((bytes + block - 1) / block, true);
+    }
     void* place = mmap(nullptr, Size(), PROT_NONE,
                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (place == MAP_FAILED) return;
@@ -134,14 +137,15 @@ struct ScratchMemory::Mapping {
   Mapping& operator=(const Mapping&) = delete;
   ~Mapping();
   std::size_t Size() const { return extents.size() * ScratchFile::kExtent; }
-  /// Lets all blocks go. Another thread that is reading meanwhile finds the same
+  /// Lets a block go. Another thread that is reading meanwhile finds the same
   /// bytes.
-  void Release() {
-    madvise(data, Size(), MADV_DONTNEED);
-    for (std::size_t i = 0; i < blocks; ++i) held[i] = 0;
+  void Release(std::size_t number) {
+    const std::size_t begin = number * block;
+    madvise(data + begin, std::min(block, Size() - begin), MADV_DONTNEED);
+    held[number] = 0;
   }
 
-  std::size_t blocks;
+  std::size_t block;  ///< [bytes]
   std::shared_ptr<ScratchFile> file;
   std::vector<std::size_t> extents;
   std::byte* data = nullptr;
@@ -149,9 +153,9 @@ struct ScratchMemory::Mapping {
   std::atomic<char>* held = nullptr;
 };
 
-/// The mappings of which blocks are held, with how many bytes of each; that which
-/// was asked longest ago is the first. For use under the mutex.
-class ScratchMemory::HeldMappings {
+/// The blocks that are held, in the order in which they were asked for. For use under
+/// the mutex.
+class ScratchMemory::HeldBlocks {
  public:
   static std::mutex& Mutex() {
     static std::mutex mutex;
@@ -159,48 +163,40 @@ class ScratchMemory::HeldMappings {
   }
   static std::size_t Bytes() { return bytes_; }
 
-  /// Counts more bytes of a mapping, and lets others go where these are too many.
-  static void Add(std::size_t bytes, Mapping* mapping) {
+  /// Adds one, and lets others go where they are too many.
+  static void Add(Mapping* mapping, std::size_t number, std::size_t bytes) {
     while (bytes_ + bytes > kMostHeld && !all_.empty()) {
-      all_.front().mapping->Release();
-      Remove(all_.front().mapping);
+      const Held& first = all_.front();
+      first.mapping->Release(first.number);
+      bytes_ -= first.bytes;
+      all_.pop_front();
     }
-    Held own{mapping, bytes};
-    const auto found = Find(mapping);
-    if (found != all_.end()) {
-      own.bytes += found->bytes;
-      all_.erase(found);
-    }
-    all_.push_back(own);
+    all_.push_back({mapping, number, bytes});
     bytes_ += bytes;
   }
-  static void Remove(const Mapping* mapping) {
-    const auto found = Find(mapping);
-    if (found == all_.end()) return;
-    bytes_ -= found->bytes;
-    all_.erase(found);
+  static void Forget(const Mapping* mapping) {
+    std::erase_if(all_, [mapping](const Held& one) {
+      if (one.mapping != mapping) return false;
+      bytes_ -= one.bytes;
+      return true;
+    });
   }
 
  private:
   struct Held {
     Mapping* mapping;
+    std::size_t number;
     std::size_t bytes;
   };
 
-  static std::vector<Held>::iterator Find(const Mapping* mapping) {
-    return std::find_if(all_.begin(), all_.end(), [mapping](const Held& one) {
-      return one.mapping == mapping;
-    });
-  }
-
-  static inline std::vector<Held> all_;
+  static inline std::deque<Held> all_;
   static inline std::size_t bytes_ = 0;
 };
 
 ScratchMemory::Mapping::~Mapping() {
   if (data != nullptr) {
-    const std::lock_guard<std::mutex> guard(HeldMappings::Mutex());
-    HeldMappings::Remove(this);
+    const std::lock_guard<std::mutex> guard(HeldBlocks::Mutex());
+    HeldBlocks::Forget(this);
     munmap(data, Size());
   }
   if (file != nullptr) file->GiveBack(extents);
@@ -214,7 +210,7 @@ ScratchMemory::ScratchMemory(std::size_t bytes, std::size_t block,
   const std::size_t blocks = (bytes + block - 1) / block;
   held_ = std::make_unique<std::atomic<char>[]>(blocks);
   if (bytes >= kSmallest) {
-    mapping_ = std::make_unique<Mapping>(bytes, blocks, at_first);
+    mapping_ = std::make_unique<Mapping>(bytes, block, at_first);
   }
   if (mapping_ != nullptr && mapping_->data != nullptr) {
     data_ = mapping_->data;
@@ -243,11 +239,11 @@ void ScratchMemory::swap(ScratchMemory& other) noexcept {
 }
 
 void ScratchMemory::Hold(std::size_t block, char how) const {
-  const std::lock_guard<std::mutex> guard(HeldMappings::Mutex());
+  const std::lock_guard<std::mutex> guard(HeldBlocks::Mutex());
   if (held_[block] >= how) return;
   std::byte* begin = data_ + block * block_;
   const std::size_t size = std::min(block_, bytes_ - block * block_);
-  if (held_[block] == 0) HeldMappings::Add(size, mapping_.get());
+  if (held_[block] == 0) HeldBlocks::Add(mapping_.get(), block, size);
   const bool clear = !mapping_->to_clear.empty() && mapping_->to_clear[block];
   // In one call, many times as fast as page by page when they are touched. Where
   // the system does not know the advice, they come when they are touched.
@@ -261,8 +257,8 @@ void ScratchMemory::Hold(std::size_t block, char how) const {
 }
 
 std::size_t ScratchMemory::held() {
-  const std::lock_guard<std::mutex> guard(HeldMappings::Mutex());
-  return HeldMappings::Bytes();
+  const std::lock_guard<std::mutex> guard(HeldBlocks::Mutex());
+  return HeldBlocks::Bytes();
 }
 
 }  // namespace hindsight

@@ -18,9 +18,8 @@ class ScratchMemory {
  public:
   /// Below this it is plain memory [bytes].
   static constexpr std::size_t kSmallest = std::size_t{1} << 25;
-  /// Bytes that the process holds of files at most, a block more or less: where
-  /// another is to be held, all of the memory go that was asked for a block longest
-  /// ago.
+  /// Bytes that the process holds of the file at most, of all memories together: where
+  /// another block is to be held, those go that were asked for longest ago.
   static constexpr std::size_t kMostHeld = std::size_t{24} << 20;
 
   /// What the bytes are before they are written.
@@ -60,7 +59,7 @@ class ScratchMemory {
   static constexpr char kWritten = 2;
 
   struct Mapping;
-  class HeldMappings;
+  class HeldBlocks;
 
   void Hold(std::size_t block, char how) const;
 
