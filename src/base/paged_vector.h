@@ -36,8 +36,9 @@ class PagedVector {
     Place(Vector* vector, std::size_t k) : vector_(vector), k_(k) {}
     /// Of a vector to be read, from one to be changed.
     template <typename Other, typename OtherElement>
-    requires std::is_convertible_v<Other*, Vector*> Place(
-        const Place<Other, OtherElement>& other)
+    requires std::is_convertible_v<Other*, Vector*>
+    // As of every iterator. NOLINTNEXTLINE(google-explicit-constructor)
+    Place(const Place<Other, OtherElement>& other)
         : vector_(other.vector_), k_(other.k_) {}
 
     reference operator*() const { return (*vector_)[k_]; }

@@ -11,16 +11,16 @@
 namespace hindsight {
 namespace {
 
-struct Turning {
+struct Swaying {
   ImuStream imu;
   std::vector<Eigen::Quaterniond> q_nb;
 };
 
 /// Two minutes at 50 Hz with accelerations of 0.3 m/s^2 an axis and a bias, of a
 /// body that turns by up to `swing` [rad].
-Turning TurningWith(const Eigen::Vector3d& bias, double swing) {
+Swaying SwayingWith(const Eigen::Vector3d& bias, double swing) {
   Random random(4);
-  Turning body;
+  Swaying body;
   for (int k = 0; k < 6000; ++k) {
     const double t = 0.02 * k;
     const Eigen::Quaterniond q = QuaternionFromEuler(
@@ -38,21 +38,21 @@ Turning TurningWith(const Eigen::Vector3d& bias, double swing) {
 
 TEST(AccelBiasFit, FindsABiasInManyAttitudes) {
   const Eigen::Vector3d bias(0.8, -0.3, 0.5);
-  const Turning body = TurningWith(bias, 1.2);
+  const Swaying body = SwayingWith(bias, 1.2);
   const AccelBiasFit fit = FitAccelBias(body.imu, body.q_nb, kStandardGravity);
   EXPECT_LT((fit.b_a - bias).norm(), 0.02);
   EXPECT_GT(fit.significance, 100.0);
 }
 
 TEST(AccelBiasFit, InventsNone) {
-  const Turning body = TurningWith(Eigen::Vector3d::Zero(), 1.2);
+  const Swaying body = SwayingWith(Eigen::Vector3d::Zero(), 1.2);
   EXPECT_LT(FitAccelBias(body.imu, body.q_nb, kStandardGravity).significance,
             16.3);  // chi-square, 3 degrees, 99.9 %
 }
 
 /// A level body shows the size of gravity alone, which c takes.
 TEST(AccelBiasFit, KnowsNothingOfABodyThatHardlyTurns) {
-  const Turning body = TurningWith({0.8, -0.3, 0.5}, 0.01);
+  const Swaying body = SwayingWith({0.8, -0.3, 0.5}, 0.01);
   EXPECT_LT(FitAccelBias(body.imu, body.q_nb, kStandardGravity).significance,
             16.3);
 }
