@@ -83,7 +83,7 @@ std::vector<BadInput> BadInputs() {
          r->Replace("config.yaml", "  file: imu.csv\n",
                     "  file: imu.csv\n  columns: {t: 1}\n");
          return {"config.yaml:", "imu.columns", "format: csv",
-                 "expected beside it `format:` columns"};
+                 "expected beside it `format:` npy or mat or columns"};
        }},
       {"MissingFile",
        [](Recording* r) -> Text {

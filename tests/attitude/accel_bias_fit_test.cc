@@ -40,7 +40,8 @@ TEST(AccelBiasFit, FindsABiasInManyAttitudes) {
   const Eigen::Vector3d bias(0.8, -0.3, 0.5);
   const Swaying body = SwayingWith(bias, 1.2);
   const AccelBiasFit fit = FitAccelBias(body.imu, body.q_nb, kStandardGravity);
-  EXPECT_LT((fit.b_a - bias).norm(), 0.02);
+  // 120 means, each with 0.3 / sqrt(50) m/s^2, in a few attitudes.
+  EXPECT_LT((fit.b_a - bias).norm(), 0.05);
   EXPECT_GT(fit.significance, 100.0);
 }
 
