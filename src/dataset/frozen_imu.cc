@@ -237,16 +237,22 @@ std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu) {
 double StaleImuShare(const ImuStream& imu) {
   constexpr unsigned kAll = (1U << kChannels) - 1U;
   const auto& samples = imu.samples;
+  const auto repeats = [&](std::size_t k) {
+    return Repeated(samples, k) == kAll;
+  };
+  // Where few repeat nothing is kept: a day has 17 million samples.
+  std::size_t repeated = 0;
+  for (std::size_t k = 1; k < samples.size(); ++k) repeated += repeats(k);
+  if (3 * repeated < samples.size()) return 0.0;
   std::vector<EqualSamples> runs;
   std::vector<long> lengths;
   for (std::size_t begin = 0, k = 1; k <= samples.size(); ++k) {
-    if (k < samples.size() && Repeated(samples, k) == kAll) continue;
+    if (k < samples.size() && repeats(k)) continue;
     runs.push_back({begin, k});
     lengths.push_back(runs.back().rows());
     begin = k;
   }
-  // Where few repeat, none needs a resolution of all that is read.
-  if (runs.size() < 3 || 2 * runs.size() > samples.size() + 2) return 0.0;
+  if (runs.size() < 3) return 0.0;
   double far[kChannels];
   for (int c = 0; c < kChannels; ++c) {
     std::vector<double> values;
