@@ -11,6 +11,7 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "geometry/so3.h"
+#include "io/config/scenario_config.h"
 #include "measurements/sensor_kind.h"
 #include "problems/free_rotation_trial.h"
 #include "problems/papers/vibration_comparison.h"
@@ -500,6 +501,28 @@ TEST(AttitudeEstimation, SaysOfWhatItMakesNoUse) {
     const std::vector<std::string> said = NoUseOf(estimation.Run(method));
     ASSERT_EQ(said.size(), 1u);
     EXPECT_NE(said.front().find("'gnss'"), std::string::npos);
+  }
+}
+
+/// In a turn of 4 deg/s, midway between samples that are increments.
+TEST(AttitudeEstimation, GoesOnTurningBetweenIncrements) {
+  const Dataset dataset = Simulate(FindScenario("test_aircraft"), 41);
+  Reconstruction estimation(dataset, AttitudeAlone());
+  const Solution solution = estimation.Run("ahrs_smoother");
+  std::vector<double> times;
+  std::vector<Eigen::Quaterniond> middle;
+  for (std::size_t k = 0; k + 1 < solution.states.size(); ++k) {
+    const State& a = solution.states[k];
+    const State& b = solution.states[k + 1];
+    if (a.t < 30.0 || a.t > 40.0) continue;
+    times.push_back(0.5 * (a.t + b.t));
+    middle.push_back(a.q_eb.slerp(0.5, b.q_eb));
+    ASSERT_GT(middle.back().angularDistance(a.q_eb), 2e-4);
+  }
+  ASSERT_GT(times.size(), 900u);
+  const Solution sampled = estimation.Sample(solution, times);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    EXPECT_LT(sampled.states[i].q_eb.angularDistance(middle[i]), 1e-4);
   }
 }
 
