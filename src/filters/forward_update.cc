@@ -54,7 +54,7 @@ void ForwardPass::UpdateAt(std::size_t k) {
     }
     if (result_ != nullptr) epoch_.mean_plus.push_back(error.mean);
     f.epoch.x_plus = f.x;
-    f.tape.Append(std::move(f.epoch), f.transition, f.P_minus, error.P);
+    f.tape.Append(f.epoch, f.transition, f.P_minus, error.P);
   }
   if (result_ != nullptr) result_->tape.epochs.push_back(std::move(epoch_));
   epoch_ = {};

@@ -71,11 +71,11 @@ Response Filtered(const Course& course, const LinearTape& tape,
     error += AddedTo(k, course, tape, columns);
     out.minus.push_back(error);
     const auto all = tape.measurements(k);
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    for (const auto& z : all) {
       RowVector& innovation = out.innovations.emplace_back();
-      if (!all[i].accepted) continue;
-      innovation = all[i].H * error + AddedTo(all[i], course, k, columns);
-      error -= all[i].K * innovation;
+      if (!z.accepted) continue;
+      innovation = z.H * error + AddedTo(z, course, k, columns);
+      error -= z.K * innovation;
     }
   }
   return out;

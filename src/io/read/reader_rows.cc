@@ -58,7 +58,7 @@ StreamRows::StreamRows(const StreamSource& source,
                  source.clock.scale != ClockMap::Scale::kDataset;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (opened_.table->Has(i))
-      most_.push_back({i, Largest(fields[i].quantity)});
+      most_.emplace_back(i, Largest(fields[i].quantity));
   }
   if (source.sort) Sort(fields, allow_absent || source.absent_values);
 }
