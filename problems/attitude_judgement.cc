@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "attitude/accel_bias_fit.h"
+#include "base/chi_square.h"
 #include "base/error.h"
 #include "base/median.h"
 #include "evaluation/given_values.h"
@@ -107,7 +108,7 @@ double UsualTiltSigma(const Solution& solution) {
 }  // namespace
 
 void AttitudeEstimation::JudgeAccelerometers(const Solution& whole) {
-  constexpr double kSignificant = 21.1;  // chi-square, 3 degrees, 99.99 %
+  constexpr double kConfidence = 0.9999;
   if (whole.covariances.empty()) return;
   std::vector<Eigen::Quaterniond> q_nb;
   q_nb.reserve(whole.states.size());
@@ -117,7 +118,10 @@ void AttitudeEstimation::JudgeAccelerometers(const Solution& whole) {
   const double gravity = filter_options_.place.gravity;
   const AccelBiasFit fit = FitAccelBias(imu_, q_nb, gravity);
   const double sigmas = fit.b_a.norm() / gravity / UsualTiltSigma(whole);
-  if (!(fit.significance > kSignificant) || !(sigmas > kUnusableBias)) return;
+  if (!(fit.significance > ChiSquareQuantile(kConfidence, 3)) ||
+      !(sigmas > kUnusableBias)) {
+    return;
+  }
   const Eigen::Vector3d b = fit.b_a + dataset_.initial.accel_bias;
   evidence_.push_back(
       {.rule = "accelerometer",

@@ -75,8 +75,6 @@ std::optional<Evidence> TwoNorths(const FieldSurvey& survey) {
 /// stated sigma explains.
 void JudgeMagnetometer(const MagnetometerErrors& found, const Sensor& sensor,
                        double sigma, std::vector<Evidence>* evidence) {
-  // As of the innovations.
-  constexpr double kExcess = 1.4;
   if (!found.turn_b.isZero(0.0)) {
     const Eigen::Vector3d turn = found.turn_b / kDegree;
     evidence->push_back(
@@ -93,7 +91,7 @@ void JudgeMagnetometer(const MagnetometerErrors& found, const Sensor& sensor,
          .remedies = {"its mounting, turned back by as much"},
          .is_cause = true});
   }
-  if (found.scatter && *found.scatter > kExcess * sigma) {
+  if (found.scatter && *found.scatter > kDoubtfulError * sigma) {
     evidence->push_back(
         {.rule = "magnetometer",
          .grade = Grade::kDoubtful,
@@ -103,7 +101,7 @@ void JudgeMagnetometer(const MagnetometerErrors& found, const Sensor& sensor,
                          "sigma says",
                          sensor.name, *found.scatter, *found.scatter / sigma),
          .value = *found.scatter / sigma,
-         .limit = kExcess,
+         .limit = kDoubtfulError,
          .unit = "1",
          .causes = {"iron or magnets around", "too small a sigma"},
          .remedies = {"sigma: " + fmt::format("{:.2g} uT", *found.scatter)}});

@@ -41,8 +41,9 @@ class ScratchMemory {
   /// Whether a file is behind it.
   bool is_file() const { return mapping_ != nullptr; }
 
-  /// To be called before bytes of a block are read or written, by any thread.
-  /// Without it they are the same, but held for longer.
+  /// To be called before bytes of a block are read or written, by any thread. The
+  /// first call makes a block zero where that was asked for; later ones only keep
+  /// the memory small.
   void BeforeReading(std::size_t block) const {
     if (held_[block].load(std::memory_order_relaxed) == 0) Hold(block, kRead);
   }

@@ -31,8 +31,8 @@ inline void MultiplyStrip(const Left& A, const Right& B, Eigen::Index first,
   Eigen::Map<Strip>(out->data() + j1 * out->outerStride() + first) = sum1;
 }
 
-/// out = A B, of which B may be transposed and A and B parts of others. With `lower` its elements above
-/// the diagonal are not said.
+/// out = A B, of which B may be transposed and A and B parts of others. With
+/// `lower` its elements above the diagonal are not said.
 template <typename Left, typename Right, typename Out>
 void Multiply(const Left& A, const Right& B, bool lower, Out* out) {
   static_assert(!Left::IsRowMajor && !Out::IsRowMajor);
