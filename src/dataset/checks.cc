@@ -132,7 +132,26 @@ void WarnAboutRate(const Dataset& dataset, const ImuReport& imu,
       rate.seconds, rate.rate / kDegree));
 }
 
-void WarnAboutStream(const StreamReport& stream,
+/// What stamps are whose stream is `ratio` times as long as the IMU's, as a
+/// clause; "" if no unit of time makes it as long to a tenth.
+std::string UnitOfStamps(double ratio) {
+  struct Unit {
+    double ratio;
+    const char* text;
+  };
+  constexpr std::array kUnits = {
+      Unit{1e3, "its stamps may be ms"}, Unit{1e6, "its stamps may be us"},
+      Unit{1e9, "its stamps may be ns"}, Unit{1e-3, "the IMU's may be ms"},
+      Unit{1e-6, "the IMU's may be us"}, Unit{1e-9, "the IMU's may be ns"}};
+  for (const Unit& unit : kUnits) {
+    if (std::abs(ratio / unit.ratio - 1.0) < 0.1) {
+      return std::string("; ") + unit.text;
+    }
+  }
+  return "";
+}
+
+void WarnAboutStream(const StreamReport& stream, const StreamReport& imu,
                      std::vector<std::string>* warnings) {
   if (stream.rate > 0.0 && stream.delay * stream.rate > kMaxJitter) {
     warnings->push_back(fmt::format(
@@ -144,8 +163,9 @@ void WarnAboutStream(const StreamReport& stream,
   if (span > 0.0 && stream.overlap < 0.5 * span) {
     warnings->push_back(
         fmt::format("{}: only {:.1f} s of {:.1f} s lie within the IMU's "
-                    "record",
-                    stream.name, stream.overlap, span));
+                    "record{}",
+                    stream.name, stream.overlap, span,
+                    UnitOfStamps(span / (imu.t_end - imu.t_begin))));
   }
 }
 
@@ -187,13 +207,14 @@ CheckReport CheckDataset(const Dataset& dataset) {
     report.warnings.push_back(warning);
   }
   for (const StreamReport& stream : report.streams) {
-    WarnAboutStream(stream, &report.warnings);
+    WarnAboutStream(stream, report.streams.front(), &report.warnings);
   }
   if (!dataset.truth.empty()) {
     stamps.clear();
     for (const TruthPoint& point : dataset.truth) stamps.push_back(point.t);
     report.streams.push_back(ReportStamps("truth", stamps, dataset.imu));
-    WarnAboutStream(report.streams.back(), &report.truth_warnings);
+    WarnAboutStream(report.streams.back(), report.streams.front(),
+                    &report.truth_warnings);
   }
   report.evidence =
       FindRepeatedReadings(dataset, dataset.imu.t_begin(), dataset.imu.t_end());

@@ -128,8 +128,9 @@ std::string ByCourse(const Dataset& dataset) {
   }
   if (both < 0.0) {
     return "imu: the course turns against the gyros: they have the other sign, "
-           "or an axis is mirrored; put a \"-\" before its column under "
-           "`columns`";
+           "or the accelerometers (phones and watches of Apple read -1 g along "
+           "the axis that points up), or an axis is mirrored; put a \"-\" "
+           "before its column under `columns`";
   }
   const double ratio = std::sqrt(courses / gyros);
   for (const double factor : {kDegree, 1.0 / kDegree}) {

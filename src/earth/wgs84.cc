@@ -4,6 +4,7 @@
 #include <GeographicLib/NormalGravity.hpp>
 #include <cmath>
 
+#include "base/text.h"
 #include "base/units.h"
 
 namespace hindsight {
@@ -13,6 +14,24 @@ constexpr double kJ2 = 1.082629821e-3;
 constexpr double kEccentricity2 = kEarthFlattening * (2.0 - kEarthFlattening);
 
 }  // namespace
+
+std::optional<std::string> WhyNotNearEarth(const Geodetic& g) {
+  const auto beyond = [](const char* name, double value, const char* unit,
+                         const char* range) {
+    return std::string("the ") + name + " is " + FormatNumber(value) + " " +
+           unit + "; expected " + range;
+  };
+  if (std::abs(g.latitude) > kPi / 2.0) {
+    return beyond("latitude", g.latitude / kDegree, "deg", "-90 to 90 deg");
+  }
+  if (g.longitude < -kPi || g.longitude > 2.0 * kPi) {
+    return beyond("longitude", g.longitude / kDegree, "deg", "-180 to 360 deg");
+  }
+  if (g.height < -2e4 || g.height > 1e8) {
+    return beyond("height", g.height, "m", "-20000 to 1e8 m");
+  }
+  return std::nullopt;
+}
 
 Eigen::Vector3d EcefFromGeodetic(const Geodetic& g) {
   Eigen::Vector3d p;

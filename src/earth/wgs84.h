@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
+#include <string>
 
 namespace hindsight {
 
@@ -21,6 +23,12 @@ struct Geodetic {
   double longitude = 0.0;
   double height = 0.0;
 };
+
+/// What is wrong with a place that a file or a key gives, and what was expected
+/// ("the latitude is 91 deg; expected -90 to 90 deg"); nothing of latitudes of
+/// -90 to 90 deg, longitudes of -180 to 360 deg and heights from below the
+/// deepest sea floor to beyond the satellites of GNSS (-20 km to 100 000 km).
+std::optional<std::string> WhyNotNearEarth(const Geodetic& g);
 
 /// ECEF position [m]. Exact at any latitude and height (GeographicLib).
 Eigen::Vector3d EcefFromGeodetic(const Geodetic& g);

@@ -67,18 +67,9 @@ PositionFix LocalPosition(const MeasuredRow& row,
 enum Column : std::size_t { kQuality = 18, kSatellites = 19 };
 
 PositionFix GeodeticPosition(const MeasuredRow& row) {
-  const double latitude = row.Value(0);
-  const double longitude = row.Value(1);
-  if (std::abs(latitude) > kPi / 2.0) {
-    row.Fail("the latitude is " + FormatNumber(latitude / kDegree) +
-             " deg; expected -90 to 90 deg");
-  }
-  if (longitude < -kPi || longitude > 2.0 * kPi) {
-    row.Fail("the longitude is " + FormatNumber(longitude / kDegree) +
-             " deg; expected -180 to 360 deg");
-  }
-  return {.p_e = EcefFromGeodetic({latitude, longitude, row.Value(2)}),
-          .R_n = row.Covariance()};
+  const Geodetic place{row.Value(0), row.Value(1), row.Value(2)};
+  if (const auto why = WhyNotNearEarth(place)) row.Fail(*why);
+  return {.p_e = EcefFromGeodetic(place), .R_n = row.Covariance()};
 }
 
 std::optional<MeasurementModel> ReadPosition(const MeasuredRow& row,

@@ -13,6 +13,7 @@
 namespace hindsight {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -48,6 +49,26 @@ TEST(CheckDataset, ReportsRateGapAndOverlap) {
   EXPECT_NEAR(gnss.gaps[0].length, 11.0, 1e-9);
   EXPECT_NEAR(gnss.t_begin, 0.2, 1e-12);
   EXPECT_NEAR(gnss.overlap, 59.8, 1e-9);
+}
+
+TEST(CheckDataset, StampsInAnotherUnitAreNamed) {
+  Dataset data = Recording({0, 0, -9.81});
+  const auto warnings = [&] { return CheckDataset(data).warnings; };
+  EXPECT_THAT(warnings(), Not(Contains(HasSubstr("its stamps may be"))));
+  AidingStream& gnss = data.streams[0];
+  gnss.measurements.clear();
+  for (int i = 0; i <= 60; ++i) {
+    gnss.measurements.push_back({1000.0 * i, 0, false, PositionFix{}});
+  }
+  EXPECT_THAT(warnings(),
+              Contains("gnss: only 59.8 s of 60000.0 s lie within the IMU's "
+                       "record; its stamps may be ms"));
+  gnss.measurements.clear();
+  for (int i = 0; i <= 60; ++i) {
+    gnss.measurements.push_back({200.0 + i, 0, false, PositionFix{}});
+  }
+  EXPECT_THAT(warnings(), Contains(HasSubstr("lie within the IMU's record")));
+  EXPECT_THAT(warnings(), Not(Contains(HasSubstr("its stamps may be"))));
 }
 
 TEST(CheckDataset, FlagsOfStandingComeWhenTheyCome) {

@@ -30,6 +30,19 @@ std::vector<Geodetic> Places() {
   return places;
 }
 
+TEST(Wgs84, PlacesNearTheEarthAreThoseOfVehiclesAndSatellites) {
+  for (const Geodetic& place : Places()) {
+    EXPECT_EQ(WhyNotNearEarth(place), std::nullopt);
+  }
+  EXPECT_EQ(WhyNotNearEarth({0.0, 2.0 * kPi, 36e6}), std::nullopt);
+  EXPECT_EQ(WhyNotNearEarth({91.0 * kDegree, 0.0, 0.0}),
+            "the latitude is 91 deg; expected -90 to 90 deg");
+  EXPECT_EQ(WhyNotNearEarth({0.0, -181.0 * kDegree, 0.0}),
+            "the longitude is -181 deg; expected -180 to 360 deg");
+  EXPECT_EQ(WhyNotNearEarth({0.0, 0.0, -7e6}),
+            "the height is -7e+06 m; expected -20000 to 1e8 m");
+}
+
 TEST(Wgs84, EcefOfKnownPlaces) {
   EXPECT_LT((EcefFromGeodetic({0.0, 0.0, 100.0}) -
              Vector3d(kEarthSemiMajorAxis + 100.0, 0.0, 0.0))

@@ -51,6 +51,7 @@ inline const std::vector<FuzzMap>& RecordingMaps() {
         {"format", "csv"},
         {"columns", "<columns>"},
         {"delimiter", "comma"},
+        {"decimal", "point"},
         {"skip_lines", "0"},
         {"topic", "/imu"},
         {"time", "<time>"},

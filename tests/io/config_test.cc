@@ -1,6 +1,8 @@
 #include "io/config/config.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/units.h"
 #include "io/recording_folder.h"
@@ -66,6 +68,49 @@ TEST_F(ConfigTest, LoadsWhatItSays) {
   EXPECT_NEAR(g.latitude / kDegree, 50.0, 1e-10);
   EXPECT_NEAR(g.height, 100.0, 1e-6);
   EXPECT_DOUBLE_EQ(fix.R_n(2, 2), 0.2 * 0.2);
+}
+
+TEST_F(ConfigTest, OnAndOffAreBooleansOfYaml11) {
+  for (const auto& [word, enabled] : {std::pair("off", false),
+                                      {"false", false},
+                                      {"no", false},
+                                      {"on", true},
+                                      {"true", true},
+                                      {"yes", true}}) {
+    Write("config.yaml", std::string(kConfig) + "stationary: " + word + "\n");
+    EXPECT_EQ(Load().stationary.enabled, enabled) << word;
+  }
+  Write("config.yaml", std::string(kConfig) + "stationary: maybe\n");
+  EXPECT_NE(LoadError().find("'maybe' is not known; expected one of off, on"),
+            std::string::npos);
+}
+
+TEST_F(ConfigTest, DecimalCommasAreReadAsPoints) {
+  std::string semicolons = kGnss;
+  std::replace(semicolons.begin(), semicolons.end(), ',', ';');
+  std::replace(semicolons.begin(), semicolons.end(), '.', ',');
+  const Dataset points = Load();
+  Write("gnss.csv", semicolons);
+  const Dataset commas = Load();
+  ASSERT_EQ(commas.streams[0].measurements.size(), 2u);
+  EXPECT_EQ(std::get<PositionFix>(commas.streams[0].measurements[1].model).R_n,
+            std::get<PositionFix>(points.streams[0].measurements[1].model).R_n);
+  EXPECT_EQ(commas.streams[0].measurements[1].t,
+            points.streams[0].measurements[1].t);
+  // The first row decides.
+  Write("gnss.csv",
+        "t[s];lat[deg];lon[deg];h[m];sigma_n[m];sigma_e[m];sigma_d[m]\n"
+        "10;50;8;100;1;1;1\n"
+        "11;50;8;100,5;1;1;1\n");
+  EXPECT_NE(LoadError().find("'100,5' is not a finite number; decimal commas "
+                             "are read with `decimal: comma`"),
+            std::string::npos)
+      << LoadError();
+  std::string config = kConfig;
+  config.replace(config.find("    file: gnss.csv\n"), 0,
+                 "    decimal: comma\n");
+  Write("config.yaml", config);
+  EXPECT_EQ(LoadError(), "");
 }
 
 TEST_F(ConfigTest, FoldersAreSoughtBelowADataRootOnlyIfThereIsOne) {

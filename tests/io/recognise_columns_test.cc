@@ -1,9 +1,12 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "base/units.h"
+#include "earth/wgs84.h"
 #include "io/config/init_config.h"
 #include "io/recording_folder.h"
 
@@ -22,9 +25,10 @@ struct Spelling {
   double accel;        ///< one m/s^2 in the file
   double gyro;         ///< one rad/s
   double time;         ///< one s
-  const char* order;   ///< t, a, g
+  const char* order;   ///< t, a, g; x: a word of text
   char delimiter = ',';
   const char* behind = "";
+  char decimal = '.';
 };
 
 void PrintTo(const Spelling& spelling, std::ostream* out) {
@@ -52,6 +56,7 @@ std::string Rows(const Spelling& spelling, double mirror = 1.0) {
       row += word;
     };
     for (const char* c = spelling.order; *c != '\0'; ++c) {
+      if (*c == 'x') add("imu_link");
       if (*c == 't')
         add(fmt::format("{:.3f}",
                         261906e-3 * spelling.time + t * spelling.time));
@@ -62,6 +67,7 @@ std::string Rows(const Spelling& spelling, double mirror = 1.0) {
         add(fmt::format("{:.6f}", w[i] * spelling.gyro));
       }
     }
+    std::replace(row.begin(), row.end(), '.', spelling.decimal);
     text += row + "\n";
   }
   return text + spelling.behind;
@@ -105,6 +111,24 @@ INSTANTIATE_TEST_SUITE_P(
                  1.0, 1.0, 1e6, "tag", ';',
                  "Average;9.81;;;;;\n\nmade by hand\n"},
         Spelling{"Counts", "t_ms,ax,ay,az,gx,gy,gz\n", 16384.0 * kG,
+                 1.0 / kDegree, 1e3, "tag"},
+        Spelling{"DecimalCommas",
+                 "\"Time (s)\";\"Acc X (m/s^2)\";\"Acc Y (m/s^2)\";"
+                 "\"Acc Z (m/s^2)\";\"Gyr X (rad/s)\";\"Gyr Y (rad/s)\";"
+                 "\"Gyr Z (rad/s)\"\n",
+                 1.0, 1.0, 1.0, "tag", ';', "", ','},
+        Spelling{"UnitsBelowTitles",
+                 "time,acc_x,acc_y,acc_z,gyr_x,gyr_y,gyr_z\n"
+                 "ms,g,g,g,deg/s,deg/s,deg/s\n",
+                 kG, 1.0 / kDegree, 1e3, "tag"},
+        Spelling{"TextBesideNumbers",
+                 "%time,field.header.frame_id,field.linear_acceleration.x,"
+                 "field.linear_acceleration.y,field.linear_acceleration.z,"
+                 "field.angular_velocity.x,field.angular_velocity.y,"
+                 "field.angular_velocity.z\n",
+                 1.0, 1.0, 1e9, "txag"},
+        Spelling{"GForces",
+                 "Record,GForceX,GForceY,GForceZ,GyroX,GyroY,GyroZ\n", kG,
                  1.0 / kDegree, 1e3, "tag"},
         Spelling{"Blanks", "", 1.0, 1.0, 1e3, "tga", ' '},
         Spelling{"CutLastLine", "time,ax,ay,az,gx,gy,gz\n", 1.0, 1.0, 1.0,
@@ -165,6 +189,76 @@ TEST_F(RecogniseColumns, AccuraciesBecomeTheSigmasOfAnAxis) {
   Write("gps.csv", Fixes("time,lat,lon,alt,accuracy,satellites\n", ",0,3"));
   EXPECT_THAT(DraftText(DraftRecordings(folder_.string()).at(0)),
               Not(HasSubstr("sigma_n")));
+}
+
+TEST_F(RecogniseColumns, PlacesInWholeNumbersAreOfReceivers) {
+  std::string text = "timestamp,lat,lon,alt,fix_type\n";
+  for (int k = 0; k < 40; ++k) {
+    text +=
+        fmt::format("{},{},{},{},3\n", 262500 + 1000 * k, 480000000 + 100 * k,
+                    110000000 + 200 * k, 500000 + 100 * (k % 3));
+  }
+  Write("log.csv", Rows(kPlain));
+  Write("gps.csv", text);
+  const std::string config = DraftText(DraftRecordings(folder_.string()).at(0));
+  Write("config.yaml", config);
+  ASSERT_EQ(LoadError(), "") << config;
+  const Dataset dataset = Load();
+  ASSERT_EQ(dataset.streams.size(), 1u) << config;
+  const auto fix =
+      std::get<PositionFix>(dataset.streams[0].measurements[1].model);
+  const Geodetic place = GeodeticFromEcef(fix.p_e);
+  EXPECT_NEAR(place.latitude / kDegree, 48.00001, 1e-9);
+  EXPECT_NEAR(place.longitude / kDegree, 11.00002, 1e-9);
+  EXPECT_NEAR(place.height, 500.1, 1e-6);
+}
+
+/// One file of an IMU whose rows now and then hold a fix as well.
+class FixesInSomeRows : public RecordingFolder,
+                        public ::testing::WithParamInterface<char> {};
+
+TEST_P(FixesInSomeRows, AreFoundBesideTheImu) {
+  std::string text;
+  int row = -1;
+  std::istringstream lines(Rows(kPlain));
+  for (std::string line; std::getline(lines, line); ++row) {
+    const bool fix = row >= 0 && row % 100 == 0;
+    text += line +
+            (row < 0 ? ",Latitude,Longitude,Altitude"
+             : fix   ? fmt::format(",{:.7f},{:.7f},{:.2f}", 48.0 + 1e-7 * row,
+                                   11.0 + 2e-7 * row, 500.0 + 0.1 * (row % 3))
+                     : ",,,") +
+            "\n";
+  }
+  std::replace(text.begin(), text.end(), ',', GetParam());
+  Write("log.csv", text);
+  const std::string config = DraftText(DraftRecordings(folder_.string()).at(0));
+  Write("config.yaml", config);
+  ASSERT_EQ(LoadError(), "") << config;
+  const Dataset dataset = Load();
+  EXPECT_NEAR(static_cast<double>(dataset.imu.samples.size()), kRows, 2.0);
+  ASSERT_EQ(dataset.streams.size(), 1u) << config;
+  EXPECT_EQ(dataset.streams[0].measurements.size(), 40u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Delimiters, FixesInSomeRows,
+                         ::testing::Values(',', ';', '\t'));
+
+/// What changes from row to row is the rows' time, not what counts them or
+/// stands still between fixes.
+TEST_F(RecogniseColumns, OfSeveralTimesTheRowsOwnIsTaken) {
+  std::string text =
+      "loggingSample(N),locationTimestamp(s),accelTimestamp_sinceReboot(s),"
+      "accelX(G),accelY(G),accelZ(G),gyroX(rad/s),gyroY(rad/s),gyroZ(rad/s)\n";
+  int row = -1;
+  std::istringstream lines(Rows(kPlain));
+  for (std::string line; std::getline(lines, line); ++row) {
+    if (row < 0) continue;
+    text += fmt::format("{},{},{}\n", row, 262 + row / 100, line);
+  }
+  Write("log.csv", text);
+  const std::string config = DraftText(DraftRecordings(folder_.string()).at(0));
+  EXPECT_THAT(config, HasSubstr("t: \"3 [s]\""));
 }
 
 TEST_F(RecogniseColumns, NorthAndEastOfAVelocityAreToldByItsNameOrUnit) {

@@ -133,7 +133,7 @@ TEST(SolutionCsv, NamesFileLineAndFault) {
       {"t[s]\n1\n2x\n", "a.csv:3: '2x' is not a finite number"},
       {"t[s]\n2\n2\n", "a.csv:3: time 2 is not after"},
       {"t[s],lat[deg],lon[deg],h[m]\n1,91,0,0\n",
-       "a.csv:2: latitude 91 is beyond 90 deg"},
+       "a.csv:2: the latitude is 91 deg; expected -90 to 90 deg"},
   };
   const TemporaryFolder folder;
   for (const auto& c : cases) {

@@ -57,7 +57,8 @@ class ConfigMap {
   std::string Text(const std::string& key);
   std::string Text(const std::string& key, const std::string& fallback);
   std::optional<std::string> OptionalText(const std::string& key);
-  /// Index of the value among `choices`.
+  /// Index of the value among `choices`; on, true, yes and off, false, no are
+  /// the same, as in YAML 1.1.
   std::size_t Choice(const std::string& key,
                      const std::vector<std::string>& choices,
                      std::optional<std::size_t> fallback);

@@ -32,13 +32,9 @@ std::optional<Geodetic> ReadGeodetic(ConfigMap* map, const std::string& key) {
   }
   list.SetStyle(YAML::EmitterStyle::Flow);
   map->resolved()[key] = list;
-  if (std::abs(values[0]) > kPi / 2.0) {
-    map->Fail(key, "the latitude lies beyond 90 deg");
-  }
-  if (values[1] < -kPi || values[1] > 2.0 * kPi) {
-    map->Fail(key, "the longitude lies beyond -180 to 360 deg");
-  }
-  return Geodetic{values[0], values[1], values[2]};
+  const Geodetic place{values[0], values[1], values[2]};
+  if (const auto why = WhyNotNearEarth(place)) map->Fail(key, *why);
+  return place;
 }
 
 namespace {

@@ -86,9 +86,18 @@ void ReadColumnsOf(ConfigMap* map, StreamConfig* stream) {
 }
 
 void ReadDelimiter(ConfigMap* map, StreamConfig* stream) {
-  constexpr std::array<char, 4> kDelimiters = {'\0', ',', ';', ' '};
+  constexpr std::array<char, 5> kDelimiters = {'\0', ',', ';', ' ', '\t'};
   stream->format.delimiter = kDelimiters[map->Choice(
-      "delimiter", {"auto", "comma", "semicolon", "blank"}, 0)];
+      "delimiter", {"auto", "comma", "semicolon", "blank", "tab"}, 0)];
+}
+
+void ReadDecimal(ConfigMap* map, StreamConfig* stream) {
+  constexpr std::array<char, 3> kDecimals = {'\0', '.', ','};
+  stream->format.decimal =
+      kDecimals[map->Choice("decimal", {"auto", "point", "comma"}, 0)];
+  if (stream->format.decimal == ',' && stream->format.delimiter == ',') {
+    map->Fail("decimal", "a comma does not go with `delimiter: comma`");
+  }
 }
 
 void ReadFormatKeys(ConfigMap* map, StreamConfig* stream) {
@@ -119,7 +128,13 @@ const ConfigTable<StreamConfig>& StreamTable() {
             "same in every row"},
        {.name = "delimiter",
         .value = Key::Special{ReadDelimiter},
-        .help = "auto, comma, semicolon, blank",
+        .help = "auto, comma, semicolon, blank (a run of them, tabs too), tab "
+                "(one of them, so that nothing may stand between two)",
+        .fallback = "auto"},
+       {.name = "decimal",
+        .value = Key::Special{ReadDecimal},
+        .help = "auto, point, comma: between units and tenths, as the first "
+                "row has it",
         .fallback = "auto"},
        {.name = "skip_lines",
         .value = Key::Special{[](ConfigMap* map, StreamConfig* stream) {

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -138,6 +140,25 @@ std::string ConfigMap::Text(const std::string& key,
   return text.value_or(fallback);
 }
 
+namespace {
+
+/// The choice that is the same boolean of YAML 1.1 as `text`: a program that
+/// reads `off` may write `false`.
+std::optional<std::size_t> SameBoolean(
+    const std::string& text, const std::vector<std::string>& choices) {
+  for (const auto& words :
+       {std::array{"off", "false", "no"}, std::array{"on", "true", "yes"}}) {
+    if (std::find(words.begin(), words.end(), text) == words.end()) continue;
+    const auto found = std::find_first_of(choices.begin(), choices.end(),
+                                          words.begin(), words.end());
+    if (found == choices.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - choices.begin());
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::size_t ConfigMap::Choice(const std::string& key,
                               const std::vector<std::string>& choices,
                               std::optional<std::size_t> fallback) {
@@ -150,6 +171,10 @@ std::size_t ConfigMap::Choice(const std::string& key,
     return *fallback;
   }
   const auto found = std::find(choices.begin(), choices.end(), *text);
+  if (const auto same = SameBoolean(*text, choices)) {
+    Resolve(key, choices[*same]);
+    return *same;
+  }
   if (found == choices.end()) {
     Fail(key, "'" + *text + "' is not known; expected one of " +
                   fmt::format("{}", fmt::join(choices, ", ")));

@@ -21,6 +21,9 @@ FoundStream ColumnLines::Stream() const {
   if (file_.skip_lines > 0) {
     found.lines.push_back({"skip_lines", std::to_string(file_.skip_lines)});
   }
+  if (!file_.delimiter.empty()) {
+    found.lines.push_back({"delimiter", file_.delimiter});
+  }
   if (file_.cut_tail) found.lines.push_back({"allow_truncated_tail", "true"});
   if (file_.text_rows > 0) found.lines.push_back({"on_text", "drop"});
   found.remarks = file_.remarks;
@@ -119,6 +122,11 @@ void ColumnLines::AddColumn(const std::string& quantity,
   }
   found->lines.insert(found->lines.begin() + static_cast<std::ptrdiff_t>(end),
                       {"  " + quantity, value, comment});
+  if (!found->imu && std::any_of(column.values.begin(), column.values.end(),
+                                 [](double x) { return std::isnan(x); })) {
+    SetLine({"absent_values", "true", "rows without a value are passed over"},
+            &found->lines);
+  }
 }
 
 void ColumnLines::AddTriple(const std::string& family,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -103,10 +104,10 @@ ColumnMeaning Accuracy(const Words& words) {
 }
 
 ColumnMeaning Inertial(const Words& words) {
-  if (const char axis = AxisOf(
-          words,
-          {"acc", "accel", "accelerometer", "acceleration", "accelerations"},
-          {"a", "f"})) {
+  if (const char axis = AxisOf(words,
+                               {"acc", "accel", "accelerometer", "acceleration",
+                                "accelerations", "gforce"},
+                               {"a", "f"})) {
     return {std::string("accel_") + axis, ""};
   }
   if (const char axis = AxisOf(
@@ -207,7 +208,7 @@ ColumnMeaning MeaningOfWords(const Words& words) {
     return meaning;
   }
   if (HasAny(words, {"bias", "accuracy", "temp", "temperature", "distance",
-                     "gdop", "pdop", "hdop"})) {
+                     "gdop", "pdop", "hdop", "covariance", "variance"})) {
     return {};
   }
   if (HasAny(words, {"std", "sd", "sigma", "stdev", "stddev", "sdn", "sde",
@@ -253,12 +254,53 @@ ColumnMeaning MeaningInArray(const FileColumn& column) {
   return MeaningOfWords(words);
 }
 
+/// Rows with a value other than that of the row before.
+std::size_t ChangesOf(const std::vector<double>& values) {
+  std::size_t changes = 0;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    if (std::isfinite(values[k]) && values[k] != values[k - 1]) ++changes;
+  }
+  return changes;
+}
+
+/// Of columns that are titled as times the one that is the rows' own: it changes
+/// from row to row most often; of equal ones a message's own stamp, before that of
+/// its arrival; then the first; and what counts samples only if there is no other.
+void KeepOneTime(const FileColumns& file,
+                 std::vector<ColumnMeaning>* meanings) {
+  ColumnMeaning* kept = nullptr;
+  std::pair<std::size_t, int> best;
+  for (std::size_t i = 0; i < meanings->size(); ++i) {
+    ColumnMeaning& meaning = (*meanings)[i];
+    if (meaning.quantity != "t") continue;
+    const FileColumn& column = file.columns[i];
+    const Words words = SplitWords(column.title);
+    const bool own = HasAny(words, {"header"}) && HasAny(words, {"stamp"});
+    const bool counts =
+        HasAny(words, {"sample"}) && !HasAny(words, {"time", "times"});
+    const std::pair<std::size_t, int> here(
+        counts ? 0 : ChangesOf(column.values), own ? 1 : 0);
+    if (kept != nullptr && here <= best) {
+      meaning = {};
+      continue;
+    }
+    if (kept != nullptr) *kept = {};
+    kept = &meaning;
+    best = here;
+  }
+}
+
 }  // namespace
 
 ColumnMeaning MeaningOfTitle(const std::string& title) {
   std::string text = title;
   std::string unit = TakeBracketedUnit(&text);
   Words words = SplitWords(text);
+  constexpr std::string_view kIndices = "012";
+  if (unit.size() == 1 && kIndices.find(unit[0]) != kIndices.npos) {
+    words.emplace_back(1, static_cast<char>('x' + (unit[0] - '0')));
+    return Inertial(words);
+  }
   if (unit.empty()) unit = TakeUnitWord(&words);
   ColumnMeaning meaning = MeaningOfWords(words);
   meaning.unit = unit;
@@ -281,8 +323,10 @@ ColumnMeaning AxisMeaning(const std::string& title, const std::string& family) {
   std::string text = title;
   const std::string unit = TakeBracketedUnit(&text);
   const Words words = SplitWords(text);
-  const bool axis = words.size() == 1 && words[0].size() == 1 &&
-                    words[0] >= "x" && words[0] <= "z";
+  const bool alone =
+      words.size() == 1 || (words.size() == 2 && words[1] == "axis");
+  const bool axis =
+      alone && words[0].size() == 1 && words[0] >= "x" && words[0] <= "z";
   return axis ? ColumnMeaning{family + words[0], unit} : ColumnMeaning{};
 }
 
@@ -290,14 +334,18 @@ std::vector<ColumnMeaning> ReadMeanings(const FileColumns& file) {
   std::vector<ColumnMeaning> meanings;
   std::set<std::string> taken;
   for (const FileColumn& column : file.columns) {
-    ColumnMeaning meaning = file.format == &ColumnsFormat()
-                                ? MeaningOfTitle(column.title)
-                                : MeaningInArray(column);
-    if (!meaning.quantity.empty() && !taken.insert(meaning.quantity).second) {
+    ColumnMeaning meaning;
+    if (column.holds != FileColumn::Holds::kText) {
+      meaning = file.format == &ColumnsFormat() ? MeaningOfTitle(column.title)
+                                                : MeaningInArray(column);
+    }
+    if (!meaning.quantity.empty() && meaning.quantity != "t" &&
+        !taken.insert(meaning.quantity).second) {
       meaning = {};
     }
     meanings.push_back(std::move(meaning));
   }
+  KeepOneTime(file, &meanings);
   return meanings;
 }
 

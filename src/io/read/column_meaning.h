@@ -20,7 +20,7 @@ struct ColumnMeaning {
 };
 
 /// By the words of a title, which stand in any usual spelling: "Acc_X",
-/// "gx_radps", "GYRO X [rad/s]", "V North [m/s]", "pos_std_n_m".
+/// "gx_radps", "GYRO X [rad/s]", "gyroADC[0]", "V North [m/s]", "pos_std_n_m".
 ColumnMeaning MeaningOfTitle(const std::string& title);
 
 /// The velocity along the axis of a place: "north" says either.
@@ -31,7 +31,8 @@ ColumnMeaning AsVelocity(ColumnMeaning meaning);
 ColumnMeaning AxisMeaning(const std::string& title, const std::string& family);
 
 /// Of all columns of a file; arrays of three or four columns without titles of
-/// their own count them as axes. No quantity stands twice: of two the first.
+/// their own count them as axes. No quantity stands twice: of two the first, of
+/// times the one that changes most often.
 std::vector<ColumnMeaning> ReadMeanings(const FileColumns& file);
 
 }  // namespace hindsight

@@ -13,13 +13,13 @@ struct FileFormat;
 /// One column as a file holds it.
 struct FileColumn {
   /// What stands in it: numbers, or a time as ISO 8601 writes it: date and time
-  /// of day in one word, or one of the two.
-  enum class Holds { kNumbers, kDates, kDays, kTimesOfDay };
+  /// of day in one word, or one of the two; or other text.
+  enum class Holds { kNumbers, kDates, kDays, kTimesOfDay, kText };
   std::string reference;  ///< as `columns` names it: "3", "imu_gyr:2"
   std::string title;      ///< of the file, with its unit; "" if it has none
   Holds holds = Holds::kNumbers;
   bool zoned = false;  ///< of times: each says its zone
-  /// NaN where nothing stands. Dates and days are seconds since 1970, times of
+  /// NaN where nothing or text stands. Dates and days are seconds since 1970, times of
   /// day seconds, as written if they say no zone, else UTC.
   std::vector<double> values;
 };
@@ -45,7 +45,8 @@ inline constexpr std::size_t kMostProbedNumbers = 20'000'000;
 /// Of a delimited text, plain or gzip, with or without titles. Passed over are
 /// lines before the numbers begin (`sep=,`, notes, a first line that was cut
 /// off), first rows that hold nothing but zeros beside a count, and rows of text
-/// further down. Dates and times of day count as numbers. Nothing if fewer than
+/// further down. Dates and times of day count as numbers; a column of other text
+/// may stand beside more columns of numbers. Nothing if fewer than
 /// three rows of numbers of equal length are found. Throws InputError as TextLines does.
 std::optional<FileColumns> ReadTextColumns(const std::string& path);
 

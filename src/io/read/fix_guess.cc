@@ -222,6 +222,41 @@ void TakeUnit(const std::vector<ColumnMeaning>& meanings, Quantity quantity,
   guess->unit = known ? meaning.unit : usual;
 }
 
+bool AreWhole(const Values& v) {
+  return std::all_of(v.begin(), v.end(),
+                     [](double x) { return x == std::round(x); });
+}
+
+/// Receivers write places as whole numbers of 1e-7 deg, and heights beside them
+/// in mm (UBX-NAV-PVT, MAVLink's GPS_RAW_INT).
+void TakeWholeNumbers(const FileColumns& file,
+                      const std::vector<ColumnMeaning>& meanings,
+                      FixGuess* guess) {
+  constexpr double kLeast = 1e5;  // 0.01 deg
+  constexpr double kMost = 1.8e9;
+  for (const ColumnGuess* place : {&guess->lat, &guess->lon}) {
+    const Values& v = Column(file, place->column);
+    if (!AreWhole(v) || std::any_of(v.begin(), v.end(), [](double x) {
+          return std::abs(x) < kLeast || std::abs(x) > kMost;
+        })) {
+      return;
+    }
+  }
+  for (ColumnGuess* place : {&guess->lat, &guess->lon}) {
+    place->unit = "deg";
+    place->sign = 1e-7;
+    place->reason = "whole numbers of 1e-7 deg, as receivers write them";
+    place->certainty = Certainty::kLikely;
+  }
+  if (guess->h.column < 0 || !AreWhole(Column(file, guess->h.column)) ||
+      !meanings[static_cast<std::size_t>(guess->h.column)].unit.empty()) {
+    return;
+  }
+  guess->h.unit = "mm";
+  guess->h.reason = "whole numbers, beside places of 1e-7 deg";
+  guess->h.certainty = Certainty::kLikely;
+}
+
 }  // namespace
 
 std::optional<FixGuess> GuessFixes(const FileColumns& file,
@@ -236,13 +271,15 @@ std::optional<FixGuess> GuessFixes(const FileColumns& file,
   guess.place_order_told = guess.lat.certainty == Certainty::kCertain;
   guess.place_unit_told = UnitFactor(unit, Quantity::kAngle).has_value();
   const Values t = TimesOf(file, stamps);
-  const double radians = *UnitFactor(guess.lat.unit, Quantity::kAngle);
+  TakeUnit(meanings, Quantity::kLength, "m", &guess.h);
+  TakeWholeNumbers(file, meanings, &guess);
+  const double radians =
+      guess.lat.sign * *UnitFactor(guess.lat.unit, Quantity::kAngle);
   const FixMotion motion =
       MotionOf(Column(file, guess.lat.column), Column(file, guess.lon.column),
                radians, t, &guess);
   FindSpeedAndCourse(file, meanings, motion, &guess);
   FindHeight(file, meanings, stamps.column, &guess);
-  TakeUnit(meanings, Quantity::kLength, "m", &guess.h);
   return guess;
 }
 

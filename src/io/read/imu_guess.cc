@@ -58,7 +58,7 @@ Windows WindowsOf(const Readings& readings) {
       const Eigen::Vector3d v = readings.at(i);
       sum += v;
       squares += v.squaredNorm();
-      lengths.push_back(v.norm());
+      if (v.allFinite()) lengths.push_back(v.norm());
     }
     const Eigen::Vector3d mean = sum / static_cast<double>(kWindow);
     const double variance =

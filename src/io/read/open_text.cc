@@ -60,8 +60,11 @@ OpenedTable OpenDelimited(const TableRequest& request,
                                                 });
   std::string row;
   if (!NextData(opened.lines.get(), &row)) FailWithoutRows(request.path);
-  char delimiter = titled ? ',' : request.format.delimiter;
-  if (delimiter == '\0') delimiter = GuessDelimiter(row);
+  char delimiter = request.format.delimiter;
+  if (delimiter == '\0') {
+    delimiter = GuessDelimiter(row);
+    if (delimiter == request.format.decimal) delimiter = ' ';
+  }
   TableHeader header;
   std::string header_text;
   if (has_header) {
@@ -73,6 +76,9 @@ OpenedTable OpenDelimited(const TableRequest& request,
   TableLayout layout = BuildLayout(request.path, request.format, request.fields,
                                    columns, header);
   layout.delimiter = delimiter;
+  layout.decimal = request.format.decimal != '\0'
+                       ? request.format.decimal
+                       : GuessDecimal(row, delimiter);
   const bool split = SplitsDate(row, layout);
   if (has_header) layout.column_count = static_cast<int>(header.titles.size());
   if (split) SplitDate(row, &layout);

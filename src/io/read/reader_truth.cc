@@ -99,17 +99,9 @@ class TruthReader {
 
   std::optional<Eigen::Vector3d> Position() const {
     if (const auto geodetic = Group(kGeodetic)) {
-      if (std::abs(geodetic->x()) > kPi / 2.0) {
-        rows_.table().Fail("the latitude is " +
-                           FormatNumber(geodetic->x() / kDegree) +
-                           " deg; expected -90 to 90 deg");
-      }
-      if (geodetic->y() < -kPi || geodetic->y() > 2.0 * kPi) {
-        rows_.table().Fail("the longitude is " +
-                           FormatNumber(geodetic->y() / kDegree) +
-                           " deg; expected -180 to 360 deg");
-      }
-      return EcefFromGeodetic({geodetic->x(), geodetic->y(), geodetic->z()});
+      const Geodetic place{geodetic->x(), geodetic->y(), geodetic->z()};
+      if (const auto why = WhyNotNearEarth(place)) rows_.table().Fail(*why);
+      return EcefFromGeodetic(place);
     }
     const auto p = Group(kPosition);
     if (!p) return std::nullopt;

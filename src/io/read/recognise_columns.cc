@@ -108,7 +108,8 @@ class Recogniser {
   }
 
   void AddFixes() {
-    const auto fixes = GuessFixes(file_, lines_.meanings(), *stamps());
+    const auto fixes =
+        GuessFixes(RowsWith({"lat", "lon"}), lines_.meanings(), *stamps());
     // Places beside attitudes are another solution's, no sensor's.
     const bool solution =
         !ImuHere() && lines_.HasAll({"roll", "pitch", "heading"});
@@ -125,6 +126,26 @@ class Recogniser {
       lines_.AddColumn("course", *fixes->course, &found);
       all_.push_back(std::move(found));
     }
+  }
+
+  /// The rows in which these stand; all if a title is missing.
+  FileColumns RowsWith(const Names& names) const {
+    FileColumns rows = file_;
+    if (!lines_.HasAll(names)) return rows;
+    std::vector<bool> absent(file_.rows);
+    for (const std::string& name : names) {
+      const std::vector<double>& v = Values(lines_.Titled(name));
+      for (std::size_t k = 0; k < v.size(); ++k) {
+        if (std::isnan(v[k])) absent[k] = true;
+      }
+    }
+    for (FileColumn& column : rows.columns) {
+      std::size_t k = 0;
+      std::erase_if(column.values, [&](double) { return absent[k++]; });
+    }
+    rows.rows -= static_cast<std::size_t>(
+        std::count(absent.begin(), absent.end(), true));
+    return rows;
   }
 
   bool ImuHere() const {
@@ -162,7 +183,11 @@ class Recogniser {
   const std::vector<double>& Values(int column) const {
     return file_.columns[static_cast<std::size_t>(column)].values;
   }
-  double MedianOf(int column) const { return Median(Values(column)); }
+  double MedianOf(int column) const {
+    std::vector<double> present = Values(column);
+    std::erase_if(present, [](double x) { return std::isnan(x); });
+    return Median(std::move(present));
+  }
 
   /// A column of standard deviations, or -1 where it is none: receivers write
   /// zero or less for what they do not know.
@@ -170,7 +195,7 @@ class Recogniser {
     const int column = lines_.Titled(quantity);
     if (column < 0) return -1;
     const std::vector<double>& v = Values(column);
-    return std::all_of(v.begin(), v.end(), [](double x) { return x > 0.0; })
+    return std::none_of(v.begin(), v.end(), [](double x) { return x <= 0.0; })
                ? column
                : -1;
   }

@@ -32,6 +32,7 @@ struct TableLayout {
   std::int64_t ticks_per_second = 1;
 
   char delimiter = ',';         ///< ' ': any run of blanks
+  char decimal = '.';           ///< or ',', which is no delimiter then
   bool comma_is_blank = false;  ///< with ' ': commas separate too
   /// Columns each row must have; 0: as many as the first row.
   int column_count = 0;

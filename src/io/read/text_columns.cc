@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -20,9 +21,12 @@ constexpr std::size_t kFewestRows = 3;
 constexpr std::size_t kShapeLines = 60;
 
 struct Word {
-  FileColumn::Holds holds = FileColumn::Holds::kNumbers;
+  /// Nothing where nothing stands.
+  std::optional<FileColumn::Holds> holds;
   double value = kMissing;
   bool zoned = false;
+
+  bool IsText() const { return holds == FileColumn::Holds::kText; }
 };
 
 /// UTC seconds since 1970.
@@ -62,49 +66,100 @@ std::optional<Word> ParseTimeWord(std::string_view token) {
   return std::nullopt;
 }
 
-/// The numbers and times of a line; nothing if a word of it is none. A word that
-/// is missing is NaN.
+Word ParseWord(std::string_view token) {
+  using enum FileColumn::Holds;
+  if (token.empty() || token == "nan" || token == "NaN") return {};
+  if (const auto number = ParseNumber(token)) return {kNumbers, *number};
+  if (const auto time = ParseTimeWord(token)) return *time;
+  return {kText};
+}
+
+/// The words of a line. False of one that holds no numbers, or not more than
+/// words of text beside them, as titles and notes do.
 bool ParseRow(std::string_view line, char delimiter, std::vector<Word>* words) {
+  constexpr std::size_t kFewestBesideText = 3;
   words->clear();
-  bool any = false;
-  for (const std::string_view token : SplitLine(line, delimiter)) {
-    const bool absent = token.empty() || token == "nan" || token == "NaN";
-    if (const auto number = ParseNumber(token)) {
-      words->push_back({.value = *number});
-    } else if (const auto time = ParseTimeWord(token)) {
-      words->push_back(*time);
-    } else if (absent) {
-      words->push_back({});
-    } else {
-      return false;
-    }
-    any = any || !absent;
+  std::string pointed;
+  if (GuessDecimal(line, delimiter) == ',') {
+    pointed = line;
+    std::replace(pointed.begin(), pointed.end(), ',', '.');
+    line = pointed;
   }
-  return any;
+  std::size_t texts = 0;
+  std::size_t numbers = 0;
+  for (const std::string_view token : SplitLine(line, delimiter)) {
+    words->push_back(ParseWord(token));
+    if (words->back().IsText()) {
+      ++texts;
+    } else if (words->back().holds) {
+      ++numbers;
+    }
+  }
+  return texts == 0 ? numbers > 0
+                    : numbers >= kFewestBesideText && numbers > texts;
 }
 
 struct Shape {
   char delimiter = ',';
-  std::size_t columns = 0;
+  std::vector<bool> is_text;  ///< per column
 };
 
-/// What most of the first lines that are numbers look like.
+/// Whether more than half of what stands in a column is text.
+std::vector<bool> TextColumnsOf(const std::vector<std::vector<Word>>& rows) {
+  std::vector<bool> is_text(rows.front().size());
+  for (std::size_t i = 0; i < is_text.size(); ++i) {
+    std::size_t texts = 0;
+    std::size_t others = 0;
+    for (const std::vector<Word>& row : rows) {
+      if (row[i].IsText()) {
+        ++texts;
+      } else if (row[i].holds) {
+        ++others;
+      }
+    }
+    is_text[i] = texts > others;
+  }
+  return is_text;
+}
+
+/// What most of the first lines that hold numbers look like.
 std::optional<Shape> FindShape(const std::vector<std::string>& lines) {
-  std::map<std::pair<char, std::size_t>, std::size_t> count;
+  std::map<std::pair<char, std::size_t>, std::vector<std::vector<Word>>> alike;
   std::vector<Word> words;
   for (const std::string& line : lines) {
     if (IsComment(line)) continue;
     const char delimiter = GuessDelimiter(line);
-    if (ParseRow(line, delimiter, &words)) ++count[{delimiter, words.size()}];
+    if (ParseRow(line, delimiter, &words)) {
+      alike[{delimiter, words.size()}].push_back(words);
+    }
+    // Of tabs with nothing in between a run of blanks makes one.
+    if (delimiter == ' ' && line.find('\t') != line.npos &&
+        ParseRow(line, '\t', &words)) {
+      alike[{'\t', words.size()}].push_back(words);
+    }
   }
   std::optional<Shape> shape;
   std::size_t most = kFewestRows - 1;
-  for (const auto& [form, lines_of] : count) {
-    if (lines_of <= most) continue;
-    most = lines_of;
-    shape = Shape{form.first, form.second};
+  for (const auto& [form, rows] : alike) {
+    const bool instead = shape && shape->delimiter == '\t' && form.first == ' ';
+    if (rows.size() < most + (instead ? 0 : 1)) continue;
+    most = rows.size();
+    shape = Shape{form.first, TextColumnsOf(rows)};
   }
   return shape;
+}
+
+/// A unit of anything that is recorded, or no word.
+bool IsUnit(std::string_view word) {
+  using enum Quantity;
+  if (word.empty() || word == "1" || word == "-") return true;
+  constexpr std::array kRecorded = {kTime,         kLength, kSpeed,
+                                    kAcceleration, kAngle,  kAngularRate,
+                                    kMagneticField};
+  return std::any_of(kRecorded.begin(), kRecorded.end(),
+                     [&](Quantity quantity) {
+                       return UnitFactor(word, quantity).has_value();
+                     });
 }
 
 class TextColumns {
@@ -121,7 +176,14 @@ class TextColumns {
     if (!shape) return std::nullopt;
     shape_ = *shape;
     found_.format = &ColumnsFormat();
-    found_.columns.resize(shape_.columns);
+    if (shape_.delimiter == '\t') found_.delimiter = "tab";
+    found_.columns.resize(columns());
+    for (std::size_t i = 0; i < columns(); ++i) {
+      if (shape_.is_text[i]) {
+        found_.columns[i].holds = FileColumn::Holds::kText;
+      }
+    }
+    is_known_ = shape_.is_text;
     for (const std::string& early : first) Take(early, true);
     while (found_.complete && lines_.Next(&line)) {
       Take(line, lines_.terminated());
@@ -132,6 +194,8 @@ class TextColumns {
   }
 
  private:
+  std::size_t columns() const { return shape_.is_text.size(); }
+
   void Take(std::string_view line, bool terminated) {
     ++number_;
     if (IsComment(line)) {
@@ -141,8 +205,9 @@ class TextColumns {
       return;
     }
     const bool numbers = ParseRow(line, shape_.delimiter, &words_);
-    if (!numbers || words_.size() != shape_.columns || !HoldsTheSame()) {
+    if (!numbers || words_.size() != columns() || !HoldsTheSame()) {
       if (found_.rows == 0) {
+        above_title_ = std::move(title_);
         title_ = line;
         ++early_;
       } else if (terminated) {
@@ -152,26 +217,32 @@ class TextColumns {
       }
       return;
     }
-    if (found_.rows == 0) {
-      found_.skip_lines = number_ - 1;
-      for (std::size_t i = 0; i < words_.size(); ++i) {
-        found_.columns[i].holds = words_[i].holds;
-        found_.columns[i].zoned = words_[i].zoned;
-      }
-    }
-    for (std::size_t i = 0; i < words_.size(); ++i) {
-      found_.columns[i].values.push_back(words_[i].value);
-    }
+    if (found_.rows == 0) found_.skip_lines = number_ - 1;
+    for (std::size_t i = 0; i < words_.size(); ++i) TakeWord(i);
     ++found_.rows;
-    found_.complete = found_.rows * shape_.columns < kMostProbedNumbers;
+    found_.complete = found_.rows * columns() < kMostProbedNumbers;
+  }
+
+  void TakeWord(std::size_t i) {
+    FileColumn& column = found_.columns[i];
+    const bool is_text = column.holds == FileColumn::Holds::kText;
+    if (!is_known_[i] && words_[i].holds) {
+      column.holds = *words_[i].holds;
+      column.zoned = words_[i].zoned;
+      is_known_[i] = true;
+    }
+    column.values.push_back(is_text ? kMissing : words_[i].value);
   }
 
   /// Numbers where the rows before have numbers, times where they have times.
   bool HoldsTheSame() const {
-    if (found_.rows == 0) return true;
     for (std::size_t i = 0; i < words_.size(); ++i) {
+      const Word& word = words_[i];
       const FileColumn& column = found_.columns[i];
-      if (words_[i].holds != column.holds || words_[i].zoned != column.zoned) {
+      if (!word.holds || column.holds == FileColumn::Holds::kText) continue;
+      if (word.IsText()) return false;
+      if (is_known_[i] &&
+          (*word.holds != column.holds || word.zoned != column.zoned)) {
         return false;
       }
     }
@@ -196,24 +267,42 @@ class TextColumns {
     }
   }
 
+  /// Where the last line before the numbers holds units, the line above it with
+  /// these in brackets.
+  void TakeUnitsIntoTitle() {
+    const auto names = SplitLine(above_title_, shape_.delimiter);
+    const auto units = SplitLine(title_, shape_.delimiter);
+    if (names.size() != units.size() ||
+        !std::all_of(units.begin(), units.end(), IsUnit)) {
+      return;
+    }
+    std::string title;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (i > 0) title += shape_.delimiter;
+      title += names[i];
+      if (!units[i].empty()) title.append("[").append(units[i]).append("]");
+    }
+    title_ = std::move(title);
+  }
+
   /// By the line before the numbers, if it has as many words, or one less than
   /// the rows, whose last word is then empty.
   void NameColumns() {
+    TakeUnitsIntoTitle();
     for (std::size_t i = 0; i < found_.columns.size(); ++i) {
       found_.columns[i].reference = std::to_string(i + 1);
     }
     for (const std::string& text : {title_, comment_}) {
       const auto titles = SplitLine(text, shape_.delimiter);
       std::vector<Word> none;
-      if (titles.size() + 1 < shape_.columns ||
-          titles.size() > shape_.columns + 1 ||
+      if (titles.size() + 1 < columns() || titles.size() > columns() + 1 ||
           ParseRow(text, shape_.delimiter, &none)) {
         continue;
       }
       titled_ = true;
       // One title may stand for a date and the time of day behind it.
-      const bool shared = titles.size() + 1 == shape_.columns && SharesTitle();
-      for (std::size_t i = 0, at = 0; i < shape_.columns && at < titles.size();
+      const bool shared = titles.size() + 1 == columns() && SharesTitle();
+      for (std::size_t i = 0, at = 0; i < columns() && at < titles.size();
            ++i, ++at) {
         found_.columns[i].title = Trim(titles[at]);
         if (shared && found_.columns[i].holds == FileColumn::Holds::kDays) {
@@ -226,7 +315,7 @@ class TextColumns {
 
   /// Whether a date and a time of day are one word to whoever reads blanks.
   bool SharesTitle() const {
-    for (std::size_t i = 0; i + 1 < shape_.columns; ++i) {
+    for (std::size_t i = 0; i + 1 < columns(); ++i) {
       if (found_.columns[i].holds == FileColumn::Holds::kDays) {
         return shape_.delimiter == ' ' &&
                found_.columns[i + 1].holds == FileColumn::Holds::kTimesOfDay;
@@ -273,7 +362,9 @@ class TextColumns {
   Shape shape_;
   FileColumns found_;
   std::vector<Word> words_;
+  std::vector<bool> is_known_;  ///< per column: what it holds
   std::string title_;
+  std::string above_title_;
   std::string comment_;
   bool titled_ = false;
   int number_ = 0;

@@ -34,6 +34,7 @@ struct ColumnMapping {
 struct TextFormat {
   const FileFormat* kind = &CsvFormat();
   char delimiter = '\0';  ///< '\0': guessed from the first line of data
+  char decimal = '\0';    ///< '.', ',' or '\0': guessed likewise
   int skip_lines = 0;     ///< before everything else
   std::vector<ColumnMapping> columns;     ///< if FileFormat::takes_columns
   std::vector<ConstantColumn> constants;  ///< besides `columns`

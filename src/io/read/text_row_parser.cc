@@ -74,6 +74,11 @@ TextRowParser::TextRowParser(TableLayout layout, bool allow_absent)
 std::string TextRowParser::Parse(std::string_view line, Scratch* scratch,
                                  std::span<double> values, Stamp* stamp,
                                  int* columns) const {
+  if (layout_.decimal == ',') {
+    scratch->pointed = line;
+    std::replace(scratch->pointed.begin(), scratch->pointed.end(), ',', '.');
+    line = scratch->pointed;
+  }
   TextTokens tokens(line, layout_.delimiter, layout_.comma_is_blank);
   scratch->raw.resize(wanted_.size());
   scratch->time_tokens.clear();
@@ -89,7 +94,10 @@ std::string TextRowParser::Parse(std::string_view line, Scratch* scratch,
       const auto number = ParseNumber(token);
       if (!number && !(allow_absent_ && IsAbsent(token))) {
         return ColumnName(static_cast<int>(column)) + ": '" +
-               std::string(token) + "' is not a finite number";
+               std::string(token) + "' is not a finite number" +
+               (token.find(',') == token.npos
+                    ? ""
+                    : "; decimal commas are read with `decimal: comma`");
       }
       scratch->raw[column] = number.value_or(kAbsent);
     }

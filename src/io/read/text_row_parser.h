@@ -18,6 +18,7 @@ class TextRowParser {
   struct Scratch {
     std::vector<double> raw;
     std::vector<std::string_view> time_tokens;
+    std::string pointed;  ///< a line whose decimal commas are points
   };
 
   /// `allow_absent`: empty and NaN values read as NaN.

@@ -3,10 +3,16 @@
 #include <fast_float/fast_float.h>
 
 #include <cmath>
+#include <string>
 
 #include "io/read/units.h"
 
 namespace hindsight {
+namespace {
+
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+}  // namespace
 
 TextTokens::TextTokens(std::string_view line, char delimiter,
                        bool comma_is_blank)
@@ -37,7 +43,7 @@ std::string_view TextTokens::Next() {
 
 bool TextTokens::NextNumber(double* value) {
   const char* p = p_;
-  while (p != end_ && IsBlank(*p)) ++p;
+  while (p != end_ && IsBlank(*p) && *p != delimiter_) ++p;
   const auto result = fast_float::from_chars(p, end_, *value);
   if (result.ec != std::errc() || !std::isfinite(*value)) return false;
   p = result.ptr;
@@ -51,10 +57,23 @@ bool TextTokens::NextNumber(double* value) {
 }
 
 char GuessDelimiter(std::string_view line) {
-  for (const char candidate : {',', ';'}) {
+  for (const char candidate : {';', ','}) {
     if (line.find(candidate) != line.npos) return candidate;
   }
   return ' ';
+}
+
+char GuessDecimal(std::string_view line, char delimiter) {
+  if (delimiter == ',') return '.';
+  for (const std::string_view token : SplitLine(line, delimiter)) {
+    const std::size_t comma = token.find(',');
+    if (comma == token.npos || comma == 0 || !IsDigit(token[comma - 1]))
+      continue;
+    std::string pointed(token);
+    pointed[comma] = '.';
+    if (ParseNumber(pointed)) return ',';
+  }
+  return '.';
 }
 
 std::vector<std::string_view> SplitLine(std::string_view line, char delimiter,

@@ -37,9 +37,12 @@ class TextTokens {
   bool finished_ = false;
 };
 
-/// Columns of the line, and the delimiter that would split it: ',' ';' or
-/// blanks.
+/// The delimiter of a line's columns: ';' where one stands in it, else ',',
+/// else blanks.
 char GuessDelimiter(std::string_view line);
+/// ',' where a column of the line is a number with a decimal comma ("0,5") and
+/// the delimiter another, else '.'.
+char GuessDecimal(std::string_view line, char delimiter);
 std::vector<std::string_view> SplitLine(std::string_view line, char delimiter,
                                         bool comma_is_blank = false);
 

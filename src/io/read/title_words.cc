@@ -4,6 +4,8 @@
 #include <cctype>
 #include <string_view>
 
+#include "io/read/units.h"
+
 namespace hindsight {
 namespace {
 
@@ -74,7 +76,13 @@ std::string TakeBracketedUnit(std::string* title) {
   const char close_mark = (*title)[open] == '[' ? ']' : ')';
   const std::size_t close = title->rfind(close_mark);
   if (close == title->npos || close < open) return "";
-  const std::string unit = title->substr(open + 1, close - open - 1);
+  std::string unit(
+      Trim(std::string_view(*title).substr(open + 1, close - open - 1)));
+  // "IMU(0):accel:X" counts what it names.
+  if (close + 1 < title->size() &&
+      unit.find_first_not_of("0123456789") == unit.npos) {
+    return "";
+  }
   title->erase(open);
   return unit;
 }

@@ -76,7 +76,8 @@ std::optional<FoundStream> OdometerOf(const Titles& titles) {
 
 std::optional<FoundStream> RecogniseCsv(const TextProbe& probe) {
   Titles titles;
-  for (const std::string_view title : SplitLine(probe.lines[0], ',')) {
+  for (const std::string_view title :
+       SplitLine(probe.lines[0], GuessDelimiter(probe.lines[0]))) {
     titles.insert(SplitTitle(title).first);
   }
   if (!titles.contains("t")) return std::nullopt;

@@ -206,9 +206,9 @@ void ParseRow(const Header& header, const Place& place, const Text& text,
     for (const Field& field : fields) {
       values(i++) = number(field.index) * field.si;
     }
-    if (group == ColumnGroup::kPosition && std::abs(values(0)) > 0.5 * kPi) {
-      place.Fail("latitude " + text(fields.front().index) +
-                 " is beyond 90 deg");
+    if (group == ColumnGroup::kPosition) {
+      const auto why = WhyNotNearEarth({values(0), values(1), values(2)});
+      if (why) place.Fail(*why);
     }
     row.emplace(group, values);
   }
