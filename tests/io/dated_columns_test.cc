@@ -127,6 +127,23 @@ INSTANTIATE_TEST_SUITE_P(
 
 class DatedImu : public DatedFolder {};
 
+TEST_F(DatedImu, TimesOfDayAloneCountOnOverMidnight) {
+  WriteRecording({"OfDay", "time", "time", "{:%H:%M:%S}"});
+  const auto drafts = DraftRecordings(folder_.string());
+  const std::string text = DraftText(drafts.at(0));
+  EXPECT_THAT(text, HasSubstr("t: \"1 [hms]\""));
+  Write("config.yaml", text);
+  ASSERT_EQ(LoadError(), "") << text;
+  const Dataset data = Load();
+  EXPECT_FALSE(data.epoch_gps_ns);
+  EXPECT_NEAR(static_cast<double>(data.imu.samples.size()), kImuRows, 2.0);
+  EXPECT_NEAR(data.imu.nominal_dt, 1.0 / kImuRate, 1e-6);
+  ASSERT_EQ(data.streams.size(), 1u);
+  EXPECT_NEAR(
+      data.streams[0].measurements[1].t - data.streams[0].measurements[0].t,
+      1.0, 1e-9);
+}
+
 TEST_F(DatedImu, FixesWithoutDatesBeginWithIt) {
   WriteRecording({"Iso", "time", "time", "{:%Y-%m-%dT%H:%M:%S}"});
   std::string fixes = "time,latitude,longitude,altitude\n";

@@ -80,7 +80,8 @@ ColumnMapping ReadColumn(ConfigMap* columns, const std::string& name,
   }
   // Dates, whose unit is their scale; a time of day beside one has none.
   const bool date = (name == "t" || name == "date") &&
-                    (mapping.unit == "UTC" || mapping.unit == "GPST");
+                    (mapping.unit == "UTC" || mapping.unit == "GPST" ||
+                     (name == "t" && mapping.unit == kTimeOfDayUnit));
   const bool of_day =
       name == "t" && columns->Has("date") && mapping.unit.empty();
   if (name == "week" || date || of_day) return mapping;

@@ -278,8 +278,9 @@ void KeepOneTime(const FileColumns& file,
     const bool own = HasAny(words, {"header"}) && HasAny(words, {"stamp"});
     const bool counts =
         HasAny(words, {"sample"}) && !HasAny(words, {"time", "times"});
+    const bool of_day = column.holds == FileColumn::Holds::kTimesOfDay;
     const std::pair<std::size_t, int> here(
-        counts ? 0 : ChangesOf(column.values), own ? 1 : 0);
+        counts || of_day ? 0 : ChangesOf(column.values), own ? 1 : 0);
     if (kept != nullptr && here <= best) {
       meaning = {};
       continue;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/median.h"
+#include "io/read/text_format.h"
 #include "io/read/title_words.h"
 #include "io/read/units.h"
 
@@ -62,12 +63,25 @@ bool IsSteady(const std::vector<double>& t, const Steps& steps) {
   return steps.median < 3.0 * mean && mean < 10.0 * steps.median;
 }
 
-/// Times that are written as dates.
+/// Times that are written as dates, or as times of day.
 struct Dates {
   int column = -1;
   int day_column = -1;
   std::vector<double> t;
 };
+
+/// Times of day that run over midnight go on counting.
+void CountDays(std::vector<double>* t) {
+  constexpr double kDay = 86400.0;
+  double midnight = 0.0;
+  for (std::size_t k = 1; k < t->size(); ++k) {
+    (*t)[k] += midnight;
+    if ((*t)[k] < (*t)[k - 1] - 0.5 * kDay) {
+      midnight += kDay;
+      (*t)[k] += kDay;
+    }
+  }
+}
 
 /// Those that grow from row to row; nothing if most stand still, as those in
 /// whole seconds do.
@@ -90,11 +104,12 @@ std::optional<Dates> FindDates(const FileColumns& file) {
   } else {
     dates.column = find(kTimesOfDay);
     dates.day_column = find(kDays);
-    if (dates.column < 0 || dates.day_column < 0) return std::nullopt;
+    if (dates.column < 0) return std::nullopt;
     dates.t = values(dates.column);
-    for (std::size_t k = 0; k < dates.t.size(); ++k) {
+    for (std::size_t k = 0; dates.day_column >= 0 && k < dates.t.size(); ++k) {
       dates.t[k] += values(dates.day_column)[k];
     }
+    if (dates.day_column < 0) CountDays(&dates.t);
   }
   if (dates.t.size() < 3) return std::nullopt;
   std::size_t moving = 0;
@@ -107,12 +122,24 @@ std::optional<Dates> FindDates(const FileColumns& file) {
   return dates;
 }
 
+/// Whether there is no day.
+bool IsOfDay(const Dates& dates, const FileColumns& file) {
+  return dates.day_column < 0 &&
+         file.columns[static_cast<std::size_t>(dates.column)].holds ==
+             FileColumn::Holds::kTimesOfDay;
+}
+
 /// Says what the columns of dates are.
 void Tell(const Dates& dates, const FileColumns& file, StampGuess* guess) {
   const auto column = [&](int number) -> const FileColumn& {
     return file.columns[static_cast<std::size_t>(number)];
   };
   guess->column = dates.column;
+  if (IsOfDay(dates, file)) {
+    guess->unit = kTimeOfDayUnit;
+    guess->reason = "times of day, with no date beside them";
+    return;
+  }
   guess->date_column = dates.day_column;
   guess->scale = StampGuess::Scale::kDate;
   guess->unit = "UTC";
@@ -138,20 +165,19 @@ void Tell(const Dates& dates, const FileColumns& file, StampGuess* guess) {
   }
 }
 
-/// The stamps' column: first what a title names, else the first that grows.
+/// The first column of numbers that grows: one that a title names, or else one
+/// that no title does.
 int FindColumn(const FileColumns& file,
-               const std::vector<ColumnMeaning>& meanings) {
-  for (const bool titled : {true, false}) {
-    for (std::size_t i = 0; i < file.columns.size(); ++i) {
-      const bool fits = (titled ? meanings[i].quantity == "t"
-                                : meanings[i].quantity.empty()) &&
-                        file.columns[i].holds == FileColumn::Holds::kNumbers;
-      const auto& t = file.columns[i].values;
-      if (!fits || t.size() < 3) continue;
-      const Steps steps = StepsOf(t);
-      if (Grows(t, steps) && (titled || IsSteady(t, steps))) {
-        return static_cast<int>(i);
-      }
+               const std::vector<ColumnMeaning>& meanings, bool titled) {
+  for (std::size_t i = 0; i < file.columns.size(); ++i) {
+    const bool fits =
+        (titled ? meanings[i].quantity == "t" : meanings[i].quantity.empty()) &&
+        file.columns[i].holds == FileColumn::Holds::kNumbers;
+    const auto& t = file.columns[i].values;
+    if (!fits || t.size() < 3) continue;
+    const Steps steps = StepsOf(t);
+    if (Grows(t, steps) && (titled || IsSteady(t, steps))) {
+      return static_cast<int>(i);
     }
   }
   return -1;
@@ -250,11 +276,13 @@ std::optional<StampGuess> GuessStamps(
     const FileColumns& file, const std::vector<ColumnMeaning>& meanings,
     const StampHints& hints) {
   StampGuess guess;
-  const auto dates = FindDates(file);
+  auto dates = FindDates(file);
+  guess.column = FindColumn(file, meanings, true);
+  if (dates && IsOfDay(*dates, file) && guess.column >= 0) dates.reset();
   if (dates) {
     Tell(*dates, file, &guess);
-  } else {
-    guess.column = FindColumn(file, meanings);
+  } else if (guess.column < 0) {
+    guess.column = FindColumn(file, meanings, false);
   }
   if (guess.column < 0) return Counted(file.rows, hints);
   const auto index = static_cast<std::size_t>(guess.column);
@@ -296,7 +324,8 @@ std::optional<StampGuess> GuessStamps(
 std::vector<double> TimesOf(const FileColumns& file, const StampGuess& stamps) {
   std::vector<double> t(file.rows);
   const bool counted = stamps.rate || stamps.column < 0;
-  const bool dated = stamps.scale == StampGuess::Scale::kDate;
+  const bool dated =
+      stamps.scale == StampGuess::Scale::kDate || stamps.unit == kTimeOfDayUnit;
   const double factor =
       counted || dated ? 1.0 : *UnitFactor(stamps.unit, Quantity::kTime);
   const auto value = [&](int column, std::size_t row) {
@@ -307,6 +336,7 @@ std::vector<double> TimesOf(const FileColumns& file, const StampGuess& stamps) {
                    : factor * value(stamps.column, i);
     if (stamps.date_column >= 0) t[i] += value(stamps.date_column, i);
   }
+  if (stamps.unit == kTimeOfDayUnit) CountDays(&t);
   return t;
 }
 

@@ -24,9 +24,10 @@ const char* CertaintyName(Certainty certainty);
 struct StampGuess {
   /// What they count from; dates are in the scale that `unit` says.
   enum class Scale { kOwn, kUnix, kDate };
-  int column = -1;             ///< of the stamps; -1: there is none
-  int date_column = -1;        ///< where `column` holds times of day
-  std::string unit = "s";      ///< of the column; of dates UTC or GPST
+  int column = -1;       ///< of the stamps; -1: there is none
+  int date_column = -1;  ///< where `column` holds times of day
+  /// Of the column; of dates UTC or GPST, of times of day kTimeOfDayUnit.
+  std::string unit = "s";
   std::optional<double> rate;  ///< times are row numbers over this [Hz]
   Scale scale = Scale::kOwn;
   double first = 0.0;      ///< [s]; of dates since 1970
@@ -53,7 +54,7 @@ struct StampHints {
 
 /// Stamps are a column that grows: dates (of days and times of day their sum),
 /// UTC where they say neither zone nor GPST, unless most repeat the one before;
-/// else one whose title says so, else the first of those. Its unit is the title's, or the only one of s, ms, us, ns in which the
+/// else one whose title says so, else times of day, else the first of those. Its unit is the title's, or the only one of s, ms, us, ns in which the
 /// rows come at a likely rate. Equal steps of D/(N - 1), where N/D is a whole
 /// number of rows a second, are an evenly drawn axis whose last stamp stands a
 /// row too late: rows are then counted at N/D. Stamps that span a power of ten

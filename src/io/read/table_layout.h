@@ -25,6 +25,7 @@ struct TableLayout {
     kDateUtc,  ///< the same in UTC
     kIso,      ///< ISO 8601 in time_column, GPST
     kIsoUtc,   ///< the same in UTC
+    kOfDay,    ///< hh:mm:ss.sss in time_column, since the first midnight
   };
   Clock clock = Clock::kSeconds;
   int time_column = -1;

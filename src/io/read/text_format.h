@@ -47,6 +47,9 @@ struct TextFormat {
   long config_line = 0;
 };
 
+/// What a column of times of day, hh:mm:ss.sss, has for a unit.
+inline constexpr std::string_view kTimeOfDayUnit = "hms";
+
 /// A table open for reading.
 struct OpenedTable {
   std::unique_ptr<TextLines> lines;  ///< null for formats that are not text

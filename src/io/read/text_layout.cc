@@ -124,6 +124,11 @@ class LayoutBuilder {
       layout_.time_column = column;
       return;
     }
+    if (week_column_ < 0 && unit == kTimeOfDayUnit) {
+      layout_.clock = TableLayout::Clock::kOfDay;
+      layout_.time_column = column;
+      return;
+    }
     ColumnMapping mapping;
     mapping.quantity = "t";
     const double factor = Factor(mapping, unit, Quantity::kTime);
@@ -131,7 +136,8 @@ class LayoutBuilder {
       Fail("column t has the unit '" + unit + "'; expected " +
            (week_column_ >= 0 ? "s"
                               : "s, ms, us or ns, or UTC or GPST of dates as "
-                                "2025-07-08T19:34:21.854"));
+                                "2025-07-08T19:34:21.854, or hms of times of "
+                                "day as 19:34:21.854"));
     }
     if (week_column_ >= 0) return;
     layout_.clock = TableLayout::Clock::kSeconds;

@@ -30,6 +30,7 @@ int TimeColumns(TableLayout::Clock clock) {
     case TableLayout::Clock::kSeconds:
     case TableLayout::Clock::kIso:
     case TableLayout::Clock::kIsoUtc:
+    case TableLayout::Clock::kOfDay:
       return 1;
     default:
       return 2;
@@ -148,6 +149,9 @@ std::string TextRowParser::ParseTime(
     case TableLayout::Clock::kIsoUtc:
       stamp = ParseIsoTime(time_tokens[0],
                            layout_.clock == TableLayout::Clock::kIsoUtc);
+      break;
+    case TableLayout::Clock::kOfDay:
+      stamp = ParseTimeOfDay(time_tokens[0]);
       break;
   }
   if (!stamp) {

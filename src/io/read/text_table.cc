@@ -17,6 +17,8 @@ namespace {
 /// looked into for some rows only.
 constexpr std::size_t kMostAhead = 8192;
 constexpr std::size_t kMostBytesAhead = std::size_t{1} << 22;
+/// Times of day that fall back by more have run over midnight [s].
+constexpr std::int64_t kHalfDay = 43200;
 /// Lines that are worth a thread.
 constexpr std::size_t kLinesOfThread = 512;
 
@@ -102,7 +104,15 @@ bool TextTable::ReadAhead() {
 
 void TextTable::Take(const Ahead& row, std::size_t index) {
   if (parser_.layout().column_count == 0) parser_.FixColumnCount(row.columns);
+  const std::int64_t before = stamp_.seconds;
   stamp_ = row.stamp;
+  if (parser_.layout().clock == TableLayout::Clock::kOfDay) {
+    stamp_.seconds += midnight_;
+    if (stamp_.seconds < before - kHalfDay) {
+      midnight_ += 2 * kHalfDay;
+      stamp_.seconds += 2 * kHalfDay;
+    }
+  }
   const auto begin =
       batch_.values.begin() + static_cast<long>(index * values_.size());
   std::copy(begin, begin + static_cast<long>(values_.size()), values_.begin());

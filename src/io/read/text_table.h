@@ -2,6 +2,7 @@
 #define HINDSIGHT_IO_READ_TEXT_TABLE_H_
 
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <future>
 #include <string>
@@ -87,7 +88,9 @@ class TextTable final : public RowSource {
   Options options_;
   std::string first_row_;
   Batch batch_;
-  std::size_t taken_ = 0;   ///< of its rows
+  std::size_t taken_ = 0;  ///< of its rows
+  std::int64_t midnight_ =
+      0;                    ///< of times of day: the last, from the first [s]
   std::size_t most_ = 1;    ///< lines to read ahead next time
   bool terminated_ = true;  ///< the line of the current row
   long truncated_ = 0;

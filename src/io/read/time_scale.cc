@@ -167,6 +167,12 @@ std::optional<Stamp> ParseDate(std::string_view date, std::string_view clock,
   return Stamp{*day + time->seconds - kGpsEpochUnix + leap, time->fraction};
 }
 
+std::optional<Stamp> ParseTimeOfDay(std::string_view clock) {
+  const auto time = ParseClock(clock);
+  if (!time) return std::nullopt;
+  return Stamp{time->seconds, time->fraction};
+}
+
 std::optional<Stamp> ParseIsoTime(std::string_view text, bool utc) {
   constexpr std::size_t kDate = 10;
   text = Trim(text);

@@ -56,6 +56,9 @@ Stamp GpsFromUtc(std::int64_t day, double time_of_day);
 std::optional<Stamp> ParseDate(std::string_view date, std::string_view clock,
                                bool utc);
 
+/// Time since midnight of "hh:mm:ss.sss"; nothing if it is none.
+std::optional<Stamp> ParseTimeOfDay(std::string_view clock);
+
 /// GPS time since 1980-01-06 of a time as ISO 8601 writes it in one word,
 /// "2025-07-08T19:34:21.854" or with a blank in place of the T, in the scale that
 /// `utc` says; in UTC also with "Z" or an offset as "+02:00" behind. Nothing if it
