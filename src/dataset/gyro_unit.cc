@@ -138,6 +138,12 @@ std::string ByCourse(const Dataset& dataset) {
       return UnitWarning("the course turns", factor);
     }
   }
+  if (std::abs(std::log(ratio)) > std::log(kNear)) {
+    return fmt::format(
+        "imu: the course turns {:.3g} times as far as the gyros say: their "
+        "unit or scale is that factor off",
+        ratio);
+  }
   return "";
 }
 

@@ -74,8 +74,11 @@ PositionFix GeodeticPosition(const MeasuredRow& row) {
 
 std::optional<MeasurementModel> ReadPosition(const MeasuredRow& row,
                                              const SensorSettings& settings) {
-  PositionFix fix = IsLocal(settings.sensor) ? LocalPosition(row, settings)
-                                             : GeodeticPosition(row);
+  const bool local = IsLocal(settings.sensor);
+  // What receivers write before their first fix.
+  if (!local && row.Value(0) == 0.0 && row.Value(1) == 0.0) return std::nullopt;
+  PositionFix fix =
+      local ? LocalPosition(row, settings) : GeodeticPosition(row);
   if (row.Has(kQuality)) fix.quality = row.Value(kQuality);
   if (row.Has(kSatellites)) fix.satellites = row.Value(kSatellites);
   return fix;
@@ -196,6 +199,7 @@ const SensorKind& PositionKind() {
                  NoiseBlock(BlockKind::kColouredNoise, "m")},
       .prepare = [](SensorSettings* s) { s->pattern = PositionFix(); },
       .read = ReadPosition,
+      .unread = "latitude and longitude zero: no fix",
       .written = PositionColumns,
       .write = WritePosition,
       .perfect = PerfectPosition,

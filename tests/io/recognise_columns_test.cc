@@ -29,6 +29,8 @@ struct Spelling {
   char delimiter = ',';
   const char* behind = "";
   char decimal = '.';
+  const char* word = "imu_link";
+  bool whole = false;  ///< numbers
 };
 
 void PrintTo(const Spelling& spelling, std::ostream* out) {
@@ -40,6 +42,7 @@ constexpr int kRows = 4000;
 
 std::string Rows(const Spelling& spelling, double mirror = 1.0) {
   std::string text = spelling.before;
+  const int digits = spelling.whole ? 0 : 6;
   for (int k = 0; k < kRows; ++k) {
     const double t = k / kRate;
     const double phase = std::max(0.0, t - 5.0);
@@ -56,15 +59,15 @@ std::string Rows(const Spelling& spelling, double mirror = 1.0) {
       row += word;
     };
     for (const char* c = spelling.order; *c != '\0'; ++c) {
-      if (*c == 'x') add("imu_link");
+      if (*c == 'x') add(spelling.word);
       if (*c == 't')
         add(fmt::format("{:.3f}",
                         261906e-3 * spelling.time + t * spelling.time));
       for (int i = 0; i < 3 && *c == 'a'; ++i) {
-        add(fmt::format("{:.6f}", f[i] * spelling.accel));
+        add(fmt::format("{:.{}f}", f[i] * spelling.accel, digits));
       }
       for (int i = 0; i < 3 && *c == 'g'; ++i) {
-        add(fmt::format("{:.6f}", w[i] * spelling.gyro));
+        add(fmt::format("{:.{}f}", w[i] * spelling.gyro, digits));
       }
     }
     std::replace(row.begin(), row.end(), '.', spelling.decimal);
@@ -127,6 +130,14 @@ INSTANTIATE_TEST_SUITE_P(
                  "field.angular_velocity.x,field.angular_velocity.y,"
                  "field.angular_velocity.z\n",
                  1.0, 1.0, 1e9, "txag"},
+        Spelling{"Quoted",
+                 "\"\",\"epoch (ms)\",\"Accelerometer (x) [m/s^2]\","
+                 "\"Accelerometer (y) [m/s^2]\",\"Accelerometer (z) [m/s^2]\","
+                 "\"Gyroscope (x) [rad/s]\",\"Gyroscope (y) [rad/s]\","
+                 "\"Gyroscope (z) [rad/s]\"\n",
+                 1.0, 1.0, 1e3, "xtag", ',', "", '.', "\"drive, again\""},
+        Spelling{"CountsOfBoth", "millis,ax,ay,az,gx,gy,gz\n", 16384.0 * kG,
+                 131.072 / kDegree, 1e3, "tag", ',', "", '.', "", true},
         Spelling{"GForces",
                  "Record,GForceX,GForceY,GForceZ,GyroX,GyroY,GyroZ\n", kG,
                  1.0 / kDegree, 1e3, "tag"},
@@ -211,6 +222,36 @@ TEST_F(RecogniseColumns, PlacesInWholeNumbersAreOfReceivers) {
   EXPECT_NEAR(place.latitude / kDegree, 48.00001, 1e-9);
   EXPECT_NEAR(place.longitude / kDegree, 11.00002, 1e-9);
   EXPECT_NEAR(place.height, 500.1, 1e-6);
+}
+
+TEST_F(RecogniseColumns, ZerosBeforeTheFirstFixAreNoPlaces) {
+  Write("log.csv", Rows(kPlain));
+  std::string rows = "time,latitude,longitude,altitude\n";
+  for (int k = 0; k < 5; ++k) rows += fmt::format("{}.5,0,0,0\n", 257 + k);
+  Write("gps.csv", Fixes(rows, ""));
+  Write("config.yaml", DraftText(DraftRecordings(folder_.string()).at(0)));
+  ASSERT_EQ(LoadError(), "");
+  const Dataset dataset = Load();
+  EXPECT_EQ(dataset.streams.at(0).measurements.size(), 40u);
+  EXPECT_NEAR(
+      GeodeticFromEcef(
+          std::get<PositionFix>(dataset.streams[0].measurements[0].model).p_e)
+              .latitude /
+          kDegree,
+      48.0, 1e-9);
+}
+
+TEST_F(RecogniseColumns, ColumnsOfAxesAloneAreNoPlaces) {
+  std::string text = "time,seconds_elapsed,z,y,x\n";
+  for (int k = 0; k < 400; ++k) {
+    text +=
+        fmt::format("{},{:.3f},{:.6f},{:.6f},{:.6f}\n", 100000 + 10 * k,
+                    0.01 * k, 0.3 + 1e-4 * k, 0.1 + 2e-4 * k, 0.2 + 1e-4 * k);
+  }
+  Write("Gyroscope.csv", text);
+  Write("log.csv", Rows(kPlain));
+  EXPECT_THAT(DraftText(DraftRecordings(folder_.string()).at(0)),
+              Not(HasSubstr("type: position")));
 }
 
 /// One file of an IMU whose rows now and then hold a fix as well.

@@ -66,6 +66,9 @@ FoundStream ColumnLines::ImuStreamOf(const ImuGuess& guess) const {
          fmt::format("drop-outs of up to {:.3g} s are bridged", stamps_->gap)},
         &found.lines);
   }
+  if (guess.gyro.certainty == Certainty::kGuess) {
+    found.assumptions.push_back("gyros: " + guess.gyro.reason);
+  }
   if (guess.turn.slope < 0.0 && guess.turn.correlation < -kShown) {
     found.assumptions.push_back(fmt::format(
         "gravity turns against the gyros (correlation {:.2f}): an axis is "

@@ -26,8 +26,12 @@ int Titled(const std::vector<ColumnMeaning>& meanings,
   return -1;
 }
 
-bool IsFree(const std::vector<ColumnMeaning>& meanings, int column) {
-  return meanings[static_cast<std::size_t>(column)].quantity.empty();
+/// Without a meaning by its title, which names no axis either.
+bool IsFree(const FileColumns& file, const std::vector<ColumnMeaning>& meanings,
+            int column) {
+  const auto i = static_cast<std::size_t>(column);
+  return meanings[i].quantity.empty() &&
+         AxisMeaning(file.columns[i].title, "axis").quantity.empty();
 }
 
 double LargestStep(const Values& v) {
@@ -180,8 +184,9 @@ bool FindPlaces(const FileColumns& file,
   const int count = static_cast<int>(file.columns.size());
   for (int i = 0; i + 1 < count; ++i) {
     if (i == stamp_column || i + 1 == stamp_column || !HoldsNumbers(file, i) ||
-        !HoldsNumbers(file, i + 1) || !IsFree(meanings, i) ||
-        !IsFree(meanings, i + 1) || !LooksLikeAngle(Column(file, i), 90.0) ||
+        !HoldsNumbers(file, i + 1) || !IsFree(file, meanings, i) ||
+        !IsFree(file, meanings, i + 1) ||
+        !LooksLikeAngle(Column(file, i), 90.0) ||
         !LooksLikeAngle(Column(file, i + 1), 180.0)) {
       continue;
     }
@@ -203,7 +208,7 @@ void FindHeight(const FileColumns& file,
     const bool taken = (guess->speed && guess->speed->column == i) ||
                        (guess->course && guess->course->column == i);
     if (i == stamp_column || taken || !HoldsNumbers(file, i) ||
-        !IsFree(meanings, i) || !IsHeight(Column(file, i))) {
+        !IsFree(file, meanings, i) || !IsHeight(Column(file, i))) {
       continue;
     }
     guess->h = {i, "m", 1.0, Certainty::kLikely,

@@ -235,6 +235,40 @@ void GuessAccelUnit(const Windows& windows, const std::string& titled,
   accel->reason += ": counts, scaled so that it is 9.80665 m/s^2";
 }
 
+/// Of gyros in whole numbers beside accelerometers in counts: the range whose
+/// counts a deg/s fit how gravity turns, else the smallest, a device's default
+/// (32768 counts over 250 to 2000 deg/s; MPU-6050, ICM-20602, LSM6DS).
+void GuessGyroCounts(const GravityTurn& turn, double row_seconds,
+                     TripleGuess* gyro) {
+  constexpr double kShown = 0.5;
+  constexpr std::array kRanges = {250.0, 500.0, 1000.0, 2000.0};
+  gyro->unit = "deg/s";
+  gyro->certainty = Certainty::kGuess;
+  double range = kRanges.front();
+  gyro->reason = "counts, taken for a range of 250 deg/s";
+  if (row_seconds > 0.0 && std::abs(turn.correlation) > kShown) {
+    const double seen = std::abs(turn.slope) / row_seconds / kDegree * 32768.0;
+    range = *std::min_element(
+        kRanges.begin(), kRanges.end(), [&](double a, double b) {
+          return std::abs(std::log(a / seen)) < std::abs(std::log(b / seen));
+        });
+    gyro->certainty = Certainty::kLikely;
+    gyro->reason = fmt::format(
+        "counts; gravity turns as a range of {:.0f} deg/s says, of {:g} "
+        "deg/s",
+        seen, range);
+  }
+  gyro->scale = range / 32768.0;
+}
+
+bool AreWhole(const Readings& readings) {
+  for (std::size_t k = 0; k < readings.rows(); ++k) {
+    const Eigen::Vector3d v = readings.at(k);
+    if (v.allFinite() && v != v.array().round().matrix()) return false;
+  }
+  return true;
+}
+
 /// Which of rad/s and deg/s, by what gravity turns or by size. Who turns at
 /// several rad/s is thrown about by more than g; who is not, turns by several
 /// deg/s; and who moves at all turns by more than one.
@@ -322,6 +356,9 @@ std::optional<ImuGuess> GuessImu(const FileColumns& file,
   if (UnitFactor(titled(guess.gyro), Quantity::kAngularRate)) {
     guess.gyro.unit = titled(guess.gyro);
     guess.gyro.reason = "unit by its title";
+  } else if (guess.accel.scale != 1.0 &&
+             AreWhole(Readings(file, guess.gyro.columns))) {
+    GuessGyroCounts(guess.turn, row_seconds, &guess.gyro);
   } else {
     GuessGyroUnit(forces, rates, guess.turn, row_seconds, &guess.gyro);
   }

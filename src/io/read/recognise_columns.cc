@@ -109,7 +109,7 @@ class Recogniser {
 
   void AddFixes() {
     const auto fixes =
-        GuessFixes(RowsWith({"lat", "lon"}), lines_.meanings(), *stamps());
+        GuessFixes(RowsWithPlaces(), lines_.meanings(), *stamps());
     // Places beside attitudes are another solution's, no sensor's.
     const bool solution =
         !ImuHere() && lines_.HasAll({"roll", "pitch", "heading"});
@@ -128,16 +128,17 @@ class Recogniser {
     }
   }
 
-  /// The rows in which these stand; all if a title is missing.
-  FileColumns RowsWith(const Names& names) const {
+  /// The rows that hold a place: neither nothing nor zeros, as receivers write
+  /// before their first fix. All where no title says latitude and longitude.
+  FileColumns RowsWithPlaces() const {
     FileColumns rows = file_;
-    if (!lines_.HasAll(names)) return rows;
+    if (!lines_.HasAll({"lat", "lon"})) return rows;
+    const std::vector<double>& lat = Values(lines_.Titled("lat"));
+    const std::vector<double>& lon = Values(lines_.Titled("lon"));
     std::vector<bool> absent(file_.rows);
-    for (const std::string& name : names) {
-      const std::vector<double>& v = Values(lines_.Titled(name));
-      for (std::size_t k = 0; k < v.size(); ++k) {
-        if (std::isnan(v[k])) absent[k] = true;
-      }
+    for (std::size_t k = 0; k < absent.size(); ++k) {
+      absent[k] = std::isnan(lat[k]) || std::isnan(lon[k]) ||
+                  (lat[k] == 0.0 && lon[k] == 0.0);
     }
     for (FileColumn& column : rows.columns) {
       std::size_t k = 0;

@@ -252,16 +252,35 @@ void RecogniseWrongScale(std::size_t rows, const StampHints& hints,
   guess->first = 0.0;
 }
 
+/// The whole number of rows a second, or of seconds a row, within 5 %; else the
+/// rate itself.
+double NearWhole(double rate) {
+  constexpr double kNear = 0.05;
+  const bool slow = rate < 1.0;
+  const double whole = std::round(slow ? 1.0 / rate : rate);
+  const double nearest = slow ? 1.0 / whole : whole;
+  return std::abs(rate / nearest - 1.0) < kNear ? nearest : rate;
+}
+
+/// Without stamps: at the IMU's rate, or as long as the IMU recorded where that
+/// would be another length.
 std::optional<StampGuess> Counted(std::size_t rows, const StampHints& hints) {
   if (!hints.count_rate || rows < 2) return std::nullopt;
   StampGuess guess;
+  const double steps = static_cast<double>(rows - 1);
   guess.rate = hints.count_rate;
+  std::string as = hints.rate_stated ? "as the file says" : "as the IMU's";
+  constexpr double kAsLong = 0.1;
+  if (!hints.rate_stated && hints.span &&
+      std::abs(steps / (*guess.rate * *hints.span) - 1.0) > kAsLong) {
+    guess.rate = NearWhole(steps / *hints.span);
+    as = "for a record as long as the IMU's";
+  }
   guess.step = 1.0 / *guess.rate;
-  guess.span = static_cast<double>(rows - 1) * guess.step;
+  guess.span = steps * guess.step;
   if (!hints.rate_stated) guess.certainty = Certainty::kLikely;
-  guess.reason = fmt::format(
-      "rows are counted at {:g} Hz, {}", *guess.rate,
-      hints.rate_stated ? "as the file says" : "as those of the IMU");
+  guess.reason =
+      fmt::format("rows are counted at {:g} Hz, {}", *guess.rate, as);
   return guess;
 }
 

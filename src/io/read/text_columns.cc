@@ -200,7 +200,8 @@ class TextColumns {
     ++number_;
     if (IsComment(line)) {
       if (found_.rows == 0 && !Trim(line).empty()) {
-        comment_ = line.substr(line.find_first_of("#%") + 1);
+        comment_ = Trim(line);
+        comment_.erase(0, comment_.find_first_not_of("#%/"));
       }
       return;
     }

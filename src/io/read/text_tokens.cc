@@ -35,6 +35,17 @@ void TextTokens::Advance() {
 
 std::string_view TextTokens::Next() {
   const char* begin = p_;
+  if (begin != end_ && *begin == '"') {
+    const std::string_view rest(begin + 1,
+                                static_cast<std::size_t>(end_ - begin - 1));
+    const std::size_t close = rest.find('"');
+    const char* behind = begin + 2 + close;
+    if (close != rest.npos && (behind == end_ || IsSeparator(*behind))) {
+      p_ = behind;
+      Advance();
+      return rest.substr(0, close);
+    }
+  }
   while (p_ != end_ && !IsSeparator(*p_)) ++p_;
   const std::string_view token(begin, static_cast<std::size_t>(p_ - begin));
   Advance();
@@ -86,7 +97,8 @@ std::vector<std::string_view> SplitLine(std::string_view line, char delimiter,
 
 bool IsComment(std::string_view line) {
   const std::string_view text = Trim(line);
-  return text.empty() || text.front() == '#' || text.front() == '%';
+  return text.empty() || text.front() == '#' || text.front() == '%' ||
+         text.starts_with("//");
 }
 
 }  // namespace hindsight

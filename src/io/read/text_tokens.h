@@ -13,7 +13,8 @@ class TextTokens {
   TextTokens(std::string_view line, char delimiter, bool comma_is_blank);
 
   bool AtEnd() const { return finished_ || (delimiter_ == ' ' && p_ == end_); }
-  /// Without blanks around it.
+  /// Without blanks or quotation marks around it; separators within quotation
+  /// marks belong to it.
   std::string_view Next();
   /// Reads the next token as a finite number. False, and stays, for anything
   /// else, and for some unusual spellings of numbers.
@@ -46,7 +47,7 @@ char GuessDecimal(std::string_view line, char delimiter);
 std::vector<std::string_view> SplitLine(std::string_view line, char delimiter,
                                         bool comma_is_blank = false);
 
-/// True for a line that is empty or starts with '#' or '%'.
+/// True for a line that is empty or starts with '#', '%' or "//".
 bool IsComment(std::string_view line);
 
 }  // namespace hindsight

@@ -71,16 +71,22 @@ std::vector<std::string> SplitWords(const std::string& name) {
 }
 
 std::string TakeBracketedUnit(std::string* title) {
-  const std::size_t open = title->find_first_of("[(");
-  if (open == title->npos) return "";
-  const char close_mark = (*title)[open] == '[' ? ']' : ')';
-  const std::size_t close = title->rfind(close_mark);
-  if (close == title->npos || close < open) return "";
-  std::string unit(
+  const std::size_t last = title->find_last_not_of(" \t\"");
+  if (last == title->npos) return "";
+  const bool ends = (*title)[last] == ']' || (*title)[last] == ')';
+  // "Gyroscope (x) [rad/s]" ends with its unit, "Time (s) since start" does not.
+  const bool square =
+      ends ? (*title)[last] == ']' : title->find('[') < title->find('(');
+  const char mark = square ? '[' : '(';
+  std::size_t open = title->find(mark);
+  if (ends && square) open = title->rfind(mark);
+  const std::size_t close = title->rfind(square ? ']' : ')');
+  if (open == title->npos || close == title->npos || close < open) return "";
+  const std::string unit(
       Trim(std::string_view(*title).substr(open + 1, close - open - 1)));
-  // "IMU(0):accel:X" counts what it names.
-  if (close + 1 < title->size() &&
-      unit.find_first_not_of("0123456789") == unit.npos) {
+  const bool axis = unit.size() == 1 && unit >= "x" && unit <= "z";
+  // "IMU(0):accel:X" counts what it names, "Accelerometer (x)" names its axis.
+  if (axis || (!ends && unit.find_first_not_of("0123456789") == unit.npos)) {
     return "";
   }
   title->erase(open);

@@ -11,7 +11,8 @@ namespace hindsight {
 std::vector<std::string> SplitWords(const std::string& name);
 
 /// Takes the unit off a title, "[deg/s]" or "(deg/s)", and gives what stands
-/// between the brackets; "" without, and of a number with more behind it.
+/// between the brackets, of several the last; "" without, of an axis, and of a
+/// number with more behind it.
 std::string TakeBracketedUnit(std::string* title);
 
 /// Takes a unit that stands without brackets off the end of the words of a
