@@ -68,11 +68,15 @@ void ScaleImu(const NoiseFactor& noise, RecordingDraft* draft) {
 }
 
 /// The sigma of a constraint is physics: no motion makes it less.
+/// A vehicle may keep a constraint better than any sigma says.
+bool IsConstraint(const StreamDraft& stream) {
+  return stream.kind->generated || stream.kind->standing;
+}
+
 void ScaleSigma(double factor, StreamDraft* stream) {
   std::vector<KeyLine>& lines = stream->found.lines;
   if (FindLine(lines, "noise") != nullptr) return;
-  const bool constraint = stream->kind->generated || stream->kind->standing;
-  if (constraint && factor < 1.0) return;
+  if (IsConstraint(*stream) && factor < 1.0) return;
   if (const KeyLine* sigma = FindLine(lines, "sigma")) {
     SetLine({"sigma", ScaledNumbers(sigma->value, factor), kWhy}, &lines);
   } else if (stream->kind->states_sigma) {
@@ -159,7 +163,13 @@ void TellLikelyNoise(const Dataset& dataset, RecordingDraft* draft) {
   }
   if (!estimate.converged) return;
   const std::vector<NoiseFactor> known = Known(estimate);
-  const auto absurd = std::find_if(known.begin(), known.end(), IsAbsurd);
+  const auto absurd =
+      std::find_if(known.begin(), known.end(), [&](const NoiseFactor& noise) {
+        const StreamDraft* stream = draft->Find(noise.name);
+        const bool kept =
+            stream != nullptr && IsConstraint(*stream) && noise.factor < 1.0;
+        return !kept && IsAbsurd(noise);
+      });
   if (absurd != known.end()) {
     draft->Assume(fmt::format(
         "{}: the innovations ask for {:.2g} times its noise, which no device "

@@ -85,6 +85,15 @@ TEST_F(ConfigTest, OnAndOffAreBooleansOfYaml11) {
             std::string::npos);
 }
 
+TEST_F(ConfigTest, ASecondDocumentIsRefused) {
+  Write("config.yaml", std::string(kConfig) + "---\nname: other\n");
+  EXPECT_NE(LoadError().find("config.yaml:14: a second YAML document begins"),
+            std::string::npos)
+      << LoadError();
+  Write("config.yaml", "---\n" + std::string(kConfig));
+  EXPECT_EQ(LoadError(), "");
+}
+
 TEST_F(ConfigTest, DecimalCommasAreReadAsPoints) {
   std::string semicolons = kGnss;
   std::replace(semicolons.begin(), semicolons.end(), ',', ';');

@@ -138,6 +138,10 @@ INSTANTIATE_TEST_SUITE_P(
                  1.0, 1.0, 1e3, "xtag", ',', "", '.', "\"drive, again\""},
         Spelling{"CountsOfBoth", "millis,ax,ay,az,gx,gy,gz\n", 16384.0 * kG,
                  131.072 / kDegree, 1e3, "tag", ',', "", '.', "", true},
+        Spelling{"RollRates",
+                 "time,Ax [g],Ay [g],Az [g],Roll rate [deg/s],"
+                 "Pitch rate [deg/s],Yaw rate [deg/s]\n",
+                 kG, 1.0 / kDegree, 1.0, "tag"},
         Spelling{"GForces",
                  "Record,GForceX,GForceY,GForceZ,GyroX,GyroY,GyroZ\n", kG,
                  1.0 / kDegree, 1e3, "tag"},
@@ -239,6 +243,57 @@ TEST_F(RecogniseColumns, ZerosBeforeTheFirstFixAreNoPlaces) {
               .latitude /
           kDegree,
       48.0, 1e-9);
+}
+
+/// Beside another estimate, a place to return to and other heights.
+TEST_F(RecogniseColumns, OfSeveralPlacesTheReceiversOwnIsTaken) {
+  Write("log.csv", Rows(kPlain));
+  std::string text =
+      "time,home_lat,home_lon,baro_alt,ekf_lat,ekf_lon,ekf_alt,gps_lat,"
+      "gps_lon,gps_alt_msl,gps_alt_ellipsoid\n";
+  for (int k = 0; k < 40; ++k) {
+    text += fmt::format(
+        "{}.5,47,10,{:.2f},{:.7f},{:.7f},9,{:.7f},{:.7f},{:.2f},{:.2f}\n",
+        262 + k, 3.0 + 0.1 * (k % 3), 48.1 + 1e-5 * k, 11.1 + 2e-5 * k,
+        48.0 + 1e-5 * k, 11.0 + 2e-5 * k, 455.0 + 0.1 * (k % 3),
+        500.0 + 0.1 * (k % 3));
+  }
+  Write("gps.csv", text);
+  const std::string config = DraftText(DraftRecordings(folder_.string()).at(0));
+  EXPECT_THAT(config, HasSubstr("lat: \"8 [deg]\""));
+  EXPECT_THAT(config, HasSubstr("lon: \"9 [deg]\""));
+  EXPECT_THAT(config, HasSubstr("h: \"11 [m]\""));
+}
+
+TEST_F(RecogniseColumns, HeightsAboveTheSeaAreTold) {
+  Write("log.csv", Rows(kPlain));
+  const auto assumptions = [&](const char* titles) {
+    Write("gps.csv", Fixes(titles, ",46"));
+    return DraftRecordings(folder_.string()).at(0).assumptions;
+  };
+  const auto told =
+      ::testing::Contains(HasSubstr("heights seem to count from the sea"));
+  EXPECT_THAT(assumptions("time,latitude,longitude,hMSL,x\n"), told);
+  EXPECT_THAT(assumptions("time,latitude,longitude,alt,undulation\n"), told);
+  EXPECT_THAT(assumptions("time,latitude,longitude,alt,x\n"), Not(told));
+  EXPECT_THAT(assumptions("time,latitude,longitude,h_ellipsoid,geoid\n"),
+              Not(told));
+}
+
+TEST_F(RecogniseColumns, PlacesWithoutHeightsAreKnownToAKilometreUpwards) {
+  Write("log.csv", Rows(kPlain));
+  std::string text = "time,latitude,longitude,null_now_and_then\n";
+  for (int k = 0; k < 36; ++k) {
+    text += fmt::format("{}.5,{:.7f},{:.7f},{}\n", 262 + k, 48.0 + 1e-5 * k,
+                        11.0 + 2e-5 * k, k % 3 == 0 ? "null" : "N/A");
+  }
+  Write("gps.csv", text);
+  const std::string config = DraftText(DraftRecordings(folder_.string()).at(0));
+  EXPECT_THAT(config, HasSubstr("h: {constant: 0 m}"));
+  // 1 km over the square root of 36.
+  EXPECT_THAT(config, HasSubstr("sigma: [3, 3, 6000 m]"));
+  Write("config.yaml", config);
+  EXPECT_EQ(LoadError(), "") << config;
 }
 
 TEST_F(RecogniseColumns, ColumnsOfAxesAloneAreNoPlaces) {

@@ -61,9 +61,9 @@ ConfigMap ConfigMap::Load(const std::string& path, const Edit& edit) {
 
 ConfigMap ConfigMap::Parse(const std::string& text, const std::string& path,
                            const Edit& edit) {
-  YAML::Node node;
+  std::vector<YAML::Node> documents;
   try {
-    node = YAML::Load(text);
+    documents = YAML::LoadAll(text);
   } catch (const YAML::DeepRecursion&) {
     // Its mark is where the parser has looked ahead to.
     throw InputError(path, 0, "is nested too deep");
@@ -71,6 +71,12 @@ ConfigMap ConfigMap::Parse(const std::string& text, const std::string& path,
     throw InputError(path, error.mark.line + 1L,
                      "is not valid YAML: " + error.msg + FlowAdvice(error.msg));
   }
+  if (documents.size() > 1) {
+    throw InputError(
+        path, documents[1].Mark().line + 1L,
+        "a second YAML document begins behind `---`; expected one");
+  }
+  YAML::Node node = documents.empty() ? YAML::Node() : documents.front();
   if (!node.IsMap()) {
     throw InputError(path, 1, "expected keys and values at the top level");
   }

@@ -118,18 +118,22 @@ void ColumnLines::AddColumn(const std::string& quantity,
     value = fmt::format("\"{}{} [{}]\"", guess.sign < 0.0 ? "-" : "", reference,
                         unit);
   }
+  AddLine({"  " + quantity, value, comment}, found);
+  if (!found->imu && std::any_of(column.values.begin(), column.values.end(),
+                                 [](double x) { return std::isnan(x); })) {
+    SetLine({"absent_values", "true", "rows without a value are passed over"},
+            &found->lines);
+  }
+}
+
+void ColumnLines::AddLine(KeyLine line, FoundStream* found) {
   std::size_t end = found->lines.size();
   while (!found->lines[end - 1].key.starts_with(' ') &&
          found->lines[end - 1].key != "columns") {
     --end;
   }
   found->lines.insert(found->lines.begin() + static_cast<std::ptrdiff_t>(end),
-                      {"  " + quantity, value, comment});
-  if (!found->imu && std::any_of(column.values.begin(), column.values.end(),
-                                 [](double x) { return std::isnan(x); })) {
-    SetLine({"absent_values", "true", "rows without a value are passed over"},
-            &found->lines);
-  }
+                      std::move(line));
 }
 
 void ColumnLines::AddTriple(const std::string& family,

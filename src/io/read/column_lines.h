@@ -44,7 +44,9 @@ class ColumnLines {
   FoundStream Stream() const;
   /// The same of an IMU, with the drop-outs that it bridges.
   FoundStream ImuStreamOf(const ImuGuess& guess) const;
-  /// A line behind the others of `columns`.
+  /// Puts a line behind the others of `columns`.
+  static void AddLine(KeyLine line, FoundStream* found);
+  /// The line of a column there.
   void AddColumn(const std::string& quantity, const ColumnGuess& guess,
                  FoundStream* found) const;
   /// Columns family + "x", "y", "z".

@@ -122,7 +122,18 @@ ColumnMeaning Inertial(const Words& words) {
   return {};
 }
 
+/// "Roll rate" about x, "yaw rate" about z; '\0' of another.
+char AxisOfRate(const Words& words) {
+  if (!HasAny(words, {"rate", "rates", "speed", "velocity"})) return '\0';
+  if (HasAny(words, {"roll"})) return 'x';
+  if (HasAny(words, {"pitch"})) return 'y';
+  return HasAny(words, {"yaw"}) ? 'z' : '\0';
+}
+
 ColumnMeaning Attitude(const Words& words) {
+  if (const char axis = AxisOfRate(words)) {
+    return {std::string("gyro_") + axis, ""};
+  }
   for (const char part : {'w', 'x', 'y', 'z'}) {
     const std::string fused = std::string("q") + part;
     const std::string alone(1, part);
@@ -291,6 +302,54 @@ void KeepOneTime(const FileColumns& file,
   }
 }
 
+bool SaysEllipsoid(const Words& words) {
+  return HasAny(words, {"ellipsoid", "ellipsoidal", "ell", "hae", "wgs"});
+}
+bool SaysSea(const Words& words) {
+  return HasAny(words, {"msl", "amsl", "sea"});
+}
+
+/// How likely a place or height is a receiver's own, by the words of its title:
+/// neither another estimate nor a place to go to, and above the ellipsoid rather
+/// than above the sea or the ground.
+int RankOfPlace(const FileColumn& column) {
+  const Words words = SplitWords(column.title);
+  int rank = 0;
+  if (HasAny(words, {"gps", "gnss", "fix", "receiver"})) rank += 2;
+  if (HasAny(words, {"ekf", "kf", "fused", "filter", "filtered", "estimate",
+                     "estimated", "est", "home", "ref", "reference", "target",
+                     "wp", "waypoint", "setpoint", "network", "origin"})) {
+    rank -= 8;
+  }
+  if (HasAny(words, {"baro", "barometer", "barometric", "press", "pressure",
+                     "rel", "relative", "agl", "terrain", "ground"})) {
+    rank -= 8;
+  }
+  if (SaysEllipsoid(words)) rank += 4;
+  if (SaysSea(words)) rank -= 1;
+  if (ChangesOf(column.values) == 0) rank -= 16;
+  return rank;
+}
+
+/// Of columns of one quantity of a place the likeliest, of equal ones the first.
+void KeepOnePlace(const FileColumns& file, std::string_view quantity,
+                  std::vector<ColumnMeaning>* meanings) {
+  ColumnMeaning* kept = nullptr;
+  int best = 0;
+  for (std::size_t i = 0; i < meanings->size(); ++i) {
+    ColumnMeaning& meaning = (*meanings)[i];
+    if (meaning.quantity != quantity) continue;
+    const int rank = RankOfPlace(file.columns[i]);
+    if (kept != nullptr && rank <= best) {
+      meaning = {};
+      continue;
+    }
+    if (kept != nullptr) *kept = {};
+    kept = &meaning;
+    best = rank;
+  }
+}
+
 }  // namespace
 
 ColumnMeaning MeaningOfTitle(const std::string& title) {
@@ -305,6 +364,11 @@ ColumnMeaning MeaningOfTitle(const std::string& title) {
   if (unit.empty()) unit = TakeUnitWord(&words);
   ColumnMeaning meaning = MeaningOfWords(words);
   meaning.unit = unit;
+  // "Gx [g]" is a force.
+  if (meaning.quantity.starts_with("gyro_") &&
+      UnitFactor(unit, Quantity::kAcceleration)) {
+    meaning.quantity.replace(0, 4, "accel");
+  }
   return UnitFactor(unit, Quantity::kSpeed) ? AsVelocity(std::move(meaning))
                                             : meaning;
 }
@@ -331,6 +395,18 @@ ColumnMeaning AxisMeaning(const std::string& title, const std::string& family) {
   return axis ? ColumnMeaning{family + words[0], unit} : ColumnMeaning{};
 }
 
+bool CountsFromSea(const FileColumns& file, int h) {
+  const Words words =
+      SplitWords(file.columns[static_cast<std::size_t>(h)].title);
+  if (SaysEllipsoid(words)) return false;
+  return SaysSea(words) ||
+         std::any_of(
+             file.columns.begin(), file.columns.end(),
+             [](const FileColumn& column) {
+               return HasAny(SplitWords(column.title), {"undulation", "geoid"});
+             });
+}
+
 std::vector<ColumnMeaning> ReadMeanings(const FileColumns& file) {
   std::vector<ColumnMeaning> meanings;
   std::set<std::string> taken;
@@ -340,13 +416,20 @@ std::vector<ColumnMeaning> ReadMeanings(const FileColumns& file) {
       meaning = file.format == &ColumnsFormat() ? MeaningOfTitle(column.title)
                                                 : MeaningInArray(column);
     }
-    if (!meaning.quantity.empty() && meaning.quantity != "t" &&
+    constexpr std::array<std::string_view, 4> kRanked = {"t", "lat", "lon",
+                                                         "h"};
+    const bool ranked = std::find(kRanked.begin(), kRanked.end(),
+                                  meaning.quantity) != kRanked.end();
+    if (!meaning.quantity.empty() && !ranked &&
         !taken.insert(meaning.quantity).second) {
       meaning = {};
     }
     meanings.push_back(std::move(meaning));
   }
   KeepOneTime(file, &meanings);
+  for (const char* quantity : {"lat", "lon", "h"}) {
+    KeepOnePlace(file, quantity, &meanings);
+  }
   return meanings;
 }
 

@@ -30,9 +30,13 @@ ColumnMeaning AsVelocity(ColumnMeaning meaning);
 /// nothing of another.
 ColumnMeaning AxisMeaning(const std::string& title, const std::string& family);
 
+/// Whether a column of heights counts from the sea: its title says so, or a
+/// column of the geoid's height stands beside one that says nothing.
+bool CountsFromSea(const FileColumns& file, int h);
+
 /// Of all columns of a file; arrays of three or four columns without titles of
 /// their own count them as axes. No quantity stands twice: of two the first, of
-/// times the one that changes most often.
+/// times the one that changes most often, of places and heights the receiver's.
 std::vector<ColumnMeaning> ReadMeanings(const FileColumns& file);
 
 }  // namespace hindsight

@@ -85,7 +85,12 @@ class Recogniser {
     auto guess = GuessImu(file_, lines_.meanings(),
                           stamps() ? stamps()->column : -1, step);
     if (!guess) return;
-    if (!stamps()) lines_.set_stamps(CountedImu(*guess));
+    if (!stamps()) {
+      StampGuess counted = CountedImu(*guess);
+      counted.step = 1.0 / counted.rate.value();
+      counted.span = static_cast<double>(file_.rows - 1) * counted.step;
+      lines_.set_stamps(std::move(counted));
+    }
     FoundStream found = lines_.ImuStreamOf(*guess);
     found.spin_axis = SpinAxis(file_, *guess);
     lines_.AddTriple("accel_", guess->accel, &found);
@@ -113,7 +118,9 @@ class Recogniser {
     // Places beside attitudes are another solution's, no sensor's.
     const bool solution =
         !ImuHere() && lines_.HasAll({"roll", "pitch", "heading"});
-    if (fixes && fixes->h.column >= 0 && !solution) AddPosition(*fixes);
+    const bool told =
+        fixes && (fixes->h.column >= 0 || fixes->place_order_told);
+    if (told && !solution) AddPosition(*fixes);
     const Names velocity = {"v_n", "v_e", "v_d"};
     if (lines_.HasAll(velocity) && !solution) {
       AddTitled(VelocityKind(), velocity,
@@ -162,7 +169,17 @@ class Recogniser {
     found.place_order_told = fixes.place_order_told;
     lines_.AddColumn("lat", fixes.lat, &found);
     lines_.AddColumn("lon", fixes.lon, &found);
+    if (fixes.h.column < 0) {
+      AddWithoutHeight(fixes, &found);
+      all_.push_back(std::move(found));
+      return;
+    }
     lines_.AddColumn("h", fixes.h, &found);
+    if (CountsFromSea(file_, fixes.h.column)) {
+      found.assumptions.emplace_back(
+          "its heights seem to count from the sea; they are taken for heights "
+          "above the ellipsoid, which differ by the geoid's, -105 to 85 m");
+    }
     const Names sigmas = {"sigma_n", "sigma_e", "sigma_d"};
     found.sigmas = lines_.HasAll(sigmas);
     if (found.sigmas) {
@@ -179,6 +196,23 @@ class Recogniser {
               &found.lines);
     }
     all_.push_back(std::move(found));
+  }
+
+  /// Places with a height that is known to a kilometre by all fixes together: it
+  /// is the same error in each.
+  void AddWithoutHeight(const FixGuess& fixes, FoundStream* found) const {
+    constexpr double kKilometre = 1000.0;
+    const double rows =
+        static_cast<double>(file_.rows) * (1.0 - fixes.repeated);
+    const double used = std::clamp(rows, 1.0, 1.0 + stamps()->span);
+    ColumnLines::AddLine({"  h", "{constant: 0 m}", "the file states none"},
+                         found);
+    SetLine(
+        {"sigma", fmt::format("[3, 3, {:.0f} m]", kKilometre * std::sqrt(used)),
+         "usual of a single receiver (a guess); a height that is not "
+         "known, to a kilometre by all fixes together"},
+        &found->lines);
+    found->sigmas = true;
   }
 
   const std::vector<double>& Values(int column) const {

@@ -271,7 +271,7 @@ std::optional<StampGuess> Counted(std::size_t rows, const StampHints& hints) {
   guess.rate = hints.count_rate;
   std::string as = hints.rate_stated ? "as the file says" : "as the IMU's";
   constexpr double kAsLong = 0.1;
-  if (!hints.rate_stated && hints.span &&
+  if (!hints.rate_stated && hints.span && *hints.span > 0.0 &&
       std::abs(steps / (*guess.rate * *hints.span) - 1.0) > kAsLong) {
     guess.rate = NearWhole(steps / *hints.span);
     as = "for a record as long as the IMU's";

@@ -68,7 +68,7 @@ std::optional<Word> ParseTimeWord(std::string_view token) {
 
 Word ParseWord(std::string_view token) {
   using enum FileColumn::Holds;
-  if (token.empty() || token == "nan" || token == "NaN") return {};
+  if (IsAbsentWord(token)) return {};
   if (const auto number = ParseNumber(token)) return {kNumbers, *number};
   if (const auto time = ParseTimeWord(token)) return *time;
   return {kText};

@@ -14,11 +14,6 @@ namespace {
 
 constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
-bool IsAbsent(std::string_view token) {
-  return token.empty() || token == "nan" || token == "NaN" || token == "NAN" ||
-         token == "-nan";
-}
-
 std::string Plural(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " column" : " columns");
 }
@@ -93,7 +88,7 @@ std::string TextRowParser::Parse(std::string_view line, Scratch* scratch,
     } else if (!tokens.NextNumber(&scratch->raw[column])) {
       const std::string_view token = tokens.Next();
       const auto number = ParseNumber(token);
-      if (!number && !(allow_absent_ && IsAbsent(token))) {
+      if (!number && !(allow_absent_ && IsAbsentWord(token))) {
         return ColumnName(static_cast<int>(column)) + ": '" +
                std::string(token) + "' is not a finite number" +
                (token.find(',') == token.npos

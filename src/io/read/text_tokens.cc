@@ -2,6 +2,8 @@
 
 #include <fast_float/fast_float.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -93,6 +95,13 @@ std::vector<std::string_view> SplitLine(std::string_view line, char delimiter,
   TextTokens walk(line, delimiter, comma_is_blank);
   while (!walk.AtEnd()) tokens.push_back(walk.Next());
   return tokens;
+}
+
+bool IsAbsentWord(std::string_view token) {
+  constexpr std::array<std::string_view, 15> kAbsent = {
+      "",     "nan",  "NaN",  "NAN",  "-nan", "NA", "N/A", "n/a",
+      "#N/A", "null", "NULL", "None", "none", "-",  "--"};
+  return std::find(kAbsent.begin(), kAbsent.end(), token) != kAbsent.end();
 }
 
 bool IsComment(std::string_view line) {

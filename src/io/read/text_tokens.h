@@ -47,6 +47,10 @@ char GuessDecimal(std::string_view line, char delimiter);
 std::vector<std::string_view> SplitLine(std::string_view line, char delimiter,
                                         bool comma_is_blank = false);
 
+/// What stands where there is no value: nothing, "nan", "NA", "null", "--" and
+/// the like.
+bool IsAbsentWord(std::string_view token);
+
 /// True for a line that is empty or starts with '#', '%' or "//".
 bool IsComment(std::string_view line);
 

@@ -30,12 +30,15 @@ std::string UnitOfWord(const std::string& word) {
       UnitWord{"radps", "rad/s"}, UnitWord{"rads", "rad/s"},
       UnitWord{"dps", "deg/s"},   UnitWord{"degps", "deg/s"},
       UnitWord{"mps", "m/s"},     UnitWord{"kmh", "km/h"},
-      UnitWord{"deg", "deg"},     UnitWord{"rad", "rad"},
-      UnitWord{"sec", "s"},       UnitWord{"s", "s"},
-      UnitWord{"ms", "ms"},       UnitWord{"us", "us"},
-      UnitWord{"ns", "ns"},       UnitWord{"m", "m"},
-      UnitWord{"ut", "uT"},       UnitWord{"mg", "mg"},
-      UnitWord{"degrees", "deg"}, UnitWord{"seconds", "s"}};
+      UnitWord{"kph", "km/h"},    UnitWord{"kts", "kn"},
+      UnitWord{"knots", "kn"},    UnitWord{"mm", "mm"},
+      UnitWord{"cm", "cm"},       UnitWord{"deg", "deg"},
+      UnitWord{"rad", "rad"},     UnitWord{"sec", "s"},
+      UnitWord{"s", "s"},         UnitWord{"ms", "ms"},
+      UnitWord{"us", "us"},       UnitWord{"ns", "ns"},
+      UnitWord{"m", "m"},         UnitWord{"ut", "uT"},
+      UnitWord{"mg", "mg"},       UnitWord{"degrees", "deg"},
+      UnitWord{"seconds", "s"}};
   for (const UnitWord& known : kUnits) {
     if (word == known.word) return std::string(known.unit);
   }
@@ -99,6 +102,15 @@ std::string TakeUnitWord(std::vector<std::string>* words) {
       (*words)[words->size() - 2] == "mps") {
     words->resize(words->size() - 2);
     return "m/s^2";
+  }
+  // "vel_n_cm_s".
+  if (words->size() > 2 && words->back() == "s") {
+    const std::string length = (*words)[words->size() - 2];
+    for (const char* known : {"m", "cm", "mm"}) {
+      if (length != known) continue;
+      words->resize(words->size() - 2);
+      return length + "/s";
+    }
   }
   const std::string unit = UnitOfWord(words->back());
   if (!unit.empty()) words->pop_back();
