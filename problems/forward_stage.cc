@@ -268,9 +268,8 @@ void ForwardStage::RunOnce() {
 
 SmoothedTrajectory ForwardStage::SmoothTape(
     LinearTape tape, const std::vector<State>& nominal) const {
-  SmoothedTrajectory trajectory = SmoothRts(std::move(tape));
+  SmoothedTrajectory trajectory = SmoothRts(std::move(tape), /*errors=*/false);
   MoveToSmoothed(start_.layout, nominal, &trajectory);
-  trajectory.d = {};
   return trajectory;
 }
 

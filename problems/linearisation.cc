@@ -60,8 +60,8 @@ Rested SmoothUntilItRests(const std::vector<State>& states, Problem* problem,
     const std::vector<State>& about =
         i == 0 ? states : rested.trajectory.states;
     SmoothedTrajectory next =
-        SmoothRts(RunLinearizedFilter(about, problem, callback));
-    next.d = {};
+        SmoothRts(RunLinearizedFilter(about, problem, callback),
+                  /*errors=*/false);
     rested.step = LargestDistance(problem->layout, about, next.states,
                                   VariancesOf(problem->layout, next.P));
     rested.trajectory = std::move(next);

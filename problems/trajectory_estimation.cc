@@ -55,6 +55,7 @@ class TrajectoryEstimation final : public Estimation {
 
   Solution Run(const Method& method) override {
     forward_.Run();
+    SolveAhead(method);
     MethodStage stage(&forward_, method.Has(MethodTrait::kSolvesBatch)
                                      ? ahead_.get()
                                      : nullptr);
@@ -92,8 +93,7 @@ class TrajectoryEstimation final : public Estimation {
 
  private:
   /// Begins with the batch beside what the first method's result is judged by, if it
-  /// will be asked for later. Not before the interval is linearised anew, which needs
-  /// the most memory.
+  /// will be asked for later.
   void SolveAhead(const Method& judged) {
     if (begun_) return;
     begun_ = true;
@@ -103,7 +103,6 @@ class TrajectoryEstimation final : public Estimation {
           return MethodOf(name).Has(MethodTrait::kSolvesBatch);
         });
     if (!asked || judged.Has(MethodTrait::kSolvesBatch)) return;
-    forward_.relinearised();
     ReleaseFreedMemory();
     ahead_ = std::make_unique<BatchAhead>(
         forward_.smoothed().states, MethodStage(&forward_).MakeBatchOptions(),
@@ -134,7 +133,6 @@ class TrajectoryEstimation final : public Estimation {
       WidenHeading(solution.layout, stage.heading_credit(),
                    &solution.covariances);
     }
-    SolveAhead(method);
     Conclude(
         {.solution = solution,
          .sensors = TimelineOf(method.name).sensors(),

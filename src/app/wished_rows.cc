@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <optional>
 #include <utility>
+
+#include "base/parallel.h"
 
 namespace hindsight {
 
@@ -76,19 +79,32 @@ WishedRows NextRows(std::size_t most, std::vector<Wish>* wishes) {
 void SampleRows(const Dataset& dataset, const Reconstruction& reconstruction,
                 const Solution& solution, std::vector<Wish> wishes) {
   constexpr std::size_t kPiece = 10000;
-  while (true) {
-    const WishedRows next = NextRows(kPiece, &wishes);
-    if (next.times.empty()) return;
-    const Solution piece = reconstruction.Sample(solution, next.times);
+  struct Piece {
+    WishedRows rows;
+    std::future<Solution> solution;  ///< none behind the last
+  };
+  const auto begin = [&] {
+    Piece piece{NextRows(kPiece, &wishes), {}};
+    if (!piece.rows.times.empty()) {
+      piece.solution = InBackground([&, times = piece.rows.times] {
+        return reconstruction.Sample(solution, times);
+      });
+    }
+    return piece;
+  };
+  // The next piece is sampled while this one is used.
+  for (Piece piece = begin(); piece.solution.valid();) {
+    const Solution sampled = piece.solution.get();
+    const WishedRows here = std::exchange(piece, begin()).rows;
     std::optional<Eigen::Vector3d> point_b;
     SolutionTable table;
     for (std::size_t i = 0; i < wishes.size(); ++i) {
       const Wish& wish = wishes[i];
-      const std::vector<std::size_t>& rows = next.of_wish[i];
+      const std::vector<std::size_t>& rows = here.of_wish[i];
       if (rows.empty()) continue;
       if (point_b != wish.point_b) {
         point_b = wish.point_b;
-        table = TableAt(wish.point_b, dataset, piece);
+        table = TableAt(wish.point_b, dataset, sampled);
       }
       wish.take(rows.size() == table.size() ? table : RowsOf(table, rows));
     }

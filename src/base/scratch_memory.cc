@@ -1,105 +1,26 @@
 #include "base/scratch_memory.h"
 
-#include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <mutex>
 #include <new>
-#include <string>
 #include <utility>
 #include <vector>
+
+#include "base/scratch_file.h"
 
 namespace hindsight {
 namespace {
 
-std::string ScratchFolder() {
-  const char* set = std::getenv("TMPDIR");
-  // /tmp itself is memory on many systems.
-  return set != nullptr && *set != '\0' ? set : "/var/tmp";
-}
-
-/// An open file without a name, -1 if there can be none.
-int OpenScratchFile(const std::string& folder) {
-  const int unnamed =
-      open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR);
-  if (unnamed >= 0) return unnamed;
-  std::string path = folder + "/hindsight-XXXXXX";
-  const int named = mkostemp(path.data(), O_CLOEXEC);
-  if (named >= 0) unlink(path.c_str());
-  return named;
-}
-
-/// A file that grows by extents, of which those that are given back are handed out
-/// again: their pages are there already, where the system clears each new one.
-class ScratchFile {
- public:
-  static constexpr std::size_t kExtent = ScratchMemory::kSmallest / 4;
-
-  /// The one that memories of this process share, nullptr if there can be none.
-  static std::shared_ptr<ScratchFile> Shared();
-
-  explicit ScratchFile(std::string folder)
-      : folder_(std::move(folder)), file_(OpenScratchFile(folder_)) {}
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-  ~ScratchFile() {
-    if (file_ >= 0) close(file_);
-  }
-
-  int descriptor() const { return file_; }
-
-  /// Numbers of extents in ascending order, none if the disk has no room for them.
-  /// Their place on the disk is taken at once: a disk that is full later would end
-  /// the process. `all_zero` says that nothing was written to any of them.
-  std::vector<std::size_t> Take(std::size_t count, bool* all_zero) {
-    const std::lock_guard<std::mutex> guard(mutex_);
-    *all_zero = free_.empty();
-    if (count > free_.size() && !Grow(count - free_.size())) return {};
-    const auto first = free_.end() - static_cast<std::ptrdiff_t>(count);
-    std::vector<std::size_t> taken(first, free_.end());
-    free_.erase(first, free_.end());
-    std::sort(taken.begin(), taken.end());
-    return taken;
-  }
-  void GiveBack(const std::vector<std::size_t>& extents) {
-    const std::lock_guard<std::mutex> guard(mutex_);
-    free_.insert(free_.end(), extents.begin(), extents.end());
-  }
-
- private:
-  bool Grow(std::size_t count) {
-    if (fallocate(file_, 0, static_cast<off_t>(size_ * kExtent),
-                  static_cast<off_t>(count * kExtent)) != 0) {
-      return false;
-    }
-    for (; count > 0; --count) free_.insert(free_.begin(), size_++);
-    return true;
-  }
-
-  std::string folder_;
-  int file_;
-  std::mutex mutex_;
-  std::size_t size_ = 0;           ///< [extents]
-  std::vector<std::size_t> free_;  ///< the last ones go first
-};
-
-std::shared_ptr<ScratchFile> ScratchFile::Shared() {
-  static std::mutex mutex;
-  static std::weak_ptr<ScratchFile> shared;
-  const std::lock_guard<std::mutex> guard(mutex);
-  std::shared_ptr<ScratchFile> file = shared.lock();
-  const std::string folder = ScratchFolder();
-  if (file == nullptr || file->folder_ != folder) {
-    file = std::make_shared<ScratchFile>(folder);
-    shared = file;
-  }
-  return file->descriptor() < 0 ? nullptr : file;
-}
+/// Blocks of a memory that are filled at once: what lies across the end of one, or is
+/// written together with a row beside it, touches two.
+constexpr std::size_t kFilledAtOnce = 2;
 
 }  // namespace
 
@@ -113,36 +34,53 @@ struct ScratchMemory::Mapping {
     bool all_zero = false;
     extents = file->Take((bytes + kExtent - 1) / kExtent, &all_zero);
     if (extents.empty()) return;
-    if (!all_zero && at_first == AtFirst::kZero) {
+    zero_at_first = at_first == AtFirst::kZero;
+    if (!all_zero && zero_at_first) {
       to_clear.assign((bytes + block - 1) / block, true);
     }
     void* place = mmap(nullptr, Size(), PROT_NONE,
                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (place == MAP_FAILED) return;
     data = static_cast<std::byte*>(place);
-    for (std::size_t i = 0, next = 0; i < extents.size(); i = next) {
-      for (next = i + 1; next < extents.size(); ++next) {
-        if (extents[next] != extents[next - 1] + 1) break;
-      }
-      if (mmap(data + i * kExtent, (next - i) * kExtent, PROT_READ | PROT_WRITE,
-               MAP_SHARED | MAP_FIXED, file->descriptor(),
-               static_cast<off_t>(extents[i] * kExtent)) == MAP_FAILED) {
-        munmap(data, Size());
-        data = nullptr;
-        return;
-      }
-    }
+    if (MapFile(0, Size())) return;
+    munmap(data, Size());
+    data = nullptr;
   }
   Mapping(const Mapping&) = delete;
   Mapping& operator=(const Mapping&) = delete;
   ~Mapping();
   std::size_t Size() const { return extents.size() * ScratchFile::kExtent; }
+  std::size_t SizeOf(std::size_t number) const {
+    return std::min(block, Size() - number * block);
+  }
+  std::byte* At(std::size_t number) const { return data + number * block; }
   /// Lets a block go. Another thread that is reading meanwhile finds the same
   /// bytes.
   void Release(std::size_t number) {
-    const std::size_t begin = number * block;
-    madvise(data + begin, std::min(block, Size() - begin), MADV_DONTNEED);
-    held[number] = 0;
+    madvise(At(number), SizeOf(number), MADV_DONTNEED);
+    held[number] = kLetGo;
+  }
+  /// Makes a block plain memory: of pages of its own, or of those of the block that
+  /// was first to be filled, which the system need not make again.
+  void BeginFilling(std::size_t number) {
+    if (filling.size() < kFilledAtOnce || !MovePages(number)) {
+      EndFilling(kFilledAtOnce - 1);
+      if (mmap(At(number), SizeOf(number), PROT_READ | PROT_WRITE,
+               MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) == MAP_FAILED) {
+        throw std::bad_alloc();
+      }
+      madvise(At(number), SizeOf(number), MADV_POPULATE_WRITE);
+    }
+    filling.push_back(number);
+  }
+  /// Writes such blocks, but the last `kept`, to their places in the file, which
+  /// takes the place of the plain memory. That remains if it cannot be written.
+  void EndFilling(std::size_t kept) {
+    while (filling.size() > kept) {
+      const std::size_t number = filling.front();
+      filling.erase(filling.begin());
+      if (WriteFile(number * block, SizeOf(number))) ReturnToFile(number);
+    }
   }
 
   std::size_t block;  ///< [bytes]
@@ -150,7 +88,69 @@ struct ScratchMemory::Mapping {
   std::vector<std::size_t> extents;
   std::byte* data = nullptr;
   std::vector<bool> to_clear;  ///< blocks; none: all are as they should be
+  std::vector<std::size_t> filling;  ///< blocks that are plain memory
+  bool zero_at_first = false;
   std::atomic<char>* held = nullptr;
+
+ private:
+  /// Writes the block that was first to be filled to its place in the file, and
+  /// makes another of its pages. False if that cannot be.
+  bool MovePages(std::size_t number) {
+    const std::size_t first = filling.front();
+    const std::size_t size = SizeOf(first);
+    if (SizeOf(number) != size || !WriteFile(first * block, size)) return false;
+    if (mremap(At(first), size, size, MREMAP_MAYMOVE | MREMAP_FIXED,
+               At(number)) == MAP_FAILED) {
+      return false;
+    }
+    filling.erase(filling.begin());
+    ReturnToFile(first);
+    if (zero_at_first) std::memset(At(number), 0, size);
+    return true;
+  }
+  void ReturnToFile(std::size_t number) {
+    if (!MapFile(number * block, SizeOf(number))) throw std::bad_alloc();
+    held[number] = kLetGo;
+  }
+
+  /// Calls use(begin, size, offset in the file) for the parts of a range that lie
+  /// side by side in the file, until one is false. Whether all are true.
+  template <typename Use>
+  bool AllParts(std::size_t begin, std::size_t size, const Use& use) const {
+    constexpr std::size_t kExtent = ScratchFile::kExtent;
+    for (const std::size_t end = begin + size; begin < end;) {
+      std::size_t i = begin / kExtent;
+      const std::size_t place = extents[i] * kExtent + begin % kExtent;
+      for (++i; i * kExtent < end && extents[i] == extents[i - 1] + 1;) ++i;
+      const std::size_t to = std::min(end, i * kExtent);
+      if (!use(begin, to - begin, static_cast<off_t>(place))) return false;
+      begin = to;
+    }
+    return true;
+  }
+  bool MapFile(std::size_t begin, std::size_t size) {
+    return AllParts(begin, size,
+                    [this](std::size_t at, std::size_t count, off_t place) {
+                      return mmap(data + at, count, PROT_READ | PROT_WRITE,
+                                  MAP_SHARED | MAP_FIXED, file->descriptor(),
+                                  place) != MAP_FAILED;
+                    });
+  }
+  bool WriteFile(std::size_t begin, std::size_t size) const {
+    return AllParts(begin, size,
+                    [this](std::size_t at, std::size_t count, off_t place) {
+                      while (count > 0) {
+                        const ssize_t done =
+                            pwrite(file->descriptor(), data + at, count, place);
+                        if (done < 0 && errno == EINTR) continue;
+                        if (done <= 0) return false;
+                        at += static_cast<std::size_t>(done);
+                        count -= static_cast<std::size_t>(done);
+                        place += done;
+                      }
+                      return true;
+                    });
+  }
 };
 
 /// The blocks that are held, in the order in which they were asked for. For use under
@@ -239,11 +239,12 @@ void ScratchMemory::swap(ScratchMemory& other) noexcept {
 }
 
 void ScratchMemory::Hold(std::size_t block, char how) const {
+  if (how == kWritten) Fill(block);
   const std::lock_guard<std::mutex> guard(HeldBlocks::Mutex());
   if (held_[block] >= how) return;
   std::byte* begin = data_ + block * block_;
   const std::size_t size = std::min(block_, bytes_ - block * block_);
-  if (held_[block] == 0) HeldBlocks::Add(mapping_.get(), block, size);
+  if (held_[block] < kRead) HeldBlocks::Add(mapping_.get(), block, size);
   const bool clear = !mapping_->to_clear.empty() && mapping_->to_clear[block];
   // In one call, many times as fast as page by page when they are touched. Where
   // the system does not know the advice, they come when they are touched.
@@ -254,6 +255,21 @@ void ScratchMemory::Hold(std::size_t block, char how) const {
     mapping_->to_clear[block] = false;
   }
   held_[block].store(how, std::memory_order_relaxed);
+}
+
+/// If nobody has touched it.
+void ScratchMemory::Fill(std::size_t block) const {
+  {
+    const std::lock_guard<std::mutex> guard(HeldBlocks::Mutex());
+    if (held_[block] != kUntouched) return;
+    held_[block] = kWritten;
+    if (!mapping_->to_clear.empty()) mapping_->to_clear[block] = false;
+  }
+  mapping_->BeginFilling(block);
+}
+
+void ScratchMemory::EndFilling() {
+  if (mapping_ != nullptr) mapping_->EndFilling(0);
 }
 
 std::size_t ScratchMemory::held() {

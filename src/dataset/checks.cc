@@ -183,8 +183,7 @@ CheckReport CheckDataset(const Dataset& dataset) {
     report.warnings.emplace_back("imu: fewer than two samples");
     return report;
   }
-  report.streams.push_back(
-      ReportStamps("imu", ImuStamps(dataset.imu), dataset.imu));
+  report.streams.push_back(ReportImuStamps(dataset.imu));
   std::vector<double> stamps;
   for (const AidingStream& stream : dataset.streams) {
     stamps.clear();

@@ -42,11 +42,11 @@ struct EqualSamples {
 
 /// Channels whose reading is that of the sample before, a bit each.
 unsigned Repeated(const PagedVector<ImuSample>& samples, std::size_t k) {
+  const ImuSample& here = samples[k];
+  const ImuSample& before = samples[k - 1];
   unsigned repeated = 0;
   for (int c = 0; c < kChannels; ++c) {
-    if (ReadingOf(samples[k], c) == ReadingOf(samples[k - 1], c)) {
-      repeated |= 1U << c;
-    }
+    if (ReadingOf(here, c) == ReadingOf(before, c)) repeated |= 1U << c;
   }
   return repeated;
 }
@@ -62,14 +62,18 @@ std::vector<std::vector<EqualSamples>> LongRuns(
     const std::vector<ChannelGroup>& groups) {
   std::vector<std::vector<EqualSamples>> found(groups.size());
   std::vector<std::size_t> begin(groups.size(), 0);
+  unsigned before = 0;
   for (std::size_t k = 1; k <= samples.size(); ++k) {
     const unsigned repeated = k < samples.size() ? Repeated(samples, k) : 0U;
+    if (repeated == 0 && before == 0) continue;
     for (std::size_t i = 0; i < groups.size(); ++i) {
       const unsigned channels = ChannelsOf(groups[i]);
-      if ((repeated & channels) == channels) continue;
-      if (k - begin[i] > 1) found[i].push_back({begin[i], k});
-      begin[i] = k;
+      const bool was_equal = (before & channels) == channels;
+      const bool is_equal = (repeated & channels) == channels;
+      if (is_equal && !was_equal) begin[i] = k - 1;
+      if (was_equal && !is_equal) found[i].push_back({begin[i], k});
     }
+    before = repeated;
   }
   for (std::vector<EqualSamples>& runs : found) {
     std::vector<long> rows;

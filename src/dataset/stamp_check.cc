@@ -3,25 +3,50 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "base/median.h"
 
 namespace hindsight {
 namespace {
 
+/// The stamps of a stream, read where they lie: of a day's IMU a copy is 0.1 GB.
+template <typename StampOf>
+class Stamps {
+ public:
+  Stamps(std::size_t count, StampOf stamp) : count_(count), stamp_(stamp) {}
+
+  std::size_t intervals() const { return count_ - 1; }
+  double At(std::size_t k) const { return stamp_(k); }
+  /// From stamp k to the next.
+  double Interval(std::size_t k) const { return At(k + 1) - At(k); }
+
+  double MedianInterval() const {
+    std::vector<double> all(intervals());
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = Interval(k);
+    return Median(std::move(all));
+  }
+
+ private:
+  std::size_t count_;
+  StampOf stamp_;
+};
+
 /// Scatter of the intervals about their median, without gaps; a row between
 /// two regular ones splits an interval, which late stamps do not.
-double DelayOf(const std::vector<double>& intervals, double median,
-               double longest) {
+template <typename StampOf>
+double DelayOf(const Stamps<StampOf>& stamps, double median, double longest) {
   const double slack = kMaxJitter * median;
   double squares = 0.0;
   long count = 0;
-  for (std::size_t i = 0; i < intervals.size(); ++i) {
-    if (intervals[i] > longest) continue;
-    double excess = intervals[i] - median;
-    if (excess < -slack && i + 1 < intervals.size() &&
-        std::abs(excess + intervals[i + 1]) <= slack) {
-      excess += intervals[++i];
+  for (std::size_t i = 0; i < stamps.intervals(); ++i) {
+    const double interval = stamps.Interval(i);
+    if (interval > longest) continue;
+    double excess = interval - median;
+    if (excess < -slack && i + 1 < stamps.intervals() &&
+        std::abs(excess + stamps.Interval(i + 1)) <= slack) {
+      excess += stamps.Interval(++i);
     }
     squares += excess * excess;
     ++count;
@@ -29,52 +54,56 @@ double DelayOf(const std::vector<double>& intervals, double median,
   return count == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(count));
 }
 
-}  // namespace
-
-StreamReport ReportStamps(const std::string& name,
-                          const std::vector<double>& stamps,
-                          const ImuStream& imu) {
+template <typename StampOf>
+StreamReport Report(const std::string& name, std::size_t count, StampOf stamp,
+                    const ImuStream& imu) {
   StreamReport report;
   report.name = name;
-  report.count = static_cast<long>(stamps.size());
-  if (stamps.empty()) return report;
-  report.t_begin = stamps.front();
-  report.t_end = stamps.back();
+  report.count = static_cast<long>(count);
+  if (count == 0) return report;
+  report.t_begin = stamp(0);
+  report.t_end = stamp(count - 1);
   report.overlap = std::max(0.0, std::min(report.t_end, imu.t_end()) -
                                      std::max(report.t_begin, imu.t_begin()));
-  if (stamps.size() < 2) return report;
-  std::vector<double> intervals(stamps.size() - 1);
-  for (std::size_t i = 0; i < intervals.size(); ++i) {
-    intervals[i] = stamps[i + 1] - stamps[i];
-  }
-  const double median = Median(intervals);
+  if (count < 2) return report;
+  const Stamps<StampOf> stamps(count, stamp);
+  const double median = stamps.MedianInterval();
   if (median > 0.0) report.rate = 1.0 / median;
   const double longest = std::max(3.0 * median, 0.1);
   double squares = 0.0;
   long regular = 0;
-  for (std::size_t i = 0; i < intervals.size(); ++i) {
-    if (intervals[i] == 0.0) ++report.duplicates;
-    if (intervals[i] > longest) {
-      report.gaps.push_back({stamps[i], intervals[i]});
+  for (std::size_t i = 0; i < stamps.intervals(); ++i) {
+    const double interval = stamps.Interval(i);
+    if (interval == 0.0) ++report.duplicates;
+    if (interval > longest) {
+      report.gaps.push_back({stamps.At(i), interval});
     } else {
-      const double excess = intervals[i] - median;
+      const double excess = interval - median;
       squares += excess * excess;
       ++regular;
     }
   }
   if (regular > 0) {
     report.jitter = std::sqrt(squares / static_cast<double>(regular));
-    report.delay = DelayOf(intervals, median, longest);
+    report.delay = DelayOf(stamps, median, longest);
   }
   return report;
 }
 
-std::vector<double> ImuStamps(const ImuStream& imu) {
-  std::vector<double> stamps;
-  stamps.reserve(imu.samples.size());
-  for (const ImuSample& sample : imu.samples) stamps.push_back(sample.t);
-  if (imu.kind == ImuStream::Kind::kIncrements) stamps.erase(stamps.begin());
-  return stamps;
+}  // namespace
+
+StreamReport ReportStamps(const std::string& name,
+                          const std::vector<double>& stamps,
+                          const ImuStream& imu) {
+  return Report(
+      name, stamps.size(), [&stamps](std::size_t k) { return stamps[k]; }, imu);
+}
+
+StreamReport ReportImuStamps(const ImuStream& imu) {
+  const std::size_t first = imu.kind == ImuStream::Kind::kIncrements ? 1 : 0;
+  return Report(
+      "imu", imu.samples.size() - first,
+      [&imu, first](std::size_t k) { return imu.samples[first + k].t; }, imu);
 }
 
 }  // namespace hindsight

@@ -17,8 +17,8 @@ StreamReport ReportStamps(const std::string& name,
                           const std::vector<double>& stamps,
                           const ImuStream& imu);
 
-/// Of the IMU's rows: the first sample of increments is none.
-std::vector<double> ImuStamps(const ImuStream& imu);
+/// The same of the IMU's rows: the first sample of increments is none.
+StreamReport ReportImuStamps(const ImuStream& imu);
 
 }  // namespace hindsight
 

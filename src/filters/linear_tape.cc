@@ -26,6 +26,7 @@ double* LinearTape::Allocate(std::size_t count) {
     std::size_t size = 0;
     for (const Chunk& chunk : chunks_) size += chunk.size;
     size = std::clamp(size, kBlock, kLargestChunk);
+    if (!chunks_.empty()) chunks_.back().memory.EndFilling();
     chunks_.push_back({ScratchMemory(size * sizeof(double), kBlockBytes,
                                      ScratchMemory::AtFirst::kAnything),
                        size, 0});

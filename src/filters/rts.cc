@@ -13,14 +13,15 @@ namespace {
 /// The pass over a tape.
 class RtsPass {
  public:
-  RtsPass(const LinearTape& tape, bool covariances)
+  RtsPass(const LinearTape& tape, bool covariances, bool errors)
       : tape_(tape),
         covariances_(covariances),
+        errors_(errors),
         count_(tape.size()),
         d_(ErrorVector::Zero(tape.dim())),
         P_(ErrorMatrix::Zero(tape.dim(), tape.dim())) {
     out_.states.resize(count_);
-    out_.d.resize(count_);
+    if (errors) out_.d.resize(count_);
     if (covariances) out_.P = CovarianceSeries(tape.dim(), count_);
   }
 
@@ -87,11 +88,12 @@ class RtsPass {
       MoveBack(tape_.ResetTransport(epoch_), &d_, &P_);
       d_ += epoch_.dx_plus;
     }
-    out_.d[k] = d_;
+    if (errors_) out_.d[k] = d_;
   }
 
   const LinearTape& tape_;
   bool covariances_;
+  bool errors_;
   std::size_t count_;
   TapeEpoch epoch_;  ///< that is being smoothed
   ErrorVector d_;
@@ -99,24 +101,24 @@ class RtsPass {
   SmoothedTrajectory out_;
 };
 
-SmoothedTrajectory Smooth(const LinearTape& tape, bool covariances,
+SmoothedTrajectory Smooth(const LinearTape& tape, bool covariances, bool errors,
                           LinearTape* consumed) {
   RequireSmoothable(tape);
-  return RtsPass(tape, covariances).Run(consumed);
+  return RtsPass(tape, covariances, errors).Run(consumed);
 }
 
 }  // namespace
 
 SmoothedTrajectory SmoothRts(const LinearTape& tape) {
-  return Smooth(tape, /*covariances=*/true, nullptr);
+  return Smooth(tape, /*covariances=*/true, /*errors=*/true, nullptr);
 }
 
-SmoothedTrajectory SmoothRts(LinearTape&& tape) {
-  return Smooth(tape, /*covariances=*/true, &tape);
+SmoothedTrajectory SmoothRts(LinearTape&& tape, bool errors) {
+  return Smooth(tape, /*covariances=*/true, errors, &tape);
 }
 
 SmoothedTrajectory SmoothMeans(const LinearTape& tape) {
-  return Smooth(tape, /*covariances=*/false, nullptr);
+  return Smooth(tape, /*covariances=*/false, /*errors=*/true, nullptr);
 }
 
 }  // namespace hindsight

@@ -25,20 +25,16 @@ std::size_t ImuIntegrator::FindInterval(double t) {
 }
 
 LinearRates ImuIntegrator::RatesOfInterval(std::size_t k) const {
-  const auto& samples = stream_->samples;
-  const double dt = samples[k].t - samples[k - 1].t;
+  const ImuSample& a = stream_->samples[k - 1];
+  const ImuSample& b = stream_->samples[k];
+  const double dt = b.t - a.t;
   if (stream_->kind == ImuStream::Kind::kRates) {
-    return {dt, samples[k - 1].gyro, samples[k].gyro, samples[k - 1].accel,
-            samples[k].accel};
+    return {dt, a.gyro, b.gyro, a.accel, b.accel};
   }
-  if (IsDropOut(k)) return RatesAcrossDropOut(k);
-  const double dt_previous = k < 2 ? dt
-                             : IsDropOut(k - 1)
-                                 ? stream_->nominal_dt
-                                 : samples[k - 1].t - samples[k - 2].t;
-  return RatesFromIncrements(dt_previous, samples[k - 1].gyro,
-                             samples[k - 1].accel, dt, samples[k].gyro,
-                             samples[k].accel);
+  if (stream_->IsDropOut(dt)) return RatesAcrossDropOut(k);
+  double dt_previous = k < 2 ? dt : a.t - stream_->samples[k - 2].t;
+  if (stream_->IsDropOut(dt_previous)) dt_previous = stream_->nominal_dt;
+  return RatesFromIncrements(dt_previous, a.gyro, a.accel, dt, b.gyro, b.accel);
 }
 
 Kinematics ImuIntegrator::BendOfInterval(std::size_t k) const {
@@ -89,9 +85,7 @@ LinearRates PartOf(const LinearRates& whole, const Kinematics& bend, double a,
 }  // namespace
 
 bool ImuIntegrator::IsDropOut(std::size_t k) const {
-  return stream_->nominal_dt > 0.0 &&
-         stream_->samples[k].t - stream_->samples[k - 1].t >
-             ImuStream::kGapFactor * stream_->nominal_dt;
+  return stream_->IsDropOut(stream_->samples[k].t - stream_->samples[k - 1].t);
 }
 
 LinearRates ImuIntegrator::RatesAcrossDropOut(std::size_t k) const {
@@ -134,7 +128,9 @@ void ImuIntegrator::Walk(double t_i, double t_j, const Use& use) {
         PartOf(whole, BendOfInterval(k), part ? (t - t_begin) / whole.dt : 0.0,
                part ? (to - t_begin) / whole.dt : 1.0);
     rates.dt = part ? to - t : whole.dt;
-    if (rates.dt > 0.0) use(rates, IsDropOut(k) ? &whole : nullptr);
+    if (rates.dt > 0.0) {
+      use(rates, stream_->IsDropOut(whole.dt) ? &whole : nullptr);
+    }
     t = to;
     if (k + 1 < samples.size()) ++k;
   }

@@ -28,12 +28,12 @@ double MedianInterval(const ImuStream& stream) {
 
 std::vector<std::size_t> DropOuts(const ImuStream& stream) {
   std::vector<std::size_t> ends;
-  if (stream.nominal_dt <= 0.0) return ends;
-  const double limit = ImuStream::kGapFactor * stream.nominal_dt;
+  if (stream.nominal_dt <= 0.0 || stream.empty()) return ends;
+  double before = stream.t_begin();
   for (std::size_t k = 1; k < stream.samples.size(); ++k) {
-    if (stream.samples[k].t - stream.samples[k - 1].t > limit) {
-      ends.push_back(k);
-    }
+    const double t = stream.samples[k].t;
+    if (stream.IsDropOut(t - before)) ends.push_back(k);
+    before = t;
   }
   return ends;
 }

@@ -57,6 +57,10 @@ struct ImuStream {
   double nominal_dt = 0.0;
   static constexpr double kGapFactor = 3.5;
 
+  /// Whether an interval of this length [s] is a drop-out.
+  bool IsDropOut(double interval) const {
+    return nominal_dt > 0.0 && interval > kGapFactor * nominal_dt;
+  }
   bool empty() const { return samples.size() < 2; }
   /// First and last time at which the motion is known [s].
   double t_begin() const { return samples.front().t; }

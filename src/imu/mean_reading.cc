@@ -8,6 +8,26 @@
 
 namespace hindsight {
 
+namespace {
+
+/// Adds the integrals of the interval that ends at sample k; returns its length.
+double AddInterval(const ImuStream& imu, std::size_t k, Kinematics* sum) {
+  const ImuSample& a = imu.samples[k - 1];
+  const ImuSample& b = imu.samples[k];
+  const double dt = b.t - a.t;
+  if (imu.kind == ImuStream::Kind::kIncrements && !imu.IsDropOut(dt)) {
+    sum->w_ib_b += b.gyro;
+    sum->f_b += b.accel;
+    return dt;
+  }
+  const LinearRates rates = ImuIntegrator(imu).RatesOfInterval(k);
+  sum->w_ib_b += 0.5 * dt * (rates.w0 + rates.w1);
+  sum->f_b += 0.5 * dt * (rates.f0 + rates.f1);
+  return dt;
+}
+
+}  // namespace
+
 Kinematics MeanReading(const ImuStream& imu, double begin, double end) {
   constexpr double kRounding = 1e-6;  // of stamps [s]
   const std::size_t last = imu.samples.size() - 1;
@@ -18,15 +38,9 @@ Kinematics MeanReading(const ImuStream& imu, double begin, double end) {
                                     last);
     to = first + 1;
   }
-  const ImuIntegrator integrator(imu);
   Kinematics mean;
   double total = 0.0;
-  for (std::size_t k = first; k < to; ++k) {
-    const LinearRates rates = integrator.RatesOfInterval(k);
-    mean.w_ib_b += 0.5 * rates.dt * (rates.w0 + rates.w1);
-    mean.f_b += 0.5 * rates.dt * (rates.f0 + rates.f1);
-    total += rates.dt;
-  }
+  for (std::size_t k = first; k < to; ++k) total += AddInterval(imu, k, &mean);
   mean.w_ib_b /= total;
   mean.f_b /= total;
   return mean;

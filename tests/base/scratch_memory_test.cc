@@ -106,6 +106,32 @@ TEST(ScratchMemory, GivesItsPlaceToTheNextWhichIsZeroAsAtFirst) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(ScratchMemory, KeepsWhatIsWrittenToABlockWhoseFillingHasEnded) {
+  const std::size_t blocks = ScratchMemory::kSmallest / kBlock;
+  ScratchMemory memory(blocks * kBlock, kBlock);
+  ASSERT_TRUE(memory.is_file());
+  // Backwards, and a word of a block while the one before it is filled already.
+  for (std::size_t b = blocks; b-- > 0;) {
+    memory.BeforeWriting(b);
+    memory.data()[b * kBlock] = std::byte{1};
+    if (b + 1 < blocks) memory.data()[(b + 1) * kBlock + 9] = std::byte{2};
+  }
+  memory.EndFilling();
+  memory.EndFilling();
+  for (std::size_t b = 0; b < blocks; ++b) {
+    memory.BeforeWriting(b);
+    memory.data()[b * kBlock + 5] = std::byte{3};
+  }
+  for (std::size_t b = 0; b < blocks; ++b) {
+    memory.BeforeReading(b);
+    const std::byte* block = memory.data() + b * kBlock;
+    ASSERT_EQ(block[0], std::byte{1}) << b;
+    ASSERT_EQ(block[5], std::byte{3}) << b;
+    ASSERT_EQ(block[9], b == 0 ? std::byte{0} : std::byte{2}) << b;
+    ASSERT_EQ(block[kBlock - 1], std::byte{0}) << b;
+  }
+}
+
 TEST(ScratchMemory, LeavesNoFileBehind) {
   const std::filesystem::path folder =
       std::filesystem::path(::testing::TempDir()) / "scratch_memory";

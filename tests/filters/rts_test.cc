@@ -115,13 +115,19 @@ TEST(Rts, ConsumingTheTapeGivesTheSameBits) {
   Problem posed = problem.Pose();
   LinearTape tape = RunExtendedKalmanFilter(&posed);
   const SmoothedTrajectory kept = SmoothRts(tape);
+  LinearTape again = RunExtendedKalmanFilter(&posed);
   const SmoothedTrajectory consumed = SmoothRts(std::move(tape));
+  const SmoothedTrajectory bare = SmoothRts(std::move(again), /*errors=*/false);
+  EXPECT_TRUE(bare.d.empty());
+  ASSERT_EQ(bare.states.size(), kept.states.size());
   ASSERT_EQ(consumed.states.size(), kept.states.size());
   for (std::size_t k = 0; k < kept.states.size(); ++k) {
     EXPECT_EQ(consumed.states[k].p_e, kept.states[k].p_e);
     EXPECT_EQ(consumed.states[k].q_eb.coeffs(), kept.states[k].q_eb.coeffs());
     EXPECT_EQ(consumed.d[k], kept.d[k]);
     EXPECT_EQ(consumed.P.Get(k), kept.P.Get(k));
+    EXPECT_EQ(bare.states[k].p_e, kept.states[k].p_e);
+    EXPECT_EQ(bare.P.Get(k), kept.P.Get(k));
   }
 }
 

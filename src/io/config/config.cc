@@ -87,7 +87,9 @@ void LoadImu(const DeclaredRecording& declared, ConfigMap* top,
     top->Resolve("epoch", FormatGpsTime(*dataset->epoch_gps_ns));
   }
   const TimeLine line = MapClock(declared.imu, clock, dataset->epoch_gps_ns);
-  for (ImuSample& sample : dataset->imu.samples) sample.t = line(sample.t);
+  if (line.offset != 0.0 || line.scale != 1.0) {
+    for (ImuSample& sample : dataset->imu.samples) sample.t = line(sample.t);
+  }
   RequireModestSpan(declared.imu, dataset->imu);
   dataset->imu.stamp_offset = declared.imu.clock.offset;
   dataset->imu.nominal_dt = MedianInterval(dataset->imu);

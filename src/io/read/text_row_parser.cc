@@ -154,7 +154,10 @@ std::string TextRowParser::ParseTime(
     if (time_tokens.size() > 1) text += " " + std::string(time_tokens[1]);
     return ColumnName(layout_.time_column) + ": '" + text + "' is not a time";
   }
-  *out = *stamp;
+  // One by one: copied as a whole, just after it was written in two, the stamp waits
+  // for all stores before.
+  out->seconds = stamp->seconds;
+  out->fraction = stamp->fraction;
   return "";
 }
 
