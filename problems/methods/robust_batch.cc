@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/processor_time.h"
@@ -105,46 +106,82 @@ Solution TakeRobust(RobustBatchResult result, MethodStage* stage) {
   return solution;
 }
 
+/// What was decided, where the nodes stood, and what came of it last.
+struct Searched {
+  bool done = false;
+  SearchDecisions decisions;
+  std::vector<double> offsets;  ///< by sensor [s]
+  bool stands = false;
+  std::vector<std::string> notes;
+  ErrorLayout layout;
+  State x;        ///< the solution's at its last node
+  ErrorMatrix P;  ///< of it
+};
+
+/// Nodes that moved by less than a sigma hold the same errors at the same fixes.
+bool IsKnownStill(const Searched& searched) {
+  constexpr double kMoved = 1.0;  // sigma
+  return searched.done && FarthestFromNodes(searched.layout, searched.offsets,
+                                            searched.x, searched.P, kMoved) < 0;
+}
+
+/// The EKF's trajectory may be so far off after an outlier that a linearisation
+/// about it is of no use.
+std::vector<State> RoughStates(MethodStage* stage,
+                               const MethodStage::Nodes& nodes,
+                               const Problem& problem, bool has_blunders) {
+  SensorImm imm = MakeSensorImm(stage->Questioned(nodes));
+  if (has_blunders) imm.options.decisions = problem.decisions;
+  return SmoothSensorImm(&imm, stage->forward().Progress("robust_batch"))
+      .trajectory.states;
+}
+
+/// Searches, unless what was decided holds still: then the nodes have the
+/// trajectory that followed from it.
 Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
-                       bool* stands) {
-  // The EKF's trajectory may be so far off after an outlier that a
-  // linearisation about it is of no use.
+                       Searched* searched) {
+  const bool known = IsKnownStill(*searched);
   const std::vector<std::size_t> blunders =
       FindBlunders(nodes.problem->timeline);
   Problem problem = WithAll(*stage, blunders, *nodes.problem);
-  SensorImm imm = MakeSensorImm(stage->Questioned(nodes));
-  if (!blunders.empty()) imm.options.decisions = problem.decisions;
-  const ImmSmoothed rough =
-      SmoothSensorImm(&imm, stage->forward().Progress("robust_batch"));
+  const std::vector<State> initial =
+      known ? *nodes.states
+            : RoughStates(stage, nodes, problem, !blunders.empty());
   RobustBatchOptions options = OptionsOf(*stage, nodes.problem->decisions);
   options.blunders = blunders;
+  if (known) options.decisions = &searched->decisions;
   RobustBatchResult result =
-      SolveRobustBatch(std::move(problem), rough.trajectory.states, options);
-  *stands = result.stands;
+      SolveRobustBatch(std::move(problem), initial, options);
+  if (!known) {
+    searched->decisions = std::move(result.decisions);
+    searched->offsets = *nodes.offsets;
+  }
+  searched->stands = result.stands;
+  searched->notes = std::move(result.notes);
   stage->SetDoubts(std::move(result.doubts));
-  std::vector<std::string> notes = std::move(result.notes);
-  Solution solution = result.stands ? TakeRobust(std::move(result), stage)
-                                    : SolvePlainly(stage, nodes);
-  solution.notes = std::move(notes);
-  return solution;
+  return result.stands ? TakeRobust(std::move(result), stage)
+                       : SolvePlainly(stage, nodes);
 }
 
 Solution RunRobustBatch(MethodStage* stage) {
   const double t0 = ProcessorSeconds();
   RequirePosition(stage->forward().timeline());
-  // Nodes that move by a part of their time offset's sigma give no errors to a
-  // sensor that had none.
-  std::optional<std::vector<std::string>> plain;
-  bool stands = false;
+  Searched searched;
   Solution solution = stage->AtOwnNodes([&](const MethodStage::Nodes& nodes) {
+    // Nodes that move by a part of their time offset's sigma give no errors to
+    // a sensor that had none.
+    const bool plain = searched.done && !searched.stands;
     Solution one = plain ? SolvePlainly(stage, nodes)
-                         : SolveRobustly(stage, nodes, &stands);
-    if (plain) one.notes = *plain;
-    if (!stands) plain = one.notes;
+                         : SolveRobustly(stage, nodes, &searched);
+    one.notes = searched.notes;
+    searched.done = true;
+    searched.layout = one.layout;
+    searched.x = one.states.back();
+    searched.P = one.covariances.Get(one.states.size() - 1);
     return one;
   });
   solution.seconds = ProcessorSeconds() - t0;
-  if (!stands) stage->JudgeOptimum(solution);
+  if (!searched.stands) stage->JudgeOptimum(solution);
   return solution;
 }
 

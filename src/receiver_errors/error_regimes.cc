@@ -32,19 +32,19 @@ ErrorParameters Tune(const RegimeProblem& problem, const ModeSequence& sequence,
                         problem.effort);
 }
 
-/// Scale and outliers alone.
-ErrorParameters TuneWithImuAsStated(const RegimeProblem& problem,
-                                    const ModeSequence& sequence,
-                                    const ErrorParameters& from) {
-  return TuneNoise(problem.tape, problem.sensor, sequence, from,
+/// Scale and outliers alone, as the batch would be solved with them.
+ErrorParameters TuneAsSolved(const RegimeProblem& problem,
+                             const ModeSequence& sequence,
+                             const ErrorParameters& from) {
+  return TuneNoise(problem.tape, problem.sensor, sequence, from, kLeastSolved,
                    problem.effort);
 }
 
-double LogEvidence(const Hypothesis& best, const ErrorParameters& from) {
-  return best.log_posterior + LogPriorOf(best.sequence, best.parameters, from) -
-         0.5 * CountParameters(best.sequence) *
-             std::log(static_cast<double>(
-                 std::max<std::size_t>(2, best.sequence.size())));
+double LogEvidence(const RegimeProblem& problem, const Hypothesis& best,
+                   const ErrorParameters& from) {
+  return best.log_posterior + LogPriorOf(best.sequence, best.parameters, from) +
+         LogWidths(problem.tape, problem.sensor, best.sequence, best.parameters,
+                   problem.effort);
 }
 
 /// The noise as stated: what the plain batch takes it for.
@@ -79,7 +79,7 @@ ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
           .log_likelihood;
   ErrorRegimes out;
   out.kind = kind;
-  out.log_evidence = LogEvidence(one, from);
+  out.log_evidence = LogEvidence(problem, one, from);
   out.hypotheses.push_back(std::move(one));
   return out;
 }
@@ -99,7 +99,7 @@ ErrorRegimes FitSwitching(const RegimeProblem& problem,
   out.hypotheses = RefineHypotheses(problem.tape, problem.sensor,
                                     Tune(problem, sequence, from), {{sequence}},
                                     problem.effort);
-  out.log_evidence = LogEvidence(out.hypotheses.front(), from);
+  out.log_evidence = LogEvidence(problem, out.hypotheses.front(), from);
   return out;
 }
 
@@ -196,6 +196,10 @@ void AddAlternatives(std::vector<Hypothesis> more, double shift,
 
 }  // namespace
 
+bool CanBeSolved(const ErrorParameters& white) {
+  return white.scale >= kLeastSolved && white.imu_scale <= kMisstatedImu;
+}
+
 const char* RegimeName(ErrorRegimes::Kind kind) {
   static const char* const kNames[] = {"stated", "white", "gauss_markov",
                                        "switching"};
@@ -206,9 +210,9 @@ std::vector<ErrorRegimes> FitNoise(const RegimeProblem& problem) {
   std::vector<ErrorRegimes> all = {
       AsStated(problem),
       FitUniform(problem, ErrorRegimes::Kind::kWhite, {}, Tune)};
-  if (all[1].hypotheses.front().parameters.imu_scale > kMisstatedImu) {
-    all.push_back(FitUniform(problem, ErrorRegimes::Kind::kWhite, {},
-                             TuneWithImuAsStated));
+  if (!CanBeSolved(all[1].hypotheses.front().parameters)) {
+    all.push_back(
+        FitUniform(problem, ErrorRegimes::Kind::kWhite, {}, TuneAsSolved));
   }
   return all;
 }
@@ -233,9 +237,11 @@ ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
                            const ErrorRegimes& found) {
   std::vector<Hypothesis> all = found.hypotheses;
   for (Hypothesis& one : all) one.sequence = AtFixes(points, one.sequence);
-  const ErrorParameters parameters =
-      TuneNoise(problem.tape, problem.sensor, all.front().sequence,
-                all.front().parameters, problem.effort);
+  const ErrorParameters parameters = TuneNoise(
+      problem.tape, problem.sensor, all.front().sequence,
+      all.front().parameters,
+      found.kind == ErrorRegimes::Kind::kWhite ? kLeastSolved : kLeastScale,
+      problem.effort);
   ErrorRegimes out;
   out.kind = found.kind;
   if (found.kind == ErrorRegimes::Kind::kSwitching) {
@@ -248,7 +254,7 @@ ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
                                     .log_likelihood;
     out.hypotheses = std::move(all);
   }
-  out.log_evidence = LogEvidence(out.hypotheses.front(), parameters);
+  out.log_evidence = LogEvidence(problem, out.hypotheses.front(), parameters);
   return out;
 }
 

@@ -103,6 +103,23 @@ std::vector<State> ErrorStates::States(const ErrorLayout& layout) const {
   return states;
 }
 
+State ErrorStates::Moved(const ErrorLayout& layout, const State& x,
+                         const ErrorVector& by) const {
+  const int n = tape_.dim();
+  ErrorVector d = ErrorVector::Zero(layout.dim());
+  d.head(n) = by.head(n);
+  int from = n;
+  for (const BlockKind kind :
+       {BlockKind::kColouredNoise, BlockKind::kErrorRate}) {
+    const Block* block = HasError() ? layout.Find(kind, receiver_) : nullptr;
+    if (block != nullptr) {
+      d.segment(block->offset, rows_) = by.segment(from, rows_);
+    }
+    from += 3;
+  }
+  return Retract(layout, x, d);
+}
+
 void ErrorStates::ApplyToSensor(Timeline* timeline) const {
   const auto i = static_cast<std::size_t>(receiver_);
   Sensor sensor = timeline->sensors()[i];
@@ -112,9 +129,8 @@ void ErrorStates::ApplyToSensor(Timeline* timeline) const {
   sensor.loss.outlier_ratio = chosen_.parameters.outlier_ratio;
   sensor.loss.outlier_share = chosen_.parameters.outlier_share;
   timeline->SetSensor(i, sensor);
-  // A stated sigma has slow errors in it that fixes close to each other do not
-  // show: a small scatter is no reason to believe them more than stated.
-  timeline->ScaleSensor(receiver_, std::max(1.0, chosen_.parameters.scale));
+  timeline->ScaleSensor(receiver_,
+                        std::max(kLeastSolved, chosen_.parameters.scale));
 }
 
 void ErrorStates::AddBlock(BlockKind kind, const std::string& name,

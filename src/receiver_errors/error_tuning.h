@@ -32,19 +32,28 @@ ErrorParameters TuneParameters(const LinearTape& tape, int receiver,
                                SearchEffort* effort = nullptr);
 
 /// The same of scale, share and ratio of outliers alone, to a factor of 1.3: what
-/// differs between fixes and their normal points.
+/// differs between fixes and their normal points. The scale is sought from
+/// `least_scale` on.
 ErrorParameters TuneNoise(const LinearTape& tape, int receiver,
                           const ModeSequence& sequence,
-                          const ErrorParameters& from,
+                          const ErrorParameters& from, double least_scale,
                           SearchEffort* effort = nullptr);
+
+/// The least factor on the stated sigma that is sought.
+inline constexpr double kLeastScale = 0.1;
 
 /// ln of that prior but for constants, `typical` being what the search began
 /// from.
 double LogPriorOf(const ModeSequence& sequence, const ErrorParameters& p,
                   const ErrorParameters& typical);
 
-/// How many parameters TuneParameters seeks for the sequence.
-int CountParameters(const ModeSequence& sequence);
+/// sum of ln(posterior sigma / prior sigma) over the parameters, by the curvature
+/// of the likelihood along each: what the integral over them, in the approximation
+/// of Laplace and as if they were independent, has more than their maximum. A
+/// parameter that the data say nothing of costs nothing.
+double LogWidths(const LinearTape& tape, int receiver,
+                 const ModeSequence& sequence, const ErrorParameters& found,
+                 SearchEffort* effort = nullptr);
 
 /// The parameters of a sequence that TuneParameters seeks within bounds which
 /// mean something: a share of outliers may be as small as it likes, the IMU as

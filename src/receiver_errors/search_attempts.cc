@@ -17,11 +17,16 @@ bool IsAllGood(const ModeSequence& sequence) {
 }
 
 /// Where the search for hypotheses begins: errors of several sizes, short or
-/// lasting.
+/// lasting; drifts take a fifth of the recording to come to that size, but not
+/// more than 100 s.
 std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
                                     const ErrorParameters& white) {
-  constexpr double kRateTime = 100.0;
+  constexpr double kMostRateTime = 100.0;
+  constexpr double kShare = 0.2;
   constexpr double kSlight = 3.0;
+  const LinearTape& tape = problem.tape;
+  const double span = tape.epoch(tape.size() - 1).t - tape.epoch(0).t;
+  const double rate_time = std::min(kMostRateTime, kShare * span);
   std::vector<ErrorParameters> starts;
   for (const auto& [size, tau] : {std::pair{5.0, 1e8},
                                   {5.0, 30.0},
@@ -32,7 +37,7 @@ std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
     p.sigma = size * problem.stated_sigma;
     p.slight_sigma = kSlight * problem.stated_sigma;
     p.tau = tau;
-    p.rate_sigma = p.sigma / kRateTime;
+    p.rate_sigma = p.sigma / rate_time;
   }
   return starts;
 }
