@@ -1,5 +1,7 @@
 #include "problems/robust_batch.h"
 
+#include <fmt/core.h>
+
 #include <chrono>
 #include <optional>
 #include <string>
@@ -7,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "base/processor_time.h"
 #include "problems/blunders.h"
 #include "problems/method.h"
@@ -77,8 +80,80 @@ Solution SolvePlainly(MethodStage* stage, const MethodStage::Nodes& nodes) {
   return solution;
 }
 
+/// Fixes of one sensor that are used, in order: are they taken for outliers?
+struct TakenFix {
+  double t = 0.0;  ///< [s]
+  bool outlier = false;
+};
+
+/// Outliers in a row, with no fix behind them or before them for long.
+struct RowAtGap {
+  double begin = 0.0;  ///< [s]
+  double end = 0.0;
+  int count = 0;
+};
+
+/// The longest of the rows next to a gap, begin and end of the recording among
+/// them; a gap is five times as long as most spacings.
+RowAtGap LongestRowAtGap(const std::vector<TakenFix>& fixes) {
+  constexpr double kGap = 5.0;
+  std::vector<double> spacings;
+  for (std::size_t i = 1; i < fixes.size(); ++i) {
+    spacings.push_back(fixes[i].t - fixes[i - 1].t);
+  }
+  const double gap = spacings.empty() ? 0.0 : kGap * Median(spacings);
+  RowAtGap longest;
+  for (std::size_t begin = 0; begin < fixes.size();) {
+    std::size_t end = begin + 1;
+    while (end < fixes.size() && fixes[end].outlier == fixes[begin].outlier &&
+           spacings[end - 1] <= gap) {
+      ++end;
+    }
+    const bool at_gap = begin == 0 || end == fixes.size() ||
+                        spacings[begin - 1] > gap || spacings[end - 1] > gap;
+    const auto count = static_cast<int>(end - begin);
+    if (fixes[begin].outlier && at_gap && count > longest.count) {
+      longest = {fixes[begin].t, fixes[end - 1].t, count};
+    }
+    begin = end;
+  }
+  return longest;
+}
+
+/// Outliers come one by one. Two and more, behind which nothing follows that
+/// would agree with the fixes before them, may be the right ones.
+void DoubtOutliersAtGaps(const Timeline& timeline,
+                         const std::vector<ResidualRecord>& residuals,
+                         std::vector<Evidence>* doubts) {
+  constexpr double kOutlier = 0.5;  // weight
+  constexpr int kLeast = 2;
+  std::vector<std::vector<TakenFix>> fixes(timeline.sensors().size());
+  for (const ResidualRecord& r : residuals) {
+    if (r.withheld || !r.accepted) continue;
+    fixes[static_cast<std::size_t>(r.sensor)].push_back(
+        {r.t, r.weight < kOutlier});
+  }
+  for (std::size_t i = 0; i < fixes.size(); ++i) {
+    const Sensor& sensor = timeline.sensors()[i];
+    const RowAtGap row = LongestRowAtGap(fixes[i]);
+    if (!sensor.kind->is_position || row.count < kLeast) continue;
+    doubts->push_back(
+        {.grade = Grade::kDoubtful,
+         .what = fmt::format("{} fixes of {} in a row, from {:.1f} to {:.1f} s "
+                             "next to a gap, are taken for outliers",
+                             row.count, sensor.name, row.begin, row.end),
+         .value = static_cast<double>(row.count),
+         .limit = static_cast<double>(kLeast),
+         .unit = "fixes",
+         .causes = {"outliers at the edge of an outage, or fixes that were off "
+                    "before it"},
+         .remedies = {"a position that is known there"}});
+  }
+}
+
 /// With the errors that were found.
-Solution TakeRobust(RobustBatchResult result, MethodStage* stage) {
+Solution TakeRobust(RobustBatchResult result, MethodStage* stage,
+                    std::vector<Evidence>* doubts) {
   Solution solution =
       SmoothedSolution(result.problem, std::move(result.batch.states),
                        std::move(result.batch.P));
@@ -89,6 +164,7 @@ Solution TakeRobust(RobustBatchResult result, MethodStage* stage) {
                 .variances = VariancesOf(solution.layout, solution.covariances),
                 .smoother = {}},
                &result.problem, stage->forward().Progress("grading")));
+  DoubtOutliersAtGaps(timeline, solution.residuals, doubts);
   std::size_t record = 0;
   for (std::size_t k = 0; k < timeline.size(); ++k) {
     for (const Measurement& z : timeline.measurements(k)) {
@@ -158,9 +234,12 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
   }
   searched->stands = result.stands;
   searched->notes = std::move(result.notes);
-  stage->SetDoubts(std::move(result.doubts));
-  return result.stands ? TakeRobust(std::move(result), stage)
-                       : SolvePlainly(stage, nodes);
+  std::vector<Evidence> doubts = std::move(result.doubts);
+  Solution solution = result.stands
+                          ? TakeRobust(std::move(result), stage, &doubts)
+                          : SolvePlainly(stage, nodes);
+  stage->SetDoubts(std::move(doubts));
+  return solution;
 }
 
 Solution RunRobustBatch(MethodStage* stage) {

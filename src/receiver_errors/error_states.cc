@@ -95,9 +95,7 @@ std::vector<State> ErrorStates::States(const ErrorLayout& layout) const {
     const int n = tape_.dim();
     ErrorVector d = ErrorVector::Zero(layout.dim());
     d.head(n) = smoothed.head(n);
-    for (int i = n; i < layout.dim(); i += rows_) {
-      d.segment(i, rows_) = smoothed.segment(i == n ? n : n + 3, rows_);
-    }
+    d.tail(layout.dim() - n) = smoothed.segment(n, layout.dim() - n);
     states.push_back(Retract(layout, x, d));
   }
   return states;
@@ -113,7 +111,7 @@ State ErrorStates::Moved(const ErrorLayout& layout, const State& x,
        {BlockKind::kColouredNoise, BlockKind::kErrorRate}) {
     const Block* block = HasError() ? layout.Find(kind, receiver_) : nullptr;
     if (block != nullptr) {
-      d.segment(block->offset, rows_) = by.segment(from, rows_);
+      d.segment<3>(block->offset) = by.segment<3>(from);
     }
     from += 3;
   }
@@ -143,9 +141,6 @@ void ErrorStates::AddBlock(BlockKind kind, const std::string& name,
   block.evolution =
       Evolution::GaussMarkov(chosen_.parameters.sigma, chosen_.parameters.tau);
   block.sigma0.setConstant(sigma0);
-  for (std::size_t i = 0; i < block.active.size(); ++i) {
-    block.active[i] = static_cast<int>(i) < rows_;
-  }
   layout->Add(block);
 }
 

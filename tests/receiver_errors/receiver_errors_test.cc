@@ -3,7 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "earth/wgs84.h"
 #include "filters/forward_filter.h"
+#include "measurements/height_fix.h"
 #include "receiver_errors/mode_sequence.h"
 #include "receiver_errors/sensor_findings.h"
 #include "support/test_problem.h"
@@ -198,6 +202,34 @@ TEST(ReceiverErrors, OfWhichOneIsFarLikelierAreNoMean) {
   EXPECT_FALSE(likelier.doubt.has_value());
   EXPECT_LT(likelier.off, 2.0);
   EXPECT_NEAR(likelier.variance, 0.047 * 900.0, 10.0);
+}
+
+/// A whole-interval problem takes complete blocks alone.
+TEST(ReceiverErrors, OfASensorOfOneRowHaveACompleteBlock) {
+  TestProblemOptions options;
+  options.noise = TacticalNoise(true);
+  options.layout = TypicalLayout(options.noise);
+  options.duration = 60.0;
+  TestProblem test = MakeProblem(options, 3);
+  test.sensors[1].kind = &HeightKind();
+  for (Measurement& z : test.measurements) {
+    if (z.sensor != 1) continue;
+    HeightFix height;
+    const auto k = static_cast<std::size_t>(std::lround(z.t));
+    height.height =
+        GeodeticFromEcef(test.truth[k].p_e).height + (z.t > 30.5 ? 50.0 : 0.0);
+    z.model = height;
+  }
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  const ReceiverErrors errors = FindReceiverErrors(problem, tape, 1);
+  ASSERT_TRUE(errors.Stands());
+  errors.Extend(&problem);
+  const Block* e = problem.layout.Find(BlockKind::kColouredNoise, 1);
+  ASSERT_NE(e, nullptr);
+  EXPECT_EQ(e->dim, 3);
+  const std::vector<State> states = errors.States(problem.layout);
+  EXPECT_NEAR(states[45].parameters(e->parameter_offset), 50.0, 3.0);
 }
 
 TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {
