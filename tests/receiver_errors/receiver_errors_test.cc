@@ -138,8 +138,8 @@ void AddStep(double from, TestProblem* test) {
 /// Of a step of 37.4 m in the middle: good before it and biased behind it; or,
 /// `behind` less likely in the logarithm, the other way about.
 ErrorDecisions TwoTellings(const Problem& problem, const LinearTape& tape,
-                           double behind) {
-  ErrorDecisions decisions(problem, tape, 0);
+                           double behind, int sensor = 0) {
+  ErrorDecisions decisions(problem, tape, sensor);
   decisions.choice.chosen = 1;
   decisions.regimes.kind = ErrorRegimes::Kind::kSwitching;
   Hypothesis one;
@@ -222,13 +222,14 @@ TEST(ReceiverErrors, OfASensorOfOneRowHaveACompleteBlock) {
   }
   Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
   const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
-  const ReceiverErrors errors = FindReceiverErrors(problem, tape, 1);
-  ASSERT_TRUE(errors.Stands());
-  errors.Extend(&problem);
+  const std::optional<ReceiverErrors> errors =
+      ApplyDecisions(TwoTellings(problem, tape, 3.0, 1), tape);
+  ASSERT_TRUE(errors.has_value());
+  errors->Extend(&problem);
   const Block* e = problem.layout.Find(BlockKind::kColouredNoise, 1);
   ASSERT_NE(e, nullptr);
   EXPECT_EQ(e->dim, 3);
-  const std::vector<State> states = errors.States(problem.layout);
+  const std::vector<State> states = errors->States(problem.layout);
   EXPECT_NEAR(states[45].parameters(e->parameter_offset), 50.0, 3.0);
 }
 
