@@ -21,7 +21,8 @@ struct ErrantEnd {
 };
 
 /// Whether the sensor errs at each node: is biased or drifting, or by its slight
-/// errors more than three stated sigmas off.
+/// errors more than three stated sigmas off. Before its first fix it does what it
+/// does there.
 std::vector<char> ErrsAt(const SensorFindings& found) {
   constexpr double kSigmas = 3.0;
   const WeighedHypothesis& chosen = found.chosen();
@@ -34,6 +35,9 @@ std::vector<char> ErrsAt(const SensorFindings& found) {
     errs.push_back(mode != ErrorMode::kGood &&
                    (mode != ErrorMode::kSlight || large));
   }
+  std::size_t first = 0;
+  while (!HasFix(found.tape, first, found.sensor)) ++first;
+  std::fill_n(errs.begin(), first, errs[first]);
   return errs;
 }
 

@@ -233,6 +233,26 @@ TEST(ReceiverErrors, OfASensorOfOneRowHaveACompleteBlock) {
   EXPECT_NEAR(states[45].parameters(e->parameter_offset), 50.0, 3.0);
 }
 
+/// The first node has no fix: the receiver errs from the first fix on.
+TEST(ReceiverErrors, FromTheFirstFixAreDoubtful) {
+  TestProblem test = FixesOfOneMinute();
+  test.prior.P.topLeftCorner<3, 3>() *= 1e6;
+  AddStep(30.5, &test);
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  problem.decisions.front() = 0;
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  ErrorDecisions decisions = TwoTellings(problem, tape, 0.0);
+  Hypothesis other = decisions.regimes.hypotheses.back();
+  other.sequence.erase(other.sequence.begin());
+  other.sequence.front().anew = true;
+  decisions.regimes.hypotheses = {other};
+  const std::optional<ReceiverErrors> errors = ApplyDecisions(decisions, tape);
+  ASSERT_TRUE(errors.has_value());
+  const std::vector<Evidence> doubts = errors->Doubts();
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_THAT(doubts[0].what, HasSubstr("errs from 0 to 30 s"));
+}
+
 TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {
   TestProblem test = FixesOfOneMinute();
   for (Measurement& z : test.measurements) {
