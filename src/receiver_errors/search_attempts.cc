@@ -17,28 +17,22 @@ bool IsAllGood(const ModeSequence& sequence) {
 }
 
 /// Where the search for hypotheses begins: errors of several sizes, short or
-/// lasting. Drifts come to that size in 100 s; beside short errors in a fifth of
-/// the recording, if that is less.
+/// lasting.
 std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
                                     const ErrorParameters& white) {
   constexpr double kRateTime = 100.0;
-  constexpr double kShare = 0.2;
-  constexpr double kLasting = 1e8;
   constexpr double kSlight = 3.0;
-  const LinearTape& tape = problem.tape;
-  const double span = tape.t(tape.size() - 1) - tape.t(0);
-  const double fast = std::min(kRateTime, kShare * span);
   std::vector<ErrorParameters> starts;
-  for (const auto& [size, tau] : {std::pair{5.0, kLasting},
+  for (const auto& [size, tau] : {std::pair{5.0, 1e8},
                                   {5.0, 30.0},
-                                  {50.0, kLasting},
+                                  {50.0, 1e8},
                                   {50.0, 30.0},
-                                  {500.0, kLasting}}) {
+                                  {500.0, 1e8}}) {
     ErrorParameters& p = starts.emplace_back(white);
     p.sigma = size * problem.stated_sigma;
     p.slight_sigma = kSlight * problem.stated_sigma;
     p.tau = tau;
-    p.rate_sigma = p.sigma / (tau < kLasting ? fast : kRateTime);
+    p.rate_sigma = p.sigma / kRateTime;
   }
   return starts;
 }
