@@ -40,11 +40,11 @@ ErrorParameters TuneAsSolved(const RegimeProblem& problem,
                    problem.effort);
 }
 
-double LogEvidence(const RegimeProblem& problem, const Hypothesis& best,
-                   const ErrorParameters& from) {
-  return best.log_posterior + LogPriorOf(best.sequence, best.parameters, from) +
-         LogWidths(problem.tape, problem.sensor, best.sequence, best.parameters,
-                   problem.effort);
+double LogEvidence(const Hypothesis& best, const ErrorParameters& from) {
+  return best.log_posterior + LogPriorOf(best.sequence, best.parameters, from) -
+         0.5 * CountParameters(best.sequence) *
+             std::log(static_cast<double>(
+                 std::max<std::size_t>(2, best.sequence.size())));
 }
 
 /// The noise as stated: what the plain batch takes it for.
@@ -79,7 +79,7 @@ ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
           .log_likelihood;
   ErrorRegimes out;
   out.kind = kind;
-  out.log_evidence = LogEvidence(problem, one, from);
+  out.log_evidence = LogEvidence(one, from);
   out.hypotheses.push_back(std::move(one));
   return out;
 }
@@ -99,7 +99,7 @@ ErrorRegimes FitSwitching(const RegimeProblem& problem,
   out.hypotheses = RefineHypotheses(problem.tape, problem.sensor,
                                     Tune(problem, sequence, from), {{sequence}},
                                     problem.effort);
-  out.log_evidence = LogEvidence(problem, out.hypotheses.front(), from);
+  out.log_evidence = LogEvidence(out.hypotheses.front(), from);
   return out;
 }
 
@@ -254,7 +254,7 @@ ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
                                     .log_likelihood;
     out.hypotheses = std::move(all);
   }
-  out.log_evidence = LogEvidence(problem, out.hypotheses.front(), parameters);
+  out.log_evidence = LogEvidence(out.hypotheses.front(), parameters);
   return out;
 }
 

@@ -22,8 +22,8 @@ struct ErrorRegimes {
   /// each with the parameters of the fit that likes it best.
   std::vector<Hypothesis> hypotheses;
   /// ln of the evidence: of likelihood, prior of the sequence and priors of the
-  /// parameters of the first hypothesis, and of the integral over them
-  /// (LogWidths).
+  /// parameters of the first hypothesis, less (parameters / 2) ln(fixes), which
+  /// is Schwarz's approximation of the integral over them.
   double log_evidence = 0.0;
 };
 

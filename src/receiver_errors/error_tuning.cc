@@ -164,28 +164,8 @@ double LogPriorOf(const ModeSequence& sequence, const ErrorParameters& p,
   return LogPriorOf(TunablesOf(sequence, typical), p);
 }
 
-double LogWidths(const LinearTape& tape, int receiver,
-                 const ModeSequence& sequence, const ErrorParameters& found,
-                 SearchEffort* effort) {
-  constexpr double kStep = 0.4;  // of the logarithm
-  const auto log_likelihood = [&](const ErrorParameters& p) {
-    if (effort != nullptr) effort->Spend(tape.size());
-    return ScoreSequence(tape, receiver, p, sequence).log_likelihood;
-  };
-  const double at = log_likelihood(found);
-  double sum = 0.0;
-  for (const Tunable& tunable : TunablesOf(sequence, found)) {
-    ErrorParameters more = found;
-    ErrorParameters less = found;
-    more.*tunable.member *= std::exp(kStep);
-    less.*tunable.member *= std::exp(-kStep);
-    const double curvature =
-        (2.0 * at - log_likelihood(more) - log_likelihood(less)) /
-        (kStep * kStep);
-    const double ratio = tunable.spread * tunable.spread * curvature;
-    if (ratio > 0.0) sum -= 0.5 * std::log1p(ratio);
-  }
-  return sum;
+int CountParameters(const ModeSequence& sequence) {
+  return static_cast<int>(TunablesOf(sequence, {}).size());
 }
 
 std::vector<BoundedValue> BoundedParameters(const ModeSequence& sequence,

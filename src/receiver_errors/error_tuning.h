@@ -47,13 +47,8 @@ inline constexpr double kLeastScale = 0.1;
 double LogPriorOf(const ModeSequence& sequence, const ErrorParameters& p,
                   const ErrorParameters& typical);
 
-/// sum of ln(posterior sigma / prior sigma) over the parameters, by the curvature
-/// of the likelihood along each: what the integral over them, in the approximation
-/// of Laplace and as if they were independent, has more than their maximum. A
-/// parameter that the data say nothing of costs nothing.
-double LogWidths(const LinearTape& tape, int receiver,
-                 const ModeSequence& sequence, const ErrorParameters& found,
-                 SearchEffort* effort = nullptr);
+/// How many parameters TuneParameters seeks for the sequence.
+int CountParameters(const ModeSequence& sequence);
 
 /// The parameters of a sequence that TuneParameters seeks within bounds which
 /// mean something: a share of outliers may be as small as it likes, the IMU as

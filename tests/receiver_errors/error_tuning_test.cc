@@ -90,30 +90,5 @@ TEST(TuneParameters, AgreesWithExpectationMaximisationOnTheErrorsThemselves) {
               std::log(1.3));
 }
 
-/// The scale of n fixes of three rows is known to 1 / sqrt(6 n) in the logarithm,
-/// of the IMU's noise something; of outliers that there are none of, nothing is.
-TEST(LogWidths, AreThoseOfWhatTheDataTell) {
-  TestProblemOptions options;
-  options.noise = TacticalNoise(true);
-  options.layout = TypicalLayout(options.noise);
-  options.errors = true;
-  options.duration = 600.0;
-  options.position_sigma = kStated;
-  options.velocity_sigma = 0.0;
-  const TestProblem clean = MakeProblem(options, 5);
-  Problem posed = clean.Pose(GateDecisions(clean.measurements.size(), 1));
-  const LinearTape tape = RunLinearizedFilter(clean.truth, &posed);
-  const ModeSequence good(clean.measurements.size());
-  ErrorParameters p;
-  p.outlier_share = 1e-12;
-  const double widths = LogWidths(tape, 0, good, p);
-  const auto n = static_cast<double>(clean.measurements.size());
-  const double of_scale = std::log(1.0 / std::sqrt(6.0 * n) / 0.7);
-  EXPECT_LT(widths, of_scale + 0.3);
-  EXPECT_GT(widths, of_scale - 2.5);
-  p.outlier_ratio = 30.0;
-  EXPECT_NEAR(LogWidths(tape, 0, good, p), widths, 1e-3);
-}
-
 }  // namespace
 }  // namespace hindsight
