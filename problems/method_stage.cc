@@ -10,7 +10,8 @@
 namespace hindsight {
 
 MethodStage::Nodes MethodStage::SharedNodes() const {
-  return {&forward_->problem(), &forward_->smoothed().states};
+  return {&forward_->problem(), &forward_->smoothed().states,
+          &forward_->offsets()};
 }
 
 Solution MethodStage::AtOwnNodes(
@@ -35,7 +36,7 @@ Solution MethodStage::AtOwnNodes(
         search.Next(solution.layout, sensors, solution.states.back(), offsets),
         problem(), solution.layout, solution.states);
     timeline_.reset();
-    solution = solve({&own_->problem, &own_->states});
+    solution = solve({&own_->problem, &own_->states, &own_->offsets});
   }
   return solution;
 }

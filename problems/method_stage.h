@@ -21,6 +21,8 @@ class MethodStage {
   struct Nodes {
     Problem* problem;
     const std::vector<State>* states;
+    /// By sensor, from its stamps to its nodes [s].
+    const std::vector<double>* offsets;
   };
 
   /// `forward` has run; it and `ahead`, its batch if that is solved already,

@@ -10,8 +10,6 @@
 namespace hindsight {
 namespace {
 
-constexpr double kSettledOffset = 0.1;  // sigmas
-
 /// The trajectory at the nodes of another timeline, over the blocks of `base`.
 std::vector<State> StatesAt(const Timeline& to, const ErrorLayout& base,
                             const ErrorLayout& layout,
@@ -66,8 +64,8 @@ bool EstimatesTimeOffsets(const ErrorLayout& layout) {
 
 int FarthestFromNodes(const ErrorLayout& layout,
                       const std::vector<double>& offsets, const State& x,
-                      const ErrorMatrix& P) {
-  double farthest = kSettledOffset;
+                      const ErrorMatrix& P, double least) {
+  double farthest = least;
   int sensor = -1;
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     const Block* block =

@@ -20,14 +20,17 @@ struct PlacedNodes {
 /// So often nodes are placed anew before a time offset is said not to settle.
 inline constexpr int kMaxPlacements = 12;
 
+/// A time offset nearer to its nodes than this is settled [standard deviations].
+inline constexpr double kSettledOffset = 0.1;
+
 bool EstimatesTimeOffsets(const ErrorLayout& layout);
 
 /// The sensor whose time offset, estimated by a state and its covariance, is
-/// farthest from where its nodes stand: by a tenth of its standard deviation or
+/// farthest from where its nodes stand: by `least` of its standard deviations or
 /// more, else -1.
 int FarthestFromNodes(const ErrorLayout& layout,
                       const std::vector<double>& offsets, const State& x,
-                      const ErrorMatrix& P);
+                      const ErrorMatrix& P, double least = kSettledOffset);
 
 /// Where the nodes of estimated time offsets go next: to the estimates; where
 /// the last two steps of an offset point at each other, to the root of the line

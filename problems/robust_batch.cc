@@ -36,7 +36,7 @@ class ErrorSearch {
           states ? *states : initial, &problem_, options_.callback));
       if (i == 0) left = AbsoluteSensors(problem_.timeline, *round.tape);
       if (left.empty() || !HasRoom()) break;
-      Search(i, left, &round);
+      if (!Repeat(i, &round)) Search(i, left, &round);
       const bool stands = round.errors.front().Stands();
       if (stands) {
         round.errors.front().Extend(&problem_);
@@ -56,6 +56,17 @@ class ErrorSearch {
     });
   }
 
+  SearchDecisions Decisions() const {
+    SearchDecisions all;
+    for (const Round& round : rounds_) {
+      all.emplace_back();
+      for (const ReceiverErrors& one : round.errors) {
+        all.back().push_back(one.Decisions());
+      }
+    }
+    return all;
+  }
+
   /// Adds to P, as solved, what else there may be; fills in the rest of a
   /// result.
   void Tell(RobustBatchResult* result) const {
@@ -66,7 +77,9 @@ class ErrorSearch {
       if (!best.Stands() && i > 0) break;
       TellNotes(rounds_[i], result);
       if (!best.Stands()) break;
-      best.Widen(&result->batch.P);
+      std::optional<Evidence> doubt = best.Average(
+          problem_.layout, &result->batch.states, &result->batch.P);
+      if (doubt) result->doubts.push_back(std::move(*doubt));
       if (i == 0) result->modes = best.Modes();
       for (BoundedValue& one : best.Bounded()) {
         result->bounded.push_back(std::move(one));
@@ -84,6 +97,23 @@ class ErrorSearch {
     constexpr int kOwnStates = 6;
     return problem_.layout.parameter_count() + kOwnStates <= kMaxParameters &&
            problem_.layout.dim() + kOwnStates <= kMaxErrorDim;
+  }
+
+  /// Takes what was decided before; whether there is anything that fits.
+  bool Repeat(int round_number, Round* round) const {
+    const auto i = static_cast<std::size_t>(round_number);
+    if (options_.decisions == nullptr || i >= options_.decisions->size()) {
+      return false;
+    }
+    for (const auto& one : (*options_.decisions)[i]) {
+      std::optional<ReceiverErrors> errors = ApplyDecisions(*one, *round->tape);
+      if (!errors) {
+        round->errors.clear();
+        return false;
+      }
+      round->errors.push_back(std::move(*errors));
+    }
+    return true;
   }
 
   void Search(int round_number, const std::vector<int>& sensors, Round* round) {
@@ -197,6 +227,7 @@ RobustBatchResult SolveRobustBatch(Problem problem,
     result.stands = true;
   }
   search.Tell(&result);
+  result.decisions = search.Decisions();
   if (!options.blunders.empty()) {
     result.notes.push_back(DescribeBlunders(result.problem, options.blunders));
   }

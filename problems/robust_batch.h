@@ -2,6 +2,7 @@
 #define HINDSIGHT_PROBLEMS_ROBUST_BATCH_H_
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,12 @@
 #include "state/solution.h"
 
 namespace hindsight {
+
+struct ErrorDecisions;  // receiver_errors/sensor_findings.h
+
+/// What a search decided, by round and sensor.
+using SearchDecisions =
+    std::vector<std::vector<std::shared_ptr<const ErrorDecisions>>>;
 
 struct RobustBatchResult {
   /// As it was solved: with the errors of sensors that were found, and their
@@ -26,6 +33,7 @@ struct RobustBatchResult {
   std::vector<BoundedValue> bounded = {};
   std::vector<std::string> notes = {};  ///< what was found, in words
   std::vector<Evidence> doubts = {};    ///< what makes the result doubtful
+  SearchDecisions decisions = {};
 };
 
 struct RobustBatchOptions {
@@ -35,6 +43,9 @@ struct RobustBatchOptions {
   GateDecisions gates = {};
   /// Measurements that `problem` leaves out whatever is found (FindBlunders).
   std::vector<std::size_t> blunders = {};
+  /// Of a search about other nodes of the same recording: taken as they are, if
+  /// the nodes hold the same fixes, instead of a search. nullptr: none.
+  const SearchDecisions* decisions = nullptr;
   /// Of each epoch of each pass; may throw to stop.
   EpochCallback callback = nullptr;
   /// Told the fraction of the search that is done; false ends it with the best

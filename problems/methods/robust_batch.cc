@@ -1,11 +1,15 @@
 #include "problems/robust_batch.h"
 
+#include <fmt/core.h>
+
 #include <chrono>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "base/processor_time.h"
 #include "problems/blunders.h"
 #include "problems/method.h"
@@ -76,8 +80,80 @@ Solution SolvePlainly(MethodStage* stage, const MethodStage::Nodes& nodes) {
   return solution;
 }
 
+/// Fixes of one sensor that are used, in order: are they taken for outliers?
+struct TakenFix {
+  double t = 0.0;  ///< [s]
+  bool outlier = false;
+};
+
+/// Outliers in a row, with no fix behind them or before them for long.
+struct RowAtGap {
+  double begin = 0.0;  ///< [s]
+  double end = 0.0;
+  int count = 0;
+};
+
+/// The longest of the rows next to a gap, begin and end of the recording among
+/// them; a gap is five times as long as most spacings.
+RowAtGap LongestRowAtGap(const std::vector<TakenFix>& fixes) {
+  constexpr double kGap = 5.0;
+  std::vector<double> spacings;
+  for (std::size_t i = 1; i < fixes.size(); ++i) {
+    spacings.push_back(fixes[i].t - fixes[i - 1].t);
+  }
+  const double gap = spacings.empty() ? 0.0 : kGap * Median(spacings);
+  RowAtGap longest;
+  for (std::size_t begin = 0; begin < fixes.size();) {
+    std::size_t end = begin + 1;
+    while (end < fixes.size() && fixes[end].outlier == fixes[begin].outlier &&
+           spacings[end - 1] <= gap) {
+      ++end;
+    }
+    const bool at_gap = begin == 0 || end == fixes.size() ||
+                        spacings[begin - 1] > gap || spacings[end - 1] > gap;
+    const auto count = static_cast<int>(end - begin);
+    if (fixes[begin].outlier && at_gap && count > longest.count) {
+      longest = {fixes[begin].t, fixes[end - 1].t, count};
+    }
+    begin = end;
+  }
+  return longest;
+}
+
+/// Outliers come one by one. Two and more, behind which nothing follows that
+/// would agree with the fixes before them, may be the right ones.
+void DoubtOutliersAtGaps(const Timeline& timeline,
+                         const std::vector<ResidualRecord>& residuals,
+                         std::vector<Evidence>* doubts) {
+  constexpr double kOutlier = 0.5;  // weight
+  constexpr int kLeast = 2;
+  std::vector<std::vector<TakenFix>> fixes(timeline.sensors().size());
+  for (const ResidualRecord& r : residuals) {
+    if (r.withheld || !r.accepted) continue;
+    fixes[static_cast<std::size_t>(r.sensor)].push_back(
+        {r.t, r.weight < kOutlier});
+  }
+  for (std::size_t i = 0; i < fixes.size(); ++i) {
+    const Sensor& sensor = timeline.sensors()[i];
+    const RowAtGap row = LongestRowAtGap(fixes[i]);
+    if (!sensor.kind->is_position || row.count < kLeast) continue;
+    doubts->push_back(
+        {.grade = Grade::kDoubtful,
+         .what = fmt::format("{} fixes of {} in a row, from {:.1f} to {:.1f} s "
+                             "next to a gap, are taken for outliers",
+                             row.count, sensor.name, row.begin, row.end),
+         .value = static_cast<double>(row.count),
+         .limit = static_cast<double>(kLeast),
+         .unit = "fixes",
+         .causes = {"outliers at the edge of an outage, or fixes that were off "
+                    "before it"},
+         .remedies = {"a position that is known there"}});
+  }
+}
+
 /// With the errors that were found.
-Solution TakeRobust(RobustBatchResult result, MethodStage* stage) {
+Solution TakeRobust(RobustBatchResult result, MethodStage* stage,
+                    std::vector<Evidence>* doubts) {
   Solution solution =
       SmoothedSolution(result.problem, std::move(result.batch.states),
                        std::move(result.batch.P));
@@ -88,6 +164,7 @@ Solution TakeRobust(RobustBatchResult result, MethodStage* stage) {
                 .variances = VariancesOf(solution.layout, solution.covariances),
                 .smoother = {}},
                &result.problem, stage->forward().Progress("grading")));
+  DoubtOutliersAtGaps(timeline, solution.residuals, doubts);
   std::size_t record = 0;
   for (std::size_t k = 0; k < timeline.size(); ++k) {
     for (const Measurement& z : timeline.measurements(k)) {
@@ -105,46 +182,85 @@ Solution TakeRobust(RobustBatchResult result, MethodStage* stage) {
   return solution;
 }
 
+/// What was decided, where the nodes stood, and what came of it last.
+struct Searched {
+  bool done = false;
+  SearchDecisions decisions;
+  std::vector<double> offsets;  ///< by sensor [s]
+  bool stands = false;
+  std::vector<std::string> notes;
+  ErrorLayout layout;
+  State x;        ///< the solution's at its last node
+  ErrorMatrix P;  ///< of it
+};
+
+/// Nodes that moved by less than a sigma hold the same errors at the same fixes.
+bool IsKnownStill(const Searched& searched) {
+  constexpr double kMoved = 1.0;  // sigma
+  return searched.done && FarthestFromNodes(searched.layout, searched.offsets,
+                                            searched.x, searched.P, kMoved) < 0;
+}
+
+/// The EKF's trajectory may be so far off after an outlier that a linearisation
+/// about it is of no use.
+std::vector<State> RoughStates(MethodStage* stage,
+                               const MethodStage::Nodes& nodes,
+                               const Problem& problem, bool has_blunders) {
+  SensorImm imm = MakeSensorImm(stage->Questioned(nodes));
+  if (has_blunders) imm.options.decisions = problem.decisions;
+  return SmoothSensorImm(&imm, stage->forward().Progress("robust_batch"))
+      .trajectory.states;
+}
+
+/// Searches, unless what was decided holds still: then the nodes have the
+/// trajectory that followed from it.
 Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
-                       bool* stands) {
-  // The EKF's trajectory may be so far off after an outlier that a
-  // linearisation about it is of no use.
+                       Searched* searched) {
+  const bool known = IsKnownStill(*searched);
   const std::vector<std::size_t> blunders =
       FindBlunders(nodes.problem->timeline);
   Problem problem = WithAll(*stage, blunders, *nodes.problem);
-  SensorImm imm = MakeSensorImm(stage->Questioned(nodes));
-  if (!blunders.empty()) imm.options.decisions = problem.decisions;
-  const ImmSmoothed rough =
-      SmoothSensorImm(&imm, stage->forward().Progress("robust_batch"));
+  const std::vector<State> initial =
+      known ? *nodes.states
+            : RoughStates(stage, nodes, problem, !blunders.empty());
   RobustBatchOptions options = OptionsOf(*stage, nodes.problem->decisions);
   options.blunders = blunders;
+  if (known) options.decisions = &searched->decisions;
   RobustBatchResult result =
-      SolveRobustBatch(std::move(problem), rough.trajectory.states, options);
-  *stands = result.stands;
-  stage->SetDoubts(std::move(result.doubts));
-  std::vector<std::string> notes = std::move(result.notes);
-  Solution solution = result.stands ? TakeRobust(std::move(result), stage)
-                                    : SolvePlainly(stage, nodes);
-  solution.notes = std::move(notes);
+      SolveRobustBatch(std::move(problem), initial, options);
+  if (!known) {
+    searched->decisions = std::move(result.decisions);
+    searched->offsets = *nodes.offsets;
+  }
+  searched->stands = result.stands;
+  searched->notes = std::move(result.notes);
+  std::vector<Evidence> doubts = std::move(result.doubts);
+  Solution solution = result.stands
+                          ? TakeRobust(std::move(result), stage, &doubts)
+                          : SolvePlainly(stage, nodes);
+  stage->SetDoubts(std::move(doubts));
   return solution;
 }
 
 Solution RunRobustBatch(MethodStage* stage) {
   const double t0 = ProcessorSeconds();
   RequirePosition(stage->forward().timeline());
-  // Nodes that move by a part of their time offset's sigma give no errors to a
-  // sensor that had none.
-  std::optional<std::vector<std::string>> plain;
-  bool stands = false;
+  Searched searched;
   Solution solution = stage->AtOwnNodes([&](const MethodStage::Nodes& nodes) {
+    // Nodes that move by a part of their time offset's sigma give no errors to
+    // a sensor that had none.
+    const bool plain = searched.done && !searched.stands;
     Solution one = plain ? SolvePlainly(stage, nodes)
-                         : SolveRobustly(stage, nodes, &stands);
-    if (plain) one.notes = *plain;
-    if (!stands) plain = one.notes;
+                         : SolveRobustly(stage, nodes, &searched);
+    one.notes = searched.notes;
+    searched.done = true;
+    searched.layout = one.layout;
+    searched.x = one.states.back();
+    searched.P = one.covariances.Get(one.states.size() - 1);
     return one;
   });
   solution.seconds = ProcessorSeconds() - t0;
-  if (!stands) stage->JudgeOptimum(solution);
+  if (!searched.stands) stage->JudgeOptimum(solution);
   return solution;
 }
 

@@ -32,11 +32,11 @@ ErrorParameters Tune(const RegimeProblem& problem, const ModeSequence& sequence,
                         problem.effort);
 }
 
-/// Scale and outliers alone.
-ErrorParameters TuneWithImuAsStated(const RegimeProblem& problem,
-                                    const ModeSequence& sequence,
-                                    const ErrorParameters& from) {
-  return TuneNoise(problem.tape, problem.sensor, sequence, from,
+/// Scale and outliers alone, as the batch would be solved with them.
+ErrorParameters TuneAsSolved(const RegimeProblem& problem,
+                             const ModeSequence& sequence,
+                             const ErrorParameters& from) {
+  return TuneNoise(problem.tape, problem.sensor, sequence, from, kLeastSolved,
                    problem.effort);
 }
 
@@ -196,6 +196,10 @@ void AddAlternatives(std::vector<Hypothesis> more, double shift,
 
 }  // namespace
 
+bool CanBeSolved(const ErrorParameters& white) {
+  return white.scale >= kLeastSolved && white.imu_scale <= kMisstatedImu;
+}
+
 const char* RegimeName(ErrorRegimes::Kind kind) {
   static const char* const kNames[] = {"stated", "white", "gauss_markov",
                                        "switching"};
@@ -206,9 +210,9 @@ std::vector<ErrorRegimes> FitNoise(const RegimeProblem& problem) {
   std::vector<ErrorRegimes> all = {
       AsStated(problem),
       FitUniform(problem, ErrorRegimes::Kind::kWhite, {}, Tune)};
-  if (all[1].hypotheses.front().parameters.imu_scale > kMisstatedImu) {
-    all.push_back(FitUniform(problem, ErrorRegimes::Kind::kWhite, {},
-                             TuneWithImuAsStated));
+  if (!CanBeSolved(all[1].hypotheses.front().parameters)) {
+    all.push_back(
+        FitUniform(problem, ErrorRegimes::Kind::kWhite, {}, TuneAsSolved));
   }
   return all;
 }
@@ -233,9 +237,11 @@ ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
                            const ErrorRegimes& found) {
   std::vector<Hypothesis> all = found.hypotheses;
   for (Hypothesis& one : all) one.sequence = AtFixes(points, one.sequence);
-  const ErrorParameters parameters =
-      TuneNoise(problem.tape, problem.sensor, all.front().sequence,
-                all.front().parameters, problem.effort);
+  const ErrorParameters parameters = TuneNoise(
+      problem.tape, problem.sensor, all.front().sequence,
+      all.front().parameters,
+      found.kind == ErrorRegimes::Kind::kWhite ? kLeastSolved : kLeastScale,
+      problem.effort);
   ErrorRegimes out;
   out.kind = found.kind;
   if (found.kind == ErrorRegimes::Kind::kSwitching) {

@@ -95,12 +95,27 @@ std::vector<State> ErrorStates::States(const ErrorLayout& layout) const {
     const int n = tape_.dim();
     ErrorVector d = ErrorVector::Zero(layout.dim());
     d.head(n) = smoothed.head(n);
-    for (int i = n; i < layout.dim(); i += rows_) {
-      d.segment(i, rows_) = smoothed.segment(i == n ? n : n + 3, rows_);
-    }
+    d.tail(layout.dim() - n) = smoothed.segment(n, layout.dim() - n);
     states.push_back(Retract(layout, x, d));
   }
   return states;
+}
+
+State ErrorStates::Moved(const ErrorLayout& layout, const State& x,
+                         const ErrorVector& by) const {
+  const int n = tape_.dim();
+  ErrorVector d = ErrorVector::Zero(layout.dim());
+  d.head(n) = by.head(n);
+  int from = n;
+  for (const BlockKind kind :
+       {BlockKind::kColouredNoise, BlockKind::kErrorRate}) {
+    const Block* block = HasError() ? layout.Find(kind, receiver_) : nullptr;
+    if (block != nullptr) {
+      d.segment<3>(block->offset) = by.segment<3>(from);
+    }
+    from += 3;
+  }
+  return Retract(layout, x, d);
 }
 
 void ErrorStates::ApplyToSensor(Timeline* timeline) const {
@@ -112,9 +127,8 @@ void ErrorStates::ApplyToSensor(Timeline* timeline) const {
   sensor.loss.outlier_ratio = chosen_.parameters.outlier_ratio;
   sensor.loss.outlier_share = chosen_.parameters.outlier_share;
   timeline->SetSensor(i, sensor);
-  // A stated sigma has slow errors in it that fixes close to each other do not
-  // show: a small scatter is no reason to believe them more than stated.
-  timeline->ScaleSensor(receiver_, std::max(1.0, chosen_.parameters.scale));
+  timeline->ScaleSensor(receiver_,
+                        std::max(kLeastSolved, chosen_.parameters.scale));
 }
 
 void ErrorStates::AddBlock(BlockKind kind, const std::string& name,
@@ -127,9 +141,6 @@ void ErrorStates::AddBlock(BlockKind kind, const std::string& name,
   block.evolution =
       Evolution::GaussMarkov(chosen_.parameters.sigma, chosen_.parameters.tau);
   block.sigma0.setConstant(sigma0);
-  for (std::size_t i = 0; i < block.active.size(); ++i) {
-    block.active[i] = static_cast<int>(i) < rows_;
-  }
   layout->Add(block);
 }
 

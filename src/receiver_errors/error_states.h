@@ -28,6 +28,11 @@ class ErrorStates {
   /// The smoothed trajectory of the hypothesis, over the extended layout.
   std::vector<State> States(const ErrorLayout& layout) const;
 
+  /// A state of the extended problem, moved by an error as SmoothSequence has
+  /// it.
+  State Moved(const ErrorLayout& layout, const State& x,
+              const ErrorVector& by) const;
+
  private:
   bool HasError() const { return kind_ > ErrorRegimes::Kind::kWhite; }
   bool HasRate() const;

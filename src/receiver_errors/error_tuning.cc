@@ -25,7 +25,7 @@ struct Tunable {
 std::vector<Tunable> TunablesOf(const ModeSequence& sequence,
                                 const ErrorParameters& from) {
   std::vector<Tunable> out = {
-      {&ErrorParameters::scale, 0.1, 100.0, 1.0, 0.7,
+      {&ErrorParameters::scale, kLeastScale, 100.0, 1.0, 0.7,
        "the factor on the stated sigma", "1"},
       {&ErrorParameters::outlier_share, 1e-3, 0.4, 0.02, 1.5,
        "the share of outliers", "1"},
@@ -93,8 +93,9 @@ class Tuning {
   }
 
   /// The first three, scale and outliers, alone.
-  ErrorParameters ClimbOfNoise() {
+  ErrorParameters ClimbOfNoise(double least_scale) {
     constexpr double kStep = 1.3;
+    tunables_.front().least = least_scale;
     value_ = Value(parameters_);
     for (std::size_t i = 0; i < 3; ++i) {
       if (!Walk(tunables_[i], kStep)) Walk(tunables_[i], 1.0 / kStep);
@@ -152,8 +153,10 @@ ErrorParameters TuneParameters(const LinearTape& tape, int receiver,
 
 ErrorParameters TuneNoise(const LinearTape& tape, int receiver,
                           const ModeSequence& sequence,
-                          const ErrorParameters& from, SearchEffort* effort) {
-  return Tuning(tape, receiver, sequence, from, effort).ClimbOfNoise();
+                          const ErrorParameters& from, double least_scale,
+                          SearchEffort* effort) {
+  return Tuning(tape, receiver, sequence, from, effort)
+      .ClimbOfNoise(least_scale);
 }
 
 double LogPriorOf(const ModeSequence& sequence, const ErrorParameters& p,

@@ -32,11 +32,15 @@ ErrorParameters TuneParameters(const LinearTape& tape, int receiver,
                                SearchEffort* effort = nullptr);
 
 /// The same of scale, share and ratio of outliers alone, to a factor of 1.3: what
-/// differs between fixes and their normal points.
+/// differs between fixes and their normal points. The scale is sought from
+/// `least_scale` on.
 ErrorParameters TuneNoise(const LinearTape& tape, int receiver,
                           const ModeSequence& sequence,
-                          const ErrorParameters& from,
+                          const ErrorParameters& from, double least_scale,
                           SearchEffort* effort = nullptr);
+
+/// The least factor on the stated sigma that is sought.
+inline constexpr double kLeastScale = 0.1;
 
 /// ln of that prior but for constants, `typical` being what the search began
 /// from.

@@ -43,8 +43,7 @@ HeldOutScore HeldOutPrediction::Score(const HeldOutStretch& stretch) {
     }
     score.log_density = (LogSumOf(logs) - std::log(fixes + 1.0)) / fixes;
   }
-  constexpr double kLeast = 1e-12;  // sigma^2
-  score.log_distance = 0.5 * std::log(squares + kLeast);
+  score.log_distance = 0.5 * std::log1p(squares);
   return score;
 }
 

@@ -40,6 +40,17 @@ HeldOutStretch StretchAt(const std::vector<double>& times, double begin,
 
 }  // namespace
 
+double LimitOf(int stretches) {
+  constexpr double z = 2.0;
+  constexpr double z2 = z * z;
+  const double n = stretches - 1.0;
+  const double first = z * (z2 + 1.0) / 4.0;
+  const double second = z * ((5.0 * z2 + 16.0) * z2 + 3.0) / 96.0;
+  const double third =
+      z * (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / 384.0;
+  return z + first / n + second / (n * n) + third / (n * n * n);
+}
+
 std::vector<HeldOutStretch> HeldOutStretches(
     const LinearTape& tape, int sensor, double length,
     const std::vector<const ModeSequence*>& sequences) {

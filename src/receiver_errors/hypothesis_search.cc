@@ -128,6 +128,12 @@ class Search {
     tracks_ = std::move(next);
   }
 
+  double LogPriorOf(ErrorStep step, ErrorMode before) const {
+    const int fixes = chain_.fix_count();
+    return fix_ == 0 ? LogFirst(step, fixes)
+                     : LogTransition(before, step, fixes);
+  }
+
   std::vector<Candidate> AllCandidates() const {
     std::vector<Candidate> all;
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
@@ -138,7 +144,7 @@ class Search {
         const bool goes_on = step == ErrorStep{h.mode};
         all.push_back({i, step,
                        h.log_weight + likelihood.log +
-                           LogTransition(h.mode, step, chain_.fix_count()) +
+                           LogPriorOf(step, h.mode) +
                            PriceOf(step, h.velocity_steps),
                        likelihood.outlier, goes_on ? h.began : fix_});
       }

@@ -6,6 +6,18 @@
 namespace hindsight {
 namespace {
 
+// Expected numbers of changes in a record that is all of one mode, the prior of a
+// Markov chain. Orders of magnitude: errors are rare, and end; a velocity step is
+// likelier than a drift. A factor of ten is 2.3 in the logarithm of a posterior,
+// of which an error of three sigmas over ten fixes has 45.
+constexpr double kJumps = 1.0;          // a good receiver becomes biased
+constexpr double kSlights = 1.0;        // a receiver becomes slightly biased
+constexpr double kDrifts = 0.2;         // a good receiver begins to drift
+constexpr double kStops = 0.2;          // a drift stops, its error stays
+constexpr double kVelocitySteps = 2.0;  // the velocity of the IMU jumps
+constexpr double kChanges = 3.0;  // a biased receiver jumps to another bias
+constexpr double kBends = 0.001;  // a drifting one gets another rate
+
 constexpr ErrorStep kStayGood = {ErrorMode::kGood};
 constexpr ErrorStep kGoOnBiased = {ErrorMode::kBiased};
 constexpr ErrorStep kJump = {ErrorMode::kBiased, true};
@@ -56,17 +68,6 @@ ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt) {
 }
 
 double LogTransition(ErrorMode before, ErrorStep step, int fixes) {
-  // Expected numbers of changes in a record that is all of one mode, the prior
-  // of a Markov chain. Orders of magnitude: errors are rare, and end; a velocity
-  // step is likelier than a drift. A factor of ten is 2.3 in the logarithm of a
-  // posterior, of which an error of three sigmas over ten fixes has 45.
-  constexpr double kJumps = 1.0;          // a good receiver becomes biased
-  constexpr double kSlights = 1.0;        // a receiver becomes slightly biased
-  constexpr double kDrifts = 0.2;         // a good receiver begins to drift
-  constexpr double kStops = 0.2;          // a drift stops, its error stays
-  constexpr double kVelocitySteps = 2.0;  // the velocity of the IMU jumps
-  constexpr double kChanges = 3.0;  // a biased receiver jumps to another bias
-  constexpr double kBends = 0.001;  // a drifting one gets another rate
   const double once = 1.0 / std::max(fixes, 20);
   const bool good = before == ErrorMode::kGood;
   const bool small = good || before == ErrorMode::kSlight;
@@ -84,6 +85,18 @@ double LogTransition(ErrorMode before, ErrorStep step, int fixes) {
   }
   if (step == kStayGood) return std::log(kEndsOfAnError * once);
   return std::log(kStops * once);
+}
+
+double LogFirst(ErrorStep step, int fixes) {
+  constexpr double kBiased = kJumps / kEndsOfAnError;
+  constexpr double kSlight = kSlights / kEndsOfAnError;
+  constexpr double kDrifting = kDrifts / (kEndsOfAnError + kStops);
+  constexpr double kAll = 1.0 + kBiased + kSlight + kDrifting;
+  if (step == kStayGood) return -std::log(kAll);
+  if (step == kJump) return std::log(kBiased / kAll);
+  if (step == kSlightJump) return std::log(kSlight / kAll);
+  if (step == kBeginDrift) return std::log(kDrifting / kAll);
+  return LogTransition(ErrorMode::kGood, step, fixes);
 }
 
 double LogOfVelocitySteps(int count) {

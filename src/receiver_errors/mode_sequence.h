@@ -71,6 +71,9 @@ inline constexpr double kEndsOfAnError = 4.0;
 /// ln probability of a step after a mode, where `fixes` fixes are expected to
 /// hold a few changes.
 double LogTransition(ErrorMode before, ErrorStep step, int fixes);
+/// ln probability of the step at the first fix: what a receiver that has been on
+/// for long is like, the stationary distribution of the transitions.
+double LogFirst(ErrorStep step, int fixes);
 /// ln of what `count` velocity steps in a sequence cost beyond their transitions.
 /// Each is taken as a hundred times rarer than the one before it: an IMU may have
 /// had a shock; one that has them again and again is one with other noise than

@@ -20,19 +20,36 @@ struct ErrantEnd {
   double share = 0.0;  ///< of the recording
 };
 
-/// The longer one of the stretches with the first and the last fix, of biases
-/// and drifts that are no slight ones; nothing where both fixes are good, or none
-/// is.
-ErrantEnd LongestErrantEnd(const std::vector<ErrorStep>& steps,
+/// Whether the sensor errs at each node: is biased or drifting, or by its slight
+/// errors more than three stated sigmas off. Before its first fix it does what it
+/// does there.
+std::vector<char> ErrsAt(const SensorFindings& found) {
+  constexpr double kSigmas = 3.0;
+  const WeighedHypothesis& chosen = found.chosen();
+  const int n = found.tape.dim();
+  std::vector<char> errs;
+  for (std::size_t k = 0; k < chosen.steps.size(); ++k) {
+    const ErrorMode mode = chosen.steps[k].mode;
+    const bool large =
+        chosen.smoothed[k].segment<3>(n).norm() > kSigmas * found.stated_sigma;
+    errs.push_back(mode != ErrorMode::kGood &&
+                   (mode != ErrorMode::kSlight || large));
+  }
+  std::size_t first = 0;
+  while (!HasFix(found.tape, first, found.sensor)) ++first;
+  std::fill_n(errs.begin(), first, errs[first]);
+  return errs;
+}
+
+/// The longer one of the stretches with the first and the last node in which it
+/// errs; nothing where it does not, or does throughout.
+ErrantEnd LongestErrantEnd(const std::vector<char>& errs,
                            const std::vector<double>& times) {
-  const auto errs = [](const ErrorStep& step) {
-    return step.mode == ErrorMode::kBiased || step.mode == ErrorMode::kDrifting;
-  };
   const auto at_start = static_cast<std::size_t>(
-      std::find_if_not(steps.begin(), steps.end(), errs) - steps.begin());
-  if (at_start == steps.size()) return {};
+      std::find(errs.begin(), errs.end(), 0) - errs.begin());
+  if (at_start == errs.size()) return {};
   const auto at_end = static_cast<std::size_t>(
-      std::find_if_not(steps.rbegin(), steps.rend(), errs) - steps.rbegin());
+      std::find(errs.rbegin(), errs.rend(), 0) - errs.rbegin());
   const auto between = [&times](std::size_t from, std::size_t to) {
     const double share =
         (times[to] - times[from]) / (times.back() - times.front());
@@ -67,6 +84,25 @@ Evidence DoubtOf(const std::string& name, const ErrantEnd& errant) {
                        "the end"}};
 }
 
+/// Of rivals: odds of 10^(1/2) against them.
+constexpr double kComparable = 1.0 / (1.0 + 3.1622776601683795);
+
+Evidence DoubtOf(const RivalHypothesis& rival, const std::vector<double>& times,
+                 const std::string& chosen) {
+  return {.grade = Grade::kDoubtful,
+          .what = fmt::format(
+              "{}; or else, {:.2g} % likely and up to {:.3g} m away, {}: the "
+              "result is the mean, weighed by their probabilities",
+              chosen, 100.0 * rival.probability, rival.distance,
+              DescribeSequence(rival.hypothesis->steps, times)),
+          .value = rival.probability,
+          .limit = kComparable,
+          .unit = "probability",
+          .causes = {"errors that explain the data as well in two ways"},
+          .remedies = {"another sensor of positions, or a stream with a "
+                       "position that is known"}};
+}
+
 }  // namespace
 
 ReceiverErrors::ReceiverErrors(std::unique_ptr<const SensorFindings> found)
@@ -89,14 +125,27 @@ std::vector<State> ReceiverErrors::States(const ErrorLayout& layout) const {
   return found_->states().States(layout);
 }
 
-void ReceiverErrors::Widen(CovarianceSeries* P) const {
+std::optional<Evidence> ReceiverErrors::Average(const ErrorLayout& layout,
+                                                std::vector<State>* states,
+                                                CovarianceSeries* P) const {
+  const WeighedHypothesis& chosen = found_->chosen();
+  const RivalHypothesis rival = FindRival(found_->alternatives, chosen, *P);
+  const bool comparable = rival.probability > kComparable;
+  const ErrorStates own = found_->states();
   const int dim = found_->tape.dim();
   for (std::size_t k = 0; k < found_->tape.size(); ++k) {
     ErrorMatrix P_k = P->Get(k);
-    P_k.topLeftCorner(dim, dim) +=
-        Spread(found_->alternatives, found_->chosen(), k, dim);
+    P_k.topLeftCorner(dim, dim) += Spread(found_->alternatives, chosen, k, dim);
+    if (comparable) {
+      const ErrorVector mean = MeanFrom(found_->alternatives, chosen, k);
+      P_k.topLeftCorner(dim, dim) -=
+          mean.head(dim) * mean.head(dim).transpose();
+      (*states)[k] = own.Moved(layout, (*states)[k], mean);
+    }
     P->Set(k, P_k);
   }
+  if (!comparable) return std::nullopt;
+  return DoubtOf(rival, found_->Times(), InWords());
 }
 
 std::vector<std::string> ReceiverErrors::Notes(
@@ -137,8 +186,7 @@ std::vector<Evidence> ReceiverErrors::Doubts() const {
   }
   if (!found_->stands()) return doubts;
   if (found_->alone && found_->switching()) {
-    const ErrantEnd errant =
-        LongestErrantEnd(found_->chosen().steps, found_->Times());
+    const ErrantEnd errant = LongestErrantEnd(ErrsAt(*found_), found_->Times());
     if (errant.share > 0.0 && LogOddsOf(errant) < kLeastLogOdds) {
       doubts.push_back(DoubtOf(found_->name, errant));
     }
@@ -210,6 +258,10 @@ void ReceiverErrors::WidenTowards(const ReceiverErrors& other,
   }
 }
 
+std::shared_ptr<const ErrorDecisions> ReceiverErrors::Decisions() const {
+  return std::make_shared<const ErrorDecisions>(*found_);
+}
+
 std::string ReceiverErrors::InWords() const {
   const std::string what =
       found_->switching()
@@ -253,6 +305,20 @@ ReceiverErrors FindReceiverErrors(const Problem& problem,
                                   const SearchLimits& limits) {
   return ReceiverErrors(
       std::make_unique<const SensorFindings>(problem, tape, sensor, limits));
+}
+
+std::optional<ReceiverErrors> ApplyDecisions(const ErrorDecisions& decisions,
+                                             const LinearTape& tape) {
+  std::size_t fixes = 0;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    fixes += HasFix(tape, k, decisions.sensor) ? 1 : 0;
+  }
+  if (decisions.stands() &&
+      decisions.regimes.hypotheses.front().sequence.size() != fixes) {
+    return std::nullopt;
+  }
+  return ReceiverErrors(
+      std::make_unique<const SensorFindings>(decisions, tape));
 }
 
 }  // namespace hindsight

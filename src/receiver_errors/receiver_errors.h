@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 
 namespace hindsight {
 
+struct ErrorDecisions;  // receiver_errors/sensor_findings.h
 struct SensorFindings;  // receiver_errors/sensor_findings.h
 
 /// How long a search may take.
@@ -60,10 +62,15 @@ class ReceiverErrors {
 
   /// Adds to the covariances of the chosen hypothesis's solution, a node each,
   /// how far the other hypotheses take the trajectory elsewhere, weighed by their
-  /// probabilities.
-  void Widen(CovarianceSeries* P) const;
+  /// probabilities. Where those that lead elsewhere are together likelier than one
+  /// to 10^(1/2), what Jeffreys (Theory of Probability, 1961) calls odds hardly
+  /// worth mentioning, the states become the mean of all, which is nearest to the
+  /// truth in the mean square, and what is doubtful is returned.
+  std::optional<Evidence> Average(const ErrorLayout& layout,
+                                  std::vector<State>* states,
+                                  CovarianceSeries* P) const;
 
-  /// What was found, in words; `P` as it was before Widen.
+  /// What was found, in words; `P` as it was before Average.
   std::vector<std::string> Notes(const CovarianceSeries& P) const;
 
   /// What makes the result doubtful: a search that was ended early; the only
@@ -93,6 +100,8 @@ class ReceiverErrors {
   /// Adds to P what it is worth that the other is right with a probability.
   void WidenTowards(const ReceiverErrors& other, double probability,
                     CovarianceSeries* P) const;
+  /// What was decided, for ApplyDecisions.
+  std::shared_ptr<const ErrorDecisions> Decisions() const;
   /// The chosen hypothesis in words: "gnss: biased from 120 to 140 s".
   std::string InWords() const;
 
@@ -101,6 +110,8 @@ class ReceiverErrors {
   friend ReceiverErrors FindReceiverErrors(const Problem& problem,
                                            const LinearTape& tape, int sensor,
                                            const SearchLimits& limits);
+  friend std::optional<ReceiverErrors> ApplyDecisions(
+      const ErrorDecisions& decisions, const LinearTape& tape);
 
   std::unique_ptr<const SensorFindings> found_;
 };
@@ -125,6 +136,12 @@ std::vector<int> AbsoluteSensors(const Timeline& timeline,
 ReceiverErrors FindReceiverErrors(const Problem& problem,
                                   const LinearTape& tape, int sensor,
                                   const SearchLimits& limits = {});
+
+/// The same errors about another tape, of which nothing is searched anew; none if
+/// its nodes do not hold as many fixes of the sensor. `tape` must outlive what is
+/// returned.
+std::optional<ReceiverErrors> ApplyDecisions(const ErrorDecisions& decisions,
+                                             const LinearTape& tape);
 
 }  // namespace hindsight
 

@@ -52,9 +52,11 @@ std::string Objection(const RegimeProblem& problem,
   const Hypothesis& best = one.hypotheses.front();
   const std::string bound = AtBound(best);
   if (!bound.empty()) return "have " + bound + " at its bound";
-  if (one.kind == Kind::kWhite && best.parameters.imu_scale > kMisstatedImu) {
-    return fmt::format("take the noise of the IMU for {:.2g} times as stated",
-                       best.parameters.imu_scale);
+  if (one.kind == Kind::kWhite && !CanBeSolved(best.parameters)) {
+    return fmt::format(
+        "take the fixes for {:.2g}, the noise of the IMU for {:.2g} times as "
+        "stated",
+        best.parameters.scale, best.parameters.imu_scale);
   }
   for (const ErrorRegimes& simpler : all) {
     if (simpler.kind >= one.kind || simpler.kind > Kind::kWhite) continue;

@@ -25,8 +25,9 @@ struct RegimeChoice {
 /// The one of the largest evidence that stands: it
 ///   - wins by kLeastGain over every simpler one;
 ///   - has no parameter at a bound of its search;
-///   - if it is white, does not take the IMU to be worse than stated by more
-///     than kMisstatedImu: that is no matter of this sensor;
+///   - if it is white, is what the batch can be solved with (CanBeSolved): with
+///     an IMU worse than stated by more than kMisstatedImu it is no matter of
+///     this sensor, and with better fixes nothing that is made use of;
 ///   - does not lose to the stated noise, nor, if it is not white, to white
 ///     errors on held-out stretches (CompareHeldOut, at any length).
 RegimeChoice ChooseRegime(const RegimeProblem& problem,

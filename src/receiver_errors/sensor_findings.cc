@@ -48,15 +48,18 @@ bool IsAlone(const Timeline& timeline, int sensor) {
 
 }  // namespace
 
-SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
-                               int index, const SearchLimits& limits)
-    : tape(linear),
-      sensor(index),
+ErrorDecisions::ErrorDecisions(const Problem& problem, const LinearTape& tape,
+                               int index)
+    : sensor(index),
       name(problem.timeline.sensors()[static_cast<std::size_t>(index)].name),
       alone(IsAlone(problem.timeline, index)),
       unit(UnitOf(
           *problem.timeline.sensors()[static_cast<std::size_t>(index)].kind)),
-      stated_sigma(StatedSigma(linear, index)) {
+      stated_sigma(StatedSigma(tape, index)) {}
+
+SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
+                               int index, const SearchLimits& limits)
+    : ErrorDecisions(problem, linear, index), tape(linear) {
   constexpr double kSearch = 0.8;  // of the time, the rest refines
   const std::optional<NormalPoints> points = FormNormalPoints(tape, sensor);
   const LinearTape& searched = points ? points->tape : tape;
@@ -84,6 +87,16 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
     regimes = WithAlternatives(std::move(all), choice.chosen);
   }
   stopped |= rest.stopped();
+  WeighAlternatives();
+}
+
+SensorFindings::SensorFindings(const ErrorDecisions& decisions,
+                               const LinearTape& linear)
+    : ErrorDecisions(decisions), tape(linear) {
+  WeighAlternatives();
+}
+
+void SensorFindings::WeighAlternatives() {
   if (!stands()) return;
   alternatives = WeighHypotheses(tape, sensor, regimes);
   central = MostCentral(alternatives);

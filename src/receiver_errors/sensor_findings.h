@@ -12,14 +12,31 @@
 
 namespace hindsight {
 
-/// What is known of the errors of one sensor once they have been looked for.
-struct SensorFindings {
-  SensorFindings(const Problem& problem, const LinearTape& linear, int index,
-                 const SearchLimits& limits);
+/// What a search decided about one sensor: sequences by fix, wherever nodes
+/// stand.
+struct ErrorDecisions {
+  ErrorDecisions(const Problem& problem, const LinearTape& tape, int index);
   bool stands() const { return choice.chosen > 0; }
   bool switching() const {
     return regimes.kind == ErrorRegimes::Kind::kSwitching;
   }
+
+  int sensor;
+  std::string name;
+  bool alone = false;   ///< no other sensor measures a position, but this does
+  std::string unit;     ///< of its error
+  double stated_sigma;  ///< of its fixes, an axis [SI]
+  RegimeChoice choice;
+  ErrorRegimes regimes;  ///< if they stand
+  bool stopped = false;  ///< the search, by whoever asked
+};
+
+/// What is known of the errors of one sensor once they have been looked for.
+struct SensorFindings : ErrorDecisions {
+  SensorFindings(const Problem& problem, const LinearTape& linear, int index,
+                 const SearchLimits& limits);
+  /// Decided before, about another tape.
+  SensorFindings(const ErrorDecisions& decisions, const LinearTape& linear);
   const WeighedHypothesis& chosen() const { return alternatives[central]; }
   ErrorStates states() const {
     return {tape, sensor, stated_sigma, unit, regimes.kind, chosen()};
@@ -32,17 +49,12 @@ struct SensorFindings {
   /// fixes are not in them.
   void ChooseNoise(SearchEffort* effort);
 
+  /// Smooths the hypotheses of the regimes, if they stand, about the tape.
+  void WeighAlternatives();
+
   const LinearTape& tape;
-  int sensor;
-  std::string name;
-  bool alone = false;   ///< no other sensor measures a position, but this does
-  std::string unit;     ///< of its error
-  double stated_sigma;  ///< of its fixes, an axis [SI]
-  RegimeChoice choice;
-  ErrorRegimes regimes;  ///< if they stand
   std::vector<WeighedHypothesis> alternatives;
   std::size_t central = 0;  ///< of the alternatives, the chosen one
-  bool stopped = false;     ///< the search, by whoever asked
 };
 
 }  // namespace hindsight

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
@@ -58,10 +59,15 @@ class Refinement {
   void Climb() {
     for (int round = 0; round < kMostRounds && !IsSpent(); ++round) {
       const ModeSequence base = SpliceBest();
-      if (!TryAll(base, Variations(base)) &&
-          !TryAll(base, WithOneVelocityStep(base))) {
-        break;
-      }
+      const auto variations = [&base](const Visit& visit) {
+        for (const ModeSequence& h : Variations(base)) {
+          if (!visit(h)) return;
+        }
+      };
+      const auto velocity_steps = [&base](const Visit& visit) {
+        ForEachVelocityStep(base, visit);
+      };
+      if (!TryAll(base, variations) && !TryAll(base, velocity_steps)) break;
     }
   }
 
@@ -85,15 +91,21 @@ class Refinement {
   }
 
  private:
-  /// Whether one, or several together, are better than the base, the best.
-  bool TryAll(const ModeSequence& base, const std::vector<ModeSequence>& all) {
+  /// Shown a sequence; whether another is wanted.
+  using Visit = std::function<bool(const ModeSequence&)>;
+
+  /// Whether one of those that `show` shows, or several together, are better
+  /// than the base, the best.
+  bool TryAll(const ModeSequence& base,
+              const std::function<void(const Visit&)>& show) {
     const std::size_t before = best_;
     const double level = met_[best_].log_posterior;
     const std::size_t first = met_.size();
-    for (const ModeSequence& h : all) {
-      if (IsSpent()) break;
+    show([this](const ModeSequence& h) {
+      if (IsSpent()) return false;
       Try(h);
-    }
+      return true;
+    });
     if (best_ == before) return false;
     Try(Together(base, level, first));
     return true;

@@ -5,7 +5,7 @@
 
 namespace hindsight {
 
-/// Climbs from the best of `found` over Variations, and WithOneVelocityStep where those
+/// Climbs from the best of `found` over Variations, and ForEachVelocityStep where those
 /// do no better, to the most likely sequence near it. Scores are those of
 /// SequenceSplice about the best of the round before. A spent effort ends it with
 /// the best so far.

@@ -65,6 +65,7 @@ SequenceScore ScoreSequence(const LinearTape& tape, int receiver,
                             const ModeSequence& sequence) {
   Walk walk(tape, receiver, parameters, sequence);
   SequenceScore score;
+  bool first = true;
   for (std::size_t k = 0; k < tape.size(); ++k) {
     walk.PredictTo(k);
     bool outlier = false;
@@ -72,9 +73,12 @@ SequenceScore ScoreSequence(const LinearTape& tape, int receiver,
       const auto fix = walk.Fix();
       outlier = fix.outlier;
       score.log_likelihood += fix.log;
+      const ErrorStep step = walk.steps()[k];
+      const int fixes = walk.chain().fix_count();
       score.log_prior +=
-          LogTransition(k == 0 ? ErrorMode::kGood : walk.steps()[k - 1].mode,
-                        walk.steps()[k], walk.chain().fix_count());
+          first ? LogFirst(step, fixes)
+                : LogTransition(walk.steps()[k - 1].mode, step, fixes);
+      first = false;
     }
     score.log_likelihood += walk.chain().UpdateAll(outlier, walk.x());
   }

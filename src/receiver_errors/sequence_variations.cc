@@ -131,15 +131,17 @@ std::vector<ModeSequence> Variations(const ModeSequence& h) {
   return all;
 }
 
-std::vector<ModeSequence> WithOneVelocityStep(const ModeSequence& h) {
-  std::vector<ModeSequence> all;
+void ForEachVelocityStep(
+    const ModeSequence& h,
+    const std::function<bool(const ModeSequence&)>& visit) {
+  ModeSequence one = h;
   for (std::size_t i = 0; i < h.size(); ++i) {
     if (h[i].anew || h[i].velocity_step || h[i].mode != ModeBefore(h, i))
       continue;
-    all.push_back(h);
-    all.back()[i].velocity_step = true;
+    one[i].velocity_step = true;
+    if (!visit(one)) return;
+    one[i].velocity_step = false;
   }
-  return all;
 }
 
 std::vector<Hypothesis> EarlierErrors(const ModeSequence& h) {

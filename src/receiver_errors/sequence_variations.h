@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_RECEIVER_ERRORS_SEQUENCE_VARIATIONS_H_
 #define HINDSIGHT_RECEIVER_ERRORS_SEQUENCE_VARIATIONS_H_
 
+#include <functional>
 #include <vector>
 
 #include "receiver_errors/hypothesis_search.h"
@@ -14,7 +15,10 @@ namespace hindsight {
 std::vector<ModeSequence> Variations(const ModeSequence& sequence);
 /// Hypotheses with one velocity_step of the IMU more than `sequence`: one for each fix at
 /// which nothing changes and which has no velocity_step.
-std::vector<ModeSequence> WithOneVelocityStep(const ModeSequence& sequence);
+/// Each is shown to `visit` alone, as long as that returns true: of a long
+/// recording all together would take gigabytes.
+void ForEachVelocityStep(const ModeSequence& sequence,
+                         const std::function<bool(const ModeSequence&)>& visit);
 
 /// An error too small to be found alone may have begun at any time before a
 /// change: each time is unlikely, all together may not be. And a jump may be

@@ -93,6 +93,15 @@ std::size_t MostCentral(const std::vector<WeighedHypothesis>& all) {
   return best;
 }
 
+ErrorVector MeanFrom(const std::vector<WeighedHypothesis>& all,
+                     const WeighedHypothesis& center, std::size_t k) {
+  ErrorVector sum = ErrorVector::Zero(center.smoothed[k].size());
+  for (const WeighedHypothesis& one : all) {
+    sum += one.weight * (one.smoothed[k] - center.smoothed[k]);
+  }
+  return sum;
+}
+
 ErrorMatrix Spread(const std::vector<WeighedHypothesis>& all,
                    const WeighedHypothesis& center, std::size_t k, int dim) {
   ErrorMatrix sum = ErrorMatrix::Zero(dim, dim);

@@ -27,6 +27,11 @@ std::vector<WeighedHypothesis> WeighHypotheses(const LinearTape& tape,
 /// weighed by their probabilities.
 std::size_t MostCentral(const std::vector<WeighedHypothesis>& all);
 
+/// sum_h w_h d_h at node k, d_h the distance of all smoothed errors of h, those
+/// of the sensor among them, from those of `center`.
+ErrorVector MeanFrom(const std::vector<WeighedHypothesis>& all,
+                     const WeighedHypothesis& center, std::size_t k);
+
 /// sum_h w_h d_h d_h' over the first `dim` errors at node k, d_h the distance
 /// of the smoothed error of h from that of `center`.
 ErrorMatrix Spread(const std::vector<WeighedHypothesis>& all,

@@ -56,6 +56,20 @@ TEST(HeldOutScore, OfGoodFixesIsThatOfASmootherWithoutThem) {
   }
 }
 
+/// Quantiles of Student's distribution at 97.725 %.
+TEST(HeldOutScore, LosesByMoreStandardErrorsOfFewStretches) {
+  EXPECT_NEAR(LimitOf(3), 4.527, 0.2);
+  EXPECT_NEAR(LimitOf(5), 2.869, 0.02);
+  EXPECT_NEAR(LimitOf(11), 2.284, 0.002);
+  EXPECT_NEAR(LimitOf(41), 2.064, 0.002);
+  HeldOutDifference d;
+  d.log_distance = {2.5, 1.0};
+  d.stretches = 40;
+  EXPECT_TRUE(d.Loses());
+  d.stretches = 5;
+  EXPECT_FALSE(d.Loses());
+}
+
 TEST(HeldOutScore, StretchesAreEverywhereAndAtChangesWithoutOverlap) {
   const LinearTape tape = TapeOf(PositionsOnly(120.0));
   ModeSequence changed = Good(tape);

@@ -3,8 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "earth/wgs84.h"
 #include "filters/forward_filter.h"
+#include "measurements/height_fix.h"
 #include "receiver_errors/mode_sequence.h"
+#include "receiver_errors/sensor_findings.h"
 #include "support/test_problem.h"
 
 namespace hindsight {
@@ -120,6 +125,167 @@ TEST(ReceiverErrors, OfALoneSensorToItsLastFixAreDoubtful) {
   EXPECT_THAT(doubts[0].what, HasSubstr("errs from 41 to 60 s"));
   EXPECT_NEAR(doubts[0].value.value(),
               kEndsOfAnError * (1.0 - 2.0 * 19.0 / 60.0), 0.1);
+}
+
+void AddStep(double from, TestProblem* test) {
+  for (Measurement& z : test->measurements) {
+    if (z.t < from) continue;
+    auto& fix = std::get<PositionFix>(z.model);
+    fix.p_e += NedAxes(fix.p_e) * Eigen::Vector3d(30.0, -20.0, 10.0);
+  }
+}
+
+/// Of a step of 37.4 m in the middle: good before it and biased behind it; or,
+/// `behind` less likely in the logarithm, the other way about.
+ErrorDecisions TwoTellings(const Problem& problem, const LinearTape& tape,
+                           double behind, int sensor = 0) {
+  ErrorDecisions decisions(problem, tape, sensor);
+  decisions.choice.chosen = 1;
+  decisions.regimes.kind = ErrorRegimes::Kind::kSwitching;
+  Hypothesis one;
+  one.parameters.sigma = 30.0;
+  one.parameters.tau = 1e8;
+  one.sequence.resize(tape.size());
+  Hypothesis other = one;
+  for (std::size_t i = 0; i < tape.size(); ++i) {
+    const bool later = tape.t(i) > 30.5;
+    (later ? one : other).sequence[i].mode = ErrorMode::kBiased;
+  }
+  one.sequence[31].anew = true;
+  other.sequence[0].anew = true;
+  other.log_posterior = -behind;
+  decisions.regimes.hypotheses = {one, other};
+  return decisions;
+}
+
+struct Averaged {
+  std::optional<Evidence> doubt;
+  double off = 0.0;       ///< at 10 s [m]
+  double variance = 0.0;  ///< there, north, beyond one of 1 m^2
+};
+
+Averaged AverageTwoTellings(double behind) {
+  TestProblem test = FixesOfOneMinute();
+  test.prior.P.topLeftCorner<3, 3>() *= 1e6;  // no start that would tell
+  AddStep(30.5, &test);
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  const std::optional<ReceiverErrors> errors =
+      ApplyDecisions(TwoTellings(problem, tape, behind), tape);
+  errors->Extend(&problem);
+  std::vector<State> states = errors->States(problem.layout);
+  const int dim = problem.layout.dim();
+  CovarianceSeries P(dim, states.size());
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    P.Set(k, ErrorMatrix::Identity(dim, dim));
+  }
+  Averaged out;
+  out.doubt = errors->Average(problem.layout, &states, &P);
+  out.off = (states[10].p_e - test.truth[10].p_e).norm();
+  out.variance = P.Get(10)(0, 0) - 1.0;
+  return out;
+}
+
+/// Probabilities of 62 and 38 %.
+TEST(ReceiverErrors, ThatAreAboutAsLikelyInTwoWaysGiveTheMean) {
+  const Averaged mean = AverageTwoTellings(0.5);
+  ASSERT_TRUE(mean.doubt.has_value());
+  EXPECT_EQ(mean.doubt->grade, Grade::kDoubtful);
+  EXPECT_THAT(mean.doubt->what, HasSubstr("or else, 38 % likely"));
+  EXPECT_NEAR(mean.off, 0.38 * 37.4, 2.0);
+  EXPECT_NEAR(mean.variance, 0.38 * 0.62 * 900.0, 30.0);
+}
+
+/// Probabilities of 95 and 5 %.
+TEST(ReceiverErrors, OfWhichOneIsFarLikelierAreNoMean) {
+  const Averaged likelier = AverageTwoTellings(3.0);
+  EXPECT_FALSE(likelier.doubt.has_value());
+  EXPECT_LT(likelier.off, 2.0);
+  EXPECT_NEAR(likelier.variance, 0.047 * 900.0, 10.0);
+}
+
+/// A whole-interval problem takes complete blocks alone.
+TEST(ReceiverErrors, OfASensorOfOneRowHaveACompleteBlock) {
+  TestProblemOptions options;
+  options.noise = TacticalNoise(true);
+  options.layout = TypicalLayout(options.noise);
+  options.duration = 60.0;
+  TestProblem test = MakeProblem(options, 3);
+  test.sensors[1].kind = &HeightKind();
+  for (Measurement& z : test.measurements) {
+    if (z.sensor != 1) continue;
+    HeightFix height;
+    const auto k = static_cast<std::size_t>(std::lround(z.t));
+    height.height =
+        GeodeticFromEcef(test.truth[k].p_e).height + (z.t > 30.5 ? 50.0 : 0.0);
+    z.model = height;
+  }
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  const std::optional<ReceiverErrors> errors =
+      ApplyDecisions(TwoTellings(problem, tape, 3.0, 1), tape);
+  ASSERT_TRUE(errors.has_value());
+  errors->Extend(&problem);
+  const Block* e = problem.layout.Find(BlockKind::kColouredNoise, 1);
+  ASSERT_NE(e, nullptr);
+  EXPECT_EQ(e->dim, 3);
+  const std::vector<State> states = errors->States(problem.layout);
+  EXPECT_NEAR(states[45].parameters(e->parameter_offset), 50.0, 3.0);
+}
+
+/// The first node has no fix: the receiver errs from the first fix on.
+TEST(ReceiverErrors, FromTheFirstFixAreDoubtful) {
+  TestProblem test = FixesOfOneMinute();
+  test.prior.P.topLeftCorner<3, 3>() *= 1e6;
+  AddStep(30.5, &test);
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  problem.decisions.front() = 0;
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  ErrorDecisions decisions = TwoTellings(problem, tape, 0.0);
+  Hypothesis other = decisions.regimes.hypotheses.back();
+  other.sequence.erase(other.sequence.begin());
+  other.sequence.front().anew = true;
+  decisions.regimes.hypotheses = {other};
+  const std::optional<ReceiverErrors> errors = ApplyDecisions(decisions, tape);
+  ASSERT_TRUE(errors.has_value());
+  const std::vector<Evidence> doubts = errors->Doubts();
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_THAT(doubts[0].what, HasSubstr("errs from 0 to 30 s"));
+}
+
+TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {
+  TestProblem test = FixesOfOneMinute();
+  for (Measurement& z : test.measurements) {
+    if (z.t < 20.5 || z.t > 30.5) continue;
+    auto& fix = std::get<PositionFix>(z.model);
+    fix.p_e += NedAxes(fix.p_e) *
+               Eigen::Vector3d(2.0 * (z.t - 20.0), -3.0 * (z.t - 20.0), 0.0);
+  }
+  const Found found(test);
+  ASSERT_TRUE(found.errors.Stands());
+  EXPECT_THAT(found.errors.InWords(), HasSubstr("drifting from"));
+  const std::vector<State> states = found.errors.States(found.problem.layout);
+  EXPECT_LT((states[28].p_e - test.truth[28].p_e).norm(), 3.0);
+}
+
+TEST(ReceiverErrors, AreTheSameAboutAnotherTapeOfTheSameFixes) {
+  TestProblem test = FixesOfOneMinute();
+  AddStep(50.5, &test);
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  const ReceiverErrors found = FindReceiverErrors(problem, tape, 0);
+  ASSERT_TRUE(found.Stands());
+  const auto decisions = found.Decisions();
+  const std::optional<ReceiverErrors> again = ApplyDecisions(*decisions, tape);
+  ASSERT_TRUE(again.has_value());
+  EXPECT_EQ(again->InWords(), found.InWords());
+  EXPECT_EQ(again->log_gain(), found.log_gain());
+  EXPECT_EQ(again->MeanSquareDistanceTo(found), 0.0);
+
+  Problem fewer = test.Pose(GateDecisions(test.measurements.size(), 1));
+  fewer.decisions.front() = 0;
+  const LinearTape other = RunLinearizedFilter(test.truth, &fewer);
+  EXPECT_FALSE(ApplyDecisions(*decisions, other).has_value());
 }
 
 }  // namespace

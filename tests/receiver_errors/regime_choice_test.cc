@@ -53,6 +53,40 @@ TEST(RegimeChoice, RefusesAValueAtItsBoundWhateverTheEvidence) {
   EXPECT_NE(choice.refused[0].find("at its bound"), std::string::npos);
 }
 
+TEST(RegimeChoice, RefusesWhiteErrorsThatNoBatchIsSolvedWith) {
+  const LinearTape tape = TapeOf(PositionsOnly(30.0));
+  SearchEffort effort(1e9, nullptr);
+  const RegimeProblem problem{tape, 0, 0.5, false, &effort};
+  ErrorRegimes white = Regime(tape, Kind::kWhite, 1000.0);
+  white.hypotheses[0].parameters.scale = 0.5;
+  const RegimeChoice choice =
+      ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0), white,
+                             Regime(tape, Kind::kWhite, 3.0)});
+  EXPECT_EQ(choice.chosen, 0u);
+  ASSERT_EQ(choice.refused.size(), 1u);
+  EXPECT_NE(choice.refused[0].find("take the fixes for 0.5"),
+            std::string::npos);
+}
+
+/// Better than stated by half, and no outliers: there is nothing to solve with.
+TEST(FitNoise, OfFixesBetterThanStatedIsThereAsTheBatchIsSolvedWith) {
+  TestProblem test = PositionsOnly(120.0);
+  for (Measurement& z : test.measurements) {
+    std::get<PositionFix>(z.model).R_n *= 9.0;
+  }
+  const LinearTape tape = TapeOf(test);
+  SearchEffort effort(1e9, nullptr);
+  const RegimeProblem problem{tape, 0, 1.5, false, &effort};
+  const std::vector<ErrorRegimes> all = FitNoise(problem);
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_LT(all[1].hypotheses[0].parameters.scale, 0.5);
+  EXPECT_EQ(all[2].hypotheses[0].parameters.scale, 1.0);
+  EXPECT_EQ(all[2].hypotheses[0].parameters.imu_scale, 1.0);
+  EXPECT_GT(all[1].log_evidence - all[0].log_evidence, kLeastGain);
+  EXPECT_LT(all[2].log_evidence - all[0].log_evidence, kLeastGain);
+  EXPECT_EQ(ChooseRegime(problem, all).chosen, 0u);
+}
+
 TEST(RegimeChoice, RefusesWhatPredictsHeldOutStretchesWorse) {
   const LinearTape tape = TapeOf(PositionsOnly(90.0));
   SearchEffort effort(1e9, nullptr);
