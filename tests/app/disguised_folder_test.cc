@@ -72,7 +72,7 @@ class DisguisedFolder : public ::testing::Test {
   void MirrorImu() const {
     Table table = ReadTable(file("imu.csv"));
     for (std::size_t k = 1; k < table.size(); ++k) {
-      for (const std::size_t column : {2, 5}) {
+      for (const std::size_t column : {std::size_t{2}, std::size_t{5}}) {
         std::string& cell = table[k][column];
         cell = cell[0] == '-' ? cell.substr(1) : "-" + cell;
       }
