@@ -127,8 +127,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 class DatedImu : public DatedFolder {};
 
-TEST_F(DatedImu, TimesOfDayAloneCountOnOverMidnight) {
-  WriteRecording({"OfDay", "time", "time", "{:%H:%M:%S}"});
+class OfDay : public DatedFolder {};
+
+TEST_P(OfDay, AloneCountsOnOverMidnight) {
+  WriteRecording(GetParam());
   const auto drafts = DraftRecordings(folder_.string());
   const std::string text = DraftText(drafts.at(0));
   EXPECT_THAT(text, HasSubstr("t: \"1 [hms]\""));
@@ -143,6 +145,13 @@ TEST_F(DatedImu, TimesOfDayAloneCountOnOverMidnight) {
       data.streams[0].measurements[1].t - data.streams[0].measurements[0].t,
       1.0, 1e-9);
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    All, OfDay,
+    ::testing::Values(DateSpelling{"Colons", "time", "time", "{:%H:%M:%S}"},
+                      DateSpelling{"Digits", "utc_time", "utc_time",
+                                   "{:%H%M%S}"}),
+    [](const auto& info) { return std::string(info.param.name); });
 
 TEST_F(DatedImu, FixesWithoutDatesBeginWithIt) {
   WriteRecording({"Iso", "time", "time", "{:%Y-%m-%dT%H:%M:%S}"});

@@ -265,6 +265,18 @@ TEST_F(RecogniseColumns, OfSeveralPlacesTheReceiversOwnIsTaken) {
   EXPECT_THAT(config, HasSubstr("h: \"11 [m]\""));
 }
 
+TEST_F(RecogniseColumns, AnAltitudeOfADvlIsNoHeight) {
+  Write("log.csv", Rows(kPlain));
+  std::string text = "time,vx_mm_s,vy_mm_s,vz_mm_s,altitude_m\n";
+  for (int k = 0; k < 40; ++k) {
+    text += fmt::format("{}.5,{},0,0,{:.2f}\n", 262 + k, 1000 + k,
+                        20.0 + 0.1 * (k % 3));
+  }
+  Write("dvl.csv", text);
+  EXPECT_THAT(DraftText(DraftRecordings(folder_.string()).at(0)),
+              Not(HasSubstr("type: height")));
+}
+
 TEST_F(RecogniseColumns, HeightsAboveTheSeaAreTold) {
   Write("log.csv", Rows(kPlain));
   const auto assumptions = [&](const char* titles) {

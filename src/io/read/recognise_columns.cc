@@ -289,9 +289,12 @@ class Recogniser {
             &found->lines);
   }
 
-  /// A barometer's: heights that no place stands beside.
+  /// A barometer's: heights that no place stands beside, in no file of a DVL or
+  /// sonar, whose altitude is above the ground.
   void AddHeights() {
-    const bool placed = lines_.Titled("lat") >= 0 ||
+    const bool placed = IsNamed({"dvl", "sonar", "altimeter", "adcp"}) ||
+                        lines_.HasAll({"v_x", "v_y", "v_z"}) ||
+                        lines_.Titled("lat") >= 0 ||
                         lines_.HasAll({"p_x", "p_y"}) ||
                         lines_.HasAll({"roll", "pitch", "heading"});
     if (!placed && !ImuHere()) AddTitled(HeightKind(), {"h"}, {});

@@ -83,9 +83,49 @@ void CountDays(std::vector<double>* t) {
   }
 }
 
+double SecondsOfClock(double hhmmss) {
+  const double hours = std::floor(hhmmss / 1e4);
+  const double minutes = std::floor((hhmmss - 1e4 * hours) / 100.0);
+  return 3600.0 * hours + 60.0 * minutes +
+         (hhmmss - 1e4 * hours - 100.0 * minutes);
+}
+
+/// Whether numbers are hhmmss.sss: minutes and seconds below 60 throughout, and
+/// even where such a count jumps from 59 to 100.
+bool AreClocks(const std::vector<double>& values) {
+  bool jumps = false;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double v = values[k];
+    const double seconds = std::fmod(v, 100.0);
+    const double minutes = std::fmod(std::floor(v / 100.0), 100.0);
+    if (!(v >= 0.0) || v >= 240000.0 || seconds >= 61.0 || minutes >= 60.0) {
+      return false;
+    }
+    if (k == 0 || std::abs(v - values[k - 1]) <= 40.0) continue;
+    const double step = SecondsOfClock(v) - SecondsOfClock(values[k - 1]);
+    jumps = jumps || std::fmod(step + 86400.0, 86400.0) < 20.0;
+  }
+  return jumps;
+}
+
+/// The column that a title calls a time and that holds hhmmss.sss, or -1.
+int FindClocks(const FileColumns& file,
+               const std::vector<ColumnMeaning>& meanings) {
+  for (std::size_t i = 0; i < meanings.size(); ++i) {
+    const FileColumn& column = file.columns[i];
+    if (meanings[i].quantity == "t" &&
+        column.holds == FileColumn::Holds::kNumbers &&
+        AreClocks(column.values)) {
+      return static_cast<int>(i);
+    }
+  }
+  return -1;
+}
+
 /// Those that grow from row to row; nothing if most stand still, as those in
 /// whole seconds do.
-std::optional<Dates> FindDates(const FileColumns& file) {
+/// `clocks`: a column of hhmmss.sss, or -1.
+std::optional<Dates> FindDates(const FileColumns& file, int clocks) {
   using enum FileColumn::Holds;
   const auto find = [&](FileColumn::Holds holds) {
     const auto at = std::find_if(
@@ -104,10 +144,17 @@ std::optional<Dates> FindDates(const FileColumns& file) {
   } else {
     dates.column = find(kTimesOfDay);
     dates.day_column = find(kDays);
+    if (dates.column < 0 && clocks >= 0) {
+      dates.column = clocks;
+      dates.day_column = -1;
+    }
     if (dates.column < 0) return std::nullopt;
     dates.t = values(dates.column);
     for (std::size_t k = 0; dates.day_column >= 0 && k < dates.t.size(); ++k) {
       dates.t[k] += values(dates.day_column)[k];
+    }
+    if (dates.column == clocks) {
+      for (double& t : dates.t) t = SecondsOfClock(t);
     }
     if (dates.day_column < 0) CountDays(&dates.t);
   }
@@ -125,8 +172,8 @@ std::optional<Dates> FindDates(const FileColumns& file) {
 /// Whether there is no day.
 bool IsOfDay(const Dates& dates, const FileColumns& file) {
   return dates.day_column < 0 &&
-         file.columns[static_cast<std::size_t>(dates.column)].holds ==
-             FileColumn::Holds::kTimesOfDay;
+         file.columns[static_cast<std::size_t>(dates.column)].holds !=
+             FileColumn::Holds::kDates;
 }
 
 /// Says what the columns of dates are.
@@ -166,9 +213,10 @@ void Tell(const Dates& dates, const FileColumns& file, StampGuess* guess) {
 }
 
 /// The first column of numbers that grows: one that a title names, or else one
-/// that no title does.
+/// that no title does, what counts rows one by one only if there is no other.
 int FindColumn(const FileColumns& file,
                const std::vector<ColumnMeaning>& meanings, bool titled) {
+  int counter = -1;
   for (std::size_t i = 0; i < file.columns.size(); ++i) {
     const bool fits =
         (titled ? meanings[i].quantity == "t" : meanings[i].quantity.empty()) &&
@@ -176,11 +224,13 @@ int FindColumn(const FileColumns& file,
     const auto& t = file.columns[i].values;
     if (!fits || t.size() < 3) continue;
     const Steps steps = StepsOf(t);
-    if (Grows(t, steps) && (titled || IsSteady(t, steps))) {
+    if (!Grows(t, steps) || (!titled && !IsSteady(t, steps))) continue;
+    if (titled || steps.median != 1.0 || steps.unevenness > 0.0) {
       return static_cast<int>(i);
     }
+    if (counter < 0) counter = static_cast<int>(i);
   }
-  return -1;
+  return counter;
 }
 
 struct TimeUnit {
@@ -295,9 +345,12 @@ std::optional<StampGuess> GuessStamps(
     const FileColumns& file, const std::vector<ColumnMeaning>& meanings,
     const StampHints& hints) {
   StampGuess guess;
-  auto dates = FindDates(file);
   guess.column = FindColumn(file, meanings, true);
-  if (dates && IsOfDay(*dates, file) && guess.column >= 0) dates.reset();
+  const int clocks = FindClocks(file, meanings);
+  auto dates = FindDates(file, clocks);
+  if (dates && IsOfDay(*dates, file) && guess.column >= 0 && clocks < 0) {
+    dates.reset();
+  }
   if (dates) {
     Tell(*dates, file, &guess);
   } else if (guess.column < 0) {
@@ -355,7 +408,15 @@ std::vector<double> TimesOf(const FileColumns& file, const StampGuess& stamps) {
                    : factor * value(stamps.column, i);
     if (stamps.date_column >= 0) t[i] += value(stamps.date_column, i);
   }
-  if (stamps.unit == kTimeOfDayUnit) CountDays(&t);
+  if (stamps.unit == kTimeOfDayUnit) {
+    const bool numbers =
+        file.columns[static_cast<std::size_t>(stamps.column)].holds ==
+        FileColumn::Holds::kNumbers;
+    if (numbers) {
+      for (double& one : t) one = SecondsOfClock(one);
+    }
+    CountDays(&t);
+  }
   return t;
 }
 

@@ -168,7 +168,11 @@ std::optional<Stamp> ParseDate(std::string_view date, std::string_view clock,
 }
 
 std::optional<Stamp> ParseTimeOfDay(std::string_view clock) {
-  const auto time = ParseClock(clock);
+  std::string colons(clock);
+  if (clock.find(':') == clock.npos && clock.size() >= 6) {
+    colons.insert(4, ":").insert(2, ":");
+  }
+  const auto time = ParseClock(colons);
   if (!time) return std::nullopt;
   return Stamp{time->seconds, time->fraction};
 }

@@ -56,7 +56,7 @@ Stamp GpsFromUtc(std::int64_t day, double time_of_day);
 std::optional<Stamp> ParseDate(std::string_view date, std::string_view clock,
                                bool utc);
 
-/// Time since midnight of "hh:mm:ss.sss"; nothing if it is none.
+/// Time since midnight of "hh:mm:ss.sss" or "hhmmss.sss"; nothing if it is none.
 std::optional<Stamp> ParseTimeOfDay(std::string_view clock);
 
 /// GPS time since 1980-01-06 of a time as ISO 8601 writes it in one word,
