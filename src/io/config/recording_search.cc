@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "io/config/recording_groups.h"
-#include "io/read/column_meaning.h"
+#include "io/read/column_choice.h"
 #include "io/read/file_columns.h"
 #include "io/read/file_format.h"
 #include "io/read/imu_pair_guess.h"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/quantity.h"
+#include "io/read/column_choice.h"
 #include "io/read/column_meaning.h"
 #include "io/read/file_columns.h"
 #include "io/read/fix_guess.h"

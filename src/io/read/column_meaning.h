@@ -30,14 +30,10 @@ ColumnMeaning AsVelocity(ColumnMeaning meaning);
 /// nothing of another.
 ColumnMeaning AxisMeaning(const std::string& title, const std::string& family);
 
-/// Whether a column of heights counts from the sea: its title says so, or a
-/// column of the geoid's height stands beside one that says nothing.
-bool CountsFromSea(const FileColumns& file, int h);
-
-/// Of all columns of a file; arrays of three or four columns without titles of
-/// their own count them as axes. No quantity stands twice: of two the first, of
-/// times the one that changes most often, of places and heights the receiver's.
-std::vector<ColumnMeaning> ReadMeanings(const FileColumns& file);
+/// Of a column by its title; of arrays of three or four columns without titles of
+/// their own by their number, which counts axes. Nothing of text.
+ColumnMeaning MeaningOfColumn(const FileColumn& column,
+                              const FileFormat& format);
 
 }  // namespace hindsight
 

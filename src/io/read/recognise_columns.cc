@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/median.h"
+#include "io/read/column_choice.h"
 #include "io/read/column_lines.h"
 #include "io/read/fix_guess.h"
 #include "io/read/imu_columns.h"

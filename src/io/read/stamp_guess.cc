@@ -7,174 +7,17 @@
 #include <cmath>
 #include <limits>
 
-#include "base/median.h"
+#include "io/read/column_steps.h"
 #include "io/read/text_format.h"
 #include "io/read/title_words.h"
 #include "io/read/units.h"
+#include "io/read/written_dates.h"
 
 namespace hindsight {
 namespace {
 
-/// Shares of rows.
-constexpr double kMostlyGrowing = 0.99;
+/// Of steps against their median.
 constexpr double kEven = 1e-6;
-
-struct Steps {
-  double median = 0.0;  ///< of those above zero
-  double longest = 0.0;
-  double unevenness = 0.0;  ///< largest distance from it over it
-  double growing = 0.0;     ///< share of rows that do not fall behind
-  bool repeated = false;
-  bool unordered = false;
-};
-
-Steps StepsOf(const std::vector<double>& t) {
-  Steps steps;
-  std::vector<double> positive;
-  std::size_t kept = 0;
-  for (std::size_t i = 1; i < t.size(); ++i) {
-    const double step = t[i] - t[i - 1];
-    if (step >= 0.0) ++kept;
-    if (step > 0.0) positive.push_back(step);
-    steps.repeated = steps.repeated || step == 0.0;
-    steps.unordered = steps.unordered || step < 0.0;
-  }
-  if (t.size() < 2 || positive.empty()) return steps;
-  steps.median = Median(positive);
-  for (const double step : positive) {
-    steps.longest = std::max(steps.longest, step);
-    steps.unevenness =
-        std::max(steps.unevenness, std::abs(step / steps.median - 1.0));
-  }
-  steps.growing = static_cast<double>(kept) / static_cast<double>(t.size() - 1);
-  return steps;
-}
-
-bool Grows(const std::vector<double>& t, const Steps& steps) {
-  return steps.growing >= kMostlyGrowing && t.back() > t.front() &&
-         std::all_of(t.begin(), t.end(),
-                     [](double x) { return std::isfinite(x); });
-}
-
-/// A column of times has steps about as long everywhere.
-bool IsSteady(const std::vector<double>& t, const Steps& steps) {
-  const double mean =
-      (t.back() - t.front()) / static_cast<double>(t.size() - 1);
-  return steps.median < 3.0 * mean && mean < 10.0 * steps.median;
-}
-
-/// Times that are written as dates, or as times of day.
-struct Dates {
-  int column = -1;
-  int day_column = -1;
-  std::vector<double> t;
-};
-
-/// Times of day that run over midnight go on counting.
-void CountDays(std::vector<double>* t) {
-  constexpr double kDay = 86400.0;
-  double midnight = 0.0;
-  for (std::size_t k = 1; k < t->size(); ++k) {
-    (*t)[k] += midnight;
-    if ((*t)[k] < (*t)[k - 1] - 0.5 * kDay) {
-      midnight += kDay;
-      (*t)[k] += kDay;
-    }
-  }
-}
-
-double SecondsOfClock(double hhmmss) {
-  const double hours = std::floor(hhmmss / 1e4);
-  const double minutes = std::floor((hhmmss - 1e4 * hours) / 100.0);
-  return 3600.0 * hours + 60.0 * minutes +
-         (hhmmss - 1e4 * hours - 100.0 * minutes);
-}
-
-/// Whether numbers are hhmmss.sss: minutes and seconds below 60 throughout, and
-/// even where such a count jumps from 59 to 100.
-bool AreClocks(const std::vector<double>& values) {
-  bool jumps = false;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const double v = values[k];
-    const double seconds = std::fmod(v, 100.0);
-    const double minutes = std::fmod(std::floor(v / 100.0), 100.0);
-    if (!(v >= 0.0) || v >= 240000.0 || seconds >= 61.0 || minutes >= 60.0) {
-      return false;
-    }
-    if (k == 0 || std::abs(v - values[k - 1]) <= 40.0) continue;
-    const double step = SecondsOfClock(v) - SecondsOfClock(values[k - 1]);
-    jumps = jumps || std::fmod(step + 86400.0, 86400.0) < 20.0;
-  }
-  return jumps;
-}
-
-/// The column that a title calls a time and that holds hhmmss.sss, or -1.
-int FindClocks(const FileColumns& file,
-               const std::vector<ColumnMeaning>& meanings) {
-  for (std::size_t i = 0; i < meanings.size(); ++i) {
-    const FileColumn& column = file.columns[i];
-    if (meanings[i].quantity == "t" &&
-        column.holds == FileColumn::Holds::kNumbers &&
-        AreClocks(column.values)) {
-      return static_cast<int>(i);
-    }
-  }
-  return -1;
-}
-
-/// Those that grow from row to row; nothing if most stand still, as those in
-/// whole seconds do.
-/// `clocks`: a column of hhmmss.sss, or -1.
-std::optional<Dates> FindDates(const FileColumns& file, int clocks) {
-  using enum FileColumn::Holds;
-  const auto find = [&](FileColumn::Holds holds) {
-    const auto at = std::find_if(
-        file.columns.begin(), file.columns.end(),
-        [&](const FileColumn& column) { return column.holds == holds; });
-    return at == file.columns.end()
-               ? -1
-               : static_cast<int>(at - file.columns.begin());
-  };
-  const auto values = [&](int column) -> const std::vector<double>& {
-    return file.columns[static_cast<std::size_t>(column)].values;
-  };
-  Dates dates{find(kDates), -1, {}};
-  if (dates.column >= 0) {
-    dates.t = values(dates.column);
-  } else {
-    dates.column = find(kTimesOfDay);
-    dates.day_column = find(kDays);
-    if (dates.column < 0 && clocks >= 0) {
-      dates.column = clocks;
-      dates.day_column = -1;
-    }
-    if (dates.column < 0) return std::nullopt;
-    dates.t = values(dates.column);
-    for (std::size_t k = 0; dates.day_column >= 0 && k < dates.t.size(); ++k) {
-      dates.t[k] += values(dates.day_column)[k];
-    }
-    if (dates.column == clocks) {
-      for (double& t : dates.t) t = SecondsOfClock(t);
-    }
-    if (dates.day_column < 0) CountDays(&dates.t);
-  }
-  if (dates.t.size() < 3) return std::nullopt;
-  std::size_t moving = 0;
-  for (std::size_t k = 1; k < dates.t.size(); ++k) {
-    if (dates.t[k] != dates.t[k - 1]) ++moving;
-  }
-  if (2 * moving < dates.t.size() || !Grows(dates.t, StepsOf(dates.t))) {
-    return std::nullopt;
-  }
-  return dates;
-}
-
-/// Whether there is no day.
-bool IsOfDay(const Dates& dates, const FileColumns& file) {
-  return dates.day_column < 0 &&
-         file.columns[static_cast<std::size_t>(dates.column)].holds !=
-             FileColumn::Holds::kDates;
-}
 
 /// Says what the columns of dates are.
 void Tell(const Dates& dates, const FileColumns& file, StampGuess* guess) {
@@ -346,9 +189,8 @@ std::optional<StampGuess> GuessStamps(
     const StampHints& hints) {
   StampGuess guess;
   guess.column = FindColumn(file, meanings, true);
-  const int clocks = FindClocks(file, meanings);
-  auto dates = FindDates(file, clocks);
-  if (dates && IsOfDay(*dates, file) && guess.column >= 0 && clocks < 0) {
+  auto dates = FindDates(file, meanings);
+  if (dates && IsOfDay(*dates, file) && guess.column >= 0 && !dates->numbers) {
     dates.reset();
   }
   if (dates) {
@@ -409,13 +251,9 @@ std::vector<double> TimesOf(const FileColumns& file, const StampGuess& stamps) {
     if (stamps.date_column >= 0) t[i] += value(stamps.date_column, i);
   }
   if (stamps.unit == kTimeOfDayUnit) {
-    const bool numbers =
-        file.columns[static_cast<std::size_t>(stamps.column)].holds ==
-        FileColumn::Holds::kNumbers;
-    if (numbers) {
-      for (double& one : t) one = SecondsOfClock(one);
-    }
-    CountDays(&t);
+    const FileColumn& column =
+        file.columns[static_cast<std::size_t>(stamps.column)];
+    CountFromMidnight(column.holds == FileColumn::Holds::kNumbers, &t);
   }
   return t;
 }

@@ -2,152 +2,21 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 
 #include "io/read/file_columns.h"
 #include "io/read/file_formats.h"
 #include "io/read/text_layout.h"
+#include "io/read/text_shape.h"
 #include "io/read/text_tokens.h"
-#include "io/read/time_scale.h"
 #include "io/read/units.h"
 
 namespace hindsight {
 namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kFewestRows = 3;
 /// Lines by which the shape of the table is told.
 constexpr std::size_t kShapeLines = 60;
-
-struct Word {
-  /// Nothing where nothing stands.
-  std::optional<FileColumn::Holds> holds;
-  double value = kMissing;
-  bool zoned = false;
-
-  bool IsText() const { return holds == FileColumn::Holds::kText; }
-};
-
-/// UTC seconds since 1970.
-double UnixFromGps(const Stamp& gps) {
-  const double seconds = gps.Since({}) + static_cast<double>(kGpsEpochUnix);
-  const auto whole = static_cast<std::int64_t>(std::floor(seconds));
-  return seconds - LeapSeconds(whole - LeapSeconds(whole));
-}
-
-/// A date with its time of day, or one of the two.
-std::optional<Word> ParseTimeWord(std::string_view token) {
-  using enum FileColumn::Holds;
-  constexpr std::size_t kShortest = 8;
-  const std::size_t sign = token.find_first_of("-/:");
-  if (token.size() < kShortest || sign == token.npos || sign == 0) {
-    return std::nullopt;
-  }
-  const auto seconds = [](const Stamp& as_written) {
-    return as_written.Since({}) + static_cast<double>(kGpsEpochUnix);
-  };
-  if (const auto stamp = ParseIsoTime(token, false)) {
-    return Word{kDates, seconds(*stamp), false};
-  }
-  if (const auto stamp = ParseIsoTime(token, true)) {
-    return Word{kDates, UnixFromGps(*stamp), true};
-  }
-  if (const auto stamp = ParseDate(token, "00:00:00", false)) {
-    return Word{kDays, seconds(*stamp), false};
-  }
-  const std::string on_first_day = "1970-01-01T" + std::string(token);
-  if (const auto stamp = ParseIsoTime(on_first_day, false)) {
-    return Word{kTimesOfDay, seconds(*stamp), false};
-  }
-  if (const auto stamp = ParseIsoTime(on_first_day, true)) {
-    return Word{kTimesOfDay, UnixFromGps(*stamp), true};
-  }
-  return std::nullopt;
-}
-
-Word ParseWord(std::string_view token) {
-  using enum FileColumn::Holds;
-  if (IsAbsentWord(token)) return {};
-  if (const auto number = ParseNumber(token)) return {kNumbers, *number};
-  if (const auto time = ParseTimeWord(token)) return *time;
-  return {kText};
-}
-
-/// The words of a line. False of one that holds no numbers, or not more than
-/// words of text beside them, as titles and notes do.
-bool ParseRow(std::string_view line, char delimiter, std::vector<Word>* words) {
-  constexpr std::size_t kFewestBesideText = 3;
-  words->clear();
-  std::string pointed;
-  if (GuessDecimal(line, delimiter) == ',') {
-    pointed = line;
-    std::replace(pointed.begin(), pointed.end(), ',', '.');
-    line = pointed;
-  }
-  std::size_t texts = 0;
-  std::size_t numbers = 0;
-  for (const std::string_view token : SplitLine(line, delimiter)) {
-    words->push_back(ParseWord(token));
-    if (words->back().IsText()) {
-      ++texts;
-    } else if (words->back().holds) {
-      ++numbers;
-    }
-  }
-  return texts == 0 ? numbers > 0
-                    : numbers >= kFewestBesideText && numbers > texts;
-}
-
-struct Shape {
-  char delimiter = ',';
-  std::vector<bool> is_text;  ///< per column
-};
-
-/// Whether more than half of what stands in a column is text.
-std::vector<bool> TextColumnsOf(const std::vector<std::vector<Word>>& rows) {
-  std::vector<bool> is_text(rows.front().size());
-  for (std::size_t i = 0; i < is_text.size(); ++i) {
-    std::size_t texts = 0;
-    std::size_t others = 0;
-    for (const std::vector<Word>& row : rows) {
-      if (row[i].IsText()) {
-        ++texts;
-      } else if (row[i].holds) {
-        ++others;
-      }
-    }
-    is_text[i] = texts > others;
-  }
-  return is_text;
-}
-
-/// What most of the first lines that hold numbers look like.
-std::optional<Shape> FindShape(const std::vector<std::string>& lines) {
-  std::map<std::pair<char, std::size_t>, std::vector<std::vector<Word>>> alike;
-  std::vector<Word> words;
-  for (const std::string& line : lines) {
-    if (IsComment(line)) continue;
-    const char delimiter = GuessDelimiter(line);
-    if (ParseRow(line, delimiter, &words)) {
-      alike[{delimiter, words.size()}].push_back(words);
-    }
-    // Of tabs with nothing in between a run of blanks makes one.
-    if (delimiter == ' ' && line.find('\t') != line.npos &&
-        ParseRow(line, '\t', &words)) {
-      alike[{'\t', words.size()}].push_back(words);
-    }
-  }
-  std::optional<Shape> shape;
-  std::size_t most = kFewestRows - 1;
-  for (const auto& [form, rows] : alike) {
-    const bool instead = shape && shape->delimiter == '\t' && form.first == ' ';
-    if (rows.size() < most + (instead ? 0 : 1)) continue;
-    most = rows.size();
-    shape = Shape{form.first, TextColumnsOf(rows)};
-  }
-  return shape;
-}
 
 /// A unit of anything that is recorded, or no word.
 bool IsUnit(std::string_view word) {

@@ -1,5 +1,6 @@
 #include "io/read/title_words.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <string_view>
@@ -71,6 +72,13 @@ std::vector<std::string> SplitWords(const std::string& name) {
   }
   end();
   return words;
+}
+
+bool HasAnyWord(const std::vector<std::string>& words,
+                std::initializer_list<std::string_view> names) {
+  return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+    return std::find(names.begin(), names.end(), word) != names.end();
+  });
 }
 
 std::string TakeBracketedUnit(std::string* title) {

@@ -1,0 +1,125 @@
+#include "io/read/column_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "io/read/title_words.h"
+
+namespace hindsight {
+namespace {
+
+/// Rows with a value other than that of the row before.
+std::size_t ChangesOf(const std::vector<double>& values) {
+  std::size_t changes = 0;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    if (std::isfinite(values[k]) && values[k] != values[k - 1]) ++changes;
+  }
+  return changes;
+}
+
+/// Of columns of one quantity keeps the one of the highest rank, of equal ones the
+/// first.
+template <typename RankOf>
+void KeepBest(const FileColumns& file, std::string_view quantity,
+              RankOf rank_of, std::vector<ColumnMeaning>* meanings) {
+  ColumnMeaning* kept = nullptr;
+  decltype(rank_of(file.columns[0])) best{};
+  for (std::size_t i = 0; i < meanings->size(); ++i) {
+    ColumnMeaning& meaning = (*meanings)[i];
+    if (meaning.quantity != quantity) continue;
+    const auto rank = rank_of(file.columns[i]);
+    if (kept != nullptr && rank <= best) {
+      meaning = {};
+      continue;
+    }
+    if (kept != nullptr) *kept = {};
+    kept = &meaning;
+    best = rank;
+  }
+}
+
+/// How likely a column that is titled as a time is the rows' own: it changes from
+/// row to row most often; a message's own stamp rather than that of its arrival;
+/// what counts samples, and times of day, only if there is no other.
+std::pair<std::size_t, int> RankOfTime(const FileColumn& column) {
+  const std::vector<std::string> words = SplitWords(column.title);
+  const bool own =
+      HasAnyWord(words, {"header"}) && HasAnyWord(words, {"stamp"});
+  const bool counts =
+      HasAnyWord(words, {"sample"}) && !HasAnyWord(words, {"time", "times"});
+  const bool of_day = column.holds == FileColumn::Holds::kTimesOfDay;
+  return {counts || of_day ? 0 : ChangesOf(column.values), own ? 1 : 0};
+}
+
+bool SaysEllipsoid(const std::vector<std::string>& words) {
+  return HasAnyWord(words, {"ellipsoid", "ellipsoidal", "ell", "hae", "wgs"});
+}
+bool SaysSea(const std::vector<std::string>& words) {
+  return HasAnyWord(words, {"msl", "amsl", "sea"});
+}
+
+/// How likely a place or height is a receiver's own, by the words of its title:
+/// neither another estimate nor a place to go to, and above the ellipsoid rather
+/// than above the sea or the ground.
+int RankOfPlace(const FileColumn& column) {
+  const std::vector<std::string> words = SplitWords(column.title);
+  int rank = 0;
+  if (HasAnyWord(words, {"gps", "gnss", "fix", "receiver"})) rank += 2;
+  if (HasAnyWord(words,
+                 {"ekf", "kf", "fused", "filter", "filtered", "estimate",
+                  "estimated", "est", "home", "ref", "reference", "target",
+                  "wp", "waypoint", "setpoint", "network", "origin"})) {
+    rank -= 8;
+  }
+  if (HasAnyWord(words, {"baro", "barometer", "barometric", "press", "pressure",
+                         "rel", "relative", "agl", "terrain", "ground"})) {
+    rank -= 8;
+  }
+  if (SaysEllipsoid(words)) rank += 4;
+  if (SaysSea(words)) rank -= 1;
+  if (ChangesOf(column.values) == 0) rank -= 16;
+  return rank;
+}
+
+}  // namespace
+
+bool CountsFromSea(const FileColumns& file, int h) {
+  const std::vector<std::string> words =
+      SplitWords(file.columns[static_cast<std::size_t>(h)].title);
+  if (SaysEllipsoid(words)) return false;
+  return SaysSea(words) ||
+         std::any_of(file.columns.begin(), file.columns.end(),
+                     [](const FileColumn& column) {
+                       return HasAnyWord(SplitWords(column.title),
+                                         {"undulation", "geoid"});
+                     });
+}
+
+std::vector<ColumnMeaning> ReadMeanings(const FileColumns& file) {
+  std::vector<ColumnMeaning> meanings;
+  std::set<std::string> taken;
+  for (const FileColumn& column : file.columns) {
+    ColumnMeaning meaning = MeaningOfColumn(column, *file.format);
+    constexpr std::array<std::string_view, 4> kRanked = {"t", "lat", "lon",
+                                                         "h"};
+    const bool ranked = std::find(kRanked.begin(), kRanked.end(),
+                                  meaning.quantity) != kRanked.end();
+    if (!meaning.quantity.empty() && !ranked &&
+        !taken.insert(meaning.quantity).second) {
+      meaning = {};
+    }
+    meanings.push_back(std::move(meaning));
+  }
+  KeepBest(file, "t", RankOfTime, &meanings);
+  for (const char* quantity : {"lat", "lon", "h"}) {
+    KeepBest(file, quantity, RankOfPlace, &meanings);
+  }
+  return meanings;
+}
+
+}  // namespace hindsight
