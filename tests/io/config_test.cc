@@ -94,6 +94,23 @@ TEST_F(ConfigTest, ASecondDocumentIsRefused) {
   EXPECT_EQ(LoadError(), "");
 }
 
+TEST_F(ConfigTest, CellsInQuotationMarksAreThoseWithin) {
+  const auto quoted = [](const char* last) {
+    return std::string("t[s],lat[deg],lon[deg],h[m]\n") +
+           "10.0,\"50\",\"8\",\"100\"\n10.2,\"50\",\"8\"," + last + "\n";
+  };
+  std::string config = kConfig;
+  config += "    sigma: 1 m\n";
+  Write("config.yaml", config);
+  Write("gnss.csv", quoted("\"100\""));
+  EXPECT_EQ(Load().streams[0].measurements.size(), 2u);
+  Write("gnss.csv", quoted("\"100"));
+  EXPECT_NE(LoadError().find("gnss.csv:3: column 4 (h): '\"100' is not a "
+                             "finite number"),
+            std::string::npos)
+      << LoadError();
+}
+
 TEST_F(ConfigTest, DecimalCommasAreReadAsPoints) {
   std::string semicolons = kGnss;
   std::replace(semicolons.begin(), semicolons.end(), ',', ';');

@@ -12,8 +12,9 @@ namespace hindsight {
 /// column of the geoid's height stands beside one that says nothing.
 bool CountsFromSea(const FileColumns& file, int h);
 
-/// What all columns of a file mean (MeaningOfColumn). No quantity stands twice: of two the first, of
-/// times the one that changes most often, of places and heights the receiver's.
+/// What all columns of a file mean (MeaningOfColumn). No quantity stands twice:
+/// of two the first, of times the one that changes most often, of places and
+/// heights the receiver's.
 std::vector<ColumnMeaning> ReadMeanings(const FileColumns& file);
 
 }  // namespace hindsight

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 #include <string_view>
 
 #include "base/median.h"
@@ -114,8 +115,10 @@ class Recogniser {
   }
 
   void AddFixes() {
+    std::optional<FileColumns> placed;
+    if (lines_.HasAll({"lat", "lon"})) placed = RowsWithPlaces();
     const auto fixes =
-        GuessFixes(RowsWithPlaces(), lines_.meanings(), *stamps());
+        GuessFixes(placed ? *placed : file_, lines_.meanings(), *stamps());
     // Places beside attitudes are another solution's, no sensor's.
     const bool solution =
         !ImuHere() && lines_.HasAll({"roll", "pitch", "heading"});
@@ -137,10 +140,9 @@ class Recogniser {
   }
 
   /// The rows that hold a place: neither nothing nor zeros, as receivers write
-  /// before their first fix. All where no title says latitude and longitude.
+  /// before their first fix. Titles say which columns are latitude and longitude.
   FileColumns RowsWithPlaces() const {
     FileColumns rows = file_;
-    if (!lines_.HasAll({"lat", "lon"})) return rows;
     const std::vector<double>& lat = Values(lines_.Titled("lat"));
     const std::vector<double>& lon = Values(lines_.Titled("lon"));
     std::vector<bool> absent(file_.rows);

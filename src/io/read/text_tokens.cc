@@ -41,9 +41,10 @@ std::string_view TextTokens::Next() {
     const std::string_view rest(begin + 1,
                                 static_cast<std::size_t>(end_ - begin - 1));
     const std::size_t close = rest.find('"');
-    const char* behind = begin + 2 + close;
-    if (close != rest.npos && (behind == end_ || IsSeparator(*behind))) {
-      p_ = behind;
+    const std::string_view behind =
+        close == rest.npos ? rest : rest.substr(close + 1);
+    if (close != rest.npos && (behind.empty() || IsSeparator(behind[0]))) {
+      p_ = behind.data();
       Advance();
       return rest.substr(0, close);
     }
