@@ -81,10 +81,13 @@ ColumnMapping ReadColumn(ConfigMap* columns, const std::string& name,
   // Dates, whose unit is their scale; a time of day beside one has none.
   const bool date = (name == "t" || name == "date") &&
                     (mapping.unit == "UTC" || mapping.unit == "GPST" ||
-                     (name == "t" && mapping.unit == kTimeOfDayUnit));
+                     (name == "t" && (mapping.unit == kTimeOfDayUnit ||
+                                      FirstDayOf(mapping.unit))));
+  const bool minutes =
+      (name == "lat" || name == "lon") && mapping.unit == kDegreesMinutesUnit;
   const bool of_day =
       name == "t" && columns->Has("date") && mapping.unit.empty();
-  if (name == "week" || date || of_day) return mapping;
+  if (name == "week" || date || of_day || minutes) return mapping;
   if (name == "date") {
     columns->Fail(name, "expected COLUMN [UTC] or COLUMN [GPST]");
   }

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "io/config/config_key.h"
 #include "io/config/vehicle.h"
+#include "io/read/date_text.h"
 #include "io/read/paths.h"
 
 namespace hindsight {

@@ -8,7 +8,7 @@
 #include "io/config/config_columns.h"
 #include "io/config/config_key.h"
 #include "io/config/config_streams.h"
-#include "io/read/file_format.h"
+#include "io/read/file_formats.h"
 #include "io/read/paths.h"
 
 namespace hindsight {
@@ -100,6 +100,37 @@ void ReadDecimal(ConfigMap* map, StreamConfig* stream) {
   }
 }
 
+const ConfigTable<RowWord>& RowsTable() {
+  using Key = ConfigKey<RowWord>;
+  static const ConfigTable<RowWord> kTable = {
+      "rows",
+      "Of a stream whose lines stand between those of others.",
+      {{.name = "column",
+        .value = Key::Special{[](ConfigMap* map, RowWord* rows) {
+          rows->column = map->Integer("column", 1) - 1;
+          if (rows->column < 0) map->Fail("column", "expected 1 or more");
+        }},
+        .help = "the column of the word, from 1",
+        .fallback = "1"},
+       {.name = "word",
+        .value = Key::Special{[](ConfigMap* map, RowWord* rows) {
+          rows->word = map->Text("word");
+        }},
+        .help = "lines that have it are the stream's, all others are not",
+        .needed = true}}};
+  return kTable;
+}
+
+void ReadRows(ConfigMap* map, StreamConfig* stream) {
+  if (!map->Has("rows")) return;
+  if (stream->format.kind != &ColumnsFormat()) {
+    map->Fail("rows", "is of `format: columns`");
+  }
+  ConfigMap rows = map->Map("rows");
+  ReadTable(RowsTable(), &rows, &stream->format.rows);
+  rows.Finish();
+}
+
 void ReadFormatKeys(ConfigMap* map, StreamConfig* stream) {
   TextFormat& format = stream->format;
   for (const FormatKey& key : format.kind->keys) {
@@ -136,6 +167,21 @@ const ConfigTable<StreamConfig>& StreamTable() {
         .help = "auto, point, comma: between units and tenths, as the first "
                 "row has it",
         .fallback = "auto"},
+       {.name = "dates",
+        .value = Key::Word{{"year_first", "day_first", "month_first"},
+                           [](const StreamConfig& stream) {
+                             return static_cast<std::size_t>(
+                                 stream.format.date_order);
+                           },
+                           [](StreamConfig& stream, std::size_t word) {
+                             stream.format.date_order =
+                                 static_cast<DateOrder>(word);
+                           }},
+        .help = "the order of 07/08/2025; 2025-07-08 and 8.7.2025 need none"},
+       {.name = "rows",
+        .value = Key::Special{ReadRows},
+        .help = "of columns: which lines are the stream's, in a file that "
+                "holds several sensors' between each other"},
        {.name = "skip_lines",
         .value = Key::Special{[](ConfigMap* map, StreamConfig* stream) {
           stream->format.skip_lines = map->Integer("skip_lines", 0);
@@ -239,7 +285,7 @@ std::vector<KeySection> StreamSections() {
                                    return format.counts_from_1970;
                                  }),
                                  "unix");
-  return {stream, time};
+  return {stream, Documented(RowsTable()), time};
 }
 
 std::vector<FormatEntry> FormatEntries() {

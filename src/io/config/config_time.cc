@@ -2,6 +2,7 @@
 
 #include "io/config/config_key.h"
 #include "io/config/config_streams.h"
+#include "io/read/date_text.h"
 #include "io/read/file_format.h"
 
 namespace hindsight {

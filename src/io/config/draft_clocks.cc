@@ -27,14 +27,16 @@ bool IsDated(const FoundStream& found) {
   return found.stamps && found.stamps->scale != StampGuess::Scale::kOwn;
 }
 
+Stamp FirstOf(const StampGuess& dated) {
+  const double whole = std::floor(dated.first);
+  const Stamp since_1970 = {static_cast<std::int64_t>(whole),
+                            dated.first - whole};
+  if (dated.unit != "GPST") return GpsFromUnix(since_1970);
+  return Stamp{since_1970.seconds - kGpsEpochUnix, since_1970.fraction};
+}
+
 std::optional<Stamp> FirstDate(const fs::path& path, const FoundStream& found) {
-  if (IsDated(found)) {
-    const double whole = std::floor(found.stamps->first);
-    const Stamp since_1970 = {static_cast<std::int64_t>(whole),
-                              found.stamps->first - whole};
-    if (found.stamps->unit != "GPST") return GpsFromUnix(since_1970);
-    return Stamp{since_1970.seconds - kGpsEpochUnix, since_1970.fraction};
-  }
+  if (IsDated(found)) return FirstOf(*found.stamps);
   const FileFormat& kind = *found.format;
   if (!kind.dated && &kind != &CsvFormat()) return std::nullopt;
   TextFormat format;
@@ -57,8 +59,13 @@ bool IsUndated(const RecordingDraft& draft, const FoundStream& found) {
 }
 
 /// "{rate: 100 Hz, start: 0 s}"; nothing to say: "".
-void SetTime(const std::string& start, const std::string& duration,
+void SetTime(std::string start, const std::string& duration,
              const std::string& comment, FoundStream* found) {
+  if (start.empty() && found->stamps && found->stamps->starts) {
+    start = IsDated(*found)
+                ? FormatGpsTime(Nanoseconds(FirstOf(*found->stamps)))
+                : fmt::format("{:.12g} s", found->stamps->first);
+  }
   std::vector<std::string> parts;
   if (found->stamps && found->stamps->rate) {
     parts.push_back(fmt::format("rate: {:.12g} Hz", *found->stamps->rate));
@@ -139,11 +146,14 @@ void BeginTogether(RecordingDraft* draft) {
     SetTime("", "", "", imu);
     return;
   }
-  bool apart = imu->stamps->rate.has_value();
+  const auto counts = [](const FoundStream& found) {
+    return found.stamps->rate && !found.stamps->starts;
+  };
+  bool apart = counts(*imu);
   const auto look = [&](const FoundStream& found) {
-    apart =
-        apart || (found.stamps && (Overlap(*imu->stamps, *found.stamps) < 0.5 ||
-                                   found.stamps->rate));
+    apart = apart ||
+            (found.stamps &&
+             (Overlap(*imu->stamps, *found.stamps) < 0.5 || counts(found)));
   };
   for (const StreamDraft& stream : draft->aiding) look(stream.found);
   if (draft->truth) look(*draft->truth);

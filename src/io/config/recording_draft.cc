@@ -18,6 +18,7 @@
 #include "io/read/paths.h"
 #include "io/read/recognise_format.h"
 #include "io/read/split_files.h"
+#include "io/read/text_lines.h"
 #include "io/read/units.h"
 
 namespace hindsight {
@@ -63,7 +64,11 @@ class Drafter {
       CompleteStream(axes_known, &stream);
     }
     for (const std::string& name : draft_.unknown) {
-      if (!HoldsRowsOfNumbers(fs::path(draft_.folder) / name)) continue;
+      const fs::path path = fs::path(draft_.folder) / name;
+      if (IsFile(path) && IsUtf16(InputFile(path.string()))) {
+        draft_.Assume(name + ": is UTF-16 text, which is not read");
+      }
+      if (!HoldsRowsOfNumbers(path)) continue;
       draft_.Assume(name +
                     ": its numbers were not recognised, and are left out");
     }
@@ -294,10 +299,12 @@ class Drafter {
   RecordingDraft draft_;
 };
 
-/// Throws InputError for gzip data that are damaged or cut off.
+/// Throws InputError for gzip data that are damaged or cut off, and for UTF-16.
 void RequireReadable(const std::string& path) {
-  if (!path.ends_with(".gz") || !IsFile(path)) return;
+  if (!IsFile(path)) return;
   const InputFile file(path);
+  if (IsUtf16(file)) TextLines lines(path);
+  if (!path.ends_with(".gz")) return;
   if (!GzipReader::IsGzip(file)) return;
   GzipReader reader(file);
   std::vector<char> piece(std::size_t{1} << 20);

@@ -180,11 +180,14 @@ class Search {
     ImuPairSearch search = FindImuPair(folder, names);
     const std::optional<ImuPair>& pair = search.pair;
     if (!pair) return std::move(search.apart);
+    const bool apart = pair->accelerometer != pair->imu.file;
     std::erase_if(*files, [&](const RecognisedFile& file) {
-      return file.name == pair->accelerometer;
+      return apart && file.name == pair->accelerometer;
     });
     for (RecognisedFile& file : *files) {
-      if (file.name == pair->imu.file) file.streams = {pair->imu};
+      if (file.name != pair->imu.file) continue;
+      if (apart) file.streams.clear();
+      file.streams.insert(file.streams.begin(), pair->imu);
     }
     return "";
   }

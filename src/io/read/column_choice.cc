@@ -86,6 +86,43 @@ int RankOfPlace(const FileColumn& column) {
   return rank;
 }
 
+bool AreWholeNumbers(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double x) {
+    return std::isnan(x) || x == std::round(x);
+  });
+}
+
+struct UbxField {
+  std::string_view title;
+  std::string_view unit;
+};
+
+/// Columns by the names that u-blox gives the fields of NAV-PVT are in its units
+/// where they hold whole numbers and the titles say nothing else.
+void TakeUbxUnits(const FileColumns& file,
+                  std::vector<ColumnMeaning>* meanings) {
+  static constexpr std::array kFields = {
+      UbxField{"iTOW", "ms"},     UbxField{"height", "mm"},
+      UbxField{"hMSL", "mm"},     UbxField{"hAcc", "mm"},
+      UbxField{"vAcc", "mm"},     UbxField{"velN", "mm/s"},
+      UbxField{"velE", "mm/s"},   UbxField{"velD", "mm/s"},
+      UbxField{"gSpeed", "mm/s"}, UbxField{"sAcc", "mm/s"}};
+  constexpr std::size_t kEnough = 4;
+  std::vector<std::pair<std::size_t, std::string_view>> units;
+  for (std::size_t i = 0; i < meanings->size(); ++i) {
+    for (const UbxField& field : kFields) {
+      if (file.columns[i].title == field.title &&
+          AreWholeNumbers(file.columns[i].values)) {
+        units.emplace_back(i, field.unit);
+      }
+    }
+  }
+  if (units.size() < kEnough) return;
+  for (const auto& [i, unit] : units) {
+    if ((*meanings)[i].unit.empty()) (*meanings)[i].unit = unit;
+  }
+}
+
 }  // namespace
 
 bool CountsFromSea(const FileColumns& file, int h) {
@@ -115,6 +152,7 @@ std::vector<ColumnMeaning> ReadMeanings(const FileColumns& file) {
     }
     meanings.push_back(std::move(meaning));
   }
+  TakeUbxUnits(file, &meanings);
   KeepBest(file, "t", RankOfTime, &meanings);
   for (const char* quantity : {"lat", "lon", "h"}) {
     KeepBest(file, quantity, RankOfPlace, &meanings);

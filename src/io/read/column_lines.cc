@@ -21,8 +21,28 @@ FoundStream ColumnLines::Stream() const {
   if (file_.skip_lines > 0) {
     found.lines.push_back({"skip_lines", std::to_string(file_.skip_lines)});
   }
+  if (file_.row_word.column >= 0) {
+    found.lines.push_back(
+        {"rows", fmt::format("{{column: {}, word: \"{}\"}}",
+                             file_.row_word.column + 1, file_.row_word.word)});
+  }
   if (!file_.delimiter.empty()) {
     found.lines.push_back({"delimiter", file_.delimiter});
+  }
+  const int dated =
+      stamps_->date_column >= 0 ? stamps_->date_column : stamps_->column;
+  if (stamps_->scale == StampGuess::Scale::kDate) {
+    const FileColumn& dates = file_.columns[static_cast<std::size_t>(dated)];
+    const bool by_day = dates.date_order == DateOrder::kDayFirst;
+    if (dates.date_order != DateOrder::kYearFirst) {
+      found.lines.push_back({"dates", by_day ? "day_first" : "month_first",
+                             dates.order_told ? "" : "(a guess)"});
+    }
+    if (!dates.order_told) {
+      found.assumptions.push_back(
+          fmt::format("dates as 07/08/2025 are taken for {} first",
+                      by_day ? "day" : "month"));
+    }
   }
   if (file_.cut_tail) found.lines.push_back({"allow_truncated_tail", "true"});
   if (file_.text_rows > 0) found.lines.push_back({"on_text", "drop"});

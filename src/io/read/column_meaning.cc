@@ -174,15 +174,15 @@ ColumnMeaning Velocity(const Words& words) {
 }
 
 ColumnMeaning Place(const Words& words) {
-  if (HasAnyWord(words, {"lat", "latitude"})) return {"lat", ""};
-  if (HasAnyWord(words, {"lon", "long", "lng", "longitude"}))
+  if (HasAnyWord(words, {"lat", "latit", "latitude"})) return {"lat", ""};
+  if (HasAnyWord(words, {"lon", "long", "longit", "lng", "longitude"}))
     return {"lon", ""};
   if (HasAnyWord(words, {"depth"})) return {"depth", ""};
   if (IsOfHeight(words)) {
     return {"h", ""};
   }
   if (const char axis =
-          AxisOf(words, {"p", "pos", "position", "positions"}, {})) {
+          AxisOf(words, {"p", "pos", "position", "positions", "ecef"}, {})) {
     return {std::string("p_") + axis, ""};
   }
   const char direction = DirectionOf(words);
@@ -206,7 +206,7 @@ ColumnMeaning Other(const Words& words) {
   if (HasAnyWord(words, {"fix", "quality", "mode"})) return {"quality", ""};
   if (HasAnyWord(words, {"movement", "moving"})) return {"moving", ""};
   if (HasAnyWord(words, {"t", "time", "times", "timestamp", "stamp", "seconds",
-                         "sec", "tow", "utc", "sample", "when"})) {
+                         "sec", "tow", "utc", "sample", "when", "realtime"})) {
     return {"t", ""};
   }
   return {};
@@ -216,8 +216,9 @@ ColumnMeaning MeaningOfWords(const Words& words) {
   if (ColumnMeaning meaning = Accuracy(words); !meaning.quantity.empty()) {
     return meaning;
   }
-  if (HasAnyWord(words, {"bias", "accuracy", "temp", "temperature", "distance",
-                         "gdop", "pdop", "hdop", "covariance", "variance"})) {
+  if (HasAnyWord(words, {"bias", "drift", "accuracy", "temp", "temperature",
+                         "distance", "gdop", "pdop", "hdop", "covariance",
+                         "variance"})) {
     return {};
   }
   if (HasAnyWord(words, {"std", "sd", "sigma", "stdev", "stddev", "sdn", "sde",

@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "io/read/date_text.h"
+#include "io/read/row_word.h"
+
 namespace hindsight {
 
 struct FileFormat;
@@ -19,6 +22,12 @@ struct FileColumn {
   std::string title;      ///< of the file, with its unit; "" if it has none
   Holds holds = Holds::kNumbers;
   bool zoned = false;  ///< of times: each says its zone
+  /// Of dates, how they were read, and whether they could be read no other way.
+  DateOrder date_order = DateOrder::kYearFirst;
+  bool order_told = true;
+  /// N, E, S or W that stands behind each number, or is the text; '?' where several
+  /// do.
+  char side = '\0';
   /// NaN where nothing or text stands. Dates and days are seconds since 1970, times of
   /// day seconds, as written if they say no zone, else UTC.
   std::vector<double> values;
@@ -29,6 +38,7 @@ struct FileColumns {
   const FileFormat* format = nullptr;  ///< columns, npy or mat
   std::vector<FileColumn> columns;
   std::size_t rows = 0;
+  RowWord row_word = {};  ///< of a text with other rows between these
   int skip_lines = 0;     ///< before the first row of numbers
   std::string delimiter;  ///< as the key `delimiter` has it; "": auto
   bool cut_tail = false;  ///< the last line was cut off
@@ -49,6 +59,16 @@ inline constexpr std::size_t kMostProbedNumbers = 20'000'000;
 /// may stand beside more columns of numbers. Nothing if fewer than
 /// three rows of numbers of equal length are found. Throws InputError as TextLines does.
 std::optional<FileColumns> ReadTextColumns(const std::string& path);
+
+/// Of a text in which rows of several sensors stand between each other, each told by
+/// a word in one of the first columns ("ACCE;0.034;...", "12.3,gyroscope,..."): a
+/// table for each word that at least three rows have. Titles stand in comments
+/// behind the word, above all rows, or in ArduPilot's FMT rows. Empty of other
+/// texts. Throws InputError as TextLines does.
+std::vector<FileColumns> ReadTypedColumns(const std::string& path);
+
+/// ReadTypedColumns, else ReadTextColumns.
+std::vector<FileColumns> ReadTextTables(const std::string& path);
 
 /// Of the NumPy arrays in a folder, not below it: those with as many rows as
 /// the longest. References and titles name them by the folder, "gyro/value:1".

@@ -7,6 +7,7 @@
 
 #include "base/median.h"
 #include "base/units.h"
+#include "io/read/text_format.h"
 #include "io/read/units.h"
 
 namespace hindsight {
@@ -76,8 +77,17 @@ struct FixMotion {
   std::vector<std::size_t> row;
 };
 
-FixMotion MotionOf(const Values& lat, const Values& lon, double radians,
-                   const Values& t, FixGuess* guess) {
+Values Radians(const FileColumns& file, const ColumnGuess& place) {
+  const bool minutes = place.unit == kDegreesMinutesUnit;
+  const double factor =
+      place.sign * *UnitFactor(minutes ? "deg" : place.unit, Quantity::kAngle);
+  Values radians = Column(file, place.column);
+  for (double& v : radians) v = factor * (minutes ? FromDegreesMinutes(v) : v);
+  return radians;
+}
+
+FixMotion MotionOf(const Values& lat, const Values& lon, const Values& t,
+                   FixGuess* guess) {
   constexpr double kRadius = 6.371e6;
   FixMotion motion;
   std::size_t last = 0;
@@ -88,9 +98,8 @@ FixMotion MotionOf(const Values& lat, const Values& lon, double radians,
       continue;
     }
     const double dt = t[i] - t[last];
-    const double north = (lat[i] - lat[last]) * radians * kRadius;
-    const double east =
-        (lon[i] - lon[last]) * radians * kRadius * std::cos(lat[i] * radians);
+    const double north = (lat[i] - lat[last]) * kRadius;
+    const double east = (lon[i] - lon[last]) * kRadius * std::cos(lat[i]);
     last = i;
     if (dt <= 0.0) continue;
     motion.dt.push_back(dt);
@@ -232,6 +241,47 @@ bool AreWhole(const Values& v) {
                      [](double x) { return x == std::round(x); });
 }
 
+/// Degrees and minutes in one number, as NMEA writes them: too large for degrees, and
+/// never 60 minutes.
+bool AreDegreesAndMinutes(const Values& lat, const Values& lon) {
+  const auto fits = [](const Values& v, double most) {
+    return std::all_of(v.begin(), v.end(), [&](double x) {
+      return std::abs(x) < 100.0 * most && std::fmod(std::abs(x), 100.0) < 60.0;
+    });
+  };
+  const auto beyond = [](const Values& v, double most) {
+    return std::all_of(v.begin(), v.end(),
+                       [&](double x) { return std::abs(x) > most; });
+  };
+  return fits(lat, 90.0) && fits(lon, 180.0) &&
+         (beyond(lat, 90.0) || beyond(lon, 180.0));
+}
+
+void TakeDegreesAndMinutes(const FileColumns& file, FixGuess* guess) {
+  if (!AreDegreesAndMinutes(Column(file, guess->lat.column),
+                            Column(file, guess->lon.column))) {
+    return;
+  }
+  for (ColumnGuess* place : {&guess->lat, &guess->lon}) {
+    place->unit = kDegreesMinutesUnit;
+    place->reason = "degrees times 100 and minutes, as NMEA writes them";
+  }
+}
+
+/// Letters in the next column turn the sign where all say south or west.
+void TakeSide(const FileColumns& file, std::string_view sides,
+              ColumnGuess* place) {
+  const auto next = static_cast<std::size_t>(place->column) + 1;
+  if (next >= file.columns.size()) return;
+  const FileColumn& letters = file.columns[next];
+  if (letters.holds != FileColumn::Holds::kText ||
+      letters.side != sides.back()) {
+    return;
+  }
+  place->sign = -place->sign;
+  place->reason += std::string(", and all ") + letters.side;
+}
+
 /// Receivers write places as whole numbers of 1e-7 deg, and heights beside them
 /// in mm (UBX-NAV-PVT, MAVLink's GPS_RAW_INT).
 void TakeWholeNumbers(const FileColumns& file,
@@ -278,11 +328,11 @@ std::optional<FixGuess> GuessFixes(const FileColumns& file,
   const Values t = TimesOf(file, stamps);
   TakeUnit(meanings, Quantity::kLength, "m", &guess.h);
   TakeWholeNumbers(file, meanings, &guess);
-  const double radians =
-      guess.lat.sign * *UnitFactor(guess.lat.unit, Quantity::kAngle);
+  TakeDegreesAndMinutes(file, &guess);
+  TakeSide(file, "NS", &guess.lat);
+  TakeSide(file, "EW", &guess.lon);
   const FixMotion motion =
-      MotionOf(Column(file, guess.lat.column), Column(file, guess.lon.column),
-               radians, t, &guess);
+      MotionOf(Radians(file, guess.lat), Radians(file, guess.lon), t, &guess);
   FindSpeedAndCourse(file, meanings, motion, &guess);
   FindHeight(file, meanings, stamps.column, &guess);
   return guess;

@@ -21,12 +21,16 @@ using HalfNames = std::vector<std::string>;
 /// One file of the two.
 struct HalfImu {
   HalfImu(std::string file, FileColumns numbers)
-      : name(std::move(file)), columns(std::move(numbers)), lines(columns) {}
+      : file_name(std::move(file)),
+        name(numbers.row_word.column < 0 ? file_name : numbers.row_word.word),
+        columns(std::move(numbers)),
+        lines(columns) {}
   // `lines` speaks of `columns` where they are.
   HalfImu(const HalfImu&) = delete;
   HalfImu& operator=(const HalfImu&) = delete;
 
-  std::string name;
+  std::string file_name;
+  std::string name;  ///< of the file, or the word of its rows
   FileColumns columns;
   ColumnLines lines;
   std::string family = {};  ///< "gyro_" or "accel_"
@@ -42,7 +46,8 @@ std::string FamilyOf(const std::string& name) {
     });
   };
   if (any({"gyro", "gyros", "gyr", "gyroscope"})) return "gyro_";
-  if (any({"acc", "accel", "accelerometer", "acceleration"})) return "accel_";
+  if (any({"acc", "acce", "accel", "accelerometer", "acceleration"}))
+    return "accel_";
   return "";
 }
 
@@ -156,21 +161,21 @@ std::optional<ImuPair> Paired(const HalfImu& gyro, const HalfImu& accel) {
   }
   guess->gyro = InFile(guess->gyro, gyro);
   guess->accel = InFile(guess->accel, accel);
-  ImuPair pair = {gyro.lines.ImuStreamOf(*guess), accel.name};
+  ImuPair pair = {gyro.lines.ImuStreamOf(*guess), accel.file_name};
   gyro.lines.AddTriple("gyro_", guess->gyro, &pair.imu);
   FoundStream other = accel.lines.Stream();
   accel.lines.AddTriple("accel_", guess->accel, &other);
   std::vector<KeyLine>& lines = pair.imu.lines;
   lines.push_back({"accelerometer", "",
                    "a file of its own, interpolated at the gyros' stamps"});
-  lines.push_back({"  file", '"' + accel.name + '"'});
+  lines.push_back({"  file", '"' + accel.file_name + '"'});
   lines.push_back({"  format", std::string(other.format->name)});
   for (KeyLine& line : other.lines) {
     line.key.insert(0, "  ");
     lines.push_back(std::move(line));
   }
   pair.imu.imu_guess = std::move(guess);
-  pair.imu.file = gyro.name;
+  pair.imu.file = gyro.file_name;
   return pair;
 }
 
@@ -181,16 +186,17 @@ ImuPairSearch FindImuPair(const std::filesystem::path& folder,
   std::vector<std::unique_ptr<HalfImu>> gyros;
   std::vector<std::unique_ptr<HalfImu>> accels;
   for (const std::string& name : names) {
-    std::optional<FileColumns> columns;
+    std::vector<FileColumns> tables;
     try {
-      columns = ReadTextColumns((folder / name).string());
+      tables = ReadTextTables((folder / name).string());
     } catch (const InputError&) {
       continue;  // which whoever loads it is told
     }
-    if (!columns) continue;
-    auto half = std::make_unique<HalfImu>(name, std::move(*columns));
-    if (!TellHalf(half.get())) continue;
-    (half->family == "gyro_" ? gyros : accels).push_back(std::move(half));
+    for (FileColumns& table : tables) {
+      auto half = std::make_unique<HalfImu>(name, std::move(table));
+      if (!TellHalf(half.get())) continue;
+      (half->family == "gyro_" ? gyros : accels).push_back(std::move(half));
+    }
   }
   ImuPairSearch search;
   for (const auto& gyro : gyros) {

@@ -10,7 +10,7 @@
 
 namespace hindsight {
 
-/// An IMU of which gyros and accelerometers have a file each.
+/// An IMU of which gyros and accelerometers have a file, or rows, each.
 struct ImuPair {
   FoundStream imu;            ///< of the gyros' file, with the other's lines
   std::string accelerometer;  ///< name of the other file
@@ -23,9 +23,10 @@ struct ImuPairSearch {
   std::string apart;
 };
 
-/// The first two delimited texts of `names` in `folder` of which one holds three
+/// The first two delimited texts of `names` in `folder`, or two kinds of rows of one
+/// (ReadTypedColumns), of which one holds three
 /// gyros and the other three accelerometers that feel gravity, on one clock and
-/// overlapping by half of the shorter: by titles, or by the file's name where the
+/// overlapping by half of the shorter: by titles, or by the name of the file or of its rows where the
 /// titles are x, y and z alone. Told and scaled as GuessImu does, of the
 /// accelerometers interpolated at the gyros' stamps.
 ImuPairSearch FindImuPair(const std::filesystem::path& folder,

@@ -10,10 +10,11 @@
 namespace hindsight {
 namespace {
 
-bool NextData(TextLines* lines, std::string* line) {
+bool NextData(TextLines* lines, const RowWord& rows, char delimiter,
+              std::string* line) {
   std::string_view view;
   while (lines->Next(&view)) {
-    if (IsComment(view)) continue;
+    if (IsComment(view) || !rows.IsIn(view, delimiter)) continue;
     *line = view;
     return true;
   }
@@ -27,11 +28,10 @@ bool SplitsDate(const std::string& row, const TableLayout& layout) {
       layout.clock != TableLayout::Clock::kIsoUtc) {
     return false;
   }
-  constexpr std::size_t kDate = 10;
   const auto tokens = SplitLine(row, layout.delimiter);
   const auto at = static_cast<std::size_t>(layout.time_column);
-  return at + 1 < tokens.size() && tokens[at].size() == kDate &&
-         tokens[at].find_first_of("-/") == 4 &&
+  return at + 1 < tokens.size() &&
+         ParseDate(tokens[at], "00:00:00", false, layout.date_order) &&
          tokens[at + 1].find(':') != std::string_view::npos;
 }
 
@@ -50,6 +50,14 @@ void SplitDate(const std::string& row, TableLayout* layout) {
   }
 }
 
+[[noreturn]] void FailWithoutSuch(const TableRequest& request) {
+  const RowWord& rows = request.format.rows;
+  if (rows.column < 0) FailWithoutRows(request.path);
+  throw InputError(request.path, 0,
+                   "the file holds no rows that have '" + rows.word +
+                       "' in column " + std::to_string(rows.column + 1));
+}
+
 /// `titled`: the columns are those of the header line that name a quantity.
 OpenedTable OpenDelimited(const TableRequest& request,
                           std::vector<ColumnMapping> columns, bool titled) {
@@ -59,8 +67,13 @@ OpenedTable OpenDelimited(const TableRequest& request,
                                                   return c.column < 0;
                                                 });
   std::string row;
-  if (!NextData(opened.lines.get(), &row)) FailWithoutRows(request.path);
   char delimiter = request.format.delimiter;
+  const RowWord& rows = request.format.rows;
+  // The titles of all rows stand above them.
+  const RowWord all;
+  if (!NextData(opened.lines.get(), has_header ? all : rows, delimiter, &row)) {
+    FailWithoutSuch(request);
+  }
   if (delimiter == '\0') {
     delimiter = GuessDelimiter(row);
     if (delimiter == request.format.decimal) delimiter = ' ';
@@ -71,11 +84,15 @@ OpenedTable OpenDelimited(const TableRequest& request,
     header_text.swap(row);
     header = {SplitLine(header_text, delimiter), opened.lines->number()};
     if (titled) columns = TitledColumns(request.path, header, request.fields);
-    if (!NextData(opened.lines.get(), &row)) FailWithoutRows(request.path);
+    if (!NextData(opened.lines.get(), rows, delimiter, &row)) {
+      FailWithoutSuch(request);
+    }
   }
   TableLayout layout = BuildLayout(request.path, request.format, request.fields,
                                    columns, header);
   layout.delimiter = delimiter;
+  layout.rows = rows;
+  layout.date_order = request.format.date_order;
   layout.decimal = request.format.decimal != '\0'
                        ? request.format.decimal
                        : GuessDecimal(row, delimiter);
@@ -85,6 +102,7 @@ OpenedTable OpenDelimited(const TableRequest& request,
   opened.dated = layout.clock == TableLayout::Clock::kWeek ||
                  layout.clock == TableLayout::Clock::kIso ||
                  layout.clock == TableLayout::Clock::kIsoUtc ||
+                 layout.clock == TableLayout::Clock::kDays ||
                  layout.clock == TableLayout::Clock::kDate ||
                  layout.clock == TableLayout::Clock::kDateUtc;
   opened.table = std::make_unique<TextTable>(

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "io/read/date_text.h"
 #include "io/read/file_formats.h"
 #include "io/read/open_text.h"
 #include "io/read/paths.h"

@@ -125,6 +125,7 @@ class Recogniser {
     const bool told =
         fixes && (fixes->h.column >= 0 || fixes->place_order_told);
     if (told && !solution) AddPosition(*fixes);
+    if (!fixes && !solution) AddEarthCentred();
     const Names velocity = {"v_n", "v_e", "v_d"};
     if (lines_.HasAll(velocity) && !solution) {
       AddTitled(VelocityKind(), velocity,
@@ -198,6 +199,27 @@ class Recogniser {
                            100.0 * fixes.repeated)},
               &found.lines);
     }
+    all_.push_back(std::move(found));
+  }
+
+  /// Fixes as x, y and z from the Earth's centre.
+  void AddEarthCentred() {
+    const Names axes = {"p_x", "p_y", "p_z"};
+    if (!lines_.HasAll(axes) || !AreEarthCentred()) return;
+    FoundStream found = lines_.Stream();
+    found.kinds = {&PositionKind()};
+    for (const std::string& axis : axes) {
+      lines_.AddTitledColumn(axis, Quantity::kLength, &found);
+    }
+    SetFrame(&found);
+    const int sigma = StatedSigma("sigma");
+    found.sigmas = sigma >= 0;
+    for (const char* name : {"sigma_x", "sigma_y", "sigma_z"}) {
+      if (sigma < 0) break;
+      lines_.AddColumn(name, SigmaGuess(sigma, Quantity::kLength, 1.0, ""),
+                       &found);
+    }
+    if (sigma >= 0) SetGrossNoise(MedianOf(sigma), &found);
     all_.push_back(std::move(found));
   }
 
@@ -352,15 +374,21 @@ class Recogniser {
     }
   }
 
-  /// Earth-centred by its size, else local axes.
-  void SetFrame(FoundStream* found) const {
+  /// Whether places along axes are as far from their origin as the ground is from
+  /// the Earth's centre.
+  bool AreEarthCentred() const {
     constexpr double kNearSurface = 6.2e6;
+    constexpr double kFarthest = 7e6;
     double squares = 0.0;
     for (const char* name : {"p_x", "p_y", "p_z"}) {
-      const auto column = static_cast<std::size_t>(lines_.Titled(name));
-      squares += std::pow(file_.columns[column].values.front(), 2);
+      squares += std::pow(Values(lines_.Titled(name)).front(), 2);
     }
-    if (std::sqrt(squares) > kNearSurface) {
+    return std::sqrt(squares) > kNearSurface && std::sqrt(squares) < kFarthest;
+  }
+
+  /// Earth-centred by its size, else local axes.
+  void SetFrame(FoundStream* found) const {
+    if (AreEarthCentred()) {
       SetLine({"frame", "ecef", "as far from the origin as the ground"},
               &found->lines);
       return;

@@ -55,6 +55,19 @@ std::optional<FileColumns> ProbeColumns(const std::string& path) {
   return std::nullopt;
 }
 
+/// The streams of a text that holds those of several sensors row by row.
+std::vector<FoundStream> RecogniseTyped(const std::string& path,
+                                        const RecogniseHints& hints) {
+  std::vector<FoundStream> found;
+  for (const FileColumns& table : ReadTypedColumns(path)) {
+    for (FoundStream& stream :
+         RecogniseColumns(table, table.row_word.word, hints)) {
+      found.push_back(std::move(stream));
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 std::vector<FoundStream> RecogniseFormat(const std::string& path,
@@ -70,6 +83,9 @@ std::vector<FoundStream> RecogniseFormat(const std::string& path,
     }
   }
   try {
+    if (auto streams = RecogniseTyped(path, hints); !streams.empty()) {
+      return streams;
+    }
     const auto columns = ProbeColumns(path);
     std::vector<FoundStream> found;
     if (columns) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/median.h"
 #include "io/read/column_steps.h"
 #include "io/read/text_format.h"
 #include "io/read/title_words.h"
@@ -18,6 +19,7 @@ namespace {
 
 /// Of steps against their median.
 constexpr double kEven = 1e-6;
+constexpr double kDay = 86400.0;
 
 /// Says what the columns of dates are.
 void Tell(const Dates& dates, const FileColumns& file, StampGuess* guess) {
@@ -101,6 +103,51 @@ const TimeUnit* UnitOfSteps(double step, double span, const StampHints& hints) {
     nearest = distance;
   }
   return best;
+}
+
+/// Days, as MATLAB's datenum and spreadsheets count them, of this century.
+std::string DayCountOf(double first, double step, const StampHints& hints) {
+  if (step * kDay * hints.fastest < 1.0 || step * kDay * hints.slowest > 1.0) {
+    return "";
+  }
+  constexpr double kFirstDay = 11000.0;  // 2000, since 1970
+  constexpr double kLastDay = 30000.0;   // 2052
+  for (const char* unit : {"datenum", "excel"}) {
+    const double day = first - *FirstDayOf(unit);
+    if (day > kFirstDay && day < kLastDay) return unit;
+  }
+  return "";
+}
+
+/// Rows of whole seconds that several rows share come evenly; the first second may
+/// not be whole.
+bool RecogniseWholeSeconds(const std::vector<double>& t, StampGuess* guess) {
+  constexpr std::size_t kFewestSteps = 10;
+  std::vector<double> steps;
+  std::size_t first_step = 0;
+  for (std::size_t k = 1; k < t.size(); ++k) {
+    if (t[k] == t[k - 1]) continue;
+    if (first_step == 0) first_step = k;
+    steps.push_back(t[k] - t[k - 1]);
+  }
+  if (steps.size() < kFewestSteps || 2 * steps.size() > t.size()) return false;
+  if (std::abs(Median(steps) - 1.0) > kEven) return false;
+  std::size_t last_step = t.size() - 1;
+  while (t[last_step] == t[last_step - 1]) --last_step;
+  const double rows = static_cast<double>(last_step - first_step);
+  guess->rate = rows / (t[last_step] - t[first_step]);
+  guess->step = 1.0 / *guess->rate;
+  guess->first = t[first_step] - static_cast<double>(first_step) * guess->step;
+  guess->span = static_cast<double>(t.size() - 1) * guess->step;
+  guess->gap = guess->step;
+  guess->repeated = false;
+  guess->starts = true;
+  guess->certainty = Certainty::kLikely;
+  guess->reason = fmt::format(
+      "the stamps are whole seconds: rows are counted at {:g} Hz from where "
+      "the first second must have begun",
+      *guess->rate);
+  return true;
 }
 
 bool IsWhole(double value, double tolerance) {
@@ -190,7 +237,10 @@ std::optional<StampGuess> GuessStamps(
   StampGuess guess;
   guess.column = FindColumn(file, meanings, true);
   auto dates = FindDates(file, meanings);
-  if (dates && IsOfDay(*dates, file) && guess.column >= 0 && !dates->numbers) {
+  const bool other =
+      guess.column >= 0 && !(dates && dates->column == guess.column);
+  if (dates && other &&
+      ((IsOfDay(*dates, file) && !dates->numbers) || MostlyStand(dates->t))) {
     dates.reset();
   }
   if (dates) {
@@ -205,7 +255,31 @@ std::optional<StampGuess> GuessStamps(
   guess.repeated = steps.repeated;
   guess.unordered = steps.unordered;
   double factor = 1.0;
+  constexpr double kYear2001 = 978307200.0;
+  constexpr double kYear2050 = 2524608000.0;
+  const auto is_unix = [&](double seconds) {
+    return seconds > kYear2001 && seconds < kYear2050;
+  };
   const auto known = UnitFactor(meanings[index].unit, Quantity::kTime);
+  const std::string days =
+      dates ? "" : DayCountOf(t.front(), steps.median, hints);
+  if (MostlyStand(t) &&
+      (dates || is_unix(t.front()) || known == std::optional(1.0))) {
+    if (!RecogniseWholeSeconds(t, &guess)) return Counted(file.rows, hints);
+    if (!dates && is_unix(t.front())) guess.scale = StampGuess::Scale::kUnix;
+    return guess;
+  }
+  if (!days.empty()) {
+    guess.unit = days;
+    guess.scale = StampGuess::Scale::kDate;
+    guess.first = (t.front() - *FirstDayOf(days)) * kDay;
+    guess.step = steps.median * kDay;
+    guess.gap = steps.longest * kDay;
+    guess.span = (t.back() - t.front()) * kDay;
+    guess.certainty = Certainty::kLikely;
+    guess.reason = "days of this century, taken for UTC";
+    return guess;
+  }
   if (!dates && known && *known <= 1.0) {
     guess.unit = meanings[index].unit;
     factor = *known;
@@ -225,9 +299,7 @@ std::optional<StampGuess> GuessStamps(
   guess.gap = steps.longest * factor;
   guess.span = (t.back() - t.front()) * factor;
   if (dates) return guess;
-  constexpr double kYear2001 = 978307200.0;
-  constexpr double kYear2050 = 2524608000.0;
-  if (guess.first > kYear2001 && guess.first < kYear2050) {
+  if (is_unix(guess.first)) {
     guess.scale = StampGuess::Scale::kUnix;
   }
   RecogniseDrawnAxis(t.size(), steps, &guess);
@@ -240,14 +312,18 @@ std::vector<double> TimesOf(const FileColumns& file, const StampGuess& stamps) {
   const bool counted = stamps.rate || stamps.column < 0;
   const bool dated =
       stamps.scale == StampGuess::Scale::kDate || stamps.unit == kTimeOfDayUnit;
-  const double factor =
-      counted || dated ? 1.0 : *UnitFactor(stamps.unit, Quantity::kTime);
+  const auto first_day = FirstDayOf(stamps.unit);
+  const double factor = first_day ? kDay
+                        : counted || dated
+                            ? 1.0
+                            : *UnitFactor(stamps.unit, Quantity::kTime);
   const auto value = [&](int column, std::size_t row) {
     return file.columns[static_cast<std::size_t>(column)].values[row];
   };
   for (std::size_t i = 0; i < t.size(); ++i) {
-    t[i] = counted ? static_cast<double>(i) * stamps.step
-                   : factor * value(stamps.column, i);
+    t[i] = counted
+               ? static_cast<double>(i) * stamps.step
+               : factor * (value(stamps.column, i) - first_day.value_or(0.0));
     if (stamps.date_column >= 0) t[i] += value(stamps.date_column, i);
   }
   if (stamps.unit == kTimeOfDayUnit) {

@@ -29,6 +29,7 @@ struct StampGuess {
   /// Of the column; of dates UTC or GPST, of times of day kTimeOfDayUnit.
   std::string unit = "s";
   std::optional<double> rate;  ///< times are row numbers over this [Hz]
+  bool starts = false;         ///< and begin at `first`
   Scale scale = Scale::kOwn;
   double first = 0.0;      ///< [s]; of dates since 1970
   double step = 0.0;       ///< the median one [s]
@@ -54,11 +55,13 @@ struct StampHints {
 
 /// Stamps are a column that grows: dates (of days and times of day their sum),
 /// UTC where they say neither zone nor GPST, unless most repeat the one before;
+/// days as MATLAB and spreadsheets count them;
 /// else one whose title says so, else times of day, else the first of those. Its unit is the title's, or the only one of s, ms, us, ns in which the
 /// rows come at a likely rate. Equal steps of D/(N - 1), where N/D is a whole
 /// number of rows a second, are an evenly drawn axis whose last stamp stands a
 /// row too late: rows are then counted at N/D. Stamps that span a power of ten
-/// times the IMU's record are counted likewise. Nothing if no column grows and
+/// times the IMU's record are counted likewise; of whole seconds that several rows
+/// share they are counted from where the first second must have begun. Nothing if no column grows and
 /// no rate is known.
 std::optional<StampGuess> GuessStamps(
     const FileColumns& file, const std::vector<ColumnMeaning>& meanings,

@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "io/read/date_text.h"
+#include "io/read/row_word.h"
+
 namespace hindsight {
 
 /// Which column of a table holds what. Columns count from 0; -1 is none.
@@ -13,6 +16,10 @@ struct TableLayout {
     std::string name;     ///< of the quantity, for messages
     int column = -1;      ///< -1: the table does not have it
     double factor = 1.0;  ///< to SI, sign included
+    /// An angle written as degrees times 100 plus minutes, "4807.038"; the factor is
+    /// that of a degree.
+    bool has_minutes = false;
+    bool is_place = false;  ///< may have N, S, E or W behind it
   };
   std::vector<Field> fields;
 
@@ -25,16 +32,20 @@ struct TableLayout {
     kDateUtc,  ///< the same in UTC
     kIso,      ///< ISO 8601 in time_column, GPST
     kIsoUtc,   ///< the same in UTC
+    kDays,     ///< days in time_column, from `first_day`, UTC
     kOfDay,    ///< hh:mm:ss.sss in time_column, since the first midnight
   };
   Clock clock = Clock::kSeconds;
   int time_column = -1;
   int clock_column = -1;  ///< of dates: hh:mm:ss.sss; -1: right of the date
   std::int64_t ticks_per_second = 1;
+  double first_day = 0.0;  ///< of kDays: where 1970 begins [d]
+  DateOrder date_order = DateOrder::kYearFirst;
 
   char delimiter = ',';         ///< ' ': any run of blanks
   char decimal = '.';           ///< or ',', which is no delimiter then
   bool comma_is_blank = false;  ///< with ' ': commas separate too
+  RowWord rows = {};            ///< other lines are another stream's
   /// Columns each row must have; 0: as many as the first row.
   int column_count = 0;
 };

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "io/read/constant_columns.h"
 #include "io/read/fields.h"
 #include "io/read/row_source.h"
+#include "io/read/row_word.h"
 #include "io/read/text_table.h"
 
 namespace hindsight {
@@ -35,7 +37,9 @@ struct TextFormat {
   const FileFormat* kind = &CsvFormat();
   char delimiter = '\0';  ///< '\0': guessed from the first line of data
   char decimal = '\0';    ///< '.', ',' or '\0': guessed likewise
-  int skip_lines = 0;     ///< before everything else
+  DateOrder date_order = DateOrder::kYearFirst;
+  int skip_lines = 0;  ///< before everything else
+  RowWord rows = {};   ///< lines that are the stream's; of `columns`
   std::vector<ColumnMapping> columns;     ///< if FileFormat::takes_columns
   std::vector<ConstantColumn> constants;  ///< besides `columns`
   /// Of FileFormat::keys, those that were given.
@@ -49,6 +53,19 @@ struct TextFormat {
 
 /// What a column of times of day, hh:mm:ss.sss, has for a unit.
 inline constexpr std::string_view kTimeOfDayUnit = "hms";
+
+/// What a column of degrees and minutes, "4807.038" as NMEA writes it, has for one.
+inline constexpr std::string_view kDegreesMinutesUnit = "ddmm";
+
+/// Of a unit of stamps that count days, "datenum" as MATLAB does and "excel" as
+/// spreadsheets, what 1970-01-01 is in it [d]; nothing of another.
+std::optional<double> FirstDayOf(std::string_view unit);
+
+/// Degrees of "4807.038", in the sign of the whole.
+double FromDegreesMinutes(double ddmm);
+
+/// A number with N, E, S or W behind it, negative with the last two.
+std::optional<double> ParsePlace(std::string_view text);
 
 /// A table open for reading.
 struct OpenedTable {

@@ -45,8 +45,12 @@ class LayoutBuilder {
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       if (mapping.quantity != fields_[i].name) continue;
       layout_.fields[i].column = column;
-      layout_.fields[i].factor =
-          mapping.scale * Factor(mapping, unit, fields_[i].quantity);
+      TableLayout::Field& field = layout_.fields[i];
+      field.is_place = mapping.quantity == "lat" || mapping.quantity == "lon";
+      field.has_minutes = field.is_place && unit == kDegreesMinutesUnit;
+      field.factor =
+          mapping.scale * Factor(mapping, field.has_minutes ? "deg" : unit,
+                                 fields_[i].quantity);
     }
   }
 
@@ -124,6 +128,13 @@ class LayoutBuilder {
       layout_.time_column = column;
       return;
     }
+    if (const auto first_day = FirstDayOf(unit);
+        first_day && week_column_ < 0) {
+      layout_.clock = TableLayout::Clock::kDays;
+      layout_.time_column = column;
+      layout_.first_day = *first_day;
+      return;
+    }
     if (week_column_ < 0 && unit == kTimeOfDayUnit) {
       layout_.clock = TableLayout::Clock::kOfDay;
       layout_.time_column = column;
@@ -137,7 +148,8 @@ class LayoutBuilder {
            (week_column_ >= 0 ? "s"
                               : "s, ms, us or ns, or UTC or GPST of dates as "
                                 "2025-07-08T19:34:21.854, or hms of times of "
-                                "day as 19:34:21.854"));
+                                "day as 19:34:21.854, or datenum or excel of "
+                                "days"));
     }
     if (week_column_ >= 0) return;
     layout_.clock = TableLayout::Clock::kSeconds;
@@ -156,6 +168,29 @@ class LayoutBuilder {
 
 }  // namespace
 
+std::optional<double> FirstDayOf(std::string_view unit) {
+  if (unit == "datenum") return 719529.0;
+  if (unit == "excel") return 25569.0;
+  return std::nullopt;
+}
+
+double FromDegreesMinutes(double ddmm) {
+  constexpr double kMinutes = 60.0;
+  const double degrees = std::trunc(ddmm / 100.0);
+  return degrees + (ddmm - 100.0 * degrees) / kMinutes;
+}
+
+std::optional<double> ParsePlace(std::string_view text) {
+  constexpr std::string_view kLetters = "NnEeSsWw";
+  if (text.size() < 2) return std::nullopt;
+  const std::size_t letter = kLetters.find(text.back());
+  if (letter == kLetters.npos) return std::nullopt;
+  text.remove_suffix(1);
+  auto value = ParseNumber(Trim(text));
+  if (value && letter >= 4) value = -*value;
+  return value;
+}
+
 std::pair<std::string, std::string> SplitTitle(std::string_view title) {
   const std::string_view text = Trim(title);
   const std::size_t open = text.find('[');
@@ -164,7 +199,6 @@ std::pair<std::string, std::string> SplitTitle(std::string_view title) {
           std::string(text.substr(open + 1, text.size() - open - 2))};
 }
 
-/// The columns of an own CSV file whose titles name one of `fields`.
 std::vector<ColumnMapping> TitledColumns(const std::string& path,
                                          const TableHeader& header,
                                          const std::vector<FieldName>& fields) {

@@ -1,5 +1,6 @@
 #include "io/read/text_lines.h"
 
+#include <array>
 #include <cstring>
 
 #include "base/error.h"
@@ -13,7 +14,19 @@ bool Holds(std::string_view text, char c) {
   return !text.empty() && std::memchr(text.data(), c, text.size()) != nullptr;
 }
 
+bool IsUtf16Start(std::string_view text) {
+  return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+}
+
 }  // namespace
+
+bool IsUtf16(const InputFile& file) {
+  constexpr std::size_t kMark = 2;
+  std::array<char, kMark> begin = {};
+  if (file.size() < kMark) return false;
+  file.ReadAt(0, begin.data(), kMark);
+  return IsUtf16Start({begin.data(), kMark});
+}
 
 TextLines::TextLines(const std::string& path)
     : file_(path), buffer_(new char[kLongestLine + kLinePiece]) {
@@ -23,8 +36,10 @@ TextLines::TextLines(const std::string& path)
     size_hint_ = gzip_->size_hint();
   }
   if (!Fill()) throw InputError(path, 0, "the file is empty");
-  if (window_.starts_with("\xFF\xFE") || window_.starts_with("\xFE\xFF")) {
-    throw InputError(path, 0, "is UTF-16 text; expected UTF-8 or ASCII");
+  if (IsUtf16Start(window_)) {
+    throw InputError(path, 0,
+                     "is UTF-16 text; expected UTF-8 or ASCII, to which `iconv "
+                     "-f UTF-16 -t UTF-8` brings it");
   }
   if (gzip_ && window_.starts_with("\x1F\x8B")) {
     throw InputError(path, 0, "is gzip within gzip; expected text in it");

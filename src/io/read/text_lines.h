@@ -56,6 +56,9 @@ class TextLines {
   bool terminated_ = true;
 };
 
+/// Whether it begins as UTF-16 does.
+bool IsUtf16(const InputFile& file);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_IO_READ_TEXT_LINES_H_

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "io/read/date_text.h"
+#include "io/read/text_format.h"
 #include "io/read/text_tokens.h"
 #include "io/read/units.h"
 
@@ -25,6 +27,7 @@ int TimeColumns(TableLayout::Clock clock) {
     case TableLayout::Clock::kSeconds:
     case TableLayout::Clock::kIso:
     case TableLayout::Clock::kIsoUtc:
+    case TableLayout::Clock::kDays:
     case TableLayout::Clock::kOfDay:
       return 1;
     default:
@@ -39,9 +42,20 @@ std::optional<Stamp> DateOf(std::string_view first, std::string_view second,
   const bool clock_first =
       layout.clock_column >= 0 && layout.clock_column < layout.time_column;
   if (clock_first) std::swap(first, second);
-  if (const auto stamp = ParseDate(first, second, utc)) return stamp;
+  if (const auto stamp = ParseDate(first, second, utc, layout.date_order))
+    return stamp;
   // With a zone behind.
-  return ParseIsoTime(std::string(first) + "T" + std::string(second), utc);
+  return ParseIsoTime(std::string(first) + "T" + std::string(second), utc,
+                      layout.date_order);
+}
+
+/// GPS time since 1980-01-06 of days since `first_day`, UTC.
+std::optional<Stamp> StampOfDays(std::string_view text, double first_day) {
+  const auto days = ParseNumber(text);
+  if (!days) return std::nullopt;
+  const double seconds = (*days - first_day) * static_cast<double>(kDaySeconds);
+  if (!IsTime(seconds)) return std::nullopt;
+  return GpsFromUnix({0, seconds});
 }
 
 }  // namespace
@@ -59,7 +73,8 @@ TextRowParser::TextRowParser(TableLayout layout, bool allow_absent)
   if (time_columns > 1) last = std::max(last, second);
   wanted_.assign(static_cast<std::size_t>(last + 1), 0);
   for (const TableLayout::Field& field : layout_.fields) {
-    if (field.column >= 0) wanted_[static_cast<std::size_t>(field.column)] = 1;
+    if (field.column < 0) continue;
+    wanted_[static_cast<std::size_t>(field.column)] = field.is_place ? 3 : 1;
   }
   if (time_columns > 0) {
     wanted_[static_cast<std::size_t>(layout_.time_column)] = 2;
@@ -87,7 +102,8 @@ std::string TextRowParser::Parse(std::string_view line, Scratch* scratch,
       scratch->time_tokens.push_back(tokens.Next());
     } else if (!tokens.NextNumber(&scratch->raw[column])) {
       const std::string_view token = tokens.Next();
-      const auto number = ParseNumber(token);
+      auto number = ParseNumber(token);
+      if (!number && wanted == 3) number = ParsePlace(token);
       if (!number && !(allow_absent_ && IsAbsentWord(token))) {
         return ColumnName(static_cast<int>(column)) + ": '" +
                std::string(token) + "' is not a finite number" +
@@ -107,10 +123,13 @@ std::string TextRowParser::Parse(std::string_view line, Scratch* scratch,
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     const TableLayout::Field& field = layout_.fields[i];
-    values[i] = field.column < 0
-                    ? kAbsent
-                    : field.factor *
-                          scratch->raw[static_cast<std::size_t>(field.column)];
+    if (field.column < 0) {
+      values[i] = kAbsent;
+      continue;
+    }
+    const double raw = scratch->raw[static_cast<std::size_t>(field.column)];
+    values[i] =
+        field.factor * (field.has_minutes ? FromDegreesMinutes(raw) : raw);
   }
   return ParseTime(scratch->time_tokens, stamp);
 }
@@ -143,7 +162,11 @@ std::string TextRowParser::ParseTime(
     case TableLayout::Clock::kIso:
     case TableLayout::Clock::kIsoUtc:
       stamp = ParseIsoTime(time_tokens[0],
-                           layout_.clock == TableLayout::Clock::kIsoUtc);
+                           layout_.clock == TableLayout::Clock::kIsoUtc,
+                           layout_.date_order);
+      break;
+    case TableLayout::Clock::kDays:
+      stamp = StampOfDays(time_tokens[0], layout_.first_day);
       break;
     case TableLayout::Clock::kOfDay:
       stamp = ParseTimeOfDay(time_tokens[0]);

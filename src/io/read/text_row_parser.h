@@ -43,7 +43,8 @@ class TextRowParser {
 
   TableLayout layout_;
   bool allow_absent_;
-  std::vector<char> wanted_;  ///< per column: 0 skip, 1 number, 2 part of time
+  std::vector<char>
+      wanted_;  ///< per column: 0 skip, 1 number, 2 part of time, 3 place
 };
 
 }  // namespace hindsight

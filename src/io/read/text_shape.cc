@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "io/read/date_text.h"
+#include "io/read/text_format.h"
 #include "io/read/text_tokens.h"
 #include "io/read/time_scale.h"
 #include "io/read/units.h"
@@ -19,29 +21,51 @@ double UnixFromGps(const Stamp& gps) {
   return seconds - LeapSeconds(whole - LeapSeconds(whole));
 }
 
-/// A date with its time of day, or one of the two.
-std::optional<Word> ParseTimeWord(std::string_view token) {
+/// A date with its time of day, or a date alone, read in this order.
+std::optional<Word> ParseDateWord(std::string_view token, DateOrder order) {
   using enum FileColumn::Holds;
-  constexpr std::size_t kShortest = 8;
-  const std::size_t sign = token.find_first_of("-/:");
-  if (token.size() < kShortest || sign == token.npos || sign == 0) {
-    return std::nullopt;
-  }
   const auto seconds = [](const Stamp& as_written) {
     return as_written.Since({}) + static_cast<double>(kGpsEpochUnix);
   };
-  if (const auto stamp = ParseIsoTime(token, false)) {
-    return Word{kDates, seconds(*stamp), false};
+  if (const auto stamp = ParseIsoTime(token, false, order)) {
+    return Word{kDates, seconds(*stamp), false, order};
   }
-  if (const auto stamp = ParseIsoTime(token, true)) {
-    return Word{kDates, UnixFromGps(*stamp), true};
+  if (const auto stamp = ParseIsoTime(token, true, order)) {
+    return Word{kDates, UnixFromGps(*stamp), true, order};
   }
-  if (const auto stamp = ParseDate(token, "00:00:00", false)) {
-    return Word{kDays, seconds(*stamp), false};
+  if (const auto stamp = ParseDate(token, "00:00:00", false, order)) {
+    return Word{kDays, seconds(*stamp), false, order};
   }
+  return std::nullopt;
+}
+
+/// The days of 07/08/2025 come first, but where AM or PM says who wrote it.
+std::optional<Word> ParseDateOfAnyOrder(std::string_view token) {
+  if (auto word = ParseDateWord(token, DateOrder::kYearFirst)) return word;
+  auto by_day = ParseDateWord(token, DateOrder::kDayFirst);
+  auto by_month = ParseDateWord(token, DateOrder::kMonthFirst);
+  if (by_day && by_month) {
+    const bool halves = token.find_first_of("mM") != token.npos;
+    Word& word = halves ? *by_month : *by_day;
+    word.order_told = false;
+    return word;
+  }
+  return by_day ? by_day : by_month;
+}
+
+/// A date with its time of day, or one of the two.
+std::optional<Word> ParseTimeWord(std::string_view token) {
+  using enum FileColumn::Holds;
+  constexpr std::size_t kShortest = 7;
+  const std::size_t sign = token.find_first_of("-/:.");
+  if (token.size() < kShortest || sign == token.npos || sign == 0) {
+    return std::nullopt;
+  }
+  if (const auto word = ParseDateOfAnyOrder(token)) return word;
   const std::string on_first_day = "1970-01-01T" + std::string(token);
   if (const auto stamp = ParseIsoTime(on_first_day, false)) {
-    return Word{kTimesOfDay, seconds(*stamp), false};
+    return Word{kTimesOfDay,
+                stamp->Since({}) + static_cast<double>(kGpsEpochUnix), false};
   }
   if (const auto stamp = ParseIsoTime(on_first_day, true)) {
     return Word{kTimesOfDay, UnixFromGps(*stamp), true};
@@ -54,7 +78,17 @@ Word ParseWord(std::string_view token) {
   if (IsAbsentWord(token)) return {};
   if (const auto number = ParseNumber(token)) return {kNumbers, *number};
   if (const auto time = ParseTimeWord(token)) return *time;
-  return {kText};
+  if (const auto place = ParsePlace(token)) {
+    Word word{kNumbers, *place};
+    word.side = static_cast<char>(token.back() & ~0x20);
+    return word;
+  }
+  Word text{kText};
+  if (token.size() == 1 &&
+      std::string_view("NESW").find(token[0]) != std::string_view::npos) {
+    text.side = token[0];
+  }
+  return text;
 }
 
 /// Whether more than half of what stands in a column is text.

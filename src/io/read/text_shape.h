@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/read/date_text.h"
 #include "io/read/file_columns.h"
 
 namespace hindsight {
@@ -18,6 +19,11 @@ struct Word {
   std::optional<FileColumn::Holds> holds;
   double value = std::numeric_limits<double>::quiet_NaN();
   bool zoned = false;
+  /// Of a date, how it was read, and whether it could be read no other way.
+  DateOrder order = DateOrder::kYearFirst;
+  bool order_told = true;
+  /// 'N', 'E', 'S' or 'W' behind a number, which it heeds, or all of a text.
+  char side = '\0';
 
   bool IsText() const { return holds == FileColumn::Holds::kText; }
 };

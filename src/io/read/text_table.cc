@@ -47,6 +47,7 @@ TextTable::Batch TextTable::Fetch(std::size_t most, Batch memory) {
   batch.texts.clear();
   batch.rows.clear();
   batch.trouble = nullptr;
+  const TableLayout& layout = parser_.layout();
   const auto add = [&](std::string_view line) {
     Ahead& row = batch.rows.emplace_back();
     row.begin = batch.texts.size();
@@ -63,7 +64,9 @@ TextTable::Batch TextTable::Fetch(std::size_t most, Batch memory) {
     std::string_view line;
     while (batch.rows.size() < most && batch.texts.size() < kMostBytesAhead &&
            lines_->Next(&line)) {
-      if (!IsComment(line)) add(line);
+      if (!IsComment(line) && layout.rows.IsIn(line, layout.delimiter)) {
+        add(line);
+      }
     }
   } catch (const InputError&) {
     if (batch.rows.empty()) throw;

@@ -16,80 +16,11 @@ using std::chrono::sys_days;
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
-/// Between them nanoseconds since 1980 fit 64 bits.
-constexpr int kFirstYear = 1900;
-constexpr int kLastYear = 2250;
-
 std::int64_t UnixSeconds(int year, unsigned month, unsigned day) {
   const std::chrono::year_month_day date{std::chrono::year(year),
                                          std::chrono::month(month),
                                          std::chrono::day(day)};
   return sys_days(date).time_since_epoch().count() * kDaySeconds;
-}
-
-std::optional<int> ParseInteger(std::string_view text) {
-  int value = 0;
-  const auto result =
-      std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc() || result.ptr != text.data() + text.size()) {
-    return std::nullopt;
-  }
-  return value;
-}
-
-std::optional<std::int64_t> ParseDay(std::string_view date) {
-  if (date.size() != 10 || (date[4] != '-' && date[4] != '/') ||
-      date[7] != date[4]) {
-    return std::nullopt;
-  }
-  const auto year = ParseInteger(date.substr(0, 4));
-  const auto month = ParseInteger(date.substr(5, 2));
-  const auto day = ParseInteger(date.substr(8, 2));
-  if (!year || !month || !day || *month < 1 || *day < 1) return std::nullopt;
-  if (*year < kFirstYear || *year > kLastYear) return std::nullopt;
-  const std::chrono::year_month_day checked{
-      std::chrono::year(*year), std::chrono::month(unsigned(*month)),
-      std::chrono::day(unsigned(*day))};
-  if (!checked.ok()) return std::nullopt;
-  return UnixSeconds(*year, unsigned(*month), unsigned(*day));
-}
-
-/// East of Greenwich [s], of "Z", "+02:00", "-0330" or "+02".
-std::optional<std::int64_t> ParseZone(std::string_view zone) {
-  if (zone == "Z") return 0;
-  const bool is_colon = zone.size() == 6 && zone[3] == ':';
-  if (zone.size() != 3 && zone.size() != 5 && !is_colon) return std::nullopt;
-  const auto hours = ParseInteger(zone.substr(1, 2));
-  const auto minutes = zone.size() == 3
-                           ? std::optional<int>(0)
-                           : ParseInteger(zone.substr(zone.size() - 2));
-  if (!hours || !minutes || *hours < 0 || *hours > 14 || *minutes < 0 ||
-      *minutes > 59) {
-    return std::nullopt;
-  }
-  const std::int64_t seconds = *hours * 3600 + *minutes * 60;
-  return zone[0] == '-' ? -seconds : seconds;
-}
-
-std::optional<Stamp> ParseClock(std::string_view clock) {
-  if (clock.size() < 8 || clock[2] != ':' || clock[5] != ':') {
-    return std::nullopt;
-  }
-  const auto hour = ParseInteger(clock.substr(0, 2));
-  const auto minute = ParseInteger(clock.substr(3, 2));
-  const auto second = ParseInteger(clock.substr(6, 2));
-  if (!hour || !minute || !second || *hour < 0 || *hour > 23 || *minute < 0 ||
-      *minute > 59 || *second < 0 || *second > 60) {
-    return std::nullopt;
-  }
-  double fraction = 0.0;
-  if (clock.size() > 8) {
-    if (clock[8] != '.') return std::nullopt;
-    const auto digits = ParseNumber(clock.substr(8));
-    if (!digits) return std::nullopt;
-    fraction = *digits;
-  }
-  return Stamp{*hour * 3600 + *minute * 60 + *second, fraction};
 }
 
 }  // namespace
@@ -155,66 +86,6 @@ Stamp GpsFromUnix(const Stamp& unix_time) {
 Stamp GpsFromUtc(std::int64_t day, double time_of_day) {
   const std::int64_t midnight = day * kDaySeconds;
   return {midnight - kGpsEpochUnix + LeapSeconds(midnight), time_of_day};
-}
-
-std::optional<Stamp> ParseDate(std::string_view date, std::string_view clock,
-                               bool utc) {
-  const auto day = ParseDay(date);
-  const auto time = ParseClock(clock);
-  if (!day || !time) return std::nullopt;
-  // At 23:59:60 the leap second itself is not counted yet.
-  const int leap = utc ? LeapSeconds(*day) : 0;
-  return Stamp{*day + time->seconds - kGpsEpochUnix + leap, time->fraction};
-}
-
-std::optional<Stamp> ParseTimeOfDay(std::string_view clock) {
-  std::string colons(clock);
-  if (clock.find(':') == clock.npos && clock.size() >= 6) {
-    colons.insert(4, ":").insert(2, ":");
-  }
-  const auto time = ParseClock(colons);
-  if (!time) return std::nullopt;
-  return Stamp{time->seconds, time->fraction};
-}
-
-std::optional<Stamp> ParseIsoTime(std::string_view text, bool utc) {
-  constexpr std::size_t kDate = 10;
-  text = Trim(text);
-  if (text.size() <= kDate || (text[kDate] != 'T' && text[kDate] != ' ')) {
-    return std::nullopt;
-  }
-  const std::size_t zone_at = text.find_first_of("Z+-", kDate + 1);
-  std::int64_t offset = 0;
-  if (zone_at != text.npos) {
-    const auto zone = ParseZone(text.substr(zone_at));
-    if (!utc || !zone) return std::nullopt;
-    offset = *zone;
-  }
-  const auto day = ParseDay(text.substr(0, kDate));
-  const auto time = ParseClock(text.substr(
-      kDate + 1, zone_at == text.npos ? zone_at : zone_at - kDate - 1));
-  if (!day || !time) return std::nullopt;
-  const std::int64_t unix_time = *day + time->seconds - offset;
-  // At 23:59:60 the leap second itself is not counted yet.
-  const bool is_leap = text.substr(kDate + 7, 2) == "60";
-  const int leap = utc ? LeapSeconds(unix_time - (is_leap ? 1 : 0)) : 0;
-  return Stamp{unix_time - kGpsEpochUnix + leap, time->fraction};
-}
-
-std::optional<Stamp> ParseDateTime(std::string_view text) {
-  text = Trim(text);
-  bool utc = false;
-  if (text.ends_with("UTC")) {
-    utc = true;
-    text.remove_suffix(3);
-  } else if (text.ends_with("GPST")) {
-    text.remove_suffix(4);
-  } else {
-    return std::nullopt;
-  }
-  text = Trim(text);
-  if (text.size() < 12) return std::nullopt;
-  return ParseDate(text.substr(0, 10), Trim(text.substr(10)), utc);
 }
 
 std::string FormatGpsTime(std::int64_t gps_ns) {

@@ -50,24 +50,6 @@ Stamp GpsFromUnix(const Stamp& unix_time);
 /// leap second, on a day counted from 1970.
 Stamp GpsFromUtc(std::int64_t day, double time_of_day);
 
-/// GPS time since 1980-01-06 of a calendar date and time of day; `utc` says in
-/// which scale. Separators are '-' or '/' and ':'. Nothing if the text is not
-/// "yyyy-mm-dd" and "hh:mm:ss[.sss]", or no such date.
-std::optional<Stamp> ParseDate(std::string_view date, std::string_view clock,
-                               bool utc);
-
-/// Time since midnight of "hh:mm:ss.sss" or "hhmmss.sss"; nothing if it is none.
-std::optional<Stamp> ParseTimeOfDay(std::string_view clock);
-
-/// GPS time since 1980-01-06 of a time as ISO 8601 writes it in one word,
-/// "2025-07-08T19:34:21.854" or with a blank in place of the T, in the scale that
-/// `utc` says; in UTC also with "Z" or an offset as "+02:00" behind. Nothing if it
-/// is none.
-std::optional<Stamp> ParseIsoTime(std::string_view text, bool utc);
-
-/// "2025-07-08 19:34:21.854 GPST" or "... UTC"; nothing if it is neither.
-std::optional<Stamp> ParseDateTime(std::string_view text);
-
 /// "yyyy-mm-dd hh:mm:ss.sssssssss GPST".
 std::string FormatGpsTime(std::int64_t gps_ns);
 

@@ -16,6 +16,9 @@ bool IsUpper(char c) {
 bool IsAlpha(char c) {
   return std::isalpha(static_cast<unsigned char>(c)) != 0;
 }
+bool IsLowerAt(const std::string& name, std::size_t i) {
+  return i < name.size() && IsAlpha(name[i]) && !IsUpper(name[i]);
+}
 char Lower(char c) {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
@@ -39,7 +42,11 @@ std::string UnitOfWord(const std::string& word) {
       UnitWord{"us", "us"},       UnitWord{"ns", "ns"},
       UnitWord{"m", "m"},         UnitWord{"ut", "uT"},
       UnitWord{"mg", "mg"},       UnitWord{"degrees", "deg"},
-      UnitWord{"seconds", "s"}};
+      UnitWord{"seconds", "s"},   UnitWord{"millis", "ms"},
+      UnitWord{"micros", "us"},   UnitWord{"nanos", "ns"},
+      UnitWord{"meters", "m"},    UnitWord{"metres", "m"},
+      UnitWord{"ft", "ft"},       UnitWord{"feet", "ft"},
+      UnitWord{"mph", "mph"}};
   for (const UnitWord& known : kUnits) {
     if (word == known.word) return std::string(known.unit);
   }
@@ -64,8 +71,9 @@ std::vector<std::string> SplitWords(const std::string& name) {
     }
     if (!word.empty()) {
       const bool was_alpha = IsAlpha(word.back());
-      const bool hump =
-          i > 0 && IsUpper(c) && IsAlpha(name[i - 1]) && !IsUpper(name[i - 1]);
+      const bool hump = i > 0 && IsUpper(c) && IsAlpha(name[i - 1]) &&
+                        (!IsUpper(name[i - 1]) ||
+                         (IsLowerAt(name, i + 1) && IsLowerAt(name, i + 2)));
       if (hump || was_alpha == digit) end();
     }
     word += Lower(c);
@@ -110,6 +118,16 @@ std::string TakeUnitWord(std::vector<std::string>* words) {
       (*words)[words->size() - 2] == "mps") {
     words->resize(words->size() - 2);
     return "m/s^2";
+  }
+  // "GyroXRadPerSec".
+  const std::size_t count = words->size();
+  if (count > 3 && (*words)[count - 2] == "per" &&
+      HasAnyWord({words->back()}, {"s", "sec", "second"})) {
+    const std::string unit = UnitOfWord((*words)[count - 3]);
+    if (!unit.empty()) {
+      words->resize(count - 3);
+      return unit + "/s";
+    }
   }
   // "vel_n_cm_s".
   if (words->size() > 2 && words->back() == "s") {

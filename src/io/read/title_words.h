@@ -9,7 +9,7 @@
 namespace hindsight {
 
 /// The words of a name in lower case, parted where case, digits or signs
-/// change: "positionGt" as position, gt.
+/// change: "positionGt" as position, gt; "AccelXMps" as accel, x, mps.
 std::vector<std::string> SplitWords(const std::string& name);
 
 /// Whether one of the words is one of `names`.

@@ -97,15 +97,18 @@ std::optional<Dates> FindDates(const FileColumns& file,
     }
     if (dates.day_column < 0) CountFromMidnight(dates.numbers, &dates.t);
   }
-  if (dates.t.size() < 3) return std::nullopt;
-  std::size_t moving = 0;
-  for (std::size_t k = 1; k < dates.t.size(); ++k) {
-    if (dates.t[k] != dates.t[k - 1]) ++moving;
-  }
-  if (2 * moving < dates.t.size() || !Grows(dates.t, StepsOf(dates.t))) {
+  if (dates.t.size() < 3 || !Grows(dates.t, StepsOf(dates.t))) {
     return std::nullopt;
   }
   return dates;
+}
+
+bool MostlyStand(const std::vector<double>& t) {
+  std::size_t moving = 0;
+  for (std::size_t k = 1; k < t.size(); ++k) {
+    if (t[k] != t[k - 1]) ++moving;
+  }
+  return 2 * moving < t.size();
 }
 
 bool IsOfDay(const Dates& dates, const FileColumns& file) {

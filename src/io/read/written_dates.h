@@ -18,10 +18,12 @@ struct Dates {
 };
 
 /// Dates, or days and times of day, or these alone, also as numbers in a column
-/// that a title calls a time; those that grow from row to row. Nothing if most
-/// stand still, as those in whole seconds do.
+/// that a title calls a time; those that do not fall behind from row to row.
 std::optional<Dates> FindDates(const FileColumns& file,
                                const std::vector<ColumnMeaning>& meanings);
+
+/// Whether most are the same as the one before, as those in whole seconds are.
+bool MostlyStand(const std::vector<double>& t);
 
 /// Whether there is no day.
 bool IsOfDay(const Dates& dates, const FileColumns& file);

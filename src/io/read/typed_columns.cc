@@ -1,0 +1,214 @@
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "io/read/column_gatherer.h"
+#include "io/read/file_columns.h"
+#include "io/read/row_word.h"
+#include "io/read/text_lines.h"
+#include "io/read/text_tokens.h"
+#include "io/read/title_words.h"
+#include "io/read/units.h"
+
+namespace hindsight {
+namespace {
+
+/// Lines by which the column of the words is told.
+constexpr std::size_t kTypedLines = 4000;
+/// Columns in which it may be.
+constexpr int kWordColumns = 4;
+/// Loggers of whole autopilots write some eighty.
+constexpr std::size_t kMostWords = 200;
+
+bool IsName(std::string_view word) {
+  constexpr std::size_t kLongest = 40;
+  const auto is_letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  };
+  return !word.empty() && word.size() <= kLongest && is_letter(word[0]) &&
+         !IsAbsentWord(word) && !ParseNumber(word);
+}
+
+bool HoldsNoNumber(std::string_view line, char delimiter) {
+  const auto words = SplitLine(line, delimiter);
+  return std::none_of(words.begin(), words.end(), [](std::string_view word) {
+    return ParseNumber(word).has_value();
+  });
+}
+
+/// Which sensor a word names, or -1.
+int SensorOf(const std::string& word) {
+  const std::vector<std::string> words = SplitWords(word);
+  if (HasAnyWord(words, {"imu"})) return 0;
+  if (HasAnyWord(words, {"gyro", "gyros", "gyr", "gyroscope"})) return 1;
+  if (HasAnyWord(words, {"acc", "acce", "accel", "accelerometer"})) return 2;
+  if (HasAnyWord(words, {"gps", "gnss", "fix", "location"})) return 3;
+  return HasAnyWord(words, {"mag", "magn", "magnetometer"}) ? 4 : -1;
+}
+
+/// How many columns the rows of each word have, and how many of them.
+using Widths = std::map<std::string, std::map<std::size_t, std::size_t>>;
+
+/// Whether words tell apart rows of several sensors: rows of other widths, the
+/// same for each word, or names of sensors.
+bool TellSensors(const Widths& widths, int column) {
+  constexpr std::size_t kFewest = 3;
+  constexpr double kMost = 0.95;
+  std::set<std::size_t> usual;
+  std::set<int> sensors;
+  std::size_t frequent = 0;
+  bool steady = true;
+  for (const auto& [word, counts] : widths) {
+    std::size_t rows = 0;
+    std::pair<std::size_t, std::size_t> best = {0, 0};  // rows, width
+    for (const auto& [width, of_width] : counts) {
+      rows += of_width;
+      best = std::max(best, {of_width, width});
+    }
+    if (rows < kFewest) continue;
+    ++frequent;
+    usual.insert(best.second);
+    steady = steady && static_cast<double>(best.first) >=
+                           kMost * static_cast<double>(rows);
+    if (const int sensor = SensorOf(word); sensor >= 0) sensors.insert(sensor);
+  }
+  const bool differ = column == 0 && steady && usual.size() > 1;
+  return frequent > 1 && (differ || sensors.size() > 1);
+}
+
+struct TypedText {
+  int column = 0;
+  char delimiter = ',';
+};
+
+/// Nothing of a text whose rows are one sensor's.
+std::optional<TypedText> FindWords(const std::string& path) {
+  TextLines lines(path);
+  std::array<Widths, kWordColumns> widths;
+  std::array<std::size_t, kWordColumns> named = {};
+  std::size_t rows = 0;
+  std::optional<char> delimiter;
+  std::string_view line;
+  while (rows < kTypedLines && lines.Next(&line)) {
+    if (IsComment(line)) continue;
+    if (!delimiter) delimiter = GuessDelimiter(line);
+    if (HoldsNoNumber(line, *delimiter)) continue;
+    ++rows;
+    const auto words = SplitLine(line, *delimiter);
+    for (std::size_t i = 0; i < std::min(widths.size(), words.size()); ++i) {
+      if (!IsName(words[i]) || widths[i].size() > kMostWords) continue;
+      ++named[i];
+      ++widths[i][std::string(words[i])][words.size()];
+    }
+  }
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    const int column = static_cast<int>(i);
+    // A last line may be cut off.
+    if (rows < 10 || 20 * named[i] < 19 * rows ||
+        widths[i].size() > kMostWords || !TellSensors(widths[i], column)) {
+      continue;
+    }
+    return TypedText{column, *delimiter};
+  }
+  return std::nullopt;
+}
+
+class TypedColumns {
+ public:
+  explicit TypedColumns(const TypedText& text) : text_(text) {}
+
+  void Add(std::string_view line, bool terminated) {
+    if (IsComment(line)) {
+      const std::size_t at = line.find_first_not_of("#%/ ");
+      if (at == line.npos) return;
+      const std::string word(WordAt(line.substr(at), text_.delimiter, 0));
+      titles_[word] = line;
+      return;
+    }
+    if (!begun_ && HoldsNoNumber(line, text_.delimiter)) {
+      common_title_ = line;
+      return;
+    }
+    begun_ = true;
+    const std::string word(WordAt(line, text_.delimiter, text_.column));
+    if (word == "FMT") {
+      TakeFormat(line);
+    } else if (ColumnGatherer* gatherer = GathererOf(word)) {
+      gatherer->Add(line, terminated);
+    }
+  }
+
+  std::vector<FileColumns> Finish() {
+    std::vector<FileColumns> tables;
+    for (auto& [word, gatherer] : gatherers_) {
+      if (auto table = gatherer.Finish()) tables.push_back(std::move(*table));
+    }
+    return tables;
+  }
+
+ private:
+  /// ArduPilot's logs tell the columns of a message by another: FMT, number,
+  /// length, name, types, columns.
+  void TakeFormat(std::string_view line) {
+    constexpr std::size_t kName = 3;
+    constexpr std::size_t kFirst = 5;
+    const auto words = SplitLine(line, text_.delimiter);
+    if (words.size() <= kFirst) return;
+    const std::string name(words[kName]);
+    std::string title = "#" + name;
+    for (std::size_t i = kFirst; i < words.size(); ++i) {
+      title.append(1, text_.delimiter).append(words[i]);
+    }
+    titles_[name] = title;
+  }
+
+  ColumnGatherer* GathererOf(const std::string& word) {
+    const auto known = std::find_if(
+        gatherers_.begin(), gatherers_.end(),
+        [&](const auto& gatherer) { return gatherer.first == word; });
+    if (known != gatherers_.end()) {
+      return known->second.wants_more() ? &known->second : nullptr;
+    }
+    if (!IsName(word) || gatherers_.size() == kMostWords) return nullptr;
+    gatherers_.emplace_back(word, ColumnGatherer(RowWord{text_.column, word}));
+    ColumnGatherer& gatherer = gatherers_.back().second;
+    const auto title = titles_.find(word);
+    if (title != titles_.end()) {
+      gatherer.Add(title->second, true);
+    } else if (!common_title_.empty()) {
+      gatherer.Add(common_title_, true);
+    }
+    return &gatherer;
+  }
+
+  TypedText text_;
+  bool begun_ = false;
+  std::string common_title_;
+  std::map<std::string, std::string> titles_;  ///< by word
+  std::vector<std::pair<std::string, ColumnGatherer>> gatherers_;
+};
+
+}  // namespace
+
+std::vector<FileColumns> ReadTypedColumns(const std::string& path) {
+  const auto text = FindWords(path);
+  if (!text) return {};
+  TextLines lines(path);
+  TypedColumns tables(*text);
+  std::string_view line;
+  while (lines.Next(&line)) tables.Add(line, lines.terminated());
+  return tables.Finish();
+}
+
+std::vector<FileColumns> ReadTextTables(const std::string& path) {
+  std::vector<FileColumns> tables = ReadTypedColumns(path);
+  if (!tables.empty()) return tables;
+  if (auto table = ReadTextColumns(path)) tables.push_back(std::move(*table));
+  return tables;
+}
+
+}  // namespace hindsight
