@@ -9,9 +9,9 @@
 namespace hindsight {
 
 /// Where the unit of positions, or which column is the latitude, is a guess
-/// (FoundStream::place_unit_told, place_order_told) and they fit the IMU's motion
-/// at no offset of their clock, takes what fits of radians, the other order, and
-/// both. The other order is an assumption: gyros of the other sign would turn the
+/// (FoundStream::place_unit_told, place_order_told), takes of radians, the other
+/// order, and both what fits the IMU's motion better than what is written, by more
+/// than chance. The other order is an assumption: gyros of the other sign would turn the
 /// same way. `load` gives the recording as the draft has it, nullptr if it does
 /// not load.
 void TellPlaces(const std::function<const Dataset*()>& load,

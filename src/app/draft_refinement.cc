@@ -11,6 +11,7 @@
 #include "app/draft_noise.h"
 #include "app/draft_places.h"
 #include "app/draft_timing.h"
+#include "app/draft_turns.h"
 #include "base/error.h"
 #include "base/units.h"
 #include "dataset/checks.h"
@@ -43,10 +44,20 @@ class Refiner {
       Load();
       return;
     }
-    TellPlaces([this] { return Load() ? &dataset_ : nullptr; }, &draft_);
-    if (!Load()) return;
-    TakePlaceOfTruth();
     // How fine they are decides over which time their motion is compared.
+    const auto with_noise = [this]() -> const Dataset* {
+      if (!Load()) return nullptr;
+      TellFixNoise(dataset_, &draft_);
+      return Load() ? &dataset_ : nullptr;
+    };
+    TellPlaces(with_noise, &draft_);
+    if (!Load()) return;
+    if (TellTurns(dataset_, &draft_)) {
+      if (!Load()) return;
+      SetAxes();
+      if (!Load()) return;
+    }
+    TakePlaceOfTruth();
     TellFixNoise(dataset_, &draft_);
     if (!Load()) return;
     TellClocks(dataset_, &draft_);

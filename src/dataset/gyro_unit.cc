@@ -118,36 +118,47 @@ Turns TurnsOf(const Dataset& dataset) {
 }
 
 std::string ByCourse(const Dataset& dataset) {
-  constexpr double kTurned = 0.1;  // rad, root mean square
-  constexpr double kAlike = 0.8;   // correlation
-  constexpr double kNear = 1.25;   // of the factor
-  const auto [courses, gyros, both, count] = TurnsOf(dataset);
-  if (count == 0 || courses < count * kTurned * kTurned || gyros <= 0.0 ||
-      std::abs(both) < kAlike * std::sqrt(courses * gyros)) {
-    return "";
-  }
-  if (both < 0.0) {
+  const auto ratio = CourseOverGyros(dataset);
+  if (!ratio) return "";
+  if (*ratio < 0.0) {
     return "imu: the course turns against the gyros: they have the other sign, "
            "or the accelerometers (phones and watches of Apple read -1 g along "
            "the axis that points up), or an axis is mirrored; put a \"-\" "
            "before its column under `columns`";
   }
-  const double ratio = std::sqrt(courses / gyros);
   for (const double factor : {kDegree, 1.0 / kDegree}) {
-    if (std::abs(std::log(ratio / factor)) < std::log(kNear)) {
+    if (IsNearRatio(*ratio, factor)) {
       return UnitWarning("the course turns", factor);
     }
   }
-  if (std::abs(std::log(ratio)) > std::log(kNear)) {
-    return fmt::format(
-        "imu: the course turns {:.3g} times as far as the gyros say: their "
-        "unit or scale is that factor off",
-        ratio);
-  }
-  return "";
+  if (IsNearRatio(*ratio, 1.0)) return "";
+  return fmt::format(
+      "imu: the course turns {:.3g} times as far as the gyros say: their "
+      "unit or scale is that factor off",
+      *ratio);
 }
 
 }  // namespace
+
+bool IsNearRatio(double ratio, double expected) {
+  constexpr double kNear = 1.25;
+  return std::abs(std::log(ratio / expected)) < std::log(kNear);
+}
+
+std::optional<double> CourseOverGyros(const Dataset& dataset) {
+  constexpr double kTurned = 0.1;  // rad, root mean square
+  constexpr double kAlike = 0.8;   // correlation
+  const ImuStream& imu = dataset.imu;
+  if (imu.kind != ImuStream::Kind::kRates || imu.samples.size() < 2) {
+    return std::nullopt;
+  }
+  const auto [courses, gyros, both, count] = TurnsOf(dataset);
+  if (count == 0 || courses < count * kTurned * kTurned || gyros <= 0.0 ||
+      std::abs(both) < kAlike * std::sqrt(courses * gyros)) {
+    return std::nullopt;
+  }
+  return std::copysign(std::sqrt(courses / gyros), both);
+}
 
 std::string WarnAboutGyroUnit(const Dataset& dataset) {
   const ImuStream& imu = dataset.imu;

@@ -1,0 +1,102 @@
+#include "app/draft_turns.h"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "dataset/gyro_unit.h"
+#include "io/read/units.h"
+
+namespace hindsight {
+namespace {
+
+/// Whether a line names a column of the IMU, or of its accelerometers' own file.
+bool IsColumnOf(const KeyLine& line, std::string_view family) {
+  const std::size_t at = line.key.find_first_not_of(' ');
+  return at != std::string::npos && at > 0 &&
+         std::string_view(line.key).substr(at).starts_with(family);
+}
+
+void AddReason(const std::string& why, KeyLine* line) {
+  line->comment += (line->comment.empty() ? "" : "; ") + why;
+}
+
+bool TakeUnit(const std::string& from, const std::string& to,
+              RecordingDraft* draft) {
+  bool changed = false;
+  for (KeyLine& line : draft->imu->lines) {
+    if (!IsColumnOf(line, "gyro_")) continue;
+    for (const auto& [before, after] :
+         {std::pair('[' + from + ']', '[' + to + ']'),
+          {"unit: \"" + from + '"', "unit: \"" + to + '"'}}) {
+      const std::size_t at = line.value.find(before);
+      if (at == std::string::npos) continue;
+      line.value.replace(at, before.size(), after);
+      AddReason("the course turns as far in this unit (likely)", &line);
+      changed = true;
+    }
+  }
+  return changed;
+}
+
+/// The unit that is the factor `ratio` larger than the one of the draft.
+bool TakeUnitOf(double ratio, RecordingDraft* draft) {
+  const auto& guess = draft->imu->imu_guess;
+  if (!guess || guess->gyro.certainty == Certainty::kCertain) return false;
+  const auto now = UnitFactor(guess->gyro.unit, Quantity::kAngularRate);
+  if (!now) return false;
+  for (const char* unit : {"rad/s", "deg/s", "mrad/s", "mdeg/s"}) {
+    const double factor = *UnitFactor(unit, Quantity::kAngularRate);
+    if (unit != guess->gyro.unit && IsNearRatio(factor / *now, ratio)) {
+      return TakeUnit(guess->gyro.unit, unit, draft);
+    }
+  }
+  return false;
+}
+
+/// With a "-" before the column, or without one.
+void Negate(KeyLine* line) {
+  std::string& value = line->value;
+  if (value.starts_with("\"-")) {
+    value.erase(1, 1);
+  } else if (value.starts_with('"')) {
+    value.insert(1, "-");
+  } else if (const std::size_t at = value.find("scale: ");
+             at != std::string::npos) {
+    value.insert(at + 7, "-");
+  } else {
+    value.insert(value.size() - 1, ", scale: -1");
+  }
+}
+
+void NegateAccelerometers(RecordingDraft* draft) {
+  for (KeyLine& line : draft->imu->lines) {
+    if (!IsColumnOf(line, "accel_")) continue;
+    Negate(&line);
+    AddReason("of the other sign (likely)", &line);
+  }
+  constexpr double kShown = 0.5;
+  const auto& guess = draft->imu->imu_guess;
+  const bool gyros_fit = guess && guess->turn.correlation > kShown;
+  draft->Assume(
+      std::string("imu: the accelerometers are taken for ones that read -1 g "
+                  "along the axis that points up, as phones and watches of "
+                  "Apple do: the course turns against the gyros") +
+      (gyros_fit ? ", and gravity with them"
+                 : "; otherwise these have the other sign"));
+}
+
+}  // namespace
+
+bool TellTurns(const Dataset& dataset, RecordingDraft* draft) {
+  const auto ratio = CourseOverGyros(dataset);
+  if (!ratio) return false;
+  const bool scaled = !IsNearRatio(std::abs(*ratio), 1.0) &&
+                      TakeUnitOf(std::abs(*ratio), draft);
+  if (*ratio > 0.0) return scaled;
+  NegateAccelerometers(draft);
+  return true;
+}
+
+}  // namespace hindsight
