@@ -83,8 +83,9 @@ std::vector<FoundStream> RecogniseFormat(const std::string& path,
     }
   }
   try {
-    if (auto streams = RecogniseTyped(path, hints); !streams.empty()) {
-      return streams;
+    if (!probe.lines.empty()) {
+      auto streams = RecogniseTyped(path, hints);
+      if (!streams.empty()) return streams;
     }
     const auto columns = ProbeColumns(path);
     std::vector<FoundStream> found;
