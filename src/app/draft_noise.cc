@@ -21,6 +21,9 @@ namespace {
 
 constexpr double kMostFactor = 30.0;
 constexpr double kUsualWhite = 0.1;  // m
+/// Gravity moves the bias of gyros by up to 0.1 deg/s/g, as data sheets say of
+/// consumer ones: in a hand, which turns it about, that is a walk.
+constexpr double kTiltedBiasWalk = 0.005 * kDegree;  // rad/s^2/sqrt(Hz)
 constexpr char kWhy[] = "by the likelihood of the innovations";
 
 /// With slow errors, which are a guess; nullptr if the sigmas are the file's.
@@ -101,6 +104,17 @@ void ScaleFixNoise(const std::vector<NoiseFactor>& known,
   SetSlowNoise(slow * noise.sigma, white * noise.white_sigma, kWhy, draft);
 }
 
+/// A reading is the mean of the time since the one before, or later still: it belongs
+/// to half a sample before its stamp. Beside positions their clock takes it up.
+void TellLateReadings(const ImuStream& imu, std::vector<KeyLine>* lines) {
+  if (imu.kind != ImuStream::Kind::kRates || imu.samples.size() < 2) return;
+  const double step = (imu.t_end() - imu.t_begin()) /
+                      static_cast<double>(imu.samples.size() - 1);
+  SetLine({"time_offset", fmt::format("{:.3g} ms", -0.5e3 * step),
+           "readings are taken for means since the one before (a guess)"},
+          lines);
+}
+
 }  // namespace
 
 void TellReadingNoise(const Dataset& dataset, RecordingDraft* draft) {
@@ -118,9 +132,19 @@ void TellReadingNoise(const Dataset& dataset, RecordingDraft* draft) {
   SetLine({"  accel", fmt::format("{:.3g} mg/sqrt(Hz)", noise.accel / kMilliG),
            fmt::format("{:.2g} where quiet", noise.accel_quiet / kMilliG)},
           &lines);
-  SetLine({"  gyro_bias_walk", fmt::format("{:.2g} deg/s^2/sqrt(Hz)",
-                                           noise.gyro_bias_walk / kDegree)},
-          &lines);
+  const bool held = IsAttitudeAlone(*draft);
+  const bool tilts = held && noise.gyro_bias_walk < kTiltedBiasWalk;
+  SetLine(
+      {"  gyro_bias_walk",
+       fmt::format("{:.2g} deg/s^2/sqrt(Hz)",
+                   (tilts ? kTiltedBiasWalk : noise.gyro_bias_walk) / kDegree),
+       tilts ? "usual where gravity turns about (a guess)" : ""},
+      &lines);
+  if (held) {
+    SetLine({"  gyro_per_rate", "0.001 sqrt(s)",
+             "what a constant scale factor leaves (a guess)"},
+            &lines);
+  }
   SetLine({"  accel_bias_walk", fmt::format("{:.2g} ug/s/sqrt(Hz)",
                                             noise.accel_bias_walk / kMicroG)},
           &lines);
@@ -131,7 +155,8 @@ void TellReadingNoise(const Dataset& dataset, RecordingDraft* draft) {
   SetLine({"  accel_bias_sigma",
            fmt::format("{:.2g} mg", noise.accel_bias_sigma / kMilliG)},
           &draft->top);
-  if (noise.consumer && !IsAttitudeAlone(*draft)) {
+  if (held) TellLateReadings(dataset.imu, &lines);
+  if (noise.consumer && !held) {
     SetLine({"estimate", "{gyro_scale: 1 %, accel_scale: 1 %}",
              "what data sheets of this class allow"},
             &lines);

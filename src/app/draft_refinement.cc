@@ -41,6 +41,8 @@ class Refiner {
     ResolveMirror();
     if (IsAttitudeAlone(draft_)) {
       if (Load()) SetField();
+      if (Load()) TellFieldClock(dataset_, &draft_);
+      if (Load()) TellTruthClock(dataset_, &draft_);
       Load();
       return;
     }

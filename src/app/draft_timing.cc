@@ -104,6 +104,23 @@ void TellClocks(const Dataset& dataset, RecordingDraft* draft) {
   }
 }
 
+void TellFieldClock(const Dataset& dataset, RecordingDraft* draft) {
+  constexpr double kKnown = 0.02;  // s
+  for (const AidingStream& stream : dataset.streams) {
+    StreamDraft* drafted = draft->Find(stream.sensor.name);
+    if (drafted == nullptr || !stream.sensor.kind->magnetic) continue;
+    ClockSearch found = SearchClock(dataset.imu, dataset.initial, stream);
+    DropImplausible(&found);
+    if (found.candidates.size() != 1) continue;
+    const ClockCandidate& best = found.candidates.front();
+    if (!(best.sigma < kKnown)) continue;
+    SetLine({"time_offset", fmt::format("{:.4f} s", best.offset),
+             fmt::format("by {}, +- {:.2g} s (likely)", found.compared,
+                         best.sigma)},
+            &drafted->found.lines);
+  }
+}
+
 void TellStretch(const Dataset& dataset, RecordingDraft* draft) {
   constexpr double kLong = 200.0;  // s
   constexpr double kMostDrift = 1e-3;

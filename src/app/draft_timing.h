@@ -13,6 +13,10 @@ namespace hindsight {
 /// of an IMU on a wheel also its radius and direction (FindWheel).
 void TellClocks(const Dataset& dataset, RecordingDraft* draft);
 
+/// Of attitude alone: how late a magnetometer's stamps are, where its field turns
+/// with the gyros and tells to 20 ms.
+void TellFieldClock(const Dataset& dataset, RecordingDraft* draft);
+
 /// How fast the IMU's clock runs against that of the first stream of positions or
 /// velocities, over 200 s and more (FindClockDrift).
 void TellStretch(const Dataset& dataset, RecordingDraft* draft);

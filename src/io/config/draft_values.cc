@@ -73,7 +73,8 @@ std::vector<KeyLine> UsualLines(const SensorKind& kind, bool sigmas) {
     lines.push_back({"sigma", "5 cm/s", "of a foot that rolls (a guess)"});
   } else if (kind.magnetic) {
     lines.push_back({"form", "vector"});
-    lines.push_back({"sigma", "3.5 uT", "indoors (a guess)"});
+    lines.push_back({"sigma", "2 uT",
+                     "of an error that lasts a second, indoors (a guess)"});
     lines.push_back({"horizontal", "20 uT", "(a guess)"});
     lines.push_back({"down", "44 uT", "(a guess)"});
   }
