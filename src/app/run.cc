@@ -52,9 +52,16 @@ Reconstruction Prepare(const std::string& config, const Dataset& dataset,
   try {
     return Reconstruction(dataset, options);
   } catch (const NoInitialPosition& error) {
-    throw NoInitialPosition(config + ": " + error.what() +
-                            "; --methods=LIST of " + MethodNames(true) +
-                            ", which estimate attitude alone, need none");
+    const std::string what = config + ": " + error.what() +
+                             "; --methods=LIST of " + MethodNames(true) +
+                             ", which estimate attitude alone, need none";
+    const auto& streams = dataset.streams;
+    if (std::all_of(streams.begin(), streams.end(), [](const auto& stream) {
+          return stream.sensor.kind->magnetic;
+        })) {
+      throw OnlyAttitude(what);
+    }
+    throw NoInitialPosition(what);
   }
 }
 

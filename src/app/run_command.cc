@@ -119,8 +119,16 @@ std::string DraftBeside(const std::string& folder) {
 
 int Run(const std::vector<std::string>& arguments) {
   const bool folder = IsFolder(arguments[0]);
-  return Reconstruct(
-      ReadRunRequest(folder ? DraftBeside(arguments[0]) : arguments[0]));
+  const std::string config = folder ? DraftBeside(arguments[0]) : arguments[0];
+  try {
+    return Reconstruct(ReadRunRequest(config));
+  } catch (const OnlyAttitude&) {
+    if (IsGiven("methods")) throw;
+  }
+  FLAGS_methods = MethodNames(true);
+  std::cout << "no stream tells where the IMU is: attitude alone, by "
+            << FLAGS_methods << "\n";
+  return Reconstruct(ReadRunRequest(config));
 }
 
 }  // namespace

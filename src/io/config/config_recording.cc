@@ -270,6 +270,38 @@ const ConfigTable<RecordingConfig>& RecordingTable() {
 
 }  // namespace
 
+namespace {
+
+/// All that are missing at once. Throws InputError.
+void RequireFiles(const DeclaredRecording& declared) {
+  std::string missing;
+  const StreamSource* first = nullptr;
+  const auto look = [&](const StreamSource& source) {
+    for (const std::string& path : source.Paths()) {
+      if (PathExists(path)) continue;
+      if (first == nullptr) {
+        first = &source;
+        missing = source.name + ".file: there is no file " + path;
+      } else {
+        missing += "; nor " + path + " (" + source.name + ".file, line " +
+                   std::to_string(source.config_line) + ")";
+      }
+    }
+  };
+  look(declared.imu);
+  if (declared.imu_options.accelerometer) {
+    look(*declared.imu_options.accelerometer);
+  }
+  for (const AidingConfig& config : declared.aiding) {
+    if (!config.settings.sensor.kind->generated) look(config.source);
+  }
+  if (declared.truth) look(*declared.truth);
+  if (first == nullptr) return;
+  throw InputError(first->config_path, first->config_line, missing);
+}
+
+}  // namespace
+
 DeclaredRecording ReadDeclarations(ConfigMap* top, const LoadOptions& options,
                                    Dataset* dataset) {
   RecordingConfig recording;
@@ -277,6 +309,7 @@ DeclaredRecording ReadDeclarations(ConfigMap* top, const LoadOptions& options,
   recording.dataset = dataset;
   ReadTable(RecordingTable(), top, &recording);
   top->Finish();
+  RequireFiles(recording);
   return recording;
 }
 

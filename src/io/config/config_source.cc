@@ -40,9 +40,6 @@ void ReadFile(ConfigMap* map, StreamConfig* stream) {
   std::vector<std::string> absolute;
   for (const std::string& file : FileNames(map)) {
     paths.push_back((stream->folder / file).lexically_normal().string());
-    if (!PathExists(paths.back())) {
-      map->Fail("file", "there is no file " + paths.back());
-    }
     if (std::count(paths.begin(), paths.end(), paths.back()) > 1) {
       map->Fail("file", paths.back() + " stands twice");
     }

@@ -31,7 +31,9 @@ Stamp FirstOf(const StampGuess& dated) {
   const double whole = std::floor(dated.first);
   const Stamp since_1970 = {static_cast<std::int64_t>(whole),
                             dated.first - whole};
-  if (dated.unit != "GPST") return GpsFromUnix(since_1970);
+  const bool utc =
+      dated.unit != "GPST" && dated.scale != StampGuess::Scale::kWeek;
+  if (utc) return GpsFromUnix(since_1970);
   return Stamp{since_1970.seconds - kGpsEpochUnix, since_1970.fraction};
 }
 
@@ -75,6 +77,10 @@ void SetTime(std::string start, const std::string& duration,
   const bool unix_scale =
       found->stamps && found->stamps->scale == StampGuess::Scale::kUnix;
   if (unix_scale && start.empty()) parts.emplace_back("clock: unix");
+  if (found->stamps && found->stamps->scale == StampGuess::Scale::kWeek &&
+      start.empty()) {
+    parts.push_back(fmt::format("week: {}", found->stamps->week));
+  }
   if (parts.empty()) return;
   std::string value;
   for (const std::string& part : parts) {
@@ -172,9 +178,32 @@ void BeginTogether(RecordingDraft* draft) {
   if (!imu->stamps->rate) draft->assumptions.push_back(why);
 }
 
+/// Seconds of the week without the week, beside a stream that has both and overlaps.
+void ShareWeek(RecordingDraft* draft) {
+  std::vector<FoundStream*> all = {&*draft->imu};
+  for (StreamDraft& stream : draft->aiding) all.push_back(&stream.found);
+  if (draft->truth) all.push_back(&*draft->truth);
+  const auto weekly =
+      std::find_if(all.begin(), all.end(), [](const FoundStream* found) {
+        return found->stamps &&
+               found->stamps->scale == StampGuess::Scale::kWeek;
+      });
+  if (weekly == all.end()) return;
+  for (FoundStream* found : all) {
+    if (!found->stamps || IsDated(*found) || found->stamps->rate) continue;
+    StampGuess shared = *found->stamps;
+    shared.scale = StampGuess::Scale::kWeek;
+    shared.week = (*weekly)->stamps->week;
+    shared.first += static_cast<double>(
+        kGpsEpochUnix + std::int64_t{shared.week} * kWeekSeconds);
+    if (Overlap(shared, *(*weekly)->stamps) > 0.5) found->stamps = shared;
+  }
+}
+
 }  // namespace
 
 void SetDraftClocks(RecordingDraft* draft) {
+  ShareWeek(draft);
   FoundStream& imu = *draft->imu;
   std::optional<Stamp> date;
   for (const StreamDraft& stream : draft->aiding) {

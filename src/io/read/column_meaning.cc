@@ -200,13 +200,18 @@ ColumnMeaning Other(const Words& words) {
       (HasAnyWord(words, {"zero"}) && HasAnyWord(words, {"vel", "velocity"}))) {
     return {"zero_velocity", ""};
   }
+  if (HasAnyWord(words, {"week", "weeks", "wk", "gwk", "wn"}) &&
+      !HasAnyWord(words, {"t", "time", "seconds", "sec", "s", "sow", "tow"})) {
+    return {"week", ""};
+  }
   if (HasAnyWord(words, {"index", "counter", "packet", "row", "id"})) {
     return {"index", ""};
   }
   if (HasAnyWord(words, {"fix", "quality", "mode"})) return {"quality", ""};
   if (HasAnyWord(words, {"movement", "moving"})) return {"moving", ""};
-  if (HasAnyWord(words, {"t", "time", "times", "timestamp", "stamp", "seconds",
-                         "sec", "tow", "utc", "sample", "when", "realtime"})) {
+  if (HasAnyWord(words,
+                 {"t", "time", "times", "timestamp", "stamp", "seconds", "sec",
+                  "tow", "sow", "utc", "sample", "when", "realtime"})) {
     return {"t", ""};
   }
   return {};
@@ -278,6 +283,10 @@ ColumnMeaning MeaningOfTitle(const std::string& title) {
   if (unit.empty()) unit = TakeUnitWord(&words);
   ColumnMeaning meaning = MeaningOfWords(words);
   meaning.unit = unit;
+  // "Week [s]" is its seconds.
+  if (meaning.quantity == "week" && UnitFactor(unit, Quantity::kTime)) {
+    meaning.quantity = "t";
+  }
   // "Gx [g]" is a force.
   if (meaning.quantity.starts_with("gyro_") &&
       UnitFactor(unit, Quantity::kAcceleration)) {

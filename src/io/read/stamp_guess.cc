@@ -7,9 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "base/median.h"
 #include "io/read/column_steps.h"
+#include "io/read/counted_rows.h"
 #include "io/read/text_format.h"
+#include "io/read/time_scale.h"
 #include "io/read/title_words.h"
 #include "io/read/units.h"
 #include "io/read/written_dates.h"
@@ -17,8 +18,6 @@
 namespace hindsight {
 namespace {
 
-/// Of steps against their median.
-constexpr double kEven = 1e-6;
 constexpr double kDay = 86400.0;
 
 /// Says what the columns of dates are.
@@ -57,6 +56,23 @@ void Tell(const Dates& dates, const FileColumns& file, StampGuess* guess) {
   }
 }
 
+/// Seconds of the week start again from zero on Sunday.
+void GoOnOverWeeks(std::vector<double>* t) {
+  double weeks = 0.0;
+  for (std::size_t k = 1; k < t->size(); ++k) {
+    (*t)[k] += weeks;
+    if ((*t)[k] - (*t)[k - 1] >= -0.5 * kWeekSeconds) continue;
+    weeks += kWeekSeconds;
+    (*t)[k] += kWeekSeconds;
+  }
+}
+
+bool HasWeek(const std::vector<ColumnMeaning>& meanings) {
+  return std::any_of(
+      meanings.begin(), meanings.end(),
+      [](const ColumnMeaning& m) { return m.quantity == "week"; });
+}
+
 /// The first column of numbers that grows: one that a title names, or else one
 /// that no title does, what counts rows one by one only if there is no other.
 int FindColumn(const FileColumns& file,
@@ -66,8 +82,9 @@ int FindColumn(const FileColumns& file,
     const bool fits =
         (titled ? meanings[i].quantity == "t" : meanings[i].quantity.empty()) &&
         file.columns[i].holds == FileColumn::Holds::kNumbers;
-    const auto& t = file.columns[i].values;
-    if (!fits || t.size() < 3) continue;
+    if (!fits || file.rows < 3) continue;
+    std::vector<double> t = file.columns[i].values;
+    if (titled && HasWeek(meanings)) GoOnOverWeeks(&t);
     const Steps steps = StepsOf(t);
     if (!Grows(t, steps) || (!titled && !IsSteady(t, steps))) continue;
     if (titled || steps.median != 1.0 || steps.unevenness > 0.0) {
@@ -119,109 +136,29 @@ std::string DayCountOf(double first, double step, const StampHints& hints) {
   return "";
 }
 
-/// Rows of whole seconds that several rows share come evenly; the first second may
-/// not be whole.
-bool RecogniseWholeSeconds(const std::vector<double>& t, StampGuess* guess) {
-  constexpr std::size_t kFewestSteps = 10;
-  std::vector<double> steps;
-  std::size_t first_step = 0;
-  for (std::size_t k = 1; k < t.size(); ++k) {
-    if (t[k] == t[k - 1]) continue;
-    if (first_step == 0) first_step = k;
-    steps.push_back(t[k] - t[k - 1]);
-  }
-  if (steps.size() < kFewestSteps || 2 * steps.size() > t.size()) return false;
-  if (std::abs(Median(steps) - 1.0) > kEven) return false;
-  std::size_t last_step = t.size() - 1;
-  while (t[last_step] == t[last_step - 1]) --last_step;
-  const double rows = static_cast<double>(last_step - first_step);
-  guess->rate = rows / (t[last_step] - t[first_step]);
-  guess->step = 1.0 / *guess->rate;
-  guess->first = t[first_step] - static_cast<double>(first_step) * guess->step;
-  guess->span = static_cast<double>(t.size() - 1) * guess->step;
-  guess->gap = guess->step;
-  guess->repeated = false;
-  guess->starts = true;
-  guess->certainty = Certainty::kLikely;
-  guess->reason = fmt::format(
-      "the stamps are whole seconds: rows are counted at {:g} Hz from where "
-      "the first second must have begun",
-      *guess->rate);
-  return true;
-}
-
-bool IsWhole(double value, double tolerance) {
-  return value > 0.5 && std::abs(value - std::round(value)) < tolerance * value;
-}
-
-/// An axis drawn from 0 to D in N points, where N rows of D/N were meant.
-void RecogniseDrawnAxis(std::size_t rows, const Steps& steps,
-                        StampGuess* guess) {
-  if (rows < 50 || steps.unevenness > kEven) return;
-  const double rate = static_cast<double>(rows) / guess->span;
-  if (!IsWhole(rate, 1e-9) || IsWhole(1.0 / guess->step, 1e-6)) return;
-  guess->rate = std::round(rate);
-  guess->certainty = Certainty::kLikely;
-  guess->reason = fmt::format(
-      "the stamps are {} points drawn evenly from 0 to {:g} s: rows are "
-      "counted "
-      "at {:g} Hz instead, a stretch of {:.3g} %",
-      rows, guess->span, *guess->rate, 100.0 / static_cast<double>(rows - 1));
-  guess->step = 1.0 / *guess->rate;
-  guess->span = static_cast<double>(rows - 1) * guess->step;
-}
-
-/// Stamps that tell ten times the time that the IMU recorded.
-void RecogniseWrongScale(std::size_t rows, const StampHints& hints,
-                         StampGuess* guess) {
-  if (!hints.span || guess->rate || guess->scale != StampGuess::Scale::kOwn) {
+/// Seconds of the week that another column counts.
+void RecogniseWeek(const FileColumns& file,
+                   const std::vector<ColumnMeaning>& meanings,
+                   StampGuess* guess) {
+  if (guess->rate || guess->scale != StampGuess::Scale::kOwn ||
+      guess->first < 0.0 || guess->first >= kWeekSeconds) {
     return;
   }
-  const double ratio = guess->span / *hints.span;
-  const double power = std::round(std::log10(ratio));
-  if (power == 0.0 || std::abs(std::log10(ratio) - power) > 0.013) return;
-  const double seconds = guess->step / std::pow(10.0, power);
-  guess->rate = 1.0 / seconds;
-  guess->certainty = Certainty::kLikely;
-  guess->reason = fmt::format(
-      "the stamps span {:.4g} times the record of the IMU: rows are counted at "
-      "{:g} Hz instead",
-      ratio, *guess->rate);
-  guess->step = seconds;
-  guess->span = static_cast<double>(rows - 1) * seconds;
-  guess->first = 0.0;
-}
-
-/// The whole number of rows a second, or of seconds a row, within 5 %; else the
-/// rate itself.
-double NearWhole(double rate) {
-  constexpr double kNear = 0.05;
-  const bool slow = rate < 1.0;
-  const double whole = std::round(slow ? 1.0 / rate : rate);
-  const double nearest = slow ? 1.0 / whole : whole;
-  return std::abs(rate / nearest - 1.0) < kNear ? nearest : rate;
-}
-
-/// Without stamps: at the IMU's rate, or as long as the IMU recorded where that
-/// would be another length.
-std::optional<StampGuess> Counted(std::size_t rows, const StampHints& hints) {
-  if (!hints.count_rate || rows < 2) return std::nullopt;
-  StampGuess guess;
-  const double steps = static_cast<double>(rows - 1);
-  guess.rate = hints.count_rate;
-  std::string as = hints.rate_stated ? "as the file says" : "as the IMU's";
-  constexpr double kAsLong = 0.1;
-  if (!hints.rate_stated && hints.span && *hints.span > 0.0 &&
-      std::abs(steps / (*guess.rate * *hints.span) - 1.0) > kAsLong) {
-    guess.rate = NearWhole(steps / *hints.span);
-    as = "for a record as long as the IMU's";
+  for (std::size_t i = 0; i < meanings.size(); ++i) {
+    const std::vector<double>& v = file.columns[i].values;
+    if (meanings[i].quantity != "week" ||
+        !std::all_of(v.begin(), v.end(), [&](double week) {
+          return week == std::floor(week) && week > 0.0 && week <= kLastWeek &&
+                 week - v.front() <= 1.0 && week >= v.front();
+        })) {
+      continue;
+    }
+    guess->scale = StampGuess::Scale::kWeek;
+    guess->week = static_cast<int>(v.front());
+    guess->first += static_cast<double>(
+        kGpsEpochUnix + std::int64_t{guess->week} * kWeekSeconds);
+    return;
   }
-  guess.step = 1.0 / *guess.rate;
-  guess.span = steps * guess.step;
-  if (!hints.rate_stated) guess.certainty = Certainty::kLikely;
-  guess.reason =
-      fmt::format("rows are counted at {:g} Hz, {}", *guess.rate, as);
-  return guess;
 }
 
 }  // namespace
@@ -248,9 +185,10 @@ std::optional<StampGuess> GuessStamps(
   } else if (guess.column < 0) {
     guess.column = FindColumn(file, meanings, false);
   }
-  if (guess.column < 0) return Counted(file.rows, hints);
+  if (guess.column < 0) return CountedRows(file.rows, hints);
   const auto index = static_cast<std::size_t>(guess.column);
-  const std::vector<double>& t = dates ? dates->t : file.columns[index].values;
+  std::vector<double> t = dates ? dates->t : file.columns[index].values;
+  if (!dates && HasWeek(meanings)) GoOnOverWeeks(&t);
   const Steps steps = StepsOf(t);
   guess.repeated = steps.repeated;
   guess.unordered = steps.unordered;
@@ -265,7 +203,7 @@ std::optional<StampGuess> GuessStamps(
       dates ? "" : DayCountOf(t.front(), steps.median, hints);
   if (MostlyStand(t) &&
       (dates || is_unix(t.front()) || known == std::optional(1.0))) {
-    if (!RecogniseWholeSeconds(t, &guess)) return Counted(file.rows, hints);
+    if (!RecogniseWholeSeconds(t, &guess)) return CountedRows(file.rows, hints);
     if (!dates && is_unix(t.front())) guess.scale = StampGuess::Scale::kUnix;
     return guess;
   }
@@ -287,7 +225,7 @@ std::optional<StampGuess> GuessStamps(
   } else if (!dates) {
     const TimeUnit* unit =
         UnitOfSteps(steps.median, t.back() - t.front(), hints);
-    if (unit == nullptr) return Counted(file.rows, hints);
+    if (unit == nullptr) return CountedRows(file.rows, hints);
     guess.unit = unit->name;
     factor = unit->seconds;
     guess.certainty = Certainty::kLikely;
@@ -302,6 +240,7 @@ std::optional<StampGuess> GuessStamps(
   if (is_unix(guess.first)) {
     guess.scale = StampGuess::Scale::kUnix;
   }
+  RecogniseWeek(file, meanings, &guess);
   RecogniseDrawnAxis(t.size(), steps, &guess);
   RecogniseWrongScale(t.size(), hints, &guess);
   return guess;
@@ -326,6 +265,7 @@ std::vector<double> TimesOf(const FileColumns& file, const StampGuess& stamps) {
                : factor * (value(stamps.column, i) - first_day.value_or(0.0));
     if (stamps.date_column >= 0) t[i] += value(stamps.date_column, i);
   }
+  if (stamps.scale == StampGuess::Scale::kWeek) GoOnOverWeeks(&t);
   if (stamps.unit == kTimeOfDayUnit) {
     const FileColumn& column =
         file.columns[static_cast<std::size_t>(stamps.column)];

@@ -23,7 +23,7 @@ const char* CertaintyName(Certainty certainty);
 /// How the rows of a file become times.
 struct StampGuess {
   /// What they count from; dates are in the scale that `unit` says.
-  enum class Scale { kOwn, kUnix, kDate };
+  enum class Scale { kOwn, kUnix, kDate, kWeek };
   int column = -1;       ///< of the stamps; -1: there is none
   int date_column = -1;  ///< where `column` holds times of day
   /// Of the column; of dates UTC or GPST, of times of day kTimeOfDayUnit.
@@ -31,7 +31,8 @@ struct StampGuess {
   std::optional<double> rate;  ///< times are row numbers over this [Hz]
   bool starts = false;         ///< and begin at `first`
   Scale scale = Scale::kOwn;
-  double first = 0.0;      ///< [s]; of dates since 1970
+  int week = 0;            ///< of kWeek: GPS week of the first row
+  double first = 0.0;      ///< [s]; of dates and weeks since 1970
   double step = 0.0;       ///< the median one [s]
   double span = 0.0;       ///< last minus first [s]
   double gap = 0.0;        ///< the longest step [s]
