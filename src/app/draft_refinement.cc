@@ -12,6 +12,7 @@
 #include "app/draft_places.h"
 #include "app/draft_timing.h"
 #include "app/draft_turns.h"
+#include "app/draft_wheel.h"
 #include "base/error.h"
 #include "base/units.h"
 #include "dataset/checks.h"
@@ -64,6 +65,7 @@ class Refiner {
     if (!Load()) return;
     TellClocks(dataset_, &draft_);
     if (!Load()) return;
+    if (TellWheels(dataset_, &draft_) && !Load()) return;
     TellStretch(dataset_, &draft_);
     if (const std::string odd = WarnAboutGyroUnit(dataset_); !odd.empty()) {
       draft_.Assume(odd);

@@ -7,7 +7,6 @@
 
 #include "dataset/clock_drift.h"
 #include "dataset/clock_search.h"
-#include "dataset/wheel_speed.h"
 #include "io/config/key_line_edit.h"
 
 namespace hindsight {
@@ -62,30 +61,6 @@ void TakeClockInto(const ClockSearch& found, StreamDraft* stream,
           &lines);
 }
 
-/// Radius, direction and clock of a wheel by the speed of the positions.
-void TellWheel(const AidingStream& stream, const Dataset& dataset,
-               StreamDraft* drafted, RecordingDraft* draft) {
-  const auto found = FindWheel(stream, dataset);
-  if (!found) {
-    draft->Assume(drafted->name +
-                  ": no position shows the radius of the wheel");
-    return;
-  }
-  std::vector<KeyLine>& lines = drafted->found.lines;
-  const KeyLine* speed = FindLine(lines, "  speed");
-  const std::size_t at = speed->value.find("scale: ") + 7;
-  const double scale = std::stod(speed->value.substr(at)) * found->factor;
-  SetLine(
-      {"  speed", speed->value.substr(0, at) + fmt::format("{:.6g}}}", scale),
-       fmt::format("a wheel of {:.3f} m radius, by the speed of the "
-                   "positions, correlation {:.3f} (likely)",
-                   std::abs(0.3 * found->factor), found->correlation)},
-      &lines);
-  SetLine({"time_offset", fmt::format("{:.2f} s", found->offset),
-           "by the speed of the positions (likely)"},
-          &lines);
-}
-
 }  // namespace
 
 void TellClocks(const Dataset& dataset, RecordingDraft* draft) {
@@ -95,10 +70,7 @@ void TellClocks(const Dataset& dataset, RecordingDraft* draft) {
         stream.sensor.kind->magnetic || stream.sensor.kind->standing) {
       continue;
     }
-    if (drafted->found.spin_axis) {
-      TellWheel(stream, dataset, drafted, draft);
-      continue;
-    }
+    if (drafted->found.spin_axis) continue;
     const ClockSearch found = SearchClock(dataset.imu, dataset.initial, stream);
     TakeClockInto(found, drafted, draft);
   }

@@ -10,7 +10,7 @@ namespace hindsight {
 /// each with the reason.
 ///
 /// The offset of each stream's clock (SearchClock), every one where several fit;
-/// of an IMU on a wheel also its radius and direction (FindWheel).
+/// those of IMUs on wheels are told with the wheels (TellWheels).
 void TellClocks(const Dataset& dataset, RecordingDraft* draft);
 
 /// Of attitude alone: how late a magnetometer's stamps are, where its field turns

@@ -216,7 +216,6 @@ class Drafter {
   /// An IMU on a wheel counts as the speed of that wheel, of a radius that only
   /// the motion tells.
   void AddWheel(FoundStream found) {
-    constexpr double kUsualRadius = 0.3;
     const int axis = *found.spin_axis;
     const auto column = static_cast<std::size_t>(
         found.imu_guess->gyro.columns[static_cast<std::size_t>(axis)]);
@@ -228,12 +227,14 @@ class Drafter {
              line.key.starts_with("  accel_");
     });
     found.kinds = {&OdometerKind()};
+    found.wheel_rate = true;
     found.lines.push_back(
         {"  speed",
          fmt::format("{{column: {}, unit: m/s, scale: {:.6g}}}", column + 1,
-                     kUsualRadius * factor),
+                     kUsualWheelRadius * factor),
          fmt::format("rate about {} times a radius of {:g} m (a guess)",
-                     "xyz"[static_cast<std::size_t>(axis)], kUsualRadius)});
+                     "xyz"[static_cast<std::size_t>(axis)],
+                     kUsualWheelRadius)});
     found.assumptions.emplace_back(
         "an IMU that spins is taken for one on a wheel, an odometer");
     files_.others.push_back(std::move(found));

@@ -116,6 +116,13 @@ ColumnMeaning Inertial(const Words& words) {
   return {};
 }
 
+/// How fast a wheel turns: "rpm", "wheel_rate", "wheel speed [rad/s]" (by its unit).
+bool IsWheelRate(const Words& words) {
+  return HasAnyWord(words, {"rpm"}) ||
+         (HasAnyWord(words, {"wheel"}) &&
+          HasAnyWord(words, {"rate", "omega", "rot", "rotation"}));
+}
+
 /// "Roll rate" about x, "yaw rate" about z; '\0' of another.
 char AxisOfRate(const Words& words) {
   if (!HasAnyWord(words, {"rate", "rates", "speed", "velocity"})) return '\0';
@@ -232,6 +239,7 @@ ColumnMeaning MeaningOfWords(const Words& words) {
   }
   // Counters of time are told before times.
   if (HasAnyWord(words, {"index", "counter", "zero"})) return Other(words);
+  if (IsWheelRate(words)) return {"wheel_rate", ""};
   for (const auto reading : {Attitude, Inertial, Velocity, Place, Other}) {
     if (ColumnMeaning meaning = reading(words); !meaning.quantity.empty()) {
       return meaning;
@@ -286,6 +294,10 @@ ColumnMeaning MeaningOfTitle(const std::string& title) {
   // "Week [s]" is its seconds.
   if (meaning.quantity == "week" && UnitFactor(unit, Quantity::kTime)) {
     meaning.quantity = "t";
+  }
+  if (meaning.quantity == "speed" && HasAnyWord(words, {"wheel"}) &&
+      UnitFactor(unit, Quantity::kAngularRate)) {
+    meaning.quantity = "wheel_rate";
   }
   // "Gx [g]" is a force.
   if (meaning.quantity.starts_with("gyro_") &&

@@ -11,7 +11,7 @@ namespace hindsight {
 /// What the title of a column says of it.
 struct ColumnMeaning {
   /// As `columns` of a configuration names it: "t", "accel_x", "lat"; also
-  /// "week" of GPS, "index" for what counts rows, "sigma" of every axis, and "accuracy_h",
+  /// "week" of GPS, "wheel_rate", "index" for what counts rows, "sigma" of every axis, and "accuracy_h",
   /// "accuracy_v" and "accuracy_speed" as receivers state them; "" if the title
   /// says nothing.
   std::string quantity;

@@ -28,6 +28,9 @@ void SetLine(KeyLine line, std::vector<KeyLine>* lines);
 const KeyLine* FindLine(const std::vector<KeyLine>& lines,
                         const std::string& key);
 
+/// Of a wheel whose radius only the motion tells [m].
+inline constexpr double kUsualWheelRadius = 0.3;
+
 /// A stream that was found in a file or folder.
 struct FoundStream {
   std::string file = {};  ///< its name, which is the caller's to set
@@ -47,7 +50,10 @@ struct FoundStream {
   std::optional<ImuGuess> imu_guess = {};
   /// Of an IMU on a wheel: the axis about which it spins, 0 to 2.
   std::optional<int> spin_axis = {};
-  std::vector<std::string> remarks = {};      ///< what was odd
+  /// Of an odometer that reads the rate of a wheel, times kUsualWheelRadius.
+  bool wheel_rate = false;
+  bool speed_unit_told = true;            ///< of an odometer: its title says it
+  std::vector<std::string> remarks = {};  ///< what was odd
   std::vector<std::string> assumptions = {};  ///< what may be otherwise
   double top_speed = 0.0;                     ///< of positions [m/s]
   /// Of positions: false where the unit, or which column is the latitude, is a

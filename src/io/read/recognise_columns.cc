@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "base/median.h"
+#include "base/units.h"
 #include "io/read/column_choice.h"
 #include "io/read/column_lines.h"
 #include "io/read/fix_guess.h"
@@ -330,9 +331,37 @@ class Recogniser {
         IsNamed({"can", "odometer", "odo", "speed", "wheel", "vehicle"});
     const bool of_fixes =
         lines_.Titled("lat") >= 0 || lines_.Titled("course") >= 0;
-    if (!vehicle || of_fixes || lines_.Titled("speed") < 0 || named_truth_)
-      return;
-    AddTitled(OdometerKind(), {"speed"}, {});
+    if (of_fixes || named_truth_) return;
+    if (lines_.Titled("wheel_rate") >= 0 && !ImuHere()) {
+      AddWheelRate();
+    } else if (vehicle && lines_.Titled("speed") >= 0) {
+      AddTitled(OdometerKind(), {"speed"}, {});
+      const int column = lines_.Titled("speed");
+      const auto& meaning = lines_.meanings()[static_cast<std::size_t>(column)];
+      all_.back().speed_unit_told =
+          UnitFactor(meaning.unit, Quantity::kSpeed).has_value();
+    }
+  }
+
+  /// The rate of a wheel times a usual radius.
+  void AddWheelRate() {
+    const int column = lines_.Titled("wheel_rate");
+    const std::string& unit =
+        lines_.meanings()[static_cast<std::size_t>(column)].unit;
+    constexpr double kRpm = 2.0 * kPi / 60.0;  // rad/s
+    const auto stated = UnitFactor(unit, Quantity::kAngularRate);
+    FoundStream found = lines_.Stream();
+    found.kinds = {&OdometerKind()};
+    found.wheel_rate = true;
+    ColumnLines::AddLine(
+        {"  speed",
+         fmt::format("{{column: {}, unit: m/s, scale: {:.6g}}}", column + 1,
+                     kUsualWheelRadius * stated.value_or(kRpm)),
+         fmt::format("{} times a radius of {:g} m (a guess)",
+                     stated ? "its rate" : "turns a minute",
+                     kUsualWheelRadius)},
+        &found);
+    all_.push_back(std::move(found));
   }
 
   /// All that a reference may say.

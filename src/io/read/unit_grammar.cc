@@ -18,6 +18,8 @@ struct NamedUnit {
   UnitMeaning unit;
 };
 
+constexpr double kMilePerHour = 1609.344 / 3600.0;  // m/s
+
 constexpr Dimension kNone{};
 constexpr Dimension kLength{2, 0, 0, 0};
 constexpr Dimension kTime{0, 2, 0, 0};
@@ -41,10 +43,12 @@ constexpr std::array kUnits = {
     NamedUnit{"kHz", {1e3, kPerTime}},
     NamedUnit{"m", {1.0, kLength}},
     NamedUnit{"mm", {1e-3, kLength}},
+    NamedUnit{"um", {1e-6, kLength}},
     NamedUnit{"cm", {1e-2, kLength}},
     NamedUnit{"km", {1e3, kLength}},
     NamedUnit{"ft", {0.3048, kLength}},
     NamedUnit{"kn", {kKnot, kSpeed}},
+    NamedUnit{"mph", {kMilePerHour, kSpeed}},
     NamedUnit{"rad", {1.0, kAngle}},
     NamedUnit{"mrad", {1e-3, kAngle}},
     NamedUnit{"urad", {1e-6, kAngle}},
@@ -80,18 +84,18 @@ struct Synonym {
 
 /// Whole words of data sheets and of the titles of columns.
 constexpr std::array kSynonyms = {
-    Synonym{"hr", "h"},          Synonym{"hour", "h"},
-    Synonym{"hours", "h"},       Synonym{"sec", "s"},
-    Synonym{"second", "s"},      Synonym{"seconds", "s"},
-    Synonym{"msec", "ms"},       Synonym{"usec", "us"},
-    Synonym{"degree", "deg"},    Synonym{"degrees", "deg"},
-    Synonym{"radian", "rad"},    Synonym{"radians", "rad"},
-    Synonym{"meter", "m"},       Synonym{"meters", "m"},
-    Synonym{"metre", "m"},       Synonym{"metres", "m"},
-    Synonym{"knot", "kn"},       Synonym{"knots", "kn"},
-    Synonym{"gauss", "G"},       Synonym{"Gauss", "G"},
-    Synonym{"mgauss", "mG"},     Synonym{"mGauss", "mG"},
-    Synonym{"microtesla", "uT"},
+    Synonym{"hr", "h"},       Synonym{"hour", "h"},
+    Synonym{"hours", "h"},    Synonym{"sec", "s"},
+    Synonym{"second", "s"},   Synonym{"seconds", "s"},
+    Synonym{"msec", "ms"},    Synonym{"usec", "us"},
+    Synonym{"degree", "deg"}, Synonym{"degrees", "deg"},
+    Synonym{"radian", "rad"}, Synonym{"radians", "rad"},
+    Synonym{"meter", "m"},    Synonym{"meters", "m"},
+    Synonym{"metre", "m"},    Synonym{"metres", "m"},
+    Synonym{"knot", "kn"},    Synonym{"knots", "kn"},
+    Synonym{"gauss", "G"},    Synonym{"Gauss", "G"},
+    Synonym{"mgauss", "mG"},  Synonym{"mGauss", "mG"},
+    Synonym{"gn", "g"},
 };
 
 std::optional<UnitMeaning> FindUnit(std::string_view name) {
@@ -143,14 +147,37 @@ void RaiseExponents(std::string* text) {
 /// In ASCII, without the brackets around a first factor, a root as sqrt().
 std::string PlainUnit(std::string_view unit) {
   static constexpr std::array kWritten = {
-      Synonym{"\u00b5", "u"},          Synonym{"\u03bc", "u"},
-      Synonym{"\u00b0", "deg"},        Synonym{"\u00ba", "deg"},
-      Synonym{"\u00b2", "^2"},         Synonym{"\u00b3", "^3"},
-      Synonym{"\u221a", "sqrt"},       Synonym{"\u00b7", "*"},
-      Synonym{"/root", "/sqrt"},       Synonym{"/rt", "/sqrt"},
-      Synonym{"Hz^(1/2)", "sqrt(Hz)"}, Synonym{"Hz^0.5", "sqrt(Hz)"},
-      Synonym{"h^0.5", "sqrt(h)"},     Synonym{"h^(1/2)", "sqrt(h)"},
-      Synonym{"mdps", "mdeg/s"},       Synonym{"dps", "deg/s"},
+      Synonym{"\u00b5", "u"},
+      Synonym{"\u03bc", "u"},
+      Synonym{"\u00b0", "deg"},
+      Synonym{"\u00ba", "deg"},
+      Synonym{"\u00b2", "^2"},
+      Synonym{"\u00b3", "^3"},
+      Synonym{"\u221a", "sqrt"},
+      Synonym{"\u00b7", "*"},
+      Synonym{"\u00bd", "^0.5"},
+      Synonym{"\u2044", "/"},
+      Synonym{"\u2215", "/"},
+      Synonym{"\u2099", "n"},
+      Synonym{" rms", ""},
+      Synonym{" RMS", ""},
+      Synonym{"HZ", "Hz"},
+      Synonym{"microtesla", "uT"},
+      Synonym{"micro-", "u"},
+      Synonym{"microg", "ug"},
+      Synonym{"milli-", "m"},
+      Synonym{"millig", "mg"},
+      Synonym{" Hz^-0.5", "/sqrt(Hz)"},
+      Synonym{" Hz^-1/2", "/sqrt(Hz)"},
+      Synonym{"DPS", "deg/s"},
+      Synonym{"/root", "/sqrt"},
+      Synonym{"/rt", "/sqrt"},
+      Synonym{"Hz^(1/2)", "sqrt(Hz)"},
+      Synonym{"Hz^0.5", "sqrt(Hz)"},
+      Synonym{"h^0.5", "sqrt(h)"},
+      Synonym{"h^(1/2)", "sqrt(h)"},
+      Synonym{"mdps", "mdeg/s"},
+      Synonym{"dps", "deg/s"},
       Synonym{" per ", "/"},
   };
   std::string text(Trim(unit));

@@ -20,7 +20,7 @@ const char* UnitExamples(Quantity quantity);
 
 /// Factor from `unit` to the SI unit of `quantity`, or nothing if the unit is
 /// unknown or of another dimension. A unit is a product or quotient of
-///   s ms us ns min h, Hz kHz, m mm cm km ft, kn, rad mrad urad deg mdeg
+///   s ms us ns min h, Hz kHz, m mm um cm km ft, kn mph, rad mrad urad deg mdeg
 ///   arcmin arcsec, g mg ug Gal mGal, uT nT mT G mG, 1 % ppm
 /// with ^n and sqrt(): "deg/sqrt(h)", "m/s^2", "ug/sqrt(Hz)"; also as data sheets
 /// write them: dps and mdps, a degree sign, a micro sign, a root sign or rtHz or
