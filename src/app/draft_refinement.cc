@@ -59,6 +59,8 @@ class Refiner {
       if (!Load()) return;
       SetAxes();
       if (!Load()) return;
+      TellReadingNoise(dataset_, &draft_);
+      if (!Load()) return;
     }
     TakePlaceOfTruth();
     TellFixNoise(dataset_, &draft_);

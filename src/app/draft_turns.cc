@@ -14,8 +14,10 @@ namespace {
 /// Whether a line names a column of the IMU, or of its accelerometers' own file.
 bool IsColumnOf(const KeyLine& line, std::string_view family) {
   const std::size_t at = line.key.find_first_not_of(' ');
-  return at != std::string::npos && at > 0 &&
-         std::string_view(line.key).substr(at).starts_with(family);
+  if (at == std::string::npos || at == 0) return false;
+  const std::string_view key = std::string_view(line.key).substr(at);
+  return key.size() == family.size() + 1 && key.starts_with(family) &&
+         key.back() >= 'x' && key.back() <= 'z';
 }
 
 void AddReason(const std::string& why, KeyLine* line) {

@@ -3,6 +3,7 @@
 
 #include "base/units.h"
 #include "io/binary_files.h"
+#include "io/read/date_text.h"
 #include "io/read/time_scale.h"
 #include "io/sample_folder.h"
 

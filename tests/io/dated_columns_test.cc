@@ -121,6 +121,8 @@ INSTANTIATE_TEST_SUITE_P(
                      "{:%Y-%m-%d,%H:%M:%S}"},
         DateSpelling{"TwoByBlanks", "date time", "date time",
                      "{:%Y/%m/%d %H:%M:%S}", ' '},
+        DateSpelling{"DaysAndPoints", "Datum", "Datum", "{:%d.%m.%Y %H:%M:%S}",
+                     ';'},
         DateSpelling{"OneTitleForTwo", "time", "time", "{:%Y-%m-%d %H:%M:%S}",
                      ' '}),
     [](const auto& info) { return std::string(info.param.name); });

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "io/read/date_text.h"
 #include "io/read/time_scale.h"
 #include "io/sample_folder.h"
 

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <string>
 
+#include "io/read/date_text.h"
+
 namespace hindsight {
 namespace {
 
@@ -77,6 +79,29 @@ TEST(TimeScale, IsoTimesHaveZonesAndLeapSeconds) {
   }
 }
 
+TEST(TimeScale, DatesAreReadInTheOrderThatIsSaid) {
+  using enum DateOrder;
+  const auto eighth = ParseDateTime("2025-07-08 13:04:05.5 UTC");
+  const auto since = [&](const char* text, DateOrder order) {
+    const auto stamp = ParseIsoTime(text, true, order);
+    return stamp ? stamp->Since(*eighth) : -1.0;
+  };
+  EXPECT_EQ(since("8.7.2025 13:04:05.5", kYearFirst), 0.0);
+  EXPECT_EQ(since("08.07.2025T13:04:05.5Z", kMonthFirst), 0.0);
+  EXPECT_EQ(since("08/07/2025 13:04:05.5", kDayFirst), 0.0);
+  EXPECT_EQ(since("7/8/2025 1:04:05.5 PM", kMonthFirst), 0.0);
+  EXPECT_EQ(since("07/08/2025 01:04:05.5 pm", kMonthFirst), 0.0);
+  EXPECT_EQ(since("2025/07/08 13:04:05.5", kDayFirst), 0.0);
+  EXPECT_EQ(since("2025-07-08 12:04:05.5 AM", kYearFirst), -13.0 * 3600.0);
+  EXPECT_EQ(since("2025-07-08 12:04:05.5 PM", kYearFirst), -3600.0);
+  for (const char* text :
+       {"08/07/2025 13:04:05", "8.7.25 13:04:05", "2025-07-08 13:04:05 PM",
+        "2025-07-08 0:04:05 AM", "2025-07-08 13:4:05", "2025-07-08 -1:04:05"}) {
+    EXPECT_FALSE(ParseIsoTime(text, true)) << text;
+  }
+  EXPECT_FALSE(ParseIsoTime("29/06/2025 13:04:05", true, kMonthFirst));
+}
+
 TEST(TimeScale, UnixTimeGainsTheLeapSeconds) {
   const Stamp gps = GpsFromUnix({1483228800, 0.25});  // 2017-01-01 UTC
   const auto date = ParseDateTime("2017-01-01 00:00:00 UTC");
@@ -84,9 +109,9 @@ TEST(TimeScale, UnixTimeGainsTheLeapSeconds) {
 }
 
 TEST(TimeScale, RefusesWhatIsNoDate) {
-  for (const char* text :
-       {"2025-07-08 00:00:00", "2025-02-30 00:00:00 GPST",
-        "2025-07-08 25:00:00 UTC", "08.07.2025 00:00:00 UTC", "GPST"}) {
+  for (const char* text : {"2025-07-08 00:00:00", "2025-02-30 00:00:00 GPST",
+                           "2025-07-08 25:00:00 UTC", "08/07/2025 00:00:00 UTC",
+                           "31.02.2025 00:00:00 UTC", "GPST"}) {
     EXPECT_FALSE(ParseDateTime(text)) << text;
   }
 }

@@ -71,9 +71,10 @@ std::vector<std::string> SplitWords(const std::string& name) {
     }
     if (!word.empty()) {
       const bool was_alpha = IsAlpha(word.back());
-      const bool hump = i > 0 && IsUpper(c) && IsAlpha(name[i - 1]) &&
-                        (!IsUpper(name[i - 1]) ||
-                         (IsLowerAt(name, i + 1) && IsLowerAt(name, i + 2)));
+      const bool hump =
+          i > 0 && IsUpper(c) && IsAlpha(name[i - 1]) &&
+          (!IsUpper(name[i - 1]) ||
+           (i > 1 && IsLowerAt(name, i + 1) && IsLowerAt(name, i + 2)));
       if (hump || was_alpha == digit) end();
     }
     word += Lower(c);
