@@ -3,10 +3,12 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "app/terminal.h"
+#include "imu/imu_noise.h"
 #include "io/config/config_edit.h"
 #include "io/read/text_file.h"
 #include "io/write/atomic_file.h"
@@ -47,12 +49,26 @@ std::vector<ConfigEdit::Path> PathsOf(const std::string& name,
   return {};
 }
 
+/// White noise of the IMU that is a device's, by `like`; nothing of another.
+std::optional<std::string> OfDevice(const std::string& name,
+                                    const Dataset& dataset,
+                                    const ConfigEdit& edit) {
+  if (!edit.Value({"imu", "noise", "like"})) return std::nullopt;
+  for (const ImuNoiseValue& value : ImuNoiseValues()) {
+    if (name != "imu." + std::string(value.name)) continue;
+    return fmt::format("{:.3g} {}", dataset.imu.noise.*value.at / value.unit_si,
+                       value.unit);
+  }
+  return std::nullopt;
+}
+
 /// Whether the factor was written where the configuration says what it scales.
 bool WriteFactor(const NoiseFactor& noise, const Dataset& dataset,
                  ConfigEdit* edit) {
   const double spread = 2.0 * noise.log_sigma;
   for (const ConfigEdit::Path& path : PathsOf(noise.name, dataset)) {
-    const auto stated = edit->Value(path);
+    auto stated = edit->Value(path);
+    if (!stated) stated = OfDevice(noise.name, dataset, *edit);
     const bool is_scale = path.back() == "sigma_scale";
     if (!stated && !is_scale) continue;
     const std::string before = stated.value_or("1");

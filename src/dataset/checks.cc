@@ -13,6 +13,7 @@
 #include "dataset/magnetic_check.h"
 #include "dataset/repeated_readings.h"
 #include "dataset/stamp_check.h"
+#include "dataset/wheel_speed.h"
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {
@@ -140,15 +141,41 @@ std::string UnitOfStamps(double ratio) {
     const char* text;
   };
   constexpr std::array kUnits = {
-      Unit{1e3, "its stamps may be ms"}, Unit{1e6, "its stamps may be us"},
-      Unit{1e9, "its stamps may be ns"}, Unit{1e-3, "the IMU's may be ms"},
-      Unit{1e-6, "the IMU's may be us"}, Unit{1e-9, "the IMU's may be ns"}};
+      Unit{1e3, "its stamps may be ms"},
+      Unit{1e6, "its stamps may be us"},
+      Unit{1e9, "its stamps may be ns"},
+      Unit{1e-3, "the IMU's may be ms, or its own longer than they say"},
+      Unit{1e-6, "the IMU's may be us, or its own longer than they say"},
+      Unit{1e-9, "the IMU's may be ns, or its own longer than they say"}};
   for (const Unit& unit : kUnits) {
     if (std::abs(ratio / unit.ratio - 1.0) < 0.1) {
       return std::string("; ") + unit.text;
     }
   }
   return "";
+}
+
+/// A wheel that counts backward, or at another rate than the positions move by more
+/// than a scale factor would.
+void WarnAboutWheels(const Dataset& dataset,
+                     std::vector<std::string>* warnings) {
+  constexpr double kUsualScale = 0.3;
+  for (const AidingStream& stream : dataset.streams) {
+    if (stream.sensor.kind != &OdometerKind()) continue;
+    const auto wheel = FindWheel(stream, dataset);
+    const double forward =
+        (stream.sensor.q_sb.conjugate() * Eigen::Vector3d::UnitX()).x();
+    const double factor =
+        wheel ? std::copysign(1.0, forward) * wheel->factor : 1.0;
+    if (std::abs(factor - 1.0) < kUsualScale) continue;
+    warnings->push_back(fmt::format(
+        "{}: the positions move {:.3g} times as fast as it says: {}",
+        stream.sensor.name, factor,
+        factor < 0.0
+            ? "its sign is the other; put a \"-\" before its column under "
+              "`columns`, or turn its mounting"
+            : "correct its unit or its scale under `columns`"));
+  }
 }
 
 void WarnAboutStream(const StreamReport& stream, const StreamReport& imu,
@@ -160,12 +187,20 @@ void WarnAboutStream(const StreamReport& stream, const StreamReport& imu,
         stream.name, stream.delay, 1.0 / stream.rate));
   }
   const double span = stream.t_end - stream.t_begin;
+  constexpr long kMany = 20;
+  const std::string unit = UnitOfStamps(span / (imu.t_end - imu.t_begin));
+  if (span > 0.0 && span < 0.1 * (imu.t_end - imu.t_begin) &&
+      stream.count > kMany && !unit.empty()) {
+    warnings->push_back(fmt::format(
+        "{}: {} rows in {:.3g} s of the IMU's "
+        "{:.1f} s{}",
+        stream.name, stream.count, span, imu.t_end - imu.t_begin, unit));
+  }
   if (span > 0.0 && stream.overlap < 0.5 * span) {
     warnings->push_back(
         fmt::format("{}: only {:.1f} s of {:.1f} s lie within the IMU's "
                     "record{}",
-                    stream.name, stream.overlap, span,
-                    UnitOfStamps(span / (imu.t_end - imu.t_begin))));
+                    stream.name, stream.overlap, span, unit));
   }
 }
 
@@ -205,6 +240,7 @@ CheckReport CheckDataset(const Dataset& dataset) {
       !warning.empty()) {
     report.warnings.push_back(warning);
   }
+  WarnAboutWheels(dataset, &report.warnings);
   for (const StreamReport& stream : report.streams) {
     WarnAboutStream(stream, report.streams.front(), &report.warnings);
   }

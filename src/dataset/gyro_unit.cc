@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/units.h"
@@ -16,13 +17,17 @@ namespace hindsight {
 
 namespace {
 
-std::string UnitWarning(const std::string& turns, double factor) {
-  const bool degrees = factor < 1.0;
+std::string UnitWarning(const std::string& turns, double factor,
+                        ImuStream::Kind kind = ImuStream::Kind::kRates) {
+  const bool rates = kind == ImuStream::Kind::kRates;
+  std::string seen = rates ? "deg/s" : "deg";
+  std::string declared = rates ? "rad/s" : "rad";
+  if (factor > 1.0) std::swap(seen, declared);
+  const std::string stem = rates ? "gyro" : "dtheta";
   return fmt::format(
       "imu: {} {:.3g} times as far as the gyros say: they look like {}, "
-      "declared as {}; correct the unit of gyro_x, gyro_y, gyro_z under "
-      "`columns`",
-      turns, factor, degrees ? "deg/s" : "rad/s", degrees ? "rad/s" : "deg/s");
+      "declared as {}; correct the unit of {}_x, {}_y, {}_z under `columns`",
+      turns, factor, seen, declared, stem, stem, stem);
 }
 
 /// By gravity between quiet spells.
@@ -53,7 +58,8 @@ std::string ByGravity(const ImuStream& stream) {
 class TurnAboutVertical {
  public:
   explicit TurnAboutVertical(const ImuStream& stream)
-      : samples_(stream.samples) {
+      : samples_(stream.samples),
+        rates_(stream.kind == ImuStream::Kind::kRates) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const ImuSample& sample : samples_) mean += sample.accel;
     down_ = -mean.normalized();
@@ -61,14 +67,15 @@ class TurnAboutVertical {
 
   double At(double t) {
     for (; k_ + 1 < samples_.size() && samples_[k_].t < t; ++k_) {
-      turn_ += (samples_[k_ + 1].t - samples_[k_].t) *
-               down_.dot(samples_[k_ + 1].gyro);
+      const double step = rates_ ? samples_[k_ + 1].t - samples_[k_].t : 1.0;
+      turn_ += step * down_.dot(samples_[k_ + 1].gyro);
     }
     return turn_;
   }
 
  private:
   const PagedVector<ImuSample>& samples_;
+  bool rates_;
   Eigen::Vector3d down_;
   std::size_t k_ = 0;
   double turn_ = 0.0;
@@ -128,7 +135,7 @@ std::string ByCourse(const Dataset& dataset) {
   }
   for (const double factor : {kDegree, 1.0 / kDegree}) {
     if (IsNearRatio(*ratio, factor)) {
-      return UnitWarning("the course turns", factor);
+      return UnitWarning("the course turns", factor, dataset.imu.kind);
     }
   }
   if (IsNearRatio(*ratio, 1.0)) return "";
@@ -149,9 +156,7 @@ std::optional<double> CourseOverGyros(const Dataset& dataset) {
   constexpr double kTurned = 0.1;  // rad, root mean square
   constexpr double kAlike = 0.8;   // correlation
   const ImuStream& imu = dataset.imu;
-  if (imu.kind != ImuStream::Kind::kRates || imu.samples.size() < 2) {
-    return std::nullopt;
-  }
+  if (imu.samples.size() < 2) return std::nullopt;
   const auto [courses, gyros, both, count] = TurnsOf(dataset);
   if (count == 0 || courses < count * kTurned * kTurned || gyros <= 0.0 ||
       std::abs(both) < kAlike * std::sqrt(courses * gyros)) {
@@ -162,12 +167,10 @@ std::optional<double> CourseOverGyros(const Dataset& dataset) {
 
 std::string WarnAboutGyroUnit(const Dataset& dataset) {
   const ImuStream& imu = dataset.imu;
-  if (imu.kind != ImuStream::Kind::kRates || imu.samples.size() < 2 ||
-      imu.t_end() <= imu.t_begin()) {
-    return "";
-  }
-  const std::string by_course = ByCourse(dataset);
-  return by_course.empty() ? ByGravity(imu) : by_course;
+  if (imu.samples.size() < 2 || imu.t_end() <= imu.t_begin()) return "";
+  std::string by_course = ByCourse(dataset);
+  const bool rates = imu.kind == ImuStream::Kind::kRates;
+  return by_course.empty() && rates ? ByGravity(imu) : by_course;
 }
 
 }  // namespace hindsight

@@ -97,7 +97,10 @@ TEST_F(Messages, AStartThatNobodyGaveIsTheProgramsOwn) {
 
 TEST_F(Messages, AWheelThatCountsBackwards) {
   Simulate(kDriveWithWheels);
+  EXPECT_THAT(Check().out, HasSubstr("nothing looks wrong"));
   Change("wheel.csv", [](std::vector<double>* row) { (*row)[1] *= -1.0; });
+  EXPECT_THAT(Check().out, HasSubstr(" times as fast as it says: "
+                                     "its sign is the other"));
   Run("batch");
   EXPECT_THAT(Summary(), HasSubstr("a speed of the wrong sign"));
   EXPECT_THAT(Summary(), HasSubstr("before its column under `columns`"));
@@ -234,6 +237,26 @@ TEST_F(Messages, GyrosOfACarWhoseUnitIsAnotherOne) {
   EXPECT_THAT(Check().out,
               HasSubstr("the course turns against the gyros: they have the "
                         "other sign"));
+}
+
+TEST_F(Messages, IncrementsWhoseUnitIsAnotherOne) {
+  Simulate(kDriveWithWheels);
+  EXPECT_THAT(Check().out, Not(HasSubstr("they look like")));
+  Change("imu.csv", [](std::vector<double>* row) {
+    for (std::size_t i = 1; i < 4; ++i) (*row)[i] *= 180.0 / 3.14159265358979;
+  });
+  EXPECT_THAT(Check().out,
+              HasSubstr("they look like deg, declared as rad; correct the unit "
+                        "of dtheta_x"));
+}
+
+TEST_F(Messages, StampsWhoseUnitIsShorterThanTheyAre) {
+  Simulate(kDriveWithWheels);
+  EXPECT_THAT(Check().out, HasSubstr("nothing looks wrong"));
+  Change("gnss.csv", [](std::vector<double>* row) { (*row)[0] *= 1e-3; });
+  EXPECT_THAT(Check().out, HasSubstr("gnss: 51 rows in 0.05 s of the IMU's "
+                                     "50.0 s; the IMU's may be ms, or its own "
+                                     "longer than they say"));
 }
 
 TEST_F(Messages, OfFilesThatAreNoNames) {

@@ -59,6 +59,29 @@ TEST_F(OtherCommands, CheckWritesTheNoiseThatItFinds) {
   EXPECT_THAT(again.out, HasSubstr("nothing to write"));
 }
 
+/// A device's noise is no key that could be exchanged: what is found goes before it.
+TEST_F(OtherCommands, CheckWritesNoiseBesideThatOfADevice) {
+  recording_.Edit("config.yaml", [](std::vector<std::string>* lines) {
+    const auto noise = std::find(lines->begin(), lines->end(), "  noise:");
+    ASSERT_NE(noise, lines->end());
+    auto end = noise + 1;
+    while (end != lines->end() && end->starts_with("    ")) ++end;
+    lines->erase(noise + 1, end);
+    *noise = "  noise: {like: MTi-300}";
+  });
+  const Outcome outcome =
+      Hindsight({"check", "data/config.yaml", "--noise", "--write"},
+                recording_.root());
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("imu.accel"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("to be written by hand")));
+  const std::string after = ReadFile(recording_.file("config.yaml"));
+  EXPECT_THAT(after, HasSubstr("like: MTi-300"));
+  EXPECT_THAT(after, HasSubstr("check --noise: accel was "));
+  EXPECT_EQ(Hindsight({"check", "data/config.yaml"}, recording_.root()).status,
+            0);
+}
+
 TEST_F(OtherCommands, CheckEndsWithThreeWhereTheImuFreezes) {
   const std::size_t first = recording_.FirstRow("imu.csv");
   recording_.Edit("imu.csv", [first](std::vector<std::string>* lines) {
