@@ -141,6 +141,26 @@ class LoggedFolder : public DisguisedFolder {
     ExpectHonestPositions();
   }
 
+  /// "TITLE,ax,ay,az,gx,gy,gz" in m/s^2 and rad/s, with what `stamp` makes of times.
+  template <typename Stamp>
+  void WriteImu(const std::string& title, Stamp stamp) const {
+    std::string text = title + ",ax,ay,az,gx,gy,gz\n";
+    for (const Sample& s : samples_) {
+      text += fmt::format("{},{:.6f},{:.8f}\n", stamp(s.t),
+                          fmt::join(s.accel, ","), fmt::join(s.gyro, ","));
+    }
+    WriteFile(file("imu.csv"), text);
+  }
+  template <typename Stamp>
+  void WriteFixes(const std::string& title, Stamp stamp) const {
+    std::string text = title + ",latitude,longitude,altitude\n";
+    for (const Fix& x : fixes_) {
+      text += fmt::format("{},{:.9f},{:.9f},{:.3f}\n", stamp(x.t), x.lat, x.lon,
+                          x.h);
+    }
+    WriteFile(file("gps.csv"), text);
+  }
+
   struct Sample {
     double t;
     std::array<double, 3> gyro;

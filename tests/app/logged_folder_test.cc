@@ -124,21 +124,12 @@ TEST_F(LoggedFolder, OfWholeSecondsAfterNoon) {
     const int s = static_cast<int>(t) + 51;
     return fmt::format("06/29/2025 {}:{:02}:{:02} PM", 7, 34 + s / 60, s % 60);
   };
-  std::string imu = "Timestamp,ax,ay,az,gx,gy,gz\n";
-  for (const Sample& s : samples_) {
-    imu += fmt::format("{},{:.6f},{:.8f}\n", stamp(s.t),
-                       fmt::join(s.accel, ","), fmt::join(s.gyro, ","));
-  }
-  WriteFile(file("imu.csv"), imu);
-  std::string fixes = "Timestamp,Latitude,Longitude,Altitude\n";
-  for (const Fix& x : fixes_) {
-    fixes += fmt::format("{},{:.9f},{:.9f},{:.3f}\n", stamp(x.t + 1e-3), x.lat,
-                         x.lon, x.h);
-  }
-  WriteFile(file("gps.csv"), fixes);
+  WriteImu("Timestamp", stamp);
+  WriteFixes("Timestamp", [&](double t) { return stamp(t + 1e-3); });
   ExpectRight();
   EXPECT_THAT(Config(), HasSubstr("dates: month_first"));
-  EXPECT_THAT(Config(), HasSubstr("rate: 100 Hz, start: 2025-06-29 19:35:09.0"));
+  EXPECT_THAT(Config(),
+              HasSubstr("rate: 100 Hz, start: 2025-06-29 19:35:09.0"));
 }
 
 /// Seconds of a GPS week that ends meanwhile, and a speed in km/h whose sign is
@@ -149,18 +140,8 @@ TEST_F(LoggedFolder, OfTheEndOfAWeekWithAWheel) {
     return second < 604800.0 ? fmt::format("2374,{:.3f}", second)
                              : fmt::format("2375,{:.3f}", second - 604800.0);
   };
-  std::string imu = "week,sow,ax,ay,az,gx,gy,gz\n";
-  for (const Sample& s : samples_) {
-    imu += fmt::format("{},{:.6f},{:.8f}\n", stamp(s.t),
-                       fmt::join(s.accel, ","), fmt::join(s.gyro, ","));
-  }
-  WriteFile(file("imu.csv"), imu);
-  std::string fixes = "week,tow,lat,lon,alt\n";
-  for (const Fix& x : fixes_) {
-    fixes +=
-        fmt::format("{},{:.9f},{:.9f},{:.3f}\n", stamp(x.t), x.lat, x.lon, x.h);
-  }
-  WriteFile(file("gps.csv"), fixes);
+  WriteImu("week,sow", stamp);
+  WriteFixes("week,tow", stamp);
   std::string wheel = "week,sow,speed\n";
   const Table speeds = ReadTable(folder_.path() / "odometer.csv");
   for (std::size_t k = 1; k < speeds.size(); ++k) {
@@ -209,12 +190,7 @@ TEST_F(LoggedFolder, OfAPhoneThatCountsGravityDownwards) {
     imu += fmt::format(",{:.8f}\n", fmt::join(s.gyro, ","));
   }
   WriteFile(file("imu.csv"), imu);
-  std::string fixes = "time,latitude,longitude,altitude\n";
-  for (const Fix& x : fixes_) {
-    fixes +=
-        fmt::format("{:.3f},{:.9f},{:.9f},{:.3f}\n", x.t, x.lat, x.lon, x.h);
-  }
-  WriteFile(file("location.csv"), fixes);
+  WriteFixes("time", [](double t) { return fmt::format("{:.3f}", t); });
   ExpectRight();
   EXPECT_THAT(Config(), HasSubstr("-1 g along the axis that points up"));
 }

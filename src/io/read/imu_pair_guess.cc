@@ -166,8 +166,10 @@ std::optional<ImuPair> Paired(const HalfImu& gyro, const HalfImu& accel) {
   FoundStream other = accel.lines.Stream();
   accel.lines.AddTriple("accel_", guess->accel, &other);
   std::vector<KeyLine>& lines = pair.imu.lines;
+  const bool rows = accel.columns.row_word.column >= 0;
   lines.push_back({"accelerometer", "",
-                   "a file of its own, interpolated at the gyros' stamps"});
+                   std::string(rows ? "rows" : "a file") +
+                       " of its own, interpolated at the gyros' stamps"});
   lines.push_back({"  file", '"' + accel.file_name + '"'});
   lines.push_back({"  format", std::string(other.format->name)});
   for (KeyLine& line : other.lines) {
