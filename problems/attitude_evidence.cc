@@ -55,6 +55,17 @@ double MedianForce(const ImuStream& imu) {
   return Median(std::move(norms));
 }
 
+double UsualTiltSigma(const Solution& solution) {
+  constexpr std::size_t kMost = 10000;
+  const std::size_t stride = solution.states.size() / kMost + 1;
+  std::vector<double> variances;
+  for (std::size_t k = 0; k < solution.states.size(); k += stride) {
+    const ErrorMatrix P = solution.covariances.Get(k);
+    variances.push_back(std::max(P(0, 0), P(1, 1)));
+  }
+  return std::sqrt(Median(std::move(variances)));
+}
+
 namespace {
 
 /// Doubtful where the accelerometer's median, `ratio` times gravity, IsOtherUnit:

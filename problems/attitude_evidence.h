@@ -23,6 +23,9 @@ std::vector<NormalisedInnovation> InnovationsOf(const AttitudeRun& run);
 StartValues StartOf(const ErrorLayout& layout, const AttitudeState::Matrix& P,
                     const State& x, const InitialState& given);
 
+/// Of the less certain of roll and pitch, the median over the solution [rad].
+double UsualTiltSigma(const Solution& solution);
+
 /// Of the norms of the specific force [m/s^2].
 double MedianForce(const ImuStream& imu);
 

@@ -347,6 +347,25 @@ TEST(AttitudeEstimation, FindsTheClockOfTheMagnetometer) {
 
 /// Headings of another sensor in place of the field, from any heading at the
 /// start; a pitch of the body does not matter.
+/// Of a clock that is off and not asked for nothing else tells.
+TEST(AttitudeEstimation, HearsOfTheClockOfTheMagnetometer) {
+  Dataset dataset = SimulateFreeRotation({}, 14);
+  for (const double late : {0.0, 0.03}) {
+    for (Measurement& z : dataset.streams.front().measurements.Edited()) {
+      z.t += late;
+    }
+    Reconstruction estimation(dataset, AttitudeAlone());
+    const Solution solution = estimation.Run("ahrs_smoother");
+    const bool said =
+        std::any_of(solution.evidence.begin(), solution.evidence.end(),
+                    [](const Evidence& e) {
+                      return e.what.find("s earlier than they are stamped") !=
+                             std::string::npos;
+                    });
+    EXPECT_EQ(said, late > 0.0) << solution.verdict;
+  }
+}
+
 TEST(AttitudeEstimation, HeadingsAreUsed) {
   FreeRotationOptions options;
   options.gyro_bias = {0.004, -0.003, 0.005};
