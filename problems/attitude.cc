@@ -10,6 +10,7 @@
 #include "alignment/magnetic_heading.h"
 #include "base/error.h"
 #include "base/processor_time.h"
+#include "dataset/bias_sigma.h"
 #include "earth/wgs84.h"
 #include "evaluation/grade.h"
 #include "evaluation/observability.h"
@@ -68,6 +69,10 @@ AttitudeEstimation::AttitudeEstimation(const Dataset& dataset,
   std::erase_if(velocities_, outside);
   for (ImuSample& sample : imu_.samples) {
     sample.accel -= dataset.initial.accel_bias;
+  }
+  force_ratio_ = MedianForce(imu_) / filter_options_.place.gravity;
+  if (IsOtherUnit(force_ratio_) && force_ratio_ > 0.0) {
+    for (ImuSample& sample : imu_.samples) sample.accel /= force_ratio_;
   }
   std::optional<AlignedAttitude> found;
   if (magnetic_.empty()) {
@@ -143,7 +148,7 @@ Solution AttitudeEstimation::Filter() {
   solution.layout = SolutionLayout();
   solution.covariances = CovarianceSeries(6, run.samples.size());
   solution.states.reserve(run.samples.size());
-  const SharedCovariance shared(dataset_.initial.accel_bias_sigma,
+  const SharedCovariance shared(AccelBiasSigma(dataset_.initial),
                                 filter_options_, SharedSigma({}),
                                 SharedSlope({}));
   Eigen::Matrix<double, 6, 6> P;
@@ -203,7 +208,7 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) {
   solution.covariances = CovarianceSeries(6, count);
   solution.states.reserve(count);
   const auto& nodes = pass.run.nodes;
-  const SharedCovariance shared(dataset_.initial.accel_bias_sigma,
+  const SharedCovariance shared(AccelBiasSigma(dataset_.initial),
                                 filter_options_, SharedSigma(pass.survey),
                                 SharedSlope(pass.survey));
   Eigen::Matrix<double, 6, 6> P;

@@ -114,7 +114,9 @@ class AttitudeEstimation final : public Estimation {
 
   const Dataset& dataset_;
   ReconstructionOptions options_;
-  ImuStream imu_;  ///< of the asked interval, rates
+  /// Of the asked interval, rates; forces of another unit over force_ratio_.
+  ImuStream imu_;
+  double force_ratio_ = 1.0;  ///< of the forces' median to gravity
   std::vector<MagneticSample> magnetic_;
   std::vector<HeadingSample> headings_;
   std::vector<VelocitySample> velocities_;  ///< none if no heading is told

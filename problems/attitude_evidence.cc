@@ -41,34 +41,68 @@ std::vector<NormalisedInnovation> InnovationsOf(const AttitudeRun& run) {
   return innovations;
 }
 
-namespace {
+bool IsOtherUnit(double ratio) {
+  return !(ratio > 1.0 / kOtherUnit && ratio < kOtherUnit);
+}
 
-/// Doubtful where the accelerometer's median is less than half or more than
-/// twice gravity: attitude alone needs no more than its direction, and so nothing
-/// else hears of another unit.
-void ExamineGravity(const ImuStream& imu, double gravity,
-                    std::vector<Evidence>* evidence) {
-  constexpr double kFar = 2.0;
+double MedianForce(const ImuStream& imu) {
   constexpr std::size_t kMost = 100000;
   const std::size_t stride = imu.samples.size() / kMost + 1;
   std::vector<double> norms;
   for (std::size_t k = 0; k < imu.samples.size(); k += stride) {
     norms.push_back(imu.samples[k].accel.norm());
   }
-  const double ratio = Median(std::move(norms)) / gravity;
-  if (ratio > 1.0 / kFar && ratio < kFar) return;
+  return Median(std::move(norms));
+}
+
+double UsualTiltSigma(const Solution& solution) {
+  constexpr std::size_t kMost = 10000;
+  const std::size_t stride = solution.states.size() / kMost + 1;
+  std::vector<double> variances;
+  for (std::size_t k = 0; k < solution.states.size(); k += stride) {
+    const ErrorMatrix P = solution.covariances.Get(k);
+    variances.push_back(std::max(P(0, 0), P(1, 1)));
+  }
+  return std::sqrt(Median(std::move(variances)));
+}
+
+namespace {
+
+/// Doubtful where the accelerometer's median, `ratio` times gravity, IsOtherUnit:
+/// attitude alone needs no more than its direction, and so nothing else hears of
+/// another unit.
+void ExamineGravity(double ratio, std::vector<Evidence>* evidence) {
+  if (!IsOtherUnit(ratio)) return;
   evidence->push_back(
       {.rule = "gravity",
        .grade = Grade::kDoubtful,
-       .what = fmt::format(
-           "the specific force is {:.3g} times gravity in the median", ratio),
+       .what = fmt::format("the specific force is {:.3g} times gravity in the "
+                           "median: its direction alone is used",
+                           ratio),
        .value = ratio,
-       .limit = ratio > 1.0 ? kFar : 1.0 / kFar,
+       .limit = ratio > 1.0 ? kOtherUnit : 1.0 / kOtherUnit,
        .unit = "1",
        .causes =
            {"the unit of the accelerometers, or columns that are not theirs"},
        .remedies = {"another unit in imu.columns"},
        .is_cause = true});
+}
+
+/// An error of a magnetometer goes on for `correlation_time` anyway, in which its
+/// readings count as one: those that are new more often than that are late where
+/// rows repeat them, but not counted too often.
+void ForgiveStaleRows(const AidingStream& magnetometer, double correlation_time,
+                      std::vector<Evidence>* evidence) {
+  const auto& rows = magnetometer.measurements;
+  const double fresh =
+      static_cast<double>(rows.size()) * (1.0 - StaleShare(magnetometer));
+  if (rows.back().t - rows.front().t > correlation_time * fresh) return;
+  const std::string about = magnetometer.sensor.name + " ";
+  for (Evidence& found : *evidence) {
+    if (found.rule == "stale_readings" && found.what.starts_with(about)) {
+      found.grade = Grade::kDoubtful;
+    }
+  }
 }
 
 }  // namespace
@@ -89,7 +123,11 @@ StartValues StartOf(const ErrorLayout& layout, const AttitudeState::Matrix& P,
 std::vector<Evidence> AttitudeEstimation::ExamineRecording() const {
   std::vector<Evidence> recording =
       FindRepeatedReadings(dataset_, imu_.t_begin(), imu_.t_end());
-  ExamineGravity(imu_, filter_options_.place.gravity, &recording);
+  if (const AidingStream* magnetometer = MagnetometerOf(dataset_)) {
+    ForgiveStaleRows(*magnetometer, filter_options_.magnetic_correlation_time,
+                     &recording);
+  }
+  ExamineGravity(force_ratio_, &recording);
   recording.insert(recording.end(), evidence_.begin(), evidence_.end());
   for (std::string& warning : CheckMagnetometers(dataset_)) {
     recording.push_back({.rule = "magnetic_field",

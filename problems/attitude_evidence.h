@@ -23,6 +23,16 @@ std::vector<NormalisedInnovation> InnovationsOf(const AttitudeRun& run);
 StartValues StartOf(const ErrorLayout& layout, const AttitudeState::Matrix& P,
                     const State& x, const InitialState& given);
 
+/// Of the less certain of roll and pitch, the median over the solution [rad].
+double UsualTiltSigma(const Solution& solution);
+
+/// Of the norms of the specific force [m/s^2].
+double MedianForce(const ImuStream& imu);
+
+/// So many times gravity, or as many times less, are another unit.
+inline constexpr double kOtherUnit = 2.0;
+bool IsOtherUnit(double ratio);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_PROBLEMS_ATTITUDE_EVIDENCE_H_

@@ -9,9 +9,9 @@
 #include "attitude/accel_bias_fit.h"
 #include "base/chi_square.h"
 #include "base/error.h"
-#include "base/median.h"
 #include "evaluation/given_values.h"
 #include "problems/attitude.h"
+#include "problems/attitude_evidence.h"
 #include "problems/imu_leaps.h"
 
 namespace hindsight {
@@ -91,18 +91,6 @@ void JudgeScales(const Solution& whole, std::vector<Evidence>* evidence) {
                     "an error that is not modelled and ends up there"},
          .remedies = {"the gyros' unit", "a larger imu.estimate.gyro_scale"}});
   }
-}
-
-/// Of the less certain of roll and pitch, the median over the solution [rad].
-double UsualTiltSigma(const Solution& solution) {
-  constexpr std::size_t kMost = 10000;
-  const std::size_t stride = solution.states.size() / kMost + 1;
-  std::vector<double> variances;
-  for (std::size_t k = 0; k < solution.states.size(); k += stride) {
-    const ErrorMatrix P = solution.covariances.Get(k);
-    variances.push_back(std::max(P(0, 0), P(1, 1)));
-  }
-  return std::sqrt(Median(std::move(variances)));
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
+#include <fmt/core.h>
+
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "dataset/bias_sigma.h"
 #include "measurements/sensor_kind.h"
 #include "problems/attitude.h"
 
@@ -31,9 +34,10 @@ std::string UnusedKeys(const Sensor& sensor) {
 std::vector<std::string> AttitudeEstimation::Unused() const {
   std::vector<std::string> unused;
   if (!dataset_.initial.accel_bias_sigma) {
-    unused.emplace_back(
-        "no 'initial.accel_bias_sigma': the tilt's sigma is that of "
-        "accelerometers without bias");
+    unused.push_back(
+        fmt::format("no 'initial.accel_bias_sigma': the sigma of the tilt is "
+                    "that of accelerometers with {:.2g} m/s^2",
+                    AccelBiasSigma(dataset_.initial).maxCoeff()));
   }
   bool magnetometer = false;
   for (const AidingStream& stream : dataset_.streams) {

@@ -6,8 +6,11 @@
 
 #include "alignment/attitude_rest.h"
 #include "base/units.h"
+#include "evaluation/explanation.h"
+#include "evaluation/given_values.h"
 #include "geometry/so3.h"
 #include "problems/attitude.h"
+#include "problems/attitude_evidence.h"
 
 namespace hindsight {
 
@@ -108,6 +111,41 @@ void JudgeMagnetometer(const MagnetometerErrors& found, const Sensor& sensor,
   }
 }
 
+/// Doubtful where its readings fit the gyros significantly better at another time
+/// than they are stamped, and the body turns by a stated sigma of the attitude
+/// meanwhile: one of the two clocks is off.
+void JudgeMagneticClock(const MagnetometerErrors& found, const Sensor& sensor,
+                        const ImuStream& imu, double sigma,
+                        std::vector<Evidence>* evidence) {
+  const double sigmas =
+      std::abs(found.apparent_offset) / found.apparent_offset_sigma;
+  double squares = 0.0;
+  for (const ImuSample& sample : imu.samples) {
+    squares += sample.gyro.squaredNorm();
+  }
+  const double rate =
+      std::sqrt(squares / static_cast<double>(imu.samples.size()));
+  if (!(sigmas > kStrained) ||
+      !(std::abs(found.apparent_offset) * rate > kDoubtfulShift * sigma)) {
+    return;
+  }
+  evidence->push_back(
+      {.rule = "magnetometer",
+       .grade = Grade::kDoubtful,
+       .what = fmt::format(
+           "the readings of '{}' fit the gyros {:.2g} s {} than "
+           "they are stamped, by {:.1f} sigma",
+           sensor.name, std::abs(found.apparent_offset),
+           found.apparent_offset < 0.0 ? "earlier" : "later", sigmas),
+       .value = sigmas,
+       .limit = kStrained,
+       .unit = "sigma",
+       .causes = {"a clock or delay of '" + sensor.name + "', or of the IMU"},
+       .remedies = {"estimate.time_offset of '" + sensor.name + "'",
+                    "imu.time_offset, or another imu.kind"},
+       .is_cause = true});
+}
+
 }  // namespace
 
 Solution AttitudeEstimation::Smoother() {
@@ -143,7 +181,12 @@ Solution AttitudeEstimation::Smoother() {
     JudgeMagnetometer(pass.magnetometer, MagnetometerOf(dataset_)->sensor,
                       options.magnetic_sigma, &evidence_);
   }
-  return SolutionOf(pass);
+  Solution solution = SolutionOf(pass);
+  if (survey) {
+    JudgeMagneticClock(pass.magnetometer, MagnetometerOf(dataset_)->sensor,
+                       imu_, UsualTiltSigma(solution), &evidence_);
+  }
+  return solution;
 }
 
 std::vector<SurveyedField> AttitudeEstimation::FieldReadings(

@@ -256,6 +256,9 @@ Solution ForwardStage::TakeFiltered() {
 
 void ForwardStage::RunOnce() {
   const double t0 = ProcessorSeconds();
+  // What an earlier one found is not of what this one fails at.
+  smoothed_.reset();
+  filtered_.reset();
   problem_.decisions.clear();
   LinearTape tape = Filter("ekf", &problem_);
   filtered_ = FilterSolution(tape);

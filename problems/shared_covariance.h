@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
-#include <optional>
 
 #include "attitude/attitude_filter.h"
 
@@ -13,12 +12,11 @@ namespace hindsight {
 /// Covariance of what all attitudes of a solution share beside P: an error of
 /// heading [rad], and the tilt of an accelerometer bias b,
 ///   psi = (e_D x C_nb b) / -g,
-/// by its a priori sigma [m/s^2, body axes]; absent: there is none. The tilt
-/// levels the field so as to turn the heading with it, by `slope` = down /
-/// horizontal; 0: there is no field.
+/// by its a priori sigma [m/s^2, body axes]. The tilt levels the field so as to
+/// turn the heading with it, by `slope` = down / horizontal; 0: there is no field.
 class SharedCovariance {
  public:
-  SharedCovariance(const std::optional<Eigen::Vector3d>& accel_bias_sigma,
+  SharedCovariance(const Eigen::Vector3d& accel_bias_sigma,
                    const AttitudeFilterOptions& options, double heading_sigma,
                    double slope)
       : bias_sigma_(accel_bias_sigma),
@@ -34,14 +32,13 @@ class SharedCovariance {
   void AddTo(const Eigen::Quaterniond& q_nb,
              Eigen::Matrix<double, 6, 6>* P) const {
     (*P)(2, 2) += heading_variance_;
-    if (!bias_sigma_) return;
     const Eigen::Matrix3d root =
-        by_bias_n_ * q_nb.toRotationMatrix() * bias_sigma_->asDiagonal();
+        by_bias_n_ * q_nb.toRotationMatrix() * bias_sigma_.asDiagonal();
     P->topLeftCorner<3, 3>().noalias() += root * root.transpose();
   }
 
  private:
-  std::optional<Eigen::Vector3d> bias_sigma_;
+  Eigen::Vector3d bias_sigma_;
   double heading_variance_;
   Eigen::Matrix3d by_bias_n_;
 };

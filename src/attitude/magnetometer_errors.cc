@@ -204,6 +204,12 @@ MagnetometerErrors FindMagnetometerErrors(
                      errors.hard_iron_b.norm() > kLeastHardIron &&
                      IsThereAllTheTime(all, fit);
   if (!found) errors.hard_iron_b.setZero();
+  if (time_offset_sigma == 0.0) {
+    constexpr double kUnstatedOffset = 0.1;  // [s]
+    const ErrorFit late = FitErrors(all, fit.freedom, {kUnstatedOffset});
+    errors.apparent_offset = late.errors.time_offset;
+    errors.apparent_offset_sigma = late.errors.time_offset_sigma;
+  }
   const ErrorFit turned =
       FitErrors(all, fit.freedom, {time_offset_sigma, kTurnSigma});
   const bool is_turned = turned.turn_significance > kSignificant &&

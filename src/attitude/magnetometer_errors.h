@@ -17,6 +17,10 @@ struct MagnetometerErrors {
   Eigen::Vector3d hard_iron_b = Eigen::Vector3d::Zero();
   double time_offset = 0.0;        ///< true time less the stamps' [s]
   double time_offset_sigma = 0.0;  ///< [s]
+  /// That it would be, to a tenth of a second a priori, where the stamps are said
+  /// to be right. For a verdict [s].
+  double apparent_offset = 0.0;
+  double apparent_offset_sigma = 0.0;
   /// By which the sensor's axes are turned against those of the gyros, a rotation
   /// vector in body axes: it reads Exp(turn_b) m_b. Zero if there is none to be
   /// believed. For a verdict: readings stay as they are [rad].

@@ -1,10 +1,13 @@
 #include "dataset/timeline_builder.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "base/error.h"
@@ -160,13 +163,17 @@ std::vector<double> NodeTimes(std::vector<double> required, double spacing) {
 
 }  // namespace
 
-Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options) {
+std::optional<std::string> WhyNotNodes(const Dataset& dataset) {
   const double imu_interval = MedianInterval(dataset.imu);
-  if (dataset.max_node_spacing < imu_interval) {
-    throw InputError("nodes.max_spacing is " +
-                     std::to_string(dataset.max_node_spacing) +
-                     " s, shorter than the IMU's sample interval of " +
-                     std::to_string(imu_interval) + " s");
+  if (dataset.max_node_spacing >= imu_interval) return std::nullopt;
+  return fmt::format(
+      "is {:.4g} s, shorter than the IMU's sample interval of {:.4g} s",
+      dataset.max_node_spacing, imu_interval);
+}
+
+Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options) {
+  if (const auto why = WhyNotNodes(dataset)) {
+    throw InputError("nodes.max_spacing " + *why);
   }
   std::vector<TimedMeasurement> timed = MeasurementsInside(dataset, options);
   std::vector<double> required = {options.t_begin, options.t_end};
@@ -179,9 +186,10 @@ Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options) {
     if (m.start) required.push_back(*m.start);
   }
   const double spacing =
-      HasIncrements(timed) ? std::min(dataset.max_node_spacing,
-                                      std::max(kIncrementSpacing, imu_interval))
-                           : dataset.max_node_spacing;
+      HasIncrements(timed)
+          ? std::min(dataset.max_node_spacing,
+                     std::max(kIncrementSpacing, MedianInterval(dataset.imu)))
+          : dataset.max_node_spacing;
   const std::vector<double> times = NodeTimes(std::move(required), spacing);
 
   std::vector<Node> nodes(times.size());

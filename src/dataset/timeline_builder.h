@@ -1,6 +1,8 @@
 #ifndef HINDSIGHT_DATASET_TIMELINE_BUILDER_H_
 #define HINDSIGHT_DATASET_TIMELINE_BUILDER_H_
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "dataset/dataset.h"
@@ -20,6 +22,10 @@ struct TimelineOptions {
   std::vector<double> time_offsets;
   bool with_scale_jacobians = false;
 };
+
+/// What is wrong with Dataset::max_node_spacing, if anything: it is shorter than
+/// the IMU's sample interval.
+std::optional<std::string> WhyNotNodes(const Dataset& dataset);
 
 /// Turns a data set into nodes and measurements. A node stands at every time an
 /// aiding sensor measured (stamp + time offset: nothing is rounded to a

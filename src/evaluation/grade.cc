@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "evaluation/accuracy_rule.h"
 #include "evaluation/agreement.h"
 #include "evaluation/contradicted_sensor.h"
 #include "evaluation/curved_errors.h"
@@ -15,6 +16,7 @@
 #include "evaluation/grade_rules.h"
 #include "evaluation/innovation_rule.h"
 #include "evaluation/observability.h"
+#include "evaluation/vehicle_posture.h"
 #include "evaluation/withheld_rule.h"
 
 namespace hindsight {
@@ -47,6 +49,7 @@ constexpr GradeRule kRules[] = {
     {"curvature", FindCurvedErrors},
     {"disagreement", PassOnDisagreement},
     {"unobserved", FindUnobservedState},
+    {"posture", FindOddPosture},
     {"shut_out", FindShutOut},
     {"distrust", FindDistrusted},
     {"given_values", FindStrainedValues},

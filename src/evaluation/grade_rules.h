@@ -46,10 +46,6 @@ void FindLargeResiduals(const Judged& judged, std::vector<Evidence>* evidence);
 /// maximum of anything.
 void FindValuesAtBounds(const Judged& judged, std::vector<Evidence>* evidence);
 
-/// How well the states are known: standard deviations in the root mean square
-/// over the interval, and at worst. Never lowers the grade.
-void DescribeAccuracy(const Judged& judged, std::vector<Evidence>* evidence);
-
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_EVALUATION_GRADE_RULES_H_

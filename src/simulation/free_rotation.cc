@@ -45,6 +45,8 @@ Dataset SimulateFreeRotation(const FreeRotationOptions& options,
   Random random(seed, kRotationStream);
   Dataset dataset;
   dataset.name = kFreeRotationName;
+  // None: a configuration says more than zero.
+  dataset.initial.accel_bias_sigma = Eigen::Vector3d::Constant(kMicroG);
   AidingStream magnetometer;
   magnetometer.sensor.name = "magnetometer";
   magnetometer.sensor.kind = &MagnetometerKind();

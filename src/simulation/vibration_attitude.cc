@@ -100,6 +100,8 @@ Dataset SimulateVibrationAttitude(const VibrationAttitudeOptions& options,
       Exp(kAttitudeSigma * random.NormalVector3()) * body.q_nb());
   dataset.initial.attitude_sigma = Eigen::Vector3d::Constant(kAttitudeSigma);
   dataset.initial.gyro_bias_sigma = Eigen::Vector3d::Constant(kGyroBiasSigma);
+  // None: a configuration says more than zero.
+  dataset.initial.accel_bias_sigma = Eigen::Vector3d::Constant(kMicroG);
   const int count = static_cast<int>(std::lround(kDuration / dt));
   for (int k = 0; k <= count; ++k) {
     if (k > 0) body.Advance(dt);

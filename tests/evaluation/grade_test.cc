@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "base/units.h"
+#include "measurements/noise_kind.h"
+#include "measurements/sensor_kind.h"
 #include "support/test_motion.h"
 
 namespace hindsight {
@@ -86,13 +88,43 @@ TEST_F(GradeTest, AHealthySolutionIsUsableAndSaysHowWellEverythingIsKnown) {
   ConcludePlain();
   EXPECT_EQ(solution_.grade, Grade::kUsable);
   // sqrt(3) of an axis; the heading is 19 deg at one epoch, 1 deg at others.
-  EXPECT_THAT(solution_.verdict,
-              StartsWith("usable: position to 0.17 m, velocity to 0.017 m/s, "
-                         "tilt to 0.14 deg, heading to 2.1 deg (19 at worst)"));
+  EXPECT_THAT(
+      solution_.verdict,
+      StartsWith("usable: position to 0.17 m beside errors of gnss that "
+                 "last, velocity to 0.017 m/s, tilt to 0.14 deg, "
+                 "heading to 2.1 deg (19 at worst)"));
   for (const Evidence& e : solution_.evidence) {
     EXPECT_EQ(e.rule, "accuracy");
     EXPECT_EQ(e.grade, Grade::kUsable);
   }
+}
+
+TEST_F(GradeTest, ALoneReceiverWithoutLastingErrorsIsSaidToHaveNone) {
+  const auto says = [this] {
+    ConcludePlain();
+    return solution_.verdict.find("0.17 m beside errors of gnss that last") !=
+           std::string::npos;
+  };
+  sensors_[0].kind = &PositionKind();
+  EXPECT_TRUE(says()) << solution_.verdict;
+  EXPECT_EQ(solution_.grade, Grade::kUsable);
+  sensors_[0].noise.kind = &GaussMarkovNoise();
+  EXPECT_FALSE(says());
+  sensors_[0].noise = {};
+  sensors_.push_back(sensors_[0]);
+  EXPECT_FALSE(says());
+}
+
+TEST_F(GradeTest, WhatNoSensorTestsIsDoubtful) {
+  solution_.residuals.resize(3);
+  ConcludePlain();
+  EXPECT_EQ(Against().rule, "innovations");
+  EXPECT_EQ(solution_.verdict,
+            "doubtful: no sensor has the 4 measurements that a test of whether "
+            "the model fits takes");
+  solution_.residuals.clear();
+  ConcludePlain();
+  EXPECT_EQ(solution_.grade, Grade::kUsable);
 }
 
 TEST_F(GradeTest, WhatIsNotFiniteOrDidNotConvergeIsNotUsable) {

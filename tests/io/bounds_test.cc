@@ -91,6 +91,31 @@ TEST_F(Bounds, OfGeneratedMeasurements) {
               "expected at most 400, ten for each sample of the IMU");
 }
 
+TEST_F(Bounds, OfWhatAVehicleHolds) {
+  EXPECT_EQ(ErrorWithGnss(", lever_arm: [999, 0, 0 m]"), "");
+  EXPECT_SAYS(ErrorWithGnss(", lever_arm: [0, 900, -900 m]"),
+              "config.yaml:5: aiding.gnss.lever_arm: is 1273 m long; expected "
+              "at most 1000 m from the IMU");
+}
+
+TEST_F(Bounds, OfWhatThereIsOnTheEarth) {
+  EXPECT_SAYS(ErrorWithGnss(", lever_arm: [5e9, 0, 0 m]"),
+              "config.yaml:5: aiding.gnss.lever_arm: is 5e+09 m; expected at "
+              "most 1e+07 m");
+  EXPECT_SAYS(ErrorWithGnss("", "initial: {velocity_sigma: -1e9 m/s}\n"),
+              "initial.velocity_sigma: is -1e+09 m/s; expected at most 1e+05");
+  EXPECT_SAYS(ErrorWithGnss("", "initial: {accel_bias: [0, 1e9, 0 m/s^2]}\n"),
+              "initial.accel_bias: is 1e+09 m/s^2; expected at most 1e+04");
+  EXPECT_EQ(ErrorWithGnss("", "initial: {velocity_sigma: 1e4 m/s}\n"), "");
+}
+
+TEST_F(Bounds, OfTheNodesIsTheImusInterval) {
+  EXPECT_SAYS(ErrorWithGnss("", "nodes: {max_spacing: 1e-9 s}\n"),
+              "config.yaml:6: nodes.max_spacing: is 1e-09 s, shorter than the "
+              "IMU's sample interval of");
+  EXPECT_EQ(ErrorWithGnss("", "nodes: {max_spacing: 0.5 s}\n"), "");
+}
+
 TEST_F(Bounds, OfTheRecordsLength) {
   EXPECT_SAYS(ErrorWith("  time: {duration: 1e9 s}\n", ""),
               "expected at most 31 days");

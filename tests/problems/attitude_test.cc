@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/chi_square.h"
 #include "base/error.h"
 #include "base/random.h"
 #include "base/units.h"
+#include "dataset/bias_sigma.h"
 #include "geometry/so3.h"
 #include "io/config/scenario_config.h"
 #include "measurements/sensor_kind.h"
@@ -31,24 +33,6 @@ std::vector<std::string> NoUseOf(const Solution& solution) {
   return notes;
 }
 
-/// Accelerometers without a stated bias are named, others are not.
-TEST(AttitudeEstimation, SaysThatItTakesAccelerometersForCalibrated) {
-  Dataset dataset = SimulateFreeRotation({}, 9);
-  for (const bool stated : {false, true}) {
-    if (stated) {
-      dataset.initial.accel_bias_sigma = Eigen::Vector3d::Constant(0.01);
-    }
-    Reconstruction estimation(dataset, AttitudeAlone());
-    const Solution solution = estimation.Run("ahrs");
-    EXPECT_EQ(std::any_of(solution.notes.begin(), solution.notes.end(),
-                          [](const std::string& note) {
-                            return note.find("accel_bias_sigma") !=
-                                   std::string::npos;
-                          }),
-              !stated);
-  }
-}
-
 VibrationAttitudeOptions Calm() {
   VibrationAttitudeOptions options;
   options.acceleration = 0.0;
@@ -66,6 +50,46 @@ double Nees(const Dataset& dataset, const Solution& solution, std::size_t k) {
       *dataset.truth[k].b_g - x.b_g;
   const Eigen::Matrix<double, 6, 6> P = solution.covariances.Get(k);
   return e.dot(P.llt().solve(e));
+}
+
+/// Accelerometers without a stated bias have that of a consumer IMU, as in
+/// navigation, and are named; others are not.
+TEST(AttitudeEstimation, UnstatedAccelerometersMayBeOffAsAConsumersAre) {
+  Dataset dataset = SimulateFreeRotation({}, 9);
+  dataset.initial.accel_bias_sigma.reset();
+  const Eigen::Vector3d usual = AccelBiasSigma(dataset.initial);
+  for (const char* method : {"ahrs", "ahrs_smoother"}) {
+    double tilt[2];
+    for (const bool stated : {false, true}) {
+      dataset.initial.accel_bias_sigma.reset();
+      if (stated) dataset.initial.accel_bias_sigma = usual;
+      Reconstruction estimation(dataset, AttitudeAlone());
+      const Solution solution = estimation.Run(method);
+      EXPECT_EQ(std::any_of(solution.notes.begin(), solution.notes.end(),
+                            [](const std::string& note) {
+                              return note.find("accel_bias_sigma") !=
+                                     std::string::npos;
+                            }),
+                !stated);
+      tilt[stated ? 1 : 0] = std::sqrt(solution.covariances.Get(4000)(0, 0));
+    }
+    EXPECT_EQ(tilt[0], tilt[1]);
+    EXPECT_GT(tilt[0], 0.9 * usual.x() / kStandardGravity);
+  }
+}
+
+/// 0.3 m/s^2 that nothing states, in a hand that is too quick to show it, is
+/// within what is said of the tilt.
+TEST(AttitudeEstimation, AnUnstatedBiasOfTheAccelerometerIsWithinItsSigma) {
+  Dataset dataset = SimulateVibrationAttitude(Calm(), 4);
+  dataset.initial.accel_bias_sigma.reset();
+  for (ImuSample& sample : dataset.imu.samples) sample.accel.x() += 0.3;
+  Reconstruction estimation(dataset, AttitudeAlone());
+  for (const char* method : {"ahrs", "ahrs_smoother"}) {
+    const Solution solution = estimation.Run(method);
+    const Interval credible = AneesBounds(1, 6, 0.9999);
+    EXPECT_LT(Nees(dataset, solution, 300), credible.upper) << method;
+  }
 }
 
 TEST(AttitudeEstimation, FilterAndSmootherAreConsistent) {
@@ -323,6 +347,25 @@ TEST(AttitudeEstimation, FindsTheClockOfTheMagnetometer) {
 
 /// Headings of another sensor in place of the field, from any heading at the
 /// start; a pitch of the body does not matter.
+/// Of a clock that is off and not asked for nothing else tells.
+TEST(AttitudeEstimation, HearsOfTheClockOfTheMagnetometer) {
+  Dataset dataset = SimulateFreeRotation({}, 14);
+  for (const double late : {0.0, 0.03}) {
+    for (Measurement& z : dataset.streams.front().measurements.Edited()) {
+      z.t += late;
+    }
+    Reconstruction estimation(dataset, AttitudeAlone());
+    const Solution solution = estimation.Run("ahrs_smoother");
+    const bool said =
+        std::any_of(solution.evidence.begin(), solution.evidence.end(),
+                    [](const Evidence& e) {
+                      return e.what.find("s earlier than they are stamped") !=
+                             std::string::npos;
+                    });
+    EXPECT_EQ(said, late > 0.0) << solution.verdict;
+  }
+}
+
 TEST(AttitudeEstimation, HeadingsAreUsed) {
   FreeRotationOptions options;
   options.gyro_bias = {0.004, -0.003, 0.005};
@@ -427,6 +470,7 @@ TEST(AttitudeEstimation, StatedSigmasOfTheMagnetometerCount) {
 /// it tilts all attitudes alike, and turns the heading by the dip.
 TEST(AttitudeEstimation, StatedBiasOfTheAccelerometerCounts) {
   Dataset dataset = SimulateFreeRotation({}, 10);
+  const std::optional<Eigen::Vector3d> none = dataset.initial.accel_bias_sigma;
   for (const char* method : {"ahrs", "ahrs_smoother"}) {
     const auto solve = [&dataset, method] {
       Reconstruction estimation(dataset, AttitudeAlone());
@@ -454,7 +498,64 @@ TEST(AttitudeEstimation, StatedBiasOfTheAccelerometerCounts) {
     EXPECT_NEAR(std::sqrt(added(2, 2)), 2.0 * tilt, 0.05 * tilt);
     dataset.imu.samples = samples;
     dataset.initial.accel_bias.setZero();
-    dataset.initial.accel_bias_sigma.reset();
+    dataset.initial.accel_bias_sigma = none;
+  }
+}
+
+const Evidence* EvidenceOf(const Solution& solution, const std::string& rule) {
+  const auto found =
+      std::find_if(solution.evidence.begin(), solution.evidence.end(),
+                   [&rule](const Evidence& e) { return e.rule == rule; });
+  return found == solution.evidence.end() ? nullptr : &*found;
+}
+
+/// Of forces in another unit the direction is right, and it is used.
+TEST(AttitudeEstimation, AnotherUnitOfForceIsDoubtfulAndNoHarm) {
+  Dataset dataset = SimulateFreeRotation({}, 12);
+  const auto solve = [&dataset](const char* method) {
+    Reconstruction estimation(dataset, AttitudeAlone());
+    return estimation.Run(method);
+  };
+  for (const char* method : {"ahrs", "ahrs_smoother"}) {
+    const Solution right = solve(method);
+    EXPECT_EQ(EvidenceOf(right, "gravity"), nullptr);
+    const PagedVector<ImuSample> samples = dataset.imu.samples;
+    for (ImuSample& sample : dataset.imu.samples) {
+      sample.accel /= kStandardGravity;
+    }
+    const Solution other = solve(method);
+    dataset.imu.samples = samples;
+    ASSERT_NE(EvidenceOf(other, "gravity"), nullptr);
+    EXPECT_EQ(other.grade, Grade::kDoubtful) << other.verdict;
+    EXPECT_LT(NedAttitude(other.states[4000])
+                  .angularDistance(NedAttitude(right.states[4000])),
+              0.05 * kDegree);
+  }
+}
+
+/// A magnetometer that repeats its readings is late, but its errors go on for
+/// longer than that; one that repeats them for longer counts too often.
+TEST(AttitudeEstimation, StaleFieldIsDoubtfulAsFarAsItsErrorsLast) {
+  Dataset dataset = SimulateFreeRotation({}, 13);
+  const MeasurementSeries fresh = dataset.streams.front().measurements;
+  const double rate = static_cast<double>(fresh.size() - 1) /
+                      (fresh.back().t - fresh.front().t);
+  for (const double held : {0.5, 3.0}) {
+    const auto rows = static_cast<std::size_t>(std::lround(held * rate));
+    MeasurementSeries stale;
+    for (std::size_t i = 0; i < fresh.size(); ++i) {
+      Measurement z = fresh[i];
+      z.model = Measurement(fresh[i - i % rows]).model;
+      stale.push_back(z);
+    }
+    dataset.streams.front().measurements = std::move(stale);
+    Reconstruction estimation(dataset, AttitudeAlone());
+    const Solution solution = estimation.Run("ahrs_smoother");
+    const Evidence* found = EvidenceOf(solution, "stale_readings");
+    ASSERT_NE(found, nullptr) << held;
+    EXPECT_EQ(found->grade, held < dataset.ahrs.correlation_time
+                                ? Grade::kDoubtful
+                                : Grade::kUnusable);
   }
 }
 

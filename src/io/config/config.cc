@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "dataset/clock_search.h"
+#include "dataset/timeline_builder.h"
 #include "dataset/truth_start.h"
 #include "io/config/config_omissions.h"
 #include "io/config/config_recording.h"
@@ -104,6 +105,14 @@ void RequireStartInside(ConfigMap* top, const Dataset& dataset) {
   if (t >= imu.t_begin() - slack && t < imu.t_end()) return;
   top->Map("initial").Fail("time", "lies outside the IMU's record, " +
                                        Span(imu.t_begin(), imu.t_end()));
+}
+
+void RequireNodes(ConfigMap* top, const Dataset& dataset) {
+  // Attitude alone has no nodes, and may be of a slower IMU.
+  if (!top->Has("nodes")) return;
+  if (const auto why = WhyNotNodes(dataset)) {
+    top->Map("nodes").Fail("max_spacing", *why);
+  }
 }
 
 /// The constraint holds at all times: measurements of nobody's making.
@@ -325,6 +334,7 @@ Dataset LoadDataset(const std::string& config_path, const LoadOptions& options,
   const DeclaredRecording declared = ReadDeclarations(&top, options, &dataset);
   LoadImu(declared, &top, &dataset);
   RequireStartInside(&top, dataset);
+  RequireNodes(&top, dataset);
   const double truth_offset = LoadTruth(declared, &dataset);
   ResolveTruthOffset(declared, truth_offset, &top);
   for (const AidingConfig& config : declared.aiding) {

@@ -1,5 +1,7 @@
 #include "io/config/config_key.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 #include "base/units.h"
@@ -49,6 +51,15 @@ double ReadInRange(ConfigMap* map, const std::string& name, Quantity quantity,
   const double value = map->Number(name, quantity);
   if (!LiesIn(range, value)) map->Fail(name, Demand(range));
   return value;
+}
+
+void RequireOnBoard(const ConfigMap& map, const std::string& name,
+                    Quantity quantity, const Eigen::Vector3d& value) {
+  constexpr double kLongest = 1000.0;  // [m]
+  if (quantity != Quantity::kLength || value.norm() <= kLongest) return;
+  map.Fail(name, fmt::format("is {:.4g} m long; expected at most {:.0f} m from "
+                             "the IMU",
+                             value.norm(), kLongest));
 }
 
 std::string DefaultText(double value, Quantity quantity) {

@@ -24,6 +24,11 @@ bool LiesIn(KeyRange range, double value);
 double ReadInRange(ConfigMap* map, const std::string& name, Quantity quantity,
                    KeyRange range);
 
+/// A vector of lengths is where something sits on a vehicle, from its IMU. Throws
+/// InputError for one longer than 1 km, which no vehicle is.
+void RequireOnBoard(const ConfigMap& map, const std::string& name,
+                    Quantity quantity, const Eigen::Vector3d& value);
+
 /// latitude, longitude, height under `key`; nothing if it is absent.
 std::optional<Geodetic> ReadGeodetic(ConfigMap* map, const std::string& key);
 
@@ -121,6 +126,7 @@ class KeyReader {
   }
   void Take(const typename Key::Vector& vector) {
     out_.*vector.at = map_.Vector(name_, key_.quantity, out_.*vector.at);
+    RequireOnBoard(map_, name_, key_.quantity, out_.*vector.at);
   }
   void Take(const typename Key::OptionalVector& vector) {
     out_.*vector.at = map_.OptionalVector(name_, key_.quantity);

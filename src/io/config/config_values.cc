@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "io/config/config_map.h"
@@ -13,6 +14,32 @@ std::string ConfigMap::ScalarText(const std::string& key,
   if (!node.IsScalar()) Fail(key, "expected one value");
   return node.Scalar();
 }
+
+namespace {
+
+/// What nothing on the Earth or near it exceeds, nor the uncertainty of it, SI.
+double MostOf(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kFrequency:
+      return 1e9;
+    case Quantity::kLength:
+      return 1e7;  // from the equator to a pole
+    case Quantity::kSpeed:
+      return 1e5;
+    case Quantity::kAcceleration:
+      return 1e4;
+    case Quantity::kAngle:
+      return 1e3;
+    case Quantity::kAngularRate:
+      return 1e3;
+    case Quantity::kMagneticField:
+      return 1e6;
+    default:
+      return std::numeric_limits<double>::infinity();
+  }
+}
+
+}  // namespace
 
 std::vector<double> ConfigMap::Values(const std::string& key,
                                       const YAML::Node& node,
@@ -25,11 +52,19 @@ std::vector<double> ConfigMap::Values(const std::string& key,
   } else {
     text = ScalarText(key, node);
   }
+  std::vector<double> values;
   try {
-    return ParseQuantities(text, quantity);
+    values = ParseQuantities(text, quantity);
   } catch (const std::invalid_argument& error) {
     Fail(key, error.what());
   }
+  const double most = MostOf(quantity);
+  for (const double value : values) {
+    if (std::abs(value) <= most) continue;
+    Fail(key, fmt::format("is {:.4g} {}; expected at most {:.4g} {}", value,
+                          SiUnit(quantity), most, SiUnit(quantity)));
+  }
+  return values;
 }
 
 std::optional<double> ConfigMap::OptionalNumber(const std::string& key,

@@ -47,6 +47,7 @@ class ValueReader {
   void Take(const SensorKey::Vector& vector) {
     Eigen::Vector3d& value = *vector.at(settings_);
     value = map_.Vector(name_, key_.quantity, value);
+    RequireOnBoard(map_, name_, key_.quantity, value);
   }
   void Take(const SensorKey::OptionalSigmas& sigmas) {
     auto& value = *sigmas.at(settings_);
