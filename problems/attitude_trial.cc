@@ -81,7 +81,7 @@ std::vector<Figure> IntervalFigures(std::pair<double, double> interval) {
   };
   const std::string suffix = span("_{:g}_{:g}s");
   const bool is_last = interval == kIntervals[4];
-  const auto axes = [](Reduce reduce) {
+  const auto axes = [](const Reduce& reduce) {
     return Terms{
         {"n", "psi_n", reduce}, {"e", "psi_e", reduce}, {"d", "psi_d", reduce}};
   };

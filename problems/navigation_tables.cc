@@ -13,7 +13,7 @@ double LargestMagnitude(const std::vector<double>& values) {
 
 /// Of each axis of the position.
 Figure PositionFigure(const std::string& name, const std::string& title,
-                      Reduce reduce, TimeRange range = {}) {
+                      const Reduce& reduce, TimeRange range = {}) {
   return Several(name, kMetres, title, "{:.3f}",
                  {{"n", "position_n", reduce},
                   {"e", "position_e", reduce},

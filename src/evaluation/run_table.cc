@@ -193,12 +193,13 @@ Figure Several(const std::string& name, Unit unit, const std::string& title,
 }
 
 Figure Single(const std::string& name, Unit unit, const std::string& title,
-              const char* format, const std::string& quantity, Reduce reduce) {
+              const char* format, const std::string& quantity,
+              const Reduce& reduce) {
   return Several(name, unit, title, format, {{"", quantity, reduce}});
 }
 
 Figure Share(const std::string& name, const std::string& title,
-             const std::string& quantity, Reduce reduce) {
+             const std::string& quantity, const Reduce& reduce) {
   Figure figure = Single(name, kPlain, title, "{:.1f}", quantity, reduce);
   figure.factor = 100.0;
   return figure;

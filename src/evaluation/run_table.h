@@ -169,16 +169,17 @@ Figure Several(const std::string& name, Unit unit, const std::string& title,
                const char* format, Terms terms, TimeRange range = {});
 /// A figure of one term without a component.
 Figure Single(const std::string& name, Unit unit, const std::string& title,
-              const char* format, const std::string& quantity, Reduce reduce);
+              const char* format, const std::string& quantity,
+              const Reduce& reduce);
 /// The same, of the quantity of that name.
 inline Figure Single(const std::string& name, Unit unit,
                      const std::string& title, const char* format,
-                     Reduce reduce) {
+                     const Reduce& reduce) {
   return Single(name, unit, title, format, name, reduce);
 }
 /// A share, printed in percent.
 Figure Share(const std::string& name, const std::string& title,
-             const std::string& quantity, Reduce reduce);
+             const std::string& quantity, const Reduce& reduce);
 /// Lower and upper of AneesBoundsOf.
 Figure AneesBoundFigure(const char* title, const char* format,
                         double confidence = 0.95);
