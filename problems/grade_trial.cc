@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <optional>
 #include <utility>
@@ -105,7 +106,7 @@ class Sorter {
   void Add(const RunRecord& run, std::size_t table,
            std::vector<std::string> labels,
            std::vector<std::pair<std::string, double>> values) {
-    RunRecord record;
+    RunRecord& record = run_->records.emplace_back();
     record.table = table;
     record.labels = std::move(labels);
     record.seed = run.seed;
@@ -113,14 +114,13 @@ class Sorter {
     record.failed = run.failed;
     record.answered = run.answered;
     record.values = std::move(values);
-    run_->Add(std::move(record));
   }
 
   CaseRun* run_;
 };
 
 struct Tried {
-  std::vector<RunRecord> cells;  ///< of the methods, in their order
+  std::deque<RunRecord> cells;  ///< of the methods, in their order
   std::vector<NormalisedInnovation> innovations;
 };
 
@@ -129,8 +129,9 @@ Tried Try(const Dataset& dataset, NavigationTrial trial,
   Tried tried;
   trial.innovations = &tried.innovations;
   trial.best_of_run = true;
-  CaseRun run(labels, seed, &tried.cells);
+  CaseRun run = {labels, seed};
   NavigationTrialOf(trial)(dataset, &run);
+  tried.cells = std::move(run.records);
   std::erase_if(tried.cells,
                 [](const RunRecord& r) { return r.table != kCells; });
   return tried;
@@ -139,8 +140,7 @@ Tried Try(const Dataset& dataset, NavigationTrial trial,
 /// A recording that is refused before anything is estimated.
 Tried Refused(const NavigationTrial& trial,
               const std::vector<std::string>& labels, std::uint64_t seed) {
-  Tried tried;
-  CaseRun run(labels, seed, &tried.cells);
+  CaseRun run = {labels, seed};
   std::vector<std::string> methods = trial.methods;
   methods.emplace_back(kBestOfRun);
   for (const std::string& method : methods) {
@@ -148,7 +148,7 @@ Tried Refused(const NavigationTrial& trial,
     record->grade = Grade::kUnusable;
     record->Fail();
   }
-  return tried;
+  return {std::move(run.records), {}};
 }
 
 Tried TryTwin(const Dataset& healthy, const FaultyTwin& twin,
@@ -226,8 +226,8 @@ std::vector<StudyTable> GradeTables() {
 Trial GradeTrial(const NavigationTrial& trial,
                  const std::vector<FaultyTwin>& twins) {
   return [trial, twins](const Dataset& healthy, CaseRun* run) {
-    const std::string& vehicle = run->labels().back();
-    const std::uint64_t seed = run->seed();
+    const std::string& vehicle = run->labels.back();
+    const std::uint64_t seed = run->seed;
     Sorter sorter(run);
     const Tried well = Try(healthy, trial, {vehicle, "none", ""}, seed);
     for (const RunRecord& cell : well.cells) sorter.Add(cell, nullptr, 0.0);

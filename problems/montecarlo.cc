@@ -1,7 +1,9 @@
 #include "problems/montecarlo.h"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -11,20 +13,36 @@
 namespace hindsight {
 namespace {
 
+/// The recordings of each case; of one that cannot be prepared each is refused.
+std::vector<Recording> Prepare(const std::vector<Case>& cases) {
+  std::vector<Recording> recordings;
+  for (const Case& one : cases) {
+    try {
+      recordings.push_back(one.prepare ? one.prepare() : [](std::uint64_t) {
+        return Dataset();
+      });
+    } catch (const InputError& error) {
+      recordings.emplace_back(
+          [error](std::uint64_t) -> Dataset { throw error; });
+    }
+  }
+  return recordings;
+}
+
 /// Of all cases on one seed.
 std::vector<RunRecord> RunCases(const std::vector<Case>& cases,
                                 const std::vector<Recording>& recordings,
                                 std::uint64_t seed) {
   std::vector<RunRecord> out;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    CaseRun run(cases[i].labels, seed, &out);
-    const std::size_t before = out.size();
+    CaseRun run = {cases[i].labels, seed};
     try {
       cases[i].trial(recordings[i](seed), &run);
     } catch (const InputError& error) {
-      out.resize(before);
+      run.records.clear();
       run.Add(kRefused, {})->Fail(error.what());
     }
+    std::ranges::move(run.records, std::back_inserter(out));
   }
   return out;
 }
@@ -105,10 +123,11 @@ void RunJobs(const Study& study, const MonteCarloOptions& options, int begin,
   const double all = static_cast<double>(study.jobs.size()) * (end - begin);
   std::mutex mutex;
   int done = 0;
-  for (const std::function<SeedRun()>& job : study.jobs) {
-    const SeedRun run = job();
+  for (const std::vector<Case>& job : study.jobs) {
+    const std::vector<Recording> recordings = Prepare(job);
     ForEachRun(begin, end, options.threads, [&](int i) {
-      take(i, run(options.first_seed + static_cast<std::uint64_t>(i)));
+      take(i, RunCases(job, recordings,
+                       options.first_seed + static_cast<std::uint64_t>(i)));
       const std::lock_guard lock(mutex);
       ++done;
       if (options.progress) options.progress(done / all);
@@ -121,48 +140,25 @@ void RunJobs(const Study& study, const MonteCarloOptions& options, int begin,
 
 void CaseRun::Try(const std::vector<std::string>& method,
                   const std::function<void(RunRecord*)>& work) {
-  RunRecord record = Empty(0, method);
+  RunRecord* record = Add(0, method);
   try {
-    work(&record);
+    work(record);
   } catch (const EstimationError&) {
-    record.Fail();
+    record->Fail();
   } catch (const InputError& error) {
-    record.Fail(error.what());
+    record->Fail(error.what());
   }
-  Add(std::move(record));
 }
 
 RunRecord* CaseRun::Add(std::size_t table,
-                        const std::vector<std::string>& labels) {
-  Add(Empty(table, labels));
-  return &out_.back();
-}
-
-RunRecord CaseRun::Empty(std::size_t table,
-                         const std::vector<std::string>& labels) const {
-  RunRecord record;
+                        const std::vector<std::string>& own_labels) {
+  RunRecord& record = records.emplace_back();
   record.table = table;
-  record.labels = labels_;
-  record.labels.insert(record.labels.end(), labels.begin(), labels.end());
-  record.seed = seed_;
-  return record;
-}
-
-std::function<SeedRun()> JobOf(const std::vector<Case>& cases) {
-  return [cases]() -> SeedRun {
-    std::vector<Recording> recordings;
-    for (const Case& one : cases) {
-      try {
-        recordings.push_back(one.prepare());
-      } catch (const InputError& error) {
-        recordings.emplace_back(
-            [error](std::uint64_t) -> Dataset { throw error; });
-      }
-    }
-    return [cases, recordings](std::uint64_t seed) {
-      return RunCases(cases, recordings, seed);
-    };
-  };
+  record.labels = labels;
+  record.labels.insert(record.labels.end(), own_labels.begin(),
+                       own_labels.end());
+  record.seed = seed;
+  return &record;
 }
 
 StudyResult RunStudy(const Study& study, const MonteCarloOptions& options,

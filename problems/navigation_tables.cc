@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/chi_square.h"
 #include "evaluation/statistics.h"
 #include "problems/navigation_trial.h"
 
@@ -14,7 +13,7 @@ double LargestMagnitude(const std::vector<double>& values) {
 
 /// Of each axis of the position.
 Figure PositionFigure(const std::string& name, const std::string& title,
-                      Reduce reduce, TimeRange range = {}) {
+                      const Reduce& reduce, TimeRange range = {}) {
   return Several(name, kMetres, title, "{:.3f}",
                  {{"n", "position_n", reduce},
                   {"e", "position_e", reduce},
@@ -68,26 +67,26 @@ std::vector<Figure> ErrorFigures() {
 }
 
 StudyTable Cells(const std::vector<double>& leg_ends) {
-  StudyTable table = {"cells", {}, {}, {}};
+  StudyTable table = {"cells", {"method"}, {}, {}};
   std::vector<Figure>& figures = table.figures;
   std::vector<Figure> leg_anees;
   figures.push_back(PositionFigure("max_std", "max std [m]\nN E D",
-                                   OfCurve<Largest, Deviation>));
+                                   OfCurve<Largest, StandardDeviation>));
   for (const TimeRange& leg : Legs(leg_ends)) {
     const std::string number = std::to_string(leg_anees.size() + 1);
     figures.push_back(PositionFigure("leg" + number + "_max_std",
                                      "leg " + number + " [m]\nN E D",
-                                     OfCurve<Largest, Deviation>, leg));
+                                     OfCurve<Largest, StandardDeviation>, leg));
     leg_anees.push_back(AneesFigure("leg" + number + "_anees",
                                     leg_anees.empty() ? "ANEES\nleg 1" : "",
                                     leg));
   }
-  figures.insert(
-      figures.end(),
-      {PositionFigure("end_std", "end [m]\nN E D", OfCurve<Last, Deviation>),
-       Single("yaw_std", kDegrees, "yaw\n[deg]", "{:.4f}", "yaw",
-              OfCurve<Largest, Deviation>),
-       AneesFigure("anees", "ANEES\nall")});
+  figures.insert(figures.end(),
+                 {PositionFigure("end_std", "end [m]\nN E D",
+                                 OfCurve<Last, StandardDeviation>),
+                  Single("yaw_std", kDegrees, "yaw\n[deg]", "{:.4f}", "yaw",
+                         OfCurve<Largest, StandardDeviation>),
+                  AneesFigure("anees", "ANEES\nall")});
   figures.insert(figures.end(), leg_anees.begin(), leg_anees.end());
   figures.insert(figures.end(),
                  {AneesBoundFigure("95 %\nbounds", "{:.1f}"),
@@ -96,42 +95,32 @@ StudyTable Cells(const std::vector<double>& leg_ends) {
                   Single("states", kPlain, "", "", OfRuns<Largest>),
                   FailedFigure(), GradesFigure(), SecondsFigure()});
   for (Figure& figure : ErrorFigures()) figures.push_back(std::move(figure));
-  table.curves = {{"std_n", kMetres, "position_n", Deviation},
-                  {"std_e", kMetres, "position_e", Deviation},
-                  {"std_d", kMetres, "position_d", Deviation},
-                  {"std_yaw", kDegrees, "yaw", Deviation},
+  table.curves = {{"std_n", kMetres, "position_n", StandardDeviation},
+                  {"std_e", kMetres, "position_e", StandardDeviation},
+                  {"std_d", kMetres, "position_d", StandardDeviation},
+                  {"std_yaw", kDegrees, "yaw", StandardDeviation},
                   {"anees", kPlain, "nees", Mean}};
   table.folds_series = true;
   return table;
 }
 
-/// The bounds are those of one constant at a time.
-template <double Interval::*bound>
-double ConstantBound(const RunCell& cell, const std::string&,
-                     const TimeRange&) {
-  if (cell.answered() == 0) return std::nan("");
-  return AneesBounds(cell.answered(), 1, 0.999).*bound;
-}
-
-/// Each constant by its errors over its sigmas.
+/// Each constant by its errors over its sigmas, one at a time.
 StudyTable Constants() {
-  StudyTable table = {"constants", {}, {}, {}};
+  StudyTable table = {"constants", {"method", "constant", "unit"}, {}, {}};
   table.figures = {
       Single("prior_sigma", kPlain, "prior\nsigma", "{:.3g}", OfRuns<Largest>),
       Single("sigma", kPlain, "sigma\nmean", "{:.3g}", OfRuns<Mean>),
       Single("rms", kPlain, "error\nrms", "{:.3g}", "error", OfRuns<Rms>),
       Single("anees", kPlain, "(error/sigma)^2\nmean", "{:.2f}", "nees",
              OfRuns<Mean>),
-      Several("anees_bound", kPlain, "99.9 %\nbounds", "{:.2f}",
-              {{"lower", "", ConstantBound<&Interval::lower>},
-               {"upper", "", ConstantBound<&Interval::upper>}}),
+      AneesBoundFigure("99.9 %\nbounds", "{:.2f}", 0.999),
       Single("observed", kPlain, "ob-\nserved", "{:.0f}", OfRuns<Sum>),
       Single("unobserved", kPlain, "un-\nobserved", "{:.0f}", OfRuns<Sum>)};
   return table;
 }
 
 StudyTable Agreement() {
-  StudyTable table = {"agreement", {}, {}, {}};
+  StudyTable table = {"agreement", {"method", "with"}, {}, {}};
   table.figures = {
       Single("position", kMetres, "largest distance\n[m]", "{:.3g}",
              OfRuns<Largest>),
@@ -143,7 +132,7 @@ StudyTable Agreement() {
 
 /// Percentiles over the outages of all runs of the largest error in each.
 StudyTable Outages() {
-  StudyTable table = {"outages", {}, {}, {}};
+  StudyTable table = {"outages", {"outage", "sensor", "method"}, {}, {}};
   for (const std::string name : {"horizontal", "vertical"}) {
     table.figures.push_back(Several(
         name, kMetres, "largest " + name + " error [m]\n50, 68, 95 %", "{:.3f}",
@@ -156,20 +145,8 @@ StudyTable Outages() {
 
 }  // namespace
 
-std::vector<StudyTable> NavigationTables(const std::vector<std::string>& labels,
-                                         const std::vector<double>& leg_ends) {
-  std::vector<StudyTable> tables = {Cells(leg_ends), Constants(), Agreement(),
-                                    Outages()};
-  const std::vector<std::string> own[] = {{"method"},
-                                          {"method", "constant", "unit"},
-                                          {"method", "with"},
-                                          {"outage", "sensor", "method"}};
-  for (std::size_t i = 0; i < tables.size(); ++i) {
-    tables[i].labels = labels;
-    tables[i].labels.insert(tables[i].labels.end(), own[i].begin(),
-                            own[i].end());
-  }
-  return tables;
+std::vector<StudyTable> NavigationTables(const std::vector<double>& leg_ends) {
+  return {Cells(leg_ends), Constants(), Agreement(), Outages()};
 }
 
 }  // namespace hindsight

@@ -30,6 +30,7 @@ void AddConstants(const Dataset& dataset, const Solution& solution,
         {"sigma", c.sigma},
         {"error", error},
         {"nees", (error / c.sigma) * (error / c.sigma)},
+        {"states", 1.0},
         {"observed", c.verdict == Verdict::kObserved ? 1.0 : 0.0},
         {"unobserved", c.verdict == Verdict::kUnobserved ? 1.0 : 0.0}};
   }

@@ -61,7 +61,7 @@ inline constexpr std::size_t kOutages = 3;
 /// A cell holds what JudgeSolution puts into it (problems/navigation_judge.h).
 Trial NavigationTrialOf(const NavigationTrial& trial);
 
-/// The tables of such a study whose cases have these label columns.
+/// The tables of such a study.
 ///   max_std_n, _e, _d    standard deviation over the runs, largest over time
 ///   legI_max_std_*       the same of leg I; legI_anees
 ///   end_std_*, yaw_std   at the last time; largest over time
@@ -69,8 +69,8 @@ Trial NavigationTrialOf(const NavigationTrial& trial);
 ///   anees_outside        share of times outside of the two-sided 95 % bounds
 ///   nis                  a row's mean; right is 1
 /// and root mean squares, percentiles, grades, failures, seconds.
-std::vector<StudyTable> NavigationTables(const std::vector<std::string>& labels,
-                                         const std::vector<double>& leg_ends);
+std::vector<StudyTable> NavigationTables(
+    const std::vector<double>& leg_ends = {});
 
 }  // namespace hindsight
 

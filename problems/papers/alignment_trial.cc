@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <utility>
 
 #include "alignment/alignment_window.h"
 #include "base/processor_time.h"
@@ -31,7 +30,6 @@ void JudgeAttitude(const Dataset& dataset, const ErrorLayout& layout,
     series["heading_sigma"].push_back(std::sqrt(P_k(2, 2)));
   }
   record->values.emplace_back("states", 3.0);
-  record->answered = true;
 }
 
 bool IsOff(const AlignmentTrialOptions& trial, double tilt, double heading) {
@@ -62,7 +60,7 @@ void TryEarly(const Dataset& dataset, const AlignmentTrialOptions& trial,
       AlignmentWindow(InputOf(dataset, trial.t_early), trial.t_early)
           .Align(0.0);
   record->values = {{kSeconds, ProcessorSeconds() - t0}};
-  if (!found || !found->refined) return;
+  if (!found || !found->refined) return record->Fail();
   JudgeAttitude(dataset, found->refined->layout, found->refined->states,
                 found->refined->P, record);
   record->t = {record->t.back()};
@@ -88,13 +86,6 @@ void TryBatch(const Dataset& dataset, const AlignmentTrialOptions& trial,
   }
 }
 
-struct Way {
-  const char* name;
-  void (*attempt)(const Dataset&, const AlignmentTrialOptions&, RunRecord*);
-};
-constexpr Way kWays[] = {{"velocity_alignment", TryEarly},
-                         {"velocity_alignment_batch", TryBatch}};
-
 Figure AngleFigure(const std::string& angle) {
   return Several(angle, kDegrees, angle + " [deg]\nrms  worst  sigma  max",
                  "{:.4f}",
@@ -106,10 +97,9 @@ Figure AngleFigure(const std::string& angle) {
 
 }  // namespace
 
-StudyTable AlignmentTable(std::vector<std::string> labels) {
-  labels.emplace_back("method");
+StudyTable AlignmentTable() {
   return {"cells",
-          std::move(labels),
+          {"method"},
           {FailedFigure(), AngleFigure("tilt"), AngleFigure("heading"),
            Single("anees", kPlain, "ANEES\n(3)", "{:.2f}", "nees",
                   OfCurve<Mean, Mean>),
@@ -121,12 +111,10 @@ StudyTable AlignmentTable(std::vector<std::string> labels) {
 
 Trial AlignmentTrial(const AlignmentTrialOptions& trial) {
   return [trial](const Dataset& dataset, CaseRun* run) {
-    for (const Way& way : kWays) {
-      run->Try({way.name}, [&](RunRecord* record) {
-        record->Fail();
-        way.attempt(dataset, trial, record);
-      });
-    }
+    run->Try({"velocity_alignment"},
+             [&](RunRecord* record) { TryEarly(dataset, trial, record); });
+    run->Try({"velocity_alignment_batch"},
+             [&](RunRecord* record) { TryBatch(dataset, trial, record); });
   };
 }
 

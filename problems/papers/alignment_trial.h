@@ -1,9 +1,6 @@
 #ifndef HINDSIGHT_PROBLEMS_PAPERS_ALIGNMENT_TRIAL_H_
 #define HINDSIGHT_PROBLEMS_PAPERS_ALIGNMENT_TRIAL_H_
 
-#include <string>
-#include <vector>
-
 #include "problems/montecarlo.h"
 
 namespace hindsight {
@@ -18,8 +15,8 @@ struct AlignmentTrialOptions {
 /// Two ways from no start value: "velocity_alignment", AlignmentWindow up to t_early,
 /// judged at that epoch, and "velocity_alignment_batch" over the whole interval
 /// from the start that `alignment: velocity` finds. A run fails without an
-/// answer, or beyond the limits at the end; the figures, in columns velocity
-/// and method, are of all that answered.
+/// answer, or beyond the limits at the end; the figures, by method, are of all
+/// that answered.
 ///
 /// Errors of the attitude in NED; tilt is the norm of its horizontal part,
 /// about two axes. Of both angles _rms over runs and epochs, _worst over the
@@ -29,8 +26,7 @@ struct AlignmentTrialOptions {
 /// the share of those epochs at which the average over the runs is outside of
 /// the bounds.
 Trial AlignmentTrial(const AlignmentTrialOptions& trial);
-/// The figures of cases that are told apart by these label columns.
-StudyTable AlignmentTable(std::vector<std::string> labels);
+StudyTable AlignmentTable();
 
 }  // namespace hindsight
 

@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "base/processor_time.h"
 #include "dataset/timeline_builder.h"
@@ -93,10 +92,9 @@ double AxisRms(const RunCell& cell, const std::string& quantity,
 
 }  // namespace
 
-StudyTable JumpTable(std::vector<std::string> labels) {
-  labels.emplace_back("method");
+StudyTable JumpTable() {
   constexpr Unit kSpeed = {"m/s", 1.0};
-  StudyTable table = {"cells", std::move(labels), {}, {}};
+  StudyTable table = {"cells", {"method"}, {}, {}};
   table.figures = {
       Single("position_rms", kMetres, "position, an axis\nrms from 10 s on [m]",
              "{:.3f}", "position", AxisRms),

@@ -1,9 +1,6 @@
 #ifndef HINDSIGHT_PROBLEMS_PAPERS_JUMP_COMPARISON_H_
 #define HINDSIGHT_PROBLEMS_PAPERS_JUMP_COMPARISON_H_
 
-#include <string>
-#include <vector>
-
 #include "problems/montecarlo.h"
 
 namespace hindsight {
@@ -18,8 +15,7 @@ namespace hindsight {
 /// filters have forgotten the start. The same against time by axis, and the
 /// mean probabilities of the modes of the paper's filters.
 Trial JumpTrial();
-/// The figures of cases that are told apart by these label columns.
-StudyTable JumpTable(std::vector<std::string> labels);
+StudyTable JumpTable();
 
 }  // namespace hindsight
 

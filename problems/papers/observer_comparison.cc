@@ -159,7 +159,7 @@ std::vector<Figure> OutcomeFigures() {
 }
 
 std::vector<Figure> LyapunovTable() {
-  constexpr Reduce kMedian = OfRuns<Rank50>;
+  const Reduce kMedian = OfRuns<Rank50>;
   std::vector<Figure> figures = {
       Several("v", kPlain, "V = e' P^-1 e\nfirst  largest  last", "{:.3g}",
               {{"first", "v_first", kMedian},
@@ -181,10 +181,8 @@ std::vector<Figure> LyapunovTable() {
 
 }  // namespace
 
-StudyTable ObserverTable(std::vector<std::string> labels) {
-  labels.insert(labels.end(), {"rule", "error"});
-  StudyTable table = {"cells", std::move(labels), {}, {}};
-  table.figures = OutcomeFigures();
+StudyTable ObserverTable() {
+  StudyTable table = {"cells", {"rule", "error"}, OutcomeFigures(), {}};
   for (Figure& figure : LyapunovTable()) table.figures.push_back(figure);
   return table;
 }

@@ -36,7 +36,7 @@ RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
 /// Every filter on a recording, whose nodes and preintegration are made once. A
 /// node without truth is an InputError.
 ///
-/// Figures of a cell, the columns velocity, start, rule and error: shares
+/// Figures by rule and error: shares
 /// diverged (escaped ones included), escaped and converged (settled at the
 /// end); t_escape, median of those; of t_settled, tilt and heading at the end
 /// the percentiles _50 and _95 over all runs, escaped ones counting as
@@ -45,8 +45,7 @@ RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
 /// extremes of the eigenvalues of P.
 Trial ObserverTrial(const std::vector<ObserverModel>& models,
                     const ObserverLimits& limits);
-/// The figures of cases that are told apart by these label columns.
-StudyTable ObserverTable(std::vector<std::string> labels);
+StudyTable ObserverTable();
 
 }  // namespace hindsight
 

@@ -106,22 +106,18 @@ UuvTruth DrawTruth(const LinearSensor& sensor, int epochs, std::uint64_t seed) {
 }
 
 /// Every architecture on one truth, the central one with sensors of its own.
-std::function<SeedRun()> FusionJob(
-    const std::string& name, const Sensors& sensors, const Sensors& central,
-    const Errors& errors,
-    const std::function<UuvTruth(std::uint64_t)>& truth_of) {
-  const SeedRun run_seed = [=](std::uint64_t seed) {
-    std::vector<RunRecord> out;
-    CaseRun run({name}, seed, &out);
-    const UuvTruth truth = truth_of(seed);
-    for (const FusionArchitecture architecture : kFusionArchitectures) {
-      const bool is_central = architecture == FusionArchitecture::kCentral;
-      Follow(architecture, is_central ? central : sensors, truth, errors, seed,
-             run.Add(0, {FusionName(architecture)}));
-    }
-    return out;
-  };
-  return [run_seed] { return run_seed; };
+Case FusionCase(const std::string& name, const Sensors& sensors,
+                const Sensors& central, const Errors& errors,
+                const std::function<UuvTruth(std::uint64_t)>& truth_of) {
+  return {
+      {name}, {}, [=](const Dataset&, CaseRun* run) {
+        const UuvTruth truth = truth_of(run->seed);
+        for (const FusionArchitecture architecture : kFusionArchitectures) {
+          const bool is_central = architecture == FusionArchitecture::kCentral;
+          Follow(architecture, is_central ? central : sensors, truth, errors,
+                 run->seed, run->Add(0, {FusionName(architecture)}));
+        }
+      }};
 }
 
 /// About the mean, divisor the number of values.
@@ -206,7 +202,7 @@ std::array<LinearSensor, 2> UuvSensors(const UuvReading& reading) {
 
 Study UuvFusionStudy(const UuvTruth& truth,
                      const std::vector<UuvReading>& readings) {
-  Study study = {.tables = {FusionTable()}, .jobs = {}};
+  Study study = {.tables = {FusionTable()}};
   for (const UuvReading& reading : readings) {
     const Sensors sensors = UuvSensors(reading);
     Sensors central = sensors;
@@ -214,9 +210,9 @@ Study UuvFusionStudy(const UuvTruth& truth,
       central[0].R = central[1].R = 0.5 * (sensors[0].R + sensors[1].R);
     }
     study.jobs.push_back(
-        FusionJob(reading.Name(), sensors, central,
-                  {{kInsSigma, kDvlSigma}, reading.white_errors},
-                  [truth](std::uint64_t) { return truth; }));
+        {FusionCase(reading.Name(), sensors, central,
+                    {{kInsSigma, kDvlSigma}, reading.white_errors},
+                    [truth](std::uint64_t) { return truth; })});
   }
   return study;
 }
@@ -228,10 +224,10 @@ void AddMatchedFusion(const std::string& name, int epochs,
   const Sensors sensors = {MakeSensor(reading, kDvlProcess, sigma[0]),
                            MakeSensor(reading, kDvlProcess, sigma[1])};
   study->jobs.push_back(
-      FusionJob(name, sensors, sensors, {sigma, true},
-                [sensor = sensors[1], epochs](std::uint64_t seed) {
-                  return DrawTruth(sensor, epochs, seed);
-                }));
+      {FusionCase(name, sensors, sensors, {sigma, true},
+                  [sensor = sensors[1], epochs](std::uint64_t seed) {
+                    return DrawTruth(sensor, epochs, seed);
+                  })});
 }
 
 }  // namespace hindsight

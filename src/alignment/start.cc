@@ -12,10 +12,10 @@
 #include "alignment/clock_slack.h"
 #include "alignment/given.h"
 #include "alignment/levelling.h"
+#include "alignment/start_covariance.h"
 #include "base/error.h"
 #include "dataset/excluded_motion.h"
 #include "dataset/rest.h"
-#include "geometry/so3.h"
 #include "state/euler_error.h"
 
 namespace hindsight {
@@ -219,54 +219,6 @@ class StartFinder {
     return prior;
   }
 
-  /// A priori covariance with the sigmas of the attitude times `factor`, each
-  /// not beyond that of an angle of which nothing is known.
-  ErrorMatrix Covariance(const ErrorLayout& layout, double factor) const {
-    ErrorMatrix P = InitialCovariance(dataset_, layout);
-    const int a = layout.Find(BlockKind::kAttitude)->offset;
-    const int b = layout.Find(BlockKind::kGyroBias)->offset;
-    const Eigen::Vector3d f =
-        (kUnknownHeadingSigma / attitude_.P.diagonal().array().sqrt())
-            .max(1.0)
-            .min(factor);
-    P.block<3, 3>(a, a) = f.asDiagonal() * attitude_.P * f.asDiagonal();
-    if ((f.array() == 1.0).all()) {
-      P.block<3, 6>(a, b) = attitude_.P_bias;
-      P.block<6, 3>(b, a) = attitude_.P_bias.transpose();
-    }
-    return P;
-  }
-
-  /// The a priori covariance of the estimation, which levels by the same
-  /// readings again.
-  ErrorMatrix PriorCovariance(const ErrorLayout& layout) const {
-    if (LevelHoldsAtAnyHeading()) return Covariance(layout, attitude_.reuse);
-    constexpr double kAnew = 10.0;
-    ErrorMatrix P = InitialCovariance(dataset_, layout);
-    const int a = layout.Find(BlockKind::kAttitude)->offset;
-    P.block<3, 3>(a, a).setZero();
-    P.diagonal().segment<2>(a) =
-        kAnew * kAnew * attitude_.P.diagonal().head<2>();
-    P(a + 2, a + 2) = attitude_.P(2, 2);
-    return P;
-  }
-
-  /// Levelling knows tilt and accelerometer bias together, in body axes. In
-  /// NED, where the prior says so, a heading that is off by psi turns the tilt
-  /// against the bias by psi/2: where that is more than levelling leaves open,
-  /// the prior would say that the bias is small or the heading right.
-  bool LevelHoldsAtAnyHeading() const {
-    const Eigen::Matrix3d& P = attitude_.P;
-    const Eigen::Vector3d weight =
-        AccelBiasSigma(given()).cwiseAbs2().cwiseInverse();
-    const Eigen::Matrix<double, 2, 3> C =
-        attitude_.P_bias.topRightCorner<2, 3>();
-    const Eigen::Vector2d tilt = P.diagonal().head<2>();
-    const Eigen::Vector2d open =
-        tilt - (C * weight.asDiagonal() * C.transpose()).diagonal();
-    return 0.25 * P(2, 2) * tilt.maxCoeff() < open.maxCoeff();
-  }
-
   Start Finish() {
     Start start;
     State x = MakeState(t_, GeodeticFromEcef(position_e_), v_n_, euler_);
@@ -275,8 +227,8 @@ class StartFinder {
     start.layout = BuildLayout(dataset_, BuildPrior());
     x.parameters =
         InitialParameters(dataset_, start.layout, attitude_.travel_b);
-    Prior known{x, Covariance(start.layout, 1.0)};
-    start.prior = {x, PriorCovariance(start.layout)};
+    Prior known{x, StartCovariance(dataset_, start.layout, attitude_, 1.0)};
+    start.prior = {x, PriorCovariance(dataset_, start.layout, attitude_)};
     if (t_ > from_ && !given().t) {
       ExtendBackward(start.layout, dataset_.imu, from_, &start.prior);
       ExtendBackward(start.layout, dataset_.imu, start.prior.x.t, &known);

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "app/campaign.h"
+#include "app/campaign_folder.h"
 #include "app/campaign_slurm.h"
 #include "app/campaign_table.h"
 #include "app/command.h"
@@ -13,11 +14,6 @@
 #include "app/progress.h"
 #include "base/error.h"
 #include "base/parallel.h"
-#include "io/read/paths.h"
-#include "io/read/text_file.h"
-#include "io/write/atomic_file.h"
-#include "io/write/output_error.h"
-#include "io/write/unpublished.h"
 
 namespace hindsight {
 namespace fs = std::filesystem;
@@ -49,7 +45,6 @@ Ctrl-C ends the processes; the same call goes on. The exit status is 0 if every
 item has results, of whatever grade, and 1 if some have failed or are left open.
 )";
 
-constexpr char kListName[] = "items.csv";
 constexpr char kTableName[] = "campaign.csv";
 constexpr char kPageName[] = "campaign.html";
 
@@ -121,84 +116,6 @@ void CheckFlags() {
   }
 }
 
-/// Whether it holds no more than a call leaves that was killed before there was
-/// a list.
-bool IsBegun(const fs::path& folder) {
-  if (!IsFolder(folder)) return false;
-  const std::vector<fs::path> entries = FolderEntries(folder);
-  return std::all_of(
-      entries.begin(), entries.end(), [&](const fs::path& entry) {
-        return entry.filename() == "items" ||
-               IsUnpublishedName(entry.filename().string(), folder / kListName);
-      });
-}
-
-/// Makes the folder, or throws InputError where it holds something else.
-void PrepareFolder(const fs::path& folder) {
-  if (PathExists(folder) && !IsFile(folder / kListName) && !IsBegun(folder)) {
-    throw InputError(folder.string() +
-                     " is there and no campaign: it holds no " + kListName);
-  }
-  std::error_code refused;
-  fs::create_directories(folder / "items", refused);
-  if (refused) {
-    throw InputError("output folder " + folder.string() +
-                     " cannot be made: " + refused.message());
-  }
-}
-
-void WriteIfOther(const fs::path& path, const std::string& text) {
-  if (IsFile(path) && ReadTextFile(path.string()) == text) return;
-  WriteFileAtomically(path.string(), text);
-}
-
-/// What a campaign writes must not become part of what it reads.
-void RequireOutside(const fs::path& folder,
-                    const std::vector<CampaignItem>& items) {
-  for (const CampaignItem& item : items) {
-    if (!IsFolder(item.config)) continue;
-    const fs::path from = fs::weakly_canonical(folder).lexically_relative(
-        fs::weakly_canonical(item.config));
-    if (from.empty() || *from.begin() == "..") continue;
-    throw InputError("--out=" + folder.string() + " lies in the recording " +
-                     item.config.string() + "; expected another folder");
-  }
-}
-
-/// Of the list, which becomes that of the folder; without one, of the folder.
-std::vector<CampaignItem> ItemsOf(const std::vector<std::string>& list,
-                                  const fs::path& folder) {
-  const std::string known = (folder / kListName).string();
-  if (!list.empty()) {
-    const auto items = ReadCampaignList(list, GivenFlags());
-    RequireOutside(folder, items);
-    PrepareFolder(folder);
-    WriteIfOther(known, CampaignListText(items));
-    return items;
-  }
-  if (!IsFile(known)) {
-    throw UsageError("'campaign' needs a LIST of recordings: " +
-                     folder.string() + " is no campaign yet");
-  }
-  if (const auto given = GivenFlags(); !given.empty()) {
-    throw UsageError("--" + given.begin()->first +
-                     " goes with a LIST: the items of " + known +
-                     " have flags of their own");
-  }
-  return ReadCampaignList({known}, {});
-}
-
-/// What failed becomes open again.
-void ForgetFailures(const std::vector<CampaignItem>& items,
-                    const fs::path& folder) {
-  for (const CampaignItem& item : items) {
-    const ItemPlace place(folder, item);
-    const auto record = ReadItemRecord(place);
-    std::error_code gone;
-    if (record && !record->done) fs::remove(place.record, gone);
-  }
-}
-
 int Report(const std::vector<CampaignItem>& items, const fs::path& folder) {
   const std::vector<CampaignRow> rows = ReadCampaign(items, folder);
   WriteIfOther(folder / kTableName, CampaignCsv(rows));
@@ -264,7 +181,7 @@ int Run(const std::vector<std::string>& list) {
   Progress progress(Progress::ModeFromName(FLAGS_progress));
   fs::path folder = fs::absolute(FLAGS_out).lexically_normal();
   if (!folder.has_filename()) folder = folder.parent_path();
-  const std::vector<CampaignItem> items = ItemsOf(list, folder);
+  const std::vector<CampaignItem> items = ItemsOf(list, GivenFlags(), folder);
   constexpr int kTasks = 10;
   const int tasks =
       FLAGS_workers > 0 ? static_cast<int>(FLAGS_workers) : kTasks;

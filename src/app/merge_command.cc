@@ -89,7 +89,11 @@ Study StudyOf(const ShardedCall& call) {
   }
   std::vector<std::string> columns = call.labels;
   columns.pop_back();
-  return {call.name, call.settings, NavigationTables(columns, {}), {}};
+  Study study = {.name = call.name, .settings = call.settings, .tables = {}};
+  for (const StudyTable& table : NavigationTables()) {
+    study.tables.push_back(Under(columns, table));
+  }
+  return study;
 }
 
 int Run(const std::vector<std::string>& folders) {

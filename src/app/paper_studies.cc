@@ -10,11 +10,11 @@
 #include "app/study_cases.h"
 #include "base/error.h"
 #include "base/units.h"
-#include "problems/free_rotation_trial.h"
+#include "problems/attitude_trial.h"
 #include "problems/papers/alignment_trial.h"
 #include "problems/papers/jump_comparison.h"
+#include "problems/papers/observer_comparison.h"
 #include "problems/papers/uuv_fusion.h"
-#include "problems/papers/vibration_comparison.h"
 #include "simulation/free_rotation.h"
 #include "simulation/vibration_attitude.h"
 
@@ -39,64 +39,58 @@ UuvTruth SearchTruth() {
   return truth;
 }
 
-/// Of recordings that need no preparation, a job each.
-Study AttitudeStudy(
-    const StudyTable& table, const Trial& trial,
-    const std::vector<std::pair<std::string, Recording>>& recordings) {
-  std::vector<Case> cases;
-  for (const auto& [label, recording] : recordings) {
-    cases.push_back(
-        {{label}, [recording = recording] { return recording; }, trial});
-  }
-  return {"", {}, {table}, JobEach(cases)};
+/// A job of its own for recordings that need no preparation.
+std::vector<Case> AttitudeJob(const std::string& label, const Recording& made,
+                              const Trial& trial) {
+  return {{{label}, [made] { return made; }, trial}};
 }
 
 }  // namespace
 
 Study InFlightStudy() {
-  const std::vector<ObserverModel> models = ReadObserverModels();
-  const CaseList list =
-      MakeCases({kVelocityRates,
-                 {"start_errors.tilt", "10 deg|30 deg", "start", "tilt ", true},
-                 {"start_errors.heading", "30 deg|60 deg|120 deg|175 deg",
-                  "start", " heading ", true}});
   const Trial trial =
-      ObserverTrial(models, {.settled_tilt = 0.5 * kDegree,
-                             .settled_heading = 2.0 * kDegree,
-                             .diverged_tilt = kDivergedTilt,
-                             .diverged_heading = kDivergedHeading,
-                             .last = kLast});
-  return StudyOf(list, {ObserverTable(list.columns)},
-                 {JobOf(CasesOf("in_flight_alignment", list, trial))});
+      ObserverTrial(ReadObserverModels(), {.settled_tilt = 0.5 * kDegree,
+                                           .settled_heading = 2.0 * kDegree,
+                                           .diverged_tilt = kDivergedTilt,
+                                           .diverged_heading = kDivergedHeading,
+                                           .last = kLast});
+  return StudyOf(
+      {"in_flight_alignment",
+       {kVelocityRates,
+        {"start_errors.tilt", "10 deg|30 deg", "start", "tilt ", true},
+        {"start_errors.heading", "30 deg|60 deg|120 deg|175 deg", "start",
+         " heading ", true}},
+       OnAll(trial),
+       {ObserverTable()},
+       true});
 }
 
 Study VelocityAlignmentStudy() {
-  const CaseList list = MakeCases({kVelocityRates});
-  const Trial trial = AlignmentTrial({.t_early = 20.0,
+  const Trial align = AlignmentTrial({.t_early = 20.0,
                                       .diverged_tilt = kDivergedTilt,
                                       .diverged_heading = kDivergedHeading,
                                       .last = kLast});
-  std::vector<Case> cases = CasesOf("in_flight_alignment", list, trial);
-  for (Case& one : cases) {
-    one.prepare = [prepare = one.prepare]() -> Recording {
-      return [flight = prepare()](std::uint64_t seed) {
-        Dataset dataset = flight(seed);
-        MountAnywhere(seed, &dataset);
-        dataset.initial.alignment = AlignmentKind::kVelocity;
-        return dataset;
-      };
-    };
-  }
-  return StudyOf(list, {AlignmentTable(list.columns)}, {JobOf(cases)});
+  const Trial trial = [align](const Dataset& flight, CaseRun* run) {
+    Dataset dataset = flight;
+    MountAnywhere(run->seed, &dataset);
+    dataset.initial.alignment = AlignmentKind::kVelocity;
+    align(dataset, run);
+  };
+  return StudyOf({"in_flight_alignment",
+                  {kVelocityRates},
+                  OnAll(trial),
+                  {AlignmentTable()},
+                  true});
 }
 
 Study GpsJumpsStudy() {
-  const CaseList list = MakeCases(
-      {{"errors", "pulses|spikes|steps|ramp|multipath|none", "profile"},
-       {"aiding.gnss.sigma", "1 m", "gps_sigma[m]", "", true},
-       {"aiding.*.rate", "1 Hz", "gps_rate[Hz]", "", true}});
-  return StudyOf(list, {JumpTable(list.columns)},
-                 JobEach(CasesOf("gps_jumps", list, JumpTrial())));
+  return StudyOf(
+      {"gps_jumps",
+       {{"errors", "pulses|spikes|steps|ramp|multipath|none", "profile"},
+        {"aiding.gnss.sigma", "1 m", "gps_sigma[m]", "", true},
+        {"aiding.*.rate", "1 Hz", "gps_rate[Hz]", "", true}},
+       OnAll(JumpTrial()),
+       {JumpTable()}});
 }
 
 Study UuvSearchStudy() {
@@ -117,21 +111,25 @@ Study UuvSearchStudy() {
 }
 
 Study VibrationAttitudeStudy() {
-  std::vector<std::pair<std::string, Recording>> recordings;
+  Study study = {.tables = {Under({"disturbance"}, VibrationTable())}};
   const auto add = [&](const std::string& name,
                        const VibrationAttitudeOptions& options) {
-    recordings.emplace_back(name, [options](std::uint64_t seed) {
-      return SimulateVibrationAttitude(options, seed);
-    });
+    study.jobs.push_back(AttitudeJob(
+        name,
+        [options](std::uint64_t seed) {
+          return SimulateVibrationAttitude(options, seed);
+        },
+        AttitudeTrial(AccelerometerRules())));
   };
   for (const std::string& axis : VibrationAxes()) {
     add("acceleration along " + axis, {.axis = axis});
   }
   add("acceleration and vibration along north", {.vibration_along_axis = true});
-  return AttitudeStudy(VibrationTable(), VibrationTrial(), recordings);
+  return study;
 }
 
 Study FreeRotationStudy() {
+  constexpr std::size_t kEvery = 10;
   const auto disturbed_by = [](double disturbance) -> Recording {
     return [disturbance](std::uint64_t seed) {
       FreeRotationOptions options = DrawFreeRotation(seed);
@@ -139,10 +137,11 @@ Study FreeRotationStudy() {
       return SimulateFreeRotation(options, seed);
     };
   };
-  return AttitudeStudy(FreeRotationTable(kFreeRotationBegin, kFreeRotationEnd),
-                       FreeRotationTrial(),
-                       {{"throughout", disturbed_by(0.0)},
-                        {"at rest alone", disturbed_by(60.0)}});
+  const Trial trial = AttitudeTrial(AttitudeMethods(), kEvery);
+  return {.tables = {Under({"field"}, FreeRotationTable(kFreeRotationBegin,
+                                                        kFreeRotationEnd))},
+          .jobs = {AttitudeJob("throughout", disturbed_by(0.0), trial),
+                   AttitudeJob("at rest alone", disturbed_by(60.0), trial)}};
 }
 
 }  // namespace hindsight

@@ -20,55 +20,55 @@ namespace {
 /// both; of the forward speed alone the methods that differ.
 Study TunnelStudy() {
   const std::vector<double> kLegEnds = {502.5, 1002.5, 1502.5, 2005.0};
-  CaseList list = MakeCases({{"path", "winding"}, {"noise", "sample"}});
-  std::vector<Case> cases;
-  const auto add = [&](const char* form, const ScenarioChanges& changes,
-                       const std::vector<std::string>& methods) {
-    CaseList of_form = list;
-    for (CaseList::Entry& entry : of_form.cases) {
-      entry.labels.emplace_back(form);
-      std::ranges::copy(changes, std::back_inserter(entry.changes));
+  const auto trial_of = [&](const Scenario&, const ScenarioChanges& changes) {
+    std::vector<std::string> methods = {"ekf", "two_filter", "iterated",
+                                        "batch"};
+    if (std::ranges::count(changes, "aiding.odometer.form=three_axis") > 0) {
+      methods = {"ekf",
+                 "two_filter",
+                 "two_filter_conventional",
+                 "two_filter_euler",
+                 "rts",
+                 "iterated",
+                 "batch"};
     }
-    const Trial trial =
-        NavigationTrialOf({.methods = methods, .leg_ends = kLegEnds});
-    std::ranges::move(CasesOf("tunnel_survey", of_form, trial),
-                      std::back_inserter(cases));
+    return NavigationTrialOf({.methods = methods, .leg_ends = kLegEnds});
   };
-  add("three axes", {},
-      {"ekf", "two_filter", "two_filter_conventional", "two_filter_euler",
-       "rts", "iterated", "batch"});
-  add("forward", {"aiding.odometer.form=forward"},
-      {"ekf", "two_filter", "iterated", "batch"});
-  list.columns.emplace_back("odometer");
-  return StudyOf(list, NavigationTables(list.columns, kLegEnds),
-                 {JobOf(cases)});
+  return StudyOf({"tunnel_survey",
+                  {{"path", "winding"},
+                   {"noise", "sample"},
+                   {"aiding.odometer.form", "three_axis|forward", "odometer"}},
+                  trial_of,
+                  NavigationTables(kLegEnds),
+                  true});
 }
 
 /// Largest standard deviations by distance of the reference points and noise of
 /// the odometer.
 Study TunnelSweepStudy() {
-  const CaseList list = MakeCases(
-      {{"path", "winding"},
-       {"noise", "sample"},
-       {"aiding.reference.spacing", "250 m|500 m|1000 m|2000 m|4000 m|8000 m",
-        "reference_spacing[m]", "", true},
-       {"aiding.odometer.sigma", "0.005 m/s|0.01 m/s|0.02 m/s|0.05 m/s|0.1 m/s",
-        "odometer_sigma[m/s]", "", true}});
-  return StudyOf(list, NavigationTables(list.columns, {}),
-                 JobEach(CasesOf(
-                     "tunnel_survey", list,
-                     NavigationTrialOf({.methods = {"two_filter", "batch"}}))));
+  return StudyOf(
+      {"tunnel_survey",
+       {{"path", "winding"},
+        {"noise", "sample"},
+        {"aiding.reference.spacing", "250 m|500 m|1000 m|2000 m|4000 m|8000 m",
+         "reference_spacing[m]", "", true},
+        {"aiding.odometer.sigma",
+         "0.005 m/s|0.01 m/s|0.02 m/s|0.05 m/s|0.1 m/s", "odometer_sigma[m/s]",
+         "", true}},
+       OnAll(NavigationTrialOf({.methods = {"two_filter", "batch"}})),
+       NavigationTables()});
 }
 
 /// Judged away from the ends, at times that have truth whatever the clocks.
 Study ConstantsStudy(const std::string& scenario) {
-  const CaseList list = MakeCases({});
-  const Trial trial =
-      NavigationTrialOf({.methods = {"ekf", "rts", "iterated", "batch"},
-                         .judged_every = 10.0,
-                         .judged_to = 599.0});
-  return StudyOf(list, NavigationTables(list.columns, {}),
-                 {JobOf(CasesOf(scenario, list, trial))});
+  const NavigationTrial trial = {.methods = {"ekf", "rts", "iterated", "batch"},
+                                 .judged_every = 10.0,
+                                 .judged_to = 599.0};
+  return StudyOf({scenario,
+                  {},
+                  OnAll(NavigationTrialOf(trial)),
+                  NavigationTables(),
+                  true});
 }
 
 double LengthOf(const Scenario& scenario) {
@@ -87,21 +87,22 @@ double DriftOf(const RunCell& cell, const std::string& end, const TimeRange&) {
 
 /// Dives, whose length each run has as a value.
 Study UuvSurveyStudy() {
-  const CaseList list =
-      MakeCases({{"path", "lawnmower|straight|returning", "dive"},
-                 {"aids", "no fix|final fix|final fix, 120 s without DVL",
-                  "dive", ", "}});
-  std::vector<StudyTable> tables = NavigationTables(list.columns, {});
+  std::vector<StudyTable> tables = NavigationTables();
   Figure drift =
       Share("end_drift", "end, of\ndistance [%]", "end_horizontal", DriftOf);
   drift.format = "{:.3f}";
   drift.part = 1;
   tables[kCells].figures.push_back(drift);
-  const auto trial_of = [](const Scenario& scenario) {
+  const auto trial_of = [](const Scenario& scenario, const ScenarioChanges&) {
     return NavigationTrialOf({.methods = {"ekf", "two_filter", "rts", "batch"},
                               .values = {{"length", LengthOf(scenario)}}});
   };
-  return StudyOf(list, tables, JobEach(CasesOf("uuv_survey", list, trial_of)));
+  return StudyOf({"uuv_survey",
+                  {{"path", "lawnmower|straight|returning", "dive"},
+                   {"aids", "no fix|final fix|final fix, 120 s without DVL",
+                    "dive", ", "}},
+                  trial_of,
+                  tables});
 }
 
 /// That knows when the scenario's sensors are silent.
@@ -121,25 +122,29 @@ Trial ScenarioTrial(const std::vector<std::string>& methods,
 
 Study ScenarioStudy(const std::vector<std::string>& names_or_paths) {
   const std::vector<std::string> methods = ReadTrajectoryMethods(FLAGS_methods);
-  const CaseList list = MakeCases({});
-  std::vector<std::string> columns = {"scenario"};
-  columns.insert(columns.end(), list.columns.begin(), list.columns.end());
-  std::vector<Case> all;
+  Study all;
   std::vector<std::string> names;
   for (const std::string& file : names_or_paths) {
-    names.push_back(FindScenario(file, list.cases[0].changes).name);
-    if (std::ranges::count(names, names.back()) > 1) {
-      throw UsageError("two scenarios of the name '" + names.back() + "'");
+    std::string& name = names.emplace_back();
+    const auto trial_of = [&](const Scenario& scenario,
+                              const ScenarioChanges&) {
+      name = scenario.name;
+      return ScenarioTrial(methods, scenario);
+    };
+    Study one = StudyOf({file, {}, trial_of, NavigationTables()});
+    if (std::ranges::count(names, name) > 1) {
+      throw UsageError("two scenarios of the name '" + name + "'");
     }
-    for (Case& one : CasesOf(file, list, [&](const Scenario& scenario) {
-           return ScenarioTrial(methods, scenario);
-         })) {
-      one.labels.insert(one.labels.begin(), names.back());
-      all.push_back(std::move(one));
+    for (std::vector<Case>& job : one.jobs) {
+      job[0].labels.insert(job[0].labels.begin(), name);
+      all.jobs.push_back(std::move(job));
     }
+    all.settings = one.settings;
+    all.tables = one.tables;
   }
-  return {Joined(names, ","), list.settings, NavigationTables(columns, {}),
-          JobEach(all)};
+  for (StudyTable& table : all.tables) table = Under({"scenario"}, table);
+  all.name = Joined(names, ",");
+  return all;
 }
 
 const std::vector<NamedStudy>& NamedStudies() {
@@ -147,19 +152,16 @@ const std::vector<NamedStudy>& NamedStudies() {
       {"tunnel_survey",
        "an odometer survey of 8 km, by three axes and by the\n"
        "forward speed alone",
-       TunnelStudy,
-       {"set", "sweep"}},
+       TunnelStudy},
       {"tunnel_sweep",
        "the same against the distance of the reference points,\n"
        "0.25 to 8 km, and the odometer noise, 5 to 100 mm/s",
-       TunnelSweepStudy,
-       {"set", "sweep"}},
+       TunnelSweepStudy},
       {"calibration",
        "ten minutes on which lever arms, time offsets, scale\n"
        "factors and the mounting are all unknown and estimated,\n"
        "each judged by its errors over its sigmas",
-       [] { return ConstantsStudy("calibration"); },
-       {"set", "sweep"}},
+       [] { return ConstantsStudy("calibration"); }},
       {"in_flight_alignment",
        "forward observers from bad initial attitudes, Riccati\n"
        "rule x definition of the error x start: shares that\n"
@@ -172,22 +174,21 @@ const std::vector<NamedStudy>& NamedStudies() {
       {"velocity_alignment",
        "aligns the same flight from no start value, the IMU\n"
        "mounted at any attitude, and then solves it as a batch",
-       VelocityAlignmentStudy,
-       {"set", "sweep"}},
-      {"gps_jumps",
-       "filters and batches under errors of the positions",
-       GpsJumpsStudy,
-       {"set", "sweep"}},
+       VelocityAlignmentStudy},
+      {"gps_jumps", "filters and batches under errors of the positions",
+       GpsJumpsStudy},
       {kVibrationAttitudeName,
        "the accelerometer rules of attitude-only estimation under\n"
        "acceleration and vibration, along north, one and all body\n"
        "axes, and up: attitude by axis and interval, gyro bias,\n"
        "shares inside 3 sigma",
-       VibrationAttitudeStudy},
+       VibrationAttitudeStudy,
+       {}},
       {kFreeRotationName,
        "attitude alone over 20 net turns with scale factors of\n"
        "0.4 %, by a field that is seen throughout or at rest alone",
-       FreeRotationStudy},
+       FreeRotationStudy,
+       {}},
       {"grades",
        "four vehicles, healthy and with faults of every kind in\n"
        "three sizes (data/faults/grades.yaml): whether what is wrong is\n"
@@ -199,13 +200,11 @@ const std::vector<NamedStudy>& NamedStudies() {
        "a dive with INS, DVL and depth: lawn-mower, straight leg\n"
        "and lawn-mower that ends near its start, each without\n"
        "and with a final fix and with a gap of the DVL",
-       UuvSurveyStudy,
-       {"set", "sweep"}},
+       UuvSurveyStudy},
       {"uuv_calibration",
        "figures of eight at the surface with GNSS: scale,\n"
        "boresight and lever arm of the DVL, judged as above",
-       [] { return ConstantsStudy("uuv_calibration"); },
-       {"set", "sweep"}},
+       [] { return ConstantsStudy("uuv_calibration"); }},
       {"uuv_search",
        "the fusions of Lee and Yoon (2011) as printed, 16\n"
        "readings: 2-D and 3-D distance error with histograms",

@@ -19,7 +19,7 @@ struct NamedStudy {
   /// it computes anything.
   std::function<Study()> make;
   /// The flags of its own, with underscores for dashes.
-  std::vector<std::string> flags = {};
+  std::vector<std::string> flags = {"set", "sweep"};
   std::uint64_t default_runs = 100;
 };
 

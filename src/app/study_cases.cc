@@ -73,8 +73,14 @@ std::vector<std::string> ValuesOf(const Axis& axis) {
   return values;
 }
 
-void Add(const Axis& axis, const std::string& value, CaseList::Entry* entry,
-         std::size_t column) {
+/// What is different of a case, and its labels.
+struct Entry {
+  std::vector<std::string> labels;
+  ScenarioChanges changes;
+};
+
+void Add(const Axis& axis, const std::string& value, std::size_t column,
+         Entry* entry) {
   entry->changes.push_back(axis.key + "=" + value);
   if (axis.column.empty()) return;
   entry->labels.resize(std::max(entry->labels.size(), column + 1));
@@ -83,42 +89,22 @@ void Add(const Axis& axis, const std::string& value, CaseList::Entry* entry,
       (axis.without_unit ? value.substr(0, value.find(' ')) : value);
 }
 
-}  // namespace
-
-CaseList MakeCases(std::vector<Axis> axes) {
-  std::vector<Axis> given = AskedAxes();
-  for (Axis& axis : SweptAxes()) given.push_back(std::move(axis));
-  for (const Axis& asked : given) {
-    const auto same = [&](const Axis& axis) { return axis.key == asked.key; };
-    const auto found = std::find_if(axes.begin(), axes.end(), same);
-    if (found == axes.end()) {
-      axes.push_back(asked);
-    } else {
-      found->values = asked.values;
-    }
-  }
-  CaseList list;
-  list.cases.emplace_back();
-  for (Axis& axis : axes) {
-    const std::vector<std::string> values = ValuesOf(axis);
-    if (axis.column.empty() && values.size() > 1) axis.column = axis.key;
-    auto at = std::find(list.columns.begin(), list.columns.end(), axis.column);
-    const auto column = static_cast<std::size_t>(at - list.columns.begin());
-    if (axis.column.empty()) {
-      list.settings.emplace_back(axis.key, values[0]);
-    } else if (at == list.columns.end()) {
-      list.columns.push_back(axis.column);
-    }
-    std::vector<CaseList::Entry> more;
-    for (const CaseList::Entry& entry : list.cases) {
-      for (const std::string& value : values) {
-        Add(axis, value, &more.emplace_back(entry), column);
+/// The axes as the flags have them.
+std::vector<Axis> WithFlags(std::vector<Axis> axes) {
+  for (const std::vector<Axis>& given : {AskedAxes(), SweptAxes()}) {
+    for (const Axis& asked : given) {
+      const auto found = std::ranges::find(axes, asked.key, &Axis::key);
+      if (found == axes.end()) {
+        axes.push_back(asked);
+      } else {
+        found->values = asked.values;
       }
     }
-    list.cases = std::move(more);
   }
-  return list;
+  return axes;
 }
+
+}  // namespace
 
 ScenarioChanges ReadChanges() {
   ScenarioChanges changes;
@@ -147,30 +133,43 @@ Recording RecordingOf(const Scenario& scenario) {
   return [perfect](std::uint64_t seed) { return perfect->Realize(seed); };
 }
 
-std::vector<Case> CasesOf(const std::string& scenario, const CaseList& list,
-                          const TrialOf& trial_of) {
-  std::vector<Case> cases;
-  for (const CaseList::Entry& entry : list.cases) {
-    const Scenario changed = FindScenario(scenario, entry.changes);
-    cases.push_back({entry.labels, [changed] { return RecordingOf(changed); },
-                     trial_of(changed)});
+TrialOf OnAll(const Trial& trial) {
+  return [trial](const Scenario&, const ScenarioChanges&) { return trial; };
+}
+
+Study StudyOf(const ScenarioTrials& trials) {
+  Study study;
+  std::vector<std::string> columns;
+  std::vector<Entry> entries(1);
+  for (Axis& axis : WithFlags(trials.axes)) {
+    const std::vector<std::string> values = ValuesOf(axis);
+    if (axis.column.empty() && values.size() > 1) axis.column = axis.key;
+    const auto at = std::ranges::find(columns, axis.column);
+    const auto column = static_cast<std::size_t>(at - columns.begin());
+    if (axis.column.empty()) {
+      study.settings.emplace_back(axis.key, values[0]);
+    } else if (at == columns.end()) {
+      columns.push_back(axis.column);
+    }
+    std::vector<Entry> more;
+    for (const Entry& entry : entries) {
+      for (const std::string& value : values) {
+        Add(axis, value, column, &more.emplace_back(entry));
+      }
+    }
+    entries = std::move(more);
   }
-  return cases;
-}
-
-std::vector<Case> CasesOf(const std::string& scenario, const CaseList& list,
-                          const Trial& trial) {
-  return CasesOf(scenario, list, [&](const Scenario&) { return trial; });
-}
-
-Jobs JobEach(const std::vector<Case>& cases) {
-  Jobs jobs;
-  for (const Case& one : cases) jobs.push_back(JobOf({one}));
-  return jobs;
-}
-
-Study StudyOf(const CaseList& list, std::vector<StudyTable> tables, Jobs jobs) {
-  return {"", list.settings, std::move(tables), std::move(jobs)};
+  for (const StudyTable& table : trials.tables) {
+    study.tables.push_back(Under(columns, table));
+  }
+  for (const Entry& entry : entries) {
+    const Scenario changed = FindScenario(trials.scenario, entry.changes);
+    if (study.jobs.empty() || !trials.is_one_job) study.jobs.emplace_back();
+    study.jobs.back().push_back({entry.labels,
+                                 [changed] { return RecordingOf(changed); },
+                                 trials.trial_of(changed, entry.changes)});
+  }
+  return study;
 }
 
 }  // namespace hindsight

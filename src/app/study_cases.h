@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "io/config/scenario_config.h"
@@ -23,22 +22,24 @@ struct Axis {
   bool without_unit = false;  ///< only the first word of the value stands there
 };
 
-/// The cases of a comparison, every value of an axis with every one of the
-/// others, the last axis changing fastest.
-struct CaseList {
-  struct Entry {
-    std::vector<std::string> labels;
-    ScenarioChanges changes;
-  };
-  std::vector<std::string> columns;
-  std::vector<Entry> cases;
-  /// Values of the axes that have no column.
-  std::vector<std::pair<std::string, std::string>> settings;
+/// What is tried on the recordings of a scenario, and what was changed in it.
+using TrialOf = std::function<Trial(const Scenario& scenario,
+                                    const ScenarioChanges& changes)>;
+TrialOf OnAll(const Trial& trial);
+
+/// Trials on a scenario, every value of an axis with every one of the others,
+/// the last axis changing fastest.
+struct ScenarioTrials {
+  std::string scenario;  ///< name or path
+  std::vector<Axis> axes;
+  TrialOf trial_of;
+  std::vector<StudyTable> tables;  ///< label columns of the cases go before
+  bool is_one_job = false;         ///< of all cases; else one of each
 };
 
-/// With --set and --sweep, which give an axis other values or add one. Throws
-/// UsageError.
-CaseList MakeCases(std::vector<Axis> axes);
+/// That comparison, which has no name yet, with --set and --sweep, which give an
+/// axis other values or add one. Throws UsageError, InputError.
+Study StudyOf(const ScenarioTrials& trials);
 
 /// The changes of --set, each of one value. Throws UsageError.
 ScenarioChanges ReadChanges();
@@ -49,21 +50,6 @@ std::vector<std::filesystem::path> FilesOf(
 
 /// The scenario's motion is made once, for all seeds.
 Recording RecordingOf(const Scenario& scenario);
-
-/// What is tried on the recordings of a scenario.
-using TrialOf = std::function<Trial(const Scenario& scenario)>;
-
-/// The scenario under the changes of each entry. Throws InputError.
-std::vector<Case> CasesOf(const std::string& scenario, const CaseList& list,
-                          const TrialOf& trial_of);
-std::vector<Case> CasesOf(const std::string& scenario, const CaseList& list,
-                          const Trial& trial);
-
-/// A job of each case.
-Jobs JobEach(const std::vector<Case>& cases);
-
-/// The comparison of the listed cases, which has no name yet.
-Study StudyOf(const CaseList& list, std::vector<StudyTable> tables, Jobs jobs);
 
 }  // namespace hindsight
 

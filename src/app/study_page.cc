@@ -93,11 +93,11 @@ bool IsSwept(const std::vector<FigureRow>& rows, std::size_t column) {
 
 std::string SweepPicture(const StudyTable& table,
                          const std::vector<FigureRow>& rows, std::size_t column,
-                         const Figure& figure) {
+                         const FigureColumn& figure) {
   const std::string& first = rows.front().labels[column];
   const std::size_t blank = first.find(' ');
   LinePicture picture = {
-      .title = figure.name + " [" + figure.unit.name + "]",
+      .title = figure.figure->name + " [" + figure.figure->unit.name + "]",
       .axis = table.labels[column] +
               (blank == first.npos ? "" : " [" + first.substr(blank + 1) + "]"),
       .lines = {},
@@ -106,11 +106,7 @@ std::string SweepPicture(const StudyTable& table,
   for (const FigureRow& row : rows) {
     Labels others = row.labels;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(column));
-    const auto value =
-        FigureOf(table, row, figure.NameOf(figure.terms.front()));
-    if (value) {
-      lines[others][*NumberIn(row.labels[column])] = *value / figure.unit.scale;
-    }
+    lines[others][*NumberIn(row.labels[column])] = figure.Of(row);
   }
   for (const auto& [others, points] : lines) {
     LinePicture::Line line = {Joined(others, ", "), {}, {}};
@@ -132,8 +128,10 @@ std::string SweepPanel(const StudyTable& table,
   for (std::size_t column = 0; column + 1 < table.labels.size(); ++column) {
     if (rows.empty() || !IsSwept(rows, column)) continue;
     html += Element("h3", table.labels[column]) + "<div class=\"pictures\">";
-    for (const Figure& figure : table.figures) {
-      if (!kShown.contains(figure.name)) continue;
+    for (const FigureColumn& figure : ColumnsOf(table)) {
+      if (figure.term_index > 0 || !kShown.contains(figure.figure->name)) {
+        continue;
+      }
       html += SweepPicture(table, rows, column, figure);
     }
     html += "</div>\n";

@@ -35,27 +35,26 @@ std::string NumberField(double value) {
   return text;
 }
 
-/// The row as a line, or with `row` null the header.
-std::string FigureLine(const StudyTable& table, const FigureRow* row) {
-  Fields fields = row == nullptr ? table.labels : row->labels;
-  fields.push_back(row == nullptr ? "runs" : std::to_string(row->runs));
-  for (std::size_t f = 0; f < table.figures.size(); ++f) {
-    const Figure& figure = table.figures[f];
-    if (!figure.is_repeatable) continue;
-    for (std::size_t i = 0; i < figure.terms.size(); ++i) {
-      fields.push_back(
-          row == nullptr
-              ? figure.NameOf(figure.terms[i]) + "[" + figure.unit.name + "]"
-              : NumberField(row->values[f][i] / figure.unit.scale));
-    }
-  }
-  return CsvLine(fields);
-}
-
 std::string FigureCsv(const StudyTable& table,
                       const std::vector<FigureRow>& rows) {
-  std::string text = FigureLine(table, nullptr);
-  for (const FigureRow& row : rows) text += FigureLine(table, &row);
+  std::vector<FigureColumn> columns = ColumnsOf(table);
+  std::erase_if(columns, [](const FigureColumn& column) {
+    return !column.figure->is_repeatable;
+  });
+  Fields header = table.labels;
+  header.emplace_back("runs");
+  for (const FigureColumn& column : columns) {
+    header.push_back(column.name + "[" + column.figure->unit.name + "]");
+  }
+  std::string text = CsvLine(header);
+  for (const FigureRow& row : rows) {
+    Fields fields = row.labels;
+    fields.push_back(std::to_string(row.runs));
+    for (const FigureColumn& column : columns) {
+      fields.push_back(NumberField(column.Of(row)));
+    }
+    text += CsvLine(fields);
+  }
   return text;
 }
 
@@ -123,19 +122,19 @@ Json RowJson(const StudyTable& table, const FigureRow& row) {
     json[table.labels[i]] = row.labels[i];
   }
   json["runs"] = row.runs;
+  for (const FigureColumn& column : ColumnsOf(table)) {
+    const double value = column.Of(row);
+    if (!std::isfinite(value)) continue;
+    Json& to = json[column.name + Suffix(column.figure->unit)];
+    if (value == std::round(value) && std::abs(value) < 1e9) {
+      to = static_cast<std::int64_t>(value);
+    } else {
+      to = value;
+    }
+  }
   for (std::size_t f = 0; f < table.figures.size(); ++f) {
     const Figure& figure = table.figures[f];
     if (figure.list != nullptr) json[figure.name] = row.values[f];
-    for (std::size_t i = 0; i < figure.terms.size(); ++i) {
-      const double value = row.values[f][i] / figure.unit.scale;
-      if (!std::isfinite(value)) continue;
-      Json& to = json[figure.NameOf(figure.terms[i]) + Suffix(figure.unit)];
-      if (value == std::round(value) && std::abs(value) < 1e9) {
-        to = static_cast<std::int64_t>(value);
-      } else {
-        to = value;
-      }
-    }
   }
   return json;
 }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "dataset/excluded_motion.h"
 #include "dataset/imu_cells.h"
+#include "dataset/rest_departure.h"
 #include "dataset/speed_evidence.h"
 #include "dataset/turned_rest.h"
 
@@ -183,21 +185,13 @@ class Decision {
       }
       gathered += cells_[i].length() * (cells_[i].f - f);
       tau += cells_[i].length();
-      const double felt = GatheredSigma(tau, wide);
+      const double felt = GatheredSigma(noise_, tau, wide);
       if (std::hypot(slope * tau, felt) > kKnownSpeed ||
           gathered.norm() > kSigmas * felt + 2.0 * options_.velocity_sigma) {
         return;
       }
       verdicts_[i] = Verdict::kAtRest;
     }
-  }
-
-  /// Of the speed gathered in `tau` by readings of white noise and bias walk
-  /// less their mean over `T` before [m/s].
-  double GatheredSigma(double tau, double T) const {
-    return std::sqrt(
-        std::pow(noise_.accel_noise_density, 2) * (tau + tau * tau / T) +
-        std::pow(noise_.accel_bias_walk, 2) * tau * tau * (tau + T) / 3.0);
   }
 
   void CutDepartures() {
@@ -207,39 +201,12 @@ class Decision {
     }
   }
 
-  /// Cuts the end of a rest, or its begin, which is the shorter part and where
-  /// the specific force differs most from the one of the longer; whether there
-  /// is such an end.
+  /// Whether there was something to cut at the end of a rest, or its begin.
   bool CutEnd(Run* run, int step) {
     const auto [first, last] = *run;
-    Eigen::Vector3d all_v = Eigen::Vector3d::Zero();
-    double all_T = 0.0;
-    for (std::size_t i = first; i <= last; ++i) {
-      if (!cells_[i].quiet) return false;
-      all_v += cells_[i].length() * cells_[i].f;
-      all_T += cells_[i].length();
-    }
-    Eigen::Vector3d v = Eigen::Vector3d::Zero();
-    double tau = 0.0;
-    double most = 1.0;
-    std::size_t cut = 0;
-    for (std::size_t n = 1; n <= last - first; ++n) {
-      const std::size_t i = step > 0 ? last + 1 - n : first + n - 1;
-      v += cells_[i].length() * cells_[i].f;
-      tau += cells_[i].length();
-      const double T = all_T - tau;
-      if (T < tau) break;
-      const double gathered = (v - tau / T * (all_v - v)).norm();
-      const double ratio =
-          gathered / (kKnownSpeed + kSigmas * GatheredSigma(tau, T));
-      if (ratio <= most) continue;
-      const TimeInterval end =
-          step > 0 ? TimeInterval{cells_[i].begin, cells_[last].end}
-                   : TimeInterval{cells_[first].begin, cells_[i].end};
-      if (2.0 * aiding_.PossibleSpeed(end) < 0.5 * gathered) continue;
-      most = ratio;
-      cut = n;
-    }
+    const std::size_t cut =
+        DepartedCells(std::span(cells_).subspan(first, last + 1 - first), step,
+                      noise_, aiding_);
     if (cut == 0) return false;
     for (std::size_t n = 1; n <= cut; ++n) {
       verdicts_[step > 0 ? last + 1 - n : first + n - 1] =
@@ -318,38 +285,6 @@ void LeaveOutContradicted(const Dataset& dataset, Rest* rest) {
             [](const TimeInterval& a, const TimeInterval& b) {
               return a.begin < b.begin;
             });
-}
-
-double TotalLength(const std::vector<TimeInterval>& spans) {
-  double total = 0.0;
-  for (const TimeInterval& span : spans) total += span.length();
-  return total;
-}
-
-std::vector<TimeInterval> WindowsOf(const TimeInterval& span,
-                                    const StationaryOptions& options) {
-  constexpr double kLongest = 1.0;
-  constexpr double kRounding = 1e-6;
-  const double window = std::min(options.window, kLongest);
-  const auto count =
-      static_cast<int>(std::floor(span.length() / window + kRounding));
-  std::vector<TimeInterval> windows;
-  for (int i = 0; i < count; ++i) {
-    windows.push_back({span.begin + i * window, span.begin + (i + 1) * window});
-  }
-  return windows;
-}
-
-std::optional<TimeInterval> RestFrom(double t,
-                                     const std::vector<TimeInterval>& rests) {
-  constexpr double kSlack = 1.0;  // [s]
-  std::optional<TimeInterval> found;
-  for (const TimeInterval& rest : rests) {
-    if (rest.begin <= t + kSlack && rest.end > t + kSlack) {
-      found = TimeInterval{std::max(t, rest.begin), rest.end};
-    }
-  }
-  return found;
 }
 
 }  // namespace hindsight

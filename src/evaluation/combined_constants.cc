@@ -1,7 +1,5 @@
 #include "evaluation/combined_constants.h"
 
-#include <fmt/core.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -129,17 +127,12 @@ class Combiner {
   /// Information, in that of the a priori sigma, below which data say nothing.
   static constexpr double kTold = 1e-6;
 
-  struct Figure {
-    double value = 0.0;
-    double variance = 0.0;
-  };
-
   /// Of every recording that observes the constant.
-  std::vector<std::optional<Figure>> FiguresOf(int i) const {
-    std::vector<std::optional<Figure>> figures;
+  std::vector<std::optional<ConstantFigure>> FiguresOf(int i) const {
+    std::vector<std::optional<ConstantFigure>> figures;
     for (const Member& member : members_) {
       const auto at = std::find(member.index.begin(), member.index.end(), i);
-      std::optional<Figure>& figure = figures.emplace_back();
+      std::optional<ConstantFigure>& figure = figures.emplace_back();
       if (at == member.index.end()) continue;
       const auto k = static_cast<Eigen::Index>(at - member.index.begin());
       const RecordedConstants& one = *member.recorded;
@@ -152,72 +145,14 @@ class Combiner {
     return figures;
   }
 
-  /// Weighted mean of all figures but one.
-  static std::optional<Figure> Mean(
-      const std::vector<std::optional<Figure>>& figures,
-      const std::optional<Figure>* but = nullptr) {
-    double weight = 0.0;
-    double sum = 0.0;
-    for (const std::optional<Figure>& figure : figures) {
-      if (!figure || &figure == but) continue;
-      weight += 1.0 / figure->variance;
-      sum += figure->value / figure->variance;
-    }
-    if (weight == 0.0) return std::nullopt;
-    return Figure{sum / weight, 1.0 / weight};
-  }
-
   void AddAgreement(int i) {
-    ConstantAgreement a{names_[At(i)], units_[At(i)]};
-    const auto figures = FiguresOf(i);
-    const auto mean = Mean(figures);
-    double w1 = 0.0;
-    double w2 = 0.0;
-    for (const std::optional<Figure>& figure : figures) {
-      std::optional<double>& distance = a.distance.emplace_back();
-      if (!figure) continue;
-      ++a.recordings;
-      const double d = figure->value - mean->value;
-      a.chi_square += d * d / figure->variance;
-      w1 += 1.0 / figure->variance;
-      w2 += 1.0 / (figure->variance * figure->variance);
-      if (const auto others = Mean(figures, &figure)) {
-        distance = (figure->value - others->value) /
-                   std::sqrt(figure->variance + others->variance);
-      }
-    }
-    if (a.recordings > 1) {
-      const auto dof = static_cast<double>(a.recordings - 1);
-      a.probability = 1.0 - ChiSquareCdf(a.chi_square, dof);
-      if (a.probability < kDisagreementByChance / n()) {
-        a.varies_by = std::sqrt((a.chi_square - dof) / (w1 - w2 / w1));
-        AddEvidence(a);
-      }
+    const double by_chance = kDisagreementByChance / n();
+    ConstantAgreement a =
+        AgreementOf(names_[At(i)], units_[At(i)], FiguresOf(i), by_chance);
+    if (a.varies_by > 0.0) {
+      out_.evidence.push_back(VariationEvidence(a, by_chance));
     }
     out_.agreement.push_back(std::move(a));
-  }
-
-  void AddEvidence(const ConstantAgreement& a) {
-    const bool angle = a.unit == "rad";
-    Evidence e{
-        .rule = "constants_differ",
-        .grade = Grade::kDoubtful,
-        .what = fmt::format(
-            "{} differs between recordings by more than their sigmas "
-            "say; it varies by {:.3g} {}",
-            a.name, angle ? a.varies_by / kDegree : a.varies_by,
-            angle ? "deg" : a.unit),
-        .value = a.chi_square / static_cast<double>(a.recordings - 1),
-        .limit = ChiSquareQuantile(1.0 - kDisagreementByChance / n(),
-                                   static_cast<double>(a.recordings - 1)) /
-                 static_cast<double>(a.recordings - 1),
-        .unit = "chi-square a degree of freedom"};
-    e.causes = {
-        "sigmas that are too small: noise that is larger than stated, "
-        "or lasts",
-        "a clock or a mounting that is not the same in every recording"};
-    e.remedies = {"constants.without: [" + a.name + "] where it is used"};
-    out_.evidence.push_back(std::move(e));
   }
 
   void RequireShared() const {

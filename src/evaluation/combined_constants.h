@@ -1,35 +1,16 @@
 #ifndef HINDSIGHT_EVALUATION_COMBINED_CONSTANTS_H_
 #define HINDSIGHT_EVALUATION_COMBINED_CONSTANTS_H_
 
-#include <optional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "dataset/recorded_constants.h"
+#include "evaluation/constant_agreement.h"
 #include "state/solution.h"
 
 namespace hindsight {
-
-/// Probability that constants of recordings that agree are said to differ.
-inline constexpr double kDisagreementByChance = 0.003;
-
-/// How one constant agrees over recordings.
-struct ConstantAgreement {
-  std::string name;
-  std::string unit;
-  std::size_t recordings = 0;  ///< that observe it (ConstantEstimate)
-  /// Sum of squared distances from their weighted mean over their variances,
-  /// of recordings - 1 degrees of freedom, and its probability by chance.
-  double chi_square = 0.0;
-  double probability = 1.0;
-  /// Standard deviation over recordings beyond their own sigmas; 0 where they
-  /// agree.
-  double varies_by = 0.0;
-  /// Of every recording, in units of sigma from the mean of the others that
-  /// observe it; none where it does not observe it, or alone does.
-  std::vector<std::optional<double>> distance = {};
-};
 
 /// What several recordings say of the same constants, for the next one.
 struct CombinedConstants {

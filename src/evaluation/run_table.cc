@@ -2,22 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
+#include <utility>
 
-#include "base/chi_square.h"
 #include "evaluation/statistics.h"
 
 namespace hindsight {
 namespace {
-
-Interval BoundsOf(const RunCell& cell) {
-  constexpr double kConfidence = 0.95;
-  const std::vector<double> states = cell.Values("states");
-  if (states.empty()) return {std::nan(""), std::nan("")};
-  return AneesBounds(cell.answered(),
-                     static_cast<int>(std::lround(states.front())),
-                     kConfidence);
-}
 
 template <std::size_t grade>
 double CountGrade(const RunCell& cell, const std::string&, const TimeRange&) {
@@ -84,7 +76,8 @@ std::vector<double> RunCell::Curve(const std::string& name,
     const auto found = fold_->series.find(name);
     if (found == fold_->series.end()) return {};
     if (over_runs == Mean) return found->second.mean;
-    if (over_runs == Deviation) return SeriesFold::Deviation(found->second);
+    if (over_runs == StandardDeviation)
+      return SeriesFold::Deviation(found->second);
     throw std::logic_error("folded series know no such statistic");
   }
   std::vector<std::pair<const std::vector<double>*, std::size_t>> series;
@@ -150,28 +143,43 @@ std::vector<FigureRow> Summarize(const StudyTable& table, std::size_t index,
   return rows;
 }
 
+std::vector<FigureColumn> ColumnsOf(const StudyTable& table) {
+  std::vector<FigureColumn> columns;
+  for (std::size_t f = 0; f < table.figures.size(); ++f) {
+    const Figure& figure = table.figures[f];
+    for (std::size_t i = 0; i < figure.terms.size(); ++i) {
+      const std::string& part = figure.terms[i].component;
+      columns.push_back(
+          {figure.name + (part.empty() ? "" : "_" + part), &figure, f, i});
+    }
+  }
+  return columns;
+}
+
 std::optional<double> FigureOf(const StudyTable& table, const FigureRow& row,
                                const std::string& name) {
-  for (std::size_t i = 0; i < table.figures.size(); ++i) {
-    const Figure& figure = table.figures[i];
-    for (std::size_t k = 0; k < figure.terms.size(); ++k) {
-      if (figure.NameOf(figure.terms[k]) == name) return row.values[i][k];
-    }
+  for (const FigureColumn& column : ColumnsOf(table)) {
+    if (column.name == name) return column.SiOf(row);
   }
   return std::nullopt;
 }
 
-double AneesLower(const RunCell& cell, const std::string&, const TimeRange&) {
-  return BoundsOf(cell).lower;
+StudyTable Under(std::vector<std::string> columns, StudyTable table) {
+  std::ranges::move(table.labels, std::back_inserter(columns));
+  table.labels = std::move(columns);
+  return table;
 }
 
-double AneesUpper(const RunCell& cell, const std::string&, const TimeRange&) {
-  return BoundsOf(cell).upper;
+Interval AneesBoundsOf(const RunCell& cell, double confidence) {
+  const std::vector<double> states = cell.Values("states");
+  if (states.empty()) return {std::nan(""), std::nan("")};
+  return AneesBounds(cell.answered(),
+                     static_cast<int>(std::lround(states.front())), confidence);
 }
 
 double AneesOutside(const RunCell& cell, const std::string& quantity,
                     const TimeRange& range) {
-  const Interval bounds = BoundsOf(cell);
+  const Interval bounds = AneesBoundsOf(cell);
   std::vector<double> outside;
   for (const double value : cell.Within(cell.Curve(quantity, Mean), range)) {
     outside.push_back(bounds.Contains(value) ? 0.0 : 1.0);
@@ -185,20 +193,28 @@ Figure Several(const std::string& name, Unit unit, const std::string& title,
 }
 
 Figure Single(const std::string& name, Unit unit, const std::string& title,
-              const char* format, const std::string& quantity, Reduce reduce) {
+              const char* format, const std::string& quantity,
+              const Reduce& reduce) {
   return Several(name, unit, title, format, {{"", quantity, reduce}});
 }
 
 Figure Share(const std::string& name, const std::string& title,
-             const std::string& quantity, Reduce reduce) {
+             const std::string& quantity, const Reduce& reduce) {
   Figure figure = Single(name, kPlain, title, "{:.1f}", quantity, reduce);
   figure.factor = 100.0;
   return figure;
 }
 
-Figure AneesBoundFigure(const char* title, const char* format) {
+Figure AneesBoundFigure(const char* title, const char* format,
+                        double confidence) {
+  const auto bound = [confidence](double Interval::*end) -> Reduce {
+    return [=](const RunCell& cell, const std::string&, const TimeRange&) {
+      return AneesBoundsOf(cell, confidence).*end;
+    };
+  };
   return Several("anees_bound", kPlain, title, format,
-                 {{"lower", "", AneesLower}, {"upper", "", AneesUpper}});
+                 {{"lower", "", bound(&Interval::lower)},
+                  {"upper", "", bound(&Interval::upper)}});
 }
 
 Figure FailedFigure() {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/chi_square.h"
 #include "base/units.h"
 #include "evaluation/series_fold.h"
 #include "state/evidence.h"
@@ -85,7 +86,7 @@ class RunCell {
   std::vector<double> Pooled(const std::string& name,
                              const TimeRange& range = {}) const;
   /// A statistic over the runs at every t(): of folded series Mean or
-  /// Deviation.
+  /// StandardDeviation.
   std::vector<double> Curve(const std::string& name, Statistic over_runs) const;
   /// The part of a curve that lies in the span.
   std::vector<double> Within(const std::vector<double>& curve,
@@ -111,8 +112,8 @@ inline constexpr Unit kDegrees = {"deg", kDegree};
 
 /// One number of a cell: of the quantity's values, or of its series within a
 /// span of time; NaN if there is none.
-using Reduce = double (*)(const RunCell& cell, const std::string& quantity,
-                          const TimeRange& range);
+using Reduce = std::function<double(
+    const RunCell& cell, const std::string& quantity, const TimeRange& range)>;
 
 /// Over the values of the runs.
 template <RunCell::Statistic statistic>
@@ -132,11 +133,10 @@ double OfCurve(const RunCell& cell, const std::string& quantity,
                const TimeRange& range) {
   return over_time(cell.Within(cell.Curve(quantity, over_runs), range));
 }
-/// Two-sided 95 % bounds of the average over the answered runs of a normalised
-/// squared error with as many degrees of freedom as their value `states`, and
-/// the share of the times at which that average of the quantity is outside.
-double AneesLower(const RunCell& cell, const std::string&, const TimeRange&);
-double AneesUpper(const RunCell& cell, const std::string&, const TimeRange&);
+/// Two-sided bounds of the average over the answered runs of a normalised squared
+/// error with as many degrees of freedom as their value `states`; NaN without.
+Interval AneesBoundsOf(const RunCell& cell, double confidence = 0.95);
+/// Share of the times at which that average of the quantity is outside of them.
 double AneesOutside(const RunCell& cell, const std::string& quantity,
                     const TimeRange& range);
 
@@ -162,10 +162,6 @@ struct Figure {
   bool is_repeatable = true;  ///< false: not the same in an equal call
   /// Any number of values in place of the terms, for JSON alone.
   std::function<std::vector<double>(const RunCell& cell)> list = {};
-
-  std::string NameOf(const Term& term) const {
-    return term.component.empty() ? name : name + "_" + term.component;
-  }
 };
 
 /// A figure of several terms.
@@ -173,18 +169,20 @@ Figure Several(const std::string& name, Unit unit, const std::string& title,
                const char* format, Terms terms, TimeRange range = {});
 /// A figure of one term without a component.
 Figure Single(const std::string& name, Unit unit, const std::string& title,
-              const char* format, const std::string& quantity, Reduce reduce);
+              const char* format, const std::string& quantity,
+              const Reduce& reduce);
 /// The same, of the quantity of that name.
 inline Figure Single(const std::string& name, Unit unit,
                      const std::string& title, const char* format,
-                     Reduce reduce) {
+                     const Reduce& reduce) {
   return Single(name, unit, title, format, name, reduce);
 }
 /// A share, printed in percent.
 Figure Share(const std::string& name, const std::string& title,
-             const std::string& quantity, Reduce reduce);
-/// Lower and upper 95 % bounds of AneesLower and AneesUpper.
-Figure AneesBoundFigure(const char* title, const char* format);
+             const std::string& quantity, const Reduce& reduce);
+/// Lower and upper of AneesBoundsOf.
+Figure AneesBoundFigure(const char* title, const char* format,
+                        double confidence = 0.95);
 
 /// A figure against time.
 struct FigureCurve {
@@ -222,6 +220,27 @@ struct FigureRow {
 std::vector<FigureRow> Summarize(const StudyTable& table, std::size_t index,
                                  std::span<const RunRecord> records,
                                  const CellFolds& folds = {});
+
+/// The table with these label columns before its own.
+StudyTable Under(std::vector<std::string> columns, StudyTable table);
+
+/// One number of a table's rows: a term of a figure.
+struct FigureColumn {
+  std::string name;  ///< component included, "max_std_n"
+  const Figure* figure;
+  std::size_t figure_index;
+  std::size_t term_index;
+
+  double SiOf(const FigureRow& row) const {
+    return row.values[figure_index][term_index];
+  }
+  /// In the figure's unit.
+  double Of(const FigureRow& row) const {
+    return SiOf(row) / figure->unit.scale;
+  }
+};
+/// All of them; the table outlives them.
+std::vector<FigureColumn> ColumnsOf(const StudyTable& table);
 
 /// A figure of a row of the table by its name ("max_std_n", component
 /// included), in SI; absent if the table has none of that name.

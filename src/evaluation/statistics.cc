@@ -50,7 +50,7 @@ double Rms(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-double Deviation(const std::vector<double>& values) {
+double StandardDeviation(const std::vector<double>& values) {
   if (values.empty()) return kNone;
   const double mean = Mean(values);
   double sum = 0.0;

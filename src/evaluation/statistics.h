@@ -31,7 +31,7 @@ double Percentile(const std::vector<double>& sorted, double fraction);
 double Mean(const std::vector<double>& values);
 double Rms(const std::vector<double>& values);
 /// Standard deviation about the mean, divisor n - 1; zero of a single value.
-double Deviation(const std::vector<double>& values);
+double StandardDeviation(const std::vector<double>& values);
 double Largest(const std::vector<double>& values);
 double Least(const std::vector<double>& values);
 /// Value below which `fraction` of the values lie, by nearest rank, so that

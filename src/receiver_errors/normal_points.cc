@@ -189,7 +189,7 @@ std::optional<NormalPoints> FormNormalPoints(const LinearTape& tape, int sensor,
       P = tape.P_minus(last);
     }
     RecordAverages(CarryToMiddle(tape, one), sensor, &out.tape);
-    out.tape.Append(std::move(epoch), t, P, P);
+    out.tape.Append(epoch, t, P, P);
   }
   return out;
 }

@@ -107,6 +107,25 @@ TEST(MonteCarloScenarios, ValuesOfAKeyAreCases) {
             json["cells"][1]["position_rms_m"]);
 }
 
+/// An axis that a comparison brings: of the forward speed alone it runs the
+/// methods that differ.
+TEST(MonteCarloScenarios, ACaseIsChosenByTheAxisOfAComparison) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      Hindsight({"montecarlo", "tunnel_survey", "--runs=2", "--out=mc",
+                 "--set=aiding.odometer.form=forward"},
+                folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json json =
+      nlohmann::json::parse(ReadFile(folder.path() / "mc" / "montecarlo.json"));
+  std::vector<std::string> methods;
+  for (const nlohmann::json& cell : json["cells"]) {
+    EXPECT_EQ(cell["odometer"], "forward");
+    methods.push_back(cell["method"]);
+  }
+  EXPECT_THAT(methods, ElementsAre("ekf", "two_filter", "iterated", "batch"));
+}
+
 TEST(MonteCarloScenarios, TheFolderOfAScenarioIsNotReplaced) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "in");

@@ -87,10 +87,11 @@ TEST_F(Newcomer, InitJoinsTheFixesAndNamesTheNotes) {
   const Outcome init = Hindsight({"init", "drive", "--out=c.yaml"}, root());
   ASSERT_EQ(init.status, 0) << init.err;
   const std::string config = ReadFile(root() / "c.yaml");
+  constexpr const char* kParts =
+      "file: [\"gps_1.csv\", \"gps_2.csv\", \"gps_3.csv\"]  # parts of one "
+      "stream: the same columns, names that differ by a number";
   for (const char* text :
-       {"file: [\"gps_1.csv\", \"gps_2.csv\", \"gps_3.csv\"]  # parts of one "
-        "stream: the same columns, names that differ by a number",
-        "# gps_3.csv: 2 rows further down are no rows of numbers",
+       {kParts, "# gps_3.csv: 2 rows further down are no rows of numbers",
         "on_text: drop", "#   notes.txt",
         "# Not used: gps_2.csv.gz, which begins with the rows of gps_2.csv\n",
         "mystery.csv: its numbers were not recognised, and are left out",

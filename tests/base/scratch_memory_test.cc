@@ -195,11 +195,13 @@ TEST(PagedVector, IsAVectorBeyondWhatMemoryHolds) {
   EXPECT_EQ(found - copy.begin(), 1000000);
   EXPECT_EQ(found->t, 1e6);
   for (Entry& entry : vector) entry.t *= 2.0;
-  EXPECT_EQ(vector[count / 2].t, 2.0 * static_cast<double>(count / 2));
-  EXPECT_EQ(copy[count / 2].t, static_cast<double>(count / 2));
+  const std::size_t half = count / 2;
+  EXPECT_EQ(vector[half].t, 2.0 * static_cast<double>(half));
+  EXPECT_EQ(copy[half].t, static_cast<double>(half));
   EraseIf([](const Entry& e) { return std::fmod(e.t, 4.0) != 0.0; }, &vector);
-  ASSERT_EQ(vector.size(), count / 2);
-  EXPECT_EQ(vector[count / 3].t, 4.0 * static_cast<double>(count / 3));
+  ASSERT_EQ(vector.size(), half);
+  const std::size_t third = count / 3;
+  EXPECT_EQ(vector[third].t, 4.0 * static_cast<double>(third));
 }
 
 TEST(PagedVector, DoesWhatAStdVectorDoes) {

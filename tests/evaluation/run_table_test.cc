@@ -61,8 +61,8 @@ TEST(RunStatistics, RanksKeepWhatIsInfinite) {
   EXPECT_EQ(Rank({infinity, 1.0, 2.0, 3.0}, 0.5), 2.0);
   EXPECT_EQ(Rank({infinity, 1.0, 2.0, 3.0}, 0.95), infinity);
   EXPECT_TRUE(std::isnan(Rank({}, 0.5)));
-  EXPECT_DOUBLE_EQ(Deviation({1.0, 3.0}), std::sqrt(2.0));
-  EXPECT_EQ(Deviation({5.0}), 0.0);
+  EXPECT_DOUBLE_EQ(StandardDeviation({1.0, 3.0}), std::sqrt(2.0));
+  EXPECT_EQ(StandardDeviation({5.0}), 0.0);
   EXPECT_DOUBLE_EQ(Rms({3.0, 4.0}), std::sqrt(12.5));
 }
 
@@ -74,8 +74,9 @@ TEST(RunStatistics, ShareOutsideCountsBothSides) {
   const RunCell cell({&record});
   EXPECT_EQ(AneesOutside(cell, "e", {}), 0.5);
   EXPECT_EQ(AneesOutside(cell, "e", {.from = 2.5}), 0.0);
-  EXPECT_EQ(AneesLower(cell, "", {}), bounds.lower);
-  EXPECT_EQ(AneesUpper(cell, "", {}), bounds.upper);
+  const Figure figure = AneesBoundFigure("", "");
+  EXPECT_EQ(figure.terms[0].reduce(cell, "", {}), bounds.lower);
+  EXPECT_EQ(figure.terms[1].reduce(cell, "", {}), bounds.upper);
 }
 
 TEST(StudyTable, FiguresAreByCellInOrderOfAppearance) {

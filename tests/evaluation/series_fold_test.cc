@@ -47,7 +47,7 @@ TEST(SeriesFold, IsMeanAndDeviationOverTheRuns) {
     std::vector<double> values;
     for (int run = 0; run < kRuns; ++run) values.push_back(SeriesOf(run)[k]);
     EXPECT_NEAR(moments.mean[k], Mean(values), 1e-12 * 1e3);
-    EXPECT_NEAR(deviation[k], Deviation(values), 1e-12);
+    EXPECT_NEAR(deviation[k], StandardDeviation(values), 1e-12);
   }
 }
 

@@ -25,8 +25,8 @@ TEST(AlignmentTrial, TheBatchAfterAlignmentIsConsistentOverTheWholeInterval) {
   const StudyResult all =
       RunStudy({"",
                 {},
-                {AlignmentTable({"velocity"})},
-                {JobOf({{{"1 Hz"}, [&] { return recording; }, trial}})}},
+                {Under({"velocity"}, AlignmentTable())},
+                {{{{"1 Hz"}, [&] { return recording; }, trial}}}},
                {.runs = kRuns, .first_seed = 5001});
   ASSERT_EQ(all.rows[0].size(), 2u);
   const std::vector<std::string> batch = {"1 Hz", "velocity_alignment_batch"};

@@ -15,8 +15,7 @@
 #include "geometry/so3.h"
 #include "io/config/scenario_config.h"
 #include "measurements/sensor_kind.h"
-#include "problems/free_rotation_trial.h"
-#include "problems/papers/vibration_comparison.h"
+#include "problems/attitude_trial.h"
 #include "simulation/free_rotation.h"
 #include "simulation/vibration_attitude.h"
 #include "support/seed_count.h"
@@ -111,14 +110,16 @@ TEST(AttitudeEstimation, SmncWithstandsVibration) {
   const Recording recording = [](std::uint64_t seed) {
     return SimulateVibrationAttitude({}, seed);
   };
-  const StudyResult result = RunStudy(
-      {"",
-       {},
-       {VibrationTable()},
-       {JobOf({{{"north"}, [&] { return recording; }, VibrationTrial()}})}},
-      {.runs = 20});
+  const StudyResult result =
+      RunStudy({"",
+                {},
+                {VibrationTable()},
+                {{{{},
+                   [&] { return recording; },
+                   AttitudeTrial(AccelerometerRules())}}}},
+               {.runs = 20});
   const auto value = [&](const char* rule, const char* figure) {
-    return result.Value({"north", rule}, figure);
+    return result.Value({rule}, figure);
   };
   constexpr double kExpected = 0.22 * kDegree;
   const double smnc = value("smnc", "rms_total_40_45s");
@@ -248,23 +249,23 @@ TEST(AttitudeEstimation, TwentyTurnsWithAScaleErrorAreConsistent) {
       options.motion_disturbance = disturbance;
       return SimulateFreeRotation(options, seed);
     };
-    const StudyResult result = RunStudy(
-        {"",
-         {},
-         {FreeRotationTable(kFreeRotationBegin, kFreeRotationEnd)},
-         {JobOf(
-             {{{"turns"}, [&] { return recording; }, FreeRotationTrial()}})}},
-        {.runs = runs, .first_seed = kFirstSeed});
+    const StudyResult result =
+        RunStudy({"",
+                  {},
+                  {FreeRotationTable(kFreeRotationBegin, kFreeRotationEnd)},
+                  {{{{},
+                     [&] { return recording; },
+                     AttitudeTrial(AttitudeMethods(), 10)}}}},
+                 {.runs = runs, .first_seed = kFirstSeed});
     for (const char* method : {"ahrs", "ahrs_smoother"}) {
       const auto value = [&](const char* figure) {
-        return result.Value({"turns", method}, figure);
+        return result.Value({method}, figure);
       };
       EXPECT_TRUE(AneesBounds(runs, 3, 0.999).Contains(value("nees")))
           << method << value("nees");
       EXPECT_GT(value("inside"), 0.98) << method;
     }
-    EXPECT_LT(result.Value({"turns", "ahrs_smoother"}, "heading_rms"),
-              1.0 * kDegree);
+    EXPECT_LT(result.Value({"ahrs_smoother"}, "heading_rms"), 1.0 * kDegree);
   }
 }
 

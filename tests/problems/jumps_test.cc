@@ -27,8 +27,8 @@ StudyResult Compare(const std::string& profile, double sigma, int runs,
   };
   return RunStudy({"",
                    {},
-                   {JumpTable({})},
-                   {JobOf({{{}, [realize] { return realize; }, JumpTrial()}})}},
+                   {JumpTable()},
+                   {{{{}, [realize] { return realize; }, JumpTrial()}}}},
                   {.runs = runs, .first_seed = first_seed});
 }
 

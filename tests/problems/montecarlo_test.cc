@@ -22,21 +22,16 @@ StudyTable SeedTable() {
           {}};
 }
 
-std::function<SeedRun()> Job(
-    const std::string& name,
-    const std::function<void(std::uint64_t)>& before = {}) {
-  return [=]() -> SeedRun {
-    return [=](std::uint64_t seed) {
-      if (before) before(seed);
-      RunRecord record;
-      record.labels = {name};
-      record.seed = seed;
-      record.values = {{"seed", static_cast<double>(seed)}};
-      record.t = {0.0};
-      record.series["e"] = {1.0};
-      return std::vector{record};
-    };
-  };
+/// A job of one case, which needs no recording.
+std::vector<Case> Job(const std::string& name,
+                      const std::function<void(std::uint64_t)>& before = {}) {
+  return {{{name}, {}, [before](const Dataset&, CaseRun* run) {
+             if (before) before(run->seed);
+             RunRecord* record = run->Add(0, {});
+             record->values = {{"seed", static_cast<double>(run->seed)}};
+             record->t = {0.0};
+             record->series["e"] = {1.0};
+           }}};
 }
 
 TEST(RunStudy, MakesARowOfEveryCaseAndSeedInTheirOrder) {
@@ -82,9 +77,9 @@ Case Refusing(const std::string& name, const std::set<std::uint64_t>& seeds) {
 TEST(RunStudy, ARefusedRecordingIsAFailedRunOfEveryMethodAndIsNamed) {
   StudyTable table = SeedTable();
   table.labels = {"case", "method"};
-  const StudyResult result = RunStudy(
-      {"", {}, {table}, {JobOf({Refusing("a", {1, 3}), Refusing("b", {})})}},
-      {.runs = 5});
+  const StudyResult result =
+      RunStudy({"", {}, {table}, {{Refusing("a", {1, 3}), Refusing("b", {})}}},
+               {.runs = 5});
   EXPECT_TRUE(result.complete);
   ASSERT_EQ(result.rows[0].size(), 4u);
   EXPECT_EQ(result.Row({"a", "first"}).runs, 5);
@@ -101,9 +96,9 @@ TEST(RunStudy, ARefusedRecordingIsAFailedRunOfEveryMethodAndIsNamed) {
 TEST(RunStudy, WhereAllIsRefusedThatIsTheError) {
   StudyTable table = SeedTable();
   table.labels = {"case", "method"};
-  EXPECT_THROW(RunStudy({"", {}, {table}, {JobOf({Refusing("a", {1, 2})})}},
-                        {.runs = 2}),
-               InputError);
+  EXPECT_THROW(
+      RunStudy({"", {}, {table}, {{Refusing("a", {1, 2})}}}, {.runs = 2}),
+      InputError);
 }
 
 TEST(RunStudy, OfOneJobTheFirstSeedsAreKnownMeanwhile) {

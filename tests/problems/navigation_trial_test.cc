@@ -7,7 +7,7 @@
 namespace hindsight {
 namespace {
 
-const RunRecord& CellOf(const std::vector<RunRecord>& records,
+const RunRecord& CellOf(const std::deque<RunRecord>& records,
                         const std::string& method) {
   for (const RunRecord& record : records) {
     if (record.table == kCells && record.labels.back() == method) return record;
@@ -15,14 +15,13 @@ const RunRecord& CellOf(const std::vector<RunRecord>& records,
   throw std::out_of_range(method);
 }
 
-std::vector<RunRecord> Tried(const Dataset& dataset,
-                             const std::vector<std::string>& methods) {
-  std::vector<RunRecord> records;
-  CaseRun run({}, 1, &records);
+std::deque<RunRecord> Tried(const Dataset& dataset,
+                            const std::vector<std::string>& methods) {
+  CaseRun run = {{}, 1};
   NavigationTrialOf(
       {.methods = methods, .judged_every = 1.0, .best_of_run = true})(dataset,
                                                                       &run);
-  return records;
+  return run.records;
 }
 
 Dataset JudgedDrive() {
@@ -33,7 +32,7 @@ Dataset JudgedDrive() {
 }
 
 TEST(NavigationTrial, TheRunIsItsBestMethod) {
-  const std::vector<RunRecord> records =
+  const std::deque<RunRecord> records =
       Tried(JudgedDrive(), {"ekf", "rts", "batch"});
   const RunRecord& run = CellOf(records, kBestOfRun);
   const RunRecord& batch = CellOf(records, "batch");
@@ -43,7 +42,7 @@ TEST(NavigationTrial, TheRunIsItsBestMethod) {
 }
 
 TEST(NavigationTrial, ARunWithoutAnAnswerHasFailed) {
-  const std::vector<RunRecord> records = Tried(JudgedDrive(), {});
+  const std::deque<RunRecord> records = Tried(JudgedDrive(), {});
   const RunRecord& run = CellOf(records, kBestOfRun);
   EXPECT_TRUE(run.failed);
   EXPECT_FALSE(run.answered);

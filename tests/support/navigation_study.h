@@ -12,11 +12,9 @@ inline Study NavigationStudy(const PerfectRecording& recording,
   const hindsight::Recording realize = [&recording](std::uint64_t seed) {
     return recording.Realize(seed);
   };
-  return {
-      "",
-      {},
-      NavigationTables({}, trial.leg_ends),
-      {JobOf({{{}, [realize] { return realize; }, NavigationTrialOf(trial)}})}};
+  return {.tables = NavigationTables(trial.leg_ends),
+          .jobs = {
+              {{{}, [realize] { return realize; }, NavigationTrialOf(trial)}}}};
 }
 
 }  // namespace hindsight::testing

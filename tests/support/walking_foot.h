@@ -47,10 +47,10 @@ inline WalkRows Steps(const Walk& walk, std::uint64_t seed) {
         swings ? kSpeed * turn * std::sin(turn * phase) / kGravity : 0.0;
     const double c = std::cos(angle);
     const double s = std::sin(angle);
-    rows.accel.push_back(Eigen::Vector3d(c * a - s, 0.0, s * a + c) +
-                         walk.force_noise * random.NormalVector3());
-    rows.gyro.push_back(Eigen::Vector3d(0.01, w - 0.02, 0.005) +
-                        walk.rate_noise * random.NormalVector3());
+    rows.accel.emplace_back(Eigen::Vector3d(c * a - s, 0.0, s * a + c) +
+                            walk.force_noise * random.NormalVector3());
+    rows.gyro.emplace_back(Eigen::Vector3d(0.01, w - 0.02, 0.005) +
+                           walk.rate_noise * random.NormalVector3());
   }
   return rows;
 }

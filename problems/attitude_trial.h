@@ -1,0 +1,47 @@
+#ifndef HINDSIGHT_PROBLEMS_ATTITUDE_TRIAL_H_
+#define HINDSIGHT_PROBLEMS_ATTITUDE_TRIAL_H_
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "problems/montecarlo.h"
+
+namespace hindsight {
+
+/// A way to estimate attitude alone, by a rule of the accelerometer
+/// (AhrsOptions, of the data set where it is empty).
+struct AttitudeWay {
+  std::string name;
+  std::string method;
+  std::string rule = {};
+  double gate = 0.88;  ///< [m/s^2]
+};
+
+/// Fixed; gates at 0.3, 0.88 and 3 m/s^2; the gate at 0.88 m/s^2 held for N = 4
+/// samples; adaptive and SMNC at equal lambda (N + 1) = 0.25; the RTS smoothers
+/// of gate 0.88 and SMNC.
+std::vector<AttitudeWay> AccelerometerRules();
+/// Both methods, each by its name.
+std::vector<AttitudeWay> AttitudeMethods();
+
+/// All ways on recordings with truth of attitude and gyro bias at every sample,
+/// of which one in `every` is judged. Errors are psi, truth from estimate in NED.
+Trial AttitudeTrial(const std::vector<AttitudeWay>& ways,
+                    std::size_t every = 1);
+
+/// Of the recordings of Kim and Leeghim (2016), over all runs and samples of an
+/// interval (_0_5s, _5_10s, _10_40s, _40_45s, _45_60s and _10_60s): rms_ and
+/// max_, an axis [rad], rms_total_ of |psi|, inside_ the share of the components
+/// within 3 sigma; of the gyro bias bias_rms_, an axis [rad/s], and bias_inside_.
+StudyTable VibrationTable();
+
+/// Of recordings that move from `begin` to `end` [s]: heading_rms and tilt_rms
+/// [rad] of the motion; nees of the attitude in its middle, mean over the runs,
+/// where 3 is right; inside, the share of the motion's samples within the
+/// ellipsoid that holds 99.73 %.
+StudyTable FreeRotationTable(double begin, double end);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_ATTITUDE_TRIAL_H_
