@@ -22,7 +22,7 @@ struct VehicleKind {
   std::vector<VehicleChoice> choices;
 };
 
-/// The list of all, which the configuration, its help and docs/vehicles.md walk.
+/// The list of all, which the configuration, its help and docs/running.md walk.
 const std::vector<VehicleKind>& VehicleKinds();
 std::vector<std::string> VehicleNames();
 
