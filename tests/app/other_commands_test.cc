@@ -69,9 +69,8 @@ TEST_F(OtherCommands, CheckWritesNoiseBesideThatOfADevice) {
     lines->erase(noise + 1, end);
     *noise = "  noise: {like: MTi-300}";
   });
-  const Outcome outcome =
-      Hindsight({"check", "data/config.yaml", "--noise", "--write"},
-                recording_.root());
+  const Outcome outcome = Hindsight(
+      {"check", "data/config.yaml", "--noise", "--write"}, recording_.root());
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("imu.accel"));
   EXPECT_THAT(outcome.out, Not(HasSubstr("to be written by hand")));
