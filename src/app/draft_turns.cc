@@ -72,21 +72,33 @@ void Negate(KeyLine* line) {
   }
 }
 
-void NegateAccelerometers(RecordingDraft* draft) {
+void NegateAll(std::string_view family, RecordingDraft* draft) {
   for (KeyLine& line : draft->imu->lines) {
-    if (!IsColumnOf(line, "accel_")) continue;
+    if (!IsColumnOf(line, family)) continue;
     Negate(&line);
     AddReason("of the other sign (likely)", &line);
   }
+}
+
+/// How gravity turns tells which of the two it is, where it turns enough.
+void TurnRound(RecordingDraft* draft) {
   constexpr double kShown = 0.5;
   const auto& guess = draft->imu->imu_guess;
-  const bool gyros_fit = guess && guess->turn.correlation > kShown;
+  const double turn = guess ? guess->turn.correlation : 0.0;
+  if (turn < 0.0) {
+    NegateAll("gyro_", draft);
+    draft->Assume(
+        "imu: the gyros are taken for ones of the other sign: the course and "
+        "gravity turn against them");
+    return;
+  }
+  NegateAll("accel_", draft);
   draft->Assume(
       std::string("imu: the accelerometers are taken for ones that read -1 g "
                   "along the axis that points up, as phones and watches of "
                   "Apple do: the course turns against the gyros") +
-      (gyros_fit ? ", and gravity with them"
-                 : "; otherwise these have the other sign"));
+      (turn > kShown ? ", and gravity with them"
+                     : "; otherwise these have the other sign"));
 }
 
 }  // namespace
@@ -97,7 +109,7 @@ bool TellTurns(const Dataset& dataset, RecordingDraft* draft) {
   const bool scaled = !IsNearRatio(std::abs(*ratio), 1.0) &&
                       TakeUnitOf(std::abs(*ratio), draft);
   if (*ratio > 0.0) return scaled;
-  NegateAccelerometers(draft);
+  TurnRound(draft);
   return true;
 }
 

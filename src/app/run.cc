@@ -24,6 +24,7 @@
 #include "io/write/fix_csv.h"
 #include "io/write/residual_csv.h"
 #include "io/write/summary.h"
+#include "measurements/sensor_kind.h"
 #include "problems/method.h"
 
 namespace hindsight {

@@ -8,11 +8,11 @@
 #include <optional>
 #include <string_view>
 
-#include "base/median.h"
 #include "base/units.h"
 #include "io/read/column_choice.h"
 #include "io/read/column_lines.h"
 #include "io/read/fix_guess.h"
+#include "io/read/fix_lines.h"
 #include "io/read/imu_columns.h"
 #include "io/read/title_words.h"
 #include "io/read/units.h"
@@ -29,6 +29,7 @@ class Recogniser {
       : file_(file),
         hints_(hints),
         lines_(file),
+        fix_lines_(file, lines_),
         words_(SplitWords(name)),
         named_truth_(IsNamedTruth(name)) {
     if (IsNamed({"v", "vel", "velocity", "velocities"}) && !named_truth_) {
@@ -117,7 +118,7 @@ class Recogniser {
 
   void AddFixes() {
     std::optional<FileColumns> placed;
-    if (lines_.HasAll({"lat", "lon"})) placed = RowsWithPlaces();
+    if (lines_.HasAll({"lat", "lon"})) placed = fix_lines_.RowsWithPlaces();
     const auto fixes =
         GuessFixes(placed ? *placed : file_, lines_.meanings(), *stamps());
     // Places beside attitudes are another solution's, no sensor's.
@@ -125,13 +126,17 @@ class Recogniser {
         !ImuHere() && lines_.HasAll({"roll", "pitch", "heading"});
     const bool told =
         fixes && (fixes->h.column >= 0 || fixes->place_order_told);
-    if (told && !solution) AddPosition(*fixes);
-    if (!fixes && !solution) AddEarthCentred();
+    if (told && !solution) all_.push_back(fix_lines_.Position(*fixes));
+    if (!fixes && !solution) {
+      if (auto found = fix_lines_.EarthCentred()) {
+        all_.push_back(std::move(*found));
+      }
+    }
     const Names velocity = {"v_n", "v_e", "v_d"};
     if (lines_.HasAll(velocity) && !solution) {
       AddTitled(VelocityKind(), velocity,
                 {"sigma_v_n", "sigma_v_e", "sigma_v_d"});
-      AddSpeedAccuracy(&all_.back());
+      fix_lines_.AddSpeedAccuracy(&all_.back());
     } else if (fixes && fixes->speed && fixes->course && !solution) {
       FoundStream found = lines_.Stream();
       found.kinds = {&SpeedCourseKind()};
@@ -141,178 +146,9 @@ class Recogniser {
     }
   }
 
-  /// The rows that hold a place: neither nothing nor zeros, as receivers write
-  /// before their first fix. Titles say which columns are latitude and longitude.
-  FileColumns RowsWithPlaces() const {
-    FileColumns rows = file_;
-    const std::vector<double>& lat = Values(lines_.Titled("lat"));
-    const std::vector<double>& lon = Values(lines_.Titled("lon"));
-    std::vector<bool> absent(file_.rows);
-    for (std::size_t k = 0; k < absent.size(); ++k) {
-      absent[k] = std::isnan(lat[k]) || std::isnan(lon[k]) ||
-                  (lat[k] == 0.0 && lon[k] == 0.0);
-    }
-    for (FileColumn& column : rows.columns) {
-      std::size_t k = 0;
-      std::erase_if(column.values, [&](double) { return absent[k++]; });
-    }
-    rows.rows -= static_cast<std::size_t>(
-        std::count(absent.begin(), absent.end(), true));
-    return rows;
-  }
-
   bool ImuHere() const {
     return std::any_of(all_.begin(), all_.end(),
                        [](const FoundStream& found) { return found.imu; });
-  }
-
-  void AddPosition(const FixGuess& fixes) {
-    FoundStream found = lines_.Stream();
-    found.kinds = {&PositionKind()};
-    found.top_speed = fixes.top_speed;
-    found.place_unit_told = fixes.place_unit_told;
-    found.place_order_told = fixes.place_order_told;
-    lines_.AddColumn("lat", fixes.lat, &found);
-    lines_.AddColumn("lon", fixes.lon, &found);
-    if (fixes.h.column < 0) {
-      AddWithoutHeight(fixes, &found);
-      all_.push_back(std::move(found));
-      return;
-    }
-    lines_.AddColumn("h", fixes.h, &found);
-    if (CountsFromSea(file_, fixes.h.column)) {
-      found.assumptions.emplace_back(
-          "its heights seem to count from the sea; they are taken for heights "
-          "above the ellipsoid, which differ by the geoid's, -105 to 85 m");
-    }
-    const Names sigmas = {"sigma_n", "sigma_e", "sigma_d"};
-    found.sigmas = lines_.HasAll(sigmas);
-    if (found.sigmas) {
-      lines_.AddFieldsOf(PositionKind(), sigmas, &found);
-      SetGrossNoise(MedianOf(lines_.Titled("sigma_n")), &found);
-    } else {
-      AddAccuracies(&found);
-    }
-    constexpr double kStale = 0.5;
-    if (fixes.repeated > kStale) {
-      SetLine({"on_repeat", "drop",
-               fmt::format("{:.0f} % of the rows repeat the one before",
-                           100.0 * fixes.repeated)},
-              &found.lines);
-    }
-    all_.push_back(std::move(found));
-  }
-
-  /// Fixes as x, y and z from the Earth's centre.
-  void AddEarthCentred() {
-    const Names axes = {"p_x", "p_y", "p_z"};
-    if (!lines_.HasAll(axes) || !AreEarthCentred()) return;
-    FoundStream found = lines_.Stream();
-    found.kinds = {&PositionKind()};
-    for (const std::string& axis : axes) {
-      lines_.AddTitledColumn(axis, Quantity::kLength, &found);
-    }
-    SetFrame(&found);
-    const int sigma = StatedSigma("sigma");
-    found.sigmas = sigma >= 0;
-    for (const char* name : {"sigma_x", "sigma_y", "sigma_z"}) {
-      if (sigma < 0) break;
-      lines_.AddColumn(name, SigmaGuess(sigma, Quantity::kLength, 1.0, ""),
-                       &found);
-    }
-    if (sigma >= 0) SetGrossNoise(MedianOf(sigma), &found);
-    all_.push_back(std::move(found));
-  }
-
-  /// Places with a height that is known to a kilometre by all fixes together: it
-  /// is the same error in each.
-  void AddWithoutHeight(const FixGuess& fixes, FoundStream* found) const {
-    constexpr double kKilometre = 1000.0;
-    const double rows =
-        static_cast<double>(file_.rows) * (1.0 - fixes.repeated);
-    const double used = std::clamp(rows, 1.0, 1.0 + stamps()->span);
-    ColumnLines::AddLine({"  h", "{constant: 0 m}", "the file states none"},
-                         found);
-    SetLine(
-        {"sigma", fmt::format("[3, 3, {:.0f} m]", kKilometre * std::sqrt(used)),
-         "usual of a single receiver (a guess); a height that is not "
-         "known, to a kilometre by all fixes together"},
-        &found->lines);
-    found->sigmas = true;
-  }
-
-  const std::vector<double>& Values(int column) const {
-    return file_.columns[static_cast<std::size_t>(column)].values;
-  }
-  double MedianOf(int column) const {
-    std::vector<double> present = Values(column);
-    std::erase_if(present, [](double x) { return std::isnan(x); });
-    return Median(std::move(present));
-  }
-
-  /// A column of standard deviations, or -1 where it is none: receivers write
-  /// zero or less for what they do not know.
-  int StatedSigma(const std::string& quantity) const {
-    const int column = lines_.Titled(quantity);
-    if (column < 0) return -1;
-    const std::vector<double>& v = Values(column);
-    return std::none_of(v.begin(), v.end(), [](double x) { return x <= 0.0; })
-               ? column
-               : -1;
-  }
-
-  ColumnGuess SigmaGuess(int column, Quantity dimension, double factor,
-                         const std::string& reason) const {
-    const std::string& unit =
-        lines_.meanings()[static_cast<std::size_t>(column)].unit;
-    const bool known = UnitFactor(unit, dimension).has_value();
-    return {column, known ? unit : SiUnit(dimension), factor,
-            Certainty::kLikely, reason};
-  }
-
-  /// One sigma of all axes, or the accuracies that receivers and phones state.
-  void AddAccuracies(FoundStream* found) const {
-    constexpr double kAxis = 0.66;  // of a radius of 68 %, circular normal
-    const int sigma = StatedSigma("sigma");
-    const int radius = sigma >= 0 ? sigma : StatedSigma("accuracy_h");
-    if (radius < 0) return;
-    const bool is_radius = sigma < 0;
-    const double factor = is_radius ? kAxis : 1.0;
-    const std::string why =
-        is_radius ? "of an axis, where 68 % are within the radius" : "";
-    for (const char* name : {"sigma_n", "sigma_e"}) {
-      lines_.AddColumn(name, SigmaGuess(radius, Quantity::kLength, factor, why),
-                       found);
-    }
-    const int up = is_radius ? StatedSigma("accuracy_v") : sigma;
-    lines_.AddColumn("sigma_d",
-                     SigmaGuess(up >= 0 ? up : radius, Quantity::kLength, 1.0,
-                                up >= 0 ? "" : "half as much again upwards"),
-                     found);
-    found->sigmas = true;
-    const auto unit = UnitFactor(
-        SigmaGuess(radius, Quantity::kLength, 1.0, "").unit, Quantity::kLength);
-    SetGrossNoise(*unit * factor * MedianOf(radius), found);
-  }
-
-  void AddSpeedAccuracy(FoundStream* found) const {
-    const int column = StatedSigma("accuracy_speed");
-    if (found->sigmas || column < 0) return;
-    for (const char* name : {"sigma_v_n", "sigma_v_e", "sigma_v_d"}) {
-      lines_.AddColumn(name, SigmaGuess(column, Quantity::kSpeed, 1.0, ""),
-                       found);
-    }
-    found->sigmas = true;
-  }
-
-  /// Errors of a receiver on its own last for many seconds.
-  static void SetGrossNoise(double sigma, FoundStream* found) {
-    constexpr double kFine = 0.3;  // m
-    if (!(sigma > kFine)) return;
-    SetLine(SlowFixNoise(sigma, 0.1 * sigma,
-                         "the file's median sigma; errors of a receiver on "
-                         "its own last (a guess)"),
-            &found->lines);
   }
 
   /// A barometer's: heights that no place stands beside, in no file of a DVL or
@@ -392,7 +228,7 @@ class Recogniser {
       add({"h"}, Quantity::kLength);
     } else if (local) {
       add({"p_x", "p_y", "p_z"}, Quantity::kLength);
-      SetFrame(found);
+      fix_lines_.SetFrame(found);
     }
     add({"v_n", "v_e", "v_d"}, Quantity::kSpeed);
     if (!attitude) return;
@@ -403,35 +239,10 @@ class Recogniser {
     }
   }
 
-  /// Whether places along axes are as far from their origin as the ground is from
-  /// the Earth's centre.
-  bool AreEarthCentred() const {
-    constexpr double kNearSurface = 6.2e6;
-    constexpr double kFarthest = 7e6;
-    double squares = 0.0;
-    for (const char* name : {"p_x", "p_y", "p_z"}) {
-      squares += std::pow(Values(lines_.Titled(name)).front(), 2);
-    }
-    return std::sqrt(squares) > kNearSurface && std::sqrt(squares) < kFarthest;
-  }
-
-  /// Earth-centred by its size, else local axes.
-  void SetFrame(FoundStream* found) const {
-    if (AreEarthCentred()) {
-      SetLine({"frame", "ecef", "as far from the origin as the ground"},
-              &found->lines);
-      return;
-    }
-    SetLine({"frame", "ned", "x north, y east, z down (a guess)"},
-            &found->lines);
-    SetLine({"origin", "[0 deg, 0 deg, 0 m]",
-             "the file does not say where (a guess)"},
-            &found->lines);
-  }
-
   const FileColumns& file_;
   const RecogniseHints& hints_;
   ColumnLines lines_;
+  FixLines fix_lines_;
   Names words_;
   bool named_truth_;
   std::vector<FoundStream> all_;
