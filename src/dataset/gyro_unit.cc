@@ -168,9 +168,9 @@ std::optional<double> CourseOverGyros(const Dataset& dataset) {
 std::string WarnAboutGyroUnit(const Dataset& dataset) {
   const ImuStream& imu = dataset.imu;
   if (imu.samples.size() < 2 || imu.t_end() <= imu.t_begin()) return "";
-  std::string by_course = ByCourse(dataset);
-  const bool rates = imu.kind == ImuStream::Kind::kRates;
-  return by_course.empty() && rates ? ByGravity(imu) : by_course;
+  // Gravity turns little on the ground.
+  if (CourseOverGyros(dataset)) return ByCourse(dataset);
+  return imu.kind == ImuStream::Kind::kRates ? ByGravity(imu) : "";
 }
 
 }  // namespace hindsight

@@ -164,7 +164,7 @@ TEST_F(Newcomer, TheMotionTellsWhichIsTheLatitudeAndItsUnit) {
   EXPECT_NE(scaled.find("lon: \"3 [rad]\""), std::string::npos) << scaled;
 }
 
-TEST_F(Newcomer, GyrosOfTheOtherSignAreSaidToBeAndNothingIsUsable) {
+TEST_F(Newcomer, GyrosOfTheOtherSignAreTurnedRound) {
   std::string imu = "time,ax,ay,az,gx,gy,gz\n";
   for (const auto& row : CellsOf(root() / "made/imu.csv")) {
     imu +=
@@ -174,11 +174,17 @@ TEST_F(Newcomer, GyrosOfTheOtherSignAreSaidToBeAndNothingIsUsable) {
   WriteFile(root() / "drive/imu.csv", imu);
   const Outcome run = Hindsight(
       {"run", "drive", "--yes", "--methods=rts,batch", "--out=out"}, root());
-  EXPECT_NE(run.status, 0) << run.out;
-  EXPECT_NE(run.out.find("taken for granted: imu: the course turns against the "
-                         "gyros"),
+  EXPECT_EQ(run.status, 0) << run.out;
+  EXPECT_NE(run.out.find("taken for granted: imu: the gyros are taken for ones "
+                         "of the other sign"),
             std::string::npos)
       << run.out;
+  EXPECT_EQ(run.out.find("declared as"), std::string::npos) << run.out;
+  const Outcome judged = Hindsight(
+      {"evaluate", "out/batch.csv", "made/config.yaml", "--json"}, root());
+  const auto errors = nlohmann::json::parse(judged.out)["errors"];
+  EXPECT_LT(errors["position_total"]["rms"].get<double>(), 3.0);
+  EXPECT_LT(errors["heading"]["rms"].get<double>(), 3.0);
 }
 
 TEST_F(Newcomer, PartsGiveTheResultOfTheWhole) {

@@ -22,14 +22,6 @@ constexpr std::int64_t kHalfDay = 43200;
 /// Lines that are worth a thread.
 constexpr std::size_t kLinesOfThread = 512;
 
-/// As a line of titles.
-bool HoldsNoNumber(std::string_view line, char delimiter) {
-  const std::vector<std::string_view> words = SplitLine(line, delimiter);
-  return std::none_of(words.begin(), words.end(), [](std::string_view word) {
-    return ParseNumber(word).has_value();
-  });
-}
-
 }  // namespace
 
 TextTable::TextTable(TextLines* lines, TableLayout layout, Options options,

@@ -105,6 +105,13 @@ bool IsAbsentWord(std::string_view token) {
   return std::find(kAbsent.begin(), kAbsent.end(), token) != kAbsent.end();
 }
 
+bool HoldsNoNumber(std::string_view line, char delimiter) {
+  const std::vector<std::string_view> words = SplitLine(line, delimiter);
+  return std::none_of(words.begin(), words.end(), [](std::string_view word) {
+    return ParseNumber(word).has_value();
+  });
+}
+
 bool IsComment(std::string_view line) {
   const std::string_view text = Trim(line);
   return text.empty() || text.front() == '#' || text.front() == '%' ||

@@ -51,6 +51,9 @@ std::vector<std::string_view> SplitLine(std::string_view line, char delimiter,
 /// the like.
 bool IsAbsentWord(std::string_view token);
 
+/// As a line of titles.
+bool HoldsNoNumber(std::string_view line, char delimiter);
+
 /// True for a line that is empty or starts with '#', '%' or "//".
 bool IsComment(std::string_view line);
 

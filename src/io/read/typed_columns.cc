@@ -33,13 +33,6 @@ bool IsName(std::string_view word) {
          !IsAbsentWord(word) && !ParseNumber(word);
 }
 
-bool HoldsNoNumber(std::string_view line, char delimiter) {
-  const auto words = SplitLine(line, delimiter);
-  return std::none_of(words.begin(), words.end(), [](std::string_view word) {
-    return ParseNumber(word).has_value();
-  });
-}
-
 /// Which sensor a word names, or -1.
 int SensorOf(const std::string& word) {
   const std::vector<std::string> words = SplitWords(word);
