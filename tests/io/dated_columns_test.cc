@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "io/config/init_config.h"
+#include "io/read/file_columns.h"
 #include "io/read/time_scale.h"
 #include "io/recording_folder.h"
 
@@ -121,11 +122,34 @@ INSTANTIATE_TEST_SUITE_P(
                      "{:%Y-%m-%d,%H:%M:%S}"},
         DateSpelling{"TwoByBlanks", "date time", "date time",
                      "{:%Y/%m/%d %H:%M:%S}", ' '},
+        DateSpelling{"DayFirst", "Date", "Date", "{:%d/%m/%Y %H:%M:%S}"},
+        DateSpelling{"MonthFirst", "Date", "Date", "{:%m/%d/%Y %H:%M:%S}"},
         DateSpelling{"DaysAndPoints", "Datum", "Datum", "{:%d.%m.%Y %H:%M:%S}",
                      ';'},
         DateSpelling{"OneTitleForTwo", "time", "time", "{:%Y-%m-%d %H:%M:%S}",
                      ' '}),
     [](const auto& info) { return std::string(info.param.name); });
+
+/// 11 and 12 could both be months: what lies closer together is right.
+TEST_F(RecordingFolder, DatesOfEitherOrderAreOfOneNight) {
+  const auto order_of = [&](const char* before, const char* behind) {
+    std::string text = "Date,a,b\n";
+    for (int k = 0; k < 10; ++k) {
+      text += fmt::format("{} 11:59:5{} PM,{},1.5\n", before, k, k);
+    }
+    for (int k = 0; k < 10; ++k) {
+      text += fmt::format("{} 12:00:0{} AM,{},1.5\n", behind, k, k);
+    }
+    Write("log.csv", text);
+    const auto file = ReadTextColumns(Path("log.csv"));
+    EXPECT_EQ(file->rows, 20u);
+    EXPECT_TRUE(file->columns[0].order_told);
+    EXPECT_EQ(file->columns[0].values[19] - file->columns[0].values[0], 19.0);
+    return file->columns[0].date_order;
+  };
+  EXPECT_EQ(order_of("11/06/2025", "12/06/2025"), DateOrder::kDayFirst);
+  EXPECT_EQ(order_of("06/11/2025", "06/12/2025"), DateOrder::kMonthFirst);
+}
 
 class DatedImu : public DatedFolder {};
 

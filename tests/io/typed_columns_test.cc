@@ -56,6 +56,19 @@ TEST_F(TypedColumns, OfRowsOfOneWidthAreToldByNamesOfSensors) {
   EXPECT_NEAR(tables[1].columns[4].values[19], -0.19, 1e-12);
 }
 
+/// Without titles, and fixes below titles that name axes.
+TEST_F(TypedColumns, OfRowsWithoutTitlesAreAxesOrFixes) {
+  std::string text;
+  for (int k = 0; k < 20; ++k) {
+    text += fmt::format("{0},gyroscope,{0},0,0.1\n{0},location,48,11,500\n",
+                        0.01 * k);
+  }
+  EXPECT_EQ(Tables(text)[0].columns[2].title, "x");
+  const auto titled = Tables("time,sensor,x,y,z\n" + text);
+  EXPECT_EQ(titled[0].columns[4].title, "z");
+  EXPECT_EQ(titled[1].columns[2].title, "");
+}
+
 /// What somebody noted of each row parts nothing.
 TEST_F(TypedColumns, NotesBesideRowsArePartOfThem) {
   std::string text = "time,activity,ax,ay,az\n";

@@ -66,6 +66,7 @@ void ColumnGatherer::FindShapeOfEarly() {
 std::optional<FileColumns> ColumnGatherer::Finish() {
   if (!shape_ && !early_lines_.empty()) FindShapeOfEarly();
   if (found_.rows < kFewestRows) return std::nullopt;
+  ChooseDateOrders();
   NameColumns();
   if (found_.row_word.column < 0) {
     SkipZeroRows();
@@ -74,6 +75,29 @@ std::optional<FileColumns> ColumnGatherer::Finish() {
   }
   Remark();
   return std::move(found_);
+}
+
+/// The order in which all are dates; of two the one in which they lie closer
+/// together; else the day first, but where AM or PM says who wrote it.
+void ColumnGatherer::ChooseDateOrders() {
+  const auto span = [](const std::vector<double>& v) {
+    const auto [low, high] = std::minmax_element(v.begin(), v.end());
+    const bool whole = std::none_of(v.begin(), v.end(),
+                                    [](double x) { return std::isnan(x); });
+    return whole ? *high - *low : std::numeric_limits<double>::infinity();
+  };
+  for (std::size_t i = 0; i < month_first_.size(); ++i) {
+    FileColumn& column = found_.columns[i];
+    std::vector<double>& other = month_first_[i];
+    if (other.size() != column.values.size() || other.empty()) continue;
+    const double by_day = span(column.values);
+    const double by_month = span(other);
+    column.order_told = by_day != by_month;
+    if (by_month < by_day || (!column.order_told && halves_of_day_)) {
+      column.values = std::move(other);
+      column.date_order = DateOrder::kMonthFirst;
+    }
+  }
 }
 
 void ColumnGatherer::Take(std::string_view line, bool terminated) {
@@ -98,7 +122,12 @@ void ColumnGatherer::Take(std::string_view line, bool terminated) {
     }
     return;
   }
-  if (found_.rows == 0) found_.skip_lines = number_ - 1;
+  if (found_.rows == 0) {
+    found_.skip_lines = number_ - 1;
+    halves_of_day_ =
+        line.find("AM") != line.npos || line.find("PM") != line.npos ||
+        line.find("am") != line.npos || line.find("pm") != line.npos;
+  }
   for (std::size_t i = 0; i < words_.size(); ++i) TakeWord(i);
   ++found_.rows;
   found_.complete = found_.rows * columns() < kMostProbedNumbers;
@@ -111,10 +140,12 @@ void ColumnGatherer::TakeWord(std::size_t i) {
     column.holds = *words_[i].holds;
     column.zoned = words_[i].zoned;
     column.date_order = words_[i].order;
-    column.order_told = words_[i].order_told;
     is_known_[i] = true;
   }
-  column.order_told = column.order_told || words_[i].order_told;
+  if (words_[i].order == DateOrder::kDayFirst) {
+    month_first_.resize(columns());
+    month_first_[i].push_back(words_[i].month_first);
+  }
   if (words_[i].side != '\0' && words_[i].side != column.side) {
     column.side = column.values.empty() ? words_[i].side : '?';
   }

@@ -32,6 +32,7 @@ class ColumnGatherer {
  private:
   std::size_t columns() const { return shape_->is_text.size(); }
   void FindShapeOfEarly();
+  void ChooseDateOrders();
   void Take(std::string_view line, bool terminated);
   void TakeWord(std::size_t i);
   bool HoldsTheSame() const;
@@ -47,7 +48,9 @@ class ColumnGatherer {
   bool shapeless_ = false;
   FileColumns found_;
   std::vector<Word> words_;
-  std::vector<bool> is_known_;  ///< per column: what it holds
+  std::vector<bool> is_known_;                    ///< per column: what it holds
+  std::vector<std::vector<double>> month_first_;  ///< per column: Word's
+  bool halves_of_day_ = false;                    ///< AM or PM in the first row
   std::string title_;
   std::string above_title_;
   std::string comment_;

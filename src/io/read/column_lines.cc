@@ -77,10 +77,11 @@ FoundStream ColumnLines::Stream() const {
 
 FoundStream ColumnLines::ImuStreamOf(const ImuGuess& guess) const {
   constexpr double kUsualGap = 0.5;  // s, the default of max_gap
+  constexpr double kLongest = 60.0;  // s
   constexpr double kShown = 0.5;
   FoundStream found = Stream();
   found.imu = true;
-  if (!stamps_->rate && stamps_->gap > kUsualGap) {
+  if (!stamps_->rate && stamps_->gap > kUsualGap && stamps_->gap < kLongest) {
     SetLine(
         {"max_gap", fmt::format("{:.2g} s", 1.1 * stamps_->gap),
          fmt::format("drop-outs of up to {:.3g} s are bridged", stamps_->gap)},

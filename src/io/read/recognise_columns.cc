@@ -128,7 +128,9 @@ class Recogniser {
         fixes && (fixes->h.column >= 0 || fixes->place_order_told);
     if (told && !solution) all_.push_back(fix_lines_.Position(*fixes));
     if (!fixes && !solution) {
-      if (auto found = fix_lines_.EarthCentred()) {
+      ColumnLines axes = lines_;
+      if (!lines_.HasAll({"p_x", "p_y", "p_z"})) axes.TakeAxesFor("p_");
+      if (auto found = FixLines(file_, axes).EarthCentred()) {
         all_.push_back(std::move(*found));
       }
     }

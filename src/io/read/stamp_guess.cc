@@ -136,7 +136,7 @@ std::string DayCountOf(double first, double step, const StampHints& hints) {
   return "";
 }
 
-/// Seconds of the week that another column counts.
+/// Seconds of the week that another column counts, by their title or on its right.
 void RecogniseWeek(const FileColumns& file,
                    const std::vector<ColumnMeaning>& meanings,
                    StampGuess* guess) {
@@ -144,9 +144,12 @@ void RecogniseWeek(const FileColumns& file,
       guess->first < 0.0 || guess->first >= kWeekSeconds) {
     return;
   }
+  const auto stamps = static_cast<std::size_t>(guess->column);
+  const bool of_week = HasAnyWord(SplitWords(file.columns[stamps].title),
+                                  {"sow", "tow", "week", "gps", "gpst"});
   for (std::size_t i = 0; i < meanings.size(); ++i) {
     const std::vector<double>& v = file.columns[i].values;
-    if (meanings[i].quantity != "week" ||
+    if (meanings[i].quantity != "week" || (!of_week && i + 1 != stamps) ||
         !std::all_of(v.begin(), v.end(), [&](double week) {
           return week == std::floor(week) && week > 0.0 && week <= kLastWeek &&
                  week - v.front() <= 1.0 && week >= v.front();

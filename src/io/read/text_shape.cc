@@ -39,18 +39,19 @@ std::optional<Word> ParseDateWord(std::string_view token, DateOrder order) {
   return std::nullopt;
 }
 
-/// The days of 07/08/2025 come first, but where AM or PM says who wrote it.
+/// In both orders of 07/08/2025.
 std::optional<Word> ParseDateOfAnyOrder(std::string_view token) {
   if (auto word = ParseDateWord(token, DateOrder::kYearFirst)) return word;
-  auto by_day = ParseDateWord(token, DateOrder::kDayFirst);
-  auto by_month = ParseDateWord(token, DateOrder::kMonthFirst);
-  if (by_day && by_month) {
-    const bool halves = token.find_first_of("mM") != token.npos;
-    Word& word = halves ? *by_month : *by_day;
-    word.order_told = false;
-    return word;
+  const auto by_month = ParseDateWord(token, DateOrder::kMonthFirst);
+  auto word = ParseDateWord(token, DateOrder::kDayFirst);
+  if (!word && !by_month) return std::nullopt;
+  if (!word) {
+    word = by_month;
+    word->order = DateOrder::kDayFirst;
+    word->value = std::numeric_limits<double>::quiet_NaN();
   }
-  return by_day ? by_day : by_month;
+  if (by_month) word->month_first = by_month->value;
+  return word;
 }
 
 /// A date with its time of day, or one of the two.

@@ -19,9 +19,10 @@ struct Word {
   std::optional<FileColumn::Holds> holds;
   double value = std::numeric_limits<double>::quiet_NaN();
   bool zoned = false;
-  /// Of a date, how it was read, and whether it could be read no other way.
+  /// Of a date as 07/08/2025: kDayFirst, with the value of the month first beside
+  /// that of the day first, NaN of what is no date so.
   DateOrder order = DateOrder::kYearFirst;
-  bool order_told = true;
+  double month_first = std::numeric_limits<double>::quiet_NaN();
   /// 'N', 'E', 'S' or 'W' behind a number, which it heeds, or all of a text.
   char side = '\0';
 

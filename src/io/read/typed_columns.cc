@@ -110,6 +110,24 @@ std::optional<TypedText> FindWords(const std::string& path) {
   return std::nullopt;
 }
 
+/// Three numbers behind the time are axes, or of a receiver none.
+void TitleBySensor(int sensor, FileColumns* table) {
+  std::vector<FileColumn*> numbers;
+  for (FileColumn& column : table->columns) {
+    if (column.holds == FileColumn::Holds::kNumbers) numbers.push_back(&column);
+  }
+  if (numbers.size() != 4) return;
+  constexpr std::array kAxes = {"x", "y", "z"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::string& title = numbers[i + 1]->title;
+    if (sensor == 3 && title == kAxes[i]) {
+      title.clear();
+    } else if (sensor > 0 && sensor != 3 && title.empty()) {
+      title = kAxes[i];
+    }
+  }
+}
+
 class TypedColumns {
  public:
   explicit TypedColumns(const TypedText& text) : text_(text) {}
@@ -138,7 +156,10 @@ class TypedColumns {
   std::vector<FileColumns> Finish() {
     std::vector<FileColumns> tables;
     for (auto& [word, gatherer] : gatherers_) {
-      if (auto table = gatherer.Finish()) tables.push_back(std::move(*table));
+      auto table = gatherer.Finish();
+      if (!table) continue;
+      TitleBySensor(SensorOf(word), &*table);
+      tables.push_back(std::move(*table));
     }
     return tables;
   }
