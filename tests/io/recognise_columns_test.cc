@@ -443,7 +443,8 @@ TEST_F(RecogniseColumns,
   Write("imu.csv", Rows(kPlain));
   std::string fixes = "Timestamp,Lat_GNSS,Long_GNSS,Height_GNSS\n";
   for (int k = 0; k < kRows; ++k) {
-    const double t = (k / 25) * 25 / kRate;
+    const int same = k / 25;
+    const double t = same * 25 / kRate;
     fixes += fmt::format("{:.1f},{:.7f},35.1234567,{:.2f}\n", 0.1 * k,
                          48.0 + 10.0 * t / 111200.0, 100.0 + 0.01 * t);
   }

@@ -18,6 +18,7 @@ bool SameBytes(const T& a, const T& b) {
   const auto bytes = [](const T& value) {
     return reinterpret_cast<const std::byte*>(&value);
   };
+  // NOLINTNEXTLINE(bugprone-sizeof-expression): pointers are values as well.
   return std::equal(bytes(a), bytes(a) + sizeof(T), bytes(b));
 }
 
@@ -101,6 +102,7 @@ TYPED_TEST(EveryModel, ListsAllItsFields) {
     constexpr std::size_t kAlign =
         alignof(std::remove_cvref_t<decltype(field)>);
     EXPECT_EQ((end + kAlign - 1) / kAlign * kAlign, address(field));
+    // NOLINTNEXTLINE(bugprone-sizeof-expression): pointers are values as well.
     end = address(field) + sizeof(std::remove_cvref_t<decltype(field)>);
   };
   std::apply([&](const auto&... field) { (follow(field), ...); },

@@ -29,7 +29,6 @@ double MostOf(Quantity quantity) {
     case Quantity::kAcceleration:
       return 1e4;
     case Quantity::kAngle:
-      return 1e3;
     case Quantity::kAngularRate:
       return 1e3;
     case Quantity::kMagneticField:
