@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/read/column_steps.h"
 #include "io/read/title_words.h"
 
 namespace hindsight {
@@ -84,12 +85,6 @@ int RankOfPlace(const FileColumn& column) {
   if (SaysSea(words)) rank -= 1;
   if (ChangesOf(column.values) == 0) rank -= 16;
   return rank;
-}
-
-bool AreWholeNumbers(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double x) {
-    return std::isnan(x) || x == std::round(x);
-  });
 }
 
 struct UbxField {

@@ -42,6 +42,12 @@ bool Grows(const std::vector<double>& t, const Steps& steps) {
                      [](double x) { return std::isfinite(x); });
 }
 
+bool AreWholeNumbers(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double x) {
+    return std::isnan(x) || x == std::round(x);
+  });
+}
+
 bool IsSteady(const std::vector<double>& t, const Steps& steps) {
   const double mean =
       (t.back() - t.front()) / static_cast<double>(t.size() - 1);

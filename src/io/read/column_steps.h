@@ -20,6 +20,9 @@ Steps StepsOf(const std::vector<double>& t);
 /// a number.
 bool Grows(const std::vector<double>& t, const Steps& steps);
 
+/// Whether every value that is there is a whole number.
+bool AreWholeNumbers(const std::vector<double>& values);
+
 /// A column of times has steps about as long everywhere.
 bool IsSteady(const std::vector<double>& t, const Steps& steps);
 

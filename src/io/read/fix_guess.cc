@@ -7,6 +7,7 @@
 
 #include "base/median.h"
 #include "base/units.h"
+#include "io/read/column_steps.h"
 #include "io/read/text_format.h"
 #include "io/read/units.h"
 
@@ -236,11 +237,6 @@ void TakeUnit(const std::vector<ColumnMeaning>& meanings, Quantity quantity,
   guess->unit = known ? meaning.unit : usual;
 }
 
-bool AreWhole(const Values& v) {
-  return std::all_of(v.begin(), v.end(),
-                     [](double x) { return x == std::round(x); });
-}
-
 /// Degrees and minutes in one number, as NMEA writes them: too large for degrees, and
 /// never 60 minutes.
 bool AreDegreesAndMinutes(const Values& lat, const Values& lon) {
@@ -291,7 +287,7 @@ void TakeWholeNumbers(const FileColumns& file,
   constexpr double kMost = 1.8e9;
   for (const ColumnGuess* place : {&guess->lat, &guess->lon}) {
     const Values& v = Column(file, place->column);
-    if (!AreWhole(v) || std::any_of(v.begin(), v.end(), [](double x) {
+    if (!AreWholeNumbers(v) || std::any_of(v.begin(), v.end(), [](double x) {
           return std::abs(x) < kLeast || std::abs(x) > kMost;
         })) {
       return;
@@ -303,7 +299,7 @@ void TakeWholeNumbers(const FileColumns& file,
     place->reason = "whole numbers of 1e-7 deg, as receivers write them";
     place->certainty = Certainty::kLikely;
   }
-  if (guess->h.column < 0 || !AreWhole(Column(file, guess->h.column)) ||
+  if (guess->h.column < 0 || !AreWholeNumbers(Column(file, guess->h.column)) ||
       !meanings[static_cast<std::size_t>(guess->h.column)].unit.empty()) {
     return;
   }

@@ -10,6 +10,7 @@
 
 #include "base/median.h"
 #include "base/units.h"
+#include "io/read/column_steps.h"
 #include "io/read/units.h"
 
 namespace hindsight {
@@ -261,14 +262,6 @@ void GuessGyroCounts(const GravityTurn& turn, double row_seconds,
   gyro->scale = range / 32768.0;
 }
 
-bool AreWhole(const Readings& readings) {
-  for (std::size_t k = 0; k < readings.rows(); ++k) {
-    const Eigen::Vector3d v = readings.at(k);
-    if (v.allFinite() && v != v.array().round().matrix()) return false;
-  }
-  return true;
-}
-
 /// Which of rad/s and deg/s, by what gravity turns or by size. Who turns at
 /// several rad/s is thrown about by more than g; who is not, turns by several
 /// deg/s; and who moves at all turns by more than one.
@@ -357,7 +350,12 @@ std::optional<ImuGuess> GuessImu(const FileColumns& file,
     guess.gyro.unit = titled(guess.gyro);
     guess.gyro.reason = "unit by its title";
   } else if (guess.accel.scale != 1.0 &&
-             AreWhole(Readings(file, guess.gyro.columns))) {
+             std::all_of(
+                 guess.gyro.columns.begin(), guess.gyro.columns.end(),
+                 [&](int column) {
+                   return AreWholeNumbers(
+                       file.columns[static_cast<std::size_t>(column)].values);
+                 })) {
     GuessGyroCounts(guess.turn, row_seconds, &guess.gyro);
   } else {
     GuessGyroUnit(forces, rates, guess.turn, row_seconds, &guess.gyro);
