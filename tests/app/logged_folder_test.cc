@@ -103,6 +103,7 @@ TEST_F(LoggedFolder, OfRowsOfSeveralSensors) {
       "% ACCE;AppTimestamp(s);Acc_X(m/s^2);Acc_Y(m/s^2);Acc_Z(m/s^2);Accuracy\n"
       "% GYRO;AppTimestamp(s);Gyr_X(rad/s);Gyr_Y(rad/s);Gyr_Z(rad/s);Accuracy\n"
       "% GNSS;AppTimestamp(s);Latit(deg);Long(deg);Altitude(m)\n";
+  for (int k = 0; k < 5; ++k) text += fmt::format("WIFI;{};-60;7;5180\n", k);
   std::size_t next = 0;
   for (const Sample& s : samples_) {
     text += fmt::format("ACCE;{:.3f};{:.6f};3\nGYRO;{:.3f};{:.8f};3\n", s.t,
@@ -116,6 +117,7 @@ TEST_F(LoggedFolder, OfRowsOfSeveralSensors) {
   WriteFile(file("logfile.txt"), text);
   ExpectRight();
   EXPECT_THAT(Config(), HasSubstr("rows: {column: 1, word: \"GNSS\"}"));
+  EXPECT_THAT(Config(), HasSubstr("#   logfile.txt, rows of WIFI\n"));
 }
 
 /// Times of whole seconds, as an American writes them.

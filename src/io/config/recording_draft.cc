@@ -12,6 +12,7 @@
 #include "io/config/draft_clocks.h"
 #include "io/config/draft_values.h"
 #include "io/config/recording_search.h"
+#include "io/config/unused_rows.h"
 #include "io/read/file_formats.h"
 #include "io/read/gzip_reader.h"
 #include "io/read/input_file.h"
@@ -71,6 +72,9 @@ class Drafter {
       if (!HoldsRowsOfNumbers(path)) continue;
       draft_.Assume(name +
                     ": its numbers were not recognised, and are left out");
+    }
+    for (std::string& rows : UnusedRows(draft_)) {
+      draft_.unknown.push_back(std::move(rows));
     }
     return std::move(draft_);
   }
