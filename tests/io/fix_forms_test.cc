@@ -1,0 +1,146 @@
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <functional>
+
+#include "base/units.h"
+#include "earth/wgs84.h"
+#include "io/config/init_config.h"
+#include "io/recording_folder.h"
+
+namespace hindsight {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kLatitude = -48.1;  // deg
+constexpr double kLongitude = -11.5;
+constexpr double kHeight = 500.0;  // m
+constexpr int kFixes = 39;
+
+/// How a receiver at rest but for a metre a second to the north is written down.
+struct FixForm {
+  const char* name;
+  const char* titles;
+  std::function<std::string(double t, const Geodetic& place)> row;
+  const char* line;  ///< of the configuration
+};
+
+void PrintTo(const FixForm& form, std::ostream* out) { *out << form.name; }
+
+Geodetic PlaceAt(int k) {
+  return {(kLatitude + 1e-5 * k) * kDegree, kLongitude * kDegree, kHeight};
+}
+
+/// "4806.000000", of the angle's size.
+std::string DegreesMinutes(double angle) {
+  const double degrees = std::abs(angle) / kDegree;
+  const double whole = std::floor(degrees);
+  return fmt::format("{:.7f}", 100.0 * whole + 60.0 * (degrees - whole));
+}
+
+class FixForms : public RecordingFolder,
+                 public ::testing::WithParamInterface<FixForm> {};
+
+TEST_P(FixForms, AreOnePlace) {
+  std::string imu = "time,ax,ay,az,gx,gy,gz\n";
+  for (int k = 0; k < 4000; ++k) {
+    const double t = 0.01 * k;
+    const double phase = std::max(0.0, t - 5.0);
+    const double angle = 0.6 * std::sin(phase);
+    const double noise = 1e-3 * ((k * 7919) % 13 - 6);
+    imu += fmt::format(
+        "{:.2f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", t, noise,
+        kStandardGravity * std::sin(angle), kStandardGravity * std::cos(angle),
+        phase > 0.0 ? 0.6 * std::cos(phase) : 0.0, 0.1 * noise, -0.1 * noise);
+  }
+  Write("imu.csv", imu);
+  std::string fixes = std::string(GetParam().titles) + "\n";
+  for (int k = 0; k < kFixes; ++k) {
+    fixes += GetParam().row(k, PlaceAt(k)) + "\n";
+  }
+  Write("gps.csv", fixes);
+  const auto drafts = DraftRecordings(folder_.string());
+  ASSERT_EQ(drafts.size(), 1u);
+  const std::string text = DraftText(drafts[0]);
+  EXPECT_THAT(text, HasSubstr(GetParam().line));
+  Write("config.yaml", text);
+  ASSERT_EQ(LoadError(), "") << text;
+  const Dataset data = Load();
+  ASSERT_EQ(data.streams.size(), 1u) << text;
+  const MeasurementSeries& z = data.streams[0].measurements;
+  ASSERT_EQ(z.size(), static_cast<std::size_t>(kFixes));
+  for (const int k : {0, kFixes - 1}) {
+    const auto& fix =
+        std::get<PositionFix>(z[static_cast<std::size_t>(k)].model);
+    EXPECT_LT((fix.p_e - EcefFromGeodetic(PlaceAt(k))).norm(), 0.02) << k;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, FixForms,
+    ::testing::Values(
+        FixForm{"MinutesAndLetters", "time,lat,NS,lon,EW,alt",
+                [](double t, const Geodetic& p) {
+                  return fmt::format("{:.1f},{},S,{},W,{:.2f}", t,
+                                     DegreesMinutes(p.latitude),
+                                     DegreesMinutes(p.longitude), p.height);
+                },
+                "lat: \"-2 [ddmm]\""},
+        FixForm{"LettersBehind", "time,latitude,longitude,altitude",
+                [](double t, const Geodetic& p) {
+                  return fmt::format("{:.1f},{:.8f}S,{:.8f}W,{:.2f}", t,
+                                     -p.latitude / kDegree,
+                                     -p.longitude / kDegree, p.height);
+                },
+                "lat: \"2 [deg]\""},
+        FixForm{"FromTheEarthsCentre", "time,X,Y,Z",
+                [](double t, const Geodetic& p) {
+                  const Eigen::Vector3d e = EcefFromGeodetic(p);
+                  return fmt::format("{:.1f},{:.3f},{:.3f},{:.3f}", t, e.x(),
+                                     e.y(), e.z());
+                },
+                "frame: ecef"},
+        FixForm{"UbxMillimetres", "iTOW,lon,lat,height,hAcc,vAcc,gSpeed,velD",
+                [](double t, const Geodetic& p) {
+                  return fmt::format(
+                      "{:.0f},{:.0f},{:.0f},{:.0f},700,1000,1112,3", 1e3 * t,
+                      1e7 * p.longitude / kDegree, 1e7 * p.latitude / kDegree,
+                      1e3 * p.height);
+                },
+                "h: \"4 [mm]\""}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+/// Days as MATLAB's datenum and spreadsheets count them: one instant.
+TEST_F(RecordingFolder, DaysAreCountedFromTheirOwnBeginning) {
+  for (const auto& [unit, first] :
+       {std::pair("datenum", 739798.5), {"excel", 45838.5}}) {
+    std::string imu;
+    for (int k = 0; k < 500; ++k) {
+      imu += fmt::format("{:.10f} 0 0 0 0 0 -9.81\n", first + k / 8640000.0);
+    }
+    Write("imu.txt", imu);
+    Write(
+        "config.yaml",
+        std::string("name: x\nimu:\n  file: imu.txt\n  format: columns\n  "
+                    "columns: {t: \"1 [") +
+            unit +
+            "]\", gyro_x: \"2 [rad/s]\", gyro_y: \"3 [rad/s]\", gyro_z: \"4 "
+            "[rad/s]\", accel_x: \"5 [m/s^2]\", accel_y: \"6 [m/s^2]\", "
+            "accel_z: \"7 [m/s^2]\"}\n  noise: {gyro: 0.1 deg/sqrt(h), accel: "
+            "0.1 m/s/sqrt(h)}\n");
+    ASSERT_EQ(LoadError(), "") << unit;
+    const Dataset data = Load();
+    // 2025-06-30 12:00 UTC, 18 leap seconds behind GPS time.
+    constexpr std::int64_t kNoonGps = 1751284800 - 315964800 + 18;
+    ASSERT_TRUE(data.epoch_gps_ns) << unit;
+    const double first_row =
+        static_cast<double>(*data.epoch_gps_ns) * 1e-9 + data.imu.samples[0].t;
+    EXPECT_NEAR(first_row, static_cast<double>(kNoonGps), 1e-4) << unit;
+    EXPECT_NEAR(data.imu.nominal_dt, 0.01, 1e-4) << unit;
+  }
+}
+
+}  // namespace
+}  // namespace hindsight
