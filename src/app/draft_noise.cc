@@ -22,7 +22,8 @@ namespace {
 constexpr double kMostFactor = 30.0;
 constexpr double kUsualWhite = 0.1;  // m
 /// Gravity moves the bias of gyros by up to 0.1 deg/s/g, as data sheets say of
-/// consumer ones: in a hand, which turns it about, that is a walk.
+/// consumer ones: in a hand, which turns it about, that is a walk, of the size that
+/// the configurations of BROAD's trials have.
 constexpr double kTiltedBiasWalk = 0.005 * kDegree;  // rad/s^2/sqrt(Hz)
 constexpr char kWhy[] = "by the likelihood of the innovations";
 

@@ -66,7 +66,12 @@ void Negate(KeyLine* line) {
     value.insert(1, "-");
   } else if (const std::size_t at = value.find("scale: ");
              at != std::string::npos) {
-    value.insert(at + 7, "-");
+    const std::size_t number = at + 7;
+    if (value[number] == '-') {
+      value.erase(number, 1);
+    } else {
+      value.insert(number, "-");
+    }
   } else {
     value.insert(value.size() - 1, ", scale: -1");
   }

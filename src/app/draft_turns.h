@@ -10,7 +10,8 @@ namespace hindsight {
 /// (CourseOverGyros): takes the unit of these for the one that makes up for it, if
 /// the file states none; and, if they turn the other way round, the gyros for those of
 /// the other sign where gravity turns against them too, else the accelerometers for
-/// those that read -1 g along the axis that points up; either is an assumption. Whether the draft was changed.
+/// those that read -1 g along the axis that points up; either is an assumption.
+/// Whether the draft was changed.
 bool TellTurns(const Dataset& dataset, RecordingDraft* draft);
 
 }  // namespace hindsight

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "dataset/gyro_unit.h"
 #include "dataset/wheel_speed.h"
 #include "io/read/units.h"
 
@@ -69,8 +68,8 @@ bool TellUnitAndSign(const WheelComparison& wheel, StreamDraft* drafted,
       speed.comment.empty() ? "" : "; ", wheel.correlation);
   if (back) {
     draft->Assume(drafted->name +
-                  ": it counts forward where the positions do not say "
-                  "otherwise: its sign is turned");
+                  ": it reads negative speeds where the vehicle is taken to "
+                  "drive forward: its sign is turned");
   }
   SetLine(std::move(speed), &drafted->found.lines);
   return true;
