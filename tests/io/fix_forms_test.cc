@@ -72,8 +72,8 @@ TEST_P(FixForms, AreOnePlace) {
   const MeasurementSeries& z = data.streams[0].measurements;
   ASSERT_EQ(z.size(), static_cast<std::size_t>(kFixes));
   for (const int k : {0, kFixes - 1}) {
-    const auto& fix =
-        std::get<PositionFix>(z[static_cast<std::size_t>(k)].model);
+    const Measurement measured = z[static_cast<std::size_t>(k)];
+    const auto& fix = std::get<PositionFix>(measured.model);
     EXPECT_LT((fix.p_e - EcefFromGeodetic(PlaceAt(k))).norm(), 0.02) << k;
   }
 }
