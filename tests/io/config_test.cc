@@ -87,11 +87,18 @@ TEST_F(ConfigTest, OnAndOffAreBooleansOfYaml11) {
 
 TEST_F(ConfigTest, ASecondDocumentIsRefused) {
   Write("config.yaml", std::string(kConfig) + "---\nname: other\n");
-  EXPECT_NE(LoadError().find("config.yaml:14: a second YAML document begins"),
+  EXPECT_NE(LoadError().find("config.yaml:13: a second YAML document begins"),
             std::string::npos)
       << LoadError();
   Write("config.yaml", "---\n" + std::string(kConfig));
   EXPECT_EQ(LoadError(), "");
+}
+
+TEST_F(ConfigTest, ATokenThatBeginsNothingEndsTheReading) {
+  Write("config.yaml", ",+\n\n3");
+  EXPECT_NE(LoadError().find("expected keys and values at the top level"),
+            std::string::npos)
+      << LoadError();
 }
 
 TEST_F(ConfigTest, CellsInQuotationMarksAreThoseWithin) {

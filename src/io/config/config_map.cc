@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <yaml-cpp/depthguard.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/parser.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -53,6 +55,45 @@ std::string FlowAdvice(const std::string& message) {
   return "; a value with [ ] inside of { } stands in quotes: {t: \"1 [s]\"}";
 }
 
+/// Hears only where documents begin.
+class DocumentStarts : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    line_ = mark.line + 1L;
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+
+  /// Of the last one.
+  long line() const { return line_; }
+
+ private:
+  long line_ = 0;
+};
+
+/// YAML::LoadAll() does not end where the parser is left with a token that
+/// begins nothing (",+"): it hears of one empty document after the other.
+void ExpectOneDocument(const std::string& text, const std::string& path) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentStarts starts;
+  if (!parser.HandleNextDocument(starts)) return;
+  if (parser.HandleNextDocument(starts)) {
+    throw InputError(
+        path, starts.line(),
+        "a second YAML document begins behind `---`; expected one");
+  }
+}
+
 }  // namespace
 
 ConfigMap ConfigMap::Load(const std::string& path, const Edit& edit) {
@@ -61,9 +102,10 @@ ConfigMap ConfigMap::Load(const std::string& path, const Edit& edit) {
 
 ConfigMap ConfigMap::Parse(const std::string& text, const std::string& path,
                            const Edit& edit) {
-  std::vector<YAML::Node> documents;
+  YAML::Node node;
   try {
-    documents = YAML::LoadAll(text);
+    node = YAML::Load(text);
+    if (node.IsMap()) ExpectOneDocument(text, path);
   } catch (const YAML::DeepRecursion&) {
     // Its mark is where the parser has looked ahead to.
     throw InputError(path, 0, "is nested too deep");
@@ -71,12 +113,6 @@ ConfigMap ConfigMap::Parse(const std::string& text, const std::string& path,
     throw InputError(path, error.mark.line + 1L,
                      "is not valid YAML: " + error.msg + FlowAdvice(error.msg));
   }
-  if (documents.size() > 1) {
-    throw InputError(
-        path, documents[1].Mark().line + 1L,
-        "a second YAML document begins behind `---`; expected one");
-  }
-  YAML::Node node = documents.empty() ? YAML::Node() : documents.front();
   if (!node.IsMap()) {
     throw InputError(path, 1, "expected keys and values at the top level");
   }
