@@ -63,11 +63,17 @@ void DescribeAccuracy(const Judged& judged, std::vector<Evidence>* evidence) {
   const Block* attitude = solution.layout.Find(BlockKind::kAttitude);
   // About axes that are level, as those of vehicles are on average.
   const Eigen::Vector3d mounting = judged.mounting_sigma.cwiseAbs2();
+  const bool over_ground =
+      std::any_of(solution.unobserved.begin(), solution.unobserved.end(),
+                  [&solution](const UnobservedSpan& span) {
+                    return span.component == kHeightComponent &&
+                           IsMostOfTheTime(span, solution);
+                  });
   Spread p, v, tilt, heading;
   for (std::size_t k = 0; k < solution.covariances.size(); ++k) {
     const ErrorVector P = solution.covariances.Get(k).diagonal();
     if (position != nullptr) {
-      p.Add(P.segment(position->offset, position->dim).sum());
+      p.Add(P.segment(position->offset, over_ground ? 2 : position->dim).sum());
     }
     if (velocity != nullptr) {
       v.Add(P.segment(velocity->offset, velocity->dim).sum());
@@ -79,7 +85,8 @@ void DescribeAccuracy(const Judged& judged, std::vector<Evidence>* evidence) {
   }
   const auto count = static_cast<double>(solution.covariances.size());
   if (position != nullptr) {
-    AddSpread("position", "m", 1.0, kLargestPositionSigma, p, count, evidence);
+    AddSpread(over_ground ? "position over the ground" : "position", "m", 1.0,
+              kLargestPositionSigma, p, count, evidence);
     if (const Sensor* only = OnlyWhitePlacer(judged.sensors)) {
       evidence->back().what += " beside errors of " + only->name + " that last";
     }

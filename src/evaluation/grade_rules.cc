@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "evaluation/contradicted_sensor.h"
+#include "evaluation/observability.h"
 #include "evaluation/refusals.h"
 
 namespace hindsight {
@@ -125,23 +126,42 @@ void FindLikelyRival(const Judged& judged, std::vector<Evidence>* evidence) {
   evidence->push_back(std::move(found));
 }
 
+namespace {
+
+Evidence HeightThatNothingTells(const UnobservedSpan& span) {
+  return {.grade = Grade::kDoubtful,
+          .what = fmt::format("nothing measures the height, which is known to "
+                              "{:.2g} m alone",
+                              span.sigma),
+          .causes = {"fixes without a height"},
+          .remedies = {"a sensor of heights, or initial.position with the "
+                       "height and its sigma"}};
+}
+
+Evidence StateThatNothingTells(const UnobservedSpan& span) {
+  return {.grade = Grade::kUnusable,
+          .what = fmt::format("{} is not observed from {:.1f} s to {:.1f} s",
+                              span.component, span.t_begin, span.t_end),
+          .causes = {"nothing that measures it"},
+          .remedies = {"a sensor of it, or a given start value"}};
+}
+
+}  // namespace
+
 void FindUnobservedState(const Judged& judged,
                          std::vector<Evidence>* evidence) {
   const Solution& solution = judged.solution;
-  const double duration = solution.states.back().t - solution.states.front().t;
   for (const UnobservedSpan& span : solution.unobserved) {
-    if (span.t_end - span.t_begin < 0.5 * duration) continue;
-    evidence->push_back(
-        {.grade = Grade::kUnusable,
-         .what = fmt::format("{} is not observed from {:.1f} s to {:.1f} s",
-                             span.component, span.t_begin, span.t_end),
-         .value = span.sigma,
-         .limit = span.limit,
-         .unit = "SI",
-         .t_begin = span.t_begin,
-         .t_end = span.t_end,
-         .causes = {"nothing that measures it"},
-         .remedies = {"a sensor of it, or a given start value"}});
+    if (!IsMostOfTheTime(span, solution)) continue;
+    Evidence found = span.component == kHeightComponent
+                         ? HeightThatNothingTells(span)
+                         : StateThatNothingTells(span);
+    found.value = span.sigma;
+    found.limit = span.limit;
+    found.unit = "SI";
+    found.t_begin = span.t_begin;
+    found.t_end = span.t_end;
+    evidence->push_back(std::move(found));
   }
 }
 

@@ -152,4 +152,9 @@ std::vector<UnobservedSpan> FindUnobserved(const Solution& solution) {
   return spans;
 }
 
+bool IsMostOfTheTime(const UnobservedSpan& span, const Solution& solution) {
+  const double duration = solution.states.back().t - solution.states.front().t;
+  return span.t_end - span.t_begin >= 0.5 * duration;
+}
+
 }  // namespace hindsight

@@ -16,6 +16,10 @@ inline constexpr double kLargestVelocitySigma = 10.0;    ///< an axis [m/s]
 inline constexpr double kLargestTiltSigma = 5.0 * kDegree;
 inline constexpr double kLargestHeadingSigma = 20.0 * kDegree;
 
+/// Component of which an UnobservedSpan leaves places over the ground right, and
+/// attitude and velocity, which hardly depend on it.
+inline constexpr char kHeightComponent[] = "position[down]";
+
 /// Observed if sigma has fallen below a third of the a priori one, unobserved if
 /// it is still above nine tenths, weak in between.
 ConstantEstimate::Verdict VerdictOfSigma(double sigma, double prior_sigma);
@@ -38,6 +42,9 @@ Eigen::MatrixXd CovarianceOfConstants(const Solution& solution);
 /// Navigation components whose standard deviation stays above its limit over a
 /// span.
 std::vector<UnobservedSpan> FindUnobserved(const Solution& solution);
+
+/// Whether the span is half of the interval or more.
+bool IsMostOfTheTime(const UnobservedSpan& span, const Solution& solution);
 
 }  // namespace hindsight
 

@@ -161,6 +161,24 @@ TEST_F(GradeTest, StateThatIsUnobservedOverHalfOfTheIntervalIsNotUsable) {
   EXPECT_THAT(solution_.verdict, HasSubstr("counts from the start"));
 }
 
+TEST_F(GradeTest, HeightThatNothingMeasuresIsDoubtfulAndPlacesAreTold) {
+  ErrorVector unknown = sigma_;
+  unknown(2) = 1e4;
+  for (std::size_t k = 0; k < 60; ++k) Set(k, unknown);
+  ConcludePlain();
+  EXPECT_EQ(solution_.grade, Grade::kDoubtful);
+  EXPECT_EQ(Against().rule, "unobserved");
+  EXPECT_THAT(solution_.verdict,
+              StartsWith("doubtful: nothing measures the height, which is "
+                         "known to 1e+04 m alone"));
+  const auto places =
+      std::find_if(solution_.evidence.begin(), solution_.evidence.end(),
+                   [](const Evidence& e) { return e.rule == "accuracy"; });
+  ASSERT_NE(places, solution_.evidence.end());
+  EXPECT_THAT(places->what, StartsWith("position over the ground to "));
+  EXPECT_LT(*places->value, 100.0);
+}
+
 TEST_F(GradeTest, LargeResidualsAreNotUsable) {
   for (ResidualRecord& r : solution_.residuals) r.nis = 3.0 * 4.9 * 4.9;
   ConcludePlain();
