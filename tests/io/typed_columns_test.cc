@@ -42,6 +42,31 @@ TEST_F(TypedColumns, OfAnAutopilotAreTitledByItsFormats) {
               ElementsAre(500.0, 510.0, 520.0, 530.0, 540.0));
 }
 
+/// Its "I" counts devices of a kind; of a kind of which there is one it parts
+/// nothing.
+TEST_F(TypedColumns, OfSeveralDevicesAreApart) {
+  std::string text =
+      "FMT, 129, 35, IMU, QBfff, TimeUS,I,GyrX,GyrY,GyrZ\n"
+      "FMT, 130, 35, MAG, QBfff, TimeUS,I,MagX,MagY,MagZ\n"
+      "FMT, 131, 35, BAT, Qfff, TimeUS,I,Volt,Temp\n";
+  for (int k = 0; k < 30; ++k) {
+    text += fmt::format(
+        "IMU, {0}, 0, 1, 0, {0}\nIMU, {0}, 1, 2, 0, {0}\nMAG, {0}, 0, 7, 8, "
+        "9\nBAT, {0}, 0.1{0}, 12, 20\n",
+        10000 * k);
+  }
+  const auto tables = Tables(text);
+  ASSERT_EQ(tables.size(), 4u);
+  EXPECT_EQ(tables[0].row_word, (RowWord{0, "IMU", 2, "0"}));
+  EXPECT_EQ(tables[0].row_word.Name(), "IMU 0");
+  EXPECT_EQ(tables[1].row_word, (RowWord{0, "IMU", 2, "1"}));
+  EXPECT_EQ(tables[1].rows, 30u);
+  EXPECT_EQ(tables[1].columns[3].values[29], 2.0);
+  EXPECT_EQ(tables[2].row_word, (RowWord{0, "MAG"}));
+  EXPECT_EQ(tables[3].row_word, (RowWord{0, "BAT"}));
+  EXPECT_EQ(tables[3].rows, 30u);
+}
+
 /// The word may stand in another column, below titles that all rows share.
 TEST_F(TypedColumns, OfRowsOfOneWidthAreToldByNamesOfSensors) {
   std::string text = "time,sensor,x,y,z\n";

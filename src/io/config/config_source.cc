@@ -114,7 +114,26 @@ const ConfigTable<RowWord>& RowsTable() {
           rows->word = map->Text("word");
         }},
         .help = "lines that have it are the stream's, all others are not",
-        .needed = true}}};
+        .needed = true},
+       {.name = "device_column",
+        .value = Key::Special{[](ConfigMap* map, RowWord* rows) {
+          if (map->Has("device_column") != map->Has("device")) {
+            map->Fail(map->Has("device") ? "device" : "device_column",
+                      "stands beside `device_column` and `device`");
+          }
+          rows->device_column = map->Integer("device_column", 0) - 1;
+          if (map->Has("device_column") && rows->device_column < 0) {
+            map->Fail("device_column", "expected 1 or more");
+          }
+        }},
+        .help = "a column that counts devices of the kind, from 1",
+        .fallback = "none"},
+       {.name = "device",
+        .value = Key::Special{[](ConfigMap* map, RowWord* rows) {
+          rows->device = map->Text("device", "");
+        }},
+        .help = "what stands there in the lines of the device",
+        .fallback = "none"}}};
   return kTable;
 }
 

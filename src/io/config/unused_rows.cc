@@ -9,21 +9,21 @@
 namespace hindsight {
 namespace {
 
-/// What stands between the first quotation mark behind `from` and the last.
-std::string Quoted(const std::string& text, std::size_t from) {
-  const std::size_t begin = text.find('"', from) + 1;
-  return text.substr(begin, text.rfind('"') - begin);
+/// Without its quotation marks.
+std::string Unquoted(const std::string& text) {
+  return text.substr(1, text.rfind('"') - 1);
 }
 
+/// RowWord::Yaml().
 using WordsOfFiles = std::map<std::string, std::set<std::string>>;
 
 /// Those of the accelerometers' own file stand below it.
 void AddWords(const FoundStream& found, WordsOfFiles* used) {
   std::string file = found.file;
   for (const KeyLine& line : found.lines) {
-    if (line.key == "  file") file = Quoted(line.value, 0);
+    if (line.key == "  file") file = Unquoted(line.value);
     if (line.key == "rows" || line.key == "  rows") {
-      (*used)[file].insert(Quoted(line.value, line.value.find("word:")));
+      (*used)[file].insert(line.value);
     }
   }
 }
@@ -43,8 +43,8 @@ std::vector<std::string> UnusedRows(const RecordingDraft& draft) {
         std::filesystem::path(draft.folder) / file;
     std::string left;
     for (const FileColumns& table : ReadTypedColumns(path.string())) {
-      const std::string& word = table.row_word.word;
-      if (!words.contains(word)) left += (left.empty() ? "" : ", ") + word;
+      if (words.contains(table.row_word.Yaml())) continue;
+      left += (left.empty() ? "" : ", ") + table.row_word.Name();
     }
     if (!left.empty()) unused.push_back(file + ", rows of " + left);
   }

@@ -22,9 +22,7 @@ FoundStream ColumnLines::Stream() const {
     found.lines.push_back({"skip_lines", std::to_string(file_.skip_lines)});
   }
   if (file_.row_word.column >= 0) {
-    found.lines.push_back(
-        {"rows", fmt::format("{{column: {}, word: \"{}\"}}",
-                             file_.row_word.column + 1, file_.row_word.word)});
+    found.lines.push_back({"rows", file_.row_word.Yaml()});
   }
   if (!file_.delimiter.empty()) {
     found.lines.push_back({"delimiter", file_.delimiter});

@@ -22,7 +22,7 @@ using HalfNames = std::vector<std::string>;
 struct HalfImu {
   HalfImu(std::string file, FileColumns numbers)
       : file_name(std::move(file)),
-        name(numbers.row_word.column < 0 ? file_name : numbers.row_word.word),
+        name(numbers.row_word.column < 0 ? file_name : numbers.row_word.Name()),
         columns(std::move(numbers)),
         lines(columns) {}
   // `lines` speaks of `columns` where they are.

@@ -1,5 +1,7 @@
 #include "io/read/open_text.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -53,9 +55,14 @@ void SplitDate(const std::string& row, TableLayout* layout) {
 [[noreturn]] void FailWithoutSuch(const TableRequest& request) {
   const RowWord& rows = request.format.rows;
   if (rows.column < 0) FailWithoutRows(request.path);
-  throw InputError(request.path, 0,
-                   "the file holds no rows that have '" + rows.word +
-                       "' in column " + std::to_string(rows.column + 1));
+  std::string what =
+      fmt::format("the file holds no rows that have '{}' in column {}",
+                  rows.word, rows.column + 1);
+  if (rows.device_column >= 0) {
+    what += fmt::format(" and '{}' in column {}", rows.device,
+                        rows.device_column + 1);
+  }
+  throw InputError(request.path, 0, what);
 }
 
 /// `titled`: the columns are those of the header line that name a quantity.

@@ -55,32 +55,13 @@ std::optional<FileColumns> ProbeColumns(const std::string& path) {
   return std::nullopt;
 }
 
-/// Whether a column counts devices ("I" of ArduPilot's logs).
-bool HoldsSeveralInstances(const FileColumns& table) {
-  return std::any_of(
-      table.columns.begin(), table.columns.end(), [](const FileColumn& column) {
-        const bool counts = column.title == "I" || column.title == "instance" ||
-                            column.title == "Instance";
-        return counts && std::any_of(column.values.begin(), column.values.end(),
-                                     [&](double v) {
-                                       return v != column.values.front();
-                                     });
-      });
-}
-
 /// The streams of a text that holds those of several sensors row by row.
 std::vector<FoundStream> RecogniseTyped(const std::string& path,
                                         const RecogniseHints& hints) {
   std::vector<FoundStream> found;
   for (const FileColumns& table : ReadTypedColumns(path)) {
     for (FoundStream& stream :
-         RecogniseColumns(table, table.row_word.word, hints)) {
-      if (HoldsSeveralInstances(table)) {
-        stream.assumptions.push_back(
-            "rows of '" + table.row_word.word +
-            "' are of several devices, by the column that counts them, and are "
-            "taken for one's");
-      }
+         RecogniseColumns(table, table.row_word.Name(), hints)) {
       found.push_back(std::move(stream));
     }
   }

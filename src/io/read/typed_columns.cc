@@ -128,6 +128,22 @@ void TitleBySensor(int sensor, FileColumns* table) {
   }
 }
 
+/// The column that counts devices of a kind ("I" of ArduPilot's logs), or -1.
+int DeviceColumn(std::string_view title, char delimiter) {
+  const auto titles = SplitLine(title, delimiter);
+  const auto counts =
+      std::find_if(titles.begin(), titles.end(), [](std::string_view word) {
+        return word == "I" || word == "instance" || word == "Instance";
+      });
+  return counts == titles.end() ? -1
+                                : static_cast<int>(counts - titles.begin());
+}
+
+/// There are but few of a kind.
+bool IsDeviceCount(std::string_view word) {
+  return word.size() == 1 && word[0] >= '0' && word[0] <= '9';
+}
+
 class TypedColumns {
  public:
   explicit TypedColumns(const TypedText& text) : text_(text) {}
@@ -148,17 +164,20 @@ class TypedColumns {
     const std::string word(WordAt(line, text_.delimiter, text_.column));
     if (word == "FMT") {
       TakeFormat(line);
-    } else if (ColumnGatherer* gatherer = GathererOf(word)) {
+    } else if (ColumnGatherer* gatherer = GathererOf(RowsOf(word, line))) {
       gatherer->Add(line, terminated);
     }
   }
 
   std::vector<FileColumns> Finish() {
     std::vector<FileColumns> tables;
-    for (auto& [word, gatherer] : gatherers_) {
+    for (auto& [rows, gatherer] : gatherers_) {
       auto table = gatherer.Finish();
       if (!table) continue;
-      TitleBySensor(SensorOf(word), &*table);
+      if (CountDevices(rows.word) == 1) {
+        table->row_word = {text_.column, rows.word};
+      }
+      TitleBySensor(SensorOf(rows.word), &*table);
       tables.push_back(std::move(*table));
     }
     return tables;
@@ -180,22 +199,44 @@ class TypedColumns {
     titles_[name] = title;
   }
 
-  ColumnGatherer* GathererOf(const std::string& word) {
+  /// "" if rows of the word have none.
+  const std::string& TitleOf(const std::string& word) const {
+    const auto title = titles_.find(word);
+    return title != titles_.end() ? title->second : common_title_;
+  }
+
+  RowWord RowsOf(const std::string& word, std::string_view line) {
+    RowWord rows = {text_.column, word};
+    const auto [known, is_new] = device_columns_.try_emplace(word, -1);
+    if (is_new) known->second = DeviceColumn(TitleOf(word), text_.delimiter);
+    if (known->second < 0) return rows;
+    rows.device = WordAt(line, text_.delimiter, known->second);
+    if (!IsDeviceCount(rows.device)) {
+      known->second = -1;
+      return {text_.column, word};
+    }
+    rows.device_column = known->second;
+    return rows;
+  }
+
+  long CountDevices(const std::string& word) const {
+    return std::count_if(
+        gatherers_.begin(), gatherers_.end(),
+        [&](const auto& gatherer) { return gatherer.first.word == word; });
+  }
+
+  ColumnGatherer* GathererOf(const RowWord& rows) {
     const auto known = std::find_if(
         gatherers_.begin(), gatherers_.end(),
-        [&](const auto& gatherer) { return gatherer.first == word; });
+        [&](const auto& gatherer) { return gatherer.first == rows; });
     if (known != gatherers_.end()) {
       return known->second.wants_more() ? &known->second : nullptr;
     }
-    if (!IsName(word) || gatherers_.size() == kMostWords) return nullptr;
-    gatherers_.emplace_back(word, ColumnGatherer(RowWord{text_.column, word}));
-    ColumnGatherer& gatherer = gatherers_.back().second;
-    const auto title = titles_.find(word);
-    if (title != titles_.end()) {
-      gatherer.Add(title->second, true);
-    } else if (!common_title_.empty()) {
-      gatherer.Add(common_title_, true);
-    }
+    if (!IsName(rows.word) || gatherers_.size() == kMostWords) return nullptr;
+    ColumnGatherer& gatherer =
+        gatherers_.emplace_back(rows, ColumnGatherer(rows)).second;
+    const std::string& title = TitleOf(rows.word);
+    if (!title.empty()) gatherer.Add(title, true);
     return &gatherer;
   }
 
@@ -203,7 +244,8 @@ class TypedColumns {
   bool begun_ = false;
   std::string common_title_;
   std::map<std::string, std::string> titles_;  ///< by word
-  std::vector<std::pair<std::string, ColumnGatherer>> gatherers_;
+  std::map<std::string, int> device_columns_;  ///< by word; -1: none
+  std::vector<std::pair<RowWord, ColumnGatherer>> gatherers_;
 };
 
 }  // namespace
