@@ -142,5 +142,23 @@ TEST_F(RecordingFolder, DaysAreCountedFromTheirOwnBeginning) {
   }
 }
 
+/// SampleTimeFine counts tenths of a millisecond or microseconds.
+TEST_F(RecordingFolder, FineTicksAreThoseOfTheLikelyRate) {
+  for (const auto& [step, unit] :
+       {std::pair(100, "[0.1 ms]"), {10000, "[us]"}}) {
+    std::string text =
+        "PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z,Gyr_X,"
+        "Gyr_Y,Gyr_Z\n";
+    for (int k = 0; k < 500; ++k) {
+      text += fmt::format("{},{},0.0{},0.1,9.8{},0,0,0.00{}\n", k, step * k,
+                          k % 7, k % 9, k % 5);
+    }
+    Write("MT.csv", text);
+    const auto drafts = DraftRecordings(folder_.string());
+    ASSERT_EQ(drafts.size(), 1u) << unit;
+    EXPECT_THAT(DraftText(drafts[0]), HasSubstr(std::string("t: \"2 ") + unit));
+  }
+}
+
 }  // namespace
 }  // namespace hindsight

@@ -148,5 +148,18 @@ TEST(Units, ListsShareTheirLastUnit) {
                std::invalid_argument);
 }
 
+/// Of a column; a value has its number already.
+TEST(Units, OfColumnsMayBeMultiples) {
+  EXPECT_DOUBLE_EQ(*UnitFactor("0.1 ms", Quantity::kTime), 1e-4);
+  EXPECT_DOUBLE_EQ(*UnitFactor("1e-7deg", Quantity::kAngle), 1e-7 * kDegree);
+  EXPECT_DOUBLE_EQ(*UnitFactor("0.01 km/h", Quantity::kSpeed), 0.01 / 3.6);
+  EXPECT_FALSE(UnitFactor("0 ms", Quantity::kTime));
+  EXPECT_FALSE(UnitFactor("-1 ms", Quantity::kTime));
+  EXPECT_FALSE(UnitFactor("2 3 ms", Quantity::kTime));
+  EXPECT_FALSE(UnitFactor("2 m", Quantity::kTime));
+  EXPECT_THROW(ParseQuantity("1 2 m", Quantity::kLength),
+               std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace hindsight

@@ -99,15 +99,21 @@ struct TimeUnit {
   const char* name;
   double seconds;
 };
-constexpr std::array kTimeUnits = {TimeUnit{"s", 1.0}, TimeUnit{"ms", 1e-3},
-                                   TimeUnit{"us", 1e-6}, TimeUnit{"ns", 1e-9}};
+/// SampleTimeFine of an Xsens MTi counts these, that of a DOT microseconds.
+constexpr TimeUnit kFineTick = {"0.1 ms", 1e-4};
+constexpr std::array kTimeUnits = {TimeUnit{"s", 1.0}, kFineTick,
+                                   TimeUnit{"ms", 1e-3}, TimeUnit{"us", 1e-6},
+                                   TimeUnit{"ns", 1e-9}};
 
 /// Of the units in which rows come at a likely rate the one that brings the
 /// span nearest to the IMU's, else the first; nullptr if none does.
-const TimeUnit* UnitOfSteps(double step, double span, const StampHints& hints) {
+const TimeUnit* UnitOfSteps(double step, double span, const std::string& title,
+                            const StampHints& hints) {
   const TimeUnit* best = nullptr;
   double nearest = std::numeric_limits<double>::infinity();
+  const bool fine = HasAnyWord(SplitWords(title), {"fine"});
   for (const TimeUnit& unit : kTimeUnits) {
+    if (unit.seconds == kFineTick.seconds && !fine) continue;
     const double seconds = step * unit.seconds;
     if (seconds * hints.fastest < 1.0 || seconds * hints.slowest > 1.0) {
       continue;
@@ -226,8 +232,8 @@ std::optional<StampGuess> GuessStamps(
     factor = *known;
     guess.reason = "by its title";
   } else if (!dates) {
-    const TimeUnit* unit =
-        UnitOfSteps(steps.median, t.back() - t.front(), hints);
+    const TimeUnit* unit = UnitOfSteps(steps.median, t.back() - t.front(),
+                                       file.columns[index].title, hints);
     if (unit == nullptr) return CountedRows(file.rows, hints);
     guess.unit = unit->name;
     factor = unit->seconds;

@@ -3,6 +3,7 @@
 #include <fast_float/fast_float.h>
 
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
 
@@ -64,12 +65,19 @@ std::string WithArticle(Quantity quantity) {
                               " in one of " + UnitExamples(quantity));
 }
 
+std::optional<double> FactorOfUnit(std::string_view unit, Quantity quantity) {
+  const auto meaning = MeaningOfUnit(unit);
+  const auto si = MeaningOfUnit(SiUnit(quantity));
+  if (!meaning || meaning->dimension != si->dimension) return std::nullopt;
+  return meaning->factor;
+}
+
 double Convert(std::string_view text, std::string_view number,
                std::string_view unit, Quantity quantity) {
   const auto value = ParseNumber(number);
   if (!value) Fail(text, "does not start with a finite number", quantity);
   if (unit.empty()) Fail(text, "has no unit", quantity);
-  const auto factor = UnitFactor(unit, quantity);
+  const auto factor = FactorOfUnit(unit, quantity);
   if (!factor) {
     Fail(text,
          std::string("has the unit '") + std::string(unit) +
@@ -88,10 +96,17 @@ const char* UnitExamples(Quantity quantity) {
 }
 
 std::optional<double> UnitFactor(std::string_view unit, Quantity quantity) {
-  const auto meaning = MeaningOfUnit(unit);
-  const auto si = MeaningOfUnit(SiUnit(quantity));
-  if (!meaning || meaning->dimension != si->dimension) return std::nullopt;
-  return meaning->factor;
+  const std::string_view trimmed = Trim(unit);
+  const std::size_t length = NumberLength(trimmed);
+  const std::string_view rest = Trim(trimmed.substr(length));
+  const auto multiple = ParseNumber(trimmed.substr(0, length));
+  if (!multiple || !(*multiple > 0.0) || rest.empty() ||
+      std::isalpha(static_cast<unsigned char>(rest.front())) == 0) {
+    return FactorOfUnit(unit, quantity);
+  }
+  const auto factor = FactorOfUnit(rest, quantity);
+  if (factor) return *multiple * *factor;
+  return std::nullopt;
 }
 
 double ParseQuantity(std::string_view text, Quantity quantity) {

@@ -26,7 +26,8 @@ const char* UnitExamples(Quantity quantity);
 /// write them: dps and mdps, a degree sign, a micro sign, a root sign or rtHz or
 /// Hz^0.5, m/s2, words as "degrees" and "sec", " per ". The second is
 /// s^-1 of Hz, so "deg/s/sqrt(Hz)" and "rad/sqrt(s)" are the same dimension;
-/// an angle is never mistaken for a ratio.
+/// an angle is never mistaken for a ratio. A number before it is a multiple, as
+/// of counters and buses: "0.1 ms", "0.01 km/h".
 std::optional<double> UnitFactor(std::string_view unit, Quantity quantity);
 
 /// "0.23 deg/sqrt(h)" in SI. Throws std::invalid_argument with one line that
