@@ -11,7 +11,7 @@ set -eu
 build="build-essential cmake ninja-build ccache
   libeigen3-dev libceres-dev libsuitesparse-dev libgeographiclib-dev
   libfmt-dev libgflags-dev libgoogle-glog-dev libyaml-cpp-dev nlohmann-json3-dev
-  libtbb-dev zlib1g-dev libbz2-dev liblz4-dev libarchive-dev libssl-dev libfast-float-dev libboost-dev pkg-config
+  libtbb-dev zlib1g-dev libbz2-dev liblz4-dev libarchive-dev libssl-dev libfast-float-dev libpugixml-dev libboost-dev pkg-config
   libjs-dygraphs"
 tests="libgtest-dev libgmock-dev libbenchmark-dev locales
   clang-format clang-tidy clang libclang-rt-dev

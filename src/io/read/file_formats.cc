@@ -13,6 +13,7 @@ std::vector<const FileFormat*>& TheList() {
       &ControlPointsFormat(), &EurocFormat(),     &NcltFormat(),
       &OxtsFormat(),          &NmeaFormat(),      &NpyFormat(),
       &MatFormat(),           &RosbagFormat(),    &ColumnsFormat(),
+      &GpxFormat(),
   };
   return list;
 }

@@ -70,6 +70,14 @@ const FileFormat& OxtsFormat();
 /// values out of range.
 const FileFormat& NmeaFormat();
 
+/// The points of all tracks of a GPX file, in the order of the file: lat, lon, and
+/// ele as the height, which by GPX's definition is above the sea. A file in which
+/// no point has an ele has heights of 0 m. Times are UTC; stamps are GPS time.
+/// Points without a time are left out and counted. Throws InputError, naming the
+/// line, for what is no XML, times that are none, a height that is missing in some
+/// points, and values out of range.
+const FileFormat& GpxFormat();
+
 /// NumPy arrays, one file or a folder of them (io/read/array_rows.h).
 const FileFormat& NpyFormat();
 

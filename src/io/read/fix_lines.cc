@@ -69,9 +69,7 @@ FoundStream FixLines::Position(const FixGuess& fixes) const {
   }
   lines_.AddColumn("h", fixes.h, &found);
   if (CountsFromSea(file_, fixes.h.column)) {
-    found.assumptions.emplace_back(
-        "its heights seem to count from the sea; they are taken for heights "
-        "above the ellipsoid, which differ by the geoid's, -105 to 85 m");
+    found.assumptions.emplace_back(kSeaHeights);
   }
   const Names sigmas = {"sigma_n", "sigma_e", "sigma_d"};
   found.sigmas = lines_.HasAll(sigmas);
@@ -111,18 +109,21 @@ std::optional<FoundStream> FixLines::EarthCentred() const {
   return found;
 }
 
+KeyLine SigmaWithoutHeight(double fixes) {
+  constexpr double kKilometre = 1000.0;
+  return {"sigma",
+          fmt::format("[3, 3, {:.0f} m]", kKilometre * std::sqrt(fixes)),
+          "usual of a single receiver (a guess); a height that is not "
+          "known, to a kilometre by all fixes together"};
+}
+
 void FixLines::AddWithoutHeight(const FixGuess& fixes,
                                 FoundStream* found) const {
-  constexpr double kKilometre = 1000.0;
   const double rows = static_cast<double>(file_.rows) * (1.0 - fixes.repeated);
   const double used = std::clamp(rows, 1.0, 1.0 + lines_.stamps()->span);
   ColumnLines::AddLine({"  h", "{constant: 0 m}", "the file states none"},
                        found);
-  SetLine(
-      {"sigma", fmt::format("[3, 3, {:.0f} m]", kKilometre * std::sqrt(used)),
-       "usual of a single receiver (a guess); a height that is not "
-       "known, to a kilometre by all fixes together"},
-      &found->lines);
+  SetLine(SigmaWithoutHeight(used), &found->lines);
   found->sigmas = true;
 }
 

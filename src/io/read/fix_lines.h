@@ -12,6 +12,14 @@
 
 namespace hindsight {
 
+/// What is assumed of heights that seem to be above the sea.
+inline constexpr char kSeaHeights[] =
+    "its heights seem to count from the sea; they are taken for heights above "
+    "the ellipsoid, which differ by the geoid's, -105 to 85 m";
+
+/// The key `sigma` of that many fixes without a height.
+KeyLine SigmaWithoutHeight(double fixes);
+
 /// Writes the lines by which a configuration reads a receiver's positions out of
 /// columns of numbers. File and lines must outlive it.
 class FixLines {
