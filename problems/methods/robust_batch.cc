@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/median.h"
 #include "base/processor_time.h"
 #include "problems/blunders.h"
 #include "problems/method.h"
 #include "problems/method_stage.h"
+#include "problems/outlier_rows.h"
 #include "problems/sensor_imm.h"
 #include "problems/solution_builder.h"
 #include "receiver_errors/receiver_errors.h"
@@ -78,46 +78,6 @@ Solution SolvePlainly(MethodStage* stage, const MethodStage::Nodes& nodes) {
   solution.converged = result.converged;
   stage->JudgeHeading(solution, nodes);
   return solution;
-}
-
-/// Fixes of one sensor that are used, in order: are they taken for outliers?
-struct TakenFix {
-  double t = 0.0;  ///< [s]
-  bool outlier = false;
-};
-
-/// Outliers in a row, with no fix behind them or before them for long.
-struct RowAtGap {
-  double begin = 0.0;  ///< [s]
-  double end = 0.0;
-  int count = 0;
-};
-
-/// The longest of the rows next to a gap, begin and end of the recording among
-/// them; a gap is five times as long as most spacings.
-RowAtGap LongestRowAtGap(const std::vector<TakenFix>& fixes) {
-  constexpr double kGap = 5.0;
-  std::vector<double> spacings;
-  for (std::size_t i = 1; i < fixes.size(); ++i) {
-    spacings.push_back(fixes[i].t - fixes[i - 1].t);
-  }
-  const double gap = spacings.empty() ? 0.0 : kGap * Median(spacings);
-  RowAtGap longest;
-  for (std::size_t begin = 0; begin < fixes.size();) {
-    std::size_t end = begin + 1;
-    while (end < fixes.size() && fixes[end].outlier == fixes[begin].outlier &&
-           spacings[end - 1] <= gap) {
-      ++end;
-    }
-    const bool at_gap = begin == 0 || end == fixes.size() ||
-                        spacings[begin - 1] > gap || spacings[end - 1] > gap;
-    const auto count = static_cast<int>(end - begin);
-    if (fixes[begin].outlier && at_gap && count > longest.count) {
-      longest = {fixes[begin].t, fixes[end - 1].t, count};
-    }
-    begin = end;
-  }
-  return longest;
 }
 
 /// Outliers come one by one. Two and more, behind which nothing follows that

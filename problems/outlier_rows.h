@@ -1,0 +1,28 @@
+#ifndef HINDSIGHT_PROBLEMS_OUTLIER_ROWS_H_
+#define HINDSIGHT_PROBLEMS_OUTLIER_ROWS_H_
+
+#include <span>
+
+namespace hindsight {
+
+/// A fix of one sensor that is used: is it taken for an outlier?
+struct TakenFix {
+  double t = 0.0;  ///< [s]
+  bool outlier = false;
+};
+
+/// Outliers in a row, with no fix behind them or before them for long.
+struct RowAtGap {
+  double begin = 0.0;  ///< [s]
+  double end = 0.0;    ///< [s]
+  int count = 0;       ///< 0: there is none
+};
+
+/// The longest of the rows next to a gap, begin and end of the recording among
+/// them; a gap is more than five times the median spacing. Fixes in the order of
+/// time.
+RowAtGap LongestRowAtGap(std::span<const TakenFix> fixes);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_OUTLIER_ROWS_H_
