@@ -48,6 +48,8 @@ constexpr Accepted kAccepted[] = {
      "a receiver without a fix leaves its fields empty; `check` counts them"},
     {"without its last column", "csv_speed_course",
      "a course need not be measured"},
+    {"without its last column", "gpx",
+     "a track need not have heights: it is one without"},
     {"zeros at its end", "mat_imu",
      "numbers of a matrix that is not compressed have no checksum"},
     {"cut within its last number, which another is as short as", "text",

@@ -168,6 +168,11 @@ inline std::vector<SampleStream> SampleStreams() {
       "aiding:\n  s: {type: speed_course, file: FILE, format: nmea, sigma: 0.1 "
       "m/s, course_sigma: 1 deg}\n",
       MakeRows({"", "speed", "course"}, {5.0, 20.0}, clock));
+  add("gpx", Encoding::kGpx, "track.gpx",
+      position + "format: gpx, sigma: 2 m}\n",
+      MakeRows({"", "lat", "lon", "ele"}, {48.0, 11.0, 500.0}, [](double t) {
+        return "2017-01-01T00:00:0" + Printed(t, 3) + "Z";
+      }));
   const auto date = [](double t) {
     return "2017-01-01 00:00:0" + Printed(t, 9);
   };

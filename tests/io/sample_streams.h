@@ -19,7 +19,17 @@ struct TextRows {
 };
 
 /// How a format writes a table, and what it has that can be damaged.
-enum class Encoding { kCsv, kPlain, kPos, kNmea, kOxts, kNpy, kMat, kBag };
+enum class Encoding {
+  kCsv,
+  kPlain,
+  kPos,
+  kNmea,
+  kGpx,
+  kOxts,
+  kNpy,
+  kMat,
+  kBag
+};
 
 inline bool IsText(Encoding e) { return e <= Encoding::kOxts; }
 /// Its rows are lines of fields behind delimiters.
@@ -111,6 +121,17 @@ inline std::string Nmea(const TextRows& table, bool rmc) {
   return text;
 }
 
+/// t, lat, lon, ele of a table as the points of a track.
+inline std::string Gpx(const TextRows& table) {
+  std::string text = "<gpx><trk><trkseg>\n";
+  for (const auto& row : table.rows) {
+    text += "<trkpt lat=\"" + row[1] + "\" lon=\"" + row[2] + "\">";
+    if (row.size() > 3) text += "<ele>" + row[3] + "</ele>";
+    text += "<time>" + row[0] + "</time></trkpt>\n";
+  }
+  return text + "</trkseg></trk></gpx>\n";
+}
+
 /// The bytes of the stream's file, made of `table`.
 inline std::string Encode(const SampleStream& stream, const TextRows& table) {
   switch (stream.encoding) {
@@ -124,6 +145,8 @@ inline std::string Encode(const SampleStream& stream, const TextRows& table) {
              Lines(table, ' ', false);
     case Encoding::kNmea:
       return Nmea(table, table.titles[1] == "speed");
+    case Encoding::kGpx:
+      return Gpx(table);
     case Encoding::kOxts: {
       // The stamps alone: an epoch's file is written apart.
       std::string text;
@@ -141,8 +164,9 @@ inline std::string Encode(const SampleStream& stream, const TextRows& table) {
 
 /// Line or row of the file in which a row of the table stands.
 inline int LineOf(const SampleStream& stream, int row) {
-  const bool header =
-      stream.encoding == Encoding::kCsv || stream.encoding == Encoding::kPos;
+  const bool header = stream.encoding == Encoding::kCsv ||
+                      stream.encoding == Encoding::kPos ||
+                      stream.encoding == Encoding::kGpx;
   return row + (header ? 2 : 1);
 }
 

@@ -13,8 +13,8 @@
 #include "io/read/date_text.h"
 #include "io/read/file_formats.h"
 #include "io/read/fix_lines.h"
-#include "io/read/input_file.h"
 #include "io/read/open_text.h"
+#include "io/read/text_lines.h"
 #include "io/read/text_tokens.h"
 #include "io/read/units.h"
 #include "measurements/sensor_kind.h"
@@ -22,55 +22,78 @@
 namespace hindsight {
 namespace {
 
-constexpr std::size_t kLargestFile = std::size_t{1} << 29;
+constexpr std::size_t kLargestText = std::size_t{1} << 29;
 
-/// The text of the file and what it says, for as long as both are needed.
-class GpxFile {
- public:
-  /// Throws InputError of what is no XML, naming the line.
-  explicit GpxFile(const std::string& path) : path_(path) {
-    const InputFile file(path);
-    if (file.size() > kLargestFile) {
+/// As TextLines reads it, each line with its end.
+std::string TextOf(const std::string& path) {
+  TextLines lines(path);
+  std::string text;
+  std::string_view line;
+  while (lines.Next(&line)) {
+    text.append(line).push_back('\n');
+    if (text.size() > kLargestText) {
       throw InputError(path, 0, "is longer than 512 MB; expected a GPX track");
     }
-    text_.resize(file.size());
-    file.ReadAt(0, text_.data(), text_.size());
+  }
+  return text;
+}
+
+/// The document, and the lines of its nodes.
+class GpxFile {
+ public:
+  /// Throws InputError of what is no GPX, naming the line.
+  explicit GpxFile(const std::string& path) : path_(path), text_(TextOf(path)) {
     const pugi::xml_parse_result result =
         document_.load_buffer(text_.data(), text_.size());
     if (!result) {
-      throw InputError(
-          path, LineOf(result.offset),
-          fmt::format("is not valid XML: {}", result.description()));
+      FailAt(result.offset,
+             fmt::format("is not valid XML: {}", result.description()));
     }
-    if (!document_.child("gpx")) {
-      throw InputError(path, 1, "holds no <gpx>; expected a GPX track");
+    const pugi::xml_node gpx = document_.child("gpx");
+    if (!gpx) FailAt(0, "holds no <gpx>; expected a GPX track");
+    const std::size_t end = text_.rfind('>') + 1;
+    if (document_.last_child() != gpx ||
+        text_.find_first_not_of(" \t\n", end) != text_.npos) {
+      FailAt(std::ssize(text_), "goes on behind </gpx>");
     }
   }
 
-  /// All track points, in the order of the file.
+  /// All track points, in the order of the file, which must outlive them.
   std::vector<pugi::xml_node> Points() const {
     std::vector<pugi::xml_node> points;
     for (const pugi::xml_node track : document_.child("gpx").children("trk")) {
       for (const pugi::xml_node part : track.children("trkseg")) {
-        for (const pugi::xml_node point : part.children("trkpt")) {
-          points.push_back(point);
+        for (const pugi::xml_node child : part.children()) {
+          if (child.type() == pugi::node_pcdata) {
+            const auto begin = static_cast<std::size_t>(child.offset_debug());
+            FailAt(static_cast<std::ptrdiff_t>(
+                       text_.find_first_not_of(" \t\n", begin)),
+                   "text between the points of a track");
+          }
+          if (child.name() == std::string_view("trkpt")) {
+            points.push_back(child);
+          }
         }
       }
     }
     return points;
   }
 
-  long LineOf(std::ptrdiff_t offset) const {
-    const auto end = text_.begin() +
-                     std::clamp(offset, std::ptrdiff_t{0}, std::ssize(text_));
-    return 1 + std::count(text_.begin(), end, '\n');
+  /// Of a node; quick where they are asked for in the order of the file.
+  long LineOf(const pugi::xml_node& node) {
+    const std::ptrdiff_t offset = node.offset_debug();
+    if (offset < offset_) line_ = 1, offset_ = 0;
+    line_ += std::count(text_.begin() + offset_, text_.begin() + offset, '\n');
+    offset_ = offset;
+    return line_;
   }
 
   [[noreturn]] void Fail(const pugi::xml_node& point,
                          const std::string& what) const {
-    throw InputError(path_, LineOf(point.offset_debug()), what);
+    FailAt(point.offset_debug(), what);
   }
 
+  /// The text as a number of that size at most.
   double Number(const pugi::xml_node& point, const char* name, const char* text,
                 double limit) const {
     const auto number = ParseNumber(Trim(text));
@@ -81,12 +104,19 @@ class GpxFile {
     return *number;
   }
 
-  const std::string& path() const { return path_; }
-
  private:
+  [[noreturn]] void FailAt(std::ptrdiff_t offset,
+                           const std::string& what) const {
+    const auto end = text_.begin() +
+                     std::clamp(offset, std::ptrdiff_t{0}, std::ssize(text_));
+    throw InputError(path_, 1 + std::count(text_.begin(), end, '\n'), what);
+  }
+
   std::string path_;
   std::string text_;
   pugi::xml_document document_;
+  std::ptrdiff_t offset_ = 0;  ///< of the line last asked for
+  long line_ = 1;
 };
 
 bool HasHeight(const pugi::xml_node& point) {
@@ -95,15 +125,13 @@ bool HasHeight(const pugi::xml_node& point) {
 
 RowBuffer ReadGpx(const TableRequest& request) {
   constexpr double kHighest = 1e5;  // [m]
-  const GpxFile file(request.path);
+  GpxFile file(request.path);
   RowBuffer rows(request.path, request.fields, request.options.allow_absent);
   for (const char* field : {"lat", "lon", "h"}) rows.Declare(field);
   const std::vector<pugi::xml_node> points = file.Points();
   const bool flat = std::none_of(points.begin(), points.end(), HasHeight);
-  long line = 0;
   long without_time = 0;
   for (const pugi::xml_node& point : points) {
-    ++line;
     const char* time = point.child_value("time");
     if (*time == '\0') {
       ++without_time;
@@ -115,7 +143,7 @@ RowBuffer ReadGpx(const TableRequest& request) {
                                    "yyyy-mm-ddThh:mm:ssZ",
                                    time));
     }
-    rows.Append(*stamp, line);
+    rows.Append(*stamp, file.LineOf(point));
     const auto angle = [&](const char* name, double limit) {
       return kDegree *
              file.Number(point, name, point.attribute(name).value(), limit);
@@ -146,7 +174,8 @@ std::optional<FoundStream> RecogniseGpx(const std::filesystem::path& path) {
   FoundStream found = FoundAiding({&PositionKind()});
   found.sigmas = false;
   try {
-    const std::vector<pugi::xml_node> points = GpxFile(path.string()).Points();
+    const GpxFile file(path.string());
+    const std::vector<pugi::xml_node> points = file.Points();
     if (std::none_of(points.begin(), points.end(), HasHeight)) {
       SetLine(SigmaWithoutHeight(static_cast<double>(points.size())),
               &found.lines);
