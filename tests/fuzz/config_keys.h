@@ -71,6 +71,7 @@ inline const std::vector<FuzzMap>& RecordingMaps() {
        {{"t", "1 [s]"},
         {"week", "1"},
         {"date", "2 [UTC]"},
+        {"t_rest", "2 [ns]"},
         {"gyro_x", "gyro_x [rad/s]"},
         {"accel_z", "-7 [m/s^2]"},
         {"lat", "{column: 2, unit: deg, scale: 0.5}"},

@@ -109,7 +109,29 @@ INSTANTIATE_TEST_SUITE_P(
                       1e7 * p.longitude / kDegree, 1e7 * p.latitude / kDegree,
                       1e3 * p.height);
                 },
-                "h: \"4 [mm]\""}),
+                "h: \"4 [mm]\""},
+        FixForm{"FitSemicircles", "timestamp,position_lat,position_long,h",
+                [](double t, const Geodetic& p) {
+                  constexpr double kSemicircle = kPi / 2147483648.0;
+                  return fmt::format("{:.1f},{:.0f},{:.0f},{:.3f}", t,
+                                     p.latitude / kSemicircle,
+                                     p.longitude / kSemicircle, p.height);
+                },
+                "semicircles"},
+        FixForm{"FeetAboveTheSea", "time,lat,lon,Alt [ft MSL]",
+                [](double t, const Geodetic& p) {
+                  return fmt::format("{:.1f},{:.9f},{:.9f},{:.4f}", t,
+                                     p.latitude / kDegree,
+                                     p.longitude / kDegree, p.height / 0.3048);
+                },
+                "h: \"4 [ft]\""},
+        FixForm{"BesideALaser", "time,lat,lon,altitude_agl,altitude",
+                [](double t, const Geodetic& p) {
+                  return fmt::format("{:.1f},{:.9f},{:.9f},{:.1f},{:.3f}", t,
+                                     p.latitude / kDegree,
+                                     p.longitude / kDegree, 20.0 + t, p.height);
+                },
+                "h: \"5 [m]\""}),
     [](const auto& info) { return std::string(info.param.name); });
 
 /// Days as MATLAB's datenum and spreadsheets count them: one instant.
@@ -157,6 +179,29 @@ TEST_F(RecordingFolder, FineTicksAreThoseOfTheLikelyRate) {
     const auto drafts = DraftRecordings(folder_.string());
     ASSERT_EQ(drafts.size(), 1u) << unit;
     EXPECT_THAT(DraftText(drafts[0]), HasSubstr(std::string("t: \"2 ") + unit));
+  }
+}
+
+/// In a file of a DVL's name velocities along axes are those of its own.
+TEST_F(RecordingFolder, VelocitiesOfADvlNeedNotNameIt) {
+  std::string imu;
+  for (int k = 0; k <= 4000; ++k) {
+    imu += fmt::format("{:.2f},0.00{},0,0,0,0.0{},-9.81\n", 0.01 * k, k % 7,
+                       k % 5);
+  }
+  Write("imu.csv", "time,gx,gy,gz,ax,ay,az\n" + imu);
+  for (const auto& [titles, line] :
+       {std::pair("time,velX,velY,velZ", "v_x: \"2 [m/s]\""),
+        {"time,Vx [mm/s],Vy [mm/s],Vz [mm/s]", "v_y: \"3 [mm/s]\""},
+        {"time,vx,vy,vz", "v_z: \"4 [m/s]\""}}) {
+    std::string dvl = std::string(titles) + "\n";
+    for (int k = 0; k < kFixes; ++k) {
+      dvl += fmt::format("{}.0,1.{},0.{},0.0{}\n", k, k % 7, k % 3, k % 5);
+    }
+    Write("dvl_log.csv", dvl);
+    const std::string config = DraftText(DraftRecordings(folder_.string())[0]);
+    EXPECT_THAT(config, HasSubstr("type: dvl")) << titles;
+    EXPECT_THAT(config, HasSubstr(line)) << titles;
   }
 }
 

@@ -1,5 +1,6 @@
 #include "io/config/config_columns.h"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string>
@@ -12,9 +13,10 @@ namespace {
 
 Quantity QuantityOf(ConfigMap* columns, const std::string& name,
                     const std::vector<FieldName>& fields) {
-  if (name == "t") return Quantity::kTime;
+  if (name == "t" || name == kRestOfSecond) return Quantity::kTime;
   if (name == "week" || name == "date") return Quantity::kRatio;
-  std::vector<std::string> names = {"t", "week", "date"};
+  std::vector<std::string> names = {"t", std::string(kRestOfSecond), "week",
+                                    "date"};
   for (const FieldName& field : fields) {
     if (name == field.name) return field.quantity;
     names.emplace_back(field.name);
@@ -109,7 +111,8 @@ std::optional<ConstantColumn> ReadConstant(
   if (!columns->IsMap(name)) return std::nullopt;
   ConfigMap entry = columns->Map(name);
   if (!entry.Has("constant")) return std::nullopt;
-  if (name == "t" || name == "week" || name == "date") {
+  if (name == "t" || name == kRestOfSecond || name == "week" ||
+      name == "date") {
     entry.Fail("constant", "time does not stand still; expected a column");
   }
   if (&fields == &ImuFields()) {
@@ -142,6 +145,10 @@ void ReadColumns(ConfigMap* map, const std::vector<FieldName>& fields,
     const bool before_t = name == "week" || name == "date";
     mappings.insert(before_t ? mappings.begin() : mappings.end(), mapping);
   }
+  std::stable_partition(mappings.begin(), mappings.end(),
+                        [](const ColumnMapping& mapping) {
+                          return mapping.quantity != kRestOfSecond;
+                        });
 }
 
 }  // namespace hindsight

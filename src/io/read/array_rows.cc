@@ -101,6 +101,9 @@ class ArrayRows final : public RowSource {
     for (const ColumnMapping& mapping : format.columns) {
       if (mapping.quantity == "t") {
         if (!format.ignore_time) OpenTime(mapping);
+      } else if (mapping.quantity == kRestOfSecond) {
+        throw InputError(format.config_path, format.config_line,
+                         "t_rest is a column of texts alone");
       } else if (mapping.quantity == "week") {
         ColumnMapping plain = mapping;
         plain.unit = "1";

@@ -60,6 +60,12 @@ FoundStream ColumnLines::Stream() const {
                stamps_->reason},
               &found);
   }
+  if (stamps_->rest_column >= 0 && !stamps_->rate) {
+    AddColumn(std::string(kRestOfSecond),
+              {stamps_->rest_column, stamps_->rest_unit, 1.0,
+               Certainty::kCertain, ""},
+              &found);
+  }
   if (stamps_->repeated && !stamps_->rate) {
     SetLine({"on_duplicate", "drop_last", "stamps stand twice"}, &found.lines);
   }
@@ -104,6 +110,13 @@ void ColumnLines::Take(const std::string& family, const TripleGuess& triple) {
   }
 }
 
+void ColumnLines::TakeForDvl() {
+  for (std::size_t i = 0; i < meanings_.size(); ++i) {
+    ColumnMeaning meaning = MeaningOfTitle("dvl " + file_.columns[i].title);
+    if (meaning.quantity.starts_with("v_")) meanings_[i] = std::move(meaning);
+  }
+}
+
 void ColumnLines::TakeAxesFor(const std::string& family) {
   for (std::size_t i = 0; i < meanings_.size(); ++i) {
     ColumnMeaning meaning = AxisMeaning(file_.columns[i].title, family);
@@ -131,7 +144,7 @@ void ColumnLines::AddColumn(const std::string& quantity,
   const std::string unit = guess.unit.empty() ? "1" : guess.unit;
   std::string value;
   if (std::abs(guess.sign) != 1.0) {
-    value = fmt::format("{{column: \"{}\", unit: \"{}\", scale: {:.9g}}}",
+    value = fmt::format("{{column: \"{}\", unit: \"{}\", scale: {:.12g}}}",
                         reference, unit, guess.sign);
   } else {
     value = fmt::format("\"{}{} [{}]\"", guess.sign < 0.0 ? "-" : "", reference,

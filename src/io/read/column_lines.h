@@ -29,6 +29,8 @@ class ColumnLines {
     }
   }
 
+  /// Of a DVL's file: takes velocities along axes for those of its own axes.
+  void TakeForDvl();
   /// Takes the columns of a triple for the family's, so that they are nothing else.
   void Take(const std::string& family, const TripleGuess& triple);
   /// Takes columns that are titled by an axis alone for a family's (AxisMeaning).

@@ -7,6 +7,7 @@
 
 #include "io/read/file_formats.h"
 #include "io/read/title_words.h"
+#include "io/read/unit_grammar.h"
 #include "io/read/units.h"
 
 namespace hindsight {
@@ -181,6 +182,12 @@ ColumnMeaning Velocity(const Words& words) {
 }
 
 ColumnMeaning Place(const Words& words) {
+  // Above the ground, which is no height.
+  if (IsOfHeight(words) &&
+      HasAnyWord(words, {"agl", "terrain", "ground", "laser", "lidar", "sonar",
+                         "radar", "rangefinder"})) {
+    return {};
+  }
   if (HasAnyWord(words, {"lat", "latit", "latitude"})) return {"lat", ""};
   if (HasAnyWord(words, {"lon", "long", "longit", "lng", "longitude"}))
     return {"lon", ""};
@@ -287,6 +294,15 @@ ColumnMeaning MeaningOfTitle(const std::string& title) {
   if (unit.size() == 1 && kIndices.find(unit[0]) != kIndices.npos) {
     words.emplace_back(1, static_cast<char>('x' + (unit[0] - '0')));
     return Inertial(words);
+  }
+  // "Alt [ft MSL]"
+  if (const std::size_t blank = unit.find(' ');
+      blank != unit.npos && !MeaningOfUnit(unit) &&
+      MeaningOfUnit(unit.substr(0, blank))) {
+    for (std::string& word : SplitWords(unit.substr(blank))) {
+      words.push_back(std::move(word));
+    }
+    unit.resize(blank);
   }
   if (unit.empty()) unit = TakeUnitWord(&words);
   ColumnMeaning meaning = MeaningOfWords(words);

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <chrono>
 #include <string>
+#include <utility>
 
 #include "io/read/units.h"
 
@@ -67,11 +68,37 @@ std::optional<std::int64_t> DayOf(std::string_view year_word,
   return std::chrono::sys_days(date).time_since_epoch().count() * kDaySeconds;
 }
 
+/// "6" of "Jun" and "June"; "" of another word.
+std::string_view MonthNumber(std::string_view name) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 12>
+      kMonths = {{{"january", "1"},
+                  {"february", "2"},
+                  {"march", "3"},
+                  {"april", "4"},
+                  {"may", "5"},
+                  {"june", "6"},
+                  {"july", "7"},
+                  {"august", "8"},
+                  {"september", "9"},
+                  {"october", "10"},
+                  {"november", "11"},
+                  {"december", "12"}}};
+  std::string lower(name);
+  for (char& c : lower) c = static_cast<char>(c | 0x20);
+  for (const auto& [month, number] : kMonths) {
+    if (lower == month || lower == month.substr(0, 3)) return number;
+  }
+  return "";
+}
+
 std::optional<std::int64_t> ParseDay(std::string_view date, DateOrder order) {
   const auto triple = SplitTriple(date, "-/.");
   if (!triple) return std::nullopt;
   const auto& [a, b, c] = triple->words;
   if (triple->separator == '.') return DayOf(c, b, a);
+  if (const auto month = MonthNumber(b); !month.empty()) {
+    return DayOf(c, month, a);
+  }
   if (const auto day = DayOf(a, b, c)) return day;
   if (order == DateOrder::kDayFirst) return DayOf(c, b, a);
   if (order == DateOrder::kMonthFirst) return DayOf(c, a, b);

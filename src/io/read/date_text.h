@@ -13,8 +13,8 @@ namespace hindsight {
 enum class DateOrder { kYearFirst, kDayFirst, kMonthFirst };
 
 /// GPS time since 1980-01-06 of a calendar date and time of day; `utc` says in
-/// which scale. Dates are "yyyy-mm-dd" and "dd.mm.yyyy", also with '/' or '-' as
-/// `order` says; times of day "hh:mm:ss[.sss]", also with " AM" or " PM" behind;
+/// which scale. Dates are "yyyy-mm-dd", "dd.mm.yyyy" and "29-Jun-2025", also with
+/// '/' or '-' as `order` says; times of day "hh:mm:ss[.sss]", also with " AM" or " PM" behind;
 /// one digit will do for a month, a day and an hour. Nothing if the text is
 /// something else, or no such date.
 std::optional<Stamp> ParseDate(std::string_view date, std::string_view clock,

@@ -278,13 +278,24 @@ void TakeSide(const FileColumns& file, std::string_view sides,
   place->reason += std::string(", and all ") + letters.side;
 }
 
+constexpr double kSemicircle = 180.0 / 2147483648.0;  // [deg]
+
+/// Whether the titles are those of FIT, Garmin's format.
+bool AreOfFit(const FileColumns& file, const FixGuess& guess) {
+  const auto title = [&](const ColumnGuess& place) {
+    return file.columns[static_cast<std::size_t>(place.column)].title;
+  };
+  return title(guess.lat).starts_with("position_lat") &&
+         title(guess.lon).starts_with("position_long");
+}
+
 /// Receivers write places as whole numbers of 1e-7 deg, and heights beside them
 /// in mm (UBX-NAV-PVT, MAVLink's GPS_RAW_INT).
 void TakeWholeNumbers(const FileColumns& file,
                       const std::vector<ColumnMeaning>& meanings,
                       FixGuess* guess) {
   constexpr double kLeast = 1e5;  // 0.01 deg
-  constexpr double kMost = 1.8e9;
+  constexpr double kMost = 2147483648.0;
   for (const ColumnGuess* place : {&guess->lat, &guess->lon}) {
     const Values& v = Column(file, place->column);
     if (!AreWholeNumbers(v) || std::any_of(v.begin(), v.end(), [](double x) {
@@ -293,12 +304,15 @@ void TakeWholeNumbers(const FileColumns& file,
       return;
     }
   }
+  const bool fit = AreOfFit(file, *guess);
   for (ColumnGuess* place : {&guess->lat, &guess->lon}) {
     place->unit = "deg";
-    place->sign = 1e-7;
-    place->reason = "whole numbers of 1e-7 deg, as receivers write them";
+    place->sign = fit ? kSemicircle : 1e-7;
+    place->reason = fit ? "semicircles, 180 deg / 2^31, by its title"
+                        : "whole numbers of 1e-7 deg, as receivers write them";
     place->certainty = Certainty::kLikely;
   }
+  if (fit) return;
   if (guess->h.column < 0 || !AreWholeNumbers(Column(file, guess->h.column)) ||
       !meanings[static_cast<std::size_t>(guess->h.column)].unit.empty()) {
     return;

@@ -35,6 +35,7 @@ class Recogniser {
     if (IsNamed({"v", "vel", "velocity", "velocities"}) && !named_truth_) {
       lines_.TakeForVelocities();
     }
+    if (IsNamed({"dvl", "adcp"}) && !named_truth_) lines_.TakeForDvl();
   }
 
   std::vector<FoundStream> Recognise() {

@@ -170,6 +170,56 @@ void RecogniseWeek(const FileColumns& file,
   }
 }
 
+struct SplitSeconds {
+  int column = 0;
+  const TimeUnit* rest = nullptr;  ///< unit of the next column
+  std::vector<double> t;
+};
+
+/// Whether a title says that its column counts a part of the second.
+bool IsNamedRest(const std::string& title, const TimeUnit& unit) {
+  const std::vector<std::string> words = SplitWords(title);
+  return unit.seconds == 1e-9
+             ? HasAnyWord(words, {"nanosec", "nsec", "nsecs", "nanoseconds"})
+             : unit.seconds == 1e-6 &&
+                   HasAnyWord(words, {"usec", "usecs", "microsec"});
+}
+
+/// Whole seconds beside a column of what is left of them, as ROS writes stamps: by
+/// its title, or where many rows share a second and the rest fills it.
+std::optional<SplitSeconds> FindSplitSeconds(const FileColumns& file) {
+  const auto fits = [](const FileColumn& column) {
+    return column.holds == FileColumn::Holds::kNumbers &&
+           AreWholeNumbers(column.values) &&
+           std::all_of(column.values.begin(), column.values.end(),
+                       [](double v) { return v >= 0.0 && v < 1e10; });
+  };
+  for (std::size_t i = 0; i + 1 < file.columns.size() && file.rows > 3; ++i) {
+    const FileColumn& whole = file.columns[i];
+    const FileColumn& rest = file.columns[i + 1];
+    if (!fits(whole) || !fits(rest)) continue;
+    const double largest =
+        *std::max_element(rest.values.begin(), rest.values.end());
+    if (largest <= 0.0 || !Grows(whole.values, StepsOf(whole.values))) continue;
+    for (const TimeUnit& unit : kTimeUnits) {
+      const double part = largest * unit.seconds;
+      const bool fills = MostlyStand(whole.values) && part > 0.5 &&
+                         unit.seconds != kFineTick.seconds;
+      if (unit.seconds > 2e-3 || part >= 1.0 ||
+          !(fills || IsNamedRest(rest.title, unit))) {
+        continue;
+      }
+      SplitSeconds found{static_cast<int>(i), &unit, whole.values};
+      for (std::size_t k = 0; k < found.t.size(); ++k) {
+        found.t[k] += unit.seconds * rest.values[k];
+      }
+      const Steps steps = StepsOf(found.t);
+      if (Grows(found.t, steps) && IsSteady(found.t, steps)) return found;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 const char* CertaintyName(Certainty certainty) {
@@ -189,14 +239,21 @@ std::optional<StampGuess> GuessStamps(
       ((IsOfDay(*dates, file) && !dates->numbers) || MostlyStand(dates->t))) {
     dates.reset();
   }
+  const auto split = dates ? std::nullopt : FindSplitSeconds(file);
   if (dates) {
     Tell(*dates, file, &guess);
+  } else if (split) {
+    guess.column = split->column;
+    guess.rest_column = split->column + 1;
+    guess.rest_unit = split->rest->name;
   } else if (guess.column < 0) {
     guess.column = FindColumn(file, meanings, false);
   }
   if (guess.column < 0) return CountedRows(file.rows, hints);
   const auto index = static_cast<std::size_t>(guess.column);
-  std::vector<double> t = dates ? dates->t : file.columns[index].values;
+  std::vector<double> t = dates   ? dates->t
+                          : split ? split->t
+                                  : file.columns[index].values;
   if (!dates && HasWeek(meanings)) GoOnOverWeeks(&t);
   const Steps steps = StepsOf(t);
   guess.repeated = steps.repeated;
@@ -227,7 +284,9 @@ std::optional<StampGuess> GuessStamps(
     guess.reason = "days of this century, taken for UTC";
     return guess;
   }
-  if (!dates && known && *known <= 1.0) {
+  if (split) {
+    guess.reason = "whole seconds, and the next column what is left of them";
+  } else if (!dates && known) {
     guess.unit = meanings[index].unit;
     factor = *known;
     guess.reason = "by its title";
@@ -273,6 +332,10 @@ std::vector<double> TimesOf(const FileColumns& file, const StampGuess& stamps) {
                ? static_cast<double>(i) * stamps.step
                : factor * (value(stamps.column, i) - first_day.value_or(0.0));
     if (stamps.date_column >= 0) t[i] += value(stamps.date_column, i);
+    if (stamps.rest_column >= 0) {
+      t[i] += *UnitFactor(stamps.rest_unit, Quantity::kTime) *
+              value(stamps.rest_column, i);
+    }
   }
   if (stamps.scale == StampGuess::Scale::kWeek) GoOnOverWeeks(&t);
   if (stamps.unit == kTimeOfDayUnit) {

@@ -26,6 +26,8 @@ struct StampGuess {
   enum class Scale { kOwn, kUnix, kDate, kWeek };
   int column = -1;       ///< of the stamps; -1: there is none
   int date_column = -1;  ///< where `column` holds times of day
+  int rest_column = -1;  ///< of the second, where `column` holds whole ones
+  std::string rest_unit = {};
   /// Of the column; of dates UTC or GPST, of times of day kTimeOfDayUnit.
   std::string unit = "s";
   std::optional<double> rate;  ///< times are row numbers over this [Hz]
@@ -56,7 +58,8 @@ struct StampHints {
 
 /// Stamps are a column that grows: dates (of days and times of day their sum),
 /// UTC where they say neither zone nor GPST, unless most repeat the one before;
-/// days as MATLAB and spreadsheets count them;
+/// days as MATLAB and spreadsheets count them; whole seconds with what is left of
+/// them in the next column;
 /// else one whose title says so, else times of day, else the first of those. Its unit is the title's, or the only one of s, ms, us, ns in which the
 /// rows come at a likely rate. Equal steps of D/(N - 1), where N/D is a whole
 /// number of rows a second, are an evenly drawn axis whose last stamp stands a

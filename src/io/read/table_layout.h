@@ -27,6 +27,8 @@ struct TableLayout {
   enum class Clock {
     kNone,     ///< there is no stamp: Stamp{}
     kSeconds,  ///< time_column, in 1/ticks_per_second
+    kMinutes,  ///< time_column, in `long_unit`
+    kSplit,    ///< whole seconds in time_column, the rest in clock_column
     kWeek,     ///< GPS week in time_column, seconds of week after it
     kDate,     ///< yyyy/mm/dd in time_column, hh:mm:ss.sss in another, GPST
     kDateUtc,  ///< the same in UTC
@@ -37,7 +39,9 @@ struct TableLayout {
   };
   Clock clock = Clock::kSeconds;
   int time_column = -1;
-  int clock_column = -1;  ///< of dates: hh:mm:ss.sss; -1: right of the date
+  int clock_column = -1;    ///< of dates: hh:mm:ss.sss; -1: right of the date
+  double rest_unit = 1e-9;  ///< of kSplit [s]
+  double long_unit = 60.0;  ///< of kMinutes [s]
   std::int64_t ticks_per_second = 1;
   double first_day = 0.0;  ///< of kDays: where 1970 begins [d]
   DateOrder date_order = DateOrder::kYearFirst;

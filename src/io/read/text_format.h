@@ -53,6 +53,8 @@ struct TextFormat {
 
 /// What a column of times of day, hh:mm:ss.sss, has for a unit.
 inline constexpr std::string_view kTimeOfDayUnit = "hms";
+/// The column of what is left of a second, beside a column t of whole ones.
+inline constexpr std::string_view kRestOfSecond = "t_rest";
 
 /// What a column of degrees and minutes, "4807.038" as NMEA writes it, has for one.
 inline constexpr std::string_view kDegreesMinutesUnit = "ddmm";

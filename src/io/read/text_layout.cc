@@ -35,6 +35,10 @@ class LayoutBuilder {
       AddDate(column, unit);
       return;
     }
+    if (mapping.quantity == kRestOfSecond) {
+      AddRest(column, unit);
+      return;
+    }
     if (mapping.quantity == "t" || mapping.quantity == "week") {
       if (mapping.scale != 1.0) {
         Fail("column " + mapping.quantity + " takes no scale; expected a unit");
@@ -108,6 +112,20 @@ class LayoutBuilder {
     layout_.time_column = column;
   }
 
+  void AddRest(int column, const std::string& unit) {
+    if (layout_.clock != TableLayout::Clock::kSeconds ||
+        layout_.ticks_per_second != 1 || week_column_ >= 0) {
+      Fail("column t_rest goes with a column t of whole seconds");
+    }
+    const auto factor = UnitFactor(unit, Quantity::kTime);
+    if (!factor || *factor >= 1.0) {
+      Fail("column t_rest has the unit '" + unit + "'; expected ns, us or ms");
+    }
+    layout_.clock = TableLayout::Clock::kSplit;
+    layout_.clock_column = column;
+    layout_.rest_unit = *factor;
+  }
+
   void AddTime(const std::string& quantity, int column,
                const std::string& unit) {
     if (quantity == "week") {
@@ -143,15 +161,16 @@ class LayoutBuilder {
     ColumnMapping mapping;
     mapping.quantity = "t";
     const double factor = Factor(mapping, unit, Quantity::kTime);
-    if (factor > 1.0 || (week_column_ >= 0 && factor < 1.0)) {
-      Fail("column t has the unit '" + unit + "'; expected " +
-           (week_column_ >= 0 ? "s"
-                              : "s, ms, us or ns, or UTC or GPST of dates as "
-                                "2025-07-08T19:34:21.854, or hms of times of "
-                                "day as 19:34:21.854, or datenum or excel of "
-                                "days"));
+    if (week_column_ >= 0 && factor != 1.0) {
+      Fail("column t has the unit '" + unit + "'; expected s");
     }
     if (week_column_ >= 0) return;
+    if (factor > 1.0) {
+      layout_.clock = TableLayout::Clock::kMinutes;
+      layout_.time_column = column;
+      layout_.long_unit = factor;
+      return;
+    }
     layout_.clock = TableLayout::Clock::kSeconds;
     layout_.time_column = column;
     layout_.ticks_per_second = TicksPerSecond(factor);

@@ -25,6 +25,7 @@ int TimeColumns(TableLayout::Clock clock) {
     case TableLayout::Clock::kNone:
       return 0;
     case TableLayout::Clock::kSeconds:
+    case TableLayout::Clock::kMinutes:
     case TableLayout::Clock::kIso:
     case TableLayout::Clock::kIsoUtc:
     case TableLayout::Clock::kDays:
@@ -56,6 +57,29 @@ std::optional<Stamp> StampOfDays(std::string_view text, double first_day) {
   const double seconds = (*days - first_day) * static_cast<double>(kDaySeconds);
   if (!IsTime(seconds)) return std::nullopt;
   return GpsFromUnix({0, seconds});
+}
+
+/// Of a count of units longer than a second.
+std::optional<Stamp> StampOfMinutes(std::string_view text, double unit) {
+  const auto count = ParseNumber(text);
+  if (!count || !IsTime(*count * unit)) return std::nullopt;
+  const double whole = std::floor(*count * unit);
+  return Stamp{static_cast<std::int64_t>(whole), *count * unit - whole};
+}
+
+/// Of the two columns in the order in which they stand.
+std::optional<Stamp> StampOfParts(std::string_view first,
+                                  std::string_view second,
+                                  const TableLayout& layout) {
+  if (layout.clock_column < layout.time_column) std::swap(first, second);
+  auto stamp = ParseStamp(first, 1);
+  const auto rest = ParseNumber(second);
+  if (!stamp || stamp->fraction != 0.0 || !rest || *rest < 0.0 ||
+      *rest * layout.rest_unit >= 1.0) {
+    return std::nullopt;
+  }
+  stamp->fraction = *rest * layout.rest_unit;
+  return stamp;
 }
 
 }  // namespace
@@ -142,6 +166,12 @@ std::string TextRowParser::ParseTime(
       return "";
     case TableLayout::Clock::kSeconds:
       stamp = ParseStamp(time_tokens[0], layout_.ticks_per_second);
+      break;
+    case TableLayout::Clock::kMinutes:
+      stamp = StampOfMinutes(time_tokens[0], layout_.long_unit);
+      break;
+    case TableLayout::Clock::kSplit:
+      stamp = StampOfParts(time_tokens[0], time_tokens[1], layout_);
       break;
     case TableLayout::Clock::kWeek: {
       const auto week = ParseNumber(time_tokens[0]);
