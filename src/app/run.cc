@@ -80,7 +80,7 @@ Solution RunMethod(Reconstruction* reconstruction, const std::string& method) {
 void DoubtUnconfirmed(const std::vector<std::string>& unconfirmed,
                       Solution* solution) {
   if (unconfirmed.empty() || solution->states.empty()) return;
-  std::string what = "taken for granted and not confirmed: ";
+  std::string what = "taken for granted, and not confirmed by --yes: ";
   for (std::size_t i = 0; i < unconfirmed.size(); ++i) {
     what += (i == 0 ? "" : "; ") + unconfirmed[i];
   }

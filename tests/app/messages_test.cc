@@ -173,11 +173,12 @@ TEST_F(Messages, OfConfigurationsSayWhatToWrite) {
     return ErrorOf(Check());
   };
   const std::string file = "file: gnss.csv\n";
-  EXPECT_THAT(error(file, file + "    format: columns\n"
-                                 "    columns: {t: \"1 [s]\", sd_n: \"2 [m]\"}"
-                                 "\n"),
-              HasSubstr("expected perhaps 'sd_ne', or one of t, week, date, "
-                        "lat"));
+  EXPECT_THAT(
+      error(file, file + "    format: columns\n"
+                         "    columns: {t: \"1 [s]\", sd_n: \"2 [m]\"}"
+                         "\n"),
+      HasSubstr("expected perhaps 'sd_ne', or one of t, t_rest, week, date, "
+                "lat"));
   EXPECT_THAT(
       error(file, file + "    format: columns\n    columns: {t: 1 [s]}\n"),
       HasSubstr("a value with [ ] inside of { } stands in quotes"));

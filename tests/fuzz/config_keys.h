@@ -60,6 +60,7 @@ inline const std::vector<FuzzMap>& RecordingMaps() {
         {"on_duplicate", "drop_last"},
         {"on_unordered", "sort"},
         {"absent_values", "true"},
+        {"bad_values", "[-999, 0.5]"},
         {"allow_truncated_tail", "true"},
         {"on_text", "drop"}}},
       {"rows",

@@ -205,5 +205,30 @@ TEST_F(RecordingFolder, VelocitiesOfADvlNeedNotNameIt) {
   }
 }
 
+/// What a device writes where it has no reading is told by how it is written, how
+/// often it stands and how far it is from all others; a reading that is far is none.
+TEST_F(RecordingFolder, NumbersThatStandForNoReadingAreAbsent) {
+  std::string imu, dvl;
+  for (int k = 0; k <= 4000; ++k) {
+    imu += fmt::format("{:.2f},0.00{},0,0,0,0.0{},-9.81\n", 0.01 * k, k % 7,
+                       k % 5);
+  }
+  for (int k = 0; k < kFixes; ++k) {
+    const bool bad = k % 10 == 3;
+    dvl += bad ? fmt::format("{}.0,-32.768,-32.768,-32.768\n", k)
+               : fmt::format("{}.0,1.{},0.{},{}\n", k, k % 7, k % 3,
+                             k % 12 == 5 ? 40.5 : 0.01 * (k % 5));
+  }
+  Write("imu.csv", "time,gx,gy,gz,ax,ay,az\n" + imu);
+  Write("dvl.csv", "time,vx,vy,vz\n" + dvl);
+  const std::string config = DraftText(DraftRecordings(folder_.string())[0]);
+  EXPECT_THAT(config, HasSubstr("bad_values: [-32.768]"));
+  Write("config.yaml", config);
+  ASSERT_EQ(LoadError(), "") << config;
+  const Dataset data = Load();
+  ASSERT_EQ(data.streams.size(), 1u);
+  EXPECT_EQ(data.streams[0].measurements.size(), 35u);
+}
+
 }  // namespace
 }  // namespace hindsight

@@ -10,6 +10,7 @@
 #include "io/config/config_streams.h"
 #include "io/read/file_formats.h"
 #include "io/read/paths.h"
+#include "io/read/units.h"
 
 namespace hindsight {
 namespace {
@@ -147,6 +148,19 @@ void ReadRows(ConfigMap* map, StreamConfig* stream) {
   rows.Finish();
 }
 
+void ReadBadValues(ConfigMap* map, StreamConfig* stream) {
+  if (!map->Has("bad_values")) return;
+  if (stream->format.kind != &ColumnsFormat()) {
+    map->Fail("bad_values", "is of `format: columns`");
+  }
+  for (const std::string& text : map->List("bad_values")) {
+    const auto number = ParseNumber(text);
+    if (!number) map->Fail("bad_values", "'" + text + "' is not a number");
+    stream->format.bad_values.push_back(*number);
+  }
+  stream->absent_values = true;
+}
+
 void ReadFormatKeys(ConfigMap* map, StreamConfig* stream) {
   TextFormat& format = stream->format;
   for (const FormatKey& key : format.kind->keys) {
@@ -232,6 +246,10 @@ const ConfigTable<StreamConfig>& StreamTable() {
         .value = Key::Flag{&StreamConfig::absent_values},
         .help = "empty and NaN values are absent: truth keeps the rest of the "
                 "row, aiding passes over it"},
+       {.name = "bad_values",
+        .value = Key::Special{ReadBadValues},
+        .help = "of columns: numbers that stand for no reading, as the file "
+                "has them: [-32.768, -999]; they are absent"},
        {.name = "allow_truncated_tail",
         .value = Key::Flag{&StreamConfig::allow_truncated_tail},
         .help = "drop a last line that was cut off: without line end, and "

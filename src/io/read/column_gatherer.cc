@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "io/read/bad_values.h"
 #include "io/read/file_formats.h"
 #include "io/read/text_layout.h"
 #include "io/read/text_lines.h"
@@ -74,6 +75,7 @@ std::optional<FileColumns> ColumnGatherer::Finish() {
     found_.skip_lines = 0;
   }
   Remark();
+  TakeOutBadValues(&found_);
   return std::move(found_);
 }
 

@@ -1,6 +1,7 @@
 #include "io/read/column_lines.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +42,11 @@ FoundStream ColumnLines::Stream() const {
           fmt::format("dates as 07/08/2025 are taken for {} first",
                       by_day ? "day" : "month"));
     }
+  }
+  if (!file_.bad_values.empty()) {
+    found.lines.push_back(
+        {"bad_values", fmt::format("[{}]", fmt::join(file_.bad_values, ", ")),
+         "stand again and again, far from all others: no readings (likely)"});
   }
   if (file_.cut_tail) found.lines.push_back({"allow_truncated_tail", "true"});
   if (file_.text_rows > 0) found.lines.push_back({"on_text", "drop"});

@@ -43,6 +43,8 @@ struct FileColumns {
   std::string delimiter;  ///< as the key `delimiter` has it; "": auto
   bool cut_tail = false;  ///< the last line was cut off
   long text_rows = 0;     ///< rows of text between or behind those of numbers
+  /// Numbers that stand for no reading, NaN among the columns' values.
+  std::vector<double> bad_values = {};
   bool complete = true;   ///< false: a long file, of which this is the start
   std::map<std::string, double> scalars;  ///< variables of one number
   /// One clause each: what is odd about the file and what was done about it.

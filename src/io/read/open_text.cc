@@ -99,6 +99,7 @@ OpenedTable OpenDelimited(const TableRequest& request,
                                    columns, header);
   layout.delimiter = delimiter;
   layout.rows = rows;
+  layout.bad_values = request.format.bad_values;
   layout.date_order = request.format.date_order;
   layout.decimal = request.format.decimal != '\0'
                        ? request.format.decimal

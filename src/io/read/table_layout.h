@@ -50,6 +50,7 @@ struct TableLayout {
   char decimal = '.';           ///< or ',', which is no delimiter then
   bool comma_is_blank = false;  ///< with ' ': commas separate too
   RowWord rows = {};            ///< other lines are another stream's
+  std::vector<double> bad_values = {};  ///< numbers that are absent
   /// Columns each row must have; 0: as many as the first row.
   int column_count = 0;
 };

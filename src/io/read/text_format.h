@@ -40,6 +40,8 @@ struct TextFormat {
   DateOrder date_order = DateOrder::kYearFirst;
   int skip_lines = 0;  ///< before everything else
   RowWord rows = {};   ///< lines that are the stream's; of `columns`
+  /// Numbers that stand for no reading, as the file has them; of `columns`.
+  std::vector<double> bad_values = {};
   std::vector<ColumnMapping> columns;     ///< if FileFormat::takes_columns
   std::vector<ConstantColumn> constants;  ///< besides `columns`
   /// Of FileFormat::keys, those that were given.

@@ -137,6 +137,10 @@ std::string TextRowParser::Parse(std::string_view line, Scratch* scratch,
       }
       scratch->raw[column] = number.value_or(kAbsent);
     }
+    if (!layout_.bad_values.empty() && column < wanted_.size() &&
+        IsBad(scratch->raw[column])) {
+      scratch->raw[column] = kAbsent;
+    }
   }
   *columns = static_cast<int>(column);
   const auto expected = static_cast<std::size_t>(layout_.column_count);
@@ -156,6 +160,11 @@ std::string TextRowParser::Parse(std::string_view line, Scratch* scratch,
         field.factor * (field.has_minutes ? FromDegreesMinutes(raw) : raw);
   }
   return ParseTime(scratch->time_tokens, stamp);
+}
+
+bool TextRowParser::IsBad(double value) const {
+  return std::find(layout_.bad_values.begin(), layout_.bad_values.end(),
+                   value) != layout_.bad_values.end();
 }
 
 std::string TextRowParser::ParseTime(

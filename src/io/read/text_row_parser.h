@@ -38,6 +38,7 @@ class TextRowParser {
                     std::span<double> values, Stamp* stamp, int* columns) const;
 
  private:
+  bool IsBad(double value) const;
   std::string ParseTime(const std::vector<std::string_view>& time_tokens,
                         Stamp* stamp) const;
 
