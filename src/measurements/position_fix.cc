@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "earth/local_frame.h"
+#include "earth/utm.h"
 #include "earth/wgs84.h"
 #include "measurements/point_motion.h"
 #include "measurements/sensor_kind.h"
@@ -23,8 +24,10 @@ void PositionFix::Evaluate(const ModelContext& context,
 
 namespace {
 
-/// `frame`: geodetic coordinates, or the name of FrameAxes one less.
-constexpr std::size_t kFrame = 0;  // of Sensor::own
+/// Of Sensor::own. `frame`: geodetic coordinates, the name of FrameAxes one less, or
+/// UTM, of which the others tell the zone.
+enum Own : std::size_t { kFrame = 0, kZone = 1, kSouth = 2 };
+constexpr double kUtm = 5.0;
 
 /// Where the columns of a frame start.
 constexpr std::size_t kLocal = 9;
@@ -35,23 +38,61 @@ FrameAxes AxesOf(const Sensor& sensor) {
   return static_cast<FrameAxes>(static_cast<int>(sensor.own[kFrame]) - 1);
 }
 
+bool IsUtm(const Sensor& sensor) { return sensor.own[kFrame] == kUtm; }
+
+bool HasZone(const SensorSettings& settings) { return IsUtm(settings.sensor); }
+
+UtmZone ZoneOf(const Sensor& sensor) {
+  return {static_cast<int>(sensor.own[kZone]), sensor.own[kSouth] == 0.0};
+}
+
 bool HasOrigin(const SensorSettings& settings) {
-  return IsLocal(settings.sensor) &&
+  return IsLocal(settings.sensor) && !IsUtm(settings.sensor) &&
          AxesOf(settings.sensor) != FrameAxes::kEcef;
 }
 
-/// Sensor::own_vector is the origin.
-LocalFrame FrameOf(const Sensor& sensor) {
-  return FrameAt(AxesOf(sensor), sensor.own_vector);
+/// Sensor::own_vector is the origin, but of UTM, whose axes are those at p_e.
+LocalFrame FrameOf(const Sensor& sensor, const Eigen::Vector3d& p_e) {
+  return IsUtm(sensor) ? UtmAxesAt(GeodeticFromEcef(p_e), ZoneOf(sensor))
+                       : FrameAt(AxesOf(sensor), sensor.own_vector);
+}
+
+Eigen::Vector3d EcefFromLocal(const Eigen::Vector3d& p_l,
+                              const Sensor& sensor) {
+  if (IsUtm(sensor)) {
+    return EcefFromGeodetic(GeodeticFromUtm(p_l, ZoneOf(sensor)));
+  }
+  const LocalFrame frame = FrameAt(AxesOf(sensor), sensor.own_vector);
+  return frame.origin_e + frame.C_el * p_l;
+}
+
+Eigen::Vector3d LocalFromEcef(const Eigen::Vector3d& p_e,
+                              const Sensor& sensor) {
+  if (IsUtm(sensor)) {
+    return UtmFromGeodetic(GeodeticFromEcef(p_e), ZoneOf(sensor));
+  }
+  const LocalFrame frame = FrameAt(AxesOf(sensor), sensor.own_vector);
+  return frame.C_el.transpose() * (p_e - frame.origin_e);
+}
+
+void RequireUtm(const MeasuredRow& row, const Eigen::Vector3d& p) {
+  constexpr double kWidest = 1e6;        // from the central meridian [m]
+  constexpr double kFalseEasting = 5e5;  // [m]
+  constexpr double kLongest = 1e7;       // from the equator to a pole [m]
+  if (std::abs(p.x() - kFalseEasting) > kWidest || p.y() < -kLongest ||
+      p.y() > 1.01 * kLongest) {
+    row.Fail("easting " + FormatNumber(p.x()) + " m, northing " +
+             FormatNumber(p.y()) + " m are in no zone of UTM");
+  }
 }
 
 PositionFix LocalPosition(const MeasuredRow& row,
                           const SensorSettings& settings) {
   constexpr double kFarFromEarth = 1e8;  // [m]
-  const LocalFrame frame = FrameOf(settings.sensor);
   const Eigen::Vector3d p_l(row.Value(kLocal), row.Value(kLocal + 1),
                             row.Value(kLocal + 2));
-  const Eigen::Vector3d p_e = frame.origin_e + frame.C_el * p_l;
+  if (IsUtm(settings.sensor)) RequireUtm(row, p_l);
+  const Eigen::Vector3d p_e = EcefFromLocal(p_l, settings.sensor);
   const double radius = p_e.norm();
   if (radius < 0.9 * kEarthSemiMajorAxis || radius > kFarFromEarth) {
     row.Fail("the position lies " + FormatNumber(radius) +
@@ -59,7 +100,8 @@ PositionFix LocalPosition(const MeasuredRow& row,
   }
   // `sigma` is along north, east and down whatever the frame.
   if (settings.sigma) return {.p_e = p_e, .R_n = row.Covariance()};
-  const Eigen::Matrix3d C_nl = NedAxes(p_e).transpose() * frame.C_el;
+  const Eigen::Matrix3d C_nl =
+      NedAxes(p_e).transpose() * FrameOf(settings.sensor, p_e).C_el;
   return {.p_e = p_e, .R_n = C_nl * row.Covariance() * C_nl.transpose()};
 }
 
@@ -99,10 +141,9 @@ std::vector<WrittenColumn> PositionColumns(const MeasurementModel&,
 }
 
 std::vector<double> WriteLocal(const PositionFix& fix, const Sensor& sensor) {
-  const LocalFrame frame = FrameOf(sensor);
-  const Eigen::Vector3d p_l =
-      frame.C_el.transpose() * (fix.p_e - frame.origin_e);
-  const Eigen::Matrix3d C_ln = frame.C_el.transpose() * NedAxes(fix.p_e);
+  const Eigen::Vector3d p_l = LocalFromEcef(fix.p_e, sensor);
+  const Eigen::Matrix3d C_ln =
+      FrameOf(sensor, fix.p_e).C_el.transpose() * NedAxes(fix.p_e);
   const Eigen::Matrix3d R = C_ln * fix.R_n * C_ln.transpose();
   const auto root = [&](int i, int j) {
     return std::copysign(std::sqrt(std::abs(R(i, j))), R(i, j));
@@ -124,14 +165,38 @@ SensorKeys PositionKeys() {
   return {
       {.name = "frame",
        .value = SensorKey::Word{
-           {"geodetic", "ecef", "ned", "enu", "nwu"},
+           {"geodetic", "ecef", "ned", "enu", "nwu", "utm"},
            [](const SensorSettings& s) {
              return static_cast<std::size_t>(s.sensor.own[kFrame]);
            },
            [](SensorSettings& s, std::size_t word) {
              s.sensor.own[kFrame] = static_cast<double>(word);
            }},
-       .help = "of the file: lat, lon, h, or p_x, p_y, p_z in these axes"},
+       .help = "of the file: lat, lon, h, or p_x, p_y, p_z in these axes, of "
+               "utm easting, northing and height"},
+      {.name = "zone",
+       .value =
+           SensorKey::Whole{
+               [](SensorSettings& s) { return &s.sensor.own[kZone]; }, 1, 60},
+       .help = "of UTM, 1 to 60",
+       .applies = HasZone,
+       .when = "frame: utm",
+       .needed = HasZone,
+       .missing = "is missing; expected the zone of UTM, 1 to 60"},
+      {.name = "hemisphere",
+       .value = SensorKey::Word{{"north", "south"},
+                                [](const SensorSettings& s) {
+                                  return s.sensor.own[kSouth] == 0.0
+                                             ? std::size_t{0}
+                                             : std::size_t{1};
+                                },
+                                [](SensorSettings& s, std::size_t word) {
+                                  s.sensor.own[kSouth] =
+                                      static_cast<double>(word);
+                                }},
+       .help = "northings of the south count from 10 000 km",
+       .applies = HasZone,
+       .when = "frame: utm"},
       {.name = "origin",
        .value = SensorKey::Place{[](SensorSettings& s) {
          return &s.sensor.own_vector;

@@ -99,13 +99,19 @@ struct SensorKey {
   struct Place {
     Eigen::Vector3d* (*at)(SensorSettings&);
   };
+  /// A whole number within bounds, without a unit.
+  struct Whole {
+    double* (*at)(SensorSettings&);
+    int least = 0;
+    int most = 0;
+  };
   struct Word {
     std::vector<std::string_view> words;
     std::size_t (*get)(const SensorSettings&);
     void (*set)(SensorSettings&, std::size_t);
   };
   using Value = std::variant<Number, OptionalNumber, Vector, OptionalSigmas,
-                             SidesSigma, Mounting, Axes, Place, Word>;
+                             SidesSigma, Mounting, Axes, Place, Whole, Word>;
 
   std::string_view name;
   Quantity quantity = Quantity::kRatio;

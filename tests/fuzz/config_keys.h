@@ -129,6 +129,8 @@ inline const std::vector<FuzzMap>& RecordingMaps() {
         {"sigma", "1 m"},
         {"frame", "ecef"},
         {"origin", "[48 deg, 11 deg, 500 m]"},
+        {"zone", "32"},
+        {"hemisphere", "south"},
         {"sigma_scale", "2"},
         {"correlations", "false"},
         {"accept_quality", "[1, 4]"},
@@ -313,6 +315,8 @@ inline const std::vector<FuzzMap>& ScenarioMaps() {
         {"baseline", "[0, 1, 0 m]"},
         {"frame", "enu"},
         {"origin", "[48 deg, 11 deg, 500 m]"},
+        {"zone", "32"},
+        {"hemisphere", "south"},
         {"pitch_sigma", "1 deg"}}},
       {"withhold", {{"sensor", "gnss"}, {"every", "5 s"}, {"length", "1 s"}}}};
   return kMaps;

@@ -97,6 +97,7 @@ TEST_F(ConfigKeys, OfEveryTypeOfSensor) {
   const std::vector<std::string> sensors = {
       "type: position",
       "type: position\n    frame: ned\n    origin: [48 deg, 11 deg, 0 m]",
+      "type: position\n    frame: utm\n    zone: 32",
       "type: velocity",
       "type: height",
       "type: depth",
@@ -220,6 +221,7 @@ TEST_F(ScenarioKeys, AreThoseOfTheFuzzer) {
   for (const std::string keys :
        {"type: position, sigma: 1 m, frame: enu, origin: [48 deg, 11 deg, 0 "
         "m]",
+        "type: position, sigma: 1 m, frame: utm, zone: 32",
         "type: velocity, sigma: 1 m/s", "type: height, sigma: 1 m",
         "type: dvl, sigma: 1 m/s, form: beams", "type: odometer, sigma: 1 m/s",
         "type: odometer, form: increments, sigma: 1 m",

@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <functional>
+#include <regex>
 
 #include "base/units.h"
+#include "earth/utm.h"
 #include "earth/wgs84.h"
 #include "io/config/init_config.h"
 #include "io/recording_folder.h"
@@ -228,6 +230,46 @@ TEST_F(RecordingFolder, NumbersThatStandForNoReadingAreAbsent) {
   const Dataset data = Load();
   ASSERT_EQ(data.streams.size(), 1u);
   EXPECT_EQ(data.streams[0].measurements.size(), 35u);
+}
+
+/// The zone is the file's; of which half of the Earth nothing tells.
+TEST_F(RecordingFolder, EastingAndNorthingAreThoseOfUtm) {
+  std::string imu = "time,gx,gy,gz,ax,ay,az\n";
+  for (int k = 0; k <= 4000; ++k) {
+    imu += fmt::format("{:.2f},0.00{},0,0,0,0.0{},-9.81\n", 0.01 * k, k % 7,
+                       k % 5);
+  }
+  std::string fixes = "time,utm_zone,Easting,Northing,Ellip. Height\n";
+  for (int k = 0; k < kFixes; ++k) {
+    const Eigen::Vector3d p = UtmFromGeodetic(PlaceAt(k), {29, false});
+    fixes +=
+        fmt::format("{}.0,29,{:.4f},{:.4f},{:.4f}\n", k, p.x(), p.y(), p.z());
+  }
+  Write("imu.csv", imu);
+  Write("points.csv", fixes);
+  std::string config = DraftText(DraftRecordings(folder_.string())[0]);
+  EXPECT_THAT(config, HasSubstr("frame: utm"));
+  EXPECT_THAT(config, HasSubstr("zone: 29"));
+  EXPECT_THAT(config, HasSubstr("taken for the northern hemisphere's"));
+  const std::string north = "hemisphere: north";
+  const std::size_t at = config.find(north);
+  ASSERT_NE(at, config.npos) << config;
+  config.replace(at, north.size(), "hemisphere: south");
+  Write("config.yaml", config);
+  ASSERT_EQ(LoadError(), "") << config;
+  const Dataset data = Load();
+  const Measurement measured = data.streams[0].measurements[kFixes - 1];
+  EXPECT_LT((std::get<PositionFix>(measured.model).p_e -
+             EcefFromGeodetic(PlaceAt(kFixes - 1)))
+                .norm(),
+            0.001);
+  Write("config.yaml",
+        std::regex_replace(config, std::regex("zone: 29"), "zone: 61"));
+  EXPECT_THAT(LoadError(), HasSubstr("expected a whole number from 1 to 60"));
+  fixes += "39.0,29,686482.0,12000000.0,500\n";
+  Write("points.csv", fixes);
+  Write("config.yaml", config);
+  EXPECT_THAT(LoadError(), HasSubstr("are in no zone of UTM"));
 }
 
 }  // namespace

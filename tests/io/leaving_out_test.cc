@@ -89,9 +89,10 @@ TEST_F(LeavingOut, MessagesSayWhatToDo) {
   };
   EXPECT_THAT(error("    format: columns\n    columns: {t: 1 [s], lat: 2}\n"),
               HasSubstr("stands in quotes"));
-  EXPECT_THAT(error("    format: columns\n    columns: {t: \"1 [s]\", sd_n: "
-                    "\"2 [m]\"}\n"),
-              HasSubstr("perhaps 'sd_ne', or one of t, t_rest, week, date, lat"));
+  EXPECT_THAT(
+      error("    format: columns\n    columns: {t: \"1 [s]\", sd_n: "
+            "\"2 [m]\"}\n"),
+      HasSubstr("perhaps 'sd_ne', or one of t, t_rest, week, date, lat"));
   EXPECT_THAT(error("    format: columns\n    columns: {lat: \"2 [deg]\"}\n"),
               HasSubstr("`time: {rate: ...}`"));
   Write("fixes.csv", "lat[deg],lon[deg],h[m]\n50,8,100\n");

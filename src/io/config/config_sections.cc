@@ -38,6 +38,7 @@ class Fallback {
   static std::string Of(const SensorKey::Mounting&) { return "[0, 0, 0 deg]"; }
   static std::string Of(const SensorKey::Axes&) { return "[x, y, z]"; }
   static std::string Of(const SensorKey::Place&) { return "-"; }
+  static std::string Of(const SensorKey::Whole&) { return "-"; }
   std::string Of(const SensorKey::Word& word) {
     return std::string(word.words[word.get(settings_)]);
   }

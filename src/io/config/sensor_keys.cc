@@ -91,6 +91,16 @@ class ValueReader {
       *place.at(settings_) = EcefFromGeodetic(*geodetic);
     }
   }
+  void Take(const SensorKey::Whole& whole) {
+    if (!map_.Has(name_)) return;
+    const int value = map_.Integer(name_, 0);
+    if (value < whole.least || value > whole.most) {
+      map_.Fail(name_, "expected a whole number from " +
+                           std::to_string(whole.least) + " to " +
+                           std::to_string(whole.most));
+    }
+    *whole.at(settings_) = value;
+  }
   void Take(const SensorKey::Word& word) {
     const std::vector<std::string> words(word.words.begin(), word.words.end());
     word.set(settings_, map_.Choice(name_, words, word.get(settings_)));

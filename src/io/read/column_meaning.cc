@@ -182,6 +182,13 @@ ColumnMeaning Velocity(const Words& words) {
 }
 
 ColumnMeaning Place(const Words& words) {
+  if (HasAnyWord(words, {"easting", "eastings"})) return {"easting", ""};
+  if (HasAnyWord(words, {"northing", "northings"})) return {"northing", ""};
+  if (HasAnyWord(words, {"utm"})) {
+    if (HasAnyWord(words, {"e", "east", "x"})) return {"easting", ""};
+    if (HasAnyWord(words, {"n", "north", "y"})) return {"northing", ""};
+    if (HasAnyWord(words, {"zone"})) return {"zone", ""};
+  }
   // Above the ground, which is no height.
   if (IsOfHeight(words) &&
       HasAnyWord(words, {"agl", "terrain", "ground", "laser", "lidar", "sonar",

@@ -109,6 +109,63 @@ std::optional<FoundStream> FixLines::EarthCentred() const {
   return found;
 }
 
+std::optional<FoundStream> FixLines::Utm() const {
+  constexpr double kWest = 1e5;  // [m]
+  constexpr double kEast = 9e5;
+  constexpr double kPole = 1e7;
+  if (!lines_.HasAll({"easting", "northing"})) return std::nullopt;
+  const auto within = [&](const char* name, double low, double high) {
+    const double middle = MedianOf(lines_.Titled(name));
+    return middle > low && middle < high;
+  };
+  if (!within("easting", kWest, kEast) || !within("northing", 0.0, kPole)) {
+    return std::nullopt;
+  }
+  FoundStream found = lines_.Stream();
+  found.kinds = {&PositionKind()};
+  found.sigmas = false;
+  for (const auto& [axis, name] :
+       {std::pair("p_x", "easting"), {"p_y", "northing"}, {"p_z", "h"}}) {
+    const int column = lines_.Titled(name);
+    if (column >= 0) {
+      const std::string& unit =
+          lines_.meanings()[static_cast<std::size_t>(column)].unit;
+      const bool known = UnitFactor(unit, Quantity::kLength).has_value();
+      lines_.AddColumn(axis,
+                       {column, known ? unit : "m", 1.0, Certainty::kCertain,
+                        "by its title"},
+                       &found);
+      continue;
+    }
+    ColumnLines::AddLine({"  p_z", "{constant: 0 m}", "the file states none"},
+                         &found);
+    SetLine(SigmaWithoutHeight(1.0 + lines_.stamps()->span), &found.lines);
+    found.sigmas = true;
+  }
+  AddZone(&found);
+  return found;
+}
+
+/// All zones look alike: what the data cannot show moves the longitude alone.
+void FixLines::AddZone(FoundStream* found) const {
+  SetLine({"frame", "utm", "easting and northing by their titles"},
+          &found->lines);
+  const int column = lines_.Titled("zone");
+  const double zone = column < 0 ? 0.0 : MedianOf(column);
+  if (zone >= 1.0 && zone <= 60.0 && zone == std::floor(zone)) {
+    SetLine({"zone", fmt::format("{:.0f}", zone), "as the file says"},
+            &found->lines);
+  } else {
+    SetLine({"zone", "31", "(a guess)"}, &found->lines);
+    found->assumptions.emplace_back(
+        "its zone of UTM is not stated: 31 is taken; in another the longitude "
+        "differs by a multiple of 6 deg, and nothing else");
+  }
+  SetLine({"hemisphere", "north", "(a guess)"}, &found->lines);
+  found->assumptions.emplace_back(
+      "its northings are taken for the northern hemisphere's");
+}
+
 KeyLine SigmaWithoutHeight(double fixes) {
   constexpr double kKilometre = 1000.0;
   return {"sigma",

@@ -34,6 +34,8 @@ class FixLines {
   FoundStream Position(const FixGuess& fixes) const;
   /// Fixes as x, y and z from the Earth's centre; nothing of others.
   std::optional<FoundStream> EarthCentred() const;
+  /// Fixes as easting and northing of UTM; nothing of others.
+  std::optional<FoundStream> Utm() const;
   /// Of velocities, one of all axes.
   void AddSpeedAccuracy(FoundStream* found) const;
   /// Of places along axes: Earth-centred by its size, else local axes.
@@ -53,6 +55,7 @@ class FixLines {
   /// Whether places along axes are as far from their origin as the ground is from
   /// the Earth's centre.
   bool AreEarthCentred() const;
+  void AddZone(FoundStream* found) const;
   double MedianOf(int column) const;
   const std::vector<double>& Values(int column) const {
     return file_.columns[static_cast<std::size_t>(column)].values;

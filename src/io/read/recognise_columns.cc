@@ -128,7 +128,10 @@ class Recogniser {
     const bool told =
         fixes && (fixes->h.column >= 0 || fixes->place_order_told);
     if (told && !solution) all_.push_back(fix_lines_.Position(*fixes));
-    if (!fixes && !solution) {
+    auto utm = fixes ? std::nullopt : fix_lines_.Utm();
+    if (utm && !solution) {
+      all_.push_back(std::move(*utm));
+    } else if (!fixes && !solution) {
       ColumnLines axes = lines_;
       if (!lines_.HasAll({"p_x", "p_y", "p_z"})) axes.TakeAxesFor("p_");
       if (auto found = FixLines(file_, axes).EarthCentred()) {
@@ -160,6 +163,7 @@ class Recogniser {
     const bool placed = IsNamed({"dvl", "sonar", "altimeter", "adcp"}) ||
                         lines_.HasAll({"v_x", "v_y", "v_z"}) ||
                         lines_.Titled("lat") >= 0 ||
+                        lines_.HasAll({"easting", "northing"}) ||
                         lines_.HasAll({"p_x", "p_y"}) ||
                         lines_.HasAll({"roll", "pitch", "heading"});
     if (!placed && !ImuHere()) AddTitled(HeightKind(), {"h"}, {});

@@ -88,6 +88,12 @@ class KeyText {
   void Put(const SensorKey::Place& key) {
     yaml_.Position(name_, GeodeticFromEcef(In(key.at, settings_)));
   }
+  void Put(const SensorKey::Whole& key) {
+    const double value = In(key.at, settings_);
+    if (value != In(key.at, defaults_)) {
+      yaml_.Text(name_, std::to_string(static_cast<int>(value)));
+    }
+  }
   void Put(const SensorKey::Word& key) {
     if (!IsNeeded() && key.get(settings_) == key.get(defaults_)) return;
     yaml_.Text(name_, std::string(key.words[key.get(settings_)]));
