@@ -35,6 +35,8 @@ class Recogniser {
     if (IsNamed({"v", "vel", "velocity", "velocities"}) && !named_truth_) {
       lines_.TakeForVelocities();
     }
+    const std::string half = HalfOfName(name);
+    if (!half.empty()) lines_.TakeAxesFor(half);
   }
 
   std::vector<FoundStream> Recognise() {
@@ -101,6 +103,12 @@ class Recogniser {
     lines_.AddTriple("gyro_", guess->gyro, &found);
     lines_.Take("accel_", guess->accel);
     lines_.Take("gyro_", guess->gyro);
+    if (guess->field) {
+      const bool earth = lines_.IsOfEarth(*guess->field);
+      TripleGuess field;
+      field.columns = *guess->field;
+      lines_.Take(earth ? "mag_" : "field_", field);
+    }
     found.imu_guess = std::move(guess);
     all_.push_back(std::move(found));
   }
