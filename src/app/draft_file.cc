@@ -1,6 +1,8 @@
 #include "app/draft_file.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <mutex>
 #include <system_error>
 
@@ -32,6 +34,17 @@ void WriteDraft(const std::string& path, const std::string& text) {
     throw OutputError(
         "output file " + path +
         " is in place, but may be lost with the power: " + error.message());
+  }
+}
+
+void PrintLeftOut(const RecordingDraft& draft) {
+  constexpr std::size_t kMost = 10;
+  for (std::size_t i = 0; i < std::min(kMost, draft.unknown.size()); ++i) {
+    std::cout << "not recognised: " << draft.unknown[i] << "\n";
+  }
+  if (draft.unknown.size() > kMost) {
+    std::cout << "not recognised: " << draft.unknown.size() - kMost
+              << " more, which the configuration names\n";
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "io/config/recording_draft.h"
+
 namespace hindsight {
 
 /// Writes a draft's text to a file, whole or not at all; --force replaces what
@@ -11,6 +13,10 @@ void WriteDraft(const std::string& path, const std::string& text);
 
 /// Throws OutputError where a draft of that name could not be written.
 void RequireRoomFor(const std::string& path);
+
+/// Says on standard output which files, rows and columns of the recording were not
+/// recognised, ten of them in a line each.
+void PrintLeftOut(const RecordingDraft& draft);
 
 }  // namespace hindsight
 

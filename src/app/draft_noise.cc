@@ -180,10 +180,12 @@ void TellFixNoise(const Dataset& dataset, RecordingDraft* draft) {
   }
 }
 
-void TellLikelyNoise(const Dataset& dataset, RecordingDraft* draft) {
+void TellLikelyNoise(const Dataset& dataset,
+                     const std::function<void(double)>& progress,
+                     RecordingDraft* draft) {
   NoiseEstimate estimate;
   try {
-    estimate = EstimateNoise(dataset);
+    estimate = EstimateNoise(dataset, progress);
   } catch (const EstimationError&) {
     return;
   }

@@ -1,6 +1,8 @@
 #ifndef HINDSIGHT_APP_DRAFT_NOISE_H_
 #define HINDSIGHT_APP_DRAFT_NOISE_H_
 
+#include <functional>
+
 #include "dataset/dataset.h"
 #include "io/config/recording_draft.h"
 
@@ -21,8 +23,11 @@ void TellFixNoise(const Dataset& dataset, RecordingDraft* draft);
 /// something: of the IMU, of stated sigmas and, if they are larger than thought,
 /// of constraints and of positions whose errors last. Noise thirty times that which
 /// the readings show, or a thirtieth, is no device's: then nothing is taken over,
-/// and that something else is wrong becomes an assumption.
-void TellLikelyNoise(const Dataset& dataset, RecordingDraft* draft);
+/// and that something else is wrong becomes an assumption. `progress` gets the fraction
+/// done.
+void TellLikelyNoise(const Dataset& dataset,
+                     const std::function<void(double)>& progress,
+                     RecordingDraft* draft);
 
 }  // namespace hindsight
 

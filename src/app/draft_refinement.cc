@@ -33,9 +33,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Refiner {
  public:
-  explicit Refiner(RecordingDraft* draft) : draft_(*draft) {}
+  Refiner(Progress* progress, RecordingDraft* draft)
+      : progress_(*progress), draft_(*draft) {}
 
   void Refine() {
+    Say("axes");
     if (!Load()) return;
     SetAxes();
     TellReadingNoise(dataset_, &draft_);
@@ -47,6 +49,7 @@ class Refiner {
       Load();
       return;
     }
+    Say("places");
     // How fine they are decides over which time their motion is compared.
     const auto with_noise = [this]() -> const Dataset* {
       if (!Load()) return nullptr;
@@ -55,6 +58,7 @@ class Refiner {
     };
     TellPlaces(with_noise, &draft_);
     if (!Load()) return;
+    Say("rates of turn");
     if (TellTurns(dataset_, &draft_)) {
       if (!Load()) return;
       SetAxes();
@@ -65,6 +69,7 @@ class Refiner {
     TakePlaceOfTruth();
     TellFixNoise(dataset_, &draft_);
     if (!Load()) return;
+    Say("clocks");
     TellClocks(dataset_, &draft_);
     if (!Load()) return;
     if (TellWheels(dataset_, &draft_) && !Load()) return;
@@ -74,17 +79,23 @@ class Refiner {
     } else if (TellOtherHand()) {
       return;
     }
+    Say("forward axis");
     SetForward();
     TellTruthClock(dataset_, &draft_);
     if (!Load()) return;
     TellTruthPoint();
     TellFixNoise(dataset_, &draft_);
     if (!Load()) return;
-    TellLikelyNoise(dataset_, &draft_);
+    TellLikelyNoise(
+        dataset_, [this](double fraction) { Say("noise", fraction); }, &draft_);
     Load();
   }
 
  private:
+  void Say(const char* what, double fraction = 0.0) {
+    progress_.Update("looking at " + draft_.name + ": " + what, fraction);
+  }
+
   bool Load() {
     try {
       dataset_ =
@@ -301,6 +312,7 @@ class Refiner {
         "course");
   }
 
+  Progress& progress_;
   RecordingDraft& draft_;
   Dataset dataset_;
 };
@@ -313,11 +325,15 @@ bool IsAttitudeAlone(const RecordingDraft& draft) {
       [](const StreamDraft& stream) { return stream.kind->magnetic; });
 }
 
-void RefineDraft(RecordingDraft* draft) { Refiner(draft).Refine(); }
+void RefineDraft(Progress* progress, RecordingDraft* draft) {
+  Refiner(progress, draft).Refine();
+}
 
-std::vector<RecordingDraft> DraftFolder(const std::string& folder) {
+std::vector<RecordingDraft> DraftFolder(const std::string& folder,
+                                        Progress* progress) {
+  progress->Update("reading " + folder, 0.0);
   std::vector<RecordingDraft> drafts = DraftRecordings(folder);
-  for (RecordingDraft& draft : drafts) RefineDraft(&draft);
+  for (RecordingDraft& draft : drafts) RefineDraft(progress, &draft);
   return drafts;
 }
 

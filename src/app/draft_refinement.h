@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/progress.h"
 #include "io/config/recording_draft.h"
 
 namespace hindsight {
@@ -16,12 +17,13 @@ namespace hindsight {
 /// wheels; radius and direction of a wheel against the speed of positions; which
 /// axis is mirrored; at last the noise as EstimateNoise finds it. What they do not
 /// tell becomes an assumption. A draft that does not load says so
-/// (RecordingDraft::loads).
-void RefineDraft(RecordingDraft* draft);
+/// (RecordingDraft::loads). `progress` is told what is looked at.
+void RefineDraft(Progress* progress, RecordingDraft* draft);
 
 /// The drafts of all recordings below `folder`, refined. Throws InputError as
 /// DraftRecordings does.
-std::vector<RecordingDraft> DraftFolder(const std::string& folder);
+std::vector<RecordingDraft> DraftFolder(const std::string& folder,
+                                        Progress* progress);
 
 /// Whether nothing but the attitude can be estimated: no stream says where the
 /// IMU is or how it moves.

@@ -9,6 +9,7 @@
 #include "app/error_line.h"
 #include "app/file_place.h"
 #include "app/flags.h"
+#include "app/progress.h"
 #include "app/shell_word.h"
 #include "base/error.h"
 #include "io/config/config.h"
@@ -63,6 +64,7 @@ void WriteInto(const std::string& path, const RecordingDraft& draft) {
                  "hindsight run "
               << ShellWord(path) << " --methods=" << methods << " --out=DIR\n";
   }
+  PrintLeftOut(draft);
   TellProblem(draft, path);
 }
 
@@ -89,7 +91,10 @@ int Run(const std::vector<std::string>& arguments) {
     CheckFilePlace(FLAGS_out, {"'init'", IsInitConfig});
     RequireRoomFor(FLAGS_out);
   }
-  const std::vector<RecordingDraft> drafts = DraftFolder(arguments[0]);
+  const std::vector<RecordingDraft> drafts = [&] {
+    Progress progress(Progress::ModeFromName("auto"));
+    return DraftFolder(arguments[0], &progress);
+  }();
   const bool all_load =
       std::all_of(drafts.begin(), drafts.end(),
                   [](const RecordingDraft& draft) { return draft.loads; });

@@ -7,6 +7,7 @@
 #include "app/file_place.h"
 #include "app/flags.h"
 #include "app/observer_flags.h"
+#include "app/progress.h"
 #include "app/run.h"
 #include "app/run_request.h"
 #include "base/error.h"
@@ -93,7 +94,10 @@ std::string DraftBeside(const std::string& folder) {
       std::filesystem::path(FLAGS_out + "/").parent_path().string() + ".yaml";
   CheckFilePlace(config, {"'init'", IsInitConfig});
   RequireRoomFor(config);
-  const std::vector<RecordingDraft> drafts = DraftFolder(folder);
+  const std::vector<RecordingDraft> drafts = [&] {
+    Progress progress(AskedProgress());
+    return DraftFolder(folder, &progress);
+  }();
   if (drafts.size() > 1) {
     std::string names;
     for (const RecordingDraft& draft : drafts) {
@@ -111,6 +115,7 @@ std::string DraftBeside(const std::string& folder) {
     FLAGS_methods = MethodNames(true);
   }
   std::cout << "wrote " << config << "\n";
+  PrintLeftOut(draft);
   for (const std::string& assumption : draft.assumptions) {
     std::cout << "taken for granted: " << assumption << "\n";
   }

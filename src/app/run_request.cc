@@ -173,6 +173,12 @@ Eigen::Vector3d ParsePoint(const std::string& text) {
   return Eigen::Vector3d(values[0], values[1], values[2]);
 }
 
+Progress::Mode AskedProgress() {
+  return FLAGS_quiet && !IsGiven("progress")
+             ? Progress::Mode::kNone
+             : Progress::ModeFromName(FLAGS_progress);
+}
+
 RunRequest ReadRunRequest(const std::string& config) {
   RunRequest request;
   request.config = config;
@@ -223,9 +229,7 @@ RunRequest ReadRunRequest(const std::string& config) {
   request.modified_h_infinity = ReadCovariance(RiccatiRule::kModifiedHInfinity);
   request.threads = ReadThreads();
   request.report = FLAGS_report;
-  request.progress = FLAGS_quiet && !IsGiven("progress")
-                         ? Progress::Mode::kNone
-                         : Progress::ModeFromName(FLAGS_progress);
+  request.progress = AskedProgress();
   if (IsGiven("at")) {
     request.at_file = FLAGS_at;
     request.at = ReadTimeList(FLAGS_at);

@@ -69,6 +69,9 @@ std::vector<Omission> ParseOmissions(const std::string& text);
 /// Throws UsageError.
 std::vector<Injection> ParseInjections(const std::string& text);
 
+/// What --progress asks for, and --quiet where it is not given. Throws UsageError.
+Progress::Mode AskedProgress();
+
 /// "x,y,z" [m], with or without the unit. Throws UsageError.
 Eigen::Vector3d ParsePoint(const std::string& text);
 

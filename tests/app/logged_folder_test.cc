@@ -197,5 +197,31 @@ TEST_F(LoggedFolder, OfAPhoneThatCountsGravityDownwards) {
   EXPECT_THAT(Config(), HasSubstr("-1 g along the axis that points up"));
 }
 
+/// What nothing uses is said where it is run, and what takes its time.
+TEST_F(LoggedFolder, WithMoreThanIsUsed) {
+  std::string imu = "time,ax,ay,az,gx,gy,gz,temp\n";
+  for (std::size_t k = 0; k < samples_.size(); ++k) {
+    imu += fmt::format("{:.3f},{:.6f},{:.8f},{}\n", samples_[k].t,
+                       fmt::join(samples_[k].accel, ","),
+                       fmt::join(samples_[k].gyro, ","), 20 + k % 5);
+  }
+  WriteFile(file("imu.csv"), imu);
+  WriteFile(file("notes.md"), "by hand\n");
+  WriteFixes("time", [](double t) { return fmt::format("{:.3f}", t); });
+  const Outcome run = Hindsight(
+      {"run", "data", "--yes", "--methods=rts", "--out=out", "--progress=json"},
+      folder_.path());
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+  EXPECT_THAT(run.out, HasSubstr("\nnot recognised: notes.md\n"
+                                 "not recognised: imu.csv, column temp\n"));
+  EXPECT_THAT(run.err, HasSubstr("\"looking at data: clocks\""));
+  EXPECT_THAT(Config(), HasSubstr("#   imu.csv, column temp\n"));
+  const Outcome check = Hindsight({"check", "data"}, folder_.path());
+  EXPECT_EQ(check.status, 2);
+  EXPECT_THAT(check.err,
+              HasSubstr("data: is a folder; expected a configuration: "
+                        "'hindsight init data --out=CONFIG' drafts one"));
+}
+
 }  // namespace
 }  // namespace hindsight

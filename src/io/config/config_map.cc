@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/nearest_word.h"
+#include "io/read/paths.h"
 #include "io/read/text_lines.h"
 
 namespace hindsight {
@@ -36,6 +37,13 @@ long LineOf(const YAML::Node& node) { return node.Mark().line + 1L; }
 constexpr std::size_t kLongestText = std::size_t{4} << 20;
 
 std::string ReadText(const std::string& path) {
+  if (IsFolder(path)) {
+    throw InputError(path, 0,
+                     "is a folder; expected a configuration: 'hindsight init " +
+                         path +
+                         " --out=CONFIG' drafts one, and 'hindsight run " +
+                         path + " --out=DIR' does all in one go");
+  }
   TextLines lines(path);
   std::string text;
   std::string_view line;

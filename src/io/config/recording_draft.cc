@@ -11,16 +11,18 @@
 #include "base/error.h"
 #include "io/config/draft_clocks.h"
 #include "io/config/draft_values.h"
+#include "io/config/no_imu.h"
 #include "io/config/recording_search.h"
+#include "io/config/supposed_places.h"
+#include "io/config/unused_columns.h"
 #include "io/config/unused_rows.h"
 #include "io/read/file_formats.h"
-#include "io/read/gzip_reader.h"
 #include "io/read/input_file.h"
 #include "io/read/paths.h"
 #include "io/read/recognise_format.h"
 #include "io/read/split_files.h"
-#include "io/read/text_lines.h"
 #include "io/read/units.h"
+#include "io/read/unread_content.h"
 
 namespace hindsight {
 namespace {
@@ -28,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Whether a text file has some lines that begin with a number and go on.
-bool HoldsRowsOfNumbers(const fs::path& path) {
+bool HoldsRowsOfNumbers(const fs::path &path) {
   constexpr int kLinesLookedAt = 200;
   constexpr int kRows = 5;
   std::ifstream file(path);
@@ -39,13 +41,14 @@ bool HoldsRowsOfNumbers(const fs::path& path) {
     const bool is_row = number != line.npos && line[number] >= '0' &&
                         line[number] <= '9' &&
                         line.find_first_of(",; \t", number) != line.npos;
-    if (is_row && ++rows == kRows) return true;
+    if (is_row && ++rows == kRows)
+      return true;
   }
   return false;
 }
 
 class Drafter {
- public:
+public:
   explicit Drafter(RecordingFiles files) : files_(std::move(files)) {
     draft_.name = files_.name;
     draft_.folder = fs::absolute(files_.folder).lexically_normal().string();
@@ -56,36 +59,50 @@ class Drafter {
   RecordingDraft Draft() {
     TakeImu();
     LookAgain();
-    for (FoundStream& found : files_.others) TakeOther(std::move(found));
+    for (FoundStream &found :
+         TakeSupposedPlaces(draft_.imu->file, &files_.others)) {
+      draft_.unused.push_back({"position", &PositionKind(), std::move(found)});
+    }
+    for (FoundStream &found : files_.others)
+      TakeOther(std::move(found));
     KeepFieldForAttitude();
     SetDraftClocks(&draft_);
     SetStart();
     const bool axes_known = FindLine(draft_.imu->lines, "axes") != nullptr;
-    for (StreamDraft& stream : draft_.aiding) {
+    for (StreamDraft &stream : draft_.aiding) {
       CompleteStream(axes_known, &stream);
     }
-    for (const std::string& name : draft_.unknown) {
+    for (const std::string &name : draft_.unknown) {
       const fs::path path = fs::path(draft_.folder) / name;
       if (IsFile(path) && IsUtf16(InputFile(path.string()))) {
         draft_.Assume(name + ": is UTF-16 text, which is not read");
       }
-      if (!HoldsRowsOfNumbers(path)) continue;
+      if (!HoldsRowsOfNumbers(path))
+        continue;
       draft_.Assume(name +
                     ": its numbers were not recognised, and are left out");
     }
-    for (std::string& rows : UnusedRows(draft_)) {
-      draft_.unknown.push_back(std::move(rows));
+    for (std::string &name : draft_.unknown) {
+      const std::string why =
+          WhyNotRead((fs::path(draft_.folder) / name).string());
+      if (!why.empty())
+        name += ", which " + why;
+    }
+    for (auto *unused : {UnusedRows, UnusedColumns}) {
+      for (std::string &what : unused(draft_)) {
+        draft_.unknown.push_back(std::move(what));
+      }
     }
     return std::move(draft_);
   }
 
- private:
-  fs::path PathOf(const FoundStream& found) const {
+private:
+  fs::path PathOf(const FoundStream &found) const {
     return fs::path(draft_.folder) / found.file;
   }
 
-  static bool IsBetter(const FoundStream& a, const FoundStream& b) {
-    const auto key = [](const FoundStream& found) {
+  static bool IsBetter(const FoundStream &a, const FoundStream &b) {
+    const auto key = [](const FoundStream &found) {
       const bool sure = !found.stamps ||
                         found.stamps->certainty == Certainty::kCertain ||
                         !found.stamps->rate;
@@ -101,7 +118,7 @@ class Drafter {
     std::stable_sort(files_.imus.begin(), files_.imus.end(), IsBetter);
     draft_.imu = std::move(files_.imus.front());
     for (std::size_t i = 1; i < files_.imus.size(); ++i) {
-      FoundStream& other = files_.imus[i];
+      FoundStream &other = files_.imus[i];
       other.imu = false;
       if (other.spin_axis) {
         AddWheel(std::move(other));
@@ -110,7 +127,7 @@ class Drafter {
         draft_.unused.push_back({"imu", nullptr, std::move(other)});
       }
     }
-    for (const std::string& assumption : draft_.imu->assumptions) {
+    for (const std::string &assumption : draft_.imu->assumptions) {
       draft_.assumptions.push_back("imu: " + assumption);
     }
   }
@@ -125,7 +142,7 @@ class Drafter {
     }
     std::vector<std::string> done;
     std::vector<FoundStream> again;
-    for (FoundStream& found : files_.others) {
+    for (FoundStream &found : files_.others) {
       const bool table = found.format == &ColumnsFormat() && !found.spin_axis &&
                          found.file != draft_.imu->file;
       if (!table) {
@@ -137,25 +154,27 @@ class Drafter {
       }
       done.push_back(found.file);
       std::vector<std::string> paths = {PathOf(found).string()};
-      for (const std::string& more : found.more_files) {
+      for (const std::string &more : found.more_files) {
         paths.push_back((fs::path(draft_.folder) / more).string());
       }
       for (FoundStream stream : RecogniseParts(paths, hints)) {
         stream.file = found.file;
         stream.more_files = found.more_files;
         stream.joined_by = found.joined_by;
-        if (!stream.imu) again.push_back(std::move(stream));
+        if (!stream.imu)
+          again.push_back(std::move(stream));
       }
     }
     // Counted rows that no stamp made a stream of.
     std::vector<std::string> unknown;
-    for (const std::string& name : draft_.unknown) {
+    for (const std::string &name : draft_.unknown) {
       auto streams = hints.count_rate
                          ? RecogniseFormat(
                                (fs::path(draft_.folder) / name).string(), hints)
                          : std::vector<FoundStream>();
-      if (streams.empty()) unknown.push_back(name);
-      for (FoundStream& stream : streams) {
+      if (streams.empty())
+        unknown.push_back(name);
+      for (FoundStream &stream : streams) {
         stream.file = name;
         again.push_back(std::move(stream));
       }
@@ -182,28 +201,29 @@ class Drafter {
              "reference, uncomment");
       return;
     }
-    for (const SensorKind* kind : found.kinds) AddAiding(*kind, found);
+    for (const SensorKind *kind : found.kinds)
+      AddAiding(*kind, found);
   }
 
   /// Positions are worth more than attitudes alone.
-  static bool MoreTold(const FoundStream& a, const FoundStream& b) {
-    const auto place = [](const FoundStream& found) {
+  static bool MoreTold(const FoundStream &a, const FoundStream &b) {
+    const auto place = [](const FoundStream &found) {
       return FindLine(found.lines, "  lat") != nullptr ||
              FindLine(found.lines, "  p_x") != nullptr;
     };
     return place(a) && !place(b);
   }
 
-  void Unused(const std::string& name, const SensorKind* kind,
-              FoundStream found, const std::string& why) {
+  void Unused(const std::string &name, const SensorKind *kind,
+              FoundStream found, const std::string &why) {
     found.remarks.push_back(why);
     draft_.unused.push_back({name, kind, std::move(found)});
   }
 
-  void AddAiding(const SensorKind& kind, const FoundStream& found) {
+  void AddAiding(const SensorKind &kind, const FoundStream &found) {
     const auto same = std::count_if(
         draft_.aiding.begin(), draft_.aiding.end(),
-        [&](const StreamDraft& stream) { return stream.kind == &kind; });
+        [&](const StreamDraft &stream) { return stream.kind == &kind; });
     const std::string base(kind.name);
     const std::string name = same == 0 ? base : base + std::to_string(same + 1);
     // A second odometer has the errors of the first: the road's and the tyres'.
@@ -212,7 +232,7 @@ class Drafter {
       return;
     }
     draft_.aiding.push_back({name, &kind, found});
-    for (const std::string& assumption : found.assumptions) {
+    for (const std::string &assumption : found.assumptions) {
       draft_.assumptions.push_back(name + ": " + assumption);
     }
   }
@@ -226,7 +246,7 @@ class Drafter {
     const double factor =
         UnitFactor(found.imu_guess->gyro.unit, Quantity::kAngularRate)
             .value_or(1.0);
-    std::erase_if(found.lines, [](const KeyLine& line) {
+    std::erase_if(found.lines, [](const KeyLine &line) {
       return line.key.starts_with("  gyro_") ||
              line.key.starts_with("  accel_");
     });
@@ -248,14 +268,15 @@ class Drafter {
   /// until somebody has surveyed it.
   void KeepFieldForAttitude() {
     const bool moves = std::any_of(draft_.aiding.begin(), draft_.aiding.end(),
-                                   [](const StreamDraft& stream) {
+                                   [](const StreamDraft &stream) {
                                      return stream.kind->places ||
                                             stream.kind->moves ||
                                             stream.kind->standing ||
                                             stream.kind == &OdometerKind() ||
                                             stream.kind == &DvlKind();
                                    });
-    if (!moves) return;
+    if (!moves)
+      return;
     for (auto at = draft_.aiding.begin(); at != draft_.aiding.end();) {
       if (!at->kind->magnetic) {
         ++at;
@@ -273,11 +294,11 @@ class Drafter {
     SetLine({"initial", ""}, &draft_.top);
     const bool placed = std::any_of(
         draft_.aiding.begin(), draft_.aiding.end(),
-        [](const StreamDraft& stream) { return stream.kind->is_position; });
+        [](const StreamDraft &stream) { return stream.kind->is_position; });
     const bool moves = std::any_of(
         draft_.aiding.begin(), draft_.aiding.end(),
-        [](const StreamDraft& stream) { return !stream.kind->magnetic; });
-    const auto told = [&](const char* key) {
+        [](const StreamDraft &stream) { return !stream.kind->magnetic; });
+    const auto told = [&](const char *key) {
       return draft_.truth && FindLine(draft_.truth->lines, key) != nullptr;
     };
     const bool truth_tells = (told("  lat") || told("  p_x")) &&
@@ -304,64 +325,24 @@ class Drafter {
   RecordingDraft draft_;
 };
 
-/// Throws InputError for gzip data that are damaged or cut off, and for UTF-16.
-void RequireReadable(const std::string& path) {
-  if (!IsFile(path)) return;
-  const InputFile file(path);
-  if (IsUtf16(file)) TextLines lines(path);
-  if (!path.ends_with(".gz")) return;
-  if (!GzipReader::IsGzip(file)) return;
-  GzipReader reader(file);
-  std::vector<char> piece(std::size_t{1} << 20);
-  while (reader.Read(piece.data(), piece.size()) > 0) continue;
-}
+} // namespace
 
-[[noreturn]] void FailWithoutImu(const std::string& folder,
-                                 const RecordingFiles& rest) {
-  std::string found;
-  const auto name = [&](const std::string& what) {
-    constexpr std::size_t kMost = 160;
-    if (found.size() > kMost) return;
-    found += (found.empty() ? "" : ", ") + what;
-  };
-  for (const FoundStream& other : rest.others) {
-    const std::string kind = other.truth || other.pose ? "a reference"
-                             : other.kinds.empty()
-                                 ? "a stream"
-                                 : std::string(other.kinds.front()->name);
-    name(other.file + " (" + kind + ")");
-  }
-  for (const std::string& file : rest.unknown) {
-    RequireReadable((rest.folder / file).string());
-    name(file);
-  }
-  throw InputError(folder, 0,
-                   found.empty()
-                       ? "holds no files; expected an IMU's"
-                       : "no IMU was recognised among " + found +
-                             "; expected columns of three gyros and "
-                             "three accelerometers: name them under "
-                             "`imu` with `format: columns`" +
-                             (rest.apart.empty() ? "" : "; ") + rest.apart);
-}
-
-}  // namespace
-
-void RecordingDraft::Assume(const std::string& what) {
+void RecordingDraft::Assume(const std::string &what) {
   if (std::find(assumptions.begin(), assumptions.end(), what) ==
       assumptions.end()) {
     assumptions.push_back(what);
   }
 }
 
-StreamDraft* RecordingDraft::Find(const std::string& stream) {
-  const auto at = std::find_if(
-      aiding.begin(), aiding.end(),
-      [&](const StreamDraft& draft) { return draft.name == stream; });
+StreamDraft *RecordingDraft::Find(const std::string &stream) {
+  const auto at =
+      std::find_if(aiding.begin(), aiding.end(), [&](const StreamDraft &draft) {
+        return draft.name == stream;
+      });
   return at == aiding.end() ? nullptr : &*at;
 }
 
-std::vector<RecordingDraft> DraftRecordings(const std::string& folder) {
+std::vector<RecordingDraft> DraftRecordings(const std::string &folder) {
   if (!IsFolder(folder)) {
     throw InputError(folder, 0, "there is no such folder");
   }
@@ -369,12 +350,13 @@ std::vector<RecordingDraft> DraftRecordings(const std::string& folder) {
   const fs::path absolute = fs::absolute(folder).lexically_normal();
   std::vector<RecordingFiles> recordings = FindRecordings(
       absolute.has_filename() ? absolute : absolute.parent_path(), &rest);
-  if (recordings.empty()) FailWithoutImu(folder, rest);
+  if (recordings.empty())
+    FailWithoutImu(folder, rest);
   std::vector<RecordingDraft> drafts;
-  for (RecordingFiles& files : recordings) {
+  for (RecordingFiles &files : recordings) {
     drafts.push_back(Drafter(std::move(files)).Draft());
   }
   return drafts;
 }
 
-}  // namespace hindsight
+} // namespace hindsight

@@ -24,9 +24,11 @@ struct RecordingDraft {
   std::vector<StreamDraft> aiding;
   std::optional<FoundStream> truth;
   std::vector<StreamDraft> unused;  ///< recognised, and why not used in remarks
-  std::vector<std::string> unknown;  ///< files that were not recognised
-  std::vector<std::string> copies;   ///< as RecordingFiles::copies
-  std::vector<KeyLine> top;          ///< further lines of the top level
+  /// Files that were not recognised, with what they are where that shows; rows and
+  /// columns of others that nothing uses.
+  std::vector<std::string> unknown;
+  std::vector<std::string> copies;  ///< as RecordingFiles::copies
+  std::vector<KeyLine> top;         ///< further lines of the top level
   bool loads = true;  ///< false: 'run' would refuse it as it stands
   /// What was taken for granted and matters, one clause each.
   std::vector<std::string> assumptions;

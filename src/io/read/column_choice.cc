@@ -118,7 +118,57 @@ void TakeUbxUnits(const FileColumns& file,
   }
 }
 
+/// Four neighbouring columns without titles are a unit quaternion, whose parts may
+/// stand in any order, if they are of length one in all rows and turn.
+bool AreQuaternion(const FileColumns& file, std::size_t first) {
+  constexpr double kRounding = 1e-4;
+  constexpr double kTurned = 0.1;
+  std::array<double, 4> low{};
+  std::array<double, 4> high{};
+  for (std::size_t row = 0; row < file.rows; ++row) {
+    double squares = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double part = file.columns[first + i].values[row];
+      squares += part * part;
+      low[i] = row == 0 ? part : std::min(low[i], part);
+      high[i] = row == 0 ? part : std::max(high[i], part);
+    }
+    if (!(std::abs(squares - 1.0) < 2.0 * kRounding)) return false;
+  }
+  double turned = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    turned = std::max(turned, high[i] - low[i]);
+  }
+  return turned > kTurned;
+}
+
+void TakeUntitledQuaternions(const FileColumns& file,
+                             std::vector<ColumnMeaning>* meanings) {
+  for (std::size_t i = 0; i + 4 <= meanings->size(); ++i) {
+    const auto untitled = [&](std::size_t column) {
+      return file.columns[column].title.empty() &&
+             (*meanings)[column].quantity.empty();
+    };
+    if (!untitled(i) || !untitled(i + 1) || !untitled(i + 2) ||
+        !untitled(i + 3) || !AreQuaternion(file, i)) {
+      continue;
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      (*meanings)[i + k].quantity = "quaternion";
+    }
+  }
+}
+
 }  // namespace
+
+std::string HalfOfName(const std::string& name) {
+  const std::vector<std::string> words = SplitWords(name);
+  const bool gyros = HasAnyWord(words, {"gyro", "gyros", "gyr", "gyroscope"});
+  const bool accels = HasAnyWord(
+      words, {"acc", "acce", "accel", "accelerometer", "acceleration"});
+  if (gyros == accels) return "";
+  return gyros ? "gyro_" : "accel_";
+}
 
 bool CountsFromSea(const FileColumns& file, int h) {
   const std::vector<std::string> words =
@@ -148,6 +198,7 @@ std::vector<ColumnMeaning> ReadMeanings(const FileColumns& file) {
     meanings.push_back(std::move(meaning));
   }
   TakeUbxUnits(file, &meanings);
+  TakeUntitledQuaternions(file, &meanings);
   KeepBest(file, "t", RankOfTime, &meanings);
   for (const char* quantity : {"lat", "lon", "h"}) {
     KeepBest(file, quantity, RankOfPlace, &meanings);

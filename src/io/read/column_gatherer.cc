@@ -18,8 +18,10 @@ namespace hindsight {
 namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-/// Lines by which the shape of the table is told.
+/// Lines by which the shape of the table is told, comments aside: at first, and
+/// behind how many notes no table is looked for any more.
 constexpr std::size_t kShapeLines = 60;
+constexpr std::size_t kMostNotes = 16'000;
 
 /// A unit of anything that is recorded, or no word.
 bool IsUnit(std::string_view word) {
@@ -44,13 +46,18 @@ void ColumnGatherer::Add(std::string_view line, bool terminated) {
   }
   early_lines_.emplace_back(line);
   early_terminated_ = terminated;
-  if (early_lines_.size() == kShapeLines) FindShapeOfEarly();
+  if (IsComment(line)) return;
+  // Looked at whenever they have doubled, which costs little more than once.
+  const std::size_t next = kShapeLines << early_searches_;
+  if (++early_texts_ < next) return;
+  ++early_searches_;
+  FindShapeOfEarly();
+  shapeless_ = !shape_ && early_texts_ >= kMostNotes;
 }
 
 void ColumnGatherer::FindShapeOfEarly() {
   shape_ = FindShape(early_lines_);
-  shapeless_ = !shape_;
-  if (shapeless_) return;
+  if (!shape_) return;
   found_.format = &ColumnsFormat();
   if (shape_->delimiter == '\t') found_.delimiter = "tab";
   found_.columns.resize(columns());
@@ -277,14 +284,20 @@ void ColumnGatherer::SkipZeroRows() {
                            " zeros alone and is left out");
 }
 
-std::optional<FileColumns> ReadTextColumns(const std::string& path) {
+std::optional<FileColumns> ReadTextBeginning(const std::string& path,
+                                             long most_lines) {
   TextLines lines(path);
   ColumnGatherer gatherer;
   std::string_view line;
-  while (gatherer.wants_more() && lines.Next(&line)) {
+  for (long i = 0; i < most_lines && gatherer.wants_more() && lines.Next(&line);
+       ++i) {
     gatherer.Add(line, lines.terminated());
   }
   return gatherer.Finish();
+}
+
+std::optional<FileColumns> ReadTextColumns(const std::string& path) {
+  return ReadTextBeginning(path, std::numeric_limits<long>::max());
 }
 
 }  // namespace hindsight

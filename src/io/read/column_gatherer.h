@@ -44,6 +44,8 @@ class ColumnGatherer {
 
   std::vector<std::string> early_lines_;  ///< by which the shape is told
   bool early_terminated_ = true;          ///< the last of them
+  std::size_t early_texts_ = 0;           ///< of them no comments
+  int early_searches_ = 0;
   std::optional<Shape> shape_;
   bool shapeless_ = false;
   FileColumns found_;

@@ -216,7 +216,8 @@ void ColumnLines::AddTitledColumn(const std::string& quantity,
     guess.unit = place ? PlaceUnit() : AngleUnit();
   }
   if (!known && dimension == Quantity::kMagneticField) {
-    guess.unit = FieldUnit();
+    guess.unit =
+        FieldSizeOf({Titled("mag_x"), Titled("mag_y"), Titled("mag_z")}).unit;
     guess.certainty = Certainty::kLikely;
     guess.reason = "as strong as the Earth's";
   }
@@ -251,26 +252,33 @@ std::string ColumnLines::PlaceUnit() const {
   return within("lat", 0.5 * kPi) && within("lon", kPi) ? "rad" : "deg";
 }
 
-/// The unit in which the median field is nearest to the Earth's 48 uT.
-std::string ColumnLines::FieldUnit() const {
+ColumnLines::FieldSize ColumnLines::FieldSizeOf(
+    const ColumnTriple& columns) const {
   std::vector<double> lengths(file_.rows);
   for (std::size_t k = 0; k < lengths.size(); ++k) {
-    for (const char* name : {"mag_x", "mag_y", "mag_z"}) {
-      const auto column = static_cast<std::size_t>(Titled(name));
-      lengths[k] = std::hypot(lengths[k], file_.columns[column].values[k]);
+    for (const int column : columns) {
+      const auto i = static_cast<std::size_t>(column);
+      lengths[k] = std::hypot(lengths[k], file_.columns[i].values[k]);
     }
   }
   constexpr double kEarth = 48.0;  // uT
   const double length = Median(std::move(lengths));
-  std::string nearest = "uT";
+  FieldSize nearest;
   double distance = std::numeric_limits<double>::infinity();
   for (const char* unit : {"uT", "nT", "mG", "G"}) {
     const double field = length * *UnitFactor(unit, Quantity::kMagneticField);
     const double here = std::abs(std::log(field / kEarth));
-    if (here < distance) nearest = unit;
+    if (here < distance) nearest = {unit, field};
     distance = std::min(distance, here);
   }
   return nearest;
+}
+
+bool ColumnLines::IsOfEarth(const ColumnTriple& columns) const {
+  constexpr double kWeakest = 20.0;    // uT
+  constexpr double kStrongest = 70.0;  // uT
+  const double field = FieldSizeOf(columns).field;
+  return field > kWeakest && field < kStrongest;
 }
 
 void ColumnLines::AddFieldsOf(const SensorKind& kind,

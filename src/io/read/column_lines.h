@@ -36,6 +36,9 @@ class ColumnLines {
   /// Takes columns that are titled by an axis alone for a family's (AxisMeaning).
   void TakeAxesFor(const std::string& family);
 
+  /// Whether a vector is as long as the Earth's field, 20 to 70 uT, in a usual unit.
+  bool IsOfEarth(const ColumnTriple& columns) const;
+
   const std::vector<ColumnMeaning>& meanings() const { return meanings_; }
   /// The stamps of all streams; needed before the first.
   const std::optional<StampGuess>& stamps() const { return stamps_; }
@@ -71,7 +74,12 @@ class ColumnLines {
  private:
   std::string AngleUnit() const;
   std::string PlaceUnit() const;
-  std::string FieldUnit() const;
+  /// A field in the unit of uT, nT, mG and G in which it is nearest to 48 uT.
+  struct FieldSize {
+    std::string unit = "uT";
+    double field = 0.0;  ///< median [uT]
+  };
+  FieldSize FieldSizeOf(const ColumnTriple& columns) const;
 
   const FileColumns& file_;
   std::vector<ColumnMeaning> meanings_;

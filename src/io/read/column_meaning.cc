@@ -126,7 +126,8 @@ bool IsWheelRate(const Words& words) {
 
 /// "Roll rate" about x, "yaw rate" about z; '\0' of another.
 char AxisOfRate(const Words& words) {
-  if (!HasAnyWord(words, {"rate", "rates", "speed", "velocity"})) return '\0';
+  if (!HasAnyWord(words, {"rate", "rates", "speed", "vel", "velocity"}))
+    return '\0';
   if (HasAnyWord(words, {"roll"})) return 'x';
   if (HasAnyWord(words, {"pitch"})) return 'y';
   return HasAnyWord(words, {"yaw"}) ? 'z' : '\0';

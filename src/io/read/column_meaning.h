@@ -11,9 +11,9 @@ namespace hindsight {
 /// What the title of a column says of it.
 struct ColumnMeaning {
   /// As `columns` of a configuration names it: "t", "accel_x", "lat"; also
-  /// "week" of GPS, "wheel_rate", "index" for what counts rows, "sigma" of every
-  /// axis, and "accuracy_h", "accuracy_v" and "accuracy_speed" as receivers state
-  /// them; "" if the title says nothing.
+  /// "week" of GPS, "wheel_rate", "index" for what counts rows, "quaternion" of a part
+  /// that nobody names, "sigma" of every axis, and "accuracy_h", "accuracy_v" and
+  /// "accuracy_speed" as receivers state them; "" if the title says nothing.
   std::string quantity;
   std::string unit;      ///< as the title writes it; "" if it does not
   bool upwards = false;  ///< of a component that a title calls "up"

@@ -61,6 +61,9 @@ inline constexpr std::size_t kMostProbedNumbers = 20'000'000;
 /// may stand beside more columns of numbers. Nothing if fewer than
 /// three rows of numbers of equal length are found. Throws InputError as TextLines does.
 std::optional<FileColumns> ReadTextColumns(const std::string& path);
+/// The same of the first `most_lines` lines.
+std::optional<FileColumns> ReadTextBeginning(const std::string& path,
+                                             long most_lines);
 
 /// Of a text in which rows of several sensors stand between each other, each told by
 /// a word in one of the first columns ("ACCE;0.034;...", "12.3,gyroscope,..."): a

@@ -341,8 +341,10 @@ std::optional<FixGuess> GuessFixes(const FileColumns& file,
   TakeDegreesAndMinutes(file, &guess);
   TakeSide(file, "NS", &guess.lat);
   TakeSide(file, "EW", &guess.lon);
-  const FixMotion motion =
-      MotionOf(Radians(file, guess.lat), Radians(file, guess.lon), t, &guess);
+  const Values lat = Radians(file, guess.lat);
+  const Values lon = Radians(file, guess.lon);
+  guess.place = {Median(lat), Median(lon)};
+  const FixMotion motion = MotionOf(lat, lon, t, &guess);
   FindSpeedAndCourse(file, meanings, motion, &guess);
   FindHeight(file, meanings, stamps.column, &guess);
   return guess;

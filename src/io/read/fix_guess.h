@@ -20,6 +20,12 @@ struct ColumnGuess {
   std::string reason;
 };
 
+/// Where a record was made, to some kilometres [rad].
+struct RoughPlace {
+  double lat = 0.0;
+  double lon = 0.0;
+};
+
 /// Columns of latitude, longitude and height, and of speed and course over the
 /// ground where these agree with the positions.
 struct FixGuess {
@@ -31,6 +37,7 @@ struct FixGuess {
   /// A title tells it.
   bool place_unit_told = false;
   bool place_order_told = false;
+  std::optional<RoughPlace> place;
   /// Share of rows whose place is that of the row before.
   double repeated = 0.0;
   double top_speed = 0.0;  ///< of one fix to another, 99 % are slower [m/s]

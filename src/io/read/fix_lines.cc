@@ -52,6 +52,7 @@ FoundStream FixLines::Position(const FixGuess& fixes) const {
   found.top_speed = fixes.top_speed;
   found.place_unit_told = fixes.place_unit_told;
   found.place_order_told = fixes.place_order_told;
+  found.place = fixes.place;
   lines_.AddColumn("lat", fixes.lat, &found);
   lines_.AddColumn("lon", fixes.lon, &found);
   for (const int place : {fixes.lat.column, fixes.lon.column}) {

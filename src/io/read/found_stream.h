@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/read/fix_guess.h"
 #include "io/read/imu_guess.h"
 #include "io/read/stamp_guess.h"
 #include "measurements/sensor_kind.h"
@@ -60,6 +61,7 @@ struct FoundStream {
   /// guess, which the motion may contradict.
   bool place_unit_told = true;
   bool place_order_told = true;
+  std::optional<RoughPlace> place = {};  ///< of positions in columns
 };
 
 /// The columns of what it is: an IMU, the first of its kinds, or a truth.

@@ -1,7 +1,6 @@
 #ifndef HINDSIGHT_IO_READ_IMU_GUESS_H_
 #define HINDSIGHT_IO_READ_IMU_GUESS_H_
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,29 +9,25 @@
 #include "io/read/column_meaning.h"
 #include "io/read/file_columns.h"
 #include "io/read/stamp_guess.h"
+#include "io/read/triple_readings.h"
 
 namespace hindsight {
 
 /// Three columns x, y, z in one unit.
 struct TripleGuess {
-  std::array<int, 3> columns = {-1, -1, -1};
+  ColumnTriple columns = {-1, -1, -1};
   std::string unit;    ///< as `columns` of a configuration takes it
   double scale = 1.0;  ///< applied after the unit
   Certainty certainty = Certainty::kCertain;
   std::string reason;
 };
 
-/// How the direction of gravity turns, as the accelerometers see it, against
-/// what the gyros read over the same rows.
-struct GravityTurn {
-  double slope = 0.0;        ///< seen turn over gyro reading times row
-  double correlation = 0.0;  ///< of the two
-};
-
 struct ImuGuess {
   TripleGuess accel;
   TripleGuess gyro;
   GravityTurn turn;
+  /// Untitled columns of a field that turns as gravity does (UntitledImu).
+  std::optional<ColumnTriple> field;
   double quiet = 0.0;  ///< what the accelerometers read where quiet [m/s^2]
   std::optional<RowRate> rate;  ///< of a file whose rows are counted
 };
@@ -40,8 +35,7 @@ struct ImuGuess {
 /// Accelerometers are three columns whose length, where they are quiet, is that
 /// of gravity; gyros are three that turn its direction:
 ///   f(k + n) - f(k) = -(sum of w dt) x f.
-/// Titles are taken at their word; without them three neighbouring columns each
-/// are tried. Where no title says the unit, accelerometers have that of m/s^2, g
+/// Titles are taken at their word; without them FindUntitledImu tells. Where no title says the unit, accelerometers have that of m/s^2, g
 /// and mg in which gravity is nearest to 9.81 m/s^2, else counts are scaled to
 /// it; gyros the one of rad/s and deg/s that fits the slope, or else the one
 /// that fits their size. `row_seconds`: from one row to the next, 0 if not known.

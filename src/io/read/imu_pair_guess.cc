@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/read/column_choice.h"
 #include "io/read/column_lines.h"
 #include "io/read/column_meaning.h"
 #include "io/read/file_columns.h"
 #include "io/read/file_format.h"
-#include "io/read/title_words.h"
 
 namespace hindsight {
 namespace {
@@ -37,20 +37,6 @@ struct HalfImu {
   std::vector<double> t = {};
 };
 
-/// "gyro_", "accel_" or "", by the file's name.
-std::string FamilyOf(const std::string& name) {
-  const HalfNames words = SplitWords(name);
-  const auto any = [&](const HalfNames& known) {
-    return std::any_of(words.begin(), words.end(), [&](const auto& word) {
-      return std::find(known.begin(), known.end(), word) != known.end();
-    });
-  };
-  if (any({"gyro", "gyros", "gyr", "gyroscope"})) return "gyro_";
-  if (any({"acc", "acce", "accel", "accelerometer", "acceleration"}))
-    return "accel_";
-  return "";
-}
-
 HalfNames AxesOf(const std::string& family) {
   return {family + "x", family + "y", family + "z"};
 }
@@ -61,7 +47,7 @@ bool TellHalf(HalfImu* half) {
   const bool gyros = lines.HasAll(AxesOf("gyro_"));
   const bool accels = lines.HasAll(AxesOf("accel_"));
   if (gyros && accels) return false;
-  half->family = gyros ? "gyro_" : accels ? "accel_" : FamilyOf(half->name);
+  half->family = gyros ? "gyro_" : accels ? "accel_" : HalfOfName(half->name);
   if (half->family.empty()) return false;
   if (!gyros && !accels) lines.TakeAxesFor(half->family);
   if (!lines.HasAll(AxesOf(half->family))) return false;

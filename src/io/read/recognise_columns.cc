@@ -36,6 +36,8 @@ class Recogniser {
       lines_.TakeForVelocities();
     }
     if (IsNamed({"dvl", "adcp"}) && !named_truth_) lines_.TakeForDvl();
+    const std::string half = HalfOfName(name);
+    if (!half.empty()) lines_.TakeAxesFor(half);
   }
 
   std::vector<FoundStream> Recognise() {
@@ -102,6 +104,12 @@ class Recogniser {
     lines_.AddTriple("gyro_", guess->gyro, &found);
     lines_.Take("accel_", guess->accel);
     lines_.Take("gyro_", guess->gyro);
+    if (guess->field) {
+      const bool earth = lines_.IsOfEarth(*guess->field);
+      TripleGuess field;
+      field.columns = *guess->field;
+      lines_.Take(earth ? "mag_" : "field_", field);
+    }
     found.imu_guess = std::move(guess);
     all_.push_back(std::move(found));
   }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "io/read/column_meaning.h"
 #include "io/read/file_formats.h"
 #include "io/read/paths.h"
 #include "io/read/text_lines.h"
@@ -55,6 +56,16 @@ std::optional<FileColumns> ProbeColumns(const std::string& path) {
   return std::nullopt;
 }
 
+/// Whether titles say what stands in at least two columns.
+bool IsTitled(const FileColumns& file) {
+  constexpr std::ptrdiff_t kEnough = 2;
+  return std::count_if(file.columns.begin(), file.columns.end(),
+                       [](const FileColumn& column) {
+                         return !column.title.empty() &&
+                                !MeaningOfTitle(column.title).quantity.empty();
+                       }) >= kEnough;
+}
+
 /// The streams of a text that holds those of several sensors row by row.
 std::vector<FoundStream> RecogniseTyped(const std::string& path,
                                         const RecogniseHints& hints) {
@@ -97,10 +108,11 @@ std::vector<FoundStream> RecogniseFormat(const std::string& path,
     // titles.
     const bool imu = std::any_of(found.begin(), found.end(),
                                  [](const FoundStream& f) { return f.imu; });
-    const bool text = !columns || columns->format == &ColumnsFormat();
-    if (!imu && text && !probe.lines.empty()) {
-      if (auto bare = FirstOf(&FileFormat::recognise_bare, probe)) {
-        return {*bare};
+    const bool bare = !columns || (columns->format == &ColumnsFormat() &&
+                                   !IsTitled(*columns));
+    if (!imu && bare && !probe.lines.empty()) {
+      if (auto ordered = FirstOf(&FileFormat::recognise_bare, probe)) {
+        return {*ordered};
       }
     }
     return found;
