@@ -14,6 +14,7 @@
 #include "dataset/repeated_readings.h"
 #include "evaluation/grade.h"
 #include "filters/heading_profile.h"
+#include "imu/worst_drop_out.h"
 #include "problems/clock_choice.h"
 #include "problems/disagreement.h"
 #include "problems/estimation.h"
@@ -30,7 +31,8 @@ namespace {
 std::vector<Evidence> ExamineRecording(const Dataset& dataset,
                                        const StartReport& start, double to) {
   std::vector<Evidence> all = FindRepeatedReadings(dataset, start.t, to);
-  if (auto drift = FindGyroDrift(start, dataset.imu.noise)) {
+  if (auto drift = FindGyroDrift(start, dataset.imu.noise,
+                                 WorstDropOut(dataset.imu, start.t, to))) {
     all.push_back(*std::move(drift));
   }
   for (std::string& warning : CheckMagnetometers(dataset)) {
@@ -152,6 +154,7 @@ class TrajectoryEstimation final : public Estimation {
          .contradiction =
              stage.fit().contradiction ? &*stage.fit().contradiction : nullptr,
          .constants = stage.fit().constants,
+         .hindrance = Hindrance(),
          .unsettled = stage.unsettled(),
          .recording = recording_.get(),
          .doubts = stage.doubts(),
@@ -162,6 +165,13 @@ class TrajectoryEstimation final : public Estimation {
       AddEvidence(*std::move(apart), &solution);
     }
     return solution;
+  }
+
+  std::string Hindrance() const {
+    return LostAttitude(WorstDropOut(forward_.dataset().imu,
+                                     forward_.timeline().node(0).t,
+                                     forward_.options().to))
+        .value_or("");
   }
 
   /// With a robust loss the two do not minimise the same cost.

@@ -19,7 +19,15 @@ void FindFailure(const Judged& judged, std::vector<Evidence>* evidence) {
         Evidence{.grade = Grade::kUnusable, .what = what});
   };
   if (!solution.converged) {
-    fail("the iteration did not converge").value = solution.iterations;
+    Evidence& failure = fail("the iteration did not converge");
+    failure.value = solution.iterations;
+    if (!judged.hindrance.empty()) {
+      failure.what += ": " + judged.hindrance;
+      failure.causes = {judged.hindrance};
+      failure.remedies = {
+          "a run that ends before it (--to), and one that "
+          "begins after it (--from)"};
+    }
     return;
   }
   if (solution.states.empty()) {
@@ -58,8 +66,7 @@ void FindLinearisedFarOff(const Judged& judged,
   constexpr double kOnceInTwenty = 1.96;
   if (!judged.linearisation) return;
   const LinearisationError& e = *judged.linearisation;
-  const double wrong =
-      e.causal ? kOnceInAThousand : std::hypot(1.0, kUnusableBias);
+  const double wrong = e.causal ? kOnceInAThousand : kUnusableError;
   const double odd = e.causal ? kOnceInTwenty : kDoubtfulError;
   const bool throughout = e.rms >= wrong;
   if (!throughout && !((e.causal ? e.rms : e.largest) >= odd)) return;
