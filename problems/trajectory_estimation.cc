@@ -18,6 +18,7 @@
 #include "problems/clock_choice.h"
 #include "problems/disagreement.h"
 #include "problems/estimation.h"
+#include "problems/exchanged_places.h"
 #include "problems/forward_stage.h"
 #include "problems/imu_leaps.h"
 #include "problems/linearisation.h"
@@ -116,10 +117,19 @@ class TrajectoryEstimation final : public Estimation {
     return own != timelines_.end() ? own->second : forward_.timeline();
   }
 
+  const std::vector<RivalSolution>& OtherData() {
+    if (!other_data_) {
+      other_data_ = ImuLeaps(&forward_);
+      const std::vector<RivalSolution> exchanged = ExchangedPlaces(&forward_);
+      other_data_->insert(other_data_->end(), exchanged.begin(),
+                          exchanged.end());
+    }
+    return *other_data_;
+  }
+
   std::vector<RivalSolution> Rivals() {
     std::vector<RivalSolution> rivals = clocks_.rivals;
-    if (!leaps_) leaps_ = ImuLeaps(&forward_);
-    rivals.insert(rivals.end(), leaps_->begin(), leaps_->end());
+    rivals.insert(rivals.end(), OtherData().begin(), OtherData().end());
     if (forward_.turned_round()) rivals.push_back(*forward_.turned_round());
     SetProbabilities(&rivals);
     return rivals;
@@ -186,7 +196,8 @@ class TrajectoryEstimation final : public Estimation {
 
   ClockChoice clocks_;
   ForwardStage& forward_;
-  std::optional<std::vector<RivalSolution>> leaps_;
+  /// Of the recording as it may be instead.
+  std::optional<std::vector<RivalSolution>> other_data_;
   /// What the recording shows by itself.
   std::shared_future<std::vector<Evidence>> recording_;
   bool begun_ = false;

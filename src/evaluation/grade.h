@@ -25,6 +25,10 @@ inline constexpr double kUnusableError = 3.1622776601683795;
 /// Probability that the innovations of a right model lower its grade.
 inline constexpr double kFalseAlarms = 0.003;
 
+/// Rivals that are together so likely make a solution doubtful: as rare as what
+/// lies beyond three sigmas.
+inline constexpr double kDoubtfulRival = 0.0027;
+
 /// What an estimate started from, and how it came about.
 struct StartValues {
   State x;

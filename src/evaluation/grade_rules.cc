@@ -98,14 +98,13 @@ void FindLinearisedFarOff(const Judged& judged,
 }
 
 void FindLikelyRival(const Judged& judged, std::vector<Evidence>* evidence) {
-  constexpr double kOutsideThreeSigmas = 0.0027;
   constexpr double kOutsideOneSigma = 0.3173;
   const std::vector<RivalSolution>& rivals = judged.solution.rivals;
   const double all = std::accumulate(rivals.begin(), rivals.end(), 0.0,
                                      [](double sum, const RivalSolution& one) {
                                        return sum + one.probability;
                                      });
-  if (all < kOutsideThreeSigmas) return;
+  if (all < kDoubtfulRival) return;
   const RivalSolution& likeliest =
       *std::max_element(rivals.begin(), rivals.end(),
                         [](const RivalSolution& a, const RivalSolution& b) {
@@ -117,7 +116,7 @@ void FindLikelyRival(const Judged& judged, std::vector<Evidence>* evidence) {
       .what = fmt::format("another solution is {:.3g} % likely: {}",
                           100.0 * likeliest.probability, likeliest.description),
       .value = 100.0 * all,
-      .limit = 100.0 * (coin ? kOutsideOneSigma : kOutsideThreeSigmas),
+      .limit = 100.0 * (coin ? kOutsideOneSigma : kDoubtfulRival),
       .unit = "%",
       .causes = {"motion that looks the same both ways"},
       .remedies = {"a given value of what differs, or a recording with more "
