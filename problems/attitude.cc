@@ -266,8 +266,9 @@ Solution AttitudeEstimation::Run(const Method& method) {
         StartOf(solution.layout, start_.P,
                 StateAt(start_.t, start_.q_nb, start_.b_g), dataset_.initial);
   }
+  bool vouched_for = false;
   if (method.Has(MethodTrait::kForward)) {
-    JudgeFilterByAll(start, sources);
+    vouched_for = JudgeFilterByAll(start, sources, solution);
   } else {
     JudgeWhole(solution);
   }
@@ -275,6 +276,7 @@ Solution AttitudeEstimation::Run(const Method& method) {
             .sensors = sources,
             .start = start,
             .innovations = figures,
+            .vouched_for = vouched_for,
             .recording = ExamineRecording(),
             .relative_heading =
                 magnetic_.empty() && headings_.empty() && velocities_.empty(),

@@ -13,6 +13,7 @@
 #include "problems/attitude.h"
 #include "problems/attitude_evidence.h"
 #include "problems/imu_leaps.h"
+#include "problems/judged_innovations.h"
 
 namespace hindsight {
 namespace {
@@ -134,19 +135,42 @@ void AttitudeEstimation::JudgeWhole(const Solution& whole) {
   JudgeAccelerometers(whole);
 }
 
-void AttitudeEstimation::JudgeFilterByAll(
-    const std::optional<StartValues>& start, std::span<const Sensor> sensors) {
+namespace {
+
+/// Whether the filter is within the errors that it states of what the whole
+/// recording tells, which then fits its own readings.
+bool Vouches(const Solution& whole,
+             const std::vector<NormalisedInnovation>& innovations,
+             Solution filtered) {
+  if (whole.covariances.empty() || filtered.covariances.empty() ||
+      whole.states.size() != filtered.states.size() ||
+      LargestExcess(TestInnovations(innovations, kFalseAlarms)) >=
+          kUnusableError) {
+    return false;
+  }
+  MethodComparison comparison(AttitudeTerms());
+  comparison.Compare(whole);
+  return !comparison.Compare(filtered);
+}
+
+}  // namespace
+
+bool AttitudeEstimation::JudgeFilterByAll(
+    const std::optional<StartValues>& start, std::span<const Sensor> sensors,
+    Solution filtered) {
   std::vector<NormalisedInnovation> own = std::move(innovations_);
   const Solution whole = Smoother();
   JudgeWhole(whole);
+  const bool vouched_for = Vouches(whole, innovations_, std::move(filtered));
   innovations_ = std::move(own);
-  if (!start) return;
+  if (!start) return vouched_for;
   const std::size_t before = evidence_.size();
   FindStrainedValues({.solution = whole, .sensors = sensors, .start = start},
                      &evidence_);
   for (std::size_t i = before; i < evidence_.size(); ++i) {
     evidence_[i].rule = "given_values";
   }
+  return vouched_for;
 }
 
 }  // namespace hindsight

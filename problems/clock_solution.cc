@@ -14,8 +14,6 @@
 namespace hindsight {
 namespace {
 
-constexpr double kAlignmentWindow = 40.0;  // [s]
-
 bool SaysNothingOfStart(const InitialState& given) {
   return given.alignment == AlignmentKind::kAuto && !given.t && !given.euler &&
          !given.heading;

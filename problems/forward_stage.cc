@@ -9,29 +9,9 @@
 #include "base/processor_time.h"
 #include "base/units.h"
 #include "evaluation/observability.h"
-#include "filters/transport.h"
 #include "problems/solution_builder.h"
 
 namespace hindsight {
-std::vector<State> NominalOf(const LinearTape& tape) {
-  std::vector<State> nominal;
-  nominal.reserve(tape.size());
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    nominal.push_back(tape.epoch(k).x_plus);
-  }
-  return nominal;
-}
-
-void MoveToSmoothed(const ErrorLayout& layout,
-                    const std::vector<State>& nominal,
-                    SmoothedTrajectory* trajectory) {
-  CovarianceSeries& P = trajectory->P;
-  for (std::size_t k = 0; k < P.size(); ++k) {
-    ErrorMatrix P_k = P.Get(k);
-    MoveCovariance(Transport(layout, nominal[k], trajectory->states[k]), &P_k);
-    P.Set(k, P_k);
-  }
-}
 
 ForwardStage::ForwardStage(const Dataset& dataset,
                            const ReconstructionOptions& options)
@@ -98,6 +78,7 @@ void ForwardStage::Settle(std::vector<double> offsets) {
   }
   unsettled_.clear();
   relinearised_.reset();
+  realigned_.reset();
   fit_.reset();
   heading_credit_ = {};
   turned_round_.reset();
@@ -237,9 +218,31 @@ Problem ForwardStage::CausalProblem() const {
   return {problem_.layout, problem_.prior, problem_.timeline};
 }
 
-LinearTape ForwardStage::Filter(const std::string& stage,
-                                Problem* problem) const {
-  return RunForwardFilter({options_.error, {}}, problem, Progress(stage));
+LinearTape ForwardStage::Filter(const std::string& stage, Problem* problem,
+                                std::span<const State> start) const {
+  return RunForwardFilter({.error = options_.error,
+                           .covariance = {},
+                           .supposition = {},
+                           .start = start},
+                          problem, Progress(stage));
+}
+
+const Realigned& ForwardStage::realigned() {
+  if (!realigned_) {
+    realigned_ = Realign(start_.layout, relinearised(),
+                         [this](std::span<const State> start) {
+                           return Filter("rts", &problem_, start);
+                         });
+  }
+  return *realigned_;
+}
+
+const SmoothedTrajectory& ForwardStage::smoothed_once() {
+  return realigned().start.empty() ? *smoothed_ : realigned().trajectory;
+}
+
+LinearTape ForwardStage::FilterOnce(const std::string& stage) {
+  return Filter(stage, &problem_, realigned().start);
 }
 
 Solution ForwardStage::TakeFiltered() {
@@ -264,16 +267,9 @@ void ForwardStage::RunOnce() {
   filtered_ = FilterSolution(tape);
   filtered_->seconds = ProcessorSeconds() - t0;
   problem_.decisions = DecisionsOnTape(tape);
-  smoothed_ = SmoothTape(std::move(tape), filtered_->states);
+  smoothed_ = SmoothOnce(std::move(tape), filtered_->states);
   if (timeline().HasGates()) RepeatWithSmoothedGates();
   smoothing_seconds_ = ProcessorSeconds() - t0 - filtered_->seconds;
-}
-
-SmoothedTrajectory ForwardStage::SmoothTape(
-    LinearTape tape, const std::vector<State>& nominal) const {
-  SmoothedTrajectory trajectory = SmoothRts(std::move(tape), /*errors=*/false);
-  MoveToSmoothed(start_.layout, nominal, &trajectory);
-  return trajectory;
 }
 
 /// The innovation gate has judged each measurement by what came before it
@@ -285,7 +281,7 @@ void ForwardStage::RepeatWithSmoothedGates() {
   problem_.decisions = std::move(again);
   LinearTape tape = Filter("rts", &problem_);
   const std::vector<State> nominal = NominalOf(tape);
-  smoothed_ = SmoothTape(std::move(tape), nominal);
+  smoothed_ = SmoothOnce(std::move(tape), nominal);
 }
 
 }  // namespace hindsight

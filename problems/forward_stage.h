@@ -2,6 +2,7 @@
 #define HINDSIGHT_PROBLEMS_FORWARD_STAGE_H_
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "problems/linearisation.h"
 #include "problems/node_placement.h"
 #include "problems/reconstruction.h"
+#include "problems/single_pass.h"
 #include "state/rival_solution.h"
 #include "state/solution.h"
 
@@ -81,8 +83,15 @@ class ForwardStage {
   /// keep twice; whoever asks again has it filtered again.
   Solution TakeFiltered();
 
-  /// A pass of the Kalman filter with the error definition of the options.
-  LinearTape Filter(const std::string& stage, Problem* problem) const;
+  /// A pass of the Kalman filter with the error definition of the options, its
+  /// first nodes linearised about `start` (ForwardModel).
+  LinearTape Filter(const std::string& stage, Problem* problem,
+                    std::span<const State> start = {}) const;
+
+  /// What smoothers that linearise once give: of `rts`, and the tape of the
+  /// others. The filter's start is realigned where that cures them (Realign).
+  const SmoothedTrajectory& smoothed_once();
+  LinearTape FilterOnce(const std::string& stage);
 
   /// Reports progress under the name of a stage; throws Interrupted if asked.
   EpochCallback Progress(const std::string& stage) const;
@@ -93,10 +102,8 @@ class ForwardStage {
   void JudgeObservability();
   CovarianceSeries Relinearise();
   void JudgeHeading(const SmoothedTrajectory& last);
-  /// `nominal` is the tape's, NominalOf.
-  SmoothedTrajectory SmoothTape(LinearTape tape,
-                                const std::vector<State>& nominal) const;
   void RepeatWithSmoothedGates();
+  const Realigned& realigned();
 
   const Dataset& dataset_;
   ReconstructionOptions options_;
@@ -104,6 +111,7 @@ class ForwardStage {
   std::string unsettled_;
   std::optional<std::vector<UnobservedSpan>> unobserved_;
   std::optional<Relinearised> relinearised_;
+  std::optional<Realigned> realigned_;
   std::optional<Fit> fit_;
   HeadingCredit heading_credit_;
   std::optional<RivalSolution> turned_round_;
@@ -113,15 +121,6 @@ class ForwardStage {
   std::optional<SmoothedTrajectory> smoothed_;
   double smoothing_seconds_ = 0.0;
 };
-
-/// Moves the covariances of a trajectory smoothed on `tape`, which are in the
-/// tangent of the tape's nominal, into that at the smoothed states.
-void MoveToSmoothed(const ErrorLayout& layout,
-                    const std::vector<State>& nominal,
-                    SmoothedTrajectory* trajectory);
-
-/// The nominal of a tape, x_plus of every epoch.
-std::vector<State> NominalOf(const LinearTape& tape);
 
 }  // namespace hindsight
 

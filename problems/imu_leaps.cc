@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "base/error.h"
-#include "evaluation/explanation.h"
 #include "imu/imu_stream.h"
-#include "problems/clock_evidence.h"
-#include "problems/linearisation.h"
+#include "problems/rival_data.h"
 
 namespace hindsight {
 
@@ -42,52 +39,12 @@ Dataset WithoutLeap(const Dataset& dataset, const ImuDropOut& leap) {
 
 namespace {
 
-/// The largest root mean square, over the nodes of both, of a component's
-/// difference in standard deviations of `chosen`; infinite where no node is of
-/// both, as then nothing says that they are the same.
-double DistanceBetween(const ErrorLayout& layout, const Relinearised& chosen,
-                       const std::vector<State>& rival) {
-  constexpr double kSameTime = 1e-6;
-  NavigationVariances sum = NavigationVariances::Zero();
-  int count = 0;
-  std::size_t j = 0;
-  for (std::size_t k = 0; k < chosen.states.size(); ++k) {
-    const State& x = chosen.states[k];
-    while (j < rival.size() && rival[j].t < x.t - kSameTime) ++j;
-    if (j == rival.size() || rival[j].t > x.t + kSameTime) continue;
-    const ErrorVector d = Local(layout, x, rival[j]);
-    sum += d.head<9>().cwiseAbs2().cwiseQuotient(chosen.variances[k]);
-    ++count;
-  }
-  return count > 0 ? std::sqrt(sum.maxCoeff() / count)
-                   : std::numeric_limits<double>::infinity();
-}
-
 /// Nothing where the data cannot be solved without the leap, or `chosen` is hardly
 /// another solution.
 std::optional<RivalSolution> RivalWithout(const ImuDropOut& leap,
                                           ForwardStage* chosen) {
-  constexpr double kMostEvidence = 30.0;
-  constexpr double kHopeless = 200.0;
   const Dataset anew = WithoutLeap(chosen->dataset(), leap);
   ForwardStage stage(anew, chosen->options(), chosen->start());
-  stage.Run();
-  const Relinearised& own = chosen->relinearised();
-  if (own.states.empty()) return std::nullopt;
-  const auto is_near = [&](const std::vector<State>& states) {
-    return DistanceBetween(chosen->start().layout, own, states) <
-           kDoubtfulShift;
-  };
-  const std::vector<State>& first = stage.smoothed().states;
-  const auto log_evidence = [&](const std::vector<State>& states) {
-    return LogEvidenceRatio(chosen->dataset(), {stage, states},
-                            {*chosen, own.states}) -
-           std::log(kLostForOneLeap);
-  };
-  // Linearising anew costs more than the stage and seldom moves so far.
-  if (is_near(first) || log_evidence(first) < -kHopeless) return std::nullopt;
-  const Relinearised& other = stage.relinearised();
-  if (other.states.empty() || is_near(other.states)) return std::nullopt;
   RivalSolution rival;
   rival.description = fmt::format(
       "the IMU's clock leaps by {:.3g} s at {:.2f} s, and no samples are lost "
@@ -96,9 +53,8 @@ std::optional<RivalSolution> RivalWithout(const ImuDropOut& leap,
   rival.remedy = fmt::format(
       "if so, {:.3g} s less in the stamps of the IMU's later rows", leap.lost);
   rival.differences.push_back({"imu_clock_leap", leap.lost, "s"});
-  rival.log_evidence = std::min(kMostEvidence, log_evidence(other.states));
-  rival.final_state = other.states.back();
-  return rival;
+  return SolveRival(-std::log(kLostForOneLeap), std::move(rival), &stage,
+                    chosen);
 }
 
 }  // namespace

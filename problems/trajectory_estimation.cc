@@ -14,9 +14,11 @@
 #include "dataset/repeated_readings.h"
 #include "evaluation/grade.h"
 #include "filters/heading_profile.h"
+#include "imu/worst_drop_out.h"
 #include "problems/clock_choice.h"
 #include "problems/disagreement.h"
 #include "problems/estimation.h"
+#include "problems/exchanged_places.h"
 #include "problems/forward_stage.h"
 #include "problems/imu_leaps.h"
 #include "problems/linearisation.h"
@@ -30,7 +32,8 @@ namespace {
 std::vector<Evidence> ExamineRecording(const Dataset& dataset,
                                        const StartReport& start, double to) {
   std::vector<Evidence> all = FindRepeatedReadings(dataset, start.t, to);
-  if (auto drift = FindGyroDrift(start, dataset.imu.noise)) {
+  if (auto drift = FindGyroDrift(start, dataset.imu.noise,
+                                 WorstDropOut(dataset.imu, start.t, to))) {
     all.push_back(*std::move(drift));
   }
   for (std::string& warning : CheckMagnetometers(dataset)) {
@@ -114,10 +117,19 @@ class TrajectoryEstimation final : public Estimation {
     return own != timelines_.end() ? own->second : forward_.timeline();
   }
 
+  const std::vector<RivalSolution>& OtherData() {
+    if (!other_data_) {
+      other_data_ = ImuLeaps(&forward_);
+      const std::vector<RivalSolution> exchanged = ExchangedPlaces(&forward_);
+      other_data_->insert(other_data_->end(), exchanged.begin(),
+                          exchanged.end());
+    }
+    return *other_data_;
+  }
+
   std::vector<RivalSolution> Rivals() {
     std::vector<RivalSolution> rivals = clocks_.rivals;
-    if (!leaps_) leaps_ = ImuLeaps(&forward_);
-    rivals.insert(rivals.end(), leaps_->begin(), leaps_->end());
+    rivals.insert(rivals.end(), OtherData().begin(), OtherData().end());
     if (forward_.turned_round()) rivals.push_back(*forward_.turned_round());
     SetProbabilities(&rivals);
     return rivals;
@@ -152,6 +164,7 @@ class TrajectoryEstimation final : public Estimation {
          .contradiction =
              stage.fit().contradiction ? &*stage.fit().contradiction : nullptr,
          .constants = stage.fit().constants,
+         .hindrance = Hindrance(),
          .unsettled = stage.unsettled(),
          .recording = recording_.get(),
          .doubts = stage.doubts(),
@@ -162,6 +175,13 @@ class TrajectoryEstimation final : public Estimation {
       AddEvidence(*std::move(apart), &solution);
     }
     return solution;
+  }
+
+  std::string Hindrance() const {
+    return LostAttitude(WorstDropOut(forward_.dataset().imu,
+                                     forward_.timeline().node(0).t,
+                                     forward_.options().to))
+        .value_or("");
   }
 
   /// With a robust loss the two do not minimise the same cost.
@@ -176,7 +196,8 @@ class TrajectoryEstimation final : public Estimation {
 
   ClockChoice clocks_;
   ForwardStage& forward_;
-  std::optional<std::vector<RivalSolution>> leaps_;
+  /// Of the recording as it may be instead.
+  std::optional<std::vector<RivalSolution>> other_data_;
   /// What the recording shows by itself.
   std::shared_future<std::vector<Evidence>> recording_;
   bool begun_ = false;

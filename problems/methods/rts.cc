@@ -5,7 +5,7 @@ namespace hindsight {
 namespace {
 
 Solution RunRts(MethodStage* stage) {
-  const SmoothedTrajectory& smoothed = stage->forward().smoothed();
+  const SmoothedTrajectory& smoothed = stage->forward().smoothed_once();
   Solution solution =
       stage->FromSmoothed(smoothed.states, smoothed.P, stage->SharedNodes());
   solution.seconds = stage->forward().smoothing_seconds();

@@ -5,6 +5,7 @@
 #include "base/processor_time.h"
 #include "problems/method.h"
 #include "problems/method_stage.h"
+#include "problems/single_pass.h"
 
 namespace hindsight {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 template <typename Smoother>
 Solution Fuse(MethodStage* stage, const Smoother& smooth) {
   ForwardStage& forward = stage->forward();
-  const LinearTape tape = forward.Filter("two_filter", &forward.problem());
+  const LinearTape tape = forward.FilterOnce("two_filter");
   const double t0 = ProcessorSeconds();
   TwoFilterResult result = smooth(tape);
   SmoothedTrajectory& trajectory = result.trajectory;

@@ -6,6 +6,9 @@
 
 namespace hindsight {
 
+/// Motion that tells the attitude of a vehicle coarsely [s].
+inline constexpr double kAlignmentWindow = 40.0;
+
 /// Attitude and biases at input.t from the motion of a window alone, no start
 /// value needed.
 struct CoarseAlignment {

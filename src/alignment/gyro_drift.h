@@ -5,6 +5,7 @@
 
 #include "alignment/start.h"
 #include "imu/imu_stream.h"
+#include "imu/worst_drop_out.h"
 #include "state/evidence.h"
 
 namespace hindsight {
@@ -15,8 +16,11 @@ namespace hindsight {
 /// one is as far below as the walks that were tried are apart, half of a factor
 /// sqrt(10) each way: less than 1/3.6. Value and limit are drifts in a minute,
 ///   walk sqrt(60 s), [deg/s].
-std::optional<Evidence> FindGyroDrift(const StartReport& start,
-                                      const ImuNoise& stated);
+/// A drop-out of the IMU that loses the attitude (LostAttitude) looks like
+/// such a drift, and is named.
+std::optional<Evidence> FindGyroDrift(
+    const StartReport& start, const ImuNoise& stated,
+    const std::optional<BridgedDropOut>& drop_out = std::nullopt);
 
 }  // namespace hindsight
 

@@ -19,9 +19,15 @@ inline constexpr double kDoubtfulError = 1.4142135623730951;
 /// With a systematic error of three sigmas the truth is outside of the 3-sigma
 /// interval half of the time.
 inline constexpr double kUnusableBias = 3.0;
+/// The root mean square errors that go with it.
+inline constexpr double kUnusableError = 3.1622776601683795;
 
 /// Probability that the innovations of a right model lower its grade.
 inline constexpr double kFalseAlarms = 0.003;
+
+/// Rivals that are together so likely make a solution doubtful: as rare as what
+/// lies beyond three sigmas.
+inline constexpr double kDoubtfulRival = 0.0027;
 
 /// What an estimate started from, and how it came about.
 struct StartValues {
@@ -73,10 +79,17 @@ struct Judged {
   bool untested = false;
   /// About the solution, of the model that it has of the sensors.
   std::span<const InnovationFigure> innovations = {};
+  /// A causal solution that is within kUnusableBias of its sigmas of what its
+  /// smoother tells, in the root mean square over the interval, the innovations
+  /// of which make it no worse than doubtful: those of a filter that has taken
+  /// readings for poor, and says so in its sigma, make it doubtful then as well.
+  bool vouched_for = false;
   std::span<const Explanation> explanations = {};
   std::span<const AgreementFigure> agreement = {};
   const LeftOutSensor* contradiction = nullptr;
   std::span<const ConstantExcess> constants = {};
+  /// What may have kept a method from its result, in words; empty: nothing.
+  std::string hindrance = "";
   /// Sensor whose estimated time offset goes on moving; empty: none.
   std::string unsettled = "";
   /// What the recording shows by itself, of the solution's interval.

@@ -20,7 +20,15 @@ void FindFailure(const Judged& judged, std::vector<Evidence>* evidence) {
         Evidence{.grade = Grade::kUnusable, .what = what});
   };
   if (!solution.converged) {
-    fail("the iteration did not converge").value = solution.iterations;
+    Evidence& failure = fail("the iteration did not converge");
+    failure.value = solution.iterations;
+    if (!judged.hindrance.empty()) {
+      failure.what += ": " + judged.hindrance;
+      failure.causes = {judged.hindrance};
+      failure.remedies = {
+          "a run that ends before it (--to), and one that "
+          "begins after it (--from)"};
+    }
     return;
   }
   if (solution.states.empty()) {
@@ -59,8 +67,7 @@ void FindLinearisedFarOff(const Judged& judged,
   constexpr double kOnceInTwenty = 1.96;
   if (!judged.linearisation) return;
   const LinearisationError& e = *judged.linearisation;
-  const double wrong =
-      e.causal ? kOnceInAThousand : std::hypot(1.0, kUnusableBias);
+  const double wrong = e.causal ? kOnceInAThousand : kUnusableError;
   const double odd = e.causal ? kOnceInTwenty : kDoubtfulError;
   const bool throughout = e.rms >= wrong;
   if (!throughout && !((e.causal ? e.rms : e.largest) >= odd)) return;
@@ -92,14 +99,13 @@ void FindLinearisedFarOff(const Judged& judged,
 }
 
 void FindLikelyRival(const Judged& judged, std::vector<Evidence>* evidence) {
-  constexpr double kOutsideThreeSigmas = 0.0027;
   constexpr double kOutsideOneSigma = 0.3173;
   const std::vector<RivalSolution>& rivals = judged.solution.rivals;
   const double all = std::accumulate(rivals.begin(), rivals.end(), 0.0,
                                      [](double sum, const RivalSolution& one) {
                                        return sum + one.probability;
                                      });
-  if (all < kOutsideThreeSigmas) return;
+  if (all < kDoubtfulRival) return;
   const RivalSolution& likeliest =
       *std::max_element(rivals.begin(), rivals.end(),
                         [](const RivalSolution& a, const RivalSolution& b) {
@@ -111,7 +117,7 @@ void FindLikelyRival(const Judged& judged, std::vector<Evidence>* evidence) {
       .what = fmt::format("another solution is {:.3g} % likely: {}",
                           100.0 * likeliest.probability, likeliest.description),
       .value = 100.0 * all,
-      .limit = 100.0 * (coin ? kOutsideOneSigma : kOutsideThreeSigmas),
+      .limit = 100.0 * (coin ? kOutsideOneSigma : kDoubtfulRival),
       .unit = "%",
       .causes = {"motion that looks the same both ways"},
       .remedies = {"a given value of what differs, or a recording with more "

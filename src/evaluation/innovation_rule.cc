@@ -51,12 +51,12 @@ void FindOddInnovations(const Judged& judged, std::vector<Evidence>* evidence) {
         worst[static_cast<std::size_t>(figure.sensor)];
     if (own == nullptr || figure.excess > own->excess) own = &figure;
   }
-  const double wrong = std::hypot(1.0, kUnusableBias);
   for (const InnovationFigure* figure : worst) {
     if (figure == nullptr || figure->excess < kDoubtfulError) continue;
     const std::string& name =
         judged.sensors[static_cast<std::size_t>(figure->sensor)].name;
-    const bool unusable = figure->excess >= wrong && !IsOutvoted(judged, name);
+    const bool unusable = figure->excess >= kUnusableError &&
+                          !judged.vouched_for && !IsOutvoted(judged, name);
     evidence->push_back(
         {.grade = unusable ? Grade::kUnusable : Grade::kDoubtful,
          .what = fmt::format(
@@ -64,7 +64,7 @@ void FindOddInnovations(const Judged& judged, std::vector<Evidence>* evidence) {
              "what their sigmas say",
              figure->duration, name, figure->excess),
          .value = figure->excess,
-         .limit = unusable ? wrong : kDoubtfulError,
+         .limit = unusable ? kUnusableError : kDoubtfulError,
          .unit = "sigma",
          .t_begin = figure->t_begin,
          .t_end = figure->t_end});

@@ -141,7 +141,6 @@ void FindOddPredictions(const Judged& judged, std::vector<Evidence>* evidence) {
   if (judged.sensors.empty() || judged.solution.observer) return;
   const std::vector<WithheldFigure> figures =
       TestWithheld(WithoutOutliers(judged), kFalseAlarms);
-  const double wrong = std::hypot(1.0, kUnusableBias);
   for (std::size_t sensor = 0; sensor < judged.sensors.size(); ++sensor) {
     const WithheldFigure* worst = nullptr;
     for (const WithheldFigure& figure : figures) {
@@ -150,7 +149,7 @@ void FindOddPredictions(const Judged& judged, std::vector<Evidence>* evidence) {
     }
     if (worst == nullptr || worst->excess < kDoubtfulError) continue;
     const bool unusable =
-        worst->excess >= wrong &&
+        worst->excess >= kUnusableError &&
         IsUsed(static_cast<int>(sensor), judged.solution.residuals);
     evidence->push_back(
         {.grade = unusable ? Grade::kUnusable : Grade::kDoubtful,
@@ -159,7 +158,7 @@ void FindOddPredictions(const Judged& judged, std::vector<Evidence>* evidence) {
              "predicted as sigmas say, {:.1f} times what chance explains",
              judged.sensors[sensor].name, worst->rms, worst->excess),
          .value = worst->excess,
-         .limit = unusable ? wrong : kDoubtfulError,
+         .limit = unusable ? kUnusableError : kDoubtfulError,
          .unit = "sigma",
          .causes = {"sigmas of the IMU or of aiding that are too small",
                     "an error of what was withheld"},

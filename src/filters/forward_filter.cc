@@ -19,7 +19,9 @@ LinearTape RunAlone(const ForwardModel& model, const ImmOptions& options,
 
 LinearTape RunForwardFilter(const ForwardModel& model, Problem* problem,
                             const EpochCallback& callback) {
-  return RunAlone(model, {}, problem, callback);
+  ImmOptions options;
+  options.nominal = model.start;
+  return RunAlone(model, options, problem, callback);
 }
 
 LinearTape RunExtendedKalmanFilter(Problem* problem,

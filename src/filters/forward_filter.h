@@ -20,6 +20,9 @@ struct ForwardModel {
   ErrorDefinition error = ErrorDefinition::kNavigation;
   CovarianceOptions covariance;
   Supposition supposition = {};
+  /// Nodes at the beginning that are linearised about a given trajectory, as of
+  /// RunLinearizedFilter; the nominal is reset from the next one on.
+  std::span<const State> start = {};
 };
 
 /// Forward observer x^' = f(x^) + K (y - h(x^)): predicts through the IMU

@@ -55,7 +55,7 @@ ForwardPass::ForwardPass(const std::vector<PassModel>& models,
     if (!f.policy.is_kalman()) f.tape.ForbidSmoothing();
   }
   rule_.Suppose(model.supposition);
-  if (IsAboutFixed()) StartAbout(options.nominal.front());
+  if (IsAboutFixed(0)) StartAbout(options.nominal.front());
 }
 
 void ForwardPass::Record(ImmResult* result) {
@@ -96,7 +96,6 @@ bool ForwardPass::MaySwitch(std::size_t k) const {
 /// Expresses the priors about another nominal: their means become errors, their
 /// covariances move into the new tangent.
 void ForwardPass::StartAbout(const State& nominal) {
-  rule_.AboutFixedNominal();
   for (std::size_t j = 0; j < filters_.size(); ++j) {
     Filter& f = filters_[j];
     const ErrorLayout& layout = f.model.layout;
@@ -121,7 +120,7 @@ void ForwardPass::PredictTo(std::size_t k) {
     LinearizeAdvance(f.model.layout, interval, f.x, nominal, &f.transition);
     // The nominal is what the first model predicts, so that its defect is zero
     // but for rounding.
-    if (!IsAboutFixed() && j == 0) f.transition.c.setZero();
+    if (!IsAboutFixed(k) && j == 0) f.transition.c.setZero();
     Gaussian& error = errors_[j];
     error.mean = (f.transition.Phi * error.mean + f.transition.c).eval();
     f.policy.Predict(f.transition, interval.summary.dt(), &error.P);
@@ -131,7 +130,7 @@ void ForwardPass::PredictTo(std::size_t k) {
 
 State ForwardPass::Nominal(std::size_t k, std::size_t j,
                            const NodeInterval& interval) {
-  if (IsAboutFixed()) return options_.nominal[k];
+  if (IsAboutFixed(k)) return options_.nominal[k];
   const Filter& f = filters_[j];
   return j == 0 ? Advance(f.model.layout, interval, f.x)
                 : AdvanceBeside(filters_[0].x, f.model.layout, interval, f.x);

@@ -50,7 +50,7 @@ class ForwardPass {
     ErrorMatrix P_minus;
   };
 
-  bool IsAboutFixed() const { return !options_.nominal.empty(); }
+  bool IsAboutFixed(std::size_t k) const { return k < options_.nominal.size(); }
   bool MaySwitch(std::size_t k) const;
   double StepTo(std::size_t k) const;
   void StartAbout(const State& nominal);

@@ -25,6 +25,7 @@ double ForwardPass::StepTo(std::size_t k) const {
 void ForwardPass::UpdateAt(std::size_t k) {
   if (result_ != nullptr) epoch_.predicted = modes_.probability();
   if (masks_vertical_) OverwriteVertical(k);
+  rule_.SetAboutFixedNominal(IsAboutFixed(k));
   BeginEpochs(k);
   modes_.BeginUpdate();
   const auto count = static_cast<int>(timeline_.measurements(k).size());
@@ -35,7 +36,7 @@ void ForwardPass::UpdateAt(std::size_t k) {
     if (k > 0) f.policy.Bound(f.epoch.t, StepTo(k), &error.mean, &error.P);
     f.epoch.dx_plus = error.mean;
   }
-  const bool resets = options_.feedback && !IsAboutFixed();
+  const bool resets = options_.feedback && !IsAboutFixed(k);
   if (result_ != nullptr || filters_.size() > 1) {
     epoch_.log_likelihood = modes_.Normalize(timeline_.node(k).t);
     const Gaussian combined = modes_.Combined(errors_);
@@ -159,9 +160,10 @@ void ForwardPass::Reset(std::size_t k, const Gaussian& combined) {
     f.x = Retract(error_, layout, f.x, steps[j]);
     f.x.t = f.epoch.t;
     f.epoch.reset = true;
-    // The error of a single filter is zero at a node without measurements:
-    // there is nothing to move.
-    if (!alone || !timeline_.measurements(k).empty()) {
+    // The error of a single filter is zero at a node without measurements, but
+    // for the first one after a fixed nominal: there is nothing to move.
+    if (!alone || !timeline_.measurements(k).empty() ||
+        !error.mean.isZero(0.0)) {
       const ErrorMatrix T =
           Transport(error_, layout, f.epoch.x_minus, steps[j], f.x);
       if (!alone) error.mean = (T * (error.mean - steps[j])).eval();

@@ -34,8 +34,9 @@ struct ImmOptions {
   /// True: the nominal is reset to the combined estimate at each node. False
   /// (feed-forward): it is the free inertial trajectory from the prior.
   bool feedback = true;
-  /// If not empty: the fixed nominal, a state a node with the parameters that
-  /// all layouts then must have; `feedback` is void. Its defects are c.
+  /// The fixed nominal of the first nodes, or of all, a state a node with the
+  /// parameters that all layouts then must have; there `feedback` is void, and
+  /// its defects are c.
   std::span<const State> nominal;
   GateDecisions decisions;
 };

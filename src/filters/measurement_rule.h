@@ -45,7 +45,7 @@ class MeasurementRule {
   /// Keeps references to both; the losses and gates are those of now.
   MeasurementRule(const Timeline& timeline, const GateDecisions& decisions);
 
-  void AboutFixedNominal() { fixed_nominal_ = true; }
+  void SetAboutFixedNominal(bool fixed) { fixed_nominal_ = fixed; }
   void Suppose(const Supposition& supposition) { supposition_ = supposition; }
 
   /// Whether measurement `index` of node k is used as far as it is decided

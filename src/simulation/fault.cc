@@ -63,6 +63,8 @@ const std::vector<FaultKind>& FaultKinds() {
        NegateAccel},
       {"imu_swapped", kOfImu, kAxis, Q::kRatio,
        "the two axes exchanged besides that of number", SwapImuAxes},
+      {"accel_swapped", kOfImu, kAxis, Q::kRatio,
+       "the two accelerometers exchanged besides that of number", SwapAccel},
       {"gyro_step", kOfImu, kOwn, Q::kAngularRate,
        "from the middle on the z gyro too large by", StepGyro},
       {"accel_step", kOfImu, kOwn, Q::kAcceleration,

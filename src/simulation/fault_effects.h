@@ -46,6 +46,7 @@ void MultiplyAccel(double size, int sensor, std::uint64_t seed,
 void NegateGyro(double size, int sensor, std::uint64_t seed, Dataset* dataset);
 void NegateAccel(double size, int sensor, std::uint64_t seed, Dataset* dataset);
 void SwapImuAxes(double size, int sensor, std::uint64_t seed, Dataset* dataset);
+void SwapAccel(double size, int sensor, std::uint64_t seed, Dataset* dataset);
 void StepGyro(double size, int sensor, std::uint64_t seed, Dataset* dataset);
 void StepAccel(double size, int sensor, std::uint64_t seed, Dataset* dataset);
 void WarmGyros(double size, int sensor, std::uint64_t seed, Dataset* dataset);

@@ -62,6 +62,13 @@ void SwapImuAxes(double size, int, std::uint64_t, Dataset* dataset) {
   });
 }
 
+void SwapAccel(double size, int, std::uint64_t, Dataset* dataset) {
+  const auto kept = static_cast<Eigen::Index>(size);
+  EditSamples(dataset, [&](ImuSample* sample) {
+    std::swap(sample->accel((kept + 1) % 3), sample->accel((kept + 2) % 3));
+  });
+}
+
 void StepGyro(double size, int, std::uint64_t, Dataset* dataset) {
   const double from = MiddleOf(*dataset);
   const double unit = RateUnit(*dataset);

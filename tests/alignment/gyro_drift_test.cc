@@ -37,5 +37,15 @@ TEST(GyroDrift, AWalkThatLetsTheBiasFollowIsUsable) {
   EXPECT_TRUE(FindGyroDrift(Found(0.01 * kDegree), Stated(0.002 * kDegree)));
 }
 
+TEST(GyroDrift, NamesADropOutThatLosesTheAttitude) {
+  const auto told = [](double sigma) {
+    return FindGyroDrift(Found(0.01 * kDegree), Stated(0.0),
+                         BridgedDropOut{60.0, 5.0, sigma});
+  };
+  EXPECT_NE(told(0.5)->causes.at(0).find("drop-out of 5 s at 60.0 s"),
+            std::string::npos);
+  EXPECT_EQ(told(0.1)->causes.at(0), "a gyro that warms up");
+}
+
 }  // namespace
 }  // namespace hindsight

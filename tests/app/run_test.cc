@@ -499,5 +499,31 @@ TEST_F(RunCommandTest, TellsWhatIsWithheldAndTheStartWithItsSigmas) {
             0);
 }
 
+TEST_F(RunCommandTest, AResolvedConfigurationRunsToTheSameBytes) {
+  const std::string plain = ReadFile(recording_.file("config.yaml"));
+  for (const std::string noise :
+       {"{model: white}", "{model: gauss_markov, sigma: 2 m, tau: 30 s}",
+        "{model: mixture, outliers: 5 %, ratio: 20}"}) {
+    SCOPED_TRACE(noise);
+    WriteFile(recording_.file("config.yaml"), plain);
+    recording_.Replace("config.yaml", "  gnss:\n",
+                       "  gnss:\n    noise: " + noise + "\n");
+    const Outcome first =
+        recording_.Run({"--out=out", "--methods=batch", "--force"});
+    ASSERT_NE(first.status, 2) << first.err;
+    const Outcome again =
+        Hindsight({"run", "out/config.resolved.yaml", "--out=again",
+                   "--methods=batch", "--force"},
+                  recording_.root());
+    ASSERT_EQ(again.status, first.status) << again.err;
+    for (const std::string file :
+         {"batch.csv", "residuals.csv", "config.resolved.yaml"}) {
+      EXPECT_EQ(ReadFile(Result(file)),
+                ReadFile(recording_.root() / "again" / file))
+          << file;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hindsight

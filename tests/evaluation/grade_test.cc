@@ -132,6 +132,11 @@ TEST_F(GradeTest, WhatIsNotFiniteOrDidNotConvergeIsNotUsable) {
   ConcludePlain();
   EXPECT_EQ(solution_.grade, Grade::kUnusable);
   EXPECT_EQ(solution_.verdict, "not usable: the iteration did not converge");
+  Conclude({.solution = solution_, .sensors = sensors_, .hindrance = "a gap"},
+           {}, &solution_);
+  EXPECT_EQ(solution_.verdict,
+            "not usable: the iteration did not converge: a gap");
+  EXPECT_THAT(Against().causes, ElementsAre("a gap"));
   solution_.converged = true;
   sigma_(3) = std::numeric_limits<double>::quiet_NaN();
   Set(7, sigma_);

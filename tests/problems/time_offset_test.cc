@@ -264,5 +264,29 @@ TEST(TimeOffset, NoiseIsEstimatedWithIt) {
   }
 }
 
+/// What a filter that fails on other nodes leaves behind is not of these nodes.
+TEST(TimeOffset, AMethodAfterAFilterThatFailedBeginsAnew) {
+  const PerfectRecording recording(ShakenScenario());
+  const Dataset dataset = Delayed(recording, 77000, 0.25);
+  int passes = 0;
+  int fails_at = 4;
+  ReconstructionOptions options;
+  options.progress = [&](const std::string& stage, double fraction) {
+    if (stage == "ekf" && fraction == 1.0) ++passes;
+    if (stage == "ekf" && passes == fails_at) {
+      throw EstimationError("diverged");
+    }
+  };
+  Reconstruction reconstruction(dataset, options);
+  EXPECT_THROW(reconstruction.Run("rts"), EstimationError);
+  ASSERT_EQ(passes, 4);
+  fails_at = 0;
+  const Solution solution = reconstruction.Run("rts");
+  const Solution fresh = Reconstruction(dataset, {}).Run("rts");
+  ASSERT_EQ(solution.states.size(), fresh.states.size());
+  EXPECT_EQ(solution.states.back().p_e, fresh.states.back().p_e);
+  EXPECT_EQ(solution.grade, fresh.grade) << solution.verdict;
+}
+
 }  // namespace
 }  // namespace hindsight

@@ -37,7 +37,7 @@ RobustLoss ReadLoss(ConfigMap* map) {
 
 /// What is done with the standard deviations of the file.
 void ReadSigmaScale(ConfigMap* map, SensorSettings* settings) {
-  if (!settings->sensor.kind->states_sigma) return;
+  if (!settings->sensor.kind->states_sigma || HasCorrelatedNoise(map)) return;
   if (settings->sigma) {
     if (map->Has("sigma_scale")) {
       map->Fail("sigma_scale", "does not go with sigma");

@@ -1,5 +1,6 @@
 #include "io/config/noise_keys.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "base/units.h"
@@ -82,6 +83,15 @@ double ReadFactor(ConfigMap* map, const std::string& key,
     map->Fail(key, "'" + text + "' is not a positive number");
   }
   return *number;
+}
+
+bool HasCorrelatedNoise(ConfigMap* map) {
+  if (!map->Has("noise")) return false;
+  const auto model = map->Map("noise").OptionalText("model");
+  return std::any_of(NoiseKinds().begin(), NoiseKinds().end(),
+                     [&model](const NoiseKind* kind) {
+                       return model == kind->name && kind->evolution != nullptr;
+                     });
 }
 
 void ReadNoise(ConfigMap* map, SensorSettings* settings) {

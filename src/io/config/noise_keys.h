@@ -13,6 +13,9 @@ namespace hindsight {
 double ReadFactor(ConfigMap* map, const std::string& key,
                   const std::string& fallback);
 
+/// Whether `noise` states a model whose errors are correlated in time.
+bool HasCorrelatedNoise(ConfigMap* map);
+
 /// `noise` of an aiding stream, into Sensor::noise and, of a mixture,
 /// Sensor::loss, which must have been read. Throws InputError that names file,
 /// line and key.

@@ -1,0 +1,66 @@
+#include "problems/rival_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "evaluation/explanation.h"
+#include "problems/clock_evidence.h"
+#include "problems/linearisation.h"
+
+namespace hindsight {
+namespace {
+
+/// The largest root mean square, over the nodes of both, of a component's
+/// difference in standard deviations of `chosen`; infinite where no node is of
+/// both, as then nothing says that they are the same.
+double DistanceBetween(const ErrorLayout& layout, const Relinearised& chosen,
+                       const std::vector<State>& rival) {
+  constexpr double kSameTime = 1e-6;
+  NavigationVariances sum = NavigationVariances::Zero();
+  int count = 0;
+  std::size_t j = 0;
+  for (std::size_t k = 0; k < chosen.states.size(); ++k) {
+    const State& x = chosen.states[k];
+    while (j < rival.size() && rival[j].t < x.t - kSameTime) ++j;
+    if (j == rival.size() || rival[j].t > x.t + kSameTime) continue;
+    const ErrorVector d = Local(layout, x, rival[j]);
+    sum += d.head<9>().cwiseAbs2().cwiseQuotient(chosen.variances[k]);
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum.maxCoeff() / count)
+                   : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::optional<RivalSolution> SolveRival(double log_odds, RivalSolution words,
+                                        ForwardStage* rival,
+                                        ForwardStage* chosen) {
+  constexpr double kMostEvidence = 30.0;
+  constexpr double kHopeless = 200.0;
+  const Relinearised& own = chosen->relinearised();
+  if (own.states.empty()) return std::nullopt;
+  rival->Run();
+  const auto is_near = [&](const std::vector<State>& states) {
+    return DistanceBetween(chosen->start().layout, own, states) <
+           kDoubtfulShift;
+  };
+  const std::vector<State>& first = rival->smoothed().states;
+  const auto log_evidence = [&](const std::vector<State>& states) {
+    return LogEvidenceRatio(chosen->dataset(), {*rival, states},
+                            {*chosen, own.states}) +
+           log_odds;
+  };
+  // Linearising anew costs more than the stage and seldom moves so far.
+  if (is_near(first) || log_evidence(first) < -kHopeless) return std::nullopt;
+  const Relinearised& other = rival->relinearised();
+  if (other.states.empty() || is_near(other.states)) return std::nullopt;
+  words.log_evidence = std::min(kMostEvidence, log_evidence(other.states));
+  words.final_state = other.states.back();
+  return words;
+}
+
+}  // namespace hindsight
