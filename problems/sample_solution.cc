@@ -23,6 +23,62 @@ bool HasScale(const ErrorLayout& layout) {
          layout.Has(BlockKind::kAccelScale);
 }
 
+constexpr int kMostMotion = 9;
+
+/// The rows of position, velocity and attitude of a transition that keeps all
+/// else. That of a Gauss-Markov block tends to zero over its correlation time
+/// and has no useful inverse.
+using MotionRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
+                                 kMostMotion, kMaxErrorDim>;
+
+/// b after a.
+MotionRows Chain(const MotionRows& b, const MotionRows& a) {
+  const Eigen::Index m = a.rows();
+  MotionRows both = b.leftCols(m) * a;
+  both.rightCols(a.cols() - m) += b.rightCols(a.cols() - m);
+  return both;
+}
+
+MotionRows Inverse(const MotionRows& a) {
+  const Eigen::Index m = a.rows();
+  MotionRows inverse(m, a.cols());
+  inverse.leftCols(m) = a.leftCols(m).inverse();
+  inverse.rightCols(a.cols() - m) =
+      -inverse.leftCols(m) * a.rightCols(a.cols() - m);
+  return inverse;
+}
+
+/// P of an error that the transition has moved.
+ErrorMatrix Moved(const MotionRows& Phi, const ErrorMatrix& P) {
+  const Eigen::Index m = Phi.rows();
+  const Eigen::Index rest = P.cols() - m;
+  const MotionRows rows = Phi * P;
+  ErrorMatrix out = P;
+  out.topLeftCorner(m, m) = rows * Phi.transpose();
+  out.topRightCorner(m, rest) = rows.rightCols(rest);
+  out.bottomLeftCorner(rest, m) = rows.rightCols(rest).transpose();
+  return out;
+}
+
+/// How the motion goes on over some time, and its noise.
+struct Motion {
+  using Noise = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
+                              kMostMotion, kMostMotion>;
+  MotionRows Phi;
+  Noise Q;
+
+  static Motion None(Eigen::Index dim, Eigen::Index of) {
+    return {MotionRows::Identity(dim, of), Noise::Zero(dim, dim)};
+  }
+  Motion Then(const Transition& step) const {
+    const Eigen::Index m = Phi.rows();
+    const MotionRows next = step.Phi.topRows(m);
+    return {Chain(next, Phi),
+            next.leftCols(m) * Q * next.leftCols(m).transpose() +
+                step.Q.topLeftCorner(m, m)};
+  }
+};
+
 /// P between the nodes: at steps of at most kPropagationStep, linear in
 /// between.
 class CovarianceBetween {
@@ -89,42 +145,28 @@ class CovarianceBetween {
   void Bridge(std::size_t k) {
     const ErrorMatrix before = P_.front();
     const ErrorMatrix after = solution_.covariances.Get(k + 1);
-    const ErrorMatrix I = ErrorMatrix::Identity(before.rows(), before.cols());
-    std::vector<ErrorMatrix> Phi = {I};
-    const ErrorMatrix zero = ErrorMatrix::Zero(before.rows(), before.cols());
-    std::vector<ErrorMatrix> Q = {zero};
+    std::vector<Motion> from_node = {Motion::None(MotionDim(), before.rows())};
     ForEachStep(k, [&](const Transition& transition, double) {
-      const ErrorMatrix step = OfMotion(transition.Phi, I);
-      Q.emplace_back(
-          step * Q.back() * step.transpose() +
-          OfMotion(OfMotion(transition.Q, zero).transpose(), zero).transpose());
-      Phi.emplace_back(step * Phi.back());
+      from_node.push_back(from_node.back().Then(transition));
     });
-    const ErrorMatrix back = Phi.back().inverse();
+    const MotionRows back = Inverse(from_node.back().Phi);
     for (std::size_t i = 1; i + 1 < t_.size(); ++i) {
       const double a = (t_[i] - t_.front()) / (t_.back() - t_.front());
-      const ErrorMatrix Psi = Phi[i] * back;
-      P_.emplace_back((1.0 - a) *
-                          (Phi[i] * before * Phi[i].transpose() + Q[i]) +
-                      a * (Psi * after * Psi.transpose()));
+      const auto& [Phi, Q] = from_node[i];
+      ErrorMatrix P = (1.0 - a) * Moved(Phi, before);
+      P.topLeftCorner(Q.rows(), Q.cols()) += (1.0 - a) * Q;
+      P_.emplace_back(P + a * Moved(Chain(Phi, back), after));
     }
     P_.push_back(after);
   }
 
-  /// A matrix with the rows of position, velocity and attitude of A and all
-  /// other rows of `other`. The transition of a Gauss-Markov block tends to
-  /// zero over its correlation time and has no useful inverse; the bridge keeps
-  /// all blocks but those of motion constant.
-  ErrorMatrix OfMotion(const ErrorMatrix& A, const ErrorMatrix& other) const {
-    ErrorMatrix out = other;
-    for (const BlockKind kind :
-         {BlockKind::kPosition, BlockKind::kVelocity, BlockKind::kAttitude}) {
-      const Block* block = solution_.layout.Find(kind);
-      if (block == nullptr) continue;
-      out.middleRows(block->offset, block->dim) =
-          A.middleRows(block->offset, block->dim);
+  /// Of position, velocity and attitude, which stand first in a layout.
+  int MotionDim() const {
+    int dim = 0;
+    for (const Block& block : solution_.layout.blocks()) {
+      if (block.key.kind <= BlockKind::kAttitude) dim += block.dim;
     }
-    return out;
+    return dim;
   }
 
   const Solution& solution_;
