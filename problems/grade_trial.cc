@@ -20,18 +20,9 @@ constexpr char kRulePrefix[] = "rule:";
 /// It says which sensor, where another rule says that something does not fit.
 constexpr const char* kDerivedRule = "contradiction";
 
-/// None of what the method does not estimate.
-std::optional<double> ValueOf(const RunRecord& record,
-                              const std::string& name) {
-  for (const auto& [own, value] : record.values) {
-    if (own == name) return value;
-  }
-  return std::nullopt;
-}
-
 /// NaN is beyond every limit.
 bool Exceeds(const RunRecord& record, const std::string& name, double limit) {
-  const std::optional<double> value = ValueOf(record, name);
+  const std::optional<double> value = record.Find(name);
   return value && !(*value <= limit);
 }
 
@@ -58,115 +49,87 @@ std::vector<std::string> RulesOf(const RunRecord& run) {
   return rules;
 }
 
-/// Records of one run for each table. `run` has the labels vehicle, fault,
-/// size, method.
-class Sorter {
- public:
-  explicit Sorter(CaseRun* run) : run_(run) {}
-
-  void Add(const RunRecord& run, const RunRecord* healthy, double lambda) {
-    const bool is_faulty = healthy != nullptr;
-    const bool wrong = IsWrong(run, healthy);
-    const bool visible = is_faulty && lambda >= kVisible;
-    const std::string group = !is_faulty
-                                  ? (wrong ? "healthy, wrong" : "healthy")
-                              : !run.answered ? "no answer"
-                              : !wrong        ? "right"
-                              : visible       ? "wrong, visible"
-                                              : "wrong, not visible";
-    const std::string& vehicle = run.labels[0];
-    const std::string& method = run.labels[3];
-    Add(run, kSummary, {vehicle, group, method}, {});
-    std::vector<std::pair<std::string, double>> values = {
-        {"wrong", wrong ? 1.0 : 0.0},
-        {"visible", visible ? 1.0 : 0.0},
-        {"noncentrality", lambda},
-        {"wrong_and_usable", wrong && run.grade == Grade::kUsable ? 1.0 : 0.0}};
-    for (const char* name : {"position_rms", "position_nees", "attitude_rms",
-                             "attitude_nees", "outside_5_sigma"}) {
-      const std::optional<double> value = ValueOf(run, name);
-      if (value) values.emplace_back(name, *value);
-    }
-    Add(run, kFaults, run.labels, std::move(values));
-    if (is_faulty && !(wrong && visible)) return;
-    const std::vector<std::string> rules = RulesOf(run);
-    const auto independent = std::count_if(
-        rules.begin(), rules.end(),
-        [](const std::string& rule) { return rule != kDerivedRule; });
-    for (const std::string& rule : rules) {
-      values = {{is_faulty ? "caught" : "healthy", 1.0}};
-      if (is_faulty && independent == 1 && rule != kDerivedRule) {
-        values.emplace_back("alone", 1.0);
-      }
-      Add(run, kEvidence, {vehicle, rule, method}, std::move(values));
-    }
-  }
-
- private:
-  void Add(const RunRecord& run, std::size_t table,
-           std::vector<std::string> labels,
-           std::vector<std::pair<std::string, double>> values) {
-    RunRecord& record = run_->records.emplace_back();
+/// A cell, whose labels are vehicle, fault, size and method, into all tables;
+/// `healthy` is that of the twin, nullptr of the healthy recording itself.
+void Sort(const RunRecord& cell, const RunRecord* healthy, double lambda,
+          CaseRun* run) {
+  const std::string& vehicle = cell.labels[0];
+  const std::string& method = cell.labels[3];
+  const auto add = [&](std::size_t table,
+                       const std::vector<std::string>& labels) {
+    RunRecord& record = run->records.emplace_back(cell);
     record.table = table;
-    record.labels = std::move(labels);
-    record.seed = run.seed;
-    record.grade = run.grade;
-    record.failed = run.failed;
-    record.answered = run.answered;
-    record.values = std::move(values);
+    record.labels = labels;
+    record.values.clear();
+    return &record;
+  };
+  const bool is_faulty = healthy != nullptr;
+  const bool wrong = IsWrong(cell, healthy);
+  const bool visible = is_faulty && lambda >= kVisible;
+  add(kSummary, {vehicle,
+                 !is_faulty       ? (wrong ? "healthy, wrong" : "healthy")
+                 : !cell.answered ? "no answer"
+                 : !wrong         ? "right"
+                 : visible        ? "wrong, visible"
+                                  : "wrong, not visible",
+                 method});
+  RunRecord* fault = add(kFaults, cell.labels);
+  fault->values = cell.values;
+  fault->values.insert(fault->values.end(),
+                       {{"wrong", wrong ? 1.0 : 0.0},
+                        {"visible", visible ? 1.0 : 0.0},
+                        {"noncentrality", lambda},
+                        {"wrong_and_usable",
+                         wrong && cell.grade == Grade::kUsable ? 1.0 : 0.0}});
+  if (is_faulty && !(wrong && visible)) return;
+  const std::vector<std::string> rules = RulesOf(cell);
+  const auto independent =
+      std::ssize(rules) - std::ranges::count(rules, kDerivedRule);
+  for (const std::string& rule : rules) {
+    RunRecord* evidence = add(kEvidence, {vehicle, rule, method});
+    evidence->values = {{is_faulty ? "caught" : "healthy", 1.0}};
+    if (is_faulty && independent == 1 && rule != kDerivedRule) {
+      evidence->values.emplace_back("alone", 1.0);
+    }
   }
-
-  CaseRun* run_;
-};
+}
 
 struct Tried {
   std::deque<RunRecord> cells;  ///< of the methods, in their order
   std::vector<NormalisedInnovation> innovations;
 };
 
-Tried Try(const Dataset& dataset, NavigationTrial trial,
-          const std::vector<std::string>& labels, std::uint64_t seed) {
+Tried Try(const Dataset& dataset, NavigationTrial trial, CaseRun run) {
   Tried tried;
   trial.innovations = &tried.innovations;
   trial.best_of_run = true;
-  CaseRun run = {labels, seed};
-  NavigationTrialOf(trial)(dataset, &run);
-  tried.cells = std::move(run.records);
-  std::erase_if(tried.cells,
-                [](const RunRecord& r) { return r.table != kCells; });
+  NavigationTrialOf(trial).run(dataset, &run);
+  for (RunRecord& record : run.records) {
+    if (record.table != kCells) continue;
+    record.t.clear();
+    record.series.clear();
+    tried.cells.push_back(std::move(record));
+  }
   return tried;
 }
 
-/// A recording that is refused before anything is estimated.
-Tried Refused(const NavigationTrial& trial,
-              const std::vector<std::string>& labels, std::uint64_t seed) {
-  CaseRun run = {labels, seed};
-  std::vector<std::string> methods = trial.methods;
-  methods.emplace_back(kBestOfRun);
-  for (const std::string& method : methods) {
-    RunRecord* record = run.Add(kCells, {method});
-    record->grade = Grade::kUnusable;
-    record->Fail();
-  }
-  return {std::move(run.records), {}};
-}
-
-Tried TryTwin(const Dataset& healthy, const FaultyTwin& twin,
-              const NavigationTrial& trial, const std::string& vehicle,
-              std::uint64_t seed) {
-  const std::vector<std::string> labels = {vehicle, twin.fault, twin.size};
+/// Without an answer of any method where the recording is refused before
+/// anything is estimated.
+Tried TryTwin(Dataset dataset, const FaultyTwin& twin,
+              const NavigationTrial& trial, CaseRun run) {
   try {
-    Dataset faulty = healthy;
-    twin.apply(seed, &faulty);
-    return Try(faulty, trial, labels, seed);
+    twin.apply(run.seed, &dataset);
+    return Try(dataset, trial, run);
   } catch (const InputError&) {
-    return Refused(trial, labels, seed);
+    std::vector<std::string> methods = trial.methods;
+    methods.emplace_back(kBestOfRun);
+    for (const std::string& method : methods) {
+      RunRecord* record = run.Add(kCells, {method});
+      record->grade = Grade::kUnusable;
+      record->Fail();
+    }
+    return {std::move(run.records), {}};
   }
-}
-
-double Count(const RunCell& cell, const std::string& quantity,
-             const TimeRange&) {
-  return Sum(cell.Values(quantity));
 }
 
 }  // namespace
@@ -194,51 +157,49 @@ double Noncentrality(const std::vector<NormalisedInnovation>& healthy,
 }
 
 std::vector<StudyTable> GradeTables() {
-  const auto count = [](const char* name, const char* title) {
-    return Single(name, kPlain, title, "{:.0f}", name, Count);
-  };
-  StudyTable summary = {"summary",
-                        {"vehicle", "class", "method"},
-                        {GradesFigure(), FailedFigure()},
-                        {}};
-  StudyTable faults = {
-      "faults", {"vehicle", "fault", "size", "method"}, {}, {}};
-  faults.figures = {GradesFigure(),
-                    count("wrong", "wrong"),
-                    count("visible", "visible"),
-                    count("wrong_and_usable", "wrong and\nusable"),
-                    Single("noncentrality", kPlain, "lambda\nmedian", "{:.3g}",
-                           "noncentrality", OfRuns<Rank50>),
-                    Single("position_rms", kMetres, "position\nrms [m]",
-                           "{:.3g}", "position_rms", OfRuns<Rms>),
-                    Single("position_nees", kPlain, "NEES (3)\nposition",
-                           "{:.3g}", "position_nees", OfRuns<Mean>),
-                    Single("attitude_nees", kPlain, "NEES (3)\nattitude",
-                           "{:.3g}", "attitude_nees", OfRuns<Mean>),
-                    FailedFigure()};
-  StudyTable evidence = {"evidence", {"vehicle", "rule", "method"}, {}, {}};
-  evidence.figures = {count("caught", "wrong runs\ncaught"),
-                      count("alone", "alone"),
-                      count("healthy", "healthy\nruns")};
+  StudyTable summary = {"summary", {"vehicle", "class", "method"}};
+  summary.AddGrades();
+  summary.Add({FailedFigure()});
+  StudyTable faults = {"faults", {"vehicle", "fault", "size", "method"}};
+  faults.AddGrades();
+  faults.Add({{"wrong", kPlain, OfRuns(Sum)},
+              {"visible", kPlain, OfRuns(Sum)},
+              {"wrong_and_usable", kPlain, OfRuns(Sum)},
+              {"noncentrality", kPlain, OfRuns(Rank50)},
+              {"position_rms", kMetres, OfRuns(Rms)},
+              {"position_nees", kPlain, OfRuns(Mean)},
+              {"attitude_nees", kPlain, OfRuns(Mean)},
+              FailedFigure()});
+  StudyTable evidence = {"evidence", {"vehicle", "rule", "method"}};
+  evidence.Add({{"caught", kPlain, OfRuns(Sum)},
+                {"alone", kPlain, OfRuns(Sum)},
+                {"healthy", kPlain, OfRuns(Sum)}});
   return {summary, faults, evidence};
 }
 
 Trial GradeTrial(const NavigationTrial& trial,
                  const std::vector<FaultyTwin>& twins) {
-  return [trial, twins](const Dataset& healthy, CaseRun* run) {
-    const std::string& vehicle = run->labels.back();
-    const std::uint64_t seed = run->seed;
-    Sorter sorter(run);
-    const Tried well = Try(healthy, trial, {vehicle, "none", ""}, seed);
-    for (const RunRecord& cell : well.cells) sorter.Add(cell, nullptr, 0.0);
-    for (const FaultyTwin& twin : twins) {
-      const Tried tried = TryTwin(healthy, twin, trial, vehicle, seed);
-      const double lambda = Noncentrality(well.innovations, tried.innovations);
-      for (std::size_t i = 0; i < tried.cells.size(); ++i) {
-        sorter.Add(tried.cells[i], &well.cells[i], lambda);
-      }
-    }
-  };
+  std::vector<std::vector<std::string>> refused = {{"no answer", kBestOfRun}};
+  for (const std::string& method : trial.methods) {
+    refused.push_back({"no answer", method});
+  }
+  return {refused, [trial, twins](const Dataset& healthy, CaseRun* run) {
+            const std::string vehicle = run->labels.back();
+            const Tried well =
+                Try(healthy, trial, {{vehicle, "none", ""}, run->seed});
+            for (const RunRecord& cell : well.cells)
+              Sort(cell, nullptr, 0.0, run);
+            for (const FaultyTwin& twin : twins) {
+              const Tried tried =
+                  TryTwin(healthy, twin, trial,
+                          {{vehicle, twin.fault, twin.size}, run->seed});
+              const double lambda =
+                  Noncentrality(well.innovations, tried.innovations);
+              for (std::size_t i = 0; i < tried.cells.size(); ++i) {
+                Sort(tried.cells[i], &well.cells[i], lambda, run);
+              }
+            }
+          }};
 }
 
 }  // namespace hindsight

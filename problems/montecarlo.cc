@@ -13,81 +13,30 @@
 namespace hindsight {
 namespace {
 
-/// The recordings of each case; of one that cannot be prepared each is refused.
-std::vector<Recording> Prepare(const std::vector<Case>& cases) {
-  std::vector<Recording> recordings;
-  for (const Case& one : cases) {
-    try {
-      recordings.push_back(one.prepare ? one.prepare() : [](std::uint64_t) {
-        return Dataset();
-      });
-    } catch (const InputError& error) {
-      recordings.emplace_back(
-          [error](std::uint64_t) -> Dataset { throw error; });
-    }
+/// The recordings of a case; if it cannot be prepared each is refused.
+Recording Prepare(const Case& one) {
+  if (!one.prepare) return [](std::uint64_t) { return Dataset(); };
+  try {
+    return one.prepare();
+  } catch (const InputError& error) {
+    return [error](std::uint64_t) -> Dataset { throw error; };
   }
-  return recordings;
 }
 
-/// Of all cases on one seed.
-std::vector<RunRecord> RunCases(const std::vector<Case>& cases,
-                                const std::vector<Recording>& recordings,
-                                std::uint64_t seed) {
-  std::vector<RunRecord> out;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    CaseRun run = {cases[i].labels, seed};
-    try {
-      cases[i].trial(recordings[i](seed), &run);
-    } catch (const InputError& error) {
-      run.records.clear();
-      run.Add(kRefused, {})->Fail(error.what());
+std::vector<RunRecord> RunCase(const Case& one, const Recording& recording,
+                               std::uint64_t seed) {
+  CaseRun run = {one.labels, seed};
+  try {
+    one.trial.run(recording(seed), &run);
+  } catch (const InputError& error) {
+    run.records.clear();
+    for (const std::vector<std::string>& method : one.trial.methods) {
+      run.Add(0, method)->Fail(error.what());
     }
-    std::ranges::move(run.records, std::back_inserter(out));
   }
-  return out;
+  return {std::make_move_iterator(run.records.begin()),
+          std::make_move_iterator(run.records.end())};
 }
-
-/// The table as it grows, set by the threads that do the work and read by
-/// others meanwhile.
-class GrowingTable {
- public:
-  GrowingTable(Study study, int runs)
-      : study_(std::move(study)), runs_(runs), jobs_so_far_(study_.tables) {}
-
-  void Set(int run, std::vector<RunRecord> records) {
-    const std::lock_guard lock(mutex_);
-    of_job_.Add(run, std::move(records), study_.tables);
-  }
-
-  /// All seeds of the job are in: their figures stay, their series go.
-  void EndJob() {
-    const std::lock_guard lock(mutex_);
-    jobs_so_far_.Add(of_job_, runs_);
-    ++jobs_;
-    of_job_ = {};
-  }
-
-  StudyResult SoFar() const {
-    const std::lock_guard lock(mutex_);
-    StudyResult result = jobs_so_far_;
-    result.complete = jobs_ == study_.jobs.size();
-    result.runs = jobs_ > 0 ? runs_ : 0;
-    if (study_.jobs.size() == 1 && !result.complete) {
-      result.runs = 0;
-      while (of_job_.records.contains(result.runs)) ++result.runs;
-      result.Add(of_job_, result.runs);
-    }
-    return result;
-  }
-
- private:
-  Study study_;
-  int runs_;
-  mutable std::mutex mutex_;
-  JobRuns of_job_;
-  std::size_t jobs_ = 0;
-  StudyResult jobs_so_far_;  ///< of those that are done
-};
 
 /// Calls work(i) for every run from begin on to before end on so many threads.
 /// The first exception stops the rest and is thrown.
@@ -114,29 +63,61 @@ void ForEachRun(int begin, int end, int thread_count,
   if (thrown) std::rethrow_exception(thrown);
 }
 
-/// Every job on the seeds of those runs; `take` gets each run's records, from
-/// any thread, and `end_job` is called after the last of a job.
-void RunJobs(const Study& study, const MonteCarloOptions& options, int begin,
-             int end,
-             const std::function<void(int, std::vector<RunRecord>)>& take,
-             const std::function<void()>& end_job) {
-  const double all = static_cast<double>(study.jobs.size()) * (end - begin);
-  std::mutex mutex;
-  int done = 0;
-  for (const std::vector<Case>& job : study.jobs) {
-    const std::vector<Recording> recordings = Prepare(job);
-    ForEachRun(begin, end, options.threads, [&](int i) {
-      take(i, RunCases(job, recordings,
-                       options.first_seed + static_cast<std::uint64_t>(i)));
-      const std::lock_guard lock(mutex);
-      ++done;
-      if (options.progress) options.progress(done / all);
-    });
-    end_job();
+/// What is done of a study, by the threads that do it and read by others
+/// meanwhile.
+class Work {
+ public:
+  Work(Study study, MonteCarloOptions options, int begin, int end)
+      : study_(std::move(study)),
+        options_(std::move(options)),
+        shard_{begin, end, std::vector<CaseRuns>(study_.cases.size())} {}
+
+  /// Every case on the seeds of those runs.
+  void Do() {
+    for (const Case& one : study_.cases) {
+      const Recording recording = Prepare(one);
+      ForEachRun(shard_.begin, shard_.end, options_.threads, [&](int i) {
+        const auto number = static_cast<std::uint64_t>(i);
+        Take(i, RunCase(one, recording, options_.first_seed + number));
+      });
+      const std::lock_guard lock(mutex_);
+      ++finished_;
+    }
   }
-}
+
+  StudyResult SoFar() const {
+    const std::lock_guard lock(mutex_);
+    return {study_.tables, shard_, finished_};
+  }
+
+  StudyShard TakeShard() { return std::move(shard_); }
+
+ private:
+  void Take(int run, std::vector<RunRecord> records) {
+    const std::lock_guard lock(mutex_);
+    shard_.cases[finished_].Add(run, std::move(records));
+    ++done_;
+    const double all =
+        static_cast<double>(study_.cases.size()) * (shard_.end - shard_.begin);
+    if (options_.progress) options_.progress(done_ / all);
+  }
+
+  Study study_;
+  MonteCarloOptions options_;
+  mutable std::mutex mutex_;
+  StudyShard shard_;
+  std::size_t finished_ = 0;  ///< cases
+  int done_ = 0;              ///< runs of all cases
+};
 
 }  // namespace
+
+std::vector<std::vector<std::string>> Named(
+    const std::vector<std::string>& methods) {
+  std::vector<std::vector<std::string>> labels;
+  for (const std::string& method : methods) labels.push_back({method});
+  return labels;
+}
 
 void CaseRun::Try(const std::vector<std::string>& method,
                   const std::function<void(RunRecord*)>& work) {
@@ -163,32 +144,19 @@ RunRecord* CaseRun::Add(std::size_t table,
 
 StudyResult RunStudy(const Study& study, const MonteCarloOptions& options,
                      const Watch& watch) {
-  const auto table = std::make_shared<GrowingTable>(study, options.runs);
-  if (watch) watch([table] { return table->SoFar(); });
-  RunJobs(
-      study, options, 0, options.runs,
-      [&](int i, std::vector<RunRecord> records) {
-        table->Set(i, std::move(records));
-      },
-      [&] { table->EndJob(); });
-  StudyResult result = table->SoFar();
+  const auto work = std::make_shared<Work>(study, options, 0, options.runs);
+  if (watch) watch([work] { return work->SoFar(); });
+  work->Do();
+  StudyResult result = work->SoFar();
   result.RequireAnswer();
   return result;
 }
 
 StudyShard RunShard(const Study& study, const MonteCarloOptions& options,
                     int begin, int end) {
-  StudyShard shard = {begin, end, std::vector<JobRuns>(study.jobs.size())};
-  std::size_t job = 0;
-  std::mutex mutex;
-  RunJobs(
-      study, options, begin, end,
-      [&](int i, std::vector<RunRecord> records) {
-        const std::lock_guard lock(mutex);
-        shard.jobs[job].Add(i, std::move(records), study.tables);
-      },
-      [&] { ++job; });
-  return shard;
+  Work work(study, options, begin, end);
+  work.Do();
+  return work.TakeShard();
 }
 
 }  // namespace hindsight

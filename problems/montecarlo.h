@@ -30,13 +30,21 @@ struct CaseRun {
   RunRecord* Add(std::size_t table, const std::vector<std::string>& own_labels);
 };
 
-/// What methods make of a recording: a record each, in the same order for every
-/// seed. Called from several threads at once.
-using Trial = std::function<void(const Dataset& dataset, CaseRun* run)>;
+/// What methods make of a recording.
+struct Trial {
+  /// Labels of each method, behind those of the case, in table 0.
+  std::vector<std::vector<std::string>> methods;
+  /// A record each, in the same order for every seed. Called from several
+  /// threads at once.
+  std::function<void(const Dataset& dataset, CaseRun* run)> run;
+};
+/// Labels of methods that have a name each.
+std::vector<std::vector<std::string>> Named(
+    const std::vector<std::string>& methods);
 
 /// Recordings of one kind and what is tried on them. A recording that cannot be
-/// made, or that the trial refuses with an InputError, counts as a failed run of
-/// every method.
+/// made, or that the trial refuses with an InputError, is a failed run of every
+/// method.
 struct Case {
   std::vector<std::string> labels;
   /// Called once, when its turn comes; empty: the trial needs no recording.
@@ -50,10 +58,9 @@ struct Study {
   /// What was chosen besides the cases, for the reports: key and value.
   std::vector<std::pair<std::string, std::string>> settings = {};
   std::vector<StudyTable> tables = {};  ///< of RunRecord::table
-  /// Jobs, one after the other, each prepared when its turn comes and dropped
-  /// when all its seeds are done; the cases of one share their seeds, so that
-  /// the first seeds are those of all.
-  std::vector<std::vector<Case>> jobs = {};
+  /// One after the other, each prepared when its turn comes and dropped when all
+  /// its seeds are done.
+  std::vector<Case> cases = {};
 };
 
 struct MonteCarloOptions {
@@ -68,14 +75,14 @@ struct MonteCarloOptions {
 /// thread the result as far as it is finished then.
 using Watch = std::function<void(std::function<StudyResult()> so_far)>;
 
-/// Runs every job on every seed. The result is the same to the last bit
-/// whatever the number of threads, seconds excepted. Throws what the jobs
+/// Runs every case on every seed. The result is the same to the last bit
+/// whatever the number of threads, seconds excepted. Throws what the cases
 /// throw, the first exception stopping the rest, and InputError with the first
 /// refusal where data were refused and no run was answered.
 StudyResult RunStudy(const Study& study, const MonteCarloOptions& options,
                      const Watch& watch = {});
 
-/// Runs every job on the seeds of those runs alone. Throws what the jobs throw.
+/// Runs every case on the seeds of those runs alone. Throws what the cases throw.
 StudyShard RunShard(const Study& study, const MonteCarloOptions& options,
                     int begin, int end);
 

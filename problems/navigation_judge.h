@@ -5,6 +5,7 @@
 
 #include "dataset/dataset.h"
 #include "evaluation/run_table.h"
+#include "evaluation/state_errors.h"
 #include "state/solution.h"
 
 namespace hindsight {
@@ -23,8 +24,9 @@ namespace hindsight {
 /// end_horizontal [m]; states, dimension of the error.
 /// Series: position_n, _e, _d, truth less estimate [m]; yaw [rad]; nees,
 /// e'P^-1e of the whole error state.
-void JudgeSolution(const Dataset& dataset, const std::vector<double>& times,
-                   const Solution& solution, RunRecord* record);
+StateErrors JudgeSolution(const Dataset& dataset,
+                          const std::vector<double>& times,
+                          const Solution& solution, RunRecord* record);
 
 }  // namespace hindsight
 

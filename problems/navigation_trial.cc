@@ -61,24 +61,22 @@ OutageSpans SpansOf(const Dataset& dataset,
   return spans;
 }
 
-void AddOutages(const OutageSpans& spans, const RunRecord& judged,
-                const std::string& method, CaseRun* run) {
-  if (!judged.series.contains("position_n")) return;
+void AddOutages(const OutageSpans& spans, const StateErrors& errors,
+                bool answered, const std::string& method, CaseRun* run) {
+  if (errors.position.e.empty()) return;
   for (const auto& [span, sensors] : spans) {
     double horizontal = -1.0, vertical = 0.0;
-    for (std::size_t k = 0; k < judged.t.size(); ++k) {
-      if (judged.t[k] < span.first || judged.t[k] > span.second) continue;
-      horizontal =
-          std::max(horizontal, std::hypot(judged.series.at("position_n")[k],
-                                          judged.series.at("position_e")[k]));
-      vertical =
-          std::max(vertical, std::abs(judged.series.at("position_d")[k]));
+    for (std::size_t k = 0; k < errors.t.size(); ++k) {
+      if (errors.t[k] < span.first || errors.t[k] > span.second) continue;
+      const Eigen::Vector3d& e = errors.position.e[k];
+      horizontal = std::max(horizontal, e.head<2>().norm());
+      vertical = std::max(vertical, std::abs(e.z()));
     }
     if (horizontal < 0.0) continue;
     const double length = std::round(10.0 * (span.second - span.first)) / 10.0;
     RunRecord* record =
         run->Add(kOutages, {fmt::format("{:g} s", length), sensors, method});
-    record->answered = judged.answered;
+    record->answered = answered;
     record->values = {{"horizontal", horizontal}, {"vertical", vertical}};
   }
 }
@@ -152,48 +150,56 @@ void AddBest(std::vector<Solution> solutions,
 }  // namespace
 
 Trial NavigationTrialOf(const NavigationTrial& trial) {
-  return [trial](const Dataset& dataset, CaseRun* run) {
-    ReconstructionOptions options;
-    options.node_times = JudgedTimes(trial, dataset);
-    options.attitude_alone = std::all_of(
-        trial.methods.begin(), trial.methods.end(),
-        [](const auto& name) { return MethodOf(name).attitude_alone(); });
-    std::unique_ptr<Reconstruction> reconstruction;
-    std::vector<Solution> solutions;
-    for (const std::string& method : trial.methods) {
-      run->Try({method}, [&](RunRecord* record) {
-        record->grade = Grade::kUnusable;
-        if (!reconstruction) {
-          reconstruction = std::make_unique<Reconstruction>(dataset, options);
+  std::vector<std::string> names = trial.methods;
+  if (trial.best_of_run) names.emplace_back(kBestOfRun);
+  return {
+      Named(names), [trial](const Dataset& dataset, CaseRun* run) {
+        ReconstructionOptions options;
+        options.node_times = JudgedTimes(trial, dataset);
+        options.attitude_alone = std::all_of(
+            trial.methods.begin(), trial.methods.end(),
+            [](const auto& name) { return MethodOf(name).attitude_alone(); });
+        std::unique_ptr<Reconstruction> reconstruction;
+        std::vector<Solution> solutions;
+        for (const std::string& method : trial.methods) {
+          run->Try({method}, [&](RunRecord* record) {
+            record->grade = Grade::kUnusable;
+            if (!reconstruction) {
+              reconstruction =
+                  std::make_unique<Reconstruction>(dataset, options);
+            }
+            Solution& solution =
+                solutions.emplace_back(reconstruction->Run(method));
+            if (options.attitude_alone && !options.node_times.empty()) {
+              solution = reconstruction->Sample(solution, options.node_times);
+            }
+            const StateErrors errors =
+                JudgeSolution(dataset, options.node_times, solution, record);
+            if (trial.length > 0.0 && record->Find("end_horizontal")) {
+              record->values.emplace_back(
+                  "end_drift", *record->Find("end_horizontal") / trial.length);
+            }
+            AddConstants(dataset, solution, method, run);
+            AddOutages(SpansOf(dataset, trial.silent_spans), errors,
+                       solution.converged, method, run);
+          });
         }
-        Solution& solution =
-            solutions.emplace_back(reconstruction->Run(method));
-        if (options.attitude_alone && !options.node_times.empty()) {
-          solution = reconstruction->Sample(solution, options.node_times);
+        if (trial.innovations != nullptr && reconstruction) {
+          try {
+            *trial.innovations = reconstruction->Innovations();
+          } catch (const EstimationError&) {
+            trial.innovations->clear();
+          }
         }
-        JudgeSolution(dataset, options.node_times, solution, record);
-        record->values.insert(record->values.end(), trial.values.begin(),
-                              trial.values.end());
-        AddConstants(dataset, solution, method, run);
-        AddOutages(SpansOf(dataset, trial.silent_spans), *record, method, run);
-      });
-    }
-    if (trial.innovations != nullptr && reconstruction) {
-      try {
-        *trial.innovations = reconstruction->Innovations();
-      } catch (const EstimationError&) {
-        trial.innovations->clear();
-      }
-    }
-    for (const auto& [first, second] : kCompared) {
-      const Solution* a = Find(solutions, first);
-      const Solution* b = Find(solutions, second);
-      if (a != nullptr && b != nullptr) AddAgreement(*a, *b, trial, run);
-    }
-    if (trial.best_of_run) {
-      AddBest(std::move(solutions), options.node_times, dataset, run);
-    }
-  };
+        for (const auto& [first, second] : kCompared) {
+          const Solution* a = Find(solutions, first);
+          const Solution* b = Find(solutions, second);
+          if (a != nullptr && b != nullptr) AddAgreement(*a, *b, trial, run);
+        }
+        if (trial.best_of_run) {
+          AddBest(std::move(solutions), options.node_times, dataset, run);
+        }
+      }};
 }
 
 }  // namespace hindsight

@@ -33,8 +33,9 @@ struct NavigationTrial {
   /// at every node, each of which then needs truth [s].
   double judged_every = 0.0;
   double judged_to = std::numeric_limits<double>::infinity();  ///< [s]
-  /// Further values of every cell.
-  std::vector<std::pair<std::string, double>> values = {};
+  /// Of the path [m]: every cell then has end_drift, the share of it that
+  /// end_horizontal is. Zero: not known.
+  double length = 0.0;
   /// Gets Reconstruction::Innovations, none where nothing held; nullptr: not
   /// asked for.
   std::vector<NormalisedInnovation>* innovations = nullptr;

@@ -9,8 +9,6 @@
 #include <string>
 #include <utility>
 
-#include "receiver_errors/receiver_errors.h"
-
 namespace hindsight {
 namespace {
 
@@ -29,22 +27,23 @@ class ErrorSearch {
   /// nothing stands.
   std::optional<std::vector<State>> Run(const std::vector<State>& initial) {
     std::optional<std::vector<State>> states;
-    std::vector<int> left;
-    for (int i = 0; i == 0 || (i < kMostRounds && !left.empty()); ++i) {
+    ErrorQuestion question;
+    for (int i = 0; i < kMostRounds && HasRoom(); ++i) {
       Round round;
       round.tape = std::make_unique<LinearTape>(RunLinearizedFilter(
           states ? *states : initial, &problem_, options_.callback));
-      if (i == 0) left = AbsoluteSensors(problem_.timeline, *round.tape);
-      if (left.empty() || !HasRoom()) break;
-      if (!Repeat(i, &round)) Search(i, left, &round);
-      const bool stands = round.errors.front().Stands();
-      if (stands) {
-        round.errors.front().Extend(&problem_);
-        states = round.errors.front().States(problem_.layout);
-        std::erase(left, round.errors.front().sensor());
+      Ask(i, &question);
+      round.errors = FindReceiverErrors(problem_, *round.tape, question);
+      if (round.errors.empty()) break;
+      const ReceiverErrors& best = round.errors.front();
+      const bool is_last = !best.Stands() || round.errors.size() == 1;
+      if (best.Stands()) {
+        best.Extend(&problem_);
+        states = best.States(problem_.layout);
+        question.known.push_back(best.sensor());
       }
       rounds_.push_back(std::move(round));
-      if (!stands) break;
+      if (is_last) break;
     }
     return states;
   }
@@ -99,39 +98,16 @@ class ErrorSearch {
            problem_.layout.dim() + kOwnStates <= kMaxErrorDim;
   }
 
-  /// Takes what was decided before; whether there is anything that fits.
-  bool Repeat(int round_number, Round* round) const {
-    const auto i = static_cast<std::size_t>(round_number);
-    if (options_.decisions == nullptr || i >= options_.decisions->size()) {
-      return false;
-    }
-    for (const auto& one : (*options_.decisions)[i]) {
-      std::optional<ReceiverErrors> errors = ApplyDecisions(*one, *round->tape);
-      if (!errors) {
-        round->errors.clear();
-        return false;
-      }
-      round->errors.push_back(std::move(*errors));
-    }
-    return true;
-  }
-
-  void Search(int round_number, const std::vector<int>& sensors, Round* round) {
-    const auto count = static_cast<double>(sensors.size());
-    for (std::size_t i = 0; i < sensors.size(); ++i) {
-      round->errors.push_back(FindReceiverErrors(
-          problem_, *round->tape, sensors[i],
-          {.share = 1.0 / count, .go_on = [&](double fraction) {
-             const double done = (static_cast<double>(i) + fraction) / count;
-             // A round takes half of what is left.
-             return !options_.go_on ||
-                    options_.go_on(1.0 - std::exp2(-(round_number + done)));
-           }}));
-    }
-    std::stable_sort(round->errors.begin(), round->errors.end(),
-                     [](const ReceiverErrors& a, const ReceiverErrors& b) {
-                       return a.log_gain() > b.log_gain();
-                     });
+  void Ask(int round, ErrorQuestion* question) const {
+    const auto i = static_cast<std::size_t>(round);
+    const bool decided =
+        options_.decisions != nullptr && i < options_.decisions->size();
+    question->decided = decided ? &(*options_.decisions)[i] : nullptr;
+    question->go_on = [this, round](double fraction) {
+      // A round takes half of what is left.
+      return !options_.go_on ||
+             options_.go_on(1.0 - std::exp2(-(round + fraction)));
+    };
   }
 
   static void TellNotes(const Round& round, RobustBatchResult* result) {

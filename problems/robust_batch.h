@@ -2,20 +2,17 @@
 #define HINDSIGHT_PROBLEMS_ROBUST_BATCH_H_
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "problems/batch.h"
+#include "receiver_errors/receiver_errors.h"
 #include "state/solution.h"
 
 namespace hindsight {
 
-struct ErrorDecisions;  // receiver_errors/sensor_findings.h
-
-/// What a search decided, by round and sensor.
-using SearchDecisions =
-    std::vector<std::vector<std::shared_ptr<const ErrorDecisions>>>;
+/// What a search decided, by round.
+using SearchDecisions = std::vector<DecidedErrors>;
 
 struct RobustBatchResult {
   /// As it was solved: with the errors of sensors that were found, and their
@@ -56,9 +53,9 @@ struct RobustBatchOptions {
 /// Whole-interval least squares that finds out by itself what the errors of the
 /// absolute sensors are like.
 ///
-/// FindReceiverErrors looks for them about the trajectory `initial`, for each of
-/// AbsoluteSensors by itself, the others being taken at their word: which one
-/// errs is part of the hypothesis. The one whose errors gain the most evidence is
+/// FindReceiverErrors looks for them about the trajectory `initial`, for each
+/// sensor by itself, the others being taken at their word: which one errs is part
+/// of the hypothesis. The one whose errors gain the most evidence is
 /// given them, and the rest are searched again about the trajectory that follows,
 /// until none gains any more. The batch then has
 ///   - those sensors' sigmas as found, with a two-component mixture as the loss;

@@ -1,6 +1,5 @@
 #include "problems/sample_solution.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -10,6 +9,7 @@
 
 #include "base/error.h"
 #include "imu/imu_link.h"
+#include "problems/covariance_between.h"
 #include "timeline/time_update.h"
 
 namespace hindsight {
@@ -17,125 +17,6 @@ namespace {
 
 /// Closer to a node than this is at the node: stamps are rounded [s].
 constexpr double kSameInstant = 1e-9;
-
-bool HasScale(const ErrorLayout& layout) {
-  return layout.Has(BlockKind::kGyroScale) ||
-         layout.Has(BlockKind::kAccelScale);
-}
-
-/// P between the nodes: at steps of at most kPropagationStep, linear in
-/// between.
-class CovarianceBetween {
- public:
-  CovarianceBetween(const Solution& solution, const Timeline& timeline,
-                    const ImuStream& imu, const CovarianceOptions& covariance)
-      : solution_(solution),
-        timeline_(timeline),
-        integrator_(imu, HasScale(solution.layout)),
-        policy_(covariance, solution.layout) {}
-
-  /// At t between node k and the next.
-  ErrorMatrix At(std::size_t k, double t) {
-    if (k != node_) StepFrom(k);
-    std::size_t i = 1;
-    while (i + 1 < t_.size() && t_[i] < t) ++i;
-    const double a = (t - t_[i - 1]) / (t_[i] - t_[i - 1]);
-    return (1.0 - a) * P_[i - 1] + a * P_[i];
-  }
-
- private:
-  void StepFrom(std::size_t k) {
-    node_ = k;
-    const double begin = solution_.states[k].t;
-    const double T = solution_.states[k + 1].t - begin;
-    const int steps =
-        std::max(1, static_cast<int>(std::ceil(T / kPropagationStep)));
-    t_ = {begin};
-    for (int i = 1; i < steps; ++i) t_.push_back(begin + T * i / steps);
-    t_.push_back(solution_.states[k + 1].t);
-    P_.assign(1, solution_.covariances.Get(k));
-    if (solution_.forward) {
-      Predict(k);
-    } else if (steps == 1) {
-      P_.push_back(solution_.covariances.Get(k + 1));
-    } else {
-      Bridge(k);
-    }
-  }
-
-  /// Calls `step` with the transition over each step and its length.
-  template <typename Step>
-  void ForEachStep(std::size_t k, const Step& step) {
-    State end = solution_.states[k];
-    for (std::size_t i = 1; i < t_.size(); ++i) {
-      const State begin = end;
-      const ImuSummary summary = integrator_.Summarize(
-          begin.t, t_[i], CalibrationOf(solution_.layout, begin));
-      const NodeInterval interval = {timeline_, k, summary};
-      end = Advance(solution_.layout, interval, begin);
-      LinearizeAdvance(solution_.layout, interval, begin, end, &transition_);
-      step(transition_, summary.dt());
-    }
-  }
-
-  void Predict(std::size_t k) {
-    ErrorMatrix P = P_.front();
-    ForEachStep(k, [&](const Transition& transition, double dt) {
-      policy_.Predict(transition, dt, &P);
-      P_.push_back(P);
-    });
-  }
-
-  void Bridge(std::size_t k) {
-    const ErrorMatrix before = P_.front();
-    const ErrorMatrix after = solution_.covariances.Get(k + 1);
-    const ErrorMatrix I = ErrorMatrix::Identity(before.rows(), before.cols());
-    std::vector<ErrorMatrix> Phi = {I};
-    const ErrorMatrix zero = ErrorMatrix::Zero(before.rows(), before.cols());
-    std::vector<ErrorMatrix> Q = {zero};
-    ForEachStep(k, [&](const Transition& transition, double) {
-      const ErrorMatrix step = OfMotion(transition.Phi, I);
-      Q.emplace_back(
-          step * Q.back() * step.transpose() +
-          OfMotion(OfMotion(transition.Q, zero).transpose(), zero).transpose());
-      Phi.emplace_back(step * Phi.back());
-    });
-    const ErrorMatrix back = Phi.back().inverse();
-    for (std::size_t i = 1; i + 1 < t_.size(); ++i) {
-      const double a = (t_[i] - t_.front()) / (t_.back() - t_.front());
-      const ErrorMatrix Psi = Phi[i] * back;
-      P_.emplace_back((1.0 - a) *
-                          (Phi[i] * before * Phi[i].transpose() + Q[i]) +
-                      a * (Psi * after * Psi.transpose()));
-    }
-    P_.push_back(after);
-  }
-
-  /// A matrix with the rows of position, velocity and attitude of A and all
-  /// other rows of `other`. The transition of a Gauss-Markov block tends to
-  /// zero over its correlation time and has no useful inverse; the bridge keeps
-  /// all blocks but those of motion constant.
-  ErrorMatrix OfMotion(const ErrorMatrix& A, const ErrorMatrix& other) const {
-    ErrorMatrix out = other;
-    for (const BlockKind kind :
-         {BlockKind::kPosition, BlockKind::kVelocity, BlockKind::kAttitude}) {
-      const Block* block = solution_.layout.Find(kind);
-      if (block == nullptr) continue;
-      out.middleRows(block->offset, block->dim) =
-          A.middleRows(block->offset, block->dim);
-    }
-    return out;
-  }
-
-  const Solution& solution_;
-  const Timeline& timeline_;
-  ImuIntegrator integrator_;
-  CovariancePolicy policy_;
-  Transition transition_;
-  std::size_t node_ = static_cast<std::size_t>(-1);
-  std::vector<double> t_;       ///< times of node, steps and next node [s]
-  std::vector<ErrorMatrix> P_;  ///< at these times
-};
 
 /// Linear; NaN beside a NaN.
 FilterSeparation Blend(double a, const FilterSeparation& before,
@@ -152,7 +33,7 @@ class Sampler {
           Solution* out)
       : solution_(solution),
         timeline_(timeline),
-        integrator_(imu, HasScale(solution.layout)),
+        integrator_(imu),
         covariance_(solution, timeline, imu, covariance),
         out_(*out) {
     if (solution.two_filter) out_.two_filter.emplace();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -10,37 +9,6 @@
 
 namespace hindsight {
 namespace {
-
-bool StartsWith(const std::vector<std::string>& labels,
-                const std::vector<std::string>& first) {
-  return labels.size() >= first.size() &&
-         std::equal(first.begin(), first.end(), labels.begin());
-}
-
-/// Puts a failed run of every method that other seeds of the case have in the
-/// place of each refused recording; "-" is the method where all were refused.
-void SpreadRefusals(std::size_t label_count, std::vector<RunRecord>* job) {
-  const auto middle = std::stable_partition(
-      job->begin(), job->end(),
-      [](const RunRecord& record) { return record.table != kRefused; });
-  const std::vector<RunRecord> refused(middle, job->end());
-  job->erase(middle, job->end());
-  std::set<std::vector<std::string>> cells;
-  for (const RunRecord& record : *job) {
-    if (record.table == 0) cells.insert(record.labels);
-  }
-  for (RunRecord record : refused) {
-    record.table = 0;
-    const std::vector<std::string> of_case = record.labels;
-    record.labels.resize(label_count, "-");
-    if (cells.empty()) job->push_back(record);
-    for (const std::vector<std::string>& labels : cells) {
-      if (!StartsWith(labels, of_case)) continue;
-      record.labels = labels;
-      job->push_back(record);
-    }
-  }
-}
 
 std::string RefusalOf(const RunRecord& record) {
   std::string text;
@@ -52,25 +20,31 @@ std::string RefusalOf(const RunRecord& record) {
 
 }  // namespace
 
-void JobRuns::Add(int run, std::vector<RunRecord> of_run,
-                  const std::vector<StudyTable>& tables) {
+void CaseRuns::Add(int run, std::vector<RunRecord> of_run) {
   FoldTree::Node node = {.level = 0, .index = run, .cells = {}};
   for (RunRecord& record : of_run) {
-    if (record.table == kRefused) continue;
-    if (!tables[record.table].folds_series) continue;
     if (record.answered && !record.t.empty()) {
       node.cells[{record.table, record.labels}] =
           FoldOfRun(std::move(record.t), std::move(record.series));
     }
-    record.t = {};
-    record.series = {};
+    record.t.clear();
+    record.series.clear();
   }
   folds.Add(std::move(node));
   records[run] = std::move(of_run);
 }
 
-StudyResult::StudyResult(const std::vector<StudyTable>& of)
-    : tables(of), rows(of.size()) {}
+StudyResult::StudyResult(const std::vector<StudyTable>& of,
+                         const StudyShard& shard, std::size_t finished)
+    : complete(finished == shard.cases.size()), tables(of), rows(of.size()) {
+  if (finished > 0) {
+    runs = shard.end;
+  } else if (shard.cases.size() == 1) {
+    while (shard.cases[0].records.contains(runs)) ++runs;
+    finished = 1;
+  }
+  for (std::size_t i = 0; i < finished; ++i) Add(shard.cases[i], runs);
+}
 
 bool StudyResult::answered() const {
   return std::any_of(records.begin(), records.end(),
@@ -90,24 +64,19 @@ const FigureRow& StudyResult::Row(const std::vector<std::string>& labels,
   throw std::out_of_range("no row of that case and method");
 }
 
-void StudyResult::Add(const JobRuns& job, int first_runs) {
+void StudyResult::Add(const CaseRuns& one, int first_runs) {
   std::vector<RunRecord> added;
-  for (auto run = job.records.begin();
-       run != job.records.end() && run->first < first_runs; ++run) {
+  for (auto run = one.records.begin();
+       run != one.records.end() && run->first < first_runs; ++run) {
     added.insert(added.end(), run->second.begin(), run->second.end());
   }
-  for (const RunRecord& record : added) {
-    if (!record.refusal.empty()) refusals.push_back(RefusalOf(record));
-  }
-  SpreadRefusals(tables[0].labels.size(), &added);
-  const CellFolds folds = job.folds.First(first_runs);
+  const CellFolds folds = one.folds.First(first_runs);
   for (std::size_t i = 0; i < tables.size(); ++i) {
     std::ranges::move(Summarize(tables[i], i, added, folds),
                       std::back_inserter(rows[i]));
   }
   for (RunRecord& record : added) {
-    record.t.clear();
-    record.series.clear();
+    if (!record.refusal.empty()) refusals.push_back(RefusalOf(record));
     records.push_back(std::move(record));
   }
 }
@@ -118,29 +87,23 @@ void StudyResult::RequireAnswer() const {
 
 StudyResult MergeShards(const std::vector<StudyTable>& tables,
                         std::vector<StudyShard> shards) {
-  std::sort(shards.begin(), shards.end(),
-            [](const StudyShard& a, const StudyShard& b) {
-              return a.begin < b.begin;
-            });
-  StudyResult result(tables);
-  for (const StudyShard& shard : shards) {
-    if (shard.begin != result.runs ||
-        shard.jobs.size() != shards.front().jobs.size()) {
+  std::ranges::sort(shards, {}, &StudyShard::begin);
+  StudyShard all;
+  all.cases.resize(shards.front().cases.size());
+  for (StudyShard& shard : shards) {
+    if (shard.begin != all.end || shard.cases.size() != all.cases.size()) {
       throw std::invalid_argument("the shards are not those of one study");
     }
-    result.runs = shard.end;
-  }
-  for (std::size_t i = 0; i < shards.front().jobs.size(); ++i) {
-    JobRuns all;
-    for (StudyShard& shard : shards) {
-      all.records.merge(shard.jobs[i].records);
-      for (const auto& [begin, node] : shard.jobs[i].folds.nodes()) {
-        all.folds.Add(node);
+    all.end = shard.end;
+    for (std::size_t i = 0; i < all.cases.size(); ++i) {
+      all.cases[i].records.merge(shard.cases[i].records);
+      for (const auto& [begin, node] : shard.cases[i].folds.nodes()) {
+        all.cases[i].folds.Add(node);
       }
-      shard.jobs[i] = {};
+      shard.cases[i] = {};
     }
-    result.Add(all, result.runs);
   }
+  StudyResult result(tables, all, all.cases.size());
   result.RequireAnswer();
   return result;
 }

@@ -2,7 +2,6 @@
 #define HINDSIGHT_PROBLEMS_STUDY_RESULT_H_
 
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,36 +14,37 @@ namespace hindsight {
 /// \file
 /// From the records of runs to the figures of a study.
 
-/// RunRecord::table of a recording that was refused as a whole, its labels those
-/// of the case: a failed run of every method that the case has of other seeds.
-inline constexpr std::size_t kRefused = std::numeric_limits<std::size_t>::max();
-
-/// What one job made of some runs.
-struct JobRuns {
+/// What one case made of some runs.
+struct CaseRuns {
   /// By run; empty of those that are not there.
   std::map<int, std::vector<RunRecord>> records;
-  FoldTree folds;  ///< of the series of tables that fold them
+  FoldTree folds;  ///< of their series, which the records have no more
 
-  /// The records of a run that is not there yet; their series are folded as
-  /// the tables want it.
-  void Add(int run, std::vector<RunRecord> of_run,
-           const std::vector<StudyTable>& tables);
+  /// The records of a run that is not there yet.
+  void Add(int run, std::vector<RunRecord> of_run);
 };
 
-/// What is known of a study: of all its jobs the seeds of all, or of those that
-/// are finished; of a study of one job the first seeds without a gap.
+/// What all cases of a study made of the runs begin to end - 1.
+struct StudyShard {
+  int begin = 0;
+  int end = 0;
+  std::vector<CaseRuns> cases;
+};
+
+/// What is known of a study: of all its cases the seeds of all, or of those that
+/// are finished; of a study of one case the first seeds without a gap.
 struct StudyResult {
   int runs = 0;  ///< behind every row
   bool complete = true;
   std::vector<StudyTable> tables;
   std::vector<std::vector<FigureRow>> rows;  ///< by table
-  /// Without their series.
   std::vector<RunRecord> records;
   /// A line each run whose data were refused: case, method, seed, what is wrong.
   std::vector<std::string> refusals;
 
-  /// Of no runs.
-  explicit StudyResult(const std::vector<StudyTable>& of);
+  /// Of runs from 0 on, of which so many cases have all.
+  StudyResult(const std::vector<StudyTable>& of, const StudyShard& shard,
+              std::size_t finished);
 
   /// Whether any run was.
   bool answered() const;
@@ -55,18 +55,13 @@ struct StudyResult {
   /// The row itself; throws std::out_of_range.
   const FigureRow& Row(const std::vector<std::string>& labels,
                        std::size_t table = 0) const;
-  /// Adds what a job made of its runs 0 to first_runs - 1.
-  void Add(const JobRuns& job, int first_runs);
   /// Throws InputError with the first refusal where data were refused and no
   /// run was answered.
   void RequireAnswer() const;
-};
 
-/// What all jobs of a study made of the runs begin to end - 1.
-struct StudyShard {
-  int begin = 0;
-  int end = 0;
-  std::vector<JobRuns> jobs;
+ private:
+  /// What a case made of its runs 0 to first_runs - 1.
+  void Add(const CaseRuns& one, int first_runs);
 };
 
 /// The result of RunStudy with those tables, to the last bit, seconds excepted,

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/processor_time.h"
+#include "measurements/sensor_kind.h"
 #include "problems/blunders.h"
 #include "problems/method.h"
 #include "problems/method_stage.h"

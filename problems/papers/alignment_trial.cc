@@ -1,39 +1,43 @@
 #include "problems/papers/alignment_trial.h"
 
-#include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "alignment/alignment_window.h"
 #include "base/processor_time.h"
+#include "evaluation/state_errors.h"
 #include "evaluation/statistics.h"
-#include "evaluation/true_states.h"
 #include "problems/reconstruction.h"
 
 namespace hindsight {
 namespace {
 
-/// Errors at every node, as series of the record.
-void JudgeAttitude(const Dataset& dataset, const ErrorLayout& layout,
-                   const std::vector<State>& states, const CovarianceSeries& P,
-                   RunRecord* record) {
-  const std::vector<State> truth = TrueStates(dataset, layout, states);
-  const int a = layout.Find(BlockKind::kAttitude)->offset;
+/// Errors of the attitudes into the record; it fails where one of the last
+/// seconds is beyond the limits.
+void JudgeAttitude(const AlignmentTrialOptions& trial,
+                   const StateErrors& errors, RunRecord* record) {
   auto& series = record->series;
-  for (std::size_t k = 0; k < states.size(); ++k) {
-    const Eigen::Vector3d e = Local(layout, states[k], truth[k]).segment<3>(a);
-    const Eigen::Matrix3d P_k = P.Get(k).block<3, 3>(a, a);
-    record->t.push_back(states[k].t);
+  record->t = errors.t;
+  series["nees"] = errors.attitude.nees;
+  std::vector<double> tilt_sigma, heading_sigma;
+  for (std::size_t k = 0; k < errors.t.size(); ++k) {
+    const Eigen::Vector3d& e = errors.attitude.e[k];
+    const Eigen::Vector3d& sigma = errors.attitude.sigma[k];
     series["tilt"].push_back(e.head<2>().norm());
     series["heading"].push_back(std::abs(e.z()));
-    series["nees"].push_back(e.dot(P_k.llt().solve(e)));
-    series["tilt_sigma"].push_back(std::sqrt(P_k(0, 0) + P_k(1, 1)));
-    series["heading_sigma"].push_back(std::sqrt(P_k(2, 2)));
+    tilt_sigma.push_back(sigma.head<2>().norm());
+    heading_sigma.push_back(sigma.z());
+    record->failed =
+        record->failed || (errors.t[k] >= errors.t.back() - trial.last &&
+                           (series["tilt"].back() > trial.diverged_tilt ||
+                            series["heading"].back() > trial.diverged_heading));
   }
-  record->values.emplace_back("states", 3.0);
-}
-
-bool IsOff(const AlignmentTrialOptions& trial, double tilt, double heading) {
-  return tilt > trial.diverged_tilt || heading > trial.diverged_heading;
+  record->values.insert(record->values.end(),
+                        {{"states", 3.0},
+                         {"tilt", Rms(series["tilt"])},
+                         {"heading", Rms(series["heading"])},
+                         {"tilt_sigma", Rms(tilt_sigma)},
+                         {"heading_sigma", Rms(heading_sigma)}});
 }
 
 AlignmentInput InputOf(const Dataset& dataset, double to) {
@@ -61,14 +65,14 @@ void TryEarly(const Dataset& dataset, const AlignmentTrialOptions& trial,
           .Align(0.0);
   record->values = {{kSeconds, ProcessorSeconds() - t0}};
   if (!found || !found->refined) return record->Fail();
-  JudgeAttitude(dataset, found->refined->layout, found->refined->states,
-                found->refined->P, record);
-  record->t = {record->t.back()};
-  for (auto& [name, series] : record->series) {
-    series = {name == "nees" ? series.front() : series.back()};
-  }
-  record->failed =
-      IsOff(trial, record->series["tilt"][0], record->series["heading"][0]);
+  const WindowSolution& window = *found->refined;
+  const auto errors_at = [&](std::size_t k) {
+    return ErrorsOf(dataset, window.layout, window.states, window.P,
+                    std::vector{k});
+  };
+  StateErrors errors = errors_at(window.states.size() - 1);
+  errors.attitude.nees = errors_at(0).attitude.nees;
+  JudgeAttitude(trial, errors, record);
 }
 
 void TryBatch(const Dataset& dataset, const AlignmentTrialOptions& trial,
@@ -76,46 +80,41 @@ void TryBatch(const Dataset& dataset, const AlignmentTrialOptions& trial,
   const double t0 = ProcessorSeconds();
   const Solution solution = Solve(dataset, ReconstructionOptions{});
   record->values = {{kSeconds, ProcessorSeconds() - t0}};
-  JudgeAttitude(dataset, solution.layout, solution.states, solution.covariances,
-                record);
   record->failed = !solution.converged;
-  for (std::size_t k = 0; k < record->t.size(); ++k) {
-    if (record->t[k] < record->t.back() - trial.last) continue;
-    record->failed = record->failed || IsOff(trial, record->series["tilt"][k],
-                                             record->series["heading"][k]);
-  }
-}
-
-Figure AngleFigure(const std::string& angle) {
-  return Several(angle, kDegrees, angle + " [deg]\nrms  worst  sigma  max",
-                 "{:.4f}",
-                 {{"rms", angle, OfAll<Rms>},
-                  {"worst", angle, OfCurve<Largest, Rms>},
-                  {"sigma", angle + "_sigma", OfAll<Rms>},
-                  {"max", angle, OfAll<Largest>}});
+  JudgeAttitude(
+      trial,
+      ErrorsOf(dataset, solution.layout, solution.states, solution.covariances),
+      record);
 }
 
 }  // namespace
 
 StudyTable AlignmentTable() {
-  return {"cells",
-          {"method"},
-          {FailedFigure(), AngleFigure("tilt"), AngleFigure("heading"),
-           Single("anees", kPlain, "ANEES\n(3)", "{:.2f}", "nees",
-                  OfCurve<Mean, Mean>),
-           AneesBoundFigure("bounds", "{:.2f}"),
-           Share("anees_outside", "outside\n[%]", "nees", AneesOutside),
-           SecondsFigure()},
-          {}};
+  StudyTable table = {"cells", {"method"}};
+  table.Add({FailedFigure()});
+  for (const std::string angle : {"tilt", "heading"}) {
+    table.Add(
+        {{angle + "_rms", kDegrees, OfRuns(Rms), angle},
+         {angle + "_worst", kDegrees, OfCurve(Largest, SeriesFold::Rms), angle},
+         {angle + "_sigma", kDegrees, OfRuns(Rms)}});
+  }
+  table.Add({{"anees", kPlain, OfCurve(Mean, SeriesFold::Mean), "nees"}});
+  table.AddAneesBounds();
+  table.Add({{"anees_outside", kPlain, AneesOutside, "nees"}, SecondsFigure()});
+  return table;
 }
 
 Trial AlignmentTrial(const AlignmentTrialOptions& trial) {
-  return [trial](const Dataset& dataset, CaseRun* run) {
-    run->Try({"velocity_alignment"},
-             [&](RunRecord* record) { TryEarly(dataset, trial, record); });
-    run->Try({"velocity_alignment_batch"},
-             [&](RunRecord* record) { TryBatch(dataset, trial, record); });
-  };
+  constexpr auto kEarly = "velocity_alignment";
+  constexpr auto kBatch = "velocity_alignment_batch";
+  return {Named({kEarly, kBatch}), [=](const Dataset& dataset, CaseRun* run) {
+            run->Try({kEarly}, [&](RunRecord* record) {
+              TryEarly(dataset, trial, record);
+            });
+            run->Try({kBatch}, [&](RunRecord* record) {
+              TryBatch(dataset, trial, record);
+            });
+          }};
 }
 
 }  // namespace hindsight

@@ -20,8 +20,8 @@ struct AlignmentTrialOptions {
 ///
 /// Errors of the attitude in NED; tilt is the norm of its horizontal part,
 /// about two axes. Of both angles _rms over runs and epochs, _worst over the
-/// runs at the epoch where it is largest, _sigma, stated, root mean square, and
-/// _max of a single run at a single epoch. anees, mean of e' P^-1 e (3 is
+/// runs at the epoch where it is largest, and _sigma, stated, root mean square.
+/// anees, mean of e' P^-1 e (3 is
 /// right): at the first epoch, and of the batch over all nodes; anees_outside,
 /// the share of those epochs at which the average over the runs is outside of
 /// the bounds.

@@ -127,78 +127,53 @@ RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
   }
 }
 
-namespace {
-
-/// Percentiles over the runs that have the value.
-Figure RankFigure(const std::string& name, Unit unit, const std::string& title,
-                  const char* format) {
-  return Several(name, unit, title, format,
-                 {{"50", name, OfRuns<Rank50>}, {"95", name, OfRuns<Rank95>}});
-}
-
-Figure MeanShare(const std::string& name, const std::string& title) {
-  return Share(name, title, name, OfRuns<Mean>);
-}
-
-std::vector<Figure> OutcomeFigures() {
-  constexpr Unit kInSeconds = {"s", 1.0};
-  return {
-      MeanShare("diverged", "diverged\n[%]"),
-      MeanShare("escaped", "escaped\n[%]"),
-      Single("t_escape", kInSeconds, "escape\nat [s]", "{:.2f}",
-             OfRuns<Rank50>),
-      MeanShare("converged", "converged\n[%]"),
-      RankFigure("t_settled", kInSeconds, "settled after [s]\n50 %  95 %",
-                 "{:.1f}"),
-      RankFigure("tilt", kDegrees, "final tilt [deg]\n50 %  95 %", "{:.3f}"),
-      RankFigure("heading", kDegrees, "final heading [deg]\n50 %  95 %",
-                 "{:.3f}"),
-      MeanShare("backed_off", "backed\noff [%]"),
-      Single("least_information", kPlain, "least\ninform.", "{:.2g}",
-             OfRuns<Rank50>)};
-}
-
-std::vector<Figure> LyapunovTable() {
-  const Reduce kMedian = OfRuns<Rank50>;
-  std::vector<Figure> figures = {
-      Several("v", kPlain, "V = e' P^-1 e\nfirst  largest  last", "{:.3g}",
-              {{"first", "v_first", kMedian},
-               {"largest", "v_largest", kMedian},
-               {"last", "v_last", kMedian}}),
-      Several("share_falling", kPlain, "V fell [%]\nfirst 30 s  all", "{:.0f}",
-              {{"early", "share_falling_early", kMedian},
-               {"", "share_falling", kMedian}}),
-      Several("p", kPlain, "eigenvalues of P\nleast  largest", "{:.1e}",
-              {{"least", "p_least", OfRuns<Least>},
-               {"largest", "p_largest", OfRuns<Largest>}}),
-      Several("radius", kDegrees, "radius [deg]\nfirst  largest", "{:.1e}",
-              {{"first", "radius_first", kMedian},
-               {"largest", "radius_largest", kMedian}})};
-  figures[1].factor = 100.0;
-  for (Figure& figure : figures) figure.part = 1;
-  return figures;
-}
-
-}  // namespace
-
 StudyTable ObserverTable() {
-  StudyTable table = {"cells", {"rule", "error"}, OutcomeFigures(), {}};
-  for (Figure& figure : LyapunovTable()) table.figures.push_back(figure);
+  constexpr Unit kInSeconds = {"s", 1.0};
+  const Reduce median = OfRuns(Rank50);
+  const Reduce mean = OfRuns(Mean);
+  StudyTable table = {"cells", {"rule", "error"}};
+  const auto add_ranks = [&](const std::string& name, const Unit& unit) {
+    table.Add({{name + "_50", unit, median, name},
+               {name + "_95", unit, OfRuns(Rank95), name}});
+  };
+  table.Add({{"diverged", kPlain, mean},
+             {"escaped", kPlain, mean},
+             {"t_escape", kInSeconds, median},
+             {"converged", kPlain, mean}});
+  add_ranks("t_settled", kInSeconds);
+  add_ranks("tilt", kDegrees);
+  add_ranks("heading", kDegrees);
+  table.Add({{"backed_off", kPlain, mean},
+             {"least_information", kPlain, median},
+             {"v_first", kPlain, median},
+             {"v_largest", kPlain, median},
+             {"v_last", kPlain, median},
+             {"share_falling_early", kPlain, median},
+             {"share_falling", kPlain, median},
+             {"p_least", kPlain, OfRuns(Least)},
+             {"p_largest", kPlain, OfRuns(Largest)},
+             {"radius_first", kDegrees, median},
+             {"radius_largest", kDegrees, median}});
   return table;
 }
 
 Trial ObserverTrial(const std::vector<ObserverModel>& models,
                     const ObserverLimits& limits) {
-  return [=](const Dataset& dataset, CaseRun* run) {
+  Trial trial;
+  for (const ObserverModel& model : models) {
+    trial.methods.push_back({model.rule, ErrorName(model.model.error)});
+  }
+  trial.run = [=, methods = trial.methods](const Dataset& dataset,
+                                           CaseRun* run) {
     const Timeline timeline = TimelineOf(dataset);
-    for (const ObserverModel& model : models) {
-      run->Try({model.rule, ErrorName(model.model.error)},
-               [&](RunRecord* record) {
-                 record->values =
-                     RunObserver(model.model, dataset, limits, timeline);
-               });
+    for (std::size_t i = 0; i < models.size(); ++i) {
+      run->Try(methods[i], [&](RunRecord* record) {
+        record->values =
+            RunObserver(models[i].model, dataset, limits, timeline);
+      });
     }
   };
+  return trial;
 }
 
 }  // namespace hindsight

@@ -72,7 +72,7 @@ void Follow(FusionArchitecture architecture, const Sensors& sensors,
                                           Eigen::Vector3d::Zero()};
   const Track prior = {truth.front(), ErrorMatrix::Identity(kStates, kStates)};
   const auto fusion = MakeFusion(architecture, sensors, prior);
-  auto& series = record->series;
+  std::vector<double> horizontal, spatial, nees;
   for (std::size_t k = 1; k < truth.size(); ++k) {
     std::array<RowVector, 2> z;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -82,14 +82,18 @@ void Follow(FusionArchitecture architecture, const Sensors& sensors,
     }
     const Track fused = fusion->Step(z[0], z[1]);
     const ErrorVector e = truth[k] - fused.x;
-    record->t.push_back(kStep * static_cast<double>(k));
-    series["horizontal"].push_back(std::hypot(e(0), e(2)));
-    series["spatial"].push_back(std::hypot(e(0), e(2), e(4)));
-    series["nees"].push_back(e.dot(fused.P.llt().solve(e)) / kStates);
+    horizontal.push_back(std::hypot(e(0), e(2)));
+    spatial.push_back(std::hypot(e(0), e(2), e(4)));
+    nees.push_back(e.dot(fused.P.llt().solve(e)) / kStates);
     if (architecture == FusionArchitecture::kEqualised) {
       error[0] = sensors[0].H * (fused.x - truth[k]);
     }
   }
+  record->values = {{"spatial_mean", Mean(spatial)},
+                    {"spatial_rms", Rms(spatial)},
+                    {"horizontal_mean", Mean(horizontal)},
+                    {"horizontal_rms", Rms(horizontal)},
+                    {"nees", Mean(nees)}};
 }
 
 /// Truth that moves as the sensor's A and Q say.
@@ -109,47 +113,31 @@ UuvTruth DrawTruth(const LinearSensor& sensor, int epochs, std::uint64_t seed) {
 Case FusionCase(const std::string& name, const Sensors& sensors,
                 const Sensors& central, const Errors& errors,
                 const std::function<UuvTruth(std::uint64_t)>& truth_of) {
-  return {
-      {name}, {}, [=](const Dataset&, CaseRun* run) {
-        const UuvTruth truth = truth_of(run->seed);
-        for (const FusionArchitecture architecture : kFusionArchitectures) {
-          const bool is_central = architecture == FusionArchitecture::kCentral;
-          Follow(architecture, is_central ? central : sensors, truth, errors,
-                 run->seed, run->Add(0, {FusionName(architecture)}));
-        }
-      }};
+  const auto run = [=](const Dataset&, CaseRun* of_case) {
+    const UuvTruth truth = truth_of(of_case->seed);
+    for (const FusionArchitecture architecture : kFusionArchitectures) {
+      const bool is_central = architecture == FusionArchitecture::kCentral;
+      Follow(architecture, is_central ? central : sensors, truth, errors,
+             of_case->seed, of_case->Add(0, {FusionName(architecture)}));
+    }
+  };
+  return {{name}, {}, {{}, run}};
 }
 
-/// About the mean, divisor the number of values.
-double Scatter(const std::vector<double>& values) {
-  return ComputeStatistics(values).std;
-}
-
-double BinOf(const std::vector<double>& values) {
-  return CountValues(values).bin;
+/// Standard deviation about the mean over all runs and epochs.
+double Scatter(const RunCell& cell, const std::string& distance) {
+  const double rms = Rms(cell.Values(distance + "_rms"));
+  const double mean = Mean(cell.Values(distance + "_mean"));
+  return std::sqrt(std::max(0.0, rms * rms - mean * mean));
 }
 
 StudyTable FusionTable() {
-  const std::pair<std::string, const char*> kDistances[] = {
-      {"spatial", "3-D\nmean  std [m]"}, {"horizontal", "2-D\nmean  std [m]"}};
-  StudyTable table = {"cells", {"reading", "architecture"}, {}, {}};
-  std::vector<Figure>& figures = table.figures;
-  for (const auto& [name, title] : kDistances) {
-    figures.push_back(
-        Several(name, kMetres, title, "{:.3f}",
-                {{"mean", name, OfAll<Mean>}, {"std", name, OfAll<Scatter>}}));
+  StudyTable table = {"cells", {"reading", "architecture"}};
+  for (const std::string distance : {"spatial", "horizontal"}) {
+    table.Add({{distance + "_mean", kMetres, OfRuns(Mean)},
+               {distance + "_std", kMetres, Scatter, distance}});
   }
-  figures.push_back(Single("nees", kPlain, "NEES\n/ 6", "{:.3g}", OfAll<Mean>));
-  for (const auto& [name, title] : kDistances) {
-    figures.push_back(
-        Single(name + "_bin", kMetres, "", "", name, OfAll<BinOf>));
-  }
-  for (const auto& [name, title] : kDistances) {
-    figures.push_back(Several(name + "_histogram", kPlain, "", "", {}));
-    figures.back().list = [name = name](const RunCell& cell) {
-      return CountValues(cell.Pooled(name)).counts;
-    };
-  }
+  table.Add({{"nees", kPlain, OfRuns(Mean)}});
   return table;
 }
 
@@ -209,10 +197,10 @@ Study UuvFusionStudy(const UuvTruth& truth,
     if (!reading.weighs_by_noise) {
       central[0].R = central[1].R = 0.5 * (sensors[0].R + sensors[1].R);
     }
-    study.jobs.push_back(
-        {FusionCase(reading.Name(), sensors, central,
-                    {{kInsSigma, kDvlSigma}, reading.white_errors},
-                    [truth](std::uint64_t) { return truth; })});
+    study.cases.push_back(
+        FusionCase(reading.Name(), sensors, central,
+                   {{kInsSigma, kDvlSigma}, reading.white_errors},
+                   [truth](std::uint64_t) { return truth; }));
   }
   return study;
 }
@@ -223,11 +211,11 @@ void AddMatchedFusion(const std::string& name, int epochs,
   reading.adds_velocity = false;
   const Sensors sensors = {MakeSensor(reading, kDvlProcess, sigma[0]),
                            MakeSensor(reading, kDvlProcess, sigma[1])};
-  study->jobs.push_back(
-      {FusionCase(name, sensors, sensors, {sigma, true},
-                  [sensor = sensors[1], epochs](std::uint64_t seed) {
-                    return DrawTruth(sensor, epochs, seed);
-                  })});
+  study->cases.push_back(
+      FusionCase(name, sensors, sensors, {sigma, true},
+                 [sensor = sensors[1], epochs](std::uint64_t seed) {
+                   return DrawTruth(sensor, epochs, seed);
+                 }));
 }
 
 }  // namespace hindsight

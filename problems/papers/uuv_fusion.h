@@ -46,11 +46,10 @@ using UuvTruth = std::vector<ErrorVector>;
 /// The sensors of the paper, INS and DVL, under a reading.
 std::array<LinearSensor, 2> UuvSensors(const UuvReading& reading);
 
-/// Every architecture on the same measurements of the path, a job each reading.
+/// Every architecture on the same measurements of the path, a case each reading.
 /// Figures, in columns reading and architecture: of the distance error over all
-/// epochs and runs, spatial (3-D) and horizontal (2-D), _mean, _std, and a
-/// _histogram in steps of _bin (CountValues); nees, mean of e' P^-1 e / 6
-/// (right is 1).
+/// epochs and runs, spatial (3-D) and horizontal (2-D), _mean and _std; nees,
+/// mean of e' P^-1 e / 6 (right is 1).
 Study UuvFusionStudy(const UuvTruth& truth,
                      const std::vector<UuvReading>& readings);
 

@@ -11,6 +11,7 @@
 #include "app/draft_noise.h"
 #include "app/draft_places.h"
 #include "app/draft_timing.h"
+#include "app/draft_truth.h"
 #include "app/draft_turns.h"
 #include "app/draft_wheel.h"
 #include "base/error.h"
@@ -19,8 +20,6 @@
 #include "dataset/gyro_unit.h"
 #include "dataset/median_field.h"
 #include "dataset/mirrored_axis.h"
-#include "dataset/truth_lever_arm.h"
-#include "earth/wgs84.h"
 #include "geometry/so3.h"
 #include "io/config/config.h"
 #include "io/config/init_config.h"
@@ -66,7 +65,7 @@ class Refiner {
       TellReadingNoise(dataset_, &draft_);
       if (!Load()) return;
     }
-    TakePlaceOfTruth();
+    TakePlaceOfTruth(dataset_, &draft_);
     TellFixNoise(dataset_, &draft_);
     if (!Load()) return;
     Say("clocks");
@@ -83,7 +82,7 @@ class Refiner {
     SetForward();
     TellTruthClock(dataset_, &draft_);
     if (!Load()) return;
-    TellTruthPoint();
+    TellTruthPoint(dataset_, &draft_);
     TellFixNoise(dataset_, &draft_);
     if (!Load()) return;
     TellLikelyNoise(
@@ -157,52 +156,6 @@ class Refiner {
     return true;
   }
 
-  /// Where no stream tells the place, and a truth lies elsewhere than the one
-  /// that was put in its stead.
-  void TakePlaceOfTruth() {
-    constexpr double kElsewhere = 1e4;  // m
-    const KeyLine* place = FindLine(draft_.top, "  position");
-    if (place == nullptr) return;
-    const Eigen::Vector3d nowhere = EcefFromGeodetic({});
-    for (const TruthPoint& point : dataset_.truth) {
-      if (point.t < dataset_.imu.t_begin() || !point.p_e) continue;
-      if ((*point.p_e - nowhere).norm() < kElsewhere) return;
-      std::erase_if(draft_.top, [](const KeyLine& line) {
-        return line.key.starts_with("  position");
-      });
-      std::erase_if(draft_.assumptions, [](const std::string& assumption) {
-        return assumption.starts_with("no stream tells the position");
-      });
-      StartFrom(point);
-      return;
-    }
-  }
-
-  void StartFrom(const TruthPoint& point) {
-    constexpr char kWhy[] = "no stream tells where it begins";
-    const bool whole = point.v_n && point.q_nb;
-    const Geodetic place = GeodeticFromEcef(*point.p_e);
-    const auto at =
-        std::find_if(draft_.top.begin(), draft_.top.end(),
-                     [](const KeyLine& line) { return line.key == "initial"; });
-    std::vector<KeyLine> lines = {{"  position_sigma", "1 m", "(a guess)"}};
-    if (whole) {
-      lines.insert(lines.begin(), {"  from", "truth", kWhy});
-    } else {
-      lines.insert(lines.begin(),
-                   {{"  time", fmt::format("{:.6f} s", point.t), "of that"},
-                    {"  position",
-                     fmt::format("[{:.9f} deg, {:.9f} deg, {:.3f} m]",
-                                 place.latitude / kDegree,
-                                 place.longitude / kDegree, place.height),
-                     std::string(kWhy) + ": the truth's first"}});
-    }
-    draft_.top.insert(at + 1, lines.begin(), lines.end());
-    draft_.Assume(
-        "no stream tells the position: the truth's first is the start "
-        "(initial.position)");
-  }
-
   /// In the file's columns, which body axis `axis` comes from.
   void TurnRound(int axis) {
     std::vector<KeyLine>& lines = draft_.imu->lines;
@@ -225,34 +178,6 @@ class Refiner {
       line.value.insert(1, "-");
       line.comment +=
           (line.comment.empty() ? "" : "; ") + std::string("mirrored (likely)");
-    }
-  }
-
-  /// Of which point a truth speaks, where its velocities in turns tell.
-  void TellTruthPoint() {
-    constexpr double kSure = 5.0;   // sigmas
-    constexpr double kFar = 0.1;    // m
-    constexpr double kKnown = 0.3;  // m
-    if (!draft_.truth) return;
-    const auto found = FindTruthLeverArm(dataset_);
-    const bool apart =
-        found && ((found->l_b.array().abs() > kSure * found->sigma.array()) &&
-                  (found->l_b.array().abs() > kFar))
-                     .any();
-    if (apart) {
-      SetLine(
-          {"lever_arm",
-           fmt::format("[{:.2f}, {:.2f}, {:.2f} m]", found->l_b.x(),
-                       found->l_b.y(), found->l_b.z()),
-           fmt::format("of the point it speaks of: its velocities in turns "
-                       "say so, +- {:.2g}, {:.2g}, {:.2g} m (likely)",
-                       found->sigma.x(), found->sigma.y(), found->sigma.z())},
-          &draft_.truth->lines);
-      return;
-    }
-    const bool known = found && found->sigma.maxCoeff() < kKnown;
-    if (FindLine(draft_.top, "  from") != nullptr && !known) {
-      draft_.Assume("truth: taken to speak of the point where the IMU is");
     }
   }
 

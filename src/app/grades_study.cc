@@ -33,10 +33,10 @@ Study GradesStudy() {
                          ApplyFault(fault, seed, d);
                        }});
     }
-    study.jobs.push_back(
-        {{{scenario.name},
-          [scenario] { return RecordingOf(scenario); },
-          GradeTrial({.methods = asked.names, .judged_every = 1.0}, twins)}});
+    study.cases.push_back(
+        {{scenario.name},
+         [scenario] { return RecordingOf(scenario); },
+         GradeTrial({.methods = asked.names, .judged_every = 1.0}, twins)});
   }
   return study;
 }

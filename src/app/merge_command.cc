@@ -78,7 +78,7 @@ std::vector<PlacedShard> ReadShards(const std::vector<std::string>& folders) {
   return placed;
 }
 
-/// Its tables, settings and name; of its jobs nothing is asked.
+/// Its tables, settings and name; of its cases nothing is asked.
 Study StudyOf(const ShardedCall& call) {
   for (const NamedStudy& named : NamedStudies()) {
     if (named.name != call.study) continue;

@@ -42,9 +42,8 @@ constexpr const char* kHelpAfter = R"(Writes into the folder of --out:
 The folder appears when all is done, as that of 'run' does. After Ctrl-C,
 SIGTERM, SIGHUP or on a full disk montecarlo.json says complete: false and holds
 the first runs as far as they are finished, as --runs of that number makes them
-(two at least, or nothing stays); of gps_jumps, uuv_survey, uuv_search,
-vibration_attitude, tunnel_sweep and several scenarios the cases that are
-finished. The figures do not depend on the number of threads. A recording that
+(two at least, or nothing stays), and of several cases those that are finished.
+The figures do not depend on the number of threads. A recording that
 is refused counts as a failed run and is named.
 )";
 

@@ -1,5 +1,3 @@
-#include "app/paper_studies.h"
-
 #include <string>
 #include <utility>
 #include <vector>
@@ -7,6 +5,7 @@
 #include "app/flags.h"
 #include "app/list_flags.h"
 #include "app/observer_flags.h"
+#include "app/studies.h"
 #include "app/study_cases.h"
 #include "base/error.h"
 #include "base/units.h"
@@ -39,10 +38,9 @@ UuvTruth SearchTruth() {
   return truth;
 }
 
-/// A job of its own for recordings that need no preparation.
-std::vector<Case> AttitudeJob(const std::string& label, const Recording& made,
-                              const Trial& trial) {
-  return {{{label}, [made] { return made; }, trial}};
+Case AttitudeCase(const std::string& label, const Recording& recording,
+                  const Trial& trial) {
+  return {{label}, [recording] { return recording; }, trial};
 }
 
 }  // namespace
@@ -61,8 +59,7 @@ Study InFlightStudy() {
         {"start_errors.heading", "30 deg|60 deg|120 deg|175 deg", "start",
          " heading ", true}},
        OnAll(trial),
-       {ObserverTable()},
-       true});
+       {ObserverTable()}});
 }
 
 Study VelocityAlignmentStudy() {
@@ -70,17 +67,17 @@ Study VelocityAlignmentStudy() {
                                       .diverged_tilt = kDivergedTilt,
                                       .diverged_heading = kDivergedHeading,
                                       .last = kLast});
-  const Trial trial = [align](const Dataset& flight, CaseRun* run) {
-    Dataset dataset = flight;
-    MountAnywhere(run->seed, &dataset);
-    dataset.initial.alignment = AlignmentKind::kVelocity;
-    align(dataset, run);
-  };
+  const Trial trial = {align.methods,
+                       [align](const Dataset& flight, CaseRun* run) {
+                         Dataset dataset = flight;
+                         MountAnywhere(run->seed, &dataset);
+                         dataset.initial.alignment = AlignmentKind::kVelocity;
+                         align.run(dataset, run);
+                       }};
   return StudyOf({"in_flight_alignment",
                   {kVelocityRates},
                   OnAll(trial),
-                  {AlignmentTable()},
-                  true});
+                  {AlignmentTable()}});
 }
 
 Study GpsJumpsStudy() {
@@ -114,12 +111,12 @@ Study VibrationAttitudeStudy() {
   Study study = {.tables = {Under({"disturbance"}, VibrationTable())}};
   const auto add = [&](const std::string& name,
                        const VibrationAttitudeOptions& options) {
-    study.jobs.push_back(AttitudeJob(
+    study.cases.push_back(AttitudeCase(
         name,
         [options](std::uint64_t seed) {
           return SimulateVibrationAttitude(options, seed);
         },
-        AttitudeTrial(AccelerometerRules())));
+        AttitudeTrial(AccelerometerRules(), JudgeIntervals)));
   };
   for (const std::string& axis : VibrationAxes()) {
     add("acceleration along " + axis, {.axis = axis});
@@ -129,7 +126,6 @@ Study VibrationAttitudeStudy() {
 }
 
 Study FreeRotationStudy() {
-  constexpr std::size_t kEvery = 10;
   const auto disturbed_by = [](double disturbance) -> Recording {
     return [disturbance](std::uint64_t seed) {
       FreeRotationOptions options = DrawFreeRotation(seed);
@@ -137,11 +133,11 @@ Study FreeRotationStudy() {
       return SimulateFreeRotation(options, seed);
     };
   };
-  const Trial trial = AttitudeTrial(AttitudeMethods(), kEvery);
-  return {.tables = {Under({"field"}, FreeRotationTable(kFreeRotationBegin,
-                                                        kFreeRotationEnd))},
-          .jobs = {AttitudeJob("throughout", disturbed_by(0.0), trial),
-                   AttitudeJob("at rest alone", disturbed_by(60.0), trial)}};
+  const Trial trial = AttitudeTrial(
+      AttitudeMethods(), MotionJudge(kFreeRotationBegin, kFreeRotationEnd));
+  return {.tables = {Under({"field"}, FreeRotationTable())},
+          .cases = {AttitudeCase("throughout", disturbed_by(0.0), trial),
+                    AttitudeCase("at rest alone", disturbed_by(60.0), trial)}};
 }
 
 }  // namespace hindsight

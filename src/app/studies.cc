@@ -6,7 +6,6 @@
 
 #include "app/asked_methods.h"
 #include "app/flags.h"
-#include "app/paper_studies.h"
 #include "app/study_cases.h"
 #include "evaluation/statistics.h"
 #include "problems/navigation_trial.h"
@@ -16,8 +15,8 @@
 namespace hindsight {
 namespace {
 
-/// Both forms of the odometer on one seed, so that the first seeds are those of
-/// both; of the forward speed alone the methods that differ.
+/// Both forms of the odometer; of the forward speed alone the methods that
+/// differ.
 Study TunnelStudy() {
   const std::vector<double> kLegEnds = {502.5, 1002.5, 1502.5, 2005.0};
   const auto trial_of = [&](const Scenario&, const ScenarioChanges& changes) {
@@ -39,8 +38,7 @@ Study TunnelStudy() {
                    {"noise", "sample"},
                    {"aiding.odometer.form", "three_axis|forward", "odometer"}},
                   trial_of,
-                  NavigationTables(kLegEnds),
-                  true});
+                  NavigationTables(kLegEnds)});
 }
 
 /// Largest standard deviations by distance of the reference points and noise of
@@ -64,11 +62,8 @@ Study ConstantsStudy(const std::string& scenario) {
   const NavigationTrial trial = {.methods = {"ekf", "rts", "iterated", "batch"},
                                  .judged_every = 10.0,
                                  .judged_to = 599.0};
-  return StudyOf({scenario,
-                  {},
-                  OnAll(NavigationTrialOf(trial)),
-                  NavigationTables(),
-                  true});
+  return StudyOf(
+      {scenario, {}, OnAll(NavigationTrialOf(trial)), NavigationTables()});
 }
 
 double LengthOf(const Scenario& scenario) {
@@ -81,21 +76,12 @@ double LengthOf(const Scenario& scenario) {
   return length;
 }
 
-double DriftOf(const RunCell& cell, const std::string& end, const TimeRange&) {
-  return Rms(cell.Values(end)) / Mean(cell.Values("length"));
-}
-
-/// Dives, whose length each run has as a value.
 Study UuvSurveyStudy() {
   std::vector<StudyTable> tables = NavigationTables();
-  Figure drift =
-      Share("end_drift", "end, of\ndistance [%]", "end_horizontal", DriftOf);
-  drift.format = "{:.3f}";
-  drift.part = 1;
-  tables[kCells].figures.push_back(drift);
+  tables[kCells].Add({{"end_drift", kPlain, OfRuns(Rms)}});
   const auto trial_of = [](const Scenario& scenario, const ScenarioChanges&) {
     return NavigationTrialOf({.methods = {"ekf", "two_filter", "rts", "batch"},
-                              .values = {{"length", LengthOf(scenario)}}});
+                              .length = LengthOf(scenario)});
   };
   return StudyOf({"uuv_survey",
                   {{"path", "lawnmower|straight|returning", "dive"},
@@ -135,9 +121,9 @@ Study ScenarioStudy(const std::vector<std::string>& names_or_paths) {
     if (std::ranges::count(names, name) > 1) {
       throw UsageError("two scenarios of the name '" + name + "'");
     }
-    for (std::vector<Case>& job : one.jobs) {
-      job[0].labels.insert(job[0].labels.begin(), name);
-      all.jobs.push_back(std::move(job));
+    for (Case& added : one.cases) {
+      added.labels.insert(added.labels.begin(), name);
+      all.cases.push_back(std::move(added));
     }
     all.settings = one.settings;
     all.tables = one.tables;
@@ -180,8 +166,8 @@ const std::vector<NamedStudy>& NamedStudies() {
       {kVibrationAttitudeName,
        "the accelerometer rules of attitude-only estimation under\n"
        "acceleration and vibration, along north, one and all body\n"
-       "axes, and up: attitude by axis and interval, gyro bias,\n"
-       "shares inside 3 sigma",
+       "axes, and up: attitude by interval, gyro bias, shares\n"
+       "inside 3 sigma",
        VibrationAttitudeStudy,
        {}},
       {kFreeRotationName,
@@ -207,7 +193,7 @@ const std::vector<NamedStudy>& NamedStudies() {
        [] { return ConstantsStudy("uuv_calibration"); }},
       {"uuv_search",
        "the fusions of Lee and Yoon (2011) as printed, 16\n"
-       "readings: 2-D and 3-D distance error with histograms",
+       "readings: 2-D and 3-D distance error",
        UuvSearchStudy,
        {"reading"}}};
   return studies;

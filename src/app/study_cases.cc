@@ -164,10 +164,9 @@ Study StudyOf(const ScenarioTrials& trials) {
   }
   for (const Entry& entry : entries) {
     const Scenario changed = FindScenario(trials.scenario, entry.changes);
-    if (study.jobs.empty() || !trials.is_one_job) study.jobs.emplace_back();
-    study.jobs.back().push_back({entry.labels,
-                                 [changed] { return RecordingOf(changed); },
-                                 trials.trial_of(changed, entry.changes)});
+    study.cases.push_back({entry.labels,
+                           [changed] { return RecordingOf(changed); },
+                           trials.trial_of(changed, entry.changes)});
   }
   return study;
 }

@@ -34,7 +34,6 @@ struct ScenarioTrials {
   std::vector<Axis> axes;
   TrialOf trial_of;
   std::vector<StudyTable> tables;  ///< label columns of the cases go before
-  bool is_one_job = false;         ///< of all cases; else one of each
 };
 
 /// That comparison, which has no name yet, with --set and --sweep, which give an

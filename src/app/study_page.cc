@@ -93,11 +93,13 @@ bool IsSwept(const std::vector<FigureRow>& rows, std::size_t column) {
 
 std::string SweepPicture(const StudyTable& table,
                          const std::vector<FigureRow>& rows, std::size_t column,
-                         const FigureColumn& figure) {
+                         std::size_t figure) {
   const std::string& first = rows.front().labels[column];
   const std::size_t blank = first.find(' ');
+  const std::string& name = table.figures[figure].name;
+  const Unit& unit = table.figures[figure].unit;
   LinePicture picture = {
-      .title = figure.figure->name + " [" + figure.figure->unit.name + "]",
+      .title = name + " [" + unit.name + "]",
       .axis = table.labels[column] +
               (blank == first.npos ? "" : " [" + first.substr(blank + 1) + "]"),
       .lines = {},
@@ -106,7 +108,8 @@ std::string SweepPicture(const StudyTable& table,
   for (const FigureRow& row : rows) {
     Labels others = row.labels;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(column));
-    lines[others][*NumberIn(row.labels[column])] = figure.Of(row);
+    lines[others][*NumberIn(row.labels[column])] =
+        row.values[figure] / unit.scale;
   }
   for (const auto& [others, points] : lines) {
     LinePicture::Line line = {Joined(others, ", "), {}, {}};
@@ -123,16 +126,14 @@ std::string SweepPanel(const StudyTable& table,
                        const std::vector<FigureRow>& rows) {
   static const std::set<std::string> kShown = {
       "position_rms", "end_horizontal", "heading_rms", "attitude_rms", "anees",
-      "nis",          "horizontal"};
+      "nis",          "horizontal_p50"};
   std::string html;
   for (std::size_t column = 0; column + 1 < table.labels.size(); ++column) {
     if (rows.empty() || !IsSwept(rows, column)) continue;
     html += Element("h3", table.labels[column]) + "<div class=\"pictures\">";
-    for (const FigureColumn& figure : ColumnsOf(table)) {
-      if (figure.term_index > 0 || !kShown.contains(figure.figure->name)) {
-        continue;
-      }
-      html += SweepPicture(table, rows, column, figure);
+    for (std::size_t f = 0; f < table.figures.size(); ++f) {
+      if (!kShown.contains(table.figures[f].name)) continue;
+      html += SweepPicture(table, rows, column, f);
     }
     html += "</div>\n";
   }
@@ -142,25 +143,20 @@ std::string SweepPanel(const StudyTable& table,
 
 std::string TablePanel(const StudyTable& table,
                        const std::vector<FigureRow>& rows) {
-  std::string html;
-  for (const int part : {0, 1}) {
-    StudyGrid grid = GridOf(table, rows, part);
-    if (grid.rows.empty()) continue;
-    for (std::string& title : grid.heading) {
-      std::replace(title.begin(), title.end(), '\n', ' ');
-    }
-    HtmlTable out(grid.heading);
-    // A browser gives every row its case.
-    std::string of_case;
-    for (std::vector<std::string>& cells : grid.rows) {
-      if (cells.front().empty()) cells.front() = of_case;
-      of_case = cells.front();
-      out.AddRow(cells);
-    }
-    html += out.Render();
+  if (rows.empty()) return "";
+  StudyGrid grid = GridOf(table, rows);
+  for (std::string& title : grid.heading)
+    std::ranges::replace(title, '\n', ' ');
+  HtmlTable out(grid.heading);
+  // A browser gives every row its case.
+  std::string of_case;
+  for (std::vector<std::string>& cells : grid.rows) {
+    if (cells.front().empty()) cells.front() = of_case;
+    of_case = cells.front();
+    out.AddRow(cells);
   }
-  if (html.empty()) return "";
-  return "<section>" + Element("h2", table.name) + html + "</section>\n";
+  return "<section>" + Element("h2", table.name) + out.Render() +
+         "</section>\n";
 }
 
 }  // namespace

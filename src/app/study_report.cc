@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/flags.h"
@@ -35,23 +34,26 @@ std::string NumberField(double value) {
   return text;
 }
 
+template <typename Of>
+std::string ColumnOf(const Of& of) {
+  return of.name + "[" + of.unit.name + "]";
+}
+
 std::string FigureCsv(const StudyTable& table,
                       const std::vector<FigureRow>& rows) {
-  std::vector<FigureColumn> columns = ColumnsOf(table);
-  std::erase_if(columns, [](const FigureColumn& column) {
-    return !column.figure->is_repeatable;
-  });
   Fields header = table.labels;
   header.emplace_back("runs");
-  for (const FigureColumn& column : columns) {
-    header.push_back(column.name + "[" + column.figure->unit.name + "]");
+  for (const Figure& figure : table.figures) {
+    if (figure.is_repeatable) header.push_back(ColumnOf(figure));
   }
   std::string text = CsvLine(header);
   for (const FigureRow& row : rows) {
     Fields fields = row.labels;
     fields.push_back(std::to_string(row.runs));
-    for (const FigureColumn& column : columns) {
-      fields.push_back(NumberField(column.Of(row)));
+    for (std::size_t f = 0; f < table.figures.size(); ++f) {
+      const Figure& figure = table.figures[f];
+      if (!figure.is_repeatable) continue;
+      fields.push_back(NumberField(row.values[f] / figure.unit.scale));
     }
     text += CsvLine(fields);
   }
@@ -63,7 +65,7 @@ std::string CurveCsv(const StudyTable& table,
   Fields header = table.labels;
   header.emplace_back("t[s]");
   for (const FigureCurve& curve : table.curves) {
-    header.push_back(curve.name + "[" + curve.unit.name + "]");
+    header.push_back(ColumnOf(curve));
   }
   std::string text = CsvLine(header);
   for (const FigureRow& row : rows) {
@@ -90,8 +92,7 @@ std::string RunsCsv(const StudyTable& table,
   for (const RunRecord& record : records) {
     if (record.table != 0) continue;
     for (const auto& [name, value] : record.values) {
-      const bool known =
-          std::find(names.begin(), names.end(), name) != names.end();
+      const bool known = std::ranges::find(names, name) != names.end();
       if (name != kSeconds && !known) names.push_back(name);
     }
   }
@@ -105,11 +106,9 @@ std::string RunsCsv(const StudyTable& table,
     fields.insert(fields.end(), {std::to_string(record.seed),
                                  record.grade ? GradeName(*record.grade) : "",
                                  record.failed ? "1" : "0"});
-    const std::map<std::string, double> values(record.values.begin(),
-                                               record.values.end());
     for (const std::string& name : names) {
-      const auto value = values.find(name);
-      fields.push_back(value == values.end() ? "" : NumberField(value->second));
+      const auto value = record.Find(name);
+      fields.push_back(value ? NumberField(*value) : "");
     }
     text += CsvLine(fields);
   }
@@ -122,19 +121,16 @@ Json RowJson(const StudyTable& table, const FigureRow& row) {
     json[table.labels[i]] = row.labels[i];
   }
   json["runs"] = row.runs;
-  for (const FigureColumn& column : ColumnsOf(table)) {
-    const double value = column.Of(row);
+  for (std::size_t f = 0; f < table.figures.size(); ++f) {
+    const Figure& figure = table.figures[f];
+    const double value = row.values[f] / figure.unit.scale;
     if (!std::isfinite(value)) continue;
-    Json& to = json[column.name + Suffix(column.figure->unit)];
+    Json& to = json[figure.name + Suffix(figure.unit)];
     if (value == std::round(value) && std::abs(value) < 1e9) {
       to = static_cast<std::int64_t>(value);
     } else {
       to = value;
     }
-  }
-  for (std::size_t f = 0; f < table.figures.size(); ++f) {
-    const Figure& figure = table.figures[f];
-    if (figure.list != nullptr) json[figure.name] = row.values[f];
   }
   return json;
 }

@@ -16,15 +16,13 @@ inline constexpr char kMonteCarloJson[] = "montecarlo.json";
 /// constants and the like that are long are left to their files.
 std::string StudyText(const StudyResult& result);
 
-/// A table as it is shown: case and method, and the figures of one part that
-/// have a title; a case that goes on is not named again. No rows where all
-/// figures are missing.
+/// A table as it is shown: case and method, and the figures; a case that goes on
+/// is not named again.
 struct StudyGrid {
   std::vector<std::string> heading;
   std::vector<std::vector<std::string>> rows;
 };
-StudyGrid GridOf(const StudyTable& table, const std::vector<FigureRow>& rows,
-                 int part);
+StudyGrid GridOf(const StudyTable& table, const std::vector<FigureRow>& rows);
 
 /// A page that shows a comparison: the tables; of each case the figures against
 /// time, a line a method, among them ANEES with its 95 % bounds; and of every

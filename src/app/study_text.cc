@@ -13,18 +13,24 @@ namespace {
 /// Of a table beside the first that a terminal shows.
 constexpr std::size_t kMostRows = 100;
 
-/// The components of a figure, "0.012  0.034".
-std::string Cell(const Figure& figure, const std::vector<double>& values) {
+std::string Cell(double value) {
+  if (std::isnan(value)) return "";
+  return std::isfinite(value) ? fmt::format("{:.4g}", value) : "never";
+}
+
+/// "max\nstd n\n[m]" of max_std_n: a line a word or two.
+std::string HeadingOf(const Figure& figure) {
+  constexpr std::size_t kWidth = 9;
   std::string text;
-  for (const double one_value : values) {
-    const double value = figure.factor * one_value / figure.unit.scale;
-    if (std::isnan(value) || (figure.hide_zero && value == 0.0)) continue;
-    text += text.empty() ? "" : " ";
-    text += std::isfinite(value)
-                ? fmt::format(fmt::runtime(figure.format), value)
-                : "never";
+  std::size_t width = 0;
+  for (const std::string& word : Split(figure.name, '_')) {
+    const bool fits = width + 1 + word.size() <= kWidth;
+    if (!text.empty()) text += fits ? ' ' : '\n';
+    width = word.size() + (fits ? width + 1 : 0);
+    text += word;
   }
-  return text;
+  const std::string unit = figure.unit.name;
+  return unit == "1" ? text : text + "\n[" + unit + "]";
 }
 
 /// Case and method in two columns; a case that goes on is not named again.
@@ -39,54 +45,41 @@ std::vector<std::string> LabelCells(const FigureRow& row,
   return {goes_on ? "" : name, row.labels.back()};
 }
 
-std::string TableText(const StudyTable& table,
-                      const std::vector<FigureRow>& rows, int part) {
-  const StudyGrid grid = GridOf(table, rows, part);
-  if (grid.rows.empty()) return "";
-  ReportTable text(grid.heading, 2);
-  for (const std::vector<std::string>& cells : grid.rows) text.AddRow(cells);
-  return text.Render(StyleOfOutput());
-}
-
 }  // namespace
 
-StudyGrid GridOf(const StudyTable& table, const std::vector<FigureRow>& rows,
-                 int part) {
+StudyGrid GridOf(const StudyTable& table, const std::vector<FigureRow>& rows) {
   const bool has_method = table.labels.size() > 1;
   const std::vector<std::string> of_case(table.labels.begin(),
                                          table.labels.end() - has_method);
   StudyGrid grid;
   grid.heading = {Joined(of_case, ", "), has_method ? table.labels.back() : ""};
-  std::vector<std::size_t> shown;
-  for (std::size_t f = 0; f < table.figures.size(); ++f) {
-    const Figure& figure = table.figures[f];
-    if (figure.title.empty() || figure.part != part) continue;
-    shown.push_back(f);
-    grid.heading.push_back(figure.title);
+  for (const Figure& figure : table.figures) {
+    grid.heading.push_back(HeadingOf(figure));
   }
-  bool is_empty = true;
   const FigureRow* before = nullptr;
   for (const FigureRow& row : rows) {
-    std::vector<std::string> cells = LabelCells(row, before);
+    std::vector<std::string>& cells =
+        grid.rows.emplace_back(LabelCells(row, before));
     before = &row;
-    for (const std::size_t f : shown) {
-      cells.push_back(Cell(table.figures[f], row.values[f]));
-      is_empty = is_empty && cells.back().empty();
+    for (std::size_t f = 0; f < table.figures.size(); ++f) {
+      cells.push_back(Cell(row.values[f] / table.figures[f].unit.scale));
     }
-    grid.rows.push_back(std::move(cells));
   }
-  if (is_empty) grid.rows.clear();
   return grid;
 }
 
 std::string StudyText(const StudyResult& result) {
+  constexpr std::size_t kWidth = 160;
+  TableStyle style = StyleOfOutput();
+  if (style.width == 0) style.width = kWidth;
   std::string text;
   for (std::size_t i = 0; i < result.tables.size(); ++i) {
-    if (i > 0 && result.rows[i].size() > kMostRows) continue;
-    for (const int part : {0, 1}) {
-      const std::string one = TableText(result.tables[i], result.rows[i], part);
-      if (!one.empty()) text += "\n" + one;
-    }
+    const std::vector<FigureRow>& rows = result.rows[i];
+    if (rows.empty() || (i > 0 && rows.size() > kMostRows)) continue;
+    const StudyGrid grid = GridOf(result.tables[i], rows);
+    ReportTable table(grid.heading, 2);
+    for (const std::vector<std::string>& cells : grid.rows) table.AddRow(cells);
+    text += "\n" + table.Render(style);
   }
   constexpr std::size_t kMostRefusals = 10;
   if (!result.refusals.empty()) text += "\nrefused data, counted as failed:\n";

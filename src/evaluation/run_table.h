@@ -1,7 +1,6 @@
 #ifndef HINDSIGHT_EVALUATION_RUN_TABLE_H_
 #define HINDSIGHT_EVALUATION_RUN_TABLE_H_
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -40,8 +39,8 @@ struct RunRecord {
   /// Of the run as a whole, by name.
   std::vector<std::pair<std::string, double>> values;
   std::vector<double> t;  ///< of the series [s]
-  /// By name, a value at every t. Of a table that folds them they are taken out
-  /// of the record.
+  /// By name, a value at every t. They are folded as the runs come in, and gone
+  /// from the record then.
   std::map<std::string, std::vector<double>> series;
 
   /// Makes it a failed run without an answer; `what` was wrong with the data.
@@ -50,6 +49,8 @@ struct RunRecord {
     answered = false;
     refusal = std::move(what);
   }
+  /// Absent of what the method does not tell.
+  std::optional<double> Find(const std::string& name) const;
 };
 
 /// Closed span of time [s].
@@ -64,41 +65,29 @@ struct TimeRange {
 /// empty. Runs that were not answered take part in counts alone.
 class RunCell {
  public:
-  using Statistic = double (*)(const std::vector<double>&);
-
-  /// At least one record; they share their labels and outlive the cell.
-  /// `fold`: their series, where the records have none any more, or null.
+  /// `series` are those of the answered records, which outlive the cell.
   explicit RunCell(std::vector<const RunRecord*> records,
-                   const SeriesFold* fold = nullptr);
+                   SeriesFold series = {})
+      : records_(std::move(records)), series_(std::move(series)) {}
 
-  const std::vector<std::string>& labels() const { return all_[0]->labels; }
-  int runs() const { return static_cast<int>(all_.size()); }
-  int answered() const { return static_cast<int>(answered_.size()); }
-  int failed() const;
-  /// Runs graded usable, doubtful, not usable; all zero where none is graded.
-  std::array<int, 3> grades() const;
+  int runs() const { return static_cast<int>(records_.size()); }
+  int answered() const { return Count(&RunRecord::answered); }
+  int failed() const { return Count(&RunRecord::failed); }
+  int graded(Grade grade) const;
 
   /// Of every run that has the value, in order of seeds.
   std::vector<double> Values(const std::string& name) const;
   /// Times at which every run has its series.
-  const std::vector<double>& t() const { return t_; }
-  /// A series of all runs within the span, run after run.
-  std::vector<double> Pooled(const std::string& name,
-                             const TimeRange& range = {}) const;
-  /// A statistic over the runs at every t(): of folded series Mean or
-  /// StandardDeviation.
-  std::vector<double> Curve(const std::string& name, Statistic over_runs) const;
-  /// The part of a curve that lies in the span.
-  std::vector<double> Within(const std::vector<double>& curve,
-                             const TimeRange& range) const;
+  const std::vector<double>& t() const { return series_.t; }
+  /// A statistic over the runs at every t().
+  std::vector<double> Curve(const std::string& name,
+                            SeriesFold::OverRuns over_runs) const;
 
  private:
-  std::vector<const RunRecord*> all_;
-  std::vector<const RunRecord*> answered_;
-  const SeriesFold* fold_;
-  std::vector<double> t_;
-  /// Index into each answered run's series of every t_.
-  std::vector<std::vector<std::size_t>> index_;
+  int Count(bool RunRecord::*what) const;
+
+  std::vector<const RunRecord*> records_;
+  SeriesFold series_;
 };
 
 /// A unit as printed, and what it is in SI.
@@ -110,113 +99,72 @@ inline constexpr Unit kPlain = {};
 inline constexpr Unit kMetres = {"m", 1.0};
 inline constexpr Unit kDegrees = {"deg", kDegree};
 
-/// One number of a cell: of the quantity's values, or of its series within a
-/// span of time; NaN if there is none.
-using Reduce = std::function<double(
-    const RunCell& cell, const std::string& quantity, const TimeRange& range)>;
+/// One number of a cell, of the values or series of that name; NaN if there is
+/// none.
+using Reduce =
+    std::function<double(const RunCell& cell, const std::string& quantity)>;
+using Statistic = double (*)(const std::vector<double>&);
 
 /// Over the values of the runs.
-template <RunCell::Statistic statistic>
-double OfRuns(const RunCell& cell, const std::string& quantity,
-              const TimeRange&) {
-  return statistic(cell.Values(quantity));
-}
-/// Over runs and times alike.
-template <RunCell::Statistic statistic>
-double OfAll(const RunCell& cell, const std::string& quantity,
-             const TimeRange& range) {
-  return statistic(cell.Pooled(quantity, range));
-}
-/// Over time of what it is over the runs at each.
-template <RunCell::Statistic over_time, RunCell::Statistic over_runs>
-double OfCurve(const RunCell& cell, const std::string& quantity,
-               const TimeRange& range) {
-  return over_time(cell.Within(cell.Curve(quantity, over_runs), range));
-}
+Reduce OfRuns(Statistic statistic);
+/// Over a span of time of what a series is over the runs at each.
+Reduce OfCurve(Statistic over_time, SeriesFold::OverRuns over_runs,
+               const TimeRange& range = {});
+
+/// One figure of a table.
+struct Figure {
+  std::string name;  ///< "max_std_n"
+  Unit unit;
+  Reduce reduce;
+  std::string quantity = {};  ///< "": that of its own name
+  bool is_repeatable = true;  ///< false: not the same in an equal call
+};
+
 /// Two-sided bounds of the average over the answered runs of a normalised squared
 /// error with as many degrees of freedom as their value `states`; NaN without.
 Interval AneesBoundsOf(const RunCell& cell, double confidence = 0.95);
 /// Share of the times at which that average of the quantity is outside of them.
-double AneesOutside(const RunCell& cell, const std::string& quantity,
-                    const TimeRange& range);
-
-/// One number of a figure.
-struct Term {
-  std::string component;  ///< "n", "e", "d"; "" if it is the only one
-  std::string quantity;
-  Reduce reduce;
-};
-using Terms = std::vector<Term>;
-
-/// One figure of a table, or some of a kind.
-struct Figure {
-  std::string name;  ///< "max_std"
-  Unit unit;
-  std::string title;   ///< over its column of the printed table; "": not there
-  const char* format;  ///< of each term there
-  Terms terms;
-  TimeRange range = {};
-  double factor = 1.0;     ///< in the printed table: 100 for a share in percent
-  bool hide_zero = false;  ///< there
-  int part = 0;            ///< of the printed table that it stands in
-  bool is_repeatable = true;  ///< false: not the same in an equal call
-  /// Any number of values in place of the terms, for JSON alone.
-  std::function<std::vector<double>(const RunCell& cell)> list = {};
-};
-
-/// A figure of several terms.
-Figure Several(const std::string& name, Unit unit, const std::string& title,
-               const char* format, Terms terms, TimeRange range = {});
-/// A figure of one term without a component.
-Figure Single(const std::string& name, Unit unit, const std::string& title,
-              const char* format, const std::string& quantity,
-              const Reduce& reduce);
-/// The same, of the quantity of that name.
-inline Figure Single(const std::string& name, Unit unit,
-                     const std::string& title, const char* format,
-                     const Reduce& reduce) {
-  return Single(name, unit, title, format, name, reduce);
-}
-/// A share, printed in percent.
-Figure Share(const std::string& name, const std::string& title,
-             const std::string& quantity, const Reduce& reduce);
-/// Lower and upper of AneesBoundsOf.
-Figure AneesBoundFigure(const char* title, const char* format,
-                        double confidence = 0.95);
+double AneesOutside(const RunCell& cell, const std::string& quantity);
 
 /// A figure against time.
 struct FigureCurve {
   std::string name;
   Unit unit;
   std::string quantity;
-  RunCell::Statistic over_runs;
+  SeriesFold::OverRuns over_runs;
 };
 
 /// What is known of one kind of record: its label columns, its figures.
 struct StudyTable {
   std::string name;                 ///< "cells"
   std::vector<std::string> labels;  ///< columns, the method last
-  std::vector<Figure> figures;
-  std::vector<FigureCurve> curves;
-  /// Figures and curves take no more of the series than mean and deviation over
-  /// the runs, so that these are kept in place of all runs' series.
-  bool folds_series = false;
+  std::vector<Figure> figures = {};
+  std::vector<FigureCurve> curves = {};
+
+  void Add(std::vector<Figure> more);
+  /// Of the series NAME_n, _e and _d, a figure each.
+  void AddAxes(const Figure& figure);
+  /// anees_bound_lower and _upper, AneesBoundsOf.
+  void AddAneesBounds(double confidence = 0.95);
+  /// How many runs have each grade: grades_usable, _doubtful, _not_usable.
+  void AddGrades();
 };
+/// How many runs failed; the mean of kSeconds.
+Figure FailedFigure();
+Figure SecondsFigure();
 
 /// A row of figures.
 struct FigureRow {
   std::vector<std::string> labels;
   int runs = 0;
   int failed = 0;
-  /// By figure of the table, by term, SI; NaN: does not exist.
-  std::vector<std::vector<double>> values;
+  std::vector<double> values;  ///< by figure of the table, SI; NaN: none
   std::vector<double> t;
   std::vector<std::vector<double>> curves;  ///< by curve of the table, SI
 };
 
 /// The figures of the records that belong to the table of that index, a row a
-/// cell in the order of their first appearance; their series, of a table that
-/// folds them, are in `folds`.
+/// cell in the order of their first appearance; their series are in `folds`.
 std::vector<FigureRow> Summarize(const StudyTable& table, std::size_t index,
                                  std::span<const RunRecord> records,
                                  const CellFolds& folds = {});
@@ -224,34 +172,10 @@ std::vector<FigureRow> Summarize(const StudyTable& table, std::size_t index,
 /// The table with these label columns before its own.
 StudyTable Under(std::vector<std::string> columns, StudyTable table);
 
-/// One number of a table's rows: a term of a figure.
-struct FigureColumn {
-  std::string name;  ///< component included, "max_std_n"
-  const Figure* figure;
-  std::size_t figure_index;
-  std::size_t term_index;
-
-  double SiOf(const FigureRow& row) const {
-    return row.values[figure_index][term_index];
-  }
-  /// In the figure's unit.
-  double Of(const FigureRow& row) const {
-    return SiOf(row) / figure->unit.scale;
-  }
-};
-/// All of them; the table outlives them.
-std::vector<FigureColumn> ColumnsOf(const StudyTable& table);
-
-/// A figure of a row of the table by its name ("max_std_n", component
-/// included), in SI; absent if the table has none of that name.
+/// A figure of a row of the table by its name, in SI; absent if the table has
+/// none of that name.
 std::optional<double> FigureOf(const StudyTable& table, const FigureRow& row,
                                const std::string& name);
-
-/// Figures that many tables have: how many runs failed, their grades, the mean
-/// of kSeconds.
-Figure FailedFigure();
-Figure GradesFigure();
-Figure SecondsFigure();
 
 }  // namespace hindsight
 

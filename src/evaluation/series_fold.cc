@@ -59,6 +59,15 @@ std::vector<double> SeriesFold::Deviation(const Moments& moments) {
   return deviation;
 }
 
+std::vector<double> SeriesFold::Rms(const Moments& moments) {
+  std::vector<double> rms = moments.mean;
+  const auto n = static_cast<double>(moments.runs);
+  for (std::size_t k = 0; k < rms.size(); ++k) {
+    rms[k] = std::sqrt(rms[k] * rms[k] + moments.squares[k] / n);
+  }
+  return rms;
+}
+
 std::vector<std::size_t> MatchTimes(const std::vector<double>& one,
                                     std::vector<double>* common) {
   std::vector<std::size_t> index;

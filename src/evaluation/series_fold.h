@@ -20,8 +20,14 @@ struct SeriesFold {
   std::vector<double> t;  ///< [s]
   std::map<std::string, Moments> series;
 
-  /// Standard deviation over the runs, divisor runs - 1; zero of a single one.
+  /// A statistic over the runs at every t.
+  using OverRuns = std::vector<double> (*)(const Moments&);
+  static std::vector<double> Mean(const Moments& moments) {
+    return moments.mean;
+  }
+  /// Divisor runs - 1; zero of a single one.
   static std::vector<double> Deviation(const Moments& moments);
+  static std::vector<double> Rms(const Moments& moments);
 };
 
 /// Indices of the times of `one` that are among `common`, to a microsecond;

@@ -19,15 +19,6 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// The largest of 1, 2 and 5 times a power of ten that is not above `width`.
-double RoundDown(double width) {
-  const double power = std::pow(10.0, std::floor(std::log10(width)));
-  for (const double digit : {5.0, 2.0}) {
-    if (digit * power <= width) return digit * power;
-  }
-  return power;
-}
-
 }  // namespace
 
 double Sum(const std::vector<double>& values) {
@@ -80,20 +71,6 @@ double Rank(std::vector<double> values, double fraction) {
 double Rank50(const std::vector<double>& values) { return Rank(values, 0.50); }
 double Rank68(const std::vector<double>& values) { return Rank(values, 0.68); }
 double Rank95(const std::vector<double>& values) { return Rank(values, 0.95); }
-
-Histogram CountValues(const std::vector<double>& values) {
-  constexpr double kBinsPerDeviation = 4.0;
-  Histogram out;
-  const double deviation = values.empty() ? 0.0 : ComputeStatistics(values).std;
-  if (deviation == 0.0) return out;
-  out.bin = RoundDown(deviation / kBinsPerDeviation);
-  for (const double value : values) {
-    const auto i = static_cast<std::size_t>(value / out.bin);
-    if (out.counts.size() <= i) out.counts.resize(i + 1, 0.0);
-    out.counts[i] += 1.0;
-  }
-  return out;
-}
 
 ErrorStatistics ComputeStatistics(const std::vector<double>& errors) {
   ErrorStatistics s;

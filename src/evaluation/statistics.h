@@ -43,15 +43,6 @@ double Rank95(const std::vector<double>& values);
 double Sum(const std::vector<double>& values);
 double Last(const std::vector<double>& values);
 
-/// Counts of values >= 0, from zero in steps of `bin`: 1, 2 or 5 times a power
-/// of ten, a quarter of the standard deviation or the next below it. Equal
-/// values have none.
-struct Histogram {
-  double bin = 0.0;
-  std::vector<double> counts;
-};
-Histogram CountValues(const std::vector<double>& values);
-
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_EVALUATION_STATISTICS_H_

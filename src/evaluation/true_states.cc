@@ -41,13 +41,19 @@ std::vector<State> TrueStates(const Dataset& dataset, const ErrorLayout& layout,
                        std::to_string(x.t) + " s, where a node stands");
     }
     const TruthPoint point = dataset.truth[i];
+    // What is not estimated may be unknown.
+    const auto known =
+        [&](BlockKind kind, const auto& value,
+            const Eigen::Vector3d& otherwise) -> Eigen::Vector3d {
+      return layout.Has(kind) ? value.value() : value.value_or(otherwise);
+    };
     State& y = truth.emplace_back(x);
-    y.p_e = point.p_e.value();
+    y.p_e = known(BlockKind::kPosition, point.p_e, x.p_e);
     const Eigen::Matrix3d C_en = NedAxes(y.p_e);
-    y.v_e = C_en * point.v_n.value();
+    y.v_e = C_en * known(BlockKind::kVelocity, point.v_n, x.v_n());
     y.q_eb = Eigen::Quaterniond(C_en) * point.q_nb.value();
-    y.b_g = point.b_g.value();
-    y.b_a = point.b_a.value();
+    y.b_g = known(BlockKind::kGyroBias, point.b_g, x.b_g);
+    y.b_a = known(BlockKind::kAccelBias, point.b_a, x.b_a);
     TakeTrueConstants(dataset, layout, &y);
   }
   return truth;

@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
+#include "measurements/sensor_kind.h"
 #include "receiver_errors/error_tuning.h"
 #include "receiver_errors/hypothesis_words.h"
 #include "receiver_errors/sensor_findings.h"
@@ -30,6 +32,40 @@ Evidence DoubtOf(const RivalHypothesis& rival, const std::vector<double>& times,
           .causes = {"errors that explain the data as well in two ways"},
           .remedies = {"another sensor of positions, or a stream with a "
                        "position that is known"}};
+}
+
+/// Whether a sensor tells a position, a velocity over the ground, a height, a
+/// course or a heading by itself.
+bool IsAbsolute(const SensorKind& kind) {
+  return kind.is_position || (kind.moves && !kind.of_vehicle) ||
+         kind.is_height || kind.is_heading;
+}
+
+/// Those with a used measurement on the tape, of at most three rows; positions
+/// come first.
+std::vector<int> AbsoluteSensors(const Timeline& timeline,
+                                 const LinearTape& tape) {
+  std::vector<int> rows(timeline.sensors().size(), 0);
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      if (!z.accepted || z.withheld) continue;
+      int& most = rows[static_cast<std::size_t>(z.sensor)];
+      most = std::max(most, static_cast<int>(z.residual.size()));
+    }
+  }
+  std::vector<int> positions;
+  std::vector<int> others;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] == 0 || rows[i] > 3) continue;
+    const SensorKind& kind = *timeline.sensors()[i].kind;
+    if (kind.is_position) {
+      positions.push_back(static_cast<int>(i));
+    } else if (IsAbsolute(kind)) {
+      others.push_back(static_cast<int>(i));
+    }
+  }
+  positions.insert(positions.end(), others.begin(), others.end());
+  return positions;
 }
 
 }  // namespace
@@ -166,55 +202,37 @@ std::string ReceiverErrors::InWords() const {
   return found_->name + ": " + what;
 }
 
-bool IsAbsolute(const SensorKind& kind) {
-  return kind.is_position || (kind.moves && !kind.of_vehicle) ||
-         kind.is_height || kind.is_heading;
-}
-
-std::vector<int> AbsoluteSensors(const Timeline& timeline,
-                                 const LinearTape& tape) {
-  std::vector<int> rows(timeline.sensors().size(), 0);
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    for (const TapeMeasurement& z : tape.measurements(k)) {
-      if (!z.accepted || z.withheld) continue;
-      int& most = rows[static_cast<std::size_t>(z.sensor)];
-      most = std::max(most, static_cast<int>(z.residual.size()));
+std::vector<ReceiverErrors> FindReceiverErrors(const Problem& problem,
+                                               const LinearTape& tape,
+                                               const ErrorQuestion& question) {
+  std::vector<ReceiverErrors> found;
+  if (question.decided != nullptr) {
+    for (const auto& one : *question.decided) {
+      auto again = FindingsAgain(*one, tape);
+      if (again == nullptr) break;
+      found.push_back(ReceiverErrors(std::move(again)));
     }
-  }
-  std::vector<int> positions;
-  std::vector<int> others;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i] == 0 || rows[i] > 3) continue;
-    const SensorKind& kind = *timeline.sensors()[i].kind;
-    if (kind.is_position) {
-      positions.push_back(static_cast<int>(i));
-    } else if (IsAbsolute(kind)) {
-      others.push_back(static_cast<int>(i));
+    if (!found.empty() && found.size() == question.decided->size()) {
+      return found;
     }
+    found.clear();
   }
-  positions.insert(positions.end(), others.begin(), others.end());
-  return positions;
-}
-
-ReceiverErrors FindReceiverErrors(const Problem& problem,
-                                  const LinearTape& tape, int sensor,
-                                  const SearchLimits& limits) {
-  return ReceiverErrors(
-      std::make_unique<const SensorFindings>(problem, tape, sensor, limits));
-}
-
-std::optional<ReceiverErrors> ApplyDecisions(const ErrorDecisions& decisions,
-                                             const LinearTape& tape) {
-  std::size_t fixes = 0;
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    fixes += HasFix(tape, k, decisions.sensor) ? 1 : 0;
+  std::vector<int> sensors = AbsoluteSensors(problem.timeline, tape);
+  std::erase_if(sensors, [&](int sensor) {
+    return std::ranges::count(question.known, sensor) > 0;
+  });
+  const auto count = static_cast<double>(sensors.size());
+  for (const int sensor : sensors) {
+    const auto done = static_cast<double>(found.size());
+    const SearchLimits limits = {
+        1.0 / count, [&](double fraction) {
+          return !question.go_on || question.go_on((done + fraction) / count);
+        }};
+    found.push_back(ReceiverErrors(
+        std::make_unique<const SensorFindings>(problem, tape, sensor, limits)));
   }
-  if (decisions.stands() &&
-      decisions.regimes.hypotheses.front().sequence.size() != fixes) {
-    return std::nullopt;
-  }
-  return ReceiverErrors(
-      std::make_unique<const SensorFindings>(decisions, tape));
+  std::ranges::stable_sort(found, std::greater<>(), &ReceiverErrors::log_gain);
+  return found;
 }
 
 }  // namespace hindsight

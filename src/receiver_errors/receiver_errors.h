@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "filters/linear_tape.h"
-#include "measurements/sensor_kind.h"
 #include "state/evidence.h"
 #include "state/solution.h"
 #include "timeline/problem.h"
@@ -19,11 +18,16 @@ namespace hindsight {
 struct ErrorDecisions;  // receiver_errors/sensor_findings.h
 struct SensorFindings;  // receiver_errors/sensor_findings.h
 
-/// How long a search may take.
-struct SearchLimits {
-  /// Of the effort that a search may cost: less where several sensors are
-  /// searched.
-  double share = 1.0;
+/// What a search decided, by sensor.
+using DecidedErrors = std::vector<std::shared_ptr<const ErrorDecisions>>;
+
+/// What is asked of FindReceiverErrors.
+struct ErrorQuestion {
+  /// Sensors that are not looked at: what was found of them is in the problem.
+  std::vector<int> known = {};
+  /// Of a search about another tape: taken as it is, where the nodes hold the
+  /// same fixes, instead of a search. nullptr: none.
+  const DecidedErrors* decided = nullptr;
   /// Told the fraction done, between the steps of the search; false ends it with
   /// the best so far; may throw to abandon it.
   std::function<bool(double)> go_on = nullptr;
@@ -100,48 +104,36 @@ class ReceiverErrors {
   /// Adds to P what it is worth that the other is right with a probability.
   void WidenTowards(const ReceiverErrors& other, double probability,
                     CovarianceSeries* P) const;
-  /// What was decided, for ApplyDecisions.
+  /// What was decided, for ErrorQuestion::decided.
   std::shared_ptr<const ErrorDecisions> Decisions() const;
   /// The chosen hypothesis in words: "gnss: biased from 120 to 140 s".
   std::string InWords() const;
 
  private:
   explicit ReceiverErrors(std::unique_ptr<const SensorFindings> found);
-  friend ReceiverErrors FindReceiverErrors(const Problem& problem,
-                                           const LinearTape& tape, int sensor,
-                                           const SearchLimits& limits);
-  friend std::optional<ReceiverErrors> ApplyDecisions(
-      const ErrorDecisions& decisions, const LinearTape& tape);
+  friend std::vector<ReceiverErrors> FindReceiverErrors(
+      const Problem& problem, const LinearTape& tape,
+      const ErrorQuestion& question);
 
   std::unique_ptr<const SensorFindings> found_;
 };
 
-/// Whether a sensor tells a position, a velocity over the ground, a height, a
-/// course or a heading by itself.
-bool IsAbsolute(const SensorKind& kind);
-
-/// Sensors whose errors can be looked for: absolute ones with a used measurement
-/// on the tape, of at most three rows. Those of position come first.
-std::vector<int> AbsoluteSensors(const Timeline& timeline,
-                                 const LinearTape& tape);
-
-/// Finds out from the data alone what the errors of a sensor are like: white,
+/// Finds out from the data alone what the errors of the absolute sensors are
+/// like, each by itself, the others being taken at their word: white,
 /// Gauss-Markov, or good at times and at others biased or drifting; each with
-/// outliers (docs/receiver_errors.md). `tape` is the problem linearised about
-/// one fixed trajectory and must outlive what is returned; `sensor` is the index
-/// of the sensor. If the layout has a Gauss-Markov error of the sensor already,
+/// outliers (docs/receiver_errors.md). Absolute is what tells a position, a
+/// velocity over the ground, a height, a course or a heading by itself, with a
+/// used measurement on the tape, of at most three rows. What has gained the most
+/// evidence comes first; of equals, positions.
+///
+/// `tape` is the problem linearised about one fixed trajectory and must outlive
+/// what is returned. If the layout has a Gauss-Markov error of a sensor already,
 /// only white errors are fitted. The time is linear in the number of nodes.
 /// Throws EstimationError if the noise of a measurement is not positive
 /// definite.
-ReceiverErrors FindReceiverErrors(const Problem& problem,
-                                  const LinearTape& tape, int sensor,
-                                  const SearchLimits& limits = {});
-
-/// The same errors about another tape, of which nothing is searched anew; none if
-/// its nodes do not hold as many fixes of the sensor. `tape` must outlive what is
-/// returned.
-std::optional<ReceiverErrors> ApplyDecisions(const ErrorDecisions& decisions,
-                                             const LinearTape& tape);
+std::vector<ReceiverErrors> FindReceiverErrors(
+    const Problem& problem, const LinearTape& tape,
+    const ErrorQuestion& question = {});
 
 }  // namespace hindsight
 

@@ -132,6 +132,19 @@ void SensorFindings::Refine(const NormalPoints& points,
   regimes = WithAlternatives(std::move(all), 0);
 }
 
+std::unique_ptr<const SensorFindings> FindingsAgain(
+    const ErrorDecisions& decisions, const LinearTape& tape) {
+  std::size_t fixes = 0;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    fixes += HasFix(tape, k, decisions.sensor) ? 1 : 0;
+  }
+  if (decisions.stands() &&
+      decisions.regimes.hypotheses.front().sequence.size() != fixes) {
+    return nullptr;
+  }
+  return std::make_unique<const SensorFindings>(decisions, tape);
+}
+
 std::vector<double> SensorFindings::Times() const {
   std::vector<double> times;
   for (std::size_t k = 0; k < tape.size(); ++k) {

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_RECEIVER_ERRORS_SENSOR_FINDINGS_H_
 #define HINDSIGHT_RECEIVER_ERRORS_SENSOR_FINDINGS_H_
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -8,9 +9,16 @@
 #include "receiver_errors/normal_points.h"
 #include "receiver_errors/receiver_errors.h"
 #include "receiver_errors/regime_choice.h"
+#include "receiver_errors/search_effort.h"
 #include "receiver_errors/weighed_hypotheses.h"
 
 namespace hindsight {
+
+/// How long a search may take.
+struct SearchLimits {
+  double share = 1.0;        ///< of the effort that a search may cost
+  SearchEffort::GoOn go_on;  ///< of all steps
+};
 
 /// What a search decided about one sensor: sequences by fix, wherever nodes
 /// stand.
@@ -56,6 +64,12 @@ struct SensorFindings : ErrorDecisions {
   std::vector<WeighedHypothesis> alternatives;
   std::size_t central = 0;  ///< of the alternatives, the chosen one
 };
+
+/// What was decided, about another tape, of which nothing is searched anew;
+/// nullptr if its nodes do not hold as many fixes of the sensor. `tape` must
+/// outlive what is returned.
+std::unique_ptr<const SensorFindings> FindingsAgain(
+    const ErrorDecisions& decisions, const LinearTape& tape);
 
 }  // namespace hindsight
 

@@ -101,7 +101,7 @@ TEST(ObserverCommand, MonteCarloCountsTheStepsBackedOff) {
               HasSubstr(",backed_off[1],least_information[1],"));
 }
 
-TEST(ObserverCommand, WhereAllRunsEscapeNoEmptyTableIsPrinted) {
+TEST(ObserverCommand, WhereAllRunsEscapeNoEmptyColumnIsPrinted) {
   TemporaryFolder folder;
   const Outcome outcome = Hindsight(
       {"montecarlo", "in_flight_alignment", "--out=mc", "--runs=2",
@@ -110,8 +110,8 @@ TEST(ObserverCommand, WhereAllRunsEscapeNoEmptyTableIsPrinted) {
        "--error=left_invariant"},
       folder.path());
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("100.0"));
-  EXPECT_THAT(outcome.out, Not(HasSubstr("P^-1")));
+  EXPECT_THAT(outcome.out, HasSubstr("escaped"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("falling")));
 }
 
 TEST(ObserverCommand, MonteCarloWritesEveryCell) {
@@ -213,7 +213,6 @@ TEST(ObserverCommand, AlignmentWithoutAStartIsTriedOnManySeeds) {
     EXPECT_LT(rms, (1.0 + 4.0 / std::sqrt(20.0)) * sigma) << angle;
     EXPECT_LT(sigma, 0.03) << angle;
     EXPECT_GE(batch[angle + "_worst_deg"], rms);
-    EXPECT_GE(batch[angle + "_max_deg"], batch[angle + "_worst_deg"]);
   }
 }
 

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "base/chi_square.h"
 #include "evaluation/statistics.h"
@@ -16,44 +15,53 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-RunRecord Record(const std::string& method, std::uint64_t seed, double value,
-                 std::vector<double> t, std::vector<double> series) {
+RunRecord Record(const std::string& method, std::uint64_t seed, double value) {
   RunRecord record;
   record.labels = {"case", method};
   record.seed = seed;
   record.values = {{"x", value}};
-  record.t = std::move(t);
-  record.series["e"] = std::move(series);
   return record;
 }
 
+/// The series "e" of some runs.
+SeriesFold FoldOf(const std::vector<std::vector<double>>& times,
+                  const std::vector<std::vector<double>>& values) {
+  SeriesFold sum = FoldOfRun(times[0], {{"e", values[0]}});
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    sum = Combine(sum, FoldOfRun(times[i], {{"e", values[i]}}));
+  }
+  return sum;
+}
+
 TEST(RunCell, StatisticsAreOverRunsAtTheTimesThatAllHave) {
-  const RunRecord a = Record("m", 1, 1.0, {0.0, 1.0, 2.0}, {1.0, 2.0, 3.0});
-  const RunRecord b = Record("m", 2, 3.0, {1.0, 2.0, 3.0}, {4.0, 7.0, 9.0});
-  const RunCell cell({&a, &b});
+  const RunRecord a = Record("m", 1, 1.0);
+  const RunRecord b = Record("m", 2, 3.0);
+  const RunCell cell({&a, &b}, FoldOf({{0.0, 1.0, 2.0}, {1.0, 2.0, 3.0}},
+                                      {{1.0, 2.0, 3.0}, {4.0, 7.0, 9.0}}));
   EXPECT_THAT(cell.Values("x"), ElementsAre(1.0, 3.0));
   EXPECT_THAT(cell.t(), ElementsAre(1.0, 2.0));
-  EXPECT_THAT(cell.Curve("e", Mean), ElementsAre(3.0, 5.0));
-  EXPECT_THAT(cell.Within(cell.Curve("e", Largest), {.from = 1.5}),
-              ElementsAre(7.0));
-  EXPECT_THAT(cell.Pooled("e", {.from = 2.0}), ElementsAre(3.0, 7.0, 9.0));
-  EXPECT_THAT(cell.Curve("none", Mean), IsEmpty());
+  EXPECT_THAT(cell.Curve("e", SeriesFold::Mean), ElementsAre(3.0, 5.0));
+  EXPECT_DOUBLE_EQ(cell.Curve("e", SeriesFold::Rms)[0], std::sqrt(10.0));
+  EXPECT_DOUBLE_EQ(cell.Curve("e", SeriesFold::Deviation)[1], std::sqrt(8.0));
+  EXPECT_EQ(OfCurve(Largest, SeriesFold::Mean)(cell, "e"), 5.0);
+  EXPECT_EQ(OfCurve(Largest, SeriesFold::Mean, {.to = 1.5})(cell, "e"), 3.0);
+  EXPECT_THAT(cell.Curve("none", SeriesFold::Mean), IsEmpty());
 }
 
 TEST(RunCell, RunsWithoutAnAnswerAreCountedAlone) {
-  RunRecord a = Record("m", 1, 1.0, {0.0}, {1.0});
-  RunRecord b = Record("m", 2, 100.0, {}, {});
+  RunRecord a = Record("m", 1, 1.0);
+  RunRecord b = Record("m", 2, 100.0);
   a.grade = Grade::kUsable;
   b.grade = Grade::kUnusable;
-  b.failed = true;
-  b.answered = false;
+  b.Fail("wrong");
   const RunCell cell({&a, &b});
   EXPECT_EQ(cell.runs(), 2);
   EXPECT_EQ(cell.answered(), 1);
   EXPECT_EQ(cell.failed(), 1);
-  EXPECT_THAT(cell.grades(), ElementsAre(1, 0, 1));
+  EXPECT_EQ(cell.graded(Grade::kUsable), 1);
+  EXPECT_EQ(cell.graded(Grade::kDoubtful), 0);
+  EXPECT_EQ(cell.graded(Grade::kUnusable), 1);
   EXPECT_THAT(cell.Values("x"), ElementsAre(1.0));
-  EXPECT_THAT(cell.Curve("e", Mean), ElementsAre(1.0));
 }
 
 TEST(RunStatistics, RanksKeepWhatIsInfinite) {
@@ -68,37 +76,47 @@ TEST(RunStatistics, RanksKeepWhatIsInfinite) {
 
 TEST(RunStatistics, ShareOutsideCountsBothSides) {
   const Interval bounds = AneesBounds(1, 3, 0.95);
-  RunRecord record = Record("m", 1, 1.0, {0.0, 1.0, 2.0, 3.0},
-                            {bounds.lower - 0.1, 3.0, bounds.upper + 0.1, 3.0});
+  RunRecord record = Record("m", 1, 1.0);
   record.values = {{"states", 3.0}};
-  const RunCell cell({&record});
-  EXPECT_EQ(AneesOutside(cell, "e", {}), 0.5);
-  EXPECT_EQ(AneesOutside(cell, "e", {.from = 2.5}), 0.0);
-  const Figure figure = AneesBoundFigure("", "");
-  EXPECT_EQ(figure.terms[0].reduce(cell, "", {}), bounds.lower);
-  EXPECT_EQ(figure.terms[1].reduce(cell, "", {}), bounds.upper);
+  const RunCell cell(
+      {&record}, FoldOf({{0.0, 1.0, 2.0, 3.0}},
+                        {{bounds.lower - 0.1, 3.0, bounds.upper + 0.1, 3.0}}));
+  EXPECT_EQ(AneesOutside(cell, "e"), 0.5);
+  StudyTable table = {"cells", {"method"}};
+  table.AddAneesBounds();
+  EXPECT_EQ(table.figures[0].reduce(cell, ""), bounds.lower);
+  EXPECT_EQ(table.figures[1].reduce(cell, ""), bounds.upper);
 }
 
 TEST(StudyTable, FiguresAreByCellInOrderOfAppearance) {
-  StudyTable table = {"cells", {"case", "method"}, {}, {}};
-  table.figures = {Several("x", kPlain, "", "",
-                           {{"least", "x", OfRuns<Least>},
-                            {"largest", "x", OfRuns<Largest>}}),
-                   FailedFigure()};
-  table.curves = {{"mean", kPlain, "e", Mean}};
-  std::vector<RunRecord> records = {Record("b", 1, 1.0, {0.0}, {4.0}),
-                                    Record("a", 1, 2.0, {0.0}, {5.0}),
-                                    Record("b", 2, 3.0, {0.0}, {6.0})};
+  StudyTable table = {"cells", {"case", "method"}};
+  table.Add({{"x_least", kPlain, OfRuns(Least), "x"},
+             {"x", kPlain, OfRuns(Largest)},
+             FailedFigure()});
+  table.curves = {{"mean", kPlain, "e", SeriesFold::Mean}};
+  std::vector<RunRecord> records = {Record("b", 1, 1.0), Record("a", 1, 2.0),
+                                    Record("b", 2, 3.0)};
   records.push_back(records[0]);
   records.back().table = 1;
-  const std::vector<FigureRow> rows = Summarize(table, 0, records);
+  CellFolds folds;
+  folds[{0, {"case", "b"}}] = FoldOf({{0.0}, {0.0}}, {{4.0}, {6.0}});
+  const std::vector<FigureRow> rows = Summarize(table, 0, records, folds);
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].labels.back(), "b");
   EXPECT_EQ(rows[0].runs, 2);
   EXPECT_THAT(rows[0].curves[0], ElementsAre(5.0));
-  EXPECT_EQ(FigureOf(table, rows[0], "x_largest"), 3.0);
+  EXPECT_EQ(FigureOf(table, rows[0], "x"), 3.0);
+  EXPECT_EQ(FigureOf(table, rows[0], "x_least"), 1.0);
   EXPECT_EQ(FigureOf(table, rows[1], "failed"), 0.0);
-  EXPECT_EQ(FigureOf(table, rows[1], "x"), std::nullopt);
+  EXPECT_EQ(FigureOf(table, rows[1], "y"), std::nullopt);
+}
+
+TEST(StudyTable, AxesHaveAFigureEach) {
+  StudyTable table = {"cells", {"method"}};
+  table.AddAxes({"max", kMetres, OfRuns(Largest), "position"});
+  ASSERT_EQ(table.figures.size(), 3u);
+  EXPECT_EQ(table.figures[1].name, "max_e");
+  EXPECT_EQ(table.figures[1].quantity, "position_e");
 }
 
 }  // namespace

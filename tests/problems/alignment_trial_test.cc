@@ -26,7 +26,7 @@ TEST(AlignmentTrial, TheBatchAfterAlignmentIsConsistentOverTheWholeInterval) {
       RunStudy({"",
                 {},
                 {Under({"velocity"}, AlignmentTable())},
-                {{{{"1 Hz"}, [&] { return recording; }, trial}}}},
+                {{{"1 Hz"}, [&] { return recording; }, trial}}},
                {.runs = kRuns, .first_seed = 5001});
   ASSERT_EQ(all.rows[0].size(), 2u);
   const std::vector<std::string> batch = {"1 Hz", "velocity_alignment_batch"};

@@ -114,9 +114,9 @@ TEST(AttitudeEstimation, SmncWithstandsVibration) {
       RunStudy({"",
                 {},
                 {VibrationTable()},
-                {{{{},
-                   [&] { return recording; },
-                   AttitudeTrial(AccelerometerRules())}}}},
+                {{{},
+                  [&] { return recording; },
+                  AttitudeTrial(AccelerometerRules(), JudgeIntervals)}}},
                {.runs = 20});
   const auto value = [&](const char* rule, const char* figure) {
     return result.Value({rule}, figure);
@@ -249,14 +249,15 @@ TEST(AttitudeEstimation, TwentyTurnsWithAScaleErrorAreConsistent) {
       options.motion_disturbance = disturbance;
       return SimulateFreeRotation(options, seed);
     };
-    const StudyResult result =
-        RunStudy({"",
-                  {},
-                  {FreeRotationTable(kFreeRotationBegin, kFreeRotationEnd)},
-                  {{{{},
-                     [&] { return recording; },
-                     AttitudeTrial(AttitudeMethods(), 10)}}}},
-                 {.runs = runs, .first_seed = kFirstSeed});
+    const StudyResult result = RunStudy(
+        {"",
+         {},
+         {FreeRotationTable()},
+         {{{},
+           [&] { return recording; },
+           AttitudeTrial(AttitudeMethods(),
+                         MotionJudge(kFreeRotationBegin, kFreeRotationEnd))}}},
+        {.runs = runs, .first_seed = kFirstSeed});
     for (const char* method : {"ahrs", "ahrs_smoother"}) {
       const auto value = [&](const char* figure) {
         return result.Value({method}, figure);

@@ -28,7 +28,7 @@ StudyResult Compare(const std::string& profile, double sigma, int runs,
   return RunStudy({"",
                    {},
                    {JumpTable()},
-                   {{{{}, [realize] { return realize; }, JumpTrial()}}}},
+                   {{{}, [realize] { return realize; }, JumpTrial()}}},
                   {.runs = runs, .first_seed = first_seed});
 }
 

@@ -16,26 +16,24 @@ namespace {
 using ::testing::ElementsAre;
 
 StudyTable SeedTable() {
-  return {"cells",
-          {"case"},
-          {Single("seed", kPlain, "", "", "seed", OfRuns<Mean>)},
-          {}};
+  return {"cells", {"case"}, {{"seed", kPlain, OfRuns(Mean)}}, {}};
 }
 
-/// A job of one case, which needs no recording.
-std::vector<Case> Job(const std::string& name,
-                      const std::function<void(std::uint64_t)>& before = {}) {
-  return {{{name}, {}, [before](const Dataset&, CaseRun* run) {
-             if (before) before(run->seed);
-             RunRecord* record = run->Add(0, {});
-             record->values = {{"seed", static_cast<double>(run->seed)}};
-             record->t = {0.0};
-             record->series["e"] = {1.0};
-           }}};
+/// It needs no recording.
+Case Seeds(const std::string& name,
+           const std::function<void(std::uint64_t)>& before = {}) {
+  const auto run = [before](const Dataset&, CaseRun* of_case) {
+    if (before) before(of_case->seed);
+    RunRecord* record = of_case->Add(0, {});
+    record->values = {{"seed", static_cast<double>(of_case->seed)}};
+    record->t = {0.0};
+    record->series["e"] = {1.0};
+  };
+  return {{name}, {}, {{}, run}};
 }
 
 TEST(RunStudy, MakesARowOfEveryCaseAndSeedInTheirOrder) {
-  const Study study = {"", {}, {SeedTable()}, {Job("a"), Job("b")}};
+  const Study study = {"", {}, {SeedTable()}, {Seeds("a"), Seeds("b")}};
   for (const int threads : {1, 3}) {
     const StudyResult result =
         RunStudy(study, {.runs = 5, .first_seed = 7, .threads = threads});
@@ -60,25 +58,25 @@ Case Refusing(const std::string& name, const std::set<std::uint64_t>& seeds) {
     dataset.max_node_spacing = static_cast<double>(seed);
     return dataset;
   };
-  return {{name},
-          [recording] { return recording; },
-          [](const Dataset& dataset, CaseRun* run) {
-            for (const std::string method : {"first", "second"}) {
-              run->Try({method}, [&](RunRecord* record) {
-                if (method == "second" && dataset.max_node_spacing == 4.0) {
-                  throw InputError("not for me");
-                }
-                record->values = {{"seed", dataset.max_node_spacing}};
-              });
-            }
-          }};
+  const std::vector<std::string> methods = {"first", "second"};
+  const auto run = [methods](const Dataset& dataset, CaseRun* of_case) {
+    for (const std::string& method : methods) {
+      of_case->Try({method}, [&](RunRecord* record) {
+        if (method == "second" && dataset.max_node_spacing == 4.0) {
+          throw InputError("not for me");
+        }
+        record->values = {{"seed", dataset.max_node_spacing}};
+      });
+    }
+  };
+  return {{name}, [recording] { return recording; }, {Named(methods), run}};
 }
 
 TEST(RunStudy, ARefusedRecordingIsAFailedRunOfEveryMethodAndIsNamed) {
   StudyTable table = SeedTable();
   table.labels = {"case", "method"};
   const StudyResult result =
-      RunStudy({"", {}, {table}, {{Refusing("a", {1, 3}), Refusing("b", {})}}},
+      RunStudy({"", {}, {table}, {Refusing("a", {1, 3}), Refusing("b", {})}},
                {.runs = 5});
   EXPECT_TRUE(result.complete);
   ASSERT_EQ(result.rows[0].size(), 4u);
@@ -87,24 +85,27 @@ TEST(RunStudy, ARefusedRecordingIsAFailedRunOfEveryMethodAndIsNamed) {
   EXPECT_EQ(result.Row({"a", "second"}).failed, 3);
   EXPECT_EQ(result.Row({"b", "first"}).failed, 0);
   EXPECT_EQ(result.Value({"a", "first"}, "seed"), 11.0 / 3.0);
-  EXPECT_THAT(result.refusals, ElementsAre("a, seed 1: no such recording",
-                                           "a, seed 3: no such recording",
-                                           "a, second, seed 4: not for me",
-                                           "b, second, seed 4: not for me"));
+  EXPECT_THAT(result.refusals,
+              ElementsAre("a, first, seed 1: no such recording",
+                          "a, second, seed 1: no such recording",
+                          "a, first, seed 3: no such recording",
+                          "a, second, seed 3: no such recording",
+                          "a, second, seed 4: not for me",
+                          "b, second, seed 4: not for me"));
 }
 
 TEST(RunStudy, WhereAllIsRefusedThatIsTheError) {
   StudyTable table = SeedTable();
   table.labels = {"case", "method"};
   EXPECT_THROW(
-      RunStudy({"", {}, {table}, {{Refusing("a", {1, 2})}}}, {.runs = 2}),
+      RunStudy({"", {}, {table}, {Refusing("a", {1, 2})}}, {.runs = 2}),
       InputError);
 }
 
-TEST(RunStudy, OfOneJobTheFirstSeedsAreKnownMeanwhile) {
+TEST(RunStudy, OfOneCaseTheFirstSeedsAreKnownMeanwhile) {
   std::function<StudyResult()> so_far;
   std::vector<int> known;
-  const Study study = {"", {}, {SeedTable()}, {Job("a", [&](std::uint64_t) {
+  const Study study = {"", {}, {SeedTable()}, {Seeds("a", [&](std::uint64_t) {
                          const StudyResult result = so_far();
                          EXPECT_FALSE(result.complete);
                          EXPECT_EQ(result.records.size(),
@@ -117,13 +118,14 @@ TEST(RunStudy, OfOneJobTheFirstSeedsAreKnownMeanwhile) {
   EXPECT_TRUE(so_far().complete);
 }
 
-TEST(RunStudy, OfSeveralJobsTheFinishedAreKnownMeanwhile) {
+TEST(RunStudy, OfSeveralCasesTheFinishedAreKnownMeanwhile) {
   std::function<StudyResult()> so_far;
   std::vector<std::size_t> rows;
   const auto look = [&](std::uint64_t) {
     rows.push_back(so_far().rows[0].size());
   };
-  const Study study = {"", {}, {SeedTable()}, {Job("a", look), Job("b", look)}};
+  const Study study = {
+      "", {}, {SeedTable()}, {Seeds("a", look), Seeds("b", look)}};
   RunStudy(study, {.runs = 2},
            [&](auto known_so_far) { so_far = known_so_far; });
   EXPECT_THAT(rows, ElementsAre(0, 0, 1, 1));
@@ -132,7 +134,7 @@ TEST(RunStudy, OfSeveralJobsTheFinishedAreKnownMeanwhile) {
 TEST(RunStudy, TheFirstExceptionStopsTheRest) {
   std::mutex mutex;
   int count = 0;
-  const Study study = {"", {}, {SeedTable()}, {Job("a", [&](std::uint64_t) {
+  const Study study = {"", {}, {SeedTable()}, {Seeds("a", [&](std::uint64_t) {
                          const std::lock_guard lock(mutex);
                          ++count;
                          throw std::runtime_error("no");

@@ -19,8 +19,8 @@ std::deque<RunRecord> Tried(const Dataset& dataset,
                             const std::vector<std::string>& methods) {
   CaseRun run = {{}, 1};
   NavigationTrialOf(
-      {.methods = methods, .judged_every = 1.0, .best_of_run = true})(dataset,
-                                                                      &run);
+      {.methods = methods, .judged_every = 1.0, .best_of_run = true})
+      .run(dataset, &run);
   return run.records;
 }
 

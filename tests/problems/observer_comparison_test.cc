@@ -60,7 +60,7 @@ Timeline TimelineOf(const Dataset& dataset) {
 
 /// The rows are by case, then by model.
 StudyResult Observe(const std::vector<Case>& cases, int runs, int threads = 1) {
-  return RunStudy({"", {}, {Under({"start"}, ObserverTable())}, {cases}},
+  return RunStudy({"", {}, {Under({"start"}, ObserverTable())}, cases},
                   {.runs = runs, .threads = threads});
 }
 

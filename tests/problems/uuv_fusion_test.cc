@@ -109,34 +109,21 @@ TEST(UuvFusion, OnlyDoubleUseOfInformationIsInconsistent) {
   }
 }
 
-TEST(UuvFusion, HistogramCountsEveryEpochAndShowsTheShape) {
+/// Over all runs and epochs, as over those of each run.
+TEST(UuvFusion, ScatterIsThatOfAllDistances) {
   const StudyResult result =
       RunStudy(UuvFusionStudy(SearchPath(), {UuvReading{}}), {.runs = 2});
-  const std::vector<Figure>& figures = result.tables[0].figures;
-  const auto histogram = std::find_if(
-      figures.begin(), figures.end(),
-      [](const Figure& figure) { return figure.name == "spatial_histogram"; });
-  ASSERT_NE(histogram, figures.end());
-  for (const FusionArchitecture architecture : kFusionArchitectures) {
-    const std::vector<std::string> labels = {kPrinted,
-                                             FusionName(architecture)};
-    const double bin = result.Value(labels, "spatial_bin");
-    const double deviation = result.Value(labels, "spatial_std");
-    double count = 0.0;
-    double sum = 0.0;
-    double middle = 0.5 * bin;
-    for (const double n :
-         result.Row(labels)
-             .values[static_cast<std::size_t>(histogram - figures.begin())]) {
-      sum += n * middle;
-      count += n;
-      middle += bin;
-    }
-    EXPECT_EQ(count, 2000);
-    EXPECT_NEAR(sum / 2000.0, result.Value(labels, "spatial_mean"), 0.5 * bin);
-    EXPECT_LE(bin, 0.25 * deviation);
-    EXPECT_GT(bin, 0.09 * deviation);
+  const std::vector<std::string> labels = {kPrinted, "central"};
+  double sum = 0.0, squares = 0.0;
+  for (const RunRecord& record : result.records) {
+    if (record.labels != labels) continue;
+    sum += record.Find("spatial_mean").value() / 2.0;
+    squares += std::pow(record.Find("spatial_rms").value(), 2) / 2.0;
   }
+  EXPECT_NEAR(result.Value(labels, "spatial_mean"), sum, 1e-12);
+  EXPECT_NEAR(result.Value(labels, "spatial_std"),
+              std::sqrt(squares - sum * sum), 1e-12);
+  EXPECT_LT(result.Value(labels, "spatial_std"), sum);
 }
 
 }  // namespace

@@ -34,12 +34,31 @@ TestProblem FixesOfOneMinute(double spacing = 1.0) {
   return MakeProblem(options, 3);
 }
 
+/// Of the positions alone.
+ReceiverErrors FindThem(const Problem& problem, const LinearTape& tape) {
+  std::vector<ReceiverErrors> all =
+      FindReceiverErrors(problem, tape, {.known = {1}});
+  return std::move(all.at(0));
+}
+
+/// As decided before.
+ReceiverErrors TakeThem(const ErrorDecisions& decisions, const Problem& problem,
+                        const LinearTape& tape) {
+  const DecidedErrors decided = {
+      std::make_shared<const ErrorDecisions>(decisions)};
+  std::vector<ReceiverErrors> all = FindReceiverErrors(
+      problem, tape, {.decided = &decided, .go_on = [](double) -> bool {
+                        throw std::logic_error("searched anew");
+                      }});
+  return std::move(all.at(0));
+}
+
 /// What is found about the true trajectory, and the problem extended by it.
 struct Found {
   explicit Found(const TestProblem& test)
       : problem(test.Pose(GateDecisions(test.measurements.size(), 1))),
         tape(RunLinearizedFilter(test.truth, &problem)),
-        errors(FindReceiverErrors(problem, tape, 0)) {
+        errors(FindThem(problem, tape)) {
     if (errors.Stands()) errors.Extend(&problem);
   }
 
@@ -170,17 +189,17 @@ Averaged AverageTwoTellings(double behind) {
   AddStep(30.5, &test);
   Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
   const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
-  const std::optional<ReceiverErrors> errors =
-      ApplyDecisions(TwoTellings(problem, tape, behind), tape);
-  errors->Extend(&problem);
-  std::vector<State> states = errors->States(problem.layout);
+  const ReceiverErrors errors =
+      TakeThem(TwoTellings(problem, tape, behind), problem, tape);
+  errors.Extend(&problem);
+  std::vector<State> states = errors.States(problem.layout);
   const int dim = problem.layout.dim();
   CovarianceSeries P(dim, states.size());
   for (std::size_t k = 0; k < states.size(); ++k) {
     P.Set(k, ErrorMatrix::Identity(dim, dim));
   }
   Averaged out;
-  out.doubt = errors->Average(problem.layout, &states, &P);
+  out.doubt = errors.Average(problem.layout, &states, &P);
   out.off = (states[10].p_e - test.truth[10].p_e).norm();
   out.variance = P.Get(10)(0, 0) - 1.0;
   return out;
@@ -222,14 +241,13 @@ TEST(ReceiverErrors, OfASensorOfOneRowHaveACompleteBlock) {
   }
   Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
   const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
-  const std::optional<ReceiverErrors> errors =
-      ApplyDecisions(TwoTellings(problem, tape, 3.0, 1), tape);
-  ASSERT_TRUE(errors.has_value());
-  errors->Extend(&problem);
+  const ReceiverErrors errors =
+      TakeThem(TwoTellings(problem, tape, 3.0, 1), problem, tape);
+  errors.Extend(&problem);
   const Block* e = problem.layout.Find(BlockKind::kColouredNoise, 1);
   ASSERT_NE(e, nullptr);
   EXPECT_EQ(e->dim, 3);
-  const std::vector<State> states = errors->States(problem.layout);
+  const std::vector<State> states = errors.States(problem.layout);
   EXPECT_NEAR(states[45].parameters(e->parameter_offset), 50.0, 3.0);
 }
 
@@ -246,9 +264,8 @@ TEST(ReceiverErrors, FromTheFirstFixAreDoubtful) {
   other.sequence.erase(other.sequence.begin());
   other.sequence.front().anew = true;
   decisions.regimes.hypotheses = {other};
-  const std::optional<ReceiverErrors> errors = ApplyDecisions(decisions, tape);
-  ASSERT_TRUE(errors.has_value());
-  const std::vector<Evidence> doubts = errors->Doubts();
+  const ReceiverErrors errors = TakeThem(decisions, problem, tape);
+  const std::vector<Evidence> doubts = errors.Doubts();
   ASSERT_EQ(doubts.size(), 1u);
   EXPECT_THAT(doubts[0].what, HasSubstr("errs from 0 to 30 s"));
 }
@@ -273,19 +290,18 @@ TEST(ReceiverErrors, AreTheSameAboutAnotherTapeOfTheSameFixes) {
   AddStep(50.5, &test);
   Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
   const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
-  const ReceiverErrors found = FindReceiverErrors(problem, tape, 0);
+  const ReceiverErrors found = FindThem(problem, tape);
   ASSERT_TRUE(found.Stands());
   const auto decisions = found.Decisions();
-  const std::optional<ReceiverErrors> again = ApplyDecisions(*decisions, tape);
-  ASSERT_TRUE(again.has_value());
-  EXPECT_EQ(again->InWords(), found.InWords());
-  EXPECT_EQ(again->log_gain(), found.log_gain());
-  EXPECT_EQ(again->MeanSquareDistanceTo(found), 0.0);
+  const ReceiverErrors again = TakeThem(*decisions, problem, tape);
+  EXPECT_EQ(again.InWords(), found.InWords());
+  EXPECT_EQ(again.log_gain(), found.log_gain());
+  EXPECT_EQ(again.MeanSquareDistanceTo(found), 0.0);
 
   Problem fewer = test.Pose(GateDecisions(test.measurements.size(), 1));
   fewer.decisions.front() = 0;
   const LinearTape other = RunLinearizedFilter(test.truth, &fewer);
-  EXPECT_FALSE(ApplyDecisions(*decisions, other).has_value());
+  EXPECT_EQ(FindingsAgain(*decisions, other), nullptr);
 }
 
 }  // namespace

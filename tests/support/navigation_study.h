@@ -12,9 +12,9 @@ inline Study NavigationStudy(const PerfectRecording& recording,
   const hindsight::Recording realize = [&recording](std::uint64_t seed) {
     return recording.Realize(seed);
   };
-  return {.tables = NavigationTables(trial.leg_ends),
-          .jobs = {
-              {{{}, [realize] { return realize; }, NavigationTrialOf(trial)}}}};
+  return {
+      .tables = NavigationTables(trial.leg_ends),
+      .cases = {{{}, [realize] { return realize; }, NavigationTrialOf(trial)}}};
 }
 
 }  // namespace hindsight::testing

@@ -1,0 +1,55 @@
+#ifndef HINDSIGHT_EVALUATION_STATE_ERRORS_H_
+#define HINDSIGHT_EVALUATION_STATE_ERRORS_H_
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "dataset/dataset.h"
+#include "state/covariance_series.h"
+#include "state/error_layout.h"
+#include "state/state.h"
+
+namespace hindsight {
+
+/// Errors of three components along a trajectory, truth less estimate, and what
+/// was stated of them.
+struct PartErrors {
+  std::vector<Eigen::Vector3d> e;
+  std::vector<Eigen::Vector3d> sigma;
+  std::vector<double> nees;  ///< e' P^-1 e, 3 is right
+
+  std::vector<double> Norms() const;
+  std::vector<double> Component(int axis) const;
+  /// Share of all components within so many sigmas.
+  double ShareInside(double sigmas) const;
+};
+
+/// The tangent of all estimators (state/state.h) at each of some states.
+struct StateErrors {
+  std::vector<double> t;  ///< [s]
+  /// NED [m], [m/s], [rad], body axes [rad/s]; empty of what the layout has not,
+  /// or not in all components.
+  PartErrors position, velocity, attitude, gyro_bias;
+  std::vector<double> yaw;   ///< difference of the Euler angles [rad]
+  std::vector<double> nees;  ///< of all components with truth
+  int states = 0;            ///< how many those are
+
+  /// Share of the states of which a component of position or attitude is more
+  /// than so many sigmas off.
+  double ShareBeyond(double sigmas) const;
+};
+
+/// Of the states of those numbers. Throws InputError for one without truth.
+StateErrors ErrorsOf(const Dataset& dataset, const ErrorLayout& layout,
+                     const std::vector<State>& states,
+                     const CovarianceSeries& P,
+                     const std::vector<std::size_t>& numbers);
+/// Of one state in `every`, the first being one of them.
+StateErrors ErrorsOf(const Dataset& dataset, const ErrorLayout& layout,
+                     const std::vector<State>& states,
+                     const CovarianceSeries& P, std::size_t every = 1);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_EVALUATION_STATE_ERRORS_H_
