@@ -21,6 +21,16 @@ constexpr double kLongitude = -11.5;
 constexpr double kHeight = 500.0;  // m
 constexpr int kFixes = 39;
 
+/// An IMU at rest for as long as the fixes last.
+std::string RestingImu() {
+  std::string imu = "time,gx,gy,gz,ax,ay,az\n";
+  for (int k = 0; k <= 4000; ++k) {
+    imu += fmt::format("{:.2f},0.00{},0,0,0,0.0{},-9.81\n", 0.01 * k, k % 7,
+                       k % 5);
+  }
+  return imu;
+}
+
 /// How a receiver at rest but for a metre a second to the north is written down.
 struct FixForm {
   const char* name;
@@ -186,12 +196,7 @@ TEST_F(RecordingFolder, FineTicksAreThoseOfTheLikelyRate) {
 
 /// In a file of a DVL's name velocities along axes are those of its own.
 TEST_F(RecordingFolder, VelocitiesOfADvlNeedNotNameIt) {
-  std::string imu;
-  for (int k = 0; k <= 4000; ++k) {
-    imu += fmt::format("{:.2f},0.00{},0,0,0,0.0{},-9.81\n", 0.01 * k, k % 7,
-                       k % 5);
-  }
-  Write("imu.csv", "time,gx,gy,gz,ax,ay,az\n" + imu);
+  Write("imu.csv", RestingImu());
   for (const auto& [titles, line] :
        {std::pair("time,velX,velY,velZ", "v_x: \"2 [m/s]\""),
         {"time,Vx [mm/s],Vy [mm/s],Vz [mm/s]", "v_y: \"3 [mm/s]\""},
@@ -210,18 +215,14 @@ TEST_F(RecordingFolder, VelocitiesOfADvlNeedNotNameIt) {
 /// What a device writes where it has no reading is told by how it is written, how
 /// often it stands and how far it is from all others; a reading that is far is none.
 TEST_F(RecordingFolder, NumbersThatStandForNoReadingAreAbsent) {
-  std::string imu, dvl;
-  for (int k = 0; k <= 4000; ++k) {
-    imu += fmt::format("{:.2f},0.00{},0,0,0,0.0{},-9.81\n", 0.01 * k, k % 7,
-                       k % 5);
-  }
+  std::string dvl;
   for (int k = 0; k < kFixes; ++k) {
     const bool bad = k % 10 == 3;
     dvl += bad ? fmt::format("{}.0,-32.768,-32.768,-32.768\n", k)
                : fmt::format("{}.0,1.{},0.{},{}\n", k, k % 7, k % 3,
                              k % 12 == 5 ? 40.5 : 0.01 * (k % 5));
   }
-  Write("imu.csv", "time,gx,gy,gz,ax,ay,az\n" + imu);
+  Write("imu.csv", RestingImu());
   Write("dvl.csv", "time,vx,vy,vz\n" + dvl);
   const std::string config = DraftText(DraftRecordings(folder_.string())[0]);
   EXPECT_THAT(config, HasSubstr("bad_values: [-32.768]"));
@@ -234,18 +235,13 @@ TEST_F(RecordingFolder, NumbersThatStandForNoReadingAreAbsent) {
 
 /// The zone is the file's; of which half of the Earth nothing tells.
 TEST_F(RecordingFolder, EastingAndNorthingAreThoseOfUtm) {
-  std::string imu = "time,gx,gy,gz,ax,ay,az\n";
-  for (int k = 0; k <= 4000; ++k) {
-    imu += fmt::format("{:.2f},0.00{},0,0,0,0.0{},-9.81\n", 0.01 * k, k % 7,
-                       k % 5);
-  }
   std::string fixes = "time,utm_zone,Easting,Northing,Ellip. Height\n";
   for (int k = 0; k < kFixes; ++k) {
     const Eigen::Vector3d p = UtmFromGeodetic(PlaceAt(k), {29, false});
     fixes +=
         fmt::format("{}.0,29,{:.4f},{:.4f},{:.4f}\n", k, p.x(), p.y(), p.z());
   }
-  Write("imu.csv", imu);
+  Write("imu.csv", RestingImu());
   Write("points.csv", fixes);
   std::string config = DraftText(DraftRecordings(folder_.string())[0]);
   EXPECT_THAT(config, HasSubstr("frame: utm"));

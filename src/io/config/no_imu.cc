@@ -15,29 +15,23 @@ namespace {
 
 /// Throws InputError for gzip data that are damaged or cut off, and for UTF-16.
 void RequireReadable(const std::string &path) {
-  if (!IsFile(path))
-    return;
+  if (!IsFile(path)) return;
   const InputFile file(path);
-  if (IsUtf16(file))
-    TextLines lines(path);
-  if (!path.ends_with(".gz"))
-    return;
-  if (!GzipReader::IsGzip(file))
-    return;
+  if (IsUtf16(file)) TextLines lines(path);
+  if (!path.ends_with(".gz")) return;
+  if (!GzipReader::IsGzip(file)) return;
   GzipReader reader(file);
   std::vector<char> piece(std::size_t{1} << 20);
-  while (reader.Read(piece.data(), piece.size()) > 0)
-    continue;
+  while (reader.Read(piece.data(), piece.size()) > 0) continue;
 }
 
-} // namespace
+}  // namespace
 
 void FailWithoutImu(const std::string &folder, const RecordingFiles &rest) {
   std::string found;
   const auto name = [&](const std::string &what) {
     constexpr std::size_t kMost = 160;
-    if (found.size() > kMost)
-      return;
+    if (found.size() > kMost) return;
     found += (found.empty() ? "" : ", ") + what;
   };
   for (const FoundStream &other : rest.others) {
@@ -53,8 +47,7 @@ void FailWithoutImu(const std::string &folder, const RecordingFiles &rest) {
     RequireReadable(path);
     name(file);
     const std::string why = advice.empty() ? WhyNotRead(path) : "";
-    if (!why.empty())
-      advice = file + " " + why;
+    if (!why.empty()) advice = file + " " + why;
   }
   if (advice.empty()) {
     advice =
@@ -68,4 +61,4 @@ void FailWithoutImu(const std::string &folder, const RecordingFiles &rest) {
                           (rest.apart.empty() ? "" : "; ") + rest.apart);
 }
 
-} // namespace hindsight
+}  // namespace hindsight
