@@ -12,6 +12,6 @@ namespace hindsight {
 [[noreturn]] void FailWithoutImu(const std::string &folder,
                                  const RecordingFiles &rest);
 
-} // namespace hindsight
+}  // namespace hindsight
 
-#endif // HINDSIGHT_IO_CONFIG_NO_IMU_H_
+#endif  // HINDSIGHT_IO_CONFIG_NO_IMU_H_

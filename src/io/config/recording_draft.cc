@@ -41,14 +41,13 @@ bool HoldsRowsOfNumbers(const fs::path &path) {
     const bool is_row = number != line.npos && line[number] >= '0' &&
                         line[number] <= '9' &&
                         line.find_first_of(",; \t", number) != line.npos;
-    if (is_row && ++rows == kRows)
-      return true;
+    if (is_row && ++rows == kRows) return true;
   }
   return false;
 }
 
 class Drafter {
-public:
+ public:
   explicit Drafter(RecordingFiles files) : files_(std::move(files)) {
     draft_.name = files_.name;
     draft_.folder = fs::absolute(files_.folder).lexically_normal().string();
@@ -63,8 +62,7 @@ public:
          TakeSupposedPlaces(draft_.imu->file, &files_.others)) {
       draft_.unused.push_back({"position", &PositionKind(), std::move(found)});
     }
-    for (FoundStream &found : files_.others)
-      TakeOther(std::move(found));
+    for (FoundStream &found : files_.others) TakeOther(std::move(found));
     KeepFieldForAttitude();
     SetDraftClocks(&draft_);
     SetStart();
@@ -77,16 +75,14 @@ public:
       if (IsFile(path) && IsUtf16(InputFile(path.string()))) {
         draft_.Assume(name + ": is UTF-16 text, which is not read");
       }
-      if (!HoldsRowsOfNumbers(path))
-        continue;
+      if (!HoldsRowsOfNumbers(path)) continue;
       draft_.Assume(name +
                     ": its numbers were not recognised, and are left out");
     }
     for (std::string &name : draft_.unknown) {
       const std::string why =
           WhyNotRead((fs::path(draft_.folder) / name).string());
-      if (!why.empty())
-        name += ", which " + why;
+      if (!why.empty()) name += ", which " + why;
     }
     for (auto *unused : {UnusedRows, UnusedColumns}) {
       for (std::string &what : unused(draft_)) {
@@ -96,7 +92,7 @@ public:
     return std::move(draft_);
   }
 
-private:
+ private:
   fs::path PathOf(const FoundStream &found) const {
     return fs::path(draft_.folder) / found.file;
   }
@@ -161,8 +157,7 @@ private:
         stream.file = found.file;
         stream.more_files = found.more_files;
         stream.joined_by = found.joined_by;
-        if (!stream.imu)
-          again.push_back(std::move(stream));
+        if (!stream.imu) again.push_back(std::move(stream));
       }
     }
     // Counted rows that no stamp made a stream of.
@@ -172,8 +167,7 @@ private:
                          ? RecogniseFormat(
                                (fs::path(draft_.folder) / name).string(), hints)
                          : std::vector<FoundStream>();
-      if (streams.empty())
-        unknown.push_back(name);
+      if (streams.empty()) unknown.push_back(name);
       for (FoundStream &stream : streams) {
         stream.file = name;
         again.push_back(std::move(stream));
@@ -201,8 +195,7 @@ private:
              "reference, uncomment");
       return;
     }
-    for (const SensorKind *kind : found.kinds)
-      AddAiding(*kind, found);
+    for (const SensorKind *kind : found.kinds) AddAiding(*kind, found);
   }
 
   /// Positions are worth more than attitudes alone.
@@ -275,8 +268,7 @@ private:
                                             stream.kind == &OdometerKind() ||
                                             stream.kind == &DvlKind();
                                    });
-    if (!moves)
-      return;
+    if (!moves) return;
     for (auto at = draft_.aiding.begin(); at != draft_.aiding.end();) {
       if (!at->kind->magnetic) {
         ++at;
@@ -325,7 +317,7 @@ private:
   RecordingDraft draft_;
 };
 
-} // namespace
+}  // namespace
 
 void RecordingDraft::Assume(const std::string &what) {
   if (std::find(assumptions.begin(), assumptions.end(), what) ==
@@ -335,10 +327,9 @@ void RecordingDraft::Assume(const std::string &what) {
 }
 
 StreamDraft *RecordingDraft::Find(const std::string &stream) {
-  const auto at =
-      std::find_if(aiding.begin(), aiding.end(), [&](const StreamDraft &draft) {
-        return draft.name == stream;
-      });
+  const auto at = std::find_if(
+      aiding.begin(), aiding.end(),
+      [&](const StreamDraft &draft) { return draft.name == stream; });
   return at == aiding.end() ? nullptr : &*at;
 }
 
@@ -350,8 +341,7 @@ std::vector<RecordingDraft> DraftRecordings(const std::string &folder) {
   const fs::path absolute = fs::absolute(folder).lexically_normal();
   std::vector<RecordingFiles> recordings = FindRecordings(
       absolute.has_filename() ? absolute : absolute.parent_path(), &rest);
-  if (recordings.empty())
-    FailWithoutImu(folder, rest);
+  if (recordings.empty()) FailWithoutImu(folder, rest);
   std::vector<RecordingDraft> drafts;
   for (RecordingFiles &files : recordings) {
     drafts.push_back(Drafter(std::move(files)).Draft());
@@ -359,4 +349,4 @@ std::vector<RecordingDraft> DraftRecordings(const std::string &folder) {
   return drafts;
 }
 
-} // namespace hindsight
+}  // namespace hindsight

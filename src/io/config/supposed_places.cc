@@ -18,11 +18,9 @@ bool IsPosition(const FoundStream &found) {
 /// Of formats whose places are not read beforehand, all are far from what only
 /// seems a place.
 bool AreFarApart(const FoundStream &a, const FoundStream &b) {
-  constexpr double kFar = 0.05; // rad, 300 km
-  if (!a.place)
-    return false;
-  if (!b.place)
-    return true;
+  constexpr double kFar = 0.05;  // rad, 300 km
+  if (!a.place) return false;
+  if (!b.place) return true;
   const double east = std::remainder(a.place->lon - b.place->lon, 2.0 * kPi) *
                       std::cos(b.place->lat);
   return std::hypot(a.place->lat - b.place->lat, east) > kFar;
@@ -31,8 +29,7 @@ bool AreFarApart(const FoundStream &a, const FoundStream &b) {
 /// The stream that speaks against `found`; nullptr if there is none.
 const FoundStream *Against(const FoundStream &found, bool of_imu,
                            const std::vector<FoundStream> &others) {
-  if (!IsPosition(found) || found.place_order_told)
-    return nullptr;
+  if (!IsPosition(found) || found.place_order_told) return nullptr;
   const auto at =
       std::find_if(others.begin(), others.end(), [&](const FoundStream &other) {
         return other.file != found.file && IsPosition(other) &&
@@ -41,7 +38,7 @@ const FoundStream *Against(const FoundStream &found, bool of_imu,
   return at == others.end() ? nullptr : &*at;
 }
 
-} // namespace
+}  // namespace
 
 std::vector<FoundStream> TakeSupposedPlaces(const std::string &imu_file,
                                             std::vector<FoundStream> *others) {
@@ -50,8 +47,7 @@ std::vector<FoundStream> TakeSupposedPlaces(const std::string &imu_file,
   for (const FoundStream &found : *others) {
     const FoundStream *other = Against(found, found.file == imu_file, *others);
     (other == nullptr ? kept : taken).push_back(found);
-    if (other == nullptr)
-      continue;
+    if (other == nullptr) continue;
     taken.back().remarks.push_back(
         "its numbers are within the ranges of places, but not where " +
         other->file + " was recorded");
@@ -60,4 +56,4 @@ std::vector<FoundStream> TakeSupposedPlaces(const std::string &imu_file,
   return taken;
 }
 
-} // namespace hindsight
+}  // namespace hindsight

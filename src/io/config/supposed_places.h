@@ -15,6 +15,6 @@ namespace hindsight {
 std::vector<FoundStream> TakeSupposedPlaces(const std::string &imu_file,
                                             std::vector<FoundStream> *others);
 
-} // namespace hindsight
+}  // namespace hindsight
 
-#endif // HINDSIGHT_IO_CONFIG_SUPPOSED_PLACES_H_
+#endif  // HINDSIGHT_IO_CONFIG_SUPPOSED_PLACES_H_

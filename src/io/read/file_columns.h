@@ -45,7 +45,7 @@ struct FileColumns {
   long text_rows = 0;     ///< rows of text between or behind those of numbers
   /// Numbers that stand for no reading, NaN among the columns' values.
   std::vector<double> bad_values = {};
-  bool complete = true;   ///< false: a long file, of which this is the start
+  bool complete = true;  ///< false: a long file, of which this is the start
   std::map<std::string, double> scalars;  ///< variables of one number
   /// One clause each: what is odd about the file and what was done about it.
   std::vector<std::string> remarks;

@@ -46,10 +46,10 @@ struct TableLayout {
   double first_day = 0.0;  ///< of kDays: where 1970 begins [d]
   DateOrder date_order = DateOrder::kYearFirst;
 
-  char delimiter = ',';         ///< ' ': any run of blanks
-  char decimal = '.';           ///< or ',', which is no delimiter then
-  bool comma_is_blank = false;  ///< with ' ': commas separate too
-  RowWord rows = {};            ///< other lines are another stream's
+  char delimiter = ',';                 ///< ' ': any run of blanks
+  char decimal = '.';                   ///< or ',', which is no delimiter then
+  bool comma_is_blank = false;          ///< with ' ': commas separate too
+  RowWord rows = {};                    ///< other lines are another stream's
   std::vector<double> bad_values = {};  ///< numbers that are absent
   /// Columns each row must have; 0: as many as the first row.
   int column_count = 0;
