@@ -200,7 +200,8 @@ TEST_F(RecordingFolder, VelocitiesOfADvlNeedNotNameIt) {
   for (const auto& [titles, line] :
        {std::pair("time,velX,velY,velZ", "v_x: \"2 [m/s]\""),
         {"time,Vx [mm/s],Vy [mm/s],Vz [mm/s]", "v_y: \"3 [mm/s]\""},
-        {"time,vx,vy,vz", "v_z: \"4 [m/s]\""}}) {
+        {"time,vx,vy,vz", "v_z: \"4 [m/s]\""},
+        {"time,vel_forward,vel_starboard,vel_down", "v_z: \"4 [m/s]\""}}) {
     std::string dvl = std::string(titles) + "\n";
     for (int k = 0; k < kFixes; ++k) {
       dvl += fmt::format("{}.0,1.{},0.{},0.0{}\n", k, k % 7, k % 3, k % 5);
@@ -266,6 +267,19 @@ TEST_F(RecordingFolder, EastingAndNorthingAreThoseOfUtm) {
   Write("points.csv", fixes);
   Write("config.yaml", config);
   EXPECT_THAT(LoadError(), HasSubstr("are in no zone of UTM"));
+}
+
+/// Rows of an IMU in which a reading is missing are left out.
+TEST_F(RecordingFolder, RowsOfAnImuWithoutAReadingAreLeftOut) {
+  std::string imu = RestingImu();
+  const std::size_t row = imu.find("\n10.00,") + 1;
+  imu.replace(row, imu.find('\n', row) - row, "10.00,0.001,--,0,0,0.01,-9.81");
+  Write("imu.csv", imu);
+  const std::string config = DraftText(DraftRecordings(folder_.string())[0]);
+  EXPECT_THAT(config, HasSubstr("on_text: drop"));
+  Write("config.yaml", config);
+  ASSERT_EQ(LoadError(), "") << config;
+  EXPECT_EQ(Load().imu.samples.size(), 4000u);
 }
 
 }  // namespace

@@ -118,9 +118,14 @@ void ColumnLines::Take(const std::string& family, const TripleGuess& triple) {
 
 void ColumnLines::TakeForDvl() {
   for (std::size_t i = 0; i < meanings_.size(); ++i) {
-    ColumnMeaning meaning = MeaningOfTitle("dvl " + file_.columns[i].title);
-    if (meaning.quantity.starts_with("v_")) meanings_[i] = std::move(meaning);
+    const std::string& title = file_.columns[i].title;
+    ColumnMeaning meaning = MeaningOfTitle("dvl " + title);
+    if (!meaning.quantity.starts_with("v_")) continue;
+    meanings_[i] = std::move(meaning);
   }
+  // "Down" beside "forward" and "starboard" is the vehicle's.
+  if (!HasAll({"v_x", "v_y", "v_d"}) || Titled("v_z") >= 0) return;
+  meanings_[static_cast<std::size_t>(Titled("v_d"))].quantity = "v_z";
 }
 
 void ColumnLines::TakeAxesFor(const std::string& family) {
@@ -157,9 +162,15 @@ void ColumnLines::AddColumn(const std::string& quantity,
                         unit);
   }
   AddLine({"  " + quantity, value, comment}, found);
-  if (!found->imu && std::any_of(column.values.begin(), column.values.end(),
-                                 [](double x) { return std::isnan(x); })) {
+  if (std::none_of(column.values.begin(), column.values.end(),
+                   [](double x) { return std::isnan(x); })) {
+    return;
+  }
+  if (!found->imu) {
     SetLine({"absent_values", "true", "rows without a value are passed over"},
+            &found->lines);
+  } else if (file_.format == &ColumnsFormat()) {
+    SetLine({"on_text", "drop", "rows without a reading are left out"},
             &found->lines);
   }
 }

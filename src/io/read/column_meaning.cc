@@ -170,6 +170,9 @@ ColumnMeaning Velocity(const Words& words) {
     return Component("v_", DirectionOf(words));
   }
   if (HasAnyWord(words, {"dvl"})) {
+    if (HasAnyWord(words, {"forward", "fwd", "surge"})) return {"v_x", ""};
+    if (HasAnyWord(words, {"starboard", "stbd", "sway"})) return {"v_y", ""};
+    if (HasAnyWord(words, {"heave"})) return {"v_z", ""};
     if (const char axis = AxisOf(words, {"dvl", "v", "vel"}, {})) {
       return {std::string("v_") + axis, ""};
     }
