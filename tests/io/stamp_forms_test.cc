@@ -81,22 +81,25 @@ INSTANTIATE_TEST_SUITE_P(
                   "t: \"1 [UTC]\""}),
     [](const auto& info) { return std::string(info.param.name); });
 
-class SplitSeconds : public RecordingFolder {
+class StampKeys : public RecordingFolder {
  protected:
-  std::string ErrorOf(const std::string& columns, const std::string& row) {
+  std::string ErrorOf(const std::string& columns, const std::string& row,
+                      const std::string& keys = "") {
     std::string text = "0 0 0 0 0 0 -9.8 0\n" + row + "\n";
     Write("imu.txt", text);
     Write("config.yaml",
           "imu:\n  file: imu.txt\n  format: columns\n  columns: {" + columns +
               ", gyro_x: \"3 [rad/s]\", gyro_y: \"4 [rad/s]\", gyro_z: \"5 "
               "[rad/s]\", accel_x: \"6 [m/s^2]\", accel_y: \"6 [m/s^2]\", "
-              "accel_z: \"7 [m/s^2]\"}\n  noise: {gyro: 0.1 deg/sqrt(h), "
+              "accel_z: \"7 [m/s^2]\"}\n" +
+              keys +
+              "  noise: {gyro: 0.1 deg/sqrt(h), "
               "accel: 0.1 m/s/sqrt(h)}\n");
     return LoadError();
   }
 };
 
-TEST_F(SplitSeconds, AreWholeAndTheRestIsBelowOne) {
+TEST_F(StampKeys, AreWholeAndTheRestIsBelowOne) {
   // In either order.
   const std::string good = "t_rest: \"2 [ns]\", t: \"1 [s]\"";
   EXPECT_EQ(ErrorOf(good, "0 10000000 0 0 0 0 -9.8 0"), "");
@@ -110,6 +113,34 @@ TEST_F(SplitSeconds, AreWholeAndTheRestIsBelowOne) {
               HasSubstr("expected ns, us or ms"));
   EXPECT_THAT(ErrorOf("t_rest: \"2 [ns]\", t: \"1 [ms]\"", ""),
               HasSubstr("goes with a column t of whole seconds"));
+}
+
+TEST_F(StampKeys, KeysOfRowsAndBadValuesSayWhatTheyExpect) {
+  const auto error = [this](const std::string& keys) {
+    return ErrorOf("t: \"1 [s]\"", "1 0 0 0 0 0 -9.8 0", keys);
+  };
+  EXPECT_THAT(error("  rows: {column: 1, word: x, device: 0}\n"),
+              HasSubstr("expected `device_column` and `device` together"));
+  EXPECT_THAT(error("  rows: {column: 1, word: x, device_column: 2}\n"),
+              HasSubstr("expected `device_column` and `device` together"));
+  EXPECT_THAT(
+      error("  rows: {column: 1, word: x, device_column: 0, device: 0}\n"),
+      HasSubstr("device_column: expected 1 or more"));
+  EXPECT_THAT(
+      error("  rows: {column: 1, word: x, device_column: 2, device: 7}\n"),
+      HasSubstr("no rows that have 'x' in column 1 and '7' in column 2"));
+  EXPECT_THAT(error("  bad_values: [-999, none]\n"),
+              HasSubstr("bad_values: 'none' is not a number"));
+  Write("config.yaml",
+        "imu:\n  file: imu.txt\n  bad_values: [1]\n  noise: {gyro: 0.1 "
+        "deg/sqrt(h), accel: 0.1 m/s/sqrt(h)}\n");
+  EXPECT_THAT(LoadError(), HasSubstr("is of `format: columns`"));
+  Write("imu.npy", "x");
+  Write("config.yaml",
+        "imu:\n  file: imu.npy\n  format: npy\n  columns: {"
+        "t_rest: \":2 [ns]\"}\n  noise: {gyro: 0.1 deg/sqrt(h), accel: 0.1 "
+        "m/s/sqrt(h)}\n");
+  EXPECT_THAT(LoadError(), HasSubstr("t_rest is a column of texts alone"));
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ const ConfigTable<RowWord>& RowsTable() {
         .value = Key::Special{[](ConfigMap* map, RowWord* rows) {
           if (map->Has("device_column") != map->Has("device")) {
             map->Fail(map->Has("device") ? "device" : "device_column",
-                      "stands beside `device_column` and `device`");
+                      "expected `device_column` and `device` together");
           }
           rows->device_column = map->Integer("device_column", 0) - 1;
           if (map->Has("device_column") && rows->device_column < 0) {

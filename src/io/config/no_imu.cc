@@ -14,7 +14,7 @@ namespace hindsight {
 namespace {
 
 /// Throws InputError for gzip data that are damaged or cut off, and for UTF-16.
-void RequireReadable(const std::string &path) {
+void RequireReadable(const std::string& path) {
   if (!IsFile(path)) return;
   const InputFile file(path);
   if (IsUtf16(file)) TextLines lines(path);
@@ -27,14 +27,14 @@ void RequireReadable(const std::string &path) {
 
 }  // namespace
 
-void FailWithoutImu(const std::string &folder, const RecordingFiles &rest) {
+void FailWithoutImu(const std::string& folder, const RecordingFiles& rest) {
   std::string found;
-  const auto name = [&](const std::string &what) {
+  const auto name = [&](const std::string& what) {
     constexpr std::size_t kMost = 160;
     if (found.size() > kMost) return;
     found += (found.empty() ? "" : ", ") + what;
   };
-  for (const FoundStream &other : rest.others) {
+  for (const FoundStream& other : rest.others) {
     const std::string kind = other.truth || other.pose ? "a reference"
                              : other.kinds.empty()
                                  ? "a stream"
@@ -42,7 +42,7 @@ void FailWithoutImu(const std::string &folder, const RecordingFiles &rest) {
     name(other.file + " (" + kind + ")");
   }
   std::string advice;
-  for (const std::string &file : rest.unknown) {
+  for (const std::string& file : rest.unknown) {
     const std::string path = (rest.folder / file).string();
     RequireReadable(path);
     name(file);

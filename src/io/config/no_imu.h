@@ -9,8 +9,8 @@ namespace hindsight {
 
 /// Throws InputError of a folder in which no IMU was recognised: what was found
 /// instead, which of it cannot be read as it is, and what to do.
-[[noreturn]] void FailWithoutImu(const std::string &folder,
-                                 const RecordingFiles &rest);
+[[noreturn]] void FailWithoutImu(const std::string& folder,
+                                 const RecordingFiles& rest);
 
 }  // namespace hindsight
 

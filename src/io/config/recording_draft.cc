@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Whether a text file has some lines that begin with a number and go on.
-bool HoldsRowsOfNumbers(const fs::path &path) {
+bool HoldsRowsOfNumbers(const fs::path& path) {
   constexpr int kLinesLookedAt = 200;
   constexpr int kRows = 5;
   std::ifstream file(path);
@@ -58,19 +58,19 @@ class Drafter {
   RecordingDraft Draft() {
     TakeImu();
     LookAgain();
-    for (FoundStream &found :
+    for (FoundStream& found :
          TakeSupposedPlaces(draft_.imu->file, &files_.others)) {
       draft_.unused.push_back({"position", &PositionKind(), std::move(found)});
     }
-    for (FoundStream &found : files_.others) TakeOther(std::move(found));
+    for (FoundStream& found : files_.others) TakeOther(std::move(found));
     KeepFieldForAttitude();
     SetDraftClocks(&draft_);
     SetStart();
     const bool axes_known = FindLine(draft_.imu->lines, "axes") != nullptr;
-    for (StreamDraft &stream : draft_.aiding) {
+    for (StreamDraft& stream : draft_.aiding) {
       CompleteStream(axes_known, &stream);
     }
-    for (const std::string &name : draft_.unknown) {
+    for (const std::string& name : draft_.unknown) {
       const fs::path path = fs::path(draft_.folder) / name;
       if (IsFile(path) && IsUtf16(InputFile(path.string()))) {
         draft_.Assume(name + ": is UTF-16 text, which is not read");
@@ -79,13 +79,13 @@ class Drafter {
       draft_.Assume(name +
                     ": its numbers were not recognised, and are left out");
     }
-    for (std::string &name : draft_.unknown) {
+    for (std::string& name : draft_.unknown) {
       const std::string why =
           WhyNotRead((fs::path(draft_.folder) / name).string());
       if (!why.empty()) name += ", which " + why;
     }
-    for (auto *unused : {UnusedRows, UnusedColumns}) {
-      for (std::string &what : unused(draft_)) {
+    for (auto* unused : {UnusedRows, UnusedColumns}) {
+      for (std::string& what : unused(draft_)) {
         draft_.unknown.push_back(std::move(what));
       }
     }
@@ -93,12 +93,12 @@ class Drafter {
   }
 
  private:
-  fs::path PathOf(const FoundStream &found) const {
+  fs::path PathOf(const FoundStream& found) const {
     return fs::path(draft_.folder) / found.file;
   }
 
-  static bool IsBetter(const FoundStream &a, const FoundStream &b) {
-    const auto key = [](const FoundStream &found) {
+  static bool IsBetter(const FoundStream& a, const FoundStream& b) {
+    const auto key = [](const FoundStream& found) {
       const bool sure = !found.stamps ||
                         found.stamps->certainty == Certainty::kCertain ||
                         !found.stamps->rate;
@@ -114,7 +114,7 @@ class Drafter {
     std::stable_sort(files_.imus.begin(), files_.imus.end(), IsBetter);
     draft_.imu = std::move(files_.imus.front());
     for (std::size_t i = 1; i < files_.imus.size(); ++i) {
-      FoundStream &other = files_.imus[i];
+      FoundStream& other = files_.imus[i];
       other.imu = false;
       if (other.spin_axis) {
         AddWheel(std::move(other));
@@ -123,7 +123,7 @@ class Drafter {
         draft_.unused.push_back({"imu", nullptr, std::move(other)});
       }
     }
-    for (const std::string &assumption : draft_.imu->assumptions) {
+    for (const std::string& assumption : draft_.imu->assumptions) {
       draft_.assumptions.push_back("imu: " + assumption);
     }
   }
@@ -138,7 +138,7 @@ class Drafter {
     }
     std::vector<std::string> done;
     std::vector<FoundStream> again;
-    for (FoundStream &found : files_.others) {
+    for (FoundStream& found : files_.others) {
       const bool table = found.format == &ColumnsFormat() && !found.spin_axis &&
                          found.file != draft_.imu->file;
       if (!table) {
@@ -150,7 +150,7 @@ class Drafter {
       }
       done.push_back(found.file);
       std::vector<std::string> paths = {PathOf(found).string()};
-      for (const std::string &more : found.more_files) {
+      for (const std::string& more : found.more_files) {
         paths.push_back((fs::path(draft_.folder) / more).string());
       }
       for (FoundStream stream : RecogniseParts(paths, hints)) {
@@ -162,13 +162,13 @@ class Drafter {
     }
     // Counted rows that no stamp made a stream of.
     std::vector<std::string> unknown;
-    for (const std::string &name : draft_.unknown) {
+    for (const std::string& name : draft_.unknown) {
       auto streams = hints.count_rate
                          ? RecogniseFormat(
                                (fs::path(draft_.folder) / name).string(), hints)
                          : std::vector<FoundStream>();
       if (streams.empty()) unknown.push_back(name);
-      for (FoundStream &stream : streams) {
+      for (FoundStream& stream : streams) {
         stream.file = name;
         again.push_back(std::move(stream));
       }
@@ -195,28 +195,28 @@ class Drafter {
              "reference, uncomment");
       return;
     }
-    for (const SensorKind *kind : found.kinds) AddAiding(*kind, found);
+    for (const SensorKind* kind : found.kinds) AddAiding(*kind, found);
   }
 
   /// Positions are worth more than attitudes alone.
-  static bool MoreTold(const FoundStream &a, const FoundStream &b) {
-    const auto place = [](const FoundStream &found) {
+  static bool MoreTold(const FoundStream& a, const FoundStream& b) {
+    const auto place = [](const FoundStream& found) {
       return FindLine(found.lines, "  lat") != nullptr ||
              FindLine(found.lines, "  p_x") != nullptr;
     };
     return place(a) && !place(b);
   }
 
-  void Unused(const std::string &name, const SensorKind *kind,
-              FoundStream found, const std::string &why) {
+  void Unused(const std::string& name, const SensorKind* kind,
+              FoundStream found, const std::string& why) {
     found.remarks.push_back(why);
     draft_.unused.push_back({name, kind, std::move(found)});
   }
 
-  void AddAiding(const SensorKind &kind, const FoundStream &found) {
+  void AddAiding(const SensorKind& kind, const FoundStream& found) {
     const auto same = std::count_if(
         draft_.aiding.begin(), draft_.aiding.end(),
-        [&](const StreamDraft &stream) { return stream.kind == &kind; });
+        [&](const StreamDraft& stream) { return stream.kind == &kind; });
     const std::string base(kind.name);
     const std::string name = same == 0 ? base : base + std::to_string(same + 1);
     // A second odometer has the errors of the first: the road's and the tyres'.
@@ -225,7 +225,7 @@ class Drafter {
       return;
     }
     draft_.aiding.push_back({name, &kind, found});
-    for (const std::string &assumption : found.assumptions) {
+    for (const std::string& assumption : found.assumptions) {
       draft_.assumptions.push_back(name + ": " + assumption);
     }
   }
@@ -239,7 +239,7 @@ class Drafter {
     const double factor =
         UnitFactor(found.imu_guess->gyro.unit, Quantity::kAngularRate)
             .value_or(1.0);
-    std::erase_if(found.lines, [](const KeyLine &line) {
+    std::erase_if(found.lines, [](const KeyLine& line) {
       return line.key.starts_with("  gyro_") ||
              line.key.starts_with("  accel_");
     });
@@ -261,7 +261,7 @@ class Drafter {
   /// until somebody has surveyed it.
   void KeepFieldForAttitude() {
     const bool moves = std::any_of(draft_.aiding.begin(), draft_.aiding.end(),
-                                   [](const StreamDraft &stream) {
+                                   [](const StreamDraft& stream) {
                                      return stream.kind->places ||
                                             stream.kind->moves ||
                                             stream.kind->standing ||
@@ -286,11 +286,11 @@ class Drafter {
     SetLine({"initial", ""}, &draft_.top);
     const bool placed = std::any_of(
         draft_.aiding.begin(), draft_.aiding.end(),
-        [](const StreamDraft &stream) { return stream.kind->is_position; });
+        [](const StreamDraft& stream) { return stream.kind->is_position; });
     const bool moves = std::any_of(
         draft_.aiding.begin(), draft_.aiding.end(),
-        [](const StreamDraft &stream) { return !stream.kind->magnetic; });
-    const auto told = [&](const char *key) {
+        [](const StreamDraft& stream) { return !stream.kind->magnetic; });
+    const auto told = [&](const char* key) {
       return draft_.truth && FindLine(draft_.truth->lines, key) != nullptr;
     };
     const bool truth_tells = (told("  lat") || told("  p_x")) &&
@@ -319,21 +319,21 @@ class Drafter {
 
 }  // namespace
 
-void RecordingDraft::Assume(const std::string &what) {
+void RecordingDraft::Assume(const std::string& what) {
   if (std::find(assumptions.begin(), assumptions.end(), what) ==
       assumptions.end()) {
     assumptions.push_back(what);
   }
 }
 
-StreamDraft *RecordingDraft::Find(const std::string &stream) {
+StreamDraft* RecordingDraft::Find(const std::string& stream) {
   const auto at = std::find_if(
       aiding.begin(), aiding.end(),
-      [&](const StreamDraft &draft) { return draft.name == stream; });
+      [&](const StreamDraft& draft) { return draft.name == stream; });
   return at == aiding.end() ? nullptr : &*at;
 }
 
-std::vector<RecordingDraft> DraftRecordings(const std::string &folder) {
+std::vector<RecordingDraft> DraftRecordings(const std::string& folder) {
   if (!IsFolder(folder)) {
     throw InputError(folder, 0, "there is no such folder");
   }
@@ -343,7 +343,7 @@ std::vector<RecordingDraft> DraftRecordings(const std::string &folder) {
       absolute.has_filename() ? absolute : absolute.parent_path(), &rest);
   if (recordings.empty()) FailWithoutImu(folder, rest);
   std::vector<RecordingDraft> drafts;
-  for (RecordingFiles &files : recordings) {
+  for (RecordingFiles& files : recordings) {
     drafts.push_back(Drafter(std::move(files)).Draft());
   }
   return drafts;

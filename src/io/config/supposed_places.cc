@@ -10,14 +10,14 @@
 namespace hindsight {
 namespace {
 
-bool IsPosition(const FoundStream &found) {
+bool IsPosition(const FoundStream& found) {
   return !found.truth && !found.kinds.empty() &&
          found.kinds.front()->is_position;
 }
 
 /// Of formats whose places are not read beforehand, all are far from what only
 /// seems a place.
-bool AreFarApart(const FoundStream &a, const FoundStream &b) {
+bool AreFarApart(const FoundStream& a, const FoundStream& b) {
   constexpr double kFar = 0.05;  // rad, 300 km
   if (!a.place) return false;
   if (!b.place) return true;
@@ -27,11 +27,11 @@ bool AreFarApart(const FoundStream &a, const FoundStream &b) {
 }
 
 /// The stream that speaks against `found`; nullptr if there is none.
-const FoundStream *Against(const FoundStream &found, bool of_imu,
-                           const std::vector<FoundStream> &others) {
+const FoundStream* Against(const FoundStream& found, bool of_imu,
+                           const std::vector<FoundStream>& others) {
   if (!IsPosition(found) || found.place_order_told) return nullptr;
   const auto at =
-      std::find_if(others.begin(), others.end(), [&](const FoundStream &other) {
+      std::find_if(others.begin(), others.end(), [&](const FoundStream& other) {
         return other.file != found.file && IsPosition(other) &&
                (other.place_order_told || of_imu) && AreFarApart(found, other);
       });
@@ -40,12 +40,12 @@ const FoundStream *Against(const FoundStream &found, bool of_imu,
 
 }  // namespace
 
-std::vector<FoundStream> TakeSupposedPlaces(const std::string &imu_file,
-                                            std::vector<FoundStream> *others) {
+std::vector<FoundStream> TakeSupposedPlaces(const std::string& imu_file,
+                                            std::vector<FoundStream>* others) {
   std::vector<FoundStream> kept;
   std::vector<FoundStream> taken;
-  for (const FoundStream &found : *others) {
-    const FoundStream *other = Against(found, found.file == imu_file, *others);
+  for (const FoundStream& found : *others) {
+    const FoundStream* other = Against(found, found.file == imu_file, *others);
     (other == nullptr ? kept : taken).push_back(found);
     if (other == nullptr) continue;
     taken.back().remarks.push_back(

@@ -12,8 +12,8 @@ namespace hindsight {
 /// those of the IMU's file where the positions of another lie 300 km and more
 /// away, and those of any file where titled ones do. Each with the reason as
 /// its last remark.
-std::vector<FoundStream> TakeSupposedPlaces(const std::string &imu_file,
-                                            std::vector<FoundStream> *others);
+std::vector<FoundStream> TakeSupposedPlaces(const std::string& imu_file,
+                                            std::vector<FoundStream>* others);
 
 }  // namespace hindsight
 

@@ -9,6 +9,7 @@
 
 #include "io/read/column_steps.h"
 #include "io/read/counted_rows.h"
+#include "io/read/split_seconds.h"
 #include "io/read/text_format.h"
 #include "io/read/time_scale.h"
 #include "io/read/title_words.h"
@@ -170,54 +171,111 @@ void RecogniseWeek(const FileColumns& file,
   }
 }
 
-struct SplitSeconds {
-  int column = 0;
-  const TimeUnit* rest = nullptr;  ///< unit of the next column
-  std::vector<double> t;
-};
-
-/// Whether a title says that its column counts a part of the second.
-bool IsNamedRest(const std::string& title, const TimeUnit& unit) {
-  const std::vector<std::string> words = SplitWords(title);
-  return unit.seconds == 1e-9
-             ? HasAnyWord(words, {"nanosec", "nsec", "nsecs", "nanoseconds"})
-             : unit.seconds == 1e-6 &&
-                   HasAnyWord(words, {"usec", "usecs", "microsec"});
+bool IsUnixTime(double seconds) {
+  constexpr double kYear2001 = 978307200.0;
+  constexpr double kYear2050 = 2524608000.0;
+  return seconds > kYear2001 && seconds < kYear2050;
 }
 
-/// Whole seconds beside a column of what is left of them, as ROS writes stamps: by
-/// its title, or where many rows share a second and the rest fills it.
-std::optional<SplitSeconds> FindSplitSeconds(const FileColumns& file) {
-  const auto fits = [](const FileColumn& column) {
-    return column.holds == FileColumn::Holds::kNumbers &&
-           AreWholeNumbers(column.values) &&
-           std::all_of(column.values.begin(), column.values.end(),
-                       [](double v) { return v >= 0.0 && v < 1e10; });
-  };
-  for (std::size_t i = 0; i + 1 < file.columns.size() && file.rows > 3; ++i) {
-    const FileColumn& whole = file.columns[i];
-    const FileColumn& rest = file.columns[i + 1];
-    if (!fits(whole) || !fits(rest)) continue;
-    const double largest =
-        *std::max_element(rest.values.begin(), rest.values.end());
-    if (largest <= 0.0 || !Grows(whole.values, StepsOf(whole.values))) continue;
-    for (const TimeUnit& unit : kTimeUnits) {
-      const double part = largest * unit.seconds;
-      const bool fills = MostlyStand(whole.values) && part > 0.5 &&
-                         unit.seconds != kFineTick.seconds;
-      if (unit.seconds > 2e-3 || part >= 1.0 ||
-          !(fills || IsNamedRest(rest.title, unit))) {
-        continue;
-      }
-      SplitSeconds found{static_cast<int>(i), &unit, whole.values};
-      for (std::size_t k = 0; k < found.t.size(); ++k) {
-        found.t[k] += unit.seconds * rest.values[k];
-      }
-      const Steps steps = StepsOf(found.t);
-      if (Grows(found.t, steps) && IsSteady(found.t, steps)) return found;
-    }
+/// Where the stamps stand: dates, whole seconds and their rest, or one column.
+struct StampColumns {
+  int column = -1;
+  std::optional<Dates> dates;
+  std::optional<SplitSeconds> split;
+};
+
+StampColumns FindStampColumns(const FileColumns& file,
+                              const std::vector<ColumnMeaning>& meanings) {
+  StampColumns found;
+  found.column = FindColumn(file, meanings, true);
+  found.dates = FindDates(file, meanings);
+  const bool other = found.column >= 0 &&
+                     !(found.dates && found.dates->column == found.column);
+  if (found.dates && other &&
+      ((IsOfDay(*found.dates, file) && !found.dates->numbers) ||
+       MostlyStand(found.dates->t))) {
+    found.dates.reset();
   }
-  return std::nullopt;
+  if (found.dates) {
+    found.column = found.dates->column;
+    return found;
+  }
+  found.split = FindSplitSeconds(file);
+  if (found.split) {
+    found.column = found.split->column;
+  } else if (found.column < 0) {
+    found.column = FindColumn(file, meanings, false);
+  }
+  return found;
+}
+
+StampGuess GuessOf(const StampColumns& found, const FileColumns& file) {
+  StampGuess guess;
+  guess.column = found.column;
+  if (found.dates) Tell(*found.dates, file, &guess);
+  if (found.split) {
+    guess.rest_column = found.column + 1;
+    guess.rest_unit = found.split->rest_unit;
+  }
+  return guess;
+}
+
+const std::vector<double>& TimesIn(const StampColumns& found,
+                                   const FileColumns& file) {
+  if (found.dates) return found.dates->t;
+  if (found.split) return found.split->t;
+  return file.columns[static_cast<std::size_t>(found.column)].values;
+}
+
+void SetSteps(const std::vector<double>& t, const Steps& steps, double factor,
+              StampGuess* guess) {
+  guess->first = t.front() * factor;
+  guess->step = steps.median * factor;
+  guess->gap = steps.longest * factor;
+  guess->span = (t.back() - t.front()) * factor;
+}
+
+/// False of what are no days of this century.
+bool TakeDays(const std::vector<double>& t, const Steps& steps,
+              const StampHints& hints, StampGuess* guess) {
+  const std::string days = DayCountOf(t.front(), steps.median, hints);
+  if (days.empty()) return false;
+  SetSteps(t, steps, kDay, guess);
+  guess->first = (t.front() - *FirstDayOf(days)) * kDay;
+  guess->unit = days;
+  guess->scale = StampGuess::Scale::kDate;
+  guess->certainty = Certainty::kLikely;
+  guess->reason = "days of this century, taken for UTC";
+  return true;
+}
+
+/// Seconds of the stamps' unit, by the title or else by the rate of the rows;
+/// nothing if no unit brings a likely one.
+std::optional<double> TakeUnit(const StampColumns& found,
+                               const std::string& titled,
+                               const std::vector<double>& t, const Steps& steps,
+                               const FileColumns& file, const StampHints& hints,
+                               StampGuess* guess) {
+  if (found.split) {
+    guess->reason = "whole seconds, and the next column what is left of them";
+    return 1.0;
+  }
+  if (const auto known = UnitFactor(titled, Quantity::kTime)) {
+    guess->unit = titled;
+    guess->reason = "by its title";
+    return known;
+  }
+  const std::string& title =
+      file.columns[static_cast<std::size_t>(found.column)].title;
+  const TimeUnit* unit =
+      UnitOfSteps(steps.median, t.back() - t.front(), title, hints);
+  if (unit == nullptr) return std::nullopt;
+  guess->unit = unit->name;
+  guess->certainty = Certainty::kLikely;
+  guess->reason =
+      fmt::format("steps of {:g}, which are {:.4g} rows a second", steps.median,
+                  1.0 / (steps.median * unit->seconds));
+  return unit->seconds;
 }
 
 }  // namespace
@@ -230,84 +288,32 @@ const char* CertaintyName(Certainty certainty) {
 std::optional<StampGuess> GuessStamps(
     const FileColumns& file, const std::vector<ColumnMeaning>& meanings,
     const StampHints& hints) {
-  StampGuess guess;
-  guess.column = FindColumn(file, meanings, true);
-  auto dates = FindDates(file, meanings);
-  const bool other =
-      guess.column >= 0 && !(dates && dates->column == guess.column);
-  if (dates && other &&
-      ((IsOfDay(*dates, file) && !dates->numbers) || MostlyStand(dates->t))) {
-    dates.reset();
-  }
-  const auto split = dates ? std::nullopt : FindSplitSeconds(file);
-  if (dates) {
-    Tell(*dates, file, &guess);
-  } else if (split) {
-    guess.column = split->column;
-    guess.rest_column = split->column + 1;
-    guess.rest_unit = split->rest->name;
-  } else if (guess.column < 0) {
-    guess.column = FindColumn(file, meanings, false);
-  }
-  if (guess.column < 0) return CountedRows(file.rows, hints);
-  const auto index = static_cast<std::size_t>(guess.column);
-  std::vector<double> t = dates   ? dates->t
-                          : split ? split->t
-                                  : file.columns[index].values;
-  if (!dates && HasWeek(meanings)) GoOnOverWeeks(&t);
+  const StampColumns found = FindStampColumns(file, meanings);
+  if (found.column < 0) return CountedRows(file.rows, hints);
+  StampGuess guess = GuessOf(found, file);
+  const bool dated = found.dates.has_value();
+  std::vector<double> t = TimesIn(found, file);
+  if (!dated && HasWeek(meanings)) GoOnOverWeeks(&t);
   const Steps steps = StepsOf(t);
   guess.repeated = steps.repeated;
   guess.unordered = steps.unordered;
-  double factor = 1.0;
-  constexpr double kYear2001 = 978307200.0;
-  constexpr double kYear2050 = 2524608000.0;
-  const auto is_unix = [&](double seconds) {
-    return seconds > kYear2001 && seconds < kYear2050;
-  };
-  const auto known = UnitFactor(meanings[index].unit, Quantity::kTime);
-  const std::string days =
-      dates ? "" : DayCountOf(t.front(), steps.median, hints);
-  if (MostlyStand(t) &&
-      (dates || is_unix(t.front()) || known == std::optional(1.0))) {
+  const std::string& unit =
+      meanings[static_cast<std::size_t>(found.column)].unit;
+  if (MostlyStand(t) && (dated || IsUnixTime(t.front()) ||
+                         UnitFactor(unit, Quantity::kTime) == 1.0)) {
     if (!RecogniseWholeSeconds(t, &guess)) return CountedRows(file.rows, hints);
-    if (!dates && is_unix(t.front())) guess.scale = StampGuess::Scale::kUnix;
+    if (!dated && IsUnixTime(t.front())) guess.scale = StampGuess::Scale::kUnix;
     return guess;
   }
-  if (!days.empty()) {
-    guess.unit = days;
-    guess.scale = StampGuess::Scale::kDate;
-    guess.first = (t.front() - *FirstDayOf(days)) * kDay;
-    guess.step = steps.median * kDay;
-    guess.gap = steps.longest * kDay;
-    guess.span = (t.back() - t.front()) * kDay;
-    guess.certainty = Certainty::kLikely;
-    guess.reason = "days of this century, taken for UTC";
+  if (dated) {
+    SetSteps(t, steps, 1.0, &guess);
     return guess;
   }
-  if (split) {
-    guess.reason = "whole seconds, and the next column what is left of them";
-  } else if (!dates && known) {
-    guess.unit = meanings[index].unit;
-    factor = *known;
-    guess.reason = "by its title";
-  } else if (!dates) {
-    const TimeUnit* unit = UnitOfSteps(steps.median, t.back() - t.front(),
-                                       file.columns[index].title, hints);
-    if (unit == nullptr) return CountedRows(file.rows, hints);
-    guess.unit = unit->name;
-    factor = unit->seconds;
-    guess.certainty = Certainty::kLikely;
-    guess.reason = fmt::format("steps of {:g}, which are {:.4g} rows a second",
-                               steps.median, 1.0 / (steps.median * factor));
-  }
-  guess.first = t.front() * factor;
-  guess.step = steps.median * factor;
-  guess.gap = steps.longest * factor;
-  guess.span = (t.back() - t.front()) * factor;
-  if (dates) return guess;
-  if (is_unix(guess.first)) {
-    guess.scale = StampGuess::Scale::kUnix;
-  }
+  if (TakeDays(t, steps, hints, &guess)) return guess;
+  const auto factor = TakeUnit(found, unit, t, steps, file, hints, &guess);
+  if (!factor) return CountedRows(file.rows, hints);
+  SetSteps(t, steps, *factor, &guess);
+  if (IsUnixTime(guess.first)) guess.scale = StampGuess::Scale::kUnix;
   RecogniseWeek(file, meanings, &guess);
   RecogniseDrawnAxis(t.size(), steps, &guess);
   RecogniseWrongScale(t.size(), hints, &guess);

@@ -124,7 +124,9 @@ std::string TextRowParser::Parse(std::string_view line, Scratch* scratch,
       tokens.Next();
     } else if (wanted == 2) {
       scratch->time_tokens.push_back(tokens.Next());
-    } else if (!tokens.NextNumber(&scratch->raw[column])) {
+    } else if (tokens.NextNumber(&scratch->raw[column])) {
+      if (IsBad(scratch->raw[column])) scratch->raw[column] = kAbsent;
+    } else {
       const std::string_view token = tokens.Next();
       auto number = ParseNumber(token);
       if (!number && wanted == 3) number = ParsePlace(token);
@@ -135,11 +137,8 @@ std::string TextRowParser::Parse(std::string_view line, Scratch* scratch,
                     ? ""
                     : "; decimal commas are read with `decimal: comma`");
       }
+      if (number && IsBad(*number)) number.reset();
       scratch->raw[column] = number.value_or(kAbsent);
-    }
-    if (!layout_.bad_values.empty() && column < wanted_.size() &&
-        IsBad(scratch->raw[column])) {
-      scratch->raw[column] = kAbsent;
     }
   }
   *columns = static_cast<int>(column);
