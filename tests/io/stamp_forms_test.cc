@@ -99,6 +99,21 @@ class StampKeys : public RecordingFolder {
   }
 };
 
+TEST_F(StampKeys, ANumberThatStandsHasNoRestBesideIt) {
+  std::string text = "device,time,gx,gy,gz,ax,ay,az\n";
+  for (int k = 0; k < kRows; ++k) {
+    text +=
+        fmt::format("0,{},0.00{},0.00{},0.00{},0.0{},0.1,-9.8{}\n",
+                    600000000 + 10000 * k, k % 7, k % 5, k % 3, k % 7, k % 9);
+  }
+  Write("imu.csv", text);
+  const auto drafts = DraftRecordings(folder_.string());
+  ASSERT_EQ(drafts.size(), 1u);
+  const std::string config = DraftText(drafts[0]);
+  EXPECT_THAT(config, HasSubstr("t: \"2 [us]\""));
+  EXPECT_THAT(config, ::testing::Not(HasSubstr("t_rest")));
+}
+
 TEST_F(StampKeys, AreWholeAndTheRestIsBelowOne) {
   // In either order.
   const std::string good = "t_rest: \"2 [ns]\", t: \"1 [s]\"";

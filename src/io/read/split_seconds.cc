@@ -49,7 +49,7 @@ std::optional<SplitSeconds> FindSplitSeconds(const FileColumns& file) {
     if (!CountsUpwards(whole) || !CountsUpwards(rest)) continue;
     const double largest =
         *std::max_element(rest.values.begin(), rest.values.end());
-    if (largest <= 0.0) continue;
+    if (largest <= 0.0 || !Grows(whole.values, StepsOf(whole.values))) continue;
     for (const RestUnit& unit : kRestUnits) {
       const double part = largest * unit.seconds;
       if (part >= 1.0 || !(Fills(whole, part) || IsNamed(rest.title, unit))) {
