@@ -10,7 +10,6 @@
 #include "alignment/magnetic_heading.h"
 #include "base/error.h"
 #include "base/processor_time.h"
-#include "dataset/bias_sigma.h"
 #include "earth/wgs84.h"
 #include "evaluation/grade.h"
 #include "evaluation/observability.h"
@@ -67,9 +66,6 @@ AttitudeEstimation::AttitudeEstimation(const Dataset& dataset,
   std::erase_if(magnetic_, outside);
   std::erase_if(headings_, outside);
   std::erase_if(velocities_, outside);
-  for (ImuSample& sample : imu_.samples) {
-    sample.accel -= dataset.initial.accel_bias;
-  }
   force_ratio_ = MedianForce(imu_) / filter_options_.place.gravity;
   if (IsOtherUnit(force_ratio_) && force_ratio_ > 0.0) {
     for (ImuSample& sample : imu_.samples) sample.accel /= force_ratio_;
@@ -87,7 +83,10 @@ ErrorLayout AttitudeEstimation::SolutionLayout() const {
   const ErrorLayout full = AttitudeLayout(imu_.noise, start_);
   ErrorLayout layout;
   for (const Block& block : full.blocks()) {
-    if (block.key.kind != BlockKind::kGyroScale) layout.Add(block);
+    if (block.key.kind == BlockKind::kAttitude ||
+        block.key.kind == BlockKind::kGyroBias) {
+      layout.Add(block);
+    }
   }
   return layout;
 }
@@ -131,7 +130,11 @@ double AttitudeEstimation::SharedSigma(const FieldSurvey& survey) const {
 }
 
 double AttitudeEstimation::SharedSlope(const FieldSurvey& survey) const {
-  if (magnetic_.empty() || !headings_.empty()) return 0.0;
+  if (magnetic_.empty() || !headings_.empty() ||
+      filter_options_.magnetic_form == MagneticField::Form::kVector ||
+      !filter_options_.decouple_heading) {
+    return 0.0;
+  }
   if (survey.horizontal > 0.0) return survey.down / survey.horizontal;
   const MagneticSurroundings& stated = filter_options_.magnetic;
   return stated.horizontal > 0.0 ? stated.down / stated.horizontal : 0.0;
@@ -148,16 +151,14 @@ Solution AttitudeEstimation::Filter() {
   solution.layout = SolutionLayout();
   solution.covariances = CovarianceSeries(6, run.samples.size());
   solution.states.reserve(run.samples.size());
-  const SharedCovariance shared(AccelBiasSigma(dataset_.initial),
-                                filter_options_, SharedSigma({}),
-                                SharedSlope({}));
+  const SharedCovariance shared(filter_options_, SharedSigma({}), 0.0);
   Eigen::Matrix<double, 6, 6> P;
   for (std::size_t k = 0; k < run.samples.size(); ++k) {
     const AttitudeSample& sample = run.samples[k];
     solution.states.push_back(
         StateAt(imu_.samples[k].t, sample.q_nb, sample.b_g));
     P = run.nodes[sample.node].x.P.topLeftCorner<6, 6>();
-    shared.AddTo(sample.q_nb, &P);
+    shared.AddTo(&P);
     solution.covariances.Set(k, P);
   }
   solution.attitude = VerdictsOf(run);
@@ -181,20 +182,21 @@ ConstantEstimate TimeOffsetOf(const Sensor& sensor,
   return offset;
 }
 
-std::vector<ConstantEstimate> GyroScales(const Block& block,
-                                         const AttitudeState& x) {
-  std::vector<ConstantEstimate> scales;
+/// Of a block of three, which begins at row `begin` of P.
+void AddConstants(const Block& block, const Eigen::Vector3d& prior,
+                  const Eigen::Vector3d& value, const AttitudeState::Matrix& P,
+                  int begin, std::vector<ConstantEstimate>* constants) {
   for (int axis = 0; axis < 3; ++axis) {
-    ConstantEstimate scale;
-    scale.name = std::string("gyro_scale[") + "xyz"[axis] + "]";
-    scale.unit = block.unit;
-    scale.value = x.s_g(axis);
-    scale.sigma = std::sqrt(x.P(6 + axis, 6 + axis));
-    scale.prior_sigma = block.sigma0(axis);
-    scale.verdict = VerdictOfSigma(scale.sigma, scale.prior_sigma);
-    scales.push_back(scale);
+    ConstantEstimate one;
+    one.name = block.name + "[" + "xyz"[axis] + "]";
+    one.unit = block.unit;
+    one.prior_value = prior(axis);
+    one.value = value(axis);
+    one.sigma = std::sqrt(P(begin + axis, begin + axis));
+    one.prior_sigma = block.sigma0(axis);
+    one.verdict = VerdictOfSigma(one.sigma, one.prior_sigma);
+    constants->push_back(one);
   }
-  return scales;
 }
 
 }  // namespace
@@ -208,8 +210,7 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) {
   solution.covariances = CovarianceSeries(6, count);
   solution.states.reserve(count);
   const auto& nodes = pass.run.nodes;
-  const SharedCovariance shared(AccelBiasSigma(dataset_.initial),
-                                filter_options_, SharedSigma(pass.survey),
+  const SharedCovariance shared(filter_options_, SharedSigma(pass.survey),
                                 SharedSlope(pass.survey));
   Eigen::Matrix<double, 6, 6> P;
   for (std::size_t k = 0; k < count; ++k) {
@@ -223,12 +224,15 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) {
     solution.states.push_back(StateAt(
         t, q_nb[k], sample.b_g + pass.smoothed[sample.node].d.segment<3>(3)));
     P = pass.smoothed[nearest].P.topLeftCorner<6, 6>();
-    shared.AddTo(q_nb[k], &P);
+    shared.AddTo(&P);
     solution.covariances.Set(k, P);
   }
-  solution.constants = GyroScales(
-      *AttitudeLayout(imu_.noise, start_).Find(BlockKind::kGyroScale),
-      StateOf(pass.run, pass.smoothed, 0));
+  const ErrorLayout full = AttitudeLayout(imu_.noise, start_);
+  const AttitudeState first = StateOf(pass.run, pass.smoothed, 0);
+  AddConstants(*full.Find(BlockKind::kGyroScale), start_.s_g, first.s_g,
+               first.P, AttitudeState::kGyroScale, &solution.constants);
+  AddConstants(*full.Find(BlockKind::kAccelBias), start_.b_a, first.b_a,
+               first.P, AttitudeState::kAccelBias, &solution.constants);
   if (pass.magnetometer.time_offset_sigma > 0.0) {
     solution.constants.push_back(
         TimeOffsetOf(MagnetometerOf(dataset_)->sensor, pass.magnetometer));

@@ -67,16 +67,17 @@ class AttitudeEstimation final : public Estimation {
     MagnetometerErrors magnetometer;
     std::vector<AttachedMagnet> magnets;  ///< for a part of the time
   };
-  Pass Smooth(const AttitudeState& start, const ImuStream& imu,
+  /// `forces` in place of the IMU's, as in AttitudeReadings.
+  Pass Smooth(const AttitudeState& start, std::span<const BiasedForce> forces,
               std::span<const MagneticSample> magnetic,
               const AttitudeFilterOptions& options, const std::string& stage,
               bool covariances) const;
-  Pass SmoothWithoutSurvey(const ImuStream& imu,
+  Pass SmoothWithoutSurvey(std::span<const BiasedForce> forces,
                            const AttitudeFilterOptions& options) const;
   /// Solves with a survey by the tilt of `level`; if that solution shows errors
   /// of the magnetometer, once more without them; and at last with a survey by
   /// the attitudes so found.
-  Pass SmoothSurveyed(const ImuStream& imu,
+  Pass SmoothSurveyed(std::span<const BiasedForce> forces,
                       const std::vector<Eigen::Quaterniond>& level,
                       AttitudeFilterOptions options) const;
   /// Readings 0.1 s apart, less `errors`; `q_nb` at every sample.
@@ -87,8 +88,8 @@ class AttitudeEstimation final : public Estimation {
   /// What all headings share beside P: the magnetometer's stated a priori
   /// sigmas, and which north the survey leaves open [rad].
   double SharedSigma(const FieldSurvey& survey) const;
-  /// Down over horizontal part of the field that gives the heading; 0 if none
-  /// does.
+  /// Down over horizontal part of the field that gives the heading as if the
+  /// tilt were known; 0 if none does.
   double SharedSlope(const FieldSurvey& survey) const;
   /// Adds to evidence_ what the smoother finds, of a magnetometer and of the
   /// start too: a filter sees neither while it runs, and is as wrong by them.

@@ -73,25 +73,53 @@ void AttitudeEstimation::JudgeLeaps() {
 
 namespace {
 
-/// Doubtful: scale factors of the gyros that end far from what is known of them.
-void JudgeScales(const Solution& whole, std::vector<Evidence>* evidence) {
-  for (const ConstantEstimate& scale : whole.constants) {
-    if (!scale.name.starts_with("gyro_scale")) continue;
-    const double sigmas =
-        std::abs(scale.value - scale.prior_value) / scale.prior_sigma;
-    if (!(sigmas > kStrained)) continue;
+/// Of six values together once in two thousand times.
+constexpr double kImuErrorStrained = 4.0;
+
+/// Sigmas that chance has a value end from what it started from: what is learned
+/// of it moves it by N(0, prior^2 - posterior^2). At most those of a value of which
+/// all is learned, at least a hundredth of the prior.
+double SigmasLearned(const ConstantEstimate& one) {
+  constexpr double kLeast = 0.01;
+  const double prior = one.prior_sigma;
+  const double learned = std::sqrt(
+      std::max(prior * prior - one.sigma * one.sigma, kLeast * prior * prior));
+  return std::abs(one.value - one.prior_value) / learned;
+}
+
+/// Doubtful: errors of the IMU that end far from what is known of them.
+void JudgeImuErrors(const Solution& whole, std::vector<Evidence>* evidence) {
+  for (const ConstantEstimate& one : whole.constants) {
+    const bool of_gyros = one.name.starts_with("gyro_scale");
+    if (!of_gyros && !one.name.starts_with("accel_bias")) continue;
+    const double sigmas = SigmasLearned(one);
+    if (!(sigmas > kImuErrorStrained)) continue;
     evidence->push_back(
         {.rule = "given_values",
          .grade = Grade::kDoubtful,
-         .what = fmt::format("{} is {:.1f} sigma from its given value",
-                             scale.name, sigmas),
+         .what = fmt::format("{} ends {:.2g} {} from its given value, {:.1f} "
+                             "times what chance would",
+                             one.name, std::abs(one.value - one.prior_value),
+                             one.unit, sigmas),
          .value = sigmas,
-         .limit = kStrained,
+         .limit = kImuErrorStrained,
          .unit = "sigma",
-         .causes = {"a wrong unit, scale or clock of the gyros",
+         .causes = {of_gyros ? "a wrong unit, scale or clock of the gyros"
+                             : "accelerometers that are not calibrated",
                     "an error that is not modelled and ends up there"},
-         .remedies = {"the gyros' unit", "a larger imu.estimate.gyro_scale"}});
+         .remedies = {of_gyros ? "the gyros' unit" : "their calibration",
+                      of_gyros ? "a larger imu.estimate.gyro_scale"
+                               : "a larger initial.accel_bias_sigma"}});
   }
+}
+
+Eigen::Vector3d AccelBiasOf(const Solution& whole) {
+  Eigen::Vector3d b_a = Eigen::Vector3d::Zero();
+  int axis = 0;
+  for (const ConstantEstimate& one : whole.constants) {
+    if (one.name.starts_with("accel_bias")) b_a(axis++) = one.value;
+  }
+  return b_a;
 }
 
 }  // namespace
@@ -105,13 +133,14 @@ void AttitudeEstimation::JudgeAccelerometers(const Solution& whole) {
     q_nb.push_back(q_en_.conjugate() * x.q_eb);
   }
   const double gravity = filter_options_.place.gravity;
-  const AccelBiasFit fit = FitAccelBias(imu_, q_nb, gravity);
+  const Eigen::Vector3d known = AccelBiasOf(whole);
+  const AccelBiasFit fit = FitAccelBias(imu_, q_nb, gravity, known);
   const double sigmas = fit.b_a.norm() / gravity / UsualTiltSigma(whole);
   if (!(fit.significance > ChiSquareQuantile(kConfidence, 3)) ||
       !(sigmas > kUnusableBias)) {
     return;
   }
-  const Eigen::Vector3d b = fit.b_a + dataset_.initial.accel_bias;
+  const Eigen::Vector3d b = fit.b_a + known;
   evidence_.push_back(
       {.rule = "accelerometer",
        .grade = Grade::kDoubtful,
@@ -131,7 +160,7 @@ void AttitudeEstimation::JudgeAccelerometers(const Solution& whole) {
 
 void AttitudeEstimation::JudgeWhole(const Solution& whole) {
   JudgeLeaps();
-  JudgeScales(whole, &evidence_);
+  JudgeImuErrors(whole, &evidence_);
   JudgeAccelerometers(whole);
 }
 

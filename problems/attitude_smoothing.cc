@@ -15,13 +15,13 @@
 namespace hindsight {
 
 AttitudeEstimation::Pass AttitudeEstimation::Smooth(
-    const AttitudeState& start, const ImuStream& imu,
+    const AttitudeState& start, std::span<const BiasedForce> forces,
     std::span<const MagneticSample> magnetic,
     const AttitudeFilterOptions& options, const std::string& stage,
     bool covariances) const {
   Pass pass;
   pass.run = RunAttitudeFilter(
-      imu, {magnetic, headings_, velocities_}, options, start,
+      imu_, {magnetic, headings_, velocities_, forces}, options, start,
       /*to_be_smoothed=*/true, [&](std::size_t k) {
         Poll(stage,
              static_cast<double>(k) / static_cast<double>(imu_.samples.size()));
@@ -30,27 +30,10 @@ AttitudeEstimation::Pass AttitudeEstimation::Smooth(
   return pass;
 }
 
-namespace {
-
-/// Specific forces averaged over what comes before and after each sample
-/// (AveragedForce), by the attitudes `q_nb`: a smoother may use what comes
-/// later.
-ImuStream WithAveragedForce(const ImuStream& imu,
-                            const std::vector<Eigen::Quaterniond>& q_nb,
-                            double tau) {
-  const std::vector<Eigen::Vector3d> f_n = AveragedForce(imu, q_nb, tau);
-  ImuStream averaged = imu;
-  for (std::size_t k = 0; k < f_n.size(); ++k) {
-    averaged.samples[k].accel = q_nb[k].conjugate() * f_n[k];
-  }
-  return averaged;
-}
-
-}  // namespace
-
 AttitudeEstimation::Pass AttitudeEstimation::SmoothWithoutSurvey(
-    const ImuStream& imu, const AttitudeFilterOptions& options) const {
-  return Smooth(start_, imu, magnetic_, options, "ahrs_smoother",
+    std::span<const BiasedForce> forces,
+    const AttitudeFilterOptions& options) const {
+  return Smooth(start_, forces, magnetic_, options, "ahrs_smoother",
                 /*covariances=*/true);
 }
 
@@ -160,20 +143,20 @@ Solution AttitudeEstimation::Smoother() {
                        velocities_.empty();
   const bool survey = dataset_.ahrs.survey && !magnetic_.empty();
   if (!average && !survey) {
-    return SolutionOf(SmoothWithoutSurvey(imu_, options));
+    return SolutionOf(SmoothWithoutSurvey({}, options));
   }
   const Pass first =
-      Smooth(start_, imu_, {}, options, "survey", /*covariances=*/false);
+      Smooth(start_, {}, {}, options, "survey", /*covariances=*/false);
   const std::vector<Eigen::Quaterniond> level =
       AttitudesAtSamples(first.run, first.smoothed, imu_);
-  ImuStream averaged;
+  // A smoother may use what comes later.
+  std::vector<BiasedForce> forces;
   if (average) {
-    averaged = WithAveragedForce(imu_, level, options.low_pass_tau);
+    forces = AveragedForce(imu_, level, options.low_pass_tau);
     options.low_pass_tau = 0.0;
   }
-  const ImuStream& imu = average ? averaged : imu_;
-  const Pass pass = survey ? SmoothSurveyed(imu, level, options)
-                           : SmoothWithoutSurvey(imu, options);
+  const Pass pass = survey ? SmoothSurveyed(forces, level, options)
+                           : SmoothWithoutSurvey(forces, options);
   if (const auto evidence = TwoNorths(pass.survey)) {
     evidence_.push_back(*evidence);
   }
@@ -230,23 +213,27 @@ void TakeOff(std::span<const AttachedMagnet> magnets,
 }  // namespace
 
 AttitudeEstimation::Pass AttitudeEstimation::SmoothSurveyed(
-    const ImuStream& imu, const std::vector<Eigen::Quaterniond>& level,
+    std::span<const BiasedForce> forces,
+    const std::vector<Eigen::Quaterniond>& level,
     AttitudeFilterOptions options) const {
   SurveyOptions survey_options = {
       .sigma = options.magnetic_sigma,
       .correlation_time = options.magnetic_correlation_time,
       .reject = dataset_.ahrs.reject_disturbances};
   options.reference.enabled = false;
+  options.dip_sigma = kUnknownDipSigma;
   options.magnetic_correlation_time = 0.0;
   const auto smooth = [&](const std::vector<Eigen::Quaterniond>& q_nb,
                           const MagnetometerErrors& errors, bool covariances) {
     std::vector<SurveyedField> readings = FieldReadings(q_nb, errors);
+    survey_options.weak_iron = errors.weak_iron;
     FieldSurvey survey = SurveyField(readings, survey_options);
     std::vector<AttachedMagnet> magnets;
     if (survey_options.heading_known && survey_options.reject) {
       magnets = FindAttachedMagnets(readings, survey, survey_options.sigma);
       if (!magnets.empty()) {
         TakeOff(magnets, readings);
+        survey_options.weak_iron = FindMagnetometerErrors(readings).weak_iron;
         survey = SurveyField(readings, survey_options);
       }
     }
@@ -264,7 +251,7 @@ AttitudeEstimation::Pass AttitudeEstimation::SmoothSurveyed(
     const double turn = options.magnetic.declination - survey.azimuth;
     start.q_nb = Exp(Eigen::Vector3d(0.0, 0.0, turn)) * q_nb.front();
     Pass pass =
-        Smooth(start, imu, weighed, options, "ahrs_smoother", covariances);
+        Smooth(start, forces, weighed, options, "ahrs_smoother", covariances);
     pass.survey = std::move(survey);
     pass.magnetometer = errors;
     pass.magnets = std::move(magnets);

@@ -14,6 +14,7 @@ std::vector<bool> RestsBetweenSamples(const Dataset& dataset,
   std::vector<bool> rests(imu.samples.size(), false);
   Dataset still;
   still.imu = imu;
+  for (ImuSample& sample : still.imu.samples) sample.accel -= start.b_a;
   still.stationary = dataset.stationary;
   still.initial = dataset.initial;
   const Rest rest = FindRest(still);

@@ -46,7 +46,6 @@ AttitudeFilterOptions FilterOptionsOf(const Dataset& dataset) {
   options.magnetic_correlation_time = ahrs.correlation_time;
   options.update_interval = ahrs.correlation_time / kUpdates;
   options.rest_sigma = ahrs.rest_sigma;
-  options.accel_bias_sigma = AccelBiasSigma(dataset.initial).maxCoeff();
   options.reference.enabled = ahrs.reject_disturbances;
   if (const AidingStream* stream = MagnetometerOf(dataset)) {
     const auto first =
@@ -54,6 +53,12 @@ AttitudeFilterOptions FilterOptionsOf(const Dataset& dataset) {
     options.magnetic_sigma = first.sigma;
     options.magnetic_form = first.form;
     options.magnetic = stream->sensor.magnetic;
+    const double norm =
+        std::hypot(options.magnetic.horizontal, options.magnetic.down);
+    options.dip_sigma =
+        ahrs.reject_disturbances
+            ? kUnknownDipSigma
+            : options.magnetic.disturbance_sigma.value_or(0.0) / norm;
   }
   return options;
 }
@@ -145,10 +150,11 @@ AttitudeState StartOfAttitude(const Dataset& dataset, const ImuStream& imu,
   AttitudeState start;
   start.t = imu.t_begin();
   start.b_g = dataset.initial.gyro_bias;
+  start.b_a = dataset.initial.accel_bias;
   Eigen::Vector3d f = Eigen::Vector3d::Zero();
   for (const ImuSample& sample : imu.samples) {
     if (sample.t > start.t + kSpan) break;
-    f += sample.accel;
+    f += sample.accel - start.b_a;
   }
   Eigen::Vector3d m = Eigen::Vector3d::Zero();
   double declination = 0.0;
@@ -185,8 +191,10 @@ AttitudeState StartOfAttitude(const Dataset& dataset, const ImuStream& imu,
       dataset.gyro_scale_sigma
           .value_or(Eigen::Vector3d::Constant(kGyroScaleSigma))
           .cwiseMax(kKnown);
+  const Eigen::Vector3d accel_sigma =
+      AccelBiasSigma(dataset.initial).cwiseMax(kKnown);
   start.P.diagonal() << sigma.cwiseAbs2(), bias_sigma.cwiseAbs2(),
-      scale_sigma.cwiseAbs2();
+      scale_sigma.cwiseAbs2(), accel_sigma.cwiseAbs2(), 0.0;
   if (euler) {
     start.P.topLeftCorner<3, 3>() = AttitudeCovariance(*euler, sigma);
   }

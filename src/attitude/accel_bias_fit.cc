@@ -17,7 +17,8 @@ struct VerticalForce {
 
 std::vector<VerticalForce> MeansOf(const ImuStream& imu,
                                    std::span<const Eigen::Quaterniond> q_nb,
-                                   double gravity) {
+                                   double gravity,
+                                   const Eigen::Vector3d& known) {
   constexpr double kMean = 1.0;    // [s]
   constexpr double kLeast = 0.02;  // of a mean [m/s^2]
   std::vector<VerticalForce> means;
@@ -27,7 +28,7 @@ std::vector<VerticalForce> MeansOf(const ImuStream& imu,
   for (std::size_t k = 0; k < q_nb.size(); ++k) {
     const Eigen::Vector3d down_b =
         q_nb[k].conjugate() * Eigen::Vector3d::UnitZ();
-    const double force = down_b.dot(imu.samples[k].accel) + gravity;
+    const double force = down_b.dot(imu.samples[k].accel - known) + gravity;
     sum.by_unknowns += Eigen::Vector4d(down_b.x(), down_b.y(), down_b.z(), 1.0);
     sum.value += force;
     squares += force * force;
@@ -49,10 +50,10 @@ std::vector<VerticalForce> MeansOf(const ImuStream& imu,
 
 AccelBiasFit FitAccelBias(const ImuStream& imu,
                           std::span<const Eigen::Quaterniond> q_nb,
-                          double gravity) {
+                          double gravity, const Eigen::Vector3d& known) {
   constexpr std::size_t kLeast = 20;
   constexpr double kWidest = 10.0;  // [m/s^2]
-  const std::vector<VerticalForce> means = MeansOf(imu, q_nb, gravity);
+  const std::vector<VerticalForce> means = MeansOf(imu, q_nb, gravity, known);
   AccelBiasFit fit;
   if (means.size() < kLeast) return fit;
   Eigen::Matrix4d N = Eigen::Matrix4d::Identity() / (kWidest * kWidest);

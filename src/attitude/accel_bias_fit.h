@@ -18,15 +18,15 @@ struct AccelBiasFit {
 };
 
 /// Least squares over means of a second of the vertical specific force,
-///   (C_nb f_b)_z + g = (C_nb)_z b + c + a_z,
-/// which an error of tilt does not enter to first order: b the bias, c an error of
+///   (C_nb (f_b - b_0))_z + g = (C_nb)_z b + c + a_z,
+/// which an error of tilt does not enter to first order: b the bias beside the `known` b_0, c an error of
 /// gravity or scale, a_z what the body accelerates. A mean has the variance of its
 /// second, as the motions of a hand go with its attitude and hardly average out,
 /// or that of the residuals if it is larger. `q_nb` is the attitude at every sample, `gravity` [m/s^2]. A
 /// body that hardly turns tells nothing: the significance is near 0.
 AccelBiasFit FitAccelBias(const ImuStream& imu,
                           std::span<const Eigen::Quaterniond> q_nb,
-                          double gravity);
+                          double gravity, const Eigen::Vector3d& known);
 
 }  // namespace hindsight
 

@@ -16,6 +16,10 @@
 
 namespace hindsight {
 
+/// Of the dip of a field that is still to be learned: what may differ by more is
+/// disturbed [rad].
+inline constexpr double kUnknownDipSigma = 0.1745;
+
 struct AttitudeFilterOptions {
   AttitudePlace place;
   AccelerometerRuleOptions rule;
@@ -25,8 +29,6 @@ struct AttitudeFilterOptions {
   double low_pass_tau = 0.0;
   /// Of the magnetometer, per axis [uT].
   double magnetic_sigma = 1.0;
-  /// A priori, an axis, where velocities are used [m/s^2].
-  double accel_bias_sigma = 0.0;
   /// Times over which the errors of accelerometer and magnetometer go on [s]:
   /// of samples dt apart each counts as dt / time of one, its variance is that
   /// of the rule, or sigma^2, times max(1, time / dt). 0: white.
@@ -43,6 +45,9 @@ struct AttitudeFilterOptions {
   bool decouple_heading = true;
   /// Of the vector form until the reference is learned; always the declination.
   MagneticSurroundings magnetic;
+  /// Of the dip of that field [rad]; 0: exact. One that is learned is as wrong as
+  /// the tilt: then the vector form tells changes of the tilt alone.
+  double dip_sigma = 0.0;
   MagneticReferenceOptions reference;
   /// Of one sample of the gyros at rest as a reading of their bias [rad/s]; 0:
   /// rest is no knowledge.
@@ -52,7 +57,7 @@ struct AttitudeFilterOptions {
   std::optional<std::vector<bool>> rests;
 };
 
-/// The forward filter of the layout {attitude, gyro bias, gyro scale}: the
+/// The forward filter of the layout AttitudeLayout(): the
 /// error-state extended Kalman filter of filters/forward_filter.h, in the same
 /// tangent (C_nb = Exp(psi) C^_nb), with every matrix of fixed size. The
 /// attitude follows every sample (Turn, and the readings with it); covariance
@@ -60,18 +65,21 @@ struct AttitudeFilterOptions {
 /// Reset), which may be of one sample. Time update, summed over the
 /// RotationSummaries of the interval:
 ///   psi' = psi - C_nb dt (db_g + diag(w) ds_g) + noise,   db_g' = db_g + walk,
-///   ds_g' = ds_g.
+///   ds_g' = ds_g,   db_a' = db_a + walk.
 /// While the body is known to rest it does not turn over the Earth, whatever
 /// the gyros read, but for their white noise, and what they read is their bias:
 ///   psi' = psi + noise,   w_ib = C_bn w_ie + b_g + noise.
 /// Measurements are those of measurements/tilt.h, magnetic_field.h and
 /// stationary.h; their noise is isotropic, so they are resolved in n and used
 /// row by row:
-///   C_nb f_b = -g e_D,   rows north and east of -g [e_D x] psi,
-///   C_nb m_b = m_n,      rows of [m_n x] psi, or the azimuth alone, whose
-///                        variance is by the horizontal part that is read.
+///   C_nb (f_b - b_a) = -g e_D,   rows north and east of -g [e_D x] psi + C_nb db_a,
+///   C_nb m_b = m_n,      rows of [m_n x] psi and of the dip's error, or the
+///                        azimuth alone, whose variance is by the horizontal
+///                        part that is read.
+/// The third row of the former tells of the size of what is read, which is that of
+/// gravity and of scale factors before it is one of a bias.
 /// Two velocities say what the force between them is (VelocityChange), in rows of
-///   [C_nb u_b x] psi  and of the gyro's errors.
+///   [C_nb u_b x] psi  and of the IMU's errors.
 /// How fast the body accelerates is known then, so that the tilt needs no rule,
 /// and whoever accelerates knows the heading. An error that two intervals share
 /// counts in each of them as if it were another one: sigmas are a little too
@@ -87,8 +95,8 @@ class AttitudeFilter {
 
   /// Turns through `dt` with rates linear from w0 to w1 [rad/s].
   void Turn(double dt, const Eigen::Vector3d& w0, const Eigen::Vector3d& w1);
-  /// Low-pass and rule see the specific force at the current time [m/s^2].
-  void AddForce(const Eigen::Vector3d& f_b);
+  /// Low-pass and rule see the specific force at the current time, body axes.
+  void AddForce(const BiasedForce& force);
   /// A reading taken at time t [s], turned to the current one; those of an
   /// interval are averaged in axes that do not turn.
   void AddField(const MagneticSample& reading);
@@ -126,6 +134,7 @@ class AttitudeFilter {
   Eigen::Quaterniond q_nb() const { return q_ni_ * q_ib_; }
   const Eigen::Vector3d& gyro_bias() const { return b_g_; }
   const Eigen::Vector3d& gyro_scale() const { return s_g_; }
+  const Eigen::Vector3d& accel_bias() const { return b_a_; }
   /// Verdict on the last update.
   const AttitudeVerdict& verdict() const { return verdict_; }
   /// Of the last Predict.
@@ -139,6 +148,8 @@ class AttitudeFilter {
   using Vector = AttitudeState::Vector;
   using Matrix = AttitudeState::Matrix;
 
+  /// Field that is expected, without disturbances [uT].
+  Eigen::Vector3d ExpectedField() const;
   /// Scalar update with H = h on component `i`, residual about the nominal.
   double UpdateComponent(int i, double h, double residual, double R);
   /// Scalar update with H = h'.
@@ -146,9 +157,15 @@ class AttitudeFilter {
   /// Scalar update with H = h' on the attitude. Returns the innovation over its
   /// predicted standard deviation.
   double UpdateAttitude(const Eigen::Vector3d& h, double residual, double R);
-  /// Scalar update with H = h' on the attitude that leaves the tilt as it is
+  /// Scalar update with H = h' on the attitude that leaves tilt and accelerometer
   /// and counts its error (Schmidt 1966).
   double ConsiderTilt(const Eigen::Vector3d& h, double residual, double R);
+  /// Puts the transition of the dip where the reference is a new one.
+  void LearnDip();
+  /// Time update of three components of P by a factor.
+  void Scale(int begin, double phi);
+  /// [m/s^2], in the axes of `force`.
+  Eigen::Vector3d WithoutBias(const BiasedForce& force) const;
   void ApplyGain(const Vector& PHt, double S, double innovation);
   void Record(const Vector& h, const Vector& PHt, double S, double innovation);
 
@@ -175,6 +192,7 @@ class AttitudeFilter {
   const AttitudeFilterOptions& options_;
   const ImuNoise& noise_;
   Evolution bias_evolution_;
+  Evolution accel_evolution_;
   AccelerometerRule rule_;
   MagneticReference reference_;
   std::optional<InertialLowPass> low_pass_;
@@ -185,6 +203,9 @@ class AttitudeFilter {
   double t_;
   Eigen::Vector3d b_g_;
   Eigen::Vector3d s_g_;
+  Eigen::Vector3d b_a_;
+  double dip_;         ///< of the field [rad]
+  int adoptions_ = 0;  ///< of the reference that dip_ is of
   Matrix P_;
   Vector dx_ = Vector::Zero();
   Eigen::Vector3d unscale_;  ///< 1 / (1 + s_g)
@@ -194,8 +215,9 @@ class AttitudeFilter {
   Interval predicted_;  ///< of the last Predict
   double rate_sigma_;   ///< of RestDetector::rate() at rest [rad/s]
   double dt_;           ///< between updates [s]
-  Eigen::Vector3d f_i_ = Eigen::Vector3d::Zero();
-  double force_variance_ = 0.0;  ///< of f_i_, by the rule alone [m^2/s^4]
+  BiasedForce force_ = BiasedForce::Zero();
+  Eigen::Matrix3d C_if_ = Eigen::Matrix3d::Identity();  ///< from its axes to i
+  double force_variance_ = 0.0;  ///< of force_, by the rule alone [m^2/s^4]
   FieldMean field_;
   double field_t_;  ///< of the last reading used [s]
   bool resting_ = false;

@@ -26,6 +26,7 @@ class AttitudeRunner {
         magnetic_(readings.magnetic),
         headings_(readings.headings),
         velocities_(readings.velocities),
+        forces_(readings.forces),
         options_(options),
         sample_interval_(MedianInterval(imu)),
         layout_(AttitudeLayout(imu.noise, start)),
@@ -77,7 +78,7 @@ class AttitudeRunner {
       if (options_.rest_sigma > 0.0) filter_.SetResting(RestsAfter(k - 1, dt));
       filter_.Turn(dt, before.gyro, sample.gyro);
     }
-    filter_.AddForce(sample.accel);
+    filter_.AddForce(forces_.empty() ? ForceAsRead(sample.accel) : forces_[k]);
     for (; next_ < magnetic_.size() && magnetic_[next_].t <= sample.t;
          ++next_) {
       MagneticSample reading = magnetic_[next_];
@@ -119,12 +120,12 @@ class AttitudeRunner {
   void UseVelocity(const ImuSample& sample) {
     if (velocity_ == nullptr) return;
     const ImuCalibration calibration = {.b_g = filter_.gyro_bias(),
+                                        .b_a = filter_.accel_bias(),
                                         .s_g = filter_.gyro_scale()};
     Note(sample.t, Source::kVelocity,
          filter_.UseVelocityChange(
              ChangeBetween(*last_velocity_, *velocity_, options_.place,
-                           calibration, options_.accel_bias_sigma,
-                           &*integrator_),
+                           calibration, &*integrator_),
              AttitudeAt(velocity_->t, sample).toRotationMatrix()));
     last_velocity_ = velocity_;
     velocity_ = nullptr;
@@ -201,6 +202,7 @@ class AttitudeRunner {
   std::span<const MagneticSample> magnetic_;
   std::span<const HeadingSample> headings_;
   std::span<const VelocitySample> velocities_;
+  std::span<const BiasedForce> forces_;
   const AttitudeFilterOptions& options_;
   double sample_interval_;
   ErrorLayout layout_;

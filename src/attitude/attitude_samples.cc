@@ -1,6 +1,5 @@
 #include "attitude/attitude_samples.h"
 
-#include "attitude/inertial_low_pass.h"
 #include "geometry/so3.h"
 
 namespace hindsight {
@@ -39,18 +38,22 @@ Solution SampleAttitude(const Solution& solution, const ImuStream& imu,
   return out;
 }
 
-std::vector<Eigen::Vector3d> AveragedForce(
+std::vector<BiasedForce> AveragedForce(
     const ImuStream& imu, const std::vector<Eigen::Quaterniond>& q_nb,
     double tau) {
   const double dt = MedianInterval(imu);
-  std::vector<Eigen::Vector3d> f_n(q_nb.size());
+  std::vector<BiasedForce> force(q_nb.size());
   InertialLowPass forward(tau, dt);
-  for (std::size_t k = 0; k < f_n.size(); ++k) {
-    f_n[k] = forward.Filter(q_nb[k] * imu.samples[k].accel);
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    force[k] = forward.Filter(q_nb[k].toRotationMatrix() *
+                              ForceAsRead(imu.samples[k].accel));
   }
   InertialLowPass backward(tau, dt);
-  for (std::size_t k = f_n.size(); k-- > 0;) f_n[k] = backward.Filter(f_n[k]);
-  return f_n;
+  for (std::size_t k = force.size(); k-- > 0;) {
+    force[k] =
+        q_nb[k].toRotationMatrix().transpose() * backward.Filter(force[k]);
+  }
+  return force;
 }
 
 }  // namespace hindsight

@@ -29,35 +29,47 @@ class Adjoint {
   /// Back over an interval.
   void Take(const AttitudeTransition& transition) {
     const Eigen::Matrix<double, 3, 6>& A = transition.A;
-    const double phi = transition.phi;
-    lambda_.segment<3>(3) *= phi;
-    lambda_.tail<6>() += A.transpose() * lambda_.head<3>();
+    constexpr int kGyro = AttitudeState::kGyroBias;
+    Scale(kGyro, transition.phi);
+    Scale(AttitudeState::kAccelBias, transition.phi_accel);
+    if (transition.learns_dip) TakeDip(transition.dip_by_psi);
+    lambda_.segment<6>(kGyro) += A.transpose() * lambda_.head<3>();
     if (!covariances_) return;
-    if (phi != 1.0) {
-      Lambda_.middleRows<3>(3) *= phi;
-      Lambda_.middleCols<3>(3) *= phi;
-    }
-    const Eigen::Matrix<double, 3, 6> L_ac = Lambda_.topRightCorner<3, 6>();
-    const Eigen::Matrix<double, 3, 6> L_aa_A =
-        Lambda_.topLeftCorner<3, 3>() * A;
-    const Eigen::Matrix<double, 6, 6> cross = A.transpose() * L_ac;
-    Lambda_.bottomRightCorner<6, 6>() +=
-        cross + cross.transpose() + A.transpose() * L_aa_A;
-    Lambda_.topRightCorner<3, 6>() += L_aa_A;
-    Lambda_.bottomLeftCorner<6, 3>() =
-        Lambda_.topRightCorner<3, 6>().transpose();
+    // Rows, then columns, of the gyros' errors: Lambda F, then F' of that.
+    Lambda_.middleCols<6>(kGyro).noalias() += Lambda_.leftCols<3>().eval() * A;
+    Lambda_.middleRows<6>(kGyro).noalias() +=
+        A.transpose() * Lambda_.topRows<3>().eval();
   }
 
   /// At a node with covariance P.
   void Smooth(const Matrix& P, SmoothedAttitude* out) const {
     out->d.noalias() = P * lambda_;
     if (!covariances_) return;
-    const Matrix LP = Lambda_ * P;
-    out->P = P;
-    out->P.noalias() -= P * LP;
+    // Matrices of this size are faster without Eigen's blocking.
+    const Matrix LP = Lambda_.lazyProduct(P);
+    out->P = P - P.lazyProduct(LP);
   }
 
  private:
+  /// Back over where the dip was learned, a' psi.
+  void TakeDip(const Eigen::Vector3d& a) {
+    constexpr int kDip = AttitudeState::kDip;
+    lambda_.head<3>() += lambda_(kDip) * a;
+    lambda_(kDip) = 0.0;
+    if (!covariances_) return;
+    Lambda_.leftCols<3>() += (Lambda_.col(kDip) * a.transpose()).eval();
+    Lambda_.topRows<3>() += (a * Lambda_.row(kDip)).eval();
+    Lambda_.row(kDip).setZero();
+    Lambda_.col(kDip).setZero();
+  }
+  void Scale(int begin, double phi) {
+    if (phi == 1.0) return;
+    lambda_.segment<3>(begin) *= phi;
+    if (!covariances_) return;
+    Lambda_.middleRows<3>(begin) *= phi;
+    Lambda_.middleCols<3>(begin) *= phi;
+  }
+
   bool covariances_;
   Vector lambda_ = Vector::Zero();
   Matrix Lambda_ = Matrix::Zero();
@@ -87,8 +99,9 @@ AttitudeState StateOf(const AttitudeRun& run,
   AttitudeState x = run.nodes[node].x;
   const Vector& d = smoothed[node].d;
   x.q_nb = Exp(d.head<3>()) * x.q_nb;
-  x.b_g += d.segment<3>(3);
-  x.s_g += d.tail<3>();
+  x.b_g += d.segment<3>(AttitudeState::kGyroBias);
+  x.s_g += d.segment<3>(AttitudeState::kGyroScale);
+  x.b_a += d.segment<3>(AttitudeState::kAccelBias);
   x.P = smoothed[node].P;
   return x;
 }

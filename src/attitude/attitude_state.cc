@@ -22,15 +22,25 @@ ErrorLayout AttitudeLayout(const ImuNoise& noise, const AttitudeState& start) {
   bias.name = "gyro_bias";
   bias.unit = "rad/s";
   bias.evolution = noise.GyroBiasEvolution();
-  bias.sigma0 = start.P.diagonal().segment<3>(3).cwiseSqrt();
+  bias.sigma0 =
+      start.P.diagonal().segment<3>(AttitudeState::kGyroBias).cwiseSqrt();
   layout.Add(bias);
   Block scale;
   scale.key = {BlockKind::kGyroScale};
   scale.name = "gyro_scale";
   scale.unit = "1";
   scale.evolution = Evolution::Constant();
-  scale.sigma0 = start.P.diagonal().tail<3>().cwiseSqrt();
+  scale.sigma0 =
+      start.P.diagonal().segment<3>(AttitudeState::kGyroScale).cwiseSqrt();
   layout.Add(scale);
+  Block accel_bias;
+  accel_bias.key = {BlockKind::kAccelBias};
+  accel_bias.name = "accel_bias";
+  accel_bias.unit = "m/s^2";
+  accel_bias.evolution = noise.AccelBiasEvolution();
+  accel_bias.sigma0 =
+      start.P.diagonal().segment<3>(AttitudeState::kAccelBias).cwiseSqrt();
+  layout.Add(accel_bias);
   return layout;
 }
 

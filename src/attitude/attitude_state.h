@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <span>
 
+#include "attitude/inertial_low_pass.h"
 #include "imu/imu_stream.h"
 #include "measurements/heading.h"
 #include "measurements/sensor.h"
@@ -53,22 +54,32 @@ struct AttitudeReadings {
   std::span<const MagneticSample> magnetic = {};
   std::span<const HeadingSample> headings = {};
   std::span<const VelocitySample> velocities = {};
+  /// In place of the IMU's forces, one a sample, in body axes; none: as they are.
+  std::span<const BiasedForce> forces = {};
 };
 
 /// Mean and covariance of (attitude psi [rad, NED], gyro bias [rad/s], gyro
-/// scale factors [1]: measured = (1 + s) true + b, per body axis).
+/// scale factors [1], accelerometer bias [m/s^2]: measured = (1 + s) true + b,
+/// per body axis); P has behind these the dip of the field [rad], whose mean
+/// concerns nobody but the filter.
 struct AttitudeState {
-  static constexpr int kDim = 9;
+  static constexpr int kGyroBias = 3;
+  static constexpr int kGyroScale = 6;
+  static constexpr int kAccelBias = 9;
+  static constexpr int kDip = 12;
+  static constexpr int kDim = 13;
   using Vector = Eigen::Matrix<double, kDim, 1>;
   using Matrix = Eigen::Matrix<double, kDim, kDim>;
   double t = 0.0;
   Eigen::Quaterniond q_nb = Eigen::Quaterniond::Identity();
   Eigen::Vector3d b_g = Eigen::Vector3d::Zero();
   Eigen::Vector3d s_g = Eigen::Vector3d::Zero();
+  Eigen::Vector3d b_a = Eigen::Vector3d::Zero();
   Matrix P = Matrix::Zero();
 };
 
-/// The layout {attitude, gyro bias, gyro scale}.
+/// The layout {attitude, gyro bias, gyro scale, accelerometer bias}, which are the
+/// first of AttitudeState.
 ErrorLayout AttitudeLayout(const ImuNoise& noise, const AttitudeState& start);
 
 /// What became of the readings of one update.
@@ -79,12 +90,20 @@ struct AttitudeVerdict {
 };
 
 /// Transition of the error from one update to the next,
-///   psi' = psi + A (db_g, ds_g) + noise,   db_g' = phi db_g + noise.
+///   psi' = psi + A (db_g, ds_g) + noise,   db_g' = phi db_g + noise,
+///   db_a' = phi_a db_a + noise,
+/// and the error of the dip stays, or becomes a' psi + noise where the field that
+/// is read becomes the reference.
 struct AttitudeTransition {
   Eigen::Matrix<double, 3, 6> A = Eigen::Matrix<double, 3, 6>::Zero();
   double phi = 1.0;
-  double q_attitude = 0.0;  ///< variance of an axis of the noise [rad^2]
-  double q_bias = 0.0;      ///< the same of the bias [rad^2/s^2]
+  double phi_accel = 1.0;
+  bool learns_dip = false;
+  Eigen::Vector3d dip_by_psi = Eigen::Vector3d::Zero();  ///< a
+  double q_attitude = 0.0;    ///< variance of an axis of the noise [rad^2]
+  double q_bias = 0.0;        ///< the same of the gyro bias [rad^2/s^2]
+  double q_accel_bias = 0.0;  ///< the same of the accelerometer's [m^2/s^4]
+  double q_dip = 0.0;         ///< of the dip [rad^2]
 };
 
 /// What was read less what was predicted, each row over its predicted standard

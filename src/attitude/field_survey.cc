@@ -81,7 +81,22 @@ Eigen::Vector3d Difference(const SurveyedField& reading,
   return {along - survey.horizontal, across, field_n.z() - survey.down};
 }
 
+/// Of the azimuth in motion, the rest is that of the one at rest.
+double WeightOfMotion(const FieldSurvey& survey) {
+  const double place = 0.5 * survey.turn * survey.turn;
+  if (place <= 0.0) return 0.5;
+  return (place + survey.iron_variance) / (2.0 * place + survey.iron_variance);
+}
+
 }  // namespace
+
+double RestAzimuth(const FieldSurvey& survey) {
+  return -WeightOfMotion(survey) * survey.turn;
+}
+
+double NorthSigma(const FieldSurvey& survey) {
+  return std::sqrt(0.5 * WeightOfMotion(survey)) * std::abs(survey.turn);
+}
 
 FieldSurvey SurveyField(std::span<const SurveyedField> readings,
                         const SurveyOptions& options) {
@@ -89,6 +104,11 @@ FieldSurvey SurveyField(std::span<const SurveyedField> readings,
   const double limit = kSigmas * options.sigma;
   FieldSurvey survey;
   FindReference(readings, &survey);
+  if (survey.horizontal > 0.0) {
+    // Of one of three axes.
+    const double part = options.weak_iron / survey.horizontal;
+    survey.iron_variance = part * part / 3.0;
+  }
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double squares = 0.0;
   for (const SurveyedField& reading : readings) {

@@ -26,6 +26,8 @@ struct SurveyOptions {
   double correlation_time = 1.0;
   /// False: no reading is disturbed.
   bool reject = true;
+  /// Size of a magnet that may travel along, in an unknown direction [uT].
+  double weak_iron = 0.0;
   /// Whether the attitudes share an error of heading at most.
   bool heading_known = false;
 };
@@ -38,23 +40,23 @@ struct FieldSurvey {
   /// Of the field in motion, counted from that at rest [rad]; 0 unless there
   /// are both and the heading is known.
   double turn = 0.0;
+  /// Variance of the azimuth at rest by a magnet of SurveyOptions::weak_iron,
+  /// which turns with the body in motion and averages out there [rad^2].
+  double iron_variance = 0.0;
   /// How long the errors of the readings in motion go on [s].
   double memory = 0.0;
   /// Of each reading, in readings of SurveyOptions::sigma; 0: disturbed.
   std::vector<double> weight;
 };
 
-/// Of the field at rest, counted from magnetic north [rad]. Two places disturb
-/// the field independently and alike, by azimuths of variance s^2: north is in
-/// the middle between them, +- s / sqrt(2).
-inline double RestAzimuth(const FieldSurvey& survey) {
-  return -0.5 * survey.turn;
-}
-/// What that leaves open of north [rad]: the turn, of variance 2 s^2, says
-/// s^2 = turn^2 / 2.
-inline double NorthSigma(const FieldSurvey& survey) {
-  return 0.5 * std::abs(survey.turn);
-}
+/// Azimuth of the field at rest, counted from magnetic north [rad]. Two places
+/// disturb the field independently and alike, by azimuths of variance s^2, of which
+/// the turn between them says s^2 = turn^2 / 2; at rest comes the iron's v besides.
+/// North is the mean by weight, in the middle if v = 0,
+///   -turn (s^2 + v) / (2 s^2 + v) +- s sqrt((s^2 + v) / (2 s^2 + v)).
+double RestAzimuth(const FieldSurvey& survey);
+/// What that leaves open of north [rad].
+double NorthSigma(const FieldSurvey& survey);
 
 /// The reference is the median of the horizontal, of the vertical part and of
 /// the azimuth over the readings, those in motion with a fiftieth of the weight

@@ -6,7 +6,17 @@
 
 namespace hindsight {
 
-/// Second-order Butterworth low-pass of a vector resolved in axes that do not
+/// A specific force [f, d f / d b_a] in some axes: f is what accelerometers read
+/// there [m/s^2], b_a their bias in body axes [m/s^2].
+using BiasedForce = Eigen::Matrix<double, 3, 4>;
+/// A reading f_b in body axes.
+inline BiasedForce ForceAsRead(const Eigen::Vector3d& f_b) {
+  BiasedForce force;
+  force << f_b, Eigen::Matrix3d::Identity();
+  return force;
+}
+
+/// Second-order Butterworth low-pass of a force resolved in axes that do not
 /// turn with the body (the gyro-integrated quasi-inertial frame of VQF): there
 /// the linear acceleration of a body that stays about averages out and gravity
 /// does not move. Time constant tau = sqrt(2)/(2 pi f_c). For the first tau the
@@ -22,7 +32,7 @@ class InertialLowPass {
     a2_ = (1.0 - std::sqrt(2.0) * C + C * C) / D;
   }
 
-  const Eigen::Vector3d& Filter(const Eigen::Vector3d& x) {
+  const BiasedForce& Filter(const BiasedForce& x) {
     if (age_ < tau_) {
       age_ += dt_;
       sum_ += x;
@@ -42,10 +52,10 @@ class InertialLowPass {
   double tau_, dt_;
   double b0_, a1_, a2_;
   double age_ = 0.0;
-  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d y_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d s0_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d s1_ = Eigen::Vector3d::Zero();
+  BiasedForce sum_ = BiasedForce::Zero();
+  BiasedForce y_ = BiasedForce::Zero();
+  BiasedForce s0_ = BiasedForce::Zero();
+  BiasedForce s1_ = BiasedForce::Zero();
 };
 
 }  // namespace hindsight

@@ -25,6 +25,7 @@ void MagneticReference::Adopt(double dt, double rate) {
       is_known() ? options_.adoption : options_.first_adoption;
   if (candidate_for_ >= needed) {
     reference_ = candidate_;
+    ++adoptions_;
     agreed_for_ = options_.settle;
     candidate_for_ = 0.0;
   }

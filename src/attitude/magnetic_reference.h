@@ -37,6 +37,8 @@ class MagneticReference {
   bool Accept(double dt, double norm, double dip, double rate);
 
   bool is_known() const { return reference_.norm > 0.0; }
+  /// How often a field became the reference.
+  int adoptions() const { return adoptions_; }
   double norm() const { return reference_.norm; }
   double dip() const { return reference_.dip; }
 
@@ -61,6 +63,7 @@ class MagneticReference {
   double candidate_for_ = 0.0;  ///< steadiness of the candidate [s]
   double candidate_age_ = 0.0;  ///< with standstill, which sets its gain [s]
   bool started_ = false;
+  int adoptions_ = 0;
 };
 
 }  // namespace hindsight

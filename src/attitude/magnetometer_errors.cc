@@ -78,8 +78,10 @@ void SolveErrors(std::span<const ErrorReading> readings, double scale,
         priors.time_offset * fit->ByTimeOffset(reading),
         priors.turn * fit->ByTurn(reading);
     const double w = reading.weight * reading.trust / (scale * scale);
-    N.noalias() += w * H.transpose() * H;
-    y.noalias() += w * H.transpose() * reading.field_b;
+    // Matrices of this size are faster without Eigen's blocking.
+    const Eigen::Matrix<double, kUnknowns, 3> weighed = w * H.transpose();
+    N += weighed.lazyProduct(H);
+    y += weighed.lazyProduct(reading.field_b);
   }
   N.diagonal().head<6>().array() += 1.0 / (kWidest * kWidest);
   N.diagonal().tail<4>().array() += 1.0;
@@ -95,28 +97,40 @@ void SolveErrors(std::span<const ErrorReading> readings, double scale,
       Significance(x.tail<3>(), P.bottomRightCorner<3, 3>());
 }
 
-/// Trust and likelihood of every reading at `scale`; returns the scale that
-/// they make most likely.
+/// Squared distance of a reading from what the fit says [uT^2].
+double SquaredDistance(const ErrorReading& reading, const ErrorFit& fit) {
+  return (fit.Rest(reading) - fit.errors.hard_iron_b).squaredNorm();
+}
+
+/// Trust of every reading at `scale`; returns the scale that they make most
+/// likely.
 double JudgeReadings(std::span<ErrorReading> readings, double scale,
-                     double freedom, ErrorFit* fit) {
-  const double constant = std::lgamma(0.5 * (freedom + 3.0)) -
-                          std::lgamma(0.5 * freedom) -
-                          1.5 * std::log(freedom * scale * scale);
-  fit->log_likelihood = 0.0;
+                     double freedom, const ErrorFit& fit) {
   double sum = 0.0;
   double count = 0.0;
   for (ErrorReading& reading : readings) {
-    const double r2 =
-        (fit->Rest(reading) - fit->errors.hard_iron_b).squaredNorm();
+    const double r2 = SquaredDistance(reading, fit);
     const double d2 = r2 / (scale * scale);
     reading.trust = 1.0 / (1.0 + d2 / freedom);
     const double w = reading.weight;
-    fit->log_likelihood +=
-        w * (constant - 0.5 * (freedom + 3.0) * std::log1p(d2 / freedom));
     sum += w * (freedom + 3.0) / (freedom + d2) * r2;
     count += 3.0 * w;
   }
   return count > 0.0 ? std::sqrt(sum / count) : scale;
+}
+
+double LogLikelihood(std::span<const ErrorReading> readings, double scale,
+                     double freedom, const ErrorFit& fit) {
+  const double constant = std::lgamma(0.5 * (freedom + 3.0)) -
+                          std::lgamma(0.5 * freedom) -
+                          1.5 * std::log(freedom * scale * scale);
+  double sum = 0.0;
+  for (const ErrorReading& reading : readings) {
+    const double d2 = SquaredDistance(reading, fit) / (scale * scale);
+    sum += reading.weight *
+           (constant - 0.5 * (freedom + 3.0) * std::log1p(d2 / freedom));
+  }
+  return sum;
 }
 
 ErrorFit FitErrors(std::vector<ErrorReading> readings, double freedom,
@@ -128,13 +142,16 @@ ErrorFit FitErrors(std::vector<ErrorReading> readings, double freedom,
   // From wide scales down, lest the first guess decide what is an outlier.
   for (const double widening : {16.0, 8.0, 4.0, 2.0}) {
     SolveErrors(readings, widening * kFirstScale, priors, &fit);
-    JudgeReadings(readings, widening * kFirstScale, freedom, &fit);
+    JudgeReadings(readings, widening * kFirstScale, freedom, fit);
   }
   double scale = kFirstScale;
+  double next = scale;
   for (int step = 0; step < kSteps; ++step) {
+    scale = next;
     SolveErrors(readings, scale, priors, &fit);
-    scale = std::max(JudgeReadings(readings, scale, freedom, &fit), kLeast);
+    next = std::max(JudgeReadings(readings, scale, freedom, fit), kLeast);
   }
+  fit.log_likelihood = LogLikelihood(readings, scale, freedom, fit);
   return fit;
 }
 
@@ -203,7 +220,10 @@ MagnetometerErrors FindMagnetometerErrors(
   const bool found = fit.significance > kSignificant &&
                      errors.hard_iron_b.norm() > kLeastHardIron &&
                      IsThereAllTheTime(all, fit);
-  if (!found) errors.hard_iron_b.setZero();
+  if (!found) {
+    errors.weak_iron = errors.hard_iron_b.norm();
+    errors.hard_iron_b.setZero();
+  }
   if (time_offset_sigma == 0.0) {
     constexpr double kUnstatedOffset = 0.1;  // [s]
     const ErrorFit late = FitErrors(all, fit.freedom, {kUnstatedOffset});

@@ -15,6 +15,9 @@ struct MagnetometerErrors {
   /// Of a magnet that travels along [uT, body axes]; zero if there is none to
   /// be believed.
   Eigen::Vector3d hard_iron_b = Eigen::Vector3d::Zero();
+  /// Size of one that is too weak to be believed, which may be in the readings
+  /// all the same [uT].
+  double weak_iron = 0.0;
   double time_offset = 0.0;        ///< true time less the stamps' [s]
   double time_offset_sigma = 0.0;  ///< [s]
   /// That it would be, to a tenth of a second a priori, where the stamps are said

@@ -1,7 +1,5 @@
 #include "attitude/velocity_change.h"
 
-#include <algorithm>
-
 #include "earth/wgs84.h"
 #include "geometry/so3.h"
 #include "measurements/tilt.h"
@@ -46,9 +44,7 @@ VelocityChange ChangeBetween(const VelocitySample& before,
                              const VelocitySample& after,
                              const AttitudePlace& place,
                              const ImuCalibration& calibration,
-                             double accel_bias_sigma,
                              ImuIntegrator* integrator) {
-  constexpr double kManoeuvre = 30.0;  // [s]
   const Swing first = SwingOf(before, calibration, integrator);
   const ImuSummary summary =
       integrator->Summarize(before.t, after.t, calibration);
@@ -65,11 +61,9 @@ VelocityChange ChangeBetween(const VelocitySample& before,
       C_ji * (Skew(y) * R_gyro + v_gyro - first.by_gyro) + last.by_gyro;
   Eigen::Matrix<double, 3, 6> by_noise;  // of dv, and on the right of dR
   by_noise << C_ji, Skew(C_ji * y);
-  const double dt = summary.dt();
-  change.noise_b = by_noise * summary.noise.bottomRightCorner<6, 6>() *
-                       by_noise.transpose() +
-                   accel_bias_sigma * accel_bias_sigma * dt *
-                       std::max(kManoeuvre, dt) * Eigen::Matrix3d::Identity();
+  change.by_accel_bias = C_ji * summary.v_ba;
+  change.noise_b =
+      by_noise * summary.noise.bottomRightCorner<6, 6>() * by_noise.transpose();
   change.R_n = before.R_n + after.R_n;
   return change;
 }

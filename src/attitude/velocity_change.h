@@ -19,9 +19,9 @@ struct VelocityChange {
   Eigen::Vector3d m_n = Eigen::Vector3d::Zero();  ///< [m/s]
   /// Change of u_b with the (true - used) gyro bias (0-2) and scale (3-5).
   Eigen::Matrix<double, 3, 6> by_gyro = Eigen::Matrix<double, 3, 6>::Zero();
-  /// Of u_b, from the IMU's noise within the interval and from its
-  /// accelerometer's bias, of `accel_bias_sigma` an axis, which counts as noise
-  /// that goes on for as long as a manoeuvre, half a minute [m^2/s^2].
+  /// The same with the accelerometer's bias [s].
+  Eigen::Matrix3d by_accel_bias = Eigen::Matrix3d::Zero();
+  /// Of u_b, from the IMU's noise within the interval [m^2/s^2].
   Eigen::Matrix3d noise_b = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d R_n = Eigen::Matrix3d::Zero();  ///< of both velocities
 };
@@ -32,7 +32,6 @@ VelocityChange ChangeBetween(const VelocitySample& before,
                              const VelocitySample& after,
                              const AttitudePlace& place,
                              const ImuCalibration& calibration,
-                             double accel_bias_sigma,
                              ImuIntegrator* integrator);
 
 }  // namespace hindsight

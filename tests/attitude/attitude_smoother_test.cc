@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "attitude/attitude_samples.h"
 #include "base/random.h"
 #include "earth/wgs84.h"
 #include "filters/rts.h"
@@ -46,15 +49,19 @@ struct Turning {
     imu.noise.gyro_noise_density = 1e-3;
     imu.noise.gyro_bias_walk = 1e-4;
     imu.noise.gyro_bias_tau = 1000.0;
+    imu.noise.accel_bias_walk = 1e-3;
+    imu.noise.accel_bias_tau = 100.0;
     options.magnetic_form = MagneticField::Form::kVector;
     options.magnetic.horizontal = kSmoothedFieldNed.x();
     options.magnetic.down = kSmoothedFieldNed.z();
     options.reference.enabled = false;
     options.update_interval = 5.0 * kSmoothedStep;
     options.rest_sigma = 0.01;
+    options.dip_sigma = 0.1;
     start.q_nb = Exp(Eigen::Vector3d(0.05, -0.05, 0.1)) * q_nb.front();
     start.P.diagonal() << Eigen::Vector3d::Constant(0.01),
-        Eigen::Vector3d::Constant(4e-4), Eigen::Vector3d::Constant(1.6e-5);
+        Eigen::Vector3d::Constant(4e-4), Eigen::Vector3d::Constant(1.6e-5),
+        Eigen::Vector3d::Constant(1e-2), 0.0;
   }
   AttitudeRun Run() const {
     return RunAttitudeFilter(imu, {magnetic}, options, start,
@@ -64,29 +71,52 @@ struct Turning {
 
 /// The same system on a tape.
 LinearTape TapeOf(const Turning& turning, const AttitudeRun& run) {
-  LinearTape tape(AttitudeLayout(turning.imu.noise, turning.start));
+  ErrorLayout layout = AttitudeLayout(turning.imu.noise, turning.start);
+  // The dip of the field has no kind of its own.
+  Block dip;
+  dip.key = {BlockKind::kDeclination};
+  dip.name = "dip";
+  dip.evolution = Evolution::Constant();
+  dip.sigma0 = Eigen::VectorXd::Constant(1, turning.options.dip_sigma);
+  layout.Add(dip);
+  LinearTape tape(layout);
   const Eigen::Quaterniond q_en(NedAxes(turning.options.place.p_e));
   AttitudeState::Matrix P = turning.start.P;
+  P(AttitudeState::kDip, AttitudeState::kDip) =
+      std::pow(turning.options.dip_sigma, 2);
   for (const AttitudeNode& node : run.nodes) {
     Transition transition;
-    transition.Phi.setIdentity(9, 9);
-    transition.Phi.topRightCorner<3, 6>() = node.transition.A;
-    transition.Phi.diagonal().segment<3>(3).setConstant(node.transition.phi);
-    transition.Q.setZero(9, 9);
-    transition.Q.diagonal().head<3>().setConstant(node.transition.q_attitude);
-    transition.Q.diagonal().segment<3>(3).setConstant(node.transition.q_bias);
-    transition.c = ErrorVector::Zero(9);
+    constexpr int kDim = AttitudeState::kDim;
+    constexpr int kGyro = AttitudeState::kGyroBias;
+    constexpr int kAccel = AttitudeState::kAccelBias;
+    const AttitudeTransition& step = node.transition;
+    transition.Phi.setIdentity(kDim, kDim);
+    transition.Phi.block<3, 6>(0, kGyro) = step.A;
+    transition.Phi.diagonal().segment<3>(kGyro).setConstant(step.phi);
+    transition.Phi.diagonal().segment<3>(kAccel).setConstant(step.phi_accel);
+    transition.Q.setZero(kDim, kDim);
+    transition.Q.diagonal().head<3>().setConstant(step.q_attitude);
+    transition.Q.diagonal().segment<3>(kGyro).setConstant(step.q_bias);
+    transition.Q.diagonal().segment<3>(kAccel).setConstant(step.q_accel_bias);
+    if (step.learns_dip) {
+      transition.Phi.row(AttitudeState::kDip) =
+          step.dip_by_psi.transpose() * transition.Phi.topRows<3>();
+      transition.Q(AttitudeState::kDip, AttitudeState::kDip) = step.q_dip;
+    }
+    transition.c = ErrorVector::Zero(kDim);
     P = transition.Phi * P * transition.Phi.transpose() + transition.Q;
     TapeEpoch epoch;
     epoch.t = node.x.t;
-    epoch.c = epoch.dx_minus = ErrorVector::Zero(9);
+    epoch.c = epoch.dx_minus = ErrorVector::Zero(kDim);
     // About one nominal an update: the mean stays, nothing is reset.
-    epoch.dx_plus = ErrorVector::Zero(9);
+    epoch.dx_plus = ErrorVector::Zero(kDim);
     epoch.x_plus.t = node.x.t;
     epoch.x_plus.p_e = turning.options.place.p_e;
     epoch.x_plus.q_eb = q_en * node.x.q_nb;
     epoch.x_plus.b_g = node.x.b_g;
-    epoch.x_plus.parameters = node.x.s_g;
+    epoch.x_plus.b_a = node.x.b_a;
+    epoch.x_plus.parameters = Eigen::Vector4d::Zero();
+    epoch.x_plus.parameters.head<3>() = node.x.s_g;
     epoch.x_minus = epoch.x_plus;
     epoch.reset = true;
     tape.Append(epoch, transition, P, node.x.P);
@@ -95,9 +125,24 @@ LinearTape TapeOf(const Turning& turning, const AttitudeRun& run) {
   return tape;
 }
 
-TEST(AttitudeSmoother, HasTheCovarianceOfRauchTungAndStriebel) {
-  const Turning turning;
-  const AttitudeRun run = turning.Run();
+/// Whether the reference of the field is learned.
+class AttitudeSmootherOf : public ::testing::TestWithParam<bool> {
+ protected:
+  AttitudeSmootherOf() {
+    turning.options.reference.enabled = GetParam();
+    turning.options.magnetic_correlation_time = 1.0;
+    run = turning.Run();
+  }
+  Turning turning;
+  AttitudeRun run;
+};
+
+TEST_P(AttitudeSmootherOf, HasTheCovarianceOfRauchTungAndStriebel) {
+  EXPECT_EQ(std::any_of(run.nodes.begin(), run.nodes.end(),
+                        [](const AttitudeNode& node) {
+                          return node.transition.learns_dip;
+                        }),
+            GetParam());
   const std::vector<SmoothedAttitude> smoothed = SmoothAttitude(run);
   const SmoothedTrajectory rts = SmoothRts(TapeOf(turning, run));
   ASSERT_EQ(smoothed.size(), rts.states.size());
@@ -111,9 +156,7 @@ TEST(AttitudeSmoother, HasTheCovarianceOfRauchTungAndStriebel) {
 }
 
 /// d(k) = P Phi' (P-)^-1 (d(k+1) + dx(k+1)) of the node after.
-TEST(AttitudeSmoother, HasTheMeanOfRauchTungAndStriebel) {
-  const Turning turning;
-  const AttitudeRun run = turning.Run();
+TEST_P(AttitudeSmootherOf, HasTheMeanOfRauchTungAndStriebel) {
   const std::vector<SmoothedAttitude> smoothed =
       SmoothAttitude(run, /*covariances=*/false);
   const LinearTape tape = TapeOf(turning, run);
@@ -125,6 +168,27 @@ TEST(AttitudeSmoother, HasTheMeanOfRauchTungAndStriebel) {
     const AttitudeState::Vector sigma = run.nodes[k].x.P.diagonal().cwiseSqrt();
     EXPECT_LT((smoothed[k].d - d).cwiseQuotient(sigma).norm(), 1e-7) << k;
   }
+}
+
+INSTANTIATE_TEST_SUITE_P(Reference, AttitudeSmootherOf, ::testing::Bool());
+
+/// What a bias of the accelerometer does to the averages is linear in it.
+TEST(AveragedForce, SaysWhatABiasAddsToIt) {
+  Turning turning;
+  const Eigen::Vector3d b_a(0.3, -0.2, 0.1);
+  const auto without = AveragedForce(turning.imu, turning.q_nb, 0.5);
+  for (ImuSample& sample : turning.imu.samples) sample.accel += b_a;
+  const auto with = AveragedForce(turning.imu, turning.q_nb, 0.5);
+  for (std::size_t k = 0; k < with.size(); k += 50) {
+    EXPECT_LT((with[k].rightCols<3>() - without[k].rightCols<3>()).norm(),
+              1e-12);
+    EXPECT_LT(
+        (with[k].col(0) - without[k].col(0) - without[k].rightCols<3>() * b_a)
+            .norm(),
+        1e-12);
+  }
+  // While it turns a part of the bias averages out.
+  EXPECT_LT(with[250].rightCols<3>().norm(), 0.99 * std::sqrt(3.0));
 }
 
 TEST(AttitudeSmoother, UndoesTheErrorOfTheStart) {

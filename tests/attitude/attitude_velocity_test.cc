@@ -46,7 +46,8 @@ struct Thrown {
     options.update_interval = 0.25;
     start.q_nb = q_nb.front();
     start.P.diagonal() << Eigen::Vector3d::Constant(9e-4),
-        Eigen::Vector3d::Constant(1e-4), Eigen::Vector3d::Constant(1e-6);
+        Eigen::Vector3d::Constant(1e-4), Eigen::Vector3d::Constant(1e-6),
+        Eigen::Vector3d::Constant(1e-12), 0.0;
   }
 
   AttitudeRun Run(const AttitudeState& from) const {
@@ -77,15 +78,17 @@ TEST(VelocityOfAnAttitude, HasTheJacobianOfItsResidual) {
   const Thrown thrown;
   const AttitudeRun right = thrown.Run(thrown.start);
   constexpr double kOff = 1e-5;
-  for (int i = 0; i < 6; ++i) {
+  for (const int i : {0, 1, 2, 3, 4, 5, 9, 10, 11}) {
     std::array<AttitudeRun, 2> off;
     for (const int side : {0, 1}) {
       AttitudeState from = thrown.start;
       const double step = side == 0 ? -kOff : kOff;
       if (i < 3) {
         from.q_nb = Exp(step * Eigen::Vector3d::Unit(i)) * from.q_nb;
+      } else if (i < AttitudeState::kGyroScale) {
+        from.b_g(i - AttitudeState::kGyroBias) += step;
       } else {
-        from.b_g(i - 3) += step;
+        from.b_a(i - AttitudeState::kAccelBias) += step;
       }
       off[static_cast<std::size_t>(side)] = thrown.Run(from);
     }
@@ -95,7 +98,8 @@ TEST(VelocityOfAnAttitude, HasTheJacobianOfItsResidual) {
     for (std::size_t k = 0;
          right.nodes[k].updates_end == 0 || right.nodes[k - 1].updates_end == 0;
          ++k) {
-      d.head<3>() += right.nodes[k].transition.A * d.tail<6>();
+      d.head<3>() +=
+          right.nodes[k].transition.A * d.segment<6>(AttitudeState::kGyroBias);
       if (right.nodes[k].updates_end > 0) break;
     }
     const double numeric =
@@ -120,7 +124,9 @@ TEST(VelocityOfAnAttitude, FindsTiltAndHeading) {
     d << 0.03 * random.NormalVector3(), 0.01 * random.NormalVector3();
     noisy.start.q_nb = Exp(-d.head<3>()) * thrown.start.q_nb;
     for (ImuSample& sample : noisy.imu.samples) sample.gyro += d.tail<3>();
-    noisy.start.P.diagonal().tail<3>().setConstant(1e-12);
+    noisy.start.P.diagonal()
+        .segment<3>(AttitudeState::kGyroScale)
+        .setConstant(1e-12);
     for (VelocitySample& one : noisy.velocities) {
       one.v_n +=
           one.R_n.diagonal().cwiseSqrt().cwiseProduct(random.NormalVector3());

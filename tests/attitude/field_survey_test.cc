@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "base/random.h"
@@ -99,6 +100,29 @@ TEST(FieldSurvey, PutsNorthInTheMiddleOfTwoPlaces) {
   EXPECT_DOUBLE_EQ(RestAzimuth(survey), -0.03);
   EXPECT_DOUBLE_EQ(RestAzimuth(survey) + survey.turn, 0.03);
   EXPECT_DOUBLE_EQ(NorthSigma(survey), 0.03);
+}
+
+/// Two readings of north with variances s^2 + v and s^2, s^2 = turn^2 / 2.
+TEST(FieldSurvey, TrustsAFieldInMotionMoreIfIronTravelsAlong) {
+  FieldSurvey survey;
+  survey.turn = 0.06;
+  survey.iron_variance = 0.0054;
+  const double place = 0.0018;
+  const double rest = place + survey.iron_variance;
+  const double weight = (1.0 / place) / (1.0 / place + 1.0 / rest);
+  EXPECT_NEAR(RestAzimuth(survey), -0.06 * weight, 1e-15);
+  EXPECT_NEAR(NorthSigma(survey), std::sqrt(1.0 / (1.0 / place + 1.0 / rest)),
+              1e-15);
+  survey.turn = 0.0;
+  EXPECT_EQ(RestAzimuth(survey), 0.0);
+  EXPECT_EQ(NorthSigma(survey), 0.0);
+}
+
+TEST(FieldSurvey, SpreadsIronOverThreeAxes) {
+  const FieldSurvey survey =
+      SurveyField(InMotion(Eigen::Vector3d::Zero(), 100), {.weak_iron = 3.0});
+  const double part = 3.0 / survey.horizontal;
+  EXPECT_NEAR(survey.iron_variance, part * part / 3.0, 1e-12);
 }
 
 }  // namespace
