@@ -9,6 +9,7 @@
 #include "attitude/accel_bias_fit.h"
 #include "base/chi_square.h"
 #include "base/error.h"
+#include "dataset/bias_sigma.h"
 #include "evaluation/given_values.h"
 #include "problems/attitude.h"
 #include "problems/attitude_evidence.h"
@@ -93,7 +94,11 @@ void JudgeImuErrors(const Solution& whole, std::vector<Evidence>* evidence) {
     const bool of_gyros = one.name.starts_with("gyro_scale");
     if (!of_gyros && !one.name.starts_with("accel_bias")) continue;
     const double sigmas = SigmasLearned(one);
-    if (!(sigmas > kImuErrorStrained)) continue;
+    // What ends within what was known of it contradicts nothing.
+    if (!(sigmas > kImuErrorStrained) ||
+        std::abs(one.value - one.prior_value) < one.prior_sigma) {
+      continue;
+    }
     evidence->push_back(
         {.rule = "given_values",
          .grade = Grade::kDoubtful,
@@ -113,15 +118,6 @@ void JudgeImuErrors(const Solution& whole, std::vector<Evidence>* evidence) {
   }
 }
 
-Eigen::Vector3d AccelBiasOf(const Solution& whole) {
-  Eigen::Vector3d b_a = Eigen::Vector3d::Zero();
-  int axis = 0;
-  for (const ConstantEstimate& one : whole.constants) {
-    if (one.name.starts_with("accel_bias")) b_a(axis++) = one.value;
-  }
-  return b_a;
-}
-
 }  // namespace
 
 void AttitudeEstimation::JudgeAccelerometers(const Solution& whole) {
@@ -133,9 +129,12 @@ void AttitudeEstimation::JudgeAccelerometers(const Solution& whole) {
     q_nb.push_back(q_en_.conjugate() * x.q_eb);
   }
   const double gravity = filter_options_.place.gravity;
-  const Eigen::Vector3d known = AccelBiasOf(whole);
+  const Eigen::Vector3d& known = dataset_.initial.accel_bias;
   const AccelBiasFit fit = FitAccelBias(imu_, q_nb, gravity, known);
-  const double sigmas = fit.b_a.norm() / gravity / UsualTiltSigma(whole);
+  const double tilt_sigma =
+      std::hypot(UsualTiltSigma(whole),
+                 AccelBiasSigma(dataset_.initial).maxCoeff() / gravity);
+  const double sigmas = fit.b_a.norm() / gravity / tilt_sigma;
   if (!(fit.significance > ChiSquareQuantile(kConfidence, 3)) ||
       !(sigmas > kUnusableBias)) {
     return;

@@ -1,7 +1,9 @@
 #include "attitude/accel_bias_fit.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace hindsight {
@@ -51,6 +53,7 @@ std::vector<VerticalForce> MeansOf(const ImuStream& imu,
 AccelBiasFit FitAccelBias(const ImuStream& imu,
                           std::span<const Eigen::Quaterniond> q_nb,
                           double gravity, const Eigen::Vector3d& known) {
+  constexpr double kSigmas = 3.0;
   constexpr std::size_t kLeast = 20;
   constexpr double kWidest = 10.0;  // [m/s^2]
   const std::vector<VerticalForce> means = MeansOf(imu, q_nb, gravity, known);
@@ -72,8 +75,15 @@ AccelBiasFit FitAccelBias(const ImuStream& imu,
   const double excess =
       std::max(1.0, squares / static_cast<double>(means.size() - 4));
   const Eigen::Matrix4d P = excess * ldlt.solve(Eigen::Matrix4d::Identity());
-  fit.b_a = x.head<3>();
-  fit.significance = fit.b_a.dot(P.topLeftCorner<3, 3>().ldlt().solve(fit.b_a));
+  const Eigen::Vector3d b_a = x.head<3>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
+      Eigen::Matrix3d(P.topLeftCorner<3, 3>()));
+  const Eigen::Vector3d along = axes.eigenvectors().transpose() * b_a;
+  for (int i = 0; i < 3; ++i) {
+    const double sigmas = std::abs(along(i)) / std::sqrt(axes.eigenvalues()(i));
+    fit.significance += sigmas * sigmas;
+    if (sigmas > kSigmas) fit.b_a += along(i) * axes.eigenvectors().col(i);
+  }
   return fit;
 }
 

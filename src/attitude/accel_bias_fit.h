@@ -12,7 +12,9 @@ namespace hindsight {
 /// A bias of the accelerometers that the size of what they read in many
 /// attitudes shows.
 struct AccelBiasFit {
-  Eigen::Vector3d b_a = Eigen::Vector3d::Zero();  ///< [m/s^2]
+  /// What it is along those principal axes of P of which it is known to be three
+  /// sigmas or more; a level body knows nothing of the vertical one [m/s^2].
+  Eigen::Vector3d b_a = Eigen::Vector3d::Zero();
   /// b' P^-1 b; of chance alone a chi-square of three degrees of freedom.
   double significance = 0.0;
 };

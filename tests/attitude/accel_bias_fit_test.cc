@@ -67,5 +67,17 @@ TEST(AccelBiasFit, KnowsNothingOfABodyThatHardlyTurns) {
             16.3);
 }
 
+/// A body that sways little tells much of what tilts it, and nothing of the
+/// vertical, however long: that is left out.
+TEST(AccelBiasFit, LeavesOutWhatIsNotKnown) {
+  const Eigen::Vector3d bias(2.0, -1.0, 0.0);
+  const Swaying body = SwayingWith(bias, 0.15);
+  const AccelBiasFit fit = FitAccelBias(body.imu, body.q_nb, kStandardGravity,
+                                        Eigen::Vector3d::Zero());
+  EXPECT_GT(fit.significance, 21.1);
+  EXPECT_LT(std::abs(fit.b_a.z()), 0.2);
+  EXPECT_LT((fit.b_a - bias).head<2>().norm(), 0.3);
+}
+
 }  // namespace
 }  // namespace hindsight
