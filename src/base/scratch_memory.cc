@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/file_piece.h"
 #include "base/scratch_file.h"
 
 namespace hindsight {
@@ -21,12 +22,6 @@ namespace {
 /// Blocks of a memory that are filled at once: what lies across the end of one, or is
 /// written together with a row beside it, touches two.
 constexpr std::size_t kFilledAtOnce = 2;
-
-/// Bytes that go into the file in one call. The system's cache takes memory in
-/// pieces as large as these, and large ones are those that nobody has used lately:
-/// a virtual machine's host must give them first, which takes ten times as long as
-/// the writing.
-constexpr std::size_t kWrittenAtOnce = std::size_t{1} << 16;
 
 }  // namespace
 
@@ -147,7 +142,7 @@ struct ScratchMemory::Mapping {
         begin, size, [this](std::size_t at, std::size_t count, off_t place) {
           while (count > 0) {
             const ssize_t done = pwrite(file->descriptor(), data + at,
-                                        std::min(count, kWrittenAtOnce), place);
+                                        std::min(count, kFilePiece), place);
             if (done < 0 && errno == EINTR) continue;
             if (done <= 0) return false;
             at += static_cast<std::size_t>(done);
