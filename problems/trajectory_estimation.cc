@@ -177,11 +177,14 @@ class TrajectoryEstimation final : public Estimation {
     return solution;
   }
 
-  std::string Hindrance() const {
-    return LostAttitude(WorstDropOut(forward_.dataset().imu,
-                                     forward_.timeline().node(0).t,
-                                     forward_.options().to))
-        .value_or("");
+  const std::string& Hindrance() {
+    if (!hindrance_) {
+      hindrance_ = LostAttitude(WorstDropOut(forward_.dataset().imu,
+                                             forward_.timeline().node(0).t,
+                                             forward_.options().to))
+                       .value_or("");
+    }
+    return *hindrance_;
   }
 
   /// With a robust loss the two do not minimise the same cost.
@@ -198,6 +201,8 @@ class TrajectoryEstimation final : public Estimation {
   ForwardStage& forward_;
   /// Of the recording as it may be instead.
   std::optional<std::vector<RivalSolution>> other_data_;
+  /// Of any method; empty: none.
+  std::optional<std::string> hindrance_;
   /// What the recording shows by itself.
   std::shared_future<std::vector<Evidence>> recording_;
   bool begun_ = false;

@@ -19,6 +19,7 @@
 #include "dataset/clock_search.h"
 #include "io/config/config.h"
 #include "io/write/number_format.h"
+#include "io/write/summary.h"
 #include "io/write/table.h"
 #include "problems/noise_estimation.h"
 #include "problems/rest_by_estimate.h"
@@ -174,7 +175,7 @@ int Run(const std::vector<std::string>& arguments) {
   std::cout << "recording '" << dataset.name << "'\n\n"
             << StreamTable(report.streams) << "\n"
             << DescribeGaps(report.streams) << DescribeImu(report)
-            << DescribeNotes(dataset);
+            << DescribeNotes(dataset, NotesOf(dataset));
   for (const auto* warnings : {&report.warnings, &report.truth_warnings}) {
     for (const std::string& warning : *warnings) {
       std::cout << "warning: " << warning << "\n";

@@ -62,7 +62,7 @@ std::vector<UnobservedSpan> DescribeBeforehand(const Dataset& dataset,
     }
   }
   NoteRecording(dataset, std::move(found), summary);
-  std::cout << DescribeNotes(dataset);
+  std::cout << DescribeNotes(dataset, summary->notes);
   if (const StartReport* start = reconstruction->start()) {
     std::cout << DescribeStart(*start);
   }

@@ -89,13 +89,14 @@ std::string DescribeWithheld(const Dataset& dataset) {
 
 }  // namespace
 
-std::string DescribeNotes(const Dataset& dataset) {
+std::string DescribeNotes(const Dataset& dataset,
+                          const std::vector<std::string>& notes) {
   std::string text;
   for (const PolicyCount& policy : dataset.policies) {
     text += fmt::format("note: {}: {}: {}\n", policy.stream, policy.action,
                         policy.count);
   }
-  for (const std::string& note : NotesOf(dataset)) {
+  for (const std::string& note : notes) {
     text += "note: " + note + "\n";
   }
   const std::string warning = WithholdingWarning(dataset);

@@ -19,9 +19,10 @@ std::string DescribeStart(const StartReport& start);
 /// configuration.
 std::string CommentOnStart(const StartReport& start, const InitialState& given);
 
-/// What readers did under declared policies, what is withheld when, and rules of
-/// withholding that no outage came of, a line each.
-std::string DescribeNotes(const Dataset& dataset);
+/// What readers did under declared policies, `notes` (NotesOf), what is withheld
+/// when, and rules of withholding that no outage came of, a line each.
+std::string DescribeNotes(const Dataset& dataset,
+                          const std::vector<std::string>& notes);
 
 /// Warnings of states that the data do not determine, a line each.
 std::string DescribeUnobserved(const std::vector<UnobservedSpan>& spans);

@@ -9,6 +9,9 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <thread>
+
+#include "base/processor_time.h"
 
 namespace hindsight {
 namespace {
@@ -38,14 +41,23 @@ void ForRanges(
     body(0, count);
     return;
   }
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<double> seconds_of_others = 0.0;
+  const auto run = [&](const tbb::blocked_range<std::size_t>& range) {
+    if (std::this_thread::get_id() == caller) {
+      body(range.begin(), range.end());
+      return;
+    }
+    const double t0 = ProcessorSeconds();
+    body(range.begin(), range.end());
+    seconds_of_others += ProcessorSeconds() - t0;
+  };
   // A thread that waits here must not take up other work meanwhile: that may be
   // a whole run, whose time would count as this one's.
   tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        body(range.begin(), range.end());
-                      });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain), run);
   });
+  AddProcessorSeconds(seconds_of_others);
 }
 
 }  // namespace hindsight

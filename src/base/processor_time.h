@@ -3,8 +3,11 @@
 
 namespace hindsight {
 
-/// Processor time of the calling thread since it began [s].
+/// Processor time of the calling thread since it began, and of others in its
+/// ForRanges [s].
 double ProcessorSeconds();
+/// Counts what another thread took for the calling one [s].
+void AddProcessorSeconds(double seconds);
 
 }  // namespace hindsight
 

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/file_piece.h"
 #include "base/scratch_file.h"
 
 namespace hindsight {
@@ -137,19 +138,19 @@ struct ScratchMemory::Mapping {
                     });
   }
   bool WriteFile(std::size_t begin, std::size_t size) const {
-    return AllParts(begin, size,
-                    [this](std::size_t at, std::size_t count, off_t place) {
-                      while (count > 0) {
-                        const ssize_t done =
-                            pwrite(file->descriptor(), data + at, count, place);
-                        if (done < 0 && errno == EINTR) continue;
-                        if (done <= 0) return false;
-                        at += static_cast<std::size_t>(done);
-                        count -= static_cast<std::size_t>(done);
-                        place += done;
-                      }
-                      return true;
-                    });
+    return AllParts(
+        begin, size, [this](std::size_t at, std::size_t count, off_t place) {
+          while (count > 0) {
+            const ssize_t done = pwrite(file->descriptor(), data + at,
+                                        std::min(count, kFilePiece), place);
+            if (done < 0 && errno == EINTR) continue;
+            if (done <= 0) return false;
+            at += static_cast<std::size_t>(done);
+            count -= static_cast<std::size_t>(done);
+            place += done;
+          }
+          return true;
+        });
   }
 };
 
@@ -246,10 +247,10 @@ void ScratchMemory::Hold(std::size_t block, char how) const {
   const std::size_t size = std::min(block_, bytes_ - block * block_);
   if (held_[block] < kRead) HeldBlocks::Add(mapping_.get(), block, size);
   const bool clear = !mapping_->to_clear.empty() && mapping_->to_clear[block];
-  // In one call, many times as fast as page by page when they are touched. Where
-  // the system does not know the advice, they come when they are touched.
-  madvise(begin, size,
-          how == kRead && !clear ? MADV_POPULATE_READ : MADV_POPULATE_WRITE);
+  // To be written, pages come in one call faster than when they are touched; to be
+  // read, slower, as touching one maps those beside it. Where the system does not
+  // know the advice, they come when they are touched.
+  if (how == kWritten || clear) madvise(begin, size, MADV_POPULATE_WRITE);
   if (clear) {
     std::memset(begin, 0, size);
     mapping_->to_clear[block] = false;

@@ -124,25 +124,24 @@ Turns TurnsOf(const Dataset& dataset) {
   return turns;
 }
 
-std::string ByCourse(const Dataset& dataset) {
-  const auto ratio = CourseOverGyros(dataset);
-  if (!ratio) return "";
-  if (*ratio < 0.0) {
+/// By how far the course turns over what the gyros say.
+std::string ByCourse(double ratio, ImuStream::Kind kind) {
+  if (ratio < 0.0) {
     return "imu: the course turns against the gyros: they have the other sign, "
            "or the accelerometers (phones and watches of Apple read -1 g along "
            "the axis that points up), or an axis is mirrored; put a \"-\" "
            "before its column under `columns`";
   }
   for (const double factor : {kDegree, 1.0 / kDegree}) {
-    if (IsNearRatio(*ratio, factor)) {
-      return UnitWarning("the course turns", factor, dataset.imu.kind);
+    if (IsNearRatio(ratio, factor)) {
+      return UnitWarning("the course turns", factor, kind);
     }
   }
-  if (IsNearRatio(*ratio, 1.0)) return "";
+  if (IsNearRatio(ratio, 1.0)) return "";
   return fmt::format(
       "imu: the course turns {:.3g} times as far as the gyros say: their "
       "unit or scale is that factor off",
-      *ratio);
+      ratio);
 }
 
 }  // namespace
@@ -169,7 +168,9 @@ std::string WarnAboutGyroUnit(const Dataset& dataset) {
   const ImuStream& imu = dataset.imu;
   if (imu.samples.size() < 2 || imu.t_end() <= imu.t_begin()) return "";
   // Gravity turns little on the ground.
-  if (CourseOverGyros(dataset)) return ByCourse(dataset);
+  if (const auto ratio = CourseOverGyros(dataset)) {
+    return ByCourse(*ratio, imu.kind);
+  }
   return imu.kind == ImuStream::Kind::kRates ? ByGravity(imu) : "";
 }
 

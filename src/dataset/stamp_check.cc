@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -33,26 +34,36 @@ class Stamps {
   StampOf stamp_;
 };
 
-/// Scatter of the intervals about their median, without gaps; a row between
-/// two regular ones splits an interval, which late stamps do not.
-template <typename StampOf>
-double DelayOf(const Stamps<StampOf>& stamps, double median, double longest) {
-  const double slack = kMaxJitter * median;
-  double squares = 0.0;
-  long count = 0;
-  for (std::size_t i = 0; i < stamps.intervals(); ++i) {
-    const double interval = stamps.Interval(i);
-    if (interval > longest) continue;
-    double excess = interval - median;
-    if (excess < -slack && i + 1 < stamps.intervals() &&
-        std::abs(excess + stamps.Interval(i + 1)) <= slack) {
-      excess += stamps.Interval(++i);
+/// Scatter of intervals about their median, without gaps; a row between two regular
+/// ones splits an interval, which late stamps do not.
+class Delay {
+ public:
+  Delay(double median, double longest) : median_(median), longest_(longest) {}
+
+  /// In their order; `next` is infinite behind the last.
+  void Add(double interval, double next) {
+    if (std::exchange(is_rest_of_split_, false) || interval > longest_) return;
+    const double slack = kMaxJitter * median_;
+    double excess = interval - median_;
+    if (excess < -slack && std::abs(excess + next) <= slack) {
+      excess += next;
+      is_rest_of_split_ = true;
     }
-    squares += excess * excess;
-    ++count;
+    squares_ += excess * excess;
+    ++count_;
   }
-  return count == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(count));
-}
+  double value() const {
+    return count_ == 0 ? 0.0
+                       : std::sqrt(squares_ / static_cast<double>(count_));
+  }
+
+ private:
+  double median_;
+  double longest_;
+  bool is_rest_of_split_ = false;
+  double squares_ = 0.0;
+  long count_ = 0;
+};
 
 template <typename StampOf>
 StreamReport Report(const std::string& name, std::size_t count, StampOf stamp,
@@ -70,10 +81,16 @@ StreamReport Report(const std::string& name, std::size_t count, StampOf stamp,
   const double median = stamps.MedianInterval();
   if (median > 0.0) report.rate = 1.0 / median;
   const double longest = std::max(3.0 * median, 0.1);
+  Delay delay(median, longest);
   double squares = 0.0;
   long regular = 0;
+  double next = stamps.Interval(0);
   for (std::size_t i = 0; i < stamps.intervals(); ++i) {
-    const double interval = stamps.Interval(i);
+    const double interval =
+        std::exchange(next, i + 1 < stamps.intervals()
+                                ? stamps.Interval(i + 1)
+                                : std::numeric_limits<double>::infinity());
+    delay.Add(interval, next);
     if (interval == 0.0) ++report.duplicates;
     if (interval > longest) {
       report.gaps.push_back({stamps.At(i), interval});
@@ -85,7 +102,7 @@ StreamReport Report(const std::string& name, std::size_t count, StampOf stamp,
   }
   if (regular > 0) {
     report.jitter = std::sqrt(squares / static_cast<double>(regular));
-    report.delay = DelayOf(stamps, median, longest);
+    report.delay = delay.value();
   }
   return report;
 }

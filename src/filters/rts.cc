@@ -1,14 +1,70 @@
 #include "filters/rts.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "filters/transport.h"
 #include "linear/small_product.h"
 #include "linear/sparse_product.h"
 
 namespace hindsight {
 namespace {
+
+/// Steps back that are prepared at once, and of those as many as are worth a
+/// thread.
+constexpr std::size_t kStepsAtOnce = 32;
+constexpr std::size_t kStepsOfThread = 8;
+
+/// A P A', of which what lies above the diagonal is not said.
+ErrorMatrix Sandwiched(const ErrorMatrix& A, const ErrorMatrix& P) {
+  ErrorMatrix AP, APA;
+  Multiply(A, P, /*lower=*/false, &AP);
+  Multiply(AP, A.transpose(), /*lower=*/true, &APA);
+  return APA;
+}
+
+/// What a step back to an epoch takes from the tape alone, whatever was smoothed
+/// behind it.
+class StepBack {
+ public:
+  StepBack(const LinearTape& tape, std::size_t k, bool covariances)
+      : Phi_(tape.Phi(k + 1)),
+        P_plus_(tape.P_plus(k)),
+        P_minus_(tape.P_minus(k + 1)) {
+    if (!covariances || !is_possible()) return;
+    C_ = TimesTransposed(P_plus_, Phi_);
+    DivideByCholesky(P_minus_.matrixLLT(), &C_);
+    ErrorMatrix A = ErrorMatrix::Identity(tape.dim(), tape.dim());
+    A -= Times(C_, Phi_);
+    spread_ = Sandwiched(A, P_plus_);
+  }
+
+  /// False if the predicted covariance is not positive definite.
+  bool is_possible() const { return P_minus_.info() == Eigen::Success; }
+  /// The error about x_plus of the epoch, but for its dx_plus, from what the error
+  /// about x_minus of the next is off dx_minus.
+  ErrorVector Error(const ErrorVector& off) const {
+    const ErrorVector ahead = P_minus_.solve(off);
+    return P_plus_ * ErrorVector(Phi_.transpose() * ahead);
+  }
+  /// Its covariance, from that of the next plus the noise in between.
+  ErrorMatrix Covariance(const ErrorMatrix& next) const {
+    const ErrorMatrix P = Sandwiched(C_, next) + spread_;
+    return P.selfadjointView<Eigen::Lower>();
+  }
+
+ private:
+  ErrorMatrix Phi_;                  ///< of the interval that follows
+  ErrorMatrix P_plus_;               ///< of the epoch
+  Eigen::LLT<ErrorMatrix> P_minus_;  ///< of the next
+  ErrorMatrix C_;                    ///< P_plus Phi' P_minus^-1
+  ErrorMatrix spread_;  ///< (I - C Phi) P_plus (I - C Phi)', lower half
+};
 
 /// The pass over a tape.
 class RtsPass {
@@ -31,8 +87,10 @@ class RtsPass {
     if (!epoch_.reset) d_ = epoch_.dx_plus;
     if (covariances_) P_ = tape_.P_plus(count_ - 1);
     WriteEpoch(count_ - 1);
+    first_ = count_ - 1;
     for (std::size_t k = count_ - 1; k-- > 0;) {
-      StepBack(k);
+      if (k < first_) PrepareSteps(k);
+      GoBack(k, *steps_[k - first_]);
       if (consumed != nullptr) consumed->PopBack();
       WriteEpoch(k);
     }
@@ -40,42 +98,29 @@ class RtsPass {
   }
 
  private:
+  /// The step to epoch k, and some before it.
+  void PrepareSteps(std::size_t k) {
+    steps_.resize(std::min(k + 1, kStepsAtOnce));
+    first_ = k + 1 - steps_.size();
+    ForRanges(steps_.size(), kStepsOfThread,
+              [this](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                  steps_[i].emplace(tape_, first_ + i, covariances_);
+                }
+              });
+  }
+
   /// From the tangent at x_minus of epoch k + 1 to that at x_plus of k.
-  void StepBack(std::size_t k) {
-    const ErrorMatrix Phi = tape_.Phi(k + 1);
-    const ErrorMatrix P_plus = tape_.P_plus(k);
-    const Eigen::LLT<ErrorMatrix> llt(tape_.P_minus(k + 1));
-    if (llt.info() != Eigen::Success) {
+  void GoBack(std::size_t k, const StepBack& step) {
+    if (!step.is_possible()) {
       throw EstimationError(
           "predicted covariance is not positive definite at t = " +
           std::to_string(epoch_.t) + " s");
     }
-    const ErrorVector ahead = llt.solve(d_ - epoch_.dx_minus);
-    d_ = P_plus * ErrorVector(Phi.transpose() * ahead);
+    d_ = step.Error(d_ - epoch_.dx_minus);
     epoch_ = tape_.epoch(k);
     if (!epoch_.reset) d_ += epoch_.dx_plus;
-    if (covariances_) StepCovarianceBack(k, Phi, P_plus, llt);
-  }
-
-  /// The same of P; `llt` of P_minus of epoch k + 1.
-  void StepCovarianceBack(std::size_t k, const ErrorMatrix& Phi,
-                          const ErrorMatrix& P_plus,
-                          const Eigen::LLT<ErrorMatrix>& llt) {
-    ErrorMatrix C = TimesTransposed(P_plus, Phi);
-    DivideByCholesky(llt.matrixLLT(), &C);
-    ErrorMatrix A = ErrorMatrix::Identity(tape_.dim(), tape_.dim());
-    A -= Times(C, Phi);
-    P_ += tape_.Q(k + 1);
-    P_ = Sandwiched(C, P_) + Sandwiched(A, P_plus);
-    P_ = ErrorMatrix(P_.selfadjointView<Eigen::Lower>());
-  }
-
-  /// A P A', of which what lies above the diagonal is not said.
-  static ErrorMatrix Sandwiched(const ErrorMatrix& A, const ErrorMatrix& P) {
-    ErrorMatrix AP, APA;
-    Multiply(A, P, /*lower=*/false, &AP);
-    Multiply(AP, A.transpose(), /*lower=*/true, &APA);
-    return APA;
+    if (covariances_) P_ = step.Covariance(P_ + tape_.Q(k + 1));
   }
 
   /// Writes epoch k from the smoothed error about x_plus, and carries that
@@ -98,6 +143,9 @@ class RtsPass {
   TapeEpoch epoch_;  ///< that is being smoothed
   ErrorVector d_;
   ErrorMatrix P_;
+  /// That are prepared, from epoch first_ on.
+  std::vector<std::optional<StepBack>> steps_;
+  std::size_t first_ = 0;
   SmoothedTrajectory out_;
 };
 

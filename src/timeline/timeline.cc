@@ -51,6 +51,8 @@ namespace {
 constexpr std::size_t kIntervalsAhead = 64;
 /// While the first intervals tell the biases they move too far for that.
 constexpr std::size_t kNotAhead = 1024;
+/// Intervals that are worth a thread.
+constexpr std::size_t kIntervalsOfThread = 16;
 
 }  // namespace
 
@@ -82,11 +84,15 @@ void Timeline::GoAhead(std::size_t k, const ImuCalibration& calibration) {
   ahead_.summaries =
       InBackground([integrator = integrator_, times = std::move(times),
                     calibration]() mutable {
-        Summaries summaries;
-        for (std::size_t i = 0; i + 1 < times.size(); ++i) {
-          summaries.push_back(std::make_shared<const ImuSummary>(
-              integrator.Summarize(times[i], times[i + 1], calibration)));
-        }
+        Summaries summaries(times.size() - 1);
+        ForRanges(summaries.size(), kIntervalsOfThread,
+                  [&](std::size_t begin, std::size_t end) {
+                    ImuIntegrator own = integrator;
+                    for (std::size_t i = begin; i < end; ++i) {
+                      summaries[i] = std::make_shared<const ImuSummary>(
+                          own.Summarize(times[i], times[i + 1], calibration));
+                    }
+                  });
         return summaries;
       }).share();
 }

@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/processor_time.h"
+
 namespace hindsight {
 namespace {
 
@@ -64,6 +66,24 @@ TEST(ForRanges, ThrowsWhatABodyThrows) {
                              }
                            }),
                  std::runtime_error);
+  }
+}
+
+TEST(ForRanges, CountsTheProcessorTimeOfAllThreads) {
+  constexpr double kOfEach = 0.01;  // s
+  constexpr int kCount = 16;
+  for (const int threads : {1, 4}) {
+    const Threads limit(threads);
+    const double t0 = ProcessorSeconds();
+    ForRanges(kCount, 1, [](std::size_t begin, std::size_t end) {
+      const double from = ProcessorSeconds();
+      while (ProcessorSeconds() - from <
+             kOfEach * static_cast<double>(end - begin)) {
+      }
+    });
+    const double seconds = ProcessorSeconds() - t0;
+    EXPECT_GE(seconds, kCount * kOfEach) << threads;
+    EXPECT_LT(seconds, 1.2 * kCount * kOfEach) << threads;
   }
 }
 

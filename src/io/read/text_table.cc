@@ -21,6 +21,8 @@ constexpr std::size_t kMostBytesAhead = std::size_t{1} << 22;
 constexpr std::int64_t kHalfDay = 43200;
 /// Lines that are worth a thread.
 constexpr std::size_t kLinesOfThread = 512;
+/// Batches that are parsed at once at most.
+constexpr std::size_t kMostBatches = 4;
 
 }  // namespace
 
@@ -34,7 +36,7 @@ TextTable::TextTable(TextLines* lines, TableLayout layout, Options options,
                  std::numeric_limits<double>::quiet_NaN());
 }
 
-TextTable::Batch TextTable::Fetch(std::size_t most, Batch memory) {
+TextTable::Batch TextTable::ReadLines(Batch memory) {
   Batch batch = std::move(memory);
   batch.texts.clear();
   batch.rows.clear();
@@ -54,47 +56,65 @@ TextTable::Batch TextTable::Fetch(std::size_t most, Batch memory) {
   }
   try {
     std::string_view line;
-    while (batch.rows.size() < most && batch.texts.size() < kMostBytesAhead &&
+    while (batch.rows.size() < most_ && batch.texts.size() < kMostBytesAhead &&
            lines_->Next(&line)) {
       if (!IsComment(line) && layout.rows.IsIn(line, layout.delimiter)) {
         add(line);
       }
     }
   } catch (const InputError&) {
-    if (batch.rows.empty()) throw;
     batch.trouble = std::current_exception();
   }
-  const std::size_t width = values_.size();
-  batch.values.resize(batch.rows.size() * width);
-  ForRanges(batch.rows.size(), kLinesOfThread,
-            [&](std::size_t begin, std::size_t end) {
-              TextRowParser::Scratch scratch;
-              for (std::size_t i = begin; i < end; ++i) {
-                Ahead& row = batch.rows[i];
-                row.problem = parser_.Parse(
-                    std::string_view(batch.texts).substr(row.begin, row.length),
-                    &scratch, std::span(batch.values).subspan(i * width, width),
-                    &row.stamp, &row.columns);
-              }
-            });
   return batch;
+}
+
+void TextTable::Parse(Batch* batch) const {
+  const std::size_t width = values_.size();
+  batch->values.resize(batch->rows.size() * width);
+  TextRowParser::Scratch scratch;
+  std::size_t begin = 0;
+  for (Ahead& row : batch->rows) {
+    row.problem = parser_.Parse(
+        std::string_view(batch->texts).substr(row.begin, row.length), &scratch,
+        std::span(batch->values).subspan(begin, width), &row.stamp,
+        &row.columns);
+    begin += width;
+  }
 }
 
 bool TextTable::ReadAhead() {
   if (batch_.trouble) std::rethrow_exception(batch_.trouble);
-  spare_ = std::exchange(
-      batch_, next_.valid() ? next_.get() : Fetch(most_, std::move(spare_)));
+  Batch used = std::move(batch_);
+  if (ahead_.empty()) {
+    batch_ = ReadLines(std::exchange(used, {}));
+    Parse(&batch_);
+  } else {
+    batch_ = ahead_.front().get();
+    ahead_.pop_front();
+  }
   taken_ = 0;
+  if (batch_.rows.empty() && batch_.trouble) {
+    std::rethrow_exception(batch_.trouble);
+  }
   // The first good row tells how many columns the others must have.
   if (parser_.layout().column_count > 0) {
     most_ = std::min(2 * most_, kMostAhead);
-    if (most_ >= kLinesOfThread && !batch_.rows.empty() && !batch_.trouble) {
-      next_ = InBackground([this, memory = std::move(spare_)]() mutable {
-        return Fetch(most_, std::move(memory));
-      });
-    }
+    if (most_ >= kLinesOfThread) GoAhead(std::move(used));
   }
   return !batch_.rows.empty();
+}
+
+void TextTable::GoAhead(Batch memory) {
+  const std::size_t most =
+      std::min(static_cast<std::size_t>(ThreadCount()), kMostBatches);
+  while (!all_read_ && ahead_.size() < most) {
+    Batch next = ReadLines(std::exchange(memory, {}));
+    all_read_ = next.rows.empty() || next.trouble;
+    ahead_.push_back(InBackground([this, batch = std::move(next)]() mutable {
+      Parse(&batch);
+      return std::move(batch);
+    }));
+  }
 }
 
 void TextTable::Take(const Ahead& row, std::size_t index) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <future>
 #include <string>
@@ -17,9 +18,9 @@
 namespace hindsight {
 
 /// Rows of numbers out of a text file, checked as they are read. Lines are read
-/// ahead, some thousands at once, and parsed by several threads, while the rows
-/// before them are used; rows, and what is wrong with them, come in the order of the
-/// file nevertheless.
+/// ahead, some thousands at once, and parsed by other threads while the rows before
+/// them are used; rows, and what is wrong with them, come in the order of the file
+/// nevertheless.
 class TextTable final : public RowSource {
  public:
   struct Options {
@@ -73,8 +74,12 @@ class TextTable final : public RowSource {
 
   /// Takes the next lines; false at the end of the file.
   bool ReadAhead();
-  /// Reads lines and parses them at once, in the memory of another batch.
-  Batch Fetch(std::size_t most, Batch memory);
+  /// Lines that are not parsed yet, in the memory of another batch.
+  Batch ReadLines(Batch memory);
+  void Parse(Batch* batch) const;
+  /// Has lines parsed by others, as many batches as there are threads; the first
+  /// one in memory that is used up.
+  void GoAhead(Batch memory);
   /// Takes the row that was read ahead into the current one.
   void Take(const Ahead& row, std::size_t index);
   std::string_view LineOf(const Ahead& row) const {
@@ -91,15 +96,15 @@ class TextTable final : public RowSource {
   std::size_t taken_ = 0;  ///< of its rows
   std::int64_t midnight_ =
       0;                    ///< of times of day: the last, from the first [s]
-  std::size_t most_ = 1;    ///< lines to read ahead next time
+  std::size_t most_ = 1;    ///< lines of a batch
   bool terminated_ = true;  ///< the line of the current row
   long truncated_ = 0;
   long texts_dropped_ = 0;
   std::size_t first_length_ = 0;
   static constexpr std::size_t kNoLength = static_cast<std::size_t>(-1);
   std::size_t shortest_last_value_ = kNoLength;
-  Batch spare_;  ///< used up, its memory is not
-  std::future<Batch> next_;
+  bool all_read_ = false;  ///< or trouble was run into
+  std::deque<std::future<Batch>> ahead_;
 };
 
 }  // namespace hindsight

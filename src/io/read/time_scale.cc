@@ -34,16 +34,16 @@ std::optional<Stamp> ParseStamp(std::string_view text,
   while (digits < text.size() && text[digits] >= '0' && text[digits] <= '9') {
     ++digits;
   }
-  const auto value = ParseNumber(text);
-  if (!value) return std::nullopt;
+  double value = 0.0;
+  if (!ReadNumber(text, &value)) return std::nullopt;
   const double ticks = static_cast<double>(ticks_per_second);
-  if (!IsTime(*value / ticks)) return std::nullopt;
+  if (!IsTime(value / ticks)) return std::nullopt;
   // Below this size a double holds the stamp to better than 1e-8 of a tick.
   constexpr std::size_t kShort = 9;
   const bool is_whole = digits == text.size();
   if (digits <= kShort || !(is_whole || text[digits] == '.') ||
       text.find_first_of("eE") != text.npos) {
-    return Stamp{0, *value / ticks};
+    return Stamp{0, value / ticks};
   }
   std::int64_t count = 0;
   if (std::from_chars(text.data(), text.data() + digits, count).ec !=

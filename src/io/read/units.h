@@ -44,6 +44,8 @@ std::string_view Trim(std::string_view text);
 
 /// A finite number filling all of `text`, or nothing.
 std::optional<double> ParseNumber(std::string_view text);
+/// The same into `value`; false if it is none.
+bool ReadNumber(std::string_view text, double* value);
 
 }  // namespace hindsight
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "base/file_piece.h"
 #include "base/parallel.h"
 #include "io/write/output_error.h"
 
@@ -37,8 +38,8 @@ void AtomicFile::Fail(const std::error_code& cause) const {
 void AtomicFile::Flush() {
   std::string_view rest = buffer_;
   while (!rest.empty()) {
-    const ssize_t written =
-        write(file_.descriptor.get(), rest.data(), rest.size());
+    const ssize_t written = write(file_.descriptor.get(), rest.data(),
+                                  std::min(rest.size(), kFilePiece));
     if (written < 0) {
       if (errno == EINTR) continue;
       Fail(LastError());

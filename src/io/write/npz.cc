@@ -4,6 +4,7 @@
 #include <archive_entry.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <exception>
@@ -12,6 +13,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/file_piece.h"
 #include "io/write/output_error.h"
 
 namespace hindsight {
@@ -81,7 +83,8 @@ void Npz::Append(const Eigen::MatrixXd& rows) {
       static_cast<const char*>(static_cast<const void*>(rows.data())),
       static_cast<std::size_t>(rows.size() * kValueBytes));
   while (!rest.empty()) {
-    const ssize_t written = write(rows_.get(), rest.data(), rest.size());
+    const ssize_t written =
+        write(rows_.get(), rest.data(), std::min(rest.size(), kFilePiece));
     if (written < 0) {
       if (errno == EINTR) continue;
       Fail(path_, errno);

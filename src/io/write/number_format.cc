@@ -68,11 +68,14 @@ Wide Scaled(const Binary& value, int power) {
   return up ? floor + 1 : floor;
 }
 
-void AppendWhole(std::uint64_t value, std::string* out) {
-  std::array<char, 24> buffer;
-  const auto result =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  out->append(buffer.data(), result.ptr);
+// What is quick here is composed in a buffer and appended at once.
+constexpr std::size_t kLongestQuick = 48;
+using QuickBuffer = std::array<char, kLongestQuick>;
+
+/// Where the next character goes.
+char* PutWhole(std::uint64_t value, char* to) {
+  constexpr std::ptrdiff_t kMostDigits = 20;
+  return std::to_chars(to, to + kMostDigits, value).ptr;
 }
 
 /// False, and nothing appended, for numbers that it leaves out.
@@ -87,11 +90,13 @@ bool AppendFixedQuickly(double value, int decimals, std::string* out) {
   const auto digits =
       static_cast<std::uint64_t>(Scaled(Binary(size), decimals));
   const auto one = static_cast<std::uint64_t>(PowerOfTen(decimals));
-  if (value < 0.0 && digits > 0) *out += '-';
-  AppendWhole(digits / one, out);
-  const std::size_t point = out->size();
-  AppendWhole(one + digits % one, out);  // a digit more, for the zeros in front
-  (*out)[point] = '.';
+  QuickBuffer buffer;
+  char* to = buffer.data();
+  if (value < 0.0 && digits > 0) *to++ = '-';
+  char* const point = PutWhole(digits / one, to);
+  to = PutWhole(one + digits % one, point);  // a digit more, for zeros in front
+  *point = '.';
+  out->append(buffer.data(), to);
   return true;
 }
 
@@ -130,25 +135,30 @@ bool AppendGeneralQuickly(double value, int count, std::string* out) {
   if (!decimal) return false;
   const int exponent = decimal->exponent;
   const bool scientific = exponent < kLeastFixed || exponent >= count;
-  if (value < 0.0) *out += '-';
+  QuickBuffer buffer;
+  char* to = buffer.data();
+  if (value < 0.0) *to++ = '-';
   if (!scientific && exponent < 0) {
-    *out += "0.";
-    out->append(static_cast<std::size_t>(-exponent - 1), '0');
+    *to++ = '0';
+    *to++ = '.';
+    to = std::fill_n(to, -exponent - 1, '0');
   }
-  const std::size_t first = out->size();
-  AppendWhole(decimal->digits, out);
-  const std::size_t whole =
-      scientific ? 1 : static_cast<std::size_t>(std::max(exponent + 1, 0));
-  while (out->size() > first + std::max<std::size_t>(whole, 1) &&
-         out->back() == '0') {
-    out->pop_back();
+  char* const first = to;
+  to = PutWhole(decimal->digits, to);
+  const std::ptrdiff_t whole = scientific ? 1 : std::max(exponent + 1, 0);
+  while (to - first > std::max<std::ptrdiff_t>(whole, 1) && to[-1] == '0') --to;
+  if (whole > 0 && to - first > whole) {
+    std::copy_backward(first + whole, to, to + 1);
+    first[whole] = '.';
+    ++to;
   }
-  if (whole > 0 && out->size() > first + whole)
-    out->insert(first + whole, 1, '.');
-  if (!scientific) return true;
-  *out += exponent < 0 ? "e-" : "e+";
-  if (std::abs(exponent) < 10) *out += '0';
-  AppendWhole(static_cast<std::uint64_t>(std::abs(exponent)), out);
+  if (scientific) {
+    *to++ = 'e';
+    *to++ = exponent < 0 ? '-' : '+';
+    if (std::abs(exponent) < 10) *to++ = '0';
+    to = PutWhole(static_cast<std::uint64_t>(std::abs(exponent)), to);
+  }
+  out->append(buffer.data(), to);
   return true;
 }
 
