@@ -213,7 +213,7 @@ TEST_F(Interrupt, HalfARecordingIsNoRecording) {
 std::vector<std::string> BySeeds(const std::string& runs) {
   return {"montecarlo",
           "in_flight_alignment",
-          "--rules=ekf",
+          "--methods=ekf",
           "--error=quaternion",
           "--set=start_errors.tilt=10 deg",
           "--set=start_errors.heading=30 deg",
