@@ -11,30 +11,16 @@
 #include "dataset/timeline_builder.h"
 #include "evaluation/statistics.h"
 #include "evaluation/true_states.h"
+#include "problems/papers/attitude_limits.h"
 
 namespace hindsight {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Prior AlignmentPrior(const Dataset& dataset, const ErrorLayout& layout) {
-  const InitialState& initial = dataset.initial;
-  Prior prior;
-  prior.x = MakeState(dataset.imu.t_begin(), initial.position.value(),
-                      initial.v_n.value(), initial.euler.value());
-  prior.x.b_g = initial.gyro_bias;
-  prior.x.b_a = initial.accel_bias;
-  prior.x.parameters = ParameterVector::Zero(0);
-  prior.P = layout.InitialCovariance();
-  const int attitude = layout.Find(BlockKind::kAttitude)->offset;
-  prior.P.block<3, 3>(attitude, attitude) =
-      AttitudeCovariance(*initial.euler, initial.attitude_sigma.value());
-  return prior;
-}
-
 /// Of the attitude along a tape: whether the run diverged and how it settled.
-RunValues JudgeAttitude(const LinearTape& tape, const std::vector<State>& truth,
-                        const ObserverLimits& limits) {
+RunValues JudgeAttitude(const LinearTape& tape,
+                        const std::vector<State>& truth) {
   bool settled = true, diverged = false;
   double t_settled = tape.epoch(0).t, tilt = 0.0, heading = 0.0;
   for (std::size_t k = 0; k < tape.size(); ++k) {
@@ -46,14 +32,11 @@ RunValues JudgeAttitude(const LinearTape& tape, const std::vector<State>& truth,
     tilt = std::atan2(C_true.row(2).cross(C.row(2)).norm(),
                       C_true.row(2).dot(C.row(2)));
     heading = std::abs(WrapAngle(truth[k].euler().z() - x.euler().z()));
-    const bool inside =
-        tilt <= limits.settled_tilt && heading <= limits.settled_heading;
+    const bool inside = kSettledAttitude.Hold(tilt, heading);
     if (inside && !settled) t_settled = t;
     settled = inside;
-    diverged =
-        diverged ||
-        (t >= tape.back().t - limits.last &&
-         (tilt > limits.diverged_tilt || heading > limits.diverged_heading));
+    diverged = diverged || (t >= tape.back().t - kDecidingEnd &&
+                            !kDivergedAttitude.Hold(tilt, heading));
   }
   return {{"diverged", diverged ? 1.0 : 0.0},
           {"escaped", 0.0},
@@ -96,10 +79,25 @@ ErrorLayout AlignmentLayout(const Dataset& dataset) {
   return layout;
 }
 
+Prior AlignmentPrior(const Dataset& dataset, const ErrorLayout& layout) {
+  const InitialState& initial = dataset.initial;
+  Prior prior;
+  prior.x = MakeState(dataset.imu.t_begin(), initial.position.value(),
+                      initial.v_n.value(), initial.euler.value());
+  prior.x.b_g = initial.gyro_bias;
+  prior.x.b_a = initial.accel_bias;
+  prior.x.parameters = ParameterVector::Zero(0);
+  prior.P = layout.InitialCovariance();
+  const int attitude = layout.Find(BlockKind::kAttitude)->offset;
+  prior.P.block<3, 3>(attitude, attitude) =
+      AttitudeCovariance(*initial.euler, initial.attitude_sigma.value());
+  return prior;
+}
+
 }  // namespace
 
 RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
-                      const ObserverLimits& limits, Timeline timeline) {
+                      Timeline timeline) {
   const ErrorLayout layout = AlignmentLayout(dataset);
   Problem problem = {layout, AlignmentPrior(dataset, layout),
                      std::move(timeline)};
@@ -111,7 +109,7 @@ RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
       states.push_back(tape.epoch(k).x_plus);
     }
     const std::vector<State> truth = TrueStates(dataset, layout, states);
-    RunValues values = JudgeAttitude(tape, truth, limits);
+    RunValues values = JudgeAttitude(tape, truth);
     values.emplace_back("backed_off",
                         static_cast<double>(tape.bound().back_offs) /
                             static_cast<double>(tape.size() - 1));
@@ -129,36 +127,30 @@ RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
 
 StudyTable ObserverTable() {
   constexpr Unit kInSeconds = {"s", 1.0};
-  const Reduce median = OfRuns(Rank50);
-  const Reduce mean = OfRuns(Mean);
   StudyTable table = {"cells", {"rule", "error"}};
-  const auto add_ranks = [&](const std::string& name, const Unit& unit) {
-    table.Add({{name + "_50", unit, median, name},
-               {name + "_95", unit, OfRuns(Rank95), name}});
-  };
-  table.Add({{"diverged", kPlain, mean},
-             {"escaped", kPlain, mean},
-             {"t_escape", kInSeconds, median},
-             {"converged", kPlain, mean}});
-  add_ranks("t_settled", kInSeconds);
-  add_ranks("tilt", kDegrees);
-  add_ranks("heading", kDegrees);
-  table.Add({{"backed_off", kPlain, mean},
-             {"least_information", kPlain, median},
-             {"v_first", kPlain, median},
-             {"v_largest", kPlain, median},
-             {"v_last", kPlain, median},
-             {"share_falling_early", kPlain, median},
-             {"share_falling", kPlain, median},
-             {"p_least", kPlain, OfRuns(Least)},
+  table.Add({{"diverged", kPlain, OfRuns(Mean)},
+             {"escaped", kPlain, OfRuns(Mean)},
+             {"t_escape", kInSeconds, OfRuns(Rank50)},
+             {"converged", kPlain, OfRuns(Mean)}});
+  for (const auto& [name, unit] : {std::pair("t_settled", kInSeconds),
+                                   {"tilt", kDegrees},
+                                   {"heading", kDegrees}}) {
+    table.Add({{std::string(name) + "_50", unit, OfRuns(Rank50), name},
+               {std::string(name) + "_95", unit, OfRuns(Rank95), name}});
+  }
+  table.Add({{"backed_off", kPlain, OfRuns(Mean)}});
+  for (const char* name : {"least_information", "v_first", "v_largest",
+                           "v_last", "share_falling_early", "share_falling"}) {
+    table.Add({{name, kPlain, OfRuns(Rank50)}});
+  }
+  table.Add({{"p_least", kPlain, OfRuns(Least)},
              {"p_largest", kPlain, OfRuns(Largest)},
-             {"radius_first", kDegrees, median},
-             {"radius_largest", kDegrees, median}});
+             {"radius_first", kDegrees, OfRuns(Rank50)},
+             {"radius_largest", kDegrees, OfRuns(Rank50)}});
   return table;
 }
 
-Trial ObserverTrial(const std::vector<ObserverModel>& models,
-                    const ObserverLimits& limits) {
+Trial ObserverTrial(const std::vector<ObserverModel>& models) {
   Trial trial;
   for (const ObserverModel& model : models) {
     trial.methods.push_back({model.rule, ErrorName(model.model.error)});
@@ -168,8 +160,7 @@ Trial ObserverTrial(const std::vector<ObserverModel>& models,
     const Timeline timeline = TimelineOf(dataset);
     for (std::size_t i = 0; i < models.size(); ++i) {
       run->Try(methods[i], [&](RunRecord* record) {
-        record->values =
-            RunObserver(models[i].model, dataset, limits, timeline);
+        record->values = RunObserver(models[i].model, dataset, timeline);
       });
     }
   };

@@ -15,23 +15,16 @@ struct ObserverModel {
   ForwardModel model;
 };
 
-struct ObserverLimits {
-  double settled_tilt = 0.0;      ///< [rad]
-  double settled_heading = 0.0;   ///< [rad]
-  double diverged_tilt = 0.0;     ///< exceeded in the last ... [rad]
-  double diverged_heading = 0.0;  ///< ... or [rad]
-  double last = 0.0;              ///< ... so many seconds
-};
-
 /// One filter of velocity, attitude and both biases, the position being known, on
 /// a recording that gives velocity, attitude and their sigmas: diverged, escaped,
-/// converged (0 or 1); t_settled [s], the first time from which tilt, the angle
-/// between true and estimated vertical, and heading, the difference of the Euler
-/// angles, stay inside the settled limits, infinite if they do not at the end;
-/// tilt and heading at the end [rad]; then t_escape [s], or backed_off, the share
-/// of the steps, and least_information (BoundRecord) and those of AnalyseRun.
+/// converged (0 or 1; problems/papers/attitude_limits.h); t_settled [s], the
+/// first time from which tilt, the angle between true and estimated vertical,
+/// and heading, the difference of the Euler angles, stay inside kSettledAttitude,
+/// infinite if they do not at the end; tilt and heading at the end [rad]; then
+/// t_escape [s], or backed_off, the share of the steps, and least_information
+/// (BoundRecord) and those of AnalyseRun.
 RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
-                      const ObserverLimits& limits, Timeline timeline);
+                      Timeline timeline);
 
 /// Every filter on a recording, whose nodes and preintegration are made once. A
 /// node without truth is an InputError.
@@ -43,8 +36,7 @@ RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
 /// infinite; of the runs that did not escape the mean share of backed_off
 /// steps, the median of least_information, medians of what AnalyseRun gives, and
 /// extremes of the eigenvalues of P.
-Trial ObserverTrial(const std::vector<ObserverModel>& models,
-                    const ObserverLimits& limits);
+Trial ObserverTrial(const std::vector<ObserverModel>& models);
 StudyTable ObserverTable();
 
 }  // namespace hindsight

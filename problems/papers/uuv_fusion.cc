@@ -3,9 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "base/error.h"
 #include "base/random.h"
 #include "evaluation/statistics.h"
 
@@ -19,18 +17,6 @@ constexpr double kInsProcess = 10.0;
 constexpr double kDvlProcess = 1.0;
 constexpr double kInsSigma = 9.8;
 constexpr double kDvlSigma = 0.02;
-
-struct Word {
-  const char* printed;
-  const char* other;
-  bool UuvReading::*bit;
-};
-constexpr Word kWords[] = {
-    {"sum", "position", &UuvReading::adds_velocity},
-    {"diagonal", "acceleration", &UuvReading::diagonal_noise},
-    {"white", "accumulating", &UuvReading::white_errors},
-    {"by_noise", "alike", &UuvReading::weighs_by_noise},
-};
 
 LinearSensor MakeSensor(const UuvReading& reading, double w, double v) {
   LinearSensor sensor;
@@ -55,38 +41,44 @@ LinearSensor MakeSensor(const UuvReading& reading, double w, double v) {
   return sensor;
 }
 
-/// The sensors' true standard deviations and how their errors go on.
-struct Errors {
-  std::array<double, 2> sigma;
-  bool white = true;
-};
-
 using Sensors = std::array<LinearSensor, 2>;
 
-/// One run under one architecture.
-void Follow(FusionArchitecture architecture, const Sensors& sensors,
-            const UuvTruth& truth, const Errors& errors, std::uint64_t seed,
-            RunRecord* record) {
-  std::array<Random, 2> noise = {Random(seed, 1), Random(seed, 2)};
+/// What is fused: the sensors, how the central filter sees them, and how their
+/// errors are drawn.
+struct Fused {
+  Sensors sensors;
+  Sensors central;
+  std::array<double, 2> sigma;
+  bool white_errors = true;
+};
+
+void Follow(FusionArchitecture architecture, const Fused& fused,
+            const UuvTruth& truth, RunRecord* record) {
+  const Sensors& sensors = architecture == FusionArchitecture::kCentral
+                               ? fused.central
+                               : fused.sensors;
+  std::array<Random, 2> noise = {Random(record->seed, 1),
+                                 Random(record->seed, 2)};
   std::array<Eigen::Vector3d, 2> error = {Eigen::Vector3d::Zero(),
                                           Eigen::Vector3d::Zero()};
-  const Track prior = {truth.front(), ErrorMatrix::Identity(kStates, kStates)};
-  const auto fusion = MakeFusion(architecture, sensors, prior);
+  const auto fusion =
+      MakeFusion(architecture, sensors,
+                 {truth.front(), ErrorMatrix::Identity(kStates, kStates)});
   std::vector<double> horizontal, spatial, nees;
   for (std::size_t k = 1; k < truth.size(); ++k) {
     std::array<RowVector, 2> z;
     for (std::size_t i = 0; i < 2; ++i) {
-      if (errors.white) error[i].setZero();
-      error[i] += errors.sigma[i] * noise[i].NormalVector3();
+      if (fused.white_errors) error[i].setZero();
+      error[i] += fused.sigma[i] * noise[i].NormalVector3();
       z[i] = sensors[i].H * truth[k] + error[i];
     }
-    const Track fused = fusion->Step(z[0], z[1]);
-    const ErrorVector e = truth[k] - fused.x;
+    const Track track = fusion->Step(z[0], z[1]);
+    const ErrorVector e = truth[k] - track.x;
     horizontal.push_back(std::hypot(e(0), e(2)));
     spatial.push_back(std::hypot(e(0), e(2), e(4)));
-    nees.push_back(e.dot(fused.P.llt().solve(e)) / kStates);
+    nees.push_back(e.dot(track.P.llt().solve(e)) / kStates);
     if (architecture == FusionArchitecture::kEqualised) {
-      error[0] = sensors[0].H * (fused.x - truth[k]);
+      error[0] = sensors[0].H * (track.x - truth[k]);
     }
   }
   record->values = {{"spatial_mean", Mean(spatial)},
@@ -109,19 +101,16 @@ UuvTruth DrawTruth(const LinearSensor& sensor, int epochs, std::uint64_t seed) {
   return truth;
 }
 
-/// Every architecture on one truth, the central one with sensors of its own.
-Case FusionCase(const std::string& name, const Sensors& sensors,
-                const Sensors& central, const Errors& errors,
+Case FusionCase(const std::string& name, const Fused& fused,
                 const std::function<UuvTruth(std::uint64_t)>& truth_of) {
-  const auto run = [=](const Dataset&, CaseRun* of_case) {
-    const UuvTruth truth = truth_of(of_case->seed);
-    for (const FusionArchitecture architecture : kFusionArchitectures) {
-      const bool is_central = architecture == FusionArchitecture::kCentral;
-      Follow(architecture, is_central ? central : sensors, truth, errors,
-             of_case->seed, of_case->Add(0, {FusionName(architecture)}));
-    }
-  };
-  return {{name}, {}, {{}, run}};
+  return {{name},
+          {},
+          {{}, [=](const Dataset&, CaseRun* run) {
+             const UuvTruth truth = truth_of(run->seed);
+             for (const FusionArchitecture one : kFusionArchitectures) {
+               Follow(one, fused, truth, run->Add(0, {FusionName(one)}));
+             }
+           }}};
 }
 
 /// Standard deviation about the mean over all runs and epochs.
@@ -129,6 +118,54 @@ double Scatter(const RunCell& cell, const std::string& distance) {
   const double rms = Rms(cell.Values(distance + "_rms"));
   const double mean = Mean(cell.Values(distance + "_mean"));
   return std::sqrt(std::max(0.0, rms * rms - mean * mean));
+}
+
+}  // namespace
+
+std::string UuvReading::Name() const {
+  return std::string(adds_velocity ? "sum" : "position") +
+         (diagonal_noise ? ",diagonal" : ",acceleration") +
+         (white_errors ? ",white" : ",accumulating") +
+         (weighs_by_noise ? ",by_noise" : ",alike");
+}
+
+std::vector<UuvReading> UuvReadings() {
+  std::vector<UuvReading> readings;
+  for (unsigned other = 0; other < 16; ++other) {
+    readings.push_back({.adds_velocity = (other & 1U) == 0,
+                        .diagonal_noise = (other & 2U) == 0,
+                        .white_errors = (other & 4U) == 0,
+                        .weighs_by_noise = (other & 8U) == 0});
+  }
+  return readings;
+}
+
+std::array<LinearSensor, 2> UuvSensors(const UuvReading& reading) {
+  return {MakeSensor(reading, kInsProcess, kInsSigma),
+          MakeSensor(reading, kDvlProcess, kDvlSigma)};
+}
+
+Case UuvSearch(const UuvReading& reading, const UuvTruth& path) {
+  const Sensors sensors = UuvSensors(reading);
+  Sensors central = sensors;
+  if (!reading.weighs_by_noise) {
+    central[0].R = central[1].R = 0.5 * (sensors[0].R + sensors[1].R);
+  }
+  return FusionCase(
+      reading.Name(),
+      {sensors, central, {kInsSigma, kDvlSigma}, reading.white_errors},
+      [path](std::uint64_t) { return path; });
+}
+
+Case MatchedSearch(const std::string& name, int epochs,
+                   const std::array<double, 2>& sigma) {
+  const UuvReading reading = {.adds_velocity = false};
+  const Sensors sensors = {MakeSensor(reading, kDvlProcess, sigma[0]),
+                           MakeSensor(reading, kDvlProcess, sigma[1])};
+  return FusionCase(name, {sensors, sensors, sigma},
+                    [sensor = sensors[1], epochs](std::uint64_t seed) {
+                      return DrawTruth(sensor, epochs, seed);
+                    });
 }
 
 StudyTable FusionTable() {
@@ -139,83 +176,6 @@ StudyTable FusionTable() {
   }
   table.Add({{"nees", kPlain, OfRuns(Mean)}});
   return table;
-}
-
-}  // namespace
-
-std::string UuvReading::Name() const {
-  std::string name;
-  for (const Word& word : kWords) {
-    name += (name.empty() ? "" : ",") +
-            std::string(this->*word.bit ? word.printed : word.other);
-  }
-  return name;
-}
-
-std::vector<UuvReading> UuvReadings(const std::string& words) {
-  std::vector<UuvReading> readings;
-  for (unsigned bits = 0; bits < 1U << std::size(kWords); ++bits) {
-    UuvReading& reading = readings.emplace_back();
-    for (std::size_t i = 0; i < std::size(kWords); ++i) {
-      reading.*kWords[i].bit = (bits >> i & 1U) == 0;
-    }
-  }
-  for (std::size_t begin = 0; begin < words.size();) {
-    const std::size_t end = std::min(words.find(',', begin), words.size());
-    const std::string asked = words.substr(begin, end - begin);
-    begin = end + 1;
-    const auto* word = std::find_if(
-        std::begin(kWords), std::end(kWords),
-        [&](const Word& w) { return asked == w.printed || asked == w.other; });
-    if (word == std::end(kWords)) {
-      throw InputError("unknown reading '" + asked +
-                       "'; known are sum or position, diagonal or "
-                       "acceleration, white or accumulating, by_noise or "
-                       "alike");
-    }
-    std::erase_if(readings, [&](const UuvReading& reading) {
-      return reading.*word->bit != (asked == word->printed);
-    });
-  }
-  if (readings.empty()) {
-    throw InputError("the reading '" + words + "' contradicts itself");
-  }
-  return readings;
-}
-
-std::array<LinearSensor, 2> UuvSensors(const UuvReading& reading) {
-  return {MakeSensor(reading, kInsProcess, kInsSigma),
-          MakeSensor(reading, kDvlProcess, kDvlSigma)};
-}
-
-Study UuvFusionStudy(const UuvTruth& truth,
-                     const std::vector<UuvReading>& readings) {
-  Study study = {.tables = {FusionTable()}};
-  for (const UuvReading& reading : readings) {
-    const Sensors sensors = UuvSensors(reading);
-    Sensors central = sensors;
-    if (!reading.weighs_by_noise) {
-      central[0].R = central[1].R = 0.5 * (sensors[0].R + sensors[1].R);
-    }
-    study.cases.push_back(
-        FusionCase(reading.Name(), sensors, central,
-                   {{kInsSigma, kDvlSigma}, reading.white_errors},
-                   [truth](std::uint64_t) { return truth; }));
-  }
-  return study;
-}
-
-void AddMatchedFusion(const std::string& name, int epochs,
-                      const std::array<double, 2>& sigma, Study* study) {
-  UuvReading reading;
-  reading.adds_velocity = false;
-  const Sensors sensors = {MakeSensor(reading, kDvlProcess, sigma[0]),
-                           MakeSensor(reading, kDvlProcess, sigma[1])};
-  study->cases.push_back(
-      FusionCase(name, sensors, sensors, {sigma, true},
-                 [sensor = sensors[1], epochs](std::uint64_t seed) {
-                   return DrawTruth(sensor, epochs, seed);
-                 }));
 }
 
 }  // namespace hindsight

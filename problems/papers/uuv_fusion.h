@@ -16,8 +16,7 @@ namespace hindsight {
 /// [x vx y vy z vz] per sensor, A and H of section 3.2 with T = 1 s, Q = w^2 I
 /// with w = 10 (INS) and 1 (DVL), R = v^2 I with v = 9.8 and 0.02.
 
-/// What the paper leaves open or prints so that it can be meant two ways. Each
-/// is a bit: 16 readings.
+/// What the paper leaves open or prints so that it can be meant two ways.
 struct UuvReading {
   /// H = [1 1] adds position and velocity, as printed; or takes the position.
   bool adds_velocity = true;
@@ -36,9 +35,8 @@ struct UuvReading {
   /// accumulating, alike.
   std::string Name() const;
 };
-/// All readings that have the words in the comma-separated list; all 16 for an
-/// empty one. Throws InputError for an unknown word or two that contradict.
-std::vector<UuvReading> UuvReadings(const std::string& words);
+/// All 16, that which is as printed first.
+std::vector<UuvReading> UuvReadings();
 
 /// True states [x vx y vy z vz], one a second.
 using UuvTruth = std::vector<ErrorVector>;
@@ -46,18 +44,18 @@ using UuvTruth = std::vector<ErrorVector>;
 /// The sensors of the paper, INS and DVL, under a reading.
 std::array<LinearSensor, 2> UuvSensors(const UuvReading& reading);
 
-/// Every architecture on the same measurements of the path, a case each reading.
+/// Every architecture on measurements of the path, under a reading.
+Case UuvSearch(const UuvReading& reading, const UuvTruth& path);
+/// The same, of that name, on states that move as the DVL's own A and Q say,
+/// drawn anew for each run, and both filters know it; H takes the position,
+/// `sigma` are the sensors' [m]. There nees judges the architecture alone.
+Case MatchedSearch(const std::string& name, int epochs,
+                   const std::array<double, 2>& sigma);
+
 /// Figures, in columns reading and architecture: of the distance error over all
 /// epochs and runs, spatial (3-D) and horizontal (2-D), _mean and _std; nees,
 /// mean of e' P^-1 e / 6 (right is 1).
-Study UuvFusionStudy(const UuvTruth& truth,
-                     const std::vector<UuvReading>& readings);
-
-/// Adds a case of that name on states that move as the DVL's own A and Q say,
-/// drawn anew for each run, and both filters know it; H takes the position,
-/// `sigma` are the sensors' [m]. There nees judges the architecture alone.
-void AddMatchedFusion(const std::string& name, int epochs,
-                      const std::array<double, 2>& sigma, Study* study);
+StudyTable FusionTable();
 
 }  // namespace hindsight
 

@@ -46,8 +46,6 @@ DEFINE_string(profile, "", "");
 DEFINE_string(progress, "auto", "");
 DEFINE_bool(quiet, false, "");
 DEFINE_double(rate, 0.0, "");
-DEFINE_string(rules, "ekf,hinf,modified_hinf", "");
-DEFINE_string(reading, "", "");
 DEFINE_string(faults, "", "");
 DEFINE_bool(report, false, "");
 DEFINE_bool(retry, false, "");

@@ -46,8 +46,6 @@ DECLARE_string(profile);
 DECLARE_string(progress);
 DECLARE_bool(quiet);
 DECLARE_double(rate);
-DECLARE_string(rules);
-DECLARE_string(reading);
 DECLARE_bool(report);
 DECLARE_bool(retry);
 DECLARE_uint64(runs);

@@ -93,7 +93,11 @@ std::vector<FlagUse> Flags() {
         "number of seeds, at least 2 (100; 300 of in_flight_alignment)"},
        {"seed", "N", "the first seed; the others follow it (1)"},
        {"threads", "N", "0: as many as there are cores (0)"},
-       {"methods", "LIST", "as of 'run' (ekf,rts,iterated,batch)"},
+       {"methods", "LIST",
+        "as of 'run' (ekf,rts,iterated,batch); in_flight_alignment\n"
+        "takes the observers ekf, hinf, modified_hinf (all), with\n"
+        "them --error takes a list (all three), --gamma too (1,5),\n"
+        "and modified_hinf runs with both --alpha-blocks"},
        {"set", "KEY=VALUE",
         "change a key of the scenario, aiding.gnss.sigma='2 m', or\n"
         "choose, errors=spikes; a case each of VALUE|VALUE; several\n"
@@ -104,13 +108,6 @@ std::vector<FlagUse> Flags() {
        {"shard", "I/N",
         "only the I-th of N parts of the runs, for 'hindsight merge'"},
        {"report", "", "write the page report.html as well"},
-       {"rules", "LIST",
-        "some of ekf,hinf,modified_hinf (all); with them --error\n"
-        "takes a list (all three), --gamma too (1,5), and\n"
-        "modified_hinf runs with both --alpha-blocks"},
-       {"reading", "WORDS",
-        "sum or position, diagonal or acceleration, white or\n"
-        "accumulating, by_noise or alike, with commas (all)"},
        {"faults", "FILE",
         "vehicles and faults of grades, as data/faults/grades.yaml"},
        {"progress", "MODE", "on stderr: auto, json or none (auto)"}});

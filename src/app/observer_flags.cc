@@ -147,57 +147,41 @@ CovarianceOptions ReadCovariance(RiccatiRule rule) {
   return options;
 }
 
-namespace {
-
-const std::string kRules = "ekf,hinf,modified_hinf";
-
-using NamedRule = std::pair<std::string, CovarianceOptions>;
-
-/// One rule of --rules with its parameters in words, once for each of them.
-std::vector<NamedRule> RulesOf(const std::string& name) {
-  std::vector<NamedRule> rules;
-  if (name == "ekf") {
-    rules.emplace_back(name, ReadCovariance(RiccatiRule::kKalman));
-  } else if (name == "hinf") {
-    CovarianceOptions options = ReadCovariance(RiccatiRule::kHInfinity);
-    const std::vector<double> gammas =
-        IsGiven("gamma") ? ReadGammas() : std::vector<double>{1.0, 5.0};
-    for (const double gamma : gammas) {
-      options.gamma = gamma;
-      rules.emplace_back(fmt::format("hinf gamma={:g}", gamma), options);
-    }
-  } else if (name == "modified_hinf") {
-    CovarianceOptions options = ReadCovariance(RiccatiRule::kModifiedHInfinity);
-    const std::vector<bool> choices =
-        IsGiven("alpha_blocks") ? std::vector<bool>{options.alpha_on_all}
-                                : std::vector<bool>{false, true};
-    for (const bool on_all : choices) {
-      options.alpha_on_all = on_all;
-      rules.emplace_back(
-          fmt::format("modified_hinf alpha={:g}{} delta={:g}", options.alpha,
-                      on_all ? " on all" : "", options.delta),
-          options);
-    }
-  } else {
-    throw BadFlag("rules", FLAGS_rules,
-                  "unknown rule '" + name + "', expected some of " + kRules);
-  }
-  return rules;
-}
-
-}  // namespace
-
 std::vector<ObserverModel> ReadObserverModels() {
-  const std::vector<std::string> names = ReadWords("rules", FLAGS_rules);
-  const auto runs = [&](const char* name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
-  CheckObserverFlags(runs("hinf"), runs("modified_hinf"));
-  if (names.empty()) throw BadFlag("rules", "", "expected some of " + kRules);
-  std::vector<NamedRule> rules;
-  for (const std::string& name : names) {
-    for (NamedRule& rule : RulesOf(name)) rules.push_back(std::move(rule));
+  const std::string all = "ekf,hinf,modified_hinf";
+  const std::string asked = IsGiven("methods") ? FLAGS_methods : all;
+  std::vector<std::pair<std::string, CovarianceOptions>> rules;
+  bool hinf = false, modified = false;
+  for (const std::string& name : ReadWords("methods", asked)) {
+    if (name == "ekf") {
+      rules.emplace_back(name, ReadCovariance(RiccatiRule::kKalman));
+    } else if (name == "hinf") {
+      hinf = true;
+      CovarianceOptions options = ReadCovariance(RiccatiRule::kHInfinity);
+      for (const double gamma :
+           IsGiven("gamma") ? ReadGammas() : std::vector{1.0, 5.0}) {
+        options.gamma = gamma;
+        rules.emplace_back(fmt::format("hinf gamma={:g}", gamma), options);
+      }
+    } else if (name == "modified_hinf") {
+      modified = true;
+      CovarianceOptions options =
+          ReadCovariance(RiccatiRule::kModifiedHInfinity);
+      for (const bool on_all : {false, true}) {
+        if (IsGiven("alpha_blocks") && on_all != options.alpha_on_all) continue;
+        rules.emplace_back(
+            fmt::format("modified_hinf alpha={:g}{} delta={:g}", options.alpha,
+                        on_all ? " on all" : "", options.delta),
+            options);
+        rules.back().second.alpha_on_all = on_all;
+      }
+    } else {
+      throw BadFlag("methods", asked,
+                    "'" + name + "' is none of the observers " + all);
+    }
   }
+  if (rules.empty()) throw BadFlag("methods", "", "expected some of " + all);
+  CheckObserverFlags(hinf, modified);
   const std::vector<ErrorDefinition> errors =
       IsGiven("error") ? ReadErrors()
                        : std::vector{ErrorDefinition::kNavigation,

@@ -20,8 +20,8 @@ std::vector<double> ReadGammas();
 /// list.
 CovarianceOptions ReadCovariance(RiccatiRule rule);
 
-/// Of --rules with their parameters, each with every definition of --error.
-/// Throws UsageError.
+/// Of --methods, all three without it, with every one of their parameters and
+/// definition of --error. Throws UsageError.
 std::vector<ObserverModel> ReadObserverModels();
 
 /// Throws UsageError if a parameter is given of a rule that does not run.

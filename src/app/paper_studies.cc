@@ -1,14 +1,9 @@
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "app/flags.h"
-#include "app/list_flags.h"
 #include "app/observer_flags.h"
 #include "app/studies.h"
 #include "app/study_cases.h"
-#include "base/error.h"
-#include "base/units.h"
 #include "problems/attitude_trial.h"
 #include "problems/papers/alignment_trial.h"
 #include "problems/papers/jump_comparison.h"
@@ -20,11 +15,7 @@
 namespace hindsight {
 namespace {
 
-constexpr double kDivergedTilt = 2.0 * kDegree;
-constexpr double kDivergedHeading = 10.0 * kDegree;
-constexpr double kLast = 20.0;  // [s]
-
-const Axis kVelocityRates = {"aiding.velocity.rate", "10 Hz|1 Hz", "velocity"};
+const Axis kVelocityRates = {"aiding.velocity.rate", "10 Hz|1 Hz"};
 
 UuvTruth SearchTruth() {
   const WayPointPath path(FindScenario("uuv_survey").way_points);
@@ -46,32 +37,20 @@ Case AttitudeCase(const std::string& label, const Recording& recording,
 }  // namespace
 
 Study InFlightStudy() {
-  const Trial trial =
-      ObserverTrial(ReadObserverModels(), {.settled_tilt = 0.5 * kDegree,
-                                           .settled_heading = 2.0 * kDegree,
-                                           .diverged_tilt = kDivergedTilt,
-                                           .diverged_heading = kDivergedHeading,
-                                           .last = kLast});
-  return StudyOf(
-      {"in_flight_alignment",
-       {kVelocityRates,
-        {"start_errors.tilt", "10 deg|30 deg", "start", "tilt ", true},
-        {"start_errors.heading", "30 deg|60 deg|120 deg|175 deg", "start",
-         " heading ", true}},
-       OnAll(trial),
-       {ObserverTable()}});
+  return StudyOf({"in_flight_alignment",
+                  {kVelocityRates,
+                   {"start_errors.tilt", "10 deg|30 deg"},
+                   {"start_errors.heading", "30 deg|60 deg|120 deg|175 deg"}},
+                  OnAll(ObserverTrial(ReadObserverModels())),
+                  {ObserverTable()}});
 }
 
 Study VelocityAlignmentStudy() {
-  const Trial align = AlignmentTrial({.t_early = 20.0,
-                                      .diverged_tilt = kDivergedTilt,
-                                      .diverged_heading = kDivergedHeading,
-                                      .last = kLast});
+  const Trial align = AlignmentTrial(20.0);
   const Trial trial = {align.methods,
                        [align](const Dataset& flight, CaseRun* run) {
                          Dataset dataset = flight;
                          MountAnywhere(run->seed, &dataset);
-                         dataset.initial.alignment = AlignmentKind::kVelocity;
                          align.run(dataset, run);
                        }};
   return StudyOf({"in_flight_alignment",
@@ -81,29 +60,24 @@ Study VelocityAlignmentStudy() {
 }
 
 Study GpsJumpsStudy() {
-  return StudyOf(
-      {"gps_jumps",
-       {{"errors", "pulses|spikes|steps|ramp|multipath|none", "profile"},
-        {"aiding.gnss.sigma", "1 m", "gps_sigma[m]", "", true},
-        {"aiding.*.rate", "1 Hz", "gps_rate[Hz]", "", true}},
-       OnAll(JumpTrial()),
-       {JumpTable()}});
+  return StudyOf({"gps_jumps",
+                  {{"errors", "pulses|spikes|steps|ramp|multipath|none"},
+                   {"aiding.gnss.sigma", "1 m"},
+                   {"aiding.*.rate", "1 Hz"}},
+                  OnAll(JumpTrial()),
+                  {JumpTable()}});
 }
 
 Study UuvSearchStudy() {
   constexpr int kEpochs = 1000;
-  ReadWords("reading", FLAGS_reading);
-  std::vector<UuvReading> readings;
-  try {
-    readings = UuvReadings(FLAGS_reading);
-  } catch (const InputError& error) {
-    throw UsageError("--reading: " + std::string(error.what()));
+  Study study = {.tables = {FusionTable()}};
+  for (const UuvReading& reading : UuvReadings()) {
+    study.cases.push_back(UuvSearch(reading, SearchTruth()));
   }
-  Study study = UuvFusionStudy(SearchTruth(), readings);
-  AddMatchedFusion("matched: sensors of 9.8 m and 0.02 m", kEpochs, {9.8, 0.02},
-                   &study);
-  AddMatchedFusion("matched: two sensors of 9.8 m", kEpochs, {9.8, 9.8},
-                   &study);
+  study.cases.push_back(MatchedSearch("matched: sensors of 9.8 m and 0.02 m",
+                                      kEpochs, {9.8, 0.02}));
+  study.cases.push_back(
+      MatchedSearch("matched: two sensors of 9.8 m", kEpochs, {9.8, 9.8}));
   return study;
 }
 

@@ -1,11 +1,7 @@
 #include "app/studies.h"
 
 #include <algorithm>
-#include <iterator>
-#include <utility>
 
-#include "app/asked_methods.h"
-#include "app/flags.h"
 #include "app/study_cases.h"
 #include "evaluation/statistics.h"
 #include "problems/navigation_trial.h"
@@ -18,52 +14,33 @@ namespace {
 /// Both forms of the odometer; of the forward speed alone the methods that
 /// differ.
 Study TunnelStudy() {
-  const std::vector<double> kLegEnds = {502.5, 1002.5, 1502.5, 2005.0};
+  const std::vector<double> leg_ends = {502.5, 1002.5, 1502.5, 2005.0};
   const auto trial_of = [&](const Scenario&, const ScenarioChanges& changes) {
     std::vector<std::string> methods = {"ekf", "two_filter", "iterated",
                                         "batch"};
     if (std::ranges::count(changes, "aiding.odometer.form=three_axis") > 0) {
-      methods = {"ekf",
-                 "two_filter",
-                 "two_filter_conventional",
-                 "two_filter_euler",
-                 "rts",
-                 "iterated",
-                 "batch"};
+      methods.insert(methods.begin() + 2,
+                     {"two_filter_conventional", "two_filter_euler", "rts"});
     }
-    return NavigationTrialOf({.methods = methods, .leg_ends = kLegEnds});
+    return NavigationTrialOf({.methods = methods, .leg_ends = leg_ends});
   };
   return StudyOf({"tunnel_survey",
                   {{"path", "winding"},
                    {"noise", "sample"},
-                   {"aiding.odometer.form", "three_axis|forward", "odometer"}},
+                   {"aiding.odometer.form", "three_axis|forward"}},
                   trial_of,
-                  NavigationTables(kLegEnds)});
-}
-
-/// Largest standard deviations by distance of the reference points and noise of
-/// the odometer.
-Study TunnelSweepStudy() {
-  return StudyOf(
-      {"tunnel_survey",
-       {{"path", "winding"},
-        {"noise", "sample"},
-        {"aiding.reference.spacing", "250 m|500 m|1000 m|2000 m|4000 m|8000 m",
-         "reference_spacing[m]", "", true},
-        {"aiding.odometer.sigma",
-         "0.005 m/s|0.01 m/s|0.02 m/s|0.05 m/s|0.1 m/s", "odometer_sigma[m/s]",
-         "", true}},
-       OnAll(NavigationTrialOf({.methods = {"two_filter", "batch"}})),
-       NavigationTables()});
+                  NavigationTables(leg_ends)});
 }
 
 /// Judged away from the ends, at times that have truth whatever the clocks.
 Study ConstantsStudy(const std::string& scenario) {
-  const NavigationTrial trial = {.methods = {"ekf", "rts", "iterated", "batch"},
-                                 .judged_every = 10.0,
-                                 .judged_to = 599.0};
   return StudyOf(
-      {scenario, {}, OnAll(NavigationTrialOf(trial)), NavigationTables()});
+      {scenario,
+       {},
+       OnAll(NavigationTrialOf({.methods = {"ekf", "rts", "iterated", "batch"},
+                                .judged_every = 10.0,
+                                .judged_to = 599.0})),
+       NavigationTables()});
 }
 
 double LengthOf(const Scenario& scenario) {
@@ -84,54 +61,13 @@ Study UuvSurveyStudy() {
                               .length = LengthOf(scenario)});
   };
   return StudyOf({"uuv_survey",
-                  {{"path", "lawnmower|straight|returning", "dive"},
-                   {"aids", "no fix|final fix|final fix, 120 s without DVL",
-                    "dive", ", "}},
+                  {{"path", "lawnmower|straight|returning"},
+                   {"aids", "no fix|final fix|final fix, 120 s without DVL"}},
                   trial_of,
                   tables});
 }
 
-/// That knows when the scenario's sensors are silent.
-Trial ScenarioTrial(const std::vector<std::string>& methods,
-                    const Scenario& scenario) {
-  NavigationTrial trial = {.methods = methods, .judged_every = 1.0};
-  for (const AidingModel& model : scenario.aiding) {
-    for (const TimeSpan& outage : model.outages) {
-      trial.silent_spans.push_back(
-          {model.sensor.name, outage.begin, outage.end});
-    }
-  }
-  return NavigationTrialOf(trial);
-}
-
 }  // namespace
-
-Study ScenarioStudy(const std::vector<std::string>& names_or_paths) {
-  const std::vector<std::string> methods = ReadTrajectoryMethods(FLAGS_methods);
-  Study all;
-  std::vector<std::string> names;
-  for (const std::string& file : names_or_paths) {
-    std::string& name = names.emplace_back();
-    const auto trial_of = [&](const Scenario& scenario,
-                              const ScenarioChanges&) {
-      name = scenario.name;
-      return ScenarioTrial(methods, scenario);
-    };
-    Study one = StudyOf({file, {}, trial_of, NavigationTables()});
-    if (std::ranges::count(names, name) > 1) {
-      throw UsageError("two scenarios of the name '" + name + "'");
-    }
-    for (Case& added : one.cases) {
-      added.labels.insert(added.labels.begin(), name);
-      all.cases.push_back(std::move(added));
-    }
-    all.settings = one.settings;
-    all.tables = one.tables;
-  }
-  for (StudyTable& table : all.tables) table = Under({"scenario"}, table);
-  all.name = Joined(names, ",");
-  return all;
-}
 
 const std::vector<NamedStudy>& NamedStudies() {
   static const std::vector<NamedStudy> studies = {
@@ -139,10 +75,6 @@ const std::vector<NamedStudy>& NamedStudies() {
        "an odometer survey of 8 km, by three axes and by the\n"
        "forward speed alone",
        TunnelStudy},
-      {"tunnel_sweep",
-       "the same against the distance of the reference points,\n"
-       "0.25 to 8 km, and the odometer noise, 5 to 100 mm/s",
-       TunnelSweepStudy},
       {"calibration",
        "ten minutes on which lever arms, time offsets, scale\n"
        "factors and the mounting are all unknown and estimated,\n"
@@ -154,7 +86,7 @@ const std::vector<NamedStudy>& NamedStudies() {
        "diverge or escape, time to settle, final errors, Lyapunov\n"
        "figures",
        InFlightStudy,
-       {"set", "sweep", "rules", "error", "gamma", "alpha", "alpha_blocks",
+       {"set", "sweep", "methods", "error", "gamma", "alpha", "alpha_blocks",
         "delta", "bounded", "back_off"},
        300},
       {"velocity_alignment",
@@ -195,7 +127,7 @@ const std::vector<NamedStudy>& NamedStudies() {
        "the fusions of Lee and Yoon (2011) as printed, 16\n"
        "readings: 2-D and 3-D distance error",
        UuvSearchStudy,
-       {"reading"}}};
+       {}}};
   return studies;
 }
 

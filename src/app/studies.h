@@ -26,10 +26,6 @@ struct NamedStudy {
 /// All of them.
 const std::vector<NamedStudy>& NamedStudies();
 
-/// Any scenarios that `simulate` takes, by the methods of --methods; a case
-/// each. Two of one name are one case.
-Study ScenarioStudy(const std::vector<std::string>& names_or_paths);
-
 /// Every vehicle of --faults, healthy and with every fault that it has a place
 /// for. Throws UsageError, and InputError for a file that is no list of faults.
 Study GradesStudy();
@@ -42,7 +38,7 @@ Study InFlightStudy();
 /// The same flight from no start value at all, the IMU mounted at any attitude.
 Study VelocityAlignmentStudy();
 Study GpsJumpsStudy();
-/// The fusions of Lee and Yoon (2011) as printed, under --reading.
+/// The fusions of Lee and Yoon (2011) as printed, under every reading.
 Study UuvSearchStudy();
 Study VibrationAttitudeStudy();
 /// With the field throughout, and with one that is of no use in motion.

@@ -11,15 +11,11 @@
 
 namespace hindsight {
 
-/// A key of a scenario that differs between cases.
+/// A key of a scenario, of ScenarioChanges, and its values with "|" between
+/// them: a label column of the cases where there are several, else a setting.
 struct Axis {
-  std::string key;     ///< of ScenarioChanges
-  std::string values;  ///< with "|" between them
-  /// Label column that the value stands in, beside those of other axes of the
-  /// column; "": none, where there is one value alone.
-  std::string column = {};
-  std::string before = {};    ///< stands before the value there
-  bool without_unit = false;  ///< only the first word of the value stands there
+  std::string key;
+  std::string values;
 };
 
 /// What is tried on the recordings of a scenario, and what was changed in it.
@@ -39,6 +35,10 @@ struct ScenarioTrials {
 /// That comparison, which has no name yet, with --set and --sweep, which give an
 /// axis other values or add one. Throws UsageError, InputError.
 Study StudyOf(const ScenarioTrials& trials);
+
+/// Any scenarios that `simulate` takes, by the methods of --methods; a case
+/// each. Two of one name are one case.
+Study ScenarioStudy(const std::vector<std::string>& names_or_paths);
 
 /// The changes of --set, each of one value. Throws UsageError.
 ScenarioChanges ReadChanges();

@@ -23,20 +23,16 @@ struct Use {
 const std::map<std::string, Use>& Uses() {
   static const std::set<std::string> observers = {"in_flight_alignment"};
   static const std::set<std::string> scenarios = {
-      "tunnel_survey",
-      "tunnel_sweep",
-      "calibration",
-      "in_flight_alignment",
-      "velocity_alignment",
-      "gps_jumps",
-      "uuv_survey",
-      "uuv_calibration",
-      "scenarios that are no comparison"};
+      "tunnel_survey",       "calibration",
+      "in_flight_alignment", "velocity_alignment",
+      "gps_jumps",           "uuv_survey",
+      "uuv_calibration",     "scenarios that are no comparison"};
   static const std::map<std::string, Use> uses = {
       {"set", {scenarios, "=nothing"}},
       {"sweep", {scenarios, "=nothing"}},
-      {"methods", {{"scenarios that are no comparison", "grades"}, "=none"}},
-      {"rules", {observers, "=none"}},
+      {"methods",
+       {{"scenarios that are no comparison", "grades", "in_flight_alignment"},
+        "=none"}},
       {"error", {observers, "=small"}},
       {"gamma", {observers, "=wide"}},
       {"alpha", {observers, "=-1"}},
@@ -44,7 +40,6 @@ const std::map<std::string, Use>& Uses() {
       {"delta", {observers, "=1e300"}},
       {"bounded", {observers, "=height"}},
       {"back-off", {observers, ""}},
-      {"reading", {{"uuv_search"}, "=aloud"}},
       {"faults", {{"grades"}, "="}}};
   return uses;
 }
@@ -102,7 +97,7 @@ TEST_F(MonteCarloFlags, EveryFlagIsInTheTableOfThisTest) {
 TEST_F(MonteCarloFlags,
        ThatMeanNothingToAScenarioAreRefusedWhateverTheirValue) {
   const std::vector<std::string> scenarios = Scenarios();
-  ASSERT_THAT(scenarios, SizeIs(12));
+  ASSERT_THAT(scenarios, SizeIs(11));
   for (const std::string& scenario : scenarios) {
     for (const auto& [flag, use] : Uses()) {
       const bool heeded = use.scenarios.contains(scenario);
@@ -156,8 +151,8 @@ TEST_F(MonteCarloFlags, SillyValuesAreRefused) {
        "the last of 300 seeds"},
       {"in_flight_alignment", "--set=start_errors.tilt=200 deg",
        "at most 180 deg"},
-      {"in_flight_alignment", "--rules=ekf,ekf", "twice"},
-      {"in_flight_alignment", "--rules=", "expected some of ekf"},
+      {"in_flight_alignment", "--methods=ekf,ekf", "twice"},
+      {"in_flight_alignment", "--methods=", "expected some of ekf"},
       {"in_flight_alignment", "--error=quaternion,quaternion", "twice"},
       {"in_flight_alignment", "--gamma=5,5", "twice"},
       {"in_flight_alignment", "--gamma=1e400", "out of range"},
@@ -171,8 +166,7 @@ TEST_F(MonteCarloFlags, SillyValuesAreRefused) {
       {"gps_jumps", "--set=errors=many",
        "expected one of pulses, none, spikes, steps, ramp, multipath"},
       {"gps_jumps", "--set=aiding.gnss.sigma=0 m", "must be greater than zero"},
-      {"gps_jumps", "--set=aiding.gnss.sigma=1 Hz", "expected a length"},
-      {"uuv_search", "--reading=sum,sum", "twice"}};
+      {"gps_jumps", "--set=aiding.gnss.sigma=1 Hz", "expected a length"}};
   for (const std::vector<std::string>& row : cases) {
     EXPECT_THAT(Refusal({row[0], "--out=mc", row[1]}), HasSubstr(row[2]));
   }

@@ -15,13 +15,9 @@ TEST(AlignmentTrial, TheBatchAfterAlignmentIsConsistentOverTheWholeInterval) {
   const Recording recording = [&](std::uint64_t seed) {
     Dataset dataset = flight.Realize(seed);
     MountAnywhere(seed, &dataset);
-    dataset.initial.alignment = AlignmentKind::kVelocity;
     return dataset;
   };
-  const Trial trial = AlignmentTrial({.t_early = kFirstManoeuvre + 10.0,
-                                      .diverged_tilt = 2.0 * kDegree,
-                                      .diverged_heading = 10.0 * kDegree,
-                                      .last = 20.0});
+  const Trial trial = AlignmentTrial(kFirstManoeuvre + 10.0);
   const StudyResult all =
       RunStudy({"",
                 {},

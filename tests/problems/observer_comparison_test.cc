@@ -18,12 +18,6 @@ using Values = std::map<std::string, double>;
 
 Values Named(const RunValues& values) { return {values.begin(), values.end()}; }
 
-constexpr ObserverLimits kLimits = {.settled_tilt = 0.5 * kDegree,
-                                    .settled_heading = 2.0 * kDegree,
-                                    .diverged_tilt = 2.0 * kDegree,
-                                    .diverged_heading = 10.0 * kDegree,
-                                    .last = 20.0};
-
 const PerfectRecording& Recording(double rate_hz) {
   static const PerfectRecording fast(InFlightAlignment());
   static const PerfectRecording slow(InFlightAlignment(1.0));
@@ -39,7 +33,7 @@ Case StartAt(double rate_hz, double tilt_deg, double heading_deg,
   };
   return {{std::to_string(heading_deg)},
           [recording] { return recording; },
-          ObserverTrial(models, kLimits)};
+          ObserverTrial(models)};
 }
 
 ObserverModel Kalman(ErrorDefinition error) { return {"ekf", {error, {}}}; }
@@ -122,7 +116,7 @@ TEST(ObserverComparison, ConsistentFromASmallStart) {
     GiveBadStart({0.3 * kDegree, 0.5 * kDegree},
                  static_cast<std::uint64_t>(i) + 1, &dataset);
     const Timeline timeline = TimelineOf(dataset);
-    sum += Named(RunObserver({}, dataset, kLimits, timeline)).at("v_last");
+    sum += Named(RunObserver({}, dataset, timeline)).at("v_last");
   }
   const Interval bounds = AneesBounds(kRuns, 12, 0.99);
   EXPECT_TRUE(bounds.Contains(sum / kRuns)) << sum / kRuns;
@@ -153,8 +147,7 @@ TEST(Lyapunov, FallsAtEveryStepOfANoiselessRunFromASmallStart) {
         ErrorDefinition::kLeftInvariant}) {
     const Dataset dataset = Noiseless(0.01, 0.02);
     const Timeline timeline = TimelineOf(dataset);
-    const Values figures =
-        Named(RunObserver({error, {}}, dataset, kLimits, timeline));
+    const Values figures = Named(RunObserver({error, {}}, dataset, timeline));
     EXPECT_EQ(figures.at("share_falling"), 1.0) << ErrorName(error);
     EXPECT_LE(figures.at("v_last"), figures.at("v_first"));
     EXPECT_EQ(figures.at("v_largest"), figures.at("v_first"));
@@ -164,7 +157,7 @@ TEST(Lyapunov, FallsAtEveryStepOfANoiselessRunFromASmallStart) {
 TEST(Lyapunov, RisesOnTheWayFromABadStart) {
   const Dataset dataset = Noiseless(30.0, 175.0);
   const Timeline timeline = TimelineOf(dataset);
-  const Values figures = Named(RunObserver({}, dataset, kLimits, timeline));
+  const Values figures = Named(RunObserver({}, dataset, timeline));
   EXPECT_LT(figures.at("share_falling"), 1.0);
   EXPECT_GT(figures.at("v_largest"), figures.at("v_first"));
   // Constant biases that nothing tells of yet: no decay is guaranteed.
@@ -178,9 +171,8 @@ TEST(Lyapunov, ADegreeOfStabilityWidensTheGuaranteedRadius) {
   modified.covariance.alpha = 0.03;
   modified.covariance.alpha_on_all = true;
   const Timeline timeline = TimelineOf(dataset);
-  const Values kalman = Named(RunObserver({}, dataset, kLimits, timeline));
-  const Values stable =
-      Named(RunObserver(modified, dataset, kLimits, timeline));
+  const Values kalman = Named(RunObserver({}, dataset, timeline));
+  const Values stable = Named(RunObserver(modified, dataset, timeline));
   EXPECT_EQ(kalman.at("radius_first"), 0.0);
   EXPECT_GT(stable.at("radius_first"), 1e-6 * kDegree);
   EXPECT_LT(stable.at("radius_first"), 30.0 * kDegree);

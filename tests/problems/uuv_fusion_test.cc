@@ -43,21 +43,20 @@ TEST(UuvFusion, MatricesAreThePrintedOnes) {
   EXPECT_NEAR(sensors[1].R(2, 2), 0.0004, 1e-15);
 }
 
-TEST(UuvFusion, SixteenReadingsAreSelectedByWords) {
+TEST(UuvFusion, ThereAreSixteenReadings) {
   std::set<std::string> names;
-  for (const UuvReading& reading : UuvReadings(""))
-    names.insert(reading.Name());
+  for (const UuvReading& reading : UuvReadings()) names.insert(reading.Name());
   EXPECT_EQ(names.size(), 16u);
-  EXPECT_EQ(UuvReadings("")[0].Name(), "sum,diagonal,white,by_noise");
-  EXPECT_EQ(UuvReadings("position,alike").size(), 4u);
-  EXPECT_THROW(UuvReadings("tidal"), InputError);
-  EXPECT_THROW(UuvReadings("white,accumulating"), InputError);
+  EXPECT_EQ(UuvReadings()[0].Name(), "sum,diagonal,white,by_noise");
 }
 
 TEST(UuvFusion, NoReadingGivesThePapersTable) {
-  const StudyResult result =
-      RunStudy(UuvFusionStudy(SearchPath(), UuvReadings("")), {.runs = 2});
-  for (const UuvReading& reading : UuvReadings("")) {
+  Study study = {.tables = {FusionTable()}};
+  for (const UuvReading& reading : UuvReadings()) {
+    study.cases.push_back(UuvSearch(reading, SearchPath()));
+  }
+  const StudyResult result = RunStudy(study, {.runs = 2});
+  for (const UuvReading& reading : UuvReadings()) {
     const auto mean = [&](FusionArchitecture architecture) {
       return result.Value({reading.Name(), FusionName(architecture)},
                           "spatial_mean");
@@ -79,9 +78,10 @@ TEST(UuvFusion, NoReadingGivesThePapersTable) {
 TEST(UuvFusion, OnlyDoubleUseOfInformationIsInconsistent) {
   constexpr int kRuns = 10;
   constexpr int kEpochs = 500;
-  Study study = UuvFusionStudy({}, {});
-  AddMatchedFusion("alike", kEpochs, {9.8, 9.8}, &study);
-  const StudyResult result = RunStudy(study, {.runs = kRuns});
+  const StudyResult result =
+      RunStudy({.tables = {FusionTable()},
+                .cases = {MatchedSearch("alike", kEpochs, {9.8, 9.8})}},
+               {.runs = kRuns});
   for (const FusionArchitecture architecture : kFusionArchitectures) {
     const std::vector<std::string> labels = {"alike", FusionName(architecture)};
     const double nees = result.Value(labels, "nees");
@@ -112,7 +112,9 @@ TEST(UuvFusion, OnlyDoubleUseOfInformationIsInconsistent) {
 /// Over all runs and epochs, as over those of each run.
 TEST(UuvFusion, ScatterIsThatOfAllDistances) {
   const StudyResult result =
-      RunStudy(UuvFusionStudy(SearchPath(), {UuvReading{}}), {.runs = 2});
+      RunStudy({.tables = {FusionTable()},
+                .cases = {UuvSearch(UuvReading{}, SearchPath())}},
+               {.runs = 2});
   const std::vector<std::string> labels = {kPrinted, "central"};
   double sum = 0.0, squares = 0.0;
   for (const RunRecord& record : result.records) {

@@ -3,16 +3,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "base/error.h"
-#include "dataset/clock_search.h"
 #include "dataset/timeline_builder.h"
 #include "dataset/truth_start.h"
 #include "io/config/config_omissions.h"
 #include "io/config/config_recording.h"
 #include "io/config/constants_reader.h"
+#include "io/config/load_streams.h"
 #include "io/config/vehicle.h"
 #include "measurements/sensor_kind.h"
 
@@ -21,81 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string Span(double begin, double end) {
-  return fmt::format("{:.3f} to {:.3f} s", begin, end);
-}
-
-void RequireOverlap(const StreamSource& source, const ImuStream& imu,
-                    double begin, double end) {
-  if (begin <= imu.t_end() && end >= imu.t_begin()) return;
-  const double ratio = (end - begin) / (imu.t_end() - imu.t_begin());
-  constexpr double kOffByUnits = 20.0;
-  const bool unit = ratio > kOffByUnits || ratio < 1.0 / kOffByUnits;
-  throw InputError(
-      source.config_path, source.config_line,
-      source.name + " (" + source.path + ") covers " + Span(begin, end) +
-          " and the IMU " + Span(imu.t_begin(), imu.t_end()) +
-          ": expected streams that overlap; " +
-          (unit ? fmt::format("its span is {:.3g} times the IMU's: "
-                              "is the unit of its t, or the rate, "
-                              "that of the file?",
-                              ratio)
-                : "where the clocks have nothing in common, give "
-                  "both `time: {start: 0 s}` and it `time_offset: "
-                  "unknown`"));
-}
-
-/// What is made for every second of the record is bounded by this.
-void RequireModestSpan(const StreamSource& source, const ImuStream& imu) {
-  constexpr double kMostDays = 31.0;
-  if (imu.t_end() - imu.t_begin() <= kMostDays * kDaySeconds) return;
-  throw InputError(source.config_path, source.config_line,
-                   source.name + " (" + source.path + ") covers " +
-                       Span(imu.t_begin(), imu.t_end()) +
-                       "; expected at most 31 days");
-}
-
-/// How many measurements `step` apart the record takes.
-long CountGenerated(const AidingConfig& config, const ImuStream& imu,
-                    double step) {
-  const double count = (imu.t_end() - imu.t_begin()) / step;
-  const double most = 10.0 * static_cast<double>(imu.samples.size());
-  if (count <= most) return static_cast<long>(count);
-  throw InputError(
-      config.source.config_path, config.source.config_line,
-      config.source.name + fmt::format(": the rate makes {:.3g} measurements; "
-                                       "expected at most {:.0f}, ten "
-                                       "for each sample of the IMU",
-                                       count, most));
-}
-
-void LoadImu(const DeclaredRecording& declared, ConfigMap* top,
-             Dataset* dataset) {
-  StreamClock clock;
-  const ImuNoise noise = dataset->imu.noise;
-  dataset->imu =
-      ReadImu(declared.imu, declared.imu_options, &clock, &dataset->policies);
-  dataset->imu.noise = noise;
-  top->resolved()["imu"]["kind"] =
-      dataset->imu.kind == ImuStream::Kind::kRates ? "rates" : "increments";
-  if (!dataset->epoch_gps_ns) {
-    if (const auto first = FirstGpsTime(declared.imu, clock)) {
-      constexpr std::int64_t kSecond = 1'000'000'000;
-      dataset->epoch_gps_ns = Nanoseconds(*first) / kSecond * kSecond;
-    }
-  }
-  if (dataset->epoch_gps_ns) {
-    top->Resolve("epoch", FormatGpsTime(*dataset->epoch_gps_ns));
-  }
-  const TimeLine line = MapClock(declared.imu, clock, dataset->epoch_gps_ns);
-  if (line.offset != 0.0 || line.scale != 1.0) {
-    for (ImuSample& sample : dataset->imu.samples) sample.t = line(sample.t);
-  }
-  RequireModestSpan(declared.imu, dataset->imu);
-  dataset->imu.stamp_offset = declared.imu.clock.offset;
-  dataset->imu.nominal_dt = MedianInterval(dataset->imu);
-}
-
 /// Values of a time at which nobody was there are values of another.
 void RequireStartInside(ConfigMap* top, const Dataset& dataset) {
   const ImuStream& imu = dataset.imu;
@@ -103,8 +27,9 @@ void RequireStartInside(ConfigMap* top, const Dataset& dataset) {
   const double t = *dataset.initial.t;
   const double slack = 2.0 * imu.nominal_dt;
   if (t >= imu.t_begin() - slack && t < imu.t_end()) return;
-  top->Map("initial").Fail("time", "lies outside the IMU's record, " +
-                                       Span(imu.t_begin(), imu.t_end()));
+  top->Map("initial").Fail(
+      "time", fmt::format("lies outside the IMU's record, {:.3f} to {:.3f} s",
+                          imu.t_begin(), imu.t_end()));
 }
 
 void RequireNodes(ConfigMap* top, const Dataset& dataset) {
@@ -113,119 +38,6 @@ void RequireNodes(ConfigMap* top, const Dataset& dataset) {
   if (const auto why = WhyNotNodes(dataset)) {
     top->Map("nodes").Fail("max_spacing", *why);
   }
-}
-
-/// The constraint holds at all times: measurements of nobody's making.
-MeasurementSeries Generate(const AidingConfig& config, int sensor,
-                           const ImuStream& imu) {
-  const double step = 1.0 / config.settings.rate_hz;
-  MeasurementSeries measurements;
-  const long count = CountGenerated(config, imu, step);
-  for (long k = 0; k <= count; ++k) {
-    measurements.push_back({imu.t_begin() + static_cast<double>(k) * step,
-                            sensor, false, config.settings.pattern});
-  }
-  return measurements;
-}
-
-/// Where the stream's clock stands as far as the motion tells; which of several
-/// is for the estimators to say.
-void FindClock(const AidingConfig& config, Dataset* dataset,
-               AidingStream* stream) {
-  stream->clock_unknown = true;
-  const ClockSearch found =
-      SearchClock(dataset->imu, dataset->initial, *stream);
-  if (!TakeClock(found, stream)) {
-    throw InputError(config.source.config_path, config.source.config_line,
-                     config.source.name +
-                         ".time_offset: is not found: no offset brings its "
-                         "motion into line with the IMU's; expected readings "
-                         "of changing speed or turns, or a value");
-  }
-  dataset->notes.push_back(config.settings.sensor.name +
-                           ": time offset found: " + Describe(found));
-}
-
-void LoadAiding(const AidingConfig& config, double truth_offset,
-                const ClockMap& imu_clock, Dataset* dataset) {
-  AidingStream stream;
-  stream.clock_placed = config.source.clock.placed() || imu_clock.placed();
-  stream.sensor = config.settings.sensor;
-  const int index = static_cast<int>(dataset->streams.size());
-  if (config.clock_of_truth) stream.sensor.time_offset = truth_offset;
-  if (stream.sensor.kind->generated) {
-    stream.measurements = Generate(config, index, dataset->imu);
-    dataset->streams.push_back(std::move(stream));
-    return;
-  }
-  StreamClock clock;
-  stream.measurements = ReadAiding(config.source, config.settings, index,
-                                   &clock, &dataset->policies);
-  const TimeLine line = MapClock(config.source, clock, dataset->epoch_gps_ns);
-  for (Measurement& z : stream.measurements.Edited()) {
-    z.t = line(z.t);
-    if (auto* odometer = std::get_if<Odometer>(&z.model)) {
-      odometer->t_from = line(odometer->t_from);
-    }
-  }
-  if (config.clock_unknown) FindClock(config, dataset, &stream);
-  const double offset = stream.sensor.time_offset;
-  RequireOverlap(config.source, dataset->imu,
-                 stream.measurements.front().t + offset,
-                 stream.measurements.back().t + offset);
-  dataset->streams.push_back(std::move(stream));
-}
-
-/// The prior "level on average", spread over the record: a second stream.
-void AddLevel(const SensorSettings& settings, int vehicle, Dataset* dataset) {
-  if (!settings.level_sigma) return;
-  constexpr double kPeriod = 1.0;
-  const ImuStream& imu = dataset->imu;
-  AidingStream stream;
-  stream.sensor.name = settings.sensor.name + "_level";
-  stream.sensor.kind = &VehicleLevelKind();
-  stream.sensor.q_sb = settings.sensor.q_sb;
-  stream.sensor.vehicle = vehicle;
-  const int count =
-      static_cast<int>((imu.t_end() - imu.t_begin()) / kPeriod) + 1;
-  const VehicleLevel level{*settings.level_sigma *
-                           std::sqrt(static_cast<double>(count))};
-  const int index = static_cast<int>(dataset->streams.size());
-  for (int k = 0; k < count; ++k) {
-    stream.measurements.push_back(
-        {imu.t_begin() + k * kPeriod, index, false, level});
-  }
-  dataset->streams.push_back(std::move(stream));
-}
-
-/// Moves the truth to where its attitudes fit the gyros; by how much.
-double FitTruthClock(const StreamSource& source, Dataset* dataset) {
-  const ClockSearch found = SearchClock(dataset->imu, dataset->truth);
-  if (found.candidates.empty()) {
-    throw InputError(source.config_path, source.config_line,
-                     "truth.time_offset: is not found by the gyros; expected "
-                     "a truth with attitudes that turn");
-  }
-  const double offset = found.candidates.front().offset;
-  for (TruthPoint& point : dataset->truth.Edited()) point.t += offset;
-  dataset->notes.push_back("truth: time offset found: " + Describe(found));
-  return offset;
-}
-
-/// The time offset of the truth's stamps.
-double LoadTruth(const DeclaredRecording& declared, Dataset* dataset) {
-  if (!declared.truth) return 0.0;
-  StreamClock clock;
-  dataset->truth = ReadTruth(*declared.truth, declared.truth_options, &clock,
-                             &dataset->policies);
-  const TimeLine line = MapClock(*declared.truth, clock, dataset->epoch_gps_ns);
-  for (TruthPoint& point : dataset->truth.Edited()) point.t = line(point.t);
-  const double offset = declared.truth_clock_unknown
-                            ? FitTruthClock(*declared.truth, dataset)
-                            : declared.truth->clock.offset;
-  RequireOverlap(*declared.truth, dataset->imu, dataset->truth.front().t,
-                 dataset->truth.back().t);
-  return offset;
 }
 
 /// So that the resolved configuration loads the same whatever the data say.
@@ -337,12 +149,7 @@ Dataset LoadDataset(const std::string& config_path, const LoadOptions& options,
   RequireNodes(&top, dataset);
   const double truth_offset = LoadTruth(declared, &dataset);
   ResolveTruthOffset(declared, truth_offset, &top);
-  for (const AidingConfig& config : declared.aiding) {
-    LoadAiding(config, truth_offset, declared.imu.clock, &dataset);
-  }
-  for (std::size_t i = 0; i < declared.aiding.size(); ++i) {
-    AddLevel(declared.aiding[i].settings, static_cast<int>(i), &dataset);
-  }
+  LoadAidingStreams(declared, truth_offset, &dataset);
   TakeConstants(declared.constants, options.without, &top, &dataset);
   ApplyOmissions(declared.omit, options, &top, &dataset);
   if (declared.start_from_truth) TakeStart(&top, &dataset);

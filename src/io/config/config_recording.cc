@@ -4,38 +4,15 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/config/config_files.h"
 #include "io/config/config_key.h"
 #include "io/config/vehicle.h"
 #include "io/read/date_text.h"
-#include "io/read/paths.h"
 
 namespace hindsight {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path FindFolder(ConfigMap* top, const LoadOptions& options) {
-  const fs::path folder = top->Text("folder", ".");
-  const fs::path beside = fs::path(top->file()).parent_path() / folder;
-  std::vector<fs::path> candidates = {beside};
-  if (!options.data_root.empty()) {
-    candidates.push_back(fs::path(options.data_root) / folder);
-  }
-  std::string looked_for;
-  for (const fs::path& candidate : candidates) {
-    if (IsFolder(candidate)) {
-      top->Resolve("folder",
-                   fs::absolute(candidate).lexically_normal().string());
-      return candidate;
-    }
-    looked_for += (looked_for.empty() ? "there is no folder " : " and no ") +
-                  candidate.lexically_normal().string();
-  }
-  top->Fail("folder",
-            looked_for + (options.data_root.empty()
-                              ? "; --data-root=DIR looks for it in DIR too"
-                              : " (the data root is set by --data-root)"));
-}
 
 std::optional<std::int64_t> ReadEpoch(ConfigMap* top) {
   const auto text = top->OptionalText("epoch");
@@ -266,38 +243,6 @@ const ConfigTable<RecordingConfig>& RecordingTable() {
         .help = "max_spacing: longest interval between states",
         .fallback = "{max_spacing: 1 s}"}}};
   return kTable;
-}
-
-}  // namespace
-
-namespace {
-
-/// All that are missing at once. Throws InputError.
-void RequireFiles(const DeclaredRecording& declared) {
-  std::string missing;
-  const StreamSource* first = nullptr;
-  const auto look = [&](const StreamSource& source) {
-    for (const std::string& path : source.Paths()) {
-      if (PathExists(path)) continue;
-      if (first == nullptr) {
-        first = &source;
-        missing = source.name + ".file: there is no file " + path;
-      } else {
-        missing += "; nor " + path + " (" + source.name + ".file, line " +
-                   std::to_string(source.config_line) + ")";
-      }
-    }
-  };
-  look(declared.imu);
-  if (declared.imu_options.accelerometer) {
-    look(*declared.imu_options.accelerometer);
-  }
-  for (const AidingConfig& config : declared.aiding) {
-    if (!config.settings.sensor.kind->generated) look(config.source);
-  }
-  if (declared.truth) look(*declared.truth);
-  if (first == nullptr) return;
-  throw InputError(first->config_path, first->config_line, missing);
 }
 
 }  // namespace

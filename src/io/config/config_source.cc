@@ -98,53 +98,13 @@ void ReadDecimal(ConfigMap* map, StreamConfig* stream) {
   }
 }
 
-const ConfigTable<RowWord>& RowsTable() {
-  using Key = ConfigKey<RowWord>;
-  static const ConfigTable<RowWord> kTable = {
-      "rows",
-      "Of a stream whose lines stand between those of others.",
-      {{.name = "column",
-        .value = Key::Special{[](ConfigMap* map, RowWord* rows) {
-          rows->column = map->Integer("column", 1) - 1;
-          if (rows->column < 0) map->Fail("column", "expected 1 or more");
-        }},
-        .help = "the column of the word, from 1",
-        .fallback = "1"},
-       {.name = "word",
-        .value = Key::Special{[](ConfigMap* map, RowWord* rows) {
-          rows->word = map->Text("word");
-        }},
-        .help = "lines that have it are the stream's, all others are not",
-        .needed = true},
-       {.name = "device_column",
-        .value = Key::Special{[](ConfigMap* map, RowWord* rows) {
-          if (map->Has("device_column") != map->Has("device")) {
-            map->Fail(map->Has("device") ? "device" : "device_column",
-                      "expected `device_column` and `device` together");
-          }
-          rows->device_column = map->Integer("device_column", 0) - 1;
-          if (map->Has("device_column") && rows->device_column < 0) {
-            map->Fail("device_column", "expected 1 or more");
-          }
-        }},
-        .help = "a column that counts devices of the kind, from 1",
-        .fallback = "none"},
-       {.name = "device",
-        .value = Key::Special{[](ConfigMap* map, RowWord* rows) {
-          rows->device = map->Text("device", "");
-        }},
-        .help = "what stands there in the lines of the device",
-        .fallback = "none"}}};
-  return kTable;
-}
-
 void ReadRows(ConfigMap* map, StreamConfig* stream) {
   if (!map->Has("rows")) return;
   if (stream->format.kind != &ColumnsFormat()) {
     map->Fail("rows", "is of `format: columns`");
   }
   ConfigMap rows = map->Map("rows");
-  ReadTable(RowsTable(), &rows, &stream->format.rows);
+  stream->format.rows = ReadRowWord(&rows);
   rows.Finish();
 }
 
@@ -319,7 +279,7 @@ std::vector<KeySection> StreamSections() {
                                    return format.counts_from_1970;
                                  }),
                                  "unix");
-  return {stream, Documented(RowsTable()), time};
+  return {stream, RowsSection(), time};
 }
 
 std::vector<FormatEntry> FormatEntries() {

@@ -22,6 +22,11 @@ StreamSource ReadStreamSource(ConfigMap* map,
 ClockMap ReadClock(ConfigMap* map, const FileFormat& format);
 KeySection TimeSection();
 
+/// `rows` of a stream whose lines stand between those of others, and its
+/// documentation.
+RowWord ReadRowWord(ConfigMap* map);
+KeySection RowsSection();
+
 /// `file`: a name, or those of the parts of one stream in the order of time.
 std::vector<std::string> FileNames(ConfigMap* map);
 

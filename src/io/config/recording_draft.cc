@@ -12,6 +12,7 @@
 #include "io/config/draft_clocks.h"
 #include "io/config/draft_values.h"
 #include "io/config/no_imu.h"
+#include "io/config/recognise_again.h"
 #include "io/config/recording_search.h"
 #include "io/config/supposed_places.h"
 #include "io/config/unused_columns.h"
@@ -57,7 +58,7 @@ class Drafter {
 
   RecordingDraft Draft() {
     TakeImu();
-    LookAgain();
+    RecogniseAgain(*draft_.imu, draft_.folder, &files_.others, &draft_.unknown);
     for (FoundStream& found :
          TakeSupposedPlaces(draft_.imu->file, &files_.others)) {
       draft_.unused.push_back({"position", &PositionKind(), std::move(found)});
@@ -93,10 +94,6 @@ class Drafter {
   }
 
  private:
-  fs::path PathOf(const FoundStream& found) const {
-    return fs::path(draft_.folder) / found.file;
-  }
-
   static bool IsBetter(const FoundStream& a, const FoundStream& b) {
     const auto key = [](const FoundStream& found) {
       const bool sure = !found.stamps ||
@@ -126,55 +123,6 @@ class Drafter {
     for (const std::string& assumption : draft_.imu->assumptions) {
       draft_.assumptions.push_back("imu: " + assumption);
     }
-  }
-
-  /// Once the IMU's record is known, what was stamped otherwise is looked at
-  /// again.
-  void LookAgain() {
-    RecogniseHints hints;
-    if (draft_.imu->stamps) {
-      hints.imu_span = draft_.imu->stamps->span;
-      hints.count_rate = draft_.imu->stamps->rate;
-    }
-    std::vector<std::string> done;
-    std::vector<FoundStream> again;
-    for (FoundStream& found : files_.others) {
-      const bool table = found.format == &ColumnsFormat() && !found.spin_axis &&
-                         found.file != draft_.imu->file;
-      if (!table) {
-        again.push_back(std::move(found));
-        continue;
-      }
-      if (std::find(done.begin(), done.end(), found.file) != done.end()) {
-        continue;
-      }
-      done.push_back(found.file);
-      std::vector<std::string> paths = {PathOf(found).string()};
-      for (const std::string& more : found.more_files) {
-        paths.push_back((fs::path(draft_.folder) / more).string());
-      }
-      for (FoundStream stream : RecogniseParts(paths, hints)) {
-        stream.file = found.file;
-        stream.more_files = found.more_files;
-        stream.joined_by = found.joined_by;
-        if (!stream.imu) again.push_back(std::move(stream));
-      }
-    }
-    // Counted rows that no stamp made a stream of.
-    std::vector<std::string> unknown;
-    for (const std::string& name : draft_.unknown) {
-      auto streams = hints.count_rate
-                         ? RecogniseFormat(
-                               (fs::path(draft_.folder) / name).string(), hints)
-                         : std::vector<FoundStream>();
-      if (streams.empty()) unknown.push_back(name);
-      for (FoundStream& stream : streams) {
-        stream.file = name;
-        again.push_back(std::move(stream));
-      }
-    }
-    draft_.unknown = std::move(unknown);
-    files_.others = std::move(again);
   }
 
   void TakeOther(FoundStream found) {

@@ -146,21 +146,20 @@ std::optional<ImuGuess> GuessImu(const FileColumns& file,
   ImuGuess guess;
   const auto accel = TitledTriple(meanings, "accel_");
   const auto gyro = TitledTriple(meanings, "gyro_");
-  if (accel && gyro) {
+  if (accel.has_value() != gyro.has_value()) return std::nullopt;
+  if (accel) {
     guess.accel.columns = *accel;
     guess.gyro.columns = *gyro;
     const TripleReadings f(file, *accel);
     guess.turn =
         TurnOf(f, TripleReadings(file, *gyro), WindowsOf(f).quiet_length);
-  } else if (accel || gyro) {
-    return std::nullopt;
-  } else if (const auto found = FindUntitledImu(file, meanings, stamp_column)) {
+  } else {
+    const auto found = FindUntitledImu(file, meanings, stamp_column);
+    if (!found) return std::nullopt;
     guess.accel.columns = found->accel;
     guess.gyro.columns = found->gyro;
     guess.field = found->field;
     guess.turn = found->turn;
-  } else {
-    return std::nullopt;
   }
   const auto titled = [&](const TripleGuess& triple) {
     return meanings[static_cast<std::size_t>(triple.columns[0])].unit;
