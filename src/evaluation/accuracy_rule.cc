@@ -136,7 +136,7 @@ void DescribeAccuracy(const Judged& judged, std::vector<Evidence>* evidence) {
     AddSpread("heading", "deg", kDegree, kLargestHeadingSigma, heading, count,
               evidence);
   }
-  DescribeHiddenErrors(judged, evidence);
+  if (position != nullptr) DescribeHiddenErrors(judged, evidence);
 }
 
 }  // namespace hindsight
