@@ -38,6 +38,36 @@ bool Fits(const ErrorLayout& layout, BlockKind kind) {
 
 }  // namespace
 
+Eigen::Vector3d ImuDeviation::Of(const Eigen::Vector3d& reading) const {
+  Eigen::Vector3d more = Eigen::Vector3d::Zero();
+  const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+  switch (kind) {
+    case Kind::kScale:
+      more(axis) = reading(axis);
+      break;
+    case Kind::kExchanged:
+      more(next) = reading(next) - reading(last);
+      more(last) = -more(next);
+      break;
+    case Kind::kTurned:
+      more = Eigen::Vector3d::Unit(axis).cross(reading);
+      break;
+  }
+  return more;
+}
+
+std::span<const ImuDeviation> ImuDeviations() {
+  using enum ImuDeviation::Kind;
+  static constexpr ImuDeviation kAll[] = {
+      {kScale, true, 0},      {kScale, true, 1},      {kScale, true, 2},
+      {kScale, false, 0},     {kScale, false, 1},     {kScale, false, 2},
+      {kExchanged, true, 0},  {kExchanged, true, 1},  {kExchanged, true, 2},
+      {kExchanged, false, 0}, {kExchanged, false, 1}, {kExchanged, false, 2},
+      {kTurned, false, 0},    {kTurned, false, 1},    {kTurned, false, 2},
+  };
+  return kAll;
+}
+
 DeviationColumns::DeviationColumns(const Problem& problem,
                                    const std::vector<State>& states,
                                    const LinearTape& tape)
@@ -160,7 +190,9 @@ std::vector<ShiftColumns::Columns> DeviationColumns::Measured(
 
 ShiftColumns::Columns DeviationColumns::Driven(std::size_t k) const {
   const ErrorLayout& layout = problem_.layout;
-  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(layout.dim(), 6);
+  const auto deviations = ImuDeviations();
+  Eigen::MatrixXd B =
+      Eigen::MatrixXd::Zero(layout.dim(), std::ssize(deviations));
   // Readings at both ends, where the interval is short against what moves. Not
   // its mean: what the noise of the mean does is in the innovations too, and
   // would look like a scale.
@@ -169,16 +201,14 @@ ShiftColumns::Columns DeviationColumns::Driven(std::size_t k) const {
   const Eigen::Vector3d w = 0.5 * (from.w_ib_b + to.w_ib_b);
   const Eigen::Vector3d f = 0.5 * (from.f_b + to.f_b);
   const auto Phi = tape_.Phi(k);
-  int first = 0;
-  for (const auto& [bias, reading] :
-       {std::pair(BlockKind::kGyroBias, w), {BlockKind::kAccelBias, f}}) {
-    const Block* block = layout.Find(bias);
-    for (int axis = 0; axis < 3 && block->dim == 3; ++axis) {
-      const int component = block->offset + axis;
-      B.col(first + axis) = Phi.col(component) * reading(axis);
-      B(component, first + axis) = 0.0;
-    }
-    first += 3;
+  for (std::size_t i = 0; i < deviations.size(); ++i) {
+    const ImuDeviation& one = deviations[i];
+    const Block* bias = layout.Find(one.of_gyros ? BlockKind::kGyroBias
+                                                 : BlockKind::kAccelBias);
+    if (bias->dim != 3) continue;
+    auto column = B.col(static_cast<Eigen::Index>(i));
+    column = Phi.middleCols(bias->offset, 3) * one.Of(one.of_gyros ? w : f);
+    column.segment<3>(bias->offset).setZero();
   }
   return {kImu, B};
 }

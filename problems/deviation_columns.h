@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_PROBLEMS_DEVIATION_COLUMNS_H_
 #define HINDSIGHT_PROBLEMS_DEVIATION_COLUMNS_H_
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,24 @@ struct Deviation {
   bool may_begin_late = false;
 };
 
+/// One way in which the axes of the IMU may be others than they are said to be.
+struct ImuDeviation {
+  enum class Kind {
+    kScale,      ///< the axis measures too much
+    kExchanged,  ///< at size one the two others stand for each other
+    kTurned,  ///< all three, about the axis, against those of the other triad
+  };
+  Kind kind;
+  bool of_gyros;
+  int axis;
+
+  /// What a reading has too much, by the size of one.
+  Eigen::Vector3d Of(const Eigen::Vector3d& reading) const;
+};
+
+/// In the order of the columns of DeviationColumns::kImu.
+std::span<const ImuDeviation> ImuDeviations();
+
 /// Sensitivities to all that may be wrong with the sensors, along a trajectory,
 /// a state a node. The groups are the numbers of the sensors, kAllClocks and
 /// kImu.
@@ -31,8 +50,8 @@ class DeviationColumns {
  public:
   /// One column: all sensors' clocks against the IMU's.
   static constexpr int kAllClocks = -1;
-  /// Six columns: scales of the gyros, then of the accelerometers, as biases in
-  /// proportion to the mean reading of each interval.
+  /// Columns of ImuDeviation, as biases in proportion to the reading of each
+  /// interval.
   static constexpr int kImu = -2;
 
   /// The arguments must outlive the object.

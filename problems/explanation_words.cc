@@ -95,6 +95,29 @@ Words WordsOfDeviation(const Sensor& sensor, const Deviation& deviation,
   return {};
 }
 
+Words WordsOfImu(const ImuDeviation& deviation, double size) {
+  const char* triad = deviation.of_gyros ? "gyro" : "accelerometer";
+  const char* axis = kBodyAxes[deviation.axis];
+  switch (deviation.kind) {
+    case ImuDeviation::Kind::kScale:
+      return {fmt::format("{} {} measures {} too {}", triad, axis,
+                          Amount(std::abs(size), "1"),
+                          size > 0.0 ? "much" : "little"),
+              "unit, sign and scale of the IMU, or estimate its scale"};
+    case ImuDeviation::Kind::kExchanged:
+      return {
+          fmt::format("{} {} and {} hold {} of each other", triad,
+                      kBodyAxes[(deviation.axis + 1) % 3],
+                      kBodyAxes[(deviation.axis + 2) % 3], Amount(size, "1")),
+          "the order of the IMU's columns"};
+    case ImuDeviation::Kind::kTurned:
+      return {fmt::format("the {}s are turned by {} about {} against the gyros",
+                          triad, Amount(size, "rad"), axis),
+              "order and signs of the IMU's columns"};
+  }
+  return {};
+}
+
 }  // namespace
 
 Words WordsOfShift(const MeanShift& shift, const DeviationColumns& own,
@@ -113,12 +136,8 @@ Words WordsOfShift(const MeanShift& shift, const DeviationColumns& own,
             "time.rate or time.unit of the IMU"};
   }
   if (shift.group == DeviationColumns::kImu) {
-    return {
-        fmt::format("{} {} measures {} too {}",
-                    shift.column < 3 ? "gyro" : "accelerometer",
-                    kBodyAxes[shift.column % 3], Amount(std::abs(size), "1"),
-                    size > 0.0 ? "much" : "little"),
-        "unit, sign and scale of the IMU, or estimate its scale"};
+    return WordsOfImu(ImuDeviations()[static_cast<std::size_t>(shift.column)],
+                      size);
   }
   const Deviation& deviation =
       own.Of(shift.group)[static_cast<std::size_t>(shift.column)];

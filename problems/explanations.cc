@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "filters/shift_response.h"
 #include "problems/deviation_columns.h"
+#include "problems/explanation_effect.h"
 #include "problems/explanation_words.h"
 
 namespace hindsight {
@@ -73,32 +74,6 @@ int SensorOf(const MeanShift& shift, const ErrorLayout& layout) {
     }
   }
   return BlockKey::kNoSensor;
-}
-
-/// By what a correction moves the solution, in its sigmas.
-void SetEffect(const std::vector<ErrorVector>& correction, double size,
-               const Relinearised& anew, const LinearTape& tape,
-               Explanation* out) {
-  const ErrorLayout& layout = tape.layout();
-  const ErrorMatrix P_end = tape.P_plus(tape.size() - 1);
-  for (int c = 0; c < layout.dim(); ++c) {
-    double effect = 0.0;
-    if (layout.has_canonical_head() && c < anew.variances.front().size()) {
-      for (std::size_t k = 0; k < correction.size(); ++k) {
-        const double variance = anew.variances[k](c);
-        if (variance > 0.0) {
-          effect += correction[k](c) * correction[k](c) / variance;
-        }
-      }
-      effect /= static_cast<double>(correction.size());
-    } else if (P_end(c, c) > 0.0) {
-      effect = correction.back()(c) * correction.back()(c) / P_end(c, c);
-    }
-    effect = std::abs(size) * std::sqrt(effect);
-    if (!(effect > out->effect)) continue;
-    out->effect = effect;
-    out->component = layout.ComponentName(c);
-  }
 }
 
 double LimitOf(double false_alarms, std::size_t tests) {
@@ -296,12 +271,16 @@ std::vector<Explanation> ExplanationSearch::Tell(
       out.what += fmt::format(" from {:.1f} s on", *out.onset);
     }
     if (varies) {
-      SetEffect(CorrectionForSteps(one.shift.group, one.columns, found_->onsets,
+      AddEffect(CorrectionForSteps(one.shift.group, one.columns, found_->onsets,
                                    one.steps, tape_, columns),
                 1.0, anew, tape_, &out);
     } else {
-      SetEffect(CorrectionFor(one.shift, tape_, columns), one.shift.size(),
+      AddEffect(CorrectionFor(one.shift, tape_, columns), one.shift.size(),
                 anew, tape_, &out);
+    }
+    if (!one.shift.of_state &&
+        one.shift.group == DeviationColumns::kAllClocks) {
+      AddEffectOfClock(one.shift.size(), anew, problem_.layout, &out);
     }
     return out;
   };

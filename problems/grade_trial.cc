@@ -132,6 +132,20 @@ Tried TryTwin(Dataset dataset, const FaultyTwin& twin,
   }
 }
 
+/// The innovations by which a fault is measured.
+std::vector<NormalisedInnovation> InnovationsOfFault(
+    const Dataset& healthy, const FaultyTwin& twin, NavigationTrial trial,
+    const CaseRun& run, std::vector<NormalisedInnovation> own) {
+  if (!twin.with_errors_kept) return own;
+  std::optional<Dataset> kept = twin.with_errors_kept(run.seed, healthy);
+  if (!kept) return own;
+  trial.methods.resize(1);
+  const FaultyTwin ready = {
+      twin.fault, twin.size,
+      [&](std::uint64_t, Dataset* dataset) { *dataset = *std::move(kept); }};
+  return TryTwin(healthy, ready, trial, run).innovations;
+}
+
 }  // namespace
 
 double Noncentrality(const std::vector<NormalisedInnovation>& healthy,
@@ -190,11 +204,11 @@ Trial GradeTrial(const NavigationTrial& trial,
             for (const RunRecord& cell : well.cells)
               Sort(cell, nullptr, 0.0, run);
             for (const FaultyTwin& twin : twins) {
-              const Tried tried =
-                  TryTwin(healthy, twin, trial,
-                          {{vehicle, twin.fault, twin.size}, run->seed});
-              const double lambda =
-                  Noncentrality(well.innovations, tried.innovations);
+              const CaseRun own = {{vehicle, twin.fault, twin.size}, run->seed};
+              const Tried tried = TryTwin(healthy, twin, trial, own);
+              const double lambda = Noncentrality(
+                  well.innovations, InnovationsOfFault(healthy, twin, trial,
+                                                       own, tried.innovations));
               for (std::size_t i = 0; i < tried.cells.size(); ++i) {
                 Sort(tried.cells[i], &well.cells[i], lambda, run);
               }

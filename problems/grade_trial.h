@@ -2,6 +2,7 @@
 #define HINDSIGHT_PROBLEMS_GRADE_TRIAL_H_
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,11 @@ struct FaultyTwin {
   std::string fault;
   std::string size;
   std::function<void(std::uint64_t seed, Dataset*)> apply;
+  /// From the healthy recording, the faulty one with its errors where they were
+  /// in the healthy one, by which the fault is measured; nothing where `apply`
+  /// leaves them there.
+  std::function<std::optional<Dataset>(std::uint64_t seed, const Dataset&)>
+      with_errors_kept = nullptr;
 };
 
 /// A mean NEES of three components above this is wrong; right is 3.
@@ -23,8 +29,8 @@ inline constexpr double kWrongNees = 25.0;
 inline constexpr double kWrongShare = 0.05;
 
 /// How far the innovations of a faulty recording are from those of its healthy
-/// twin, which has the same noise: the root of the noncentrality that the
-/// states could not take up. A test of one given deviation with a false alarm
+/// twin, which has the same noise in the same places: the root of the
+/// noncentrality that the states could not take up. A test of one given deviation with a false alarm
 /// rate of 0.1 % has a power of 99 % at kVisible = 3.29 + 2.33 (Baarda 1968).
 /// Infinite if there is no common measurement.
 double Noncentrality(const std::vector<NormalisedInnovation>& healthy,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/chi_square.h"
 #include "base/units.h"
 #include "evaluation/observability.h"
 #include "measurements/sensor_kind.h"
@@ -47,6 +48,34 @@ const Sensor* OnlyWhitePlacer(std::span<const Sensor> sensors) {
     only = &sensor;
   }
   return only == nullptr || only->noise.correlated() ? nullptr : only;
+}
+
+/// Where the innovations of what tells the place are kUnusableError times as
+/// small as stated, beyond chance, nothing of that size contradicts them.
+void DescribeHiddenErrors(const Judged& judged,
+                          std::vector<Evidence>* evidence) {
+  std::vector<double> squares(judged.sensors.size(), 0.0);
+  std::vector<double> count(judged.sensors.size(), 0.0);
+  for (const InnovationFigure& figure : judged.innovations) {
+    const auto i = static_cast<std::size_t>(figure.sensor);
+    const auto n = static_cast<double>(figure.count);
+    squares[i] += figure.rms * figure.rms * n;
+    count[i] += n;
+  }
+  for (std::size_t i = 0; i < judged.sensors.size(); ++i) {
+    const double ratio = std::sqrt(count[i] / squares[i]);
+    if (!judged.sensors[i].kind->places || !(ratio >= kUnusableError) ||
+        ChiSquareCdf(squares[i], count[i]) > kFalseAlarms) {
+      continue;
+    }
+    evidence->push_back(
+        {.what = fmt::format("but what is odd in {} is hard to see, whose "
+                             "sigmas are {:.2g} times what its innovations say",
+                             judged.sensors[i].name, ratio),
+         .value = ratio,
+         .limit = kUnusableError,
+         .unit = "1"});
+  }
 }
 
 }  // namespace
@@ -107,6 +136,7 @@ void DescribeAccuracy(const Judged& judged, std::vector<Evidence>* evidence) {
     AddSpread("heading", "deg", kDegree, kLargestHeadingSigma, heading, count,
               evidence);
   }
+  if (position != nullptr) DescribeHiddenErrors(judged, evidence);
 }
 
 }  // namespace hindsight

@@ -2,7 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "base/chi_square.h"
 
 namespace hindsight {
 namespace {
@@ -116,12 +120,12 @@ std::string OwnSource(const StartValues& start, BlockKind kind) {
 }
 
 Evidence Strain(const Judged& judged, const Origin& origin, const Block& block,
-                const std::string& component, double sigmas) {
+                const std::string& component, double sigmas, double limit) {
   const bool constant = block.evolution.is_constant();
   Evidence e{.grade = Grade::kDoubtful,
              .what = component + (constant ? " is " : " at the start is "),
              .value = sigmas,
-             .limit = kStrained,
+             .limit = limit,
              .unit = "sigma"};
   // What else does not fit may well come from a start that is not so.
   e.is_cause = origin.given && !constant;
@@ -162,7 +166,55 @@ double StrainOfGiven(const Judged& judged, const Block& block, int axis,
          (*given.gyro_bias_sigma)(axis);
 }
 
+/// A value that is held against what it started from.
+struct Strained {
+  const Block& block;
+  Origin origin;
+  std::string component;
+  double sigmas = 0.0;
+  double value = 0.0;  ///< away from the start
+};
+
+std::vector<Strained> AllStrained(const Judged& judged) {
+  const Solution& solution = judged.solution;
+  const StartValues& start = *judged.start;
+  const bool from_start =
+      std::abs(solution.states.front().t - start.x.t) <= kAtTheStart;
+  const ErrorVector first =
+      Local(solution.layout, start.x, solution.states.front());
+  const ErrorVector last =
+      Local(solution.layout, start.x, solution.states.back());
+  std::vector<Strained> all;
+  for (const Block& block : solution.layout.blocks()) {
+    const bool constant = block.evolution.is_constant();
+    const bool start_value = block.key.kind <= BlockKind::kAccelBias;
+    if (!constant && !(start_value && from_start)) continue;
+    int i = block.offset;
+    for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {
+      if (!block.active[static_cast<std::size_t>(axis)]) continue;
+      const double off = constant ? last(i) : first(i);
+      const std::string name = solution.layout.ComponentName(i);
+      all.push_back({block, OriginOf(judged, block, axis), name,
+                     std::abs(off) / std::sqrt(start.P(i, i)), off});
+      const double of_given = StrainOfGiven(
+          judged, block, axis,
+          constant ? solution.states.back() : solution.states.front());
+      if (of_given > 0.0 && !all.back().origin.given) {
+        all.push_back({block, OfBias(true, "gyro_bias", start.given.gyro_bias),
+                       name, of_given, off});
+      }
+      ++i;
+    }
+  }
+  return all;
+}
+
 }  // namespace
+
+double StrainLimit(int count) {
+  return std::sqrt(
+      ChiSquareQuantile(1.0 - kFalseAlarms / std::max(count, 1), 1.0));
+}
 
 void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence) {
   const Solution& solution = judged.solution;
@@ -171,41 +223,19 @@ void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence) {
       solution.layout.dim() != judged.start->P.rows()) {
     return;
   }
-  const StartValues& start = *judged.start;
-  const bool from_start =
-      std::abs(solution.states.front().t - start.x.t) <= kAtTheStart;
-  const ErrorVector first =
-      Local(solution.layout, start.x, solution.states.front());
-  const ErrorVector last =
-      Local(solution.layout, start.x, solution.states.back());
-  for (const Block& block : solution.layout.blocks()) {
-    const bool constant = block.evolution.is_constant();
-    const bool start_value = block.key.kind <= BlockKind::kAccelBias;
-    if (!constant && !(start_value && from_start)) continue;
-    int i = block.offset;
-    for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {
-      if (!block.active[static_cast<std::size_t>(axis)]) continue;
-      const double sigma0 = std::sqrt(start.P(i, i));
-      const double sigmas = std::abs(constant ? last(i) : first(i)) / sigma0;
-      const double of_given = StrainOfGiven(
-          judged, block, axis,
-          constant ? solution.states.back() : solution.states.front());
-      const std::string name = solution.layout.ComponentName(i);
-      if (of_given > kStrained) {
-        evidence->push_back(
-            Strain(judged, OfBias(true, "gyro_bias", start.given.gyro_bias),
-                   block, name, of_given));
-      } else if (sigmas > kStrained) {
-        evidence->push_back(
-            Strain(judged, OriginOf(judged, block, axis), block, name, sigmas));
-        // Measured = (1 + scale) true: below -1 it counts backwards.
-        if (block.key.kind == BlockKind::kScale && last(i) < -1.0) {
-          evidence->back().causes = {"a speed of the wrong sign"};
-          evidence->back().remedies = {
-              "a leading \"-\" before its column under `columns`"};
-        }
-      }
-      ++i;
+  const std::vector<Strained> all = AllStrained(judged);
+  const double of_given = StrainLimit(static_cast<int>(std::ranges::count_if(
+      all, [](const Strained& one) { return one.origin.given; })));
+  for (const Strained& one : all) {
+    const double limit = one.origin.given ? of_given : kStrained;
+    if (!(one.sigmas > limit)) continue;
+    evidence->push_back(Strain(judged, one.origin, one.block, one.component,
+                               one.sigmas, limit));
+    // Measured = (1 + scale) true: below -1 it counts backwards.
+    if (one.block.key.kind == BlockKind::kScale && one.value < -1.0) {
+      evidence->back().causes = {"a speed of the wrong sign"};
+      evidence->back().remedies = {
+          "a leading \"-\" before its column under `columns`"};
     }
   }
 }

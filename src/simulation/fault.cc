@@ -1,5 +1,7 @@
 #include "simulation/fault.h"
 
+#include <utility>
+
 #include "measurements/sensor_kind.h"
 #include "simulation/fault_effects.h"
 
@@ -132,6 +134,22 @@ bool HasPlaceFor(const Fault& fault, const Dataset& dataset) {
 
 void ApplyFault(const Fault& fault, std::uint64_t seed, Dataset* dataset) {
   fault.kind->apply(fault.size, FirstOf(fault.sensor, *dataset), seed, dataset);
+}
+
+std::optional<Dataset> WithErrorsAsTheyWere(const Fault& fault,
+                                            std::uint64_t seed,
+                                            const Dataset& healthy,
+                                            Dataset perfect) {
+  Dataset faulty = healthy;
+  ApplyFault(fault, seed, &faulty);
+  const Dataset before = perfect;
+  ApplyFault(fault, seed, &perfect);
+  bool moved = KeepImuErrors(healthy, before, perfect, &faulty);
+  for (std::size_t i = 0; i < faulty.streams.size(); ++i) {
+    moved |= KeepReadingErrors(static_cast<int>(i), healthy, before, perfect,
+                               &faulty);
+  }
+  return moved ? std::optional(std::move(faulty)) : std::nullopt;
 }
 
 }  // namespace hindsight

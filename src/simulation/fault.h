@@ -2,6 +2,7 @@
 #define HINDSIGHT_SIMULATION_FAULT_H_
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,14 @@ bool HasPlaceFor(const Fault& fault, const Dataset& dataset);
 /// Puts the fault into a recording. The same for the same seed; nothing else of
 /// the recording changes. Requires HasPlaceFor.
 void ApplyFault(const Fault& fault, std::uint64_t seed, Dataset* dataset);
+
+/// The same, of what the fault does to perfect readings alone: the errors of the
+/// readings of `healthy`, which `perfect` is without, stay on the rows and axes
+/// that they are on. Nothing where the fault leaves these alone anyway.
+std::optional<Dataset> WithErrorsAsTheyWere(const Fault& fault,
+                                            std::uint64_t seed,
+                                            const Dataset& healthy,
+                                            Dataset perfect);
 
 }  // namespace hindsight
 

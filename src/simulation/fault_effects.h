@@ -59,6 +59,15 @@ void LoseSamples(double size, int sensor, std::uint64_t seed, Dataset* dataset);
 void TurnStart(double size, int sensor, std::uint64_t seed, Dataset* dataset);
 void MoveStart(double size, int sensor, std::uint64_t seed, Dataset* dataset);
 
+/// Puts the errors that `healthy` has beside `perfect` onto `perfect_faulty`, and
+/// that into `faulty`: of the IMU, or of a sensor. Whether anything changes; not
+/// where rows were lost.
+bool KeepImuErrors(const Dataset& healthy, const Dataset& perfect,
+                   const Dataset& perfect_faulty, Dataset* faulty);
+bool KeepReadingErrors(int sensor, const Dataset& healthy,
+                       const Dataset& perfect, const Dataset& perfect_faulty,
+                       Dataset* faulty);
+
 /// Where faults that do not last for the whole recording begin [s].
 double MiddleOf(const Dataset& dataset);
 

@@ -150,4 +150,28 @@ void MoveStart(double size, int, std::uint64_t, Dataset* dataset) {
   position.latitude += size / MeridianRadius(position.latitude);
 }
 
+bool KeepImuErrors(const Dataset& healthy, const Dataset& perfect,
+                   const Dataset& perfect_faulty, Dataset* faulty) {
+  constexpr double kRounding = 1e-12;
+  const auto& well = healthy.imu.samples;
+  auto& samples = faulty->imu.samples;
+  if (samples.size() != well.size() ||
+      perfect.imu.samples.size() != well.size()) {
+    return false;
+  }
+  bool moved = false;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const ImuSample& truth = perfect.imu.samples[k];
+    const ImuSample& wrong = perfect_faulty.imu.samples[k];
+    for (Eigen::Vector3d ImuSample::*triad :
+         {&ImuSample::gyro, &ImuSample::accel}) {
+      const Eigen::Vector3d kept =
+          wrong.*triad + (well[k].*triad - truth.*triad);
+      moved |= !kept.isApprox(samples[k].*triad, kRounding);
+      samples[k].*triad = kept;
+    }
+  }
+  return moved;
+}
+
 }  // namespace hindsight

@@ -275,4 +275,15 @@ Dataset PerfectRecording::Realize(std::uint64_t seed) const {
   return dataset;
 }
 
+Dataset PerfectRecording::WithoutErrors(Dataset dataset) const {
+  dataset.imu.samples = samples_;
+  for (std::size_t i = 0; i < dataset.streams.size(); ++i) {
+    MeasurementSeries& series = dataset.streams[i].measurements;
+    if (series.size() != aiding_.measurements[i].size()) continue;
+    auto perfect = aiding_.measurements[i].begin();
+    for (Measurement& z : series.Edited()) z.model = (perfect++)->model;
+  }
+  return dataset;
+}
+
 }  // namespace hindsight

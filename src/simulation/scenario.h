@@ -112,6 +112,9 @@ class PerfectRecording {
  public:
   explicit PerfectRecording(const Scenario& scenario);
   Dataset Realize(std::uint64_t seed) const;
+  /// A realisation with perfect readings of IMU and sensors in place of its own;
+  /// a sensor of which rows were lost keeps its own.
+  Dataset WithoutErrors(Dataset dataset) const;
 
  private:
   Scenario scenario_;

@@ -74,15 +74,19 @@ AidingStream& StreamOf(int sensor, Dataset* dataset) {
   return dataset->streams[static_cast<std::size_t>(sensor)];
 }
 
+/// The first position [m].
+Eigen::Vector3d OriginOf(const MeasurementSeries& series) {
+  const Measurement first = series.front();
+  const auto* position = std::get_if<PositionFix>(&first.model);
+  return position == nullptr ? Eigen::Vector3d::Zero() : position->p_e;
+}
+
 /// Calls with every measurement of the stream and its reading.
 template <typename Function>
 void EditReadings(int sensor, Dataset* dataset, Function edit) {
   MeasurementSeries& series = StreamOf(sensor, dataset).measurements;
   if (series.empty()) return;
-  const Measurement first = series.front();
-  const auto* position = std::get_if<PositionFix>(&first.model);
-  const Eigen::Vector3d origin_e =
-      position == nullptr ? Eigen::Vector3d::Zero() : position->p_e;
+  const Eigen::Vector3d origin_e = OriginOf(series);
   for (Measurement& z : series.Edited()) {
     Eigen::Vector3d reading = ReadingOf(z.model, origin_e);
     edit(z.t, &reading);
@@ -228,6 +232,36 @@ void MultiplySigma(double size, int sensor, std::uint64_t, Dataset* dataset) {
   for (Measurement& z : StreamOf(sensor, dataset).measurements.Edited()) {
     ScaleSigma(size, &z);
   }
+}
+
+bool KeepReadingErrors(int sensor, const Dataset& healthy,
+                       const Dataset& perfect, const Dataset& perfect_faulty,
+                       Dataset* faulty) {
+  constexpr double kRounding = 1e-6;  // of positions [m]
+  const auto series = [sensor](const Dataset& dataset) -> const auto& {
+    return dataset.streams[static_cast<std::size_t>(sensor)].measurements;
+  };
+  const MeasurementSeries& well = series(healthy);
+  if (well.empty() || series(*faulty).size() != well.size() ||
+      series(perfect).size() != well.size()) {
+    return false;
+  }
+  const Eigen::Vector3d origin_e = OriginOf(well);
+  const auto reading = [&](const MeasurementSeries& of, std::size_t k) {
+    const Measurement z = of[k];
+    return ReadingOf(z.model, origin_e);
+  };
+  bool moved = false;
+  std::size_t k = 0;
+  for (Measurement& z : StreamOf(sensor, faulty).measurements.Edited()) {
+    const Eigen::Vector3d kept =
+        reading(series(perfect_faulty), k) +
+        (reading(well, k) - reading(series(perfect), k));
+    moved |= !((kept - ReadingOf(z.model, origin_e)).norm() < kRounding);
+    SetReading(kept, origin_e, &z.model);
+    ++k;
+  }
+  return moved;
 }
 
 }  // namespace hindsight

@@ -55,9 +55,24 @@ TEST_F(GivenValues, WhatTheConfigurationGaveIsNamedByItsKey) {
     EXPECT_THAT(found[0].what, StartsWith("position[down] at the start is "));
     EXPECT_THAT(found[0].what, HasSubstr("from its given value"));
     EXPECT_NEAR(*found[0].value, std::abs(sigmas), 0.01);
-    EXPECT_EQ(found[0].limit, 5.0);
+    EXPECT_EQ(found[0].limit, StrainLimit(3));
     EXPECT_THAT(found[0].causes.at(0), HasSubstr("initial.position"));
   }
+}
+
+/// Two-sided normal probabilities: 2.97 sigma of 0.3 %, 3.48 of a sixth of it.
+TEST_F(GivenValues, OfManyOneLiesFarOffByChance) {
+  EXPECT_NEAR(StrainLimit(1), 2.968, 1e-3);
+  EXPECT_NEAR(StrainLimit(6), 3.481, 1e-3);
+  start_.given.position = Geodetic{};
+  start_.given.euler = Eigen::Vector3d::Zero();
+  for (int i : {0, 2, 6, 8}) {
+    EXPECT_TRUE(Find(i, 3.4).empty()) << i;
+    ASSERT_EQ(Find(i, 3.6).size(), 1u) << i;
+    EXPECT_EQ(Find(i, 3.6)[0].limit, StrainLimit(6)) << i;
+  }
+  // The program's own start comes from the same data.
+  EXPECT_TRUE(Find(4, 4.9).empty());
 }
 
 /// The program's own start had too small a sigma, which is nobody's input.
@@ -114,12 +129,12 @@ TEST_F(GivenValues, ConstantOfASensorIsNamedByItsKey) {
                         .start = start_},
                        &found);
   };
-  find(0.49);
+  find(0.32);
   EXPECT_TRUE(found.empty());
-  find(0.51);
+  find(0.34);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].what,
-            "gnss_lever_arm[y] is 5.1 sigma from its given value");
+            "gnss_lever_arm[y] is 3.4 sigma from its given value");
   EXPECT_EQ(found[0].remedies.at(0), "another aiding.gnss.lever_arm");
   EXPECT_EQ(found[0].remedies.at(1), "a larger aiding.gnss.estimate.lever_arm");
 }

@@ -115,6 +115,25 @@ TEST_F(GradeTest, ALoneReceiverWithoutLastingErrorsIsSaidToHaveNone) {
   EXPECT_FALSE(says());
 }
 
+/// Ten innovations, a tenth of what is stated: chance has a third of it once in
+/// 5000 times.
+TEST_F(GradeTest, SigmasThatHideErrorsAreNamed) {
+  sensors_[0].kind = &PositionKind();
+  const auto says = [this](double rms, std::size_t count) {
+    const InnovationFigure figure = {.count = count, .rms = rms};
+    ConcludeWith({.solution = solution_,
+                  .sensors = sensors_,
+                  .innovations = std::span(&figure, 1)});
+    EXPECT_EQ(solution_.grade, Grade::kUsable);
+    return solution_.verdict.find(
+               "hard to see, whose sigmas are 10 times what its innovations "
+               "say") != std::string::npos;
+  };
+  EXPECT_TRUE(says(0.1, 10)) << solution_.verdict;
+  EXPECT_FALSE(says(0.4, 1000)) << solution_.verdict;
+  EXPECT_FALSE(says(0.1, 1)) << solution_.verdict;
+}
+
 TEST_F(GradeTest, WhatNoSensorTestsIsDoubtful) {
   solution_.residuals.resize(3);
   ConcludePlain();

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/so3.h"
 #include "io/config/scenario_config.h"
 #include "problems/reconstruction.h"
 #include "simulation/fault.h"
@@ -54,9 +55,35 @@ INSTANTIATE_TEST_SUITE_P(
                    "last longer than the time between its measurements"},
         FaultyCase{"test_aircraft", "imu_rate", "", 2e-4,
                    "s/s faster than all others"},
+        FaultyCase{"test_hand", "imu_rate", "", 1e-4,
+                   "s/s faster than all others"},
         FaultyCase{"test_aircraft", "gyro_step", "", 3.5e-4,
                    "gyro_bias[z] jumps"},
         FaultyCase{"test_dive", "lasting", "dvl", 0.03, "of dvl"}));
+
+TEST(Explanation, NamesAxesOfTheImuThatAreNotWhatIsSaid) {
+  const PerfectRecording hand(FindScenario("test_hand", {}));
+  const auto says = [&](const Eigen::Matrix3d& gyro,
+                        const Eigen::Matrix3d& accel) {
+    Dataset dataset = hand.Realize(11);
+    for (ImuSample& sample : dataset.imu.samples) {
+      sample.gyro = (gyro * sample.gyro).eval();
+      sample.accel = (accel * sample.accel).eval();
+    }
+    return WhatSpeaksAgainst(dataset);
+  };
+  const Eigen::Matrix3d right = Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d turned =
+      Exp(Eigen::Vector3d(0.0, 0.0, 0.05)).toRotationMatrix();
+  EXPECT_THAT(says(right, turned),
+              ::testing::Contains(HasSubstr("deg about z against the gyros")));
+  Eigen::Matrix3d mixed = right;
+  mixed.topLeftCorner<2, 2>() << 0.98, 0.02, 0.02, 0.98;
+  EXPECT_THAT(says(right, mixed),
+              ::testing::Contains(HasSubstr("accelerometer x and y hold ")));
+  EXPECT_THAT(says(mixed, right),
+              ::testing::Contains(HasSubstr("gyro x and y hold ")));
+}
 
 TEST(Explanation, AHealthyRecordingNeedsNone) {
   const int seeds = testing::SeedCount(25, 100);

@@ -87,6 +87,49 @@ TEST(Fault, IsTheSameForTheSameSeed) {
                                 StreamOf(WithFault(outliers, 4), "position")));
 }
 
+TEST(Fault, MayLeaveErrorsOnTheirAxes) {
+  const PerfectRecording recording(FindScenario("short_drive", {}));
+  const Dataset well = recording.Realize(1);
+  const Dataset perfect = recording.WithoutErrors(well);
+  EXPECT_FALSE(SameImu(well, perfect));
+  const Fault fault = Make("accel_swapped", 2.0);
+  const auto faulty = WithErrorsAsTheyWere(fault, 1, well, perfect);
+  ASSERT_TRUE(faulty);
+  for (const std::size_t k : {0u, 100u, 1000u}) {
+    const Eigen::Vector3d& truth = perfect.imu.samples[k].accel;
+    const Eigen::Vector3d expected =
+        Eigen::Vector3d(truth.y(), truth.x(), truth.z()) +
+        (well.imu.samples[k].accel - truth);
+    EXPECT_NEAR((faulty->imu.samples[k].accel - expected).norm(), 0.0, 1e-12);
+  }
+  const auto turned =
+      WithErrorsAsTheyWere(Make("turned", 0.5, "position"), 1, well, perfect);
+  ASSERT_TRUE(turned);
+  const auto& fixes = StreamOf(*turned, "position").measurements;
+  const auto& before = StreamOf(well, "position").measurements;
+  const auto& exact = StreamOf(perfect, "position").measurements;
+  // The place that it turns about keeps its error.
+  EXPECT_LT((PositionOf(fixes[0]) - PositionOf(before[0])).norm(), 1e-6);
+  const std::size_t last = fixes.size() - 1;
+  EXPECT_GT((PositionOf(fixes[last]) - PositionOf(exact[last])).norm(), 10.0);
+}
+
+/// What is stamped elsewhere, or has something added, keeps them anyway.
+TEST(Fault, IsTheSameWithErrorsAsTheyWereWhereItLeavesThemAlone) {
+  const PerfectRecording recording(FindScenario("short_drive", {}));
+  const Dataset well = recording.Realize(1);
+  const Dataset perfect = recording.WithoutErrors(well);
+  for (const char* kind : {"delay", "bias", "step", "lever_arm", "sigma"}) {
+    EXPECT_FALSE(
+        WithErrorsAsTheyWere(Make(kind, 2.0, "position"), 1, well, perfect))
+        << kind;
+  }
+  for (const char* kind : {"accel_step", "imu_noise", "imu_leap", "imu_gap"}) {
+    EXPECT_FALSE(WithErrorsAsTheyWere(Make(kind, 2.0), 1, well, perfect))
+        << kind;
+  }
+}
+
 TEST(Fault, MovesAPositionNorthByItsSize) {
   const Dataset well = Drive();
   const Dataset faulty = WithFault(Make("bias", 3.0, "position"));

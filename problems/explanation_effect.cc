@@ -1,0 +1,60 @@
+#include "problems/explanation_effect.h"
+
+#include <cmath>
+#include <string>
+
+namespace hindsight {
+namespace {
+
+void RaiseEffect(double effect, const std::string& component,
+                 Explanation* out) {
+  if (!(effect > out->effect)) return;
+  out->effect = effect;
+  out->component = component;
+}
+
+}  // namespace
+
+void AddEffect(const std::vector<ErrorVector>& correction, double size,
+               const Relinearised& anew, const LinearTape& tape,
+               Explanation* out) {
+  const ErrorLayout& layout = tape.layout();
+  const ErrorMatrix P_end = tape.P_plus(tape.size() - 1);
+  for (int c = 0; c < layout.dim(); ++c) {
+    double effect = 0.0;
+    if (layout.has_canonical_head() && c < anew.variances.front().size()) {
+      for (std::size_t k = 0; k < correction.size(); ++k) {
+        const double variance = anew.variances[k](c);
+        if (variance > 0.0) {
+          effect += correction[k](c) * correction[k](c) / variance;
+        }
+      }
+      effect /= static_cast<double>(correction.size());
+    } else if (P_end(c, c) > 0.0) {
+      effect = correction.back()(c) * correction.back()(c) / P_end(c, c);
+    }
+    RaiseEffect(std::abs(size) * std::sqrt(effect), layout.ComponentName(c),
+                out);
+  }
+}
+
+void AddEffectOfClock(double size, const Relinearised& anew,
+                      const ErrorLayout& layout, Explanation* out) {
+  const std::size_t count = anew.states.size();
+  if (!layout.has_canonical_head() || count < 2) return;
+  NavigationVariances sum = NavigationVariances::Zero();
+  for (std::size_t k = 0; k + 1 < count; ++k) {
+    const State& x = anew.states[k];
+    const State& next = anew.states[k + 1];
+    const double late = size * (x.t - anew.states.front().t) / (next.t - x.t);
+    sum += (late * Local(layout, x, next).head<9>())
+               .cwiseAbs2()
+               .cwiseQuotient(anew.variances[k]);
+  }
+  for (int c = 0; c < sum.size(); ++c) {
+    RaiseEffect(std::sqrt(sum(c) / static_cast<double>(count - 1)),
+                layout.ComponentName(c), out);
+  }
+}
+
+}  // namespace hindsight

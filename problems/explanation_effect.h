@@ -1,0 +1,26 @@
+#ifndef HINDSIGHT_PROBLEMS_EXPLANATION_EFFECT_H_
+#define HINDSIGHT_PROBLEMS_EXPLANATION_EFFECT_H_
+
+#include <vector>
+
+#include "evaluation/explanation.h"
+#include "filters/linear_tape.h"
+#include "problems/linearisation.h"
+
+namespace hindsight {
+
+/// By what `size` times a correction of every epoch of `tape` moves the solution
+/// `anew`: into Explanation::effect where it is more than what is there.
+void AddEffect(const std::vector<ErrorVector>& correction, double size,
+               const Relinearised& anew, const LinearTape& tape,
+               Explanation* out);
+
+/// The same of an IMU whose clock runs `size` [s/s] faster than all others from
+/// the first epoch on: if the others are right, what the solution says of a time
+/// is what was true at another. Nothing where the layout has no navigation state.
+void AddEffectOfClock(double size, const Relinearised& anew,
+                      const ErrorLayout& layout, Explanation* out);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_EXPLANATION_EFFECT_H_
