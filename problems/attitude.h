@@ -96,7 +96,8 @@ class AttitudeEstimation final : public Estimation {
   /// Returns whether the smoother, if its own innovations are not what makes a
   /// solution unusable, vouches for the filter: Judged::vouched_for.
   bool JudgeFilterByAll(const std::optional<StartValues>& start,
-                        std::span<const Sensor> sensors, Solution filtered);
+                        std::span<const Sensor> sensors,
+                        const Solution& filtered);
   /// Adds to evidence_ what the smoother's solution and innovations_, its own,
   /// show: a drop-out of the IMU that fits better as a leap of its clock
   /// (imu_leaps.h); scale factors of gyros far from their a priori value; a bias

@@ -169,7 +169,7 @@ namespace {
 /// recording tells, which then fits its own readings.
 bool Vouches(const Solution& whole,
              const std::vector<NormalisedInnovation>& innovations,
-             Solution filtered) {
+             const Solution& filtered) {
   if (whole.covariances.empty() || filtered.covariances.empty() ||
       whole.states.size() != filtered.states.size() ||
       LargestExcess(TestInnovations(innovations, kFalseAlarms)) >=
@@ -185,11 +185,11 @@ bool Vouches(const Solution& whole,
 
 bool AttitudeEstimation::JudgeFilterByAll(
     const std::optional<StartValues>& start, std::span<const Sensor> sensors,
-    Solution filtered) {
+    const Solution& filtered) {
   std::vector<NormalisedInnovation> own = std::move(innovations_);
   const Solution whole = Smoother();
   JudgeWhole(whole);
-  const bool vouched_for = Vouches(whole, innovations_, std::move(filtered));
+  const bool vouched_for = Vouches(whole, innovations_, filtered);
   innovations_ = std::move(own);
   if (!start) return vouched_for;
   const std::size_t before = evidence_.size();
