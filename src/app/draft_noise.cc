@@ -10,6 +10,7 @@
 #include "app/draft_refinement.h"
 #include "base/error.h"
 #include "base/units.h"
+#include "dataset/bias_sigma.h"
 #include "dataset/fix_noise.h"
 #include "dataset/usual_noise.h"
 #include "io/config/config_edit.h"
@@ -153,8 +154,12 @@ void TellReadingNoise(const Dataset& dataset, RecordingDraft* draft) {
            fmt::format("{:.2g} deg/s", noise.gyro_bias_sigma / kDegree),
            "usual beside that noise (a guess)"},
           &draft->top);
+  // Attitude alone tells a bias from the motions of a hand less well.
+  const double accel_bias_sigma =
+      held ? std::min(noise.accel_bias_sigma, AccelBiasSigma({}).maxCoeff())
+           : noise.accel_bias_sigma;
   SetLine({"  accel_bias_sigma",
-           fmt::format("{:.2g} mg", noise.accel_bias_sigma / kMilliG)},
+           fmt::format("{:.2g} mg", accel_bias_sigma / kMilliG)},
           &draft->top);
   if (held) TellLateReadings(dataset.imu, &lines);
   if (noise.consumer && !held) {
