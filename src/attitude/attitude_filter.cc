@@ -258,7 +258,8 @@ RowVector AttitudeFilter::UseVelocityChange(const VelocityChange& change,
   const Eigen::LLT<Eigen::Matrix3d> llt(change.R_n + C_nb * change.noise_b *
                                                          C_nb.transpose());
   Eigen::Matrix<double, 3, AttitudeState::kDim> H;
-  H << -Skew(u_n), C_nb * change.by_gyro, C_nb * change.by_accel_bias;
+  H << -Skew(u_n), C_nb * change.by_gyro, C_nb * change.by_accel_bias,
+      Eigen::Vector3d::Zero();
   const Eigen::Vector3d residual = llt.matrixL().solve(change.m_n - u_n);
   H = llt.matrixL().solve(H).eval();
   RowVector innovation(3);

@@ -77,7 +77,7 @@ LinearTape TapeOf(const Turning& turning, const AttitudeRun& run) {
   dip.key = {BlockKind::kDeclination};
   dip.name = "dip";
   dip.evolution = Evolution::Constant();
-  dip.sigma0 = Eigen::VectorXd::Constant(1, turning.options.dip_sigma);
+  dip.sigma0.setConstant(turning.options.dip_sigma);
   layout.Add(dip);
   LinearTape tape(layout);
   const Eigen::Quaterniond q_en(NedAxes(turning.options.place.p_e));
