@@ -100,9 +100,9 @@ class AttitudeEstimation final : public Estimation {
                         const Solution& filtered);
   /// Adds to evidence_ what the smoother's solution and innovations_, its own,
   /// show: a drop-out of the IMU that fits better as a leap of its clock
-  /// (imu_leaps.h); scale factors of gyros far from their a priori value; a bias
-  /// of the accelerometers (accel_bias_fit.h) that tilts by kUnusableBias stated
-  /// sigmas.
+  /// (imu_leaps.h); gyro scales or accelerometer biases far from their a priori
+  /// value; a bias of the accelerometers (accel_bias_fit.h) that tilts by
+  /// kUnusableBias stated sigmas.
   void JudgeWhole(const Solution& whole);
   void JudgeLeaps();
   void JudgeAccelerometers(const Solution& whole);

@@ -74,14 +74,13 @@ void AttitudeEstimation::JudgeLeaps() {
 
 namespace {
 
-/// Of six values together once in two thousand times.
+/// Any of six values is that far off by chance once in 2600 times.
 constexpr double kImuErrorStrained = 4.0;
 
-/// Sigmas that chance has a value end from what it started from: what is learned
-/// of it moves it by N(0, prior^2 - posterior^2). At most those of a value of which
-/// all is learned, at least a hundredth of the prior.
+/// How far a value ends from what it started from, in what chance would move it:
+/// N(0, prior^2 - posterior^2), or a tenth of the prior if that is more.
 double SigmasLearned(const ConstantEstimate& one) {
-  constexpr double kLeast = 0.01;
+  constexpr double kLeast = 0.01;  // of the prior variance
   const double prior = one.prior_sigma;
   const double learned = std::sqrt(
       std::max(prior * prior - one.sigma * one.sigma, kLeast * prior * prior));

@@ -148,6 +148,9 @@ class AttitudeFilter {
   using Vector = AttitudeState::Vector;
   using Matrix = AttitudeState::Matrix;
 
+  /// Rows of the two forms of the field; u_n [uT], R [uT^2], [rad^2].
+  RowVector UseFieldVector(const Eigen::Vector3d& u_n, double R);
+  RowVector UseAzimuth(const Eigen::Vector3d& u_n, double R);
   /// Field that is expected, without disturbances [uT].
   Eigen::Vector3d ExpectedField() const;
   /// Scalar update with H = h on component `i`, residual about the nominal.
