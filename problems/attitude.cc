@@ -125,8 +125,11 @@ State AttitudeEstimation::StateAt(double t, const Eigen::Quaterniond& q_nb,
 
 double AttitudeEstimation::SharedSigma(const FieldSurvey& survey) const {
   if (magnetic_.empty() || !headings_.empty()) return 0.0;
-  return std::hypot(SharedHeadingSigma(filter_options_.magnetic),
-                    NorthSigma(survey));
+  const MagneticSurroundings& stated = filter_options_.magnetic;
+  const bool seen = survey.horizontal > 0.0 && filter_options_.magnetic_form ==
+                                                   MagneticField::Form::kVector;
+  return std::hypot(SharedHeadingSigma(stated), NorthSigma(survey),
+                    seen ? PlaceSigma(survey, stated) : 0.0);
 }
 
 double AttitudeEstimation::SharedSlope(const FieldSurvey& survey) const {
@@ -151,14 +154,24 @@ Solution AttitudeEstimation::Filter() {
   solution.layout = SolutionLayout();
   solution.covariances = CovarianceSeries(6, run.samples.size());
   solution.states.reserve(run.samples.size());
-  const SharedCovariance shared(filter_options_, SharedSigma({}), 0.0);
+  const SharedCovariance shared(filter_options_, 0.0);
+  std::size_t node = run.nodes.size();
+  double shared_sigma = 0.0;
   Eigen::Matrix<double, 6, 6> P;
   for (std::size_t k = 0; k < run.samples.size(); ++k) {
     const AttitudeSample& sample = run.samples[k];
     solution.states.push_back(
         StateAt(imu_.samples[k].t, sample.q_nb, sample.b_g));
-    P = run.nodes[sample.node].x.P.topLeftCorner<6, 6>();
-    shared.AddTo(&P);
+    if (sample.node != node) {
+      node = sample.node;
+      const AttitudeVerdict& verdict = run.nodes[node].verdict;
+      FieldSurvey learned;
+      learned.horizontal = verdict.horizontal;
+      learned.down = verdict.down;
+      shared_sigma = SharedSigma(learned);
+    }
+    P = run.nodes[node].x.P.topLeftCorner<6, 6>();
+    shared.AddTo(shared_sigma, &P);
     solution.covariances.Set(k, P);
   }
   solution.attitude = VerdictsOf(run);
@@ -210,8 +223,8 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) {
   solution.covariances = CovarianceSeries(6, count);
   solution.states.reserve(count);
   const auto& nodes = pass.run.nodes;
-  const SharedCovariance shared(filter_options_, SharedSigma(pass.survey),
-                                SharedSlope(pass.survey));
+  const double shared_sigma = SharedSigma(pass.survey);
+  const SharedCovariance shared(filter_options_, SharedSlope(pass.survey));
   Eigen::Matrix<double, 6, 6> P;
   for (std::size_t k = 0; k < count; ++k) {
     const AttitudeSample& sample = pass.run.samples[k];
@@ -224,7 +237,7 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) {
     solution.states.push_back(StateAt(
         t, q_nb[k], sample.b_g + pass.smoothed[sample.node].d.segment<3>(3)));
     P = pass.smoothed[nearest].P.topLeftCorner<6, 6>();
-    shared.AddTo(&P);
+    shared.AddTo(shared_sigma, &P);
     solution.covariances.Set(k, P);
   }
   const ErrorLayout full = AttitudeLayout(imu_.noise, start_);

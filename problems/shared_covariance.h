@@ -15,22 +15,19 @@ namespace hindsight {
 /// `slope` = down / horizontal; 0: the tilt's error was counted.
 class SharedCovariance {
  public:
-  SharedCovariance(const AttitudeFilterOptions& options, double heading_sigma,
-                   double slope)
-      : heading_variance_(heading_sigma * heading_sigma) {
+  SharedCovariance(const AttitudeFilterOptions& options, double slope) {
     const double declination = options.magnetic.declination;
     turn_.row(2).head<2>() << slope * std::cos(declination),
         slope * std::sin(declination);
   }
-  /// P of attitude and gyro bias.
-  void AddTo(Eigen::Matrix<double, 6, 6>* P) const {
+  /// P of attitude and gyro bias; the sigma of what headings share [rad].
+  void AddTo(double heading_sigma, Eigen::Matrix<double, 6, 6>* P) const {
     P->topRows<3>() = (turn_ * P->topRows<3>()).eval();
     P->leftCols<3>() = (P->leftCols<3>() * turn_.transpose()).eval();
-    (*P)(2, 2) += heading_variance_;
+    (*P)(2, 2) += heading_sigma * heading_sigma;
   }
 
  private:
-  double heading_variance_;
   Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();
 };
 

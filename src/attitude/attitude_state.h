@@ -87,6 +87,9 @@ struct AttitudeVerdict {
   double accel_variance = 0.0;  ///< R in force [m^2/s^4]; infinity: not used
   bool magnetic_used = false;
   bool magnetic_disturbed = false;
+  /// Of the field that readings are held against, once learned; else 0 [uT].
+  double horizontal = 0.0;
+  double down = 0.0;
 };
 
 /// Transition of the error from one update to the next,

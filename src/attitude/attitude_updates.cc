@@ -166,6 +166,8 @@ RowVector AttitudeFilter::UseMagnetometer() {
   verdict_.magnetic_disturbed = !reference_.Accept(dt, norm, dip, rate);
   if (verdict_.magnetic_disturbed) return {};
   verdict_.magnetic_used = true;
+  verdict_.horizontal = reference_.norm() * std::cos(dip_);
+  verdict_.down = reference_.norm() * std::sin(dip_);
   const double R =
       options_.magnetic_sigma * options_.magnetic_sigma * field.count /
       field.weight *

@@ -98,6 +98,14 @@ double NorthSigma(const FieldSurvey& survey) {
   return std::sqrt(0.5 * WeightOfMotion(survey)) * std::abs(survey.turn);
 }
 
+double PlaceSigma(const FieldSurvey& survey,
+                  const MagneticSurroundings& stated) {
+  const double area =
+      stated.horizontal * survey.down - stated.down * survey.horizontal;
+  return std::abs(area) /
+         (std::hypot(stated.horizontal, stated.down) * survey.horizontal);
+}
+
 FieldSurvey SurveyField(std::span<const SurveyedField> readings,
                         const SurveyOptions& options) {
   constexpr double kSigmas = 3.0;

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "measurements/sensor.h"
+
 namespace hindsight {
 
 /// A magnetometer's reading and the attitude at that time.
@@ -57,6 +59,12 @@ struct FieldSurvey {
 double RestAzimuth(const FieldSurvey& survey);
 /// What that leaves open of north [rad].
 double NorthSigma(const FieldSurvey& survey);
+/// What a disturbance of the whole place leaves open of north [rad]. Of one
+/// that is as large along all axes the part that turns the dip is seen,
+/// whatever the scale of the readings; the part across turns north by as much:
+///   |sin(dip - stated dip)| / cos dip.
+double PlaceSigma(const FieldSurvey& survey,
+                  const MagneticSurroundings& stated);
 
 /// The reference is the median of the horizontal, of the vertical part and of
 /// the azimuth over the readings, those in motion with a fiftieth of the weight

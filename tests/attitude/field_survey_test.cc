@@ -118,6 +118,27 @@ TEST(FieldSurvey, TrustsAFieldInMotionMoreIfIronTravelsAlong) {
   EXPECT_EQ(NorthSigma(survey), 0.0);
 }
 
+/// Whatever the scale of the readings.
+TEST(FieldSurvey, ADipThatIsNotTheStatedOneTurnsNorthAsMuch) {
+  constexpr double kDip = 1.1;
+  constexpr double kOff = 0.05;
+  const auto of_dip = [](double dip) {
+    MagneticSurroundings stated;
+    stated.horizontal = 45.0 * std::cos(dip);
+    stated.down = 45.0 * std::sin(dip);
+    return stated;
+  };
+  for (const double norm : {45.0, 4.5}) {
+    FieldSurvey survey;
+    survey.horizontal = norm * std::cos(kDip + kOff);
+    survey.down = norm * std::sin(kDip + kOff);
+    const double across = norm * std::sin(kOff);
+    EXPECT_NEAR(PlaceSigma(survey, of_dip(kDip)), across / survey.horizontal,
+                1e-12);
+    EXPECT_NEAR(PlaceSigma(survey, of_dip(kDip + kOff)), 0.0, 1e-12);
+  }
+}
+
 TEST(FieldSurvey, SpreadsIronOverThreeAxes) {
   const FieldSurvey survey =
       SurveyField(InMotion(Eigen::Vector3d::Zero(), 100), {.weak_iron = 3.0});

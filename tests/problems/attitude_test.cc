@@ -483,6 +483,35 @@ TEST(AttitudeEstimation, StatedSigmasOfTheMagnetometerCount) {
   }
 }
 
+/// A place whose dip is another one than stated may turn north as much. Another
+/// scale of the readings says nothing.
+TEST(AttitudeEstimation, AnotherDipThanStatedIsInTheHeadingsSigma) {
+  constexpr double kOff = 3.0 * kDegree;
+  Dataset dataset = SimulateFreeRotation({}, 5);
+  MagneticSurroundings& magnetic = dataset.streams.front().sensor.magnetic;
+  for (Measurement& z : dataset.streams.front().measurements.Edited()) {
+    std::get<MagneticField>(z.model).form = MagneticField::Form::kVector;
+  }
+  const MagneticSurroundings true_field = magnetic;
+  const double norm = std::hypot(true_field.horizontal, true_field.down);
+  const double dip = std::atan2(true_field.down, true_field.horizontal);
+  const auto variance = [&](const char* method, double stated_dip,
+                            double scale) {
+    magnetic.horizontal = scale * norm * std::cos(stated_dip);
+    magnetic.down = scale * norm * std::sin(stated_dip);
+    Reconstruction estimation(dataset, AttitudeAlone());
+    return estimation.Run(method).covariances.Get(kTurned)(2, 2);
+  };
+  for (const char* method : {"ahrs", "ahrs_smoother"}) {
+    const double without = variance(method, dip, 1.0);
+    // The dip is found to a tenth of a degree.
+    EXPECT_NEAR(std::sqrt(variance(method, dip - kOff, 1.0) - without),
+                std::sin(kOff) / std::cos(dip), 0.1 * kDegree / std::cos(dip))
+        << method;
+    EXPECT_NEAR(variance(method, dip, 0.8), without, 0.01 * without) << method;
+  }
+}
+
 /// A bias of the accelerometer that is known exactly is taken off.
 TEST(AttitudeEstimation, GivenBiasOfTheAccelerometerIsTakenOff) {
   Dataset dataset = SimulateFreeRotation({}, 10);
