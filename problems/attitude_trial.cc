@@ -3,42 +3,29 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "base/chi_square.h"
-#include "evaluation/state_errors.h"
 #include "evaluation/statistics.h"
 #include "problems/reconstruction.h"
 
 namespace hindsight {
 namespace {
 
-/// Where the disturbances begin and end [s]; a stamp belongs to the interval
-/// that begins there.
-constexpr std::array<std::pair<double, double>, 6> kIntervals = {
-    {{0.0, 5.0},
-     {5.0, 10.0},
-     {10.0, 40.0},
-     {40.0, 45.0},
-     {45.0, 60.1},
-     {10.0, 60.1}}};
-
-std::string SuffixOf(const std::pair<double, double>& interval) {
-  return fmt::format("_{:g}_{:g}s", interval.first,
-                     std::floor(interval.second));
+double InsideThreeSigma(const PartErrors& part) {
+  return part.ShareInside(3.0);
 }
 
-/// At one in `every` of the states that are within the range.
-StateErrors ErrorsWithin(const TimeRange& range, const Dataset& dataset,
-                         const Solution& solution, std::size_t every = 1) {
-  std::vector<std::size_t> numbers;
-  for (std::size_t k = 0; k < solution.states.size(); k += every) {
-    if (range.Contains(solution.states[k].t)) numbers.push_back(k);
-  }
-  return ErrorsOf(dataset, solution.layout, solution.states,
-                  solution.covariances, numbers);
+double AxisRms(const PartErrors& part) {
+  return TotalRms(part) / std::sqrt(3.0);
+}
+
+double InsideEllipsoid(const PartErrors& part) {
+  static const double limit = ChiSquareQuantile(0.9973, 3.0);
+  const auto inside = std::ranges::count_if(
+      part.nees, [](double nees) { return nees <= limit; });
+  return static_cast<double>(inside) / static_cast<double>(part.nees.size());
 }
 
 }  // namespace
@@ -55,15 +42,11 @@ std::vector<AttitudeWay> AccelerometerRules() {
           {"smnc, smoothed", "ahrs_smoother", "smnc"}};
 }
 
-std::vector<AttitudeWay> AttitudeMethods() {
-  return {{"ahrs", "ahrs"}, {"ahrs_smoother", "ahrs_smoother"}};
-}
-
 Trial AttitudeTrial(const std::vector<AttitudeWay>& ways,
-                    const AttitudeJudge& judge) {
-  std::vector<std::vector<std::string>> names;
-  for (const AttitudeWay& way : ways) names.push_back({way.name});
-  return {names, [ways, judge](const Dataset& recording, CaseRun* run) {
+                    const StudyTable& table, std::size_t every) {
+  std::vector<std::string> names;
+  for (const AttitudeWay& way : ways) names.push_back(way.name);
+  return {Named(names), [=](const Dataset& recording, CaseRun* run) {
             Dataset dataset = recording;
             for (const AttitudeWay& way : ways) {
               if (!way.rule.empty()) {
@@ -72,72 +55,55 @@ Trial AttitudeTrial(const std::vector<AttitudeWay>& ways,
               }
               run->Try({way.name}, [&](RunRecord* record) {
                 Reconstruction estimation(dataset, AttitudeAlone());
-                judge(dataset, estimation.Run(way.method), record);
+                const Solution solution = estimation.Run(way.method);
+                table.Record(ErrorsOf(dataset, solution.layout, solution.states,
+                                      solution.covariances, every),
+                             record);
               });
             }
           }};
 }
 
-void JudgeIntervals(const Dataset& dataset, const Solution& solution,
-                    RunRecord* record) {
-  constexpr double kSigmas = 3.0;
-  constexpr double kRounding = 1e-9;  // of stamps [s]
-  for (const auto& interval : kIntervals) {
-    const StateErrors errors = ErrorsWithin(
-        {interval.first - kRounding, interval.second - 2.0 * kRounding},
-        dataset, solution);
-    const std::string suffix = SuffixOf(interval);
-    record->values.insert(
-        record->values.end(),
-        {{"rms_total" + suffix, Rms(errors.attitude.Norms())},
-         {"inside" + suffix, errors.attitude.ShareInside(kSigmas)},
-         {"bias_rms" + suffix,
-          Rms(errors.gyro_bias.Norms()) / std::sqrt(3.0)}});
-  }
-}
-
 StudyTable VibrationTable() {
+  constexpr double kRounding = 1e-9;  // of stamps [s]
   StudyTable table = {"cells", {"rule"}};
-  for (const auto& interval : kIntervals) {
-    const std::string suffix = SuffixOf(interval);
-    table.Add({{"rms_total" + suffix, kDegrees, OfRuns(Rms)},
-               {"inside" + suffix, kPlain, OfRuns(Mean)},
-               {"bias_rms" + suffix, {"deg/h", kDegree / kHour}, OfRuns(Rms)}});
+  // Where the disturbances begin and end; a stamp belongs to the interval that
+  // begins there.
+  for (const auto& [begin, end] : {std::pair(0.0, 5.0),
+                                   {5.0, 10.0},
+                                   {10.0, 40.0},
+                                   {40.0, 45.0},
+                                   {45.0, 60.1},
+                                   {10.0, 60.1}}) {
+    const TimeRange range = {begin - kRounding, end - 2.0 * kRounding};
+    const std::string suffix =
+        fmt::format("_{:g}_{:g}s", begin, std::floor(end));
+    const auto attitude = &StateErrors::attitude;
+    table.Add({Measured("rms_total" + suffix, kDegrees, Rms,
+                        OfPart(attitude, TotalRms, range)),
+               Measured("inside" + suffix, kPlain, Mean,
+                        OfPart(attitude, InsideThreeSigma, range)),
+               Measured("bias_rms" + suffix, {"deg/h", kDegree / kHour}, Rms,
+                        OfPart(&StateErrors::gyro_bias, AxisRms, range))});
   }
   return table;
 }
 
-AttitudeJudge MotionJudge(double begin, double end) {
-  return [=](const Dataset& dataset, const Solution& solution,
-             RunRecord* record) {
-    constexpr std::size_t kEvery = 10;
-    constexpr double kHalfStep = 0.05;
-    constexpr double kThreeSigmas = 0.9973;
-    const double middle = 0.5 * (begin + end);
-    const PartErrors motion =
-        ErrorsWithin({begin, end}, dataset, solution, kEvery).attitude;
-    const PartErrors at_middle =
-        ErrorsWithin({middle - kHalfStep, middle + kHalfStep}, dataset,
-                     solution, kEvery)
-            .attitude;
-    const auto inside = std::ranges::count_if(
-        motion.nees, [limit = ChiSquareQuantile(kThreeSigmas, 3.0)](
-                         double nees) { return nees <= limit; });
-    record->values = {{"heading_rms", Rms(motion.Component(2))},
-                      {"tilt_rms", std::hypot(Rms(motion.Component(0)),
-                                              Rms(motion.Component(1)))},
-                      {"nees", Mean(at_middle.nees)},
-                      {"inside", static_cast<double>(inside) /
-                                     static_cast<double>(motion.nees.size())}};
-  };
-}
-
-StudyTable FreeRotationTable() {
+StudyTable RotationTable(double begin, double end) {
+  constexpr double kHalfStep = 0.05;  // [s]
+  const double middle = 0.5 * (begin + end);
+  const auto attitude = &StateErrors::attitude;
+  const TimeRange motion = {begin, end};
   StudyTable table = {"cells", {"method"}};
-  table.Add({{"heading_rms", kDegrees, OfRuns(Rms)},
-             {"tilt_rms", kDegrees, OfRuns(Rms)},
-             {"nees", kPlain, OfRuns(Mean)},
-             {"inside", kPlain, OfRuns(Mean)}});
+  table.Add(
+      {Measured("heading_rms", kDegrees, Rms,
+                OfPart(attitude, DownRms, motion)),
+       Measured("tilt_rms", kDegrees, Rms, OfPart(attitude, LevelRms, motion)),
+       Measured("nees", kPlain, Mean,
+                OfPart(attitude, MeanNees,
+                       {middle - kHalfStep, middle + kHalfStep})),
+       Measured("inside", kPlain, Mean,
+                OfPart(attitude, InsideEllipsoid, motion))});
   return table;
 }
 

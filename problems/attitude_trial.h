@@ -1,12 +1,10 @@
 #ifndef HINDSIGHT_PROBLEMS_ATTITUDE_TRIAL_H_
 #define HINDSIGHT_PROBLEMS_ATTITUDE_TRIAL_H_
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "problems/montecarlo.h"
-#include "state/solution.h"
 
 namespace hindsight {
 
@@ -23,32 +21,24 @@ struct AttitudeWay {
 /// samples; adaptive and SMNC at equal lambda (N + 1) = 0.25; the RTS smoothers
 /// of gate 0.88 and SMNC.
 std::vector<AttitudeWay> AccelerometerRules();
-/// Both methods, each by its name.
-std::vector<AttitudeWay> AttitudeMethods();
 
-/// Puts the values of a table below into a record.
-using AttitudeJudge = std::function<void(
-    const Dataset& dataset, const Solution& solution, RunRecord* record)>;
-
-/// All ways on recordings with truth of attitude and gyro bias at every sample.
-/// Errors are psi, truth from estimate in NED.
+/// All ways on recordings with truth of attitude and gyro bias at every sample,
+/// measured as the table says at one sample in `every`. Errors are psi, truth
+/// from estimate in NED.
 Trial AttitudeTrial(const std::vector<AttitudeWay>& ways,
-                    const AttitudeJudge& judge);
+                    const StudyTable& table, std::size_t every = 1);
 
 /// Of the recordings of Kim and Leeghim (2016), over all runs and samples of an
 /// interval (_0_5s, _5_10s, _10_40s, _40_45s, _45_60s and _10_60s): rms_total_ of
 /// |psi| [rad]; inside_, the share of its components within 3 sigma; bias_rms_,
 /// of an axis of the gyro bias [rad/s].
-void JudgeIntervals(const Dataset& dataset, const Solution& solution,
-                    RunRecord* record);
 StudyTable VibrationTable();
 
-/// Of recordings that move from `begin` to `end` [s], by one sample in ten:
-/// heading_rms and tilt_rms [rad] of the motion; nees of the attitude in its
-/// middle, mean over the runs, where 3 is right; inside, the share of the
-/// motion's samples within the ellipsoid that holds 99.73 %.
-AttitudeJudge MotionJudge(double begin, double end);
-StudyTable FreeRotationTable();
+/// Of recordings that move from `begin` to `end` [s]: heading_rms and tilt_rms
+/// [rad] of the motion; nees of the attitude in its middle, mean over the runs,
+/// where 3 is right; inside, the share of the motion's samples within the
+/// ellipsoid that holds 99.73 %.
+StudyTable RotationTable(double begin, double end);
 
 }  // namespace hindsight
 

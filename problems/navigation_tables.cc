@@ -11,6 +11,9 @@ double LargestMagnitude(const std::vector<double>& values) {
   return std::max(Largest(values), -Least(values));
 }
 
+double TotalMost(const PartErrors& part) { return Largest(part.Norms()); }
+double EndLevel(const PartErrors& part) { return part.Level().back(); }
+
 /// Over the rows of all runs.
 double RowNis(const RunCell& cell, const std::string&) {
   return Mean(cell.Values("nis_sum")) / Mean(cell.Values("nis_rows"));
@@ -51,14 +54,27 @@ StudyTable Cells(const std::vector<double>& leg_ends) {
   table.Add({SecondsFigure()});
   table.AddAxes({"max_mean", kMetres,
                  OfCurve(LargestMagnitude, SeriesFold::Mean), "position"});
-  table.Add({{"position_rms", kMetres, OfRuns(Rms)},
-             {"position_max", kMetres, OfRuns(Largest)},
-             {"end_horizontal", kMetres, OfRuns(Rms)},
-             {"heading_rms", kDegrees, OfRuns(Rms)},
-             {"attitude_rms", kDegrees, OfRuns(Rms)},
-             {"position_nees", kPlain, OfRuns(Mean)},
-             {"attitude_nees", kPlain, OfRuns(Mean)},
-             {"outside_5_sigma", kPlain, OfRuns(Mean)}});
+  const auto position = &StateErrors::position;
+  const auto attitude = &StateErrors::attitude;
+  table.Add(
+      {Measured("position_rms", kMetres, Rms, OfPart(position, TotalRms)),
+       Measured("position_max", kMetres, Largest, OfPart(position, TotalMost)),
+       Measured("end_horizontal", kMetres, Rms, OfPart(position, EndLevel)),
+       Measured("heading_rms", kDegrees, Rms,
+                [](const StateErrors& errors) { return Rms(errors.yaw); }),
+       Measured("attitude_rms", kDegrees, Rms, OfPart(attitude, TotalRms)),
+       Measured("position_nees", kPlain, Mean, OfPart(position, MeanNees)),
+       Measured("attitude_nees", kPlain, Mean, OfPart(attitude, MeanNees)),
+       Measured("outside_5_sigma", kPlain, Mean, [](const StateErrors& errors) {
+         return errors.ShareBeyond(5.0);
+       })});
+  for (int axis = 0; axis < 3; ++axis) {
+    table.series.emplace_back(
+        std::string("position_") + "ned"[axis],
+        [axis](const StateErrors& e) { return e.position.Component(axis); });
+  }
+  table.series.emplace_back("yaw", [](const auto& e) { return e.yaw; });
+  table.series.emplace_back("nees", [](const auto& e) { return e.nees; });
   table.curves = {{"std_n", kMetres, "position_n", kScatter},
                   {"std_e", kMetres, "position_e", kScatter},
                   {"std_d", kMetres, "position_d", kScatter},

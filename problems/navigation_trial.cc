@@ -6,15 +6,82 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "evaluation/grade.h"
+#include "evaluation/series_fold.h"
 #include "problems/method.h"
-#include "problems/navigation_judge.h"
 #include "problems/reconstruction.h"
 
 namespace hindsight {
 namespace {
+
+/// The nodes of a solution at those of `times` that it has, or all of them.
+std::vector<std::size_t> JudgedNodes(std::vector<double> times,
+                                     const Solution& solution) {
+  std::vector<double> own;
+  for (const State& x : solution.states) own.push_back(x.t);
+  if (times.empty()) times = own;
+  return MatchTimes(own, &times);
+}
+
+double LengthOf(const TruthSeries& truth) {
+  double length = 0.0;
+  std::optional<Eigen::Vector3d> before;
+  for (const TruthPoint& point : truth) {
+    if (before && point.p_e) length += (*point.p_e - *before).norm();
+    before = point.p_e;
+  }
+  return length;
+}
+
+/// The rules that lower the grade, and how many constants are wrong.
+void AddEvidence(const Dataset& dataset, const Solution& solution,
+                 RunRecord* record) {
+  std::set<std::string> rules;
+  for (const Evidence& evidence : solution.evidence) {
+    if (evidence.grade != Grade::kUsable) rules.insert(evidence.rule);
+  }
+  for (const std::string& rule : rules) {
+    record->values.emplace_back("rule:" + rule, 1.0);
+  }
+  double beyond = 0.0;
+  for (const ConstantEstimate& c : solution.constants) {
+    const auto truth = dataset.true_constants.find(c.name);
+    if (truth == dataset.true_constants.end()) continue;
+    if (std::abs(c.value - truth->second) > 5.0 * c.sigma) beyond += 1.0;
+  }
+  record->values.emplace_back("constants_beyond_5_sigma", beyond);
+}
+
+/// Into a cell, at those of `times` [s] that are nodes of the solution.
+StateErrors Judge(const Dataset& dataset, const std::vector<double>& times,
+                  const Solution& solution, RunRecord* record) {
+  static const StudyTable table = NavigationTables().at(kCells);
+  StateErrors errors =
+      ErrorsOf(dataset, solution.layout, solution.states, solution.covariances,
+               JudgedNodes(times, solution));
+  double nis = 0.0, rows = 0.0;
+  for (const ResidualRecord& residual : solution.residuals) {
+    if (!residual.accepted || residual.withheld) continue;
+    nis += residual.nis;
+    rows += static_cast<double>(residual.residual.size());
+  }
+  record->values = {{kSeconds, solution.seconds},
+                    {"nis_sum", nis},
+                    {"nis_rows", rows},
+                    {"states", static_cast<double>(errors.states)}};
+  record->grade = solution.grade;
+  record->failed = !solution.converged;
+  record->answered = solution.converged;
+  AddEvidence(dataset, solution, record);
+  table.Record(errors, record);
+  if (const auto end = record->Find("end_horizontal")) {
+    record->values.emplace_back("end_drift", *end / LengthOf(dataset.truth));
+  }
+  return errors;
+}
 
 void AddConstants(const Dataset& dataset, const Solution& solution,
                   const std::string& method, CaseRun* run) {
@@ -144,7 +211,7 @@ void AddBest(std::vector<Solution> solutions,
   record->Fail();
   if (solutions.empty()) return;
   ShareDisagreements(&solutions);
-  JudgeSolution(dataset, judged_times, Best(solutions), record);
+  Judge(dataset, judged_times, Best(solutions), record);
 }
 
 }  // namespace
@@ -174,11 +241,7 @@ Trial NavigationTrialOf(const NavigationTrial& trial) {
               solution = reconstruction->Sample(solution, options.node_times);
             }
             const StateErrors errors =
-                JudgeSolution(dataset, options.node_times, solution, record);
-            if (trial.length > 0.0 && record->Find("end_horizontal")) {
-              record->values.emplace_back(
-                  "end_drift", *record->Find("end_horizontal") / trial.length);
-            }
+                Judge(dataset, options.node_times, solution, record);
             AddConstants(dataset, solution, method, run);
             AddOutages(SpansOf(dataset, trial.silent_spans), errors,
                        solution.converged, method, run);

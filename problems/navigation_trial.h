@@ -33,9 +33,6 @@ struct NavigationTrial {
   /// at every node, each of which then needs truth [s].
   double judged_every = 0.0;
   double judged_to = std::numeric_limits<double>::infinity();  ///< [s]
-  /// Of the path [m]: every cell then has end_drift, the share of it that
-  /// end_horizontal is. Zero: not known.
-  double length = 0.0;
   /// Gets Reconstruction::Innovations, none where nothing held; nullptr: not
   /// asked for.
   std::vector<NormalisedInnovation>* innovations = nullptr;
@@ -59,17 +56,28 @@ inline constexpr std::size_t kOutages = 3;
 /// Every method on a recording: all of trajectories or all of attitude alone. A
 /// judged node without truth is an InputError.
 ///
-/// A cell holds what JudgeSolution puts into it (problems/navigation_judge.h).
+/// A cell holds grade, seconds, and what the table measures; beside it nis_sum
+/// and nis_rows (over the residuals used); states, dimension of the error;
+/// constants_beyond_5_sigma; rule:NAME, 1 for each rule of the grade
+/// (evaluation/grade.h) that lowers it; end_drift, the share of the true path's
+/// length that end_horizontal is. Of attitude alone the values and series of
+/// positions are absent.
 Trial NavigationTrialOf(const NavigationTrial& trial);
 
-/// The tables of such a study.
+/// The tables of such a study. Series: position_n, _e, _d, truth less estimate
+/// [m]; yaw [rad]; nees, e'P^-1e of the whole error state.
 ///   max_std_n, _e, _d    standard deviation over the runs, largest over time
 ///   legI_max_std_*       the same of leg I; legI_anees
 ///   end_std_*, yaw_std   at the last time; largest over time
 ///   anees                mean over time and runs; right is `states`
 ///   anees_outside        share of times outside of the two-sided 95 % bounds
 ///   nis                  a row's mean; right is 1
-/// and root mean squares, percentiles, grades, failures, seconds.
+///   position_rms, heading_rms, attitude_rms, position_max   over time and runs
+///   position_nees, attitude_nees   means; right is 3
+///   outside_5_sigma      share of times at which position or attitude lies
+///                        beyond 5 sigmas of a component
+///   end_horizontal       of the last position
+/// and percentiles, grades, failures, seconds.
 std::vector<StudyTable> NavigationTables(
     const std::vector<double>& leg_ends = {});
 

@@ -1,11 +1,9 @@
 #include "problems/papers/alignment_trial.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include "alignment/alignment_window.h"
 #include "base/error.h"
-#include "base/processor_time.h"
-#include "evaluation/state_errors.h"
 #include "evaluation/statistics.h"
 #include "problems/papers/attitude_limits.h"
 #include "problems/reconstruction.h"
@@ -14,9 +12,7 @@ namespace hindsight {
 namespace {
 
 /// The attitude of the last epoch of the window.
-StateErrors TryEarly(const Dataset& dataset, double t_early,
-                     RunRecord* record) {
-  const double t0 = ProcessorSeconds();
+StateErrors Early(const Dataset& dataset, double t_early) {
   AlignmentInput input{.dataset = dataset,
                        .t = dataset.imu.t_begin(),
                        .to = t_early,
@@ -30,75 +26,74 @@ StateErrors TryEarly(const Dataset& dataset, double t_early,
   input.gyro_sigma = dataset.initial.gyro_bias_sigma->maxCoeff();
   const auto found = AlignmentWindow(input, t_early).Align(0.0);
   if (!found || !found->refined) throw EstimationError("no alignment");
-  record->values = {{kSeconds, ProcessorSeconds() - t0}};
   const WindowSolution& window = *found->refined;
   return ErrorsOf(dataset, window.layout, window.states, window.P,
                   std::vector{window.states.size() - 1});
 }
 
-StateErrors TryBatch(const Dataset& dataset, RunRecord* record) {
-  const double t0 = ProcessorSeconds();
+StateErrors Batch(const Dataset& dataset) {
   const Solution solution = Solve(dataset, ReconstructionOptions{});
   if (!solution.converged) throw EstimationError(solution.verdict);
-  record->values = {{kSeconds, ProcessorSeconds() - t0}};
   return ErrorsOf(dataset, solution.layout, solution.states,
                   solution.covariances);
 }
 
-void Judge(const StateErrors& errors, RunRecord* record) {
-  auto& series = record->series;
-  record->t = errors.t;
-  series["nees"] = errors.attitude.nees;
-  std::vector<double> tilt_sigma, heading_sigma;
-  for (std::size_t k = 0; k < errors.t.size(); ++k) {
-    const Eigen::Vector3d& e = errors.attitude.e[k];
-    const Eigen::Vector3d& sigma = errors.attitude.sigma[k];
-    const double tilt = e.head<2>().norm(), heading = std::abs(e.z());
-    series["tilt"].push_back(tilt);
-    series["heading"].push_back(heading);
-    tilt_sigma.push_back(sigma.head<2>().norm());
-    heading_sigma.push_back(sigma.z());
-    if (errors.t[k] < errors.t.back() - kDecidingEnd) continue;
-    record->failed = record->failed || !kDivergedAttitude.Hold(tilt, heading);
-  }
-  record->values.insert(record->values.end(),
-                        {{"states", 3.0},
-                         {"tilt", Rms(series["tilt"])},
-                         {"heading", Rms(series["heading"])},
-                         {"tilt_sigma", Rms(tilt_sigma)},
-                         {"heading_sigma", Rms(heading_sigma)}});
+bool Diverged(const StateErrors& errors) {
+  const PartErrors last = errors.Within(
+      &StateErrors::attitude, {.from = errors.t.back() - kDecidingEnd});
+  const std::vector<double> heading = last.Down();
+  return !kDivergedAttitude.Hold(Largest(last.Level()),
+                                 std::max(Largest(heading), -Least(heading)));
+}
+
+/// Of what is stated.
+template <double (*rms)(const PartErrors&)>
+double Sigma(const PartErrors& part) {
+  return rms({part.sigma, {}, {}});
 }
 
 }  // namespace
 
+StudyTable AlignmentTable() {
+  constexpr auto kRms = SeriesFold::Rms;
+  const auto attitude = &StateErrors::attitude;
+  const auto measured = [&](const char* name, auto statistic) {
+    return Measured(name, kDegrees, Rms, OfPart(attitude, statistic));
+  };
+  StudyTable table = {"cells", {"method"}};
+  table.series = {{"tilt", [](const auto& e) { return e.attitude.Level(); }},
+                  {"heading", [](const auto& e) { return e.attitude.Down(); }},
+                  {"nees", [](const auto& e) { return e.attitude.nees; }}};
+  table.Add({FailedFigure(),
+             measured("tilt_rms", LevelRms),
+             {"tilt_worst", kDegrees, OfCurve(Largest, kRms), "tilt"},
+             measured("tilt_sigma", Sigma<LevelRms>),
+             measured("heading_rms", DownRms),
+             {"heading_worst", kDegrees, OfCurve(Largest, kRms), "heading"},
+             measured("heading_sigma", Sigma<DownRms>),
+             {"anees", kPlain, OfCurve(Mean, SeriesFold::Mean), "nees"}});
+  table.AddAneesBounds();
+  table.Add({{"anees_outside", kPlain, AneesOutside, "nees"}});
+  return table;
+}
+
 Trial AlignmentTrial(double t_early) {
   constexpr auto kEarly = "velocity_alignment";
   constexpr auto kBatch = "velocity_alignment_batch";
-  return {Named({kEarly, kBatch}), [=](const Dataset& recording, CaseRun* run) {
+  return {Named({kEarly, kBatch}), [=, table = AlignmentTable()](
+                                       const Dataset& recording, CaseRun* run) {
             Dataset dataset = recording;
             dataset.initial.alignment = AlignmentKind::kVelocity;
-            run->Try({kEarly}, [&](RunRecord* record) {
-              Judge(TryEarly(dataset, t_early, record), record);
-            });
-            run->Try({kBatch}, [&](RunRecord* record) {
-              Judge(TryBatch(dataset, record), record);
-            });
+            for (const char* method : {kEarly, kBatch}) {
+              run->Try({method}, [&](RunRecord* record) {
+                const StateErrors errors =
+                    method == kEarly ? Early(dataset, t_early) : Batch(dataset);
+                record->values = {{"states", 3.0}};
+                record->failed = Diverged(errors);
+                table.Record(errors, record);
+              });
+            }
           }};
-}
-
-StudyTable AlignmentTable() {
-  StudyTable table = {"cells", {"method"}};
-  table.Add({FailedFigure()});
-  for (const std::string angle : {"tilt", "heading"}) {
-    table.Add(
-        {{angle + "_rms", kDegrees, OfRuns(Rms), angle},
-         {angle + "_worst", kDegrees, OfCurve(Largest, SeriesFold::Rms), angle},
-         {angle + "_sigma", kDegrees, OfRuns(Rms)}});
-  }
-  table.Add({{"anees", kPlain, OfCurve(Mean, SeriesFold::Mean), "nees"}});
-  table.AddAneesBounds();
-  table.Add({{"anees_outside", kPlain, AneesOutside, "nees"}, SecondsFigure()});
-  return table;
 }
 
 }  // namespace hindsight

@@ -1,13 +1,12 @@
 #include "problems/papers/jump_comparison.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "base/processor_time.h"
 #include "dataset/timeline_builder.h"
 #include "evaluation/statistics.h"
-#include "evaluation/true_states.h"
 #include "filters/imm_smoother.h"
 #include "problems/position_imm.h"
 #include "problems/reconstruction.h"
@@ -15,44 +14,13 @@
 namespace hindsight {
 namespace {
 
-constexpr double kSettledAfter = 10.0;  // [s]
-
-/// Of one method into its record; `P` is over a layout whose first two
-/// components are the position north and east.
-void JudgeJumps(const Dataset& dataset, const std::vector<State>& states,
-                const CovarianceSeries& P, RunRecord* record) {
-  const std::vector<State> truth = TrueStates(dataset, ErrorLayout{}, states);
-  auto& series = record->series;
-  std::vector<double> position, velocity, nees;
-  for (std::size_t k = 0; k < states.size(); ++k) {
-    const State& x = states[k];
-    const Eigen::Vector2d e =
-        (x.C_en().transpose() * (truth[k].p_e - x.p_e)).head<2>();
-    const Eigen::Vector2d v = (truth[k].v_n() - x.v_n()).head<2>();
-    const Eigen::Matrix2d P_h = P.Get(k).topLeftCorner<2, 2>();
-    record->t.push_back(x.t);
-    series["position_n"].push_back(e.x());
-    series["position_e"].push_back(e.y());
-    series["velocity_n"].push_back(v.x());
-    series["velocity_e"].push_back(v.y());
-    series["nees_horizontal"].push_back(e.dot(P_h.llt().solve(e)));
-    if (x.t < kSettledAfter) continue;
-    position.push_back(e.norm());
-    velocity.push_back(v.norm());
-    nees.push_back(series["nees_horizontal"].back());
-  }
-  record->values.insert(record->values.end(),
-                        {{"position_rms", Rms(position) / std::sqrt(2.0)},
-                         {"velocity_rms", Rms(velocity) / std::sqrt(2.0)},
-                         {"anees_horizontal", Mean(nees)}});
+double AxisRms(const PartErrors& part) {
+  return LevelRms(part) / std::sqrt(2.0);
 }
 
-void KeepProbabilities(const ImmTrajectory& trajectory, RunRecord* record) {
-  for (const Eigen::VectorXd& modes : trajectory.probabilities) {
-    for (Eigen::Index j = 0; j < modes.size(); ++j) {
-      record->series["probability_" + std::to_string(j)].push_back(modes(j));
-    }
-  }
+const StudyTable& Table() {
+  static const StudyTable table = JumpTable();
+  return table;
 }
 
 /// The filters of the paper, on one timeline.
@@ -65,16 +33,24 @@ void TryPaper(const Dataset& dataset, CaseRun* run) {
   timeline_options.with_scale_jacobians = true;
   Timeline timeline = BuildTimeline(dataset, timeline_options);
   start.prior.x.t = timeline.node(0).t;
+  const PositionImmOptions both;
+  const ErrorLayout layout =
+      PositionImmModels(dataset, start, both).front().layout;
   const auto attempt = [&](const std::string& name, const auto& filter) {
     run->Try({name}, [&](RunRecord* record) {
       const double t0 = ProcessorSeconds();
       const ImmTrajectory trajectory = filter();
       record->values = {{kSeconds, ProcessorSeconds() - t0}};
-      JudgeJumps(dataset, trajectory.states, trajectory.P, record);
-      KeepProbabilities(trajectory, record);
+      Table().Record(ErrorsOf(dataset, layout, trajectory.states, trajectory.P),
+                     record);
+      for (const Eigen::VectorXd& modes : trajectory.probabilities) {
+        for (Eigen::Index j = 0; j < modes.size(); ++j) {
+          record->series["probability_" + std::to_string(j)].push_back(
+              modes(j));
+        }
+      }
     });
   };
-  const PositionImmOptions both;
   for (std::size_t i = 0; i < both.amplitudes.size(); ++i) {
     PositionImmOptions single = both;
     single.amplitudes = {both.amplitudes[i]};
@@ -99,7 +75,9 @@ void TryOurs(const Dataset& dataset, CaseRun* run) {
       if (!solution.converged) return record->Fail();
       // Modes may differ from seed to seed: no mean of them.
       record->values = {{kSeconds, solution.seconds}};
-      JudgeJumps(dataset, solution.states, solution.covariances, record);
+      Table().Record(ErrorsOf(dataset, solution.layout, solution.states,
+                              solution.covariances),
+                     record);
     });
   }
 }
@@ -108,20 +86,32 @@ void TryOurs(const Dataset& dataset, CaseRun* run) {
 
 StudyTable JumpTable() {
   constexpr Unit kSpeed = {"m/s", 1.0};
+  const TimeRange settled = {.from = 10.0};
+  const auto position = &StateErrors::horizontal;
+  const auto velocity = &StateErrors::horizontal_velocity;
   StudyTable table = {"cells", {"method"}};
-  table.Add({{"position_rms", kMetres, OfRuns(Rms)},
-             {"velocity_rms", kSpeed, OfRuns(Rms)},
-             {"anees_horizontal", kPlain, OfRuns(Mean)},
-             FailedFigure(),
-             SecondsFigure()});
-  table.curves = {
-      {"position_rms_n", kMetres, "position_n", SeriesFold::Rms},
-      {"position_rms_e", kMetres, "position_e", SeriesFold::Rms},
-      {"velocity_rms_n", kSpeed, "velocity_n", SeriesFold::Rms},
-      {"velocity_rms_e", kSpeed, "velocity_e", SeriesFold::Rms},
-      {"anees_horizontal", kPlain, "nees_horizontal", SeriesFold::Mean},
-      {"probability_0", kPlain, "probability_0", SeriesFold::Mean},
-      {"probability_1", kPlain, "probability_1", SeriesFold::Mean}};
+  table.Add({Measured("position_rms", kMetres, Rms,
+                      OfPart(position, AxisRms, settled)),
+             Measured("velocity_rms", kSpeed, Rms,
+                      OfPart(velocity, AxisRms, settled)),
+             Measured("anees_horizontal", kPlain, Mean,
+                      OfPart(position, MeanNees, settled)),
+             FailedFigure(), SecondsFigure()});
+  for (const int axis : {0, 1}) {
+    const std::string end = axis == 0 ? "_n" : "_e";
+    for (const auto& [name, unit, part] :
+         {std::tuple("position", kMetres, position),
+          {"velocity", kSpeed, velocity}}) {
+      const std::string quantity = name + end;
+      table.series.emplace_back(quantity, [axis, part = part](const auto& e) {
+        return (e.*part).Component(axis);
+      });
+      table.curves.push_back(
+          {name + ("_rms" + end), unit, quantity, SeriesFold::Rms});
+    }
+    const std::string mode = "probability_" + std::to_string(axis);
+    table.curves.push_back({mode, kPlain, mode, SeriesFold::Mean});
+  }
   return table;
 }
 

@@ -157,8 +157,8 @@ Case UuvSearch(const UuvReading& reading, const UuvTruth& path) {
       [path](std::uint64_t) { return path; });
 }
 
-Case MatchedSearch(const std::string& name, int epochs,
-                   const std::array<double, 2>& sigma) {
+Case MatchedSearch(const std::string& name, const std::array<double, 2>& sigma,
+                   int epochs) {
   const UuvReading reading = {.adds_velocity = false};
   const Sensors sensors = {MakeSensor(reading, kDvlProcess, sigma[0]),
                            MakeSensor(reading, kDvlProcess, sigma[1])};

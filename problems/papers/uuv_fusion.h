@@ -49,8 +49,8 @@ Case UuvSearch(const UuvReading& reading, const UuvTruth& path);
 /// The same, of that name, on states that move as the DVL's own A and Q say,
 /// drawn anew for each run, and both filters know it; H takes the position,
 /// `sigma` are the sensors' [m]. There nees judges the architecture alone.
-Case MatchedSearch(const std::string& name, int epochs,
-                   const std::array<double, 2>& sigma);
+Case MatchedSearch(const std::string& name, const std::array<double, 2>& sigma,
+                   int epochs = 1000);
 
 /// Figures, in columns reading and architecture: of the distance error over all
 /// epochs and runs, spatial (3-D) and horizontal (2-D), _mean and _std; nees,

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 
+#include "app/asked_methods.h"
 #include "app/command.h"
 #include "app/flags.h"
 #include "app/observer_flags.h"
@@ -181,10 +182,15 @@ NamedStudy Find(const std::vector<std::string>& arguments) {
                      name + "'" + Suggestion(name, names) + "; there is " +
                      Joined(names, ", "));
   }
-  return {arguments.front(),
-          "",
-          [arguments] { return ScenarioStudy(arguments); },
-          {"methods", "set", "sweep"}};
+  const auto study = [arguments] {
+    return StudyOf({arguments,
+                    {},
+                    Navigate({.methods = ReadTrajectoryMethods(FLAGS_methods),
+                              .judged_every = 1.0}),
+                    NavigationTables(),
+                    true});
+  };
+  return {arguments.front(), "", study, {"methods", "set", "sweep"}};
 }
 
 int Run(const std::vector<std::string>& arguments) {

@@ -1,70 +1,152 @@
 #include "app/studies.h"
 
-#include <algorithm>
-
+#include "app/observer_flags.h"
 #include "app/study_cases.h"
 #include "evaluation/statistics.h"
-#include "problems/navigation_trial.h"
+#include "problems/attitude_trial.h"
+#include "problems/papers/alignment_trial.h"
+#include "problems/papers/jump_comparison.h"
+#include "problems/papers/observer_comparison.h"
+#include "problems/papers/uuv_fusion.h"
 #include "simulation/free_rotation.h"
 #include "simulation/vibration_attitude.h"
 
 namespace hindsight {
 namespace {
 
-/// Both forms of the odometer; of the forward speed alone the methods that
-/// differ.
+const Axis kVelocityRates = {"aiding.velocity.rate", "10 Hz|1 Hz"};
+
 Study TunnelStudy() {
   const std::vector<double> leg_ends = {502.5, 1002.5, 1502.5, 2005.0};
-  const auto trial_of = [&](const Scenario&, const ScenarioChanges& changes) {
-    std::vector<std::string> methods = {"ekf", "two_filter", "iterated",
-                                        "batch"};
-    if (std::ranges::count(changes, "aiding.odometer.form=three_axis") > 0) {
-      methods.insert(methods.begin() + 2,
-                     {"two_filter_conventional", "two_filter_euler", "rts"});
-    }
-    return NavigationTrialOf({.methods = methods, .leg_ends = leg_ends});
-  };
-  return StudyOf({"tunnel_survey",
-                  {{"path", "winding"},
-                   {"noise", "sample"},
-                   {"aiding.odometer.form", "three_axis|forward"}},
-                  trial_of,
-                  NavigationTables(leg_ends)});
+  return StudyOf(
+      {{"tunnel_survey"},
+       {{"path", "winding"},
+        {"noise", "sample"},
+        {"aiding.odometer.form", "three_axis|forward"}},
+       Navigate({.methods = {"ekf", "two_filter", "two_filter_conventional",
+                             "two_filter_euler", "rts", "iterated", "batch"},
+                 .leg_ends = leg_ends}),
+       NavigationTables(leg_ends)});
 }
 
 /// Judged away from the ends, at times that have truth whatever the clocks.
 Study ConstantsStudy(const std::string& scenario) {
-  return StudyOf(
-      {scenario,
-       {},
-       OnAll(NavigationTrialOf({.methods = {"ekf", "rts", "iterated", "batch"},
-                                .judged_every = 10.0,
-                                .judged_to = 599.0})),
-       NavigationTables()});
-}
-
-double LengthOf(const Scenario& scenario) {
-  constexpr double kStep = 0.5;
-  const WayPointPath path(scenario.way_points);
-  double length = 0.0;
-  for (double t = 0.5 * kStep; t < path.duration(); t += kStep) {
-    length += kStep * path.At(t).v_n.norm();
-  }
-  return length;
+  return StudyOf({{scenario},
+                  {},
+                  Navigate({.methods = {"ekf", "rts", "iterated", "batch"},
+                            .judged_every = 10.0,
+                            .judged_to = 599.0}),
+                  NavigationTables()});
 }
 
 Study UuvSurveyStudy() {
   std::vector<StudyTable> tables = NavigationTables();
   tables[kCells].Add({{"end_drift", kPlain, OfRuns(Rms)}});
-  const auto trial_of = [](const Scenario& scenario, const ScenarioChanges&) {
-    return NavigationTrialOf({.methods = {"ekf", "two_filter", "rts", "batch"},
-                              .length = LengthOf(scenario)});
-  };
-  return StudyOf({"uuv_survey",
+  return StudyOf({{"uuv_survey"},
                   {{"path", "lawnmower|straight|returning"},
                    {"aids", "no fix|final fix|final fix, 120 s without DVL"}},
-                  trial_of,
+                  Navigate({.methods = {"ekf", "two_filter", "rts", "batch"}}),
                   tables});
+}
+
+/// From bad attitudes.
+Study InFlightStudy() {
+  return StudyOf({{"in_flight_alignment"},
+                  {kVelocityRates,
+                   {"start_errors.tilt", "10 deg|30 deg"},
+                   {"start_errors.heading", "30 deg|60 deg|120 deg|175 deg"}},
+                  OnAll(ObserverTrial(ReadObserverModels())),
+                  {ObserverTable()}});
+}
+
+/// The same flight, the IMU mounted at any attitude.
+Study VelocityAlignmentStudy() {
+  const Trial align = AlignmentTrial(20.0);
+  const Trial trial = {align.methods, [align](Dataset flight, CaseRun* run) {
+                         MountAnywhere(run->seed, &flight);
+                         align.run(flight, run);
+                       }};
+  return StudyOf({{"in_flight_alignment"},
+                  {kVelocityRates},
+                  OnAll(trial),
+                  {AlignmentTable()}});
+}
+
+Study GpsJumpsStudy() {
+  return StudyOf({{"gps_jumps"},
+                  {{"errors", "pulses|spikes|steps|ramp|multipath|none"},
+                   {"aiding.gnss.sigma", "1 m"},
+                   {"aiding.*.rate", "1 Hz"}},
+                  OnAll(JumpTrial()),
+                  {JumpTable()}});
+}
+
+/// The fusions of Lee and Yoon (2011) on that path.
+Study UuvSearchStudy() {
+  const WayPointPath path(FindScenario("uuv_survey").way_points);
+  UuvTruth truth;
+  for (double t = 0.0; t <= path.duration(); t += 1.0) {
+    const PathPoint at = path.At(t);
+    ErrorVector x(6);
+    x << at.p_n.x(), at.v_n.x(), at.p_n.y(), at.v_n.y(), at.p_n.z(), at.v_n.z();
+    truth.push_back(x);
+  }
+  Study study = {.tables = {FusionTable()}};
+  for (const UuvReading& reading : UuvReadings()) {
+    study.cases.push_back(UuvSearch(reading, truth));
+  }
+  study.cases.push_back(
+      MatchedSearch("matched: sensors of 9.8 m and 0.02 m", {9.8, 0.02}));
+  study.cases.push_back(
+      MatchedSearch("matched: two sensors of 9.8 m", {9.8, 9.8}));
+  return study;
+}
+
+using Simulator = std::function<Dataset(std::uint64_t seed)>;
+
+Study AttitudeStudy(const std::string& column, const StudyTable& table,
+                    const std::vector<std::pair<std::string, Simulator>>& cases,
+                    const Trial& trial) {
+  Study study = {.tables = {Under({column}, table)}};
+  for (const auto& [label, simulate] : cases) {
+    study.cases.push_back(
+        {{label}, [simulate = simulate] { return simulate; }, trial});
+  }
+  return study;
+}
+
+Study VibrationAttitudeStudy() {
+  std::vector<std::pair<std::string, Simulator>> cases;
+  const auto add = [&](const std::string& name,
+                       const VibrationAttitudeOptions& options) {
+    cases.emplace_back(name, [options](std::uint64_t seed) {
+      return SimulateVibrationAttitude(options, seed);
+    });
+  };
+  for (const std::string& axis : VibrationAxes()) {
+    add("acceleration along " + axis, {.axis = axis});
+  }
+  add("acceleration and vibration along north", {.vibration_along_axis = true});
+  return AttitudeStudy("disturbance", VibrationTable(), cases,
+                       AttitudeTrial(AccelerometerRules(), VibrationTable()));
+}
+
+/// With the field throughout, and with one that is of no use in motion.
+Study FreeRotationStudy() {
+  const auto disturbed_by = [](double disturbance) -> Simulator {
+    return [disturbance](std::uint64_t seed) {
+      FreeRotationOptions options = DrawFreeRotation(seed);
+      options.motion_disturbance = disturbance;
+      return SimulateFreeRotation(options, seed);
+    };
+  };
+  const StudyTable table = RotationTable(kFreeRotationBegin, kFreeRotationEnd);
+  return AttitudeStudy(
+      "field", table,
+      {{"throughout", disturbed_by(0.0)},
+       {"at rest alone", disturbed_by(60.0)}},
+      AttitudeTrial({{"ahrs", "ahrs"}, {"ahrs_smoother", "ahrs_smoother"}},
+                    table, 10));
 }
 
 }  // namespace
@@ -95,14 +177,14 @@ const std::vector<NamedStudy>& NamedStudies() {
        VelocityAlignmentStudy},
       {"gps_jumps", "filters and batches under errors of the positions",
        GpsJumpsStudy},
-      {kVibrationAttitudeName,
+      {"vibration_attitude",
        "the accelerometer rules of attitude-only estimation under\n"
        "acceleration and vibration, along north, one and all body\n"
        "axes, and up: attitude by interval, gyro bias, shares\n"
        "inside 3 sigma",
        VibrationAttitudeStudy,
        {}},
-      {kFreeRotationName,
+      {"free_rotation",
        "attitude alone over 20 net turns with scale factors of\n"
        "0.4 %, by a field that is seen throughout or at rest alone",
        FreeRotationStudy,

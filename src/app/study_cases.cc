@@ -5,11 +5,9 @@
 #include <memory>
 #include <set>
 
-#include "app/asked_methods.h"
 #include "app/flags.h"
 #include "io/read/paths.h"
 #include "io/read/units.h"
-#include "problems/navigation_trial.h"
 
 namespace hindsight {
 namespace {
@@ -82,88 +80,83 @@ std::vector<Axis> WithFlags(std::vector<Axis> axes) {
   return axes;
 }
 
-/// That knows when the scenario's sensors are silent.
-Trial ScenarioTrial(const std::vector<std::string>& methods,
-                    const Scenario& scenario) {
-  NavigationTrial trial = {.methods = methods, .judged_every = 1.0};
-  for (const AidingModel& model : scenario.aiding) {
-    for (const TimeSpan& outage : model.outages) {
-      trial.silent_spans.push_back(
-          {model.sensor.name, outage.begin, outage.end});
+/// A case to be, of changes of a scenario.
+struct Entry {
+  std::vector<std::string> labels;
+  ScenarioChanges changes;
+};
+
+/// Every value of the axis with every entry.
+std::vector<Entry> Crossed(const std::vector<Entry>& entries, const Axis& axis,
+                           const std::vector<std::string>& values) {
+  std::vector<Entry> crossed;
+  for (const Entry& entry : entries) {
+    for (const std::string& value : values) {
+      Entry& one = crossed.emplace_back(entry);
+      one.changes.push_back(axis.key + "=" + value);
+      if (values.size() > 1) one.labels.push_back(value);
     }
   }
-  return NavigationTrialOf(trial);
+  return crossed;
+}
+
+/// The scenario's motion is made once, for all seeds.
+Recording RecordingOf(const Scenario& scenario) {
+  const auto perfect = std::make_shared<const PerfectRecording>(scenario);
+  return [perfect](std::uint64_t seed) { return perfect->Realize(seed); };
 }
 
 }  // namespace
 
-TrialOf OnAll(const Trial& trial) {
-  return [trial](const Scenario&, const ScenarioChanges&) { return trial; };
+std::function<Trial(const Scenario&)> Navigate(const NavigationTrial& trial) {
+  return [trial](const Scenario& scenario) {
+    NavigationTrial own = trial;
+    for (const AidingModel& model : scenario.aiding) {
+      for (const TimeSpan& outage : model.outages) {
+        own.silent_spans.push_back(
+            {model.sensor.name, outage.begin, outage.end});
+      }
+    }
+    return NavigationTrialOf(own);
+  };
+}
+
+std::function<Trial(const Scenario&)> OnAll(const Trial& trial) {
+  return [trial](const Scenario&) { return trial; };
 }
 
 Study StudyOf(const ScenarioTrials& trials) {
-  struct Entry {
-    std::vector<std::string> labels;
-    ScenarioChanges changes;
-  };
   Study study;
-  std::vector<std::string> columns;
+  std::vector<std::string> columns, names;
+  if (trials.by_name) columns.emplace_back("scenario");
   std::vector<Entry> entries(1);
   for (const Axis& axis : WithFlags(trials.axes)) {
     const std::vector<std::string> values = ValuesOf(axis);
-    const bool is_column = values.size() > 1;
-    if (is_column) {
+    entries = Crossed(entries, axis, values);
+    if (values.size() > 1) {
       columns.push_back(axis.key);
     } else {
       study.settings.emplace_back(axis.key, values[0]);
     }
-    std::vector<Entry> more;
-    for (const Entry& entry : entries) {
-      for (const std::string& value : values) {
-        Entry& one = more.emplace_back(entry);
-        one.changes.push_back(axis.key + "=" + value);
-        if (is_column) one.labels.push_back(value);
-      }
-    }
-    entries = std::move(more);
   }
   for (const StudyTable& table : trials.tables) {
     study.tables.push_back(Under(columns, table));
   }
-  for (const Entry& entry : entries) {
-    const Scenario changed = FindScenario(trials.scenario, entry.changes);
-    study.cases.push_back({entry.labels,
-                           [changed] { return RecordingOf(changed); },
-                           trials.trial_of(changed, entry.changes)});
+  for (const std::string& name_or_path : trials.scenarios) {
+    for (const Entry& entry : entries) {
+      const Scenario changed = FindScenario(name_or_path, entry.changes);
+      std::vector<std::string> labels = entry.labels;
+      if (trials.by_name) labels.insert(labels.begin(), changed.name);
+      if (&entry == &entries.front()) names.push_back(changed.name);
+      study.cases.push_back({labels, [changed] { return RecordingOf(changed); },
+                             trials.trial_of(changed)});
+    }
+    if (std::ranges::count(names, names.back()) > 1) {
+      throw UsageError("two scenarios of the name '" + names.back() + "'");
+    }
   }
+  if (trials.by_name) study.name = Joined(names, ",");
   return study;
-}
-
-Study ScenarioStudy(const std::vector<std::string>& names_or_paths) {
-  const std::vector<std::string> methods = ReadTrajectoryMethods(FLAGS_methods);
-  Study all;
-  std::vector<std::string> names;
-  for (const std::string& file : names_or_paths) {
-    std::string& name = names.emplace_back();
-    const auto trial_of = [&](const Scenario& scenario,
-                              const ScenarioChanges&) {
-      name = scenario.name;
-      return ScenarioTrial(methods, scenario);
-    };
-    Study one = StudyOf({file, {}, trial_of, NavigationTables()});
-    if (std::ranges::count(names, name) > 1) {
-      throw UsageError("two scenarios of the name '" + name + "'");
-    }
-    for (Case& added : one.cases) {
-      added.labels.insert(added.labels.begin(), name);
-      all.cases.push_back(std::move(added));
-    }
-    all.settings = one.settings;
-    all.tables = one.tables;
-  }
-  for (StudyTable& table : all.tables) table = Under({"scenario"}, table);
-  all.name = Joined(names, ",");
-  return all;
 }
 
 ScenarioChanges ReadChanges() {
@@ -186,11 +179,6 @@ std::vector<std::filesystem::path> FilesOf(
     std::ranges::move(ScenarioFiles(name), std::back_inserter(files));
   }
   return files;
-}
-
-Recording RecordingOf(const Scenario& scenario) {
-  const auto perfect = std::make_shared<const PerfectRecording>(scenario);
-  return [perfect](std::uint64_t seed) { return perfect->Realize(seed); };
 }
 
 }  // namespace hindsight

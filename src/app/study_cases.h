@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/config/scenario_config.h"
-#include "problems/montecarlo.h"
+#include "problems/navigation_trial.h"
 
 namespace hindsight {
 
@@ -18,27 +18,24 @@ struct Axis {
   std::string values;
 };
 
-/// What is tried on the recordings of a scenario, and what was changed in it.
-using TrialOf = std::function<Trial(const Scenario& scenario,
-                                    const ScenarioChanges& changes)>;
-TrialOf OnAll(const Trial& trial);
-
-/// Trials on a scenario, every value of an axis with every one of the others,
-/// the last axis changing fastest.
+/// Trials on scenarios, every value of an axis with every one of the others, the
+/// last axis changing fastest.
 struct ScenarioTrials {
-  std::string scenario;  ///< name or path
+  std::vector<std::string> scenarios;  ///< names or paths
   std::vector<Axis> axes;
-  TrialOf trial_of;
+  std::function<Trial(const Scenario&)> trial_of;
   std::vector<StudyTable> tables;  ///< label columns of the cases go before
+  bool by_name = false;            ///< the scenario is a column as well
 };
 
-/// That comparison, which has no name yet, with --set and --sweep, which give an
-/// axis other values or add one. Throws UsageError, InputError.
-Study StudyOf(const ScenarioTrials& trials);
+/// NavigationTrialOf, which knows when the scenario's sensors are silent.
+std::function<Trial(const Scenario&)> Navigate(const NavigationTrial& trial);
+std::function<Trial(const Scenario&)> OnAll(const Trial& trial);
 
-/// Any scenarios that `simulate` takes, by the methods of --methods; a case
-/// each. Two of one name are one case.
-Study ScenarioStudy(const std::vector<std::string>& names_or_paths);
+/// That comparison with --set and --sweep, which give an axis other values or
+/// add one; of columns by name it has the name of all, else none. Throws
+/// UsageError, and for two scenarios of one name; InputError.
+Study StudyOf(const ScenarioTrials& trials);
 
 /// The changes of --set, each of one value. Throws UsageError.
 ScenarioChanges ReadChanges();
@@ -46,9 +43,6 @@ ScenarioChanges ReadChanges();
 /// The files that are read for arguments that name some.
 std::vector<std::filesystem::path> FilesOf(
     const std::vector<std::string>& names_or_paths);
-
-/// The scenario's motion is made once, for all seeds.
-Recording RecordingOf(const Scenario& scenario);
 
 }  // namespace hindsight
 

@@ -90,6 +90,32 @@ double AneesOutside(const RunCell& cell, const std::string& quantity) {
   return Mean(outside);
 }
 
+Measure OfPart(PartErrors StateErrors::*part,
+               double (*statistic)(const PartErrors&), const TimeRange& range) {
+  return [=](const StateErrors& errors) -> std::optional<double> {
+    if ((errors.*part).e.empty()) return std::nullopt;
+    return statistic(errors.Within(part, range));
+  };
+}
+
+Figure Measured(const std::string& name, const Unit& unit, Statistic over_runs,
+                const Measure& measure) {
+  return {name, unit, OfRuns(over_runs), "", true, measure};
+}
+
+void StudyTable::Record(const StateErrors& errors, RunRecord* record) const {
+  for (const Figure& figure : figures) {
+    if (!figure.measure) continue;
+    const std::optional<double> value = figure.measure(errors);
+    if (value) record->values.emplace_back(figure.name, *value);
+  }
+  record->t = errors.t;
+  for (const auto& [name, of] : series) {
+    record->series[name] = of(errors);
+    if (record->series[name].empty()) record->series.erase(name);
+  }
+}
+
 void StudyTable::Add(std::vector<Figure> more) {
   std::ranges::move(more, std::back_inserter(figures));
 }

@@ -14,6 +14,7 @@
 #include "base/chi_square.h"
 #include "base/units.h"
 #include "evaluation/series_fold.h"
+#include "evaluation/state_errors.h"
 #include "state/evidence.h"
 
 namespace hindsight {
@@ -51,14 +52,6 @@ struct RunRecord {
   }
   /// Absent of what the method does not tell.
   std::optional<double> Find(const std::string& name) const;
-};
-
-/// Closed span of time [s].
-struct TimeRange {
-  double from = -std::numeric_limits<double>::infinity();
-  double to = std::numeric_limits<double>::infinity();
-
-  bool Contains(double t) const { return t >= from && t <= to; }
 };
 
 /// All runs of one case and method. What is asked for and was never recorded is
@@ -111,6 +104,13 @@ Reduce OfRuns(Statistic statistic);
 Reduce OfCurve(Statistic over_time, SeriesFold::OverRuns over_runs,
                const TimeRange& range = {});
 
+/// A value of one run; absent where its errors do not tell it.
+using Measure = std::function<std::optional<double>(const StateErrors& errors)>;
+/// Of the part, which may be empty, within the range.
+Measure OfPart(PartErrors StateErrors::*part,
+               double (*statistic)(const PartErrors&),
+               const TimeRange& range = {});
+
 /// One figure of a table.
 struct Figure {
   std::string name;  ///< "max_std_n"
@@ -118,7 +118,11 @@ struct Figure {
   Reduce reduce;
   std::string quantity = {};  ///< "": that of its own name
   bool is_repeatable = true;  ///< false: not the same in an equal call
+  Measure measure = nullptr;  ///< of a run, as the value that is reduced
 };
+/// Of a value that is measured.
+Figure Measured(const std::string& name, const Unit& unit, Statistic over_runs,
+                const Measure& measure);
 
 /// Two-sided bounds of the average over the answered runs of a normalised squared
 /// error with as many degrees of freedom as their value `states`; NaN without.
@@ -140,7 +144,13 @@ struct StudyTable {
   std::vector<std::string> labels;  ///< columns, the method last
   std::vector<Figure> figures = {};
   std::vector<FigureCurve> curves = {};
+  /// Series of a run, at the times of its errors.
+  std::vector<std::pair<std::string, std::function<std::vector<double>(
+                                         const StateErrors& errors)>>>
+      series = {};
 
+  /// Adds what its figures measure and its series are.
+  void Record(const StateErrors& errors, RunRecord* record) const;
   void Add(std::vector<Figure> more);
   /// Of the series NAME_n, _e and _d, a figure each.
   void AddAxes(const Figure& figure);

@@ -1,6 +1,7 @@
 #include "evaluation/state_errors.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 #include "evaluation/statistics.h"
 #include "evaluation/true_states.h"
@@ -9,14 +10,23 @@
 namespace hindsight {
 namespace {
 
+/// The first `kDim` components of a block.
+template <int kDim>
 void Append(const ErrorLayout& layout, BlockKind kind, const ErrorVector& e,
             const ErrorMatrix& P, PartErrors* part) {
   const Block* block = layout.Find(kind);
-  if (block == nullptr || block->dim != 3) return;
-  const Eigen::Vector3d own = e.segment<3>(block->offset);
-  const Eigen::Matrix3d P_own = P.block<3, 3>(block->offset, block->offset);
-  part->e.push_back(own);
-  part->sigma.emplace_back(P_own.diagonal().cwiseSqrt());
+  if (block == nullptr ||
+      !std::all_of(block->active.begin(), block->active.begin() + kDim,
+                   [](bool active) { return active; })) {
+    return;
+  }
+  const int at = block->offset;
+  const Eigen::Vector<double, kDim> own = e.segment<kDim>(at);
+  const Eigen::Matrix<double, kDim, kDim> P_own = P.block<kDim, kDim>(at, at);
+  part->e.push_back(Eigen::Vector3d::Zero());
+  part->e.back().head<kDim>() = own;
+  part->sigma.push_back(Eigen::Vector3d::Zero());
+  part->sigma.back().head<kDim>() = P_own.diagonal().cwiseSqrt();
   part->nees.push_back(own.dot(P_own.llt().solve(own)));
 }
 
@@ -39,6 +49,12 @@ std::vector<double> PartErrors::Component(int axis) const {
   return values;
 }
 
+std::vector<double> PartErrors::Level() const {
+  std::vector<double> norms;
+  for (const Eigen::Vector3d& one : e) norms.push_back(one.head<2>().norm());
+  return norms;
+}
+
 double PartErrors::ShareInside(double sigmas) const {
   std::vector<double> inside;
   for (std::size_t k = 0; k < e.size(); ++k) {
@@ -47,6 +63,24 @@ double PartErrors::ShareInside(double sigmas) const {
     inside.push_back(static_cast<double>(count) / 3.0);
   }
   return Mean(inside);
+}
+
+double TotalRms(const PartErrors& part) { return Rms(part.Norms()); }
+double LevelRms(const PartErrors& part) { return Rms(part.Level()); }
+double DownRms(const PartErrors& part) { return Rms(part.Down()); }
+double MeanNees(const PartErrors& part) { return Mean(part.nees); }
+
+PartErrors StateErrors::Within(PartErrors StateErrors::*part,
+                               const TimeRange& range) const {
+  const PartErrors& all = this->*part;
+  PartErrors within;
+  for (std::size_t k = 0; k < all.e.size(); ++k) {
+    if (!range.Contains(t[k])) continue;
+    within.e.push_back(all.e[k]);
+    within.sigma.push_back(all.sigma[k]);
+    within.nees.push_back(all.nees[k]);
+  }
+  return within;
 }
 
 double StateErrors::ShareBeyond(double sigmas) const {
@@ -74,10 +108,12 @@ StateErrors ErrorsOf(const Dataset& dataset, const ErrorLayout& layout,
     const ErrorVector e = Local(layout, asked[i], truth[i]);
     const ErrorMatrix P_i = P.Get(numbers[i]);
     errors.t.push_back(truth[i].t);
-    Append(layout, BlockKind::kPosition, e, P_i, &errors.position);
-    Append(layout, BlockKind::kVelocity, e, P_i, &errors.velocity);
-    Append(layout, BlockKind::kAttitude, e, P_i, &errors.attitude);
-    Append(layout, BlockKind::kGyroBias, e, P_i, &errors.gyro_bias);
+    Append<3>(layout, BlockKind::kPosition, e, P_i, &errors.position);
+    Append<3>(layout, BlockKind::kAttitude, e, P_i, &errors.attitude);
+    Append<3>(layout, BlockKind::kGyroBias, e, P_i, &errors.gyro_bias);
+    Append<2>(layout, BlockKind::kPosition, e, P_i, &errors.horizontal);
+    Append<2>(layout, BlockKind::kVelocity, e, P_i,
+              &errors.horizontal_velocity);
     errors.yaw.push_back(
         WrapAngle(truth[i].euler().z() - asked[i].euler().z()));
     const Eigen::VectorXd e_known = e(known);

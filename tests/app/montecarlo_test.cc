@@ -108,8 +108,7 @@ TEST(MonteCarloScenarios, ValuesOfAKeyAreCases) {
             json["cells"][1]["position_rms_m"]);
 }
 
-/// An axis that a comparison brings: of the forward speed alone it runs the
-/// methods that differ.
+/// An axis that a comparison brings.
 TEST(MonteCarloScenarios, ACaseIsChosenByTheAxisOfAComparison) {
   const TemporaryFolder folder;
   const Outcome outcome =
@@ -124,7 +123,9 @@ TEST(MonteCarloScenarios, ACaseIsChosenByTheAxisOfAComparison) {
     EXPECT_FALSE(cell.contains("aiding.odometer.form"));
     methods.push_back(cell["method"]);
   }
-  EXPECT_THAT(methods, ElementsAre("ekf", "two_filter", "iterated", "batch"));
+  EXPECT_THAT(methods,
+              ElementsAre("ekf", "two_filter", "two_filter_conventional",
+                          "two_filter_euler", "rts", "iterated", "batch"));
 }
 
 TEST(MonteCarloScenarios, TheFolderOfAScenarioIsNotReplaced) {

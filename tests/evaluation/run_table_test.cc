@@ -111,6 +111,31 @@ TEST(StudyTable, FiguresAreByCellInOrderOfAppearance) {
   EXPECT_EQ(FigureOf(table, rows[1], "y"), std::nullopt);
 }
 
+TEST(StudyTable, MeasuresARunAndLeavesOutWhatItDoesNotTell) {
+  StateErrors errors;
+  errors.t = {0.0, 1.0, 2.0};
+  errors.attitude.e = {{3.0, 4.0, 0.0}, {0.0, 0.0, 2.0}, {0.0, 0.0, 5.0}};
+  errors.attitude.sigma.assign(3, Eigen::Vector3d::Ones());
+  errors.attitude.nees = {1.0, 2.0, 6.0};
+  const auto attitude = &StateErrors::attitude;
+  StudyTable table = {"cells", {"method"}};
+  table.Add({Measured("level", kPlain, Rms, OfPart(attitude, LevelRms)),
+             Measured("late", kPlain, Mean,
+                      OfPart(attitude, MeanNees, {.from = 0.5, .to = 1.5})),
+             Measured("place", kMetres, Rms,
+                      OfPart(&StateErrors::position, TotalRms))});
+  table.series = {{"down", [](const auto& e) { return e.attitude.Down(); }},
+                  {"north", [](const auto& e) { return e.position.Down(); }}};
+  RunRecord record;
+  table.Record(errors, &record);
+  EXPECT_DOUBLE_EQ(record.Find("level").value(), std::sqrt(25.0 / 3.0));
+  EXPECT_EQ(record.Find("late"), 2.0);
+  EXPECT_EQ(record.Find("place"), std::nullopt);
+  EXPECT_EQ(record.t, errors.t);
+  EXPECT_THAT(record.series.at("down"), ElementsAre(0.0, 2.0, 5.0));
+  EXPECT_FALSE(record.series.contains("north"));
+}
+
 TEST(StudyTable, AxesHaveAFigureEach) {
   StudyTable table = {"cells", {"method"}};
   table.AddAxes({"max", kMetres, OfRuns(Largest), "position"});

@@ -67,6 +67,21 @@ TEST(StateErrors, AreTruthLessEstimateAgainstTheirCovariance) {
   EXPECT_NEAR(errors.ShareBeyond(5.0), 1.0 / 3.0, 1e-12);
 }
 
+TEST(StateErrors, OfALayoutWithoutHeightAreHorizontal) {
+  const ErrorLayout full = NavigationLayout({});
+  ErrorLayout layout;
+  for (Block block : full.blocks()) {
+    if (block.key.kind == BlockKind::kPosition) block.active[2] = false;
+    layout.Add(block);
+  }
+  const StateErrors errors = ErrorsOf(
+      TruthAt({0.0}), layout, {Off(0.0, 1.0, 0.0)}, Equal(layout.dim(), 1));
+  EXPECT_TRUE(errors.position.e.empty());
+  EXPECT_NEAR(errors.horizontal.Component(0)[0], 1.0, 1e-6);
+  EXPECT_NEAR(errors.horizontal.nees[0], 4.0, 1e-5);
+  EXPECT_EQ(errors.attitude.e.size(), 1u);
+}
+
 TEST(StateErrors, AreOfTheStatesThatAreAsked) {
   const ErrorLayout layout = NavigationLayout({});
   const std::vector<State> states = {Off(0.0, 1.0, 0.0), Off(1.0, 2.0, 0.0),

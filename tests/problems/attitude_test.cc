@@ -131,7 +131,7 @@ TEST(AttitudeEstimation, SmncWithstandsVibration) {
                 {VibrationTable()},
                 {{{},
                   [&] { return recording; },
-                  AttitudeTrial(AccelerometerRules(), JudgeIntervals)}}},
+                  AttitudeTrial(AccelerometerRules(), VibrationTable())}}},
                {.runs = 20});
   const auto value = [&](const char* rule, const char* figure) {
     return result.Value({rule}, figure);
@@ -258,6 +258,7 @@ double HeadingError(const Dataset& dataset, const Solution& solution,
 TEST(AttitudeEstimation, TwentyTurnsWithAScaleErrorAreConsistent) {
   const int runs = testing::SeedCount(12, 100);
   constexpr std::uint64_t kFirstSeed = 501;
+  const StudyTable table = RotationTable(kFreeRotationBegin, kFreeRotationEnd);
   for (const double disturbance : {60.0, 0.0}) {
     const Recording recording = [disturbance](std::uint64_t seed) {
       FreeRotationOptions options = DrawFreeRotation(seed);
@@ -267,11 +268,11 @@ TEST(AttitudeEstimation, TwentyTurnsWithAScaleErrorAreConsistent) {
     const StudyResult result = RunStudy(
         {"",
          {},
-         {FreeRotationTable()},
+         {table},
          {{{},
            [&] { return recording; },
-           AttitudeTrial(AttitudeMethods(),
-                         MotionJudge(kFreeRotationBegin, kFreeRotationEnd))}}},
+           AttitudeTrial({{"ahrs", "ahrs"}, {"ahrs_smoother", "ahrs_smoother"}},
+                         table, 10)}}},
         {.runs = runs, .first_seed = kFirstSeed});
     for (const char* method : {"ahrs", "ahrs_smoother"}) {
       const auto value = [&](const char* figure) {

@@ -16,7 +16,9 @@ namespace {
 
 using Values = std::map<std::string, double>;
 
-Values Named(const RunValues& values) { return {values.begin(), values.end()}; }
+Values Named(const std::vector<std::pair<std::string, double>>& values) {
+  return {values.begin(), values.end()};
+}
 
 const PerfectRecording& Recording(double rate_hz) {
   static const PerfectRecording fast(InFlightAlignment());
@@ -176,8 +178,6 @@ TEST(Lyapunov, ADegreeOfStabilityWidensTheGuaranteedRadius) {
   EXPECT_EQ(kalman.at("radius_first"), 0.0);
   EXPECT_GT(stable.at("radius_first"), 1e-6 * kDegree);
   EXPECT_LT(stable.at("radius_first"), 30.0 * kDegree);
-  EXPECT_GE(stable.at("p_largest"), kalman.at("p_largest"));
-  EXPECT_LE(kalman.at("p_least"), 1.0);
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ TEST(UuvFusion, OnlyDoubleUseOfInformationIsInconsistent) {
   constexpr int kEpochs = 500;
   const StudyResult result =
       RunStudy({.tables = {FusionTable()},
-                .cases = {MatchedSearch("alike", kEpochs, {9.8, 9.8})}},
+                .cases = {MatchedSearch("alike", {9.8, 9.8}, kEpochs)}},
                {.runs = kRuns});
   for (const FusionArchitecture architecture : kFusionArchitectures) {
     const std::vector<std::string> labels = {"alike", FusionName(architecture)};
