@@ -86,7 +86,7 @@ class AttitudeEstimation final : public Estimation {
       const MagnetometerErrors& errors) const;
   Solution SolutionOf(const Pass& pass);
   /// What all headings share beside P: the magnetometer's stated a priori
-  /// sigmas, and which north the survey leaves open [rad].
+  /// sigmas, which north the survey leaves open, and the place (PlaceSigma) [rad].
   double SharedSigma(const FieldSurvey& survey) const;
   /// Down over horizontal part of the field that gives the heading as if the
   /// tilt were known; 0 if none does.
