@@ -163,6 +163,38 @@ class Liveliness {
   double usual_;
 };
 
+/// Whether white noise makes most of what a channel changes from row to row:
+/// its changes then differ from each other by more than their own size.
+bool IsWhite(const PagedVector<ImuSample>& samples, int channel) {
+  std::vector<double> changes;
+  std::vector<double> differences;
+  for (std::size_t k = 2; k < samples.size(); ++k) {
+    const double last =
+        ReadingOf(samples[k], channel) - ReadingOf(samples[k - 1], channel);
+    const double before =
+        ReadingOf(samples[k - 1], channel) - ReadingOf(samples[k - 2], channel);
+    changes.push_back(std::abs(last));
+    differences.push_back(std::abs(last - before));
+  }
+  return Median(std::move(differences)) > Median(std::move(changes));
+}
+
+/// Whether one axis is dead for the whole of a recording, where both others of
+/// its triad show noise.
+bool IsDeadAxis(const PagedVector<ImuSample>& samples,
+                const ChannelGroup& group,
+                const std::vector<EqualSamples>& runs) {
+  constexpr std::size_t kLeastRows = 100;
+  if (group.end - group.begin != 1 || runs.size() != 1) return false;
+  if (runs[0].begin != 0 || runs[0].end != samples.size()) return false;
+  if (samples.size() < kLeastRows) return false;
+  const int triad = group.begin - group.begin % 3;
+  for (int c = triad; c < triad + 3; ++c) {
+    if (c != group.begin && !IsWhite(samples, c)) return false;
+  }
+  return true;
+}
+
 /// With which a group is compared: the other axes of a triad, or the other
 /// triad.
 std::vector<Liveliness> BesidesOf(const PagedVector<ImuSample>& samples,
@@ -180,6 +212,7 @@ std::vector<Liveliness> BesidesOf(const PagedVector<ImuSample>& samples,
 void KeepRunsOfLiveChannels(const PagedVector<ImuSample>& samples,
                             const ChannelGroup& group,
                             std::vector<EqualSamples>* runs) {
+  if (IsDeadAxis(samples, group, *runs)) return;
   for (int c = group.begin; c < group.end && !runs->empty(); ++c) {
     const LiveChannel channel(samples, c);
     std::erase_if(*runs, [&channel](const EqualSamples& run) {

@@ -39,7 +39,9 @@ bool IsByChance(const std::vector<long>& rows, long length);
 /// one just before and after the run, while another axis of the triad (of a
 /// whole triad: of the other) goes on changing from row to row by half of its
 /// usual or more: a coarse axis at rest is not frozen. An axis that never
-/// changes is not judged. A mounting other than by right angles mixes the axes,
+/// changes is dead if white noise makes most of what both others of its triad
+/// change from row to row, and else not judged: two axes may have no sensor. A
+/// mounting other than by right angles mixes the axes,
 /// of which then none is seen to freeze alone.
 std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu);
 

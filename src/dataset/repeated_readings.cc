@@ -270,6 +270,12 @@ std::vector<Evidence> FindRepeatedReadings(const Dataset& dataset, double from,
     evidence.back().rule = rule;
   };
   add("frozen_imu", "imu", FindFrozenImu(dataset.imu));
+  if (!evidence.empty() && evidence.back().t_begin == dataset.imu.t_begin() &&
+      evidence.back().t_end == dataset.imu.t_end()) {
+    evidence.back().causes = {
+        "a sensor that is not connected, or a column of something else"};
+    evidence.back().remedies = {"the columns of the IMU"};
+  }
   if (const double share = StaleImuShare(dataset.imu);
       share >= kDoubtfulShare) {
     evidence.push_back(StaleEvidence("imu", share));

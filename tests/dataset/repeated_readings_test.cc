@@ -214,6 +214,26 @@ TEST(RepeatedReadings, FrozenImuIsDoubtfulWithinTheInterval) {
   EXPECT_NEAR(*evidence[0].value, 5.0, 0.02);
 }
 
+/// An axis that never read anything is named, unless it is one of two that have
+/// no sensor, or nothing shows noise.
+TEST(RepeatedReadings, AnAxisThatIsDeadFromTheFirstSampleIsNamed) {
+  Dataset dataset;
+  dataset.imu = Imu(100.0);
+  for (ImuSample& sample : dataset.imu.samples) sample.accel.y() = 0.0;
+  const auto evidence = FindRepeatedReadings(dataset, 0.0, 60.0);
+  ASSERT_EQ(evidence.size(), 1u);
+  EXPECT_EQ(evidence[0].rule, "frozen_imu");
+  EXPECT_EQ(evidence[0].grade, Grade::kDoubtful);
+  EXPECT_NE(evidence[0].what.find("accelerometer y of imu"), std::string::npos);
+  EXPECT_EQ(evidence[0].remedies[0], "the columns of the IMU");
+  for (ImuSample& sample : dataset.imu.samples) sample.accel.x() = 0.0;
+  EXPECT_TRUE(FindRepeatedReadings(dataset, 0.0, 60.0).empty());
+  for (ImuSample& sample : dataset.imu.samples) {
+    sample.accel = {std::sin(sample.t), 0.0, std::cos(sample.t)};
+  }
+  EXPECT_TRUE(FindRepeatedReadings(dataset, 0.0, 60.0).empty());
+}
+
 TEST(RepeatedReadings, FrozenPositionsAreDoubtfulUnlessTheVehicleRests) {
   Dataset dataset;
   dataset.imu = Imu(100.0);
