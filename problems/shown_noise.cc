@@ -86,8 +86,6 @@ std::vector<Explanation> ExplainByShownNoise(
       for (Explanation& one : found) {
         one.z /= excess;
         one.shift_that_matters = kDoubtfulError;
-          fprintf(stderr, "SH %s z %.2f/%.2f eff %.2f excess %.2f\n",
-                  one.what.c_str(), one.z, one.limit, one.effect, excess);
         one.what += ", if sigmas were what the innovations say";
       }
       return found;

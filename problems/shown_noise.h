@@ -11,14 +11,16 @@
 
 namespace hindsight {
 
-/// What would explain the innovations if the sigmas of the sensors whose
-/// innovations are smaller than stated by kDoubtfulError or more, beyond chance,
-/// were what the innovations say: multiplied by their root mean square, again
-/// until it is one. Sigmas that are far too large hide what is wrong with the IMU
-/// and the other sensors, and with them a state that is more than its own sigmas
-/// off. What matters is measured in these: Explanation::effect in sigmas of
-/// `solution`, as it is stated, of position, velocity and attitude. None where no
-/// sigma is too large. `innovations` are of `problem` as it is stated.
+/// What would explain the innovations if the sigmas of the sensors that state
+/// kDoubtfulError times what theirs say or more, beyond chance, were that small:
+/// their root mean square, or what the largest of them allows, again until it is
+/// one. Sigmas that are far too large hide what is wrong with the IMU and the
+/// other sensors. The innovations are then to be white as well: where sums of them
+/// are larger than chance explains, Explanation::z is divided by that excess. What
+/// matters is measured as it is stated: Explanation::effect in sigmas of
+/// `solution`, of position, velocity and attitude; beside other errors that are
+/// far smaller, errors of kDoubtfulError are a shift of as many sigmas. None where
+/// no sigma is too large. `innovations` are of `problem` as it is stated.
 std::vector<Explanation> ExplainByShownNoise(
     const Dataset& dataset, const Relinearised& solution,
     const std::vector<NormalisedInnovation>& innovations, double false_alarms,
