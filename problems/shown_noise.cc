@@ -56,6 +56,11 @@ Factors Overstated(const std::vector<NormalisedInnovation>& innovations,
 
 }  // namespace
 
+bool StateTooMuch(const std::vector<NormalisedInnovation>& innovations,
+                  double false_alarms) {
+  return !Overstated(innovations, false_alarms).empty();
+}
+
 std::vector<Explanation> ExplainByShownNoise(
     const Dataset& dataset, const Relinearised& solution,
     const std::vector<NormalisedInnovation>& innovations, double false_alarms,

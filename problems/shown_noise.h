@@ -11,6 +11,11 @@
 
 namespace hindsight {
 
+/// Whether a sensor states kDoubtfulError times what its innovations say, or more,
+/// beyond chance.
+bool StateTooMuch(const std::vector<NormalisedInnovation>& innovations,
+                  double false_alarms);
+
 /// What would explain the innovations if the sigmas of the sensors that state
 /// kDoubtfulError times what theirs say or more, beyond chance, were that small:
 /// their root mean square, or what the largest of them allows, again until it is
