@@ -72,53 +72,6 @@ void AttitudeEstimation::JudgeLeaps() {
   }
 }
 
-namespace {
-
-/// Any of six values is that far off by chance once in 2600 times.
-constexpr double kImuErrorStrained = 4.0;
-
-/// How far a value ends from what it started from, in what chance would move it:
-/// N(0, prior^2 - posterior^2), or a tenth of the prior if that is more.
-double SigmasLearned(const ConstantEstimate& one) {
-  constexpr double kLeast = 0.01;  // of the prior variance
-  const double prior = one.prior_sigma;
-  const double learned = std::sqrt(
-      std::max(prior * prior - one.sigma * one.sigma, kLeast * prior * prior));
-  return std::abs(one.value - one.prior_value) / learned;
-}
-
-/// Doubtful: errors of the IMU that end far from what is known of them.
-void JudgeImuErrors(const Solution& whole, std::vector<Evidence>* evidence) {
-  for (const ConstantEstimate& one : whole.constants) {
-    const bool of_gyros = one.name.starts_with("gyro_scale");
-    if (!of_gyros && !one.name.starts_with("accel_bias")) continue;
-    const double sigmas = SigmasLearned(one);
-    // What ends within what was known of it contradicts nothing.
-    if (!(sigmas > kImuErrorStrained) ||
-        std::abs(one.value - one.prior_value) < one.prior_sigma) {
-      continue;
-    }
-    evidence->push_back(
-        {.rule = "given_values",
-         .grade = Grade::kDoubtful,
-         .what = fmt::format("{} ends {:.2g} {} from its given value, {:.1f} "
-                             "times what chance would",
-                             one.name, std::abs(one.value - one.prior_value),
-                             one.unit, sigmas),
-         .value = sigmas,
-         .limit = kImuErrorStrained,
-         .unit = "sigma",
-         .causes = {of_gyros ? "a wrong unit, scale or clock of the gyros"
-                             : "accelerometers that are not calibrated",
-                    "an error that is not modelled and ends up there"},
-         .remedies = {of_gyros ? "the gyros' unit" : "their calibration",
-                      of_gyros ? "a larger imu.estimate.gyro_scale"
-                               : "a larger initial.accel_bias_sigma"}});
-  }
-}
-
-}  // namespace
-
 void AttitudeEstimation::JudgeAccelerometers(const Solution& whole) {
   constexpr double kConfidence = 0.9999;
   if (whole.covariances.empty()) return;
@@ -158,7 +111,6 @@ void AttitudeEstimation::JudgeAccelerometers(const Solution& whole) {
 
 void AttitudeEstimation::JudgeWhole(const Solution& whole) {
   JudgeLeaps();
-  JudgeImuErrors(whole, &evidence_);
   JudgeAccelerometers(whole);
 }
 
@@ -190,7 +142,6 @@ bool AttitudeEstimation::JudgeFilterByAll(
   JudgeWhole(whole);
   const bool vouched_for = Vouches(whole, innovations_, filtered);
   innovations_ = std::move(own);
-  if (!start) return vouched_for;
   const std::size_t before = evidence_.size();
   FindStrainedValues({.solution = whole, .sensors = sensors, .start = start},
                      &evidence_);

@@ -108,7 +108,7 @@ void JudgeMagneticClock(const MagnetometerErrors& found, const Sensor& sensor,
   }
   const double rate =
       std::sqrt(squares / static_cast<double>(imu.samples.size()));
-  if (!(sigmas > kStrained) ||
+  if (!(sigmas > StrainLimit(1)) ||
       !(std::abs(found.apparent_offset) * rate > kDoubtfulShift * sigma)) {
     return;
   }
@@ -121,7 +121,7 @@ void JudgeMagneticClock(const MagnetometerErrors& found, const Sensor& sensor,
            sensor.name, std::abs(found.apparent_offset),
            found.apparent_offset < 0.0 ? "earlier" : "later", sigmas),
        .value = sigmas,
-       .limit = kStrained,
+       .limit = StrainLimit(1),
        .unit = "sigma",
        .causes = {"a clock or delay of '" + sensor.name + "', or of the IMU"},
        .remedies = {"estimate.time_offset of '" + sensor.name + "'",

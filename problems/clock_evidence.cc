@@ -52,11 +52,26 @@ double SquaredDifference(const MarginalLikelihood& a,
 
 }  // namespace
 
+namespace {
+
+double ExcessOf(const MarginalLikelihood& chosen) {
+  return chosen.rows > 0.0 ? std::max(1.0, chosen.squares / chosen.rows) : 1.0;
+}
+
+}  // namespace
+
+double LogLikelihoodRatio(const Explained& rival, const Explained& chosen) {
+  const Dataset& dataset = chosen.stage.dataset();
+  const MarginalLikelihood a = LikelihoodBeside(dataset, chosen, rival);
+  const MarginalLikelihood b = LikelihoodBeside(dataset, rival, chosen);
+  return (b.log - a.log) / ExcessOf(a);
+}
+
 double LogEvidenceRatio(const Dataset& dataset, const Explained& rival,
                         const Explained& chosen) {
   const MarginalLikelihood a = LikelihoodBeside(dataset, chosen, rival);
   const MarginalLikelihood b = LikelihoodBeside(dataset, rival, chosen);
-  const double excess = a.rows > 0.0 ? std::max(1.0, a.squares / a.rows) : 1.0;
+  const double excess = ExcessOf(a);
   const double between = SquaredDifference(a, b);
   const double of_noise = excess * (a.imu_noise + b.imu_noise);
   const double of_motion = between > of_noise ? 1.0 - of_noise / between : 0.0;

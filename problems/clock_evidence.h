@@ -30,6 +30,10 @@ struct Explained {
 double LogEvidenceRatio(const Dataset& dataset, const Explained& rival,
                         const Explained& chosen);
 
+/// The same with r = 1, of two that make use of the same readings of the IMU at
+/// the same times.
+double LogLikelihoodRatio(const Explained& rival, const Explained& chosen);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_PROBLEMS_CLOCK_EVIDENCE_H_

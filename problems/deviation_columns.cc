@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <variant>
 
 #include "earth/wgs84.h"
@@ -38,7 +39,8 @@ bool Fits(const ErrorLayout& layout, BlockKind kind) {
 
 }  // namespace
 
-Eigen::Vector3d ImuDeviation::Of(const Eigen::Vector3d& reading) const {
+Eigen::Vector3d ImuDeviation::Of(const Eigen::Vector3d& reading,
+                                 const Eigen::Vector3d& rate) const {
   Eigen::Vector3d more = Eigen::Vector3d::Zero();
   const int next = (axis + 1) % 3, last = (axis + 2) % 3;
   switch (kind) {
@@ -52,6 +54,9 @@ Eigen::Vector3d ImuDeviation::Of(const Eigen::Vector3d& reading) const {
     case Kind::kTurned:
       more = Eigen::Vector3d::Unit(axis).cross(reading);
       break;
+    case Kind::kLate:
+      more = -rate;
+      break;
   }
   return more;
 }
@@ -64,6 +69,7 @@ std::span<const ImuDeviation> ImuDeviations() {
       {kExchanged, true, 0},  {kExchanged, true, 1},  {kExchanged, true, 2},
       {kExchanged, false, 0}, {kExchanged, false, 1}, {kExchanged, false, 2},
       {kTurned, false, 0},    {kTurned, false, 1},    {kTurned, false, 2},
+      {kLate, true, 0},
   };
   return kAll;
 }
@@ -196,10 +202,15 @@ ShiftColumns::Columns DeviationColumns::Driven(std::size_t k) const {
   // Readings at both ends, where the interval is short against what moves. Not
   // its mean: what the noise of the mean does is in the innovations too, and
   // would look like a scale.
-  const Kinematics& from = problem_.timeline.node(k - 1).kinematics;
-  const Kinematics& to = problem_.timeline.node(k).kinematics;
-  const Eigen::Vector3d w = 0.5 * (from.w_ib_b + to.w_ib_b);
-  const Eigen::Vector3d f = 0.5 * (from.f_b + to.f_b);
+  const Node& from = problem_.timeline.node(k - 1);
+  const Node& to = problem_.timeline.node(k);
+  const auto mean_and_rate = [&](const Eigen::Vector3d& begin,
+                                 const Eigen::Vector3d& end) {
+    return std::pair<Eigen::Vector3d, Eigen::Vector3d>(
+        0.5 * (begin + end), (end - begin) / (to.t - from.t));
+  };
+  const auto w = mean_and_rate(from.kinematics.w_ib_b, to.kinematics.w_ib_b);
+  const auto f = mean_and_rate(from.kinematics.f_b, to.kinematics.f_b);
   const auto Phi = tape_.Phi(k);
   for (std::size_t i = 0; i < deviations.size(); ++i) {
     const ImuDeviation& one = deviations[i];
@@ -207,7 +218,8 @@ ShiftColumns::Columns DeviationColumns::Driven(std::size_t k) const {
                                                  : BlockKind::kAccelBias);
     if (bias->dim != 3) continue;
     auto column = B.col(static_cast<Eigen::Index>(i));
-    column = Phi.middleCols(bias->offset, 3) * one.Of(one.of_gyros ? w : f);
+    const auto& [reading, rate] = one.of_gyros ? w : f;
+    column = Phi.middleCols(bias->offset, 3) * one.Of(reading, rate);
     column.segment<3>(bias->offset).setZero();
   }
   return {kImu, B};

@@ -31,13 +31,16 @@ struct ImuDeviation {
     kScale,      ///< the axis measures too much
     kExchanged,  ///< at size one the two others stand for each other
     kTurned,  ///< all three, about the axis, against those of the other triad
+    kLate,    ///< all three, by a second, against the other triad
   };
   Kind kind;
   bool of_gyros;
   int axis;
 
-  /// What a reading has too much, by the size of one.
-  Eigen::Vector3d Of(const Eigen::Vector3d& reading) const;
+  /// What a reading, which changes by `rate` a second, has too much, by the size
+  /// of one.
+  Eigen::Vector3d Of(const Eigen::Vector3d& reading,
+                     const Eigen::Vector3d& rate) const;
 };
 
 /// In the order of the columns of DeviationColumns::kImu.

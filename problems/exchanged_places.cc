@@ -7,9 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "base/error.h"
 #include "earth/wgs84.h"
-#include "evaluation/grade.h"
 #include "geometry/so3.h"
 #include "measurements/sensor_kind.h"
 #include "problems/rival_data.h"
@@ -124,30 +122,19 @@ std::optional<RivalSolution> RivalBy(const Exchange& one, double log_odds,
   words.description =
       "latitude and longitude of " + name + " stand for each other";
   words.remedy = "if so, lat and lon in the columns of " + name + " exchanged";
-  try {
-    ForwardStage stage(one.dataset, chosen->options(), one.start);
-    return SolveRival(log_odds + one.log_area, std::move(words), &stage,
-                      chosen);
-  } catch (const EstimationError&) {
-    return std::nullopt;  // what cannot be solved is no rival
-  }
+  ForwardStage stage(one.dataset, chosen->options(), one.start);
+  return SolveRival(log_odds + one.log_area, RivalReadings::kAtOtherTimes,
+                    std::move(words), &stage, chosen);
 }
 
 }  // namespace
 
 std::vector<RivalSolution> ExchangedPlaces(ForwardStage* chosen) {
-  std::vector<RivalSolution> rivals;
-  if (!IsAsked(chosen)) return rivals;
+  if (!IsAsked(chosen)) return {};
   const std::vector<Exchange> all = ExchangesOf(*chosen);
-  const double log_odds =
-      std::log(kDoubtfulRival * kFalseAlarms / static_cast<double>(all.size()));
-  for (const Exchange& one : all) {
-    auto rival = RivalBy(one, log_odds, chosen);
-    if (rival && rival->log_evidence >= std::log(kDoubtfulRival)) {
-      rivals.push_back(*std::move(rival));
-    }
-  }
-  return rivals;
+  return RareRivals(all.size(), [&](std::size_t i, double log_odds) {
+    return RivalBy(all[i], log_odds, chosen);
+  });
 }
 
 }  // namespace hindsight

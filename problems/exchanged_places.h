@@ -17,11 +17,7 @@ inline constexpr double kLongestOfExchanged = 300.0;
 /// hardly differs from; not sought where the heading turns by 90 deg, which gyros
 /// contradict. Solved from the mirrored start of `chosen`, which has
 /// run, and compared by LogEvidenceRatio, in metres of the places that were
-/// measured. Of a right model the evidence of another exceeds its own by a factor
-/// K with a probability below 1/K (Markov): beforehand an exchange is taken to be
-/// so rare that the rule `rival` calls all of them together doubtful with
-/// kFalseAlarms. Told are those that are so likely; the probabilities are not set
-/// yet.
+/// measured. Told are those of RareRivals; the probabilities are not set yet.
 std::vector<RivalSolution> ExchangedPlaces(ForwardStage* chosen);
 
 }  // namespace hindsight

@@ -16,7 +16,7 @@ void RaiseEffect(double effect, const std::string& component,
 }  // namespace
 
 void AddEffect(const std::vector<ErrorVector>& correction, double size,
-               const Relinearised& anew, const LinearTape& tape,
+               const Relinearised& anew, const LinearTape& tape, EffectOn on,
                Explanation* out) {
   const ErrorLayout& layout = tape.layout();
   const ErrorMatrix P_end = tape.P_plus(tape.size() - 1);
@@ -30,7 +30,7 @@ void AddEffect(const std::vector<ErrorVector>& correction, double size,
         }
       }
       effect /= static_cast<double>(correction.size());
-    } else if (P_end(c, c) > 0.0) {
+    } else if (on == EffectOn::kAll && P_end(c, c) > 0.0) {
       effect = correction.back()(c) * correction.back()(c) / P_end(c, c);
     }
     RaiseEffect(std::abs(size) * std::sqrt(effect), layout.ComponentName(c),

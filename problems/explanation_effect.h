@@ -9,10 +9,15 @@
 
 namespace hindsight {
 
+/// Which components an effect is looked for in: all, or position, velocity and
+/// attitude, of which alone Relinearised has the sigmas.
+enum class EffectOn { kAll, kNavigation };
+
 /// By what `size` times a correction of every epoch of `tape` moves the solution
-/// `anew`: into Explanation::effect where it is more than what is there.
+/// `anew`, of constants in the sigmas of the tape: into Explanation::effect where
+/// it is more than what is there.
 void AddEffect(const std::vector<ErrorVector>& correction, double size,
-               const Relinearised& anew, const LinearTape& tape,
+               const Relinearised& anew, const LinearTape& tape, EffectOn on,
                Explanation* out);
 
 /// The same of an IMU whose clock runs `size` [s/s] faster than all others from

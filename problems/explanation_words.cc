@@ -114,6 +114,10 @@ Words WordsOfImu(const ImuDeviation& deviation, double size) {
       return {fmt::format("the {}s are turned by {} about {} against the gyros",
                           triad, Amount(size, "rad"), axis),
               "order and signs of the IMU's columns"};
+    case ImuDeviation::Kind::kLate:
+      return {fmt::format("the {}s are {:.2g} s {} against the accelerometers",
+                          triad, std::abs(size), size > 0.0 ? "late" : "early"),
+              "the stamps of the IMU's columns, or a filter of one triad"};
   }
   return {};
 }

@@ -12,7 +12,6 @@
 #include "base/parallel.h"
 #include "filters/shift_response.h"
 #include "problems/deviation_columns.h"
-#include "problems/explanation_effect.h"
 #include "problems/explanation_words.h"
 
 namespace hindsight {
@@ -248,8 +247,8 @@ std::span<const StateScore> ExplanationSearch::state_scores() const {
 
 bool ExplanationSearch::found_any() const { return !found_->best.empty(); }
 
-std::vector<Explanation> ExplanationSearch::Tell(
-    const Relinearised& anew) const {
+std::vector<Explanation> ExplanationSearch::Tell(const Relinearised& anew,
+                                                 EffectOn on) const {
   const ShiftColumns columns = found_->own.Columns();
   const auto explain = [&](const LikelyDeviation& one) {
     const bool varies = !one.columns.empty();
@@ -273,10 +272,10 @@ std::vector<Explanation> ExplanationSearch::Tell(
     if (varies) {
       AddEffect(CorrectionForSteps(one.shift.group, one.columns, found_->onsets,
                                    one.steps, tape_, columns),
-                1.0, anew, tape_, &out);
+                1.0, anew, tape_, on, &out);
     } else {
       AddEffect(CorrectionFor(one.shift, tape_, columns), one.shift.size(),
-                anew, tape_, &out);
+                anew, tape_, on, &out);
     }
     if (!one.shift.of_state &&
         one.shift.group == DeviationColumns::kAllClocks) {

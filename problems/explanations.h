@@ -8,6 +8,7 @@
 #include "evaluation/explanation.h"
 #include "filters/linear_tape.h"
 #include "filters/mean_shift.h"
+#include "problems/explanation_effect.h"
 #include "problems/linearisation.h"
 #include "timeline/problem.h"
 
@@ -38,7 +39,8 @@ class ExplanationSearch {
   bool found_any() const;
   /// One of each sensor, of the IMU and of the state (Explanation), with what
   /// allowing for it does to the solution, whose variances are `anew`'s.
-  std::vector<Explanation> Tell(const Relinearised& anew) const;
+  std::vector<Explanation> Tell(const Relinearised& anew,
+                                EffectOn on = EffectOn::kAll) const;
   std::span<const StateScore> state_scores() const;
 
  private:

@@ -17,6 +17,7 @@
 #include "problems/explanations.h"
 #include "problems/judged_innovations.h"
 #include "problems/leave_one_out.h"
+#include "problems/shown_noise.h"
 
 namespace hindsight {
 namespace {
@@ -104,6 +105,12 @@ Fit JudgeFit(const Dataset& dataset, const Relinearised& solution,
           LeaveOneOut(dataset, solution, tape, SensorsOf(fit.figures),
                       fit.explanations, problem, callback);
       fit.contradiction->misfit = misfit;
+    }
+    // Without any sensor that states too much all fits as well: this blames none.
+    for (Explanation& one :
+         ExplainByShownNoise(dataset, solution, fit.innovations, kFalseAlarms,
+                             *problem, callback)) {
+      fit.explanations.push_back(std::move(one));
     }
     fit.tested = true;
   } catch (const EstimationError&) {

@@ -53,8 +53,8 @@ std::optional<RivalSolution> RivalWithout(const ImuDropOut& leap,
   rival.remedy = fmt::format(
       "if so, {:.3g} s less in the stamps of the IMU's later rows", leap.lost);
   rival.differences.push_back({"imu_clock_leap", leap.lost, "s"});
-  return SolveRival(-std::log(kLostForOneLeap), std::move(rival), &stage,
-                    chosen);
+  return SolveRival(-std::log(kLostForOneLeap), RivalReadings::kAtOtherTimes,
+                    std::move(rival), &stage, chosen);
 }
 
 }  // namespace

@@ -93,10 +93,11 @@ class Leaving {
     const ErrorMatrix before = problem_->prior.P;
     const ErrorVector off =
         Local(problem_->layout, problem_->prior.x, solution_.states.front());
+    const double limit = StrainLimit(static_cast<int>(off.size()));
     bool strained = false;
     for (int i = 0; i < off.size(); ++i) {
       const double variance = problem_->prior.P(i, i);
-      if (off(i) * off(i) <= kStrained * kStrained * variance) continue;
+      if (off(i) * off(i) <= limit * limit * variance) continue;
       problem_->prior.P(i, i) += kLoosened * kLoosened * off(i) * off(i);
       strained = true;
     }

@@ -14,7 +14,7 @@
 namespace hindsight {
 
 /// Leaves out each of some sensors in turn, and the a priori values, of start
-/// and constants together, that the solution ends kStrained sigmas from, about
+/// and constants together, that the solution ends StrainLimit sigmas from, about
 /// the states of a solution, of which `all` is the tape: without which one does
 /// all else fit, each test with kFalseAlarms? A
 /// sensor is not named where a deviation of the IMU or of a state is among

@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "evaluation/explanation.h"
+#include "evaluation/grade.h"
 #include "problems/clock_evidence.h"
 #include "problems/linearisation.h"
 
@@ -36,7 +38,8 @@ double DistanceBetween(const ErrorLayout& layout, const Relinearised& chosen,
 
 }  // namespace
 
-std::optional<RivalSolution> SolveRival(double log_odds, RivalSolution words,
+std::optional<RivalSolution> SolveRival(double log_odds, RivalReadings readings,
+                                        RivalSolution words,
                                         ForwardStage* rival,
                                         ForwardStage* chosen) {
   constexpr double kMostEvidence = 30.0;
@@ -50,9 +53,12 @@ std::optional<RivalSolution> SolveRival(double log_odds, RivalSolution words,
   };
   const std::vector<State>& first = rival->smoothed().states;
   const auto log_evidence = [&](const std::vector<State>& states) {
-    return LogEvidenceRatio(chosen->dataset(), {*rival, states},
-                            {*chosen, own.states}) +
-           log_odds;
+    const Explained of_rival = {*rival, states};
+    const Explained of_chosen = {*chosen, own.states};
+    return log_odds +
+           (readings == RivalReadings::kTheSame
+                ? LogLikelihoodRatio(of_rival, of_chosen)
+                : LogEvidenceRatio(chosen->dataset(), of_rival, of_chosen));
   };
   // Linearising anew costs more than the stage and seldom moves so far.
   if (is_near(first) || log_evidence(first) < -kHopeless) return std::nullopt;
@@ -61,6 +67,26 @@ std::optional<RivalSolution> SolveRival(double log_odds, RivalSolution words,
   words.log_evidence = std::min(kMostEvidence, log_evidence(other.states));
   words.final_state = other.states.back();
   return words;
+}
+
+std::vector<RivalSolution> RareRivals(
+    std::size_t count,
+    const std::function<std::optional<RivalSolution>(std::size_t i,
+                                                     double log_odds)>& solve) {
+  std::vector<RivalSolution> rivals;
+  const double log_odds =
+      std::log(kDoubtfulRival * kFalseAlarms / static_cast<double>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    try {
+      auto rival = solve(i, log_odds);
+      if (rival && rival->log_evidence >= std::log(kDoubtfulRival)) {
+        rivals.push_back(*std::move(rival));
+      }
+    } catch (const EstimationError&) {
+      continue;
+    }
+  }
+  return rivals;
 }
 
 }  // namespace hindsight

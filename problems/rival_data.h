@@ -1,22 +1,40 @@
 #ifndef HINDSIGHT_PROBLEMS_RIVAL_DATA_H_
 #define HINDSIGHT_PROBLEMS_RIVAL_DATA_H_
 
+#include <cstddef>
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "problems/forward_stage.h"
 #include "state/rival_solution.h"
 
 namespace hindsight {
 
+/// Whether a rival has readings of the IMU at other times than the chosen solution
+/// (LogEvidenceRatio), or the same (LogLikelihoodRatio).
+enum class RivalReadings { kAtOtherTimes, kTheSame };
+
 /// Solves `rival`, a stage of the recording as it may be instead, to its end and
-/// compares it with `chosen`, which has run, by LogEvidenceRatio and `log_odds`,
-/// what is known beforehand. Returns `words` with evidence, 30 at most, and end;
+/// compares it with `chosen`, which has run, by its evidence and `log_odds`, what
+/// is known beforehand. Returns `words` with evidence, 30 at most, and end;
 /// nothing where the position, velocity and attitude of both are less than a
 /// standard deviation apart, in the root mean square over the nodes of both, or
 /// where the rival is hopeless. Throws EstimationError where it cannot be solved.
-std::optional<RivalSolution> SolveRival(double log_odds, RivalSolution words,
+std::optional<RivalSolution> SolveRival(double log_odds, RivalReadings readings,
+                                        RivalSolution words,
                                         ForwardStage* rival,
                                         ForwardStage* chosen);
+
+/// Of `count` recordings as they may be instead, each by `solve` (SolveRival) with
+/// ln of the odds beforehand, those that the rule `rival` would tell. Of a right
+/// model the evidence of another exceeds its own by a factor K with a probability
+/// below 1/K (Markov): they are taken to be so rare that the rule calls all of them
+/// together doubtful with kFalseAlarms. What cannot be solved is no rival.
+std::vector<RivalSolution> RareRivals(
+    std::size_t count,
+    const std::function<std::optional<RivalSolution>(std::size_t i,
+                                                     double log_odds)>& solve);
 
 }  // namespace hindsight
 

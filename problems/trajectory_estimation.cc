@@ -18,6 +18,7 @@
 #include "problems/clock_choice.h"
 #include "problems/disagreement.h"
 #include "problems/estimation.h"
+#include "problems/exchanged_axes.h"
 #include "problems/exchanged_places.h"
 #include "problems/forward_stage.h"
 #include "problems/imu_leaps.h"
@@ -120,9 +121,11 @@ class TrajectoryEstimation final : public Estimation {
   const std::vector<RivalSolution>& OtherData() {
     if (!other_data_) {
       other_data_ = ImuLeaps(&forward_);
-      const std::vector<RivalSolution> exchanged = ExchangedPlaces(&forward_);
-      other_data_->insert(other_data_->end(), exchanged.begin(),
-                          exchanged.end());
+      for (const auto exchanged : {ExchangedPlaces, ExchangedAxes}) {
+        for (RivalSolution& rival : exchanged(&forward_)) {
+          other_data_->push_back(std::move(rival));
+        }
+      }
     }
     return *other_data_;
   }

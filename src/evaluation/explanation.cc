@@ -8,7 +8,7 @@ void FindBetterExplanation(const Judged& judged,
                            std::vector<Evidence>* evidence) {
   const Explanation* best = nullptr;
   for (const Explanation& one : judged.explanations) {
-    if (one.z < one.limit || one.effect < kDoubtfulShift) continue;
+    if (one.z < one.limit || one.effect < one.shift_that_matters) continue;
     if (best == nullptr || one.z / one.limit > best->z / best->limit) {
       best = &one;
     }

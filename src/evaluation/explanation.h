@@ -9,6 +9,10 @@
 
 namespace hindsight {
 
+/// Errors are sqrt(1 + 1) times as large as stated beside such a shift
+/// (kDoubtfulError) [sigma].
+inline constexpr double kDoubtfulShift = 1.0;
+
 /// A deviation from the stated model that explains the innovations better than
 /// chance does: of one sensor, or of the IMU, the likeliest of those that move
 /// the solution by kDoubtfulShift, or of all if none does.
@@ -24,17 +28,14 @@ struct Explanation {
   /// the interval, of the component with most; of constants at the end [sigma].
   double effect = 0.0;
   std::string component;
+  double shift_that_matters = kDoubtfulShift;  ///< of `effect`
 };
 
-/// Doubtful: a solution that an explanation beyond its limit moves by
-/// kDoubtfulShift or more. Only the one farthest beyond its limit is told:
+/// Doubtful: a solution that an explanation beyond its limit moves by what
+/// matters or more. Only the one farthest beyond its limit is told:
 /// the others are often its shadows.
 void FindBetterExplanation(const Judged& judged,
                            std::vector<Evidence>* evidence);
-
-/// Errors are sqrt(1 + 1) times as large as stated beside such a shift
-/// (kDoubtfulError) [sigma].
-inline constexpr double kDoubtfulShift = 1.0;
 
 }  // namespace hindsight
 

@@ -4,108 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "base/chi_square.h"
+#include "evaluation/value_origin.h"
 
 namespace hindsight {
 namespace {
 
 constexpr double kAtTheStart = 1e-6;  // [s]
-
-/// Where a component of the start came from.
-struct Origin {
-  bool given = true;      ///< by the configuration
-  std::string key;        ///< that says the value, or would
-  std::string sigma_key;  ///< that says how well it is known
-  /// What the component is away from, where that is no value that was given.
-  std::string instead;
-};
-
-Origin OfStart(bool given, const std::string& key) {
-  return {given, "initial." + key, "initial." + key + "_sigma", ""};
-}
-
-/// A bias whose sigma alone is given begins at zero.
-Origin OfBias(bool given, const std::string& key, const Eigen::Vector3d& bias) {
-  Origin origin = OfStart(given, key);
-  if (bias.isZero()) {
-    origin.instead = "zero, as no " + origin.key + " is given";
-  }
-  return origin;
-}
-
-/// The word of a configuration for a constant of a sensor.
-const char* WordOf(BlockKind kind) {
-  switch (kind) {
-    case BlockKind::kScale:
-      return "scale";
-    case BlockKind::kMounting:
-      return "mounting";
-    case BlockKind::kLeverArm:
-      return "lever_arm";
-    case BlockKind::kTimeOffset:
-      return "time_offset";
-    case BlockKind::kOffset:
-      return "offset";
-    case BlockKind::kHardIron:
-      return "hard_iron";
-    case BlockKind::kDeclination:
-      return "declination";
-    default:
-      return nullptr;
-  }
-}
-
-Origin OfSensor(const Judged& judged, const Block& block) {
-  const auto i = static_cast<std::size_t>(block.key.sensor);
-  if (i >= judged.sensors.size()) return {true, block.name, block.name, ""};
-  const Sensor& sensor = judged.sensors[i];
-  const std::string stream = "aiding." + sensor.name;
-  const char* word = WordOf(block.key.kind);
-  if (block.key.kind == BlockKind::kBias ||
-      block.key.kind == BlockKind::kGroundBias) {
-    const std::string key =
-        stream +
-        (block.key.kind == BlockKind::kBias ? ".bias" : ".ground_bias") +
-        ".sigma";
-    return {true, key, key, ""};
-  }
-  if (word == nullptr) return {true, stream, stream, ""};
-  // A mounting that the direction of travel has turned is the program's own.
-  const bool found =
-      block.key.kind == BlockKind::kMounting &&
-      !judged.start->x.parameters.segment<3>(block.parameter_offset).isZero();
-  return {!found, stream + "." + word, stream + ".estimate." + word, ""};
-}
-
-Origin OriginOf(const Judged& judged, const Block& block, int axis) {
-  const InitialState& given = judged.start->given;
-  switch (block.key.kind) {
-    case BlockKind::kPosition:
-      return OfStart(given.position.has_value(), "position");
-    case BlockKind::kVelocity:
-      return OfStart(given.v_n.has_value(), "velocity");
-    case BlockKind::kAttitude:
-      if (given.heading && axis == 2) {
-        return {true, "initial.heading", "initial.attitude_sigma", ""};
-      }
-      return OfStart(given.euler.has_value(), "attitude");
-    case BlockKind::kGyroBias:
-      return OfBias(given.gyro_bias_sigma.has_value() &&
-                        judged.start->x.b_g == given.gyro_bias,
-                    "gyro_bias", given.gyro_bias);
-    case BlockKind::kAccelBias:
-      return OfBias(given.accel_bias_sigma.has_value(), "accel_bias",
-                    given.accel_bias);
-    case BlockKind::kGyroScale:
-    case BlockKind::kAccelScale:
-      return {true, "imu.estimate." + block.name, "imu.estimate." + block.name,
-              ""};
-    default:
-      return OfSensor(judged, block);
-  }
-}
 
 /// How the program came by a start value of its own.
 std::string OwnSource(const StartValues& start, BlockKind kind) {
@@ -119,8 +28,9 @@ std::string OwnSource(const StartValues& start, BlockKind kind) {
   }
 }
 
-Evidence Strain(const Judged& judged, const Origin& origin, const Block& block,
-                const std::string& component, double sigmas, double limit) {
+Evidence Strain(const Judged& judged, const ValueOrigin& origin,
+                const Block& block, const std::string& component, double sigmas,
+                double limit) {
   const bool constant = block.evolution.is_constant();
   Evidence e{.grade = Grade::kDoubtful,
              .what = component + (constant ? " is " : " at the start is "),
@@ -155,35 +65,51 @@ Evidence Strain(const Judged& judged, const Origin& origin, const Block& block,
 
 /// Of a gyro bias that was given with its sigma, which the start may have
 /// combined with what the data say: how far the solution is from what was
-/// given, in the given sigma. Zero of all else.
-double StrainOfGiven(const Judged& judged, const Block& block, int axis,
-                     const State& x) {
+/// given. None of all else.
+std::optional<double> StrainOfGiven(const Judged& judged, const Block& block,
+                                    int axis, const State& x, double variance) {
   const InitialState& given = judged.start->given;
   if (block.key.kind != BlockKind::kGyroBias || !given.gyro_bias_sigma) {
-    return 0.0;
+    return std::nullopt;
   }
-  return std::abs(x.b_g(axis) - given.gyro_bias(axis)) /
-         (*given.gyro_bias_sigma)(axis);
+  const double sigma = (*given.gyro_bias_sigma)(axis);
+  return StrainOf(x.b_g(axis) - given.gyro_bias(axis), sigma * sigma, variance);
 }
 
 /// A value that is held against what it started from.
 struct Strained {
   const Block& block;
-  Origin origin;
+  ValueOrigin origin;
   std::string component;
   double sigmas = 0.0;
   double value = 0.0;  ///< away from the start
 };
 
+/// Of each component at an epoch; zero where nothing is known.
+ErrorVector VariancesAt(const Solution& solution, std::size_t k) {
+  if (solution.covariances.empty()) {
+    return ErrorVector::Zero(solution.layout.dim());
+  }
+  return solution.covariances.Get(k).diagonal();
+}
+
+/// None of an observer, P of which weighs nothing against its start.
 std::vector<Strained> AllStrained(const Judged& judged) {
   const Solution& solution = judged.solution;
+  if (!judged.start || solution.observer ||
+      solution.layout.dim() != judged.start->P.rows()) {
+    return {};
+  }
   const StartValues& start = *judged.start;
   const bool from_start =
       std::abs(solution.states.front().t - start.x.t) <= kAtTheStart;
+  const std::size_t end = solution.states.size() - 1;
   const ErrorVector first =
       Local(solution.layout, start.x, solution.states.front());
   const ErrorVector last =
-      Local(solution.layout, start.x, solution.states.back());
+      Local(solution.layout, start.x, solution.states[end]);
+  const ErrorVector first_variances = VariancesAt(solution, 0);
+  const ErrorVector last_variances = VariancesAt(solution, end);
   std::vector<Strained> all;
   for (const Block& block : solution.layout.blocks()) {
     const bool constant = block.evolution.is_constant();
@@ -193,20 +119,53 @@ std::vector<Strained> AllStrained(const Judged& judged) {
     for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {
       if (!block.active[static_cast<std::size_t>(axis)]) continue;
       const double off = constant ? last(i) : first(i);
+      const double variance = constant ? last_variances(i) : first_variances(i);
       const std::string name = solution.layout.ComponentName(i);
-      all.push_back({block, OriginOf(judged, block, axis), name,
-                     std::abs(off) / std::sqrt(start.P(i, i)), off});
-      const double of_given = StrainOfGiven(
-          judged, block, axis,
-          constant ? solution.states.back() : solution.states.front());
-      if (of_given > 0.0 && !all.back().origin.given) {
-        all.push_back({block, OfBias(true, "gyro_bias", start.given.gyro_bias),
-                       name, of_given, off});
+      const ValueOrigin origin = OriginOf(judged, block, axis);
+      all.push_back({block, origin, name,
+                     origin.given ? StrainOf(off, start.P(i, i), variance)
+                                  : std::abs(off) / std::sqrt(start.P(i, i)),
+                     off});
+      const std::optional<double> of_given = StrainOfGiven(
+          judged, block, axis, solution.states[constant ? end : 0], variance);
+      if (of_given && !origin.given) {
+        all.push_back(
+            {block, OriginOfGivenGyroBias(start.given), name, *of_given, off});
       }
       ++i;
     }
   }
   return all;
+}
+
+/// Those that the method has beside its states.
+std::vector<const ConstantEstimate*> ConstantsBeside(const Solution& solution) {
+  std::set<std::string> states;
+  for (int i = 0; i < solution.layout.dim(); ++i) {
+    states.insert(solution.layout.ComponentName(i));
+  }
+  std::vector<const ConstantEstimate*> beside;
+  for (const ConstantEstimate& one : solution.constants) {
+    if (one.prior_sigma > 0.0 && !states.contains(one.name)) {
+      beside.push_back(&one);
+    }
+  }
+  return beside;
+}
+
+Evidence Strain(const ConstantEstimate& one, double sigmas, double limit) {
+  const ValueOrigin origin = OriginOf(one);
+  return {
+      .grade = Grade::kDoubtful,
+      .what = fmt::format("{} ends {:.2g} {} from its given value, {:.1f} "
+                          "times what chance would",
+                          one.name, std::abs(one.value - one.prior_value),
+                          one.unit, sigmas),
+      .value = sigmas,
+      .limit = limit,
+      .unit = "sigma",
+      .causes = {origin.key, "an error that is not modelled and ends up there"},
+      .remedies = {origin.key, "a larger " + origin.sigma_key}};
 }
 
 }  // namespace
@@ -216,18 +175,24 @@ double StrainLimit(int count) {
       ChiSquareQuantile(1.0 - kFalseAlarms / std::max(count, 1), 1.0));
 }
 
+double StrainOf(double off, double prior_variance, double variance) {
+  constexpr double kLeast = 0.01;  // of the prior variance
+  if (off * off <= prior_variance) return 0.0;
+  return std::abs(off) / std::sqrt(std::max(prior_variance - variance,
+                                            kLeast * prior_variance));
+}
+
 void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence) {
-  const Solution& solution = judged.solution;
-  // P of an observer weighs nothing against its start.
-  if (!judged.start || solution.observer ||
-      solution.layout.dim() != judged.start->P.rows()) {
-    return;
-  }
   const std::vector<Strained> all = AllStrained(judged);
-  const double of_given = StrainLimit(static_cast<int>(std::ranges::count_if(
-      all, [](const Strained& one) { return one.origin.given; })));
+  const std::vector<const ConstantEstimate*> beside =
+      ConstantsBeside(judged.solution);
+  const auto given = std::ranges::count_if(
+      all, [](const Strained& one) { return one.origin.given; });
+  const double of_given =
+      StrainLimit(static_cast<int>(given + std::ssize(beside)));
+  const double of_own = StrainLimit(static_cast<int>(std::ssize(all) - given));
   for (const Strained& one : all) {
-    const double limit = one.origin.given ? of_given : kStrained;
+    const double limit = one.origin.given ? of_given : of_own;
     if (!(one.sigmas > limit)) continue;
     evidence->push_back(Strain(judged, one.origin, one.block, one.component,
                                one.sigmas, limit));
@@ -236,6 +201,14 @@ void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence) {
       evidence->back().causes = {"a speed of the wrong sign"};
       evidence->back().remedies = {
           "a leading \"-\" before its column under `columns`"};
+    }
+  }
+  for (const ConstantEstimate* one : beside) {
+    const double sigmas =
+        StrainOf(one->value - one->prior_value,
+                 one->prior_sigma * one->prior_sigma, one->sigma * one->sigma);
+    if (sigmas > of_given) {
+      evidence->push_back(Strain(*one, sigmas, of_given));
     }
   }
 }

@@ -7,22 +7,24 @@
 
 namespace hindsight {
 
-/// Sigmas a priori beyond which a value contradicts what it started from, where
-/// that comes from the same data and no law is known of it.
-inline constexpr double kStrained = 5.0;
-
-/// The same of `count` values that were given beside the data: of right sigmas
-/// any of them lies beyond it with kFalseAlarms or less (Bonferroni), as the
-/// difference is normal with the variance of the prior less that of the solution.
+/// How many sigmas one of `count` independent normal values lies off by chance
+/// with kFalseAlarms, or less (Bonferroni).
 double StrainLimit(int count);
 
+/// By how many times what chance would move it by a value ends `off` what it
+/// started from: of right sigmas that is normal with the variance of the prior
+/// less that of the solution, of which a hundredth of the prior's is taken at
+/// least. Zero within the sigma of the prior: what ends there contradicts nothing.
+double StrainOf(double off, double prior_variance, double variance);
+
 /// Doubtful: a start value, or a constant, that ends far from what it started
-/// from, in a priori sigmas. If the configuration gave it, from StrainLimit of
-/// all that it gave on: that is a wrong value, sign, unit or clock, or too small
-/// a sigma. If the program chose it, from kStrained on, which chance does once
-/// in two million times: its own sigma was wrong, and what helps is to give the
-/// value. A gyro bias that was given with its sigma is held against that, also
-/// where the start is its combination with what rest or the alignment say.
+/// from. If the configuration gave it, by StrainOf, from StrainLimit of all that
+/// it gave on: that is a wrong value, sign, unit or clock, or too small a sigma;
+/// so are constants that the method has beside its states. If the program chose
+/// it, by its own sigma, from StrainLimit of all that it chose on: that sigma was
+/// wrong, and what helps is to give the value. A gyro bias that was given with its
+/// sigma is held against that, also where the start is its combination with what
+/// rest or the alignment say.
 void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence);
 
 }  // namespace hindsight

@@ -41,8 +41,11 @@ class GivenValues : public ::testing::Test {
 };
 
 TEST_F(GivenValues, ChanceIsNoContradiction) {
-  for (int i = 0; i < TypicalLayout().dim(); ++i) {
-    EXPECT_TRUE(Find(i, 4.9).empty()) << i;
+  const int count = TypicalLayout().dim();
+  for (int i = 0; i < count; ++i) {
+    EXPECT_TRUE(Find(i, StrainLimit(count) - 0.1).empty()) << i;
+    ASSERT_EQ(Find(i, StrainLimit(count) + 0.1).size(), 1u) << i;
+    EXPECT_EQ(Find(i, 7.0)[0].limit, StrainLimit(count)) << i;
   }
 }
 
@@ -71,8 +74,41 @@ TEST_F(GivenValues, OfManyOneLiesFarOffByChance) {
     ASSERT_EQ(Find(i, 3.6).size(), 1u) << i;
     EXPECT_EQ(Find(i, 3.6)[0].limit, StrainLimit(6)) << i;
   }
-  // The program's own start comes from the same data.
-  EXPECT_TRUE(Find(4, 4.9).empty());
+  // What the program chose is counted by itself.
+  const int own = TypicalLayout().dim() - 6;
+  EXPECT_TRUE(Find(4, StrainLimit(own) - 0.1).empty());
+  EXPECT_EQ(Find(4, StrainLimit(own) + 0.1).at(0).limit, StrainLimit(own));
+}
+
+/// Of two sigmas of the prior that are left with 0.9 of it: 4.6 times the 0.44
+/// that chance moves it by. Never less than a tenth of the prior.
+TEST_F(GivenValues, WhatIsHardlyLearnedIsHeldAgainstWhatChanceWouldMoveItBy) {
+  EXPECT_NEAR(StrainOf(2.0, 1.0, 0.81), 2.0 / std::sqrt(0.19), 1e-12);
+  EXPECT_NEAR(StrainOf(-2.0, 1.0, 1.0), 20.0, 1e-12);
+  EXPECT_EQ(StrainOf(0.99, 1.0, 0.9999), 0.0);
+  EXPECT_EQ(StrainOf(4.0, 1.0, 0.0), 4.0);
+}
+
+/// As of methods that estimate the IMU's errors beside their states.
+TEST_F(GivenValues, ConstantsBesideTheStatesAreHeldAgainstTheirPriorsToo) {
+  Solution solution;
+  solution.layout = TypicalLayout();
+  ConstantEstimate scale;
+  scale.name = "gyro_scale[x]";
+  scale.prior_sigma = 0.01;
+  scale.sigma = 0.001;
+  const auto find = [&](double value) {
+    scale.value = value;
+    solution.constants = {scale};
+    std::vector<Evidence> found;
+    FindStrainedValues({.solution = solution}, &found);
+    return found;
+  };
+  EXPECT_TRUE(find(0.029).empty());
+  ASSERT_EQ(find(-0.031).size(), 1u);
+  EXPECT_EQ(find(-0.031)[0].limit, StrainLimit(1));
+  EXPECT_THAT(find(-0.031)[0].what, StartsWith("gyro_scale[x] ends 0.031 "));
+  EXPECT_THAT(find(-0.031)[0].causes.at(0), HasSubstr("the gyros' unit"));
 }
 
 /// The program's own start had too small a sigma, which is nobody's input.
