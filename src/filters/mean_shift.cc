@@ -29,6 +29,30 @@ struct GroupScore {
         bx(Eigen::MatrixXd::Zero(count, dim)),
         bb(Eigen::MatrixXd::Zero(count, count)) {}
 
+  /// Before what moved the state by B b of the constants that stay and t B b of
+  /// those that grow: of G = [B, t B],
+  ///   lambda += G' lambda_x,   bb += bx G + (bx G)' + G' Lambda G,
+  ///   bx += G' Lambda.
+  void Drive(const Eigen::MatrixXd& B, double t, const TapeAdjoint& state) {
+    const Eigen::Index n = B.cols();
+    const Eigen::MatrixXd LB = state.Lambda().lazyProduct(B);
+    const Eigen::MatrixXd XB = bx.lazyProduct(B);
+    const Eigen::MatrixXd BLB = B.transpose().lazyProduct(LB);
+    const Eigen::VectorXd Bl = B.transpose() * state.lambda();
+    lambda.head(n) += Bl;
+    lambda.tail(n) += t * Bl;
+    bb.leftCols(n) += XB;
+    bb.rightCols(n) += t * XB;
+    bb.topRows(n) += XB.transpose();
+    bb.bottomRows(n) += t * XB.transpose();
+    bb.topLeftCorner(n, n) += BLB;
+    bb.topRightCorner(n, n) += t * BLB;
+    bb.bottomLeftCorner(n, n) += t * BLB;
+    bb.bottomRightCorner(n, n) += t * t * BLB;
+    bx.topRows(n) += LB.transpose();
+    bx.bottomRows(n) += t * LB.transpose();
+  }
+
   Eigen::VectorXd lambda;
   Eigen::MatrixXd bx, bb;  ///< blocks of Lambda, rows of b
 };
@@ -70,14 +94,8 @@ class AdjointPass {
   void BackOver(std::size_t k) {
     if (columns_.driven) {
       const ShiftColumns::Columns driven = columns_.driven(k);
-      const Eigen::MatrixXd G = WithGrowth(driven.B, TimeOf(tape_, k));
-      GroupScore& own = Of(driven.group, G.cols());
-      const Eigen::MatrixXd LG = state_.Lambda().lazyProduct(G);
-      const Eigen::MatrixXd XG = own.bx.lazyProduct(G);
-      own.lambda += G.transpose() * state_.lambda();
-      own.bb += XG + XG.transpose();
-      own.bb += G.transpose().lazyProduct(LG);
-      own.bx += LG.transpose();
+      Of(driven.group, 2 * driven.B.cols())
+          .Drive(driven.B, TimeOf(tape_, k), state_);
     }
     const ErrorMatrix Phi = tape_.Phi(k);
     state_.BackOver(Phi);
