@@ -82,7 +82,50 @@ double Misfit(const Fit& fit) {
   return worst;
 }
 
+/// Of a tape about `states`, but for what contradicts.
+Fit FitOf(const Dataset& dataset, const Relinearised& solution,
+          const std::vector<State>& states, const LinearTape& tape,
+          const Problem& problem, const EpochCallback& callback) {
+  Fit fit;
+  fit.innovations = InnovationsOf(tape, problem.timeline, dataset);
+  fit.figures = TestInnovations(fit.innovations, kFalseAlarms);
+  const ExplanationSearch search(problem, states, tape, kFalseAlarms, callback);
+  fit.explanations = search.Tell(solution);
+  fit.agreement =
+      FiguresOf(AgreementOfSides(tape, search.state_scores()), tape);
+  fit.constants = ConstantsOf(tape);
+  fit.tested = true;
+  return fit;
+}
+
+/// Without any sensor that states too much all fits as well: this blames none.
+void AddByShownNoise(const Dataset& dataset, const Relinearised& solution,
+                     Problem* problem, const EpochCallback& callback,
+                     Fit* fit) {
+  for (Explanation& one :
+       ExplainByShownNoise(dataset, solution, fit->innovations, kFalseAlarms,
+                           *problem, callback)) {
+    fit->explanations.push_back(std::move(one));
+  }
+}
+
 }  // namespace
+
+Fit JudgeFit(const Dataset& dataset, const Relinearised& solution,
+             const std::vector<State>& near, const LinearTape& tape,
+             Problem* problem, const EpochCallback& callback) {
+  constexpr double kNearLimit = 0.8;
+  try {
+    Fit fit = FitOf(dataset, solution, near, tape, *problem, callback);
+    if (Misfit(fit) < kNearLimit) {
+      AddByShownNoise(dataset, solution, problem, callback, &fit);
+      return fit;
+    }
+  } catch (const EstimationError&) {
+    // It may hold about the solution's own states.
+  }
+  return JudgeFit(dataset, solution, problem, callback);
+}
 
 Fit JudgeFit(const Dataset& dataset, const Relinearised& solution,
              Problem* problem, const EpochCallback& callback) {
@@ -91,14 +134,7 @@ Fit JudgeFit(const Dataset& dataset, const Relinearised& solution,
   try {
     const LinearTape tape =
         RunLinearizedFilter(solution.states, problem, callback);
-    fit.innovations = InnovationsOf(tape, problem->timeline, dataset);
-    fit.figures = TestInnovations(fit.innovations, kFalseAlarms);
-    const ExplanationSearch search(*problem, solution.states, tape,
-                                   kFalseAlarms, callback);
-    fit.explanations = search.Tell(solution);
-    fit.agreement =
-        FiguresOf(AgreementOfSides(tape, search.state_scores()), tape);
-    fit.constants = ConstantsOf(tape);
+    fit = FitOf(dataset, solution, solution.states, tape, *problem, callback);
     const double misfit = Misfit(fit);
     if (misfit >= 1.0) {
       fit.contradiction =
@@ -106,13 +142,7 @@ Fit JudgeFit(const Dataset& dataset, const Relinearised& solution,
                       fit.explanations, problem, callback);
       fit.contradiction->misfit = misfit;
     }
-    // Without any sensor that states too much all fits as well: this blames none.
-    for (Explanation& one :
-         ExplainByShownNoise(dataset, solution, fit.innovations, kFalseAlarms,
-                             *problem, callback)) {
-      fit.explanations.push_back(std::move(one));
-    }
-    fit.tested = true;
+    AddByShownNoise(dataset, solution, problem, callback, &fit);
   } catch (const EstimationError&) {
     // What a smoother could not hold is told by evidence of its own.
   }

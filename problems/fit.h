@@ -36,6 +36,13 @@ struct Fit {
 Fit JudgeFit(const Dataset& dataset, const Relinearised& solution,
              Problem* problem, const EpochCallback& callback = nullptr);
 
+/// The same of a solution within a tenth of a sigma of the states `near`, which
+/// `tape` is linearised about: that spares a pass of the filter. What comes near a
+/// limit is judged about the solution's own states nevertheless.
+Fit JudgeFit(const Dataset& dataset, const Relinearised& solution,
+             const std::vector<State>& near, const LinearTape& tape,
+             Problem* problem, const EpochCallback& callback);
+
 /// The innovations of an IMM against the mixture that predicted them, with
 /// kFalseAlarms. They are of the filter, about its own estimates: what would
 /// explain them, and what both sides say, is not sought here.

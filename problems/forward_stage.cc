@@ -78,6 +78,7 @@ void ForwardStage::Settle(std::vector<double> offsets) {
   }
   unsettled_.clear();
   relinearised_.reset();
+  settled_tape_.reset();
   realigned_.reset();
   fit_.reset();
   heading_credit_ = {};
@@ -155,8 +156,13 @@ const Relinearised& ForwardStage::relinearised() {
 }
 
 const Fit& ForwardStage::fit() {
-  if (!fit_)
-    fit_ = JudgeFit(dataset_, relinearised(), &problem_, Progress("grading"));
+  if (fit_) return *fit_;
+  const Relinearised& anew = relinearised();
+  fit_ = settled_tape_
+             ? JudgeFit(dataset_, anew, smoothed_->states, *settled_tape_,
+                        &problem_, Progress("grading"))
+             : JudgeFit(dataset_, anew, &problem_, Progress("grading"));
+  settled_tape_.reset();
   return *fit_;
 }
 
@@ -208,6 +214,9 @@ CovarianceSeries ForwardStage::Relinearise() {
     anew.smoother =
         Compare(start_.layout, smoothed_->states, smoothed_->P, anew);
     anew.smoother.settled = rested.step < 1.0;
+    if (rested.passes == 1 && rested.is_settled()) {
+      settled_tape_ = std::move(rested.tape);
+    }
     return std::move(last.P);
   } catch (const EstimationError&) {
     return {};

@@ -112,6 +112,9 @@ class ForwardStage {
   std::optional<std::vector<UnobservedSpan>> unobserved_;
   std::optional<Relinearised> relinearised_;
   std::optional<Realigned> realigned_;
+  /// About `smoothed`, where `relinearised` is as near as makes no difference;
+  /// until `fit`.
+  std::optional<LinearTape> settled_tape_;
   std::optional<Fit> fit_;
   HeadingCredit heading_credit_;
   std::optional<RivalSolution> turned_round_;

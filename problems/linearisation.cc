@@ -54,19 +54,16 @@ double LargestDistance(const ErrorLayout& layout,
 Rested SmoothUntilItRests(const std::vector<State>& states, Problem* problem,
                           const EpochCallback& callback) {
   constexpr int kMost = 4;
-  constexpr double kNegligible = 0.1;  // sigma
-  Rested rested;
-  for (int i = 0; i < kMost; ++i) {
+  Rested rested{.trajectory = {}, .tape = LinearTape(problem->layout)};
+  do {
     const std::vector<State>& about =
-        i == 0 ? states : rested.trajectory.states;
-    SmoothedTrajectory next =
-        SmoothRts(RunLinearizedFilter(about, problem, callback),
-                  /*errors=*/false);
+        rested.passes == 0 ? states : rested.trajectory.states;
+    rested.tape = RunLinearizedFilter(about, problem, callback);
+    SmoothedTrajectory next = SmoothRts(rested.tape, /*errors=*/false);
     rested.step = LargestDistance(problem->layout, about, next.states,
                                   VariancesOf(problem->layout, next.P));
     rested.trajectory = std::move(next);
-    if (rested.step < kNegligible) break;
-  }
+  } while (++rested.passes < kMost && !rested.is_settled());
   return rested;
 }
 

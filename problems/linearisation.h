@@ -39,6 +39,11 @@ double LargestDistance(const ErrorLayout& layout,
 struct Rested {
   SmoothedTrajectory trajectory;
   double step = 0.0;  ///< the last, LargestDistance [sigma]
+  int passes = 0;
+  LinearTape tape;  ///< of the last pass, about what its step began at
+
+  bool is_settled() const { return step < kNegligibleStep; }
+  static constexpr double kNegligibleStep = 0.1;  ///< [sigma]
 };
 
 /// Linearises the interval about a trajectory and smooths, again about the

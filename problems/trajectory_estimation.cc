@@ -29,21 +29,28 @@
 namespace hindsight {
 namespace {
 
-/// What the recording shows by itself, from the start to `to`.
-std::vector<Evidence> ExamineRecording(const Dataset& dataset,
-                                       const StartReport& start, double to) {
-  std::vector<Evidence> all = FindRepeatedReadings(dataset, start.t, to);
-  if (auto drift = FindGyroDrift(start, dataset.imu.noise,
-                                 WorstDropOut(dataset.imu, start.t, to))) {
-    all.push_back(*std::move(drift));
+/// What the recording shows by itself.
+struct Examined {
+  std::vector<Evidence> evidence;
+  std::optional<BridgedDropOut> worst_drop_out;
+};
+
+/// From the start to `to`.
+Examined ExamineRecording(const Dataset& dataset, const StartReport& start,
+                          double to) {
+  Examined found{.evidence = FindRepeatedReadings(dataset, start.t, to),
+                 .worst_drop_out = WorstDropOut(dataset.imu, start.t, to)};
+  if (auto drift =
+          FindGyroDrift(start, dataset.imu.noise, found.worst_drop_out)) {
+    found.evidence.push_back(*std::move(drift));
   }
   for (std::string& warning : CheckMagnetometers(dataset)) {
-    all.push_back({.rule = "magnetic_field",
-                   .grade = Grade::kDoubtful,
-                   .what = std::move(warning),
-                   .is_cause = true});
+    found.evidence.push_back({.rule = "magnetic_field",
+                              .grade = Grade::kDoubtful,
+                              .what = std::move(warning),
+                              .is_cause = true});
   }
-  return all;
+  return found;
 }
 
 class TrajectoryEstimation final : public Estimation {
@@ -169,7 +176,7 @@ class TrajectoryEstimation final : public Estimation {
          .constants = stage.fit().constants,
          .hindrance = Hindrance(),
          .unsettled = stage.unsettled(),
-         .recording = recording_.get(),
+         .recording = recording_.get().evidence,
          .doubts = stage.doubts(),
          .disagreement = DisagreementOf(method, solution),
          .mounting_sigma = forward_.dataset().mounting_sigma},
@@ -182,10 +189,7 @@ class TrajectoryEstimation final : public Estimation {
 
   const std::string& Hindrance() {
     if (!hindrance_) {
-      hindrance_ = LostAttitude(WorstDropOut(forward_.dataset().imu,
-                                             forward_.timeline().node(0).t,
-                                             forward_.options().to))
-                       .value_or("");
+      hindrance_ = LostAttitude(recording_.get().worst_drop_out).value_or("");
     }
     return *hindrance_;
   }
@@ -206,8 +210,7 @@ class TrajectoryEstimation final : public Estimation {
   std::optional<std::vector<RivalSolution>> other_data_;
   /// Of any method; empty: none.
   std::optional<std::string> hindrance_;
-  /// What the recording shows by itself.
-  std::shared_future<std::vector<Evidence>> recording_;
+  std::shared_future<Examined> recording_;
   bool begun_ = false;
   std::unique_ptr<BatchAhead> ahead_;  ///< null: not asked for
   OptimumComparison optima_;

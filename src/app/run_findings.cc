@@ -36,7 +36,7 @@ void NoteRecording(const Dataset& dataset, Findings findings,
 }  // namespace
 
 Findings FindingsOf(const Dataset& dataset) {
-  CheckReport check = CheckDataset(dataset);
+  CheckReport check = DescribeDataset(dataset);
   auto allan = AllanOfLongestRest(dataset, check.imu.rest);
   return {std::move(check), std::move(allan)};
 }

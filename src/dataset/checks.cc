@@ -212,7 +212,7 @@ Grade CheckReport::grade() const {
                   warnings.empty() ? Grade::kUsable : Grade::kDoubtful);
 }
 
-CheckReport CheckDataset(const Dataset& dataset) {
+CheckReport DescribeDataset(const Dataset& dataset) {
   CheckReport report;
   if (dataset.imu.empty()) {
     report.warnings.emplace_back("imu: fewer than two samples");
@@ -251,14 +251,20 @@ CheckReport CheckDataset(const Dataset& dataset) {
     WarnAboutStream(report.streams.back(), report.streams.front(),
                     &report.truth_warnings);
   }
-  report.evidence =
-      FindRepeatedReadings(dataset, dataset.imu.t_begin(), dataset.imu.t_end());
   for (std::string& warning : CheckMagnetometers(dataset)) {
     report.warnings.push_back(std::move(warning));
   }
   if (dataset.streams.empty()) {
     report.warnings.emplace_back("no aiding stream: the position will drift");
   }
+  return report;
+}
+
+CheckReport CheckDataset(const Dataset& dataset) {
+  CheckReport report = DescribeDataset(dataset);
+  if (dataset.imu.empty()) return report;
+  report.evidence =
+      FindRepeatedReadings(dataset, dataset.imu.t_begin(), dataset.imu.t_end());
   return report;
 }
 

@@ -67,6 +67,10 @@ struct CheckReport {
 /// Magnetometers: see CheckMagnetometers.
 CheckReport CheckDataset(const Dataset& dataset);
 
+/// The same but for `evidence`, which whoever solves the recording finds for the
+/// interval that is solved.
+CheckReport DescribeDataset(const Dataset& dataset);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_DATASET_CHECKS_H_

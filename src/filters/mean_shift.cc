@@ -11,26 +11,99 @@
 namespace hindsight {
 namespace {
 
-/// Columns beside the same times t.
-Eigen::MatrixXd WithGrowth(const Eigen::MatrixXd& B, double t) {
-  Eigen::MatrixXd both(B.rows(), 2 * B.cols());
-  both << B, t * B;
-  return both;
-}
-
 double TimeOf(const LinearTape& tape, std::size_t k) {
   return tape.t(k) - tape.t(0);
 }
 
-/// What belongs to the constants b of one group.
-struct GroupScore {
-  GroupScore(int dim, Eigen::Index count)
-      : lambda(Eigen::VectorXd::Zero(count)),
-        bx(Eigen::MatrixXd::Zero(count, dim)),
-        bb(Eigen::MatrixXd::Zero(count, count)) {}
+/// The sum of the products in each row.
+template <typename A, typename B>
+Eigen::VectorXd RowSums(const Eigen::MatrixBase<A>& a,
+                        const Eigen::MatrixBase<B>& b) {
+  return a.cwiseProduct(b).rowwise().sum();
+}
 
-  Eigen::VectorXd lambda;
-  Eigen::MatrixXd bx, bb;  ///< blocks of Lambda, rows of b
+/// What belongs to the constants b of one group, n that stay and then the same n that
+/// grow with the time t: they enter by [B, t B]. Of Lambda no more than the
+/// score of one constant, with or without its growth, takes.
+class GroupScore {
+ public:
+  GroupScore(int dim, Eigen::Index count)
+      : count_(count),
+        lambda_(Eigen::VectorXd::Zero(2 * count)),
+        bx_(Eigen::MatrixXd::Zero(2 * count, dim)),
+        stays_(Eigen::VectorXd::Zero(count)),
+        both_(stays_),
+        grows_(stays_) {}
+
+  /// Before B moved the state.
+  void Drive(const Eigen::MatrixXd& B, double t, const TapeAdjoint& state) {
+    const Eigen::MatrixXd BL = B.transpose().lazyProduct(state.Lambda());
+    AddLambda(B.transpose() * state.lambda(), t);
+    const Eigen::VectorXd BLB = RowSums(BL, B.transpose());
+    const Eigen::VectorXd XB = RowSums(staying(), B.transpose());
+    const Eigen::VectorXd TB = RowSums(growing(), B.transpose());
+    stays_ += 2.0 * XB + BLB;
+    both_ += t * XB + TB + t * BLB;
+    grows_ += 2.0 * t * TB + t * t * BLB;
+    staying() += BL;
+    growing() += t * BL;
+  }
+
+  void BackOver(const ErrorMatrix& Phi) { bx_ = Times(bx_, Phi); }
+
+  /// Before a measurement that they do not enter.
+  void BackBefore(const TapeMeasurement& z) {
+    const Eigen::MatrixXd XK = bx_.lazyProduct(z.K);
+    bx_ -= XK.lazyProduct(z.H);
+  }
+
+  /// Before one that they enter by B: `ahead` is S^-1 nu - K' lambda of the state,
+  /// `weight` S^-1 + K' Lambda K and LK = Lambda K.
+  void BackBefore(const TapeMeasurement& z, const Eigen::MatrixXd& B, double t,
+                  const RowVector& ahead, const RowMatrix& weight,
+                  const GainMatrix& LK) {
+    const Eigen::MatrixXd XK = bx_.lazyProduct(z.K);
+    const Eigen::MatrixXd BW = B.transpose().lazyProduct(weight);
+    const Eigen::MatrixXd stays = BW - XK.topRows(count_);
+    const Eigen::MatrixXd grows = t * BW - XK.bottomRows(count_);
+    AddLambda(B.transpose() * ahead, t);
+    stays_ += RowSums(stays - XK.topRows(count_), B.transpose());
+    both_ += RowSums(grows - t * XK.topRows(count_), B.transpose());
+    grows_ += t * RowSums(grows - XK.bottomRows(count_), B.transpose());
+    const Eigen::MatrixXd BKL = B.transpose().lazyProduct(LK.transpose());
+    staying() += stays.lazyProduct(z.H);
+    staying() -= BKL;
+    growing() += grows.lazyProduct(z.H);
+    growing() -= t * BKL;
+  }
+
+  Eigen::Index count() const { return count_; }
+  double score(Eigen::Index i) const { return lambda_(i); }
+  double information(Eigen::Index i) const { return stays_(i); }
+  /// Of growth that begins at a time.
+  double score_of_growth(Eigen::Index i, double onset) const {
+    return lambda_(i + count_) - onset * lambda_(i);
+  }
+  double information_of_growth(Eigen::Index i, double onset) const {
+    return grows_(i) - 2.0 * onset * both_(i) + onset * onset * stays_(i);
+  }
+  /// The largest term of that information.
+  double largest_term(Eigen::Index i) const { return grows_(i); }
+
+ private:
+  void AddLambda(const Eigen::VectorXd& added, double t) {
+    lambda_.head(count_) += added;
+    lambda_.tail(count_) += t * added;
+  }
+  Eigen::MatrixXd::RowsBlockXpr staying() { return bx_.topRows(count_); }
+  Eigen::MatrixXd::RowsBlockXpr growing() { return bx_.bottomRows(count_); }
+
+  Eigen::Index count_;
+  Eigen::VectorXd lambda_;
+  Eigen::MatrixXd bx_;  ///< of Lambda, rows of b and columns of the state
+  /// Of Lambda, of a constant that stays, of the same that stays and grows, and of
+  /// one that grows.
+  Eigen::VectorXd stays_, both_, grows_;
 };
 
 class AdjointPass {
@@ -60,8 +133,9 @@ class AdjointPass {
   }
 
  private:
-  GroupScore& Of(ShiftColumns::Group group, Eigen::Index count) {
-    return groups_.try_emplace(group, tape_.dim(), count).first->second;
+  GroupScore& Of(const ShiftColumns::Columns& columns) {
+    return groups_.try_emplace(columns.group, tape_.dim(), columns.B.cols())
+        .first->second;
   }
 
   // All factors here are small or sparse, for which a general product is slow.
@@ -70,18 +144,11 @@ class AdjointPass {
   void BackOver(std::size_t k) {
     if (columns_.driven) {
       const ShiftColumns::Columns driven = columns_.driven(k);
-      const Eigen::MatrixXd G = WithGrowth(driven.B, TimeOf(tape_, k));
-      GroupScore& own = Of(driven.group, G.cols());
-      const Eigen::MatrixXd LG = state_.Lambda().lazyProduct(G);
-      const Eigen::MatrixXd XG = own.bx.lazyProduct(G);
-      own.lambda += G.transpose() * state_.lambda();
-      own.bb += XG + XG.transpose();
-      own.bb += G.transpose().lazyProduct(LG);
-      own.bx += LG.transpose();
+      Of(driven).Drive(driven.B, TimeOf(tape_, k), state_);
     }
     const ErrorMatrix Phi = tape_.Phi(k);
     state_.BackOver(Phi);
-    for (auto& [group, own] : groups_) own.bx = Times(own.bx, Phi);
+    for (auto& [group, own] : groups_) own.BackOver(Phi);
   }
 
   void BackBefore(std::size_t k, const TapeMeasurement& z) {
@@ -89,25 +156,15 @@ class AdjointPass {
     const RowVector ahead =
         S.solve(z.innovation) - z.K.transpose() * state_.lambda();
     const GainMatrix LK = state_.Lambda().lazyProduct(z.K);
-    const RowMatrix KLK = z.K.transpose().lazyProduct(LK);
+    RowMatrix weight = S.solve(RowMatrix::Identity(z.S.rows(), z.S.cols()));
+    weight += z.K.transpose().lazyProduct(LK);
     std::set<ShiftColumns::Group> entered;
     for (const ShiftColumns::Columns& columns : columns_.measured(k, z)) {
-      const Eigen::MatrixXd B = WithGrowth(columns.B, TimeOf(tape_, k));
-      GroupScore& own = Of(columns.group, B.cols());
-      const Eigen::MatrixXd XK = own.bx.lazyProduct(z.K);
-      Eigen::MatrixXd direct = S.solve(B) - XK.transpose();
-      direct += KLK.lazyProduct(B);
-      own.lambda += B.transpose() * ahead;
-      own.bb += B.transpose().lazyProduct(direct);
-      own.bb -= XK.lazyProduct(B);
-      own.bx += direct.transpose().lazyProduct(z.H);
-      own.bx -= B.transpose().lazyProduct(LK.transpose());
+      Of(columns).BackBefore(z, columns.B, TimeOf(tape_, k), ahead, weight, LK);
       entered.insert(columns.group);
     }
     for (auto& [group, own] : groups_) {
-      if (entered.contains(group)) continue;
-      const Eigen::MatrixXd XK = own.bx.lazyProduct(z.K);
-      own.bx -= XK.lazyProduct(z.H);
+      if (!entered.contains(group)) own.BackBefore(z);
     }
     state_.BackBefore(z);
   }
@@ -126,15 +183,13 @@ class AdjointPass {
     }
     const double t = TimeOf(tape_, k);
     for (const auto& [group, own] : groups_) {
-      const auto count = static_cast<int>(own.lambda.size() / 2);
-      for (int i = 0; i < count; ++i) {
-        const int j = i + count;
-        add({false, group, i, false, k, own.lambda(i), own.bb(i, i)});
-        const double information =
-            own.bb(j, j) - 2.0 * t * own.bb(i, j) + t * t * own.bb(i, i);
+      for (Eigen::Index i = 0; i < own.count(); ++i) {
+        const auto column = static_cast<int>(i);
+        add({false, group, column, false, k, own.score(i), own.information(i)});
+        const double information = own.information_of_growth(i, t);
         // What is left of large terms may be their rounding.
-        if (information < 1e-9 * own.bb(j, j)) continue;
-        add({false, group, i, true, k, own.lambda(j) - t * own.lambda(i),
+        if (information < 1e-9 * own.largest_term(i)) continue;
+        add({false, group, column, true, k, own.score_of_growth(i, t),
              information});
       }
     }

@@ -157,8 +157,8 @@ SmoothedTrajectory Smooth(const LinearTape& tape, bool covariances, bool errors,
 
 }  // namespace
 
-SmoothedTrajectory SmoothRts(const LinearTape& tape) {
-  return Smooth(tape, /*covariances=*/true, /*errors=*/true, nullptr);
+SmoothedTrajectory SmoothRts(const LinearTape& tape, bool errors) {
+  return Smooth(tape, /*covariances=*/true, errors, nullptr);
 }
 
 SmoothedTrajectory SmoothRts(LinearTape&& tape, bool errors) {

@@ -21,11 +21,11 @@ struct SmoothedTrajectory {
 ///   C = P+ Phi' (P-)^-1 of the next epoch,   A = I - C Phi,
 ///   d+ = m + C (d-_next - dx-_next),   P_s = A P+ A' + C (P_s,next + Q) C',
 /// m the mean about x_plus. The covariance is the sum of two products that are
-/// positive semidefinite, not a difference: a diffuse prior costs no digits.
-SmoothedTrajectory SmoothRts(const LinearTape& tape);
+/// positive semidefinite, not a difference: a diffuse prior costs no digits. With
+/// `errors` false d stays empty, of which a day's take 34 MB.
+SmoothedTrajectory SmoothRts(const LinearTape& tape, bool errors = true);
 
-/// The same, releasing the tape's memory on the way back. With `errors` false d
-/// stays empty, of which a day's take 34 MB.
+/// The same, releasing the tape's memory on the way back.
 SmoothedTrajectory SmoothRts(LinearTape&& tape, bool errors = true);
 
 /// The same without covariances, P empty, at a fraction of the cost.

@@ -230,6 +230,8 @@ void Preintegrator::AssembleWhiteNoise(ImuSummary* out) const {
 
 void Preintegrator::AssembleBiasNoise(ImuSummary* out) const {
   using Matrix93 = Eigen::Matrix<double, 9, 3>;
+  using Matrix63 = Eigen::Matrix<double, 6, 3>;
+  using Matrix9 = Eigen::Matrix<double, 9, 9>;
   const double q_g = noise_.gyro_bias_walk * noise_.gyro_bias_walk;
   const double q_a = noise_.accel_bias_walk * noise_.accel_bias_walk;
   out->gyro_bias_variance = noise_.GyroBiasEvolution().Q(T_);
@@ -254,19 +256,20 @@ void Preintegrator::AssembleBiasNoise(ImuSummary* out) const {
     J_g.middleRows<3>(3) = V_g_ - x.V_g - Skew(v_ - x.v) * x.S_g;
     J_g.bottomRows<3>() = -(S_g_ - x.S_g);
     J_g *= grow_g;
-    Matrix93 J_a;
+    Matrix63 J_a;  // attitude does not feel it
     J_a.topRows<3>() = -(P_a_ - x.P_a - left * x.S_a);
-    J_a.middleRows<3>(3) = -(S_a_ - x.S_a);
-    J_a.bottomRows<3>().setZero();
+    J_a.bottomRows<3>() = -(S_a_ - x.S_a);
     J_a *= grow_a;
     const double decay_g =
         gauss_markov_ ? std::exp(-left / noise_.gyro_bias_tau) : 1.0;
     const double decay_a =
         gauss_markov_ ? std::exp(-left / noise_.accel_bias_tau) : 1.0;
-    out->noise +=
-        weight * (q_g * J_g * J_g.transpose() + q_a * J_a * J_a.transpose());
+    // By elements: a general product would copy such small factors first.
+    Matrix9 spread = q_g * J_g.lazyProduct(J_g.transpose());
+    spread.topLeftCorner<6, 6>() += q_a * J_a.lazyProduct(J_a.transpose());
+    out->noise += weight * spread;
     out->bias_cross.leftCols<3>() += (weight * q_g * decay_g) * J_g;
-    out->bias_cross.rightCols<3>() += (weight * q_a * decay_a) * J_a;
+    out->bias_cross.topRightCorner<6, 3>() += (weight * q_a * decay_a) * J_a;
   }
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -101,6 +102,7 @@ ImuStream ReadImu(const StreamSource& source, const ImuReadOptions& options,
   }
   long alone = 0;
   double last = 0.0;
+  double longest = 0.0;
   while (true) {
     const StreamRows::Step step = rows.Next();
     if (step == StreamRows::Step::kEnd) break;
@@ -116,6 +118,7 @@ ImuStream ReadImu(const StreamSource& source, const ImuReadOptions& options,
     }
     const double gap = imu.samples.size() > begin ? rows.t() - last : 0.0;
     if (gap > options.max_gap) FailGap(rows, gap, options.max_gap);
+    longest = std::max(longest, gap);
     if (step == StreamRows::Step::kReplace && imu.samples.size() > begin) {
       imu.samples.pop_back();
     }
@@ -141,8 +144,9 @@ ImuStream ReadImu(const StreamSource& source, const ImuReadOptions& options,
   rows.CountPolicies(policies);
   AddPolicy(source.name, "row without readings of accelerometers dropped",
             alone, policies);
-  AddPolicy(source.name, "gap bridged", static_cast<long>(DropOuts(imu).size()),
-            policies);
+  // Stamps moved to the ends of intervals are no farther apart.
+  const std::size_t bridged = imu.IsDropOut(longest) ? DropOuts(imu).size() : 0;
+  AddPolicy(source.name, "gap bridged", static_cast<long>(bridged), policies);
   return imu;
 }
 
