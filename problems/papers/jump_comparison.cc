@@ -14,7 +14,7 @@
 namespace hindsight {
 namespace {
 
-double AxisRms(const PartErrors& part) {
+double HorizontalAxisRms(const PartErrors& part) {
   return LevelRms(part) / std::sqrt(2.0);
 }
 
@@ -91,9 +91,9 @@ StudyTable JumpTable() {
   const auto velocity = &StateErrors::horizontal_velocity;
   StudyTable table = {"cells", {"method"}};
   table.Add({Measured("position_rms", kMetres, Rms,
-                      OfPart(position, AxisRms, settled)),
+                      OfPart(position, HorizontalAxisRms, settled)),
              Measured("velocity_rms", kSpeed, Rms,
-                      OfPart(velocity, AxisRms, settled)),
+                      OfPart(velocity, HorizontalAxisRms, settled)),
              Measured("anees_horizontal", kPlain, Mean,
                       OfPart(position, MeanNees, settled)),
              FailedFigure(), SecondsFigure()});

@@ -79,7 +79,8 @@ double ShareFalling(const std::vector<double>& values) {
   return falling / std::max(1.0, static_cast<double>(values.size()) - 1.0);
 }
 
-/// The paper's analysis along a tape, `truth` being at its epochs; see RunObserver.
+/// The paper's analysis along a tape, `truth` being at its epochs: see
+/// RunObserver.
 struct Analysis {
   const LinearTape& tape;
   const ErrorLayout& layout;

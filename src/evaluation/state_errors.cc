@@ -23,9 +23,9 @@ void Append(const ErrorLayout& layout, BlockKind kind, const ErrorVector& e,
   const int at = block->offset;
   const Eigen::Vector<double, kDim> own = e.segment<kDim>(at);
   const Eigen::Matrix<double, kDim, kDim> P_own = P.block<kDim, kDim>(at, at);
-  part->e.push_back(Eigen::Vector3d::Zero());
+  part->e.emplace_back(Eigen::Vector3d::Zero());
   part->e.back().head<kDim>() = own;
-  part->sigma.push_back(Eigen::Vector3d::Zero());
+  part->sigma.emplace_back(Eigen::Vector3d::Zero());
   part->sigma.back().head<kDim>() = P_own.diagonal().cwiseSqrt();
   part->nees.push_back(own.dot(P_own.llt().solve(own)));
 }
