@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -20,6 +21,9 @@ constexpr std::array kTried = {BlockKind::kScale,    BlockKind::kMounting,
 bool IsTried(BlockKind kind) {
   return std::find(kTried.begin(), kTried.end(), kind) != kTried.end();
 }
+
+/// Of an interval between nodes, for the course of its rate of turn.
+constexpr int kPieces = 4;
 
 /// What is measured in navigation axes, NED, positions from the first one.
 std::optional<Eigen::Vector3d> NavigationValue(
@@ -93,6 +97,47 @@ DeviationColumns::DeviationColumns(const Problem& problem,
                                            : Plan(static_cast<int>(i),
                                                   *first[i], components[i]));
   }
+  if (problem.layout.has_canonical_head()) FollowTurns();
+}
+
+void DeviationColumns::FollowTurns() {
+  const Timeline& timeline = problem_.timeline;
+  ImuIntegrator readings = timeline.Readings();
+  bends_.resize(timeline.size());
+  double near = 0.0, far = 0.0;
+  for (std::size_t k = 1; k < timeline.size(); ++k) {
+    const Node& from = timeline.node(k - 1);
+    const Node& to = timeline.node(k);
+    const double piece = (to.t - from.t) / kPieces;
+    Eigen::Vector3d before = from.kinematics.w_ib_b;
+    for (int i = 1; i < kPieces; ++i) {
+      const Kinematics at = readings.ReadingAt(from.t + i * piece);
+      const double part = static_cast<double>(i) / kPieces;
+      const Eigen::Vector3d line =
+          (1.0 - part) * from.kinematics.w_ib_b + part * to.kinematics.w_ib_b;
+      const Eigen::Vector3d dv = piece * (at.w_ib_b - line).cross(at.f_b);
+      bends_[k].v += dv;
+      bends_[k].p += (to.t - from.t - i * piece) * dv;
+      const double next = from.t + i * piece + timeline.sample_interval();
+      near += (readings.ReadingAt(next).w_ib_b - at.w_ib_b).squaredNorm();
+      far += (at.w_ib_b - before).squaredNorm();
+      before = at.w_ib_b;
+    }
+  }
+  if (far > near) noise_share_ = near / far;
+}
+
+double DeviationColumns::ZOf(const MeanShift& shift) const {
+  if (shift.of_state || shift.group != kImu ||
+      ImuDeviations()[static_cast<std::size_t>(shift.column)].kind !=
+          ImuDeviation::Kind::kLate) {
+    return shift.z();
+  }
+  const double untold = 0.5 * (1.0 + kPieces * noise_share_) *
+                        problem_.timeline.sample_interval();
+  return std::copysign(std::max(0.0, std::abs(shift.size()) - untold),
+                       shift.size()) /
+         shift.sigma();
 }
 
 DeviationColumns::OfSensor DeviationColumns::Plan(int sensor,
@@ -126,7 +171,8 @@ DeviationColumns::OfSensor DeviationColumns::Plan(int sensor,
            .block = declared.kind,
            .axis = axis,
            .may_begin_late = declared.kind == BlockKind::kTimeOffset ||
-                             declared.kind == BlockKind::kScale});
+                             declared.kind == BlockKind::kScale ||
+                             declared.kind == BlockKind::kLeverArm});
     }
   }
   plan.parameters.resize(static_cast<Eigen::Index>(values.size()));
@@ -221,6 +267,15 @@ ShiftColumns::Columns DeviationColumns::Driven(std::size_t k) const {
     const auto& [reading, rate] = one.of_gyros ? w : f;
     column = Phi.middleCols(bias->offset, 3) * one.Of(reading, rate);
     column.segment<3>(bias->offset).setZero();
+    if (one.kind == ImuDeviation::Kind::kLate && !bends_.empty()) {
+      const State& x = states_[k - 1];
+      const Eigen::Matrix3d C_nb =
+          NedAxes(x.p_e).transpose() * x.q_eb.toRotationMatrix();
+      column.segment<3>(layout.Find(BlockKind::kVelocity)->offset) +=
+          C_nb * bends_[k].v;
+      column.segment<3>(layout.Find(BlockKind::kPosition)->offset) +=
+          C_nb * bends_[k].p;
+    }
   }
   return {kImu, B};
 }

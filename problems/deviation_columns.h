@@ -66,8 +66,24 @@ class DeviationColumns {
     return sensors_[static_cast<std::size_t>(sensor)].deviations;
   }
   ShiftColumns Columns() const;
+  /// MeanShift::z, of gyros that are late by what they are so more than nothing
+  /// tells: half a sample interval, as a reading may stand for the instant or for
+  /// the mean of the interval before it; and what noise of the readings looks like,
+  /// which is in the columns and in the innovations, as much again for each piece
+  /// of the course, times the share that readings of neighbours have in the mean
+  /// square of what those of pieces differ by.
+  double ZOf(const MeanShift& shift) const;
 
  private:
+  /// Between two nodes the rate of turn w less the straight line between those of
+  /// the nodes, times the specific force f, over time, in body axes at the first:
+  ///   v = int (w - line) x f dt,  p = int v dt.
+  struct Bend {
+    Eigen::Vector3d v = Eigen::Vector3d::Zero();
+    Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  };
+  void FollowTurns();
+
   struct OfSensor {
     std::vector<Deviation> deviations;
     ErrorLayout layout;          ///< the problem's and the blocks tried
@@ -85,6 +101,8 @@ class DeviationColumns {
   const std::vector<State>& states_;
   const LinearTape& tape_;
   std::vector<OfSensor> sensors_;
+  std::vector<Bend> bends_;  ///< of the interval that ends at a node
+  double noise_share_ = 1.0;
 };
 
 }  // namespace hindsight

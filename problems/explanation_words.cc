@@ -13,6 +13,8 @@ namespace {
 
 constexpr const char* kAxes[] = {"forward", "right", "down"};
 constexpr const char* kNavigationAxes[] = {"north", "east", "down"};
+/// A share of another axis that no calibration leaves.
+constexpr double kPlainlyOfOthers = 0.1;
 constexpr const char* kBodyAxes[] = {"x", "y", "z"};
 
 /// An amount with the unit that people use.
@@ -109,7 +111,9 @@ Words WordsOfImu(const ImuDeviation& deviation, double size) {
           fmt::format("{} {} and {} hold {} of each other", triad,
                       kBodyAxes[(deviation.axis + 1) % 3],
                       kBodyAxes[(deviation.axis + 2) % 3], Amount(size, "1")),
-          "the order of the IMU's columns"};
+          std::abs(size) > kPlainlyOfOthers
+              ? "the order of the IMU's columns"
+              : "the alignment of the IMU's axes with each other"};
     case ImuDeviation::Kind::kTurned:
       return {fmt::format("the {}s are turned by {} about {} against the gyros",
                           triad, Amount(size, "rad"), axis),

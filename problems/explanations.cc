@@ -13,20 +13,9 @@
 #include "filters/shift_response.h"
 #include "problems/deviation_columns.h"
 #include "problems/explanation_words.h"
+#include "problems/likely_deviations.h"
 
 namespace hindsight {
-
-/// A deviation beyond its limit.
-struct LikelyDeviation {
-  MeanShift shift;
-  double z = 0.0;
-  double limit = 0.0;
-  // Of one that comes and goes: of all additive columns of the group.
-  std::vector<int> columns = {};
-  Eigen::MatrixXd steps = {};
-
-  double Excess() const { return std::abs(z) / limit; }
-};
 
 namespace {
 
@@ -81,41 +70,6 @@ double LimitOf(double false_alarms, std::size_t tests) {
       1.0));
 }
 
-/// The likeliest deviations of each source beyond their limits, one a column
-/// and course.
-class LikelyDeviations {
- public:
-  void Offer(LikelyDeviation one) {
-    if (!(std::abs(one.z) >= one.limit)) return;
-    const Course course = !one.columns.empty() ? Course::kVaries
-                          : one.shift.grows    ? Course::kGrows
-                                               : Course::kStays;
-    const int source = one.shift.of_state ? kState : one.shift.group;
-    LikelyDeviation& best = best_[source][{one.shift.column, course}];
-    if (best.limit == 0.0 || one.Excess() > best.Excess()) {
-      best = std::move(one);
-    }
-  }
-
-  /// By source, those farthest beyond their limits first.
-  std::map<int, std::vector<LikelyDeviation>> Sorted() const {
-    std::map<int, std::vector<LikelyDeviation>> all;
-    for (const auto& [source, own] : best_) {
-      for (const auto& [column, one] : own) all[source].push_back(one);
-      std::stable_sort(all[source].begin(), all[source].end(),
-                       [](const LikelyDeviation& a, const LikelyDeviation& b) {
-                         return a.Excess() > b.Excess();
-                       });
-    }
-    return all;
-  }
-
- private:
-  static constexpr int kState = -3;
-  enum class Course { kStays, kGrows, kVaries };
-  std::map<int, std::map<std::pair<int, Course>, LikelyDeviation>> best_;
-};
-
 /// Additive errors that come and go.
 class Varying {
  public:
@@ -152,11 +106,10 @@ class Varying {
       // In place of a normal variable and its limit.
       LikelyDeviation likeliest;
       for (std::size_t w = 0; w < wanted.size(); ++w) {
-        const MeanShift* largest = Largest(group, wanted[w], tried);
         const ShiftEnergy& own = energy.columns[w];
-        if (largest == nullptr || own.weights.empty()) continue;
+        if (own.weights.empty()) continue;
         const LikelyDeviation one = {
-            *largest, std::sqrt(own.sum),
+            Largest(group, wanted[w], tried), std::sqrt(own.sum),
             std::sqrt(WeightedChiSquareQuantile(own.weights, by_column)),
             wanted, energy.steps};
         candidates->Offer(one);
@@ -173,16 +126,20 @@ class Varying {
   }
 
  private:
-  static const MeanShift* Largest(int group, int column,
-                                  const std::vector<MeanShift>& tried) {
-    const MeanShift* largest = nullptr;
+  /// The likeliest of a column that stay; of none the column.
+  static MeanShift Largest(int group, int column,
+                           const std::vector<MeanShift>& tried) {
+    MeanShift largest;
+    largest.group = group;
+    largest.column = column;
     for (const MeanShift& shift : tried) {
       if (shift.of_state || shift.grows || shift.group != group ||
           shift.column != column) {
         continue;
       }
-      if (largest == nullptr || std::abs(shift.z()) > std::abs(largest->z())) {
-        largest = &shift;
+      if (largest.information == 0.0 ||
+          std::abs(shift.z()) > std::abs(largest.z())) {
+        largest = shift;
       }
     }
     return largest;
@@ -233,7 +190,8 @@ ExplanationSearch::ExplanationSearch(const Problem& problem,
       LimitOf(false_alarms / 3.0, tried.size() - throughout)};
   LikelyDeviations candidates;
   for (const MeanShift& shift : tried) {
-    candidates.Offer({shift, shift.z(), limits[shift.onset == first ? 0 : 1]});
+    candidates.Offer(
+        {shift, own.ZOf(shift), limits[shift.onset == first ? 0 : 1]});
   }
   varying.Offer(energies.get(), tried, false_alarms / 3.0, &candidates);
   found_->best = candidates.Sorted();

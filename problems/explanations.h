@@ -21,7 +21,9 @@ namespace hindsight {
 ///                        declination; axes turned by an angle of what is
 ///                        measured in navigation axes;
 ///   throughout and from each of kOnsets times on, and growing from there on
-///                        an additive error of a component, and the clock;
+///                        an additive error of a component, and of what the
+///                        problem does not estimate scale, lever arm and clock;
+/// of the IMU, throughout  what ImuDeviations lists, and its clock;
 /// and from these times on another value of every component of the state but
 /// the position.
 class ExplanationSearch {

@@ -65,15 +65,15 @@ Evidence Strain(const Judged& judged, const ValueOrigin& origin,
 
 /// Of a gyro bias that was given with its sigma, which the start may have
 /// combined with what the data say: how far the solution is from what was
-/// given. None of all else.
+/// given, in the given sigma. None of all else.
 std::optional<double> StrainOfGiven(const Judged& judged, const Block& block,
-                                    int axis, const State& x, double variance) {
+                                    int axis, const State& x) {
   const InitialState& given = judged.start->given;
   if (block.key.kind != BlockKind::kGyroBias || !given.gyro_bias_sigma) {
     return std::nullopt;
   }
-  const double sigma = (*given.gyro_bias_sigma)(axis);
-  return StrainOf(x.b_g(axis) - given.gyro_bias(axis), sigma * sigma, variance);
+  return std::abs(x.b_g(axis) - given.gyro_bias(axis)) /
+         (*given.gyro_bias_sigma)(axis);
 }
 
 /// A value that is held against what it started from.
@@ -84,14 +84,6 @@ struct Strained {
   double sigmas = 0.0;
   double value = 0.0;  ///< away from the start
 };
-
-/// Of each component at an epoch; zero where nothing is known.
-ErrorVector VariancesAt(const Solution& solution, std::size_t k) {
-  if (solution.covariances.empty()) {
-    return ErrorVector::Zero(solution.layout.dim());
-  }
-  return solution.covariances.Get(k).diagonal();
-}
 
 /// None of an observer, P of which weighs nothing against its start.
 std::vector<Strained> AllStrained(const Judged& judged) {
@@ -108,8 +100,6 @@ std::vector<Strained> AllStrained(const Judged& judged) {
       Local(solution.layout, start.x, solution.states.front());
   const ErrorVector last =
       Local(solution.layout, start.x, solution.states[end]);
-  const ErrorVector first_variances = VariancesAt(solution, 0);
-  const ErrorVector last_variances = VariancesAt(solution, end);
   std::vector<Strained> all;
   for (const Block& block : solution.layout.blocks()) {
     const bool constant = block.evolution.is_constant();
@@ -119,15 +109,12 @@ std::vector<Strained> AllStrained(const Judged& judged) {
     for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {
       if (!block.active[static_cast<std::size_t>(axis)]) continue;
       const double off = constant ? last(i) : first(i);
-      const double variance = constant ? last_variances(i) : first_variances(i);
       const std::string name = solution.layout.ComponentName(i);
       const ValueOrigin origin = OriginOf(judged, block, axis);
-      all.push_back({block, origin, name,
-                     origin.given ? StrainOf(off, start.P(i, i), variance)
-                                  : std::abs(off) / std::sqrt(start.P(i, i)),
-                     off});
+      all.push_back(
+          {block, origin, name, std::abs(off) / std::sqrt(start.P(i, i)), off});
       const std::optional<double> of_given = StrainOfGiven(
-          judged, block, axis, solution.states[constant ? end : 0], variance);
+          judged, block, axis, solution.states[constant ? end : 0]);
       if (of_given && !origin.given) {
         all.push_back(
             {block, OriginOfGivenGyroBias(start.given), name, *of_given, off});

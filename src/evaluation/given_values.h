@@ -18,13 +18,13 @@ double StrainLimit(int count);
 double StrainOf(double off, double prior_variance, double variance);
 
 /// Doubtful: a start value, or a constant, that ends far from what it started
-/// from. If the configuration gave it, by StrainOf, from StrainLimit of all that
-/// it gave on: that is a wrong value, sign, unit or clock, or too small a sigma;
-/// so are constants that the method has beside its states. If the program chose
-/// it, by its own sigma, from StrainLimit of all that it chose on: that sigma was
-/// wrong, and what helps is to give the value. A gyro bias that was given with its
-/// sigma is held against that, also where the start is its combination with what
-/// rest or the alignment say.
+/// from, in a priori sigmas. If the configuration gave it, from StrainLimit of all
+/// that it gave on: that is a wrong value, sign, unit or clock, or too small a
+/// sigma; so are constants that the method has beside its states, by StrainOf. If
+/// the program chose it, from StrainLimit of all that it chose on: its own sigma
+/// was wrong, and what helps is to give the value. A gyro bias that was given with
+/// its sigma is held against that, also where the start is its combination with
+/// what rest or the alignment say.
 void FindStrainedValues(const Judged& judged, std::vector<Evidence>* evidence);
 
 }  // namespace hindsight

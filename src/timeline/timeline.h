@@ -62,6 +62,11 @@ class Timeline {
     return measurements_;
   }
 
+  /// Readings of the IMU, which are best asked for in order of time.
+  ImuIntegrator Readings() const { return integrator_; }
+  /// Of the IMU [s].
+  double sample_interval() const { return sample_interval_; }
+
   /// The count at node k with which the sensor's next increment begins, or
   /// nullptr.
   const IncrementStart* IncrementStartAt(std::size_t k, int sensor) const;
