@@ -201,6 +201,11 @@ Solution AttitudeEstimation::SolutionOf(const Pass& pass) {
         "a magnet of {:.0f} uT that travels along from {:.1f} to {:.1f} s",
         magnet.field_b.norm(), magnet.begin, magnet.end));
   }
+  if (pass.survey.horizontal > 0.0) {
+    solution.notes.push_back(
+        fmt::format("a field of {:.1f} uT horizontal and {:.1f} uT down",
+                    pass.survey.horizontal, pass.survey.down));
+  }
   solution.attitude = VerdictsOf(pass.run);
   innovations_ = InnovationsOf(pass.run);
   return solution;

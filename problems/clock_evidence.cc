@@ -50,10 +50,6 @@ double SquaredDifference(const MarginalLikelihood& a,
   return sum;
 }
 
-}  // namespace
-
-namespace {
-
 double ExcessOf(const MarginalLikelihood& chosen) {
   return chosen.rows > 0.0 ? std::max(1.0, chosen.squares / chosen.rows) : 1.0;
 }

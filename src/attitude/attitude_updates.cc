@@ -51,14 +51,9 @@ double AttitudeFilter::UpdateState(const Vector& h, double residual, double R) {
 
 double AttitudeFilter::UpdateAttitude(const Eigen::Vector3d& h, double residual,
                                       double R) {
-  const Vector PHt = P_.leftCols<3>() * h;
-  const double S = h.dot(PHt.head<3>()) + R;
-  const double innovation = residual - h.dot(dx_.head<3>());
   Vector full = Vector::Zero();
   full.head<3>() = h;
-  Record(full, PHt, S, innovation);
-  ApplyGain(PHt, S, innovation);
-  return innovation / std::sqrt(S);
+  return UpdateState(full, residual, R);
 }
 
 double AttitudeFilter::ConsiderTilt(const Eigen::Vector3d& h, double residual,

@@ -168,6 +168,15 @@ class WornSensor : public ::testing::Test {
   }
 
   /// Verdicts of `ahrs` and `ahrs_smoother`, each run alone.
+  /// By name, of one run.
+  nlohmann::json RunBoth() {
+    Hindsight({"run", "data/config.yaml", "--methods=ahrs,ahrs_smoother",
+               "--out=out", "--force"},
+              folder_.path());
+    return nlohmann::json::parse(
+        ReadFile(folder_.path() / "out/summary.json"))["methods"];
+  }
+
   std::vector<nlohmann::json> Run() {
     std::vector<nlohmann::json> methods;
     for (const std::string method : {"ahrs", "ahrs_smoother"}) {
@@ -234,11 +243,7 @@ TEST_F(WornSensor, HearsOfAMagnetometerThatIsMountedAskew) {
 /// the filter finds says so.
 TEST_F(WornSensor, IronThatTheSmootherTakesOffIsDoubtfulInTheFilterAlone) {
   Edit("compass.csv", 1, 1, [](double x) { return x + 15.0; });
-  Hindsight({"run", "data/config.yaml", "--methods=ahrs,ahrs_smoother",
-             "--out=out", "--force"},
-            folder_.path());
-  const auto methods = nlohmann::json::parse(
-      ReadFile(folder_.path() / "out/summary.json"))["methods"];
+  const nlohmann::json methods = RunBoth();
   EXPECT_EQ(methods["ahrs"]["grade"], "doubtful");
   EXPECT_EQ(methods["ahrs_smoother"]["grade"], "usable")
       << methods["ahrs_smoother"]["verdict"];
@@ -251,11 +256,7 @@ TEST_F(WornSensor, TheTableHasTheGradesThatTheEvidenceGives) {
   Replace("form: vector", "form: heading");
   Replace("    down: 43 uT\n", "");
   Edit("compass.csv", 1, 1, [](double x) { return x + 15.0; });
-  Hindsight({"run", "data/config.yaml", "--methods=ahrs,ahrs_smoother",
-             "--out=out", "--force"},
-            folder_.path());
-  const auto methods = nlohmann::json::parse(
-      ReadFile(folder_.path() / "out/summary.json"))["methods"];
+  const nlohmann::json methods = RunBoth();
   for (const auto& [name, method] : methods.items()) {
     std::string worst = "usable";
     for (const auto& evidence : method["evidence"]) {
@@ -267,6 +268,14 @@ TEST_F(WornSensor, TheTableHasTheGradesThatTheEvidenceGives) {
     EXPECT_NE(worst, "usable") << name;
     EXPECT_EQ(method["grade"], worst) << name;
   }
+}
+
+/// The field of test_worn, 21 and 43 uT.
+TEST_F(WornSensor, TellsTheFieldThatItFound) {
+  const nlohmann::json methods = RunBoth();
+  EXPECT_THAT(methods["ahrs_smoother"]["found"].dump(),
+              ::testing::ContainsRegex("a field of 2[01].. uT horizontal and "
+                                       "4[23].. uT down"));
 }
 
 TEST_F(WornSensor, HearsOfGyrosOfAnotherScale) {
