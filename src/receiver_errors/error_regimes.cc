@@ -1,5 +1,6 @@
 #include "receiver_errors/error_regimes.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -10,9 +11,12 @@
 #include "receiver_errors/search_attempts.h"
 #include "receiver_errors/sequence_refinement.h"
 #include "receiver_errors/sequence_smoother.h"
+#include "receiver_errors/sequence_variations.h"
 
 namespace hindsight {
 namespace {
+
+constexpr double kLasting = 1e8;  // correlation time of a bias that stays [s]
 
 std::size_t FixCount(const RegimeProblem& problem) {
   std::size_t count = 0;
@@ -157,6 +161,39 @@ std::vector<Attempt> Hopeful(std::vector<Attempt> attempts,
   return attempts;
 }
 
+/// The largest of the sensor's errors along an axis, smoothed.
+double SizeOf(const RegimeProblem& problem, const Hypothesis& one) {
+  const int n = problem.tape.dim();
+  const std::vector<ErrorVector> smoothed = SmoothSequence(
+      problem.tape, problem.sensor, one.parameters, one.sequence);
+  Eigen::Vector3d largest = Eigen::Vector3d::Zero();
+  for (const ErrorVector& x : smoothed) {
+    largest = largest.cwiseMax(x.segment<3>(n).cwiseAbs());
+  }
+  return largest.maxCoeff();
+}
+
+/// The likeliest fit with the good and the erroneous stretches exchanged, by
+/// errors as large as its own.
+std::vector<ErrorRegimes> FitExchanged(const RegimeProblem& problem,
+                                       const std::vector<ErrorRegimes>& fits) {
+  std::vector<ErrorRegimes> out;
+  if (fits.empty()) return out;
+  const auto best = std::max_element(fits.begin(), fits.end(),
+                                     [](const auto& a, const auto& b) {
+                                       return a.log_evidence < b.log_evidence;
+                                     });
+  const Hypothesis& likeliest = best->hypotheses.front();
+  for (const ModeSequence& other : RolesExchanged(likeliest.sequence)) {
+    if (problem.effort->IsSpent()) break;
+    ErrorParameters from = likeliest.parameters;
+    from.sigma = SizeOf(problem, likeliest);
+    from.tau = kLasting;
+    out.push_back(FitSwitching(problem, other, from));
+  }
+  return out;
+}
+
 /// Every order of modes by parameters of its own.
 std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
                                     const ErrorParameters& start,
@@ -174,6 +211,8 @@ std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
     if (rival == nullptr) break;
     fits.push_back(FitSwitching(problem, rival->sequence, rival->parameters));
   }
+  std::vector<ErrorRegimes> exchanged = FitExchanged(problem, fits);
+  std::move(exchanged.begin(), exchanged.end(), std::back_inserter(fits));
   return fits;
 }
 

@@ -18,6 +18,10 @@ constexpr double kVelocitySteps = 2.0;  // the velocity of the IMU jumps
 constexpr double kChanges = 3.0;  // a biased receiver jumps to another bias
 constexpr double kBends = 0.001;  // a drifting one gets another rate
 
+// Of the ten recordings with a receiver that data/README.md lists all begin well:
+// Laplace's rule of succession.
+constexpr double kBeginsWell = 11.0 / 12.0;
+
 constexpr ErrorStep kStayGood = {ErrorMode::kGood};
 constexpr ErrorStep kGoOnBiased = {ErrorMode::kBiased};
 constexpr ErrorStep kJump = {ErrorMode::kBiased, true};
@@ -88,15 +92,23 @@ double LogTransition(ErrorMode before, ErrorStep step, int fixes) {
 }
 
 double LogFirst(ErrorStep step, int fixes) {
+  // Shares of time in the stationary distribution of the transitions.
   constexpr double kBiased = kJumps / kEndsOfAnError;
   constexpr double kSlight = kSlights / kEndsOfAnError;
   constexpr double kDrifting = kDrifts / (kEndsOfAnError + kStops);
-  constexpr double kAll = 1.0 + kBiased + kSlight + kDrifting;
-  if (step == kStayGood) return -std::log(kAll);
-  if (step == kJump) return std::log(kBiased / kAll);
-  if (step == kSlightJump) return std::log(kSlight / kAll);
-  if (step == kBeginDrift) return std::log(kDrifting / kAll);
+  constexpr double kOfWell = kBeginsWell / (1.0 + kSlight);
+  constexpr double kOfErring = (1.0 - kBeginsWell) / (kBiased + kDrifting);
+  if (step == kStayGood) return std::log(kOfWell);
+  if (step == kSlightJump) return std::log(kOfWell * kSlight);
+  if (step == kJump) return std::log(kOfErring * kBiased);
+  if (step == kBeginDrift) return std::log(kOfErring * kDrifting);
   return LogTransition(ErrorMode::kGood, step, fixes);
+}
+
+double LogOddsOfBeginningWell() {
+  constexpr int kAny = 20;
+  return LogFirst(kStayGood, kAny) - LogFirst(kJump, kAny) -
+         std::log(kEndsOfAnError / kJumps);
 }
 
 double LogOfVelocitySteps(int count) {

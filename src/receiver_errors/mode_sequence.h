@@ -71,9 +71,13 @@ inline constexpr double kEndsOfAnError = 4.0;
 /// ln probability of a step after a mode, where `fixes` fixes are expected to
 /// hold a few changes.
 double LogTransition(ErrorMode before, ErrorStep step, int fixes);
-/// ln probability of the step at the first fix: what a receiver that has been on
-/// for long is like, the stationary distribution of the transitions.
+/// ln probability of the step at the first fix: good or slightly biased in eleven
+/// of twelve recordings, else biased or drifting; within each of the two as in
+/// the stationary distribution of the transitions.
 double LogFirst(ErrorStep step, int fixes);
+/// ln of how much likelier it is that a receiver which errs over some stretch does so
+/// at the end of a recording than at its begin: 0 of a stationary sequence.
+double LogOddsOfBeginningWell();
 /// ln of what `count` velocity steps in a sequence cost beyond their transitions.
 /// Each is taken as a hundred times rarer than the one before it: an IMU may have
 /// had a shock; one that has them again and again is one with other noise than

@@ -95,7 +95,8 @@ std::optional<Evidence> ReceiverErrors::Average(const ErrorLayout& layout,
                                                 CovarianceSeries* P) const {
   const WeighedHypothesis& chosen = found_->chosen();
   const RivalHypothesis rival = FindRival(found_->alternatives, chosen, *P);
-  const bool comparable = rival.probability > kComparable;
+  const bool comparable = rival.probability > kComparable ||
+                          (found_->errant_start && rival.probability > 0.0);
   const ErrorStates own = found_->states();
   const int dim = found_->tape.dim();
   for (std::size_t k = 0; k < found_->tape.size(); ++k) {

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "measurements/sensor_kind.h"
+#include "receiver_errors/errant_end.h"
+#include "receiver_errors/sequence_smoother.h"
 
 namespace hindsight {
 namespace {
@@ -34,7 +36,7 @@ std::string UnitOf(const SensorKind& kind) {
 /// Filter steps of a search; of long tapes so many a node.
 double MostEffort(const LinearTape& tape) {
   constexpr double kAtLeast = 3e5;
-  constexpr double kPerNode = 200.0;
+  constexpr double kPerNode = 400.0;
   return std::max(kAtLeast, kPerNode * static_cast<double>(tape.size()));
 }
 
@@ -100,6 +102,28 @@ void SensorFindings::WeighAlternatives() {
   if (!stands()) return;
   alternatives = WeighHypotheses(tape, sensor, regimes);
   central = MostCentral(alternatives);
+  AddExchanged();
+}
+
+void SensorFindings::AddExchanged() {
+  const std::optional<ErrantEnd> errant = FindErrantEnd(*this);
+  if (!errant || !errant->IsDoubtful()) return;
+  std::optional<WeighedHypothesis> exchanged = Exchanged(*this, *errant);
+  if (!exchanged) return;
+  errant_start = errant->at_start;
+  // What the search met of it counts already.
+  double known = 0.0;
+  for (const WeighedHypothesis& one : alternatives) {
+    const bool nearer = MeanSquareDistance(one.smoothed, exchanged->smoothed) <
+                        MeanSquareDistance(one.smoothed, chosen().smoothed);
+    known += nearer ? one.weight : 0.0;
+  }
+  if (known >= exchanged->weight) return;
+  exchanged->weight = (exchanged->weight - known) / (1.0 - known);
+  for (WeighedHypothesis& one : alternatives) {
+    one.weight *= 1.0 - exchanged->weight;
+  }
+  alternatives.push_back(*std::move(exchanged));
 }
 
 void SensorFindings::ChooseNoise(SearchEffort* effort) {

@@ -59,10 +59,15 @@ struct SensorFindings : ErrorDecisions {
 
   /// Smooths the hypotheses of the regimes, if they stand, about the tape.
   void WeighAlternatives();
+  /// Where good and erroneous fixes may be the other way about, beside the chosen
+  /// hypothesis the one with them exchanged.
+  void AddExchanged();
 
   const LinearTape& tape;
   std::vector<WeighedHypothesis> alternatives;
   std::size_t central = 0;  ///< of the alternatives, the chosen one
+  /// The chosen one has the sensor err from its first fix, doubtfully.
+  bool errant_start = false;
 };
 
 /// What was decided, about another tape, of which nothing is searched anew;

@@ -1,5 +1,6 @@
 #include "receiver_errors/sequence_variations.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hindsight {
@@ -142,6 +143,30 @@ void ForEachVelocityStep(
     if (!visit(one)) return;
     one[i].velocity_step = false;
   }
+}
+
+std::vector<ModeSequence> RolesExchanged(const ModeSequence& h) {
+  const auto errs = [](const ErrorStep& s) {
+    return s.mode == ErrorMode::kBiased || s.mode == ErrorMode::kDrifting;
+  };
+  const auto biased = [](const ErrorStep& s) {
+    return s.mode == ErrorMode::kBiased;
+  };
+  const auto at_start = static_cast<std::size_t>(
+      std::find_if_not(h.begin(), h.end(), errs) - h.begin());
+  const auto at_end = static_cast<std::size_t>(
+      std::find_if_not(h.rbegin(), h.rend(), biased) - h.rbegin());
+  std::vector<ModeSequence> all;
+  if (at_start == h.size()) return all;
+  if (at_start > 0) {
+    all.emplace_back(h.size());
+    SetError(ErrorMode::kBiased, at_start, h.size(), &all.back());
+  }
+  if (at_end > 0) {
+    all.emplace_back(h.size());
+    SetError(ErrorMode::kBiased, 0, h.size() - at_end, &all.back());
+  }
+  return all;
 }
 
 std::vector<Hypothesis> EarlierErrors(const ModeSequence& h) {

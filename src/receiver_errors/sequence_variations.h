@@ -20,6 +20,12 @@ std::vector<ModeSequence> Variations(const ModeSequence& sequence);
 void ForEachVelocityStep(const ModeSequence& sequence,
                          const std::function<bool(const ModeSequence&)>& visit);
 
+/// Where `sequence` is biased at its last fixes, one with these good and all before
+/// biased; where it is biased or drifts at its first, one with those good and all
+/// behind biased. By fixes alone a jump tells one as well as the other. Nothing
+/// where it errs throughout.
+std::vector<ModeSequence> RolesExchanged(const ModeSequence& sequence);
+
 /// An error too small to be found alone may have begun at any time before a
 /// change: each time is unlikely, all together may not be. And a jump may be
 /// the end of a drift that began unseen. Lengths are a quarter apart, each

@@ -42,15 +42,16 @@ TEST(CalibrationOfRecordings, CarRtkFromARoughStart) {
   }
   const nlohmann::json batch = RunBatch("car_rtk.yaml", {});
   EXPECT_EQ(batch["constants"]["gnss_time_offset"]["verdict"], "observed");
-  // The scale of the pitch gyro is five times what data sheets allow: something
-  // is not modelled, the IMU's clock for one.
+  // The scale of the pitch gyro is four times what data sheets allow: something
+  // is not modelled.
   EXPECT_EQ(batch["grade"], "doubtful");
   EXPECT_THAT(batch["evidence"].dump(),
-              ::testing::HasSubstr("gyro_scale[y] is 5."));
-  EXPECT_THAT(batch["verdict"].get<std::string>(),
-              ::testing::HasSubstr("the clock of the IMU runs 0.0002"));
-  // The figures of the recording's own notes.
-  EXPECT_NEAR(Value(batch, "gnss_time_offset"), 0.2, 0.02);
+              ::testing::HasSubstr("gyro_scale[y] is 4."));
+  EXPECT_THAT(batch["evidence"].dump(),
+              ::testing::Not(::testing::HasSubstr("the clock of the IMU")));
+  // The figures of the recording's own notes, which stretch the IMU's stamps by
+  // 0.141 s: half of that is 0.07 s on average.
+  EXPECT_NEAR(Value(batch, "gnss_time_offset"), 0.2 - 0.07, 0.02);
   EXPECT_NEAR(Value(batch, "wheels_mounting[y]"), -0.119, 0.02);
   EXPECT_NEAR(Value(batch, "wheels_mounting[z]"), 0.094, 0.02);
   EXPECT_LT(Sigma(batch, "wheels_mounting[z]"), 0.01);

@@ -1,5 +1,11 @@
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string>
 
 #include "app/recording.h"
 
@@ -57,19 +63,64 @@ TEST_F(DraftOf, WhatARunRefusesNamesTheFileThatWasWritten) {
   EXPECT_EQ(init.err, check.err);
 }
 
-TEST_F(DraftOf, DatedFixesBesideAnUndatedImuLoads) {
+/// Gives the fixes dates, a second apart from noon on.
+void DateFixes(Recording* recording) {
   int k = 0;
-  recording_.Edit("gnss.csv", [&](std::vector<std::string>* lines) {
+  recording->Edit("gnss.csv", [&](std::vector<std::string>* lines) {
     lines->front().replace(0, 4, "t[GPST]");
     for (std::size_t i = 1; i < lines->size(); ++i, ++k) {
       const std::string second = (k < 10 ? "0" : "") + std::to_string(k);
       SetColumn(&(*lines)[i], 0, "2025-07-08T12:00:" + second);
     }
   });
+}
+
+/// A time tag of RTKLIB, opened half a second after noon, of a log whose last
+/// bytes came so many milliseconds later (2.4.3, stream.c).
+std::string TimeTag(std::uint32_t milliseconds) {
+  std::string tag = "TIMETAG RTKLIB 2.4.3";
+  tag.resize(84, '\0');
+  const std::uint32_t noon = 1751976000;  // 2025-07-08T12:00:00
+  const double fraction = 0.5;
+  const std::uint32_t bytes = 1;
+  std::memcpy(&tag[64], &noon, 4);
+  std::memcpy(&tag[68], &fraction, 8);
+  std::memcpy(&tag[76], &milliseconds, 4);
+  std::memcpy(&tag[80], &bytes, 4);
+  return tag;
+}
+
+TEST_F(DraftOf, DatedFixesBesideAnUndatedImuLoads) {
+  DateFixes(&recording_);
   const Outcome init = Init("c.yaml");
   EXPECT_EQ(init.status, 0) << init.err;
   EXPECT_THAT(ReadFile(root() / "c.yaml"),
               HasSubstr("imu: its clock has no date"));
+}
+
+/// A tag says when bytes came, with what lay in buffers: to tenths of a second it
+/// is no reason to stretch the IMU's own stamps; beyond, they are no quartz's.
+TEST_F(DraftOf, ATimeTagStretchesTheStampsThatItContradictsAlone) {
+  DateFixes(&recording_);
+  const double span = 50.0;  // of the recording
+  for (const double later : {0.0, 0.3, 3.0}) {
+    const auto milliseconds =
+        static_cast<std::uint32_t>(std::lround(1e3 * (span + later)));
+    WriteFile(recording_.file("imu.csv.tag"), TimeTag(milliseconds));
+    const Outcome init = Init("c.yaml");
+    EXPECT_EQ(init.status, 0) << init.err;
+    const std::string draft = ReadFile(root() / "c.yaml");
+    EXPECT_THAT(draft,
+                HasSubstr("time: {start: 2025-07-08 12:00:00.500000000 GPST"));
+    const std::string duration =
+        fmt::format("duration: {:.3f} s", 1e-3 * milliseconds);
+    if (later > 1.0) {
+      EXPECT_THAT(draft, HasSubstr(duration));
+    } else {
+      EXPECT_THAT(draft, Not(HasSubstr("duration:"))) << later;
+    }
+    std::filesystem::remove(root() / "c.yaml");
+  }
 }
 
 TEST_F(DraftOf, RefusesAnOutputThatCannotBeWrittenBeforeItLooks) {

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "filters/rts.h"
 #include "receiver_errors/receiver_tape.h"
 #include "receiver_errors/sequence_refinement.h"
 #include "receiver_errors/sequence_smoother.h"
+#include "receiver_errors/sequence_variations.h"
 
 namespace hindsight {
 namespace {
@@ -38,6 +41,62 @@ TEST(ModeSequence, ThatIsGoodIsTheKalmanFilterAndItsSmoother) {
     EXPECT_LT((difference.array() / sigma.array()).abs().maxCoeff(), 1e-5) << k;
     EXPECT_TRUE(smoothed[k].tail(6).isZero(0.0));
   }
+}
+
+/// One of the ways in which a receiver may begin it does, errs in one recording of
+/// twelve, and is twice to three times as likely to err over a stretch at the end
+/// as over the same at the begin.
+TEST(ModeSequence, BeginsWellInElevenOfTwelveRecordings) {
+  const auto first = [](ErrorMode mode, bool anew) {
+    return std::exp(LogFirst({mode, anew, false}, 100));
+  };
+  const double well =
+      first(ErrorMode::kGood, false) + first(ErrorMode::kSlight, true);
+  const double erring =
+      first(ErrorMode::kBiased, true) + first(ErrorMode::kDrifting, true);
+  EXPECT_NEAR(well, 11.0 / 12.0, 1e-12);
+  EXPECT_NEAR(erring, 1.0 / 12.0, 1e-12);
+
+  constexpr int kFixes = 100;
+  ModeSequence begin(kFixes);
+  ModeSequence end(kFixes);
+  for (int i = 0; i < kFixes / 2; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    begin[k].mode = ErrorMode::kBiased;
+    end[k + kFixes / 2].mode = ErrorMode::kBiased;
+  }
+  begin.front().anew = true;
+  end[kFixes / 2].anew = true;
+  const auto log_prior = [](const ModeSequence& h) {
+    double sum = LogFirst(h.front(), kFixes);
+    for (std::size_t i = 1; i < h.size(); ++i) {
+      sum += LogTransition(h[i - 1].mode, h[i], kFixes);
+    }
+    return sum;
+  };
+  // Half of the fixes go on in each mode, but one, in either.
+  EXPECT_NEAR(log_prior(end) - log_prior(begin), LogOddsOfBeginningWell(), 0.1);
+  EXPECT_GT(LogOddsOfBeginningWell(), std::log(2.0));
+  EXPECT_LT(LogOddsOfBeginningWell(), std::log(3.0));
+}
+
+/// Good, biased from the third fix on: or biased before, and then good.
+TEST(ModeSequence, ExchangesTheRolesOfAnErrantEnd) {
+  ModeSequence h(5);
+  for (std::size_t i = 3; i < 5; ++i) h[i].mode = ErrorMode::kBiased;
+  h[3].anew = true;
+  const std::vector<ModeSequence> all = RolesExchanged(h);
+  ASSERT_EQ(all.size(), 1u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(all[0][i].mode, i < 3 ? ErrorMode::kBiased : ErrorMode::kGood);
+    EXPECT_EQ(all[0][i].anew, i == 0);
+  }
+  const std::vector<ModeSequence> back = RolesExchanged(all[0]);
+  ASSERT_EQ(back.size(), 1u);
+  EXPECT_EQ(back[0], h);
+  EXPECT_TRUE(RolesExchanged(ModeSequence(5)).empty());
+  EXPECT_TRUE(
+      RolesExchanged(ModeSequence(5, ErrorStep{ErrorMode::kBiased})).empty());
 }
 
 TEST(ModeSequence, FindsWhenABiasBeginsAndEnds) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "earth/wgs84.h"
 #include "filters/forward_filter.h"
@@ -157,7 +158,7 @@ void AddStep(double from, TestProblem* test) {
 /// Of a step of 37.4 m in the middle: good before it and biased behind it; or,
 /// `behind` less likely in the logarithm, the other way about.
 ErrorDecisions TwoTellings(const Problem& problem, const LinearTape& tape,
-                           double behind, int sensor = 0) {
+                           double behind, int sensor = 0, double step = 30.5) {
   ErrorDecisions decisions(problem, tape, sensor);
   decisions.choice.chosen = 1;
   decisions.regimes.kind = ErrorRegimes::Kind::kSwitching;
@@ -167,10 +168,10 @@ ErrorDecisions TwoTellings(const Problem& problem, const LinearTape& tape,
   one.sequence.resize(tape.size());
   Hypothesis other = one;
   for (std::size_t i = 0; i < tape.size(); ++i) {
-    const bool later = tape.t(i) > 30.5;
+    const bool later = tape.t(i) > step;
     (later ? one : other).sequence[i].mode = ErrorMode::kBiased;
   }
-  one.sequence[31].anew = true;
+  one.sequence[static_cast<std::size_t>(std::ceil(step))].anew = true;
   other.sequence[0].anew = true;
   other.log_posterior = -behind;
   decisions.regimes.hypotheses = {one, other};
@@ -183,14 +184,27 @@ struct Averaged {
   double variance = 0.0;  ///< there, north, beyond one of 1 m^2
 };
 
-Averaged AverageTwoTellings(double behind) {
+struct Telling {
+  double behind = 0.0;       ///< of the other; infinite: there is none
+  double step = 30.5;        ///< [s]
+  bool at_start = false;     ///< the chosen one errs before the step
+  double start_sigma = 1e4;  ///< of the position a priori, an axis [m]
+};
+
+Averaged AverageTellings(const Telling& asked) {
   TestProblem test = FixesOfOneMinute();
-  test.prior.P.topLeftCorner<3, 3>() *= 1e6;  // no start that would tell
-  AddStep(30.5, &test);
+  test.prior.P.topLeftCorner<3, 3>() =
+      Eigen::Matrix3d::Identity() * asked.start_sigma * asked.start_sigma;
+  AddStep(asked.step, &test);
   Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
   const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
-  const ReceiverErrors errors =
-      TakeThem(TwoTellings(problem, tape, behind), problem, tape);
+  ErrorDecisions tellings =
+      TwoTellings(problem, tape, asked.behind, 0, asked.step);
+  std::vector<Hypothesis>& both = tellings.regimes.hypotheses;
+  if (asked.at_start) std::swap(both[0], both[1]);
+  if (std::isinf(asked.behind)) both.pop_back();
+  both.front().log_posterior = 0.0;
+  const ReceiverErrors errors = TakeThem(tellings, problem, tape);
   errors.Extend(&problem);
   std::vector<State> states = errors.States(problem.layout);
   const int dim = problem.layout.dim();
@@ -207,7 +221,7 @@ Averaged AverageTwoTellings(double behind) {
 
 /// Probabilities of 62 and 38 %.
 TEST(ReceiverErrors, ThatAreAboutAsLikelyInTwoWaysGiveTheMean) {
-  const Averaged mean = AverageTwoTellings(0.5);
+  const Averaged mean = AverageTellings({.behind = 0.5});
   ASSERT_TRUE(mean.doubt.has_value());
   EXPECT_EQ(mean.doubt->grade, Grade::kDoubtful);
   EXPECT_THAT(mean.doubt->what, HasSubstr("or else, 38 % likely"));
@@ -215,12 +229,58 @@ TEST(ReceiverErrors, ThatAreAboutAsLikelyInTwoWaysGiveTheMean) {
   EXPECT_NEAR(mean.variance, 0.38 * 0.62 * 900.0, 30.0);
 }
 
-/// Probabilities of 95 and 5 %.
+/// Probabilities of 95 and 5 %, by the search and by the roles exchanged.
 TEST(ReceiverErrors, OfWhichOneIsFarLikelierAreNoMean) {
-  const Averaged likelier = AverageTwoTellings(3.0);
+  const Averaged likelier = AverageTellings({.behind = 3.0, .step = 45.5});
   EXPECT_FALSE(likelier.doubt.has_value());
   EXPECT_LT(likelier.off, 2.0);
-  EXPECT_NEAR(likelier.variance, 0.047 * 900.0, 10.0);
+  EXPECT_NEAR(likelier.variance, 0.05 * 900.0, 10.0);
+}
+
+constexpr double kOneAlone = std::numeric_limits<double>::infinity();
+
+/// What a priori speaks for an error of the share that it has at the end of a
+/// recording, against one of the rest of it at its begin.
+double ProbabilityOfExchange(double share, bool at_start) {
+  const double well = LogOddsOfBeginningWell();
+  const double log_odds =
+      kEndsOfAnError * (1.0 - 2.0 * share) + (at_start ? -well : well);
+  return 1.0 / (1.0 + std::exp(log_odds));
+}
+
+/// The search met one telling alone: the other one has its probability
+/// nevertheless.
+TEST(ReceiverErrors, WithTheirRolesExchangedAreARival) {
+  const Averaged half = AverageTellings({.behind = kOneAlone, .step = 30.5});
+  const double p = ProbabilityOfExchange(29.0 / 60.0, false);
+  ASSERT_TRUE(half.doubt.has_value());
+  EXPECT_NEAR(half.off, p * 37.4, 1.5);
+  EXPECT_NEAR(half.variance, p * (1.0 - p) * 900.0, 30.0);
+
+  const Averaged third = AverageTellings({.behind = kOneAlone, .step = 40.5});
+  const double p3 = ProbabilityOfExchange(19.0 / 60.0, false);
+  EXPECT_FALSE(third.doubt.has_value());
+  EXPECT_LT(third.off, 2.0);
+  EXPECT_NEAR(third.variance, p3 * 900.0, 10.0);
+}
+
+/// What is said to err from the first fix on leaves the whole trajectory to what
+/// follows: the mean is taken whatever the odds, as long as they are doubtful.
+TEST(ReceiverErrors, ThatErrFromTheFirstFixGiveTheMean) {
+  const Averaged quarter =
+      AverageTellings({.behind = kOneAlone, .step = 15.5, .at_start = true});
+  const double p = ProbabilityOfExchange(15.0 / 60.0, true);
+  ASSERT_TRUE(quarter.doubt.has_value());
+  EXPECT_NEAR(quarter.off, (1.0 - p) * 37.4, 2.0);
+}
+
+/// A start that is known decides: to 10 m, a step of 37 m tells its side.
+TEST(ReceiverErrors, OfAKnownStartHaveNoExchangedRoles) {
+  const Averaged known =
+      AverageTellings({.behind = kOneAlone, .step = 30.5, .start_sigma = 10.0});
+  EXPECT_FALSE(known.doubt.has_value());
+  EXPECT_LT(known.off, 2.0);
+  EXPECT_LT(known.variance, 5.0);
 }
 
 /// A whole-interval problem takes complete blocks alone.

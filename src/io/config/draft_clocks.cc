@@ -102,6 +102,18 @@ double Overlap(const StampGuess& a, const StampGuess& b) {
   return shorter > 0.0 ? (end - begin) / shorter : 0.0;
 }
 
+/// Whether a time tag tells a record's length better than the stamps within. It
+/// says when bytes came, with what lay in buffers; they are of a quartz, unless
+/// the two contradict each other.
+bool TellsDuration(const RtklibTag& tag, const FoundStream& found) {
+  constexpr double kLatency = 0.2;  // [s]
+  constexpr double kQuartz = 1e-4;  // data sheets: 10 to 100 ppm
+  const double own = found.stamps ? found.stamps->span : 0.0;
+  const double by_quartz = kQuartz * tag.duration;
+  return by_quartz > kLatency ||
+         std::abs(own - tag.duration) > 3.0 * std::hypot(kLatency, by_quartz);
+}
+
 /// The stamps of the fixes are dates, those of the IMU are not.
 void StartImuAt(const Stamp& first_fix, RecordingDraft* draft) {
   FoundStream* imu = &*draft->imu;
@@ -113,7 +125,9 @@ void StartImuAt(const Stamp& first_fix, RecordingDraft* draft) {
   if (const auto found =
           PathExists(beside) ? ReadRtklibTag(beside.string()) : std::nullopt) {
     SetTime(FormatGpsTime(Nanoseconds(found->opened)),
-            fmt::format("{:.3f} s", found->duration),
+            TellsDuration(*found, *imu)
+                ? fmt::format("{:.3f} s", found->duration)
+                : "",
             "by the time tag beside it", imu);
     return;
   }

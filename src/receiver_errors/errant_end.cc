@@ -1,0 +1,139 @@
+#include "receiver_errors/errant_end.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "receiver_errors/sensor_findings.h"
+
+namespace hindsight {
+namespace {
+
+/// Whether the sensor errs at each node. Before its first fix it does what it does
+/// there.
+std::vector<char> ErrsAt(const SensorFindings& found) {
+  constexpr double kSigmas = 3.0;
+  const WeighedHypothesis& chosen = found.chosen();
+  const int n = found.tape.dim();
+  std::vector<char> errs;
+  for (std::size_t k = 0; k < chosen.steps.size(); ++k) {
+    const ErrorMode mode = chosen.steps[k].mode;
+    const bool large =
+        chosen.smoothed[k].segment<3>(n).norm() > kSigmas * found.stated_sigma;
+    errs.push_back(mode != ErrorMode::kGood &&
+                   (mode != ErrorMode::kSlight || large));
+  }
+  std::size_t first = 0;
+  while (!HasFix(found.tape, first, found.sensor)) ++first;
+  std::fill_n(errs.begin(), first, errs[first]);
+  return errs;
+}
+
+ErrantEnd Between(const LinearTape& tape, std::size_t first, std::size_t past) {
+  const std::size_t last = tape.size() - 1;
+  ErrantEnd out;
+  out.first = first;
+  out.past = past;
+  out.at_start = first == 0;
+  if (past == first) return out;
+  out.begin = tape.t(first);
+  out.end = tape.t(past - 1);
+  out.share = (out.end - out.begin) / (tape.t(last) - tape.t(0));
+  return out;
+}
+
+/// Of the errors of the stretch's nodes, as many as the sensor has rows.
+struct ErrorOfStretch {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double deviation = 0.0;  ///< root mean square of the distance from it
+};
+
+ErrorOfStretch ErrorOver(const SensorFindings& found, const ErrantEnd& at) {
+  const int n = found.tape.dim();
+  const std::vector<ErrorVector>& smoothed = found.chosen().smoothed;
+  ErrorOfStretch out;
+  double squares = 0.0;
+  for (std::size_t k = at.first; k < at.past; ++k) {
+    out.mean += smoothed[k].segment<3>(n);
+    squares += smoothed[k].segment<3>(n).squaredNorm();
+  }
+  const auto count = static_cast<double>(at.past - at.first);
+  out.mean /= count;
+  out.deviation =
+      std::sqrt(std::max(0.0, squares / count - out.mean.squaredNorm()));
+  return out;
+}
+
+/// How far the vehicle is elsewhere if the fixes are right by which it is off.
+std::optional<Eigen::Vector3d> MoveBy(const SensorFindings& found,
+                                      const ErrantEnd& at,
+                                      const Eigen::Vector3d& error) {
+  for (std::size_t k = at.first; k < at.past; ++k) {
+    for (const TapeMeasurement& z : found.tape.measurements(k)) {
+      if (z.sensor != found.sensor || z.H.rows() != 3) continue;
+      return z.H.leftCols<3>().inverse() * error;
+    }
+  }
+  return std::nullopt;
+}
+
+/// ln of how much less likely the start is, moved so, by what is known of the
+/// position a priori.
+double LogLossAtStart(const SensorFindings& found,
+                      const Eigen::Vector3d& moved) {
+  const Eigen::Vector3d off = (found.chosen().smoothed.front().head<3>() -
+                               found.tape.epoch(0).dx_minus.head<3>());
+  const Eigen::Matrix3d information =
+      found.tape.P_minus(0).topLeftCorner<3, 3>().inverse();
+  const Eigen::Vector3d there = off + moved;
+  return 0.5 * (there.dot(information * there) - off.dot(information * off));
+}
+
+}  // namespace
+
+double ErrantEnd::LogOdds() const {
+  return kEndsOfAnError * (1.0 - 2.0 * share);
+}
+
+bool ErrantEnd::IsDoubtful() const { return LogOdds() < kLeastLogOdds; }
+
+std::optional<ErrantEnd> FindErrantEnd(const SensorFindings& found) {
+  if (!found.alone || !found.switching()) return std::nullopt;
+  const std::vector<char> errs = ErrsAt(found);
+  const auto at_start = static_cast<std::size_t>(
+      std::find(errs.begin(), errs.end(), 0) - errs.begin());
+  if (at_start == errs.size()) return std::nullopt;
+  const auto at_end = static_cast<std::size_t>(
+      std::find(errs.rbegin(), errs.rend(), 0) - errs.rbegin());
+  const ErrantEnd begin = Between(found.tape, 0, at_start);
+  const ErrantEnd end = Between(found.tape, errs.size() - at_end, errs.size());
+  const ErrantEnd& longer = end.share > begin.share ? end : begin;
+  if (longer.share <= 0.0) return std::nullopt;
+  return longer;
+}
+
+std::optional<WeighedHypothesis> Exchanged(const SensorFindings& found,
+                                           const ErrantEnd& errant) {
+  constexpr double kConstant = 1.0 / 3.0;
+  const ErrorOfStretch error = ErrorOver(found, errant);
+  if (error.deviation > kConstant * error.mean.norm()) return std::nullopt;
+  const auto moved = MoveBy(found, errant, error.mean);
+  if (!moved) return std::nullopt;
+  const double well = LogOddsOfBeginningWell();
+  const double log_odds = errant.LogOdds() + (errant.at_start ? -well : well) +
+                          LogLossAtStart(found, *moved);
+  WeighedHypothesis out = found.chosen();
+  out.weight = 1.0 / (1.0 + std::exp(log_odds));
+  const int n = found.tape.dim();
+  for (std::size_t k = 0; k < out.steps.size(); ++k) {
+    const bool good = k >= errant.first && k < errant.past;
+    const bool anew = k == (errant.at_start ? errant.past : 0);
+    out.steps[k] = {good ? ErrorMode::kGood : ErrorMode::kBiased, anew};
+    out.smoothed[k].head<3>() += *moved;
+    out.smoothed[k].segment<3>(n) -= error.mean;
+  }
+  return out;
+}
+
+}  // namespace hindsight
