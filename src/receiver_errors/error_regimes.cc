@@ -173,10 +173,42 @@ double SizeOf(const RegimeProblem& problem, const Hypothesis& one) {
   return largest.maxCoeff();
 }
 
-/// The likeliest fit with the good and the erroneous stretches exchanged, by
-/// errors as large as its own.
-std::vector<ErrorRegimes> FitExchanged(const RegimeProblem& problem,
-                                       const std::vector<ErrorRegimes>& fits) {
+/// Mean time between fixes [s].
+double Spacing(const RegimeProblem& problem, std::size_t fixes) {
+  const double duration =
+      problem.tape.t(problem.tape.size() - 1) - problem.tape.t(0);
+  return duration / static_cast<double>(std::max<std::size_t>(1, fixes));
+}
+
+/// The likeliest of DriftsThatEnd, each by a rate that leads to errors of the size;
+/// without a sequence if there is none.
+Attempt BestDriftThatEnds(const RegimeProblem& problem,
+                          const Hypothesis& jumping, double size) {
+  Attempt best;
+  const double dt = Spacing(problem, jumping.sequence.size());
+  for (ModeSequence& one : DriftsThatEnd(jumping.sequence)) {
+    const auto drifts = std::count_if(one.begin(), one.end(), [](auto& s) {
+      return s.mode == ErrorMode::kDrifting;
+    });
+    ErrorParameters p = jumping.parameters;
+    p.rate_sigma = size / (static_cast<double>(drifts) * dt);
+    problem.effort->Spend(problem.tape.size());
+    const SequenceScore score =
+        ScoreSequence(problem.tape, problem.sensor, p, one);
+    const double log_posterior = score.log_likelihood + score.log_prior;
+    if (!best.sequence.empty() && !(log_posterior > best.log_posterior)) {
+      continue;
+    }
+    best = {p, std::move(one), log_posterior};
+  }
+  return best;
+}
+
+/// What else a jump may be that the likeliest fit takes for one to or from a bias:
+/// the good and the erroneous stretches exchanged, by errors as large as its own;
+/// or the end of a drift.
+std::vector<ErrorRegimes> FitOtherTellings(
+    const RegimeProblem& problem, const std::vector<ErrorRegimes>& fits) {
   std::vector<ErrorRegimes> out;
   if (fits.empty()) return out;
   const auto best = std::max_element(fits.begin(), fits.end(),
@@ -184,13 +216,18 @@ std::vector<ErrorRegimes> FitExchanged(const RegimeProblem& problem,
                                        return a.log_evidence < b.log_evidence;
                                      });
   const Hypothesis& likeliest = best->hypotheses.front();
+  const double size = SizeOf(problem, likeliest);
   for (const ModeSequence& other : RolesExchanged(likeliest.sequence)) {
-    if (problem.effort->IsSpent()) break;
+    if (problem.effort->IsSpent()) return out;
     ErrorParameters from = likeliest.parameters;
-    from.sigma = SizeOf(problem, likeliest);
+    from.sigma = size;
     from.tau = kLasting;
     out.push_back(FitSwitching(problem, other, from));
   }
+  if (problem.effort->IsSpent()) return out;
+  const Attempt drift = BestDriftThatEnds(problem, likeliest, size);
+  if (drift.sequence.empty()) return out;
+  out.push_back(FitSwitching(problem, drift.sequence, drift.parameters));
   return out;
 }
 
@@ -211,8 +248,8 @@ std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
     if (rival == nullptr) break;
     fits.push_back(FitSwitching(problem, rival->sequence, rival->parameters));
   }
-  std::vector<ErrorRegimes> exchanged = FitExchanged(problem, fits);
-  std::move(exchanged.begin(), exchanged.end(), std::back_inserter(fits));
+  std::vector<ErrorRegimes> others = FitOtherTellings(problem, fits);
+  std::move(others.begin(), others.end(), std::back_inserter(fits));
   return fits;
 }
 

@@ -40,6 +40,13 @@ double MostEffort(const LinearTape& tape) {
   return std::max(kAtLeast, kPerNode * static_cast<double>(tape.size()));
 }
 
+/// As MostEffort, of the refinement at all fixes.
+double RefinementEffort(const LinearTape& tape) {
+  constexpr double kAtLeast = 3e5;
+  constexpr double kPerNode = 60.0;
+  return std::max(kAtLeast, kPerNode * static_cast<double>(tape.size()));
+}
+
 bool IsAlone(const Timeline& timeline, int sensor) {
   const auto& sensors = timeline.sensors();
   return sensors[static_cast<std::size_t>(sensor)].kind->is_position &&
@@ -75,12 +82,9 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
   std::vector<ErrorRegimes> all = FitRegimes(regime);
   choice = ChooseRegime(regime, all);
   stopped = effort.stopped();
-  constexpr double kPerNode = 60.0;
-  SearchEffort rest(kPerNode * static_cast<double>(tape.size()),
-                    [&limits](double fraction) {
-                      return !limits.go_on ||
-                             limits.go_on(kSearch + (1.0 - kSearch) * fraction);
-                    });
+  SearchEffort rest(RefinementEffort(tape), [&limits](double fraction) {
+    return !limits.go_on || limits.go_on(kSearch + (1.0 - kSearch) * fraction);
+  });
   if (points && stands()) {
     Refine(*points, std::move(all), &rest);
   } else if (points) {

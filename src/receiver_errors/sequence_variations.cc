@@ -80,6 +80,11 @@ void SetError(ErrorMode mode, std::size_t begin, std::size_t end,
   }
 }
 
+std::size_t NextLength(std::size_t length) {
+  return static_cast<std::size_t>(
+      std::ceil(kLengthRatio * static_cast<double>(length)));
+}
+
 /// The other way about at part c: where the receiver erred before and is good
 /// after, it was good before and errs after; and the reverse.
 ModeSequence Swapped(ModeSequence h, const std::vector<std::size_t>& at,
@@ -169,6 +174,33 @@ std::vector<ModeSequence> RolesExchanged(const ModeSequence& h) {
   return all;
 }
 
+std::vector<ModeSequence> DriftsThatEnd(const ModeSequence& h) {
+  std::vector<ModeSequence> all;
+  const auto add = [&all](ModeSequence good, std::size_t jump) {
+    for (ErrorStep& step : good) step.velocity_step = false;
+    for (std::size_t length = kShortest; length <= jump;
+         length = NextLength(length)) {
+      all.push_back(good);
+      SetError(ErrorMode::kDrifting, jump - length, jump, &all.back());
+    }
+  };
+  const std::vector<std::size_t> at = Parts(h);
+  if (at.size() < 2) return all;
+  const std::size_t last = at[at.size() - 2];
+  if (h[last].mode == ErrorMode::kBiased && h[last].anew && last > 0) {
+    ModeSequence good = h;
+    SetError(ErrorMode::kGood, last, h.size(), &good);
+    add(std::move(good), last);
+  }
+  if (h.front().mode == ErrorMode::kBiased && at[1] < h.size() &&
+      h[at[1]].mode == ErrorMode::kGood) {
+    ModeSequence good = h;
+    SetError(ErrorMode::kGood, 0, at[1], &good);
+    add(std::move(good), at[1]);
+  }
+  return all;
+}
+
 std::vector<Hypothesis> EarlierErrors(const ModeSequence& h) {
   std::vector<Hypothesis> all;
   const std::vector<std::size_t> at = Parts(h);
@@ -177,8 +209,7 @@ std::vector<Hypothesis> EarlierErrors(const ModeSequence& h) {
     std::size_t next = 0;
     for (std::size_t length = kShortest; at[c] >= least + length;
          length = next) {
-      next = static_cast<std::size_t>(
-          std::ceil(kLengthRatio * static_cast<double>(length)));
+      next = NextLength(length);
       const auto count = static_cast<double>(next - length);
       for (const ErrorMode mode :
            {ErrorMode::kBiased, ErrorMode::kSlight, ErrorMode::kDrifting}) {

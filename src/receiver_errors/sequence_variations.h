@@ -26,6 +26,11 @@ void ForEachVelocityStep(const ModeSequence& sequence,
 /// where it errs throughout.
 std::vector<ModeSequence> RolesExchanged(const ModeSequence& sequence);
 
+/// Where `sequence` jumps to a bias that lasts to its last fix, or from one that it
+/// has from its first, the jump as the end of a drift, with which the sensor comes
+/// back, and no velocity steps: one for each length of the drift, a quarter apart.
+std::vector<ModeSequence> DriftsThatEnd(const ModeSequence& sequence);
+
 /// An error too small to be found alone may have begun at any time before a
 /// change: each time is unlikely, all together may not be. And a jump may be
 /// the end of a drift that began unseen. Lengths are a quarter apart, each

@@ -99,6 +99,36 @@ TEST(ModeSequence, ExchangesTheRolesOfAnErrantEnd) {
       RolesExchanged(ModeSequence(5, ErrorStep{ErrorMode::kBiased})).empty());
 }
 
+/// A jump to a bias that stays, and one from a bias that was there at first, may
+/// each be the end of a drift; one of neither kind is not.
+TEST(ModeSequence, TellsAJumpAsTheEndOfADrift) {
+  ModeSequence end(12);
+  ModeSequence begin(12);
+  for (std::size_t i = 0; i < 12; ++i) {
+    (i < 8 ? begin : end)[i].mode = ErrorMode::kBiased;
+  }
+  end[8].anew = true;
+  end[3].velocity_step = true;
+  begin[0].anew = true;
+  // Lengths of 5 and 7 fixes, a quarter more.
+  for (const ModeSequence& jump : {end, begin}) {
+    const std::vector<ModeSequence> all = DriftsThatEnd(jump);
+    ASSERT_EQ(all.size(), 2u);
+    for (std::size_t i = 0; i < 12; ++i) {
+      EXPECT_EQ(all[0][i].mode == ErrorMode::kDrifting, i >= 3 && i < 8) << i;
+      EXPECT_EQ(all[1][i].mode == ErrorMode::kDrifting, i >= 1 && i < 8) << i;
+      EXPECT_FALSE(all[0][i].velocity_step);
+    }
+    EXPECT_TRUE(all[0][3].anew);
+    EXPECT_EQ(all[0][8].mode, ErrorMode::kGood);
+  }
+  ModeSequence pulse(12);
+  for (std::size_t i = 4; i < 8; ++i) pulse[i].mode = ErrorMode::kBiased;
+  pulse[4].anew = true;
+  EXPECT_TRUE(DriftsThatEnd(pulse).empty());
+  EXPECT_TRUE(DriftsThatEnd(ModeSequence(12)).empty());
+}
+
 TEST(ModeSequence, FindsWhenABiasBeginsAndEnds) {
   TestProblem problem = PositionsOnly(60.0);
   for (std::size_t k = 20; k < 30; ++k) {
