@@ -102,6 +102,9 @@ TEST_F(DraftOf, DatedFixesBesideAnUndatedImuLoads) {
 /// is no reason to stretch the IMU's own stamps; beyond, they are no quartz's.
 TEST_F(DraftOf, ATimeTagStretchesTheStampsThatItContradictsAlone) {
   DateFixes(&recording_);
+  recording_.Edit("imu.csv", [](std::vector<std::string>* lines) {
+    lines->front() = "time,gx,gy,gz,ax,ay,az";  // of no format of its own
+  });
   const double span = 50.0;  // of the recording
   for (const double later : {0.0, 0.3, 3.0}) {
     const auto milliseconds =

@@ -108,10 +108,10 @@ double Overlap(const StampGuess& a, const StampGuess& b) {
 bool TellsDuration(const RtklibTag& tag, const FoundStream& found) {
   constexpr double kLatency = 0.2;  // [s]
   constexpr double kQuartz = 1e-4;  // data sheets: 10 to 100 ppm
-  const double own = found.stamps ? found.stamps->span : 0.0;
+  if (!found.stamps) return false;  // a header says their unit
   const double by_quartz = kQuartz * tag.duration;
-  return by_quartz > kLatency ||
-         std::abs(own - tag.duration) > 3.0 * std::hypot(kLatency, by_quartz);
+  return by_quartz > kLatency || std::abs(found.stamps->span - tag.duration) >
+                                     3.0 * std::hypot(kLatency, by_quartz);
 }
 
 /// The stamps of the fixes are dates, those of the IMU are not.
