@@ -8,7 +8,7 @@
 
 #include "base/chi_square.h"
 #include "evaluation/statistics.h"
-#include "problems/reconstruction.h"
+#include "problems/navigation_trial.h"
 
 namespace hindsight {
 namespace {
@@ -30,43 +30,34 @@ double InsideEllipsoid(const PartErrors& part) {
 
 }  // namespace
 
-std::vector<AttitudeWay> AccelerometerRules() {
-  return {{"fixed", "ahrs", "fixed"},
-          {"gate 0.3", "ahrs", "gate", 0.3},
-          {"gate 0.88", "ahrs", "gate"},
-          {"gate 3", "ahrs", "gate", 3.0},
-          {"held gate 0.88", "ahrs", "held_gate"},
-          {"adaptive", "ahrs", "adaptive"},
-          {"smnc", "ahrs", "smnc"},
-          {"gate 0.88, smoothed", "ahrs_smoother", "gate"},
-          {"smnc, smoothed", "ahrs_smoother", "smnc"}};
+std::vector<TriedRule> TriedRules() {
+  const std::vector<std::string> both = {"ahrs", "ahrs_smoother"};
+  return {{"fixed", "fixed"},
+          {"gate 0.3", "gate", 0.3},
+          {"gate 0.88", "gate", 0.88, both},
+          {"gate 3", "gate", 3.0},
+          {"held gate 0.88", "held_gate"},
+          {"adaptive", "adaptive"},
+          {"smnc", "smnc", 0.88, both}};
 }
 
-Trial AttitudeTrial(const std::vector<AttitudeWay>& ways,
-                    const StudyTable& table, std::size_t every) {
-  std::vector<std::string> names;
-  for (const AttitudeWay& way : ways) names.push_back(way.name);
-  return {Named(names), [=](const Dataset& recording, CaseRun* run) {
-            Dataset dataset = recording;
-            for (const AttitudeWay& way : ways) {
-              if (!way.rule.empty()) {
-                dataset.ahrs.rule = way.rule;
-                dataset.ahrs.gate = way.gate;
-              }
-              run->Try({way.name}, [&](RunRecord* record) {
-                Reconstruction estimation(dataset, AttitudeAlone());
-                const Solution solution = estimation.Run(way.method);
-                table.Record(ErrorsOf(dataset, solution.layout, solution.states,
-                                      solution.covariances, every),
-                             record);
-              });
-            }
-          }};
+Case VibrationCase(std::vector<std::string> labels, const Recording& recording,
+                   const TriedRule& rule) {
+  const Recording ruled = [=](std::uint64_t seed) {
+    Dataset dataset = recording(seed);
+    dataset.ahrs.rule = rule.rule;
+    dataset.ahrs.gate = rule.gate;
+    return dataset;
+  };
+  labels.push_back(rule.name);
+  return {
+      labels, [ruled] { return ruled; },
+      NavigationTrialOf({.methods = rule.methods, .cells = VibrationTable()})};
 }
 
 StudyTable VibrationTable() {
   constexpr double kRounding = 1e-9;  // of stamps [s]
-  StudyTable table = {"cells", {"rule"}};
+  StudyTable table = {"cells", {"method"}};
   // Where the disturbances begin and end; a stamp belongs to the interval that
   // begins there.
   for (const auto& [begin, end] : {std::pair(0.0, 5.0),

@@ -8,25 +8,24 @@
 
 namespace hindsight {
 
-/// A way to estimate attitude alone, by a rule of the accelerometer
-/// (AhrsOptions, of the data set where it is empty).
-struct AttitudeWay {
+/// A rule of the accelerometer (AhrsSettings) and the methods that are tried with
+/// it.
+struct TriedRule {
   std::string name;
-  std::string method;
-  std::string rule = {};
+  std::string rule;
   double gate = 0.88;  ///< [m/s^2]
+  std::vector<std::string> methods = {"ahrs"};
 };
 
 /// Fixed; gates at 0.3, 0.88 and 3 m/s^2; the gate at 0.88 m/s^2 held for N = 4
-/// samples; adaptive and SMNC at equal lambda (N + 1) = 0.25; the RTS smoothers
-/// of gate 0.88 and SMNC.
-std::vector<AttitudeWay> AccelerometerRules();
+/// samples; adaptive and SMNC at equal lambda (N + 1) = 0.25; with gate 0.88 and
+/// SMNC the RTS smoothers too.
+std::vector<TriedRule> TriedRules();
 
-/// All ways on recordings with truth of attitude and gyro bias at every sample,
-/// measured as the table says at one sample in `every`. Errors are psi, truth
-/// from estimate in NED.
-Trial AttitudeTrial(const std::vector<AttitudeWay>& ways,
-                    const StudyTable& table, std::size_t every = 1);
+/// The recordings of attitude alone under a rule, measured by VibrationTable at
+/// every sample; the rule's name is the last of its labels.
+Case VibrationCase(std::vector<std::string> labels, const Recording& recording,
+                   const TriedRule& rule);
 
 /// Of the recordings of Kim and Leeghim (2016), over all runs and samples of an
 /// interval (_0_5s, _5_10s, _10_40s, _40_45s, _45_60s and _10_60s): rms_total_ of

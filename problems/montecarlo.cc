@@ -4,7 +4,6 @@
 #include <atomic>
 #include <exception>
 #include <iterator>
-#include <memory>
 #include <mutex>
 #include <thread>
 
@@ -63,53 +62,6 @@ void ForEachRun(int begin, int end, int thread_count,
   if (thrown) std::rethrow_exception(thrown);
 }
 
-/// What is done of a study, by the threads that do it and read by others
-/// meanwhile.
-class Work {
- public:
-  Work(Study study, MonteCarloOptions options, int begin, int end)
-      : study_(std::move(study)),
-        options_(std::move(options)),
-        shard_{begin, end, std::vector<CaseRuns>(study_.cases.size())} {}
-
-  /// Every case on the seeds of those runs.
-  void Do() {
-    for (const Case& one : study_.cases) {
-      const Recording recording = Prepare(one);
-      ForEachRun(shard_.begin, shard_.end, options_.threads, [&](int i) {
-        const auto number = static_cast<std::uint64_t>(i);
-        Take(i, RunCase(one, recording, options_.first_seed + number));
-      });
-      const std::lock_guard lock(mutex_);
-      ++finished_;
-    }
-  }
-
-  StudyResult SoFar() const {
-    const std::lock_guard lock(mutex_);
-    return {study_.tables, shard_, finished_};
-  }
-
-  StudyShard TakeShard() { return std::move(shard_); }
-
- private:
-  void Take(int run, std::vector<RunRecord> records) {
-    const std::lock_guard lock(mutex_);
-    shard_.cases[finished_].Add(run, std::move(records));
-    ++done_;
-    const double all =
-        static_cast<double>(study_.cases.size()) * (shard_.end - shard_.begin);
-    if (options_.progress) options_.progress(done_ / all);
-  }
-
-  Study study_;
-  MonteCarloOptions options_;
-  mutable std::mutex mutex_;
-  StudyShard shard_;
-  std::size_t finished_ = 0;  ///< cases
-  int done_ = 0;              ///< runs of all cases
-};
-
 }  // namespace
 
 std::vector<std::vector<std::string>> Named(
@@ -142,21 +94,35 @@ RunRecord* CaseRun::Add(std::size_t table,
   return &record;
 }
 
-StudyResult RunStudy(const Study& study, const MonteCarloOptions& options,
-                     const Watch& watch) {
-  const auto work = std::make_shared<Work>(study, options, 0, options.runs);
-  if (watch) watch([work] { return work->SoFar(); });
-  work->Do();
-  StudyResult result = work->SoFar();
-  result.RequireAnswer();
-  return result;
+StudyRun::StudyRun(Study study, MonteCarloOptions options, int begin, int end)
+    : study_(std::move(study)),
+      options_(std::move(options)),
+      shard_{begin, end, std::vector<CaseRuns>(study_.cases.size())} {}
+
+void StudyRun::Do() {
+  for (const Case& one : study_.cases) {
+    const Recording recording = Prepare(one);
+    ForEachRun(shard_.begin, shard_.end, options_.threads, [&](int i) {
+      const auto number = static_cast<std::uint64_t>(i);
+      Take(i, RunCase(one, recording, options_.first_seed + number));
+    });
+    const std::lock_guard lock(mutex_);
+    ++finished_;
+  }
 }
 
-StudyShard RunShard(const Study& study, const MonteCarloOptions& options,
-                    int begin, int end) {
-  Work work(study, options, begin, end);
-  work.Do();
-  return work.TakeShard();
+StudyResult StudyRun::SoFar() const {
+  const std::lock_guard lock(mutex_);
+  return {study_.tables, shard_, finished_};
+}
+
+void StudyRun::Take(int run, std::vector<RunRecord> records) {
+  const std::lock_guard lock(mutex_);
+  shard_.cases[finished_].Add(run, std::move(records));
+  ++done_;
+  const double all =
+      static_cast<double>(study_.cases.size()) * (shard_.end - shard_.begin);
+  if (options_.progress) options_.progress(done_ / all);
 }
 
 }  // namespace hindsight

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -71,20 +72,33 @@ struct MonteCarloOptions {
   std::function<void(double)> progress = {};
 };
 
-/// Gets, before the first run, a function that gives at any time and to any
-/// thread the result as far as it is finished then.
-using Watch = std::function<void(std::function<StudyResult()> so_far)>;
+/// A study's work on some of its runs, by the threads that do it.
+class StudyRun {
+ public:
+  /// Of the runs begin to end - 1.
+  StudyRun(Study study, MonteCarloOptions options, int begin, int end);
 
-/// Runs every case on every seed. The result is the same to the last bit
-/// whatever the number of threads, seconds excepted. Throws what the cases
-/// throw, the first exception stopping the rest, and InputError with the first
-/// refusal where data were refused and no run was answered.
-StudyResult RunStudy(const Study& study, const MonteCarloOptions& options,
-                     const Watch& watch = {});
+  /// Runs every case on the seeds of those runs. The result is the same to the
+  /// last bit whatever the number of threads, seconds excepted. Throws what the
+  /// cases throw, the first exception stopping the rest.
+  void Do();
 
-/// Runs every case on the seeds of those runs alone. Throws what the cases throw.
-StudyShard RunShard(const Study& study, const MonteCarloOptions& options,
-                    int begin, int end);
+  /// What is finished at this time, of runs from 0 on; may be called by any
+  /// thread, before, within and after Do.
+  StudyResult SoFar() const;
+  /// All of it, after Do.
+  const StudyShard& shard() const { return shard_; }
+
+ private:
+  void Take(int run, std::vector<RunRecord> records);
+
+  Study study_;
+  MonteCarloOptions options_;
+  mutable std::mutex mutex_;
+  StudyShard shard_;
+  std::size_t finished_ = 0;  ///< cases
+  int done_ = 0;              ///< runs of all cases
+};
 
 }  // namespace hindsight
 

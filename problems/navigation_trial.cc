@@ -56,12 +56,11 @@ void AddEvidence(const Dataset& dataset, const Solution& solution,
 }
 
 /// Into a cell, at those of `times` [s] that are nodes of the solution.
-StateErrors Judge(const Dataset& dataset, const std::vector<double>& times,
-                  const Solution& solution, RunRecord* record) {
-  static const StudyTable table = NavigationTables().at(kCells);
+StateErrors Judge(const StudyTable& cells, const Dataset& dataset,
+                  const std::vector<double>& times, const Solution& solution,
+                  RunRecord* record) {
   StateErrors errors =
-      ErrorsOf(dataset, solution.layout, solution.states, solution.covariances,
-               JudgedNodes(times, solution));
+      ErrorsOf(dataset, solution, JudgedNodes(times, solution));
   double nis = 0.0, rows = 0.0;
   for (const ResidualRecord& residual : solution.residuals) {
     if (!residual.accepted || residual.withheld) continue;
@@ -76,7 +75,7 @@ StateErrors Judge(const Dataset& dataset, const std::vector<double>& times,
   record->failed = !solution.converged;
   record->answered = solution.converged;
   AddEvidence(dataset, solution, record);
-  table.Record(errors, record);
+  cells.Record(errors, record);
   if (const auto end = record->Find("end_horizontal")) {
     record->values.emplace_back("end_drift", *end / LengthOf(dataset.truth));
   }
@@ -107,23 +106,19 @@ void AddConstants(const Dataset& dataset, const Solution& solution,
 /// "gnss+gnss_velocity".
 using OutageSpans = std::map<std::pair<double, double>, std::string>;
 
-OutageSpans SpansOf(const Dataset& dataset,
-                    const std::vector<SilentSpan>& silent_spans) {
+OutageSpans SpansOf(const Dataset& dataset) {
   OutageSpans spans;
-  const auto add = [&](double begin, double end, const std::string& sensor) {
-    std::string& sensors = spans[{begin, end}];
-    sensors += (sensors.empty() ? "" : "+") + sensor;
-  };
-  for (const Outage& outage : dataset.outages) {
+  const auto add = [&](const Outage& outage) {
     const auto i = static_cast<std::size_t>(outage.sensor);
-    add(outage.t_begin, outage.t_end, dataset.streams[i].sensor.name);
-  }
-  for (const SilentSpan& silent : silent_spans) {
-    if (silent.t_begin <= dataset.truth.front().t ||
-        silent.t_end >= dataset.truth.back().t) {
-      continue;
+    std::string& sensors = spans[{outage.t_begin, outage.t_end}];
+    sensors += (sensors.empty() ? "" : "+") + dataset.streams[i].sensor.name;
+  };
+  std::ranges::for_each(dataset.outages, add);
+  for (const Outage& silence : dataset.silences) {
+    if (silence.t_begin > dataset.truth.front().t &&
+        silence.t_end < dataset.truth.back().t) {
+      add(silence);
     }
-    add(silent.t_begin, silent.t_end, silent.sensor);
   }
   return spans;
 }
@@ -203,7 +198,7 @@ std::vector<double> JudgedTimes(const NavigationTrial& trial,
 
 /// The cell of the run as a whole: that of its best method, with the grade that
 /// `run` gives it beside the others.
-void AddBest(std::vector<Solution> solutions,
+void AddBest(const StudyTable& cells, std::vector<Solution> solutions,
              const std::vector<double>& judged_times, const Dataset& dataset,
              CaseRun* run) {
   RunRecord* record = run->Add(kCells, {kBestOfRun});
@@ -211,7 +206,7 @@ void AddBest(std::vector<Solution> solutions,
   record->Fail();
   if (solutions.empty()) return;
   ShareDisagreements(&solutions);
-  Judge(dataset, judged_times, Best(solutions), record);
+  Judge(cells, dataset, judged_times, Best(solutions), record);
 }
 
 }  // namespace
@@ -240,11 +235,11 @@ Trial NavigationTrialOf(const NavigationTrial& trial) {
             if (options.attitude_alone && !options.node_times.empty()) {
               solution = reconstruction->Sample(solution, options.node_times);
             }
-            const StateErrors errors =
-                Judge(dataset, options.node_times, solution, record);
+            const StateErrors errors = Judge(
+                trial.cells, dataset, options.node_times, solution, record);
             AddConstants(dataset, solution, method, run);
-            AddOutages(SpansOf(dataset, trial.silent_spans), errors,
-                       solution.converged, method, run);
+            AddOutages(SpansOf(dataset), errors, solution.converged, method,
+                       run);
           });
         }
         if (trial.innovations != nullptr && reconstruction) {
@@ -260,7 +255,8 @@ Trial NavigationTrialOf(const NavigationTrial& trial) {
           if (a != nullptr && b != nullptr) AddAgreement(*a, *b, trial, run);
         }
         if (trial.best_of_run) {
-          AddBest(std::move(solutions), options.node_times, dataset, run);
+          AddBest(trial.cells, std::move(solutions), options.node_times,
+                  dataset, run);
         }
       }};
 }

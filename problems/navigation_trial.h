@@ -11,23 +11,35 @@
 
 namespace hindsight {
 
-/// A span in which a sensor is simulated to measure nothing [s].
-struct SilentSpan {
-  std::string sensor;
-  double t_begin = 0.0;
-  double t_end = 0.0;
-};
+/// The tables of a study of NavigationTrial. Series: position_n, _e, _d, truth less estimate
+/// [m]; yaw [rad]; nees, e'P^-1e of the whole error state.
+///   max_std_n, _e, _d    standard deviation over the runs, largest over time
+///   legI_max_std_*       the same of leg I; legI_anees
+///   end_std_*, yaw_std   at the last time; largest over time
+///   anees                mean over time and runs; right is `states`
+///   anees_outside        share of times outside of the two-sided 95 % bounds
+///   nis                  a row's mean; right is 1
+///   position_rms, heading_rms, attitude_rms, position_max   over time and runs
+///   position_nees, attitude_nees   means; right is 3
+///   outside_5_sigma      share of times at which position or attitude lies
+///                        beyond 5 sigmas of a component
+///   end_horizontal       of the last position
+/// and percentiles, grades, failures, seconds.
+std::vector<StudyTable> NavigationTables(
+    const std::vector<double>& leg_ends = {});
 
 /// How methods of Reconstruction are tried on a recording of one seed, and what
 /// its records hold. Tables of the study:
 ///   0 cells      the method against truth
 ///   1 constants  each estimated constant whose true value the data know
 ///   2 agreement  the largest distance of two methods over all nodes and runs
-///   3 outages    each span in which streams were withheld or silent, with the
-///                largest horizontal and vertical error of the states judged
-///                within it
+///   3 outages    each span in which streams were withheld, or silent between
+///                begin and end of the truth, with the largest horizontal and
+///                vertical error of the states judged within it
 struct NavigationTrial {
   std::vector<std::string> methods;
+  /// What a cell measures; the study's first table, but for labels before.
+  StudyTable cells = NavigationTables().front();
   /// Nodes are also placed at stamps of the truth so far apart or more, and the
   /// states judged at them alone, without the ends, which clocks may move; zero:
   /// at every node, each of which then needs truth [s].
@@ -38,9 +50,6 @@ struct NavigationTrial {
   std::vector<NormalisedInnovation>* innovations = nullptr;
   /// Adds the cell kBestOfRun: what `run` with these methods ends with.
   bool best_of_run = false;
-  /// Outages beside those withheld, as far as they begin and end within the
-  /// truth.
-  std::vector<SilentSpan> silent_spans = {};
   /// Ends of the legs into which the interval is divided [s], ascending.
   std::vector<double> leg_ends = {};
 };
@@ -63,23 +72,6 @@ inline constexpr std::size_t kOutages = 3;
 /// length that end_horizontal is. Of attitude alone the values and series of
 /// positions are absent.
 Trial NavigationTrialOf(const NavigationTrial& trial);
-
-/// The tables of such a study. Series: position_n, _e, _d, truth less estimate
-/// [m]; yaw [rad]; nees, e'P^-1e of the whole error state.
-///   max_std_n, _e, _d    standard deviation over the runs, largest over time
-///   legI_max_std_*       the same of leg I; legI_anees
-///   end_std_*, yaw_std   at the last time; largest over time
-///   anees                mean over time and runs; right is `states`
-///   anees_outside        share of times outside of the two-sided 95 % bounds
-///   nis                  a row's mean; right is 1
-///   position_rms, heading_rms, attitude_rms, position_max   over time and runs
-///   position_nees, attitude_nees   means; right is 3
-///   outside_5_sigma      share of times at which position or attitude lies
-///                        beyond 5 sigmas of a component
-///   end_horizontal       of the last position
-/// and percentiles, grades, failures, seconds.
-std::vector<StudyTable> NavigationTables(
-    const std::vector<double>& leg_ends = {});
 
 }  // namespace hindsight
 

@@ -34,6 +34,19 @@ void CaseRuns::Add(int run, std::vector<RunRecord> of_run) {
   records[run] = std::move(of_run);
 }
 
+void StudyShard::Append(StudyShard next) {
+  if (next.begin != end || next.cases.size() != cases.size()) {
+    throw std::invalid_argument("the shards are not those of one study");
+  }
+  end = next.end;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    cases[i].records.merge(next.cases[i].records);
+    for (const auto& [begin, node] : next.cases[i].folds.nodes()) {
+      cases[i].folds.Add(node);
+    }
+  }
+}
+
 StudyResult::StudyResult(const std::vector<StudyTable>& of,
                          const StudyShard& shard, std::size_t finished)
     : complete(finished == shard.cases.size()), tables(of), rows(of.size()) {
@@ -46,22 +59,13 @@ StudyResult::StudyResult(const std::vector<StudyTable>& of,
   for (std::size_t i = 0; i < finished; ++i) Add(shard.cases[i], runs);
 }
 
-bool StudyResult::answered() const {
-  return std::any_of(records.begin(), records.end(),
-                     [](const RunRecord& record) { return record.answered; });
+bool StudyResult::refused() const {
+  return !refusals.empty() &&
+         std::ranges::none_of(records, &RunRecord::answered);
 }
 
-double StudyResult::Value(const std::vector<std::string>& labels,
-                          const std::string& name, std::size_t table) const {
-  return FigureOf(tables.at(table), Row(labels, table), name).value();
-}
-
-const FigureRow& StudyResult::Row(const std::vector<std::string>& labels,
-                                  std::size_t table) const {
-  for (const FigureRow& row : rows.at(table)) {
-    if (row.labels == labels) return row;
-  }
-  throw std::out_of_range("no row of that case and method");
+void StudyResult::RequireAnswer() const {
+  if (refused()) throw InputError(refusals.front());
 }
 
 void StudyResult::Add(const CaseRuns& one, int first_runs) {
@@ -79,33 +83,6 @@ void StudyResult::Add(const CaseRuns& one, int first_runs) {
     if (!record.refusal.empty()) refusals.push_back(RefusalOf(record));
     records.push_back(std::move(record));
   }
-}
-
-void StudyResult::RequireAnswer() const {
-  if (!answered() && !refusals.empty()) throw InputError(refusals.front());
-}
-
-StudyResult MergeShards(const std::vector<StudyTable>& tables,
-                        std::vector<StudyShard> shards) {
-  std::ranges::sort(shards, {}, &StudyShard::begin);
-  StudyShard all;
-  all.cases.resize(shards.front().cases.size());
-  for (StudyShard& shard : shards) {
-    if (shard.begin != all.end || shard.cases.size() != all.cases.size()) {
-      throw std::invalid_argument("the shards are not those of one study");
-    }
-    all.end = shard.end;
-    for (std::size_t i = 0; i < all.cases.size(); ++i) {
-      all.cases[i].records.merge(shard.cases[i].records);
-      for (const auto& [begin, node] : shard.cases[i].folds.nodes()) {
-        all.cases[i].folds.Add(node);
-      }
-      shard.cases[i] = {};
-    }
-  }
-  StudyResult result(tables, all, all.cases.size());
-  result.RequireAnswer();
-  return result;
 }
 
 }  // namespace hindsight

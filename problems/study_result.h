@@ -29,6 +29,10 @@ struct StudyShard {
   int begin = 0;
   int end = 0;
   std::vector<CaseRuns> cases;
+
+  /// The runs that follow, of the same study. Throws std::invalid_argument for
+  /// others.
+  void Append(StudyShard next);
 };
 
 /// What is known of a study: of all its cases the seeds of all, or of those that
@@ -46,29 +50,15 @@ struct StudyResult {
   StudyResult(const std::vector<StudyTable>& of, const StudyShard& shard,
               std::size_t finished);
 
-  /// Whether any run was.
-  bool answered() const;
-  /// A figure, in SI, of a row of table 0 or another; see FigureOf. Throws
-  /// std::bad_optional_access for one that there is not, and as Row.
-  double Value(const std::vector<std::string>& labels, const std::string& name,
-               std::size_t table = 0) const;
-  /// The row itself; throws std::out_of_range.
-  const FigureRow& Row(const std::vector<std::string>& labels,
-                       std::size_t table = 0) const;
-  /// Throws InputError with the first refusal where data were refused and no
-  /// run was answered.
+  /// Data were refused and no run was answered.
+  bool refused() const;
+  /// Throws InputError with the first refusal if that is so.
   void RequireAnswer() const;
 
  private:
   /// What a case made of its runs 0 to first_runs - 1.
   void Add(const CaseRuns& one, int first_runs);
 };
-
-/// The result of RunStudy with those tables, to the last bit, seconds excepted,
-/// of shards that are its runs from 0 on without a gap, in any order. Throws
-/// std::invalid_argument where they are not, InputError as RunStudy.
-StudyResult MergeShards(const std::vector<StudyTable>& tables,
-                        std::vector<StudyShard> shards);
 
 }  // namespace hindsight
 

@@ -11,8 +11,8 @@
 namespace hindsight {
 namespace {
 
-/// The attitude of the last epoch of the window.
-StateErrors Early(const Dataset& dataset, double t_early) {
+/// The last epoch of the window.
+Solution Early(const Dataset& dataset, double t_early) {
   AlignmentInput input{.dataset = dataset,
                        .t = dataset.imu.t_begin(),
                        .to = t_early,
@@ -26,16 +26,13 @@ StateErrors Early(const Dataset& dataset, double t_early) {
   input.gyro_sigma = dataset.initial.gyro_bias_sigma->maxCoeff();
   const auto found = AlignmentWindow(input, t_early).Align(0.0);
   if (!found || !found->refined) throw EstimationError("no alignment");
-  const WindowSolution& window = *found->refined;
-  return ErrorsOf(dataset, window.layout, window.states, window.P,
-                  std::vector{window.states.size() - 1});
-}
-
-StateErrors Batch(const Dataset& dataset) {
-  const Solution solution = Solve(dataset, ReconstructionOptions{});
-  if (!solution.converged) throw EstimationError(solution.verdict);
-  return ErrorsOf(dataset, solution.layout, solution.states,
-                  solution.covariances);
+  Solution solution;
+  solution.layout = found->refined->layout;
+  solution.states = {found->refined->states.back()};
+  solution.covariances = CovarianceSeries(solution.layout.dim(), 1);
+  solution.covariances.Set(
+      0, found->refined->P.Get(found->refined->states.size() - 1));
+  return solution;
 }
 
 bool Diverged(const StateErrors& errors) {
@@ -86,8 +83,11 @@ Trial AlignmentTrial(double t_early) {
             dataset.initial.alignment = AlignmentKind::kVelocity;
             for (const char* method : {kEarly, kBatch}) {
               run->Try({method}, [&](RunRecord* record) {
-                const StateErrors errors =
-                    method == kEarly ? Early(dataset, t_early) : Batch(dataset);
+                const Solution solution = method == kEarly
+                                              ? Early(dataset, t_early)
+                                              : Solve(dataset, {});
+                if (!solution.converged) return record->Fail();
+                const StateErrors errors = ErrorsOf(dataset, solution);
                 record->values = {{"states", 3.0}};
                 record->failed = Diverged(errors);
                 table.Record(errors, record);

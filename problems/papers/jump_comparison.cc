@@ -8,8 +8,8 @@
 #include "dataset/timeline_builder.h"
 #include "evaluation/statistics.h"
 #include "filters/imm_smoother.h"
+#include "problems/navigation_trial.h"
 #include "problems/position_imm.h"
-#include "problems/reconstruction.h"
 
 namespace hindsight {
 namespace {
@@ -18,13 +18,8 @@ double HorizontalAxisRms(const PartErrors& part) {
   return LevelRms(part) / std::sqrt(2.0);
 }
 
-const StudyTable& Table() {
-  static const StudyTable table = JumpTable();
-  return table;
-}
-
 /// The filters of the paper, on one timeline.
-void TryPaper(const Dataset& dataset, CaseRun* run) {
+void TryPaper(const StudyTable& table, const Dataset& dataset, CaseRun* run) {
   constexpr double kForever = std::numeric_limits<double>::infinity();
   Start start = FindStart(dataset, -kForever, kForever);
   TimelineOptions timeline_options;
@@ -40,9 +35,12 @@ void TryPaper(const Dataset& dataset, CaseRun* run) {
     run->Try({name}, [&](RunRecord* record) {
       const double t0 = ProcessorSeconds();
       const ImmTrajectory trajectory = filter();
+      Solution solution;
+      solution.layout = layout;
+      solution.states = trajectory.states;
+      solution.covariances = trajectory.P;
       record->values = {{kSeconds, ProcessorSeconds() - t0}};
-      Table().Record(ErrorsOf(dataset, layout, trajectory.states, trajectory.P),
-                     record);
+      table.Record(ErrorsOf(dataset, solution), record);
       for (const Eigen::VectorXd& modes : trajectory.probabilities) {
         for (Eigen::Index j = 0; j < modes.size(); ++j) {
           record->series["probability_" + std::to_string(j)].push_back(
@@ -64,22 +62,6 @@ void TryPaper(const Dataset& dataset, CaseRun* run) {
     return result.trajectory;
   });
   attempt("imm_smoother", [&] { return SmoothImm(result.tape).trajectory; });
-}
-
-void TryOurs(const Dataset& dataset, CaseRun* run) {
-  Reconstruction reconstruction(dataset, {});
-  for (const std::string method :
-       {"gated_ekf", "rts", "batch", "robust_batch"}) {
-    run->Try({method}, [&](RunRecord* record) {
-      const Solution solution = reconstruction.Run(method);
-      if (!solution.converged) return record->Fail();
-      // Modes may differ from seed to seed: no mean of them.
-      record->values = {{kSeconds, solution.seconds}};
-      Table().Record(ErrorsOf(dataset, solution.layout, solution.states,
-                              solution.covariances),
-                     record);
-    });
-  }
 }
 
 }  // namespace
@@ -116,11 +98,14 @@ StudyTable JumpTable() {
 }
 
 Trial JumpTrial() {
+  const Trial ours = NavigationTrialOf(
+      {.methods = {"gated_ekf", "rts", "batch", "robust_batch"},
+       .cells = JumpTable()});
   return {Named({"kf0", "kf1", "imm", "imm_smoother", "gated_ekf", "rts",
                  "batch", "robust_batch"}),
-          [](const Dataset& dataset, CaseRun* run) {
-            TryPaper(dataset, run);
-            TryOurs(dataset, run);
+          [ours, table = JumpTable()](const Dataset& dataset, CaseRun* run) {
+            TryPaper(table, dataset, run);
+            ours.run(dataset, run);
           }};
 }
 

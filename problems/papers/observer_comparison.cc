@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "alignment/given.h"
+#include "alignment/start.h"
 #include "base/error.h"
 #include "dataset/timeline_builder.h"
 #include "evaluation/statistics.h"
@@ -156,61 +157,33 @@ struct Analysis {
   }
 };
 
-Timeline TimelineOf(const Dataset& dataset) {
-  TimelineOptions options;
-  options.t_begin = dataset.imu.t_begin();
-  options.t_end = dataset.imu.t_end();
-  Timeline timeline = BuildTimeline(dataset, options);
-  const ImuCalibration calibration{dataset.initial.gyro_bias,
-                                   dataset.initial.accel_bias};
-  for (std::size_t k = 0; k + 1 < timeline.size(); ++k) {
-    timeline.Integrate(k, calibration);
-  }
-  return timeline;
-}
-
-/// Velocity, attitude and both biases, the position being known; a priori
-/// covariances and evolutions as the data set's initial values and IMU say. It
-/// must give velocity, attitude and their sigmas.
-ErrorLayout AlignmentLayout(const Dataset& dataset) {
-  const InitialState& initial = dataset.initial;
-  NavigationPrior prior;
-  prior.velocity_sigma = initial.velocity_sigma.value();
-  prior.attitude_sigma = initial.attitude_sigma.value();
-  prior.gyro_bias_sigma = initial.gyro_bias_sigma.value();
-  prior.accel_bias_sigma = initial.accel_bias_sigma.value();
-  prior.gyro_bias = dataset.imu.noise.GyroBiasEvolution();
-  prior.accel_bias = dataset.imu.noise.AccelBiasEvolution();
-  const ErrorLayout all = NavigationLayout(prior);
-  ErrorLayout layout;
-  for (const Block& block : all.blocks()) {
-    if (block.key.kind != BlockKind::kPosition) layout.Add(block);
-  }
-  return layout;
-}
-
-Prior AlignmentPrior(const Dataset& dataset, const ErrorLayout& layout) {
-  const InitialState& initial = dataset.initial;
-  Prior prior;
-  prior.x = MakeState(dataset.imu.t_begin(), initial.position.value(),
-                      initial.v_n.value(), initial.euler.value());
-  prior.x.b_g = initial.gyro_bias;
-  prior.x.b_a = initial.accel_bias;
-  prior.x.parameters = ParameterVector::Zero(0);
-  prior.P = layout.InitialCovariance();
-  const int attitude = layout.Find(BlockKind::kAttitude)->offset;
-  prior.P.block<3, 3>(attitude, attitude) =
-      AttitudeCovariance(*initial.euler, initial.attitude_sigma.value());
-  return prior;
-}
-
 }  // namespace
 
+Problem AlignmentProblem(const Dataset& dataset) {
+  const Start start = FindStart(dataset, -kInfinity, kInfinity);
+  TimelineOptions options;
+  options.t_begin = start.report.t;
+  options.t_end = dataset.imu.t_end();
+  Problem problem = {{}, {start.prior.x, {}}, BuildTimeline(dataset, options)};
+  for (const Block& block : start.layout.blocks()) {
+    if (block.key.kind != BlockKind::kPosition) problem.layout.Add(block);
+  }
+  // A start gives no angle a sigma beyond that of which nothing is known; the
+  // paper's filters take what is given at its word.
+  problem.prior.P = problem.layout.InitialCovariance();
+  const int attitude = problem.layout.Find(BlockKind::kAttitude)->offset;
+  problem.prior.P.block<3, 3>(attitude, attitude) = AttitudeCovariance(
+      *dataset.initial.euler, *dataset.initial.attitude_sigma);
+  const ImuCalibration calibration{start.prior.x.b_g, start.prior.x.b_a};
+  for (std::size_t k = 0; k + 1 < problem.timeline.size(); ++k) {
+    problem.timeline.Integrate(k, calibration);
+  }
+  return problem;
+}
+
 RunValues RunObserver(const ForwardModel& model, const Dataset& dataset,
-                      Timeline timeline) {
-  const ErrorLayout layout = AlignmentLayout(dataset);
-  Problem problem = {layout, AlignmentPrior(dataset, layout),
-                     std::move(timeline)};
+                      Problem problem) {
+  const ErrorLayout& layout = problem.layout;
   try {
     const LinearTape tape = RunForwardFilter(model, &problem);
     std::vector<State> states;
@@ -268,10 +241,10 @@ Trial ObserverTrial(const std::vector<ObserverModel>& models) {
   }
   trial.run = [=, methods = trial.methods](const Dataset& dataset,
                                            CaseRun* run) {
-    const Timeline timeline = TimelineOf(dataset);
+    const Problem problem = AlignmentProblem(dataset);
     for (std::size_t i = 0; i < models.size(); ++i) {
       run->Try(methods[i], [&](RunRecord* record) {
-        record->values = RunObserver(models[i].model, dataset, timeline);
+        record->values = RunObserver(models[i].model, dataset, problem);
       });
     }
   };

@@ -16,8 +16,11 @@ struct ObserverModel {
   ForwardModel model;
 };
 
-/// One filter of velocity, attitude and both biases, the position being known, on
-/// a recording that gives velocity, attitude and their sigmas. Values by name:
+/// Velocity, attitude and both biases from the given start of a data set, which
+/// has an attitude with its sigmas, the position being known; preintegrated.
+Problem AlignmentProblem(const Dataset& dataset);
+
+/// One filter of such a problem. Values by name:
 ///   diverged, escaped, converged   0 or 1; problems/papers/attitude_limits.h
 ///   t_settled             first time from which tilt, the angle between true and
 ///                         estimated vertical, and heading, the difference of
@@ -46,7 +49,7 @@ struct ObserverModel {
 /// mu the least eigenvalue of P^1/2 M P^1/2, and noise apart V falls wherever
 /// sqrt(V) < mu / (2 c).
 std::vector<std::pair<std::string, double>> RunObserver(
-    const ForwardModel& model, const Dataset& dataset, Timeline timeline);
+    const ForwardModel& model, const Dataset& dataset, Problem problem);
 
 /// Every filter on a recording, whose nodes and preintegration are made once. A
 /// node without truth is an InputError. Figures by rule and error: shares

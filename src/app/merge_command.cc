@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <map>
 
 #include "app/build_id.h"
 #include "app/command.h"
@@ -49,18 +48,18 @@ void CheckBuild(const PlacedShard& one) {
                    ")");
 }
 
-/// All that are needed, each once.
+/// All that are needed, each once, in their order.
 void CheckNumbers(const std::vector<PlacedShard>& placed) {
-  std::map<int, std::string> folders;
-  for (const PlacedShard& one : placed) {
-    const auto [at, is_new] = folders.try_emplace(one.shard.number, one.folder);
-    if (is_new) continue;
-    throw InputError("shard " + std::to_string(one.shard.number) +
-                     " is there twice: " + at->second + " and " + one.folder);
+  for (std::size_t i = 1; i < placed.size(); ++i) {
+    if (placed[i].shard.number != placed[i - 1].shard.number) continue;
+    throw InputError("shard " + std::to_string(placed[i].shard.number) +
+                     " is there twice: " + placed[i - 1].folder + " and " +
+                     placed[i].folder);
   }
   const ShardedCall& call = placed.front().shard.call;
   for (int number = 1; number <= call.shards; ++number) {
-    if (folders.contains(number)) continue;
+    const auto i = static_cast<std::size_t>(number - 1);
+    if (i < placed.size() && placed[i].shard.number == number) continue;
     throw InputError("shard " + std::to_string(number) + "/" +
                      std::to_string(call.shards) + " is missing: run " +
                      call.WordsOf(number));
@@ -74,6 +73,8 @@ std::vector<PlacedShard> ReadShards(const std::vector<std::string>& folders) {
     CheckBuild(placed.back());
     CheckAlike(placed.front(), placed.back());
   }
+  std::ranges::stable_sort(
+      placed, {}, [](const PlacedShard& one) { return one.shard.number; });
   CheckNumbers(placed);
   return placed;
 }
@@ -105,18 +106,18 @@ int Run(const std::vector<std::string>& folders) {
   const MonteCarloOptions options = {.runs = call.runs,
                                      .first_seed = call.first_seed};
   const Study study = StudyOf(call);
-  std::vector<StudyShard> shards;
-  for (PlacedShard& one : placed) {
-    shards.push_back(std::move(one.shard.result));
+  StudyShard all = std::move(placed.front().shard.result);
+  for (std::size_t i = 1; i < placed.size(); ++i) {
+    all.Append(std::move(placed[i].shard.result));
   }
-  placed.clear();
   return WithResultFolder(
       {FLAGS_out, FLAGS_force, FLAGS_clean},
       [&]() -> ResultFolder::Paths {
         return {folders.begin(), folders.end()};
       },
       [&](ResultFolder* folder) {
-        const StudyResult result = MergeShards(study.tables, std::move(shards));
+        const StudyResult result(study.tables, all, all.cases.size());
+        result.RequireAnswer();
         ReportStudy(study, result, options, folder);
         return kUsable;
       });

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "app/asked_methods.h"
@@ -16,6 +17,7 @@
 #include "base/parallel.h"
 #include "io/config/scenario_config.h"
 #include "io/read/paths.h"
+#include "problems/navigation_trial.h"
 
 namespace hindsight {
 namespace {
@@ -155,16 +157,16 @@ MonteCarloOptions ReadOptions(std::uint64_t default_runs) {
 void RunAndReport(const Study& study, MonteCarloOptions options,
                   Progress* progress, ResultFolder* folder) {
   options.progress = [&](double done) { progress->Update("runs", done); };
-  const auto keep = [&](const std::function<StudyResult()>& so_far) {
-    folder->KeepAtEnd([study, options, so_far]() -> std::vector<OutputFile> {
-      StudyResult result = so_far();
-      if (result.runs < kLeastRuns) return {};
-      if (!result.answered() && !result.refusals.empty()) return {};
-      result.complete = false;
-      return StudyFiles(study, result, options);
-    });
-  };
-  const StudyResult result = RunStudy(study, options, keep);
+  const auto work = std::make_shared<StudyRun>(study, options, 0, options.runs);
+  folder->KeepAtEnd([study, options, work]() -> std::vector<OutputFile> {
+    StudyResult result = work->SoFar();
+    if (result.runs < kLeastRuns || result.refused()) return {};
+    result.complete = false;
+    return StudyFiles(study, result, options);
+  });
+  work->Do();
+  const StudyResult result = work->SoFar();
+  result.RequireAnswer();
   progress->Clear();
   ReportStudy(study, result, options, folder);
 }
@@ -183,12 +185,13 @@ NamedStudy Find(const std::vector<std::string>& arguments) {
                      Joined(names, ", "));
   }
   const auto study = [arguments] {
-    return StudyOf({arguments,
-                    {},
-                    Navigate({.methods = ReadTrajectoryMethods(FLAGS_methods),
-                              .judged_every = 1.0}),
-                    NavigationTables(),
-                    true});
+    return StudyOf(
+        {arguments,
+         {},
+         NavigationTrialOf({.methods = ReadTrajectoryMethods(FLAGS_methods),
+                            .judged_every = 1.0}),
+         NavigationTables(),
+         true});
   };
   return {arguments.front(), "", study, {"methods", "set", "sweep"}};
 }

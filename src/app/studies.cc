@@ -4,6 +4,7 @@
 #include "app/study_cases.h"
 #include "evaluation/statistics.h"
 #include "problems/attitude_trial.h"
+#include "problems/navigation_trial.h"
 #include "problems/papers/alignment_trial.h"
 #include "problems/papers/jump_comparison.h"
 #include "problems/papers/observer_comparison.h"
@@ -23,30 +24,33 @@ Study TunnelStudy() {
        {{"path", "winding"},
         {"noise", "sample"},
         {"aiding.odometer.form", "three_axis|forward"}},
-       Navigate({.methods = {"ekf", "two_filter", "two_filter_conventional",
-                             "two_filter_euler", "rts", "iterated", "batch"},
-                 .leg_ends = leg_ends}),
+       NavigationTrialOf(
+           {.methods = {"ekf", "two_filter", "two_filter_conventional",
+                        "two_filter_euler", "rts", "iterated", "batch"},
+            .leg_ends = leg_ends}),
        NavigationTables(leg_ends)});
 }
 
 /// Judged away from the ends, at times that have truth whatever the clocks.
 Study ConstantsStudy(const std::string& scenario) {
-  return StudyOf({{scenario},
-                  {},
-                  Navigate({.methods = {"ekf", "rts", "iterated", "batch"},
-                            .judged_every = 10.0,
-                            .judged_to = 599.0}),
-                  NavigationTables()});
+  return StudyOf(
+      {{scenario},
+       {},
+       NavigationTrialOf({.methods = {"ekf", "rts", "iterated", "batch"},
+                          .judged_every = 10.0,
+                          .judged_to = 599.0}),
+       NavigationTables()});
 }
 
 Study UuvSurveyStudy() {
   std::vector<StudyTable> tables = NavigationTables();
   tables[kCells].Add({{"end_drift", kPlain, OfRuns(Rms)}});
-  return StudyOf({{"uuv_survey"},
-                  {{"path", "lawnmower|straight|returning"},
-                   {"aids", "no fix|final fix|final fix, 120 s without DVL"}},
-                  Navigate({.methods = {"ekf", "two_filter", "rts", "batch"}}),
-                  tables});
+  return StudyOf(
+      {{"uuv_survey"},
+       {{"path", "lawnmower|straight|returning"},
+        {"aids", "no fix|final fix|final fix, 120 s without DVL"}},
+       NavigationTrialOf({.methods = {"ekf", "two_filter", "rts", "batch"}}),
+       tables});
 }
 
 /// From bad attitudes.
@@ -55,7 +59,7 @@ Study InFlightStudy() {
                   {kVelocityRates,
                    {"start_errors.tilt", "10 deg|30 deg"},
                    {"start_errors.heading", "30 deg|60 deg|120 deg|175 deg"}},
-                  OnAll(ObserverTrial(ReadObserverModels())),
+                  ObserverTrial(ReadObserverModels()),
                   {ObserverTable()}});
 }
 
@@ -66,10 +70,8 @@ Study VelocityAlignmentStudy() {
                          MountAnywhere(run->seed, &flight);
                          align.run(flight, run);
                        }};
-  return StudyOf({{"in_flight_alignment"},
-                  {kVelocityRates},
-                  OnAll(trial),
-                  {AlignmentTable()}});
+  return StudyOf(
+      {{"in_flight_alignment"}, {kVelocityRates}, trial, {AlignmentTable()}});
 }
 
 Study GpsJumpsStudy() {
@@ -77,7 +79,7 @@ Study GpsJumpsStudy() {
                   {{"errors", "pulses|spikes|steps|ramp|multipath|none"},
                    {"aiding.gnss.sigma", "1 m"},
                    {"aiding.*.rate", "1 Hz"}},
-                  OnAll(JumpTrial()),
+                  JumpTrial(),
                   {JumpTable()}});
 }
 
@@ -102,51 +104,44 @@ Study UuvSearchStudy() {
   return study;
 }
 
-using Simulator = std::function<Dataset(std::uint64_t seed)>;
-
-Study AttitudeStudy(const std::string& column, const StudyTable& table,
-                    const std::vector<std::pair<std::string, Simulator>>& cases,
-                    const Trial& trial) {
-  Study study = {.tables = {Under({column}, table)}};
-  for (const auto& [label, simulate] : cases) {
-    study.cases.push_back(
-        {{label}, [simulate = simulate] { return simulate; }, trial});
-  }
-  return study;
-}
-
 Study VibrationAttitudeStudy() {
-  std::vector<std::pair<std::string, Simulator>> cases;
+  Study study = {.tables = {Under({"disturbance", "rule"}, VibrationTable())}};
   const auto add = [&](const std::string& name,
                        const VibrationAttitudeOptions& options) {
-    cases.emplace_back(name, [options](std::uint64_t seed) {
+    const Recording recording = [options](std::uint64_t seed) {
       return SimulateVibrationAttitude(options, seed);
-    });
+    };
+    for (const TriedRule& rule : TriedRules()) {
+      study.cases.push_back(VibrationCase({name}, recording, rule));
+    }
   };
   for (const std::string& axis : VibrationAxes()) {
     add("acceleration along " + axis, {.axis = axis});
   }
   add("acceleration and vibration along north", {.vibration_along_axis = true});
-  return AttitudeStudy("disturbance", VibrationTable(), cases,
-                       AttitudeTrial(AccelerometerRules(), VibrationTable()));
+  return study;
 }
 
 /// With the field throughout, and with one that is of no use in motion.
 Study FreeRotationStudy() {
-  const auto disturbed_by = [](double disturbance) -> Simulator {
-    return [disturbance](std::uint64_t seed) {
+  const StudyTable table = RotationTable(kFreeRotationBegin, kFreeRotationEnd);
+  Study study = {.tables = {Under({"field"}, table)}};
+  for (const auto& [name, disturbance] :
+       {std::pair("throughout", 0.0), {"at rest alone", 60.0}}) {
+    const Recording recording = [disturbance =
+                                     disturbance](std::uint64_t seed) {
       FreeRotationOptions options = DrawFreeRotation(seed);
       options.motion_disturbance = disturbance;
       return SimulateFreeRotation(options, seed);
     };
-  };
-  const StudyTable table = RotationTable(kFreeRotationBegin, kFreeRotationEnd);
-  return AttitudeStudy(
-      "field", table,
-      {{"throughout", disturbed_by(0.0)},
-       {"at rest alone", disturbed_by(60.0)}},
-      AttitudeTrial({{"ahrs", "ahrs"}, {"ahrs_smoother", "ahrs_smoother"}},
-                    table, 10));
+    study.cases.push_back(
+        {{name},
+         [recording] { return recording; },
+         NavigationTrialOf({.methods = {"ahrs", "ahrs_smoother"},
+                            .cells = table,
+                            .judged_every = 0.1})});
+  }
+  return study;
 }
 
 }  // namespace

@@ -108,23 +108,6 @@ Recording RecordingOf(const Scenario& scenario) {
 
 }  // namespace
 
-std::function<Trial(const Scenario&)> Navigate(const NavigationTrial& trial) {
-  return [trial](const Scenario& scenario) {
-    NavigationTrial own = trial;
-    for (const AidingModel& model : scenario.aiding) {
-      for (const TimeSpan& outage : model.outages) {
-        own.silent_spans.push_back(
-            {model.sensor.name, outage.begin, outage.end});
-      }
-    }
-    return NavigationTrialOf(own);
-  };
-}
-
-std::function<Trial(const Scenario&)> OnAll(const Trial& trial) {
-  return [trial](const Scenario&) { return trial; };
-}
-
 Study StudyOf(const ScenarioTrials& trials) {
   Study study;
   std::vector<std::string> columns, names;
@@ -148,8 +131,8 @@ Study StudyOf(const ScenarioTrials& trials) {
       std::vector<std::string> labels = entry.labels;
       if (trials.by_name) labels.insert(labels.begin(), changed.name);
       if (&entry == &entries.front()) names.push_back(changed.name);
-      study.cases.push_back({labels, [changed] { return RecordingOf(changed); },
-                             trials.trial_of(changed)});
+      study.cases.push_back(
+          {labels, [changed] { return RecordingOf(changed); }, trials.trial});
     }
     if (std::ranges::count(names, names.back()) > 1) {
       throw UsageError("two scenarios of the name '" + names.back() + "'");

@@ -2,12 +2,11 @@
 #define HINDSIGHT_APP_STUDY_CASES_H_
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "io/config/scenario_config.h"
-#include "problems/navigation_trial.h"
+#include "problems/montecarlo.h"
 
 namespace hindsight {
 
@@ -23,14 +22,10 @@ struct Axis {
 struct ScenarioTrials {
   std::vector<std::string> scenarios;  ///< names or paths
   std::vector<Axis> axes;
-  std::function<Trial(const Scenario&)> trial_of;
+  Trial trial;
   std::vector<StudyTable> tables;  ///< label columns of the cases go before
   bool by_name = false;            ///< the scenario is a column as well
 };
-
-/// NavigationTrialOf, which knows when the scenario's sensors are silent.
-std::function<Trial(const Scenario&)> Navigate(const NavigationTrial& trial);
-std::function<Trial(const Scenario&)> OnAll(const Trial& trial);
 
 /// That comparison with --set and --sweep, which give an axis other values or
 /// add one; of columns by name it has the name of all, else none. Throws

@@ -58,7 +58,9 @@ ShardedCall SharedCall(const std::vector<std::string>& arguments,
 void RunShardInto(Shard shard, const Study& study, MonteCarloOptions options,
                   Progress* progress, ResultFolder* folder) {
   options.progress = [&](double done) { progress->Update("runs", done); };
-  shard.result = RunShard(study, options, shard.result.begin, shard.result.end);
+  StudyRun run(study, options, shard.result.begin, shard.result.end);
+  run.Do();
+  shard.result = run.shard();
   progress->Clear();
   folder->Write(ShardOutput(shard));
   folder->Commit();

@@ -141,7 +141,7 @@ struct Injection {
   double tau = 20.0;   ///< of multipath [s]
 };
 
-/// An interval in which a sensor was withheld.
+/// An interval in which a sensor was withheld or measured nothing.
 struct Outage {
   int sensor = 0;
   double t_begin = 0.0;
@@ -190,6 +190,8 @@ struct Dataset {
   std::vector<Withholding> withholdings;
   std::vector<Injection> injections;  ///< what ApplyInjections has added
   std::vector<Outage> outages;        ///< filled by ApplyWithholding
+  /// Known of simulated data: in which a sensor measured nothing.
+  std::vector<Outage> silences;
   double max_node_spacing = 1.0;      ///< [s]
   std::vector<PolicyCount> policies;
   std::vector<std::string> notes;  ///< what else was done to it, in words

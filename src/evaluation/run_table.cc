@@ -171,8 +171,8 @@ std::vector<FigureRow> Summarize(const StudyTable& table, std::size_t index,
     const auto fold = folds.find({index, *labels});
     const RunCell cell(cells[*labels],
                        fold == folds.end() ? SeriesFold() : fold->second);
-    FigureRow& row = rows.emplace_back(
-        FigureRow{*labels, cell.runs(), cell.failed(), {}, cell.t(), {}});
+    FigureRow& row =
+        rows.emplace_back(FigureRow{*labels, cell.runs(), {}, cell.t(), {}});
     for (const Figure& figure : table.figures) {
       row.values.push_back(figure.reduce(
           cell, figure.quantity.empty() ? figure.name : figure.quantity));

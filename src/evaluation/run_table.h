@@ -167,7 +167,6 @@ Figure SecondsFigure();
 struct FigureRow {
   std::vector<std::string> labels;
   int runs = 0;
-  int failed = 0;
   std::vector<double> values;  ///< by figure of the table, SI; NaN: none
   std::vector<double> t;
   std::vector<std::vector<double>> curves;  ///< by curve of the table, SI

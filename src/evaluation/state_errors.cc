@@ -93,42 +93,41 @@ double StateErrors::ShareBeyond(double sigmas) const {
   return Mean(beyond);
 }
 
-StateErrors ErrorsOf(const Dataset& dataset, const ErrorLayout& layout,
-                     const std::vector<State>& states,
-                     const CovarianceSeries& P,
+StateErrors ErrorsOf(const Dataset& dataset, const Solution& solution,
                      const std::vector<std::size_t>& numbers) {
+  const ErrorLayout& layout = solution.layout;
   std::vector<State> asked;
   asked.reserve(numbers.size());
-  for (const std::size_t k : numbers) asked.push_back(states[k]);
+  for (const std::size_t k : numbers) asked.push_back(solution.states[k]);
   const std::vector<State> truth = TrueStates(dataset, layout, asked);
   const std::vector<int> known = ComponentsWithTruth(dataset, layout);
   StateErrors errors;
   errors.states = static_cast<int>(known.size());
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const ErrorVector e = Local(layout, asked[i], truth[i]);
-    const ErrorMatrix P_i = P.Get(numbers[i]);
+    const ErrorMatrix P = solution.covariances.Get(numbers[i]);
     errors.t.push_back(truth[i].t);
-    Append<3>(layout, BlockKind::kPosition, e, P_i, &errors.position);
-    Append<3>(layout, BlockKind::kAttitude, e, P_i, &errors.attitude);
-    Append<3>(layout, BlockKind::kGyroBias, e, P_i, &errors.gyro_bias);
-    Append<2>(layout, BlockKind::kPosition, e, P_i, &errors.horizontal);
-    Append<2>(layout, BlockKind::kVelocity, e, P_i,
-              &errors.horizontal_velocity);
+    Append<3>(layout, BlockKind::kPosition, e, P, &errors.position);
+    Append<3>(layout, BlockKind::kAttitude, e, P, &errors.attitude);
+    Append<3>(layout, BlockKind::kGyroBias, e, P, &errors.gyro_bias);
+    Append<2>(layout, BlockKind::kPosition, e, P, &errors.horizontal);
+    Append<2>(layout, BlockKind::kVelocity, e, P, &errors.horizontal_velocity);
     errors.yaw.push_back(
         WrapAngle(truth[i].euler().z() - asked[i].euler().z()));
     const Eigen::VectorXd e_known = e(known);
-    const Eigen::MatrixXd P_known = P_i(known, known);
+    const Eigen::MatrixXd P_known = P(known, known);
     errors.nees.push_back(e_known.dot(P_known.llt().solve(e_known)));
   }
   return errors;
 }
 
-StateErrors ErrorsOf(const Dataset& dataset, const ErrorLayout& layout,
-                     const std::vector<State>& states,
-                     const CovarianceSeries& P, std::size_t every) {
+StateErrors ErrorsOf(const Dataset& dataset, const Solution& solution,
+                     std::size_t every) {
   std::vector<std::size_t> numbers;
-  for (std::size_t k = 0; k < states.size(); k += every) numbers.push_back(k);
-  return ErrorsOf(dataset, layout, states, P, numbers);
+  for (std::size_t k = 0; k < solution.states.size(); k += every) {
+    numbers.push_back(k);
+  }
+  return ErrorsOf(dataset, solution, numbers);
 }
 
 }  // namespace hindsight

@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "dataset/dataset.h"
-#include "state/covariance_series.h"
-#include "state/error_layout.h"
-#include "state/state.h"
+#include "state/solution.h"
 
 namespace hindsight {
 
@@ -62,14 +60,11 @@ struct StateErrors {
 };
 
 /// Of the states of those numbers. Throws InputError for one without truth.
-StateErrors ErrorsOf(const Dataset& dataset, const ErrorLayout& layout,
-                     const std::vector<State>& states,
-                     const CovarianceSeries& P,
+StateErrors ErrorsOf(const Dataset& dataset, const Solution& solution,
                      const std::vector<std::size_t>& numbers);
 /// Of one state in `every`, the first being one of them.
-StateErrors ErrorsOf(const Dataset& dataset, const ErrorLayout& layout,
-                     const std::vector<State>& states,
-                     const CovarianceSeries& P, std::size_t every = 1);
+StateErrors ErrorsOf(const Dataset& dataset, const Solution& solution,
+                     std::size_t every = 1);
 
 }  // namespace hindsight
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "measurements/axle.h"
 #include "measurements/sensor_axes.h"
 #include "measurements/sensor_kind.h"
 
@@ -95,26 +96,6 @@ std::size_t IndexOfForm(const SensorSettings& settings) {
   return static_cast<std::size_t>(
       std::find(std::begin(kForms), std::end(kForms), FormOf(settings)) -
       std::begin(kForms));
-}
-
-SensorKey LevelKey() {
-  return {.name = "level_on_average",
-          .quantity = Quantity::kAngle,
-          .value = SensorKey::OptionalNumber{[](SensorSettings& s) {
-            return &s.level_sigma;
-          }},
-          .help =
-              "sigma with which the vehicle's mean roll over the record is "
-              "zero, without which the mounting's roll is not observed"};
-}
-
-std::optional<KeyObjection> TakeSigma(SensorSettings* settings) {
-  if (settings->sigma) PatternOf<Odometer>(*settings).sigma = *settings->sigma;
-  return std::nullopt;
-}
-
-void GiveSigma(SensorSettings* settings) {
-  settings->sigma = PatternOf<Odometer>(*settings).sigma;
 }
 
 /// Column of the count.
@@ -220,15 +201,6 @@ void DisturbOdometers(const SensorSettings& settings, Random* random,
   }
 }
 
-const std::vector<FieldName>& OdometerColumnsOfFile() {
-  static const std::vector<FieldName> kColumns = {
-      {"speed", Quantity::kSpeed},     {"side", Quantity::kSpeed},
-      {"down", Quantity::kSpeed},      {"quality", Quantity::kRatio},
-      {"distance", Quantity::kLength},
-  };
-  return kColumns;
-}
-
 bool IsCount(const MeasurementModel* z) {
   const auto* odometer = z == nullptr ? nullptr : std::get_if<Odometer>(z);
   return odometer != nullptr && odometer->form == Form::kIncrements;
@@ -266,9 +238,6 @@ SensorBlock CountErrorBlock() {
               }};
 }
 
-constexpr const char* kSigmaMissing =
-    "expected a standard deviation of each speed";
-
 }  // namespace
 
 const SensorKind& OdometerKind() {
@@ -277,7 +246,7 @@ const SensorKind& OdometerKind() {
       .help = "speed or counted distance along a vehicle's track",
       .residual_unit = "m/s",
       .of_vehicle = true,
-      .columns = OdometerColumnsOfFile(),
+      .columns = AxleColumns(),
       .measured =
           [](const SensorSettings& settings) {
             return CountsDistance(settings) ? MeasuredColumns{kDistance, 1, 0}
@@ -323,8 +292,8 @@ const SensorKind& OdometerKind() {
             .applies = MeasuresSpeed,
             .when = "form: three_axis or forward",
             .needed = Always,
-            .missing = kSigmaMissing},
-           LevelKey(),
+            .missing = kAxleSigmaMissing},
+           AxleLevelKey(),
            MountingKey(true),
            LeverArmKey(),
            LeverArmSigmaKey(),
@@ -333,8 +302,8 @@ const SensorKind& OdometerKind() {
       .blocks = {ScaleBlock(), MountingBlock(), LeverArmBlock(),
                  DistanceBlock(), CountErrorBlock(), TimeOffsetBlock()},
       .prepare = [](SensorSettings* s) { s->pattern = Odometer(); },
-      .complete = TakeSigma,
-      .uncomplete = GiveSigma,
+      .complete = TakeAxleSigma,
+      .uncomplete = GiveAxleSigma,
       .read = ReadOdometer,
       .join = TakeDifferences,
       .split = AddUp,
@@ -353,49 +322,6 @@ const SensorKind& OdometerKind() {
             return PerfectVelocity(settings.sensor, motion).x();
           },
       .disturb = DisturbOdometers,
-  };
-  return kKind;
-}
-
-const SensorKind& NonHolonomicKind() {
-  static const SensorKind kKind = {
-      .name = "non_holonomic",
-      .help = "wheels neither slip sideways nor leave the ground",
-      .generated = true,
-      .residual_unit = "m/s",
-      .of_vehicle = true,
-      .has_clock = false,
-      .columns = OdometerColumnsOfFile(),
-      .keys = {{.name = "rate",
-                .quantity = Quantity::kFrequency,
-                .value = SensorKey::Number{[](SensorSettings& s) {
-                                             return &s.rate_hz;
-                                           },
-                                           SensorKey::Range::kPositive},
-                .help = "constraints a second",
-                .needed = Always},
-               {.name = "sigma",
-                .quantity = Quantity::kSpeed,
-                .value = SensorKey::SidesSigma{[](SensorSettings& s) {
-                  return &s.sigma;
-                }},
-                .help = "[side, down]",
-                .needed = Always,
-                .missing = kSigmaMissing},
-               LevelKey(),
-               MountingKey(true),
-               LeverArmKey(),
-               LeverArmSigmaKey(),
-               MountingSigmaKey()},
-      .blocks = {MountingBlock(), LeverArmBlock()},
-      .prepare =
-          [](SensorSettings* s) {
-            Odometer odometer;
-            odometer.form = Form::kNonHolonomic;
-            s->pattern = odometer;
-          },
-      .complete = TakeSigma,
-      .uncomplete = GiveSigma,
   };
   return kKind;
 }

@@ -132,6 +132,10 @@ Dataset MakeDataset(const Scenario& scenario, PerfectAiding perfect,
     dataset.streams.push_back(
         {std::move(drawn.sensor), MeasurementSeries(measurements)});
     dataset.true_constants.merge(drawn.true_constants);
+    for (const TimeSpan& silence : scenario.aiding[k].outages) {
+      dataset.silences.push_back(
+          {static_cast<int>(k), silence.begin, silence.end});
+    }
   }
   dataset.initial = DrawInitialState(scenario, start, seed);
   if (!scenario.imu.accel_scale_sigma.isZero(0.0)) {

@@ -1,3 +1,4 @@
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -121,10 +122,7 @@ std::string LargeText(const std::string& titles, const char* values) {
   std::string text = titles + "\n";
   text.reserve(kLargeInput + 1000);
   for (int i = 0; text.size() < kLargeInput; ++i) {
-    char line[200];
-    const int n =
-        std::snprintf(line, sizeof(line), "%.3f,%s\n", 0.005 * i, values);
-    text.append(line, static_cast<std::size_t>(n));
+    text += fmt::format("{:.3f},{}\n", 0.005 * i, values);
   }
   return text + "x\n";
 }
@@ -231,9 +229,7 @@ struct NarrowInput {
 };
 
 std::string Decimal(double value, int digits) {
-  char text[40];
-  const int n = std::snprintf(text, sizeof(text), "%.*f", digits, value);
-  return {text, static_cast<std::size_t>(n)};
+  return fmt::format("{:.{}f}", value, digits);
 }
 
 std::string Stamped(int i, const std::string& values) {

@@ -1,8 +1,7 @@
 #include <benchmark/benchmark.h>
+#include <fmt/core.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -20,13 +19,10 @@ std::string WriteImuFile() {
   out << "t[s],gyro_x[rad/s],gyro_y[rad/s],gyro_z[rad/s],accel_x[m/s^2],"
          "accel_y[m/s^2],accel_z[m/s^2]\n";
   for (int i = 0; i < 360000; ++i) {
-    std::array<char, 256> line;
     const double s = std::sin(0.37 * i);
-    std::snprintf(line.data(), line.size(),
-                  "%.4f,%.15g,%.15g,%.15g,%.15g,%.15g,%.15g\n", 0.005 * i,
-                  0.01 * s, 0.02 * s, -0.013 * s, 0.3 * s, 0.1 * s,
-                  -9.8 + 0.2 * s);
-    out << line.data();
+    out << fmt::format(
+        "{:.4f},{:.15g},{:.15g},{:.15g},{:.15g},{:.15g},{:.15g}\n", 0.005 * i,
+        0.01 * s, 0.02 * s, -0.013 * s, 0.3 * s, 0.1 * s, -9.8 + 0.2 * s);
   }
   return path.string();
 }

@@ -39,20 +39,26 @@ State Off(double t, double north, double yaw) {
   return x;
 }
 
-CovarianceSeries Equal(int dim, std::size_t count) {
-  CovarianceSeries P(dim, count);
-  for (std::size_t k = 0; k < count; ++k) {
-    P.Set(k, ErrorMatrix(kSigma * kSigma * ErrorMatrix::Identity(dim, dim)));
+/// Every component known to kSigma.
+Solution Estimate(const ErrorLayout& layout, const std::vector<State>& states) {
+  Solution solution;
+  solution.layout = layout;
+  solution.states = states;
+  const int dim = layout.dim();
+  solution.covariances = CovarianceSeries(dim, states.size());
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    solution.covariances.Set(
+        k, ErrorMatrix(kSigma * kSigma * ErrorMatrix::Identity(dim, dim)));
   }
-  return P;
+  return solution;
 }
 
 TEST(StateErrors, AreTruthLessEstimateAgainstTheirCovariance) {
   const ErrorLayout layout = NavigationLayout({});
   const std::vector<State> states = {Off(0.0, 1.0, 0.0), Off(1.0, 3.0, 0.1),
                                      Off(2.0, 0.0, 0.0)};
-  const StateErrors errors = ErrorsOf(TruthAt({0.0, 1.0, 2.0}), layout, states,
-                                      Equal(layout.dim(), states.size()));
+  const StateErrors errors =
+      ErrorsOf(TruthAt({0.0, 1.0, 2.0}), Estimate(layout, states));
   ASSERT_EQ(errors.t.size(), 3u);
   EXPECT_EQ(errors.states, layout.dim());
   EXPECT_NEAR(errors.position.Component(0)[1], 3.0, 1e-6);
@@ -74,8 +80,8 @@ TEST(StateErrors, OfALayoutWithoutHeightAreHorizontal) {
     if (block.key.kind == BlockKind::kPosition) block.active[2] = false;
     layout.Add(block);
   }
-  const StateErrors errors = ErrorsOf(
-      TruthAt({0.0}), layout, {Off(0.0, 1.0, 0.0)}, Equal(layout.dim(), 1));
+  const StateErrors errors =
+      ErrorsOf(TruthAt({0.0}), Estimate(layout, {Off(0.0, 1.0, 0.0)}));
   EXPECT_TRUE(errors.position.e.empty());
   EXPECT_NEAR(errors.horizontal.Component(0)[0], 1.0, 1e-6);
   EXPECT_NEAR(errors.horizontal.nees[0], 4.0, 1e-5);
@@ -84,15 +90,12 @@ TEST(StateErrors, OfALayoutWithoutHeightAreHorizontal) {
 
 TEST(StateErrors, AreOfTheStatesThatAreAsked) {
   const ErrorLayout layout = NavigationLayout({});
-  const std::vector<State> states = {Off(0.0, 1.0, 0.0), Off(1.0, 2.0, 0.0),
-                                     Off(2.0, 3.0, 0.0)};
+  const Solution solution = Estimate(
+      layout, {Off(0.0, 1.0, 0.0), Off(1.0, 2.0, 0.0), Off(2.0, 3.0, 0.0)});
   const Dataset truth = TruthAt({0.0, 2.0});
-  const CovarianceSeries P = Equal(layout.dim(), states.size());
-  EXPECT_NEAR(ErrorsOf(truth, layout, states, P, 2).position.Norms()[1], 3.0,
-              1e-6);
-  EXPECT_TRUE(
-      ErrorsOf(truth, layout, states, P, std::vector<std::size_t>{}).t.empty());
-  EXPECT_THROW(ErrorsOf(truth, layout, states, P), InputError);
+  EXPECT_NEAR(ErrorsOf(truth, solution, 2).position.Norms()[1], 3.0, 1e-6);
+  EXPECT_TRUE(ErrorsOf(truth, solution, std::vector<std::size_t>{}).t.empty());
+  EXPECT_THROW(ErrorsOf(truth, solution), InputError);
 }
 
 /// Of attitude alone nobody need know the place.
@@ -102,8 +105,7 @@ TEST(StateErrors, NeedNoTruthOfWhatIsNotEstimated) {
   layout.Add(*all.Find(BlockKind::kAttitude));
   layout.Add(*all.Find(BlockKind::kGyroBias));
   const StateErrors errors =
-      ErrorsOf(TruthAt({0.0}, true), layout, {Off(0.0, 1.0, 0.2)},
-               Equal(layout.dim(), 1));
+      ErrorsOf(TruthAt({0.0}, true), Estimate(layout, {Off(0.0, 1.0, 0.2)}));
   EXPECT_TRUE(errors.position.e.empty());
   EXPECT_NEAR(errors.attitude.Norms()[0], 0.2, 1e-6);
   EXPECT_NEAR(errors.nees[0], 0.04 / (kSigma * kSigma), 1e-5);

@@ -1,3 +1,4 @@
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -80,9 +81,7 @@ class BadInputTable : public RecordingFolder,
     if (stream.encoding == Encoding::kOxts) {
       std::filesystem::create_directories(Path("oxts/data"));
       for (int i = 0; i < kSampleRows; ++i) {
-        char name[32];
-        std::snprintf(name, sizeof(name), "oxts/data/%010d.txt", i);
-        Write(name, OxtsEpoch());
+        Write(fmt::format("oxts/data/{:010d}.txt", i), OxtsEpoch());
       }
       Write("oxts/timestamps.txt", Encode(stream, stream.table));
     }

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include "base/units.h"
 #include "io/read/time_scale.h"
 #include "io/sample_folder.h"
@@ -17,9 +19,7 @@ constexpr const char* kNmeaConfig =
 std::string Sentence(const std::string& body) {
   unsigned sum = 0;
   for (const char c : body) sum ^= static_cast<unsigned char>(c);
-  char tail[8];
-  std::snprintf(tail, sizeof(tail), "*%02X\r\n", sum);
-  return "$" + body + tail;
+  return fmt::format("${}*{:02X}\r\n", body, sum);
 }
 
 class Nmea : public SampleFolder {

@@ -1,8 +1,9 @@
 #ifndef HINDSIGHT_TESTS_IO_SAMPLE_STREAMS_H_
 #define HINDSIGHT_TESTS_IO_SAMPLE_STREAMS_H_
 
+#include <fmt/core.h>
+
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <string>
 #include <vector>
@@ -49,9 +50,7 @@ struct SampleStream {
 };
 
 inline std::string Printed(double value, int digits = 6) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.*f", digits, value);
-  return text;
+  return fmt::format("{:.{}f}", value, digits);
 }
 
 constexpr int kSampleRows = 40;
@@ -114,9 +113,7 @@ inline std::string Nmea(const TextRows& table, bool rmc) {
     }
     unsigned sum = 0;
     for (const char c : body) sum ^= static_cast<unsigned char>(c);
-    char end[8];
-    std::snprintf(end, sizeof(end), "*%02X\n", sum);
-    text += "$" + body + end;
+    text += fmt::format("${}*{:02X}\n", body, sum);
   }
   return text;
 }

@@ -5,6 +5,7 @@
 #include "base/chi_square.h"
 #include "base/units.h"
 #include "support/in_flight.h"
+#include "support/study.h"
 
 namespace hindsight {
 namespace {
@@ -19,21 +20,21 @@ TEST(AlignmentTrial, TheBatchAfterAlignmentIsConsistentOverTheWholeInterval) {
   };
   const Trial trial = AlignmentTrial(kFirstManoeuvre + 10.0);
   const StudyResult all =
-      RunStudy({"",
-                {},
-                {Under({"velocity"}, AlignmentTable())},
-                {{{"1 Hz"}, [&] { return recording; }, trial}}},
-               {.runs = kRuns, .first_seed = 5001});
+      testing::RunStudy({"",
+                         {},
+                         {Under({"velocity"}, AlignmentTable())},
+                         {{{"1 Hz"}, [&] { return recording; }, trial}}},
+                        {.runs = kRuns, .first_seed = 5001});
   ASSERT_EQ(all.rows[0].size(), 2u);
   const std::vector<std::string> batch = {"1 Hz", "velocity_alignment_batch"};
-  EXPECT_EQ(all.Value(batch, "failed"), 0);
+  EXPECT_EQ(testing::ValueOf(all, batch, "failed"), 0);
   // A mean over epochs scatters no more than that of one epoch.
   const Interval bounds = AneesBounds(kRuns, 3, 0.999);
-  const double anees = all.Value(batch, "anees");
+  const double anees = testing::ValueOf(all, batch, "anees");
   EXPECT_TRUE(bounds.Contains(anees)) << anees;
-  EXPECT_EQ(all.Value(batch, "anees_bound_lower"),
+  EXPECT_EQ(testing::ValueOf(all, batch, "anees_bound_lower"),
             AneesBounds(kRuns, 3, 0.95).lower);
-  EXPECT_LT(all.Value(batch, "anees_outside"), 0.5);
+  EXPECT_LT(testing::ValueOf(all, batch, "anees_outside"), 0.5);
 }
 
 }  // namespace

@@ -16,9 +16,11 @@
 #include "io/config/scenario_config.h"
 #include "measurements/sensor_kind.h"
 #include "problems/attitude_trial.h"
+#include "problems/navigation_trial.h"
 #include "simulation/free_rotation.h"
 #include "simulation/vibration_attitude.h"
 #include "support/seed_count.h"
+#include "support/study.h"
 
 namespace hindsight {
 namespace {
@@ -125,16 +127,13 @@ TEST(AttitudeEstimation, SmncWithstandsVibration) {
   const Recording recording = [](std::uint64_t seed) {
     return SimulateVibrationAttitude({}, seed);
   };
-  const StudyResult result =
-      RunStudy({"",
-                {},
-                {VibrationTable()},
-                {{{},
-                  [&] { return recording; },
-                  AttitudeTrial(AccelerometerRules(), VibrationTable())}}},
-               {.runs = 20});
+  Study study = {.tables = {Under({"rule"}, VibrationTable())}};
+  for (const TriedRule& rule : TriedRules()) {
+    study.cases.push_back(VibrationCase({}, recording, rule));
+  }
+  const StudyResult result = testing::RunStudy(study, {.runs = 20});
   const auto value = [&](const char* rule, const char* figure) {
-    return result.Value({rule}, figure);
+    return testing::ValueOf(result, {rule, "ahrs"}, figure);
   };
   constexpr double kExpected = 0.22 * kDegree;
   const double smnc = value("smnc", "rms_total_40_45s");
@@ -265,24 +264,26 @@ TEST(AttitudeEstimation, TwentyTurnsWithAScaleErrorAreConsistent) {
       options.motion_disturbance = disturbance;
       return SimulateFreeRotation(options, seed);
     };
-    const StudyResult result = RunStudy(
+    const StudyResult result = testing::RunStudy(
         {"",
          {},
          {table},
          {{{},
            [&] { return recording; },
-           AttitudeTrial({{"ahrs", "ahrs"}, {"ahrs_smoother", "ahrs_smoother"}},
-                         table, 10)}}},
+           NavigationTrialOf({.methods = {"ahrs", "ahrs_smoother"},
+                              .cells = table,
+                              .judged_every = 0.1})}}},
         {.runs = runs, .first_seed = kFirstSeed});
     for (const char* method : {"ahrs", "ahrs_smoother"}) {
       const auto value = [&](const char* figure) {
-        return result.Value({method}, figure);
+        return testing::ValueOf(result, {method}, figure);
       };
       EXPECT_TRUE(AneesBounds(runs, 3, 0.999).Contains(value("nees")))
           << method << value("nees");
       EXPECT_GT(value("inside"), 0.98) << method;
     }
-    EXPECT_LT(result.Value({"ahrs_smoother"}, "heading_rms"), 1.0 * kDegree);
+    EXPECT_LT(testing::ValueOf(result, {"ahrs_smoother"}, "heading_rms"),
+              1.0 * kDegree);
   }
 }
 

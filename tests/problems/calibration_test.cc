@@ -3,6 +3,7 @@
 #include "base/chi_square.h"
 #include "io/config/scenario_config.h"
 #include "support/navigation_study.h"
+#include "support/study.h"
 
 namespace hindsight {
 namespace {
@@ -19,18 +20,18 @@ TEST(Calibration, EveryConstantIsAsGoodAsItsSigma) {
   Scenario scenario = FindScenario("calibration");
   scenario.duration = kDuration;
   const PerfectRecording recording(scenario);
-  const StudyResult result =
-      RunStudy(testing::NavigationStudy(
-                   recording, {.methods = {"batch"}, .judged_every = 20.0}),
-               {.runs = kRuns});
-  EXPECT_EQ(result.Value({"batch"}, "states"), 33);
-  EXPECT_EQ(result.Value({"batch"}, "failed"), 0);
+  const StudyResult result = testing::RunStudy(
+      testing::NavigationStudy(recording,
+                               {.methods = {"batch"}, .judged_every = 20.0}),
+      {.runs = kRuns});
+  EXPECT_EQ(testing::ValueOf(result, {"batch"}, "states"), 33);
+  EXPECT_EQ(testing::ValueOf(result, {"batch"}, "failed"), 0);
   // 18 constants; one in ten thousand may be outside.
   const Interval bounds = AneesBounds(kRuns, 1, 0.9999);
   ASSERT_EQ(result.rows[kConstants].size(), 18u);
   for (const FigureRow& row : result.rows[kConstants]) {
     const auto value = [&](const char* name) {
-      return result.Value(row.labels, name, kConstants);
+      return testing::ValueOf(result, row.labels, name, kConstants);
     };
     EXPECT_TRUE(bounds.Contains(value("anees")))
         << row.labels[1] << ": " << value("anees") << " against "
@@ -39,7 +40,7 @@ TEST(Calibration, EveryConstantIsAsGoodAsItsSigma) {
         << row.labels[1];
   }
   const Interval whole = AneesBounds(kRuns, 33, 0.9999);
-  const FigureRow& batch = result.Row({"batch"});
+  const FigureRow& batch = testing::RowOf(result, {"batch"});
   const double at_end = batch.curves.back().back();
   EXPECT_TRUE(whole.Contains(at_end)) << at_end;
   EXPECT_EQ(batch.t.size(), 7u);

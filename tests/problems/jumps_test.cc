@@ -12,6 +12,7 @@
 #include "problems/papers/jump_comparison.h"
 #include "problems/position_imm.h"
 #include "problems/reconstruction.h"
+#include "support/study.h"
 #include "support/truth_at.h"
 
 namespace hindsight {
@@ -25,15 +26,15 @@ StudyResult Compare(const std::string& profile, double sigma, int runs,
   const Recording realize = [&](std::uint64_t seed) {
     return recording.Realize(seed);
   };
-  return RunStudy({"",
-                   {},
-                   {JumpTable()},
-                   {{{}, [realize] { return realize; }, JumpTrial()}}},
-                  {.runs = runs, .first_seed = first_seed});
+  return testing::RunStudy({"",
+                            {},
+                            {JumpTable()},
+                            {{{}, [realize] { return realize; }, JumpTrial()}}},
+                           {.runs = runs, .first_seed = first_seed});
 }
 
 double PositionRms(const StudyResult& all, const char* method) {
-  return all.Value({method}, "position_rms");
+  return testing::ValueOf(all, {method}, "position_rms");
 }
 
 /// A figure against time.
@@ -41,7 +42,7 @@ std::vector<double> CurveOf(const StudyResult& all, const char* method,
                             const std::string& name) {
   const std::vector<FigureCurve>& curves = all.tables[0].curves;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    if (curves[i].name == name) return all.Row({method}).curves[i];
+    if (curves[i].name == name) return testing::RowOf(all, {method}).curves[i];
   }
   throw std::logic_error(name);
 }
@@ -77,7 +78,7 @@ North NorthOver(const StudyResult& all, const char* method, double from,
   North out;
   int count = 0;
   const std::vector<double> rms = CurveOf(all, method, "position_rms_n");
-  const std::vector<double>& t = all.Row({method}).t;
+  const std::vector<double>& t = testing::RowOf(all, {method}).t;
   for (std::size_t k = 0; k < t.size(); ++k) {
     if (t[k] < from || t[k] > to) continue;
     out.mean += rms[k];
@@ -97,7 +98,7 @@ TEST(PositionImm, KeepsThePapersBoundsOnPulses) {
   EXPECT_GT(NorthOver(all, "kf1", 140.0, 200.0).mean, 1.5);
   const std::vector<double> wide = CurveOf(all, "imm", "probability_0");
   const std::vector<double> narrow = CurveOf(all, "imm", "probability_1");
-  const FigureRow& imm = all.Row({"imm"});
+  const FigureRow& imm = testing::RowOf(all, {"imm"});
   double quiet = 0.0;
   int count = 0;
   for (std::size_t k = 0; k < imm.t.size(); ++k) {
@@ -115,7 +116,7 @@ TEST(PositionImm, KeepsThePapersBoundsOnPulses) {
   EXPECT_LT(quiet / count, 0.01);
   EXPECT_EQ(all.rows[0].size(), 8u);
   for (const FigureRow& one : all.rows[0]) {
-    EXPECT_EQ(one.failed, 0) << one.labels[0];
+    EXPECT_EQ(testing::ValueOf(all, one.labels, "failed"), 0) << one.labels[0];
     EXPECT_EQ(one.t.size(), imm.t.size()) << one.labels[0];
   }
 }
@@ -126,11 +127,11 @@ TEST_P(RobustBatchOn, IsNoWorseThanTheImmAndHonest) {
   constexpr int kRuns = 2;
   constexpr std::uint64_t kTookNoPart = 901;  // in any choice
   const StudyResult all = Compare(GetParam(), 1.0, kRuns, kTookNoPart);
-  EXPECT_EQ(all.Value({"robust_batch"}, "failed"), 0);
+  EXPECT_EQ(testing::ValueOf(all, {"robust_batch"}, "failed"), 0);
   EXPECT_LT(PositionRms(all, "robust_batch"), 1.05 * PositionRms(all, "imm"));
   // When an error began is one guess a run, which moves all positions under it:
   // at worst a run is one draw of two components.
-  EXPECT_LT(all.Value({"robust_batch"}, "anees_horizontal"),
+  EXPECT_LT(testing::ValueOf(all, {"robust_batch"}, "anees_horizontal"),
             AneesBounds(kRuns, 2, 0.98).upper);
   const std::string profile = GetParam();
   if (profile == "steps" || profile == "ramp" || profile == "multipath") {
@@ -150,7 +151,7 @@ void ExpectFound(const std::string& profile, double sigma, std::uint64_t seed,
                  double largest_rms) {
   const StudyResult all = Compare(profile, sigma, 1, seed);
   EXPECT_LT(PositionRms(all, "robust_batch"), largest_rms);
-  EXPECT_LT(all.Value({"robust_batch"}, "anees_horizontal"),
+  EXPECT_LT(testing::ValueOf(all, {"robust_batch"}, "anees_horizontal"),
             AneesBounds(1, 2, 0.98).upper);
 }
 

@@ -6,6 +6,7 @@
 #include "dataset/checks.h"
 #include "geometry/so3.h"
 #include "io/config/config.h"
+#include "io/config/config_help.h"
 #include "io/config/scenario_config.h"
 #include "io/write/dataset_writer.h"
 #include "measurements/point_motion.h"
@@ -246,6 +247,19 @@ TEST_F(MadeUpSensor, BringsItsOwnBlocksWithTheirEvolutionAndAdvice) {
       [](const ConstantEstimate& c) { return c.name == "climb_scale"; });
   ASSERT_NE(constant, solution.constants.end());
   EXPECT_EQ(constant->advice, kAdvice);
+}
+
+TEST_F(MadeUpSensor, IsInTheHelpThePageAndTheSchema) {
+  const std::string help = ConfigHelp("aiding: variometer");
+  EXPECT_NE(help.find("Velocity upwards, made up for a test"),
+            std::string::npos)
+      << help;
+  EXPECT_NE(help.find("estimate.drift"), std::string::npos) << help;
+  EXPECT_NE(ConfigMarkdown().find("stationary sigma of the drift"),
+            std::string::npos);
+  const std::string schema = ConfigSchema();
+  EXPECT_NE(schema.find("\"variometer\""), std::string::npos);
+  EXPECT_NE(schema.find("\"drift\""), std::string::npos);
 }
 
 TEST_F(MadeUpSensor, IsCheckedWithheldAndRefused) {

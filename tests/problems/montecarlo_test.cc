@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "evaluation/statistics.h"
+#include "support/study.h"
 
 namespace hindsight {
 namespace {
@@ -16,7 +17,8 @@ namespace {
 using ::testing::ElementsAre;
 
 StudyTable SeedTable() {
-  return {"cells", {"case"}, {{"seed", kPlain, OfRuns(Mean)}}, {}};
+  return {
+      "cells", {"case"}, {{"seed", kPlain, OfRuns(Mean)}, FailedFigure()}, {}};
 }
 
 /// It needs no recording.
@@ -32,11 +34,11 @@ Case Seeds(const std::string& name,
   return {{name}, {}, {{}, run}};
 }
 
-TEST(RunStudy, MakesARowOfEveryCaseAndSeedInTheirOrder) {
+TEST(StudyRun, MakesARowOfEveryCaseAndSeedInTheirOrder) {
   const Study study = {"", {}, {SeedTable()}, {Seeds("a"), Seeds("b")}};
   for (const int threads : {1, 3}) {
-    const StudyResult result =
-        RunStudy(study, {.runs = 5, .first_seed = 7, .threads = threads});
+    const StudyResult result = testing::RunStudy(
+        study, {.runs = 5, .first_seed = 7, .threads = threads});
     EXPECT_TRUE(result.complete);
     EXPECT_EQ(result.runs, 5);
     ASSERT_EQ(result.records.size(), 10u);
@@ -45,7 +47,7 @@ TEST(RunStudy, MakesARowOfEveryCaseAndSeedInTheirOrder) {
       EXPECT_EQ(result.records[i].seed, 7 + i % 5);
       EXPECT_TRUE(result.records[i].series.empty());
     }
-    EXPECT_EQ(result.Value({"b"}, "seed"), 9.0);
+    EXPECT_EQ(testing::ValueOf(result, {"b"}, "seed"), 9.0);
   }
 }
 
@@ -72,19 +74,19 @@ Case Refusing(const std::string& name, const std::set<std::uint64_t>& seeds) {
   return {{name}, [recording] { return recording; }, {Named(methods), run}};
 }
 
-TEST(RunStudy, ARefusedRecordingIsAFailedRunOfEveryMethodAndIsNamed) {
+TEST(StudyRun, ARefusedRecordingIsAFailedRunOfEveryMethodAndIsNamed) {
   StudyTable table = SeedTable();
   table.labels = {"case", "method"};
-  const StudyResult result =
-      RunStudy({"", {}, {table}, {Refusing("a", {1, 3}), Refusing("b", {})}},
-               {.runs = 5});
+  const StudyResult result = testing::RunStudy(
+      {"", {}, {table}, {Refusing("a", {1, 3}), Refusing("b", {})}},
+      {.runs = 5});
   EXPECT_TRUE(result.complete);
   ASSERT_EQ(result.rows[0].size(), 4u);
-  EXPECT_EQ(result.Row({"a", "first"}).runs, 5);
-  EXPECT_EQ(result.Row({"a", "first"}).failed, 2);
-  EXPECT_EQ(result.Row({"a", "second"}).failed, 3);
-  EXPECT_EQ(result.Row({"b", "first"}).failed, 0);
-  EXPECT_EQ(result.Value({"a", "first"}, "seed"), 11.0 / 3.0);
+  EXPECT_EQ(testing::RowOf(result, {"a", "first"}).runs, 5);
+  EXPECT_EQ(testing::ValueOf(result, {"a", "first"}, "failed"), 2);
+  EXPECT_EQ(testing::ValueOf(result, {"a", "second"}, "failed"), 3);
+  EXPECT_EQ(testing::ValueOf(result, {"b", "first"}, "failed"), 0);
+  EXPECT_EQ(testing::ValueOf(result, {"a", "first"}, "seed"), 11.0 / 3.0);
   EXPECT_THAT(result.refusals,
               ElementsAre("a, first, seed 1: no such recording",
                           "a, second, seed 1: no such recording",
@@ -94,44 +96,46 @@ TEST(RunStudy, ARefusedRecordingIsAFailedRunOfEveryMethodAndIsNamed) {
                           "b, second, seed 4: not for me"));
 }
 
-TEST(RunStudy, WhereAllIsRefusedThatIsTheError) {
+TEST(StudyRun, WhereAllIsRefusedThatIsTheError) {
   StudyTable table = SeedTable();
   table.labels = {"case", "method"};
-  EXPECT_THROW(
-      RunStudy({"", {}, {table}, {Refusing("a", {1, 2})}}, {.runs = 2}),
-      InputError);
+  EXPECT_THROW(testing::RunStudy({"", {}, {table}, {Refusing("a", {1, 2})}},
+                                 {.runs = 2}),
+               InputError);
 }
 
-TEST(RunStudy, OfOneCaseTheFirstSeedsAreKnownMeanwhile) {
-  std::function<StudyResult()> so_far;
+TEST(StudyRun, OfOneCaseTheFirstSeedsAreKnownMeanwhile) {
+  const StudyRun* work = nullptr;
   std::vector<int> known;
   const Study study = {"", {}, {SeedTable()}, {Seeds("a", [&](std::uint64_t) {
-                         const StudyResult result = so_far();
+                         const StudyResult result = work->SoFar();
                          EXPECT_FALSE(result.complete);
                          EXPECT_EQ(result.records.size(),
                                    static_cast<std::size_t>(result.runs));
                          known.push_back(result.runs);
                        })}};
-  RunStudy(study, {.runs = 3},
-           [&](auto known_so_far) { so_far = known_so_far; });
+  StudyRun run(study, {.runs = 3}, 0, 3);
+  work = &run;
+  run.Do();
   EXPECT_THAT(known, ElementsAre(0, 1, 2));
-  EXPECT_TRUE(so_far().complete);
+  EXPECT_TRUE(run.SoFar().complete);
 }
 
-TEST(RunStudy, OfSeveralCasesTheFinishedAreKnownMeanwhile) {
-  std::function<StudyResult()> so_far;
+TEST(StudyRun, OfSeveralCasesTheFinishedAreKnownMeanwhile) {
+  const StudyRun* work = nullptr;
   std::vector<std::size_t> rows;
   const auto look = [&](std::uint64_t) {
-    rows.push_back(so_far().rows[0].size());
+    rows.push_back(work->SoFar().rows[0].size());
   };
   const Study study = {
       "", {}, {SeedTable()}, {Seeds("a", look), Seeds("b", look)}};
-  RunStudy(study, {.runs = 2},
-           [&](auto known_so_far) { so_far = known_so_far; });
+  StudyRun run(study, {.runs = 2}, 0, 2);
+  work = &run;
+  run.Do();
   EXPECT_THAT(rows, ElementsAre(0, 0, 1, 1));
 }
 
-TEST(RunStudy, TheFirstExceptionStopsTheRest) {
+TEST(StudyRun, TheFirstExceptionStopsTheRest) {
   std::mutex mutex;
   int count = 0;
   const Study study = {"", {}, {SeedTable()}, {Seeds("a", [&](std::uint64_t) {
@@ -139,7 +143,7 @@ TEST(RunStudy, TheFirstExceptionStopsTheRest) {
                          ++count;
                          throw std::runtime_error("no");
                        })}};
-  EXPECT_THROW(RunStudy(study, {.runs = 1000, .threads = 2}),
+  EXPECT_THROW(testing::RunStudy(study, {.runs = 1000, .threads = 2}),
                std::runtime_error);
   EXPECT_LE(count, 4);
 }

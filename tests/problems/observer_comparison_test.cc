@@ -7,9 +7,9 @@
 
 #include "base/chi_square.h"
 #include "base/units.h"
-#include "dataset/timeline_builder.h"
 #include "support/in_flight.h"
 #include "support/seed_count.h"
+#include "support/study.h"
 
 namespace hindsight {
 namespace {
@@ -47,21 +47,14 @@ ObserverModel HInfinity(double gamma) {
   return model;
 }
 
-Timeline TimelineOf(const Dataset& dataset) {
-  TimelineOptions options;
-  options.t_begin = dataset.imu.t_begin();
-  options.t_end = dataset.imu.t_end();
-  return BuildTimeline(dataset, options);
-}
-
 /// The rows are by case, then by model.
 StudyResult Observe(const std::vector<Case>& cases, int runs, int threads = 1) {
-  return RunStudy({"", {}, {Under({"start"}, ObserverTable())}, cases},
-                  {.runs = runs, .threads = threads});
+  return testing::RunStudy({"", {}, {Under({"start"}, ObserverTable())}, cases},
+                           {.runs = runs, .threads = threads});
 }
 
 double Of(const StudyResult& result, std::size_t row, const char* figure) {
-  return result.Value(result.rows[0][row].labels, figure);
+  return testing::ValueOf(result, result.rows[0][row].labels, figure);
 }
 
 TEST(ObserverComparison, TheErrorDefinitionDecidesFrom120DegreesOfHeading) {
@@ -117,8 +110,8 @@ TEST(ObserverComparison, ConsistentFromASmallStart) {
     Dataset dataset = Recording(1.0).Realize(static_cast<std::uint64_t>(i) + 1);
     GiveBadStart({0.3 * kDegree, 0.5 * kDegree},
                  static_cast<std::uint64_t>(i) + 1, &dataset);
-    const Timeline timeline = TimelineOf(dataset);
-    sum += Named(RunObserver({}, dataset, timeline)).at("v_last");
+    const Problem problem = AlignmentProblem(dataset);
+    sum += Named(RunObserver({}, dataset, problem)).at("v_last");
   }
   const Interval bounds = AneesBounds(kRuns, 12, 0.99);
   EXPECT_TRUE(bounds.Contains(sum / kRuns)) << sum / kRuns;
@@ -148,8 +141,8 @@ TEST(Lyapunov, FallsAtEveryStepOfANoiselessRunFromASmallStart) {
        {ErrorDefinition::kNavigation, ErrorDefinition::kQuaternion,
         ErrorDefinition::kLeftInvariant}) {
     const Dataset dataset = Noiseless(0.01, 0.02);
-    const Timeline timeline = TimelineOf(dataset);
-    const Values figures = Named(RunObserver({error, {}}, dataset, timeline));
+    const Problem problem = AlignmentProblem(dataset);
+    const Values figures = Named(RunObserver({error, {}}, dataset, problem));
     EXPECT_EQ(figures.at("share_falling"), 1.0) << ErrorName(error);
     EXPECT_LE(figures.at("v_last"), figures.at("v_first"));
     EXPECT_EQ(figures.at("v_largest"), figures.at("v_first"));
@@ -158,8 +151,8 @@ TEST(Lyapunov, FallsAtEveryStepOfANoiselessRunFromASmallStart) {
 
 TEST(Lyapunov, RisesOnTheWayFromABadStart) {
   const Dataset dataset = Noiseless(30.0, 175.0);
-  const Timeline timeline = TimelineOf(dataset);
-  const Values figures = Named(RunObserver({}, dataset, timeline));
+  const Problem problem = AlignmentProblem(dataset);
+  const Values figures = Named(RunObserver({}, dataset, problem));
   EXPECT_LT(figures.at("share_falling"), 1.0);
   EXPECT_GT(figures.at("v_largest"), figures.at("v_first"));
   // Constant biases that nothing tells of yet: no decay is guaranteed.
@@ -172,9 +165,9 @@ TEST(Lyapunov, ADegreeOfStabilityWidensTheGuaranteedRadius) {
   modified.covariance.rule = RiccatiRule::kModifiedHInfinity;
   modified.covariance.alpha = 0.03;
   modified.covariance.alpha_on_all = true;
-  const Timeline timeline = TimelineOf(dataset);
-  const Values kalman = Named(RunObserver({}, dataset, timeline));
-  const Values stable = Named(RunObserver(modified, dataset, timeline));
+  const Problem problem = AlignmentProblem(dataset);
+  const Values kalman = Named(RunObserver({}, dataset, problem));
+  const Values stable = Named(RunObserver(modified, dataset, problem));
   EXPECT_EQ(kalman.at("radius_first"), 0.0);
   EXPECT_GT(stable.at("radius_first"), 1e-6 * kDegree);
   EXPECT_LT(stable.at("radius_first"), 30.0 * kDegree);

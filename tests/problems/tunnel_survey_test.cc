@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "io/config/scenario_config.h"
 #include "support/navigation_study.h"
+#include "support/study.h"
 
 namespace hindsight {
 namespace {
@@ -19,7 +20,7 @@ Scenario TunnelSurvey(const ScenarioChanges& changes = {}) {
 
 StudyResult Survey(const PerfectRecording& recording,
                    std::vector<std::string> methods, int runs, int threads) {
-  return RunStudy(
+  return testing::RunStudy(
       testing::NavigationStudy(recording, {.methods = std::move(methods),
                                            .leg_ends = kReferenceTimes}),
       {.runs = runs, .threads = threads});
@@ -69,10 +70,10 @@ TEST(TunnelSurvey, MethodsAgreeAsTheirLinearisationsSay) {
              {"two_filter", "two_filter_conventional", "two_filter_euler",
               "rts", "iterated", "batch"},
              2, 2);
-  EXPECT_EQ(result.Value({"batch"}, "states"), 16);
+  EXPECT_EQ(testing::ValueOf(result, {"batch"}, "states"), 16);
   const auto agreement = [&](const char* first, const char* second,
                              const char* figure) {
-    return result.Value({first, second}, figure, kAgreement);
+    return testing::ValueOf(result, {first, second}, figure, kAgreement);
   };
   EXPECT_LT(agreement("two_filter", "rts", "position"), 1e-6);
   EXPECT_LT(agreement("two_filter", "rts", "attitude"), 1e-9);
@@ -90,8 +91,8 @@ TEST(TunnelSurvey, ResultsDoNotDependOnTheNumberOfThreads) {
   const StudyResult one = Survey(recording, {"two_filter"}, 3, 1);
   const StudyResult three = Survey(recording, {"two_filter"}, 3, 3);
   EXPECT_EQ(one.rows[0][0].curves, three.rows[0][0].curves);
-  EXPECT_EQ(one.Value({"two_filter"}, "nis"),
-            three.Value({"two_filter"}, "nis"));
+  EXPECT_EQ(testing::ValueOf(one, {"two_filter"}, "nis"),
+            testing::ValueOf(three, {"two_filter"}, "nis"));
 }
 
 TEST(TunnelSurvey, IterationRepairsTheOverconfidenceOfTheFirstLeg) {
@@ -101,8 +102,10 @@ TEST(TunnelSurvey, IterationRepairsTheOverconfidenceOfTheFirstLeg) {
       Survey(recording, {"two_filter", "iterated"}, kRuns, 2);
   // Epochs of a leg are correlated; four standard deviations of one epoch.
   const double bound = 4.0 * std::sqrt(2.0 * 16.0 / kRuns);
-  EXPECT_GT(result.Value({"two_filter"}, "leg1_anees"), 16.0 + bound);
-  EXPECT_NEAR(result.Value({"iterated"}, "leg1_anees"), 16.0, bound);
+  EXPECT_GT(testing::ValueOf(result, {"two_filter"}, "leg1_anees"),
+            16.0 + bound);
+  EXPECT_NEAR(testing::ValueOf(result, {"iterated"}, "leg1_anees"), 16.0,
+              bound);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "io/config/scenario_config.h"
 #include "simulation/way_points.h"
+#include "support/study.h"
 
 namespace hindsight {
 namespace {
@@ -55,11 +56,11 @@ TEST(UuvFusion, NoReadingGivesThePapersTable) {
   for (const UuvReading& reading : UuvReadings()) {
     study.cases.push_back(UuvSearch(reading, SearchPath()));
   }
-  const StudyResult result = RunStudy(study, {.runs = 2});
+  const StudyResult result = testing::RunStudy(study, {.runs = 2});
   for (const UuvReading& reading : UuvReadings()) {
     const auto mean = [&](FusionArchitecture architecture) {
-      return result.Value({reading.Name(), FusionName(architecture)},
-                          "spatial_mean");
+      return testing::ValueOf(
+          result, {reading.Name(), FusionName(architecture)}, "spatial_mean");
     };
     const double central = mean(FusionArchitecture::kCentral);
     const double tracks = mean(FusionArchitecture::kTrackToTrack);
@@ -78,13 +79,13 @@ TEST(UuvFusion, NoReadingGivesThePapersTable) {
 TEST(UuvFusion, OnlyDoubleUseOfInformationIsInconsistent) {
   constexpr int kRuns = 10;
   constexpr int kEpochs = 500;
-  const StudyResult result =
-      RunStudy({.tables = {FusionTable()},
-                .cases = {MatchedSearch("alike", {9.8, 9.8}, kEpochs)}},
-               {.runs = kRuns});
+  const StudyResult result = testing::RunStudy(
+      {.tables = {FusionTable()},
+       .cases = {MatchedSearch("alike", {9.8, 9.8}, kEpochs)}},
+      {.runs = kRuns});
   for (const FusionArchitecture architecture : kFusionArchitectures) {
     const std::vector<std::string> labels = {"alike", FusionName(architecture)};
-    const double nees = result.Value(labels, "nees");
+    const double nees = testing::ValueOf(result, labels, "nees");
     switch (architecture) {
       case FusionArchitecture::kCentral:
       case FusionArchitecture::kFederated: {
@@ -102,8 +103,9 @@ TEST(UuvFusion, OnlyDoubleUseOfInformationIsInconsistent) {
         break;
       case FusionArchitecture::kEqualised:
         EXPECT_GT(nees, 2.0);
-        EXPECT_GT(result.Value(labels, "spatial_mean"),
-                  1.1 * result.Value({"alike", "central"}, "spatial_mean"));
+        EXPECT_GT(testing::ValueOf(result, labels, "spatial_mean"),
+                  1.1 * testing::ValueOf(result, {"alike", "central"},
+                                         "spatial_mean"));
         break;
     }
   }
@@ -112,9 +114,9 @@ TEST(UuvFusion, OnlyDoubleUseOfInformationIsInconsistent) {
 /// Over all runs and epochs, as over those of each run.
 TEST(UuvFusion, ScatterIsThatOfAllDistances) {
   const StudyResult result =
-      RunStudy({.tables = {FusionTable()},
-                .cases = {UuvSearch(UuvReading{}, SearchPath())}},
-               {.runs = 2});
+      testing::RunStudy({.tables = {FusionTable()},
+                         .cases = {UuvSearch(UuvReading{}, SearchPath())}},
+                        {.runs = 2});
   const std::vector<std::string> labels = {kPrinted, "central"};
   double sum = 0.0, squares = 0.0;
   for (const RunRecord& record : result.records) {
@@ -122,10 +124,10 @@ TEST(UuvFusion, ScatterIsThatOfAllDistances) {
     sum += record.Find("spatial_mean").value() / 2.0;
     squares += std::pow(record.Find("spatial_rms").value(), 2) / 2.0;
   }
-  EXPECT_NEAR(result.Value(labels, "spatial_mean"), sum, 1e-12);
-  EXPECT_NEAR(result.Value(labels, "spatial_std"),
+  EXPECT_NEAR(testing::ValueOf(result, labels, "spatial_mean"), sum, 1e-12);
+  EXPECT_NEAR(testing::ValueOf(result, labels, "spatial_std"),
               std::sqrt(squares - sum * sum), 1e-12);
-  EXPECT_LT(result.Value(labels, "spatial_std"), sum);
+  EXPECT_LT(testing::ValueOf(result, labels, "spatial_std"), sum);
 }
 
 }  // namespace

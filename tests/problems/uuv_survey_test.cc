@@ -11,6 +11,7 @@
 #include "measurements/sensor_kind.h"
 #include "problems/reconstruction.h"
 #include "support/navigation_study.h"
+#include "support/study.h"
 
 namespace hindsight {
 namespace {
@@ -116,20 +117,20 @@ TEST(UuvSurvey, PositionsAreAsGoodAsTheySay) {
     Scenario scenario = FindScenario("uuv_survey", {"path=" + path});
     scenario.imu_rate_hz = 50.0;
     const PerfectRecording recording(scenario);
-    const StudyResult result = RunStudy(
+    const StudyResult result = testing::RunStudy(
         testing::NavigationStudy(recording, {.methods = {"ekf", "rts"}}),
         {.runs = 12});
     for (const char* method : {"ekf", "rts"}) {
-      EXPECT_EQ(result.Value({method}, "failed"), 0);
+      EXPECT_EQ(testing::ValueOf(result, {method}, "failed"), 0);
       // A dive is worth some five independent errors of the position: 99.9 %
       // of chi-square with 12 * 5 * 3 degrees of freedom is 0.68 to 1.38.
-      const double nees = result.Value({method}, "position_nees");
+      const double nees = testing::ValueOf(result, {method}, "position_nees");
       EXPECT_GT(nees / 3.0, 0.68) << path << " " << method;
       EXPECT_LT(nees / 3.0, 1.38) << path << " " << method;
     }
     // A later fix improves what came before.
-    EXPECT_LT(result.Value({"rts"}, "position_rms"),
-              result.Value({"ekf"}, "position_rms"));
+    EXPECT_LT(testing::ValueOf(result, {"rts"}, "position_rms"),
+              testing::ValueOf(result, {"ekf"}, "position_rms"));
   }
 }
 
@@ -159,13 +160,13 @@ TEST(UuvSurvey, LastingErrorsOfTheLogAreInTheSigmas) {
   const Interval bounds = AneesBounds(kRuns, 3, 0.999);
   const auto nees = [](const Scenario& scenario) {
     const PerfectRecording recording(scenario);
-    const StudyResult result = RunStudy(
+    const StudyResult result = testing::RunStudy(
         testing::NavigationStudy(recording, {.methods = {"rts", "batch"}}),
         {.runs = kRuns});
-    EXPECT_EQ(result.Value({"rts"}, "failed"), 0);
-    EXPECT_NEAR(result.Value({"rts"}, "position_nees"),
-                result.Value({"batch"}, "position_nees"), 0.2);
-    return result.Value({"rts"}, "position_nees");
+    EXPECT_EQ(testing::ValueOf(result, {"rts"}, "failed"), 0);
+    EXPECT_NEAR(testing::ValueOf(result, {"rts"}, "position_nees"),
+                testing::ValueOf(result, {"batch"}, "position_nees"), 0.2);
+    return testing::ValueOf(result, {"rts"}, "position_nees");
   };
   EXPECT_PRED2([](const Interval& i, double x) { return i.Contains(x); },
                bounds, nees(LastingErrors("beams")));
