@@ -113,8 +113,8 @@ class Examination {
           begin = s.t;
           continue;
         }
-        sums.Add(increments ? Eigen::Vector3d(s.gyro / dt) : s.gyro,
-                 increments ? Eigen::Vector3d(s.accel / dt) : s.accel);
+        const double scale = increments ? 1.0 / dt : 1.0;
+        sums.Add(scale * s.gyro, scale * s.accel);
         if (s.t - begin < length - 0.5 * dt) continue;
         EndCell(begin, s.t, std::exchange(sums, Sums()));
         begin = s.t;
