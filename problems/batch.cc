@@ -77,6 +77,8 @@ bool ContractsByNewton(const BatchOptions& options,
   progress->Begin(kMaxSteps, kLastSteps);
   std::optional<ArrowLeastSquares>& step = *next;
   step.emplace(chain->GaussNewtonStep());
+  // Where it begins at the solution, that step is the last one.
+  if (chain->StepSize(*step) < kLastNewtonStep) return true;
   const double cost = chain->linearized_cost();
   double before = std::numeric_limits<double>::infinity();
   double earlier = 0.0;
