@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "filters/iterated_smoother.h"
 #include "problems/ceres_windows.h"
@@ -63,32 +65,39 @@ bool AnySummaryIsStale(const Problem& problem,
 /// Their cost may rise on the way: where a heading is uncertain the states lie along
 /// an arc, and the way that only descends follows it in steps of metres. True, and
 /// Ceres can be left out, if that ends within a rough step at a cost below the
-/// start's; else the values are those of the start again.
+/// start's: `next` is the step from there. Else the values are those of the start
+/// again.
 bool ContractsByNewton(const BatchOptions& options,
                        const std::vector<State>& start,
                        IterationProgress* progress, ChainProblem* chain,
-                       Sweep* sweep) {
+                       Sweep* sweep, std::optional<ArrowLeastSquares>* next) {
   constexpr int kMaxSteps = 20;
   constexpr double kContraction = 0.5;
   if (chain->HasLoss() || !options.newton_first) return false;
-  const double cost = chain->Cost();
   progress->Begin(kMaxSteps, kLastSteps);
+  std::optional<ArrowLeastSquares>& step = *next;
+  step.emplace(chain->GaussNewtonStep());
+  // Where it begins at the solution, that step is the last one.
+  if (chain->StepSize(*step) < kLastNewtonStep) return true;
+  const double cost = chain->linearized_cost();
   double before = std::numeric_limits<double>::infinity();
   double earlier = 0.0;
   for (int i = 1; i <= kMaxSteps; ++i) {
-    const ArrowLeastSquares step = chain->GaussNewtonStep();
-    const double size = chain->StepSize(step);
+    const double size = chain->StepSize(*step);
     if (!(size < kContraction * std::max(before, earlier))) break;
-    chain->Apply(step);
+    chain->Apply(*step);
     const double ratio = size / RoughStep(*chain);
     progress->After(i, ratio);
     earlier = i > 1 ? before : 0.0;
     before = size;
+    step.reset();
+    step.emplace(chain->GaussNewtonStep());
     if (ratio > 1.0) continue;
-    if (chain->Cost() > cost * (1.0 + kCostRounding)) break;
+    if (chain->linearized_cost() > cost * (1.0 + kCostRounding)) break;
     sweep->iterations += i;
     return true;
   }
+  step.reset();
   chain->Set(start);
   return false;
 }
@@ -96,8 +105,9 @@ bool ContractsByNewton(const BatchOptions& options,
 /// Full Gauss-Newton steps by the chain's own solver, which are taken without
 /// asking the cost. In a long chain they are also what moves the constants and
 /// what couples the windows: after a large step the windows are solved anew.
-/// Returns the covariances from the last step.
+/// `first`, if there is one, is the first step. Returns the covariances from the last.
 CovarianceSeries FinishByNewton(const BatchOptions& options,
+                                std::optional<ArrowLeastSquares> first,
                                 IterationProgress* progress,
                                 ChainProblem* chain, Sweep* sweep) {
   constexpr int kMaxSteps = 4;
@@ -106,7 +116,8 @@ CovarianceSeries FinishByNewton(const BatchOptions& options,
   const double last = chain->HasLoss() ? kFineStep : kLastNewtonStep;
   progress->Begin(kMaxSteps, 0.0);
   for (int i = 1;; ++i) {
-    const ArrowLeastSquares step = chain->GaussNewtonStep();
+    const ArrowLeastSquares step =
+        first ? *std::exchange(first, std::nullopt) : chain->GaussNewtonStep();
     ++sweep->iterations;
     const double size = chain->StepSize(step);
     chain->Apply(step);
@@ -145,13 +156,15 @@ BatchResult SolveBatch(const std::vector<State>& initial,
     const std::vector<State>& start = outer == 0 ? initial : result.states;
     ChainProblem chain(start, problem);
     Sweep sweep;
-    if (!ContractsByNewton(options, start, &progress, &chain, &sweep)) {
+    std::optional<ArrowLeastSquares> next;
+    if (!ContractsByNewton(options, start, &progress, &chain, &sweep, &next)) {
       sweep = SolveGraduated(options, options.graduated && outer == 0,
                              &progress, &chain);
     }
     result.states = chain.States();
     if (!AnySummaryIsStale(*problem, result.states)) {
-      result.P = FinishByNewton(options, &progress, &chain, &sweep);
+      result.P =
+          FinishByNewton(options, std::move(next), &progress, &chain, &sweep);
     }
     result.iterations += sweep.iterations;
     result.ceres_iterations += sweep.ceres_iterations;

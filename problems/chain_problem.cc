@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -70,22 +69,6 @@ void ChainProblem::Set(const std::vector<State>& states) {
         states.front(), entry.ambient,
         globals_[static_cast<std::size_t>(entry.ambient)].data());
   }
-}
-
-double ChainProblem::Cost() {
-  std::vector<double> squares(factors_.size());
-  ForRanges(factors_.size(), kFactorsOfThread,
-            [&](std::size_t begin, std::size_t end) {
-              Eigen::VectorXd residual(kMaxErrorDim);
-              for (std::size_t i = begin; i < end; ++i) {
-                const TangentFactor& factor = *factors_[i];
-                factor.Linearize(ParametersOf(factor).data(), residual.data(),
-                                 nullptr);
-                squares[i] =
-                    residual.head(factor.num_residuals()).squaredNorm();
-              }
-            });
-  return 0.5 * std::accumulate(squares.begin(), squares.end(), 0.0);
 }
 
 bool ChainProblem::HasLoss() const {
@@ -197,6 +180,7 @@ ArrowLeastSquares ChainProblem::GaussNewtonStep() {
   constexpr std::size_t kFactorsAtOnce = 256;
   std::vector<TangentFactor::Jacobian> J(kFactorsAtOnce);
   std::vector<Eigen::VectorXd> residuals(kFactorsAtOnce);
+  double squares = 0.0;
   for (std::size_t first = 0; first < factors_.size();
        first += kFactorsAtOnce) {
     const std::size_t count = std::min(kFactorsAtOnce, factors_.size() - first);
@@ -206,9 +190,11 @@ ArrowLeastSquares ChainProblem::GaussNewtonStep() {
       }
     });
     for (std::size_t i = 0; i < count; ++i) {
+      squares += residuals[i].squaredNorm();
       AddRows(*blocks_, *factors_[first + i], J[i], residuals[i], &arrow);
     }
   }
+  linearized_cost_ = 0.5 * squares;
   const std::vector<Deficiency> deficient = arrow.Solve();
   if (!deficient.empty()) {
     throw EstimationError("batch: the data leave " +

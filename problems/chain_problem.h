@@ -47,13 +47,13 @@ class ChainProblem {
   /// Writes `states` into the parameter blocks.
   void Set(const std::vector<State>& states);
 
-  /// Half the sum of the squared residuals, losses left out.
-  double Cost();
-
   /// All factors linearised at the present values, of which the solution is one
   /// Gauss-Newton step, solved. Throws EstimationError where they leave an
   /// unknown undetermined.
   ArrowLeastSquares GaussNewtonStep();
+  /// Half the sum of the squared residuals where the last step was linearised, each
+  /// weighted by its loss.
+  double linearized_cost() const { return linearized_cost_; }
   /// Root mean square a node of a step, over metres, m/s, radians and the rest.
   double StepSize(const ArrowLeastSquares& step) const;
   /// Moves the values by a step.
@@ -73,6 +73,7 @@ class ChainProblem {
   std::vector<std::vector<double>> globals_;
   std::vector<std::unique_ptr<TangentFactor>> factors_;
   std::vector<std::unique_ptr<RobustLossFunction>> losses_;  // one a factor
+  double linearized_cost_ = 0.0;
 };
 
 }  // namespace hindsight

@@ -155,6 +155,18 @@ const Relinearised& ForwardStage::relinearised() {
   return *relinearised_;
 }
 
+bool ForwardStage::has_losses() const {
+  const std::vector<Sensor>& sensors = timeline().sensors();
+  return std::any_of(sensors.begin(), sensors.end(), [](const Sensor& sensor) {
+    return sensor.loss.kind != RobustLoss::Kind::kNone;
+  });
+}
+
+const std::vector<State>& ForwardStage::batch_start() {
+  return relinearised().is_near && !has_losses() ? relinearised().states
+                                                 : smoothed_->states;
+}
+
 const Fit& ForwardStage::fit() {
   if (fit_) return *fit_;
   const Relinearised& anew = relinearised();
@@ -214,9 +226,8 @@ CovarianceSeries ForwardStage::Relinearise() {
     anew.smoother =
         Compare(start_.layout, smoothed_->states, smoothed_->P, anew);
     anew.smoother.settled = rested.step < 1.0;
-    if (rested.passes == 1 && rested.is_settled()) {
-      settled_tape_ = std::move(rested.tape);
-    }
+    anew.is_near = rested.passes == 1 && rested.is_settled();
+    if (anew.is_near) settled_tape_ = std::move(rested.tape);
     return std::move(last.P);
   } catch (const EstimationError&) {
     return {};

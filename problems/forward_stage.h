@@ -54,12 +54,17 @@ class ForwardStage {
   /// by the innovation.
   Problem CausalProblem() const;
   const Timeline& timeline() const { return problem_.timeline; }
+  /// Whether any sensor has a robust loss.
+  bool has_losses() const;
   const SmoothedTrajectory& smoothed() const { return *smoothed_; }
   double smoothing_seconds() const { return smoothing_seconds_; }
   /// Spans that the data leave undetermined; found when first asked for.
   const std::vector<UnobservedSpan>& unobserved();
   /// Found when first asked for.
   const Relinearised& relinearised();
+  /// What a batch begins at: linearised anew where that is near, which is one of the
+  /// batch's own steps unless sensors have a loss; else the smoothed trajectory.
+  const std::vector<State>& batch_start();
   /// Of the interval as linearised anew; found when first asked for, empty where
   /// no new linearisation held.
   const Fit& fit();

@@ -22,6 +22,8 @@ struct Relinearised {
   std::vector<State> states;  ///< empty if no new linearisation held
   std::vector<NavigationVariances> variances;
   LinearisationError smoother;  ///< of the smoothed trajectory
+  /// One pass led there, and moved it by a negligible step.
+  bool is_near = false;
 };
 
 /// The navigation part of the diagonals of P.

@@ -99,8 +99,10 @@ BatchOptions MethodStage::MakeBatchOptions() const {
 
 BatchResult MethodStage::SolveBatch(const Nodes& nodes, double* seconds) {
   if (ahead_ == nullptr || nodes.problem != &forward_->problem()) {
-    return hindsight::SolveBatch(*nodes.states, MakeBatchOptions(),
-                                 nodes.problem);
+    const bool shared = nodes.problem == &forward_->problem();
+    return hindsight::SolveBatch(
+        shared ? forward_->batch_start() : *nodes.states, MakeBatchOptions(),
+        nodes.problem);
   }
   double beside = 0.0;
   BatchResult result = std::exchange(ahead_, nullptr)->Take(&beside);

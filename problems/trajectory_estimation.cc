@@ -114,10 +114,10 @@ class TrajectoryEstimation final : public Estimation {
           return MethodOf(name).Has(MethodTrait::kSolvesBatch);
         });
     if (!asked || judged.Has(MethodTrait::kSolvesBatch)) return;
+    const std::vector<State>& start = forward_.batch_start();
     ReleaseFreedMemory();
     ahead_ = std::make_unique<BatchAhead>(
-        forward_.smoothed().states, MethodStage(&forward_).MakeBatchOptions(),
-        forward_.problem());
+        start, MethodStage(&forward_).MakeBatchOptions(), forward_.problem());
   }
 
   const Timeline& TimelineOf(const std::string& method) const {
@@ -198,9 +198,7 @@ class TrajectoryEstimation final : public Estimation {
   std::optional<Evidence> DisagreementOf(const Method& method,
                                          const Solution& solution) {
     if (!method.Has(MethodTrait::kFindsOptimum)) return std::nullopt;
-    for (const Sensor& sensor : forward_.timeline().sensors()) {
-      if (sensor.loss.kind != RobustLoss::Kind::kNone) return std::nullopt;
-    }
+    if (forward_.has_losses()) return std::nullopt;
     return optima_.Compare(method.name, solution);
   }
 

@@ -115,7 +115,8 @@ std::string DescribeImu(const CheckReport& report) {
       "specific force: mean {:.3f}, largest {:.2f} m/s^2; angular rate: "
       "largest "
       "{:.2f} deg/s\n",
-      imu.mean_force, imu.max_force, imu.max_rate / kDegree);
+      imu.record.mean_force, imu.record.max_force,
+      imu.record.max_rate / kDegree);
   text += DescribeRest(imu.rest);
   if (imu.rest_force) {
     text += fmt::format(

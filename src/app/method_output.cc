@@ -18,10 +18,12 @@
 namespace hindsight {
 
 MethodOutput::MethodOutput(const RunRequest& request, const Dataset& dataset,
-                           const Solution& solution, ResultFolder* folder)
+                           const Solution& solution, RowReadings* readings,
+                           ResultFolder* folder)
     : request_(request),
       dataset_(dataset),
       solution_(solution),
+      readings_(readings),
       folder_(folder) {}
 
 MethodOutput::Files MethodOutput::Open(
@@ -67,13 +69,14 @@ void MethodOutput::WriteMotion(std::size_t end) {
   const std::size_t begin = motion_begun_ ? 1 : 0;
   if (begin >= end) return;
   const std::vector<State>& nodes = solution_.states;
-  std::vector<ImuCalibration> calibrations;
-  for (const double t : waiting_) {
-    while (node_ + 1 < nodes.size() && nodes[node_ + 1].t <= t) ++node_;
-    calibrations.push_back(CalibrationOf(solution_.layout, nodes[node_]));
+  std::vector<Kinematics> motion = readings_->Of(waiting_);
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    while (node_ + 1 < nodes.size() && nodes[node_ + 1].t <= waiting_[i]) {
+      ++node_;
+    }
+    motion[i] =
+        WithoutErrors(motion[i], CalibrationOf(solution_.layout, nodes[node_]));
   }
-  const std::vector<Kinematics> motion =
-      MeanMotion(dataset_.imu, waiting_, calibrations);
   const std::size_t count = end - begin;
   const Eigen::MatrixXd rows =
       MotionRows(std::span(waiting_).subspan(begin, count),

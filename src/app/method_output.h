@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/result_folder.h"
+#include "app/row_readings.h"
 #include "app/run_request.h"
 #include "evaluation/solution_table.h"
 #include "io/write/column_file.h"
@@ -20,7 +21,8 @@ class MethodOutput {
  public:
   /// References stay valid up to the end. Throws OutputError, as all here.
   MethodOutput(const RunRequest& request, const Dataset& dataset,
-               const Solution& solution, ResultFolder* folder);
+               const Solution& solution, RowReadings* readings,
+               ResultFolder* folder);
 
   /// Adds rows of the solution, later than all before.
   void Append(const SolutionTable& piece);
@@ -40,6 +42,7 @@ class MethodOutput {
   const RunRequest& request_;
   const Dataset& dataset_;
   const Solution& solution_;
+  RowReadings* readings_;
   ResultFolder* folder_;
   std::vector<SolutionColumn> columns_;  ///< from the first row on, as files
   Files files_;

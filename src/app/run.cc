@@ -206,6 +206,7 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
       dataset, std::move(findings), &reconstruction, &progress, &summary);
   std::vector<Solution> solutions;
   solutions.reserve(request.methods.size());
+  RowReadings readings(dataset.imu);
   // The files of a method are written while the next one is solved; only the
   // writer touches the summary and its solution meanwhile.
   std::shared_future<void> writing;
@@ -218,8 +219,8 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
     LogDownWeighted(dataset, *solution);
     const double peak_rss_mb = PeakRssMb();
     if (writing.valid()) writing.get();
-    MethodTables tables =
-        SampleMethod(request, dataset, reconstruction, *solution, folder);
+    MethodTables tables = SampleMethod(request, dataset, reconstruction,
+                                       *solution, &readings, folder);
     writing =
         InBackground([&, solution, peak_rss_mb, tables = std::move(tables)] {
           summary.methods.push_back(Summarize(dataset, *solution, tables));

@@ -104,11 +104,12 @@ double PeakRssMb() {
 
 MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
                           const Reconstruction& reconstruction,
-                          const Solution& solution, ResultFolder* folder) {
+                          const Solution& solution, RowReadings* readings,
+                          ResultFolder* folder) {
   MethodTables tables;
   if (solution.states.empty()) return tables;
   CheckTimesCovered(request, solution);
-  MethodOutput output(request, dataset, solution, folder);
+  MethodOutput output(request, dataset, solution, readings, folder);
   std::vector<Wish> wishes = {
       {Times(request.at), request.point_b, Into(&tables.at)}};
   if (request.attitude_alone) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/result_folder.h"
+#include "app/row_readings.h"
 #include "app/run_request.h"
 #include "io/config/config.h"
 #include "io/write/summary.h"
@@ -54,7 +55,8 @@ struct MethodTables {
 /// span.
 MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
                           const Reconstruction& reconstruction,
-                          const Solution& solution, ResultFolder* folder);
+                          const Solution& solution, RowReadings* readings,
+                          ResultFolder* folder);
 
 /// Writes the tables that have rows, mode probabilities, errors against the
 /// truth and constants over time; nothing for a solution without states.

@@ -2,11 +2,14 @@
 #define HINDSIGHT_BASE_PAGED_VECTOR_H_
 
 #include <algorithm>
+#include <atomic>
 #include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <iterator>
 #include <new>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -94,6 +97,9 @@ class PagedVector {
     memory_.swap(other.memory_);
     std::swap(size_, other.size_);
     std::swap(capacity_, other.capacity_);
+    const std::uint64_t version = version_;
+    version_ = other.version_.load();
+    other.version_ = version;
   }
 
   std::size_t size() const { return size_; }
@@ -103,8 +109,25 @@ class PagedVector {
     return *At(k);
   }
   T& operator[](std::size_t k) {
+    Change();
     memory_.BeforeWriting(k >> kLogBlock);
     return *At(k);
+  }
+  /// Elements from k on that lie side by side, one at least; to be read before
+  /// anything is changed.
+  std::span<const T> Piece(std::size_t k) const {
+    const std::size_t block = k >> kLogBlock;
+    memory_.BeforeReading(block);
+    return {At(k), std::min(size_, (block + 1) << kLogBlock) - k};
+  }
+  /// A number of what it holds: no other vector has it, nor this one once it is
+  /// changed, or an element was asked for that could be.
+  std::uint64_t version() const {
+    static std::atomic<std::uint64_t> last = 0;
+    std::uint64_t version = version_;
+    if (version != kUnnumbered) return version;
+    const std::uint64_t next = ++last;
+    return version_.compare_exchange_strong(version, next) ? next : version;
   }
   const T& front() const { return (*this)[0]; }
   T& front() { return (*this)[0]; }
@@ -129,12 +152,17 @@ class PagedVector {
   T& emplace_back(Values&&... values) {
     // Made beforehand: a value of this vector moves with it.
     T made{std::forward<Values>(values)...};
+    Change();
     if (size_ == capacity_) reserve(std::max<std::size_t>(16, 2 * capacity_));
     memory_.BeforeWriting(size_ >> kLogBlock);
     return *new (At(size_++)) T(made);
   }
-  void pop_back() { --size_; }
+  void pop_back() {
+    Change();
+    --size_;
+  }
   void resize(std::size_t count, const T& value = T()) {
+    Change();
     reserve(count);
     while (size_ < count) push_back(value);
     size_ = count;
@@ -146,22 +174,30 @@ class PagedVector {
     for (; first != last; ++first) values.push_back(*first);
     swap(values);
   }
-  void clear() { size_ = 0; }
+  void clear() {
+    Change();
+    size_ = 0;
+  }
   /// Drops what lies from one place to another.
   void erase(const_iterator first, const_iterator last) {
     if (first == last) return;
+    Change();
     std::move(begin() + (last - begin()), end(), begin() + (first - begin()));
     size_ -= static_cast<std::size_t>(last - first);
   }
 
  private:
+  static constexpr std::uint64_t kUnnumbered = 0;
+
   T* At(std::size_t k) const {
     return reinterpret_cast<T*>(memory_.data()) + k;
   }
+  void Change() { version_.store(kUnnumbered, std::memory_order_relaxed); }
 
   ScratchMemory memory_;
   std::size_t size_ = 0;
   std::size_t capacity_ = 0;
+  mutable std::atomic<std::uint64_t> version_ = kUnnumbered;
 };
 
 /// Drops the elements of which `drop` is true.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/units.h"
+#include "imu/sample_search.h"
 
 namespace hindsight {
 namespace {
@@ -211,12 +212,13 @@ AllanFit FitAllan(const std::vector<AllanPoint>& points) {
 std::optional<ImuAllan> AllanOf(const ImuStream& imu,
                                 const TimeInterval& span) {
   constexpr std::size_t kFewest = 1000;
-  const double dt = MedianInterval(imu);
+  const double dt = UsualInterval(imu);
   const double scale =
       imu.kind == ImuStream::Kind::kIncrements ? 1.0 / dt : 1.0;
   std::array<std::vector<double>, 6> series;
-  for (const ImuSample& sample : imu.samples) {
-    if (sample.t <= span.begin || sample.t > span.end) continue;
+  for (std::size_t k = FirstSampleAfter(imu, span.begin);
+       k < imu.samples.size() && imu.samples[k].t <= span.end; ++k) {
+    const ImuSample& sample = imu.samples[k];
     for (std::size_t i = 0; i < 3; ++i) {
       const auto axis = static_cast<Eigen::Index>(i);
       series[i].push_back(scale * sample.gyro(axis));

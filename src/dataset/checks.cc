@@ -69,9 +69,11 @@ void SetAxes(CheckReport* report) {
   const ImuReport& imu = report->imu;
   if (imu.still_force) {
     report->axes = SuggestAxes(*imu.still_force, &report->suggested_axes);
-  } else if (imu.mean_force_b.norm() > kUpright * imu.mean_force) {
-    report->axes = SuggestAxes(imu.mean_force_b, &report->suggested_axes) +
-                   ", by the mean specific force, as it never stands";
+  } else if (imu.record.mean_force_b.norm() >
+             kUpright * imu.record.mean_force) {
+    report->axes =
+        SuggestAxes(imu.record.mean_force_b, &report->suggested_axes) +
+        ", by the mean specific force, as it never stands";
   } else {
     report->axes =
         "unknown: it never stands, and no axis feels gravity on average; "
@@ -82,8 +84,8 @@ void SetAxes(CheckReport* report) {
 void WarnAboutImu(const CheckReport& report, const ImuStream& stream,
                   std::vector<std::string>* warnings) {
   const ImuReport& imu = report.imu;
-  const double force =
-      imu.rest_force ? imu.rest_force->norm() : imu.quietest_force.norm();
+  const double force = imu.rest_force ? imu.rest_force->norm()
+                                      : imu.record.quietest_force.norm();
   const char* where = imu.rest_force ? "at rest" : "where it varies least";
   const double tolerance =
       imu.rest_force ? kForceTolerance : 4 * kForceTolerance;
@@ -96,14 +98,14 @@ void WarnAboutImu(const CheckReport& report, const ImuStream& stream,
             ? " and whether these are increments"
             : ", or whether these are increments"));
   }
-  if (imu.max_force > kMaxForce) {
+  if (imu.record.max_force > kMaxForce) {
     warnings->push_back(fmt::format(
-        "imu: |f| reaches {:.4g} m/s^2: check the unit", imu.max_force));
+        "imu: |f| reaches {:.4g} m/s^2: check the unit", imu.record.max_force));
   }
-  if (imu.max_rate > kMaxRate) {
+  if (imu.record.max_rate > kMaxRate) {
     warnings->push_back(
         fmt::format("imu: |w| reaches {:.4g} deg/s: check the unit",
-                    imu.max_rate / kDegree));
+                    imu.record.max_rate / kDegree));
   }
   if (imu.rest_force && imu.rest_force->normalized().z() > -0.7) {
     warnings->push_back("imu: z does not point down at rest: " + report.axes);

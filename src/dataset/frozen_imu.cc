@@ -58,12 +58,18 @@ unsigned ChannelsOf(const ChannelGroup& group) {
 /// Of each group those that chance does not explain, by one walk over a recording
 /// of a day.
 std::vector<std::vector<EqualSamples>> LongRuns(
-    const PagedVector<ImuSample>& samples,
-    const std::vector<ChannelGroup>& groups) {
+    const ImuStream& imu, const std::vector<ChannelGroup>& groups) {
+  constexpr std::size_t kPiece = SampleFacts::kRepeatPiece;
+  const PagedVector<ImuSample>& samples = imu.samples;
+  const auto facts = FactsOf(imu);
   std::vector<std::vector<EqualSamples>> found(groups.size());
   std::vector<std::size_t> begin(groups.size(), 0);
   unsigned before = 0;
   for (std::size_t k = 1; k <= samples.size(); ++k) {
+    if (before == 0 && k < samples.size() && !facts->repeats[k / kPiece]) {
+      k += kPiece - k % kPiece - 1;
+      continue;
+    }
     const unsigned repeated = k < samples.size() ? Repeated(samples, k) : 0U;
     if (repeated == 0 && before == 0) continue;
     for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -263,7 +269,7 @@ std::vector<RepeatedRun> FindFrozenImu(const ImuStream& imu) {
   };
   std::vector<ChannelGroup> groups = {kWhole};
   groups.insert(groups.end(), std::begin(kParts), std::end(kParts));
-  std::vector<std::vector<EqualSamples>> runs = LongRuns(samples, groups);
+  std::vector<std::vector<EqualSamples>> runs = LongRuns(imu, groups);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (i > 0) KeepRunsOfLiveChannels(samples, groups[i], &runs[i]);
     add(groups[i], runs[i]);
@@ -277,13 +283,7 @@ double StaleImuShare(const ImuStream& imu) {
     return samples[k].gyro == samples[k - 1].gyro &&
            samples[k].accel == samples[k - 1].accel;
   };
-  // Where fewer than a third repeat, as is known when two thirds do not, nothing is
-  // kept: a day has 17 million samples.
-  std::size_t others = 1;
-  for (std::size_t k = 1; k < samples.size(); ++k) {
-    if (!repeats(k)) ++others;
-    if (3 * others > 2 * samples.size()) return 0.0;
-  }
+  if (3 * FactsOf(imu)->whole_repeats < samples.size()) return 0.0;
   std::vector<EqualSamples> runs;
   std::vector<long> lengths;
   for (std::size_t begin = 0, k = 1; k <= samples.size(); ++k) {

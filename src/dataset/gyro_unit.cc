@@ -59,16 +59,15 @@ class TurnAboutVertical {
  public:
   explicit TurnAboutVertical(const ImuStream& stream)
       : samples_(stream.samples),
-        rates_(stream.kind == ImuStream::Kind::kRates) {
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (const ImuSample& sample : samples_) mean += sample.accel;
-    down_ = -mean.normalized();
-  }
+        rates_(stream.kind == ImuStream::Kind::kRates),
+        down_(-FactsOf(stream)->readings.accel_sum.normalized()),
+        t_(stream.t_begin()) {}
 
   double At(double t) {
-    for (; k_ + 1 < samples_.size() && samples_[k_].t < t; ++k_) {
-      const double step = rates_ ? samples_[k_ + 1].t - samples_[k_].t : 1.0;
-      turn_ += step * down_.dot(samples_[k_ + 1].gyro);
+    while (k_ + 1 < samples_.size() && t_ < t) {
+      const ImuSample& next = samples_[++k_];
+      turn_ += (rates_ ? next.t - t_ : 1.0) * down_.dot(next.gyro);
+      t_ = next.t;
     }
     return turn_;
   }
@@ -77,6 +76,7 @@ class TurnAboutVertical {
   const PagedVector<ImuSample>& samples_;
   bool rates_;
   Eigen::Vector3d down_;
+  double t_;  ///< of sample k_
   std::size_t k_ = 0;
   double turn_ = 0.0;
 };

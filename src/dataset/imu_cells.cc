@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
+#include <utility>
 
 #include "base/units.h"
 #include "dataset/bias_sigma.h"
@@ -101,23 +103,30 @@ class Examination {
             : imu_.max_gap;
     Sums sums;
     double begin = imu_.t_begin();
-    for (std::size_t k = 1; k < imu_.samples.size(); ++k) {
-      const ImuSample& s = imu_.samples[k];
-      const double dt = s.t - imu_.samples[k - 1].t;
-      if (dt > longest) {
-        sums = Sums();
+    double before = begin;
+    for (std::size_t k = 1; k < imu_.samples.size();) {
+      const std::span<const ImuSample> piece = imu_.samples.Piece(k);
+      for (const ImuSample& s : piece) {
+        const double dt = s.t - std::exchange(before, s.t);
+        if (dt > longest) {
+          sums = Sums();
+          begin = s.t;
+          continue;
+        }
+        const double scale = increments ? 1.0 / dt : 1.0;
+        sums.Add(scale * s.gyro, scale * s.accel);
+        if (s.t - begin < length - 0.5 * dt) continue;
+        EndCell(begin, s.t, std::exchange(sums, Sums()));
         begin = s.t;
-        continue;
       }
-      sums.Add(increments ? Eigen::Vector3d(s.gyro / dt) : s.gyro,
-               increments ? Eigen::Vector3d(s.accel / dt) : s.accel);
-      if (s.t - begin < length - 0.5 * dt) continue;
-      const auto n = static_cast<double>(sums.count);
-      cells_.push_back({begin, s.t, sums.w / n, sums.f / n, -1, false});
-      sums_.push_back(sums);
-      sums = Sums();
-      begin = s.t;
+      k += piece.size();
     }
+  }
+
+  void EndCell(double begin, double end, const Sums& sums) {
+    const auto n = static_cast<double>(sums.count);
+    cells_.push_back({begin, end, sums.w / n, sums.f / n, -1, false});
+    sums_.push_back(sums);
   }
 
   Window WindowFrom(std::size_t i) const {

@@ -17,13 +17,8 @@ struct ImuReport {
   std::optional<Eigen::Vector3d> rest_rate;   ///< [rad/s]
   /// Mean over all spans of `rest`; absent if there are none.
   std::optional<Eigen::Vector3d> still_force;  ///< [m/s^2]
-  /// Mean over the second in which the specific force varies least.
-  Eigen::Vector3d quietest_force = Eigen::Vector3d::Zero();  ///< [m/s^2]
-  /// Mean over the record, in body axes: up, of a vehicle that keeps upright.
-  Eigen::Vector3d mean_force_b = Eigen::Vector3d::Zero();  ///< [m/s^2]
-  double mean_force = 0.0;  ///< mean |f| over the record [m/s^2]
-  double max_force = 0.0;   ///< [m/s^2]
-  double max_rate = 0.0;    ///< [rad/s]
+  /// Its mean_force_b points up, of a vehicle that keeps upright.
+  ReadingFacts record;
 };
 
 /// Of the recording, which has two samples at least.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -65,6 +66,9 @@ class Delay {
   long count_ = 0;
 };
 
+/// What is longer is a gap [s].
+double LongestRegular(double median) { return std::max(3.0 * median, 0.1); }
+
 template <typename StampOf>
 StreamReport Report(const std::string& name, std::size_t count, StampOf stamp,
                     const ImuStream& imu) {
@@ -80,7 +84,7 @@ StreamReport Report(const std::string& name, std::size_t count, StampOf stamp,
   const Stamps<StampOf> stamps(count, stamp);
   const double median = stamps.MedianInterval();
   if (median > 0.0) report.rate = 1.0 / median;
-  const double longest = std::max(3.0 * median, 0.1);
+  const double longest = LongestRegular(median);
   Delay delay(median, longest);
   double squares = 0.0;
   long regular = 0;
@@ -107,6 +111,34 @@ StreamReport Report(const std::string& name, std::size_t count, StampOf stamp,
   return report;
 }
 
+/// By how often each interval comes; nothing where the order of the intervals
+/// matters: some are gaps, or shorter than late stamps make them.
+std::optional<StreamReport> ReportRegular(
+    const std::vector<IntervalCount>& intervals) {
+  long all = 0;
+  for (const IntervalCount& each : intervals) all += each.count;
+  if (all == 0) return std::nullopt;
+  long before = 0;
+  auto middle = intervals.begin();
+  while (before + middle->count <= all / 2) before += (middle++)->count;
+  const double median = middle->interval;
+  if (median <= 0.0 ||
+      intervals.front().interval - median < -kMaxJitter * median ||
+      intervals.back().interval > LongestRegular(median)) {
+    return std::nullopt;
+  }
+  double squares = 0.0;
+  for (const IntervalCount& each : intervals) {
+    const double excess = each.interval - median;
+    squares += static_cast<double>(each.count) * excess * excess;
+  }
+  StreamReport report;
+  report.name = "imu";
+  report.rate = 1.0 / median;
+  report.jitter = report.delay = std::sqrt(squares / static_cast<double>(all));
+  return report;
+}
+
 }  // namespace
 
 StreamReport ReportStamps(const std::string& name,
@@ -118,8 +150,18 @@ StreamReport ReportStamps(const std::string& name,
 
 StreamReport ReportImuStamps(const ImuStream& imu) {
   const std::size_t first = imu.kind == ImuStream::Kind::kIncrements ? 1 : 0;
+  const std::size_t count = imu.samples.size() - first;
+  if (const auto facts = FactsOf(imu); facts->intervals) {
+    if (auto report = ReportRegular(*facts->intervals)) {
+      report->t_begin = imu.samples[first].t;
+      report->t_end = imu.t_end();
+      report->count = static_cast<long>(count);
+      report->overlap = report->t_end - report->t_begin;
+      return *std::move(report);
+    }
+  }
   return Report(
-      "imu", imu.samples.size() - first,
+      "imu", count,
       [&imu, first](std::size_t k) { return imu.samples[first + k].t; }, imu);
 }
 

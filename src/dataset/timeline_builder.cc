@@ -164,7 +164,7 @@ std::vector<double> NodeTimes(std::vector<double> required, double spacing) {
 }  // namespace
 
 std::optional<std::string> WhyNotNodes(const Dataset& dataset) {
-  const double imu_interval = MedianInterval(dataset.imu);
+  const double imu_interval = UsualInterval(dataset.imu);
   if (dataset.max_node_spacing >= imu_interval) return std::nullopt;
   return fmt::format(
       "is {:.4g} s, shorter than the IMU's sample interval of {:.4g} s",
@@ -188,7 +188,7 @@ Timeline BuildTimeline(const Dataset& dataset, const TimelineOptions& options) {
   const double spacing =
       HasIncrements(timed)
           ? std::min(dataset.max_node_spacing,
-                     std::max(kIncrementSpacing, MedianInterval(dataset.imu)))
+                     std::max(kIncrementSpacing, UsualInterval(dataset.imu)))
           : dataset.max_node_spacing;
   const std::vector<double> times = NodeTimes(std::move(required), spacing);
 

@@ -8,17 +8,7 @@ namespace hindsight {
 
 Eigen::Quaterniond Exp(const Eigen::Vector3d& v) {
   const double angle2 = v.squaredNorm();
-  // Below 0.1 rad the eighth-order series is exact to rounding and spares the
-  // square root and the trigonometry in the IMU loop.
-  if (angle2 < 1e-2) {
-    const double h2 = 0.25 * angle2;
-    const double s =
-        0.5 * (1.0 - h2 / 6.0 * (1.0 - h2 / 20.0 * (1.0 - h2 / 42.0)));
-    const double w =
-        1.0 -
-        h2 / 2.0 * (1.0 - h2 / 12.0 * (1.0 - h2 / 30.0 * (1.0 - h2 / 56.0)));
-    return {w, s * v.x(), s * v.y(), s * v.z()};
-  }
+  if (angle2 < kSmallAngle2) return SmallExp<double>(v);
   const double angle = std::sqrt(angle2);
   const double s = std::sin(0.5 * angle) / angle;
   return {std::cos(0.5 * angle), s * v.x(), s * v.y(), s * v.z()};

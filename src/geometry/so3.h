@@ -16,6 +16,24 @@ inline Eigen::Matrix3d Skew(const Eigen::Vector3d& v) {
 /// Unit quaternion of the rotation vector v [rad], |v| of any size.
 Eigen::Quaterniond Exp(const Eigen::Vector3d& v);
 
+/// The same where SmallExp holds to rounding, |v|^2 below this [rad^2]; it spares the
+/// square root and the trigonometry in the IMU loop.
+inline constexpr double kSmallAngle2 = 1e-2;
+/// By the eighth-order series.
+template <typename Real>
+Eigen::Quaternion<Real> SmallExp(const Eigen::Matrix<Real, 3, 1>& v) {
+  const Real h2 = 0.25 * v.squaredNorm();
+  const Real s =
+      0.5 * (1.0 - (1.0 / 6.0) * h2 *
+                       (1.0 - (1.0 / 20.0) * h2 * (1.0 - (1.0 / 42.0) * h2)));
+  const Real w =
+      1.0 -
+      0.5 * h2 *
+          (1.0 - (1.0 / 12.0) * h2 *
+                     (1.0 - (1.0 / 30.0) * h2 * (1.0 - (1.0 / 56.0) * h2)));
+  return {w, s * v.x(), s * v.y(), s * v.z()};
+}
+
 /// Rotation vector of q, |.| <= pi. q need not be normalised exactly.
 Eigen::Vector3d Log(const Eigen::Quaterniond& q);
 

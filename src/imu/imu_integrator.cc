@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
+#include "imu/pair.h"
 #include "imu/preintegration.h"
 #include "imu/rotation_summary.h"
 #include "imu/sample_search.h"
@@ -82,6 +84,15 @@ LinearRates PartOf(const LinearRates& whole, const Kinematics& bend, double a,
   return {(b - a) * whole.dt, w + a * dw, w + b * dw, f + a * df, f + b * df};
 }
 
+LinearRatesOf<Pair> Both(const LinearRates& a, const LinearRates& b) {
+  const auto both = [](const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
+    return Eigen::Matrix<Pair, 3, 1>(Pair(x(0), y(0)), Pair(x(1), y(1)),
+                                     Pair(x(2), y(2)));
+  };
+  return {Pair(a.dt, b.dt), both(a.w0, b.w0), both(a.w1, b.w1),
+          both(a.f0, b.f0), both(a.f1, b.f1)};
+}
+
 }  // namespace
 
 bool ImuIntegrator::IsDropOut(std::size_t k) const {
@@ -124,10 +135,13 @@ void ImuIntegrator::Walk(double t_i, double t_j, const Use& use) {
     const double to = k + 1 == samples.size() ? t_j : std::min(t_end, t_j);
     const LinearRates whole = RatesOfInterval(k);
     const bool part = t > t_begin || to < t_end;
-    LinearRates rates =
-        PartOf(whole, BendOfInterval(k), part ? (t - t_begin) / whole.dt : 0.0,
-               part ? (to - t_begin) / whole.dt : 1.0);
-    rates.dt = part ? to - t : whole.dt;
+    LinearRates rates = whole;
+    if (part || stream_->kind == ImuStream::Kind::kRates) {
+      rates = PartOf(whole, BendOfInterval(k),
+                     part ? (t - t_begin) / whole.dt : 0.0,
+                     part ? (to - t_begin) / whole.dt : 1.0);
+      rates.dt = part ? to - t : whole.dt;
+    }
     if (rates.dt > 0.0) {
       use(rates, stream_->IsDropOut(whole.dt) ? &whole : nullptr);
     }
@@ -146,6 +160,33 @@ ImuSummary ImuIntegrator::Summarize(double t_i, double t_j,
   ImuSummary summary = integrator_.Finish();
   summary.t_j = t_j;
   return summary;
+}
+
+std::array<ImuSummary, 2> ImuIntegrator::SummarizePair(
+    const std::array<double, 3>& times, const ImuCalibration& calibration) {
+  std::array<std::vector<LinearRates>, 2> rates;
+  bool bridged = false;
+  for (std::size_t i = 0; i < 2; ++i) {
+    Walk(times[i], times[i + 1],
+         [&](const LinearRates& each, const LinearRates* drop_out) {
+           rates[i].push_back(each);
+           bridged = bridged || drop_out != nullptr;
+         });
+  }
+  if (bridged || rates[0].size() != rates[1].size()) {
+    return {Summarize(times[0], times[1], calibration),
+            Summarize(times[1], times[2], calibration)};
+  }
+  PreintegratorOf<Pair> integrator(stream_->noise, with_scale_jacobians_);
+  integrator.Start({times[0], times[1]}, calibration);
+  for (std::size_t k = 0; k < rates[0].size(); ++k) {
+    integrator.Add(Both(rates[0][k], rates[1][k]));
+  }
+  std::array<ImuSummary, 2> summaries = {integrator.Finish(0),
+                                         integrator.Finish(1)};
+  summaries[0].t_j = times[1];
+  summaries[1].t_j = times[2];
+  return summaries;
 }
 
 void ImuIntegrator::AppendMean(double t_j, ImuSummary* mean) {

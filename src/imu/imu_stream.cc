@@ -26,16 +26,13 @@ double MedianInterval(const ImuStream& stream) {
   return Median(std::move(intervals));
 }
 
+double UsualInterval(const ImuStream& stream) {
+  return stream.nominal_dt > 0.0 ? stream.nominal_dt : MedianInterval(stream);
+}
+
 std::vector<std::size_t> DropOuts(const ImuStream& stream) {
-  std::vector<std::size_t> ends;
-  if (stream.nominal_dt <= 0.0 || stream.empty()) return ends;
-  double before = stream.t_begin();
-  for (std::size_t k = 1; k < stream.samples.size(); ++k) {
-    const double t = stream.samples[k].t;
-    if (stream.IsDropOut(t - before)) ends.push_back(k);
-    before = t;
-  }
-  return ends;
+  if (stream.nominal_dt <= 0.0 || stream.empty()) return {};
+  return FactsOf(stream)->drop_outs;
 }
 
 }  // namespace hindsight

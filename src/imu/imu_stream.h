@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/paged_vector.h"
+#include "imu/sample_facts.h"
 #include "state/error_layout.h"
 
 namespace hindsight {
@@ -56,6 +57,8 @@ struct ImuStream {
   /// happened meanwhile (see BridgeNoise).
   double nominal_dt = 0.0;
   static constexpr double kGapFactor = 3.5;
+  /// What was found of the samples.
+  SampleFactsMemo facts = {};
 
   /// Whether an interval of this length [s] is a drop-out.
   bool IsDropOut(double interval) const {
@@ -69,6 +72,8 @@ struct ImuStream {
 
 /// Median sample interval [s].
 double MedianInterval(const ImuStream& stream);
+/// nominal_dt, or the median where that is not known [s].
+double UsualInterval(const ImuStream& stream);
 
 /// The drop-outs of a stream with a known nominal_dt: the sample numbers at
 /// their ends.

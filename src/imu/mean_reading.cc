@@ -46,28 +46,29 @@ Kinematics MeanReading(const ImuStream& imu, double begin, double end) {
   return mean;
 }
 
-std::vector<Kinematics> MeanMotion(
-    const ImuStream& imu, const std::vector<double>& times,
-    const std::vector<ImuCalibration>& calibrations) {
+std::vector<Kinematics> MeanReadings(const ImuStream& imu,
+                                     const std::vector<double>& times) {
   constexpr std::size_t kTimesOfThread = 256;
-  std::vector<Kinematics> motion(times.size());
+  std::vector<Kinematics> means(times.size());
   const auto read = [&](std::size_t k) {
     const double before = times[k == 0 ? k : k - 1];
     const double after = times[std::min(k + 1, times.size() - 1)];
-    Kinematics mean =
-        MeanReading(imu, 0.5 * (before + times[k]), 0.5 * (times[k] + after));
-    const ImuCalibration& c = calibrations[k];
-    mean.w_ib_b =
-        (mean.w_ib_b - c.b_g).cwiseQuotient(Eigen::Vector3d::Ones() + c.s_g);
-    mean.f_b =
-        (mean.f_b - c.b_a).cwiseQuotient(Eigen::Vector3d::Ones() + c.s_a);
-    return mean;
+    return MeanReading(imu, 0.5 * (before + times[k]),
+                       0.5 * (times[k] + after));
   };
   ForRanges(times.size(), kTimesOfThread,
             [&](std::size_t begin, std::size_t end) {
-              for (std::size_t k = begin; k < end; ++k) motion[k] = read(k);
+              for (std::size_t k = begin; k < end; ++k) means[k] = read(k);
             });
-  return motion;
+  return means;
+}
+
+Kinematics WithoutErrors(Kinematics mean, const ImuCalibration& calibration) {
+  const ImuCalibration& c = calibration;
+  const Eigen::Vector3d one = Eigen::Vector3d::Ones();
+  mean.w_ib_b = (mean.w_ib_b - c.b_g).cwiseQuotient(one + c.s_g);
+  mean.f_b = (mean.f_b - c.b_a).cwiseQuotient(one + c.s_a);
+  return mean;
 }
 
 }  // namespace hindsight

@@ -20,11 +20,12 @@ namespace hindsight {
 Kinematics MeanReading(const ImuStream& imu, double begin, double end);
 
 /// Mean readings about ascending times, each from half way to the time before
-/// to half way to the next, with the biases and scale factors of `calibrations`
-/// removed: (m - b) / (1 + s).
-std::vector<Kinematics> MeanMotion(
-    const ImuStream& imu, const std::vector<double>& times,
-    const std::vector<ImuCalibration>& calibrations);
+/// to half way to the next.
+std::vector<Kinematics> MeanReadings(const ImuStream& imu,
+                                     const std::vector<double>& times);
+
+/// Without the errors of a calibration: (m - b) / (1 + s).
+Kinematics WithoutErrors(Kinematics mean, const ImuCalibration& calibration);
 
 }  // namespace hindsight
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <concepts>
 #include <cstddef>
 
 #include "imu/imu_stream.h"
@@ -74,8 +75,9 @@ CorrectedMean Correct(const ImuSummary& summary, const ImuCalibration& at);
 bool NeedsReintegration(const ImuSummary& summary, const ImuCalibration& at);
 
 /// Rates with the errors of a calibration taken out, (raw - bias)/(1 + scale).
-LinearRates Calibrated(const LinearRates& raw,
-                       const ImuCalibration& calibration);
+template <typename Real>
+LinearRatesOf<Real> Calibrated(const LinearRatesOf<Real>& raw,
+                               const ImuCalibration& calibration);
 
 /// White noise of one sample interval on top of the IMU's own.
 struct IntervalNoise {
@@ -86,59 +88,72 @@ struct IntervalNoise {
 /// Accumulates sample intervals into a summary. Mean to second order per
 /// sample; Jacobians and noise by moments, exact in the limit of small samples
 /// and cheaper than propagating a covariance (one pass of sums, assembled once
-/// in Finish). No allocation.
-class Preintegrator {
+/// in Finish). No allocation. Of one interval (Real = double), or of two at once that
+/// have as many samples (Pair).
+template <typename Real>
+class PreintegratorOf {
  public:
-  Preintegrator(const ImuNoise& noise, bool with_scale_jacobians);
+  PreintegratorOf(const ImuNoise& noise, bool with_scale_jacobians);
 
   /// Starts a new interval.
-  void Start(double t_i, const ImuCalibration& calibration);
+  void Start(const Real& t_i, const ImuCalibration& calibration);
   /// Appends the next sample interval, calibration errors not yet removed.
   /// `extra` is noise of this interval on top of the IMU's own.
-  void Add(const LinearRates& raw, const IntervalNoise& extra = {});
-  /// The summary from the start to the end of the last sample added.
-  ImuSummary Finish() const;
+  void Add(const LinearRatesOf<Real>& raw, const IntervalNoise& extra = {});
+  /// The summary from the start to the end of the last sample added; of a pair, of
+  /// interval `lane`, 0 or 1.
+  ImuSummary Finish(int lane = 0) const;
 
  private:
+  template <typename>
+  friend class PreintegratorOf;
+  using Vector3 = Eigen::Matrix<Real, 3, 1>;
+  using Matrix3 = Eigen::Matrix<Real, 3, 3>;
+
   struct Snapshot {
-    double s = 0.0;
-    Eigen::Vector3d v, p;
-    Eigen::Matrix3d S_g, V_g, P_g, S_a, P_a;
+    Real s = 0.0;
+    Vector3 v, p;
+    Matrix3 S_g, V_g, P_g, S_a, P_a;
   };
   static constexpr int kMaxSnapshots = 16;
 
   void TakeSnapshot();
-  void AddScaleJacobians(const Eigen::Matrix3d& C_mid, const LinearRates& r,
-                         const Eigen::Vector3d& dv_i);
-  void AssembleWhiteNoise(ImuSummary* out) const;
-  void AssembleBiasNoise(ImuSummary* out) const;
+  void AddScaleJacobians(const Matrix3& C_mid, const LinearRatesOf<Real>& r,
+                         const Vector3& dv_i);
+  PreintegratorOf<double> Lane(int lane) const;
+  ImuSummary Summary() const requires std::same_as<Real, double>;
+  void AssembleWhiteNoise(
+      ImuSummary* out) const requires std::same_as<Real, double>;
+  void AssembleBiasNoise(
+      ImuSummary* out) const requires std::same_as<Real, double>;
 
   ImuNoise noise_;
   bool with_scale_;
   bool has_bias_noise_;
   bool gauss_markov_;
   ImuCalibration calibration_;
-  double t_i_ = 0.0;
-  double T_ = 0.0;
-  Eigen::Quaterniond q_;
-  Eigen::Matrix3d C_;
-  Eigen::Vector3d v_, p_;
+  Real t_i_ = 0.0;
+  Real T_ = 0.0;
+  Eigen::Quaternion<Real> q_;
+  Matrix3 C_;
+  Vector3 v_, p_;
   // Integrals of the attitude, weighted by the bias decay: S = int C, V_g =
   // int [f x] S, P = int of V or S.
-  Eigen::Matrix3d S_g_, V_g_, P_g_, S_a_, P_a_;
-  Eigen::Matrix3d U_g_, VU_g_, PU_g_, U_a_, PU_a_;
+  Matrix3 S_g_, V_g_, P_g_, S_a_, P_a_;
+  Matrix3 U_g_, VU_g_, PU_g_, U_a_, PU_a_;
   // Moments over the gyro noise variance rate q: sums of q ds times products of
   // v(s) and u(s) = p(s) - s v(s).
-  double q_sum_ = 0.0;
+  Real q_sum_ = 0.0;
   // The same of the accelerometer: sums of q ds times powers of s.
-  double a_sum_ = 0.0, as_ = 0.0, ass_ = 0.0;
-  Eigen::Vector3d qv_, qu_;
-  Eigen::Matrix3d qvv_, qvu_, quu_;
+  Real a_sum_ = 0.0, as_ = 0.0, ass_ = 0.0;
+  Vector3 qv_, qu_;
+  Matrix3 qvv_, qvu_, quu_;
   std::array<Snapshot, kMaxSnapshots> snapshots_;
   int snapshot_count_ = 0;
   int snapshot_every_ = 1;
   int samples_since_snapshot_ = 0;
 };
+using Preintegrator = PreintegratorOf<double>;
 
 /// Noise of a bridged drop-out: over its whole length the true rate may be off
 /// the straight line between the readings at its ends by max(0.1 rad/s, their
@@ -152,12 +167,18 @@ class ImuIntegrator {
  public:
   explicit ImuIntegrator(const ImuStream& stream,
                          bool with_scale_jacobians = false)
-      : stream_(&stream), integrator_(stream.noise, with_scale_jacobians) {}
+      : stream_(&stream),
+        with_scale_jacobians_(with_scale_jacobians),
+        integrator_(stream.noise, with_scale_jacobians) {}
 
   /// Summary of [t_i, t_j], which must lie inside the stream's span. Calls in
   /// time order cost time in proportion to the samples of the interval.
   ImuSummary Summarize(double t_i, double t_j,
                        const ImuCalibration& calibration);
+  /// Summaries of the intervals between three times, in less time than one by one;
+  /// the same but for rounding.
+  std::array<ImuSummary, 2> SummarizePair(const std::array<double, 3>& times,
+                                          const ImuCalibration& calibration);
 
   /// Appends [mean->t_j, t_j] to what began as EmptyMean, at its calibration.
   void AppendMean(double t_j, ImuSummary* mean);
@@ -195,6 +216,7 @@ class ImuIntegrator {
   std::size_t FindInterval(double t);
 
   const ImuStream* stream_;
+  bool with_scale_jacobians_;
   Preintegrator integrator_;
   std::size_t hint_ = 1;
 };

@@ -51,8 +51,36 @@ namespace {
 constexpr std::size_t kIntervalsAhead = 64;
 /// While the first intervals tell the biases they move too far for that.
 constexpr std::size_t kNotAhead = 1024;
-/// Intervals that are worth a thread.
-constexpr std::size_t kIntervalsOfThread = 16;
+/// Pairs of intervals that are worth a thread.
+constexpr std::size_t kPairsOfThread = 8;
+
+using SharedSummary = std::shared_ptr<const ImuSummary>;
+
+/// Between `times`, two at once: which two does not depend on the threads.
+std::vector<SharedSummary> SummariesBetween(const std::vector<double>& times,
+                                            const ImuCalibration& calibration,
+                                            const ImuIntegrator& integrator) {
+  std::vector<SharedSummary> summaries(times.size() - 1);
+  const auto share = [](const ImuSummary& summary) {
+    return std::make_shared<const ImuSummary>(summary);
+  };
+  ForRanges((summaries.size() + 1) / 2, kPairsOfThread,
+            [&](std::size_t begin, std::size_t end) {
+              ImuIntegrator own = integrator;
+              for (std::size_t i = 2 * begin; i < 2 * end; i += 2) {
+                if (i + 1 == summaries.size()) {
+                  summaries[i] =
+                      share(own.Summarize(times[i], times[i + 1], calibration));
+                  break;
+                }
+                const auto pair = own.SummarizePair(
+                    {times[i], times[i + 1], times[i + 2]}, calibration);
+                summaries[i] = share(pair[0]);
+                summaries[i + 1] = share(pair[1]);
+              }
+            });
+  return summaries;
+}
 
 }  // namespace
 
@@ -81,20 +109,10 @@ void Timeline::GoAhead(std::size_t k, const ImuCalibration& calibration) {
   std::vector<double> times;
   for (std::size_t i = first; i <= end; ++i) times.push_back(nodes_[i].t);
   ahead_.first = first;
-  ahead_.summaries =
-      InBackground([integrator = integrator_, times = std::move(times),
-                    calibration]() mutable {
-        Summaries summaries(times.size() - 1);
-        ForRanges(summaries.size(), kIntervalsOfThread,
-                  [&](std::size_t begin, std::size_t end) {
-                    ImuIntegrator own = integrator;
-                    for (std::size_t i = begin; i < end; ++i) {
-                      summaries[i] = std::make_shared<const ImuSummary>(
-                          own.Summarize(times[i], times[i + 1], calibration));
-                    }
-                  });
-        return summaries;
-      }).share();
+  ahead_.summaries = InBackground([integrator = integrator_,
+                                   times = std::move(times), calibration] {
+                       return SummariesBetween(times, calibration, integrator);
+                     }).share();
 }
 
 const ImuSummary& Timeline::Integrate(std::size_t k,

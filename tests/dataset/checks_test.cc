@@ -179,8 +179,8 @@ TEST(CheckDataset, GravityIsSoughtWhereTheForceVariesLeast) {
   }
   const CheckReport report = CheckDataset(data);
   EXPECT_FALSE(report.imu.rest_force);
-  EXPECT_GT(report.imu.mean_force, 12.0);
-  EXPECT_NEAR(report.imu.quietest_force.norm(), 9.81, 0.1);
+  EXPECT_GT(report.imu.record.mean_force, 12.0);
+  EXPECT_NEAR(report.imu.record.quietest_force.norm(), 9.81, 0.1);
   EXPECT_TRUE(report.warnings.empty());
   for (ImuSample& sample : data.imu.samples) sample.accel /= 9.81;
   EXPECT_THAT(CheckDataset(data).warnings,

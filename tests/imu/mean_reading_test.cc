@@ -86,15 +86,15 @@ TEST(MeanReading, OfASpanWithoutAnIntervalIsThatAtItsMiddle) {
   }
 }
 
-TEST(MeanMotion, IsWithoutBiasAndScaleFromHalfWayToHalfWay) {
+TEST(MeanReadings, AreWithoutBiasAndScaleFromHalfWayToHalfWay) {
   const ImuStream imu = TurnsAround(Kind::kRates, 1.0);
   ImuCalibration calibration;
   calibration.b_g.z() = 0.2;
   calibration.s_g.z() = 0.25;
   calibration.b_a.z() = 0.19;
   const std::vector<double> times = {2.0, 4.0, 11.0, 11.8, 20.0};
-  const std::vector<Kinematics> motion = MeanMotion(
-      imu, times, std::vector<ImuCalibration>(times.size(), calibration));
+  std::vector<Kinematics> motion = MeanReadings(imu, times);
+  for (Kinematics& mean : motion) mean = WithoutErrors(mean, calibration);
   ASSERT_EQ(motion.size(), times.size());
   EXPECT_NEAR(motion[0].w_ib_b.z(), 0.8 / 1.25, 1e-12);
   EXPECT_NEAR(motion[0].f_b.z(), -10.0, 1e-12);

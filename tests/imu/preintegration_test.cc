@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -280,6 +281,80 @@ TEST(Preintegration, CalibrationJacobiansMatchNumericDifference) {
       EXPECT_LT((p - p_.col(axis)).norm(), 1e-3) << which << axis;
     }
   }
+}
+
+/// Of `a` against `b`, in units of the last digits of a double.
+template <typename Matrix>
+double Rounding(const Matrix& a, const Matrix& b) {
+  return (a - b).norm() /
+         (std::numeric_limits<double>::epsilon() * (b.norm() + 1e-300));
+}
+
+double LargestRounding(const ImuSummary& a, const ImuSummary& b) {
+  EXPECT_EQ(a.t_i, b.t_i);
+  EXPECT_EQ(a.t_j, b.t_j);
+  return std::max({Rounding(a.dR.coeffs(), b.dR.coeffs()), Rounding(a.dv, b.dv),
+                   Rounding(a.dp, b.dp), Rounding(a.R_bg, b.R_bg),
+                   Rounding(a.v_bg, b.v_bg), Rounding(a.p_bg, b.p_bg),
+                   Rounding(a.v_ba, b.v_ba), Rounding(a.p_ba, b.p_ba),
+                   Rounding(a.R_sg, b.R_sg), Rounding(a.v_sg, b.v_sg),
+                   Rounding(a.p_sg, b.p_sg), Rounding(a.v_sa, b.v_sa),
+                   Rounding(a.p_sa, b.p_sa), Rounding(a.noise, b.noise),
+                   Rounding(a.bias_cross, b.bias_cross)});
+}
+
+TEST(Preintegration, PairsAreWhatTheyAreOneByOne) {
+  ImuNoise noise{.gyro_noise_density = 1e-3,
+                 .accel_noise_density = 2e-3,
+                 .gyro_bias_walk = 1e-4,
+                 .accel_bias_walk = 3e-4,
+                 .gyro_noise_per_rate = 1e-3};
+  const ImuCalibration calibration{.b_g = {0.01, -0.02, 0.015},
+                                   .b_a = {0.1, 0.05, -0.08},
+                                   .s_g = {1e-3, -2e-3, 3e-3},
+                                   .s_a = {2e-3, 1e-3, -1e-3}};
+  for (const double tau : {std::numeric_limits<double>::infinity(), 50.0}) {
+    noise.gyro_bias_tau = noise.accel_bias_tau = tau;
+    for (const auto kind :
+         {ImuStream::Kind::kRates, ImuStream::Kind::kIncrements}) {
+      // At 2 Hz one sample turns by more than SmallExp takes.
+      for (const double rate : {2.0, 100.0}) {
+        ImuStream stream = LivelyImu(9.0, rate, noise);
+        stream.kind = kind;
+        if (kind == ImuStream::Kind::kIncrements) {
+          for (ImuSample& sample : stream.samples) {
+            sample.gyro /= rate;
+            sample.accel /= rate;
+          }
+        }
+        ImuIntegrator integrator(stream, true);
+        // As many samples in both, and more in the second.
+        for (const double end : {5.33, 7.91}) {
+          const auto pair =
+              integrator.SummarizePair({1.33, 3.33, end}, calibration);
+          EXPECT_LT(LargestRounding(
+                        pair[0], integrator.Summarize(1.33, 3.33, calibration)),
+                    100.0);
+          EXPECT_LT(LargestRounding(
+                        pair[1], integrator.Summarize(3.33, end, calibration)),
+                    100.0);
+        }
+      }
+    }
+  }
+}
+
+TEST(Preintegration, PairsKnowDropOuts) {
+  ImuStream stream = LivelyImu(6.0, 100.0, {.gyro_noise_density = 1e-3});
+  stream.nominal_dt = 0.01;
+  stream.samples.erase(stream.samples.begin() + 120,
+                       stream.samples.begin() + 140);
+  stream.samples.erase(stream.samples.begin() + 300,
+                       stream.samples.begin() + 320);
+  ImuIntegrator integrator(stream);
+  const auto pair = integrator.SummarizePair({1.0, 3.0, 5.0}, {});
+  EXPECT_EQ(pair[0].noise, integrator.Summarize(1.0, 3.0, {}).noise);
+  EXPECT_EQ(pair[1].noise, integrator.Summarize(3.0, 5.0, {}).noise);
 }
 
 /// Scatter of simulated noisy summaries against the computed covariance: for

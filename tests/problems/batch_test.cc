@@ -222,6 +222,26 @@ TEST(Batch, NewtonsStepsEndWhereCeresDoes) {
   }
 }
 
+TEST(Batch, TakesOneStepFromTheSolution) {
+  for (const Kind& kind : kKinds) {
+    const TestProblem problem = ShortDrive(kind);
+    Problem posed = problem.Pose(All(problem));
+    const BatchResult once = SolveBatch(FilteredStates(&posed), {}, &posed);
+    ASSERT_GT(once.iterations, 1) << Name(kind);
+    const BatchResult again = SolveBatch(once.states, {}, &posed);
+    EXPECT_EQ(again.iterations, 1) << Name(kind);
+    EXPECT_TRUE(again.converged);
+    EXPECT_LT(LargestError(problem.layout, once.states, again.states,
+                           BlockKind::kPosition),
+              1e-7)
+        << Name(kind);
+    for (std::size_t k = 0; k < once.states.size(); ++k) {
+      EXPECT_LT(ScaledDifference(once.P.Get(k), again.P.Get(k)), 1e-6)
+          << Name(kind) << k;
+    }
+  }
+}
+
 /// From a start that is turned over Newton's steps do not contract.
 TEST(Batch, CeresTakesAStartThatNewtonCannot) {
   const TestProblem problem = ShortDrive(kKinds[0]);

@@ -157,29 +157,40 @@ double FitTruthClock(const StreamSource& source, Dataset* dataset) {
   return offset;
 }
 
+/// The whole second at which the stream begins, if it knows GPS time.
+std::optional<std::int64_t> EpochOf(const StreamSource& source,
+                                    const StreamClock& clock) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  const auto first = FirstGpsTime(source, clock);
+  if (!first) return std::nullopt;
+  return Nanoseconds(*first) / kSecond * kSecond;
+}
+
 }  // namespace
 
 void LoadImu(const DeclaredRecording& declared, ConfigMap* top,
              Dataset* dataset) {
   StreamClock clock;
   const ImuNoise noise = dataset->imu.noise;
-  dataset->imu =
-      ReadImu(declared.imu, declared.imu_options, &clock, &dataset->policies);
+  ImuReadOptions options = declared.imu_options;
+  const auto place = [&](const StreamClock& known) {
+    if (!dataset->epoch_gps_ns) {
+      dataset->epoch_gps_ns = EpochOf(declared.imu, known);
+    }
+    return MapClock(declared.imu, known, dataset->epoch_gps_ns);
+  };
+  const bool ends_late = declared.imu.clock.duration.has_value();
+  if (!ends_late) options.place = place;
+  dataset->imu = ReadImu(declared.imu, options, &clock, &dataset->policies);
   dataset->imu.noise = noise;
   top->resolved()["imu"]["kind"] =
       dataset->imu.kind == ImuStream::Kind::kRates ? "rates" : "increments";
-  if (!dataset->epoch_gps_ns) {
-    if (const auto first = FirstGpsTime(declared.imu, clock)) {
-      constexpr std::int64_t kSecond = 1'000'000'000;
-      dataset->epoch_gps_ns = Nanoseconds(*first) / kSecond * kSecond;
-    }
+  if (ends_late) {
+    const TimeLine line = place(clock);
+    for (ImuSample& sample : dataset->imu.samples) sample.t = line(sample.t);
   }
   if (dataset->epoch_gps_ns) {
     top->Resolve("epoch", FormatGpsTime(*dataset->epoch_gps_ns));
-  }
-  const TimeLine line = MapClock(declared.imu, clock, dataset->epoch_gps_ns);
-  if (line.offset != 0.0 || line.scale != 1.0) {
-    for (ImuSample& sample : dataset->imu.samples) sample.t = line(sample.t);
   }
   RequireModestSpan(declared.imu, dataset->imu);
   dataset->imu.stamp_offset = declared.imu.clock.offset;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -102,10 +103,12 @@ struct ImuReadOptions {
   std::optional<ImuStream::Kind> kind;  ///< absent: as the columns say
   bool stamp_at_start = false;          ///< of increments
   double max_gap = 0.5;                 ///< [s]
+  /// Where the samples' times are, asked for once the first row is known, when
+  /// StreamClock::last is not yet; absent: they are since the first row.
+  std::function<TimeLine(const StreamClock&)> place = {};
 };
 
-/// Reads an IMU file; the samples' times are since the first row. Accelerometers of
-/// their own file are interpolated linearly at the gyros' stamps; a row of the
+/// Reads an IMU file. Accelerometers of their own file are interpolated linearly at the gyros' stamps; a row of the
 /// gyros before their first reading, behind their last, or in a gap of more than
 /// 3.5 of their median intervals is dropped, and counted. Throws InputError for
 /// everything that makes a record unusable: see TextTable, and stamps that run

@@ -101,6 +101,7 @@ ImuStream ReadImu(const StreamSource& source, const ImuReadOptions& options,
     accelerometer.emplace(*options.accelerometer, policies);
   }
   long alone = 0;
+  TimeLine line;
   double last = 0.0;
   double longest = 0.0;
   while (true) {
@@ -113,8 +114,9 @@ ImuStream ReadImu(const StreamSource& source, const ImuReadOptions& options,
       continue;
     }
     if (imu.samples.empty()) {
+      if (options.place) line = options.place(rows.clock());
       imu.samples.reserve(table.RowsHint() + begin);
-      imu.samples.resize(begin, {rows.t()});
+      imu.samples.resize(begin, {line(rows.t())});
     }
     const double gap = imu.samples.size() > begin ? rows.t() - last : 0.0;
     if (gap > options.max_gap) FailGap(rows, gap, options.max_gap);
@@ -124,7 +126,7 @@ ImuStream ReadImu(const StreamSource& source, const ImuReadOptions& options,
     }
     last = rows.t();
     imu.samples.push_back(
-        {last, options.C_bs * vector(first), options.C_bs * *force});
+        {line(last), options.C_bs * vector(first), options.C_bs * *force});
   }
   if (imu.samples.size() < begin + 2) {
     const std::size_t count = imu.samples.empty() ? 0 : 1;

@@ -104,11 +104,39 @@ TextRowParser::TextRowParser(TableLayout layout, bool allow_absent)
     wanted_[static_cast<std::size_t>(layout_.time_column)] = 2;
   }
   if (time_columns > 1) wanted_[static_cast<std::size_t>(second)] = 2;
+  if (layout_.column_count > 0) FixColumnCount(layout_.column_count);
+}
+
+void TextRowParser::FixColumnCount(int count) {
+  layout_.column_count = count;
+  plain_ = PlainRows(layout_);
 }
 
 std::string TextRowParser::Parse(std::string_view line, Scratch* scratch,
                                  std::span<double> values, Stamp* stamp,
-                                 int* columns) const {
+                                 int* columns, std::size_t* last_length) const {
+  if (plain_.Read(line, values, stamp, last_length)) {
+    *columns = layout_.column_count;
+    return "";
+  }
+  *last_length = LastLength(line);
+  return ParseAny(line, scratch, values, stamp, columns);
+}
+
+/// By hand: find_last_of looks each character up in the set by a call.
+std::size_t TextRowParser::LastLength(std::string_view line) const {
+  std::size_t length = 0;
+  while (length < line.size()) {
+    const char c = line[line.size() - 1 - length];
+    if (c == layout_.delimiter || c == ' ' || c == '\t') break;
+    ++length;
+  }
+  return length;
+}
+
+std::string TextRowParser::ParseAny(std::string_view line, Scratch* scratch,
+                                    std::span<double> values, Stamp* stamp,
+                                    int* columns) const {
   if (layout_.decimal == ',') {
     scratch->pointed = line;
     std::replace(scratch->pointed.begin(), scratch->pointed.end(), ',', '.');

@@ -77,7 +77,7 @@ void TextTable::Parse(Batch* batch) const {
     row.problem = parser_.Parse(
         std::string_view(batch->texts).substr(row.begin, row.length), &scratch,
         std::span(batch->values).subspan(begin, width), &row.stamp,
-        &row.columns);
+        &row.columns, &row.last_length);
     begin += width;
   }
 }
@@ -171,20 +171,14 @@ bool TextTable::Next() {
 }
 
 bool TextTable::IsLastValueWhole(const Ahead& row, std::string* problem) {
-  const std::string_view line = LineOf(row);
   if (parser_.wanted() == 0 ||
       row.columns != static_cast<int>(parser_.wanted())) {
     return true;
   }
-  // By hand: find_last_of looks each character up in the set by a call.
-  std::size_t length = 0;
-  while (length < line.size()) {
-    const char c = line[line.size() - 1 - length];
-    if (c == parser_.layout().delimiter || c == ' ' || c == '\t') break;
-    ++length;
-  }
+  const std::size_t length = row.last_length;
   if (!row.terminated && length < shortest_last_value_ &&
       shortest_last_value_ != kNoLength) {
+    const std::string_view line = LineOf(row);
     *problem = parser_.ColumnName(static_cast<int>(parser_.wanted()) - 1) +
                ": '" + std::string(line.substr(line.size() - length)) +
                "' is shorter than in all lines before, and no line end follows";

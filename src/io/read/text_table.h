@@ -60,7 +60,8 @@ class TextTable final : public RowSource {
     bool terminated = true;
     Stamp stamp;
     int columns = 0;
-    std::string problem;  ///< empty: the row is good
+    std::size_t last_length = 0;  ///< of what is behind the last delimiter
+    std::string problem;          ///< empty: the row is good
   };
 
   /// Lines that were read ahead.

@@ -113,6 +113,9 @@ bool HoldsNoNumber(std::string_view line, char delimiter) {
 }
 
 bool IsComment(std::string_view line) {
+  if (!line.empty() && (IsDigit(line.front()) || line.front() == '-')) {
+    return false;
+  }
   const std::string_view text = Trim(line);
   return text.empty() || text.front() == '#' || text.front() == '%' ||
          text.starts_with("//");

@@ -15,7 +15,7 @@ namespace hindsight {
 
 /// \file
 /// METHOD.motion.csv: what the IMU read, biases and scale factors removed, at
-/// its own place and in body axes, as means about the stamps (MeanMotion):
+/// its own place and in body axes, as means about the stamps (MeanReadings):
 /// t[s], w_x[deg/s] to w_z[deg/s] against inertial space, f_x[m/s^2] to
 /// f_z[m/s^2] specific force.
 
