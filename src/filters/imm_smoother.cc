@@ -92,8 +92,11 @@ class FutureLikelihood {
 
 class BackwardPass {
  public:
-  explicit BackwardPass(const ImmTape& tape)
-      : tape_(tape), count_(tape.tapes.size()), shared_(count_) {
+  BackwardPass(const ImmTape& tape, bool with_models)
+      : tape_(tape),
+        with_models_(with_models),
+        count_(tape.tapes.size()),
+        shared_(count_) {
     for (std::size_t i = 0; i < count_; ++i) {
       for (std::size_t j = 0; j < count_; ++j) {
         shared_[i].push_back(
@@ -103,7 +106,7 @@ class BackwardPass {
     out_.trajectory.P = CovarianceSeries(tape.tapes[0].dim(), tape.size());
     out_.trajectory.states.resize(tape.size());
     out_.trajectory.probabilities.resize(tape.size());
-    out_.models.resize(tape.size());
+    if (with_models_) out_.models.resize(tape.size());
     out_.pairs.resize(tape.size());
   }
 
@@ -138,7 +141,7 @@ class BackwardPass {
     const Gaussian combined = Combine(tape_.tapes, smoothed_, mu_);
     WriteCombined(tape_.tapes[0].layout(), tape_.tapes[0].epoch(k).x_plus,
                   combined, mu_, k, &out_.trajectory);
-    out_.models[k] = smoothed_;
+    if (with_models_) out_.models[k] = smoothed_;
   }
 
   /// Carries the smoothed densities from the nominal x_plus to x_minus.
@@ -238,6 +241,7 @@ class BackwardPass {
   }
 
   const ImmTape& tape_;
+  bool with_models_;
   std::size_t count_;
   std::vector<std::vector<ComponentMap>> shared_;  // [target][source]
   std::vector<Gaussian> smoothed_;
@@ -247,6 +251,8 @@ class BackwardPass {
 
 }  // namespace
 
-ImmSmoothed SmoothImm(const ImmTape& tape) { return BackwardPass(tape).Run(); }
+ImmSmoothed SmoothImm(const ImmTape& tape, bool with_models) {
+  return BackwardPass(tape, with_models).Run();
+}
 
 }  // namespace hindsight

@@ -8,7 +8,8 @@ namespace hindsight {
 /// A smoothed IMM tape.
 struct ImmSmoothed {
   ImmTrajectory trajectory;  ///< probabilities are p(m_k = j | z_1 ... z_N)
-  /// Smoothed error of each model about its nominal x_plus, by node and model.
+  /// Smoothed error of each model about its nominal x_plus, by node and model, if
+  /// asked for: of long intervals they are most of the memory.
   std::vector<std::vector<Gaussian>> models;
   /// p(m_k-1 = i, m_k = j | z_1 ... z_N), row i; empty where the mode could not
   /// switch.
@@ -29,7 +30,7 @@ struct ImmSmoothed {
 /// taken in the axes in which P-_j is the unit matrix and S_j diagonal, where
 /// it is a measurement for each component. The steps are exact but for merging
 /// the pairs into one normal density a mode. With one mode it is SmoothRts.
-ImmSmoothed SmoothImm(const ImmTape& tape);
+ImmSmoothed SmoothImm(const ImmTape& tape, bool with_models = false);
 
 }  // namespace hindsight
 

@@ -87,7 +87,7 @@ TEST(Imm, OfOneModeIsTheExtendedKalmanFilter) {
   const ImmResult imm = RunImm({Model(problem, 1.0)}, {}, &again.timeline);
   ExpectSameTape(imm.tape.tapes[0], ekf);
   const SmoothedTrajectory rts = SmoothRts(ekf);
-  const ImmSmoothed smoothed = SmoothImm(imm.tape);
+  const ImmSmoothed smoothed = SmoothImm(imm.tape, true);
   double log_likelihood = 0.0;
   for (std::size_t k = 0; k < ekf.size(); ++k) {
     for (const TapeMeasurement& z : ekf.measurements(k)) {
@@ -128,7 +128,7 @@ TEST(Imm, OfOneModeTakesLossesAndGatesAsTheExtendedKalmanFilterDoes) {
   EXPECT_FALSE(ekf.measurements(20)[0].accepted);
   ExpectSameTape(imm.tape.tapes[0], ekf);
   const SmoothedTrajectory rts = SmoothRts(ekf);
-  const ImmSmoothed smoothed = SmoothImm(imm.tape);
+  const ImmSmoothed smoothed = SmoothImm(imm.tape, true);
   for (std::size_t k = 0; k < ekf.size(); ++k) {
     EXPECT_LT(ScaledDifference(imm.trajectory.P.Get(k), ekf.P_plus(k)), 1e-6);
     EXPECT_LT(ScaledDifference(smoothed.models[k][0].P, rts.P.Get(k)), 1e-6);
@@ -166,7 +166,7 @@ TEST(Imm, ModeProbabilitiesSumToOneAndFollowTheOutliers) {
     Problem posed = problem.Pose();
     const ImmResult imm = RunImm({Model(problem, 1.0), Model(problem, 20.0)},
                                  TwoModes(feedback), &posed.timeline);
-    const ImmSmoothed smoothed = SmoothImm(imm.tape);
+    const ImmSmoothed smoothed = SmoothImm(imm.tape, true);
     for (std::size_t k = 0; k < imm.tape.size(); ++k) {
       EXPECT_NEAR(imm.tape.epochs[k].probability.sum(), 1.0, 1e-12);
       EXPECT_NEAR(imm.tape.epochs[k].predicted.sum(), 1.0, 1e-12);
@@ -224,7 +224,7 @@ TEST(Imm, UnequalLayoutsMixOverWhatTheyShare) {
   for (const auto& models : orders) {
     Problem posed = problem.Pose();
     const ImmResult imm = RunImm(models, TwoModes(true), &posed.timeline);
-    const ImmSmoothed smoothed = SmoothImm(imm.tape);
+    const ImmSmoothed smoothed = SmoothImm(imm.tape, true);
     const SmoothedTrajectory rts = SmoothRts(ekf);
     for (std::size_t k = 0; k < ekf.size(); ++k) {
       EXPECT_NEAR(imm.trajectory.probabilities[k](0), 0.5, 1e-6);
@@ -346,7 +346,7 @@ TEST(ImmSmoother, IsExactOverOneInterval) {
   Problem posed = problem.Pose();
   const ImmResult imm = RunImm({Model(problem, 1.0), Model(problem, kFactor)},
                                options, &posed.timeline);
-  const ImmSmoothed smoothed = SmoothImm(imm.tape);
+  const ImmSmoothed smoothed = SmoothImm(imm.tape, true);
   const Exact exact = Enumerate(problem, imm.tape, kFactor, options);
   const Eigen::MatrixXd& pairs = smoothed.pairs[1];
   for (Eigen::Index j = 0; j < 2; ++j) {
@@ -366,7 +366,7 @@ TEST(ImmSmoother, IsNearAllSequencesOfModesWeighedExactly) {
   Problem posed = problem.Pose();
   const ImmResult imm = RunImm({Model(problem, 1.0), Model(problem, kFactor)},
                                options, &posed.timeline);
-  const ImmSmoothed smoothed = SmoothImm(imm.tape);
+  const ImmSmoothed smoothed = SmoothImm(imm.tape, true);
   const Exact exact = Enumerate(problem, imm.tape, kFactor, options);
   double filter_error = 0.0;
   double smoother_error = 0.0;
@@ -395,7 +395,7 @@ TEST(ImmSmoother, PairsHaveTheModesAsMargins) {
   Problem posed = problem.Pose();
   const ImmResult imm = RunImm({Model(problem, 1.0), Model(problem, 3.0)},
                                TwoModes(true), &posed.timeline);
-  const ImmSmoothed smoothed = SmoothImm(imm.tape);
+  const ImmSmoothed smoothed = SmoothImm(imm.tape, true);
   for (std::size_t k = 1; k < imm.tape.size(); ++k) {
     const Eigen::MatrixXd& pairs = smoothed.pairs[k];
     const auto& p = smoothed.trajectory.probabilities;
