@@ -155,13 +155,6 @@ const Relinearised& ForwardStage::relinearised() {
   return *relinearised_;
 }
 
-bool ForwardStage::has_losses() const {
-  const std::vector<Sensor>& sensors = timeline().sensors();
-  return std::any_of(sensors.begin(), sensors.end(), [](const Sensor& sensor) {
-    return sensor.loss.kind != RobustLoss::Kind::kNone;
-  });
-}
-
 const std::vector<State>& ForwardStage::batch_start() {
   return relinearised().is_near && !has_losses() ? relinearised().states
                                                  : smoothed_->states;

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_PROBLEMS_FORWARD_STAGE_H_
 #define HINDSIGHT_PROBLEMS_FORWARD_STAGE_H_
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,7 +56,12 @@ class ForwardStage {
   Problem CausalProblem() const;
   const Timeline& timeline() const { return problem_.timeline; }
   /// Whether any sensor has a robust loss.
-  bool has_losses() const;
+  bool has_losses() const {
+    return std::any_of(timeline().sensors().begin(), timeline().sensors().end(),
+                       [](const Sensor& sensor) {
+                         return sensor.loss.kind != RobustLoss::Kind::kNone;
+                       });
+  }
   const SmoothedTrajectory& smoothed() const { return *smoothed_; }
   double smoothing_seconds() const { return smoothing_seconds_; }
   /// Spans that the data leave undetermined; found when first asked for.
