@@ -192,7 +192,7 @@ struct Dataset {
   std::vector<Outage> outages;        ///< filled by ApplyWithholding
   /// Known of simulated data: in which a sensor measured nothing.
   std::vector<Outage> silences;
-  double max_node_spacing = 1.0;      ///< [s]
+  double max_node_spacing = 1.0;  ///< [s]
   std::vector<PolicyCount> policies;
   std::vector<std::string> notes;  ///< what else was done to it, in words
 };
