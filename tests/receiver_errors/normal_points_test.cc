@@ -33,7 +33,7 @@ TEST(NormalPoints, TellTheTrajectoryAsAllFixesDo) {
     const std::size_t k = 10 * i + 5;
     ASSERT_EQ(points->tape.epoch(i).t, tape.epoch(k).t);
     const Eigen::Matrix3d P = all.P.Get(k).topLeftCorner<3, 3>();
-    const Eigen::Vector3d d = (few[i] - all.d[k]).head<3>();
+    const Eigen::Vector3d d = few[i].head<3>() - all.d[k].head<3>();
     // What is lost is a small part of what is known.
     EXPECT_LT(d.dot(P.llt().solve(d)), 0.2) << i;
   }
