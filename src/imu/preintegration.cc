@@ -62,13 +62,13 @@ LinearRatesOf<Real> Calibrated(const LinearRatesOf<Real>& raw,
                            raw.f1 - b_a};
   if (!calibration.s_g.isZero(0.0)) {
     const Eigen::Array3d one = 1.0 / (1.0 + calibration.s_g.array());
-    const Eigen::Array<Real, 3, 1> factor = one.cast<Real>();
+    const Eigen::Array<Real, 3, 1>& factor = one.cast<Real>();
     r.w0.array() *= factor;
     r.w1.array() *= factor;
   }
   if (!calibration.s_a.isZero(0.0)) {
     const Eigen::Array3d one = 1.0 / (1.0 + calibration.s_a.array());
-    const Eigen::Array<Real, 3, 1> factor = one.cast<Real>();
+    const Eigen::Array<Real, 3, 1>& factor = one.cast<Real>();
     r.f0.array() *= factor;
     r.f1.array() *= factor;
   }

@@ -14,8 +14,6 @@
 namespace hindsight {
 namespace {
 
-using testing::Draw;
-using testing::LargestError;
 using testing::MakeProblem;
 using testing::ScaledDifference;
 using testing::TacticalNoise;
