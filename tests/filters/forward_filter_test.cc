@@ -17,7 +17,6 @@ namespace {
 using testing::LargestError;
 using testing::MakeProblem;
 using testing::RichLayout;
-using testing::ScaledDifference;
 using testing::StatesAfter;
 using testing::TacticalNoise;
 using testing::TestProblem;
