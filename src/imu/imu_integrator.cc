@@ -164,9 +164,10 @@ ImuSummary ImuIntegrator::Summarize(double t_i, double t_j,
 
 std::array<ImuSummary, 2> ImuIntegrator::SummarizePair(
     const std::array<double, 3>& times, const ImuCalibration& calibration) {
-  std::array<std::vector<LinearRates>, 2> rates;
+  std::array<std::vector<LinearRates>, 2>& rates = pair_rates_;
   bool bridged = false;
   for (std::size_t i = 0; i < 2; ++i) {
+    rates[i].clear();
     Walk(times[i], times[i + 1],
          [&](const LinearRates& each, const LinearRates* drop_out) {
            rates[i].push_back(each);

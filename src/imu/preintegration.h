@@ -6,6 +6,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <vector>
 
 #include "imu/imu_stream.h"
 #include "imu/kinematics.h"
@@ -218,6 +219,8 @@ class ImuIntegrator {
   const ImuStream* stream_;
   bool with_scale_jacobians_;
   Preintegrator integrator_;
+  /// Of a pair of intervals; kept for the next.
+  std::array<std::vector<LinearRates>, 2> pair_rates_;
   std::size_t hint_ = 1;
 };
 

@@ -43,7 +43,7 @@ ErrantEnd Between(const LinearTape& tape, std::size_t first, std::size_t past) {
   return out;
 }
 
-/// Of the errors of the stretch's nodes, as many as the sensor has rows.
+/// Of the sensor's errors at the nodes of a stretch [m].
 struct ErrorOfStretch {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   double deviation = 0.0;  ///< root mean square of the distance from it

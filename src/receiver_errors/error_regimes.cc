@@ -1,6 +1,5 @@
 #include "receiver_errors/error_regimes.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -11,12 +10,9 @@
 #include "receiver_errors/search_attempts.h"
 #include "receiver_errors/sequence_refinement.h"
 #include "receiver_errors/sequence_smoother.h"
-#include "receiver_errors/sequence_variations.h"
 
 namespace hindsight {
 namespace {
-
-constexpr double kLasting = 1e8;  // correlation time of a bias that stays [s]
 
 std::size_t FixCount(const RegimeProblem& problem) {
   std::size_t count = 0;
@@ -161,49 +157,6 @@ std::vector<Attempt> Hopeful(std::vector<Attempt> attempts,
   return attempts;
 }
 
-/// The largest of the sensor's errors along an axis, smoothed.
-double SizeOf(const RegimeProblem& problem, const Hypothesis& one) {
-  const int n = problem.tape.dim();
-  const std::vector<ErrorVector> smoothed = SmoothSequence(
-      problem.tape, problem.sensor, one.parameters, one.sequence);
-  Eigen::Vector3d largest = Eigen::Vector3d::Zero();
-  for (const ErrorVector& x : smoothed) {
-    largest = largest.cwiseMax(x.segment<3>(n).cwiseAbs());
-  }
-  return largest.maxCoeff();
-}
-
-/// Mean time between fixes [s].
-double Spacing(const RegimeProblem& problem, std::size_t fixes) {
-  const double duration =
-      problem.tape.t(problem.tape.size() - 1) - problem.tape.t(0);
-  return duration / static_cast<double>(std::max<std::size_t>(1, fixes));
-}
-
-/// The likeliest of DriftsThatEnd, each by a rate that leads to errors of the size;
-/// without a sequence if there is none.
-Attempt BestDriftThatEnds(const RegimeProblem& problem,
-                          const Hypothesis& jumping, double size) {
-  Attempt best;
-  const double dt = Spacing(problem, jumping.sequence.size());
-  for (ModeSequence& one : DriftsThatEnd(jumping.sequence)) {
-    const auto drifts = std::count_if(one.begin(), one.end(), [](auto& s) {
-      return s.mode == ErrorMode::kDrifting;
-    });
-    ErrorParameters p = jumping.parameters;
-    p.rate_sigma = size / (static_cast<double>(drifts) * dt);
-    problem.effort->Spend(problem.tape.size());
-    const SequenceScore score =
-        ScoreSequence(problem.tape, problem.sensor, p, one);
-    const double log_posterior = score.log_likelihood + score.log_prior;
-    if (!best.sequence.empty() && !(log_posterior > best.log_posterior)) {
-      continue;
-    }
-    best = {p, std::move(one), log_posterior};
-  }
-  return best;
-}
-
 /// What else a jump may be that the likeliest fit takes for one to or from a bias:
 /// the good and the erroneous stretches exchanged, by errors as large as its own;
 /// or the end of a drift.
@@ -216,16 +169,12 @@ std::vector<ErrorRegimes> FitOtherTellings(
                                        return a.log_evidence < b.log_evidence;
                                      });
   const Hypothesis& likeliest = best->hypotheses.front();
-  const double size = SizeOf(problem, likeliest);
-  for (const ModeSequence& other : RolesExchanged(likeliest.sequence)) {
+  for (const Attempt& other : ExchangedRoles(problem, likeliest)) {
     if (problem.effort->IsSpent()) return out;
-    ErrorParameters from = likeliest.parameters;
-    from.sigma = size;
-    from.tau = kLasting;
-    out.push_back(FitSwitching(problem, other, from));
+    out.push_back(FitSwitching(problem, other.sequence, other.parameters));
   }
   if (problem.effort->IsSpent()) return out;
-  const Attempt drift = BestDriftThatEnds(problem, likeliest, size);
+  const Attempt drift = BestDriftThatEnds(problem, likeliest);
   if (drift.sequence.empty()) return out;
   out.push_back(FitSwitching(problem, drift.sequence, drift.parameters));
   return out;

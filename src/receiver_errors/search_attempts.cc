@@ -1,11 +1,13 @@
 #include "receiver_errors/search_attempts.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "receiver_errors/error_tuning.h"
 #include "receiver_errors/sequence_smoother.h"
+#include "receiver_errors/sequence_variations.h"
 
 namespace hindsight {
 namespace {
@@ -43,6 +45,25 @@ double LogPosterior(const RegimeProblem& problem,
   const SequenceScore score =
       ScoreSequence(problem.tape, problem.sensor, parameters, sequence);
   return score.log_likelihood + score.log_prior;
+}
+
+/// The largest of the sensor's errors along an axis, smoothed.
+double SizeOf(const RegimeProblem& problem, const Hypothesis& one) {
+  const int n = problem.tape.dim();
+  const std::vector<ErrorVector> smoothed = SmoothSequence(
+      problem.tape, problem.sensor, one.parameters, one.sequence);
+  Eigen::Vector3d largest = Eigen::Vector3d::Zero();
+  for (const ErrorVector& x : smoothed) {
+    largest = largest.cwiseMax(x.segment<3>(n).cwiseAbs());
+  }
+  return largest.maxCoeff();
+}
+
+/// Mean time between fixes [s].
+double Spacing(const RegimeProblem& problem, std::size_t fixes) {
+  const double duration =
+      problem.tape.t(problem.tape.size() - 1) - problem.tape.t(0);
+  return duration / static_cast<double>(std::max<std::size_t>(1, fixes));
 }
 
 }  // namespace
@@ -99,6 +120,39 @@ std::vector<Attempt> BestAttempts(const RegimeProblem& problem,
     if (known) continue;
     best.push_back(attempt);
     trajectories.push_back(std::move(trajectory));
+  }
+  return best;
+}
+
+std::vector<Attempt> ExchangedRoles(const RegimeProblem& problem,
+                                    const Hypothesis& jumping) {
+  constexpr double kLasting = 1e8;  // correlation time of a bias that stays [s]
+  std::vector<Attempt> all;
+  for (ModeSequence& other : RolesExchanged(jumping.sequence)) {
+    ErrorParameters p = jumping.parameters;
+    p.sigma = SizeOf(problem, jumping);
+    p.tau = kLasting;
+    all.push_back({p, std::move(other)});
+  }
+  return all;
+}
+
+Attempt BestDriftThatEnds(const RegimeProblem& problem,
+                          const Hypothesis& jumping) {
+  Attempt best;
+  const double size = SizeOf(problem, jumping);
+  const double dt = Spacing(problem, jumping.sequence.size());
+  for (ModeSequence& one : DriftsThatEnd(jumping.sequence)) {
+    const auto drifts = std::count_if(one.begin(), one.end(), [](auto& s) {
+      return s.mode == ErrorMode::kDrifting;
+    });
+    ErrorParameters p = jumping.parameters;
+    p.rate_sigma = size / (static_cast<double>(drifts) * dt);
+    problem.effort->Spend(problem.tape.size());
+    const double log_posterior = LogPosterior(problem, p, one);
+    if (best.sequence.empty() || log_posterior > best.log_posterior) {
+      best = {p, std::move(one), log_posterior};
+    }
   }
   return best;
 }

@@ -28,6 +28,16 @@ std::vector<Attempt> MakeAttempts(const RegimeProblem& problem,
 std::vector<Attempt> BestAttempts(const RegimeProblem& problem,
                                   const std::vector<Attempt>& attempts);
 
+/// What else a jump to or from a bias may be: RolesExchanged, by a lasting bias as
+/// large as the hypothesis's own errors. Their posteriors are not filled in.
+std::vector<Attempt> ExchangedRoles(const RegimeProblem& problem,
+                                    const Hypothesis& jumping);
+
+/// The likeliest of DriftsThatEnd, each by the rate that leads to errors as large
+/// as the hypothesis's own; without a sequence if there is none.
+Attempt BestDriftThatEnds(const RegimeProblem& problem,
+                          const Hypothesis& jumping);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_RECEIVER_ERRORS_SEARCH_ATTEMPTS_H_
