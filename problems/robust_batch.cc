@@ -169,6 +169,15 @@ void RestoreGates(const ErrorSearch& search, const GateDecisions& gates,
   }
 }
 
+Evidence DoubtOfUnconverged() {
+  return {.grade = Grade::kDoubtful,
+          .what =
+              "errors of sensors were found, but the batch with them does "
+              "not converge: the result is that of 'batch'",
+          .causes = {"errors of another kind, or of several sensors at once"},
+          .remedies = {"'--without', which leaves a sensor out"}};
+}
+
 std::string DescribeBlunders(const Problem& problem,
                              const std::vector<std::size_t>& blunders) {
   const Measurement& first =
@@ -200,9 +209,13 @@ RobustBatchResult SolveRobustBatch(Problem problem,
     // About the edge of a mixture the last steps converge linearly.
     batch.max_iterations = std::max(batch.max_iterations, 200);
     result.batch = SolveBatch(*states, batch, &result.problem);
-    result.stands = true;
+    result.stands = result.batch.converged;
   }
-  search.Tell(&result);
+  if (states && !result.stands) {
+    result.doubts.push_back(DoubtOfUnconverged());
+  } else {
+    search.Tell(&result);
+  }
   result.decisions = search.Decisions();
   if (!options.blunders.empty()) {
     result.notes.push_back(DescribeBlunders(result.problem, options.blunders));

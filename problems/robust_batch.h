@@ -24,8 +24,8 @@ struct RobustBatchResult {
   /// not as biased. Empty of a sensor without errors.
   std::vector<std::vector<double>> trust = {};
   /// Whether any errors were found that stand against the noise as stated, or
-  /// blunders were left out. If not, only notes and doubts are filled in: the
-  /// plain batch is the result.
+  /// blunders were left out, and the batch with them converged. If not, only notes
+  /// and doubts are filled in: the plain batch is the result.
   bool stands = false;
   std::vector<BoundedValue> bounded = {};
   std::vector<std::string> notes = {};  ///< what was found, in words

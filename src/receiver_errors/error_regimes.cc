@@ -40,11 +40,12 @@ ErrorParameters TuneAsSolved(const RegimeProblem& problem,
                    problem.effort);
 }
 
-double LogEvidence(const Hypothesis& best, const ErrorParameters& from) {
-  return best.log_posterior + LogPriorOf(best.sequence, best.parameters, from) -
-         0.5 * CountParameters(best.sequence) *
-             std::log(static_cast<double>(
-                 std::max<std::size_t>(2, best.sequence.size())));
+double LogEvidence(const RegimeProblem& problem, const Hypothesis& best,
+                   const ErrorParameters& from,
+                   double least_scale = kLeastScale) {
+  return best.log_posterior + LogPriorOf(best.sequence, best.parameters, from) +
+         LogShareOfPrior(problem.tape, problem.sensor, best.sequence,
+                         best.parameters, from, least_scale, problem.effort);
 }
 
 /// The noise as stated: what the plain batch takes it for.
@@ -61,25 +62,25 @@ ErrorRegimes AsStated(const RegimeProblem& problem) {
   return out;
 }
 
-/// White or Gauss-Markov throughout: there is but one sequence.
+/// White or Gauss-Markov throughout: there is but one sequence. `as_solved`: with
+/// noise that the batch can be solved with.
 ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
-                        const ErrorParameters& from,
-                        ErrorParameters (*tune)(const RegimeProblem&,
-                                                const ModeSequence&,
-                                                const ErrorParameters&)) {
+                        const ErrorParameters& from, bool as_solved = false) {
   const ErrorMode mode = kind == ErrorRegimes::Kind::kWhite
                              ? ErrorMode::kGood
                              : ErrorMode::kBiased;
   Hypothesis one;
   one.sequence = Uniform(problem, mode);
   if (mode == ErrorMode::kBiased) one.sequence.front().anew = true;
-  one.parameters = tune(problem, one.sequence, from);
+  one.parameters = as_solved ? TuneAsSolved(problem, one.sequence, from)
+                             : Tune(problem, one.sequence, from);
   one.log_posterior =
       ScoreSequence(problem.tape, problem.sensor, one.parameters, one.sequence)
           .log_likelihood;
   ErrorRegimes out;
   out.kind = kind;
-  out.log_evidence = LogEvidence(one, from);
+  out.log_evidence =
+      LogEvidence(problem, one, from, as_solved ? kLeastSolved : kLeastScale);
   out.hypotheses.push_back(std::move(one));
   return out;
 }
@@ -99,7 +100,7 @@ ErrorRegimes FitSwitching(const RegimeProblem& problem,
   out.hypotheses = RefineHypotheses(problem.tape, problem.sensor,
                                     Tune(problem, sequence, from), {{sequence}},
                                     problem.effort);
-  out.log_evidence = LogEvidence(out.hypotheses.front(), from);
+  out.log_evidence = LogEvidence(problem, out.hypotheses.front(), from);
   return out;
 }
 
@@ -192,13 +193,13 @@ std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
     if (!fits.empty() && problem.effort->IsSpent()) break;
     fits.push_back(FitAttempt(problem, attempt, attempts));
   }
+  std::vector<ErrorRegimes> others = FitOtherTellings(problem, fits);
+  std::move(others.begin(), others.end(), std::back_inserter(fits));
   for (int i = 0; i < kMostRivals && !problem.effort->IsSpent(); ++i) {
     const Hypothesis* rival = NextRival(fits);
     if (rival == nullptr) break;
     fits.push_back(FitSwitching(problem, rival->sequence, rival->parameters));
   }
-  std::vector<ErrorRegimes> others = FitOtherTellings(problem, fits);
-  std::move(others.begin(), others.end(), std::back_inserter(fits));
   return fits;
 }
 
@@ -233,11 +234,9 @@ const char* RegimeName(ErrorRegimes::Kind kind) {
 
 std::vector<ErrorRegimes> FitNoise(const RegimeProblem& problem) {
   std::vector<ErrorRegimes> all = {
-      AsStated(problem),
-      FitUniform(problem, ErrorRegimes::Kind::kWhite, {}, Tune)};
+      AsStated(problem), FitUniform(problem, ErrorRegimes::Kind::kWhite, {})};
   if (!CanBeSolved(all[1].hypotheses.front().parameters)) {
-    all.push_back(
-        FitUniform(problem, ErrorRegimes::Kind::kWhite, {}, TuneAsSolved));
+    all.push_back(FitUniform(problem, ErrorRegimes::Kind::kWhite, {}, true));
   }
   return all;
 }
@@ -248,8 +247,7 @@ std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem) {
   ErrorParameters start = all[1].hypotheses.front().parameters;
   start.sigma = problem.stated_sigma;
   start.tau = 100.0;
-  all.push_back(
-      FitUniform(problem, ErrorRegimes::Kind::kGaussMarkov, start, Tune));
+  all.push_back(FitUniform(problem, ErrorRegimes::Kind::kGaussMarkov, start));
   start.scale = std::min(start.scale,
                          MeanScale(all.back().hypotheses.front().parameters));
   std::vector<ErrorRegimes> fits = FitOrders(problem, start, all[1]);
@@ -262,11 +260,11 @@ ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
                            const ErrorRegimes& found) {
   std::vector<Hypothesis> all = found.hypotheses;
   for (Hypothesis& one : all) one.sequence = AtFixes(points, one.sequence);
-  const ErrorParameters parameters = TuneNoise(
-      problem.tape, problem.sensor, all.front().sequence,
-      all.front().parameters,
-      found.kind == ErrorRegimes::Kind::kWhite ? kLeastSolved : kLeastScale,
-      problem.effort);
+  const double least_scale =
+      found.kind == ErrorRegimes::Kind::kWhite ? kLeastSolved : kLeastScale;
+  const ErrorParameters parameters =
+      TuneNoise(problem.tape, problem.sensor, all.front().sequence,
+                all.front().parameters, least_scale, problem.effort);
   ErrorRegimes out;
   out.kind = found.kind;
   if (found.kind == ErrorRegimes::Kind::kSwitching) {
@@ -279,7 +277,8 @@ ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
                                     .log_likelihood;
     out.hypotheses = std::move(all);
   }
-  out.log_evidence = LogEvidence(out.hypotheses.front(), parameters);
+  out.log_evidence =
+      LogEvidence(problem, out.hypotheses.front(), parameters, least_scale);
   return out;
 }
 

@@ -21,9 +21,8 @@ struct ErrorRegimes {
   /// The likeliest first; with kSwitching, others that the data do not rule out,
   /// each with the parameters of the fit that likes it best.
   std::vector<Hypothesis> hypotheses;
-  /// ln of the evidence: of likelihood, prior of the sequence and priors of the
-  /// parameters of the first hypothesis, less (parameters / 2) ln(fixes), which
-  /// is Schwarz's approximation of the integral over them.
+  /// ln of the evidence: of likelihood and prior of the sequence of the first
+  /// hypothesis, integrated over its parameters (LogShareOfPrior).
   double log_evidence = 0.0;
 };
 

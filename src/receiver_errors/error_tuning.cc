@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/units.h"
 #include "receiver_errors/sequence_smoother.h"
 
 namespace hindsight {
@@ -69,6 +70,19 @@ double LogPriorOf(const std::vector<Tunable>& tunables,
   return log_prior;
 }
 
+/// ln of the integral of exp(slope u - curvature u^2 / 2) over u > 0.
+double LogOfHalfIntegral(double slope, double curvature) {
+  constexpr double kFar = 25.0;  // where erfc is not yet zero
+  const double x = -slope / std::sqrt(2.0 * curvature);
+  if (x > kFar) return -std::log(-slope);
+  return 0.5 * std::log(0.5 * kPi / curvature) + x * x + std::log(std::erfc(x));
+}
+
+/// ln of the integral of exp(-curvature u^2 / 2) over all u.
+double LogOfIntegral(double curvature) {
+  return 0.5 * std::log(2.0 * kPi / curvature);
+}
+
 /// The likelihood of a sequence as a function of the parameters.
 class Tuning {
  public:
@@ -90,6 +104,15 @@ class Tuning {
       }
     }
     return ClimbFinely();
+  }
+
+  double LogShareOfPrior(const ErrorParameters& found, double least_scale) {
+    tunables_.front().least = least_scale;
+    parameters_ = found;
+    value_ = Value(found);
+    double sum = 0.0;
+    for (const Tunable& tunable : tunables_) sum += LogShareOfPrior(tunable);
+    return sum;
   }
 
   /// The first three, scale and outliers, alone.
@@ -115,6 +138,49 @@ class Tuning {
     if (effort_ != nullptr) effort_->Spend(tape_.size());
     return ScoreSequence(tape_, receiver_, p, sequence_).log_likelihood +
            LogPriorOf(tunables_, p);
+  }
+
+  /// ln of what the posterior gains where the logarithm of a parameter is moved;
+  /// as at the bounds beyond them.
+  double GainAt(const Tunable& tunable, double by) const {
+    ErrorParameters p = parameters_;
+    p.*tunable.member = std::clamp(p.*tunable.member * std::exp(by),
+                                   tunable.least, tunable.most);
+    return Value(p) - value_;
+  }
+
+  /// ln of the integral over the logarithm of one parameter of the posterior, by
+  /// its value here, less that of the prior: from a parabola through three points
+  /// so far apart that it falls, at least as narrow as the prior, with its top here.
+  double LogShareOfPrior(const Tunable& tunable) const {
+    constexpr double kFalls = -0.5;
+    constexpr double kWider = 3.0;
+    const bool at_least = parameters_.*tunable.member < 1.001 * tunable.least;
+    double h = 0.15 * tunable.spread;
+    double near = 0.0;
+    double far = 0.0;
+    const auto fall = [&] {
+      near = GainAt(tunable, h);
+      far = GainAt(tunable, at_least ? 2.0 * h : -h);
+      return std::max(near, far);
+    };
+    double falls = fall();
+    while (falls > kFalls && h < tunable.spread) {
+      h *= kWider;
+      falls = fall();
+    }
+    const double prior = 1.0 / (tunable.spread * tunable.spread);
+    const double below = std::log(tunable.least / tunable.typical);
+    const double log_prior =
+        LogOfIntegral(prior) +
+        std::log(0.5 * std::erfc(below * std::sqrt(0.5 * prior)));
+    if (!at_least) {
+      const double curvature = std::max(prior, -(far + near) / (h * h));
+      return LogOfIntegral(curvature) - log_prior;
+    }
+    const double curvature = std::max(prior, (2.0 * near - far) / (h * h));
+    const double slope = near / h + 0.5 * curvature * h;
+    return LogOfHalfIntegral(std::min(0.0, slope), curvature) - log_prior;
   }
 
   bool Walk(const Tunable& tunable, double step) {
@@ -164,8 +230,13 @@ double LogPriorOf(const ModeSequence& sequence, const ErrorParameters& p,
   return LogPriorOf(TunablesOf(sequence, typical), p);
 }
 
-int CountParameters(const ModeSequence& sequence) {
-  return static_cast<int>(TunablesOf(sequence, {}).size());
+double LogShareOfPrior(const LinearTape& tape, int receiver,
+                       const ModeSequence& sequence,
+                       const ErrorParameters& found,
+                       const ErrorParameters& typical, double least_scale,
+                       SearchEffort* effort) {
+  return Tuning(tape, receiver, sequence, typical, effort)
+      .LogShareOfPrior(found, least_scale);
 }
 
 std::vector<BoundedValue> BoundedParameters(const ModeSequence& sequence,

@@ -47,8 +47,18 @@ inline constexpr double kLeastScale = 0.1;
 double LogPriorOf(const ModeSequence& sequence, const ErrorParameters& p,
                   const ErrorParameters& typical);
 
-/// How many parameters TuneParameters seeks for the sequence.
-int CountParameters(const ModeSequence& sequence);
+/// ln of the integral over the parameters of likelihood times prior, by likelihood times
+/// prior at `found`, the prior being that of LogPriorOf, normalised: Laplace's approximation (MacKay,
+/// Information Theory, Inference, and Learning Algorithms, 27), of each parameter by
+/// itself. A parameter of which the data say nothing adds nothing, others take
+/// ln of the ratio of their posterior sigma to that a priori. The scale is
+/// integrated from `least_scale` on.
+double LogShareOfPrior(const LinearTape& tape, int receiver,
+                       const ModeSequence& sequence,
+                       const ErrorParameters& found,
+                       const ErrorParameters& typical,
+                       double least_scale = kLeastScale,
+                       SearchEffort* effort = nullptr);
 
 /// The parameters of a sequence that TuneParameters seeks within bounds which
 /// mean something: a share of outliers may be as small as it likes, the IMU as

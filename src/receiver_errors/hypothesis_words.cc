@@ -32,6 +32,25 @@ void AddPart(const std::string& part, std::string* all) {
   *all += part;
 }
 
+/// The likeliest of the hypotheses whose separation is as wanted.
+template <typename Wanted>
+RivalHypothesis LikeliestOf(const std::vector<WeighedHypothesis>& all,
+                            const WeighedHypothesis& chosen,
+                            const CovarianceSeries& P, const Wanted& wanted) {
+  RivalHypothesis rival;
+  for (const WeighedHypothesis& one : all) {
+    const Separation separation = Separate(one, chosen, P);
+    if (!wanted(separation)) continue;
+    rival.probability += one.weight;
+    if (rival.hypothesis != nullptr && one.weight <= rival.hypothesis->weight) {
+      continue;
+    }
+    rival.hypothesis = &one;
+    rival.distance = separation.distance;
+  }
+  return rival;
+}
+
 }  // namespace
 
 Separation Separate(const WeighedHypothesis& one,
@@ -44,7 +63,9 @@ Separation Separate(const WeighedHypothesis& one,
         (one.smoothed[k] - chosen.smoothed[k]).template head<2>();
     out.distance = std::max(out.distance, d.norm());
     const Eigen::Matrix2d P_h = P.Get(k).topLeftCorner<2, 2>();
-    out.significant |= d.dot(P_h.llt().solve(d)) > kSigmas * kSigmas;
+    const double nees = d.dot(P_h.llt().solve(d));
+    out.significant |= nees > kSigmas * kSigmas;
+    out.nees += nees / static_cast<double>(chosen.smoothed.size());
   }
   return out;
 }
@@ -79,18 +100,16 @@ std::string DescribeSequence(const std::vector<ErrorStep>& steps,
 RivalHypothesis FindRival(const std::vector<WeighedHypothesis>& all,
                           const WeighedHypothesis& chosen,
                           const CovarianceSeries& P) {
-  RivalHypothesis rival;
-  for (const WeighedHypothesis& one : all) {
-    const Separation separation = Separate(one, chosen, P);
-    if (!separation.significant) continue;
-    rival.probability += one.weight;
-    if (rival.hypothesis != nullptr && one.weight <= rival.hypothesis->weight) {
-      continue;
-    }
-    rival.hypothesis = &one;
-    rival.distance = separation.distance;
-  }
-  return rival;
+  return LikeliestOf(all, chosen, P,
+                     [](const Separation& s) { return s.significant; });
+}
+
+RivalHypothesis FindRivalBeyond(const std::vector<WeighedHypothesis>& all,
+                                const WeighedHypothesis& chosen,
+                                const CovarianceSeries& P) {
+  constexpr double kWrong = 25.0;
+  return LikeliestOf(all, chosen, P,
+                     [](const Separation& s) { return s.nees > kWrong; });
 }
 
 std::vector<std::string> DescribeParameters(ErrorRegimes::Kind kind,

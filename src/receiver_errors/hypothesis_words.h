@@ -15,11 +15,13 @@ namespace hindsight {
 std::string DescribeSequence(const std::vector<ErrorStep>& steps,
                              const std::vector<double>& times);
 
-/// The largest horizontal distance of two trajectories, and whether it is more
-/// than three standard deviations of P anywhere.
+/// The largest horizontal distance of two trajectories; whether it is more
+/// than three standard deviations of P anywhere; and its mean square by P, the NEES of
+/// the horizontal position if the other were right.
 struct Separation {
   double distance = 0.0;
   bool significant = false;
+  double nees = 0.0;
 };
 Separation Separate(const WeighedHypothesis& one,
                     const WeighedHypothesis& chosen, const CovarianceSeries& P);
@@ -35,6 +37,11 @@ struct RivalHypothesis {
 RivalHypothesis FindRival(const std::vector<WeighedHypothesis>& all,
                           const WeighedHypothesis& chosen,
                           const CovarianceSeries& P);
+/// The likeliest of those that would make P wrong if they were right: with a mean
+/// NEES of the horizontal position above 25, where 2 is right.
+RivalHypothesis FindRivalBeyond(const std::vector<WeighedHypothesis>& all,
+                                const WeighedHypothesis& chosen,
+                                const CovarianceSeries& P);
 
 /// What the noise and the errors of a sensor are like, a sentence each; `unit` of
 /// its error.

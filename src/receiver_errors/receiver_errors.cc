@@ -18,16 +18,21 @@ namespace {
 /// Of rivals: odds of 10^(1/2) against them.
 constexpr double kComparable = 1.0 / (1.0 + 3.1622776601683795);
 
+/// Of a rival beyond what the covariances hold: odds of a thousand against it.
+constexpr double kSure = 1e-3;
+
 Evidence DoubtOf(const RivalHypothesis& rival, const std::vector<double>& times,
-                 const std::string& chosen) {
+                 const std::string& chosen, bool is_mean) {
   return {.grade = Grade::kDoubtful,
           .what = fmt::format(
-              "{}; or else, {:.2g} % likely and up to {:.3g} m away, {}: the "
-              "result is the mean, weighed by their probabilities",
+              "{}; or else, {:.2g} % likely and up to {:.3g} m away, {}{}",
               chosen, 100.0 * rival.probability, rival.distance,
-              DescribeSequence(rival.hypothesis->steps, times)),
+              DescribeSequence(rival.hypothesis->steps, times),
+              is_mean ? ": the result is the mean, weighed by their "
+                        "probabilities"
+                      : ""),
           .value = rival.probability,
-          .limit = kComparable,
+          .limit = is_mean ? kComparable : kSure,
           .unit = "probability",
           .causes = {"errors that explain the data as well in two ways"},
           .remedies = {"another sensor of positions, or a stream with a "
@@ -35,10 +40,10 @@ Evidence DoubtOf(const RivalHypothesis& rival, const std::vector<double>& times,
 }
 
 /// Whether a sensor tells a position, a velocity over the ground, a height, a
-/// course or a heading by itself.
+/// course, a heading or the magnetic field by itself.
 bool IsAbsolute(const SensorKind& kind) {
   return kind.is_position || (kind.moves && !kind.of_vehicle) ||
-         kind.is_height || kind.is_heading;
+         kind.is_height || kind.is_heading || kind.magnetic;
 }
 
 /// Those with a used measurement on the tape, of at most three rows; positions
@@ -110,8 +115,11 @@ std::optional<Evidence> ReceiverErrors::Average(const ErrorLayout& layout,
     }
     P->Set(k, P_k);
   }
-  if (!comparable) return std::nullopt;
-  return DoubtOf(rival, found_->Times(), InWords());
+  if (comparable) return DoubtOf(rival, found_->Times(), InWords(), true);
+  const RivalHypothesis beyond =
+      FindRivalBeyond(found_->alternatives, chosen, *P);
+  if (beyond.probability < kSure) return std::nullopt;
+  return DoubtOf(beyond, found_->Times(), InWords(), false);
 }
 
 std::vector<std::string> ReceiverErrors::Notes(
@@ -223,15 +231,20 @@ std::vector<ReceiverErrors> FindReceiverErrors(const Problem& problem,
     return std::ranges::count(question.known, sensor) > 0;
   });
   const auto count = static_cast<double>(sensors.size());
-  for (const int sensor : sensors) {
+  double left = 1.0;
+  // Positions, which take the most, come last and get what the others leave.
+  for (auto sensor = sensors.rbegin(); sensor != sensors.rend(); ++sensor) {
     const auto done = static_cast<double>(found.size());
     const SearchLimits limits = {
-        1.0 / count, [&](double fraction) {
+        left / (count - done), [&](double fraction) {
           return !question.go_on || question.go_on((done + fraction) / count);
         }};
-    found.push_back(ReceiverErrors(
-        std::make_unique<const SensorFindings>(problem, tape, sensor, limits)));
+    auto one =
+        std::make_unique<const SensorFindings>(problem, tape, *sensor, limits);
+    left -= one->spent;
+    found.push_back(ReceiverErrors(std::move(one)));
   }
+  std::ranges::reverse(found);
   std::ranges::stable_sort(found, std::greater<>(), &ReceiverErrors::log_gain);
   return found;
 }

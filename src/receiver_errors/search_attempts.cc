@@ -35,6 +35,7 @@ std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
     p.slight_sigma = kSlight * problem.stated_sigma;
     p.tau = tau;
     p.rate_sigma = p.sigma / kRateTime;
+    p.imu_scale = 1.0;
   }
   return starts;
 }
@@ -148,6 +149,7 @@ Attempt BestDriftThatEnds(const RegimeProblem& problem,
     });
     ErrorParameters p = jumping.parameters;
     p.rate_sigma = size / (static_cast<double>(drifts) * dt);
+    p.imu_scale = 1.0;
     problem.effort->Spend(problem.tape.size());
     const double log_posterior = LogPosterior(problem, p, one);
     if (best.sequence.empty() || log_posterior > best.log_posterior) {

@@ -28,6 +28,7 @@ class SearchEffort {
   }
   /// Nothing more is to be tried.
   bool IsSpent() const { return stopped_ || spent_ >= most_; }
+  double spent() const { return spent_; }
   /// Ended by whoever asked, not by the count.
   bool stopped() const { return stopped_; }
 

@@ -29,13 +29,25 @@ double StatedSigma(const LinearTape& tape, int sensor) {
   return std::sqrt(sum / std::max(1, count));
 }
 
-std::string UnitOf(const SensorKind& kind) {
+/// Of a magnetometer the azimuth of its field, or the field in axes of the
+/// vehicle.
+std::string UnitOf(const SensorKind& kind, Eigen::Index rows) {
+  if (kind.magnetic) return rows == 1 ? "rad" : "uT";
   return std::string(kind.residual_unit.empty() ? "SI" : kind.residual_unit);
+}
+
+Eigen::Index RowsOf(const LinearTape& tape, int sensor) {
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      if (z.sensor == sensor) return z.residual.size();
+    }
+  }
+  return 0;
 }
 
 /// Filter steps of a search; of long tapes so many a node.
 double MostEffort(const LinearTape& tape) {
-  constexpr double kAtLeast = 3e5;
+  constexpr double kAtLeast = 6e5;
   constexpr double kPerNode = 400.0;
   return std::max(kAtLeast, kPerNode * static_cast<double>(tape.size()));
 }
@@ -63,7 +75,8 @@ ErrorDecisions::ErrorDecisions(const Problem& problem, const LinearTape& tape,
       name(problem.timeline.sensors()[static_cast<std::size_t>(index)].name),
       alone(IsAlone(problem.timeline, index)),
       unit(UnitOf(
-          *problem.timeline.sensors()[static_cast<std::size_t>(index)].kind)),
+          *problem.timeline.sensors()[static_cast<std::size_t>(index)].kind,
+          RowsOf(tape, index))),
       stated_sigma(StatedSigma(tape, index)) {}
 
 SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
@@ -72,16 +85,17 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
   constexpr double kSearch = 0.8;  // of the time, the rest refines
   const std::optional<NormalPoints> points = FormNormalPoints(tape, sensor);
   const LinearTape& searched = points ? points->tape : tape;
-  SearchEffort effort(
-      limits.share * MostEffort(searched), [&limits](double fraction) {
-        return !limits.go_on || limits.go_on(kSearch * fraction);
-      });
+  const double most = MostEffort(searched);
+  SearchEffort effort(limits.share * most, [&limits](double fraction) {
+    return !limits.go_on || limits.go_on(kSearch * fraction);
+  });
   const RegimeProblem regime{
       searched, sensor, stated_sigma,
       problem.layout.Has(BlockKind::kColouredNoise, sensor), &effort};
   std::vector<ErrorRegimes> all = FitRegimes(regime);
   choice = ChooseRegime(regime, all);
   stopped = effort.stopped();
+  spent = std::min(limits.share, effort.spent() / most);
   SearchEffort rest(RefinementEffort(tape), [&limits](double fraction) {
     return !limits.go_on || limits.go_on(kSearch + (1.0 - kSearch) * fraction);
   });

@@ -68,6 +68,7 @@ struct SensorFindings : ErrorDecisions {
   std::size_t central = 0;  ///< of the alternatives, the chosen one
   /// The chosen one has the sensor err from its first fix, doubtfully.
   bool errant_start = false;
+  double spent = 0.0;  ///< share of the effort that the search took
 };
 
 /// What was decided, about another tape, of which nothing is searched anew;

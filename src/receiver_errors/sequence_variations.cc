@@ -11,6 +11,10 @@ namespace {
 constexpr std::size_t kShortest = 5;
 constexpr double kLengthRatio = 1.25;
 
+bool IsBias(ErrorMode mode) {
+  return mode == ErrorMode::kBiased || mode == ErrorMode::kSlight;
+}
+
 ErrorMode ModeBefore(const ModeSequence& h, std::size_t i) {
   return i == 0 ? ErrorMode::kGood : h[i - 1].mode;
 }
@@ -152,11 +156,9 @@ void ForEachVelocityStep(
 
 std::vector<ModeSequence> RolesExchanged(const ModeSequence& h) {
   const auto errs = [](const ErrorStep& s) {
-    return s.mode == ErrorMode::kBiased || s.mode == ErrorMode::kDrifting;
+    return s.mode != ErrorMode::kGood;
   };
-  const auto biased = [](const ErrorStep& s) {
-    return s.mode == ErrorMode::kBiased;
-  };
+  const auto biased = [](const ErrorStep& s) { return IsBias(s.mode); };
   const auto at_start = static_cast<std::size_t>(
       std::find_if_not(h.begin(), h.end(), errs) - h.begin());
   const auto at_end = static_cast<std::size_t>(
@@ -187,12 +189,12 @@ std::vector<ModeSequence> DriftsThatEnd(const ModeSequence& h) {
   const std::vector<std::size_t> at = Parts(h);
   if (at.size() < 2) return all;
   const std::size_t last = at[at.size() - 2];
-  if (h[last].mode == ErrorMode::kBiased && h[last].anew && last > 0) {
+  if (IsBias(h[last].mode) && h[last].anew && last > 0) {
     ModeSequence good = h;
     SetError(ErrorMode::kGood, last, h.size(), &good);
     add(std::move(good), last);
   }
-  if (h.front().mode == ErrorMode::kBiased && at[1] < h.size() &&
+  if (IsBias(h.front().mode) && at[1] < h.size() &&
       h[at[1]].mode == ErrorMode::kGood) {
     ModeSequence good = h;
     SetError(ErrorMode::kGood, 0, at[1], &good);

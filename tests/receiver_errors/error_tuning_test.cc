@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "filters/forward_filter.h"
+#include "receiver_errors/sequence_smoother.h"
 #include "support/test_problem.h"
 
 namespace hindsight {
@@ -88,6 +89,69 @@ TEST(TuneParameters, AgreesWithExpectationMaximisationOnTheErrorsThemselves) {
               std::log(1.3));
   EXPECT_NEAR(std::log(tuned.outlier_ratio / em.outlier_ratio), 0.0,
               std::log(1.3));
+}
+
+/// One parameter's logarithm on a grid.
+struct Grid {
+  double likeliest = 0.0;  ///< value of the parameter
+  double log_share = 0.0;  ///< ln of the sum of the posterior, by its largest
+                           ///< value and the sum of the prior
+};
+
+Grid OnGrid(const LinearTape& tape, const ModeSequence& sequence,
+            const ErrorParameters& at, double ErrorParameters::*member,
+            double least, double spread) {
+  constexpr double kStep = 0.03;
+  constexpr double kRange = 6.0;
+  Grid grid;
+  double largest = -1e300;
+  double posterior = 0.0;
+  double prior = 0.0;
+  for (double x = 0.0; x < kRange; x += kStep) {
+    ErrorParameters p = at;
+    p.*member = least * std::exp(x);
+    const double value = ScoreSequence(tape, 0, p, sequence).log_likelihood +
+                         LogPriorOf(sequence, p, {});
+    if (value > largest) {
+      posterior *= std::exp(largest - value);
+      largest = value;
+      grid.likeliest = p.*member;
+    }
+    const double z = std::log(p.*member / (ErrorParameters().*member)) / spread;
+    const double weight = x == 0.0 ? 0.5 : 1.0;
+    posterior += weight * std::exp(value - largest);
+    prior += weight * std::exp(-0.5 * z * z);
+  }
+  grid.log_share = std::log(posterior / prior);
+  return grid;
+}
+
+/// Of each parameter by itself, against sums over a grid; that of the IMU is at its
+/// bound.
+TEST(LogShareOfPrior, IsTheIntegralOverEachParameter) {
+  const NoisyFixes noisy = MakeNoisyFixes();
+  Problem posed =
+      noisy.problem.Pose(GateDecisions(noisy.problem.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(noisy.problem.truth, &posed);
+  const ModeSequence good(noisy.errors.size());
+  ErrorParameters p = TuneParameters(tape, 0, good, {});
+  ASSERT_EQ(p.imu_scale, 1.0);
+  double sum = 0.0;
+  for (int round = 0; round < 2; ++round) {
+    sum = 0.0;
+    const auto settle = [&](double ErrorParameters::*member, double least,
+                            double spread) {
+      const Grid grid = OnGrid(tape, good, p, member, least, spread);
+      p.*member = grid.likeliest;
+      sum += grid.log_share;
+    };
+    settle(&ErrorParameters::scale, 0.1, 0.7);
+    settle(&ErrorParameters::outlier_share, 1e-3, 1.5);
+    settle(&ErrorParameters::outlier_ratio, 3.0, 1.5);
+    settle(&ErrorParameters::imu_scale, 1.0, 1.1);
+  }
+  EXPECT_NEAR(LogShareOfPrior(tape, 0, good, p, {}), sum, 4 * 0.2);
+  EXPECT_LT(sum, -6.0);
 }
 
 }  // namespace

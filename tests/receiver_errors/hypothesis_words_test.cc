@@ -53,5 +53,18 @@ TEST(HypothesisWords, ARivalIsWhatMovesTheTrajectoryByThreeSigmas) {
   EXPECT_EQ(FindRival({all[0], all[1]}, all[0], P).hypothesis, nullptr);
 }
 
+/// At one of two nodes: 50 sigma^2 in the mean are 10 sigmas there.
+TEST(HypothesisWords, ARivalBeyondWouldHaveANeesAbove25) {
+  const std::vector<WeighedHypothesis> all = {
+      Alternative(0.9, 0.0), Alternative(0.08, 0.70), Alternative(0.02, 0.72)};
+  CovarianceSeries P(3, 2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    P.Set(k, ErrorMatrix(0.01 * ErrorMatrix::Identity(3, 3)));
+  }
+  const RivalHypothesis beyond = FindRivalBeyond(all, all[0], P);
+  EXPECT_EQ(beyond.hypothesis, &all[2]);
+  EXPECT_NEAR(beyond.probability, 0.02, 1e-12);
+}
+
 }  // namespace
 }  // namespace hindsight

@@ -129,6 +129,19 @@ TEST(ModeSequence, TellsAJumpAsTheEndOfADrift) {
   EXPECT_TRUE(DriftsThatEnd(ModeSequence(12)).empty());
 }
 
+/// A slight bias is a bias: by fixes alone it may as well be the other way about.
+TEST(ModeSequence, TellsAJumpToASlightBiasInOtherWays) {
+  ModeSequence h(12);
+  for (std::size_t i = 0; i < 8; ++i) h[i].mode = ErrorMode::kSlight;
+  h[0].anew = true;
+  const std::vector<ModeSequence> all = RolesExchanged(h);
+  ASSERT_EQ(all.size(), 1u);
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(all[0][i].mode, i < 8 ? ErrorMode::kGood : ErrorMode::kBiased);
+  }
+  EXPECT_EQ(DriftsThatEnd(h).size(), 2u);
+}
+
 TEST(ModeSequence, FindsWhenABiasBeginsAndEnds) {
   TestProblem problem = PositionsOnly(60.0);
   for (std::size_t k = 20; k < 30; ++k) {

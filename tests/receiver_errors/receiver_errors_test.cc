@@ -6,9 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "base/random.h"
+#include "base/units.h"
 #include "earth/wgs84.h"
 #include "filters/forward_filter.h"
 #include "measurements/height_fix.h"
+#include "measurements/magnetic_field.h"
 #include "receiver_errors/mode_sequence.h"
 #include "receiver_errors/sensor_findings.h"
 #include "support/test_problem.h"
@@ -16,8 +19,10 @@
 namespace hindsight {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::MakeProblem;
+using ::testing::Not;
 using testing::TacticalNoise;
 using testing::TestProblem;
 using testing::TestProblemOptions;
@@ -237,6 +242,22 @@ TEST(ReceiverErrors, OfWhichOneIsFarLikelierAreNoMean) {
   EXPECT_NEAR(likelier.variance, 0.05 * 900.0, 10.0);
 }
 
+/// One per cent, of which 36 m are ten sigmas of the widened covariance, spoils what
+/// is stated; one in three thousand is none to speak of.
+TEST(ReceiverErrors, OfARivalBeyondTheCovariancesAreDoubtful) {
+  const Averaged beyond =
+      AverageTellings({.behind = 4.6, .step = 45.5, .start_sigma = 10.0});
+  ASSERT_TRUE(beyond.doubt.has_value());
+  EXPECT_EQ(beyond.doubt->grade, Grade::kDoubtful);
+  EXPECT_THAT(beyond.doubt->what,
+              HasSubstr("or else, 1 % likely and up to 36"));
+  EXPECT_THAT(beyond.doubt->what, Not(HasSubstr("mean")));
+  EXPECT_LT(beyond.off, 2.0);
+  EXPECT_FALSE(
+      AverageTellings({.behind = 8.0, .step = 45.5, .start_sigma = 10.0})
+          .doubt.has_value());
+}
+
 constexpr double kOneAlone = std::numeric_limits<double>::infinity();
 
 /// What a priori speaks for an error of the share that it has at the end of a
@@ -309,6 +330,60 @@ TEST(ReceiverErrors, OfASensorOfOneRowHaveACompleteBlock) {
   EXPECT_EQ(e->dim, 3);
   const std::vector<State> states = errors.States(problem.layout);
   EXPECT_NEAR(states[45].parameters(e->parameter_offset), 50.0, 3.0);
+}
+
+/// Two minutes of a drive whose compass is 40 deg off from 50 to 80 s, by something on
+/// the vehicle.
+TestProblem DisturbedCompass(MagneticField::Form form) {
+  constexpr double kSigma = 0.5;  // [uT]
+  TestProblemOptions options;
+  options.noise = TacticalNoise(true);
+  options.layout = TypicalLayout(options.noise);
+  options.errors = true;
+  options.duration = 120.0;
+  options.position_sigma = 0.5;
+  TestProblem test = MakeProblem(options, 3);
+  Sensor& compass = test.sensors[1];
+  compass.kind = &MagnetometerKind();
+  compass.magnetic.horizontal = 20.0;
+  compass.magnetic.down = 40.0;
+  const Eigen::Vector3d m_n = UndisturbedField(compass.magnetic, 0.0);
+  Random random(7);
+  for (Measurement& z : test.measurements) {
+    if (z.sensor != 1) continue;
+    const State& x = test.truth[static_cast<std::size_t>(std::lround(z.t))];
+    const double turn = z.t > 49.5 && z.t < 80.5 ? 40.0 * kDegree : 0.0;
+    const Eigen::AngleAxisd off(turn, Eigen::Vector3d::UnitZ());
+    z.model =
+        MagneticField{x.q_eb.conjugate() * (NedAxes(x.p_e) * (off * m_n)) +
+                          kSigma * random.NormalVector3(),
+                      kSigma, form};
+  }
+  return test;
+}
+
+/// A compass that something on the vehicle turns is the sensor that errs, not the
+/// receiver that it contradicts.
+TEST(ReceiverErrors, OfACompassAreFound) {
+  for (const auto form :
+       {MagneticField::Form::kHeading, MagneticField::Form::kVector}) {
+    const TestProblem test = DisturbedCompass(form);
+    Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+    const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+    const std::vector<ReceiverErrors> found =
+        FindReceiverErrors(problem, tape, {});
+    ASSERT_EQ(found.size(), 2u);
+    ASSERT_TRUE(found[0].Stands());
+    EXPECT_EQ(found[0].sensor(), 1);
+    EXPECT_THAT(found[0].InWords(), HasSubstr("from 50 to 81 s"));
+    CovarianceSeries P(tape.dim(), tape.size());
+    for (std::size_t k = 0; k < tape.size(); ++k) {
+      P.Set(k, ErrorMatrix::Identity(tape.dim(), tape.dim()));
+    }
+    EXPECT_THAT(found[0].Notes(P),
+                Contains(HasSubstr(
+                    form == MagneticField::Form::kHeading ? "rad" : "uT")));
+  }
 }
 
 /// The first node has no fix: the receiver errs from the first fix on.
