@@ -96,9 +96,11 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
   choice = ChooseRegime(regime, all);
   stopped = effort.stopped();
   spent = std::min(limits.share, effort.spent() / most);
-  SearchEffort rest(RefinementEffort(tape), [&limits](double fraction) {
-    return !limits.go_on || limits.go_on(kSearch + (1.0 - kSearch) * fraction);
-  });
+  SearchEffort rest(limits.share * RefinementEffort(tape),
+                    [&limits](double fraction) {
+                      return !limits.go_on ||
+                             limits.go_on(kSearch + (1.0 - kSearch) * fraction);
+                    });
   if (points && stands()) {
     Refine(*points, std::move(all), &rest);
   } else if (points) {
