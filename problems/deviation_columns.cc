@@ -35,6 +35,15 @@ std::optional<Eigen::Vector3d> NavigationValue(
   return std::nullopt;
 }
 
+/// What one more of a component adds to a measurement.
+Eigen::VectorXd UnitOf(int component, const Measurement& z) {
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(Rows(z));
+  for (int row = 0; row < unit.size(); ++row) {
+    if (ComponentOf(z, row) == component) unit(row) = 1.0;
+  }
+  return unit;
+}
+
 bool Fits(const ErrorLayout& layout, BlockKind kind) {
   const int dim = FullDimension(kind);
   return layout.dim() + dim <= kMaxErrorDim &&
@@ -217,9 +226,7 @@ std::vector<ShiftColumns::Columns> DeviationColumns::Measured(
     const Deviation& deviation = own.deviations[static_cast<std::size_t>(i)];
     switch (deviation.kind) {
       case Deviation::Kind::kAdditive:
-        for (int row = 0; row < B.rows(); ++row) {
-          if (ComponentOf(measured, row) == deviation.axis) B(row, i) = 1.0;
-        }
+        B.col(i) = UnitOf(deviation.axis, measured);
         break;
       case Deviation::Kind::kTurned:
         B.col(i) = Eigen::Vector3d::Unit(deviation.axis).cross(*v);
@@ -237,7 +244,8 @@ std::vector<ShiftColumns::Columns> DeviationColumns::Measured(
         break;
     }
   }
-  return {{z.sensor, B}, {kAllClocks, rate}};
+  return {{.group = z.sensor, .B = std::move(B)},
+          {.group = kAllClocks, .B = rate}};
 }
 
 ShiftColumns::Columns DeviationColumns::Driven(std::size_t k) const {
@@ -277,7 +285,7 @@ ShiftColumns::Columns DeviationColumns::Driven(std::size_t k) const {
           C_nb * bends_[k].p;
     }
   }
-  return {kImu, B};
+  return {.group = kImu, .B = std::move(B), .may_grow = false};
 }
 
 ShiftColumns DeviationColumns::Columns() const {
@@ -285,6 +293,21 @@ ShiftColumns DeviationColumns::Columns() const {
             return Measured(k, z);
           },
           [this](std::size_t k) { return Driven(k); }};
+}
+
+ShiftColumns DeviationColumns::Additive() const {
+  return {[this](std::size_t k, const TapeMeasurement& z) {
+    const Measurement& measured =
+        problem_.timeline.measurements(k)[static_cast<std::size_t>(z.index)];
+    Eigen::MatrixXd B(z.H.rows(), 0);
+    for (const Deviation& one : Of(z.sensor)) {
+      if (one.kind != Deviation::Kind::kAdditive) continue;
+      B.conservativeResize(Eigen::NoChange, B.cols() + 1);
+      B.rightCols(1) = UnitOf(one.axis, measured);
+    }
+    return std::vector<ShiftColumns::Columns>{
+        {.group = z.sensor, .B = std::move(B)}};
+  }};
 }
 
 }  // namespace hindsight

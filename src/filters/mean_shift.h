@@ -18,6 +18,7 @@ struct ShiftColumns {
   struct Columns {
     Group group = 0;
     Eigen::MatrixXd B;
+    bool may_grow = true;  ///< whether deviations that grow are looked for too
   };
   /// What the deviation would add to a measurement of epoch k.
   std::function<std::vector<Columns>(std::size_t k, const TapeMeasurement& z)>

@@ -11,8 +11,8 @@ namespace {
 /// A deviation as large as `sizes` says at each epoch, or a jump of the state.
 struct Course {
   bool of_state = false;
-  std::size_t onset = 0;  ///< of a jump
-  int component = 0;      ///< of the state, that jumps
+  std::size_t onset = 0;
+  int component = 0;  ///< of the state, that jumps
   ShiftColumns::Group group = 0;
   std::vector<int> columns = {};
   Eigen::MatrixXd sizes = {};  ///< a row an epoch
@@ -28,7 +28,7 @@ struct Course {
 Eigen::VectorXd AddedTo(const TapeMeasurement& z, const Course& course,
                         std::size_t k, const ShiftColumns& columns) {
   Eigen::VectorXd added = Eigen::VectorXd::Zero(z.H.rows());
-  if (course.of_state) return added;
+  if (course.of_state || k < course.onset) return added;
   for (const ShiftColumns::Columns& one : columns.measured(k, z)) {
     if (one.group == course.group) added = course.Sum(k, one.B);
   }
