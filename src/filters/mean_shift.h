@@ -24,7 +24,7 @@ struct ShiftColumns {
   std::function<std::vector<Columns>(std::size_t k, const TapeMeasurement& z)>
       measured;
   /// By what the state at x_minus of epoch k >= 1 would be another after the
-  /// interval before it; none: never.
+  /// interval before it; none: never. Of one group, which no measurement has.
   std::function<Columns(std::size_t k)> driven = nullptr;
 };
 
