@@ -62,8 +62,15 @@ ImuFactor::ImuFactor(const StateBlocks* blocks, const Timeline* timeline, int k,
       timeline_(*timeline),
       k_(static_cast<std::size_t>(k)),
       summary_(timeline->SharedSummary(k_)),
-      distance_(distance),
-      whitener_(Whitener(FactorNoise(*blocks, interval(), distance))) {}
+      distance_(distance) {}
+
+Eigen::MatrixXd ImuFactor::OwnWhitener() const {
+  return Whitener(FactorNoise(blocks(), interval(), distance_));
+}
+
+void ImuFactor::Keep() {
+  if (!whitener_) whitener_ = PackedTriangle(OwnWhitener());
+}
 
 void ImuFactor::LinearizeDistance(const StateBlocks::Entry& entry,
                                   const std::vector<State>& states,
@@ -159,7 +166,7 @@ void ImuFactor::LinearizeStates(const std::vector<State>& states,
       (*J)(row, b.node_dim() + row) = 1.0;
     }
   }
-  Whiten(whitener_, residual, J);
+  Whiten(whitener_ ? *whitener_ : PackedTriangle(OwnWhitener()), residual, J);
 }
 
 }  // namespace hindsight

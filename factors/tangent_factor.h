@@ -40,6 +40,11 @@ class TangentFactor : public ceres::CostFunction {
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const final;
 
+  /// Has what does not depend on the values worked out and kept, for a factor that is
+  /// linearised more than once. Throws EstimationError if its noise has no square
+  /// root, as else Linearize does.
+  virtual void Keep() {}
+
  protected:
   /// Residual and Jacobian (already sized and zero) over states whose globals
   /// are filled in; implementations whiten.

@@ -33,6 +33,7 @@ Sweep SolveGraduated(const BatchOptions& options, bool first,
                      IterationProgress* progress, ChainProblem* chain) {
   constexpr int kIterationsPerStage = 2;
   constexpr double kWidest = 1024.0;
+  chain->KeepFactors();
   if (first) {
     double widening = std::min(chain->LargestRobustRatio(), kWidest);
     for (; widening > 1.0; widening *= 0.5) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -173,7 +174,16 @@ void ChainProblem::Linearize(std::size_t i, TangentFactor::Jacobian* J,
   *residual *= root_weight;
 }
 
+void ChainProblem::KeepFactors() {
+  if (std::exchange(is_kept_, true)) return;
+  ForRanges(factors_.size(), kFactorsOfThread,
+            [&](std::size_t begin, std::size_t end) {
+              for (std::size_t i = begin; i < end; ++i) factors_[i]->Keep();
+            });
+}
+
 ArrowLeastSquares ChainProblem::GaussNewtonStep() {
+  if (steps_++ > 0) KeepFactors();
   ArrowLeastSquares arrow(static_cast<int>(times_.size()), blocks_->node_dim(),
                           blocks_->global_dim());
   // As many as a cache holds of their Jacobians.

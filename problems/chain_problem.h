@@ -25,6 +25,8 @@ class ChainProblem {
   const std::vector<std::unique_ptr<TangentFactor>>& factors() const {
     return factors_;
   }
+  /// TangentFactor::Keep of all: before they are linearised again and again.
+  void KeepFactors();
   /// The loss of factor i, or nullptr.
   RobustLossFunction* loss(std::size_t i) { return losses_[i].get(); }
   bool HasLoss() const;
@@ -49,7 +51,7 @@ class ChainProblem {
 
   /// All factors linearised at the present values, of which the solution is one
   /// Gauss-Newton step, solved. Throws EstimationError where they leave an
-  /// unknown undetermined.
+  /// unknown undetermined. From the second on factors are kept.
   ArrowLeastSquares GaussNewtonStep();
   /// Half the sum of the squared residuals where the last step was linearised, each
   /// weighted by its loss.
@@ -73,6 +75,8 @@ class ChainProblem {
   std::vector<std::vector<double>> globals_;
   std::vector<std::unique_ptr<TangentFactor>> factors_;
   std::vector<std::unique_ptr<RobustLossFunction>> losses_;  // one a factor
+  bool is_kept_ = false;
+  int steps_ = 0;
   double linearized_cost_ = 0.0;
 };
 

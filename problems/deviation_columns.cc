@@ -35,6 +35,15 @@ std::optional<Eigen::Vector3d> NavigationValue(
   return std::nullopt;
 }
 
+/// What one more of a component adds to a measurement.
+Eigen::VectorXd UnitOf(int component, const Measurement& z) {
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(Rows(z));
+  for (int row = 0; row < unit.size(); ++row) {
+    if (ComponentOf(z, row) == component) unit(row) = 1.0;
+  }
+  return unit;
+}
+
 bool Fits(const ErrorLayout& layout, BlockKind kind) {
   const int dim = FullDimension(kind);
   return layout.dim() + dim <= kMaxErrorDim &&
@@ -42,41 +51,6 @@ bool Fits(const ErrorLayout& layout, BlockKind kind) {
 }
 
 }  // namespace
-
-Eigen::Vector3d ImuDeviation::Of(const Eigen::Vector3d& reading,
-                                 const Eigen::Vector3d& rate) const {
-  Eigen::Vector3d more = Eigen::Vector3d::Zero();
-  const int next = (axis + 1) % 3, last = (axis + 2) % 3;
-  switch (kind) {
-    case Kind::kScale:
-      more(axis) = reading(axis);
-      break;
-    case Kind::kExchanged:
-      more(next) = reading(next) - reading(last);
-      more(last) = -more(next);
-      break;
-    case Kind::kTurned:
-      more = Eigen::Vector3d::Unit(axis).cross(reading);
-      break;
-    case Kind::kLate:
-      more = -rate;
-      break;
-  }
-  return more;
-}
-
-std::span<const ImuDeviation> ImuDeviations() {
-  using enum ImuDeviation::Kind;
-  static constexpr ImuDeviation kAll[] = {
-      {kScale, true, 0},      {kScale, true, 1},      {kScale, true, 2},
-      {kScale, false, 0},     {kScale, false, 1},     {kScale, false, 2},
-      {kExchanged, true, 0},  {kExchanged, true, 1},  {kExchanged, true, 2},
-      {kExchanged, false, 0}, {kExchanged, false, 1}, {kExchanged, false, 2},
-      {kTurned, false, 0},    {kTurned, false, 1},    {kTurned, false, 2},
-      {kLate, true, 0},
-  };
-  return kAll;
-}
 
 DeviationColumns::DeviationColumns(const Problem& problem,
                                    const std::vector<State>& states,
@@ -217,9 +191,7 @@ std::vector<ShiftColumns::Columns> DeviationColumns::Measured(
     const Deviation& deviation = own.deviations[static_cast<std::size_t>(i)];
     switch (deviation.kind) {
       case Deviation::Kind::kAdditive:
-        for (int row = 0; row < B.rows(); ++row) {
-          if (ComponentOf(measured, row) == deviation.axis) B(row, i) = 1.0;
-        }
+        B.col(i) = UnitOf(deviation.axis, measured);
         break;
       case Deviation::Kind::kTurned:
         B.col(i) = Eigen::Vector3d::Unit(deviation.axis).cross(*v);
@@ -237,7 +209,8 @@ std::vector<ShiftColumns::Columns> DeviationColumns::Measured(
         break;
     }
   }
-  return {{z.sensor, B}, {kAllClocks, rate}};
+  return {{.group = z.sensor, .B = std::move(B)},
+          {.group = kAllClocks, .B = rate}};
 }
 
 ShiftColumns::Columns DeviationColumns::Driven(std::size_t k) const {
@@ -277,7 +250,7 @@ ShiftColumns::Columns DeviationColumns::Driven(std::size_t k) const {
           C_nb * bends_[k].p;
     }
   }
-  return {kImu, B};
+  return {.group = kImu, .B = std::move(B), .may_grow = false};
 }
 
 ShiftColumns DeviationColumns::Columns() const {
@@ -285,6 +258,21 @@ ShiftColumns DeviationColumns::Columns() const {
             return Measured(k, z);
           },
           [this](std::size_t k) { return Driven(k); }};
+}
+
+ShiftColumns DeviationColumns::Additive() const {
+  return {[this](std::size_t k, const TapeMeasurement& z) {
+    const Measurement& measured =
+        problem_.timeline.measurements(k)[static_cast<std::size_t>(z.index)];
+    Eigen::MatrixXd B(z.H.rows(), 0);
+    for (const Deviation& one : Of(z.sensor)) {
+      if (one.kind != Deviation::Kind::kAdditive) continue;
+      B.conservativeResize(Eigen::NoChange, B.cols() + 1);
+      B.rightCols(1) = UnitOf(one.axis, measured);
+    }
+    return std::vector<ShiftColumns::Columns>{
+        {.group = z.sensor, .B = std::move(B)}};
+  }};
 }
 
 }  // namespace hindsight

@@ -66,6 +66,9 @@ class DeviationColumns {
     return sensors_[static_cast<std::size_t>(sensor)].deviations;
   }
   ShiftColumns Columns() const;
+  /// The additive ones of the sensors alone, in their order: they are the same along
+  /// any trajectory, and nothing is evaluated for them.
+  ShiftColumns Additive() const;
   /// MeanShift::z, of gyros that are late by what they are so more than nothing
   /// tells: half a sample interval, as a reading may stand for the instant or for
   /// the mean of the interval before it; and what noise of the readings looks like,

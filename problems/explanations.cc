@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -87,11 +88,14 @@ class Varying {
   /// Of each sensor that has any.
   using Energies = std::map<int, GroupEnergy>;
 
-  Energies EnergiesOn(const LinearTape& tape, const ShiftColumns& columns,
+  /// `additive` as of DeviationColumns.
+  Energies EnergiesOn(const LinearTape& tape, const ShiftColumns& additive,
                       std::span<const std::size_t> onsets) const {
     Energies energies;
-    for (const auto& [group, wanted] : columns_) {
-      energies.emplace(group, EnergiesOf(group, wanted, onsets, tape, columns));
+    for (const auto& [group, columns] : columns_) {
+      std::vector<int> all(columns.size());
+      std::iota(all.begin(), all.end(), 0);
+      energies.emplace(group, EnergiesOf(group, all, onsets, tape, additive));
     }
     return energies;
   }
@@ -175,7 +179,7 @@ ExplanationSearch::ExplanationSearch(const Problem& problem,
   const std::size_t first = found_->onsets.front();
   const Varying varying(problem, own);
   auto energies = InBackground(
-      [&] { return varying.EnergiesOn(tape, columns, found_->onsets); });
+      [&] { return varying.EnergiesOn(tape, own.Additive(), found_->onsets); });
   found_->scores = ScoreShifts(tape, columns, found_->onsets, callback);
   std::vector<MeanShift>& tried = found_->scores.shifts;
   std::erase_if(tried, [&](const MeanShift& shift) {

@@ -15,8 +15,11 @@ namespace hindsight {
 
 ForwardStage::ForwardStage(const Dataset& dataset,
                            const ReconstructionOptions& options)
-    : ForwardStage(dataset, options,
-                   FindStart(dataset, options.from, options.to)) {}
+    : ForwardStage(
+          dataset, options,
+          options.rests
+              ? FindStart(dataset, options.from, options.to, *options.rests)
+              : FindStart(dataset, options.from, options.to)) {}
 
 namespace {
 

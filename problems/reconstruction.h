@@ -26,6 +26,8 @@ struct ReconstructionOptions {
   /// The interval to reconstruct [s]; defaults to all that the IMU covers.
   double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();
+  /// Rests of the data set, for whoever asks for them besides; null: nobody does.
+  std::shared_ptr<const RestMemo> rests = nullptr;
   /// Nodes are also placed at these times [s], so that their states have
   /// exact covariances (--at).
   std::vector<double> node_times;

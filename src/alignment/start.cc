@@ -24,8 +24,10 @@ namespace {
 /// Works through the steps of FindStart; each fills its part of the report.
 class StartFinder {
  public:
-  StartFinder(const Dataset& dataset, double from, double to)
+  StartFinder(const Dataset& dataset, double from, double to,
+              const RestMemo& rests)
       : dataset_(dataset),
+        known_rests_(rests),
         from_(std::max(from, dataset.imu.t_begin())),
         to_(std::min(to, dataset.imu.t_end())),
         clock_sigma_(ClockSigma(dataset)) {}
@@ -42,7 +44,7 @@ class StartFinder {
     }
     fixes_ = PositionFixes(dataset_, from_, to_);
     velocities_ = GroundVelocities(dataset_, from_, to_);
-    rests_ = FindRest(dataset_).at_rest;
+    rests_ = known_rests_.Of(dataset_).at_rest;
     ChooseTime();
     ChooseGyroBias();
     ChooseAttitude();
@@ -259,6 +261,7 @@ class StartFinder {
   }
 
   const Dataset& dataset_;
+  const RestMemo& known_rests_;
   double from_;
   double to_;
   double clock_sigma_;
@@ -292,7 +295,12 @@ Start WithoutTrustIn(int sensor, Start start) {
 }
 
 Start FindStart(const Dataset& dataset, double from, double to) {
-  return StartFinder(dataset, from, to).Find();
+  return FindStart(dataset, from, to, RestMemo(dataset));
+}
+
+Start FindStart(const Dataset& dataset, double from, double to,
+                const RestMemo& rests) {
+  return StartFinder(dataset, from, to, rests).Find();
 }
 
 }  // namespace hindsight

@@ -6,6 +6,7 @@
 #include "alignment/start_layout.h"
 #include "base/error.h"
 #include "dataset/dataset.h"
+#include "dataset/rest.h"
 #include "filters/forward_filter.h"
 
 namespace hindsight {
@@ -58,6 +59,9 @@ class NoInitialPosition : public EstimationError {
 /// Rest is what FindRest says of data and given velocity.
 /// Throws NoInitialPosition if there is no position.
 Start FindStart(const Dataset& dataset, double from, double to);
+/// The same with what is known of rests.
+Start FindStart(const Dataset& dataset, double from, double to,
+                const RestMemo& rests);
 
 }  // namespace hindsight
 

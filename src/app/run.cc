@@ -179,9 +179,12 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   const Dataset dataset = LoadRecording(request, &resolved);
 
   progress.Begin("start");
-  auto findings = InBackground([&dataset] { return FindingsOf(dataset); });
-  Reconstruction reconstruction =
-      Prepare(request.config, dataset, Options(request, &progress));
+  const auto rests = std::make_shared<const RestMemo>(dataset);
+  auto findings =
+      InBackground([&dataset, rests] { return FindingsOf(dataset, *rests); });
+  ReconstructionOptions options = Options(request, &progress);
+  options.rests = rests;
+  Reconstruction reconstruction = Prepare(request.config, dataset, options);
   if (const StartReport* start = reconstruction.start()) {
     resolved.yaml += CommentOnStart(*start, dataset.initial);
   }

@@ -35,8 +35,8 @@ void NoteRecording(const Dataset& dataset, Findings findings,
 
 }  // namespace
 
-Findings FindingsOf(const Dataset& dataset) {
-  CheckReport check = DescribeDataset(dataset);
+Findings FindingsOf(const Dataset& dataset, const RestMemo& rests) {
+  CheckReport check = DescribeDataset(dataset, rests);
   auto allan = AllanOfLongestRest(dataset, check.imu.rest);
   return {std::move(check), std::move(allan)};
 }

@@ -18,7 +18,7 @@ struct Findings {
   CheckReport check;
   std::optional<ImuAllan> allan;  ///< of the longest rest
 };
-Findings FindingsOf(const Dataset& dataset);
+Findings FindingsOf(const Dataset& dataset, const RestMemo& rests);
 
 /// What is known before anything is solved, printed and put into the summary:
 /// notes, start, what the data cannot tell. Returns the latter.

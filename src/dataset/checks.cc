@@ -214,7 +214,7 @@ Grade CheckReport::grade() const {
                   warnings.empty() ? Grade::kUsable : Grade::kDoubtful);
 }
 
-CheckReport DescribeDataset(const Dataset& dataset) {
+CheckReport DescribeDataset(const Dataset& dataset, const RestMemo& rests) {
   CheckReport report;
   if (dataset.imu.empty()) {
     report.warnings.emplace_back("imu: fewer than two samples");
@@ -234,7 +234,7 @@ CheckReport DescribeDataset(const Dataset& dataset) {
           0.0;  // they come when the vehicle rests
     }
   }
-  report.imu = ReportImu(dataset);
+  report.imu = ReportImu(dataset, rests);
   SetAxes(&report);
   WarnAboutImu(report, dataset.imu, &report.warnings);
   WarnAboutRate(dataset, report.imu, &report.warnings);
@@ -263,7 +263,7 @@ CheckReport DescribeDataset(const Dataset& dataset) {
 }
 
 CheckReport CheckDataset(const Dataset& dataset) {
-  CheckReport report = DescribeDataset(dataset);
+  CheckReport report = DescribeDataset(dataset, RestMemo(dataset));
   if (dataset.imu.empty()) return report;
   report.evidence =
       FindRepeatedReadings(dataset, dataset.imu.t_begin(), dataset.imu.t_end());

@@ -69,7 +69,7 @@ CheckReport CheckDataset(const Dataset& dataset);
 
 /// The same but for `evidence`, which whoever solves the recording finds for the
 /// interval that is solved.
-CheckReport DescribeDataset(const Dataset& dataset);
+CheckReport DescribeDataset(const Dataset& dataset, const RestMemo& rests);
 
 }  // namespace hindsight
 

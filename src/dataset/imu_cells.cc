@@ -101,6 +101,11 @@ class Examination {
         imu_.nominal_dt > 0.0
             ? std::min(imu_.max_gap, ImuStream::kGapFactor * imu_.nominal_dt)
             : imu_.max_gap;
+    const auto most = static_cast<std::size_t>(
+        std::min((imu_.t_end() - imu_.t_begin()) / length + 1.0,
+                 static_cast<double>(imu_.samples.size())));
+    cells_.reserve(most);
+    sums_.reserve(most);
     Sums sums;
     double begin = imu_.t_begin();
     double before = begin;

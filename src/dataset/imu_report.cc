@@ -52,9 +52,9 @@ std::vector<TimeInterval> AllSpans(const Rest& rest) {
 
 }  // namespace
 
-ImuReport ReportImu(const Dataset& dataset) {
+ImuReport ReportImu(const Dataset& dataset, const RestMemo& rests) {
   ImuReport report;
-  report.rest = FindRest(dataset);
+  report.rest = rests.Of(dataset);
   report.record = FactsOf(dataset.imu)->readings;
   if (const auto rest = MeanOver(dataset.imu, report.rest.at_rest)) {
     report.rest_force = rest->force;

@@ -22,7 +22,7 @@ struct ImuReport {
 };
 
 /// Of the recording, which has two samples at least.
-ImuReport ReportImu(const Dataset& dataset);
+ImuReport ReportImu(const Dataset& dataset, const RestMemo& rests);
 
 }  // namespace hindsight
 

@@ -274,6 +274,13 @@ Rest FindRest(const Dataset& dataset) {
   return rest;
 }
 
+Rest RestMemo::Of(const Dataset& dataset) const {
+  if (&dataset != &dataset_) return FindRest(dataset);
+  const std::lock_guard<std::mutex> guard(mutex_);
+  if (!found_) found_ = FindRest(dataset_);
+  return *found_;
+}
+
 void LeaveOutContradicted(const Dataset& dataset, Rest* rest) {
   const ExcludedMotion aiding(dataset);
   std::vector<TimeInterval> remaining;

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_DATASET_REST_H_
 #define HINDSIGHT_DATASET_REST_H_
 
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -40,6 +41,21 @@ struct Rest {
 /// LeaveOutTurned decides. Spans that are shaken or turn are in none of
 /// the lists.
 Rest FindRest(const Dataset& dataset);
+
+/// FindRest of one data set, found once for all who ask while nobody changes it.
+class RestMemo {
+ public:
+  /// `dataset` must outlive the object.
+  explicit RestMemo(const Dataset& dataset) : dataset_(dataset) {}
+
+  /// Of another data set it is found anew. Any thread may ask.
+  Rest Of(const Dataset& dataset) const;
+
+ private:
+  const Dataset& dataset_;
+  mutable std::mutex mutex_;
+  mutable std::optional<Rest> found_;
+};
 
 /// The rest that begins at t, or within a second after, from t on; the last if
 /// there are several.

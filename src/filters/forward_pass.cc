@@ -56,6 +56,9 @@ ForwardPass::ForwardPass(const std::vector<PassModel>& models,
   }
   rule_.Suppose(model.supposition);
   if (IsAboutFixed(0)) StartAbout(options.nominal.front());
+  if (filters_.size() == 1 && !masks_vertical_) {
+    fixed_.emplace(filters_.front().model.layout, options.nominal, timeline);
+  }
 }
 
 void ForwardPass::Record(ImmResult* result) {
@@ -108,10 +111,25 @@ void ForwardPass::StartAbout(const State& nominal) {
   }
 }
 
+/// From one node of the fixed nominal to the next.
+void ForwardPass::PredictAlong(std::size_t k) {
+  Filter& f = filters_.front();
+  Gaussian& error = errors_.front();
+  const FixedTransitions::Step& step = fixed_->To(k);
+  f.transition = step.transition;
+  error.mean = (f.transition.Phi * error.mean + f.transition.c).eval();
+  f.policy.Predict(f.transition, step.dt, &error.P);
+  f.x = options_.nominal[k];
+}
+
 /// Mixes, if the mode may switch at node k, and predicts (Baek 2019, eq. (8)).
 void ForwardPass::PredictTo(std::size_t k) {
   epoch_.switched = MaySwitch(k);
   if (epoch_.switched) modes_.Switch(&errors_);
+  if (fixed_ && IsAboutFixed(k)) {
+    PredictAlong(k);
+    return;
+  }
   for (std::size_t j = 0; j < filters_.size(); ++j) {
     Filter& f = filters_[j];
     const NodeInterval interval =

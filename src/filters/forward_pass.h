@@ -1,9 +1,11 @@
 #ifndef HINDSIGHT_FILTERS_FORWARD_PASS_H_
 #define HINDSIGHT_FILTERS_FORWARD_PASS_H_
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "filters/fixed_transitions.h"
 #include "filters/imm.h"
 #include "filters/mode_mixture.h"
 #include "filters/vertical.h"
@@ -55,6 +57,7 @@ class ForwardPass {
   double StepTo(std::size_t k) const;
   void StartAbout(const State& nominal);
   void PredictTo(std::size_t k);
+  void PredictAlong(std::size_t k);
   State Nominal(std::size_t k, std::size_t j, const NodeInterval& interval);
   void UpdateAt(std::size_t k);
   void BeginEpochs(std::size_t k);
@@ -77,6 +80,8 @@ class ForwardPass {
   ModeMixture modes_;
   VerticalChannel vertical_;
   bool masks_vertical_;
+  /// Of a filter alone about a nominal that nothing overwrites.
+  std::optional<FixedTransitions> fixed_;
   LinearizedMeasurement linearized_;
   ImmResult* result_ = nullptr;
   ImmEpoch epoch_;

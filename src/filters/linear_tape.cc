@@ -123,6 +123,20 @@ std::uint64_t FullRows(const ErrorMatrix& Phi) {
   return rows;
 }
 
+/// Calls use(i, j) for the elements of Phi that are recorded, in their order:
+/// columns of the full rows, then the diagonal of the others.
+template <typename Use>
+void ForEachOfPhi(int dim, std::uint64_t full_rows, const Use& use) {
+  for (int j = 0; j < dim; ++j) {
+    for (std::uint64_t left = full_rows; left != 0; left &= left - 1) {
+      use(std::countr_zero(left), j);
+    }
+  }
+  for (int i = 0; i < dim; ++i) {
+    if ((full_rows >> i & 1) == 0) use(i, i);
+  }
+}
+
 bool IsSame(const State& a, const State& b) {
   return a.t == b.t && a.p_e == b.p_e && a.v_e == b.v_e &&
          a.q_eb.coeffs() == b.q_eb.coeffs() && a.b_g == b.b_g &&
@@ -167,12 +181,9 @@ void LinearTape::Append(const TapeEpoch& epoch, const Transition& transition,
   put(out.has_dx_minus, epoch.dx_minus);
   put(out.has_dx_plus, epoch.dx_plus);
   out.phi = static_cast<std::uint32_t>(to - out.data);
-  for (int i = 0; !first && i < dim(); ++i) {
-    if ((out.full_rows >> i & 1) == 0) {
-      *to++ = transition.Phi(i, i);
-    } else {
-      for (int j = 0; j < dim(); ++j) *to++ = transition.Phi(i, j);
-    }
+  if (!first) {
+    ForEachOfPhi(dim(), out.full_rows,
+                 [&](int i, int j) { *to++ = transition.Phi(i, j); });
   }
   end_ = {chunks_.size() - 1, chunks_.back().used};
 }
@@ -230,13 +241,7 @@ ErrorMatrix LinearTape::Phi(std::size_t k) const {
   ErrorMatrix Phi = ErrorMatrix::Zero(dim(), dim());
   const PackedEpoch& in = Held(k);
   const double* from = in.data + in.phi;
-  for (int i = 0; i < dim(); ++i) {
-    if ((in.full_rows >> i & 1) == 0) {
-      Phi(i, i) = *from++;
-    } else {
-      for (int j = 0; j < dim(); ++j) Phi(i, j) = *from++;
-    }
-  }
+  ForEachOfPhi(dim(), in.full_rows, [&](int i, int j) { Phi(i, j) = *from++; });
   return Phi;
 }
 

@@ -22,15 +22,16 @@ Eigen::VectorXd RowSums(const Eigen::MatrixBase<A>& a,
   return a.cwiseProduct(b).rowwise().sum();
 }
 
-/// What belongs to the constants b of one group, n that stay and then the same n that
-/// grow with the time t: they enter by [B, t B]. Of Lambda no more than the
-/// score of one constant, with or without its growth, takes.
+/// What belongs to the constants b of one group, n that stay and then, where they may,
+/// the same n that grow with the time t: they enter by [B, t B]. Of Lambda no more
+/// than the score of one constant, with or without its growth, takes.
 class GroupScore {
  public:
-  GroupScore(int dim, Eigen::Index count)
+  GroupScore(int dim, Eigen::Index count, bool may_grow)
       : count_(count),
+        may_grow_(may_grow),
         lambda_(Eigen::VectorXd::Zero(2 * count)),
-        bx_(Eigen::MatrixXd::Zero(2 * count, dim)),
+        bx_(Eigen::MatrixXd::Zero(may_grow ? 2 * count : count, dim)),
         stays_(Eigen::VectorXd::Zero(count)),
         both_(stays_),
         grows_(stays_) {}
@@ -41,12 +42,14 @@ class GroupScore {
     AddLambda(B.transpose() * state.lambda(), t);
     const Eigen::VectorXd BLB = RowSums(BL, B.transpose());
     const Eigen::VectorXd XB = RowSums(staying(), B.transpose());
-    const Eigen::VectorXd TB = RowSums(growing(), B.transpose());
+    if (may_grow_) {
+      const Eigen::VectorXd TB = RowSums(growing(), B.transpose());
+      both_ += t * XB + TB + t * BLB;
+      grows_ += 2.0 * t * TB + t * t * BLB;
+      growing() += t * BL;
+    }
     stays_ += 2.0 * XB + BLB;
-    both_ += t * XB + TB + t * BLB;
-    grows_ += 2.0 * t * TB + t * t * BLB;
     staying() += BL;
-    growing() += t * BL;
   }
 
   void BackOver(const ErrorMatrix& Phi) { bx_ = Times(bx_, Phi); }
@@ -64,19 +67,22 @@ class GroupScore {
                   const GainMatrix& LK) {
     const Eigen::MatrixXd XK = bx_.lazyProduct(z.K);
     const Eigen::MatrixXd BW = B.transpose().lazyProduct(weight);
-    const Eigen::MatrixXd stays = BW - XK.topRows(count_);
-    const Eigen::MatrixXd grows = t * BW - XK.bottomRows(count_);
-    AddLambda(B.transpose() * ahead, t);
-    stays_ += RowSums(stays - XK.topRows(count_), B.transpose());
-    both_ += RowSums(grows - t * XK.topRows(count_), B.transpose());
-    grows_ += t * RowSums(grows - XK.bottomRows(count_), B.transpose());
     const Eigen::MatrixXd BKL = B.transpose().lazyProduct(LK.transpose());
+    AddLambda(B.transpose() * ahead, t);
+    if (may_grow_) {
+      const Eigen::MatrixXd grows = t * BW - XK.bottomRows(count_);
+      both_ += RowSums(grows - t * XK.topRows(count_), B.transpose());
+      grows_ += t * RowSums(grows - XK.bottomRows(count_), B.transpose());
+      growing() += grows.lazyProduct(z.H);
+      growing() -= t * BKL;
+    }
+    const Eigen::MatrixXd stays = BW - XK.topRows(count_);
+    stays_ += RowSums(stays - XK.topRows(count_), B.transpose());
     staying() += stays.lazyProduct(z.H);
     staying() -= BKL;
-    growing() += grows.lazyProduct(z.H);
-    growing() -= t * BKL;
   }
 
+  bool may_grow() const { return may_grow_; }
   Eigen::Index count() const { return count_; }
   double score(Eigen::Index i) const { return lambda_(i); }
   double information(Eigen::Index i) const { return stays_(i); }
@@ -99,6 +105,7 @@ class GroupScore {
   Eigen::MatrixXd::RowsBlockXpr growing() { return bx_.bottomRows(count_); }
 
   Eigen::Index count_;
+  bool may_grow_;
   Eigen::VectorXd lambda_;
   Eigen::MatrixXd bx_;  ///< of Lambda, rows of b and columns of the state
   /// Of Lambda, of a constant that stays, of the same that stays and grows, and of
@@ -134,7 +141,9 @@ class AdjointPass {
 
  private:
   GroupScore& Of(const ShiftColumns::Columns& columns) {
-    return groups_.try_emplace(columns.group, tape_.dim(), columns.B.cols())
+    return groups_
+        .try_emplace(columns.group, tape_.dim(), columns.B.cols(),
+                     columns.may_grow)
         .first->second;
   }
 
@@ -188,7 +197,8 @@ class AdjointPass {
         add({false, group, column, false, k, own.score(i), own.information(i)});
         const double information = own.information_of_growth(i, t);
         // What is left of large terms may be their rounding.
-        if (information < 1e-9 * own.largest_term(i)) continue;
+        if (!own.may_grow() || information < 1e-9 * own.largest_term(i))
+          continue;
         add({false, group, column, true, k, own.score_of_growth(i, t),
              information});
       }

@@ -18,12 +18,13 @@ struct ShiftColumns {
   struct Columns {
     Group group = 0;
     Eigen::MatrixXd B;
+    bool may_grow = true;  ///< whether deviations that grow are looked for too
   };
   /// What the deviation would add to a measurement of epoch k.
   std::function<std::vector<Columns>(std::size_t k, const TapeMeasurement& z)>
       measured;
   /// By what the state at x_minus of epoch k >= 1 would be another after the
-  /// interval before it; none: never.
+  /// interval before it; none: never. Of one group, which no measurement has.
   std::function<Columns(std::size_t k)> driven = nullptr;
 };
 

@@ -13,9 +13,12 @@ namespace {
 /// Of a correlation, below which an eigenvalue is rounding.
 constexpr double kLeastWeight = 1e-6;
 
-/// Carries what constants of one group, each from several onsets on, do to the
-/// estimates: a block of rows an onset, a row of it a constant, so that those
-/// of the onsets that have come are the first.
+/// Scores and information of constants of one group, each from several onsets on.
+/// With the error e of the estimates, a step theta from an onset on makes
+///   e <- Phi e,  g = B theta - H e,  e <- e + K g
+/// of it, g being what it adds to an innovation. Between two onsets all of this
+/// is linear in (e, theta) at the first of them: what a span between onsets does
+/// is found in one walk along the tape, and the spans are joined from the last.
 class OnsetPass {
  public:
   OnsetPass(ShiftColumns::Group group, std::span<const int> wanted,
@@ -26,54 +29,119 @@ class OnsetPass {
         onsets_(onsets),
         tape_(tape),
         columns_(columns),
+        dim_(tape.dim()),
         count_(static_cast<Eigen::Index>(onsets.size())),
         width_(static_cast<Eigen::Index>(wanted.size())),
-        e_(Eigen::MatrixXd::Zero(count_ * width_, tape.dim())),
-        score_(Eigen::VectorXd::Zero(e_.rows())),
-        information_(Eigen::MatrixXd::Zero(e_.rows(), e_.rows())) {}
+        score_(Eigen::VectorXd::Zero(count_ * width_)),
+        information_(Eigen::MatrixXd::Zero(score_.size(), score_.size())) {}
 
   GroupEnergy Run() {
-    for (std::size_t k = onsets_.front(); k < tape_.size(); ++k) {
-      while (begun_ < count_ &&
-             onsets_[static_cast<std::size_t>(begun_)] <= k) {
-        ++begun_;
+    const std::size_t end = LastMeasured() + 1;
+    for (std::size_t k = onsets_.front(); k < end; ++k) {
+      if (k > onsets_.front()) {
+        const auto Phi = tape_.Phi(k);
+        spans_.back().error = TimesTransposed(spans_.back().error, Phi);
       }
-      if (k > onsets_.front()) begun() = TimesTransposed(begun(), tape_.Phi(k));
+      while (spans_.size() < onsets_.size() && onsets_[spans_.size()] <= k) {
+        spans_.push_back(EmptySpan());
+      }
       for (const TapeMeasurement& z : tape_.measurements(k)) {
         if (z.accepted) Take(k, z);
       }
     }
+    JoinSpans();
     return Energy();
   }
 
  private:
-  /// The rows of the onsets that have come; of the others all is zero.
-  Eigen::MatrixXd::RowsBlockXpr begun() { return e_.topRows(begun_ * width_); }
+  /// From an onset to the next; rows are of e and theta at its begin.
+  struct Span {
+    Eigen::MatrixXd error;  ///< what they make of e at its end
+    Eigen::VectorXd score;
+    Eigen::MatrixXd information;  ///< its lower half, until spans are joined
+  };
+
+  Span EmptySpan() const {
+    const Eigen::Index rows = dim_ + width_;
+    return {Eigen::MatrixXd::Identity(rows, dim_), Eigen::VectorXd::Zero(rows),
+            Eigen::MatrixXd::Zero(rows, rows)};
+  }
+
+  /// The last epoch with an accepted measurement, the first onset if none is
+  /// later: what errors grow to behind it is in no innovation.
+  std::size_t LastMeasured() const {
+    std::size_t k = tape_.size() - 1;
+    for (; k > onsets_.front(); --k) {
+      const auto all = tape_.headers(k);
+      if (std::any_of(all.begin(), all.end(),
+                      [](const TapeMeasurement& z) { return z.accepted; })) {
+        break;
+      }
+    }
+    return k;
+  }
 
   void Take(std::size_t k, const TapeMeasurement& z) {
-    Eigen::MatrixXd g = -TimesTransposed(begun(), z.H);
+    Span& span = spans_.back();
+    Eigen::MatrixXd g = -TimesTransposed(span.error, z.H);
     if (z.sensor == group_) Enter(k, z, &g);
     const RowMatrix weight = Eigen::LLT<RowMatrix>(z.S).solve(
         RowMatrix::Identity(g.cols(), g.cols()));
     const Eigen::MatrixXd weighted = g.lazyProduct(weight);
-    score_.head(g.rows()) += weighted * z.innovation;
+    span.score += weighted * z.innovation;
     // Column by column: for a product with so few columns in between the blocks
     // of a general one do not pay.
     for (Eigen::Index c = 0; c < g.rows(); ++c) {
       const Eigen::Index below = g.rows() - c;
-      information_.col(c).segment(c, below) +=
+      span.information.col(c).tail(below) +=
           g.bottomRows(below).lazyProduct(weighted.row(c).transpose());
     }
-    begun() += g.lazyProduct(z.K.transpose());
+    span.error += g.lazyProduct(z.K.transpose());
   }
 
-  void Enter(std::size_t k, const TapeMeasurement& z, Eigen::MatrixXd* g) {
+  void Enter(std::size_t k, const TapeMeasurement& z,
+             Eigen::MatrixXd* g) const {
     for (const ShiftColumns::Columns& one : columns_.measured(k, z)) {
       if (one.group != group_) continue;
-      for (Eigen::Index c = 0; c < g->rows(); ++c) {
-        g->row(c) += one.B.col(wanted_[static_cast<std::size_t>(c % width_)])
-                         .transpose();
+      g->bottomRows(width_) +=
+          one.B(Eigen::all, std::vector<int>(wanted_.begin(), wanted_.end()))
+              .transpose();
+    }
+  }
+
+  /// Has each span say what it and all behind it do together, and of that takes
+  /// what is of steps: with e = 0 at the onset of the later of two.
+  void JoinSpans() {
+    for (std::size_t i = spans_.size(); i-- > 0;) {
+      Span& span = spans_[i];
+      span.information =
+          Eigen::MatrixXd(span.information.selfadjointView<Eigen::Lower>());
+      if (i + 1 < spans_.size()) {
+        Eigen::MatrixXd T = Eigen::MatrixXd::Zero(dim_ + width_, dim_ + width_);
+        T.leftCols(dim_) = span.error;
+        T.bottomRightCorner(width_, width_).setIdentity();
+        span.score += T * spans_[i + 1].score;
+        span.information += T * spans_[i + 1].information * T.transpose();
       }
+      score_.segment(static_cast<Eigen::Index>(i) * width_, width_) =
+          span.score.tail(width_);
+    }
+    for (std::size_t first = 0; first < spans_.size(); ++first) {
+      AddStepsFrom(first);
+    }
+  }
+
+  /// The information of steps at an onset, and what they share with later ones.
+  void AddStepsFrom(std::size_t first) {
+    Eigen::MatrixXd e = Eigen::MatrixXd::Zero(width_, dim_);
+    for (std::size_t i = first; i < spans_.size(); ++i) {
+      const Span& span = spans_[i];
+      information_.block(static_cast<Eigen::Index>(i) * width_,
+                         static_cast<Eigen::Index>(first) * width_, width_,
+                         width_) =
+          span.information.bottomRightCorner(width_, width_) +
+          span.information.bottomLeftCorner(width_, dim_) * e.transpose();
+      e = (e * span.error.topRows(dim_) + span.error.bottomRows(width_)).eval();
     }
   }
 
@@ -83,7 +151,7 @@ class OnsetPass {
     energy.columns.resize(wanted_.size());
     energy.steps.setZero(count_, width_);
     std::vector<Eigen::Index> shown;
-    for (Eigen::Index i = 0; i < e_.rows(); ++i) {
+    for (Eigen::Index i = 0; i < score_.size(); ++i) {
       if (information_(i, i) > 0.0) shown.push_back(i);
     }
     if (shown.empty()) return energy;
@@ -158,10 +226,11 @@ class OnsetPass {
   std::span<const std::size_t> onsets_;
   const LinearTape& tape_;
   const ShiftColumns& columns_;
-  Eigen::Index count_;
-  Eigen::Index width_;      ///< constants
-  Eigen::Index begun_ = 0;  ///< onsets that have come
-  Eigen::MatrixXd e_;       ///< by what the estimates differ
+  Eigen::Index dim_;    ///< of e
+  Eigen::Index count_;  ///< onsets
+  Eigen::Index width_;  ///< constants, of theta
+  /// Of the onsets that have come before the last measurement.
+  std::vector<Span> spans_;
   Eigen::VectorXd score_;
   Eigen::MatrixXd information_;
 };

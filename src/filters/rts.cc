@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <future>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,10 +16,8 @@
 namespace hindsight {
 namespace {
 
-/// Steps back that are prepared at once, and of those as many as are worth a
-/// thread.
-constexpr std::size_t kStepsAtOnce = 32;
-constexpr std::size_t kStepsOfThread = 8;
+/// Steps back that are prepared at once, beside those that are gone.
+constexpr std::size_t kStepsAtOnce = 64;
 
 /// A P A', of which what lies above the diagonal is not said.
 ErrorMatrix Sandwiched(const ErrorMatrix& A, const ErrorMatrix& P) {
@@ -89,25 +88,35 @@ class RtsPass {
     WriteEpoch(count_ - 1);
     first_ = count_ - 1;
     for (std::size_t k = count_ - 1; k-- > 0;) {
-      if (k < first_) PrepareSteps(k);
+      if (k < first_) TakeSteps(k, consumed);
       GoBack(k, *steps_[k - first_]);
-      if (consumed != nullptr) consumed->PopBack();
       WriteEpoch(k);
     }
     return std::move(out_);
   }
 
  private:
-  /// The step to epoch k, and some before it.
-  void PrepareSteps(std::size_t k) {
-    steps_.resize(std::min(k + 1, kStepsAtOnce));
-    first_ = k + 1 - steps_.size();
-    ForRanges(steps_.size(), kStepsOfThread,
-              [this](std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin; i < end; ++i) {
-                  steps_[i].emplace(tape_, first_ + i, covariances_);
-                }
-              });
+  using Steps = std::vector<std::optional<StepBack>>;
+
+  /// Steps to epochs before `end`; returns the first of them.
+  std::size_t Prepare(std::size_t end, Steps* steps) const {
+    steps->resize(std::min(end, kStepsAtOnce));
+    const std::size_t first = end - steps->size();
+    for (std::size_t i = 0; i < steps->size(); ++i) {
+      (*steps)[i].emplace(tape_, first + i, covariances_);
+    }
+    return first;
+  }
+
+  /// The step to epoch k and some before it; has those before them prepared. Of
+  /// `consumed` goes what no step needs any more.
+  void TakeSteps(std::size_t k, LinearTape* consumed) {
+    first_ = next_first_.valid() ? next_first_.get() : Prepare(k + 1, &next_);
+    steps_.swap(next_);
+    while (consumed != nullptr && consumed->size() > k + 2) consumed->PopBack();
+    if (first_ == 0) return;
+    next_first_ =
+        InBackground([this, end = first_] { return Prepare(end, &next_); });
   }
 
   /// From the tangent at x_minus of epoch k + 1 to that at x_plus of k.
@@ -143,10 +152,12 @@ class RtsPass {
   TapeEpoch epoch_;  ///< that is being smoothed
   ErrorVector d_;
   ErrorMatrix P_;
-  /// That are prepared, from epoch first_ on.
-  std::vector<std::optional<StepBack>> steps_;
+  Steps steps_;  ///< to epochs from first_ on
   std::size_t first_ = 0;
   SmoothedTrajectory out_;
+  Steps next_;  ///< to those before
+  /// The first of those, once they are prepared. The last member: it waits.
+  std::future<std::size_t> next_first_;
 };
 
 SmoothedTrajectory Smooth(const LinearTape& tape, bool covariances, bool errors,

@@ -11,9 +11,10 @@ namespace {
 /// A deviation as large as `sizes` says at each epoch, or a jump of the state.
 struct Course {
   bool of_state = false;
-  std::size_t onset = 0;  ///< of a jump
-  int component = 0;      ///< of the state, that jumps
+  std::size_t onset = 0;
+  int component = 0;  ///< of the state, that jumps
   ShiftColumns::Group group = 0;
+  bool is_driven = false;  ///< by ShiftColumns::driven, not measured
   std::vector<int> columns = {};
   Eigen::MatrixXd sizes = {};  ///< a row an epoch
 
@@ -28,7 +29,7 @@ struct Course {
 Eigen::VectorXd AddedTo(const TapeMeasurement& z, const Course& course,
                         std::size_t k, const ShiftColumns& columns) {
   Eigen::VectorXd added = Eigen::VectorXd::Zero(z.H.rows());
-  if (course.of_state) return added;
+  if (course.of_state || course.is_driven || k < course.onset) return added;
   for (const ShiftColumns::Columns& one : columns.measured(k, z)) {
     if (one.group == course.group) added = course.Sum(k, one.B);
   }
@@ -41,9 +42,8 @@ ErrorVector AddedTo(std::size_t k, const Course& course, const LinearTape& tape,
   ErrorVector added = ErrorVector::Zero(tape.dim());
   if (course.of_state) {
     if (k == course.onset) added(course.component) = 1.0;
-  } else if (k > course.onset && columns.driven) {
-    const ShiftColumns::Columns driven = columns.driven(k);
-    if (driven.group == course.group) added = course.Sum(k, driven.B);
+  } else if (k > course.onset && course.is_driven) {
+    added = course.Sum(k, columns.driven(k).B);
   }
   return added;
 }
@@ -76,10 +76,12 @@ Response Filtered(const Course& course, const LinearTape& tape,
   return out;
 }
 
-std::vector<ErrorVector> CorrectionForCourse(const Course& course,
+std::vector<ErrorVector> CorrectionForCourse(Course course,
                                              const LinearTape& tape,
                                              const ShiftColumns& columns) {
   RequireFixedNominal(tape);
+  course.is_driven = columns.driven && tape.size() > 1 &&
+                     columns.driven(1).group == course.group;
   Response response = Filtered(course, tape, columns);
   std::vector<ErrorVector> correction = std::move(response.minus);
   ErrorVector lambda = ErrorVector::Zero(tape.dim());
@@ -116,7 +118,7 @@ std::vector<ErrorVector> CorrectionFor(const MeanShift& shift,
           shift.grows ? tape.t(k) - tape.t(shift.onset) : 1.0;
     }
   }
-  return CorrectionForCourse(course, tape, columns);
+  return CorrectionForCourse(std::move(course), tape, columns);
 }
 
 std::vector<ErrorVector> CorrectionForSteps(ShiftColumns::Group group,
@@ -134,7 +136,7 @@ std::vector<ErrorVector> CorrectionForSteps(ShiftColumns::Group group,
     course.sizes.bottomRows(course.sizes.rows() - onset).rowwise() +=
         steps.row(i);
   }
-  return CorrectionForCourse(course, tape, columns);
+  return CorrectionForCourse(std::move(course), tape, columns);
 }
 
 }  // namespace hindsight

@@ -12,11 +12,13 @@ namespace hindsight {
 
 std::size_t ImuIntegrator::FindInterval(double t) {
   const auto& samples = stream_->samples;
+  // So many are walked along sooner than one is sought.
+  constexpr std::size_t kNear = 8;
   const std::size_t last = samples.size() - 1;
   std::size_t k = std::min(hint_, last);
-  if (samples[k - 1].t > t || k + 64 < last) {
+  if (samples[k - 1].t > t || k + kNear < last) {
     const bool near =
-        samples[k - 1].t <= t && samples[std::min(k + 64, last)].t > t;
+        samples[k - 1].t <= t && samples[std::min(k + kNear, last)].t > t;
     if (!near) {
       k = std::clamp<std::size_t>(FirstSampleAfter(*stream_, t), 1, last);
     }

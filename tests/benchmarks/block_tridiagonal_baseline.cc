@@ -112,6 +112,7 @@ BaselineResult SolveBlockTridiagonal(const std::vector<State>& initial,
                                      Problem* problem) {
   constexpr int kMaxIterations = 50;
   ChainProblem chain(initial, problem);
+  chain.KeepFactors();
   if (chain.blocks().node_dim() != kDim || chain.blocks().global_dim() != 0) {
     throw std::logic_error("the baseline knows 15 unknowns a node alone");
   }

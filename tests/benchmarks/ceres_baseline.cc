@@ -57,6 +57,7 @@ CovarianceSeries Marginals(ChainProblem* chain, ceres::Problem* problem) {
 BaselineResult SolveByCeres(const std::vector<State>& initial,
                             bool with_covariances, Problem* problem) {
   ChainProblem chain(initial, problem);
+  chain.KeepFactors();
   NodeManifold manifold(&chain.blocks());
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;

@@ -82,6 +82,7 @@ ChainProblem MakeChain(SmoothedDrive* drive) {
 /// What of a step is residuals and Jacobians.
 void BatchLinearisation(benchmark::State& state) {
   ChainProblem chain = MakeChain(&Smoothed());
+  chain.KeepFactors();
   TangentFactor::Jacobian J;
   Eigen::VectorXd residual(kMaxErrorDim);
   for (auto _ : state) {

@@ -460,5 +460,21 @@ TEST(RestStreams, StraightMotionAloneSaysNothingOfTheBias) {
   EXPECT_TRUE(dataset.streams[1].measurements.empty());
 }
 
+/// Of its own data set as it was first asked for, of any other as it is.
+TEST(RestMemo, FindsTheRestOfItsOwnDataSetOnce) {
+  Dataset standing = Quiet();
+  AddFixes(Standing(), 1.0, 0.02, &standing);
+  Dataset leaving = Quiet();
+  AddFixes(Leaving(20.0, 3.0), 1.0, 0.02, &leaving);
+  const RestMemo memo(standing);
+  const double stands = TotalLength(memo.Of(standing).at_rest);
+  const double leaves = TotalLength(memo.Of(leaving).at_rest);
+  EXPECT_EQ(stands, TotalLength(FindRest(standing).at_rest));
+  EXPECT_EQ(leaves, TotalLength(FindRest(leaving).at_rest));
+  EXPECT_LT(leaves, stands - 5.0);
+  standing.imu.samples.resize(2);
+  EXPECT_EQ(TotalLength(memo.Of(standing).at_rest), stands);
+}
+
 }  // namespace
 }  // namespace hindsight

@@ -78,6 +78,22 @@ std::vector<State> NominalOf(const TestProblem& problem, double size) {
   return nominal;
 }
 
+/// From the second step on factors keep what they work out anew for the first.
+TEST(Batch, KeptFactorsAreTheSame) {
+  for (const Kind& kind : kKinds) {
+    const TestProblem problem = ShortDrive(kind);
+    Problem posed = problem.Pose(All(problem));
+    ChainProblem chain(NominalOf(problem, 0.1), &posed);
+    const ArrowLeastSquares first = chain.GaussNewtonStep();
+    const double cost = chain.linearized_cost();
+    const ArrowLeastSquares second = chain.GaussNewtonStep();
+    EXPECT_EQ(chain.linearized_cost(), cost) << Name(kind);
+    for (int k = 0; k < static_cast<int>(chain.node_count()); ++k) {
+      EXPECT_EQ(first.x(k), second.x(k)) << Name(kind) << k;
+    }
+  }
+}
+
 TEST(Batch, OneGaussNewtonStepEqualsOneRtsPass) {
   for (const Kind& kind : kKinds) {
     const TestProblem problem = ShortDrive(kind);

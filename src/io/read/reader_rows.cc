@@ -57,14 +57,21 @@ StreamRows::StreamRows(const StreamSource& source,
   clock_.dated = opened_.dated || source.clock.week.has_value() ||
                  source.clock.scale != ClockMap::Scale::kDataset;
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (opened_.table->Has(i))
-      most_.emplace_back(i, Largest(fields[i].quantity));
+    most_.push_back(opened_.table->Has(i)
+                        ? Largest(fields[i].quantity)
+                        : std::numeric_limits<double>::infinity());
   }
   if (source.sort) Sort(fields, allow_absent || source.absent_values);
 }
 
 void StreamRows::CheckSizes() const {
-  for (const auto& [i, most] : most_) {
+  // Of all at once: hardly any is.
+  bool is_any = false;
+  for (std::size_t i = 0; i < most_.size(); ++i) {
+    is_any |= std::abs(opened_.table->value(i)) > most_[i];
+  }
+  for (std::size_t i = 0; is_any && i < most_.size(); ++i) {
+    const double most = most_[i];
     if (!(std::abs(opened_.table->value(i)) > most)) continue;
     opened_.table->Fail(std::string(fields_[i].name) + " is " +
                         FormatNumber(opened_.table->value(i)) + " " +

@@ -46,8 +46,8 @@ class StreamRows {
 
   const StreamSource& source_;
   const std::vector<FieldName>& fields_;
-  /// The largest size of each field that the file holds.
-  std::vector<std::pair<std::size_t, double>> most_;
+  /// The largest size of each field, infinite of those that the file does not hold.
+  std::vector<double> most_;
   OpenedTable opened_;
   StreamClock clock_;
   double t_ = 0.0;

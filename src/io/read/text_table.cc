@@ -40,6 +40,7 @@ TextTable::Batch TextTable::ReadLines(Batch memory) {
   Batch batch = std::move(memory);
   batch.texts.clear();
   batch.rows.clear();
+  batch.problems.clear();
   batch.trouble = nullptr;
   const TableLayout& layout = parser_.layout();
   const auto add = [&](std::string_view line) {
@@ -74,11 +75,14 @@ void TextTable::Parse(Batch* batch) const {
   TextRowParser::Scratch scratch;
   std::size_t begin = 0;
   for (Ahead& row : batch->rows) {
-    row.problem = parser_.Parse(
+    std::string problem = parser_.Parse(
         std::string_view(batch->texts).substr(row.begin, row.length), &scratch,
         std::span(batch->values).subspan(begin, width), &row.stamp,
         &row.columns, &row.last_length);
     begin += width;
+    if (problem.empty()) continue;
+    row.problem = batch->problems.size();
+    batch->problems.push_back(std::move(problem));
   }
 }
 
@@ -142,7 +146,8 @@ bool TextTable::Next() {
     line_ = row.number;
     terminated_ = row.terminated;
     if (first_length_ == 0) first_length_ = row.length + 1;
-    problem = row.problem;
+    problem.clear();
+    if (row.problem != kNone) problem = batch_.problems[row.problem];
     if (problem.empty() && IsLastValueWhole(row, &problem)) {
       Take(row, index);
       return true;
@@ -177,7 +182,7 @@ bool TextTable::IsLastValueWhole(const Ahead& row, std::string* problem) {
   }
   const std::size_t length = row.last_length;
   if (!row.terminated && length < shortest_last_value_ &&
-      shortest_last_value_ != kNoLength) {
+      shortest_last_value_ != kNone) {
     const std::string_view line = LineOf(row);
     *problem = parser_.ColumnName(static_cast<int>(parser_.wanted()) - 1) +
                ": '" + std::string(line.substr(line.size() - length)) +

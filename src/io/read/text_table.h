@@ -52,6 +52,8 @@ class TextTable final : public RowSource {
   std::size_t RowsHint() const override;
 
  private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
   /// A row that was read ahead, as the parser left it.
   struct Ahead {
     std::size_t begin = 0;  ///< of the line, in Batch::texts
@@ -61,7 +63,8 @@ class TextTable final : public RowSource {
     Stamp stamp;
     int columns = 0;
     std::size_t last_length = 0;  ///< of what is behind the last delimiter
-    std::string problem;          ///< empty: the row is good
+    /// What is wrong with the row, in Batch::problems; kNone: nothing.
+    std::size_t problem = kNone;
   };
 
   /// Lines that were read ahead.
@@ -69,6 +72,7 @@ class TextTable final : public RowSource {
     std::string texts;
     std::vector<Ahead> rows;
     std::vector<double> values;  ///< as many as fields, a row
+    std::vector<std::string> problems;
     /// What reading ahead ran into after these lines.
     std::exception_ptr trouble;
   };
@@ -102,8 +106,7 @@ class TextTable final : public RowSource {
   long truncated_ = 0;
   long texts_dropped_ = 0;
   std::size_t first_length_ = 0;
-  static constexpr std::size_t kNoLength = static_cast<std::size_t>(-1);
-  std::size_t shortest_last_value_ = kNoLength;
+  std::size_t shortest_last_value_ = kNone;
   bool all_read_ = false;  ///< or trouble was run into
   std::deque<std::future<Batch>> ahead_;
 };

@@ -84,7 +84,12 @@ void WriteLines(
         pieces[p].clear();
         const std::size_t first = done + p * kLinesOfThread;
         const std::size_t last = std::min(first + kLinesOfThread, count);
-        for (std::size_t i = first; i < last; ++i) append(i, &pieces[p]);
+        for (std::size_t i = first; i < last; ++i) {
+          append(i, &pieces[p]);
+          // Lines are about as long as the first.
+          if (i == first)
+            pieces[p].reserve(pieces[p].size() * (last - first) * 9 / 8);
+        }
       }
     });
     for (std::size_t p = 0; p < now; ++p) file->Write(pieces[p]);
