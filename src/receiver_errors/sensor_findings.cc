@@ -45,18 +45,28 @@ Eigen::Index RowsOf(const LinearTape& tape, int sensor) {
   return 0;
 }
 
+/// What a filter step of so many states takes, by one of a position, velocity,
+/// attitude, the IMU's biases and scale factors and an error with its rate.
+double CostOfStep(const LinearTape& tape) {
+  constexpr double kUsual = 27.0;
+  const double states = tape.dim() + 6;
+  return std::max(1.0, states * states / (kUsual * kUsual));
+}
+
 /// Filter steps of a search; of long tapes so many a node.
 double MostEffort(const LinearTape& tape) {
-  constexpr double kAtLeast = 6e5;
+  constexpr double kAtLeast = 1.5e6;
   constexpr double kPerNode = 400.0;
-  return std::max(kAtLeast, kPerNode * static_cast<double>(tape.size()));
+  return std::max(kAtLeast, kPerNode * static_cast<double>(tape.size())) /
+         CostOfStep(tape);
 }
 
 /// As MostEffort, of the refinement at all fixes.
 double RefinementEffort(const LinearTape& tape) {
   constexpr double kAtLeast = 3e5;
   constexpr double kPerNode = 60.0;
-  return std::max(kAtLeast, kPerNode * static_cast<double>(tape.size()));
+  return std::max(kAtLeast, kPerNode * static_cast<double>(tape.size())) /
+         CostOfStep(tape);
 }
 
 bool IsAlone(const Timeline& timeline, int sensor) {
