@@ -13,14 +13,12 @@ namespace {
 /// Whether the sensor errs at each node. Before its first fix it does what it does
 /// there.
 std::vector<char> ErrsAt(const SensorFindings& found) {
-  constexpr double kSigmas = 3.0;
   const WeighedHypothesis& chosen = found.chosen();
   const int n = found.tape.dim();
   std::vector<char> errs;
   for (std::size_t k = 0; k < chosen.steps.size(); ++k) {
     const ErrorMode mode = chosen.steps[k].mode;
-    const bool large =
-        chosen.smoothed[k].segment<3>(n).norm() > kSigmas * found.stated_sigma;
+    const bool large = found.IsLarge(chosen.smoothed[k].segment<3>(n).norm());
     errs.push_back(mode != ErrorMode::kGood &&
                    (mode != ErrorMode::kSlight || large));
   }

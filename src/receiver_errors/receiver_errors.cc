@@ -115,7 +115,10 @@ std::optional<Evidence> ReceiverErrors::Average(const ErrorLayout& layout,
     }
     P->Set(k, P_k);
   }
-  if (comparable) return DoubtOf(rival, found_->Times(), InWords(), true);
+  if (comparable && found_->IsLarge(rival.distance)) {
+    return DoubtOf(rival, found_->Times(), InWords(), true);
+  }
+  if (comparable) return std::nullopt;
   const RivalHypothesis beyond =
       FindRivalBeyond(found_->alternatives, chosen, *P);
   if (beyond.probability < kSure) return std::nullopt;

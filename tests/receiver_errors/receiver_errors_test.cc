@@ -152,11 +152,11 @@ TEST(ReceiverErrors, OfALoneSensorToItsLastFixAreDoubtful) {
               kEndsOfAnError * (1.0 - 2.0 * 19.0 / 60.0), 0.1);
 }
 
-void AddStep(double from, TestProblem* test) {
+void AddStep(double from, TestProblem* test, double factor = 1.0) {
   for (Measurement& z : test->measurements) {
     if (z.t < from) continue;
     auto& fix = std::get<PositionFix>(z.model);
-    fix.p_e += NedAxes(fix.p_e) * Eigen::Vector3d(30.0, -20.0, 10.0);
+    fix.p_e += NedAxes(fix.p_e) * (factor * Eigen::Vector3d(30.0, -20.0, 10.0));
   }
 }
 
@@ -194,13 +194,15 @@ struct Telling {
   double step = 30.5;        ///< [s]
   bool at_start = false;     ///< the chosen one errs before the step
   double start_sigma = 1e4;  ///< of the position a priori, an axis [m]
+  double factor = 1.0;       ///< on the step
+  double sigma = 1.0;        ///< of the chosen solution, an axis [m]
 };
 
 Averaged AverageTellings(const Telling& asked) {
   TestProblem test = FixesOfOneMinute();
   test.prior.P.topLeftCorner<3, 3>() =
       Eigen::Matrix3d::Identity() * asked.start_sigma * asked.start_sigma;
-  AddStep(asked.step, &test);
+  AddStep(asked.step, &test, asked.factor);
   Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
   const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
   ErrorDecisions tellings =
@@ -215,12 +217,13 @@ Averaged AverageTellings(const Telling& asked) {
   const int dim = problem.layout.dim();
   CovarianceSeries P(dim, states.size());
   for (std::size_t k = 0; k < states.size(); ++k) {
-    P.Set(k, ErrorMatrix::Identity(dim, dim));
+    P.Set(k, ErrorMatrix(asked.sigma * asked.sigma *
+                         ErrorMatrix::Identity(dim, dim)));
   }
   Averaged out;
   out.doubt = errors.Average(problem.layout, &states, &P);
   out.off = (states[10].p_e - test.truth[10].p_e).norm();
-  out.variance = P.Get(10)(0, 0) - 1.0;
+  out.variance = P.Get(10)(0, 0) - asked.sigma * asked.sigma;
   return out;
 }
 
@@ -232,6 +235,16 @@ TEST(ReceiverErrors, ThatAreAboutAsLikelyInTwoWaysGiveTheMean) {
   EXPECT_THAT(mean.doubt->what, HasSubstr("or else, 38 % likely"));
   EXPECT_NEAR(mean.off, 0.38 * 37.4, 2.0);
   EXPECT_NEAR(mean.variance, 0.38 * 0.62 * 900.0, 30.0);
+}
+
+/// 1.1 m are many sigmas of the solution, but little for fixes of 0.5 m: the mean,
+/// whose covariance holds both, needs no doubt.
+TEST(ReceiverErrors, ThatAreSmallGiveTheMeanWithoutDoubt) {
+  const Averaged mean =
+      AverageTellings({.behind = 0.5, .factor = 0.03, .sigma = 0.1});
+  EXPECT_FALSE(mean.doubt.has_value());
+  EXPECT_NEAR(mean.off, 0.38 * 1.1, 0.3);
+  EXPECT_NEAR(mean.variance, 0.38 * 0.62 * 0.81, 0.1);
 }
 
 /// Probabilities of 95 and 5 %, by the search and by the roles exchanged.
