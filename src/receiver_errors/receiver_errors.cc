@@ -236,14 +236,15 @@ std::vector<ReceiverErrors> FindReceiverErrors(const Problem& problem,
   const auto count = static_cast<double>(sensors.size());
   double left = 1.0;
   // Positions, which take the most, come last and get what the others leave.
-  for (auto sensor = sensors.rbegin(); sensor != sensors.rend(); ++sensor) {
+  std::ranges::reverse(sensors);
+  for (const int sensor : sensors) {
     const auto done = static_cast<double>(found.size());
     const SearchLimits limits = {
         left / (count - done), [&](double fraction) {
           return !question.go_on || question.go_on((done + fraction) / count);
         }};
     auto one =
-        std::make_unique<const SensorFindings>(problem, tape, *sensor, limits);
+        std::make_unique<const SensorFindings>(problem, tape, sensor, limits);
     left -= one->spent;
     found.push_back(ReceiverErrors(std::move(one)));
   }
