@@ -69,8 +69,9 @@ class ReceiverErrors {
   /// probabilities. Where those that lead elsewhere are together likelier than one
   /// to 10^(1/2), what Jeffreys (Theory of Probability, 1961) calls odds hardly
   /// worth mentioning, the states become the mean of all, which is nearest to the
-  /// truth in the mean square, and where others are more than three stated sigmas of a fix away, what is doubtful is returned; so it is where the
-  /// widened covariances do not hold others (FindRivalBeyond) to odds of a thousand.
+  /// truth in the mean square. What is doubtful is returned where such others are
+  /// more than three stated sigmas of a fix away, or where the widened covariances
+  /// do not hold less likely ones (FindRivalBeyond) to odds of a thousand.
   std::optional<Evidence> Average(const ErrorLayout& layout,
                                   std::vector<State>* states,
                                   CovarianceSeries* P) const;

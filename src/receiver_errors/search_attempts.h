@@ -34,7 +34,8 @@ std::vector<Attempt> ExchangedRoles(const RegimeProblem& problem,
                                     const Hypothesis& jumping);
 
 /// The likeliest of DriftsThatEnd, each by the rate that leads to errors as large
-/// as the hypothesis's own and with the noise of the IMU as stated; without a sequence if there is none.
+/// as the hypothesis's own and with the noise of the IMU as stated; without a
+/// sequence if there is none.
 Attempt BestDriftThatEnds(const RegimeProblem& problem,
                           const Hypothesis& jumping);
 

@@ -25,8 +25,11 @@ struct SearchLimits {
 struct ErrorDecisions {
   ErrorDecisions(const Problem& problem, const LinearTape& tape, int index);
   bool stands() const { return choice.chosen > 0; }
-  /// More than three stated sigmas of a fix.
-  bool IsLarge(double error) const { return error > 3.0 * stated_sigma; }
+  /// Of a sensor of metres: whether so many are more than three stated sigmas of a
+  /// fix. What another sensor moves is always large.
+  bool IsLarge(double metres) const {
+    return unit != "m" || metres > 3.0 * stated_sigma;
+  }
   bool switching() const {
     return regimes.kind == ErrorRegimes::Kind::kSwitching;
   }

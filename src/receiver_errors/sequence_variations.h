@@ -20,15 +20,16 @@ std::vector<ModeSequence> Variations(const ModeSequence& sequence);
 void ForEachVelocityStep(const ModeSequence& sequence,
                          const std::function<bool(const ModeSequence&)>& visit);
 
-/// Where `sequence` is biased, or slightly, at its last fixes, one with these good and all before
-/// biased; where it errs at its first, one with those good and all
+/// Where `sequence` is biased, or slightly, at its last fixes, one with these good
+/// and all before biased; where it errs at its first, one with those good and all
 /// behind biased. By fixes alone a jump tells one as well as the other. Nothing
 /// where it errs throughout.
 std::vector<ModeSequence> RolesExchanged(const ModeSequence& sequence);
 
-/// Where `sequence` jumps to a bias, or a slight one, that lasts to its last fix, or from one that it
-/// has from its first, the jump as the end of a drift, with which the sensor comes
-/// back, and no velocity steps: one for each length of the drift, a quarter apart.
+/// Where `sequence` jumps to a bias, or a slight one, that lasts to its last fix, or
+/// from one that it has from its first, the jump as the end of a drift, with which
+/// the sensor comes back, and no velocity steps: one for each length of the drift, a
+/// quarter apart.
 std::vector<ModeSequence> DriftsThatEnd(const ModeSequence& sequence);
 
 /// An error too small to be found alone may have begun at any time before a
