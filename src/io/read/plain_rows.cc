@@ -7,8 +7,6 @@
 #include <cstring>
 #include <limits>
 
-#include "io/read/quick_number.h"
-
 namespace hindsight {
 namespace {
 
@@ -18,14 +16,6 @@ bool IsShortStamp(std::string_view text, double value) {
   constexpr std::size_t kShort = 9;  // digits, of which some may be zeros
   return std::abs(value) < kLargest &&
          (text.size() <= kShort || text[0] != '0' || text[1] == '.');
-}
-
-/// Moves `at` behind a finite number.
-bool ReadNumber(const char** at, const char* end, double* value) {
-  if (QuickNumber::Read(at, end, value)) return true;
-  const auto result = fast_float::from_chars(*at, end, *value);
-  *at = result.ptr;
-  return result.ec == std::errc() && std::isfinite(*value);
 }
 
 }  // namespace
@@ -83,7 +73,9 @@ bool PlainRows::Read(std::string_view row, std::span<double> values,
       p = next == nullptr ? end : static_cast<const char*>(next);
     } else {
       double value = 0.0;
-      if (!ReadNumber(&p, end, &value)) return false;
+      const auto result = fast_float::from_chars(p, end, value);
+      if (result.ec != std::errc() || !std::isfinite(value)) return false;
+      p = result.ptr;
       if (column.field == kTime) {
         const std::string_view text(begin, static_cast<std::size_t>(p - begin));
         if (!IsShortStamp(text, value)) return false;

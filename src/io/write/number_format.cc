@@ -78,41 +78,6 @@ char* PutWhole(std::uint64_t value, char* to) {
   return std::to_chars(to, to + kMostDigits, value).ptr;
 }
 
-constexpr auto kPairs = [] {
-  std::array<char, 200> pairs = {};
-  for (std::size_t i = 0; i < 100; ++i) {
-    pairs[2 * i] = static_cast<char>('0' + i / 10);
-    pairs[2 * i + 1] = static_cast<char>('0' + i % 10);
-  }
-  return pairs;
-}();
-
-/// The same of the last `count` digits, zeros in front among them. By parts of eight
-/// that do not wait for each other, and pairs of these.
-char* PutDigits(std::uint64_t value, int count, char* to) {
-  constexpr std::uint64_t kPart = 100'000'000;
-  char* const end = to + count;
-  char* part_end = end;
-  for (int left = count; left > 0; left -= 8, part_end -= 8) {
-    auto part = static_cast<std::uint32_t>(value % kPart);
-    value /= kPart;
-    char* at = part_end;
-    int digits = std::min(left, 8);
-    for (; digits > 1; digits -= 2) {
-      at -= 2;
-      std::copy_n(kPairs.begin() + 2 * (part % 100), 2, at);
-      part /= 100;
-    }
-    if (digits == 1) *--at = static_cast<char>('0' + part % 10);
-  }
-  return end;
-}
-
-void Append(const QuickBuffer& buffer, const char* end, std::string* out) {
-  // By its length: of two pointers the string makes more ado.
-  out->append(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
-}
-
 /// False, and nothing appended, for numbers that it leaves out.
 bool AppendFixedQuickly(double value, int decimals, std::string* out) {
   constexpr double kLargest = 1e8;
@@ -128,15 +93,14 @@ bool AppendFixedQuickly(double value, int decimals, std::string* out) {
   QuickBuffer buffer;
   char* to = buffer.data();
   if (value < 0.0 && digits > 0) *to++ = '-';
-  to = PutWhole(digits / one, to);
-  *to++ = '.';
-  to = PutDigits(digits % one, decimals, to);
-  Append(buffer, to, out);
+  char* const point = PutWhole(digits / one, to);
+  to = PutWhole(one + digits % one, point);  // a digit more, for zeros in front
+  *point = '.';
+  out->append(buffer.data(), to);
   return true;
 }
 
-/// A number of so many digits as it was asked for, of which the first stands for
-/// 10^exponent.
+/// A number of some digits, of which the first stands for 10^exponent.
 struct Decimal {
   std::uint64_t digits = 0;
   int exponent = 0;
@@ -180,7 +144,7 @@ bool AppendGeneralQuickly(double value, int count, std::string* out) {
     to = std::fill_n(to, -exponent - 1, '0');
   }
   char* const first = to;
-  to = PutDigits(decimal->digits, count, to);
+  to = PutWhole(decimal->digits, to);
   const std::ptrdiff_t whole = scientific ? 1 : std::max(exponent + 1, 0);
   while (to - first > std::max<std::ptrdiff_t>(whole, 1) && to[-1] == '0') --to;
   if (whole > 0 && to - first > whole) {
@@ -194,7 +158,7 @@ bool AppendGeneralQuickly(double value, int count, std::string* out) {
     if (std::abs(exponent) < 10) *to++ = '0';
     to = PutWhole(static_cast<std::uint64_t>(std::abs(exponent)), to);
   }
-  Append(buffer, to, out);
+  out->append(buffer.data(), to);
   return true;
 }
 
