@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "base/chi_square.h"
+#include "base/median.h"
 #include "problems/marginal_likelihood.h"
 
 namespace hindsight {
@@ -51,7 +53,12 @@ double SquaredDifference(const MarginalLikelihood& a,
 }
 
 double ExcessOf(const MarginalLikelihood& chosen) {
-  return chosen.rows > 0.0 ? std::max(1.0, chosen.squares / chosen.rows) : 1.0;
+  std::vector<double> excess;
+  for (const auto& [measurement, innovation] : chosen.whitened) {
+    const auto rows = static_cast<double>(innovation.size());
+    excess.push_back(innovation.squaredNorm() / ChiSquareQuantile(0.5, rows));
+  }
+  return std::max(1.0, Median(std::move(excess)));
 }
 
 }  // namespace

@@ -18,8 +18,9 @@ struct Explained {
 ///   r (L_rival - L_chosen)/c + difference of LogClockPrior,
 ///   r = max(0, 1 - 2 c m/|w|^2).
 /// L: MarginalLikelihoodOf the measurements that both have inside the IMU's
-/// record. c: mean square of the innovations of `chosen`, at least 1, by which
-/// the noise is larger than stated. w: by what the two predictions of these
+/// record. c: by how much the noise is larger than stated, at least 1: the
+/// median of the normalised squared innovations of `chosen`, each by the median of
+/// its chi-square distribution (fixes that err do not count). w: by what the two predictions of these
 /// measurements differ, as the difference of the whitened innovations; m: the
 /// mean of MarginalLikelihood::imu_noise. With two clocks the measurements meet
 /// the IMU's noise of two different times, which adds 2 c m to |w|^2. Where the

@@ -202,6 +202,29 @@ void ReceiverErrors::WidenTowards(const ReceiverErrors& other,
   }
 }
 
+double ReceiverErrors::LogOfPrior() const { return found_->log_prior; }
+
+bool ReceiverErrors::HasVelocitySteps() const {
+  return found_->switching() &&
+         std::ranges::any_of(found_->chosen().steps, &ErrorStep::velocity_step);
+}
+
+std::vector<double> ReceiverErrors::ChangeTimes() const {
+  std::vector<double> times;
+  if (!found_->switching()) return times;
+  ErrorMode before = ErrorMode::kGood;
+  for (std::size_t k = 0; k < found_->tape.size(); ++k) {
+    const ErrorStep& step = found_->chosen().steps[k];
+    if (step.anew || step.mode != before) times.push_back(found_->tape.t(k));
+    before = step.mode;
+  }
+  return times;
+}
+
+double ReceiverErrors::searched_fixes() const {
+  return static_cast<double>(found_->searched_fixes);
+}
+
 std::shared_ptr<const ErrorDecisions> ReceiverErrors::Decisions() const {
   return std::make_shared<const ErrorDecisions>(*found_);
 }
@@ -234,7 +257,7 @@ std::vector<ReceiverErrors> FindReceiverErrors(const Problem& problem,
     return std::ranges::count(question.known, sensor) > 0;
   });
   const auto count = static_cast<double>(sensors.size());
-  double left = 1.0;
+  double left = question.share;
   // Positions, which take the most, come last and get what the others leave.
   std::ranges::reverse(sensors);
   for (const int sensor : sensors) {

@@ -28,6 +28,8 @@ struct ErrorQuestion {
   /// Of a search about another tape: taken as it is, where the nodes hold the
   /// same fixes, instead of a search. nullptr: none.
   const DecidedErrors* decided = nullptr;
+  /// Of the effort that a search may cost.
+  double share = 1.0;
   /// Told the fraction done, between the steps of the search; false ends it with
   /// the best so far; may throw to abandon it.
   std::function<bool(double)> go_on = nullptr;
@@ -106,6 +108,16 @@ class ReceiverErrors {
   /// Adds to P what it is worth that the other is right with a probability.
   void WidenTowards(const ReceiverErrors& other, double probability,
                     CovarianceSeries* P) const;
+  /// ln of what sequence and parameters of the likeliest hypothesis are worth a
+  /// priori: of its evidence without the likelihood.
+  double LogOfPrior() const;
+  /// Whether the velocity of the IMU steps in the chosen hypothesis.
+  bool HasVelocitySteps() const;
+  /// Times of the nodes at which the sensor's errors begin, end or change in the
+  /// chosen hypothesis.
+  std::vector<double> ChangeTimes() const;
+  /// Of how many fixes, or normal points, sequences were sought.
+  double searched_fixes() const;
   /// What was decided, for ErrorQuestion::decided.
   std::shared_ptr<const ErrorDecisions> Decisions() const;
   /// The chosen hypothesis in words: "gnss: biased from 120 to 140 s".

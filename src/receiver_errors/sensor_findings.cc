@@ -103,7 +103,12 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
       searched, sensor, stated_sigma,
       problem.layout.Has(BlockKind::kColouredNoise, sensor), &effort};
   std::vector<ErrorRegimes> all = FitRegimes(regime);
+  searched_fixes = all.front().hypotheses.front().sequence.size();
   choice = ChooseRegime(regime, all);
+  const Hypothesis& best = all[choice.chosen].hypotheses.front();
+  log_prior = all[choice.chosen].log_evidence -
+              ScoreSequence(searched, sensor, best.parameters, best.sequence)
+                  .log_likelihood;
   stopped = effort.stopped();
   spent = std::min(limits.share, effort.spent() / most);
   SearchEffort rest(limits.share * RefinementEffort(tape),

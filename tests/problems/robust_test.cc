@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/random.h"
@@ -99,6 +100,86 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) {
       return "Kind" + std::to_string(static_cast<int>(info.param.kind));
     });
+
+/// A drone whose receiver jumps by 60 m, comes back in a straight line within 20 s,
+/// and says so in its velocities.
+Dataset DroneWithAGlitch(Dataset dataset) {
+  constexpr double kBegin = 40.0;
+  constexpr double kEnd = 60.0;
+  constexpr double kJump = 60.0;
+  const auto north = [](double t) {
+    return kJump * (kEnd - t) / (kEnd - kBegin);
+  };
+  for (AidingStream& stream : dataset.streams) {
+    for (Measurement& z : stream.measurements.Edited()) {
+      if (z.t < kBegin || z.t >= kEnd) continue;
+      if (auto* fix = std::get_if<PositionFix>(&z.model)) {
+        fix->p_e += NedAxes(fix->p_e).col(0) * north(z.t);
+      } else if (auto* velocity = std::get_if<VelocityFix>(&z.model)) {
+        velocity->v_n.x() -= kJump / (kEnd - kBegin);
+      }
+    }
+  }
+  return dataset;
+}
+
+/// A drone whose compass is next to a current for 40 s.
+Dataset DroneBesideACurrent(Dataset dataset) {
+  const Eigen::Vector3d current_b(20.0, -15.0, 5.0);  // [uT]
+  for (AidingStream& stream : dataset.streams) {
+    for (Measurement& z : stream.measurements.Edited()) {
+      if (z.t < 30.0 || z.t >= 70.0) continue;
+      auto* field = std::get_if<MagneticField>(&z.model);
+      if (field != nullptr) field->field_b += current_b;
+    }
+  }
+  return dataset;
+}
+
+/// Largest error of the heading at the nodes [rad].
+double LargestHeadingError(const Dataset& dataset, const Solution& solution) {
+  double largest = 0.0;
+  for (const State& x : solution.states) {
+    const auto at =
+        std::ranges::find_if(dataset.truth, [&x](const TruthPoint& point) {
+          return std::abs(point.t - x.t) < 1e-6;
+        });
+    if (at == dataset.truth.end()) continue;
+    const Eigen::Quaterniond q_nb(x.C_en().transpose() *
+                                  x.q_eb.toRotationMatrix());
+    largest = std::max(largest, q_nb.angularDistance(*at->q_nb));
+  }
+  return largest;
+}
+
+TEST(RobustBatch, FindsPositionsAndVelocitiesThatErrTogether) {
+  const Dataset clean = Simulate(FindScenario("test_drone"), 3);
+  ReconstructionOptions options;
+  options.method = "batch";
+  const Accuracy without = Judge(clean, Solve(clean, options));
+  const Dataset dirty = DroneWithAGlitch(clean);
+  const Accuracy spoilt = Judge(dirty, Solve(dirty, options));
+  EXPECT_GT(spoilt.horizontal_rms, 20.0 * without.horizontal_rms);
+  options.method = "robust_batch";
+  const Solution solution = Solve(dirty, options);
+  const Accuracy robust = Judge(dirty, solution);
+  EXPECT_LT(robust.horizontal_rms, 1.5 * without.horizontal_rms);
+  EXPECT_LT(robust.position_nees, 1.5 * without.position_nees);
+}
+
+TEST(RobustBatch, FindsACompassThatTurnsTheStart) {
+  const Dataset clean = Simulate(FindScenario("test_drone"), 3);
+  ReconstructionOptions options;
+  options.method = "batch";
+  const Accuracy without = Judge(clean, Solve(clean, options));
+  const Dataset dirty = DroneBesideACurrent(clean);
+  EXPECT_GT(LargestHeadingError(dirty, Solve(dirty, options)), 45.0 * kDegree);
+  options.method = "robust_batch";
+  const Solution solution = Solve(dirty, options);
+  EXPECT_LT(LargestHeadingError(dirty, solution), 5.0 * kDegree);
+  EXPECT_LT(Judge(dirty, solution).horizontal_rms,
+            1.1 * without.horizontal_rms);
+}
 
 }  // namespace
 }  // namespace hindsight
