@@ -73,8 +73,7 @@ std::optional<Evidence> OptimumComparison::Compare(const std::string& method,
   std::string component;
   for (std::size_t k = 0; k < own.size(); ++k) {
     const ErrorVector d = Local(layout, StateAt(own[k]), StateAt(poses_[k]));
-    const ErrorVector variances =
-        solution.covariances.Get(k).diagonal()(components);
+    const ErrorVector variances = solution.covariances.Variances(k)(components);
     for (int i = 0; i < layout.dim(); ++i) {
       const double sigmas = std::abs(d(i)) / std::sqrt(variances(i));
       if (!(sigmas > largest)) continue;
@@ -126,7 +125,7 @@ MethodComparison::Course MethodComparison::CourseOf(
   for (std::size_t k = 0; k < solution.states.size(); k += stride) {
     course.poses.push_back(PoseOf(solution.states[k]));
     course.variances.emplace_back(
-        solution.covariances.Get(k).diagonal()(components));
+        solution.covariances.Variances(k)(components));
   }
   return course;
 }

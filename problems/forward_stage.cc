@@ -283,7 +283,7 @@ void ForwardStage::RunOnce() {
   filtered_ = FilterSolution(tape);
   filtered_->seconds = ProcessorSeconds() - t0;
   problem_.decisions = DecisionsOnTape(tape);
-  smoothed_ = SmoothOnce(std::move(tape), filtered_->states);
+  smoothed_ = SmoothOnce(std::move(tape));
   if (timeline().HasGates()) RepeatWithSmoothedGates();
   smoothing_seconds_ = ProcessorSeconds() - t0 - filtered_->seconds;
 }
@@ -295,9 +295,7 @@ void ForwardStage::RepeatWithSmoothedGates() {
   GateDecisions again = DecideGates(problem_, *smoothed_);
   if (again == problem_.decisions) return;
   problem_.decisions = std::move(again);
-  LinearTape tape = Filter("rts", &problem_);
-  const std::vector<State> nominal = NominalOf(tape);
-  smoothed_ = SmoothOnce(std::move(tape), nominal);
+  smoothed_ = SmoothOnce(Filter("rts", &problem_));
 }
 
 }  // namespace hindsight

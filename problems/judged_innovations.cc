@@ -5,17 +5,14 @@
 #include <utility>
 
 namespace hindsight {
-namespace {
-
-/// Number of the measurement of a stamp in its stream.
-std::size_t IndexOf(const MeasurementSeries& series, double t) {
-  const auto found = std::lower_bound(
-      series.begin(), series.end(), t,
-      [](const Measurement& z, double stamp) { return z.t < stamp; });
-  return static_cast<std::size_t>(found - series.begin());
+Judgeable::Judgeable(const Timeline& timeline, const Dataset& dataset)
+    : timeline_(timeline) {
+  for (const AidingStream& stream : dataset.streams) {
+    std::vector<double>& stamps = stamps_.emplace_back();
+    stamps.reserve(stream.measurements.size());
+    for (const Measurement& z : stream.measurements) stamps.push_back(z.t);
+  }
 }
-
-}  // namespace
 
 bool Judgeable::Judges(const TapeMeasurement& z) const {
   return z.accepted && !z.withheld &&
@@ -28,19 +25,23 @@ NormalisedInnovation Judgeable::Of(std::size_t k, const TapeMeasurement& z,
   const auto sensor = static_cast<std::size_t>(z.sensor);
   const Measurement& measured =
       timeline_.measurements(k)[static_cast<std::size_t>(z.index)];
+  std::size_t index = NormalisedInnovation::kOwn;
+  if (sensor < stamps_.size()) {
+    const std::vector<double>& stamps = stamps_[sensor];
+    index = static_cast<std::size_t>(
+        std::lower_bound(stamps.begin(), stamps.end(), measured.t) -
+        stamps.begin());
+  }
   std::vector<int> components;
   for (int row = 0; row < rows.size(); ++row) {
     components.push_back(ComponentOf(measured, row));
   }
-  return {
-      .t = timeline_.node(k).t,
-      .sensor = z.sensor,
-      .index = sensor < dataset_.streams.size()
-                   ? IndexOf(dataset_.streams[sensor].measurements, measured.t)
-                   : NormalisedInnovation::kOwn,
-      .rows = std::move(rows),
-      .white = std::move(white),
-      .components = std::move(components)};
+  return {.t = timeline_.node(k).t,
+          .sensor = z.sensor,
+          .index = index,
+          .rows = std::move(rows),
+          .white = std::move(white),
+          .components = std::move(components)};
 }
 
 std::vector<NormalisedInnovation> InnovationsOf(const LinearTape& tape,

@@ -16,8 +16,7 @@ namespace hindsight {
 class Judgeable {
  public:
   /// The arguments must outlive the object.
-  Judgeable(const Timeline& timeline, const Dataset& dataset)
-      : timeline_(timeline), dataset_(dataset) {}
+  Judgeable(const Timeline& timeline, const Dataset& dataset);
 
   bool Judges(const TapeMeasurement& z) const;
   /// A measurement z of epoch k with its innovation by rows, over their sigmas,
@@ -27,7 +26,7 @@ class Judgeable {
 
  private:
   const Timeline& timeline_;
-  const Dataset& dataset_;
+  std::vector<std::vector<double>> stamps_;  ///< of the measurements, a stream
 };
 
 /// Of all that are judged, in order of time.

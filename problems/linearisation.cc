@@ -30,9 +30,9 @@ std::vector<NavigationVariances> VariancesOf(const ErrorLayout& layout,
   std::vector<NavigationVariances> variances(P.size(),
                                              NavigationVariances::Zero());
   for (std::size_t k = 0; k < P.size(); ++k) {
-    const ErrorMatrix P_k = P.Get(k);
-    ForEachNavigationComponent(
-        layout, [&](int i, int c) { variances[k](i) = P_k(c, c); });
+    const ErrorVector P_k = P.Variances(k);
+    ForEachNavigationComponent(layout,
+                               [&](int i, int c) { variances[k](i) = P_k(c); });
   }
   return variances;
 }
@@ -59,7 +59,7 @@ Rested SmoothUntilItRests(const std::vector<State>& states, Problem* problem,
     const std::vector<State>& about =
         rested.passes == 0 ? states : rested.trajectory.states;
     rested.tape = RunLinearizedFilter(about, problem, callback);
-    SmoothedTrajectory next = SmoothRts(rested.tape, /*errors=*/false);
+    SmoothedTrajectory next = SmoothRts(rested.tape, {.errors = false});
     rested.step = LargestDistance(problem->layout, about, next.states,
                                   VariancesOf(problem->layout, next.P));
     rested.trajectory = std::move(next);
@@ -76,9 +76,9 @@ LinearisationError Compare(const ErrorLayout& layout,
   NavigationVariances sum = NavigationVariances::Zero();
   for (std::size_t k = 0; k < states.size(); ++k) {
     const ErrorVector d = Local(layout, states[k], anew.states[k]);
-    const ErrorMatrix P_k = P.Get(k);
+    const ErrorVector P_k = P.Variances(k);
     ForEachNavigationComponent(layout, [&](int i, int c) {
-      const double square = (d(c) * d(c) + anew.variances[k](i)) / P_k(c, c);
+      const double square = (d(c) * d(c) + anew.variances[k](i)) / P_k(c);
       sum(i) += square;
       if (!(square > largest)) return;
       largest = square;

@@ -40,12 +40,10 @@ void MoveToSmoothed(const ErrorLayout& layout,
   }
 }
 
-SmoothedTrajectory SmoothOnce(LinearTape tape,
-                              const std::vector<State>& nominal) {
-  const ErrorLayout layout = tape.layout();
-  SmoothedTrajectory trajectory = SmoothRts(std::move(tape), /*errors=*/false);
-  MoveToSmoothed(layout, nominal, &trajectory);
-  return trajectory;
+SmoothedTrajectory SmoothOnce(LinearTape tape) {
+  return SmoothRts(
+      std::move(tape),
+      {.errors = false, .covariances = RtsOptions::Tangent::kSmoothed});
 }
 
 Realigned Realign(const ErrorLayout& layout, const Relinearised& anew,
@@ -56,9 +54,7 @@ Realigned Realign(const ErrorLayout& layout, const Relinearised& anew,
   Realigned realigned;
   realigned.start = FirstOf(anew.states, kAlignmentWindow);
   try {
-    LinearTape tape = filter(realigned.start);
-    const std::vector<State> nominal = NominalOf(tape);
-    realigned.trajectory = SmoothOnce(std::move(tape), nominal);
+    realigned.trajectory = SmoothOnce(filter(realigned.start));
   } catch (const EstimationError&) {
     return {};
   }

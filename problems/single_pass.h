@@ -22,10 +22,9 @@ void MoveToSmoothed(const ErrorLayout& layout,
                     const std::vector<State>& nominal,
                     SmoothedTrajectory* trajectory);
 
-/// RTS over a tape of this nominal, covariances in the tangent at the smoothed
-/// states, without errors.
-SmoothedTrajectory SmoothOnce(LinearTape tape,
-                              const std::vector<State>& nominal);
+/// RTS over a tape, covariances in the tangent at the smoothed states, without
+/// errors.
+SmoothedTrajectory SmoothOnce(LinearTape tape);
 
 /// A trajectory of one pass, of which the first nodes are linearised elsewhere
 /// than where the filter was.

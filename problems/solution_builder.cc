@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <utility>
 
+#include "base/parallel.h"
+
 namespace hindsight {
 namespace {
 
@@ -21,7 +23,11 @@ ResidualRecord MakeRecord(const Measurement& z, double t, bool accepted) {
 Solution FilterSolution(const LinearTape& tape) {
   Solution solution;
   solution.layout = tape.layout();
-  solution.covariances = CovarianceSeries(tape.dim(), tape.size());
+  auto covariances = InBackground([&tape] {
+    CovarianceSeries P(tape.dim(), tape.size());
+    for (std::size_t k = 0; k < tape.size(); ++k) P.Set(k, tape.P_plus(k));
+    return P;
+  });
   solution.states.reserve(tape.size());
   std::size_t measurements = 0;
   for (std::size_t k = 0; k < tape.size(); ++k) {
@@ -31,7 +37,6 @@ Solution FilterSolution(const LinearTape& tape) {
   for (std::size_t k = 0; k < tape.size(); ++k) {
     const TapeEpoch& epoch = tape.epoch(k);
     solution.states.push_back(epoch.x_plus);
-    solution.covariances.Set(k, tape.P_plus(k));
     for (const TapeMeasurement& z : tape.measurements(k)) {
       ResidualRecord record;
       record.t = epoch.t;
@@ -56,6 +61,7 @@ Solution FilterSolution(const LinearTape& tape) {
       solution.residuals.push_back(std::move(record));
     }
   }
+  solution.covariances = covariances.get();
   return solution;
 }
 

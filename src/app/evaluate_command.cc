@@ -166,17 +166,14 @@ int PrintBroad(const std::string& solution_path,
 
 /// The page of `report` with the errors of this comparison.
 void WritePage(const std::string& path, const SolutionTable& compared,
-               const Reference& truth, const TrajectoryErrorOptions& options,
-               const TrajectoryStatistics& statistics) {
+               const TruthComparison& comparison) {
   CheckFilePlace(FLAGS_out, {"'report' or 'evaluate'", IsReportPage});
   EvaluatedSolution evaluated;
   evaluated.file = path;
-  const ComparedTruth points = TruthToCompare(compared, truth.points, options);
-  for (ErrorColumn& column :
-       ColumnsOf(ComputeTrajectoryErrors(compared, points.points, options),
-                 compared)) {
+  for (ErrorColumn& column : ColumnsOf(comparison.errors, compared)) {
     evaluated.errors[column.title] = std::move(column.values);
   }
+  const TrajectoryStatistics& statistics = comparison.statistics;
   evaluated.figures = nlohmann::ordered_json::object();
   PutTruthFigures(statistics, Contradiction(statistics), &evaluated.figures);
   WriteFileAtomically(FLAGS_out, ReportPage(std::move(evaluated)));
@@ -198,8 +195,9 @@ int Run(const std::vector<std::string>& arguments) {
   options.truth_sigma = truth.sigma;
   // The rows at the truth's times are those of its point.
   if (file == arguments[0]) options.truth_lever_arm_b = truth.lever_arm_b;
-  const TrajectoryStatistics statistics =
+  const TruthComparison comparison =
       CompareWithTruth(solution, truth.points, options);
+  const TrajectoryStatistics& statistics = comparison.statistics;
   if (statistics.matched_count == 0) {
     throw InputError(
         arguments[0], 0,
@@ -210,7 +208,7 @@ int Run(const std::vector<std::string>& arguments) {
             truth.points.front().t, truth.points.back().t));
   }
   if (!FLAGS_out.empty()) {
-    WritePage(arguments[0], solution, truth, options, statistics);
+    WritePage(arguments[0], solution, comparison);
   }
   if (FLAGS_json) {
     PrintJson(statistics, file);

@@ -4,11 +4,14 @@
 
 #include <future>
 #include <iostream>
+#include <memory>
+#include <utility>
 
 #include "app/command.h"
 #include "app/input_digests.h"
 #include "app/load_recording.h"
 #include "app/measurement_log.h"
+#include "app/method_writer.h"
 #include "app/result_folder.h"
 #include "app/run_findings.h"
 #include "app/run_output.h"
@@ -92,18 +95,6 @@ void DoubtUnconfirmed(const std::vector<std::string>& unconfirmed,
               solution);
 }
 
-/// Frees all of a written solution's series but its last state: of a day, 120
-/// MB a method.
-void ForgetTrajectory(Solution* solution) {
-  if (!solution->states.empty()) {
-    solution->states = std::vector<State>(1, solution->states.back());
-  }
-  solution->covariances = {};
-  solution->two_filter.reset();
-  solution->modes.reset();
-  solution->attitude.reset();
-}
-
 /// Throws the reason if no method gave as much as a trajectory.
 void CheckAnyTrajectory(const std::vector<Solution>& solutions) {
   std::string reasons;
@@ -119,10 +110,12 @@ void CheckAnyTrajectory(const std::vector<Solution>& solutions) {
 void WriteMeasurements(const Dataset& dataset,
                        const std::vector<Solution>& solutions,
                        const Solution& best, ResultFolder* folder) {
-  WriteResidualCsv(folder->Path("residuals.csv"), solutions, dataset);
-  if (HasFixes(dataset)) {
+  auto fixes = InBackground([&] {
+    if (!HasFixes(dataset)) return;
     WriteFixCsv(folder->Path("fixes.csv"), best, dataset);
-  }
+  });
+  WriteResidualCsv(folder->Path("residuals.csv"), solutions, dataset);
+  fixes.get();
 }
 
 /// Work in passes of the forward filter; reading, start and writing take about
@@ -153,21 +146,6 @@ void RequireOtherRecording(const Dataset& dataset,
     }
   }
 }
-
-/// Lets what goes on beside come to its end before what it uses goes out of
-/// scope.
-class WaitAtEnd {
- public:
-  explicit WaitAtEnd(const std::shared_future<void>& work) : work_(work) {}
-  ~WaitAtEnd() {
-    if (work_.valid()) work_.wait();
-  }
-  WaitAtEnd(const WaitAtEnd&) = delete;
-  WaitAtEnd& operator=(const WaitAtEnd&) = delete;
-
- private:
-  const std::shared_future<void>& work_;
-};
 
 int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   SetThreadCount(request.threads);
@@ -209,36 +187,16 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
       dataset, std::move(findings), &reconstruction, &progress, &summary);
   std::vector<Solution> solutions;
   solutions.reserve(request.methods.size());
-  RowReadings readings(dataset.imu);
-  // The files of a method are written while the next one is solved; only the
-  // writer touches the summary and its solution meanwhile.
-  std::shared_future<void> writing;
-  const WaitAtEnd wait(writing);
+  MethodWriter writer(request, dataset, reconstruction, &summary, folder);
   for (const std::string& method : request.methods) {
     progress.Begin(method);
     solutions.push_back(RunMethod(&reconstruction, method));
     Solution* solution = &solutions.back();
     DoubtUnconfirmed(unconfirmed, solution);
     LogDownWeighted(dataset, *solution);
-    const double peak_rss_mb = PeakRssMb();
-    if (writing.valid()) writing.get();
-    MethodTables tables = SampleMethod(request, dataset, reconstruction,
-                                       *solution, &readings, folder);
-    writing =
-        InBackground([&, solution, peak_rss_mb, tables = std::move(tables)] {
-          summary.methods.push_back(Summarize(dataset, *solution, tables));
-          summary.methods.back().peak_rss_mb = peak_rss_mb;
-          WriteMethodFiles(request, dataset, *solution, tables, folder);
-          const bool has_trajectory = !solution->states.empty();
-          ForgetTrajectory(solution);
-          if (has_trajectory) {
-            folder->Keep(kSummaryName, SummaryText(summary));
-          }
-        }).share();
-    if (ThreadCount() == 1) writing.get();
-    folder->WaitFor(writing);
+    writer.Add(solution);
   }
-  writing.get();
+  writer.Finish();
   CheckAnyTrajectory(solutions);
   progress.Begin("writing");
   ShareDisagreements(&solutions);

@@ -40,19 +40,6 @@ void WriteModes(const std::string& path, const Solution& solution,
   WriteFileAtomically(path, text);
 }
 
-/// Throws InputError if a time of --at is outside the solution's span.
-void CheckTimesCovered(const RunRequest& request, const Solution& solution) {
-  const double begin = solution.states.front().t;
-  const double end = solution.states.back().t;
-  for (const double t : request.at) {
-    if (t >= begin && t <= end) continue;
-    throw InputError(
-        fmt::format("--at: t = {:.6f} s is outside the reconstructed "
-                    "interval from {:.6f} s to {:.6f} s",
-                    t, begin, end));
-  }
-}
-
 }  // namespace
 
 const char* const kProgram = "hindsight " HINDSIGHT_VERSION;
@@ -102,14 +89,24 @@ double PeakRssMb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+void CheckTimesCovered(const RunRequest& request, const Solution& solution) {
+  if (solution.states.empty()) return;
+  const double begin = solution.states.front().t;
+  const double end = solution.states.back().t;
+  for (const double t : request.at) {
+    if (t >= begin && t <= end) continue;
+    throw InputError(
+        fmt::format("--at: t = {:.6f} s is outside the reconstructed "
+                    "interval from {:.6f} s to {:.6f} s",
+                    t, begin, end));
+  }
+}
+
 MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
                           const Reconstruction& reconstruction,
-                          const Solution& solution, RowReadings* readings,
-                          ResultFolder* folder) {
+                          const Solution& solution, MethodOutput* output) {
   MethodTables tables;
   if (solution.states.empty()) return tables;
-  CheckTimesCovered(request, solution);
-  MethodOutput output(request, dataset, solution, readings, folder);
   std::vector<Wish> wishes = {
       {Times(request.at), request.point_b, Into(&tables.at)}};
   if (request.attitude_alone) {
@@ -122,14 +119,36 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
   if (request.rate) {
     wishes.push_back(
         {Times(solution, *request.rate), request.point_b,
-         [&output](const SolutionTable& piece) { output.Append(piece); }});
+         [output](const SolutionTable& piece) { output->Append(piece); }});
   } else {
-    output.Append(TableAt(request.point_b, dataset, solution));
+    output->Append(TableAt(request.point_b, dataset, solution));
   }
   SampleRows(dataset, reconstruction, solution, std::move(wishes));
-  output.Commit();
   return tables;
 }
+
+void CompareTables(const Dataset& dataset, MethodTables* tables) {
+  if (dataset.truth.empty()) return;
+  tables->comparison = CompareWithTruth(tables->truth, dataset.truth,
+                                        {.truth_sigma = dataset.truth_sigma});
+}
+
+namespace {
+
+/// At the truth's own times, wherever the two are compared.
+ErrorColumns ErrorsAtTruth(const Dataset& dataset, const MethodTables& tables) {
+  if (!tables.comparison->truth.at_solution_rows) {
+    return ColumnsOf(tables.comparison->errors, tables.truth);
+  }
+  TruthSeries truth = dataset.truth;
+  ThinTruth(&truth);
+  return ColumnsOf(
+      ComputeTrajectoryErrors(tables.truth, truth,
+                              {.truth_sigma = dataset.truth_sigma}),
+      tables.truth);
+}
+
+}  // namespace
 
 void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
                       const Solution& solution, const MethodTables& tables,
@@ -147,15 +166,10 @@ void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
   if (solution.modes) {
     WriteModes(folder->Path(method + ".modes.csv"), solution, dataset);
   }
-  if (!dataset.truth.empty() && tables.truth.size() > 0) {
-    TruthSeries truth = dataset.truth;
-    ThinTruth(&truth);
-    WriteErrorCsv(
-        folder->Path(method + ".errors.csv"),
-        ColumnsOf(ComputeTrajectoryErrors(tables.truth, truth,
-                                          {.truth_sigma = dataset.truth_sigma}),
-                  tables.truth),
-        ProgramLine(dataset), dataset.epoch_gps_ns);
+  if (tables.comparison && tables.truth.size() > 0) {
+    WriteErrorCsv(folder->Path(method + ".errors.csv"),
+                  ErrorsAtTruth(dataset, tables), ProgramLine(dataset),
+                  dataset.epoch_gps_ns);
   }
   if (HasConstantSeries(solution)) {
     WriteConstantCsv(folder->Path(method + ".constants.csv"), solution,
@@ -181,7 +195,10 @@ std::string DescribeReport(const RunRequest& request) {
 MethodSummary Summarize(const Dataset& dataset, const Solution& solution,
                         const MethodTables& tables) {
   if (!solution.states.empty()) {
-    MethodSummary summary = SummarizeMethod(dataset, solution, tables.truth);
+    MethodSummary summary = SummarizeMethod(
+        dataset, solution,
+        tables.comparison ? std::optional(tables.comparison->statistics)
+                          : std::nullopt);
     if (MethodOf(solution.method).attitude_alone()) {
       const BroadMetric broad = EvaluateBroad(tables.truth, dataset.truth);
       if (broad.count > 0) summary.broad = broad;

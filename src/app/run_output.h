@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "app/method_output.h"
 #include "app/result_folder.h"
-#include "app/row_readings.h"
 #include "app/run_request.h"
+#include "evaluation/truth_comparison.h"
 #include "io/config/config.h"
 #include "io/write/summary.h"
 #include "problems/reconstruction.h"
@@ -47,16 +48,22 @@ struct MethodTables {
   /// compared with it, here and by `evaluate`. Of attitude alone it is not
   /// written: it is the solution itself, which has each sample of the IMU.
   SolutionTable truth;
+  std::optional<TruthComparison> comparison =
+      {};  ///< of `truth` with the truth
 };
 
+/// Throws InputError if a time of --at is outside the solution's span, if it has one.
+void CheckTimesCovered(const RunRequest& request, const Solution& solution);
+
 /// Samples the solution through the IMU, once for the tables and for the
-/// output, which is written meanwhile: the nodes, or at --rate. Nothing for a
-/// solution without states. Throws InputError if a time of --at is outside its
-/// span.
+/// output, which takes its rows meanwhile: the nodes, or at --rate. Nothing for a
+/// solution without states.
 MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
                           const Reconstruction& reconstruction,
-                          const Solution& solution, RowReadings* readings,
-                          ResultFolder* folder);
+                          const Solution& solution, MethodOutput* output);
+
+/// Fills `comparison`, if there is a truth.
+void CompareTables(const Dataset& dataset, MethodTables* tables);
 
 /// Writes the tables that have rows, mode probabilities, errors against the
 /// truth and constants over time; nothing for a solution without states.

@@ -100,7 +100,7 @@ void DescribeAccuracy(const Judged& judged, std::vector<Evidence>* evidence) {
                   });
   Spread p, v, tilt, heading;
   for (std::size_t k = 0; k < solution.covariances.size(); ++k) {
-    const ErrorVector P = solution.covariances.Get(k).diagonal();
+    const ErrorVector P = solution.covariances.Variances(k);
     if (position != nullptr) {
       p.Add(P.segment(position->offset, over_ground ? 2 : position->dim).sum());
     }

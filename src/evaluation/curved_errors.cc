@@ -18,14 +18,17 @@ struct Bend {
 };
 
 /// `offset` is that of position or velocity, `h` that of the heading's error.
-Bend BendOf(const ErrorMatrix& P, int offset, int h) {
-  const double variance = P(h, h);
-  const Eigen::Vector2d with_heading = P.block<2, 1>(offset, h);
+Bend BendOf(const CovarianceSeries& P, std::size_t k, int offset, int h) {
+  const double variance = P.At(k, h, h);
+  const Eigen::Vector2d with_heading(P.At(k, offset, h),
+                                     P.At(k, offset + 1, h));
   const double length = with_heading.norm();
   if (!(length > 0.0) || !(variance > 0.0)) return {};
   const Eigen::Vector2d across(-with_heading.y() / length,
                                with_heading.x() / length);
-  const Eigen::Matrix2d P_part = P.block<2, 2>(offset, offset);
+  Eigen::Matrix2d P_part;
+  P_part << P.At(k, offset, offset), P.At(k, offset, offset + 1),
+      P.At(k, offset + 1, offset), P.At(k, offset + 1, offset + 1);
   const double deflection = 0.5 * length;
   return {.excess = 3.0 * deflection * deflection / across.dot(P_part * across),
           .deflection = deflection,
@@ -53,8 +56,8 @@ void FindCurvedErrors(const Judged& judged, std::vector<Evidence>* evidence) {
     Bend largest;
     double sum = 0.0;
     for (std::size_t k = 0; k < solution.states.size(); ++k) {
-      Bend bend = BendOf(solution.covariances.Get(k), block->offset,
-                         attitude->offset + 2);
+      Bend bend =
+          BendOf(solution.covariances, k, block->offset, attitude->offset + 2);
       sum += bend.excess;
       if (!(bend.excess > largest.excess)) continue;
       largest = bend;

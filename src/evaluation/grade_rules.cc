@@ -37,8 +37,7 @@ void FindFailure(const Judged& judged, std::vector<Evidence>* evidence) {
   }
   for (std::size_t k = 0; k < solution.states.size(); ++k) {
     if (solution.states[k].p_e.allFinite() &&
-        (solution.covariances.empty() ||
-         solution.covariances.Get(k).allFinite())) {
+        (solution.covariances.empty() || solution.covariances.IsFinite(k))) {
       continue;
     }
     const double t = solution.states[k].t;

@@ -123,13 +123,13 @@ std::vector<UnobservedSpan> FindUnobserved(const Solution& solution) {
   const std::size_t count = solution.covariances.size();
   std::vector<int> open(static_cast<std::size_t>(solution.layout.dim()), -1);
   for (std::size_t k = 0; k < count; ++k) {
-    const ErrorMatrix P = solution.covariances.Get(k);
+    const ErrorVector P = solution.covariances.Variances(k);
     const double t = solution.states[k].t;
     for (const Block& block : solution.layout.blocks()) {
       if (block.key.kind > BlockKind::kAttitude) continue;
       for (int i = 0; i < block.dim; ++i) {
         const int component = block.offset + i;
-        const double sigma = std::sqrt(P(component, component));
+        const double sigma = std::sqrt(P(component));
         int& span = open[static_cast<std::size_t>(component)];
         // With masked axes component i may be another axis; the limits of the
         // horizontal ones are the same.

@@ -222,11 +222,8 @@ std::string Contradiction(const TrajectoryStatistics& statistics) {
          text + ", where 3 is right";
 }
 
-TrajectoryStatistics EvaluateTrajectory(const SolutionTable& solution,
-                                        const TruthSeries& truth,
-                                        const TrajectoryErrorOptions& options) {
-  const std::vector<TrajectoryError> errors =
-      ComputeTrajectoryErrors(solution, truth, options);
+TrajectoryStatistics SummarizeErrors(const std::vector<TrajectoryError>& errors,
+                                     const TruthSeries& truth) {
   TrajectoryStatistics s = SummarizeErrors(errors, truth.size());
   if (!s.position) return s;
   std::optional<Eigen::Vector3d> last;
@@ -243,6 +240,13 @@ TrajectoryStatistics EvaluateTrajectory(const SolutionTable& solution,
   }
   s.distance = distance;
   return s;
+}
+
+TrajectoryStatistics EvaluateTrajectory(const SolutionTable& solution,
+                                        const TruthSeries& truth,
+                                        const TrajectoryErrorOptions& options) {
+  return SummarizeErrors(ComputeTrajectoryErrors(solution, truth, options),
+                         truth);
 }
 
 }  // namespace hindsight

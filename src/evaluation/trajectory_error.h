@@ -88,6 +88,10 @@ struct TrajectoryStatistics {
 TrajectoryStatistics SummarizeErrors(const std::vector<TrajectoryError>& errors,
                                      std::size_t truth_count);
 
+/// The same of the errors against a whole truth, with final_horizontal and distance.
+TrajectoryStatistics SummarizeErrors(const std::vector<TrajectoryError>& errors,
+                                     const TruthSeries& truth);
+
 /// Both steps in one.
 TrajectoryStatistics EvaluateTrajectory(const SolutionTable& solution,
                                         const TruthSeries& truth,

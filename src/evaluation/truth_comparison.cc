@@ -110,17 +110,19 @@ ComparedTruth TruthToCompare(const SolutionTable& solution,
   return {TruthAt(truth, solution.t, options.max_gap), true};
 }
 
-TrajectoryStatistics CompareWithTruth(const SolutionTable& solution,
-                                      const TruthSeries& truth,
-                                      const TrajectoryErrorOptions& options) {
-  const ComparedTruth compared = TruthToCompare(solution, truth, options);
-  TrajectoryStatistics statistics =
-      EvaluateTrajectory(solution, compared.points, options);
-  if (compared.at_solution_rows) {
-    statistics.at_solution_rows = true;
-    statistics.truth_count = solution.size();
+TruthComparison CompareWithTruth(const SolutionTable& solution,
+                                 const TruthSeries& truth,
+                                 const TrajectoryErrorOptions& options) {
+  TruthComparison out{.truth = TruthToCompare(solution, truth, options),
+                      .errors = {},
+                      .statistics = {}};
+  out.errors = ComputeTrajectoryErrors(solution, out.truth.points, options);
+  out.statistics = SummarizeErrors(out.errors, out.truth.points);
+  if (out.truth.at_solution_rows) {
+    out.statistics.at_solution_rows = true;
+    out.statistics.truth_count = solution.size();
   }
-  return statistics;
+  return out;
 }
 
 }  // namespace hindsight

@@ -37,9 +37,14 @@ ComparedTruth TruthToCompare(const SolutionTable& solution,
 ///       interpolated: a row a second says too little of a turn in between
 ///   else at the (thinned) truth points, the solution interpolated.
 /// Interpolation as of TrajectoryInterpolator, with the gap of the options.
-TrajectoryStatistics CompareWithTruth(const SolutionTable& solution,
-                                      const TruthSeries& truth,
-                                      const TrajectoryErrorOptions& options);
+struct TruthComparison {
+  ComparedTruth truth;
+  std::vector<TrajectoryError> errors;
+  TrajectoryStatistics statistics;
+};
+TruthComparison CompareWithTruth(const SolutionTable& solution,
+                                 const TruthSeries& truth,
+                                 const TrajectoryErrorOptions& options);
 
 }  // namespace hindsight
 

@@ -111,14 +111,14 @@ double LargestMoveInSigmas(const ErrorLayout& layout,
   double largest = 0.0;
   for (std::size_t k = 0; k < to.size(); ++k) {
     const ErrorVector d = Local(layout, from[k], to[k]);
-    const ErrorMatrix P_k = P.Get(k);
+    const ErrorVector P_k = P.Variances(k);
     for (const Block& block : layout.blocks()) {
       if (block.key.kind != BlockKind::kPosition &&
           block.key.kind != BlockKind::kAttitude) {
         continue;
       }
       for (int i = block.offset; i < block.offset + block.dim; ++i) {
-        largest = std::max(largest, std::abs(d(i)) / std::sqrt(P_k(i, i)));
+        largest = std::max(largest, std::abs(d(i)) / std::sqrt(P_k(i)));
       }
     }
   }

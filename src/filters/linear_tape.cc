@@ -241,6 +241,16 @@ ErrorMatrix LinearTape::Phi(std::size_t k) const {
   ErrorMatrix Phi = ErrorMatrix::Zero(dim(), dim());
   const PackedEpoch& in = Held(k);
   const double* from = in.data + in.phi;
+  const int first = std::countr_one(in.full_rows);
+  if (first == static_cast<int>(std::bit_width(in.full_rows))) {
+    // As of nodes: the rows of the navigation state, which stand first.
+    for (int j = 0; j < dim(); ++j) {
+      Phi.col(j).head(first) = Eigen::Map<const Eigen::VectorXd>(from, first);
+      from += first;
+    }
+    for (int i = first; i < dim(); ++i) Phi(i, i) = *from++;
+    return Phi;
+  }
   ForEachOfPhi(dim(), in.full_rows, [&](int i, int j) { Phi(i, j) = *from++; });
   return Phi;
 }

@@ -35,13 +35,17 @@ void MoveCovariance(const ErrorMatrix& T, ErrorMatrix* P) {
   Turn(T.topLeftCorner(size, size), P);
 }
 
-void MoveBack(const ErrorMatrix& T, ErrorVector* d, ErrorMatrix* P) {
+WayBack::WayBack(const ErrorMatrix& T) {
   const Eigen::Index size = TurnedSize(T);
   if (size == 0) return;
-  const ErrorMatrix inverse =
-      ErrorMatrix(T.topLeftCorner(size, size)).partialPivLu().inverse();
-  d->head(size) = (inverse * d->head(size)).eval();
-  Turn(inverse, P);
+  inverse_ = ErrorMatrix(T.topLeftCorner(size, size)).partialPivLu().inverse();
+}
+
+void WayBack::Move(ErrorVector* d, ErrorMatrix* P) const {
+  const Eigen::Index size = inverse_.rows();
+  if (size == 0) return;
+  d->head(size) = (inverse_ * d->head(size)).eval();
+  Turn(inverse_, P);
 }
 
 }  // namespace hindsight

@@ -10,8 +10,17 @@ namespace hindsight {
 /// rest as they are: only the rows and columns that it changes are computed.
 void MoveCovariance(const ErrorMatrix& T, ErrorMatrix* P);
 
-/// The way back: d <- T^-1 d and P <- T^-1 P T^-T.
-void MoveBack(const ErrorMatrix& T, ErrorVector* d, ErrorMatrix* P);
+/// The way back over a transport T.
+class WayBack {
+ public:
+  explicit WayBack(const ErrorMatrix& T);
+
+  /// d <- T^-1 d and P <- T^-1 P T^-T.
+  void Move(ErrorVector* d, ErrorMatrix* P) const;
+
+ private:
+  ErrorMatrix inverse_;  ///< of the part that T changes
+};
 
 }  // namespace hindsight
 

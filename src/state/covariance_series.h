@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_STATE_COVARIANCE_SERIES_H_
 #define HINDSIGHT_STATE_COVARIANCE_SERIES_H_
 
+#include <algorithm>
 #include <cstddef>
 
 #include "base/paged_rows.h"
@@ -35,6 +36,30 @@ class CovarianceSeries {
       for (int i = j; i < dim_; ++i) P(i, j) = P(j, i) = *in++;
     }
     return P;
+  }
+
+  /// The diagonal of Get(k).
+  ErrorVector Variances(std::size_t k) const {
+    const double* in = packed_.Row(k);
+    ErrorVector variances(dim_);
+    for (int j = 0; j < dim_; ++j) {
+      variances(j) = *in;
+      in += dim_ - j;
+    }
+    return variances;
+  }
+  /// Element (i, j) of Get(k).
+  double At(std::size_t k, int i, int j) const {
+    const int row = std::max(i, j);
+    const int column = std::min(i, j);
+    return packed_.Row(
+        k)[column * dim_ - column * (column - 1) / 2 + row - column];
+  }
+  /// Whether Get(k) is.
+  bool IsFinite(std::size_t k) const {
+    return Eigen::Map<const Eigen::VectorXd>(
+               packed_.Row(k), static_cast<Eigen::Index>(Stride(dim_)))
+        .allFinite();
   }
 
  private:

@@ -55,7 +55,8 @@ TEST(CompareWithTruth, TakesRowsAtTheTruthAsTheyAre) {
   // Rows at the truth's times, too far apart to be interpolated.
   const SolutionTable solution = Circle(5.0, 20.0, 1.0);
   const TruthSeries truth = TruthFromTable(Circle(5.0, 20.0));
-  const TrajectoryStatistics s = CompareWithTruth(solution, truth, {});
+  const TrajectoryStatistics s =
+      CompareWithTruth(solution, truth, {}).statistics;
   EXPECT_FALSE(s.at_solution_rows);
   EXPECT_EQ(s.truth_count, 5u);
   EXPECT_EQ(s.matched_count, 5u);
@@ -65,7 +66,8 @@ TEST(CompareWithTruth, TakesRowsAtTheTruthAsTheyAre) {
 TEST(CompareWithTruth, ComparesASparseSolutionAtItsOwnRows) {
   const SolutionTable solution = Circle(1.0, 20.0, 1.0);
   const TruthSeries truth = TruthFromTable(Circle(0.03, 20.0));
-  const TrajectoryStatistics s = CompareWithTruth(solution, truth, {});
+  const TrajectoryStatistics s =
+      CompareWithTruth(solution, truth, {}).statistics;
   EXPECT_TRUE(s.at_solution_rows);
   EXPECT_EQ(s.truth_count, 21u);
   // The last row lies beyond the truth's last point at 19.98 s.
@@ -76,7 +78,8 @@ TEST(CompareWithTruth, ComparesASparseSolutionAtItsOwnRows) {
 TEST(CompareWithTruth, InterpolatesADenseSolution) {
   const SolutionTable solution = Circle(0.03, 20.0, 1.0);
   const TruthSeries truth = TruthFromTable(Circle(1.0, 20.0));
-  const TrajectoryStatistics s = CompareWithTruth(solution, truth, {});
+  const TrajectoryStatistics s =
+      CompareWithTruth(solution, truth, {}).statistics;
   EXPECT_FALSE(s.at_solution_rows);
   EXPECT_EQ(s.truth_count, 21u);
   EXPECT_EQ(s.matched_count, 20u);

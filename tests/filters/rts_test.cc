@@ -4,8 +4,10 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "base/parallel.h"
 #include "filters/dense_least_squares.h"
 #include "filters/forward_filter.h"
+#include "filters/transport.h"
 #include "support/test_problem.h"
 
 namespace hindsight {
@@ -117,7 +119,8 @@ TEST(Rts, ConsumingTheTapeGivesTheSameBits) {
   const SmoothedTrajectory kept = SmoothRts(tape);
   LinearTape again = RunExtendedKalmanFilter(&posed);
   const SmoothedTrajectory consumed = SmoothRts(std::move(tape));
-  const SmoothedTrajectory bare = SmoothRts(std::move(again), /*errors=*/false);
+  const SmoothedTrajectory bare =
+      SmoothRts(std::move(again), {.errors = false});
   EXPECT_TRUE(bare.d.empty());
   ASSERT_EQ(bare.states.size(), kept.states.size());
   ASSERT_EQ(consumed.states.size(), kept.states.size());
@@ -128,6 +131,53 @@ TEST(Rts, ConsumingTheTapeGivesTheSameBits) {
     EXPECT_EQ(consumed.P.Get(k), kept.P.Get(k));
     EXPECT_EQ(bare.states[k].p_e, kept.states[k].p_e);
     EXPECT_EQ(bare.P.Get(k), kept.P.Get(k));
+  }
+}
+
+TEST(Rts, CovariancesMayBeInTheTangentAtTheSmoothedStates) {
+  const TestProblem problem = RichProblem(true);
+  Problem posed = problem.Pose();
+  const LinearTape tape = RunExtendedKalmanFilter(&posed);
+  const SmoothedTrajectory at_nominal = SmoothRts(tape);
+  const SmoothedTrajectory at_smoothed =
+      SmoothRts(tape, {.covariances = RtsOptions::Tangent::kSmoothed});
+  bool differ = false;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    ErrorMatrix P = at_nominal.P.Get(k);
+    MoveCovariance(
+        Transport(problem.layout, tape.epoch(k).x_plus, at_nominal.states[k]),
+        &P);
+    EXPECT_EQ(at_smoothed.P.Get(k), P) << k;
+    differ = differ || P != at_nominal.P.Get(k);
+  }
+  EXPECT_TRUE(differ);
+}
+
+/// Steps are prepared, and what came of them is written, beside those that are gone.
+TEST(Rts, GivesTheSameBitsWithAnyNumberOfThreads) {
+  constexpr std::size_t kSeveralTimesAhead = 200;
+  TestProblemOptions options;
+  options.noise = TacticalNoise(true);
+  options.layout = TypicalLayout(options.noise);
+  options.errors = true;
+  options.duration = 210.0;
+  const TestProblem problem = MakeProblem(options, 5);
+  Problem posed = problem.Pose();
+  const LinearTape tape = RunExtendedKalmanFilter(&posed);
+  ASSERT_GT(tape.size(), kSeveralTimesAhead);
+  const int threads = ThreadCount();
+  std::vector<SmoothedTrajectory> all;
+  for (const int count : {1, 2, 3}) {
+    SetThreadCount(count);
+    all.push_back(SmoothRts(tape));
+  }
+  SetThreadCount(threads);
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    for (std::size_t k = 0; k < tape.size(); ++k) {
+      EXPECT_EQ(all[i].states[k].p_e, all[0].states[k].p_e) << k;
+      EXPECT_EQ(all[i].d[k], all[0].d[k]) << k;
+      EXPECT_EQ(all[i].P.Get(k), all[0].P.Get(k)) << k;
+    }
   }
 }
 

@@ -44,7 +44,7 @@ TEST(Transport, TheWayBackUndoesIt) {
     ErrorMatrix P = Covariance();
     MoveCovariance(T, &P);
     ErrorVector moved = T * d;
-    MoveBack(T, &moved, &P);
+    WayBack(T).Move(&moved, &P);
     EXPECT_LT((moved - d).norm(), 1e-13 * d.norm()) << size;
     EXPECT_LT((P - Covariance()).norm(), 1e-13 * P.norm()) << size;
   }

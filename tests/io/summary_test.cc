@@ -5,8 +5,10 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/units.h"
+#include "evaluation/truth_comparison.h"
 #include "io/write/comparison.h"
 #include "measurements/sensor_kind.h"
 #include "support/temporary_folder.h"
@@ -29,6 +31,16 @@ NavigationPrior UnitPrior() {
   NavigationPrior prior;
   prior.position_sigma.setOnes();
   return prior;
+}
+
+MethodSummary SummaryOf(const Dataset& dataset, const Solution& solution) {
+  std::optional<TrajectoryStatistics> error;
+  if (!dataset.truth.empty()) {
+    error = CompareWithTruth(TableFromSolution(solution), dataset.truth,
+                             {.truth_sigma = dataset.truth_sigma})
+                .statistics;
+  }
+  return SummarizeMethod(dataset, solution, error);
 }
 
 /// Driving north at 10 m/s for 40 s.
@@ -119,8 +131,7 @@ RunSummary FullSummary() {
   start.attitude_sigma.z() = 2.0 * kDegree;
   summary.start = start;
   summary.policies = {{"truth", "absent values skipped", 3}};
-  summary.methods = {
-      SummarizeMethod(dataset, solution, TableFromSolution(solution))};
+  summary.methods = {SummaryOf(dataset, solution)};
   summary.methods[0].peak_rss_mb = 80.0;
   summary.best = "batch";
   return summary;
@@ -210,8 +221,7 @@ TEST(Summary, WhatTheTruthContradictsStandsBesideTheGrade) {
   for (std::size_t k = 0; k < solution.states.size(); ++k) {
     solution.covariances.Set(k, 1e-2 * ErrorMatrix::Identity(dim, dim));
   }
-  const MethodSummary m =
-      SummarizeMethod(dataset, solution, TableFromSolution(solution));
+  const MethodSummary m = SummaryOf(dataset, solution);
   RunSummary summary;
   summary.methods = {m};
   const Json batch = SummaryJson(summary)["methods"]["batch"];
@@ -246,8 +256,7 @@ TEST(Summary, LeavesOutFiguresThatDoNotExist) {
   dataset.streams.resize(1);
   dataset.streams[0].sensor.name = "gnss";
   RunSummary summary;
-  summary.methods = {
-      SummarizeMethod(dataset, solution, TableFromSolution(solution))};
+  summary.methods = {SummaryOf(dataset, solution)};
   summary.methods[0].seconds = std::numeric_limits<double>::quiet_NaN();
   const Json json = SummaryJson(summary);
   EXPECT_THAT(Keys(json),

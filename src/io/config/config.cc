@@ -144,12 +144,13 @@ Dataset LoadDataset(const std::string& config_path, const LoadOptions& options,
   Dataset dataset;
   if (!note.empty()) dataset.notes.push_back(note);
   const DeclaredRecording declared = ReadDeclarations(&top, options, &dataset);
+  StreamsBeside beside(declared);
   LoadImu(declared, &top, &dataset);
   RequireStartInside(&top, dataset);
   RequireNodes(&top, dataset);
-  const double truth_offset = LoadTruth(declared, &dataset);
+  const double truth_offset = LoadTruth(declared, &beside, &dataset);
   ResolveTruthOffset(declared, truth_offset, &top);
-  LoadAidingStreams(declared, truth_offset, &dataset);
+  LoadAidingStreams(declared, truth_offset, &beside, &dataset);
   TakeConstants(declared.constants, options.without, &top, &dataset);
   ApplyOmissions(declared.omit, options, &top, &dataset);
   if (declared.start_from_truth) TakeStart(&top, &dataset);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "dataset/clock_search.h"
 #include "measurements/sensor_kind.h"
 
@@ -91,8 +92,14 @@ void FindClock(const AidingConfig& config, Dataset* dataset,
                            ": time offset found: " + Describe(found));
 }
 
+void AddPolicies(const std::vector<PolicyCount>& policies, Dataset* dataset) {
+  dataset->policies.insert(dataset->policies.end(), policies.begin(),
+                           policies.end());
+}
+
 void LoadAiding(const AidingConfig& config, double truth_offset,
-                const ClockMap& imu_clock, Dataset* dataset) {
+                const ClockMap& imu_clock, StreamsBeside* beside,
+                Dataset* dataset) {
   AidingStream stream;
   stream.clock_placed = config.source.clock.placed() || imu_clock.placed();
   stream.sensor = config.settings.sensor;
@@ -103,10 +110,12 @@ void LoadAiding(const AidingConfig& config, double truth_offset,
     dataset->streams.push_back(std::move(stream));
     return;
   }
-  StreamClock clock;
-  stream.measurements = ReadAiding(config.source, config.settings, index,
-                                   &clock, &dataset->policies);
-  const TimeLine line = MapClock(config.source, clock, dataset->epoch_gps_ns);
+  RowsOfFile<MeasurementSeries> read =
+      beside->Aiding(static_cast<std::size_t>(index));
+  AddPolicies(read.policies, dataset);
+  stream.measurements = std::move(read.rows);
+  const TimeLine line =
+      MapClock(config.source, read.clock, dataset->epoch_gps_ns);
   for (Measurement& z : stream.measurements.Edited()) {
     z.t = line(z.t);
     if (auto* odometer = std::get_if<Odometer>(&z.model)) {
@@ -197,12 +206,49 @@ void LoadImu(const DeclaredRecording& declared, ConfigMap* top,
   dataset->imu.nominal_dt = MedianInterval(dataset->imu);
 }
 
-double LoadTruth(const DeclaredRecording& declared, Dataset* dataset) {
+StreamsBeside::StreamsBeside(const DeclaredRecording& declared) {
+  if (declared.truth) {
+    truth_ = std::packaged_task<RowsOfFile<TruthSeries>()>([&declared] {
+      RowsOfFile<TruthSeries> read;
+      read.rows = ReadTruth(*declared.truth, declared.truth_options,
+                            &read.clock, &read.policies);
+      return read;
+    });
+  }
+  for (const AidingConfig& config : declared.aiding) {
+    const auto index = static_cast<int>(aiding_.size());
+    aiding_.emplace_back([&config, index] {
+      RowsOfFile<MeasurementSeries> read;
+      if (config.settings.sensor.kind->generated) return read;
+      read.rows = ReadAiding(config.source, config.settings, index, &read.clock,
+                             &read.policies);
+      return read;
+    });
+  }
+  reading_ = InBackground([this] {
+    if (truth_.valid()) truth_();
+    for (auto& read : aiding_) read();
+  });
+}
+
+RowsOfFile<TruthSeries> StreamsBeside::Truth() {
+  reading_.wait();
+  return truth_.get_future().get();
+}
+
+RowsOfFile<MeasurementSeries> StreamsBeside::Aiding(std::size_t index) {
+  reading_.wait();
+  return aiding_[index].get_future().get();
+}
+
+double LoadTruth(const DeclaredRecording& declared, StreamsBeside* beside,
+                 Dataset* dataset) {
   if (!declared.truth) return 0.0;
-  StreamClock clock;
-  dataset->truth = ReadTruth(*declared.truth, declared.truth_options, &clock,
-                             &dataset->policies);
-  const TimeLine line = MapClock(*declared.truth, clock, dataset->epoch_gps_ns);
+  RowsOfFile<TruthSeries> read = beside->Truth();
+  AddPolicies(read.policies, dataset);
+  dataset->truth = std::move(read.rows);
+  const TimeLine line =
+      MapClock(*declared.truth, read.clock, dataset->epoch_gps_ns);
   for (TruthPoint& point : dataset->truth.Edited()) point.t = line(point.t);
   const double offset = declared.truth_clock_unknown
                             ? FitTruthClock(*declared.truth, dataset)
@@ -213,9 +259,9 @@ double LoadTruth(const DeclaredRecording& declared, Dataset* dataset) {
 }
 
 void LoadAidingStreams(const DeclaredRecording& declared, double truth_offset,
-                       Dataset* dataset) {
+                       StreamsBeside* beside, Dataset* dataset) {
   for (const AidingConfig& config : declared.aiding) {
-    LoadAiding(config, truth_offset, declared.imu.clock, dataset);
+    LoadAiding(config, truth_offset, declared.imu.clock, beside, dataset);
   }
   for (std::size_t i = 0; i < declared.aiding.size(); ++i) {
     AddLevel(declared.aiding[i].settings, static_cast<int>(i), dataset);

@@ -1,11 +1,41 @@
 #ifndef HINDSIGHT_IO_CONFIG_LOAD_STREAMS_H_
 #define HINDSIGHT_IO_CONFIG_LOAD_STREAMS_H_
 
+#include <cstddef>
+#include <future>
+#include <vector>
+
 #include "dataset/dataset.h"
 #include "io/config/config_map.h"
 #include "io/config/config_recording.h"
 
 namespace hindsight {
+
+/// Rows of a file before they are placed on the recording's time.
+template <typename Series>
+struct RowsOfFile {
+  Series rows;
+  StreamClock clock;
+  std::vector<PolicyCount> policies;
+};
+
+/// The truth and the aiding streams of a declared recording, read one after the
+/// other beside the IMU, whose time they need only when they are placed.
+class StreamsBeside {
+ public:
+  /// `declared` must outlive the object.
+  explicit StreamsBeside(const DeclaredRecording& declared);
+
+  /// Of the declared truth, once. Throws InputError for what the reader refuses.
+  RowsOfFile<TruthSeries> Truth();
+  /// Of the aiding stream of that index, which is not generated, as above.
+  RowsOfFile<MeasurementSeries> Aiding(std::size_t index);
+
+ private:
+  std::packaged_task<RowsOfFile<TruthSeries>()> truth_;
+  std::vector<std::packaged_task<RowsOfFile<MeasurementSeries>()>> aiding_;
+  std::future<void> reading_;  ///< the last member: it waits
+};
 
 /// The streams of a declared recording, from their files onto its time.
 /// Each throws InputError for what a reader refuses, and for a stream that does
@@ -17,12 +47,13 @@ void LoadImu(const DeclaredRecording& declared, ConfigMap* top,
              Dataset* dataset);
 
 /// The truth, if one is declared; gives the time offset of its stamps [s].
-double LoadTruth(const DeclaredRecording& declared, Dataset* dataset);
+double LoadTruth(const DeclaredRecording& declared, StreamsBeside* beside,
+                 Dataset* dataset);
 
 /// All aiding streams, in their order, and behind them the priors "level on
 /// average" of those that have one.
 void LoadAidingStreams(const DeclaredRecording& declared, double truth_offset,
-                       Dataset* dataset);
+                       StreamsBeside* beside, Dataset* dataset);
 
 }  // namespace hindsight
 

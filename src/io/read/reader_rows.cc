@@ -57,9 +57,8 @@ StreamRows::StreamRows(const StreamSource& source,
   clock_.dated = opened_.dated || source.clock.week.has_value() ||
                  source.clock.scale != ClockMap::Scale::kDataset;
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    most_.push_back(opened_.table->Has(i)
-                        ? Largest(fields[i].quantity)
-                        : std::numeric_limits<double>::infinity());
+    if (opened_.table->Has(i))
+      most_.push_back({i, Largest(fields[i].quantity)});
   }
   if (source.sort) Sort(fields, allow_absent || source.absent_values);
 }
@@ -67,16 +66,17 @@ StreamRows::StreamRows(const StreamSource& source,
 void StreamRows::CheckSizes() const {
   // Of all at once: hardly any is.
   bool is_any = false;
-  for (std::size_t i = 0; i < most_.size(); ++i) {
-    is_any |= std::abs(opened_.table->value(i)) > most_[i];
+  for (const auto& [field, most] : most_) {
+    is_any |= std::abs(opened_.table->value(field)) > most;
   }
-  for (std::size_t i = 0; is_any && i < most_.size(); ++i) {
-    const double most = most_[i];
-    if (!(std::abs(opened_.table->value(i)) > most)) continue;
-    opened_.table->Fail(std::string(fields_[i].name) + " is " +
-                        FormatNumber(opened_.table->value(i)) + " " +
-                        SiUnit(fields_[i].quantity) + "; expected at most " +
-                        FormatNumber(most));
+  if (!is_any) return;
+  for (const auto& [field, most] : most_) {
+    const double value = opened_.table->value(field);
+    if (!(std::abs(value) > most)) continue;
+    opened_.table->Fail(std::string(fields_[field].name) + " is " +
+                        FormatNumber(value) + " " +
+                        SiUnit(fields_[field].quantity) +
+                        "; expected at most " + FormatNumber(most));
   }
 }
 

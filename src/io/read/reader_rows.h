@@ -46,8 +46,12 @@ class StreamRows {
 
   const StreamSource& source_;
   const std::vector<FieldName>& fields_;
-  /// The largest size of each field, infinite of those that the file does not hold.
-  std::vector<double> most_;
+  /// Of a field that the file holds.
+  struct LargestSize {
+    std::size_t field;
+    double most;
+  };
+  std::vector<LargestSize> most_;
   OpenedTable opened_;
   StreamClock clock_;
   double t_ = 0.0;

@@ -30,8 +30,8 @@ class ColumnFile {
 };
 
 /// Rows of a piece by which a long table is handed to a ColumnFile: of the
-/// columns of a solution 350 kB, which a cache holds.
-inline constexpr std::size_t kRowsOfPiece = 1000;
+/// columns of a solution 700 kB, which a cache holds.
+inline constexpr std::size_t kRowsOfPiece = 2048;
 
 }  // namespace hindsight
 

@@ -92,7 +92,7 @@ void WriteConstantCsv(const std::string& path, const Solution& solution,
   for (std::size_t k = 0; k < n; k += step) {
     line.clear();
     AppendRow(components, solution.states[k],
-              solution.covariances.Get(k).diagonal().cwiseSqrt(), &line);
+              solution.covariances.Variances(k).cwiseSqrt(), &line);
     file.Write(line);
   }
   file.Commit();

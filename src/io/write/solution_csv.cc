@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/parallel.h"
 #include "earth/wgs84.h"
 #include "geometry/so3.h"
 #include "io/read/time_scale.h"
@@ -169,6 +170,7 @@ std::vector<SolutionColumn> ColumnsOf(const SolutionTable& table) {
 Eigen::MatrixXd RowsOf(const SolutionTable& table,
                        const std::vector<SolutionColumn>& columns,
                        std::size_t begin, std::size_t end) {
+  constexpr std::size_t kRowsOfThread = 256;
   std::vector<std::pair<ColumnGroup, Eigen::Index>> groups;
   for (int i = 0; i < kColumnGroups; ++i) {
     const auto group = static_cast<ColumnGroup>(i);
@@ -178,7 +180,7 @@ Eigen::MatrixXd RowsOf(const SolutionTable& table,
   }
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(end - begin),
                        static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = begin; k < end; ++k) {
+  const auto fill = [&](std::size_t k) {
     auto row = rows.row(static_cast<Eigen::Index>(k - begin));
     const Eigen::Matrix3d C_en = table.C_en(k);
     Eigen::Index at = 0;
@@ -206,7 +208,10 @@ Eigen::MatrixXd RowsOf(const SolutionTable& table,
       row(at++) = FiniteOrNan(table.accel_sigma[k]);
     }
     if (!table.magnetic.empty()) row(at++) = table.magnetic[k];
-  }
+  };
+  ForRanges(end - begin, kRowsOfThread, [&](std::size_t from, std::size_t to) {
+    for (std::size_t k = begin + from; k < begin + to; ++k) fill(k);
+  });
   Eigen::Index i = 0;
   for (const SolutionColumn& column : columns) rows.col(i++) /= column.si;
   return rows;

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "evaluation/observability.h"
-#include "evaluation/truth_comparison.h"
 #include "geometry/so3.h"
 #include "measurements/sensor_kind.h"
 
@@ -103,8 +102,9 @@ std::vector<MountingSummary> MountingsOf(const Dataset& dataset,
   return mountings;
 }
 
-MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
-                              const SolutionTable& trajectory) {
+MethodSummary SummarizeMethod(
+    const Dataset& dataset, const Solution& solution,
+    const std::optional<TrajectoryStatistics>& error) {
   MethodSummary m;
   m.method = solution.method;
   m.seconds = solution.seconds;
@@ -113,9 +113,8 @@ MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
   m.grade = solution.grade;
   m.evidence = solution.evidence;
   m.verdict = solution.verdict;
-  if (!dataset.truth.empty()) {
-    m.error = CompareWithTruth(trajectory, dataset.truth,
-                               {.truth_sigma = dataset.truth_sigma});
+  if (error) {
+    m.error = error;
     // P of an observer is no covariance to begin with.
     if (!solution.observer) m.contradiction = Contradiction(*m.error);
   }

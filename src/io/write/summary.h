@@ -127,11 +127,11 @@ std::vector<FixSummary> SummarizeFixes(const Dataset& dataset);
 std::vector<MountingSummary> MountingsOf(const Dataset& dataset,
                                          const Solution& solution);
 
-/// Compares `solution` with the data set's truth (CompareWithTruth) and
-/// withheld measurements. `trajectory` is the solution at the point that the
-/// truth speaks of and, where it can be sampled through the IMU, at TruthTimes.
+/// Compares `solution` with withheld measurements. `error` is what a comparison with
+/// the data set's truth says (CompareWithTruth), at the point that the truth speaks
+/// of and, where the solution can be sampled through the IMU, at TruthTimes.
 MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
-                              const SolutionTable& trajectory);
+                              const std::optional<TrajectoryStatistics>& error);
 
 /// Times of the truth points within [from, to] [s].
 std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
