@@ -4,282 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "problems/error_search.h"
+
 namespace hindsight {
 namespace {
-
-/// Errors found about one tape, which they need.
-struct Round {
-  std::unique_ptr<LinearTape> tape;
-  std::vector<ReceiverErrors> errors;  ///< one a sensor; the best first
-};
-
-/// A sensor that measures velocities over the ground as satellite receivers do.
-bool IsOfVelocity(const SensorKind& kind) {
-  return kind.moves && !kind.of_vehicle && !kind.is_position;
-}
-
-/// One way to explain the data by errors of sensors: the problem is extended by
-/// them, one after the other.
-class ErrorSearch {
- public:
-  /// `share`: of the effort of a search that the first round may cost.
-  ErrorSearch(Problem problem, const RobustBatchOptions& options, double share)
-      : problem_(std::move(problem)), options_(&options), share_(share) {}
-
-  /// Each sensor is searched with the others taken at their word.
-  void Run(const std::vector<State>& initial) {
-    while (rounds_.size() < kMostRounds && HasRoom()) {
-      Round round;
-      round.tape = std::make_unique<LinearTape>(RunLinearizedFilter(
-          states_ ? *states_ : initial, &problem_, options_->callback));
-      Ask();
-      round.errors = FindReceiverErrors(problem_, *round.tape, question_);
-      if (round.errors.empty()) break;
-      const bool stands = round.errors.front().Stands();
-      Take(std::move(round));
-      if (!stands) break;
-    }
-  }
-
-  /// Velocities are searched first, without the positions, which may err as they
-  /// do; then the rest about what was found of them. False if nothing was.
-  bool RunFromVelocities(const std::vector<State>& initial) {
-    Problem without = problem_;
-    const Timeline& timeline = problem_.timeline;
-    for (std::size_t i = 0; i < without.decisions.size(); ++i) {
-      const auto sensor =
-          static_cast<std::size_t>(timeline.all_measurements()[i].sensor);
-      if (timeline.sensors()[sensor].kind->is_position) {
-        without.decisions[i] = 0;
-      }
-    }
-    Ask();
-    ErrorQuestion question = question_;
-    for (std::size_t i = 0; i < timeline.sensors().size(); ++i) {
-      if (!IsOfVelocity(*timeline.sensors()[i].kind)) {
-        question.known.push_back(static_cast<int>(i));
-      }
-    }
-    Round round;
-    round.tape = std::make_unique<LinearTape>(
-        RunLinearizedFilter(initial, &without, options_->callback));
-    round.errors = FindReceiverErrors(without, *round.tape, question);
-    if (round.errors.empty() || !round.errors.front().Stands()) return false;
-    Take(std::move(round));
-    Run(initial);
-    return true;
-  }
-
-  /// Whether velocities and positions of a receiver may err together in what is
-  /// told otherwise: by steps of the IMU's velocity, by errors that are doubtful
-  /// by themselves, or by those of several sensors.
-  bool MayBeOfAReceiver() const {
-    const auto& sensors = problem_.timeline.sensors();
-    const bool has_velocities = std::ranges::any_of(
-        sensors, [](const Sensor& one) { return IsOfVelocity(*one.kind); });
-    if (!has_velocities || question_.known.empty()) return false;
-    const ReceiverErrors& first = rounds_.front().errors.front();
-    return question_.known.size() > 1 || first.HasVelocitySteps() ||
-           !first.Doubts().empty();
-  }
-
-  const SensorKind& KindOf(const ReceiverErrors& errors) const {
-    const auto sensor = static_cast<std::size_t>(errors.sensor());
-    return *problem_.timeline.sensors()[sensor].kind;
-  }
-
-  /// ln of how much likelier changes of the errors of velocities are than those of
-  /// independent sensors, where errors of positions change at the same time.
-  double LogOfCoincidences() const {
-    constexpr double kTogether = 0.5;
-    constexpr double kSameTime = 1.5;  // [s]
-    std::vector<double> of_positions;
-    for (const Round& round : rounds_) {
-      const ReceiverErrors& one = round.errors.front();
-      if (!one.Stands() || !KindOf(one).is_position) continue;
-      const std::vector<double> times = one.ChangeTimes();
-      of_positions.insert(of_positions.end(), times.begin(), times.end());
-    }
-    double log = 0.0;
-    for (const Round& round : rounds_) {
-      const ReceiverErrors& one = round.errors.front();
-      if (!one.Stands() || !IsOfVelocity(KindOf(one))) continue;
-      for (const double t : one.ChangeTimes()) {
-        const bool together = std::ranges::any_of(of_positions, [t](double at) {
-          return std::abs(at - t) < kSameTime;
-        });
-        if (together) {
-          log += std::max(0.0, std::log(kTogether * one.searched_fixes()));
-        }
-      }
-    }
-    return log;
-  }
-
-  /// Whether errors of velocities change where those of positions do.
-  bool HasCoincidences() const { return LogOfCoincidences() > 0.0; }
-
-  /// ln of the evidence, as the batch is solved with what was found: without steps
-  /// of the IMU's velocity, its noise as stated. Only differences mean anything.
-  double LogEvidence() const {
-    Problem problem = problem_;
-    const LinearTape tape =
-        RunLinearizedFilter(*states_, &problem, options_->callback);
-    double log = LogOfCoincidences();
-    for (std::size_t k = 0; k < tape.size(); ++k) {
-      for (const TapeMeasurement& z : tape.measurements(k)) {
-        if (z.accepted && !z.withheld) log += z.log_likelihood;
-      }
-    }
-    for (const Round& round : rounds_) {
-      const ReceiverErrors& one = round.errors.front();
-      if (one.Stands()) log += one.LogOfPrior();
-    }
-    return log;
-  }
-  const Problem& problem() const { return problem_; }
-  /// The trajectory to solve from; none if nothing stands.
-  const std::optional<std::vector<State>>& states() const { return states_; }
-  /// What stands, in words.
-  std::string InWords() const {
-    std::string words;
-    for (const Round& round : rounds_) {
-      if (!round.errors.front().Stands()) break;
-      words += (words.empty() ? "" : "; ") + round.errors.front().InWords();
-    }
-    return words;
-  }
-
-  bool HasErrors(int sensor) const {
-    return std::any_of(rounds_.begin(), rounds_.end(), [&](const Round& one) {
-      return one.errors.front().Stands() &&
-             one.errors.front().sensor() == sensor;
-    });
-  }
-
-  SearchDecisions Decisions() const {
-    SearchDecisions all;
-    for (const Round& round : rounds_) {
-      all.emplace_back();
-      for (const ReceiverErrors& one : round.errors) {
-        all.back().push_back(one.Decisions());
-      }
-    }
-    return all;
-  }
-
-  /// Adds to P, as solved, what else there may be; fills in the rest of a
-  /// result.
-  void Tell(RobustBatchResult* result) const {
-    result->trust.resize(problem_.timeline.sensors().size());
-    for (std::size_t i = 0; i < rounds_.size(); ++i) {
-      const ReceiverErrors& best = rounds_[i].errors.front();
-      // The last round may have found nothing: then it tells what was refused.
-      if (!best.Stands() && i > 0) break;
-      TellNotes(rounds_[i], result);
-      if (!best.Stands()) break;
-      std::optional<Evidence> doubt = best.Average(
-          problem_.layout, &result->batch.states, &result->batch.P);
-      if (doubt) result->doubts.push_back(std::move(*doubt));
-      if (i == 0) result->modes = best.Modes();
-      for (BoundedValue& one : best.Bounded()) {
-        result->bounded.push_back(std::move(one));
-      }
-      result->trust[static_cast<std::size_t>(best.sensor())] = best.Trust();
-      TellRival(rounds_[i], result);
-    }
-  }
-
- private:
-  static constexpr std::size_t kMostRounds = 3;
-
-  /// Extends the problem by what stands of a round.
-  void Take(Round round) {
-    const ReceiverErrors& best = round.errors.front();
-    if (best.Stands()) {
-      best.Extend(&problem_);
-      states_ = best.States(problem_.layout);
-      question_.known.push_back(best.sensor());
-    }
-    rounds_.push_back(std::move(round));
-  }
-
-  /// Whether a state can hold the errors of one more sensor.
-  bool HasRoom() const {
-    constexpr int kOwnStates = 6;
-    return problem_.layout.parameter_count() + kOwnStates <= kMaxParameters &&
-           problem_.layout.dim() + kOwnStates <= kMaxErrorDim;
-  }
-
-  void Ask() {
-    const std::size_t i = rounds_.size();
-    const bool decided =
-        options_->decisions != nullptr && i < options_->decisions->size();
-    question_.decided = decided ? &(*options_->decisions)[i] : nullptr;
-    const auto round = static_cast<double>(i);
-    question_.share = share_ * std::exp2(-round);
-    question_.go_on = [&go_on = options_->go_on, round](double fraction) {
-      // A round takes half of what is left.
-      return !go_on || go_on(1.0 - std::exp2(-(round + fraction)));
-    };
-  }
-
-  static void TellNotes(const Round& round, RobustBatchResult* result) {
-    for (const ReceiverErrors& one : round.errors) {
-      const bool best = &one == &round.errors.front();
-      if (best || !round.errors.front().Stands()) {
-        for (std::string& note : one.Notes(result->batch.P)) {
-          result->notes.push_back(std::move(note));
-        }
-      }
-      for (Evidence& doubt : one.Doubts()) {
-        if (best || doubt.value == std::nullopt) {
-          result->doubts.push_back(std::move(doubt));
-        }
-      }
-    }
-  }
-
-  /// Errors of another sensor that explain the same.
-  void TellRival(const Round& round, RobustBatchResult* result) const {
-    constexpr double kSureOdds = 6.907755278982137;  // ln 1000
-    const ReceiverErrors& best = round.errors.front();
-    for (std::size_t i = 1; i < round.errors.size(); ++i) {
-      const ReceiverErrors& other = round.errors[i];
-      const double behind = best.log_gain() - other.log_gain();
-      if (!other.Stands() || behind >= kSureOdds) continue;
-      const double probability = 1.0 / (1.0 + std::exp(behind));
-      const double distance = std::sqrt(best.MeanSquareDistanceTo(other));
-      if (!best.IsApart(other, result->batch.P)) continue;
-      result->doubts.push_back(
-          {.grade = Grade::kDoubtful,
-           .what = fmt::format(
-               "which sensor errs cannot be told: {}; or, {:.2g} % likely, {}",
-               best.InWords(), 100.0 * probability, other.InWords()),
-           .value = distance,
-           .unit = "m",
-           .causes = {"sensors that contradict each other where the IMU cannot "
-                      "tell which is right"},
-           .remedies = {"'--without', which leaves one of them out"}});
-      result->notes.push_back(fmt::format(
-          "or, {:.2g} % likely and {:.3g} m away in the root mean square: {}",
-          100.0 * probability, distance, other.InWords()));
-      best.WidenTowards(other, probability, &result->batch.P);
-    }
-  }
-
-  Problem problem_;
-  const RobustBatchOptions* options_;
-  double share_;
-  ErrorQuestion question_;
-  std::vector<Round> rounds_;
-  std::optional<std::vector<State>> states_;
-};
 
 /// Sensors whose errors do not stand keep what their gates decided.
 void RestoreGates(const ErrorSearch& search, const GateDecisions& gates,
@@ -348,8 +80,8 @@ Explained Explain(const Problem& problem, const std::vector<State>& initial,
 
 /// Tells of a rival to odds of a thousand, where it leads elsewhere, and widens the
 /// covariances by what it is worth.
-void TellRival(const RivalSearch& rival, const std::string& words,
-               RobustBatchResult* result) {
+void TellOtherOrder(const RivalSearch& rival, const std::string& words,
+                    RobustBatchResult* result) {
   constexpr double kSureOdds = 6.907755278982137;  // ln 1000
   constexpr double kSigmas = 3.0;
   if (rival.log_odds >= kSureOdds) return;
@@ -403,7 +135,7 @@ RobustBatchResult SolveAbout(const Problem& problem,
   } else {
     search.Tell(&result);
     if (explained.rival && result.stands) {
-      TellRival(*explained.rival, search.InWords(), &result);
+      TellOtherOrder(*explained.rival, search.InWords(), &result);
     }
   }
   result.decisions = search.Decisions();

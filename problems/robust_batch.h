@@ -62,6 +62,10 @@ struct RobustBatchOptions {
 ///   - the error of each as states of every node, and if it drifts its rate as
 ///     well (state/block_step.h), which go from node to node as the chosen
 ///     hypothesis says.
+/// Where velocities over the ground may err with the positions, they are searched
+/// first, without the positions, as well; the order with more evidence counts. Where
+/// the solution's attitude is beyond what is linear about `initial`, errors are sought
+/// again about it, at most twice.
 /// It starts from that hypothesis's trajectory; the distances of the others widen
 /// the covariances. Where errors of another sensor explain the data as well, to
 /// odds of a thousand, and lead elsewhere, the result is doubtful, says both, and

@@ -1,0 +1,249 @@
+#include "problems/error_search.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "measurements/sensor_kind.h"
+
+namespace hindsight {
+namespace {
+
+constexpr std::size_t kMostRounds = 3;
+
+/// A sensor that measures velocities over the ground as satellite receivers do.
+bool IsOfVelocity(const SensorKind& kind) {
+  return kind.moves && !kind.of_vehicle && !kind.is_position;
+}
+
+/// The problem with no position used.
+Problem WithoutPositions(Problem problem) {
+  const Timeline& timeline = problem.timeline;
+  for (std::size_t i = 0; i < problem.decisions.size(); ++i) {
+    const auto sensor =
+        static_cast<std::size_t>(timeline.all_measurements()[i].sensor);
+    if (timeline.sensors()[sensor].kind->is_position) problem.decisions[i] = 0;
+  }
+  return problem;
+}
+
+}  // namespace
+
+void ErrorSearch::Run(const std::vector<State>& initial) {
+  while (rounds_.size() < kMostRounds && HasRoom()) {
+    Round round;
+    round.tape = std::make_unique<LinearTape>(RunLinearizedFilter(
+        states_ ? *states_ : initial, &problem_, options_->callback));
+    Ask();
+    round.errors = FindReceiverErrors(problem_, *round.tape, question_);
+    if (round.errors.empty()) break;
+    const bool stands = round.best().Stands();
+    Take(std::move(round));
+    if (!stands) break;
+  }
+}
+
+bool ErrorSearch::RunFromVelocities(const std::vector<State>& initial) {
+  Problem without = WithoutPositions(problem_);
+  Ask();
+  ErrorQuestion question = question_;
+  const auto& sensors = problem_.timeline.sensors();
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    if (!IsOfVelocity(*sensors[i].kind)) {
+      question.known.push_back(static_cast<int>(i));
+    }
+  }
+  Round round;
+  round.tape = std::make_unique<LinearTape>(
+      RunLinearizedFilter(initial, &without, options_->callback));
+  round.errors = FindReceiverErrors(without, *round.tape, question);
+  if (round.errors.empty() || !round.best().Stands()) return false;
+  Take(std::move(round));
+  Run(initial);
+  return true;
+}
+
+bool ErrorSearch::MayBeOfAReceiver() const {
+  const auto& sensors = problem_.timeline.sensors();
+  const bool has_velocities = std::ranges::any_of(
+      sensors, [](const Sensor& one) { return IsOfVelocity(*one.kind); });
+  if (!has_velocities || question_.known.empty()) return false;
+  const ReceiverErrors& first = rounds_.front().best();
+  return question_.known.size() > 1 || first.HasVelocitySteps() ||
+         !first.Doubts().empty();
+}
+
+double ErrorSearch::LogEvidence() const {
+  Problem problem = problem_;
+  const LinearTape tape =
+      RunLinearizedFilter(*states_, &problem, options_->callback);
+  double log = LogOfCoincidences();
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      if (z.accepted && !z.withheld) log += z.log_likelihood;
+    }
+  }
+  for (const Round& round : rounds_) {
+    const ReceiverErrors& one = round.best();
+    if (one.Stands()) log += one.LogOfPrior();
+  }
+  return log;
+}
+
+std::string ErrorSearch::InWords() const {
+  std::string words;
+  for (const Round& round : rounds_) {
+    if (!round.best().Stands()) break;
+    words += (words.empty() ? "" : "; ") + round.best().InWords();
+  }
+  return words;
+}
+
+bool ErrorSearch::HasErrors(int sensor) const {
+  return std::any_of(rounds_.begin(), rounds_.end(), [&](const Round& one) {
+    return one.best().Stands() && one.best().sensor() == sensor;
+  });
+}
+
+SearchDecisions ErrorSearch::Decisions() const {
+  SearchDecisions all;
+  for (const Round& round : rounds_) {
+    all.emplace_back();
+    for (const ReceiverErrors& one : round.errors) {
+      all.back().push_back(one.Decisions());
+    }
+  }
+  return all;
+}
+
+void ErrorSearch::Tell(RobustBatchResult* result) const {
+  result->trust.resize(problem_.timeline.sensors().size());
+  for (std::size_t i = 0; i < rounds_.size(); ++i) {
+    const ReceiverErrors& best = rounds_[i].best();
+    // The last round may have found nothing: then it tells what was refused.
+    if (!best.Stands() && i > 0) break;
+    TellNotes(rounds_[i], result);
+    if (!best.Stands()) break;
+    std::optional<Evidence> doubt =
+        best.Average(problem_.layout, &result->batch.states, &result->batch.P);
+    if (doubt) result->doubts.push_back(std::move(*doubt));
+    if (i == 0) result->modes = best.Modes();
+    for (BoundedValue& one : best.Bounded()) {
+      result->bounded.push_back(std::move(one));
+    }
+    result->trust[static_cast<std::size_t>(best.sensor())] = best.Trust();
+    TellRival(rounds_[i], result);
+  }
+}
+
+void ErrorSearch::Take(Round round) {
+  const ReceiverErrors& best = round.best();
+  if (best.Stands()) {
+    best.Extend(&problem_);
+    states_ = best.States(problem_.layout);
+    question_.known.push_back(best.sensor());
+  }
+  rounds_.push_back(std::move(round));
+}
+
+bool ErrorSearch::HasRoom() const {
+  constexpr int kOwnStates = 6;
+  return problem_.layout.parameter_count() + kOwnStates <= kMaxParameters &&
+         problem_.layout.dim() + kOwnStates <= kMaxErrorDim;
+}
+
+void ErrorSearch::Ask() {
+  const std::size_t i = rounds_.size();
+  const bool decided =
+      options_->decisions != nullptr && i < options_->decisions->size();
+  question_.decided = decided ? &(*options_->decisions)[i] : nullptr;
+  const auto round = static_cast<double>(i);
+  question_.share = share_ * std::exp2(-round);
+  question_.go_on = [&go_on = options_->go_on, round](double fraction) {
+    // A round takes half of what is left.
+    return !go_on || go_on(1.0 - std::exp2(-(round + fraction)));
+  };
+}
+
+const SensorKind& ErrorSearch::KindOf(const ReceiverErrors& errors) const {
+  const auto sensor = static_cast<std::size_t>(errors.sensor());
+  return *problem_.timeline.sensors()[sensor].kind;
+}
+
+std::vector<double> ErrorSearch::ChangesOfPositions() const {
+  std::vector<double> all;
+  for (const Round& round : rounds_) {
+    const ReceiverErrors& one = round.best();
+    if (!one.Stands() || !KindOf(one).is_position) continue;
+    const std::vector<double> times = one.ChangeTimes();
+    all.insert(all.end(), times.begin(), times.end());
+  }
+  return all;
+}
+
+double ErrorSearch::LogOfCoincidences() const {
+  constexpr double kTogether = 0.5;
+  constexpr double kSameTime = 1.5;  // [s]
+  const std::vector<double> of_positions = ChangesOfPositions();
+  double log = 0.0;
+  for (const Round& round : rounds_) {
+    const ReceiverErrors& one = round.best();
+    if (!one.Stands() || !IsOfVelocity(KindOf(one))) continue;
+    for (const double t : one.ChangeTimes()) {
+      const bool together = std::ranges::any_of(of_positions, [t](double at) {
+        return std::abs(at - t) < kSameTime;
+      });
+      if (together) {
+        log += std::max(0.0, std::log(kTogether * one.searched_fixes()));
+      }
+    }
+  }
+  return log;
+}
+
+void ErrorSearch::TellNotes(const Round& round, RobustBatchResult* result) {
+  for (const ReceiverErrors& one : round.errors) {
+    const bool best = &one == &round.best();
+    if (best || !round.best().Stands()) {
+      for (std::string& note : one.Notes(result->batch.P)) {
+        result->notes.push_back(std::move(note));
+      }
+    }
+    for (Evidence& doubt : one.Doubts()) {
+      if (best || doubt.value == std::nullopt) {
+        result->doubts.push_back(std::move(doubt));
+      }
+    }
+  }
+}
+
+void ErrorSearch::TellRival(const Round& round, RobustBatchResult* result) {
+  constexpr double kSureOdds = 6.907755278982137;  // ln 1000
+  const ReceiverErrors& best = round.best();
+  for (std::size_t i = 1; i < round.errors.size(); ++i) {
+    const ReceiverErrors& other = round.errors[i];
+    const double behind = best.log_gain() - other.log_gain();
+    if (!other.Stands() || behind >= kSureOdds) continue;
+    const double probability = 1.0 / (1.0 + std::exp(behind));
+    const double distance = std::sqrt(best.MeanSquareDistanceTo(other));
+    if (!best.IsApart(other, result->batch.P)) continue;
+    result->doubts.push_back(
+        {.grade = Grade::kDoubtful,
+         .what = fmt::format(
+             "which sensor errs cannot be told: {}; or, {:.2g} % likely, {}",
+             best.InWords(), 100.0 * probability, other.InWords()),
+         .value = distance,
+         .unit = "m",
+         .causes = {"sensors that contradict each other where the IMU cannot "
+                    "tell which is right"},
+         .remedies = {"'--without', which leaves one of them out"}});
+    result->notes.push_back(fmt::format(
+        "or, {:.2g} % likely and {:.3g} m away in the root mean square: {}",
+        100.0 * probability, distance, other.InWords()));
+    best.WidenTowards(other, probability, &result->batch.P);
+  }
+}
+
+}  // namespace hindsight

@@ -1,0 +1,90 @@
+#ifndef HINDSIGHT_PROBLEMS_ERROR_SEARCH_H_
+#define HINDSIGHT_PROBLEMS_ERROR_SEARCH_H_
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "problems/robust_batch.h"
+
+namespace hindsight {
+
+/// One way to explain the data by errors of sensors: the problem is extended by
+/// them, one after the other (docs/receiver_errors.md, "Search").
+class ErrorSearch {
+ public:
+  /// `options` must outlive the object. `share`: of the effort of a search that
+  /// the first round may cost; each further one half of it.
+  ErrorSearch(Problem problem, const RobustBatchOptions& options, double share)
+      : problem_(std::move(problem)), options_(&options), share_(share) {}
+
+  /// Each sensor is searched with the others taken at their word, about `initial`,
+  /// a state a node; then the rest about what stands, three times at most.
+  void Run(const std::vector<State>& initial);
+
+  /// Velocities are searched first, without the positions, which may err as they
+  /// do; then the rest about what was found of them. False if nothing was.
+  bool RunFromVelocities(const std::vector<State>& initial);
+
+  /// Whether velocities and positions of a receiver may err together in what was
+  /// told otherwise: by steps of the IMU's velocity, by errors that are doubtful
+  /// by themselves, or by those of several sensors.
+  bool MayBeOfAReceiver() const;
+
+  /// Whether errors of velocities change where those of positions do.
+  bool HasCoincidences() const { return LogOfCoincidences() > 0.0; }
+
+  /// ln of the evidence, as the batch is solved with what was found: without steps
+  /// of the IMU's velocity, its noise as stated. Only differences mean anything;
+  /// something must stand.
+  double LogEvidence() const;
+
+  /// Extended by what stands.
+  const Problem& problem() const { return problem_; }
+  /// The trajectory to solve from; none if nothing stands.
+  const std::optional<std::vector<State>>& states() const { return states_; }
+  /// What stands, in words.
+  std::string InWords() const;
+  bool HasErrors(int sensor) const;
+  SearchDecisions Decisions() const;
+
+  /// Adds to P, as solved, what else there may be; fills in the rest of a
+  /// result.
+  void Tell(RobustBatchResult* result) const;
+
+ private:
+  /// Errors found about one tape, which they need.
+  struct Round {
+    std::unique_ptr<LinearTape> tape;
+    std::vector<ReceiverErrors> errors;  ///< one a sensor; the best first
+    const ReceiverErrors& best() const { return errors.front(); }
+  };
+
+  /// Extends the problem by what stands of a round.
+  void Take(Round round);
+  /// Whether a state can hold the errors of one more sensor.
+  bool HasRoom() const;
+  /// Prepares the question of the next round.
+  void Ask();
+  const SensorKind& KindOf(const ReceiverErrors& errors) const;
+  /// Times at which the errors of positions that were found change.
+  std::vector<double> ChangesOfPositions() const;
+  /// ln of how much likelier changes of the errors of velocities are than those of
+  /// independent sensors, where errors of positions change at the same time.
+  double LogOfCoincidences() const;
+  static void TellNotes(const Round& round, RobustBatchResult* result);
+  /// Errors of another sensor that explain the same.
+  static void TellRival(const Round& round, RobustBatchResult* result);
+
+  Problem problem_;
+  const RobustBatchOptions* options_;
+  double share_;
+  ErrorQuestion question_;
+  std::vector<Round> rounds_;
+  std::optional<std::vector<State>> states_;
+};
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_PROBLEMS_ERROR_SEARCH_H_
