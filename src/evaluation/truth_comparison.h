@@ -29,6 +29,13 @@ ComparedTruth TruthToCompare(const SolutionTable& solution,
                              const TruthSeries& truth,
                              const TrajectoryErrorOptions& options);
 
+/// What CompareWithTruth finds.
+struct TruthComparison {
+  ComparedTruth truth;
+  std::vector<TrajectoryError> errors;
+  TrajectoryStatistics statistics;
+};
+
 /// The errors of a solution against a reference, of whatever command asks:
 ///   where the solution has a row at every (thinned) truth point in its span,
 ///       there; `run` samples its solutions so, through the IMU
@@ -37,11 +44,6 @@ ComparedTruth TruthToCompare(const SolutionTable& solution,
 ///       interpolated: a row a second says too little of a turn in between
 ///   else at the (thinned) truth points, the solution interpolated.
 /// Interpolation as of TrajectoryInterpolator, with the gap of the options.
-struct TruthComparison {
-  ComparedTruth truth;
-  std::vector<TrajectoryError> errors;
-  TrajectoryStatistics statistics;
-};
 TruthComparison CompareWithTruth(const SolutionTable& solution,
                                  const TruthSeries& truth,
                                  const TrajectoryErrorOptions& options);
