@@ -60,9 +60,23 @@ bool ErrorSearch::RunFromVelocities(const std::vector<State>& initial) {
       RunLinearizedFilter(initial, &without, options_->callback));
   round.errors = FindReceiverErrors(without, *round.tape, question);
   if (round.errors.empty() || !round.best().Stands()) return false;
+  velocities_first_ = true;
   Take(std::move(round));
   Run(initial);
   return true;
+}
+
+void ErrorSearch::RunAsDecided(const std::vector<State>& initial) {
+  // Where all are searched, positions are among the first.
+  const auto& sensors = problem_.timeline.sensors();
+  const SearchDecisions& decisions = *options_->decisions;
+  const bool from_velocities =
+      !decisions.empty() &&
+      std::ranges::all_of(decisions.front(), [&](const auto& one) {
+        return IsOfVelocity(*sensors[SensorOf(*one)].kind);
+      });
+  if (from_velocities && RunFromVelocities(initial)) return;
+  Run(initial);
 }
 
 bool ErrorSearch::MayBeOfAReceiver() const {
@@ -120,16 +134,22 @@ SearchDecisions ErrorSearch::Decisions() const {
 
 void ErrorSearch::Tell(RobustBatchResult* result) const {
   result->trust.resize(problem_.timeline.sensors().size());
+  double most = 0.0;
   for (std::size_t i = 0; i < rounds_.size(); ++i) {
     const ReceiverErrors& best = rounds_[i].best();
     // The last round may have found nothing: then it tells what was refused.
     if (!best.Stands() && i > 0) break;
     TellNotes(rounds_[i], result);
     if (!best.Stands()) break;
-    std::optional<Evidence> doubt =
-        best.Average(problem_.layout, &result->batch.states, &result->batch.P);
-    if (doubt) result->doubts.push_back(std::move(*doubt));
-    if (i == 0) result->modes = best.Modes();
+    // What else velocities may have done without the positions is farther off than
+    // with them.
+    if (i > 0 || !velocities_first_) {
+      std::optional<Evidence> doubt = best.Average(
+          problem_.layout, &result->batch.states, &result->batch.P);
+      if (doubt) result->doubts.push_back(std::move(*doubt));
+    }
+    if (best.log_gain() > most) result->modes = best.Modes();
+    most = std::max(most, best.log_gain());
     for (BoundedValue& one : best.Bounded()) {
       result->bounded.push_back(std::move(one));
     }
@@ -161,9 +181,11 @@ void ErrorSearch::Ask() {
   question_.decided = decided ? &(*options_->decisions)[i] : nullptr;
   const auto round = static_cast<double>(i);
   question_.share = share_ * std::exp2(-round);
-  question_.go_on = [&go_on = options_->go_on, round](double fraction) {
+  question_.go_on = [&go_on = options_->go_on, stopped = stopped_,
+                     round](double fraction) {
     // A round takes half of what is left.
-    return !go_on || go_on(1.0 - std::exp2(-(round + fraction)));
+    *stopped |= go_on && !go_on(1.0 - std::exp2(-(round + fraction)));
+    return !*stopped;
   };
 }
 
@@ -186,18 +208,18 @@ std::vector<double> ErrorSearch::ChangesOfPositions() const {
 double ErrorSearch::LogOfCoincidences() const {
   constexpr double kTogether = 0.5;
   constexpr double kSameTime = 1.5;  // [s]
-  const std::vector<double> of_positions = ChangesOfPositions();
+  std::vector<double> of_positions = ChangesOfPositions();
   double log = 0.0;
   for (const Round& round : rounds_) {
     const ReceiverErrors& one = round.best();
     if (!one.Stands() || !IsOfVelocity(KindOf(one))) continue;
     for (const double t : one.ChangeTimes()) {
-      const bool together = std::ranges::any_of(of_positions, [t](double at) {
+      const auto together = std::ranges::find_if(of_positions, [t](double at) {
         return std::abs(at - t) < kSameTime;
       });
-      if (together) {
-        log += std::max(0.0, std::log(kTogether * one.searched_fixes()));
-      }
+      if (together == of_positions.end()) continue;
+      of_positions.erase(together);
+      log += std::max(0.0, std::log(kTogether * one.searched_fixes()));
     }
   }
   return log;

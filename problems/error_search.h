@@ -27,17 +27,26 @@ class ErrorSearch {
   /// do; then the rest about what was found of them. False if nothing was.
   bool RunFromVelocities(const std::vector<State>& initial);
 
+  /// As RobustBatchOptions::decisions say, in the order in which they were found.
+  void RunAsDecided(const std::vector<State>& initial);
+
+  /// Whether the search was ended by whoever asked.
+  bool stopped() const { return *stopped_; }
+
   /// Whether velocities and positions of a receiver may err together in what was
   /// told otherwise: by steps of the IMU's velocity, by errors that are doubtful
   /// by themselves, or by those of several sensors.
   bool MayBeOfAReceiver() const;
 
-  /// Whether errors of velocities change where those of positions do.
+  /// Whether errors of velocities change where those of positions do, as mode
+  /// sequences have them.
   bool HasCoincidences() const { return LogOfCoincidences() > 0.0; }
 
-  /// ln of the evidence, as the batch is solved with what was found: without steps
-  /// of the IMU's velocity, its noise as stated. Only differences mean anything;
-  /// something must stand.
+  /// ln of the evidence without steps of the IMU's velocity and with its noise as
+  /// stated, as the batch is solved: the likelihood of the innovations about the
+  /// trajectory that was found, fixes that a mixture takes for outliers with the
+  /// noise that it gives them, and the priors of what was found. Only differences
+  /// mean anything; something must stand.
   double LogEvidence() const;
 
   /// Extended by what stands.
@@ -83,6 +92,8 @@ class ErrorSearch {
   ErrorQuestion question_;
   std::vector<Round> rounds_;
   std::optional<std::vector<State>> states_;
+  bool velocities_first_ = false;
+  std::shared_ptr<bool> stopped_ = std::make_shared<bool>(false);
 };
 
 }  // namespace hindsight

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "base/error.h"
 #include "problems/error_search.h"
 
 namespace hindsight {
@@ -56,20 +57,40 @@ struct Explained {
   std::optional<RivalSearch> rival;
 };
 
+/// ln of the odds against an explanation that begins with the velocities, which is
+/// searched; none if there is no such.
+std::optional<double> LogOddsAgainst(const std::vector<State>& initial,
+                                     const ErrorSearch& search,
+                                     ErrorSearch* other) {
+  try {
+    const bool found = other->RunFromVelocities(initial);
+    if (!found || other->stopped() || !other->HasCoincidences()) {
+      return std::nullopt;
+    }
+    const double log_odds = search.LogEvidence() - other->LogEvidence();
+    if (std::isfinite(log_odds)) return log_odds;
+  } catch (const EstimationError&) {
+    // Without its positions the recording tells no trajectory.
+  }
+  return std::nullopt;
+}
+
 /// The likelier of the explanations. `share`: of the effort of a search.
 Explained Explain(const Problem& problem, const std::vector<State>& initial,
                   const RobustBatchOptions& options, double share) {
   ErrorSearch search(problem, options, share);
+  if (options.decisions != nullptr) {
+    search.RunAsDecided(initial);
+    return {std::move(search), std::nullopt};
+  }
   search.Run(initial);
-  if (options.decisions != nullptr || !search.MayBeOfAReceiver()) {
+  if (search.stopped() || !search.MayBeOfAReceiver()) {
     return {std::move(search), std::nullopt};
   }
   ErrorSearch other(problem, options, 0.5 * share);
-  if (!other.RunFromVelocities(initial) || !other.HasCoincidences()) {
-    return {std::move(search), std::nullopt};
-  }
-  double log_odds = search.LogEvidence() - other.LogEvidence();
-  if (!std::isfinite(log_odds)) return {std::move(search), std::nullopt};
+  const std::optional<double> odds = LogOddsAgainst(initial, search, &other);
+  if (!odds) return {std::move(search), std::nullopt};
+  double log_odds = *odds;
   if (log_odds < 0.0) {
     std::swap(search, other);
     log_odds = -log_odds;
@@ -86,11 +107,15 @@ void TellOtherOrder(const RivalSearch& rival, const std::string& words,
   constexpr double kSigmas = 3.0;
   if (rival.log_odds >= kSureOdds) return;
   const double probability = 1.0 / (1.0 + std::exp(rival.log_odds));
-  const int at = result->problem.layout.Find(BlockKind::kPosition)->offset;
+  const Block* position = result->problem.layout.Find(BlockKind::kPosition);
+  if (position == nullptr || position->dim != 3) return;
+  const int at = position->offset;
   double farthest = 0.0;
   bool apart = false;
   for (std::size_t k = 0; k < rival.states.size(); ++k) {
-    const Eigen::Vector3d d = rival.states[k].p_e - result->batch.states[k].p_e;
+    const State& x = result->batch.states[k];
+    const Eigen::Vector3d d =
+        x.C_en().transpose() * (rival.states[k].p_e - x.p_e);
     ErrorMatrix P = result->batch.P.Get(k);
     apart |=
         d.squaredNorm() > kSigmas * kSigmas * P.block<3, 3>(at, at).trace();
@@ -99,7 +124,7 @@ void TellOtherOrder(const RivalSearch& rival, const std::string& words,
     result->batch.P.Set(k, P);
   }
   if (!apart) return;
-  result->doubts.push_back(
+  result->other_order = Evidence(
       {.grade = Grade::kDoubtful,
        .what = fmt::format("{}; or else, {:.2g} % likely and up to {:.3g} m "
                            "away, {}",
@@ -143,6 +168,17 @@ RobustBatchResult SolveAbout(const Problem& problem,
     result.notes.push_back(DescribeBlunders(result.problem, options.blunders));
   }
   return result;
+}
+
+/// The same; none if the data cannot be solved about that trajectory.
+std::optional<RobustBatchResult> TrySolveAbout(
+    const Problem& problem, const std::vector<State>& initial,
+    const RobustBatchOptions& options, double share) {
+  try {
+    return SolveAbout(problem, initial, options, share);
+  } catch (const EstimationError&) {
+    return std::nullopt;
+  }
 }
 
 /// Whether the attitude of a solution is so far from that about which errors were
@@ -193,8 +229,10 @@ RobustBatchResult SolveRobustBatch(Problem problem,
       };
     }
     const double share = pass == 0 ? 1.0 : 0.5;
-    RobustBatchResult one = SolveAbout(problem, nominal, of_pass, share);
-    if (pass > 0 && !one.stands) break;
+    std::optional<RobustBatchResult> one =
+        pass == 0 ? SolveAbout(problem, nominal, of_pass, share)
+                  : TrySolveAbout(problem, nominal, of_pass, share);
+    if (pass > 0 && (!one || !one->stands || stopped)) break;
     result = std::move(one);
     const bool again = result->stands && !stopped &&
                        options.decisions == nullptr &&

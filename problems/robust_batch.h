@@ -2,6 +2,7 @@
 #define HINDSIGHT_PROBLEMS_ROBUST_BATCH_H_
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct RobustBatchResult {
   std::vector<BoundedValue> bounded = {};
   std::vector<std::string> notes = {};  ///< what was found, in words
   std::vector<Evidence> doubts = {};    ///< what makes the result doubtful
+  /// That sensors searched in another order explain the data too: of where nodes
+  /// stood at the search. Not among `doubts`, as it is not known again where
+  /// decisions are given.
+  std::optional<Evidence> other_order = {};
   SearchDecisions decisions = {};
 };
 

@@ -147,6 +147,7 @@ SensorImm MakeSensorImm(Problem problem) {
 ImmSmoothed SmoothSensorImm(SensorImm* imm, const EpochCallback& callback,
                             const std::function<void(const ImmTape&)>& judge) {
   Problem& problem = imm->problem;
+  const GateDecisions given = imm->options.decisions;
   ImmResult result =
       RunImm(imm->models, imm->options, &problem.timeline, callback);
   problem.decisions = DecisionsOnTape(result.tape.tapes.front());
@@ -156,6 +157,9 @@ ImmSmoothed SmoothSensorImm(SensorImm* imm, const EpochCallback& callback,
     about.states = smoothed.trajectory.states;
     about.P = smoothed.trajectory.P;
     GateDecisions again = DecideGates(problem, about);
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      if (given[i] == 0) again[i] = 0;
+    }
     if (again != problem.decisions) {
       imm->options.decisions = again;
       problem.decisions = std::move(again);

@@ -34,7 +34,7 @@ SensorImm MakeSensorImm(Problem problem);
 
 /// The smoothed filter. Where gates are left, they are decided again about the
 /// smoothed trajectory, and the filter is run once more by `imm->options` with
-/// these decisions if they differ. `judge` is shown the tape that is smoothed in
+/// these decisions if they differ; what its decisions leave out stays out. `judge` is shown the tape that is smoothed in
 /// the end.
 ImmSmoothed SmoothSensorImm(
     SensorImm* imm, const EpochCallback& callback,

@@ -150,6 +150,7 @@ struct Searched {
   std::vector<double> offsets;  ///< by sensor [s]
   bool stands = false;
   std::vector<std::string> notes;
+  std::optional<Evidence> other_order;
   ErrorLayout layout;
   State x;        ///< the solution's at its last node
   ErrorMatrix P;  ///< of it
@@ -181,9 +182,9 @@ GateDecisions WithoutHeadings(const Problem& problem) {
   return any ? decisions : GateDecisions();
 }
 
-/// Whether the attitudes of a trajectory contradict those of another with another
-/// one's sigmas: a mean square of the angle between them above 25 times the
-/// largest variance of an axis.
+/// Whether the attitudes of a trajectory contradict those of `other`: the mean
+/// square of the angle between them is above 25 times the largest variance that
+/// `other` has of an axis.
 bool Contradicts(const ErrorLayout& layout, const ImmTrajectory& one,
                  const ImmTrajectory& other) {
   constexpr double kMost = 25.0;
@@ -248,10 +249,12 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
   if (!known) {
     searched->decisions = std::move(result.decisions);
     searched->offsets = *nodes.offsets;
+    searched->other_order = std::move(result.other_order);
   }
   searched->stands = result.stands;
   searched->notes = std::move(result.notes);
   std::vector<Evidence> doubts = std::move(result.doubts);
+  if (searched->other_order) doubts.push_back(*searched->other_order);
   Solution solution = result.stands
                           ? TakeRobust(std::move(result), stage, &doubts)
                           : SolvePlainly(stage, nodes);

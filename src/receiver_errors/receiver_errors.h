@@ -21,6 +21,9 @@ struct SensorFindings;  // receiver_errors/sensor_findings.h
 /// What a search decided, by sensor.
 using DecidedErrors = std::vector<std::shared_ptr<const ErrorDecisions>>;
 
+/// The sensor that decisions are about.
+std::size_t SensorOf(const ErrorDecisions& decisions);
+
 /// What is asked of FindReceiverErrors.
 struct ErrorQuestion {
   /// Sensors that are not looked at: what was found of them is in the problem.

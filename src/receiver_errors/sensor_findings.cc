@@ -69,6 +69,14 @@ double RefinementEffort(const LinearTape& tape) {
          CostOfStep(tape);
 }
 
+/// ln of the evidence of a fit without its likelihood.
+double LogPriorOfFit(const RegimeProblem& problem, const ErrorRegimes& fit) {
+  const Hypothesis& best = fit.hypotheses.front();
+  return fit.log_evidence - ScoreSequence(problem.tape, problem.sensor,
+                                          best.parameters, best.sequence)
+                                .log_likelihood;
+}
+
 bool IsAlone(const Timeline& timeline, int sensor) {
   const auto& sensors = timeline.sensors();
   return sensors[static_cast<std::size_t>(sensor)].kind->is_position &&
@@ -78,6 +86,10 @@ bool IsAlone(const Timeline& timeline, int sensor) {
 }
 
 }  // namespace
+
+std::size_t SensorOf(const ErrorDecisions& decisions) {
+  return static_cast<std::size_t>(decisions.sensor);
+}
 
 ErrorDecisions::ErrorDecisions(const Problem& problem, const LinearTape& tape,
                                int index)
@@ -105,10 +117,7 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
   std::vector<ErrorRegimes> all = FitRegimes(regime);
   searched_fixes = all.front().hypotheses.front().sequence.size();
   choice = ChooseRegime(regime, all);
-  const Hypothesis& best = all[choice.chosen].hypotheses.front();
-  log_prior = all[choice.chosen].log_evidence -
-              ScoreSequence(searched, sensor, best.parameters, best.sequence)
-                  .log_likelihood;
+  log_prior = LogPriorOfFit(regime, all[choice.chosen]);
   stopped = effort.stopped();
   spent = std::min(limits.share, effort.spent() / most);
   SearchEffort rest(limits.share * RefinementEffort(tape),
@@ -167,6 +176,7 @@ void SensorFindings::ChooseNoise(SearchEffort* effort) {
   RegimeChoice of_noise = ChooseRegime(fixes, all);
   choice.chosen = of_noise.chosen;
   choice.gain = of_noise.gain;
+  log_prior = LogPriorOfFit(fixes, all[choice.chosen]);
   std::move(of_noise.refused.begin(), of_noise.refused.end(),
             std::back_inserter(choice.refused));
   if (stands()) regimes = WithAlternatives(std::move(all), choice.chosen);
