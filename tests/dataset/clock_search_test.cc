@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "dataset/injection.h"
 #include "geometry/so3.h"
 #include "io/config/scenario_config.h"
 #include "measurements/sensor_kind.h"
@@ -169,33 +168,6 @@ TEST(ClockSearch, WhatNoiseMayHaveMadeWorseIsPlausible) {
   ASSERT_FALSE(found.candidates.empty());
   EXPECT_TRUE(IsPlausible(found, found.candidates.front().misfit));
   EXPECT_FALSE(IsPlausible(found, found.misfit(20.0)));
-}
-
-TEST(ClockSearch, FixesThatJumpDoNotHideTheClock) {
-  for (const std::uint64_t seed : {5u, 6u, 7u}) {
-    Dataset dataset = LateShuttle({}, seed, 0.6, 0.5);
-    Injection spikes;
-    spikes.sensor = "gnss";
-    spikes.kind = Injection::Kind::kSpikes;
-    spikes.size = 10.0;
-    spikes.share = 0.2;
-    const double begin = dataset.streams[0].measurements.front().t;
-    spikes.from = begin + 10.0;
-    spikes.to = begin + 20.0;
-    ApplyInjections({spikes}, seed, &dataset);
-    const ClockSearch found = SearchClock(dataset.imu, dataset.initial,
-                                          dataset.streams[0], {-2.0, 2.0});
-    ASSERT_FALSE(found.candidates.empty()) << seed;
-    EXPECT_NEAR(found.candidates.front().offset, -0.6, 0.1) << seed;
-  }
-}
-
-TEST(ClockSearch, AnImuInAnotherUnitLeavesFixesToBeCompared) {
-  Dataset dataset = Drive(TellingSensors()[1], 13);
-  for (ImuSample& sample : dataset.imu.samples) sample.accel *= 0.1;
-  const ClockSearch found =
-      SearchClock(dataset.imu, dataset.initial, dataset.streams[0]);
-  EXPECT_TRUE(std::isfinite(found.misfit(0.0)));
 }
 
 TEST(ClockSearch, HalfAPeriodOffIsACandidateOfAFlightToAndFro) {
