@@ -53,6 +53,11 @@ double SquaredDifference(const MarginalLikelihood& a,
 }
 
 double ExcessOf(const MarginalLikelihood& chosen) {
+  return chosen.rows > 0.0 ? std::max(1.0, chosen.squares / chosen.rows) : 1.0;
+}
+
+/// The same of most measurements: those that err do not count.
+double MedianExcessOf(const MarginalLikelihood& chosen) {
   std::vector<double> excess;
   for (const auto& [measurement, innovation] : chosen.whitened) {
     const auto rows = static_cast<double>(innovation.size());
@@ -71,10 +76,11 @@ double LogLikelihoodRatio(const Explained& rival, const Explained& chosen) {
 }
 
 double LogEvidenceRatio(const Dataset& dataset, const Explained& rival,
-                        const Explained& chosen) {
+                        const Explained& chosen, ExcessBy by) {
   const MarginalLikelihood a = LikelihoodBeside(dataset, chosen, rival);
   const MarginalLikelihood b = LikelihoodBeside(dataset, rival, chosen);
-  const double excess = ExcessOf(a);
+  const double excess =
+      by == ExcessBy::kMedian ? MedianExcessOf(a) : ExcessOf(a);
   const double between = SquaredDifference(a, b);
   const double of_noise = excess * (a.imu_noise + b.imu_noise);
   const double of_motion = between > of_noise ? 1.0 - of_noise / between : 0.0;

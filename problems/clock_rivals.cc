@@ -94,7 +94,8 @@ class EvidenceTable {
   double Ratio(std::size_t rival, std::size_t chosen) {
     const auto [at, is_new] = known_.try_emplace({rival, chosen}, 0.0);
     if (is_new) {
-      at->second = LogEvidenceRatio(dataset_, Of(rival), Of(chosen));
+      at->second =
+          LogEvidenceRatio(dataset_, Of(rival), Of(chosen), ExcessBy::kMedian);
     }
     return at->second;
   }

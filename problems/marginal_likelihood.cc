@@ -130,6 +130,8 @@ MarginalLikelihood MarginalLikelihoodOf(Problem problem,
               ? z.nis
               : std::min(z.nis, GateLimit(timeline.sensors()[sensor], rows));
       out.log += z.log_likelihood + 0.5 * (z.nis - nis);
+      out.squares += nis;
+      out.rows += rows;
       if (!z.accepted) continue;
       const Measurement& measurement =
           timeline.measurements(k)[static_cast<std::size_t>(z.index)];

@@ -14,6 +14,8 @@ namespace hindsight {
 /// ln p(measurements) of an explanation, and how its innovations fare.
 struct MarginalLikelihood {
   double log = 0.0;
+  double squares = 0.0;  ///< sum of the normalised squared innovations
+  double rows = 0.0;     ///< their components
   /// Innovations of the accepted measurements, whitened by the Cholesky factor
   /// of their covariances, by sensor and stamp.
   std::map<std::pair<int, double>, Eigen::VectorXd> whitened;

@@ -58,9 +58,6 @@ OffsetRange OverlappingOffsets(double a_begin, double a_end, double b_begin,
 ///                        the hard iron is free
 ///   height               its acceleration against the specific force, the
 ///                        vertical free in each piece
-/// Windows of positions and velocities in which they accelerate by more than one
-/// and a half times the most that the IMU does in any, and five sigmas of noise, are
-/// left out, unless these are most: a fix in them errs.
 /// A candidate is a minimum of the misfit below a half (the quarter of what no
 /// common motion leaves), of heights and of velocities in the vehicle's axes also
 /// below half of the median over OverlappingOffsets (what is free in each piece of
