@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "base/random.h"
 #include "base/units.h"
@@ -152,30 +153,30 @@ double LargestHeadingError(const Dataset& dataset, const Solution& solution) {
   return largest;
 }
 
+Solution SolveBy(const std::string& method, const Dataset& dataset) {
+  ReconstructionOptions options;
+  options.method = method;
+  return Solve(dataset, options);
+}
+
 TEST(RobustBatch, FindsPositionsAndVelocitiesThatErrTogether) {
   const Dataset clean = Simulate(FindScenario("test_drone"), 3);
-  ReconstructionOptions options;
-  options.method = "batch";
-  const Accuracy without = Judge(clean, Solve(clean, options));
+  const Accuracy without = Judge(clean, SolveBy("batch", clean));
   const Dataset dirty = DroneWithAGlitch(clean);
-  const Accuracy spoilt = Judge(dirty, Solve(dirty, options));
-  EXPECT_GT(spoilt.horizontal_rms, 20.0 * without.horizontal_rms);
-  options.method = "robust_batch";
-  const Solution solution = Solve(dirty, options);
-  const Accuracy robust = Judge(dirty, solution);
+  EXPECT_GT(Judge(dirty, SolveBy("batch", dirty)).horizontal_rms,
+            20.0 * without.horizontal_rms);
+  const Accuracy robust = Judge(dirty, SolveBy("robust_batch", dirty));
   EXPECT_LT(robust.horizontal_rms, 1.5 * without.horizontal_rms);
   EXPECT_LT(robust.position_nees, 1.5 * without.position_nees);
 }
 
 TEST(RobustBatch, FindsACompassThatTurnsTheStart) {
   const Dataset clean = Simulate(FindScenario("test_drone"), 3);
-  ReconstructionOptions options;
-  options.method = "batch";
-  const Accuracy without = Judge(clean, Solve(clean, options));
+  const Accuracy without = Judge(clean, SolveBy("batch", clean));
   const Dataset dirty = DroneBesideACurrent(clean);
-  EXPECT_GT(LargestHeadingError(dirty, Solve(dirty, options)), 45.0 * kDegree);
-  options.method = "robust_batch";
-  const Solution solution = Solve(dirty, options);
+  EXPECT_GT(LargestHeadingError(dirty, SolveBy("batch", dirty)),
+            45.0 * kDegree);
+  const Solution solution = SolveBy("robust_batch", dirty);
   EXPECT_LT(LargestHeadingError(dirty, solution), 5.0 * kDegree);
   EXPECT_LT(Judge(dirty, solution).horizontal_rms,
             1.1 * without.horizontal_rms);
