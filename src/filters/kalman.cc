@@ -49,8 +49,12 @@ GainMatrix Update(const LinearizedMeasurement& z, const Innovation& innovation,
 
 void PredictCovariance(const ErrorMatrix& Phi, const ErrorMatrix& Q,
                        ErrorMatrix* P) {
-  const ErrorMatrix PhiP = TimesTransposed(*P, Phi).transpose();
-  *P = Q + TimesTransposed(PhiP, Phi);
+  if (P->rows() > kDense) {
+    *P = Q + SparseCongruence(Phi)(*P);
+  } else {
+    const ErrorMatrix PhiP = TimesTransposed(*P, Phi).transpose();
+    *P = Q + TimesTransposed(PhiP, Phi);
+  }
   Symmetrize(P);
 }
 

@@ -32,27 +32,38 @@ bool IsOfImu(BlockKind kind) {
          kind == BlockKind::kAccelBias;
 }
 
-/// Kalman update of x by z. P - K S K' in place of Joseph's form, at a third of
-/// the cost: the least sigma of a fix keeps it far from what rounding ruins.
-ErrorChain::Used UpdateWith(const LinearizedMeasurement& z, Gaussian* x) {
-  ErrorChain::Used used{z, {}, z.H.lazyProduct(x->P)};
-  Innovation& innovation = used.innovation;
+/// H P of a symmetric P, from its columns: most elements of H are zero.
+RowJacobian ProductWith(const RowJacobian& H, const ErrorMatrix& P) {
+  return TimesTransposed(P, H).transpose();
+}
+
+/// Kalman update of x by z, HP before it. P - W' W in place of Joseph's form,
+/// at a third of the cost: the least sigma of a fix keeps it far from what
+/// rounding ruins.
+Innovation UpdateWith(const LinearizedMeasurement& z, const RowJacobian& HP,
+                      Gaussian* x) {
+  Innovation innovation;
   innovation.residual = z.residual - z.H * x->mean;
-  innovation.S = z.R + used.HP.lazyProduct(z.H.transpose());
+  innovation.S = z.R + HP.lazyProduct(z.H.transpose());
   const Eigen::LLT<RowMatrix> llt(innovation.S);
   if (llt.info() != Eigen::Success) {
     throw EstimationError(
         "innovation covariance of a measurement is not positive definite");
   }
   const RowVector whitened = llt.matrixL().solve(innovation.residual);
-  const RowJacobian W = llt.matrixL().solve(used.HP);
+  const RowJacobian W = llt.matrixL().solve(HP);
   x->mean.noalias() += W.transpose() * whitened;
-  x->P -= W.transpose().lazyProduct(W);
+  // By columns, along the rows of W: a product by elements runs across them.
+  for (Eigen::Index j = 0; j < x->P.cols(); ++j) {
+    for (Eigen::Index i = 0; i < W.rows(); ++i) {
+      x->P.col(j) -= W(i, j) * W.row(i).transpose();
+    }
+  }
   innovation.nis = whitened.squaredNorm();
   innovation.log_likelihood =
       -0.5 * innovation.nis - llt.matrixLLT().diagonal().array().log().sum() -
       0.5 * static_cast<double>(z.residual.size()) * std::log(2.0 * kPi);
-  return used;
+  return innovation;
 }
 
 }  // namespace
@@ -87,6 +98,7 @@ void ErrorChain::MoveTo(std::size_t k) {
   dt_ = k > 0 ? tape_.epoch(k).t - tape_.epoch(k - 1).t : 0.0;
   if (k > 0) {
     Phi_n_ = tape_.Phi(k);
+    over_interval_ = SparseCongruence(Phi_n_);
     Q_n_ = tape_.Q(k);
     if (parameters_.imu_scale != 1.0) ScaleImuNoise();
   }
@@ -131,9 +143,8 @@ Gaussian ErrorChain::PredictNavigation(const Gaussian& x) const {
   const int n = navigation_dim_;
   Gaussian out = x;
   out.mean.head(n) = Phi_n_ * x.mean.head(n) + tape_.epoch(k_).c;
-  ErrorMatrix P = x.P.topLeftCorner(n, n);
-  PredictCovariance(Phi_n_, Q_n_, &P);
-  out.P.topLeftCorner(n, n) = P;
+  const ErrorMatrix P = x.P.topLeftCorner(n, n);
+  out.P.topLeftCorner(n, n) = Q_n_ + over_interval_(P);
   out.P.topRightCorner(n, 6).noalias() = Phi_n_ * x.P.topRightCorner(n, 6);
   return out;
 }
@@ -180,16 +191,19 @@ ErrorChain::FixView ErrorChain::ViewOf(const Gaussian& x) const {
   const int n = navigation_dim_;
   const LinearizedMeasurement& z = z_[static_cast<std::size_t>(fix_)];
   const auto H = z.H.leftCols(n);
-  const RowJacobian HP = H.lazyProduct(x.P.topRows(n));
+  // Beneath the diagonal P is what it was before the interval.
+  const RowJacobian HP_n =
+      TimesTransposed(x.P.topLeftCorner(n, n), H).transpose();
+  const RowJacobian HP_e = H.lazyProduct(x.P.topRightCorner(n, 6));
   FixView view;
   view.innovation.setZero();
   view.S.setZero();
   view.P_ze.setZero();
   view.P_zr.setZero();
   view.innovation.head(rows_) = z.residual - H * x.mean.head(n);
-  view.S.topLeftCorner(rows_, rows_) = HP.leftCols(n) * H.transpose();
-  view.P_ze.topRows(rows_) = HP.middleCols(n, 3);
-  view.P_zr.topRows(rows_) = HP.middleCols(n + 3, 3);
+  view.S.topLeftCorner(rows_, rows_) = HP_n * H.transpose();
+  view.P_ze.topRows(rows_) = HP_e.leftCols(3);
+  view.P_zr.topRows(rows_) = HP_e.rightCols(3);
   view.e = x.mean.segment<3>(n);
   view.r = x.mean.segment<3>(n + 3);
   view.P_ee = x.P.block<3, 3>(n, n);
@@ -243,17 +257,21 @@ double ErrorChain::UpdateAll(bool outlier, Gaussian* x,
                              std::vector<Used>* used) const {
   double log_likelihood = 0.0;
   for (std::size_t i = 0; i < z_.size(); ++i) {
-    const LinearizedMeasurement z = MeasurementAs(i, outlier);
-    const Used one = UpdateWith(z, x);
-    if (!IsFix(i)) log_likelihood += one.innovation.log_likelihood;
-    if (used != nullptr) used->push_back(one);
+    LinearizedMeasurement wider;
+    const bool is_outlier = outlier && IsFix(i);
+    if (is_outlier) wider = MeasurementAs(i, outlier);
+    const LinearizedMeasurement& z = is_outlier ? wider : z_[i];
+    const RowJacobian HP = ProductWith(z.H, x->P);
+    const Innovation innovation = UpdateWith(z, HP, x);
+    if (!IsFix(i)) log_likelihood += innovation.log_likelihood;
+    if (used != nullptr) used->push_back({z, innovation, HP});
   }
   return log_likelihood;
 }
 
 void ErrorChain::UpdateOthers(Gaussian* x) const {
   for (std::size_t i = 0; i < z_.size(); ++i) {
-    if (!IsFix(i)) UpdateWith(z_[i], x);
+    if (!IsFix(i)) UpdateWith(z_[i], ProductWith(z_[i].H, x->P), x);
   }
 }
 

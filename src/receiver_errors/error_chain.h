@@ -5,6 +5,7 @@
 
 #include "filters/linear_tape.h"
 #include "filters/mixing.h"
+#include "linear/sparse_product.h"
 #include "receiver_errors/mode_sequence.h"
 
 namespace hindsight {
@@ -104,6 +105,7 @@ class ErrorChain {
   int fix_count_ = 0;
   std::size_t k_ = 0;
   ErrorMatrix Phi_n_;
+  SparseCongruence over_interval_;  ///< with Phi_n_
   ErrorMatrix Q_n_;
   double dt_ = 0.0;
   int fix_ = -1;                  ///< index in z_
