@@ -84,6 +84,33 @@ void SubtractColumnsOf(Eigen::Index j, Eigen::Index first,
   for (; row < X->rows(); ++row) SubtractStrip<1>(j, first, c, row, X);
 }
 
+template <int Rows, typename Wide, typename Matrix>
+inline void SubtractSquareStrip(const Wide& W, Eigen::Index row, Matrix* X) {
+  using Strip = Eigen::Array<double, Rows, 1>;
+  for (Eigen::Index j = 0; j < X->cols(); ++j) {
+    Eigen::Map<Strip> target(X->data() + j * X->outerStride() + row);
+    Strip sum = target;
+    for (Eigen::Index i = 0; i < W.rows(); ++i) {
+      sum -= W(i, j) *
+             Eigen::Map<const Strip>(W.data() + i * W.outerStride() + row);
+    }
+    target = sum;
+  }
+}
+
+/// X - W' W in the place of X, for a W of few rows, which is row-major.
+template <typename Wide, typename Matrix>
+void SubtractSquare(const Wide& W, Matrix* X) {
+  static_assert(Wide::IsRowMajor && !Matrix::IsRowMajor);
+  Eigen::Index row = 0;
+  for (; X->rows() - row >= 8; row += 8) SubtractSquareStrip<8>(W, row, X);
+  if (X->rows() - row >= 4) {
+    SubtractSquareStrip<4>(W, row, X);
+    row += 4;
+  }
+  for (; row < X->rows(); ++row) SubtractSquareStrip<1>(W, row, X);
+}
+
 /// X (L L')^-1 in its place, L the lower triangle of `factor`.
 template <typename Factor, typename Matrix>
 void DivideByCholesky(const Factor& factor, Matrix* X) {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "linear/small_product.h"
 
 namespace hindsight {
 namespace {
@@ -51,14 +52,11 @@ Innovation UpdateWith(const LinearizedMeasurement& z, const RowJacobian& HP,
         "innovation covariance of a measurement is not positive definite");
   }
   const RowVector whitened = llt.matrixL().solve(innovation.residual);
-  const RowJacobian W = llt.matrixL().solve(HP);
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor,
+                      kMaxRows, kMaxErrorDim>
+      W = llt.matrixL().solve(HP);
   x->mean.noalias() += W.transpose() * whitened;
-  // By columns, along the rows of W: a product by elements runs across them.
-  for (Eigen::Index j = 0; j < x->P.cols(); ++j) {
-    for (Eigen::Index i = 0; i < W.rows(); ++i) {
-      x->P.col(j) -= W(i, j) * W.row(i).transpose();
-    }
-  }
+  SubtractSquare(W, &x->P);
   innovation.nis = whitened.squaredNorm();
   innovation.log_likelihood =
       -0.5 * innovation.nis - llt.matrixLLT().diagonal().array().log().sum() -
@@ -138,15 +136,15 @@ void ErrorChain::ScaleImuNoise() {
   Q_n_ = (scale.asDiagonal() * Q_n_ * scale.asDiagonal()).eval();
 }
 
-Gaussian ErrorChain::PredictNavigation(const Gaussian& x) const {
-  if (k_ == 0) return x;
+void ErrorChain::PredictNavigation(Gaussian* x) const {
+  if (k_ == 0) return;
   const int n = navigation_dim_;
-  Gaussian out = x;
-  out.mean.head(n) = Phi_n_ * x.mean.head(n) + tape_.epoch(k_).c;
-  const ErrorMatrix P = x.P.topLeftCorner(n, n);
-  out.P.topLeftCorner(n, n) = Q_n_ + over_interval_(P);
-  out.P.topRightCorner(n, 6).noalias() = Phi_n_ * x.P.topRightCorner(n, 6);
-  return out;
+  x->mean.head(n) = (Phi_n_ * x->mean.head(n) + tape_.epoch(k_).c).eval();
+  const ErrorMatrix P = x->P.topLeftCorner(n, n);
+  x->P.topLeftCorner(n, n) = Q_n_ + over_interval_(P);
+  ErrorMatrix P_ne;
+  Multiply(Phi_n_, x->P.topRightCorner(n, 6), /*lower=*/false, &P_ne);
+  x->P.topRightCorner(n, 6) = P_ne;
 }
 
 void ErrorChain::PredictError(ErrorStep step, Gaussian* x) const {

@@ -34,7 +34,7 @@ class ErrorChain {
 
   /// Predicts the navigation errors over the interval and leaves e and r as
   /// they are before it.
-  Gaussian PredictNavigation(const Gaussian& x) const;
+  void PredictNavigation(Gaussian* x) const;
   /// Predicts e and r over the interval as `step` says; PredictNavigation came
   /// before.
   void PredictError(ErrorStep step, Gaussian* x) const;

@@ -82,7 +82,7 @@ std::vector<HeldOutPrediction::Prediction> HeldOutPrediction::Predict(
     ErrorStep step = {at.mode};
     if (k == first && at_begin) step = *at_begin;
     at.mode = step.mode;
-    at.x = chain_.PredictNavigation(at.x);
+    chain_.PredictNavigation(&at.x);
     chain_.PredictError(step, &at.x);
     chain_.UpdateOthers(&at.x);
     predicted.push_back(at.x);

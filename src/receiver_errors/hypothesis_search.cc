@@ -88,7 +88,7 @@ class Search {
     first.x = chain_.Begin();
     for (std::size_t k = 0; k < chain_.size(); ++k) {
       chain_.MoveTo(k);
-      for (Track& h : tracks_) h.x = chain_.PredictNavigation(h.x);
+      for (Track& h : tracks_) chain_.PredictNavigation(&h.x);
       if (chain_.has_fix()) {
         Branch();
         Merge();

@@ -19,7 +19,7 @@ class Walk {
 
   void PredictTo(std::size_t k) {
     chain_.MoveTo(k);
-    x_ = chain_.PredictNavigation(x_);
+    chain_.PredictNavigation(&x_);
     chain_.PredictError(steps_[k], &x_);
   }
 

@@ -32,7 +32,7 @@ bool SequenceSplice::Pass(const ModeSequence& sequence, Place* at,
                           Taken* taken) {
   chain_.MoveTo(at->node++);
   ++steps_;
-  at->x = chain_.PredictNavigation(at->x);
+  chain_.PredictNavigation(&at->x);
   if (!chain_.has_fix()) {
     chain_.PredictError({at->mode}, &at->x);
     at->score.log_likelihood += chain_.UpdateAll(false, &at->x);

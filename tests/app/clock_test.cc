@@ -185,6 +185,34 @@ TEST(ClocksOfRecordings, SettleBesideOutliers) {
       0.08);
 }
 
+/// A flight to and fro that fits its positions 1.3 s later almost as well: what
+/// errs for a while must not decide. The clock without errors is the reference.
+TEST(ClocksOfRecordings, ErrorsThatLastDoNotTurnAFlight) {
+  if (!std::filesystem::exists(kClockRecordings / "drone_paths")) {
+    GTEST_SKIP() << "the recording drone_paths is not here";
+  }
+  const TemporaryFolder folder;
+  const auto clock = [&folder](std::vector<std::string> flags) {
+    flags.insert(flags.begin(),
+                 {"run", (kClockData / "drone_path_27.yaml").string(),
+                  "--data-root=" + kClockRecordings.string(),
+                  "--methods=robust_batch", "--out=out", "--force"});
+    Hindsight(flags, folder.path());
+    return nlohmann::json::parse(ReadFile(
+        folder.path() /
+        "out/summary.json"))["methods"]["robust_batch"]["constants"]
+                            ["rtk_time_offset"]["value"]
+                                .get<double>();
+  };
+  const double without = clock({});
+  EXPECT_NEAR(clock({"--inject=rtk:multipath=3m,from=15.5s,to=21.8s,tau=20s",
+                     "--seed=771755"}),
+              without, 0.1);
+  EXPECT_NEAR(
+      clock({"--inject=rtk:ramp=10m,from=5.7s,to=12.0s", "--seed=380290"}),
+      without, 0.1);
+}
+
 /// Through the file, as a logger leaves it that is set anew on the way.
 TEST(ImuClock, ThatLeapsIsToldWithItsSize) {
   Recording recording;

@@ -47,5 +47,19 @@ TEST_P(SmallProduct, IsDividedByACholeskyFactor) {
 INSTANTIATE_TEST_SUITE_P(Sizes, SmallProduct,
                          ::testing::Values(1, 2, 3, 7, 8, 9, 15, 16, 31, 48));
 
+TEST(SmallSquare, IsSubtractedAtAnySize) {
+  using Wide =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  for (const Eigen::Index n : {1, 4, 7, 8, 15, 24}) {
+    for (const Eigen::Index m : {0, 1, 3}) {
+      const Wide W = Wide::Random(m, n);
+      const Eigen::MatrixXd X = Eigen::MatrixXd::Random(n, n);
+      Eigen::MatrixXd out = X;
+      SubtractSquare(W, &out);
+      EXPECT_LT((out - (X - W.transpose() * W)).norm(), 1e-14) << n << m;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hindsight

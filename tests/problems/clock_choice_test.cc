@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "base/units.h"
-#include "dataset/injection.h"
 #include "io/config/scenario_config.h"
 #include "measurements/sensor_kind.h"
 #include "problems/forward_stage.h"
@@ -97,27 +96,6 @@ TEST(ClockChoice, FlightsToAndFroAreSeldomTurnedRound) {
   }
   count.ExpectAsTold();
   // Far more often right than by the prior alone.
-  EXPECT_LE(count.wrong, std::max(1, seeds / 6));
-}
-
-/// Fixes that are 3 m off for six seconds tell nothing of the clock, and the noise
-/// that they are taken for leaves what the others tell.
-TEST(ClockChoice, FixesThatErrForAWhileDoNotTurnFlightsRound) {
-  const int seeds = testing::SeedCount(6, 40);
-  ChoiceCount count;
-  for (int seed = 1; seed <= seeds; ++seed) {
-    const auto s = static_cast<std::uint64_t>(9300 + seed);
-    const double late = 1.5 * Random(s, 1).Uniform() - 0.75;
-    Dataset dataset = LateShuttle({}, s, late, 0.5);
-    Injection pulse;
-    pulse.sensor = "gnss";
-    pulse.kind = Injection::Kind::kPulse;
-    pulse.size = 3.0;
-    pulse.from = dataset.streams[0].measurements.front().t + 15.0;
-    pulse.to = pulse.from + 6.0;
-    ApplyInjections({pulse}, s, &dataset);
-    count.Add(dataset, late, std::to_string(seed));
-  }
   EXPECT_LE(count.wrong, std::max(1, seeds / 6));
 }
 
