@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstddef>
 
 #include "base/chi_square.h"
@@ -34,17 +35,34 @@ bool Agree(const std::vector<const ResidualRecord*>& all, std::size_t begin,
   return nis < ChiSquareQuantile(kQuantile, rows);
 }
 
-/// Whether another sensor of position was trusted between two times.
+/// Past the last measurement of the stretch of distrust that begins at `begin`:
+/// as many trusted ones in a row as judge it follow it, or the end.
+std::size_t EndOf(const std::vector<const ResidualRecord*>& all,
+                  std::size_t begin) {
+  std::size_t end = begin;
+  for (std::size_t i = begin; i < all.size() && i < end + kBeside; ++i) {
+    if (!IsTrusted(*all[i])) end = i + 1;
+  }
+  return end;
+}
+
+/// Whether other sensors of position were trusted between two times, and never
+/// longer not than a stretch of distrust is borne.
 bool IsVouched(const Judged& judged, int sensor, double from, double to) {
+  std::vector<double> times = {from, to};
   for (const ResidualRecord& record : judged.solution.residuals) {
     if (record.sensor == sensor || record.withheld || !IsTrusted(record) ||
         record.t < from || record.t > to) {
       continue;
     }
     const auto i = static_cast<std::size_t>(record.sensor);
-    if (judged.sensors[i].kind->places) return true;
+    if (judged.sensors[i].kind->places) times.push_back(record.t);
   }
-  return false;
+  std::sort(times.begin(), times.end());
+  return std::adjacent_find(times.begin(), times.end(),
+                            [](double before, double after) {
+                              return after - before > kLeastDistrustedSpan;
+                            }) == times.end();
 }
 
 Evidence Distrust(const std::string& name, std::size_t count, double from,
@@ -71,11 +89,17 @@ void FindOf(const Judged& judged, int sensor,
             const std::vector<const ResidualRecord*>& all,
             std::vector<Evidence>* evidence) {
   for (std::size_t begin = 0; begin < all.size();) {
-    std::size_t end = begin;
-    while (end < all.size() && !IsTrusted(*all[end])) ++end;
-    const std::size_t count = end - begin;
-    if (count >= kLeastDistrusted && begin >= kBeside &&
-        end + kBeside <= all.size()) {
+    if (IsTrusted(*all[begin])) {
+      ++begin;
+      continue;
+    }
+    const std::size_t end = EndOf(all, begin);
+    const auto count = static_cast<std::size_t>(std::count_if(
+        all.begin() + static_cast<std::ptrdiff_t>(begin),
+        all.begin() + static_cast<std::ptrdiff_t>(end),
+        [](const ResidualRecord* one) { return !IsTrusted(*one); }));
+    if (count >= kLeastDistrusted && 2 * count >= end - begin &&
+        begin >= kBeside && end + kBeside <= all.size()) {
       const double from = all[begin]->t;
       const double to = all[end - 1]->t;
       if (to - from > kLeastDistrustedSpan &&
@@ -88,7 +112,7 @@ void FindOf(const Judged& judged, int sensor,
         return;
       }
     }
-    begin = end + 1;
+    begin = end;
   }
 }
 

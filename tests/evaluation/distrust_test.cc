@@ -80,6 +80,37 @@ TEST_F(Distrust, IsNotHeardWhereAnotherReceiverVouches) {
   EXPECT_TRUE(Find().empty());
 }
 
+/// What passes a gate by chance does not end a stretch of distrust.
+TEST_F(Distrust, WithSomeTrustedBetweenIsHeard) {
+  for (int t = 0; t < 100; ++t) {
+    const bool distrusted = t >= 40 && t < 60 && t % 5 < 3;
+    Add(t, 0, distrusted ? 0.0 : 1.0, distrusted ? 90.0 : 3.0);
+  }
+  const std::vector<Evidence> found = Find();
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].what,
+            "12 measurements of gnss were distrusted from 40.0 s to 57.0 s, "
+            "which agreed with everything else before and after");
+}
+
+/// As spikes are refused.
+TEST_F(Distrust, OfLessThanHalfIsNone) {
+  for (int t = 0; t < 200; ++t) {
+    const bool distrusted = t >= 40 && t < 160 && t % 3 == 0;
+    Add(t, 0, distrusted ? 0.0 : 1.0, distrusted ? 90.0 : 3.0);
+  }
+  EXPECT_TRUE(Find().empty());
+}
+
+/// A point of reference says where one is at its time, not for the rest.
+TEST_F(Distrust, IsHeardWhereAnotherReceiverVouchesOnceOnly) {
+  Distrusted(40, 60, 0.01);
+  Add(45.0, 1, 1.0, 3.0);
+  EXPECT_EQ(Find().size(), 1u);
+  Add(51.0, 1, 1.0, 3.0);
+  EXPECT_TRUE(Find().empty());
+}
+
 TEST_F(Distrust, IsNotHeardOfASensorWhoseErrorIsAState) {
   Distrusted(40, 60, 0.01);
   Block error;
