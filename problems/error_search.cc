@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "measurements/sensor_kind.h"
@@ -27,6 +28,15 @@ Problem WithoutPositions(Problem problem) {
     if (timeline.sensors()[sensor].kind->is_position) problem.decisions[i] = 0;
   }
   return problem;
+}
+
+/// A sensor that is searched in several rounds may say the same in each.
+template <typename T, typename Words>
+void AddOnce(T one, Words words, std::vector<T>* all) {
+  const auto same = [&](const T& other) {
+    return std::invoke(words, other) == std::invoke(words, one);
+  };
+  if (std::ranges::none_of(*all, same)) all->push_back(std::move(one));
 }
 
 }  // namespace
@@ -230,12 +240,12 @@ void ErrorSearch::TellNotes(const Round& round, RobustBatchResult* result) {
     const bool best = &one == &round.best();
     if (best || !round.best().Stands()) {
       for (std::string& note : one.Notes(result->batch.P)) {
-        result->notes.push_back(std::move(note));
+        AddOnce(std::move(note), std::identity(), &result->notes);
       }
     }
     for (Evidence& doubt : one.Doubts()) {
       if (best || doubt.value == std::nullopt) {
-        result->doubts.push_back(std::move(doubt));
+        AddOnce(std::move(doubt), &Evidence::what, &result->doubts);
       }
     }
   }
