@@ -142,7 +142,9 @@ TEST(InBackground, HasLetGoWhatItHeld) {
       const auto held = std::make_shared<int>(i);
       auto work = InBackground([own = held] { return *own; });
       EXPECT_EQ(work.get(), i);
-      if (threads > 1) EXPECT_EQ(held.use_count(), 1);
+      if (threads > 1) {
+        EXPECT_EQ(held.use_count(), 1);
+      }
     }
   }
 }

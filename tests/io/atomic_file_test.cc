@@ -64,7 +64,8 @@ TEST_P(AtomicFileOfLines, HasThemInTheirOrderBetweenWhatElseIsWritten) {
   AtomicFile file(folder.Path("a.txt"));
   std::string expected;
   // Some at once are buffered, many are written beside.
-  for (const std::size_t count : {3, 20000, 10, 4096, 0, 50000, 1}) {
+  for (const int lines : {3, 20000, 10, 4096, 0, 50000, 1}) {
+    const auto count = static_cast<std::size_t>(lines);
     const std::string title = std::to_string(count) + " lines\n";
     file.Write(title);
     expected += title;

@@ -1,5 +1,6 @@
 #include "io/write/atomic_file.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -87,6 +88,11 @@ void AtomicFile::WritePieces(std::size_t count) {
   pieces_.swap(written_);
   writing_ = InBackground([this, count] {
     for (std::size_t p = 0; p < count; ++p) Put(written_[p]);
+#ifdef __linux__
+    // Begins to put them on the medium, which Commit waits for. Not every file
+    // system can.
+    sync_file_range(file_.descriptor.get(), 0, 0, SYNC_FILE_RANGE_WRITE);
+#endif
   });
 }
 
