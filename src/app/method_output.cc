@@ -87,9 +87,12 @@ void MethodOutput::WriteMotion(std::size_t end) {
   motion_begun_ = true;
 }
 
+void MethodOutput::EndRows() {
+  if (!columns_.empty()) WriteMotion(waiting_.size());
+}
+
 void MethodOutput::Commit() {
   if (columns_.empty()) return;
-  WriteMotion(waiting_.size());
   for (const auto* files : {&files_, &motion_files_}) {
     for (const auto& file : *files) file->Commit();
   }

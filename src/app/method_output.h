@@ -26,6 +26,8 @@ class MethodOutput {
 
   /// Adds rows of the solution, later than all before.
   void Append(const SolutionTable& piece);
+  /// To be called behind the last row; the last to need `readings`.
+  void EndRows();
   /// Finishes the files.
   void Commit();
 

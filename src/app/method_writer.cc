@@ -1,5 +1,6 @@
 #include "app/method_writer.h"
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -40,17 +41,20 @@ MethodWriter::~MethodWriter() {
 void MethodWriter::Add(Solution* solution) {
   CheckTimesCovered(request_, *solution);
   const double peak_rss_mb = PeakRssMb();
-  MethodOutput output(request_, dataset_, *solution, &readings_, folder_);
-  MethodTables tables =
-      SampleMethod(request_, dataset_, reconstruction_, *solution, &output);
+  auto output = std::make_unique<MethodOutput>(request_, dataset_, *solution,
+                                               &readings_, folder_);
+  MethodTables tables = SampleMethod(request_, dataset_, reconstruction_,
+                                     *solution, output.get());
+  output->EndRows();
   // Files get their names when those of the one before are all there: of a method
   // that is not done yet none stay if the run ends early.
   if (writing_.valid()) writing_.get();
-  output.Commit();
-  writing_ = InBackground([this, solution, peak_rss_mb,
-                           tables = std::move(tables)]() mutable {
-               Write(peak_rss_mb, std::exchange(tables, {}), solution);
-             }).share();
+  writing_ =
+      InBackground([this, solution, peak_rss_mb, output = std::move(output),
+                    tables = std::move(tables)]() mutable {
+        std::exchange(output, nullptr)->Commit();
+        Write(peak_rss_mb, std::exchange(tables, {}), solution);
+      }).share();
   if (ThreadCount() == 1) writing_.get();
   folder_->WaitFor(writing_);
 }

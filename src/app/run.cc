@@ -166,7 +166,11 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   if (const StartReport* start = reconstruction.start()) {
     resolved.yaml += CommentOnStart(*start, dataset.initial);
   }
-  WriteResolvedConfig(resolved, folder->Path("config.resolved.yaml"));
+  // Beside, as the disk may have much to write before it.
+  auto writing = InBackground([&] {
+    WriteResolvedConfig(resolved, folder->Path("config.resolved.yaml"));
+  });
+  if (ThreadCount() == 1) writing.get();
   const std::vector<std::string> unconfirmed =
       request.confirmed ? std::vector<std::string>() : resolved.unconfirmed;
   std::vector<FileDigest> inputs = digests.Take();
@@ -185,6 +189,7 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
       .methods = {}};
   const std::vector<UnobservedSpan> unobserved = DescribeBeforehand(
       dataset, std::move(findings), &reconstruction, &progress, &summary);
+  if (writing.valid()) writing.get();
   std::vector<Solution> solutions;
   solutions.reserve(request.methods.size());
   MethodWriter writer(request, dataset, reconstruction, &summary, folder);

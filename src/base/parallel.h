@@ -6,6 +6,8 @@
 #include <future>
 #include <utility>
 
+#include "base/background.h"
+
 namespace hindsight {
 
 /// Threads that ForRanges and InBackground use in the whole process: at first
@@ -23,12 +25,14 @@ void ForRanges(
     const std::function<void(std::size_t begin, std::size_t end)>& body);
 
 /// What `work` returns or throws: worked out beside on a thread of its own, with
-/// a ThreadCount of 1 when it is asked for. The future waits in its destructor.
+/// a ThreadCount of 1 when it is asked for. The future waits in its destructor. What
+/// `work` holds goes before the result can be had.
 template <typename Work>
 auto InBackground(Work work) {
-  return std::async(
-      ThreadCount() > 1 ? std::launch::async : std::launch::deferred,
-      std::move(work));
+  // The future of what waits, as that of a thread that is used again would not.
+  return ThreadCount() > 1 ? std::async(std::launch::deferred,
+                                        BackgroundWork<Work>(std::move(work)))
+                           : std::async(std::launch::deferred, std::move(work));
 }
 
 }  // namespace hindsight

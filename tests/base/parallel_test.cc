@@ -4,6 +4,11 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <future>
+#include <latch>
+#include <memory>
+#include <set>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -100,8 +105,74 @@ TEST(InBackground, IsAThreadOfItsOwnUnlessThereIsOnlyOne) {
 }
 
 TEST(InBackground, ThrowsWhereItIsAskedFor) {
-  auto work = InBackground([]() -> int { throw std::runtime_error("late"); });
-  EXPECT_THROW(work.get(), std::runtime_error);
+  for (const int threads : {1, 2}) {
+    const Threads limit(threads);
+    auto work = InBackground([]() -> int { throw std::runtime_error("late"); });
+    EXPECT_THROW(work.get(), std::runtime_error);
+  }
+}
+
+TEST(InBackground, IsDoneBesideWithoutBeingAskedFor) {
+  const Threads limit(2);
+  std::promise<void> begun;
+  auto work = InBackground([&begun] { begun.set_value(); });
+  begun.get_future().wait();
+  work.get();
+}
+
+TEST(InBackground, IsWaitedForByTheFuture) {
+  const Threads limit(2);
+  for (const bool shared : {false, true}) {
+    std::atomic<bool> done = false;
+    {
+      auto work = InBackground([&done] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        done = true;
+      });
+      if (shared) auto same = work.share();
+    }
+    EXPECT_TRUE(done);
+  }
+}
+
+TEST(InBackground, HasLetGoWhatItHeld) {
+  for (const int threads : {1, 2}) {
+    const Threads limit(threads);
+    for (int i = 0; i < 100; ++i) {
+      const auto held = std::make_shared<int>(i);
+      auto work = InBackground([own = held] { return *own; });
+      EXPECT_EQ(work.get(), i);
+      if (threads > 1) {
+        EXPECT_EQ(held.use_count(), 1);
+      }
+    }
+  }
+}
+
+TEST(InBackground, TakesAThreadAgain) {
+  const Threads limit(2);
+  std::set<std::thread::id> threads;
+  for (int i = 0; i < 100; ++i) {
+    threads.insert(
+        InBackground([] { return std::this_thread::get_id(); }).get());
+  }
+  EXPECT_EQ(threads.size(), 1U);
+}
+
+TEST(InBackground, NeverWaitsForAThread) {
+  const Threads limit(2);
+  constexpr std::size_t kCount = 20;
+  std::latch all_begun(kCount);
+  std::vector<std::future<int>> works;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    works.push_back(InBackground([&all_begun, i] {
+      all_begun.arrive_and_wait();
+      return InBackground([i] { return static_cast<int>(i); }).get();
+    }));
+  }
+  for (std::size_t i = 0; i < kCount; ++i) {
+    EXPECT_EQ(works[i].get(), static_cast<int>(i));
+  }
 }
 
 TEST(ThreadCount, IsAtLeastOne) {

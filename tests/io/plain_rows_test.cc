@@ -63,6 +63,7 @@ void ExpectSameAsOfAnyRow(const TableLayout& layout, const std::string& line) {
   EXPECT_EQ(plain.stamp.seconds, any.stamp.seconds) << line;
   EXPECT_EQ(plain.stamp.fraction, any.stamp.fraction) << line;
   EXPECT_EQ(plain.values[0], any.values[0]) << line;
+  EXPECT_EQ(std::signbit(plain.values[0]), std::signbit(any.values[0])) << line;
   EXPECT_TRUE(std::isnan(plain.values[1])) << line;
   EXPECT_EQ(plain.values[2], any.values[2]) << line;
 }
@@ -84,8 +85,10 @@ const std::vector<std::string> kStamps = {"0",
                                           "1e-320",
                                           ""};
 const std::vector<std::string> kNumbers = {
-    "1",     "-2.5e-6", "1E5", "+3", " 4", "5 ",  "\t6", "1e400",  "inf", "nan",
-    "\"7\"", "8x",      "1.",  ".5", "",   "0x1", "-",   "1e-400", "1,5", "1e"};
+    "1",   "-2.5e-6", "1E5",   "+3",      " 4", "5 ",  "\t6", "1e400",
+    "inf", "nan",     "\"7\"", "8x",      "1.", ".5",  "",    "0x1",
+    "-",   "1e-400",  "1,5",   "1e",      "-0", "-.5", "--2", "-+2",
+    "- 2", "-inf",    "-nan",  "-1e-400", "-1."};
 
 TEST(PlainRows, ReadWhatIsReadOfAnyRow) {
   for (const char delimiter : {',', ';', ' '}) {
@@ -115,7 +118,10 @@ TEST(PlainRows, ReadWhatIsReadOfAnyRow) {
 TEST(PlainRows, AreThoseOfNumbersBetweenDelimiters) {
   const TableLayout layout = PlainLayout(',', true);
   EXPECT_TRUE(IsPlain(layout, "0.005,-1.5e-06,word,3"));
+  EXPECT_TRUE(IsPlain(layout, "-0.005,-0,word,-.5"));
   EXPECT_FALSE(IsPlain(layout, "0.005, 1,word,3"));
+  EXPECT_FALSE(IsPlain(layout, "0.005,--1,word,3"));
+  EXPECT_FALSE(IsPlain(layout, "0.005,1,word,-"));
   EXPECT_FALSE(IsPlain(layout, "0.005,1,word,3,4"));
   EXPECT_FALSE(IsPlain(layout, "0.005,1,word"));
   EXPECT_FALSE(IsPlain(layout, "0.005,1,\"word\",3"));

@@ -6,8 +6,6 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "io/full_table.h"
-#include "io/write/atomic_file.h"
-#include "io/write/output_error.h"
 #include "state/euler_error.h"
 #include "support/temporary_folder.h"
 
@@ -147,36 +145,6 @@ TEST(SolutionCsv, NamesFileLineAndFault) {
     }
   }
   EXPECT_THROW(ReadSolutionTable(folder.Path("absent.csv")), InputError);
-}
-
-TEST(AtomicFile, LeavesNothingUnlessCommitted) {
-  const TemporaryFolder folder;
-  {
-    AtomicFile file(folder.Path("a.txt"));
-    file.Write("half");
-    EXPECT_EQ(folder.Entries().size(), 1u);
-    EXPECT_EQ(folder.Read("a.txt"), "");
-  }
-  EXPECT_TRUE(folder.Entries().empty());
-  folder.Write("a.txt", "old");
-  WriteFileAtomically(folder.Path("a.txt"), "new");
-  EXPECT_EQ(folder.Read("a.txt"), "new");
-  EXPECT_THAT(folder.Entries(), UnorderedElementsAre("a.txt"));
-}
-
-TEST(AtomicFile, NamesThePathThatCannotBeWritten) {
-  const TemporaryFolder folder;
-  const std::string path = folder.Path("absent/a.txt");
-  try {
-    AtomicFile file(path);
-    FAIL();
-  } catch (const OutputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(path));
-    EXPECT_THAT(error.what(), HasSubstr("No such file or directory"));
-  }
-  std::filesystem::create_directory(folder.Path("d"));
-  EXPECT_THROW(WriteFileAtomically(folder.Path("d"), "x"), OutputError);
-  EXPECT_THAT(folder.Entries(), UnorderedElementsAre("d"));
 }
 
 }  // namespace

@@ -206,28 +206,36 @@ void LoadImu(const DeclaredRecording& declared, ConfigMap* top,
   dataset->imu.nominal_dt = MedianInterval(dataset->imu);
 }
 
+StreamSource StreamsBeside::Abandonable(StreamSource source) const {
+  source.abandoned = &abandoned_;
+  return source;
+}
+
 StreamsBeside::StreamsBeside(const DeclaredRecording& declared) {
   if (declared.truth) {
-    truth_ = std::packaged_task<RowsOfFile<TruthSeries>()>([&declared] {
+    truth_ = std::packaged_task<RowsOfFile<TruthSeries>()>([this, &declared] {
       RowsOfFile<TruthSeries> read;
-      read.rows = ReadTruth(*declared.truth, declared.truth_options,
-                            &read.clock, &read.policies);
+      read.rows =
+          ReadTruth(Abandonable(*declared.truth), declared.truth_options,
+                    &read.clock, &read.policies);
       return read;
     });
   }
   for (const AidingConfig& config : declared.aiding) {
     const auto index = static_cast<int>(aiding_.size());
-    aiding_.emplace_back([&config, index] {
+    aiding_.emplace_back([this, &config, index] {
       RowsOfFile<MeasurementSeries> read;
       if (config.settings.sensor.kind->generated) return read;
-      read.rows = ReadAiding(config.source, config.settings, index, &read.clock,
-                             &read.policies);
+      read.rows = ReadAiding(Abandonable(config.source), config.settings, index,
+                             &read.clock, &read.policies);
       return read;
     });
   }
   reading_ = InBackground([this] {
     if (truth_.valid()) truth_();
-    for (auto& read : aiding_) read();
+    for (auto& read : aiding_) {
+      if (!abandoned_) read();
+    }
   });
 }
 

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_IO_CONFIG_LOAD_STREAMS_H_
 #define HINDSIGHT_IO_CONFIG_LOAD_STREAMS_H_
 
+#include <atomic>
 #include <cstddef>
 #include <future>
 #include <vector>
@@ -25,6 +26,10 @@ class StreamsBeside {
  public:
   /// `declared` must outlive the object.
   explicit StreamsBeside(const DeclaredRecording& declared);
+  /// Reads on no more.
+  ~StreamsBeside() { abandoned_ = true; }
+  StreamsBeside(const StreamsBeside&) = delete;
+  StreamsBeside& operator=(const StreamsBeside&) = delete;
 
   /// Of the declared truth, once. Throws InputError for what the reader refuses.
   RowsOfFile<TruthSeries> Truth();
@@ -32,8 +37,11 @@ class StreamsBeside {
   RowsOfFile<MeasurementSeries> Aiding(std::size_t index);
 
  private:
+  StreamSource Abandonable(StreamSource source) const;
+
   std::packaged_task<RowsOfFile<TruthSeries>()> truth_;
   std::vector<std::packaged_task<RowsOfFile<MeasurementSeries>()>> aiding_;
+  std::atomic<bool> abandoned_ = false;
   std::future<void> reading_;  ///< the last member: it waits
 };
 

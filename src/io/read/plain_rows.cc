@@ -3,7 +3,9 @@
 #include <fast_float/fast_float.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 
@@ -16,6 +18,22 @@ bool IsShortStamp(std::string_view text, double value) {
   constexpr std::size_t kShort = 9;  // digits, of which some may be zeros
   return std::abs(value) < kLargest &&
          (text.size() <= kShort || text[0] != '0' || text[1] == '.');
+}
+
+/// Reads a finite number and returns where it ends, nullptr where there is none. The
+/// sign is no branch, as of most columns no processor guesses it.
+const char* ReadNumber(const char* p, const char* end, double* value) {
+  if (p == end) return nullptr;
+  const bool negative = *p == '-';
+  p += negative;
+  if (p == end || *p == '-') return nullptr;
+  double size = 0.0;
+  const auto result = fast_float::from_chars(p, end, size);
+  if (result.ec != std::errc() || !std::isfinite(size)) return nullptr;
+  constexpr int kSign = 63;
+  *value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(size) |
+                                 std::uint64_t{negative} << kSign);
+  return result.ptr;
 }
 
 }  // namespace
@@ -73,9 +91,8 @@ bool PlainRows::Read(std::string_view row, std::span<double> values,
       p = next == nullptr ? end : static_cast<const char*>(next);
     } else {
       double value = 0.0;
-      const auto result = fast_float::from_chars(p, end, value);
-      if (result.ec != std::errc() || !std::isfinite(value)) return false;
-      p = result.ptr;
+      p = ReadNumber(p, end, &value);
+      if (p == nullptr) return false;
       if (column.field == kTime) {
         const std::string_view text(begin, static_cast<std::size_t>(p - begin));
         if (!IsShortStamp(text, value)) return false;

@@ -2,6 +2,7 @@
 #define HINDSIGHT_IO_READ_READER_H_
 
 #include <Eigen/Core>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -67,6 +68,9 @@ struct StreamSource {
   bool absent_values = false;  ///< empty and NaN values are absent
   std::string config_path;
   long config_line = 0;
+  /// Whether nobody wants the rows any more: reading ends by Interrupted then. May be
+  /// null.
+  const std::atomic<bool>* abandoned = nullptr;
 
   /// All of them.
   std::vector<std::string> Paths() const;

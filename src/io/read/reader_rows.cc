@@ -109,6 +109,7 @@ Stamp StreamRows::FileTime() {
 
 StreamRows::Step StreamRows::Next() {
   while (opened_.table->Next()) {
+    if (source_.abandoned != nullptr && *source_.abandoned) throw Interrupted();
     const Stamp stamp = FileTime();
     ++rows_;
     CheckSizes();

@@ -1,11 +1,11 @@
 #include "io/write/atomic_file.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
-#include <vector>
 
 #include "base/file_piece.h"
 #include "base/parallel.h"
@@ -35,17 +35,25 @@ void AtomicFile::Fail(const std::error_code& cause) const {
   throw OutputError(std::filesystem::path(path_), cause.message());
 }
 
-void AtomicFile::Flush() {
-  std::string_view rest = buffer_;
-  while (!rest.empty()) {
-    const ssize_t written = write(file_.descriptor.get(), rest.data(),
-                                  std::min(rest.size(), kFilePiece));
+void AtomicFile::Put(std::string_view text) const {
+  while (!text.empty()) {
+    const ssize_t written = write(file_.descriptor.get(), text.data(),
+                                  std::min(text.size(), kFilePiece));
     if (written < 0) {
       if (errno == EINTR) continue;
       Fail(LastError());
     }
-    rest.remove_prefix(static_cast<std::size_t>(written));
+    text.remove_prefix(static_cast<std::size_t>(written));
   }
+}
+
+void AtomicFile::WaitForOthers() {
+  if (writing_.valid()) writing_.get();
+}
+
+void AtomicFile::Flush() {
+  WaitForOthers();
+  Put(buffer_);
   buffer_.clear();
 }
 
@@ -68,31 +76,50 @@ void AtomicFile::Commit(bool replace) {
   committed_ = true;
 }
 
-void WriteLines(
+/// The first ones, which others take the place of.
+void AtomicFile::WritePieces(std::size_t count) {
+  std::size_t size = 0;
+  for (std::size_t p = 0; p < count; ++p) size += pieces_[p].size();
+  if (size < kFileBuffer) {
+    for (std::size_t p = 0; p < count; ++p) Write(pieces_[p]);
+    return;
+  }
+  Flush();
+  pieces_.swap(written_);
+  writing_ = InBackground([this, count] {
+    for (std::size_t p = 0; p < count; ++p) Put(written_[p]);
+#ifdef __linux__
+    // Begins to put them on the medium, which Commit waits for. Not every file
+    // system can.
+    sync_file_range(file_.descriptor.get(), 0, 0, SYNC_FILE_RANGE_WRITE);
+#endif
+  });
+}
+
+void AtomicFile::WriteLines(
     std::size_t count,
-    const std::function<void(std::size_t i, std::string* out)>& append,
-    AtomicFile* file) {
+    const std::function<void(std::size_t i, std::string* out)>& append) {
   constexpr std::size_t kLinesOfThread = 256;
   constexpr std::size_t kPiecesAtOnce = 16;
-  std::vector<std::string> pieces(kPiecesAtOnce);
   for (std::size_t done = 0; done < count;) {
     const std::size_t left = count - done;
     const std::size_t now =
         std::min(kPiecesAtOnce, (left + kLinesOfThread - 1) / kLinesOfThread);
+    pieces_.resize(kPiecesAtOnce);
     ForRanges(now, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p) {
-        pieces[p].clear();
+        std::string& piece = pieces_[p];
+        piece.clear();
         const std::size_t first = done + p * kLinesOfThread;
         const std::size_t last = std::min(first + kLinesOfThread, count);
         for (std::size_t i = first; i < last; ++i) {
-          append(i, &pieces[p]);
+          append(i, &piece);
           // Lines are about as long as the first.
-          if (i == first)
-            pieces[p].reserve(pieces[p].size() * (last - first) * 9 / 8);
+          if (i == first) piece.reserve(piece.size() * (last - first) * 9 / 8);
         }
       }
     });
-    for (std::size_t p = 0; p < now; ++p) file->Write(pieces[p]);
+    WritePieces(now);
     done += now * kLinesOfThread;
   }
 }

@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <functional>
+#include <future>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "io/write/unpublished.h"
 
@@ -13,7 +15,8 @@ namespace hindsight {
 
 /// A file that appears complete or not at all: it is written under a temporary
 /// name in the same folder (io/write/unpublished.h) and gets its own by
-/// Commit(). Every member throws OutputError naming the path if that fails.
+/// Commit(). Every member throws OutputError naming the path if that fails, of what
+/// is written beside a later one.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);
@@ -24,6 +27,11 @@ class AtomicFile {
 
   /// Buffered.
   void Write(std::string_view text);
+  /// The lines that `append` makes of 0 to count, in that order. Several threads make
+  /// them, and another writes them while the next are made.
+  void WriteLines(
+      std::size_t count,
+      const std::function<void(std::size_t i, std::string* out)>& append);
 
   /// Returns when the medium has the content and the file has its name. That a
   /// crash of the system leaves the name takes SyncFolder besides. A file of
@@ -33,19 +41,19 @@ class AtomicFile {
  private:
   [[noreturn]] void Fail(const std::error_code& cause) const;
   void Flush();
+  /// Into the file, after all that was before.
+  void Put(std::string_view text) const;
+  void WaitForOthers();
+  void WritePieces(std::size_t count);
 
   std::string path_;
   Unpublished file_;
   std::string buffer_;
+  std::vector<std::string> pieces_;   ///< of lines that are made
+  std::vector<std::string> written_;  ///< of such that are written
   bool committed_ = false;
+  std::future<void> writing_;  ///< the last member: it waits
 };
-
-/// Writes the lines that `append` makes of 0 to count, in that order; several threads
-/// make them.
-void WriteLines(
-    std::size_t count,
-    const std::function<void(std::size_t i, std::string* out)>& append,
-    AtomicFile* file);
 
 /// Writes `text` as the whole of the file.
 void WriteFileAtomically(const std::string& path, std::string_view text);

@@ -29,12 +29,10 @@ ColumnCsv::ColumnCsv(const std::string& path, const std::string& comments,
 }
 
 void ColumnCsv::Append(const Eigen::MatrixXd& rows) {
-  WriteLines(
-      static_cast<std::size_t>(rows.rows()),
-      [&](std::size_t k, std::string* line) {
-        AppendLine(rows, static_cast<Eigen::Index>(k), line);
-      },
-      &file_);
+  file_.WriteLines(static_cast<std::size_t>(rows.rows()),
+                   [&](std::size_t k, std::string* line) {
+                     AppendLine(rows, static_cast<Eigen::Index>(k), line);
+                   });
 }
 
 void ColumnCsv::AppendLine(const Eigen::MatrixXd& rows, Eigen::Index k,

@@ -96,18 +96,17 @@ void WriteErrorCsv(const std::string& path, const ErrorColumns& columns,
     line += column.title + (&column == &columns.back() ? "\n" : ",");
   }
   file.Write(line);
-  WriteLines(
-      columns.front().values.size(),
-      [&columns](std::size_t row, std::string* out) {
-        AppendFixed(columns.front().values[row], 6, out);
-        for (std::size_t i = 1; i < columns.size(); ++i) {
-          *out += ',';
-          const double value = columns[i].values[row];
-          if (std::isfinite(value)) AppendGeneral(value, kDigits, out);
-        }
-        *out += '\n';
-      },
-      &file);
+  file.WriteLines(columns.front().values.size(),
+                  [&columns](std::size_t row, std::string* out) {
+                    AppendFixed(columns.front().values[row], 6, out);
+                    for (std::size_t i = 1; i < columns.size(); ++i) {
+                      *out += ',';
+                      const double value = columns[i].values[row];
+                      if (std::isfinite(value))
+                        AppendGeneral(value, kDigits, out);
+                    }
+                    *out += '\n';
+                  });
   file.Commit();
 }
 

@@ -47,15 +47,13 @@ void WriteResidualCsv(const std::string& path,
       "each component\n"
       "method,t[s],sensor,component,residual,sigma,nis,weight,status\n");
   for (const Solution& solution : solutions) {
-    WriteLines(
-        solution.residuals.size(),
-        [&](std::size_t i, std::string* lines) {
+    file.WriteLines(
+        solution.residuals.size(), [&](std::size_t i, std::string* lines) {
           const ResidualRecord& record = solution.residuals[i];
           const auto sensor = static_cast<std::size_t>(record.sensor);
           AppendRecord(solution.method, dataset.streams.at(sensor).sensor.name,
                        record, lines);
-        },
-        &file);
+        });
   }
   file.Commit();
 }
