@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -179,10 +180,11 @@ void ErrorChain::PredictError(ErrorStep step, Gaussian* x) const {
   }
 }
 
-ErrorChain::FixLikelihood ErrorChain::LikelihoodOfFix(const Gaussian& x) const {
+ErrorChain::FixLikelihood ErrorChain::LikelihoodOfFix(ErrorStep step,
+                                                      const Gaussian& x) const {
   ErrorDynamics as_it_is;
   as_it_is.ee = 1.0;
-  return Likelihood(as_it_is, ViewOf(x));
+  return Likelihood(as_it_is, step.outlier, ViewOf(x));
 }
 
 ErrorChain::FixView ErrorChain::ViewOf(const Gaussian& x) const {
@@ -212,10 +214,11 @@ ErrorChain::FixView ErrorChain::ViewOf(const Gaussian& x) const {
 
 ErrorChain::FixLikelihood ErrorChain::LikelihoodAfter(
     ErrorStep step, const FixView& view) const {
-  return Likelihood(DynamicsOf(parameters_, step, dt_), view);
+  return Likelihood(DynamicsOf(parameters_, step, dt_), step.outlier, view);
 }
 
 ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
+                                                 bool outlier,
                                                  const FixView& view) const {
   const LinearizedMeasurement& z = z_[static_cast<std::size_t>(fix_)];
   Eigen::Vector3d innovation = view.innovation - d.ee * view.e - d.er * view.r;
@@ -236,10 +239,12 @@ ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
   }
   const double a = parameters_.outlier_share;
   const double in = std::log1p(-a) + LogDensity(innovation, S + R_in_);
-  if (a == 0.0) return {in, false};
+  if (a == 0.0) return {in, false, std::numeric_limits<double>::infinity()};
   const double out = std::log(a) + LogDensity(innovation, S + R_out_);
+  if (outlier) return {out, true, in - out};
   const double largest = std::max(in, out);
-  return {largest + std::log1p(std::exp(-std::abs(in - out))), out > in};
+  return {largest + std::log1p(std::exp(-std::abs(in - out))), out > in,
+          in - out};
 }
 
 LinearizedMeasurement ErrorChain::MeasurementAs(std::size_t i,

@@ -57,9 +57,13 @@ class ErrorChain {
   struct FixLikelihood {
     double log = 0.0;
     bool outlier = false;
+    double log_odds = 0.0;  ///< of being none; infinite if there are none
   };
-  /// The likelihood of the node's fix, x being what PredictError gave.
-  FixLikelihood LikelihoodOfFix(const Gaussian& x) const;
+  /// Odds below which later fixes may yet tell that one was an outlier [ln].
+  static constexpr double kSureLogOdds = 8.0;
+  /// The likelihood of the node's fix, x being what PredictError of `step` gave:
+  /// with step.outlier that of an outlier with its share.
+  FixLikelihood LikelihoodOfFix(ErrorStep step, const Gaussian& x) const;
   /// What the fix sees of a state after PredictNavigation, whatever the step of
   /// the error.
   struct FixView {
@@ -92,7 +96,8 @@ class ErrorChain {
   bool IsFix(std::size_t i) const { return static_cast<int>(i) == fix_; }
 
  private:
-  FixLikelihood Likelihood(const ErrorDynamics& d, const FixView& view) const;
+  FixLikelihood Likelihood(const ErrorDynamics& d, bool outlier,
+                           const FixView& view) const;
 
   void ScaleImuNoise();
 

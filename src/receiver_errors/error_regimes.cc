@@ -62,8 +62,8 @@ ErrorRegimes AsStated(const RegimeProblem& problem) {
   return out;
 }
 
-/// White or Gauss-Markov throughout: there is but one sequence. `as_solved`: with
-/// noise that the batch can be solved with.
+/// White or Gauss-Markov throughout: there is but one sequence of modes.
+/// `as_solved`: with noise that the batch can be solved with.
 ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
                         const ErrorParameters& from, bool as_solved = false) {
   const ErrorMode mode = kind == ErrorRegimes::Kind::kWhite
@@ -72,8 +72,18 @@ ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
   Hypothesis one;
   one.sequence = Uniform(problem, mode);
   if (mode == ErrorMode::kBiased) one.sequence.front().anew = true;
-  one.parameters = as_solved ? TuneAsSolved(problem, one.sequence, from)
-                             : Tune(problem, one.sequence, from);
+  const auto tune = [&](const ErrorParameters& start) {
+    one.parameters = as_solved ? TuneAsSolved(problem, one.sequence, start)
+                               : Tune(problem, one.sequence, start);
+  };
+  tune(from);
+  ModeSequence climbed =
+      ClimbOutliers(problem.tape, problem.sensor, one.parameters, one.sequence,
+                    problem.effort);
+  if (climbed != one.sequence) {
+    one.sequence = std::move(climbed);
+    tune(one.parameters);
+  }
   one.log_posterior =
       ScoreSequence(problem.tape, problem.sensor, one.parameters, one.sequence)
           .log_likelihood;

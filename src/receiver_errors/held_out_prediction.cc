@@ -133,7 +133,7 @@ HeldOutPrediction::Prediction HeldOutPrediction::PredictFix(
       out.square += off(i) * off(i) / z.R(i, i);
     }
     out.log = LogSumOf(
-        {std::log1p(-kUniform) + chain_.LikelihoodOfFix(x).log, uniform});
+        {std::log1p(-kUniform) + chain_.LikelihoodOfFix({}, x).log, uniform});
     return out;
   }
   return {};

@@ -139,14 +139,22 @@ class Search {
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
       const Track& h = tracks_[i];
       const ErrorChain::FixView view = chain_.ViewOf(h.x);
-      for (const ErrorStep step : StepsAfter(h.mode)) {
+      const auto add = [&](ErrorStep step, bool goes_on) {
         const auto likelihood = chain_.LikelihoodAfter(step, view);
-        const bool goes_on = step == ErrorStep{h.mode};
         all.push_back({i, step,
                        h.log_weight + likelihood.log +
                            LogPriorOf(step, h.mode) +
                            PriceOf(step, h.velocity_steps),
                        likelihood.outlier, goes_on ? h.began : fix_});
+        return !likelihood.outlier &&
+               likelihood.log_odds < ErrorChain::kSureLogOdds;
+      };
+      for (ErrorStep step : StepsAfter(h.mode)) {
+        const bool goes_on = step == ErrorStep{h.mode};
+        const bool may_be_outlier = add(step, goes_on);
+        if (!goes_on || !may_be_outlier) continue;
+        step.outlier = true;
+        add(step, goes_on);
       }
     }
     return all;

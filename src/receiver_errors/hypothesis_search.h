@@ -16,7 +16,8 @@ struct Hypothesis {
 };
 
 /// The likeliest hypotheses of a receiver's error, best first: a Kalman filter
-/// each, split at every fix into all steps that may follow and pruned again
+/// each, split at every fix into all steps that may follow, and into outlier and
+/// none where odds leave it open, and pruned again
 /// (Singer, Sea and Housewright, IEEE Trans. Inf. Theory 20(4), 1974; merging
 /// of near ones as in Salmond, SPIE 1305, 1990). Unlike an IMM, which mixes
 /// what its modes know at every fix, a sequence remembers when its error began,

@@ -72,6 +72,7 @@ ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt) {
 }
 
 double LogTransition(ErrorMode before, ErrorStep step, int fixes) {
+  step.outlier = false;
   const double once = 1.0 / std::max(fixes, 20);
   const bool good = before == ErrorMode::kGood;
   const bool small = good || before == ErrorMode::kSlight;
@@ -92,6 +93,7 @@ double LogTransition(ErrorMode before, ErrorStep step, int fixes) {
 }
 
 double LogFirst(ErrorStep step, int fixes) {
+  step.outlier = false;
   // Shares of time in the stationary distribution of the transitions.
   constexpr double kBiased = kJumps / kEndsOfAnError;
   constexpr double kSlight = kSlights / kEndsOfAnError;

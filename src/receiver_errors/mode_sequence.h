@@ -20,11 +20,13 @@ enum class ErrorMode : char {
 /// follows a drift that stops. `velocity_step`: what goes on does so over an interval in
 /// which the velocity that the IMU integrates has a step that no noise explains
 /// (a shock beyond its range, lost samples), which else would pass for a drift of
-/// the receiver.
+/// the receiver. `outlier`: the fix is one whatever the likelihood says of it at its
+/// time: where the state is known badly, as behind a gap, only later fixes tell.
 struct ErrorStep {
   ErrorMode mode = ErrorMode::kGood;
   bool anew = false;
   bool velocity_step = false;
+  bool outlier = false;
   bool operator==(const ErrorStep&) const = default;
 };
 
@@ -69,7 +71,7 @@ ErrorDynamics DynamicsOf(const ErrorParameters& parameters, ErrorStep step,
 inline constexpr double kEndsOfAnError = 4.0;
 
 /// ln probability of a step after a mode, where `fixes` fixes are expected to
-/// hold a few changes.
+/// hold a few changes. An outlier has its own in its likelihood.
 double LogTransition(ErrorMode before, ErrorStep step, int fixes);
 /// ln probability of the step at the first fix: good or slightly biased in eleven
 /// of twelve recordings, else biased or drifting; within each of the two as in

@@ -199,7 +199,9 @@ ModeSequence AtFixes(const NormalPoints& points, const ModeSequence& sequence) {
   for (std::size_t i = 0; i < points.point_of_fix.size(); ++i) {
     const std::size_t point = points.point_of_fix[i];
     const bool first = i == 0 || points.point_of_fix[i - 1] != point;
-    out.push_back(first ? sequence[point] : ErrorStep{sequence[point].mode});
+    out.push_back(first ? sequence[point]
+                        : ErrorStep{.mode = sequence[point].mode,
+                                    .outlier = sequence[point].outlier});
   }
   return out;
 }

@@ -67,7 +67,16 @@ class Refinement {
       const auto velocity_steps = [&base](const Visit& visit) {
         ForEachVelocityStep(base, visit);
       };
-      if (!TryAll(base, variations) && !TryAll(base, velocity_steps)) break;
+      if (!TryAll(base, variations) && !TryAll(base, velocity_steps) &&
+          !TryOutliers(base)) {
+        break;
+      }
+    }
+  }
+
+  void ClimbOutliers() {
+    for (int round = 0; round < kMostRounds && !IsSpent(); ++round) {
+      if (!TryOutliers(SpliceBest())) break;
     }
   }
 
@@ -109,6 +118,19 @@ class Refinement {
     if (best_ == before) return false;
     Try(Together(base, level, first));
     return true;
+  }
+
+  /// Each fix that may be an outlier by what is known before it.
+  bool TryOutliers(const ModeSequence& base) {
+    return TryAll(base, [&](const Visit& visit) {
+      ModeSequence one = base;
+      for (std::size_t i = 0; i < base.size(); ++i) {
+        if (base[i].outlier || !splice_->MayBeAnOutlier(i)) continue;
+        one[i].outlier = true;
+        if (!visit(one)) return;
+        one[i].outlier = false;
+      }
+    });
   }
 
   ModeSequence SpliceBest() {
@@ -173,9 +195,11 @@ class Refinement {
   }
 
   static std::size_t HashOf(const ModeSequence& sequence) {
-    static_assert(sizeof(ErrorStep) == 3);
+    constexpr std::size_t kBytes = 4;
+    static_assert(sizeof(ErrorStep) == kBytes);
     return std::hash<std::string_view>()(
-        {reinterpret_cast<const char*>(sequence.data()), 3 * sequence.size()});
+        {reinterpret_cast<const char*>(sequence.data()),
+         kBytes * sequence.size()});
   }
 
   /// Of a long recording nearly as many are alike as it has fixes: those kept
@@ -212,6 +236,15 @@ ModeSequence ClimbSequences(const LinearTape& tape, int receiver,
   Refinement refinement(tape, receiver, parameters, effort);
   refinement.Begin(found);
   refinement.Climb();
+  return refinement.Best();
+}
+
+ModeSequence ClimbOutliers(const LinearTape& tape, int receiver,
+                           const ErrorParameters& parameters,
+                           const ModeSequence& sequence, SearchEffort* effort) {
+  Refinement refinement(tape, receiver, parameters, effort);
+  refinement.Begin({{sequence}});
+  refinement.ClimbOutliers();
   return refinement.Best();
 }
 

@@ -5,14 +5,21 @@
 
 namespace hindsight {
 
-/// Climbs from the best of `found` over Variations, and ForEachVelocityStep where those
-/// do no better, to the most likely sequence near it. Scores are those of
+/// Climbs from the best of `found` over Variations, ForEachVelocityStep where those
+/// do no better, and outliers where neither does, to the most likely sequence near it. Scores are those of
 /// SequenceSplice about the best of the round before. A spent effort ends it with
 /// the best so far.
 ModeSequence ClimbSequences(const LinearTape& tape, int receiver,
                             const ErrorParameters& parameters,
                             const std::vector<Hypothesis>& found,
                             SearchEffort* effort = nullptr);
+
+/// Climbs over which fixes are outliers alone, of those that may be by what is known
+/// before them (SequenceSplice::MayBeAnOutlier).
+ModeSequence ClimbOutliers(const LinearTape& tape, int receiver,
+                           const ErrorParameters& parameters,
+                           const ModeSequence& sequence,
+                           SearchEffort* effort = nullptr);
 
 /// Climbs, tries EarlierErrors of the best, and returns what was met on the way
 /// and is within 10 of its logarithm, best first: the posterior of when errors

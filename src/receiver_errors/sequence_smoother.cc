@@ -27,7 +27,9 @@ class Walk {
   const std::vector<ErrorStep>& steps() const { return steps_; }
   Gaussian* x() { return &x_; }
 
-  ErrorChain::FixLikelihood Fix() const { return chain_.LikelihoodOfFix(x_); }
+  ErrorChain::FixLikelihood Fix(std::size_t k) const {
+    return chain_.LikelihoodOfFix(steps_[k], x_);
+  }
 
  private:
   ErrorChain chain_;
@@ -70,7 +72,7 @@ SequenceScore ScoreSequence(const LinearTape& tape, int receiver,
     walk.PredictTo(k);
     bool outlier = false;
     if (walk.chain().has_fix()) {
-      const auto fix = walk.Fix();
+      const auto fix = walk.Fix(k);
       outlier = fix.outlier;
       score.log_likelihood += fix.log;
       const ErrorStep step = walk.steps()[k];
@@ -97,7 +99,7 @@ std::vector<ErrorVector> SmoothSequence(const LinearTape& tape, int receiver,
   std::vector<ErrorChain::Used> used;
   for (std::size_t k = 0; k < tape.size(); ++k) {
     walk.PredictTo(k);
-    const bool outlier = walk.chain().has_fix() && walk.Fix().outlier;
+    const bool outlier = walk.chain().has_fix() && walk.Fix(k).outlier;
     used.clear();
     walk.chain().UpdateAll(outlier, walk.x(), &used);
     for (const ErrorChain::Used& one : used) passed[k].emplace_back(one);

@@ -40,7 +40,7 @@ bool SequenceSplice::Pass(const ModeSequence& sequence, Place* at,
   }
   const ErrorStep step = sequence[at->fix++];
   chain_.PredictError(step, &at->x);
-  const auto fix = chain_.LikelihoodOfFix(at->x);
+  const auto fix = chain_.LikelihoodOfFix(step, at->x);
   used_.clear();
   const double others = chain_.UpdateAll(fix.outlier, &at->x, &used_);
   at->score.log_likelihood += fix.log + others;
@@ -48,7 +48,7 @@ bool SequenceSplice::Pass(const ModeSequence& sequence, Place* at,
       at->fix == 1 ? LogFirst(step, chain_.fix_count())
                    : LogTransition(at->mode, step, chain_.fix_count());
   at->mode = step.mode;
-  *taken = {fix.outlier, fix.log + others};
+  *taken = {fix.outlier, fix.log + others, fix.log_odds};
   for (const ErrorChain::Used& used : used_) {
     taken->excess -= used.innovation.log_likelihood;
   }
@@ -111,6 +111,11 @@ LaterLikelihood SequenceSplice::After(std::size_t i) const {
   const Eigen::Index n = chain_.dim();
   const auto column = static_cast<Eigen::Index>(i);
   return {U_.middleCols(n * column, n), z_.col(column), fixes_[i].c};
+}
+
+bool SequenceSplice::MayBeAnOutlier(std::size_t i) const {
+  const Taken& taken = fixes_[i].taken;
+  return !taken.outlier && taken.log_odds < ErrorChain::kSureLogOdds;
 }
 
 SequenceSplice::Before SequenceSplice::BeforeFix(std::size_t i) const {

@@ -53,6 +53,9 @@ class SequenceSplice {
     Gaussian x;
   };
   Before BeforeFix(std::size_t i) const;
+  /// Whether the base takes fix i for none by odds less than
+  /// ErrorChain::kSureLogOdds.
+  bool MayBeAnOutlier(std::size_t i) const;
   /// What all measurements after the node of fix i say, as the base has them.
   LaterLikelihood After(std::size_t i) const;
 
@@ -72,9 +75,10 @@ class SequenceSplice {
   /// How a fix was taken.
   struct Taken {
     bool outlier = false;
-    double excess = 0.0;  ///< ln of its mixture less ln of its Gaussian, the
-                          ///< latter where it stands among the node's
-                          ///< measurements
+    double excess = 0.0;    ///< ln of its mixture less ln of its Gaussian, the
+                            ///< latter where it stands among the node's
+                            ///< measurements
+    double log_odds = 0.0;  ///< of being no outlier
   };
   /// The base at a fix.
   struct AtFix {

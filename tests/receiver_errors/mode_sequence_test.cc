@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "filters/rts.h"
 #include "receiver_errors/receiver_tape.h"
@@ -180,6 +181,41 @@ TEST(ModeSequence, RemembersADriftThatNoSingleFixShows) {
   EXPECT_EQ(best[10].mode, ErrorMode::kGood);
   EXPECT_EQ(best[40].mode, ErrorMode::kDrifting);
   EXPECT_EQ(best[70].mode, ErrorMode::kGood);
+}
+
+/// Fixes of 0.5 m, none for 20 s, of which the first behind errs by less than what
+/// the IMU leaves open, and two soon after alike.
+struct SpikeBehindAGap {
+  static constexpr std::size_t kFix = 30;
+  TestProblem problem = PositionsOnly(90.0);
+  std::optional<LinearTape> tape;
+
+  SpikeBehindAGap() {
+    GateDecisions used(problem.measurements.size(), 1);
+    for (std::size_t k = kFix; k < 50; ++k) used[k] = 0;
+    const Eigen::Vector3d error(4.0, -4.0, 0.0);
+    for (const std::size_t k : {50, 53, 55}) {
+      testing::AddError(k, k + 1, error, &problem);
+    }
+    tape.emplace(TapeOf(problem, std::move(used)));
+  }
+};
+
+TEST(ModeSequence, ASpikeBehindAGapIsToldByWhatComesAfter) {
+  const SpikeBehindAGap gap;
+  ErrorParameters p = WithoutOutliers();
+  p.outlier_share = 0.05;
+  p.outlier_ratio = 12.0;
+  const ModeSequence good = Good(*gap.tape);
+  ModeSequence right = good;
+  right[gap.kFix].outlier = true;
+  const double log_right = ScoreSequence(*gap.tape, 0, p, right).log_likelihood;
+  // Taken by its likelihood alone it is believed.
+  EXPECT_LT(ScoreSequence(*gap.tape, 0, p, good).log_likelihood,
+            log_right - 10.0);
+  EXPECT_EQ(ClimbOutliers(*gap.tape, 0, p, good), right);
+  const std::vector<Hypothesis> found = SearchHypotheses(*gap.tape, 0, p);
+  EXPECT_EQ(found.front().sequence, right);
 }
 
 }  // namespace
