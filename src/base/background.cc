@@ -1,5 +1,8 @@
 #include "base/background.h"
 
+#include <pthread.h>
+
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -10,6 +13,11 @@ namespace hindsight {
 class BackgroundTask::Worker {
  public:
   static void Give(std::shared_ptr<BackgroundTask> task) {
+    static const int registered =
+        pthread_atfork(&LockForFork, &UnlockAfterFork, &BeginInChild);
+    if (registered != 0) {
+      throw std::system_error(registered, std::generic_category());
+    }
     std::unique_lock<std::mutex> lock(Mutex());
     if (Idle().empty()) {
       lock.unlock();
@@ -33,6 +41,14 @@ class BackgroundTask::Worker {
   static std::vector<Worker*>& Idle() {
     static auto* const idle = new std::vector<Worker*>;
     return *idle;
+  }
+
+  static void LockForFork() { Mutex().lock(); }
+  static void UnlockAfterFork() { Mutex().unlock(); }
+  /// A process that was forked has the memory of the idle, but not the threads.
+  static void BeginInChild() {
+    Idle().clear();
+    Mutex().unlock();
   }
 
   static void Run(std::shared_ptr<BackgroundTask> task) {

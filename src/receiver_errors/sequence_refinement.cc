@@ -96,6 +96,13 @@ class Refinement {
     });
     const double least = met_.front().log_posterior - kLeastPosterior;
     std::erase_if(met_, [&](const auto& h) { return h.log_posterior < least; });
+    // The mixture of a fix has the outlier in it: both would count it twice.
+    std::unordered_set<std::size_t> seen;
+    std::erase_if(met_, [&seen](const auto& h) {
+      ModeSequence modes = h.sequence;
+      for (ErrorStep& step : modes) step.outlier = false;
+      return !seen.insert(HashOf(modes)).second;
+    });
     return std::move(met_);
   }
 

@@ -1,6 +1,8 @@
 #include "base/parallel.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
@@ -102,6 +104,22 @@ TEST(InBackground, IsAThreadOfItsOwnUnlessThereIsOnlyOne) {
   const Threads limit(1);
   EXPECT_EQ(InBackground([] { return std::this_thread::get_id(); }).get(),
             here);
+}
+
+/// Of an idle thread a process that is forked has the memory alone.
+TEST(InBackground, IsDoneInAForkedProcess) {
+  constexpr int kDone = 7;
+  const Threads limit(2);
+  InBackground([] {}).get();
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(20);
+    _exit(InBackground([] { return kDone; }).get());
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status)) << "ended by signal " << WTERMSIG(status);
+  EXPECT_EQ(WEXITSTATUS(status), kDone);
 }
 
 TEST(InBackground, ThrowsWhereItIsAskedFor) {
