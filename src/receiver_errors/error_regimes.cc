@@ -213,23 +213,6 @@ std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
   return fits;
 }
 
-/// Adds hypotheses, `shift` making their posteriors comparable, or lets them
-/// take the place of the same ones where they are likelier.
-void AddAlternatives(std::vector<Hypothesis> more, double shift,
-                     std::vector<Hypothesis>* all) {
-  for (Hypothesis& h : more) {
-    h.log_posterior += shift;
-    const auto known =
-        std::find_if(all->begin(), all->end(),
-                     [&](const auto& b) { return b.sequence == h.sequence; });
-    if (known == all->end()) {
-      all->push_back(std::move(h));
-    } else if (known->log_posterior < h.log_posterior) {
-      *known = std::move(h);
-    }
-  }
-}
-
 }  // namespace
 
 bool CanBeSolved(const ErrorParameters& white) {
@@ -290,29 +273,6 @@ ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
   out.log_evidence =
       LogEvidence(problem, out.hypotheses.front(), parameters, least_scale);
   return out;
-}
-
-ErrorRegimes WithAlternatives(std::vector<ErrorRegimes> all,
-                              std::size_t chosen) {
-  ErrorRegimes best = std::move(all[chosen]);
-  if (best.kind != ErrorRegimes::Kind::kSwitching) return best;
-  const double level =
-      best.hypotheses.front().log_posterior - best.log_evidence;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (i == chosen || (all[i].kind != ErrorRegimes::Kind::kSwitching &&
-                        all[i].kind != ErrorRegimes::Kind::kWhite)) {
-      continue;
-    }
-    const double own =
-        all[i].hypotheses.front().log_posterior - all[i].log_evidence;
-    AddAlternatives(std::move(all[i].hypotheses), level - own,
-                    &best.hypotheses);
-  }
-  std::stable_sort(best.hypotheses.begin(), best.hypotheses.end(),
-                   [](const auto& a, const auto& b) {
-                     return a.log_posterior > b.log_posterior;
-                   });
-  return best;
 }
 
 }  // namespace hindsight

@@ -76,12 +76,6 @@ ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
                            const NormalPoints& points,
                            const ErrorRegimes& found);
 
-/// The regimes at `chosen`, and beside switching ones the hypotheses of the
-/// other switching and the white ones, which go on as alternatives at their own
-/// evidence.
-ErrorRegimes WithAlternatives(std::vector<ErrorRegimes> all,
-                              std::size_t chosen);
-
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_RECEIVER_ERRORS_ERROR_REGIMES_H_

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "receiver_errors/error_tuning.h"
 #include "receiver_errors/held_out_score.h"
@@ -72,6 +73,23 @@ std::string Objection(const RegimeProblem& problem,
   return "";
 }
 
+/// Adds hypotheses, `shift` making their posteriors comparable, or lets them
+/// take the place of the same ones where they are likelier.
+void AddAlternatives(std::vector<Hypothesis> more, double shift,
+                     std::vector<Hypothesis>* all) {
+  for (Hypothesis& h : more) {
+    h.log_posterior += shift;
+    const auto known =
+        std::find_if(all->begin(), all->end(),
+                     [&](const auto& b) { return b.sequence == h.sequence; });
+    if (known == all->end()) {
+      all->push_back(std::move(h));
+    } else if (known->log_posterior < h.log_posterior) {
+      *known = std::move(h);
+    }
+  }
+}
+
 }  // namespace
 
 RegimeChoice ChooseRegime(const RegimeProblem& problem,
@@ -96,6 +114,29 @@ RegimeChoice ChooseRegime(const RegimeProblem& problem,
                                          RegimeName(all[i].kind), objection));
   }
   return choice;
+}
+
+ErrorRegimes WithAlternatives(std::vector<ErrorRegimes> all,
+                              std::size_t chosen) {
+  ErrorRegimes best = std::move(all[chosen]);
+  if (best.kind != ErrorRegimes::Kind::kSwitching) return best;
+  const double level =
+      best.hypotheses.front().log_posterior - best.log_evidence;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i == chosen || (all[i].kind != ErrorRegimes::Kind::kSwitching &&
+                        all[i].kind != ErrorRegimes::Kind::kWhite)) {
+      continue;
+    }
+    const double own =
+        all[i].hypotheses.front().log_posterior - all[i].log_evidence;
+    AddAlternatives(std::move(all[i].hypotheses), level - own,
+                    &best.hypotheses);
+  }
+  std::stable_sort(best.hypotheses.begin(), best.hypotheses.end(),
+                   [](const auto& a, const auto& b) {
+                     return a.log_posterior > b.log_posterior;
+                   });
+  return best;
 }
 
 }  // namespace hindsight

@@ -33,6 +33,12 @@ struct RegimeChoice {
 RegimeChoice ChooseRegime(const RegimeProblem& problem,
                           const std::vector<ErrorRegimes>& all);
 
+/// The regimes at `chosen`, and beside switching ones the hypotheses of the
+/// other switching and the white ones, which go on as alternatives at their own
+/// evidence.
+ErrorRegimes WithAlternatives(std::vector<ErrorRegimes> all,
+                              std::size_t chosen);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_RECEIVER_ERRORS_REGIME_CHOICE_H_

@@ -127,15 +127,16 @@ class Refinement {
     return true;
   }
 
-  /// Each fix that may be an outlier by what is known before it.
+  /// Each fix that may be an outlier by what is known before it, and each that is
+  /// one by decision as none.
   bool TryOutliers(const ModeSequence& base) {
     return TryAll(base, [&](const Visit& visit) {
       ModeSequence one = base;
       for (std::size_t i = 0; i < base.size(); ++i) {
-        if (base[i].outlier || !splice_->MayBeAnOutlier(i)) continue;
-        one[i].outlier = true;
+        if (!base[i].outlier && !splice_->MayBeAnOutlier(i)) continue;
+        one[i].outlier = !base[i].outlier;
         if (!visit(one)) return;
-        one[i].outlier = false;
+        one[i].outlier = base[i].outlier;
       }
     });
   }

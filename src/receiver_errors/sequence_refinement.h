@@ -14,8 +14,8 @@ ModeSequence ClimbSequences(const LinearTape& tape, int receiver,
                             const std::vector<Hypothesis>& found,
                             SearchEffort* effort = nullptr);
 
-/// Climbs over which fixes are outliers alone, of those that may be by what is known
-/// before them (SequenceSplice::MayBeAnOutlier).
+/// Climbs over which fixes are outliers by decision alone: of those that may be by
+/// what is known before them (SequenceSplice::MayBeAnOutlier), or that are.
 ModeSequence ClimbOutliers(const LinearTape& tape, int receiver,
                            const ErrorParameters& parameters,
                            const ModeSequence& sequence,

@@ -30,9 +30,15 @@ std::vector<std::size_t> Changes(const ModeSequence& h) {
   return at;
 }
 
+/// Gives fix i another step; whether it is an outlier is its own.
+void Set(std::size_t i, ErrorStep step, ModeSequence* h) {
+  step.outlier = (*h)[i].outlier;
+  (*h)[i] = step;
+}
+
 /// Fills [begin, end) with what goes on in a mode.
 void GoOn(ErrorMode mode, std::size_t begin, std::size_t end, ModeSequence* h) {
-  for (std::size_t i = begin; i < end; ++i) (*h)[i] = {mode};
+  for (std::size_t i = begin; i < end; ++i) Set(i, {mode}, h);
 }
 
 /// The sequence with its change at `from`, between `first` and `end`, at `to`.
@@ -40,14 +46,14 @@ ModeSequence Moved(ModeSequence h, std::size_t from, std::size_t to) {
   const ErrorStep step = h[from];
   GoOn(ModeBefore(h, from), from, to, &h);
   GoOn(step.mode, to, from + 1, &h);
-  h[to] = step;
+  Set(to, step, &h);
   return h;
 }
 
 ModeSequence WithSegment(ModeSequence h, std::size_t begin, std::size_t end,
                          ErrorStep step) {
   GoOn(step.mode, begin, end, &h);
-  h[begin] = step;
+  Set(begin, step, &h);
   return h;
 }
 
@@ -80,7 +86,7 @@ void SetError(ErrorMode mode, std::size_t begin, std::size_t end,
   const bool is_good = mode == ErrorMode::kGood;
   for (std::size_t i = begin; i < end; ++i) {
     const bool anew = i == begin && !is_good;
-    (*h)[i] = {mode, anew, (*h)[i].velocity_step && !anew};
+    Set(i, {mode, anew, (*h)[i].velocity_step && !anew}, h);
   }
 }
 
@@ -165,12 +171,14 @@ std::vector<ModeSequence> RolesExchanged(const ModeSequence& h) {
       std::find_if_not(h.rbegin(), h.rend(), biased) - h.rbegin());
   std::vector<ModeSequence> all;
   if (at_start == h.size()) return all;
+  ModeSequence good = h;
+  GoOn(ErrorMode::kGood, 0, h.size(), &good);
   if (at_start > 0) {
-    all.emplace_back(h.size());
+    all.push_back(good);
     SetError(ErrorMode::kBiased, at_start, h.size(), &all.back());
   }
   if (at_end > 0) {
-    all.emplace_back(h.size());
+    all.push_back(good);
     SetError(ErrorMode::kBiased, 0, h.size() - at_end, &all.back());
   }
   return all;

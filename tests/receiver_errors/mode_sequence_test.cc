@@ -214,8 +214,34 @@ TEST(ModeSequence, ASpikeBehindAGapIsToldByWhatComesAfter) {
   EXPECT_LT(ScoreSequence(*gap.tape, 0, p, good).log_likelihood,
             log_right - 10.0);
   EXPECT_EQ(ClimbOutliers(*gap.tape, 0, p, good), right);
+  ModeSequence one_too_many = right;
+  one_too_many[10].outlier = true;
+  EXPECT_EQ(ClimbOutliers(*gap.tape, 0, p, one_too_many), right);
   const std::vector<Hypothesis> found = SearchHypotheses(*gap.tape, 0, p);
   EXPECT_EQ(found.front().sequence, right);
+}
+
+TEST(ModeSequence, AFixThatIsAnOutlierStaysOneInEveryVariation) {
+  ModeSequence h(60);
+  for (std::size_t i = 25; i < h.size(); ++i) {
+    h[i] = {ErrorMode::kBiased, i == 25};
+  }
+  const std::vector<std::size_t> outliers = {22, 25, 40};
+  for (const std::size_t i : outliers) h[i].outlier = true;
+  std::vector<ModeSequence> all = Variations(h);
+  for (auto* const more : {&RolesExchanged, &DriftsThatEnd}) {
+    const std::vector<ModeSequence> others = more(h);
+    all.insert(all.end(), others.begin(), others.end());
+  }
+  for (const Hypothesis& one : EarlierErrors(h)) all.push_back(one.sequence);
+  ASSERT_GT(all.size(), 30u);
+  for (const ModeSequence& one : all) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      if (one[i].outlier) found.push_back(i);
+    }
+    EXPECT_EQ(found, outliers);
+  }
 }
 
 }  // namespace
