@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "base/random.h"
 #include "base/units.h"
@@ -168,6 +169,23 @@ TEST(RobustBatch, FindsPositionsAndVelocitiesThatErrTogether) {
   const Accuracy robust = Judge(dirty, SolveBy("robust_batch", dirty));
   EXPECT_LT(robust.horizontal_rms, 1.5 * without.horizontal_rms);
   EXPECT_LT(robust.position_nees, 1.5 * without.position_nees);
+}
+
+/// Without time each sensor is left off in every round.
+TEST(RobustBatch, SaysOnceWhatItSaysInSeveralRounds) {
+  ReconstructionOptions options;
+  options.method = "robust_batch";
+  options.max_time = 0.0;
+  const Solution solution =
+      Solve(DroneWithAGlitch(Simulate(FindScenario("test_drone"), 3)), options);
+  std::vector<std::string> words = solution.notes;
+  for (const Evidence& one : solution.evidence) words.push_back(one.what);
+  EXPECT_TRUE(std::ranges::any_of(words, [](const std::string& one) {
+    return one.find("was ended before it was done") != std::string::npos;
+  }));
+  std::ranges::sort(words);
+  const auto twice = std::ranges::adjacent_find(words);
+  EXPECT_TRUE(twice == words.end()) << *twice;
 }
 
 TEST(RobustBatch, FindsACompassThatTurnsTheStart) {
