@@ -82,15 +82,20 @@ std::optional<ClockQuestion> AskEstimated(const Dataset& dataset,
   return ClockQuestion{i, found.candidates, found.left_out, found.resolution};
 }
 
+bool IsInQuestion(const AidingStream& stream) {
+  return stream.clock_unknown ||
+         stream.sensor.time_offset_sigma.value_or(0.0) >= kWidePrior;
+}
+
 std::vector<ClockQuestion> AskClocks(const Dataset& dataset) {
   std::vector<ClockQuestion> questions;
   for (std::size_t i = 0; i < dataset.streams.size(); ++i) {
     const AidingStream& stream = dataset.streams[i];
+    if (!IsInQuestion(stream)) continue;
     if (stream.clock_unknown) {
       questions.push_back(AskUnknown(dataset, i));
-    } else if (stream.sensor.time_offset_sigma.value_or(0.0) >= kWidePrior) {
-      auto question = AskEstimated(dataset, i);
-      if (question) questions.push_back(std::move(*question));
+    } else if (auto question = AskEstimated(dataset, i)) {
+      questions.push_back(std::move(*question));
     }
   }
   return questions;
@@ -215,9 +220,14 @@ std::unique_ptr<ForwardStage> StageOf(
 
 }  // namespace
 
+bool HasClocksInQuestion(const Dataset& dataset) {
+  return std::ranges::any_of(dataset.streams, IsInQuestion);
+}
+
 ClockChoice ChooseClocks(const Dataset& dataset,
                          const ReconstructionOptions& options) {
   ClockChoice choice;
+  choice.given = &dataset;
   const std::vector<ClockQuestion> questions = AskClocks(dataset);
   if (questions.empty()) {
     choice.stage = std::make_unique<ForwardStage>(dataset, options);

@@ -11,14 +11,18 @@ namespace hindsight {
 
 /// The beginning of every method, its clocks decided.
 struct ClockChoice {
+  const Dataset* given = nullptr;  ///< clocks as they are given; outlives this
   /// A copy with the chosen offsets; null where there was nothing to choose.
   std::unique_ptr<Dataset> dataset;
   std::unique_ptr<ForwardStage> stage;
   std::vector<RivalSolution> rivals;
 };
 
-/// Decides the time offset of every stream whose clock is unknown or is to be
-/// estimated with an a priori sigma of 0.1 s or more. Candidates are the
+/// Whether the clock of any stream is unknown or is to be estimated with an a priori
+/// sigma of 0.1 s or more.
+bool HasClocksInQuestion(const Dataset& dataset);
+
+/// Decides the time offset of every such stream. Candidates are the
 /// offsets that SearchClock finds (where there is an a priori sigma, within
 /// four of it) and the given one if that is none of them, as far as they are
 /// plausible (IsPlausible); of several streams up to eight combinations. If

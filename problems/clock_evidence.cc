@@ -27,17 +27,15 @@ GateDecisions InCommon(const Timeline& timeline, const Timeline& other) {
 MarginalLikelihood LikelihoodBeside(const Dataset& dataset,
                                     const Explained& solved,
                                     const Explained& other) {
-  Problem problem = solved.stage.problem();
-  problem.prior =
-      PriorOfComparison(dataset, solved.stage.start(), solved.states.front());
+  Problem problem = solved.problem;
+  problem.prior = PriorOfComparison(dataset, problem, solved.states.front());
   const GateDecisions common =
-      InCommon(problem.timeline, other.stage.timeline());
+      InCommon(problem.timeline, other.problem.timeline);
   return MarginalLikelihoodOf(std::move(problem), solved.states, common);
 }
 
 double ClockPriorOf(const Dataset& dataset, const Explained& solved) {
-  return LogClockPrior(dataset, solved.stage.start().layout,
-                       solved.states.back());
+  return LogClockPrior(dataset, solved.problem.layout, solved.states.back());
 }
 
 /// |w|^2, of the measurements that both accepted.
@@ -68,8 +66,8 @@ double MedianExcessOf(const MarginalLikelihood& chosen) {
 
 }  // namespace
 
-double LogLikelihoodRatio(const Explained& rival, const Explained& chosen) {
-  const Dataset& dataset = chosen.stage.dataset();
+double LogLikelihoodRatio(const Dataset& dataset, const Explained& rival,
+                          const Explained& chosen) {
   const MarginalLikelihood a = LikelihoodBeside(dataset, chosen, rival);
   const MarginalLikelihood b = LikelihoodBeside(dataset, rival, chosen);
   return (b.log - a.log) / ExcessOf(a);

@@ -3,13 +3,14 @@
 
 #include <vector>
 
-#include "problems/forward_stage.h"
+#include "dataset/dataset.h"
+#include "timeline/problem.h"
 
 namespace hindsight {
 
-/// An explanation of the data: a stage that has run, and the states it led to.
+/// An explanation of the data, and the states it led to.
 struct Explained {
-  const ForwardStage& stage;
+  const Problem& problem;
   const std::vector<State>& states;
 };
 
@@ -38,7 +39,8 @@ double LogEvidenceRatio(const Dataset& dataset, const Explained& rival,
 
 /// The same with r = 1 and c by the mean, of two that make use of the same
 /// readings of the IMU at the same times.
-double LogLikelihoodRatio(const Explained& rival, const Explained& chosen);
+double LogLikelihoodRatio(const Dataset& dataset, const Explained& rival,
+                          const Explained& chosen);
 
 }  // namespace hindsight
 

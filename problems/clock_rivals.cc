@@ -103,7 +103,7 @@ class EvidenceTable {
 
  private:
   Explained Of(std::size_t i) const {
-    return {*solved_[i].stage, solved_[i].states};
+    return {solved_[i].stage->problem(), solved_[i].states};
   }
 
   const Dataset& dataset_;

@@ -99,19 +99,24 @@ bool ErrorSearch::MayBeOfAReceiver() const {
          !first.Doubts().empty();
 }
 
+double ErrorSearch::LogOfPrior() const {
+  double log = LogOfCoincidences();
+  for (const Round& round : rounds_) {
+    const ReceiverErrors& one = round.best();
+    if (one.Stands()) log += one.LogOfPrior();
+  }
+  return log;
+}
+
 double ErrorSearch::LogEvidence() const {
   Problem problem = problem_;
   const LinearTape tape =
       RunLinearizedFilter(*states_, &problem, options_->callback);
-  double log = LogOfCoincidences();
+  double log = LogOfPrior();
   for (std::size_t k = 0; k < tape.size(); ++k) {
     for (const TapeMeasurement& z : tape.measurements(k)) {
       if (z.accepted && !z.withheld) log += z.log_likelihood;
     }
-  }
-  for (const Round& round : rounds_) {
-    const ReceiverErrors& one = round.best();
-    if (one.Stands()) log += one.LogOfPrior();
   }
   return log;
 }

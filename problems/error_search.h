@@ -42,6 +42,8 @@ class ErrorSearch {
   /// sequences have them.
   bool HasCoincidences() const { return LogOfCoincidences() > 0.0; }
 
+  /// ln of the prior of what stands.
+  double LogOfPrior() const;
   /// ln of the evidence without steps of the IMU's velocity and with its noise as
   /// stated, as the batch is solved: the likelihood of the innovations about the
   /// trajectory that was found, fixes that a mixture takes for outliers with the

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "alignment/alignment.h"
+#include "dataset/bias_sigma.h"
 #include "filters/measurement_rule.h"
 #include "filters/tape_adjoint.h"
 
@@ -59,14 +60,14 @@ Eigen::VectorXd Whitened(const TapeMeasurement& z) {
 
 }  // namespace
 
-Prior PriorOfComparison(const Dataset& dataset, const Start& start,
+Prior PriorOfComparison(const Dataset& dataset, const Problem& problem,
                         const State& x) {
   constexpr double kAnyPosition = 100.0;
   constexpr double kAnyVelocity = 100.0;
   const InitialState& given = dataset.initial;
-  Prior prior = start.prior;
+  Prior prior = problem.prior;
   const auto widen = [&](BlockKind kind, const Eigen::Vector3d& sigma) {
-    WidenBlock(start.layout, kind, sigma, &prior.P);
+    WidenBlock(problem.layout, kind, sigma, &prior.P);
   };
   if (!given.position) {
     prior.x.p_e = x.p_e;
@@ -85,7 +86,7 @@ Prior PriorOfComparison(const Dataset& dataset, const Start& start,
   prior.x.b_a = given.accel_bias;
   widen(BlockKind::kGyroBias, GyroBiasSigma(given));
   widen(BlockKind::kAccelBias, AccelBiasSigma(given));
-  for (const Block& block : start.layout.blocks()) {
+  for (const Block& block : problem.layout.blocks()) {
     if (block.key.kind != BlockKind::kTimeOffset) continue;
     prior.x.parameters(block.parameter_offset) =
         x.parameters(block.parameter_offset);

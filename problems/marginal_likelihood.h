@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "alignment/start.h"
+#include "dataset/dataset.h"
 #include "timeline/problem.h"
 
 namespace hindsight {
@@ -30,7 +30,7 @@ struct MarginalLikelihood {
 /// attitude. What is not stated is that of `x`, the first state of the
 /// explanation, with sigmas of 100 m and 100 m/s and any attitude; so are the
 /// clocks, as LogClockPrior counts what is stated of them.
-Prior PriorOfComparison(const Dataset& dataset, const Start& start,
+Prior PriorOfComparison(const Dataset& dataset, const Problem& problem,
                         const State& x);
 
 /// ln of the a priori density of the time offsets that are estimated, less its

@@ -10,6 +10,10 @@
 namespace hindsight {
 
 MethodStage::Nodes MethodStage::SharedNodes() const {
+  if (elsewhere_) {
+    PlacedNodes& nodes = elsewhere_->nodes;
+    return {&nodes.problem, &nodes.states, &nodes.offsets};
+  }
   return {&forward_->problem(), &forward_->smoothed().states,
           &forward_->offsets()};
 }
@@ -21,7 +25,7 @@ Solution MethodStage::AtOwnNodes(
   OffsetSearch search;
   for (int i = 1; forward_->unsettled().empty() || own_fit_; ++i) {
     const std::vector<double>& offsets =
-        own_ ? own_->offsets : forward_->offsets();
+        own_ ? own_->offsets : *SharedNodes().offsets;
     const std::vector<Sensor>& sensors = problem().timeline.sensors();
     const int sensor =
         FarthestFromNodes(solution.layout, offsets, solution.states.back(),
@@ -42,7 +46,7 @@ Solution MethodStage::AtOwnNodes(
 }
 
 Problem& MethodStage::problem() {
-  return own_ ? own_->problem : forward_->problem();
+  return own_ ? own_->problem : *SharedNodes().problem;
 }
 
 std::optional<Timeline> MethodStage::TakeTimeline() {

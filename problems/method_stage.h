@@ -2,12 +2,14 @@
 #define HINDSIGHT_PROBLEMS_METHOD_STAGE_H_
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "problems/batch_ahead.h"
+#include "problems/clocks_without.h"
 #include "problems/forward_stage.h"
 #include "problems/node_placement.h"
 
@@ -25,11 +27,18 @@ class MethodStage {
     const std::vector<double>* offsets;
   };
 
-  /// `forward` has run; it and `ahead`, its batch if that is solved already,
-  /// outlive the object.
-  explicit MethodStage(ForwardStage* forward, BatchAhead* ahead = nullptr)
-      : forward_(forward), ahead_(ahead) {}
+  /// The stage of `clocks` has run; they and `ahead`, its batch if that is solved
+  /// already, outlive the object.
+  explicit MethodStage(const ClockChoice* clocks, BatchAhead* ahead = nullptr)
+      : clocks_(clocks), forward_(clocks->stage.get()), ahead_(ahead) {}
 
+  /// Begins elsewhere than the other methods.
+  explicit MethodStage(ClocksWithout elsewhere)
+      : elsewhere_(std::make_unique<ClocksWithout>(std::move(elsewhere))),
+        clocks_(&elsewhere_->choice),
+        forward_(clocks_->stage.get()) {}
+
+  const ClockChoice& clocks() const { return *clocks_; }
   ForwardStage& forward() const { return *forward_; }
   const ErrorLayout& layout() const { return forward_->problem().layout; }
   Nodes SharedNodes() const;
@@ -95,8 +104,10 @@ class MethodStage {
   /// On the nodes that AtOwnNodes ended with.
   Problem& problem();
 
+  std::unique_ptr<ClocksWithout> elsewhere_;  ///< null: where all begin
+  const ClockChoice* clocks_;
   ForwardStage* forward_;
-  BatchAhead* ahead_;
+  BatchAhead* ahead_ = nullptr;
   std::string own_unsettled_;
   bool settled_ = false;  ///< on the nodes that AtOwnNodes ended with
   HeadingCredit own_credit_;

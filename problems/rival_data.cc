@@ -53,11 +53,11 @@ std::optional<RivalSolution> SolveRival(double log_odds, RivalReadings readings,
   };
   const std::vector<State>& first = rival->smoothed().states;
   const auto log_evidence = [&](const std::vector<State>& states) {
-    const Explained of_rival = {*rival, states};
-    const Explained of_chosen = {*chosen, own.states};
+    const Explained of_rival = {rival->problem(), states};
+    const Explained of_chosen = {chosen->problem(), own.states};
     return log_odds +
            (readings == RivalReadings::kTheSame
-                ? LogLikelihoodRatio(of_rival, of_chosen)
+                ? LogLikelihoodRatio(chosen->dataset(), of_rival, of_chosen)
                 : LogEvidenceRatio(chosen->dataset(), of_rival, of_chosen));
   };
   // Linearising anew costs more than the stage and seldom moves so far.

@@ -164,6 +164,7 @@ RobustBatchResult SolveAbout(const Problem& problem,
     }
   }
   result.decisions = search.Decisions();
+  result.log_prior = search.LogOfPrior();
   if (!options.blunders.empty()) {
     result.notes.push_back(DescribeBlunders(result.problem, options.blunders));
   }

@@ -36,6 +36,8 @@ struct RobustBatchResult {
   /// decisions are given.
   std::optional<Evidence> other_order = {};
   SearchDecisions decisions = {};
+  /// ln of the prior of the errors that were found.
+  double log_prior = 0.0;
 };
 
 struct RobustBatchOptions {

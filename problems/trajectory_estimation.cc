@@ -67,9 +67,9 @@ class TrajectoryEstimation final : public Estimation {
   Solution Run(const Method& method) override {
     forward_.Run();
     SolveAhead(method);
-    MethodStage stage(&forward_, method.Has(MethodTrait::kSolvesBatch)
-                                     ? ahead_.get()
-                                     : nullptr);
+    MethodStage stage(&clocks_, method.Has(MethodTrait::kSolvesBatch)
+                                    ? ahead_.get()
+                                    : nullptr);
     Solution solution = std::get<Method::OfTrajectory>(method.run)(&stage);
     timelines_.erase(method.name);
     if (auto own = stage.TakeTimeline()) {
@@ -117,7 +117,7 @@ class TrajectoryEstimation final : public Estimation {
     const std::vector<State>& start = forward_.batch_start();
     ReleaseFreedMemory();
     ahead_ = std::make_unique<BatchAhead>(
-        start, MethodStage(&forward_).MakeBatchOptions(), forward_.problem());
+        start, MethodStage(&clocks_).MakeBatchOptions(), forward_.problem());
   }
 
   const Timeline& TimelineOf(const std::string& method) const {
@@ -125,22 +125,30 @@ class TrajectoryEstimation final : public Estimation {
     return own != timelines_.end() ? own->second : forward_.timeline();
   }
 
-  const std::vector<RivalSolution>& OtherData() {
-    if (!other_data_) {
-      other_data_ = ImuLeaps(&forward_);
-      for (const auto exchanged : {ExchangedPlaces, ExchangedAxes}) {
-        for (RivalSolution& rival : exchanged(&forward_)) {
-          other_data_->push_back(std::move(rival));
-        }
+  /// Of the recording as it may be instead.
+  static std::vector<RivalSolution> FindOtherData(ForwardStage* forward) {
+    std::vector<RivalSolution> found = ImuLeaps(forward);
+    for (const auto exchanged : {ExchangedPlaces, ExchangedAxes}) {
+      for (RivalSolution& rival : exchanged(forward)) {
+        found.push_back(std::move(rival));
       }
     }
+    return found;
+  }
+
+  std::vector<RivalSolution> OtherData(ForwardStage* forward) {
+    if (forward != &forward_) return FindOtherData(forward);
+    if (!other_data_) other_data_ = FindOtherData(forward);
     return *other_data_;
   }
 
-  std::vector<RivalSolution> Rivals() {
-    std::vector<RivalSolution> rivals = clocks_.rivals;
-    rivals.insert(rivals.end(), OtherData().begin(), OtherData().end());
-    if (forward_.turned_round()) rivals.push_back(*forward_.turned_round());
+  std::vector<RivalSolution> Rivals(const MethodStage& stage) {
+    std::vector<RivalSolution> rivals = stage.clocks().rivals;
+    for (RivalSolution& rival : OtherData(&stage.forward())) {
+      rivals.push_back(std::move(rival));
+    }
+    const auto& turned = stage.forward().turned_round();
+    if (turned) rivals.push_back(*turned);
     SetProbabilities(&rivals);
     return rivals;
   }
@@ -149,8 +157,9 @@ class TrajectoryEstimation final : public Estimation {
                   Solution solution) {
     solution.method = method.name;
     solution.forward = method.Has(MethodTrait::kForward);
-    solution.rivals = Rivals();
-    const Start& start = forward_.start();
+    solution.rivals = Rivals(stage);
+    ForwardStage& forward = stage.forward();
+    const Start& start = forward.start();
     if (!solution.observer) {
       WidenHeading(solution.layout, stage.heading_credit(),
                    &solution.covariances);
@@ -160,12 +169,12 @@ class TrajectoryEstimation final : public Estimation {
          .sensors = TimelineOf(method.name).sensors(),
          .start = StartValues{.x = start.prior.x,
                               .P = start.prior.P,
-                              .given = forward_.dataset().initial,
+                              .given = forward.dataset().initial,
                               .position = start.report.position,
                               .alignment = start.report.alignment},
          .linearisation =
              method.Has(MethodTrait::kLinearisesOnce)
-                 ? LinearisationErrorOf(solution, forward_.relinearised())
+                 ? LinearisationErrorOf(solution, forward.relinearised())
                  : stage.linearisation(),
          .untested = !stage.fit().tested,
          .innovations = stage.fit().figures,
@@ -179,8 +188,8 @@ class TrajectoryEstimation final : public Estimation {
          .recording = recording_.get().evidence,
          .doubts = stage.doubts(),
          .disagreement = DisagreementOf(method, solution),
-         .mounting_sigma = forward_.dataset().mounting_sigma},
-        forward_.unobserved(), &solution);
+         .mounting_sigma = forward.dataset().mounting_sigma},
+        forward.unobserved(), &solution);
     if (auto apart = methods_.Compare(solution)) {
       AddEvidence(*std::move(apart), &solution);
     }
@@ -204,7 +213,7 @@ class TrajectoryEstimation final : public Estimation {
 
   ClockChoice clocks_;
   ForwardStage& forward_;
-  /// Of the recording as it may be instead.
+  /// FindOtherData of the stage that methods share.
   std::optional<std::vector<RivalSolution>> other_data_;
   /// Of any method; empty: none.
   std::optional<std::string> hindrance_;

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "base/processor_time.h"
 #include "measurements/sensor_kind.h"
 #include "problems/blunders.h"
+#include "problems/clock_evidence.h"
+#include "problems/clocks_without.h"
 #include "problems/method.h"
 #include "problems/method_stage.h"
 #include "problems/outlier_rows.h"
@@ -48,15 +51,21 @@ Problem WithAll(const MethodStage& stage,
   return problem;
 }
 
+using Clock = std::chrono::steady_clock;
+
+/// When searches that begin now have to end.
+Clock::time_point EndOf(const ReconstructionOptions& options) {
+  return options.max_time < 1e9
+             ? Clock::now() +
+                   std::chrono::duration_cast<Clock::duration>(
+                       std::chrono::duration<double>(options.max_time))
+             : Clock::time_point::max();
+}
+
 RobustBatchOptions OptionsOf(const MethodStage& stage,
-                             const GateDecisions& gates) {
+                             const GateDecisions& gates,
+                             Clock::time_point end) {
   const ReconstructionOptions& options = stage.forward().options();
-  using Clock = std::chrono::steady_clock;
-  const auto end =
-      options.max_time < 1e9
-          ? Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                               std::chrono::duration<double>(options.max_time))
-          : Clock::time_point::max();
   return {.batch = stage.MakeBatchOptions(),
           .gates = gates,
           .callback = stage.forward().Progress("robust_batch"),
@@ -65,7 +74,7 @@ RobustBatchOptions OptionsOf(const MethodStage& stage,
             if (options.progress) {
               options.progress("errors of sensors", fraction);
             }
-            return std::chrono::steady_clock::now() < end;
+            return Clock::now() < end;
           }};
 }
 
@@ -112,9 +121,31 @@ void DoubtOutliersAtGaps(const Timeline& timeline,
   }
 }
 
+/// What was decided, where the nodes stood, and what came of it last.
+struct Searched {
+  explicit Searched(Clock::time_point until) : end(until) {}
+
+  Clock::time_point end;
+  bool done = false;
+  SearchDecisions decisions;
+  std::vector<double> offsets;  ///< by sensor [s]
+  bool stands = false;
+  std::vector<std::string> notes;
+  std::optional<Evidence> other_order;
+  ErrorLayout layout;
+  State x;        ///< the solution's at its last node
+  ErrorMatrix P;  ///< of it
+  /// Where clocks are in question: what is taken for outliers or biased, and the
+  /// problem with the errors that were found.
+  std::set<MeasurementKey> erring;
+  std::optional<Problem> problem;
+  double log_prior = 0.0;  ///< as of RobustBatchResult
+};
+
 /// With the errors that were found.
 Solution TakeRobust(RobustBatchResult result, MethodStage* stage,
-                    std::vector<Evidence>* doubts) {
+                    Searched* searched, std::vector<Evidence>* doubts) {
+  constexpr double kErring = 0.5;  // weight
   Solution solution =
       SmoothedSolution(result.problem, std::move(result.batch.states),
                        std::move(result.batch.P));
@@ -126,6 +157,7 @@ Solution TakeRobust(RobustBatchResult result, MethodStage* stage,
                 .smoother = {}},
                &result.problem, stage->forward().Progress("grading")));
   DoubtOutliersAtGaps(timeline, solution.residuals, doubts);
+  searched->erring.clear();
   std::size_t record = 0;
   for (std::size_t k = 0; k < timeline.size(); ++k) {
     for (const Measurement& z : timeline.measurements(k)) {
@@ -133,28 +165,23 @@ Solution TakeRobust(RobustBatchResult result, MethodStage* stage,
       const std::vector<double>& trust =
           result.trust[static_cast<std::size_t>(z.sensor)];
       if (!trust.empty() && !z.withheld) r.weight *= trust[k];
+      if (r.accepted && !z.withheld && r.weight < kErring) {
+        searched->erring.insert({z.sensor, z.t});
+      }
     }
   }
   solution.iterations = result.batch.iterations;
   solution.converged = result.batch.converged;
   if (!result.modes.names.empty()) solution.modes = std::move(result.modes);
   solution.bounded = std::move(result.bounded);
+  searched->log_prior = result.log_prior;
+  searched->problem.reset();
+  if (HasClocksInQuestion(*stage->clocks().given)) {
+    searched->problem = result.problem;
+  }
   stage->SetTimeline(std::move(timeline));
   return solution;
 }
-
-/// What was decided, where the nodes stood, and what came of it last.
-struct Searched {
-  bool done = false;
-  SearchDecisions decisions;
-  std::vector<double> offsets;  ///< by sensor [s]
-  bool stands = false;
-  std::vector<std::string> notes;
-  std::optional<Evidence> other_order;
-  ErrorLayout layout;
-  State x;        ///< the solution's at its last node
-  ErrorMatrix P;  ///< of it
-};
 
 /// Nodes that moved by less than a sigma hold the same errors at the same fixes.
 bool IsKnownStill(const Searched& searched) {
@@ -241,7 +268,8 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
   const std::vector<State> initial =
       known ? *nodes.states
             : RoughStates(stage, nodes, problem, !blunders.empty());
-  RobustBatchOptions options = OptionsOf(*stage, nodes.problem->decisions);
+  RobustBatchOptions options =
+      OptionsOf(*stage, nodes.problem->decisions, searched->end);
   options.blunders = blunders;
   if (known) options.decisions = &searched->decisions;
   RobustBatchResult result =
@@ -255,30 +283,73 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
   searched->notes = std::move(result.notes);
   std::vector<Evidence> doubts = std::move(result.doubts);
   if (searched->other_order) doubts.push_back(*searched->other_order);
-  Solution solution = result.stands
-                          ? TakeRobust(std::move(result), stage, &doubts)
-                          : SolvePlainly(stage, nodes);
+  Solution solution =
+      result.stands ? TakeRobust(std::move(result), stage, searched, &doubts)
+                    : SolvePlainly(stage, nodes);
   stage->SetDoubts(std::move(doubts));
   return solution;
+}
+
+Solution Search(MethodStage* stage, Searched* searched) {
+  return stage->AtOwnNodes([&](const MethodStage::Nodes& nodes) {
+    // Nodes that move by a part of their time offset's sigma give no errors to
+    // a sensor that had none.
+    const bool plain = searched->done && !searched->stands;
+    Solution one = plain ? SolvePlainly(stage, nodes)
+                         : SolveRobustly(stage, nodes, searched);
+    one.notes = searched->notes;
+    searched->done = true;
+    searched->layout = one.layout;
+    searched->x = one.states.back();
+    searched->P = one.covariances.Get(one.states.size() - 1);
+    return one;
+  });
+}
+
+/// Measurements that err may have turned the clocks about which they were found. Where
+/// the others tell clocks elsewhere, errors are sought there as well, and what has the
+/// larger evidence counts, as LogEvidenceRatio has it.
+void SearchElsewhere(MethodStage* stage, Searched* searched,
+                     Solution* solution) {
+  constexpr double kElsewhere = 5.0;               // sigma
+  constexpr double kSureOdds = 6.907755278982137;  // ln 1000
+  const Dataset& given = *stage->clocks().given;
+  if (!searched->stands || searched->erring.empty() ||
+      !HasClocksInQuestion(given) || Clock::now() >= searched->end) {
+    return;
+  }
+  std::optional<ClocksWithout> clocks =
+      ChooseClocksWithout(searched->erring, given, stage->forward().options());
+  if (!clocks || FarthestFromNodes(searched->layout, clocks->nodes.offsets,
+                                   searched->x, searched->P, kElsewhere) < 0) {
+    return;
+  }
+  MethodStage elsewhere(*std::move(clocks));
+  Searched again(searched->end);
+  try {
+    Solution other = Search(&elsewhere, &again);
+    if (!again.stands) return;
+    const double log_odds =
+        LogEvidenceRatio(given, {*again.problem, other.states},
+                         {*searched->problem, solution->states},
+                         ExcessBy::kMedian) +
+        again.log_prior - searched->log_prior;
+    if (log_odds < kSureOdds) return;
+    *solution = std::move(other);
+  } catch (const EstimationError&) {
+    // There is no trajectory beside those clocks.
+    return;
+  }
+  *searched = std::move(again);
+  *stage = std::move(elsewhere);
 }
 
 Solution RunRobustBatch(MethodStage* stage) {
   const double t0 = ProcessorSeconds();
   RequirePosition(stage->forward().timeline());
-  Searched searched;
-  Solution solution = stage->AtOwnNodes([&](const MethodStage::Nodes& nodes) {
-    // Nodes that move by a part of their time offset's sigma give no errors to
-    // a sensor that had none.
-    const bool plain = searched.done && !searched.stands;
-    Solution one = plain ? SolvePlainly(stage, nodes)
-                         : SolveRobustly(stage, nodes, &searched);
-    one.notes = searched.notes;
-    searched.done = true;
-    searched.layout = one.layout;
-    searched.x = one.states.back();
-    searched.P = one.covariances.Get(one.states.size() - 1);
-    return one;
-  });
+  Searched searched(EndOf(stage->forward().options()));
+  Solution solution = Search(stage, &searched);
+  SearchElsewhere(stage, &searched, &solution);
   solution.seconds = ProcessorSeconds() - t0;
   if (!searched.stands) stage->JudgeOptimum(solution);
   return solution;

@@ -265,7 +265,7 @@ MarginalLikelihood LikelihoodOf(double position_sigma, double imu_factor) {
   const std::vector<State>& nominal = stage.smoothed().states;
   const GateDecisions used(stage.timeline().all_measurements().size(), 1);
   Problem problem = stage.problem();
-  problem.prior = PriorOfComparison(dataset, stage.start(), nominal.front());
+  problem.prior = PriorOfComparison(dataset, stage.problem(), nominal.front());
   return MarginalLikelihoodOf(std::move(problem), nominal, used);
 }
 
