@@ -100,6 +100,8 @@ class ErrorChain {
                            const FixView& view) const;
 
   void ScaleImuNoise();
+  bool HasPosition(std::size_t k) const;
+  double SincePosition() const;
 
   const LinearTape& tape_;
   int receiver_;
@@ -113,8 +115,10 @@ class ErrorChain {
   SparseCongruence over_interval_;  ///< with Phi_n_
   ErrorMatrix Q_n_;
   double dt_ = 0.0;
-  int fix_ = -1;                  ///< index in z_
-  int rows_ = 0;                  ///< of the fix
+  double since_position_ =
+      0.0;        ///< from the last node with one; at fixes alone
+  int fix_ = -1;  ///< index in z_
+  int rows_ = 0;  ///< of the fix
   Eigen::Matrix3d R_in_, R_out_;  ///< of the fix, padded, as an outlier
   std::vector<LinearizedMeasurement> z_;
 };

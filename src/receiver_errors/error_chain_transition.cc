@@ -49,9 +49,9 @@ ErrorMatrix ErrorChain::Q(ErrorStep step) const {
   for (int i = 0; i < 3 && velocity_ >= 0; ++i) {
     const int p = position_ + i;
     const int v = velocity_ + i;
-    Q(p, p) += d.q_vv * dt_ * dt_;
-    Q(p, v) += d.q_vv * dt_;
-    Q(v, p) += d.q_vv * dt_;
+    Q(p, p) += d.q_vv * since_position_ * since_position_;
+    Q(p, v) += d.q_vv * since_position_;
+    Q(v, p) += d.q_vv * since_position_;
     Q(v, v) += d.q_vv;
   }
   return Q;

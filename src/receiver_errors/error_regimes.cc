@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "receiver_errors/error_tuning.h"
@@ -168,6 +169,10 @@ std::vector<Attempt> Hopeful(std::vector<Attempt> attempts,
   return attempts;
 }
 
+const ErrorRegimes& Likeliest(const std::vector<ErrorRegimes>& fits) {
+  return *std::ranges::max_element(fits, {}, &ErrorRegimes::log_evidence);
+}
+
 /// What else a jump may be that the likeliest fit takes for one to or from a bias:
 /// the good and the erroneous stretches exchanged, by errors as large as its own;
 /// or the end of a drift.
@@ -175,11 +180,7 @@ std::vector<ErrorRegimes> FitOtherTellings(
     const RegimeProblem& problem, const std::vector<ErrorRegimes>& fits) {
   std::vector<ErrorRegimes> out;
   if (fits.empty()) return out;
-  const auto best = std::max_element(fits.begin(), fits.end(),
-                                     [](const auto& a, const auto& b) {
-                                       return a.log_evidence < b.log_evidence;
-                                     });
-  const Hypothesis& likeliest = best->hypotheses.front();
+  const Hypothesis& likeliest = Likeliest(fits).hypotheses.front();
   for (const Attempt& other : ExchangedRoles(problem, likeliest)) {
     if (problem.effort->IsSpent()) return out;
     out.push_back(FitSwitching(problem, other.sequence, other.parameters));
@@ -189,6 +190,21 @@ std::vector<ErrorRegimes> FitOtherTellings(
   if (drift.sequence.empty()) return out;
   out.push_back(FitSwitching(problem, drift.sequence, drift.parameters));
   return out;
+}
+
+/// The likeliest fit from the other kind of outliers: few of them far off and more
+/// that are hardly any are two maxima, and what a climb takes for steps of the
+/// velocity or for errors hangs on which it began at.
+std::optional<ErrorRegimes> FitOtherOutliers(
+    const RegimeProblem& problem, const std::vector<ErrorRegimes>& fits) {
+  constexpr double kNear = 3.0;
+  constexpr double kFar = 30.0;
+  if (fits.empty() || problem.effort->IsSpent()) return std::nullopt;
+  const Hypothesis& likeliest = Likeliest(fits).hypotheses.front();
+  ErrorParameters other = likeliest.parameters;
+  const bool far = other.outlier_ratio * other.outlier_ratio > kNear * kFar;
+  other.outlier_ratio = far ? kNear : kFar;
+  return FitSwitching(problem, likeliest.sequence, other);
 }
 
 /// Every order of modes by parameters of its own.
@@ -205,6 +221,9 @@ std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
   }
   std::vector<ErrorRegimes> others = FitOtherTellings(problem, fits);
   std::move(others.begin(), others.end(), std::back_inserter(fits));
+  if (auto other = FitOtherOutliers(problem, fits)) {
+    fits.push_back(*std::move(other));
+  }
   for (int i = 0; i < kMostRivals && !problem.effort->IsSpent(); ++i) {
     const Hypothesis* rival = NextRival(fits);
     if (rival == nullptr) break;

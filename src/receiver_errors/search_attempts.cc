@@ -19,11 +19,13 @@ bool IsAllGood(const ModeSequence& sequence) {
 }
 
 /// Where the search for hypotheses begins: errors of several sizes, short or
-/// lasting.
+/// lasting, and outliers as they are a priori: those of white noise alone are the
+/// errors that are sought.
 std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
                                     const ErrorParameters& white) {
   constexpr double kRateTime = 100.0;
   constexpr double kSlight = 3.0;
+  const ErrorParameters typical;
   std::vector<ErrorParameters> starts;
   for (const auto& [size, tau] : {std::pair{5.0, 1e8},
                                   {5.0, 30.0},
@@ -36,6 +38,8 @@ std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
     p.tau = tau;
     p.rate_sigma = p.sigma / kRateTime;
     p.imu_scale = 1.0;
+    p.outlier_share = typical.outlier_share;
+    p.outlier_ratio = typical.outlier_ratio;
   }
   return starts;
 }

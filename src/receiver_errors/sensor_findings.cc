@@ -55,7 +55,7 @@ double CostOfStep(const LinearTape& tape) {
 
 /// Filter steps of a search; of long tapes so many a node.
 double MostEffort(const LinearTape& tape) {
-  constexpr double kAtLeast = 1.5e6;
+  constexpr double kAtLeast = 2.4e6;
   constexpr double kPerNode = 400.0;
   return std::max(kAtLeast, kPerNode * static_cast<double>(tape.size())) /
          CostOfStep(tape);
