@@ -107,18 +107,6 @@ void CheckAnyTrajectory(const std::vector<Solution>& solutions) {
   throw EstimationError(reasons);
 }
 
-/// What became of the measurements.
-void WriteMeasurements(const Dataset& dataset,
-                       const std::vector<Solution>& solutions,
-                       const Solution& best, ResultFolder* folder) {
-  auto fixes = InBackground([&] {
-    if (!HasFixes(dataset)) return;
-    WriteFixCsv(folder->Path("fixes.csv"), best, dataset);
-  });
-  WriteResidualCsv(folder->Path("residuals.csv"), solutions, dataset);
-  fixes.get();
-}
-
 /// Work in passes of the forward filter; reading, start and writing take about
 /// one each.
 std::vector<Progress::Step> PlanOf(const RunRequest& request) {
@@ -195,30 +183,35 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   std::vector<Solution> solutions;
   solutions.reserve(request.methods.size());
   MethodWriter writer(request, dataset, *reconstruction, &summary, folder);
+  bool any_trajectory = false;
   for (const std::string& method : request.methods) {
     progress.Begin(method);
     solutions.push_back(RunMethod(reconstruction.get(), method));
     Solution* solution = &solutions.back();
+    any_trajectory = any_trajectory || !solution->states.empty();
     DoubtUnconfirmed(unconfirmed, solution);
     LogDownWeighted(dataset, *solution);
     writer.Add(solution);
   }
+  progress.Begin("writing");
+  // What is kept in a file takes the system a while to give back: beside the rest.
+  auto ending = InBackground([&] { reconstruction.reset(); });
+  const bool has_measurements = any_trajectory && !request.attitude_alone;
+  if (has_measurements) {
+    WriteResidualCsv(folder->Path("residuals.csv"), solutions, dataset);
+  }
   writer.Finish();
   CheckAnyTrajectory(solutions);
-  progress.Begin("writing");
+  ending.get();
+  ending = InBackground([&] { dataset.imu = {}; });
   ShareDisagreements(&solutions);
   AdviseBetterMethods(&solutions);
   const Solution& best = Best(solutions);
   NameBest(best, solutions, &summary);
-  // Beside, as the file behind it takes the system a while to give back.
-  auto freeing = InBackground([&] {
-    reconstruction.reset();
-    dataset.imu = {};
-  });
-  if (!request.attitude_alone) {
-    WriteMeasurements(dataset, solutions, best, folder);
+  if (has_measurements && HasFixes(dataset)) {
+    WriteFixCsv(folder->Path("fixes.csv"), best, dataset);
   }
-  freeing.get();
+  ending.get();
   progress.Clear();
   summary.complete = true;
   if (request.report) WriteReport(request, summary, folder);
