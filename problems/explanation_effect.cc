@@ -15,7 +15,7 @@ void RaiseEffect(double effect, const std::string& component,
 
 }  // namespace
 
-void AddEffect(const std::vector<ErrorVector>& correction, double size,
+void AddEffect(const Eigen::MatrixXd& correction, double size,
                const Relinearised& anew, const LinearTape& tape, EffectOn on,
                Explanation* out) {
   const ErrorLayout& layout = tape.layout();
@@ -23,15 +23,16 @@ void AddEffect(const std::vector<ErrorVector>& correction, double size,
   for (int c = 0; c < layout.dim(); ++c) {
     double effect = 0.0;
     if (layout.has_canonical_head() && c < anew.variances.front().size()) {
-      for (std::size_t k = 0; k < correction.size(); ++k) {
-        const double variance = anew.variances[k](c);
+      for (Eigen::Index k = 0; k < correction.cols(); ++k) {
+        const double variance = anew.variances[static_cast<std::size_t>(k)](c);
         if (variance > 0.0) {
-          effect += correction[k](c) * correction[k](c) / variance;
+          effect += correction(c, k) * correction(c, k) / variance;
         }
       }
-      effect /= static_cast<double>(correction.size());
+      effect /= static_cast<double>(correction.cols());
     } else if (on == EffectOn::kAll && P_end(c, c) > 0.0) {
-      effect = correction.back()(c) * correction.back()(c) / P_end(c, c);
+      const double last = correction(c, correction.cols() - 1);
+      effect = last * last / P_end(c, c);
     }
     RaiseEffect(std::abs(size) * std::sqrt(effect), layout.ComponentName(c),
                 out);

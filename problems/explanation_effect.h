@@ -13,10 +13,10 @@ namespace hindsight {
 /// attitude, of which alone Relinearised has the sigmas.
 enum class EffectOn { kAll, kNavigation };
 
-/// By what `size` times a correction of every epoch of `tape` moves the solution
+/// By what `size` times a correction of every epoch of `tape`, a column each, moves the solution
 /// `anew`, of constants in the sigmas of the tape: into Explanation::effect where
 /// it is more than what is there.
-void AddEffect(const std::vector<ErrorVector>& correction, double size,
+void AddEffect(const Eigen::MatrixXd& correction, double size,
                const Relinearised& anew, const LinearTape& tape, EffectOn on,
                Explanation* out);
 

@@ -245,16 +245,22 @@ std::vector<Explanation> ExplanationSearch::Tell(const Relinearised& anew,
     }
     return out;
   };
-  std::vector<Explanation> all;
+  std::vector<const std::vector<LikelyDeviation>*> sources;
   for (const auto& [source, candidates] : found_->best) {
-    Explanation told = explain(candidates.front());
-    for (std::size_t i = 1;
-         i < candidates.size() && told.effect < kDoubtfulShift; ++i) {
-      Explanation next = explain(candidates[i]);
-      if (next.effect >= kDoubtfulShift) told = std::move(next);
-    }
-    all.push_back(std::move(told));
+    sources.push_back(&candidates);
   }
+  std::vector<Explanation> all(sources.size());
+  ForRanges(all.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      const std::vector<LikelyDeviation>& candidates = *sources[s];
+      all[s] = explain(candidates.front());
+      for (std::size_t i = 1;
+           i < candidates.size() && all[s].effect < kDoubtfulShift; ++i) {
+        Explanation next = explain(candidates[i]);
+        if (next.effect >= kDoubtfulShift) all[s] = std::move(next);
+      }
+    }
+  });
   return all;
 }
 

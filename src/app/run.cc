@@ -51,10 +51,11 @@ ReconstructionOptions Options(const RunRequest& request, Progress* progress) {
 }
 
 /// Names the configuration if it does not say where the recording begins.
-Reconstruction Prepare(const std::string& config, const Dataset& dataset,
-                       const ReconstructionOptions& options) {
+std::unique_ptr<Reconstruction> Prepare(const std::string& config,
+                                        const Dataset& dataset,
+                                        const ReconstructionOptions& options) {
   try {
-    return Reconstruction(dataset, options);
+    return std::make_unique<Reconstruction>(dataset, options);
   } catch (const NoInitialPosition& error) {
     const std::string what = config + ": " + error.what() +
                              "; --methods=LIST of " + MethodNames(true) +
@@ -106,18 +107,6 @@ void CheckAnyTrajectory(const std::vector<Solution>& solutions) {
   throw EstimationError(reasons);
 }
 
-/// What became of the measurements.
-void WriteMeasurements(const Dataset& dataset,
-                       const std::vector<Solution>& solutions,
-                       const Solution& best, ResultFolder* folder) {
-  auto fixes = InBackground([&] {
-    if (!HasFixes(dataset)) return;
-    WriteFixCsv(folder->Path("fixes.csv"), best, dataset);
-  });
-  WriteResidualCsv(folder->Path("residuals.csv"), solutions, dataset);
-  fixes.get();
-}
-
 /// Work in passes of the forward filter; reading, start and writing take about
 /// one each.
 std::vector<Progress::Step> PlanOf(const RunRequest& request) {
@@ -154,7 +143,7 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   progress.Update("reading", 0.0);
   InputDigests digests(FilesReadBy(request));
   ResolvedConfig resolved;
-  const Dataset dataset = LoadRecording(request, &resolved);
+  Dataset dataset = LoadRecording(request, &resolved);
 
   progress.Begin("start");
   const auto rests = std::make_shared<const RestMemo>(dataset);
@@ -162,8 +151,9 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
       InBackground([&dataset, rests] { return FindingsOf(dataset, *rests); });
   ReconstructionOptions options = Options(request, &progress);
   options.rests = rests;
-  Reconstruction reconstruction = Prepare(request.config, dataset, options);
-  if (const StartReport* start = reconstruction.start()) {
+  std::unique_ptr<Reconstruction> reconstruction =
+      Prepare(request.config, dataset, options);
+  if (const StartReport* start = reconstruction->start()) {
     resolved.yaml += CommentOnStart(*start, dataset.initial);
   }
   // Beside, as the disk may have much to write before it.
@@ -183,34 +173,45 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
           dataset.constants ? dataset.constants->source : std::string(),
       .constants_of_recording = ConstantsOfOneRecording(dataset),
       .inputs = std::move(inputs),
-      .start = SummarizeStart(reconstruction.start()),
+      .start = SummarizeStart(reconstruction->start()),
       .policies = dataset.policies,
       .best = "",
       .methods = {}};
   const std::vector<UnobservedSpan> unobserved = DescribeBeforehand(
-      dataset, std::move(findings), &reconstruction, &progress, &summary);
+      dataset, std::move(findings), reconstruction.get(), &progress, &summary);
   if (writing.valid()) writing.get();
   std::vector<Solution> solutions;
   solutions.reserve(request.methods.size());
-  MethodWriter writer(request, dataset, reconstruction, &summary, folder);
+  MethodWriter writer(request, dataset, *reconstruction, &summary, folder);
+  bool any_trajectory = false;
   for (const std::string& method : request.methods) {
     progress.Begin(method);
-    solutions.push_back(RunMethod(&reconstruction, method));
+    solutions.push_back(RunMethod(reconstruction.get(), method));
     Solution* solution = &solutions.back();
+    any_trajectory = any_trajectory || !solution->states.empty();
     DoubtUnconfirmed(unconfirmed, solution);
     LogDownWeighted(dataset, *solution);
     writer.Add(solution);
   }
+  progress.Begin("writing");
+  // What is kept in a file takes the system a while to give back: beside the rest.
+  auto ending = InBackground([&] { reconstruction.reset(); });
+  const bool has_measurements = any_trajectory && !request.attitude_alone;
+  if (has_measurements) {
+    WriteResidualCsv(folder->Path("residuals.csv"), solutions, dataset);
+  }
   writer.Finish();
   CheckAnyTrajectory(solutions);
-  progress.Begin("writing");
+  ending.get();
+  ending = InBackground([&] { dataset.imu = {}; });
   ShareDisagreements(&solutions);
   AdviseBetterMethods(&solutions);
   const Solution& best = Best(solutions);
   NameBest(best, solutions, &summary);
-  if (!request.attitude_alone) {
-    WriteMeasurements(dataset, solutions, best, folder);
+  if (has_measurements && HasFixes(dataset)) {
+    WriteFixCsv(folder->Path("fixes.csv"), best, dataset);
   }
+  ending.get();
   progress.Clear();
   summary.complete = true;
   if (request.report) WriteReport(request, summary, folder);

@@ -121,7 +121,8 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
         {Times(solution, *request.rate), request.point_b,
          [output](const SolutionTable& piece) { output->Append(piece); }});
   } else {
-    output->Append(TableAt(request.point_b, dataset, solution));
+    TakeNodes(request.point_b, dataset, solution,
+              [output](const SolutionTable& piece) { output->Append(piece); });
   }
   SampleRows(dataset, reconstruction, solution, std::move(wishes));
   return tables;

@@ -35,15 +35,52 @@ std::function<void(const SolutionTable&)> Into(SolutionTable* table) {
   return [table](const SolutionTable& piece) { AppendTable(piece, table); };
 }
 
+namespace {
+
+/// Rows that are sampled, or made a table of, at once.
+constexpr std::size_t kPiece = 10000;
+
+/// The solution that TableAt is of; nothing where it is `solution` itself.
+std::optional<Solution> SolutionAt(const Eigen::Vector3d& point_b,
+                                   const Dataset& dataset,
+                                   const Solution& solution) {
+  const bool moved = !point_b.isZero(0.0);
+  if (!moved && dataset.mounting_sigma.isZero(0.0)) return std::nullopt;
+  const Solution known = WithMountingSigma(solution, dataset.mounting_sigma);
+  return moved ? MoveToPoint(known, dataset.imu, point_b) : known;
+}
+
+}  // namespace
+
 SolutionTable TableAt(const Eigen::Vector3d& point_b, const Dataset& dataset,
                       const Solution& solution) {
-  const bool moved = !point_b.isZero(0.0);
-  if (!moved && dataset.mounting_sigma.isZero(0.0)) {
-    return TableFromSolution(solution);
+  const std::optional<Solution> at = SolutionAt(point_b, dataset, solution);
+  return TableFromSolution(at ? *at : solution);
+}
+
+void TakeNodes(const Eigen::Vector3d& point_b, const Dataset& dataset,
+               const Solution& solution,
+               const std::function<void(const SolutionTable&)>& take) {
+  const std::optional<Solution> at = SolutionAt(point_b, dataset, solution);
+  const Solution& own = at ? *at : solution;
+  const std::size_t count = own.states.size();
+  const auto begin = [&own, count](std::size_t from) {
+    std::future<SolutionTable> table;
+    if (from < count) {
+      table = InBackground([&own, from, to = std::min(from + kPiece, count)] {
+        return TableFromSolution(own, from, to);
+      });
+    }
+    return table;
+  };
+  // The next piece is made while this one is used.
+  std::size_t next = 0;
+  for (std::future<SolutionTable> piece = begin(next); piece.valid();) {
+    const SolutionTable table = piece.get();
+    next += kPiece;
+    piece = begin(next);
+    take(table);
   }
-  const Solution known = WithMountingSigma(solution, dataset.mounting_sigma);
-  return TableFromSolution(moved ? MoveToPoint(known, dataset.imu, point_b)
-                                 : known);
 }
 
 namespace {
@@ -76,37 +113,49 @@ WishedRows NextRows(std::size_t most, std::vector<Wish>* wishes) {
 
 }  // namespace
 
+namespace {
+
+/// Of a sampled solution, what each wish asks for.
+std::vector<SolutionTable> TablesOf(const Dataset& dataset,
+                                    const Solution& sampled,
+                                    const std::vector<Wish>& wishes,
+                                    const WishedRows& wished) {
+  std::vector<SolutionTable> tables(wishes.size());
+  std::optional<Eigen::Vector3d> point_b;
+  SolutionTable table;
+  for (std::size_t i = 0; i < wishes.size(); ++i) {
+    const std::vector<std::size_t>& rows = wished.of_wish[i];
+    if (rows.empty()) continue;
+    if (point_b != wishes[i].point_b) {
+      point_b = wishes[i].point_b;
+      table = TableAt(*point_b, dataset, sampled);
+    }
+    tables[i] = rows.size() == table.size() ? table : RowsOf(table, rows);
+  }
+  return tables;
+}
+
+}  // namespace
+
 void SampleRows(const Dataset& dataset, const Reconstruction& reconstruction,
                 const Solution& solution, std::vector<Wish> wishes) {
-  constexpr std::size_t kPiece = 10000;
-  struct Piece {
-    WishedRows rows;
-    std::future<Solution> solution;  ///< none behind the last
-  };
   const auto begin = [&] {
-    Piece piece{NextRows(kPiece, &wishes), {}};
-    if (!piece.rows.times.empty()) {
-      piece.solution = InBackground([&, times = piece.rows.times] {
-        return reconstruction.Sample(solution, times);
+    std::future<std::vector<SolutionTable>> piece;
+    WishedRows rows = NextRows(kPiece, &wishes);
+    if (!rows.times.empty()) {
+      piece = InBackground([&, rows = std::move(rows)] {
+        return TablesOf(dataset, reconstruction.Sample(solution, rows.times),
+                        wishes, rows);
       });
     }
     return piece;
   };
   // The next piece is sampled while this one is used.
-  for (Piece piece = begin(); piece.solution.valid();) {
-    const Solution sampled = piece.solution.get();
-    const WishedRows here = std::exchange(piece, begin()).rows;
-    std::optional<Eigen::Vector3d> point_b;
-    SolutionTable table;
+  for (auto piece = begin(); piece.valid();) {
+    const std::vector<SolutionTable> tables = piece.get();
+    piece = begin();
     for (std::size_t i = 0; i < wishes.size(); ++i) {
-      const Wish& wish = wishes[i];
-      const std::vector<std::size_t>& rows = here.of_wish[i];
-      if (rows.empty()) continue;
-      if (point_b != wish.point_b) {
-        point_b = wish.point_b;
-        table = TableAt(wish.point_b, dataset, sampled);
-      }
-      wish.take(rows.size() == table.size() ? table : RowsOf(table, rows));
+      if (tables[i].size() > 0) wishes[i].take(tables[i]);
     }
   }
 }

@@ -45,6 +45,11 @@ std::function<void(const SolutionTable&)> Into(SolutionTable* table);
 SolutionTable TableAt(const Eigen::Vector3d& point_b, const Dataset& dataset,
                       const Solution& solution);
 
+/// Gives the rows of TableAt to `take`, some at a time, in order.
+void TakeNodes(const Eigen::Vector3d& point_b, const Dataset& dataset,
+               const Solution& solution,
+               const std::function<void(const SolutionTable&)>& take);
+
 /// Fulfils all wishes in one walk, piece by piece, since a row of a solution,
 /// with its whole covariance, is several times as large as that of a table.
 void SampleRows(const Dataset& dataset, const Reconstruction& reconstruction,

@@ -219,8 +219,9 @@ ScratchMemory::ScratchMemory(std::size_t bytes, std::size_t block,
     return;
   }
   mapping_.reset();
-  data_ =
-      static_cast<std::byte*>(std::calloc(std::max<std::size_t>(bytes, 1), 1));
+  const std::size_t size = std::max<std::size_t>(bytes, 1);
+  data_ = static_cast<std::byte*>(
+      at_first == AtFirst::kZero ? std::calloc(size, 1) : std::malloc(size));
   if (data_ == nullptr) throw std::bad_alloc();
   for (std::size_t i = 0; i < blocks; ++i) held_[i] = kWritten;
 }

@@ -1,5 +1,7 @@
 #include "evaluation/solution_table.h"
 
+#include <cstddef>
+
 #include "state/euler_error.h"
 
 namespace hindsight {
@@ -11,14 +13,15 @@ int CompleteOffset(const ErrorLayout& layout, BlockKind kind) {
   return block != nullptr && block->dim == 3 ? block->offset : -1;
 }
 
-void FillCovariances(const Solution& solution, SolutionTable* table) {
+void FillCovariances(const Solution& solution, std::size_t begin,
+                     std::size_t end, SolutionTable* table) {
   const ErrorLayout& layout = solution.layout;
   const int position = CompleteOffset(layout, BlockKind::kPosition);
   const int velocity = CompleteOffset(layout, BlockKind::kVelocity);
   const int attitude = CompleteOffset(layout, BlockKind::kAttitude);
   const int gyro_bias = CompleteOffset(layout, BlockKind::kGyroBias);
   const int accel_bias = CompleteOffset(layout, BlockKind::kAccelBias);
-  for (std::size_t k = 0; k < solution.covariances.size(); ++k) {
+  for (std::size_t k = begin; k < end; ++k) {
     const ErrorMatrix P = solution.covariances.Get(k);
     const auto append = [&P](int offset, std::vector<Eigen::Matrix3d>* out) {
       if (offset >= 0) out->push_back(P.block<3, 3>(offset, offset));
@@ -51,19 +54,30 @@ Eigen::Quaterniond SolutionTable::q_nb(std::size_t k) const {
 }
 
 SolutionTable TableFromSolution(const Solution& solution) {
+  return TableFromSolution(solution, 0, solution.states.size());
+}
+
+SolutionTable TableFromSolution(const Solution& solution, std::size_t begin,
+                                std::size_t end) {
   SolutionTable table;
   table.method = solution.method;
+  const auto take = [begin, end](const auto& from, auto* to) {
+    if (from.empty()) return;
+    to->assign(from.begin() + static_cast<std::ptrdiff_t>(begin),
+               from.begin() + static_cast<std::ptrdiff_t>(end));
+  };
   if (solution.two_filter) {
-    table.separation = solution.two_filter->separation;
-    table.separations = solution.two_filter->components;
+    take(solution.two_filter->separation, &table.separation);
+    take(solution.two_filter->components, &table.separations);
   }
   if (solution.attitude) {
-    table.accel_sigma = solution.attitude->accel_sigma;
-    table.magnetic = solution.attitude->magnetic;
+    take(solution.attitude->accel_sigma, &table.accel_sigma);
+    take(solution.attitude->magnetic, &table.magnetic);
   }
   const ErrorLayout& layout = solution.layout;
   const bool has_position = layout.Has(BlockKind::kPosition);
-  for (const State& x : solution.states) {
+  for (std::size_t k = begin; k < end; ++k) {
+    const State& x = solution.states[k];
     table.t.push_back(x.t);
     // Without a place the state's own axes at p_e would be arbitrary; its
     // velocity and attitude are brought to local axes once, here.
@@ -78,7 +92,9 @@ SolutionTable TableFromSolution(const Solution& solution) {
     if (layout.Has(BlockKind::kGyroBias)) table.b_g.push_back(x.b_g);
     if (layout.Has(BlockKind::kAccelBias)) table.b_a.push_back(x.b_a);
   }
-  FillCovariances(solution, &table);
+  if (!solution.covariances.empty()) {
+    FillCovariances(solution, begin, end, &table);
+  }
   return table;
 }
 

@@ -46,6 +46,9 @@ struct SolutionTable {
 /// The columns of a solution: those whose block the layout estimates, and
 /// their covariances where no axis of the block is masked.
 SolutionTable TableFromSolution(const Solution& solution);
+/// The same of its states from `begin` to before `end`.
+SolutionTable TableFromSolution(const Solution& solution, std::size_t begin,
+                                std::size_t end);
 
 /// Some rows of a table, by their numbers.
 SolutionTable RowsOf(const SolutionTable& table,

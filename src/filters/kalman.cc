@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "linear/small_product.h"
 #include "linear/sparse_product.h"
 
 namespace hindsight {
@@ -31,18 +32,17 @@ Innovation Innovate(const LinearizedMeasurement& z, const ErrorVector& dx,
   return out;
 }
 
-// Few columns times few rows: the blocks of a general product do not pay.
 GainMatrix Update(const LinearizedMeasurement& z, const Innovation& innovation,
                   ErrorVector* dx, ErrorMatrix* P) {
   const GainMatrix PHt = TimesTransposed(*P, z.H);
   const Eigen::LLT<RowMatrix> llt(innovation.S);
   const GainMatrix K = llt.solve(PHt.transpose()).transpose();
   *dx += K * innovation.residual;
-  P->noalias() -= K.lazyProduct(PHt.transpose());  // (I - K H) P
+  AddProduct<-1>(K, PHt.transpose(), P);  // (I - K H) P
   const GainMatrix APHt = TimesTransposed(*P, z.H);
-  P->noalias() -= APHt.lazyProduct(K.transpose());
+  AddProduct<-1>(APHt, K.transpose(), P);
   const GainMatrix KR = K.lazyProduct(z.R);
-  P->noalias() += KR.lazyProduct(K.transpose());
+  AddProduct<1>(KR, K.transpose(), P);
   Symmetrize(P);
   return K;
 }

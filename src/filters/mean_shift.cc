@@ -6,6 +6,7 @@
 
 #include "filters/tape_adjoint.h"
 #include "filters/tape_gains.h"
+#include "linear/small_product.h"
 #include "linear/sparse_product.h"
 
 namespace hindsight {
@@ -56,8 +57,7 @@ class GroupScore {
 
   /// Before a measurement that they do not enter.
   void BackBefore(const TapeMeasurement& z) {
-    const Eigen::MatrixXd XK = bx_.lazyProduct(z.K);
-    bx_ -= XK.lazyProduct(z.H);
+    AddProduct<-1>(Reached(z.K), z.H, &bx_);
   }
 
   /// Before one that they enter by B: `ahead` is S^-1 nu - K' lambda of the state,
@@ -65,7 +65,7 @@ class GroupScore {
   void BackBefore(const TapeMeasurement& z, const Eigen::MatrixXd& B, double t,
                   const RowVector& ahead, const RowMatrix& weight,
                   const GainMatrix& LK) {
-    const Eigen::MatrixXd XK = bx_.lazyProduct(z.K);
+    const Eigen::MatrixXd XK = Reached(z.K);
     const Eigen::MatrixXd BW = B.transpose().lazyProduct(weight);
     const Eigen::MatrixXd BKL = B.transpose().lazyProduct(LK.transpose());
     AddLambda(B.transpose() * ahead, t);
@@ -73,13 +73,15 @@ class GroupScore {
       const Eigen::MatrixXd grows = t * BW - XK.bottomRows(count_);
       both_ += RowSums(grows - t * XK.topRows(count_), B.transpose());
       grows_ += t * RowSums(grows - XK.bottomRows(count_), B.transpose());
-      growing() += grows.lazyProduct(z.H);
-      growing() -= t * BKL;
+      auto growing = this->growing();
+      AddProduct<1>(grows, z.H, &growing);
+      growing -= t * BKL;
     }
     const Eigen::MatrixXd stays = BW - XK.topRows(count_);
     stays_ += RowSums(stays - XK.topRows(count_), B.transpose());
-    staying() += stays.lazyProduct(z.H);
-    staying() -= BKL;
+    auto staying = this->staying();
+    AddProduct<1>(stays, z.H, &staying);
+    staying -= BKL;
   }
 
   bool may_grow() const { return may_grow_; }
@@ -97,6 +99,13 @@ class GroupScore {
   double largest_term(Eigen::Index i) const { return grows_(i); }
 
  private:
+  /// Of Lambda K.
+  template <typename Gain>
+  Eigen::MatrixXd Reached(const Gain& K) const {
+    Eigen::MatrixXd XK;
+    Multiply(bx_, K, /*lower=*/false, &XK);
+    return XK;
+  }
   void AddLambda(const Eigen::VectorXd& added, double t) {
     lambda_.head(count_) += added;
     lambda_.tail(count_) += t * added;
@@ -164,7 +173,8 @@ class AdjointPass {
     const Eigen::LLT<RowMatrix> S(z.S);
     const RowVector ahead =
         S.solve(z.innovation) - z.K.transpose() * state_.lambda();
-    const GainMatrix LK = state_.Lambda().lazyProduct(z.K);
+    GainMatrix LK;
+    Multiply(state_.Lambda(), z.K, /*lower=*/false, &LK);
     RowMatrix weight = S.solve(RowMatrix::Identity(z.S.rows(), z.S.cols()));
     weight += z.K.transpose().lazyProduct(LK);
     std::set<ShiftColumns::Group> entered;

@@ -5,6 +5,7 @@
 
 #include "filters/shift_response.h"
 #include "filters/tape_gains.h"
+#include "linear/small_product.h"
 #include "linear/sparse_product.h"
 
 namespace hindsight {
@@ -96,7 +97,7 @@ class OnsetPass {
       span.information.col(c).tail(below) +=
           g.bottomRows(below).lazyProduct(weighted.row(c).transpose());
     }
-    span.error += g.lazyProduct(z.K.transpose());
+    AddProduct<1>(g, z.K.transpose(), &span.error);
   }
 
   void Enter(std::size_t k, const TapeMeasurement& z,

@@ -52,19 +52,19 @@ ErrorVector AddedTo(std::size_t k, const Course& course, const LinearTape& tape,
 /// each of them: both go with the free inertial navigation, whose heights grow
 /// by e every ten minutes.
 struct Response {
-  std::vector<ErrorVector> minus;
+  Eigen::MatrixXd minus;               ///< a column an epoch
   std::vector<RowVector> innovations;  ///< that it causes, of all measurements
 };
 
 Response Filtered(const Course& course, const LinearTape& tape,
                   const ShiftColumns& columns) {
   Response out;
-  out.minus.reserve(tape.size());
+  out.minus.resize(tape.dim(), static_cast<Eigen::Index>(tape.size()));
   ErrorVector error = ErrorVector::Zero(tape.dim());
   for (std::size_t k = 0; k < tape.size(); ++k) {
     if (k > 0) error = (tape.Phi(k) * error).eval();
     error += AddedTo(k, course, tape, columns);
-    out.minus.push_back(error);
+    out.minus.col(static_cast<Eigen::Index>(k)) = error;
     const auto all = tape.measurements(k);
     for (const auto& z : all) {
       RowVector& innovation = out.innovations.emplace_back();
@@ -76,14 +76,13 @@ Response Filtered(const Course& course, const LinearTape& tape,
   return out;
 }
 
-std::vector<ErrorVector> CorrectionForCourse(Course course,
-                                             const LinearTape& tape,
-                                             const ShiftColumns& columns) {
+Eigen::MatrixXd CorrectionForCourse(Course course, const LinearTape& tape,
+                                    const ShiftColumns& columns) {
   RequireFixedNominal(tape);
   course.is_driven = columns.driven && tape.size() > 1 &&
                      columns.driven(1).group == course.group;
   Response response = Filtered(course, tape, columns);
-  std::vector<ErrorVector> correction = std::move(response.minus);
+  Eigen::MatrixXd correction = std::move(response.minus);
   ErrorVector lambda = ErrorVector::Zero(tape.dim());
   for (std::size_t k = tape.size(); k-- > 0;) {
     if (k + 1 < tape.size()) {
@@ -96,16 +95,15 @@ std::vector<ErrorVector> CorrectionForCourse(Course course,
       }
       response.innovations.pop_back();
     }
-    correction[k] -= tape.P_minus(k) * lambda;
+    correction.col(static_cast<Eigen::Index>(k)) -= tape.P_minus(k) * lambda;
   }
   return correction;
 }
 
 }  // namespace
 
-std::vector<ErrorVector> CorrectionFor(const MeanShift& shift,
-                                       const LinearTape& tape,
-                                       const ShiftColumns& columns) {
+Eigen::MatrixXd CorrectionFor(const MeanShift& shift, const LinearTape& tape,
+                              const ShiftColumns& columns) {
   Course course{.of_state = shift.of_state, .onset = shift.onset};
   if (shift.of_state) {
     course.component = shift.column;
@@ -121,12 +119,12 @@ std::vector<ErrorVector> CorrectionFor(const MeanShift& shift,
   return CorrectionForCourse(std::move(course), tape, columns);
 }
 
-std::vector<ErrorVector> CorrectionForSteps(ShiftColumns::Group group,
-                                            std::span<const int> wanted,
-                                            std::span<const std::size_t> onsets,
-                                            const Eigen::MatrixXd& steps,
-                                            const LinearTape& tape,
-                                            const ShiftColumns& columns) {
+Eigen::MatrixXd CorrectionForSteps(ShiftColumns::Group group,
+                                   std::span<const int> wanted,
+                                   std::span<const std::size_t> onsets,
+                                   const Eigen::MatrixXd& steps,
+                                   const LinearTape& tape,
+                                   const ShiftColumns& columns) {
   Course course{.onset = onsets.front(), .group = group};
   course.columns.assign(wanted.begin(), wanted.end());
   course.sizes.setZero(static_cast<Eigen::Index>(tape.size()), steps.cols());

@@ -9,11 +9,11 @@
 
 namespace hindsight {
 
-/// By what the smoothed errors of all epochs change where a deviation of the
-/// size of one is allowed for: truth less estimate, of the tape that has it.
-std::vector<ErrorVector> CorrectionFor(const MeanShift& shift,
-                                       const LinearTape& tape,
-                                       const ShiftColumns& columns);
+/// By what the smoothed errors of all epochs, a column each, change where a
+/// deviation of the size of one is allowed for: truth less estimate, of the tape
+/// that has it.
+Eigen::MatrixXd CorrectionFor(const MeanShift& shift, const LinearTape& tape,
+                              const ShiftColumns& columns);
 
 /// z() of the onsets of one column from several epochs, squared and added up: of
 /// a right system, where z ~ N(0, C), a weighted sum of chi-square variables of
@@ -46,12 +46,12 @@ GroupEnergy EnergiesOf(ShiftColumns::Group group, std::span<const int> wanted,
                        const LinearTape& tape, const ShiftColumns& columns);
 
 /// The same as CorrectionFor of columns that step by `steps`, a row an onset.
-std::vector<ErrorVector> CorrectionForSteps(ShiftColumns::Group group,
-                                            std::span<const int> wanted,
-                                            std::span<const std::size_t> onsets,
-                                            const Eigen::MatrixXd& steps,
-                                            const LinearTape& tape,
-                                            const ShiftColumns& columns);
+Eigen::MatrixXd CorrectionForSteps(ShiftColumns::Group group,
+                                   std::span<const int> wanted,
+                                   std::span<const std::size_t> onsets,
+                                   const Eigen::MatrixXd& steps,
+                                   const LinearTape& tape,
+                                   const ShiftColumns& columns);
 
 }  // namespace hindsight
 

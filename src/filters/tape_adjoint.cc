@@ -5,6 +5,7 @@
 
 #include "filters/kalman.h"
 #include "filters/tape_gains.h"
+#include "linear/small_product.h"
 #include "linear/sparse_product.h"
 
 namespace hindsight {
@@ -17,8 +18,9 @@ void TapeAdjoint::BackOver(const ErrorMatrix& Phi) {
 
 void TapeAdjoint::BackBefore(const TapeMeasurement& z) {
   lambda_ = LambdaBefore(z, z.innovation, lambda_);
-  const GainMatrix LK = Lambda_.lazyProduct(z.K);
-  Lambda_.noalias() -= LK.lazyProduct(z.H);
+  GainMatrix LK;
+  Multiply(Lambda_, z.K, /*lower=*/false, &LK);
+  AddProduct<-1>(LK, z.H, &Lambda_);
   RowJacobian direct = Eigen::LLT<RowMatrix>(z.S).solve(z.H);
   direct.noalias() -= z.K.transpose().lazyProduct(Lambda_);
   Lambda_.noalias() += z.H.transpose().lazyProduct(direct);

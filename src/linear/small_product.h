@@ -3,32 +3,95 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 namespace hindsight {
 
 // Of matrices that the first cache holds, for which the copies that a general
 // product makes of its factors take longer than the product. All are column-major.
 
+/// All of the columns of A and rows of B that a product adds up.
+struct WholeInside {
+  Eigen::Index count;
+  Eigen::Index size() const { return count; }
+  Eigen::Index operator[](Eigen::Index i) const { return i; }
+};
+
+/// Those of a B of up to kMost rows of which either of two columns has an element
+/// that is not zero.
+class NonzeroInside {
+ public:
+  static constexpr Eigen::Index kMost = 16;
+
+  template <typename Right>
+  NonzeroInside(const Right& B, Eigen::Index j0, Eigen::Index j1) {
+    const double* b0 = B.data() + j0 * B.colStride();
+    const double* b1 = B.data() + j1 * B.colStride();
+    // No branch, which no processor would guess, and the count in a register.
+    Eigen::Index size = 0;
+    for (Eigen::Index k = 0; k < B.rows(); ++k) {
+      rows_[size] = k;
+      const std::uint64_t bits =
+          std::bit_cast<std::uint64_t>(*b0) | std::bit_cast<std::uint64_t>(*b1);
+      size += static_cast<Eigen::Index>((bits << 1) != 0);  // but for the sign
+      b0 += B.rowStride();
+      b1 += B.rowStride();
+    }
+    size_ = size;
+  }
+  Eigen::Index size() const { return size_; }
+  Eigen::Index operator[](Eigen::Index i) const { return rows_[i]; }
+
+ private:
+  Eigen::Index rows_[kMost];
+  Eigen::Index size_ = 0;
+};
+
 /// Rows of two columns of A B that the compiler keeps in registers.
-template <int Rows, typename Left, typename Right, typename Out>
-inline void MultiplyStrip(const Left& A, const Right& B, Eigen::Index first,
-                          Eigen::Index j0, Eigen::Index j1, Out* out) {
+template <int Rows, typename Left, typename Right, typename Inside,
+          typename Out>
+inline void MultiplyStrip(const Left& A, const Right& B, const Inside& inside,
+                          Eigen::Index first, Eigen::Index j0, Eigen::Index j1,
+                          Out* out) {
   using Strip = Eigen::Array<double, Rows, 1>;
   Strip sum0 = Strip::Zero();
   Strip sum1 = Strip::Zero();
   const double* a = A.data() + first;
   const double* b0 = B.data() + j0 * B.colStride();
   const double* b1 = B.data() + j1 * B.colStride();
-  for (Eigen::Index k = 0; k < A.cols(); ++k) {
-    const Strip column = Eigen::Map<const Strip>(a);
-    sum0 += column * *b0;
-    sum1 += column * *b1;
-    a += A.outerStride();
-    b0 += B.rowStride();
-    b1 += B.rowStride();
+  for (Eigen::Index i = 0; i < inside.size(); ++i) {
+    const Eigen::Index k = inside[i];
+    const Strip column = Eigen::Map<const Strip>(a + k * A.outerStride());
+    sum0 += column * b0[k * B.rowStride()];
+    sum1 += column * b1[k * B.rowStride()];
   }
   Eigen::Map<Strip>(out->data() + j0 * out->outerStride() + first) = sum0;
   Eigen::Map<Strip>(out->data() + j1 * out->outerStride() + first) = sum1;
+}
+
+/// Two columns of A B from row `i` on at the least.
+template <typename Left, typename Right, typename Inside, typename Out>
+inline void MultiplyColumns(const Left& A, const Right& B, const Inside& inside,
+                            Eigen::Index i, Eigen::Index j0, Eigen::Index j1,
+                            Out* out) {
+  const Eigen::Index rows = A.rows();
+  if (rows >= 8) {
+    for (; i + 8 < rows; i += 8) {
+      MultiplyStrip<8>(A, B, inside, i, j0, j1, out);
+    }
+    // The last strip may do some rows once more.
+    if (i + 4 < rows) {
+      MultiplyStrip<8>(A, B, inside, rows - 8, j0, j1, out);
+    } else {
+      MultiplyStrip<4>(A, B, inside, rows - 4, j0, j1, out);
+    }
+  } else if (rows >= 4) {
+    if (i + 4 < rows) MultiplyStrip<4>(A, B, inside, i, j0, j1, out);
+    MultiplyStrip<4>(A, B, inside, rows - 4, j0, j1, out);
+  } else {
+    for (; i < rows; ++i) MultiplyStrip<1>(A, B, inside, i, j0, j1, out);
+  }
 }
 
 /// out = A B, of which B may be transposed and A and B parts of others. With
@@ -36,21 +99,67 @@ inline void MultiplyStrip(const Left& A, const Right& B, Eigen::Index first,
 template <typename Left, typename Right, typename Out>
 void Multiply(const Left& A, const Right& B, bool lower, Out* out) {
   static_assert(!Left::IsRowMajor && !Out::IsRowMajor);
-  constexpr int kStrip = 8;
-  const Eigen::Index rows = A.rows();
-  out->resize(rows, B.cols());
+  out->resize(A.rows(), B.cols());
+  for (Eigen::Index j = 0; j < B.cols(); j += 2) {
+    MultiplyColumns(A, B, WholeInside{A.cols()}, lower ? j : 0, j,
+                    std::min(j + 1, B.cols() - 1), out);
+  }
+}
+
+/// out = A B for a B of up to NonzeroInside::kMost rows and many zeros, which it
+/// passes over.
+template <typename Left, typename Right, typename Out>
+void MultiplyBySparse(const Left& A, const Right& B, Out* out) {
+  static_assert(!Left::IsRowMajor && !Out::IsRowMajor);
+  out->resize(A.rows(), B.cols());
   for (Eigen::Index j = 0; j < B.cols(); j += 2) {
     const Eigen::Index next = std::min(j + 1, B.cols() - 1);
-    Eigen::Index i = lower ? j : 0;
-    if (rows >= kStrip) {
-      for (; i + kStrip < rows; i += kStrip) {
-        MultiplyStrip<kStrip>(A, B, i, j, next, out);
-      }
-      // The last strip may do some rows once more.
-      MultiplyStrip<kStrip>(A, B, rows - kStrip, j, next, out);
-    } else {
-      for (; i < rows; ++i) MultiplyStrip<1>(A, B, i, j, next, out);
+    MultiplyColumns(A, B, NonzeroInside(B, j, next), 0, j, next, out);
+  }
+}
+
+/// Rows of two columns of `out` and of A B, of few columns of A: out + Sign A B.
+template <int Rows, int Sign, typename Left, typename Right, typename Out>
+inline void AddStrip(const Left& A, const Right& B, Eigen::Index first,
+                     Eigen::Index j0, Eigen::Index j1, Out* out) {
+  using Strip = Eigen::Array<double, Rows, 1>;
+  Strip sum0 = Strip::Zero();
+  Strip sum1 = Strip::Zero();
+  const double* a = A.data() + first;
+  const double* b0 = B.data() + j0 * B.colStride();
+  const double* b1 = B.data() + j1 * B.colStride();
+  for (Eigen::Index k = 0; k < A.cols(); ++k) {
+    const Strip column = Eigen::Map<const Strip>(a + k * A.outerStride());
+    sum0 += column * b0[k * B.rowStride()];
+    sum1 += column * b1[k * B.rowStride()];
+  }
+  Eigen::Map<Strip> out0(out->data() + j0 * out->outerStride() + first);
+  Eigen::Map<Strip> out1(out->data() + j1 * out->outerStride() + first);
+  const Strip new0 = Sign > 0 ? Strip(out0 + sum0) : Strip(out0 - sum0);
+  const Strip new1 = Sign > 0 ? Strip(out1 + sum1) : Strip(out1 - sum1);
+  out0 = new0;
+  out1 = new1;
+}
+
+/// out + Sign A B in the place of `out`, for an A of few columns. B may be
+/// transposed, and each of them a part of another.
+template <int Sign, typename Left, typename Right, typename Out>
+void AddProduct(const Left& A, const Right& B, Out* out) {
+  static_assert(!Left::IsRowMajor && !Out::IsRowMajor);
+  const Eigen::Index rows = A.rows();
+  for (Eigen::Index j = 0; j < B.cols(); j += 2) {
+    const Eigen::Index next = std::min(j + 1, B.cols() - 1);
+    Eigen::Index i = 0;
+    for (; rows - i >= 8; i += 8) AddStrip<8, Sign>(A, B, i, j, next, out);
+    if (rows - i >= 4) {
+      AddStrip<4, Sign>(A, B, i, j, next, out);
+      i += 4;
     }
+    if (rows - i >= 2) {
+      AddStrip<2, Sign>(A, B, i, j, next, out);
+      i += 2;
+    }
+    if (i < rows) AddStrip<1, Sign>(A, B, i, j, next, out);
   }
 }
 
@@ -80,6 +189,10 @@ void SubtractColumnsOf(Eigen::Index j, Eigen::Index first,
   if (X->rows() - row >= 4) {
     SubtractStrip<4>(j, first, c, row, X);
     row += 4;
+  }
+  if (X->rows() - row >= 2) {
+    SubtractStrip<2>(j, first, c, row, X);
+    row += 2;
   }
   for (; row < X->rows(); ++row) SubtractStrip<1>(j, first, c, row, X);
 }

@@ -69,6 +69,32 @@ class AttitudeAlone : public ::testing::Test {
   std::string said_;
 };
 
+/// Stamps of the rows of a table [s].
+std::vector<double> StampsOf(const std::string& table) {
+  std::vector<double> stamps;
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find_first_of("0123456789") == 0) {
+      stamps.push_back(std::stod(line));
+    }
+  }
+  return stamps;
+}
+
+// More of them than rows are written at once.
+TEST_F(AttitudeAlone, HasARowASample) {
+  Simulate(BodyAlone("  - {type: straight, duration: 125 s}\n", kFibreOptic));
+  Run();
+  const std::vector<double> stamps =
+      StampsOf(ReadFile(folder_.path() / "out/ahrs.csv"));
+  ASSERT_GT(stamps.size(), 12000u) << said_;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    ASSERT_NEAR(stamps[i] - stamps[i - 1], 0.01, 1e-5) << i;
+  }
+  EXPECT_EQ(StampsOf(ReadFile(folder_.path() / "out/ahrs.motion.csv")).size(),
+            stamps.size());
+}
+
 TEST_F(AttitudeAlone, IsNotUsableWhereTheBodyAccelerates) {
   std::string drive;
   for (int i = 0; i < 5; ++i) {

@@ -83,13 +83,14 @@ TEST_P(MeanShiftOfFixes, IsWhatChangesWithTheMeasurements) {
   EXPECT_NEAR(is.information, was.information, 1e-6 * was.information);
   EXPECT_NEAR(is.size() - was.size(), 1.0, 1e-5);
 
-  const std::vector<ErrorVector> correction =
-      CorrectionFor(was, before, Additive());
+  const Eigen::MatrixXd correction = CorrectionFor(was, before, Additive());
   const SmoothedTrajectory a = SmoothMeans(before);
   const SmoothedTrajectory b = SmoothMeans(after);
   for (std::size_t k = 0; k < a.d.size(); ++k) {
     const ErrorVector moved = b.d[k] - a.d[k];
-    EXPECT_TRUE(moved.isApprox(-correction[k], 1e-5)) << k;
+    EXPECT_TRUE(
+        moved.isApprox(-correction.col(static_cast<Eigen::Index>(k)), 1e-5))
+        << k;
   }
 }
 
@@ -178,17 +179,18 @@ TEST(MeanShift, OfStepsIsTheSumOfItsSteps) {
   const std::vector<std::size_t> onsets = {0, 7, 12};
   const std::vector<MeanShift> all =
       ScoreShifts(tape, Additive(), onsets).shifts;
-  const std::vector<ErrorVector> a =
+  const Eigen::MatrixXd a =
       CorrectionFor(Find(all, 7, false), tape, Additive());
-  const std::vector<ErrorVector> b =
+  const Eigen::MatrixXd b =
       CorrectionFor(Find(all, 12, false), tape, Additive());
   const std::vector<int> wanted = {0};
   const Eigen::MatrixXd steps = Eigen::Vector3d(0.0, 1.5, -2.0);
-  const std::vector<ErrorVector> both =
+  const Eigen::MatrixXd both =
       CorrectionForSteps(kPositions, wanted, onsets, steps, tape, Additive());
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    const ErrorVector sum = 1.5 * a[k] - 2.0 * b[k];
-    EXPECT_LT((both[k] - sum).norm(), 1e-9 * (1.0 + sum.norm())) << k;
+  ASSERT_EQ(both.cols(), static_cast<Eigen::Index>(tape.size()));
+  for (Eigen::Index k = 0; k < both.cols(); ++k) {
+    const ErrorVector sum = 1.5 * a.col(k) - 2.0 * b.col(k);
+    EXPECT_LT((both.col(k) - sum).norm(), 1e-9 * (1.0 + sum.norm())) << k;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 namespace hindsight {
 namespace {
@@ -33,6 +34,44 @@ TEST_P(SmallProduct, OfASymmetricOneHasTheLowerHalf) {
             1e-13 * n);
 }
 
+// To the last bit, as what is passed over adds zeros.
+TEST_P(SmallProduct, PassesOverZeros) {
+  const int n = GetParam();
+  const int inside = std::min<int>(n, NonzeroInside::kMost);
+  for (const int columns : {1, 2, inside}) {
+    const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, inside);
+    Eigen::MatrixXd B = Eigen::MatrixXd::Random(inside, columns);
+    for (Eigen::Index i = 0; i < B.size(); ++i) {
+      if (i % 3 != 1) B(i) = 0.0;
+    }
+    Eigen::MatrixXd whole, sparse;
+    Multiply(A, B, /*lower=*/false, &whole);
+    MultiplyBySparse(A, B, &sparse);
+    EXPECT_EQ(sparse, whole) << columns;
+    const Eigen::MatrixXd B_transposed = B.transpose();
+    MultiplyBySparse(A, B_transposed.transpose(), &sparse);
+    EXPECT_EQ(sparse, whole) << columns;
+  }
+}
+
+TEST_P(SmallProduct, IsAddedAndSubtracted) {
+  const int n = GetParam();
+  for (const int columns : {1, 2, n}) {
+    const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, 3);
+    const Eigen::MatrixXd B = Eigen::MatrixXd::Random(3, columns);
+    const Eigen::MatrixXd X = Eigen::MatrixXd::Random(n + 2, columns + 1);
+    Eigen::MatrixXd out = X;
+    auto part = out.block(1, 1, n, columns);
+    AddProduct<1>(A, B, &part);
+    Eigen::MatrixXd expected = X;
+    expected.block(1, 1, n, columns) += A * B;
+    EXPECT_LT((out - expected).norm(), 1e-14 * n) << columns;
+    const Eigen::MatrixXd B_transposed = B.transpose();
+    AddProduct<-1>(A, B_transposed.transpose(), &part);
+    EXPECT_LT((out - X).norm(), 1e-14 * n) << columns;
+  }
+}
+
 TEST_P(SmallProduct, IsDividedByACholeskyFactor) {
   const int n = GetParam();
   const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n);
@@ -45,7 +84,8 @@ TEST_P(SmallProduct, IsDividedByACholeskyFactor) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, SmallProduct,
-                         ::testing::Values(1, 2, 3, 7, 8, 9, 15, 16, 31, 48));
+                         ::testing::Values(1, 2, 3, 4, 5, 7, 8, 9, 11, 12, 15,
+                                           16, 31, 48));
 
 TEST(SmallSquare, IsSubtractedAtAnySize) {
   using Wide =

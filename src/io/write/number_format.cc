@@ -96,7 +96,7 @@ bool AppendFixedQuickly(double value, int decimals, std::string* out) {
   char* const point = PutWhole(digits / one, to);
   to = PutWhole(one + digits % one, point);  // a digit more, for zeros in front
   *point = '.';
-  out->append(buffer.data(), to);
+  out->append(buffer.data(), static_cast<std::size_t>(to - buffer.data()));
   return true;
 }
 
@@ -158,7 +158,7 @@ bool AppendGeneralQuickly(double value, int count, std::string* out) {
     if (std::abs(exponent) < 10) *to++ = '0';
     to = PutWhole(static_cast<std::uint64_t>(std::abs(exponent)), to);
   }
-  out->append(buffer.data(), to);
+  out->append(buffer.data(), static_cast<std::size_t>(to - buffer.data()));
   return true;
 }
 
