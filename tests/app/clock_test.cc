@@ -213,6 +213,33 @@ TEST(ClocksOfRecordings, ErrorsThatLastDoNotTurnAFlight) {
       without, 0.1);
 }
 
+/// Spikes turn it for the batch. Without what is found to be off the clock is told,
+/// and the search begins there again.
+TEST(ClocksOfRecordings, SpikesDoNotTurnAFlight) {
+  if (!std::filesystem::exists(kClockRecordings / "drone_paths")) {
+    GTEST_SKIP() << "the recording drone_paths is not here";
+  }
+  const TemporaryFolder folder;
+  Hindsight(
+      {"run", (kClockData / "drone_path_27.yaml").string(),
+       "--data-root=" + kClockRecordings.string(),
+       "--methods=batch,robust_batch", "--out=out",
+       "--inject=rtk:spikes=3m,share=20%,from=7.8s,to=14.1s", "--seed=434671"},
+      folder.path());
+  const nlohmann::json methods = nlohmann::json::parse(
+      ReadFile(folder.path() / "out/summary.json"))["methods"];
+  const auto offset = [&](const char* method) {
+    return methods[method]["constants"]["rtk_time_offset"]["value"]
+        .get<double>();
+  };
+  EXPECT_GT(offset("batch"), 0.0);
+  EXPECT_NEAR(offset("robust_batch"), -0.625, 0.05);
+  EXPECT_EQ(methods["robust_batch"]["grade"], "usable");
+  EXPECT_LT(
+      methods["robust_batch"]["withheld"]["horizontal_rms_m"].get<double>(),
+      0.08);
+}
+
 /// Through the file, as a logger leaves it that is set anew on the way.
 TEST(ImuClock, ThatLeapsIsToldWithItsSize) {
   Recording recording;

@@ -1,0 +1,87 @@
+#include "receiver_errors/error_chain.h"
+
+#include <gtest/gtest.h>
+
+#include "receiver_errors/receiver_tape.h"
+
+namespace hindsight {
+namespace {
+
+using testing::PositionsOnly;
+using testing::TapeOf;
+using testing::TestProblem;
+using testing::WithoutOutliers;
+
+constexpr ErrorStep kStayGood = {ErrorMode::kGood};
+constexpr ErrorStep kStepVelocity = {ErrorMode::kGood, false, true};
+
+/// Good fixes up to node k, which is predicted but for the error.
+Gaussian PredictedTo(std::size_t end, ErrorChain* chain) {
+  Gaussian x = chain->Begin();
+  for (std::size_t k = 0;; ++k) {
+    chain->MoveTo(k);
+    chain->PredictNavigation(&x);
+    if (k == end) return x;
+    chain->PredictError(kStayGood, &x);
+    chain->UpdateAll(false, &x);
+  }
+}
+
+/// Without the fixes of nodes `begin` to past `end`.
+LinearTape WithGap(std::size_t begin, std::size_t end) {
+  const TestProblem problem = PositionsOnly(40.0);
+  GateDecisions used(problem.measurements.size(), 1);
+  for (std::size_t k = begin; k < end; ++k) used[k] = 0;
+  return TapeOf(problem, used);
+}
+
+/// A step of the velocity behind a gap is one at its begin.
+TEST(ErrorChain, StepsOfTheVelocityReachOverAGap) {
+  constexpr std::size_t kBegin = 15;
+  constexpr std::size_t kEnd = 25;
+  const LinearTape tape = WithGap(kBegin, kEnd);
+  ErrorParameters p = WithoutOutliers();
+  p.rate_sigma = 0.3;
+  for (const auto& [node, last] :
+       {std::pair{kBegin - 1, kBegin - 2}, {kEnd, kBegin - 1}}) {
+    ErrorChain chain(tape, 0, p);
+    Gaussian x = PredictedTo(node, &chain);
+    const auto before = chain.LikelihoodAfter(kStepVelocity, chain.ViewOf(x));
+    Gaussian stepped = x;
+    chain.PredictError(kStayGood, &x);
+    chain.PredictError(kStepVelocity, &stepped);
+    const double T = tape.t(node) - tape.t(last);
+    const double q = p.rate_sigma * p.rate_sigma;
+    const int pos = tape.layout().Find(BlockKind::kPosition)->offset;
+    const int vel = tape.layout().Find(BlockKind::kVelocity)->offset;
+    const ErrorMatrix added = stepped.P - x.P;
+    const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+    EXPECT_TRUE((added.block<3, 3>(pos, pos).isApprox(q * T * T * I, 1e-9)));
+    EXPECT_TRUE((added.block<3, 3>(pos, vel).isApprox(q * T * I, 1e-9)));
+    EXPECT_TRUE((added.block<3, 3>(vel, vel).isApprox(q * I, 1e-9)));
+    EXPECT_NEAR(before.log, chain.LikelihoodOfFix(kStepVelocity, stepped).log,
+                1e-9);
+    EXPECT_TRUE(
+        (chain.Q(kStepVelocity) - chain.Q(kStayGood)).isApprox(added, 1e-9));
+  }
+}
+
+/// Another receiver that measures in the gap has seen where the vehicle was.
+TEST(ErrorChain, OtherPositionsEndTheReachOfAStep) {
+  TestProblem problem = PositionsOnly(40.0);
+  constexpr std::size_t kNode = 25;
+  problem.sensors.push_back(problem.sensors[0]);
+  for (std::size_t k = 15; k < kNode; ++k) problem.measurements[k].sensor = 1;
+  const LinearTape tape = TapeOf(problem);
+  ErrorParameters p = WithoutOutliers();
+  p.rate_sigma = 0.3;
+  ErrorChain chain(tape, 0, p);
+  PredictedTo(kNode, &chain);
+  const int pos = tape.layout().Find(BlockKind::kPosition)->offset;
+  const double dt = tape.t(kNode) - tape.t(kNode - 1);
+  EXPECT_NEAR((chain.Q(kStepVelocity) - chain.Q(kStayGood))(pos, pos),
+              p.rate_sigma * p.rate_sigma * dt * dt, 1e-9);
+}
+
+}  // namespace
+}  // namespace hindsight
