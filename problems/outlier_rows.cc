@@ -1,9 +1,12 @@
 #include "problems/outlier_rows.h"
 
+#include <fmt/core.h>
+
 #include <cstddef>
 #include <vector>
 
 #include "base/median.h"
+#include "measurements/sensor_kind.h"
 
 namespace hindsight {
 
@@ -30,6 +33,35 @@ RowAtGap LongestRowAtGap(std::span<const TakenFix> fixes) {
     begin = end;
   }
   return longest;
+}
+
+void DoubtOutliersAtGaps(const Timeline& timeline,
+                         const std::vector<ResidualRecord>& residuals,
+                         std::vector<Evidence>* doubts) {
+  constexpr double kOutlier = 0.5;  // weight
+  constexpr int kLeast = 2;
+  std::vector<std::vector<TakenFix>> fixes(timeline.sensors().size());
+  for (const ResidualRecord& r : residuals) {
+    if (r.withheld || !r.accepted) continue;
+    fixes[static_cast<std::size_t>(r.sensor)].push_back(
+        {r.t, r.weight < kOutlier});
+  }
+  for (std::size_t i = 0; i < fixes.size(); ++i) {
+    const Sensor& sensor = timeline.sensors()[i];
+    const RowAtGap row = LongestRowAtGap(fixes[i]);
+    if (!sensor.kind->is_position || row.count < kLeast) continue;
+    doubts->push_back(
+        {.grade = Grade::kDoubtful,
+         .what = fmt::format("{} fixes of {} in a row, from {:.1f} to {:.1f} s "
+                             "next to a gap, are taken for outliers",
+                             row.count, sensor.name, row.begin, row.end),
+         .value = static_cast<double>(row.count),
+         .limit = static_cast<double>(kLeast),
+         .unit = "fixes",
+         .causes = {"outliers at the edge of an outage, or fixes that were off "
+                    "before it"},
+         .remedies = {"a position that is known there"}});
+  }
 }
 
 }  // namespace hindsight

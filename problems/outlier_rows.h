@@ -2,6 +2,11 @@
 #define HINDSIGHT_PROBLEMS_OUTLIER_ROWS_H_
 
 #include <span>
+#include <vector>
+
+#include "state/evidence.h"
+#include "state/solution.h"
+#include "timeline/timeline.h"
 
 namespace hindsight {
 
@@ -22,6 +27,13 @@ struct RowAtGap {
 /// them; a gap is more than five times the median spacing. Fixes in the order of
 /// time.
 RowAtGap LongestRowAtGap(std::span<const TakenFix> fixes);
+
+/// Outliers come one by one. Two and more, behind which nothing follows that
+/// would agree with the fixes before them, may be the right ones: of each sensor of
+/// positions that has such a doubt is added. Outliers have a weight below a half.
+void DoubtOutliersAtGaps(const Timeline& timeline,
+                         const std::vector<ResidualRecord>& residuals,
+                         std::vector<Evidence>* doubts);
 
 }  // namespace hindsight
 

@@ -1,7 +1,5 @@
 #include "problems/robust_batch.h"
 
-#include <fmt/core.h>
-
 #include <chrono>
 #include <optional>
 #include <set>
@@ -18,7 +16,7 @@
 #include "problems/method.h"
 #include "problems/method_stage.h"
 #include "problems/outlier_rows.h"
-#include "problems/sensor_imm.h"
+#include "problems/rough_trajectory.h"
 #include "problems/solution_builder.h"
 #include "receiver_errors/receiver_errors.h"
 
@@ -90,37 +88,6 @@ Solution SolvePlainly(MethodStage* stage, const MethodStage::Nodes& nodes) {
   return solution;
 }
 
-/// Outliers come one by one. Two and more, behind which nothing follows that
-/// would agree with the fixes before them, may be the right ones.
-void DoubtOutliersAtGaps(const Timeline& timeline,
-                         const std::vector<ResidualRecord>& residuals,
-                         std::vector<Evidence>* doubts) {
-  constexpr double kOutlier = 0.5;  // weight
-  constexpr int kLeast = 2;
-  std::vector<std::vector<TakenFix>> fixes(timeline.sensors().size());
-  for (const ResidualRecord& r : residuals) {
-    if (r.withheld || !r.accepted) continue;
-    fixes[static_cast<std::size_t>(r.sensor)].push_back(
-        {r.t, r.weight < kOutlier});
-  }
-  for (std::size_t i = 0; i < fixes.size(); ++i) {
-    const Sensor& sensor = timeline.sensors()[i];
-    const RowAtGap row = LongestRowAtGap(fixes[i]);
-    if (!sensor.kind->is_position || row.count < kLeast) continue;
-    doubts->push_back(
-        {.grade = Grade::kDoubtful,
-         .what = fmt::format("{} fixes of {} in a row, from {:.1f} to {:.1f} s "
-                             "next to a gap, are taken for outliers",
-                             row.count, sensor.name, row.begin, row.end),
-         .value = static_cast<double>(row.count),
-         .limit = static_cast<double>(kLeast),
-         .unit = "fixes",
-         .causes = {"outliers at the edge of an outage, or fixes that were off "
-                    "before it"},
-         .remedies = {"a position that is known there"}});
-  }
-}
-
 /// What was decided, where the nodes stood, and what came of it last.
 struct Searched {
   explicit Searched(Clock::time_point until) : end(until) {}
@@ -190,73 +157,6 @@ bool IsKnownStill(const Searched& searched) {
                                             searched.x, searched.P, kMoved) < 0;
 }
 
-bool TellsHeading(const SensorKind& kind) {
-  return kind.is_heading || kind.magnetic;
-}
-
-/// The decisions with every measurement of headings and magnetic fields left out;
-/// empty if there is none.
-GateDecisions WithoutHeadings(const Problem& problem) {
-  GateDecisions decisions = problem.decisions;
-  bool any = false;
-  for (std::size_t i = 0; i < decisions.size(); ++i) {
-    const Measurement& z = problem.timeline.all_measurements()[i];
-    const auto sensor = static_cast<std::size_t>(z.sensor);
-    if (!TellsHeading(*problem.timeline.sensors()[sensor].kind)) continue;
-    any |= decisions[i] != 0;
-    decisions[i] = 0;
-  }
-  return any ? decisions : GateDecisions();
-}
-
-/// Whether the attitudes of a trajectory contradict those of `other`: the mean
-/// square of the angle between them is above 25 times the largest variance that
-/// `other` has of an axis.
-bool Contradicts(const ErrorLayout& layout, const ImmTrajectory& one,
-                 const ImmTrajectory& other) {
-  constexpr double kMost = 25.0;
-  const Block* attitude = layout.Find(BlockKind::kAttitude);
-  if (attitude == nullptr) return false;
-  double sum = 0.0;
-  for (std::size_t k = 0; k < other.states.size(); ++k) {
-    const double theta =
-        one.states[k].q_eb.angularDistance(other.states[k].q_eb);
-    sum += theta * theta /
-           other.P.Get(k)
-               .diagonal()
-               .segment(attitude->offset, attitude->dim)
-               .maxCoeff();
-  }
-  return sum > kMost * static_cast<double>(other.states.size());
-}
-
-/// The EKF's trajectory may be so far off after an outlier that a linearisation
-/// about it is of no use. So may be one that follows headings which err: where they
-/// contradict what moves, it is the one without them.
-std::vector<State> RoughStates(MethodStage* stage,
-                               const MethodStage::Nodes& nodes,
-                               const Problem& problem, bool has_blunders) {
-  const auto smooth = [&](const GateDecisions& decisions) {
-    SensorImm imm = MakeSensorImm(stage->Questioned(nodes));
-    if (!decisions.empty()) imm.options.decisions = decisions;
-    return SmoothSensorImm(&imm, stage->forward().Progress("robust_batch"))
-        .trajectory;
-  };
-  ImmTrajectory all =
-      smooth(has_blunders ? problem.decisions : GateDecisions());
-  const GateDecisions without = WithoutHeadings(problem);
-  if (without.empty()) return std::move(all.states);
-  try {
-    ImmTrajectory moved = smooth(without);
-    if (Contradicts(problem.layout, all, moved)) {
-      return std::move(moved.states);
-    }
-  } catch (const EstimationError&) {
-    // What moves does not tell the attitude.
-  }
-  return std::move(all.states);
-}
-
 /// Searches, unless what was decided holds still: then the nodes have the
 /// trajectory that followed from it.
 Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
@@ -267,7 +167,7 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
   Problem problem = WithAll(*stage, blunders, *nodes.problem);
   const std::vector<State> initial =
       known ? *nodes.states
-            : RoughStates(stage, nodes, problem, !blunders.empty());
+            : RoughStates(*stage, nodes, problem, !blunders.empty());
   RobustBatchOptions options =
       OptionsOf(*stage, nodes.problem->decisions, searched->end);
   options.blunders = blunders;

@@ -1,0 +1,78 @@
+#include "problems/rough_trajectory.h"
+
+#include <utility>
+
+#include "base/error.h"
+#include "measurements/sensor_kind.h"
+#include "problems/sensor_imm.h"
+
+namespace hindsight {
+namespace {
+
+bool TellsHeading(const SensorKind& kind) {
+  return kind.is_heading || kind.magnetic;
+}
+
+/// The decisions with every measurement of headings and magnetic fields left out;
+/// empty if there is none.
+GateDecisions WithoutHeadings(const Problem& problem) {
+  GateDecisions decisions = problem.decisions;
+  bool any = false;
+  for (std::size_t i = 0; i < decisions.size(); ++i) {
+    const Measurement& z = problem.timeline.all_measurements()[i];
+    const auto sensor = static_cast<std::size_t>(z.sensor);
+    if (!TellsHeading(*problem.timeline.sensors()[sensor].kind)) continue;
+    any |= decisions[i] != 0;
+    decisions[i] = 0;
+  }
+  return any ? decisions : GateDecisions();
+}
+
+/// Whether the attitudes of a trajectory contradict those of `other`: the mean
+/// square of the angle between them is above 25 times the largest variance that
+/// `other` has of an axis.
+bool Contradicts(const ErrorLayout& layout, const ImmTrajectory& one,
+                 const ImmTrajectory& other) {
+  constexpr double kMost = 25.0;
+  const Block* attitude = layout.Find(BlockKind::kAttitude);
+  if (attitude == nullptr) return false;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < other.states.size(); ++k) {
+    const double theta =
+        one.states[k].q_eb.angularDistance(other.states[k].q_eb);
+    sum += theta * theta /
+           other.P.Get(k)
+               .diagonal()
+               .segment(attitude->offset, attitude->dim)
+               .maxCoeff();
+  }
+  return sum > kMost * static_cast<double>(other.states.size());
+}
+
+}  // namespace
+
+std::vector<State> RoughStates(const MethodStage& stage,
+                               const MethodStage::Nodes& nodes,
+                               const Problem& problem, bool has_blunders) {
+  const auto smooth = [&](const GateDecisions& decisions) {
+    SensorImm imm = MakeSensorImm(stage.Questioned(nodes));
+    if (!decisions.empty()) imm.options.decisions = decisions;
+    return SmoothSensorImm(&imm, stage.forward().Progress("robust_batch"))
+        .trajectory;
+  };
+  ImmTrajectory all =
+      smooth(has_blunders ? problem.decisions : GateDecisions());
+  const GateDecisions without = WithoutHeadings(problem);
+  if (without.empty()) return std::move(all.states);
+  try {
+    ImmTrajectory moved = smooth(without);
+    if (Contradicts(problem.layout, all, moved)) {
+      return std::move(moved.states);
+    }
+  } catch (const EstimationError&) {
+    // What moves does not tell the attitude.
+  }
+  return std::move(all.states);
+}
+
+}  // namespace hindsight
