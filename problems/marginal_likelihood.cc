@@ -6,6 +6,7 @@
 
 #include "alignment/alignment.h"
 #include "dataset/bias_sigma.h"
+#include "filters/forward_filter.h"
 #include "filters/measurement_rule.h"
 #include "filters/tape_adjoint.h"
 
