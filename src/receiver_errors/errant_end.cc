@@ -111,6 +111,12 @@ std::optional<ErrantEnd> FindErrantEnd(const SensorFindings& found) {
   return longer;
 }
 
+bool ErrsThroughout(const SensorFindings& found) {
+  if (!found.alone || !found.switching()) return false;
+  return std::ranges::all_of(ErrsAt(found),
+                             [](char errs) { return errs != 0; });
+}
+
 std::optional<WeighedHypothesis> Exchanged(const SensorFindings& found,
                                            const ErrantEnd& errant) {
   constexpr double kConstant = 1.0 / 3.0;

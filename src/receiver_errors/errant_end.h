@@ -39,6 +39,10 @@ struct ErrantEnd {
 /// throughout, or where it is not the only sensor of positions.
 std::optional<ErrantEnd> FindErrantEnd(const SensorFindings& found);
 
+/// Whether the only sensor of positions errs so from the first fix to the last in the
+/// chosen hypothesis: then nothing but the prior of its errors tells positions.
+bool ErrsThroughout(const SensorFindings& found);
+
 /// The hypothesis with the good and the erroneous fixes exchanged: the
 /// trajectory is that of the chosen one, moved by the error of the stretch, which
 /// all other fixes have. The weight is its probability against the chosen one's:

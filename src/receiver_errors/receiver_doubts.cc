@@ -39,6 +39,16 @@ std::vector<Evidence> ReceiverErrors::Doubts() const {
   if (errant && errant->IsDoubtful()) {
     doubts.push_back(DoubtOf(found_->name, *errant));
   }
+  if (ErrsThroughout(*found_)) {
+    doubts.push_back(
+        {.grade = Grade::kDoubtful,
+         .what = found_->name +
+                 " errs from its first fix to its last, and no other sensor "
+                 "tells positions",
+         .causes = {"hypotheses by which one part or the other errs, between "
+                    "which this one lies"},
+         .remedies = {"a stream with a position that is known"}});
+  }
   const double imu = found_->chosen().parameters.imu_scale;
   if (imu > kMisstatedImu) {
     doubts.push_back(

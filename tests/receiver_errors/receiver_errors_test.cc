@@ -388,7 +388,10 @@ TEST(ReceiverErrors, OfACompassAreFound) {
     ASSERT_EQ(found.size(), 2u);
     ASSERT_TRUE(found[0].Stands());
     EXPECT_EQ(found[0].sensor(), 1);
-    EXPECT_THAT(found[0].InWords(), HasSubstr("from 50 to 81 s"));
+    const std::vector<double> changes = found[0].ChangeTimes();
+    ASSERT_GE(changes.size(), 2u) << found[0].InWords();
+    EXPECT_NEAR(changes.front(), 50.0, 0.5) << found[0].InWords();
+    EXPECT_NEAR(changes.back(), 81.0, 0.5) << found[0].InWords();
     CovarianceSeries P(tape.dim(), tape.size());
     for (std::size_t k = 0; k < tape.size(); ++k) {
       P.Set(k, ErrorMatrix::Identity(tape.dim(), tape.dim()));
@@ -416,6 +419,24 @@ TEST(ReceiverErrors, FromTheFirstFixAreDoubtful) {
   const std::vector<Evidence> doubts = errors.Doubts();
   ASSERT_EQ(doubts.size(), 1u);
   EXPECT_THAT(doubts[0].what, HasSubstr("errs from 0 to 30 s"));
+}
+
+TEST(ReceiverErrors, FromTheFirstFixToTheLastAreDoubtful) {
+  TestProblem test = FixesOfOneMinute();
+  test.prior.P.topLeftCorner<3, 3>() *= 1e6;
+  AddStep(30.5, &test);
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  ErrorDecisions decisions = TwoTellings(problem, tape, 0.0);
+  Hypothesis both = decisions.regimes.hypotheses.back();
+  for (ErrorStep& step : both.sequence) step.mode = ErrorMode::kBiased;
+  both.sequence[31].anew = true;
+  decisions.regimes.hypotheses = {both};
+  const std::vector<Evidence> doubts =
+      TakeThem(decisions, problem, tape).Doubts();
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_EQ(doubts[0].grade, Grade::kDoubtful);
+  EXPECT_THAT(doubts[0].what, HasSubstr("errs from its first fix to its last"));
 }
 
 TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {
