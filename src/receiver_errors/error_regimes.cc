@@ -270,8 +270,17 @@ std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem) {
 ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
                            const NormalPoints& points,
                            const ErrorRegimes& found) {
-  std::vector<Hypothesis> all = found.hypotheses;
-  for (Hypothesis& one : all) one.sequence = AtFixes(points, one.sequence);
+  // Of a long recording of fast fixes all together take 40 MB at most, and what is
+  // weighed in the end is among the likeliest, which come first.
+  constexpr std::size_t kMostSteps = 10'000'000;
+  constexpr std::size_t kLeast = 48;
+  const std::size_t most = std::max(kLeast, kMostSteps / FixCount(problem));
+  std::vector<Hypothesis> all;
+  for (const Hypothesis& one : found.hypotheses) {
+    if (all.size() == most) break;
+    all.push_back(one);
+    all.back().sequence = AtFixes(points, one.sequence);
+  }
   const double least_scale =
       found.kind == ErrorRegimes::Kind::kWhite ? kLeastSolved : kLeastScale;
   const ErrorParameters parameters =

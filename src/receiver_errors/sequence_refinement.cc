@@ -211,9 +211,9 @@ class Refinement {
   }
 
   /// Of a long recording nearly as many are alike as it has fixes: those kept
-  /// take at most 100 MB.
+  /// take at most 40 MB.
   bool IsFull() const {
-    constexpr std::size_t kMostSteps = 30'000'000;
+    constexpr std::size_t kMostSteps = 10'000'000;
     return met_.size() * met_.front().sequence.size() > kMostSteps;
   }
 
