@@ -257,12 +257,11 @@ void ErrorSearch::TellNotes(const Round& round, RobustBatchResult* result) {
 }
 
 void ErrorSearch::TellRival(const Round& round, RobustBatchResult* result) {
-  constexpr double kSureOdds = 6.907755278982137;  // ln 1000
   const ReceiverErrors& best = round.best();
   for (std::size_t i = 1; i < round.errors.size(); ++i) {
     const ReceiverErrors& other = round.errors[i];
     const double behind = best.log_gain() - other.log_gain();
-    if (!other.Stands() || behind >= kSureOdds) continue;
+    if (!other.Stands() || behind >= kSureLogOdds) continue;
     const double probability = 1.0 / (1.0 + std::exp(behind));
     const double distance = std::sqrt(best.MeanSquareDistanceTo(other));
     if (!best.IsApart(other, result->batch.P)) continue;

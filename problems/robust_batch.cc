@@ -103,9 +103,8 @@ Explained Explain(const Problem& problem, const std::vector<State>& initial,
 /// covariances by what it is worth.
 void TellOtherOrder(const RivalSearch& rival, const std::string& words,
                     RobustBatchResult* result) {
-  constexpr double kSureOdds = 6.907755278982137;  // ln 1000
   constexpr double kSigmas = 3.0;
-  if (rival.log_odds >= kSureOdds) return;
+  if (rival.log_odds >= kSureLogOdds) return;
   const double probability = 1.0 / (1.0 + std::exp(rival.log_odds));
   const Block* position = result->problem.layout.Find(BlockKind::kPosition);
   if (position == nullptr || position->dim != 3) return;

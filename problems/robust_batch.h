@@ -12,6 +12,9 @@
 
 namespace hindsight {
 
+/// Odds of a thousand, from which on an explanation stands alone [ln].
+inline constexpr double kSureLogOdds = 6.907755278982137;
+
 /// What a search decided, by round.
 using SearchDecisions = std::vector<DecidedErrors>;
 

@@ -211,8 +211,7 @@ Solution Search(MethodStage* stage, Searched* searched) {
 /// larger evidence counts, as LogEvidenceRatio has it.
 void SearchElsewhere(MethodStage* stage, Searched* searched,
                      Solution* solution) {
-  constexpr double kElsewhere = 5.0;               // sigma
-  constexpr double kSureOdds = 6.907755278982137;  // ln 1000
+  constexpr double kElsewhere = 5.0;  // sigma
   const Dataset& given = *stage->clocks().given;
   if (!searched->stands || searched->erring.empty() ||
       !HasClocksInQuestion(given) || Clock::now() >= searched->end) {
@@ -234,7 +233,7 @@ void SearchElsewhere(MethodStage* stage, Searched* searched,
                          {*searched->problem, solution->states},
                          ExcessBy::kMedian) +
         again.log_prior - searched->log_prior;
-    if (log_odds < kSureOdds) return;
+    if (log_odds < kSureLogOdds) return;
     *solution = std::move(other);
   } catch (const EstimationError&) {
     // There is no trajectory beside those clocks.

@@ -119,7 +119,7 @@ void ErrorChain::MoveTo(std::size_t k) {
     wide.R *= parameters_.scale * parameters_.scale;
   }
   if (fix_ < 0) return;
-  since_position_ = SincePosition();
+  reach_ = ReachOfVelocityStep();
   constexpr double kAddsNothing = 0.5 / kPi;
   const RowMatrix& R = z_[static_cast<std::size_t>(fix_)].R;
   rows_ = static_cast<int>(R.rows());
@@ -129,7 +129,7 @@ void ErrorChain::MoveTo(std::size_t k) {
   R_out_.topLeftCorner(rows_, rows_) = ratio * ratio * R;
 }
 
-bool ErrorChain::HasPosition(std::size_t k) const {
+bool ErrorChain::SeesPosition(std::size_t k) const {
   for (const TapeMeasurement& z : tape_.measurements(k)) {
     if (z.accepted && !z.withheld &&
         !z.H.middleCols(position_, 3).isZero(0.0)) {
@@ -139,10 +139,11 @@ bool ErrorChain::HasPosition(std::size_t k) const {
   return false;
 }
 
-double ErrorChain::SincePosition() const {
+/// Back to the last node that saw the position, or had a fix of the sensor.
+double ErrorChain::ReachOfVelocityStep() const {
   if (velocity_ < 0 || k_ == 0) return 0.0;
   std::size_t k = k_ - 1;
-  while (k > 0 && !HasPosition(k)) --k;
+  while (k > 0 && !SeesPosition(k) && !HasFix(tape_, k, receiver_)) --k;
   return tape_.epoch(k_).t - tape_.epoch(k).t;
 }
 
@@ -189,14 +190,7 @@ void ErrorChain::PredictError(ErrorStep step, Gaussian* x) const {
   P.bottomLeftCorner<3, 3>().diagonal().array() += d.q_er;
   P.bottomRightCorner<3, 3>().diagonal().array() += d.q_rr;
   x->P.bottomRightCorner<6, 6>() = P;
-  if (velocity_ < 0) return;
-  for (int i = 0; i < 3; ++i) {
-    const double q_vp = d.q_vv * since_position_;
-    x->P(position_ + i, position_ + i) += q_vp * since_position_;
-    x->P(position_ + i, velocity_ + i) += q_vp;
-    x->P(velocity_ + i, position_ + i) += q_vp;
-    x->P(velocity_ + i, velocity_ + i) += d.q_vv;
-  }
+  if (d.q_vv > 0.0) AddVelocityStep(d.q_vv, &x->P);
 }
 
 ErrorChain::FixLikelihood ErrorChain::LikelihoodOfFix(ErrorStep step,
@@ -252,8 +246,8 @@ ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
     S.bottomRows(3 - rows_).setZero();
   }
   if (velocity_ >= 0 && d.q_vv > 0.0) {
-    const RowJacobian H_v = since_position_ * z.H.middleCols(position_, 3) +
-                            z.H.middleCols(velocity_, 3);
+    const RowJacobian H_v =
+        reach_ * z.H.middleCols(position_, 3) + z.H.middleCols(velocity_, 3);
     S.topLeftCorner(rows_, rows_) += d.q_vv * H_v * H_v.transpose();
   }
   const double a = parameters_.outlier_share;

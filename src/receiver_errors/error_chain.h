@@ -100,8 +100,9 @@ class ErrorChain {
                            const FixView& view) const;
 
   void ScaleImuNoise();
-  bool HasPosition(std::size_t k) const;
-  double SincePosition() const;
+  bool SeesPosition(std::size_t k) const;
+  double ReachOfVelocityStep() const;
+  void AddVelocityStep(double variance, ErrorMatrix* P) const;
 
   const LinearTape& tape_;
   int receiver_;
@@ -115,10 +116,9 @@ class ErrorChain {
   SparseCongruence over_interval_;  ///< with Phi_n_
   ErrorMatrix Q_n_;
   double dt_ = 0.0;
-  double since_position_ =
-      0.0;        ///< from the last node with one; at fixes alone
-  int fix_ = -1;  ///< index in z_
-  int rows_ = 0;  ///< of the fix
+  double reach_ = 0.0;            ///< of a velocity step at the fix [s]
+  int fix_ = -1;                  ///< index in z_
+  int rows_ = 0;                  ///< of the fix
   Eigen::Matrix3d R_in_, R_out_;  ///< of the fix, padded, as an outlier
   std::vector<LinearizedMeasurement> z_;
 };

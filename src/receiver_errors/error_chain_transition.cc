@@ -20,6 +20,18 @@ void FillErrorQ(const ErrorDynamics& d, int n, ErrorMatrix* Q) {
 
 }  // namespace
 
+void ErrorChain::AddVelocityStep(double variance, ErrorMatrix* P) const {
+  if (velocity_ < 0) return;
+  for (int i = 0; i < 3; ++i) {
+    const int p = position_ + i;
+    const int v = velocity_ + i;
+    (*P)(p, p) += variance * reach_ * reach_;
+    (*P)(p, v) += variance * reach_;
+    (*P)(v, p) += variance * reach_;
+    (*P)(v, v) += variance;
+  }
+}
+
 ErrorMatrix ErrorChain::Phi(ErrorStep step) const {
   const int n = navigation_dim_;
   ErrorMatrix Phi = ErrorMatrix::Zero(dim(), dim());
@@ -46,14 +58,7 @@ ErrorMatrix ErrorChain::Q(ErrorStep step) const {
   ErrorMatrix Q = ErrorMatrix::Zero(dim(), dim());
   Q.topLeftCorner(n, n) = Q_n_;
   FillErrorQ(d, n, &Q);
-  for (int i = 0; i < 3 && velocity_ >= 0; ++i) {
-    const int p = position_ + i;
-    const int v = velocity_ + i;
-    Q(p, p) += d.q_vv * since_position_ * since_position_;
-    Q(p, v) += d.q_vv * since_position_;
-    Q(v, p) += d.q_vv * since_position_;
-    Q(v, v) += d.q_vv;
-  }
+  AddVelocityStep(d.q_vv, &Q);
   return Q;
 }
 

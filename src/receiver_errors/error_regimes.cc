@@ -157,18 +157,6 @@ const Hypothesis* NextRival(const std::vector<ErrorRegimes>& fits) {
   return rival;
 }
 
-/// Attempts that a climb may yet make the likelier ones. At least two more
-/// parameters cost ln(fixes), and what does not win by kLeastGain does not stand;
-/// climbs gain some ten from where narrow searches end.
-std::vector<Attempt> Hopeful(std::vector<Attempt> attempts,
-                             double log_posterior_of_white) {
-  constexpr double kClimb = 10.0;
-  std::erase_if(attempts, [&](const Attempt& one) {
-    return one.log_posterior < log_posterior_of_white - kClimb;
-  });
-  return attempts;
-}
-
 const ErrorRegimes& Likeliest(const std::vector<ErrorRegimes>& fits) {
   return *std::ranges::max_element(fits, {}, &ErrorRegimes::log_evidence);
 }
@@ -270,11 +258,9 @@ std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem) {
 ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
                            const NormalPoints& points,
                            const ErrorRegimes& found) {
-  // Of a long recording of fast fixes all together take 40 MB at most, and what is
-  // weighed in the end is among the likeliest, which come first.
-  constexpr std::size_t kMostSteps = 10'000'000;
+  // What is weighed in the end is among the likeliest, which come first.
   constexpr std::size_t kLeast = 48;
-  const std::size_t most = std::max(kLeast, kMostSteps / FixCount(problem));
+  const std::size_t most = std::max(kLeast, kMostKeptSteps / FixCount(problem));
   std::vector<Hypothesis> all;
   for (const Hypothesis& one : found.hypotheses) {
     if (all.size() == most) break;

@@ -102,6 +102,15 @@ std::vector<Attempt> MakeAttempts(const RegimeProblem& problem,
   return attempts;
 }
 
+std::vector<Attempt> Hopeful(std::vector<Attempt> attempts,
+                             double log_posterior_of_white) {
+  constexpr double kClimb = 10.0;
+  std::erase_if(attempts, [&](const Attempt& one) {
+    return one.log_posterior < log_posterior_of_white - kClimb;
+  });
+  return attempts;
+}
+
 std::vector<Attempt> BestAttempts(const RegimeProblem& problem,
                                   const std::vector<Attempt>& attempts) {
   constexpr std::size_t kMost = 3;

@@ -22,6 +22,12 @@ struct Attempt {
 std::vector<Attempt> MakeAttempts(const RegimeProblem& problem,
                                   const ErrorParameters& white);
 
+/// Attempts that a climb may yet make the likelier ones. At least two more
+/// parameters cost ln(fixes), and what does not win by kLeastGain does not stand;
+/// climbs gain some ten from where narrow searches end.
+std::vector<Attempt> Hopeful(std::vector<Attempt> attempts,
+                             double log_posterior_of_white);
+
 /// The best attempts whose trajectories differ: each goes on with the parameters
 /// that suit it.
 /// `attempts` are in the order of MakeAttempts.

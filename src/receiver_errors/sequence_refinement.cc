@@ -210,11 +210,8 @@ class Refinement {
          kBytes * sequence.size()});
   }
 
-  /// Of a long recording nearly as many are alike as it has fixes: those kept
-  /// take at most 40 MB.
   bool IsFull() const {
-    constexpr std::size_t kMostSteps = 10'000'000;
-    return met_.size() * met_.front().sequence.size() > kMostSteps;
+    return met_.size() * met_.front().sequence.size() > kMostKeptSteps;
   }
 
   bool IsSpent() const { return effort_ != nullptr && effort_->IsSpent(); }

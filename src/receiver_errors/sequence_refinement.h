@@ -5,6 +5,10 @@
 
 namespace hindsight {
 
+/// Steps of all sequences that are kept together: 40 MB. Of a long recording nearly
+/// as many are alike as it has fixes.
+inline constexpr std::size_t kMostKeptSteps = 10'000'000;
+
 /// Climbs from the best of `found` over Variations, ForEachVelocityStep where those
 /// do no better, and outliers where neither does, to the most likely sequence near it. Scores are those of
 /// SequenceSplice about the best of the round before. A spent effort ends it with

@@ -10,6 +10,7 @@ namespace {
 using testing::PositionsOnly;
 using testing::TapeOf;
 using testing::TestProblem;
+using testing::TestProblemOptions;
 using testing::WithoutOutliers;
 
 constexpr ErrorStep kStayGood = {ErrorMode::kGood};
@@ -76,6 +77,30 @@ TEST(ErrorChain, OtherPositionsEndTheReachOfAStep) {
   ErrorParameters p = WithoutOutliers();
   p.rate_sigma = 0.3;
   ErrorChain chain(tape, 0, p);
+  PredictedTo(kNode, &chain);
+  const int pos = tape.layout().Find(BlockKind::kPosition)->offset;
+  const double dt = tape.t(kNode) - tape.t(kNode - 1);
+  EXPECT_NEAR((chain.Q(kStepVelocity) - chain.Q(kStayGood))(pos, pos),
+              p.rate_sigma * p.rate_sigma * dt * dt, 1e-9);
+}
+
+/// What a velocity was at its last fix is known, however long ago the position was.
+TEST(ErrorChain, VelocitiesEndTheReachOfAStep) {
+  TestProblemOptions options;
+  options.noise = testing::TacticalNoise(true);
+  options.layout = testing::TypicalLayout(options.noise);
+  options.errors = true;
+  options.duration = 40.0;
+  const TestProblem problem = testing::MakeProblem(options, 3);
+  GateDecisions used;
+  for (const Measurement& z : problem.measurements) {
+    used.push_back(z.sensor == 1 || z.t < 14.5);
+  }
+  const LinearTape tape = TapeOf(problem, used);
+  ErrorParameters p = WithoutOutliers();
+  p.rate_sigma = 0.3;
+  ErrorChain chain(tape, 1, p);
+  constexpr std::size_t kNode = 25;
   PredictedTo(kNode, &chain);
   const int pos = tape.layout().Find(BlockKind::kPosition)->offset;
   const double dt = tape.t(kNode) - tape.t(kNode - 1);
