@@ -3,94 +3,70 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <bit>
-#include <cstdint>
 
 namespace hindsight {
 
 // Of matrices that the first cache holds, for which the copies that a general
 // product makes of its factors take longer than the product. All are column-major.
 
-/// All of the columns of A and rows of B that a product adds up.
-struct WholeInside {
-  Eigen::Index count;
-  Eigen::Index size() const { return count; }
-  Eigen::Index operator[](Eigen::Index i) const { return i; }
-};
-
-/// Those of a B of up to kMost rows of which either of two columns has an element
-/// that is not zero.
-class NonzeroInside {
- public:
-  static constexpr Eigen::Index kMost = 16;
-
-  template <typename Right>
-  NonzeroInside(const Right& B, Eigen::Index j0, Eigen::Index j1) {
-    const double* b0 = B.data() + j0 * B.colStride();
-    const double* b1 = B.data() + j1 * B.colStride();
-    // No branch, which no processor would guess, and the count in a register.
-    Eigen::Index size = 0;
-    for (Eigen::Index k = 0; k < B.rows(); ++k) {
-      rows_[size] = k;
-      const std::uint64_t bits =
-          std::bit_cast<std::uint64_t>(*b0) | std::bit_cast<std::uint64_t>(*b1);
-      size += static_cast<Eigen::Index>((bits << 1) != 0);  // but for the sign
-      b0 += B.rowStride();
-      b1 += B.rowStride();
-    }
-    size_ = size;
-  }
-  Eigen::Index size() const { return size_; }
-  Eigen::Index operator[](Eigen::Index i) const { return rows_[i]; }
-
- private:
-  Eigen::Index rows_[kMost];
-  Eigen::Index size_ = 0;
-};
-
-/// Rows of two columns of A B that the compiler keeps in registers.
-template <int Rows, typename Left, typename Right, typename Inside,
-          typename Out>
-inline void MultiplyStrip(const Left& A, const Right& B, const Inside& inside,
-                          Eigen::Index first, Eigen::Index j0, Eigen::Index j1,
-                          Out* out) {
+/// Rows of two columns of a product, which the compiler keeps in registers.
+template <int Rows>
+struct TwoStrips {
   using Strip = Eigen::Array<double, Rows, 1>;
-  Strip sum0 = Strip::Zero();
-  Strip sum1 = Strip::Zero();
-  const double* a = A.data() + first;
+  Strip first = Strip::Zero();
+  Strip second = Strip::Zero();
+};
+
+/// Of columns j0 and j1 of A B, from row `from` on.
+template <int Rows, typename Left, typename Right>
+inline TwoStrips<Rows> StripsOf(const Left& A, const Right& B,
+                                Eigen::Index from, Eigen::Index j0,
+                                Eigen::Index j1) {
+  using Strip = typename TwoStrips<Rows>::Strip;
+  TwoStrips<Rows> sum;
+  const double* a = A.data() + from;
   const double* b0 = B.data() + j0 * B.colStride();
   const double* b1 = B.data() + j1 * B.colStride();
-  for (Eigen::Index i = 0; i < inside.size(); ++i) {
-    const Eigen::Index k = inside[i];
-    const Strip column = Eigen::Map<const Strip>(a + k * A.outerStride());
-    sum0 += column * b0[k * B.rowStride()];
-    sum1 += column * b1[k * B.rowStride()];
+  for (Eigen::Index k = 0; k < A.cols(); ++k) {
+    const Strip column = Eigen::Map<const Strip>(a);
+    sum.first += column * *b0;
+    sum.second += column * *b1;
+    a += A.outerStride();
+    b0 += B.rowStride();
+    b1 += B.rowStride();
   }
-  Eigen::Map<Strip>(out->data() + j0 * out->outerStride() + first) = sum0;
-  Eigen::Map<Strip>(out->data() + j1 * out->outerStride() + first) = sum1;
+  return sum;
+}
+
+template <int Rows, typename Left, typename Right, typename Out>
+inline void MultiplyStrip(const Left& A, const Right& B, Eigen::Index first,
+                          Eigen::Index j0, Eigen::Index j1, Out* out) {
+  using Strip = typename TwoStrips<Rows>::Strip;
+  const TwoStrips<Rows> sum = StripsOf<Rows>(A, B, first, j0, j1);
+  Eigen::Map<Strip>(out->data() + j0 * out->outerStride() + first) = sum.first;
+  Eigen::Map<Strip>(out->data() + j1 * out->outerStride() + first) = sum.second;
 }
 
 /// Two columns of A B from row `i` on at the least.
-template <typename Left, typename Right, typename Inside, typename Out>
-inline void MultiplyColumns(const Left& A, const Right& B, const Inside& inside,
-                            Eigen::Index i, Eigen::Index j0, Eigen::Index j1,
-                            Out* out) {
+template <typename Left, typename Right, typename Out>
+inline void MultiplyColumns(const Left& A, const Right& B, Eigen::Index i,
+                            Eigen::Index j0, Eigen::Index j1, Out* out) {
   const Eigen::Index rows = A.rows();
   if (rows >= 8) {
     for (; i + 8 < rows; i += 8) {
-      MultiplyStrip<8>(A, B, inside, i, j0, j1, out);
+      MultiplyStrip<8>(A, B, i, j0, j1, out);
     }
     // The last strip may do some rows once more.
     if (i + 4 < rows) {
-      MultiplyStrip<8>(A, B, inside, rows - 8, j0, j1, out);
+      MultiplyStrip<8>(A, B, rows - 8, j0, j1, out);
     } else {
-      MultiplyStrip<4>(A, B, inside, rows - 4, j0, j1, out);
+      MultiplyStrip<4>(A, B, rows - 4, j0, j1, out);
     }
   } else if (rows >= 4) {
-    if (i + 4 < rows) MultiplyStrip<4>(A, B, inside, i, j0, j1, out);
-    MultiplyStrip<4>(A, B, inside, rows - 4, j0, j1, out);
+    if (i + 4 < rows) MultiplyStrip<4>(A, B, i, j0, j1, out);
+    MultiplyStrip<4>(A, B, rows - 4, j0, j1, out);
   } else {
-    for (; i < rows; ++i) MultiplyStrip<1>(A, B, inside, i, j0, j1, out);
+    for (; i < rows; ++i) MultiplyStrip<1>(A, B, i, j0, j1, out);
   }
 }
 
@@ -101,20 +77,7 @@ void Multiply(const Left& A, const Right& B, bool lower, Out* out) {
   static_assert(!Left::IsRowMajor && !Out::IsRowMajor);
   out->resize(A.rows(), B.cols());
   for (Eigen::Index j = 0; j < B.cols(); j += 2) {
-    MultiplyColumns(A, B, WholeInside{A.cols()}, lower ? j : 0, j,
-                    std::min(j + 1, B.cols() - 1), out);
-  }
-}
-
-/// out = A B for a B of up to NonzeroInside::kMost rows and many zeros, which it
-/// passes over.
-template <typename Left, typename Right, typename Out>
-void MultiplyBySparse(const Left& A, const Right& B, Out* out) {
-  static_assert(!Left::IsRowMajor && !Out::IsRowMajor);
-  out->resize(A.rows(), B.cols());
-  for (Eigen::Index j = 0; j < B.cols(); j += 2) {
-    const Eigen::Index next = std::min(j + 1, B.cols() - 1);
-    MultiplyColumns(A, B, NonzeroInside(B, j, next), 0, j, next, out);
+    MultiplyColumns(A, B, lower ? j : 0, j, std::min(j + 1, B.cols() - 1), out);
   }
 }
 
@@ -122,21 +85,14 @@ void MultiplyBySparse(const Left& A, const Right& B, Out* out) {
 template <int Rows, int Sign, typename Left, typename Right, typename Out>
 inline void AddStrip(const Left& A, const Right& B, Eigen::Index first,
                      Eigen::Index j0, Eigen::Index j1, Out* out) {
-  using Strip = Eigen::Array<double, Rows, 1>;
-  Strip sum0 = Strip::Zero();
-  Strip sum1 = Strip::Zero();
-  const double* a = A.data() + first;
-  const double* b0 = B.data() + j0 * B.colStride();
-  const double* b1 = B.data() + j1 * B.colStride();
-  for (Eigen::Index k = 0; k < A.cols(); ++k) {
-    const Strip column = Eigen::Map<const Strip>(a + k * A.outerStride());
-    sum0 += column * b0[k * B.rowStride()];
-    sum1 += column * b1[k * B.rowStride()];
-  }
+  using Strip = typename TwoStrips<Rows>::Strip;
+  const TwoStrips<Rows> sum = StripsOf<Rows>(A, B, first, j0, j1);
   Eigen::Map<Strip> out0(out->data() + j0 * out->outerStride() + first);
   Eigen::Map<Strip> out1(out->data() + j1 * out->outerStride() + first);
-  const Strip new0 = Sign > 0 ? Strip(out0 + sum0) : Strip(out0 - sum0);
-  const Strip new1 = Sign > 0 ? Strip(out1 + sum1) : Strip(out1 - sum1);
+  const Strip new0 =
+      Sign > 0 ? Strip(out0 + sum.first) : Strip(out0 - sum.first);
+  const Strip new1 =
+      Sign > 0 ? Strip(out1 + sum.second) : Strip(out1 - sum.second);
   out0 = new0;
   out1 = new1;
 }

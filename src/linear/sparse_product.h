@@ -9,9 +9,8 @@
 
 namespace hindsight {
 
-/// Of a product with a matrix so small that strips of its other factor are added
-/// up in registers.
-inline constexpr Eigen::Index kDense = NonzeroInside::kMost;
+/// Of a product with a matrix so small that to pass over its zeros does not pay.
+inline constexpr Eigen::Index kDense = 16;
 
 /// A S' for an S of mostly zeros, such as a transition: with m elements that are
 /// not zero, m columns of A are added up where a dense product adds n^2.
@@ -20,7 +19,7 @@ typename Dense::PlainObject TimesTransposed(
     const Eigen::MatrixBase<Dense>& A, const Eigen::MatrixBase<Sparse>& S) {
   typename Dense::PlainObject out(A.rows(), S.rows());
   if (S.rows() <= kDense && S.cols() <= kDense) {
-    MultiplyBySparse(A.derived(), S.derived().transpose(), &out);
+    Multiply(A.derived(), S.derived().transpose(), /*lower=*/false, &out);
     return out;
   }
   out.setZero();
@@ -38,7 +37,7 @@ typename Dense::PlainObject Times(const Eigen::MatrixBase<Dense>& A,
                                   const Eigen::MatrixBase<Sparse>& S) {
   typename Dense::PlainObject out(A.rows(), S.cols());
   if (S.rows() <= kDense && S.cols() <= kDense) {
-    MultiplyBySparse(A.derived(), S.derived(), &out);
+    Multiply(A.derived(), S.derived(), /*lower=*/false, &out);
     return out;
   }
   out.setZero();

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 
 namespace hindsight {
 namespace {
@@ -32,26 +31,6 @@ TEST_P(SmallProduct, OfASymmetricOneHasTheLowerHalf) {
   const Eigen::MatrixXd difference = out - A * A.transpose();
   EXPECT_LT(Eigen::MatrixXd(difference.triangularView<Eigen::Lower>()).norm(),
             1e-13 * n);
-}
-
-// To the last bit, as what is passed over adds zeros.
-TEST_P(SmallProduct, PassesOverZeros) {
-  const int n = GetParam();
-  const int inside = std::min<int>(n, NonzeroInside::kMost);
-  for (const int columns : {1, 2, inside}) {
-    const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, inside);
-    Eigen::MatrixXd B = Eigen::MatrixXd::Random(inside, columns);
-    for (Eigen::Index i = 0; i < B.size(); ++i) {
-      if (i % 3 != 1) B(i) = 0.0;
-    }
-    Eigen::MatrixXd whole, sparse;
-    Multiply(A, B, /*lower=*/false, &whole);
-    MultiplyBySparse(A, B, &sparse);
-    EXPECT_EQ(sparse, whole) << columns;
-    const Eigen::MatrixXd B_transposed = B.transpose();
-    MultiplyBySparse(A, B_transposed.transpose(), &sparse);
-    EXPECT_EQ(sparse, whole) << columns;
-  }
 }
 
 TEST_P(SmallProduct, IsAddedAndSubtracted) {
