@@ -6,7 +6,9 @@
 #include <string>
 #include <utility>
 
+#include "base/error.h"
 #include "evaluation/grade.h"
+#include "problems/coarse_start.h"
 #include "problems/exchanged_places.h"
 #include "problems/rival_data.h"
 #include "problems/shown_noise.h"
@@ -67,18 +69,30 @@ std::optional<RivalSolution> RivalBy(const OtherAxes& axes, double log_odds,
     Eigen::Vector3d& reading = axes.of_gyros ? sample.gyro : sample.accel;
     reading = (axes.in_body * reading).eval();
   }
-  ForwardStage stage(dataset, chosen->options());
+  ReconstructionOptions options = chosen->options();
+  options.progress = nullptr;
   RivalSolution words;
   words.description = axes.words;
   words.remedy = "if so, order and signs of the IMU's columns";
-  return SolveRival(log_odds, RivalReadings::kTheSame, std::move(words), &stage,
-                    chosen);
+  const auto solve = [&](ForwardStage stage) {
+    return SolveRival(log_odds, RivalReadings::kTheSame, words, &stage, chosen);
+  };
+  // An alignment in full takes several times as long as all the rest.
+  if (std::optional<Start> start = CoarseStart(options, &dataset)) {
+    try {
+      return solve(ForwardStage(dataset, options, std::move(*start)));
+    } catch (const EstimationError&) {
+      // It is tried in full.
+    }
+  }
+  return solve(ForwardStage(dataset, options));
 }
 
 }  // namespace
 
 std::vector<RivalSolution> ExchangedAxes(ForwardStage* chosen) {
   if (!MayHideOtherAxes(chosen)) return {};
+  chosen->relinearised();  // before several threads ask for it
   const std::vector<OtherAxes> all = AllOtherAxes();
   return RareRivals(all.size(), [&](std::size_t i, double log_odds) {
     return RivalBy(all[i], log_odds, chosen);

@@ -122,7 +122,9 @@ std::optional<RivalSolution> RivalBy(const Exchange& one, double log_odds,
   words.description =
       "latitude and longitude of " + name + " stand for each other";
   words.remedy = "if so, lat and lon in the columns of " + name + " exchanged";
-  ForwardStage stage(one.dataset, chosen->options(), one.start);
+  ReconstructionOptions options = chosen->options();
+  options.progress = nullptr;
+  ForwardStage stage(one.dataset, options, one.start);
   return SolveRival(log_odds + one.log_area, RivalReadings::kAtOtherTimes,
                     std::move(words), &stage, chosen);
 }

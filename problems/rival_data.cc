@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "evaluation/explanation.h"
 #include "evaluation/grade.h"
 #include "problems/clock_evidence.h"
@@ -73,17 +74,22 @@ std::vector<RivalSolution> RareRivals(
     std::size_t count,
     const std::function<std::optional<RivalSolution>(std::size_t i,
                                                      double log_odds)>& solve) {
-  std::vector<RivalSolution> rivals;
   const double log_odds =
       std::log(kDoubtfulRival * kFalseAlarms / static_cast<double>(count));
-  for (std::size_t i = 0; i < count; ++i) {
-    try {
-      auto rival = solve(i, log_odds);
-      if (rival && rival->log_evidence >= std::log(kDoubtfulRival)) {
-        rivals.push_back(*std::move(rival));
+  std::vector<std::optional<RivalSolution>> solved(count);
+  ForRanges(count, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      try {
+        solved[i] = solve(i, log_odds);
+      } catch (const EstimationError&) {
+        continue;
       }
-    } catch (const EstimationError&) {
-      continue;
+    }
+  });
+  std::vector<RivalSolution> rivals;
+  for (std::optional<RivalSolution>& rival : solved) {
+    if (rival && rival->log_evidence >= std::log(kDoubtfulRival)) {
+      rivals.push_back(*std::move(rival));
     }
   }
   return rivals;

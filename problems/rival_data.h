@@ -30,7 +30,8 @@ std::optional<RivalSolution> SolveRival(double log_odds, RivalReadings readings,
 /// ln of the odds beforehand, those that the rule `rival` would tell. Of a right
 /// model the evidence of another exceeds its own by a factor K with a probability
 /// below 1/K (Markov): they are taken to be so rare that the rule calls all of them
-/// together doubtful with kFalseAlarms. What cannot be solved is no rival.
+/// together doubtful with kFalseAlarms. What cannot be solved is no rival. Several
+/// are solved at once.
 std::vector<RivalSolution> RareRivals(
     std::size_t count,
     const std::function<std::optional<RivalSolution>(std::size_t i,

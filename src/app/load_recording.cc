@@ -29,20 +29,27 @@ void ReplaceWithholdings(const std::vector<Withholding>& withholdings,
 /// without a truth of their own.
 void KeepCleanPositions(Dataset* dataset) {
   if (!dataset->truth.empty()) return;
-  for (const AidingStream& stream : dataset->streams) {
-    if (!stream.sensor.kind->is_position) continue;
+  for (std::size_t i = 0; i < dataset->streams.size(); ++i) {
+    const AidingStream& stream = dataset->streams[i];
+    if (!stream.sensor.kind->is_position || stream.measurements.empty()) {
+      continue;
+    }
+    dataset->truth_stream = i;
     dataset->truth_lever_arm_b = stream.sensor.lever_arm_b;
+    Eigen::Vector3d variance = Eigen::Vector3d::Zero();
     for (const Measurement& z : stream.measurements) {
+      const auto& fix = std::get<PositionFix>(z.model);
       TruthPoint point;
       point.t = z.t + stream.sensor.time_offset;
-      point.p_e = std::get<PositionFix>(z.model).p_e;
+      point.p_e = fix.p_e;
       dataset->truth.push_back(point);
+      variance += fix.R_n.diagonal();
     }
+    const auto count = static_cast<double>(dataset->truth.size());
+    dataset->truth_sigma.position = (variance / count).cwiseSqrt();
     std::string action = "positions before injection taken as truth";
     if (stream.sensor.time_offset_sigma || stream.sensor.lever_arm_sigma) {
-      action +=
-          " at the configured time offset and lever arm; these are estimated, "
-          "and errors against the truth contain what they are off";
+      action += ", at the time offset and lever arm that each method estimates";
     }
     dataset->policies.push_back(
         {stream.sensor.name, action, static_cast<long>(dataset->truth.size())});

@@ -109,12 +109,14 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
   if (solution.states.empty()) return tables;
   std::vector<Wish> wishes = {
       {Times(request.at), request.point_b, Into(&tables.at)}};
+  tables.reference = TruthOf(dataset, solution);
   if (request.attitude_alone) {
     tables.truth = TableAt(Eigen::Vector3d::Zero(), dataset, solution);
   } else {
-    wishes.push_back({Times(TruthTimes(dataset, solution.states.front().t,
-                                       solution.states.back().t)),
-                      dataset.truth_lever_arm_b, Into(&tables.truth)});
+    wishes.push_back(
+        {Times(TruthTimes(tables.reference.points, solution.states.front().t,
+                          solution.states.back().t)),
+         tables.reference.lever_arm_b, Into(&tables.truth)});
   }
   if (request.rate) {
     wishes.push_back(
@@ -130,7 +132,7 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
 
 void CompareTables(const Dataset& dataset, MethodTables* tables) {
   if (dataset.truth.empty()) return;
-  tables->comparison = CompareWithTruth(tables->truth, dataset.truth,
+  tables->comparison = CompareWithTruth(tables->truth, tables->reference.points,
                                         {.truth_sigma = dataset.truth_sigma});
 }
 
@@ -141,7 +143,7 @@ ErrorColumns ErrorsAtTruth(const Dataset& dataset, const MethodTables& tables) {
   if (!tables.comparison->truth.at_solution_rows) {
     return ColumnsOf(tables.comparison->errors, tables.truth);
   }
-  TruthSeries truth = dataset.truth;
+  TruthSeries truth = tables.reference.points;
   ThinTruth(&truth);
   return ColumnsOf(
       ComputeTrajectoryErrors(tables.truth, truth,

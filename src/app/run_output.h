@@ -48,6 +48,7 @@ struct MethodTables {
   /// compared with it, here and by `evaluate`. Of attitude alone it is not
   /// written: it is the solution itself, which has each sample of the IMU.
   SolutionTable truth;
+  SolutionTruth reference;  ///< that truth (TruthOf)
   std::optional<TruthComparison> comparison =
       {};  ///< of `truth` with the truth
 };

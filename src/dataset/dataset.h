@@ -171,6 +171,9 @@ struct Dataset {
   /// Point the truth speaks of, body axes from the IMU [m].
   Eigen::Vector3d truth_lever_arm_b = Eigen::Vector3d::Zero();
   TruthSigma truth_sigma;
+  /// Of the stream whose positions are the truth, with the clock and at the
+  /// lever arm that its sensor is configured with.
+  std::optional<std::size_t> truth_stream;
   /// How well the vehicle's axes are known against the IMU's: standard deviations
   /// of a constant rotation about the body axes [rad]. It is not estimated; what
   /// is said of the vehicle's attitude counts it.

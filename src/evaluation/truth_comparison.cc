@@ -72,6 +72,25 @@ bool IsSparser(const SolutionTable& solution, const TruthSeries& truth) {
 
 }  // namespace
 
+SolutionTruth TruthOf(const Dataset& dataset, const Solution& solution) {
+  SolutionTruth truth{.points = dataset.truth,
+                      .lever_arm_b = dataset.truth_lever_arm_b};
+  if (!dataset.truth_stream || solution.states.empty()) return truth;
+  const auto stream = static_cast<int>(*dataset.truth_stream);
+  const ErrorLayout& layout = solution.layout;
+  const ParameterVector& values = solution.states.back().parameters;
+  if (const Block* arm = layout.Find(BlockKind::kLeverArm, stream)) {
+    truth.lever_arm_b = values.segment<3>(arm->parameter_offset);
+  }
+  if (const Block* clock = layout.Find(BlockKind::kTimeOffset, stream)) {
+    const double configured =
+        dataset.streams[*dataset.truth_stream].sensor.time_offset;
+    const double correction = values(clock->parameter_offset) - configured;
+    for (TruthPoint& point : truth.points.Edited()) point.t += correction;
+  }
+  return truth;
+}
+
 void ThinTruth(TruthSeries* truth) {
   double last = -std::numeric_limits<double>::infinity();
   truth->EraseIf([&last](const TruthPoint& point) {

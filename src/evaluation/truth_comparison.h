@@ -9,6 +9,17 @@
 
 namespace hindsight {
 
+/// The reference of one solution: points and the place they speak of.
+struct SolutionTruth {
+  TruthSeries points;
+  Eigen::Vector3d lever_arm_b = Eigen::Vector3d::Zero();  ///< from the IMU [m]
+};
+
+/// The data set's truth; where that is a sensor's positions
+/// (Dataset::truth_stream), with the clock and at the lever arm that the
+/// solution's last node has for that sensor, as far as it estimates them.
+SolutionTruth TruthOf(const Dataset& dataset, const Solution& solution);
+
 /// Leaves out truth points closer than 0.1 s to the one before, and of more
 /// than 50 000 so many that they are evenly fewer: a trajectory says nothing
 /// new in between, and samples with covariances are large.

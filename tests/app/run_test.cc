@@ -457,7 +457,7 @@ TEST_F(RunCommandTest, OutagesAreJudgedByThePositionsBeforeInjection) {
   EXPECT_NE(rms({"--inject=position:pulse=1m,from=29s,to=30s"}), clean);
 }
 
-TEST_F(RunCommandTest, SaysWhenTheTruthIsOnlyAsGoodAsTheConfiguration) {
+TEST_F(RunCommandTest, CleanPositionsAreTruthWithTheClockThatIsEstimated) {
   recording_.Edit("config.yaml", [](std::vector<std::string>* lines) {
     const auto begin = std::find_if(
         lines->begin(), lines->end(),
@@ -465,20 +465,28 @@ TEST_F(RunCommandTest, SaysWhenTheTruthIsOnlyAsGoodAsTheConfiguration) {
     lines->erase(begin, begin + 2);
   });
   const std::vector<std::string> flags = {
-      "--out=out", "--force", "--methods=ekf",
-      "--inject=position:step=1m,from=30s;gnss:pulse=1m,from=5s,to=9s"};
-  ASSERT_NE(recording_.Run(flags).status, 2);
+      "--out=out", "--force", "--methods=batch",
+      "--inject=position:step=0.01m,from=30s;gnss:pulse=0.01m,from=5s,to=9s"};
   const auto action = [&] {
     return Summary()["policies"][0]["action"].get<std::string>();
   };
-  EXPECT_EQ(action(), "positions before injection taken as truth");
-  const std::string resolved = ReadFile(Result("config.resolved.yaml"));
-  EXPECT_LT(resolved.find("step of 1 m"), resolved.find("pulse of 1 m"));
-  EXPECT_NE(resolved.find("pulse of 1 m"), resolved.npos);
-  recording_.Replace("config.yaml", "  gnss:\n",
-                     "  gnss:\n    estimate: {time_offset: 0.1 s}\n");
+  const auto rms = [&] {
+    return Summary()["methods"]["batch"]["error"]["horizontal_rms_m"]
+        .get<double>();
+  };
   ASSERT_NE(recording_.Run(flags).status, 2);
-  EXPECT_THAT(action(), HasSubstr("contain what they are off"));
+  EXPECT_EQ(action(), "positions before injection taken as truth");
+  const double with_equal_clocks = rms();
+  const std::string resolved = ReadFile(Result("config.resolved.yaml"));
+  EXPECT_LT(resolved.find("step of 0.01 m"), resolved.find("pulse of 0.01 m"));
+  EXPECT_NE(resolved.find("pulse of 0.01 m"), resolved.npos);
+  // Half a second off is several metres.
+  recording_.Replace("config.yaml", "  gnss:\n",
+                     "  gnss:\n    time_offset: 0.5 s\n"
+                     "    estimate: {time_offset: 1 s}\n");
+  ASSERT_NE(recording_.Run(flags).status, 2);
+  EXPECT_THAT(action(), HasSubstr("that each method estimates"));
+  EXPECT_NEAR(rms(), with_equal_clocks, 0.1);
 }
 
 TEST_F(RunCommandTest, TellsWhatIsWithheldAndTheStartWithItsSigmas) {

@@ -25,6 +25,51 @@ SolutionTable Circle(double dt, double end, double offset = 0.0) {
   return table;
 }
 
+/// A stream of positions, and a solution that estimates its clock and arm.
+struct Estimated {
+  Dataset dataset;
+  Solution solution;
+};
+
+Estimated ClockAndArm() {
+  Estimated made;
+  made.dataset.truth = TruthFromTable(Circle(1.0, 10.0));
+  made.dataset.truth_lever_arm_b = {1.0, 2.0, 3.0};
+  made.dataset.streams.resize(2);
+  made.dataset.streams[1].sensor.time_offset = 0.25;
+  made.solution.layout = NavigationLayout({});
+  for (const BlockKind kind : {BlockKind::kTimeOffset, BlockKind::kLeverArm}) {
+    Block block;
+    block.key = {kind, 1};
+    made.solution.layout.Add(block);
+  }
+  State state;
+  state.parameters = Eigen::Vector4d(0.75, 4.0, 5.0, 6.0);
+  made.solution.states.push_back(state);
+  return made;
+}
+
+TEST(TruthOf, PositionsHaveTheClockAndTheArmThatAreEstimated) {
+  Estimated made = ClockAndArm();
+  made.dataset.truth_stream = 1;
+  const SolutionTruth truth = TruthOf(made.dataset, made.solution);
+  EXPECT_EQ(truth.lever_arm_b, Eigen::Vector3d(4.0, 5.0, 6.0));
+  ASSERT_EQ(truth.points.size(), made.dataset.truth.size());
+  EXPECT_EQ(truth.points[3].t, made.dataset.truth[3].t + 0.5);
+  EXPECT_EQ(*truth.points[3].p_e, *made.dataset.truth[3].p_e);
+}
+
+TEST(TruthOf, AnythingElseStaysAsGiven) {
+  Estimated made = ClockAndArm();
+  for (const std::optional<std::size_t> stream :
+       {std::optional<std::size_t>(), std::optional<std::size_t>(0)}) {
+    made.dataset.truth_stream = stream;
+    const SolutionTruth truth = TruthOf(made.dataset, made.solution);
+    EXPECT_EQ(truth.lever_arm_b, made.dataset.truth_lever_arm_b);
+    EXPECT_EQ(truth.points[3].t, made.dataset.truth[3].t);
+  }
+}
+
 TEST(ThinTruth, KeepsTenPointsASecond) {
   TruthSeries truth = TruthFromTable(Circle(0.01, 10.0));
   ThinTruth(&truth);

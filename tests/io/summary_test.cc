@@ -337,13 +337,13 @@ TEST(ErrorTable, ListsEveryComponentAndTheMatchedPart) {
 }
 
 TEST(TruthTimes, AreThoseOfTheSpan) {
-  Dataset dataset;
+  TruthSeries truth;
   for (const double t : {0.0, 1.0, 1.5, 2.0, 2.5}) {
     TruthPoint point;
     point.t = t;
-    dataset.truth.push_back(point);
+    truth.push_back(point);
   }
-  EXPECT_EQ(TruthTimes(dataset, 0.5, 2.0),
+  EXPECT_EQ(TruthTimes(truth, 0.5, 2.0),
             (std::vector<double>{1.0, 1.5, 2.0}));
 }
 

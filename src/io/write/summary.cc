@@ -141,9 +141,10 @@ MethodSummary SummarizeMethod(
   return m;
 }
 
-std::vector<double> TruthTimes(const Dataset& dataset, double from, double to) {
+std::vector<double> TruthTimes(const TruthSeries& truth, double from,
+                               double to) {
   std::vector<double> times;
-  for (const TruthPoint& point : dataset.truth) {
+  for (const TruthPoint& point : truth) {
     if (from <= point.t && point.t <= to) times.push_back(point.t);
   }
   return times;

@@ -134,7 +134,8 @@ MethodSummary SummarizeMethod(const Dataset& dataset, const Solution& solution,
                               const std::optional<TrajectoryStatistics>& error);
 
 /// Times of the truth points within [from, to] [s].
-std::vector<double> TruthTimes(const Dataset& dataset, double from, double to);
+std::vector<double> TruthTimes(const TruthSeries& truth, double from,
+                               double to);
 
 /// Puts what a comparison with a truth says, `contradicts_truth`, `error` and
 /// `nees`, into the figures of a method, in place of what they say of it.
