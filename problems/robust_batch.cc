@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -58,17 +59,21 @@ struct Explained {
 };
 
 /// ln of the odds against an explanation that begins with the velocities, which is
-/// searched; none if there is no such.
+/// searched; none if there is no such. One in which no errors of velocities and
+/// positions come together is but another order of the search: it has to be likelier
+/// by odds of a thousand.
 std::optional<double> LogOddsAgainst(const std::vector<State>& initial,
                                      const ErrorSearch& search,
                                      ErrorSearch* other) {
   try {
-    const bool found = other->RunFromVelocities(initial);
-    if (!found || other->stopped() || !other->HasCoincidences()) {
+    if (!other->RunFromVelocities(initial) || other->stopped()) {
       return std::nullopt;
     }
     const double log_odds = search.LogEvidence() - other->LogEvidence();
-    if (std::isfinite(log_odds)) return log_odds;
+    const double most = other->HasCoincidences()
+                            ? std::numeric_limits<double>::max()
+                            : -kSureLogOdds;
+    if (log_odds <= most) return log_odds;
   } catch (const EstimationError&) {
     // Without its positions the recording tells no trajectory.
   }
