@@ -11,7 +11,7 @@
 namespace hindsight {
 
 /// Largest dimension of an error state. Matrices over a layout have this
-/// capacity inside the object, so that no filter step allocates.
+/// capacity inside the object, so that no product of a filter step allocates.
 inline constexpr int kMaxErrorDim = 48;
 /// Largest number of values beyond the five navigation blocks.
 inline constexpr int kMaxParameters = 33;
@@ -22,8 +22,9 @@ using ErrorVector =
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxErrorDim, 1>;
 using ErrorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
                                   kMaxErrorDim, kMaxErrorDim>;
-using ParameterVector =
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxParameters, 1>;
+/// Values of the blocks beyond the navigation state, of which most layouts have few
+/// or none: a state is kept for every node, and takes what its layout has.
+using ParameterVector = Eigen::VectorXd;
 using RowVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRows, 1>;
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
                                 kMaxRows, kMaxRows>;

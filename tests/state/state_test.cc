@@ -149,6 +149,12 @@ TEST(State, MaskedAxesStayAsTheyAre) {
   EXPECT_LT((Local(layout, x, moved) - d).norm(), 1e-14);
 }
 
+TEST(State, TakesNoRoomForParametersThatItsLayoutDoesNotHave) {
+  // A day keeps hundreds of thousands: 17 numbers, a size, a place, alignment.
+  EXPECT_LE(sizeof(State), 20 * sizeof(double));
+  EXPECT_EQ(State().parameters.data(), nullptr);
+}
+
 TEST(State, ParametersFallBackWhereNotEstimated) {
   const ErrorLayout layout = FullLayout();
   State x = Places().front();
