@@ -41,13 +41,52 @@ void AddOnce(T one, Words words, std::vector<T>* all) {
 
 }  // namespace
 
+ErrorSearch::ErrorSearch(Problem problem, const RobustBatchOptions& options,
+                         double share)
+    : problem_(std::move(problem)), options_(&options), share_(share) {
+  if (options.last.empty()) return;
+  with_last_ = problem_.decisions;
+  for (std::size_t i = 0; i < problem_.decisions.size(); ++i) {
+    if (IsLast(problem_.timeline.all_measurements()[i].sensor)) {
+      problem_.decisions[i] = 0;
+    }
+  }
+}
+
+bool ErrorSearch::IsLast(int sensor) const {
+  return std::ranges::count(options_->last, sensor) > 0;
+}
+
+bool ErrorSearch::NextIsLast() const {
+  const SearchDecisions* decisions = options_->decisions;
+  return decisions != nullptr && rounds_.size() < decisions->size() &&
+         IsLast(
+             static_cast<int>(SensorOf(*(*decisions)[rounds_.size()].front())));
+}
+
+ErrorSearch::Round ErrorSearch::Search(
+    Problem* problem, const std::vector<State>& initial,
+    const std::function<bool(int sensor)>& is_asked) {
+  Ask();
+  ErrorQuestion question = question_;
+  const auto count = static_cast<int>(problem_.timeline.sensors().size());
+  for (int i = 0; i < count; ++i) {
+    if (!is_asked(i)) question.known.push_back(i);
+  }
+  Round round;
+  round.tape = std::make_unique<LinearTape>(RunLinearizedFilter(
+      states_ ? *states_ : initial, problem, options_->callback));
+  round.errors = FindReceiverErrors(*problem, *round.tape, question);
+  return round;
+}
+
 void ErrorSearch::Run(const std::vector<State>& initial) {
+  const auto is_asked = [this](int sensor) {
+    return !with_last_ || !IsLast(sensor);
+  };
   while (rounds_.size() < kMostRounds && HasRoom()) {
-    Round round;
-    round.tape = std::make_unique<LinearTape>(RunLinearizedFilter(
-        states_ ? *states_ : initial, &problem_, options_->callback));
-    Ask();
-    round.errors = FindReceiverErrors(problem_, *round.tape, question_);
+    if (with_last_ && NextIsLast()) break;
+    Round round = Search(&problem_, initial, is_asked);
     if (round.errors.empty()) break;
     const bool stands = round.best().Stands();
     Take(std::move(round));
@@ -57,23 +96,35 @@ void ErrorSearch::Run(const std::vector<State>& initial) {
 
 bool ErrorSearch::RunFromVelocities(const std::vector<State>& initial) {
   Problem without = WithoutPositions(problem_);
-  Ask();
-  ErrorQuestion question = question_;
   const auto& sensors = problem_.timeline.sensors();
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    if (!IsOfVelocity(*sensors[i].kind)) {
-      question.known.push_back(static_cast<int>(i));
-    }
-  }
-  Round round;
-  round.tape = std::make_unique<LinearTape>(
-      RunLinearizedFilter(initial, &without, options_->callback));
-  round.errors = FindReceiverErrors(without, *round.tape, question);
+  Round round = Search(&without, initial, [&sensors](int sensor) {
+    return IsOfVelocity(*sensors[static_cast<std::size_t>(sensor)].kind);
+  });
   if (round.errors.empty() || !round.best().Stands()) return false;
   velocities_first_ = true;
   Take(std::move(round));
   Run(initial);
   return true;
+}
+
+void ErrorSearch::RunLast(const std::vector<State>& initial) {
+  if (!with_last_) return;
+  const GateDecisions with = *std::exchange(with_last_, std::nullopt);
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    if (IsLast(problem_.timeline.all_measurements()[i].sensor)) {
+      problem_.decisions[i] = with[i];
+    }
+  }
+  while (!rounds_.empty() && !rounds_.back().best().Stands()) {
+    rounds_.pop_back();
+  }
+  if (*stopped_) return;
+  if (HasRoom() && (options_->decisions == nullptr || NextIsLast())) {
+    Round round = Search(&problem_, initial,
+                         [this](int sensor) { return IsLast(sensor); });
+    if (!round.errors.empty() && round.best().Stands()) Take(std::move(round));
+  }
+  Run(initial);
 }
 
 void ErrorSearch::RunAsDecided(const std::vector<State>& initial) {
@@ -85,8 +136,8 @@ void ErrorSearch::RunAsDecided(const std::vector<State>& initial) {
       std::ranges::all_of(decisions.front(), [&](const auto& one) {
         return IsOfVelocity(*sensors[SensorOf(*one)].kind);
       });
-  if (from_velocities && RunFromVelocities(initial)) return;
-  Run(initial);
+  if (!from_velocities || !RunFromVelocities(initial)) Run(initial);
+  RunLast(initial);
 }
 
 bool ErrorSearch::MayBeOfAReceiver() const {

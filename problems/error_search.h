@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_PROBLEMS_ERROR_SEARCH_H_
 #define HINDSIGHT_PROBLEMS_ERROR_SEARCH_H_
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,8 +17,7 @@ class ErrorSearch {
  public:
   /// `options` must outlive the object. `share`: of the effort of a search that
   /// the first round may cost; each further one half of it.
-  ErrorSearch(Problem problem, const RobustBatchOptions& options, double share)
-      : problem_(std::move(problem)), options_(&options), share_(share) {}
+  ErrorSearch(Problem problem, const RobustBatchOptions& options, double share);
 
   /// Each sensor is searched with the others taken at their word, about `initial`,
   /// a state a node; then the rest about what stands, three times at most.
@@ -26,6 +26,10 @@ class ErrorSearch {
   /// Velocities are searched first, without the positions, which may err as they
   /// do; then the rest about what was found of them. False if nothing was.
   bool RunFromVelocities(const std::vector<State>& initial);
+
+  /// What RobustBatchOptions::last names, which is left out before, is searched,
+  /// the others taken at their word or as they were found; then the rest as by Run.
+  void RunLast(const std::vector<State>& initial);
 
   /// As RobustBatchOptions::decisions say, in the order in which they were found.
   void RunAsDecided(const std::vector<State>& initial);
@@ -72,6 +76,13 @@ class ErrorSearch {
     const ReceiverErrors& best() const { return errors.front(); }
   };
 
+  /// A round about what was found so far, or `initial`: sensors of `problem` for which
+  /// `is_asked` are searched, unless their errors are known.
+  Round Search(Problem* problem, const std::vector<State>& initial,
+               const std::function<bool(int sensor)>& is_asked);
+  bool IsLast(int sensor) const;
+  /// Whether the next round is decided, and of a sensor that is to be last.
+  bool NextIsLast() const;
   /// Extends the problem by what stands of a round.
   void Take(Round round);
   /// Whether a state can hold the errors of one more sensor.
@@ -93,6 +104,9 @@ class ErrorSearch {
   double share_;
   ErrorQuestion question_;
   std::vector<Round> rounds_;
+  /// Decisions of the measurements of sensors that are to be last, while these are
+  /// left out.
+  std::optional<GateDecisions> with_last_;
   std::optional<std::vector<State>> states_;
   bool velocities_first_ = false;
   std::shared_ptr<bool> stopped_ = std::make_shared<bool>(false);

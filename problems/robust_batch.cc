@@ -90,16 +90,18 @@ Explained Explain(const Problem& problem, const std::vector<State>& initial,
   }
   search.Run(initial);
   if (search.stopped() || !search.MayBeOfAReceiver()) {
+    search.RunLast(initial);
     return {std::move(search), std::nullopt};
   }
   ErrorSearch other(problem, options, 0.5 * share);
   const std::optional<double> odds = LogOddsAgainst(initial, search, &other);
-  if (!odds) return {std::move(search), std::nullopt};
-  double log_odds = *odds;
+  double log_odds = odds.value_or(0.0);
   if (log_odds < 0.0) {
     std::swap(search, other);
     log_odds = -log_odds;
   }
+  search.RunLast(initial);
+  if (!odds) return {std::move(search), std::nullopt};
   RivalSearch rival = {*other.states(), other.InWords(), log_odds};
   return {std::move(search), std::move(rival)};
 }

@@ -50,6 +50,9 @@ struct RobustBatchOptions {
   GateDecisions gates = {};
   /// Measurements that `problem` leaves out whatever is found (FindBlunders).
   std::vector<std::size_t> blunders = {};
+  /// Sensors that the others contradict about `initial`: they are left out until errors
+  /// of the others have been sought, and are then the first to be asked.
+  std::vector<int> last = {};
   /// Of a search about other nodes of the same recording: taken as they are, if
   /// the nodes hold the same fixes, instead of a search. nullptr: none.
   const SearchDecisions* decisions = nullptr;

@@ -13,6 +13,14 @@ bool TellsHeading(const SensorKind& kind) {
   return kind.is_heading || kind.magnetic;
 }
 
+std::vector<int> HeadingSensors(const std::vector<Sensor>& sensors) {
+  std::vector<int> all;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    if (TellsHeading(*sensors[i].kind)) all.push_back(static_cast<int>(i));
+  }
+  return all;
+}
+
 /// The decisions with every measurement of headings and magnetic fields left out;
 /// empty if there is none.
 GateDecisions WithoutHeadings(const Problem& problem) {
@@ -51,9 +59,9 @@ bool Contradicts(const ErrorLayout& layout, const ImmTrajectory& one,
 
 }  // namespace
 
-std::vector<State> RoughStates(const MethodStage& stage,
-                               const MethodStage::Nodes& nodes,
-                               const Problem& problem, bool has_blunders) {
+RoughTrajectory RoughlySolved(const MethodStage& stage,
+                              const MethodStage::Nodes& nodes,
+                              const Problem& problem, bool has_blunders) {
   const auto smooth = [&](const GateDecisions& decisions) {
     SensorImm imm = MakeSensorImm(stage.Questioned(nodes));
     if (!decisions.empty()) imm.options.decisions = decisions;
@@ -63,16 +71,17 @@ std::vector<State> RoughStates(const MethodStage& stage,
   ImmTrajectory all =
       smooth(has_blunders ? problem.decisions : GateDecisions());
   const GateDecisions without = WithoutHeadings(problem);
-  if (without.empty()) return std::move(all.states);
+  if (without.empty()) return {.states = std::move(all.states)};
   try {
     ImmTrajectory moved = smooth(without);
     if (Contradicts(problem.layout, all, moved)) {
-      return std::move(moved.states);
+      return {.states = std::move(moved.states),
+              .contradicted = HeadingSensors(problem.timeline.sensors())};
     }
   } catch (const EstimationError&) {
     // What moves does not tell the attitude.
   }
-  return std::move(all.states);
+  return {.states = std::move(all.states)};
 }
 
 }  // namespace hindsight

@@ -95,6 +95,7 @@ struct Searched {
   Clock::time_point end;
   bool done = false;
   SearchDecisions decisions;
+  std::vector<int> last;        ///< as of RobustBatchOptions
   std::vector<double> offsets;  ///< by sensor [s]
   bool stands = false;
   std::vector<std::string> notes;
@@ -165,12 +166,19 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
   const std::vector<std::size_t> blunders =
       FindBlunders(nodes.problem->timeline);
   Problem problem = WithAll(*stage, blunders, *nodes.problem);
-  const std::vector<State> initial =
-      known ? *nodes.states
-            : RoughStates(*stage, nodes, problem, !blunders.empty());
+  std::vector<State> initial;
+  if (known) {
+    initial = *nodes.states;
+  } else {
+    RoughTrajectory rough =
+        RoughlySolved(*stage, nodes, problem, !blunders.empty());
+    initial = std::move(rough.states);
+    searched->last = std::move(rough.contradicted);
+  }
   RobustBatchOptions options =
       OptionsOf(*stage, nodes.problem->decisions, searched->end);
   options.blunders = blunders;
+  options.last = searched->last;
   if (known) options.decisions = &searched->decisions;
   RobustBatchResult result =
       SolveRobustBatch(std::move(problem), initial, options);

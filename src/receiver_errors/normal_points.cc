@@ -68,15 +68,38 @@ Carried CarryBack(const TapeMeasurement& z, const Transition& t) {
   return out;
 }
 
-/// The middle node's x is F x + d + w of its node.
-Carried CarryOn(const TapeMeasurement& z, const Transition& t) {
-  const ErrorMatrix inverse = t.Phi.inverse();
-  Carried out{&z, {}};
-  out.z.H = z.H * inverse;
-  out.z.residual = z.residual + out.z.H * t.c;
-  out.z.R = z.R + out.z.H * t.Q * out.z.H.transpose();
-  return out;
-}
+/// Carries what was measured before the middle node, whose x is F x + d + w of the
+/// node of the measurement. F keeps nothing of a component that is drawn anew
+/// meanwhile, as an error of a sensor is.
+class CarryingOn {
+ public:
+  explicit CarryingOn(const Transition& t) : t_(t) {
+    ErrorMatrix Phi = t.Phi;
+    for (Eigen::Index i = 0; i < Phi.rows(); ++i) {
+      if (!Phi.row(i).isZero(0.0)) continue;
+      Phi(i, i) = 1.0;  // in place of what is drawn anew, what was there
+      anew_.push_back(i);
+    }
+    inverse_ = Phi.inverse();
+  }
+
+  /// Nothing of a measurement that depends on what is drawn anew.
+  std::optional<Carried> Of(const TapeMeasurement& z) const {
+    Carried out{&z, {}};
+    out.z.H = z.H * inverse_;
+    for (const Eigen::Index i : anew_) {
+      if (!out.z.H.col(i).isZero(0.0)) return std::nullopt;
+    }
+    out.z.residual = z.residual + out.z.H * t_.c;
+    out.z.R = z.R + out.z.H * t_.Q * out.z.H.transpose();
+    return out;
+  }
+
+ private:
+  const Transition& t_;
+  ErrorMatrix inverse_;
+  std::vector<Eigen::Index> anew_;
+};
 
 bool IsUsed(const TapeMeasurement& z) { return z.accepted && !z.withheld; }
 
@@ -94,8 +117,10 @@ std::vector<Carried> CarryToMiddle(const LinearTape& tape,
   Transition on = Identity(tape.dim());
   for (std::size_t k = middle; k-- > interval.begin;) {
     Precede(tape, k, &on);
+    const CarryingOn carrying(on);
     for (const TapeMeasurement& z : tape.measurements(k)) {
-      if (IsUsed(z)) all.push_back(CarryOn(z, on));
+      if (!IsUsed(z)) continue;
+      if (auto carried = carrying.Of(z)) all.push_back(*std::move(carried));
     }
   }
   return all;

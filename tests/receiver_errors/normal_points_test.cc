@@ -11,6 +11,7 @@ namespace {
 
 using testing::AddError;
 using testing::Good;
+using testing::NominalParameters;
 using testing::PositionsOnly;
 using testing::TapeOf;
 using testing::TestProblem;
@@ -50,6 +51,52 @@ TEST(NormalPoints, LeaveOutAnOutlierOfTheirInterval) {
   EXPECT_LT(difference.norm(), 0.5);
   EXPECT_GT(spoilt->tape.measurements(3)[0].R(0, 0),
             clean->tape.measurements(3)[0].R(0, 0));
+}
+
+/// Velocities whose errors are drawn anew at every node: nothing of them is carried
+/// from node to node.
+TEST(NormalPoints, AreTheSameBesideErrorsThatAreDrawnAnew) {
+  TestProblem problem = PositionsOnly(10.0, 0.1);
+  const auto alone = FormNormalPoints(TapeOf(problem), 0);
+  Measurement velocity = problem.measurements[0];
+  velocity.sensor = 1;
+  std::vector<Measurement> all;
+  for (std::size_t k = 0; k < problem.nodes.size(); ++k) {
+    const State& x = problem.truth[k];
+    velocity.t = x.t;
+    velocity.model = VelocityFix{.v_n = x.C_en().transpose() * x.v_e};
+    problem.nodes[k].first_measurement = static_cast<int>(all.size());
+    problem.nodes[k].measurement_count = 2;
+    all.insert(all.end(), {problem.measurements[k], velocity});
+  }
+  problem.measurements = all;
+  Block error;
+  error.key = {BlockKind::kColouredNoise, 1};
+  error.sigma0 = Eigen::Vector3d::Ones();
+  error.evolution = Evolution::GaussMarkov(1.0, 1e-6);
+  ASSERT_EQ(error.evolution.Phi(0.1), 0.0);
+  problem.layout.Add(error);
+  for (State& x : problem.truth)
+    x.parameters = NominalParameters(problem.layout);
+  problem.prior.x.parameters.conservativeResize(
+      problem.layout.parameter_count());
+  problem.prior.x.parameters.tail<3>().setZero();
+  const Eigen::Index dim = problem.prior.P.rows();
+  ErrorMatrix P = ErrorMatrix::Identity(dim + 3, dim + 3);
+  P.topLeftCorner(dim, dim) = problem.prior.P;
+  problem.prior.P = P;
+  const auto beside = FormNormalPoints(TapeOf(problem), 0);
+  ASSERT_TRUE(alone && beside);
+  ASSERT_EQ(beside->tape.size(), alone->tape.size());
+  for (std::size_t i = 0; i < alone->tape.size(); ++i) {
+    const TapeMeasurement own = alone->tape.measurements(i)[0];
+    ASSERT_EQ(beside->tape.measurements(i).size(), 2u) << i;
+    const TapeMeasurement same = beside->tape.measurements(i)[0];
+    EXPECT_LT((same.residual - own.residual).norm(), 1e-9) << i;
+    EXPECT_LT((same.H.leftCols(dim) - own.H).norm(), 1e-9) << i;
+    EXPECT_LT((same.R - own.R).norm(), 1e-9) << i;
+    EXPECT_TRUE(beside->tape.measurements(i)[1].R.allFinite()) << i;
+  }
 }
 
 TEST(NormalPoints, GiveTheirStepsToTheirFirstFixes) {
