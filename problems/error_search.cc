@@ -1,7 +1,5 @@
 #include "problems/error_search.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -28,15 +26,6 @@ Problem WithoutPositions(Problem problem) {
     if (timeline.sensors()[sensor].kind->is_position) problem.decisions[i] = 0;
   }
   return problem;
-}
-
-/// A sensor that is searched in several rounds may say the same in each.
-template <typename T, typename Words>
-void AddOnce(T one, Words words, std::vector<T>* all) {
-  const auto same = [&](const T& other) {
-    return std::invoke(words, other) == std::invoke(words, one);
-  };
-  if (std::ranges::none_of(*all, same)) all->push_back(std::move(one));
 }
 
 }  // namespace
@@ -172,15 +161,6 @@ double ErrorSearch::LogEvidence() const {
   return log;
 }
 
-std::string ErrorSearch::InWords() const {
-  std::string words;
-  for (const Round& round : rounds_) {
-    if (!round.best().Stands()) break;
-    words += (words.empty() ? "" : "; ") + round.best().InWords();
-  }
-  return words;
-}
-
 bool ErrorSearch::HasErrors(int sensor) const {
   return std::any_of(rounds_.begin(), rounds_.end(), [&](const Round& one) {
     return one.best().Stands() && one.best().sensor() == sensor;
@@ -196,32 +176,6 @@ SearchDecisions ErrorSearch::Decisions() const {
     }
   }
   return all;
-}
-
-void ErrorSearch::Tell(RobustBatchResult* result) const {
-  result->trust.resize(problem_.timeline.sensors().size());
-  double most = 0.0;
-  for (std::size_t i = 0; i < rounds_.size(); ++i) {
-    const ReceiverErrors& best = rounds_[i].best();
-    // The last round may have found nothing: then it tells what was refused.
-    if (!best.Stands() && i > 0) break;
-    TellNotes(rounds_[i], result);
-    if (!best.Stands()) break;
-    // What else velocities may have done without the positions is farther off than
-    // with them.
-    if (i > 0 || !velocities_first_) {
-      std::optional<Evidence> doubt = best.Average(
-          problem_.layout, &result->batch.states, &result->batch.P);
-      if (doubt) result->doubts.push_back(std::move(*doubt));
-    }
-    if (best.log_gain() > most) result->modes = best.Modes();
-    most = std::max(most, best.log_gain());
-    for (BoundedValue& one : best.Bounded()) {
-      result->bounded.push_back(std::move(one));
-    }
-    result->trust[static_cast<std::size_t>(best.sensor())] = best.Trust();
-    TellRival(rounds_[i], result);
-  }
 }
 
 void ErrorSearch::Take(Round round) {
@@ -289,48 +243,6 @@ double ErrorSearch::LogOfCoincidences() const {
     }
   }
   return log;
-}
-
-void ErrorSearch::TellNotes(const Round& round, RobustBatchResult* result) {
-  for (const ReceiverErrors& one : round.errors) {
-    const bool best = &one == &round.best();
-    if (best || !round.best().Stands()) {
-      for (std::string& note : one.Notes(result->batch.P)) {
-        AddOnce(std::move(note), std::identity(), &result->notes);
-      }
-    }
-    for (Evidence& doubt : one.Doubts()) {
-      if (best || doubt.value == std::nullopt) {
-        AddOnce(std::move(doubt), &Evidence::what, &result->doubts);
-      }
-    }
-  }
-}
-
-void ErrorSearch::TellRival(const Round& round, RobustBatchResult* result) {
-  const ReceiverErrors& best = round.best();
-  for (std::size_t i = 1; i < round.errors.size(); ++i) {
-    const ReceiverErrors& other = round.errors[i];
-    const double behind = best.log_gain() - other.log_gain();
-    if (!other.Stands() || behind >= kSureLogOdds) continue;
-    const double probability = 1.0 / (1.0 + std::exp(behind));
-    const double distance = std::sqrt(best.MeanSquareDistanceTo(other));
-    if (!best.IsApart(other, result->batch.P)) continue;
-    result->doubts.push_back(
-        {.grade = Grade::kDoubtful,
-         .what = fmt::format(
-             "which sensor errs cannot be told: {}; or, {:.2g} % likely, {}",
-             best.InWords(), 100.0 * probability, other.InWords()),
-         .value = distance,
-         .unit = "m",
-         .causes = {"sensors that contradict each other where the IMU cannot "
-                    "tell which is right"},
-         .remedies = {"'--without', which leaves one of them out"}});
-    result->notes.push_back(fmt::format(
-        "or, {:.2g} % likely and {:.3g} m away in the root mean square: {}",
-        100.0 * probability, distance, other.InWords()));
-    best.WidenTowards(other, probability, &result->batch.P);
-  }
 }
 
 }  // namespace hindsight

@@ -200,5 +200,19 @@ TEST(RobustBatch, FindsACompassThatTurnsTheStart) {
             1.1 * without.horizontal_rms);
 }
 
+/// The glitch is in the middle of the time beside the current.
+TEST(RobustBatch, FindsAGlitchBesideACompassThatErrs) {
+  const Dataset clean = Simulate(FindScenario("test_drone"), 5);
+  const Accuracy without = Judge(clean, SolveBy("batch", clean));
+  const Dataset dirty = DroneBesideACurrent(DroneWithAGlitch(clean));
+  EXPECT_GT(Judge(dirty, SolveBy("batch", dirty)).horizontal_rms,
+            20.0 * without.horizontal_rms);
+  const Solution solution = SolveBy("robust_batch", dirty);
+  EXPECT_LT(LargestHeadingError(dirty, solution), 5.0 * kDegree);
+  const Accuracy robust = Judge(dirty, solution);
+  EXPECT_LT(robust.horizontal_rms, 1.5 * without.horizontal_rms);
+  EXPECT_LT(robust.position_nees, 1.5 * without.position_nees);
+}
+
 }  // namespace
 }  // namespace hindsight
