@@ -343,8 +343,7 @@ TEST(TruthTimes, AreThoseOfTheSpan) {
     point.t = t;
     truth.push_back(point);
   }
-  EXPECT_EQ(TruthTimes(truth, 0.5, 2.0),
-            (std::vector<double>{1.0, 1.5, 2.0}));
+  EXPECT_EQ(TruthTimes(truth, 0.5, 2.0), (std::vector<double>{1.0, 1.5, 2.0}));
 }
 
 }  // namespace
