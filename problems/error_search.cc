@@ -104,10 +104,10 @@ void ErrorSearch::RunLast(const std::vector<State>& initial) {
       problem_.decisions[i] = with[i];
     }
   }
+  if (*stopped_) return;
   while (!rounds_.empty() && !rounds_.back().best().Stands()) {
     rounds_.pop_back();
   }
-  if (*stopped_) return;
   if (HasRoom() && (options_->decisions == nullptr || NextIsLast())) {
     Round round = Search(&problem_, initial,
                          [this](int sensor) { return IsLast(sensor); });

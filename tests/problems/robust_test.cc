@@ -171,18 +171,32 @@ TEST(RobustBatch, FindsPositionsAndVelocitiesThatErrTogether) {
   EXPECT_LT(robust.position_nees, 1.5 * without.position_nees);
 }
 
-/// Without time each sensor is left off in every round.
-TEST(RobustBatch, SaysOnceWhatItSaysInSeveralRounds) {
+/// What is said where each sensor is left off in every round, as there is no time.
+std::vector<std::string> SaidWithoutTime(const Dataset& dataset) {
   ReconstructionOptions options;
   options.method = "robust_batch";
   options.max_time = 0.0;
-  const Solution solution =
-      Solve(DroneWithAGlitch(Simulate(FindScenario("test_drone"), 3)), options);
+  const Solution solution = Solve(dataset, options);
   std::vector<std::string> words = solution.notes;
   for (const Evidence& one : solution.evidence) words.push_back(one.what);
-  EXPECT_TRUE(std::ranges::any_of(words, [](const std::string& one) {
+  return words;
+}
+
+bool SaysThatItWasEnded(const std::vector<std::string>& words) {
+  return std::ranges::any_of(words, [](const std::string& one) {
     return one.find("was ended before it was done") != std::string::npos;
-  }));
+  });
+}
+
+TEST(RobustBatch, SaysThatItWasEndedBesideACompassThatErrs) {
+  EXPECT_TRUE(SaysThatItWasEnded(SaidWithoutTime(
+      DroneBesideACurrent(Simulate(FindScenario("test_drone"), 3)))));
+}
+
+TEST(RobustBatch, SaysOnceWhatItSaysInSeveralRounds) {
+  std::vector<std::string> words = SaidWithoutTime(
+      DroneWithAGlitch(Simulate(FindScenario("test_drone"), 3)));
+  EXPECT_TRUE(SaysThatItWasEnded(words));
   std::ranges::sort(words);
   const auto twice = std::ranges::adjacent_find(words);
   EXPECT_TRUE(twice == words.end()) << *twice;
