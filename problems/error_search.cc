@@ -199,11 +199,11 @@ void ErrorSearch::Ask() {
   const bool decided =
       options_->decisions != nullptr && i < options_->decisions->size();
   question_.decided = decided ? &(*options_->decisions)[i] : nullptr;
-  const auto round = static_cast<double>(i);
+  const auto round = static_cast<double>(searches_++);
   question_.share = share_ * std::exp2(-round);
   question_.go_on = [&go_on = options_->go_on, stopped = stopped_,
                      round](double fraction) {
-    // A round takes half of what is left.
+    // A search takes half of what is left.
     *stopped |= go_on && !go_on(1.0 - std::exp2(-(round + fraction)));
     return !*stopped;
   };

@@ -16,7 +16,7 @@ namespace hindsight {
 class ErrorSearch {
  public:
   /// `options` must outlive the object. `share`: of the effort of a search that
-  /// the first round may cost; each further one half of it.
+  /// the first search may cost; each further one half of it.
   ErrorSearch(Problem problem, const RobustBatchOptions& options, double share);
 
   /// Each sensor is searched with the others taken at their word, about `initial`,
@@ -104,6 +104,7 @@ class ErrorSearch {
   double share_;
   ErrorQuestion question_;
   std::vector<Round> rounds_;
+  int searches_ = 0;  ///< begun; each gets half of the effort of the one before
   /// Decisions of the measurements of sensors that are to be last, while these are
   /// left out.
   std::optional<GateDecisions> with_last_;

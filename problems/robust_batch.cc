@@ -73,7 +73,7 @@ std::optional<double> LogOddsAgainst(const std::vector<State>& initial,
     const double most = other->HasCoincidences()
                             ? std::numeric_limits<double>::max()
                             : -kSureLogOdds;
-    if (log_odds <= most) return log_odds;
+    if (std::isfinite(log_odds) && log_odds <= most) return log_odds;
   } catch (const EstimationError&) {
     // Without its positions the recording tells no trajectory.
   }
