@@ -135,7 +135,10 @@ bool ErrorSearch::MayBeOfAReceiver() const {
       sensors, [](const Sensor& one) { return IsOfVelocity(*one.kind); });
   if (!has_velocities || question_.known.empty()) return false;
   const ReceiverErrors& first = rounds_.front().best();
-  return question_.known.size() > 1 || first.HasVelocitySteps() ||
+  const bool changes = std::ranges::any_of(rounds_, [](const Round& one) {
+    return one.best().Stands() && !one.best().ChangeTimes().empty();
+  });
+  return (changes && question_.known.size() > 1) || first.HasVelocitySteps() ||
          !first.Doubts().empty();
 }
 

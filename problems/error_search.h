@@ -39,7 +39,7 @@ class ErrorSearch {
 
   /// Whether velocities and positions of a receiver may err together in what was
   /// told otherwise: by steps of the IMU's velocity, by errors that are doubtful
-  /// by themselves, or by those of several sensors.
+  /// by themselves, or by those of several sensors if any of them come and go.
   bool MayBeOfAReceiver() const;
 
   /// Whether errors of velocities change where those of positions do, as mode

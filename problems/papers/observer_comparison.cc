@@ -27,10 +27,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 RunValues JudgeAttitude(const LinearTape& tape,
                         const std::vector<State>& truth) {
   bool settled = true, diverged = false;
-  double t_settled = tape.epoch(0).t, tilt = 0.0, heading = 0.0;
+  double t_settled = tape.t(0), tilt = 0.0, heading = 0.0;
   for (std::size_t k = 0; k < tape.size(); ++k) {
     const State& x = tape.epoch(k).x_plus;
-    const double t = tape.epoch(k).t;
+    const double t = tape.t(k);
     const Eigen::Matrix3d C_true =
         truth[k].C_en().transpose() * truth[k].q_eb.toRotationMatrix();
     const Eigen::Matrix3d C = x.C_en().transpose() * x.q_eb.toRotationMatrix();
@@ -135,7 +135,7 @@ struct Analysis {
   }
 
   double Radius(std::size_t k, const ErrorMatrix& P) const {
-    const double dt = tape.epoch(k).t - tape.epoch(k - 1).t;
+    const double dt = tape.t(k) - tape.t(k - 1);
     const ErrorMatrix information =
         P.llt().solve(ErrorMatrix::Identity(P.rows(), P.rows()));
     const auto largest = [&](const ErrorMatrix& M, BlockKind kind) {

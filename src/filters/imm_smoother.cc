@@ -165,7 +165,7 @@ class BackwardPass {
   Gaussian PredictBy(std::size_t k, std::size_t j, const Gaussian& from) const {
     Gaussian out = from;
     const LinearTape& tape = tape_.tapes[j];
-    out.mean = tape.Phi(k + 1) * from.mean + tape.epoch(k + 1).c;
+    out.mean = tape.Phi(k + 1) * from.mean + tape.c(k + 1);
     PredictCovariance(tape.Phi(k + 1), tape.Q(k + 1), &out.P);
     return out;
   }

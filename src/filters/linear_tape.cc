@@ -255,6 +255,15 @@ ErrorMatrix LinearTape::Phi(std::size_t k) const {
   return Phi;
 }
 
+ErrorVector LinearTape::c(std::size_t k) const {
+  const PackedEpoch& in = Held(k);
+  const std::size_t states = in.has_x_plus ? 2 : 1;
+  ErrorVector c;
+  Unpack(in.data + (k == 0 ? 2 : 3) * TriangleSize() + states * StateSize(),
+         in.has_c, &c);
+  return c;
+}
+
 ErrorMatrix LinearTape::Q(std::size_t k) const {
   return Unpack(Held(k).data + 2 * TriangleSize());
 }

@@ -80,6 +80,8 @@ class LinearTape {
   TapeEpoch epoch(std::size_t k) const;
   TapeEpoch back() const { return epoch(size() - 1); }
   double t(std::size_t k) const { return epochs_[k].t; }
+  /// Defect of the interval that ends at epoch k.
+  ErrorVector c(std::size_t k) const;
 
   std::span<const TapeMeasurement> measurements(std::size_t k) const {
     Held(k);

@@ -33,9 +33,11 @@ void SpeedCourse::Evaluate(const ModelContext& context,
     out->residual = -axes * v_n;
     out->R.diagonal().setConstant(speed * speed + sigma_speed * sigma_speed);
   } else {
-    const double predicted = std::max(v_n.head<2>().norm(), sigma_speed);
-    axes << v_n.x() / predicted, v_n.y() / predicted, 0.0;
-    out->residual(0) = speed - predicted;
+    // Near zero a parabola with the same slope there.
+    const double v = v_n.head<2>().norm();
+    const double at_least = std::max(v, sigma_speed);
+    axes << v_n.x() / at_least, v_n.y() / at_least, 0.0;
+    out->residual(0) = speed - 0.5 * (at_least + v * v / at_least);
     out->R(0, 0) = sigma_speed * sigma_speed;
   }
   AddVelocityColumns(context, motion, axes * C_ne, &out->H);

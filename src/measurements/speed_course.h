@@ -14,8 +14,9 @@ namespace hindsight {
 /// standard deviations sigma_speed and max(speed, 1 m/s) sigma_course [m/s].
 /// Linear in the velocity and regular at standstill, unlike the polar form.
 /// Without a course (receivers withhold it at low speed): speed = |v_h| above
-/// three sigmas; below, where |v_h| has no usable derivative, 0 = v_h north and
-/// east with sigma^2 = speed^2 + sigma_speed^2.
+/// three sigmas, of a |v_h| below one sigma (v_h^2 / sigma + sigma) / 2, which has
+/// a derivative at zero; below three, where |v_h| has no usable one, 0 = v_h north
+/// and east with sigma^2 = speed^2 + sigma_speed^2.
 struct SpeedCourse {
   double speed = 0.0;          ///< over the ground [m/s]
   double course = 0.0;         ///< from north, clockwise [rad]

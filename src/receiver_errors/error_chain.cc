@@ -94,7 +94,8 @@ Gaussian ErrorChain::Begin() const {
 
 void ErrorChain::MoveTo(std::size_t k) {
   k_ = k;
-  dt_ = k > 0 ? tape_.epoch(k).t - tape_.epoch(k - 1).t : 0.0;
+  dt_ = k > 0 ? tape_.t(k) - tape_.t(k - 1) : 0.0;
+  c_n_ = tape_.c(k);
   if (k > 0) {
     Phi_n_ = tape_.Phi(k);
     over_interval_ = SparseCongruence(Phi_n_);
@@ -144,7 +145,7 @@ double ErrorChain::ReachOfVelocityStep() const {
   if (velocity_ < 0 || k_ == 0) return 0.0;
   std::size_t k = k_ - 1;
   while (k > 0 && !SeesPosition(k) && !HasFix(tape_, k, receiver_)) --k;
-  return tape_.epoch(k_).t - tape_.epoch(k).t;
+  return tape_.t(k_) - tape_.t(k);
 }
 
 void ErrorChain::ScaleImuNoise() {
@@ -159,7 +160,7 @@ void ErrorChain::ScaleImuNoise() {
 void ErrorChain::PredictNavigation(Gaussian* x) const {
   if (k_ == 0) return;
   const int n = navigation_dim_;
-  x->mean.head(n) = (Phi_n_ * x->mean.head(n) + tape_.epoch(k_).c).eval();
+  x->mean.head(n) = (Phi_n_ * x->mean.head(n) + c_n_).eval();
   const ErrorMatrix P = x->P.topLeftCorner(n, n);
   x->P.topLeftCorner(n, n) = Q_n_ + over_interval_(P);
   ErrorMatrix P_ne;

@@ -27,7 +27,7 @@ class ErrorChain {
 
   /// Makes node k and the interval before it the present ones.
   void MoveTo(std::size_t k);
-  double t() const { return tape_.epoch(k_).t; }
+  double t() const { return tape_.t(k_); }
   bool has_fix() const { return fix_ >= 0; }
   /// Measurements of the node over (navigation, e, r).
   const std::vector<LinearizedMeasurement>& measurements() const { return z_; }
@@ -115,6 +115,7 @@ class ErrorChain {
   ErrorMatrix Phi_n_;
   SparseCongruence over_interval_;  ///< with Phi_n_
   ErrorMatrix Q_n_;
+  ErrorVector c_n_;
   double dt_ = 0.0;
   double reach_ = 0.0;            ///< of a velocity step at the fix [s]
   int fix_ = -1;                  ///< index in z_

@@ -64,7 +64,7 @@ ErrorMatrix ErrorChain::Q(ErrorStep step) const {
 
 ErrorVector ErrorChain::Defect() const {
   ErrorVector c = ErrorVector::Zero(dim());
-  c.head(navigation_dim_) = tape_.epoch(k_).c;
+  c.head(navigation_dim_) = c_n_;
   return c;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "receiver_errors/error_tuning.h"
+#include "receiver_errors/regime_choice.h"
 #include "receiver_errors/search_attempts.h"
 #include "receiver_errors/sequence_refinement.h"
 #include "receiver_errors/sequence_smoother.h"
@@ -63,10 +64,32 @@ ErrorRegimes AsStated(const RegimeProblem& problem) {
   return out;
 }
 
+/// What a uniform fit is asked for.
+struct UniformQuestion {
+  /// With noise that the batch can be solved with.
+  bool as_solved = false;
+  /// Evidence that cannot exceed this is not integrated, but told as its bound [ln].
+  double worth = -std::numeric_limits<double>::infinity();
+};
+
+double LeastScale(const UniformQuestion& question) {
+  return question.as_solved ? kLeastSolved : kLeastScale;
+}
+
+double LogEvidence(const RegimeProblem& problem, const Hypothesis& one,
+                   const ErrorParameters& from,
+                   const UniformQuestion& question) {
+  const double bound = one.log_posterior +
+                       LogPriorOf(one.sequence, one.parameters, from) +
+                       MostOfLogShare(one.sequence, from, LeastScale(question));
+  if (bound <= question.worth) return bound;
+  return LogEvidence(problem, one, from, LeastScale(question));
+}
+
 /// White or Gauss-Markov throughout: there is but one sequence of modes.
-/// `as_solved`: with noise that the batch can be solved with.
 ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
-                        const ErrorParameters& from, bool as_solved = false) {
+                        const ErrorParameters& from,
+                        const UniformQuestion& question = {}) {
   const ErrorMode mode = kind == ErrorRegimes::Kind::kWhite
                              ? ErrorMode::kGood
                              : ErrorMode::kBiased;
@@ -74,8 +97,9 @@ ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
   one.sequence = Uniform(problem, mode);
   if (mode == ErrorMode::kBiased) one.sequence.front().anew = true;
   const auto tune = [&](const ErrorParameters& start) {
-    one.parameters = as_solved ? TuneAsSolved(problem, one.sequence, start)
-                               : Tune(problem, one.sequence, start);
+    one.parameters = question.as_solved
+                         ? TuneAsSolved(problem, one.sequence, start)
+                         : Tune(problem, one.sequence, start);
   };
   tune(from);
   ModeSequence climbed =
@@ -90,8 +114,7 @@ ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
           .log_likelihood;
   ErrorRegimes out;
   out.kind = kind;
-  out.log_evidence =
-      LogEvidence(problem, one, from, as_solved ? kLeastSolved : kLeastScale);
+  out.log_evidence = LogEvidence(problem, one, from, question);
   out.hypotheses.push_back(std::move(one));
   return out;
 }
@@ -233,10 +256,15 @@ const char* RegimeName(ErrorRegimes::Kind kind) {
 }
 
 std::vector<ErrorRegimes> FitNoise(const RegimeProblem& problem) {
-  std::vector<ErrorRegimes> all = {
-      AsStated(problem), FitUniform(problem, ErrorRegimes::Kind::kWhite, {})};
+  std::vector<ErrorRegimes> all = {AsStated(problem)};
+  UniformQuestion question;
+  // Where nothing richer is compared with them.
+  if (problem.only_white) question.worth = all[0].log_evidence + kLeastGain;
+  all.push_back(FitUniform(problem, ErrorRegimes::Kind::kWhite, {}, question));
   if (!CanBeSolved(all[1].hypotheses.front().parameters)) {
-    all.push_back(FitUniform(problem, ErrorRegimes::Kind::kWhite, {}, true));
+    question.as_solved = true;
+    all.push_back(
+        FitUniform(problem, ErrorRegimes::Kind::kWhite, {}, question));
   }
   return all;
 }

@@ -147,7 +147,7 @@ void ErrorStates::AddBlock(BlockKind kind, const std::string& name,
 std::vector<BlockStep> ErrorStates::StepsTo(std::size_t k) const {
   const ErrorStep& before = chosen_.steps[k - 1];
   const ErrorStep& step = chosen_.steps[k];
-  const double dt = tape_.epoch(k).t - tape_.epoch(k - 1).t;
+  const double dt = tape_.t(k) - tape_.t(k - 1);
   const ErrorDynamics d = DynamicsOf(chosen_.parameters, step, dt);
   const double rate =
       chosen_.parameters.rate_sigma * chosen_.parameters.rate_sigma;

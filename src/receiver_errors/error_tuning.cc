@@ -83,6 +83,18 @@ double LogOfIntegral(double curvature) {
   return 0.5 * std::log(2.0 * kPi / curvature);
 }
 
+double PriorCurvature(const Tunable& tunable) {
+  return 1.0 / (tunable.spread * tunable.spread);
+}
+
+/// ln of the share of a parameter's prior that is within its bounds; they are wide
+/// above.
+double LogOfPriorWithin(const Tunable& tunable) {
+  const double below = std::log(tunable.least / tunable.typical);
+  return std::log(0.5 *
+                  std::erfc(below * std::sqrt(0.5 * PriorCurvature(tunable))));
+}
+
 /// The likelihood of a sequence as a function of the parameters.
 class Tuning {
  public:
@@ -169,11 +181,8 @@ class Tuning {
       h *= kWider;
       falls = fall();
     }
-    const double prior = 1.0 / (tunable.spread * tunable.spread);
-    const double below = std::log(tunable.least / tunable.typical);
-    const double log_prior =
-        LogOfIntegral(prior) +
-        std::log(0.5 * std::erfc(below * std::sqrt(0.5 * prior)));
+    const double prior = PriorCurvature(tunable);
+    const double log_prior = LogOfIntegral(prior) + LogOfPriorWithin(tunable);
     if (!at_least) {
       const double curvature = std::max(prior, -(far + near) / (h * h));
       return LogOfIntegral(curvature) - log_prior;
@@ -237,6 +246,15 @@ double LogShareOfPrior(const LinearTape& tape, int receiver,
                        SearchEffort* effort) {
   return Tuning(tape, receiver, sequence, typical, effort)
       .LogShareOfPrior(found, least_scale);
+}
+
+double MostOfLogShare(const ModeSequence& sequence,
+                      const ErrorParameters& typical, double least_scale) {
+  std::vector<Tunable> tunables = TunablesOf(sequence, typical);
+  tunables.front().least = least_scale;
+  double sum = 0.0;
+  for (const Tunable& tunable : tunables) sum -= LogOfPriorWithin(tunable);
+  return sum;
 }
 
 std::vector<BoundedValue> BoundedParameters(const ModeSequence& sequence,

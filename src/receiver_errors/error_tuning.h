@@ -60,6 +60,12 @@ double LogShareOfPrior(const LinearTape& tape, int receiver,
                        double least_scale = kLeastScale,
                        SearchEffort* effort = nullptr);
 
+/// What LogShareOfPrior is at the most: of data that say nothing, where the prior has
+/// its top at a bound.
+double MostOfLogShare(const ModeSequence& sequence,
+                      const ErrorParameters& typical,
+                      double least_scale = kLeastScale);
+
 /// The parameters of a sequence that TuneParameters seeks within bounds which
 /// mean something: a share of outliers may be as small as it likes, the IMU as
 /// good as stated, and a bias last for ever.

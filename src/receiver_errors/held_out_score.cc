@@ -25,7 +25,7 @@ MeanOfStretches MeanOf(const std::vector<double>& values) {
 std::vector<double> FixTimes(const LinearTape& tape, int sensor) {
   std::vector<double> times;
   for (std::size_t k = 0; k < tape.size(); ++k) {
-    if (HasFix(tape, k, sensor)) times.push_back(tape.epoch(k).t);
+    if (HasFix(tape, k, sensor)) times.push_back(tape.t(k));
   }
   return times;
 }

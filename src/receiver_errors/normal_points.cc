@@ -20,11 +20,11 @@ struct Interval {
 
 std::vector<Interval> IntervalsOf(const LinearTape& tape, double length) {
   std::vector<Interval> all;
-  const double t0 = tape.epoch(0).t;
+  const double t0 = tape.t(0);
   double present = -1.0;
   for (std::size_t k = 0; k < tape.size(); ++k) {
     // A stamp that rounding leaves short of an interval's begin is in it.
-    const double number = std::floor((tape.epoch(k).t - t0) / length + 1e-6);
+    const double number = std::floor((tape.t(k) - t0) / length + 1e-6);
     if (number != present) all.push_back({k, k});
     present = number;
     all.back().end = k + 1;
@@ -42,13 +42,13 @@ Transition Identity(int n) {
 void Lengthen(const LinearTape& tape, std::size_t k, Transition* t) {
   const ErrorMatrix Phi = tape.Phi(k);
   t->Phi = (Phi * t->Phi).eval();
-  t->c = (Phi * t->c + tape.epoch(k).c).eval();
+  t->c = (Phi * t->c + tape.c(k)).eval();
   t->Q = (Phi * t->Q * Phi.transpose() + tape.Q(k)).eval();
 }
 
 /// What leads from node k to the end of `t`, which begins at node k + 1.
 void Precede(const LinearTape& tape, std::size_t k, Transition* t) {
-  t->c = (t->Phi * tape.epoch(k + 1).c + t->c).eval();
+  t->c = (t->Phi * tape.c(k + 1) + t->c).eval();
   t->Q = (t->Phi * tape.Q(k + 1) * t->Phi.transpose() + t->Q).eval();
   t->Phi = (t->Phi * tape.Phi(k + 1)).eval();
 }

@@ -217,7 +217,7 @@ std::unique_ptr<const SensorFindings> FindingsAgain(
 std::vector<double> SensorFindings::Times() const {
   std::vector<double> times;
   for (std::size_t k = 0; k < tape.size(); ++k) {
-    times.push_back(tape.epoch(k).t);
+    times.push_back(tape.t(k));
   }
   return times;
 }

@@ -154,5 +154,25 @@ TEST(LogShareOfPrior, IsTheIntegralOverEachParameter) {
   EXPECT_LT(sum, -6.0);
 }
 
+/// Also of data that say nothing, in which the priors are all that is integrated.
+TEST(LogShareOfPrior, IsNotAboveItsMost) {
+  const NoisyFixes noisy = MakeNoisyFixes();
+  Problem posed =
+      noisy.problem.Pose(GateDecisions(noisy.problem.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(noisy.problem.truth, &posed);
+  const ModeSequence good(noisy.errors.size());
+  for (const double least_scale : {kLeastScale, 1.0}) {
+    const double most = MostOfLogShare(good, {}, least_scale);
+    for (const double scale : {1.0, 3.0}) {
+      ErrorParameters p;
+      p.scale = scale;
+      EXPECT_LE(LogShareOfPrior(tape, 0, good, p, {}, least_scale), most);
+    }
+    EXPECT_LT(most, 2.0);
+  }
+  // No sensor 1 measures anything.
+  EXPECT_NEAR(LogShareOfPrior(tape, 1, good, {}, {}, 1.0), 0.0, 0.3);
+}
+
 }  // namespace
 }  // namespace hindsight

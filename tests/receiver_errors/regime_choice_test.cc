@@ -87,6 +87,25 @@ TEST(FitNoise, OfFixesBetterThanStatedIsThereAsTheBatchIsSolvedWith) {
   EXPECT_EQ(ChooseRegime(problem, all).chosen, 0u);
 }
 
+/// Where only noise is sought, what cannot stand costs no integral, and is refused
+/// as with one.
+TEST(FitNoise, DoesNotIntegrateWhatCannotStand) {
+  const LinearTape tape = TapeOf(PositionsOnly(120.0));
+  SearchEffort all_effort(1e9, nullptr);
+  SearchEffort effort(1e9, nullptr);
+  const RegimeProblem all{tape, 0, 0.5, false, &all_effort};
+  const RegimeProblem noise{tape, 0, 0.5, true, &effort};
+  const std::vector<ErrorRegimes> integrated = FitNoise(all);
+  const std::vector<ErrorRegimes> bounded = FitNoise(noise);
+  ASSERT_LT(integrated[1].log_evidence - integrated[0].log_evidence,
+            kLeastGain);
+  ASSERT_EQ(bounded.size(), integrated.size());
+  EXPECT_LT(bounded[1].log_evidence - bounded[0].log_evidence, kLeastGain);
+  EXPECT_GE(bounded[1].log_evidence, integrated[1].log_evidence);
+  EXPECT_EQ(ChooseRegime(noise, bounded).chosen, 0u);
+  EXPECT_LT(effort.spent(), 0.9 * all_effort.spent());
+}
+
 TEST(RegimeChoice, RefusesWhatPredictsHeldOutStretchesWorse) {
   const LinearTape tape = TapeOf(PositionsOnly(90.0));
   SearchEffort effort(1e9, nullptr);
