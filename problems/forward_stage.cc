@@ -230,6 +230,26 @@ CovarianceSeries ForwardStage::Relinearise() {
   }
 }
 
+std::vector<State> ForwardStage::SmoothedStates() {
+  if (timeline().HasGates() || EstimatesTimeOffsets(start_.layout)) {
+    Run();
+    return smoothed_->states;
+  }
+  const LinearTape tape = Filter("ekf", &problem_);
+  problem_.decisions = DecisionsOnTape(tape);
+  return SmoothMeans(tape).states;
+}
+
+std::vector<State> ForwardStage::RestedStates(
+    const std::vector<State>& smoothed) {
+  try {
+    return SmoothUntilItRests(smoothed, &problem_, Progress("linearisation"))
+        .trajectory.states;
+  } catch (const EstimationError&) {
+    return {};
+  }
+}
+
 Problem ForwardStage::CausalProblem() const {
   return {problem_.layout, problem_.prior, problem_.timeline};
 }

@@ -63,6 +63,11 @@ class ForwardStage {
                        });
   }
   const SmoothedTrajectory& smoothed() const { return *smoothed_; }
+  /// In place of Run, for `problem` and the states of `smoothed` alone: of those no
+  /// covariances are found but where nodes or gates hang on them.
+  std::vector<State> SmoothedStates();
+  /// The states of `relinearised` from those, without what else it says.
+  std::vector<State> RestedStates(const std::vector<State>& smoothed);
   double smoothing_seconds() const { return smoothing_seconds_; }
   /// Spans that the data leave undetermined; found when first asked for.
   const std::vector<UnobservedSpan>& unobserved();

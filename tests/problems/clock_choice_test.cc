@@ -266,7 +266,8 @@ MarginalLikelihood LikelihoodOf(double position_sigma, double imu_factor) {
   const GateDecisions used(stage.timeline().all_measurements().size(), 1);
   Problem problem = stage.problem();
   problem.prior = PriorOfComparison(dataset, stage.problem(), nominal.front());
-  return MarginalLikelihoodOf(std::move(problem), nominal, used);
+  return MarginalLikelihoodOf(std::move(problem), nominal, used,
+                              LikelihoodParts::kWithNoise);
 }
 
 /// What two predictions have of the IMU's noise: nothing of an exact one; all
