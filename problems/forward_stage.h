@@ -73,8 +73,9 @@ class ForwardStage {
   const std::vector<UnobservedSpan>& unobserved();
   /// Found when first asked for.
   const Relinearised& relinearised();
-  /// What a batch begins at: linearised anew where that is near, which is one of the
-  /// batch's own steps unless sensors have a loss; else the smoothed trajectory.
+  /// What a batch begins at: the smoothed trajectory or, unless sensors have a loss,
+  /// what linearising anew led to where that contracted: its passes are steps that
+  /// the batch would take itself.
   const std::vector<State>& batch_start();
   /// Of the interval as linearised anew; found when first asked for, empty where
   /// no new linearisation held.
