@@ -35,9 +35,9 @@ MarginalLikelihood LikelihoodBeside(const Dataset& dataset,
                                     const Explained& solved,
                                     const Explained& other,
                                     LikelihoodParts parts) {
-  return LikelihoodOf(
-      dataset, solved,
-      InCommon(solved.problem.timeline, other.problem.timeline), parts);
+  return LikelihoodOf(dataset, solved,
+                      InCommon(solved.problem.timeline, other.problem.timeline),
+                      parts);
 }
 
 double ClockPriorOf(const Dataset& dataset, const Explained& solved) {

@@ -116,7 +116,8 @@ class Profile {
     KnownHeading known =
         KnowHeading(problem_.layout, prior_, nominal.front(), kTight * sigma_);
     problem_.prior = std::move(known.prior);
-    return known.log_density + SettledLogLikelihood(std::move(nominal), &problem_);
+    return known.log_density +
+           SettledLogLikelihood(std::move(nominal), &problem_);
   }
 
  private:
