@@ -6,7 +6,6 @@
 
 #include "base/chi_square.h"
 #include "base/median.h"
-#include "problems/marginal_likelihood.h"
 
 namespace hindsight {
 namespace {
@@ -24,14 +23,21 @@ GateDecisions InCommon(const Timeline& timeline, const Timeline& other) {
   return used;
 }
 
-MarginalLikelihood LikelihoodBeside(const Dataset& dataset,
-                                    const Explained& solved,
-                                    const Explained& other) {
+MarginalLikelihood LikelihoodOf(const Dataset& dataset, const Explained& solved,
+                                const GateDecisions& used,
+                                LikelihoodParts parts) {
   Problem problem = solved.problem;
   problem.prior = PriorOfComparison(dataset, problem, solved.states.front());
-  const GateDecisions common =
-      InCommon(problem.timeline, other.problem.timeline);
-  return MarginalLikelihoodOf(std::move(problem), solved.states, common);
+  return MarginalLikelihoodOf(std::move(problem), solved.states, used, parts);
+}
+
+MarginalLikelihood LikelihoodBeside(const Dataset& dataset,
+                                    const Explained& solved,
+                                    const Explained& other,
+                                    LikelihoodParts parts) {
+  return LikelihoodOf(dataset, solved,
+                      InCommon(solved.problem.timeline, other.problem.timeline),
+                      parts);
 }
 
 double ClockPriorOf(const Dataset& dataset, const Explained& solved) {
@@ -66,24 +72,50 @@ double MedianExcessOf(const MarginalLikelihood& chosen) {
 
 }  // namespace
 
-double LogLikelihoodRatio(const Dataset& dataset, const Explained& rival,
-                          const Explained& chosen) {
-  const MarginalLikelihood a = LikelihoodBeside(dataset, chosen, rival);
-  const MarginalLikelihood b = LikelihoodBeside(dataset, rival, chosen);
+// Who holds the lock never waits for another thread: what is solved meanwhile by two
+// is the same.
+std::shared_ptr<const ChosenExplanation::Known> ChosenExplanation::Beside(
+    const Explained& rival, LikelihoodParts parts) {
+  GateDecisions used =
+      InCommon(chosen_.problem.timeline, rival.problem.timeline);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (last_ && last_->parts == parts && last_->used == used) return last_;
+  }
+  MarginalLikelihood likelihood = LikelihoodOf(dataset_, chosen_, used, parts);
+  auto known = std::make_shared<const Known>(
+      Known{std::move(used), parts, std::move(likelihood)});
+  const std::lock_guard<std::mutex> lock(mutex_);
+  last_ = known;
+  return known;
+}
+
+double ChosenExplanation::LogLikelihoodRatio(const Explained& rival) {
+  const auto chosen = Beside(rival, LikelihoodParts::kAlone);
+  const MarginalLikelihood& a = chosen->likelihood;
+  const MarginalLikelihood b =
+      LikelihoodBeside(dataset_, rival, chosen_, LikelihoodParts::kAlone);
   return (b.log - a.log) / ExcessOf(a);
 }
 
-double LogEvidenceRatio(const Dataset& dataset, const Explained& rival,
-                        const Explained& chosen, ExcessBy by) {
-  const MarginalLikelihood a = LikelihoodBeside(dataset, chosen, rival);
-  const MarginalLikelihood b = LikelihoodBeside(dataset, rival, chosen);
+double ChosenExplanation::LogEvidenceRatio(const Explained& rival,
+                                           ExcessBy by) {
+  const auto chosen = Beside(rival, LikelihoodParts::kWithNoise);
+  const MarginalLikelihood& a = chosen->likelihood;
+  const MarginalLikelihood b =
+      LikelihoodBeside(dataset_, rival, chosen_, LikelihoodParts::kWithNoise);
   const double excess =
       by == ExcessBy::kMedian ? MedianExcessOf(a) : ExcessOf(a);
   const double between = SquaredDifference(a, b);
   const double of_noise = excess * (a.imu_noise + b.imu_noise);
   const double of_motion = between > of_noise ? 1.0 - of_noise / between : 0.0;
-  return of_motion * (b.log - a.log) / excess + ClockPriorOf(dataset, rival) -
-         ClockPriorOf(dataset, chosen);
+  return of_motion * (b.log - a.log) / excess + ClockPriorOf(dataset_, rival) -
+         ClockPriorOf(dataset_, chosen_);
+}
+
+double LogEvidenceRatio(const Dataset& dataset, const Explained& rival,
+                        const Explained& chosen, ExcessBy by) {
+  return ChosenExplanation(dataset, chosen).LogEvidenceRatio(rival, by);
 }
 
 }  // namespace hindsight

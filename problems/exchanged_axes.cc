@@ -63,19 +63,20 @@ bool MayHideOtherAxes(ForwardStage* chosen) {
 }
 
 std::optional<RivalSolution> RivalBy(const OtherAxes& axes, double log_odds,
-                                     ForwardStage* chosen) {
-  Dataset dataset = chosen->dataset();
+                                     const ForwardStage& chosen,
+                                     RivalComparison* comparison) {
+  Dataset dataset = chosen.dataset();
   for (ImuSample& sample : dataset.imu.samples) {
     Eigen::Vector3d& reading = axes.of_gyros ? sample.gyro : sample.accel;
     reading = (axes.in_body * reading).eval();
   }
-  ReconstructionOptions options = chosen->options();
+  ReconstructionOptions options = chosen.options();
   options.progress = nullptr;
   RivalSolution words;
   words.description = axes.words;
   words.remedy = "if so, order and signs of the IMU's columns";
   const auto solve = [&](ForwardStage stage) {
-    return SolveRival(log_odds, RivalReadings::kTheSame, words, &stage, chosen);
+    return comparison->Solve(log_odds, RivalReadings::kTheSame, words, &stage);
   };
   // An alignment in full takes several times as long as all the rest.
   if (std::optional<Start> start = CoarseStart(options, &dataset)) {
@@ -92,10 +93,10 @@ std::optional<RivalSolution> RivalBy(const OtherAxes& axes, double log_odds,
 
 std::vector<RivalSolution> ExchangedAxes(ForwardStage* chosen) {
   if (!MayHideOtherAxes(chosen)) return {};
-  chosen->relinearised();  // before several threads ask for it
+  RivalComparison comparison(chosen);
   const std::vector<OtherAxes> all = AllOtherAxes();
   return RareRivals(all.size(), [&](std::size_t i, double log_odds) {
-    return RivalBy(all[i], log_odds, chosen);
+    return RivalBy(all[i], log_odds, *chosen, &comparison);
   });
 }
 

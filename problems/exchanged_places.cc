@@ -115,18 +115,20 @@ std::vector<Exchange> ExchangesOf(const ForwardStage& chosen) {
 }
 
 std::optional<RivalSolution> RivalBy(const Exchange& one, double log_odds,
-                                     ForwardStage* chosen) {
+                                     const ForwardStage& chosen,
+                                     RivalComparison* comparison) {
   const std::string& name =
       one.dataset.streams[static_cast<std::size_t>(one.sensor)].sensor.name;
   RivalSolution words;
   words.description =
       "latitude and longitude of " + name + " stand for each other";
   words.remedy = "if so, lat and lon in the columns of " + name + " exchanged";
-  ReconstructionOptions options = chosen->options();
+  ReconstructionOptions options = chosen.options();
   options.progress = nullptr;
   ForwardStage stage(one.dataset, options, one.start);
-  return SolveRival(log_odds + one.log_area, RivalReadings::kAtOtherTimes,
-                    std::move(words), &stage, chosen);
+  return comparison->Solve(log_odds + one.log_area,
+                           RivalReadings::kAtOtherTimes, std::move(words),
+                           &stage);
 }
 
 }  // namespace
@@ -134,8 +136,9 @@ std::optional<RivalSolution> RivalBy(const Exchange& one, double log_odds,
 std::vector<RivalSolution> ExchangedPlaces(ForwardStage* chosen) {
   if (!IsAsked(chosen)) return {};
   const std::vector<Exchange> all = ExchangesOf(*chosen);
+  RivalComparison comparison(chosen);
   return RareRivals(all.size(), [&](std::size_t i, double log_odds) {
-    return RivalBy(all[i], log_odds, chosen);
+    return RivalBy(all[i], log_odds, *chosen, &comparison);
   });
 }
 

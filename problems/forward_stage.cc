@@ -159,8 +159,8 @@ const Relinearised& ForwardStage::relinearised() {
 }
 
 const std::vector<State>& ForwardStage::batch_start() {
-  return relinearised().is_near && !has_losses() ? relinearised().states
-                                                 : smoothed_->states;
+  return relinearised().contracted && !has_losses() ? relinearised().states
+                                                    : smoothed_->states;
 }
 
 const Fit& ForwardStage::fit() {
@@ -223,8 +223,29 @@ CovarianceSeries ForwardStage::Relinearise() {
         Compare(start_.layout, smoothed_->states, smoothed_->P, anew);
     anew.smoother.settled = rested.step < 1.0;
     anew.is_near = rested.passes == 1 && rested.is_settled();
+    anew.contracted = anew.is_near || rested.step < rested.first;
     if (anew.is_near) settled_tape_ = std::move(rested.tape);
     return std::move(last.P);
+  } catch (const EstimationError&) {
+    return {};
+  }
+}
+
+std::vector<State> ForwardStage::SmoothedStates() {
+  if (timeline().HasGates() || EstimatesTimeOffsets(start_.layout)) {
+    Run();
+    return smoothed_->states;
+  }
+  const LinearTape tape = Filter("ekf", &problem_);
+  problem_.decisions = DecisionsOnTape(tape);
+  return SmoothMeans(tape).states;
+}
+
+std::vector<State> ForwardStage::RestedStates(
+    const std::vector<State>& smoothed) {
+  try {
+    return SmoothUntilItRests(smoothed, &problem_, Progress("linearisation"))
+        .trajectory.states;
   } catch (const EstimationError&) {
     return {};
   }

@@ -63,13 +63,19 @@ class ForwardStage {
                        });
   }
   const SmoothedTrajectory& smoothed() const { return *smoothed_; }
+  /// In place of Run, for `problem` and the states of `smoothed` alone: of those no
+  /// covariances are found but where nodes or gates hang on them.
+  std::vector<State> SmoothedStates();
+  /// The states of `relinearised` from those, without what else it says.
+  std::vector<State> RestedStates(const std::vector<State>& smoothed);
   double smoothing_seconds() const { return smoothing_seconds_; }
   /// Spans that the data leave undetermined; found when first asked for.
   const std::vector<UnobservedSpan>& unobserved();
   /// Found when first asked for.
   const Relinearised& relinearised();
-  /// What a batch begins at: linearised anew where that is near, which is one of the
-  /// batch's own steps unless sensors have a loss; else the smoothed trajectory.
+  /// What a batch begins at: the smoothed trajectory or, unless sensors have a loss,
+  /// what linearising anew led to where that contracted: its passes are steps that
+  /// the batch would take itself.
   const std::vector<State>& batch_start();
   /// Of the interval as linearised anew; found when first asked for, empty where
   /// no new linearisation held.

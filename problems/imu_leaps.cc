@@ -42,9 +42,10 @@ namespace {
 /// Nothing where the data cannot be solved without the leap, or `chosen` is hardly
 /// another solution.
 std::optional<RivalSolution> RivalWithout(const ImuDropOut& leap,
-                                          ForwardStage* chosen) {
-  const Dataset anew = WithoutLeap(chosen->dataset(), leap);
-  ForwardStage stage(anew, chosen->options(), chosen->start());
+                                          const ForwardStage& chosen,
+                                          RivalComparison* comparison) {
+  const Dataset anew = WithoutLeap(chosen.dataset(), leap);
+  ForwardStage stage(anew, chosen.options(), chosen.start());
   RivalSolution rival;
   rival.description = fmt::format(
       "the IMU's clock leaps by {:.3g} s at {:.2f} s, and no samples are lost "
@@ -53,8 +54,9 @@ std::optional<RivalSolution> RivalWithout(const ImuDropOut& leap,
   rival.remedy = fmt::format(
       "if so, {:.3g} s less in the stamps of the IMU's later rows", leap.lost);
   rival.differences.push_back({"imu_clock_leap", leap.lost, "s"});
-  return SolveRival(-std::log(kLostForOneLeap), RivalReadings::kAtOtherTimes,
-                    std::move(rival), &stage, chosen);
+  return comparison->Solve(-std::log(kLostForOneLeap),
+                           RivalReadings::kAtOtherTimes, std::move(rival),
+                           &stage);
 }
 
 }  // namespace
@@ -63,11 +65,14 @@ std::vector<RivalSolution> ImuLeaps(ForwardStage* chosen) {
   std::vector<RivalSolution> rivals;
   if (!chosen->start().layout.has_canonical_head()) return rivals;
   const ImuStream& imu = chosen->dataset().imu;
-  for (const ImuDropOut& leap :
-       LongestDropOuts(imu, chosen->timeline().node(0).t,
-                       std::min(chosen->options().to, imu.t_end()))) {
+  const std::vector<ImuDropOut> leaps =
+      LongestDropOuts(imu, chosen->timeline().node(0).t,
+                      std::min(chosen->options().to, imu.t_end()));
+  if (leaps.empty()) return rivals;
+  RivalComparison comparison(chosen);
+  for (const ImuDropOut& leap : leaps) {
     try {
-      if (auto rival = RivalWithout(leap, chosen)) {
+      if (auto rival = RivalWithout(leap, *chosen, &comparison)) {
         rivals.push_back(*std::move(rival));
       }
     } catch (const EstimationError&) {

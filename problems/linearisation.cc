@@ -54,16 +54,30 @@ double LargestDistance(const ErrorLayout& layout,
 Rested SmoothUntilItRests(const std::vector<State>& states, Problem* problem,
                           const EpochCallback& callback) {
   constexpr int kMost = 4;
-  Rested rested{.trajectory = {}, .tape = LinearTape(problem->layout)};
+  // Of a step by the covariances before it that is surely none of those after it.
+  constexpr double kPlainStep = 3.0 * Rested::kNegligibleStep;
+  const ErrorLayout& layout = problem->layout;
+  Rested rested{.trajectory = {}, .tape = LinearTape(layout)};
+  std::vector<NavigationVariances> variances;
   do {
     const std::vector<State>& about =
         rested.passes == 0 ? states : rested.trajectory.states;
     rested.tape = RunLinearizedFilter(about, problem, callback);
+    const bool may_go_on = ++rested.passes < kMost;
+    if (may_go_on && !variances.empty()) {
+      SmoothedTrajectory next = SmoothMeans(rested.tape);
+      rested.step = LargestDistance(layout, about, next.states, variances);
+      if (rested.step > kPlainStep) {
+        rested.trajectory = std::move(next);
+        continue;
+      }
+    }
     SmoothedTrajectory next = SmoothRts(rested.tape, {.errors = false});
-    rested.step = LargestDistance(problem->layout, about, next.states,
-                                  VariancesOf(problem->layout, next.P));
+    variances = VariancesOf(layout, next.P);
+    rested.step = LargestDistance(layout, about, next.states, variances);
+    if (rested.passes == 1) rested.first = rested.step;
     rested.trajectory = std::move(next);
-  } while (++rested.passes < kMost && !rested.is_settled());
+  } while (rested.passes < kMost && !rested.is_settled());
   return rested;
 }
 

@@ -24,6 +24,8 @@ struct Relinearised {
   LinearisationError smoother;  ///< of the smoothed trajectory
   /// One pass led there, and moved it by a negligible step.
   bool is_near = false;
+  /// That, or the last of several passes moved it by less than the first.
+  bool contracted = false;
 };
 
 /// The navigation part of the diagonals of P.
@@ -40,7 +42,8 @@ double LargestDistance(const ErrorLayout& layout,
 /// A trajectory that linearising anew and smoothing led to.
 struct Rested {
   SmoothedTrajectory trajectory;
-  double step = 0.0;  ///< the last, LargestDistance [sigma]
+  double step = 0.0;   ///< the last, LargestDistance [sigma]
+  double first = 0.0;  ///< the first
   int passes = 0;
   LinearTape tape;  ///< of the last pass, about what its step began at
 

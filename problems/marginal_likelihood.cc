@@ -113,7 +113,8 @@ double LogClockPrior(const Dataset& dataset, const ErrorLayout& layout,
 
 MarginalLikelihood MarginalLikelihoodOf(Problem problem,
                                         const std::vector<State>& nominal,
-                                        const GateDecisions& used) {
+                                        const GateDecisions& used,
+                                        LikelihoodParts parts) {
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (used[i] == 0) problem.decisions[i] = 0;
   }
@@ -122,7 +123,9 @@ MarginalLikelihood MarginalLikelihoodOf(Problem problem,
   MarginalLikelihood out;
   std::size_t i = 0;
   for (std::size_t k = 0; k < tape.size(); ++k) {
-    for (const TapeMeasurement& z : tape.measurements(k)) {
+    const bool with_matrices = parts == LikelihoodParts::kWithNoise;
+    for (const TapeMeasurement& z :
+         with_matrices ? tape.measurements(k) : tape.headers(k)) {
       const bool counts = used[i++] != 0 && !z.withheld;
       if (!counts) continue;
       const int rows = static_cast<int>(z.innovation.size());
@@ -134,13 +137,13 @@ MarginalLikelihood MarginalLikelihoodOf(Problem problem,
       out.log += z.log_likelihood + 0.5 * (z.nis - nis);
       out.squares += nis;
       out.rows += rows;
-      if (!z.accepted) continue;
+      if (!z.accepted || parts == LikelihoodParts::kAlone) continue;
       const Measurement& measurement =
           timeline.measurements(k)[static_cast<std::size_t>(z.index)];
       out.whitened[{measurement.sensor, measurement.t}] = Whitened(z);
     }
   }
-  out.imu_noise = KnownImuNoise(tape);
+  if (parts == LikelihoodParts::kWithNoise) out.imu_noise = KnownImuNoise(tape);
   return out;
 }
 

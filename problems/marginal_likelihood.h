@@ -11,7 +11,11 @@
 
 namespace hindsight {
 
-/// ln p(measurements) of an explanation, and how its innovations fare.
+/// Besides a likelihood: nothing, or by what noise its innovations come about.
+enum class LikelihoodParts { kAlone, kWithNoise };
+
+/// ln p(measurements) of an explanation, and how its innovations fare; the last two
+/// of LikelihoodParts::kWithNoise.
 struct MarginalLikelihood {
   double log = 0.0;
   double squares = 0.0;  ///< sum of the normalised squared innovations
@@ -47,7 +51,8 @@ double LogClockPrior(const Dataset& dataset, const ErrorLayout& layout,
 /// innovation.
 MarginalLikelihood MarginalLikelihoodOf(Problem problem,
                                         const std::vector<State>& nominal,
-                                        const GateDecisions& used);
+                                        const GateDecisions& used,
+                                        LikelihoodParts parts);
 
 }  // namespace hindsight
 

@@ -54,16 +54,16 @@ std::optional<Timeline> MethodStage::TakeTimeline() {
   return std::move(timeline_);
 }
 
-void MethodStage::JudgeOptimum(const Solution& solution) {
+bool MethodStage::IsAsLinearisedAnew(const Solution& solution) const {
   constexpr double kSame = 0.1;  // sigma, as ForwardStage::Relinearise
-  if (!own_) {
-    const Relinearised& shared = forward_->relinearised();
-    if (!shared.states.empty() &&
-        LargestDistance(solution.layout, shared.states, solution.states,
-                        shared.variances) < kSame) {
-      return;
-    }
-  }
+  const Relinearised& shared = forward_->relinearised();
+  return !shared.states.empty() &&
+         LargestDistance(solution.layout, shared.states, solution.states,
+                         shared.variances) < kSame;
+}
+
+void MethodStage::JudgeOptimum(const Solution& solution) {
+  if (!own_ && IsAsLinearisedAnew(solution)) return;
   SetFit(
       JudgeFit(forward_->dataset(),
                {.states = solution.states,
@@ -86,6 +86,9 @@ Problem MethodStage::Questioned(const Nodes& nodes) const {
 }
 
 void MethodStage::JudgeHeading(const Solution& solution, const Nodes& nodes) {
+  own_credit_ = {};
+  const bool is_shared = nodes.problem == &forward_->problem();
+  if (is_shared && IsAsLinearisedAnew(solution)) return;
   own_credit_ =
       CreditHeading(*nodes.problem, solution.states, solution.covariances);
 }

@@ -61,8 +61,8 @@ class MethodStage {
   /// model, unless the forward stage's, about the same trajectory, are.
   void JudgeOptimum(const Solution& solution);
 
-  /// Computes the credit of the heading about the method's own result, which
-  /// may be another one than about the forward stage's.
+  /// Computes the credit of the heading about the method's own result, unless that
+  /// is the forward stage's trajectory, linearised anew, which has its own.
   void JudgeHeading(const Solution& solution, const Nodes& nodes);
 
   /// Names the timeline that the solution is found on, if it is none of the
@@ -103,6 +103,8 @@ class MethodStage {
  private:
   /// On the nodes that AtOwnNodes ended with.
   Problem& problem();
+  /// Of a solution on the forward stage's nodes.
+  bool IsAsLinearisedAnew(const Solution& solution) const;
 
   std::unique_ptr<ClocksWithout> elsewhere_;  ///< null: where all begin
   const ClockChoice* clocks_;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "filters/iterated_smoother.h"
 #include "imu/imu_noise.h"
 #include "measurements/sensor_kind.h"
 #include "problems/clock_choice.h"
@@ -82,14 +83,7 @@ double NoiseLikelihood::operator()(const std::vector<double>& logs) {
   problem.prior.x.t = problem.timeline.node(0).t;
   problem.layout = PresentLayout(&problem.prior);
   try {
-    const LinearTape tape = RunExtendedKalmanFilter(&problem);
-    double sum = 0.0;
-    for (std::size_t k = 0; k < tape.size(); ++k) {
-      for (const TapeMeasurement& z : tape.measurements(k)) {
-        if (z.accepted) sum += z.log_likelihood;
-      }
-    }
-    return sum;
+    return LogLikelihoodOf(RunExtendedKalmanFilter(&problem));
   } catch (const EstimationError&) {
     return -std::numeric_limits<double>::infinity();
   }

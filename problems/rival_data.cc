@@ -10,7 +10,6 @@
 #include "base/parallel.h"
 #include "evaluation/explanation.h"
 #include "evaluation/grade.h"
-#include "problems/clock_evidence.h"
 #include "problems/linearisation.h"
 
 namespace hindsight {
@@ -39,34 +38,35 @@ double DistanceBetween(const ErrorLayout& layout, const Relinearised& chosen,
 
 }  // namespace
 
-std::optional<RivalSolution> SolveRival(double log_odds, RivalReadings readings,
-                                        RivalSolution words,
-                                        ForwardStage* rival,
-                                        ForwardStage* chosen) {
+RivalComparison::RivalComparison(ForwardStage* chosen)
+    : own_(chosen->relinearised()),
+      layout_(chosen->start().layout),
+      chosen_(chosen->dataset(), {chosen->problem(), own_.states}) {}
+
+bool RivalComparison::IsNear(const std::vector<State>& rival) const {
+  return DistanceBetween(layout_, own_, rival) < kDoubtfulShift;
+}
+
+std::optional<RivalSolution> RivalComparison::Solve(double log_odds,
+                                                    RivalReadings readings,
+                                                    RivalSolution words,
+                                                    ForwardStage* rival) {
   constexpr double kMostEvidence = 30.0;
   constexpr double kHopeless = 200.0;
-  const Relinearised& own = chosen->relinearised();
-  if (own.states.empty()) return std::nullopt;
-  rival->Run();
-  const auto is_near = [&](const std::vector<State>& states) {
-    return DistanceBetween(chosen->start().layout, own, states) <
-           kDoubtfulShift;
-  };
-  const std::vector<State>& first = rival->smoothed().states;
+  if (own_.states.empty()) return std::nullopt;
   const auto log_evidence = [&](const std::vector<State>& states) {
     const Explained of_rival = {rival->problem(), states};
-    const Explained of_chosen = {chosen->problem(), own.states};
-    return log_odds +
-           (readings == RivalReadings::kTheSame
-                ? LogLikelihoodRatio(chosen->dataset(), of_rival, of_chosen)
-                : LogEvidenceRatio(chosen->dataset(), of_rival, of_chosen));
+    return log_odds + (readings == RivalReadings::kTheSame
+                           ? chosen_.LogLikelihoodRatio(of_rival)
+                           : chosen_.LogEvidenceRatio(of_rival));
   };
+  const std::vector<State> first = rival->SmoothedStates();
   // Linearising anew costs more than the stage and seldom moves so far.
-  if (is_near(first) || log_evidence(first) < -kHopeless) return std::nullopt;
-  const Relinearised& other = rival->relinearised();
-  if (other.states.empty() || is_near(other.states)) return std::nullopt;
-  words.log_evidence = std::min(kMostEvidence, log_evidence(other.states));
-  words.final_state = other.states.back();
+  if (IsNear(first) || log_evidence(first) < -kHopeless) return std::nullopt;
+  const std::vector<State> other = rival->RestedStates(first);
+  if (other.empty() || IsNear(other)) return std::nullopt;
+  words.log_evidence = std::min(kMostEvidence, log_evidence(other));
+  words.final_state = other.back();
   return words;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "problems/clock_evidence.h"
 #include "problems/forward_stage.h"
 #include "state/rival_solution.h"
 
@@ -15,18 +16,30 @@ namespace hindsight {
 /// (LogEvidenceRatio), or the same (LogLikelihoodRatio).
 enum class RivalReadings { kAtOtherTimes, kTheSame };
 
-/// Solves `rival`, a stage of the recording as it may be instead, to its end and
-/// compares it with `chosen`, which has run, by its evidence and `log_odds`, what
-/// is known beforehand. Returns `words` with evidence, 30 at most, and end;
-/// nothing where the position, velocity and attitude of both are less than a
-/// standard deviation apart, in the root mean square over the nodes of both, or
-/// where the rival is hopeless. Throws EstimationError where it cannot be solved.
-std::optional<RivalSolution> SolveRival(double log_odds, RivalReadings readings,
-                                        RivalSolution words,
-                                        ForwardStage* rival,
-                                        ForwardStage* chosen);
+/// Compares rivals with a chosen solution. Several threads may use one.
+class RivalComparison {
+ public:
+  /// `chosen` has run, and must outlive it.
+  explicit RivalComparison(ForwardStage* chosen);
 
-/// Of `count` recordings as they may be instead, each by `solve` (SolveRival) with
+  /// Solves `rival`, a stage of the recording as it may be instead, to its end and
+  /// compares it by its evidence and `log_odds`, what is known beforehand. Returns
+  /// `words` with evidence, 30 at most, and end; nothing where the position, velocity
+  /// and attitude of both are less than a standard deviation apart, in the root mean
+  /// square over the nodes of both, or where the rival is hopeless. Throws
+  /// EstimationError where it cannot be solved.
+  std::optional<RivalSolution> Solve(double log_odds, RivalReadings readings,
+                                     RivalSolution words, ForwardStage* rival);
+
+ private:
+  bool IsNear(const std::vector<State>& rival) const;
+
+  const Relinearised& own_;
+  const ErrorLayout& layout_;
+  ChosenExplanation chosen_;
+};
+
+/// Of `count` recordings as they may be instead, each by `solve` (RivalComparison) with
 /// ln of the odds beforehand, those that the rule `rival` would tell. Of a right
 /// model the evidence of another exceeds its own by a factor K with a probability
 /// below 1/K (Markov): they are taken to be so rare that the rule calls all of them

@@ -48,7 +48,11 @@ std::optional<WindowSolution> WindowSmoother::Smooth(const WindowStart& start,
   const Trial* best = Likeliest(start, usual);
   if (best == nullptr) return std::nullopt;
   if (best->walk > usual) best = LargestWalk(start, best);
-  return WithCovariances(*best);
+  if (best != solved_) {
+    solution_ = WithCovariances(*best);
+    solved_ = best;
+  }
+  return solution_;
 }
 
 const WindowSmoother::Trial* WindowSmoother::Likeliest(const WindowStart& start,

@@ -85,6 +85,8 @@ class WindowSmoother {
   Dataset data_;
   std::optional<Beginning> next_;
   std::map<double, Trial> trials_;  ///< that settled, by walk
+  const Trial* solved_ = nullptr;   ///< of these, the one that was taken last
+  std::optional<WindowSolution> solution_;  ///< WithCovariances of that
 };
 
 }  // namespace hindsight

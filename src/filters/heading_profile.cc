@@ -112,16 +112,12 @@ class Profile {
   /// `angle`. Throws EstimationError.
   double At(double angle) {
     constexpr double kTight = 0.02;  // to which the heading is held, in sigma_
-    IterationOptions options;
-    options.max_iterations = 4;
-    options.covariances = false;
     std::vector<State> nominal = Turned(problem_.layout, angle, states_);
     KnownHeading known =
         KnowHeading(problem_.layout, prior_, nominal.front(), kTight * sigma_);
     problem_.prior = std::move(known.prior);
     return known.log_density +
-           SmoothIterated(std::move(nominal), options, &problem_)
-               .log_likelihood;
+           SettledLogLikelihood(std::move(nominal), &problem_);
   }
 
  private:

@@ -33,11 +33,10 @@ bool IsBelowTolerances(const ErrorLayout& layout,
 void SumInnovations(const LinearTape& tape, IteratedResult* result) {
   double nis = 0.0;
   double rows = 0.0;
-  result->log_likelihood = 0.0;
+  result->log_likelihood = LogLikelihoodOf(tape);
   for (std::size_t k = 0; k < tape.size(); ++k) {
     for (const TapeMeasurement& z : tape.headers(k)) {
       if (!z.accepted) continue;
-      result->log_likelihood += z.log_likelihood;
       nis += z.nis;
       rows += static_cast<double>(z.residual.size());
     }
@@ -75,7 +74,7 @@ IteratedResult SmoothIterated(std::vector<State> nominal,
   IteratedResult result;
   SmoothedTrajectory& trajectory = result.trajectory;
   trajectory.states = std::move(nominal);
-  const bool with_covariances = options.rough == nullptr && options.covariances;
+  const bool with_covariances = options.rough == nullptr;
   std::vector<State> about;
   Steps steps;
   for (int i = 1; i <= options.max_iterations && !result.converged; ++i) {
@@ -123,6 +122,31 @@ double LargestMoveInSigmas(const ErrorLayout& layout,
     }
   }
   return largest;
+}
+
+double LogLikelihoodOf(const LinearTape& tape) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.headers(k)) {
+      if (z.accepted) sum += z.log_likelihood;
+    }
+  }
+  return sum;
+}
+
+double SettledLogLikelihood(std::vector<State> nominal, Problem* problem) {
+  constexpr int kMostPasses = 4;
+  constexpr double kSettled = 0.01;
+  double before = std::numeric_limits<double>::infinity();
+  for (int pass = 1;; ++pass) {
+    const LinearTape tape = RunLinearizedFilter(nominal, problem);
+    const double log_likelihood = LogLikelihoodOf(tape);
+    if (pass == kMostPasses || std::abs(log_likelihood - before) < kSettled) {
+      return log_likelihood;
+    }
+    before = log_likelihood;
+    nominal = SmoothMeans(tape).states;
+  }
 }
 
 GateDecisions DecideGates(const Problem& problem,

@@ -100,6 +100,26 @@ TEST(ForwardFilter, IterationStopsWhereTheRestIsNegligible) {
   EXPECT_NEAR(soon.log_likelihood, whole.log_likelihood, 1e-3);
 }
 
+/// The likelihood that a profile compares: as settled as the smoother's, for less.
+TEST(SettledLogLikelihood, IsWhatTheIteratedSmootherComesTo) {
+  const TestProblem problem = MakeProblem(Options(true), 4);
+  const GateDecisions all(problem.measurements.size(), 1);
+  std::vector<State> nominal = problem.truth;
+  Random random(8);
+  for (State& x : nominal) {
+    x = Retract(problem.layout, x,
+                testing::Draw(problem.layout.InitialCovariance(), &random));
+  }
+  Problem smoothed = problem.Pose(all);
+  const IteratedResult settled = SmoothIterated(nominal, {}, &smoothed);
+  ASSERT_TRUE(settled.converged);
+  Problem posed = problem.Pose(all);
+  const double first = LogLikelihoodOf(RunLinearizedFilter(nominal, &posed));
+  const double found = SettledLogLikelihood(nominal, &posed);
+  EXPECT_NEAR(found, settled.log_likelihood, 0.01);
+  EXPECT_GT(std::abs(first - found), 0.1);
+}
+
 TEST(ForwardFilter, TapeTransitionIsTheDerivativeOfPropagation) {
   const TestProblem problem = MakeProblem(Options(true, true));
   Problem posed = problem.Pose();

@@ -6,7 +6,6 @@
 
 #include "filters/dense_least_squares.h"
 #include "filters/forward_filter.h"
-#include "filters/iterated_smoother.h"
 #include "filters/rts.h"
 #include "support/test_problem.h"
 
@@ -49,24 +48,6 @@ TEST(TapeAdjoint, NeedsATapeAboutAFixedNominal) {
   const LinearTape tape = RunExtendedKalmanFilter(&posed);
   EXPECT_THROW(ForEachLambda(tape, [](std::size_t, const ErrorMatrix&) {}),
                std::logic_error);
-}
-
-TEST(IteratedSmoother, FindsTheSameWithoutCovariances) {
-  const TestProblem problem = WalkingDrive();
-  IterationOptions options;
-  options.max_iterations = 3;
-  Problem with = problem.Pose();
-  const IteratedResult a = SmoothIterated(problem.truth, options, &with);
-  options.covariances = false;
-  Problem without = problem.Pose();
-  const IteratedResult b = SmoothIterated(problem.truth, options, &without);
-  EXPECT_EQ(a.log_likelihood, b.log_likelihood);
-  EXPECT_EQ(a.iterations, b.iterations);
-  EXPECT_FALSE(a.trajectory.P.empty());
-  EXPECT_TRUE(b.trajectory.P.empty());
-  for (std::size_t k = 0; k < a.trajectory.states.size(); ++k) {
-    EXPECT_EQ(a.trajectory.states[k].p_e, b.trajectory.states[k].p_e) << k;
-  }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "io/config/scenario_config.h"
 #include "measurements/sensor_kind.h"
+#include "problems/clock_evidence.h"
 #include "problems/forward_stage.h"
 #include "problems/marginal_likelihood.h"
 #include "problems/reconstruction.h"
@@ -266,7 +267,8 @@ MarginalLikelihood LikelihoodOf(double position_sigma, double imu_factor) {
   const GateDecisions used(stage.timeline().all_measurements().size(), 1);
   Problem problem = stage.problem();
   problem.prior = PriorOfComparison(dataset, stage.problem(), nominal.front());
-  return MarginalLikelihoodOf(std::move(problem), nominal, used);
+  return MarginalLikelihoodOf(std::move(problem), nominal, used,
+                              LikelihoodParts::kWithNoise);
 }
 
 /// What two predictions have of the IMU's noise: nothing of an exact one; all
@@ -294,6 +296,47 @@ TEST(MarginalLikelihood, WhitensAsManyInnovationsAsItCounts) {
   }
   EXPECT_EQ(rows, usual.rows);
   EXPECT_NEAR(squares, usual.squares, 1e-6 * squares);
+}
+
+/// The likelihood that is kept of the chosen one is that beside the rival's
+/// measurements.
+TEST(ChosenExplanation, ComparesOneAfterTheOtherAsEachByItself) {
+  const Dataset dataset = Simulate(FindScenario("short_drive"), 4);
+  ForwardStage chosen(dataset, {});
+  chosen.Run();
+  ReconstructionOptions shorter;
+  shorter.to = dataset.imu.t_end() - 10.0;
+  const Explained of_chosen = {chosen.problem(), chosen.smoothed().states};
+  ChosenExplanation comparison(dataset, of_chosen);
+  for (const auto& options : {ReconstructionOptions(), shorter, shorter}) {
+    Dataset late = dataset;
+    for (AidingStream& stream : late.streams) Delay(0.5, &stream);
+    ForwardStage rival(late, options, chosen.start());
+    const std::vector<State> states = rival.SmoothedStates();
+    const Explained of_rival = {rival.problem(), states};
+    EXPECT_EQ(comparison.LogEvidenceRatio(of_rival),
+              LogEvidenceRatio(dataset, of_rival, of_chosen));
+  }
+}
+
+TEST(ForwardStage, SmoothedStatesAreThoseOfARun) {
+  const Dataset dataset = Simulate(FindScenario("short_drive"), 4);
+  ForwardStage run(dataset, {});
+  run.Run();
+  ForwardStage stage(dataset, {}, run.start());
+  const std::vector<State> states = stage.SmoothedStates();
+  ASSERT_EQ(states.size(), run.smoothed().states.size());
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    EXPECT_EQ(states[k].p_e, run.smoothed().states[k].p_e) << k;
+    EXPECT_EQ(states[k].q_eb.coeffs(), run.smoothed().states[k].q_eb.coeffs())
+        << k;
+  }
+  EXPECT_EQ(stage.problem().decisions, run.problem().decisions);
+  const std::vector<State> rested = stage.RestedStates(states);
+  ASSERT_EQ(rested.size(), run.relinearised().states.size());
+  for (std::size_t k = 0; k < rested.size(); ++k) {
+    EXPECT_EQ(rested[k].p_e, run.relinearised().states[k].p_e) << k;
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "problems/forward_stage.h"
 #include "problems/reconstruction.h"
 #include "support/in_flight.h"
 #include "support/mean_nees.h"
@@ -76,6 +77,30 @@ TEST(Linearisation, TheEvidenceNamesTheCure) {
                    [](const Evidence& e) { return e.rule == "linearisation"; });
   ASSERT_NE(found, solution.evidence.end()) << solution.verdict;
   EXPECT_EQ(AsAlternatives(found->better_methods), "iterated or batch");
+}
+
+/// Passes of which covariances are not found lead where all of them would.
+TEST(Linearisation, RestsWherePassesWithCovariancesDo) {
+  const PerfectRecording flight(InFlightAlignment());
+  Dataset dataset = flight.Realize(1);
+  GiveBadStart({10.0 * kDegree, 120.0 * kDegree}, 1, &dataset);
+  ForwardStage stage(dataset, {});
+  stage.Run();
+  Problem problem = stage.problem();
+  std::vector<State> states = stage.smoothed().states;
+  const Rested rested = SmoothUntilItRests(states, &problem, nullptr);
+  ASSERT_GT(rested.passes, 2);
+  EXPECT_LT(rested.step, rested.first);
+  SmoothedTrajectory last;
+  problem = stage.problem();
+  for (int pass = 0; pass < rested.passes; ++pass) {
+    last = SmoothRts(RunLinearizedFilter(states, &problem));
+    states = last.states;
+  }
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    EXPECT_EQ(rested.trajectory.states[k].p_e, states[k].p_e) << k;
+    EXPECT_EQ(rested.trajectory.P.Get(k), last.P.Get(k)) << k;
+  }
 }
 
 TEST(Linearisation, AFilterThatEndsRightIsNotBlamedForItsStart) {

@@ -70,12 +70,15 @@ TextTable::Batch TextTable::ReadLines(Batch memory) {
 }
 
 void TextTable::Parse(Batch* batch) const {
+  // One of its own: what a thread reads of each row must not stand, by the chance of
+  // where memory was had, beside what another writes with each row.
+  const TextRowParser parser = parser_;
   const std::size_t width = values_.size();
   batch->values.resize(batch->rows.size() * width);
   TextRowParser::Scratch scratch;
   std::size_t begin = 0;
   for (Ahead& row : batch->rows) {
-    std::string problem = parser_.Parse(
+    std::string problem = parser.Parse(
         std::string_view(batch->texts).substr(row.begin, row.length), &scratch,
         std::span(batch->values).subspan(begin, width), &row.stamp,
         &row.columns, &row.last_length);
