@@ -11,23 +11,61 @@
 namespace hindsight {
 namespace {
 
-/// Nodes first to past the last.
+/// Nodes first to past the last, and the one to which they are carried.
 struct Interval {
   std::size_t begin = 0;
   std::size_t end = 0;
-  std::size_t middle() const { return begin + (end - begin) / 2; }
+  std::size_t node = 0;
 };
 
-std::vector<Interval> IntervalsOf(const LinearTape& tape, double length) {
+/// Neighbours of the same number together, carried to the middle one.
+std::vector<Interval> IntervalsOf(const std::vector<double>& numbers) {
   std::vector<Interval> all;
-  const double t0 = tape.t(0);
-  double present = -1.0;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    if (k == 0 || numbers[k] != numbers[k - 1]) all.push_back({k, k, k});
+    Interval& last = all.back();
+    last.end = k + 1;
+    last.node = last.begin + (last.end - last.begin) / 2;
+  }
+  return all;
+}
+
+/// Of each node its interval of such a length from the first on.
+std::vector<double> NumbersOf(const LinearTape& tape, double length) {
+  std::vector<double> numbers;
   for (std::size_t k = 0; k < tape.size(); ++k) {
     // A stamp that rounding leaves short of an interval's begin is in it.
-    const double number = std::floor((tape.t(k) - t0) / length + 1e-6);
-    if (number != present) all.push_back({k, k});
-    present = number;
-    all.back().end = k + 1;
+    numbers.push_back(std::floor((tape.t(k) - tape.t(0)) / length + 1e-6));
+  }
+  return numbers;
+}
+
+/// Nodes that are nearer to a fix than to others, by half a `length` at the most, are
+/// carried to it.
+std::vector<Interval> IntervalsAboutFixes(const LinearTape& tape, int sensor,
+                                          double length) {
+  std::vector<double> numbers = NumbersOf(tape, length);
+  std::vector<std::size_t> fixes;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    if (HasFix(tape, k, sensor)) fixes.push_back(k);
+  }
+  std::size_t nearest = 0;
+  for (std::size_t k = 0; k < tape.size() && !fixes.empty(); ++k) {
+    const auto distance = [&](std::size_t i) {
+      return std::abs(tape.t(fixes[i]) - tape.t(k));
+    };
+    while (nearest + 1 < fixes.size() &&
+           distance(nearest + 1) <= distance(nearest)) {
+      ++nearest;
+    }
+    if (distance(nearest) > 0.5 * length) continue;
+    numbers[k] = -1.0 - static_cast<double>(nearest);
+  }
+  std::vector<Interval> all = IntervalsOf(numbers);
+  for (Interval& one : all) {
+    for (std::size_t k = one.begin; k < one.end; ++k) {
+      if (HasFix(tape, k, sensor)) one.node = k;
+    }
   }
   return all;
 }
@@ -103,10 +141,10 @@ class CarryingOn {
 
 bool IsUsed(const TapeMeasurement& z) { return z.accepted && !z.withheld; }
 
-std::vector<Carried> CarryToMiddle(const LinearTape& tape,
+std::vector<Carried> CarryTogether(const LinearTape& tape,
                                    const Interval& interval) {
   std::vector<Carried> all;
-  const std::size_t middle = interval.middle();
+  const std::size_t middle = interval.node;
   Transition back = Identity(tape.dim());
   for (std::size_t k = middle; k < interval.end; ++k) {
     if (k > middle) Lengthen(tape, k, &back);
@@ -179,44 +217,60 @@ void RecordAverages(const std::vector<Carried>& all, int sensor,
   }
 }
 
-}  // namespace
-
-std::optional<NormalPoints> FormNormalPoints(const LinearTape& tape, int sensor,
-                                             double interval) {
-  const std::vector<Interval> intervals = IntervalsOf(tape, interval);
-  NormalPoints out{LinearTape(tape.layout(), tape.error()), {}};
-  std::size_t points = 0;
-  for (const Interval& one : intervals) {
-    std::size_t fixes = 0;
-    for (std::size_t k = one.begin; k < one.end; ++k) {
-      fixes += HasFix(tape, k, sensor);
-    }
-    out.point_of_fix.insert(out.point_of_fix.end(), fixes, points);
-    points += fixes > 0;
-  }
-  if (3 * points > 2 * out.point_of_fix.size()) return std::nullopt;
+/// The tape of one node an interval.
+LinearTape Thin(const LinearTape& tape, int sensor,
+                const std::vector<Interval>& intervals) {
+  LinearTape out(tape.layout(), tape.error());
   std::size_t last = 0;
   ErrorVector mean = tape.epoch(0).dx_minus;
   ErrorMatrix P = tape.P_minus(0);
   for (const Interval& one : intervals) {
     Transition t = Identity(tape.dim());
-    for (std::size_t k = last + 1; k <= one.middle(); ++k) {
+    for (std::size_t k = last + 1; k <= one.node; ++k) {
       Lengthen(tape, k, &t);
     }
-    last = one.middle();
+    last = one.node;
     TapeEpoch epoch = tape.epoch(last);
     epoch.c = t.c;
-    if (out.tape.size() == 0) {
+    if (out.size() == 0) {
       mean = (t.Phi * mean + t.c).eval();
       P = (t.Phi * P * t.Phi.transpose() + t.Q).eval();
       epoch.dx_minus = mean;
     } else {
       P = tape.P_minus(last);
     }
-    RecordAverages(CarryToMiddle(tape, one), sensor, &out.tape);
-    out.tape.Append(epoch, t, P, P);
+    RecordAverages(CarryTogether(tape, one), sensor, &out);
+    out.Append(epoch, t, P, P);
   }
   return out;
+}
+
+}  // namespace
+
+std::optional<LinearTape> ThinBetweenFixes(const LinearTape& tape, int sensor,
+                                           double interval) {
+  const std::vector<Interval> intervals =
+      IntervalsAboutFixes(tape, sensor, interval);
+  if (2 * intervals.size() > tape.size()) return std::nullopt;
+  return Thin(tape, sensor, intervals);
+}
+
+std::optional<NormalPoints> FormNormalPoints(const LinearTape& tape, int sensor,
+                                             double interval) {
+  const std::vector<Interval> intervals =
+      IntervalsOf(NumbersOf(tape, interval));
+  std::vector<std::size_t> point_of_fix;
+  std::size_t points = 0;
+  for (const Interval& one : intervals) {
+    std::size_t fixes = 0;
+    for (std::size_t k = one.begin; k < one.end; ++k) {
+      fixes += HasFix(tape, k, sensor);
+    }
+    point_of_fix.insert(point_of_fix.end(), fixes, points);
+    points += fixes > 0;
+  }
+  if (3 * points > 2 * point_of_fix.size()) return std::nullopt;
+  return NormalPoints{Thin(tape, sensor, intervals), std::move(point_of_fix)};
 }
 
 ModeSequence AtFixes(const NormalPoints& points, const ModeSequence& sequence) {

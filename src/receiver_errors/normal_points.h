@@ -37,6 +37,13 @@ inline constexpr double kNormalPointInterval = 1.0;
 std::optional<NormalPoints> FormNormalPoints(
     const LinearTape& tape, int sensor, double interval = kNormalPointInterval);
 
+/// All fixes of the sensor, each at its node, to which what others measured is carried
+/// as NormalPoints are, from nodes that are nearest to it and half an `interval` away
+/// at the most; where there are no fixes, a node an interval. None where that would be
+/// more than half of the nodes.
+std::optional<LinearTape> ThinBetweenFixes(
+    const LinearTape& tape, int sensor, double interval = kNormalPointInterval);
+
 /// A sequence over normal points as one over the fixes: what is new at a point
 /// is so at its first fix.
 ModeSequence AtFixes(const NormalPoints& points, const ModeSequence& sequence);

@@ -106,7 +106,9 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
     : ErrorDecisions(problem, linear, index), tape(linear) {
   constexpr double kSearch = 0.8;  // of the time, the rest refines
   const std::optional<NormalPoints> points = FormNormalPoints(tape, sensor);
-  const LinearTape& searched = points ? points->tape : tape;
+  const std::optional<LinearTape> thinned = ThinBetweenFixes(tape, sensor);
+  const LinearTape& fixes = thinned ? *thinned : tape;
+  const LinearTape& searched = points ? points->tape : fixes;
   const double most = MostEffort(searched);
   SearchEffort effort(limits.share * most, [&limits](double fraction) {
     return !limits.go_on || limits.go_on(kSearch * fraction);
@@ -120,15 +122,15 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
   log_prior = LogPriorOfFit(regime, all[choice.chosen]);
   stopped = effort.stopped();
   spent = std::min(limits.share, effort.spent() / most);
-  SearchEffort rest(limits.share * RefinementEffort(tape),
+  SearchEffort rest(limits.share * RefinementEffort(fixes),
                     [&limits](double fraction) {
                       return !limits.go_on ||
                              limits.go_on(kSearch + (1.0 - kSearch) * fraction);
                     });
   if (points && stands()) {
-    Refine(*points, std::move(all), &rest);
+    Refine(fixes, *points, std::move(all), &rest);
   } else if (points) {
-    ChooseNoise(&rest);
+    ChooseNoise(fixes, &rest);
   } else if (stands()) {
     regimes = WithAlternatives(std::move(all), choice.chosen);
   }
@@ -170,32 +172,33 @@ void SensorFindings::AddExchanged() {
   alternatives.push_back(*std::move(exchanged));
 }
 
-void SensorFindings::ChooseNoise(SearchEffort* effort) {
-  const RegimeProblem fixes{tape, sensor, stated_sigma, true, effort};
-  std::vector<ErrorRegimes> all = FitNoise(fixes);
-  RegimeChoice of_noise = ChooseRegime(fixes, all);
+void SensorFindings::ChooseNoise(const LinearTape& fixes,
+                                 SearchEffort* effort) {
+  const RegimeProblem noise{fixes, sensor, stated_sigma, true, effort};
+  std::vector<ErrorRegimes> all = FitNoise(noise);
+  RegimeChoice of_noise = ChooseRegime(noise, all);
   choice.chosen = of_noise.chosen;
   choice.gain = of_noise.gain;
-  log_prior = LogPriorOfFit(fixes, all[choice.chosen]);
+  log_prior = LogPriorOfFit(noise, all[choice.chosen]);
   std::move(of_noise.refused.begin(), of_noise.refused.end(),
             std::back_inserter(choice.refused));
   if (stands()) regimes = WithAlternatives(std::move(all), choice.chosen);
 }
 
-void SensorFindings::Refine(const NormalPoints& points,
+void SensorFindings::Refine(const LinearTape& fixes, const NormalPoints& points,
                             std::vector<ErrorRegimes> found,
                             SearchEffort* effort) {
   constexpr double kFarBehind = 12.0;  // ln
-  const RegimeProblem fixes{tape, sensor, stated_sigma, false, effort};
+  const RegimeProblem problem{fixes, sensor, stated_sigma, false, effort};
   const ErrorRegimes& best = found[choice.chosen];
-  std::vector<ErrorRegimes> all = {RefineAtFixes(fixes, points, best)};
+  std::vector<ErrorRegimes> all = {RefineAtFixes(problem, points, best)};
   for (std::size_t i = 0; i < found.size(); ++i) {
     const bool rival = i != choice.chosen &&
                        found[i].kind == ErrorRegimes::Kind::kSwitching &&
                        found[i].log_evidence > best.log_evidence - kFarBehind;
     if (rival && best.kind == ErrorRegimes::Kind::kSwitching &&
         !effort->IsSpent()) {
-      all.push_back(RefineAtFixes(fixes, points, found[i]));
+      all.push_back(RefineAtFixes(problem, points, found[i]));
     }
   }
   regimes = WithAlternatives(std::move(all), 0);

@@ -58,12 +58,12 @@ struct SensorFindings : ErrorDecisions {
     return {tape, sensor, stated_sigma, unit, regimes.kind, chosen()};
   }
   std::vector<double> Times() const;
-  /// What was found on normal points, at all fixes.
-  void Refine(const NormalPoints& points, std::vector<ErrorRegimes> found,
-              SearchEffort* effort);
+  /// What was found on normal points, at all fixes, on a tape that holds them.
+  void Refine(const LinearTape& fixes, const NormalPoints& points,
+              std::vector<ErrorRegimes> found, SearchEffort* effort);
   /// The noise of all fixes, where normal points show no errors: outliers among
   /// fixes are not in them.
-  void ChooseNoise(SearchEffort* effort);
+  void ChooseNoise(const LinearTape& fixes, SearchEffort* effort);
 
   /// Smooths the hypotheses of the regimes, if they stand, about the tape.
   void WeighAlternatives();

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "filters/rts.h"
 #include "receiver_errors/receiver_tape.h"
 #include "receiver_errors/sequence_smoother.h"
@@ -97,6 +99,42 @@ TEST(NormalPoints, AreTheSameBesideErrorsThatAreDrawnAnew) {
     EXPECT_LT((same.R - own.R).norm(), 1e-9) << i;
     EXPECT_TRUE(beside->tape.measurements(i)[1].R.allFinite()) << i;
   }
+}
+
+/// Positions ten times a second, of which the first of each second is that of the
+/// sensor in question, but for the third ten seconds, and the rest another's.
+TEST(ThinBetweenFixes, KeepsTheFixesAndTellsTheTrajectory) {
+  TestProblem problem = PositionsOnly(40.0, 0.1);
+  for (std::size_t k = 0; k < problem.measurements.size(); ++k) {
+    const bool own = k % 10 == 0 && (k < 200 || k >= 300);
+    problem.measurements[k].sensor = own ? 0 : 1;
+  }
+  const LinearTape tape = TapeOf(problem);
+  const auto thinned = ThinBetweenFixes(tape, 0);
+  ASSERT_TRUE(thinned.has_value());
+  const SmoothedTrajectory all = SmoothRts(tape);
+  const std::vector<ErrorVector> few =
+      SmoothSequence(*thinned, 0, WithoutOutliers(), Good(*thinned));
+  std::size_t fixes = 0;
+  for (std::size_t i = 0; i < thinned->size(); ++i) {
+    const auto k = static_cast<std::size_t>(std::lround(thinned->t(i) / 0.1));
+    ASSERT_EQ(thinned->t(i), tape.t(k));
+    if (i > 0) {
+      EXPECT_LE(thinned->t(i) - thinned->t(i - 1), 1.51);
+    }
+    const Eigen::Matrix3d P = all.P.Get(k).topLeftCorner<3, 3>();
+    const Eigen::Vector3d d = few[i].head<3>() - all.d[k].head<3>();
+    EXPECT_LT(d.dot(P.llt().solve(d)), 0.2) << i;
+    if (!HasFix(*thinned, i, 0)) continue;
+    ++fixes;
+    const TapeMeasurement own = tape.measurements(k)[0];
+    const TapeMeasurement same = thinned->measurements(i)[0];
+    EXPECT_LT((same.residual - own.residual).norm(), 1e-9);
+    EXPECT_LT((same.H - own.H).norm(), 1e-9);
+    EXPECT_LT((same.R - own.R).norm(), 1e-9);
+  }
+  EXPECT_EQ(fixes, 31u);
+  EXPECT_FALSE(ThinBetweenFixes(TapeOf(PositionsOnly(20.0)), 0).has_value());
 }
 
 TEST(NormalPoints, GiveTheirStepsToTheirFirstFixes) {
