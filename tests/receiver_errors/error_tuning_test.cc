@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "filters/forward_filter.h"
+#include "receiver_errors/receiver_tape.h"
 #include "receiver_errors/sequence_smoother.h"
 #include "support/test_problem.h"
 
@@ -14,6 +14,7 @@ namespace {
 
 using testing::MakeProblem;
 using testing::TacticalNoise;
+using testing::TapeOf;
 using testing::TestProblem;
 using testing::TestProblemOptions;
 using testing::TypicalLayout;
@@ -74,9 +75,7 @@ ErrorParameters ExpectAndMaximise(const std::vector<Eigen::Vector3d>& errors) {
 
 TEST(TuneParameters, AgreesWithExpectationMaximisationOnTheErrorsThemselves) {
   const NoisyFixes noisy = MakeNoisyFixes();
-  Problem posed =
-      noisy.problem.Pose(GateDecisions(noisy.problem.measurements.size(), 1));
-  const LinearTape tape = RunLinearizedFilter(noisy.problem.truth, &posed);
+  const LinearTape tape = TapeOf(noisy.problem);
   const ModeSequence good(noisy.errors.size());
   const ErrorParameters tuned = TuneParameters(tape, 0, good, {});
   const ErrorParameters em = ExpectAndMaximise(noisy.errors);
@@ -130,9 +129,7 @@ Grid OnGrid(const LinearTape& tape, const ModeSequence& sequence,
 /// bound.
 TEST(LogShareOfPrior, IsTheIntegralOverEachParameter) {
   const NoisyFixes noisy = MakeNoisyFixes();
-  Problem posed =
-      noisy.problem.Pose(GateDecisions(noisy.problem.measurements.size(), 1));
-  const LinearTape tape = RunLinearizedFilter(noisy.problem.truth, &posed);
+  const LinearTape tape = TapeOf(noisy.problem);
   const ModeSequence good(noisy.errors.size());
   ErrorParameters p = TuneParameters(tape, 0, good, {});
   ASSERT_EQ(p.imu_scale, 1.0);
@@ -157,9 +154,7 @@ TEST(LogShareOfPrior, IsTheIntegralOverEachParameter) {
 /// Also of data that say nothing, in which the priors are all that is integrated.
 TEST(LogShareOfPrior, IsNotAboveItsMost) {
   const NoisyFixes noisy = MakeNoisyFixes();
-  Problem posed =
-      noisy.problem.Pose(GateDecisions(noisy.problem.measurements.size(), 1));
-  const LinearTape tape = RunLinearizedFilter(noisy.problem.truth, &posed);
+  const LinearTape tape = TapeOf(noisy.problem);
   const ModeSequence good(noisy.errors.size());
   for (const double least_scale : {kLeastScale, 1.0}) {
     const double most = MostOfLogShare(good, {}, least_scale);
