@@ -127,7 +127,11 @@ void FindDistrusted(const Judged& judged, std::vector<Evidence>* evidence) {
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     const int sensor = static_cast<int>(i);
-    if (judged.solution.layout.Has(BlockKind::kColouredNoise, sensor)) continue;
+    const ErrorLayout& layout = judged.solution.layout;
+    if (layout.Has(BlockKind::kColouredNoise, sensor) ||
+        layout.Has(BlockKind::kSensorError, sensor)) {
+      continue;
+    }
     FindOf(judged, sensor, all[i], evidence);
   }
 }

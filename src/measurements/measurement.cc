@@ -33,7 +33,7 @@ const Block* TimeOffsetOf(const ModelContext& context) {
   return context.layout.Find(BlockKind::kTimeOffset, context.sensor_index);
 }
 
-/// Whether a measurement sees the error kColouredNoise of its sensor: those that
+/// Whether a measurement sees kColouredNoise and kSensorError of its sensor: those that
 /// tell a position, velocity, height, course or heading by themselves.
 bool SeesError(const Measurement& z) {
   return std::holds_alternative<PositionFix>(z.model) ||
@@ -43,10 +43,10 @@ bool SeesError(const Measurement& z) {
          std::holds_alternative<GenericReading>(z.model);
 }
 
-/// Takes the sensor's own error out of the prediction, an axis a row.
-void TakeError(const ModelContext& context, LinearizedMeasurement* out) {
-  const Block* error =
-      context.layout.Find(BlockKind::kColouredNoise, context.sensor_index);
+/// Takes an error of the sensor's own out of the prediction, an axis a row.
+void TakeError(BlockKind kind, const ModelContext& context,
+               LinearizedMeasurement* out) {
+  const Block* error = context.layout.Find(kind, context.sensor_index);
   if (error == nullptr) return;
   int column = error->offset;
   for (int axis = 0; axis < out->residual.size() && axis < 3; ++axis) {
@@ -62,7 +62,10 @@ void TakeError(const ModelContext& context, LinearizedMeasurement* out) {
 void Evaluate(const Measurement& z, const ModelContext& context,
               LinearizedMeasurement* out) {
   EvaluateAtState(z, context, out);
-  if (SeesError(z)) TakeError(context, out);
+  if (SeesError(z)) {
+    TakeError(BlockKind::kColouredNoise, context, out);
+    TakeError(BlockKind::kSensorError, context, out);
+  }
   const Block* offset = TimeOffsetOf(context);
   if (offset == nullptr) return;
   auto column = out->H.col(offset->offset);

@@ -275,7 +275,9 @@ std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem) {
   ErrorParameters start = all[1].hypotheses.front().parameters;
   start.sigma = problem.stated_sigma;
   start.tau = 100.0;
-  all.push_back(FitUniform(problem, ErrorRegimes::Kind::kGaussMarkov, start));
+  if (!problem.has_gauss_markov) {
+    all.push_back(FitUniform(problem, ErrorRegimes::Kind::kGaussMarkov, start));
+  }
   start.scale = std::min(start.scale,
                          MeanScale(all.back().hypotheses.front().parameters));
   std::vector<ErrorRegimes> fits = FitOrders(problem, start, all[1]);

@@ -34,10 +34,11 @@ struct RegimeProblem {
   const LinearTape& tape;
   int sensor = 0;
   double stated_sigma = 1.0;  ///< of its fixes, an axis
-  /// The layout has a Gauss-Markov error of the sensor already: only outliers
-  /// are looked for.
-  bool only_white = false;
+  bool only_white = false;    ///< other errors are not compared with white ones
   SearchEffort* effort = nullptr;  ///< must not be
+  /// The layout has a Gauss-Markov error of the sensor already: it may err beyond
+  /// that, but not by another one.
+  bool has_gauss_markov = false;
 };
 
 /// A factor on the noise of the IMU beyond which what the search took for errors

@@ -61,7 +61,7 @@ void ErrorStates::Extend(Problem* problem) const {
   ApplyToSensor(&problem->timeline);
   if (!HasError()) return;
   ErrorLayout& layout = problem->layout;
-  AddBlock(BlockKind::kColouredNoise, sensor.name + "_error", unit_,
+  AddBlock(BlockKind::kSensorError, sensor.name + "_error", unit_,
            std::max(floor_, FirstSigma(chosen_)), &layout);
   if (HasRate()) {
     AddBlock(BlockKind::kErrorRate, sensor.name + "_error_rate", unit_ + "/s",
@@ -108,7 +108,7 @@ State ErrorStates::Moved(const ErrorLayout& layout, const State& x,
   d.head(n) = by.head(n);
   int from = n;
   for (const BlockKind kind :
-       {BlockKind::kColouredNoise, BlockKind::kErrorRate}) {
+       {BlockKind::kSensorError, BlockKind::kErrorRate}) {
     const Block* block = HasError() ? layout.Find(kind, receiver_) : nullptr;
     if (block != nullptr) {
       d.segment<3>(block->offset) = by.segment<3>(from);
@@ -152,7 +152,7 @@ std::vector<BlockStep> ErrorStates::StepsTo(std::size_t k) const {
   const double rate =
       chosen_.parameters.rate_sigma * chosen_.parameters.rate_sigma;
   BlockStep e = {
-      {BlockKind::kColouredNoise, receiver_}, d.ee, d.q_ee + floor_ * floor_};
+      {BlockKind::kSensorError, receiver_}, d.ee, d.q_ee + floor_ * floor_};
   BlockStep r = {{BlockKind::kErrorRate, receiver_}, 0.0, rate};
   // A rate is free before a drift that begins; one that follows another needs
   // an interval in which it is drawn anew.

@@ -12,7 +12,7 @@
 namespace hindsight {
 
 /// The error (e, r) of a sensor, as one hypothesis has it, as states of a
-/// problem: e is a block kColouredNoise, r a block kErrorRate, with as many axes
+/// problem: e is a block kSensorError, r a block kErrorRate, with as many axes
 /// as the sensor's measurements have rows.
 class ErrorStates {
  public:

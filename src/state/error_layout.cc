@@ -15,7 +15,8 @@ bool IsNavigation(BlockKind kind) { return kind <= BlockKind::kAccelBias; }
 bool IsResolvedInNed(BlockKind kind) {
   return kind <= BlockKind::kAttitude || kind == BlockKind::kColouredNoise ||
          kind == BlockKind::kCurrent || kind == BlockKind::kDisturbance ||
-         kind == BlockKind::kErrorRate || kind == BlockKind::kGroundBias;
+         kind == BlockKind::kSensorError || kind == BlockKind::kErrorRate ||
+         kind == BlockKind::kGroundBias;
 }
 
 double One(const Evolution&, double, double) { return 1.0; }

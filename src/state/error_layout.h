@@ -54,7 +54,9 @@ enum class BlockKind {
   kDeclination,    ///< of the magnetic field from true north [rad]
   kDisturbance,    ///< additive magnetic field, NED [uT]
   kDistance,       ///< travelled since the last count of an odometer [m]
-  kErrorRate,      ///< at which kColouredNoise of a position drifts, NED [m/s]
+  kSensorError,    ///< error of a measurement beyond its noise, along its rows,
+                   ///< NED where these are
+  kErrorRate,      ///< at which kSensorError drifts
   kBias,           ///< lasting error of a velocity, sensor axes [m/s]
   kGroundBias,     ///< lasting error of a velocity over the ground, NED [m/s]
 };

@@ -113,11 +113,16 @@ TEST_F(Distrust, IsHeardWhereAnotherReceiverVouchesOnceOnly) {
 
 TEST_F(Distrust, IsNotHeardOfASensorWhoseErrorIsAState) {
   Distrusted(40, 60, 0.01);
-  Block error;
-  error.key = {BlockKind::kColouredNoise, 0};
-  error.name = "gnss_error";
-  solution_.layout.Add(error);
-  EXPECT_TRUE(Find().empty());
+  const ErrorLayout without = solution_.layout;
+  for (const BlockKind kind :
+       {BlockKind::kColouredNoise, BlockKind::kSensorError}) {
+    Block error;
+    error.key = {kind, 0};
+    error.name = "gnss_error";
+    solution_.layout = without;
+    solution_.layout.Add(error);
+    EXPECT_TRUE(Find().empty());
+  }
 }
 
 }  // namespace

@@ -146,6 +146,27 @@ TEST(ColouredNoise, TakesThePlaceOfTheStatedCovariance) {
   }
 }
 
+/// Errors beyond the noise add to the noise's own, and have columns of their own.
+TEST(SensorError, AddsToColouredNoise) {
+  Scene scene = RichScene();
+  const RowVector before = scene.Evaluate(Position(scene.state.p_e)).residual;
+  Block block;
+  block.key = {BlockKind::kSensorError, 0};
+  block.name = "gnss_error";
+  scene.layout.Add(block);
+  ParameterVector& values = scene.state.parameters;
+  values.conservativeResize(scene.layout.parameter_count());
+  values.tail<3>() << 4.0, 5.0, -6.0;
+  const Measurement z = Position(scene.state.p_e);
+  const LinearizedMeasurement at = scene.Evaluate(z);
+  const Eigen::Vector3d added(4.0, 5.0, -6.0);
+  EXPECT_LT((before - at.residual - added).norm(), 1e-8);
+  const int noise = scene.layout.Find(BlockKind::kColouredNoise, 0)->offset;
+  EXPECT_TRUE(at.H.middleCols(noise, 3).isIdentity());
+  EXPECT_TRUE(at.H.rightCols(3).isIdentity());
+  ExpectJacobian(scene, z, "position with both");
+}
+
 TEST(ColouredNoise, LeavesAMaskedAxisItsCovariance) {
   Scene scene = RichScene();
   ErrorLayout masked;

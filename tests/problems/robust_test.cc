@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "dataset/timeline_builder.h"
 #include "io/config/scenario_config.h"
+#include "measurements/noise_kind.h"
 #include "problems/reconstruction.h"
 #include "simulation/scenario.h"
 
@@ -169,6 +170,36 @@ TEST(RobustBatch, FindsPositionsAndVelocitiesThatErrTogether) {
   const Accuracy robust = Judge(dirty, SolveBy("robust_batch", dirty));
   EXPECT_LT(robust.horizontal_rms, 1.5 * without.horizontal_rms);
   EXPECT_LT(robust.position_nees, 1.5 * without.position_nees);
+}
+
+/// Positions whose errors, stated as Gauss-Markov, are 20 m more for 15 s.
+TEST(RobustBatch, FindsAJumpBeyondAGaussMarkovError) {
+  Dataset clean = Simulate(FindScenario("test_drone"), 4);
+  for (AidingStream& stream : clean.streams) {
+    if (!stream.sensor.kind->is_position) continue;
+    NoiseModel& noise = stream.sensor.noise;
+    noise.kind = &GaussMarkovNoise();
+    noise.sigma = 1.0;
+    noise.tau = 60.0;
+    noise.white_sigma = 0.5;
+  }
+  Dataset dirty = clean;
+  for (AidingStream& stream : dirty.streams) {
+    for (Measurement& z : stream.measurements.Edited()) {
+      auto* fix = std::get_if<PositionFix>(&z.model);
+      if (fix == nullptr || z.t < 45.0 || z.t >= 60.0) continue;
+      fix->p_e += NedAxes(fix->p_e).col(1) * 20.0;
+    }
+  }
+  const Accuracy without = Judge(clean, SolveBy("batch", clean));
+  EXPECT_GT(Judge(dirty, SolveBy("batch", dirty)).horizontal_rms,
+            3.0 * without.horizontal_rms);
+  const Solution solution = SolveBy("robust_batch", dirty);
+  EXPECT_LT(Judge(dirty, solution).horizontal_rms,
+            1.2 * without.horizontal_rms);
+  EXPECT_TRUE(std::ranges::any_of(solution.notes, [](const std::string& one) {
+    return one.find("biased from 45 to 60 s") != std::string::npos;
+  }));
 }
 
 /// What is said where each sensor is left off in every round, as there is no time.

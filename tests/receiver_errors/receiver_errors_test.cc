@@ -95,7 +95,7 @@ TEST(ReceiverErrors, OfABiasedStretchBecomeStates) {
   ASSERT_TRUE(found.errors.Stands());
   EXPECT_GT(found.errors.log_gain(), 100.0);
   const ErrorLayout& layout = found.problem.layout;
-  ASSERT_TRUE(layout.Has(BlockKind::kColouredNoise, 0));
+  ASSERT_TRUE(layout.Has(BlockKind::kSensorError, 0));
   EXPECT_GE(layout.dim(), test.layout.dim() + 3);
   EXPECT_EQ(found.problem.prior.P.rows(), layout.dim());
 
@@ -110,7 +110,7 @@ TEST(ReceiverErrors, OfABiasedStretchBecomeStates) {
 
   const std::vector<State> states = found.errors.States(layout);
   EXPECT_LT((states[30].p_e - test.truth[30].p_e).norm(), 3.0);
-  const Block& e = *layout.Find(BlockKind::kColouredNoise, 0);
+  const Block& e = *layout.Find(BlockKind::kSensorError, 0);
   EXPECT_NEAR(states[30].parameters(e.parameter_offset), 30.0, 3.0);
 }
 
@@ -338,7 +338,7 @@ TEST(ReceiverErrors, OfASensorOfOneRowHaveACompleteBlock) {
   const ReceiverErrors errors =
       TakeThem(TwoTellings(problem, tape, 3.0, 1), problem, tape);
   errors.Extend(&problem);
-  const Block* e = problem.layout.Find(BlockKind::kColouredNoise, 1);
+  const Block* e = problem.layout.Find(BlockKind::kSensorError, 1);
   ASSERT_NE(e, nullptr);
   EXPECT_EQ(e->dim, 3);
   const std::vector<State> states = errors.States(problem.layout);

@@ -17,7 +17,7 @@ TestProblem DriftingProblem() {
   TestProblemOptions options;
   options.noise = TacticalNoise(true);
   options.layout = TypicalLayout(options.noise);
-  for (const auto kind : {BlockKind::kColouredNoise, BlockKind::kErrorRate}) {
+  for (const auto kind : {BlockKind::kSensorError, BlockKind::kErrorRate}) {
     Block block;
     block.key = {kind, 0};
     block.evolution = Evolution::GaussMarkov(1.0, 100.0);
@@ -30,7 +30,7 @@ TestProblem DriftingProblem() {
 
 /// A drift over the first interval, another error over the second.
 std::vector<std::vector<BlockStep>> Steps() {
-  const BlockKey e = {BlockKind::kColouredNoise, 0};
+  const BlockKey e = {BlockKind::kSensorError, 0};
   const BlockKey r = {BlockKind::kErrorRate, 0};
   return {{{e, 1.0, 1e-6, r}, {r, 1.0, 4e-7}},
           {{e, 0.9, 0.19}, {r, 0.0, 0.25}},
@@ -40,7 +40,7 @@ std::vector<std::vector<BlockStep>> Steps() {
 State WithError(const TestProblem& problem) {
   State x = problem.truth[0];
   const ErrorLayout& layout = problem.layout;
-  const Block& e = *layout.Find(BlockKind::kColouredNoise, 0);
+  const Block& e = *layout.Find(BlockKind::kSensorError, 0);
   const Block& r = *layout.Find(BlockKind::kErrorRate, 0);
   x.parameters.segment<3>(e.parameter_offset) << 1.0, 2.0, 3.0;
   x.parameters.segment<3>(r.parameter_offset) << 0.1, -0.2, 0.3;
@@ -52,7 +52,7 @@ TEST(TimeUpdate, TakesTheStepsOfTheTimelineInPlaceOfEvolutions) {
   Timeline timeline = problem.MakeTimeline();
   timeline.SetBlockSteps(Steps());
   const ErrorLayout& layout = problem.layout;
-  const Block& e = *layout.Find(BlockKind::kColouredNoise, 0);
+  const Block& e = *layout.Find(BlockKind::kSensorError, 0);
   const Block& r = *layout.Find(BlockKind::kErrorRate, 0);
   const State x = WithError(problem);
   const NodeInterval drifting = IntervalAfter(0, layout, x, &timeline);
@@ -101,7 +101,7 @@ TEST(TimeUpdate, OfTwoPartsIsThatOfTheWhole) {
     LinearizeAdvance(layout, {timeline, k, second}, middle, end, &b);
     LinearizeAdvance(layout, {timeline, k, all}, x, whole, &ab);
     for (const BlockKind kind :
-         {BlockKind::kColouredNoise, BlockKind::kErrorRate}) {
+         {BlockKind::kSensorError, BlockKind::kErrorRate}) {
       const int i = layout.Find(kind, 0)->offset;
       const ErrorMatrix Phi = b.Phi * a.Phi;
       EXPECT_TRUE(Phi.row(i).isApprox(ab.Phi.row(i), 1e-12)) << k;
