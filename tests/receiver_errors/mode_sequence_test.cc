@@ -194,7 +194,7 @@ struct SpikeBehindAGap {
     GateDecisions used(problem.measurements.size(), 1);
     for (std::size_t k = kFix; k < 50; ++k) used[k] = 0;
     const Eigen::Vector3d error(4.0, -4.0, 0.0);
-    for (const std::size_t k : {50, 53, 55}) {
+    for (const std::size_t k : {50u, 53u, 55u}) {
       testing::AddError(k, k + 1, error, &problem);
     }
     tape.emplace(TapeOf(problem, std::move(used)));
