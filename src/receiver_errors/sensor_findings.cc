@@ -114,8 +114,8 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
     return !limits.go_on || limits.go_on(kSearch * fraction);
   });
   const RegimeProblem regime{
-      searched, sensor, stated_sigma, false, &effort,
-      problem.layout.Has(BlockKind::kColouredNoise, sensor)};
+      searched, sensor,  stated_sigma,
+      false,    &effort, problem.layout.Has(BlockKind::kColouredNoise, sensor)};
   std::vector<ErrorRegimes> all = FitRegimes(regime);
   searched_fixes = all.front().hypotheses.front().sequence.size();
   choice = ChooseRegime(regime, all);
