@@ -12,111 +12,15 @@
 #include "receiver_errors/search_attempts.h"
 #include "receiver_errors/sequence_refinement.h"
 #include "receiver_errors/sequence_smoother.h"
+#include "receiver_errors/uniform_regimes.h"
 
 namespace hindsight {
 namespace {
-
-std::size_t FixCount(const RegimeProblem& problem) {
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < problem.tape.size(); ++k) {
-    count += HasFix(problem.tape, k, problem.sensor);
-  }
-  return count;
-}
-
-ModeSequence Uniform(const RegimeProblem& problem, ErrorMode mode) {
-  return ModeSequence(FixCount(problem), ErrorStep{mode, false});
-}
 
 ErrorParameters Tune(const RegimeProblem& problem, const ModeSequence& sequence,
                      const ErrorParameters& from) {
   return TuneParameters(problem.tape, problem.sensor, sequence, from,
                         problem.effort);
-}
-
-/// Scale and outliers alone, as the batch would be solved with them.
-ErrorParameters TuneAsSolved(const RegimeProblem& problem,
-                             const ModeSequence& sequence,
-                             const ErrorParameters& from) {
-  return TuneNoise(problem.tape, problem.sensor, sequence, from, kLeastSolved,
-                   problem.effort);
-}
-
-double LogEvidence(const RegimeProblem& problem, const Hypothesis& best,
-                   const ErrorParameters& from,
-                   double least_scale = kLeastScale) {
-  return best.log_posterior + LogPriorOf(best.sequence, best.parameters, from) +
-         LogShareOfPrior(problem.tape, problem.sensor, best.sequence,
-                         best.parameters, from, least_scale, problem.effort);
-}
-
-/// The noise as stated: what the plain batch takes it for.
-ErrorRegimes AsStated(const RegimeProblem& problem) {
-  Hypothesis one;
-  one.sequence = Uniform(problem, ErrorMode::kGood);
-  one.parameters.outlier_share = 0.0;
-  one.log_posterior =
-      ScoreSequence(problem.tape, problem.sensor, one.parameters, one.sequence)
-          .log_likelihood;
-  ErrorRegimes out;
-  out.log_evidence = one.log_posterior;
-  out.hypotheses.push_back(std::move(one));
-  return out;
-}
-
-/// What a uniform fit is asked for.
-struct UniformQuestion {
-  /// With noise that the batch can be solved with.
-  bool as_solved = false;
-  /// Evidence that cannot exceed this is not integrated, but told as its bound [ln].
-  double worth = -std::numeric_limits<double>::infinity();
-};
-
-double LeastScale(const UniformQuestion& question) {
-  return question.as_solved ? kLeastSolved : kLeastScale;
-}
-
-double LogEvidence(const RegimeProblem& problem, const Hypothesis& one,
-                   const ErrorParameters& from,
-                   const UniformQuestion& question) {
-  const double bound = one.log_posterior +
-                       LogPriorOf(one.sequence, one.parameters, from) +
-                       MostOfLogShare(one.sequence, from, LeastScale(question));
-  if (bound <= question.worth) return bound;
-  return LogEvidence(problem, one, from, LeastScale(question));
-}
-
-/// White or Gauss-Markov throughout: there is but one sequence of modes.
-ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
-                        const ErrorParameters& from,
-                        const UniformQuestion& question = {}) {
-  const ErrorMode mode = kind == ErrorRegimes::Kind::kWhite
-                             ? ErrorMode::kGood
-                             : ErrorMode::kBiased;
-  Hypothesis one;
-  one.sequence = Uniform(problem, mode);
-  if (mode == ErrorMode::kBiased) one.sequence.front().anew = true;
-  const auto tune = [&](const ErrorParameters& start) {
-    one.parameters = question.as_solved
-                         ? TuneAsSolved(problem, one.sequence, start)
-                         : Tune(problem, one.sequence, start);
-  };
-  tune(from);
-  ModeSequence climbed =
-      ClimbOutliers(problem.tape, problem.sensor, one.parameters, one.sequence,
-                    problem.effort);
-  if (climbed != one.sequence) {
-    one.sequence = std::move(climbed);
-    tune(one.parameters);
-  }
-  one.log_posterior =
-      ScoreSequence(problem.tape, problem.sensor, one.parameters, one.sequence)
-          .log_likelihood;
-  ErrorRegimes out;
-  out.kind = kind;
-  out.log_evidence = LogEvidence(problem, one, from, question);
-  out.hypotheses.push_back(std::move(one));
-  return out;
 }
 
 /// Of inliers and outliers together.
@@ -134,7 +38,7 @@ ErrorRegimes FitSwitching(const RegimeProblem& problem,
   out.hypotheses = RefineHypotheses(problem.tape, problem.sensor,
                                     Tune(problem, sequence, from), {{sequence}},
                                     problem.effort);
-  out.log_evidence = LogEvidence(problem, out.hypotheses.front(), from);
+  out.log_evidence = LogEvidenceOf(problem, out.hypotheses.front(), from);
   return out;
 }
 
@@ -245,28 +149,10 @@ std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
 
 }  // namespace
 
-bool CanBeSolved(const ErrorParameters& white) {
-  return white.scale >= kLeastSolved && white.imu_scale <= kMisstatedImu;
-}
-
 const char* RegimeName(ErrorRegimes::Kind kind) {
   static const char* const kNames[] = {"stated", "white", "gauss_markov",
                                        "switching"};
   return kNames[static_cast<int>(kind)];
-}
-
-std::vector<ErrorRegimes> FitNoise(const RegimeProblem& problem) {
-  std::vector<ErrorRegimes> all = {AsStated(problem)};
-  UniformQuestion question;
-  // Where nothing richer is compared with them.
-  if (problem.only_white) question.worth = all[0].log_evidence + kLeastGain;
-  all.push_back(FitUniform(problem, ErrorRegimes::Kind::kWhite, {}, question));
-  if (!CanBeSolved(all[1].hypotheses.front().parameters)) {
-    question.as_solved = true;
-    all.push_back(
-        FitUniform(problem, ErrorRegimes::Kind::kWhite, {}, question));
-  }
-  return all;
 }
 
 std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem) {
@@ -276,7 +162,7 @@ std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem) {
   start.sigma = problem.stated_sigma;
   start.tau = 100.0;
   if (!problem.has_gauss_markov) {
-    all.push_back(FitUniform(problem, ErrorRegimes::Kind::kGaussMarkov, start));
+    all.push_back(FitGaussMarkov(problem, start));
   }
   start.scale = std::min(start.scale,
                          MeanScale(all.back().hypotheses.front().parameters));
@@ -315,7 +201,7 @@ ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
     out.hypotheses = std::move(all);
   }
   out.log_evidence =
-      LogEvidence(problem, out.hypotheses.front(), parameters, least_scale);
+      LogEvidenceOf(problem, out.hypotheses.front(), parameters, least_scale);
   return out;
 }
 

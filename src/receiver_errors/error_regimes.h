@@ -41,18 +41,6 @@ struct RegimeProblem {
   bool has_gauss_markov = false;
 };
 
-/// A factor on the noise of the IMU beyond which what the search took for errors
-/// of the sensor may be the IMU's: two sigmas of what is stated of it.
-inline constexpr double kMisstatedImu = 2.0;
-
-/// The least factor on the stated sigma that fixes get in the batch: a stated
-/// sigma has slow errors in it that fixes close to each other do not show, so
-/// that a small scatter is no reason to believe them more than stated.
-inline constexpr double kLeastSolved = 1.0;
-
-/// Whether the batch can be solved with white errors as they were fitted.
-bool CanBeSolved(const ErrorParameters& white);
-
 /// Every kind as fitted to the data, the simplest first; of kSwitching several,
 /// from different starts, or none where no error is found. Parameters - scale,
 /// share and size of outliers, the factor on the noise of the IMU, sigma and
@@ -64,12 +52,6 @@ bool CanBeSolved(const ErrorParameters& white);
 /// different orders of modes are refined, each with parameters of its own. Ends
 /// early, with what there is, once the effort is spent.
 std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem);
-
-/// Stated and white, the first of FitRegimes: of all fixes behind normal points,
-/// which do not hold the outliers among them. Where they cannot be solved with
-/// (CanBeSolved), and so do not stand, they are there a second time as they can be:
-/// with the IMU as stated and a scale of kLeastSolved or more.
-std::vector<ErrorRegimes> FitNoise(const RegimeProblem& problem);
 
 /// Regimes found on normal points, refined on all fixes (`problem`): the noise is
 /// fitted again, change points move to fixes.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "receiver_errors/uniform_regimes.h"
+
 namespace hindsight {
 namespace {
 

@@ -5,6 +5,7 @@
 #include "receiver_errors/errant_end.h"
 #include "receiver_errors/receiver_errors.h"
 #include "receiver_errors/sensor_findings.h"
+#include "receiver_errors/uniform_regimes.h"
 
 namespace hindsight {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "receiver_errors/error_tuning.h"
 #include "receiver_errors/held_out_score.h"
+#include "receiver_errors/uniform_regimes.h"
 
 namespace hindsight {
 namespace {

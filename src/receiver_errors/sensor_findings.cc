@@ -9,6 +9,7 @@
 #include "measurements/sensor_kind.h"
 #include "receiver_errors/errant_end.h"
 #include "receiver_errors/sequence_smoother.h"
+#include "receiver_errors/uniform_regimes.h"
 
 namespace hindsight {
 namespace {

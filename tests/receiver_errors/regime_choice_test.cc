@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "receiver_errors/receiver_tape.h"
+#include "receiver_errors/uniform_regimes.h"
 
 namespace hindsight {
 namespace {
