@@ -93,6 +93,9 @@ struct Searched {
   explicit Searched(Clock::time_point until) : end(until) {}
 
   Clock::time_point end;
+  /// Errors are sought about the trajectory that the nodes have, in place of a rough
+  /// one: it was found without what errs.
+  bool begins_at_nodes = false;
   bool done = false;
   SearchDecisions decisions;
   std::vector<int> last;        ///< as of RobustBatchOptions
@@ -167,7 +170,7 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
       FindBlunders(nodes.problem->timeline);
   Problem problem = WithAll(*stage, blunders, *nodes.problem);
   std::vector<State> initial;
-  if (known) {
+  if (known || searched->begins_at_nodes) {
     initial = *nodes.states;
   } else {
     RoughTrajectory rough =
@@ -233,6 +236,8 @@ void SearchElsewhere(MethodStage* stage, Searched* searched,
   }
   MethodStage elsewhere(*std::move(clocks));
   Searched again(searched->end);
+  again.begins_at_nodes = true;
+  again.last = searched->last;
   try {
     Solution other = Search(&elsewhere, &again);
     if (!again.stands) return;

@@ -147,6 +147,24 @@ std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
   return fits;
 }
 
+/// The noise of all fixes, in turn with the change points to which it is fitted: those
+/// of normal points are up to a second off, and what lies between looks like outliers
+/// or noise.
+ErrorParameters TuneAndClimb(const RegimeProblem& problem, Hypothesis* best) {
+  constexpr int kMostTurns = 4;
+  ErrorParameters parameters = best->parameters;
+  for (int i = 0; i < kMostTurns; ++i) {
+    parameters = TuneNoise(problem.tape, problem.sensor, best->sequence,
+                           parameters, kLeastScale, problem.effort);
+    ModeSequence climbed =
+        ClimbSequences(problem.tape, problem.sensor, parameters,
+                       {{best->sequence}}, problem.effort);
+    if (climbed == best->sequence) break;
+    best->sequence = std::move(climbed);
+  }
+  return parameters;
+}
+
 }  // namespace
 
 const char* RegimeName(ErrorRegimes::Kind kind) {
@@ -186,8 +204,10 @@ ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
   const double least_scale =
       found.kind == ErrorRegimes::Kind::kWhite ? kLeastSolved : kLeastScale;
   const ErrorParameters parameters =
-      TuneNoise(problem.tape, problem.sensor, all.front().sequence,
-                all.front().parameters, least_scale, problem.effort);
+      found.kind == ErrorRegimes::Kind::kSwitching
+          ? TuneAndClimb(problem, &all.front())
+          : TuneNoise(problem.tape, problem.sensor, all.front().sequence,
+                      all.front().parameters, least_scale, problem.effort);
   ErrorRegimes out;
   out.kind = found.kind;
   if (found.kind == ErrorRegimes::Kind::kSwitching) {

@@ -134,6 +134,25 @@ TEST(ReceiverErrors, OfFastFixesMayBeOutliersAlone) {
             RobustLoss::Kind::kMixture);
 }
 
+/// Change points of seconds are moved to fixes, and the noise is that of the fixes about
+/// the moved ones: what lies between would be taken for outliers.
+TEST(ReceiverErrors, OfFastFixesLeaveThemTheirNoise) {
+  TestProblem test = FixesOfOneMinute(0.2);
+  for (Measurement& z : test.measurements) {
+    if (z.t < 20.5 || z.t >= 40.3) continue;
+    auto& fix = std::get<PositionFix>(z.model);
+    fix.p_e += NedAxes(fix.p_e).col(0) * (8.0 * (z.t - 20.4));
+  }
+  const Found found(test);
+  ASSERT_TRUE(found.errors.Stands());
+  EXPECT_THAT(found.errors.InWords(), HasSubstr("drifting from 20.6 to 40.4"));
+  const RobustLoss& loss = found.problem.timeline.sensors()[0].loss;
+  EXPECT_LT(loss.outlier_share, 0.03);
+  const auto& fix = std::get<PositionFix>(
+      found.problem.timeline.all_measurements().front().model);
+  EXPECT_LT(std::sqrt(fix.R_n(0, 0)), 1.15 * 0.5);
+}
+
 /// That it is the fixes behind the jump that are wrong, nothing tells.
 TEST(ReceiverErrors, OfALoneSensorToItsLastFixAreDoubtful) {
   TestProblem test = FixesOfOneMinute();
