@@ -96,6 +96,8 @@ class ErrorSearch {
   /// independent sensors, where errors of positions change at the same time.
   double LogOfCoincidences() const;
   static void TellNotes(const Round& round, RobustBatchResult* result);
+  /// Errors that sensors may have which were left their noise.
+  void TellUndecided(RobustBatchResult* result) const;
   /// Errors of another sensor that explain the same.
   static void TellRival(const Round& round, RobustBatchResult* result);
 

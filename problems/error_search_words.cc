@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "filters/rts.h"
 #include "problems/error_search.h"
 
 namespace hindsight {
@@ -53,6 +54,21 @@ void ErrorSearch::Tell(RobustBatchResult* result) const {
     }
     result->trust[static_cast<std::size_t>(best.sensor())] = best.Trust();
     TellRival(rounds_[i], result);
+  }
+  TellUndecided(result);
+}
+
+void ErrorSearch::TellUndecided(RobustBatchResult* result) const {
+  for (const Round& round : rounds_) {
+    std::optional<CovarianceSeries> P;
+    for (const ReceiverErrors& one : round.errors) {
+      // Others are asked again in the next round.
+      const bool asked = &one == &round.best() || &round == &rounds_.back();
+      if (!asked || !one.IsUndecided()) continue;
+      if (!P) P = SmoothRts(*round.tape).P;
+      std::optional<Evidence> doubt = one.DoubtOfNoise(*P);
+      if (doubt) AddOnce(*std::move(doubt), &Evidence::what, &result->doubts);
+    }
   }
 }
 

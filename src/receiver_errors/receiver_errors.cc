@@ -125,6 +125,21 @@ std::optional<Evidence> ReceiverErrors::Average(const ErrorLayout& layout,
   return DoubtOf(beyond, found_->Times(), InWords(), false);
 }
 
+bool ReceiverErrors::IsUndecided() const {
+  return found_->undecided.has_value();
+}
+
+std::optional<Evidence> ReceiverErrors::DoubtOfNoise(
+    const CovarianceSeries& P) const {
+  const auto undecided = found_->SmoothUndecided();
+  if (!undecided) return std::nullopt;
+  const std::vector<WeighedHypothesis> maybe = {undecided->maybe};
+  const RivalHypothesis rival = FindRivalBeyond(maybe, undecided->noise, P);
+  if (rival.hypothesis == nullptr) return std::nullopt;
+  return DoubtOf(rival, found_->Times(),
+                 Stands() ? InWords() : found_->name + ": as stated", false);
+}
+
 std::vector<std::string> ReceiverErrors::Notes(
     const CovarianceSeries& P) const {
   std::vector<std::string> notes;

@@ -90,6 +90,13 @@ class ReceiverErrors {
   /// than stated.
   std::vector<Evidence> Doubts() const;
 
+  /// What makes the result doubtful beside noise that was chosen: errors that lose to
+  /// it, or win, by odds of less than a thousand, and would make the mean NEES of the
+  /// horizontal position more than 25 by covariances P, a node each (errors of the
+  /// horizontal position first).
+  std::optional<Evidence> DoubtOfNoise(const CovarianceSeries& P) const;
+  bool IsUndecided() const;
+
   /// How probable it is, by node, that the sensor is good, biased, drifting or
   /// slightly biased.
   ModePart Modes() const;

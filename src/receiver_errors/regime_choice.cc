@@ -74,6 +74,31 @@ std::string Objection(const RegimeProblem& problem,
   return "";
 }
 
+/// RegimeChoice::undecided, of a choice that is noise.
+void FindUndecided(const RegimeProblem& problem,
+                   const std::vector<ErrorRegimes>& all, RegimeChoice* choice) {
+  const ErrorRegimes& noise = all[choice->chosen];
+  if (noise.kind > Kind::kWhite) return;
+  double best = noise.log_evidence;
+  for (const ErrorRegimes& one : all) {
+    if (one.kind <= Kind::kWhite) best = std::max(best, one.log_evidence);
+  }
+  double most = -kLeastGain;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double gain = all[i].log_evidence - best;
+    if (all[i].kind != Kind::kSwitching || gain <= most || gain > kLeastGain) {
+      continue;
+    }
+    most = gain;
+    choice->undecided = i;
+    choice->undecided_gain = gain;
+  }
+  if (choice->undecided > 0 &&
+      !LossTo(problem, all[choice->undecided], noise).empty()) {
+    choice->undecided = 0;
+  }
+}
+
 /// Adds hypotheses, `shift` making their posteriors comparable, or lets them
 /// take the place of the same ones where they are likelier.
 void AddAlternatives(std::vector<Hypothesis> more, double shift,
@@ -114,6 +139,7 @@ RegimeChoice ChooseRegime(const RegimeProblem& problem,
     choice.refused.push_back(fmt::format("{} errors do not stand: they {}",
                                          RegimeName(all[i].kind), objection));
   }
+  FindUndecided(problem, all, &choice);
   return choice;
 }
 

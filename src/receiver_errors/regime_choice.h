@@ -20,6 +20,11 @@ struct RegimeChoice {
   /// What became of the likeliest of the others, a clause each, if it did not
   /// stand: "switching errors, ... predict held-out ... worse".
   std::vector<std::string> refused;
+  /// Where that is noise: the likeliest of the switching ones whose evidence is within
+  /// kLeastGain of the likeliest noise's either way, and which predicts held-out
+  /// stretches as well as what was chosen; 0 if there is none.
+  std::size_t undecided = 0;
+  double undecided_gain = 0.0;  ///< ln of its evidence over that noise's
 };
 
 /// The one of the largest evidence that stands: it

@@ -121,6 +121,11 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
   searched_fixes = all.front().hypotheses.front().sequence.size();
   choice = ChooseRegime(regime, all);
   log_prior = LogPriorOfFit(regime, all[choice.chosen]);
+  if (choice.undecided > 0) {
+    undecided = all[choice.undecided].hypotheses.front();
+    undecided->log_posterior = choice.undecided_gain;
+    if (points) undecided->sequence = AtFixes(*points, undecided->sequence);
+  }
   stopped = effort.stopped();
   spent = std::min(limits.share, effort.spent() / most);
   SearchEffort rest(limits.share * RefinementEffort(fixes),
@@ -216,6 +221,27 @@ std::unique_ptr<const SensorFindings> FindingsAgain(
     return nullptr;
   }
   return std::make_unique<const SensorFindings>(decisions, tape);
+}
+
+std::optional<SensorFindings::Undecided> SensorFindings::SmoothUndecided()
+    const {
+  if (!undecided) return std::nullopt;
+  const auto smooth = [this](const ErrorParameters& parameters,
+                             const ModeSequence& sequence) {
+    return WeighedHypothesis{
+        1.0, parameters, StepsByNode(tape, sensor, sequence),
+        SmoothSequence(tape, sensor, parameters, sequence)};
+  };
+  Undecided out = {smooth(undecided->parameters, undecided->sequence), {}};
+  out.maybe.weight = 1.0 / (1.0 + std::exp(-undecided->log_posterior));
+  if (stands()) {
+    out.noise = chosen();
+  } else {
+    ErrorParameters stated;
+    stated.outlier_share = 0.0;
+    out.noise = smooth(stated, ModeSequence(undecided->sequence.size()));
+  }
+  return out;
 }
 
 std::vector<double> SensorFindings::Times() const {

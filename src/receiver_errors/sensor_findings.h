@@ -43,6 +43,8 @@ struct ErrorDecisions {
   /// ln of the evidence that was chosen, on these, without the likelihood.
   double log_prior = 0.0;
   RegimeChoice choice;
+  /// RegimeChoice::undecided, by fix; its log_posterior is the gain.
+  std::optional<Hypothesis> undecided;
   ErrorRegimes regimes;  ///< if they stand
   bool stopped = false;  ///< the search, by whoever asked
 };
@@ -58,6 +60,13 @@ struct SensorFindings : ErrorDecisions {
     return {tape, sensor, stated_sigma, unit, regimes.kind, chosen()};
   }
   std::vector<double> Times() const;
+  /// What may be beside noise, with its probability, and what stands without it; none
+  /// if nothing is undecided.
+  struct Undecided {
+    WeighedHypothesis maybe;
+    WeighedHypothesis noise;
+  };
+  std::optional<Undecided> SmoothUndecided() const;
   /// What was found on normal points, at all fixes, on a tape that holds them.
   void Refine(const LinearTape& fixes, const NormalPoints& points,
               std::vector<ErrorRegimes> found, SearchEffort* effort);

@@ -202,6 +202,26 @@ TEST(RobustBatch, FindsAJumpBeyondAGaussMarkovError) {
   }));
 }
 
+/// A receiver of 0.5 m alone, which is 1.2 m off for a minute, of which the likelihoods
+/// with and without differ by less than a factor of a thousand.
+TEST(RobustBatch, DoubtsNoiseBesideWhichAnErrorIsAboutAsLikely) {
+  Dataset clean = Simulate(FindScenario("two_receivers"), 21);
+  clean.streams.pop_back();
+  Dataset dirty = clean;
+  for (Measurement& z : dirty.streams.front().measurements.Edited()) {
+    auto* fix = std::get_if<PositionFix>(&z.model);
+    if (fix == nullptr || z.t < 50.0 || z.t >= 110.0) continue;
+    fix->p_e += NedAxes(fix->p_e) * Eigen::Vector3d(1.2, 1.2, 0.0);
+  }
+  EXPECT_EQ(SolveBy("robust_batch", clean).grade, Grade::kUsable);
+  EXPECT_GT(Judge(dirty, SolveBy("batch", dirty)).position_nees, 30.0);
+  const Solution solution = SolveBy("robust_batch", dirty);
+  EXPECT_EQ(solution.grade, Grade::kDoubtful);
+  EXPECT_TRUE(std::ranges::any_of(solution.evidence, [](const Evidence& one) {
+    return one.what.find("biased from 50 to 110 s") != std::string::npos;
+  })) << solution.verdict;
+}
+
 /// What is said where each sensor is left off in every round, as there is no time.
 std::vector<std::string> SaidWithoutTime(const Dataset& dataset) {
   ReconstructionOptions options;

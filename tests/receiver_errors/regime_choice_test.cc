@@ -41,6 +41,25 @@ TEST(RegimeChoice, NeedsOddsOfAThousand) {
   }
 }
 
+TEST(RegimeChoice, LeavesUndecidedWhatIsWithinOddsOfAThousandOfNoise) {
+  const LinearTape tape = TapeOf(PositionsOnly(30.0));
+  SearchEffort effort(1e9, nullptr);
+  const RegimeProblem problem{tape, 0, 0.5, false, &effort};
+  const auto choose = [&](double white, double switching) {
+    ErrorRegimes better = Regime(tape, Kind::kWhite, white);
+    // As no batch is solved: it does not stand, but is a rival to what does.
+    better.hypotheses[0].parameters.scale = 0.5;
+    return ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0), better,
+                                  Regime(tape, Kind::kSwitching, switching)});
+  };
+  EXPECT_EQ(choose(0.0, -7.0).undecided, 0u);
+  EXPECT_EQ(choose(0.0, 3.0).undecided, 2u);
+  EXPECT_DOUBLE_EQ(choose(0.0, 3.0).undecided_gain, 3.0);
+  EXPECT_DOUBLE_EQ(choose(10.0, 8.0).undecided_gain, -2.0);
+  EXPECT_EQ(choose(0.0, 7.0).chosen, 2u);
+  EXPECT_EQ(choose(0.0, 7.0).undecided, 0u);
+}
+
 TEST(RegimeChoice, RefusesAValueAtItsBoundWhateverTheEvidence) {
   const LinearTape tape = TapeOf(PositionsOnly(30.0));
   SearchEffort effort(1e9, nullptr);
