@@ -28,12 +28,22 @@ namespace {
 struct FieldScene {
   PointMotion motion;
   Eigen::Matrix3d C_nb;
-  Eigen::Vector3d m_n;      ///< with the disturbance
-  Eigen::Vector3d dm_n_dD;  ///< derivative by the declination
-  Eigen::Vector3d hard_iron_b;
+  Eigen::Vector3d undisturbed;
+  Eigen::Vector3d m_n;          ///< with the disturbance
+  Eigen::Vector3d dm_n_dD;      ///< derivative by the declination
+  Eigen::Vector3d hard_iron_b;  ///< with an error that is such a field
+  bool has_own_error = false;
 };
 
-FieldScene SceneOf(const ModelContext& context) {
+/// Whether an error of the sensor is a field of the vehicle: of all three axes, or
+/// where such a field is estimated.
+bool HasOwnError(const MagneticField& z, const ModelContext& context) {
+  return context.layout.Has(BlockKind::kSensorError, context.sensor_index) &&
+         (z.form == MagneticField::Form::kVector ||
+          context.layout.Has(BlockKind::kHardIron, context.sensor_index));
+}
+
+FieldScene SceneOf(const MagneticField& z, const ModelContext& context) {
   const MagneticSurroundings& magnetic = context.sensor.magnetic;
   const int sensor = context.sensor_index;
   FieldScene scene;
@@ -42,20 +52,26 @@ FieldScene SceneOf(const ModelContext& context) {
   const double declination =
       Parameter1(context.layout, context.state, BlockKind::kDeclination, sensor,
                  magnetic.declination);
-  const Eigen::Vector3d undisturbed = UndisturbedField(magnetic, declination);
-  scene.dm_n_dD = {-undisturbed.y(), undisturbed.x(), 0.0};
-  scene.m_n = undisturbed + Parameter3(context.layout, context.state,
-                                       BlockKind::kDisturbance, sensor,
-                                       Eigen::Vector3d::Zero());
+  scene.undisturbed = UndisturbedField(magnetic, declination);
+  scene.dm_n_dD = {-scene.undisturbed.y(), scene.undisturbed.x(), 0.0};
+  scene.m_n = scene.undisturbed + Parameter3(context.layout, context.state,
+                                             BlockKind::kDisturbance, sensor,
+                                             Eigen::Vector3d::Zero());
   scene.hard_iron_b =
       Parameter3(context.layout, context.state, BlockKind::kHardIron, sensor,
                  magnetic.hard_iron_b);
+  scene.has_own_error = HasOwnError(z, context);
+  if (scene.has_own_error) {
+    scene.hard_iron_b +=
+        Parameter3(context.layout, context.state, BlockKind::kSensorError,
+                   sensor, Eigen::Vector3d::Zero());
+  }
   return scene;
 }
 
 void EvaluateVector(const MagneticField& z, const ModelContext& context,
                     LinearizedMeasurement* out) {
-  const FieldScene scene = SceneOf(context);
+  const FieldScene scene = SceneOf(z, context);
   const Eigen::Matrix3d C_bn = scene.C_nb.transpose();
   const Eigen::Vector3d m_b = C_bn * scene.m_n;
   out->Resize(3, context.layout.dim());
@@ -69,6 +85,10 @@ void EvaluateVector(const MagneticField& z, const ModelContext& context,
                     m_b.cross(scene.motion.w_eb_b), &out->H);
   layout.AddColumns(BlockKind::kHardIron, context.sensor_index,
                     Eigen::Matrix3d::Identity(), &out->H);
+  if (scene.has_own_error) {
+    layout.AddColumns(BlockKind::kSensorError, context.sensor_index,
+                      Eigen::Matrix3d::Identity(), &out->H);
+  }
   layout.AddColumns(BlockKind::kDisturbance, context.sensor_index, C_bn,
                     &out->H);
   layout.AddColumns(BlockKind::kDeclination, context.sensor_index,
@@ -84,7 +104,7 @@ Eigen::RowVector3d AzimuthGradient(const Eigen::Vector3d& v) {
 
 void EvaluateHeading(const MagneticField& z, const ModelContext& context,
                      LinearizedMeasurement* out) {
-  const FieldScene scene = SceneOf(context);
+  const FieldScene scene = SceneOf(z, context);
   const ErrorLayout& layout = context.layout;
   const Eigen::Vector3d own_b = z.field_b - scene.hard_iron_b;
   const Eigen::Vector3d u_n = scene.C_nb * own_b;
@@ -101,13 +121,25 @@ void EvaluateHeading(const MagneticField& z, const ModelContext& context,
   layout.AddColumns(BlockKind::kTimeOffset, context.sensor_index,
                     by_u * scene.C_nb * scene.motion.w_eb_b.cross(own_b),
                     &out->H);
-  layout.AddColumns(BlockKind::kHardIron, context.sensor_index,
-                    -by_u * scene.C_nb, &out->H);
+  const Eigen::RowVector3d by_own = -by_u * scene.C_nb;
+  layout.AddColumns(BlockKind::kHardIron, context.sensor_index, by_own,
+                    &out->H);
+  if (scene.has_own_error) {
+    layout.AddColumns(BlockKind::kSensorError, context.sensor_index, by_own,
+                      &out->H);
+  } else if (const Block* error =
+                 layout.Find(BlockKind::kSensorError, context.sensor_index);
+             error != nullptr) {
+    out->residual(0) = std::remainder(
+        out->residual(0) - context.state.parameters(error->parameter_offset),
+        2.0 * kPi);
+    out->H(0, error->offset) = 1.0;
+  }
   layout.AddColumns(BlockKind::kDisturbance, context.sensor_index, -by_m,
                     &out->H);
   layout.AddColumns(BlockKind::kDeclination, context.sensor_index,
                     -by_m * scene.dm_n_dD, &out->H);
-  out->R(0, 0) = z.sigma * z.sigma / HorizontalSquare(scene.m_n);
+  out->R(0, 0) = z.sigma * z.sigma / HorizontalSquare(scene.undisturbed);
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ const Block* TimeOffsetOf(const ModelContext& context) {
 }
 
 /// Whether a measurement sees kColouredNoise and kSensorError of its sensor: those that
-/// tell a position, velocity, height, course or heading by themselves.
+/// tell a position, velocity, height, course or heading by themselves, along their rows.
+/// A magnetic field knows its own error (measurements/magnetic_field.h).
 bool SeesError(const Measurement& z) {
   return std::holds_alternative<PositionFix>(z.model) ||
          std::holds_alternative<VelocityFix>(z.model) ||

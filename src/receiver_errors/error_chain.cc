@@ -78,6 +78,8 @@ ErrorChain::ErrorChain(const LinearTape& tape, int receiver,
   }
   const Block* position = tape.layout().Find(BlockKind::kPosition);
   const Block* velocity = tape.layout().Find(BlockKind::kVelocity);
+  const Block* own = tape.layout().Find(BlockKind::kHardIron, receiver);
+  if (own != nullptr && own->dim == 3) own_field_ = own->offset;
   if (position == nullptr || velocity == nullptr) return;
   if (position->dim == 3 && velocity->dim == 3) {
     position_ = position->offset;
@@ -115,7 +117,12 @@ void ErrorChain::MoveTo(std::size_t k) {
     wide.H = RowJacobian::Zero(z.H.rows(), dim());
     wide.H.leftCols(navigation_dim_) = z.H;
     if (z.sensor != receiver_) continue;
-    wide.H.middleCols(navigation_dim_, 3).setIdentity();
+    auto by_error = wide.H.middleCols(navigation_dim_, 3);
+    if (own_field_ < 0) {
+      by_error.setIdentity();
+    } else {
+      by_error = z.H.middleCols(own_field_, 3);
+    }
     wide.R.diagonal().array() += kLeastSigma * kLeastSigma;
     wide.R *= parameters_.scale * parameters_.scale;
   }
@@ -126,6 +133,9 @@ void ErrorChain::MoveTo(std::size_t k) {
   rows_ = static_cast<int>(R.rows());
   R_in_ = R_out_ = kAddsNothing * Eigen::Matrix3d::Identity();
   const double ratio = parameters_.outlier_ratio;
+  by_error_.setZero();
+  by_error_.topRows(rows_) =
+      z_[static_cast<std::size_t>(fix_)].H.middleCols(navigation_dim_, 3);
   R_in_.topLeftCorner(rows_, rows_) = R;
   R_out_.topLeftCorner(rows_, rows_) = ratio * ratio * R;
 }
@@ -235,17 +245,16 @@ ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
                                                  bool outlier,
                                                  const FixView& view) const {
   const LinearizedMeasurement& z = z_[static_cast<std::size_t>(fix_)];
-  Eigen::Vector3d innovation = view.innovation - d.ee * view.e - d.er * view.r;
-  const Eigen::Matrix3d cross = d.ee * view.P_ze + d.er * view.P_zr;
-  Eigen::Matrix3d S = view.S + cross + cross.transpose() +
-                      d.ee * d.ee * view.P_ee + d.er * d.er * view.P_rr;
-  S += d.ee * d.er * (view.P_er + view.P_er.transpose());
-  S.diagonal().array() += d.q_ee;
-  if (rows_ < 3) {
-    innovation.tail(3 - rows_).setZero();
-    S.rightCols(3 - rows_).setZero();
-    S.bottomRows(3 - rows_).setZero();
-  }
+  const Eigen::Matrix3d& E = by_error_;
+  const Eigen::Vector3d innovation =
+      view.innovation - E * (d.ee * view.e + d.er * view.r);
+  const Eigen::Matrix3d cross =
+      (d.ee * view.P_ze + d.er * view.P_zr) * E.transpose();
+  Eigen::Matrix3d P_ee = d.ee * d.ee * view.P_ee + d.er * d.er * view.P_rr +
+                         d.ee * d.er * (view.P_er + view.P_er.transpose());
+  P_ee.diagonal().array() += d.q_ee;
+  Eigen::Matrix3d S =
+      view.S + cross + cross.transpose() + E * P_ee * E.transpose();
   if (velocity_ >= 0 && d.q_vv > 0.0) {
     const RowJacobian H_v =
         reach_ * z.H.middleCols(position_, 3) + z.H.middleCols(velocity_, 3);

@@ -13,7 +13,8 @@ namespace hindsight {
 /// The linear system of a tape about one fixed nominal, extended by the error
 /// (e, r) of one sensor, three axes each, of which a fix sees as many of e as it
 /// has rows: north, east, down of a position or velocity, one of a height or a
-/// heading.
+/// heading. Of a magnetometer whose hard iron is estimated e is such a field, in
+/// vehicle axes, of which an azimuth sees what turns it.
 class ErrorChain {
  public:
   ErrorChain(const LinearTape& tape, int receiver,
@@ -110,6 +111,7 @@ class ErrorChain {
   int navigation_dim_;
   int position_ = -1;  ///< offsets, or -1 if an axis is masked
   int velocity_ = -1;
+  int own_field_ = -1;  ///< of the sensor's hard iron, or -1
   int fix_count_ = 0;
   std::size_t k_ = 0;
   ErrorMatrix Phi_n_;
@@ -121,6 +123,7 @@ class ErrorChain {
   int fix_ = -1;                  ///< index in z_
   int rows_ = 0;                  ///< of the fix
   Eigen::Matrix3d R_in_, R_out_;  ///< of the fix, padded, as an outlier
+  Eigen::Matrix3d by_error_;      ///< derivative of the fix by e, padded
   std::vector<LinearizedMeasurement> z_;
 };
 

@@ -14,15 +14,21 @@
 namespace hindsight {
 namespace {
 
-/// Root mean square of the stated sigmas of a sensor, of its first two rows.
+/// Root mean square of the stated sigmas of a sensor, of its first two rows; where its
+/// errors are a field of the vehicle, of that.
 double StatedSigma(const LinearTape& tape, int sensor) {
+  const Block* own = tape.layout().Find(BlockKind::kHardIron, sensor);
   double sum = 0.0;
   int count = 0;
   for (std::size_t k = 0; k < tape.size(); ++k) {
     for (const TapeMeasurement& z : tape.measurements(k)) {
       if (z.sensor != sensor || !z.accepted || z.withheld) continue;
       for (Eigen::Index i = 0; i < std::min<Eigen::Index>(2, z.R.rows()); ++i) {
-        sum += z.R(i, i);
+        const double by_field =
+            own == nullptr
+                ? 1.0
+                : z.H.row(i).segment(own->offset, own->dim).squaredNorm();
+        sum += z.R(i, i) / by_field;
         ++count;
       }
     }
@@ -30,10 +36,11 @@ double StatedSigma(const LinearTape& tape, int sensor) {
   return std::sqrt(sum / std::max(1, count));
 }
 
-/// Of a magnetometer the azimuth of its field, or the field in axes of the
-/// vehicle.
-std::string UnitOf(const SensorKind& kind, Eigen::Index rows) {
-  if (kind.magnetic) return rows == 1 ? "rad" : "uT";
+/// Of a magnetometer the field in axes of the vehicle, or the azimuth of one whose hard
+/// iron is known.
+std::string UnitOf(const SensorKind& kind, Eigen::Index rows,
+                   bool is_own_field) {
+  if (kind.magnetic) return rows == 1 && !is_own_field ? "rad" : "uT";
   return std::string(kind.residual_unit.empty() ? "SI" : kind.residual_unit);
 }
 
@@ -99,7 +106,8 @@ ErrorDecisions::ErrorDecisions(const Problem& problem, const LinearTape& tape,
       alone(IsAlone(problem.timeline, index)),
       unit(UnitOf(
           *problem.timeline.sensors()[static_cast<std::size_t>(index)].kind,
-          RowsOf(tape, index))),
+          RowsOf(tape, index),
+          problem.layout.Has(BlockKind::kHardIron, index))),
       stated_sigma(StatedSigma(tape, index)) {}
 
 SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,

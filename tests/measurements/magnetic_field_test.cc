@@ -111,6 +111,43 @@ TEST(MagneticField, JacobianMatchesNumericDifference) {
                  "heading");
 }
 
+/// Appends an error of the sensor beyond its noise.
+void AddError(const Eigen::Vector3d& value, Scene* scene) {
+  Block block;
+  block.key = {BlockKind::kSensorError, 0};
+  block.name = "error";
+  scene->layout.Add(block);
+  ParameterVector& values = scene->state.parameters;
+  values.conservativeResize(scene->layout.parameter_count());
+  values.tail<3>() = value;
+}
+
+TEST(MagneticField, AnErrorIsAFieldOfTheVehicle) {
+  const Eigen::Vector3d field_b(11.0, -25.0, 30.0);
+  const Eigen::Vector3d error_b(2.0, -1.0, 4.0);
+  for (const auto form :
+       {MagneticField::Form::kVector, MagneticField::Form::kHeading}) {
+    Scene scene = RichMagneticScene();
+    const RowVector without = scene.Evaluate(Reading(form, field_b)).residual;
+    AddError(error_b, &scene);
+    const Measurement z = Reading(form, field_b + error_b);
+    EXPECT_LT((scene.Evaluate(z).residual - without).norm(), 1e-12);
+    ExpectJacobian(scene, z, "with an error");
+  }
+}
+
+TEST(MagneticField, AnErrorBesideAKnownHardIronIsOfTheAzimuth) {
+  Scene scene = testing::RichScene();
+  scene.sensor.kind = &MagnetometerKind();
+  const Measurement z =
+      Reading(MagneticField::Form::kHeading, {11.0, -25.0, 30.0});
+  const double without = scene.Evaluate(z).residual(0);
+  AddError({3.0, 0.0, 0.0}, &scene);
+  EXPECT_NEAR(scene.Evaluate(z).residual(0),
+              std::remainder(without - 3.0, 2.0 * kPi), 1e-12);
+  ExpectJacobian(scene, z, "azimuth with an error");
+}
+
 TEST(MagneticField, SigmaIsScaled) {
   Measurement z = Reading(MagneticField::Form::kVector, {20.0, 0.0, 40.0});
   ScaleSigma(3.0, &z);
