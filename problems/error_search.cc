@@ -96,6 +96,45 @@ bool ErrorSearch::RunFromVelocities(const std::vector<State>& initial) {
   return true;
 }
 
+bool ErrorSearch::RunFromVehicle(const std::vector<int>& suspects,
+                                 const std::vector<State>& initial) {
+  question_.of_vehicle = true;
+  Round round = Search(&problem_, initial, [&suspects](int sensor) {
+    return std::ranges::count(suspects, sensor) > 0;
+  });
+  question_.of_vehicle = false;
+  if (round.errors.empty() || !round.best().Stands()) return false;
+  Take(std::move(round));
+  Run(initial);
+  return true;
+}
+
+std::vector<int> ErrorSearch::SuspectsOfVehicle() const {
+  constexpr double kFar = 25.0;  // sigma^2
+  if (rounds_.empty()) return {};
+  const ReceiverErrors& first = rounds_.front().best();
+  const bool steps = std::ranges::any_of(rounds_, [](const Round& one) {
+    return one.best().Stands() && one.best().HasVelocitySteps();
+  });
+  if (first.Stands() && !steps && first.Doubts().empty()) return {};
+  const auto& sensors = problem_.timeline.sensors();
+  std::vector<bool> is_far(sensors.size(), false);
+  const LinearTape& tape = *rounds_.front().tape;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      const auto i = static_cast<std::size_t>(z.sensor);
+      if (!z.accepted || z.withheld || !sensors[i].kind->of_vehicle) continue;
+      const auto rows = static_cast<double>(z.innovation.size());
+      if (z.nis > kFar * rows) is_far[i] = true;
+    }
+  }
+  std::vector<int> suspects;
+  for (std::size_t i = 0; i < is_far.size(); ++i) {
+    if (is_far[i]) suspects.push_back(static_cast<int>(i));
+  }
+  return suspects;
+}
+
 void ErrorSearch::RunLast(const std::vector<State>& initial) {
   if (!with_last_) return;
   const GateDecisions with = *std::exchange(with_last_, std::nullopt);
@@ -120,12 +159,17 @@ void ErrorSearch::RunAsDecided(const std::vector<State>& initial) {
   // Where all are searched, positions are among the first.
   const auto& sensors = problem_.timeline.sensors();
   const SearchDecisions& decisions = *options_->decisions;
-  const bool from_velocities =
-      !decisions.empty() &&
-      std::ranges::all_of(decisions.front(), [&](const auto& one) {
-        return IsOfVelocity(*sensors[SensorOf(*one)].kind);
-      });
-  if (!from_velocities || !RunFromVelocities(initial)) Run(initial);
+  const auto begins_with = [&](const auto& is_asked) {
+    return !decisions.empty() &&
+           std::ranges::all_of(decisions.front(), [&](const auto& one) {
+             return is_asked(*sensors[SensorOf(*one)].kind);
+           });
+  };
+  if (begins_with([](const SensorKind& kind) { return kind.of_vehicle; })) {
+    if (!RunFromVehicle({}, initial)) Run(initial);
+  } else if (!begins_with(IsOfVelocity) || !RunFromVelocities(initial)) {
+    Run(initial);
+  }
   RunLast(initial);
 }
 
@@ -151,10 +195,10 @@ double ErrorSearch::LogOfPrior() const {
   return log;
 }
 
-double ErrorSearch::LogEvidence() const {
+double ErrorSearch::LogEvidence(const std::vector<State>& initial) const {
   Problem problem = problem_;
-  const LinearTape tape =
-      RunLinearizedFilter(*states_, &problem, options_->callback);
+  const LinearTape tape = RunLinearizedFilter(states_ ? *states_ : initial,
+                                              &problem, options_->callback);
   double log = LogOfPrior();
   for (std::size_t k = 0; k < tape.size(); ++k) {
     for (const TapeMeasurement& z : tape.measurements(k)) {

@@ -27,6 +27,12 @@ class ErrorSearch {
   /// do; then the rest about what was found of them. False if nothing was.
   bool RunFromVelocities(const std::vector<State>& initial);
 
+  /// Odometers and constraints of wheels among `suspects` are searched first, the
+  /// absolute sensors taken at their word; then these about what was found. False if
+  /// nothing was.
+  bool RunFromVehicle(const std::vector<int>& suspects,
+                      const std::vector<State>& initial);
+
   /// What RobustBatchOptions::last names, which is left out before, is searched,
   /// the others taken at their word or as they were found; then the rest as by Run.
   void RunLast(const std::vector<State>& initial);
@@ -42,6 +48,12 @@ class ErrorSearch {
   /// by themselves, or by those of several sensors if any of them come and go.
   bool MayBeOfAReceiver() const;
 
+  /// Sensors in the axes of the vehicle that may have erred in place of what was told
+  /// otherwise, which is nothing, steps of the IMU's velocity or errors that are
+  /// doubtful by themselves: a measurement of theirs is more than five sigmas from what
+  /// all before have predicted. What spins on says so once, as it begins.
+  std::vector<int> SuspectsOfVehicle() const;
+
   /// Whether errors of velocities change where those of positions do, as mode
   /// sequences have them.
   bool HasCoincidences() const { return LogOfCoincidences() > 0.0; }
@@ -52,8 +64,8 @@ class ErrorSearch {
   /// stated, as the batch is solved: the likelihood of the innovations about the
   /// trajectory that was found, fixes that a mixture takes for outliers with the
   /// noise that it gives them, and the priors of what was found. Only differences
-  /// mean anything; something must stand.
-  double LogEvidence() const;
+  /// mean anything. About `initial` if nothing stands.
+  double LogEvidence(const std::vector<State>& initial) const;
 
   /// Extended by what stands.
   const Problem& problem() const { return problem_; }

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "problems/error_search.h"
@@ -58,18 +60,19 @@ struct Explained {
   std::optional<RivalSearch> rival;
 };
 
-/// ln of the odds against an explanation that begins with the velocities, which is
-/// searched; none if there is no such. One in which no errors of velocities and
-/// positions come together is but another order of the search: it has to be likelier
-/// by odds of a thousand.
+/// Another order of a search; false if nothing was found in it.
+using Order = std::function<bool(ErrorSearch* search)>;
+
+/// ln of the odds against an explanation in another order, which is searched; none if
+/// there is no such. One in which no errors of velocities and positions come together
+/// has to be likelier by odds of a thousand.
 std::optional<double> LogOddsAgainst(const std::vector<State>& initial,
                                      const ErrorSearch& search,
-                                     ErrorSearch* other) {
+                                     const Order& order, ErrorSearch* other) {
   try {
-    if (!other->RunFromVelocities(initial) || other->stopped()) {
-      return std::nullopt;
-    }
-    const double log_odds = search.LogEvidence() - other->LogEvidence();
+    if (!order(other) || other->stopped()) return std::nullopt;
+    const double log_odds =
+        search.LogEvidence(initial) - other->LogEvidence(initial);
     const double most = other->HasCoincidences()
                             ? std::numeric_limits<double>::max()
                             : -kSureLogOdds;
@@ -80,7 +83,25 @@ std::optional<double> LogOddsAgainst(const std::vector<State>& initial,
   return std::nullopt;
 }
 
-/// The likelier of the explanations. `share`: of the effort of a search.
+/// In what other orders than Run's the errors are to be sought that it found, or not.
+std::vector<Order> OtherOrders(const std::vector<State>& initial,
+                               const ErrorSearch& search) {
+  std::vector<Order> orders;
+  if (search.MayBeOfAReceiver()) {
+    orders.emplace_back([&initial](ErrorSearch* other) {
+      return other->RunFromVelocities(initial);
+    });
+  }
+  std::vector<int> suspects = search.SuspectsOfVehicle();
+  if (!suspects.empty()) {
+    orders.emplace_back([&initial, suspects](ErrorSearch* other) {
+      return other->RunFromVehicle(suspects, initial);
+    });
+  }
+  return orders;
+}
+
+/// The likeliest of the explanations. `share`: of the effort of a search.
 Explained Explain(const Problem& problem, const std::vector<State>& initial,
                   const RobustBatchOptions& options, double share) {
   ErrorSearch search(problem, options, share);
@@ -89,20 +110,19 @@ Explained Explain(const Problem& problem, const std::vector<State>& initial,
     return {std::move(search), std::nullopt};
   }
   search.Run(initial);
-  if (search.stopped() || !search.MayBeOfAReceiver()) {
-    search.RunLast(initial);
-    return {std::move(search), std::nullopt};
-  }
-  ErrorSearch other(problem, options, 0.5 * share);
-  const std::optional<double> odds = LogOddsAgainst(initial, search, &other);
-  double log_odds = odds.value_or(0.0);
-  if (log_odds < 0.0) {
-    std::swap(search, other);
-    log_odds = -log_odds;
+  std::optional<RivalSearch> rival;
+  const std::vector<Order> orders =
+      search.stopped() ? std::vector<Order>() : OtherOrders(initial, search);
+  for (const Order& order : orders) {
+    ErrorSearch other(problem, options, 0.5 * share);
+    const std::optional<double> odds =
+        LogOddsAgainst(initial, search, order, &other);
+    if (!odds) continue;
+    if (*odds < 0.0) std::swap(search, other);
+    if (!other.states()) continue;
+    rival = {*other.states(), other.InWords(), std::abs(*odds)};
   }
   search.RunLast(initial);
-  if (!odds) return {std::move(search), std::nullopt};
-  RivalSearch rival = {*other.states(), other.InWords(), log_odds};
   return {std::move(search), std::move(rival)};
 }
 

@@ -28,7 +28,6 @@ namespace {
 struct FieldScene {
   PointMotion motion;
   Eigen::Matrix3d C_nb;
-  Eigen::Vector3d undisturbed;
   Eigen::Vector3d m_n;          ///< with the disturbance
   Eigen::Vector3d dm_n_dD;      ///< derivative by the declination
   Eigen::Vector3d hard_iron_b;  ///< with an error that is such a field
@@ -52,11 +51,11 @@ FieldScene SceneOf(const MagneticField& z, const ModelContext& context) {
   const double declination =
       Parameter1(context.layout, context.state, BlockKind::kDeclination, sensor,
                  magnetic.declination);
-  scene.undisturbed = UndisturbedField(magnetic, declination);
-  scene.dm_n_dD = {-scene.undisturbed.y(), scene.undisturbed.x(), 0.0};
-  scene.m_n = scene.undisturbed + Parameter3(context.layout, context.state,
-                                             BlockKind::kDisturbance, sensor,
-                                             Eigen::Vector3d::Zero());
+  const Eigen::Vector3d undisturbed = UndisturbedField(magnetic, declination);
+  scene.dm_n_dD = {-undisturbed.y(), undisturbed.x(), 0.0};
+  scene.m_n = undisturbed + Parameter3(context.layout, context.state,
+                                       BlockKind::kDisturbance, sensor,
+                                       Eigen::Vector3d::Zero());
   scene.hard_iron_b =
       Parameter3(context.layout, context.state, BlockKind::kHardIron, sensor,
                  magnetic.hard_iron_b);
@@ -139,7 +138,7 @@ void EvaluateHeading(const MagneticField& z, const ModelContext& context,
                     &out->H);
   layout.AddColumns(BlockKind::kDeclination, context.sensor_index,
                     -by_m * scene.dm_n_dD, &out->H);
-  out->R(0, 0) = z.sigma * z.sigma / HorizontalSquare(scene.undisturbed);
+  out->R(0, 0) = z.sigma * z.sigma / HorizontalSquare(scene.m_n);
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace hindsight {
 /// block, h_b the hard iron (Sensor::magnetic, or its block):
 ///   kVector:   field_b = C_bn m_n + h_b, three rows [uT];
 ///   kHeading:  0 = azimuth(C_nb (field_b - h_b)) - azimuth(m_n), one row
-///              [rad], sigma / |horizontal|: norm and dip do not matter, and
-///              tilt only by how it levels the field.
+///              [rad], sigma / |m_n horizontal|: norm and dip do not matter,
+///              and tilt only by how it levels the field.
 /// An error of the sensor beyond its noise (kSensorError) adds to h_b, in uT: a
 /// current beside it turns with the vehicle. Of kHeading that needs a block of h_b;
 /// else the error is of the azimuth [rad].

@@ -33,15 +33,20 @@ const Block* TimeOffsetOf(const ModelContext& context) {
   return context.layout.Find(BlockKind::kTimeOffset, context.sensor_index);
 }
 
-/// Whether a measurement sees kColouredNoise and kSensorError of its sensor: those that
-/// tell a position, velocity, height, course or heading by themselves, along their rows.
-/// A magnetic field knows its own error (measurements/magnetic_field.h).
-bool SeesError(const Measurement& z) {
+/// Whether a measurement sees kColouredNoise of its sensor: those that tell a position,
+/// velocity, height, course or heading by themselves.
+bool SeesColouredNoise(const Measurement& z) {
   return std::holds_alternative<PositionFix>(z.model) ||
          std::holds_alternative<VelocityFix>(z.model) ||
          std::holds_alternative<HeightFix>(z.model) ||
          std::holds_alternative<SpeedCourse>(z.model) ||
          std::holds_alternative<GenericReading>(z.model);
+}
+
+/// Whether it sees kSensorError, along its rows: the same, and wheels. A magnetic field
+/// knows its own error (measurements/magnetic_field.h).
+bool SeesError(const Measurement& z) {
+  return SeesColouredNoise(z) || std::holds_alternative<Odometer>(z.model);
 }
 
 /// Takes an error of the sensor's own out of the prediction, an axis a row.
@@ -63,10 +68,10 @@ void TakeError(BlockKind kind, const ModelContext& context,
 void Evaluate(const Measurement& z, const ModelContext& context,
               LinearizedMeasurement* out) {
   EvaluateAtState(z, context, out);
-  if (SeesError(z)) {
+  if (SeesColouredNoise(z)) {
     TakeError(BlockKind::kColouredNoise, context, out);
-    TakeError(BlockKind::kSensorError, context, out);
   }
+  if (SeesError(z)) TakeError(BlockKind::kSensorError, context, out);
   const Block* offset = TimeOffsetOf(context);
   if (offset == nullptr) return;
   auto column = out->H.col(offset->offset);

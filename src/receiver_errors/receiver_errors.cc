@@ -47,9 +47,9 @@ bool IsAbsolute(const SensorKind& kind) {
 }
 
 /// Those with a used measurement on the tape, of at most three rows; positions
-/// come first.
-std::vector<int> AbsoluteSensors(const Timeline& timeline,
-                                 const LinearTape& tape) {
+/// come first. Absolute ones, or those of the vehicle.
+std::vector<int> SensorsInQuestion(const Timeline& timeline,
+                                   const LinearTape& tape, bool of_vehicle) {
   std::vector<int> rows(timeline.sensors().size(), 0);
   for (std::size_t k = 0; k < tape.size(); ++k) {
     for (const TapeMeasurement& z : tape.measurements(k)) {
@@ -63,7 +63,9 @@ std::vector<int> AbsoluteSensors(const Timeline& timeline,
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i] == 0 || rows[i] > 3) continue;
     const SensorKind& kind = *timeline.sensors()[i].kind;
-    if (kind.is_position) {
+    if (of_vehicle) {
+      if (kind.of_vehicle) others.push_back(static_cast<int>(i));
+    } else if (kind.is_position) {
       positions.push_back(static_cast<int>(i));
     } else if (IsAbsolute(kind)) {
       others.push_back(static_cast<int>(i));
@@ -267,7 +269,8 @@ std::vector<ReceiverErrors> FindReceiverErrors(const Problem& problem,
     }
     found.clear();
   }
-  std::vector<int> sensors = AbsoluteSensors(problem.timeline, tape);
+  std::vector<int> sensors =
+      SensorsInQuestion(problem.timeline, tape, question.of_vehicle);
   std::erase_if(sensors, [&](int sensor) {
     return std::ranges::count(question.known, sensor) > 0;
   });

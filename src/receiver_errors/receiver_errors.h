@@ -31,6 +31,9 @@ struct ErrorQuestion {
   /// Of a search about another tape: taken as it is, where the nodes hold the
   /// same fixes, instead of a search. nullptr: none.
   const DecidedErrors* decided = nullptr;
+  /// Asks after sensors in the axes of a vehicle on its wheels (odometers, and that
+  /// wheels do not slip sideways) in place of the absolute ones.
+  bool of_vehicle = false;
   /// Of the effort that a search may cost.
   double share = 1.0;
   /// Told the fraction done, between the steps of the search; false ends it with
@@ -147,7 +150,8 @@ class ReceiverErrors {
 /// Gauss-Markov, or good at times and at others biased or drifting; each with
 /// outliers (docs/receiver_errors.md). Absolute is what tells a position, a
 /// velocity over the ground, a height, a course or a heading by itself, with a
-/// used measurement on the tape, of at most three rows. What has gained the most
+/// used measurement on the tape, of at most three rows; or what ErrorQuestion::of_vehicle
+/// names. What has gained the most
 /// evidence comes first; of equals, positions.
 ///
 /// `tape` is the problem linearised about one fixed trajectory and must outlive

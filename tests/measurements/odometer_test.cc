@@ -45,6 +45,26 @@ TEST(Odometer, ThreeAxesWithLeverArmAtHeading90Degrees) {
   EXPECT_LT((z.R.diagonal() - Eigen::Vector3d(0.01, 0.04, 0.09)).norm(), 1e-15);
 }
 
+TEST(Odometer, AnErrorOfTheSensorAddsToItsRows) {
+  for (const auto form : {Odometer::Form::kForward, Odometer::Form::kThreeAxis,
+                          Odometer::Form::kNonHolonomic}) {
+    Scene scene = RichScene();
+    const Measurement z = Reading(form, 9.0);
+    const RowVector without = scene.Evaluate(z).residual;
+    Block block;
+    block.key = {BlockKind::kSensorError, 0};
+    block.name = "odometer_error";
+    scene.layout.Add(block);
+    ParameterVector& values = scene.state.parameters;
+    values.conservativeResize(scene.layout.parameter_count());
+    values.tail<3>() << 2.0, -1.0, 0.5;
+    const RowVector with = scene.Evaluate(z).residual;
+    EXPECT_LT((without - with - values.tail<3>().head(with.size())).norm(),
+              1e-12);
+    ExpectJacobian(scene, z, "with an error");
+  }
+}
+
 TEST(Odometer, FormsAreRowsOfTheThreeAxes) {
   const Scene scene = RichScene();
   const LinearizedMeasurement all =

@@ -202,6 +202,29 @@ TEST(RobustBatch, FindsAJumpBeyondAGaussMarkovError) {
   }));
 }
 
+/// Wheels that spin for four seconds: not the receiver errs, nor does the IMU's velocity
+/// step.
+TEST(RobustBatch, FindsWheelsThatSlip) {
+  const Dataset clean = Simulate(FindScenario("test_car"), 21);
+  Dataset dirty = clean;
+  for (AidingStream& stream : dirty.streams) {
+    for (Measurement& z : stream.measurements.Edited()) {
+      auto* odometer = std::get_if<Odometer>(&z.model);
+      if (odometer == nullptr || z.t < 60.0 || z.t >= 64.0) continue;
+      odometer->speed *= 1.5;
+    }
+  }
+  const Accuracy without = Judge(clean, SolveBy("batch", clean));
+  EXPECT_GT(Judge(dirty, SolveBy("batch", dirty)).horizontal_rms,
+            1.15 * without.horizontal_rms);
+  const Solution solution = SolveBy("robust_batch", dirty);
+  EXPECT_LT(Judge(dirty, solution).horizontal_rms,
+            1.05 * without.horizontal_rms);
+  EXPECT_TRUE(std::ranges::any_of(solution.notes, [](const std::string& one) {
+    return one.starts_with("odometer: against the noise as stated");
+  }));
+}
+
 /// A receiver of 0.5 m alone, which is 1.2 m off for a minute, of which the likelihoods
 /// with and without differ by less than a factor of a thousand.
 TEST(RobustBatch, DoubtsNoiseBesideWhichAnErrorIsAboutAsLikely) {
