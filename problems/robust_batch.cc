@@ -66,7 +66,7 @@ std::optional<double> LogOddsAgainst(const std::vector<State>& initial,
                                      const ErrorSearch& search,
                                      ErrorSearch* other) {
   try {
-    if (!other->RunFromVelocities(initial) || other->stopped()) {
+    if (!other->RunFromVelocities(initial) || other->ended()) {
       return std::nullopt;
     }
     const double log_odds = search.LogEvidence() - other->LogEvidence();
@@ -89,12 +89,13 @@ Explained Explain(const Problem& problem, const std::vector<State>& initial,
     return {std::move(search), std::nullopt};
   }
   search.Run(initial);
-  if (search.stopped() || !search.MayBeOfAReceiver()) {
+  if (search.ended() || !search.MayBeOfAReceiver()) {
     search.RunLast(initial);
     return {std::move(search), std::nullopt};
   }
   ErrorSearch other(problem, options, 0.5 * share);
   const std::optional<double> odds = LogOddsAgainst(initial, search, &other);
+  if (other.ended()) search.End();
   double log_odds = odds.value_or(0.0);
   if (log_odds < 0.0) {
     std::swap(search, other);
@@ -141,10 +142,10 @@ void TellOtherOrder(const RivalSearch& rival, const std::string& words,
        .remedies = {"'--without', which leaves one of them out"}});
 }
 
-RobustBatchResult SolveAbout(const Problem& problem,
-                             const std::vector<State>& initial,
-                             const RobustBatchOptions& options, double share) {
-  const Explained explained = Explain(problem, initial, options, share);
+/// With the errors that explain the data about `initial`.
+RobustBatchResult SolveWith(const Explained& explained,
+                            const std::vector<State>& initial,
+                            const RobustBatchOptions& options) {
   const ErrorSearch& search = explained.search;
   RobustBatchResult result = {.problem = search.problem()};
   auto states = search.states();
@@ -177,12 +178,17 @@ RobustBatchResult SolveAbout(const Problem& problem,
   return result;
 }
 
-/// The same; none if the data cannot be solved about that trajectory.
-std::optional<RobustBatchResult> TrySolveAbout(
-    const Problem& problem, const std::vector<State>& initial,
-    const RobustBatchOptions& options, double share) {
+/// With errors sought once more, about the trajectory of another solution; none if
+/// the data cannot be solved about it, or `ended` says that there was no time.
+std::optional<RobustBatchResult> SolveAgain(const Problem& problem,
+                                            const std::vector<State>& initial,
+                                            const RobustBatchOptions& options,
+                                            const bool& ended) {
+  constexpr double kShare = 0.5;
   try {
-    return SolveAbout(problem, initial, options, share);
+    const Explained explained = Explain(problem, initial, options, kShare);
+    if (ended) return std::nullopt;
+    return SolveWith(explained, initial, options);
   } catch (const EstimationError&) {
     return std::nullopt;
   }
@@ -222,32 +228,30 @@ RobustBatchResult SolveRobustBatch(Problem problem,
                                    const std::vector<State>& initial,
                                    const RobustBatchOptions& options) {
   constexpr int kMostPasses = 3;
-  std::vector<State> nominal = initial;
-  std::optional<RobustBatchResult> result;
-  bool stopped = false;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    RobustBatchOptions of_pass = options;
-    if (options.go_on) {
-      of_pass.go_on = [&options, &stopped, pass](double fraction) {
-        // Another pass takes half of what is left.
-        const bool on = options.go_on(1.0 - std::exp2(-(pass + fraction)));
-        stopped |= !on;
-        return on;
-      };
-    }
-    const double share = pass == 0 ? 1.0 : 0.5;
-    std::optional<RobustBatchResult> one =
-        pass == 0 ? SolveAbout(problem, nominal, of_pass, share)
-                  : TrySolveAbout(problem, nominal, of_pass, share);
-    if (pass > 0 && (!one || !one->stands || stopped)) break;
-    result = std::move(one);
-    const bool again = result->stands && !stopped &&
-                       options.decisions == nullptr &&
-                       IsBeyondLinear(nominal, *result);
-    if (!again) break;
-    nominal = WithoutErrors(problem.layout, result->batch.states);
+  bool ended = false;
+  int pass = 0;
+  RobustBatchOptions of_pass = options;
+  if (options.go_on) {
+    of_pass.go_on = [&](double fraction) {
+      // Another pass takes half of what is left.
+      ended |= !options.go_on(1.0 - std::exp2(-(pass + fraction)));
+      return !ended;
+    };
   }
-  return *std::move(result);
+  RobustBatchResult result =
+      SolveWith(Explain(problem, initial, of_pass, 1.0), initial, of_pass);
+  std::vector<State> nominal = initial;
+  while (++pass < kMostPasses && result.stands &&
+         options.decisions == nullptr && IsBeyondLinear(nominal, result)) {
+    if (of_pass.go_on && !of_pass.go_on(0.0)) break;
+    nominal = WithoutErrors(problem.layout, result.batch.states);
+    std::optional<RobustBatchResult> again =
+        SolveAgain(problem, nominal, of_pass, ended);
+    if (!again || !again->stands) break;
+    result = *std::move(again);
+  }
+  result.ended = ended;
+  return result;
 }
 
 }  // namespace hindsight

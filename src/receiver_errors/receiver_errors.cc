@@ -83,6 +83,8 @@ ReceiverErrors::~ReceiverErrors() = default;
 
 bool ReceiverErrors::Stands() const { return found_->stands(); }
 
+bool ReceiverErrors::WasEnded() const { return found_->stopped; }
+
 int ReceiverErrors::sensor() const { return found_->sensor; }
 
 double ReceiverErrors::log_gain() const { return found_->choice.gain; }
