@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "problems/error_search.h"
 
 namespace hindsight {
@@ -133,9 +134,10 @@ void TellOtherOrder(const RivalSearch& rival, const std::string& words,
   if (!apart) return;
   result->other_order = Evidence(
       {.grade = Grade::kDoubtful,
-       .what = fmt::format("{}; or else, {:.2g} % likely and up to {:.3g} m "
+       .what = fmt::format("{}; or else, {} likely and up to {:.3g} m "
                            "away, {}",
-                           words, 100.0 * probability, farthest, rival.words),
+                           words, FormatProbability(probability), farthest,
+                           rival.words),
        .value = probability,
        .unit = "probability",
        .causes = {"errors of positions and velocities that come together"},
