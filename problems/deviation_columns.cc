@@ -44,6 +44,20 @@ Eigen::VectorXd UnitOf(int component, const Measurement& z) {
   return unit;
 }
 
+/// States of a sensor that are added to what it measures of the motion.
+constexpr std::array kAdded = {BlockKind::kColouredNoise,
+                               BlockKind::kSensorError};
+
+/// The state of a sensor without errors that are added.
+void TakeOutErrors(int sensor, const ErrorLayout& layout, State* x) {
+  for (const BlockKind kind : kAdded) {
+    const Block* block = layout.Find(kind, sensor);
+    if (block == nullptr) continue;
+    x->parameters.segment(block->parameter_offset, FullDimension(kind))
+        .setZero();
+  }
+}
+
 bool Fits(const ErrorLayout& layout, BlockKind kind) {
   const int dim = FullDimension(kind);
   return layout.dim() + dim <= kMaxErrorDim &&
@@ -175,6 +189,7 @@ std::vector<ShiftColumns::Columns> DeviationColumns::Measured(
   State x = states_[k];
   x.parameters.conservativeResize(own.layout.parameter_count());
   x.parameters.tail(own.parameters.size()) = own.parameters;
+  TakeOutErrors(z.sensor, problem_.layout, &x);
   const Measurement& measured =
       problem_.timeline.measurements(k)[static_cast<std::size_t>(z.index)];
   ModelContext context = problem_.timeline.Context(k, measured, own.layout, x);
@@ -183,7 +198,8 @@ std::vector<ShiftColumns::Columns> DeviationColumns::Measured(
   Evaluate(measured, context, &linear);
   const RowVector rate = own.has_clock ? TimeOffsetRate(measured, context)
                                        : RowVector::Zero(B.rows()).eval();
-  // As predicted: the noise of what is measured is in the innovation too.
+  // As predicted, without errors of its own that are estimated: the noise of what is
+  // measured, and with it these, are in the innovation too.
   std::optional<Eigen::Vector3d> v =
       NavigationValue(measured.model, own.origin_e);
   if (v) *v -= linear.residual;

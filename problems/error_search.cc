@@ -66,6 +66,7 @@ ErrorSearch::Round ErrorSearch::Search(
   round.tape = std::make_unique<LinearTape>(RunLinearizedFilter(
       states_ ? *states_ : initial, problem, options_->callback));
   round.errors = FindReceiverErrors(*problem, *round.tape, question);
+  ended_ |= std::ranges::any_of(round.errors, &ReceiverErrors::WasEnded);
   return round;
 }
 
@@ -73,7 +74,7 @@ void ErrorSearch::Run(const std::vector<State>& initial) {
   const auto is_asked = [this](int sensor) {
     return !with_last_ || !IsLast(sensor);
   };
-  while (rounds_.size() < kMostRounds && HasRoom()) {
+  while (HasNext()) {
     if (with_last_ && NextIsLast()) break;
     Round round = Search(&problem_, initial, is_asked);
     if (round.errors.empty()) break;
@@ -143,7 +144,7 @@ void ErrorSearch::RunLast(const std::vector<State>& initial) {
       problem_.decisions[i] = with[i];
     }
   }
-  if (*stopped_) return;
+  if (ended_) return;
   while (!rounds_.empty() && !rounds_.back().best().Stands()) {
     rounds_.pop_back();
   }
@@ -235,6 +236,13 @@ void ErrorSearch::Take(Round round) {
   rounds_.push_back(std::move(round));
 }
 
+bool ErrorSearch::HasNext() const {
+  const SearchDecisions* decisions = options_->decisions;
+  const bool wanted =
+      decisions != nullptr ? rounds_.size() < decisions->size() : !ended_;
+  return wanted && rounds_.size() < kMostRounds && HasRoom();
+}
+
 bool ErrorSearch::HasRoom() const {
   constexpr int kOwnStates = 6;
   return problem_.layout.parameter_count() + kOwnStates <= kMaxParameters &&
@@ -248,11 +256,9 @@ void ErrorSearch::Ask() {
   question_.decided = decided ? &(*options_->decisions)[i] : nullptr;
   const auto round = static_cast<double>(searches_++);
   question_.share = share_ * std::exp2(-round);
-  question_.go_on = [&go_on = options_->go_on, stopped = stopped_,
-                     round](double fraction) {
+  question_.go_on = [&go_on = options_->go_on, round](double fraction) {
     // A search takes half of what is left.
-    *stopped |= go_on && !go_on(1.0 - std::exp2(-(round + fraction)));
-    return !*stopped;
+    return !go_on || go_on(1.0 - std::exp2(-(round + fraction)));
   };
 }
 

@@ -40,8 +40,10 @@ class ErrorSearch {
   /// As RobustBatchOptions::decisions say, in the order in which they were found.
   void RunAsDecided(const std::vector<State>& initial);
 
-  /// Whether the search was ended by whoever asked.
-  bool stopped() const { return *stopped_; }
+  /// Begins no further search.
+  void End() { ended_ = true; }
+  /// Whether it does not, as one was ended by whoever asked, or by End.
+  bool ended() const { return ended_; }
 
   /// Whether velocities and positions of a receiver may err together in what was
   /// told otherwise: by steps of the IMU's velocity, by errors that are doubtful
@@ -97,6 +99,8 @@ class ErrorSearch {
   bool NextIsLast() const;
   /// Extends the problem by what stands of a round.
   void Take(Round round);
+  /// Whether there is another round: as decided, or to be searched.
+  bool HasNext() const;
   /// Whether a state can hold the errors of one more sensor.
   bool HasRoom() const;
   /// Prepares the question of the next round.
@@ -124,7 +128,7 @@ class ErrorSearch {
   std::optional<GateDecisions> with_last_;
   std::optional<std::vector<State>> states_;
   bool velocities_first_ = false;
-  std::shared_ptr<bool> stopped_ = std::make_shared<bool>(false);
+  bool ended_ = false;
 };
 
 }  // namespace hindsight

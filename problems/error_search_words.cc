@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "base/text.h"
 #include "filters/rts.h"
 #include "problems/error_search.h"
 
@@ -100,16 +101,16 @@ void ErrorSearch::TellRival(const Round& round, RobustBatchResult* result) {
     result->doubts.push_back(
         {.grade = Grade::kDoubtful,
          .what = fmt::format(
-             "which sensor errs cannot be told: {}; or, {:.2g} % likely, {}",
-             best.InWords(), 100.0 * probability, other.InWords()),
+             "which sensor errs cannot be told: {}; or, {} likely, {}",
+             best.InWords(), FormatProbability(probability), other.InWords()),
          .value = distance,
          .unit = "m",
          .causes = {"sensors that contradict each other where the IMU cannot "
                     "tell which is right"},
          .remedies = {"'--without', which leaves one of them out"}});
     result->notes.push_back(fmt::format(
-        "or, {:.2g} % likely and {:.3g} m away in the root mean square: {}",
-        100.0 * probability, distance, other.InWords()));
+        "or, {} likely and {:.3g} m away in the root mean square: {}",
+        FormatProbability(probability), distance, other.InWords()));
     best.WidenTowards(other, probability, &result->batch.P);
   }
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "problems/error_search.h"
 
 namespace hindsight {
@@ -70,7 +71,7 @@ std::optional<double> LogOddsAgainst(const std::vector<State>& initial,
                                      const ErrorSearch& search,
                                      const Order& order, ErrorSearch* other) {
   try {
-    if (!order(other) || other->stopped()) return std::nullopt;
+    if (!order(other) || other->ended()) return std::nullopt;
     const double log_odds =
         search.LogEvidence(initial) - other->LogEvidence(initial);
     const double most = other->HasCoincidences()
@@ -112,11 +113,13 @@ Explained Explain(const Problem& problem, const std::vector<State>& initial,
   search.Run(initial);
   std::optional<RivalSearch> rival;
   const std::vector<Order> orders =
-      search.stopped() ? std::vector<Order>() : OtherOrders(initial, search);
+      search.ended() ? std::vector<Order>() : OtherOrders(initial, search);
   for (const Order& order : orders) {
+    if (search.ended()) break;
     ErrorSearch other(problem, options, 0.5 * share);
     const std::optional<double> odds =
         LogOddsAgainst(initial, search, order, &other);
+    if (other.ended()) search.End();
     if (!odds) continue;
     if (*odds < 0.0) std::swap(search, other);
     if (!other.states()) continue;
@@ -152,19 +155,20 @@ void TellOtherOrder(const RivalSearch& rival, const std::string& words,
   if (!apart) return;
   result->other_order = Evidence(
       {.grade = Grade::kDoubtful,
-       .what = fmt::format("{}; or else, {:.2g} % likely and up to {:.3g} m "
+       .what = fmt::format("{}; or else, {} likely and up to {:.3g} m "
                            "away, {}",
-                           words, 100.0 * probability, farthest, rival.words),
+                           words, FormatProbability(probability), farthest,
+                           rival.words),
        .value = probability,
        .unit = "probability",
        .causes = {"errors of positions and velocities that come together"},
        .remedies = {"'--without', which leaves one of them out"}});
 }
 
-RobustBatchResult SolveAbout(const Problem& problem,
-                             const std::vector<State>& initial,
-                             const RobustBatchOptions& options, double share) {
-  const Explained explained = Explain(problem, initial, options, share);
+/// With the errors that explain the data about `initial`.
+RobustBatchResult SolveWith(const Explained& explained,
+                            const std::vector<State>& initial,
+                            const RobustBatchOptions& options) {
   const ErrorSearch& search = explained.search;
   RobustBatchResult result = {.problem = search.problem()};
   auto states = search.states();
@@ -197,12 +201,17 @@ RobustBatchResult SolveAbout(const Problem& problem,
   return result;
 }
 
-/// The same; none if the data cannot be solved about that trajectory.
-std::optional<RobustBatchResult> TrySolveAbout(
-    const Problem& problem, const std::vector<State>& initial,
-    const RobustBatchOptions& options, double share) {
+/// With errors sought once more, about the trajectory of another solution; none if
+/// the data cannot be solved about it, or `ended` says that there was no time.
+std::optional<RobustBatchResult> SolveAgain(const Problem& problem,
+                                            const std::vector<State>& initial,
+                                            const RobustBatchOptions& options,
+                                            const bool& ended) {
+  constexpr double kShare = 0.5;
   try {
-    return SolveAbout(problem, initial, options, share);
+    const Explained explained = Explain(problem, initial, options, kShare);
+    if (ended) return std::nullopt;
+    return SolveWith(explained, initial, options);
   } catch (const EstimationError&) {
     return std::nullopt;
   }
@@ -242,32 +251,30 @@ RobustBatchResult SolveRobustBatch(Problem problem,
                                    const std::vector<State>& initial,
                                    const RobustBatchOptions& options) {
   constexpr int kMostPasses = 3;
-  std::vector<State> nominal = initial;
-  std::optional<RobustBatchResult> result;
-  bool stopped = false;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    RobustBatchOptions of_pass = options;
-    if (options.go_on) {
-      of_pass.go_on = [&options, &stopped, pass](double fraction) {
-        // Another pass takes half of what is left.
-        const bool on = options.go_on(1.0 - std::exp2(-(pass + fraction)));
-        stopped |= !on;
-        return on;
-      };
-    }
-    const double share = pass == 0 ? 1.0 : 0.5;
-    std::optional<RobustBatchResult> one =
-        pass == 0 ? SolveAbout(problem, nominal, of_pass, share)
-                  : TrySolveAbout(problem, nominal, of_pass, share);
-    if (pass > 0 && (!one || !one->stands || stopped)) break;
-    result = std::move(one);
-    const bool again = result->stands && !stopped &&
-                       options.decisions == nullptr &&
-                       IsBeyondLinear(nominal, *result);
-    if (!again) break;
-    nominal = WithoutErrors(problem.layout, result->batch.states);
+  bool ended = false;
+  int pass = 0;
+  RobustBatchOptions of_pass = options;
+  if (options.go_on) {
+    of_pass.go_on = [&](double fraction) {
+      // Another pass takes half of what is left.
+      ended |= !options.go_on(1.0 - std::exp2(-(pass + fraction)));
+      return !ended;
+    };
   }
-  return *std::move(result);
+  RobustBatchResult result =
+      SolveWith(Explain(problem, initial, of_pass, 1.0), initial, of_pass);
+  std::vector<State> nominal = initial;
+  while (++pass < kMostPasses && result.stands &&
+         options.decisions == nullptr && IsBeyondLinear(nominal, result)) {
+    if (of_pass.go_on && !of_pass.go_on(0.0)) break;
+    nominal = WithoutErrors(problem.layout, result.batch.states);
+    std::optional<RobustBatchResult> again =
+        SolveAgain(problem, nominal, of_pass, ended);
+    if (!again || !again->stands) break;
+    result = *std::move(again);
+  }
+  result.ended = ended;
+  return result;
 }
 
 }  // namespace hindsight

@@ -38,6 +38,9 @@ struct RobustBatchResult {
   /// stood at the search. Not among `doubts`, as it is not known again where
   /// decisions are given.
   std::optional<Evidence> other_order = {};
+  /// Whether something was not searched for, or not to its end, as go_on said so. Not
+  /// among `doubts`, as it is not known again where decisions are given.
+  bool ended = false;
   SearchDecisions decisions = {};
   /// ln of the prior of the errors that were found.
   double log_prior = 0.0;
@@ -59,7 +62,7 @@ struct RobustBatchOptions {
   /// Of each epoch of each pass; may throw to stop.
   EpochCallback callback = nullptr;
   /// Told the fraction of the search that is done; false ends it with the best
-  /// so far.
+  /// so far, and no other begins.
   std::function<bool(double)> go_on = nullptr;
 };
 

@@ -92,6 +92,13 @@ Solution SolvePlainly(MethodStage* stage, const MethodStage::Nodes& nodes) {
 struct Searched {
   explicit Searched(Clock::time_point until) : end(until) {}
 
+  /// Asked of what is to be searched for: then it is not.
+  bool IsOutOfTime() {
+    const bool over = Clock::now() >= end;
+    ended |= over;
+    return over;
+  }
+
   Clock::time_point end;
   /// Errors are sought about the trajectory that the nodes have, in place of a rough
   /// one: it was found without what errs.
@@ -101,6 +108,7 @@ struct Searched {
   std::vector<int> last;        ///< as of RobustBatchOptions
   std::vector<double> offsets;  ///< by sensor [s]
   bool stands = false;
+  bool ended = false;  ///< something was not searched for, as the time was over
   std::vector<std::string> notes;
   std::optional<Evidence> other_order;
   ErrorLayout layout;
@@ -161,11 +169,12 @@ bool IsKnownStill(const Searched& searched) {
                                             searched.x, searched.P, kMoved) < 0;
 }
 
-/// Searches, unless what was decided holds still: then the nodes have the
-/// trajectory that followed from it.
+/// Searches, unless what was decided holds still, or there is no time: then the nodes
+/// have the trajectory that followed from it.
 Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
                        Searched* searched) {
-  const bool known = IsKnownStill(*searched);
+  const bool known =
+      IsKnownStill(*searched) || (searched->done && searched->IsOutOfTime());
   const std::vector<std::size_t> blunders =
       FindBlunders(nodes.problem->timeline);
   Problem problem = WithAll(*stage, blunders, *nodes.problem);
@@ -189,6 +198,7 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
     searched->decisions = std::move(result.decisions);
     searched->offsets = *nodes.offsets;
     searched->other_order = std::move(result.other_order);
+    searched->ended |= result.ended;
   }
   searched->stands = result.stands;
   searched->notes = std::move(result.notes);
@@ -225,7 +235,7 @@ void SearchElsewhere(MethodStage* stage, Searched* searched,
   constexpr double kElsewhere = 5.0;  // sigma
   const Dataset& given = *stage->clocks().given;
   if (!searched->stands || searched->erring.empty() ||
-      !HasClocksInQuestion(given) || Clock::now() >= searched->end) {
+      !HasClocksInQuestion(given) || searched->IsOutOfTime()) {
     return;
   }
   std::optional<ClocksWithout> clocks =
@@ -240,6 +250,7 @@ void SearchElsewhere(MethodStage* stage, Searched* searched,
   again.last = searched->last;
   try {
     Solution other = Search(&elsewhere, &again);
+    searched->ended |= again.ended;
     if (!again.stands) return;
     const double log_odds =
         LogEvidenceRatio(given, {*again.problem, other.states},
@@ -256,12 +267,25 @@ void SearchElsewhere(MethodStage* stage, Searched* searched,
   *stage = std::move(elsewhere);
 }
 
+void AddDoubtOfEnded(MethodStage* stage) {
+  std::vector<Evidence> doubts = stage->doubts();
+  doubts.insert(
+      doubts.begin(),
+      {.grade = Grade::kDoubtful,
+       .what = "the search for errors of sensors was ended before it was "
+               "done (--max-time)",
+       .causes = {"less time than the recording needs"},
+       .remedies = {"a larger --max-time"}});
+  stage->SetDoubts(std::move(doubts));
+}
+
 Solution RunRobustBatch(MethodStage* stage) {
   const double t0 = ProcessorSeconds();
   RequirePosition(stage->forward().timeline());
   Searched searched(EndOf(stage->forward().options()));
   Solution solution = Search(stage, &searched);
   SearchElsewhere(stage, &searched, &solution);
+  if (searched.ended) AddDoubtOfEnded(stage);
   solution.seconds = ProcessorSeconds() - t0;
   if (!searched.stands) stage->JudgeOptimum(solution);
   return solution;

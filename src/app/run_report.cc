@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "base/text.h"
 #include "base/units.h"
 #include "dataset/bias_sigma.h"
 #include "earth/wgs84.h"
@@ -216,8 +217,8 @@ std::string DescribeRivals(const std::vector<Solution>& solutions) {
     for (const RivalSolution& rival : solution.rivals) {
       if (rival.probability < kWorthTelling) continue;
       const std::string line =
-          fmt::format("another solution is {:.2g} % likely: {}\n",
-                      100.0 * rival.probability, rival.description);
+          fmt::format("another solution is {} likely: {}\n",
+                      FormatProbability(rival.probability), rival.description);
       if (text.find(line) == std::string::npos) text += line;
     }
   }

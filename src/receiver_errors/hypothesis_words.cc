@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
+
 namespace hindsight {
 namespace {
 
@@ -144,10 +146,10 @@ std::string DescribeRival(const RivalHypothesis& rival,
                           const std::vector<double>& times) {
   constexpr double kWorthTelling = 1e-3;
   if (rival.probability < kWorthTelling) return "";
-  return fmt::format(
-             "or, with a probability of {:.2g} %, up to {:.3g} m away: ",
-             100.0 * rival.probability, rival.distance) +
-         DescribeSequence(rival.hypothesis->steps, times);
+  return fmt::format("{}, with a probability of {}, up to {:.3g} m away: {}",
+                     rival.IsLikelier() ? "likelier than that" : "or",
+                     FormatProbability(rival.probability), rival.distance,
+                     DescribeSequence(rival.hypothesis->steps, times));
 }
 
 }  // namespace hindsight

@@ -33,6 +33,9 @@ struct RivalHypothesis {
   const WeighedHypothesis* hypothesis = nullptr;  ///< none: no such one
   double probability = 0.0;                       ///< of all such together
   double distance = 0.0;  ///< largest, horizontal [m], of the likeliest
+
+  /// Than the chosen one and what is near it.
+  bool IsLikelier() const { return probability > 0.5; }
 };
 RivalHypothesis FindRival(const std::vector<WeighedHypothesis>& all,
                           const WeighedHypothesis& chosen,

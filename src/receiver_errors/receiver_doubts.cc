@@ -28,13 +28,6 @@ Evidence DoubtOf(const std::string& name, const ErrantEnd& errant) {
 
 std::vector<Evidence> ReceiverErrors::Doubts() const {
   std::vector<Evidence> doubts;
-  if (found_->stopped) {
-    doubts.push_back({.grade = Grade::kDoubtful,
-                      .what = "the search for errors of " + found_->name +
-                              " was ended before it was done (--max-time)",
-                      .causes = {"less time than the recording needs"},
-                      .remedies = {"a larger --max-time"}});
-  }
   if (!found_->stands()) return doubts;
   const std::optional<ErrantEnd> errant = FindErrantEnd(*found_);
   if (errant && errant->IsDoubtful()) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <utility>
 
+#include "base/text.h"
 #include "measurements/sensor_kind.h"
 #include "receiver_errors/error_tuning.h"
 #include "receiver_errors/hypothesis_words.h"
@@ -25,8 +26,9 @@ Evidence DoubtOf(const RivalHypothesis& rival, const std::vector<double>& times,
                  const std::string& chosen, bool is_mean) {
   return {.grade = Grade::kDoubtful,
           .what = fmt::format(
-              "{}; or else, {:.2g} % likely and up to {:.3g} m away, {}{}",
-              chosen, 100.0 * rival.probability, rival.distance,
+              "{}; or else, {}{} likely and up to {:.3g} m away, {}{}", chosen,
+              rival.IsLikelier() ? "likelier than that, " : "",
+              FormatProbability(rival.probability), rival.distance,
               DescribeSequence(rival.hypothesis->steps, times),
               is_mean ? ": the result is the mean, weighed by their "
                         "probabilities"
@@ -84,6 +86,8 @@ ReceiverErrors& ReceiverErrors::operator=(ReceiverErrors&&) noexcept = default;
 ReceiverErrors::~ReceiverErrors() = default;
 
 bool ReceiverErrors::Stands() const { return found_->stands(); }
+
+bool ReceiverErrors::WasEnded() const { return found_->stopped; }
 
 int ReceiverErrors::sensor() const { return found_->sensor; }
 

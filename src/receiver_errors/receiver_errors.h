@@ -56,6 +56,9 @@ class ReceiverErrors {
   /// anything.
   bool Stands() const;
 
+  /// Whether the search for them was ended by whoever asked.
+  bool WasEnded() const;
+
   int sensor() const;
   /// ln of its evidence over that of the noise as stated; 0 unless it stands.
   double log_gain() const;
@@ -87,10 +90,9 @@ class ReceiverErrors {
   /// What was found, in words; `P` as it was before Average.
   std::vector<std::string> Notes(const CovarianceSeries& P) const;
 
-  /// What makes the result doubtful: a search that was ended early; the only
-  /// sensor of positions erring to its last fix, or from its first, for more than
-  /// an eighth of the recording; an IMU whose noise has to be taken for much more
-  /// than stated.
+  /// What makes the result doubtful: the only sensor of positions erring to its
+  /// last fix, or from its first, for more than an eighth of the recording; an IMU
+  /// whose noise has to be taken for much more than stated.
   std::vector<Evidence> Doubts() const;
 
   /// What makes the result doubtful beside noise that was chosen: errors that lose to

@@ -1,11 +1,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/random.h"
+#include "earth/wgs84.h"
 #include "geometry/so3.h"
 #include "io/config/scenario_config.h"
+#include "measurements/noise_kind.h"
+#include "measurements/sensor_kind.h"
 #include "problems/reconstruction.h"
 #include "simulation/fault.h"
 #include "simulation/scenario.h"
@@ -141,6 +147,72 @@ TEST(Explanation, SigmasThatAreTooLargeHideNothing) {
         << seed;
   }
 }
+
+/// Errors that last in what a receiver measures, stated as they are.
+struct LastingErrors {
+  bool of_velocities;
+  double sigma;  ///< an axis [m or m/s]
+  double tau;    ///< [s]
+};
+
+/// A drone with such errors, whose fixes, positions from the first one on, are
+/// multiplied.
+Dataset DroneWith(const LastingErrors& errors, double factor, unsigned seed) {
+  Dataset dataset = Simulate(
+      FindScenario("test_drone", {"aiding.gnss.sigma=0.1 m",
+                                  "aiding.gnss_velocity.sigma=0.05 m/s",
+                                  "aiding.gnss_velocity.rate=2 Hz"}),
+      seed);
+  Random random(seed, 7);
+  for (AidingStream& stream : dataset.streams) {
+    const SensorKind& kind = *stream.sensor.kind;
+    if (errors.of_velocities ? !kind.is_velocity : !kind.is_position) continue;
+    NoiseModel& noise = stream.sensor.noise;
+    noise.kind = &GaussMarkovNoise();
+    noise.sigma = errors.sigma;
+    noise.tau = errors.tau;
+    Eigen::Vector3d e = errors.sigma * random.NormalVector3();
+    std::optional<Eigen::Vector3d> first_e;
+    double before = stream.measurements.front().t;
+    for (Measurement& z : stream.measurements.Edited()) {
+      const double kept = std::exp(-(z.t - before) / errors.tau);
+      e = kept * e +
+          std::sqrt(1.0 - kept * kept) * errors.sigma * random.NormalVector3();
+      before = z.t;
+      if (auto* fix = std::get_if<PositionFix>(&z.model)) {
+        if (!first_e) first_e = fix->p_e;
+        fix->p_e = *first_e + factor * (fix->p_e - *first_e);
+        fix->p_e += NedAxes(fix->p_e) * e;
+        noise.white_sigma = std::sqrt(fix->R_n(0, 0));
+      } else if (auto* velocity = std::get_if<VelocityFix>(&z.model)) {
+        velocity->v_n = factor * velocity->v_n + e;
+        noise.white_sigma = std::sqrt(velocity->R_n(0, 0));
+      }
+    }
+  }
+  return dataset;
+}
+
+class ExplanationBesideLastingErrors
+    : public ::testing::TestWithParam<LastingErrors> {};
+
+TEST_P(ExplanationBesideLastingErrors, TakesThemForNoScale) {
+  for (unsigned seed = 31; seed < 36; ++seed) {
+    EXPECT_THAT(WhatSpeaksAgainst(DroneWith(GetParam(), 1.0, seed)),
+                ::testing::Not(::testing::Contains(HasSubstr(" measures is "))))
+        << seed;
+    EXPECT_THAT(WhatSpeaksAgainst(DroneWith(GetParam(), 1.15, seed)),
+                ::testing::Contains(::testing::AllOf(HasSubstr(" measures is "),
+                                                     HasSubstr(" too large"))))
+        << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Errors, ExplanationBesideLastingErrors,
+                         ::testing::Values(LastingErrors{true, 0.3, 30.0},
+                                           LastingErrors{true, 0.3, 5.0},
+                                           LastingErrors{false, 0.7, 60.0},
+                                           LastingErrors{false, 0.7, 10.0}));
 
 TEST(Explanation, AHealthyRecordingNeedsNone) {
   const int seeds = testing::SeedCount(25, 100);

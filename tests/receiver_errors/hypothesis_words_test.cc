@@ -53,6 +53,17 @@ TEST(HypothesisWords, ARivalIsWhatMovesTheTrajectoryByThreeSigmas) {
   EXPECT_EQ(FindRival({all[0], all[1]}, all[0], P).hypothesis, nullptr);
 }
 
+TEST(HypothesisWords, SayOfARivalThatItIsLikelier) {
+  const WeighedHypothesis other = Alternative(0.9996, 4.0);
+  RivalHypothesis rival = {&other, 0.9996, 4.0};
+  EXPECT_EQ(DescribeRival(rival, {0.0, 1.0}),
+            "likelier than that, with a probability of over 99.9 %, up to 4 m "
+            "away: good throughout");
+  rival.probability = 0.45;
+  EXPECT_EQ(DescribeRival(rival, {0.0, 1.0}),
+            "or, with a probability of 45 %, up to 4 m away: good throughout");
+}
+
 /// At one of two nodes: 50 sigma^2 in the mean are 10 sigmas there.
 TEST(HypothesisWords, ARivalBeyondWouldHaveANeesAbove25) {
   const std::vector<WeighedHypothesis> all = {
