@@ -140,7 +140,11 @@ std::optional<Evidence> ReceiverErrors::DoubtOfNoise(
   const auto undecided = found_->SmoothUndecided();
   if (!undecided) return std::nullopt;
   const std::vector<WeighedHypothesis> maybe = {undecided->maybe};
-  const RivalHypothesis rival = FindRivalBeyond(maybe, undecided->noise, P);
+  RivalHypothesis rival = FindRivalBeyond(maybe, undecided->noise, P);
+  if (rival.hypothesis == nullptr && undecided->maybe.weight > kComparable) {
+    rival = FindRival(maybe, undecided->noise, P);
+    if (!found_->IsLarge(rival.distance)) return std::nullopt;
+  }
   if (rival.hypothesis == nullptr) return std::nullopt;
   return DoubtOf(rival, found_->Times(),
                  Stands() ? InWords() : found_->name + ": as stated", false);

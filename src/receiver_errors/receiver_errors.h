@@ -98,7 +98,8 @@ class ReceiverErrors {
   /// What makes the result doubtful beside noise that was chosen: errors that lose to
   /// it, or win, by odds of less than a thousand, and would make the mean NEES of the
   /// horizontal position more than 25 by covariances P, a node each (errors of the
-  /// horizontal position first).
+  /// horizontal position first); of odds hardly worth mentioning, or that win, errors
+  /// that lead elsewhere as in Average.
   std::optional<Evidence> DoubtOfNoise(const CovarianceSeries& P) const;
   bool IsUndecided() const;
 
