@@ -99,6 +99,7 @@ bool ErrorSearch::RunFromVelocities(const std::vector<State>& initial) {
 
 bool ErrorSearch::RunFromVehicle(const std::vector<int>& suspects,
                                  const std::vector<State>& initial) {
+  if (!HasRoom()) return false;
   question_.of_vehicle = true;
   Round round = Search(&problem_, initial, [&suspects](int sensor) {
     return std::ranges::count(suspects, sensor) > 0;

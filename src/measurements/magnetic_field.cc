@@ -17,6 +17,11 @@ Eigen::Vector3d UndisturbedField(const MagneticSurroundings& magnetic,
           magnetic.horizontal * std::sin(declination), magnetic.down};
 }
 
+const Block* OwnFieldOf(const ErrorLayout& layout, int sensor) {
+  const Block* block = layout.Find(BlockKind::kHardIron, sensor);
+  return block != nullptr && block->dim == 3 ? block : nullptr;
+}
+
 double HorizontalSquare(const Eigen::Vector3d& u_n) {
   constexpr double kFloor = 0.01;  // [uT^2]
   return std::max(u_n.head<2>().squaredNorm(), kFloor);
@@ -39,7 +44,7 @@ struct FieldScene {
 bool HasOwnError(const MagneticField& z, const ModelContext& context) {
   return context.layout.Has(BlockKind::kSensorError, context.sensor_index) &&
          (z.form == MagneticField::Form::kVector ||
-          context.layout.Has(BlockKind::kHardIron, context.sensor_index));
+          OwnFieldOf(context.layout, context.sensor_index) != nullptr);
 }
 
 FieldScene SceneOf(const MagneticField& z, const ModelContext& context) {

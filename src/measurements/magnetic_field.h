@@ -16,7 +16,7 @@ namespace hindsight {
 ///              [rad], sigma / |m_n horizontal|: norm and dip do not matter,
 ///              and tilt only by how it levels the field.
 /// An error of the sensor beyond its noise (kSensorError) adds to h_b, in uT: a
-/// current beside it turns with the vehicle. Of kHeading that needs a block of h_b;
+/// current beside it turns with the vehicle. Of kHeading that needs OwnFieldOf;
 /// else the error is of the azimuth [rad].
 struct MagneticField {
   enum class Form { kVector, kHeading };
@@ -35,6 +35,9 @@ struct MagneticField {
   int rows() const { return form == Form::kVector ? 3 : 1; }
   void Evaluate(const ModelContext& context, LinearizedMeasurement* out) const;
 };
+
+/// The block of h_b where all of its axes are estimated, or nullptr.
+const Block* OwnFieldOf(const ErrorLayout& layout, int sensor);
 
 /// m_n without the disturbance [uT].
 Eigen::Vector3d UndisturbedField(const MagneticSurroundings& magnetic,

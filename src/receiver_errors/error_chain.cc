@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "linear/small_product.h"
+#include "measurements/magnetic_field.h"
 
 namespace hindsight {
 namespace {
@@ -78,8 +79,8 @@ ErrorChain::ErrorChain(const LinearTape& tape, int receiver,
   }
   const Block* position = tape.layout().Find(BlockKind::kPosition);
   const Block* velocity = tape.layout().Find(BlockKind::kVelocity);
-  const Block* own = tape.layout().Find(BlockKind::kHardIron, receiver);
-  if (own != nullptr && own->dim == 3) own_field_ = own->offset;
+  const Block* own = OwnFieldOf(tape.layout(), receiver);
+  if (own != nullptr) own_field_ = own->offset;
   if (position == nullptr || velocity == nullptr) return;
   if (position->dim == 3 && velocity->dim == 3) {
     position_ = position->offset;

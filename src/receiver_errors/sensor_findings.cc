@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "measurements/magnetic_field.h"
 #include "measurements/sensor_kind.h"
 #include "receiver_errors/errant_end.h"
 #include "receiver_errors/sequence_smoother.h"
@@ -17,7 +18,7 @@ namespace {
 /// Root mean square of the stated sigmas of a sensor, of its first two rows; where its
 /// errors are a field of the vehicle, of that.
 double StatedSigma(const LinearTape& tape, int sensor) {
-  const Block* own = tape.layout().Find(BlockKind::kHardIron, sensor);
+  const Block* own = OwnFieldOf(tape.layout(), sensor);
   double sum = 0.0;
   int count = 0;
   for (std::size_t k = 0; k < tape.size(); ++k) {
@@ -106,8 +107,7 @@ ErrorDecisions::ErrorDecisions(const Problem& problem, const LinearTape& tape,
       alone(IsAlone(problem.timeline, index)),
       unit(UnitOf(
           *problem.timeline.sensors()[static_cast<std::size_t>(index)].kind,
-          RowsOf(tape, index),
-          problem.layout.Has(BlockKind::kHardIron, index))),
+          RowsOf(tape, index), OwnFieldOf(problem.layout, index) != nullptr)),
       stated_sigma(StatedSigma(tape, index)) {}
 
 SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
@@ -224,10 +224,11 @@ std::unique_ptr<const SensorFindings> FindingsAgain(
   for (std::size_t k = 0; k < tape.size(); ++k) {
     fixes += HasFix(tape, k, decisions.sensor) ? 1 : 0;
   }
-  if (decisions.stands() &&
-      decisions.regimes.hypotheses.front().sequence.size() != fixes) {
-    return nullptr;
-  }
+  const bool other =
+      (decisions.stands() &&
+       decisions.regimes.hypotheses.front().sequence.size() != fixes) ||
+      (decisions.undecided && decisions.undecided->sequence.size() != fixes);
+  if (other) return nullptr;
   return std::make_unique<const SensorFindings>(decisions, tape);
 }
 
