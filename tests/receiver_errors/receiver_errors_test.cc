@@ -458,6 +458,19 @@ TEST(ReceiverErrors, FromTheFirstFixToTheLastAreDoubtful) {
   EXPECT_THAT(doubts[0].what, HasSubstr("errs from its first fix to its last"));
 }
 
+/// Noise that stands, beside which errors of other fixes than the tape's were as likely.
+TEST(ReceiverErrors, UndecidedOfOtherFixesAreSearchedAnew) {
+  const TestProblem test = FixesOfOneMinute();
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  ErrorDecisions decisions = *FindThem(problem, tape).Decisions();
+  ASSERT_FALSE(decisions.stands());
+  decisions.undecided = Hypothesis{ModeSequence(61)};
+  EXPECT_TRUE(TakeThem(decisions, problem, tape).IsUndecided());
+  decisions.undecided = Hypothesis{ModeSequence(3)};
+  EXPECT_THROW(TakeThem(decisions, problem, tape), std::logic_error);
+}
+
 TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {
   TestProblem test = FixesOfOneMinute();
   for (Measurement& z : test.measurements) {
