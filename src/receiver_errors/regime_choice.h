@@ -21,8 +21,8 @@ struct RegimeChoice {
   /// stand: "switching errors, ... predict held-out ... worse".
   std::vector<std::string> refused;
   /// Where that is noise: the likeliest of the switching ones whose evidence is within
-  /// kLeastGain of the likeliest noise's either way, and which predicts held-out
-  /// stretches as well as what was chosen; 0 if there is none.
+  /// kLeastGain of the likeliest noise's either way; 0 if there is none, or if that one
+  /// predicts held-out stretches worse than what was chosen.
   std::size_t undecided = 0;
   double undecided_gain = 0.0;  ///< ln of its evidence over that noise's
 };
