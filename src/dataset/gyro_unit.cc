@@ -12,6 +12,7 @@
 #include "base/units.h"
 #include "dataset/ground_motion.h"
 #include "dataset/row_rate.h"
+#include "imu/sample_search.h"
 
 namespace hindsight {
 
@@ -58,26 +59,26 @@ std::string ByGravity(const ImuStream& stream) {
 class TurnAboutVertical {
  public:
   explicit TurnAboutVertical(const ImuStream& stream)
-      : samples_(stream.samples),
+      : stream_(stream),
         rates_(stream.kind == ImuStream::Kind::kRates),
-        down_(-FactsOf(stream)->readings.accel_sum.normalized()),
-        t_(stream.t_begin()) {}
+        down_(-FactsOf(stream)->readings.accel_sum.normalized()) {}
 
   double At(double t) {
-    while (k_ + 1 < samples_.size() && t_ < t) {
-      const ImuSample& next = samples_[++k_];
-      turn_ += (rates_ ? next.t - t_ : 1.0) * down_.dot(next.gyro);
-      t_ = next.t;
-    }
+    const auto add = [&](const ImuSample& before, const ImuSample& next) {
+      if (before.t >= t) return false;
+      turn_ += (rates_ ? next.t - before.t : 1.0) * down_.dot(next.gyro);
+      ++k_;
+      return true;
+    };
+    WalkSamples(stream_, k_ + 1, stream_.samples.size(), add);
     return turn_;
   }
 
  private:
-  const PagedVector<ImuSample>& samples_;
+  const ImuStream& stream_;
   bool rates_;
   Eigen::Vector3d down_;
-  double t_;  ///< of sample k_
-  std::size_t k_ = 0;
+  std::size_t k_ = 0;  ///< the sample that it has come to
   double turn_ = 0.0;
 };
 

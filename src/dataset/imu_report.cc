@@ -19,19 +19,21 @@ struct SpanMean {
 /// Over spans in time order, none overlapping another; none without samples.
 std::optional<SpanMean> MeanOver(const ImuStream& imu,
                                  const std::vector<TimeInterval>& spans) {
-  const auto& samples = imu.samples;
+  const bool increments = imu.kind == ImuStream::Kind::kIncrements;
   SpanMean mean;
   for (const TimeInterval& span : spans) {
-    for (std::size_t k =
-             std::max<std::size_t>(1, FirstSampleAfter(imu, span.begin));
-         k < samples.size() && samples[k].t <= span.end; ++k) {
-      const double dt = samples[k].t - samples[k - 1].t;
-      const double scale =
-          imu.kind == ImuStream::Kind::kIncrements ? 1.0 / dt : 1.0;
-      mean.force += dt * Eigen::Vector3d(scale * samples[k].accel);
-      mean.rate += dt * Eigen::Vector3d(scale * samples[k].gyro);
+    const auto add = [&](const ImuSample& before, const ImuSample& sample) {
+      if (sample.t > span.end) return false;
+      const double dt = sample.t - before.t;
+      const double scale = increments ? 1.0 / dt : 1.0;
+      mean.force += dt * Eigen::Vector3d(scale * sample.accel);
+      mean.rate += dt * Eigen::Vector3d(scale * sample.gyro);
       mean.weight += dt;
-    }
+      return true;
+    };
+    WalkSamples(imu,
+                std::max<std::size_t>(1, FirstSampleAfter(imu, span.begin)),
+                imu.samples.size(), add);
   }
   if (mean.weight <= 0.0) return std::nullopt;
   mean.force /= mean.weight;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -29,14 +30,26 @@ std::size_t ImuIntegrator::FindInterval(double t) {
 }
 
 LinearRates ImuIntegrator::RatesOfInterval(std::size_t k) const {
-  const ImuSample& a = stream_->samples[k - 1];
-  const ImuSample& b = stream_->samples[k];
+  const auto& samples = stream_->samples;
+  return RatesBetween(k < 2 ? nullptr : &samples[k - 2], samples[k - 1],
+                      samples[k]);
+}
+
+LinearRates ImuIntegrator::RatesBetween(const ImuSample* previous,
+                                        const ImuSample& a,
+                                        const ImuSample& b) const {
   const double dt = b.t - a.t;
   if (stream_->kind == ImuStream::Kind::kRates) {
     return {dt, a.gyro, b.gyro, a.accel, b.accel};
   }
-  if (stream_->IsDropOut(dt)) return RatesAcrossDropOut(k);
-  double dt_previous = k < 2 ? dt : a.t - stream_->samples[k - 2].t;
+  if (stream_->IsDropOut(dt)) {
+    // The increments of the missing intervals are lost; the sample at the end
+    // holds those of one usual interval.
+    const double scale = 1.0 / stream_->nominal_dt;
+    return {dt, scale * a.gyro, scale * b.gyro, scale * a.accel,
+            scale * b.accel};
+  }
+  double dt_previous = previous == nullptr ? dt : a.t - previous->t;
   if (stream_->IsDropOut(dt_previous)) dt_previous = stream_->nominal_dt;
   return RatesFromIncrements(dt_previous, a.gyro, a.accel, dt, b.gyro, b.accel);
 }
@@ -101,16 +114,6 @@ bool ImuIntegrator::IsDropOut(std::size_t k) const {
   return stream_->IsDropOut(stream_->samples[k].t - stream_->samples[k - 1].t);
 }
 
-LinearRates ImuIntegrator::RatesAcrossDropOut(std::size_t k) const {
-  // The increments of the missing intervals are lost; the sample at the end
-  // holds those of one usual interval.
-  const auto& samples = stream_->samples;
-  const double scale = 1.0 / stream_->nominal_dt;
-  return {samples[k].t - samples[k - 1].t, scale * samples[k - 1].gyro,
-          scale * samples[k].gyro, scale * samples[k - 1].accel,
-          scale * samples[k].accel};
-}
-
 IntervalNoise BridgeNoise(const LinearRates& rates) {
   constexpr double kRate = 0.1;
   constexpr double kForce = 1.0;
@@ -129,26 +132,31 @@ void ImuIntegrator::Walk(double t_i, double t_j, const Use& use) {
                           std::to_string(t_i) + " s to " + std::to_string(t_j) +
                           " s");
   }
+  const bool bends = stream_->kind == ImuStream::Kind::kRates;
   std::size_t k = FindInterval(t_i);
+  const ImuSample* previous = k < 2 ? nullptr : &samples[k - 2];
+  const ImuSample* a = &samples[k - 1];
+  const ImuSample* b = &samples[k];
   double t = t_i;
   while (t < t_j) {
-    const double t_begin = samples[k - 1].t;
-    const double t_end = samples[k].t;
-    const double to = k + 1 == samples.size() ? t_j : std::min(t_end, t_j);
-    const LinearRates whole = RatesOfInterval(k);
-    const bool part = t > t_begin || to < t_end;
-    LinearRates rates = whole;
-    if (part || stream_->kind == ImuStream::Kind::kRates) {
-      rates = PartOf(whole, BendOfInterval(k),
-                     part ? (t - t_begin) / whole.dt : 0.0,
-                     part ? (to - t_begin) / whole.dt : 1.0);
+    const double to = k + 1 == samples.size() ? t_j : std::min(b->t, t_j);
+    const LinearRates whole = RatesBetween(previous, *a, *b);
+    const LinearRates* bridged =
+        stream_->IsDropOut(whole.dt) ? &whole : nullptr;
+    const bool part = t > a->t || to < b->t;
+    if (part || bends) {
+      LinearRates rates =
+          PartOf(whole, BendOfInterval(k), part ? (t - a->t) / whole.dt : 0.0,
+                 part ? (to - a->t) / whole.dt : 1.0);
       rates.dt = part ? to - t : whole.dt;
-    }
-    if (rates.dt > 0.0) {
-      use(rates, stream_->IsDropOut(whole.dt) ? &whole : nullptr);
+      if (rates.dt > 0.0) use(rates, bridged);
+    } else if (whole.dt > 0.0) {
+      use(whole, bridged);
     }
     t = to;
-    if (k + 1 < samples.size()) ++k;
+    if (k + 1 == samples.size()) continue;
+    previous = std::exchange(a, b);
+    b = &samples[++k];
   }
   hint_ = k;
 }

@@ -10,21 +10,26 @@ namespace hindsight {
 
 namespace {
 
-/// Adds the integrals of the interval that ends at sample k; returns its length.
-double AddInterval(const ImuStream& imu, std::size_t k, Kinematics* sum) {
-  const ImuSample& a = imu.samples[k - 1];
-  const ImuSample& b = imu.samples[k];
-  const double dt = b.t - a.t;
-  if (imu.kind == ImuStream::Kind::kIncrements && !imu.IsDropOut(dt)) {
-    sum->w_ib_b += b.gyro;
-    sum->f_b += b.accel;
-    return dt;
+/// Integrals over intervals.
+struct Integrals {
+  Kinematics sum;
+  double duration = 0.0;
+
+  /// Of the interval that ends at sample k.
+  void Add(const ImuStream& imu, std::size_t k, const ImuSample& before,
+           const ImuSample& sample) {
+    const double dt = sample.t - before.t;
+    duration += dt;
+    if (imu.kind == ImuStream::Kind::kIncrements && !imu.IsDropOut(dt)) {
+      sum.w_ib_b += sample.gyro;
+      sum.f_b += sample.accel;
+      return;
+    }
+    const LinearRates rates = ImuIntegrator(imu).RatesOfInterval(k);
+    sum.w_ib_b += 0.5 * dt * (rates.w0 + rates.w1);
+    sum.f_b += 0.5 * dt * (rates.f0 + rates.f1);
   }
-  const LinearRates rates = ImuIntegrator(imu).RatesOfInterval(k);
-  sum->w_ib_b += 0.5 * dt * (rates.w0 + rates.w1);
-  sum->f_b += 0.5 * dt * (rates.f0 + rates.f1);
-  return dt;
-}
+};
 
 }  // namespace
 
@@ -38,12 +43,16 @@ Kinematics MeanReading(const ImuStream& imu, double begin, double end) {
                                     last);
     to = first + 1;
   }
-  Kinematics mean;
-  double total = 0.0;
-  for (std::size_t k = first; k < to; ++k) total += AddInterval(imu, k, &mean);
-  mean.w_ib_b /= total;
-  mean.f_b /= total;
-  return mean;
+  Integrals all;
+  std::size_t k = first;
+  WalkSamples(imu, first, to,
+              [&](const ImuSample& before, const ImuSample& sample) {
+                all.Add(imu, k++, before, sample);
+                return true;
+              });
+  all.sum.w_ib_b /= all.duration;
+  all.sum.f_b /= all.duration;
+  return all.sum;
 }
 
 std::vector<Kinematics> MeanReadings(const ImuStream& imu,

@@ -211,7 +211,9 @@ class ImuIntegrator {
   template <typename Use>
   void Walk(double t_i, double t_j, const Use& use);
   bool IsDropOut(std::size_t k) const;
-  LinearRates RatesAcrossDropOut(std::size_t k) const;
+  /// From sample a to b; `previous` is the one before a, if there is one.
+  LinearRates RatesBetween(const ImuSample* previous, const ImuSample& a,
+                           const ImuSample& b) const;
 
   /// Smallest k >= 1 with samples[k].t > t (or the last).
   std::size_t FindInterval(double t);

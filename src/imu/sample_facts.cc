@@ -1,8 +1,9 @@
 #include "imu/sample_facts.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <functional>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
@@ -17,8 +18,7 @@ class IntervalCounter {
  public:
   void Add(double interval) {
     if (slots_.empty()) return;
-    Slot* slot = &slots_[last_];
-    if (slot->count == 0 || slot->interval != interval) slot = Find(interval);
+    Slot* slot = Find(interval);
     if (slot->count++ == 0 && ++different_ > kMost) slots_.clear();
   }
 
@@ -38,21 +38,25 @@ class IntervalCounter {
  private:
   using Slot = IntervalCount;
   static constexpr std::size_t kMost = 512;
-  static constexpr std::size_t kSlots = 4 * kMost;
+  static constexpr int kLogSlots = 11;
+  static constexpr std::size_t kSlots = std::size_t{1} << kLogSlots;
+  static_assert(kSlots >= 4 * kMost);
 
   /// Where it is counted, or will be.
   Slot* Find(double interval) {
-    // Those of one rate differ in the last bits alone.
-    last_ = std::hash<double>()(interval) % kSlots;
-    while (slots_[last_].count > 0 && slots_[last_].interval != interval) {
-      last_ = (last_ + 1) % kSlots;
+    // Those of one rate differ in the last bits alone; Fibonacci hashing spreads
+    // them.
+    constexpr std::uint64_t kFactor = 0x9E3779B97F4A7C15;
+    std::size_t at =
+        (std::bit_cast<std::uint64_t>(interval) * kFactor) >> (64 - kLogSlots);
+    while (slots_[at].count > 0 && slots_[at].interval != interval) {
+      at = (at + 1) % kSlots;
     }
-    slots_[last_].interval = interval;
-    return &slots_[last_];
+    slots_[at].interval = interval;
+    return &slots_[at];
   }
 
   std::vector<Slot> slots_ = std::vector<Slot>(kSlots);
-  std::size_t last_ = 0;
   std::size_t different_ = 0;
 };
 
