@@ -9,7 +9,7 @@
 namespace hindsight {
 namespace {
 
-/// The differences of neighbours in order of size, ascending.
+/// The differences of neighbours in order of size.
 std::vector<double> Gaps(std::vector<double> values,
                          const ReadingRounding& rounding) {
   std::sort(values.begin(), values.end());
@@ -21,12 +21,12 @@ std::vector<double> Gaps(std::vector<double> values,
       gaps.push_back(gap);
     }
   }
-  std::sort(gaps.begin(), gaps.end());
   return gaps;
 }
 
 double Least(const std::vector<double>& gaps) {
-  return gaps.empty() ? std::numeric_limits<double>::infinity() : gaps.front();
+  const auto least = std::min_element(gaps.begin(), gaps.end());
+  return least == gaps.end() ? std::numeric_limits<double>::infinity() : *least;
 }
 
 }  // namespace

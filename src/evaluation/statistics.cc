@@ -2,22 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace hindsight {
-
-double Percentile(const std::vector<double>& sorted, double fraction) {
-  const double rank = fraction * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(rank);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  const double u = rank - static_cast<double>(below);
-  return (1.0 - u) * sorted[below] + u * sorted[above];
-}
 
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Percentiles of values that are put in order only as far as they need, which is a
+/// fraction of sorting them.
+class AscendingPercentiles {
+ public:
+  explicit AscendingPercentiles(std::vector<double> values)
+      : values_(std::move(values)) {}
+
+  /// Value below which `fraction` lies, no less than that of the call before:
+  /// linear between the order statistics (rank = fraction (n - 1), from 0).
+  double At(double fraction) {
+    const double rank = fraction * static_cast<double>(values_.size() - 1);
+    const auto whole = static_cast<std::ptrdiff_t>(rank);
+    const auto below = values_.begin() + whole;
+    std::nth_element(values_.begin() + placed_, below, values_.end());
+    placed_ = whole;
+    const auto above = std::min_element(below + 1, values_.end());
+    const double u = rank - static_cast<double>(whole);
+    return (1.0 - u) * *below + u * (above == values_.end() ? *below : *above);
+  }
+  double Max() const {
+    return *std::max_element(values_.begin() + placed_, values_.end());
+  }
+
+ private:
+  std::vector<double> values_;
+  std::ptrdiff_t placed_ = 0;  ///< all before it are no larger than it
+};
 
 }  // namespace
 
@@ -91,12 +113,12 @@ ErrorStatistics ComputeStatistics(const std::vector<double>& errors) {
   double scatter = 0.0;
   for (const double e : errors) scatter += (e - s.mean) * (e - s.mean);
   s.std = std::sqrt(scatter / n);
-  std::sort(magnitudes.begin(), magnitudes.end());
-  s.p50 = Percentile(magnitudes, 0.50);
-  s.p68 = Percentile(magnitudes, 0.68);
-  s.p95 = Percentile(magnitudes, 0.95);
-  s.p99 = Percentile(magnitudes, 0.99);
-  s.max = magnitudes.back();
+  AscendingPercentiles percentiles(std::move(magnitudes));
+  s.p50 = percentiles.At(0.50);
+  s.p68 = percentiles.At(0.68);
+  s.p95 = percentiles.At(0.95);
+  s.p99 = percentiles.At(0.99);
+  s.max = percentiles.Max();
   return s;
 }
 

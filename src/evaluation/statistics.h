@@ -20,12 +20,9 @@ struct ErrorStatistics {
   double max = 0.0;
 };
 
-/// Requires at least one error.
+/// Requires at least one error. Percentiles are linear between the order statistics
+/// (rank = fraction (n - 1), from 0).
 ErrorStatistics ComputeStatistics(const std::vector<double>& errors);
-
-/// Value below which `fraction` of `sorted` lies, linear between the order
-/// statistics (rank = fraction (n - 1), from 0). `sorted` ascending, not empty.
-double Percentile(const std::vector<double>& sorted, double fraction);
 
 /// Statistics of values that may be infinite; NaN of no values.
 double Mean(const std::vector<double>& values);
