@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 #include <utility>
 
+#include "evaluation/innovation_test.h"
 #include "measurements/sensor_kind.h"
+#include "problems/judged_innovations.h"
 
 namespace hindsight {
 namespace {
@@ -63,7 +66,7 @@ ErrorSearch::Round ErrorSearch::Search(
     if (!is_asked(i)) question.known.push_back(i);
   }
   Round round;
-  round.tape = std::make_unique<LinearTape>(RunLinearizedFilter(
+  round.tape = std::make_shared<const LinearTape>(RunLinearizedFilter(
       states_ ? *states_ : initial, problem, options_->callback));
   round.errors = FindReceiverErrors(*problem, *round.tape, question);
   ended_ |= std::ranges::any_of(round.errors, &ReceiverErrors::WasEnded);
@@ -112,29 +115,27 @@ bool ErrorSearch::RunFromVehicle(const std::vector<int>& suspects,
 }
 
 std::vector<int> ErrorSearch::SuspectsOfVehicle() const {
-  constexpr double kFar = 25.0;  // sigma^2
+  constexpr double kFar = 5.0;            // sigma
+  constexpr double kFalseAlarms = 0.001;  // of all sums
   if (rounds_.empty()) return {};
-  const ReceiverErrors& first = rounds_.front().best();
-  const bool steps = std::ranges::any_of(rounds_, [](const Round& one) {
-    return one.best().Stands() && one.best().HasVelocitySteps();
-  });
-  if (first.Stands() && !steps && first.Doubts().empty()) return {};
-  const auto& sensors = problem_.timeline.sensors();
-  std::vector<bool> is_far(sensors.size(), false);
-  const LinearTape& tape = *rounds_.front().tape;
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    for (const TapeMeasurement& z : tape.measurements(k)) {
-      const auto i = static_cast<std::size_t>(z.sensor);
-      if (!z.accepted || z.withheld || !sensors[i].kind->of_vehicle) continue;
-      const auto rows = static_cast<double>(z.innovation.size());
-      if (z.nis > kFar * rows) is_far[i] = true;
+  const bool any_stands = rounds_.front().best().Stands();
+  const std::vector<NormalisedInnovation> innovations =
+      InnovationsOf(*rounds_.front().tape, problem_.timeline, {});
+  std::set<int> suspects;
+  for (const NormalisedInnovation& one : innovations) {
+    if (any_stands || one.rows.cwiseAbs().maxCoeff() > kFar) {
+      suspects.insert(one.sensor);
     }
   }
-  std::vector<int> suspects;
-  for (std::size_t i = 0; i < is_far.size(); ++i) {
-    if (is_far[i]) suspects.push_back(static_cast<int>(i));
+  for (const InnovationFigure& one :
+       TestInnovations(innovations, kFalseAlarms)) {
+    if (one.excess > 1.0) suspects.insert(one.sensor);
   }
-  return suspects;
+  const auto& sensors = problem_.timeline.sensors();
+  std::erase_if(suspects, [&sensors](int sensor) {
+    return !sensors[static_cast<std::size_t>(sensor)].kind->of_vehicle;
+  });
+  return {suspects.begin(), suspects.end()};
 }
 
 void ErrorSearch::RunLast(const std::vector<State>& initial) {

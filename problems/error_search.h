@@ -76,6 +76,9 @@ class ErrorSearch {
   /// What stands, in words.
   std::string InWords() const;
   bool HasErrors(int sensor) const;
+  /// Whether sensors of RobustBatchOptions::last are left out still.
+  bool LeavesOut() const { return with_last_.has_value(); }
+  bool IsLeftOut(int sensor) const { return LeavesOut() && IsLast(sensor); }
   SearchDecisions Decisions() const;
 
   /// Adds to P, as solved, what else there may be; fills in the rest of a
@@ -85,8 +88,8 @@ class ErrorSearch {
  private:
   /// Errors found about one tape, which they need.
   struct Round {
-    std::unique_ptr<LinearTape> tape;
-    std::vector<ReceiverErrors> errors;  ///< one a sensor; the best first
+    std::shared_ptr<const LinearTape> tape;  ///< common to copies
+    std::vector<ReceiverErrors> errors;      ///< one a sensor; the best first
     const ReceiverErrors& best() const { return errors.front(); }
   };
 

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,7 +11,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "problems/error_search.h"
+#include "problems/attitude_contradiction.h"
+#include "problems/explained_errors.h"
 
 namespace hindsight {
 namespace {
@@ -22,7 +21,8 @@ namespace {
 void RestoreGates(const ErrorSearch& search, const GateDecisions& gates,
                   Problem* problem) {
   for (std::size_t i = 0; i < gates.size(); ++i) {
-    if (!search.HasErrors(problem->timeline.all_measurements()[i].sensor)) {
+    const int sensor = problem->timeline.all_measurements()[i].sensor;
+    if (!search.HasErrors(sensor) && !search.IsLeftOut(sensor)) {
       problem->decisions[i] = gates[i];
     }
   }
@@ -47,86 +47,6 @@ std::string DescribeBlunders(const Problem& problem,
       blunders.size(),
       problem.timeline.sensors()[static_cast<std::size_t>(first.sensor)].name,
       first.t);
-}
-
-/// What else explains the data, in another order of the sensors.
-struct RivalSearch {
-  std::vector<State> states;
-  std::string words;
-  double log_odds = 0.0;  ///< against it
-};
-
-struct Explained {
-  ErrorSearch search;
-  std::optional<RivalSearch> rival;
-};
-
-/// Another order of a search; false if nothing was found in it.
-using Order = std::function<bool(ErrorSearch* search)>;
-
-/// ln of the odds against an explanation in another order, which is searched; none if
-/// there is no such. One in which no errors of velocities and positions come together
-/// has to be likelier by odds of a thousand.
-std::optional<double> LogOddsAgainst(const std::vector<State>& initial,
-                                     const ErrorSearch& search,
-                                     const Order& order, ErrorSearch* other) {
-  try {
-    if (!order(other) || other->ended()) return std::nullopt;
-    const double log_odds =
-        search.LogEvidence(initial) - other->LogEvidence(initial);
-    const double most = other->HasCoincidences()
-                            ? std::numeric_limits<double>::max()
-                            : -kSureLogOdds;
-    if (std::isfinite(log_odds) && log_odds <= most) return log_odds;
-  } catch (const EstimationError&) {
-    // Without its positions the recording tells no trajectory.
-  }
-  return std::nullopt;
-}
-
-/// In what other orders than Run's the errors are to be sought that it found, or not.
-std::vector<Order> OtherOrders(const std::vector<State>& initial,
-                               const ErrorSearch& search) {
-  std::vector<Order> orders;
-  if (search.MayBeOfAReceiver()) {
-    orders.emplace_back([&initial](ErrorSearch* other) {
-      return other->RunFromVelocities(initial);
-    });
-  }
-  std::vector<int> suspects = search.SuspectsOfVehicle();
-  if (!suspects.empty()) {
-    orders.emplace_back([&initial, suspects](ErrorSearch* other) {
-      return other->RunFromVehicle(suspects, initial);
-    });
-  }
-  return orders;
-}
-
-/// The likeliest of the explanations. `share`: of the effort of a search.
-Explained Explain(const Problem& problem, const std::vector<State>& initial,
-                  const RobustBatchOptions& options, double share) {
-  ErrorSearch search(problem, options, share);
-  if (options.decisions != nullptr) {
-    search.RunAsDecided(initial);
-    return {std::move(search), std::nullopt};
-  }
-  search.Run(initial);
-  std::optional<RivalSearch> rival;
-  const std::vector<Order> orders =
-      search.ended() ? std::vector<Order>() : OtherOrders(initial, search);
-  for (const Order& order : orders) {
-    if (search.ended()) break;
-    ErrorSearch other(problem, options, 0.5 * share);
-    const std::optional<double> odds =
-        LogOddsAgainst(initial, search, order, &other);
-    if (other.ended()) search.End();
-    if (!odds) continue;
-    if (*odds < 0.0) std::swap(search, other);
-    if (!other.states()) continue;
-    rival = {*other.states(), other.InWords(), std::abs(*odds)};
-  }
-  search.RunLast(initial);
-  return {std::move(search), std::move(rival)};
 }
 
 /// Tells of a rival to odds of a thousand, where it leads elsewhere, and widens the
@@ -165,14 +85,27 @@ void TellOtherOrder(const RivalSearch& rival, const std::string& words,
        .remedies = {"'--without', which leaves one of them out"}});
 }
 
-/// With the errors that explain the data about `initial`.
-RobustBatchResult SolveWith(const Explained& explained,
+/// The batch; one that has not converged where the data cannot be solved.
+BatchResult SolveIfPossible(const std::vector<State>& initial,
+                            const BatchOptions& options, Problem* problem) {
+  try {
+    return SolveBatch(initial, options, problem);
+  } catch (const EstimationError&) {
+    return BatchResult();
+  }
+}
+
+/// With the errors of an explanation, beside a rival. Where a sensor is left out, also
+/// if there are none.
+RobustBatchResult SolveWith(const ErrorSearch& search,
+                            const std::optional<RivalSearch>& rival,
                             const std::vector<State>& initial,
                             const RobustBatchOptions& options) {
-  const ErrorSearch& search = explained.search;
   RobustBatchResult result = {.problem = search.problem()};
   auto states = search.states();
-  if (!states && !options.blunders.empty()) states = initial;
+  const bool is_as_asked = options.blunders.empty() && !search.LeavesOut();
+  if (!states && !is_as_asked) states = initial;
+  bool unsolved = false;
   if (states) {
     RestoreGates(search, options.gates, &result.problem);
     for (const std::size_t i : options.blunders) {
@@ -182,15 +115,16 @@ RobustBatchResult SolveWith(const Explained& explained,
     batch.graduated = false;
     // About the edge of a mixture the last steps converge linearly.
     batch.max_iterations = std::max(batch.max_iterations, 200);
-    result.batch = SolveBatch(*states, batch, &result.problem);
+    result.batch = SolveIfPossible(*states, batch, &result.problem);
     result.stands = result.batch.converged;
+    unsolved = !result.stands;
   }
-  if (states && !result.stands) {
+  if (unsolved) {
     result.doubts.push_back(DoubtOfUnconverged());
   } else {
     search.Tell(&result);
-    if (explained.rival && result.stands) {
-      TellOtherOrder(*explained.rival, search.InWords(), &result);
+    if (rival && result.stands) {
+      TellOtherOrder(*rival, search.InWords(), &result);
     }
   }
   result.decisions = search.Decisions();
@@ -201,6 +135,41 @@ RobustBatchResult SolveWith(const Explained& explained,
   return result;
 }
 
+/// Whether a solution in which sensors of headings erred, or did not, still contradicts
+/// the one without them, or there is none.
+bool StillContradicts(const RobustBatchResult& with,
+                      const RobustBatchResult& without,
+                      const std::vector<State>& initial,
+                      const RobustBatchOptions& options) {
+  if (with.stands) {
+    return AttitudesContradict(with.problem.layout, with.batch.states,
+                               without.batch.states, without.batch.P);
+  }
+  Problem plain = with.problem;
+  const BatchResult batch = SolveIfPossible(initial, options.batch, &plain);
+  return !batch.converged ||
+         AttitudesContradict(plain.layout, batch.states, without.batch.states,
+                             without.batch.P);
+}
+
+/// With the errors that explain the data about `initial`; without the sensors that all
+/// others contradict whatever errors they are given.
+RobustBatchResult SolveExplained(const ExplainedErrors& explained,
+                                 const std::vector<State>& initial,
+                                 const RobustBatchOptions& options) {
+  const auto solve = [&](const ErrorSearch& search) {
+    return SolveWith(search, explained.rival, initial, options);
+  };
+  if (!explained.without_last) return solve(explained.search);
+  RobustBatchResult without = solve(*explained.without_last);
+  without.left_out = options.last;
+  if (without.stands && explained.search.ended()) return without;
+  RobustBatchResult with = solve(explained.search);
+  return without.stands && StillContradicts(with, without, initial, options)
+             ? without
+             : with;
+}
+
 /// With errors sought once more, about the trajectory of another solution; none if
 /// the data cannot be solved about it, or `ended` says that there was no time.
 std::optional<RobustBatchResult> SolveAgain(const Problem& problem,
@@ -209,9 +178,10 @@ std::optional<RobustBatchResult> SolveAgain(const Problem& problem,
                                             const bool& ended) {
   constexpr double kShare = 0.5;
   try {
-    const Explained explained = Explain(problem, initial, options, kShare);
+    const ExplainedErrors explained =
+        ExplainErrors(problem, initial, options, kShare);
     if (ended) return std::nullopt;
-    return SolveWith(explained, initial, options);
+    return SolveExplained(explained, initial, options);
   } catch (const EstimationError&) {
     return std::nullopt;
   }
@@ -247,6 +217,14 @@ std::vector<State> WithoutErrors(const ErrorLayout& layout,
 
 }  // namespace
 
+void LeaveOut(const std::vector<int>& sensors, const Timeline& timeline,
+              GateDecisions* decisions) {
+  for (std::size_t i = 0; i < decisions->size(); ++i) {
+    const int sensor = timeline.all_measurements()[i].sensor;
+    if (std::ranges::count(sensors, sensor) > 0) (*decisions)[i] = 0;
+  }
+}
+
 RobustBatchResult SolveRobustBatch(Problem problem,
                                    const std::vector<State>& initial,
                                    const RobustBatchOptions& options) {
@@ -261,8 +239,13 @@ RobustBatchResult SolveRobustBatch(Problem problem,
       return !ended;
     };
   }
-  RobustBatchResult result =
-      SolveWith(Explain(problem, initial, of_pass, 1.0), initial, of_pass);
+  RobustBatchResult result = SolveExplained(
+      ExplainErrors(problem, initial, of_pass, 1.0), initial, of_pass);
+  if (!result.left_out.empty()) {
+    LeaveOut(result.left_out, problem.timeline, &problem.decisions);
+    LeaveOut(result.left_out, problem.timeline, &of_pass.gates);
+    of_pass.last.clear();
+  }
   std::vector<State> nominal = initial;
   while (++pass < kMostPasses && result.stands &&
          options.decisions == nullptr && IsBeyondLinear(nominal, result)) {
@@ -271,6 +254,7 @@ RobustBatchResult SolveRobustBatch(Problem problem,
     std::optional<RobustBatchResult> again =
         SolveAgain(problem, nominal, of_pass, ended);
     if (!again || !again->stands) break;
+    again->left_out = result.left_out;
     result = *std::move(again);
   }
   result.ended = ended;

@@ -38,6 +38,10 @@ struct RobustBatchResult {
   /// stood at the search. Not among `doubts`, as it is not known again where
   /// decisions are given.
   std::optional<Evidence> other_order = {};
+  /// Sensors of RobustBatchOptions::last of which no measurement is used: with or
+  /// without errors of theirs the batch contradicts all others, does not converge, or
+  /// they were not searched.
+  std::vector<int> left_out = {};
   /// Whether something was not searched for, or not to its end, as go_on said so. Not
   /// among `doubts`, as it is not known again where decisions are given.
   bool ended = false;
@@ -66,6 +70,10 @@ struct RobustBatchOptions {
   std::function<bool(double)> go_on = nullptr;
 };
 
+/// Takes no measurement of the sensors.
+void LeaveOut(const std::vector<int>& sensors, const Timeline& timeline,
+              GateDecisions* decisions);
+
 /// Whole-interval least squares that finds out by itself what the errors of the
 /// absolute sensors are like.
 ///
@@ -81,7 +89,8 @@ struct RobustBatchOptions {
 /// Where velocities over the ground may err with the positions, they are searched
 /// first, without the positions, as well; the order with more evidence counts. Where
 /// the solution's attitude is beyond what is linear about `initial`, errors are sought
-/// again about it, at most twice.
+/// again about it, at most twice. Headings that all others contradict still, whatever
+/// errors they are given, are left out.
 /// It starts from that hypothesis's trajectory; the distances of the others widen
 /// the covariances. Where errors of another sensor explain the data as well, to
 /// odds of a thousand, and lead elsewhere, the result is doubtful, says both, and

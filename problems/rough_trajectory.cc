@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "measurements/sensor_kind.h"
+#include "problems/attitude_contradiction.h"
 #include "problems/sensor_imm.h"
 
 namespace hindsight {
@@ -36,27 +37,6 @@ GateDecisions WithoutHeadings(const Problem& problem) {
   return any ? decisions : GateDecisions();
 }
 
-/// Whether the attitudes of a trajectory contradict those of `other`: the mean
-/// square of the angle between them is above 25 times the largest variance that
-/// `other` has of an axis.
-bool Contradicts(const ErrorLayout& layout, const ImmTrajectory& one,
-                 const ImmTrajectory& other) {
-  constexpr double kMost = 25.0;
-  const Block* attitude = layout.Find(BlockKind::kAttitude);
-  if (attitude == nullptr) return false;
-  double sum = 0.0;
-  for (std::size_t k = 0; k < other.states.size(); ++k) {
-    const double theta =
-        one.states[k].q_eb.angularDistance(other.states[k].q_eb);
-    sum += theta * theta /
-           other.P.Get(k)
-               .diagonal()
-               .segment(attitude->offset, attitude->dim)
-               .maxCoeff();
-  }
-  return sum > kMost * static_cast<double>(other.states.size());
-}
-
 }  // namespace
 
 RoughTrajectory RoughlySolved(const MethodStage& stage,
@@ -74,7 +54,8 @@ RoughTrajectory RoughlySolved(const MethodStage& stage,
   if (without.empty()) return {.states = std::move(all.states)};
   try {
     ImmTrajectory moved = smooth(without);
-    if (Contradicts(problem.layout, all, moved)) {
+    if (AttitudesContradict(problem.layout, all.states, moved.states,
+                            moved.P)) {
       return {.states = std::move(moved.states),
               .contradicted = HeadingSensors(problem.timeline.sensors())};
     }

@@ -1,5 +1,8 @@
 #include "problems/robust_batch.h"
 
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
 #include <chrono>
 #include <optional>
 #include <set>
@@ -106,6 +109,7 @@ struct Searched {
   bool done = false;
   SearchDecisions decisions;
   std::vector<int> last;        ///< as of RobustBatchOptions
+  std::vector<int> left_out;    ///< as of RobustBatchResult
   std::vector<double> offsets;  ///< by sensor [s]
   bool stands = false;
   bool ended = false;  ///< something was not searched for, as the time was over
@@ -169,6 +173,22 @@ bool IsKnownStill(const Searched& searched) {
                                             searched.x, searched.P, kMoved) < 0;
 }
 
+Evidence DoubtOfLeftOut(const Timeline& timeline,
+                        const std::vector<int>& left_out) {
+  std::vector<std::string> names;
+  for (const int sensor : left_out) {
+    names.push_back(timeline.sensors()[static_cast<std::size_t>(sensor)].name);
+  }
+  return {.grade = Grade::kDoubtful,
+          .what = fmt::format(
+              "{} left out: all others contradict it, whatever errors it is "
+              "given",
+              fmt::join(names, ", ")),
+          .causes = {"a field of the surroundings, or of currents, that is "
+                     "larger than the Earth's"},
+          .remedies = {"'--without', which leaves it out of all methods"}};
+}
+
 /// Searches, unless what was decided holds still, or there is no time: then the nodes
 /// have the trajectory that followed from it.
 Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
@@ -183,7 +203,8 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
     initial = *nodes.states;
   } else {
     RoughTrajectory rough =
-        RoughlySolved(*stage, nodes, problem, !blunders.empty());
+        RoughlySolved(*stage, nodes, problem,
+                      !blunders.empty() || !searched->left_out.empty());
     initial = std::move(rough.states);
     searched->last = std::move(rough.contradicted);
   }
@@ -198,12 +219,20 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
     searched->decisions = std::move(result.decisions);
     searched->offsets = *nodes.offsets;
     searched->other_order = std::move(result.other_order);
+    if (!result.left_out.empty()) {
+      searched->left_out = std::move(result.left_out);
+      searched->last.clear();
+    }
     searched->ended |= result.ended;
   }
   searched->stands = result.stands;
   searched->notes = std::move(result.notes);
   std::vector<Evidence> doubts = std::move(result.doubts);
   if (searched->other_order) doubts.push_back(*searched->other_order);
+  if (!searched->left_out.empty()) {
+    doubts.push_back(
+        DoubtOfLeftOut(nodes.problem->timeline, searched->left_out));
+  }
   Solution solution =
       result.stands ? TakeRobust(std::move(result), stage, searched, &doubts)
                     : SolvePlainly(stage, nodes);
@@ -215,10 +244,13 @@ Solution Search(MethodStage* stage, Searched* searched) {
   return stage->AtOwnNodes([&](const MethodStage::Nodes& nodes) {
     // Nodes that move by a part of their time offset's sigma give no errors to
     // a sensor that had none.
+    LeaveOut(searched->left_out, nodes.problem->timeline,
+             &nodes.problem->decisions);
     const bool plain = searched->done && !searched->stands;
     Solution one = plain ? SolvePlainly(stage, nodes)
                          : SolveRobustly(stage, nodes, searched);
     one.notes = searched->notes;
+    one.left_out = searched->left_out;
     searched->done = true;
     searched->layout = one.layout;
     searched->x = one.states.back();
@@ -248,6 +280,7 @@ void SearchElsewhere(MethodStage* stage, Searched* searched,
   Searched again(searched->end);
   again.begins_at_nodes = true;
   again.last = searched->last;
+  again.left_out = searched->left_out;
   try {
     Solution other = Search(&elsewhere, &again);
     searched->ended |= again.ended;

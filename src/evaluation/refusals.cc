@@ -144,6 +144,8 @@ std::optional<Evidence> FindRefusal(std::span<const Sensor> sensors,
     }
   }
   for (std::size_t i = 0; i < sensors.size(); ++i) {
+    if (std::ranges::count(solution.left_out, static_cast<int>(i)) > 0)
+      continue;
     EndRun(&tallies[i]);
     auto found = Refusal(sensors[i], tallies[i]);
     if (found) return found;

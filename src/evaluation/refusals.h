@@ -10,7 +10,7 @@
 namespace hindsight {
 
 /// What a solution left of a sensor's measurements, if that is too little to
-/// believe it: not usable. Withheld measurements do not count.
+/// believe it: not usable. Withheld measurements and Solution::left_out do not count.
 ///   - More than half of a sensor's measurements refused by its gate.
 ///   - More than ten in a row, over more than 10 s, refused by a gate or left
 ///     less than a tenth of their weight by a robust loss. That a

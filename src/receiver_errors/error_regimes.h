@@ -39,6 +39,9 @@ struct RegimeProblem {
   /// The layout has a Gauss-Markov error of the sensor already: it may err beyond
   /// that, but not by another one.
   bool has_gauss_markov = false;
+  /// Its sigma is the tolerance of a constraint, which may hold as exactly as it likes:
+  /// the least factor on it means nothing.
+  bool is_tolerance = false;
 };
 
 /// Every kind as fitted to the data, the simplest first; of kSwitching several,

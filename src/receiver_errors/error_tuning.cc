@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "base/units.h"
@@ -118,6 +119,33 @@ class Tuning {
     return ClimbFinely();
   }
 
+  BiasRange FollowBias(const ErrorParameters& found) {
+    std::vector<RidgePoint> ridge = FollowBias(found, kRidgeStep);
+    std::ranges::reverse(ridge);
+    ridge.push_back(RidgePointAt(found));
+    std::ranges::move(FollowBias(found, 1.0 / kRidgeStep),
+                      std::back_inserter(ridge));
+    const RidgePoint& best =
+        *std::ranges::max_element(ridge, {}, &RidgePoint::value);
+    double sum = 0.0;
+    double sum_squares = 0.0;
+    for (const RidgePoint& one : ridge) {
+      const double weight = std::exp(one.value - best.value);
+      sum += weight;
+      sum_squares += weight * one.sigma * one.sigma;
+    }
+    BiasRange range{.likeliest = WithBias(found, best),
+                    .mean_square = WithBias(
+                        found, OfSigma(ridge, std::sqrt(sum_squares / sum)))};
+    const Tunable& tau = TunableOf(&ErrorParameters::tau);
+    parameters_ = range.likeliest;
+    value_ = best.value;
+    range.log_gain = std::max(0.0, std::log(sum * std::log(kRidgeStep)) -
+                                       LogOfIntegral(PriorCurvature(tau)) -
+                                       LogShareOfPrior(tau));
+    return range;
+  }
+
   double LogShareOfPrior(const ErrorParameters& found, double least_scale) {
     tunables_.front().least = least_scale;
     parameters_ = found;
@@ -144,6 +172,71 @@ class Tuning {
     const Tunable& scale = tunables_.front();
     if (!Walk(scale, kFine)) Walk(scale, 1.0 / kFine);
     return parameters_;
+  }
+
+  static constexpr double kRidgeStep = 2.0;  ///< of tau
+
+  /// Of a bias, with the likeliest sigma of a tau.
+  struct RidgePoint {
+    double tau = 0.0;
+    double sigma = 0.0;
+    double value = 0.0;  ///< ln of the posterior
+  };
+
+  static ErrorParameters WithBias(ErrorParameters p, const RidgePoint& at) {
+    p.tau = at.tau;
+    p.sigma = at.sigma;
+    return p;
+  }
+
+  const Tunable& TunableOf(double ErrorParameters::*member) const {
+    return *std::ranges::find(tunables_, member, &Tunable::member);
+  }
+
+  RidgePoint RidgePointAt(const ErrorParameters& p) {
+    constexpr double kStep = 1.3;
+    parameters_ = p;
+    value_ = Value(p);
+    const Tunable& sigma = TunableOf(&ErrorParameters::sigma);
+    if (!Walk(sigma, kStep)) Walk(sigma, 1.0 / kStep);
+    return {
+        .tau = parameters_.tau, .sigma = parameters_.sigma, .value = value_};
+  }
+
+  /// The points with a tau `step` times that of the one before, `found` the first.
+  std::vector<RidgePoint> FollowBias(const ErrorParameters& found,
+                                     double step) {
+    constexpr int kMost = 12;
+    constexpr double kSureLogOdds = 6.9;
+    std::vector<RidgePoint> ridge;
+    double best = Value(found);
+    ErrorParameters p = found;
+    for (int i = 0; i < kMost; ++i) {
+      if (effort_ != nullptr && effort_->IsSpent()) break;
+      p.tau *= step;
+      p.sigma *= std::sqrt(step);
+      const RidgePoint point = RidgePointAt(p);
+      if (point.value < best - kSureLogOdds) break;
+      best = std::max(best, point.value);
+      ridge.push_back(point);
+      p = WithBias(p, point);
+    }
+    return ridge;
+  }
+
+  /// Between the points of a ridge of growing sigma and tau; at its ends beyond them.
+  static RidgePoint OfSigma(const std::vector<RidgePoint>& falling,
+                            double sigma) {
+    for (std::size_t i = 1; i < falling.size(); ++i) {
+      const RidgePoint& above = falling[i - 1];
+      const RidgePoint& below = falling[i];
+      if (below.sigma > sigma || above.sigma <= below.sigma) continue;
+      const double part =
+          std::log(sigma / below.sigma) / std::log(above.sigma / below.sigma);
+      return {.tau = below.tau * std::pow(above.tau / below.tau, part),
+              .sigma = sigma};
+    }
+    return {.tau = falling.back().tau, .sigma = sigma};
   }
 
   double Value(const ErrorParameters& p) const {
@@ -226,6 +319,12 @@ ErrorParameters TuneParameters(const LinearTape& tape, int receiver,
   return Tuning(tape, receiver, sequence, from, effort).Climb();
 }
 
+BiasRange FollowBias(const LinearTape& tape, int receiver,
+                     const ModeSequence& sequence, const ErrorParameters& found,
+                     const ErrorParameters& from, SearchEffort* effort) {
+  return Tuning(tape, receiver, sequence, from, effort).FollowBias(found);
+}
+
 ErrorParameters TuneNoise(const LinearTape& tape, int receiver,
                           const ModeSequence& sequence,
                           const ErrorParameters& from, double least_scale,
@@ -258,17 +357,20 @@ double MostOfLogShare(const ModeSequence& sequence,
 }
 
 std::vector<BoundedValue> BoundedParameters(const ModeSequence& sequence,
-                                            const ErrorParameters& found) {
+                                            const ErrorParameters& found,
+                                            bool is_tolerance) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   std::vector<BoundedValue> values;
   for (const Tunable& t : TunablesOf(sequence, found)) {
     if (t.name == nullptr) continue;
-    const bool share = t.member == &ErrorParameters::outlier_share ||
-                       t.member == &ErrorParameters::imu_scale;
+    const bool any_below =
+        t.member == &ErrorParameters::outlier_share ||
+        t.member == &ErrorParameters::imu_scale ||
+        (is_tolerance && t.member == &ErrorParameters::scale);
     values.push_back({.name = t.name,
                       .unit = t.unit,
                       .value = found.*t.member,
-                      .least = share ? -kNone : t.least,
+                      .least = any_below ? -kNone : t.least,
                       .most = t.most});
   }
   return values;

@@ -39,6 +39,25 @@ ErrorParameters TuneNoise(const LinearTape& tape, int receiver,
                           const ErrorParameters& from, double least_scale,
                           SearchEffort* effort = nullptr);
 
+/// What the data tell of a bias that lasts.
+struct BiasRange {
+  ErrorParameters likeliest;
+  /// With the mean square of sigma a posteriori, and the likeliest tau of it.
+  ErrorParameters mean_square;
+  /// ln of the integral of the posterior over tau along the ridge, by what
+  /// LogShareOfPrior takes it for at fixed sigma.
+  double log_gain = 0.0;
+};
+
+/// Of an error that changes slowly only 2 sigma^2 / tau is seen, its walk over short
+/// times: what is slower the IMU's biases and the start take up, so that sigma and tau
+/// may both be much larger. `found` is followed along that ridge, by factors of two of
+/// tau each with its likeliest sigma, to where odds are a thousand against it.
+BiasRange FollowBias(const LinearTape& tape, int receiver,
+                     const ModeSequence& sequence, const ErrorParameters& found,
+                     const ErrorParameters& from,
+                     SearchEffort* effort = nullptr);
+
 /// The least factor on the stated sigma that is sought.
 inline constexpr double kLeastScale = 0.1;
 
@@ -68,9 +87,11 @@ double MostOfLogShare(const ModeSequence& sequence,
 
 /// The parameters of a sequence that TuneParameters seeks within bounds which
 /// mean something: a share of outliers may be as small as it likes, the IMU as
-/// good as stated, and a bias last for ever.
+/// good as stated, a bias last for ever, and a stated sigma that is a tolerance have any
+/// factor.
 std::vector<BoundedValue> BoundedParameters(const ModeSequence& sequence,
-                                            const ErrorParameters& found);
+                                            const ErrorParameters& found,
+                                            bool is_tolerance);
 
 }  // namespace hindsight
 

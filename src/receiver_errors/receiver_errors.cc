@@ -79,11 +79,8 @@ std::vector<int> SensorsInQuestion(const Timeline& timeline,
 
 }  // namespace
 
-ReceiverErrors::ReceiverErrors(std::unique_ptr<const SensorFindings> found)
+ReceiverErrors::ReceiverErrors(std::shared_ptr<const SensorFindings> found)
     : found_(std::move(found)) {}
-ReceiverErrors::ReceiverErrors(ReceiverErrors&&) noexcept = default;
-ReceiverErrors& ReceiverErrors::operator=(ReceiverErrors&&) noexcept = default;
-ReceiverErrors::~ReceiverErrors() = default;
 
 bool ReceiverErrors::Stands() const { return found_->stands(); }
 
@@ -201,7 +198,8 @@ std::vector<double> ReceiverErrors::Trust() const {
 
 std::vector<BoundedValue> ReceiverErrors::Bounded() const {
   const Hypothesis& likeliest = found_->regimes.hypotheses.front();
-  return BoundedParameters(likeliest.sequence, likeliest.parameters);
+  return BoundedParameters(likeliest.sequence, likeliest.parameters,
+                           found_->is_tolerance);
 }
 
 double ReceiverErrors::MeanSquareDistanceTo(const ReceiverErrors& other) const {

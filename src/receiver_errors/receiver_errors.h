@@ -46,10 +46,6 @@ struct ErrorQuestion {
 /// that the data do not rule out, of which one is chosen.
 class ReceiverErrors {
  public:
-  ReceiverErrors(ReceiverErrors&&) noexcept;
-  ReceiverErrors& operator=(ReceiverErrors&&) noexcept;
-  ~ReceiverErrors();
-
   /// Whether what was found stands against the noise as stated: it wins by odds
   /// of a thousand on evidence and does not lose on held-out stretches. If not,
   /// the problem is best solved as it is, and only Notes and `doubts` say
@@ -140,12 +136,12 @@ class ReceiverErrors {
   std::string InWords() const;
 
  private:
-  explicit ReceiverErrors(std::unique_ptr<const SensorFindings> found);
+  explicit ReceiverErrors(std::shared_ptr<const SensorFindings> found);
   friend std::vector<ReceiverErrors> FindReceiverErrors(
       const Problem& problem, const LinearTape& tape,
       const ErrorQuestion& question);
 
-  std::unique_ptr<const SensorFindings> found_;
+  std::shared_ptr<const SensorFindings> found_;  ///< common to copies
 };
 
 /// Finds out from the data alone what the errors of the absolute sensors are

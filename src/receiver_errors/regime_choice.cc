@@ -17,10 +17,10 @@ namespace {
 using Kind = ErrorRegimes::Kind;
 
 /// Name of a parameter at a bound; "" if there is none.
-std::string AtBound(const Hypothesis& best) {
+std::string AtBound(const Hypothesis& best, bool is_tolerance) {
   constexpr double kTouching = 1e-6;  // of the bound
   for (const BoundedValue& v :
-       BoundedParameters(best.sequence, best.parameters)) {
+       BoundedParameters(best.sequence, best.parameters, is_tolerance)) {
     if (v.value <= v.least * (1.0 + kTouching) ||
         v.value >= v.most * (1.0 - kTouching)) {
       return v.name;
@@ -52,7 +52,7 @@ std::string Objection(const RegimeProblem& problem,
                       const std::vector<ErrorRegimes>& all,
                       const ErrorRegimes& one) {
   const Hypothesis& best = one.hypotheses.front();
-  const std::string bound = AtBound(best);
+  const std::string bound = AtBound(best, problem.is_tolerance);
   if (!bound.empty()) return "have " + bound + " at its bound";
   if (one.kind == Kind::kWhite && !CanBeSolved(best.parameters)) {
     return fmt::format(

@@ -108,7 +108,9 @@ ErrorDecisions::ErrorDecisions(const Problem& problem, const LinearTape& tape,
       unit(UnitOf(
           *problem.timeline.sensors()[static_cast<std::size_t>(index)].kind,
           RowsOf(tape, index), OwnFieldOf(problem.layout, index) != nullptr)),
-      stated_sigma(StatedSigma(tape, index)) {}
+      stated_sigma(StatedSigma(tape, index)),
+      is_tolerance(problem.timeline.sensors()[static_cast<std::size_t>(index)]
+                       .kind->generated) {}
 
 SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
                                int index, const SearchLimits& limits)
@@ -123,8 +125,12 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
     return !limits.go_on || limits.go_on(kSearch * fraction);
   });
   const RegimeProblem regime{
-      searched, sensor,  stated_sigma,
-      false,    &effort, problem.layout.Has(BlockKind::kColouredNoise, sensor)};
+      .tape = searched,
+      .sensor = sensor,
+      .stated_sigma = stated_sigma,
+      .effort = &effort,
+      .has_gauss_markov = problem.layout.Has(BlockKind::kColouredNoise, sensor),
+      .is_tolerance = is_tolerance};
   std::vector<ErrorRegimes> all = FitRegimes(regime);
   searched_fixes = all.front().hypotheses.front().sequence.size();
   choice = ChooseRegime(regime, all);

@@ -39,6 +39,7 @@ struct ErrorDecisions {
   bool alone = false;   ///< no other sensor measures a position, but this does
   std::string unit;     ///< of its error
   double stated_sigma;  ///< of its fixes, an axis [SI]
+  bool is_tolerance;    ///< as of RegimeProblem
   std::size_t searched_fixes = 0;  ///< fixes or normal points
   /// ln of the evidence that was chosen, on these, without the likelihood.
   double log_prior = 0.0;

@@ -1,6 +1,7 @@
 #include "receiver_errors/uniform_regimes.h"
 
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "receiver_errors/error_tuning.h"
@@ -83,12 +84,26 @@ ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
     one.sequence = std::move(climbed);
     tune(one.parameters);
   }
-  one.log_posterior =
-      ScoreSequence(problem.tape, problem.sensor, one.parameters, one.sequence)
-          .log_likelihood;
+  const auto score = [&] {
+    one.log_posterior = ScoreSequence(problem.tape, problem.sensor,
+                                      one.parameters, one.sequence)
+                            .log_likelihood;
+  };
+  std::optional<BiasRange> range;
+  if (mode == ErrorMode::kBiased) {
+    range = FollowBias(problem.tape, problem.sensor, one.sequence,
+                       one.parameters, from, problem.effort);
+    one.parameters = range->likeliest;
+  }
+  score();
   ErrorRegimes out;
   out.kind = kind;
   out.log_evidence = LogEvidence(problem, one, from, question);
+  if (range) {
+    out.log_evidence += range->log_gain;
+    one.parameters = range->mean_square;
+    score();
+  }
   out.hypotheses.push_back(std::move(one));
   return out;
 }

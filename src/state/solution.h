@@ -87,6 +87,8 @@ struct Solution {
   bool converged = true;
   int iterations = 0;    ///< 0 for a method that does not iterate
   double seconds = 0.0;  ///< processor time of the method alone
+  /// Sensors of which the method took no measurement, as its evidence says.
+  std::vector<int> left_out;
   /// Estimates that were sought within bounds.
   std::vector<BoundedValue> bounded;
   Grade grade = Grade::kUsable;

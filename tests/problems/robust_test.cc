@@ -10,38 +10,16 @@
 #include "dataset/timeline_builder.h"
 #include "io/config/scenario_config.h"
 #include "measurements/noise_kind.h"
+#include "problems/accuracy.h"
 #include "problems/reconstruction.h"
 #include "simulation/scenario.h"
 
 namespace hindsight {
 namespace {
 
-struct Accuracy {
-  double horizontal_rms = 0.0;
-  double position_nees = 0.0;
-};
-
-/// Against the truth at the nodes.
-Accuracy Judge(const Dataset& dataset, const Solution& solution) {
-  double squares = 0.0;
-  double nees = 0.0;
-  int count = 0;
-  std::size_t k = 0;
-  for (const TruthPoint& truth : dataset.truth) {
-    while (k + 1 < solution.states.size() &&
-           solution.states[k].t < truth.t - 1e-6) {
-      ++k;
-    }
-    const State& x = solution.states[k];
-    if (std::abs(x.t - truth.t) > 1e-6) continue;
-    const Eigen::Vector3d e = x.C_en().transpose() * (*truth.p_e - x.p_e);
-    const Eigen::Matrix3d P = solution.covariances.Get(k).topLeftCorner<3, 3>();
-    squares += e.head<2>().squaredNorm();
-    nees += e.dot(P.llt().solve(e));
-    ++count;
-  }
-  return {std::sqrt(squares / count), nees / count};
-}
+using testing::Accuracy;
+using testing::Judge;
+using testing::SolveBy;
 
 /// Every twentieth fix, on average, is put 20 m off in a random direction.
 int AddOutliers(Dataset* dataset) {
@@ -153,12 +131,6 @@ double LargestHeadingError(const Dataset& dataset, const Solution& solution) {
     largest = std::max(largest, q_nb.angularDistance(*at->q_nb));
   }
   return largest;
-}
-
-Solution SolveBy(const std::string& method, const Dataset& dataset) {
-  ReconstructionOptions options;
-  options.method = method;
-  return Solve(dataset, options);
 }
 
 TEST(RobustBatch, FindsPositionsAndVelocitiesThatErrTogether) {

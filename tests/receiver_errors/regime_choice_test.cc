@@ -73,6 +73,27 @@ TEST(RegimeChoice, RefusesAValueAtItsBoundWhateverTheEvidence) {
   EXPECT_NE(choice.refused[0].find("at its bound"), std::string::npos);
 }
 
+/// A constraint may hold exactly, whatever its tolerance.
+TEST(RegimeChoice, AsksNothingOfTheLeastFactorOnATolerance) {
+  const LinearTape tape = TapeOf(PositionsOnly(30.0));
+  SearchEffort effort(1e9, nullptr);
+  ErrorRegimes switching = Regime(tape, Kind::kSwitching, 1000.0);
+  for (const double scale : {0.1, 100.0}) {
+    switching.hypotheses[0].parameters.scale = scale;
+    for (const bool is_tolerance : {false, true}) {
+      const RegimeProblem problem{.tape = tape,
+                                  .stated_sigma = 0.5,
+                                  .effort = &effort,
+                                  .is_tolerance = is_tolerance};
+      const RegimeChoice choice =
+          ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0), switching});
+      const bool bounded = !choice.refused.empty() &&
+                           choice.refused[0].find("bound") != std::string::npos;
+      EXPECT_EQ(bounded, !is_tolerance || scale > 1.0) << scale;
+    }
+  }
+}
+
 TEST(RegimeChoice, RefusesWhiteErrorsThatNoBatchIsSolvedWith) {
   const LinearTape tape = TapeOf(PositionsOnly(30.0));
   SearchEffort effort(1e9, nullptr);

@@ -1,0 +1,85 @@
+#include "problems/explained_errors.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "base/error.h"
+
+namespace hindsight {
+namespace {
+
+/// Another order of a search; false if nothing was found in it.
+using Order = std::function<bool(ErrorSearch* search)>;
+
+/// ln of the odds against an explanation in another order, which is searched; none if
+/// there is no such. One in which no errors of velocities and positions come together
+/// has to be likelier by odds of a thousand.
+std::optional<double> LogOddsAgainst(const std::vector<State>& initial,
+                                     const ErrorSearch& search,
+                                     const Order& order, ErrorSearch* other) {
+  try {
+    if (!order(other) || other->ended()) return std::nullopt;
+    const double log_odds =
+        search.LogEvidence(initial) - other->LogEvidence(initial);
+    const double most = other->HasCoincidences()
+                            ? std::numeric_limits<double>::max()
+                            : -kSureLogOdds;
+    if (std::isfinite(log_odds) && log_odds <= most) return log_odds;
+  } catch (const EstimationError&) {
+    // Without its positions the recording tells no trajectory.
+  }
+  return std::nullopt;
+}
+
+/// In what other orders than Run's the errors are to be sought that it found, or not.
+std::vector<Order> OtherOrders(const std::vector<State>& initial,
+                               const ErrorSearch& search) {
+  std::vector<Order> orders;
+  if (search.MayBeOfAReceiver()) {
+    orders.emplace_back([&initial](ErrorSearch* other) {
+      return other->RunFromVelocities(initial);
+    });
+  }
+  std::vector<int> suspects = search.SuspectsOfVehicle();
+  if (!suspects.empty()) {
+    orders.emplace_back([&initial, suspects](ErrorSearch* other) {
+      return other->RunFromVehicle(suspects, initial);
+    });
+  }
+  return orders;
+}
+
+}  // namespace
+
+ExplainedErrors ExplainErrors(const Problem& problem,
+                              const std::vector<State>& initial,
+                              const RobustBatchOptions& options, double share) {
+  ErrorSearch search(problem, options, share);
+  if (options.decisions != nullptr) {
+    search.RunAsDecided(initial);
+    return {std::move(search), std::nullopt, std::nullopt};
+  }
+  search.Run(initial);
+  std::optional<RivalSearch> rival;
+  const std::vector<Order> orders =
+      search.ended() ? std::vector<Order>() : OtherOrders(initial, search);
+  for (const Order& order : orders) {
+    if (search.ended()) break;
+    ErrorSearch other(problem, options, 0.5 * share);
+    const std::optional<double> odds =
+        LogOddsAgainst(initial, search, order, &other);
+    if (other.ended()) search.End();
+    if (!odds) continue;
+    if (*odds < 0.0) std::swap(search, other);
+    if (!other.states()) continue;
+    rival = {*other.states(), other.InWords(), std::abs(*odds)};
+  }
+  std::optional<ErrorSearch> without_last;
+  if (!options.last.empty()) without_last = search;
+  search.RunLast(initial);
+  return {std::move(search), std::move(rival), std::move(without_last)};
+}
+
+}  // namespace hindsight
