@@ -51,15 +51,8 @@ void Progress::Finish() {
 void Progress::Plan(std::vector<Step> steps) {
   steps_ = std::move(steps);
   step_ = 0;
-  step_fraction_ = 0.0;
-}
-
-void Progress::TakeFraction(double fraction) {
-  if (fraction < stage_fraction_) ++passes_;
-  stage_fraction_ = fraction;
-  const double share =
-      steps_.empty() ? fraction : 1.0 - std::exp2(-(passes_ + fraction));
-  step_fraction_ = std::max(step_fraction_, share);
+  step_fraction_ = StepFraction();
+  step_begin_ = Clock::now();
 }
 
 void Progress::Begin(const std::string& step) {
@@ -68,19 +61,18 @@ void Progress::Begin(const std::string& step) {
                    [&step](const Step& one) { return one.name == step; });
   if (found == steps_.end()) return;
   step_ = static_cast<std::size_t>(found - steps_.begin());
-  step_fraction_ = 0.0;
-  stage_fraction_ = 0.0;
-  passes_ = 0.0;
+  step_fraction_ = StepFraction();
+  step_begin_ = Clock::now();
 }
 
-double Progress::RunFraction() const {
-  if (steps_.empty()) return step_fraction_;
+double Progress::RunFraction(double step_fraction) const {
+  if (steps_.empty()) return stage_fraction_;
   double done = 0.0;
   double all = 0.0;
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     all += steps_[i].work;
     done += i < step_    ? steps_[i].work
-            : i == step_ ? step_fraction_ * steps_[i].work
+            : i == step_ ? step_fraction * steps_[i].work
                          : 0.0;
   }
   return all > 0.0 ? done / all : 0.0;
@@ -98,12 +90,10 @@ void Progress::Update(const std::string& stage, double fraction) {
   if (new_stage) {
     stage_ = stage;
     stage_begin_ = now;
-    if (steps_.empty()) {
-      run_begin_ = now;
-      step_fraction_ = 0.0;
-    }
+    if (steps_.empty()) run_begin_ = now;
   }
-  TakeFraction(fraction);
+  stage_fraction_ = fraction;
+  step_fraction_.Take(SecondsSince(step_begin_), fraction);
   const std::chrono::duration<double> since_print = now - last_print_;
   if (!new_stage && fraction < 1.0 &&
       since_print.count() < kSecondsBetweenLines) {
@@ -126,21 +116,24 @@ void Progress::Print(double fraction) {
   };
   put("seconds_left", SecondsSince(stage_begin_), fraction);
   if (!steps_.empty()) {
-    line["run_fraction"] = std::round(RunFraction() * 1e4) / 1e4;
-    put("run_seconds_left", SecondsSince(run_begin_), RunFraction());
+    line["run_fraction"] =
+        std::round(RunFraction(step_fraction_.most()) * 1e4) / 1e4;
+    put("run_seconds_left", SecondsSince(run_begin_),
+        RunFraction(step_fraction_.now()));
   }
   std::fprintf(stderr, "%s\n", line.dump().c_str());
 }
 
 void Progress::PrintBar() const {
   constexpr int kLetters = 24;
-  const double done = RunFraction();
+  const double done = RunFraction(step_fraction_.most());
   std::string bar(kLetters, '.');
   std::fill_n(bar.begin(), std::lround(done * kLetters), '#');
   std::fprintf(stderr, "\r\033[K[%s] %3.0f %%", bar.c_str(), 100.0 * done);
-  if (done >= kLeastFraction) {
+  const double now = RunFraction(step_fraction_.now());
+  if (now >= kLeastFraction) {
     std::fprintf(stderr, ", %.0f s left",
-                 SecondsLeft(SecondsSince(run_begin_), done));
+                 SecondsLeft(SecondsSince(run_begin_), now));
   }
   std::fprintf(stderr, ": %s", stage_.c_str());
   std::fflush(stderr);

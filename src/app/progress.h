@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/step_fraction.h"
+
 namespace hindsight {
 
 /// Progress on stderr: on a terminal a bar over the whole run in one line that
@@ -16,7 +18,7 @@ namespace hindsight {
 /// place.
 ///
 /// Without a plan the bar is that of the stage. The run's fraction is what has
-/// been done of the plan's work. The time left
+/// been done of the plan's work, of a step as StepFraction has it. The time left
 /// is the time that this took, in the proportion of what is left; so the plan's
 /// errors shrink as its steps are done.
 class Progress {
@@ -56,21 +58,19 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// A step tells its fraction again and again, of passes that nobody can
-  /// count beforehand: each is taken for half of what is left of the step.
-  void TakeFraction(double fraction);
   void Print(double fraction);
   void PrintBar() const;
-  double RunFraction() const;
+  /// Of the run, if `step_fraction` is done of the step.
+  double RunFraction(double step_fraction) const;
   double SecondsSince(Clock::time_point begin) const;
 
   Mode mode_;
   std::vector<Step> steps_;
   std::size_t step_ = 0;
-  double step_fraction_ = 0.0;
+  StepFraction step_fraction_;
   double stage_fraction_ = 0.0;
-  double passes_ = 0.0;  ///< that the step has finished
   Clock::time_point run_begin_ = Clock::now();
+  Clock::time_point step_begin_ = run_begin_;
   std::string stage_;
   Clock::time_point stage_begin_;
   Clock::time_point last_print_;
