@@ -63,10 +63,12 @@ std::string Objection(const RegimeProblem& problem,
   for (const ErrorRegimes& simpler : all) {
     if (simpler.kind >= one.kind || simpler.kind > Kind::kWhite) continue;
     const double gain = one.log_evidence - simpler.log_evidence;
-    if (gain < kLeastGain) {
+    const double least =
+        one.kind == Kind::kSwitching ? kLeastGainOfSwitching : kLeastGain;
+    if (gain < least) {
       return fmt::format(
           "win by {:.2g} over {} errors (limit {:.2g}) [ln of the evidence]",
-          gain, RegimeName(simpler.kind), kLeastGain);
+          gain, RegimeName(simpler.kind), least);
     }
     std::string loss = LossTo(problem, one, simpler);
     if (!loss.empty()) return loss;

@@ -53,11 +53,11 @@ TEST(RegimeChoice, LeavesUndecidedWhatIsWithinOddsOfAThousandOfNoise) {
                                   Regime(tape, Kind::kSwitching, switching)});
   };
   EXPECT_EQ(choose(0.0, -7.0).undecided, 0u);
-  EXPECT_EQ(choose(0.0, 3.0).undecided, 2u);
-  EXPECT_DOUBLE_EQ(choose(0.0, 3.0).undecided_gain, 3.0);
+  EXPECT_EQ(choose(0.0, 1.1).undecided, 2u);
+  EXPECT_DOUBLE_EQ(choose(0.0, 1.1).undecided_gain, 1.1);
   EXPECT_DOUBLE_EQ(choose(10.0, 8.0).undecided_gain, -2.0);
-  EXPECT_EQ(choose(0.0, 7.0).chosen, 2u);
-  EXPECT_EQ(choose(0.0, 7.0).undecided, 0u);
+  EXPECT_EQ(choose(0.0, 1.2).chosen, 2u);
+  EXPECT_EQ(choose(0.0, 1.2).undecided, 0u);
 }
 
 TEST(RegimeChoice, RefusesAValueAtItsBoundWhateverTheEvidence) {
