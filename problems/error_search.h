@@ -51,9 +51,10 @@ class ErrorSearch {
   bool MayBeOfAReceiver() const;
 
   /// Sensors in the axes of the vehicle that may have erred in place of what was told
-  /// otherwise, which is nothing, steps of the IMU's velocity or errors that are
-  /// doubtful by themselves: a measurement of theirs is more than five sigmas from what
-  /// all before have predicted. What spins on says so once, as it begins.
+  /// otherwise: all, where errors of an absolute sensor stand; else those of which a row
+  /// of a measurement is more than five sigmas from what all before have predicted, or
+  /// innovations add up to more than chance explains (TestInnovations): what measures a
+  /// little too much says so in no single measurement.
   std::vector<int> SuspectsOfVehicle() const;
 
   /// Whether errors of velocities change where those of positions do, as mode

@@ -27,8 +27,8 @@ struct RobustBatchResult {
   /// By sensor and node, the probability that a measurement is taken at its word:
   /// not as biased. Empty of a sensor without errors.
   std::vector<std::vector<double>> trust = {};
-  /// Whether any errors were found that stand against the noise as stated, or
-  /// blunders were left out, and the batch with them converged. If not, only notes
+  /// Whether any errors were found that stand against the noise as stated, or blunders
+  /// or sensors were left out, and the batch with them converged. If not, only notes
   /// and doubts are filled in: the plain batch is the result.
   bool stands = false;
   std::vector<BoundedValue> bounded = {};
