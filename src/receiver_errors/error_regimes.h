@@ -42,6 +42,9 @@ struct RegimeProblem {
   /// Its sigma is the tolerance of a constraint, which may hold as exactly as it likes:
   /// the least factor on it means nothing.
   bool is_tolerance = false;
+  /// Its clock is estimated: what errs may have turned it, beside which fixes without
+  /// errors look like some with such.
+  bool has_clock = false;
 };
 
 /// Every kind as fitted to the data, the simplest first; of kSwitching several,

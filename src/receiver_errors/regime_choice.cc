@@ -63,8 +63,9 @@ std::string Objection(const RegimeProblem& problem,
   for (const ErrorRegimes& simpler : all) {
     if (simpler.kind >= one.kind || simpler.kind > Kind::kWhite) continue;
     const double gain = one.log_evidence - simpler.log_evidence;
-    const double least =
-        one.kind == Kind::kSwitching ? kLeastGainOfSwitching : kLeastGain;
+    const double least = one.kind == Kind::kSwitching && !problem.has_clock
+                             ? kLeastGainOfSwitching
+                             : kLeastGain;
     if (gain < least) {
       return fmt::format(
           "win by {:.2g} over {} errors (limit {:.2g}) [ln of the evidence]",

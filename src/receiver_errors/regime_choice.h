@@ -12,9 +12,9 @@ namespace hindsight {
 /// ln of the evidence by which a richer model of a sensor's errors has to win:
 /// odds of a thousand, as it brings what a wrong one may ruin.
 inline constexpr double kLeastGain = 6.907755278982137;
-/// The same of switching errors, beside which the noise goes on as an alternative: odds
-/// that are more than hardly worth mentioning, 10^(1/2) (Jeffreys, Theory of Probability,
-/// 1961).
+/// The same of switching errors of a sensor whose clock is known, beside which the noise
+/// goes on as an alternative: odds that are more than hardly worth mentioning, 10^(1/2)
+/// (Jeffreys, Theory of Probability, 1961).
 inline constexpr double kLeastGainOfSwitching = 1.151292546497023;
 
 /// Which of FitRegimes stands.
@@ -32,7 +32,7 @@ struct RegimeChoice {
 };
 
 /// The one of the largest evidence that stands: it
-///   - wins by kLeastGain over every simpler one, or kLeastGainOfSwitching;
+///   - wins by kLeastGain, or kLeastGainOfSwitching, over every simpler one;
 ///   - has no parameter at a bound of its search;
 ///   - if it is white, is what the batch can be solved with (CanBeSolved): with
 ///     an IMU worse than stated by more than kMisstatedImu it is no matter of

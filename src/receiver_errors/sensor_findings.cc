@@ -130,7 +130,8 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
       .stated_sigma = stated_sigma,
       .effort = &effort,
       .has_gauss_markov = problem.layout.Has(BlockKind::kColouredNoise, sensor),
-      .is_tolerance = is_tolerance};
+      .is_tolerance = is_tolerance,
+      .has_clock = problem.layout.Has(BlockKind::kTimeOffset, sensor)};
   std::vector<ErrorRegimes> all = FitRegimes(regime);
   searched_fixes = all.front().hypotheses.front().sequence.size();
   choice = ChooseRegime(regime, all);

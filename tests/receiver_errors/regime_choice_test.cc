@@ -60,6 +60,22 @@ TEST(RegimeChoice, LeavesUndecidedWhatIsWithinOddsOfAThousandOfNoise) {
   EXPECT_EQ(choose(0.0, 1.2).undecided, 0u);
 }
 
+TEST(RegimeChoice, NeedsOddsOfAThousandBesideAnEstimatedClock) {
+  const LinearTape tape = TapeOf(PositionsOnly(30.0));
+  SearchEffort effort(1e9, nullptr);
+  for (const bool has_clock : {false, true}) {
+    const RegimeProblem problem{.tape = tape,
+                                .stated_sigma = 0.5,
+                                .effort = &effort,
+                                .has_clock = has_clock};
+    const RegimeChoice choice =
+        ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
+                               Regime(tape, Kind::kSwitching, 3.0)});
+    EXPECT_EQ(choice.chosen, has_clock ? 0u : 1u);
+    EXPECT_EQ(choice.undecided, has_clock ? 1u : 0u);
+  }
+}
+
 TEST(RegimeChoice, RefusesAValueAtItsBoundWhateverTheEvidence) {
   const LinearTape tape = TapeOf(PositionsOnly(30.0));
   SearchEffort effort(1e9, nullptr);
