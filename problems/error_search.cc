@@ -118,24 +118,27 @@ std::vector<int> ErrorSearch::SuspectsOfVehicle() const {
   constexpr double kFar = 5.0;            // sigma
   constexpr double kFalseAlarms = 0.001;  // of all sums
   if (rounds_.empty()) return {};
-  const bool any_stands = rounds_.front().best().Stands();
+  std::set<int> contradicted;
   const std::vector<NormalisedInnovation> innovations =
       InnovationsOf(*rounds_.front().tape, problem_.timeline, {});
-  std::set<int> suspects;
   for (const NormalisedInnovation& one : innovations) {
-    if (any_stands || one.rows.cwiseAbs().maxCoeff() > kFar) {
-      suspects.insert(one.sensor);
-    }
+    if (one.rows.cwiseAbs().maxCoeff() > kFar) contradicted.insert(one.sensor);
   }
   for (const InnovationFigure& one :
        TestInnovations(innovations, kFalseAlarms)) {
-    if (one.excess > 1.0) suspects.insert(one.sensor);
+    if (one.excess > 1.0) contradicted.insert(one.sensor);
   }
-  const auto& sensors = problem_.timeline.sensors();
-  std::erase_if(suspects, [&sensors](int sensor) {
-    return !sensors[static_cast<std::size_t>(sensor)].kind->of_vehicle;
-  });
-  return {suspects.begin(), suspects.end()};
+  const bool any_stands = rounds_.front().best().Stands();
+  std::vector<int> suspects;
+  const auto count = static_cast<int>(problem_.timeline.sensors().size());
+  for (int i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (problem_.timeline.sensors()[at].kind->of_vehicle &&
+        (any_stands || contradicted.contains(i))) {
+      suspects.push_back(i);
+    }
+  }
+  return suspects;
 }
 
 void ErrorSearch::RunLast(const std::vector<State>& initial) {

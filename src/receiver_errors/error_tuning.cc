@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/units.h"
+#include "receiver_errors/regime_choice.h"
 #include "receiver_errors/sequence_smoother.h"
 
 namespace hindsight {
@@ -207,7 +208,6 @@ class Tuning {
   std::vector<RidgePoint> FollowBias(const ErrorParameters& found,
                                      double step) {
     constexpr int kMost = 12;
-    constexpr double kSureLogOdds = 6.9;
     std::vector<RidgePoint> ridge;
     double best = Value(found);
     ErrorParameters p = found;
@@ -216,7 +216,7 @@ class Tuning {
       p.tau *= step;
       p.sigma *= std::sqrt(step);
       const RidgePoint point = RidgePointAt(p);
-      if (point.value < best - kSureLogOdds) break;
+      if (point.value < best - kLeastGain) break;
       best = std::max(best, point.value);
       ridge.push_back(point);
       p = WithBias(p, point);
