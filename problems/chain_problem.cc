@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "base/error.h"
@@ -63,6 +64,9 @@ ChainProblem::ChainProblem(const std::vector<State>& states, Problem* problem)
 
 void ChainProblem::Set(const std::vector<State>& states) {
   for (std::size_t k = 0; k < states.size(); ++k) {
+    if (states[k].parameters.size() != blocks_->layout().parameter_count()) {
+      throw std::logic_error("a state of another layout than its problem");
+    }
     blocks_->WriteNode(states[k], node_values(k));
   }
   for (const StateBlocks::Entry& entry : blocks_->globals()) {

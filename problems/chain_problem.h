@@ -18,7 +18,8 @@ class ChainProblem {
  public:
   /// Writes `states` into the parameter blocks; summaries are those of the
   /// problem's timeline, integrated at the states' calibration where needed.
-  /// The problem must outlive the object.
+  /// The problem must outlive the object. Throws std::logic_error for states whose
+  /// parameters are not those of the problem's layout.
   ChainProblem(const std::vector<State>& states, Problem* problem);
 
   const StateBlocks& blocks() const { return *blocks_; }
@@ -46,7 +47,7 @@ class ChainProblem {
   std::vector<double*> ParametersOf(const TangentFactor& factor);
 
   std::vector<State> States() const;
-  /// Writes `states` into the parameter blocks.
+  /// Writes `states` into the parameter blocks; throws as the constructor.
   void Set(const std::vector<State>& states);
 
   /// All factors linearised at the present values, of which the solution is one

@@ -135,26 +135,26 @@ RobustBatchResult SolveWith(const ErrorSearch& search,
   return result;
 }
 
-/// Whether a solution in which sensors of headings erred, or did not, still contradicts
-/// the one without them, or there is none.
+/// Whether a solution in which sensors of headings erred, or else the batch without
+/// errors of theirs, still contradicts the one without them, or there is none.
 bool StillContradicts(const RobustBatchResult& with,
-                      const RobustBatchResult& without,
+                      const RobustBatchResult& without, Problem plain,
                       const std::vector<State>& initial,
                       const RobustBatchOptions& options) {
   if (with.stands) {
     return AttitudesContradict(with.problem.layout, with.batch.states,
                                without.batch.states, without.batch.P);
   }
-  Problem plain = with.problem;
   const BatchResult batch = SolveIfPossible(initial, options.batch, &plain);
   return !batch.converged ||
          AttitudesContradict(plain.layout, batch.states, without.batch.states,
                              without.batch.P);
 }
 
-/// With the errors that explain the data about `initial`; without the sensors that all
-/// others contradict whatever errors they are given.
+/// With the errors that explain the data of the `plain` problem about `initial`;
+/// without the sensors that all others contradict whatever errors they are given.
 RobustBatchResult SolveExplained(const ExplainedErrors& explained,
+                                 const Problem& plain,
                                  const std::vector<State>& initial,
                                  const RobustBatchOptions& options) {
   const auto solve = [&](const ErrorSearch& search) {
@@ -165,7 +165,8 @@ RobustBatchResult SolveExplained(const ExplainedErrors& explained,
   without.left_out = options.last;
   if (without.stands && explained.search.ended()) return without;
   RobustBatchResult with = solve(explained.search);
-  return without.stands && StillContradicts(with, without, initial, options)
+  return without.stands &&
+                 StillContradicts(with, without, plain, initial, options)
              ? without
              : with;
 }
@@ -181,7 +182,7 @@ std::optional<RobustBatchResult> SolveAgain(const Problem& problem,
     const ExplainedErrors explained =
         ExplainErrors(problem, initial, options, kShare);
     if (ended) return std::nullopt;
-    return SolveExplained(explained, initial, options);
+    return SolveExplained(explained, problem, initial, options);
   } catch (const EstimationError&) {
     return std::nullopt;
   }
@@ -240,7 +241,7 @@ RobustBatchResult SolveRobustBatch(Problem problem,
     };
   }
   RobustBatchResult result = SolveExplained(
-      ExplainErrors(problem, initial, of_pass, 1.0), initial, of_pass);
+      ExplainErrors(problem, initial, of_pass, 1.0), problem, initial, of_pass);
   if (!result.left_out.empty()) {
     LeaveOut(result.left_out, problem.timeline, &problem.decisions);
     LeaveOut(result.left_out, problem.timeline, &of_pass.gates);

@@ -4,6 +4,8 @@
 #include <ceres/problem.h>
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "base/error.h"
 #include "filters/iterated_smoother.h"
 #include "problems/chain_problem.h"
@@ -91,6 +93,18 @@ TEST(Batch, KeptFactorsAreTheSame) {
     for (int k = 0; k < static_cast<int>(chain.node_count()); ++k) {
       EXPECT_EQ(first.x(k), second.x(k)) << Name(kind) << k;
     }
+  }
+}
+
+TEST(Batch, TakesNoStatesOfAnotherLayout) {
+  const TestProblem problem = ShortDrive(kKinds[0]);
+  Problem posed = problem.Pose(All(problem));
+  std::vector<State> states = NominalOf(problem, 0.1);
+  const Eigen::Index count = states.back().parameters.size();
+  for (const Eigen::Index other : {count + 1, count - 1}) {
+    if (other < 0) continue;
+    states.back().parameters.conservativeResize(other);
+    EXPECT_THROW(SolveBatch(states, {}, &posed), std::logic_error) << other;
   }
 }
 
