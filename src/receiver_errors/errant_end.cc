@@ -49,7 +49,7 @@ struct ErrorOfStretch {
 
 ErrorOfStretch ErrorOver(const SensorFindings& found, const ErrantEnd& at) {
   const int n = found.tape.dim();
-  const std::vector<ErrorVector>& smoothed = found.chosen().smoothed;
+  const ErrorTrajectory& smoothed = found.chosen().smoothed;
   ErrorOfStretch out;
   double squares = 0.0;
   for (std::size_t k = at.first; k < at.past; ++k) {

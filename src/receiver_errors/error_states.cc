@@ -93,7 +93,7 @@ std::vector<State> ErrorStates::States(const ErrorLayout& layout) const {
     const Eigen::Index count = x.parameters.size();
     x.parameters.conservativeResize(layout.parameter_count());
     x.parameters.tail(layout.parameter_count() - count).setZero();
-    const ErrorVector& smoothed = chosen_.smoothed[k];
+    const auto smoothed = chosen_.smoothed[k];
     const int n = tape_.dim();
     ErrorVector d = ErrorVector::Zero(layout.dim());
     d.head(n) = smoothed.head(n);

@@ -55,11 +55,11 @@ double LogPosterior(const RegimeProblem& problem,
 /// The largest of the sensor's errors along an axis, smoothed.
 double SizeOf(const RegimeProblem& problem, const Hypothesis& one) {
   const int n = problem.tape.dim();
-  const std::vector<ErrorVector> smoothed = SmoothSequence(
-      problem.tape, problem.sensor, one.parameters, one.sequence);
+  const ErrorTrajectory smoothed = SmoothSequence(problem.tape, problem.sensor,
+                                                  one.parameters, one.sequence);
   Eigen::Vector3d largest = Eigen::Vector3d::Zero();
-  for (const ErrorVector& x : smoothed) {
-    largest = largest.cwiseMax(x.segment<3>(n).cwiseAbs());
+  for (std::size_t k = 0; k < smoothed.size(); ++k) {
+    largest = largest.cwiseMax(smoothed[k].segment<3>(n).cwiseAbs());
   }
   return largest.maxCoeff();
 }
@@ -117,13 +117,13 @@ std::vector<Attempt> BestAttempts(const RegimeProblem& problem,
   constexpr double kLeastLog = 60.0;
   constexpr double kApart = 0.25;  // by the sigma of a fix
   std::vector<Attempt> best;
-  std::vector<std::vector<ErrorVector>> trajectories;
+  std::vector<ErrorTrajectory> trajectories;
   for (const Attempt& attempt : attempts) {
     if (best.size() == kMost) break;
     if (attempt.log_posterior < attempts.front().log_posterior - kLeastLog) {
       break;
     }
-    std::vector<ErrorVector> trajectory = SmoothSequence(
+    ErrorTrajectory trajectory = SmoothSequence(
         problem.tape, problem.sensor, attempt.parameters, attempt.sequence);
     const double apart =
         kApart * attempt.parameters.scale * problem.stated_sigma;

@@ -81,11 +81,12 @@ class Refinement {
   }
 
   void TryEarlierErrors() {
-    const ModeSequence base = SpliceBest();
-    for (const Hypothesis& one : EarlierErrors(base)) {
-      if (IsSpent()) break;
-      Try(one.sequence, one.count);
-    }
+    ForEachEarlierError(SpliceBest(),
+                        [this](const ModeSequence& h, double count) {
+                          if (IsSpent()) return false;
+                          Try(h, count);
+                          return true;
+                        });
   }
 
   ModeSequence Best() const { return met_[best_].sequence; }

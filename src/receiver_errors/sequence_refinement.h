@@ -25,7 +25,7 @@ ModeSequence ClimbOutliers(const LinearTape& tape, int receiver,
                            const ModeSequence& sequence,
                            SearchEffort* effort = nullptr);
 
-/// Climbs, tries EarlierErrors of the best, and returns what was met on the way
+/// Climbs, tries ForEachEarlierError of the best, and returns what was met on the way
 /// and is within 10 of its logarithm, best first: the posterior of when errors
 /// began and ended. Of those that differ in outliers alone the likeliest.
 std::vector<Hypothesis> RefineHypotheses(const LinearTape& tape, int receiver,

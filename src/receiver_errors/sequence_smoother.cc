@@ -88,12 +88,12 @@ SequenceScore ScoreSequence(const LinearTape& tape, int receiver,
   return score;
 }
 
-std::vector<ErrorVector> SmoothSequence(const LinearTape& tape, int receiver,
-                                        const ErrorParameters& parameters,
-                                        const ModeSequence& sequence) {
+ErrorTrajectory SmoothSequence(const LinearTape& tape, int receiver,
+                               const ErrorParameters& parameters,
+                               const ModeSequence& sequence) {
   Walk walk(tape, receiver, parameters, sequence);
   const int n = walk.chain().dim();
-  std::vector<ErrorVector> mean;
+  ErrorTrajectory mean(n, tape.size());
   CovarianceSeries P(n, tape.size());
   std::vector<std::vector<PassedUpdate>> passed(tape.size());
   std::vector<ErrorChain::Used> used;
@@ -103,7 +103,7 @@ std::vector<ErrorVector> SmoothSequence(const LinearTape& tape, int receiver,
     used.clear();
     walk.chain().UpdateAll(outlier, walk.x(), &used);
     for (const ErrorChain::Used& one : used) passed[k].emplace_back(one);
-    mean.push_back(walk.x()->mean);
+    mean[k] = walk.x()->mean;
     P.Set(k, walk.x()->P);
   }
   ErrorVector lambda = ErrorVector::Zero(n);
@@ -120,8 +120,7 @@ std::vector<ErrorVector> SmoothSequence(const LinearTape& tape, int receiver,
   return mean;
 }
 
-double MeanSquareDistance(const std::vector<ErrorVector>& a,
-                          const std::vector<ErrorVector>& b) {
+double MeanSquareDistance(const ErrorTrajectory& a, const ErrorTrajectory& b) {
   double sum = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k) {
     sum += (a[k] - b[k]).head<2>().squaredNorm();

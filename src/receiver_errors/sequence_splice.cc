@@ -10,6 +10,10 @@ namespace {
 constexpr int kFixesAsInBase = 5;
 constexpr double kExcessAsInBase = 1e-4;
 
+std::size_t SquareOf(int n) {
+  return static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
+}
+
 }  // namespace
 
 SequenceSplice::SequenceSplice(const LinearTape& tape, int receiver,
@@ -18,11 +22,11 @@ SequenceSplice::SequenceSplice(const LinearTape& tape, int receiver,
     : chain_(tape, receiver, parameters),
       base_(base),
       fixes_(base.size()),
-      P_(chain_.dim(), base.size()) {
+      P_(chain_.dim(), base.size()),
+      U_(base.size(), SquareOf(chain_.dim())) {
   const Eigen::Index n = chain_.dim();
   const auto count = static_cast<Eigen::Index>(base.size());
   mean_.resize(n, count);
-  U_.resize(n, n * count);
   z_.resize(n, count);
   RunForward();
   RunBackward();
@@ -84,7 +88,7 @@ void SequenceSplice::RunBackward() {
       step = base_[i];
       taken = fixes_[i].taken;
       const auto column = static_cast<Eigen::Index>(i);
-      U_.middleCols(n * column, n) = later.U();
+      Eigen::Map<Eigen::MatrixXd>(U_.Row(i), n, n) = later.U();
       z_.col(column) = later.z();
       fixes_[i].c = later.c();
     }
@@ -110,7 +114,8 @@ SequenceSplice::Place SequenceSplice::PlaceBefore(std::size_t i) const {
 LaterLikelihood SequenceSplice::After(std::size_t i) const {
   const Eigen::Index n = chain_.dim();
   const auto column = static_cast<Eigen::Index>(i);
-  return {U_.middleCols(n * column, n), z_.col(column), fixes_[i].c};
+  return {Eigen::Map<const Eigen::MatrixXd>(U_.Row(i), n, n), z_.col(column),
+          fixes_[i].c};
 }
 
 bool SequenceSplice::MayBeAnOutlier(std::size_t i) const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/paged_rows.h"
 #include "receiver_errors/error_chain.h"
 #include "receiver_errors/later_likelihood.h"
 #include "receiver_errors/sequence_smoother.h"
@@ -106,7 +107,7 @@ class SequenceSplice {
   // By fix: before the interval that leads to its node, and after its update.
   Eigen::MatrixXd mean_;
   CovarianceSeries P_;
-  Eigen::MatrixXd U_;  ///< dim() columns each
+  PagedRows U_;  ///< column by column
   Eigen::MatrixXd z_;
   std::vector<ErrorChain::Used> used_;
   std::size_t steps_ = 0;

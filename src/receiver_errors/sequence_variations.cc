@@ -211,8 +211,9 @@ std::vector<ModeSequence> DriftsThatEnd(const ModeSequence& h) {
   return all;
 }
 
-std::vector<Hypothesis> EarlierErrors(const ModeSequence& h) {
-  std::vector<Hypothesis> all;
+void ForEachEarlierError(
+    const ModeSequence& h,
+    const std::function<bool(const ModeSequence&, double count)>& visit) {
   const std::vector<std::size_t> at = Parts(h);
   for (std::size_t c = 0; c + 1 < at.size(); ++c) {
     const std::size_t least = c == 0 ? 0 : at[c - 1] + 1;
@@ -225,14 +226,13 @@ std::vector<Hypothesis> EarlierErrors(const ModeSequence& h) {
            {ErrorMode::kBiased, ErrorMode::kSlight, ErrorMode::kDrifting}) {
         ModeSequence one = h;
         SetError(mode, at[c] - length, at[c], &one);
-        all.push_back({one, 0.0, count});
+        if (!visit(one, count)) return;
         if (mode != ErrorMode::kDrifting) continue;
         SetError(ErrorMode::kGood, at[c], at[c + 1], &one);
-        all.push_back({one, 0.0, count});
+        if (!visit(one, count)) return;
       }
     }
   }
-  return all;
 }
 
 }  // namespace hindsight

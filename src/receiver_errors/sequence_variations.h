@@ -35,8 +35,11 @@ std::vector<ModeSequence> DriftsThatEnd(const ModeSequence& sequence);
 /// An error too small to be found alone may have begun at any time before a
 /// change: each time is unlikely, all together may not be. And a jump may be
 /// the end of a drift that began unseen. Lengths are a quarter apart, each
-/// stands (`count`) for those up to the next; the rest is not filled.
-std::vector<Hypothesis> EarlierErrors(const ModeSequence& sequence);
+/// stands for `count`, those up to the next. Each is shown to `visit` alone, as by
+/// ForEachVelocityStep.
+void ForEachEarlierError(
+    const ModeSequence& sequence,
+    const std::function<bool(const ModeSequence&, double count)>& visit);
 
 }  // namespace hindsight
 

@@ -5,8 +5,6 @@
 #include <limits>
 #include <map>
 
-#include "receiver_errors/sequence_smoother.h"
-
 namespace hindsight {
 namespace {
 struct Kept {

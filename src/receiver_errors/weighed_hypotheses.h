@@ -4,15 +4,16 @@
 #include <vector>
 
 #include "receiver_errors/error_regimes.h"
+#include "receiver_errors/sequence_smoother.h"
 
 namespace hindsight {
 
 /// A sequence that the data do not rule out.
 struct WeighedHypothesis {
-  double weight = 0.0;                ///< its probability among them
-  ErrorParameters parameters;         ///< as fitted to its kind
-  std::vector<ErrorStep> steps;       ///< by node
-  std::vector<ErrorVector> smoothed;  ///< SmoothSequence of it
+  double weight = 0.0;           ///< its probability among them
+  ErrorParameters parameters;    ///< as fitted to its kind
+  std::vector<ErrorStep> steps;  ///< by node
+  ErrorTrajectory smoothed;      ///< SmoothSequence of it
 };
 
 /// The likeliest hypotheses of the regimes, at most 24 of them (of more than 8000

@@ -33,8 +33,9 @@ WeighedHypothesis Alternative(double weight, double north_at_end) {
   WeighedHypothesis one;
   one.weight = weight;
   one.steps.assign(2, kGood);
-  one.smoothed.assign(2, ErrorVector::Zero(3));
-  one.smoothed[1](0) = north_at_end;
+  one.smoothed = ErrorTrajectory(3, 2);
+  one.smoothed[0].setZero();
+  one.smoothed[1] << north_at_end, 0.0, 0.0;
   return one;
 }
 

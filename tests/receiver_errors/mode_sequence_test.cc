@@ -32,7 +32,7 @@ TEST(ModeSequence, ThatIsGoodIsTheKalmanFilterAndItsSmoother) {
   const SequenceScore score = ScoreSequence(tape, 0, WithoutOutliers(), good);
   EXPECT_NEAR(score.log_likelihood, log_likelihood,
               1e-6 * std::abs(log_likelihood));
-  const std::vector<ErrorVector> smoothed =
+  const ErrorTrajectory smoothed =
       SmoothSequence(tape, 0, WithoutOutliers(), good);
   LinearTape copy = TapeOf(PositionsOnly(30.0));
   const SmoothedTrajectory rts = SmoothRts(std::move(copy));
@@ -233,7 +233,10 @@ TEST(ModeSequence, AFixThatIsAnOutlierStaysOneInEveryVariation) {
     const std::vector<ModeSequence> others = more(h);
     all.insert(all.end(), others.begin(), others.end());
   }
-  for (const Hypothesis& one : EarlierErrors(h)) all.push_back(one.sequence);
+  ForEachEarlierError(h, [&all](const ModeSequence& one, double) {
+    all.push_back(one);
+    return true;
+  });
   ASSERT_GT(all.size(), 30u);
   for (const ModeSequence& one : all) {
     std::vector<std::size_t> found;

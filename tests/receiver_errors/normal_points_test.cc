@@ -30,7 +30,7 @@ TEST(NormalPoints, TellTheTrajectoryAsAllFixesDo) {
   EXPECT_EQ(points->tape.size(), 41u);
   EXPECT_EQ(points->point_of_fix.size(), 401u);
   const SmoothedTrajectory all = SmoothRts(tape);
-  const std::vector<ErrorVector> few =
+  const ErrorTrajectory few =
       SmoothSequence(points->tape, 0, WithoutOutliers(), Good(points->tape));
   for (std::size_t i = 0; i < 40; ++i) {
     const std::size_t k = 10 * i + 5;
@@ -113,7 +113,7 @@ TEST(ThinBetweenFixes, KeepsTheFixesAndTellsTheTrajectory) {
   const auto thinned = ThinBetweenFixes(tape, 0);
   ASSERT_TRUE(thinned.has_value());
   const SmoothedTrajectory all = SmoothRts(tape);
-  const std::vector<ErrorVector> few =
+  const ErrorTrajectory few =
       SmoothSequence(*thinned, 0, WithoutOutliers(), Good(*thinned));
   std::size_t fixes = 0;
   for (std::size_t i = 0; i < thinned->size(); ++i) {
