@@ -5,6 +5,7 @@
 
 #include "receiver_errors/mode_sequence.h"
 #include "receiver_errors/search_effort.h"
+#include "receiver_errors/tunable_parameters.h"
 #include "state/solution.h"
 
 namespace hindsight {
@@ -38,28 +39,6 @@ ErrorParameters TuneNoise(const LinearTape& tape, int receiver,
                           const ModeSequence& sequence,
                           const ErrorParameters& from, double least_scale,
                           SearchEffort* effort = nullptr);
-
-/// What the data tell of a bias that lasts.
-struct BiasRange {
-  ErrorParameters likeliest;
-  /// With the mean square of sigma a posteriori, and the likeliest tau of it.
-  ErrorParameters mean_square;
-  /// ln of the integral of the posterior over tau along the ridge, by what
-  /// LogShareOfPrior takes it for at fixed sigma.
-  double log_gain = 0.0;
-};
-
-/// Of an error that changes slowly only 2 sigma^2 / tau is seen, its walk over short
-/// times: what is slower the IMU's biases and the start take up, so that sigma and tau
-/// may both be much larger. `found` is followed along that ridge, by factors of two of
-/// tau each with its likeliest sigma, to where odds are a thousand against it.
-BiasRange FollowBias(const LinearTape& tape, int receiver,
-                     const ModeSequence& sequence, const ErrorParameters& found,
-                     const ErrorParameters& from,
-                     SearchEffort* effort = nullptr);
-
-/// The least factor on the stated sigma that is sought.
-inline constexpr double kLeastScale = 0.1;
 
 /// ln of that prior but for constants, `typical` being what the search began
 /// from.

@@ -1,0 +1,70 @@
+#include "receiver_errors/tunable_parameters.h"
+
+#include <cmath>
+
+#include "base/units.h"
+
+namespace hindsight {
+
+std::vector<Tunable> TunablesOf(const ModeSequence& sequence,
+                                const ErrorParameters& from) {
+  std::vector<Tunable> out = {
+      {&ErrorParameters::scale, kLeastScale, 100.0, 1.0, 0.7,
+       "the factor on the stated sigma", "1"},
+      {&ErrorParameters::outlier_share, 1e-3, 0.4, 0.02, 1.5,
+       "the share of outliers", "1"},
+      {&ErrorParameters::outlier_ratio, 3.0, 1000.0, 10.0, 1.5},
+      {&ErrorParameters::imu_scale, 1.0, 100.0, 1.0, 1.1,
+       "the factor on the noise of the IMU", "1"}};
+  bool biased = false;
+  bool slight = false;
+  bool drifting = false;
+  for (const ErrorStep& step : sequence) {
+    biased |= step.mode == ErrorMode::kBiased;
+    slight |= step.mode == ErrorMode::kSlight;
+    drifting |= step.mode == ErrorMode::kDrifting || step.velocity_step;
+  }
+  if (biased) {
+    out.push_back({&ErrorParameters::tau, 0.1, 1e9, from.tau, 2.3});
+    out.push_back({&ErrorParameters::sigma, 1e-4, 1e5, from.sigma, 2.3,
+                   "the sigma of the bias", "m"});
+  }
+  if (slight) {
+    out.push_back(
+        {&ErrorParameters::slight_tau, 0.1, 1e9, from.slight_tau, 2.3});
+    out.push_back(
+        {&ErrorParameters::slight_sigma, 1e-4, 1e5, from.slight_sigma, 1.0});
+  }
+  if (drifting) {
+    out.push_back(
+        {&ErrorParameters::rate_sigma, 1e-6, 1e3, from.rate_sigma, 2.3});
+  }
+  return out;
+}
+
+double LogPriorOf(const std::vector<Tunable>& tunables,
+                  const ErrorParameters& p) {
+  double log_prior = 0.0;
+  for (const Tunable& tunable : tunables) {
+    const double z =
+        std::log(p.*tunable.member / tunable.typical) / tunable.spread;
+    log_prior -= 0.5 * z * z;
+  }
+  return log_prior;
+}
+
+double PriorCurvature(const Tunable& tunable) {
+  return 1.0 / (tunable.spread * tunable.spread);
+}
+
+double LogOfPriorWithin(const Tunable& tunable) {
+  const double below = std::log(tunable.least / tunable.typical);
+  return std::log(0.5 *
+                  std::erfc(below * std::sqrt(0.5 * PriorCurvature(tunable))));
+}
+
+double LogOfIntegral(double curvature) {
+  return 0.5 * std::log(2.0 * kPi / curvature);
+}
+
+}  // namespace hindsight
