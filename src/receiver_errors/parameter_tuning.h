@@ -13,7 +13,7 @@ namespace hindsight {
 /// times their prior, sought parameter by parameter in the logarithm.
 class ParameterTuning {
  public:
-  /// All but the effort, which may be null, must outlive this.
+  /// Tape, sequence and effort, which may be null, must outlive this.
   ParameterTuning(const LinearTape& tape, int receiver,
                   const ModeSequence& sequence, const ErrorParameters& from,
                   SearchEffort* effort)
