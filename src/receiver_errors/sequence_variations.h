@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "receiver_errors/hypothesis_search.h"
+#include "receiver_errors/mode_sequence.h"
 
 namespace hindsight {
 

@@ -14,23 +14,15 @@ namespace hindsight {
 namespace {
 
 using testing::MakeProblem;
-using testing::TacticalNoise;
+using testing::OfPositions;
 using testing::TapeOf;
 using testing::TestProblem;
-using testing::TestProblemOptions;
-using testing::TypicalLayout;
 
 constexpr double kFixSigma = 2.0;  // [m]
 
 /// Fixes with Gauss-Markov errors from the first to the last.
 LinearTape TapeWithErrors(double sigma, double tau) {
-  TestProblemOptions options;
-  options.noise = TacticalNoise(true);
-  options.layout = TypicalLayout(options.noise);
-  options.duration = 300.0;
-  options.position_sigma = kFixSigma;
-  options.velocity_sigma = 0.0;
-  TestProblem problem = MakeProblem(options, 7);
+  TestProblem problem = MakeProblem(OfPositions(300.0, kFixSigma), 7);
   Random random(19);
   Eigen::Vector3d e = sigma * random.NormalVector3();
   const double a = std::exp(-1.0 / tau);

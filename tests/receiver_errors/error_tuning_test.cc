@@ -13,11 +13,9 @@ namespace hindsight {
 namespace {
 
 using testing::MakeProblem;
-using testing::TacticalNoise;
+using testing::OfPositions;
 using testing::TapeOf;
 using testing::TestProblem;
-using testing::TestProblemOptions;
-using testing::TypicalLayout;
 
 constexpr double kStated = 2.0;  // [m]
 
@@ -28,13 +26,7 @@ struct NoisyFixes {
 
 /// Fixes of 1.4 times the stated sigma; a tenth of them of six times that.
 NoisyFixes MakeNoisyFixes() {
-  TestProblemOptions options;
-  options.noise = TacticalNoise(true);
-  options.layout = TypicalLayout(options.noise);
-  options.duration = 600.0;
-  options.position_sigma = kStated;
-  options.velocity_sigma = 0.0;
-  NoisyFixes out{MakeProblem(options, 5), {}};
+  NoisyFixes out{MakeProblem(OfPositions(600.0, kStated), 5), {}};
   Random random(17);
   for (Measurement& z : out.problem.measurements) {
     auto& fix = std::get<PositionFix>(z.model);

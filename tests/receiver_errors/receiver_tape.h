@@ -7,17 +7,23 @@
 
 namespace hindsight::testing {
 
-/// A drive with positions alone, of 0.5 m an axis, with errors of everything.
-inline TestProblem PositionsOnly(double duration, double spacing = 1.0,
-                                 std::uint64_t seed = 3) {
+/// Of a drive with positions alone, of `sigma` [m] an axis, in which nothing errs.
+inline TestProblemOptions OfPositions(double duration, double sigma) {
   TestProblemOptions options;
   options.noise = TacticalNoise(true);
   options.layout = TypicalLayout(options.noise);
-  options.errors = true;
   options.duration = duration;
-  options.spacing = spacing;
-  options.position_sigma = 0.5;
+  options.position_sigma = sigma;
   options.velocity_sigma = 0.0;
+  return options;
+}
+
+/// A drive with positions alone, of 0.5 m an axis, with errors of everything.
+inline TestProblem PositionsOnly(double duration, double spacing = 1.0,
+                                 std::uint64_t seed = 3) {
+  TestProblemOptions options = OfPositions(duration, 0.5);
+  options.errors = true;
+  options.spacing = spacing;
   return MakeProblem(options, seed);
 }
 
