@@ -259,6 +259,7 @@ void ErrorSearch::Ask() {
   const bool decided =
       options_->decisions != nullptr && i < options_->decisions->size();
   question_.decided = decided ? &(*options_->decisions)[i] : nullptr;
+  question_.until = options_->until;
   const auto round = static_cast<double>(searches_++);
   question_.share = share_ * std::exp2(-round);
   question_.go_on = [&go_on = options_->go_on, round](double fraction) {

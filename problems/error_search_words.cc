@@ -111,7 +111,8 @@ void ErrorSearch::TellRival(const Round& round, RobustBatchResult* result) {
     result->notes.push_back(fmt::format(
         "or, {} likely and {:.3g} m away in the root mean square: {}",
         FormatProbability(probability), distance, other.InWords()));
-    best.WidenTowards(other, probability, &result->batch.P);
+    best.AverageWith(other, probability, result->problem.layout,
+                     &result->batch.states, &result->batch.P);
   }
 }
 

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_PROBLEMS_ROBUST_BATCH_H_
 #define HINDSIGHT_PROBLEMS_ROBUST_BATCH_H_
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -68,6 +69,9 @@ struct RobustBatchOptions {
   /// Told the fraction of the search that is done; false ends it with the best
   /// so far, and no other begins.
   std::function<bool(double)> go_on = nullptr;
+  /// When it says so, as of ErrorQuestion.
+  std::chrono::steady_clock::time_point until =
+      std::chrono::steady_clock::time_point::max();
 };
 
 /// Takes no measurement of the sensors.

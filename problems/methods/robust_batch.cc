@@ -70,13 +70,16 @@ RobustBatchOptions OptionsOf(const MethodStage& stage,
   return {.batch = stage.MakeBatchOptions(),
           .gates = gates,
           .callback = stage.forward().Progress("robust_batch"),
-          .go_on = [&options, end](double fraction) {
-            if (options.stop != nullptr && *options.stop) throw Interrupted();
-            if (options.progress) {
-              options.progress("errors of sensors", fraction);
-            }
-            return Clock::now() < end;
-          }};
+          .go_on =
+              [&options, end](double fraction) {
+                if (options.stop != nullptr && *options.stop)
+                  throw Interrupted();
+                if (options.progress) {
+                  options.progress("errors of sensors", fraction);
+                }
+                return Clock::now() < end;
+              },
+          .until = end};
 }
 
 /// The plain batch.
@@ -308,7 +311,8 @@ void AddDoubtOfEnded(MethodStage* stage) {
        .what = "the search for errors of sensors was ended before it was "
                "done (--max-time)",
        .causes = {"less time than the recording needs"},
-       .remedies = {"a larger --max-time"}});
+       .remedies = {"a larger --max-time"},
+       .is_always_told = true});
   stage->SetDoubts(std::move(doubts));
 }
 

@@ -117,7 +117,7 @@ void DescribeAccuracy(const Judged& judged, std::vector<Evidence>* evidence) {
     AddSpread(over_ground ? "position over the ground" : "position", "m", 1.0,
               kLargestPositionSigma, p, count, evidence);
     if (const Sensor* only = OnlyWhitePlacer(judged.sensors)) {
-      evidence->back().what += " beside errors of " + only->name + " that last";
+      evidence->back().what += " if no error of " + only->name + " lasts";
     }
   }
   if (velocity != nullptr) {

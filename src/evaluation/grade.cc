@@ -110,6 +110,11 @@ std::string Objection(const Solution& solution) {
     if (worst == nullptr || WeighsMore(evidence, *worst)) worst = &evidence;
   }
   std::string text = ": " + Shortened(worst->what);
+  for (const Evidence& evidence : solution.evidence) {
+    if (!evidence.is_always_told || &evidence == worst) continue;
+    --others;
+    text += "; " + Shortened(evidence.what);
+  }
   if (others > 0) {
     text += fmt::format(", and {} more reason{} (see summary.json)", others,
                         others == 1 ? "" : "s");

@@ -81,15 +81,15 @@ BiasRange FollowBias(const LinearTape& tape, int receiver,
   const RidgePoint& best =
       *std::ranges::max_element(ridge, {}, &RidgePoint::value);
   double sum = 0.0;
-  double sum_squares = 0.0;
+  double sum_logs = 0.0;
   for (const RidgePoint& one : ridge) {
     const double weight = std::exp(one.value - best.value);
     sum += weight;
-    sum_squares += weight * one.sigma * one.sigma;
+    sum_logs += weight * std::log(one.sigma);
   }
-  BiasRange range{.likeliest = WithBias(found, best),
-                  .mean_square = WithBias(
-                      found, OfSigma(ridge, std::sqrt(sum_squares / sum)))};
+  BiasRange range{
+      .likeliest = WithBias(found, best),
+      .mean = WithBias(found, OfSigma(ridge, std::exp(sum_logs / sum)))};
   const double prior =
       LogOfIntegral(PriorCurvature(tuning.TunableOf(&ErrorParameters::tau)));
   const double at_point = tuning.LogShareOfPrior(&ErrorParameters::tau,

@@ -9,8 +9,10 @@ namespace hindsight {
 /// What the data tell of a bias that lasts.
 struct BiasRange {
   ErrorParameters likeliest;
-  /// With the mean square of sigma a posteriori, and the likeliest tau of it.
-  ErrorParameters mean_square;
+  /// With the mean of ln sigma a posteriori, and the likeliest tau of it. The mean
+  /// square hangs on what is least likely of all, the far end of the ridge, and takes
+  /// from fixes what they tell.
+  ErrorParameters mean;
   /// ln of the integral of the posterior over tau along the ridge, by what
   /// LogShareOfPrior takes it for at fixed sigma.
   double log_gain = 0.0;

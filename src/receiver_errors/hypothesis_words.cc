@@ -114,22 +114,37 @@ RivalHypothesis FindRivalBeyond(const std::vector<WeighedHypothesis>& all,
                      [](const Separation& s) { return s.nees > kWrong; });
 }
 
-std::vector<std::string> DescribeParameters(ErrorRegimes::Kind kind,
-                                            const std::string& unit,
-                                            const WeighedHypothesis& chosen) {
-  const ErrorParameters& p = chosen.parameters;
-  const auto has = [&](ErrorMode mode) {
-    return std::any_of(chosen.steps.begin(), chosen.steps.end(),
-                       [&](const ErrorStep& s) { return s.mode == mode; });
-  };
-  std::vector<std::string> all = {fmt::format(
+std::string DescribeNoise(ErrorRegimes::Kind kind, const ErrorParameters& p) {
+  return fmt::format(
       "{} errors, sigma {:.3g} times as stated, outliers {:.3g} % of {:.3g} "
       "times that",
-      RegimeName(kind), p.scale, 100.0 * p.outlier_share, p.outlier_ratio)};
+      RegimeName(kind), p.scale, 100.0 * p.outlier_share, p.outlier_ratio);
+}
+
+std::vector<std::string> DescribeErrors(const ModeSequence& steps,
+                                        const ErrorParameters& p,
+                                        const std::string& unit,
+                                        double duration) {
+  const auto has = [&steps](ErrorMode mode) {
+    return std::ranges::count(steps, mode, &ErrorStep::mode) > 0;
+  };
+  std::vector<std::string> all;
   if (has(ErrorMode::kBiased)) {
-    all.push_back(fmt::format(
-        "Gauss-Markov error of {:.3g} {}, correlation time {:.3g} s", p.sigma,
-        unit, p.tau));
+    const bool is_one =
+        steps.front().mode == ErrorMode::kBiased &&
+        std::all_of(steps.begin() + 1, steps.end(), [](const ErrorStep& s) {
+          return s.mode == ErrorMode::kBiased && !s.anew;
+        });
+    all.push_back(
+        p.tau <= duration
+            ? fmt::format(
+                  "Gauss-Markov error of {:.3g} {}, correlation time {:.3g} s",
+                  p.sigma, unit, p.tau)
+            : fmt::format("{} that walks by {:.3g} {}/sqrt(s)",
+                          is_one
+                              ? "error"
+                              : fmt::format("bias of {:.3g} {}", p.sigma, unit),
+                          p.sigma * std::sqrt(2.0 / p.tau), unit));
   }
   if (has(ErrorMode::kSlight)) {
     all.push_back(

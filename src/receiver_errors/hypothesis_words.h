@@ -46,11 +46,15 @@ RivalHypothesis FindRivalBeyond(const std::vector<WeighedHypothesis>& all,
                                 const WeighedHypothesis& chosen,
                                 const CovarianceSeries& P);
 
-/// What the noise and the errors of a sensor are like, a sentence each; `unit` of
-/// its error.
-std::vector<std::string> DescribeParameters(ErrorRegimes::Kind kind,
-                                            const std::string& unit,
-                                            const WeighedHypothesis& chosen);
+/// What the noise of a sensor is like.
+std::string DescribeNoise(ErrorRegimes::Kind kind, const ErrorParameters& p);
+/// What the errors of a sequence's steps are like, a clause for each kind; `unit` of
+/// the error. Of a Gauss-Markov error whose correlation time is longer than the
+/// recording, of `duration` [s], its walk, sqrt(2 / tau) sigma: no more of it is seen.
+std::vector<std::string> DescribeErrors(const ModeSequence& steps,
+                                        const ErrorParameters& p,
+                                        const std::string& unit,
+                                        double duration);
 /// What else may have happened; empty where it is too improbable to be told.
 std::string DescribeRival(const RivalHypothesis& rival,
                           const std::vector<double>& times);

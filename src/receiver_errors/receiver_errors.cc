@@ -1,13 +1,13 @@
 #include "receiver_errors/receiver_errors.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <functional>
 #include <utility>
 
 #include "base/text.h"
-#include "measurements/sensor_kind.h"
 #include "receiver_errors/error_tuning.h"
 #include "receiver_errors/hypothesis_words.h"
 #include "receiver_errors/sensor_findings.h"
@@ -39,42 +39,6 @@ Evidence DoubtOf(const RivalHypothesis& rival, const std::vector<double>& times,
           .causes = {"errors that explain the data as well in two ways"},
           .remedies = {"another sensor of positions, or a stream with a "
                        "position that is known"}};
-}
-
-/// Whether a sensor tells a position, a velocity over the ground, a height, a
-/// course, a heading or the magnetic field by itself.
-bool IsAbsolute(const SensorKind& kind) {
-  return kind.is_position || (kind.moves && !kind.of_vehicle) ||
-         kind.is_height || kind.is_heading || kind.magnetic;
-}
-
-/// Those with a used measurement on the tape, of at most three rows; positions
-/// come first. Absolute ones, or those of the vehicle.
-std::vector<int> SensorsInQuestion(const Timeline& timeline,
-                                   const LinearTape& tape, bool of_vehicle) {
-  std::vector<int> rows(timeline.sensors().size(), 0);
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    for (const TapeMeasurement& z : tape.measurements(k)) {
-      if (!z.accepted || z.withheld) continue;
-      int& most = rows[static_cast<std::size_t>(z.sensor)];
-      most = std::max(most, static_cast<int>(z.residual.size()));
-    }
-  }
-  std::vector<int> positions;
-  std::vector<int> others;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i] == 0 || rows[i] > 3) continue;
-    const SensorKind& kind = *timeline.sensors()[i].kind;
-    if (of_vehicle) {
-      if (kind.of_vehicle) others.push_back(static_cast<int>(i));
-    } else if (kind.is_position) {
-      positions.push_back(static_cast<int>(i));
-    } else if (IsAbsolute(kind)) {
-      others.push_back(static_cast<int>(i));
-    }
-  }
-  positions.insert(positions.end(), others.begin(), others.end());
-  return positions;
 }
 
 }  // namespace
@@ -128,31 +92,35 @@ std::optional<Evidence> ReceiverErrors::Average(const ErrorLayout& layout,
   return DoubtOf(beyond, found_->Times(), InWords(), false);
 }
 
-bool ReceiverErrors::IsUndecided() const {
-  return found_->undecided.has_value();
-}
+bool ReceiverErrors::IsUndecided() const { return !found_->undecided.empty(); }
 
 std::optional<Evidence> ReceiverErrors::DoubtOfNoise(
     const CovarianceSeries& P) const {
-  const auto undecided = found_->SmoothUndecided();
-  if (!undecided) return std::nullopt;
-  const std::vector<WeighedHypothesis> maybe = {undecided->maybe};
-  RivalHypothesis rival = FindRivalBeyond(maybe, undecided->noise, P);
-  if (rival.hypothesis == nullptr && undecided->maybe.weight > kComparable) {
-    rival = FindRival(maybe, undecided->noise, P);
-    if (!found_->IsLarge(rival.distance)) return std::nullopt;
+  if (!IsUndecided()) return std::nullopt;
+  const WeighedHypothesis noise = found_->SmoothNoise();
+  for (WeighedHypothesis& one : found_->SmoothUndecided()) {
+    const std::vector<WeighedHypothesis> maybe = {std::move(one)};
+    RivalHypothesis rival = FindRivalBeyond(maybe, noise, P);
+    if (rival.hypothesis == nullptr && maybe.front().weight > kComparable) {
+      rival = FindRival(maybe, noise, P);
+      if (!found_->IsLarge(rival.distance)) rival.hypothesis = nullptr;
+    }
+    if (rival.hypothesis == nullptr) continue;
+    return DoubtOf(rival, found_->Times(),
+                   Stands() ? InWords() : found_->name + ": as stated", false);
   }
-  if (rival.hypothesis == nullptr) return std::nullopt;
-  return DoubtOf(rival, found_->Times(),
-                 Stands() ? InWords() : found_->name + ": as stated", false);
+  return std::nullopt;
 }
 
 std::vector<std::string> ReceiverErrors::Notes(
     const CovarianceSeries& P) const {
   std::vector<std::string> notes;
   if (found_->stands()) {
-    notes = DescribeParameters(found_->regimes.kind, found_->unit,
-                               found_->chosen());
+    const WeighedHypothesis& chosen = found_->chosen();
+    notes = DescribeErrors(chosen.steps, chosen.parameters, found_->unit,
+                           found_->Duration());
+    notes.insert(notes.begin(),
+                 DescribeNoise(found_->regimes.kind, chosen.parameters));
     notes.push_back(fmt::format(
         "against the noise as stated the evidence is exp({:.3g}) to 1",
         found_->choice.gain));
@@ -169,6 +137,14 @@ std::vector<std::string> ReceiverErrors::Notes(
         FindRival(found_->alternatives, found_->chosen(), P);
     std::string other = DescribeRival(rival, times);
     if (!other.empty()) notes.push_back(std::move(other));
+  }
+  for (const Hypothesis& one : found_->undecided) {
+    notes.push_back(
+        fmt::format("not ruled out, by exp({:.2g}) to 1 against noise: {}",
+                    one.log_posterior,
+                    fmt::join(DescribeErrors(one.sequence, one.parameters,
+                                             found_->unit, found_->Duration()),
+                              ", ")));
   }
   for (std::string& note : notes) note.insert(0, found_->name + ": ");
   return notes;
@@ -212,15 +188,25 @@ bool ReceiverErrors::IsApart(const ReceiverErrors& other,
   return Separate(other.found_->chosen(), found_->chosen(), P).significant;
 }
 
-void ReceiverErrors::WidenTowards(const ReceiverErrors& other,
-                                  double probability,
-                                  CovarianceSeries* P) const {
+void ReceiverErrors::AverageWith(const ReceiverErrors& other,
+                                 double probability, const ErrorLayout& layout,
+                                 std::vector<State>* states,
+                                 CovarianceSeries* P) const {
+  const ErrorStates own = found_->states();
   const int dim = found_->tape.dim();
+  const bool comparable = probability > kComparable;
   for (std::size_t k = 0; k < found_->tape.size(); ++k) {
-    const ErrorVector d = (other.found_->chosen().smoothed[k].head(dim) -
-                           found_->chosen().smoothed[k].head(dim));
+    // If the other errs, this sensor does not.
+    ErrorVector d = -found_->chosen().smoothed[k];
+    d.head(dim) += other.found_->chosen().smoothed[k].head(dim);
+    const auto of_states = d.head(dim);
     ErrorMatrix P_k = P->Get(k);
-    P_k.topLeftCorner(dim, dim) += probability * d * d.transpose();
+    P_k.topLeftCorner(dim, dim) += (comparable ? 1.0 - probability : 1.0) *
+                                   probability * of_states *
+                                   of_states.transpose();
+    if (comparable) {
+      (*states)[k] = own.Moved(layout, (*states)[k], probability * d);
+    }
     P->Set(k, P_k);
   }
 }
@@ -258,46 +244,6 @@ std::string ReceiverErrors::InWords() const {
           ? DescribeSequence(found_->chosen().steps, found_->Times())
           : std::string(RegimeName(found_->regimes.kind)) + " errors";
   return found_->name + ": " + what;
-}
-
-std::vector<ReceiverErrors> FindReceiverErrors(const Problem& problem,
-                                               const LinearTape& tape,
-                                               const ErrorQuestion& question) {
-  std::vector<ReceiverErrors> found;
-  if (question.decided != nullptr) {
-    for (const auto& one : *question.decided) {
-      auto again = FindingsAgain(*one, tape);
-      if (again == nullptr) break;
-      found.push_back(ReceiverErrors(std::move(again)));
-    }
-    if (!found.empty() && found.size() == question.decided->size()) {
-      return found;
-    }
-    found.clear();
-  }
-  std::vector<int> sensors =
-      SensorsInQuestion(problem.timeline, tape, question.of_vehicle);
-  std::erase_if(sensors, [&](int sensor) {
-    return std::ranges::count(question.known, sensor) > 0;
-  });
-  const auto count = static_cast<double>(sensors.size());
-  double left = question.share;
-  // Positions, which take the most, come last and get what the others leave.
-  std::ranges::reverse(sensors);
-  for (const int sensor : sensors) {
-    const auto done = static_cast<double>(found.size());
-    const SearchLimits limits = {
-        left / (count - done), [&](double fraction) {
-          return !question.go_on || question.go_on((done + fraction) / count);
-        }};
-    auto one =
-        std::make_unique<const SensorFindings>(problem, tape, sensor, limits);
-    left -= one->spent;
-    found.push_back(ReceiverErrors(std::move(one)));
-  }
-  std::ranges::reverse(found);
-  std::ranges::stable_sort(found, std::greater<>(), &ReceiverErrors::log_gain);
-  return found;
 }
 
 }  // namespace hindsight

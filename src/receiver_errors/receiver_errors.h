@@ -2,6 +2,7 @@
 #define HINDSIGHT_RECEIVER_ERRORS_RECEIVER_ERRORS_H_
 
 #include <Eigen/Core>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -39,6 +40,10 @@ struct ErrorQuestion {
   /// Told the fraction done, between the steps of the search; false ends it with
   /// the best so far; may throw to abandon it.
   std::function<bool(double)> go_on = nullptr;
+  /// When it ends in any case. The sensors share the time, as they are compared: one
+  /// that is not asked after is not blamed.
+  std::chrono::steady_clock::time_point until =
+      std::chrono::steady_clock::time_point::max();
 };
 
 /// What the errors of one absolute sensor are like, as FindReceiverErrors found
@@ -117,9 +122,12 @@ class ReceiverErrors {
   /// Whether that trajectory is more than three standard deviations of P (errors
   /// of the horizontal position first) away at some node.
   bool IsApart(const ReceiverErrors& other, const CovarianceSeries& P) const;
-  /// Adds to P what it is worth that the other is right with a probability.
-  void WidenTowards(const ReceiverErrors& other, double probability,
-                    CovarianceSeries* P) const;
+  /// Adds to P what it is worth that the other errs in place of this sensor, with a
+  /// probability. Where that is more than one to 10^(1/2), the states become the mean of
+  /// both, weighed by them, and P is of the mixture.
+  void AverageWith(const ReceiverErrors& other, double probability,
+                   const ErrorLayout& layout, std::vector<State>* states,
+                   CovarianceSeries* P) const;
   /// ln of what sequence and parameters of the likeliest hypothesis are worth a
   /// priori: of its evidence without the likelihood.
   double LogOfPrior() const;

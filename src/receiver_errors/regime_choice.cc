@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -78,28 +79,33 @@ std::string Objection(const RegimeProblem& problem,
 }
 
 /// RegimeChoice::undecided, of a choice that is noise.
-void FindUndecided(const RegimeProblem& problem,
-                   const std::vector<ErrorRegimes>& all, RegimeChoice* choice) {
-  const ErrorRegimes& noise = all[choice->chosen];
-  if (noise.kind > Kind::kWhite) return;
+std::vector<RegimeChoice::Undecided> FindUndecided(
+    const RegimeProblem& problem, const std::vector<ErrorRegimes>& all,
+    std::size_t chosen) {
+  const ErrorRegimes& noise = all[chosen];
+  if (noise.kind > Kind::kWhite) return {};
   double best = noise.log_evidence;
   for (const ErrorRegimes& one : all) {
     if (one.kind <= Kind::kWhite) best = std::max(best, one.log_evidence);
   }
-  double most = -kLeastGain;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const double gain = all[i].log_evidence - best;
-    if (all[i].kind != Kind::kSwitching || gain <= most || gain > kLeastGain) {
-      continue;
+  std::vector<RegimeChoice::Undecided> undecided;
+  for (const Kind kind : {Kind::kGaussMarkov, Kind::kSwitching}) {
+    RegimeChoice::Undecided likeliest = {0, -kLeastGain};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const double gain = all[i].log_evidence - best;
+      if (all[i].kind != kind || gain <= likeliest.gain || gain > kLeastGain) {
+        continue;
+      }
+      likeliest = {i, gain};
     }
-    most = gain;
-    choice->undecided = i;
-    choice->undecided_gain = gain;
+    if (likeliest.index > 0 &&
+        LossTo(problem, all[likeliest.index], noise).empty()) {
+      undecided.push_back(likeliest);
+    }
   }
-  if (choice->undecided > 0 &&
-      !LossTo(problem, all[choice->undecided], noise).empty()) {
-    choice->undecided = 0;
-  }
+  std::ranges::stable_sort(undecided, std::greater<>(),
+                           &RegimeChoice::Undecided::gain);
+  return undecided;
 }
 
 /// Adds hypotheses, `shift` making their posteriors comparable, or lets them
@@ -142,7 +148,7 @@ RegimeChoice ChooseRegime(const RegimeProblem& problem,
     choice.refused.push_back(fmt::format("{} errors do not stand: they {}",
                                          RegimeName(all[i].kind), objection));
   }
-  FindUndecided(problem, all, &choice);
+  choice.undecided = FindUndecided(problem, all, choice.chosen);
   return choice;
 }
 

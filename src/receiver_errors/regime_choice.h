@@ -24,11 +24,14 @@ struct RegimeChoice {
   /// What became of the likeliest of the others, a clause each, if it did not
   /// stand: "switching errors, ... predict held-out ... worse".
   std::vector<std::string> refused;
-  /// Where that is noise: the likeliest of the switching ones whose evidence is within
-  /// kLeastGain of the likeliest noise's either way; 0 if there is none, or if that one
-  /// predicts held-out stretches worse than what was chosen.
-  std::size_t undecided = 0;
-  double undecided_gain = 0.0;  ///< ln of its evidence over that noise's
+  struct Undecided {
+    std::size_t index = 0;
+    double gain = 0.0;  ///< ln of its evidence over that of the likeliest noise
+  };
+  /// Where noise was chosen: of each richer kind the likeliest whose evidence is within
+  /// kLeastGain of the likeliest noise's either way, unless it predicts held-out
+  /// stretches worse than what was chosen. The likelier kind first.
+  std::vector<Undecided> undecided;
 };
 
 /// The one of the largest evidence that stands: it

@@ -136,10 +136,11 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
   searched_fixes = all.front().hypotheses.front().sequence.size();
   choice = ChooseRegime(regime, all);
   log_prior = LogPriorOfFit(regime, all[choice.chosen]);
-  if (choice.undecided > 0) {
-    undecided = all[choice.undecided].hypotheses.front();
-    undecided->log_posterior = choice.undecided_gain;
-    if (points) undecided->sequence = AtFixes(*points, undecided->sequence);
+  for (const RegimeChoice::Undecided& one : choice.undecided) {
+    undecided.push_back(all[one.index].hypotheses.front());
+    Hypothesis& kept = undecided.back();
+    kept.log_posterior = one.gain;
+    if (points) kept.sequence = AtFixes(*points, kept.sequence);
   }
   stopped = effort.stopped();
   spent = std::min(limits.share, effort.spent() / most);
@@ -231,33 +232,36 @@ std::unique_ptr<const SensorFindings> FindingsAgain(
   for (std::size_t k = 0; k < tape.size(); ++k) {
     fixes += HasFix(tape, k, decisions.sensor) ? 1 : 0;
   }
-  const bool other =
-      (decisions.stands() &&
-       decisions.regimes.hypotheses.front().sequence.size() != fixes) ||
-      (decisions.undecided && decisions.undecided->sequence.size() != fixes);
-  if (other) return nullptr;
+  const auto is_other = [fixes](const Hypothesis& one) {
+    return one.sequence.size() != fixes;
+  };
+  if ((decisions.stands() && is_other(decisions.regimes.hypotheses.front())) ||
+      std::ranges::any_of(decisions.undecided, is_other)) {
+    return nullptr;
+  }
   return std::make_unique<const SensorFindings>(decisions, tape);
 }
 
-std::optional<SensorFindings::Undecided> SensorFindings::SmoothUndecided()
-    const {
-  if (!undecided) return std::nullopt;
-  const auto smooth = [this](const ErrorParameters& parameters,
-                             const ModeSequence& sequence) {
-    return WeighedHypothesis{
-        1.0, parameters, StepsByNode(tape, sensor, sequence),
-        SmoothSequence(tape, sensor, parameters, sequence)};
-  };
-  Undecided out = {smooth(undecided->parameters, undecided->sequence), {}};
-  out.maybe.weight = 1.0 / (1.0 + std::exp(-undecided->log_posterior));
-  if (stands()) {
-    out.noise = chosen();
-  } else {
-    ErrorParameters stated;
-    stated.outlier_share = 0.0;
-    out.noise = smooth(stated, ModeSequence(undecided->sequence.size()));
+WeighedHypothesis SensorFindings::Smooth(const ErrorParameters& parameters,
+                                         const ModeSequence& sequence) const {
+  return {1.0, parameters, StepsByNode(tape, sensor, sequence),
+          SmoothSequence(tape, sensor, parameters, sequence)};
+}
+
+std::vector<WeighedHypothesis> SensorFindings::SmoothUndecided() const {
+  std::vector<WeighedHypothesis> all;
+  for (const Hypothesis& one : undecided) {
+    all.push_back(Smooth(one.parameters, one.sequence));
+    all.back().weight = 1.0 / (1.0 + std::exp(-one.log_posterior));
   }
-  return out;
+  return all;
+}
+
+WeighedHypothesis SensorFindings::SmoothNoise() const {
+  if (stands()) return chosen();
+  ErrorParameters stated;
+  stated.outlier_share = 0.0;
+  return Smooth(stated, ModeSequence(undecided.front().sequence.size()));
 }
 
 std::vector<double> SensorFindings::Times() const {

@@ -44,8 +44,8 @@ struct ErrorDecisions {
   /// ln of the evidence that was chosen, on these, without the likelihood.
   double log_prior = 0.0;
   RegimeChoice choice;
-  /// RegimeChoice::undecided, by fix; its log_posterior is the gain.
-  std::optional<Hypothesis> undecided;
+  /// RegimeChoice::undecided, by fix; their log_posterior is the gain.
+  std::vector<Hypothesis> undecided;
   ErrorRegimes regimes;  ///< if they stand
   bool stopped = false;  ///< the search, by whoever asked
 };
@@ -61,13 +61,13 @@ struct SensorFindings : ErrorDecisions {
     return {tape, sensor, stated_sigma, unit, regimes.kind, chosen()};
   }
   std::vector<double> Times() const;
-  /// What may be beside noise, with its probability, and what stands without it; none
-  /// if nothing is undecided.
-  struct Undecided {
-    WeighedHypothesis maybe;
-    WeighedHypothesis noise;
-  };
-  std::optional<Undecided> SmoothUndecided() const;
+  double Duration() const { return tape.t(tape.size() - 1) - tape.t(0); }
+  /// What may be beside noise, with its probability.
+  std::vector<WeighedHypothesis> SmoothUndecided() const;
+  /// The noise that stands beside what is undecided, of which there must be some.
+  WeighedHypothesis SmoothNoise() const;
+  WeighedHypothesis Smooth(const ErrorParameters& parameters,
+                           const ModeSequence& sequence) const;
   /// What was found on normal points, at all fixes, on a tape that holds them.
   void Refine(const LinearTape& fixes, const NormalPoints& points,
               std::vector<ErrorRegimes> found, SearchEffort* effort);

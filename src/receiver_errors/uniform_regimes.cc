@@ -102,7 +102,7 @@ ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
   out.log_evidence = LogEvidence(problem, one, from, question);
   if (range) {
     out.log_evidence += range->log_gain;
-    one.parameters = range->mean_square;
+    one.parameters = range->mean;
     score();
   }
   out.hypotheses.push_back(std::move(one));

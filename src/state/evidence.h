@@ -38,6 +38,8 @@ struct Evidence {
   /// the recording shows by itself, a given start that is not so, a sensor that
   /// was shut out.
   bool is_cause = false;
+  /// The verdict names it also where another says more.
+  bool is_always_told = false;
   /// The other method that it says the same of; empty: none.
   std::string against = "";
 

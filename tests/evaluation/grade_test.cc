@@ -90,8 +90,8 @@ TEST_F(GradeTest, AHealthySolutionIsUsableAndSaysHowWellEverythingIsKnown) {
   // sqrt(3) of an axis; the heading is 19 deg at one epoch, 1 deg at others.
   EXPECT_THAT(
       solution_.verdict,
-      StartsWith("usable: position to 0.17 m beside errors of gnss that "
-                 "last, velocity to 0.017 m/s, tilt to 0.14 deg, "
+      StartsWith("usable: position to 0.17 m if no error of gnss lasts, "
+                 "velocity to 0.017 m/s, tilt to 0.14 deg, "
                  "heading to 2.1 deg (19 at worst)"));
   for (const Evidence& e : solution_.evidence) {
     EXPECT_EQ(e.rule, "accuracy");
@@ -102,7 +102,7 @@ TEST_F(GradeTest, AHealthySolutionIsUsableAndSaysHowWellEverythingIsKnown) {
 TEST_F(GradeTest, ALoneReceiverWithoutLastingErrorsIsSaidToHaveNone) {
   const auto says = [this] {
     ConcludePlain();
-    return solution_.verdict.find("0.17 m beside errors of gnss that last") !=
+    return solution_.verdict.find("0.17 m if no error of gnss lasts") !=
            std::string::npos;
   };
   sensors_[0].kind = &PositionKind();
@@ -242,6 +242,17 @@ TEST_F(GradeTest, VerdictIsOneSentenceOfTheWorstReason) {
   EXPECT_THAT(solution_.verdict,
               HasSubstr("and 1 more reason (see summary.json)"));
   EXPECT_LE(("batch is " + solution_.verdict).size(), 160u);
+}
+
+TEST_F(GradeTest, WhatIsAlwaysToldIsInTheVerdictBesideTheWorstReason) {
+  for (ResidualRecord& r : solution_.residuals) r.nis = 3.0 * 50.0 * 50.0;
+  const Evidence ended{.grade = Grade::kDoubtful,
+                       .what = "it was ended",
+                       .is_always_told = true};
+  ConcludeWith({.solution = solution_, .sensors = sensors_, .doubts = {ended}});
+  EXPECT_EQ(solution_.verdict,
+            "not usable: residuals of gnss are 50.0 times what their sigma "
+            "says (limit 5); it was ended");
 }
 
 TEST_F(GradeTest, FaultOfTheRecordingIsNamedBeforeWhatComesOfIt) {

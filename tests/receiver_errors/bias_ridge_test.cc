@@ -61,18 +61,17 @@ TEST(FollowBias, GoesAsFarAsTheDataLeaveOpen) {
   const Told fast = TellOf(TapeWithErrors(5.0 * kFixSigma, 3.0), from);
   EXPECT_GE(fast.log_odds, 0.0);
   EXPECT_NEAR(fast.range.likeliest.tau, 3.0, 2.0);
-  EXPECT_LT(fast.range.mean_square.sigma, 1.3 * fast.range.likeliest.sigma);
+  EXPECT_LT(fast.range.mean.sigma, 1.3 * fast.range.likeliest.sigma);
   // Of one of minutes but the walk.
   const Told slow = TellOf(TapeWithErrors(5.0 * kFixSigma, 300.0), from);
   EXPECT_GE(slow.log_odds, 0.0);
   EXPECT_GT(slow.range.log_gain, 0.0);
-  EXPECT_GT(slow.range.mean_square.sigma, 1.3 * slow.range.likeliest.sigma);
+  EXPECT_GT(slow.range.mean.sigma, 1.3 * slow.range.likeliest.sigma);
   const auto walk = [](const ErrorParameters& p) {
     return p.sigma * p.sigma / p.tau;
   };
-  EXPECT_NEAR(
-      std::log(walk(slow.range.mean_square) / walk(slow.range.likeliest)), 0.0,
-      std::log(2.0));
+  EXPECT_NEAR(std::log(walk(slow.range.mean) / walk(slow.range.likeliest)), 0.0,
+              std::log(2.0));
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include "receiver_errors/hypothesis_words.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace hindsight {
 namespace {
+
+using ::testing::ElementsAre;
 
 constexpr ErrorStep kGood = {ErrorMode::kGood};
 constexpr ErrorStep kBiased = {ErrorMode::kBiased};
@@ -27,6 +30,20 @@ TEST(HypothesisWords, TellAStopOfADriftFromItsEnd) {
                              {0.0, 10.0, 20.0}),
             "drifting from 0 to 10 s, biased from 10 to 20 s");
   EXPECT_EQ(DescribeSequence({kGood, kGood}, {0.0, 1.0}), "good throughout");
+}
+
+/// Of an error that changes more slowly than the recording lasts its walk.
+TEST(HypothesisWords, SayOfErrorsWhatIsSeenOfThem) {
+  ErrorParameters p;
+  p.sigma = 3.0;
+  p.tau = 200.0;
+  const ModeSequence throughout = {kBiased, kBiased};
+  EXPECT_THAT(DescribeErrors(throughout, p, "m", 300.0),
+              ElementsAre("Gauss-Markov error of 3 m, correlation time 200 s"));
+  EXPECT_THAT(DescribeErrors(throughout, p, "m", 100.0),
+              ElementsAre("error that walks by 0.3 m/sqrt(s)"));
+  EXPECT_THAT(DescribeErrors({kGood, kBiased}, p, "m", 100.0),
+              ElementsAre("bias of 3 m that walks by 0.3 m/sqrt(s)"));
 }
 
 WeighedHypothesis Alternative(double weight, double north_at_end) {

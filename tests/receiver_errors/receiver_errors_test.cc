@@ -336,6 +336,38 @@ TEST(ReceiverErrors, OfAKnownStartHaveNoExchangedRoles) {
   EXPECT_LT(known.variance, 5.0);
 }
 
+/// Of two sensors one is right before the step and one behind it.
+TEST(ReceiverErrors, ThatAreAboutAsLikelyOfAnotherSensorGiveTheMean) {
+  TestProblem test = FixesOfOneMinute();
+  test.prior.P.topLeftCorner<3, 3>() *= 1e8;
+  AddStep(30.5, &test);
+  const Problem posed = test.Pose(GateDecisions(test.measurements.size(), 1));
+  Problem problem = posed;
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  ErrorDecisions tellings = TwoTellings(problem, tape, 0.0);
+  std::vector<Hypothesis>& both = tellings.regimes.hypotheses;
+  ErrorDecisions other = tellings;
+  other.regimes.hypotheses.erase(other.regimes.hypotheses.begin());
+  both.pop_back();
+  const ReceiverErrors one = TakeThem(tellings, problem, tape);
+  const ReceiverErrors rival = TakeThem(other, problem, tape);
+  one.Extend(&problem);
+  const Block* e = problem.layout.Find(BlockKind::kSensorError, 0);
+  ASSERT_NE(e, nullptr);
+  for (const double probability : {0.4, 0.1}) {
+    std::vector<State> states = one.States(problem.layout);
+    const double error = states[45].parameters(e->parameter_offset);
+    CovarianceSeries P(problem.layout.dim(), states.size());
+    one.AverageWith(rival, probability, problem.layout, &states, &P);
+    const double moved = probability > 0.3 ? probability : 0.0;
+    EXPECT_NEAR((states[10].p_e - test.truth[10].p_e).norm(), moved * 37.4,
+                2.0);
+    EXPECT_NEAR(states[45].parameters(e->parameter_offset),
+                (1.0 - moved) * error, 1e-9);
+    EXPECT_NEAR(P.Get(10)(0, 0), (1.0 - moved) * probability * 900.0, 30.0);
+  }
+}
+
 /// A whole-interval problem takes complete blocks alone.
 TEST(ReceiverErrors, OfASensorOfOneRowHaveACompleteBlock) {
   TestProblemOptions options;
@@ -465,10 +497,41 @@ TEST(ReceiverErrors, UndecidedOfOtherFixesAreSearchedAnew) {
   const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
   ErrorDecisions decisions = *FindThem(problem, tape).Decisions();
   ASSERT_FALSE(decisions.stands());
-  decisions.undecided = Hypothesis{ModeSequence(61)};
+  decisions.undecided = {Hypothesis{ModeSequence(61)}};
   EXPECT_TRUE(TakeThem(decisions, problem, tape).IsUndecided());
-  decisions.undecided = Hypothesis{ModeSequence(3)};
+  decisions.undecided = {Hypothesis{ModeSequence(3)}};
   EXPECT_THROW(TakeThem(decisions, problem, tape), std::logic_error);
+}
+
+/// Of two that noise is hardly likelier than, the one that leads elsewhere.
+TEST(ReceiverErrors, ThatNoiseDoesNotRuleOutAreDoubtfulWhereTheyLeadElsewhere) {
+  TestProblem test = FixesOfOneMinute();
+  AddStep(30.5, &test, 0.2);
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  ErrorDecisions decisions(problem, tape, 0);
+  Hypothesis throughout{ModeSequence(61, {.mode = ErrorMode::kBiased})};
+  throughout.sequence.front().anew = true;
+  throughout.parameters.tau = 20.0;
+  throughout.parameters.outlier_share = 0.0;
+  throughout.log_posterior = -2.0;
+  Hypothesis hardly = throughout;
+  hardly.parameters.sigma = 1e-3;
+  throughout.parameters.sigma = 10.0;
+  CovarianceSeries P(tape.dim(), tape.size());
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    P.Set(k, ErrorMatrix(0.01 * ErrorMatrix::Identity(tape.dim(), tape.dim())));
+  }
+  decisions.undecided = {hardly};
+  EXPECT_FALSE(TakeThem(decisions, problem, tape).DoubtOfNoise(P).has_value());
+  decisions.undecided = {hardly, throughout};
+  const ReceiverErrors errors = TakeThem(decisions, problem, tape);
+  const auto doubt = errors.DoubtOfNoise(P);
+  ASSERT_TRUE(doubt.has_value());
+  EXPECT_THAT(doubt->what, HasSubstr("or else, 12 % likely and up to"));
+  EXPECT_THAT(errors.Notes(P),
+              Contains(HasSubstr("not ruled out, by exp(-2) to 1 against "
+                                 "noise: Gauss-Markov error of 10 m")));
 }
 
 TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {

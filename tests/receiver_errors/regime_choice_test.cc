@@ -1,5 +1,6 @@
 #include "receiver_errors/regime_choice.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "receiver_errors/receiver_tape.h"
@@ -9,7 +10,11 @@ namespace hindsight {
 namespace {
 
 using testing::AddError;
+using ::testing::DoubleEq;
+using ::testing::ElementsAre;
+using ::testing::FieldsAre;
 using testing::Good;
+using ::testing::IsEmpty;
 using testing::PositionsOnly;
 using testing::TapeOf;
 using testing::TestProblem;
@@ -28,6 +33,10 @@ ErrorRegimes Regime(const LinearTape& tape, ErrorRegimes::Kind kind,
 }
 
 using Kind = ErrorRegimes::Kind;
+
+auto Leaves(std::size_t index, double gain) {
+  return FieldsAre(index, DoubleEq(gain));
+}
 
 TEST(RegimeChoice, NeedsOddsOfAThousand) {
   const LinearTape tape = TapeOf(PositionsOnly(30.0));
@@ -52,12 +61,23 @@ TEST(RegimeChoice, LeavesUndecidedWhatIsWithinOddsOfAThousandOfNoise) {
     return ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0), better,
                                   Regime(tape, Kind::kSwitching, switching)});
   };
-  EXPECT_EQ(choose(0.0, -7.0).undecided, 0u);
-  EXPECT_EQ(choose(0.0, 1.1).undecided, 2u);
-  EXPECT_DOUBLE_EQ(choose(0.0, 1.1).undecided_gain, 1.1);
-  EXPECT_DOUBLE_EQ(choose(10.0, 8.0).undecided_gain, -2.0);
+  EXPECT_THAT(choose(0.0, -7.0).undecided, IsEmpty());
+  EXPECT_THAT(choose(0.0, 1.1).undecided, ElementsAre(Leaves(2, 1.1)));
+  EXPECT_THAT(choose(10.0, 8.0).undecided, ElementsAre(Leaves(2, -2.0)));
   EXPECT_EQ(choose(0.0, 1.2).chosen, 2u);
-  EXPECT_EQ(choose(0.0, 1.2).undecided, 0u);
+  EXPECT_THAT(choose(0.0, 1.2).undecided, IsEmpty());
+}
+
+TEST(RegimeChoice, LeavesTheLikeliestOfEachKindUndecided) {
+  const LinearTape tape = TapeOf(PositionsOnly(30.0));
+  SearchEffort effort(1e9, nullptr);
+  const RegimeProblem problem{tape, 0, 0.5, false, &effort};
+  EXPECT_THAT(ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
+                                     Regime(tape, Kind::kGaussMarkov, -3.0),
+                                     Regime(tape, Kind::kSwitching, -4.0),
+                                     Regime(tape, Kind::kSwitching, -2.0)})
+                  .undecided,
+              ElementsAre(Leaves(3, -2.0), Leaves(1, -3.0)));
 }
 
 TEST(RegimeChoice, NeedsOddsOfAThousandBesideAnEstimatedClock) {
@@ -72,7 +92,7 @@ TEST(RegimeChoice, NeedsOddsOfAThousandBesideAnEstimatedClock) {
         ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
                                Regime(tape, Kind::kSwitching, 3.0)});
     EXPECT_EQ(choice.chosen, has_clock ? 0u : 1u);
-    EXPECT_EQ(choice.undecided, has_clock ? 1u : 0u);
+    EXPECT_EQ(choice.undecided.size(), has_clock ? 1u : 0u);
   }
 }
 
