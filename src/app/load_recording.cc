@@ -97,9 +97,11 @@ void PrepareTrajectory(const RunRequest& request, Dataset* dataset) {
 
 }  // namespace
 
-Dataset LoadRecording(const RunRequest& request, ResolvedConfig* resolved) {
-  Dataset dataset =
-      LoadDataset(request.config, LoadOptionsOf(request), resolved);
+Dataset LoadRecording(const RunRequest& request, ReadDigests* digests,
+                      ResolvedConfig* resolved) {
+  LoadOptions options = LoadOptionsOf(request);
+  options.digests = digests;
+  Dataset dataset = LoadDataset(request.config, options, resolved);
   if (!request.ahrs_rule.empty()) dataset.ahrs.rule = request.ahrs_rule;
   if (!request.attitude_alone) RequireCapacity(dataset, request.config);
   if (!request.withholdings.empty()) {

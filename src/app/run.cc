@@ -143,7 +143,7 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   progress.Update("reading", 0.0);
   InputDigests digests(FilesReadBy(request));
   ResolvedConfig resolved;
-  Dataset dataset = LoadRecording(request, &resolved);
+  Dataset dataset = LoadRecording(request, digests.read(), &resolved);
 
   progress.Begin("start");
   const auto rests = std::make_shared<const RestMemo>(dataset);

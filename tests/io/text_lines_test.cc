@@ -6,7 +6,9 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "io/binary_files.h"
+#include "io/read/file_digest.h"
 #include "support/temporary_folder.h"
 
 namespace hindsight {
@@ -79,6 +81,46 @@ TEST(TextLines, WhatIsAppendedMeanwhileIsNotSeen) {
   int count = 0;
   for (std::string_view line; lines.Next(&line);) ++count;
   EXPECT_EQ(count, 2);
+}
+
+TEST(TextLines, GiveTheDigestOfWhatTheyRead) {
+  const TemporaryFolder folder;
+  std::string text = "\xEF\xBB\xBF";
+  while (text.size() < (5u << 20)) text += "0.1,0.2,0.3\r\n";
+  const std::string path = folder.Write("a", text + "4");
+  for (const int threads : {1, 2}) {
+    SetThreadCount(threads);
+    ReadDigests digests;
+    TextLines lines(path, &digests);
+    TextLines second(path, &digests);
+    std::string_view line;
+    while (second.Next(&line)) {
+    }
+    EXPECT_FALSE(digests.Of(path)) << "made by the first alone";
+    while (lines.Next(&line)) {
+    }
+    const auto digest = digests.Of(path);
+    ASSERT_TRUE(digest);
+    EXPECT_EQ(digest->sha256, DigestOf(path).sha256);
+    EXPECT_EQ(digest->bytes, text.size() + 1);
+  }
+}
+
+TEST(TextLines, GiveNoDigestOfWhatIsPackedOrLeft) {
+  const TemporaryFolder folder;
+  ReadDigests digests;
+  std::string_view line;
+  const std::string packed = folder.Write("a", Gzipped("1\n2\n"));
+  TextLines lines(packed, &digests);
+  while (lines.Next(&line)) {
+  }
+  EXPECT_FALSE(digests.Of(packed));
+  const std::string left = folder.Write("b", "1\n2\n");
+  {
+    TextLines begun(left, &digests);
+    ASSERT_TRUE(begun.Next(&line));
+  }
+  EXPECT_FALSE(digests.Of(left));
 }
 
 }  // namespace

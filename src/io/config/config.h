@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dataset/dataset.h"
+#include "io/read/file_digest.h"
 
 namespace hindsight {
 
@@ -42,6 +43,8 @@ struct LoadOptions {
   std::vector<Omission> omit = {};
   /// The configuration itself, in place of the content of its file.
   std::optional<std::string> text = {};
+  /// What digests of streams' files go to where reading makes them; may be null.
+  ReadDigests* digests = nullptr;
 };
 
 /// Everything a load used, in SI units, defaults included; itself a

@@ -245,6 +245,16 @@ const ConfigTable<RecordingConfig>& RecordingTable() {
   return kTable;
 }
 
+/// Of all streams' files.
+void GatherDigests(ReadDigests* digests, DeclaredRecording* declared) {
+  declared->imu.digests = digests;
+  if (auto& accelerometer = declared->imu_options.accelerometer) {
+    accelerometer->digests = digests;
+  }
+  if (declared->truth) declared->truth->digests = digests;
+  for (AidingConfig& config : declared->aiding) config.source.digests = digests;
+}
+
 }  // namespace
 
 DeclaredRecording ReadDeclarations(ConfigMap* top, const LoadOptions& options,
@@ -255,6 +265,7 @@ DeclaredRecording ReadDeclarations(ConfigMap* top, const LoadOptions& options,
   ReadTable(RecordingTable(), top, &recording);
   top->Finish();
   RequireFiles(recording);
+  GatherDigests(options.digests, &recording);
   return recording;
 }
 

@@ -3,8 +3,8 @@
 #include <openssl/evp.h>
 
 #include <algorithm>
-#include <memory>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -16,37 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Sha256 {
- public:
-  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-    Require(context_ != nullptr &&
-            EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
-  }
-
-  void Add(const char* data, std::size_t count) {
-    Require(EVP_DigestUpdate(context_.get(), data, count) == 1);
-  }
-
-  std::string Hexadecimal() {
-    unsigned char bytes[EVP_MAX_MD_SIZE];
-    unsigned count = 0;
-    Require(EVP_DigestFinal_ex(context_.get(), bytes, &count) == 1);
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    std::string text;
-    for (unsigned i = 0; i < count; ++i) {
-      text += kDigits[bytes[i] >> 4];
-      text += kDigits[bytes[i] & 15];
-    }
-    return text;
-  }
-
- private:
-  static void Require(bool done) {
-    if (!done) throw InputError("libcrypto has no SHA-256");
-  }
-
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
-};
+void Require(bool done) {
+  if (!done) throw InputError("libcrypto has no SHA-256");
+}
 
 FileDigest DigestOfFile(const fs::path& path) {
   constexpr std::size_t kPiece = std::size_t{1} << 18;
@@ -54,7 +26,7 @@ FileDigest DigestOfFile(const fs::path& path) {
   Sha256 sum;
   std::vector<char> piece(kPiece);
   for (std::size_t offset = 0; offset < file.size(); offset += kPiece) {
-    sum.Add(piece.data(), file.ReadAt(offset, piece.data(), kPiece));
+    sum.Add({piece.data(), file.ReadAt(offset, piece.data(), kPiece)});
   }
   return {path.string(), file.size(), sum.Hexadecimal()};
 }
@@ -76,9 +48,50 @@ void ListFiles(const fs::path& folder, const std::string& prefix,
 
 }  // namespace
 
+Sha256::Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
+  Require(context_ != nullptr &&
+          EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
+}
+
+void Sha256::Add(std::string_view piece) {
+  Require(EVP_DigestUpdate(context_.get(), piece.data(), piece.size()) == 1);
+}
+
+std::string Sha256::Hexadecimal() {
+  unsigned char bytes[EVP_MAX_MD_SIZE];
+  unsigned count = 0;
+  Require(EVP_DigestFinal_ex(context_.get(), bytes, &count) == 1);
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (unsigned i = 0; i < count; ++i) {
+    text += kDigits[bytes[i] >> 4];
+    text += kDigits[bytes[i] & 15];
+  }
+  return text;
+}
+
+bool ReadDigests::Claim(const std::string& path) {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  return claimed_.insert(path).second;
+}
+
+void ReadDigests::Add(FileDigest digest) {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  digests_.push_back(std::move(digest));
+}
+
+std::optional<FileDigest> ReadDigests::Of(const std::string& path) const {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  const auto found =
+      std::find_if(digests_.begin(), digests_.end(),
+                   [&](const FileDigest& one) { return one.path == path; });
+  if (found == digests_.end()) return std::nullopt;
+  return *found;
+}
+
 std::string Sha256Of(std::string_view text) {
   Sha256 sum;
-  sum.Add(text.data(), text.size());
+  sum.Add(text);
   return sum.Hexadecimal();
 }
 
@@ -91,8 +104,7 @@ FileDigest DigestOf(const fs::path& path) {
   Sha256 sum;
   for (const std::string& name : names) {
     const FileDigest one = DigestOfFile(path / name);
-    const std::string line = one.sha256 + "  " + name + "\n";
-    sum.Add(line.data(), line.size());
+    sum.Add(one.sha256 + "  " + name + "\n");
     all.bytes += one.bytes;
     ++all.files;
   }

@@ -138,7 +138,8 @@ void AppendVector(int number, const std::string& stem, const char* unit,
 
 OpenedTable OpenLines(const TableRequest& request) {
   OpenedTable opened;
-  opened.lines = std::make_unique<TextLines>(request.path);
+  opened.lines =
+      std::make_unique<TextLines>(request.path, request.options.digests);
   std::string_view skipped;
   for (int i = 0; i < request.format.skip_lines; ++i) {
     if (!opened.lines->Next(&skipped)) FailWithoutRows(request.path);

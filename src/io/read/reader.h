@@ -12,6 +12,7 @@
 
 #include "dataset/dataset.h"
 #include "earth/local_frame.h"
+#include "io/read/file_digest.h"
 #include "io/read/text_format.h"
 #include "io/read/time_scale.h"
 #include "measurements/sensor_kind.h"
@@ -71,6 +72,8 @@ struct StreamSource {
   /// Whether nobody wants the rows any more: reading ends by Interrupted then. May be
   /// null.
   const std::atomic<bool>* abandoned = nullptr;
+  /// What digests of its files go to when they were read; may be null.
+  ReadDigests* digests = nullptr;
 
   /// All of them.
   std::vector<std::string> Paths() const;

@@ -53,7 +53,7 @@ StreamRows::StreamRows(const StreamSource& source,
       opened_(OpenJoined(
           source.Paths(), WithClock(source), fields,
           {source.allow_truncated_tail, allow_absent || source.absent_values,
-           source.drop_text})) {
+           source.drop_text, source.digests})) {
   clock_.dated = opened_.dated || source.clock.week.has_value() ||
                  source.clock.scale != ClockMap::Scale::kDataset;
   for (std::size_t i = 0; i < fields.size(); ++i) {

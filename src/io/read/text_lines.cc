@@ -2,8 +2,10 @@
 
 #include <array>
 #include <cstring>
+#include <utility>
 
 #include "base/error.h"
+#include "base/parallel.h"
 
 namespace hindsight {
 namespace {
@@ -28,12 +30,18 @@ bool IsUtf16(const InputFile& file) {
   return IsUtf16Start({begin.data(), kMark});
 }
 
-TextLines::TextLines(const std::string& path)
-    : file_(path), buffer_(new char[kLongestLine + kLinePiece]) {
-  size_hint_ = file_.size();
+TextLines::TextLines(const std::string& path, ReadDigests* digests)
+    : file_(path), size_hint_(file_.size()), digests_(digests) {
   if (GzipReader::IsGzip(file_)) {
     gzip_ = std::make_unique<GzipReader>(file_);
     size_hint_ = gzip_->size_hint();
+    digests_ = nullptr;
+  }
+  if (digests_ != nullptr && !digests_->Claim(path)) digests_ = nullptr;
+  buffer_.reset(new char[kLongestLine + kLinePiece]);
+  if (digests_ != nullptr) {
+    other_.reset(new char[kLongestLine + kLinePiece]);
+    sum_.emplace();
   }
   if (!Fill()) throw InputError(path, 0, "the file is empty");
   if (IsUtf16Start(window_)) {
@@ -48,6 +56,7 @@ TextLines::TextLines(const std::string& path)
 }
 
 bool TextLines::Fill() {
+  if (digests_ != nullptr) buffer_.swap(other_);
   if (!window_.empty()) {
     std::memmove(buffer_.get(), window_.data(), window_.size());
   }
@@ -58,7 +67,18 @@ bool TextLines::Fill() {
   const std::string_view piece(end, count);
   odd_ = Holds(piece, '\0') || Holds(piece, '\r') || (odd_ && !window_.empty());
   window_ = {buffer_.get(), window_.size() + count};
+  if (digests_ != nullptr) Digest(piece);
   return count > 0;
+}
+
+void TextLines::Digest(std::string_view piece) {
+  if (digesting_.valid()) digesting_.get();
+  if (!piece.empty()) {
+    digesting_ = InBackground([this, piece] { sum_->Add(piece); });
+    return;
+  }
+  std::exchange(digests_, nullptr)
+      ->Add({path(), file_.size(), sum_->Hexadecimal()});
 }
 
 void TextLines::Check(std::string_view line) const {

@@ -2,10 +2,13 @@
 #define HINDSIGHT_IO_READ_TEXT_LINES_H_
 
 #include <cstddef>
+#include <future>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "io/read/file_digest.h"
 #include "io/read/gzip_reader.h"
 #include "io/read/input_file.h"
 
@@ -21,7 +24,11 @@ class TextLines {
 
   /// Throws InputError if the file is missing, cannot be read, is no regular
   /// file, is empty, or begins as UTF-16 or as gzip within gzip do.
-  explicit TextLines(const std::string& path);
+  /// Read to its end, a plain file's digest goes to `digests` if that is given, which
+  /// must outlive the object.
+  explicit TextLines(const std::string& path, ReadDigests* digests = nullptr);
+  TextLines(const TextLines&) = delete;
+  TextLines& operator=(const TextLines&) = delete;
 
   /// Advances to the next line, valid until the next call. False at the end.
   /// Throws InputError for a line that is longer than kLongestLine or holds a
@@ -44,16 +51,23 @@ class TextLines {
   /// is none.
   bool Fill();
   void Check(std::string_view line) const;
+  /// Adds a piece to the digest, beside what is done with its lines.
+  void Digest(std::string_view piece);
 
   InputFile file_;
   std::unique_ptr<GzipReader> gzip_;  ///< null: plain text
   std::unique_ptr<char[]> buffer_;
+  /// That of the piece before where a digest is made, which may be at work in it still.
+  std::unique_ptr<char[]> other_;
   std::size_t offset_ = 0;  ///< of the next piece in a plain file
   std::string_view window_;
   bool odd_ = false;  ///< the window may hold NUL bytes or carriage returns
   std::size_t size_hint_ = 0;
   long number_ = 0;
   bool terminated_ = true;
+  ReadDigests* digests_;         ///< null: none is made, or all is done
+  std::optional<Sha256> sum_;    ///< if one is made
+  std::future<void> digesting_;  ///< the last member: it waits
 };
 
 /// Whether it begins as UTF-16 does.

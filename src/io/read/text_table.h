@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/read/file_digest.h"
 #include "io/read/row_source.h"
 #include "io/read/table_layout.h"
 #include "io/read/text_lines.h"
@@ -28,6 +29,8 @@ class TextTable final : public RowSource {
     bool allow_absent = false;          ///< empty and NaN values read as NaN
     /// Rows of text, and of another number of columns, are left out.
     bool drop_text = false;
+    /// What the file's digest goes to when it was read; may be null.
+    ReadDigests* digests = nullptr;
   };
 
   /// `first_row` is the first line of data if it was read already, else empty.
