@@ -54,7 +54,7 @@ void ErrorSearch::Tell(RobustBatchResult* result) const {
       result->bounded.push_back(std::move(one));
     }
     result->trust[static_cast<std::size_t>(best.sensor())] = best.Trust();
-    TellRival(rounds_[i], result);
+    if (i > 0 || !velocities_first_) TellRival(rounds_[i], result);
   }
   TellUndecided(result);
 }
@@ -98,21 +98,27 @@ void ErrorSearch::TellRival(const Round& round, RobustBatchResult* result) {
     const double probability = 1.0 / (1.0 + std::exp(behind));
     const double distance = std::sqrt(best.MeanSquareDistanceTo(other));
     if (!best.IsApart(other, result->batch.P)) continue;
+    const bool is_mean =
+        best.AverageWith(other, probability, result->problem.layout,
+                         &result->batch.states, &result->batch.P);
     result->doubts.push_back(
         {.grade = Grade::kDoubtful,
          .what = fmt::format(
-             "which sensor errs cannot be told: {}; or, {} likely, {}",
-             best.InWords(), FormatProbability(probability), other.InWords()),
+             "which sensor errs cannot be told: {}; or, {} likely, {}{}",
+             best.InWords(), FormatProbability(probability), other.InWords(),
+             is_mean ? ": the result is the mean, weighed by their "
+                       "probabilities"
+                     : ""),
          .value = distance,
          .unit = "m",
          .causes = {"sensors that contradict each other where the IMU cannot "
                     "tell which is right"},
          .remedies = {"'--without', which leaves one of them out"}});
     result->notes.push_back(fmt::format(
-        "or, {} likely and {:.3g} m away in the root mean square: {}",
-        FormatProbability(probability), distance, other.InWords()));
-    best.AverageWith(other, probability, result->problem.layout,
-                     &result->batch.states, &result->batch.P);
+        "or, {} likely and {:.3g} m away in the root mean square{}: {}",
+        FormatProbability(probability), distance,
+        is_mean ? " from that, between which the result is the mean" : "",
+        other.InWords()));
   }
 }
 

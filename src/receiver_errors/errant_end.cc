@@ -10,6 +10,12 @@
 namespace hindsight {
 namespace {
 
+std::size_t FirstFix(const SensorFindings& found) {
+  std::size_t first = 0;
+  while (!HasFix(found.tape, first, found.sensor)) ++first;
+  return first;
+}
+
 /// Whether the sensor errs at each node. Before its first fix it does what it does
 /// there.
 std::vector<char> ErrsAt(const SensorFindings& found) {
@@ -22,10 +28,14 @@ std::vector<char> ErrsAt(const SensorFindings& found) {
     errs.push_back(mode != ErrorMode::kGood &&
                    (mode != ErrorMode::kSlight || large));
   }
-  std::size_t first = 0;
-  while (!HasFix(found.tape, first, found.sensor)) ++first;
+  const std::size_t first = FirstFix(found);
   std::fill_n(errs.begin(), first, errs[first]);
   return errs;
+}
+
+bool ErrsEverywhere(const SensorFindings& found) {
+  return std::ranges::all_of(ErrsAt(found),
+                             [](char errs) { return errs != 0; });
 }
 
 ErrantEnd Between(const LinearTape& tape, std::size_t first, std::size_t past) {
@@ -88,6 +98,28 @@ double LogLossAtStart(const SensorFindings& found,
   return 0.5 * (there.dot(information * there) - off.dot(information * off));
 }
 
+/// The chosen hypothesis with the sensor good in a stretch in which it is off by a
+/// constant, and all else moved by that; steps as they are. The weight is by ln of the
+/// odds against it beside those of the start. Nothing where the error of the stretch
+/// varies by more than a third of itself.
+std::optional<WeighedHypothesis> GoodIn(const SensorFindings& found,
+                                        const ErrantEnd& stretch,
+                                        double log_odds) {
+  constexpr double kConstant = 1.0 / 3.0;
+  const ErrorOfStretch error = ErrorOver(found, stretch);
+  if (error.deviation > kConstant * error.mean.norm()) return std::nullopt;
+  const auto moved = MoveBy(found, stretch, error.mean);
+  if (!moved) return std::nullopt;
+  WeighedHypothesis out = found.chosen();
+  out.weight = 1.0 / (1.0 + std::exp(log_odds + LogLossAtStart(found, *moved)));
+  const int n = found.tape.dim();
+  for (std::size_t k = 0; k < out.steps.size(); ++k) {
+    out.smoothed[k].head<3>() += *moved;
+    out.smoothed[k].segment<3>(n) -= error.mean;
+  }
+  return out;
+}
+
 }  // namespace
 
 double ErrantEnd::LogOdds() const {
@@ -112,31 +144,42 @@ std::optional<ErrantEnd> FindErrantEnd(const SensorFindings& found) {
 }
 
 bool ErrsThroughout(const SensorFindings& found) {
-  if (!found.alone || !found.switching()) return false;
-  return std::ranges::all_of(ErrsAt(found),
-                             [](char errs) { return errs != 0; });
+  return found.alone && found.switching() && ErrsEverywhere(found);
 }
 
 std::optional<WeighedHypothesis> Exchanged(const SensorFindings& found,
                                            const ErrantEnd& errant) {
-  constexpr double kConstant = 1.0 / 3.0;
-  const ErrorOfStretch error = ErrorOver(found, errant);
-  if (error.deviation > kConstant * error.mean.norm()) return std::nullopt;
-  const auto moved = MoveBy(found, errant, error.mean);
-  if (!moved) return std::nullopt;
   const double well = LogOddsOfBeginningWell();
-  const double log_odds = errant.LogOdds() + (errant.at_start ? -well : well) +
-                          LogLossAtStart(found, *moved);
-  WeighedHypothesis out = found.chosen();
-  out.weight = 1.0 / (1.0 + std::exp(log_odds));
-  const int n = found.tape.dim();
-  for (std::size_t k = 0; k < out.steps.size(); ++k) {
+  std::optional<WeighedHypothesis> out = GoodIn(
+      found, errant, errant.LogOdds() + (errant.at_start ? -well : well));
+  if (!out) return std::nullopt;
+  for (std::size_t k = 0; k < out->steps.size(); ++k) {
     const bool good = k >= errant.first && k < errant.past;
     const bool anew = k == (errant.at_start ? errant.past : 0);
-    out.steps[k] = {good ? ErrorMode::kGood : ErrorMode::kBiased, anew};
-    out.smoothed[k].head<3>() += *moved;
-    out.smoothed[k].segment<3>(n) -= error.mean;
+    out->steps[k] = {good ? ErrorMode::kGood : ErrorMode::kBiased, anew};
   }
+  return out;
+}
+
+std::optional<WeighedHypothesis> ExchangedWithOther(
+    const SensorFindings& found) {
+  if (!found.beside_one || !found.switching() || !ErrsEverywhere(found)) {
+    return std::nullopt;
+  }
+  const std::vector<ErrorStep>& steps = found.chosen().steps;
+  std::size_t jump = FirstFix(found) + 1;
+  while (jump < steps.size() && !steps[jump].anew &&
+         steps[jump].mode == steps[jump - 1].mode) {
+    ++jump;
+  }
+  if (jump >= steps.size()) return std::nullopt;
+  const ErrantEnd stretch = Between(found.tape, 0, jump);
+  std::optional<WeighedHypothesis> out =
+      GoodIn(found, stretch,
+             LogOddsOfAnotherBias() + kEndsOfAnError * (1.0 - stretch.share));
+  if (!out) return std::nullopt;
+  std::fill_n(out->steps.begin(), jump, ErrorStep{});
+  out->steps[jump].anew = true;
   return out;
 }
 

@@ -52,6 +52,15 @@ bool ErrsThroughout(const SensorFindings& found);
 std::optional<WeighedHypothesis> Exchanged(const SensorFindings& found,
                                            const ErrantEnd& errant);
 
+/// Of a sensor that is off from its first fix to its last, by a constant up to a jump,
+/// beside one other of positions, with which it agrees nowhere: the hypothesis by which
+/// it is good up to the jump and the other off by that constant throughout. The
+/// likelihood is the same. The weight is its probability against the chosen one's: an
+/// error that begins in place of one that changes (LogOddsOfAnotherBias), one of the
+/// other that does not end in what follows either, and the start as it is known a priori.
+std::optional<WeighedHypothesis> ExchangedWithOther(
+    const SensorFindings& found);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_RECEIVER_ERRORS_ERRANT_END_H_

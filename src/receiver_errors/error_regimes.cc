@@ -182,6 +182,7 @@ std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem) {
   if (!problem.has_gauss_markov) {
     all.push_back(FitGaussMarkov(problem, start));
   }
+  if (problem.effort->stopped()) return all;
   start.scale = std::min(start.scale,
                          MeanScale(all.back().hypotheses.front().parameters));
   std::vector<ErrorRegimes> fits = FitOrders(problem, start, all[1]);

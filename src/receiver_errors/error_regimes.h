@@ -56,7 +56,8 @@ struct RegimeProblem {
 /// (receiver_errors/error_tuning.h). Sequences are sought from several sizes of
 /// errors, in turn with fits of the parameters to what was found; the best with
 /// different orders of modes are refined, each with parameters of its own. Ends
-/// early, with what there is, once the effort is spent.
+/// early, with what there is, once the effort is spent; with no switching ones where it
+/// was stopped before the parameters of the others were fitted.
 std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem);
 
 /// Regimes found on normal points, refined on all fixes (`problem`): the noise is

@@ -49,12 +49,13 @@ std::vector<int> SensorsInQuestion(const Timeline& timeline,
 }
 
 /// The searches of several sensors, in their order: each gets of effort and time an equal
-/// part of what those before have left.
-std::vector<std::unique_ptr<const SensorFindings>> SearchAll(
+/// part of what those before have left. Where the time did not suffice for the parameters
+/// of several, which one fits best hangs on what its fit began from: none of these stands.
+std::vector<std::unique_ptr<SensorFindings>> SearchAll(
     const Problem& problem, const LinearTape& tape,
     const ErrorQuestion& question, const std::vector<int>& sensors) {
   using Clock = std::chrono::steady_clock;
-  std::vector<std::unique_ptr<const SensorFindings>> found;
+  std::vector<std::unique_ptr<SensorFindings>> found;
   const auto count = static_cast<double>(sensors.size());
   double left = question.share;
   for (const int sensor : sensors) {
@@ -70,8 +71,14 @@ std::vector<std::unique_ptr<const SensorFindings>> SearchAll(
           return goes_on && Clock::now() < until;
         }};
     found.push_back(
-        std::make_unique<const SensorFindings>(problem, tape, sensor, limits));
+        std::make_unique<SensorFindings>(problem, tape, sensor, limits));
     left -= found.back()->spent;
+  }
+  const auto is_unfitted = [](const auto& one) { return one->unfitted; };
+  if (std::ranges::count_if(found, is_unfitted) > 1) {
+    for (auto& one : found) {
+      if (one->unfitted) one->Withdraw();
+    }
   }
   return found;
 }

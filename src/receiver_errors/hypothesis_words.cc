@@ -130,21 +130,14 @@ std::vector<std::string> DescribeErrors(const ModeSequence& steps,
   };
   std::vector<std::string> all;
   if (has(ErrorMode::kBiased)) {
-    const bool is_one =
-        steps.front().mode == ErrorMode::kBiased &&
-        std::all_of(steps.begin() + 1, steps.end(), [](const ErrorStep& s) {
-          return s.mode == ErrorMode::kBiased && !s.anew;
-        });
     all.push_back(
         p.tau <= duration
             ? fmt::format(
                   "Gauss-Markov error of {:.3g} {}, correlation time {:.3g} s",
                   p.sigma, unit, p.tau)
-            : fmt::format("{} that walks by {:.3g} {}/sqrt(s)",
-                          is_one
-                              ? "error"
-                              : fmt::format("bias of {:.3g} {}", p.sigma, unit),
-                          p.sigma * std::sqrt(2.0 / p.tau), unit));
+            : fmt::format("bias of {:.3g} {} that walks by {:.3g} {}/sqrt(s)",
+                          p.sigma, unit, p.sigma * std::sqrt(2.0 / p.tau),
+                          unit));
   }
   if (has(ErrorMode::kSlight)) {
     all.push_back(

@@ -113,6 +113,8 @@ double LogOddsOfBeginningWell() {
          std::log(kEndsOfAnError / kJumps);
 }
 
+double LogOddsOfAnotherBias() { return std::log(kChanges / kJumps); }
+
 double LogOfVelocitySteps(int count) {
   constexpr double kRarer = 4.605170185988092;  // ln 100
   return -0.5 * kRarer * count * (count - 1);

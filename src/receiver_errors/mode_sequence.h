@@ -81,6 +81,9 @@ double LogFirst(ErrorStep step, int fixes);
 /// ln of how much likelier it is that a receiver which errs over some stretch does so
 /// at the end of a recording than at its begin: 0 of a stationary sequence.
 double LogOddsOfBeginningWell();
+/// ln of how much likelier it is that a biased receiver jumps to another bias at some
+/// time than that a good one becomes biased.
+double LogOddsOfAnotherBias();
 /// ln of what `count` velocity steps in a sequence cost beyond their transitions.
 /// Each is taken as a hundred times rarer than the one before it: an IMU may have
 /// had a shock; one that has them again and again is one with other noise than

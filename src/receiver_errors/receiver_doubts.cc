@@ -1,9 +1,11 @@
 #include <fmt/core.h>
 
+#include <cmath>
 #include <optional>
 
 #include "receiver_errors/errant_end.h"
 #include "receiver_errors/receiver_errors.h"
+#include "receiver_errors/regime_choice.h"
 #include "receiver_errors/sensor_findings.h"
 #include "receiver_errors/uniform_regimes.h"
 
@@ -41,6 +43,18 @@ std::vector<Evidence> ReceiverErrors::Doubts() const {
                  "tells positions",
          .causes = {"hypotheses by which one part or the other errs, between "
                     "which this one lies"},
+         .remedies = {"a stream with a position that is known"}});
+  }
+  if (found_->other_errs > std::exp(-kLeastGain)) {
+    doubts.push_back(
+        {.grade = Grade::kDoubtful,
+         .what = found_->name +
+                 " agrees nowhere with the only other sensor of positions, "
+                 "which may be off in its place",
+         .value = found_->other_errs,
+         .limit = std::exp(-kLeastGain),
+         .unit = "probability",
+         .causes = {"two receivers that err, one of them throughout"},
          .remedies = {"a stream with a position that is known"}});
   }
   const double imu = found_->chosen().parameters.imu_scale;

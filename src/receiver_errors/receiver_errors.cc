@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -139,12 +140,14 @@ std::vector<std::string> ReceiverErrors::Notes(
     if (!other.empty()) notes.push_back(std::move(other));
   }
   for (const Hypothesis& one : found_->undecided) {
-    notes.push_back(
-        fmt::format("not ruled out, by exp({:.2g}) to 1 against noise: {}",
-                    one.log_posterior,
-                    fmt::join(DescribeErrors(one.sequence, one.parameters,
-                                             found_->unit, found_->Duration()),
-                              ", ")));
+    const std::vector<std::string> errors = DescribeErrors(
+        one.sequence, one.parameters, found_->unit, found_->Duration());
+    notes.push_back(fmt::format(
+        "not ruled out, {:.2g} times {} likely than noise: {}",
+        std::exp(std::abs(one.log_posterior)),
+        one.log_posterior > 0.0 ? "more" : "less",
+        errors.empty() ? "outliers, or steps of the IMU's velocity"
+                       : fmt::format("{}", fmt::join(errors, ", "))));
   }
   for (std::string& note : notes) note.insert(0, found_->name + ": ");
   return notes;
@@ -188,7 +191,7 @@ bool ReceiverErrors::IsApart(const ReceiverErrors& other,
   return Separate(other.found_->chosen(), found_->chosen(), P).significant;
 }
 
-void ReceiverErrors::AverageWith(const ReceiverErrors& other,
+bool ReceiverErrors::AverageWith(const ReceiverErrors& other,
                                  double probability, const ErrorLayout& layout,
                                  std::vector<State>* states,
                                  CovarianceSeries* P) const {
@@ -209,6 +212,7 @@ void ReceiverErrors::AverageWith(const ReceiverErrors& other,
     }
     P->Set(k, P_k);
   }
+  return comparable;
 }
 
 double ReceiverErrors::LogOfPrior() const { return found_->log_prior; }

@@ -92,8 +92,9 @@ class ReceiverErrors {
   std::vector<std::string> Notes(const CovarianceSeries& P) const;
 
   /// What makes the result doubtful: the only sensor of positions erring to its
-  /// last fix, or from its first, for more than an eighth of the recording; an IMU
-  /// whose noise has to be taken for much more than stated.
+  /// last fix, or from its first, for more than an eighth of the recording; the only
+  /// other one off in its place, where they agree nowhere; an IMU whose noise has to be
+  /// taken for much more than stated.
   std::vector<Evidence> Doubts() const;
 
   /// What makes the result doubtful beside noise that was chosen: errors that lose to
@@ -123,9 +124,10 @@ class ReceiverErrors {
   /// of the horizontal position first) away at some node.
   bool IsApart(const ReceiverErrors& other, const CovarianceSeries& P) const;
   /// Adds to P what it is worth that the other errs in place of this sensor, with a
-  /// probability. Where that is more than one to 10^(1/2), the states become the mean of
-  /// both, weighed by them, and P is of the mixture.
-  void AverageWith(const ReceiverErrors& other, double probability,
+  /// probability, by the covariance of both alike. Where that is more than one to
+  /// 10^(1/2), the states become the mean of both, weighed by them, P is of the mixture,
+  /// and true is returned.
+  bool AverageWith(const ReceiverErrors& other, double probability,
                    const ErrorLayout& layout, std::vector<State>* states,
                    CovarianceSeries* P) const;
   /// ln of what sequence and parameters of the likeliest hypothesis are worth a

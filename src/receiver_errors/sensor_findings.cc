@@ -86,12 +86,13 @@ double LogPriorOfFit(const RegimeProblem& problem, const ErrorRegimes& fit) {
                                 .log_likelihood;
 }
 
-bool IsAlone(const Timeline& timeline, int sensor) {
+/// Whether a sensor measures positions, as do so many of all.
+bool IsOneOf(std::ptrdiff_t count, const Timeline& timeline, int sensor) {
   const auto& sensors = timeline.sensors();
   return sensors[static_cast<std::size_t>(sensor)].kind->is_position &&
          std::count_if(sensors.begin(), sensors.end(), [](const Sensor& one) {
            return one.kind->is_position;
-         }) == 1;
+         }) == count;
 }
 
 }  // namespace
@@ -104,7 +105,8 @@ ErrorDecisions::ErrorDecisions(const Problem& problem, const LinearTape& tape,
                                int index)
     : sensor(index),
       name(problem.timeline.sensors()[static_cast<std::size_t>(index)].name),
-      alone(IsAlone(problem.timeline, index)),
+      alone(IsOneOf(1, problem.timeline, index)),
+      beside_one(IsOneOf(2, problem.timeline, index)),
       unit(UnitOf(
           *problem.timeline.sensors()[static_cast<std::size_t>(index)].kind,
           RowsOf(tape, index), OwnFieldOf(problem.layout, index) != nullptr)),
@@ -133,6 +135,8 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
       .is_tolerance = is_tolerance,
       .has_clock = problem.layout.Has(BlockKind::kTimeOffset, sensor)};
   std::vector<ErrorRegimes> all = FitRegimes(regime);
+  unfitted =
+      effort.stopped() && all.back().kind != ErrorRegimes::Kind::kSwitching;
   searched_fixes = all.front().hypotheses.front().sequence.size();
   choice = ChooseRegime(regime, all);
   log_prior = LogPriorOfFit(regime, all[choice.chosen]);
@@ -166,6 +170,15 @@ SensorFindings::SensorFindings(const ErrorDecisions& decisions,
   WeighAlternatives();
 }
 
+void SensorFindings::Withdraw() {
+  choice = {};
+  undecided.clear();
+  regimes = {};
+  alternatives.clear();
+  errant_start = false;
+  other_errs = 0.0;
+}
+
 void SensorFindings::WeighAlternatives() {
   if (!stands()) return;
   alternatives = WeighHypotheses(tape, sensor, regimes);
@@ -175,10 +188,12 @@ void SensorFindings::WeighAlternatives() {
 
 void SensorFindings::AddExchanged() {
   const std::optional<ErrantEnd> errant = FindErrantEnd(*this);
-  if (!errant || !errant->IsDoubtful()) return;
-  std::optional<WeighedHypothesis> exchanged = Exchanged(*this, *errant);
+  const bool at_end = errant && errant->IsDoubtful();
+  std::optional<WeighedHypothesis> exchanged =
+      at_end ? Exchanged(*this, *errant) : ExchangedWithOther(*this);
   if (!exchanged) return;
-  errant_start = errant->at_start;
+  errant_start = at_end && errant->at_start;
+  if (!at_end) other_errs = exchanged->weight;
   // What the search met of it counts already.
   double known = 0.0;
   for (const WeighedHypothesis& one : alternatives) {

@@ -36,18 +36,20 @@ struct ErrorDecisions {
 
   int sensor;
   std::string name;
-  bool alone = false;   ///< no other sensor measures a position, but this does
-  std::string unit;     ///< of its error
-  double stated_sigma;  ///< of its fixes, an axis [SI]
-  bool is_tolerance;    ///< as of RegimeProblem
+  bool alone = false;  ///< no other sensor measures a position, but this does
+  bool beside_one = false;         ///< exactly one other does, and this
+  std::string unit;                ///< of its error
+  double stated_sigma;             ///< of its fixes, an axis [SI]
+  bool is_tolerance;               ///< as of RegimeProblem
   std::size_t searched_fixes = 0;  ///< fixes or normal points
   /// ln of the evidence that was chosen, on these, without the likelihood.
   double log_prior = 0.0;
   RegimeChoice choice;
   /// RegimeChoice::undecided, by fix; their log_posterior is the gain.
   std::vector<Hypothesis> undecided;
-  ErrorRegimes regimes;  ///< if they stand
-  bool stopped = false;  ///< the search, by whoever asked
+  ErrorRegimes regimes;   ///< if they stand
+  bool stopped = false;   ///< the search, by whoever asked
+  bool unfitted = false;  ///< it was, before any parameters were fitted
 };
 
 /// What is known of the errors of one sensor once they have been looked for.
@@ -75,6 +77,9 @@ struct SensorFindings : ErrorDecisions {
   /// fixes are not in them.
   void ChooseNoise(const LinearTape& fixes, SearchEffort* effort);
 
+  /// Takes back what stands.
+  void Withdraw();
+
   /// Smooths the hypotheses of the regimes, if they stand, about the tape.
   void WeighAlternatives();
   /// Where good and erroneous fixes may be the other way about, beside the chosen
@@ -86,6 +91,9 @@ struct SensorFindings : ErrorDecisions {
   std::size_t central = 0;  ///< of the alternatives, the chosen one
   /// The chosen one has the sensor err from its first fix, doubtfully.
   bool errant_start = false;
+  /// How probable it is that the only other sensor of positions is off throughout, and
+  /// this one is not at first (ExchangedWithOther).
+  double other_errs = 0.0;
   double spent = 0.0;  ///< share of the effort that the search took
 };
 

@@ -50,5 +50,28 @@ TEST(FindReceiverErrors, HasTimeForEachSensor) {
   EXPECT_GT(steps_of_second, 1);
 }
 
+/// Which one is blamed would hang on what the fits begin from.
+TEST(FindReceiverErrors, BlamesNoneOfSeveralWhoseErrorsWereNotFitted) {
+  TestProblem test = OfTwoSensors();
+  for (Measurement& z : test.measurements) {
+    auto* fix = std::get_if<PositionFix>(&z.model);
+    if (fix != nullptr && z.t > 15.5) {
+      fix->p_e += NedAxes(fix->p_e) * Eigen::Vector3d(20.0, 0.0, 0.0);
+    }
+  }
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  const auto stands = [&](bool goes_on) {
+    int count = 0;
+    for (const ReceiverErrors& one : FindReceiverErrors(
+             problem, tape, {.go_on = [=](double) { return goes_on; }})) {
+      count += one.Stands();
+    }
+    return count;
+  };
+  EXPECT_GT(stands(true), 0);
+  EXPECT_EQ(stands(false), 0);
+}
+
 }  // namespace
 }  // namespace hindsight

@@ -336,6 +336,49 @@ TEST(ReceiverErrors, OfAKnownStartHaveNoExchangedRoles) {
   EXPECT_LT(known.variance, 5.0);
 }
 
+/// Of two receivers that agree nowhere one has jumped: which one is off before that only
+/// what is known of the start tells.
+TEST(ReceiverErrors, ThroughoutBesideOneOtherMayBeThoseOfTheOther) {
+  for (const double start_sigma : {1e4, 1.0}) {
+    TestProblem test = FixesOfOneMinute();
+    test.prior.P.topLeftCorner<3, 3>() =
+        Eigen::Matrix3d::Identity() * start_sigma * start_sigma;
+    AddStep(-1.0, &test, 0.5);
+    AddStep(10.5, &test);
+    Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+    const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+    ErrorDecisions decisions = TwoTellings(problem, tape, 0.0, 0, 10.5);
+    std::vector<Hypothesis>& all = decisions.regimes.hypotheses;
+    all.pop_back();
+    for (ErrorStep& step : all.front().sequence) step.mode = ErrorMode::kBiased;
+    all.front().sequence.front().anew = true;
+    decisions.alone = false;
+    const auto doubt_of = [&] {
+      const ReceiverErrors errors = TakeThem(decisions, problem, tape);
+      EXPECT_EQ(errors.Doubts().size(),
+                decisions.beside_one && start_sigma > 100.0 ? 1u : 0u);
+      Problem extended = problem;
+      errors.Extend(&extended);
+      std::vector<State> states = errors.States(extended.layout);
+      CovarianceSeries P(extended.layout.dim(), states.size());
+      for (std::size_t k = 0; k < states.size(); ++k) {
+        P.Set(k, ErrorMatrix(ErrorMatrix::Identity(extended.layout.dim(),
+                                                   extended.layout.dim())));
+      }
+      return errors.Average(extended.layout, &states, &P);
+    };
+    EXPECT_FALSE(doubt_of().has_value());
+    decisions.beside_one = true;
+    const std::optional<Evidence> doubt = doubt_of();
+    ASSERT_EQ(doubt.has_value(), start_sigma > 100.0);
+    if (doubt) {
+      EXPECT_THAT(doubt->what,
+                  HasSubstr("or else, 1.2 % likely and up to 18 m away, "
+                            "biased from 11 s to the end"));
+    }
+  }
+}
+
 /// Of two sensors one is right before the step and one behind it.
 TEST(ReceiverErrors, ThatAreAboutAsLikelyOfAnotherSensorGiveTheMean) {
   TestProblem test = FixesOfOneMinute();
@@ -530,7 +573,7 @@ TEST(ReceiverErrors, ThatNoiseDoesNotRuleOutAreDoubtfulWhereTheyLeadElsewhere) {
   ASSERT_TRUE(doubt.has_value());
   EXPECT_THAT(doubt->what, HasSubstr("or else, 12 % likely and up to"));
   EXPECT_THAT(errors.Notes(P),
-              Contains(HasSubstr("not ruled out, by exp(-2) to 1 against "
+              Contains(HasSubstr("not ruled out, 7.4 times less likely than "
                                  "noise: Gauss-Markov error of 10 m")));
 }
 
