@@ -43,7 +43,8 @@ void ErrorSearch::Tell(RobustBatchResult* result) const {
     if (!best.Stands()) break;
     // What else velocities may have done without the positions is farther off than
     // with them.
-    if (i > 0 || !velocities_first_) {
+    const bool is_without_positions = i == 0 && velocities_first_;
+    if (!is_without_positions) {
       std::optional<Evidence> doubt = best.Average(
           problem_.layout, &result->batch.states, &result->batch.P);
       if (doubt) result->doubts.push_back(std::move(*doubt));
@@ -54,7 +55,7 @@ void ErrorSearch::Tell(RobustBatchResult* result) const {
       result->bounded.push_back(std::move(one));
     }
     result->trust[static_cast<std::size_t>(best.sensor())] = best.Trust();
-    if (i > 0 || !velocities_first_) TellRival(rounds_[i], result);
+    TellRival(rounds_[i], !is_without_positions, result);
   }
   TellUndecided(result);
 }
@@ -89,7 +90,8 @@ void ErrorSearch::TellNotes(const Round& round, RobustBatchResult* result) {
   }
 }
 
-void ErrorSearch::TellRival(const Round& round, RobustBatchResult* result) {
+void ErrorSearch::TellRival(const Round& round, bool averages,
+                            RobustBatchResult* result) {
   const ReceiverErrors& best = round.best();
   for (std::size_t i = 1; i < round.errors.size(); ++i) {
     const ReceiverErrors& other = round.errors[i];
@@ -99,8 +101,8 @@ void ErrorSearch::TellRival(const Round& round, RobustBatchResult* result) {
     const double distance = std::sqrt(best.MeanSquareDistanceTo(other));
     if (!best.IsApart(other, result->batch.P)) continue;
     const bool is_mean =
-        best.AverageWith(other, probability, result->problem.layout,
-                         &result->batch.states, &result->batch.P);
+        averages && best.AverageWith(other, probability, result->problem.layout,
+                                     &result->batch.states, &result->batch.P);
     result->doubts.push_back(
         {.grade = Grade::kDoubtful,
          .what = fmt::format(

@@ -72,8 +72,9 @@ RobustBatchOptions OptionsOf(const MethodStage& stage,
           .callback = stage.forward().Progress("robust_batch"),
           .go_on =
               [&options, end](double fraction) {
-                if (options.stop != nullptr && *options.stop)
+                if (options.stop != nullptr && *options.stop) {
                   throw Interrupted();
+                }
                 if (options.progress) {
                   options.progress("errors of sensors", fraction);
                 }
