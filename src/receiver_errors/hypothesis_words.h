@@ -50,8 +50,8 @@ RivalHypothesis FindRivalBeyond(const std::vector<WeighedHypothesis>& all,
 std::string DescribeNoise(ErrorRegimes::Kind kind, const ErrorParameters& p);
 /// What the errors of a sequence's steps are like, a clause for each kind; `unit` of
 /// the error; empty if they have none. Of a Gauss-Markov error whose correlation time is
-/// longer than the recording, of `duration` [s], its walk, sqrt(2 / tau) sigma, which is
-/// all that is seen of the time.
+/// longer than the recording, of `duration` [s], its walk, sqrt(2 / tau) sigma, in place
+/// of that time, which nobody sees.
 std::vector<std::string> DescribeErrors(const ModeSequence& steps,
                                         const ErrorParameters& p,
                                         const std::string& unit,

@@ -142,10 +142,10 @@ std::vector<std::string> ReceiverErrors::Notes(
   for (const Hypothesis& one : found_->undecided) {
     const std::vector<std::string> errors = DescribeErrors(
         one.sequence, one.parameters, found_->unit, found_->Duration());
+    const double odds = std::exp(std::abs(one.log_posterior));
     notes.push_back(fmt::format(
-        "not ruled out, {:.2g} times {} likely than noise: {}",
-        std::exp(std::abs(one.log_posterior)),
-        one.log_posterior > 0.0 ? "more" : "less",
+        "not ruled out, {:.{}f} times {} likely than noise: {}", odds,
+        odds < 10.0 ? 1 : 0, one.log_posterior > 0.0 ? "more" : "less",
         errors.empty() ? "outliers, or steps of the IMU's velocity"
                        : fmt::format("{}", fmt::join(errors, ", "))));
   }

@@ -40,8 +40,8 @@ struct ErrorQuestion {
   /// Told the fraction done, between the steps of the search; false ends it with
   /// the best so far; may throw to abandon it.
   std::function<bool(double)> go_on = nullptr;
-  /// When it ends in any case. The sensors share the time, as they are compared: one
-  /// that is not asked after is not blamed.
+  /// When it ends in any case. The sensors share the time, as they are compared; where
+  /// that is too short for the parameters of several, none of these is blamed.
   std::chrono::steady_clock::time_point until =
       std::chrono::steady_clock::time_point::max();
 };
