@@ -118,10 +118,10 @@ class ErrorSearch {
   static void TellNotes(const Round& round, RobustBatchResult* result);
   /// Errors that sensors may have which were left their noise.
   void TellUndecided(RobustBatchResult* result) const;
-  /// Errors of another sensor that explain the same; what both are worth together, if
+  /// Errors of other sensors that explain the same; what all are worth together, if
   /// it `averages`.
-  static void TellRival(const Round& round, bool averages,
-                        RobustBatchResult* result);
+  static void TellRivals(const Round& round, bool averages,
+                         RobustBatchResult* result);
 
   Problem problem_;
   const RobustBatchOptions* options_;

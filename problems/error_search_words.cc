@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/text.h"
 #include "filters/rts.h"
@@ -55,7 +57,7 @@ void ErrorSearch::Tell(RobustBatchResult* result) const {
       result->bounded.push_back(std::move(one));
     }
     result->trust[static_cast<std::size_t>(best.sensor())] = best.Trust();
-    TellRival(rounds_[i], !is_without_positions, result);
+    TellRivals(rounds_[i], !is_without_positions, result);
   }
   TellUndecided(result);
 }
@@ -90,38 +92,49 @@ void ErrorSearch::TellNotes(const Round& round, RobustBatchResult* result) {
   }
 }
 
-void ErrorSearch::TellRival(const Round& round, bool averages,
-                            RobustBatchResult* result) {
+void ErrorSearch::TellRivals(const Round& round, bool averages,
+                             RobustBatchResult* result) {
   const ReceiverErrors& best = round.best();
+  std::vector<RivalSensor> rivals;
+  double odds = 1.0;  // of all beside the best
   for (std::size_t i = 1; i < round.errors.size(); ++i) {
     const ReceiverErrors& other = round.errors[i];
     const double behind = best.log_gain() - other.log_gain();
     if (!other.Stands() || behind >= kSureLogOdds) continue;
-    const double probability = 1.0 / (1.0 + std::exp(behind));
-    const double distance = std::sqrt(best.MeanSquareDistanceTo(other));
-    if (!best.IsApart(other, result->batch.P)) continue;
-    const bool is_mean =
-        averages && best.AverageWith(other, probability, result->problem.layout,
-                                     &result->batch.states, &result->batch.P);
-    result->doubts.push_back(
-        {.grade = Grade::kDoubtful,
-         .what = fmt::format(
-             "which sensor errs cannot be told: {}; or, {} likely, {}{}",
-             best.InWords(), FormatProbability(probability), other.InWords(),
-             is_mean ? ": the result is the mean, weighed by their "
-                       "probabilities"
-                     : ""),
-         .value = distance,
-         .unit = "m",
-         .causes = {"sensors that contradict each other where the IMU cannot "
-                    "tell which is right"},
-         .remedies = {"'--without', which leaves one of them out"}});
-    result->notes.push_back(fmt::format(
-        "or, {} likely and {:.3g} m away in the root mean square{}: {}",
-        FormatProbability(probability), distance,
-        is_mean ? " from that, between which the result is the mean" : "",
-        other.InWords()));
+    odds += std::exp(-behind);
+    if (best.IsApart(other, result->batch.P)) {
+      rivals.push_back({&other, std::exp(-behind)});
+    }
   }
+  if (rivals.empty()) return;
+  for (RivalSensor& one : rivals) one.probability /= odds;
+  const bool is_mean =
+      averages && best.AverageWith(rivals, result->problem.layout,
+                                   &result->batch.states, &result->batch.P);
+  std::string words = "which sensor errs cannot be told: " + best.InWords();
+  double farthest = 0.0;
+  for (const RivalSensor& one : rivals) {
+    const std::string likely = FormatProbability(one.probability);
+    const double distance = std::sqrt(best.MeanSquareDistanceTo(*one.errors));
+    farthest = std::max(farthest, distance);
+    words += fmt::format("; or, {} likely, {}", likely, one.errors->InWords());
+    result->notes.push_back(fmt::format(
+        "or, {} likely and {:.3g} m away in the root mean square{}: {}", likely,
+        distance,
+        is_mean ? " from that, between which the result is the mean" : "",
+        one.errors->InWords()));
+  }
+  if (is_mean) {
+    words += ": the result is the mean, weighed by their probabilities";
+  }
+  result->doubts.push_back(
+      {.grade = Grade::kDoubtful,
+       .what = std::move(words),
+       .value = farthest,
+       .unit = "m",
+       .causes = {"sensors that contradict each other where the IMU cannot "
+                  "tell which is right"},
+       .remedies = {"'--without', which leaves one of them out"}});
 }
 
 }  // namespace hindsight

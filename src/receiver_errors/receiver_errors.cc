@@ -191,24 +191,30 @@ bool ReceiverErrors::IsApart(const ReceiverErrors& other,
   return Separate(other.found_->chosen(), found_->chosen(), P).significant;
 }
 
-bool ReceiverErrors::AverageWith(const ReceiverErrors& other,
-                                 double probability, const ErrorLayout& layout,
+bool ReceiverErrors::AverageWith(const std::vector<RivalSensor>& others,
+                                 const ErrorLayout& layout,
                                  std::vector<State>* states,
                                  CovarianceSeries* P) const {
   const ErrorStates own = found_->states();
   const int dim = found_->tape.dim();
-  const bool comparable = probability > kComparable;
+  double together = 0.0;
+  for (const RivalSensor& other : others) together += other.probability;
+  const bool comparable = together > kComparable;
   for (std::size_t k = 0; k < found_->tape.size(); ++k) {
-    // If the other errs, this sensor does not.
-    ErrorVector d = -found_->chosen().smoothed[k];
-    d.head(dim) += other.found_->chosen().smoothed[k].head(dim);
-    const auto of_states = d.head(dim);
+    const ErrorVector& chosen = found_->chosen().smoothed[k];
+    // If another errs, this sensor does not.
+    ErrorVector mean = -together * chosen;
     ErrorMatrix P_k = P->Get(k);
-    P_k.topLeftCorner(dim, dim) += (comparable ? 1.0 - probability : 1.0) *
-                                   probability * of_states *
-                                   of_states.transpose();
+    for (const RivalSensor& other : others) {
+      const auto there = other.errors->found_->chosen().smoothed[k].head(dim);
+      const ErrorVector d = there - chosen.head(dim);
+      mean.head(dim) += other.probability * there;
+      P_k.topLeftCorner(dim, dim) += other.probability * d * d.transpose();
+    }
     if (comparable) {
-      (*states)[k] = own.Moved(layout, (*states)[k], probability * d);
+      P_k.topLeftCorner(dim, dim) -=
+          mean.head(dim) * mean.head(dim).transpose();
+      (*states)[k] = own.Moved(layout, (*states)[k], mean);
     }
     P->Set(k, P_k);
   }

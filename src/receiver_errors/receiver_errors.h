@@ -46,6 +46,14 @@ struct ErrorQuestion {
       std::chrono::steady_clock::time_point::max();
 };
 
+class ReceiverErrors;
+
+/// Another sensor's errors, which explain the data in place of one's own.
+struct RivalSensor {
+  const ReceiverErrors* errors;
+  double probability;
+};
+
 /// What the errors of one absolute sensor are like, as FindReceiverErrors found
 /// them: the noise of its fixes, and beyond noise the hypotheses of its error
 /// that the data do not rule out, of which one is chosen.
@@ -123,11 +131,11 @@ class ReceiverErrors {
   /// Whether that trajectory is more than three standard deviations of P (errors
   /// of the horizontal position first) away at some node.
   bool IsApart(const ReceiverErrors& other, const CovarianceSeries& P) const;
-  /// Adds to P what it is worth that the other errs in place of this sensor, with a
-  /// probability, by the covariance of both alike. Where that is more than one to
-  /// 10^(1/2), the states become the mean of both, weighed by them, P is of the mixture,
-  /// and true is returned.
-  bool AverageWith(const ReceiverErrors& other, double probability,
+  /// Adds to P what it is worth that one of the others errs in place of this sensor, by
+  /// the covariance of all alike. Where together they are likelier than one to 10^(1/2),
+  /// the states become the mean of all, weighed by their probabilities, P is of the
+  /// mixture, and true is returned.
+  bool AverageWith(const std::vector<RivalSensor>& others,
                    const ErrorLayout& layout, std::vector<State>* states,
                    CovarianceSeries* P) const;
   /// ln of what sequence and parameters of the likeliest hypothesis are worth a

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "measurements/magnetic_field.h"
@@ -86,13 +87,19 @@ double LogPriorOfFit(const RegimeProblem& problem, const ErrorRegimes& fit) {
                                 .log_likelihood;
 }
 
-/// Whether a sensor measures positions, as do so many of all.
-bool IsOneOf(std::ptrdiff_t count, const Timeline& timeline, int sensor) {
-  const auto& sensors = timeline.sensors();
-  return sensors[static_cast<std::size_t>(sensor)].kind->is_position &&
-         std::count_if(sensors.begin(), sensors.end(), [](const Sensor& one) {
-           return one.kind->is_position;
-         }) == count;
+/// Sensors of positions of which a fix is used.
+std::set<int> UsedPositions(const Timeline& timeline, const LinearTape& tape) {
+  std::set<int> used;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      const auto sensor = static_cast<std::size_t>(z.sensor);
+      if (z.accepted && !z.withheld &&
+          timeline.sensors()[sensor].kind->is_position) {
+        used.insert(z.sensor);
+      }
+    }
+  }
+  return used;
 }
 
 }  // namespace
@@ -105,14 +112,16 @@ ErrorDecisions::ErrorDecisions(const Problem& problem, const LinearTape& tape,
                                int index)
     : sensor(index),
       name(problem.timeline.sensors()[static_cast<std::size_t>(index)].name),
-      alone(IsOneOf(1, problem.timeline, index)),
-      beside_one(IsOneOf(2, problem.timeline, index)),
       unit(UnitOf(
           *problem.timeline.sensors()[static_cast<std::size_t>(index)].kind,
           RowsOf(tape, index), OwnFieldOf(problem.layout, index) != nullptr)),
       stated_sigma(StatedSigma(tape, index)),
       is_tolerance(problem.timeline.sensors()[static_cast<std::size_t>(index)]
-                       .kind->generated) {}
+                       .kind->generated) {
+  const std::set<int> positions = UsedPositions(problem.timeline, tape);
+  alone = positions.contains(index) && positions.size() == 1;
+  beside_one = positions.contains(index) && positions.size() == 2;
+}
 
 SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
                                int index, const SearchLimits& limits)

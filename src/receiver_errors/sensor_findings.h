@@ -36,8 +36,8 @@ struct ErrorDecisions {
 
   int sensor;
   std::string name;
-  bool alone = false;  ///< no other sensor measures a position, but this does
-  bool beside_one = false;         ///< exactly one other does, and this
+  bool alone = false;  ///< it has positions in use, and no other sensor has
+  bool beside_one = false;         ///< it has, and exactly one other
   std::string unit;                ///< of its error
   double stated_sigma;             ///< of its fixes, an axis [SI]
   bool is_tolerance;               ///< as of RegimeProblem

@@ -397,11 +397,19 @@ TEST(ReceiverErrors, ThatAreAboutAsLikelyOfAnotherSensorGiveTheMean) {
   one.Extend(&problem);
   const Block* e = problem.layout.Find(BlockKind::kSensorError, 0);
   ASSERT_NE(e, nullptr);
-  for (const double probability : {0.4, 0.1}) {
+  // Two sensors of which neither is likely enough by itself may be together.
+  const std::vector<std::vector<double>> all = {{0.4}, {0.1}, {0.2, 0.2}};
+  for (const std::vector<double>& probabilities : all) {
     std::vector<State> states = one.States(problem.layout);
     const double error = states[45].parameters(e->parameter_offset);
     CovarianceSeries P(problem.layout.dim(), states.size());
-    one.AverageWith(rival, probability, problem.layout, &states, &P);
+    std::vector<RivalSensor> rivals;
+    double probability = 0.0;
+    for (const double of_one : probabilities) {
+      rivals.push_back({&rival, of_one});
+      probability += of_one;
+    }
+    one.AverageWith(rivals, problem.layout, &states, &P);
     const double moved = probability > 0.3 ? probability : 0.0;
     EXPECT_NEAR((states[10].p_e - test.truth[10].p_e).norm(), moved * 37.4,
                 2.0);
