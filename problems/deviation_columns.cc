@@ -85,7 +85,11 @@ DeviationColumns::DeviationColumns(const Problem& problem,
                                            : Plan(static_cast<int>(i),
                                                   *first[i], components[i]));
   }
-  if (problem.layout.has_canonical_head()) FollowTurns();
+  untold_.assign(ImuDeviations().size(), 0.0);
+  if (problem.layout.has_canonical_head()) {
+    FollowTurns();
+    FollowNoise();
+  }
 }
 
 void DeviationColumns::FollowTurns() {
@@ -115,17 +119,63 @@ void DeviationColumns::FollowTurns() {
   if (far > near) noise_share_ = near / far;
 }
 
-double DeviationColumns::ZOf(const MeanShift& shift) const {
-  if (shift.of_state || shift.group != kImu ||
-      ImuDeviations()[static_cast<std::size_t>(shift.column)].kind !=
-          ImuDeviation::Kind::kLate) {
-    return shift.z();
+void DeviationColumns::FollowNoise() {
+  using Kind = ImuDeviation::Kind;
+  const auto deviations = ImuDeviations();
+  const Eigen::Index attitude =
+      problem_.layout.Find(BlockKind::kAttitude)->offset;
+  const Eigen::Index velocity =
+      problem_.layout.Find(BlockKind::kVelocity)->offset;
+  double of_gyros = 0.0, of_accels = 0.0;  // variances, summed
+  std::vector<double> squares(deviations.size(), 0.0);
+  for (std::size_t k = 1; k < tape_.size(); ++k) {
+    const ErrorMatrix Q = tape_.Q(k);
+    of_gyros += Q.diagonal().segment<3>(attitude).mean();
+    of_accels += Q.diagonal().segment<3>(velocity).mean();
+    const Readings readings = ReadingsOver(k);
+    for (std::size_t i = 0; i < deviations.size(); ++i) {
+      squares[i] +=
+          (readings.duration * readings.MoreBy(deviations[i])).squaredNorm();
+    }
   }
-  const double untold = 0.5 * (1.0 + kPieces * noise_share_) *
-                        problem_.timeline.sample_interval();
+  for (std::size_t i = 0; i < deviations.size(); ++i) {
+    const ImuDeviation& one = deviations[i];
+    if (one.kind == Kind::kLate) {
+      untold_[i] = 0.5 * (1.0 + kPieces * noise_share_) *
+                   problem_.timeline.sample_interval();
+    } else if (one.kind != Kind::kTurned && squares[i] > 0.0) {
+      const double axes = one.kind == Kind::kExchanged ? 2.0 : 1.0;
+      untold_[i] = axes * (one.of_gyros ? of_gyros : of_accels) / squares[i];
+    }
+  }
+}
+
+double DeviationColumns::ZOf(const MeanShift& shift) const {
+  if (shift.of_state || shift.group != kImu) return shift.z();
+  const double untold = untold_[static_cast<std::size_t>(shift.column)];
   return std::copysign(std::max(0.0, std::abs(shift.size()) - untold),
                        shift.size()) /
          shift.sigma();
+}
+
+DeviationColumns::Readings DeviationColumns::ReadingsOver(std::size_t k) const {
+  // Not their mean over the interval: what the noise of the mean does is in the
+  // innovations too, and would look like a scale.
+  const Node& from = problem_.timeline.node(k - 1);
+  const Node& to = problem_.timeline.node(k);
+  const auto mean_and_rate = [&](const Eigen::Vector3d& begin,
+                                 const Eigen::Vector3d& end) {
+    return std::pair<Eigen::Vector3d, Eigen::Vector3d>(
+        0.5 * (begin + end), (end - begin) / (to.t - from.t));
+  };
+  return {mean_and_rate(from.kinematics.w_ib_b, to.kinematics.w_ib_b),
+          mean_and_rate(from.kinematics.f_b, to.kinematics.f_b), to.t - from.t};
+}
+
+Eigen::Vector3d DeviationColumns::Readings::MoreBy(
+    const ImuDeviation& one) const {
+  const auto& [reading, rate] = one.of_gyros ? w : f;
+  return one.Of(reading, rate);
 }
 
 DeviationColumns::OfSensor DeviationColumns::Plan(int sensor,
@@ -234,18 +284,7 @@ ShiftColumns::Columns DeviationColumns::Driven(std::size_t k) const {
   const auto deviations = ImuDeviations();
   Eigen::MatrixXd B =
       Eigen::MatrixXd::Zero(layout.dim(), std::ssize(deviations));
-  // Readings at both ends, where the interval is short against what moves. Not
-  // its mean: what the noise of the mean does is in the innovations too, and
-  // would look like a scale.
-  const Node& from = problem_.timeline.node(k - 1);
-  const Node& to = problem_.timeline.node(k);
-  const auto mean_and_rate = [&](const Eigen::Vector3d& begin,
-                                 const Eigen::Vector3d& end) {
-    return std::pair<Eigen::Vector3d, Eigen::Vector3d>(
-        0.5 * (begin + end), (end - begin) / (to.t - from.t));
-  };
-  const auto w = mean_and_rate(from.kinematics.w_ib_b, to.kinematics.w_ib_b);
-  const auto f = mean_and_rate(from.kinematics.f_b, to.kinematics.f_b);
+  const Readings readings = ReadingsOver(k);
   const auto Phi = tape_.Phi(k);
   for (std::size_t i = 0; i < deviations.size(); ++i) {
     const ImuDeviation& one = deviations[i];
@@ -253,8 +292,7 @@ ShiftColumns::Columns DeviationColumns::Driven(std::size_t k) const {
                                                  : BlockKind::kAccelBias);
     if (bias->dim != 3) continue;
     auto column = B.col(static_cast<Eigen::Index>(i));
-    const auto& [reading, rate] = one.of_gyros ? w : f;
-    column = Phi.middleCols(bias->offset, 3) * one.Of(reading, rate);
+    column = Phi.middleCols(bias->offset, 3) * readings.MoreBy(one);
     column.segment<3>(bias->offset).setZero();
     if (one.kind == ImuDeviation::Kind::kLate && !bends_.empty()) {
       const State& x = states_[k - 1];

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "filters/mean_shift.h"
@@ -69,12 +70,18 @@ class DeviationColumns {
   /// The additive ones of the sensors alone, in their order: they are the same along
   /// any trajectory, and nothing is evaluated for them.
   ShiftColumns Additive() const;
-  /// MeanShift::z, of gyros that are late by what they are so more than nothing
-  /// tells: half a sample interval, as a reading may stand for the instant or for
-  /// the mean of the interval before it; and what noise of the readings looks like,
-  /// which is in the columns and in the innovations, as much again for each piece
-  /// of the course, times the share that readings of neighbours have in the mean
+  /// MeanShift::z of the size beyond what nothing tells.
+  ///
+  /// Of gyros that are late half a sample interval, as a reading may stand for the
+  /// instant or for the mean of the interval before it; and what noise of the readings
+  /// looks like, which is in the columns and in the innovations, as much again for each
+  /// piece of the course, times the share that readings of neighbours have in the mean
   /// square of what those of pieces differ by.
+  ///
+  /// Of scales, and of axes that hold part of each other, what that noise looks like:
+  /// with Q the variance of what an axis adds up to over an interval T between nodes and
+  /// y what one more of the size adds to the readings, sum Q over sum |T y|^2 for each
+  /// of the axes in y. An axis that hardly turns reads its noise alone.
   double ZOf(const MeanShift& shift) const;
 
  private:
@@ -85,7 +92,19 @@ class DeviationColumns {
     Eigen::Vector3d v = Eigen::Vector3d::Zero();
     Eigen::Vector3d p = Eigen::Vector3d::Zero();
   };
+  /// Of the IMU about an interval that is short against what moves: means of the
+  /// readings at both ends, and their rates.
+  struct Readings {
+    std::pair<Eigen::Vector3d, Eigen::Vector3d> w, f;
+    double duration;
+
+    /// What they have too much, by the size of one.
+    Eigen::Vector3d MoreBy(const ImuDeviation& one) const;
+  };
+  /// Over the one that ends at node k.
+  Readings ReadingsOver(std::size_t k) const;
   void FollowTurns();
+  void FollowNoise();
 
   struct OfSensor {
     std::vector<Deviation> deviations;
@@ -106,6 +125,7 @@ class DeviationColumns {
   std::vector<OfSensor> sensors_;
   std::vector<Bend> bends_;  ///< of the interval that ends at a node
   double noise_share_ = 1.0;
+  std::vector<double> untold_;  ///< sizes, by column of kImu
 };
 
 }  // namespace hindsight

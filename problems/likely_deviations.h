@@ -25,10 +25,13 @@ struct LikelyDeviation {
 };
 
 /// The likeliest deviations of each source beyond their limits, one a column
-/// and course.
+/// and course. No limit is below `least`.
 class LikelyDeviations {
  public:
+  explicit LikelyDeviations(double least) : least_(least) {}
+
   void Offer(LikelyDeviation one) {
+    one.limit = std::max(one.limit, least_);
     if (!(std::abs(one.z) >= one.limit)) return;
     const Course course = !one.columns.empty() ? Course::kVaries
                           : one.shift.grows    ? Course::kGrows
@@ -56,6 +59,7 @@ class LikelyDeviations {
  private:
   static constexpr int kState = -3;
   enum class Course { kStays, kGrows, kVaries };
+  double least_;
   std::map<int, std::map<std::pair<int, Course>, LikelyDeviation>> best_;
 };
 
