@@ -11,6 +11,9 @@
 
 namespace hindsight {
 
+/// A sensor that measures velocities over the ground as satellite receivers do.
+bool IsOfVelocity(const SensorKind& kind);
+
 /// One way to explain the data by errors of sensors: the problem is extended by
 /// them, one after the other (docs/receiver_errors.md, "Search").
 class ErrorSearch {
