@@ -46,6 +46,9 @@ void ErrorSearch::Tell(RobustBatchResult* result) const {
     // What else velocities may have done without the positions is farther off than
     // with them.
     const bool is_without_positions = i == 0 && velocities_first_;
+    // What stands beside these errors has not been sought beside another's.
+    const bool is_last =
+        i + 1 == rounds_.size() || !rounds_[i + 1].best().Stands();
     if (!is_without_positions) {
       std::optional<Evidence> doubt = best.Average(
           problem_.layout, &result->batch.states, &result->batch.P);
@@ -57,7 +60,7 @@ void ErrorSearch::Tell(RobustBatchResult* result) const {
       result->bounded.push_back(std::move(one));
     }
     result->trust[static_cast<std::size_t>(best.sensor())] = best.Trust();
-    TellRivals(rounds_[i], !is_without_positions, result);
+    TellRivals(rounds_[i], is_last && !is_without_positions, result);
   }
   TellUndecided(result);
 }
@@ -111,13 +114,15 @@ void ErrorSearch::TellRivals(const Round& round, bool averages,
   const bool is_mean =
       averages && best.AverageWith(rivals, result->problem.layout,
                                    &result->batch.states, &result->batch.P);
-  std::string words = "which sensor errs cannot be told: " + best.InWords();
+  std::string names = best.name();
+  std::string words = ": " + best.InWords();
   double farthest = 0.0;
   for (const RivalSensor& one : rivals) {
     const std::string likely = FormatProbability(one.probability);
     const double distance = std::sqrt(best.MeanSquareDistanceTo(*one.errors));
     farthest = std::max(farthest, distance);
-    words += fmt::format("; or, {} likely, {}", likely, one.errors->InWords());
+    names += fmt::format(", or {} likely {}", likely, one.errors->name());
+    words += "; " + one.errors->InWords();
     result->notes.push_back(fmt::format(
         "or, {} likely and {:.3g} m away in the root mean square{}: {}", likely,
         distance,
@@ -129,7 +134,7 @@ void ErrorSearch::TellRivals(const Round& round, bool averages,
   }
   result->doubts.push_back(
       {.grade = Grade::kDoubtful,
-       .what = std::move(words),
+       .what = "which sensor errs cannot be told: " + names + words,
        .value = farthest,
        .unit = "m",
        .causes = {"sensors that contradict each other where the IMU cannot "

@@ -73,6 +73,12 @@ ErrorOfStretch ErrorOver(const SensorFindings& found, const ErrantEnd& at) {
   return out;
 }
 
+/// Whether it is the same within a third of itself.
+bool IsConstant(const ErrorOfStretch& error) {
+  constexpr double kConstant = 1.0 / 3.0;
+  return error.deviation <= kConstant * error.mean.norm();
+}
+
 /// How far the vehicle is elsewhere if the fixes are right by which it is off.
 std::optional<Eigen::Vector3d> MoveBy(const SensorFindings& found,
                                       const ErrantEnd& at,
@@ -105,9 +111,8 @@ double LogLossAtStart(const SensorFindings& found,
 std::optional<WeighedHypothesis> GoodIn(const SensorFindings& found,
                                         const ErrantEnd& stretch,
                                         double log_odds) {
-  constexpr double kConstant = 1.0 / 3.0;
   const ErrorOfStretch error = ErrorOver(found, stretch);
-  if (error.deviation > kConstant * error.mean.norm()) return std::nullopt;
+  if (!IsConstant(error)) return std::nullopt;
   const auto moved = MoveBy(found, stretch, error.mean);
   if (!moved) return std::nullopt;
   WeighedHypothesis out = found.chosen();
@@ -163,7 +168,7 @@ std::optional<WeighedHypothesis> Exchanged(const SensorFindings& found,
 
 std::optional<WeighedHypothesis> ExchangedWithOther(
     const SensorFindings& found) {
-  if (!found.beside_one || !found.switching() || !ErrsEverywhere(found)) {
+  if (found.beside.empty() || !found.switching() || !ErrsEverywhere(found)) {
     return std::nullopt;
   }
   const std::vector<ErrorStep>& steps = found.chosen().steps;
@@ -181,6 +186,18 @@ std::optional<WeighedHypothesis> ExchangedWithOther(
   std::fill_n(out->steps.begin(), jump, ErrorStep{});
   out->steps[jump].anew = true;
   return out;
+}
+
+std::optional<double> LogOddsByStart(const SensorFindings& found) {
+  if (found.beside.empty() || !ErrsEverywhere(found)) return std::nullopt;
+  const ErrantEnd all = Between(found.tape, 0, found.tape.size());
+  const ErrorOfStretch error = ErrorOver(found, all);
+  if (!IsConstant(error) || !found.IsLarge(error.mean.norm())) {
+    return std::nullopt;
+  }
+  const auto moved = MoveBy(found, all, error.mean);
+  if (!moved) return std::nullopt;
+  return LogLossAtStart(found, *moved);
 }
 
 }  // namespace hindsight

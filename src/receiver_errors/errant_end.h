@@ -61,6 +61,12 @@ std::optional<WeighedHypothesis> Exchanged(const SensorFindings& found,
 std::optional<WeighedHypothesis> ExchangedWithOther(
     const SensorFindings& found);
 
+/// Of a sensor that is off by a constant (within a third of itself) of more than three
+/// stated sigmas from its first fix to its last, beside one other of positions: ln of the
+/// odds by which the start, as it is known a priori, tells that it is not the other.
+/// Nothing else does. Nothing of other errors.
+std::optional<double> LogOddsByStart(const SensorFindings& found);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_RECEIVER_ERRORS_ERRANT_END_H_

@@ -147,6 +147,20 @@ std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
   return fits;
 }
 
+/// From white noise; where that takes errors for outliers, which is a maximum of its
+/// own beside an error throughout, from the noise a priori as well.
+ErrorRegimes FitLikeliestGaussMarkov(const RegimeProblem& problem,
+                                     const ErrorParameters& white,
+                                     const std::vector<ErrorRegimes>& noise) {
+  ErrorRegimes fit = FitGaussMarkov(problem, white);
+  if (noise[1].log_evidence < noise[0].log_evidence + kLeastGain) return fit;
+  ErrorParameters typical;
+  typical.sigma = white.sigma;
+  typical.tau = white.tau;
+  ErrorRegimes other = FitGaussMarkov(problem, typical);
+  return other.log_evidence > fit.log_evidence ? other : fit;
+}
+
 /// The noise of all fixes, in turn with the change points to which it is fitted: those
 /// of normal points are up to a second off, and what lies between looks like outliers
 /// or noise.
@@ -168,7 +182,7 @@ ErrorParameters TuneAndClimb(const RegimeProblem& problem, Hypothesis* best) {
 }  // namespace
 
 const char* RegimeName(ErrorRegimes::Kind kind) {
-  static const char* const kNames[] = {"stated", "white", "gauss_markov",
+  static const char* const kNames[] = {"stated", "white", "Gauss-Markov",
                                        "switching"};
   return kNames[static_cast<int>(kind)];
 }
@@ -180,7 +194,7 @@ std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem) {
   start.sigma = problem.stated_sigma;
   start.tau = 100.0;
   if (!problem.has_gauss_markov) {
-    all.push_back(FitGaussMarkov(problem, start));
+    all.push_back(FitLikeliestGaussMarkov(problem, start, all));
   }
   if (problem.effort->stopped()) return all;
   start.scale = std::min(start.scale,

@@ -72,8 +72,29 @@ Separation Separate(const WeighedHypothesis& one,
   return out;
 }
 
+std::string ErrorSizes::Over(std::size_t first, std::size_t past) const {
+  double squares = 0.0;
+  for (std::size_t k = first; k < past; ++k) {
+    squares += by_node[k] * by_node[k];
+  }
+  return fmt::format("{:.2g} {}",
+                     std::sqrt(squares / static_cast<double>(past - first)),
+                     unit);
+}
+
+ErrorSizes SizesOf(const WeighedHypothesis& one, int dim,
+                   const std::string& unit) {
+  ErrorSizes sizes;
+  sizes.unit = unit;
+  for (std::size_t k = 0; k < one.steps.size(); ++k) {
+    sizes.by_node.push_back(one.smoothed[k].segment<3>(dim).norm());
+  }
+  return sizes;
+}
+
 std::string DescribeSequence(const std::vector<ErrorStep>& steps,
-                             const std::vector<double>& times) {
+                             const std::vector<double>& times,
+                             const ErrorSizes& sizes) {
   std::string all;
   ErrorMode before = ErrorMode::kGood;
   for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -90,11 +111,12 @@ std::string DescribeSequence(const std::vector<ErrorStep>& steps,
            !steps[end].anew) {
       ++end;
     }
-    AddPart(std::string(AdjectiveOf(step.mode)) + " from " +
-                SecondsText(times[k]) +
-                (end == steps.size() ? " s to the end"
-                                     : " to " + SecondsText(times[end]) + " s"),
-            &all);
+    AddPart(
+        std::string(AdjectiveOf(step.mode)) + " from " + SecondsText(times[k]) +
+            (end == steps.size() ? " s to the end"
+                                 : " to " + SecondsText(times[end]) + " s") +
+            " by " + sizes.Over(k, end),
+        &all);
   }
   return all.empty() ? "good throughout" : all;
 }
@@ -133,31 +155,34 @@ std::vector<std::string> DescribeErrors(const ModeSequence& steps,
     all.push_back(
         p.tau <= duration
             ? fmt::format(
-                  "Gauss-Markov error of {:.3g} {}, correlation time {:.3g} s",
+                  "Gauss-Markov errors, sigma {:.3g} {}, correlation time "
+                  "{:.3g} s",
                   p.sigma, unit, p.tau)
-            : fmt::format("bias of {:.3g} {} that walks by {:.3g} {}/sqrt(s)",
-                          p.sigma, unit, p.sigma * std::sqrt(2.0 / p.tau),
-                          unit));
+            : fmt::format(
+                  "biases, sigma {:.3g} {}, that walk by {:.3g} {}/sqrt(s)",
+                  p.sigma, unit, p.sigma * std::sqrt(2.0 / p.tau), unit));
   }
   if (has(ErrorMode::kSlight)) {
     all.push_back(
-        fmt::format("slight errors of {:.3g} {}", p.slight_sigma, unit));
+        fmt::format("slight biases, sigma {:.3g} {}", p.slight_sigma, unit));
   }
   if (has(ErrorMode::kDrifting)) {
-    all.push_back(
-        fmt::format("errors that grow by {:.3g} {}/s", p.rate_sigma, unit));
+    all.push_back(fmt::format("drifts, sigma {:.3g} {}/s", p.rate_sigma, unit));
   }
   return all;
 }
 
 std::string DescribeRival(const RivalHypothesis& rival,
-                          const std::vector<double>& times) {
+                          const std::vector<double>& times, int dim,
+                          const std::string& unit) {
   constexpr double kWorthTelling = 1e-3;
   if (rival.probability < kWorthTelling) return "";
-  return fmt::format("{}, with a probability of {}, up to {:.3g} m away: {}",
-                     rival.IsLikelier() ? "likelier than that" : "or",
-                     FormatProbability(rival.probability), rival.distance,
-                     DescribeSequence(rival.hypothesis->steps, times));
+  const WeighedHypothesis& one = *rival.hypothesis;
+  return fmt::format(
+      "{}, with a probability of {}, up to {:.3g} m away: {}",
+      rival.IsLikelier() ? "likelier than that" : "or",
+      FormatProbability(rival.probability), rival.distance,
+      DescribeSequence(one.steps, times, SizesOf(one, dim, unit)));
 }
 
 }  // namespace hindsight

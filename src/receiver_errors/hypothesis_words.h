@@ -9,11 +9,24 @@
 
 namespace hindsight {
 
-/// A sequence in words, "biased from 120 to 140 s, drifting from 175 s to the
-/// end"; a bias or drift drawn anew begins a part of its own. `times` are those
+/// How large the error of a hypothesis is at each node, and its unit.
+struct ErrorSizes {
+  std::vector<double> by_node;
+  std::string unit;
+
+  /// "8.2 m", in the root mean square over some nodes.
+  std::string Over(std::size_t first, std::size_t past) const;
+};
+/// `dim` errors stand before those of the sensor, which has three.
+ErrorSizes SizesOf(const WeighedHypothesis& one, int dim,
+                   const std::string& unit);
+
+/// A sequence in words, "biased from 120 to 140 s by 8.2 m, drifting from 175 s to the
+/// end by 15 m"; a bias or drift drawn anew begins a part of its own. `times` are those
 /// of the nodes. "good throughout" if there is nothing to tell.
 std::string DescribeSequence(const std::vector<ErrorStep>& steps,
-                             const std::vector<double>& times);
+                             const std::vector<double>& times,
+                             const ErrorSizes& sizes);
 
 /// The largest horizontal distance of two trajectories; whether it is more
 /// than three standard deviations of P anywhere; and its mean square by P, the NEES of
@@ -48,17 +61,19 @@ RivalHypothesis FindRivalBeyond(const std::vector<WeighedHypothesis>& all,
 
 /// What the noise of a sensor is like.
 std::string DescribeNoise(ErrorRegimes::Kind kind, const ErrorParameters& p);
-/// What the errors of a sequence's steps are like, a clause for each kind; `unit` of
-/// the error; empty if they have none. Of a Gauss-Markov error whose correlation time is
+/// By what sigma the errors of a sequence's steps are taken for possible, a clause for
+/// each kind; `unit` of the error; empty if they have none. Of a Gauss-Markov error whose correlation time is
 /// longer than the recording, of `duration` [s], its walk, sqrt(2 / tau) sigma, in place
 /// of that time, which nobody sees.
 std::vector<std::string> DescribeErrors(const ModeSequence& steps,
                                         const ErrorParameters& p,
                                         const std::string& unit,
                                         double duration);
-/// What else may have happened; empty where it is too improbable to be told.
+/// What else may have happened; empty where it is too improbable to be told. `dim` and
+/// `unit` as of SizesOf.
 std::string DescribeRival(const RivalHypothesis& rival,
-                          const std::vector<double>& times);
+                          const std::vector<double>& times, int dim,
+                          const std::string& unit);
 
 }  // namespace hindsight
 

@@ -26,6 +26,9 @@ Evidence DoubtOf(const std::string& name, const ErrantEnd& errant) {
                        "the end"}};
 }
 
+/// A start that is five sigmas better with the one than with the other tells which is off.
+constexpr double kSureByStart = 12.5;
+
 }  // namespace
 
 std::vector<Evidence> ReceiverErrors::Doubts() const {
@@ -48,14 +51,31 @@ std::vector<Evidence> ReceiverErrors::Doubts() const {
   if (found_->other_errs > std::exp(-kLeastGain)) {
     doubts.push_back(
         {.grade = Grade::kDoubtful,
-         .what = found_->name +
-                 " agrees nowhere with the only other sensor of positions, "
-                 "which may be off in its place",
+         .what = fmt::format("{} agrees nowhere with {}, which may be off in "
+                             "its place",
+                             found_->name, found_->beside),
          .value = found_->other_errs,
          .limit = std::exp(-kLeastGain),
          .unit = "probability",
          .causes = {"two receivers that err, one of them throughout"},
          .remedies = {"a stream with a position that is known"}});
+  }
+  const std::optional<double> by_start = LogOddsByStart(*found_);
+  if (by_start && *by_start < kSureByStart) {
+    doubts.push_back(
+        {.grade = Grade::kDoubtful,
+         .what = fmt::format(
+             "{} is off from its first fix to its last against {}, and that "
+             "it is not {}, or both, nothing but the start tells",
+             found_->name, found_->beside, found_->beside),
+         .value = *by_start,
+         .limit = kSureByStart,
+         .unit = "logarithm of the odds",
+         .causes = {"positions in two datums or epochs",
+                    "a base station, or "
+                    "a lever arm, that is not where it is said to be"},
+         .remedies = {"a stream with a position that is known, or 'datum' of "
+                      "the one that is off"}});
   }
   const double imu = found_->chosen().parameters.imu_scale;
   if (imu > kMisstatedImu) {

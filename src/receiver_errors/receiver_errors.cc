@@ -23,14 +23,19 @@ constexpr double kComparable = 1.0 / (1.0 + 3.1622776601683795);
 /// Of a rival beyond what the covariances hold: odds of a thousand against it.
 constexpr double kSure = 1e-3;
 
-Evidence DoubtOf(const RivalHypothesis& rival, const std::vector<double>& times,
+ErrorSizes SizesIn(const WeighedHypothesis& one, const SensorFindings& found) {
+  return SizesOf(one, found.tape.dim(), found.unit);
+}
+
+Evidence DoubtOf(const RivalHypothesis& rival, const SensorFindings& found,
                  const std::string& chosen, bool is_mean) {
   return {.grade = Grade::kDoubtful,
           .what = fmt::format(
               "{}; or else, {}{} likely and up to {:.3g} m away, {}{}", chosen,
               rival.IsLikelier() ? "likelier than that, " : "",
               FormatProbability(rival.probability), rival.distance,
-              DescribeSequence(rival.hypothesis->steps, times),
+              DescribeSequence(rival.hypothesis->steps, found.Times(),
+                               SizesIn(*rival.hypothesis, found)),
               is_mean ? ": the result is the mean, weighed by their "
                         "probabilities"
                       : ""),
@@ -84,13 +89,13 @@ std::optional<Evidence> ReceiverErrors::Average(const ErrorLayout& layout,
     P->Set(k, P_k);
   }
   if (comparable && found_->IsLarge(rival.distance)) {
-    return DoubtOf(rival, found_->Times(), InWords(), true);
+    return DoubtOf(rival, *found_, InWords(), true);
   }
   if (comparable) return std::nullopt;
   const RivalHypothesis beyond =
       FindRivalBeyond(found_->alternatives, chosen, *P);
   if (beyond.probability < kSure) return std::nullopt;
-  return DoubtOf(beyond, found_->Times(), InWords(), false);
+  return DoubtOf(beyond, *found_, InWords(), false);
 }
 
 bool ReceiverErrors::IsUndecided() const { return !found_->undecided.empty(); }
@@ -107,7 +112,7 @@ std::optional<Evidence> ReceiverErrors::DoubtOfNoise(
       if (!found_->IsLarge(rival.distance)) rival.hypothesis = nullptr;
     }
     if (rival.hypothesis == nullptr) continue;
-    return DoubtOf(rival, found_->Times(),
+    return DoubtOf(rival, *found_,
                    Stands() ? InWords() : found_->name + ": as stated", false);
   }
   return std::nullopt;
@@ -125,6 +130,8 @@ std::vector<std::string> ReceiverErrors::Notes(
     notes.push_back(fmt::format(
         "against the noise as stated the evidence is exp({:.3g}) to 1",
         found_->choice.gain));
+  } else if (found_->stopped) {
+    notes.emplace_back("no errors found before the search was ended");
   } else {
     notes.emplace_back("errors as stated");
   }
@@ -133,10 +140,12 @@ std::vector<std::string> ReceiverErrors::Notes(
   }
   if (found_->stands() && found_->switching()) {
     const std::vector<double> times = found_->Times();
-    notes.push_back(DescribeSequence(found_->chosen().steps, times));
+    notes.push_back(DescribeSequence(found_->chosen().steps, times,
+                                     SizesIn(found_->chosen(), *found_)));
     const RivalHypothesis rival =
         FindRival(found_->alternatives, found_->chosen(), P);
-    std::string other = DescribeRival(rival, times);
+    std::string other =
+        DescribeRival(rival, times, found_->tape.dim(), found_->unit);
     if (!other.empty()) notes.push_back(std::move(other));
   }
   for (const Hypothesis& one : found_->undecided) {
@@ -248,12 +257,21 @@ std::shared_ptr<const ErrorDecisions> ReceiverErrors::Decisions() const {
   return std::make_shared<const ErrorDecisions>(*found_);
 }
 
+std::string ReceiverErrors::name() const { return found_->name; }
+
 std::string ReceiverErrors::InWords() const {
-  const std::string what =
-      found_->switching()
-          ? DescribeSequence(found_->chosen().steps, found_->Times())
-          : std::string(RegimeName(found_->regimes.kind)) + " errors";
-  return found_->name + ": " + what;
+  const WeighedHypothesis& chosen = found_->chosen();
+  const ErrorSizes sizes = SizesIn(chosen, *found_);
+  if (found_->switching()) {
+    return found_->name + ": " +
+           DescribeSequence(chosen.steps, found_->Times(), sizes);
+  }
+  const std::string kind = RegimeName(found_->regimes.kind);
+  return fmt::format("{}: {} errors, {}", found_->name, kind,
+                     found_->regimes.kind == ErrorRegimes::Kind::kGaussMarkov
+                         ? sizes.Over(0, found_->tape.size()) + " throughout"
+                         : fmt::format("sigma {:.3g} times as stated",
+                                       chosen.parameters.scale));
 }
 
 }  // namespace hindsight

@@ -69,6 +69,7 @@ class ReceiverErrors {
   bool WasEnded() const;
 
   int sensor() const;
+  std::string name() const;
   /// ln of its evidence over that of the noise as stated; 0 unless it stands.
   double log_gain() const;
 
@@ -150,7 +151,7 @@ class ReceiverErrors {
   double searched_fixes() const;
   /// What was decided, for ErrorQuestion::decided.
   std::shared_ptr<const ErrorDecisions> Decisions() const;
-  /// The chosen hypothesis in words: "gnss: biased from 120 to 140 s".
+  /// The chosen hypothesis in words: "gnss: biased from 120 to 140 s by 8.2 m".
   std::string InWords() const;
 
  private:

@@ -120,7 +120,10 @@ ErrorDecisions::ErrorDecisions(const Problem& problem, const LinearTape& tape,
                        .kind->generated) {
   const std::set<int> positions = UsedPositions(problem.timeline, tape);
   alone = positions.contains(index) && positions.size() == 1;
-  beside_one = positions.contains(index) && positions.size() == 2;
+  if (!positions.contains(index) || positions.size() != 2) return;
+  const int other =
+      *positions.begin() == index ? *positions.rbegin() : *positions.begin();
+  beside = problem.timeline.sensors()[static_cast<std::size_t>(other)].name;
 }
 
 SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,

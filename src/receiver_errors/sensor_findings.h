@@ -36,11 +36,11 @@ struct ErrorDecisions {
 
   int sensor;
   std::string name;
-  bool alone = false;  ///< it has positions in use, and no other sensor has
-  bool beside_one = false;         ///< it has, and exactly one other
-  std::string unit;                ///< of its error
-  double stated_sigma;             ///< of its fixes, an axis [SI]
-  bool is_tolerance;               ///< as of RegimeProblem
+  bool alone = false;   ///< it has positions in use, and no other sensor has
+  std::string beside;   ///< it has, and of all others this one alone
+  std::string unit;     ///< of its error
+  double stated_sigma;  ///< of its fixes, an axis [SI]
+  bool is_tolerance;    ///< as of RegimeProblem
   std::size_t searched_fixes = 0;  ///< fixes or normal points
   /// ln of the evidence that was chosen, on these, without the likelihood.
   double log_prior = 0.0;

@@ -21,16 +21,18 @@ TEST(HypothesisWords, NameBeginAndEndOfEveryPart) {
       kGood,    {ErrorMode::kDrifting, true},
       kDrifting};
   EXPECT_EQ(
-      DescribeSequence(steps, {0.0, 1.0, 2.0, 3.0, 4.5, 5.0, 6.0, 7.04, 8.0}),
-      "biased from 1 to 3 s, biased from 3 to 4.5 s, the IMU's velocity "
-      "steps at 5 s, drifting from 7 s to the end");
+      DescribeSequence(steps, {0.0, 1.0, 2.0, 3.0, 4.5, 5.0, 6.0, 7.04, 8.0},
+                       {{0.0, 3.0, 4.0, 8.2, 0.0, 0.0, 0.0, 5.0, 5.0}, "m"}),
+      "biased from 1 to 3 s by 3.5 m, biased from 3 to 4.5 s by 8.2 m, the "
+      "IMU's velocity steps at 5 s, drifting from 7 s to the end by 5 m");
 }
 
 TEST(HypothesisWords, TellAStopOfADriftFromItsEnd) {
   EXPECT_EQ(DescribeSequence({{ErrorMode::kDrifting, true}, kBiased, kGood},
-                             {0.0, 10.0, 20.0}),
-            "drifting from 0 to 10 s, biased from 10 to 20 s");
-  EXPECT_EQ(DescribeSequence({kGood, kGood}, {0.0, 1.0}), "good throughout");
+                             {0.0, 10.0, 20.0}, {{1.0, 2.0, 0.0}, "uT"}),
+            "drifting from 0 to 10 s by 1 uT, biased from 10 to 20 s by 2 uT");
+  EXPECT_EQ(DescribeSequence({kGood, kGood}, {0.0, 1.0}, {{0.0, 0.0}, "m"}),
+            "good throughout");
 }
 
 /// Of an error that changes more slowly than the recording lasts its walk.
@@ -39,10 +41,11 @@ TEST(HypothesisWords, SayOfErrorsWhatIsSeenOfThem) {
   p.sigma = 3.0;
   p.tau = 200.0;
   const ModeSequence throughout = {kBiased, kBiased};
-  EXPECT_THAT(DescribeErrors(throughout, p, "m", 300.0),
-              ElementsAre("Gauss-Markov error of 3 m, correlation time 200 s"));
+  EXPECT_THAT(
+      DescribeErrors(throughout, p, "m", 300.0),
+      ElementsAre("Gauss-Markov errors, sigma 3 m, correlation time 200 s"));
   EXPECT_THAT(DescribeErrors(throughout, p, "m", 100.0),
-              ElementsAre("bias of 3 m that walks by 0.3 m/sqrt(s)"));
+              ElementsAre("biases, sigma 3 m, that walk by 0.3 m/sqrt(s)"));
   EXPECT_THAT(DescribeErrors({kGood, kGood}, p, "m", 100.0), IsEmpty());
 }
 
@@ -74,11 +77,11 @@ TEST(HypothesisWords, ARivalIsWhatMovesTheTrajectoryByThreeSigmas) {
 TEST(HypothesisWords, SayOfARivalThatItIsLikelier) {
   const WeighedHypothesis other = Alternative(0.9996, 4.0);
   RivalHypothesis rival = {&other, 0.9996, 4.0};
-  EXPECT_EQ(DescribeRival(rival, {0.0, 1.0}),
+  EXPECT_EQ(DescribeRival(rival, {0.0, 1.0}, 0, "m"),
             "likelier than that, with a probability of over 99.9 %, up to 4 m "
             "away: good throughout");
   rival.probability = 0.45;
-  EXPECT_EQ(DescribeRival(rival, {0.0, 1.0}),
+  EXPECT_EQ(DescribeRival(rival, {0.0, 1.0}, 0, "m"),
             "or, with a probability of 45 %, up to 4 m away: good throughout");
 }
 

@@ -356,7 +356,7 @@ TEST(ReceiverErrors, ThroughoutBesideOneOtherMayBeThoseOfTheOther) {
     const auto doubt_of = [&] {
       const ReceiverErrors errors = TakeThem(decisions, problem, tape);
       EXPECT_EQ(errors.Doubts().size(),
-                decisions.beside_one && start_sigma > 100.0 ? 1u : 0u);
+                !decisions.beside.empty() && start_sigma > 100.0 ? 1u : 0u);
       Problem extended = problem;
       errors.Extend(&extended);
       std::vector<State> states = errors.States(extended.layout);
@@ -368,7 +368,7 @@ TEST(ReceiverErrors, ThroughoutBesideOneOtherMayBeThoseOfTheOther) {
       return errors.Average(extended.layout, &states, &P);
     };
     EXPECT_FALSE(doubt_of().has_value());
-    decisions.beside_one = true;
+    decisions.beside = "right";
     const std::optional<Evidence> doubt = doubt_of();
     ASSERT_EQ(doubt.has_value(), start_sigma > 100.0);
     if (doubt) {
@@ -582,7 +582,7 @@ TEST(ReceiverErrors, ThatNoiseDoesNotRuleOutAreDoubtfulWhereTheyLeadElsewhere) {
   EXPECT_THAT(doubt->what, HasSubstr("or else, 12 % likely and up to"));
   EXPECT_THAT(errors.Notes(P),
               Contains(HasSubstr("not ruled out, 7.4 times less likely than "
-                                 "noise: Gauss-Markov error of 10 m")));
+                                 "noise: Gauss-Markov errors, sigma 10 m")));
 }
 
 TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {
