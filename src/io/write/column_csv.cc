@@ -35,6 +35,18 @@ void ColumnCsv::Append(const Eigen::MatrixXd& rows) {
                    });
 }
 
+void ColumnCsv::Append(const Eigen::MatrixXd& rows,
+                       const std::vector<bool>& some, ColumnCsv* other) {
+  const AtomicFile::Copy copy = {&other->file_,
+                                 [&some](std::size_t k) { return some[k]; }};
+  file_.WriteLines(
+      static_cast<std::size_t>(rows.rows()),
+      [&](std::size_t k, std::string* line) {
+        AppendLine(rows, static_cast<Eigen::Index>(k), line);
+      },
+      &copy);
+}
+
 void ColumnCsv::AppendLine(const Eigen::MatrixXd& rows, Eigen::Index k,
                            std::string* out) const {
   Eigen::Index i = 0;
