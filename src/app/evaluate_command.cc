@@ -8,6 +8,7 @@
 #include "app/command.h"
 #include "app/file_place.h"
 #include "app/flags.h"
+#include "app/method_output.h"
 #include "app/report_page.h"
 #include "app/run_output.h"
 #include "app/terminal.h"

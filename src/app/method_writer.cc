@@ -66,7 +66,7 @@ void MethodWriter::Write(double peak_rss_mb, MethodTables tables,
   CompareTables(dataset_, &tables);
   summary_->methods.push_back(Summarize(dataset_, *solution, tables));
   summary_->methods.back().peak_rss_mb = peak_rss_mb;
-  WriteMethodFiles(request_, dataset_, *solution, tables, folder_);
+  WriteMethodFiles(dataset_, *solution, tables, folder_);
   const bool has_trajectory = !solution->states.empty();
   ForgetTrajectory(solution);
   if (has_trajectory) folder_->Keep(kSummaryName, SummaryText(*summary_));

@@ -4,7 +4,9 @@
 #include <sys/resource.h>
 
 #include <optional>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "app/method_output.h"
 #include "app/report_page.h"
@@ -107,26 +109,40 @@ MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
                           const Solution& solution, MethodOutput* output) {
   MethodTables tables;
   if (solution.states.empty()) return tables;
-  std::vector<Wish> wishes = {
-      {Times(request.at), request.point_b, Into(&tables.at)}};
   tables.reference = TruthOf(dataset, solution);
+  const Eigen::Vector3d& truth_point_b = tables.reference.lever_arm_b;
+  std::vector<double> truth_times;
   if (request.attitude_alone) {
     tables.truth = TableAt(Eigen::Vector3d::Zero(), dataset, solution);
   } else {
-    wishes.push_back(
-        {Times(TruthTimes(tables.reference.points, solution.states.front().t,
-                          solution.states.back().t)),
-         tables.reference.lever_arm_b, Into(&tables.truth)});
+    truth_times = TruthTimes(tables.reference.points, solution.states.front().t,
+                             solution.states.back().t);
   }
-  if (request.rate) {
-    wishes.push_back(
-        {Times(solution, *request.rate), request.point_b,
-         [output](const SolutionTable& piece) { output->Append(piece); }});
-  } else {
+  if (!request.rate) {
     TakeNodes(request.point_b, dataset, solution,
               [output](const SolutionTable& piece) { output->Append(piece); });
   }
-  SampleRows(dataset, reconstruction, solution, std::move(wishes));
+  const auto add = [](const SolutionTable& piece, SolutionTable* table) {
+    if (piece.size() > 0) AppendTable(piece, table);
+  };
+  SampleRows(dataset, reconstruction, solution,
+             {{Times(request.at), request.point_b},
+              {Times(std::move(truth_times)), truth_point_b},
+              {request.rate ? Times(solution, *request.rate)
+                            : Times(std::vector<double>()),
+               request.point_b}},
+             [&](const std::vector<SolutionTable>& pieces) {
+               const auto& [at, truth, rows] =
+                   std::tie(pieces[0], pieces[1], pieces[2]);
+               add(at, &tables.at);
+               add(truth, &tables.truth);
+               if (request.point_b == truth_point_b) {
+                 output->Append(rows, truth);
+               } else {
+                 output->Append(rows);
+                 output->AppendTruth(truth);
+               }
+             });
   return tables;
 }
 
@@ -153,19 +169,14 @@ ErrorColumns ErrorsAtTruth(const Dataset& dataset, const MethodTables& tables) {
 
 }  // namespace
 
-void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
-                      const Solution& solution, const MethodTables& tables,
-                      ResultFolder* folder) {
+void WriteMethodFiles(const Dataset& dataset, const Solution& solution,
+                      const MethodTables& tables, ResultFolder* folder) {
   if (solution.states.empty()) return;
   const std::string& method = solution.method;
-  const auto write = [&](const std::string& suffix,
-                         const SolutionTable& table) {
-    if (table.size() == 0) return;
-    WriteSolutionCsv(folder->Path(method + suffix), table, ProgramLine(dataset),
-                     dataset.epoch_gps_ns);
-  };
-  write(".at.csv", tables.at);
-  if (!request.attitude_alone) write(kTruthSuffix, tables.truth);
+  if (tables.at.size() > 0) {
+    WriteSolutionCsv(folder->Path(method + ".at.csv"), tables.at,
+                     ProgramLine(dataset), dataset.epoch_gps_ns);
+  }
   if (solution.modes) {
     WriteModes(folder->Path(method + ".modes.csv"), solution, dataset);
   }

@@ -38,15 +38,11 @@ ResultFolder::Paths InputsOf(const RunRequest& request);
 /// The files that the run reads, without those of streams left out.
 ResultFolder::Paths FilesReadBy(const RunRequest& request);
 
-/// Of the file beside METHOD.csv that holds MethodTables::truth.
-inline constexpr const char* kTruthSuffix = ".truth.csv";
-
 /// Tables of a method's solution beside its output (MethodOutput).
 struct MethodTables {
   SolutionTable at;  ///< METHOD.at.csv, at the times of --at
-  /// METHOD.truth.csv, at the truth's times and the point it speaks of: what is
-  /// compared with it, here and by `evaluate`. Of attitude alone it is not
-  /// written: it is the solution itself, which has each sample of the IMU.
+  /// At the truth's times and the point it speaks of: what is compared with it. Of
+  /// attitude alone it is the solution itself, which has each sample of the IMU.
   SolutionTable truth;
   SolutionTruth reference;  ///< that truth (TruthOf)
   std::optional<TruthComparison> comparison =
@@ -57,7 +53,8 @@ struct MethodTables {
 void CheckTimesCovered(const RunRequest& request, const Solution& solution);
 
 /// Samples the solution through the IMU, once for the tables and for the
-/// output, which takes its rows meanwhile: the nodes, or at --rate. Nothing for a
+/// output, which takes its rows meanwhile: the nodes, or at --rate, and those at the
+/// truth's times, but of attitude alone, which has them anyway. Nothing for a
 /// solution without states.
 MethodTables SampleMethod(const RunRequest& request, const Dataset& dataset,
                           const Reconstruction& reconstruction,
@@ -68,9 +65,8 @@ void CompareTables(const Dataset& dataset, MethodTables* tables);
 
 /// Writes the tables that have rows, mode probabilities, errors against the
 /// truth and constants over time; nothing for a solution without states.
-void WriteMethodFiles(const RunRequest& request, const Dataset& dataset,
-                      const Solution& solution, const MethodTables& tables,
-                      ResultFolder* folder);
+void WriteMethodFiles(const Dataset& dataset, const Solution& solution,
+                      const MethodTables& tables, ResultFolder* folder);
 
 /// Writes report.html, the page that shows what the folder holds so far.
 void WriteReport(const RunRequest& request, const RunSummary& summary,

@@ -30,11 +30,6 @@ bool Times::Take(double t) {
   return at_ > before;
 }
 
-/// Collects what a wish is given.
-std::function<void(const SolutionTable&)> Into(SolutionTable* table) {
-  return [table](const SolutionTable& piece) { AppendTable(piece, table); };
-}
-
 namespace {
 
 /// Rows that are sampled, or made a table of, at once.
@@ -137,8 +132,10 @@ std::vector<SolutionTable> TablesOf(const Dataset& dataset,
 
 }  // namespace
 
-void SampleRows(const Dataset& dataset, const Reconstruction& reconstruction,
-                const Solution& solution, std::vector<Wish> wishes) {
+void SampleRows(
+    const Dataset& dataset, const Reconstruction& reconstruction,
+    const Solution& solution, std::vector<Wish> wishes,
+    const std::function<void(const std::vector<SolutionTable>&)>& take) {
   const auto begin = [&] {
     std::future<std::vector<SolutionTable>> piece;
     WishedRows rows = NextRows(kPiece, &wishes);
@@ -154,9 +151,7 @@ void SampleRows(const Dataset& dataset, const Reconstruction& reconstruction,
   for (auto piece = begin(); piece.valid();) {
     const std::vector<SolutionTable> tables = piece.get();
     piece = begin();
-    for (std::size_t i = 0; i < wishes.size(); ++i) {
-      if (tables[i].size() > 0) wishes[i].take(tables[i]);
-    }
+    take(tables);
   }
 }
 

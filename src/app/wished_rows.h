@@ -31,15 +31,11 @@ class Times {
   std::vector<double> list_;
 };
 
-/// One who wants rows of a solution.
+/// Rows of a solution that are wanted.
 struct Wish {
   Times times;
   Eigen::Vector3d point_b;  ///< of which point, from the IMU [m]
-  std::function<void(const SolutionTable&)> take;  ///< some at a time, in order
 };
-
-/// Collects what a wish is given.
-std::function<void(const SolutionTable&)> Into(SolutionTable* table);
 
 /// The rows of a solution as they are, of a point that many metres from the IMU.
 SolutionTable TableAt(const Eigen::Vector3d& point_b, const Dataset& dataset,
@@ -51,9 +47,12 @@ void TakeNodes(const Eigen::Vector3d& point_b, const Dataset& dataset,
                const std::function<void(const SolutionTable&)>& take);
 
 /// Fulfils all wishes in one walk, piece by piece, since a row of a solution,
-/// with its whole covariance, is several times as large as that of a table.
-void SampleRows(const Dataset& dataset, const Reconstruction& reconstruction,
-                const Solution& solution, std::vector<Wish> wishes);
+/// with its whole covariance, is several times as large as that of a table: `take` is
+/// given one table a wish, of the same span of time, without rows if it has none there.
+void SampleRows(
+    const Dataset& dataset, const Reconstruction& reconstruction,
+    const Solution& solution, std::vector<Wish> wishes,
+    const std::function<void(const std::vector<SolutionTable>&)>& take);
 
 }  // namespace hindsight
 

@@ -55,11 +55,12 @@ struct ScratchMemory::Mapping {
     return std::min(block, Size() - number * block);
   }
   std::byte* At(std::size_t number) const { return data + number * block; }
-  /// Lets a block go. Another thread that is reading meanwhile finds the same
-  /// bytes.
-  void Release(std::size_t number) {
-    madvise(At(number), SizeOf(number), MADV_DONTNEED);
-    held[number] = kLetGo;
+  /// Lets blocks go, from one to another. Another thread that is reading meanwhile
+  /// finds the same bytes.
+  void Release(std::size_t first, std::size_t last) {
+    const auto size = static_cast<std::size_t>(At(last) - At(first));
+    madvise(At(first), size + SizeOf(last), MADV_DONTNEED);
+    for (std::size_t i = first; i <= last; ++i) held[i] = kLetGo;
   }
   /// Makes a block plain memory: of pages of its own, or of those of the block that
   /// was first to be filled, which the system need not make again.
@@ -166,12 +167,7 @@ class ScratchMemory::HeldBlocks {
 
   /// Adds one, and lets others go where they are too many.
   static void Add(Mapping* mapping, std::size_t number, std::size_t bytes) {
-    while (bytes_ + bytes > kMostHeld && !all_.empty()) {
-      const Held& first = all_.front();
-      first.mapping->Release(first.number);
-      bytes_ -= first.bytes;
-      all_.pop_front();
-    }
+    if (bytes_ + bytes > kMostHeld) LetOldestGo();
     all_.push_back({mapping, number, bytes});
     bytes_ += bytes;
   }
@@ -189,6 +185,28 @@ class ScratchMemory::HeldBlocks {
     std::size_t number;
     std::size_t bytes;
   };
+
+  /// The older half. Those side by side go by one call: with each, the system makes
+  /// the other processors forget what they know of the process' memory.
+  static void LetOldestGo() {
+    auto end = all_.begin();
+    while (end != all_.end() && bytes_ > kMostHeld / 2)
+      bytes_ -= (end++)->bytes;
+    std::sort(all_.begin(), end, [](const Held& a, const Held& b) {
+      return std::pair(a.mapping, a.number) < std::pair(b.mapping, b.number);
+    });
+    for (auto first = all_.begin(); first != end;) {
+      auto last = first;
+      auto next = first + 1;
+      while (next != end && next->mapping == first->mapping &&
+             next->number == last->number + 1) {
+        last = next++;
+      }
+      first->mapping->Release(first->number, last->number);
+      first = next;
+    }
+    all_.erase(all_.begin(), end);
+  }
 
   static inline std::deque<Held> all_;
   static inline std::size_t bytes_ = 0;

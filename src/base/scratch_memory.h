@@ -22,7 +22,7 @@ class ScratchMemory {
   /// Below this it is plain memory [bytes].
   static constexpr std::size_t kSmallest = std::size_t{1} << 25;
   /// Bytes that the process holds of the file at most, of all memories together: where
-  /// another block is to be held, those go that were asked for longest ago.
+  /// one more would be too many, the half goes that was asked for longest ago.
   static constexpr std::size_t kMostHeld = std::size_t{24} << 20;
 
   /// What the bytes are before they are written.

@@ -11,8 +11,10 @@ namespace {
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::Gt;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::IsSupersetOf;
 using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
@@ -66,6 +68,25 @@ TEST_F(RunCommandTest, WritesTheFilesOfEveryMethodAndNothingElse) {
   for (const std::string method : {"ekf", "rts", "iterated", "batch"}) {
     EXPECT_THAT(lines, Contains(StartsWith(method)));
   }
+}
+
+TEST_F(RunCommandTest, RowsAtTheTruthsTimesAreTheSameWhateverIsWrittenBeside) {
+  // Rows of the truth are all among those at 100 Hz, some among those at 1 Hz.
+  const auto truth_rows = [this](const std::vector<std::string>& flags) {
+    std::vector<std::string> all = {"--out=out", "--methods=rts", "--force"};
+    all.insert(all.end(), flags.begin(), flags.end());
+    const Outcome outcome = recording_.Run(all);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return ReadFile(Result("rts.truth.csv"));
+  };
+  const std::string alone = truth_rows({});
+  EXPECT_EQ(truth_rows({"--rate=1"}), alone);
+  EXPECT_EQ(truth_rows({"--rate=100", "--export=npz"}), alone);
+  EXPECT_EQ(truth_rows({"--rate=100", "--threads=1"}), alone);
+  EXPECT_EQ(truth_rows({"--rate=100"}), alone);
+  const std::vector<std::string> truth = Rows(Result("rts.truth.csv"));
+  EXPECT_THAT(truth, SizeIs(Gt(10)));
+  EXPECT_THAT(Rows(Result("rts.csv")), IsSupersetOf(truth));
 }
 
 TEST_F(RunCommandTest, SummaryHoldsTheDocumentedKeys) {

@@ -66,6 +66,28 @@ TEST(ScratchMemory, KeepsALargeOnesBytesAndHoldsFewOfItsBlocks) {
   EXPECT_TRUE(IsNumbered(moved, 5));
 }
 
+TEST(ScratchMemory, KeepsTheBytesOfTwoThatAreReadInTurnAndBothWays) {
+  const std::size_t blocks = 2 * ScratchMemory::kMostHeld / kBlock;
+  ScratchMemory one(blocks * kBlock, kBlock);
+  ScratchMemory other(blocks * kBlock - 5, kBlock);
+  ASSERT_TRUE(one.is_file() && other.is_file());
+  Number(&one, blocks);
+  Number(&other, blocks);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    ASSERT_TRUE(IsNumbered(one, b)) << b;
+    ASSERT_TRUE(IsNumbered(other, blocks - 1 - b)) << b;
+    ASSERT_TRUE(IsNumbered(one, 7 * b % blocks)) << b;
+    ASSERT_LE(ScratchMemory::held(), ScratchMemory::kMostHeld);
+    // Written anew where it had been let go.
+    other.BeforeWriting(blocks - 1 - b);
+    other.data()[(blocks - 1 - b) * kBlock + 9] = std::byte{1};
+  }
+  for (std::size_t b = 0; b < blocks; ++b) {
+    ASSERT_TRUE(IsNumbered(other, b));
+    ASSERT_EQ(other.data()[b * kBlock + 9], std::byte{1});
+  }
+}
+
 /// Bytes on the disk of the files without a name in a folder that are open.
 std::uintmax_t BytesOfOpenFilesIn(const std::string& folder) {
   std::uintmax_t bytes = 0;

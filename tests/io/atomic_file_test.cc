@@ -79,6 +79,35 @@ TEST_P(AtomicFileOfLines, HasThemInTheirOrderBetweenWhatElseIsWritten) {
   EXPECT_EQ(folder.Read("a.txt"), expected);
 }
 
+TEST_P(AtomicFileOfLines, GoToAnotherFileAsWellThatWantsThem) {
+  const TemporaryFolder folder;
+  AtomicFile all(folder.Path("all.txt"));
+  AtomicFile some(folder.Path("some.txt"));
+  std::string expected_of_all;
+  std::string expected_of_some;
+  const AtomicFile::Copy copy = {&some,
+                                 [](std::size_t i) { return i % 3 == 1; }};
+  const auto append = [](std::size_t i, std::string* out) {
+    *out += std::to_string(i) + std::string(i % 97, 'x') + '\n';
+  };
+  for (const int lines : {1, 20000, 5, 50000}) {
+    const auto count = static_cast<std::size_t>(lines);
+    some.Write("title\n");
+    expected_of_some += "title\n";
+    all.WriteLines(count, append, &copy);
+    for (std::size_t i = 0; i < count; ++i) {
+      append(i, &expected_of_all);
+      if (copy.has(i)) append(i, &expected_of_some);
+    }
+  }
+  some.WriteLines(3, append);
+  for (std::size_t i = 0; i < 3; ++i) append(i, &expected_of_some);
+  all.Commit();
+  some.Commit();
+  EXPECT_EQ(folder.Read("all.txt"), expected_of_all);
+  EXPECT_EQ(folder.Read("some.txt"), expected_of_some);
+}
+
 TEST_P(AtomicFileOfLines, SaysThatTheyCannotBeWrittenAndLeavesNothing) {
   const TemporaryFolder folder;
   rlimit before = {};

@@ -41,13 +41,17 @@ class RowSource {
   /// Of the current row, as the file gives it.
   const Stamp& stamp() const { return stamp_; }
   /// In SI; NaN if absent.
-  double value(std::size_t field) const { return values_[field]; }
+  double value(std::size_t field) const {
+    return elsewhere_ == nullptr ? values_[field] : elsewhere_[field];
+  }
   /// Line or row number in the file, from 1.
   long line() const { return line_; }
 
  protected:
   Stamp stamp_;
   std::vector<double> values_;
+  /// Where the row's values stand, if not there: so they need not be copied.
+  const double* elsewhere_ = nullptr;
   long line_ = 0;
 };
 

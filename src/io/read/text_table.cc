@@ -45,8 +45,8 @@ TextTable::Batch TextTable::ReadLines(Batch memory) {
   const TableLayout& layout = parser_.layout();
   const auto add = [&](std::string_view line) {
     Ahead& row = batch.rows.emplace_back();
-    row.begin = batch.texts.size();
-    row.length = line.size();
+    row.begin = static_cast<std::uint32_t>(batch.texts.size());
+    row.length = static_cast<std::uint32_t>(line.size());
     row.number = lines_->number();
     row.terminated = lines_->terminated();
     batch.texts += line;
@@ -78,18 +78,21 @@ void TextTable::Parse(Batch* batch) const {
   TextRowParser::Scratch scratch;
   std::size_t begin = 0;
   for (Ahead& row : batch->rows) {
+    std::size_t last_length = 0;
     std::string problem = parser.Parse(
         std::string_view(batch->texts).substr(row.begin, row.length), &scratch,
         std::span(batch->values).subspan(begin, width), &row.stamp,
-        &row.columns, &row.last_length);
+        &row.columns, &last_length);
+    row.last_length = static_cast<std::uint32_t>(last_length);
     begin += width;
     if (problem.empty()) continue;
-    row.problem = batch->problems.size();
+    row.problem = static_cast<std::uint32_t>(batch->problems.size());
     batch->problems.push_back(std::move(problem));
   }
 }
 
 bool TextTable::ReadAhead() {
+  elsewhere_ = nullptr;
   if (batch_.trouble) std::rethrow_exception(batch_.trouble);
   Batch used = std::move(batch_);
   if (ahead_.empty()) {
@@ -135,9 +138,7 @@ void TextTable::Take(const Ahead& row, std::size_t index) {
       stamp_.seconds += 2 * kHalfDay;
     }
   }
-  const auto begin =
-      batch_.values.begin() + static_cast<long>(index * values_.size());
-  std::copy(begin, begin + static_cast<long>(values_.size()), values_.begin());
+  elsewhere_ = batch_.values.data() + index * values_.size();
 }
 
 bool TextTable::Next() {
@@ -183,7 +184,7 @@ bool TextTable::IsLastValueWhole(const Ahead& row, std::string* problem) {
       row.columns != static_cast<int>(parser_.wanted())) {
     return true;
   }
-  const std::size_t length = row.last_length;
+  const std::uint32_t length = row.last_length;
   if (!row.terminated && length < shortest_last_value_ &&
       shortest_last_value_ != kNone) {
     const std::string_view line = LineOf(row);

@@ -55,19 +55,19 @@ class TextTable final : public RowSource {
   std::size_t RowsHint() const override;
 
  private:
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  static constexpr std::uint32_t kNone = static_cast<std::uint32_t>(-1);
 
   /// A row that was read ahead, as the parser left it.
   struct Ahead {
-    std::size_t begin = 0;  ///< of the line, in Batch::texts
-    std::size_t length = 0;
-    long number = 0;
-    bool terminated = true;
     Stamp stamp;
-    int columns = 0;
-    std::size_t last_length = 0;  ///< of what is behind the last delimiter
+    long number = 0;
+    std::uint32_t begin = 0;  ///< of the line, in Batch::texts
+    std::uint32_t length = 0;
+    std::uint32_t last_length = 0;  ///< of what is behind the last delimiter
     /// What is wrong with the row, in Batch::problems; kNone: nothing.
-    std::size_t problem = kNone;
+    std::uint32_t problem = kNone;
+    int columns = 0;
+    bool terminated = true;
   };
 
   /// Lines that were read ahead.
@@ -109,7 +109,7 @@ class TextTable final : public RowSource {
   long truncated_ = 0;
   long texts_dropped_ = 0;
   std::size_t first_length_ = 0;
-  std::size_t shortest_last_value_ = kNone;
+  std::uint32_t shortest_last_value_ = kNone;
   bool all_read_ = false;  ///< or trouble was run into
   std::deque<std::future<Batch>> ahead_;
 };

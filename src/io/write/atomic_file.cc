@@ -98,7 +98,8 @@ void AtomicFile::WritePieces(std::size_t count) {
 
 void AtomicFile::WriteLines(
     std::size_t count,
-    const std::function<void(std::size_t i, std::string* out)>& append) {
+    const std::function<void(std::size_t i, std::string* out)>& append,
+    const Copy* copy) {
   constexpr std::size_t kLinesOfThread = 256;
   constexpr std::size_t kPiecesAtOnce = 16;
   for (std::size_t done = 0; done < count;) {
@@ -106,20 +107,29 @@ void AtomicFile::WriteLines(
     const std::size_t now =
         std::min(kPiecesAtOnce, (left + kLinesOfThread - 1) / kLinesOfThread);
     pieces_.resize(kPiecesAtOnce);
+    if (copy != nullptr) copy->file->pieces_.resize(kPiecesAtOnce);
     ForRanges(now, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p) {
         std::string& piece = pieces_[p];
         piece.clear();
+        std::string* copies = nullptr;
+        if (copy != nullptr) {
+          copies = &copy->file->pieces_[p];
+          copies->clear();
+        }
         const std::size_t first = done + p * kLinesOfThread;
         const std::size_t last = std::min(first + kLinesOfThread, count);
         for (std::size_t i = first; i < last; ++i) {
+          const std::size_t at = piece.size();
           append(i, &piece);
+          if (copies != nullptr && copy->has(i)) copies->append(piece, at);
           // Lines are about as long as the first.
           if (i == first) piece.reserve(piece.size() * (last - first) * 9 / 8);
         }
       }
     });
     WritePieces(now);
+    if (copy != nullptr) copy->file->WritePieces(now);
     done += now * kLinesOfThread;
   }
 }

@@ -27,11 +27,17 @@ class AtomicFile {
 
   /// Buffered.
   void Write(std::string_view text);
+  /// Another file that gets lines as well.
+  struct Copy {
+    AtomicFile* file;
+    std::function<bool(std::size_t i)> has;  ///< whether it gets line i
+  };
   /// The lines that `append` makes of 0 to count, in that order. Several threads make
   /// them, and another writes them while the next are made.
   void WriteLines(
       std::size_t count,
-      const std::function<void(std::size_t i, std::string* out)>& append);
+      const std::function<void(std::size_t i, std::string* out)>& append,
+      const Copy* copy = nullptr);
 
   /// Returns when the medium has the content and the file has its name. That a
   /// crash of the system leaves the name takes SyncFolder besides. A file of

@@ -18,6 +18,10 @@ class ColumnCsv : public ColumnFile {
             std::vector<SolutionColumn> columns);
 
   void Append(const Eigen::MatrixXd& rows) override;
+  /// Adds them and, of lines that are made once, `some` to a file of the same columns;
+  /// `some` has one entry a row.
+  void Append(const Eigen::MatrixXd& rows, const std::vector<bool>& some,
+              ColumnCsv* other);
   void Commit() override;
 
  private:

@@ -6,15 +6,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <string_view>
 
 namespace hindsight {
 namespace {
-
-// Room for the fixed form of the largest double and its decimals.
-constexpr std::size_t kLongestNumber = 400;
 
 // What is quick here is exact, and several times as fast as std::to_chars with a
 // precision, which gets the numbers that it leaves out.
@@ -61,43 +59,65 @@ Wide Scaled(const Binary& value, int power) {
   const int shift = -value.exponent;
   if (shift == 0) return product;
   if (shift >= kWideBits) return 0;  // the product is below half of that
-  const Wide floor = product >> shift;
-  const Wide rest = product - (floor << shift);
-  const Wide half = Wide{1} << (shift - 1);
-  const bool up = rest > half || (rest == half && (floor & 1) != 0);
-  return up ? floor + 1 : floor;
+  const Wide halves = product >> (shift - 1);
+  const Wide rest = product - (halves << (shift - 1));
+  // Up from a half, of a half alone if that makes it even: no branch, as nobody
+  // guesses it.
+  const auto last = static_cast<unsigned>(halves);
+  const unsigned up = last & (last >> 1 | static_cast<unsigned>(rest != 0)) & 1;
+  return (halves >> 1) + up;
 }
 
-// What is quick here is composed in a buffer and appended at once.
-constexpr std::size_t kLongestQuick = 48;
-using QuickBuffer = std::array<char, kLongestQuick>;
+// What is quick returns where the next character goes; nullptr, and nothing that was
+// put counts, for numbers that it leaves out.
 
-/// Where the next character goes.
 char* PutWhole(std::uint64_t value, char* to) {
   constexpr std::ptrdiff_t kMostDigits = 20;
   return std::to_chars(to, to + kMostDigits, value).ptr;
 }
 
-/// False, and nothing appended, for numbers that it leaves out.
-bool AppendFixedQuickly(double value, int decimals, std::string* out) {
+constexpr auto kPairs = [] {
+  std::array<char, 200> pairs = {};
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const std::size_t pair = i / 2;
+    pairs[i] = static_cast<char>('0' + (i % 2 == 0 ? pair / 10 : pair % 10));
+  }
+  return pairs;
+}();
+
+void PutPair(std::uint64_t value, char* to) {
+  std::memcpy(to, kPairs.data() + 2 * value, 2);
+}
+
+/// The last digits of a number, as many as `count` says, with zeros in front.
+char* PutDigits(std::uint64_t value, int count, char* to) {
+  char* const end = to + count;
+  char* at = end;
+  for (; at - to >= 4; value /= 10000) {
+    const std::uint64_t four = value % 10000;
+    at -= 4;
+    PutPair(four / 100, at);
+    PutPair(four % 100, at + 2);
+  }
+  for (; at > to; value /= 10) *--at = static_cast<char>('0' + value % 10);
+  return end;
+}
+
+char* PutFixedQuickly(double value, int decimals, char* to) {
   constexpr double kLargest = 1e8;
   constexpr int kMostDecimals = 10;
   const double size = std::abs(value);
   if (!(size >= kLeastNormal && size < kLargest) || decimals < 1 ||
       decimals > kMostDecimals) {
-    return false;
+    return nullptr;
   }
   const auto digits =
       static_cast<std::uint64_t>(Scaled(Binary(size), decimals));
   const auto one = static_cast<std::uint64_t>(PowerOfTen(decimals));
-  QuickBuffer buffer;
-  char* to = buffer.data();
   if (value < 0.0 && digits > 0) *to++ = '-';
-  char* const point = PutWhole(digits / one, to);
-  to = PutWhole(one + digits % one, point);  // a digit more, for zeros in front
-  *point = '.';
-  out->append(buffer.data(), static_cast<std::size_t>(to - buffer.data()));
-  return true;
+  to = PutWhole(digits / one, to);
+  *to++ = '.';
+  return PutDigits(digits % one, decimals, to);
 }
 
 /// A number of some digits, of which the first stands for 10^exponent.
@@ -125,32 +145,34 @@ std::optional<Decimal> Rounded(double value, int count) {
   }
 }
 
-/// As AppendFixedQuickly.
-bool AppendGeneralQuickly(double value, int count, std::string* out) {
+char* PutGeneralQuickly(double value, int count, char* to) {
   constexpr double kLargest = 9007199254740992.0;  // 2^kMantissaBits
   constexpr int kLeastFixed = -4;                  // as printf's %g
   const double size = std::abs(value);
-  if (!(size >= kLeastNormal && size < kLargest)) return false;
+  if (!(size >= kLeastNormal && size < kLargest)) return nullptr;
   const std::optional<Decimal> decimal = Rounded(size, count);
-  if (!decimal) return false;
+  if (!decimal) return nullptr;
   const int exponent = decimal->exponent;
   const bool scientific = exponent < kLeastFixed || exponent >= count;
-  QuickBuffer buffer;
-  char* to = buffer.data();
   if (value < 0.0) *to++ = '-';
   if (!scientific && exponent < 0) {
     *to++ = '0';
     *to++ = '.';
-    to = std::fill_n(to, -exponent - 1, '0');
+    for (int i = -1; i > exponent; --i) *to++ = '0';
   }
-  char* const first = to;
-  to = PutWhole(decimal->digits, to);
-  const std::ptrdiff_t whole = scientific ? 1 : std::max(exponent + 1, 0);
-  while (to - first > std::max<std::ptrdiff_t>(whole, 1) && to[-1] == '0') --to;
-  if (whole > 0 && to - first > whole) {
-    std::copy_backward(first + whole, to, to + 1);
-    first[whole] = '.';
-    ++to;
+  // With room for the point, before which there is not much.
+  const int whole = scientific ? 1 : std::max(exponent + 1, 0);
+  char* const point = to + whole;
+  char* const first = whole > 0 ? to + 1 : to;
+  to = PutDigits(decimal->digits, count, first);
+  while (to - first > std::max(whole, 1) && to[-1] == '0') --to;
+  if (whole > 0) {
+    for (char* at = point - whole; at < point; ++at) *at = at[1];
+    if (to == point + 1) {
+      to = point;
+    } else {
+      *point = '.';
+    }
   }
   if (scientific) {
     *to++ = 'e';
@@ -158,36 +180,46 @@ bool AppendGeneralQuickly(double value, int count, std::string* out) {
     if (std::abs(exponent) < 10) *to++ = '0';
     to = PutWhole(static_cast<std::uint64_t>(std::abs(exponent)), to);
   }
-  out->append(buffer.data(), static_cast<std::size_t>(to - buffer.data()));
-  return true;
+  return to;
 }
 
 }  // namespace
 
+char* PutFixed(double value, int decimals, char* to) {
+  if (char* const end = PutFixedQuickly(value, decimals, to)) return end;
+  char* const end = std::to_chars(to, to + kLongestNumber, value,
+                                  std::chars_format::fixed, decimals)
+                        .ptr;
+  const bool is_zero = std::string_view(to, static_cast<std::size_t>(end - to))
+                           .find_first_not_of("-0.") == std::string_view::npos;
+  return is_zero && *to == '-' ? std::copy(to + 1, end, to) : end;
+}
+
+char* PutGeneral(double value, int digits, char* to) {
+  if (char* const end = PutGeneralQuickly(value, digits, to)) return end;
+  return std::to_chars(to, to + kLongestNumber, value,
+                       std::chars_format::general, digits)
+      .ptr;
+}
+
+char* PutShortest(double value, char* to) {
+  return std::to_chars(to, to + kLongestNumber, value, std::chars_format::fixed)
+      .ptr;
+}
+
 void AppendFixed(double value, int decimals, std::string* out) {
-  if (AppendFixedQuickly(value, decimals, out)) return;
   char buffer[kLongestNumber];
-  const auto result = std::to_chars(buffer, buffer + kLongestNumber, value,
-                                    std::chars_format::fixed, decimals);
-  const std::string_view text(buffer,
-                              static_cast<std::size_t>(result.ptr - buffer));
-  const bool is_zero = text.find_first_not_of("-0.") == std::string_view::npos;
-  out->append(is_zero && text.starts_with('-') ? text.substr(1) : text);
+  out->append(buffer, PutFixed(value, decimals, buffer));
 }
 
 void AppendGeneral(double value, int digits, std::string* out) {
-  if (AppendGeneralQuickly(value, digits, out)) return;
   char buffer[kLongestNumber];
-  const auto result = std::to_chars(buffer, buffer + kLongestNumber, value,
-                                    std::chars_format::general, digits);
-  out->append(buffer, result.ptr);
+  out->append(buffer, PutGeneral(value, digits, buffer));
 }
 
 void AppendShortest(double value, std::string* out) {
   char buffer[kLongestNumber];
-  const auto result = std::to_chars(buffer, buffer + kLongestNumber, value,
-                                    std::chars_format::fixed);
-  out->append(buffer, result.ptr);
+  out->append(buffer, PutShortest(value, buffer));
 }
 
 std::string FormatFixed(double value, int decimals) {
