@@ -121,9 +121,10 @@ class ErrorSearch {
   static void TellNotes(const Round& round, RobustBatchResult* result);
   /// Errors that sensors may have which were left their noise.
   void TellUndecided(RobustBatchResult* result) const;
-  /// Errors of other sensors that explain the same; what all are worth together, if
-  /// it `averages`.
-  static void TellRivals(const Round& round, bool averages,
+  /// What it is worth that another sensor errs in place of the likeliest.
+  enum class Worth { kNothing, kCovariance, kMean };
+  /// Errors of other sensors that explain the same.
+  static void TellRivals(const Round& round, Worth worth,
                          RobustBatchResult* result);
 
   Problem problem_;

@@ -49,6 +49,9 @@ void ErrorSearch::Tell(RobustBatchResult* result) const {
     // What stands beside these errors has not been sought beside another's.
     const bool is_last =
         i + 1 == rounds_.size() || !rounds_[i + 1].best().Stands();
+    const Worth worth = is_without_positions ? Worth::kNothing
+                        : is_last            ? Worth::kMean
+                                             : Worth::kCovariance;
     if (!is_without_positions) {
       std::optional<Evidence> doubt = best.Average(
           problem_.layout, &result->batch.states, &result->batch.P);
@@ -60,7 +63,7 @@ void ErrorSearch::Tell(RobustBatchResult* result) const {
       result->bounded.push_back(std::move(one));
     }
     result->trust[static_cast<std::size_t>(best.sensor())] = best.Trust();
-    TellRivals(rounds_[i], is_last && !is_without_positions, result);
+    TellRivals(rounds_[i], worth, result);
   }
   TellUndecided(result);
 }
@@ -95,7 +98,7 @@ void ErrorSearch::TellNotes(const Round& round, RobustBatchResult* result) {
   }
 }
 
-void ErrorSearch::TellRivals(const Round& round, bool averages,
+void ErrorSearch::TellRivals(const Round& round, Worth worth,
                              RobustBatchResult* result) {
   const ReceiverErrors& best = round.best();
   std::vector<RivalSensor> rivals;
@@ -112,8 +115,10 @@ void ErrorSearch::TellRivals(const Round& round, bool averages,
   if (rivals.empty()) return;
   for (RivalSensor& one : rivals) one.probability /= odds;
   const bool is_mean =
-      averages && best.AverageWith(rivals, result->problem.layout,
-                                   &result->batch.states, &result->batch.P);
+      worth != Worth::kNothing &&
+      best.AverageWith(rivals, result->problem.layout,
+                       worth == Worth::kMean ? &result->batch.states : nullptr,
+                       &result->batch.P);
   std::string names = best.name();
   std::string words = ": " + best.InWords();
   double farthest = 0.0;

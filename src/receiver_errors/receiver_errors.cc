@@ -208,7 +208,7 @@ bool ReceiverErrors::AverageWith(const std::vector<RivalSensor>& others,
   const int dim = found_->tape.dim();
   double together = 0.0;
   for (const RivalSensor& other : others) together += other.probability;
-  const bool comparable = together > kComparable;
+  const bool comparable = states != nullptr && together > kComparable;
   for (std::size_t k = 0; k < found_->tape.size(); ++k) {
     const ErrorVector& chosen = found_->chosen().smoothed[k];
     // If another errs, this sensor does not.

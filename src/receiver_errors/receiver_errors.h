@@ -133,9 +133,9 @@ class ReceiverErrors {
   /// of the horizontal position first) away at some node.
   bool IsApart(const ReceiverErrors& other, const CovarianceSeries& P) const;
   /// Adds to P what it is worth that one of the others errs in place of this sensor, by
-  /// the covariance of all alike. Where together they are likelier than one to 10^(1/2),
-  /// the states become the mean of all, weighed by their probabilities, P is of the
-  /// mixture, and true is returned.
+  /// the covariance of all alike. Where together they are likelier than one to 10^(1/2)
+  /// and `states` is not null, these become the mean of all, weighed by their
+  /// probabilities, P is of the mixture, and true is returned.
   bool AverageWith(const std::vector<RivalSensor>& others,
                    const ErrorLayout& layout, std::vector<State>* states,
                    CovarianceSeries* P) const;
