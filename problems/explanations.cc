@@ -71,18 +71,21 @@ double LimitOf(double false_alarms, std::size_t tests) {
       1.0));
 }
 
-/// Of a deviation by which the root mean square of the innovations is a hundredth of
-/// their sigma: no sensor is known better, and of days of fixes what is quadratic in the
-/// errors of the trajectory adds up to half of that.
-double LeastZ(const LinearTape& tape) {
+/// By sensor, of a deviation by which the root mean square of its innovations is a
+/// hundredth of their sigma: no sensor is known better, and of days of fixes what is
+/// quadratic in the errors of the trajectory adds up to half of that.
+std::vector<double> LeastZ(const LinearTape& tape, std::size_t sensors) {
   constexpr double kKnown = 0.01;  // sigma
-  double rows = 0.0;
+  std::vector<double> rows(sensors, 0.0);
   for (std::size_t k = 0; k < tape.size(); ++k) {
     for (const TapeMeasurement& z : tape.measurements(k)) {
-      if (z.accepted) rows += static_cast<double>(z.innovation.size());
+      if (!z.accepted) continue;
+      rows[static_cast<std::size_t>(z.sensor)] +=
+          static_cast<double>(z.innovation.size());
     }
   }
-  return kKnown * std::sqrt(rows);
+  for (double& one : rows) one = kKnown * std::sqrt(one);
+  return rows;
 }
 
 /// Additive errors that come and go.
@@ -206,7 +209,7 @@ ExplanationSearch::ExplanationSearch(const Problem& problem,
   const double limits[] = {
       LimitOf(false_alarms / 3.0, throughout),
       LimitOf(false_alarms / 3.0, tried.size() - throughout)};
-  LikelyDeviations candidates(LeastZ(tape));
+  LikelyDeviations candidates(LeastZ(tape, problem.timeline.sensors().size()));
   for (const MeanShift& shift : tried) {
     candidates.Offer(
         {shift, own.ZOf(shift), limits[shift.onset == first ? 0 : 1]});

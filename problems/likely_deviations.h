@@ -25,13 +25,15 @@ struct LikelyDeviation {
 };
 
 /// The likeliest deviations of each source beyond their limits, one a column
-/// and course. No limit is below `least`.
+/// and course. No limit of a sensor's is below the least one, by sensor, nor any other's
+/// below the smallest of these.
 class LikelyDeviations {
  public:
-  explicit LikelyDeviations(double least) : least_(least) {}
+  explicit LikelyDeviations(std::vector<double> least)
+      : least_(std::move(least)) {}
 
   void Offer(LikelyDeviation one) {
-    one.limit = std::max(one.limit, least_);
+    one.limit = std::max(one.limit, LeastOf(one.shift));
     if (!(std::abs(one.z) >= one.limit)) return;
     const Course course = !one.columns.empty() ? Course::kVaries
                           : one.shift.grows    ? Course::kGrows
@@ -59,7 +61,15 @@ class LikelyDeviations {
  private:
   static constexpr int kState = -3;
   enum class Course { kStays, kGrows, kVaries };
-  double least_;
+
+  double LeastOf(const MeanShift& shift) const {
+    if (least_.empty()) return 0.0;
+    return shift.of_state || shift.group < 0
+               ? *std::min_element(least_.begin(), least_.end())
+               : least_[static_cast<std::size_t>(shift.group)];
+  }
+
+  std::vector<double> least_;
   std::map<int, std::map<std::pair<int, Course>, LikelyDeviation>> best_;
 };
 

@@ -61,14 +61,20 @@ TEST(DeviationColumns, NoiseOfReadingsIsNoScale) {
   }
 }
 
+/// A sensor's by its own fixes, those of the IMU by the sensor that has the fewest.
 TEST(LikelyDeviations, HaveNoLimitBelowTheLeast) {
-  const LikelyDeviation one = {.shift = {}, .z = -4.5, .limit = 4.2};
-  LikelyDeviations few(0.0), many(5.0);
-  few.Offer(one);
-  many.Offer(one);
-  ASSERT_EQ(few.Sorted().size(), 1u);
-  EXPECT_EQ(few.Sorted().begin()->second.front().limit, 4.2);
-  EXPECT_TRUE(many.Sorted().empty());
+  LikelyDeviation one = {.shift = {}, .z = -4.5, .limit = 4.2};
+  const auto is_told = [&one](const std::vector<double>& least) {
+    LikelyDeviations all(least);
+    all.Offer(one);
+    return !all.Sorted().empty();
+  };
+  EXPECT_TRUE(is_told({}));
+  EXPECT_TRUE(is_told({0.0, 5.0}));
+  EXPECT_FALSE(is_told({5.0, 0.0}));
+  one.shift.group = DeviationColumns::kImu;
+  EXPECT_TRUE(is_told({5.0, 0.0}));
+  EXPECT_FALSE(is_told({5.0, 6.0}));
 }
 
 }  // namespace
