@@ -58,7 +58,7 @@ bool ReceiverErrors::WasEnded() const { return found_->stopped; }
 
 int ReceiverErrors::sensor() const { return found_->sensor; }
 
-double ReceiverErrors::log_gain() const { return found_->choice.gain; }
+double ReceiverErrors::log_gain() const { return found_->gain; }
 
 void ReceiverErrors::Extend(Problem* problem) const {
   found_->states().Extend(problem);
@@ -129,7 +129,7 @@ std::vector<std::string> ReceiverErrors::Notes(
                  DescribeNoise(found_->regimes.kind, chosen.parameters));
     notes.push_back(fmt::format(
         "against the noise as stated the evidence is exp({:.3g}) to 1",
-        found_->choice.gain));
+        found_->gain));
   } else if (found_->stopped) {
     notes.emplace_back("no errors found before the search was ended");
   } else {

@@ -70,7 +70,8 @@ class ReceiverErrors {
 
   int sensor() const;
   std::string name() const;
-  /// ln of its evidence over that of the noise as stated; 0 unless it stands.
+  /// ln of its evidence over that of the noise as stated, at all fixes of the tape; 0
+  /// unless it stands.
   double log_gain() const;
 
   /// Gives the problem that was asked about what was found: to the sensor's

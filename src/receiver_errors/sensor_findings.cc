@@ -173,6 +173,7 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
     regimes = WithAlternatives(std::move(all), choice.chosen);
   }
   stopped |= rest.stopped();
+  if (stands()) gain = GainOnTape();
   WeighAlternatives();
 }
 
@@ -182,8 +183,20 @@ SensorFindings::SensorFindings(const ErrorDecisions& decisions,
   WeighAlternatives();
 }
 
+double SensorFindings::GainOnTape() const {
+  const Hypothesis& best = regimes.hypotheses.front();
+  ErrorParameters stated;
+  stated.outlier_share = 0.0;
+  return log_prior +
+         ScoreSequence(tape, sensor, best.parameters, best.sequence)
+             .log_likelihood -
+         ScoreSequence(tape, sensor, stated, ModeSequence(best.sequence.size()))
+             .log_likelihood;
+}
+
 void SensorFindings::Withdraw() {
   choice = {};
+  gain = 0.0;
   undecided.clear();
   regimes = {};
   alternatives.clear();

@@ -45,6 +45,10 @@ struct ErrorDecisions {
   /// ln of the evidence that was chosen, on these, without the likelihood.
   double log_prior = 0.0;
   RegimeChoice choice;
+  /// ln of the evidence of what stands over that of the noise as stated, on all of the
+  /// tape: each sensor is searched on a tape of its own, and what RegimeChoice::gain says
+  /// of one compares with no other's.
+  double gain = 0.0;
   /// RegimeChoice::undecided, by fix; their log_posterior is the gain.
   std::vector<Hypothesis> undecided;
   ErrorRegimes regimes;   ///< if they stand
@@ -76,6 +80,9 @@ struct SensorFindings : ErrorDecisions {
   /// The noise of all fixes, where normal points show no errors: outliers among
   /// fixes are not in them.
   void ChooseNoise(const LinearTape& fixes, SearchEffort* effort);
+
+  /// ErrorDecisions::gain of what stands.
+  double GainOnTape() const;
 
   /// Takes back what stands.
   void Withdraw();
