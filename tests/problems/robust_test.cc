@@ -232,7 +232,7 @@ TEST(RobustBatch, DoubtsNoiseBesideWhichAnErrorIsAboutAsLikely) {
   EXPECT_EQ(solution.grade, Grade::kDoubtful);
   EXPECT_TRUE(std::ranges::any_of(solution.evidence, [](const Evidence& one) {
     return one.what.starts_with("left: as stated; or else") &&
-           one.what.ends_with("biased from 50 to 110 s");
+           one.what.ends_with("biased from 50 to 110 s by 1.3 m");
   })) << solution.verdict;
 }
 

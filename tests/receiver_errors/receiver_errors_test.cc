@@ -14,6 +14,7 @@
 #include "measurements/magnetic_field.h"
 #include "receiver_errors/mode_sequence.h"
 #include "receiver_errors/sensor_findings.h"
+#include "receiver_errors/sequence_smoother.h"
 #include "support/test_problem.h"
 
 namespace hindsight {
@@ -598,6 +599,29 @@ TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {
   EXPECT_THAT(found.errors.InWords(), HasSubstr("drifting from"));
   const std::vector<State> states = found.errors.States(found.problem.layout);
   EXPECT_LT((states[28].p_e - test.truth[28].p_e).norm(), 3.0);
+}
+
+/// The search sees averages of a second, of which the evidence is another: what one
+/// sensor's errors explain compares with another's on the tape that both have.
+TEST(ReceiverErrors, OfFastFixesExplainWhatAllOfThemSay) {
+  TestProblem test = FixesOfOneMinute(0.2);
+  AddStep(30.5, &test);
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  const SensorFindings found(problem, tape, 0, {});
+  ASSERT_TRUE(found.stands());
+  double as_stated = 0.0;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      as_stated += z.log_likelihood;
+    }
+  }
+  const Hypothesis& best = found.regimes.hypotheses.front();
+  const double with_errors =
+      ScoreSequence(tape, 0, best.parameters, best.sequence).log_likelihood;
+  EXPECT_NEAR(found.gain, found.log_prior + with_errors - as_stated,
+              1e-6 * found.gain);
+  EXPECT_GT(std::abs(found.gain - found.choice.gain), 100.0);
 }
 
 TEST(ReceiverErrors, AreTheSameAboutAnotherTapeOfTheSameFixes) {
