@@ -147,18 +147,21 @@ std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
   return fits;
 }
 
-/// From white noise; where that takes errors for outliers, which is a maximum of its
-/// own beside an error throughout, from the noise a priori as well.
-ErrorRegimes FitLikeliestGaussMarkov(const RegimeProblem& problem,
-                                     const ErrorParameters& white,
-                                     const std::vector<ErrorRegimes>& noise) {
-  ErrorRegimes fit = FitGaussMarkov(problem, white);
-  if (noise[1].log_evidence < noise[0].log_evidence + kLeastGain) return fit;
+/// White noise that takes errors for outliers leads to a maximum of its own beside an
+/// error throughout: that from the noise a priori, of regimes whose first are the stated
+/// and the white noise, where it is likelier.
+void FitGaussMarkovAnew(const RegimeProblem& problem,
+                        const ErrorParameters& start,
+                        const std::vector<ErrorRegimes>& all,
+                        ErrorRegimes* gauss_markov) {
+  if (all[1].log_evidence < all[0].log_evidence + kLeastGain) return;
   ErrorParameters typical;
-  typical.sigma = white.sigma;
-  typical.tau = white.tau;
+  typical.sigma = start.sigma;
+  typical.tau = start.tau;
   ErrorRegimes other = FitGaussMarkov(problem, typical);
-  return other.log_evidence > fit.log_evidence ? other : fit;
+  if (other.log_evidence > gauss_markov->log_evidence) {
+    *gauss_markov = std::move(other);
+  }
 }
 
 /// The noise of all fixes, in turn with the change points to which it is fitted: those
@@ -194,12 +197,16 @@ std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem) {
   start.sigma = problem.stated_sigma;
   start.tau = 100.0;
   if (!problem.has_gauss_markov) {
-    all.push_back(FitLikeliestGaussMarkov(problem, start, all));
+    all.push_back(FitGaussMarkov(problem, start));
   }
   if (problem.effort->stopped()) return all;
   start.scale = std::min(start.scale,
                          MeanScale(all.back().hypotheses.front().parameters));
   std::vector<ErrorRegimes> fits = FitOrders(problem, start, all[1]);
+  // Last, as it is not to cost the search of sequences anything.
+  if (!problem.has_gauss_markov) {
+    FitGaussMarkovAnew(problem, start, all, &all.back());
+  }
   std::move(fits.begin(), fits.end(), std::back_inserter(all));
   return all;
 }
