@@ -236,6 +236,25 @@ TEST(RobustBatch, DoubtsNoiseBesideWhichAnErrorIsAboutAsLikely) {
   })) << solution.verdict;
 }
 
+/// Of an hour the search of sequences has to have its effort, whatever else is fitted.
+TEST(RobustBatch, FindsAPulseAndAStepOfAnHour) {
+  Dataset dirty =
+      Simulate(FindScenario("test_car", {"wander.duration=3600 s"}), 71);
+  for (AidingStream& stream : dirty.streams) {
+    if (!stream.sensor.kind->is_position) continue;
+    for (Measurement& z : stream.measurements.Edited()) {
+      auto& fix = std::get<PositionFix>(z.model);
+      const bool pulse = z.t >= 600.0 && z.t < 640.0;
+      const bool step = z.t >= 2500.0 && z.t < 2900.0;
+      const double size = pulse ? 6.0 : step ? 5.0 : 0.0;
+      fix.p_e += NedAxes(fix.p_e) * Eigen::Vector3d(size, size, 0.0);
+    }
+  }
+  const Accuracy robust = Judge(dirty, SolveBy("robust_batch", dirty));
+  EXPECT_LT(robust.horizontal_rms, 0.25);
+  EXPECT_LT(robust.position_nees, 5.0);
+}
+
 /// What is said where each sensor is left off in every round, as there is no time.
 std::vector<std::string> SaidWithoutTime(const Dataset& dataset) {
   ReconstructionOptions options;
