@@ -147,9 +147,9 @@ std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
   return fits;
 }
 
-/// White noise that takes errors for outliers leads to a maximum of its own beside an
-/// error throughout: that from the noise a priori, of regimes whose first are the stated
-/// and the white noise, where it is likelier.
+/// Beside an error throughout, white noise that takes it for outliers is a maximum of its
+/// own. Where white noise, `all`'s second, is far likelier than as stated, its first, the
+/// error is fitted from the noise a priori as well; the likelier one counts.
 void FitGaussMarkovAnew(const RegimeProblem& problem,
                         const ErrorParameters& start,
                         const std::vector<ErrorRegimes>& all,

@@ -12,17 +12,6 @@ namespace {
 /// steps would leave the problem singular.
 constexpr double kNoError = 1e-3;
 
-int RowsOf(const LinearTape& tape, int sensor) {
-  int rows = 0;
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    for (const TapeMeasurement& z : tape.measurements(k)) {
-      if (z.sensor != sensor) continue;
-      rows = std::max(rows, static_cast<int>(z.residual.size()));
-    }
-  }
-  return rows;
-}
-
 /// Sigma of e at the first node [m]; 0 where the receiver is good there.
 double FirstSigma(const WeighedHypothesis& chosen) {
   switch (chosen.steps.front().mode) {

@@ -151,6 +151,17 @@ bool HasFix(const LinearTape& tape, std::size_t k, int receiver) {
   return false;
 }
 
+int RowsOf(const LinearTape& tape, int sensor) {
+  int rows = 0;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      if (z.sensor != sensor) continue;
+      rows = std::max(rows, static_cast<int>(z.residual.size()));
+    }
+  }
+  return rows;
+}
+
 std::vector<ErrorStep> StepsByNode(const LinearTape& tape, int receiver,
                                    const ModeSequence& sequence) {
   std::vector<ErrorStep> steps;

@@ -99,6 +99,8 @@ std::vector<ErrorStep> StepsByNode(const LinearTape& tape, int receiver,
                                    const ModeSequence& sequence);
 /// Whether the node has a fix of the receiver that is used.
 bool HasFix(const LinearTape& tape, std::size_t k, int receiver);
+/// The most rows that a measurement of the sensor has.
+int RowsOf(const LinearTape& tape, int sensor);
 
 }  // namespace hindsight
 

@@ -4,56 +4,14 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
-#include <set>
 #include <utility>
 
-#include "measurements/magnetic_field.h"
-#include "measurements/sensor_kind.h"
 #include "receiver_errors/errant_end.h"
 #include "receiver_errors/sequence_smoother.h"
 #include "receiver_errors/uniform_regimes.h"
 
 namespace hindsight {
 namespace {
-
-/// Root mean square of the stated sigmas of a sensor, of its first two rows; where its
-/// errors are a field of the vehicle, of that.
-double StatedSigma(const LinearTape& tape, int sensor) {
-  const Block* own = OwnFieldOf(tape.layout(), sensor);
-  double sum = 0.0;
-  int count = 0;
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    for (const TapeMeasurement& z : tape.measurements(k)) {
-      if (z.sensor != sensor || !z.accepted || z.withheld) continue;
-      for (Eigen::Index i = 0; i < std::min<Eigen::Index>(2, z.R.rows()); ++i) {
-        const double by_field =
-            own == nullptr
-                ? 1.0
-                : z.H.row(i).segment(own->offset, own->dim).squaredNorm();
-        sum += z.R(i, i) / by_field;
-        ++count;
-      }
-    }
-  }
-  return std::sqrt(sum / std::max(1, count));
-}
-
-/// Of a magnetometer the field in axes of the vehicle, or the azimuth of one whose hard
-/// iron is known.
-std::string UnitOf(const SensorKind& kind, Eigen::Index rows,
-                   bool is_own_field) {
-  if (kind.magnetic) return rows == 1 && !is_own_field ? "rad" : "uT";
-  return std::string(kind.residual_unit.empty() ? "SI" : kind.residual_unit);
-}
-
-Eigen::Index RowsOf(const LinearTape& tape, int sensor) {
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    for (const TapeMeasurement& z : tape.measurements(k)) {
-      if (z.sensor == sensor) return z.residual.size();
-    }
-  }
-  return 0;
-}
 
 /// What a filter step of so many states takes, by one of a position, velocity,
 /// attitude, the IMU's biases and scale factors and an error with its rate.
@@ -87,44 +45,7 @@ double LogPriorOfFit(const RegimeProblem& problem, const ErrorRegimes& fit) {
                                 .log_likelihood;
 }
 
-/// Sensors of positions of which a fix is used.
-std::set<int> UsedPositions(const Timeline& timeline, const LinearTape& tape) {
-  std::set<int> used;
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    for (const TapeMeasurement& z : tape.measurements(k)) {
-      const auto sensor = static_cast<std::size_t>(z.sensor);
-      if (z.accepted && !z.withheld &&
-          timeline.sensors()[sensor].kind->is_position) {
-        used.insert(z.sensor);
-      }
-    }
-  }
-  return used;
-}
-
 }  // namespace
-
-std::size_t SensorOf(const ErrorDecisions& decisions) {
-  return static_cast<std::size_t>(decisions.sensor);
-}
-
-ErrorDecisions::ErrorDecisions(const Problem& problem, const LinearTape& tape,
-                               int index)
-    : sensor(index),
-      name(problem.timeline.sensors()[static_cast<std::size_t>(index)].name),
-      unit(UnitOf(
-          *problem.timeline.sensors()[static_cast<std::size_t>(index)].kind,
-          RowsOf(tape, index), OwnFieldOf(problem.layout, index) != nullptr)),
-      stated_sigma(StatedSigma(tape, index)),
-      is_tolerance(problem.timeline.sensors()[static_cast<std::size_t>(index)]
-                       .kind->generated) {
-  const std::set<int> positions = UsedPositions(problem.timeline, tape);
-  alone = positions.contains(index) && positions.size() == 1;
-  if (!positions.contains(index) || positions.size() != 2) return;
-  const int other =
-      *positions.begin() == index ? *positions.rbegin() : *positions.begin();
-  beside = problem.timeline.sensors()[static_cast<std::size_t>(other)].name;
-}
 
 SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
                                int index, const SearchLimits& limits)
