@@ -411,9 +411,10 @@ TEST_F(MediumThatEnds, FullDiskKeepsTheMethodsThatWereDone) {
   const std::string full = std::to_string(ENOSPC);
   int kept = 0;
   int none = 0;
-  // A method's files are a dozen calls and more.
-  constexpr int kStride = 4;
-  for (int at = 1; at <= 18 * kStride; at += kStride) {
+  // A method's files are a dozen calls and more, fewer where threads that
+  // write them meet.
+  constexpr int kStride = 2;
+  for (int at = 1; at <= 36 * kStride; at += kStride) {
     const std::string fault = "write:" + std::to_string(at) + "+:" + full;
     const Outcome outcome =
         Run({"--methods=ekf,rts"}, WithFaults({{"", fault}}));
