@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "problems/attitude_contradiction.h"
 #include "problems/explained_errors.h"
+#include "problems/marginal_likelihood.h"
 
 namespace hindsight {
 namespace {
@@ -207,6 +208,15 @@ bool IsBeyondLinear(const std::vector<State>& nominal,
   return false;
 }
 
+/// ln of the evidence of a result about its own solution, by all measurements that the
+/// `plain` problem uses.
+double LogEvidenceOf(const RobustBatchResult& result, const Problem& plain) {
+  return result.log_prior +
+         MarginalLikelihoodOf(result.problem, result.batch.states,
+                              plain.decisions, LikelihoodParts::kAlone)
+             .log;
+}
+
 /// The states of a solution over the layout without errors of sensors.
 std::vector<State> WithoutErrors(const ErrorLayout& layout,
                                  std::vector<State> states) {
@@ -254,7 +264,10 @@ RobustBatchResult SolveRobustBatch(Problem problem,
     nominal = WithoutErrors(problem.layout, result.batch.states);
     std::optional<RobustBatchResult> again =
         SolveAgain(problem, nominal, of_pass, ended);
-    if (!again || !again->stands) break;
+    if (!again || !again->stands ||
+        LogEvidenceOf(*again, problem) < LogEvidenceOf(result, problem)) {
+      break;
+    }
     again->left_out = result.left_out;
     result = *std::move(again);
   }
