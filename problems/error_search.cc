@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::size_t kMostRounds = 3;
 
-/// The problem with no position used.
-Problem WithoutPositions(Problem problem) {
-  const Timeline& timeline = problem.timeline;
+/// The problem with no measurement used of sensors for which `is_left_out`.
+Problem Without(Problem problem,
+                const std::function<bool(int sensor)>& is_left_out) {
   for (std::size_t i = 0; i < problem.decisions.size(); ++i) {
-    const auto sensor =
-        static_cast<std::size_t>(timeline.all_measurements()[i].sensor);
-    if (timeline.sensors()[sensor].kind->is_position) problem.decisions[i] = 0;
+    if (is_left_out(problem.timeline.all_measurements()[i].sensor)) {
+      problem.decisions[i] = 0;
+    }
   }
   return problem;
 }
@@ -86,17 +86,33 @@ void ErrorSearch::Run(const std::vector<State>& initial) {
   }
 }
 
-bool ErrorSearch::RunFromVelocities(const std::vector<State>& initial) {
-  Problem without = WithoutPositions(problem_);
-  const auto& sensors = problem_.timeline.sensors();
-  Round round = Search(&without, initial, [&sensors](int sensor) {
-    return IsOfVelocity(*sensors[static_cast<std::size_t>(sensor)].kind);
-  });
+bool ErrorSearch::RunFrom(const std::function<bool(int sensor)>& is_asked,
+                          const std::function<bool(int sensor)>& is_left_out,
+                          const std::vector<State>& initial) {
+  Problem without = Without(problem_, is_left_out);
+  Round round = Search(&without, initial, is_asked);
   if (round.errors.empty() || !round.best().Stands()) return false;
-  velocities_first_ = true;
   Take(std::move(round));
   Run(initial);
   return true;
+}
+
+bool ErrorSearch::RunFromVelocities(const std::vector<State>& initial) {
+  const auto kind = [this](int sensor) -> const SensorKind& {
+    const auto at = static_cast<std::size_t>(sensor);
+    return *problem_.timeline.sensors()[at].kind;
+  };
+  velocities_first_ =
+      RunFrom([&](int sensor) { return IsOfVelocity(kind(sensor)); },
+              [&](int sensor) { return kind(sensor).is_position; }, initial);
+  return velocities_first_;
+}
+
+bool ErrorSearch::RunFromOne(int sensor, const std::vector<int>& without,
+                             const std::vector<State>& initial) {
+  return RunFrom([&](int one) { return one == sensor; },
+                 [&](int one) { return std::ranges::count(without, one) > 0; },
+                 initial);
 }
 
 bool ErrorSearch::RunFromVehicle(const std::vector<int>& suspects,
@@ -172,10 +188,24 @@ void ErrorSearch::RunAsDecided(const std::vector<State>& initial) {
   };
   if (begins_with([](const SensorKind& kind) { return kind.of_vehicle; })) {
     if (!RunFromVehicle({}, initial)) Run(initial);
-  } else if (!begins_with(IsOfVelocity) || !RunFromVelocities(initial)) {
+  } else if (begins_with(IsOfVelocity)) {
+    if (!RunFromVelocities(initial)) Run(initial);
+  } else if (!BeganWithOne(initial)) {
     Run(initial);
   }
   RunLast(initial);
+}
+
+bool ErrorSearch::BeganWithOne(const std::vector<State>& initial) {
+  const SearchDecisions& decisions = *options_->decisions;
+  if (decisions.empty() || decisions.front().size() != 1) return false;
+  const auto first = SensorOf(*decisions.front().front());
+  std::vector<int> without;
+  for (const DecidedErrors& round : decisions) {
+    const auto sensor = SensorOf(*round.front());
+    if (sensor != first) without.push_back(static_cast<int>(sensor));
+  }
+  return RunFromOne(static_cast<int>(first), without, initial);
 }
 
 bool ErrorSearch::MayBeOfAReceiver() const {
@@ -189,6 +219,24 @@ bool ErrorSearch::MayBeOfAReceiver() const {
   });
   return (changes && question_.known.size() > 1) || first.HasVelocitySteps() ||
          !first.Doubts().empty();
+}
+
+std::vector<int> ErrorSearch::SuspectsBeside() const {
+  std::vector<int> others;
+  if (question_.known.size() < 2) return others;
+  const ReceiverErrors& first = rounds_.front().best();
+  if (!KindOf(first).is_position ||
+      (!first.HasVelocitySteps() && first.Doubts().empty())) {
+    return others;
+  }
+  for (const Round& round : rounds_) {
+    for (const ReceiverErrors& one : round.errors) {
+      const bool is_suspect = one.Stands() && !KindOf(one).moves &&
+                              std::ranges::count(others, one.sensor()) == 0;
+      if (is_suspect) others.push_back(one.sensor());
+    }
+  }
+  return others;
 }
 
 bool ErrorSearch::HasErrors(int sensor) const {

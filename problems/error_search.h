@@ -30,6 +30,11 @@ class ErrorSearch {
   /// do; then the rest about what was found of them. False if nothing was.
   bool RunFromVelocities(const std::vector<State>& initial);
 
+  /// A sensor is searched first, without others that may err as well; then the rest
+  /// about what was found of it. False if nothing was.
+  bool RunFromOne(int sensor, const std::vector<int>& without,
+                  const std::vector<State>& initial);
+
   /// Odometers and constraints of wheels among `suspects` are searched first, the
   /// absolute sensors taken at their word; then these about what was found. False if
   /// nothing was.
@@ -60,6 +65,13 @@ class ErrorSearch {
   /// little too much says so in no single measurement.
   std::vector<int> SuspectsOfVehicle() const;
 
+  /// Beside errors of positions, found first, that are doubtful by themselves or have
+  /// steps of the IMU's velocity: sensors of heights, headings or fields of which errors
+  /// stand, at some round. The positions were searched with these at their word, and may
+  /// have been given what is theirs. Not of others of positions or velocities, without
+  /// which errors of the first explain whatever it is.
+  std::vector<int> SuspectsBeside() const;
+
   /// Whether errors of velocities change where those of positions do, as mode
   /// sequences have them.
   bool HasCoincidences() const { return LogOfCoincidences() > 0.0; }
@@ -80,6 +92,8 @@ class ErrorSearch {
   /// What stands, in words.
   std::string InWords() const;
   bool HasErrors(int sensor) const;
+  /// Of the first round, that with the best explanation; there must be one.
+  int first_sensor() const { return rounds_.front().best().sensor(); }
   /// Whether sensors of RobustBatchOptions::last are left out still.
   bool LeavesOut() const { return with_last_.has_value(); }
   bool IsLeftOut(int sensor) const { return LeavesOut() && IsLast(sensor); }
@@ -101,6 +115,13 @@ class ErrorSearch {
   /// `is_asked` are searched, unless their errors are known.
   Round Search(Problem* problem, const std::vector<State>& initial,
                const std::function<bool(int sensor)>& is_asked);
+  /// Sensors for which `is_asked` are searched first, without those for which
+  /// `is_left_out`; then the rest. False if nothing was found.
+  bool RunFrom(const std::function<bool(int sensor)>& is_asked,
+               const std::function<bool(int sensor)>& is_left_out,
+               const std::vector<State>& initial);
+  /// Goes on as decided where one sensor was searched first, alone; false if not.
+  bool BeganWithOne(const std::vector<State>& initial);
   bool IsLast(int sensor) const;
   /// Whether the next round is decided, and of a sensor that is to be last.
   bool NextIsLast() const;

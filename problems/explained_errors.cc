@@ -10,8 +10,12 @@
 namespace hindsight {
 namespace {
 
-/// Another order of a search; false if nothing was found in it.
-using Order = std::function<bool(ErrorSearch* search)>;
+/// Another order of a search.
+struct Order {
+  double share;  ///< of the effort of the first order
+  /// False if nothing was found.
+  std::function<bool(ErrorSearch* search)> run;
+};
 
 /// ln of the odds against an explanation in another order, which is searched; none if
 /// there is no such. One in which no errors of velocities and positions come together
@@ -20,7 +24,7 @@ std::optional<double> LogOddsAgainst(const std::vector<State>& initial,
                                      const ErrorSearch& search,
                                      const Order& order, ErrorSearch* other) {
   try {
-    if (!order(other) || other->ended()) return std::nullopt;
+    if (!order.run(other) || other->ended()) return std::nullopt;
     const double log_odds =
         search.LogEvidence(initial) - other->LogEvidence(initial);
     const double most = other->HasCoincidences()
@@ -36,17 +40,27 @@ std::optional<double> LogOddsAgainst(const std::vector<State>& initial,
 /// In what other orders than Run's the errors are to be sought that it found, or not.
 std::vector<Order> OtherOrders(const std::vector<State>& initial,
                                const ErrorSearch& search) {
+  constexpr double kHalf = 0.5;
   std::vector<Order> orders;
   if (search.MayBeOfAReceiver()) {
-    orders.emplace_back([&initial](ErrorSearch* other) {
-      return other->RunFromVelocities(initial);
-    });
+    orders.push_back({kHalf, [&initial](ErrorSearch* other) {
+                        return other->RunFromVelocities(initial);
+                      }});
   }
   std::vector<int> suspects = search.SuspectsOfVehicle();
   if (!suspects.empty()) {
-    orders.emplace_back([&initial, suspects](ErrorSearch* other) {
-      return other->RunFromVehicle(suspects, initial);
-    });
+    orders.push_back({kHalf, [&initial, suspects](ErrorSearch* other) {
+                        return other->RunFromVehicle(suspects, initial);
+                      }});
+  }
+  std::vector<int> beside = search.SuspectsBeside();
+  if (!beside.empty()) {
+    // With half of it a jump and a drift that ends it is not found where the first
+    // order finds it without the others.
+    orders.push_back({1.0, [&initial, beside,
+                            first = search.first_sensor()](ErrorSearch* other) {
+                        return other->RunFromOne(first, beside, initial);
+                      }});
   }
   return orders;
 }
@@ -67,7 +81,7 @@ ExplainedErrors ExplainErrors(const Problem& problem,
       search.ended() ? std::vector<Order>() : OtherOrders(initial, search);
   for (const Order& order : orders) {
     if (search.ended()) break;
-    ErrorSearch other(problem, options, 0.5 * share);
+    ErrorSearch other(problem, options, order.share * share);
     const std::optional<double> odds =
         LogOddsAgainst(initial, search, order, &other);
     if (other.ended()) search.End();

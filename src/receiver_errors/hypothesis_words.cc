@@ -137,10 +137,16 @@ RivalHypothesis FindRivalBeyond(const std::vector<WeighedHypothesis>& all,
 }
 
 std::string DescribeNoise(ErrorRegimes::Kind kind, const ErrorParameters& p) {
-  return fmt::format(
+  constexpr double kWorthTelling = 0.05;
+  std::string all = fmt::format(
       "{} errors, sigma {:.3g} times as stated, outliers {:.3g} % of {:.3g} "
       "times that",
       RegimeName(kind), p.scale, 100.0 * p.outlier_share, p.outlier_ratio);
+  if (p.imu_scale > 1.0 + kWorthTelling) {
+    all += fmt::format(", beside noise of the IMU {:.3g} times as stated",
+                       p.imu_scale);
+  }
+  return all;
 }
 
 std::vector<std::string> DescribeErrors(const ModeSequence& steps,

@@ -31,8 +31,8 @@ Evidence DoubtOf(const RivalHypothesis& rival, const SensorFindings& found,
                  const std::string& chosen, bool is_mean) {
   return {.grade = Grade::kDoubtful,
           .what = fmt::format(
-              "{}; or else, {}{} likely and up to {:.3g} m away, {}{}", chosen,
-              rival.IsLikelier() ? "likelier than that, " : "",
+              "{}; or {}, {} likely and up to {:.3g} m away, {}{}", chosen,
+              rival.IsLikelier() ? "rather" : "else",
               FormatProbability(rival.probability), rival.distance,
               DescribeSequence(rival.hypothesis->steps, found.Times(),
                                SizesIn(*rival.hypothesis, found)),

@@ -77,6 +77,8 @@ std::vector<Attempt> MakeAttempts(const RegimeProblem& problem,
                                   const ErrorParameters& white) {
   constexpr std::size_t kNarrow = 1;
   constexpr int kMostRounds = 3;
+  constexpr double kClimbs = 0.5;  // of what is left: the rest refines attempts
+  const double reserve = kClimbs * problem.effort->left();
   std::vector<Attempt> attempts;
   const auto is_known = [&](const ModeSequence& sequence) {
     return std::any_of(attempts.begin(), attempts.end(),
@@ -84,7 +86,7 @@ std::vector<Attempt> MakeAttempts(const RegimeProblem& problem,
   };
   for (ErrorParameters parameters : Starts(problem, white)) {
     for (int round = 0; round < kMostRounds; ++round) {
-      if (problem.effort->IsSpent() && !attempts.empty()) break;
+      if (problem.effort->left() <= reserve && !attempts.empty()) break;
       ModeSequence found = SearchHypotheses(problem.tape, problem.sensor,
                                             parameters, kNarrow, problem.effort)
                                .front()

@@ -7,7 +7,10 @@ namespace hindsight {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr ErrorStep kGood = {ErrorMode::kGood};
 constexpr ErrorStep kBiased = {ErrorMode::kBiased};
@@ -96,6 +99,16 @@ TEST(HypothesisWords, ARivalBeyondWouldHaveANeesAbove25) {
   const RivalHypothesis beyond = FindRivalBeyond(all, all[0], P);
   EXPECT_EQ(beyond.hypothesis, &all[2]);
   EXPECT_NEAR(beyond.probability, 0.02, 1e-12);
+}
+
+TEST(HypothesisWords, TellTheNoiseOfTheImuWhereItIsNotAsStated) {
+  ErrorParameters p;
+  EXPECT_THAT(DescribeNoise(ErrorRegimes::Kind::kWhite, p),
+              Not(HasSubstr("IMU")));
+  p.imu_scale = 1.7;
+  EXPECT_THAT(
+      DescribeNoise(ErrorRegimes::Kind::kWhite, p),
+      EndsWith("times that, beside noise of the IMU 1.7 times as stated"));
 }
 
 }  // namespace
