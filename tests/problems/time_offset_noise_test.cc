@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "evaluation/statistics.h"
+#include "base/chi_square.h"
 #include "io/config/scenario_config.h"
 #include "problems/reconstruction.h"
 #include "simulation/scenario.h"

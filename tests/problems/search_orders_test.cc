@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "base/random.h"
+#include "earth/wgs84.h"
+#include "problems/error_search.h"
+#include "support/shuttle_flight.h"
+#include "support/test_problem.h"
+
+namespace hindsight {
+namespace {
+
+using testing::AntennaLeverArm;
+using testing::MakeProblem;
+using testing::TacticalNoise;
+using testing::TestProblem;
+using testing::TestProblemOptions;
+using testing::TypicalLayout;
+
+constexpr int kGnss = 0;
+constexpr int kBarometer = 1;
+
+/// A minute with a receiver and a barometer.
+struct Flight {
+  explicit Flight(bool heights_err) {
+    TestProblemOptions options;
+    options.noise = TacticalNoise(true);
+    options.layout = TypicalLayout(options.noise);
+    options.errors = true;
+    options.duration = 60.0;
+    options.position_sigma = 0.5;
+    test = MakeProblem(options, 3);
+    test.sensors[kBarometer].name = "barometer";
+    test.sensors[kBarometer].kind = &HeightKind();
+    Random random(5);
+    for (std::size_t k = 0; k < test.nodes.size(); ++k) {
+      const State& x = test.truth[k];
+      for (int i = 0; i < test.nodes[k].measurement_count; ++i) {
+        Measurement& z = test.measurements[static_cast<std::size_t>(
+            test.nodes[k].first_measurement + i)];
+        if (z.sensor != kBarometer) continue;
+        HeightFix height;
+        height.sigma = 0.3;
+        height.height =
+            GeodeticFromEcef(x.p_e + x.q_eb * AntennaLeverArm()).height +
+            height.sigma * random.Normal();
+        if (heights_err && z.t > 15.0 && z.t < 31.0) height.height += 5.0;
+        z.model = height;
+      }
+    }
+    // Jumps by 30 m, and comes back in a straight line.
+    for (Measurement& z : test.measurements) {
+      auto* fix = std::get_if<PositionFix>(&z.model);
+      if (fix == nullptr || z.t < 20.5 || z.t >= 35.5) continue;
+      fix->p_e += NedAxes(fix->p_e).col(0) * 2.0 * (35.5 - z.t);
+    }
+  }
+  Problem Pose() const {
+    return test.Pose(GateDecisions(test.measurements.size(), 1));
+  }
+
+  TestProblem test;
+};
+
+double FarthestFromTruth(const TestProblem& test,
+                         const std::vector<State>& states) {
+  double farthest = 0.0;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    farthest = std::max(farthest, (states[k].p_e - test.truth[k].p_e).norm());
+  }
+  return farthest;
+}
+
+TEST(SearchOrders, PositionsAloneThenWhatWasLeftOut) {
+  const Flight flight(true);
+  const RobustBatchOptions options;
+  ErrorSearch search(flight.Pose(), options, 1.0);
+  ASSERT_TRUE(search.RunFromOne(kGnss, {kBarometer}, flight.test.truth));
+  EXPECT_TRUE(search.HasErrors(kGnss));
+  EXPECT_TRUE(search.HasErrors(kBarometer));
+  const SearchDecisions decisions = search.Decisions();
+  ASSERT_EQ(decisions.front().size(), 1u);
+  EXPECT_EQ(search.first_sensor(), kGnss);
+  EXPECT_LT(FarthestFromTruth(flight.test, *search.states()), 1.5);
+}
+
+TEST(SearchOrders, AsDecidedBeginsWithThePositionsAloneToo) {
+  const Flight flight(true);
+  const RobustBatchOptions options;
+  ErrorSearch search(flight.Pose(), options, 1.0);
+  ASSERT_TRUE(search.RunFromOne(kGnss, {kBarometer}, flight.test.truth));
+  const SearchDecisions decisions = search.Decisions();
+  RobustBatchOptions decided;
+  decided.decisions = &decisions;
+  ErrorSearch again(flight.Pose(), decided, 1.0);
+  again.RunAsDecided(flight.test.truth);
+  ASSERT_TRUE(again.states().has_value());
+  for (std::size_t k = 0; k < search.states()->size(); ++k) {
+    EXPECT_LT(((*search.states())[k].p_e - (*again.states())[k].p_e).norm(),
+              1e-6);
+  }
+}
+
+TEST(SearchOrders, NothingIsSuspectedBesideHeightsThatAreHealthy) {
+  const Flight flight(false);
+  const RobustBatchOptions options;
+  ErrorSearch search(flight.Pose(), options, 1.0);
+  search.Run(flight.test.truth);
+  EXPECT_TRUE(search.HasErrors(kGnss));
+  EXPECT_TRUE(search.SuspectsBeside().empty());
+}
+
+}  // namespace
+}  // namespace hindsight
