@@ -91,10 +91,12 @@ void LeaveOut(const std::vector<int>& sensors, const Timeline& timeline,
 ///     well (state/block_step.h), which go from node to node as the chosen
 ///     hypothesis says.
 /// Where velocities over the ground may err with the positions, they are searched
-/// first, without the positions, as well; the order with more evidence counts. Where
-/// the solution's attitude is beyond what is linear about `initial`, errors are sought
-/// again about it, at most twice; what is found counts if its evidence is larger. Headings that all others contradict still, whatever
-/// errors they are given, are left out.
+/// first, without the positions, as well; where heights, headings or fields err beside
+/// doubtful positions, the positions are, without those. The order with more evidence counts.
+/// Where the solution's attitude is beyond what is linear about `initial`, errors are
+/// sought again about it, at most twice; what is found counts if its evidence is larger.
+/// Headings that all others contradict still, whatever errors they are given, are left
+/// out.
 /// It starts from that hypothesis's trajectory; the distances of the others widen
 /// the covariances. Where errors of another sensor explain the data as well, to
 /// odds of a thousand, and lead elsewhere, the result is doubtful, says both, and

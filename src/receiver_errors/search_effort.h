@@ -29,8 +29,8 @@ class SearchEffort {
   /// Nothing more is to be tried.
   bool IsSpent() const { return stopped_ || spent_ >= most_; }
   double spent() const { return spent_; }
-  /// What is left, at least 0.
-  double left() const { return std::max(0.0, most_ - spent_); }
+  /// What is left, at least 0; none once it was ended by whoever asked.
+  double left() const { return stopped_ ? 0.0 : std::max(0.0, most_ - spent_); }
   /// Ended by whoever asked, not by the count.
   bool stopped() const { return stopped_; }
 
