@@ -108,6 +108,7 @@ class ErrorSearch {
   struct Round {
     std::shared_ptr<const LinearTape> tape;  ///< common to copies
     std::vector<ReceiverErrors> errors;      ///< one a sensor; the best first
+    std::vector<int> without;                ///< as of DecidedRound
     const ReceiverErrors& best() const { return errors.front(); }
   };
 
@@ -115,13 +116,10 @@ class ErrorSearch {
   /// `is_asked` are searched, unless their errors are known.
   Round Search(Problem* problem, const std::vector<State>& initial,
                const std::function<bool(int sensor)>& is_asked);
-  /// Sensors for which `is_asked` are searched first, without those for which
-  /// `is_left_out`; then the rest. False if nothing was found.
+  /// Sensors for which `is_asked` are searched first, without others; then the rest.
+  /// False if nothing was found.
   bool RunFrom(const std::function<bool(int sensor)>& is_asked,
-               const std::function<bool(int sensor)>& is_left_out,
-               const std::vector<State>& initial);
-  /// Goes on as decided where one sensor was searched first, alone; false if not.
-  bool BeganWithOne(const std::vector<State>& initial);
+               std::vector<int> without, const std::vector<State>& initial);
   bool IsLast(int sensor) const;
   /// Whether the next round is decided, and of a sensor that is to be last.
   bool NextIsLast() const;
@@ -158,7 +156,6 @@ class ErrorSearch {
   /// left out.
   std::optional<GateDecisions> with_last_;
   std::optional<std::vector<State>> states_;
-  bool velocities_first_ = false;
   bool ended_ = false;
 };
 

@@ -45,7 +45,8 @@ void ErrorSearch::Tell(RobustBatchResult* result) const {
     if (!best.Stands()) break;
     // What else velocities may have done without the positions is farther off than
     // with them.
-    const bool is_without_positions = i == 0 && velocities_first_;
+    const bool is_without_positions =
+        !rounds_[i].without.empty() && IsOfVelocity(KindOf(best));
     // What stands beside these errors has not been sought beside another's.
     const bool is_last =
         i + 1 == rounds_.size() || !rounds_[i + 1].best().Stands();

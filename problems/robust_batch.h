@@ -16,8 +16,14 @@ namespace hindsight {
 /// Odds of a thousand, from which on an explanation stands alone [ln].
 inline constexpr double kSureLogOdds = 6.907755278982137;
 
+struct DecidedRound {
+  DecidedErrors errors = {};
+  /// Sensors whose measurements were left out while these were sought.
+  std::vector<int> without = {};
+};
+
 /// What a search decided, by round.
-using SearchDecisions = std::vector<DecidedErrors>;
+using SearchDecisions = std::vector<DecidedRound>;
 
 struct RobustBatchResult {
   /// As it was solved: with the errors of sensors that were found, and their
@@ -92,11 +98,11 @@ void LeaveOut(const std::vector<int>& sensors, const Timeline& timeline,
 ///     hypothesis says.
 /// Where velocities over the ground may err with the positions, they are searched
 /// first, without the positions, as well; where heights, headings or fields err beside
-/// doubtful positions, the positions are, without those. The order with more evidence counts.
-/// Where the solution's attitude is beyond what is linear about `initial`, errors are
-/// sought again about it, at most twice; what is found counts if its evidence is larger.
-/// Headings that all others contradict still, whatever errors they are given, are left
-/// out.
+/// doubtful positions, the positions are, without those. The order with more evidence
+/// counts. Where the solution's attitude is beyond what is linear about `initial`,
+/// errors are sought again about it, at most twice; what is found counts if its evidence
+/// is larger. Headings that all others contradict still, whatever errors they are given,
+/// are left out.
 /// It starts from that hypothesis's trajectory; the distances of the others widen
 /// the covariances. Where errors of another sensor explain the data as well, to
 /// odds of a thousand, and lead elsewhere, the result is doubtful, says both, and

@@ -82,7 +82,8 @@ TEST(SearchOrders, PositionsAloneThenWhatWasLeftOut) {
   EXPECT_TRUE(search.HasErrors(kGnss));
   EXPECT_TRUE(search.HasErrors(kBarometer));
   const SearchDecisions decisions = search.Decisions();
-  ASSERT_EQ(decisions.front().size(), 1u);
+  ASSERT_EQ(decisions.front().errors.size(), 1u);
+  EXPECT_EQ(decisions.front().without, std::vector<int>{kBarometer});
   EXPECT_EQ(search.first_sensor(), kGnss);
   EXPECT_LT(FarthestFromTruth(flight.test, *search.states()), 1.5);
 }
