@@ -59,9 +59,24 @@ void ErrorSearch::Run(const std::vector<State>& initial) {
     Round round = Search(&problem_, initial, is_asked);
     if (round.errors.empty()) break;
     const bool stands = round.best().Stands();
+    if (stands && LacksOthers(round)) {
+      unbelieved_ = round.best().InWords();
+      break;
+    }
     Take(std::move(round));
     if (!stands) break;
   }
+}
+
+bool ErrorSearch::LacksOthers(const Round& round) const {
+  const ReceiverErrors& best = round.best();
+  const bool is_sure =
+      !best.IsUnfitted() && !best.HasVelocitySteps() && best.Doubts().empty();
+  if (!ended_ || is_sure) return false;
+  return with_last_.has_value() || round.errors.size() > 1 ||
+         std::ranges::any_of(problem_.timeline.sensors(), [](const Sensor& s) {
+           return s.kind->in_vehicle_axes;
+         });
 }
 
 void ErrorSearch::RunLast(const std::vector<State>& initial) {

@@ -35,7 +35,7 @@ class ErrorSearch {
   bool RunFromOne(int sensor, const std::vector<int>& without,
                   const std::vector<State>& initial);
 
-  /// Odometers and constraints of wheels among `suspects` are searched first, the
+  /// Odometers, DVLs and constraints of wheels among `suspects` are searched first, the
   /// absolute sensors taken at their word; then these about what was found. False if
   /// nothing was.
   bool RunFromVehicle(const std::vector<int>& suspects,
@@ -99,6 +99,10 @@ class ErrorSearch {
   bool IsLeftOut(int sensor) const { return LeavesOut() && IsLast(sensor); }
   SearchDecisions Decisions() const;
 
+  /// Sizes of errors, in words, are those of a solution of `problem` from here on, a
+  /// state a node.
+  void TakeSizes(const std::vector<State>& states);
+
   /// Adds to P, as solved, what else there may be; fills in the rest of a
   /// result.
   void Tell(RobustBatchResult* result) const;
@@ -123,6 +127,10 @@ class ErrorSearch {
   bool IsLast(int sensor) const;
   /// Whether the next round is decided, and of a sensor that is to be last.
   bool NextIsLast() const;
+  /// Whether what stands of a round that was ended is what other sensors' errors look
+  /// like, which there was no time to ask for: doubtful by itself, with steps of the
+  /// IMU's velocity or with parameters that are not fitted.
+  bool LacksOthers(const Round& round) const;
   /// Extends the problem by what stands of a round.
   void Take(Round round);
   /// Whether there is another round: as decided, or to be searched.
@@ -157,6 +165,7 @@ class ErrorSearch {
   std::optional<GateDecisions> with_last_;
   std::optional<std::vector<State>> states_;
   bool ended_ = false;
+  std::string unbelieved_;  ///< what stood of a round that LacksOthers
 };
 
 }  // namespace hindsight

@@ -48,11 +48,11 @@ bool ErrorSearch::RunFromOne(int sensor, const std::vector<int>& without,
 bool ErrorSearch::RunFromVehicle(const std::vector<int>& suspects,
                                  const std::vector<State>& initial) {
   if (!HasRoom()) return false;
-  question_.of_vehicle = true;
+  question_.in_vehicle_axes = true;
   Round round = Search(&problem_, initial, [&suspects](int sensor) {
     return std::ranges::count(suspects, sensor) > 0;
   });
-  question_.of_vehicle = false;
+  question_.in_vehicle_axes = false;
   if (round.errors.empty() || !round.best().Stands()) return false;
   Take(std::move(round));
   Run(initial);
@@ -64,8 +64,8 @@ void ErrorSearch::RunAsDecided(const std::vector<State>& initial) {
   const DecidedRound first = options_->decisions->empty()
                                  ? DecidedRound{}
                                  : options_->decisions->front();
-  const auto is_of_vehicle = [&sensors](const auto& one) {
-    return sensors[SensorOf(*one)].kind->of_vehicle;
+  const auto is_in_its_axes = [&sensors](const auto& one) {
+    return sensors[SensorOf(*one)].kind->in_vehicle_axes;
   };
   const auto is_asked = [&first](int sensor) {
     return std::ranges::any_of(first.errors, [sensor](const auto& one) {
@@ -74,7 +74,7 @@ void ErrorSearch::RunAsDecided(const std::vector<State>& initial) {
   };
   const bool begins_otherwise =
       !first.errors.empty() &&
-      (std::ranges::all_of(first.errors, is_of_vehicle)
+      (std::ranges::all_of(first.errors, is_in_its_axes)
            ? RunFromVehicle({}, initial)
            : !first.without.empty() &&
                  RunFrom(is_asked, first.without, initial));
@@ -114,7 +114,7 @@ std::vector<int> ErrorSearch::SuspectsOfVehicle() const {
   const auto count = static_cast<int>(problem_.timeline.sensors().size());
   for (int i = 0; i < count; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    if (problem_.timeline.sensors()[at].kind->of_vehicle &&
+    if (problem_.timeline.sensors()[at].kind->in_vehicle_axes &&
         (any_stands || contradicted.contains(i))) {
       suspects.push_back(i);
     }

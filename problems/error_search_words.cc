@@ -34,6 +34,13 @@ std::string ErrorSearch::InWords() const {
   return words;
 }
 
+void ErrorSearch::TakeSizes(const std::vector<State>& states) {
+  for (Round& round : rounds_) {
+    if (!round.best().Stands()) break;
+    round.errors.front().TakeSizes(problem_.layout, states);
+  }
+}
+
 void ErrorSearch::Tell(RobustBatchResult* result) const {
   result->trust.resize(problem_.timeline.sensors().size());
   double most = 0.0;
@@ -67,6 +74,11 @@ void ErrorSearch::Tell(RobustBatchResult* result) const {
     TellRivals(rounds_[i], worth, result);
   }
   TellUndecided(result);
+  if (unbelieved_.empty()) return;
+  result->notes.push_back(
+      unbelieved_ +
+      ": not believed, as there was no time to ask whether another "
+      "sensor errs in its place");
 }
 
 void ErrorSearch::TellUndecided(RobustBatchResult* result) const {

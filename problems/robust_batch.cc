@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/text.h"
 #include "problems/attitude_contradiction.h"
 #include "problems/explained_errors.h"
 #include "problems/marginal_likelihood.h"
@@ -76,10 +75,7 @@ void TellOtherOrder(const RivalSearch& rival, const std::string& words,
   if (!apart) return;
   result->other_order = Evidence(
       {.grade = Grade::kDoubtful,
-       .what = fmt::format("{}; or else, {} likely and up to {:.3g} m "
-                           "away, {}",
-                           words, FormatProbability(probability), farthest,
-                           rival.words),
+       .what = DescribeEither(words, rival.words, probability, farthest),
        .value = probability,
        .unit = "probability",
        .causes = {"errors of positions and velocities that come together"},
@@ -98,17 +94,17 @@ BatchResult SolveIfPossible(const std::vector<State>& initial,
 
 /// With the errors of an explanation, beside a rival. Where a sensor is left out, also
 /// if there are none.
-RobustBatchResult SolveWith(const ErrorSearch& search,
+RobustBatchResult SolveWith(ErrorSearch* search,
                             const std::optional<RivalSearch>& rival,
                             const std::vector<State>& initial,
                             const RobustBatchOptions& options) {
-  RobustBatchResult result = {.problem = search.problem()};
-  auto states = search.states();
-  const bool is_as_asked = options.blunders.empty() && !search.LeavesOut();
+  RobustBatchResult result = {.problem = search->problem()};
+  auto states = search->states();
+  const bool is_as_asked = options.blunders.empty() && !search->LeavesOut();
   if (!states && !is_as_asked) states = initial;
   bool unsolved = false;
   if (states) {
-    RestoreGates(search, options.gates, &result.problem);
+    RestoreGates(*search, options.gates, &result.problem);
     for (const std::size_t i : options.blunders) {
       result.problem.decisions[i] = 0;
     }
@@ -119,17 +115,18 @@ RobustBatchResult SolveWith(const ErrorSearch& search,
     result.batch = SolveIfPossible(*states, batch, &result.problem);
     result.stands = result.batch.converged;
     unsolved = !result.stands;
+    if (result.stands) search->TakeSizes(result.batch.states);
   }
   if (unsolved) {
     result.doubts.push_back(DoubtOfUnconverged());
   } else {
-    search.Tell(&result);
+    search->Tell(&result);
     if (rival && result.stands) {
-      TellOtherOrder(*rival, search.InWords(), &result);
+      TellOtherOrder(*rival, search->InWords(), &result);
     }
   }
-  result.decisions = search.Decisions();
-  result.log_prior = search.LogOfPrior();
+  result.decisions = search->Decisions();
+  result.log_prior = search->LogOfPrior();
   if (!options.blunders.empty()) {
     result.notes.push_back(DescribeBlunders(result.problem, options.blunders));
   }
@@ -154,18 +151,22 @@ bool StillContradicts(const RobustBatchResult& with,
 
 /// With the errors that explain the data of the `plain` problem about `initial`;
 /// without the sensors that all others contradict whatever errors they are given.
-RobustBatchResult SolveExplained(const ExplainedErrors& explained,
+RobustBatchResult SolveExplained(ExplainedErrors explained,
                                  const Problem& plain,
                                  const std::vector<State>& initial,
                                  const RobustBatchOptions& options) {
-  const auto solve = [&](const ErrorSearch& search) {
+  const auto solve = [&](ErrorSearch* search) {
     return SolveWith(search, explained.rival, initial, options);
   };
-  if (!explained.without_last) return solve(explained.search);
-  RobustBatchResult without = solve(*explained.without_last);
+  const bool ended = explained.search.ended();
+  if (!explained.without_last || (ended && !explained.without_last->states())) {
+    return solve(&explained.search);
+  }
+  RobustBatchResult without = solve(&*explained.without_last);
   without.left_out = options.last;
-  if (without.stands && explained.search.ended()) return without;
-  RobustBatchResult with = solve(explained.search);
+  without.left_out_unasked = ended;
+  if (without.stands && ended) return without;
+  RobustBatchResult with = solve(&explained.search);
   return without.stands &&
                  StillContradicts(with, without, plain, initial, options)
              ? without
@@ -180,10 +181,10 @@ std::optional<RobustBatchResult> SolveAgain(const Problem& problem,
                                             const bool& ended) {
   constexpr double kShare = 0.5;
   try {
-    const ExplainedErrors explained =
+    ExplainedErrors explained =
         ExplainErrors(problem, initial, options, kShare);
     if (ended) return std::nullopt;
-    return SolveExplained(explained, problem, initial, options);
+    return SolveExplained(std::move(explained), problem, initial, options);
   } catch (const EstimationError&) {
     return std::nullopt;
   }
@@ -269,6 +270,7 @@ RobustBatchResult SolveRobustBatch(Problem problem,
       break;
     }
     again->left_out = result.left_out;
+    again->left_out_unasked = result.left_out_unasked;
     result = *std::move(again);
   }
   result.ended = ended;

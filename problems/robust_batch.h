@@ -49,6 +49,8 @@ struct RobustBatchResult {
   /// without errors of theirs the batch contradicts all others, does not converge, or
   /// they were not searched.
   std::vector<int> left_out = {};
+  /// These were not searched, as there was no time.
+  bool left_out_unasked = false;
   /// Whether something was not searched for, or not to its end, as go_on said so. Not
   /// among `doubts`, as it is not known again where decisions are given.
   bool ended = false;

@@ -327,6 +327,7 @@ const SensorKind& DvlKind() {
       .name = "dvl",
       .help = "Doppler velocity log: over the bottom or through the water",
       .residual_unit = "m/s",
+      .in_vehicle_axes = true,
       .columns = {{"v_x", Quantity::kSpeed},
                   {"v_y", Quantity::kSpeed},
                   {"v_z", Quantity::kSpeed},

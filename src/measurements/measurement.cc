@@ -43,10 +43,11 @@ bool SeesColouredNoise(const Measurement& z) {
          std::holds_alternative<GenericReading>(z.model);
 }
 
-/// Whether it sees kSensorError, along its rows: the same, and wheels. A magnetic field
+/// Whether it sees kSensorError, along its rows: the same, wheels and DVLs. A magnetic field
 /// knows its own error (measurements/magnetic_field.h).
 bool SeesError(const Measurement& z) {
-  return SeesColouredNoise(z) || std::holds_alternative<Odometer>(z.model);
+  return SeesColouredNoise(z) || std::holds_alternative<Odometer>(z.model) ||
+         std::holds_alternative<Dvl>(z.model);
 }
 
 /// Takes an error of the sensor's own out of the prediction, an axis a row.

@@ -9,6 +9,7 @@ const SensorKind& NonHolonomicKind() {
       .generated = true,
       .residual_unit = "m/s",
       .of_vehicle = true,
+      .in_vehicle_axes = true,
       .has_clock = false,
       .columns = AxleColumns(),
       .keys = {{.name = "rate",

@@ -181,6 +181,7 @@ const SensorKind& OdometerKind() {
       .help = "speed or counted distance along a vehicle's track",
       .residual_unit = "m/s",
       .of_vehicle = true,
+      .in_vehicle_axes = true,
       .columns = AxleColumns(),
       .measured =
           [](const SensorSettings& settings) {

@@ -73,6 +73,7 @@ struct SensorKind {
   bool places = false;       ///< tells where the vehicle is, not only how high
   bool moves = false;        ///< tells the velocity over the ground
   bool of_vehicle = false;   ///< speaks of the axes of a vehicle on its wheels
+  bool in_vehicle_axes = false;  ///< tells a velocity in axes of the vehicle
   bool magnetic = false;
   bool is_heading = false;  ///< a GenericReading of BaselineDirection()
   bool standing = false;    ///< says that the vehicle stands

@@ -20,9 +20,10 @@ bool IsAbsolute(const SensorKind& kind) {
 }
 
 /// Those with a used measurement on the tape, of at most three rows; positions
-/// come first. Absolute ones, or those of the vehicle.
+/// come first. Absolute ones, or those in axes of the vehicle.
 std::vector<int> SensorsInQuestion(const Timeline& timeline,
-                                   const LinearTape& tape, bool of_vehicle) {
+                                   const LinearTape& tape,
+                                   bool in_vehicle_axes) {
   std::vector<int> rows(timeline.sensors().size(), 0);
   for (std::size_t k = 0; k < tape.size(); ++k) {
     for (const TapeMeasurement& z : tape.measurements(k)) {
@@ -36,8 +37,8 @@ std::vector<int> SensorsInQuestion(const Timeline& timeline,
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i] == 0 || rows[i] > 3) continue;
     const SensorKind& kind = *timeline.sensors()[i].kind;
-    if (of_vehicle) {
-      if (kind.of_vehicle) others.push_back(static_cast<int>(i));
+    if (in_vehicle_axes) {
+      if (kind.in_vehicle_axes) others.push_back(static_cast<int>(i));
     } else if (kind.is_position) {
       positions.push_back(static_cast<int>(i));
     } else if (IsAbsolute(kind)) {
@@ -101,7 +102,7 @@ std::vector<ReceiverErrors> FindReceiverErrors(const Problem& problem,
     found.clear();
   }
   std::vector<int> sensors =
-      SensorsInQuestion(problem.timeline, tape, question.of_vehicle);
+      SensorsInQuestion(problem.timeline, tape, question.in_vehicle_axes);
   std::erase_if(sensors, [&](int sensor) {
     return std::ranges::count(question.known, sensor) > 0;
   });

@@ -82,6 +82,14 @@ std::string ErrorSizes::Over(std::size_t first, std::size_t past) const {
                      unit);
 }
 
+std::string ErrorSizes::Most(std::size_t first, std::size_t past) const {
+  const auto begin = by_node.begin();
+  return fmt::format("{:.2g} {}",
+                     *std::max_element(begin + static_cast<int>(first),
+                                       begin + static_cast<int>(past)),
+                     unit);
+}
+
 ErrorSizes SizesOf(const WeighedHypothesis& one, int dim,
                    const std::string& unit) {
   ErrorSizes sizes;
@@ -115,7 +123,9 @@ std::string DescribeSequence(const std::vector<ErrorStep>& steps,
         std::string(AdjectiveOf(step.mode)) + " from " + SecondsText(times[k]) +
             (end == steps.size() ? " s to the end"
                                  : " to " + SecondsText(times[end]) + " s") +
-            " by " + sizes.Over(k, end),
+            (step.mode == ErrorMode::kDrifting
+                 ? " by up to " + sizes.Most(k, end)
+                 : " by " + sizes.Over(k, end)),
         &all);
   }
   return all.empty() ? "good throughout" : all;

@@ -16,13 +16,15 @@ struct ErrorSizes {
 
   /// "8.2 m", in the root mean square over some nodes.
   std::string Over(std::size_t first, std::size_t past) const;
+  /// The same of the largest.
+  std::string Most(std::size_t first, std::size_t past) const;
 };
 /// `dim` errors stand before those of the sensor, which has three.
 ErrorSizes SizesOf(const WeighedHypothesis& one, int dim,
                    const std::string& unit);
 
 /// A sequence in words, "biased from 120 to 140 s by 8.2 m, drifting from 175 s to the
-/// end by 15 m"; a bias or drift drawn anew begins a part of its own. `times` are those
+/// end by up to 15 m"; a bias or drift drawn anew begins a part of its own. `times` are those
 /// of the nodes. "good throughout" if there is nothing to tell.
 std::string DescribeSequence(const std::vector<ErrorStep>& steps,
                              const std::vector<double>& times,

@@ -23,22 +23,18 @@ constexpr double kComparable = 1.0 / (1.0 + 3.1622776601683795);
 /// Of a rival beyond what the covariances hold: odds of a thousand against it.
 constexpr double kSure = 1e-3;
 
-ErrorSizes SizesIn(const WeighedHypothesis& one, const SensorFindings& found) {
-  return SizesOf(one, found.tape.dim(), found.unit);
-}
-
 Evidence DoubtOf(const RivalHypothesis& rival, const SensorFindings& found,
                  const std::string& chosen, bool is_mean) {
   return {.grade = Grade::kDoubtful,
-          .what = fmt::format(
-              "{}; or {}, {} likely and up to {:.3g} m away, {}{}", chosen,
-              rival.IsLikelier() ? "rather" : "else",
-              FormatProbability(rival.probability), rival.distance,
-              DescribeSequence(rival.hypothesis->steps, found.Times(),
-                               SizesIn(*rival.hypothesis, found)),
-              is_mean ? ": the result is the mean, weighed by their "
-                        "probabilities"
-                      : ""),
+          .what = DescribeEither(
+                      chosen,
+                      DescribeSequence(rival.hypothesis->steps, found.Times(),
+                                       SizesOf(*rival.hypothesis,
+                                               found.tape.dim(), found.unit)),
+                      rival.probability, rival.distance) +
+                  (is_mean ? ": the result is the mean, weighed by their "
+                             "probabilities"
+                           : ""),
           .value = rival.probability,
           .limit = is_mean ? kComparable : kSure,
           .unit = "probability",
@@ -49,12 +45,24 @@ Evidence DoubtOf(const RivalHypothesis& rival, const SensorFindings& found,
 
 }  // namespace
 
+std::string DescribeEither(const std::string& chosen, const std::string& other,
+                           double probability, double distance) {
+  return fmt::format("{} likely up to {:.3g} m off: {}; or {} {}",
+                     FormatProbability(probability), distance, chosen,
+                     probability > 0.5 ? "rather" : "else", other);
+}
+
 ReceiverErrors::ReceiverErrors(std::shared_ptr<const SensorFindings> found)
-    : found_(std::move(found)) {}
+    : found_(std::move(found)) {
+  if (!found_->stands()) return;
+  sizes_ = SizesOf(found_->chosen(), found_->tape.dim(), found_->unit).by_node;
+}
 
 bool ReceiverErrors::Stands() const { return found_->stands(); }
 
 bool ReceiverErrors::WasEnded() const { return found_->stopped; }
+
+bool ReceiverErrors::IsUnfitted() const { return found_->unfitted; }
 
 int ReceiverErrors::sensor() const { return found_->sensor; }
 
@@ -118,6 +126,15 @@ std::optional<Evidence> ReceiverErrors::DoubtOfNoise(
   return std::nullopt;
 }
 
+void ReceiverErrors::TakeSizes(const ErrorLayout& layout,
+                               const std::vector<State>& states) {
+  const Block* error = layout.Find(BlockKind::kSensorError, sensor());
+  if (error == nullptr) return;
+  for (std::size_t k = 0; k < sizes_.size(); ++k) {
+    sizes_[k] = states[k].parameters.segment<3>(error->parameter_offset).norm();
+  }
+}
+
 std::vector<std::string> ReceiverErrors::Notes(
     const CovarianceSeries& P) const {
   std::vector<std::string> notes;
@@ -141,7 +158,7 @@ std::vector<std::string> ReceiverErrors::Notes(
   if (found_->stands() && found_->switching()) {
     const std::vector<double> times = found_->Times();
     notes.push_back(DescribeSequence(found_->chosen().steps, times,
-                                     SizesIn(found_->chosen(), *found_)));
+                                     {sizes_, found_->unit}));
     const RivalHypothesis rival =
         FindRival(found_->alternatives, found_->chosen(), P);
     std::string other =
@@ -261,7 +278,7 @@ std::string ReceiverErrors::name() const { return found_->name; }
 
 std::string ReceiverErrors::InWords() const {
   const WeighedHypothesis& chosen = found_->chosen();
-  const ErrorSizes sizes = SizesIn(chosen, *found_);
+  const ErrorSizes sizes = {sizes_, found_->unit};
   if (found_->switching()) {
     return found_->name + ": " +
            DescribeSequence(chosen.steps, found_->Times(), sizes);

@@ -32,9 +32,9 @@ struct ErrorQuestion {
   /// Of a search about another tape: taken as it is, where the nodes hold the
   /// same fixes, instead of a search. nullptr: none.
   const DecidedErrors* decided = nullptr;
-  /// Asks after sensors in the axes of a vehicle on its wheels (odometers, and that
-  /// wheels do not slip sideways) in place of the absolute ones.
-  bool of_vehicle = false;
+  /// Asks after sensors of velocities in the axes of the vehicle (odometers, DVLs, and
+  /// that wheels do not slip sideways) in place of the absolute ones.
+  bool in_vehicle_axes = false;
   /// Of the effort that a search may cost.
   double share = 1.0;
   /// Told the fraction done, between the steps of the search; false ends it with
@@ -67,6 +67,8 @@ class ReceiverErrors {
 
   /// Whether the search for them was ended by whoever asked.
   bool WasEnded() const;
+  /// Whether that was before any of its parameters were fitted.
+  bool IsUnfitted() const;
 
   int sensor() const;
   std::string name() const;
@@ -97,6 +99,11 @@ class ReceiverErrors {
   std::optional<Evidence> Average(const ErrorLayout& layout,
                                   std::vector<State>* states,
                                   CovarianceSeries* P) const;
+
+  /// The sizes of its errors, for words, as a solution of the extended problem has
+  /// them, a state a node, in place of the chosen hypothesis's: the search is linear
+  /// about another trajectory.
+  void TakeSizes(const ErrorLayout& layout, const std::vector<State>& states);
 
   /// What was found, in words; `P` as it was before Average.
   std::vector<std::string> Notes(const CovarianceSeries& P) const;
@@ -162,14 +169,20 @@ class ReceiverErrors {
       const ErrorQuestion& question);
 
   std::shared_ptr<const SensorFindings> found_;  ///< common to copies
+  std::vector<double> sizes_;  ///< of the error, by node, if any stands
 };
+
+/// Two ways to explain the data, the other of which has a probability and is up to so
+/// many metres away; these come first, as lines have room for little.
+std::string DescribeEither(const std::string& chosen, const std::string& other,
+                           double probability, double distance);
 
 /// Finds out from the data alone what the errors of the absolute sensors are
 /// like, each by itself, the others being taken at their word: white,
 /// Gauss-Markov, or good at times and at others biased or drifting; each with
 /// outliers (docs/receiver_errors.md). Absolute is what tells a position, a
 /// velocity over the ground, a height, a course or a heading by itself, with a
-/// used measurement on the tape, of at most three rows; or what ErrorQuestion::of_vehicle
+/// used measurement on the tape, of at most three rows; or what ErrorQuestion::in_vehicle_axes
 /// names. What has gained the most
 /// evidence comes first; of equals, positions.
 ///

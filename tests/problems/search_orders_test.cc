@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "base/random.h"
@@ -103,6 +104,30 @@ TEST(SearchOrders, AsDecidedBeginsWithThePositionsAloneToo) {
     EXPECT_LT(((*search.states())[k].p_e - (*again.states())[k].p_e).norm(),
               1e-6);
   }
+}
+
+/// What is found by the time is that the receiver errs to the end, or the IMU's velocity
+/// steps: the barometer may in its place.
+TEST(SearchOrders, NothingIsBelievedOfWhichTimeLeftOthersOut) {
+  const Flight flight(true);
+  int unbelieved = 0;
+  for (const double end : {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45}) {
+    RobustBatchOptions options;
+    options.go_on = [end](double fraction) { return fraction < end; };
+    ErrorSearch search(flight.Pose(), options, 1.0);
+    search.Run(flight.test.truth);
+    EXPECT_TRUE(search.ended());
+    if (search.states()) {
+      EXPECT_LT(FarthestFromTruth(flight.test, *search.states()), 3.0) << end;
+      continue;
+    }
+    RobustBatchResult result = {.problem = flight.Pose()};
+    search.Tell(&result);
+    unbelieved += std::ranges::any_of(result.notes, [](const auto& one) {
+      return one.find("not believed") != std::string::npos;
+    });
+  }
+  EXPECT_GT(unbelieved, 0);
 }
 
 TEST(SearchOrders, NothingIsSuspectedBesideHeightsThatAreHealthy) {

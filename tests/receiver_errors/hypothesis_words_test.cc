@@ -27,13 +27,14 @@ TEST(HypothesisWords, NameBeginAndEndOfEveryPart) {
       DescribeSequence(steps, {0.0, 1.0, 2.0, 3.0, 4.5, 5.0, 6.0, 7.04, 8.0},
                        {{0.0, 3.0, 4.0, 8.2, 0.0, 0.0, 0.0, 5.0, 5.0}, "m"}),
       "biased from 1 to 3 s by 3.5 m, biased from 3 to 4.5 s by 8.2 m, the "
-      "IMU's velocity steps at 5 s, drifting from 7 s to the end by 5 m");
+      "IMU's velocity steps at 5 s, drifting from 7 s to the end by up to 5 m");
 }
 
 TEST(HypothesisWords, TellAStopOfADriftFromItsEnd) {
-  EXPECT_EQ(DescribeSequence({{ErrorMode::kDrifting, true}, kBiased, kGood},
-                             {0.0, 10.0, 20.0}, {{1.0, 2.0, 0.0}, "uT"}),
-            "drifting from 0 to 10 s by 1 uT, biased from 10 to 20 s by 2 uT");
+  EXPECT_EQ(
+      DescribeSequence({{ErrorMode::kDrifting, true}, kBiased, kGood},
+                       {0.0, 10.0, 20.0}, {{1.0, 2.0, 0.0}, "uT"}),
+      "drifting from 0 to 10 s by up to 1 uT, biased from 10 to 20 s by 2 uT");
   EXPECT_EQ(DescribeSequence({kGood, kGood}, {0.0, 1.0}, {{0.0, 0.0}, "m"}),
             "good throughout");
 }
