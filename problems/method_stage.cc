@@ -23,7 +23,10 @@ Solution MethodStage::AtOwnNodes(
   Solution solution = solve(SharedNodes());
   own_.reset();
   OffsetSearch search;
-  for (int i = 1; forward_->unsettled().empty() || own_fit_; ++i) {
+  const auto goes_on = [this] {
+    return forward_->unsettled().empty() || own_fit_ || knows_more_;
+  };
+  for (int i = 1; goes_on(); ++i) {
     const std::vector<double>& offsets =
         own_ ? own_->offsets : *SharedNodes().offsets;
     const std::vector<Sensor>& sensors = problem().timeline.sensors();

@@ -45,8 +45,8 @@ class MethodStage {
 
   /// Solves on the shared nodes, and on nodes of its own as long as the
   /// method's time offsets are elsewhere. Where those of the forward stage did not
-  /// settle only a method with a model of its own (SetFit in `solve`) goes on:
-  /// what it knows of the sensors may be why.
+  /// settle only a method with a model of its own (SetFit or KnowMore in `solve`) goes
+  /// on: what it knows of the sensors may be why.
   Solution AtOwnNodes(const std::function<Solution(const Nodes&)>& solve);
 
   /// As SmoothedSolution, on these nodes.
@@ -74,6 +74,8 @@ class MethodStage {
   /// What the measurements say of a method's own model, where it is another than
   /// the stated one.
   void SetFit(Fit fit) { own_fit_ = std::move(fit); }
+  /// The method has a model of its own, without a judgement of it as yet.
+  void KnowMore() { knows_more_ = true; }
   /// How a method that linearises once compares with its own model, linearised
   /// anew.
   void SetLinearisation(const LinearisationError& error) {
@@ -116,6 +118,7 @@ class MethodStage {
   std::optional<PlacedNodes> own_;  ///< where they are not the forward stage's
   std::optional<Timeline> timeline_;
   std::optional<Fit> own_fit_;
+  bool knows_more_ = false;
   std::optional<LinearisationError> own_linearisation_;
   std::vector<Evidence> doubts_;
 };

@@ -51,18 +51,21 @@ RoughTrajectory RoughlySolved(const MethodStage& stage,
   ImmTrajectory all =
       smooth(has_blunders ? problem.decisions : GateDecisions());
   const GateDecisions without = WithoutHeadings(problem);
-  if (without.empty()) return {.states = std::move(all.states)};
+  if (without.empty()) {
+    return {.states = std::move(all.states), .P = std::move(all.P)};
+  }
   try {
     ImmTrajectory moved = smooth(without);
     if (AttitudesContradict(problem.layout, all.states, moved.states,
                             moved.P)) {
       return {.states = std::move(moved.states),
+              .P = std::move(moved.P),
               .contradicted = HeadingSensors(problem.timeline.sensors())};
     }
   } catch (const EstimationError&) {
     // What moves does not tell the attitude.
   }
-  return {.states = std::move(all.states)};
+  return {.states = std::move(all.states), .P = std::move(all.P)};
 }
 
 }  // namespace hindsight

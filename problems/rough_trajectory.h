@@ -10,6 +10,7 @@ namespace hindsight {
 /// A trajectory about which errors of sensors are sought.
 struct RoughTrajectory {
   std::vector<State> states;  ///< a node
+  CovarianceSeries P = {};    ///< over the layout of the problem
   /// Sensors of headings and magnetic fields, where they contradict all others.
   std::vector<int> contradicted = {};
 };

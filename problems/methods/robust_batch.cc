@@ -111,9 +111,12 @@ struct Searched {
   /// one: it was found without what errs.
   bool begins_at_nodes = false;
   bool done = false;
+  /// So often nodes were placed where the rough trajectory has the clocks.
+  int placed = 0;
   SearchDecisions decisions;
-  std::vector<int> last;        ///< as of RobustBatchOptions
-  std::vector<int> left_out;    ///< as of RobustBatchResult
+  std::vector<int> last;      ///< as of RobustBatchOptions
+  std::vector<int> left_out;  ///< as of RobustBatchResult
+  bool left_out_unasked = false;
   std::vector<double> offsets;  ///< by sensor [s]
   bool stands = false;
   bool ended = false;  ///< something was not searched for, as the time was over
@@ -170,6 +173,9 @@ Solution TakeRobust(RobustBatchResult result, MethodStage* stage,
   return solution;
 }
 
+/// Clocks so far from where nodes stand are others.
+constexpr double kElsewhere = 5.0;  // sigma
+
 /// Nodes that moved by less than a sigma hold the same errors at the same fixes.
 bool IsKnownStill(const Searched& searched) {
   constexpr double kMoved = 1.0;  // sigma
@@ -178,23 +184,36 @@ bool IsKnownStill(const Searched& searched) {
 }
 
 Evidence DoubtOfLeftOut(const Timeline& timeline,
-                        const std::vector<int>& left_out) {
+                        const std::vector<int>& left_out, bool unasked) {
   std::vector<std::string> names;
   for (const int sensor : left_out) {
     names.push_back(timeline.sensors()[static_cast<std::size_t>(sensor)].name);
   }
-  return {.grade = Grade::kDoubtful,
-          .what = fmt::format(
-              "{} left out: all others contradict it, whatever errors it is "
-              "given",
-              fmt::join(names, ", ")),
-          .causes = {"a field of the surroundings, or of currents, that is "
-                     "larger than the Earth's"},
-          .remedies = {"'--without', which leaves it out of all methods"}};
+  return {
+      .grade = Grade::kDoubtful,
+      .what = fmt::format(
+          "{} left out: all others contradict it, {}", fmt::join(names, ", "),
+          unasked ? "and there was no time to ask for its errors"
+                  : "whatever errors it is given"),
+      .causes = {"a field of the surroundings, or of currents, that is "
+                 "larger than the Earth's"},
+      .remedies = {"'--without', which leaves it out of all methods"}};
+}
+
+/// Whether nodes are to be placed where a rough trajectory has the clocks: those that
+/// were chosen, fixes that err may have turned.
+bool IsElsewhere(const RoughTrajectory& rough, const MethodStage::Nodes& nodes,
+                 const Searched& searched) {
+  constexpr int kMostPlaced = 3;
+  return searched.placed < kMostPlaced &&
+         FarthestFromNodes(
+             nodes.problem->layout, *nodes.offsets, rough.states.back(),
+             rough.P.Get(rough.states.size() - 1), kElsewhere) >= 0;
 }
 
 /// Searches, unless what was decided holds still, or there is no time: then the nodes
-/// have the trajectory that followed from it.
+/// have the trajectory that followed from it. Where the rough trajectory has clocks
+/// elsewhere it is that trajectory, and nothing is done yet.
 Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
                        Searched* searched) {
   const bool known =
@@ -209,6 +228,12 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
     RoughTrajectory rough =
         RoughlySolved(*stage, nodes, problem,
                       !blunders.empty() || !searched->left_out.empty());
+    if (IsElsewhere(rough, nodes, *searched)) {
+      ++searched->placed;
+      stage->KnowMore();
+      return SmoothedSolution(problem, std::move(rough.states),
+                              std::move(rough.P));
+    }
     initial = std::move(rough.states);
     searched->last = std::move(rough.contradicted);
   }
@@ -225,6 +250,7 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
     searched->other_order = std::move(result.other_order);
     if (!result.left_out.empty()) {
       searched->left_out = std::move(result.left_out);
+      searched->left_out_unasked = result.left_out_unasked;
       searched->last.clear();
     }
     searched->ended |= result.ended;
@@ -234,8 +260,8 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
   std::vector<Evidence> doubts = std::move(result.doubts);
   if (searched->other_order) doubts.push_back(*searched->other_order);
   if (!searched->left_out.empty()) {
-    doubts.push_back(
-        DoubtOfLeftOut(nodes.problem->timeline, searched->left_out));
+    doubts.push_back(DoubtOfLeftOut(nodes.problem->timeline, searched->left_out,
+                                    searched->left_out_unasked));
   }
   Solution solution =
       result.stands ? TakeRobust(std::move(result), stage, searched, &doubts)
@@ -251,8 +277,10 @@ Solution Search(MethodStage* stage, Searched* searched) {
     LeaveOut(searched->left_out, nodes.problem->timeline,
              &nodes.problem->decisions);
     const bool plain = searched->done && !searched->stands;
+    const int placed = searched->placed;
     Solution one = plain ? SolvePlainly(stage, nodes)
                          : SolveRobustly(stage, nodes, searched);
+    if (searched->placed > placed) return one;
     one.notes = searched->notes;
     one.left_out = searched->left_out;
     searched->done = true;
@@ -268,7 +296,6 @@ Solution Search(MethodStage* stage, Searched* searched) {
 /// larger evidence counts, as LogEvidenceRatio has it.
 void SearchElsewhere(MethodStage* stage, Searched* searched,
                      Solution* solution) {
-  constexpr double kElsewhere = 5.0;  // sigma
   const Dataset& given = *stage->clocks().given;
   if (!searched->stands || searched->erring.empty() ||
       !HasClocksInQuestion(given) || searched->IsOutOfTime()) {
@@ -285,6 +312,7 @@ void SearchElsewhere(MethodStage* stage, Searched* searched,
   again.begins_at_nodes = true;
   again.last = searched->last;
   again.left_out = searched->left_out;
+  again.left_out_unasked = searched->left_out_unasked;
   try {
     Solution other = Search(&elsewhere, &again);
     searched->ended |= again.ended;
