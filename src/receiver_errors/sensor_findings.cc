@@ -88,6 +88,10 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
                     });
   if (points && stands()) {
     Refine(fixes, *points, std::move(all), &rest);
+    // Averages may be likelier with what all fixes are not.
+    const double least =
+        switching() && !regime.has_clock ? kLeastGainOfSwitching : kLeastGain;
+    if (GainOnTape() < least) ChooseNoise(fixes, &rest);
   } else if (points) {
     ChooseNoise(fixes, &rest);
   } else if (stands()) {
@@ -165,7 +169,8 @@ void SensorFindings::ChooseNoise(const LinearTape& fixes,
   log_prior = LogPriorOfFit(noise, all[choice.chosen]);
   std::move(of_noise.refused.begin(), of_noise.refused.end(),
             std::back_inserter(choice.refused));
-  if (stands()) regimes = WithAlternatives(std::move(all), choice.chosen);
+  regimes = stands() ? WithAlternatives(std::move(all), choice.chosen)
+                     : ErrorRegimes();
 }
 
 void SensorFindings::Refine(const LinearTape& fixes, const NormalPoints& points,
