@@ -21,7 +21,6 @@ class ErrorChain {
              const ErrorParameters& parameters);
 
   std::size_t size() const { return tape_.size(); }
-  int fix_count() const { return fix_count_; }
   int dim() const { return navigation_dim_ + 6; }
 
   Gaussian Begin() const;
@@ -30,6 +29,9 @@ class ErrorChain {
   void MoveTo(std::size_t k);
   double t() const { return tape_.t(k_); }
   bool has_fix() const { return fix_ >= 0; }
+  /// What the interval since the fix before is of the recording: by the mean interval and
+  /// the number of fixes, of which twenty are the least. A gap is as many as it lacks.
+  double share() const { return shares_[k_]; }
   /// Measurements of the node over (navigation, e, r).
   const std::vector<LinearizedMeasurement>& measurements() const { return z_; }
 
@@ -111,8 +113,8 @@ class ErrorChain {
   int navigation_dim_;
   int position_ = -1;  ///< offsets, or -1 if an axis is masked
   int velocity_ = -1;
-  int own_field_ = -1;  ///< of the sensor's hard iron, or -1
-  int fix_count_ = 0;
+  int own_field_ = -1;          ///< of the sensor's hard iron, or -1
+  std::vector<double> shares_;  ///< of fixes, by node
   std::size_t k_ = 0;
   ErrorMatrix Phi_n_;
   SparseCongruence over_interval_;  ///< with Phi_n_

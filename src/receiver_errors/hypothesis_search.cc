@@ -129,9 +129,9 @@ class Search {
   }
 
   double LogPriorOf(ErrorStep step, ErrorMode before) const {
-    const int fixes = chain_.fix_count();
-    return fix_ == 0 ? LogFirst(step, fixes)
-                     : LogTransition(before, step, fixes);
+    const double share = chain_.share();
+    return fix_ == 0 ? LogFirst(step, share)
+                     : LogTransition(before, step, share);
   }
 
   std::vector<Candidate> AllCandidates() const {

@@ -71,28 +71,27 @@ ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt) {
   return d;
 }
 
-double LogTransition(ErrorMode before, ErrorStep step, int fixes) {
+double LogTransition(ErrorMode before, ErrorStep step, double share) {
   step.outlier = false;
-  const double once = 1.0 / std::max(fixes, 20);
   const bool good = before == ErrorMode::kGood;
   const bool small = good || before == ErrorMode::kSlight;
   const double jumps = small ? kJumps : kChanges;
   const double drifts = small ? kDrifts : kBends;
   const double stops = before == ErrorMode::kDrifting ? kStops : 0.0;
   const double ends = good ? 0.0 : kEndsOfAnError;
-  if (step == kJump) return std::log(jumps * once);
-  if (step == kSlightJump) return std::log(kSlights * once);
-  if (step == kBeginDrift) return std::log(drifts * once);
-  if (step.velocity_step) return std::log(kVelocitySteps * once);
-  if (step.mode == before) {
-    return std::log1p(
-        -(jumps + kSlights + drifts + stops + ends + kVelocitySteps) * once);
-  }
-  if (step == kStayGood) return std::log(kEndsOfAnError * once);
-  return std::log(kStops * once);
+  const double all = jumps + kSlights + drifts + stops + ends + kVelocitySteps;
+  const auto log_of = [&](double rate) {
+    return std::log(rate / all * -std::expm1(-all * share));
+  };
+  if (step == kJump) return log_of(jumps);
+  if (step == kSlightJump) return log_of(kSlights);
+  if (step == kBeginDrift) return log_of(drifts);
+  if (step.velocity_step) return log_of(kVelocitySteps);
+  if (step.mode == before) return -all * share;
+  return log_of(step == kStayGood ? kEndsOfAnError : kStops);
 }
 
-double LogFirst(ErrorStep step, int fixes) {
+double LogFirst(ErrorStep step, double share) {
   step.outlier = false;
   // Shares of time in the stationary distribution of the transitions.
   constexpr double kBiased = kJumps / kEndsOfAnError;
@@ -104,11 +103,11 @@ double LogFirst(ErrorStep step, int fixes) {
   if (step == kSlightJump) return std::log(kOfWell * kSlight);
   if (step == kJump) return std::log(kOfErring * kBiased);
   if (step == kBeginDrift) return std::log(kOfErring * kDrifting);
-  return LogTransition(ErrorMode::kGood, step, fixes);
+  return LogTransition(ErrorMode::kGood, step, share);
 }
 
 double LogOddsOfBeginningWell() {
-  constexpr int kAny = 20;
+  constexpr double kAny = 0.05;
   return LogFirst(kStayGood, kAny) - LogFirst(kJump, kAny) -
          std::log(kEndsOfAnError / kJumps);
 }

@@ -71,13 +71,15 @@ ErrorDynamics DynamicsOf(const ErrorParameters& parameters, ErrorStep step,
 /// that would be all bias or drift: the expectation a priori.
 inline constexpr double kEndsOfAnError = 4.0;
 
-/// ln probability of a step after a mode, where `fixes` fixes are expected to
-/// hold a few changes. An outlier has its own in its likelihood.
-double LogTransition(ErrorMode before, ErrorStep step, int fixes);
+/// ln probability of a step after a mode, over an interval that is `share` of a
+/// recording, which is expected to hold a few changes: of a Markov chain in continuous
+/// time with one change an interval at most. An outlier has its own in its likelihood.
+double LogTransition(ErrorMode before, ErrorStep step, double share);
 /// ln probability of the step at the first fix: good or slightly biased in eleven
 /// of twelve recordings, else biased or drifting; within each of the two as in
-/// the stationary distribution of the transitions.
-double LogFirst(ErrorStep step, int fixes);
+/// the stationary distribution of the transitions. `share`, of the interval before it, counts
+/// where the velocity of the IMU jumps.
+double LogFirst(ErrorStep step, double share);
 /// ln of how much likelier it is that a receiver which errs over some stretch does so
 /// at the end of a recording than at its begin: 0 of a stationary sequence.
 double LogOddsOfBeginningWell();

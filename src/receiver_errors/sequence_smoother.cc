@@ -76,10 +76,10 @@ SequenceScore ScoreSequence(const LinearTape& tape, int receiver,
       outlier = fix.outlier;
       score.log_likelihood += fix.log;
       const ErrorStep step = walk.steps()[k];
-      const int fixes = walk.chain().fix_count();
+      const double share = walk.chain().share();
       score.log_prior +=
-          first ? LogFirst(step, fixes)
-                : LogTransition(walk.steps()[k - 1].mode, step, fixes);
+          first ? LogFirst(step, share)
+                : LogTransition(walk.steps()[k - 1].mode, step, share);
       first = false;
     }
     score.log_likelihood += walk.chain().UpdateAll(outlier, walk.x());

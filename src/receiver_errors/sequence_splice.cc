@@ -48,9 +48,9 @@ bool SequenceSplice::Pass(const ModeSequence& sequence, Place* at,
   used_.clear();
   const double others = chain_.UpdateAll(fix.outlier, &at->x, &used_);
   at->score.log_likelihood += fix.log + others;
-  at->score.log_prior +=
-      at->fix == 1 ? LogFirst(step, chain_.fix_count())
-                   : LogTransition(at->mode, step, chain_.fix_count());
+  at->score.log_prior += at->fix == 1
+                             ? LogFirst(step, chain_.share())
+                             : LogTransition(at->mode, step, chain_.share());
   at->mode = step.mode;
   *taken = {fix.outlier, fix.log + others, fix.log_odds};
   for (const ErrorChain::Used& used : used_) {

@@ -7,6 +7,7 @@
 namespace hindsight {
 namespace {
 
+using testing::Good;
 using testing::PositionsOnly;
 using testing::TapeOf;
 using testing::TestProblem;
@@ -34,6 +35,25 @@ LinearTape WithGap(std::size_t begin, std::size_t end) {
   GateDecisions used(problem.measurements.size(), 1);
   for (std::size_t k = begin; k < end; ++k) used[k] = 0;
   return TapeOf(problem, used);
+}
+
+/// By time: a gap is as much of a recording as what it lacks.
+TEST(ErrorChain, SharesARecordingBetweenItsFixes) {
+  constexpr std::size_t kBegin = 15;
+  constexpr std::size_t kEnd = 25;
+  const LinearTape tape = WithGap(kBegin, kEnd);
+  ErrorChain chain(tape, 0, WithoutOutliers());
+  const auto share = [&chain](std::size_t k) {
+    chain.MoveTo(k);
+    return chain.share();
+  };
+  const auto count = static_cast<double>(Good(tape).size());
+  double sum = 0.0;
+  for (std::size_t k = 1; k < tape.size(); ++k) sum += share(k);
+  EXPECT_NEAR(sum, (count - 1.0) / count, 1e-9);
+  EXPECT_NEAR(share(kEnd), static_cast<double>(kEnd - kBegin + 1) * share(1),
+              1e-9);
+  EXPECT_NEAR(share(0), 1.0 / count, 1e-12);
 }
 
 /// A step of the velocity behind a gap is one at its begin.

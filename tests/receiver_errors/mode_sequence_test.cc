@@ -49,7 +49,7 @@ TEST(ModeSequence, ThatIsGoodIsTheKalmanFilterAndItsSmoother) {
 /// as over the same at the begin.
 TEST(ModeSequence, BeginsWellInElevenOfTwelveRecordings) {
   const auto first = [](ErrorMode mode, bool anew) {
-    return std::exp(LogFirst({mode, anew, false}, 100));
+    return std::exp(LogFirst({mode, anew, false}, 0.01));
   };
   const double well =
       first(ErrorMode::kGood, false) + first(ErrorMode::kSlight, true);
@@ -69,9 +69,9 @@ TEST(ModeSequence, BeginsWellInElevenOfTwelveRecordings) {
   begin.front().anew = true;
   end[kFixes / 2].anew = true;
   const auto log_prior = [](const ModeSequence& h) {
-    double sum = LogFirst(h.front(), kFixes);
+    double sum = LogFirst(h.front(), 1.0 / kFixes);
     for (std::size_t i = 1; i < h.size(); ++i) {
-      sum += LogTransition(h[i - 1].mode, h[i], kFixes);
+      sum += LogTransition(h[i - 1].mode, h[i], 1.0 / kFixes);
     }
     return sum;
   };
@@ -79,6 +79,31 @@ TEST(ModeSequence, BeginsWellInElevenOfTwelveRecordings) {
   EXPECT_NEAR(log_prior(end) - log_prior(begin), LogOddsOfBeginningWell(), 0.1);
   EXPECT_GT(LogOddsOfBeginningWell(), std::log(2.0));
   EXPECT_LT(LogOddsOfBeginningWell(), std::log(3.0));
+}
+
+/// Whatever a mode, something comes after it; and as often as none of that happens over
+/// a gap it happens over none of as many intervals between fixes.
+TEST(ModeSequence, AGapIsAsManyIntervalsAsItLacks) {
+  constexpr int kLacking = 15;
+  constexpr double kShare = 0.01;
+  for (const ErrorMode mode : {ErrorMode::kGood, ErrorMode::kBiased,
+                               ErrorMode::kDrifting, ErrorMode::kSlight}) {
+    double sum = 0.0;
+    for (const ErrorStep& step : StepsAfter(mode)) {
+      const double over_gap = LogTransition(mode, step, kLacking * kShare);
+      sum += std::exp(over_gap);
+      const double once = LogTransition(mode, step, kShare);
+      if (step == ErrorStep{mode}) {
+        EXPECT_NEAR(over_gap, kLacking * once, 1e-12);
+      } else {
+        // Once at any of them, and nothing else.
+        EXPECT_LT(over_gap, once + std::log(kLacking));
+        EXPECT_GT(over_gap, once + std::log(kLacking) +
+                                LogTransition(mode, {mode}, kLacking * kShare));
+      }
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+  }
 }
 
 /// Good, biased from the third fix on: or biased before, and then good.
