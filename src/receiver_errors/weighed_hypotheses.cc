@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "receiver_errors/regime_choice.h"
+
 namespace hindsight {
 namespace {
 struct Kept {
@@ -77,9 +79,13 @@ std::vector<WeighedHypothesis> WeighHypotheses(const LinearTape& tape,
 }
 
 std::size_t MostCentral(const std::vector<WeighedHypothesis>& all) {
+  const double likely =
+      std::exp(-kLeastGainOfSwitching) *
+      std::ranges::max_element(all, {}, &WeighedHypothesis::weight)->weight;
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].weight < likely) continue;
     double sum = 0.0;
     for (const WeighedHypothesis& other : all) {
       sum += other.weight * MeanSquareDistance(all[i].smoothed, other.smoothed);

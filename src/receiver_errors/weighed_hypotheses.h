@@ -25,7 +25,8 @@ std::vector<WeighedHypothesis> WeighHypotheses(const LinearTape& tape,
                                                const ErrorRegimes& regimes);
 
 /// Index of the one whose horizontal positions are nearest to all, in the mean square
-/// weighed by their probabilities.
+/// weighed by their probabilities: of those against which, beside the likeliest, odds
+/// are hardly worth mentioning (10^(1/2), Jeffreys).
 std::size_t MostCentral(const std::vector<WeighedHypothesis>& all);
 
 /// sum_h w_h d_h at node k, d_h the distance of all smoothed errors of h, those
