@@ -17,9 +17,17 @@ constexpr std::size_t kMostRounds = 3;
 ErrorSearch::ErrorSearch(Problem problem, const RobustBatchOptions& options,
                          double share)
     : problem_(std::move(problem)), options_(&options), share_(share) {
+  if (options.met != nullptr) BeginFrom(*options.met);
   if (options.last.empty()) return;
   with_last_ = problem_.decisions;
   LeaveOut(options.last, problem_.timeline, &problem_.decisions);
+}
+
+void ErrorSearch::BeginFrom(const SearchDecisions& other) {
+  for (const DecidedRound& round : other) {
+    question_.met.insert(question_.met.end(), round.errors.begin(),
+                         round.errors.end());
+  }
 }
 
 bool ErrorSearch::IsLast(int sensor) const {
@@ -46,6 +54,9 @@ ErrorSearch::Round ErrorSearch::Search(
   round.tape = std::make_shared<const LinearTape>(RunLinearizedFilter(
       states_ ? *states_ : initial, problem, options_->callback));
   round.errors = FindReceiverErrors(*problem, *round.tape, question);
+  for (const ReceiverErrors& one : round.errors) {
+    question_.met.push_back(one.Decisions());
+  }
   ended_ |= std::ranges::any_of(round.errors, &ReceiverErrors::WasEnded);
   return round;
 }

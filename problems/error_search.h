@@ -22,6 +22,9 @@ class ErrorSearch {
   /// the first search may cost; each further one half of it.
   ErrorSearch(Problem problem, const RobustBatchOptions& options, double share);
 
+  /// Searches begin from what another has met as well.
+  void BeginFrom(const SearchDecisions& other);
+
   /// Each sensor is searched with the others taken at their word, about `initial`,
   /// a state a node; then the rest about what stands, three times at most.
   void Run(const std::vector<State>& initial);

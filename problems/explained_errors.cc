@@ -13,6 +13,9 @@ namespace {
 /// Another order of a search.
 struct Order {
   double share;  ///< of the effort of the first order
+  /// The search begins from what the first has met as well: not where it is what the first
+  /// has found that is in doubt.
+  bool begins_from_met;
   /// False if nothing was found.
   std::function<bool(ErrorSearch* search)> run;
 };
@@ -43,13 +46,13 @@ std::vector<Order> OtherOrders(const std::vector<State>& initial,
   constexpr double kHalf = 0.5;
   std::vector<Order> orders;
   if (search.MayBeOfAReceiver()) {
-    orders.push_back({kHalf, [&initial](ErrorSearch* other) {
+    orders.push_back({kHalf, false, [&initial](ErrorSearch* other) {
                         return other->RunFromVelocities(initial);
                       }});
   }
   std::vector<int> suspects = search.SuspectsOfVehicle();
   if (!suspects.empty()) {
-    orders.push_back({kHalf, [&initial, suspects](ErrorSearch* other) {
+    orders.push_back({kHalf, true, [&initial, suspects](ErrorSearch* other) {
                         return other->RunFromVehicle(suspects, initial);
                       }});
   }
@@ -57,10 +60,11 @@ std::vector<Order> OtherOrders(const std::vector<State>& initial,
   if (!beside.empty()) {
     // With half of it a jump and a drift that ends it is not found where the first
     // order finds it without the others.
-    orders.push_back({1.0, [&initial, beside,
-                            first = search.first_sensor()](ErrorSearch* other) {
-                        return other->RunFromOne(first, beside, initial);
-                      }});
+    orders.push_back(
+        {1.0, false,
+         [&initial, beside, first = search.first_sensor()](ErrorSearch* other) {
+           return other->RunFromOne(first, beside, initial);
+         }});
   }
   return orders;
 }
@@ -82,6 +86,7 @@ ExplainedErrors ExplainErrors(const Problem& problem,
   for (const Order& order : orders) {
     if (search.ended()) break;
     ErrorSearch other(problem, options, order.share * share);
+    if (order.begins_from_met) other.BeginFrom(search.Decisions());
     const std::optional<double> odds =
         LogOddsAgainst(initial, search, order, &other);
     if (other.ended()) search.End();

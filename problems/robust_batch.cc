@@ -263,6 +263,7 @@ RobustBatchResult SolveRobustBatch(Problem problem,
          options.decisions == nullptr && IsBeyondLinear(nominal, result)) {
     if (of_pass.go_on && !of_pass.go_on(0.0)) break;
     nominal = WithoutErrors(problem.layout, result.batch.states);
+    of_pass.met = &result.decisions;
     std::optional<RobustBatchResult> again =
         SolveAgain(problem, nominal, of_pass, ended);
     if (!again || !again->stands ||

@@ -72,6 +72,9 @@ struct RobustBatchOptions {
   /// Of a search about other nodes of the same recording: taken as they are, if
   /// the nodes hold the same fixes, instead of a search. nullptr: none.
   const SearchDecisions* decisions = nullptr;
+  /// What an earlier search of the same recording decided: where nodes hold as many
+  /// fixes, others begin from the sequences that it has met as well. nullptr: none.
+  const SearchDecisions* met = nullptr;
   /// Of each epoch of each pass; may throw to stop.
   EpochCallback callback = nullptr;
   /// Told the fraction of the search that is done; false ends it with the best

@@ -175,6 +175,7 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
   options.blunders = blunders;
   options.last = searched->last;
   if (known) options.decisions = &searched->decisions;
+  options.met = &searched->decisions;
   RobustBatchResult result =
       SolveRobustBatch(std::move(problem), initial, options);
   if (!known) {

@@ -53,6 +53,7 @@ void SearchElsewhere(MethodStage* stage, RobustSearch* searched,
   MethodStage elsewhere(*std::move(clocks));
   RobustSearch again(searched->end);
   again.begins_at_nodes = true;
+  again.decisions = searched->decisions;
   again.last = searched->last;
   again.left_out = searched->left_out;
   again.left_out_unasked = searched->left_out_unasked;

@@ -122,6 +122,34 @@ std::optional<ErrorRegimes> FitOtherOutliers(
   return FitSwitching(problem, likeliest.sequence, other);
 }
 
+/// From what is likeliest of all that other searches have met, which is fitted about this
+/// trajectory by a third of the effort.
+std::optional<ErrorRegimes> FitMet(const RegimeProblem& problem) {
+  constexpr double kShare = 1.0 / 3.0;
+  const Hypothesis* likeliest = nullptr;
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Hypothesis& one : problem.met) {
+    if (one.sequence.size() != FixCount(problem)) continue;
+    const SequenceScore score = ScoreSequence(problem.tape, problem.sensor,
+                                              one.parameters, one.sequence);
+    problem.effort->Spend(problem.tape.size());
+    if (score.log_likelihood + score.log_prior <= most) continue;
+    most = score.log_likelihood + score.log_prior;
+    likeliest = &one;
+  }
+  if (likeliest == nullptr) return std::nullopt;
+  SearchEffort part(kShare * problem.effort->left(), [&problem](double) {
+    problem.effort->Spend(0);
+    return !problem.effort->stopped();
+  });
+  RegimeProblem of_part = problem;
+  of_part.effort = &part;
+  ErrorRegimes fit =
+      FitSwitching(of_part, likeliest->sequence, likeliest->parameters);
+  problem.effort->Spend(static_cast<std::size_t>(part.spent()));
+  return fit;
+}
+
 /// Every order of modes by parameters of its own.
 std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
                                     const ErrorParameters& start,
@@ -130,6 +158,7 @@ std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
   const std::vector<Attempt> attempts = Hopeful(
       MakeAttempts(problem, start), white.hypotheses.front().log_posterior);
   std::vector<ErrorRegimes> fits;
+  if (auto met = FitMet(problem)) fits.push_back(*std::move(met));
   for (const Attempt& attempt : BestAttempts(problem, attempts)) {
     if (!fits.empty() && problem.effort->IsSpent()) break;
     fits.push_back(FitAttempt(problem, attempt, attempts));

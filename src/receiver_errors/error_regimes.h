@@ -45,6 +45,8 @@ struct RegimeProblem {
   /// Its clock is estimated: what errs may have turned it, beside which fixes without
   /// errors look like some with such.
   bool has_clock = false;
+  /// What searches about other tapes have met of it.
+  std::vector<Hypothesis> met = {};
 };
 
 /// Every kind as fitted to the data, the simplest first; of kSwitching several,
@@ -55,7 +57,8 @@ struct RegimeProblem {
 /// (as in Pfeifer and Protzel, ICRA 2019), times their priors
 /// (receiver_errors/error_tuning.h). Sequences are sought from several sizes of
 /// errors, in turn with fits of the parameters to what was found; the best with
-/// different orders of modes are refined, each with parameters of its own. Ends
+/// different orders of modes are refined, each with parameters of its own, and so is the
+/// likeliest of RegimeProblem::met. Ends
 /// early, with what there is, once the effort is spent; with no switching ones where it
 /// was stopped before the parameters of the others were fitted.
 std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem);

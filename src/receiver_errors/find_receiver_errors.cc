@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -49,6 +50,20 @@ std::vector<int> SensorsInQuestion(const Timeline& timeline,
   return positions;
 }
 
+/// What was met of a sensor, but for what needs steps of the IMU's velocity, which explain
+/// whatever the trajectory about which they were found had wrong.
+std::vector<Hypothesis> MetOf(int sensor, const DecidedErrors& met) {
+  std::vector<Hypothesis> all;
+  for (const auto& one : met) {
+    if (one->sensor != sensor) continue;
+    std::ranges::copy_if(one->met, std::back_inserter(all),
+                         [](const Hypothesis& h) {
+                           return CountVelocitySteps(h.sequence) == 0;
+                         });
+  }
+  return all;
+}
+
 /// The searches of several sensors, in their order: each gets of effort and time an equal
 /// part of what those before have left. Where the time did not suffice for the parameters
 /// of several, which one fits best hangs on what its fit began from: none of these stands.
@@ -71,8 +86,8 @@ std::vector<std::unique_ptr<SensorFindings>> SearchAll(
               !question.go_on || question.go_on((done + fraction) / count);
           return goes_on && Clock::now() < until;
         }};
-    found.push_back(
-        std::make_unique<SensorFindings>(problem, tape, sensor, limits));
+    found.push_back(std::make_unique<SensorFindings>(
+        problem, tape, sensor, limits, MetOf(sensor, question.met)));
     left -= found.back()->spent;
   }
   const auto is_unfitted = [](const auto& one) { return one->unfitted; };

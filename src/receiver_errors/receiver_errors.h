@@ -32,6 +32,9 @@ struct ErrorQuestion {
   /// Of a search about another tape: taken as it is, where the nodes hold the
   /// same fixes, instead of a search. nullptr: none.
   const DecidedErrors* decided = nullptr;
+  /// What searches about other tapes have met: of a sensor of which the nodes hold as many
+  /// fixes a search begins from the likeliest of it as well.
+  DecidedErrors met = {};
   /// Asks after sensors of velocities in the axes of the vehicle (odometers, DVLs, and
   /// that wheels do not slip sideways) in place of the absolute ones.
   bool in_vehicle_axes = false;

@@ -19,8 +19,8 @@ bool IsAllGood(const ModeSequence& sequence) {
 }
 
 /// Where the search for hypotheses begins: errors of several sizes, short or
-/// lasting, and outliers as they are a priori: those of white noise alone are the
-/// errors that are sought.
+/// lasting, first those as large as the outliers of `white`, and outliers as they are a
+/// priori: those of white noise alone are the errors that are sought.
 std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
                                     const ErrorParameters& white) {
   constexpr double kRateTime = 100.0;
@@ -41,6 +41,11 @@ std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
     p.outlier_share = typical.outlier_share;
     p.outlier_ratio = typical.outlier_ratio;
   }
+  // What noise alone takes for outliers are the errors.
+  const double size = white.scale * white.outlier_ratio * problem.stated_sigma;
+  std::ranges::stable_sort(starts, {}, [size](const ErrorParameters& p) {
+    return std::abs(std::log(p.sigma / size));
+  });
   return starts;
 }
 

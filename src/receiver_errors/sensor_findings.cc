@@ -48,7 +48,8 @@ double LogPriorOfFit(const RegimeProblem& problem, const ErrorRegimes& fit) {
 }  // namespace
 
 SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
-                               int index, const SearchLimits& limits)
+                               int index, const SearchLimits& limits,
+                               std::vector<Hypothesis> before)
     : ErrorDecisions(problem, linear, index), tape(linear) {
   constexpr double kSearch = 0.8;  // of the time, the rest refines
   const std::optional<NormalPoints> points = FormNormalPoints(tape, sensor);
@@ -66,10 +67,16 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
       .effort = &effort,
       .has_gauss_markov = problem.layout.Has(BlockKind::kColouredNoise, sensor),
       .is_tolerance = is_tolerance,
-      .has_clock = problem.layout.Has(BlockKind::kTimeOffset, sensor)};
+      .has_clock = problem.layout.Has(BlockKind::kTimeOffset, sensor),
+      .met = std::move(before)};
   std::vector<ErrorRegimes> all = FitRegimes(regime);
   unfitted =
       effort.stopped() && all.back().kind != ErrorRegimes::Kind::kSwitching;
+  for (const ErrorRegimes& one : all) {
+    if (one.kind == ErrorRegimes::Kind::kSwitching) {
+      met.push_back(one.hypotheses.front());
+    }
+  }
   searched_fixes = all.front().hypotheses.front().sequence.size();
   choice = ChooseRegime(regime, all);
   log_prior = LogPriorOfFit(regime, all[choice.chosen]);

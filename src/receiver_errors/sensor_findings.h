@@ -51,7 +51,10 @@ struct ErrorDecisions {
   double gain = 0.0;
   /// RegimeChoice::undecided, by fix; their log_posterior is the gain.
   std::vector<Hypothesis> undecided;
-  ErrorRegimes regimes;   ///< if they stand
+  ErrorRegimes regimes;  ///< if they stand
+  /// The likeliest of each fit of switching errors, whether they stand or not, by fix or
+  /// normal point as they were searched.
+  std::vector<Hypothesis> met;
   bool stopped = false;   ///< the search, by whoever asked
   bool unfitted = false;  ///< it was, before any parameters were fitted
 };
@@ -59,7 +62,8 @@ struct ErrorDecisions {
 /// What is known of the errors of one sensor once they have been looked for.
 struct SensorFindings : ErrorDecisions {
   SensorFindings(const Problem& problem, const LinearTape& linear, int index,
-                 const SearchLimits& limits);
+                 const SearchLimits& limits,
+                 std::vector<Hypothesis> before = {});
   /// Decided before, about another tape.
   SensorFindings(const ErrorDecisions& decisions, const LinearTape& linear);
   const WeighedHypothesis& chosen() const { return alternatives[central]; }

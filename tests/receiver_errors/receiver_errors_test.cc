@@ -587,7 +587,8 @@ TEST(ReceiverErrors, ThatNoiseDoesNotRuleOutAreDoubtfulWhereTheyLeadElsewhere) {
                                  "noise: Gauss-Markov errors, sigma 10 m")));
 }
 
-TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {
+/// An error that grows by 3.6 m/s from 21 to 30 s.
+TestProblem WithFastDrift() {
   TestProblem test = FixesOfOneMinute();
   for (Measurement& z : test.measurements) {
     if (z.t < 20.5 || z.t > 30.5) continue;
@@ -595,11 +596,33 @@ TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {
     fix.p_e += NedAxes(fix.p_e) *
                Eigen::Vector3d(2.0 * (z.t - 20.0), -3.0 * (z.t - 20.0), 0.0);
   }
+  return test;
+}
+
+TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {
+  const TestProblem test = WithFastDrift();
   const Found found(test);
   ASSERT_TRUE(found.errors.Stands());
   EXPECT_THAT(found.errors.InWords(), HasSubstr("drifting from"));
   const std::vector<State> states = found.errors.States(found.problem.layout);
   EXPECT_LT((states[28].p_e - test.truth[28].p_e).norm(), 3.0);
+}
+
+/// A search that has no effort to find a drift begins from what another has met.
+TEST(ReceiverErrors, MayBeThoseThatAnotherSearchHasMet) {
+  const TestProblem test = WithFastDrift();
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  const ReceiverErrors full = FindThem(problem, tape);
+  ErrorQuestion question = {.known = {1}, .share = 1e-6};
+  const ReceiverErrors alone =
+      FindReceiverErrors(problem, tape, question).at(0);
+  EXPECT_LT(alone.log_gain(), full.log_gain() - 7.0);
+  question.met = {full.Decisions()};
+  const ReceiverErrors after =
+      FindReceiverErrors(problem, tape, question).at(0);
+  EXPECT_EQ(after.InWords(), full.InWords());
+  EXPECT_NEAR(after.log_gain(), full.log_gain(), 1.0);
 }
 
 /// The search sees averages of a second, of which the evidence is another: what one
