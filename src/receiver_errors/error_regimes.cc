@@ -173,6 +173,12 @@ std::vector<ErrorRegimes> FitOrders(const RegimeProblem& problem,
     if (rival == nullptr) break;
     fits.push_back(FitSwitching(problem, rival->sequence, rival->parameters));
   }
+  if (problem.effort->IsSpent()) return fits;
+  const Attempt right =
+      BestOutlierThatIsRight(problem, white.hypotheses.front());
+  if (!right.sequence.empty()) {
+    fits.push_back(FitSwitching(problem, right.sequence, right.parameters));
+  }
   return fits;
 }
 

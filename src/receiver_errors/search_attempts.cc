@@ -69,6 +69,58 @@ double SizeOf(const RegimeProblem& problem, const Hypothesis& one) {
   return largest.maxCoeff();
 }
 
+/// A fix as noise has it.
+struct JudgedFix {
+  double t = 0.0;
+  double off = 0.0;  ///< root mean square of what is left of it, an axis
+  bool outlier = false;
+};
+
+/// Of all fixes of the sensor.
+std::vector<JudgedFix> JudgeFixes(const RegimeProblem& problem,
+                                  const Hypothesis& noise) {
+  constexpr double kOutlier = 5.0;  // sigma
+  const LinearTape& tape = problem.tape;
+  const ErrorTrajectory smoothed =
+      SmoothSequence(tape, problem.sensor, noise.parameters, noise.sequence);
+  std::vector<JudgedFix> fixes;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      if (z.sensor != problem.sensor || !z.accepted || z.withheld) continue;
+      const Eigen::VectorXd left =
+          z.residual - z.H * smoothed[k].head(tape.dim());
+      const Eigen::VectorXd sigmas = left.cwiseAbs().cwiseQuotient(
+          z.R.diagonal().cwiseSqrt() * noise.parameters.scale);
+      fixes.push_back(
+          {tape.t(k), left.norm() / std::sqrt(static_cast<double>(left.size())),
+           sigmas.maxCoeff() > kOutlier});
+      break;
+    }
+  }
+  return fixes;
+}
+
+/// Of fixes by time the first ones behind gaps, the first of all included, and past the
+/// last.
+std::vector<std::size_t> BeginsOfStretches(
+    const std::vector<JudgedFix>& fixes) {
+  constexpr double kGap = 5.0;  // by the median interval
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < fixes.size(); ++i) {
+    intervals.push_back(fixes[i].t - fixes[i - 1].t);
+  }
+  std::vector<double> sorted = intervals;
+  const auto middle =
+      sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  std::vector<std::size_t> begins = {0};
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    if (intervals[i] > kGap * *middle) begins.push_back(i + 1);
+  }
+  begins.push_back(fixes.size());
+  return begins;
+}
+
 /// Mean time between fixes [s].
 double Spacing(const RegimeProblem& problem, std::size_t fixes) {
   const double duration =
@@ -156,6 +208,38 @@ std::vector<Attempt> ExchangedRoles(const RegimeProblem& problem,
     all.push_back({p, std::move(other)});
   }
   return all;
+}
+
+Attempt BestOutlierThatIsRight(const RegimeProblem& problem,
+                               const Hypothesis& noise) {
+  constexpr double kLasting = 1e8;  // correlation time of a bias that stays [s]
+  Attempt best;
+  const std::vector<JudgedFix> fixes = JudgeFixes(problem, noise);
+  if (fixes.size() < 2 || fixes.size() != noise.sequence.size()) return best;
+  const std::vector<std::size_t> begins = BeginsOfStretches(fixes);
+  for (std::size_t s = 0; s + 1 < begins.size(); ++s) {
+    const std::size_t begin = begins[s];
+    const std::size_t past = begins[s + 1];
+    if (past - begin < 2) continue;
+    for (const std::size_t right : {begin, past - 1}) {
+      if (!fixes[right].outlier) continue;
+      ModeSequence sequence(fixes.size());
+      for (std::size_t i = begin; i < past; ++i) {
+        if (i != right) sequence[i].mode = ErrorMode::kBiased;
+      }
+      sequence[right == begin ? begin + 1 : begin].anew = true;
+      ErrorParameters p;
+      p.scale = noise.parameters.scale;
+      p.sigma = fixes[right].off;
+      p.tau = kLasting;
+      problem.effort->Spend(problem.tape.size());
+      const double log_posterior = LogPosterior(problem, p, sequence);
+      if (best.sequence.empty() || log_posterior > best.log_posterior) {
+        best = {p, std::move(sequence), log_posterior};
+      }
+    }
+  }
+  return best;
 }
 
 Attempt BestDriftThatEnds(const RegimeProblem& problem,

@@ -39,6 +39,13 @@ std::vector<Attempt> BestAttempts(const RegimeProblem& problem,
 std::vector<Attempt> ExchangedRoles(const RegimeProblem& problem,
                                     const Hypothesis& jumping);
 
+/// What else a fix that noise takes for an outlier may be, beside a gap or an end of the
+/// recording: right, and all others up to the gap before it or behind it err, which the
+/// gap hides. The likeliest, by errors as large as the outlier; without a sequence if
+/// there is none.
+Attempt BestOutlierThatIsRight(const RegimeProblem& problem,
+                               const Hypothesis& noise);
+
 /// The likeliest of DriftsThatEnd, each by the rate that leads to errors as large
 /// as the hypothesis's own and with the noise of the IMU as stated; without a
 /// sequence if there is none.
