@@ -5,18 +5,17 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/median.h"
+#include "base/gap.h"
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {
 
 RowAtGap LongestRowAtGap(std::span<const TakenFix> fixes) {
-  constexpr double kGap = 5.0;
   std::vector<double> spacings;
   for (std::size_t i = 1; i < fixes.size(); ++i) {
     spacings.push_back(fixes[i].t - fixes[i - 1].t);
   }
-  const double gap = spacings.empty() ? 0.0 : kGap * Median(spacings);
+  const double gap = LongestSpacingWithoutGap(spacings);
   RowAtGap longest;
   for (std::size_t begin = 0; begin < fixes.size();) {
     std::size_t end = begin + 1;

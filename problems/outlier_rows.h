@@ -24,8 +24,7 @@ struct RowAtGap {
 };
 
 /// The longest of the rows next to a gap, begin and end of the recording among
-/// them; a gap is more than five times the median spacing. Fixes in the order of
-/// time.
+/// them (LongestSpacingWithoutGap). Fixes in the order of time.
 RowAtGap LongestRowAtGap(std::span<const TakenFix> fixes);
 
 /// Outliers come one by one. Two and more, behind which nothing follows that

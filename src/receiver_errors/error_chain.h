@@ -29,8 +29,7 @@ class ErrorChain {
   void MoveTo(std::size_t k);
   double t() const { return tape_.t(k_); }
   bool has_fix() const { return fix_ >= 0; }
-  /// What the interval since the fix before is of the recording: by the mean interval and
-  /// the number of fixes, of which twenty are the least. A gap is as many as it lacks.
+  /// SharesOf at the node.
   double share() const { return shares_[k_]; }
   /// Measurements of the node over (navigation, e, r).
   const std::vector<LinearizedMeasurement>& measurements() const { return z_; }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "receiver_errors/error_tuning.h"
+#include "receiver_errors/other_tellings.h"
 #include "receiver_errors/regime_choice.h"
 #include "receiver_errors/search_attempts.h"
 #include "receiver_errors/sequence_refinement.h"
@@ -123,18 +124,20 @@ std::optional<ErrorRegimes> FitOtherOutliers(
 }
 
 /// From what is likeliest of all that other searches have met, which is fitted about this
-/// trajectory by a third of the effort.
+/// trajectory by a third of the effort. None if the search was stopped.
 std::optional<ErrorRegimes> FitMet(const RegimeProblem& problem) {
   constexpr double kShare = 1.0 / 3.0;
+  if (problem.effort->stopped()) return std::nullopt;
   const Hypothesis* likeliest = nullptr;
   double most = -std::numeric_limits<double>::infinity();
   for (const Hypothesis& one : problem.met) {
     if (one.sequence.size() != FixCount(problem)) continue;
-    const SequenceScore score = ScoreSequence(problem.tape, problem.sensor,
-                                              one.parameters, one.sequence);
+    const double log_posterior = ScoreSequence(problem.tape, problem.sensor,
+                                               one.parameters, one.sequence)
+                                     .log_posterior();
     problem.effort->Spend(problem.tape.size());
-    if (score.log_likelihood + score.log_prior <= most) continue;
-    most = score.log_likelihood + score.log_prior;
+    if (log_posterior <= most) continue;
+    most = log_posterior;
     likeliest = &one;
   }
   if (likeliest == nullptr) return std::nullopt;

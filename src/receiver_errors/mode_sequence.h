@@ -101,6 +101,10 @@ std::vector<ErrorStep> StepsByNode(const LinearTape& tape, int receiver,
                                    const ModeSequence& sequence);
 /// Whether the node has a fix of the receiver that is used.
 bool HasFix(const LinearTape& tape, std::size_t k, int receiver);
+/// By node what the interval since the fix before is of the recording, 0 without a fix:
+/// by the mean interval and the number of fixes, of which twenty are the least. A gap is
+/// as many as it lacks.
+std::vector<double> SharesOf(const LinearTape& tape, int receiver);
 /// The most rows that a measurement of the sensor has.
 int RowsOf(const LinearTape& tape, int sensor);
 

@@ -12,10 +12,12 @@ namespace hindsight {
 /// ln of the evidence by which a richer model of a sensor's errors has to win:
 /// odds of a thousand, as it brings what a wrong one may ruin.
 inline constexpr double kLeastGain = 6.907755278982137;
-/// The same of switching errors of a sensor whose clock is known, beside which the noise
-/// goes on as an alternative: odds that are more than hardly worth mentioning, 10^(1/2)
-/// (Jeffreys, Theory of Probability, 1961).
-inline constexpr double kLeastGainOfSwitching = 1.151292546497023;
+/// ln of odds of 10^(1/2), to which they are hardly worth mentioning (Jeffreys, Theory of
+/// Probability, 1961).
+inline constexpr double kHardlyWorthMentioning = 1.151292546497023;
+/// As kLeastGain of switching errors of a sensor whose clock is known, beside which the
+/// noise goes on as an alternative.
+inline constexpr double kLeastGainOfSwitching = kHardlyWorthMentioning;
 
 /// Which of FitRegimes stands.
 struct RegimeChoice {

@@ -34,24 +34,6 @@ std::vector<Attempt> Hopeful(std::vector<Attempt> attempts,
 std::vector<Attempt> BestAttempts(const RegimeProblem& problem,
                                   const std::vector<Attempt>& attempts);
 
-/// What else a jump to or from a bias may be: RolesExchanged, by a lasting bias as
-/// large as the hypothesis's own errors. Their posteriors are not filled in.
-std::vector<Attempt> ExchangedRoles(const RegimeProblem& problem,
-                                    const Hypothesis& jumping);
-
-/// What else a fix that noise takes for an outlier may be, beside a gap or an end of the
-/// recording: right, and all others up to the gap before it or behind it err, which the
-/// gap hides. The likeliest, by errors as large as the outlier; without a sequence if
-/// there is none.
-Attempt BestOutlierThatIsRight(const RegimeProblem& problem,
-                               const Hypothesis& noise);
-
-/// The likeliest of DriftsThatEnd, each by the rate that leads to errors as large
-/// as the hypothesis's own and with the noise of the IMU as stated; without a
-/// sequence if there is none.
-Attempt BestDriftThatEnds(const RegimeProblem& problem,
-                          const Hypothesis& jumping);
-
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_RECEIVER_ERRORS_SEARCH_ATTEMPTS_H_

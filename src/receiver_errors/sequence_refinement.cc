@@ -187,7 +187,7 @@ class Refinement {
     const std::size_t before = splice_->steps();
     const SequenceScore score = splice_->Score(sequence);
     if (effort_ != nullptr) effort_->Spend(splice_->steps() - before);
-    double log_posterior = score.log_likelihood + score.log_prior;
+    double log_posterior = score.log_posterior();
     if (!std::isfinite(log_posterior)) log_posterior = kImpossible;
     // What cannot come back into the result is not kept: there is one for every
     // fix.

@@ -12,6 +12,7 @@ namespace hindsight {
 struct SequenceScore {
   double log_likelihood = 0.0;  ///< of all measurements, given the sequence
   double log_prior = 0.0;       ///< of the sequence
+  double log_posterior() const { return log_likelihood + log_prior; }
 };
 SequenceScore ScoreSequence(const LinearTape& tape, int receiver,
                             const ErrorParameters& parameters,

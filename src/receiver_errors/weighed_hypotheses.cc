@@ -80,7 +80,7 @@ std::vector<WeighedHypothesis> WeighHypotheses(const LinearTape& tape,
 
 std::size_t MostCentral(const std::vector<WeighedHypothesis>& all) {
   const double likely =
-      std::exp(-kLeastGainOfSwitching) *
+      std::exp(-kHardlyWorthMentioning) *
       std::ranges::max_element(all, {}, &WeighedHypothesis::weight)->weight;
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-#include "receiver_errors/search_attempts.h"
+#include "receiver_errors/other_tellings.h"
 
 #include <gtest/gtest.h>
 
@@ -45,6 +45,17 @@ TEST_F(BetweenGaps, AnOutlierMayBeTheOneThatIsRight) {
         << i;
     EXPECT_EQ(found.sequence[i].anew, i == kFirst) << i;
   }
+}
+
+/// No gap hides where the others begin or end to err.
+TEST(OtherTellings, AnOutlierAtAnEndOfARecordingWithoutGapsIsOne) {
+  TestProblem problem = PositionsOnly(80.0);
+  AddError(problem.measurements.size() - 1, problem.measurements.size(),
+           {0.0, 6.0, 0.0}, &problem);
+  const LinearTape tape = TapeOf(problem);
+  SearchEffort effort(1e9, nullptr);
+  const RegimeProblem of{tape, 0, 0.5, false, &effort};
+  EXPECT_TRUE(BestOutlierThatIsRight(of, {Good(tape)}).sequence.empty());
 }
 
 TEST_F(BetweenGaps, FixesThatAgreeAreNone) {
