@@ -71,7 +71,9 @@ void ErrorSearch::Run(const std::vector<State>& initial) {
     if (round.errors.empty()) break;
     const bool stands = round.best().Stands();
     if (stands && LacksOthers(round)) {
-      unbelieved_ = round.best().InWords();
+      EndUnbelieving(round.best().InWords(),
+                     "there was no time to ask whether another sensor errs in "
+                     "its place");
       break;
     }
     Take(std::move(round));

@@ -51,6 +51,10 @@ class ErrorSearch {
   /// As RobustBatchOptions::decisions say, in the order in which they were found.
   void RunAsDecided(const std::vector<State>& initial);
 
+  /// Nothing stands of `words`, what another search has found, as `why` says; begins no
+  /// further search.
+  void EndUnbelieving(const std::string& words, const std::string& why);
+
   /// Begins no further search.
   void End() { ended_ = true; }
   /// Whether it does not, as one was ended by whoever asked, or by End.
@@ -168,7 +172,7 @@ class ErrorSearch {
   std::optional<GateDecisions> with_last_;
   std::optional<std::vector<State>> states_;
   bool ended_ = false;
-  std::string unbelieved_;  ///< what stood of a round that LacksOthers
+  std::string unbelieved_;  ///< what was found but does not stand, and why
 };
 
 }  // namespace hindsight

@@ -75,10 +75,13 @@ void ErrorSearch::Tell(RobustBatchResult* result) const {
   }
   TellUndecided(result);
   if (unbelieved_.empty()) return;
-  result->notes.push_back(
-      unbelieved_ +
-      ": not believed, as there was no time to ask whether another "
-      "sensor errs in its place");
+  result->notes.push_back(unbelieved_);
+}
+
+void ErrorSearch::EndUnbelieving(const std::string& words,
+                                 const std::string& why) {
+  unbelieved_ = words + ": not believed, as " + why;
+  End();
 }
 
 void ErrorSearch::TellUndecided(RobustBatchResult* result) const {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "problems/constant_rival.h"
 
 namespace hindsight {
 namespace {
@@ -69,6 +70,25 @@ std::vector<Order> OtherOrders(const std::vector<State>& initial,
   return orders;
 }
 
+/// In place of a search that has found errors one in which nothing stands, if a constant
+/// that is not estimated explains more.
+void HoldAgainstConstants(const Problem& problem,
+                          const std::vector<State>& initial,
+                          const RobustBatchOptions& options,
+                          ErrorSearch* search) {
+  if (!search->states() || search->ended()) return;
+  ErrorSearch plain(problem, options, 1.0);
+  const std::optional<ConstantRival> constant =
+      LikeliestConstant(plain.problem(), initial, options.callback);
+  if (!constant || plain.LogEvidence(initial) + constant->log_gain <
+                       search->LogEvidence(initial)) {
+    return;
+  }
+  plain.EndUnbelieving(search->InWords(),
+                       "that " + constant->what + " explains more");
+  *search = std::move(plain);
+}
+
 }  // namespace
 
 ExplainedErrors ExplainErrors(const Problem& problem,
@@ -95,6 +115,7 @@ ExplainedErrors ExplainErrors(const Problem& problem,
     if (!other.states()) continue;
     rival = {*other.states(), other.InWords(), std::abs(*odds)};
   }
+  HoldAgainstConstants(problem, initial, options, &search);
   std::optional<ErrorSearch> without_last;
   if (!options.last.empty()) without_last = search;
   search.RunLast(initial);

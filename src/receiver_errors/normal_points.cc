@@ -255,6 +255,13 @@ std::optional<LinearTape> ThinBetweenFixes(const LinearTape& tape, int sensor,
   return Thin(tape, sensor, intervals);
 }
 
+double NormalPointInterval(const LinearTape& tape) {
+  constexpr double kIntervals = 1200.0;
+  constexpr double kShortest = 0.5;
+  return std::clamp((tape.t(tape.size() - 1) - tape.t(0)) / kIntervals,
+                    kShortest, kNormalPointInterval);
+}
+
 std::optional<NormalPoints> FormNormalPoints(const LinearTape& tape, int sensor,
                                              double interval) {
   const std::vector<Interval> intervals =

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "measurements/sensor_kind.h"
 #include "receiver_errors/errant_end.h"
 #include "receiver_errors/sequence_smoother.h"
 #include "receiver_errors/uniform_regimes.h"
@@ -37,6 +38,14 @@ double RefinementEffort(const LinearTape& tape) {
          CostOfStep(tape);
 }
 
+/// Of normal points of a sensor. What measures velocities, heights or directions says of
+/// each error by itself how large it is.
+double IntervalOf(const Problem& problem, const LinearTape& tape, int sensor) {
+  const SensorKind& kind =
+      *problem.timeline.sensors()[static_cast<std::size_t>(sensor)].kind;
+  return kind.is_position ? NormalPointInterval(tape) : kNormalPointInterval;
+}
+
 /// ln of the evidence of a fit without its likelihood.
 double LogPriorOfFit(const RegimeProblem& problem, const ErrorRegimes& fit) {
   const Hypothesis& best = fit.hypotheses.front();
@@ -52,7 +61,8 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
                                std::vector<Hypothesis> before)
     : ErrorDecisions(problem, linear, index), tape(linear) {
   constexpr double kSearch = 0.8;  // of the time, the rest refines
-  const std::optional<NormalPoints> points = FormNormalPoints(tape, sensor);
+  const std::optional<NormalPoints> points =
+      FormNormalPoints(tape, sensor, IntervalOf(problem, linear, index));
   const std::optional<LinearTape> thinned = ThinBetweenFixes(tape, sensor);
   const LinearTape& fixes = thinned ? *thinned : tape;
   const LinearTape& searched = points ? points->tape : fixes;
@@ -95,15 +105,14 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
                     });
   if (points && stands()) {
     Refine(fixes, *points, std::move(all), &rest);
-    // Averages may be likelier with what all fixes are not.
-    const double least =
-        switching() && !regime.has_clock ? kLeastGainOfSwitching : kLeastGain;
-    if (GainOnTape() < least) ChooseNoise(fixes, &rest);
   } else if (points) {
     ChooseNoise(fixes, &rest);
   } else if (stands()) {
     regimes = WithAlternatives(std::move(all), choice.chosen);
   }
+  // Averages may be likelier with what all measurements are not.
+  if (stands() && !WinsOnTape(regime.has_clock)) ChooseNoise(fixes, &rest);
+  if (stands() && !WinsOnTape(regime.has_clock)) Withdraw();
   stopped |= rest.stopped();
   if (stands()) gain = GainOnTape();
   WeighAlternatives();
@@ -124,6 +133,12 @@ double SensorFindings::GainOnTape() const {
              .log_likelihood -
          ScoreSequence(tape, sensor, stated, ModeSequence(best.sequence.size()))
              .log_likelihood;
+}
+
+bool SensorFindings::WinsOnTape(bool has_clock) const {
+  const double least =
+      switching() && !has_clock ? kLeastGainOfSwitching : kLeastGain;
+  return GainOnTape() >= least;
 }
 
 void SensorFindings::Withdraw() {

@@ -87,6 +87,8 @@ struct SensorFindings : ErrorDecisions {
 
   /// ErrorDecisions::gain of what stands.
   double GainOnTape() const;
+  /// Whether that is what RegimeChoice asks of it.
+  bool WinsOnTape(bool has_clock) const;
 
   /// Takes back what stands.
   void Withdraw();

@@ -48,7 +48,8 @@ def run(options, name, methods, out, *more):
        f"--out={out}", "--threads=1", "--quiet", "--force", *more],
       capture_output=True, text=True)
   if done.returncode not in (0, 1, 3):
-    sys.exit(f"run {name} {' '.join(more)}: {done.stderr}")
+    sys.exit(f"run {name} {' '.join(more)}: exit status "
+             f"{done.returncode}: {done.stderr}")
   return json.loads((out / "summary.json").read_text())
 
 

@@ -23,6 +23,13 @@ TEST(NormalPoints, AreNotFormedOfFixesASecondApart) {
   EXPECT_FALSE(FormNormalPoints(TapeOf(PositionsOnly(20.0)), 0).has_value());
 }
 
+TEST(NormalPoints, AreCloserInAShortRecording) {
+  EXPECT_DOUBLE_EQ(NormalPointInterval(TapeOf(PositionsOnly(20.0))), 0.5);
+  EXPECT_DOUBLE_EQ(NormalPointInterval(TapeOf(PositionsOnly(900.0))), 0.75);
+  EXPECT_DOUBLE_EQ(NormalPointInterval(TapeOf(PositionsOnly(1300.0))),
+                   kNormalPointInterval);
+}
+
 TEST(NormalPoints, TellTheTrajectoryAsAllFixesDo) {
   const LinearTape tape = TapeOf(PositionsOnly(40.0, 0.1));
   const auto points = FormNormalPoints(tape, 0);
