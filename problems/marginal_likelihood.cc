@@ -28,17 +28,11 @@ void WidenBlock(const ErrorLayout& layout, BlockKind kind,
   }
 }
 
-bool IsOfImu(BlockKind kind) {
-  return kind == BlockKind::kPosition || kind == BlockKind::kVelocity ||
-         kind == BlockKind::kAttitude || kind == BlockKind::kGyroBias ||
-         kind == BlockKind::kAccelBias;
-}
-
 /// Q of an interval with the IMU's noise alone.
 ErrorMatrix IntervalNoise(const LinearTape& tape, std::size_t k) {
   ErrorMatrix Q = tape.Q(k);
   for (const Block& block : tape.layout().blocks()) {
-    if (IsOfImu(block.key.kind)) continue;
+    if (IsNavigation(block.key.kind)) continue;
     Q.middleRows(block.offset, block.dim).setZero();
     Q.middleCols(block.offset, block.dim).setZero();
   }

@@ -103,7 +103,7 @@ std::vector<Strained> AllStrained(const Judged& judged) {
   std::vector<Strained> all;
   for (const Block& block : solution.layout.blocks()) {
     const bool constant = block.evolution.is_constant();
-    const bool start_value = block.key.kind <= BlockKind::kAccelBias;
+    const bool start_value = IsNavigation(block.key.kind);
     if (!constant && !(start_value && from_start)) continue;
     int i = block.offset;
     for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {

@@ -216,7 +216,7 @@ ComponentMap MapComponents(const ErrorLayout& layout) {
     for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {
       if (!block.active[static_cast<std::size_t>(axis)]) continue;
       const auto c = static_cast<std::size_t>(component++);
-      if (block.key.kind <= BlockKind::kAccelBias) {
+      if (IsNavigation(block.key.kind)) {
         map.navigation[c] = 3 * kind + axis;
       } else if (block.key.kind == BlockKind::kGyroScale) {
         map.scale[c] = axis;

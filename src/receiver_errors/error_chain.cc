@@ -29,12 +29,6 @@ double LogDensity(const Eigen::Vector3d& r, const Eigen::Matrix3d& S) {
 /// double precision resolves beside an error of kilometres.
 constexpr double kLeastSigma = 1e-5;
 
-bool IsOfImu(BlockKind kind) {
-  return kind == BlockKind::kPosition || kind == BlockKind::kVelocity ||
-         kind == BlockKind::kAttitude || kind == BlockKind::kGyroBias ||
-         kind == BlockKind::kAccelBias;
-}
-
 /// H P of a symmetric P, from its columns: most elements of H are zero.
 RowJacobian ProductWith(const RowJacobian& H, const ErrorMatrix& P) {
   return TimesTransposed(P, H).transpose();
@@ -160,7 +154,7 @@ double ErrorChain::ReachOfVelocityStep() const {
 void ErrorChain::ScaleImuNoise() {
   ErrorVector scale = ErrorVector::Ones(navigation_dim_);
   for (const Block& block : tape_.layout().blocks()) {
-    if (!IsOfImu(block.key.kind)) continue;
+    if (!IsNavigation(block.key.kind)) continue;
     scale.segment(block.offset, block.dim).setConstant(parameters_.imu_scale);
   }
   Q_n_ = (scale.asDiagonal() * Q_n_ * scale.asDiagonal()).eval();

@@ -10,8 +10,6 @@ constexpr BlockKind kCanonicalHead[] = {
     BlockKind::kPosition, BlockKind::kVelocity, BlockKind::kAttitude,
     BlockKind::kGyroBias, BlockKind::kAccelBias};
 
-bool IsNavigation(BlockKind kind) { return kind <= BlockKind::kAccelBias; }
-
 bool IsResolvedInNed(BlockKind kind) {
   return kind <= BlockKind::kAttitude || kind == BlockKind::kColouredNoise ||
          kind == BlockKind::kCurrent || kind == BlockKind::kDisturbance ||
@@ -50,6 +48,8 @@ constexpr Process kSpatialGaussMarkovProcess = {
 }  // namespace
 
 constinit const Process kConstantProcess = {One, Zero};
+
+bool IsNavigation(BlockKind kind) { return kind <= BlockKind::kAccelBias; }
 
 int FullDimension(BlockKind kind) {
   switch (kind) {

@@ -63,6 +63,9 @@ enum class BlockKind {
 
 /// Number of components of a block before any axis is masked.
 int FullDimension(BlockKind kind);
+/// Position, velocity, attitude or a bias of the IMU: what integrating the IMU adds its
+/// noise to.
+bool IsNavigation(BlockKind kind);
 
 /// Identifies a block: `sensor` is the index of the sensor in the rig, and is
 /// kNoSensor for blocks of the navigation state and the IMU.

@@ -26,6 +26,13 @@ ErrorLayout MixedLayout() {
   return layout;
 }
 
+TEST(BlockKinds, OfTheNavigationStateEndWithTheBiases) {
+  EXPECT_TRUE(IsNavigation(BlockKind::kPosition));
+  EXPECT_TRUE(IsNavigation(BlockKind::kAccelBias));
+  EXPECT_FALSE(IsNavigation(BlockKind::kGyroScale));
+  EXPECT_FALSE(IsNavigation(BlockKind::kSensorError));
+}
+
 TEST(ErrorLayout, OffsetsFollowTheOrderOfAdding) {
   const ErrorLayout layout = MixedLayout();
   EXPECT_TRUE(layout.has_canonical_head());

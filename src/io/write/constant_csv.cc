@@ -22,7 +22,7 @@ struct ConstantComponent {
 std::vector<ConstantComponent> ConstantComponents(const ErrorLayout& layout) {
   std::vector<ConstantComponent> components;
   for (const Block& block : layout.blocks()) {
-    if (block.key.kind <= BlockKind::kAccelBias) continue;
+    if (IsNavigation(block.key.kind)) continue;
     int error = block.offset;
     for (int axis = 0; axis < FullDimension(block.key.kind); ++axis) {
       if (!block.active[static_cast<std::size_t>(axis)]) continue;
