@@ -71,9 +71,9 @@ void ErrorSearch::Run(const std::vector<State>& initial) {
     if (round.errors.empty()) break;
     const bool stands = round.best().Stands();
     if (stands && LacksOthers(round)) {
-      EndUnbelieving(round.best().InWords(),
-                     "there was no time to ask whether another sensor errs in "
-                     "its place");
+      Disbelieve(round.best().InWords(),
+                 "there was no time to ask whether another sensor errs in its "
+                 "place");
       break;
     }
     Take(std::move(round));
@@ -141,8 +141,8 @@ void ErrorSearch::Take(Round round) {
 
 bool ErrorSearch::HasNext() const {
   const SearchDecisions* decisions = options_->decisions;
-  const bool wanted =
-      decisions != nullptr ? rounds_.size() < decisions->size() : !ended_;
+  const bool wanted = decisions != nullptr ? rounds_.size() < decisions->size()
+                                           : !ended_ && unbelieved_.empty();
   return wanted && rounds_.size() < kMostRounds && HasRoom();
 }
 

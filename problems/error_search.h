@@ -51,9 +51,9 @@ class ErrorSearch {
   /// As RobustBatchOptions::decisions say, in the order in which they were found.
   void RunAsDecided(const std::vector<State>& initial);
 
-  /// Nothing stands of `words`, what another search has found, as `why` says; begins no
-  /// further search.
-  void EndUnbelieving(const std::string& words, const std::string& why);
+  /// Nothing stands of `words`, what was found, as `why` says: there is no further round
+  /// but of RunLast, for what was left out.
+  void Disbelieve(const std::string& words, const std::string& why);
 
   /// Begins no further search.
   void End() { ended_ = true; }

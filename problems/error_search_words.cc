@@ -78,10 +78,8 @@ void ErrorSearch::Tell(RobustBatchResult* result) const {
   result->notes.push_back(unbelieved_);
 }
 
-void ErrorSearch::EndUnbelieving(const std::string& words,
-                                 const std::string& why) {
+void ErrorSearch::Disbelieve(const std::string& words, const std::string& why) {
   unbelieved_ = words + ": not believed, as " + why;
-  End();
 }
 
 void ErrorSearch::TellUndecided(RobustBatchResult* result) const {

@@ -1,5 +1,6 @@
 #include "problems/explained_errors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -70,23 +71,34 @@ std::vector<Order> OtherOrders(const std::vector<State>& initial,
   return orders;
 }
 
+/// ln of the evidence that a constant gains, 0 if none gains any.
+double LogGainOf(const std::optional<ConstantRival>& constant) {
+  return constant ? std::max(0.0, constant->log_gain) : 0.0;
+}
+
 /// In place of a search that has found errors one in which nothing stands, if a constant
-/// that is not estimated explains more.
-void HoldAgainstConstants(const Problem& problem,
+/// that is not estimated explains more than they and the likeliest constant beside them.
+/// Whether it does.
+bool ConstantExplainsMore(const Problem& problem,
                           const std::vector<State>& initial,
                           const RobustBatchOptions& options,
                           ErrorSearch* search) {
-  if (!search->states() || search->ended()) return;
+  if (!search->states() || search->ended()) return false;
   ErrorSearch plain(problem, options, 1.0);
   const std::optional<ConstantRival> constant =
       LikeliestConstant(plain.problem(), initial, options.callback);
-  if (!constant || plain.LogEvidence(initial) + constant->log_gain <
-                       search->LogEvidence(initial)) {
-    return;
-  }
-  plain.EndUnbelieving(search->InWords(),
-                       "that " + constant->what + " explains more");
+  const double gain = LogGainOf(constant);
+  const double constant_alone = plain.LogEvidence(initial) + gain;
+  const double errors_alone = search->LogEvidence(initial);
+  if (gain == 0.0 || constant_alone < errors_alone) return false;
+  const double both = errors_alone + LogGainOf(LikeliestConstant(
+                                         search->problem(), *search->states(),
+                                         options.callback));
+  if (constant_alone < both) return false;
+  plain.Disbelieve(search->InWords(),
+                   "it explains more that " + constant->what);
   *search = std::move(plain);
+  return true;
 }
 
 }  // namespace
@@ -115,7 +127,7 @@ ExplainedErrors ExplainErrors(const Problem& problem,
     if (!other.states()) continue;
     rival = {*other.states(), other.InWords(), std::abs(*odds)};
   }
-  HoldAgainstConstants(problem, initial, options, &search);
+  if (ConstantExplainsMore(problem, initial, options, &search)) rival.reset();
   std::optional<ErrorSearch> without_last;
   if (!options.last.empty()) without_last = search;
   search.RunLast(initial);

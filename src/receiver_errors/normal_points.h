@@ -32,10 +32,10 @@ struct NormalPoints {
 /// change over seconds [s].
 inline constexpr double kNormalPointInterval = 1.0;
 
-/// Of a sensor of positions: a second, or less where a recording has fewer than 1200 of these intervals: half a
-/// second at the least [s]. A jump stands out against what the IMU leaves open from one
-/// point to the next, which grows with their distance. Fixes that a receiver has smoothed
-/// are alike over less, and look as if they had no noise.
+/// Of a sensor of positions: a second, or less where a recording has fewer than 1200 of
+/// these intervals, half a second at the least [s]. A jump stands out against what the
+/// IMU leaves open from one point to the next, which grows with their distance. Fixes
+/// that a receiver has smoothed are alike over less, and look as if they had no noise.
 double NormalPointInterval(const LinearTape& tape);
 
 /// None where fixes of the sensor are not closer than that: where normal points

@@ -1,9 +1,12 @@
 #include "receiver_errors/sensor_findings.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "measurements/sensor_kind.h"
@@ -111,8 +114,16 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
     regimes = WithAlternatives(std::move(all), choice.chosen);
   }
   // Averages may be likelier with what all measurements are not.
-  if (stands() && !WinsOnTape(regime.has_clock)) ChooseNoise(fixes, &rest);
-  if (stands() && !WinsOnTape(regime.has_clock)) Withdraw();
+  if (stands() && !WinsOnTape(regime.has_clock)) {
+    RefuseOnTape();
+    ChooseNoise(fixes, &rest);
+  }
+  if (stands() && !WinsOnTape(regime.has_clock)) {
+    RefuseOnTape();
+    std::vector<std::string> refused = std::move(choice.refused);
+    Withdraw();
+    choice.refused = std::move(refused);
+  }
   stopped |= rest.stopped();
   if (stands()) gain = GainOnTape();
   WeighAlternatives();
@@ -139,6 +150,13 @@ bool SensorFindings::WinsOnTape(bool has_clock) const {
   const double least =
       switching() && !has_clock ? kLeastGainOfSwitching : kLeastGain;
   return GainOnTape() >= least;
+}
+
+void SensorFindings::RefuseOnTape() {
+  choice.refused.push_back(fmt::format(
+      "{} errors do not stand: on all measurements they win by {:.2g} over "
+      "errors as stated [ln of the evidence]",
+      RegimeName(regimes.kind), GainOnTape()));
 }
 
 void SensorFindings::Withdraw() {

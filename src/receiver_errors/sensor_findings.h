@@ -89,6 +89,8 @@ struct SensorFindings : ErrorDecisions {
   double GainOnTape() const;
   /// Whether that is what RegimeChoice asks of it.
   bool WinsOnTape(bool has_clock) const;
+  /// Says in RegimeChoice::refused that it is not.
+  void RefuseOnTape();
 
   /// Takes back what stands.
   void Withdraw();
