@@ -41,9 +41,12 @@ inline void WriteTable(const std::filesystem::path& path, const Table& table) {
 /// manifest; its truth lies beside.
 class DisguisedFolder : public ::testing::Test {
  protected:
-  void Simulate(const std::string& scenario) {
-    const Outcome made = Hindsight(
-        {"simulate", scenario, "--out=data", "--seed=3"}, folder_.path());
+  void Simulate(const std::string& scenario,
+                const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {"simulate", scenario, "--out=data",
+                                      "--seed=3"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome made = Hindsight(words, folder_.path());
     ASSERT_EQ(made.status, 0) << made.err;
     for (const char* name : {"config.yaml", "manifest.json"}) {
       std::filesystem::remove(file(name));
@@ -102,12 +105,12 @@ class DisguisedFolder : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-/// The drive of test_car as loggers and apps write it, by a sensor with x
+/// Half of the drive of test_car as loggers and apps write it, by a sensor with x
 /// forward, y left and z up.
 class LoggedFolder : public DisguisedFolder {
  protected:
   void SetUp() override {
-    Simulate("test_car");
+    Simulate("test_car", {"--set=wander.duration=150 s"});
     const Table imu = ReadTable(file("imu.csv"));
     const Table fixes = ReadTable(file("gnss.csv"));
     constexpr double kStep = 0.01;
