@@ -40,8 +40,8 @@ struct ErrorQuestion {
   bool in_vehicle_axes = false;
   /// Of the effort that a search may cost.
   double share = 1.0;
-  /// Told the fraction done, between the steps of the search; false ends it with
-  /// the best so far; may throw to abandon it.
+  /// Told the fraction done, between the steps of the search, by one thread at a time;
+  /// false ends it with the best so far; may throw to abandon it.
   std::function<bool(double)> go_on = nullptr;
   /// When it ends in any case. The sensors share the time, as they are compared; where
   /// that is too short for the parameters of several, none of these is blamed.
