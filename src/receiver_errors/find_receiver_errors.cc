@@ -68,31 +68,6 @@ std::vector<Hypothesis> MetOf(int sensor, const DecidedErrors& met) {
   return all;
 }
 
-/// What several searches that go side by side tell of how far they are, and hear whether
-/// they are to go on: one at a time, of all together.
-class SharedProgress {
- public:
-  SharedProgress(const SearchEffort::GoOn& go_on, std::size_t searches)
-      : go_on_(go_on), done_(searches, 0.0) {}
-
-  bool Update(std::size_t search, double fraction) {
-    if (!go_on_) return true;
-    const std::lock_guard<std::mutex> guard(mutex_);
-    done_[search] = fraction;
-    return go_on_(std::accumulate(done_.begin(), done_.end(), 0.0) /
-                  static_cast<double>(done_.size()));
-  }
-  void End(std::size_t search) {
-    const std::lock_guard<std::mutex> guard(mutex_);
-    done_[search] = 1.0;
-  }
-
- private:
-  const SearchEffort::GoOn& go_on_;
-  std::mutex mutex_;
-  std::vector<double> done_;
-};
-
 /// How often as many searches as there are threads go side by side until `searches` are
 /// done.
 std::chrono::steady_clock::rep TurnsOf(std::size_t searches) {
@@ -101,48 +76,94 @@ std::chrono::steady_clock::rep TurnsOf(std::size_t searches) {
                                                      threads);
 }
 
-/// The searches of several sensors, of which those of positions come first in `sensors`
-/// and are searched after the others, side by side within the two. Each gets an equal part
-/// of the effort that is left, and of the time each turn of those that go side by side.
-/// Where the time did not suffice
-/// for the parameters of several, which one fits best hangs on what its fit began from:
-/// none of these stands.
-std::vector<std::unique_ptr<SensorFindings>> SearchAll(
-    const Problem& problem, const LinearTape& tape,
-    const ErrorQuestion& question, const std::vector<int>& sensors) {
-  using Clock = std::chrono::steady_clock;
-  std::vector<std::unique_ptr<SensorFindings>> found(sensors.size());
-  SharedProgress progress(question.go_on, sensors.size());
-  const auto is_position = [&](int sensor) {
-    return problem.timeline.sensors()[static_cast<std::size_t>(sensor)]
-        .kind->is_position;
-  };
-  const auto positions = static_cast<std::size_t>(
-      std::ranges::find_if_not(sensors, is_position) - sensors.begin());
-  double left = question.share;
-  const auto search_group = [&](std::size_t begin, std::size_t end) {
-    const double share = left / static_cast<double>(end);
+/// Searches of several sensors, of which some go side by side.
+class SensorSearches {
+ public:
+  SensorSearches(const Problem& problem, const LinearTape& tape,
+                 const ErrorQuestion& question, const std::vector<int>& sensors)
+      : problem_(problem),
+        tape_(tape),
+        question_(question),
+        sensors_(sensors),
+        found_(sensors.size()),
+        done_(sensors.size(), 0.0) {}
+
+  /// Those from `begin` to past `end`, each with such a share of the effort and the time
+  /// of a turn; `later` others come after them. Returns what they have spent.
+  double Run(std::size_t begin, std::size_t end, double share,
+             std::size_t later) {
     std::atomic<std::size_t> begun = 0;
     ForRanges(end - begin, 1, [&](std::size_t from, std::size_t to) {
       for (std::size_t i = begin + from; i < begin + to; ++i) {
         const std::size_t to_come = end - begin - begun++;
         const auto now = Clock::now();
-        const Clock::time_point until =
-            now + (question.until - now) / (TurnsOf(to_come) + TurnsOf(begin));
-        const SearchLimits limits = {share, [&, i, until](double fraction) {
-                                       return progress.Update(i, fraction) &&
-                                              Clock::now() < until;
-                                     }};
-        found[i] = std::make_unique<SensorFindings>(
-            problem, tape, sensors[i], limits, MetOf(sensors[i], question.met));
-        progress.End(i);
+        Search(i, share,
+               now + (question_.until - now) /
+                         (TurnsOf(to_come) + TurnsOf(later)));
       }
     });
-    for (std::size_t i = begin; i < end; ++i) left -= found[i]->spent;
+    double spent = 0.0;
+    for (std::size_t i = begin; i < end; ++i) spent += found_[i]->spent;
+    return spent;
+  }
+
+  std::vector<std::unique_ptr<SensorFindings>> Take() {
+    return std::move(found_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void Search(std::size_t i, double share, Clock::time_point until) {
+    const SearchLimits limits = {share, [this, i, until](double fraction) {
+                                   return GoOn(i, fraction) &&
+                                          Clock::now() < until;
+                                 }};
+    const int sensor = sensors_[i];
+    found_[i] = std::make_unique<SensorFindings>(
+        problem_, tape_, sensor, limits, MetOf(sensor, question_.met));
+    const std::lock_guard<std::mutex> guard(mutex_);
+    done_[i] = 1.0;
+  }
+
+  /// Whoever asks is told one at a time, of all searches together.
+  bool GoOn(std::size_t i, double fraction) {
+    if (!question_.go_on) return true;
+    const std::lock_guard<std::mutex> guard(mutex_);
+    done_[i] = fraction;
+    return question_.go_on(std::accumulate(done_.begin(), done_.end(), 0.0) /
+                           static_cast<double>(done_.size()));
+  }
+
+  const Problem& problem_;
+  const LinearTape& tape_;
+  const ErrorQuestion& question_;
+  const std::vector<int>& sensors_;
+  std::vector<std::unique_ptr<SensorFindings>> found_;
+  std::mutex mutex_;
+  std::vector<double> done_;
+};
+
+/// The searches of `sensors`, those of positions coming first there: the others side by
+/// side, then these, which take the most and get what the others leave. Where the time did
+/// not suffice for the parameters of several, which one fits best hangs on what its fit
+/// began from: none of these stands.
+std::vector<std::unique_ptr<SensorFindings>> SearchAll(
+    const Problem& problem, const LinearTape& tape,
+    const ErrorQuestion& question, const std::vector<int>& sensors) {
+  const auto is_position = [&](int sensor) {
+    return problem.timeline.sensors()[static_cast<std::size_t>(sensor)]
+        .kind->is_position;
   };
-  // Positions, which take the most, get what the others leave.
-  search_group(positions, sensors.size());
-  search_group(0, positions);
+  const auto count = static_cast<double>(sensors.size());
+  const auto positions =
+      static_cast<std::size_t>(std::ranges::count_if(sensors, is_position));
+  SensorSearches searches(problem, tape, question, sensors);
+  const double spent = searches.Run(positions, sensors.size(),
+                                    question.share / count, positions);
+  searches.Run(0, positions,
+               (question.share - spent) / static_cast<double>(positions), 0);
+  std::vector<std::unique_ptr<SensorFindings>> found = searches.Take();
   const auto is_unfitted = [](const auto& one) { return one->unfitted; };
   if (std::ranges::count_if(found, is_unfitted) > 1) {
     for (auto& one : found) {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "measurements/sensor_kind.h"
@@ -120,9 +119,7 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
   }
   if (stands() && !WinsOnTape(regime.has_clock)) {
     RefuseOnTape();
-    std::vector<std::string> refused = std::move(choice.refused);
     Withdraw();
-    choice.refused = std::move(refused);
   }
   stopped |= rest.stopped();
   if (stands()) gain = GainOnTape();
@@ -160,7 +157,9 @@ void SensorFindings::RefuseOnTape() {
 }
 
 void SensorFindings::Withdraw() {
-  choice = {};
+  RegimeChoice none;
+  none.refused = std::move(choice.refused);
+  choice = std::move(none);
   gain = 0.0;
   undecided.clear();
   regimes = {};

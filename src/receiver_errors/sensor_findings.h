@@ -92,7 +92,7 @@ struct SensorFindings : ErrorDecisions {
   /// Says in RegimeChoice::refused that it is not.
   void RefuseOnTape();
 
-  /// Takes back what stands.
+  /// Takes back what stands, but not what was refused.
   void Withdraw();
 
   /// Smooths the hypotheses of the regimes, if they stand, about the tape.

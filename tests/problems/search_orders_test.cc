@@ -26,7 +26,7 @@ constexpr int kBarometer = 1;
 
 /// A minute with a receiver and a barometer.
 struct Flight {
-  explicit Flight(bool heights_err) {
+  explicit Flight(bool heights_err, bool receiver_errs = true) {
     TestProblemOptions options;
     options.noise = TacticalNoise(true);
     options.layout = TypicalLayout(options.noise);
@@ -52,6 +52,7 @@ struct Flight {
         z.model = height;
       }
     }
+    if (!receiver_errs) return;
     // Jumps by 30 m, and comes back in a straight line.
     for (Measurement& z : test.measurements) {
       auto* fix = std::get_if<PositionFix>(&z.model);
@@ -128,6 +129,18 @@ TEST(SearchOrders, NothingIsBelievedOfWhichTimeLeftOthersOut) {
     });
   }
   EXPECT_GT(unbelieved, 0);
+}
+
+/// It would be taken at its word, or left out, for what another sensor was given.
+TEST(SearchOrders, WhatIsLastIsAskedAlsoWhereNothingElseIsBelieved) {
+  const Flight flight(true, false);
+  RobustBatchOptions options;
+  options.last = {kBarometer};
+  ErrorSearch search(flight.Pose(), options, 1.0);
+  search.Disbelieve("what was found", "a constant explains more");
+  search.RunLast(flight.test.truth);
+  EXPECT_FALSE(search.LeavesOut());
+  EXPECT_TRUE(search.HasErrors(kBarometer));
 }
 
 TEST(SearchOrders, NothingIsSuspectedBesideHeightsThatAreHealthy) {

@@ -107,7 +107,7 @@ TEST(FindReceiverErrors, FindsTheSameSideBySide) {
     }
   }
   SetThreadCount(before);
-  EXPECT_EQ(told[0].size(), 3u);
+  ASSERT_EQ(told[0].size(), 3u);
   EXPECT_THAT(told[0][0], StartsWith("0 "));
   EXPECT_EQ(told[0], told[1]);
 }
