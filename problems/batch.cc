@@ -20,6 +20,10 @@ constexpr double kFineStep = 1e-8;
 /// goes with its square.
 constexpr double kLastNewtonStep = 1e-5;
 
+double LastStep(const ChainProblem& chain) {
+  return chain.HasLoss() ? kFineStep : kLastNewtonStep;
+}
+
 /// Rounding of the cost, as a fraction.
 constexpr double kCostRounding = 1e-9;
 
@@ -60,32 +64,38 @@ bool AnySummaryIsStale(const Problem& problem,
   return false;
 }
 
-/// Without losses: full Gauss-Newton steps of the whole chain for as long as each
-/// is less than half of one of the two before. A step that moves what is weakly
+/// Full Gauss-Newton steps of the whole chain for as long as each is less than half of
+/// one of the two before, or with losses, to which the start is known to be near, lowers
+/// the cost, as the steps of expectation-maximisation do. A step that moves what is weakly
 /// determined may be larger than the one before it, which took off what is not.
 /// Their cost may rise on the way: where a heading is uncertain the states lie along
 /// an arc, and the way that only descends follows it in steps of metres. True, and
 /// Ceres can be left out, if that ends within a rough step at a cost below the
 /// start's: `next` is the step from there. Else the values are those of the start
 /// again.
-bool ContractsByNewton(const BatchOptions& options,
-                       const std::vector<State>& start,
-                       IterationProgress* progress, ChainProblem* chain,
-                       Sweep* sweep, std::optional<ArrowLeastSquares>* next) {
+bool SettlesByNewton(const BatchOptions& options,
+                     const std::vector<State>& start,
+                     IterationProgress* progress, ChainProblem* chain,
+                     Sweep* sweep, std::optional<ArrowLeastSquares>* next) {
   constexpr int kMaxSteps = 20;
   constexpr double kContraction = 0.5;
-  if (chain->HasLoss() || !options.newton_first) return false;
-  progress->Begin(kMaxSteps, kLastSteps);
+  const bool has_loss = chain->HasLoss();
+  if (!options.newton_first || (has_loss && options.graduated)) return false;
+  const int most = has_loss ? options.max_iterations : kMaxSteps;
+  progress->Begin(most, kLastSteps);
   std::optional<ArrowLeastSquares>& step = *next;
   step.emplace(chain->GaussNewtonStep());
   // Where it begins at the solution, that step is the last one.
-  if (chain->StepSize(*step) < kLastNewtonStep) return true;
-  const double cost = chain->linearized_cost();
+  if (chain->StepSize(*step) < LastStep(*chain)) return true;
+  const double first_cost = chain->linearized_cost();
+  double cost = first_cost;
+  bool descends = has_loss;
   double before = std::numeric_limits<double>::infinity();
   double earlier = 0.0;
-  for (int i = 1; i <= kMaxSteps; ++i) {
+  for (int i = 1; i <= most; ++i) {
     const double size = chain->StepSize(*step);
-    if (!(size < kContraction * std::max(before, earlier))) break;
+    const bool contracts = size < kContraction * std::max(before, earlier);
+    if (!contracts && !descends) break;
     chain->Apply(*step);
     const double ratio = size / RoughStep(*chain);
     progress->After(i, ratio);
@@ -93,8 +103,11 @@ bool ContractsByNewton(const BatchOptions& options,
     before = size;
     step.reset();
     step.emplace(chain->GaussNewtonStep());
+    const double limit = cost * (1.0 + kCostRounding);
+    cost = chain->linearized_cost();
+    descends = has_loss && cost <= limit;
     if (ratio > 1.0) continue;
-    if (chain->linearized_cost() > cost * (1.0 + kCostRounding)) break;
+    if (cost > first_cost * (1.0 + kCostRounding)) break;
     sweep->iterations += i;
     return true;
   }
@@ -114,7 +127,7 @@ CovarianceSeries FinishByNewton(const BatchOptions& options,
   constexpr int kMaxSteps = 4;
   constexpr int kMaxSweeps = 10;
   const bool windowed = IsWindowed(options, *chain);
-  const double last = chain->HasLoss() ? kFineStep : kLastNewtonStep;
+  const double last = LastStep(*chain);
   progress->Begin(kMaxSteps, 0.0);
   for (int i = 1;; ++i) {
     const ArrowLeastSquares step =
@@ -158,7 +171,7 @@ BatchResult SolveBatch(const std::vector<State>& initial,
     ChainProblem chain(start, problem);
     Sweep sweep;
     std::optional<ArrowLeastSquares> next;
-    if (!ContractsByNewton(options, start, &progress, &chain, &sweep, &next)) {
+    if (!SettlesByNewton(options, start, &progress, &chain, &sweep, &next)) {
       sweep = SolveGraduated(options, options.graduated && outer == 0,
                              &progress, &chain);
     }

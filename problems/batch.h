@@ -17,7 +17,8 @@ struct BatchOptions {
   /// the constants are held fixed, in turn with steps of the whole chain.
   std::size_t whole_nodes = 25000;
   std::size_t window_nodes = 2500;
-  /// Without losses: full Gauss-Newton steps are tried before Ceres is asked.
+  /// Without losses, or near to a solution with them: full Gauss-Newton steps are tried
+  /// before Ceres is asked.
   bool newton_first = true;
   /// Approaches losses that redescend by graduated non-convexity. False: the
   /// start is known to be near.
@@ -41,8 +42,8 @@ struct BatchResult {
 /// a node. Constants of the layout (IMU biases that do not walk, scale factors,
 /// lever arms...) are global unknowns; their start is that of the first state.
 /// Without losses full Gauss-Newton steps solve it, by the chain's structure, if
-/// each is less than half of one of the two before. Ceres solves the others: problems
-/// with losses, and starts from where those steps do not contract. Its last steps,
+/// each is less than half of one of the two before; with losses whose start is known to be
+/// near, also if each lowers the cost. Ceres solves the others. Its last steps,
 /// of a size that the rounding of the cost hides, are Gauss-Newton steps again.
 /// Marginal covariances of every node come from that structure in time
 /// linear in the number of nodes. Throws EstimationError where an unknown is

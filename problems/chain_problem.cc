@@ -166,16 +166,18 @@ std::string NameOf(const StateBlocks& blocks, const Deficiency& deficiency) {
 
 }  // namespace
 
-void ChainProblem::Linearize(std::size_t i, TangentFactor::Jacobian* J,
-                             Eigen::VectorXd* residual) {
+double ChainProblem::Linearize(std::size_t i, TangentFactor::Jacobian* J,
+                               Eigen::VectorXd* residual) {
   const TangentFactor& factor = *factors_[i];
   residual->resize(factor.num_residuals());
   factor.Linearize(ParametersOf(factor).data(), residual->data(), J);
-  if (losses_[i] == nullptr) return;
-  const double root_weight =
-      std::sqrt(losses_[i]->loss().Weight(residual->squaredNorm()));
+  const double square = residual->squaredNorm();
+  if (losses_[i] == nullptr) return square;
+  const RobustLoss loss = losses_[i]->loss();
+  const double root_weight = std::sqrt(loss.Weight(square));
   *J *= root_weight;
   *residual *= root_weight;
+  return loss.Cost(square);
 }
 
 void ChainProblem::KeepFactors() {
@@ -194,21 +196,22 @@ ArrowLeastSquares ChainProblem::GaussNewtonStep() {
   constexpr std::size_t kFactorsAtOnce = 256;
   std::vector<TangentFactor::Jacobian> J(kFactorsAtOnce);
   std::vector<Eigen::VectorXd> residuals(kFactorsAtOnce);
-  double squares = 0.0;
+  std::vector<double> losses(kFactorsAtOnce);
+  double sum = 0.0;
   for (std::size_t first = 0; first < factors_.size();
        first += kFactorsAtOnce) {
     const std::size_t count = std::min(kFactorsAtOnce, factors_.size() - first);
     ForRanges(count, kFactorsOfThread, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        Linearize(first + i, &J[i], &residuals[i]);
+        losses[i] = Linearize(first + i, &J[i], &residuals[i]);
       }
     });
     for (std::size_t i = 0; i < count; ++i) {
-      squares += residuals[i].squaredNorm();
+      sum += losses[i];
       AddRows(*blocks_, *factors_[first + i], J[i], residuals[i], &arrow);
     }
   }
-  linearized_cost_ = 0.5 * squares;
+  linearized_cost_ = 0.5 * sum;
   const std::vector<Deficiency> deficient = arrow.Solve();
   if (!deficient.empty()) {
     throw EstimationError("batch: the data leave " +

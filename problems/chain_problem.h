@@ -54,8 +54,8 @@ class ChainProblem {
   /// Gauss-Newton step, solved. Throws EstimationError where they leave an
   /// unknown undetermined. From the second on factors are kept.
   ArrowLeastSquares GaussNewtonStep();
-  /// Half the sum of the squared residuals where the last step was linearised, each
-  /// weighted by its loss.
+  /// Half the sum of the losses of the squared residuals where the last step was
+  /// linearised.
   double linearized_cost() const { return linearized_cost_; }
   /// Root mean square a node of a step, over metres, m/s, radians and the rest.
   double StepSize(const ArrowLeastSquares& step) const;
@@ -66,9 +66,9 @@ class ChainProblem {
   CovarianceSeries Marginals(const ArrowLeastSquares& step) const;
 
  private:
-  /// Factor i at the present values, by its loss.
-  void Linearize(std::size_t i, TangentFactor::Jacobian* J,
-                 Eigen::VectorXd* residual);
+  /// Factor i at the present values, weighted by its loss. Returns the loss.
+  double Linearize(std::size_t i, TangentFactor::Jacobian* J,
+                   Eigen::VectorXd* residual);
 
   std::unique_ptr<StateBlocks> blocks_;
   std::vector<double> times_;

@@ -252,6 +252,39 @@ TEST(Batch, NewtonsStepsEndWhereCeresDoes) {
   }
 }
 
+TEST(Batch, NewtonsStepsWithAMixtureEndWhereCeresDoes) {
+  for (const Kind& kind : kKinds) {
+    TestProblem problem = ShortDrive(kind);
+    for (std::size_t i = 4; i < 8; ++i) {
+      auto* fix = std::get_if<PositionFix>(&problem.measurements[i].model);
+      if (fix != nullptr) fix->p_e.x() += 7.0;
+    }
+    Problem posed = problem.Pose(All(problem));
+    const std::vector<State> start = FilteredStates(&posed);
+    for (Sensor& sensor : problem.sensors) {
+      sensor.loss.kind = RobustLoss::Kind::kMixture;
+      sensor.loss.scale = 1.0;
+    }
+    Problem mixture = problem.Pose(All(problem));
+    const BatchResult by_ceres = SolveBatch(
+        start, {.newton_first = false, .graduated = false, .callback = {}},
+        &mixture);
+    EXPECT_GT(by_ceres.ceres_iterations, 0);
+    const BatchResult result =
+        SolveBatch(start, {.graduated = false, .callback = {}}, &mixture);
+    EXPECT_EQ(result.ceres_iterations, 0) << Name(kind);
+    EXPECT_TRUE(result.converged);
+    EXPECT_LT(LargestError(problem.layout, by_ceres.states, result.states,
+                           BlockKind::kPosition),
+              1e-6)
+        << Name(kind);
+    for (std::size_t k = 0; k < start.size(); ++k) {
+      EXPECT_LT(ScaledDifference(by_ceres.P.Get(k), result.P.Get(k)), 1e-5)
+          << Name(kind) << k;
+    }
+  }
+}
+
 TEST(Batch, TakesOneStepFromTheSolution) {
   for (const Kind& kind : kKinds) {
     const TestProblem problem = ShortDrive(kind);
