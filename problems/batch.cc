@@ -66,7 +66,8 @@ bool AnySummaryIsStale(const Problem& problem,
 
 /// Full Gauss-Newton steps of the whole chain for as long as each is less than half of
 /// one of the two before, or with losses, to which the start is known to be near, lowers
-/// the cost, as the steps of expectation-maximisation do. A step that moves what is weakly
+/// the cost, as the steps of expectation-maximisation do. Where one does neither, as they
+/// may swing about the solution, half steps follow. A step that moves what is weakly
 /// determined may be larger than the one before it, which took off what is not.
 /// Their cost may rise on the way: where a heading is uncertain the states lie along
 /// an arc, and the way that only descends follows it in steps of metres. True, and
@@ -79,6 +80,7 @@ bool SettlesByNewton(const BatchOptions& options,
                      Sweep* sweep, std::optional<ArrowLeastSquares>* next) {
   constexpr int kMaxSteps = 20;
   constexpr double kContraction = 0.5;
+  constexpr double kPart = 0.5;
   const bool has_loss = chain->HasLoss();
   if (!options.newton_first || (has_loss && options.graduated)) return false;
   const int most = has_loss ? options.max_iterations : kMaxSteps;
@@ -90,13 +92,17 @@ bool SettlesByNewton(const BatchOptions& options,
   const double first_cost = chain->linearized_cost();
   double cost = first_cost;
   bool descends = has_loss;
+  double part = 1.0;
   double before = std::numeric_limits<double>::infinity();
   double earlier = 0.0;
   for (int i = 1; i <= most; ++i) {
     const double size = chain->StepSize(*step);
     const bool contracts = size < kContraction * std::max(before, earlier);
-    if (!contracts && !descends) break;
-    chain->Apply(*step);
+    if (!contracts && !descends) {
+      if (!has_loss || part < 1.0) break;
+      part = kPart;
+    }
+    chain->Apply(*step, part);
     const double ratio = size / RoughStep(*chain);
     progress->After(i, ratio);
     earlier = i > 1 ? before : 0.0;
@@ -107,7 +113,7 @@ bool SettlesByNewton(const BatchOptions& options,
     cost = chain->linearized_cost();
     descends = has_loss && cost <= limit;
     if (ratio > 1.0) continue;
-    if (cost > first_cost * (1.0 + kCostRounding)) break;
+    if (!(cost <= first_cost * (1.0 + kCostRounding))) break;
     sweep->iterations += i;
     return true;
   }

@@ -229,14 +229,15 @@ double ChainProblem::StepSize(const ArrowLeastSquares& step) const {
   return std::sqrt(sum / static_cast<double>(times_.size()));
 }
 
-void ChainProblem::Apply(const ArrowLeastSquares& step) {
+void ChainProblem::Apply(const ArrowLeastSquares& step, double part) {
   const NodeManifold manifold(blocks_.get());
+  Eigen::VectorXd move;
   for (std::size_t k = 0; k < times_.size(); ++k) {
-    manifold.Plus(node_values(k), step.x(static_cast<int>(k)).data(),
-                  node_values(k));
+    move = part * step.x(static_cast<int>(k));
+    manifold.Plus(node_values(k), move.data(), node_values(k));
   }
   for (const StateBlocks::Entry& entry : blocks_->globals()) {
-    const auto move = step.x_border().segment(entry.tangent, entry.block.dim);
+    move = part * step.x_border().segment(entry.tangent, entry.block.dim);
     auto& values = globals_[static_cast<std::size_t>(entry.ambient)];
     for (int i = 0; i < entry.block.dim; ++i) {
       values[static_cast<std::size_t>(i)] += move(i);

@@ -59,8 +59,8 @@ class ChainProblem {
   double linearized_cost() const { return linearized_cost_; }
   /// Root mean square a node of a step, over metres, m/s, radians and the rest.
   double StepSize(const ArrowLeastSquares& step) const;
-  /// Moves the values by a step.
-  void Apply(const ArrowLeastSquares& step);
+  /// Moves the values by a step, or a part of it.
+  void Apply(const ArrowLeastSquares& step, double part = 1.0);
   /// Marginal covariances over the layout, of the values that the step was
   /// linearised at.
   CovarianceSeries Marginals(const ArrowLeastSquares& step) const;

@@ -96,6 +96,23 @@ TEST(Batch, KeptFactorsAreTheSame) {
   }
 }
 
+TEST(Batch, HalfAStepLeavesHalf) {
+  for (const Kind& kind : kKinds) {
+    const TestProblem problem = ShortDrive(kind);
+    Problem posed = problem.Pose(All(problem));
+    ChainProblem chain(NominalOf(problem, 1e-4), &posed);
+    const ArrowLeastSquares step = chain.GaussNewtonStep();
+    chain.Apply(step, 0.5);
+    const ArrowLeastSquares rest = chain.GaussNewtonStep();
+    EXPECT_NEAR(chain.StepSize(rest), 0.5 * chain.StepSize(step),
+                1e-3 * chain.StepSize(step))
+        << Name(kind);
+    EXPECT_NEAR((rest.x_border() - 0.5 * step.x_border()).norm(), 0.0,
+                1e-3 * (1e-6 + step.x_border().norm()))
+        << Name(kind);
+  }
+}
+
 TEST(Batch, TakesNoStatesOfAnotherLayout) {
   const TestProblem problem = ShortDrive(kKinds[0]);
   Problem posed = problem.Pose(All(problem));
