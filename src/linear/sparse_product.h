@@ -50,7 +50,7 @@ typename Dense::PlainObject Times(const Eigen::MatrixBase<Dense>& A,
 }
 
 /// S P S' of square matrices for one S of mostly zeros, whose elements are
-/// sought once, and many symmetric P.
+/// sought once, and many symmetric P, and S v.
 class SparseCongruence {
  public:
   SparseCongruence() = default;
@@ -64,6 +64,19 @@ class SparseCongruence {
       }
       ends_.push_back(elements_.size());
     }
+  }
+
+  /// S v.
+  template <typename Vector>
+  Vector Times(const Vector& v) const {
+    Vector out = Vector::Zero(v.size());
+    std::size_t e = 0;
+    for (std::size_t i = 0; i < ends_.size(); ++i) {
+      double& sum = out(static_cast<Eigen::Index>(i));
+      for (; e < ends_[i]; ++e)
+        sum += elements_[e].value * v(elements_[e].column);
+    }
+    return out;
   }
 
   /// S P S', symmetric to the last bit. P and the result are column-major.

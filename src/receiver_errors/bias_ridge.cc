@@ -69,10 +69,10 @@ RidgePoint OfSigma(const std::vector<RidgePoint>& falling, double sigma) {
 
 }  // namespace
 
-BiasRange FollowBias(const LinearTape& tape, int receiver,
-                     const ModeSequence& sequence, const ErrorParameters& found,
-                     const ErrorParameters& from, SearchEffort* effort) {
-  ParameterTuning tuning(tape, receiver, sequence, from, effort);
+BiasRange FollowBias(const SensorTape& tape, const ModeSequence& sequence,
+                     const ErrorParameters& found, const ErrorParameters& from,
+                     SearchEffort* effort) {
+  ParameterTuning tuning(tape, sequence, from, effort);
   std::vector<RidgePoint> ridge = PointsFrom(found, kRidgeStep, &tuning);
   std::ranges::reverse(ridge);
   ridge.push_back(PointAt(found, &tuning));

@@ -22,9 +22,8 @@ struct BiasRange {
 /// times: what is slower the IMU's biases and the start take up, so that sigma and tau
 /// may both be much larger. `found` is followed along that ridge, by factors of two of
 /// tau each with its likeliest sigma, to where odds are a thousand against it.
-BiasRange FollowBias(const LinearTape& tape, int receiver,
-                     const ModeSequence& sequence, const ErrorParameters& found,
-                     const ErrorParameters& from,
+BiasRange FollowBias(const SensorTape& tape, const ModeSequence& sequence,
+                     const ErrorParameters& found, const ErrorParameters& from,
                      SearchEffort* effort = nullptr);
 
 }  // namespace hindsight

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "receiver_errors/sensor_findings.h"
+#include "receiver_errors/sensor_tape.h"
 
 namespace hindsight {
 namespace {

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "linear/small_product.h"
+#include "linear/sparse_product.h"
 #include "measurements/magnetic_field.h"
 
 namespace hindsight {
@@ -62,16 +63,13 @@ Innovation UpdateWith(const LinearizedMeasurement& z, const RowJacobian& HP,
 
 }  // namespace
 
-ErrorChain::ErrorChain(const LinearTape& tape, int receiver,
+ErrorChain::ErrorChain(const SensorTape& tape,
                        const ErrorParameters& parameters)
-    : tape_(tape),
-      receiver_(receiver),
-      parameters_(parameters),
-      navigation_dim_(tape.dim()) {
-  shares_ = SharesOf(tape, receiver);
-  const Block* position = tape.layout().Find(BlockKind::kPosition);
-  const Block* velocity = tape.layout().Find(BlockKind::kVelocity);
-  const Block* own = OwnFieldOf(tape.layout(), receiver);
+    : tape_(tape), parameters_(parameters), navigation_dim_(tape.dim()) {
+  const ErrorLayout& layout = tape.linear().layout();
+  const Block* position = layout.Find(BlockKind::kPosition);
+  const Block* velocity = layout.Find(BlockKind::kVelocity);
+  const Block* own = OwnFieldOf(layout, tape.sensor());
   if (own != nullptr) own_field_ = own->offset;
   if (position == nullptr || velocity == nullptr) return;
   if (position->dim == 3 && velocity->dim == 3) {
@@ -82,34 +80,33 @@ ErrorChain::ErrorChain(const LinearTape& tape, int receiver,
 
 Gaussian ErrorChain::Begin() const {
   Gaussian x{ErrorVector::Zero(dim()), ErrorMatrix::Zero(dim(), dim())};
-  x.mean.head(navigation_dim_) = tape_.epoch(0).dx_minus;
-  x.P.topLeftCorner(navigation_dim_, navigation_dim_) = tape_.P_minus(0);
+  x.mean.head(navigation_dim_) = tape_.linear().epoch(0).dx_minus;
+  x.P.topLeftCorner(navigation_dim_, navigation_dim_) =
+      tape_.linear().P_minus(0);
   return x;
 }
 
 void ErrorChain::MoveTo(std::size_t k) {
   k_ = k;
   dt_ = k > 0 ? tape_.t(k) - tape_.t(k - 1) : 0.0;
-  c_n_ = tape_.c(k);
+  c_n_ = tape_.linear().c(k);
   if (k > 0) {
-    Phi_n_ = tape_.Phi(k);
-    over_interval_ = SparseCongruence(Phi_n_);
-    Q_n_ = tape_.Q(k);
+    Q_n_ = tape_.linear().Q(k);
     if (parameters_.imu_scale != 1.0) ScaleImuNoise();
   }
   z_.clear();
   fix_ = -1;
-  for (const TapeMeasurement& z : tape_.measurements(k)) {
+  for (const TapeMeasurement& z : tape_.linear().measurements(k)) {
     if (!z.accepted || z.withheld) continue;
     // The fix comes first: its likelihood is taken before any update.
-    const bool is_fix = z.sensor == receiver_ && fix_ < 0;
+    const bool is_fix = z.sensor == tape_.sensor() && fix_ < 0;
     if (is_fix) fix_ = 0;
     LinearizedMeasurement& wide = *z_.emplace(is_fix ? z_.begin() : z_.end());
     wide.residual = z.residual;
     wide.R = z.R;
     wide.H = RowJacobian::Zero(z.H.rows(), dim());
     wide.H.leftCols(navigation_dim_) = z.H;
-    if (z.sensor != receiver_) continue;
+    if (z.sensor != tape_.sensor()) continue;
     auto by_error = wide.H.middleCols(navigation_dim_, 3);
     if (own_field_ < 0) {
       by_error.setIdentity();
@@ -120,7 +117,6 @@ void ErrorChain::MoveTo(std::size_t k) {
     wide.R *= parameters_.scale * parameters_.scale;
   }
   if (fix_ < 0) return;
-  reach_ = ReachOfVelocityStep();
   constexpr double kAddsNothing = 0.5 / kPi;
   const RowMatrix& R = z_[static_cast<std::size_t>(fix_)].R;
   rows_ = static_cast<int>(R.rows());
@@ -133,27 +129,9 @@ void ErrorChain::MoveTo(std::size_t k) {
   R_out_.topLeftCorner(rows_, rows_) = ratio * ratio * R;
 }
 
-bool ErrorChain::SeesPosition(std::size_t k) const {
-  for (const TapeMeasurement& z : tape_.measurements(k)) {
-    if (z.accepted && !z.withheld &&
-        !z.H.middleCols(position_, 3).isZero(0.0)) {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// Back to the last node that saw the position, or had a fix of the sensor.
-double ErrorChain::ReachOfVelocityStep() const {
-  if (velocity_ < 0 || k_ == 0) return 0.0;
-  std::size_t k = k_ - 1;
-  while (k > 0 && !SeesPosition(k) && !HasFix(tape_, k, receiver_)) --k;
-  return tape_.t(k_) - tape_.t(k);
-}
-
 void ErrorChain::ScaleImuNoise() {
   ErrorVector scale = ErrorVector::Ones(navigation_dim_);
-  for (const Block& block : tape_.layout().blocks()) {
+  for (const Block& block : tape_.linear().layout().blocks()) {
     if (!IsNavigation(block.key.kind)) continue;
     scale.segment(block.offset, block.dim).setConstant(parameters_.imu_scale);
   }
@@ -163,12 +141,11 @@ void ErrorChain::ScaleImuNoise() {
 void ErrorChain::PredictNavigation(Gaussian* x) const {
   if (k_ == 0) return;
   const int n = navigation_dim_;
-  x->mean.head(n) = (Phi_n_ * x->mean.head(n) + c_n_).eval();
-  const ErrorMatrix P = x->P.topLeftCorner(n, n);
-  x->P.topLeftCorner(n, n) = Q_n_ + over_interval_(P);
-  ErrorMatrix P_ne;
-  Multiply(Phi_n_, x->P.topRightCorner(n, 6), /*lower=*/false, &P_ne);
-  x->P.topRightCorner(n, 6) = P_ne;
+  const SparseCongruence& over_interval = tape_.OverInterval(k_);
+  x->mean = over_interval.Times(x->mean);
+  x->mean.head(n) += c_n_;
+  x->P = over_interval(x->P);
+  x->P.topLeftCorner(n, n) += Q_n_;
 }
 
 void ErrorChain::PredictError(ErrorStep step, Gaussian* x) const {
@@ -208,7 +185,6 @@ ErrorChain::FixView ErrorChain::ViewOf(const Gaussian& x) const {
   const int n = navigation_dim_;
   const LinearizedMeasurement& z = z_[static_cast<std::size_t>(fix_)];
   const auto H = z.H.leftCols(n);
-  // Beneath the diagonal P is what it was before the interval.
   const RowJacobian HP_n =
       TimesTransposed(x.P.topLeftCorner(n, n), H).transpose();
   const RowJacobian HP_e = H.lazyProduct(x.P.topRightCorner(n, 6));
@@ -249,8 +225,8 @@ ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
   Eigen::Matrix3d S =
       view.S + cross + cross.transpose() + E * P_ee * E.transpose();
   if (velocity_ >= 0 && d.q_vv > 0.0) {
-    const RowJacobian H_v =
-        reach_ * z.H.middleCols(position_, 3) + z.H.middleCols(velocity_, 3);
+    const RowJacobian H_v = tape_.reach(k_) * z.H.middleCols(position_, 3) +
+                            z.H.middleCols(velocity_, 3);
     S.topLeftCorner(rows_, rows_) += d.q_vv * H_v * H_v.transpose();
   }
   const double a = parameters_.outlier_share;

@@ -3,10 +3,9 @@
 
 #include <vector>
 
-#include "filters/linear_tape.h"
 #include "filters/mixing.h"
-#include "linear/sparse_product.h"
 #include "receiver_errors/mode_sequence.h"
+#include "receiver_errors/sensor_tape.h"
 
 namespace hindsight {
 
@@ -17,8 +16,8 @@ namespace hindsight {
 /// vehicle axes, of which an azimuth sees what turns it.
 class ErrorChain {
  public:
-  ErrorChain(const LinearTape& tape, int receiver,
-             const ErrorParameters& parameters);
+  /// The tape must outlive this.
+  ErrorChain(const SensorTape& tape, const ErrorParameters& parameters);
 
   std::size_t size() const { return tape_.size(); }
   int dim() const { return navigation_dim_ + 6; }
@@ -29,8 +28,8 @@ class ErrorChain {
   void MoveTo(std::size_t k);
   double t() const { return tape_.t(k_); }
   bool has_fix() const { return fix_ >= 0; }
-  /// SharesOf at the node.
-  double share() const { return shares_[k_]; }
+  /// SensorTape::share of the node.
+  double share() const { return tape_.share(k_); }
   /// Measurements of the node over (navigation, e, r).
   const std::vector<LinearizedMeasurement>& measurements() const { return z_; }
 
@@ -102,25 +101,18 @@ class ErrorChain {
                            const FixView& view) const;
 
   void ScaleImuNoise();
-  bool SeesPosition(std::size_t k) const;
-  double ReachOfVelocityStep() const;
   void AddVelocityStep(double variance, ErrorMatrix* P) const;
 
-  const LinearTape& tape_;
-  int receiver_;
+  const SensorTape& tape_;
   ErrorParameters parameters_;
   int navigation_dim_;
   int position_ = -1;  ///< offsets, or -1 if an axis is masked
   int velocity_ = -1;
-  int own_field_ = -1;          ///< of the sensor's hard iron, or -1
-  std::vector<double> shares_;  ///< of fixes, by node
+  int own_field_ = -1;  ///< of the sensor's hard iron, or -1
   std::size_t k_ = 0;
-  ErrorMatrix Phi_n_;
-  SparseCongruence over_interval_;  ///< with Phi_n_
   ErrorMatrix Q_n_;
   ErrorVector c_n_;
   double dt_ = 0.0;
-  double reach_ = 0.0;            ///< of a velocity step at the fix [s]
   int fix_ = -1;                  ///< index in z_
   int rows_ = 0;                  ///< of the fix
   Eigen::Matrix3d R_in_, R_out_;  ///< of the fix, padded, as an outlier

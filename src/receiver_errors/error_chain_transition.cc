@@ -22,12 +22,13 @@ void FillErrorQ(const ErrorDynamics& d, int n, ErrorMatrix* Q) {
 
 void ErrorChain::AddVelocityStep(double variance, ErrorMatrix* P) const {
   if (velocity_ < 0) return;
+  const double reach = tape_.reach(k_);
   for (int i = 0; i < 3; ++i) {
     const int p = position_ + i;
     const int v = velocity_ + i;
-    (*P)(p, p) += variance * reach_ * reach_;
-    (*P)(p, v) += variance * reach_;
-    (*P)(v, p) += variance * reach_;
+    (*P)(p, p) += variance * reach * reach;
+    (*P)(p, v) += variance * reach;
+    (*P)(v, p) += variance * reach;
     (*P)(v, v) += variance;
   }
 }
@@ -35,7 +36,7 @@ void ErrorChain::AddVelocityStep(double variance, ErrorMatrix* P) const {
 ErrorMatrix ErrorChain::Phi(ErrorStep step) const {
   const int n = navigation_dim_;
   ErrorMatrix Phi = ErrorMatrix::Zero(dim(), dim());
-  Phi.topLeftCorner(n, n) = Phi_n_;
+  Phi.topLeftCorner(n, n) = tape_.linear().Phi(k_);
   FillErrorPhi(DynamicsOf(parameters_, step, dt_), n, &Phi);
   return Phi;
 }

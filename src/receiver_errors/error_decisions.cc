@@ -6,6 +6,7 @@
 #include "measurements/magnetic_field.h"
 #include "measurements/sensor_kind.h"
 #include "receiver_errors/sensor_findings.h"
+#include "receiver_errors/sensor_tape.h"
 
 namespace hindsight {
 namespace {

@@ -20,8 +20,7 @@ namespace {
 
 ErrorParameters Tune(const RegimeProblem& problem, const ModeSequence& sequence,
                      const ErrorParameters& from) {
-  return TuneParameters(problem.tape, problem.sensor, sequence, from,
-                        problem.effort);
+  return TuneParameters(problem.tape, sequence, from, problem.effort);
 }
 
 /// Of inliers and outliers together.
@@ -36,9 +35,8 @@ ErrorRegimes FitSwitching(const RegimeProblem& problem,
                           const ErrorParameters& from) {
   ErrorRegimes out;
   out.kind = ErrorRegimes::Kind::kSwitching;
-  out.hypotheses = RefineHypotheses(problem.tape, problem.sensor,
-                                    Tune(problem, sequence, from), {{sequence}},
-                                    problem.effort);
+  out.hypotheses = RefineHypotheses(problem.tape, Tune(problem, sequence, from),
+                                    {{sequence}}, problem.effort);
   out.log_evidence = LogEvidenceOf(problem, out.hypotheses.front(), from);
   return out;
 }
@@ -50,14 +48,14 @@ ErrorRegimes FitAttempt(const RegimeProblem& problem, const Attempt& attempt,
   constexpr std::size_t kWide = 3;
   std::vector<Hypothesis> from = {{attempt.sequence}};
   if (!problem.effort->IsSpent()) {
-    from = SearchHypotheses(problem.tape, problem.sensor, attempt.parameters,
-                            kWide, problem.effort);
+    from = SearchHypotheses(problem.tape, attempt.parameters, kWide,
+                            problem.effort);
   }
   for (const Attempt& other : all) from.push_back({other.sequence});
-  return FitSwitching(problem,
-                      ClimbSequences(problem.tape, problem.sensor,
-                                     attempt.parameters, from, problem.effort),
-                      attempt.parameters);
+  return FitSwitching(
+      problem,
+      ClimbSequences(problem.tape, attempt.parameters, from, problem.effort),
+      attempt.parameters);
 }
 
 /// The best hypothesis with another order of modes than the best of any of
@@ -131,10 +129,10 @@ std::optional<ErrorRegimes> FitMet(const RegimeProblem& problem) {
   const Hypothesis* likeliest = nullptr;
   double most = -std::numeric_limits<double>::infinity();
   for (const Hypothesis& one : problem.met) {
-    if (one.sequence.size() != FixCount(problem)) continue;
-    const double log_posterior = ScoreSequence(problem.tape, problem.sensor,
-                                               one.parameters, one.sequence)
-                                     .log_posterior();
+    if (one.sequence.size() != problem.tape.fix_count()) continue;
+    const double log_posterior =
+        ScoreSequence(problem.tape, one.parameters, one.sequence)
+            .log_posterior();
     problem.effort->Spend(problem.tape.size());
     if (log_posterior <= most) continue;
     most = log_posterior;
@@ -209,11 +207,10 @@ ErrorParameters TuneAndClimb(const RegimeProblem& problem, Hypothesis* best) {
   constexpr int kMostTurns = 4;
   ErrorParameters parameters = best->parameters;
   for (int i = 0; i < kMostTurns; ++i) {
-    parameters = TuneNoise(problem.tape, problem.sensor, best->sequence,
-                           parameters, kLeastScale, problem.effort);
-    ModeSequence climbed =
-        ClimbSequences(problem.tape, problem.sensor, parameters,
-                       {{best->sequence}}, problem.effort);
+    parameters = TuneNoise(problem.tape, best->sequence, parameters,
+                           kLeastScale, problem.effort);
+    ModeSequence climbed = ClimbSequences(problem.tape, parameters,
+                                          {{best->sequence}}, problem.effort);
     if (climbed == best->sequence) break;
     best->sequence = std::move(climbed);
   }
@@ -254,7 +251,8 @@ ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
                            const ErrorRegimes& found) {
   // What is weighed in the end is among the likeliest, which come first.
   constexpr std::size_t kLeast = 48;
-  const std::size_t most = std::max(kLeast, kMostKeptSteps / FixCount(problem));
+  const std::size_t most =
+      std::max(kLeast, kMostKeptSteps / problem.tape.fix_count());
   std::vector<Hypothesis> all;
   for (const Hypothesis& one : found.hypotheses) {
     if (all.size() == most) break;
@@ -266,18 +264,18 @@ ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
   const ErrorParameters parameters =
       found.kind == ErrorRegimes::Kind::kSwitching
           ? TuneAndClimb(problem, &all.front())
-          : TuneNoise(problem.tape, problem.sensor, all.front().sequence,
+          : TuneNoise(problem.tape, all.front().sequence,
                       all.front().parameters, least_scale, problem.effort);
   ErrorRegimes out;
   out.kind = found.kind;
   if (found.kind == ErrorRegimes::Kind::kSwitching) {
-    out.hypotheses = RefineHypotheses(problem.tape, problem.sensor, parameters,
-                                      all, problem.effort);
+    out.hypotheses =
+        RefineHypotheses(problem.tape, parameters, all, problem.effort);
   } else {
     all.front().parameters = parameters;
-    all.front().log_posterior = ScoreSequence(problem.tape, problem.sensor,
-                                              parameters, all.front().sequence)
-                                    .log_likelihood;
+    all.front().log_posterior =
+        ScoreSequence(problem.tape, parameters, all.front().sequence)
+            .log_likelihood;
     out.hypotheses = std::move(all);
   }
   out.log_evidence =

@@ -31,8 +31,7 @@ const char* RegimeName(ErrorRegimes::Kind kind);
 
 /// The data about a fixed nominal trajectory.
 struct RegimeProblem {
-  const LinearTape& tape;
-  int sensor = 0;
+  const SensorTape& tape;
   double stated_sigma = 1.0;  ///< of its fixes, an axis
   bool only_white = false;    ///< other errors are not compared with white ones
   SearchEffort* effort = nullptr;  ///< must not be

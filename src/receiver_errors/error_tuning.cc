@@ -7,18 +7,17 @@
 
 namespace hindsight {
 
-ErrorParameters TuneParameters(const LinearTape& tape, int receiver,
+ErrorParameters TuneParameters(const SensorTape& tape,
                                const ModeSequence& sequence,
                                const ErrorParameters& from,
                                SearchEffort* effort) {
-  return ParameterTuning(tape, receiver, sequence, from, effort).Climb();
+  return ParameterTuning(tape, sequence, from, effort).Climb();
 }
 
-ErrorParameters TuneNoise(const LinearTape& tape, int receiver,
-                          const ModeSequence& sequence,
+ErrorParameters TuneNoise(const SensorTape& tape, const ModeSequence& sequence,
                           const ErrorParameters& from, double least_scale,
                           SearchEffort* effort) {
-  return ParameterTuning(tape, receiver, sequence, from, effort)
+  return ParameterTuning(tape, sequence, from, effort)
       .ClimbOfNoise(least_scale);
 }
 
@@ -27,12 +26,11 @@ double LogPriorOf(const ModeSequence& sequence, const ErrorParameters& p,
   return LogPriorOf(TunablesOf(sequence, typical), p);
 }
 
-double LogShareOfPrior(const LinearTape& tape, int receiver,
-                       const ModeSequence& sequence,
+double LogShareOfPrior(const SensorTape& tape, const ModeSequence& sequence,
                        const ErrorParameters& found,
                        const ErrorParameters& typical, double least_scale,
                        SearchEffort* effort) {
-  return ParameterTuning(tape, receiver, sequence, typical, effort)
+  return ParameterTuning(tape, sequence, typical, effort)
       .LogShareOfPrior(found, least_scale);
 }
 

@@ -27,7 +27,7 @@ namespace hindsight {
 /// expectation-maximisation has no closed maximisation step then, and the same
 /// maximum is found by a search, parameter by parameter in the logarithm, to a
 /// factor of 1.08 for the scale and of 1.3 for the rest.
-ErrorParameters TuneParameters(const LinearTape& tape, int receiver,
+ErrorParameters TuneParameters(const SensorTape& tape,
                                const ModeSequence& sequence,
                                const ErrorParameters& from,
                                SearchEffort* effort = nullptr);
@@ -35,8 +35,7 @@ ErrorParameters TuneParameters(const LinearTape& tape, int receiver,
 /// The same of scale, share and ratio of outliers alone, to a factor of 1.3: what
 /// differs between fixes and their normal points. The scale is sought from
 /// `least_scale` on.
-ErrorParameters TuneNoise(const LinearTape& tape, int receiver,
-                          const ModeSequence& sequence,
+ErrorParameters TuneNoise(const SensorTape& tape, const ModeSequence& sequence,
                           const ErrorParameters& from, double least_scale,
                           SearchEffort* effort = nullptr);
 
@@ -51,8 +50,7 @@ double LogPriorOf(const ModeSequence& sequence, const ErrorParameters& p,
 /// itself. A parameter of which the data say nothing adds nothing, others take
 /// ln of the ratio of their posterior sigma to that a priori. The scale is
 /// integrated from `least_scale` on.
-double LogShareOfPrior(const LinearTape& tape, int receiver,
-                       const ModeSequence& sequence,
+double LogShareOfPrior(const SensorTape& tape, const ModeSequence& sequence,
                        const ErrorParameters& found,
                        const ErrorParameters& typical,
                        double least_scale = kLeastScale,

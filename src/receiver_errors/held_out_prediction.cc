@@ -15,11 +15,10 @@ double LogSumOf(const std::vector<double>& logs) {
 
 }  // namespace
 
-HeldOutPrediction::HeldOutPrediction(const LinearTape& tape, int sensor,
+HeldOutPrediction::HeldOutPrediction(const SensorTape& tape,
                                      const Hypothesis& hypothesis)
-    : splice_(tape, sensor, hypothesis.parameters, hypothesis.sequence),
-      chain_(tape, sensor, hypothesis.parameters),
-      sensor_(sensor),
+    : splice_(tape, hypothesis.parameters, hypothesis.sequence),
+      chain_(tape, hypothesis.parameters),
       tape_(tape) {}
 
 HeldOutScore HeldOutPrediction::Score(const HeldOutStretch& stretch) {
@@ -122,8 +121,8 @@ HeldOutPrediction::Prediction HeldOutPrediction::PredictFix(
     const Gaussian& x, std::size_t k) const {
   constexpr double kUniform = 0.01;
   constexpr double kWidth = 200.0;  // sigma
-  for (const TapeMeasurement& z : tape_.measurements(k)) {
-    if (z.sensor != sensor_ || !z.accepted || z.withheld) continue;
+  for (const TapeMeasurement& z : tape_.linear().measurements(k)) {
+    if (z.sensor != tape_.sensor() || !z.accepted || z.withheld) continue;
     const LinearizedMeasurement& fix = chain_.measurements().front();
     const RowVector off = fix.residual - fix.H * x.mean;
     Prediction out;

@@ -14,8 +14,7 @@ namespace hindsight {
 class HeldOutPrediction {
  public:
   /// The tape must outlive this.
-  HeldOutPrediction(const LinearTape& tape, int sensor,
-                    const Hypothesis& hypothesis);
+  HeldOutPrediction(const SensorTape& tape, const Hypothesis& hypothesis);
 
   HeldOutScore Score(const HeldOutStretch& stretch);
 
@@ -41,8 +40,7 @@ class HeldOutPrediction {
 
   SequenceSplice splice_;
   ErrorChain chain_;
-  int sensor_;
-  const LinearTape& tape_;
+  const SensorTape& tape_;
 };
 
 }  // namespace hindsight

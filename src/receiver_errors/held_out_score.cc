@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "receiver_errors/held_out_prediction.h"
+#include "receiver_errors/sensor_tape.h"
 
 namespace hindsight {
 namespace {
@@ -22,10 +23,10 @@ MeanOfStretches MeanOf(const std::vector<double>& values) {
 }
 
 /// Times of the sensor's fixes.
-std::vector<double> FixTimes(const LinearTape& tape, int sensor) {
+std::vector<double> FixTimes(const SensorTape& tape) {
   std::vector<double> times;
   for (std::size_t k = 0; k < tape.size(); ++k) {
-    if (HasFix(tape, k, sensor)) times.push_back(tape.t(k));
+    if (tape.HasFix(k)) times.push_back(tape.t(k));
   }
   return times;
 }
@@ -52,10 +53,10 @@ double LimitOf(int stretches) {
 }
 
 std::vector<HeldOutStretch> HeldOutStretches(
-    const LinearTape& tape, int sensor, double length,
+    const SensorTape& tape, double length,
     const std::vector<const ModeSequence*>& sequences) {
   constexpr double kMost = 40.0;
-  const std::vector<double> times = FixTimes(tape, sensor);
+  const std::vector<double> times = FixTimes(tape);
   std::vector<double> begins;
   const double span = times.empty() ? 0.0 : times.back() - times.front();
   for (const ModeSequence* sequence : sequences) {
@@ -85,9 +86,9 @@ std::vector<HeldOutStretch> HeldOutStretches(
 }
 
 std::vector<HeldOutScore> ScoreHeldOut(
-    const LinearTape& tape, int sensor, const Hypothesis& hypothesis,
+    const SensorTape& tape, const Hypothesis& hypothesis,
     const std::vector<HeldOutStretch>& stretches) {
-  HeldOutPrediction prediction(tape, sensor, hypothesis);
+  HeldOutPrediction prediction(tape, hypothesis);
   std::vector<HeldOutScore> scores;
   for (const HeldOutStretch& stretch : stretches) {
     scores.push_back(prediction.Score(stretch));
@@ -95,17 +96,16 @@ std::vector<HeldOutScore> ScoreHeldOut(
   return scores;
 }
 
-std::vector<HeldOutDifference> CompareHeldOut(const LinearTape& tape,
-                                              int sensor,
+std::vector<HeldOutDifference> CompareHeldOut(const SensorTape& tape,
                                               const Hypothesis& hypothesis,
                                               const Hypothesis& simpler) {
   constexpr std::size_t kLeast = 3;
   std::vector<HeldOutDifference> out;
-  HeldOutPrediction of_it(tape, sensor, hypothesis);
-  HeldOutPrediction of_simpler(tape, sensor, simpler);
+  HeldOutPrediction of_it(tape, hypothesis);
+  HeldOutPrediction of_simpler(tape, simpler);
   for (const double length : kHeldOutLengths) {
     const std::vector<HeldOutStretch> stretches = HeldOutStretches(
-        tape, sensor, length, {&hypothesis.sequence, &simpler.sequence});
+        tape, length, {&hypothesis.sequence, &simpler.sequence});
     if (stretches.size() < kLeast) continue;
     std::vector<double> density;
     std::vector<double> distance;

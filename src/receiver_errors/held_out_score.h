@@ -21,7 +21,7 @@ inline constexpr double kHeldOutLengths[] = {3.0, 10.0, 30.0};
 /// one about each change point of the hypotheses, where they differ most from
 /// each other.
 std::vector<HeldOutStretch> HeldOutStretches(
-    const LinearTape& tape, int sensor, double length,
+    const SensorTape& tape, double length,
     const std::vector<const ModeSequence*>& sequences);
 
 /// How well the fixes of a stretch are predicted.
@@ -42,7 +42,7 @@ struct HeldOutScore {
 /// Of the distances the smaller of the two counts there. So that a few fixes which no hypothesis explains do not decide, the density
 /// of a fix is 99 % of that and 1 % uniform over 200 stated sigmas an axis.
 std::vector<HeldOutScore> ScoreHeldOut(
-    const LinearTape& tape, int sensor, const Hypothesis& hypothesis,
+    const SensorTape& tape, const Hypothesis& hypothesis,
     const std::vector<HeldOutStretch>& stretches);
 
 /// A mean over stretches and its standard error.
@@ -76,8 +76,7 @@ struct HeldOutDifference {
 
 /// Of `hypothesis` less `simpler`, for each of kHeldOutLengths that the tape is
 /// long enough for to hold out three stretches.
-std::vector<HeldOutDifference> CompareHeldOut(const LinearTape& tape,
-                                              int sensor,
+std::vector<HeldOutDifference> CompareHeldOut(const SensorTape& tape,
                                               const Hypothesis& hypothesis,
                                               const Hypothesis& simpler);
 

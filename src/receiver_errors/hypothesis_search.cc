@@ -74,10 +74,9 @@ double PriceOf(ErrorStep step, int before) {
 
 class Search {
  public:
-  Search(const LinearTape& tape, int receiver,
-         const ErrorParameters& parameters, std::size_t width,
-         SearchEffort* effort)
-      : chain_(tape, receiver, parameters),
+  Search(const SensorTape& tape, const ErrorParameters& parameters,
+         std::size_t width, SearchEffort* effort)
+      : chain_(tape, parameters),
         navigation_dim_(tape.dim()),
         parameters_(parameters),
         width_(width),
@@ -236,11 +235,11 @@ class Search {
 
 }  // namespace
 
-std::vector<Hypothesis> SearchHypotheses(const LinearTape& tape, int receiver,
+std::vector<Hypothesis> SearchHypotheses(const SensorTape& tape,
                                          const ErrorParameters& parameters,
                                          std::size_t width,
                                          SearchEffort* effort) {
-  return Search(tape, receiver, parameters, width, effort).Run();
+  return Search(tape, parameters, width, effort).Run();
 }
 
 }  // namespace hindsight

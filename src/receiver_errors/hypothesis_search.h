@@ -26,7 +26,7 @@ struct Hypothesis {
 /// At most `width` hypotheses of each mode, and of each power of two of fixes
 /// since what goes on began, stay after a fix; once the effort is spent, the
 /// likeliest alone.
-std::vector<Hypothesis> SearchHypotheses(const LinearTape& tape, int receiver,
+std::vector<Hypothesis> SearchHypotheses(const SensorTape& tape,
                                          const ErrorParameters& parameters,
                                          std::size_t width = 3,
                                          SearchEffort* effort = nullptr);

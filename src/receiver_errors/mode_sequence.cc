@@ -143,50 +143,14 @@ std::vector<ErrorStep> StepsAfter(ErrorMode before) {
   return {};
 }
 
-bool HasFix(const LinearTape& tape, std::size_t k, int receiver) {
-  for (const TapeMeasurement& z : tape.measurements(k)) {
-    if (z.sensor == receiver && z.accepted && !z.withheld) return true;
-  }
-  return false;
-}
-
-int RowsOf(const LinearTape& tape, int sensor) {
-  int rows = 0;
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    for (const TapeMeasurement& z : tape.measurements(k)) {
-      if (z.sensor != sensor) continue;
-      rows = std::max(rows, static_cast<int>(z.residual.size()));
-    }
-  }
-  return rows;
-}
-
-std::vector<double> SharesOf(const LinearTape& tape, int receiver) {
-  constexpr std::size_t kLeast = 20;
-  std::vector<std::size_t> fixes;
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    if (HasFix(tape, k, receiver)) fixes.push_back(k);
-  }
-  std::vector<double> shares(tape.size(), 0.0);
-  if (fixes.empty()) return shares;
-  const double once = 1.0 / static_cast<double>(std::max(fixes.size(), kLeast));
-  shares[fixes.front()] = once;
-  const double whole = tape.t(fixes.back()) - tape.t(fixes.front());
-  const double mean = whole / static_cast<double>(fixes.size() - 1);
-  for (std::size_t i = 1; i < fixes.size(); ++i) {
-    shares[fixes[i]] = once * (tape.t(fixes[i]) - tape.t(fixes[i - 1])) / mean;
-  }
-  return shares;
-}
-
-std::vector<ErrorStep> StepsByNode(const LinearTape& tape, int receiver,
+std::vector<ErrorStep> StepsByNode(const SensorTape& tape,
                                    const ModeSequence& sequence) {
   std::vector<ErrorStep> steps;
   ErrorStep step;
   auto next = sequence.begin();
   for (std::size_t k = 0; k < tape.size(); ++k) {
     step = {step.mode};
-    if (HasFix(tape, k, receiver)) step = *next++;
+    if (tape.HasFix(k)) step = *next++;
     steps.push_back(step);
   }
   return steps;

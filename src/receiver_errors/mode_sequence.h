@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "filters/linear_tape.h"
+#include "receiver_errors/sensor_tape.h"
 
 namespace hindsight {
 
@@ -97,16 +97,8 @@ std::vector<ErrorStep> StepsAfter(ErrorMode before);
 
 /// The steps into every node: those of the sequence at fixes, between them what
 /// goes on.
-std::vector<ErrorStep> StepsByNode(const LinearTape& tape, int receiver,
+std::vector<ErrorStep> StepsByNode(const SensorTape& tape,
                                    const ModeSequence& sequence);
-/// Whether the node has a fix of the receiver that is used.
-bool HasFix(const LinearTape& tape, std::size_t k, int receiver);
-/// By node what the interval since the fix before is of the recording, 0 without a fix:
-/// by the mean interval and the number of fixes, of which twenty are the least. A gap is
-/// as many as it lacks.
-std::vector<double> SharesOf(const LinearTape& tape, int receiver);
-/// The most rows that a measurement of the sensor has.
-int RowsOf(const LinearTape& tape, int sensor);
 
 }  // namespace hindsight
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/median.h"
+#include "receiver_errors/sensor_tape.h"
 
 namespace hindsight {
 namespace {

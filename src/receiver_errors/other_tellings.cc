@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/gap.h"
+#include "receiver_errors/sensor_tape.h"
 #include "receiver_errors/sequence_smoother.h"
 #include "receiver_errors/sequence_variations.h"
 
@@ -18,15 +19,14 @@ constexpr double kLasting = 1e8;  // correlation time of a bias that stays [s]
 double LogPosterior(const RegimeProblem& problem,
                     const ErrorParameters& parameters,
                     const ModeSequence& sequence) {
-  return ScoreSequence(problem.tape, problem.sensor, parameters, sequence)
-      .log_posterior();
+  return ScoreSequence(problem.tape, parameters, sequence).log_posterior();
 }
 
 /// The largest of the sensor's errors along an axis, smoothed.
 double SizeOf(const RegimeProblem& problem, const Hypothesis& one) {
   const int n = problem.tape.dim();
-  const ErrorTrajectory smoothed = SmoothSequence(problem.tape, problem.sensor,
-                                                  one.parameters, one.sequence);
+  const ErrorTrajectory smoothed =
+      SmoothSequence(problem.tape, one.parameters, one.sequence);
   Eigen::Vector3d largest = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < smoothed.size(); ++k) {
     largest = largest.cwiseMax(smoothed[k].segment<3>(n).cwiseAbs());
@@ -45,13 +45,13 @@ struct JudgedFix {
 std::vector<JudgedFix> JudgeFixes(const RegimeProblem& problem,
                                   const Hypothesis& noise) {
   constexpr double kOutlier = 5.0;  // sigma
-  const LinearTape& tape = problem.tape;
+  const SensorTape& tape = problem.tape;
   const ErrorTrajectory smoothed =
-      SmoothSequence(tape, problem.sensor, noise.parameters, noise.sequence);
+      SmoothSequence(tape, noise.parameters, noise.sequence);
   std::vector<JudgedFix> fixes;
   for (std::size_t k = 0; k < tape.size(); ++k) {
-    for (const TapeMeasurement& z : tape.measurements(k)) {
-      if (z.sensor != problem.sensor || !z.accepted || z.withheld) continue;
+    for (const TapeMeasurement& z : tape.linear().measurements(k)) {
+      if (z.sensor != tape.sensor() || !z.accepted || z.withheld) continue;
       const Eigen::VectorXd left =
           z.residual - z.H * smoothed[k].head(tape.dim());
       const Eigen::VectorXd sigmas = left.cwiseAbs().cwiseQuotient(

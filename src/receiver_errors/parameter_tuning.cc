@@ -63,7 +63,7 @@ double ParameterTuning::LogShareOfPrior(double ErrorParameters::*member,
 
 double ParameterTuning::Value(const ErrorParameters& p) const {
   if (effort_ != nullptr) effort_->Spend(tape_.size());
-  return ScoreSequence(tape_, receiver_, p, sequence_).log_likelihood +
+  return ScoreSequence(tape_, p, sequence_).log_likelihood +
          LogPriorOf(tunables_, p);
 }
 

@@ -14,11 +14,9 @@ namespace hindsight {
 class ParameterTuning {
  public:
   /// Tape, sequence and effort, which may be null, must outlive this.
-  ParameterTuning(const LinearTape& tape, int receiver,
-                  const ModeSequence& sequence, const ErrorParameters& from,
-                  SearchEffort* effort)
+  ParameterTuning(const SensorTape& tape, const ModeSequence& sequence,
+                  const ErrorParameters& from, SearchEffort* effort)
       : tape_(tape),
-        receiver_(receiver),
         sequence_(sequence),
         tunables_(TunablesOf(sequence, from)),
         parameters_(from),
@@ -54,8 +52,7 @@ class ParameterTuning {
   double LogShareOfPrior(const Tunable& tunable) const;
   bool Walk(const Tunable& tunable, double step);
 
-  const LinearTape& tape_;
-  int receiver_;
+  const SensorTape& tape_;
   const ModeSequence& sequence_;
   std::vector<Tunable> tunables_;
   ErrorParameters parameters_;

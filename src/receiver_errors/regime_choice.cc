@@ -33,9 +33,8 @@ std::string AtBound(const Hypothesis& best, bool is_tolerance) {
 /// The clause for a loss on held-out stretches; "" if there is none.
 std::string LossTo(const RegimeProblem& problem, const ErrorRegimes& one,
                    const ErrorRegimes& simpler) {
-  for (const HeldOutDifference& d :
-       CompareHeldOut(problem.tape, problem.sensor, one.hypotheses.front(),
-                      simpler.hypotheses.front())) {
+  for (const HeldOutDifference& d : CompareHeldOut(
+           problem.tape, one.hypotheses.front(), simpler.hypotheses.front())) {
     if (!d.Loses()) continue;
     const MeanOfStretches& by =
         d.LosesDensity() ? d.log_density : d.log_distance;

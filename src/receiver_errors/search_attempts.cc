@@ -63,16 +63,15 @@ std::vector<Attempt> MakeAttempts(const RegimeProblem& problem,
   for (ErrorParameters parameters : Starts(problem, white)) {
     for (int round = 0; round < kMostRounds; ++round) {
       if (problem.effort->left() <= reserve && !attempts.empty()) break;
-      ModeSequence found = SearchHypotheses(problem.tape, problem.sensor,
-                                            parameters, kNarrow, problem.effort)
-                               .front()
-                               .sequence;
+      ModeSequence found =
+          SearchHypotheses(problem.tape, parameters, kNarrow, problem.effort)
+              .front()
+              .sequence;
       if (IsAllGood(found) || is_known(found)) break;
-      parameters = TuneParameters(problem.tape, problem.sensor, found,
-                                  parameters, problem.effort);
+      parameters =
+          TuneParameters(problem.tape, found, parameters, problem.effort);
       const double log_posterior =
-          ScoreSequence(problem.tape, problem.sensor, parameters, found)
-              .log_posterior();
+          ScoreSequence(problem.tape, parameters, found).log_posterior();
       attempts.push_back({parameters, std::move(found), log_posterior});
     }
   }
@@ -103,8 +102,8 @@ std::vector<Attempt> BestAttempts(const RegimeProblem& problem,
     if (attempt.log_posterior < attempts.front().log_posterior - kLeastLog) {
       break;
     }
-    ErrorTrajectory trajectory = SmoothSequence(
-        problem.tape, problem.sensor, attempt.parameters, attempt.sequence);
+    ErrorTrajectory trajectory =
+        SmoothSequence(problem.tape, attempt.parameters, attempt.sequence);
     const double apart =
         kApart * attempt.parameters.scale * problem.stated_sigma;
     const bool known = std::any_of(

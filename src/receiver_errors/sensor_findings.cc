@@ -10,6 +10,7 @@
 
 #include "measurements/sensor_kind.h"
 #include "receiver_errors/errant_end.h"
+#include "receiver_errors/sensor_tape.h"
 #include "receiver_errors/sequence_smoother.h"
 #include "receiver_errors/uniform_regimes.h"
 
@@ -51,9 +52,9 @@ double IntervalOf(const Problem& problem, const LinearTape& tape, int sensor) {
 /// ln of the evidence of a fit without its likelihood.
 double LogPriorOfFit(const RegimeProblem& problem, const ErrorRegimes& fit) {
   const Hypothesis& best = fit.hypotheses.front();
-  return fit.log_evidence - ScoreSequence(problem.tape, problem.sensor,
-                                          best.parameters, best.sequence)
-                                .log_likelihood;
+  return fit.log_evidence -
+         ScoreSequence(problem.tape, best.parameters, best.sequence)
+             .log_likelihood;
 }
 
 }  // namespace
@@ -68,13 +69,13 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
   const std::optional<LinearTape> thinned = ThinBetweenFixes(tape, sensor);
   const LinearTape& fixes = thinned ? *thinned : tape;
   const LinearTape& searched = points ? points->tape : fixes;
+  const SensorTape seen(searched, sensor);
   const double most = MostEffort(searched);
   SearchEffort effort(limits.share * most, [&limits](double fraction) {
     return !limits.go_on || limits.go_on(kSearch * fraction);
   });
   const RegimeProblem regime{
-      .tape = searched,
-      .sensor = sensor,
+      .tape = seen,
       .stated_sigma = stated_sigma,
       .effort = &effort,
       .has_gauss_markov = problem.layout.Has(BlockKind::kColouredNoise, sensor),
@@ -136,10 +137,10 @@ double SensorFindings::GainOnTape() const {
   const Hypothesis& best = regimes.hypotheses.front();
   ErrorParameters stated;
   stated.outlier_share = 0.0;
+  const SensorTape whole(tape, sensor);
   return log_prior +
-         ScoreSequence(tape, sensor, best.parameters, best.sequence)
-             .log_likelihood -
-         ScoreSequence(tape, sensor, stated, ModeSequence(best.sequence.size()))
+         ScoreSequence(whole, best.parameters, best.sequence).log_likelihood -
+         ScoreSequence(whole, stated, ModeSequence(best.sequence.size()))
              .log_likelihood;
 }
 
@@ -170,7 +171,7 @@ void SensorFindings::Withdraw() {
 
 void SensorFindings::WeighAlternatives() {
   if (!stands()) return;
-  alternatives = WeighHypotheses(tape, sensor, regimes);
+  alternatives = WeighHypotheses(SensorTape(tape, sensor), regimes);
   central = MostCentral(alternatives);
   AddExchanged();
 }
@@ -200,7 +201,8 @@ void SensorFindings::AddExchanged() {
 
 void SensorFindings::ChooseNoise(const LinearTape& fixes,
                                  SearchEffort* effort) {
-  const RegimeProblem noise{fixes, sensor, stated_sigma, true, effort};
+  const SensorTape seen(fixes, sensor);
+  const RegimeProblem noise{seen, stated_sigma, true, effort};
   std::vector<ErrorRegimes> all = FitNoise(noise);
   RegimeChoice of_noise = ChooseRegime(noise, all);
   choice.chosen = of_noise.chosen;
@@ -216,7 +218,8 @@ void SensorFindings::Refine(const LinearTape& fixes, const NormalPoints& points,
                             std::vector<ErrorRegimes> found,
                             SearchEffort* effort) {
   constexpr double kFarBehind = 12.0;  // ln
-  const RegimeProblem problem{fixes, sensor, stated_sigma, false, effort};
+  const SensorTape seen(fixes, sensor);
+  const RegimeProblem problem{seen, stated_sigma, false, effort};
   const ErrorRegimes& best = found[choice.chosen];
   std::vector<ErrorRegimes> all = {RefineAtFixes(problem, points, best)};
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -249,8 +252,9 @@ std::unique_ptr<const SensorFindings> FindingsAgain(
 
 WeighedHypothesis SensorFindings::Smooth(const ErrorParameters& parameters,
                                          const ModeSequence& sequence) const {
-  return {1.0, parameters, StepsByNode(tape, sensor, sequence),
-          SmoothSequence(tape, sensor, parameters, sequence)};
+  const SensorTape whole(tape, sensor);
+  return {1.0, parameters, StepsByNode(whole, sequence),
+          SmoothSequence(whole, parameters, sequence)};
 }
 
 std::vector<WeighedHypothesis> SensorFindings::SmoothUndecided() const {

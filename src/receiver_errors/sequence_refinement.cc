@@ -42,12 +42,9 @@ Stretch WhereTheyDiffer(const ModeSequence& a, const ModeSequence& b) {
 
 class Refinement {
  public:
-  Refinement(const LinearTape& tape, int receiver,
-             const ErrorParameters& parameters, SearchEffort* effort)
-      : tape_(tape),
-        receiver_(receiver),
-        parameters_(parameters),
-        effort_(effort) {}
+  Refinement(const SensorTape& tape, const ErrorParameters& parameters,
+             SearchEffort* effort)
+      : tape_(tape), parameters_(parameters), effort_(effort) {}
 
   /// Weights that a search gives have those of merged hypotheses in them: each
   /// is scored on its own.
@@ -218,12 +215,11 @@ class Refinement {
   bool IsSpent() const { return effort_ != nullptr && effort_->IsSpent(); }
 
   void Splice(const ModeSequence& base) {
-    splice_.emplace(tape_, receiver_, parameters_, base);
+    splice_.emplace(tape_, parameters_, base);
     if (effort_ != nullptr) effort_->Spend(2 * tape_.size());
   }
 
-  const LinearTape& tape_;
-  int receiver_;
+  const SensorTape& tape_;
   const ErrorParameters& parameters_;
   SearchEffort* effort_;
   std::optional<SequenceSplice> splice_;
@@ -235,30 +231,30 @@ class Refinement {
 
 }  // namespace
 
-ModeSequence ClimbSequences(const LinearTape& tape, int receiver,
+ModeSequence ClimbSequences(const SensorTape& tape,
                             const ErrorParameters& parameters,
                             const std::vector<Hypothesis>& found,
                             SearchEffort* effort) {
-  Refinement refinement(tape, receiver, parameters, effort);
+  Refinement refinement(tape, parameters, effort);
   refinement.Begin(found);
   refinement.Climb();
   return refinement.Best();
 }
 
-ModeSequence ClimbOutliers(const LinearTape& tape, int receiver,
+ModeSequence ClimbOutliers(const SensorTape& tape,
                            const ErrorParameters& parameters,
                            const ModeSequence& sequence, SearchEffort* effort) {
-  Refinement refinement(tape, receiver, parameters, effort);
+  Refinement refinement(tape, parameters, effort);
   refinement.Begin({{sequence}});
   refinement.ClimbOutliers();
   return refinement.Best();
 }
 
-std::vector<Hypothesis> RefineHypotheses(const LinearTape& tape, int receiver,
+std::vector<Hypothesis> RefineHypotheses(const SensorTape& tape,
                                          const ErrorParameters& parameters,
                                          const std::vector<Hypothesis>& found,
                                          SearchEffort* effort) {
-  Refinement refinement(tape, receiver, parameters, effort);
+  Refinement refinement(tape, parameters, effort);
   refinement.Begin(found);
   refinement.Climb();
   refinement.TryEarlierErrors();

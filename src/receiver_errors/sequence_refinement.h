@@ -13,14 +13,14 @@ inline constexpr std::size_t kMostKeptSteps = 10'000'000;
 /// do no better, and outliers where neither does, to the most likely sequence near it. Scores are those of
 /// SequenceSplice about the best of the round before. A spent effort ends it with
 /// the best so far.
-ModeSequence ClimbSequences(const LinearTape& tape, int receiver,
+ModeSequence ClimbSequences(const SensorTape& tape,
                             const ErrorParameters& parameters,
                             const std::vector<Hypothesis>& found,
                             SearchEffort* effort = nullptr);
 
 /// Climbs over which fixes are outliers by decision alone: of those that may be by
 /// what is known before them (SequenceSplice::MayBeAnOutlier), or that are.
-ModeSequence ClimbOutliers(const LinearTape& tape, int receiver,
+ModeSequence ClimbOutliers(const SensorTape& tape,
                            const ErrorParameters& parameters,
                            const ModeSequence& sequence,
                            SearchEffort* effort = nullptr);
@@ -28,7 +28,7 @@ ModeSequence ClimbOutliers(const LinearTape& tape, int receiver,
 /// Climbs, tries ForEachEarlierError of the best, and returns what was met on the way
 /// and is within 10 of its logarithm, best first: the posterior of when errors
 /// began and ended. Of those that differ in outliers alone the likeliest.
-std::vector<Hypothesis> RefineHypotheses(const LinearTape& tape, int receiver,
+std::vector<Hypothesis> RefineHypotheses(const SensorTape& tape,
                                          const ErrorParameters& parameters,
                                          const std::vector<Hypothesis>& found,
                                          SearchEffort* effort = nullptr);

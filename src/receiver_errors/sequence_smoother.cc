@@ -11,10 +11,10 @@ namespace {
 /// The sequence, node by node.
 class Walk {
  public:
-  Walk(const LinearTape& tape, int receiver, const ErrorParameters& parameters,
+  Walk(const SensorTape& tape, const ErrorParameters& parameters,
        const ModeSequence& sequence)
-      : chain_(tape, receiver, parameters),
-        steps_(StepsByNode(tape, receiver, sequence)),
+      : chain_(tape, parameters),
+        steps_(StepsByNode(tape, sequence)),
         x_(chain_.Begin()) {}
 
   void PredictTo(std::size_t k) {
@@ -62,10 +62,10 @@ void BackOver(const PassedUpdate& passed, ErrorVector* lambda) {
 
 }  // namespace
 
-SequenceScore ScoreSequence(const LinearTape& tape, int receiver,
+SequenceScore ScoreSequence(const SensorTape& tape,
                             const ErrorParameters& parameters,
                             const ModeSequence& sequence) {
-  Walk walk(tape, receiver, parameters, sequence);
+  Walk walk(tape, parameters, sequence);
   SequenceScore score;
   bool first = true;
   for (std::size_t k = 0; k < tape.size(); ++k) {
@@ -88,10 +88,10 @@ SequenceScore ScoreSequence(const LinearTape& tape, int receiver,
   return score;
 }
 
-ErrorTrajectory SmoothSequence(const LinearTape& tape, int receiver,
+ErrorTrajectory SmoothSequence(const SensorTape& tape,
                                const ErrorParameters& parameters,
                                const ModeSequence& sequence) {
-  Walk walk(tape, receiver, parameters, sequence);
+  Walk walk(tape, parameters, sequence);
   const int n = walk.chain().dim();
   ErrorTrajectory mean(n, tape.size());
   CovarianceSeries P(n, tape.size());
@@ -107,7 +107,7 @@ ErrorTrajectory SmoothSequence(const LinearTape& tape, int receiver,
     P.Set(k, walk.x()->P);
   }
   ErrorVector lambda = ErrorVector::Zero(n);
-  ErrorChain chain(tape, receiver, parameters);
+  ErrorChain chain(tape, parameters);
   for (std::size_t k = tape.size(); k-- > 0;) {
     mean[k] += P.Get(k) * lambda;
     if (k == 0) break;

@@ -14,7 +14,7 @@ struct SequenceScore {
   double log_prior = 0.0;       ///< of the sequence
   double log_posterior() const { return log_likelihood + log_prior; }
 };
-SequenceScore ScoreSequence(const LinearTape& tape, int receiver,
+SequenceScore ScoreSequence(const SensorTape& tape,
                             const ErrorParameters& parameters,
                             const ModeSequence& sequence);
 
@@ -41,7 +41,7 @@ class ErrorTrajectory {
 
 /// Smoothed means. Bryson and Frazier's form (as in Bierman 1973), which needs no inverse
 /// of a covariance: e and r are known exactly where the receiver is good.
-ErrorTrajectory SmoothSequence(const LinearTape& tape, int receiver,
+ErrorTrajectory SmoothSequence(const SensorTape& tape,
                                const ErrorParameters& parameters,
                                const ModeSequence& sequence);
 

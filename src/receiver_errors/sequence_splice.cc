@@ -16,10 +16,10 @@ std::size_t SquareOf(int n) {
 
 }  // namespace
 
-SequenceSplice::SequenceSplice(const LinearTape& tape, int receiver,
+SequenceSplice::SequenceSplice(const SensorTape& tape,
                                const ErrorParameters& parameters,
                                const ModeSequence& base)
-    : chain_(tape, receiver, parameters),
+    : chain_(tape, parameters),
       base_(base),
       fixes_(base.size()),
       P_(chain_.dim(), base.size()),

@@ -38,8 +38,8 @@ class SequenceSplice {
  public:
   /// The tape must outlive this. Throws EstimationError if the noise of a
   /// measurement is not positive definite.
-  SequenceSplice(const LinearTape& tape, int receiver,
-                 const ErrorParameters& parameters, const ModeSequence& base);
+  SequenceSplice(const SensorTape& tape, const ErrorParameters& parameters,
+                 const ModeSequence& base);
 
   /// Score of a sequence of the base's length. The cost grows with the span from
   /// the first to the last fix at which it differs from the base.

@@ -14,15 +14,14 @@ namespace hindsight {
 namespace {
 
 ModeSequence Uniform(const RegimeProblem& problem, ErrorMode mode) {
-  return ModeSequence(FixCount(problem), ErrorStep{mode, false});
+  return ModeSequence(problem.tape.fix_count(), ErrorStep{mode, false});
 }
 
 /// Scale and outliers alone, as the batch would be solved with them.
 ErrorParameters TuneAsSolved(const RegimeProblem& problem,
                              const ModeSequence& sequence,
                              const ErrorParameters& from) {
-  return TuneNoise(problem.tape, problem.sensor, sequence, from, kLeastSolved,
-                   problem.effort);
+  return TuneNoise(problem.tape, sequence, from, kLeastSolved, problem.effort);
 }
 
 /// The noise as stated: what the plain batch takes it for.
@@ -31,8 +30,7 @@ ErrorRegimes AsStated(const RegimeProblem& problem) {
   one.sequence = Uniform(problem, ErrorMode::kGood);
   one.parameters.outlier_share = 0.0;
   one.log_posterior =
-      ScoreSequence(problem.tape, problem.sensor, one.parameters, one.sequence)
-          .log_likelihood;
+      ScoreSequence(problem.tape, one.parameters, one.sequence).log_likelihood;
   ErrorRegimes out;
   out.log_evidence = one.log_posterior;
   out.hypotheses.push_back(std::move(one));
@@ -72,28 +70,27 @@ ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
   one.sequence = Uniform(problem, mode);
   if (mode == ErrorMode::kBiased) one.sequence.front().anew = true;
   const auto tune = [&](const ErrorParameters& start) {
-    one.parameters = question.as_solved
-                         ? TuneAsSolved(problem, one.sequence, start)
-                         : TuneParameters(problem.tape, problem.sensor,
-                                          one.sequence, start, problem.effort);
+    one.parameters =
+        question.as_solved
+            ? TuneAsSolved(problem, one.sequence, start)
+            : TuneParameters(problem.tape, one.sequence, start, problem.effort);
   };
   tune(from);
   ModeSequence climbed =
-      ClimbOutliers(problem.tape, problem.sensor, one.parameters, one.sequence,
-                    problem.effort);
+      ClimbOutliers(problem.tape, one.parameters, one.sequence, problem.effort);
   if (climbed != one.sequence) {
     one.sequence = std::move(climbed);
     tune(one.parameters);
   }
   const auto score = [&] {
-    one.log_posterior = ScoreSequence(problem.tape, problem.sensor,
-                                      one.parameters, one.sequence)
-                            .log_likelihood;
+    one.log_posterior =
+        ScoreSequence(problem.tape, one.parameters, one.sequence)
+            .log_likelihood;
   };
   std::optional<BiasRange> range;
   if (mode == ErrorMode::kBiased) {
-    range = FollowBias(problem.tape, problem.sensor, one.sequence,
-                       one.parameters, from, problem.effort);
+    range = FollowBias(problem.tape, one.sequence, one.parameters, from,
+                       problem.effort);
     one.parameters = range->likeliest;
   }
   score();
@@ -111,19 +108,11 @@ ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
 
 }  // namespace
 
-std::size_t FixCount(const RegimeProblem& problem) {
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < problem.tape.size(); ++k) {
-    count += HasFix(problem.tape, k, problem.sensor);
-  }
-  return count;
-}
-
 double LogEvidenceOf(const RegimeProblem& problem, const Hypothesis& best,
                      const ErrorParameters& from, double least_scale) {
   return best.log_posterior + LogPriorOf(best.sequence, best.parameters, from) +
-         LogShareOfPrior(problem.tape, problem.sensor, best.sequence,
-                         best.parameters, from, least_scale, problem.effort);
+         LogShareOfPrior(problem.tape, best.sequence, best.parameters, from,
+                         least_scale, problem.effort);
 }
 
 bool CanBeSolved(const ErrorParameters& white) {

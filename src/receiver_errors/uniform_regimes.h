@@ -1,7 +1,6 @@
 #ifndef HINDSIGHT_RECEIVER_ERRORS_UNIFORM_REGIMES_H_
 #define HINDSIGHT_RECEIVER_ERRORS_UNIFORM_REGIMES_H_
 
-#include <cstddef>
 #include <vector>
 
 #include "receiver_errors/error_regimes.h"
@@ -30,9 +29,6 @@ std::vector<ErrorRegimes> FitNoise(const RegimeProblem& problem);
 /// A Gauss-Markov error of all fixes, parameters sought `from` on.
 ErrorRegimes FitGaussMarkov(const RegimeProblem& problem,
                             const ErrorParameters& from);
-
-/// How many nodes have a fix of the sensor.
-std::size_t FixCount(const RegimeProblem& problem);
 
 /// ln of the evidence of a fit of any kind whose parameters were sought `from` on,
 /// the scale from `least_scale` on (ErrorRegimes::log_evidence).

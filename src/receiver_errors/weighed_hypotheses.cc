@@ -61,17 +61,15 @@ std::vector<Kept> Keep(const ErrorRegimes& regimes, std::size_t most) {
 
 }  // namespace
 
-std::vector<WeighedHypothesis> WeighHypotheses(const LinearTape& tape,
-                                               int receiver,
+std::vector<WeighedHypothesis> WeighHypotheses(const SensorTape& tape,
                                                const ErrorRegimes& regimes) {
   std::vector<WeighedHypothesis> all;
   double sum = 0.0;
   for (const Kept& one : Keep(regimes, MostOf(tape.size()))) {
     const ModeSequence& sequence = one.scored->sequence;
-    all.push_back(
-        {one.weight, one.scored->parameters,
-         StepsByNode(tape, receiver, sequence),
-         SmoothSequence(tape, receiver, one.scored->parameters, sequence)});
+    all.push_back({one.weight, one.scored->parameters,
+                   StepsByNode(tape, sequence),
+                   SmoothSequence(tape, one.scored->parameters, sequence)});
     sum += one.weight;
   }
   for (WeighedHypothesis& one : all) one.weight /= sum;

@@ -20,8 +20,7 @@ struct WeighedHypothesis {
 /// nodes fewer, 4 at least) and at most 8 of each order of modes (ModeOrder). The
 /// 8 share the weight of all hypotheses of their order, so that an order with
 /// many possible change points does not drive out another.
-std::vector<WeighedHypothesis> WeighHypotheses(const LinearTape& tape,
-                                               int receiver,
+std::vector<WeighedHypothesis> WeighHypotheses(const SensorTape& tape,
                                                const ErrorRegimes& regimes);
 
 /// Index of the one whose horizontal positions are nearest to all, in the mean square

@@ -43,10 +43,10 @@ struct Told {
 Told TellOf(const LinearTape& tape, const ErrorParameters& from) {
   ModeSequence biased(301, {.mode = ErrorMode::kBiased});
   biased.front().anew = true;
-  const ErrorParameters found = TuneParameters(tape, 0, biased, from);
-  Told told{.range = FollowBias(tape, 0, biased, found, from)};
+  const ErrorParameters found = TuneParameters({tape, 0}, biased, from);
+  Told told{.range = FollowBias({tape, 0}, biased, found, from)};
   const auto posterior = [&](const ErrorParameters& p) {
-    return ScoreSequence(tape, 0, p, biased).log_likelihood +
+    return ScoreSequence({tape, 0}, p, biased).log_likelihood +
            LogPriorOf(biased, p, from);
   };
   told.log_odds = posterior(told.range.likeliest) - posterior(found);

@@ -42,7 +42,8 @@ TEST(ErrorChain, SharesARecordingBetweenItsFixes) {
   constexpr std::size_t kBegin = 15;
   constexpr std::size_t kEnd = 25;
   const LinearTape tape = WithGap(kBegin, kEnd);
-  ErrorChain chain(tape, 0, WithoutOutliers());
+  const SensorTape seen(tape, 0);
+  ErrorChain chain(seen, WithoutOutliers());
   const auto share = [&chain](std::size_t k) {
     chain.MoveTo(k);
     return chain.share();
@@ -65,7 +66,8 @@ TEST(ErrorChain, StepsOfTheVelocityReachOverAGap) {
   p.rate_sigma = 0.3;
   for (const auto& [node, last] :
        {std::pair{kBegin - 1, kBegin - 2}, {kEnd, kBegin - 1}}) {
-    ErrorChain chain(tape, 0, p);
+    const SensorTape seen(tape, 0);
+    ErrorChain chain(seen, p);
     Gaussian x = PredictedTo(node, &chain);
     const auto before = chain.LikelihoodAfter(kStepVelocity, chain.ViewOf(x));
     Gaussian stepped = x;
@@ -96,7 +98,8 @@ TEST(ErrorChain, OtherPositionsEndTheReachOfAStep) {
   const LinearTape tape = TapeOf(problem);
   ErrorParameters p = WithoutOutliers();
   p.rate_sigma = 0.3;
-  ErrorChain chain(tape, 0, p);
+  const SensorTape seen(tape, 0);
+  ErrorChain chain(seen, p);
   PredictedTo(kNode, &chain);
   const int pos = tape.layout().Find(BlockKind::kPosition)->offset;
   const double dt = tape.t(kNode) - tape.t(kNode - 1);
@@ -119,7 +122,8 @@ TEST(ErrorChain, VelocitiesEndTheReachOfAStep) {
   const LinearTape tape = TapeOf(problem, used);
   ErrorParameters p = WithoutOutliers();
   p.rate_sigma = 0.3;
-  ErrorChain chain(tape, 1, p);
+  const SensorTape seen(tape, 1);
+  ErrorChain chain(seen, p);
   constexpr std::size_t kNode = 25;
   PredictedTo(kNode, &chain);
   const int pos = tape.layout().Find(BlockKind::kPosition)->offset;

@@ -69,7 +69,7 @@ TEST(TuneParameters, AgreesWithExpectationMaximisationOnTheErrorsThemselves) {
   const NoisyFixes noisy = MakeNoisyFixes();
   const LinearTape tape = TapeOf(noisy.problem);
   const ModeSequence good(noisy.errors.size());
-  const ErrorParameters tuned = TuneParameters(tape, 0, good, {});
+  const ErrorParameters tuned = TuneParameters({tape, 0}, good, {});
   const ErrorParameters em = ExpectAndMaximise(noisy.errors);
   EXPECT_NEAR(em.scale, 1.4, 0.1);
   EXPECT_NEAR(em.outlier_share, 0.1, 0.04);
@@ -101,7 +101,7 @@ Grid OnGrid(const LinearTape& tape, const ModeSequence& sequence,
   for (double x = 0.0; x < kRange; x += kStep) {
     ErrorParameters p = at;
     p.*member = least * std::exp(x);
-    const double value = ScoreSequence(tape, 0, p, sequence).log_likelihood +
+    const double value = ScoreSequence({tape, 0}, p, sequence).log_likelihood +
                          LogPriorOf(sequence, p, {});
     if (value > largest) {
       posterior *= std::exp(largest - value);
@@ -123,7 +123,7 @@ TEST(LogShareOfPrior, IsTheIntegralOverEachParameter) {
   const NoisyFixes noisy = MakeNoisyFixes();
   const LinearTape tape = TapeOf(noisy.problem);
   const ModeSequence good(noisy.errors.size());
-  ErrorParameters p = TuneParameters(tape, 0, good, {});
+  ErrorParameters p = TuneParameters({tape, 0}, good, {});
   ASSERT_EQ(p.imu_scale, 1.0);
   double sum = 0.0;
   for (int round = 0; round < 2; ++round) {
@@ -139,7 +139,7 @@ TEST(LogShareOfPrior, IsTheIntegralOverEachParameter) {
     settle(&ErrorParameters::outlier_ratio, 3.0, 1.5);
     settle(&ErrorParameters::imu_scale, 1.0, 1.1);
   }
-  EXPECT_NEAR(LogShareOfPrior(tape, 0, good, p, {}), sum, 4 * 0.2);
+  EXPECT_NEAR(LogShareOfPrior({tape, 0}, good, p, {}), sum, 4 * 0.2);
   EXPECT_LT(sum, -6.0);
 }
 
@@ -153,12 +153,12 @@ TEST(LogShareOfPrior, IsNotAboveItsMost) {
     for (const double scale : {1.0, 3.0}) {
       ErrorParameters p;
       p.scale = scale;
-      EXPECT_LE(LogShareOfPrior(tape, 0, good, p, {}, least_scale), most);
+      EXPECT_LE(LogShareOfPrior({tape, 0}, good, p, {}, least_scale), most);
     }
     EXPECT_LT(most, 2.0);
   }
   // No sensor 1 measures anything.
-  EXPECT_NEAR(LogShareOfPrior(tape, 1, good, {}, {}, 1.0), 0.0, 0.3);
+  EXPECT_NEAR(LogShareOfPrior({tape, 1}, good, {}, {}, 1.0), 0.0, 0.3);
 }
 
 }  // namespace

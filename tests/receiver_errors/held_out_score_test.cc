@@ -47,7 +47,7 @@ TEST(HeldOutScore, OfGoodFixesIsThatOfASmootherWithoutThem) {
   good.parameters = WithoutOutliers();
   const std::vector<HeldOutStretch> stretches = {{0, 3}, {20, 50}, {58, 61}};
   const std::vector<HeldOutScore> scores =
-      ScoreHeldOut(tape, 0, good, stretches);
+      ScoreHeldOut({tape, 0}, good, stretches);
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     // The kept least sigma of a fix is the difference.
     EXPECT_NEAR(scores[i].log_density, WithoutThem(problem, tape, stretches[i]),
@@ -76,7 +76,7 @@ TEST(HeldOutScore, StretchesAreEverywhereAndAtChangesWithoutOverlap) {
   for (std::size_t i = 50; i < 70; ++i)
     changed[i] = {ErrorMode::kBiased, i == 50};
   const std::vector<HeldOutStretch> all =
-      HeldOutStretches(tape, 0, 10.0, {&changed});
+      HeldOutStretches({tape, 0}, 10.0, {&changed});
   ASSERT_GE(all.size(), 8u);
   EXPECT_EQ(all[0].begin, 45u);
   EXPECT_EQ(all[0].end, 55u);
@@ -104,7 +104,7 @@ TEST(HeldOutScore, PrefersABiasThatIsThereAndRefusesOneThatFitsNoise) {
   const LinearTape tape = TapeOf(problem);
   Hypothesis good = Biased(tape, 0, 0);
   for (const HeldOutDifference& d :
-       CompareHeldOut(tape, 0, Biased(tape, 50, 80), good)) {
+       CompareHeldOut({tape, 0}, Biased(tape, 50, 80), good)) {
     EXPECT_GT(d.log_density.mean, 0.0) << d.length;
     EXPECT_FALSE(d.Loses()) << d.length;
   }
@@ -116,7 +116,7 @@ TEST(HeldOutScore, PrefersABiasThatIsThereAndRefusesOneThatFitsNoise) {
   for (ErrorStep& step : absurd.sequence) step.velocity_step = true;
   const TestProblem healthy = PositionsOnly(120.0);
   const LinearTape clean = TapeOf(healthy);
-  for (const HeldOutDifference& d : CompareHeldOut(clean, 0, absurd, good)) {
+  for (const HeldOutDifference& d : CompareHeldOut({clean, 0}, absurd, good)) {
     EXPECT_TRUE(d.LosesDensity()) << d.length;
   }
 }

@@ -29,11 +29,11 @@ TEST(ModeSequence, ThatIsGoodIsTheKalmanFilterAndItsSmoother) {
       log_likelihood += z.log_likelihood;
     }
   }
-  const SequenceScore score = ScoreSequence(tape, 0, WithoutOutliers(), good);
+  const SequenceScore score = ScoreSequence({tape, 0}, WithoutOutliers(), good);
   EXPECT_NEAR(score.log_likelihood, log_likelihood,
               1e-6 * std::abs(log_likelihood));
   const ErrorTrajectory smoothed =
-      SmoothSequence(tape, 0, WithoutOutliers(), good);
+      SmoothSequence({tape, 0}, WithoutOutliers(), good);
   LinearTape copy = TapeOf(PositionsOnly(30.0));
   const SmoothedTrajectory rts = SmoothRts(std::move(copy));
   for (std::size_t k = 0; k < tape.size(); ++k) {
@@ -175,8 +175,9 @@ TEST(ModeSequence, FindsWhenABiasBeginsAndEnds) {
     fix.p_e += NedAxes(fix.p_e) * Eigen::Vector3d(8.0, -8.0, 0.0);
   }
   const LinearTape tape = TapeOf(problem);
-  const std::vector<Hypothesis> found = RefineHypotheses(
-      tape, 0, WithoutOutliers(), SearchHypotheses(tape, 0, WithoutOutliers()));
+  const std::vector<Hypothesis> found =
+      RefineHypotheses({tape, 0}, WithoutOutliers(),
+                       SearchHypotheses({tape, 0}, WithoutOutliers()));
   ModeSequence expected = Good(tape);
   for (std::size_t i = 20; i < 30; ++i) {
     expected[i] = {ErrorMode::kBiased, i == 20};
@@ -184,7 +185,7 @@ TEST(ModeSequence, FindsWhenABiasBeginsAndEnds) {
   EXPECT_EQ(found.front().sequence, expected);
   // Without the bias the sequence is next to impossible.
   const SequenceScore good =
-      ScoreSequence(tape, 0, WithoutOutliers(), Good(tape));
+      ScoreSequence({tape, 0}, WithoutOutliers(), Good(tape));
   EXPECT_LT(good.log_likelihood + good.log_prior,
             found.front().log_posterior - 100.0);
 }
@@ -200,9 +201,9 @@ TEST(ModeSequence, RemembersADriftThatNoSingleFixShows) {
   }
   const LinearTape tape = TapeOf(problem);
   const std::vector<Hypothesis> found =
-      SearchHypotheses(tape, 0, WithoutOutliers());
+      SearchHypotheses({tape, 0}, WithoutOutliers());
   EXPECT_EQ(found.front().sequence[40].mode, ErrorMode::kDrifting);
-  const ModeSequence best = ClimbSequences(tape, 0, WithoutOutliers(), found);
+  const ModeSequence best = ClimbSequences({tape, 0}, WithoutOutliers(), found);
   EXPECT_EQ(best[10].mode, ErrorMode::kGood);
   EXPECT_EQ(best[40].mode, ErrorMode::kDrifting);
   EXPECT_EQ(best[70].mode, ErrorMode::kGood);
@@ -234,15 +235,16 @@ TEST(ModeSequence, ASpikeBehindAGapIsToldByWhatComesAfter) {
   const ModeSequence good = Good(*gap.tape);
   ModeSequence right = good;
   right[gap.kFix].outlier = true;
-  const double log_right = ScoreSequence(*gap.tape, 0, p, right).log_likelihood;
+  const double log_right =
+      ScoreSequence({*gap.tape, 0}, p, right).log_likelihood;
   // Taken by its likelihood alone it is believed.
-  EXPECT_LT(ScoreSequence(*gap.tape, 0, p, good).log_likelihood,
+  EXPECT_LT(ScoreSequence({*gap.tape, 0}, p, good).log_likelihood,
             log_right - 10.0);
-  EXPECT_EQ(ClimbOutliers(*gap.tape, 0, p, good), right);
+  EXPECT_EQ(ClimbOutliers({*gap.tape, 0}, p, good), right);
   ModeSequence one_too_many = right;
   one_too_many[10].outlier = true;
-  EXPECT_EQ(ClimbOutliers(*gap.tape, 0, p, one_too_many), right);
-  const std::vector<Hypothesis> found = SearchHypotheses(*gap.tape, 0, p);
+  EXPECT_EQ(ClimbOutliers({*gap.tape, 0}, p, one_too_many), right);
+  const std::vector<Hypothesis> found = SearchHypotheses({*gap.tape, 0}, p);
   EXPECT_EQ(found.front().sequence, right);
 }
 

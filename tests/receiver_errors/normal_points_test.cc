@@ -38,7 +38,7 @@ TEST(NormalPoints, TellTheTrajectoryAsAllFixesDo) {
   EXPECT_EQ(points->point_of_fix.size(), 401u);
   const SmoothedTrajectory all = SmoothRts(tape);
   const ErrorTrajectory few =
-      SmoothSequence(points->tape, 0, WithoutOutliers(), Good(points->tape));
+      SmoothSequence({points->tape, 0}, WithoutOutliers(), Good(points->tape));
   for (std::size_t i = 0; i < 40; ++i) {
     const std::size_t k = 10 * i + 5;
     ASSERT_EQ(points->tape.epoch(i).t, tape.epoch(k).t);
@@ -121,7 +121,7 @@ TEST(ThinBetweenFixes, KeepsTheFixesAndTellsTheTrajectory) {
   ASSERT_TRUE(thinned.has_value());
   const SmoothedTrajectory all = SmoothRts(tape);
   const ErrorTrajectory few =
-      SmoothSequence(*thinned, 0, WithoutOutliers(), Good(*thinned));
+      SmoothSequence({*thinned, 0}, WithoutOutliers(), Good(*thinned));
   std::size_t fixes = 0;
   for (std::size_t i = 0; i < thinned->size(); ++i) {
     const auto k = static_cast<std::size_t>(std::lround(thinned->t(i) / 0.1));

@@ -28,7 +28,8 @@ class BetweenGaps : public ::testing::Test {
     for (std::size_t k = kLone + 1; k < 53; ++k) used[k] = 0;
     const LinearTape tape = TapeOf(problem, used);
     SearchEffort effort(1e9, nullptr);
-    const RegimeProblem of{tape, 0, 0.5, false, &effort};
+    const SensorTape seen(tape, 0);
+    const RegimeProblem of{seen, 0.5, false, &effort};
     return BestOutlierThatIsRight(of, {Good(tape)});
   }
 };
@@ -54,7 +55,8 @@ TEST(OtherTellings, AnOutlierAtAnEndOfARecordingWithoutGapsIsOne) {
            {0.0, 6.0, 0.0}, &problem);
   const LinearTape tape = TapeOf(problem);
   SearchEffort effort(1e9, nullptr);
-  const RegimeProblem of{tape, 0, 0.5, false, &effort};
+  const SensorTape seen(tape, 0);
+  const RegimeProblem of{seen, 0.5, false, &effort};
   EXPECT_TRUE(BestOutlierThatIsRight(of, {Good(tape)}).sequence.empty());
 }
 

@@ -642,7 +642,7 @@ TEST(ReceiverErrors, OfFastFixesExplainWhatAllOfThemSay) {
   }
   const Hypothesis& best = found.regimes.hypotheses.front();
   const double with_errors =
-      ScoreSequence(tape, 0, best.parameters, best.sequence).log_likelihood;
+      ScoreSequence({tape, 0}, best.parameters, best.sequence).log_likelihood;
   EXPECT_NEAR(found.gain, found.log_prior + with_errors - as_stated,
               1e-6 * found.gain);
   EXPECT_GT(std::abs(found.gain - found.choice.gain), 10.0);

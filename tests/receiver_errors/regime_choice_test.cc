@@ -41,7 +41,8 @@ auto Leaves(std::size_t index, double gain) {
 TEST(RegimeChoice, NeedsOddsOfAThousand) {
   const LinearTape tape = TapeOf(PositionsOnly(30.0));
   SearchEffort effort(1e9, nullptr);
-  const RegimeProblem problem{tape, 0, 0.5, false, &effort};
+  const SensorTape seen(tape, 0);
+  const RegimeProblem problem{seen, 0.5, false, &effort};
   for (const double gain : {6.8, 7.0}) {
     const RegimeChoice choice = ChooseRegime(
         problem,
@@ -53,7 +54,8 @@ TEST(RegimeChoice, NeedsOddsOfAThousand) {
 TEST(RegimeChoice, LeavesUndecidedWhatIsWithinOddsOfAThousandOfNoise) {
   const LinearTape tape = TapeOf(PositionsOnly(30.0));
   SearchEffort effort(1e9, nullptr);
-  const RegimeProblem problem{tape, 0, 0.5, false, &effort};
+  const SensorTape seen(tape, 0);
+  const RegimeProblem problem{seen, 0.5, false, &effort};
   const auto choose = [&](double white, double switching) {
     ErrorRegimes better = Regime(tape, Kind::kWhite, white);
     // As no batch is solved: it does not stand, but is a rival to what does.
@@ -71,7 +73,8 @@ TEST(RegimeChoice, LeavesUndecidedWhatIsWithinOddsOfAThousandOfNoise) {
 TEST(RegimeChoice, LeavesTheLikeliestOfEachKindUndecided) {
   const LinearTape tape = TapeOf(PositionsOnly(30.0));
   SearchEffort effort(1e9, nullptr);
-  const RegimeProblem problem{tape, 0, 0.5, false, &effort};
+  const SensorTape seen(tape, 0);
+  const RegimeProblem problem{seen, 0.5, false, &effort};
   EXPECT_THAT(ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
                                      Regime(tape, Kind::kGaussMarkov, -3.0),
                                      Regime(tape, Kind::kSwitching, -4.0),
@@ -82,9 +85,10 @@ TEST(RegimeChoice, LeavesTheLikeliestOfEachKindUndecided) {
 
 TEST(RegimeChoice, NeedsOddsOfAThousandBesideAnEstimatedClock) {
   const LinearTape tape = TapeOf(PositionsOnly(30.0));
+  const SensorTape seen(tape, 0);
   SearchEffort effort(1e9, nullptr);
   for (const bool has_clock : {false, true}) {
-    const RegimeProblem problem{.tape = tape,
+    const RegimeProblem problem{.tape = seen,
                                 .stated_sigma = 0.5,
                                 .effort = &effort,
                                 .has_clock = has_clock};
@@ -99,7 +103,8 @@ TEST(RegimeChoice, NeedsOddsOfAThousandBesideAnEstimatedClock) {
 TEST(RegimeChoice, RefusesAValueAtItsBoundWhateverTheEvidence) {
   const LinearTape tape = TapeOf(PositionsOnly(30.0));
   SearchEffort effort(1e9, nullptr);
-  const RegimeProblem problem{tape, 0, 0.5, false, &effort};
+  const SensorTape seen(tape, 0);
+  const RegimeProblem problem{seen, 0.5, false, &effort};
   ErrorRegimes white = Regime(tape, Kind::kWhite, 1000.0);
   white.hypotheses[0].parameters.scale = 0.1;
   const RegimeChoice choice =
@@ -112,12 +117,13 @@ TEST(RegimeChoice, RefusesAValueAtItsBoundWhateverTheEvidence) {
 /// A constraint may hold exactly, whatever its tolerance.
 TEST(RegimeChoice, AsksNothingOfTheLeastFactorOnATolerance) {
   const LinearTape tape = TapeOf(PositionsOnly(30.0));
+  const SensorTape seen(tape, 0);
   SearchEffort effort(1e9, nullptr);
   ErrorRegimes switching = Regime(tape, Kind::kSwitching, 1000.0);
   for (const double scale : {0.1, 100.0}) {
     switching.hypotheses[0].parameters.scale = scale;
     for (const bool is_tolerance : {false, true}) {
-      const RegimeProblem problem{.tape = tape,
+      const RegimeProblem problem{.tape = seen,
                                   .stated_sigma = 0.5,
                                   .effort = &effort,
                                   .is_tolerance = is_tolerance};
@@ -133,7 +139,8 @@ TEST(RegimeChoice, AsksNothingOfTheLeastFactorOnATolerance) {
 TEST(RegimeChoice, RefusesWhiteErrorsThatNoBatchIsSolvedWith) {
   const LinearTape tape = TapeOf(PositionsOnly(30.0));
   SearchEffort effort(1e9, nullptr);
-  const RegimeProblem problem{tape, 0, 0.5, false, &effort};
+  const SensorTape seen(tape, 0);
+  const RegimeProblem problem{seen, 0.5, false, &effort};
   ErrorRegimes white = Regime(tape, Kind::kWhite, 1000.0);
   white.hypotheses[0].parameters.scale = 0.5;
   const RegimeChoice choice =
@@ -153,7 +160,8 @@ TEST(FitNoise, OfFixesBetterThanStatedIsThereAsTheBatchIsSolvedWith) {
   }
   const LinearTape tape = TapeOf(test);
   SearchEffort effort(1e9, nullptr);
-  const RegimeProblem problem{tape, 0, 1.5, false, &effort};
+  const SensorTape seen(tape, 0);
+  const RegimeProblem problem{seen, 1.5, false, &effort};
   const std::vector<ErrorRegimes> all = FitNoise(problem);
   ASSERT_EQ(all.size(), 3u);
   EXPECT_LT(all[1].hypotheses[0].parameters.scale, 0.5);
@@ -170,8 +178,9 @@ TEST(FitNoise, DoesNotIntegrateWhatCannotStand) {
   const LinearTape tape = TapeOf(PositionsOnly(120.0));
   SearchEffort all_effort(1e9, nullptr);
   SearchEffort effort(1e9, nullptr);
-  const RegimeProblem all{tape, 0, 0.5, false, &all_effort};
-  const RegimeProblem noise{tape, 0, 0.5, true, &effort};
+  const SensorTape seen(tape, 0);
+  const RegimeProblem all{seen, 0.5, false, &all_effort};
+  const RegimeProblem noise{seen, 0.5, true, &effort};
   const std::vector<ErrorRegimes> integrated = FitNoise(all);
   const std::vector<ErrorRegimes> bounded = FitNoise(noise);
   ASSERT_LT(integrated[1].log_evidence - integrated[0].log_evidence,
@@ -186,7 +195,8 @@ TEST(FitNoise, DoesNotIntegrateWhatCannotStand) {
 TEST(RegimeChoice, RefusesWhatPredictsHeldOutStretchesWorse) {
   const LinearTape tape = TapeOf(PositionsOnly(90.0));
   SearchEffort effort(1e9, nullptr);
-  const RegimeProblem problem{tape, 0, 0.5, false, &effort};
+  const SensorTape seen(tape, 0);
+  const RegimeProblem problem{seen, 0.5, false, &effort};
   ErrorRegimes absurd = Regime(tape, Kind::kSwitching, 1000.0);
   absurd.hypotheses[0].parameters.scale = 0.12;
   absurd.hypotheses[0].parameters.rate_sigma = 1.0;
@@ -214,7 +224,8 @@ TEST(FindRegimes, OfAnEndedSearchAreWhatThereIsByThen) {
   const LinearTape tape = TapeOf(test);
   int calls = 0;
   SearchEffort effort(1e9, [&](double) { return ++calls < 5; });
-  const RegimeProblem problem{tape, 0, 0.5, false, &effort};
+  const SensorTape seen(tape, 0);
+  const RegimeProblem problem{seen, 0.5, false, &effort};
   const std::vector<ErrorRegimes> all = FitRegimes(problem);
   EXPECT_TRUE(effort.stopped());
   EXPECT_EQ(calls, 5);

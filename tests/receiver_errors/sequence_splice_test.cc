@@ -98,9 +98,9 @@ void ExpectSame(const SequenceScore& a, const SequenceScore& b,
 void ExpectScoresOfVariations(const LinearTape& tape, const ErrorParameters& p,
                               double tolerance, double base_tolerance = 1e-7) {
   const ModeSequence base = Base(FixCount(tape));
-  SequenceSplice splice(tape, 0, p, base);
-  ExpectSame(splice.Score(base), ScoreSequence(tape, 0, p, base),
-             base_tolerance);
+  const SensorTape seen(tape, 0);
+  SequenceSplice splice(seen, p, base);
+  ExpectSame(splice.Score(base), ScoreSequence(seen, p, base), base_tolerance);
   std::mt19937 random(2);
   for (int trial = 0; trial < 120; ++trial) {
     ModeSequence h = base;
@@ -109,7 +109,7 @@ void ExpectScoresOfVariations(const LinearTape& tape, const ErrorParameters& p,
     Redraw(begin, end, 0.3, &random, &h);
     SCOPED_TRACE(::testing::Message()
                  << "trial " << trial << ", from fix " << begin);
-    ExpectSame(splice.Score(h), ScoreSequence(tape, 0, p, h), tolerance);
+    ExpectSame(splice.Score(h), ScoreSequence(seen, p, h), tolerance);
   }
 }
 
@@ -138,17 +138,18 @@ TEST(SequenceSplice, TakesChangesAtTheFirstAndTheLastFix) {
   const LinearTape tape = MakeTape(243.0, 4, true);  // nodes after the last fix
   const ErrorParameters p = Parameters(1e-15);
   const ModeSequence base = Base(FixCount(tape));
-  SequenceSplice splice(tape, 0, p, base);
+  const SensorTape seen(tape, 0);
+  SequenceSplice splice(seen, p, base);
   for (const ErrorStep step : StepsAfter(ErrorMode::kGood)) {
     for (const std::size_t i : {std::size_t{0}, base.size() - 1}) {
       ModeSequence h = base;
       h[i] = step;
-      ExpectSame(splice.Score(h), ScoreSequence(tape, 0, p, h), 1e-6);
+      ExpectSame(splice.Score(h), ScoreSequence(seen, p, h), 1e-6);
     }
     ModeSequence both = base;
     both.front() = step;
     both.back() = step;
-    ExpectSame(splice.Score(both), ScoreSequence(tape, 0, p, both), 1e-6);
+    ExpectSame(splice.Score(both), ScoreSequence(seen, p, both), 1e-6);
   }
 }
 
@@ -156,13 +157,14 @@ TEST(SequenceSplice, MovesAChange) {
   const LinearTape tape = MakeTape(240.0, 4, true);
   const ErrorParameters p = Parameters(1e-15);
   const ModeSequence base = Base(FixCount(tape));
-  SequenceSplice splice(tape, 0, p, base);
+  const SensorTape seen(tape, 0);
+  SequenceSplice splice(seen, p, base);
   for (std::size_t begin = 7; begin < 24; ++begin) {
     ModeSequence h = base;
     for (std::size_t i = 7; i < 25; ++i) {
       h[i] = {i < begin ? ErrorMode::kGood : ErrorMode::kBiased, i == begin};
     }
-    ExpectSame(splice.Score(h), ScoreSequence(tape, 0, p, h), 1e-6);
+    ExpectSame(splice.Score(h), ScoreSequence(seen, p, h), 1e-6);
   }
 }
 

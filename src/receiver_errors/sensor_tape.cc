@@ -1,0 +1,82 @@
+#include "receiver_errors/sensor_tape.h"
+
+#include <algorithm>
+
+namespace hindsight {
+namespace {
+
+/// Of the error and its rate.
+constexpr int kErrorDim = 6;
+
+SparseCongruence Extended(const ErrorMatrix& Phi) {
+  const Eigen::Index n = Phi.rows();
+  ErrorMatrix whole = ErrorMatrix::Identity(n + kErrorDim, n + kErrorDim);
+  whole.topLeftCorner(n, n) = Phi;
+  return SparseCongruence(whole);
+}
+
+}  // namespace
+
+SensorTape::SensorTape(const LinearTape& tape, int sensor)
+    : tape_(tape), sensor_(sensor), nodes_(tape.size()) {
+  for (std::size_t k = 0; k < size(); ++k) {
+    nodes_[k].has_fix = hindsight::HasFix(tape, k, sensor);
+    fix_count_ += nodes_[k].has_fix ? 1 : 0;
+    if (k > 0) nodes_[k].over_interval = Extended(tape.Phi(k));
+  }
+  SetShares();
+  SetReaches();
+}
+
+void SensorTape::SetShares() {
+  constexpr std::size_t kLeast = 20;
+  std::vector<std::size_t> fixes;
+  for (std::size_t k = 0; k < size(); ++k) {
+    if (HasFix(k)) fixes.push_back(k);
+  }
+  if (fixes.empty()) return;
+  const double once = 1.0 / static_cast<double>(std::max(fixes.size(), kLeast));
+  nodes_[fixes.front()].share = once;
+  const double whole = t(fixes.back()) - t(fixes.front());
+  const double mean = whole / static_cast<double>(fixes.size() - 1);
+  for (std::size_t i = 1; i < fixes.size(); ++i) {
+    nodes_[fixes[i]].share = once * (t(fixes[i]) - t(fixes[i - 1])) / mean;
+  }
+}
+
+void SensorTape::SetReaches() {
+  const Block* position = tape_.layout().Find(BlockKind::kPosition);
+  if (position == nullptr || position->dim != 3) return;
+  const auto sees_position = [&](const TapeMeasurement& z) {
+    return z.accepted && !z.withheld &&
+           !z.H.middleCols(position->offset, 3).isZero(0.0);
+  };
+  double last = t(0);
+  for (std::size_t k = 0; k < size(); ++k) {
+    if (HasFix(k)) nodes_[k].reach = t(k) - last;
+    if (HasFix(k) ||
+        std::ranges::any_of(tape_.measurements(k), sees_position)) {
+      last = t(k);
+    }
+  }
+}
+
+bool HasFix(const LinearTape& tape, std::size_t k, int sensor) {
+  return std::ranges::any_of(
+      tape.measurements(k), [sensor](const TapeMeasurement& z) {
+        return z.sensor == sensor && z.accepted && !z.withheld;
+      });
+}
+
+int RowsOf(const LinearTape& tape, int sensor) {
+  int rows = 0;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      if (z.sensor != sensor) continue;
+      rows = std::max(rows, static_cast<int>(z.residual.size()));
+    }
+  }
+  return rows;
+}
+
+}  // namespace hindsight

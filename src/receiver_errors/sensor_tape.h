@@ -1,0 +1,66 @@
+#ifndef HINDSIGHT_RECEIVER_ERRORS_SENSOR_TAPE_H_
+#define HINDSIGHT_RECEIVER_ERRORS_SENSOR_TAPE_H_
+
+#include <cstddef>
+#include <vector>
+
+#include "filters/linear_tape.h"
+#include "linear/sparse_product.h"
+
+namespace hindsight {
+
+/// A tape on which errors (e, r) of one of its sensors are sought, three axes each: what
+/// every hypothesis meets alike at a node is prepared once, as a search passes over the
+/// nodes a thousand times.
+class SensorTape {
+ public:
+  /// The tape must outlive this.
+  SensorTape(const LinearTape& tape, int sensor);
+
+  const LinearTape& linear() const { return tape_; }
+  int sensor() const { return sensor_; }
+  std::size_t size() const { return nodes_.size(); }
+  int dim() const { return tape_.dim(); }
+  double t(std::size_t k) const { return tape_.t(k); }
+
+  /// Whether the node has a fix of the sensor that is used.
+  bool HasFix(std::size_t k) const { return nodes_[k].has_fix; }
+  std::size_t fix_count() const { return fix_count_; }
+  /// What the interval since the fix before is of the recording, 0 without a fix:
+  /// by the mean interval and the number of fixes, of which twenty are the least. A gap is
+  /// as many as it lacks.
+  double share(std::size_t k) const { return nodes_[k].share; }
+  /// Of a velocity step at a fix: back to the last node that saw the position, or had a
+  /// fix of the sensor [s].
+  double reach(std::size_t k) const { return nodes_[k].reach; }
+  /// With the transition of the interval that ends at node k >= 1, extended by e and r as
+  /// they are.
+  const SparseCongruence& OverInterval(std::size_t k) const {
+    return nodes_[k].over_interval;
+  }
+
+ private:
+  struct Node {
+    bool has_fix = false;
+    double share = 0.0;
+    double reach = 0.0;
+    SparseCongruence over_interval;
+  };
+
+  void SetShares();
+  void SetReaches();
+
+  const LinearTape& tape_;
+  int sensor_;
+  std::vector<Node> nodes_;
+  std::size_t fix_count_ = 0;
+};
+
+/// Whether the node has a fix of the sensor that is used.
+bool HasFix(const LinearTape& tape, std::size_t k, int sensor);
+/// The most rows that a measurement of the sensor has.
+int RowsOf(const LinearTape& tape, int sensor);
+
+}  // namespace hindsight
+
+#endif  // HINDSIGHT_RECEIVER_ERRORS_SENSOR_TAPE_H_
