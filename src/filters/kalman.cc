@@ -50,7 +50,8 @@ GainMatrix Update(const LinearizedMeasurement& z, const Innovation& innovation,
 void PredictCovariance(const ErrorMatrix& Phi, const ErrorMatrix& Q,
                        ErrorMatrix* P) {
   if (P->rows() > kDense) {
-    *P = Q + SparseCongruence(Phi)(*P);
+    SparseCongruence(Phi).ApplyCongruence(P);
+    *P += Q;
   } else {
     const ErrorMatrix PhiP = TimesTransposed(*P, Phi).transpose();
     *P = Q + TimesTransposed(PhiP, Phi);

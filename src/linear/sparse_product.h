@@ -49,48 +49,72 @@ typename Dense::PlainObject Times(const Eigen::MatrixBase<Dense>& A,
   return out;
 }
 
-/// S P S' of square matrices for one S of mostly zeros, whose elements are
-/// sought once, and many symmetric P, and S v.
+/// S P S' of square matrices for one S of mostly zeros, whose elements are sought once, and
+/// many symmetric P. Rows of S that are those of the identity, as of constants in a
+/// transition, cost nothing: what is neither of such rows nor of such columns is
+/// computed, the rest stays or is moved.
 class SparseCongruence {
  public:
   SparseCongruence() = default;
 
   template <typename Sparse>
-  explicit SparseCongruence(const Eigen::MatrixBase<Sparse>& S) {
-    ends_.reserve(static_cast<std::size_t>(S.rows()));
+  explicit SparseCongruence(const Eigen::MatrixBase<Sparse>& S)
+      : size_(S.rows()) {
     for (Eigen::Index i = 0; i < S.rows(); ++i) {
+      const std::size_t begin = elements_.size();
       for (Eigen::Index j = 0; j < S.cols(); ++j) {
         if (S(i, j) != 0.0) elements_.push_back({j, S(i, j)});
       }
+      const bool is_of_identity = elements_.size() == begin + 1 &&
+                                  elements_[begin].column == i &&
+                                  elements_[begin].value == 1.0;
+      if (is_of_identity) {
+        elements_.pop_back();
+        continue;
+      }
+      rows_.push_back(i);
       ends_.push_back(elements_.size());
     }
   }
 
-  /// S v.
+  /// S v in the place of v.
   template <typename Vector>
-  Vector Times(const Vector& v) const {
-    Vector out = Vector::Zero(v.size());
-    std::size_t e = 0;
-    for (std::size_t i = 0; i < ends_.size(); ++i) {
-      double& sum = out(static_cast<Eigen::Index>(i));
-      for (; e < ends_[i]; ++e)
-        sum += elements_[e].value * v(elements_[e].column);
+  void ApplyTo(Vector* v) const {
+    const Vector before = *v;
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      double sum = 0.0;
+      for (std::size_t e = BeginOf(r); e < ends_[r]; ++e) {
+        sum += elements_[e].value * before(elements_[e].column);
+      }
+      (*v)(rows_[r]) = sum;
     }
-    return out;
   }
 
-  /// S P S', symmetric to the last bit. P and the result are column-major.
+  /// S P S' in the place of P, symmetric to the last bit if P is. P is column-major.
   template <typename Matrix>
-  Matrix operator()(const Matrix& P) const {
-    Matrix PSt(P.rows(), P.cols());
-    AddUp(P, /*lower=*/false, &PSt);
+  void ApplyCongruence(Matrix* P) const {
+    const auto count = static_cast<Eigen::Index>(rows_.size());
+    Matrix PSt(size_, count);
+    AddUp(*P, 0, &PSt);
     const Matrix SP = PSt.transpose();
-    Matrix out(P.rows(), P.cols());
-    AddUp(SP, /*lower=*/true, &out);
-    for (Eigen::Index j = 1; j < out.cols(); ++j) {
-      out.col(j).head(j) = out.row(j).head(j).transpose();
+    Matrix both(count, count);
+    AddUp(SP, 1, &both);
+    for (Eigen::Index j = 0; j < size_; ++j) {
+      for (Eigen::Index r = 0; r < count; ++r) {
+        (*P)(rows_[static_cast<std::size_t>(r)], j) = SP(r, j);
+      }
     }
-    return out;
+    for (Eigen::Index r = 0; r < count; ++r) {
+      const Eigen::Index j = rows_[static_cast<std::size_t>(r)];
+      P->col(j) = PSt.col(r);
+    }
+    for (Eigen::Index r = 0; r < count; ++r) {
+      const Eigen::Index j = rows_[static_cast<std::size_t>(r)];
+      for (Eigen::Index s = r; s < count; ++s) {
+        const Eigen::Index i = rows_[static_cast<std::size_t>(s)];
+        (*P)(i, j) = (*P)(j, i) = both(s, r);
+      }
+    }
   }
 
  private:
@@ -99,13 +123,18 @@ class SparseCongruence {
     double value;
   };
 
-  /// out = A S', of which `lower` asks for no element above the diagonal.
+  std::size_t BeginOf(std::size_t row) const {
+    return row > 0 ? ends_[row - 1] : 0;
+  }
+
+  /// out = A S', of its rows that are not of the identity; of column j from row
+  /// `from` j on at the least.
   template <typename Matrix>
-  void AddUp(const Matrix& A, bool lower, Matrix* out) const {
+  void AddUp(const Matrix& A, Eigen::Index from, Matrix* out) const {
     constexpr Eigen::Index kStrip = 8;
     const Eigen::Index rows = A.rows();
-    for (Eigen::Index j = 0; j < rows; ++j) {
-      Eigen::Index i = lower ? j : 0;
+    for (Eigen::Index j = 0; j < out->cols(); ++j) {
+      Eigen::Index i = from * j;
       if (rows < kStrip) {
         for (; i < rows; ++i) AddUpStrip<1>(A, i, j, out);
         continue;
@@ -123,8 +152,7 @@ class SparseCongruence {
     using Strip = Eigen::Array<double, Rows, 1>;
     Strip sum = Strip::Zero();
     const auto row = static_cast<std::size_t>(j);
-    const std::size_t end = ends_[row];
-    for (std::size_t e = j > 0 ? ends_[row - 1] : 0; e < end; ++e) {
+    for (std::size_t e = BeginOf(row); e < ends_[row]; ++e) {
       const double* column =
           A.data() + elements_[e].column * A.outerStride() + first;
       sum += elements_[e].value * Eigen::Map<const Strip>(column);
@@ -132,8 +160,10 @@ class SparseCongruence {
     Eigen::Map<Strip>(out->data() + j * out->outerStride() + first) = sum;
   }
 
-  std::vector<Element> elements_;  ///< row by row
-  std::vector<std::size_t> ends_;  ///< of each row in elements_
+  Eigen::Index size_ = 0;
+  std::vector<Eigen::Index> rows_;  ///< that are not of the identity
+  std::vector<Element> elements_;   ///< of these, row by row
+  std::vector<std::size_t> ends_;   ///< of each of them in elements_
 };
 
 }  // namespace hindsight

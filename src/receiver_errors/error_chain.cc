@@ -142,9 +142,9 @@ void ErrorChain::PredictNavigation(Gaussian* x) const {
   if (k_ == 0) return;
   const int n = navigation_dim_;
   const SparseCongruence& over_interval = tape_.OverInterval(k_);
-  x->mean = over_interval.Times(x->mean);
+  over_interval.ApplyTo(&x->mean);
   x->mean.head(n) += c_n_;
-  x->P = over_interval(x->P);
+  over_interval.ApplyCongruence(&x->P);
   x->P.topLeftCorner(n, n) += Q_n_;
 }
 

@@ -14,17 +14,26 @@ TEST(SparseProduct, EqualsTheDenseOne) {
   EXPECT_LT((Times(B, S) - B * S).norm(), 1e-14);
 }
 
-// Sizes about the strips of eight rows: less, whole, some over, one over.
+// Sizes about the strips of eight rows: less, whole, some over, one over; rows of zeros
+// and of the identity among others.
 TEST(SparseProduct, CongruenceEqualsTheDenseOne) {
   for (const Eigen::Index n : {1, 5, 8, 11, 16, 17, 21}) {
     Eigen::MatrixXd S = Eigen::MatrixXd::Random(n, n);
     for (Eigen::Index i = 0; i < S.size(); i += 3) S(i) = 0.0;
     if (n > 2) S.row(2).setZero();
+    for (const Eigen::Index i : {1, 4, 15}) {
+      if (i < n) S.row(i) = Eigen::RowVectorXd::Unit(n, i);
+    }
     const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n);
     const Eigen::MatrixXd P = A * A.transpose();
-    const Eigen::MatrixXd out = SparseCongruence(S)(P);
+    const SparseCongruence congruence(S);
+    Eigen::MatrixXd out = P;
+    congruence.ApplyCongruence(&out);
     EXPECT_LT((out - S * P * S.transpose()).norm(), 1e-12) << n;
     EXPECT_EQ(out, out.transpose()) << n;
+    Eigen::VectorXd v = A.col(0);
+    congruence.ApplyTo(&v);
+    EXPECT_LT((v - S * A.col(0)).norm(), 1e-14) << n;
   }
 }
 
