@@ -71,6 +71,14 @@ ErrorChain::ErrorChain(const SensorTape& tape,
   const Block* velocity = layout.Find(BlockKind::kVelocity);
   const Block* own = OwnFieldOf(layout, tape.sensor());
   if (own != nullptr) own_field_ = own->offset;
+  for (const Eigen::Index i : tape.noisy()) {
+    const bool is_navigation =
+        std::ranges::any_of(layout.blocks(), [i](const Block& block) {
+          return IsNavigation(block.key.kind) && i >= block.offset &&
+                 i < block.offset + block.dim;
+        });
+    noise_scale_.push_back(is_navigation ? parameters.imu_scale : 1.0);
+  }
   if (position == nullptr || velocity == nullptr) return;
   if (position->dim == 3 && velocity->dim == 3) {
     position_ = position->offset;
@@ -90,31 +98,16 @@ void ErrorChain::MoveTo(std::size_t k) {
   k_ = k;
   dt_ = k > 0 ? tape_.t(k) - tape_.t(k - 1) : 0.0;
   c_n_ = tape_.linear().c(k);
-  if (k > 0) {
-    Q_n_ = tape_.linear().Q(k);
-    if (parameters_.imu_scale != 1.0) ScaleImuNoise();
-  }
   z_.clear();
-  fix_ = -1;
-  for (const TapeMeasurement& z : tape_.linear().measurements(k)) {
-    if (!z.accepted || z.withheld) continue;
-    // The fix comes first: its likelihood is taken before any update.
-    const bool is_fix = z.sensor == tape_.sensor() && fix_ < 0;
-    if (is_fix) fix_ = 0;
-    LinearizedMeasurement& wide = *z_.emplace(is_fix ? z_.begin() : z_.end());
-    wide.residual = z.residual;
-    wide.R = z.R;
-    wide.H = RowJacobian::Zero(z.H.rows(), dim());
-    wide.H.leftCols(navigation_dim_) = z.H;
-    if (z.sensor != tape_.sensor()) continue;
-    auto by_error = wide.H.middleCols(navigation_dim_, 3);
-    if (own_field_ < 0) {
-      by_error.setIdentity();
-    } else {
-      by_error = z.H.middleCols(own_field_, 3);
-    }
-    wide.R.diagonal().array() += kLeastSigma * kLeastSigma;
-    wide.R *= parameters_.scale * parameters_.scale;
+  const auto all = tape_.linear().measurements(k);
+  // The fix comes first: its likelihood is taken before any update.
+  const auto fix = std::ranges::find_if(all, [this](const auto& z) {
+    return z.accepted && !z.withheld && z.sensor == tape_.sensor();
+  });
+  fix_ = fix == all.end() ? -1 : 0;
+  if (fix_ == 0) Take(*fix);
+  for (auto z = all.begin(); z != all.end(); ++z) {
+    if (z != fix && z->accepted && !z->withheld) Take(*z);
   }
   if (fix_ < 0) return;
   constexpr double kAddsNothing = 0.5 / kPi;
@@ -129,23 +122,30 @@ void ErrorChain::MoveTo(std::size_t k) {
   R_out_.topLeftCorner(rows_, rows_) = ratio * ratio * R;
 }
 
-void ErrorChain::ScaleImuNoise() {
-  ErrorVector scale = ErrorVector::Ones(navigation_dim_);
-  for (const Block& block : tape_.linear().layout().blocks()) {
-    if (!IsNavigation(block.key.kind)) continue;
-    scale.segment(block.offset, block.dim).setConstant(parameters_.imu_scale);
+void ErrorChain::Take(const TapeMeasurement& z) {
+  LinearizedMeasurement& wide = z_.emplace_back();
+  wide.residual = z.residual;
+  wide.R = z.R;
+  wide.H = RowJacobian::Zero(z.H.rows(), dim());
+  wide.H.leftCols(navigation_dim_) = z.H;
+  if (z.sensor != tape_.sensor()) return;
+  auto by_error = wide.H.middleCols(navigation_dim_, 3);
+  if (own_field_ < 0) {
+    by_error.setIdentity();
+  } else {
+    by_error = z.H.middleCols(own_field_, 3);
   }
-  Q_n_ = (scale.asDiagonal() * Q_n_ * scale.asDiagonal()).eval();
+  wide.R.diagonal().array() += kLeastSigma * kLeastSigma;
+  wide.R *= parameters_.scale * parameters_.scale;
 }
 
 void ErrorChain::PredictNavigation(Gaussian* x) const {
   if (k_ == 0) return;
-  const int n = navigation_dim_;
   const SparseCongruence& over_interval = tape_.OverInterval(k_);
   over_interval.ApplyTo(&x->mean);
-  x->mean.head(n) += c_n_;
+  x->mean.head(navigation_dim_) += c_n_;
   over_interval.ApplyCongruence(&x->P);
-  x->P.topLeftCorner(n, n) += Q_n_;
+  AddNavigationNoise(&x->P);
 }
 
 void ErrorChain::PredictError(ErrorStep step, Gaussian* x) const {

@@ -100,7 +100,9 @@ class ErrorChain {
   FixLikelihood Likelihood(const ErrorDynamics& d, bool outlier,
                            const FixView& view) const;
 
-  void ScaleImuNoise();
+  /// Adds a measurement of the node over (navigation, e, r).
+  void Take(const TapeMeasurement& z);
+  void AddNavigationNoise(ErrorMatrix* P) const;
   void AddVelocityStep(double variance, ErrorMatrix* P) const;
 
   const SensorTape& tape_;
@@ -108,9 +110,9 @@ class ErrorChain {
   int navigation_dim_;
   int position_ = -1;  ///< offsets, or -1 if an axis is masked
   int velocity_ = -1;
-  int own_field_ = -1;  ///< of the sensor's hard iron, or -1
+  int own_field_ = -1;               ///< of the sensor's hard iron, or -1
+  std::vector<double> noise_scale_;  ///< of SensorTape::noisy
   std::size_t k_ = 0;
-  ErrorMatrix Q_n_;
   ErrorVector c_n_;
   double dt_ = 0.0;
   int fix_ = -1;                  ///< index in z_

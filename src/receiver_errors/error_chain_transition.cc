@@ -20,6 +20,17 @@ void FillErrorQ(const ErrorDynamics& d, int n, ErrorMatrix* Q) {
 
 }  // namespace
 
+void ErrorChain::AddNavigationNoise(ErrorMatrix* P) const {
+  const std::vector<Eigen::Index>& noisy = tape_.noisy();
+  const auto Q = tape_.Noise(k_);
+  for (std::size_t j = 0; j < noisy.size(); ++j) {
+    const double* column = Q.data() + j * noisy.size();
+    for (std::size_t i = 0; i < noisy.size(); ++i) {
+      (*P)(noisy[i], noisy[j]) += noise_scale_[i] * column[i] * noise_scale_[j];
+    }
+  }
+}
+
 void ErrorChain::AddVelocityStep(double variance, ErrorMatrix* P) const {
   if (velocity_ < 0) return;
   const double reach = tape_.reach(k_);
@@ -57,7 +68,7 @@ ErrorMatrix ErrorChain::Q(ErrorStep step) const {
   const int n = navigation_dim_;
   const ErrorDynamics d = DynamicsOf(parameters_, step, dt_);
   ErrorMatrix Q = ErrorMatrix::Zero(dim(), dim());
-  Q.topLeftCorner(n, n) = Q_n_;
+  AddNavigationNoise(&Q);
   FillErrorQ(d, n, &Q);
   AddVelocityStep(d.q_vv, &Q);
   return Q;

@@ -26,6 +26,7 @@ SensorTape::SensorTape(const LinearTape& tape, int sensor)
   }
   SetShares();
   SetReaches();
+  SetNoise();
 }
 
 void SensorTape::SetShares() {
@@ -58,6 +59,20 @@ void SensorTape::SetReaches() {
         std::ranges::any_of(tape_.measurements(k), sees_position)) {
       last = t(k);
     }
+  }
+}
+
+void SensorTape::SetNoise() {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(dim());
+  for (std::size_t k = 1; k < size(); ++k) sum += tape_.Q(k).diagonal();
+  for (Eigen::Index i = 0; i < sum.size(); ++i) {
+    if (sum(i) > 0.0) noisy_.push_back(i);
+  }
+  noise_.assign(size() * noisy_.size() * noisy_.size(), 0.0);
+  double* to = noise_.data() + noisy_.size() * noisy_.size();
+  for (std::size_t k = 1; k < size(); ++k) {
+    const ErrorMatrix Q = tape_.Q(k)(noisy_, noisy_);
+    to = std::copy(Q.data(), Q.data() + Q.size(), to);
   }
 }
 

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_RECEIVER_ERRORS_SENSOR_TAPE_H_
 #define HINDSIGHT_RECEIVER_ERRORS_SENSOR_TAPE_H_
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -38,6 +39,13 @@ class SensorTape {
   const SparseCongruence& OverInterval(std::size_t k) const {
     return nodes_[k].over_interval;
   }
+  /// Components of the tape's errors that have any process noise at all.
+  const std::vector<Eigen::Index>& noisy() const { return noisy_; }
+  /// Process noise of that interval, of these components.
+  Eigen::Map<const Eigen::MatrixXd> Noise(std::size_t k) const {
+    const auto count = static_cast<Eigen::Index>(noisy_.size());
+    return {noise_.data() + k * noisy_.size() * noisy_.size(), count, count};
+  }
 
  private:
   struct Node {
@@ -49,10 +57,13 @@ class SensorTape {
 
   void SetShares();
   void SetReaches();
+  void SetNoise();
 
   const LinearTape& tape_;
   int sensor_;
   std::vector<Node> nodes_;
+  std::vector<Eigen::Index> noisy_;
+  std::vector<double> noise_;
   std::size_t fix_count_ = 0;
 };
 
