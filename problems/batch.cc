@@ -73,7 +73,8 @@ bool AnySummaryIsStale(const Problem& problem,
 /// an arc, and the way that only descends follows it in steps of metres. True, and
 /// Ceres can be left out, if that ends within a rough step at a cost below the
 /// start's: `next` is the step from there. Else the values are those of the start
-/// again.
+/// again. Where steps with losses become no smaller, but are such as would be the last
+/// without, rounding is what is left: whether that is converged the last steps tell.
 bool SettlesByNewton(const BatchOptions& options,
                      const std::vector<State>& start,
                      IterationProgress* progress, ChainProblem* chain,
@@ -99,6 +100,11 @@ bool SettlesByNewton(const BatchOptions& options,
     const double size = chain->StepSize(*step);
     const bool contracts = size < kContraction * std::max(before, earlier);
     if (!contracts && !descends) {
+      if (has_loss && part < 1.0 && size < kLastNewtonStep) {
+        sweep->converged = false;
+        sweep->iterations += i - 1;
+        return true;
+      }
       if (!has_loss || part < 1.0) break;
       part = kPart;
     }
