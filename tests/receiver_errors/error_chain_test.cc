@@ -57,6 +57,41 @@ TEST(ErrorChain, SharesARecordingBetweenItsFixes) {
   EXPECT_NEAR(share(0), 1.0 / count, 1e-12);
 }
 
+/// Of each mode, with an IMU worse than stated, over random covariances.
+TEST(ErrorChain, PredictsAsItsTransitionSays) {
+  TestProblemOptions options;
+  options.noise = testing::TacticalNoise(true);
+  options.layout = testing::TypicalLayout(options.noise);
+  options.errors = true;
+  options.duration = 5.0;
+  const LinearTape tape = TapeOf(testing::MakeProblem(options, 3));
+  const SensorTape seen(tape, 0);
+  ErrorParameters p = WithoutOutliers();
+  p.imu_scale = 3.0;
+  p.rate_sigma = 0.3;
+  ErrorChain chain(seen, p);
+  const int n = chain.dim();
+  ASSERT_GT(n, 16 + 6);
+  for (std::size_t k = 1; k < seen.size(); ++k) {
+    chain.MoveTo(k);
+    for (const ErrorStep step :
+         {kStayGood, kStepVelocity, ErrorStep{ErrorMode::kBiased},
+          ErrorStep{ErrorMode::kDrifting, true},
+          ErrorStep{ErrorMode::kDrifting}}) {
+      const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n);
+      const Gaussian before{A.col(0), A * A.transpose()};
+      Gaussian after = before;
+      chain.PredictNavigation(&after);
+      chain.PredictError(step, &after);
+      const ErrorMatrix Phi = chain.Phi(step);
+      const ErrorVector mean = Phi * before.mean + chain.Defect();
+      const ErrorMatrix P = Phi * before.P * Phi.transpose() + chain.Q(step);
+      EXPECT_LT((after.mean - mean).norm(), 1e-12 * mean.norm());
+      EXPECT_LT((after.P - P).norm(), 1e-12 * P.norm());
+    }
+  }
+}
+
 /// A step of the velocity behind a gap is one at its begin.
 TEST(ErrorChain, StepsOfTheVelocityReachOverAGap) {
   constexpr std::size_t kBegin = 15;
