@@ -265,7 +265,11 @@ ErrorVector LinearTape::c(std::size_t k) const {
 }
 
 ErrorMatrix LinearTape::Q(std::size_t k) const {
-  return Unpack(Held(k).data + 2 * TriangleSize());
+  return Unpack(PackedQ(k).data);
+}
+
+PackedSymmetric LinearTape::PackedQ(std::size_t k) const {
+  return {Held(k).data + 2 * TriangleSize(), dim()};
 }
 
 ErrorMatrix LinearTape::P_minus(std::size_t k) const {

@@ -50,6 +50,17 @@ struct TapeEpoch {
                          ///< x_plus, where the mean is then zero
 };
 
+/// A symmetric matrix of n rows, of which the lower triangle is there, column by column.
+struct PackedSymmetric {
+  /// Elements (j, j) to (n - 1, j).
+  const double* Column(Eigen::Index j) const {
+    return data + j * n - j * (j - 1) / 2;
+  }
+
+  const double* data = nullptr;
+  Eigen::Index n = 0;
+};
+
 /// A linear-Gaussian system about a recorded nominal trajectory:
 ///   d-(k+1)  = Phi d+(k) + c + w,  w ~ (0, Q),
 ///   residual = H d + v,            v ~ (0, R).
@@ -112,6 +123,7 @@ class LinearTape {
   /// Transition and noise of the interval that ends at epoch k >= 1.
   ErrorMatrix Phi(std::size_t k) const;
   ErrorMatrix Q(std::size_t k) const;
+  PackedSymmetric PackedQ(std::size_t k) const;
   ErrorMatrix P_minus(std::size_t k) const;
   ErrorMatrix P_plus(std::size_t k) const;
 

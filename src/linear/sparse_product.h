@@ -52,14 +52,14 @@ typename Dense::PlainObject Times(const Eigen::MatrixBase<Dense>& A,
 /// S P S' of square matrices for one S of mostly zeros, whose elements are sought once, and
 /// many symmetric P. Rows of S that are those of the identity, as of constants in a
 /// transition, cost nothing: what is neither of such rows nor of such columns is
-/// computed, the rest stays or is moved.
+/// computed, the rest stays or is moved. P may be larger than S: rows that S has not are
+/// those of the identity.
 class SparseCongruence {
  public:
   SparseCongruence() = default;
 
   template <typename Sparse>
-  explicit SparseCongruence(const Eigen::MatrixBase<Sparse>& S)
-      : size_(S.rows()) {
+  explicit SparseCongruence(const Eigen::MatrixBase<Sparse>& S) {
     for (Eigen::Index i = 0; i < S.rows(); ++i) {
       const std::size_t begin = elements_.size();
       for (Eigen::Index j = 0; j < S.cols(); ++j) {
@@ -94,12 +94,12 @@ class SparseCongruence {
   template <typename Matrix>
   void ApplyCongruence(Matrix* P) const {
     const auto count = static_cast<Eigen::Index>(rows_.size());
-    Matrix PSt(size_, count);
+    Matrix PSt(P->rows(), count);
     AddUp(*P, 0, &PSt);
     const Matrix SP = PSt.transpose();
     Matrix both(count, count);
     AddUp(SP, 1, &both);
-    for (Eigen::Index j = 0; j < size_; ++j) {
+    for (Eigen::Index j = 0; j < P->cols(); ++j) {
       for (Eigen::Index r = 0; r < count; ++r) {
         (*P)(rows_[static_cast<std::size_t>(r)], j) = SP(r, j);
       }
@@ -160,7 +160,6 @@ class SparseCongruence {
     Eigen::Map<Strip>(out->data() + j * out->outerStride() + first) = sum;
   }
 
-  Eigen::Index size_ = 0;
   std::vector<Eigen::Index> rows_;  ///< that are not of the identity
   std::vector<Element> elements_;   ///< of these, row by row
   std::vector<std::size_t> ends_;   ///< of each of them in elements_

@@ -22,11 +22,15 @@ void FillErrorQ(const ErrorDynamics& d, int n, ErrorMatrix* Q) {
 
 void ErrorChain::AddNavigationNoise(ErrorMatrix* P) const {
   const std::vector<Eigen::Index>& noisy = tape_.noisy();
-  const auto Q = tape_.Noise(k_);
-  for (std::size_t j = 0; j < noisy.size(); ++j) {
-    const double* column = Q.data() + j * noisy.size();
-    for (std::size_t i = 0; i < noisy.size(); ++i) {
-      (*P)(noisy[i], noisy[j]) += noise_scale_[i] * column[i] * noise_scale_[j];
+  const PackedSymmetric Q = tape_.linear().PackedQ(k_);
+  for (std::size_t a = 0; a < noisy.size(); ++a) {
+    const Eigen::Index j = noisy[a];
+    const double* column = Q.Column(j);
+    for (std::size_t b = a; b < noisy.size(); ++b) {
+      const Eigen::Index i = noisy[b];
+      const double q = noise_scale_[b] * column[i - j] * noise_scale_[a];
+      (*P)(i, j) += q;
+      if (i != j) (*P)(j, i) += q;
     }
   }
 }

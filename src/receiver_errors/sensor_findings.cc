@@ -19,14 +19,14 @@ namespace {
 
 /// What a filter step of so many states takes, by one of a position, velocity,
 /// attitude, the IMU's biases and scale factors and an error with its rate.
-double CostOfStep(const LinearTape& tape) {
+double CostOfStep(const SensorTape& tape) {
   constexpr double kUsual = 27.0;
   const double states = tape.dim() + 6;
   return std::max(1.0, states * states / (kUsual * kUsual));
 }
 
 /// Filter steps of a search; of long tapes so many a node.
-double MostEffort(const LinearTape& tape) {
+double MostEffort(const SensorTape& tape) {
   constexpr double kAtLeast = 2.4e6;
   constexpr double kPerNode = 400.0;
   return std::max(kAtLeast, kPerNode * static_cast<double>(tape.size())) /
@@ -34,7 +34,7 @@ double MostEffort(const LinearTape& tape) {
 }
 
 /// As MostEffort, of the refinement at all fixes.
-double RefinementEffort(const LinearTape& tape) {
+double RefinementEffort(const SensorTape& tape) {
   constexpr double kAtLeast = 3e5;
   constexpr double kPerNode = 60.0;
   return std::max(kAtLeast, kPerNode * static_cast<double>(tape.size())) /
@@ -67,15 +67,19 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
   const std::optional<NormalPoints> points =
       FormNormalPoints(tape, sensor, IntervalOf(problem, linear, index));
   const std::optional<LinearTape> thinned = ThinBetweenFixes(tape, sensor);
-  const LinearTape& fixes = thinned ? *thinned : tape;
-  const LinearTape& searched = points ? points->tape : fixes;
-  const SensorTape seen(searched, sensor);
+  const SensorTape whole(tape, sensor);
+  std::optional<SensorTape> apart;
+  if (thinned) apart.emplace(*thinned, sensor);
+  const SensorTape& fixes = apart ? *apart : whole;
+  std::optional<SensorTape> averaged;
+  if (points) averaged.emplace(points->tape, sensor);
+  const SensorTape& searched = averaged ? *averaged : fixes;
   const double most = MostEffort(searched);
   SearchEffort effort(limits.share * most, [&limits](double fraction) {
     return !limits.go_on || limits.go_on(kSearch * fraction);
   });
   const RegimeProblem regime{
-      .tape = seen,
+      .tape = searched,
       .stated_sigma = stated_sigma,
       .effort = &effort,
       .has_gauss_markov = problem.layout.Has(BlockKind::kColouredNoise, sensor),
@@ -114,47 +118,46 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
     regimes = WithAlternatives(std::move(all), choice.chosen);
   }
   // Averages may be likelier with what all measurements are not.
-  if (stands() && !WinsOnTape(regime.has_clock)) {
-    RefuseOnTape();
+  if (stands() && !Wins(whole, regime.has_clock)) {
+    Refuse(whole);
     ChooseNoise(fixes, &rest);
   }
-  if (stands() && !WinsOnTape(regime.has_clock)) {
-    RefuseOnTape();
+  if (stands() && !Wins(whole, regime.has_clock)) {
+    Refuse(whole);
     Withdraw();
   }
   stopped |= rest.stopped();
-  if (stands()) gain = GainOnTape();
-  WeighAlternatives();
+  if (stands()) gain = GainOn(whole);
+  WeighAlternatives(whole);
 }
 
 SensorFindings::SensorFindings(const ErrorDecisions& decisions,
                                const LinearTape& linear)
     : ErrorDecisions(decisions), tape(linear) {
-  WeighAlternatives();
+  WeighAlternatives(SensorTape(tape, sensor));
 }
 
-double SensorFindings::GainOnTape() const {
+double SensorFindings::GainOn(const SensorTape& whole) const {
   const Hypothesis& best = regimes.hypotheses.front();
   ErrorParameters stated;
   stated.outlier_share = 0.0;
-  const SensorTape whole(tape, sensor);
   return log_prior +
          ScoreSequence(whole, best.parameters, best.sequence).log_likelihood -
          ScoreSequence(whole, stated, ModeSequence(best.sequence.size()))
              .log_likelihood;
 }
 
-bool SensorFindings::WinsOnTape(bool has_clock) const {
+bool SensorFindings::Wins(const SensorTape& whole, bool has_clock) const {
   const double least =
       switching() && !has_clock ? kLeastGainOfSwitching : kLeastGain;
-  return GainOnTape() >= least;
+  return GainOn(whole) >= least;
 }
 
-void SensorFindings::RefuseOnTape() {
+void SensorFindings::Refuse(const SensorTape& whole) {
   choice.refused.push_back(fmt::format(
       "{} errors do not stand: on all measurements they win by {:.2g} over "
       "errors as stated [ln of the evidence]",
-      RegimeName(regimes.kind), GainOnTape()));
+      RegimeName(regimes.kind), GainOn(whole)));
 }
 
 void SensorFindings::Withdraw() {
@@ -169,9 +172,9 @@ void SensorFindings::Withdraw() {
   other_errs = 0.0;
 }
 
-void SensorFindings::WeighAlternatives() {
+void SensorFindings::WeighAlternatives(const SensorTape& whole) {
   if (!stands()) return;
-  alternatives = WeighHypotheses(SensorTape(tape, sensor), regimes);
+  alternatives = WeighHypotheses(whole, regimes);
   central = MostCentral(alternatives);
   AddExchanged();
 }
@@ -199,10 +202,9 @@ void SensorFindings::AddExchanged() {
   alternatives.push_back(*std::move(exchanged));
 }
 
-void SensorFindings::ChooseNoise(const LinearTape& fixes,
+void SensorFindings::ChooseNoise(const SensorTape& fixes,
                                  SearchEffort* effort) {
-  const SensorTape seen(fixes, sensor);
-  const RegimeProblem noise{seen, stated_sigma, true, effort};
+  const RegimeProblem noise{fixes, stated_sigma, true, effort};
   std::vector<ErrorRegimes> all = FitNoise(noise);
   RegimeChoice of_noise = ChooseRegime(noise, all);
   choice.chosen = of_noise.chosen;
@@ -214,12 +216,11 @@ void SensorFindings::ChooseNoise(const LinearTape& fixes,
                      : ErrorRegimes();
 }
 
-void SensorFindings::Refine(const LinearTape& fixes, const NormalPoints& points,
+void SensorFindings::Refine(const SensorTape& fixes, const NormalPoints& points,
                             std::vector<ErrorRegimes> found,
                             SearchEffort* effort) {
   constexpr double kFarBehind = 12.0;  // ln
-  const SensorTape seen(fixes, sensor);
-  const RegimeProblem problem{seen, stated_sigma, false, effort};
+  const RegimeProblem problem{fixes, stated_sigma, false, effort};
   const ErrorRegimes& best = found[choice.chosen];
   std::vector<ErrorRegimes> all = {RefineAtFixes(problem, points, best)};
   for (std::size_t i = 0; i < found.size(); ++i) {

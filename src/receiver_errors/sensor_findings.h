@@ -79,24 +79,24 @@ struct SensorFindings : ErrorDecisions {
   WeighedHypothesis Smooth(const ErrorParameters& parameters,
                            const ModeSequence& sequence) const;
   /// What was found on normal points, at all fixes, on a tape that holds them.
-  void Refine(const LinearTape& fixes, const NormalPoints& points,
+  void Refine(const SensorTape& fixes, const NormalPoints& points,
               std::vector<ErrorRegimes> found, SearchEffort* effort);
   /// The noise of all fixes, where normal points show no errors: outliers among
   /// fixes are not in them.
-  void ChooseNoise(const LinearTape& fixes, SearchEffort* effort);
+  void ChooseNoise(const SensorTape& fixes, SearchEffort* effort);
 
-  /// ErrorDecisions::gain of what stands.
-  double GainOnTape() const;
+  /// ErrorDecisions::gain of what stands; of all these `whole` is of `tape`.
+  double GainOn(const SensorTape& whole) const;
   /// Whether that is what RegimeChoice asks of it.
-  bool WinsOnTape(bool has_clock) const;
+  bool Wins(const SensorTape& whole, bool has_clock) const;
   /// Says in RegimeChoice::refused that it is not.
-  void RefuseOnTape();
+  void Refuse(const SensorTape& whole);
 
   /// Takes back what stands, but not what was refused.
   void Withdraw();
 
   /// Smooths the hypotheses of the regimes, if they stand, about the tape.
-  void WeighAlternatives();
+  void WeighAlternatives(const SensorTape& whole);
   /// Where good and erroneous fixes may be the other way about, beside the chosen
   /// hypothesis the one with them exchanged.
   void AddExchanged();

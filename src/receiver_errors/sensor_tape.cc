@@ -3,30 +3,16 @@
 #include <algorithm>
 
 namespace hindsight {
-namespace {
-
-/// Of the error and its rate.
-constexpr int kErrorDim = 6;
-
-SparseCongruence Extended(const ErrorMatrix& Phi) {
-  const Eigen::Index n = Phi.rows();
-  ErrorMatrix whole = ErrorMatrix::Identity(n + kErrorDim, n + kErrorDim);
-  whole.topLeftCorner(n, n) = Phi;
-  return SparseCongruence(whole);
-}
-
-}  // namespace
-
 SensorTape::SensorTape(const LinearTape& tape, int sensor)
     : tape_(tape), sensor_(sensor), nodes_(tape.size()) {
   for (std::size_t k = 0; k < size(); ++k) {
     nodes_[k].has_fix = hindsight::HasFix(tape, k, sensor);
     fix_count_ += nodes_[k].has_fix ? 1 : 0;
-    if (k > 0) nodes_[k].over_interval = Extended(tape.Phi(k));
+    if (k > 0) nodes_[k].over_interval = SparseCongruence(tape.Phi(k));
   }
   SetShares();
   SetReaches();
-  SetNoise();
+  SetNoisy();
 }
 
 void SensorTape::SetShares() {
@@ -62,17 +48,14 @@ void SensorTape::SetReaches() {
   }
 }
 
-void SensorTape::SetNoise() {
+void SensorTape::SetNoisy() {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(dim());
-  for (std::size_t k = 1; k < size(); ++k) sum += tape_.Q(k).diagonal();
+  for (std::size_t k = 1; k < size(); ++k) {
+    const PackedSymmetric Q = tape_.PackedQ(k);
+    for (Eigen::Index i = 0; i < Q.n; ++i) sum(i) += *Q.Column(i);
+  }
   for (Eigen::Index i = 0; i < sum.size(); ++i) {
     if (sum(i) > 0.0) noisy_.push_back(i);
-  }
-  noise_.assign(size() * noisy_.size() * noisy_.size(), 0.0);
-  double* to = noise_.data() + noisy_.size() * noisy_.size();
-  for (std::size_t k = 1; k < size(); ++k) {
-    const ErrorMatrix Q = tape_.Q(k)(noisy_, noisy_);
-    to = std::copy(Q.data(), Q.data() + Q.size(), to);
   }
 }
 

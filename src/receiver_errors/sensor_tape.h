@@ -34,18 +34,12 @@ class SensorTape {
   /// Of a velocity step at a fix: back to the last node that saw the position, or had a
   /// fix of the sensor [s].
   double reach(std::size_t k) const { return nodes_[k].reach; }
-  /// With the transition of the interval that ends at node k >= 1, extended by e and r as
-  /// they are.
+  /// With the transition of the interval that ends at node k >= 1.
   const SparseCongruence& OverInterval(std::size_t k) const {
     return nodes_[k].over_interval;
   }
   /// Components of the tape's errors that have any process noise at all.
   const std::vector<Eigen::Index>& noisy() const { return noisy_; }
-  /// Process noise of that interval, of these components.
-  Eigen::Map<const Eigen::MatrixXd> Noise(std::size_t k) const {
-    const auto count = static_cast<Eigen::Index>(noisy_.size());
-    return {noise_.data() + k * noisy_.size() * noisy_.size(), count, count};
-  }
 
  private:
   struct Node {
@@ -57,13 +51,12 @@ class SensorTape {
 
   void SetShares();
   void SetReaches();
-  void SetNoise();
+  void SetNoisy();
 
   const LinearTape& tape_;
   int sensor_;
   std::vector<Node> nodes_;
   std::vector<Eigen::Index> noisy_;
-  std::vector<double> noise_;
   std::size_t fix_count_ = 0;
 };
 

@@ -37,5 +37,16 @@ TEST(SparseProduct, CongruenceEqualsTheDenseOne) {
   }
 }
 
+TEST(SparseProduct, CongruenceLeavesWhatItHasNoRowsFor) {
+  const Eigen::MatrixXd S = Eigen::MatrixXd::Random(9, 9);
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Identity(14, 14);
+  whole.topLeftCorner(9, 9) = S;
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Random(14, 14);
+  const Eigen::MatrixXd P = A * A.transpose();
+  Eigen::MatrixXd out = P;
+  SparseCongruence(S).ApplyCongruence(&out);
+  EXPECT_LT((out - whole * P * whole.transpose()).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace hindsight
