@@ -255,6 +255,24 @@ ErrorMatrix LinearTape::Phi(std::size_t k) const {
   return Phi;
 }
 
+SparseCongruence LinearTape::OverInterval(std::size_t k) const {
+  const PackedEpoch& in = Held(k);
+  const auto full = static_cast<Eigen::Index>(std::popcount(in.full_rows));
+  const double* row = in.data + in.phi;
+  const double* diagonal = row + full * dim();
+  SparseCongruence out;
+  for (int i = 0; i < dim(); ++i) {
+    if ((in.full_rows >> i & 1) == 0) {
+      out.AddRow(i, i, i + 1, [&](Eigen::Index) { return *diagonal; });
+      ++diagonal;
+    } else {
+      out.AddRow(i, 0, dim(), [&](Eigen::Index j) { return row[j * full]; });
+      ++row;
+    }
+  }
+  return out;
+}
+
 ErrorVector LinearTape::c(std::size_t k) const {
   const PackedEpoch& in = Held(k);
   const std::size_t states = in.has_x_plus ? 2 : 1;

@@ -10,6 +10,7 @@
 #include "filters/covariance_policy.h"
 #include "filters/kalman.h"
 #include "imu/imu_link.h"
+#include "linear/sparse_product.h"
 #include "state/error_definition.h"
 
 namespace hindsight {
@@ -122,6 +123,7 @@ class LinearTape {
 
   /// Transition and noise of the interval that ends at epoch k >= 1.
   ErrorMatrix Phi(std::size_t k) const;
+  SparseCongruence OverInterval(std::size_t k) const;  ///< with Phi
   ErrorMatrix Q(std::size_t k) const;
   PackedSymmetric PackedQ(std::size_t k) const;
   ErrorMatrix P_minus(std::size_t k) const;

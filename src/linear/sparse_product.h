@@ -61,26 +61,44 @@ class SparseCongruence {
   template <typename Sparse>
   explicit SparseCongruence(const Eigen::MatrixBase<Sparse>& S) {
     for (Eigen::Index i = 0; i < S.rows(); ++i) {
-      const std::size_t begin = elements_.size();
-      for (Eigen::Index j = 0; j < S.cols(); ++j) {
-        if (S(i, j) != 0.0) elements_.push_back({j, S(i, j)});
-      }
-      const bool is_of_identity = elements_.size() == begin + 1 &&
-                                  elements_[begin].column == i &&
-                                  elements_[begin].value == 1.0;
-      if (is_of_identity) {
-        elements_.pop_back();
-        continue;
-      }
-      rows_.push_back(i);
-      ends_.push_back(elements_.size());
+      AddRow(i, 0, S.cols(), [&](Eigen::Index j) { return S(i, j); });
+    }
+  }
+
+  /// Adds row i of S, behind those before it, of which of(j) are the elements from `begin`
+  /// to past `end`, and all others zero.
+  template <typename Of>
+  void AddRow(Eigen::Index i, Eigen::Index begin, Eigen::Index end,
+              const Of& of) {
+    const std::size_t first = elements_.size();
+    for (Eigen::Index j = begin; j < end; ++j) {
+      const double value = of(j);
+      if (value != 0.0) elements_.push_back({j, value});
+    }
+    const bool is_of_identity = elements_.size() == first + 1 &&
+                                elements_[first].column == i &&
+                                elements_[first].value == 1.0;
+    if (is_of_identity) {
+      elements_.pop_back();
+      return;
+    }
+    rows_.push_back(i);
+    ends_.push_back(elements_.size());
+  }
+
+  /// S A in the place of A.
+  template <typename Matrix>
+  void ApplyToColumns(Matrix* A) const {
+    for (Eigen::Index j = 0; j < A->cols(); ++j) {
+      auto column = A->col(j);
+      ApplyTo(&column);
     }
   }
 
   /// S v in the place of v.
   template <typename Vector>
   void ApplyTo(Vector* v) const {
-    const Vector before = *v;
+    const typename Vector::PlainObject before = *v;
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       double sum = 0.0;
       for (std::size_t e = BeginOf(r); e < ends_[r]; ++e) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/median.h"
+#include "linear/sparse_product.h"
 #include "receiver_errors/sensor_tape.h"
 
 namespace hindsight {
@@ -79,17 +80,24 @@ Transition Identity(int n) {
 
 /// What leads to node k - 1, and then to k.
 void Lengthen(const LinearTape& tape, std::size_t k, Transition* t) {
-  const ErrorMatrix Phi = tape.Phi(k);
-  t->Phi = (Phi * t->Phi).eval();
-  t->c = (Phi * t->c + tape.c(k)).eval();
-  t->Q = (Phi * t->Q * Phi.transpose() + tape.Q(k)).eval();
+  const SparseCongruence over = tape.OverInterval(k);
+  over.ApplyToColumns(&t->Phi);
+  over.ApplyTo(&t->c);
+  t->c += tape.c(k);
+  over.ApplyCongruence(&t->Q);
+  t->Q += tape.Q(k);
 }
 
 /// What leads from node k to the end of `t`, which begins at node k + 1.
 void Precede(const LinearTape& tape, std::size_t k, Transition* t) {
-  t->c = (t->Phi * tape.c(k + 1) + t->c).eval();
-  t->Q = (t->Phi * tape.Q(k + 1) * t->Phi.transpose() + t->Q).eval();
-  t->Phi = (t->Phi * tape.Phi(k + 1)).eval();
+  const SparseCongruence after(t->Phi);
+  ErrorVector c = tape.c(k + 1);
+  after.ApplyTo(&c);
+  t->c += c;
+  ErrorMatrix Q = tape.Q(k + 1);
+  after.ApplyCongruence(&Q);
+  t->Q += Q;
+  t->Phi = Times(t->Phi, tape.Phi(k + 1));
 }
 
 /// A measurement carried to another node.
@@ -107,6 +115,22 @@ Carried CarryBack(const TapeMeasurement& z, const Transition& t) {
   return out;
 }
 
+/// Of a matrix of which many rows are those of the identity.
+ErrorMatrix InverseOf(const ErrorMatrix& Phi) {
+  const Eigen::Index n = Phi.rows();
+  std::vector<Eigen::Index> moved;
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const bool is_kept = Phi.row(i) == Eigen::RowVectorXd::Unit(n, i);
+    (is_kept ? kept : moved).push_back(i);
+  }
+  const ErrorMatrix of_moved = ErrorMatrix(Phi(moved, moved)).inverse();
+  ErrorMatrix inverse = ErrorMatrix::Identity(n, n);
+  inverse(moved, moved) = of_moved;
+  inverse(moved, kept) = -of_moved * Phi(moved, kept);
+  return inverse;
+}
+
 /// Carries what was measured before the middle node, whose x is F x + d + w of the
 /// node of the measurement. F keeps nothing of a component that is drawn anew
 /// meanwhile, as an error of a sensor is.
@@ -119,7 +143,7 @@ class CarryingOn {
       Phi(i, i) = 1.0;  // in place of what is drawn anew, what was there
       anew_.push_back(i);
     }
-    inverse_ = Phi.inverse();
+    inverse_ = InverseOf(Phi);
   }
 
   /// Nothing of a measurement that depends on what is drawn anew.

@@ -49,6 +49,43 @@ double IntervalOf(const Problem& problem, const LinearTape& tape, int sensor) {
   return kind.is_position ? NormalPointInterval(tape) : kNormalPointInterval;
 }
 
+/// The tapes on which a sensor is searched, prepared when they are asked for.
+class SearchTapes {
+ public:
+  /// Normal points are `interval` apart [s]; the tape must outlive this.
+  SearchTapes(const LinearTape& tape, int sensor, double interval)
+      : tape_(tape),
+        sensor_(sensor),
+        points_(FormNormalPoints(tape, sensor, interval)),
+        thinned_(ThinBetweenFixes(tape, sensor)) {}
+
+  const std::optional<NormalPoints>& points() const { return points_; }
+  /// Of normal points, or of fixes where these are not close.
+  const SensorTape& Searched() {
+    return points_ ? Made(points_->tape, &of_points_) : OfFixes();
+  }
+  /// Of all fixes, with fewer nodes between them where there are many.
+  const SensorTape& OfFixes() {
+    return thinned_ ? Made(*thinned_, &of_fixes_) : Whole();
+  }
+  const SensorTape& Whole() { return Made(tape_, &whole_); }
+
+ private:
+  const SensorTape& Made(const LinearTape& tape,
+                         std::optional<SensorTape>* made) const {
+    if (!*made) made->emplace(tape, sensor_);
+    return **made;
+  }
+
+  const LinearTape& tape_;
+  int sensor_;
+  std::optional<NormalPoints> points_;
+  std::optional<LinearTape> thinned_;
+  std::optional<SensorTape> of_points_;
+  std::optional<SensorTape> of_fixes_;
+  std::optional<SensorTape> whole_;
+};
+
 /// ln of the evidence of a fit without its likelihood.
 double LogPriorOfFit(const RegimeProblem& problem, const ErrorRegimes& fit) {
   const Hypothesis& best = fit.hypotheses.front();
@@ -64,16 +101,10 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
                                std::vector<Hypothesis> before)
     : ErrorDecisions(problem, linear, index), tape(linear) {
   constexpr double kSearch = 0.8;  // of the time, the rest refines
-  const std::optional<NormalPoints> points =
-      FormNormalPoints(tape, sensor, IntervalOf(problem, linear, index));
-  const std::optional<LinearTape> thinned = ThinBetweenFixes(tape, sensor);
-  const SensorTape whole(tape, sensor);
-  std::optional<SensorTape> apart;
-  if (thinned) apart.emplace(*thinned, sensor);
-  const SensorTape& fixes = apart ? *apart : whole;
-  std::optional<SensorTape> averaged;
-  if (points) averaged.emplace(points->tape, sensor);
-  const SensorTape& searched = averaged ? *averaged : fixes;
+  SearchTapes tapes(tape, sensor, IntervalOf(problem, linear, index));
+  const std::optional<NormalPoints>& points = tapes.points();
+  const SensorTape& fixes = tapes.OfFixes();
+  const SensorTape& searched = tapes.Searched();
   const double most = MostEffort(searched);
   SearchEffort effort(limits.share * most, [&limits](double fraction) {
     return !limits.go_on || limits.go_on(kSearch * fraction);
@@ -118,17 +149,18 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
     regimes = WithAlternatives(std::move(all), choice.chosen);
   }
   // Averages may be likelier with what all measurements are not.
-  if (stands() && !Wins(whole, regime.has_clock)) {
-    Refuse(whole);
+  if (stands() && !Wins(tapes.Whole(), regime.has_clock)) {
+    Refuse(tapes.Whole());
     ChooseNoise(fixes, &rest);
   }
-  if (stands() && !Wins(whole, regime.has_clock)) {
-    Refuse(whole);
+  if (stands() && !Wins(tapes.Whole(), regime.has_clock)) {
+    Refuse(tapes.Whole());
     Withdraw();
   }
   stopped |= rest.stopped();
-  if (stands()) gain = GainOn(whole);
-  WeighAlternatives(whole);
+  if (!stands()) return;
+  gain = GainOn(tapes.Whole());
+  WeighAlternatives(tapes.Whole());
 }
 
 SensorFindings::SensorFindings(const ErrorDecisions& decisions,

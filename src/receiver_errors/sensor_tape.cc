@@ -8,7 +8,7 @@ SensorTape::SensorTape(const LinearTape& tape, int sensor)
   for (std::size_t k = 0; k < size(); ++k) {
     nodes_[k].has_fix = hindsight::HasFix(tape, k, sensor);
     fix_count_ += nodes_[k].has_fix ? 1 : 0;
-    if (k > 0) nodes_[k].over_interval = SparseCongruence(tape.Phi(k));
+    if (k > 0) nodes_[k].over_interval = tape.OverInterval(k);
   }
   SetShares();
   SetReaches();
