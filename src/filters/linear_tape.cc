@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "linear/sparse_product.h"
+
 namespace hindsight {
 namespace {
 

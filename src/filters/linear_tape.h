@@ -10,10 +10,11 @@
 #include "filters/covariance_policy.h"
 #include "filters/kalman.h"
 #include "imu/imu_link.h"
-#include "linear/sparse_product.h"
 #include "state/error_definition.h"
 
 namespace hindsight {
+
+class SparseCongruence;
 
 /// One measurement on the tape; matrices in the tape's pool.
 struct TapeMeasurement {
