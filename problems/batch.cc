@@ -74,7 +74,8 @@ bool AnySummaryIsStale(const Problem& problem,
 /// Ceres can be left out, if that ends within a rough step at a cost below the
 /// start's: `next` is the step from there. Else the values are those of the start
 /// again. Where steps with losses become no smaller, but are such as would be the last
-/// without, rounding is what is left: whether that is converged the last steps tell.
+/// without, rounding is what is left: whether that is converged tells how far the last
+/// steps move it, in sigmas.
 bool SettlesByNewton(const BatchOptions& options,
                      const std::vector<State>& start,
                      IterationProgress* progress, ChainProblem* chain,
@@ -100,7 +101,8 @@ bool SettlesByNewton(const BatchOptions& options,
     const double size = chain->StepSize(*step);
     const bool contracts = size < kContraction * std::max(before, earlier);
     if (!contracts && !descends) {
-      if (has_loss && part < 1.0 && size < kLastNewtonStep) {
+      if (has_loss && part < 1.0 && size < kLastNewtonStep &&
+          cost <= first_cost * (1.0 + kCostRounding)) {
         sweep->converged = false;
         sweep->iterations += i - 1;
         return true;

@@ -1,6 +1,7 @@
 #include "linear/householder.h"
 
 #include <cmath>
+#include <limits>
 
 namespace hindsight {
 
@@ -38,6 +39,12 @@ void Householder::Reflect(double* top, const RowRange& below, Eigen::Index c,
     v_.push_back(below.row(i)[c]);
   }
   if (rows_.empty()) return;
+  double square = 0.0;
+  for (const double v : v_) square += v * v;
+  if (square <= std::numeric_limits<double>::min()) {
+    for (double* row : rows_) row[c] = 0.0;
+    return;
+  }
   const double beta = top[c] < 0.0 ? norm : -norm;
   const double scale = 1.0 / (top[c] - beta);
   const double tau = (beta - top[c]) / beta;

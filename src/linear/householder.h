@@ -22,7 +22,8 @@ double ColumnNorm(const double* top, const RowRange& below, Eigen::Index c);
 class Householder {
  public:
   /// Leaves, in column c of the given norm (ColumnNorm), nothing below `top`; over
-  /// the columns [c, end). Rows with a zero there cost nothing.
+  /// the columns [c, end). Rows with a zero there cost nothing, and elements whose squares
+  /// underflow are taken for zero.
   void Reflect(double* top, const RowRange& below, Eigen::Index c,
                Eigen::Index end, double norm);
 

@@ -49,11 +49,10 @@ typename Dense::PlainObject Times(const Eigen::MatrixBase<Dense>& A,
   return out;
 }
 
-/// S P S' of square matrices for one S of mostly zeros, whose elements are sought once, and
-/// many symmetric P. Rows of S that are those of the identity, as of constants in a
-/// transition, cost nothing: what is neither of such rows nor of such columns is
-/// computed, the rest stays or is moved. P may be larger than S: rows that S has not are
-/// those of the identity.
+/// Products of one square S of mostly zeros, whose elements are sought once: S P S' of
+/// symmetric P, S A and S v. Rows of S that are those of the identity, as of constants in
+/// a transition, cost nothing: what P has of two of them stays. P may be larger than S:
+/// rows that S has not are those of the identity.
 class SparseCongruence {
  public:
   SparseCongruence() = default;
@@ -65,8 +64,8 @@ class SparseCongruence {
     }
   }
 
-  /// Adds row i of S, behind those before it, of which of(j) are the elements from `begin`
-  /// to past `end`, and all others zero.
+  /// Adds row i of S, in the order of rows, of which of(j) are the elements j with
+  /// begin <= j < end, and all others zero.
   template <typename Of>
   void AddRow(Eigen::Index i, Eigen::Index begin, Eigen::Index end,
               const Of& of) {
@@ -111,12 +110,13 @@ class SparseCongruence {
   /// S P S' in the place of P, symmetric to the last bit if P is. P is column-major.
   template <typename Matrix>
   void ApplyCongruence(Matrix* P) const {
+    static_assert(!Matrix::IsRowMajor);
     const auto count = static_cast<Eigen::Index>(rows_.size());
     Matrix PSt(P->rows(), count);
-    AddUp(*P, 0, &PSt);
+    AddUp(*P, /*lower=*/false, &PSt);
     const Matrix SP = PSt.transpose();
     Matrix both(count, count);
-    AddUp(SP, 1, &both);
+    AddUp(SP, /*lower=*/true, &both);
     for (Eigen::Index j = 0; j < P->cols(); ++j) {
       for (Eigen::Index r = 0; r < count; ++r) {
         (*P)(rows_[static_cast<std::size_t>(r)], j) = SP(r, j);
@@ -145,14 +145,14 @@ class SparseCongruence {
     return row > 0 ? ends_[row - 1] : 0;
   }
 
-  /// out = A S', of its rows that are not of the identity; of column j from row
-  /// `from` j on at the least.
+  /// out = A S', of the rows of S that are not of the identity; `lower` asks for no
+  /// element above the diagonal.
   template <typename Matrix>
-  void AddUp(const Matrix& A, Eigen::Index from, Matrix* out) const {
+  void AddUp(const Matrix& A, bool lower, Matrix* out) const {
     constexpr Eigen::Index kStrip = 8;
     const Eigen::Index rows = A.rows();
     for (Eigen::Index j = 0; j < out->cols(); ++j) {
-      Eigen::Index i = from * j;
+      Eigen::Index i = lower ? j : 0;
       if (rows < kStrip) {
         for (; i < rows; ++i) AddUpStrip<1>(A, i, j, out);
         continue;

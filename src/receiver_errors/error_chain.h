@@ -18,6 +18,7 @@ class ErrorChain {
  public:
   /// The tape must outlive this.
   ErrorChain(const SensorTape& tape, const ErrorParameters& parameters);
+  ErrorChain(SensorTape&& tape, const ErrorParameters& parameters) = delete;
 
   std::size_t size() const { return tape_.size(); }
   int dim() const { return navigation_dim_ + 6; }

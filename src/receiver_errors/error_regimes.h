@@ -5,6 +5,7 @@
 
 #include "receiver_errors/hypothesis_search.h"
 #include "receiver_errors/normal_points.h"
+#include "receiver_errors/sensor_tape.h"
 
 namespace hindsight {
 

@@ -5,6 +5,7 @@
 
 #include "receiver_errors/mode_sequence.h"
 #include "receiver_errors/search_effort.h"
+#include "receiver_errors/sensor_tape.h"
 #include "receiver_errors/tunable_parameters.h"
 
 namespace hindsight {

@@ -17,6 +17,8 @@ class SearchTapes {
         sensor_(sensor),
         points_(FormNormalPoints(tape, sensor, interval)),
         thinned_(ThinBetweenFixes(tape, sensor)) {}
+  SearchTapes(const SearchTapes&) = delete;
+  SearchTapes& operator=(const SearchTapes&) = delete;
 
   const std::optional<NormalPoints>& points() const { return points_; }
   /// Of normal points, or of fixes where these are not close.
@@ -31,7 +33,7 @@ class SearchTapes {
 
  private:
   const SensorTape& Made(const LinearTape& tape,
-                         std::optional<SensorTape>* made) const {
+                         std::optional<SensorTape>* made) {
     if (!*made) made->emplace(tape, sensor_);
     return **made;
   }

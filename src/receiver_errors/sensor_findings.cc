@@ -129,7 +129,7 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
 SensorFindings::SensorFindings(const ErrorDecisions& decisions,
                                const LinearTape& linear)
     : ErrorDecisions(decisions), tape(linear) {
-  WeighAlternatives(SensorTape(tape, sensor));
+  if (stands()) WeighAlternatives(SensorTape(tape, sensor));
 }
 
 double SensorFindings::GainOn(const SensorTape& whole) const {
@@ -168,7 +168,6 @@ void SensorFindings::Withdraw() {
 }
 
 void SensorFindings::WeighAlternatives(const SensorTape& whole) {
-  if (!stands()) return;
   alternatives = WeighHypotheses(whole, regimes);
   central = MostCentral(alternatives);
   AddExchanged();

@@ -10,6 +10,7 @@
 #include "receiver_errors/receiver_errors.h"
 #include "receiver_errors/regime_choice.h"
 #include "receiver_errors/search_effort.h"
+#include "receiver_errors/sensor_tape.h"
 #include "receiver_errors/weighed_hypotheses.h"
 
 namespace hindsight {
@@ -95,7 +96,7 @@ struct SensorFindings : ErrorDecisions {
   /// Takes back what stands, but not what was refused.
   void Withdraw();
 
-  /// Smooths the hypotheses of the regimes, if they stand, about the tape.
+  /// Smooths the hypotheses of the regimes, which stand, about the tape.
   void WeighAlternatives(const SensorTape& whole);
   /// Where good and erroneous fixes may be the other way about, beside the chosen
   /// hypothesis the one with them exchanged.

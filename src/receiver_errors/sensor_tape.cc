@@ -3,12 +3,16 @@
 #include <algorithm>
 
 namespace hindsight {
+
 SensorTape::SensorTape(const LinearTape& tape, int sensor)
     : tape_(tape), sensor_(sensor), nodes_(tape.size()) {
   for (std::size_t k = 0; k < size(); ++k) {
     nodes_[k].has_fix = hindsight::HasFix(tape, k, sensor);
     fix_count_ += nodes_[k].has_fix ? 1 : 0;
-    if (k > 0) nodes_[k].over_interval = tape.OverInterval(k);
+    if (k == 0) continue;
+    // A copy takes no more memory than it needs.
+    const SparseCongruence over_interval = tape.OverInterval(k);
+    nodes_[k].over_interval = over_interval;
   }
   SetShares();
   SetReaches();
@@ -49,13 +53,15 @@ void SensorTape::SetReaches() {
 }
 
 void SensorTape::SetNoisy() {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(dim());
+  std::vector<char> has_noise(static_cast<std::size_t>(dim()), 0);
   for (std::size_t k = 1; k < size(); ++k) {
     const PackedSymmetric Q = tape_.PackedQ(k);
-    for (Eigen::Index i = 0; i < Q.n; ++i) sum(i) += *Q.Column(i);
+    for (Eigen::Index i = 0; i < Q.n; ++i) {
+      if (*Q.Column(i) != 0.0) has_noise[static_cast<std::size_t>(i)] = 1;
+    }
   }
-  for (Eigen::Index i = 0; i < sum.size(); ++i) {
-    if (sum(i) > 0.0) noisy_.push_back(i);
+  for (std::size_t i = 0; i < has_noise.size(); ++i) {
+    if (has_noise[i] != 0) noisy_.push_back(static_cast<Eigen::Index>(i));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "filters/forward_filter.h"
+#include "linear/sparse_product.h"
 #include "support/test_problem.h"
 
 namespace hindsight {
@@ -69,6 +70,8 @@ Written WrittenAs(const ErrorLayout& layout, std::size_t k) {
   if (k % 2 == 0) {
     out.transition.Phi.bottomRows(n - 9).setZero();
     out.transition.Phi.diagonal().setConstant(0.5);
+    // Full rows come last.
+    if (k % 4 == 0) out.transition.Phi.reverseInPlace();
   }
   out.transition.Q = RandomSymmetric(n);
   out.P_minus = RandomSymmetric(n);
@@ -101,6 +104,16 @@ void ExpectEpoch(const LinearTape& tape, std::size_t k, const Written& wanted) {
   if (k == 0) return;
   EXPECT_EQ(tape.Phi(k), wanted.transition.Phi);
   EXPECT_EQ(tape.Q(k), wanted.transition.Q);
+  ErrorMatrix predicted = wanted.P_plus;
+  tape.OverInterval(k).ApplyCongruence(&predicted);
+  ErrorMatrix expected = wanted.P_plus;
+  SparseCongruence(wanted.transition.Phi).ApplyCongruence(&expected);
+  EXPECT_EQ(predicted, expected);
+  const PackedSymmetric Q = tape.PackedQ(k);
+  for (Eigen::Index j = 0; j < Q.n; ++j) {
+    const Eigen::Map<const Eigen::VectorXd> column(Q.Column(j), Q.n - j);
+    EXPECT_EQ(column, wanted.transition.Q.col(j).tail(Q.n - j));
+  }
 }
 
 TEST(LinearTape, ReadsWhatWasWritten) {

@@ -57,6 +57,16 @@ TEST(ErrorChain, SharesARecordingBetweenItsFixes) {
   EXPECT_NEAR(share(0), 1.0 / count, 1e-12);
 }
 
+/// The tape's, of the navigation state with the IMU's noise so many times as large.
+ErrorMatrix ScaledNoise(const LinearTape& tape, std::size_t k, double scale) {
+  ErrorVector scales = ErrorVector::Ones(tape.dim());
+  for (const Block& block : tape.layout().blocks()) {
+    if (!IsNavigation(block.key.kind)) continue;
+    scales.segment(block.offset, block.dim).setConstant(scale);
+  }
+  return scales.asDiagonal() * tape.Q(k) * scales.asDiagonal();
+}
+
 /// Of each mode, with an IMU worse than stated, over random covariances.
 TEST(ErrorChain, PredictsAsItsTransitionSays) {
   TestProblemOptions options;
@@ -86,6 +96,11 @@ TEST(ErrorChain, PredictsAsItsTransitionSays) {
       const ErrorMatrix Phi = chain.Phi(step);
       const ErrorVector mean = Phi * before.mean + chain.Defect();
       const ErrorMatrix P = Phi * before.P * Phi.transpose() + chain.Q(step);
+      if (step == kStayGood) {
+        const ErrorMatrix Q = chain.Q(step).topLeftCorner(n - 6, n - 6);
+        EXPECT_LT((Q - ScaledNoise(tape, k, p.imu_scale)).norm(),
+                  1e-12 * Q.norm());
+      }
       EXPECT_LT((after.mean - mean).norm(), 1e-12 * mean.norm());
       EXPECT_LT((after.P - P).norm(), 1e-12 * P.norm());
     }
