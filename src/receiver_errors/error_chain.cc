@@ -126,8 +126,9 @@ void ErrorChain::Take(const TapeMeasurement& z) {
   LinearizedMeasurement& wide = z_.emplace_back();
   wide.residual = z.residual;
   wide.R = z.R;
-  wide.H = RowJacobian::Zero(z.H.rows(), dim());
+  wide.H.resize(z.H.rows(), dim());
   wide.H.leftCols(navigation_dim_) = z.H;
+  wide.H.rightCols(dim() - navigation_dim_).setZero();
   if (z.sensor != tape_.sensor()) return;
   auto by_error = wide.H.middleCols(navigation_dim_, 3);
   if (own_field_ < 0) {
@@ -176,9 +177,19 @@ void ErrorChain::PredictError(ErrorStep step, Gaussian* x) const {
 
 ErrorChain::FixLikelihood ErrorChain::LikelihoodOfFix(ErrorStep step,
                                                       const Gaussian& x) const {
-  ErrorDynamics as_it_is;
-  as_it_is.ee = 1.0;
-  return Likelihood(as_it_is, step.outlier, ViewOf(x));
+  const LinearizedMeasurement& fix = z_[static_cast<std::size_t>(fix_)];
+  return LikelihoodBy(ProductWith(fix.H, x.P), x, step.outlier);
+}
+
+ErrorChain::FixLikelihood ErrorChain::LikelihoodBy(const RowJacobian& HP,
+                                                   const Gaussian& x,
+                                                   bool outlier) const {
+  const LinearizedMeasurement& fix = z_[static_cast<std::size_t>(fix_)];
+  Eigen::Vector3d innovation = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
+  innovation.head(rows_) = fix.residual - fix.H * x.mean;
+  S.topLeftCorner(rows_, rows_) = HP.lazyProduct(fix.H.transpose());
+  return Weigh(innovation, S, outlier);
 }
 
 ErrorChain::FixView ErrorChain::ViewOf(const Gaussian& x) const {
@@ -229,6 +240,12 @@ ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
                             z.H.middleCols(velocity_, 3);
     S.topLeftCorner(rows_, rows_) += d.q_vv * H_v * H_v.transpose();
   }
+  return Weigh(innovation, S, outlier);
+}
+
+ErrorChain::FixLikelihood ErrorChain::Weigh(const Eigen::Vector3d& innovation,
+                                            const Eigen::Matrix3d& S,
+                                            bool outlier) const {
   const double a = parameters_.outlier_share;
   const double in = std::log1p(-a) + LogDensity(innovation, S + R_in_);
   if (a == 0.0) return {in, false, std::numeric_limits<double>::infinity()};
@@ -248,15 +265,34 @@ LinearizedMeasurement ErrorChain::MeasurementAs(std::size_t i,
   return z;
 }
 
-double ErrorChain::UpdateAll(bool outlier, Gaussian* x,
-                             std::vector<Used>* used) const {
+double ErrorChain::UpdateAll(bool outlier, Gaussian* x) const {
+  return UpdateAll(outlier, x, nullptr, nullptr);
+}
+
+ErrorChain::NodeLikelihood ErrorChain::UpdateWithFix(
+    ErrorStep step, Gaussian* x, std::vector<Used>* used) const {
+  NodeLikelihood out;
+  if (!has_fix()) {
+    out.others = UpdateAll(false, x, used, nullptr);
+    return out;
+  }
+  const LinearizedMeasurement& fix = z_[static_cast<std::size_t>(fix_)];
+  const RowJacobian HP = ProductWith(fix.H, x->P);
+  out.fix = LikelihoodBy(HP, *x, step.outlier);
+  out.others = UpdateAll(out.fix.outlier, x, used, &HP);
+  return out;
+}
+
+double ErrorChain::UpdateAll(bool outlier, Gaussian* x, std::vector<Used>* used,
+                             const RowJacobian* HP_of_fix) const {
   double log_likelihood = 0.0;
   for (std::size_t i = 0; i < z_.size(); ++i) {
     LinearizedMeasurement wider;
     const bool is_outlier = outlier && IsFix(i);
     if (is_outlier) wider = MeasurementAs(i, outlier);
     const LinearizedMeasurement& z = is_outlier ? wider : z_[i];
-    const RowJacobian HP = ProductWith(z.H, x->P);
+    const bool is_known = HP_of_fix != nullptr && IsFix(i);
+    const RowJacobian HP = is_known ? *HP_of_fix : ProductWith(z.H, x->P);
     const Innovation innovation = UpdateWith(z, HP, x);
     if (!IsFix(i)) log_likelihood += innovation.log_likelihood;
     if (used != nullptr) used->push_back({z, innovation, HP});

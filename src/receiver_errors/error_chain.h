@@ -84,15 +84,23 @@ class ErrorChain {
   /// Measurement i of the node as UpdateAll uses it, the fix with the noise of
   /// an outlier if it is taken for one.
   LinearizedMeasurement MeasurementAs(std::size_t i, bool outlier) const;
-  /// Updates with all measurements of the node; returns ln of the likelihood of
-  /// those beside the fix. `used` gets what was used, if asked for.
+  /// A measurement as it was used.
   struct Used {
     LinearizedMeasurement z;
     Innovation innovation;
     RowJacobian HP;  ///< with P before the update
   };
-  double UpdateAll(bool outlier, Gaussian* x,
-                   std::vector<Used>* used = nullptr) const;
+  /// Updates with all measurements of the node; returns ln of the likelihood of
+  /// those beside the fix.
+  double UpdateAll(bool outlier, Gaussian* x) const;
+  struct NodeLikelihood {
+    FixLikelihood fix;    ///< zero of a node without one
+    double others = 0.0;  ///< ln, of those beside the fix
+  };
+  /// The same, the fix taken as LikelihoodOfFix has it. `used` gets what was used, if
+  /// asked for.
+  NodeLikelihood UpdateWithFix(ErrorStep step, Gaussian* x,
+                               std::vector<Used>* used = nullptr) const;
   /// Updates with all measurements of the node but the fix.
   void UpdateOthers(Gaussian* x) const;
   bool IsFix(std::size_t i) const { return static_cast<int>(i) == fix_; }
@@ -100,6 +108,14 @@ class ErrorChain {
  private:
   FixLikelihood Likelihood(const ErrorDynamics& d, bool outlier,
                            const FixView& view) const;
+  /// With H P of the fix.
+  FixLikelihood LikelihoodBy(const RowJacobian& HP, const Gaussian& x,
+                             bool outlier) const;
+  /// Of an innovation of covariance S + R, padded as FixView.
+  FixLikelihood Weigh(const Eigen::Vector3d& innovation,
+                      const Eigen::Matrix3d& S, bool outlier) const;
+  double UpdateAll(bool outlier, Gaussian* x, std::vector<Used>* used,
+                   const RowJacobian* HP_of_fix) const;
 
   /// Adds a measurement of the node over (navigation, e, r).
   void Take(const TapeMeasurement& z);

@@ -25,10 +25,11 @@ class Walk {
 
   const ErrorChain& chain() const { return chain_; }
   const std::vector<ErrorStep>& steps() const { return steps_; }
-  Gaussian* x() { return &x_; }
+  const Gaussian& x() const { return x_; }
 
-  ErrorChain::FixLikelihood Fix(std::size_t k) const {
-    return chain_.LikelihoodOfFix(steps_[k], x_);
+  ErrorChain::NodeLikelihood UpdateAt(
+      std::size_t k, std::vector<ErrorChain::Used>* used = nullptr) {
+    return chain_.UpdateWithFix(steps_[k], &x_, used);
   }
 
  private:
@@ -70,11 +71,7 @@ SequenceScore ScoreSequence(const SensorTape& tape,
   bool first = true;
   for (std::size_t k = 0; k < tape.size(); ++k) {
     walk.PredictTo(k);
-    bool outlier = false;
     if (walk.chain().has_fix()) {
-      const auto fix = walk.Fix(k);
-      outlier = fix.outlier;
-      score.log_likelihood += fix.log;
       const ErrorStep step = walk.steps()[k];
       const double share = walk.chain().share();
       score.log_prior +=
@@ -82,7 +79,8 @@ SequenceScore ScoreSequence(const SensorTape& tape,
                 : LogTransition(walk.steps()[k - 1].mode, step, share);
       first = false;
     }
-    score.log_likelihood += walk.chain().UpdateAll(outlier, walk.x());
+    const auto at_node = walk.UpdateAt(k);
+    score.log_likelihood += at_node.fix.log + at_node.others;
   }
   score.log_prior += LogOfVelocitySteps(CountVelocitySteps(sequence));
   return score;
@@ -99,12 +97,11 @@ ErrorTrajectory SmoothSequence(const SensorTape& tape,
   std::vector<ErrorChain::Used> used;
   for (std::size_t k = 0; k < tape.size(); ++k) {
     walk.PredictTo(k);
-    const bool outlier = walk.chain().has_fix() && walk.Fix(k).outlier;
     used.clear();
-    walk.chain().UpdateAll(outlier, walk.x(), &used);
+    walk.UpdateAt(k, &used);
     for (const ErrorChain::Used& one : used) passed[k].emplace_back(one);
-    mean[k] = walk.x()->mean;
-    P.Set(k, walk.x()->P);
+    mean[k] = walk.x().mean;
+    P.Set(k, walk.x().P);
   }
   ErrorVector lambda = ErrorVector::Zero(n);
   ErrorChain chain(tape, parameters);

@@ -44,9 +44,8 @@ bool SequenceSplice::Pass(const ModeSequence& sequence, Place* at,
   }
   const ErrorStep step = sequence[at->fix++];
   chain_.PredictError(step, &at->x);
-  const auto fix = chain_.LikelihoodOfFix(step, at->x);
   used_.clear();
-  const double others = chain_.UpdateAll(fix.outlier, &at->x, &used_);
+  const auto [fix, others] = chain_.UpdateWithFix(step, &at->x, &used_);
   at->score.log_likelihood += fix.log + others;
   at->score.log_prior += at->fix == 1
                              ? LogFirst(step, chain_.share())
