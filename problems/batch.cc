@@ -74,8 +74,8 @@ bool AnySummaryIsStale(const Problem& problem,
 /// Ceres can be left out, if that ends within a rough step at a cost below the
 /// start's: `next` is the step from there. Else the values are those of the start
 /// again. Where steps with losses become no smaller, but are such as would be the last
-/// without, rounding is what is left: whether that is converged tells how far the last
-/// steps move it, in sigmas.
+/// without, rounding is what is left: how far the steps that finish it move it, in sigmas,
+/// tells whether that is converged.
 bool SettlesByNewton(const BatchOptions& options,
                      const std::vector<State>& start,
                      IterationProgress* progress, ChainProblem* chain,

@@ -40,6 +40,8 @@ class SequenceSplice {
   /// measurement is not positive definite.
   SequenceSplice(const SensorTape& tape, const ErrorParameters& parameters,
                  const ModeSequence& base);
+  SequenceSplice(SensorTape&& tape, const ErrorParameters& parameters,
+                 const ModeSequence& base) = delete;
 
   /// Score of a sequence of the base's length. The cost grows with the span from
   /// the first to the last fix at which it differs from the base.

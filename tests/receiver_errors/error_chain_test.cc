@@ -29,6 +29,16 @@ Gaussian PredictedTo(std::size_t end, ErrorChain* chain) {
   }
 }
 
+/// A drive with positions and velocities, with errors of everything.
+TestProblem WithVelocities(double duration) {
+  TestProblemOptions options;
+  options.noise = testing::TacticalNoise(true);
+  options.layout = testing::TypicalLayout(options.noise);
+  options.errors = true;
+  options.duration = duration;
+  return testing::MakeProblem(options, 3);
+}
+
 /// Without the fixes of nodes `begin` to past `end`.
 LinearTape WithGap(std::size_t begin, std::size_t end) {
   const TestProblem problem = PositionsOnly(40.0);
@@ -69,12 +79,7 @@ ErrorMatrix ScaledNoise(const LinearTape& tape, std::size_t k, double scale) {
 
 /// Of each mode, with an IMU worse than stated, over random covariances.
 TEST(ErrorChain, PredictsAsItsTransitionSays) {
-  TestProblemOptions options;
-  options.noise = testing::TacticalNoise(true);
-  options.layout = testing::TypicalLayout(options.noise);
-  options.errors = true;
-  options.duration = 5.0;
-  const LinearTape tape = TapeOf(testing::MakeProblem(options, 3));
+  const LinearTape tape = TapeOf(WithVelocities(5.0));
   const SensorTape seen(tape, 0);
   ErrorParameters p = WithoutOutliers();
   p.imu_scale = 3.0;
@@ -158,12 +163,7 @@ TEST(ErrorChain, OtherPositionsEndTheReachOfAStep) {
 
 /// What a velocity was at its last fix is known, however long ago the position was.
 TEST(ErrorChain, VelocitiesEndTheReachOfAStep) {
-  TestProblemOptions options;
-  options.noise = testing::TacticalNoise(true);
-  options.layout = testing::TypicalLayout(options.noise);
-  options.errors = true;
-  options.duration = 40.0;
-  const TestProblem problem = testing::MakeProblem(options, 3);
+  const TestProblem problem = WithVelocities(40.0);
   GateDecisions used;
   for (const Measurement& z : problem.measurements) {
     used.push_back(z.sensor == 1 || z.t < 14.5);
