@@ -19,7 +19,7 @@ constexpr double kLeastSigma = 1e-5;
 
 /// H P of a symmetric P, from its columns: most elements of H are zero.
 RowJacobian ProductWith(const RowJacobian& H, const ErrorMatrix& P) {
-  return TimesTransposed(P, H).transpose();
+  return TimesTransposed(P, H.leftCols(P.cols())).transpose();
 }
 
 /// Kalman update of x by z, HP before it. P - W' W in place of Joseph's form,
@@ -27,9 +27,10 @@ RowJacobian ProductWith(const RowJacobian& H, const ErrorMatrix& P) {
 /// rounding ruins.
 Innovation UpdateWith(const LinearizedMeasurement& z, const RowJacobian& HP,
                       Gaussian* x) {
+  const auto H = z.H.leftCols(x->mean.size());
   Innovation innovation;
-  innovation.residual = z.residual - z.H * x->mean;
-  innovation.S = z.R + HP.lazyProduct(z.H.transpose());
+  innovation.residual = z.residual - H * x->mean;
+  innovation.S = z.R + HP.lazyProduct(H.transpose());
   const Eigen::LLT<RowMatrix> llt(innovation.S);
   if (llt.info() != Eigen::Success) {
     throw EstimationError(
@@ -73,12 +74,21 @@ ErrorChain::ErrorChain(const SensorTape& tape,
   }
 }
 
+int ErrorChain::DimOf(ErrorMode mode) const {
+  if (mode == ErrorMode::kGood) return navigation_dim_;
+  return navigation_dim_ + (mode == ErrorMode::kDrifting ? 6 : 3);
+}
+
+Gaussian ErrorChain::Resized(const Gaussian& x, int dim) {
+  const auto kept = std::min<Eigen::Index>(dim, x.mean.size());
+  Gaussian out{ErrorVector::Zero(dim), ErrorMatrix::Zero(dim, dim)};
+  out.mean.head(kept) = x.mean.head(kept);
+  out.P.topLeftCorner(kept, kept) = x.P.topLeftCorner(kept, kept);
+  return out;
+}
+
 Gaussian ErrorChain::Begin() const {
-  Gaussian x{ErrorVector::Zero(dim()), ErrorMatrix::Zero(dim(), dim())};
-  x.mean.head(navigation_dim_) = tape_.linear().epoch(0).dx_minus;
-  x.P.topLeftCorner(navigation_dim_, navigation_dim_) =
-      tape_.linear().P_minus(0);
-  return x;
+  return {tape_.linear().epoch(0).dx_minus, tape_.linear().P_minus(0)};
 }
 
 void ErrorChain::MoveTo(std::size_t k) {
@@ -137,29 +147,43 @@ void ErrorChain::PredictNavigation(Gaussian* x) const {
 }
 
 void ErrorChain::PredictError(ErrorStep step, Gaussian* x) const {
-  const int n = navigation_dim_;
   const ErrorDynamics d = DynamicsOf(parameters_, step, dt_);
-  auto e = x->mean.segment<3>(n);
-  auto r = x->mean.segment<3>(n + 3);
-  e = (d.ee * e + d.er * r).eval();
-  r *= d.rr;
-  auto P_ne = x->P.block(0, n, n, 3);
-  auto P_nr = x->P.block(0, n + 3, n, 3);
-  P_ne = (d.ee * P_ne + d.er * P_nr).eval();
-  P_nr *= d.rr;
-  x->P.bottomLeftCorner(6, n) = x->P.topRightCorner(n, 6).transpose();
-  Eigen::Matrix<double, 6, 6> F = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Matrix<double, 6, 6> P = x->P.bottomRightCorner<6, 6>();
-  F.topLeftCorner<3, 3>().diagonal().setConstant(d.ee);
-  F.topRightCorner<3, 3>().diagonal().setConstant(d.er);
-  F.bottomRightCorner<3, 3>().diagonal().setConstant(d.rr);
-  P = (F * P * F.transpose()).eval();
-  P.topLeftCorner<3, 3>().diagonal().array() += d.q_ee;
-  P.topRightCorner<3, 3>().diagonal().array() += d.q_er;
-  P.bottomLeftCorner<3, 3>().diagonal().array() += d.q_er;
-  P.bottomRightCorner<3, 3>().diagonal().array() += d.q_rr;
-  x->P.bottomRightCorner<6, 6>() = P;
+  const int dim = DimOf(step.mode);
+  if (x->mean.size() != dim) *x = Resized(*x, dim);
+  if (dim > navigation_dim_) PredictErrorBy(d, x);
   if (d.q_vv > 0.0) AddVelocityStep(d.q_vv, &x->P);
+}
+
+void ErrorChain::PredictErrorBy(const ErrorDynamics& d, Gaussian* x) const {
+  const int n = navigation_dim_;
+  const bool drifts = x->mean.size() > n + 3;
+  const int own = drifts ? 6 : 3;
+  using ErrorBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic,
+                                   Eigen::ColMajor, 6, 6>;
+  auto e = x->mean.segment<3>(n);
+  auto P_ne = x->P.block(0, n, n, 3);
+  ErrorBlock F = ErrorBlock::Zero(own, own);
+  ErrorBlock Q = ErrorBlock::Zero(own, own);
+  e *= d.ee;
+  P_ne *= d.ee;
+  F.topLeftCorner<3, 3>().diagonal().setConstant(d.ee);
+  Q.topLeftCorner<3, 3>().diagonal().setConstant(d.q_ee);
+  if (drifts) {
+    auto r = x->mean.segment<3>(n + 3);
+    auto P_nr = x->P.block(0, n + 3, n, 3);
+    e += d.er * r;
+    P_ne += d.er * P_nr;
+    r *= d.rr;
+    P_nr *= d.rr;
+    F.topRightCorner<3, 3>().diagonal().setConstant(d.er);
+    F.bottomRightCorner<3, 3>().diagonal().setConstant(d.rr);
+    Q.topRightCorner<3, 3>().diagonal().setConstant(d.q_er);
+    Q.bottomLeftCorner<3, 3>().diagonal().setConstant(d.q_er);
+    Q.bottomRightCorner<3, 3>().diagonal().setConstant(d.q_rr);
+  }
+  x->P.bottomLeftCorner(own, n) = x->P.topRightCorner(n, own).transpose();
+  const ErrorBlock P = x->P.bottomRightCorner(own, own);
+  x->P.bottomRightCorner(own, own) = F * P * F.transpose() + Q;
 }
 
 ErrorChain::FixLikelihood ErrorChain::LikelihoodOfFix(ErrorStep step,
@@ -174,8 +198,9 @@ ErrorChain::FixLikelihood ErrorChain::LikelihoodBy(const RowJacobian& HP,
   const LinearizedMeasurement& fix = z_[static_cast<std::size_t>(fix_)];
   Eigen::Vector3d innovation = Eigen::Vector3d::Zero();
   Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
-  innovation.head(rows_) = fix.residual - fix.H * x.mean;
-  S.topLeftCorner(rows_, rows_) = HP.lazyProduct(fix.H.transpose());
+  const auto H = fix.H.leftCols(x.mean.size());
+  innovation.head(rows_) = fix.residual - H * x.mean;
+  S.topLeftCorner(rows_, rows_) = HP.lazyProduct(H.transpose());
   return Weigh(innovation, S, outlier);
 }
 

@@ -14,6 +14,9 @@ namespace hindsight {
 /// has rows: north, east, down of a position or velocity, one of a height or a
 /// heading. Of a magnetometer whose hard iron is estimated e is such a field, in
 /// vehicle axes, of which an azimuth sees what turns it.
+///
+/// A Gaussian x of the chain is over its first components: e where the receiver is not
+/// good and r where it drifts follow the navigation errors. What x has not is zero.
 class ErrorChain {
  public:
   /// The tape must outlive this.
@@ -21,8 +24,14 @@ class ErrorChain {
   ErrorChain(SensorTape&& tape, const ErrorParameters& parameters) = delete;
 
   std::size_t size() const { return tape_.size(); }
+  /// Of (navigation, e, r).
   int dim() const { return navigation_dim_ + 6; }
+  /// Of what such a mode leaves of an x.
+  int DimOf(ErrorMode mode) const;
+  /// The first `dim` components of x, with zeros in the place of those that it has not.
+  static Gaussian Resized(const Gaussian& x, int dim);
 
+  /// Before any measurement, of a receiver that is good.
   Gaussian Begin() const;
 
   /// Makes node k and the interval before it the present ones.
@@ -71,11 +80,16 @@ class ErrorChain {
   struct FixView {
     // Rows that the fix has not are zero, with a noise of 1 / (2 pi), so that
     // they add nothing to any density.
-    Eigen::Vector3d innovation;  ///< residual - H_n mean_n
-    Eigen::Matrix3d S;           ///< H_n P_n H_n'
-    Eigen::Matrix3d P_ze, P_zr;  ///< H_n P_ne, H_n P_nr
-    Eigen::Vector3d e, r;
-    Eigen::Matrix3d P_ee, P_er, P_rr;
+    Eigen::Vector3d innovation =
+        Eigen::Vector3d::Zero();                     ///< residual - H_n mean_n
+    Eigen::Matrix3d S = Eigen::Matrix3d::Zero();     ///< H_n P_n H_n'
+    Eigen::Matrix3d P_ze = Eigen::Matrix3d::Zero();  ///< H_n P_ne
+    Eigen::Matrix3d P_zr = Eigen::Matrix3d::Zero();  ///< H_n P_nr
+    Eigen::Vector3d e = Eigen::Vector3d::Zero();
+    Eigen::Vector3d r = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d P_ee = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d P_er = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d P_rr = Eigen::Matrix3d::Zero();
   };
   FixView ViewOf(const Gaussian& x) const;
   /// What LikelihoodOfFix would give after PredictError of `step`.
@@ -117,6 +131,8 @@ class ErrorChain {
   double UpdateAll(bool outlier, Gaussian* x, std::vector<Used>* used,
                    const RowJacobian* HP_of_fix) const;
 
+  /// Of an x that has e, with r or without.
+  void PredictErrorBy(const ErrorDynamics& d, Gaussian* x) const;
   /// Adds a measurement of the node over (navigation, e, r).
   void Take(const TapeMeasurement& z);
   void AddNavigationNoise(ErrorMatrix* P) const;

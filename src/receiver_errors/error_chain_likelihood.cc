@@ -30,19 +30,16 @@ ErrorChain::FixView ErrorChain::ViewOf(const Gaussian& x) const {
   const auto H = z.H.leftCols(n);
   const RowJacobian HP_n =
       TimesTransposed(x.P.topLeftCorner(n, n), H).transpose();
-  const RowJacobian HP_e = H.lazyProduct(x.P.topRightCorner(n, 6));
   FixView view;
-  view.innovation.setZero();
-  view.S.setZero();
-  view.P_ze.setZero();
-  view.P_zr.setZero();
   view.innovation.head(rows_) = z.residual - H * x.mean.head(n);
   view.S.topLeftCorner(rows_, rows_) = HP_n * H.transpose();
-  view.P_ze.topRows(rows_) = HP_e.leftCols(3);
-  view.P_zr.topRows(rows_) = HP_e.rightCols(3);
+  if (x.mean.size() == n) return view;
+  view.P_ze.topRows(rows_) = H.lazyProduct(x.P.block(0, n, n, 3));
   view.e = x.mean.segment<3>(n);
-  view.r = x.mean.segment<3>(n + 3);
   view.P_ee = x.P.block<3, 3>(n, n);
+  if (x.mean.size() == n + 3) return view;
+  view.P_zr.topRows(rows_) = H.lazyProduct(x.P.block(0, n + 3, n, 3));
+  view.r = x.mean.segment<3>(n + 3);
   view.P_er = x.P.block<3, 3>(n, n + 3);
   view.P_rr = x.P.block<3, 3>(n + 3, n + 3);
   return view;

@@ -124,7 +124,7 @@ HeldOutPrediction::Prediction HeldOutPrediction::PredictFix(
   for (const TapeMeasurement& z : tape_.linear().measurements(k)) {
     if (z.sensor != tape_.sensor() || !z.accepted || z.withheld) continue;
     const LinearizedMeasurement& fix = chain_.measurements().front();
-    const RowVector off = fix.residual - fix.H * x.mean;
+    const RowVector off = fix.residual - fix.H.leftCols(x.mean.size()) * x.mean;
     Prediction out;
     double uniform = std::log(kUniform);
     for (Eigen::Index i = 0; i < z.R.rows(); ++i) {

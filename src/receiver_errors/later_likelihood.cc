@@ -24,7 +24,8 @@ std::vector<Eigen::Index> NoisyOf(const ErrorMatrix& Q) {
 }
 
 /// I + U P U', of which nothing above the diagonal is said; UP gets U P.
-ErrorMatrix OneAndCongruence(const ErrorMatrix& U, const ErrorMatrix& P,
+template <typename Factor>
+ErrorMatrix OneAndCongruence(const Factor& U, const ErrorMatrix& P,
                              ErrorMatrix* UP) {
   ErrorMatrix S;
   Multiply(U, P, /*lower=*/false, UP);
@@ -79,9 +80,10 @@ void LaterLikelihood::BackOver(const ErrorMatrix& Phi, const ErrorMatrix& Q,
 
 Gaussian LaterLikelihood::Joined(const Gaussian& before) const {
   ErrorMatrix UP;
-  const Eigen::LLT<ErrorMatrix> G(OneAndCongruence(U_, before.P, &UP));
+  const auto U = U_.leftCols(before.mean.size());
+  const Eigen::LLT<ErrorMatrix> G(OneAndCongruence(U, before.P, &UP));
   const ErrorMatrix GUP = G.matrixL().solve(UP);
-  ErrorVector whitened = z_ - U_ * before.mean;
+  ErrorVector whitened = z_ - U * before.mean;
   G.matrixL().solveInPlace(whitened);
   Gaussian joined = before;
   joined.mean += GUP.transpose() * whitened;
@@ -91,11 +93,12 @@ Gaussian LaterLikelihood::Joined(const Gaussian& before) const {
 
 double LaterLikelihood::LogMean(const Gaussian& before) const {
   ErrorMatrix UP;
-  const Eigen::LLT<ErrorMatrix> G(OneAndCongruence(U_, before.P, &UP));
+  const auto U = U_.leftCols(before.mean.size());
+  const Eigen::LLT<ErrorMatrix> G(OneAndCongruence(U, before.P, &UP));
   if (G.info() != Eigen::Success) {
     return -std::numeric_limits<double>::infinity();
   }
-  ErrorVector whitened = z_ - U_ * before.mean;
+  ErrorVector whitened = z_ - U * before.mean;
   G.matrixL().solveInPlace(whitened);
   return c_ - 0.5 * whitened.squaredNorm() -
          G.matrixLLT().diagonal().array().log().sum();

@@ -34,6 +34,7 @@ class LaterLikelihood {
 
   /// What is known of x together with (m, P) of all before: with S = I + U P U',
   ///   m + P U' S^-1 (z - U m),   P - P U' S^-1 U P.
+  /// Components after those that (m, P) has are zero, here and below.
   Gaussian Joined(const Gaussian& before) const;
 
   /// ln E[L] over x ~ (m, P): with G G' = I + U P U',

@@ -41,7 +41,7 @@ class Walk {
 /// An update, in no more memory than it needs.
 struct PassedUpdate {
   explicit PassedUpdate(const ErrorChain::Used& used)
-      : H(used.z.H),
+      : H(used.z.H.leftCols(used.HP.cols())),
         HP(used.HP),
         S(used.innovation.S),
         innovation(used.innovation.residual) {}
@@ -54,11 +54,12 @@ struct PassedUpdate {
 
 /// Carries lambda of x_s = x + P lambda back over an update,
 /// lambda <- (I - K H)' lambda + H' S^-1 innovation.
+/// What the filter did not have then, no earlier step hangs on.
 void BackOver(const PassedUpdate& passed, ErrorVector* lambda) {
   const Eigen::LLT<Eigen::MatrixXd> llt(passed.S);
-  const Eigen::VectorXd gain =
-      llt.solve(passed.innovation - passed.HP * *lambda);
-  *lambda += passed.H.transpose() * gain;
+  auto seen = lambda->head(passed.H.cols());
+  const Eigen::VectorXd gain = llt.solve(passed.innovation - passed.HP * seen);
+  seen += passed.H.transpose() * gain;
 }
 
 }  // namespace
@@ -100,8 +101,9 @@ ErrorTrajectory SmoothSequence(const SensorTape& tape,
     used.clear();
     walk.UpdateAt(k, &used);
     for (const ErrorChain::Used& one : used) passed[k].emplace_back(one);
-    mean[k] = walk.x().mean;
-    P.Set(k, walk.x().P);
+    const Gaussian x = ErrorChain::Resized(walk.x(), n);
+    mean[k] = x.mean;
+    P.Set(k, x.P);
   }
   ErrorVector lambda = ErrorVector::Zero(n);
   ErrorChain chain(tape, parameters);

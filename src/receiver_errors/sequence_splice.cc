@@ -66,8 +66,9 @@ void SequenceSplice::RunForward() {
     Taken taken;
     if (!Pass(base_, &at, &taken)) continue;
     const auto column = static_cast<Eigen::Index>(before.fix);
-    mean_.col(column) = before.x.mean;
-    P_.Set(before.fix, before.x.P);
+    const Gaussian x = ErrorChain::Resized(before.x, chain_.dim());
+    mean_.col(column) = x.mean;
+    P_.Set(before.fix, x.P);
     fixes_[before.fix] = {before.node, before.score, taken, at.score.log_prior,
                           0.0};
   }
@@ -105,7 +106,9 @@ SequenceSplice::Place SequenceSplice::PlaceBefore(std::size_t i) const {
   place.node = fixes_[i].node;
   place.fix = i;
   if (i > 0) place.mode = base_[i - 1].mode;
-  place.x = {mean_.col(static_cast<Eigen::Index>(i)), P_.Get(i)};
+  place.x =
+      ErrorChain::Resized({mean_.col(static_cast<Eigen::Index>(i)), P_.Get(i)},
+                          chain_.DimOf(place.mode));
   place.score = fixes_[i].before;
   return place;
 }

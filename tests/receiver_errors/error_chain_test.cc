@@ -97,6 +97,8 @@ TEST(ErrorChain, PredictsAsItsTransitionSays) {
       Gaussian after = before;
       chain.PredictNavigation(&after);
       chain.PredictError(step, &after);
+      EXPECT_EQ(after.mean.size(), chain.DimOf(step.mode));
+      after = ErrorChain::Resized(after, n);
       const ErrorMatrix Phi = chain.Phi(step);
       const ErrorVector mean = Phi * before.mean + chain.Defect();
       const ErrorMatrix P = Phi * before.P * Phi.transpose() + chain.Q(step);
@@ -107,6 +109,38 @@ TEST(ErrorChain, PredictsAsItsTransitionSays) {
       }
       EXPECT_LT((after.mean - mean).norm(), 1e-12 * mean.norm());
       EXPECT_LT((after.P - P).norm(), 1e-12 * P.norm());
+    }
+  }
+}
+
+/// With zeros in the place of what it has not.
+TEST(ErrorChain, AStateIsThatOfAllComponents) {
+  const LinearTape tape = TapeOf(WithVelocities(5.0));
+  const SensorTape seen(tape, 0);
+  ErrorParameters p = WithoutOutliers();
+  p.outlier_share = 0.1;
+  ErrorChain chain(seen, p);
+  for (const ErrorMode mode :
+       {ErrorMode::kGood, ErrorMode::kSlight, ErrorMode::kDrifting}) {
+    for (std::size_t k = 1; k < seen.size(); ++k) {
+      chain.MoveTo(k);
+      const int n = chain.DimOf(mode);
+      const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n);
+      Gaussian own{A.col(0), A * A.transpose()};
+      Gaussian all = ErrorChain::Resized(own, chain.dim());
+      ASSERT_TRUE(chain.has_fix());
+      for (const ErrorStep step :
+           {ErrorStep{mode}, kStepVelocity, ErrorStep{ErrorMode::kBiased}}) {
+        EXPECT_NEAR(chain.LikelihoodAfter(step, chain.ViewOf(own)).log,
+                    chain.LikelihoodAfter(step, chain.ViewOf(all)).log, 1e-9);
+      }
+      const auto of_own = chain.UpdateWithFix({mode}, &own);
+      const auto of_all = chain.UpdateWithFix({mode}, &all);
+      EXPECT_NEAR(of_own.fix.log, of_all.fix.log, 1e-9);
+      EXPECT_NEAR(of_own.others, of_all.others, 1e-9);
+      own = ErrorChain::Resized(own, chain.dim());
+      EXPECT_LT((own.mean - all.mean).norm(), 1e-12 * all.mean.norm());
+      EXPECT_LT((own.P - all.P).norm(), 1e-12 * all.P.norm());
     }
   }
 }
@@ -131,7 +165,9 @@ TEST(ErrorChain, StepsOfTheVelocityReachOverAGap) {
     const double q = p.rate_sigma * p.rate_sigma;
     const int pos = tape.layout().Find(BlockKind::kPosition)->offset;
     const int vel = tape.layout().Find(BlockKind::kVelocity)->offset;
-    const ErrorMatrix added = stepped.P - x.P;
+    const int n = chain.dim();
+    const ErrorMatrix added =
+        ErrorChain::Resized(stepped, n).P - ErrorChain::Resized(x, n).P;
     const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
     EXPECT_TRUE((added.block<3, 3>(pos, pos).isApprox(q * T * T * I, 1e-9)));
     EXPECT_TRUE((added.block<3, 3>(pos, vel).isApprox(q * T * I, 1e-9)));

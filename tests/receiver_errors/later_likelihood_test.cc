@@ -44,6 +44,26 @@ TEST(LaterLikelihood, ForgetsWhatUnderflows) {
   }
 }
 
+/// Of an x without the second error, as if that were known to be zero.
+TEST(LaterLikelihood, TakesErrorsThatAreLeftOutForZero) {
+  LaterLikelihood later(2);
+  later.Add(OfSum(0.3));
+  later.BackOver(ErrorMatrix::Identity(2, 2), ErrorMatrix::Identity(2, 2),
+                 ErrorVector::Zero(2));
+  later.Add(OfSum(-0.5));
+  const Gaussian first = {ErrorVector::Constant(1, 2.0),
+                          ErrorMatrix::Constant(1, 1, 3.0)};
+  Gaussian both = {ErrorVector::Zero(2), ErrorMatrix::Zero(2, 2)};
+  both.mean(0) = 2.0;
+  both.P(0, 0) = 3.0;
+  EXPECT_NEAR(later.LogMean(first), later.LogMean(both), 1e-12);
+  const Gaussian joined = later.Joined(first);
+  const Gaussian expected = later.Joined(both);
+  ASSERT_EQ(joined.mean.size(), 1);
+  EXPECT_NEAR(joined.mean(0), expected.mean(0), 1e-12);
+  EXPECT_NEAR(joined.P(0, 0), expected.P(0, 0), 1e-12);
+}
+
 /// ln E[L] of two measurements, against the density of both.
 TEST(LaterLikelihood, MeansTheDensityOfWhatFollows) {
   LaterLikelihood later(2);
