@@ -133,10 +133,17 @@ class Refinement {
       for (std::size_t i = 0; i < base.size(); ++i) {
         if (!base[i].outlier && !splice_->MayBeAnOutlier(i)) continue;
         one[i].outlier = !base[i].outlier;
-        if (!visit(one)) return;
+        if (MayBeBetter(one, i) && !visit(one)) return;
         one[i].outlier = base[i].outlier;
       }
     });
+  }
+
+  bool MayBeBetter(const ModeSequence& sequence, std::size_t i) {
+    const std::size_t before = splice_->steps();
+    const bool may_be = splice_->MayBeBetter(sequence, i);
+    if (effort_ != nullptr) effort_->Spend(splice_->steps() - before);
+    return may_be;
   }
 
   ModeSequence SpliceBest() {

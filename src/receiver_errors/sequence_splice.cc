@@ -7,7 +7,7 @@ namespace hindsight {
 namespace {
 
 /// Joined once so many fixes in a row are taken as in the base, to this [ln].
-constexpr int kFixesAsInBase = 5;
+constexpr std::size_t kFixesAsInBase = 5;
 constexpr double kExcessAsInBase = 1e-4;
 
 std::size_t SquareOf(int n) {
@@ -146,6 +146,21 @@ SequenceScore SequenceSplice::Score(const ModeSequence& sequence) {
   return score;
 }
 
+bool SequenceSplice::MayBeBetter(const ModeSequence& sequence, std::size_t i) {
+  constexpr double kLaterExcesses = 1.0;
+  // What the base takes for outliers behind the fix may be none without it.
+  const std::size_t end = std::min(i + 1 + kFixesAsInBase, fixes_.size());
+  for (std::size_t later = i + 1; later < end; ++later) {
+    if (fixes_[later].taken.outlier) return true;
+  }
+  Place at = PlaceBefore(i);
+  Taken taken;
+  Pass(sequence, &at, &taken);
+  const std::optional<SequenceScore> joined = Joined(i, at);
+  return !joined ||
+         joined->log_posterior() > total_.log_posterior() - kLaterExcesses;
+}
+
 SequenceScore SequenceSplice::ScoreWithoutPrice(const ModeSequence& sequence) {
   const auto first = static_cast<std::size_t>(
       std::mismatch(base_.begin(), base_.end(), sequence.begin()).first -
@@ -154,7 +169,7 @@ SequenceScore SequenceSplice::ScoreWithoutPrice(const ModeSequence& sequence) {
   std::size_t last = base_.size() - 1;
   while (sequence[last] == base_[last]) --last;
   Place at = PlaceBefore(first);
-  int as_in_base = 0;
+  std::size_t as_in_base = 0;
   while (at.node < chain_.size()) {
     Taken taken;
     if (!Pass(sequence, &at, &taken)) continue;

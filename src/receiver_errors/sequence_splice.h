@@ -46,6 +46,10 @@ class SequenceSplice {
   /// Score of a sequence of the base's length. The cost grows with the span from
   /// the first to the last fix at which it differs from the base.
   SequenceScore Score(const ModeSequence& sequence);
+  /// Whether a sequence that differs from the base at fix i alone, and not in its mode,
+  /// may have a higher score: by a filter that is joined right behind the fix, to as much
+  /// as later excesses may differ. True where the base has an outlier among the next five.
+  bool MayBeBetter(const ModeSequence& sequence, std::size_t i);
 
   const ModeSequence& base() const { return base_; }
   /// What the base's filter knows before the interval that leads to the node of

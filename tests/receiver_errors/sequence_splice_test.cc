@@ -153,6 +153,32 @@ TEST(SequenceSplice, TakesChangesAtTheFirstAndTheLastFix) {
   }
 }
 
+/// Of fixes taken for outliers or not: whatever is better by its score may be.
+TEST(SequenceSplice, WhatIsBetterMayBe) {
+  const std::vector<std::size_t> outliers = {7, 20, 33, 34, 52};
+  const LinearTape tape = MakeTape(60.0, 1, false, outliers);
+  const SensorTape seen(tape, 0);
+  const ErrorParameters p = Parameters(0.02);
+  const ModeSequence base(FixCount(tape));
+  ModeSequence all_out = base;
+  for (const std::size_t i : outliers) all_out[i].outlier = true;
+  int refused = 0;
+  for (const ModeSequence& from : {base, all_out}) {
+    SequenceSplice splice(seen, p, from);
+    const double level = splice.Score(from).log_posterior();
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      ModeSequence h = from;
+      h[i].outlier = !h[i].outlier;
+      const bool may_be = splice.MayBeBetter(h, i);
+      refused += may_be ? 0 : 1;
+      if (!may_be) {
+        EXPECT_LT(splice.Score(h).log_posterior(), level) << i;
+      }
+    }
+  }
+  EXPECT_GT(refused, 40);
+}
+
 TEST(SequenceSplice, MovesAChange) {
   const LinearTape tape = MakeTape(240.0, 4, true);
   const ErrorParameters p = Parameters(1e-15);
