@@ -214,26 +214,24 @@ LinearizedMeasurement ErrorChain::MeasurementAs(std::size_t i,
 }
 
 double ErrorChain::UpdateAll(bool outlier, Gaussian* x) const {
-  return UpdateAll(outlier, x, nullptr, nullptr);
+  return UpdateAll(outlier, x, nullptr, nullptr).others;
 }
 
 ErrorChain::NodeLikelihood ErrorChain::UpdateWithFix(
     ErrorStep step, Gaussian* x, std::vector<Used>* used) const {
-  NodeLikelihood out;
-  if (!has_fix()) {
-    out.others = UpdateAll(false, x, used, nullptr);
-    return out;
-  }
+  if (!has_fix()) return UpdateAll(false, x, used, nullptr);
   const LinearizedMeasurement& fix = z_[static_cast<std::size_t>(fix_)];
   const RowJacobian HP = ProductWith(fix.H, x->P);
-  out.fix = LikelihoodBy(HP, *x, step.outlier);
-  out.others = UpdateAll(out.fix.outlier, x, used, &HP);
+  const FixLikelihood of_fix = LikelihoodBy(HP, *x, step.outlier);
+  NodeLikelihood out = UpdateAll(of_fix.outlier, x, used, &HP);
+  out.fix = of_fix;
   return out;
 }
 
-double ErrorChain::UpdateAll(bool outlier, Gaussian* x, std::vector<Used>* used,
-                             const RowJacobian* HP_of_fix) const {
-  double log_likelihood = 0.0;
+ErrorChain::NodeLikelihood ErrorChain::UpdateAll(
+    bool outlier, Gaussian* x, std::vector<Used>* used,
+    const RowJacobian* HP_of_fix) const {
+  NodeLikelihood out;
   for (std::size_t i = 0; i < z_.size(); ++i) {
     LinearizedMeasurement wider;
     const bool is_outlier = outlier && IsFix(i);
@@ -242,10 +240,10 @@ double ErrorChain::UpdateAll(bool outlier, Gaussian* x, std::vector<Used>* used,
     const bool is_known = HP_of_fix != nullptr && IsFix(i);
     const RowJacobian HP = is_known ? *HP_of_fix : ProductWith(z.H, x->P);
     const Innovation innovation = UpdateWith(z, HP, x);
-    if (!IsFix(i)) log_likelihood += innovation.log_likelihood;
+    (IsFix(i) ? out.as_used : out.others) += innovation.log_likelihood;
     if (used != nullptr) used->push_back({z, innovation, HP});
   }
-  return log_likelihood;
+  return out;
 }
 
 void ErrorChain::UpdateOthers(Gaussian* x) const {

@@ -110,6 +110,8 @@ class ErrorChain {
   struct NodeLikelihood {
     FixLikelihood fix;    ///< zero of a node without one
     double others = 0.0;  ///< ln, of those beside the fix
+    double as_used =
+        0.0;  ///< ln, of the fix as the one Gaussian that the filter takes
   };
   /// The same, the fix taken as LikelihoodOfFix has it. `used` gets what was used, if
   /// asked for.
@@ -128,8 +130,9 @@ class ErrorChain {
   /// Of an innovation of covariance S + R, padded as FixView.
   FixLikelihood Weigh(const Eigen::Vector3d& innovation,
                       const Eigen::Matrix3d& S, bool outlier) const;
-  double UpdateAll(bool outlier, Gaussian* x, std::vector<Used>* used,
-                   const RowJacobian* HP_of_fix) const;
+  /// Fills in all but what the fix is as a mixture.
+  NodeLikelihood UpdateAll(bool outlier, Gaussian* x, std::vector<Used>* used,
+                           const RowJacobian* HP_of_fix) const;
 
   /// Of an x that has e, with r or without.
   void PredictErrorBy(const ErrorDynamics& d, Gaussian* x) const;

@@ -194,7 +194,8 @@ void FitGaussMarkovAnew(const RegimeProblem& problem,
   ErrorParameters typical;
   typical.sigma = start.sigma;
   typical.tau = start.tau;
-  ErrorRegimes other = FitGaussMarkov(problem, typical);
+  ErrorRegimes other =
+      FitGaussMarkov(problem, typical, gauss_markov->log_evidence);
   if (other.log_evidence > gauss_markov->log_evidence) {
     *gauss_markov = std::move(other);
   }

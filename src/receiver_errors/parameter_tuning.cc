@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "base/units.h"
 #include "receiver_errors/sequence_smoother.h"
 
@@ -58,13 +59,24 @@ double ParameterTuning::LogShareOfPrior(double ErrorParameters::*member,
                                         double value) {
   parameters_ = found;
   value_ = value;
-  return LogShareOfPrior(TunableOf(member));
+  return SumOfLogShares({&TunableOf(member)});
 }
 
 double ParameterTuning::Value(const ErrorParameters& p) const {
-  if (effort_ != nullptr) effort_->Spend(tape_.size());
-  return ScoreSequence(tape_, p, sequence_).log_likelihood +
-         LogPriorOf(tunables_, p);
+  return Values({p}).front();
+}
+
+std::vector<double> ParameterTuning::Values(
+    const std::vector<ErrorParameters>& all) const {
+  if (effort_ != nullptr) effort_->Spend(all.size() * tape_.size());
+  std::vector<double> values(all.size());
+  ForRanges(all.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      values[i] = ScoreSequence(tape_, all[i], sequence_).log_likelihood +
+                  LogPriorOf(tunables_, all[i]);
+    }
+  });
+  return values;
 }
 
 double ParameterTuning::LogShareOfPrior(const ErrorParameters& found,
@@ -72,9 +84,9 @@ double ParameterTuning::LogShareOfPrior(const ErrorParameters& found,
   tunables_.front().least = least_scale;
   parameters_ = found;
   value_ = Value(found);
-  double sum = 0.0;
-  for (const Tunable& tunable : tunables_) sum += LogShareOfPrior(tunable);
-  return sum;
+  std::vector<const Tunable*> all;
+  for (const Tunable& tunable : tunables_) all.push_back(&tunable);
+  return SumOfLogShares(all);
 }
 
 ErrorParameters ParameterTuning::ClimbFinely() {
@@ -84,32 +96,62 @@ ErrorParameters ParameterTuning::ClimbFinely() {
   return parameters_;
 }
 
-/// ln of what the posterior gains where the logarithm of a parameter is moved;
-/// as at the bounds beyond them.
-double ParameterTuning::GainAt(const Tunable& tunable, double by) const {
+ErrorParameters ParameterTuning::Moved(const Tunable& tunable,
+                                       double by) const {
   ErrorParameters p = parameters_;
   p.*tunable.member =
       std::clamp(p.*tunable.member * std::exp(by), tunable.least, tunable.most);
-  return Value(p) - value_;
+  return p;
 }
 
-double ParameterTuning::LogShareOfPrior(const Tunable& tunable) const {
+double ParameterTuning::SumOfLogShares(
+    const std::vector<const Tunable*>& tunables) const {
+  double sum = 0.0;
+  const std::vector<Fall> falls = FallsOf(tunables);
+  for (std::size_t i = 0; i < falls.size(); ++i) {
+    sum += LogShareOfPrior(*tunables[i], falls[i]);
+  }
+  return sum;
+}
+
+std::vector<ParameterTuning::Fall> ParameterTuning::FallsOf(
+    const std::vector<const Tunable*>& tunables) const {
   constexpr double kFalls = -0.5;
   constexpr double kWider = 3.0;
-  const bool at_least = parameters_.*tunable.member < 1.001 * tunable.least;
-  double h = 0.15 * tunable.spread;
-  double near = 0.0;
-  double far = 0.0;
-  const auto fall = [&] {
-    near = GainAt(tunable, h);
-    far = GainAt(tunable, at_least ? 2.0 * h : -h);
-    return std::max(near, far);
-  };
-  double falls = fall();
-  while (falls > kFalls && h < tunable.spread) {
-    h *= kWider;
-    falls = fall();
+  std::vector<Fall> falls;
+  std::vector<std::size_t> pending;
+  for (const Tunable* tunable : tunables) {
+    pending.push_back(falls.size());
+    falls.push_back(
+        {.at_least = parameters_.*tunable->member < 1.001 * tunable->least,
+         .h = 0.15 * tunable->spread});
   }
+  while (!pending.empty()) {
+    std::vector<ErrorParameters> points;
+    for (const std::size_t i : pending) {
+      const auto& [at_least, h, near, far] = falls[i];
+      points.push_back(Moved(*tunables[i], h));
+      points.push_back(Moved(*tunables[i], at_least ? 2.0 * h : -h));
+    }
+    const std::vector<double> values = Values(points);
+    std::size_t at = 0;
+    std::erase_if(pending, [&](std::size_t i) {
+      falls[i].near = values[at++] - value_;
+      falls[i].far = values[at++] - value_;
+      if (std::max(falls[i].near, falls[i].far) <= kFalls ||
+          falls[i].h >= tunables[i]->spread) {
+        return true;
+      }
+      falls[i].h *= kWider;
+      return false;
+    });
+  }
+  return falls;
+}
+
+double ParameterTuning::LogShareOfPrior(const Tunable& tunable,
+                                        const Fall& fall) {
+  const auto& [at_least, h, near, far] = fall;
   const double prior = PriorCurvature(tunable);
   const double log_prior = LogOfIntegral(prior) + LogOfPriorWithin(tunable);
   if (!at_least) {

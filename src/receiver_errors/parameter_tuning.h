@@ -49,8 +49,20 @@ class ParameterTuning {
 
  private:
   ErrorParameters ClimbFinely();
-  double GainAt(const Tunable& tunable, double by) const;
-  double LogShareOfPrior(const Tunable& tunable) const;
+  /// Several of Value at once.
+  std::vector<double> Values(const std::vector<ErrorParameters>& all) const;
+  /// With the logarithm of a parameter moved, within its bounds.
+  ErrorParameters Moved(const Tunable& tunable, double by) const;
+  /// What ln of the posterior gains where the logarithm of a parameter is moved.
+  struct Fall {
+    bool at_least = false;  ///< the parameter is at its lower bound
+    double h = 0.0;         ///< so far apart are the three points
+    double near = 0.0;      ///< at h
+    double far = 0.0;       ///< at -h, from the lower bound at 2 h
+  };
+  std::vector<Fall> FallsOf(const std::vector<const Tunable*>& tunables) const;
+  double SumOfLogShares(const std::vector<const Tunable*>& tunables) const;
+  static double LogShareOfPrior(const Tunable& tunable, const Fall& fall);
   bool Walk(const Tunable& tunable, double step);
 
   const SensorTape& tape_;

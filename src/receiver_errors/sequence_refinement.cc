@@ -7,7 +7,9 @@
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
+#include "base/parallel.h"
 #include "receiver_errors/sequence_splice.h"
 #include "receiver_errors/sequence_variations.h"
 
@@ -40,6 +42,18 @@ Stretch WhereTheyDiffer(const ModeSequence& a, const ModeSequence& b) {
   return out;
 }
 
+/// A sequence to be scored.
+struct Trial {
+  ModeSequence sequence;
+  double count = 1.0;  ///< as Hypothesis has it
+  /// Fix at which alone it differs from the base, as an outlier or none.
+  std::optional<std::size_t> outlier = std::nullopt;
+};
+
+/// Shown a trial; whether another is wanted.
+using Visit = std::function<bool(Trial)>;
+using Show = std::function<void(const Visit&)>;
+
 class Refinement {
  public:
   Refinement(const SensorTape& tape, const ErrorParameters& parameters,
@@ -50,19 +64,24 @@ class Refinement {
   /// is scored on its own.
   void Begin(const std::vector<Hypothesis>& found) {
     Splice(found.front().sequence);
-    for (const Hypothesis& one : found) Try(one.sequence, one.count);
+    std::vector<Trial> trials;
+    for (const Hypothesis& one : found) {
+      trials.push_back({one.sequence, one.count});
+    }
+    Try(trials, Until::kDone);
   }
 
   void Climb() {
     for (int round = 0; round < kMostRounds && !IsSpent(); ++round) {
       const ModeSequence base = SpliceBest();
       const auto variations = [&base](const Visit& visit) {
-        for (const ModeSequence& h : Variations(base)) {
-          if (!visit(h)) return;
+        for (ModeSequence& h : Variations(base)) {
+          if (!visit({std::move(h)})) return;
         }
       };
       const auto velocity_steps = [&base](const Visit& visit) {
-        ForEachVelocityStep(base, visit);
+        ForEachVelocityStep(
+            base, [&visit](const ModeSequence& h) { return visit({h}); });
       };
       if (!TryAll(base, variations) && !TryAll(base, velocity_steps) &&
           !TryOutliers(base)) {
@@ -78,12 +97,12 @@ class Refinement {
   }
 
   void TryEarlierErrors() {
-    ForEachEarlierError(SpliceBest(),
-                        [this](const ModeSequence& h, double count) {
-                          if (IsSpent()) return false;
-                          Try(h, count);
-                          return true;
-                        });
+    const ModeSequence base = SpliceBest();
+    TryEach([&base](const Visit& visit) {
+      ForEachEarlierError(base, [&visit](const ModeSequence& h, double count) {
+        return visit({h, count});
+      });
+    });
   }
 
   ModeSequence Best() const { return met_[best_].sequence; }
@@ -105,45 +124,55 @@ class Refinement {
   }
 
  private:
-  /// Shown a sequence; whether another is wanted.
-  using Visit = std::function<bool(const ModeSequence&)>;
+  /// To where trials are scored: all, or as many as the effort suffices for.
+  enum class Until { kDone, kSpent };
+  struct Score {
+    bool is_new = false;
+    std::optional<double> log_posterior;  ///< none if it cannot be better
+    std::size_t steps = 0;
+  };
 
   /// Whether one of those that `show` shows, or several together, are better
   /// than the base, the best.
-  bool TryAll(const ModeSequence& base,
-              const std::function<void(const Visit&)>& show) {
+  bool TryAll(const ModeSequence& base, const Show& show) {
     const std::size_t before = best_;
     const double level = met_[best_].log_posterior;
     const std::size_t first = met_.size();
-    show([this](const ModeSequence& h) {
-      if (IsSpent()) return false;
-      Try(h);
-      return true;
-    });
+    TryEach(show);
     if (best_ == before) return false;
-    Try(Together(base, level, first));
+    Try({{Together(base, level, first)}}, Until::kDone);
     return true;
+  }
+
+  /// As if one were tried after the other.
+  void TryEach(const Show& show) {
+    constexpr std::size_t kAtOnce = 32;
+    std::vector<Trial> trials;
+    const auto try_those = [&] {
+      Try(trials, Until::kSpent);
+      trials.clear();
+      return !IsSpent();
+    };
+    if (IsSpent()) return;
+    show([&](Trial one) {
+      trials.push_back(std::move(one));
+      return trials.size() < kAtOnce || try_those();
+    });
+    try_those();
   }
 
   /// Each fix that may be an outlier by what is known before it, and each that is
   /// one by decision as none.
   bool TryOutliers(const ModeSequence& base) {
     return TryAll(base, [&](const Visit& visit) {
-      ModeSequence one = base;
       for (std::size_t i = 0; i < base.size(); ++i) {
         if (!base[i].outlier && !splice_->MayBeAnOutlier(i)) continue;
-        one[i].outlier = !base[i].outlier;
-        if (MayBeBetter(one, i) && !visit(one)) return;
-        one[i].outlier = base[i].outlier;
+        Trial one = {base};
+        one.sequence[i].outlier = !base[i].outlier;
+        one.outlier = i;
+        if (!visit(std::move(one))) return;
       }
     });
-  }
-
-  bool MayBeBetter(const ModeSequence& sequence, std::size_t i) {
-    const std::size_t before = splice_->steps();
-    const bool may_be = splice_->MayBeBetter(sequence, i);
-    if (effort_ != nullptr) effort_->Spend(splice_->steps() - before);
-    return may_be;
   }
 
   ModeSequence SpliceBest() {
@@ -179,29 +208,59 @@ class Refinement {
     return all;
   }
 
-  void Try(const ModeSequence& sequence, double count = 1.0) {
-    const std::size_t hash = HashOf(sequence);
-    const auto known = kept_.find(hash);
-    if (known != kept_.end()) {
-      Hypothesis& one = met_[known->second];
-      one.count = std::max(one.count, count);
-      return;
+  void Try(const std::vector<Trial>& trials, Until until) {
+    if (until == Until::kSpent && IsSpent()) return;
+    const std::vector<Score> scores = ScoresOf(trials);
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      if (until == Until::kSpent && IsSpent()) return;
+      const auto known = kept_.find(HashOf(trials[i].sequence));
+      if (known != kept_.end()) {
+        Hypothesis& one = met_[known->second];
+        one.count = std::max(one.count, trials[i].count);
+      } else if (scores[i].is_new) {
+        if (effort_ != nullptr) effort_->Spend(scores[i].steps);
+        if (scores[i].log_posterior) Keep(trials[i], *scores[i].log_posterior);
+      }
     }
-    if (!tried_.insert(hash).second) return;
-    const std::size_t before = splice_->steps();
-    const SequenceScore score = splice_->Score(sequence);
-    if (effort_ != nullptr) effort_->Spend(splice_->steps() - before);
-    double log_posterior = score.log_posterior();
-    if (!std::isfinite(log_posterior)) log_posterior = kImpossible;
-    // What cannot come back into the result is not kept: there is one for every
-    // fix.
+  }
+
+  /// Of those that were never scored, several at once.
+  std::vector<Score> ScoresOf(const std::vector<Trial>& trials) {
+    constexpr std::size_t kGrain = 4;
+    std::vector<Score> scores(trials.size());
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      scores[i].is_new = tried_.insert(HashOf(trials[i].sequence)).second;
+    }
+    ForRanges(trials.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (scores[i].is_new) ScoreOne(trials[i], &scores[i]);
+      }
+    });
+    return scores;
+  }
+
+  void ScoreOne(const Trial& trial, Score* score) const {
+    if (trial.outlier) {
+      ++score->steps;
+      if (!splice_->MayBeBetter(trial.sequence, *trial.outlier)) return;
+    }
+    const SequenceSplice::Spliced spliced = splice_->Score(trial.sequence);
+    score->steps += spliced.steps;
+    const double log_posterior = spliced.log_posterior();
+    score->log_posterior =
+        std::isfinite(log_posterior) ? log_posterior : kImpossible;
+  }
+
+  /// What cannot come back into the result is not kept: there is one for every
+  /// fix.
+  void Keep(const Trial& trial, double log_posterior) {
     if (!met_.empty() &&
         (log_posterior < met_[best_].log_posterior - kLeastPosterior ||
          (log_posterior <= met_[best_].log_posterior && IsFull()))) {
       return;
     }
-    kept_.emplace(hash, met_.size());
-    met_.push_back({sequence, log_posterior, count, parameters_});
+    kept_.emplace(HashOf(trial.sequence), met_.size());
+    met_.push_back({trial.sequence, log_posterior, trial.count, parameters_});
     if (met_.back().log_posterior > met_[best_].log_posterior) {
       best_ = met_.size() - 1;
     }

@@ -19,7 +19,9 @@ std::size_t SquareOf(int n) {
 SequenceSplice::SequenceSplice(const SensorTape& tape,
                                const ErrorParameters& parameters,
                                const ModeSequence& base)
-    : chain_(tape, parameters),
+    : tape_(tape),
+      parameters_(parameters),
+      chain_(tape, parameters),
       base_(base),
       fixes_(base.size()),
       P_(chain_.dim(), base.size()),
@@ -32,29 +34,25 @@ SequenceSplice::SequenceSplice(const SensorTape& tape,
   RunBackward();
 }
 
-bool SequenceSplice::Pass(const ModeSequence& sequence, Place* at,
-                          Taken* taken) {
-  chain_.MoveTo(at->node++);
-  ++steps_;
-  chain_.PredictNavigation(&at->x);
-  if (!chain_.has_fix()) {
-    chain_.PredictError({at->mode}, &at->x);
-    at->score.log_likelihood += chain_.UpdateAll(false, &at->x);
+bool SequenceSplice::Pass(const ModeSequence& sequence, ErrorChain* chain,
+                          Place* at, Taken* taken) {
+  chain->MoveTo(at->node++);
+  ++at->score.steps;
+  chain->PredictNavigation(&at->x);
+  if (!chain->has_fix()) {
+    chain->PredictError({at->mode}, &at->x);
+    at->score.log_likelihood += chain->UpdateAll(false, &at->x);
     return false;
   }
   const ErrorStep step = sequence[at->fix++];
-  chain_.PredictError(step, &at->x);
-  used_.clear();
-  const auto [fix, others] = chain_.UpdateWithFix(step, &at->x, &used_);
+  chain->PredictError(step, &at->x);
+  const auto [fix, others, as_used] = chain->UpdateWithFix(step, &at->x);
   at->score.log_likelihood += fix.log + others;
   at->score.log_prior += at->fix == 1
-                             ? LogFirst(step, chain_.share())
-                             : LogTransition(at->mode, step, chain_.share());
+                             ? LogFirst(step, chain->share())
+                             : LogTransition(at->mode, step, chain->share());
   at->mode = step.mode;
-  *taken = {fix.outlier, fix.log + others, fix.log_odds};
-  for (const ErrorChain::Used& used : used_) {
-    taken->excess -= used.innovation.log_likelihood;
-  }
+  *taken = {fix.outlier, fix.log - as_used, fix.log_odds};
   return true;
 }
 
@@ -64,7 +62,7 @@ void SequenceSplice::RunForward() {
   while (at.node < chain_.size()) {
     const Place before = at;
     Taken taken;
-    if (!Pass(base_, &at, &taken)) continue;
+    if (!Pass(base_, &chain_, &at, &taken)) continue;
     const auto column = static_cast<Eigen::Index>(before.fix);
     const Gaussian x = ErrorChain::Resized(before.x, chain_.dim());
     mean_.col(column) = x.mean;
@@ -109,7 +107,7 @@ SequenceSplice::Place SequenceSplice::PlaceBefore(std::size_t i) const {
   place.x =
       ErrorChain::Resized({mean_.col(static_cast<Eigen::Index>(i)), P_.Get(i)},
                           chain_.DimOf(place.mode));
-  place.score = fixes_[i].before;
+  place.score = {fixes_[i].before, 0};
   return place;
 }
 
@@ -130,49 +128,54 @@ SequenceSplice::Before SequenceSplice::BeforeFix(std::size_t i) const {
   return {place.node, place.mode, place.x};
 }
 
-std::optional<SequenceScore> SequenceSplice::Joined(std::size_t i,
-                                                    const Place& after) const {
+std::optional<SequenceSplice::Spliced> SequenceSplice::Joined(
+    std::size_t i, const Place& after) const {
   const double joined = After(i).LogMean(after.x);
   if (!std::isfinite(joined)) return std::nullopt;
-  SequenceScore score = after.score;
+  Spliced score = after.score;
   score.log_likelihood += joined;
   score.log_prior += total_.log_prior - fixes_[i].log_prior;
   return score;
 }
 
-SequenceScore SequenceSplice::Score(const ModeSequence& sequence) {
-  SequenceScore score = ScoreWithoutPrice(sequence);
+SequenceSplice::Spliced SequenceSplice::Score(
+    const ModeSequence& sequence) const {
+  Spliced score = ScoreWithoutPrice(sequence);
   score.log_prior += LogOfVelocitySteps(CountVelocitySteps(sequence));
   return score;
 }
 
-bool SequenceSplice::MayBeBetter(const ModeSequence& sequence, std::size_t i) {
+bool SequenceSplice::MayBeBetter(const ModeSequence& sequence,
+                                 std::size_t i) const {
   constexpr double kLaterExcesses = 1.0;
   // What the base takes for outliers behind the fix may be none without it.
   const std::size_t end = std::min(i + 1 + kFixesAsInBase, fixes_.size());
   for (std::size_t later = i + 1; later < end; ++later) {
     if (fixes_[later].taken.outlier) return true;
   }
+  ErrorChain chain(tape_, parameters_);
   Place at = PlaceBefore(i);
   Taken taken;
-  Pass(sequence, &at, &taken);
-  const std::optional<SequenceScore> joined = Joined(i, at);
+  Pass(sequence, &chain, &at, &taken);
+  const std::optional<Spliced> joined = Joined(i, at);
   return !joined ||
          joined->log_posterior() > total_.log_posterior() - kLaterExcesses;
 }
 
-SequenceScore SequenceSplice::ScoreWithoutPrice(const ModeSequence& sequence) {
+SequenceSplice::Spliced SequenceSplice::ScoreWithoutPrice(
+    const ModeSequence& sequence) const {
   const auto first = static_cast<std::size_t>(
       std::mismatch(base_.begin(), base_.end(), sequence.begin()).first -
       base_.begin());
-  if (first == base_.size()) return total_;
+  if (first == base_.size()) return {total_, 0};
   std::size_t last = base_.size() - 1;
   while (sequence[last] == base_[last]) --last;
+  ErrorChain chain(tape_, parameters_);
   Place at = PlaceBefore(first);
   std::size_t as_in_base = 0;
   while (at.node < chain_.size()) {
     Taken taken;
-    if (!Pass(sequence, &at, &taken)) continue;
+    if (!Pass(sequence, &chain, &at, &taken)) continue;
     const std::size_t i = at.fix - 1;
     if (i <= last) continue;
     const Taken& base = fixes_[i].taken;
@@ -180,7 +183,7 @@ SequenceScore SequenceSplice::ScoreWithoutPrice(const ModeSequence& sequence) {
                        std::abs(taken.excess - base.excess) < kExcessAsInBase;
     as_in_base = alike ? as_in_base + 1 : 0;
     if (as_in_base < kFixesAsInBase) continue;
-    const std::optional<SequenceScore> joined = Joined(i, at);
+    const std::optional<Spliced> joined = Joined(i, at);
     if (joined) return *joined;
   }
   return at.score;

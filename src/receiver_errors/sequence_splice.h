@@ -43,13 +43,17 @@ class SequenceSplice {
   SequenceSplice(SensorTape&& tape, const ErrorParameters& parameters,
                  const ModeSequence& base) = delete;
 
-  /// Score of a sequence of the base's length. The cost grows with the span from
-  /// the first to the last fix at which it differs from the base.
-  SequenceScore Score(const ModeSequence& sequence);
+  struct Spliced : SequenceScore {
+    std::size_t steps = 0;  ///< nodes that a filter has passed for it
+  };
+  /// Score of a sequence of the base's length, from any thread. The cost grows with the
+  /// span from the first to the last fix at which it differs from the base.
+  Spliced Score(const ModeSequence& sequence) const;
   /// Whether a sequence that differs from the base at fix i alone, and not in its mode,
   /// may have a higher score: by a filter that is joined right behind the fix, to as much
   /// as later excesses may differ. True where the base has an outlier among the next five.
-  bool MayBeBetter(const ModeSequence& sequence, std::size_t i);
+  /// From any thread, at the cost of a node.
+  bool MayBeBetter(const ModeSequence& sequence, std::size_t i) const;
 
   const ModeSequence& base() const { return base_; }
   /// What the base's filter knows before the interval that leads to the node of
@@ -66,9 +70,6 @@ class SequenceSplice {
   /// What all measurements after the node of fix i say, as the base has them.
   LaterLikelihood After(std::size_t i) const;
 
-  /// Nodes that any filter of this has passed.
-  std::size_t steps() const { return steps_; }
-
  private:
   /// A filter on its way: the next node and fix, the mode and what is known
   /// before them.
@@ -77,14 +78,12 @@ class SequenceSplice {
     std::size_t fix = 0;
     ErrorMode mode = ErrorMode::kGood;
     Gaussian x;
-    SequenceScore score;  ///< of all before
+    Spliced score;  ///< of all before
   };
   /// How a fix was taken.
   struct Taken {
     bool outlier = false;
-    double excess = 0.0;    ///< ln of its mixture less ln of its Gaussian, the
-                            ///< latter where it stands among the node's
-                            ///< measurements
+    double excess = 0.0;    ///< ln of its mixture less ln of its Gaussian
     double log_odds = 0.0;  ///< of being no outlier
   };
   /// The base at a fix.
@@ -97,16 +96,19 @@ class SequenceSplice {
   };
 
   /// But for what several velocity steps cost together.
-  SequenceScore ScoreWithoutPrice(const ModeSequence& sequence);
+  Spliced ScoreWithoutPrice(const ModeSequence& sequence) const;
   /// Takes the next node; false if it has no fix.
-  bool Pass(const ModeSequence& sequence, Place* at, Taken* taken);
+  static bool Pass(const ModeSequence& sequence, ErrorChain* chain, Place* at,
+                   Taken* taken);
   void RunForward();
   void RunBackward();
   Place PlaceBefore(std::size_t i) const;
   /// None where P is too near to singular for the U there.
-  std::optional<SequenceScore> Joined(std::size_t i, const Place& after) const;
+  std::optional<Spliced> Joined(std::size_t i, const Place& after) const;
 
-  ErrorChain chain_;
+  const SensorTape& tape_;
+  ErrorParameters parameters_;
+  ErrorChain chain_;  ///< of the base
   ModeSequence base_;
   std::vector<AtFix> fixes_;
   SequenceScore total_;
@@ -115,8 +117,6 @@ class SequenceSplice {
   CovarianceSeries P_;
   PagedRows U_;  ///< column by column
   Eigen::MatrixXd z_;
-  std::vector<ErrorChain::Used> used_;
-  std::size_t steps_ = 0;
 };
 
 }  // namespace hindsight

@@ -96,7 +96,9 @@ ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
   score();
   ErrorRegimes out;
   out.kind = kind;
-  out.log_evidence = LogEvidence(problem, one, from, question);
+  UniformQuestion at_point = question;
+  if (range) at_point.worth -= range->log_gain;
+  out.log_evidence = LogEvidence(problem, one, from, at_point);
   if (range) {
     out.log_evidence += range->log_gain;
     one.parameters = range->mean;
@@ -134,8 +136,9 @@ std::vector<ErrorRegimes> FitNoise(const RegimeProblem& problem) {
 }
 
 ErrorRegimes FitGaussMarkov(const RegimeProblem& problem,
-                            const ErrorParameters& from) {
-  return FitUniform(problem, ErrorRegimes::Kind::kGaussMarkov, from);
+                            const ErrorParameters& from, double worth) {
+  return FitUniform(problem, ErrorRegimes::Kind::kGaussMarkov, from,
+                    {.worth = worth});
 }
 
 }  // namespace hindsight

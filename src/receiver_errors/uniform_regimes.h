@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_RECEIVER_ERRORS_UNIFORM_REGIMES_H_
 #define HINDSIGHT_RECEIVER_ERRORS_UNIFORM_REGIMES_H_
 
+#include <limits>
 #include <vector>
 
 #include "receiver_errors/error_regimes.h"
@@ -26,9 +27,11 @@ bool CanBeSolved(const ErrorParameters& white);
 /// with the IMU as stated and a scale of kLeastSolved or more.
 std::vector<ErrorRegimes> FitNoise(const RegimeProblem& problem);
 
-/// A Gauss-Markov error of all fixes, parameters sought `from` on.
-ErrorRegimes FitGaussMarkov(const RegimeProblem& problem,
-                            const ErrorParameters& from);
+/// A Gauss-Markov error of all fixes, parameters sought `from` on. Evidence that cannot
+/// exceed `worth` is told as what it cannot exceed.
+ErrorRegimes FitGaussMarkov(
+    const RegimeProblem& problem, const ErrorParameters& from,
+    double worth = -std::numeric_limits<double>::infinity());
 
 /// ln of the evidence of a fit of any kind whose parameters were sought `from` on,
 /// the scale from `least_scale` on (ErrorRegimes::log_evidence).
