@@ -2,7 +2,9 @@
 #define HINDSIGHT_LINEAR_SPARSE_PRODUCT_H_
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "linear/small_product.h"
@@ -69,20 +71,26 @@ class SparseCongruence {
   template <typename Of>
   void AddRow(Eigen::Index i, Eigen::Index begin, Eigen::Index end,
               const Of& of) {
-    const std::size_t first = elements_.size();
+    const std::size_t first = values_.size();
+    const std::size_t header = index_.size();
+    index_.resize(header + 2);
     for (Eigen::Index j = begin; j < end; ++j) {
       const double value = of(j);
-      if (value != 0.0) elements_.push_back({j, value});
+      if (value == 0.0) continue;
+      values_.push_back(value);
+      index_.push_back(static_cast<std::uint8_t>(j));
     }
-    const bool is_of_identity = elements_.size() == first + 1 &&
-                                elements_[first].column == i &&
-                                elements_[first].value == 1.0;
+    const std::size_t count = values_.size() - first;
+    const bool is_of_identity =
+        count == 1 && index_.back() == i && values_.back() == 1.0;
     if (is_of_identity) {
-      elements_.pop_back();
+      values_.pop_back();
+      index_.resize(header);
       return;
     }
-    rows_.push_back(i);
-    ends_.push_back(elements_.size());
+    index_[header] = static_cast<std::uint8_t>(i);
+    index_[header + 1] = static_cast<std::uint8_t>(count);
+    ++rows_;
   }
 
   /// S A in the place of A.
@@ -98,12 +106,13 @@ class SparseCongruence {
   template <typename Vector>
   void ApplyTo(Vector* v) const {
     const typename Vector::PlainObject before = *v;
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
+    Row row = FirstRow();
+    for (Eigen::Index r = 0; r < rows_; ++r, row = RowAfter(row)) {
       double sum = 0.0;
-      for (std::size_t e = BeginOf(r); e < ends_[r]; ++e) {
-        sum += elements_[e].value * before(elements_[e].column);
+      for (std::size_t e = 0; e < row.count; ++e) {
+        sum += row.values[e] * before(row.columns[e]);
       }
-      (*v)(rows_[r]) = sum;
+      (*v)(row.row) = sum;
     }
   }
 
@@ -111,38 +120,53 @@ class SparseCongruence {
   template <typename Matrix>
   void ApplyCongruence(Matrix* P) const {
     static_assert(!Matrix::IsRowMajor);
-    const auto count = static_cast<Eigen::Index>(rows_.size());
-    Matrix PSt(P->rows(), count);
+    Matrix PSt(P->rows(), rows_);
     AddUp(*P, /*lower=*/false, &PSt);
     const Matrix SP = PSt.transpose();
-    Matrix both(count, count);
+    Matrix both(rows_, rows_);
     AddUp(SP, /*lower=*/true, &both);
+    std::array<Eigen::Index, kMostRows> rows;
+    Row row = FirstRow();
+    for (Eigen::Index r = 0; r < rows_; ++r, row = RowAfter(row)) {
+      rows[static_cast<std::size_t>(r)] = row.row;
+    }
+    const auto of = [&rows](Eigen::Index r) {
+      return rows[static_cast<std::size_t>(r)];
+    };
     for (Eigen::Index j = 0; j < P->cols(); ++j) {
-      for (Eigen::Index r = 0; r < count; ++r) {
-        (*P)(rows_[static_cast<std::size_t>(r)], j) = SP(r, j);
-      }
+      for (Eigen::Index r = 0; r < rows_; ++r) (*P)(of(r), j) = SP(r, j);
     }
-    for (Eigen::Index r = 0; r < count; ++r) {
-      const Eigen::Index j = rows_[static_cast<std::size_t>(r)];
-      P->col(j) = PSt.col(r);
-    }
-    for (Eigen::Index r = 0; r < count; ++r) {
-      const Eigen::Index j = rows_[static_cast<std::size_t>(r)];
-      for (Eigen::Index s = r; s < count; ++s) {
-        const Eigen::Index i = rows_[static_cast<std::size_t>(s)];
-        (*P)(i, j) = (*P)(j, i) = both(s, r);
+    for (Eigen::Index r = 0; r < rows_; ++r) P->col(of(r)) = PSt.col(r);
+    for (Eigen::Index r = 0; r < rows_; ++r) {
+      for (Eigen::Index s = r; s < rows_; ++s) {
+        (*P)(of(s), of(r)) = (*P)(of(r), of(s)) = both(s, r);
       }
     }
   }
 
  private:
-  struct Element {
-    Eigen::Index column;
-    double value;
+  /// As many as a byte can tell apart.
+  static constexpr std::size_t kMostRows = 256;
+
+  struct Row {
+    Eigen::Index row;
+    std::size_t count;  ///< of elements
+    const std::uint8_t* columns;
+    const double* values;
   };
 
-  std::size_t BeginOf(std::size_t row) const {
-    return row > 0 ? ends_[row - 1] : 0;
+  static Row RowAt(const std::uint8_t* index, const double* values) {
+    return {index[0], index[1], index + 2, values};
+  }
+  Row FirstRow() const {
+    return rows_ > 0 ? RowAt(index_.data(), values_.data()) : Row{};
+  }
+  /// Not to be read after the last.
+  Row RowAfter(const Row& row) const {
+    const std::uint8_t* next = row.columns + row.count;
+    return next < index_.data() + index_.size()
+               ? RowAt(next, row.values + row.count)
+               : Row{};
   }
 
   /// out = A S', of the rows of S that are not of the identity; `lower` asks for no
@@ -151,36 +175,39 @@ class SparseCongruence {
   void AddUp(const Matrix& A, bool lower, Matrix* out) const {
     constexpr Eigen::Index kStrip = 8;
     const Eigen::Index rows = A.rows();
-    for (Eigen::Index j = 0; j < out->cols(); ++j) {
+    Row row = FirstRow();
+    for (Eigen::Index j = 0; j < rows_; ++j, row = RowAfter(row)) {
       Eigen::Index i = lower ? j : 0;
       if (rows < kStrip) {
-        for (; i < rows; ++i) AddUpStrip<1>(A, i, j, out);
+        for (; i < rows; ++i) AddUpStrip<1>(A, i, row, j, out);
         continue;
       }
-      for (; i + kStrip < rows; i += kStrip) AddUpStrip<kStrip>(A, i, j, out);
+      for (; i + kStrip < rows; i += kStrip) {
+        AddUpStrip<kStrip>(A, i, row, j, out);
+      }
       // The last strip may do some rows once more.
-      AddUpStrip<kStrip>(A, rows - kStrip, j, out);
+      AddUpStrip<kStrip>(A, rows - kStrip, row, j, out);
     }
   }
 
   /// Rows from `first` on of column j of the result, kept in registers.
   template <int Rows, typename Matrix>
-  void AddUpStrip(const Matrix& A, Eigen::Index first, Eigen::Index j,
-                  Matrix* out) const {
+  static void AddUpStrip(const Matrix& A, Eigen::Index first, const Row& row,
+                         Eigen::Index j, Matrix* out) {
     using Strip = Eigen::Array<double, Rows, 1>;
     Strip sum = Strip::Zero();
-    const auto row = static_cast<std::size_t>(j);
-    for (std::size_t e = BeginOf(row); e < ends_[row]; ++e) {
+    for (std::size_t e = 0; e < row.count; ++e) {
       const double* column =
-          A.data() + elements_[e].column * A.outerStride() + first;
-      sum += elements_[e].value * Eigen::Map<const Strip>(column);
+          A.data() + row.columns[e] * A.outerStride() + first;
+      sum += row.values[e] * Eigen::Map<const Strip>(column);
     }
     Eigen::Map<Strip>(out->data() + j * out->outerStride() + first) = sum;
   }
 
-  std::vector<Eigen::Index> rows_;  ///< that are not of the identity
-  std::vector<Element> elements_;   ///< of these, row by row
-  std::vector<std::size_t> ends_;   ///< of each of them in elements_
+  Eigen::Index rows_ = 0;  ///< that are not of the identity
+  /// Of each of them row, number of elements and the columns of these.
+  std::vector<std::uint8_t> index_;
+  std::vector<double> values_;  ///< of the elements, row by row
 };
 
 }  // namespace hindsight
