@@ -54,7 +54,7 @@ typename Dense::PlainObject Times(const Eigen::MatrixBase<Dense>& A,
 /// Products of one square S of mostly zeros, whose elements are sought once: S P S' of
 /// symmetric P, S A and S v. Rows of S that are those of the identity, as of constants in
 /// a transition, cost nothing: what P has of two of them stays. P may be larger than S:
-/// rows that S has not are those of the identity.
+/// rows that S has not are those of the identity. S has 255 rows at most.
 class SparseCongruence {
  public:
   SparseCongruence() = default;
@@ -145,8 +145,8 @@ class SparseCongruence {
   }
 
  private:
-  /// As many as a byte can tell apart.
-  static constexpr std::size_t kMostRows = 256;
+  /// As many as a byte can count.
+  static constexpr std::size_t kMostRows = 255;
 
   struct Row {
     Eigen::Index row;
@@ -161,7 +161,7 @@ class SparseCongruence {
   Row FirstRow() const {
     return rows_ > 0 ? RowAt(index_.data(), values_.data()) : Row{};
   }
-  /// Not to be read after the last.
+  /// After the last one that is empty.
   Row RowAfter(const Row& row) const {
     const std::uint8_t* next = row.columns + row.count;
     return next < index_.data() + index_.size()

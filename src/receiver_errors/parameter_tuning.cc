@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/parallel.h"
 #include "base/units.h"
@@ -134,17 +135,19 @@ std::vector<ParameterTuning::Fall> ParameterTuning::FallsOf(
       points.push_back(Moved(*tunables[i], at_least ? 2.0 * h : -h));
     }
     const std::vector<double> values = Values(points);
-    std::size_t at = 0;
-    std::erase_if(pending, [&](std::size_t i) {
-      falls[i].near = values[at++] - value_;
-      falls[i].far = values[at++] - value_;
-      if (std::max(falls[i].near, falls[i].far) <= kFalls ||
-          falls[i].h >= tunables[i]->spread) {
-        return true;
+    std::vector<std::size_t> too_near;
+    for (std::size_t n = 0; n < pending.size(); ++n) {
+      const std::size_t i = pending[n];
+      Fall& fall = falls[i];
+      fall.near = values[2 * n] - value_;
+      fall.far = values[2 * n + 1] - value_;
+      if (std::max(fall.near, fall.far) > kFalls &&
+          fall.h < tunables[i]->spread) {
+        fall.h *= kWider;
+        too_near.push_back(i);
       }
-      falls[i].h *= kWider;
-      return false;
-    });
+    }
+    pending = std::move(too_near);
   }
   return falls;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -9,6 +10,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "receiver_errors/sequence_splice.h"
 #include "receiver_errors/sequence_variations.h"
@@ -64,11 +66,10 @@ class Refinement {
   /// is scored on its own.
   void Begin(const std::vector<Hypothesis>& found) {
     Splice(found.front().sequence);
-    std::vector<Trial> trials;
-    for (const Hypothesis& one : found) {
-      trials.push_back({one.sequence, one.count});
-    }
-    Try(trials, Until::kDone);
+    const auto all = [&found](const Visit& visit) {
+      for (const Hypothesis& one : found) visit({one.sequence, one.count});
+    };
+    TryEach(all, Until::kDone);
   }
 
   void Climb() {
@@ -98,11 +99,12 @@ class Refinement {
 
   void TryEarlierErrors() {
     const ModeSequence base = SpliceBest();
-    TryEach([&base](const Visit& visit) {
+    const auto earlier = [&base](const Visit& visit) {
       ForEachEarlierError(base, [&visit](const ModeSequence& h, double count) {
         return visit({h, count});
       });
-    });
+    };
+    TryEach(earlier, Until::kSpent);
   }
 
   ModeSequence Best() const { return met_[best_].sequence; }
@@ -130,6 +132,7 @@ class Refinement {
     bool is_new = false;
     std::optional<double> log_posterior;  ///< none if it cannot be better
     std::size_t steps = 0;
+    std::exception_ptr failure;
   };
 
   /// Whether one of those that `show` shows, or several together, are better
@@ -138,25 +141,30 @@ class Refinement {
     const std::size_t before = best_;
     const double level = met_[best_].log_posterior;
     const std::size_t first = met_.size();
-    TryEach(show);
+    TryEach(show, Until::kSpent);
     if (best_ == before) return false;
     Try({{Together(base, level, first)}}, Until::kDone);
     return true;
   }
 
-  /// As if one were tried after the other.
-  void TryEach(const Show& show) {
-    constexpr std::size_t kAtOnce = 32;
+  /// As if one were tried after the other; those that come in vain, behind the end of
+  /// the effort, are few.
+  void TryEach(const Show& show, Until until) {
+    constexpr int kOfAThread = 8;
+    const std::size_t most =
+        ThreadCount() == 1
+            ? 1
+            : static_cast<std::size_t>(kOfAThread * ThreadCount());
     std::vector<Trial> trials;
     const auto try_those = [&] {
-      Try(trials, Until::kSpent);
+      Try(trials, until);
       trials.clear();
-      return !IsSpent();
+      return until == Until::kDone || !IsSpent();
     };
-    if (IsSpent()) return;
+    if (until == Until::kSpent && IsSpent()) return;
     show([&](Trial one) {
       trials.push_back(std::move(one));
-      return trials.size() < kAtOnce || try_those();
+      return trials.size() < most || try_those();
     });
     try_those();
   }
@@ -218,6 +226,8 @@ class Refinement {
         Hypothesis& one = met_[known->second];
         one.count = std::max(one.count, trials[i].count);
       } else if (scores[i].is_new) {
+        tried_.insert(HashOf(trials[i].sequence));
+        if (scores[i].failure) std::rethrow_exception(scores[i].failure);
         if (effort_ != nullptr) effort_->Spend(scores[i].steps);
         if (scores[i].log_posterior) Keep(trials[i], *scores[i].log_posterior);
       }
@@ -225,15 +235,21 @@ class Refinement {
   }
 
   /// Of those that were never scored, several at once.
-  std::vector<Score> ScoresOf(const std::vector<Trial>& trials) {
-    constexpr std::size_t kGrain = 4;
+  std::vector<Score> ScoresOf(const std::vector<Trial>& trials) const {
     std::vector<Score> scores(trials.size());
+    std::unordered_set<std::size_t> met;
     for (std::size_t i = 0; i < trials.size(); ++i) {
-      scores[i].is_new = tried_.insert(HashOf(trials[i].sequence)).second;
+      const std::size_t hash = HashOf(trials[i].sequence);
+      scores[i].is_new = !tried_.contains(hash) && met.insert(hash).second;
     }
-    ForRanges(trials.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    ForRanges(trials.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        if (scores[i].is_new) ScoreOne(trials[i], &scores[i]);
+        if (!scores[i].is_new) continue;
+        try {
+          ScoreOne(trials[i], &scores[i]);
+        } catch (const EstimationError&) {
+          scores[i].failure = std::current_exception();
+        }
       }
     });
     return scores;

@@ -54,7 +54,8 @@ struct PassedUpdate {
 
 /// Carries lambda of x_s = x + P lambda back over an update,
 /// lambda <- (I - K H)' lambda + H' S^-1 innovation.
-/// What the filter did not have then, no earlier step hangs on.
+/// Components that the filter did not have are lost at the next Phi', which has zeros
+/// for them.
 void BackOver(const PassedUpdate& passed, ErrorVector* lambda) {
   const Eigen::LLT<Eigen::MatrixXd> llt(passed.S);
   auto seen = lambda->head(passed.H.cols());

@@ -148,18 +148,26 @@ SequenceSplice::Spliced SequenceSplice::Score(
 bool SequenceSplice::MayBeBetter(const ModeSequence& sequence,
                                  std::size_t i) const {
   constexpr double kLaterExcesses = 1.0;
-  // What the base takes for outliers behind the fix may be none without it.
-  const std::size_t end = std::min(i + 1 + kFixesAsInBase, fixes_.size());
-  for (std::size_t later = i + 1; later < end; ++later) {
-    if (fixes_[later].taken.outlier) return true;
-  }
+  if (base_[i].outlier || IsInDoubtBehind(i)) return true;
   ErrorChain chain(tape_, parameters_);
   Place at = PlaceBefore(i);
   Taken taken;
   Pass(sequence, &chain, &at, &taken);
   const std::optional<Spliced> joined = Joined(i, at);
+  // Also true where the base's score is not a number.
   return !joined ||
-         joined->log_posterior() > total_.log_posterior() - kLaterExcesses;
+         !(joined->log_posterior() <= total_.log_posterior() - kLaterExcesses);
+}
+
+bool SequenceSplice::IsInDoubtBehind(std::size_t i) const {
+  constexpr std::size_t kFixes = 30;
+  constexpr double kLogOdds = 2.0;
+  const std::size_t end = std::min(i + 1 + kFixes, fixes_.size());
+  for (std::size_t later = i + 1; later < end; ++later) {
+    const Taken& taken = fixes_[later].taken;
+    if (taken.outlier || taken.log_odds < kLogOdds) return true;
+  }
+  return false;
 }
 
 SequenceSplice::Spliced SequenceSplice::ScoreWithoutPrice(

@@ -49,10 +49,12 @@ class SequenceSplice {
   /// Score of a sequence of the base's length, from any thread. The cost grows with the
   /// span from the first to the last fix at which it differs from the base.
   Spliced Score(const ModeSequence& sequence) const;
-  /// Whether a sequence that differs from the base at fix i alone, and not in its mode,
-  /// may have a higher score: by a filter that is joined right behind the fix, to as much
-  /// as later excesses may differ. True where the base has an outlier among the next five.
-  /// From any thread, at the cost of a node.
+  /// Whether a sequence that takes fix i for an outlier, alone, may have a higher score:
+  /// by a filter that is joined right behind it. That leaves later fixes the excesses and
+  /// the decisions of the base, so that it is sought only where none of the thirty fixes
+  /// behind, which feel it most, is an outlier in the base or nearly one (odds of less
+  /// than e^2), and may be where the base has fix i for one. From any thread, at the cost
+  /// of a node.
   bool MayBeBetter(const ModeSequence& sequence, std::size_t i) const;
 
   const ModeSequence& base() const { return base_; }
@@ -100,6 +102,8 @@ class SequenceSplice {
   /// Takes the next node; false if it has no fix.
   static bool Pass(const ModeSequence& sequence, ErrorChain* chain, Place* at,
                    Taken* taken);
+  /// Whether any of thirty fixes behind fix i is an outlier in the base or nearly one.
+  bool IsInDoubtBehind(std::size_t i) const;
   void RunForward();
   void RunBackward();
   Place PlaceBefore(std::size_t i) const;

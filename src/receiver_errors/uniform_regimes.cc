@@ -49,14 +49,15 @@ double LeastScale(const UniformQuestion& question) {
   return question.as_solved ? kLeastSolved : kLeastScale;
 }
 
+/// `log_gain` is what a range of biases adds to it.
 double LogEvidence(const RegimeProblem& problem, const Hypothesis& one,
-                   const ErrorParameters& from,
+                   const ErrorParameters& from, double log_gain,
                    const UniformQuestion& question) {
-  const double bound = one.log_posterior +
-                       LogPriorOf(one.sequence, one.parameters, from) +
-                       MostOfLogShare(one.sequence, from, LeastScale(question));
+  const double bound =
+      one.log_posterior + LogPriorOf(one.sequence, one.parameters, from) +
+      MostOfLogShare(one.sequence, from, LeastScale(question)) + log_gain;
   if (bound <= question.worth) return bound;
-  return LogEvidenceOf(problem, one, from, LeastScale(question));
+  return LogEvidenceOf(problem, one, from, LeastScale(question)) + log_gain;
 }
 
 /// White or Gauss-Markov throughout: there is but one sequence of modes.
@@ -96,11 +97,9 @@ ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
   score();
   ErrorRegimes out;
   out.kind = kind;
-  UniformQuestion at_point = question;
-  if (range) at_point.worth -= range->log_gain;
-  out.log_evidence = LogEvidence(problem, one, from, at_point);
+  out.log_evidence =
+      LogEvidence(problem, one, from, range ? range->log_gain : 0.0, question);
   if (range) {
-    out.log_evidence += range->log_gain;
     one.parameters = range->mean;
     score();
   }

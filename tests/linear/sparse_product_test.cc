@@ -37,6 +37,19 @@ TEST(SparseProduct, CongruenceEqualsTheDenseOne) {
   }
 }
 
+TEST(SparseProduct, CongruenceOfOneOfZeroAndOfNone) {
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Random(9, 9);
+  const Eigen::MatrixXd P = A * A.transpose();
+  const auto of = [&P](const SparseCongruence& S) {
+    Eigen::MatrixXd out = P;
+    S.ApplyCongruence(&out);
+    return out;
+  };
+  EXPECT_EQ(of(SparseCongruence(Eigen::MatrixXd::Identity(9, 9))), P);
+  EXPECT_EQ(of(SparseCongruence()), P);
+  EXPECT_TRUE(of(SparseCongruence(Eigen::MatrixXd::Zero(9, 9))).isZero(0.0));
+}
+
 TEST(SparseProduct, CongruenceLeavesWhatItHasNoRowsFor) {
   const Eigen::MatrixXd S = Eigen::MatrixXd::Random(9, 9);
   Eigen::MatrixXd whole = Eigen::MatrixXd::Identity(14, 14);

@@ -113,6 +113,38 @@ TEST(ErrorChain, PredictsAsItsTransitionSays) {
   }
 }
 
+/// From good fixes on, through every kind of error and back.
+TEST(ErrorChain, PredictsOverChangesOfModeAsItsTransitionsSay) {
+  const LinearTape tape = TapeOf(WithVelocities(8.0));
+  const SensorTape seen(tape, 0);
+  ErrorParameters p = WithoutOutliers();
+  p.rate_sigma = 0.3;
+  ErrorChain chain(seen, p);
+  const ModeSequence steps = {kStayGood,
+                              {ErrorMode::kSlight, true},
+                              {ErrorMode::kSlight},
+                              {ErrorMode::kDrifting, true},
+                              {ErrorMode::kDrifting},
+                              {ErrorMode::kBiased},
+                              kStayGood};
+  ASSERT_GT(seen.size(), steps.size());
+  Gaussian x = chain.Begin();
+  Gaussian all = ErrorChain::Resized(x, chain.dim());
+  for (std::size_t k = 1; k <= steps.size(); ++k) {
+    chain.MoveTo(k);
+    chain.PredictNavigation(&x);
+    chain.PredictError(steps[k - 1], &x);
+    const ErrorMatrix Phi = chain.Phi(steps[k - 1]);
+    all.mean = (Phi * all.mean + chain.Defect()).eval();
+    all.P = (Phi * all.P * Phi.transpose() + chain.Q(steps[k - 1])).eval();
+    chain.UpdateAll(false, &x);
+    chain.UpdateAll(false, &all);
+    const Gaussian same = ErrorChain::Resized(x, chain.dim());
+    EXPECT_LT((same.mean - all.mean).norm(), 1e-9 * all.mean.norm()) << k;
+    EXPECT_LT((same.P - all.P).norm(), 1e-9 * all.P.norm()) << k;
+  }
+}
+
 /// With zeros in the place of what it has not.
 TEST(ErrorChain, AStateIsThatOfAllComponents) {
   const LinearTape tape = TapeOf(WithVelocities(5.0));

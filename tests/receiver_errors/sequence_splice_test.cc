@@ -18,9 +18,10 @@ using testing::TestProblemOptions;
 using testing::TypicalLayout;
 
 /// A fix of the receiver at every `every`-th node; velocities at all if
-/// `velocities`. `outliers` are fixes off by 12 m.
+/// `velocities`. `outliers` are fixes that are `off` [m].
 LinearTape MakeTape(double duration, std::size_t every, bool velocities,
-                    const std::vector<std::size_t>& outliers = {}) {
+                    const std::vector<std::size_t>& outliers = {},
+                    double off = 12.0) {
   TestProblemOptions options;
   options.noise = TacticalNoise(true);
   options.layout = TypicalLayout(options.noise);
@@ -38,7 +39,7 @@ LinearTape MakeTape(double duration, std::size_t every, bool velocities,
     if (!used[i]) continue;
     if (std::find(outliers.begin(), outliers.end(), fix++) != outliers.end()) {
       auto& position = std::get<PositionFix>(problem.measurements[i].model);
-      position.p_e += NedAxes(position.p_e) * Eigen::Vector3d(12.0, 0.0, 0.0);
+      position.p_e += NedAxes(position.p_e) * Eigen::Vector3d(off, 0.0, 0.0);
     }
   }
   Problem posed = problem.Pose(used);
@@ -153,30 +154,41 @@ TEST(SequenceSplice, TakesChangesAtTheFirstAndTheLastFix) {
   }
 }
 
-/// Of fixes taken for outliers or not: whatever is better by its score may be.
+/// Runs of outliers, near and far, in a base that takes none or some of them for such:
+/// whatever is better by its score may be.
 TEST(SequenceSplice, WhatIsBetterMayBe) {
-  const std::vector<std::size_t> outliers = {7, 20, 33, 34, 52};
-  const LinearTape tape = MakeTape(60.0, 1, false, outliers);
-  const SensorTape seen(tape, 0);
-  const ErrorParameters p = Parameters(0.02);
-  const ModeSequence base(FixCount(tape));
-  ModeSequence all_out = base;
-  for (const std::size_t i : outliers) all_out[i].outlier = true;
   int refused = 0;
-  for (const ModeSequence& from : {base, all_out}) {
-    SequenceSplice splice(seen, p, from);
-    const double level = splice.Score(from).log_posterior();
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      ModeSequence h = from;
-      h[i].outlier = !h[i].outlier;
-      const bool may_be = splice.MayBeBetter(h, i);
-      refused += may_be ? 0 : 1;
-      if (!may_be) {
-        EXPECT_LT(splice.Score(h).log_posterior(), level) << i;
+  int better = 0;
+  for (const double off : {3.0, 12.0}) {
+    std::vector<std::size_t> outliers;
+    for (std::size_t i = 5; i < 130; i += 31) {
+      for (std::size_t j = 0; j <= i % 3; ++j) outliers.push_back(i + j);
+    }
+    const LinearTape tape = MakeTape(140.0, 1, false, outliers, off);
+    const SensorTape seen(tape, 0);
+    for (const auto& [share, ratio] :
+         {std::pair{0.02, 3.0}, {0.02, 10.0}, {0.2, 10.0}}) {
+      ErrorParameters p = Parameters(share);
+      p.outlier_ratio = ratio;
+      ModeSequence base(FixCount(tape));
+      for (std::size_t i = 0; i < base.size(); i += 11) base[i].outlier = true;
+      for (const ModeSequence& from : {ModeSequence(base.size()), base}) {
+        const SequenceSplice splice(seen, p, from);
+        const double level = splice.Score(from).log_posterior();
+        for (std::size_t i = 0; i < from.size(); ++i) {
+          ModeSequence h = from;
+          h[i].outlier = !h[i].outlier;
+          const bool is_better = splice.Score(h).log_posterior() > level;
+          const bool may_be = splice.MayBeBetter(h, i);
+          better += is_better ? 1 : 0;
+          refused += may_be ? 0 : 1;
+          EXPECT_TRUE(may_be || !is_better) << off << " m, fix " << i;
+        }
       }
     }
   }
-  EXPECT_GT(refused, 40);
+  EXPECT_GT(better, 20);
+  EXPECT_GT(refused, 100);
 }
 
 TEST(SequenceSplice, MovesAChange) {
