@@ -1,9 +1,7 @@
 #include <glog/logging.h>
-#include <malloc.h>
 
 #include <exception>
 #include <iostream>
-#include <limits>
 #include <new>
 #include <string>
 #include <vector>
@@ -15,6 +13,7 @@
 #include "app/interrupt.h"
 #include "app/terminal.h"
 #include "base/error.h"
+#include "base/freed_memory.h"
 #include "io/config/config_help.h"
 #include "io/config/vehicle.h"
 #include "io/write/output_error.h"
@@ -22,14 +21,6 @@
 
 namespace hindsight {
 namespace {
-
-/// Keeps freed memory for the next large matrix: given back to the system, it
-/// would be cleared by it page by page each time, a quarter of a long run.
-void KeepFreedMemory() {
-  constexpr int kLargestMmapThreshold = 32 << 20;
-  mallopt(M_MMAP_THRESHOLD, kLargestMmapThreshold);
-  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-}
 
 void StartLogging(const char* program) {
   const std::vector<std::string> levels = {"info", "warning", "error", "none"};

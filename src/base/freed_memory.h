@@ -7,6 +7,10 @@ namespace hindsight {
 /// thread that has ended leaves much; where the system knows how. Takes milliseconds.
 void ReleaseFreedMemory();
 
+/// Keeps freed memory of the whole process for the next large matrix: given back to the
+/// system, it would be cleared by it page by page each time, a quarter of a long run.
+void KeepFreedMemory();
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_BASE_FREED_MEMORY_H_
