@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "io/config/scenario_config.h"
+#include "support/seed_count.h"
 
 namespace hindsight {
 namespace {
@@ -389,9 +390,10 @@ TEST(RepeatedReadings, CoarseHeightsRepeatOnTheLevel) {
 }
 
 TEST(RepeatedReadings, HealthySimulatedRecordingsHaveNone) {
+  constexpr double kLongest = testing::kSanitized ? 300.0 : 1200.0;  // [s]
   for (const std::string& name : ScenarioNames()) {
     Scenario scenario = FindScenario(name);
-    scenario.duration = std::min(scenario.duration, 1200.0);  // [s]
+    scenario.duration = std::min(scenario.duration, kLongest);
     const Dataset dataset = Simulate(scenario, 3);
     for (const Evidence& evidence :
          FindRepeatedReadings(dataset, 0.0, dataset.imu.t_end())) {

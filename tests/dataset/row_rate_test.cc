@@ -7,6 +7,7 @@
 
 #include "base/chi_square.h"
 #include "evaluation/statistics.h"
+#include "support/seed_count.h"
 #include "support/walking_foot.h"
 
 namespace hindsight {
@@ -27,7 +28,7 @@ TEST(RowRate, OfExactRowsIsTheirs) {
 }
 
 TEST(RowRate, SigmaIsThatOfItsScatter) {
-  constexpr int kRuns = 40;
+  constexpr int kRuns = testing::SeedCount(40);
   const Walk walk = {.force_noise = 0.01, .rate_noise = 0.05};
   std::vector<double> errors, sigmas;
   for (int seed = 1; seed <= kRuns; ++seed) {
