@@ -62,11 +62,7 @@ class Page:
         self.browser = open_browser(**options)
         self.browser.set_page_load_timeout(30)
         if 'width' in options:
-            self.browser.execute_cdp_cmd(
-                'Emulation.setDeviceMetricsOverride',
-                {'width': options['width'],
-                 'height': options.get('height', 900),
-                 'deviceScaleFactor': 1, 'mobile': options['width'] < 600})
+            self.resize(options['width'], options.get('height', 900))
         if options.get('dark'):
             self.browser.execute_cdp_cmd(
                 'Emulation.setEmulatedMedia',
@@ -79,6 +75,12 @@ class Page:
 
     def __exit__(self, *unused):
         self.browser.quit()
+
+    def resize(self, width, height):
+        self.browser.execute_cdp_cmd(
+            'Emulation.setDeviceMetricsOverride',
+            {'width': width, 'height': height, 'deviceScaleFactor': 1,
+             'mobile': width < 600})
 
     def js(self, script, *arguments):
         return self.browser.execute_script('return ' + script, *arguments)
@@ -201,17 +203,21 @@ class ReportTest(unittest.TestCase):
             table = group['table']
             self.assertEqual(self.page.js(f'page.tables[{table}].t.length'),
                              len(rows))
-            for k in random.sample(range(len(rows)), 25):
-                self.assertAlmostEqual(
-                    self.page.js(f'page.tables[{table}].t[{k}]'),
-                    float(rows[k]['t[s]']), delta=1e-6)
-                for name, title in titles.items():
-                    if not self.page.js(f'page.tables[{table}].has("{name}")'):
-                        self.assertNotEqual(group['label'], 'batch')
-                        continue
-                    value, quantum = self.page.js(
-                        f'[page.tables[{table}].column("{name}")[{k}],'
-                        f' page.tables[{table}].json.columns["{name}"].quantum]')
+            chosen = random.sample(range(len(rows)), 25)
+            times = self.page.js(
+                f'arguments[0].map(k => page.tables[{table}].t[k])', chosen)
+            for k, t in zip(chosen, times):
+                self.assertAlmostEqual(t, float(rows[k]['t[s]']), delta=1e-6)
+            for name, title in titles.items():
+                if not self.page.js(f'page.tables[{table}].has("{name}")'):
+                    self.assertNotEqual(group['label'], 'batch')
+                    continue
+                values, quantum = self.page.js(
+                    '[arguments[0].map(k =>'
+                    f' page.tables[{table}].column("{name}")[k]),'
+                    f' page.tables[{table}].json.columns["{name}"].quantum]',
+                    chosen)
+                for k, value in zip(chosen, values):
                     self.assertAlmostEqual(value, float(rows[k][title]),
                                            delta=0.5001 * quantum + 1e-12)
 
@@ -401,15 +407,12 @@ class ReportTest(unittest.TestCase):
         low, high = self.page.js('view.window')
         self.assertAlmostEqual(high - low, 25, delta=1)
 
-    def test_narrow_screen_has_no_sideways_scroll(self):
+    def test_every_width_holds_all_charts_without_sideways_scroll(self):
         with Page(self.path, width=360, height=800) as page:
-            self.assertEqual(page.errors(), [])
-            self.assertLessEqual(
-                page.js('document.documentElement.scrollWidth'), 360)
-
-    def test_every_width_holds_all_charts(self):
-        for width in (360, 1280, 2560):
-            with Page(self.path, width=width, height=1000) as page:
+            for width in (360, 1280, 2560):
+                if width > 360:
+                    page.resize(width, 1000)
+                    page.browser.refresh()
                 self.assertEqual(page.errors(), [])
                 self.assertLessEqual(
                     page.js('document.documentElement.scrollWidth'), width)
