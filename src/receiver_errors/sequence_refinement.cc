@@ -129,6 +129,7 @@ class Refinement {
   /// To where trials are scored: all, or as many as the effort suffices for.
   enum class Until { kDone, kSpent };
   struct Score {
+    std::size_t hash = 0;  ///< of the sequence
     bool is_new = false;
     std::optional<double> log_posterior;  ///< none if it cannot be better
     std::size_t steps = 0;
@@ -221,15 +222,15 @@ class Refinement {
     const std::vector<Score> scores = ScoresOf(trials);
     for (std::size_t i = 0; i < trials.size(); ++i) {
       if (until == Until::kSpent && IsSpent()) return;
-      const auto known = kept_.find(HashOf(trials[i].sequence));
+      const auto known = kept_.find(scores[i].hash);
       if (known != kept_.end()) {
         Hypothesis& one = met_[known->second];
         one.count = std::max(one.count, trials[i].count);
       } else if (scores[i].is_new) {
-        tried_.insert(HashOf(trials[i].sequence));
+        tried_.insert(scores[i].hash);
         if (scores[i].failure) std::rethrow_exception(scores[i].failure);
         if (effort_ != nullptr) effort_->Spend(scores[i].steps);
-        if (scores[i].log_posterior) Keep(trials[i], *scores[i].log_posterior);
+        if (scores[i].log_posterior) Keep(trials[i], scores[i]);
       }
     }
   }
@@ -239,8 +240,10 @@ class Refinement {
     std::vector<Score> scores(trials.size());
     std::unordered_set<std::size_t> met;
     for (std::size_t i = 0; i < trials.size(); ++i) {
-      const std::size_t hash = HashOf(trials[i].sequence);
-      scores[i].is_new = !tried_.contains(hash) && met.insert(hash).second;
+      Score& score = scores[i];
+      score.hash = HashOf(trials[i].sequence);
+      score.is_new =
+          !tried_.contains(score.hash) && met.insert(score.hash).second;
     }
     ForRanges(trials.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
@@ -269,13 +272,14 @@ class Refinement {
 
   /// What cannot come back into the result is not kept: there is one for every
   /// fix.
-  void Keep(const Trial& trial, double log_posterior) {
+  void Keep(const Trial& trial, const Score& score) {
+    const double log_posterior = *score.log_posterior;
     if (!met_.empty() &&
         (log_posterior < met_[best_].log_posterior - kLeastPosterior ||
          (log_posterior <= met_[best_].log_posterior && IsFull()))) {
       return;
     }
-    kept_.emplace(HashOf(trial.sequence), met_.size());
+    kept_.emplace(score.hash, met_.size());
     met_.push_back({trial.sequence, log_posterior, trial.count, parameters_});
     if (met_.back().log_posterior > met_[best_].log_posterior) {
       best_ = met_.size() - 1;
