@@ -1,18 +1,15 @@
 #include "receiver_errors/sequence_refinement.h"
 
 #include <algorithm>
-#include <cmath>
-#include <exception>
 #include <functional>
 #include <optional>
-#include <string_view>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "receiver_errors/sequence_splice.h"
+#include "receiver_errors/sequence_trials.h"
 #include "receiver_errors/sequence_variations.h"
 
 namespace hindsight {
@@ -20,8 +17,6 @@ namespace {
 
 /// Hypotheses less likely than the best by this are left out [ln].
 constexpr double kLeastPosterior = 10.0;
-/// A sequence whose filter breaks down.
-constexpr double kImpossible = -1e300;
 /// Rounds of variations, if a climb does not rest before.
 constexpr int kMostRounds = 20;
 /// Variations of a round that together may be better still are so many fixes
@@ -44,16 +39,8 @@ Stretch WhereTheyDiffer(const ModeSequence& a, const ModeSequence& b) {
   return out;
 }
 
-/// A sequence to be scored.
-struct Trial {
-  ModeSequence sequence;
-  double count = 1.0;  ///< as Hypothesis has it
-  /// Fix at which alone it differs from the base, as an outlier or none.
-  std::optional<std::size_t> outlier = std::nullopt;
-};
-
 /// Shown a trial; whether another is wanted.
-using Visit = std::function<bool(Trial)>;
+using Visit = std::function<bool(SequenceTrial)>;
 using Show = std::function<void(const Visit&)>;
 
 class Refinement {
@@ -128,13 +115,6 @@ class Refinement {
  private:
   /// To where trials are scored: all, or as many as the effort suffices for.
   enum class Until { kDone, kSpent };
-  struct Score {
-    std::size_t hash = 0;  ///< of the sequence
-    bool is_new = false;
-    std::optional<double> log_posterior;  ///< none if it cannot be better
-    std::size_t steps = 0;
-    std::exception_ptr failure;
-  };
 
   /// Whether one of those that `show` shows, or several together, are better
   /// than the base, the best.
@@ -156,14 +136,14 @@ class Refinement {
         ThreadCount() == 1
             ? 1
             : static_cast<std::size_t>(kOfAThread * ThreadCount());
-    std::vector<Trial> trials;
+    std::vector<SequenceTrial> trials;
     const auto try_those = [&] {
       Try(trials, until);
       trials.clear();
       return until == Until::kDone || !IsSpent();
     };
     if (until == Until::kSpent && IsSpent()) return;
-    show([&](Trial one) {
+    show([&](SequenceTrial one) {
       trials.push_back(std::move(one));
       return trials.size() < most || try_those();
     });
@@ -176,7 +156,7 @@ class Refinement {
     return TryAll(base, [&](const Visit& visit) {
       for (std::size_t i = 0; i < base.size(); ++i) {
         if (!base[i].outlier && !splice_->MayBeAnOutlier(i)) continue;
-        Trial one = {base};
+        SequenceTrial one = {base};
         one.sequence[i].outlier = !base[i].outlier;
         one.outlier = i;
         if (!visit(std::move(one))) return;
@@ -217,9 +197,9 @@ class Refinement {
     return all;
   }
 
-  void Try(const std::vector<Trial>& trials, Until until) {
+  void Try(const std::vector<SequenceTrial>& trials, Until until) {
     if (until == Until::kSpent && IsSpent()) return;
-    const std::vector<Score> scores = ScoresOf(trials);
+    const std::vector<TrialScore> scores = ScoresOf(trials, *splice_, tried_);
     for (std::size_t i = 0; i < trials.size(); ++i) {
       if (until == Until::kSpent && IsSpent()) return;
       const auto known = kept_.find(scores[i].hash);
@@ -235,44 +215,9 @@ class Refinement {
     }
   }
 
-  /// Of those that were never scored, several at once.
-  std::vector<Score> ScoresOf(const std::vector<Trial>& trials) const {
-    std::vector<Score> scores(trials.size());
-    std::unordered_set<std::size_t> met;
-    for (std::size_t i = 0; i < trials.size(); ++i) {
-      Score& score = scores[i];
-      score.hash = HashOf(trials[i].sequence);
-      score.is_new =
-          !tried_.contains(score.hash) && met.insert(score.hash).second;
-    }
-    ForRanges(trials.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        if (!scores[i].is_new) continue;
-        try {
-          ScoreOne(trials[i], &scores[i]);
-        } catch (const EstimationError&) {
-          scores[i].failure = std::current_exception();
-        }
-      }
-    });
-    return scores;
-  }
-
-  void ScoreOne(const Trial& trial, Score* score) const {
-    if (trial.outlier) {
-      ++score->steps;
-      if (!splice_->MayBeBetter(trial.sequence, *trial.outlier)) return;
-    }
-    const SequenceSplice::Spliced spliced = splice_->Score(trial.sequence);
-    score->steps += spliced.steps;
-    const double log_posterior = spliced.log_posterior();
-    score->log_posterior =
-        std::isfinite(log_posterior) ? log_posterior : kImpossible;
-  }
-
   /// What cannot come back into the result is not kept: there is one for every
   /// fix.
-  void Keep(const Trial& trial, const Score& score) {
+  void Keep(const SequenceTrial& trial, const TrialScore& score) {
     const double log_posterior = *score.log_posterior;
     if (!met_.empty() &&
         (log_posterior < met_[best_].log_posterior - kLeastPosterior ||
@@ -284,14 +229,6 @@ class Refinement {
     if (met_.back().log_posterior > met_[best_].log_posterior) {
       best_ = met_.size() - 1;
     }
-  }
-
-  static std::size_t HashOf(const ModeSequence& sequence) {
-    constexpr std::size_t kBytes = 4;
-    static_assert(sizeof(ErrorStep) == kBytes);
-    return std::hash<std::string_view>()(
-        {reinterpret_cast<const char*>(sequence.data()),
-         kBytes * sequence.size()});
   }
 
   bool IsFull() const {
