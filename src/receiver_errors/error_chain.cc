@@ -146,44 +146,30 @@ void ErrorChain::PredictNavigation(Gaussian* x) const {
   AddNavigationNoise(&x->P);
 }
 
+template <int kOwn>
+void ErrorChain::PredictErrorBy(const ErrorDynamics& d, Gaussian* x) const {
+  using OwnMatrix = Eigen::Matrix<double, kOwn, kOwn>;
+  const int n = navigation_dim_;
+  const OwnMatrix F = ErrorPhi(d).topLeftCorner<kOwn, kOwn>();
+  x->mean.segment<kOwn>(n) = F * x->mean.segment<kOwn>(n).eval();
+  auto P_ne = x->P.block<Eigen::Dynamic, kOwn>(0, n, n, kOwn);
+  P_ne = (P_ne * F.transpose()).eval();
+  x->P.block<kOwn, Eigen::Dynamic>(n, 0, kOwn, n) = P_ne.transpose();
+  const OwnMatrix P = x->P.block<kOwn, kOwn>(n, n);
+  x->P.block<kOwn, kOwn>(n, n) =
+      F * P * F.transpose() + ErrorQ(d).topLeftCorner<kOwn, kOwn>();
+}
+
 void ErrorChain::PredictError(ErrorStep step, Gaussian* x) const {
   const ErrorDynamics d = DynamicsOf(parameters_, step, dt_);
   const int dim = DimOf(step.mode);
   if (x->mean.size() != dim) *x = Resized(*x, dim);
-  if (dim > navigation_dim_) PredictErrorBy(d, x);
-  if (d.q_vv > 0.0) AddVelocityStep(d.q_vv, &x->P);
-}
-
-void ErrorChain::PredictErrorBy(const ErrorDynamics& d, Gaussian* x) const {
-  const int n = navigation_dim_;
-  const bool drifts = x->mean.size() > n + 3;
-  const int own = drifts ? 6 : 3;
-  using ErrorBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic,
-                                   Eigen::ColMajor, 6, 6>;
-  auto e = x->mean.segment<3>(n);
-  auto P_ne = x->P.block(0, n, n, 3);
-  ErrorBlock F = ErrorBlock::Zero(own, own);
-  ErrorBlock Q = ErrorBlock::Zero(own, own);
-  e *= d.ee;
-  P_ne *= d.ee;
-  F.topLeftCorner<3, 3>().diagonal().setConstant(d.ee);
-  Q.topLeftCorner<3, 3>().diagonal().setConstant(d.q_ee);
-  if (drifts) {
-    auto r = x->mean.segment<3>(n + 3);
-    auto P_nr = x->P.block(0, n + 3, n, 3);
-    e += d.er * r;
-    P_ne += d.er * P_nr;
-    r *= d.rr;
-    P_nr *= d.rr;
-    F.topRightCorner<3, 3>().diagonal().setConstant(d.er);
-    F.bottomRightCorner<3, 3>().diagonal().setConstant(d.rr);
-    Q.topRightCorner<3, 3>().diagonal().setConstant(d.q_er);
-    Q.bottomLeftCorner<3, 3>().diagonal().setConstant(d.q_er);
-    Q.bottomRightCorner<3, 3>().diagonal().setConstant(d.q_rr);
+  if (dim == navigation_dim_ + 6) {
+    PredictErrorBy<6>(d, x);
+  } else if (dim == navigation_dim_ + 3) {
+    PredictErrorBy<3>(d, x);
   }
-  x->P.bottomLeftCorner(own, n) = x->P.topRightCorner(n, own).transpose();
-  const ErrorBlock P = x->P.bottomRightCorner(own, own);
-  x->P.bottomRightCorner(own, own) = F * P * F.transpose() + Q;
+  if (d.q_vv > 0.0) AddVelocityStep(d.q_vv, &x->P);
 }
 
 ErrorChain::FixLikelihood ErrorChain::LikelihoodOfFix(ErrorStep step,

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "filters/mixing.h"
-#include "receiver_errors/mode_sequence.h"
+#include "receiver_errors/error_dynamics.h"
 #include "receiver_errors/sensor_tape.h"
 
 namespace hindsight {
@@ -110,8 +110,9 @@ class ErrorChain {
   struct NodeLikelihood {
     FixLikelihood fix;    ///< zero of a node without one
     double others = 0.0;  ///< ln, of those beside the fix
-    double as_used =
-        0.0;  ///< ln, of the fix as the one Gaussian that the filter takes
+    /// ln of the fix under the Gaussian, of a good fix or of an outlier, that the
+    /// update uses in place of the mixture.
+    double as_used = 0.0;
   };
   /// The same, the fix taken as LikelihoodOfFix has it. `used` gets what was used, if
   /// asked for.
@@ -134,7 +135,8 @@ class ErrorChain {
   NodeLikelihood UpdateAll(bool outlier, Gaussian* x, std::vector<Used>* used,
                            const RowJacobian* HP_of_fix) const;
 
-  /// Of an x that has e, with r or without.
+  /// Of an x that has of (e, r) so many components: e, or both.
+  template <int kOwn>
   void PredictErrorBy(const ErrorDynamics& d, Gaussian* x) const;
   /// Adds a measurement of the node over (navigation, e, r).
   void Take(const TapeMeasurement& z);

@@ -1,25 +1,6 @@
 #include "receiver_errors/error_chain.h"
 
 namespace hindsight {
-namespace {
-
-void FillErrorPhi(const ErrorDynamics& d, int n, ErrorMatrix* Phi) {
-  Phi->block<3, 3>(n, n).diagonal().setConstant(d.ee);
-  Phi->block<3, 3>(n, n + 3).diagonal().setConstant(d.er);
-  Phi->block<3, 3>(n + 3, n + 3).diagonal().setConstant(d.rr);
-}
-
-void FillErrorQ(const ErrorDynamics& d, int n, ErrorMatrix* Q) {
-  for (int e = n; e < n + 3; ++e) {
-    const int r = e + 3;
-    (*Q)(e, e) = d.q_ee;
-    (*Q)(e, r) = (*Q)(r, e) = d.q_er;
-    (*Q)(r, r) = d.q_rr;
-  }
-}
-
-}  // namespace
-
 void ErrorChain::AddNavigationNoise(ErrorMatrix* P) const {
   const std::vector<Eigen::Index>& noisy = tape_.noisy();
   const PackedSymmetric Q = tape_.linear().PackedQ(k_);
@@ -52,28 +33,27 @@ ErrorMatrix ErrorChain::Phi(ErrorStep step) const {
   const int n = navigation_dim_;
   ErrorMatrix Phi = ErrorMatrix::Zero(dim(), dim());
   Phi.topLeftCorner(n, n) = tape_.linear().Phi(k_);
-  FillErrorPhi(DynamicsOf(parameters_, step, dt_), n, &Phi);
+  Phi.bottomRightCorner<6, 6>() = ErrorPhi(DynamicsOf(parameters_, step, dt_));
   return Phi;
 }
 
 ErrorMatrix ErrorChain::PhiAtOnce(ErrorStep step) const {
   ErrorMatrix Phi = ErrorMatrix::Identity(dim(), dim());
-  FillErrorPhi(DynamicsOf(parameters_, step, 0.0), navigation_dim_, &Phi);
+  Phi.bottomRightCorner<6, 6>() = ErrorPhi(DynamicsOf(parameters_, step, 0.0));
   return Phi;
 }
 
 ErrorMatrix ErrorChain::QAtOnce(ErrorStep step) const {
   ErrorMatrix Q = ErrorMatrix::Zero(dim(), dim());
-  FillErrorQ(DynamicsOf(parameters_, step, 0.0), navigation_dim_, &Q);
+  Q.bottomRightCorner<6, 6>() = ErrorQ(DynamicsOf(parameters_, step, 0.0));
   return Q;
 }
 
 ErrorMatrix ErrorChain::Q(ErrorStep step) const {
-  const int n = navigation_dim_;
   const ErrorDynamics d = DynamicsOf(parameters_, step, dt_);
   ErrorMatrix Q = ErrorMatrix::Zero(dim(), dim());
   AddNavigationNoise(&Q);
-  FillErrorQ(d, n, &Q);
+  Q.bottomRightCorner<6, 6>() = ErrorQ(d);
   AddVelocityStep(d.q_vv, &Q);
   return Q;
 }

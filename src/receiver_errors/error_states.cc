@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "receiver_errors/error_dynamics.h"
 #include "receiver_errors/sensor_tape.h"
 #include "receiver_errors/uniform_regimes.h"
 

@@ -50,23 +50,6 @@ struct ErrorParameters {
   double imu_scale = 1.0;  ///< on the stated noise of the IMU
 };
 
-/// With which the rate of a drift walks, in its sigma [1/sqrt(s)]. A drift that
-/// bends more is one of several pieces: what bends freely explains any
-/// correlated noise.
-inline constexpr double kDriftWalk = 1e-3;
-
-/// Over an interval, an axis:
-///   e' = ee e + er r + w_e,   r' = rr r + w_r,
-///   cov(w_e, w_r) = (q_ee, q_er; q_er, q_rr),
-/// and a jump of the velocity of variance q_vv where it begins.
-struct ErrorDynamics {
-  double ee = 0.0, er = 0.0, rr = 0.0;
-  double q_ee = 0.0, q_er = 0.0, q_rr = 0.0;
-  double q_vv = 0.0;
-};
-ErrorDynamics DynamicsOf(const ErrorParameters& parameters, ErrorStep step,
-                         double dt);
-
 /// How often a bias or drift ends, and the receiver is good again, in a recording
 /// that would be all bias or drift: the expectation a priori.
 inline constexpr double kEndsOfAnError = 4.0;
