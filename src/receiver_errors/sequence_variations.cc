@@ -90,6 +90,36 @@ void SetError(ErrorMode mode, std::size_t begin, std::size_t end,
   }
 }
 
+/// What goes on before part c goes on through it, over a velocity step where the part
+/// begins, and, if asked for, one where it ends.
+ModeSequence SteppedInPlaceOf(ModeSequence h,
+                              const std::vector<std::size_t>& parts,
+                              std::size_t c, bool at_end) {
+  const std::size_t begin = parts[c];
+  const std::size_t end = parts[c + 1];
+  const ErrorMode before = ModeBefore(h, begin);
+  for (std::size_t i = begin; i < end; ++i) {
+    Set(i, {before, false, i == begin || h[i].velocity_step}, &h);
+  }
+  if (at_end) h[end].velocity_step = true;
+  return h;
+}
+
+/// Where an error begins behind a gap the vehicle may as well be elsewhere than dead
+/// reckoning has it, also beside errors later on.
+void AddSteppedInPlaceOfErrors(const ModeSequence& h,
+                               std::vector<ModeSequence>* all) {
+  const std::vector<std::size_t> at = Parts(h);
+  for (std::size_t c = 0; c + 1 < at.size(); ++c) {
+    if (h[at[c]].mode == ErrorMode::kGood) continue;
+    all->push_back(SteppedInPlaceOf(h, at, c, false));
+    const std::size_t end = at[c + 1];
+    if (end < h.size() && !h[end].anew && !h[end].velocity_step) {
+      all->push_back(SteppedInPlaceOf(h, at, c, true));
+    }
+  }
+}
+
 std::size_t NextLength(std::size_t length) {
   return static_cast<std::size_t>(
       std::ceil(kLengthRatio * static_cast<double>(length)));
@@ -144,6 +174,7 @@ std::vector<ModeSequence> Variations(const ModeSequence& h) {
     }
   }
   AddSwaps(h, &all);
+  AddSteppedInPlaceOfErrors(h, &all);
   return all;
 }
 

@@ -10,8 +10,9 @@ namespace hindsight {
 
 /// Hypotheses that differ from `sequence` at one change: it comes up to eight
 /// fixes earlier or later, does not come, is of another kind, or follows a
-/// bias; or it and all changes after it are velocity steps of the IMU; or the stretches
-/// before and after it change roles, the good one being the erroneous one.
+/// bias; or it and all changes after it are velocity steps of the IMU; or a step where it
+/// begins, or there and where it ends, is in place of the error of a stretch; or the
+/// stretches before and after it change roles, the good one being the erroneous one.
 std::vector<ModeSequence> Variations(const ModeSequence& sequence);
 /// Hypotheses with one velocity_step of the IMU more than `sequence`: one for each fix at
 /// which nothing changes and which has no velocity_step.

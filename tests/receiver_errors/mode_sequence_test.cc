@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -246,6 +247,29 @@ TEST(ModeSequence, ASpikeBehindAGapIsToldByWhatComesAfter) {
   EXPECT_EQ(ClimbOutliers({*gap.tape, 0}, p, one_too_many), right);
   const std::vector<Hypothesis> found = SearchHypotheses({*gap.tape, 0}, p);
   EXPECT_EQ(found.front().sequence, right);
+}
+
+/// One behind a gap may be the vehicle's being elsewhere than dead reckoning has it, also
+/// beside errors before and after it.
+TEST(ModeSequence, AVelocityStepIsTriedInPlaceOfEachError) {
+  ModeSequence h(60);
+  const auto err = [&h](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      h[i] = {ErrorMode::kBiased, i == begin};
+    }
+  };
+  err(10, 20);
+  err(30, 40);
+  err(50, 60);
+  h[35].velocity_step = true;
+  const std::vector<ModeSequence> all = Variations(h);
+  ModeSequence stepped = h;
+  for (std::size_t i = 30; i < 40; ++i) {
+    stepped[i] = {ErrorMode::kGood, false, i == 30 || i == 35};
+  }
+  EXPECT_EQ(std::ranges::count(all, stepped), 1);
+  stepped[40].velocity_step = true;
+  EXPECT_EQ(std::ranges::count(all, stepped), 1);
 }
 
 TEST(ModeSequence, AFixThatIsAnOutlierStaysOneInEveryVariation) {
